@@ -1,0 +1,55 @@
+"""Exact zero tests for n = 3: rational functions over Q modulo polynomial constraints.
+
+A statement about Euler parameters and a unit vertical is one about a quotient ring: it holds when
+its numerator lies in the ideal of |q|² + q₀² = 1, |γ|² = 1 and what else is assumed.  Membership
+is decided by division by a Gröbner basis, in exact arithmetic (python-flint behind SymPy's QQ).
+"""
+
+from collections.abc import Sequence
+from functools import cached_property
+
+import sympy as sp
+from sympy.polys.rings import PolyElement, PolyRing
+
+
+class Quotient:
+    """Q[symbols] modulo the ideal of `relations` (polynomials that vanish by hypothesis)."""
+
+    def __init__(self, symbols: Sequence[sp.Symbol], relations: Sequence[sp.Expr] = ()) -> None:
+        self.symbols = tuple(symbols)
+        self.relations = tuple(relations)
+
+    @cached_property
+    def _ring(self) -> PolyRing:
+        return PolyRing(self.symbols, sp.QQ, sp.grevlex)
+
+    @cached_property
+    def _basis(self) -> list[PolyElement]:
+        if not self.relations:
+            return []
+        basis = sp.groebner(self.relations, *self.symbols, order="grevlex", domain="QQ")
+        return [self._ring.from_expr(g) for g in basis.exprs]
+
+    def with_relations(self, *relations: sp.Expr) -> "Quotient":
+        """The same ring under further hypotheses."""
+        return Quotient(self.symbols, self.relations + relations)
+
+    def normal(self, expr: sp.Expr | int) -> sp.Expr:
+        """The normal form of a polynomial modulo the relations."""
+        return self._reduce(sp.sympify(expr)).as_expr()
+
+    def is_zero(self, expr: sp.Expr | int) -> bool:
+        """True exactly when the rational function vanishes wherever the relations hold and it is defined.
+
+        Exact in one direction for any ideal (a zero remainder proves the identity); a non-zero
+        remainder says that the numerator is not in the ideal.
+        Raises ZeroDivisionError if the denominator vanishes under the relations.
+        """
+        numerator, denominator = sp.fraction(sp.together(expr))
+        if not self._reduce(denominator):
+            raise ZeroDivisionError(f"the denominator {denominator} is zero under the hypotheses")
+        return not self._reduce(numerator)
+
+    def _reduce(self, expr: sp.Expr) -> PolyElement:
+        element = self._ring.from_expr(expr)
+        return element.rem(self._basis) if self._basis else element

@@ -1,0 +1,121 @@
+"""The ball in three dimensions (Section 5): rotations by Euler parameters and the vector 𝒦(q, γ)."""
+
+from functools import cache
+
+import sympy as sp
+
+from . import ball
+from .quotient import Quotient
+from .words import evaluate
+
+q0, q1, q2, q3 = sp.symbols("q0:4")
+g1, g2, g3 = sp.symbols("g1:4")
+J1, J2, J3, D = sp.symbols("J1 J2 J3 D")
+K1, K2, K3 = sp.symbols("K1:4")
+
+q = sp.Matrix([q1, q2, q3])
+gamma = sp.Matrix([g1, g2, g3])
+K = sp.Matrix([K1, K2, K3])
+J = sp.diag(J1, J2, J3)
+
+UNIT_QUATERNION = q0**2 + q.dot(q) - 1
+UNIT_VERTICAL = gamma.dot(gamma) - 1
+
+#: Where 𝒦(q, γ) lives: Euler parameters and the vertical are unit; the ball is any ball.
+RING = Quotient((q0, q1, q2, q3, g1, g2, g3, J1, J2, J3, D), [UNIT_QUATERNION, UNIT_VERTICAL])
+
+
+def hat(v: sp.Matrix) -> sp.Matrix:
+    """The skew matrix of the vector product: hat(v) x = v × x."""
+    return sp.Matrix([[0, -v[2], v[1]], [v[2], 0, -v[0]], [-v[1], v[0], 0]])
+
+
+def axial(a: sp.Matrix) -> sp.Matrix:
+    """The vector (A₃₂, A₁₃, A₂₁) of a skew matrix, as in Section 5; the inverse of `hat`."""
+    return sp.Matrix([a[2, 1], a[0, 2], a[1, 0]])
+
+
+def quaternion_product(a: sp.Matrix, b: sp.Matrix) -> sp.Matrix:
+    """Hamilton's product of (scalar, vector) columns."""
+    a0, av, b0, bv = a[0], a[1:, :], b[0], b[1:, :]
+    vector = a0 * bv + b0 * av + av.cross(bv)
+    return sp.Matrix([a0 * b0 - av.dot(bv), *vector])
+
+
+@cache
+def rotation() -> sp.ImmutableMatrix:
+    """Ω as the map x ↦ q x q̄ of Euler parameters, entry by entry (homogeneous of degree 2)."""
+    quaternion, conjugate = sp.Matrix([q0, *q]), sp.Matrix([q0, *(-q)])
+    columns = [
+        quaternion_product(quaternion_product(quaternion, sp.Matrix([0, *e])), conjugate)[1:, :]
+        for e in sp.eye(3).columnspace()
+    ]
+    return sp.ImmutableMatrix(sp.Matrix.hstack(*columns).applyfunc(sp.expand))
+
+
+@cache
+def momentum_matrix() -> sp.ImmutableMatrix:
+    """(4.13) with the rotation of the Euler parameters in the place of Ω, as a skew 3×3 matrix."""
+    om = sp.Matrix(rotation())
+    values = {ball.Omega: om, ball.OmegaT: om.T, ball.J: J, ball.Gamma: gamma * gamma.T}
+    return sp.ImmutableMatrix(evaluate(ball.momentum(), values).applyfunc(sp.expand))
+
+
+@cache
+def contact_inertia() -> sp.ImmutableMatrix:
+    """B(γ) = ½ ∂²𝒦/∂q₀∂q, which is Λ - Dγγᵀ on |γ| = 1: the inertia about the contact point.
+
+    Read off (4.13) without |γ| = 1, so the diagonal is a sum of non-negative terms,
+    J₂ + J₃ + D(γ₂² + γ₃²): nothing cancels when D is large.
+    """
+    mixed = sp.Matrix(axial(momentum_matrix())).jacobian(q).diff(q0) / 2
+    return sp.ImmutableMatrix(mixed.applyfunc(_by_parameters))
+
+
+@cache
+def momentum() -> sp.ImmutableMatrix:
+    """𝒦(q, γ) of (5.2): the axial vector of (4.13), collected as 2 q₀ B(γ) q + 2 q × Jq-terms."""
+    rows = sp.Matrix(contact_inertia()) * q
+    whole = axial(momentum_matrix())
+    rest = (whole - 2 * q0 * rows).applyfunc(lambda e: _by_parameters(sp.expand(e)))
+    return sp.ImmutableMatrix(2 * (q0 * rows + rest / 2))
+
+
+def _by_parameters(expr: sp.Expr) -> sp.Expr:
+    """Writes a polynomial as (a combination of the Jᵢ)·monomial + D·(...), factored."""
+    inertial, contact = sp.expand(expr.subs(D, 0)), sp.expand(expr).coeff(D, 1)
+    return sp.factor(inertial) + D * sp.factor(contact)
+
+
+def lam() -> sp.Matrix:
+    """Λ = diag(J₂ + J₃ + D, ...): what B(γ) + Dγγᵀ is on the unit sphere."""
+    whole = sp.Matrix(contact_inertia()) + D * gamma * gamma.T
+    return whole.applyfunc(RING.normal)
+
+
+@cache
+def momentum_jacobian() -> sp.ImmutableMatrix:
+    """∂𝒦/∂q (3×3) in the chart q₀ = √(1 - |q|²), where ∂q₀/∂q = -qᵀ/q₀."""
+    vector = sp.Matrix(momentum())
+    return sp.ImmutableMatrix(vector.jacobian(q) - vector.diff(q0) * q.T / q0)
+
+
+@cache
+def tangent_jacobian() -> sp.ImmutableMatrix:
+    """The derivative of 𝒦 along q ∘ (0, w), w ∈ R³: rotations of the body; regular for every Ω.
+
+    Row i, column j: the change of 𝒦ᵢ when q becomes q ∘ (1, w eⱼ), per unit of w.
+    """
+    quaternion = sp.Matrix([q0, *q])
+    directions = [quaternion_product(quaternion, sp.Matrix([0, *e])) for e in sp.eye(3).columnspace()]
+    gradient = sp.Matrix(momentum()).jacobian(quaternion)
+    return sp.ImmutableMatrix(gradient * sp.Matrix.hstack(*directions))
+
+
+def displacement() -> sp.Matrix:
+    """The axial vector of (Ω - Ωᵀ)/2, so that the discrete constraint (4.9) reads Δr = -ρ (this × γ).
+
+    In the body frame at the time k, with Ω̄ γ⃗ = R Ω γ.
+    """
+    om = sp.Matrix(rotation())
+    return axial((om - om.T) / 2).applyfunc(sp.factor)

@@ -1,0 +1,153 @@
+"""Identities for every n: words in noncommuting matrix symbols, with rewriting rules.
+
+A matrix identity that holds for all sizes n is proved by writing both sides as sums of words in
+noncommuting symbols, replacing R Rᵀ and the like by their normal forms, and seeing every
+coefficient vanish.  Nothing is assumed about n, nor about the entries of the matrices.  Columns
+and rows (γ, γᵀ) are symbols like any other.
+
+The rules must be confluent, otherwise the normal form would depend on the order of rewriting and
+"not zero" would mean nothing.  The constructor checks all critical pairs.
+"""
+
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+import sympy as sp
+
+Word = tuple[sp.Symbol, ...]
+
+
+def matrix_symbols(names: str) -> tuple[sp.Symbol, ...]:
+    """Noncommuting symbols, one for each name."""
+    return sp.symbols(names, commutative=False, seq=True)
+
+
+class WordAlgebra:
+    """Sums of words over Q(commuting parameters), modulo rewriting rules on adjacent pairs.
+
+    `transposes` maps each symbol to its transpose (an expression: `{J: J, xi: -xi, R: RT, RT: R}`).
+    `rules` maps an adjacent pair to the expression that replaces it: `{(R, RT): 1}`.
+
+    Raises ValueError if the rules are not confluent.
+    """
+
+    def __init__(
+        self,
+        transposes: Mapping[sp.Symbol, sp.Expr],
+        rules: Mapping[tuple[sp.Symbol, sp.Symbol], sp.Expr | int] | None = None,
+    ) -> None:
+        self.transposes = dict(transposes)
+        self.rules = {pair: sp.sympify(value) for pair, value in (rules or {}).items()}
+        for (a, b), left in self.rules.items():
+            for (c, d), right in self.rules.items():
+                if b == c and self.normal(left * d) != self.normal(a * right):
+                    raise ValueError(f"the rewriting rules are not confluent: {a}{b}{d} has two normal forms")
+
+    def normal(self, expr: sp.Expr | int) -> sp.Expr:
+        """The normal form: expanded, with every rule applied until none matches."""
+        total: dict[Word, sp.Expr] = {}
+        pending = list(_terms(sp.expand(expr)))
+        while pending:
+            coefficient, word = pending.pop()
+            match = next((i for i in range(len(word) - 1) if word[i : i + 2] in self.rules), None)
+            if match is None:
+                total[word] = total.get(word, sp.S.Zero) + coefficient
+                continue
+            left, pair, right = word[:match], word[match : match + 2], word[match + 2 :]
+            for c, middle in _terms(sp.expand(self.rules[pair])):
+                pending.append((coefficient * c, left + middle + right))
+        return sp.Add(*(sp.expand(c) * sp.Mul(*word) for word, c in total.items()))
+
+    def is_zero(self, expr: sp.Expr | int) -> bool:
+        """True exactly when the normal form is 0: then the identity holds for every n."""
+        return bool(self.normal(expr) == 0)
+
+    def transpose(self, expr: sp.Expr | int) -> sp.Expr:
+        """Transposition: reverses each word and transposes its letters."""
+        return sp.Add(
+            *(
+                c * sp.Mul(*(self.transposes[letter] for letter in reversed(word)))
+                for c, word in _terms(sp.expand(expr))
+            )
+        )
+
+    def wedge(self, a: sp.Expr, b: sp.Expr) -> sp.Expr:
+        """a ∧ b = a bᵀ - b aᵀ for two columns."""
+        return a * self.transpose(b) - b * self.transpose(a)
+
+    def trace(self, expr: sp.Expr | int) -> sp.Expr:
+        """A normal form for traces: words up to cyclic order and transposition.
+
+        The trace of each word is represented by the least of its rotations and of those of its
+        transpose, so that tr X = tr Xᵀ and tr XY = tr YX become equality of expressions.
+        """
+        total = sp.S.Zero
+        for c, word in _terms(self.normal(expr)):
+            candidates = [(1, w) for w in _rotations(self._cyclically_reduced(word))]
+            [(sign, flipped)] = _terms(self.normal(self.transpose(sp.Mul(*candidates[0][1]))))
+            candidates += [(sign, w) for w in _rotations(flipped)]
+            least = min(w for _, w in ((s, _key(w)) for s, w in candidates))
+            signs = {s for s, w in candidates if _key(w) == least}
+            if len(signs) == 1:  # with both signs the trace equals its own negative: it is 0
+                word = next(w for _, w in candidates if _key(w) == least)
+                total += c * signs.pop() * sp.Mul(*word)
+        return sp.expand(total)
+
+    def _cyclically_reduced(self, word: Word) -> Word:
+        """Removes pairs that a rule with value 1 joins across the end of the trace."""
+        while len(word) >= 2 and self.rules.get((word[-1], word[0])) == 1:
+            word = word[1:-1]
+        return word
+
+    def dual_of_skew(self, expr: sp.Expr, xi: sp.Symbol) -> sp.Expr:
+        """The matrix S with expr = ½ tr(ξ S), S skew, for a trace expression linear in the skew ξ.
+
+        expr vanishes for *every* skew ξ exactly when S does.
+        """
+        total = sp.S.Zero
+        for c, word in _terms(self.normal(expr)):
+            places = [i for i, letter in enumerate(word) if letter == xi]
+            if len(places) != 1:
+                raise ValueError(f"the expression is not linear in {xi}")
+            total += c * sp.Mul(*(word[places[0] + 1 :] + word[: places[0]]))
+        return self.normal(total - self.transpose(total))
+
+
+def _terms(expr: sp.Expr | int) -> Iterable[tuple[sp.Expr, Word]]:
+    """The (coefficient, word) pairs of an expanded expression."""
+    for term in sp.Add.make_args(sp.sympify(expr)):
+        commuting, letters = term.args_cnc()
+        word: list[sp.Symbol] = []
+        for letter in letters:
+            base, power = letter.as_base_exp()
+            if not (base.is_Symbol and power.is_Integer and power > 0):
+                raise ValueError(f"not a word: {term}")
+            word += [base] * int(power)
+        coefficient = sp.Mul(*commuting)
+        if coefficient != 0:
+            yield coefficient, tuple(word)
+
+
+def _rotations(word: Word) -> list[Word]:
+    return [word[i:] + word[:i] for i in range(max(len(word), 1))]
+
+
+def _key(word: Word) -> tuple[str, ...]:
+    return tuple(letter.name for letter in word)
+
+
+def evaluate(expr: sp.Expr | int, values: Mapping[sp.Symbol, sp.Matrix | sp.Expr]) -> Any:
+    """A sum of words at explicit matrices (columns and rows included) and values of the parameters.
+
+    The empty word is the identity of the size of the first matrix; a sum without words is the number 0.
+    """
+    matrices = {symbol: value for symbol, value in values.items() if isinstance(value, sp.MatrixBase)}
+    scalars = {symbol: value for symbol, value in values.items() if symbol not in matrices}
+    parts = []
+    for commuting, word in _terms(sp.expand(expr)):
+        coefficient = commuting.subs(scalars, simultaneous=True)
+        product = matrices[word[0]] if word else sp.eye(next(iter(matrices.values())).rows)
+        for letter in word[1:]:
+            product = product * matrices[letter]
+        parts.append(coefficient * product)
+    return sum(parts[1:], parts[0]) if parts else sp.S.Zero

@@ -1,0 +1,122 @@
+"""Finds the proofs, runs them side by side, and prints what they found."""
+
+import importlib
+import multiprocessing
+import os
+import pkgutil
+import sys
+import traceback
+from collections.abc import Callable, Iterable, Sequence
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from pathlib import Path
+from typing import Any
+
+from .claim import Claim, Judgement, Proof, Verdict, register
+
+
+def load() -> dict[str, Claim]:
+    """Imports every proof script and returns the claims by id, in the order of the paper."""
+    package = importlib.import_module("chapsym.proofs")
+    for module in pkgutil.iter_modules(package.__path__):
+        importlib.import_module(f"chapsym.proofs.{module.name}")
+    claims = register()
+    return {id: claims[id] for id in sorted(claims, key=_paper_order)}
+
+
+def _paper_order(id: str) -> tuple[str, int]:
+    """By script (s2, s4, s5, ...), then by the place in it."""
+    prove = register()[id].prove
+    return prove.__module__, prove.__code__.co_firstlineno
+
+
+def downstream(id: str, claims: dict[str, Claim]) -> list[str]:
+    """The claims that use `id`, directly or through others."""
+    reached: list[str] = []
+    frontier = [id]
+    while frontier:
+        source = frontier.pop()
+        new = [other.id for other in claims.values() if source in other.uses and other.id not in reached]
+        reached += new
+        frontier += new
+    return [other for other in claims if other in reached]
+
+
+def prove_one(id: str) -> dict[str, Any]:
+    """Judges one claim and returns its record; a proof that raises is an open claim with the reason."""
+    claims = load()
+    return judge(claims[id]).record(downstream(id, claims))
+
+
+def judge(claim: Claim) -> Judgement:
+    """Judges a claim; an exception in the proof leaves it open, with the place where it arose."""
+    try:
+        return claim.judge()
+    except Exception as error:
+        place = traceback.extract_tb(error.__traceback__)[-1]
+        reason = f"the proof raised {type(error).__name__}: {error} ({Path(place.filename).name}:{place.lineno})"
+        return Judgement(claim, Verdict.OPEN, Proof(problems=[reason]), 0.0)
+
+
+def prove_all(
+    ids: Sequence[str], jobs: int | None = None, on_result: Callable[[dict[str, Any]], None] = lambda record: None
+) -> list[dict[str, Any]]:
+    """Judges the claims in parallel processes; `on_result` sees each record as it arrives.
+
+    Returns the records in the order of `ids`.
+    """
+    jobs = min(jobs or os.cpu_count() or 1, len(ids))
+    records: dict[str, dict[str, Any]] = {}
+    if jobs <= 1:
+        for id in ids:
+            records[id] = prove_one(id)
+            on_result(records[id])
+        return [records[id] for id in ids]
+    pool = ProcessPoolExecutor(jobs, mp_context=multiprocessing.get_context("spawn"))
+    try:
+        for future in as_completed([pool.submit(prove_one, id) for id in ids]):
+            record = future.result()
+            records[record["id"]] = record
+            on_result(record)
+    finally:
+        pool.shutdown(cancel_futures=True)
+    return [records[id] for id in ids]
+
+
+def explain(record: dict[str, Any]) -> str:
+    """The whole argument of one claim, as text."""
+    evidence = record["evidence"]
+    lines = [f"[{record['id']}] {evidence['title']}", f"  printed: {record['printed']}"]
+    lines += [f"  hypothesis: {h}" for h in evidence["hypotheses"]]
+    lines += ["", *evidence["derivation"]]
+    for example in evidence["counterexamples"]:
+        lines += ["  exact counterexample: " + ", ".join(f"{k} = {v}" for k, v in example["point"].items())]
+        for kind in ("printed", "corrected"):
+            for sides in example[kind]:
+                left, right = ", ".join(sides["left"]), ", ".join(sides["right"])
+                sign = "=" if left == right else "≠"
+                lines += [f"    {kind}: {sides['statement']}:  ({left}) {sign} ({right})"]
+    if record["corrected"]:
+        lines += [f"  corrected: {record['corrected']}"]
+    if evidence["downstream"]:
+        lines += [f"  used by: {', '.join(evidence['downstream'])}"]
+    lines += [f"  PROBLEM: {problem}" for problem in evidence["problems"]]
+    lines += [f"  verdict: {record['verdict'].upper()}  ({record['seconds']:.2f} s)"]
+    return "\n".join(lines)
+
+
+def main(script: str) -> None:
+    """Runs the claims of one proof script, prints their derivations, and exits 1 if one is not proved."""
+    claims = load()
+    name = f"chapsym.proofs.{Path(script).stem}"
+    module = sys.modules.get(name)
+    if module is None or not Path(str(module.__file__)).samefile(script):
+        sys.exit(f"{script} is not the installed {name}; install this checkout first (pip install -e .)")
+    records = [prove_one(id) for id, claim in claims.items() if claim.prove.__module__ == name]
+    sys.exit(report(records))
+
+
+def report(records: Iterable[dict[str, Any]]) -> int:
+    """Prints every argument; returns the exit status."""
+    records = list(records)
+    print("\n\n".join(explain(record) for record in records))
+    return 0 if all(record["verdict"] != Verdict.OPEN for record in records) else 1

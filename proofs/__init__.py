@@ -1,0 +1,1 @@
+"""One script per group of claims, named by section and subject; each runs alone."""

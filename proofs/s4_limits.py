@@ -1,0 +1,75 @@
+"""Section 4: the continuum limits, for every n, with the order and leading term of each remainder."""
+
+import sympy as sp
+
+from chapsym.derive import ball, limits
+from chapsym.derive.ball import ALGEBRA, D, Gamma, J, K, omega
+from chapsym.prove import Equation, Proof, claim, main
+
+
+def equation(text: str, left: sp.Expr, right: sp.Expr) -> Equation:
+    """One matrix equation between words."""
+    return Equation(text, [left], [right], ALGEBRA)
+
+
+def commutator(a: sp.Expr, b: sp.Expr) -> sp.Expr:
+    """[a, b]."""
+    return a * b - b * a
+
+
+def show(p: Proof, name: str, remainder: limits.Remainder) -> None:
+    """Prints limit, order and leading term."""
+    p.show(name, f"({remainder.limit}) + ε^{remainder.order}·({remainder.leading}) + ...")
+
+
+@claim(
+    "4.6-limit",
+    r"\Omega_k\mapsto I+\varepsilon\omega:\ M_k \text{ transforms to } M = J\omega+\omega J",
+    uses=["4.7"],
+)
+def centre_limit(p: Proof) -> None:
+    """M/ε → Jω + ωJ, with a remainder of the exact order 1."""
+    m = limits.centre_momentum()
+    show(p, "M/ε", m)
+    p.printed(equation("M/ε → Jω + ωJ", m.limit, J * omega + omega * J))
+    p.lemma(equation("the leading remainder is ½[ω², J]", m.leading, commutator(omega**2, J) / 2))
+    p.fact(f"the remainder has the exact order 1, here {m.order}", m.order == 1)
+    p.control(equation("M/ε → Jω - ωJ", m.limit, J * omega - omega * J))
+
+
+@claim(
+    "4.13-limit",
+    r"\mathcal K/\varepsilon \to \mathbf K = J\omega+\omega J+D(\Gamma\omega+\omega\Gamma), "
+    r"\text{ and (4.12) transforms to } \dot{\mathbf K}+[\omega,\mathbf K]=0,\ \dot\Gamma+[\omega,\Gamma]=0",
+    uses=["prop-1"],
+)
+def momentum_limit(p: Proof) -> None:
+    """𝒦/ε → 2.13 and (4.12) → 2.12, for every n; each remainder has the exact order 1."""
+    p.assume("Ω_k = exp(ε ω) with ω skew: Ω = 1 + εω + O(ε²)")
+    momentum = limits.momentum()
+    show(p, "𝒦/ε", momentum)
+    p.printed(
+        equation("𝒦/ε → Jω + ωJ + D(Γω + ωΓ)", momentum.limit, J * omega + omega * J + D * (Gamma * omega + omega * Gamma))
+    )
+    p.fact(f"the remainder of 𝒦/ε has the exact order 1, here {momentum.order}", momentum.order == 1)
+    p.lemma(equation("its leading term is ½[ω², J], without D", momentum.leading, commutator(omega**2, J) / 2))
+    for name, tensor in [("𝒦", K), ("Γ", Gamma)]:
+        moved = limits.transport(tensor)
+        show(p, f"(Ωᵀ{name}Ω - {name})/ε", moved)
+        p.printed(equation(f"(Ωᵀ{name}Ω - {name})/ε → -[ω, {name}]", moved.limit, -commutator(omega, tensor)))
+        p.fact(f"its remainder has the exact order 1, here {moved.order}", moved.order == 1)
+        p.lemma(
+            equation(
+                f"its leading term is ½[ω, [ω, {name}]]",
+                moved.leading,
+                commutator(omega, commutator(omega, tensor)) / 2,
+            )
+        )
+    p.control(equation("𝒦/ε → Jω + ωJ - D(Γω + ωΓ)", momentum.limit, J * omega + omega * J - D * (Gamma * omega + omega * Gamma)))
+    p.control(equation("𝒦/ε → the same with D/2", momentum.limit, J * omega + omega * J + D / 2 * (Gamma * omega + omega * Gamma)))
+    p.control(equation("𝒦̇ = +[ω, 𝒦]", limits.transport(K).limit, commutator(omega, K)))
+    p.control(equation("the leading remainder is 0", ball.ALGEBRA.normal(momentum.leading), sp.S.Zero))
+
+
+if __name__ == "__main__":
+    main(__file__)

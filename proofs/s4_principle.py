@@ -1,0 +1,187 @@
+"""Section 4: from the discrete Lagrange-d'Alembert principle to the discrete Euler-Poincaré form."""
+
+import sympy as sp
+
+from chapsym.derive import ball, principle
+from chapsym.derive.principle import ALGEBRA, J, Lam, R, R0, R0T, R1, R1T, RT, f, fT, gamma, gammaT, m, rho
+from chapsym.derive.words import evaluate
+from chapsym.prove import Equation, Point, Proof, claim, main
+
+CORRECTED = principle.kinetic_factor()
+PRINTED = sp.Rational(1, 2)
+
+
+def equation(text: str, left: sp.Expr, right: sp.Expr) -> Equation:
+    """One matrix equation between words."""
+    return Equation(text, [left], [right], ALGEBRA)
+
+
+def path_point(values: dict, *hypotheses: Equation) -> Point:
+    """Explicit rational attitudes, centres and parameters; the transposes are filled in."""
+    full = dict(values)
+    for symbol, value in values.items():
+        if isinstance(value, sp.MatrixBase) and symbol in ALGEBRA.transposes:
+            full[ALGEBRA.transposes[symbol]] = value.T
+    orthogonal = [
+        equation(f"{a}·{a}ᵀ = 1", a * ALGEBRA.transposes[a], sp.S.One) for a in (R0, R, R1) if a in values
+    ]
+    shown = {str(k): str(v.tolist() if isinstance(v, sp.MatrixBase) else v) for k, v in values.items()}
+    return Point(shown, lambda expr: evaluate(expr, full), (*orthogonal, *hypotheses))
+
+
+def skew_part_of_4_3() -> sp.Expr:
+    """(4.3)·R_kᵀ minus its transpose, with (4.4): a symmetric Λ exists exactly when this vanishes."""
+    half = ((R1 + R0) * J - rho * principle.reaction() * gammaT * R) * RT
+    return ALGEBRA.normal(half - ALGEBRA.transpose(half))
+
+
+@claim(
+    "4.1",
+    r"\mathbb L = \frac12 \mathrm{Tr}(R_k J R_{k+1}^T) + \frac m2 \langle\Delta r_k, \Delta r_k\rangle, "
+    r"the source of (4.3) and (4.4)",
+)
+def discrete_lagrangian(p: Proof) -> None:
+    """The printed discrete Lagrangian does not produce the printed equations: sign and factor."""
+    p.say("The principle: δ(𝕃(k-1,k) + 𝕃(k,k+1)) = 0 for dR = ξR_k and dr = -ρ ξ γ, every skew ξ.")
+    p.say("With 𝕃 = c·Tr(R_k J R_{k+1}ᵀ) + (m/2)|Δr_k|² it says that the skew matrix S(c) vanishes:")
+    p.show("S(c)", principle.momentum_balance(principle.c))
+    p.say("(4.3) with (4.4) says that a symmetric Λ_k exists, that is, that this vanishes:")
+    p.show("skew part of (4.3)", skew_part_of_4_3())
+    printed = equation(
+        "c = 1/2: the principle is (4.3) with (4.4)", skew_part_of_4_3(), principle.momentum_balance(PRINTED)
+    )
+    p.printed(printed)
+    p.say("The translational parts agree, so c is read off the rotational part: it must be -1.")
+    p.say("That is also what ½ Tr(ΔR J ΔRᵀ) = Tr J - Tr(R_k J R_{k+1}ᵀ), the kinetic energy, asks for.")
+    p.corrected(
+        r"\mathbb L = -\mathrm{Tr}(R_k J R_{k+1}^T) + \frac m2 \langle\Delta r_k, \Delta r_k\rangle",
+        equation(
+            f"c = {CORRECTED}: the principle is (4.3) with (4.4)",
+            skew_part_of_4_3(),
+            principle.momentum_balance(CORRECTED),
+        ),
+    )
+    p.counterexample(
+        path_point(
+            {
+                R0: sp.eye(3),
+                R: sp.eye(3),
+                R1: sp.Matrix([[1, 0, 0], [0, "3/5", "-4/5"], [0, "4/5", "3/5"]]),
+                principle.r0: sp.zeros(3, 1),
+                principle.r: sp.zeros(3, 1),
+                principle.r1: sp.Matrix([0, 2, 0]),
+                J: sp.diag(1, 2, 3),
+                gamma: sp.Matrix([0, 0, 1]),
+                m: sp.S.One,
+                rho: sp.S.One,
+            },
+            equation("the printed principle, S(1/2) = 0", principle.momentum_balance(PRINTED), sp.S.Zero),
+        )
+    )
+    for factor, why in [(sp.S.One, "the sign alone"), (-PRINTED, "the factor alone")]:
+        mutated = principle.momentum_balance(factor)
+        p.control(equation(f"c = {factor} ({why}): the principle is (4.3) with (4.4)", skew_part_of_4_3(), mutated))
+
+
+@claim("4.3", r"R_{k+1} J + R_{k-1} J = \Lambda_k R_k + \rho \vec f^k \vec\gamma^T R_k", uses=["4.1"])
+def rotation_equation(p: Proof) -> None:
+    """The equation for R_k follows from the principle, with one multiplier f for (4.3) and (4.4)."""
+    p.assume("𝕃 with the correction of (4.1); with the printed 𝕃 the equation is false (see 4.1)")
+    p.say("D₁𝕃 + D₂𝕃 in R_k, less the multiplier terms: symmetric Λ for RRᵀ = 1, f for the rolling constraint.")
+    in_R, _ = principle.multiplier_equations(CORRECTED)
+    p.show("0", in_R)
+    p.say("Λ is any symmetric matrix, so -Λ may be called Λ; the sign of the whole is free.")
+    derived = -in_R.xreplace({Lam: -Lam})
+    printed = (R1 + R0) * J - Lam * R - rho * f * gammaT * R
+    p.printed(equation("(4.3) left - right = the equation of the principle", printed, derived))
+    p.control(equation("(4.3) with -ρ f γᵀR", (R1 + R0) * J - Lam * R + rho * f * gammaT * R, derived))
+    p.control(equation("(4.3) with J on the left", J * (R1 + R0) - Lam * R - rho * f * gammaT * R, derived))
+
+
+@claim("4.4", r"m (r_{k+1}-r_k) - m (r_k-r_{k-1}) = \vec f^k", uses=["4.1"])
+def centre_equation(p: Proof) -> None:
+    """The equation for r_k, with the same multiplier as in (4.3)."""
+    p.say("The multiplier of the rolling constraint is named so that (4.4) holds; (4.3) then has it as printed.")
+    _, in_r = principle.multiplier_equations(CORRECTED)
+    p.show("0", in_r)
+    printed = principle.reaction() - f
+    p.printed(equation("(4.4) left - right = - the equation of the principle", printed, -in_r))
+    p.control(equation("(4.4) with -f", principle.reaction() + f, -in_r))
+
+
+@claim(
+    "4.5",
+    r"R_{k+1} J R_k^T + R_{k-1} J R_k^T = \Lambda_k + \rho \vec f^k \vec\gamma^T, \quad "
+    r"R_k J R_{k+1}^T + R_k J R_{k-1}^T = \Lambda_k^T + \rho \vec\gamma \vec f^T_k",
+    uses=["4.3"],
+)
+def transposed_forms(p: Proof) -> None:
+    """(4.3) times R_kᵀ, and its transpose."""
+    at_4_3 = (R1 + R0) * J - Lam * R - rho * f * gammaT * R
+    first = R1 * J * RT + R0 * J * RT - Lam - rho * f * gammaT
+    second = R * J * R1T + R * J * R0T - ALGEBRA.transpose(Lam) - rho * gamma * fT
+    p.printed(
+        equation("first form = (4.3)·R_kᵀ", first, at_4_3 * RT),
+        equation("second form = its transpose", second, ALGEBRA.transpose(at_4_3 * RT)),
+    )
+    p.control(equation("second form with f γᵀ", second + rho * (gamma * fT - f * gammaT), ALGEBRA.transpose(first)))
+
+
+@claim(
+    "4.6",
+    r"m_k = m_{k-1} + \rho(\vec f^k\vec\gamma^T - \vec\gamma \vec{f^k}^T), \quad "
+    r"m(\Delta r_k - \Delta r_{k-1}) = \vec f^k, \quad m_k = R_{k+1} J R_k^T - R_k J R_{k+1}^T",
+    uses=["4.3", "4.4"],
+)
+def spatial_balance(p: Proof) -> None:
+    """The spatial momentum balance is what the principle says after the multiplier Λ is eliminated."""
+    p.assume("𝕃 with the correction of (4.1)")
+    p.say("The virtual displacements of the principle leave no Λ: S = 0, with f = m(Δr_k - Δr_{k-1}),")
+    balance = principle.momentum_balance(CORRECTED)
+    p.show("S", balance)
+    now, before = principle.spatial_momentum(R, R1), principle.spatial_momentum(R0, R)
+    force = ALGEBRA.wedge(principle.reaction(), gamma)
+    p.printed(equation("m_k - m_{k-1} - ρ(fγᵀ - γfᵀ) = S", now - before - rho * force, balance))
+    first = R1 * J * RT + R0 * J * RT - Lam - rho * f * gammaT
+    p.lemma(
+        equation(
+            "the same by (4.5): first form minus second form, Λ = Λᵀ",
+            first - ALGEBRA.transpose(first),
+            now - before - rho * ALGEBRA.wedge(f, gamma),
+        )
+    )
+    p.control(equation("the balance with -ρ(fγᵀ - γfᵀ)", now - before + rho * force, balance))
+    p.control(equation("the balance with m_k and m_{k-1} exchanged", before - now - rho * force, balance))
+
+
+@claim(
+    "4.7",
+    r"M_k = \Omega_{k-1}^T M_{k-1}\Omega_{k-1} + \rho \vec F^k\wedge\gamma_k^T, \quad "
+    r"m(\Delta r_k-\Delta r_{k-1}) = \vec f^k",
+    uses=["4.6"],
+)
+def euler_poincare(p: Proof) -> None:
+    """The balance in the body frame."""
+    p.assume("F ∧ γᵀ stands for Fγᵀ - γFᵀ, as in (4.6)")
+    p.say("Ω_k = R_kᵀR_{k+1}, M_k = R_kᵀ m_k R_k = Ω_k J - JΩ_kᵀ, F = R_kᵀf, γ_k = R_kᵀγ; R_kᵀ S R_k = 0 is the balance.")
+    now = RT * principle.spatial_momentum(R, R1) * R
+    step, before = R0T * R, R0T * principle.spatial_momentum(R0, R) * R0
+    p.lemma(equation("M_k = Ω_k J - J Ω_kᵀ", now, RT * R1 * J - J * ALGEBRA.transpose(RT * R1)))
+    force = ALGEBRA.wedge(RT * principle.reaction(), RT * gamma)
+    balance = RT * principle.momentum_balance(CORRECTED) * R
+    moved = ALGEBRA.transpose(step) * before * step
+    p.printed(equation("M_k - Ωᵀ M_{k-1} Ω - ρ F∧γ = R_kᵀ S R_k", now - moved - rho * force, balance))
+    turned = step * before * ALGEBRA.transpose(step)
+    p.control(equation("the same with Ω M_{k-1} Ωᵀ", now - turned - rho * force, balance))
+    p.control(equation("the same with γ∧F", now - moved + rho * force, balance))
+
+
+@claim("4.11", r"\gamma_k = \Omega_{k-1}^T \gamma_{k-1}")
+def vertical_transport(p: Proof) -> None:
+    """The vertical, fixed in space, seen from the body."""
+    p.printed(equation("R_kᵀγ = Ω_{k-1}ᵀ R_{k-1}ᵀγ", RT * gamma, RT * R0 * R0T * gamma))
+    p.control(equation("R_kᵀγ = Ω_{k-1} R_{k-1}ᵀγ", RT * gamma, R0T * R * R0T * gamma))
+
+
+if __name__ == "__main__":
+    main(__file__)
