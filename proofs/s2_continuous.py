@@ -1,0 +1,124 @@
+"""Section 2: what the map's units, energy and contact trace rest on."""
+
+import sympy as sp
+
+from chapsym.derive import continuous, limits, three
+from chapsym.derive.continuous import RING, inverse_inertia
+from chapsym.derive.limits import omega
+from chapsym.derive.quotient import Quotient
+from chapsym.derive.three import D, J1, J2, J3, K, gamma
+from chapsym.prove import Equation, Proof, claim, main, rational_point
+
+#: A ball, a unit vertical and an angular velocity for the counterexamples.
+BALL = {J1: 1, J2: 2, J3: 4, D: 3}
+UNIT = dict(zip(gamma, map(sp.Rational, ("2/7", "3/7", "6/7")), strict=True))
+SPIN = dict(zip(omega, (1, -1, 2), strict=True))
+
+
+def unit_vertical() -> Equation:
+    """|γ|² = 1."""
+    return Equation("|γ|² = 1", [gamma.dot(gamma)], [sp.S.One], RING)
+
+
+@claim("2.1", r"v + \rho\,\omega\times\gamma = 0 \text{ with the vertical unit vector directed upwards}")
+def rolling_condition(p: Proof) -> None:
+    """With γ upwards, from the plane to the centre, the sign of the rolling condition is wrong."""
+    v = sp.Matrix(sp.symbols("v1:4"))
+    rho = sp.Symbol("rho")
+    ring = Quotient((*v, rho, *omega, *gamma))
+    p.assume("γ is directed upwards, from the plane to the centre C (Section 2, before 2.9): P = C - ργ")
+    p.say("The velocity of the material point at P is v + ω × (P - C), and rolling says that it vanishes.")
+    slip = v + omega.cross(-rho * gamma)
+    p.show("velocity of P", slip.T.tolist()[0])
+    p.printed(Equation("v + ρ ω×γ = the velocity of P", list(v + rho * omega.cross(gamma)), list(slip), ring))
+    p.corrected(
+        r"v - \rho\,\omega\times\gamma = 0 \text{ (or } \gamma \text{ directed downwards, from } C \text{ to } P)",
+        Equation("v - ρ ω×γ = the velocity of P", list(v - rho * omega.cross(gamma)), list(slip), ring),
+    )
+    down = v + rho * omega.cross(gamma) - (v + omega.cross(rho * gamma))
+    p.lemma(Equation("with γ downwards, P = C + ργ, the printed form is right", list(down), [0, 0, 0], ring))
+    p.say("Example: γ = e₃ up, ω = e₂: the ball moves along +e₁ with speed ρ, as anyone can see on a table.")
+    point = {**dict(zip(v, (1, 0, 0), strict=True)), rho: 1}
+    point |= {**dict(zip(omega, (0, 1, 0), strict=True)), **dict(zip(gamma, (0, 0, 1), strict=True))}
+    p.counterexample(rational_point(point))
+    p.control(Equation("v - ρ γ×ω = the velocity of P", list(v - rho * gamma.cross(omega)), list(slip), ring))
+
+
+@claim("2.2-F", r"F = \langle J\gamma,\Lambda^{-1}\gamma\rangle \equiv 1 - D\langle\gamma,\Lambda^{-1}\gamma\rangle")
+def rolling_factor(p: Proof) -> None:
+    """The two forms of F agree on the unit sphere; J is here the inertia tensor, Λ - D."""
+    p.assume("J of Section 2 is the inertia tensor I = diag(J₂+J₃, ...), not the mass tensor of Section 5")
+    inverse = inverse_inertia()
+    printed = (three.lam() - D * sp.eye(3)) * gamma
+    second = 1 - D * gamma.dot(inverse * gamma)
+    p.printed(Equation("⟨Iγ, Λ⁻¹γ⟩ = 1 - D⟨γ, Λ⁻¹γ⟩", [printed.dot(inverse * gamma)], [second], RING))
+    free = Quotient(RING.symbols)
+    p.control(Equation("the same without |γ| = 1", [printed.dot(inverse * gamma)], [second], free))
+    p.control(Equation("F = 1 + D⟨γ, Λ⁻¹γ⟩", [printed.dot(inverse * gamma)], [2 - second], RING))
+    p.control(
+        Equation("J the mass tensor: ⟨Jγ, Λ⁻¹γ⟩ = F", [(three.J * gamma).dot(inverse * gamma)], [second], RING)
+    )
+
+
+def on_motion(expr: sp.Expr) -> sp.Expr:
+    """K replaced by K(ω, γ)."""
+    return expr.subs(dict(zip(K, continuous.momentum(), strict=True)), simultaneous=True)
+
+
+@claim(
+    "2.5-inverse",
+    r"\Lambda\omega = K - \frac DF\langle\gamma,\Lambda^{-1}K\rangle\gamma",
+    uses=["2.2-F"],
+)
+def inverse_momentum(p: Proof) -> None:
+    """The inverse of K(ω, γ): the sign is misprinted."""
+    p.show("K(ω, γ)", sp.Matrix(continuous.momentum()))
+    lift = D / continuous.rolling_factor() * gamma.dot(inverse_inertia() * K) * gamma
+    left = list(three.lam() * omega)
+
+    def inverse(text: str, sign: int) -> Equation:
+        return Equation(text, left, list((K + sign * lift).applyfunc(on_motion)), RING)
+
+    p.printed(inverse("Λω = K - (D/F)⟨γ, Λ⁻¹K⟩γ", -1))
+    p.corrected(
+        r"\Lambda\omega = K + \frac DF\langle\gamma,\Lambda^{-1}K\rangle\gamma",
+        inverse("Λω = K + (D/F)⟨γ, Λ⁻¹K⟩γ", +1),
+    )
+    p.lemma(
+        Equation(
+            "ω(K(ω, γ), γ) = ω for the derived inverse",
+            list(sp.Matrix(continuous.angular_velocity()).applyfunc(on_motion)), list(omega), RING,
+        )
+    )  # fmt: skip
+    p.counterexample(rational_point({**BALL, **UNIT, **SPIN}, [unit_vertical()]))
+    p.control(inverse("Λω = K + 2(D/F)⟨γ, Λ⁻¹K⟩γ", 2))
+
+
+@claim(
+    "2.5",
+    r"\langle K,\omega\rangle = \langle K,\Lambda^{-1}K\rangle - \frac DF\langle\gamma,\Lambda^{-1}K\rangle^2",
+    uses=["2.5-inverse"],
+)
+def energy_integral(p: Proof) -> None:
+    """The energy integral as a function of K, γ: the sign is misprinted with that of the inverse."""
+    p.say("ω(K, γ) is the inverse of K(ω, γ) that 2.5-inverse proves.")
+    quadratic = K.dot(inverse_inertia() * K)
+    lifted = D / continuous.rolling_factor() * gamma.dot(inverse_inertia() * K) ** 2
+    left = [K.dot(sp.Matrix(continuous.angular_velocity()))]
+    p.printed(Equation("⟨K,ω⟩ = ⟨K,Λ⁻¹K⟩ - (D/F)⟨γ,Λ⁻¹K⟩²", left, [quadratic - lifted], RING))
+    p.corrected(
+        r"\langle K,\omega\rangle = \langle K,\Lambda^{-1}K\rangle + \frac DF\langle\gamma,\Lambda^{-1}K\rangle^2",
+        Equation("⟨K,ω⟩ = ⟨K,Λ⁻¹K⟩ + (D/F)⟨γ,Λ⁻¹K⟩²", left, [quadratic + lifted], RING),
+    )
+    momentum = dict(zip(K, (1, "-1/2", "3/4"), strict=True))
+    p.counterexample(rational_point({**BALL, **UNIT, **momentum}, [unit_vertical()]))
+    p.lemma(Equation("the derived energy is ½⟨K,ω⟩", [2 * continuous.energy()], left, RING))
+    p.say("The kinetic energy is half of ⟨K,ω⟩: ½m|v|² + ½⟨Iω,ω⟩ with |v| = ρ|ω×γ|.")
+    in_motion = sp.Matrix(continuous.momentum()).dot(omega)
+    p.lemma(Equation("½⟨K,ω⟩ = ½m|v|² + ½⟨Iω,ω⟩", [in_motion / 2], [continuous.lagrangian_energy()], RING))
+    p.control(Equation("⟨K,ω⟩ = ½m|v|² + ½⟨Iω,ω⟩", [in_motion], [continuous.lagrangian_energy()], RING))
+    p.control(Equation("⟨K,ω⟩ with F = 1", left, [quadratic + lifted * continuous.rolling_factor()], RING))
+
+
+if __name__ == "__main__":
+    main(__file__)
