@@ -1,0 +1,32 @@
+"""Kernels written by `chapsym codegen` from the proved expressions: do not edit."""
+
+from .angular_velocity import angular_velocity
+from .centre_step import centre_step
+from .compose import compose
+from .contact_momentum import contact_momentum
+from .energy import energy
+from .invariants import invariants
+from .momentum import momentum
+from .momentum_jacobian import momentum_jacobian
+from .residual import residual
+from .rotate import rotate
+from .rotation import rotation
+from .tangent_jacobian import tangent_jacobian
+from .transport import transport
+
+# name: (function, (argument group, length) ..., shape of the result)
+TABLE = {
+    "angular_velocity": (angular_velocity, (('momentum', 3), ('gamma', 3), ('mass_tensor', 3), ('D', 1)), (3,)),
+    "centre_step": (centre_step, (('rotation', 4), ('gamma', 3)), (3,)),
+    "compose": (compose, (('first', 4), ('second', 4)), (4,)),
+    "contact_momentum": (contact_momentum, (('omega', 3), ('gamma', 3), ('mass_tensor', 3), ('D', 1)), (3,)),
+    "energy": (energy, (('momentum', 3), ('gamma', 3), ('mass_tensor', 3), ('D', 1)), ()),
+    "invariants": (invariants, (('momentum', 3), ('gamma', 3)), (3,)),
+    "momentum": (momentum, (('rotation', 4), ('gamma', 3), ('mass_tensor', 3), ('D', 1)), (3,)),
+    "momentum_jacobian": (momentum_jacobian, (('rotation', 4), ('gamma', 3), ('mass_tensor', 3), ('D', 1)), (3, 3)),
+    "residual": (residual, (('rotation', 4), ('momentum', 3), ('gamma', 3), ('mass_tensor', 3), ('D', 1)), (3,)),
+    "rotate": (rotate, (('rotation', 4), ('vector', 3)), (3,)),
+    "rotation": (rotation, (('rotation', 4),), (3, 3)),
+    "tangent_jacobian": (tangent_jacobian, (('rotation', 4), ('gamma', 3), ('mass_tensor', 3), ('D', 1)), (3, 3)),
+    "transport": (transport, (('rotation', 4), ('vector', 3)), (3,)),
+}

@@ -112,10 +112,27 @@ def tangent_jacobian() -> sp.ImmutableMatrix:
     return sp.ImmutableMatrix(gradient * sp.Matrix.hstack(*directions))
 
 
-def displacement() -> sp.Matrix:
-    """The axial vector of (Ω - Ωᵀ)/2, so that the discrete constraint (4.9) reads Δr = -ρ (this × γ).
+def rotation_offset() -> sp.Matrix:
+    """Ω - 1 on unit Euler parameters, with 1 written as q₀² + |q|²: small when the rotation is."""
+    whole = sp.Matrix(rotation()) - (q0**2 + q.dot(q)) * sp.eye(3)
+    return whole.applyfunc(lambda e: sp.factor(sp.expand(e)))
 
-    In the body frame at the time k, with Ω̄ γ⃗ = R Ω γ.
+
+def rotated(x: sp.Matrix) -> sp.Matrix:
+    """Ωx = x + (Ω - 1)x: a vector of the body at k+1, seen in the body at k."""
+    return x + rotation_offset() * x
+
+
+def transported(x: sp.Matrix) -> sp.Matrix:
+    """Ωᵀx = x + (Ω - 1)ᵀx: a vector fixed in space, one step later (5.3)."""
+    return x + rotation_offset().T * x
+
+
+def centre_step() -> sp.Matrix:
+    """Δr/ρ in the body frame at the time k, from the discrete constraint (4.9), for γ upwards.
+
+    (4.9) with γ from the centre to the plane reads Δr = -(ρ/2)(Ω - Ωᵀ)γ in the body; see claim 2.1.
     """
     om = sp.Matrix(rotation())
-    return axial((om - om.T) / 2).applyfunc(sp.factor)
+    upwards = -gamma
+    return (-(om - om.T) / 2 * upwards).applyfunc(lambda e: sp.factor(sp.expand(e)))

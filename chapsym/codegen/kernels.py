@@ -1,0 +1,174 @@
+"""What is generated: every kernel with its inputs, its expressions and the claims that prove them."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import sympy as sp
+
+from chapsym.derive import continuous, three
+from chapsym.derive.limits import omega
+from chapsym.derive.three import D, J1, J2, J3, K, gamma, q, q0
+
+Group = tuple[str, tuple[sp.Symbol, ...]]
+
+QUATERNION: Group = ("rotation", (q0, *q))
+GAMMA: Group = ("gamma", tuple(gamma))
+MOMENTUM: Group = ("momentum", tuple(K))
+OMEGA: Group = ("omega", tuple(omega))
+MASS_TENSOR: Group = ("mass_tensor", (J1, J2, J3))
+CONTACT: Group = ("D", (D,))
+FIRST: Group = ("first", sp.symbols("a0:4"))
+SECOND: Group = ("second", sp.symbols("b0:4"))
+VECTOR: Group = ("vector", sp.symbols("v1:4"))
+BODY: tuple[Group, ...] = (GAMMA, MASS_TENSOR, CONTACT)
+
+
+@dataclass(frozen=True)
+class Kernel:
+    """A function to be generated: flat inputs in groups, flat outputs with a shape."""
+
+    name: str
+    summary: str
+    claims: tuple[str, ...]
+    groups: tuple[Group, ...]
+    shape: tuple[int, ...]
+    outputs: tuple[str, ...]
+    build: Callable[[], Sequence[sp.Expr]]
+
+    @property
+    def inputs(self) -> tuple[sp.Symbol, ...]:
+        """The flat arguments."""
+        return tuple(symbol for _, symbols in self.groups for symbol in symbols)
+
+
+def _matrix(prefix: str) -> tuple[str, ...]:
+    return tuple(f"{prefix}{row}{column}" for row in (1, 2, 3) for column in (1, 2, 3))
+
+
+def _vector(prefix: str) -> tuple[str, ...]:
+    return tuple(f"{prefix}{row}" for row in (1, 2, 3))
+
+
+def _column(symbols: Sequence[sp.Symbol]) -> sp.Matrix:
+    return sp.Matrix(list(symbols))
+
+
+KERNELS: tuple[Kernel, ...] = (
+    Kernel(
+        "momentum",
+        "The discrete momentum 𝒦(q, γ) about the contact point (5.2); homogeneous of degree 2 in (q0, q).",
+        ("prop-1", "5.2"),
+        (QUATERNION, *BODY),
+        (3,),
+        _vector("K"),
+        three.momentum,
+    ),
+    Kernel(
+        "momentum_jacobian",
+        "∂𝒦/∂q in the chart q0 = sqrt(1 - |q|²), row by row; it divides by q0.",
+        ("5.2",),
+        (QUATERNION, *BODY),
+        (3, 3),
+        _matrix("dK"),
+        three.momentum_jacobian,
+    ),
+    Kernel(
+        "tangent_jacobian",
+        "The derivative of 𝒦 along q ∘ (0, w), w ∈ R³, row by row; regular at every rotation.",
+        ("5.2",),
+        (QUATERNION, *BODY),
+        (3, 3),
+        _matrix("dK"),
+        three.tangent_jacobian,
+    ),
+    Kernel(
+        "residual",
+        "𝒦(q, γ) - 𝒦, which the rotation of the next step makes zero (5.2).",
+        ("5.2",),
+        (QUATERNION, MOMENTUM, *BODY),
+        (3,),
+        _vector("r"),
+        lambda: sp.Matrix(three.momentum()) - K,
+    ),
+    Kernel(
+        "rotation",
+        "The matrix Ω of unit Euler parameters, row by row (5.1 as corrected).",
+        ("5.1",),
+        (QUATERNION,),
+        (3, 3),
+        _matrix("R"),
+        three.rotation,
+    ),
+    Kernel(
+        "rotate",
+        "Ωv for unit Euler parameters: from the frame of the body after the rotation to the one before.",
+        ("5.1",),
+        (QUATERNION, VECTOR),
+        (3,),
+        _vector("x"),
+        lambda: three.rotated(_column(VECTOR[1])),
+    ),
+    Kernel(
+        "transport",
+        "Ωᵀv for unit Euler parameters: what a vector fixed in space becomes in the body (5.3).",
+        ("5.3",),
+        (QUATERNION, VECTOR),
+        (3,),
+        _vector("x"),
+        lambda: three.transported(_column(VECTOR[1])),
+    ),
+    Kernel(
+        "compose",
+        "Hamilton's product of two quaternions, scalar first: R_{k+1} = R_k Ω_k for attitudes.",
+        ("5.1",),
+        (FIRST, SECOND),
+        (4,),
+        ("c0", "c1", "c2", "c3"),
+        lambda: three.quaternion_product(_column(FIRST[1]), _column(SECOND[1])),
+    ),
+    Kernel(
+        "centre_step",
+        "Δr/ρ of one step in the body frame before it, γ upwards (4.9 with 2.1 as corrected).",
+        ("2.1", "4.9"),
+        (QUATERNION, GAMMA),
+        (3,),
+        _vector("s"),
+        three.centre_step,
+    ),
+    Kernel(
+        "invariants",
+        "⟨𝒦,γ⟩ (the paper's h), ⟨𝒦,𝒦⟩ (its n) and ⟨γ,γ⟩, which every branch of the map preserves.",
+        ("prop-2", "5.3"),
+        (MOMENTUM, GAMMA),
+        (3,),
+        ("h", "n", "unit"),
+        lambda: [K.dot(gamma), K.dot(K), gamma.dot(gamma)],
+    ),
+    Kernel(
+        "energy",
+        "The kinetic energy ½⟨K, ω⟩ of the continuous ball with the momentum K (2.5 as corrected).",
+        ("2.5",),
+        (MOMENTUM, *BODY),
+        (),
+        ("T",),
+        lambda: [continuous.energy()],
+    ),
+    Kernel(
+        "contact_momentum",
+        "K = Λω - D⟨ω,γ⟩γ, the momentum of the continuous ball about the contact point.",
+        ("4.13-limit", "5.2-limit"),
+        (OMEGA, *BODY),
+        (3,),
+        _vector("K"),
+        continuous.momentum,
+    ),
+    Kernel(
+        "angular_velocity",
+        "ω(K, γ) of the continuous ball (the unnumbered inverse before 2.5, as corrected).",
+        ("2.5-inverse",),
+        (MOMENTUM, *BODY),
+        (3,),
+        _vector("w"),
+        continuous.angular_velocity,
+    ),
+)
