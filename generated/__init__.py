@@ -11,6 +11,7 @@ from .momentum_jacobian import momentum_jacobian
 from .residual import residual
 from .rotate import rotate
 from .rotation import rotation
+from .tangent_hessian import tangent_hessian
 from .tangent_jacobian import tangent_jacobian
 from .transport import transport
 
@@ -27,6 +28,7 @@ TABLE = {
     "residual": (residual, (('rotation', 4), ('momentum', 3), ('gamma', 3), ('mass_tensor', 3), ('D', 1)), (3,)),
     "rotate": (rotate, (('rotation', 4), ('vector', 3)), (3,)),
     "rotation": (rotation, (('rotation', 4),), (3, 3)),
+    "tangent_hessian": (tangent_hessian, (('rotation', 4), ('gamma', 3), ('mass_tensor', 3), ('D', 1)), (6, 3)),
     "tangent_jacobian": (tangent_jacobian, (('rotation', 4), ('gamma', 3), ('mass_tensor', 3), ('D', 1)), (3, 3)),
     "transport": (transport, (('rotation', 4), ('vector', 3)), (3,)),
 }

@@ -82,6 +82,15 @@ KERNELS: tuple[Kernel, ...] = (
         three.tangent_jacobian,
     ),
     Kernel(
+        "tangent_hessian",
+        "The constant second derivative of 𝒦(q ∘ (1, w)) in w: the vectors for 11, 22, 33, 23, 13, 12.",
+        ("5.2",),
+        (QUATERNION, *BODY),
+        (6, 3),
+        tuple(f"ddK{pair}_{row}" for pair in ("11", "22", "33", "23", "13", "12") for row in (1, 2, 3)),
+        three.tangent_hessian,
+    ),
+    Kernel(
         "residual",
         "𝒦(q, γ) - 𝒦, which the rotation of the next step makes zero (5.2).",
         ("5.2",),

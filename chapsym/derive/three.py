@@ -106,10 +106,26 @@ def tangent_jacobian() -> sp.ImmutableMatrix:
 
     Row i, column j: the change of 𝒦ᵢ when q becomes q ∘ (1, w eⱼ), per unit of w.
     """
-    quaternion = sp.Matrix([q0, *q])
-    directions = [quaternion_product(quaternion, sp.Matrix([0, *e])) for e in sp.eye(3).columnspace()]
-    gradient = sp.Matrix(momentum()).jacobian(quaternion)
-    return sp.ImmutableMatrix(gradient * sp.Matrix.hstack(*directions))
+    gradient = sp.Matrix(momentum()).jacobian(sp.Matrix([q0, *q]))
+    return sp.ImmutableMatrix(gradient * sp.Matrix.hstack(*_body_directions()))
+
+
+@cache
+def tangent_hessian() -> sp.ImmutableMatrix:
+    """The second derivative of 𝒦(q ∘ (1, w)) in w, which is constant: 6 rows 11, 22, 33, 23, 13, 12.
+
+    𝒦(q ∘ (1, w)) = 𝒦(q) + T w + ½ Σ Hᵢⱼ wᵢ wⱼ exactly, as 𝒦 is homogeneous of degree 2.
+    """
+    directions = _body_directions()
+    second = [sp.hessian(entry, [q0, *q]) for entry in momentum()]
+    pairs = [(0, 0), (1, 1), (2, 2), (1, 2), (0, 2), (0, 1)]
+    rows = [[(directions[i].T * h * directions[j])[0] for h in second] for i, j in pairs]
+    return sp.ImmutableMatrix(sp.Matrix(rows).applyfunc(_by_parameters))
+
+
+def _body_directions() -> list[sp.Matrix]:
+    """q ∘ (0, eᵢ): the directions of the three rotations about the body's axes."""
+    return [quaternion_product(sp.Matrix([q0, *q]), sp.Matrix([0, *e])) for e in sp.eye(3).columnspace()]
 
 
 def rotation_offset() -> sp.Matrix:

@@ -1,0 +1,116 @@
+"""The ball: its mass tensor, its D = mρ², and the checks that a body can have them."""
+
+from dataclasses import dataclass
+from typing import Any, Self
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .errors import BadInput
+
+Floats = NDArray[np.float64]
+
+
+def numbers(value: ArrayLike, name: str, trailing: int | None = None) -> Floats:
+    """`value` as finite float64 numbers, with the last axis of length `trailing` if that is given."""
+    try:
+        array = np.asarray(value, dtype=np.float64)
+    except (TypeError, ValueError, OverflowError):
+        raise BadInput(f"{name} must be numbers, not {_brief(value)}") from None
+    if trailing is not None and (array.ndim == 0 or array.shape[-1] != trailing):
+        raise BadInput(f"{name} must have {trailing} components along its last axis, not the shape {array.shape}")
+    if not np.isfinite(array).all():
+        where = np.argwhere(~np.isfinite(array))[0]
+        at = f" at index {tuple(map(int, where))}" if array.ndim else ""
+        raise BadInput(f"{name} must be finite, but it is {array[tuple(where)]}{at}")
+    return array
+
+
+def _brief(value: Any) -> str:
+    text = repr(value)
+    return text if len(text) <= 60 else text[:57] + "..."
+
+
+@dataclass(frozen=True)
+class Ball:
+    """A ball, or an array of balls, that rolls without slipping; its centre of mass is its centre.
+
+    mass_tensor: J = (J1, J2, J3) of Sections 4 and 5, ∫ xᵢ² dm, shape (..., 3), in kg m².
+    D: m ρ² in kg m², shape (...); D = 0 is the Euler top.
+    radius: ρ in m; needed for the trace of the contact point only.
+
+    Raises BadInput for a mass moment below 0, a D below 0, or a momentum operator that is singular.
+    """
+
+    mass_tensor: Floats
+    D: Floats
+    radius: Floats | None = None
+
+    def __post_init__(self) -> None:
+        tensor, contact = numbers(self.mass_tensor, "mass_tensor", 3), numbers(self.D, "D")
+        object.__setattr__(self, "mass_tensor", tensor)
+        object.__setattr__(self, "D", contact)
+        if (tensor < 0).any():
+            raise BadInput(
+                f"mass_tensor has the negative moment {tensor.min():g}; J = (∫x²dm, ∫y²dm, ∫z²dm) is never negative "
+                "(for principal moments of inertia use inertia=, where each is at most the sum of the other two)"
+            )
+        if (contact < 0).any():
+            raise BadInput(f"D = m ρ² must not be negative, but it is {contact.min():g}")
+        moments = tensor.sum(axis=-1, keepdims=True) - tensor + contact[..., np.newaxis]
+        if not (moments > 0).all():
+            raise BadInput("the ball has no inertia about one of its axes: at most two of J1, J2, J3 and D may vanish")
+        if self.radius is not None:
+            radius = numbers(self.radius, "radius")
+            if not (radius > 0).all():
+                raise BadInput(f"radius must be positive, but it is {radius.min():g}")
+            object.__setattr__(self, "radius", radius)
+
+    @classmethod
+    def from_inertia(
+        cls, inertia: ArrayLike, *, mass: ArrayLike | None = None, radius: ArrayLike | None = None,
+        D: ArrayLike | None = None,
+    ) -> Self:  # fmt: skip
+        """A ball with the principal moments I1 = J2 + J3, ... (kg m²), and its mass (kg) and radius (m), or D."""
+        return cls(mass_tensor_of(inertia), contact_term(mass, radius, D), radius)  # type: ignore[arg-type]
+
+    @classmethod
+    def from_mass_tensor(
+        cls, mass_tensor: ArrayLike, *, mass: ArrayLike | None = None, radius: ArrayLike | None = None,
+        D: ArrayLike | None = None,
+    ) -> Self:  # fmt: skip
+        """A ball with the mass tensor J = (J1, J2, J3) (kg m²), and its mass (kg) and radius (m), or D."""
+        return cls(mass_tensor, contact_term(mass, radius, D), radius)  # type: ignore[arg-type]
+
+    @property
+    def inertia(self) -> Floats:
+        """The principal moments of inertia about the centre, (J2 + J3, J1 + J3, J1 + J2)."""
+        return self.mass_tensor.sum(axis=-1, keepdims=True) - self.mass_tensor
+
+
+def mass_tensor_of(inertia: ArrayLike) -> Floats:
+    """J from the principal moments of inertia; raises BadInput if no body has them."""
+    moments = numbers(inertia, "inertia", 3)
+    if (moments < 0).any():
+        raise BadInput(f"inertia has the negative principal moment {moments.min():g}")
+    tensor = (moments.sum(axis=-1, keepdims=True) - 2 * moments) / 2
+    rounding = 4 * np.finfo(np.float64).eps * moments.max(axis=-1, keepdims=True)
+    if (tensor < -rounding).any():
+        bad = moments.reshape(-1, 3)[np.argwhere((tensor < -rounding).reshape(-1, 3).any(axis=1))[0, 0]]
+        listed = ", ".join(f"{x:g}" for x in bad)
+        raise BadInput(f"no body has the inertia ({listed}): each principal moment is at most the sum of the other two")
+    return np.maximum(tensor, 0.0)
+
+
+def contact_term(mass: ArrayLike | None, radius: ArrayLike | None, D: ArrayLike | None) -> ArrayLike:
+    """D itself, or m ρ²."""
+    if D is not None and mass is not None:
+        raise BadInput("give either D or mass and radius, not both D and mass")
+    if D is not None:
+        return D
+    if mass is None or radius is None:
+        raise BadInput("D is missing: give D, or mass and radius")
+    m, rho = numbers(mass, "mass"), numbers(radius, "radius")
+    if not (m > 0).all() or not (rho > 0).all():
+        raise BadInput("mass and radius must be positive")
+    return m * rho * rho

@@ -1,0 +1,80 @@
+"""The loops, compiled by numba: the same functions that run in plain Python.
+
+The compiled code is cached on disk in a folder named by a hash of every source that it is made of:
+numba itself would notice a change in `loop.py` only, and keep stale kernels.
+"""
+
+import hashlib
+import os
+import tempfile
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from functools import cache
+from pathlib import Path
+from types import FunctionType, ModuleType
+from typing import Any
+
+import numba
+from numba.core import config
+from numba.extending import register_jitable
+
+import chapsym.generated as generated
+
+from . import branch, loop
+
+
+def _functions(module: ModuleType) -> Iterator[FunctionType]:
+    for value in vars(module).values():
+        if isinstance(value, FunctionType):
+            yield value
+
+
+@cache
+def source_hash() -> str:
+    """A hash of the kernels, of the solver and of the loops, and of numba's version."""
+    digest = hashlib.sha256(numba.__version__.encode())
+    files = {f.__code__.co_filename for module in (generated, branch, loop) for f in _functions(module)}
+    for name in sorted(files):
+        digest.update(Path(name).read_bytes())
+    return digest.hexdigest()[:16]
+
+
+def cache_folder() -> Path:
+    """Where compiled code is kept: under the user's cache, or a temporary folder if that cannot be written."""
+    base = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "chapsym"
+    try:
+        base.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=base):
+            pass
+    except OSError:
+        base = Path(tempfile.gettempdir()) / f"chapsym-{os.getuid() if hasattr(os, 'getuid') else 'cache'}"
+    return base / source_hash()
+
+
+@contextmanager
+def _caching_in(folder: Path) -> Iterator[None]:
+    """Numba asks where to cache when a function is decorated, so the setting is borrowed for that only."""
+    before = config.CACHE_DIR
+    config.CACHE_DIR = str(folder)
+    try:
+        yield
+    finally:
+        config.CACHE_DIR = before
+
+
+@cache
+def _registered() -> None:
+    seen = set()
+    for module in (generated, branch, loop):
+        for function in _functions(module):
+            if function.__module__.startswith("chapsym.") and function not in seen:
+                seen.add(function)
+                register_jitable(error_model="numpy")(function)
+
+
+@cache
+def compiled(name: str) -> Callable[..., Any]:
+    """The compiled version of a function of `loop`."""
+    _registered()
+    with _caching_in(cache_folder()):
+        return numba.njit(cache=True, error_model="numpy", nogil=True)(getattr(loop, name))

@@ -1,0 +1,44 @@
+"""What can go wrong, each with one sentence for the user."""
+
+from enum import IntEnum
+from typing import Any
+
+
+class BadInput(ValueError):
+    """The input has no answer: what was wrong, where, and what would be right."""
+
+
+class Status(IntEnum):
+    """How a step ended, for each ball of a batch."""
+
+    TAKEN = 0
+    FOLDED = 1
+    NOT_CONVERGED = 2
+    UNREACHABLE = 3
+
+    @property
+    def sentence(self) -> str:
+        """The text for the user."""
+        return _SENTENCES[self]
+
+
+_SENTENCES = {
+    Status.TAKEN: "the step was taken",
+    Status.FOLDED: "the small-rotation branch folds before it reaches this momentum; take a shorter time step",
+    Status.NOT_CONVERGED: "the equation for the rotation did not converge to rounding; report this state",
+    Status.UNREACHABLE: "no rotation of this ball has this momentum at this gamma; take a shorter time step",
+}
+
+
+class StepNotTaken(ArithmeticError):
+    """A step of one ball that cannot be taken.
+
+    `status` says why, `index` which step of a trajectory it was (0 is the first), `reach` the fraction
+    of the momentum that the branch attains, and `trajectory` holds the states before it, if there are any.
+    """
+
+    def __init__(self, status: Status, reach: float, index: int | None = None, trajectory: Any = None) -> None:
+        self.status, self.reach, self.index, self.trajectory = status, reach, index, trajectory
+        where = "" if index is None else f"step {index}: "
+        extent = f" (it attains {reach:.6g} of it)" if status is Status.FOLDED else ""
+        super().__init__(f"{where}{status.sentence}{extent}")

@@ -1,0 +1,119 @@
+"""The map: one step, and the unreachable momenta."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from chapsym import generated
+
+from . import loop
+from .ball import Ball, Floats, numbers
+from .errors import BadInput, Status, StepNotTaken
+
+#: How far |γ|² may be from 1: more than the rounding of 10⁶ steps, so that a run may go on from its end.
+UNIT_TOLERANCE = 1e-12
+#: Batches up to this size step in plain Python: compiling would take longer.
+SMALL_BATCH = 64
+
+
+@dataclass(frozen=True)
+class Step:
+    """The outcome of one step, for one ball or a batch with the leading axes (...).
+
+    rotation: the Euler parameters (q0, q1, q2, q3) of the step in the body, q0 ≥ 0, shape (..., 4).
+    momentum, gamma: 𝒦 and γ after the step, shape (..., 3).
+    status: a `Status` for each ball, shape (...); where it is not TAKEN the numbers above are NaN.
+    reach: the fraction of the momentum that the small-rotation branch attains, shape (...).
+    """
+
+    rotation: Floats
+    momentum: Floats
+    gamma: Floats
+    status: np.ndarray
+    reach: Floats
+
+
+def unit_vertical(gamma: ArrayLike, tolerance: float = UNIT_TOLERANCE) -> Floats:
+    """γ as checked unit vectors, shape (..., 3)."""
+    array = numbers(gamma, "gamma", 3)
+    squared = (array * array).sum(axis=-1)
+    off = np.abs(squared - 1)
+    if array.size and (off > tolerance).any():
+        worst = np.sqrt(squared.flat[int(off.argmax())])
+        raise BadInput(f"gamma must be a unit vector, but its length is {worst:.17g}; divide it by its length")
+    return array
+
+
+def batch(ball: Ball, *vectors: Floats) -> tuple[tuple[int, ...], list[Floats]]:
+    """The common leading shape of balls and vectors, and all of them as fresh flat arrays.
+
+    Returns (shape, [vector (n, 3) ..., mass_tensor (n, 3), D (n,)]).
+    """
+    try:
+        shape = np.broadcast_shapes(ball.D.shape, ball.mass_tensor.shape[:-1], *(v.shape[:-1] for v in vectors))
+    except ValueError:
+        shapes = ", ".join(str(s) for s in [ball.mass_tensor.shape, ball.D.shape, *(v.shape for v in vectors)])
+        raise BadInput(f"the leading axes of ball (mass_tensor, D) and vectors do not broadcast: {shapes}") from None
+    flat = [np.broadcast_to(v, (*shape, 3)).reshape(-1, 3).copy() for v in (*vectors, ball.mass_tensor)]
+    return shape, [*flat, np.broadcast_to(ball.D, shape).reshape(-1).copy()]
+
+
+def step(ball: Ball, momentum: ArrayLike, gamma: ArrayLike) -> Step:
+    """One step of the map (5.3) on the small-rotation branch.
+
+    Solves 𝒦(q, γ) = 𝒦 for the rotation Ω (5.2) that is continued from the identity, and carries
+    𝒦 and γ to Ωᵀ𝒦 and Ωᵀγ.
+
+    momentum: 𝒦 = ε K of the paper, in kg m², shape (..., 3); gamma: unit verticals upwards, (..., 3).
+    Both broadcast with each other and with the balls.
+
+    One ball (no leading axis) raises StepNotTaken if it has no step; a batch reports `status` instead.
+    Raises BadInput for shapes, NaN, infinities, and a gamma that is not unit.
+    """
+    shape, (K, g, J, D) = batch(ball, numbers(momentum, "momentum", 3), unit_vertical(gamma))
+    q = np.full((len(D), 4), np.nan)
+    status, reach = np.zeros(len(D), dtype=np.int64), np.ones(len(D))
+    advance_all(K, g, J, D, q, status, reach)
+    failed = status != Status.TAKEN
+    if failed.any():
+        for i in np.flatnonzero(failed):
+            status[i] = explain(status[i], K[i], g[i], J[i], D[i])
+        if not shape:
+            raise StepNotTaken(Status(int(status[0])), float(reach[0]))
+        K[failed], g[failed] = np.nan, np.nan
+    return Step(
+        q.reshape(*shape, 4), K.reshape(*shape, 3), g.reshape(*shape, 3), status.reshape(shape), reach.reshape(shape)
+    )
+
+
+def advance_all(K: Floats, g: Floats, J: Floats, D: Floats, q: Floats, status: np.ndarray, reach: Floats) -> None:
+    """One step of every ball, in plain Python for a few and compiled for many."""
+    if len(D) <= SMALL_BATCH:
+        loop.advance_all(K, g, J, D, q, status, reach)
+        return
+    from .compiled import compiled
+
+    compiled("advance_all")(K, g, J, D, q, status, reach)
+
+
+def explain(status: int, K: Floats, g: Floats, J: Floats, D: float) -> Status:
+    """FOLDED, unless no rotation at all has this momentum."""
+    if status == Status.FOLDED and np.sqrt(K @ K) > largest_momentum(K, g, J, D) * (1 + 1e-12):
+        return Status.UNREACHABLE
+    return Status(int(status))
+
+
+def largest_momentum(direction: Floats, g: Floats, J: Floats, D: float) -> float:
+    """The largest component of 𝒦(q, γ) along `direction` over all rotations.
+
+    ⟨n, 𝒦(q, γ)⟩ is a quadratic form in the four Euler parameters: its largest eigenvalue.
+    """
+    n = direction / np.sqrt(direction @ direction)
+
+    def form(p: Floats) -> float:
+        return float(n @ np.array(generated.momentum(*p, *g, *J, D)))
+
+    basis = np.eye(4)
+    matrix = np.array([[(form(a + b) - form(a - b)) / 4 for b in basis] for a in basis])
+    return float(np.linalg.eigvalsh(matrix)[-1])

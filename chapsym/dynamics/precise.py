@@ -1,0 +1,156 @@
+"""One step at any precision: the float64 root, refined by the same kernels on other numbers."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+from chapsym import generated
+from chapsym.numbers import Ball as ArbBall
+from chapsym.numbers import Digits, Double, Rung
+
+from .ball import Ball
+from .branch import inverse, inverse_of
+from .errors import BadInput, Status, StepNotTaken
+from .map import step
+
+#: Refinement must stay this near to the float64 root, else another branch may have been met.
+NEAR = 1e-6
+MOST_REFINEMENTS = 60
+MOST_INFLATIONS = 12
+
+
+@dataclass(frozen=True)
+class PreciseStep:
+    """A step in the numbers of a rung; `write` gives the contract's JSON fields."""
+
+    rung: Rung
+    rotation: tuple[Any, ...]
+    momentum: tuple[Any, ...]
+    gamma: tuple[Any, ...]
+
+    def write(self) -> dict[str, Any]:
+        """q0, q, momentum and gamma after the step, as floats or decimal strings."""
+        with self.rung.precision():
+            q0, *q = map(self.rung.write, self.rotation)
+            return {
+                "q0": q0,
+                "q": q,
+                "momentum": list(map(self.rung.write, self.momentum)),
+                "gamma": list(map(self.rung.write, self.gamma)),
+            }
+
+
+def precise_step(
+    mass_tensor: Sequence[Fraction],
+    D: Fraction,
+    momentum: Sequence[Fraction],
+    gamma: Sequence[Fraction],
+    rung: Rung,
+) -> PreciseStep:
+    """One step of one ball from exact rational input (5.3), on the small-rotation branch.
+
+    Double: as `step`.  Digits(n): Newton in mpmath from the float64 root.  Ball(bits): Arb enclosures,
+    the root proved to exist and to be unique near the float64 root by the interval Newton test.
+    The branch is the one that the float64 continuation finds.
+
+    Raises BadInput, and StepNotTaken as `step` does.
+    """
+    unit_exactly(gamma, rung)
+    try:
+        numbers = [float(x) for x in (*mass_tensor, D, *momentum, *gamma)]
+    except OverflowError:
+        raise BadInput("a number of the input is beyond the range of float64, where every step starts") from None
+    J, K, g = numbers[:3], numbers[4:7], numbers[7:]
+    start = step(Ball(J, numbers[3]), K, g)  # type: ignore[arg-type]
+    if isinstance(rung, Double):
+        return PreciseStep(rung, *(tuple(map(float, x)) for x in (start.rotation, start.momentum, start.gamma)))
+    with rung.precision():
+        exact = [tuple(map(rung.number, x)) for x in (momentum, gamma, mass_tensor, (D,))]
+        first = tuple(rung.number(Fraction(float(x))) for x in start.rotation)
+        refine = _enclosed if isinstance(rung, ArbBall) else _refined
+        q = refine(rung, first, *exact)
+        return PreciseStep(rung, q, generated.transport(*q, *exact[0]), generated.transport(*q, *exact[1]))
+
+
+def unit_exactly(gamma: Sequence[Fraction], rung: Rung) -> None:
+    """Raises BadInput unless |γ|² = 1 to the digits of the rung."""
+    off = abs(sum(x * x for x in gamma) - 1)
+    tolerance = Fraction(1, 10**12) if isinstance(rung, Double) else Fraction(1, 10**rung.digits)
+    if off > tolerance:
+        raise BadInput(
+            f"gamma must be a unit vector to {rung.digits} digits, but |gamma|^2 is off 1 by {float(off):.2g}; "
+            "give it exactly, as rationals such as 2/7,3/7,6/7"
+        )
+
+
+def _refined(rung: Digits, q: tuple, K: tuple, g: tuple, J: tuple, D: tuple) -> tuple:
+    """Newton's iteration in the numbers of the rung, until a correction is below the square root of the last digit."""
+    settled = rung.number(Fraction(1, 10 ** (rung.count // 2 + 2 + rung.GUARD // 2)))
+    for _ in range(MOST_REFINEMENTS):
+        w = _correction(q, K, g, J, D)
+        change = max(abs(x) for x in w)
+        if change > NEAR:
+            break
+        q = _normalised(rung, generated.compose(*q, 1, *w))
+        if change <= settled * max(abs(x) for x in q[1:]):
+            return q
+    raise StepNotTaken(Status.NOT_CONVERGED, 1.0)
+
+
+def _correction(q: tuple, K: tuple, g: tuple, J: tuple, D: tuple) -> tuple:
+    """The Newton correction w for unit q: q becomes q ∘ (1, w)."""
+    r = generated.residual(*q, *K, *g, *J, *D)
+    _, *i = inverse(*q, *g, *J, *D)
+    return tuple(-(i[3 * n] * r[0] + i[3 * n + 1] * r[1] + i[3 * n + 2] * r[2]) for n in range(3))
+
+
+def _normalised(rung: Rung, p: tuple) -> tuple:
+    length = rung.sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2] + p[3] * p[3])
+    return tuple(x / length for x in p)
+
+
+def _enclosed(rung: ArbBall, q: tuple, K: tuple, g: tuple, J: tuple, D: tuple) -> tuple:
+    """Unit Euler parameters as balls that contain the one root near the float64 root."""
+    import flint
+
+    for _ in range(MOST_REFINEMENTS):
+        w = tuple(x.mid() for x in _correction(q, K, g, J, D))
+        change = max(abs(x) for x in w)
+        if not change < NEAR:
+            break
+        q = tuple(x.mid() for x in _normalised(rung, generated.compose(*q, flint.arb(1), *w)))
+        if change <= max(abs(x) for x in q[1:]) * flint.arb(2) ** (-(rung.bits + rung.GUARD) // 2 - 2):
+            break
+    # F(w) = 𝒦(q ∘ (1, w)) - |q|²(1 + |w|²)𝒦 vanishes exactly at the root; q is a point that is nearly unit.
+    norm = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]
+    value = generated.residual(*q, *(norm * x for x in K), *g, *J, *D)
+    tangent = generated.tangent_jacobian(*q, *g, *J, *D)
+    hessian = generated.tangent_hessian(*q, *g, *J, *D)
+    radius = max(abs(x).upper() for x in _apply(inverse_of(*tangent)[1:], value)) * 4
+    for _ in range(MOST_INFLATIONS):
+        box = tuple(flint.arb(0, radius) for _ in range(3))
+        slope = _slope(tangent, hessian, tuple(norm * x for x in K), box)
+        det, *inverse_slope = inverse_of(*slope)
+        if det > 0 or det < 0:
+            image = tuple(-x for x in _apply(inverse_slope, value))
+            if all(b.contains_interior(x) for b, x in zip(box, image, strict=True)):
+                return _normalised(rung, generated.compose(*q, flint.arb(1), *image))
+        radius = radius * 4
+    raise StepNotTaken(Status.NOT_CONVERGED, 1.0)
+
+
+def _apply(matrix: Sequence, vector: Sequence) -> tuple:
+    """A 3×3 matrix, row by row, times a vector."""
+    return tuple(sum(matrix[3 * i + j] * vector[j] for j in range(3)) for i in range(3))
+
+
+def _slope(tangent: tuple, hessian: tuple, K: tuple, box: tuple) -> list:
+    """F'(w) for every w in the box, row by row: T + H w - 2|q|²𝒦 wᵀ."""
+    place = {(0, 0): 0, (1, 1): 1, (2, 2): 2, (1, 2): 3, (0, 2): 4, (0, 1): 5}
+    rows = []
+    for i in range(3):
+        for j in range(3):
+            bent = sum(hessian[3 * place[min(j, k), max(j, k)] + i] * box[k] for k in range(3))
+            rows.append(tangent[3 * i + j] + bent - 2 * K[i] * box[j])
+    return rows

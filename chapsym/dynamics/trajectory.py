@@ -1,0 +1,225 @@
+"""Trajectories: many steps of one ball or a batch, with attitude and contact point only when asked for."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from . import front, loop
+from .ball import Ball, Floats, numbers
+from .errors import BadInput, Status, StepNotTaken
+from .map import UNIT_TOLERANCE, batch, explain, unit_vertical
+
+#: Shorter runs than this many steps in all are taken in plain Python: compiling would take longer.
+SHORT_RUN = 2000
+#: How far R γ may be from e₃ for an attitude that is given with its γ.
+AGREEMENT = 1e-9
+#: Steps between two calls of `progress`, and between two chances to interrupt.
+CHUNK = 200_000
+
+
+@dataclass(frozen=True)
+class Trajectory:
+    """States of one ball, shape (frames, ...), or of a batch, shape (balls..., frames, ...).
+
+    index: the step number of each frame, (frames,).
+    momentum, gamma: 𝒦 (kg m²) and γ, (..., frames, 3).
+    attitude: unit quaternions, body to space, scalar first, (..., frames, 4), or None.
+    contact: the contact point on the plane in metres, from (0, 0), (..., frames, 2), or None.
+    taken: the number of steps that were taken, (...); frames after it are NaN.
+    status: why a ball stopped, a `Status`, (...).
+    time_step: ε in seconds, if the run has one.
+    """
+
+    ball: Ball
+    index: np.ndarray
+    momentum: Floats
+    gamma: Floats
+    attitude: Floats | None
+    contact: Floats | None
+    taken: np.ndarray
+    status: np.ndarray
+    time_step: float | None = None
+
+    @property
+    def time(self) -> Floats:
+        """The time of each frame in seconds; raises BadInput if the run has no time step."""
+        return self.index * self._time_step()
+
+    def invariants(self) -> Floats:
+        """⟨𝒦,γ⟩, ⟨𝒦,𝒦⟩ and ⟨γ,γ⟩ of each frame, (..., frames, 3)."""
+        return front.invariants(*self._finite(self.momentum, self.gamma))
+
+    def angular_momentum(self) -> Floats:
+        """K = 𝒦/ε in kg m²/s, (..., frames, 3)."""
+        return self.momentum / self._time_step()
+
+    def kinetic_energy(self) -> Floats:
+        """½⟨K, ω⟩ in joules for K = 𝒦/ε, (..., frames); the map keeps it up to an oscillation."""
+        tensor, contact = self.ball.mass_tensor[..., np.newaxis, :], self.ball.D[..., np.newaxis]
+        return front.energy(*self._finite(self.angular_momentum(), self.gamma), tensor, contact)
+
+    def _finite(self, *arrays: Floats) -> tuple[Floats, ...]:
+        if np.isnan(self.momentum).any():
+            raise BadInput("a ball of the batch stopped early; choose the frames up to `taken` first")
+        return arrays
+
+    def _time_step(self) -> float:
+        if self.time_step is None:
+            raise BadInput("this trajectory has no time step: it was given 𝒦 = εK; use `roll`, or divide by your ε")
+        return self.time_step
+
+
+def attitude_with(gamma: Floats) -> Floats:
+    """The attitude of the least rotation for which γ is vertical, R γ = e₃, shape (..., 4)."""
+    x, y, z = gamma[..., 0], gamma[..., 1], gamma[..., 2]
+    zero = np.zeros_like(z)
+    upper = np.stack([1 + z, y, -x, zero], axis=-1)
+    # Upside down, the axis of the half turn is free: take e₁.  1 + z cancels there, so use x² + y² = (1-z)(1+z).
+    rounded = np.stack([(x * x + y * y) / (1 - np.where(z < 0, z, 0)), y, -x, zero], axis=-1)
+    quaternion = np.where((z < 0)[..., np.newaxis], rounded, upper)
+    length = np.sqrt((quaternion * quaternion).sum(axis=-1, keepdims=True))
+    down = length[..., 0] == 0
+    quaternion[down], length[down] = [0.0, 1.0, 0.0, 0.0], 1.0
+    return quaternion / length
+
+
+def initial_attitude(attitude: bool | ArrayLike, gamma: Floats) -> Floats:
+    """The attitude to start from: the one that was given, checked against γ, or the least rotation."""
+    if isinstance(attitude, bool):
+        return attitude_with(gamma)
+    given = numbers(attitude, "attitude", 4)
+    if (np.abs((given * given).sum(axis=-1) - 1) > UNIT_TOLERANCE).any():
+        raise BadInput("attitude must be unit quaternions (scalar first); divide by the length")
+    vertical = front.rotate(given, gamma)
+    if (np.abs(vertical - [0.0, 0.0, 1.0]) > AGREEMENT).any():
+        raise BadInput("attitude and gamma disagree: the attitude must turn gamma to (0, 0, 1)")
+    return given
+
+
+def trajectory(
+    ball: Ball,
+    momentum: ArrayLike,
+    gamma: ArrayLike,
+    steps: int,
+    *,
+    every: int = 1,
+    attitude: bool | ArrayLike = False,
+    contact: bool = False,
+    time_step: float | None = None,
+    progress: Callable[[int], None] = lambda steps_done: None,
+) -> Trajectory:
+    """Takes `steps` steps of the map on the small-rotation branch and keeps every `every`-th state.
+
+    momentum, gamma: as for `step`; both broadcast with the balls.
+    attitude: True (from the least rotation with R γ = e₃) or unit quaternions, (..., 4), to be followed.
+    contact: whether to trace the contact point; it needs `ball.radius`, and implies the attitude.
+    progress: called with the steps done so far (of all balls together), a few times a second.
+
+    One ball that cannot take a step raises StepNotTaken with `index` and the `trajectory` before it.
+    In a batch the others go on, and `status` and `taken` say which stopped, where.
+    Raises BadInput as `step` does, and for counts that are not positive integers.
+    """
+    steps, every = _count(steps, "steps", 0), _count(every, "every", 1)
+    shape, (K, g, J, D) = batch(ball, numbers(momentum, "momentum", 3), unit_vertical(gamma))
+    with_body = contact or attitude is not False
+    if contact and ball.radius is None:
+        raise BadInput("the contact point needs the radius: give the ball its radius")
+    radius = np.broadcast_to(ball.radius if contact and ball.radius is not None else 0.0, shape).reshape(-1)
+    balls, frames = len(D), steps // every + 1
+    momenta, verticals = (np.full((balls, frames, 3), np.nan) for _ in "Kg")
+    momenta[:, 0], verticals[:, 0] = K, g
+    body_frames = frames if with_body else 0
+    attitudes, traces = np.full((balls, body_frames, 4), np.nan), np.full((balls, body_frames, 2), np.nan)
+    bodies = np.zeros((balls, 4))
+    if with_body:
+        bodies[:] = np.broadcast_to(initial_attitude(attitude, g.reshape(*shape, 3)), (*shape, 4)).reshape(-1, 4)
+        attitudes[:, 0], traces[:, 0] = bodies, 0.0
+    march = _march_for(steps * balls)
+    taken, status = np.zeros(balls, dtype=np.int64), np.zeros(balls, dtype=np.int64)
+    reach, spots, q = np.ones(balls), np.zeros((balls, 2)), np.zeros(4)
+    done = 0
+    for i in range(balls):
+        for first in range(0, steps, CHUNK):
+            count = min(CHUNK, steps - first)
+            went, status[i], reach[i] = march(
+                K[i], g[i], J[i], D[i], q, first, count, every, momenta[i], verticals[i],
+                with_body, bodies[i], spots[i], radius[i], attitudes[i], traces[i],
+            )  # fmt: skip
+            taken[i] += went
+            done += count
+            progress(done)
+            if status[i] != Status.TAKEN:
+                status[i] = explain(status[i], K[i], g[i], J[i], D[i])
+                break
+    result = Trajectory(
+        ball,
+        np.arange(frames) * every,
+        momenta.reshape(*shape, frames, 3),
+        verticals.reshape(*shape, frames, 3),
+        attitudes.reshape(*shape, frames, 4) if with_body else None,
+        traces.reshape(*shape, frames, 2) if contact else None,
+        taken.reshape(shape),
+        status.reshape(shape),
+        time_step,
+    )
+    if not shape and status[0] != Status.TAKEN:
+        raise StepNotTaken(Status(int(status[0])), float(reach[0]), int(taken[0]), _up_to(result, int(taken[0])))
+    return result
+
+
+def _up_to(whole: Trajectory, taken: int) -> Trajectory:
+    """The frames of one ball that exist."""
+    kept = whole.index <= taken
+    attitude = None if whole.attitude is None else whole.attitude[kept]
+    contact = None if whole.contact is None else whole.contact[kept]
+    return Trajectory(
+        whole.ball, whole.index[kept], whole.momentum[kept], whole.gamma[kept], attitude, contact,
+        whole.taken, whole.status, whole.time_step,
+    )  # fmt: skip
+
+
+def _march_for(steps: int) -> Callable:
+    if steps < SHORT_RUN:
+        return loop.march
+    from .compiled import compiled
+
+    return compiled("march")
+
+
+def _count(value: int, name: str, least: int) -> int:
+    if isinstance(value, bool) or not isinstance(value, int | np.integer) or value < least:
+        raise BadInput(f"{name} must be a whole number from {least} on, not {value!r}")
+    return int(value)
+
+
+def roll(
+    ball: Ball,
+    omega: ArrayLike,
+    time_step: float,
+    steps: int,
+    *,
+    gamma: ArrayLike = (0.0, 0.0, 1.0),
+    every: int = 1,
+    attitude: bool | Literal[True] | ArrayLike = False,
+    contact: bool = False,
+    progress: Callable[[int], None] = lambda steps_done: None,
+) -> Trajectory:
+    """Rolls a ball in SI units: the trajectory of 𝒦 = ε K with K = Λω - D⟨ω,γ⟩γ.
+
+    omega: the angular velocity in the frame of the body, rad/s, shape (..., 3).
+    time_step: ε in seconds.  The rest as for `trajectory`; the result has times, energies and, when
+    asked for, the contact point in metres.
+    """
+    epsilon = numbers(time_step, "time_step")
+    if epsilon.ndim or not epsilon > 0:
+        raise BadInput(f"time_step must be one positive number of seconds, not {time_step!r}")
+    vertical = unit_vertical(gamma)
+    spin = numbers(omega, "omega", 3)
+    momentum = float(epsilon) * front.contact_momentum(spin, vertical, ball.mass_tensor, ball.D)
+    return trajectory(
+        ball, momentum, vertical, steps, every=every, attitude=attitude, contact=contact,
+        time_step=float(epsilon), progress=progress,
+    )  # fmt: skip

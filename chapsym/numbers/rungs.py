@@ -1,0 +1,115 @@
+"""float64, mpmath at N digits, and Arb balls at N bits, behind the few operations that a step needs.
+
+A kernel is `+ - * /` on whatever numbers it is given.  A rung makes those numbers from exact
+fractions, takes square roots, and writes results.
+"""
+
+import math
+from abc import ABC, abstractmethod
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from typing import Any
+
+import flint
+import mpmath
+
+
+class Rung(ABC):
+    """One kind of number."""
+
+    @abstractmethod
+    def number(self, value: Fraction) -> Any:
+        """The number nearest to an exact fraction, or enclosing it."""
+
+    @abstractmethod
+    def sqrt(self, value: Any) -> Any:
+        """The square root."""
+
+    @abstractmethod
+    def write(self, value: Any) -> Any:
+        """The number for JSON: a float, or a decimal string that a float could not hold."""
+
+    @property
+    @abstractmethod
+    def digits(self) -> int:
+        """Significant decimal digits."""
+
+    @contextmanager
+    def precision(self) -> Iterator[None]:
+        """Within it the arithmetic has the precision of the rung."""
+        yield
+
+
+@dataclass(frozen=True)
+class Double(Rung):
+    """IEEE float64."""
+
+    def number(self, value: Fraction) -> float:
+        return float(value)
+
+    def sqrt(self, value: float) -> float:
+        return math.sqrt(value)
+
+    def write(self, value: float) -> float:
+        return float(value)
+
+    @property
+    def digits(self) -> int:
+        return 15
+
+
+@dataclass(frozen=True)
+class Digits(Rung):
+    """mpmath numbers, correct to `count` significant digits; a context of its own, no global state."""
+
+    count: int
+    GUARD = 15
+
+    @cached_property
+    def _context(self) -> Any:
+        context = mpmath.MPContext()
+        context.dps = self.count + self.GUARD
+        return context
+
+    def number(self, value: Fraction) -> Any:
+        return self._context.mpf(value.numerator) / value.denominator
+
+    def sqrt(self, value: Any) -> Any:
+        return self._context.sqrt(value)
+
+    def write(self, value: Any) -> str:
+        return str(self._context.nstr(value, self.count, strip_zeros=False, min_fixed=-5, max_fixed=self.count))
+
+    @property
+    def digits(self) -> int:
+        return self.count
+
+
+@dataclass(frozen=True)
+class Ball(Rung):
+    """Arb balls: rigorous enclosures, with about `bits` correct bits."""
+
+    bits: int
+    GUARD = 40
+
+    def number(self, value: Fraction) -> Any:
+        return flint.arb(flint.fmpq(value.numerator, value.denominator))
+
+    def sqrt(self, value: Any) -> Any:
+        return value.sqrt()
+
+    def write(self, value: Any) -> str:
+        text = value.str(self.digits + 2, radius=True)
+        return text if text.startswith("[") else f"[{text} +/- 0]"
+
+    @property
+    def digits(self) -> int:
+        return int(self.bits * math.log10(2))
+
+    @contextmanager
+    def precision(self) -> Iterator[None]:
+        with flint.ctx.workprec(self.bits + self.GUARD):
+            yield
