@@ -1,1 +1,14 @@
 """One script per group of claims, named by section and subject; each runs alone."""
+
+#: In the order of the paper.
+SCRIPTS = (
+    "s2_continuous",
+    "s4_principle",
+    "s4_constraint",
+    "s4_momentum",
+    "s4_intertwining",
+    "s4_limits",
+    "s5_rotation",
+    "s5_vertical",
+    "s5_symmetric_form",
+)

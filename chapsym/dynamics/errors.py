@@ -15,6 +15,7 @@ class Status(IntEnum):
     FOLDED = 1
     NOT_CONVERGED = 2
     UNREACHABLE = 3
+    NO_INERTIA = 4
 
     @property
     def sentence(self) -> str:
@@ -27,6 +28,7 @@ _SENTENCES = {
     Status.FOLDED: "the small-rotation branch folds before it reaches this momentum; take a shorter time step",
     Status.NOT_CONVERGED: "the equation for the rotation did not converge to rounding; report this state",
     Status.UNREACHABLE: "no rotation of this ball has this momentum at this gamma; take a shorter time step",
+    Status.NO_INERTIA: "the ball has no inertia about the vertical at this gamma (all its mass lies on that axis)",
 }
 
 

@@ -78,7 +78,7 @@ def step(ball: Ball, momentum: ArrayLike, gamma: ArrayLike) -> Step:
     failed = status != Status.TAKEN
     if failed.any():
         for i in np.flatnonzero(failed):
-            status[i] = explain(status[i], K[i], g[i], J[i], D[i])
+            status[i] = explain(status[i], reach[i], K[i], g[i], J[i], D[i])
         if not shape:
             raise StepNotTaken(Status(int(status[0])), float(reach[0]))
         K[failed], g[failed] = np.nan, np.nan
@@ -97,8 +97,10 @@ def advance_all(K: Floats, g: Floats, J: Floats, D: Floats, q: Floats, status: n
     compiled("advance_all")(K, g, J, D, q, status, reach)
 
 
-def explain(status: int, K: Floats, g: Floats, J: Floats, D: float) -> Status:
-    """FOLDED, unless no rotation at all has this momentum."""
+def explain(status: int, reach: float, K: Floats, g: Floats, J: Floats, D: float) -> Status:
+    """Why a step was not taken: FOLDED, unless the curve cannot start or no rotation at all has this momentum."""
+    if status == Status.FOLDED and reach == 0.0:
+        return Status.NO_INERTIA
     if status == Status.FOLDED and np.sqrt(K @ K) > largest_momentum(K, g, J, D) * (1 + 1e-12):
         return Status.UNREACHABLE
     return Status(int(status))

@@ -6,6 +6,7 @@ expressions; only (4.13) as the paper prints it, in 3×3 matrices, and (4.12) fo
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cache
 from typing import Any
 
 import mpmath
@@ -30,13 +31,17 @@ class Oracle:
     """Solves (4.13) for Ω at `digits` digits by continuation from Ω = 1 along t𝒦, 0 ≤ t ≤ 1."""
 
     def __init__(self, mass_tensor: Sequence[Any], D: Any, gamma: Sequence[Any], digits: int = 40) -> None:
-        self.mp = mpmath.MPContext()
-        self.mp.dps = digits + 10
-        mp = self.mp
+        self.digits = digits
+        self._given = [*mass_tensor], D, [*gamma]
+        self._set_precision(digits + 10)
+
+    def _set_precision(self, dps: int) -> None:
+        self.mp = mp = _context(dps)
+        tensor, D, gamma = self._given
         self.gamma = mp.matrix([mp.mpf(x) for x in gamma])
         self.D = mp.mpf(D)
         self.Gamma = self.gamma * self.gamma.T
-        self.shifted = mp.diag([mp.mpf(x) for x in mass_tensor]) + self.D / 2 * self.Gamma
+        self.shifted = mp.diag([mp.mpf(x) for x in tensor]) + self.D / 2 * self.Gamma
 
     def momentum(self, X: Any) -> Any:
         """(4.13), first form; linear in X."""
@@ -48,10 +53,16 @@ class Oracle:
         return self.mp.matrix([[0, -v[2], v[1]], [v[2], 0, -v[0]], [-v[1], v[0], 0]])
 
     def step(self, momentum: Sequence[Any]) -> OracleStep:
-        """The step from 𝒦; raises OracleFailed at a fold."""
+        """The step from 𝒦; raises OracleFailed at a fold.
+
+        Ω = 1 + O(𝒦): the entries of Ω need as many more digits as 𝒦 is small.
+        """
+        size = max(abs(self.mp.mpf(x)) for x in momentum) / self.mp.norm(self.shifted)
+        small = max(0, -int(self.mp.log10(size))) if size else 0
+        self._set_precision(self.digits + 10 + small)
         mp = self.mp
         target = self.skew([mp.mpf(x) for x in momentum])
-        rotation = self._continued(target)
+        rotation = self._continued(target) if size else mp.eye(3)
         after = rotation.T * target * rotation
         vertical = rotation.T * self.gamma
         q0 = mp.sqrt(1 + rotation[0, 0] + rotation[1, 1] + rotation[2, 2]) / 2
@@ -63,19 +74,26 @@ class Oracle:
         rotation, t, dt = mp.eye(3), mp.mpf(0), mp.mpf(1)
         while t < 1:
             trial = min(mp.mpf(1), t + dt)
-            moved = self._newton(rotation, trial * target, largest=mp.mpf("0.2"))
+            # On the way a root is good enough to start from; the last one gets all digits.
+            enough = mp.mpf(10) ** (-self.digits // 2 - 8) if trial == 1 else mp.mpf("1e-12")
+            moved = self._newton(rotation, trial * target, enough)
             if moved is None:
                 dt /= 2
-                if dt < mp.mpf(10) ** (-mp.dps // 2):
+                if dt < mp.mpf(10) ** (-self.digits // 2):
                     raise OracleFailed(f"the branch folds at {mp.nstr(t, 12)} of the momentum")
             else:
-                rotation, t, dt = moved, trial, dt * mp.mpf("1.5")
+                rotation, t, dt = moved, trial, dt * 2
         return rotation
 
-    def _newton(self, rotation: Any, target: Any, largest: Any) -> Any:
-        """Newton in so(3), Ω becoming Ω·Cayley(ξ); None unless the corrections fall from `largest` down."""
+    def _newton(self, rotation: Any, target: Any, enough: Any) -> Any:
+        """Newton in so(3), Ω becoming Ω·Cayley(ξ), down to a correction `enough`.
+
+        None unless the first correction is at most 0.2 (radians) and each is below 3/4 of the one before:
+        a longer step might leave the branch.
+        """
         mp = self.mp
         basis = [self.skew([1, 0, 0]), self.skew([0, 1, 0]), self.skew([0, 0, 1])]
+        largest = mp.mpf("0.2")
         for _ in range(40):
             columns = [_axial(self.momentum(rotation * e)) for e in basis]
             matrix = mp.matrix([[columns[j][i] for j in range(3)] for i in range(3)])
@@ -89,10 +107,18 @@ class Oracle:
                 return None
             half = self.skew(list(xi / 2))
             rotation = rotation * (mp.inverse(mp.eye(3) - half) * (mp.eye(3) + half))
-            if size <= mp.mpf(10) ** (-mp.dps // 2 - 3) * mp.norm(rotation - mp.eye(3)):
+            if size <= enough * mp.norm(rotation - mp.eye(3)):
                 return rotation
-            largest = max(size, mp.mpf(10) ** (-mp.dps // 2))
+            largest = 3 * size / 4
         return None
+
+
+@cache
+def _context(dps: int) -> Any:
+    """A context of its own for each precision: no global state."""
+    context = mpmath.MPContext()
+    context.dps = dps
+    return context
 
 
 def _axial(a: Any) -> list[Any]:

@@ -127,7 +127,10 @@ def _enclosed(rung: ArbBall, q: tuple, K: tuple, g: tuple, J: tuple, D: tuple) -
     value = generated.residual(*q, *(norm * x for x in K), *g, *J, *D)
     tangent = generated.tangent_jacobian(*q, *g, *J, *D)
     hessian = generated.tangent_hessian(*q, *g, *J, *D)
-    radius = max(abs(x).upper() for x in _apply(inverse_of(*tangent)[1:], value)) * 4
+    # At rest the value is exactly 0, so the box needs a size of its own.
+    least = flint.arb(2) ** -(rung.bits + rung.GUARD)
+    largest = max(abs(x).upper() for x in _apply(inverse_of(*tangent)[1:], value))
+    radius = 4 * largest if largest > 0 else least
     for _ in range(MOST_INFLATIONS):
         box = tuple(flint.arb(0, radius) for _ in range(3))
         slope = _slope(tangent, hessian, tuple(norm * x for x in K), box)

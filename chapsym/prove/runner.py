@@ -3,7 +3,6 @@
 import importlib
 import multiprocessing
 import os
-import pkgutil
 import sys
 import traceback
 from collections.abc import Callable, Iterable, Sequence
@@ -16,17 +15,13 @@ from .claim import Claim, Judgement, Proof, Verdict, register
 
 def load() -> dict[str, Claim]:
     """Imports every proof script and returns the claims by id, in the order of the paper."""
-    package = importlib.import_module("chapsym.proofs")
-    for module in pkgutil.iter_modules(package.__path__):
-        importlib.import_module(f"chapsym.proofs.{module.name}")
-    claims = register()
-    return {id: claims[id] for id in sorted(claims, key=_paper_order)}
+    scripts = importlib.import_module("chapsym.proofs").SCRIPTS
+    modules = [importlib.import_module(f"chapsym.proofs.{name}").__name__ for name in scripts]
 
+    def place(claim: Claim) -> tuple[int, int]:
+        return modules.index(claim.prove.__module__), claim.prove.__code__.co_firstlineno
 
-def _paper_order(id: str) -> tuple[str, int]:
-    """By script (s2, s4, s5, ...), then by the place in it."""
-    prove = register()[id].prove
-    return prove.__module__, prove.__code__.co_firstlineno
+    return {claim.id: claim for claim in sorted(register().values(), key=place)}
 
 
 def downstream(id: str, claims: dict[str, Claim]) -> list[str]:

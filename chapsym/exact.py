@@ -1,0 +1,36 @@
+"""Rational numbers typed by a user: parsed exactly, never evaluated as code."""
+
+import re
+from collections.abc import Sequence
+from fractions import Fraction
+
+_FORM = re.compile(r"[+-]?(\d+/\d+|(\d+(\.\d*)?|\.\d+)([eE][+-]?\d{1,4})?)")
+
+
+class NotANumber(ValueError):
+    """The text is not a rational number."""
+
+
+def rational(text: str, name: str) -> Fraction:
+    """`1/3`, `-2`, `0.25` or `1e-12`, exactly; raises NotANumber with the place."""
+    stripped = text.strip()
+    if len(stripped) > 20_000 or not _FORM.fullmatch(stripped):
+        shown = stripped if len(stripped) <= 40 else stripped[:37] + "..."
+        raise NotANumber(f"{name}: {shown!r} is not a number; write it as 1/3, -2, 0.25 or 1e-12")
+    try:
+        return Fraction(stripped)
+    except ZeroDivisionError:
+        raise NotANumber(f"{name}: {stripped!r} divides by zero") from None
+
+
+def rationals(text: str, name: str, count: int) -> tuple[Fraction, ...]:
+    """`count` numbers, separated by commas."""
+    parts = text.split(",")
+    if len(parts) != count:
+        raise NotANumber(f"{name} takes {count} numbers separated by commas, such as 1,-1/2,3/4; {text!r} has {len(parts)}")
+    return tuple(rational(part, name) for part in parts)
+
+
+def mass_tensor_from(inertia: Sequence[Fraction]) -> tuple[Fraction, ...]:
+    """J1, J2, J3 from the principal moments I1 = J2 + J3, ..., exactly."""
+    return tuple(sum(inertia) / 2 - moment for moment in inertia)

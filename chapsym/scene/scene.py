@@ -1,0 +1,145 @@
+"""Scene files in TOML: parameters, the initial state, the number of steps, the output."""
+
+import tomllib
+from collections.abc import Callable
+from fractions import Fraction
+from pathlib import Path
+from typing import Annotated, Any, Self
+
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, model_validator
+
+from chapsym.dynamics import BadInput, Ball, Trajectory, roll, trajectory
+from chapsym.exact import NotANumber, rational
+
+
+class SceneError(BadInput):
+    """The scene cannot be run as it is written."""
+
+
+def _number(value: Any) -> Any:
+    """A TOML number, or a string such as "2/7", as a float."""
+    if isinstance(value, str):
+        try:
+            exact: Fraction = rational(value, "value")
+            return float(exact)
+        except (NotANumber, OverflowError) as error:
+            raise ValueError(str(error)) from None
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        raise ValueError("it must be a number, or a string such as \"2/7\"")
+    return value
+
+
+Number = Annotated[float, BeforeValidator(_number), Field(allow_inf_nan=False)]
+Vector = tuple[Number, Number, Number]
+Count = Annotated[int, Field(strict=True, ge=0)]
+
+
+class _Table(BaseModel):
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+class BallTable(_Table):
+    """[ball]: mass_tensor or inertia; D, or mass and radius."""
+
+    mass_tensor: Vector | None = None
+    inertia: Vector | None = None
+    D: Number | None = None
+    mass: Number | None = None
+    radius: Number | None = None
+
+    @model_validator(mode="after")
+    def _one_tensor(self) -> Self:
+        if (self.mass_tensor is None) == (self.inertia is None):
+            raise ValueError("give either mass_tensor or inertia")
+        return self
+
+    def ball(self) -> Ball:
+        """The ball."""
+        given = {"mass": self.mass, "radius": self.radius, "D": self.D}
+        if self.inertia is not None:
+            return Ball.from_inertia(self.inertia, **given)
+        return Ball.from_mass_tensor(self.mass_tensor, **given)  # type: ignore[arg-type]
+
+
+class StartTable(_Table):
+    """[start]: 𝒦 as `momentum` (kg m²), or `omega` (rad/s, body axes) with run.time_step; and γ."""
+
+    momentum: Vector | None = None
+    omega: Vector | None = None
+    gamma: Vector = (0.0, 0.0, 1.0)
+
+    @model_validator(mode="after")
+    def _one_motion(self) -> Self:
+        if (self.momentum is None) == (self.omega is None):
+            raise ValueError("give either momentum or omega")
+        return self
+
+
+class RunTable(_Table):
+    """[run]: how many steps, which to keep, what to follow, where to write."""
+
+    steps: Count
+    every: Annotated[int, Field(strict=True, ge=1)] = 1
+    time_step: Annotated[Number, Field(gt=0)] | None = None
+    attitude: Annotated[bool, Field(strict=True)] = False
+    contact: Annotated[bool, Field(strict=True)] = False
+    output: str | None = None
+
+
+class Scene(_Table):
+    """A whole scene."""
+
+    ball: BallTable
+    start: StartTable
+    run: RunTable
+
+    @model_validator(mode="after")
+    def _omega_needs_time(self) -> Self:
+        if self.start.omega is not None and self.run.time_step is None:
+            raise ValueError("start.omega needs run.time_step, in seconds")
+        return self
+
+
+def load(path: Path) -> Scene:
+    """Reads a scene file; raises SceneError with the file, the key and what would be right."""
+    try:
+        text = path.read_text(encoding="utf-8")
+    except OSError as error:
+        raise SceneError(f"{path} cannot be read: {error.strerror or error}") from None
+    except UnicodeDecodeError:
+        raise SceneError(f"{path} is not UTF-8 text") from None
+    try:
+        return Scene.model_validate(tomllib.loads(text))
+    except tomllib.TOMLDecodeError as error:
+        raise SceneError(f"{path} is not TOML: {error}") from None
+    except ValidationError as error:
+        raise SceneError(f"{path}: " + "; ".join(_sentence(e) for e in error.errors())) from None
+
+
+def _sentence(error: Any) -> str:
+    """One problem of a scene: its key and what would be right."""
+    key = ".".join(str(part) for part in error["loc"]) or "the scene"
+    kinds: dict[str, str] = {
+        "missing": "is missing",
+        "extra_forbidden": "is not a key of a scene",
+    }
+    told = kinds.get(error["type"]) or error["msg"].removeprefix("Value error, ")
+    return f"{key}: {told}" if error["type"] not in kinds else f"{key} {told}"
+
+
+def run(scene: Scene, progress: Callable[[int], None] = lambda steps_done: None) -> Trajectory:
+    """Runs a scene; raises BadInput, and StepNotTaken with the trajectory so far."""
+    options: dict[str, Any] = {
+        "every": scene.run.every,
+        "attitude": scene.run.attitude,
+        "contact": scene.run.contact,
+        "progress": progress,
+    }
+    ball, start = scene.ball.ball(), scene.start
+    if start.omega is not None and scene.run.time_step is not None:
+        return roll(ball, start.omega, scene.run.time_step, scene.run.steps, gamma=start.gamma, **options)
+    return trajectory(
+        ball, start.momentum, start.gamma, scene.run.steps, time_step=scene.run.time_step, **options
+    )  # type: ignore[arg-type]
+
+

@@ -1,0 +1,1 @@
+"""Studies of the map: what it gets right, and at which price."""

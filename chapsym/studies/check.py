@@ -1,0 +1,212 @@
+"""`chapsym check`: the float64 map against the mpmath oracle, over generic and awkward states.
+
+The error of a step is given in ulps, units of 2^-52 relative to |q|, |𝒦| and |γ| = 1.  What float64
+can do depends on the state: a rounding of the residual of 𝒦(q, γ) = 𝒦 moves q by |T⁻¹| times it,
+where T is the tangent Jacobian.  So the promise is relative to the condition number
+
+    κ = |T⁻¹| (|𝒦| + 2Λmax |q|) / |q|,
+
+and it is: q within `BUDGET`·κ ulps, 𝒦 and γ after the step within `BUDGET`·(1 + |q| κ) ulps, with norms that are largest components.
+"""
+
+import multiprocessing
+import os
+from collections.abc import Callable
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+
+from chapsym.dynamics import Ball, front, trajectory
+from chapsym.dynamics.ball import Floats
+from chapsym.dynamics.branch import small_rotation
+from chapsym.dynamics.map import step
+from chapsym.dynamics.oracle import Oracle, OracleStep
+
+ULP = 2.0**-52
+#: The worst share of it that was measured stands in the README.
+BUDGET = 2.0
+
+
+@dataclass(frozen=True)
+class State:
+    """One ball and its state, in float64."""
+
+    J: Floats
+    D: float
+    K: Floats
+    g: Floats
+
+
+@dataclass(frozen=True)
+class Row:
+    """The worst errors of one stratum, in ulps, and as a fraction of what was promised."""
+
+    stratum: str
+    states: int
+    rotation_ulps: float
+    momentum_ulps: float
+    gamma_ulps: float
+    condition: float
+    of_budget: float
+
+    @property
+    def kept(self) -> bool:
+        """Whether the promise was kept."""
+        return self.of_budget <= 1.0
+
+
+def _unit(rng: np.random.Generator) -> Floats:
+    v = rng.normal(size=3)
+    v /= np.sqrt(v @ v)
+    return v / np.sqrt(v @ v)
+
+
+def _ball(rng: np.random.Generator) -> tuple[Floats, float]:
+    return rng.uniform(0.1, 2.0, 3), float(rng.uniform(0.0, 2.0))
+
+
+def _at_reach(rng: np.random.Generator, J: Floats, D: float, g: Floats, fraction: float) -> State:
+    """A momentum in a random direction, as far along the branch as `fraction` of its fold."""
+    K = _unit(rng) * 100 * (J.sum() + D)
+    _, reach, *_ = small_rotation(*K, *g, *J, D)
+    return State(J, D, K * reach * fraction, g)
+
+
+def _generic(rng: np.random.Generator) -> State:
+    return _at_reach(rng, *_ball(rng), _unit(rng), rng.uniform(0.01, 0.7))
+
+
+def _tiny(rng: np.random.Generator) -> State:
+    return State(*_ball(rng), _unit(rng) * 10 ** rng.uniform(-300, -8), _unit(rng))
+
+
+def _large(rng: np.random.Generator) -> State:
+    return _at_reach(rng, *_ball(rng), _unit(rng), rng.uniform(0.9, 0.999))
+
+
+def _near_fold(rng: np.random.Generator) -> State:
+    return _at_reach(rng, *_ball(rng), _unit(rng), 1 - 10 ** rng.uniform(-9, -4))
+
+
+def _top(rng: np.random.Generator) -> State:
+    return _at_reach(rng, _ball(rng)[0], 0.0, _unit(rng), rng.uniform(0.01, 0.7))
+
+
+def _heavy(rng: np.random.Generator) -> State:
+    return _at_reach(rng, _ball(rng)[0], float(10 ** rng.uniform(3, 6)), _unit(rng), rng.uniform(0.01, 0.7))
+
+
+def _nearly_equal(rng: np.random.Generator) -> State:
+    J, D = _ball(rng)
+    return _at_reach(rng, J[0] * (1 + 1e-12 * rng.normal(size=3)), D, _unit(rng), rng.uniform(0.01, 0.7))
+
+
+def _flat(rng: np.random.Generator) -> State:
+    J, D = _ball(rng)
+    J[rng.integers(3)] = 0.0
+    return _at_reach(rng, J, D, _unit(rng), rng.uniform(0.01, 0.7))
+
+
+def _vertical(rng: np.random.Generator) -> State:
+    J, D = _ball(rng)
+    g = _unit(rng)
+    _, reach, *_ = small_rotation(*(g * 100 * (J.sum() + D)), *g, *J, D)
+    return State(J, D, g * 100 * (J.sum() + D) * reach * rng.uniform(0.01, 0.7), g)
+
+
+STRATA: dict[str, Callable[[np.random.Generator], State]] = {
+    "generic": _generic,
+    "tiny momentum, 1e-300 to 1e-8": _tiny,
+    "large rotation, 0.9 to 0.999 of the fold": _large,
+    "1e-9 to 1e-4 before the fold": _near_fold,
+    "D = 0": _top,
+    "D = 1e3 to 1e6": _heavy,
+    "J equal to 1e-12": _nearly_equal,
+    "flat body, one J = 0": _flat,
+    "vertical momentum": _vertical,
+}
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """One float64 step against the oracle: errors of q, 𝒦, γ and what was promised, in ulps."""
+
+    errors: Floats
+    promised: Floats
+    condition: float
+
+
+def compare(state: State, digits: int = 34) -> Comparison:
+    """Takes the step in float64 and by the oracle."""
+    found = step(Ball(state.J, state.D), state.K, state.g)  # type: ignore[arg-type]
+    truth: OracleStep = Oracle(state.J, state.D, state.g, digits).step(state.K)
+    q = found.rotation[1:]
+    size, extent = np.abs(state.K).max() or 1.0, np.abs(q).max() or 1.0
+
+    def ulps(values: Floats, exact: list[Any], scale: float) -> float:
+        return max(float(abs(e - float(v)) / scale) for v, e in zip(values, exact, strict=True)) / ULP
+
+    jacobian = front.tangent_jacobian(found.rotation, state.g, state.J, state.D)
+    top = (state.J.sum() - state.J).max() + state.D
+    kappa = float(np.linalg.norm(np.linalg.inv(jacobian), 2) * (size / extent + 2 * top))
+    errors = [ulps(q, truth.q, extent), ulps(found.momentum, truth.momentum, size), ulps(found.gamma, truth.gamma, 1.0)]
+    promised = [BUDGET * kappa, BUDGET * (1 + extent * kappa), BUDGET * (1 + extent * kappa)]
+    return Comparison(np.array(errors), np.array(promised), kappa)
+
+
+def check_stratum(name: str, states: int, seed: int) -> Row:
+    """The worst of `states` seeded states of one stratum."""
+    rng = np.random.default_rng([seed, list(STRATA).index(name)])
+    compared = [compare(STRATA[name](rng)) for _ in range(states)]
+    worst = np.max([c.errors for c in compared], axis=0)
+    share = max(float((c.errors / c.promised).max()) for c in compared)
+    return Row(name, states, *map(float, worst), max(c.condition for c in compared), share)
+
+
+def check(
+    states: int = 20, seed: int = 20071, jobs: int | None = None, on_row: Callable[[Row], None] = lambda row: None
+) -> list[Row]:
+    """One row for each stratum, side by side on the cores; `on_row` sees each as it is done."""
+    jobs = jobs or os.cpu_count() or 1
+    with ProcessPoolExecutor(jobs, mp_context=multiprocessing.get_context("spawn")) as pool:
+        futures = [pool.submit(check_stratum, name, states, seed) for name in STRATA]
+        for future in as_completed(futures):
+            on_row(future.result())
+        return [future.result() for future in futures]
+
+
+@dataclass(frozen=True)
+class Drift:
+    """How far the invariants moved over a trajectory, relative to their size."""
+
+    steps: int
+    height: float
+    squared: float
+    unit: float
+    budget: float
+
+    @property
+    def kept(self) -> bool:
+        """Whether the drift stayed below the budget."""
+        return max(self.height, self.squared, self.unit) <= self.budget
+
+
+def drift(steps: int = 100_000) -> Drift:
+    """⟨𝒦,γ⟩, ⟨𝒦,𝒦⟩ and ⟨γ,γ⟩ over a real trajectory: each step rounds, and roundings add up like √n."""
+    ball = Ball((0.1, 0.5, 1.6), 0.7)  # type: ignore[arg-type]
+    run = trajectory(ball, (0.03, -0.02, 0.035), (2 / 7, 3 / 7, 6 / 7), steps, every=max(1, steps // 1000))
+    values = run.invariants()
+    moved = np.abs(values - values[0]).max(axis=0) / np.abs(values[0])
+    return Drift(steps, *map(float, moved), budget=8 * ULP * float(np.sqrt(steps)))
+
+
+def as_json(rows: list[Row], moved: Drift) -> dict[str, Any]:
+    """The whole check for --json."""
+    return {
+        "budget_ulps": BUDGET,
+        "strata": [{**asdict(row), "kept": row.kept} for row in rows],
+        "drift": {**asdict(moved), "kept": moved.kept},
+        "kept": all(row.kept for row in rows) and moved.kept,
+    }
