@@ -1,6 +1,6 @@
 """Exact verdicts: claims, evidence, negative controls, and the runner."""
 
-from .claim import Claim, Equation, Judgement, Point, Proof, Verdict, claim, rational_point
+from .claims import Claim, Equation, Judgement, Point, Proof, Verdict, claim, rational_point
 from .runner import load, main, prove_all
 
 __all__ = [

@@ -10,7 +10,7 @@ from concurrent.futures import ProcessPoolExecutor, as_completed
 from pathlib import Path
 from typing import Any
 
-from .claim import Claim, Judgement, Proof, Verdict, register
+from .claims import Claim, Judgement, Proof, Verdict, register
 
 
 def load() -> dict[str, Claim]:

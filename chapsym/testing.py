@@ -1,0 +1,121 @@
+"""Hypothesis strategies for balls, rotations and states, for chapsym's tests and yours.
+
+    from hypothesis import given
+    from chapsym import testing
+
+    @given(testing.states())
+    def test_something(state):
+        ball, momentum, gamma = state
+
+Each takes the strata to draw from, by default all:
+
+    rotations: "generic", "near identity" (angles 1e-12 to 1e-3), "near pi" (q0 from 0 to 1e-3)
+    balls: "generic", "degenerate" (equal, nearly equal, flat, D = 0, D large)
+
+Everything is drawn through Hypothesis, so failures shrink and replay.
+"""
+
+from collections.abc import Sequence
+from fractions import Fraction
+
+import numpy as np
+from hypothesis import strategies as st
+
+from chapsym.dynamics import Ball
+from chapsym.dynamics.ball import Floats
+from chapsym.dynamics.branch import small_rotation
+
+ROTATIONS = ("generic", "near identity", "near pi")
+BALLS = ("generic", "degenerate")
+
+_component = st.floats(-1.0, 1.0, allow_subnormal=False)
+
+
+def _normalised(v: Sequence[float]) -> Floats:
+    array = np.array(v)
+    array /= np.sqrt(array @ array)
+    return array / np.sqrt(array @ array)
+
+
+@st.composite
+def unit_vectors(draw: st.DrawFn, size: int = 3) -> Floats:
+    """Unit vectors: in general position, and along an axis."""
+    axis = draw(st.none() | st.integers(0, size - 1))
+    if axis is not None:
+        return np.eye(size)[axis] * draw(st.sampled_from([1.0, -1.0]))
+    return _normalised(draw(st.tuples(*[_component] * size).filter(lambda v: sum(x * x for x in v) > 0.01)))
+
+
+@st.composite
+def rotations(draw: st.DrawFn, strata: Sequence[str] = ROTATIONS) -> Floats:
+    """Unit Euler parameters (q0, q1, q2, q3) with q0 ≥ 0."""
+    stratum = draw(st.sampled_from(list(strata)))
+    axis = draw(unit_vectors())
+    if stratum == "near identity":
+        sine = 10 ** draw(st.floats(-12, -3))
+        return np.array([np.sqrt(1 - sine * sine), *(sine * axis)])
+    if stratum == "near pi":
+        cosine = draw(st.just(0.0) | st.floats(-15, -3).map(lambda e: 10.0**e))
+        return np.array([cosine, *(np.sqrt(1 - cosine * cosine) * axis)])
+    half = draw(st.floats(0.01, 1.55))
+    return np.array([np.cos(half), *(np.sin(half) * axis)])
+
+
+@st.composite
+def balls(draw: st.DrawFn, strata: Sequence[str] = BALLS) -> Ball:
+    """Balls whose momentum operator is regular for every γ."""
+    moment = st.floats(0.05, 4.0)
+    tensor, contact = np.array(draw(st.tuples(moment, moment, moment))), draw(st.floats(0.0, 4.0))
+    if draw(st.sampled_from(list(strata))) == "degenerate":
+        kind = draw(st.sampled_from(["equal", "nearly equal", "symmetric", "flat", "top", "heavy"]))
+        if kind == "equal":
+            tensor[:] = tensor[0]
+        elif kind == "nearly equal":
+            tensor = tensor[0] * (1 + 1e-14 * np.array(draw(st.tuples(*[st.integers(-9, 9)] * 3))))
+        elif kind == "symmetric":
+            tensor[1] = tensor[0]
+        elif kind == "flat":
+            tensor[draw(st.integers(0, 2))] = 0.0
+        elif kind == "top":
+            contact = 0.0
+        else:
+            contact = 10 ** draw(st.floats(2, 5))
+    return Ball(tensor, contact)  # type: ignore[arg-type]
+
+
+@st.composite
+def states(
+    draw: st.DrawFn, strata: Sequence[str] = BALLS, fraction: tuple[float, float] = (0.0, 0.9)
+) -> tuple[Ball, Floats, Floats]:
+    """(ball, momentum, gamma) whose next step exists: a fraction of the momentum at which the branch folds."""
+    ball, gamma, direction = draw(balls(strata)), draw(unit_vectors()), draw(unit_vectors())
+    far = direction * 100 * (ball.mass_tensor.sum() + float(ball.D))
+    _, reach, *_ = small_rotation(*far, *gamma, *ball.mass_tensor, float(ball.D))
+    return ball, far * reach * draw(st.floats(*fraction)), gamma
+
+
+_small = st.integers(-6, 6)
+
+
+@st.composite
+def rational_rotations(draw: st.DrawFn) -> tuple[Fraction, ...]:
+    """Exact rational unit Euler parameters: the square of an integer quaternion over its norm."""
+    a, b, c, d = draw(st.tuples(_small, _small, _small, _small).filter(any))
+    norm = a * a + b * b + c * c + d * d
+    square = (a * a - b * b - c * c - d * d, 2 * a * b, 2 * a * c, 2 * a * d)
+    return tuple(Fraction(x, norm) for x in square)
+
+
+@st.composite
+def rational_unit_vectors(draw: st.DrawFn) -> tuple[Fraction, ...]:
+    """Exact rational unit vectors, by stereographic projection."""
+    x, y, z = draw(st.tuples(_small, _small, st.integers(1, 6)))
+    norm = x * x + y * y + z * z
+    return Fraction(2 * x * z, norm), Fraction(2 * y * z, norm), Fraction(norm - 2 * z * z, norm)
+
+
+@st.composite
+def rational_balls(draw: st.DrawFn) -> tuple[tuple[Fraction, ...], Fraction]:
+    """Exact (J, D)."""
+    moment = st.fractions(Fraction(1, 8), 8, max_denominator=8)
+    return draw(st.tuples(moment, moment, moment)), draw(st.fractions(0, 8, max_denominator=8))

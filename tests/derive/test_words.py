@@ -1,0 +1,72 @@
+"""Words in noncommuting symbols: the decision procedure that proves statements for every n."""
+
+import pytest
+import sympy as sp
+
+from chapsym.derive import ball
+from chapsym.derive.words import WordAlgebra, evaluate, matrix_symbols
+
+R, RT, J, X, XT, xi = matrix_symbols("R RT J X XT xi")
+ALGEBRA = WordAlgebra({R: RT, RT: R, J: J, X: XT, XT: X, xi: -xi}, {(R, RT): 1, (RT, R): 1})
+
+
+def test_rules_apply_until_none_matches():
+    assert ALGEBRA.normal((R * RT) ** 2 * J * RT * R * R) == J * R
+
+
+def test_a_rule_may_have_several_terms():
+    algebra = WordAlgebra({X: XT, XT: X, J: J}, {(X, J): X + 2 * J})
+    assert algebra.normal(X * J * X) == sp.expand(X * X + 2 * J * X)
+
+
+def test_rules_that_are_not_confluent_are_refused():
+    with pytest.raises(ValueError, match="not confluent"):
+        WordAlgebra({}, {(X, J): 1, (J, R): X})
+
+
+def test_the_product_does_not_commute():
+    assert not ALGEBRA.is_zero(X * J - J * X)
+
+
+def test_transposition_reverses_words():
+    assert ALGEBRA.transpose(2 * R * J * X) == 2 * XT * J * RT
+    assert ALGEBRA.transpose(xi * J) == -J * xi
+
+
+def test_trace_is_cyclic_and_blind_to_transposition():
+    assert ALGEBRA.trace(X * J * R - R * X * J) == 0
+    assert ALGEBRA.trace(X * J - J * XT) == 0
+    assert ALGEBRA.trace(R * X * RT) == ALGEBRA.trace(X)
+    assert ALGEBRA.trace(X * J - XT * RT) != 0
+
+
+def test_trace_of_a_skew_matrix_vanishes():
+    assert ALGEBRA.trace(xi) == 0
+    assert ALGEBRA.trace(xi * J) == 0
+    assert ALGEBRA.trace(xi * X) != 0
+
+
+def test_the_dual_of_a_trace_agrees_with_numbers():
+    expr = 3 * J * xi * X
+    dual = ALGEBRA.dual_of_skew(expr, xi)
+    skew = sp.Matrix([[0, 2, -1], [-2, 0, 5], [1, -5, 0]])
+    x = sp.Matrix([[1, 2, 0], [3, 1, 1], [0, 4, 2]])
+    values = {J: sp.diag(1, 2, 3), X: x, XT: x.T, xi: skew}
+    assert evaluate(expr, values).trace() == (skew * evaluate(dual, values)).trace() / 2
+
+
+def test_a_trace_that_is_not_linear_has_no_dual():
+    with pytest.raises(ValueError, match="not linear"):
+        ALGEBRA.dual_of_skew(xi * xi, xi)
+
+
+def test_derived_momentum_agrees_with_the_matrix_formula_in_four_dimensions():
+    """n = 4, an exact rational rotation (a Cayley transform): nothing in the derivation knows n."""
+    s = sp.Matrix(4, 4, lambda i, j: sp.Rational((i + 1) * (j + 2) - (j + 1) * (i + 2), 3))
+    omega = (sp.eye(4) - s).inv() * (sp.eye(4) + s)
+    g = sp.Matrix([1, 1, 1, 1]) / 2
+    tensor, half = sp.diag(1, 2, 3, 5), sp.Rational(7, 2)
+    values = {ball.Omega: omega, ball.OmegaT: omega.T, ball.J: tensor, ball.Gamma: g * g.T, ball.D: sp.Integer(7)}
+    shifted = tensor + half * g * g.T
+    expected = omega * shifted - shifted * omega.T + half * (g * g.T * omega - omega.T * g * g.T)
+    assert evaluate(ball.momentum(), values) == expected

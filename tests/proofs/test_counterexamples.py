@@ -1,0 +1,206 @@
+"""The corrected claims once more, with `fractions` alone.
+
+Each printed formula is typed here a second time, from the paper.  It must fail at the counterexample
+with the very numbers that the register gives, and the correction must hold: a sign flipped in a
+claim, printed or corrected, does not survive this.
+"""
+
+from fractions import Fraction as F
+
+import pytest
+from reference import added, axial, cross, diagonal, dot, matmul, momentum, rotation, times, transposed
+
+HALF = (F(1, 2),) * 4
+#: q0, q, J, D, sigma of the two states with vertical momentum.
+STATES = [
+    ((F(4, 5), F(2, 5), F(1, 5), F(2, 5)), (F(1), F(2), F(4)), F(1), F(28, 5)),
+    ((F(1, 2),) * 4, (F(1), F(2), F(5)), F(2), F(7)),
+]
+
+
+def sides(records, id, kind="printed", example=0):
+    """[(left, right), ...] of the register's counterexample, as fractions."""
+    chosen = records[id]["evidence"]["counterexamples"][example][kind]
+    return [([F(x) for x in s["left"]], [F(x) for x in s["right"]]) for s in chosen]
+
+
+class Vertical:
+    """A state with 𝒦 = hγ, from (4.13) in matrices: σ is defined by left = σγ."""
+
+    def __init__(self, q, J, D, sigma):
+        self.q0, self.q, self.J, self.D, self.sigma = q[0], list(q[1:]), J, D, sigma
+        self.omega = rotation(*q)
+        hat = [j + D / 2 for j in J]
+        left = added((1, matmul(self.omega, diagonal(hat))), (-1, matmul(diagonal(hat), transposed(self.omega))))
+        self.left = axial(left)
+        self.gamma = [x / sigma for x in self.left]
+        K = axial(momentum(self.omega, self.gamma, J, D))
+        self.h = dot(K, self.gamma)
+        assert dot(self.gamma, self.gamma) == 1
+        assert K == [self.h * g for g in self.gamma]
+        self.next = times(transposed(self.omega), self.gamma)
+        self.lam = [J[1] + J[2] + D, J[0] + J[2] + D, J[0] + J[1] + D]
+        self.s = [a + b for a, b in zip(self.gamma, self.next, strict=True)]
+        self.s_over_lam = [a / b for a, b in zip(self.s, self.lam, strict=True)]
+
+
+@pytest.fixture(params=range(2), ids=["below 90 degrees", "above 90 degrees"])
+def state(request):
+    return Vertical(*STATES[request.param]), request.param
+
+
+def test_5_1_the_entry_32(records):
+    q0, q1, q2, q3 = HALF
+    [(printed, truth)] = sides(records, "5.1")
+    assert truth == [x for row in rotation(*HALF) for x in row]
+    assert printed[7] == -2 * (q2 * q3 - q0 * q1)
+    assert truth[7] == 2 * (q2 * q3 + q0 * q1) == 1
+    assert [a == b for a, b in zip(printed, truth, strict=True)].count(False) == 1
+
+
+def test_5_4_the_missing_factor(records):
+    v = Vertical(*STATES[0])
+    lifted = v.D * v.q0 * dot(v.gamma, v.q)
+    [(left, right)] = sides(records, "5.4")
+    assert left == v.left
+    assert right == [(v.h + lifted) * g for g in v.gamma] != left
+    [(left, right)] = sides(records, "5.4", "corrected")
+    assert left == right == [(v.h + 2 * lifted) * g for g in v.gamma]
+
+
+def test_5_6_sigma(records):
+    v = Vertical(*STATES[0])
+    lifted = v.D * v.q0 * dot(v.gamma, v.q)
+    assert sides(records, "5.6-sigma") == [([v.sigma], [v.h + lifted])]
+    assert sides(records, "5.6-sigma", "corrected") == [([v.sigma], [v.h + 2 * lifted])]
+
+
+def test_5_6_the_sign_of_the_rotation(records):
+    v = Vertical(*STATES[0])
+    J1, J2, J3 = (j + v.D / 2 for j in v.J)
+    q0, (q1, q2, q3) = v.q0, v.q
+    second = [
+        (J2 + J3) * q0 * q1 - (J2 - J3) * q2 * q3,
+        (J1 + J3) * q0 * q2 - (J3 - J1) * q1 * q3,
+        (J1 + J2) * q0 * q3 - (J1 - J2) * q1 * q2,
+    ]
+    second = [2 / v.sigma * x for x in second]
+    assert sides(records, "5.6") == [([-x for x in v.next], second)]
+    assert sides(records, "5.6", "corrected") == [(v.next, second)]
+
+
+def test_5_11_and_prop_4(records, state):
+    v, index = state
+    first, second = dot(v.s, v.s_over_lam), dot(v.s_over_lam, v.s_over_lam)
+    root, sigma_printed = 1 - second / 4, v.sigma * (1 - v.D / 8 * first)
+    assert v.sigma * (1 - v.D / 4 * first) == v.h
+    assert sides(records, "5.11", example=index) == [([sigma_printed], [v.h])]
+    assert sides(records, "prop-4", example=index) == [([(2 * v.q0**2 - 1) ** 2], [root]), ([sigma_printed], [v.h])]
+    assert sides(records, "5.12-q0", example=index) == [([(2 * v.q0**2 - 1) ** 2], [root])]
+    # The corrected form: the sign of the root is that of cos θ = 2q0² - 1.
+    cosine = 2 * v.q0**2 - 1
+    assert cosine**2 == 1 - v.sigma**2 / 4 * second
+    assert (cosine > 0) == (index == 0)
+    kappa = 2 * v.sigma / (1 + cosine)
+    product = cross(v.s, v.s_over_lam)
+    assert product != [0, 0, 0]
+    assert [b - a for a, b in zip(v.gamma, v.next, strict=True)] == [kappa / 4 * x for x in product]
+
+
+def test_5_12_sigma(records):
+    v = Vertical(*STATES[0])
+    lifted = v.D * v.sigma / 4 * dot(v.gamma, v.s_over_lam)
+    assert sides(records, "5.12-sigma") == [([v.sigma], [v.h + lifted])]
+    assert sides(records, "5.12-sigma", "corrected") == [([v.sigma], [v.h + 2 * lifted])]
+
+
+def test_prop_3_at_both_states(state):
+    v, _ = state
+    energy = [dot(g, [x / lam for x, lam in zip(g, v.lam, strict=True)]) for g in (v.gamma, v.next)]
+    assert energy[0] == energy[1]
+
+
+GAMMA, J, D = (F(2, 7), F(3, 7), F(6, 7)), (F(1), F(2), F(4)), F(3)
+LAM = (J[1] + J[2] + D, J[0] + J[2] + D, J[0] + J[1] + D)
+
+
+def inverse_lam(v):
+    return [x / lam for x, lam in zip(v, LAM, strict=True)]
+
+
+def test_2_5_inverse(records):
+    spin = (F(1), F(-1), F(2))
+    K = [lam * w - D * dot(spin, GAMMA) * g for lam, w, g in zip(LAM, spin, GAMMA, strict=True)]
+    factor = 1 - D * dot(GAMMA, inverse_lam(GAMMA))
+    lift = D / factor * dot(GAMMA, inverse_lam(K))
+    truth = [lam * w for lam, w in zip(LAM, spin, strict=True)]
+    assert sides(records, "2.5-inverse") == [(truth, [k - lift * g for k, g in zip(K, GAMMA, strict=True)])]
+    assert sides(records, "2.5-inverse", "corrected") == [(truth, [k + lift * g for k, g in zip(K, GAMMA, strict=True)])]
+
+
+def test_2_5(records):
+    K = (F(1), F(-1, 2), F(3, 4))
+    factor = 1 - D * dot(GAMMA, inverse_lam(GAMMA))
+    quadratic, lifted = dot(K, inverse_lam(K)), D / factor * dot(GAMMA, inverse_lam(K)) ** 2
+    assert sides(records, "2.5") == [([quadratic + lifted], [quadratic - lifted])]
+    # Solving K = Bω without any formula: B = Λ - Dγγᵀ applied to the claimed ω gives K back.
+    rate = dot(GAMMA, inverse_lam(K)) / factor
+    omega = inverse_lam([k + D * rate * g for k, g in zip(K, GAMMA, strict=True)])
+    assert [lam * w - D * dot(omega, GAMMA) * g for lam, w, g in zip(LAM, omega, GAMMA, strict=True)] == list(K)
+    assert dot(K, omega) == quadratic + lifted
+
+
+def turn_about_first(c, s):
+    return [[F(1), F(0), F(0)], [F(0), c, -s], [F(0), s, c]]
+
+
+def matrices(records, id, kind):
+    [shown] = records[id]["evidence"]["counterexamples"][0][kind]
+    return [shown[side][0] for side in ("left", "right")]
+
+
+def written(rows):
+    return str([[str(x) for x in row] for row in rows]).replace("'", "")
+
+
+def test_4_1_by_hand(records):
+    """R_{k-1} = R_k = 1: the printed principle says f∧γ = -½ m_k, (4.3) says f∧γ = m_k."""
+    after, tensor, gamma = turn_about_first(F(3, 5), F(4, 5)), diagonal((1, 2, 3)), [F(0), F(0), F(1)]
+    half = matmul(after, tensor)
+    m_k = added((1, half), (-1, transposed(half)))
+    force = [F(0), F(2), F(0)]  # m(r_+ - 2r + r_-) with m = 1
+    wedge = added((1, [[a * b for b in gamma] for a in force]), (-1, [[b * a for a in force] for b in gamma]))
+    printed_principle = added((F(-1, 2), m_k), (-1, wedge))
+    skew_part = added((1, m_k), (-1, wedge))
+    assert printed_principle == diagonal((0, 0, 0))
+    assert skew_part != printed_principle
+    assert matrices(records, "4.1", "printed") == [written(skew_part), written(printed_principle)]
+
+
+def test_4_9_F_by_hand(records):
+    before, gamma = turn_about_first(F(3, 5), F(4, 5)), [F(0), F(0), F(1)]
+    # R_{k-1} = 1, R_k = R_{k+1} = turn: Ω_k = 1, Ω_{k-1} = turn, f = ½(Ω̄ - Ω̄ᵀ)γ with Ω̄ = turn.
+    skew = added((F(1, 2), before), (F(-1, 2), transposed(before)))
+    truth = times(transposed(before), times(skew, gamma))
+    printed = [-x for x in times(skew, times(transposed(before), gamma))]
+    column = [[x] for x in truth]
+    assert matrices(records, "4.9-F", "printed") == [written([[x] for x in printed]), written(column)]
+    assert matrices(records, "4.9-F", "corrected") == [written(column), written(column)]
+
+
+def test_2_1_by_hand(records):
+    """γ = e3 up, ω = e2, v = e1, ρ = 1: the point of contact rests for v - ρ ω×γ, not for v + ρ ω×γ."""
+    v, omega, up = [F(1), F(0), F(0)], [F(0), F(1), F(0)], [F(0), F(0), F(1)]
+    slip = [a + b for a, b in zip(v, cross(omega, [-x for x in up]), strict=True)]
+    assert slip == [0, 0, 0]
+    printed = [a + b for a, b in zip(v, cross(omega, up), strict=True)]
+    assert sides(records, "2.1") == [(printed, slip)]
+
+
+def test_every_corrected_claim_is_recomputed_here(records):
+    source = open(__file__, encoding="utf-8").read()
+    for id, record in records.items():
+        if record["verdict"] == "corrected":
+            assert f'"{id}"' in source, f"no test recomputes {id}"
+
+

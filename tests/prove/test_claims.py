@@ -1,0 +1,138 @@
+"""The rule that turns evidence into a verdict: nothing can assert one."""
+
+import pytest
+import sympy as sp
+
+from chapsym.derive.quotient import Quotient
+from chapsym.prove import Equation, Proof, Verdict, claim, rational_point
+from chapsym.prove.claims import Claim
+from chapsym.prove.runner import downstream, explain, judge
+
+x, y = sp.symbols("x y")
+CIRCLE = Quotient((x, y), [x**2 + y**2 - 1])
+
+
+def equation(left, right, text="e"):
+    return Equation(text, [left], [right], CIRCLE)
+
+
+TRUE, FALSE = equation(x**2, 1 - y**2, "true"), equation(x**2, 1 + y**2, "false")
+ON_CIRCLE = rational_point({x: "3/5", y: "4/5"}, [equation(x**2 + y**2, sp.S.One)])
+OFF_CIRCLE = rational_point({x: 1, y: 1}, [equation(x**2 + y**2, sp.S.One)])
+
+
+def verdict(*actions):
+    proof = Proof()
+    for name, *arguments in actions:
+        getattr(proof, name)(*arguments)
+    return proof.verdict(), proof.problems
+
+
+def test_a_printed_form_that_is_proved_holds():
+    assert verdict(("printed", TRUE), ("control", FALSE)) == (Verdict.HOLDS, [])
+
+
+def test_every_printed_form_must_hold():
+    assert verdict(("printed", TRUE, FALSE), ("control", FALSE))[0] is Verdict.OPEN
+
+
+def test_without_a_control_nothing_is_proved():
+    assert verdict(("printed", TRUE)) == (Verdict.OPEN, ["the proof has no negative control"])
+
+
+def test_a_control_that_passes_breaks_the_proof():
+    result, problems = verdict(("printed", TRUE), ("control", TRUE))
+    assert result is Verdict.OPEN
+    assert problems == ["control accepted: true"]
+
+
+def test_a_false_lemma_breaks_the_proof():
+    assert verdict(("printed", TRUE), ("control", FALSE), ("lemma", FALSE))[0] is Verdict.OPEN
+    assert verdict(("printed", TRUE), ("control", FALSE), ("fact", "1 < 0", False))[0] is Verdict.OPEN
+
+
+def test_nothing_printed_is_nothing_judged():
+    assert verdict(("control", FALSE))[1] == ["no printed form was judged"]
+
+
+def test_a_correction_needs_a_counterexample():
+    steps = [("printed", FALSE), ("corrected", "c", TRUE), ("control", FALSE)]
+    assert verdict(*steps)[0] is Verdict.OPEN
+    assert verdict(*steps, ("counterexample", ON_CIRCLE))[0] is Verdict.CORRECTED
+
+
+def test_a_correction_must_be_proved():
+    steps = [("printed", FALSE), ("corrected", "c", equation(x, y)), ("control", FALSE)]
+    assert verdict(*steps, ("counterexample", rational_point({x: "3/5", y: "3/5"})))[0] is Verdict.OPEN
+
+
+def test_a_counterexample_must_satisfy_the_hypotheses():
+    steps = [("printed", FALSE), ("corrected", "c", TRUE), ("control", FALSE), ("counterexample", OFF_CIRCLE)]
+    result, problems = verdict(*steps)
+    assert result is Verdict.OPEN
+    assert "violates the hypothesis" in problems[0]
+
+
+def test_a_counterexample_must_contradict_the_printed_form():
+    where = rational_point({x: 1, y: 0})
+    result, problems = verdict(("printed", FALSE), ("corrected", "c", TRUE), ("control", FALSE), ("counterexample", where))
+    assert result is Verdict.OPEN
+    assert problems == ["the counterexample does not contradict the printed form"]
+
+
+def test_a_false_form_without_a_correction_is_refuted():
+    assert verdict(("printed", FALSE), ("control", FALSE), ("counterexample", ON_CIRCLE))[0] is Verdict.REFUTED
+
+
+def test_a_form_that_needs_a_hypothesis_is_conditional():
+    free = Quotient((x, y))
+    printed = Equation("printed", [x**2], [1 - y**2], free)
+    point = rational_point({x: 1, y: 1})
+    proof = Proof()
+    proof.printed(printed)
+    proof.counterexample(point)
+    proof.under("|x|² + |y|² = 1", TRUE)
+    proof.control(FALSE)
+    assert proof.verdict() is Verdict.CONDITIONAL
+
+
+def test_irrational_counterexamples_are_refused():
+    with pytest.raises(ArithmeticError, match="not a rational number"):
+        equation(sp.sqrt(2) * x, x).at(ON_CIRCLE.evaluate)
+
+
+def test_sides_of_different_length_are_refused():
+    with pytest.raises(ValueError, match="2 and 1 entries"):
+        Equation("e", [x, y], [x], CIRCLE)
+
+
+def test_a_proof_that_raises_leaves_the_claim_open_with_the_place():
+    def broken(p):
+        """Broken."""
+        raise ArithmeticError("no")
+
+    record = judge(Claim("0.0", "x", (), broken)).record()
+    assert record["verdict"] == "open"
+    assert "ArithmeticError: no (test_claims.py:" in record["evidence"]["problems"][0]
+    assert "PROBLEM" in explain(record)
+
+
+def test_two_proofs_of_one_claim_are_refused(monkeypatch):
+    monkeypatch.setattr("chapsym.prove.claims._REGISTER", {})
+    claim("prop-4", "x")(lambda p: None)
+    with pytest.raises(ValueError, match="two proofs"):
+        claim("prop-4", "x")(lambda p: None)
+
+
+def test_downstream_follows_uses_through_others():
+    claims = {id: Claim(id, "", uses, lambda p: None) for id, uses in [("a", ()), ("b", ("a",)), ("c", ("b",)), ("d", ())]}
+    assert downstream("a", claims) == ["b", "c"]
+
+
+def test_the_quotient_knows_its_hypotheses():
+    assert CIRCLE.is_zero(x**2 + y**2 - 1)
+    assert not CIRCLE.is_zero(x**2 + y**2 + 1)
+    assert CIRCLE.is_zero((1 - y**2) / x - x)
+    assert CIRCLE.with_relations(x - y).is_zero(2 * x**2 - 1)
+    with pytest.raises(ZeroDivisionError, match="zero under the hypotheses"):
+        CIRCLE.is_zero(1 / (x**2 + y**2 - 1))

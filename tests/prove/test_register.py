@@ -1,0 +1,65 @@
+"""The register as a whole: what is judged, and that the evidence is complete."""
+
+import re
+
+import pytest
+from fractions import Fraction
+
+from chapsym.prove import load
+
+#: What the derivations give.  A change here is a discovery or a mistake, and must be looked at.
+VERDICTS = {
+    "2.1": "corrected", "2.2-F": "holds", "2.5-inverse": "corrected", "2.5": "corrected",
+    "4.1": "corrected", "4.3": "holds", "4.4": "holds", "4.5": "holds", "4.6": "holds", "4.6-limit": "holds",
+    "4.7": "holds", "4.9": "holds", "4.9-f": "holds", "4.9-F": "corrected", "4.9-wedge": "holds", "4.10": "holds",
+    "4.11": "holds", "prop-1": "holds", "prop-2": "holds", "remark-3": "holds", "4.13-limit": "holds",
+    "5.1": "corrected", "5.2": "holds", "5.2-expansion": "holds", "5.2-limit": "holds", "5.3": "holds",
+    "5.4": "corrected", "5.6-sigma": "corrected", "5.6": "corrected", "prop-3": "holds",
+    "5.12": "holds", "5.12-kappa": "holds", "5.12-q0": "corrected", "5.12-sigma": "corrected", "5.11": "corrected",
+    "prop-4": "corrected",
+}  # fmt: skip
+
+
+def test_every_claim_has_the_verdict_its_proof_computes(records):
+    assert {id: record["verdict"] for id, record in records.items()} == VERDICTS
+
+
+def test_the_register_is_in_the_order_of_the_paper():
+    sections = [re.match(r"[2-6]|prop|remark", id).group() for id in load()]
+    numbered = [s for s in sections if s.isdigit()]
+    assert numbered == sorted(numbered)
+
+
+@pytest.mark.parametrize("id", list(VERDICTS))
+def test_the_evidence_is_complete(records, id):
+    record, evidence = records[id], records[id]["evidence"]
+    assert set(record) == {"id", "verdict", "printed", "corrected", "evidence", "seconds"}
+    assert evidence["problems"] == []
+    assert evidence["controls"], "no negative control"
+    assert all(control["rejected"] for control in evidence["controls"])
+    assert any(check["statement"].startswith("printed: ") for check in evidence["checks"])
+    assert evidence["title"].endswith(".")
+    if record["verdict"] == "corrected":
+        assert record["corrected"]
+        assert evidence["counterexamples"]
+
+
+def test_counterexamples_are_exact_rationals_that_separate_the_sides(records):
+    seen = 0
+    for record in records.values():
+        for example in record["evidence"]["counterexamples"]:
+            assert example["printed"]
+            assert all(sides["left"] != sides["right"] for sides in example["printed"])
+            assert all(sides["left"] == sides["right"] for sides in example["corrected"])
+            for sides in example["printed"] + example["corrected"]:
+                for text in re.findall(r"-?\d+(?:/\d+)?", " ".join(sides["left"] + sides["right"])):
+                    Fraction(text)
+            seen += 1
+    assert seen >= 13
+
+
+def test_corrections_name_what_they_change(records):
+    assert "prop-4" in records["5.4"]["evidence"]["downstream"]
+    assert "4.10" in records["4.1"]["evidence"]["downstream"]
+    uses = {use for record in records.values() for use in record["evidence"]["uses"]}
+    assert uses <= set(records), "a claim uses one that is not in the register"
