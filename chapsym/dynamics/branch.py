@@ -23,14 +23,16 @@ SETTLED = 1e-9
 #: So is one below this many roundings of the residual.
 ROUNDINGS = 16.0
 UNIT_ROUNDOFF = 2.0**-53
+#: Nor can a correction get below a few of the smallest numbers that float64 has.
+SMALLEST = 2.0**-1070
 #: A continuation step below this fraction of the path is a fold.
 SHORTEST = 4e-16
 MOST_STEPS = 5000
 MOST_CORRECTIONS = 12
 
 
-def small_rotation(K1, K2, K3, g1, g2, g3, J1, J2, J3, D):
-    """Solves 𝒦(q, γ) = 𝒦 on the small-rotation branch.
+def small_rotation(K1, K2, K3, g1, g2, g3, J1, J2, J3, D, shortest=SHORTEST):
+    """Solves 𝒦(q, γ) = 𝒦 on the small-rotation branch; a step below `shortest` is taken for a fold.
 
     Returns (status, reach, q0, q1, q2, q3): the unit Euler parameters with q0 ≥ 0, and the fraction t
     that was attained, 1 when the status is TAKEN.
@@ -44,7 +46,7 @@ def small_rotation(K1, K2, K3, g1, g2, g3, J1, J2, J3, D):
         steepness = speed * (bend + 2.0 * speed)
         remaining = 1.0 - t
         step = remaining if steepness * remaining <= CONTRACTION else CONTRACTION / steepness
-        if not step >= SHORTEST:
+        if not step >= shortest:
             return FOLDED, t, q0, q1, q2, q3
         t = 1.0 if step == remaining else t + step
         q0, q1, q2, q3 = turned(q0, q1, q2, q3, step * d1, step * d2, step * d3)
@@ -94,7 +96,7 @@ def corrected(q0, q1, q2, q3, K1, K2, K3, g1, g2, g3, J1, J2, J3, D):
         extent = max(abs(q1), abs(q2), abs(q3))
         largest = max(abs(i11), abs(i12), abs(i13), abs(i21), abs(i22), abs(i23), abs(i31), abs(i32), abs(i33))
         noise = ROUNDINGS * UNIT_ROUNDOFF * largest * (size + 2.0 * top * extent)
-        if change <= max(SETTLED * extent, noise):
+        if change <= max(SETTLED * extent, noise, SMALLEST):
             return True, q0, q1, q2, q3
     return False, q0, q1, q2, q3
 

@@ -47,6 +47,7 @@ def kernel(name: str) -> Callable[..., Floats]:
 momentum = kernel("momentum")
 momentum_jacobian = kernel("momentum_jacobian")
 tangent_jacobian = kernel("tangent_jacobian")
+tangent_hessian = kernel("tangent_hessian")
 residual = kernel("residual")
 rotation = kernel("rotation")
 rotate = kernel("rotate")

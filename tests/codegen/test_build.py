@@ -1,0 +1,192 @@
+"""Generated code: deterministic, checked byte for byte and value for value, and the same on every number type."""
+
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+from fractions import Fraction
+
+import flint
+import mpmath
+import numpy as np
+import pytest
+import sympy as sp
+
+from chapsym import generated
+from chapsym.codegen import build, printer
+from chapsym.codegen.kernels import KERNELS
+
+x, y = sp.symbols("x y")
+
+
+@pytest.fixture
+def copy(tmp_path):
+    """A copy of what is committed."""
+    place = tmp_path / "generated"
+    shutil.copytree(build.folder(), place, ignore=shutil.ignore_patterns("__pycache__"))
+    return place
+
+
+def test_what_is_committed_is_what_is_derived():
+    assert build.check(build.folder()) == []
+
+
+@pytest.mark.parametrize("seed", ["0", "1", "4294967295"])
+def test_the_bytes_do_not_depend_on_the_hash_seed(seed):
+    program = "import json, sys; from chapsym.codegen import build; json.dump(build.build(), sys.stdout)"
+    done = subprocess.run(
+        [sys.executable, "-c", program], env={**os.environ, "PYTHONHASHSEED": seed}, capture_output=True, check=True
+    )
+    place = build.folder()
+    for name, text in json.loads(done.stdout).items():
+        assert (place / name).read_bytes() == text.encode(), name
+
+
+def signs(text):
+    """The places of binary and unary signs in the statements of a kernel."""
+    start = text.index("# outputs") if "# intermediate" not in text else text.index("# intermediate")
+    return [start + m.start() for m in re.finditer(r"(?<= )[+-](?= )|(?<== )-", text[start:])]
+
+
+@pytest.mark.parametrize("kernel", KERNELS, ids=lambda k: k.name)
+def test_any_flipped_sign_changes_the_value(kernel):
+    """Every single sign of every kernel, flipped in turn, is caught by the fingerprint."""
+    text = (build.folder() / f"{kernel.name}.py").read_text(encoding="utf-8")
+    trusted = build.stored_fingerprints(build.folder())[kernel.name]
+    places = signs(text)
+    assert places
+    for at in places:
+        flipped = text[:at] + {"+": "-", "-": "+"}[text[at]] + text[at + 1 :]
+        assert build.text_fingerprint(kernel, flipped) != trusted, flipped[at - 30 : at + 30]
+
+
+def test_a_changed_kernel_is_named_with_what_mends_it(copy):
+    path = copy / "momentum.py"
+    text = path.read_text(encoding="utf-8")
+    path.write_text(text.replace(" + ", " - ", 1).replace("# outputs", "# outputs ", 1), encoding="utf-8")
+    problems = build.check(copy)
+    assert "momentum.py is changed" in problems
+
+
+def test_a_reordered_text_is_changed_but_keeps_its_value(copy):
+    path = copy / "compose.py"
+    path.write_text(path.read_text(encoding="utf-8").replace("# outputs", "# results"), encoding="utf-8")
+    assert build.check(copy) == ["compose.py is changed"]
+
+
+def test_a_wrong_value_is_told_apart(copy):
+    path = copy / "compose.py"
+    text = path.read_text(encoding="utf-8")
+    at = signs(text)[0]
+    path.write_text(text[:at] + {"+": "-", "-": "+"}[text[at]] + text[at + 1 :], encoding="utf-8")
+    assert build.check(copy) == ["compose.py is changed", "compose.py computes another value than the derivation"]
+
+
+def test_missing_and_extra_files_are_named(copy):
+    (copy / "rotate.py").unlink()
+    (copy / "stray.py").write_text("", encoding="utf-8")
+    assert build.check(copy) == ["rotate.py is missing", "stray.py is extra"]
+
+
+def test_a_missing_fingerprint_fails_and_is_not_created(copy):
+    path = copy / build.FINGERPRINTS
+    values = json.loads(path.read_text())
+    del values["energy"]
+    path.write_text(json.dumps(values))
+    expected = "energy has no trusted fingerprint; after review: chapsym codegen --trust energy"
+    assert build.check(copy) == [expected]
+    with pytest.raises(ValueError, match="energy has no trusted fingerprint"):
+        build.generate(copy)
+    assert "energy" not in json.loads(path.read_text())
+    build.generate(copy, ["energy"])
+    assert build.check(copy) == []
+
+
+def test_a_changed_value_is_not_written_without_trust(copy):
+    path = copy / build.FINGERPRINTS
+    values = json.loads(path.read_text())
+    values["momentum"][0] = "1.0"
+    path.write_text(json.dumps(values))
+    before = {p.name: p.read_bytes() for p in copy.iterdir()}
+    with pytest.raises(ValueError, match="momentum changed its value"):
+        build.generate(copy)
+    assert {p.name: p.read_bytes() for p in copy.iterdir()} == before
+
+
+def test_generate_removes_what_is_no_kernel(copy):
+    (copy / "old.py").write_text("", encoding="utf-8")
+    build.generate(copy)
+    assert not (copy / "old.py").exists()
+    assert build.check(copy) == []
+
+
+def test_kernels_are_straight_lines_of_integers_and_names():
+    for kernel in KERNELS:
+        text = (build.folder() / f"{kernel.name}.py").read_text(encoding="utf-8")
+        body = text[text.rindex('"""') + 3 :]
+        assert not re.search(r"\d\.\d|\*\*|import|sqrt|[^t_a-zA-Z]\d+ / \d", body), kernel.name
+
+
+def test_every_kernel_names_proved_claims(records):
+    for kernel in KERNELS:
+        assert kernel.claims
+        for id in kernel.claims:
+            assert records[id]["verdict"] in ("holds", "corrected"), f"{kernel.name} comes from {id}"
+
+
+@pytest.mark.parametrize(
+    ("expr", "text"),
+    [
+        (x**3, "x * x * x"),
+        (x / 3, "x / 3"),
+        (sp.Rational(2, 3) * x * y, "2 * x * y / 3"),
+        (1 / x, "1 / x"),
+        (-x / y**2, "-x / (y * y)"),
+        (x - y, "x - y"),
+        ((x + y) * x, "x * (x + y)"),
+        (sp.Integer(1) / (2 * x), "1 / (2 * x)"),
+    ],
+)
+def test_the_printer_writes_products_and_quotients(expr, text):
+    assert printer.text(expr) == text
+
+
+@pytest.mark.parametrize("expr", [x + sp.Rational(1, 2), sp.sqrt(x), sp.Float("0.5") * x, sp.sin(x), sp.Rational(1, 3)])
+def test_the_printer_refuses_what_would_round(expr):
+    with pytest.raises(printer.NotStraightLine):
+        printer.text(expr)
+
+
+def exact_arguments(kernel):
+    return [Fraction(int(v.p), int(v.q)) for v in build.point(kernel.inputs).values()]
+
+
+@pytest.mark.parametrize("kernel", KERNELS, ids=lambda k: k.name)
+def test_one_source_runs_on_every_number(kernel):
+    function = getattr(generated, kernel.name)
+    arguments = exact_arguments(kernel)
+
+    def values(result):
+        return result if isinstance(result, tuple) else (result,)
+
+    exact = values(function(*arguments))
+    assert all(isinstance(v, Fraction) for v in exact)
+    context = mpmath.MPContext()
+    context.dps = 50
+    with_mpf = values(function(*(context.mpf(a.numerator) / a.denominator for a in arguments)))
+    for found, truth in zip(with_mpf, exact, strict=True):
+        assert abs(found - context.mpf(truth.numerator) / truth.denominator) < context.mpf(10) ** -48
+    with flint.ctx.workprec(200):
+        with_arb = values(function(*(flint.arb(flint.fmpq(a.numerator, a.denominator)) for a in arguments)))
+        for found, truth in zip(with_arb, exact, strict=True):
+            assert found.contains(flint.fmpq(truth.numerator, truth.denominator))
+            assert found.rad() < flint.arb(2) ** -190
+    for dtype, digits in [(np.float64, 2e-15), (np.float32, 2e-6)]:
+        columns = [np.full((2, 3), float(a), dtype=dtype) for a in arguments]
+        for found, truth in zip(values(function(*columns)), exact, strict=True):
+            assert found.shape == (2, 3)
+            assert found.dtype == dtype
+            scale = max(1.0, *(abs(float(v)) for v in exact))
+            assert np.abs(found - float(truth)).max() <= 20 * digits * scale

@@ -1,0 +1,41 @@
+"""Balls that exist, and those that do not."""
+
+import numpy as np
+import pytest
+
+from chapsym import BadInput, Ball
+
+
+def test_inertia_and_mass_tensor_are_two_ways_to_say_the_same():
+    ball = Ball.from_inertia((6, 5, 3), mass=12, radius=0.5)
+    assert ball.mass_tensor.tolist() == [1, 2, 4]
+    assert ball.D == 3
+    assert ball.inertia.tolist() == [6, 5, 3]
+
+
+def test_a_flat_body_survives_rounding():
+    ball = Ball.from_inertia((0.1, 0.2, 0.1 + 0.2), D=1)
+    assert (ball.mass_tensor >= 0).all()
+
+
+@pytest.mark.parametrize(
+    ("build", "sentence"),
+    [
+        (lambda: Ball.from_inertia((1, 1, 3), D=1), r"no body has the inertia \(1, 1, 3\)"),
+        (lambda: Ball.from_inertia((1, -1, 1), D=1), "negative principal moment -1"),
+        (lambda: Ball.from_inertia((2, 2, 2)), "D is missing"),
+        (lambda: Ball.from_inertia((2, 2, 2), mass=1), "D is missing"),
+        (lambda: Ball.from_inertia((2, 2, 2), mass=1, radius=1, D=1), "either D or mass"),
+        (lambda: Ball.from_inertia((2, 2, 2), mass=-1, radius=1), "must be positive"),
+        (lambda: Ball((1, -2, 3), 1), "negative moment -2"),
+        (lambda: Ball((1, 2, 3), -1), "D = m ρ² must not be negative"),
+        (lambda: Ball((1, 0, 0), 0), "no inertia about one of its axes"),
+        (lambda: Ball((0, 0, 0), 0), "no inertia about one of its axes"),
+        (lambda: Ball((1, np.nan, 1), 1), "mass_tensor must be finite"),
+        (lambda: Ball((1, 1), 1), "mass_tensor must have 3 components"),
+        (lambda: Ball((1, 1, 1), 1, radius=0), "radius must be positive"),
+    ],
+)
+def test_a_ball_that_cannot_be_is_refused(build, sentence):
+    with pytest.raises(BadInput, match=sentence):
+        build()

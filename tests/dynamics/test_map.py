@@ -1,0 +1,198 @@
+"""One step: against the oracle, at its limits, and what it refuses."""
+
+import numpy as np
+import pytest
+from hypothesis import example, given, settings
+from hypothesis import strategies as st
+
+import chapsym
+from chapsym import Ball, BadInput, Status, StepNotTaken, testing
+from chapsym.dynamics import front
+from chapsym.dynamics.branch import small_rotation
+from chapsym.dynamics.map import largest_momentum
+from chapsym.studies.check import State, compare
+
+BALL = Ball((1, 2, 4), 3)
+GAMMA = np.array([2, 3, 6]) / 7
+K = np.array([1, -0.5, 0.75])
+
+
+@given(testing.states())
+@settings(max_examples=25)
+def test_a_step_agrees_with_the_matrix_equation(state):
+    """Within the budget that `chapsym check` states."""
+    ball, momentum, gamma = state
+    if np.abs(momentum).max() < 1e-290:
+        return  # there 𝒦 and q are no longer normal numbers, and an ulp is not relative
+    compared = compare(State(ball.mass_tensor, float(ball.D), momentum, gamma), digits=30)
+    assert (compared.errors <= compared.promised).all(), compared
+
+
+@given(testing.states())
+def test_a_step_keeps_the_invariants(state):
+    ball, momentum, gamma = state
+    step = chapsym.step(ball, momentum, gamma)
+    before, after = front.invariants(momentum, gamma), front.invariants(step.momentum, step.gamma)
+    size = np.sqrt(before[1])
+    assert np.all(np.abs(after - before) <= 8 * 2**-52 * np.array([size, size**2, 1]) + 2.0**-1070)
+
+
+@given(testing.states())
+def test_a_step_intertwines_its_momenta(state):
+    """Remark 3 for n = 3: -𝒦(-q, γ after) is 𝒦 after."""
+    ball, momentum, gamma = state
+    step = chapsym.step(ball, momentum, gamma)
+    back = step.rotation * [1, -1, -1, -1]
+    expected = -front.momentum(back, step.gamma, ball.mass_tensor, ball.D)
+    scale = np.abs(momentum).max() + (ball.mass_tensor.sum() + ball.D) * np.abs(step.rotation[1:]).max()
+    assert np.abs(step.momentum - expected).max() <= 16 * 2**-52 * scale + 2.0**-1070
+
+
+@given(testing.states(fraction=(0.0, 0.3)))
+def test_a_step_goes_back(state):
+    """The map is reversible: from (-𝒦, γ) after the step it returns to (-𝒦, γ) before it."""
+    ball, momentum, gamma = state
+    there = chapsym.step(ball, momentum, gamma)
+    back = chapsym.step(ball, -there.momentum, there.gamma)
+    jacobian = front.tangent_jacobian(there.rotation, gamma, ball.mass_tensor, ball.D)
+    size = np.abs(momentum).max() + 2 * (ball.mass_tensor.sum() + ball.D) * np.abs(there.rotation[1:]).max()
+    tolerance = 16 * 2**-52 * (1 + np.linalg.norm(np.linalg.inv(jacobian), 2) * size)
+    assert np.abs(back.gamma - gamma).max() <= tolerance
+    assert np.abs(back.momentum + momentum).max() <= tolerance * np.abs(momentum).max() + 2.0**-1070
+
+
+def test_a_ball_at_rest_stays_at_rest():
+    step = chapsym.step(BALL, (0, 0, 0), GAMMA)
+    assert step.rotation.tolist() == [1, 0, 0, 0]
+    assert step.momentum.tolist() == [0, 0, 0]
+    assert (step.gamma == GAMMA).all()
+
+
+@pytest.mark.parametrize("size", [1e-300, 1e-150, 1e-12, 1e-3])
+def test_a_tiny_momentum_keeps_its_digits(size):
+    """q tends to half of ω = B⁻¹𝒦, relative to its own size."""
+    step = chapsym.step(BALL, K * size, GAMMA)
+    omega = front.angular_velocity(K * size, GAMMA, BALL.mass_tensor, BALL.D)
+    assert np.allclose(step.rotation[1:], omega / 2, rtol=max(4e-16 * 8, 3 * size), atol=0)
+
+
+def test_a_homogeneous_top_folds_at_ninety_degrees():
+    """|𝒦| = Λ sin θ on the branch: it ends at θ = 90°, where |𝒦| = Λ is the most that any rotation has."""
+    top = Ball((1, 1, 1), 0)
+    step = chapsym.step(top, (0, 0, 2 * np.sin(1.5)), (0, 0, 1))
+    assert np.isclose(2 * np.arctan2(step.rotation[3], step.rotation[0]), 1.5, atol=1e-13)
+    _, reach, *_ = small_rotation(0, 0, 4, 0, 0, 1, 1, 1, 1, 0)
+    assert reach == pytest.approx(0.5, abs=1e-12)
+    with pytest.raises(StepNotTaken) as caught:
+        chapsym.step(top, (0, 0, 2.0001), (0, 0, 1))
+    assert caught.value.status is Status.UNREACHABLE
+
+
+def test_the_branch_ends_before_all_rotations_do():
+    """A momentum past the fold that other rotations still have is FOLDED; past every rotation, UNREACHABLE."""
+    _, reach, *_ = small_rotation(*(100 * K), *GAMMA, *BALL.mass_tensor, 3)
+    fold = 100 * reach * np.linalg.norm(K)
+    most = largest_momentum(K, GAMMA, BALL.mass_tensor, 3)
+    assert fold < most
+    unit = K / np.linalg.norm(K)
+    for size, status in [((fold + most) / 2, Status.FOLDED), (1.001 * most, Status.UNREACHABLE)]:
+        with pytest.raises(StepNotTaken) as caught:
+            chapsym.step(BALL, size * unit, GAMMA)
+        assert caught.value.status is status
+        assert caught.value.reach == pytest.approx(fold / size, rel=1e-9)
+
+
+@given(testing.rotations(), testing.balls(), testing.unit_vectors())
+def test_no_rotation_exceeds_the_largest_momentum(q, ball, gamma):
+    momentum = front.momentum(q, gamma, ball.mass_tensor, ball.D)
+    if np.abs(momentum).max() > 1e-9:
+        most = largest_momentum(momentum, gamma, ball.mass_tensor, float(ball.D))
+        assert np.linalg.norm(momentum) <= most * (1 + 1e-12)
+
+
+@given(testing.states(fraction=(0.0, 0.95)))
+@settings(max_examples=30)
+def test_the_branch_is_continuous_from_the_identity(state):
+    """Followed in 400 small steps by plain Newton, the curve arrives at the same rotation."""
+    ball, momentum, gamma = state
+    q = np.array([1.0, 0, 0, 0])
+    for t in np.linspace(0, 1, 401)[1:]:
+        for _ in range(4):
+            r = front.residual(q, t * momentum, gamma, ball.mass_tensor, ball.D)
+            w = np.linalg.solve(front.tangent_jacobian(q, gamma, ball.mass_tensor, ball.D), -r)
+            q = front.compose(q, [1.0, *w])
+            q /= np.linalg.norm(q)
+    assert np.abs(chapsym.step(ball, momentum, gamma).rotation - q).max() < 1e-9
+
+
+@pytest.mark.parametrize(
+    ("kwargs", "sentence"),
+    [
+        ({"momentum": (1, 2)}, "momentum must have 3 components"),
+        ({"momentum": 1.0}, "momentum must have 3 components"),
+        ({"momentum": (1, np.nan, 0)}, r"momentum must be finite, but it is nan at index \(1,\)"),
+        ({"momentum": (1, np.inf, 0)}, "momentum must be finite"),
+        ({"momentum": ("a", 1, 2)}, "momentum must be numbers"),
+        ({"momentum": (1j, 1, 2)}, "momentum must be numbers"),
+        ({"gamma": (0, 0, 1.001)}, "gamma must be a unit vector, but its length is 1.00"),
+        ({"gamma": (0, 0, 0)}, "gamma must be a unit vector, but its length is 0"),
+        ({"momentum": np.zeros((2, 3)), "gamma": np.tile(GAMMA, (3, 1))}, "do not broadcast"),
+    ],
+)
+def test_a_state_without_an_answer_is_refused(kwargs, sentence):
+    with pytest.raises(BadInput, match=sentence):
+        chapsym.step(BALL, **{"momentum": K, "gamma": GAMMA, **kwargs})
+
+
+def test_a_batch_goes_on_for_the_others():
+    momenta = np.stack([K, 100 * K, 5 * K, 0 * K])
+    step = chapsym.step(BALL, momenta, GAMMA)
+    assert step.status.tolist() == [Status.TAKEN, Status.UNREACHABLE, Status.FOLDED, Status.TAKEN]
+    assert np.isnan(step.momentum[1:3]).all()
+    assert np.isnan(step.rotation[1:3]).all()
+    assert (step.momentum[0] == chapsym.step(BALL, K, GAMMA).momentum).all()
+    assert step.reach[2] == pytest.approx(0.8646401, abs=1e-6)
+
+
+def test_compiled_and_plain_steps_agree_to_the_bit():
+    rng = np.random.default_rng(7)
+    momenta = rng.normal(size=(500, 3))
+    gammas = rng.normal(size=(500, 3))
+    gammas /= np.linalg.norm(gammas, axis=1, keepdims=True)
+    many = chapsym.step(BALL, momenta, gammas)
+    few = [chapsym.step(BALL, m[None], g[None]) for m, g in zip(momenta, gammas, strict=True)]
+    assert (many.momentum == np.concatenate([f.momentum for f in few])).all()
+    assert (many.rotation == np.concatenate([f.rotation for f in few])).all()
+
+
+def test_balls_broadcast_with_states():
+    balls = Ball(np.array([[1, 2, 4], [1, 1, 1]]), np.array([3, 0.5]))
+    both = chapsym.step(balls, np.broadcast_to(K / 4, (5, 2, 3)), GAMMA)
+    assert both.momentum.shape == (5, 2, 3)
+    one = chapsym.step(Ball((1, 1, 1), 0.5), K / 4, GAMMA)
+    assert (both.momentum[3, 1] == one.momentum).all()
+
+
+@pytest.mark.parametrize("shape", [(0, 3), (2, 0, 3)])
+def test_an_empty_batch_is_an_empty_answer(shape):
+    step = chapsym.step(BALL, np.zeros(shape), GAMMA)
+    assert step.momentum.shape == shape
+
+
+def test_inputs_are_not_written_to_and_may_be_strided():
+    momenta = np.asfortranarray(np.tile(K, (4, 1)))[::2]
+    momenta.flags.writeable = False
+    assert (chapsym.step(BALL, momenta, GAMMA).momentum == chapsym.step(BALL, K, GAMMA).momentum).all()
+    assert (momenta == K).all()
+
+
+@given(st.permutations(range(3)))
+@example([1, 2, 0])
+def test_cyclic_relabelling_of_the_axes_relabels_the_step(order):
+    parity = np.linalg.det(np.eye(3)[list(order)])
+    if parity < 0:
+        return
+    p = list(order)
+    step = chapsym.step(BALL, K, GAMMA)
+    again = chapsym.step(Ball(BALL.mass_tensor[p], 3), K[p], GAMMA[p])
+    assert np.abs(again.momentum - step.momentum[p]).max() < 1e-15

@@ -1,0 +1,200 @@
+"""Many steps: frames, attitude, contact point, batches, folds."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+
+import chapsym
+from chapsym import BadInput, Ball, Status, StepNotTaken, testing
+from chapsym.dynamics import front
+from chapsym.dynamics.trajectory import attitude_with
+
+BALL = Ball((1, 2, 4), 3, radius=0.5)
+GAMMA = np.array([2, 3, 6]) / 7
+K = np.array([0.2, -0.1, 0.15])
+#: A start whose branch folds at the fourth step.
+FOLDING = np.array([4.32, -2.16, 3.24])
+
+
+def test_a_trajectory_is_its_steps():
+    run = chapsym.trajectory(BALL, K, GAMMA, 20)
+    momentum, gamma = K, GAMMA
+    for frame in range(21):
+        assert (run.momentum[frame] == momentum).all()
+        assert (run.gamma[frame] == gamma).all()
+        step = chapsym.step(BALL, momentum, gamma / 1)
+        momentum, gamma = step.momentum, step.gamma
+
+
+def test_compiled_and_plain_trajectories_agree_to_the_bit():
+    short = chapsym.trajectory(BALL, K, GAMMA, 1999, contact=True)
+    long = chapsym.trajectory(BALL, K, GAMMA, 2500, contact=True)
+    assert (short.momentum == long.momentum[:2000]).all()
+    assert (short.contact == long.contact[:2000]).all()
+    assert (short.attitude == long.attitude[:2000]).all()
+
+
+def test_every_kth_state_is_kept():
+    whole, thin = (chapsym.trajectory(BALL, K, GAMMA, 103, every=n, contact=True) for n in (1, 10))
+    assert thin.index.tolist() == list(range(0, 101, 10))
+    assert (thin.momentum == whole.momentum[::10]).all()
+    assert (thin.contact == whole.contact[::10]).all()
+    assert thin.taken == 103
+
+
+def test_attitude_and_contact_come_only_when_asked_for():
+    run = chapsym.trajectory(BALL, K, GAMMA, 3)
+    assert run.attitude is None
+    assert run.contact is None
+    run = chapsym.trajectory(BALL, K, GAMMA, 3, attitude=True)
+    assert run.attitude.shape == (4, 4)
+    assert run.contact is None
+
+
+def test_attitude_keeps_the_vertical_up_and_the_momentum_fixed_in_space():
+    run = chapsym.trajectory(BALL, K, GAMMA, 1500, attitude=True)
+    assert np.abs(front.rotate(run.attitude, run.gamma) - [0, 0, 1]).max() < 5e-14
+    space = front.rotate(run.attitude, run.momentum)
+    assert np.abs(space - space[0]).max() < 5e-14
+    assert np.abs((run.attitude**2).sum(axis=-1) - 1).max() < 1e-15
+
+
+def test_the_contact_point_obeys_the_discrete_constraint():
+    """Δr = (ρ/2)(Ω̄ - Ω̄ᵀ)e₃ with Ω̄ = R_{k+1}R_kᵀ, from rotation matrices, γ upwards."""
+    run = chapsym.trajectory(BALL, K, GAMMA, 200, contact=True)
+    R = front.rotation(run.attitude)
+    turn = R[1:] @ R[:-1].swapaxes(-1, -2)
+    steps = 0.25 * (turn - turn.swapaxes(-1, -2)) @ np.array([0, 0, 1.0])
+    assert np.abs(np.diff(run.contact, axis=0) - steps[:, :2]).max() < 1e-15
+    assert np.abs(steps[:, 2]).max() < 1e-16
+
+
+def test_a_ball_rolls_where_it_should():
+    """Spinning about +y with the vertical +z it moves along +x with speed ρω."""
+    run = chapsym.roll(BALL, (0, 2, 0), 1e-3, 1000, contact=True)
+    assert run.time[-1] == 1.0
+    assert np.allclose(run.contact[-1], [1.0, 0.0], atol=1e-6)
+
+
+def test_si_front_is_the_map_of_epsilon_times_k():
+    run = chapsym.roll(BALL, (0.3, -0.2, 0.1), 0.01, 50, gamma=GAMMA)
+    paper = chapsym.trajectory(BALL, run.momentum[0], GAMMA, 50)
+    assert (run.momentum == paper.momentum).all()
+    omega = front.angular_velocity(run.angular_momentum()[0], GAMMA, BALL.mass_tensor, BALL.D)
+    assert np.allclose(omega, (0.3, -0.2, 0.1), rtol=1e-14)
+    slip = np.cross(omega, GAMMA)
+    kinetic = 0.5 * 3 * slip @ slip + 0.5 * omega @ (BALL.inertia * omega)
+    assert run.kinetic_energy()[0] == pytest.approx(kinetic, rel=1e-14)
+
+
+def test_the_map_tends_to_the_continuous_ball_with_order_two():
+    """Halving ε divides the error against a fine solution by four (γ after one second)."""
+
+    def rate(state):
+        k, g = state[:3], state[3:]
+        w = front.angular_velocity(k, g, BALL.mass_tensor, BALL.D)
+        return np.concatenate([np.cross(k, w), np.cross(g, w)])
+
+    omega = np.array([0.9, -1.2, 0.7])
+    state = np.concatenate([front.contact_momentum(omega, GAMMA, BALL.mass_tensor, BALL.D), GAMMA])
+    h = 1e-3
+    for _ in range(1000):
+        a = rate(state)
+        b = rate(state + h / 2 * a)
+        c = rate(state + h / 2 * b)
+        state = state + h / 6 * (a + 2 * b + 2 * c + rate(state + h * c))
+    errors = []
+    for steps in (100, 200, 400):
+        # 𝒦(q, γ) = ε K + O(ε²): start the map from the midpoint momentum of its own first step.
+        run = chapsym.roll(BALL, omega, 1 / steps, steps, gamma=GAMMA)
+        errors.append(np.abs(run.gamma[-1] - state[3:]).max())
+    orders = np.log2(np.array(errors[:-1]) / errors[1:])
+    assert np.all(np.abs(orders - 2) < 0.1), (errors, orders)
+
+
+def test_a_fold_stops_one_ball_with_the_step_and_the_trajectory_before_it():
+    with pytest.raises(StepNotTaken) as caught:
+        chapsym.trajectory(BALL, FOLDING, GAMMA, 100, contact=True)
+    error = caught.value
+    assert error.status is Status.FOLDED
+    assert error.index == 3
+    assert str(error).startswith("step 3: the small-rotation branch folds")
+    assert error.trajectory.momentum.shape == (4, 3)
+    assert error.trajectory.contact.shape == (4, 2)
+    assert np.isfinite(error.trajectory.momentum).all()
+    again = chapsym.trajectory(BALL, FOLDING, GAMMA, 3)
+    assert (again.momentum == error.trajectory.momentum).all()
+
+
+@pytest.mark.parametrize("extra", [1, 2000])
+def test_a_batch_reports_which_ball_stopped_where(extra):
+    run = chapsym.trajectory(BALL, np.stack([K, FOLDING]), GAMMA, extra + 10, contact=True)
+    assert run.status.tolist() == [Status.TAKEN, Status.FOLDED]
+    assert run.taken.tolist() == [extra + 10, 3]
+    assert np.isfinite(run.momentum[0]).all()
+    assert np.isfinite(run.momentum[1, :4]).all()
+    assert np.isnan(run.momentum[1, 4:]).all()
+    assert np.isnan(run.contact[1, 4:]).all()
+    with pytest.raises(BadInput, match="stopped early"):
+        run.invariants()
+
+
+@given(testing.states(fraction=(0.0, 0.2)))
+@settings(max_examples=20)
+def test_invariants_stay(state):
+    ball, momentum, gamma = state
+    values = chapsym.trajectory(ball, momentum, gamma, 50).invariants()
+    size = np.sqrt(values[0, 1])
+    allowed = 8 * 2**-52 * np.sqrt(50) * np.array([size, size**2, 1]) + 2.0**-1070
+    assert (np.abs(values - values[0]) <= allowed).all()
+
+
+@pytest.mark.parametrize("gamma", [(0, 0, 1), (0, 0, -1), (1, 0, 0), (0, 1e-9, -1), (3e-5, -4e-5, -np.sqrt(1 - 25e-10))])
+def test_the_least_attitude_turns_gamma_up(gamma):
+    gamma = np.array(gamma, dtype=float)
+    quaternion = attitude_with(gamma)
+    assert abs(quaternion @ quaternion - 1) < 4e-16
+    assert np.abs(front.rotate(quaternion, gamma) - [0, 0, 1]).max() < 4e-16
+
+
+def test_an_attitude_may_be_given():
+    given_attitude = np.array([0.5, 0.5, 0.5, 0.5])
+    gamma = front.transport(given_attitude, [0.0, 0.0, 1.0])
+    run = chapsym.trajectory(BALL, K, gamma, 2, attitude=given_attitude)
+    assert (run.attitude[0] == given_attitude).all()
+
+
+@pytest.mark.parametrize(
+    ("kwargs", "sentence"),
+    [
+        ({"steps": -1}, "steps must be a whole number from 0 on"),
+        ({"steps": 2.5}, "steps must be a whole number"),
+        ({"steps": True}, "steps must be a whole number"),
+        ({"every": 0}, "every must be a whole number from 1 on"),
+        ({"attitude": (1, 0, 0, 0)}, "attitude and gamma disagree"),
+        ({"attitude": (1, 1, 0, 0)}, "attitude must be unit quaternions"),
+        ({"attitude": (1, 0, 0)}, "attitude must have 4 components"),
+        ({"ball": Ball((1, 2, 4), 3), "contact": True}, "needs the radius"),
+    ],
+)
+def test_a_run_without_an_answer_is_refused(kwargs, sentence):
+    with pytest.raises(BadInput, match=sentence):
+        chapsym.trajectory(**{"ball": BALL, "momentum": K, "gamma": GAMMA, "steps": 5, **kwargs})
+
+
+def test_no_steps_are_a_trajectory_too():
+    run = chapsym.trajectory(BALL, K, GAMMA, 0)
+    assert run.momentum.shape == (1, 3)
+
+
+def test_times_need_a_time_step():
+    with pytest.raises(BadInput, match="no time step"):
+        _ = chapsym.trajectory(BALL, K, GAMMA, 1).time
+    with pytest.raises(BadInput, match="time_step must be one positive number"):
+        chapsym.roll(BALL, (0, 1, 0), 0.0, 1)
+
+
+def test_progress_is_told():
+    seen = []
+    chapsym.trajectory(BALL, K, GAMMA, 450_000, every=1000, progress=seen.append)
+    assert seen == [200_000, 400_000, 450_000]

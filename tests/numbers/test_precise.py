@@ -1,0 +1,102 @@
+"""Steps at any precision: mpmath and Arb against the independent oracle."""
+
+from fractions import Fraction as F
+
+import flint
+import mpmath
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from chapsym import BadInput, StepNotTaken, testing
+from chapsym.dynamics.oracle import Oracle, OracleFailed
+from chapsym.dynamics.precise import precise_step
+from chapsym.numbers import Ball, Digits, Double
+
+J, D = (F(1), F(2), F(4)), F(3)
+K, GAMMA = (F(1), F(-1, 2), F(3, 4)), (F(2, 7), F(3, 7), F(6, 7))
+
+
+def truth(J, D, K, gamma, digits):
+    """The oracle's step, from exact input."""
+    context = mpmath.MPContext()
+    context.dps = digits + 20
+    mpf = lambda x: context.mpf(x.numerator) / x.denominator  # noqa: E731
+    found = Oracle([mpf(x) for x in J], mpf(D), [mpf(x) for x in gamma], digits).step([mpf(x) for x in K])
+    return [found.q0, *found.q, *found.momentum, *found.gamma]
+
+
+def flat(written):
+    return [written["q0"], *written["q"], *written["momentum"], *written["gamma"]]
+
+
+@pytest.mark.parametrize("digits", [5, 30, 50, 200])
+def test_digits_are_correct_to_the_last_one(digits):
+    found = flat(precise_step(J, D, K, GAMMA, Digits(digits)).write())
+    for text, exact in zip(found, truth(J, D, K, GAMMA, digits + 10), strict=True):
+        assert len(text.lstrip("-0.").replace(".", "")) == digits
+        mpf = exact.context.mpf
+        assert abs(exact - mpf(text)) <= abs(exact) * mpf(10) ** (1 - digits)
+
+
+@given(testing.rational_balls(), testing.rational_unit_vectors(), testing.rational_unit_vectors(), st.integers(1, 12))
+@settings(max_examples=12)
+def test_balls_contain_the_truth_and_are_small(ball, gamma, direction, part):
+    J, D = ball
+    K = tuple(x * min(a + b for a, b in [(J[1], J[2]), (J[0], J[2]), (J[0], J[1])]) * F(part, 20) for x in direction)
+    try:
+        exact = truth(J, D, K, gamma, 80)
+    except OracleFailed:
+        with pytest.raises(StepNotTaken):
+            precise_step(J, D, K, gamma, Ball(200))
+        return
+    found = flat(precise_step(J, D, K, gamma, Ball(200)).write())
+    with flint.ctx.workprec(400):
+        for text, value in zip(found, exact, strict=True):
+            enclosure = flint.arb(text)
+            assert enclosure.rad() < flint.arb(2) ** -185
+            assert enclosure.overlaps(flint.arb(str(value)) + flint.arb(0, "1e-70"))
+
+
+def test_double_is_the_map():
+    written = precise_step(J, D, K, GAMMA, Double()).write()
+    assert written["q0"] == 0.9919717060270817
+    assert all(isinstance(x, float) for x in flat(written))
+
+
+def test_every_ball_is_written_in_arbs_form():
+    for momentum in (K, (F(0),) * 3, (F(1, 10**30), F(0), F(0))):
+        for text in flat(precise_step(J, D, momentum, GAMMA, Ball(64)).write()):
+            assert text.startswith("[")
+            assert text.endswith("]")
+            assert "+/-" in text
+
+
+@pytest.mark.parametrize("rung", [Digits(20), Ball(80)])
+def test_momenta_below_float64_are_steps_too(rung):
+    tiny = tuple(x / 10**400 for x in K)
+    written = precise_step(J, D, tiny, GAMMA, rung).write()
+    assert "e-40" in written["q"][0]
+
+
+def test_gamma_must_be_unit_to_the_digits_asked_for():
+    nearly = (F(3, 5), F(4, 5) + F(1, 10**20), F(0))
+    precise_step(J, D, K, nearly, Double())
+    precise_step(J, D, K, nearly, Digits(15))
+    with pytest.raises(BadInput, match="give it exactly"):
+        precise_step(J, D, K, nearly, Digits(30))
+    with pytest.raises(BadInput, match="give it exactly"):
+        precise_step(J, D, K, nearly, Ball(100))
+
+
+@pytest.mark.parametrize("rung", [Double(), Digits(30), Ball(100)])
+def test_a_momentum_past_the_fold_has_no_step_on_any_rung(rung):
+    with pytest.raises(StepNotTaken, match="folds before it reaches"):
+        precise_step(J, D, tuple(5 * x for x in K), GAMMA, rung)
+
+
+def test_precision_of_others_is_left_alone():
+    before = mpmath.mp.prec, flint.ctx.prec
+    precise_step(J, D, K, GAMMA, Digits(60))
+    precise_step(J, D, K, GAMMA, Ball(300))
+    assert (mpmath.mp.prec, flint.ctx.prec) == before
