@@ -114,7 +114,8 @@ def prove(
         print("\n\n".join(argument(record) for record in records))
     else:
         for record in records:
-            print(f"{record['id']:16} {record['verdict']:12} {record['evidence']['title']}  ({record['seconds']:.2f} s)")
+            title = f"{record['evidence']['title']}  ({record['seconds']:.2f} s)"
+            print(f"{record['id']:16} {record['verdict']:12} {title}")
             for problem in record["evidence"]["problems"]:
                 print(f"{'':16} problem: {problem}")
         print(_tally(records))
@@ -272,7 +273,7 @@ def run(
         wanted = scenes.load(scene)
         destination = output or (Path(wanted.run.output) if wanted.run.output else None)
         if destination is None:
-            _fail(f"{scene} names no output: add -o OUT.npz, or output = \"...\" under [run]", 2)
+            _fail(f'{scene} names no output: add -o OUT.npz, or output = "..." under [run]', 2)
         check_destination(destination)
         failure = None
         with _progress("rolling", wanted.run.steps) as shown:
@@ -283,7 +284,7 @@ def run(
         scenes.save(result, destination)
     except BadInput as error:
         _fail(str(error), 2)
-    summary = {
+    summary: dict[str, Any] = {
         "output": str(destination),
         "steps": int(result.taken),
         "frames": len(result.index),

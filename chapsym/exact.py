@@ -27,10 +27,13 @@ def rationals(text: str, name: str, count: int) -> tuple[Fraction, ...]:
     """`count` numbers, separated by commas."""
     parts = text.split(",")
     if len(parts) != count:
-        raise NotANumber(f"{name} takes {count} numbers separated by commas, such as 1,-1/2,3/4; {text!r} has {len(parts)}")
+        raise NotANumber(
+            f"{name} takes {count} numbers separated by commas, such as 1,-1/2,3/4; {text!r} has {len(parts)}"
+        )
     return tuple(rational(part, name) for part in parts)
 
 
 def mass_tensor_from(inertia: Sequence[Fraction]) -> tuple[Fraction, ...]:
     """J1, J2, J3 from the principal moments I1 = J2 + J3, ..., exactly."""
-    return tuple(sum(inertia) / 2 - moment for moment in inertia)
+    half = sum(inertia, Fraction(0)) / 2
+    return tuple(half - moment for moment in inertia)

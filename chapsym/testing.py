@@ -90,7 +90,8 @@ def states(
     """(ball, momentum, gamma) whose next step exists: a fraction of the momentum at which the branch folds."""
     ball, gamma, direction = draw(balls(strata)), draw(unit_vectors()), draw(unit_vectors())
     far = direction * 100 * (ball.mass_tensor.sum() + float(ball.D))
-    _, reach, *_ = small_rotation(*far, *gamma, *ball.mass_tensor, float(ball.D), shortest=1e-5)
+    state = [*far, *gamma, *ball.mass_tensor, float(ball.D)]
+    reach = small_rotation(*[*state, 1e-5])[1]  # to a few digits, which is enough here and fast
     return ball, far * reach * draw(st.floats(*fraction)), gamma
 
 

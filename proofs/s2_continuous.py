@@ -2,11 +2,11 @@
 
 import sympy as sp
 
-from chapsym.derive import continuous, limits, three
+from chapsym.derive import continuous, three
 from chapsym.derive.continuous import RING, inverse_inertia
 from chapsym.derive.limits import omega
 from chapsym.derive.quotient import Quotient
-from chapsym.derive.three import D, J1, J2, J3, K, gamma
+from chapsym.derive.three import J1, J2, J3, D, K, gamma
 from chapsym.prove import Equation, Proof, claim, main, rational_point
 
 #: A ball, a unit vertical and an angular velocity for the counterexamples.
@@ -55,9 +55,7 @@ def rolling_factor(p: Proof) -> None:
     free = Quotient(RING.symbols)
     p.control(Equation("the same without |γ| = 1", [printed.dot(inverse * gamma)], [second], free))
     p.control(Equation("F = 1 + D⟨γ, Λ⁻¹γ⟩", [printed.dot(inverse * gamma)], [2 - second], RING))
-    p.control(
-        Equation("J the mass tensor: ⟨Jγ, Λ⁻¹γ⟩ = F", [(three.J * gamma).dot(inverse * gamma)], [second], RING)
-    )
+    p.control(Equation("J the mass tensor: ⟨Jγ, Λ⁻¹γ⟩ = F", [(three.J * gamma).dot(inverse * gamma)], [second], RING))
 
 
 def on_motion(expr: sp.Expr) -> sp.Expr:

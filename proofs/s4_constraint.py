@@ -1,10 +1,10 @@
 """Section 4: the discrete constraint, the reaction force, and the closed equation."""
 
 import sympy as sp
+from chapsym.proofs.s4_principle import equation, path_point
 
 from chapsym.derive import ball, limits, principle
-from chapsym.derive.principle import ALGEBRA, D, J, R, R0, R0T, R1, R1T, RT, gamma, gammaT, m, r, r1, rho
-from chapsym.proofs.s4_principle import equation, path_point
+from chapsym.derive.principle import ALGEBRA, R0, R0T, R1, R1T, RT, D, J, R, gamma, gammaT, m, rho
 from chapsym.prove import Equation, Proof, claim, main
 
 # Body rotations and the vertical tensor, as words in the attitudes.
@@ -80,9 +80,7 @@ def body_reaction(p: Proof) -> None:
     )
     turn = sp.Matrix([[1, 0, 0], [0, "3/5", "-4/5"], [0, "4/5", "3/5"]])
     p.counterexample(
-        path_point(
-            {R0: sp.eye(3), R: turn, R1: turn, gamma: sp.Matrix([0, 0, 1]), m: sp.S.One, rho: sp.S.One}
-        )
+        path_point({R0: sp.eye(3), R: turn, R1: turn, gamma: sp.Matrix([0, 0, 1]), m: sp.S.One, rho: sp.S.One})
     )
     p.control(equation("F with both signs flipped", after - before, force))
 

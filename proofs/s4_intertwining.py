@@ -42,11 +42,11 @@ def intertwining(p: Proof) -> None:
         Equation("the relation for 𝒦_k, every n", [after], [ball.carried(momentum)], ALGEBRA),
     )
     p.say("A second route, n = 3: the same with the matrix of Euler parameters, modulo |q|² + q₀² = 1.")
+    p.printed(Equation("the relation for 𝒦_{k-1}, n = 3, nine entries", entries(before), entries(momentum), three.RING))
     p.printed(
-        Equation("the relation for 𝒦_{k-1}, n = 3, nine entries", entries(before), entries(momentum), three.RING)
-    )
-    p.printed(
-        Equation("the relation for 𝒦_k, n = 3, nine entries", entries(after), entries(ball.carried(momentum)), three.RING)
+        Equation(
+            "the relation for 𝒦_k, n = 3, nine entries", entries(after), entries(ball.carried(momentum)), three.RING
+        )
     )
     wrong_before, wrong_after = printed_relations(sign=-1)
     p.control(Equation("the relation for 𝒦_{k-1} with Γ_{k-1} - Γ_k", [wrong_before], [momentum], ALGEBRA))

@@ -49,7 +49,9 @@ def momentum_limit(p: Proof) -> None:
     momentum = limits.momentum()
     show(p, "𝒦/ε", momentum)
     p.printed(
-        equation("𝒦/ε → Jω + ωJ + D(Γω + ωΓ)", momentum.limit, J * omega + omega * J + D * (Gamma * omega + omega * Gamma))
+        equation(
+            "𝒦/ε → Jω + ωJ + D(Γω + ωΓ)", momentum.limit, J * omega + omega * J + D * (Gamma * omega + omega * Gamma)
+        )
     )
     p.fact(f"the remainder of 𝒦/ε has the exact order 1, here {momentum.order}", momentum.order == 1)
     p.lemma(equation("its leading term is ½[ω², J], without D", momentum.leading, commutator(omega**2, J) / 2))
@@ -65,8 +67,16 @@ def momentum_limit(p: Proof) -> None:
                 commutator(omega, commutator(omega, tensor)) / 2,
             )
         )
-    p.control(equation("𝒦/ε → Jω + ωJ - D(Γω + ωΓ)", momentum.limit, J * omega + omega * J - D * (Gamma * omega + omega * Gamma)))
-    p.control(equation("𝒦/ε → the same with D/2", momentum.limit, J * omega + omega * J + D / 2 * (Gamma * omega + omega * Gamma)))
+    p.control(
+        equation(
+            "𝒦/ε → Jω + ωJ - D(Γω + ωΓ)", momentum.limit, J * omega + omega * J - D * (Gamma * omega + omega * Gamma)
+        )
+    )
+    p.control(
+        equation(
+            "𝒦/ε → the same with D/2", momentum.limit, J * omega + omega * J + D / 2 * (Gamma * omega + omega * Gamma)
+        )
+    )
     p.control(equation("𝒦̇ = +[ω, 𝒦]", limits.transport(K).limit, commutator(omega, K)))
     p.control(equation("the leading remainder is 0", ball.ALGEBRA.normal(momentum.leading), sp.S.Zero))
 

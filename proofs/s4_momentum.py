@@ -45,11 +45,7 @@ def compact_form(p: Proof) -> None:
         equation("the part of the step k-1 = -Ωᵀ𝒦_{k-1}Ω", before, -ball.carried(now)),
     )
     p.say("So 𝒦_k - Ωᵀ𝒦_{k-1}Ω is the balance itself: (4.12) and (4.10) say the same.")
-    p.lemma(
-        equation(
-            "Γ_k = ΩᵀΓ_{k-1}Ω from (4.11)", OmegaT * ball.gamma * ball.gammaT * Omega, ball.carried(Gamma)
-        )
-    )
+    p.lemma(equation("Γ_k = ΩᵀΓ_{k-1}Ω from (4.11)", OmegaT * ball.gamma * ball.gammaT * Omega, ball.carried(Gamma)))
     p.lemma(equation("𝒦ᵀ = -𝒦", ALGEBRA.transpose(now), -now))
     mutated = first - D * (Gamma * Omega - OmegaT * Gamma)
     p.control(equation("the first form with -D/2 in its last term", mutated, now))
@@ -72,7 +68,9 @@ def trace_integrals(p: Proof) -> None:
         return OmegaT * expr * Omega
 
     p.say("The only fact about the step is (4.12): 𝒦_k = Ωᵀ𝒦_{k-1}Ω, Γ_k = ΩᵀΓ_{k-1}Ω with ΩΩᵀ = 1.")
-    p.lemma(equation("carrying is multiplicative: (ΩᵀXΩ)(ΩᵀYΩ) = ΩᵀXYΩ", carried(X) * carried(Y), carried(X * Y), algebra))
+    p.lemma(
+        equation("carrying is multiplicative: (ΩᵀXΩ)(ΩᵀYΩ) = ΩᵀXYΩ", carried(X) * carried(Y), carried(X * Y), algebra)
+    )
     p.lemma(equation("it fixes the identity", carried(sp.S.One), sp.S.One, algebra))
     p.say("By induction (𝒦_k)^s(Γ_k)^l = Ωᵀ(𝒦_{k-1})^s(Γ_{k-1})^lΩ for all s, l; and the trace does not see Ω:")
     trace_free = equation("tr ΩᵀXΩ = tr X", algebra.trace(carried(X)), algebra.trace(X), algebra)

@@ -2,8 +2,8 @@
 
 import sympy as sp
 
-from chapsym.derive import ball, principle
-from chapsym.derive.principle import ALGEBRA, J, Lam, R, R0, R0T, R1, R1T, RT, f, fT, gamma, gammaT, m, rho
+from chapsym.derive import principle
+from chapsym.derive.principle import ALGEBRA, R0, R0T, R1, R1T, RT, J, Lam, R, f, fT, gamma, gammaT, m, rho
 from chapsym.derive.words import evaluate
 from chapsym.prove import Equation, Point, Proof, claim, main
 
@@ -22,9 +22,7 @@ def path_point(values: dict, *hypotheses: Equation) -> Point:
     for symbol, value in values.items():
         if isinstance(value, sp.MatrixBase) and symbol in ALGEBRA.transposes:
             full[ALGEBRA.transposes[symbol]] = value.T
-    orthogonal = [
-        equation(f"{a}·{a}ᵀ = 1", a * ALGEBRA.transposes[a], sp.S.One) for a in (R0, R, R1) if a in values
-    ]
+    orthogonal = [equation(f"{a}·{a}ᵀ = 1", a * ALGEBRA.transposes[a], sp.S.One) for a in (R0, R, R1) if a in values]
     shown = {str(k): str(v.tolist() if isinstance(v, sp.MatrixBase) else v) for k, v in values.items()}
     return Point(shown, lambda expr: evaluate(expr, full), (*orthogonal, *hypotheses))
 
@@ -163,7 +161,9 @@ def spatial_balance(p: Proof) -> None:
 def euler_poincare(p: Proof) -> None:
     """The balance in the body frame."""
     p.assume("F ∧ γᵀ stands for Fγᵀ - γFᵀ, as in (4.6)")
-    p.say("Ω_k = R_kᵀR_{k+1}, M_k = R_kᵀ m_k R_k = Ω_k J - JΩ_kᵀ, F = R_kᵀf, γ_k = R_kᵀγ; R_kᵀ S R_k = 0 is the balance.")
+    p.say(
+        "Ω_k = R_kᵀR_{k+1}, M_k = R_kᵀ m_k R_k = Ω_k J - JΩ_kᵀ, F = R_kᵀf, γ_k = R_kᵀγ; R_kᵀ S R_k = 0 is the balance."
+    )
     now = RT * principle.spatial_momentum(R, R1) * R
     step, before = R0T * R, R0T * principle.spatial_momentum(R0, R) * R0
     p.lemma(equation("M_k = Ω_k J - J Ω_kᵀ", now, RT * R1 * J - J * ALGEBRA.transpose(RT * R1)))

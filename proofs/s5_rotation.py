@@ -5,7 +5,7 @@ import sympy as sp
 from chapsym.derive import ball, limits, three
 from chapsym.derive.limits import omega
 from chapsym.derive.quotient import Quotient
-from chapsym.derive.three import D, J1, J2, J3, K, RING, axial, gamma, hat, q, q0, q1, q2, q3
+from chapsym.derive.three import J1, J2, J3, RING, D, K, axial, gamma, hat, q, q0, q1, q2, q3
 from chapsym.derive.words import evaluate
 from chapsym.prove import Equation, Proof, claim, main, rational_point
 
@@ -89,13 +89,22 @@ def vector_momentum(p: Proof) -> None:
     rotation = sp.Matrix(three.rotation())
     values = {ball.Omega: rotation, ball.OmegaT: rotation.T, ball.J: three.J}
     centre = axial(evaluate(ball.centre_momentum(), values))
-    p.say("Into (4.13) go the matrix of the Euler parameters, J = diag(J₁,J₂,J₃) and Γ = γγᵀ; (A₃₂, A₁₃, A₂₁) comes out:")
+    p.say(
+        "Into (4.13) go the matrix of the Euler parameters, J = diag(J₁,J₂,J₃) and Γ = γγᵀ; (A₃₂, A₁₃, A₂₁) comes out:"
+    )
     p.show("𝒦", sp.Matrix(three.momentum()))
     p.printed(
         Equation("M⃗ as printed", list(printed_centre_momentum()), list(centre), RING),
         Equation("𝒦⃗ as printed", list(printed_momentum()), list(axial(three.momentum_matrix())), RING),
     )
-    p.lemma(Equation("the collected form, which the kernels use", list(three.momentum()), list(axial(three.momentum_matrix())), RING))
+    p.lemma(
+        Equation(
+            "the collected form, which the kernels use",
+            list(three.momentum()),
+            list(axial(three.momentum_matrix())),
+            RING,
+        )
+    )
     p.say("A second route: 𝒦⃗ = 2q₀Λq + 2 q×Λq - 2Dq₀⟨γ,q⟩γ with Λ = diag(J₂+J₃+D, ...).")
     lam = three.lam()
     second = 2 * (q0 * lam * q + q.cross(lam * q) - D * q0 * gamma.dot(q) * gamma)
@@ -125,7 +134,9 @@ def parameter_expansion(p: Proof) -> None:
     p.fact(f"q - εω/2 has the exact order 3, here {vector.order + 1}", vector.order + 1 == 3)
     p.fact(f"q₀ - 1 has the exact order 2, here {scalar.order}", scalar.order == 2)
     square = omega.dot(omega)
-    p.lemma(Equation("the leading term of q is -|ω|²ω/48", list(vector.leading), list(-square / 48 * omega), limits.RING))
+    p.lemma(
+        Equation("the leading term of q is -|ω|²ω/48", list(vector.leading), list(-square / 48 * omega), limits.RING)
+    )
     p.lemma(Equation("the leading term of q₀ is -|ω|²/8", list(scalar.leading), [-square / 8], limits.RING))
     p.control(Equation("q/ε → ω", list(vector.limit), list(omega), limits.RING))
 
@@ -146,10 +157,18 @@ def vector_limit(p: Proof) -> None:
     printed = lam * omega - D * gamma.dot(omega) * gamma
     p.printed(Equation("𝒦⃗/ε → Λω - D⟨γ,ω⟩γ", list(limit.limit), list(printed), limits.RING))
     p.fact(f"the remainder has the exact order 1, here {limit.order}", limit.order == 1)
-    p.lemma(Equation("its leading term is ½ ω×Λω", list(limit.leading), list(omega.cross(lam * omega) / 2), limits.RING))
-    p.control(Equation("𝒦⃗/ε → Λω + D⟨γ,ω⟩γ", list(limit.limit), list(lam * omega + D * gamma.dot(omega) * gamma), limits.RING))
+    p.lemma(
+        Equation("its leading term is ½ ω×Λω", list(limit.leading), list(omega.cross(lam * omega) / 2), limits.RING)
+    )
+    p.control(
+        Equation("𝒦⃗/ε → Λω + D⟨γ,ω⟩γ", list(limit.limit), list(lam * omega + D * gamma.dot(omega) * gamma), limits.RING)
+    )
     mass = sp.diag(J1 + D, J2 + D, J3 + D)
-    p.control(Equation("the same with Λ = J + D", list(limit.limit), list(mass * omega - D * gamma.dot(omega) * gamma), limits.RING))
+    p.control(
+        Equation(
+            "the same with Λ = J + D", list(limit.limit), list(mass * omega - D * gamma.dot(omega) * gamma), limits.RING
+        )
+    )
 
 
 @claim(
@@ -168,7 +187,11 @@ def vector_form(p: Proof) -> None:
     limit = limits.vector_transport()
     p.show(f"(Ωᵀ𝒦⃗ - 𝒦⃗)/ε, leading remainder of order {limit.order}", limit.leading)
     p.lemma(Equation("(Ωᵀ𝒦⃗ - 𝒦⃗)/ε → 𝒦⃗×ω", list(limit.limit), list(K.cross(omega)), limits.RING))
-    p.lemma(Equation("its leading remainder is ½(𝒦⃗×ω)×ω", list(limit.leading), list(K.cross(omega).cross(omega) / 2), limits.RING))
+    p.lemma(
+        Equation(
+            "its leading remainder is ½(𝒦⃗×ω)×ω", list(limit.leading), list(K.cross(omega).cross(omega) / 2), limits.RING
+        )
+    )
     p.fact(f"that remainder has the exact order 1, here {limit.order}", limit.order == 1)
     p.control(Equation("the axial vector of Ωᵀ𝒦Ω = Ω𝒦⃗", list(moved), list(rotation * K), ring))
     p.control(Equation("𝒦̇ = ω×𝒦", list(limit.limit), list(omega.cross(K)), limits.RING))

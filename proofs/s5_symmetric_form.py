@@ -1,12 +1,12 @@
 """Section 5: the symmetric form of the reduced map (Proposition 4) and what it needs."""
 
 import sympy as sp
+from chapsym.proofs.s5_vertical import LARGE, SMALL, vertical_state
 
 from chapsym.derive import vertical
 from chapsym.derive.quotient import Quotient
-from chapsym.derive.three import D, J1, J2, J3, q, q0
+from chapsym.derive.three import J1, J2, J3, D, q, q0
 from chapsym.derive.vertical import RING, sigma
-from chapsym.proofs.s5_vertical import LARGE, SMALL, vertical_state
 from chapsym.prove import Equation, Proof, claim, main, rational_point
 
 LAM = vertical.lam()
@@ -113,9 +113,7 @@ def _signs() -> tuple[int, ...]:
 def sigma_equation(p: Proof) -> None:
     """The equation that σ solves has the missing factor 2; the relation that closes it holds."""
     lifted = D * sigma / 4 * vertical.gamma_now().dot(INVERSE * total())
-    p.lemma(
-        Equation("⟨γ, Λ⁻¹s⟩ = ½⟨s, Λ⁻¹s⟩", [vertical.gamma_now().dot(INVERSE * total())], [first_form() / 2], RING)
-    )
+    p.lemma(Equation("⟨γ, Λ⁻¹s⟩ = ½⟨s, Λ⁻¹s⟩", [vertical.gamma_now().dot(INVERSE * total())], [first_form() / 2], RING))
     p.printed(Equation("σ = h + D⟨γ, (σ/4)Λ⁻¹s⟩", [sigma], [vertical.height() + lifted], RING))
     p.corrected(
         r"\sigma = h+2D\langle\gamma,\tfrac\sigma4\Lambda^{-1}(\tilde\gamma+\gamma)\rangle",

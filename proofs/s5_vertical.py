@@ -4,7 +4,7 @@ import sympy as sp
 
 from chapsym.derive import three, vertical
 from chapsym.derive.quotient import Quotient
-from chapsym.derive.three import D, J1, J2, J3, gamma, q, q0, q1, q2, q3
+from chapsym.derive.three import J1, J2, J3, D, gamma, q, q0, q1, q2, q3
 from chapsym.derive.vertical import RING, h, sigma
 from chapsym.prove import Equation, Proof, claim, main, rational_point
 
@@ -137,9 +137,7 @@ def quadratic_integral(p: Proof) -> None:
         )
     )  # fmt: skip
     p.control(Equation("⟨γ, γ_next⟩ = 1", [now.dot(after)], [sp.S.One], RING))
-    p.control(
-        Equation("⟨γ, Λγ⟩ is an integral", [now.dot(lam * now)], [after.dot(lam * after)], RING)
-    )
+    p.control(Equation("⟨γ, Λγ⟩ is an integral", [now.dot(lam * now)], [after.dot(lam * after)], RING))
     wrong = vertical.gamma_now().subs(q0, 2 * q0)
     p.control(
         Equation("the integral with 2q₀ in γ_k", [wrong.dot(inverse * wrong)], [after.dot(inverse * after)], RING)

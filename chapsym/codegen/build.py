@@ -199,9 +199,7 @@ def generate(place: Path, trust: Sequence[str] = ()) -> list[str]:
     if unknown:
         raise ValueError(f"--trust {unknown[0]}: there is no such kernel; the kernels are {', '.join(sorted(names))}")
     accepted = names if "all" in trust else set(trust)
-    problems = [
-        p for p in distrusted(place) if p.split()[0] not in accepted and not p.startswith("the fingerprint of")
-    ]
+    problems = [p for p in distrusted(place) if p.split()[0] not in accepted and not p.startswith("the fingerprint of")]
     if problems:
         raise ValueError("; ".join(problems))
     trusted = {**stored_fingerprints(place), **{k.name: fingerprint(k) for k in KERNELS if k.name in accepted}}

@@ -7,7 +7,7 @@ import sympy as sp
 
 from chapsym.derive import continuous, three
 from chapsym.derive.limits import omega
-from chapsym.derive.three import D, J1, J2, J3, K, gamma, q, q0
+from chapsym.derive.three import J1, J2, J3, D, K, gamma, q, q0
 
 Group = tuple[str, tuple[sp.Symbol, ...]]
 

@@ -62,7 +62,8 @@ def _product(expr: sp.Expr) -> str:
     coefficient, factors = expr.as_coeff_mul()
     if not coefficient.is_Rational:
         raise NotStraightLine(f"{expr} has the coefficient {coefficient}, which is not rational")
-    above, below = [], []
+    above: list[str] = []
+    below: list[str] = []
     for factor in sorted(factors, key=default_sort_key):
         base, power = factor.as_base_exp()
         if not power.is_Integer:

@@ -79,4 +79,3 @@ def _in_step_symbols(expr: sp.Expr, at_start: bool) -> sp.Expr:
         {**ALGEBRA.rules, **space.ALGEBRA.rules},
     )
     return both.normal(replaced)
-

@@ -22,8 +22,8 @@ D = sp.Symbol("D")  # m rho^2
 
 ALGEBRA = WordAlgebra(
     {
-        **{a: b for a, b in [(R0, R0T), (R, RT), (R1, R1T), (r0, r0T), (r, rT), (r1, r1T)]},
-        **{b: a for a, b in [(R0, R0T), (R, RT), (R1, R1T), (r0, r0T), (r, rT), (r1, r1T)]},
+        **{R0: R0T, R0T: R0, R: RT, RT: R, R1: R1T, R1T: R1},
+        **{r0: r0T, r0T: r0, r: rT, rT: r, r1: r1T, r1T: r1},
         **{dR: dRT, dRT: dR, dr: drT, drT: dr, f: fT, fT: f, gamma: gammaT, gammaT: gamma},
         **{J: J, Lam: Lam, xi: -xi},
     },

@@ -6,7 +6,7 @@ import sympy as sp
 
 from . import three
 from .quotient import Quotient
-from .three import D, J1, J2, J3, gamma, q, q0
+from .three import J1, J2, J3, D, gamma, q, q0
 
 h, sigma = sp.symbols("h sigma")
 

@@ -3,6 +3,6 @@
 from .ball import Ball
 from .errors import BadInput, Status, StepNotTaken
 from .map import Step, step
-from .trajectory import Trajectory, roll, trajectory
+from .trajectories import Trajectory, roll, trajectory
 
 __all__ = ["BadInput", "Ball", "Status", "Step", "StepNotTaken", "Trajectory", "roll", "step", "trajectory"]

@@ -15,7 +15,6 @@ from types import FunctionType, ModuleType
 from typing import Any
 
 import numba
-from numba.core import config
 from numba.extending import register_jitable
 
 import chapsym.generated as generated
@@ -54,12 +53,13 @@ def cache_folder() -> Path:
 @contextmanager
 def _caching_in(folder: Path) -> Iterator[None]:
     """Numba asks where to cache when a function is decorated, so the setting is borrowed for that only."""
-    before = config.CACHE_DIR
-    config.CACHE_DIR = str(folder)
+    settings: Any = numba.config
+    before = settings.CACHE_DIR
+    settings.CACHE_DIR = str(folder)
     try:
         yield
     finally:
-        config.CACHE_DIR = before
+        settings.CACHE_DIR = before
 
 
 @cache

@@ -30,7 +30,9 @@ def follow_body(q, g, attitude, contact, radius):
     attitude[0], attitude[1], attitude[2], attitude[3] = a0 * scale, a1 * scale, a2 * scale, a3 * scale
 
 
-def march(K, g, J, D, q, first, count, every, momenta, verticals, with_body, attitude, contact, radius, attitudes, traces):
+def march(
+    K, g, J, D, q, first, count, every, momenta, verticals, with_body, attitude, contact, radius, attitudes, traces
+):
     """Takes `count` steps from the step `first` on; keeps every `every`-th state in the frame arrays.
 
     K, g, q, attitude and contact hold the present state and move.  The attitude and the trace are

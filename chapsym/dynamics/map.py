@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from chapsym import generated
+from chapsym.generated import momentum as momentum_kernel
 
 from . import loop
 from .ball import Ball, Floats, numbers
@@ -114,7 +114,7 @@ def largest_momentum(direction: Floats, g: Floats, J: Floats, D: float) -> float
     n = direction / np.sqrt(direction @ direction)
 
     def form(p: Floats) -> float:
-        return float(n @ np.array(generated.momentum(*p, *g, *J, D)))
+        return float(n @ np.array(momentum_kernel(*p, *g, *J, D)))
 
     basis = np.eye(4)
     matrix = np.array([[(form(a + b) - form(a - b)) / 4 for b in basis] for a in basis])

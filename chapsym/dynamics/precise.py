@@ -7,7 +7,7 @@ from typing import Any
 
 from chapsym import generated
 from chapsym.numbers import Ball as ArbBall
-from chapsym.numbers import Digits, Double, Rung
+from chapsym.numbers import Double, Rung
 
 from .ball import Ball
 from .branch import inverse, inverse_of
@@ -68,14 +68,13 @@ def precise_step(
     with rung.precision():
         exact = [tuple(map(rung.number, x)) for x in (momentum, gamma, mass_tensor, (D,))]
         first = tuple(rung.number(Fraction(float(x))) for x in start.rotation)
-        refine = _enclosed if isinstance(rung, ArbBall) else _refined
-        q = refine(rung, first, *exact)
+        q = _enclosed(rung, first, *exact) if isinstance(rung, ArbBall) else _refined(rung, first, *exact)
         return PreciseStep(rung, q, generated.transport(*q, *exact[0]), generated.transport(*q, *exact[1]))
 
 
 def unit_exactly(gamma: Sequence[Fraction], rung: Rung) -> None:
     """Raises BadInput unless |γ|² = 1 to the digits of the rung."""
-    off = abs(sum(x * x for x in gamma) - 1)
+    off = abs(sum((x * x for x in gamma), Fraction(-1)))
     tolerance = Fraction(1, 10**12) if isinstance(rung, Double) else Fraction(1, 10**rung.digits)
     if off > tolerance:
         raise BadInput(
@@ -84,9 +83,9 @@ def unit_exactly(gamma: Sequence[Fraction], rung: Rung) -> None:
         )
 
 
-def _refined(rung: Digits, q: tuple, K: tuple, g: tuple, J: tuple, D: tuple) -> tuple:
+def _refined(rung: Rung, q: tuple, K: tuple, g: tuple, J: tuple, D: tuple) -> tuple:
     """Newton's iteration in the numbers of the rung, until a correction is below the square root of the last digit."""
-    settled = rung.number(Fraction(1, 10 ** (rung.count // 2 + 2 + rung.GUARD // 2)))
+    settled = rung.number(Fraction(1, 10 ** (rung.digits // 2 + 10)))
     for _ in range(MOST_REFINEMENTS):
         w = _correction(q, K, g, J, D)
         change = max(abs(x) for x in w)

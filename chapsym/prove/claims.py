@@ -30,7 +30,8 @@ class Verdict(StrEnum):
 class Algebra(Protocol):
     """Where an equation is decided: words for every n, or a quotient ring for n = 3."""
 
-    def is_zero(self, expr: Any) -> bool: ...
+    def is_zero(self, expr: Any) -> bool:
+        """Whether the expression is zero, exactly."""
 
 
 @dataclass(frozen=True)

@@ -25,7 +25,7 @@ def _number(value: Any) -> Any:
         except (NotANumber, OverflowError) as error:
             raise ValueError(str(error)) from None
     if isinstance(value, bool) or not isinstance(value, int | float):
-        raise ValueError("it must be a number, or a string such as \"2/7\"")
+        raise ValueError('it must be a number, or a string such as "2/7"')
     return value
 
 
@@ -138,8 +138,5 @@ def run(scene: Scene, progress: Callable[[int], None] = lambda steps_done: None)
     ball, start = scene.ball.ball(), scene.start
     if start.omega is not None and scene.run.time_step is not None:
         return roll(ball, start.omega, scene.run.time_step, scene.run.steps, gamma=start.gamma, **options)
-    return trajectory(
-        ball, start.momentum, start.gamma, scene.run.steps, time_step=scene.run.time_step, **options
-    )  # type: ignore[arg-type]
-
-
+    momentum: Any = start.momentum
+    return trajectory(ball, momentum, start.gamma, scene.run.steps, time_step=scene.run.time_step, **options)

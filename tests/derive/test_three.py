@@ -85,5 +85,3 @@ def test_contact_inertia_has_no_cancelling_terms():
 
 def test_the_vertical_excess_is_derived():
     assert vertical.excess() == sp.factor(2 * three.D * three.q0 * three.gamma.dot(three.q))
-
-

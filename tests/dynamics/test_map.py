@@ -6,7 +6,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 import chapsym
-from chapsym import Ball, BadInput, Status, StepNotTaken, testing
+from chapsym import BadInput, Ball, Status, StepNotTaken, testing
 from chapsym.dynamics import front
 from chapsym.dynamics.branch import small_rotation
 from chapsym.dynamics.map import largest_momentum

@@ -6,6 +6,7 @@ claim, printed or corrected, does not survive this.
 """
 
 from fractions import Fraction as F
+from pathlib import Path
 
 import pytest
 from reference import added, axial, cross, diagonal, dot, matmul, momentum, rotation, times, transposed
@@ -37,7 +38,7 @@ class Vertical:
         K = axial(momentum(self.omega, self.gamma, J, D))
         self.h = dot(K, self.gamma)
         assert dot(self.gamma, self.gamma) == 1
-        assert K == [self.h * g for g in self.gamma]
+        assert [self.h * g for g in self.gamma] == K
         self.next = times(transposed(self.omega), self.gamma)
         self.lam = [J[1] + J[2] + D, J[0] + J[2] + D, J[0] + J[1] + D]
         self.s = [a + b for a, b in zip(self.gamma, self.next, strict=True)]
@@ -135,7 +136,9 @@ def test_2_5_inverse(records):
     lift = D / factor * dot(GAMMA, inverse_lam(K))
     truth = [lam * w for lam, w in zip(LAM, spin, strict=True)]
     assert sides(records, "2.5-inverse") == [(truth, [k - lift * g for k, g in zip(K, GAMMA, strict=True)])]
-    assert sides(records, "2.5-inverse", "corrected") == [(truth, [k + lift * g for k, g in zip(K, GAMMA, strict=True)])]
+    assert sides(records, "2.5-inverse", "corrected") == [
+        (truth, [k + lift * g for k, g in zip(K, GAMMA, strict=True)])
+    ]
 
 
 def test_2_5(records):
@@ -198,9 +201,7 @@ def test_2_1_by_hand(records):
 
 
 def test_every_corrected_claim_is_recomputed_here(records):
-    source = open(__file__, encoding="utf-8").read()
+    source = Path(__file__).read_text(encoding="utf-8")
     for id, record in records.items():
         if record["verdict"] == "corrected":
             assert f'"{id}"' in source, f"no test recomputes {id}"
-
-

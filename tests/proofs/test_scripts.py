@@ -4,9 +4,8 @@ import subprocess
 import sys
 from pathlib import Path
 
-import pytest
-
 import chapsym.proofs
+import pytest
 
 FOLDER = Path(chapsym.proofs.__file__).parent
 

@@ -75,7 +75,9 @@ def test_a_counterexample_must_satisfy_the_hypotheses():
 
 def test_a_counterexample_must_contradict_the_printed_form():
     where = rational_point({x: 1, y: 0})
-    result, problems = verdict(("printed", FALSE), ("corrected", "c", TRUE), ("control", FALSE), ("counterexample", where))
+    result, problems = verdict(
+        ("printed", FALSE), ("corrected", "c", TRUE), ("control", FALSE), ("counterexample", where)
+    )
     assert result is Verdict.OPEN
     assert problems == ["the counterexample does not contradict the printed form"]
 
@@ -125,7 +127,9 @@ def test_two_proofs_of_one_claim_are_refused(monkeypatch):
 
 
 def test_downstream_follows_uses_through_others():
-    claims = {id: Claim(id, "", uses, lambda p: None) for id, uses in [("a", ()), ("b", ("a",)), ("c", ("b",)), ("d", ())]}
+    claims = {
+        id: Claim(id, "", uses, lambda p: None) for id, uses in [("a", ()), ("b", ("a",)), ("c", ("b",)), ("d", ())]
+    }
     assert downstream("a", claims) == ["b", "c"]
 
 

@@ -1,9 +1,9 @@
 """The register as a whole: what is judged, and that the evidence is complete."""
 
 import re
+from fractions import Fraction
 
 import pytest
-from fractions import Fraction
 
 from chapsym.prove import load
 

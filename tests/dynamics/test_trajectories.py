@@ -7,7 +7,7 @@ from hypothesis import given, settings
 import chapsym
 from chapsym import BadInput, Ball, Status, StepNotTaken, testing
 from chapsym.dynamics import front
-from chapsym.dynamics.trajectory import attitude_with
+from chapsym.dynamics.trajectories import attitude_with
 
 BALL = Ball((1, 2, 4), 3, radius=0.5)
 GAMMA = np.array([2, 3, 6]) / 7
@@ -149,7 +149,9 @@ def test_invariants_stay(state):
     assert (np.abs(values - values[0]) <= allowed).all()
 
 
-@pytest.mark.parametrize("gamma", [(0, 0, 1), (0, 0, -1), (1, 0, 0), (0, 1e-9, -1), (3e-5, -4e-5, -np.sqrt(1 - 25e-10))])
+@pytest.mark.parametrize(
+    "gamma", [(0, 0, 1), (0, 0, -1), (1, 0, 0), (0, 1e-9, -1), (3e-5, -4e-5, -np.sqrt(1 - 25e-10))]
+)
 def test_the_least_attitude_turns_gamma_up(gamma):
     gamma = np.array(gamma, dtype=float)
     quaternion = attitude_with(gamma)

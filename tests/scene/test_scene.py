@@ -1,0 +1,85 @@
+"""Scene files: what is read, and what is refused with its key."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from chapsym import Trajectory, scene
+from chapsym.scene import SceneError
+
+GOOD = """
+[ball]
+mass_tensor = [1, 2, "4"]
+D = 3
+[start]
+momentum = [0.1, "-1/20", 0.075]
+gamma = ["2/7", "3/7", "6/7"]
+[run]
+steps = 10
+"""
+
+
+@pytest.fixture
+def write(tmp_path):
+    def written(text):
+        path = tmp_path / "scene.toml"
+        path.write_text(text, encoding="utf-8")
+        return path
+
+    return written
+
+
+def test_a_scene_runs(write):
+    run = scene.run(scene.load(write(GOOD)))
+    assert isinstance(run, Trajectory)
+    assert run.gamma[0].tolist() == [2 / 7, 3 / 7, 6 / 7]
+    assert run.taken == 10
+
+
+def test_the_shipped_scene_runs():
+    run = scene.run(scene.load(Path(__file__).parents[2] / "docs" / "first.toml"))
+    assert run.contact.shape == (1001, 2)
+    energy = run.kinetic_energy()
+    assert np.ptp(energy) / energy[0] < 1e-3
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "sentence"),
+    [
+        ("steps = 10", "steps = 10\nstep = 1", "run.step is not a key of a scene"),
+        ("steps = 10", "", "run.steps is missing"),
+        ("steps = 10", "steps = -1", "run.steps: Input should be greater than or equal to 0"),
+        ("steps = 10", "steps = 1.5", "run.steps: Input should be a valid integer"),
+        ("steps = 10", "steps = 10\ntime_step = 0", "run.time_step: Input should be greater than 0"),
+        ('"2/7"', '"2/0"', "start.gamma.0: value: '2/0' divides by zero"),
+        ('"2/7"', '"import os"', "start.gamma.0: value: 'import os' is not a number"),
+        ('"2/7"', "true", "start.gamma.0: it must be a number"),
+        ("0.1", "nan", "start.momentum.0: Input should be a finite number"),
+        ("0.1,", "", "start.momentum.2 is missing"),
+        ("momentum", "omega", "start.omega needs run.time_step, in seconds"),
+        ("D = 3", "D = 3\ninertia = [1, 1, 1]", "ball: give either mass_tensor or inertia"),
+        ("[ball]", "[ball", "is not TOML"),
+    ],
+)
+def test_a_wrong_scene_names_the_key_and_what_would_be_right(write, old, new, sentence):
+    with pytest.raises(SceneError) as caught:
+        scene.load(write(GOOD.replace(old, new, 1)))
+    assert sentence in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+def test_saving_is_whole_or_not_at_all(write, tmp_path, monkeypatch):
+    run = scene.run(scene.load(write(GOOD)))
+    target = tmp_path / "run.npz"
+    scene.save(run, target)
+    before = target.read_bytes()
+
+    def full(*_, **__):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("numpy.savez", full)
+    with pytest.raises(SceneError, match=r"run\.npz cannot be written: No space left on device"):
+        scene.save(run, target)
+    assert target.read_bytes() == before
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["run.npz", "scene.toml"]

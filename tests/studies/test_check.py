@@ -1,0 +1,36 @@
+"""The check can fail: a wrong step, a wrong kernel and a drifting trajectory are seen."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from chapsym.studies import check
+
+
+@pytest.mark.parametrize("name", check.STRATA)
+def test_every_stratum_keeps_the_budget(name):
+    row = check.check_stratum(name, 2, seed=3)
+    assert row.kept, row
+
+
+def test_a_step_that_is_a_little_wrong_is_seen(monkeypatch):
+    honest = check.step
+
+    def wrong(ball, momentum, gamma):
+        found = honest(ball, momentum, gamma)
+        return dataclasses.replace(found, momentum=found.momentum * (1 + 1e-13))
+
+    monkeypatch.setattr(check, "step", wrong)
+    assert not check.check_stratum("generic", 2, seed=3).kept
+
+
+def test_a_drift_is_seen():
+    moved = check.drift(2000)
+    assert moved.kept
+    assert not dataclasses.replace(moved, squared=2 * moved.budget).kept
+
+
+def test_states_are_seeded():
+    a, b = (check.STRATA["generic"](np.random.default_rng(5)) for _ in range(2))
+    assert (a.K == b.K).all()

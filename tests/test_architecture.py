@@ -1,0 +1,114 @@
+"""The house: which room imports which, and what importing chapsym costs."""
+
+import ast
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import chapsym
+
+ROOT = Path(chapsym.__file__).parent
+
+#: room: the rooms it may import (design, "The house"); lower rows never import higher ones.
+ROOMS = {
+    "generated": set(),
+    "exact": set(),
+    "numbers": set(),
+    "derive": set(),
+    "prove": {"derive"},
+    "codegen": {"derive", "generated"},
+    "dynamics": {"generated", "numbers"},
+    "scene": {"dynamics", "exact"},
+    "studies": {"dynamics", "scene"},
+    "proofs": {"derive", "prove"},
+    "testing": {"dynamics"},
+}
+SYMPY_ROOMS = {"derive", "prove", "codegen", "proofs"}
+
+
+def files(room):
+    if room == "generated" or room == "proofs":
+        folder = Path(__import__(f"chapsym.{room}", fromlist=["x"]).__file__).parent
+    else:
+        folder = ROOT / room
+    return sorted(folder.glob("*.py")) if folder.is_dir() else [folder.with_suffix(".py")]
+
+
+def imports(path, room):
+    """Absolute names of what a file imports, at the top and inside functions."""
+    package = ["chapsym"] if path.parent.name != room and room not in ("generated", "proofs") else ["chapsym", room]
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            base = ".".join(package[: len(package) - node.level + 1] if node.level else [])
+            module = ".".join(x for x in (base, node.module) if x)
+            yield module
+            yield from (f"{module}.{alias.name}" for alias in node.names)
+
+
+@pytest.mark.parametrize("room", ROOMS)
+def test_lower_rooms_never_import_higher_ones(room):
+    for path in files(room):
+        for name in imports(path, room):
+            parts = name.split(".")
+            if parts[0] == "chapsym" and len(parts) > 1 and parts[1] in ROOMS and parts[1] != room:
+                assert parts[1] in ROOMS[room], f"{path.name} imports {name}"
+
+
+@pytest.mark.parametrize("room", sorted(set(ROOMS) - SYMPY_ROOMS))
+def test_what_runs_the_map_does_not_import_sympy(room):
+    for path in files(room):
+        assert not any(name.split(".")[0] == "sympy" for name in imports(path, room)), path
+
+
+def test_every_room_is_listed():
+    folders = {p.name for p in ROOT.iterdir() if p.is_dir() and not p.name.startswith("_")}
+    assert folders | {"generated", "proofs"} <= set(ROOMS)
+
+
+def loaded_by(program):
+    code = f"import sys\n{program}\nprint(*sorted(m for m in sys.modules if '.' not in m))"
+    return set(subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.split())
+
+
+def test_import_chapsym_is_light():
+    """The limit is 0.15 s; what could break it is a heavy import, so those are what is tested."""
+    assert not {"numpy", "sympy", "numba", "mpmath", "flint", "typer", "rich", "pydantic"} & loaded_by("import chapsym")
+
+
+def test_running_the_map_loads_no_sympy():
+    program = (
+        "import chapsym; ball = chapsym.Ball((1, 2, 4), 3)\n"
+        "chapsym.trajectory(ball, (.1, 0, 0), (0, 0, 1), 5)\nimport chapsym.scene"
+    )
+    assert not {"sympy", "numba"} & loaded_by(program)
+
+
+def test_every_public_name_is_there_and_documented():
+    for name in chapsym.__all__:
+        assert getattr(chapsym, name).__doc__, name
+    with pytest.raises(AttributeError, match="no attribute 'nonsense'"):
+        _ = chapsym.nonsense
+
+
+def documented(body):
+    """Public functions and classes of a module or class body, and the methods inside."""
+    for node in body:
+        if isinstance(node, ast.FunctionDef | ast.ClassDef) and not node.name.startswith("_"):
+            yield node
+            if isinstance(node, ast.ClassDef):
+                yield from documented(node.body)
+
+
+def test_every_public_function_has_a_docstring():
+    missing = []
+    for room in sorted(set(ROOMS) - {"generated"}):
+        for path in files(room):
+            for node in documented(ast.parse(path.read_text(encoding="utf-8")).body):
+                inherited = path.name == "rungs.py" and node.name in ("number", "sqrt", "write", "digits", "precision")
+                if not (ast.get_docstring(node) or inherited):
+                    missing.append(f"{path.name}:{node.lineno} {node.name}")
+    assert not missing

@@ -1,0 +1,178 @@
+"""The command's contract, from outside: output, exit status, one sentence for an error."""
+
+import json
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+STEP = ["step", "--mass-tensor", "1,2,4", "--D", "3", "--momentum", "1,-1/2,3/4", "--gamma", "2/7,3/7,6/7"]
+FIRST = str(Path(__file__).parents[1] / "docs" / "first.toml")
+
+
+def chapsym(*arguments, **kwargs):
+    return subprocess.run(
+        [sys.executable, "-m", "chapsym.cli", *arguments], capture_output=True, text=True, check=False, **kwargs
+    )
+
+
+def answer(*arguments):
+    done = chapsym(*arguments, "--json")
+    assert done.returncode == 0, done.stderr
+    assert done.stderr == ""
+    return json.loads(done.stdout)
+
+
+def refused(*arguments, status=2):
+    """The one sentence of an error."""
+    done = chapsym(*arguments)
+    assert done.returncode == status, done.stdout + done.stderr
+    assert done.stdout == ""
+    assert done.stderr.startswith("chapsym: ")
+    assert done.stderr.count("\n") == 1
+    assert "Traceback" not in done.stderr
+    return done.stderr
+
+
+def test_step_gives_the_contracts_fields():
+    found = answer(*STEP)
+    assert list(found) == ["q0", "q", "momentum", "gamma"]
+    assert found["q0"] == 0.9919717060270817
+    assert [len(found[k]) for k in ("q", "momentum", "gamma")] == [3, 3, 3]
+
+
+def test_step_in_digits_and_balls_is_strings():
+    found = answer(*STEP, "--digits", "50")
+    assert found["q0"] == "0.99197170602708171010388503048470154201915085122739"
+    found = answer(*STEP, "--ball", "200")
+    assert re.fullmatch(r"\[0\.9919717060270817101038850304847015420191508512273869\d+ \+/- \S+\]", found["q0"])
+
+
+def test_inertia_mass_and_radius_are_other_ways_to_say_the_ball():
+    other = ["step", "--inertia", "6,5,3", "--mass", "12", "--radius", "1/2", *STEP[5:]]
+    assert answer(*other) == answer(*STEP)
+
+
+def test_a_negative_first_component_is_no_option():
+    assert answer(*STEP[:5], "--momentum", "-1,1/2,3/4", "--gamma", "2/7,3/7,-6/7")["q0"] < 1
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        (["nonsense"], "No such command 'nonsense'"),
+        (["step"], "Missing option '--momentum'"),
+        ([*STEP, "--momentum", "1,2"], "--momentum takes 3 numbers separated by commas"),
+        ([*STEP, "--momentum", "1,2,__import__('os')"], "is not a number; write it as 1/3, -2, 0.25 or 1e-12"),
+        ([*STEP, "--momentum", "1,2,1/0"], "'1/0' divides by zero"),
+        ([*STEP, "--momentum", "nan,0,0"], "'nan' is not a number"),
+        ([*STEP, "--momentum", "1e400,0,0"], "beyond the range of float64"),
+        ([*STEP, "--momentum", "1e99999999,0,0"], "is not a number"),
+        ([*STEP, "--momentum", "100,0,0"], "no rotation of this ball has this momentum"),
+        ([*STEP, "--momentum", "5,-5/2,15/4"], "folds before it reaches this momentum"),
+        ([*STEP, "--gamma", "0,0,1.1"], "gamma must be a unit vector"),
+        ([*STEP, "--inertia", "6,5,3"], "either --mass-tensor J1,J2,J3 or --inertia"),
+        ([*STEP, "--mass-tensor", "-1,2,4"], "negative moment -1"),
+        ([*STEP, "--mass", "1"], "either --D, or --mass and --radius"),
+        ([*STEP, "--digits", "20", "--ball", "64"], "choose one of --digits, --rung and --ball"),
+        ([*STEP, "--digits", "0"], "--digits"),
+        ([*STEP, "--rung", "single"], "the only rung so far is double"),
+        (["step", "--inertia", "1,1,3", *STEP[3:]], "no body has the inertia 1,1,3"),
+        (["prove", "9.9"], "no proof judges the claim '9.9'"),
+        (["run", "missing.toml", "-o", "x.npz"], "missing.toml cannot be read: No such file or directory"),
+        (["run", FIRST], "names no output: add -o OUT.npz"),
+        (["run", FIRST, "-o", "x.txt"], "x.txt: the output must end in .npz or .csv"),
+        (["run", FIRST, "-o", "/nowhere/x.npz"], "the folder /nowhere does not exist"),
+        (["codegen", "--check", "--trust", "all"], "does not go with --check"),
+        (["check", "--states", "0"], "--states"),
+    ],
+)
+def test_wrong_input_is_one_sentence_and_status_2(arguments, sentence):
+    assert sentence in refused(*arguments)
+
+
+def test_help_shows_an_example_of_each_command():
+    listing = chapsym("--help")
+    assert listing.returncode == 0
+    assert chapsym().stdout == listing.stdout
+    for command in re.findall(r"^  (\w+)  ", listing.stdout, re.MULTILINE):
+        text = chapsym(command, "--help").stdout
+        assert f"Example: chapsym {command}" in text, command
+
+
+def test_prove_some():
+    found = answer("prove", "prop-4", "4.3")
+    assert [c["id"] for c in found["claims"]] == ["prop-4", "4.3"]
+    assert [c["verdict"] for c in found["claims"]] == ["corrected", "holds"]
+    assert set(found["claims"][0]) == {"id", "verdict", "printed", "corrected", "evidence", "seconds"}
+    done = chapsym("prove", "4.3", "--explain")
+    assert "verdict: HOLDS" in done.stdout
+    assert "4.3" in chapsym("prove", "--list").stdout
+
+
+def test_a_claim_that_is_not_proved_exits_1(tmp_path):
+    """A flipped sign in derive: prop-1 cannot be proved, and the command says which claim and why."""
+    (tmp_path / "sitecustomize.py").write_text(
+        "import chapsym.derive.ball as ball\n"
+        "honest = ball.split_balance\n"
+        "ball.split_balance = lambda: (honest()[0] - 2 * ball.J * ball.Omega, honest()[1])\n"
+    )
+    done = chapsym("prove", "prop-1", "4.3", env={**os.environ, "PYTHONPATH": str(tmp_path)})
+    assert done.returncode == 1
+    assert done.stderr == "chapsym: not proved: prop-1\n"
+    assert "1 holds, 1 open" in done.stdout
+
+
+def test_codegen_check_passes():
+    assert answer("codegen", "--check")["kept"] is True
+
+
+@pytest.mark.parametrize("suffix", [".npz", ".csv"])
+def test_run_writes_a_trajectory(tmp_path, suffix):
+    target = tmp_path / f"first{suffix}"
+    found = answer("run", FIRST, "-o", str(target))
+    assert found["steps"] == 1000
+    assert max(found["drift"]) < 1e-13
+    if suffix == ".npz":
+        with np.load(target) as data:
+            assert data["time_s"][-1] == pytest.approx(10)
+            assert data["contact_m"].shape == (1001, 2)
+            assert data["momentum"][-1].tolist() == found["final"]["momentum"]
+    else:
+        rows = target.read_text().splitlines()
+        assert rows[0].split(",")[:3] == ["step", "time_s", "momentum_0"]
+        assert len(rows) == 1002
+    assert [p.name for p in tmp_path.iterdir()] == [target.name]
+
+
+def test_a_run_that_meets_a_fold_keeps_what_it_has(tmp_path):
+    scene = tmp_path / "fold.toml"
+    scene.write_text(
+        "[ball]\nmass_tensor = [1, 2, 4]\nD = 3\n[start]\nmomentum = [4.32, -2.16, 3.24]\n"
+        'gamma = ["2/7", "3/7", "6/7"]\n[run]\nsteps = 100\n'
+    )
+    done = chapsym("run", str(scene), "-o", str(tmp_path / "fold.npz"))
+    assert done.returncode == 1
+    assert "step 3: the small-rotation branch folds" in done.stderr
+    assert "the 3 steps before it are in" in done.stderr
+    with np.load(tmp_path / "fold.npz") as data:
+        assert data["momentum"].shape == (4, 3)
+
+
+def test_a_folder_that_cannot_be_written_loses_nothing(tmp_path):
+    target = tmp_path / "first.npz"
+    target.write_bytes(b"precious")
+    target.with_suffix(".csv").mkdir()
+    assert "cannot be written" in refused("run", FIRST, "-o", str(target.with_suffix(".csv")))
+    assert target.read_bytes() == b"precious"
+
+
+def test_check_passes_in_its_budget():
+    found = answer("check", "--states", "2", "--steps", "5000")
+    assert found["kept"] is True
+    assert len(found["strata"]) == 9
+    assert all(row["kept"] for row in found["strata"])

@@ -1,0 +1,39 @@
+"""Numbers typed by a user."""
+
+from fractions import Fraction
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from chapsym.exact import NotANumber, mass_tensor_from, rational, rationals
+
+
+@given(st.fractions())
+def test_every_fraction_is_read_back(value):
+    assert rational(str(value), "x") == value
+
+
+@pytest.mark.parametrize(
+    ("text", "value"), [("1e-3", Fraction(1, 1000)), (" .5 ", Fraction(1, 2)), ("-2.", Fraction(-2))]
+)
+def test_decimals_are_exact(text, value):
+    assert rational(text, "x") == value
+
+
+@given(st.text())
+def test_any_other_text_is_refused_in_one_sentence(text):
+    try:
+        rational(text, "x")
+    except NotANumber as error:
+        assert "\n" not in str(error)  # noqa: PT017
+        assert str(error).startswith("x: ")  # noqa: PT017
+
+
+def test_the_count_is_checked():
+    with pytest.raises(NotANumber, match="--gamma takes 3 numbers"):
+        rationals("1,2", "--gamma", 3)
+
+
+def test_mass_tensor_from_inertia_is_exact():
+    assert mass_tensor_from((Fraction(6), Fraction(5), Fraction(3))) == (1, 2, 4)
