@@ -3,20 +3,23 @@
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
+SHELL := bash
+.SHELLFLAGS := -e -o pipefail -c
 
 .PHONY: verify test lint clean
 
 verify: $(VENV)/.installed
-	@echo "== prove: every claim that has a proof"
-	$(BIN)/chapsym prove
-	@echo "== codegen: the kernels are what is derived"
-	$(BIN)/chapsym codegen --check
-	@echo "== run: a real trajectory, ten seconds of a bowling-sized ball"
 	@mkdir -p out
-	$(BIN)/chapsym run docs/first.toml -o out/first.npz
-	@echo "== check: float64 against mpmath"
-	$(BIN)/chapsym check
-	@echo "== verified: claims judged, kernels derived, trajectory in out/first.npz, float64 within its budget"
+	$(BIN)/chapsym prove | tee out/prove.txt
+	$(BIN)/chapsym codegen --check | tee out/codegen.txt
+	$(BIN)/chapsym run docs/first.toml -o out/first.npz | tee out/run.txt
+	$(BIN)/chapsym check | tee out/check.txt
+	@echo
+	@echo "verified:"
+	@echo "  claims      $$(tail -n 1 out/prove.txt)"
+	@echo "  kernels     $$(cat out/codegen.txt)"
+	@echo "  trajectory  $$(head -n 1 out/run.txt)"
+	@echo "  float64     $$(tail -n 1 out/check.txt)"
 
 test: $(VENV)/.installed
 	$(BIN)/python -m pytest -n auto

@@ -356,6 +356,8 @@ def _print_check(rows: list[Any], moved: Any, budget: float) -> None:
         f"over {moved.steps} steps <K,gamma>, <K,K>, <gamma,gamma> moved by "
         f"{moved.height:.1e}, {moved.squared:.1e}, {moved.unit:.1e}, budget {moved.budget:.1e}"
     )
+    worst = max(rows, key=lambda row: row.of_budget)
+    print(f"single steps use at most {worst.of_budget:.0%} of their budget against mpmath ({worst.stratum})")
 
 
 if __name__ == "__main__":

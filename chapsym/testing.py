@@ -10,7 +10,7 @@
 Each takes the strata to draw from, by default all:
 
     rotations: "generic", "near identity" (angles 1e-12 to 1e-3), "near pi" (q0 from 0 to 1e-3)
-    balls: "generic", "degenerate" (equal, nearly equal, flat, D = 0, D large)
+    inertias, mass tensors, balls, states: "generic", "degenerate" (equal, nearly equal, flat, D = 0, D large)
 
 Everything is drawn through Hypothesis, so failures shrink and replay.
 """
@@ -62,25 +62,35 @@ def rotations(draw: st.DrawFn, strata: Sequence[str] = ROTATIONS) -> Floats:
 
 
 @st.composite
-def balls(draw: st.DrawFn, strata: Sequence[str] = BALLS) -> Ball:
-    """Balls whose momentum operator is regular for every γ."""
+def mass_tensors(draw: st.DrawFn, strata: Sequence[str] = BALLS) -> Floats:
+    """J = (J1, J2, J3) of a body; degenerate: equal, nearly equal, two equal, flat."""
     moment = st.floats(0.05, 4.0)
-    tensor, contact = np.array(draw(st.tuples(moment, moment, moment))), draw(st.floats(0.0, 4.0))
+    tensor = np.array(draw(st.tuples(moment, moment, moment)))
     if draw(st.sampled_from(list(strata))) == "degenerate":
-        kind = draw(st.sampled_from(["equal", "nearly equal", "symmetric", "flat", "top", "heavy"]))
+        kind = draw(st.sampled_from(["equal", "nearly equal", "symmetric", "flat"]))
         if kind == "equal":
             tensor[:] = tensor[0]
         elif kind == "nearly equal":
             tensor = tensor[0] * (1 + 1e-14 * np.array(draw(st.tuples(*[st.integers(-9, 9)] * 3))))
         elif kind == "symmetric":
             tensor[1] = tensor[0]
-        elif kind == "flat":
-            tensor[draw(st.integers(0, 2))] = 0.0
-        elif kind == "top":
-            contact = 0.0
         else:
-            contact = 10 ** draw(st.floats(2, 5))
-    return Ball(tensor, contact)  # type: ignore[arg-type]
+            tensor[draw(st.integers(0, 2))] = 0.0
+    return tensor
+
+
+def inertias(strata: Sequence[str] = BALLS) -> st.SearchStrategy[Floats]:
+    """Principal moments (I1, I2, I3) that a body has: I1 = J2 + J3, ..."""
+    return mass_tensors(strata).map(lambda tensor: tensor.sum() - tensor)
+
+
+@st.composite
+def balls(draw: st.DrawFn, strata: Sequence[str] = BALLS) -> Ball:
+    """Balls whose momentum operator is regular for every γ; degenerate: also D = 0 and D large."""
+    contact = draw(st.floats(0.0, 4.0))
+    if draw(st.sampled_from(list(strata))) == "degenerate":
+        contact = draw(st.sampled_from([0.0, contact, 1e2, 1e5]))
+    return Ball(draw(mass_tensors(strata)), contact)  # type: ignore[arg-type]
 
 
 @st.composite

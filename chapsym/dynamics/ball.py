@@ -31,7 +31,7 @@ def _brief(value: Any) -> str:
     return text if len(text) <= 60 else text[:57] + "..."
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Ball:
     """A ball, or an array of balls, that rolls without slipping; its centre of mass is its centre.
 

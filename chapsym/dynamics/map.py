@@ -17,7 +17,7 @@ UNIT_TOLERANCE = 1e-12
 SMALL_BATCH = 64
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Step:
     """The outcome of one step, for one ball or a batch with the leading axes (...).
 

@@ -16,11 +16,11 @@ from .map import UNIT_TOLERANCE, batch, explain, unit_vertical
 SHORT_RUN = 2000
 #: How far R γ may be from e₃ for an attitude that is given with its γ.
 AGREEMENT = 1e-9
-#: Steps between two calls of `progress`, and between two chances to interrupt.
+#: Steps of a ball between two calls of `progress`, and between two chances to interrupt.
 CHUNK = 200_000
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Trajectory:
     """States of one ball, shape (frames, ...), or of a batch, shape (balls..., frames, ...).
 
@@ -116,7 +116,7 @@ def trajectory(
     momentum, gamma: as for `step`; both broadcast with the balls.
     attitude: True (from the least rotation with R γ = e₃) or unit quaternions, (..., 4), to be followed.
     contact: whether to trace the contact point; it needs `ball.radius`, and implies the attitude.
-    progress: called with the steps done so far (of all balls together), a few times a second.
+    progress: called with the steps done so far (of all balls together), after each ball and 200 000 steps.
 
     One ball that cannot take a step raises StepNotTaken with `index` and the `trajectory` before it.
     In a batch the others go on, and `status` and `taken` say which stopped, where.

@@ -2,8 +2,9 @@
 
 import numpy as np
 import pytest
+from hypothesis import given
 
-from chapsym import BadInput, Ball
+from chapsym import BadInput, Ball, testing
 
 
 def test_inertia_and_mass_tensor_are_two_ways_to_say_the_same():
@@ -39,3 +40,9 @@ def test_a_flat_body_survives_rounding():
 def test_a_ball_that_cannot_be_is_refused(build, sentence):
     with pytest.raises(BadInput, match=sentence):
         build()
+
+
+@given(testing.inertias())
+def test_every_inertia_of_a_body_is_taken(moments):
+    ball = Ball.from_inertia(moments, D=1)
+    assert np.abs(ball.inertia - moments).max() <= 4 * 2**-52 * moments.max()
