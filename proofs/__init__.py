@@ -3,6 +3,8 @@
 #: In the order of the paper.
 SCRIPTS = (
     "s2_continuous",
+    "s2_every_n",
+    "s2_classical",
     "s4_principle",
     "s4_constraint",
     "s4_momentum",

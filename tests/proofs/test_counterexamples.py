@@ -200,6 +200,48 @@ def test_2_1_by_hand(records):
     assert sides(records, "2.1") == [(printed, slip)]
 
 
+def test_2_9_by_hand(records):
+    """ω turns e3 to e1, γ = e3, v = e1, ρ = 1: ωγ = e1, so v - ρωγ = 0 is the point of contact below a γ upwards."""
+    slip, printed = [[F(0)], [F(0)], [F(0)]], [[F(2)], [F(0)], [F(0)]]
+    assert matrices(records, "2.9", "printed") == [written(printed), written(slip)]
+    assert matrices(records, "2.9", "corrected") == [written(printed), written(printed)]
+
+
+def test_2_11_by_hand(records):
+    """At rest with ω̇e3 = e1 and γ = e3: v = -ρωγ gives v̇ = -e1, and F = m v̇."""
+    turn, gamma = [[F(0), F(0), F(1)], [F(0), F(0), F(0)], [F(-1), F(0), F(0)]], [F(0), F(0), F(1)]
+    force = [[-x] for x in times(turn, gamma)]
+    assert matrices(records, "2.11-force", "printed") == [written([[F(1)], [F(0)], [F(0)]]), written(force)]
+    assert matrices(records, "2.11-force", "corrected") == [written(force), written(force)]
+    Gamma, tensor = [[a * b for b in gamma] for a in gamma], diagonal((1, 2, 4))
+    rate = added((1, matmul(tensor, turn)), (1, matmul(turn, tensor)))
+    lifted = added((1, matmul(turn, Gamma)), (1, matmul(Gamma, turn)))
+    column = [x[0] for x in force]
+    wedge = [[a * b - c * d for b, d in zip(gamma, column, strict=True)] for a, c in zip(column, gamma, strict=True)]
+    truth = added((1, rate), (-1, wedge))
+    assert matrices(records, "2.11-eliminated", "printed") == [written(added((1, rate), (-1, lifted))), written(truth)]
+    assert matrices(records, "2.11-eliminated", "corrected") == [written(truth), written(truth)]
+    assert truth == added((1, rate), (1, lifted))
+
+
+def test_2_4_kinetic(records):
+    """m|v|² with |v| = ρ|ω×γ|, m ρ² = D, and I = (J2+J3, J1+J3, J1+J2)."""
+    spin = (F(1), F(-1), F(2))
+    slip, central = cross(spin, GAMMA), [lam - D for lam in LAM]
+    twice = D * dot(slip, slip) + dot([i * w for i, w in zip(central, spin, strict=True)], spin)
+    assert sides(records, "2.4-kinetic") == [([twice], [twice / 2])]
+    assert sides(records, "2.4-kinetic", "corrected") == [([twice], [twice])]
+
+
+def test_2_7_integrals(records):
+    """Λω = γ: h and l from K = Λω - D⟨ω,γ⟩γ = hγ."""
+    spin = inverse_lam(GAMMA)
+    h = 1 - D * dot(spin, GAMMA)
+    l = h * dot(GAMMA, spin)
+    assert sides(records, "2.7-integrals") == [([dot(spin, GAMMA)], [l])]
+    assert sides(records, "2.7-integrals", "corrected") == [([dot(spin, GAMMA)], [(h * h + D * l) * l / h**2])]
+
+
 def test_every_corrected_claim_is_recomputed_here(records):
     source = Path(__file__).read_text(encoding="utf-8")
     for id, record in records.items():

@@ -1,0 +1,184 @@
+"""Section 2: the continuous ball for every n, from d'Alembert's principle, with words in noncommuting symbols."""
+
+import sympy as sp
+
+from chapsym.derive import motion
+from chapsym.derive.motion import ALGEBRA, D, Gamma, J, K, alpha, commutator, gamma, m, omega, rate, rho
+from chapsym.derive.words import evaluate
+from chapsym.prove import Equation, Point, Proof, claim, main
+
+DOWNWARDS = "γ is directed from the centre to the plane (2.9 as corrected)"
+
+
+def equation(text: str, left: sp.Expr, right: sp.Expr) -> Equation:
+    """One matrix equation between words."""
+    return Equation(text, [left], [right], ALGEBRA)
+
+
+def spinning_up() -> Point:
+    """n = 3, γ = e₃, at rest, with the angular acceleration that turns e₃ to e₁; m = ρ = 1."""
+    turn = sp.Matrix([[0, 0, 1], [0, 0, 0], [-1, 0, 0]])
+    up = sp.Matrix([0, 0, 1])
+    values = {alpha: turn, omega: sp.zeros(3, 3), J: sp.diag(1, 2, 4), gamma: up, motion.gammaT: up.T}
+    values |= {Gamma: up * up.T, m: sp.S.One, rho: sp.S.One, D: sp.S.One}
+    shown = {"ω": "0", "ω̇": str(turn.tolist()), "J": "diag(1, 2, 4)", "γ": "e3", "m": "1", "ρ": "1", "D": "1"}
+    return Point(shown, lambda expr: evaluate(expr, values))
+
+
+@claim(
+    "2.9", r"v_C + \rho\,\omega\gamma = 0 \text{ with } \gamma \text{ directed upwards, from } H \text{ to } C", ["2.1"]
+)
+def rolling_condition(p: Proof) -> None:
+    """With γ upwards the n-dimensional rolling condition has the wrong sign, as (2.1) has."""
+    p.say("The point of contact is P = C - ργ, and the material point there has the velocity v + ω(P - C).")
+    slip = motion.v + omega * (-rho * gamma)
+    p.printed(equation("v + ρωγ = the velocity of P", motion.v + rho * omega * gamma, slip))
+    p.corrected(
+        r"v_C + \rho\,\omega\gamma = 0 \text{ with } \gamma \text{ directed downwards, from } C \text{ to } H",
+        equation(
+            "v + ρωγ = v + ω(P - C) for P = C + ργ", motion.v + rho * omega * gamma, motion.v + omega * rho * gamma
+        ),
+    )
+    p.say("Everything after (2.9) uses the sign as printed, hence γ downwards; D and Γ do not see the difference.")
+    up, turn = sp.Matrix([0, 0, 1]), sp.Matrix([[0, 0, 1], [0, 0, 0], [-1, 0, 0]])
+    values = {omega: turn, gamma: up, motion.v: sp.Matrix([1, 0, 0]), rho: sp.S.One}
+    shown = {"ω": str(turn.tolist()), "γ": "e3", "v": "e1", "ρ": "1"}
+    p.counterexample(Point(shown, lambda expr: evaluate(expr, values)))
+    p.control(equation("v + ργω = the velocity of P", motion.v + rho * gamma * omega, slip))
+
+
+@claim("2.10", r"M = J\omega + \omega J")
+def centre_momentum(p: Proof) -> None:
+    """The angular momentum about the centre, from the kinetic energy ½ tr(Ṙ J Ṙᵀ)."""
+    derived = motion.centre_momentum()
+    p.show("M", derived)
+    p.printed(equation("M = Jω + ωJ", J * omega + omega * J, derived))
+    kinetic = ALGEBRA.trace(omega * J * ALGEBRA.transpose(omega)) / 2
+    p.lemma(equation("-¼ tr(ωM) = ½ tr(Ṙ J Ṙᵀ)", -ALGEBRA.trace(omega * derived) / 4, kinetic))
+    p.control(equation("M = ½(Jω + ωJ)", (J * omega + omega * J) / 2, derived))
+
+
+@claim(
+    "2.11",
+    r"\dot M + [\omega, M] = \rho F\wedge\gamma,\ m(\dot v_C + \omega v_C) = F,\ \dot\gamma + \omega\gamma = 0",
+    ["2.9", "2.10"],
+)
+def equations_of_motion(p: Proof) -> None:
+    """The equations of motion are d'Alembert's principle in the frame of the body."""
+    p.assume(DOWNWARDS)
+    p.say("tr(R̈ J δRᵀ) + ⟨m r̈, δr⟩ = 0 for δR = Rη, δr = -ρRηγ, every skew η; R̈ = R(ω̇+ω²), r̈ = R(v̇+ωv).")
+    principle = motion.dalembert()
+    p.show("0", principle)
+    momentum = J * omega + omega * J
+    balance = rate(momentum) + commutator(omega, momentum)
+    force = motion.inertial_force()
+    p.printed(
+        equation(
+            "Ṁ + [ω,M] - ρF∧γ, F = m(v̇ + ωv), is the principle", balance - rho * ALGEBRA.wedge(force, gamma), principle
+        ),
+        equation("γ̇ + ωγ = 0 for γ = R⁻¹γ⃗", rate(gamma) + omega * gamma, sp.S.Zero),
+    )
+    p.control(equation("with +ρF∧γ on the left", balance + rho * ALGEBRA.wedge(force, gamma), principle))
+    p.control(
+        equation(
+            "with [M,ω]", rate(momentum) - commutator(omega, momentum) - rho * ALGEBRA.wedge(force, gamma), principle
+        )
+    )
+
+
+@claim("2.11-force", r"F = m\rho\,\dot\omega\gamma", ["2.11"])
+def reaction_force(p: Proof) -> None:
+    """The reaction force: its sign is misprinted."""
+    p.assume(DOWNWARDS)
+    p.say("v = -ρωγ and γ̇ = -ωγ give v̇ + ωv = -ρω̇γ.")
+    force = motion.on_rolling(motion.inertial_force())
+    p.show("F", force)
+    p.printed(equation("F = mρω̇γ", m * rho * alpha * gamma, force))
+    p.corrected(r"F = -m\rho\,\dot\omega\gamma", equation("F = -mρω̇γ", -m * rho * alpha * gamma, force))
+    p.counterexample(spinning_up())
+    p.control(equation("F = -mρ(ω̇ + ω²)γ", -m * rho * (alpha + omega * omega) * gamma, force))
+
+
+def eliminated() -> sp.Expr:
+    """The principle with v, v̇ from the rolling condition and m = D/ρ²; it vanishes."""
+    return ALGEBRA.normal(sp.expand(motion.on_rolling(motion.dalembert()).subs(m, D / rho**2)))
+
+
+@claim(
+    "2.11-eliminated",
+    r"\dot M + [\omega, M] = D(\dot\omega\Gamma + \Gamma\dot\omega),\ \dot\Gamma + [\omega,\Gamma] = 0",
+    ["2.11-force"],
+)
+def eliminated_force(p: Proof) -> None:
+    """After F is eliminated the right side has the sign of F, which is misprinted."""
+    p.assume(DOWNWARDS)
+    momentum = J * omega + omega * J
+    balance = rate(momentum) + commutator(omega, momentum)
+    lifted = D * (alpha * Gamma + Gamma * alpha)
+    p.lemma(equation("Γ̇ + [ω,Γ] = 0", rate(Gamma) + commutator(omega, Gamma), sp.S.Zero))
+    p.printed(equation("Ṁ + [ω,M] - D(ω̇Γ + Γω̇) is the principle", balance - lifted, eliminated()))
+    p.corrected(
+        r"\dot M + [\omega, M] = -D(\dot\omega\Gamma + \Gamma\dot\omega)",
+        equation("Ṁ + [ω,M] + D(ω̇Γ + Γω̇) is the principle", balance + lifted, eliminated()),
+    )
+    p.counterexample(spinning_up())
+    p.control(equation("Ṁ + [ω,M] + 2D(ω̇Γ + Γω̇) is the principle", balance + 2 * lifted, eliminated()))
+
+
+@claim("2.12", r"\dot{\mathbf K} + [\omega, \mathbf K] = 0,\ \dot\Gamma + [\omega, \Gamma] = 0", ["2.11-eliminated"])
+def conservation(p: Proof) -> None:
+    """The momentum about the contact point is fixed in space, for every n."""
+    momentum = motion.contact_momentum()
+    p.show("K", momentum)
+    p.printed(
+        equation("K̇ + [ω,K] is the principle", rate(momentum) + commutator(omega, momentum), eliminated()),
+        equation("Γ̇ + [ω,Γ] = 0", rate(Gamma) + commutator(omega, Gamma), sp.S.Zero),
+    )
+    p.control(equation("K̇ - [ω,K] is the principle", rate(momentum) - commutator(omega, momentum), eliminated()))
+    wrong = J * omega + omega * J - D * (Gamma * omega + omega * Gamma)
+    p.control(equation("the same with -D in K", rate(wrong) + commutator(omega, wrong), eliminated()))
+
+
+@claim("2.14", r"\mathrm{tr}\,\mathbf K^s,\ \mathrm{tr}(\mathbf K^s\Gamma^l),\ \mathrm{tr}\,\Gamma = 1", ["2.12"])
+def trace_integrals(p: Proof) -> None:
+    """The trace integrals of the continuous ball, for every n, s and l."""
+    rates = {**motion.RATES, K: -commutator(omega, K)}
+    X, Y = sp.symbols("X Y", commutative=False)
+    algebra = type(ALGEBRA)({**ALGEBRA.transposes, X: X, Y: Y}, ALGEBRA.rules)
+    p.say("By (2.12) the rate of K and of Γ is -[ω, ·], and the commutator is a derivation:")
+    product = Equation(
+        "[ω,X]Y + X[ω,Y] = [ω,XY]",
+        [commutator(omega, X) * Y + X * commutator(omega, Y)],
+        [commutator(omega, X * Y)],
+        algebra,
+    )
+    p.lemma(product)
+    p.lemma(Equation("tr [ω,X] = 0", [algebra.trace(commutator(omega, X))], [sp.S.Zero], algebra))
+    p.say("so that d/dt tr(K^sΓ^l) = -tr[ω, K^sΓ^l] = 0 for all s, l. The first of them, by Leibniz' rule:")
+    for s, l in [(2, 0), (2, 1), (2, 2), (4, 1)]:
+        p.printed(equation(f"d/dt tr K^{s}Γ^{l} = 0", ALGEBRA.trace(rate(K**s * Gamma**l, rates)), sp.S.Zero))
+    p.printed(equation("d/dt tr Γ = 0", ALGEBRA.trace(rate(Gamma, rates)), sp.S.Zero))
+    p.control(equation("d/dt tr K²J = 0", ALGEBRA.trace(rate(K * K * J, rates)), sp.S.Zero))
+    opposite = {**rates, K: commutator(omega, K)}
+    p.control(equation("d/dt tr K²Γ = 0 with K̇ = +[ω,K]", ALGEBRA.trace(rate(K * K * Gamma, opposite)), sp.S.Zero))
+
+
+@claim("2.15", r"H = -\tfrac14\mathrm{tr}(\omega\,\mathcal A\omega) \text{ is an integral}", ["2.12"])
+def energy_integral(p: Proof) -> None:
+    """The energy integral is the kinetic energy, for every n."""
+    momentum = motion.contact_momentum()
+    energy = -ALGEBRA.trace(omega * momentum) / 4
+    velocity = motion.rolling_velocity()
+    kinetic = ALGEBRA.trace(omega * J * ALGEBRA.transpose(omega)) / 2
+    kinetic += ALGEBRA.trace(D / rho**2 * velocity * ALGEBRA.transpose(velocity)) / 2
+    p.lemma(equation("H = ½ tr(Ṙ J Ṙᵀ) + ½ m|v|² on v = -ρωγ", energy, sp.expand(kinetic)))
+    p.say("dH/dt = -½ tr(ω(K̇ + [ω,K])): the principle times the velocity, so it vanishes along every motion.")
+    power = -ALGEBRA.trace(omega * eliminated()) / 2
+    p.printed(equation("dH/dt = -½ tr(ω·(principle))", ALGEBRA.trace(rate(-omega * momentum / 4)), power))
+    p.control(equation("the same for -½ tr(ωAω)", ALGEBRA.trace(rate(-omega * momentum / 2)), power))
+    centre = -omega * motion.centre_momentum() / 4
+    p.control(equation("the same for the energy about the centre", ALGEBRA.trace(rate(centre)), power))
+
+
+if __name__ == "__main__":
+    main(__file__)
