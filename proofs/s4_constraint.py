@@ -5,7 +5,8 @@ from chapsym.proofs.s4_principle import equation, path_point
 
 from chapsym.derive import ball, limits, principle
 from chapsym.derive.principle import ALGEBRA, R0, R0T, R1, R1T, RT, D, J, R, gamma, gammaT, m, rho
-from chapsym.prove import Equation, Proof, claim, main
+from chapsym.derive.words import evaluate
+from chapsym.prove import Equation, Point, Proof, claim, main
 
 # Body rotations and the vertical tensor, as words in the attitudes.
 NOW, NOW_T = RT * R1, R1T * R
@@ -46,6 +47,46 @@ def chosen_constraint(p: Proof) -> None:
     p.control(equation("the naive constraint is horizontal", ALGEBRA.trace(naive * gammaT), sp.S.Zero))
     p.control(equation("the naive constraint admits (q, q)", naive.subs({R1: R, R1T: RT}), sp.S.Zero))
     p.control(Equation("(4.9)/ε → ρ ω̄ᵀγ", [limit.limit], [-rho * limits.omega_space * gamma], both))
+
+
+@claim(
+    "4.9-naive",
+    r"\Delta r_k + \rho\,\bar\Omega_k\bar\gamma = 0 \text{ imitates (2.9) and allows } \Delta r_k"
+    r"\text{ that are not horizontal}",
+)
+def naive_constraint(p: Proof) -> None:
+    """The naive constraint allows displacements that are not horizontal, even at rest."""
+    p.say("It has the form of (2.9), with Δr for v and Ω̄ for ω. Its vertical component is -ρ γᵀΩ̄γ:")
+    turn = sp.Matrix([[1, 0, 0], [0, "3/5", "-4/5"], [0, "4/5", "3/5"]])
+    up = sp.Matrix([0, 0, 1])
+    values = {R: sp.eye(3), RT: sp.eye(3), R1: turn, R1T: turn.T, gamma: up, rho: sp.S.One}
+    naive = -rho * R1 * RT * gamma
+    p.printed_fact("at Ω̄ = a turn by (3/5, 4/5) about e₁, γ = e₃: Δr = (0, 4/5, -3/5)",
+                   list(evaluate(naive, values)) == [0, sp.Rational(4, 5), sp.Rational(-3, 5)])  # fmt: skip
+    p.say("At Ω̄ = 1 it asks for Δr = -ργ: it does not admit (q, q), nor does it tend to (4.2).")
+    p.lemma(equation("Δr at R_{k+1} = R_k is -ργ", naive.subs({R1: R, R1T: RT}), -rho * gamma))
+    p.control(equation("its vertical component vanishes", ALGEBRA.trace(naive * gammaT), sp.S.Zero))
+
+
+@claim("4.9-limit", r"\bar\Omega_k \mapsto \mathbf I + \omega", uses=["4.9"])
+def rotation_limit(p: Proof) -> None:
+    """The continuous limit of the rotation: ε is missing."""
+    algebra, spin = limits.space_algebra(), limits.omega_space
+    expansion = sp.expand(limits.exponential(spin))
+    p.show("Ω̄", expansion)
+    zeroth, first = expansion.coeff(limits.eps, 0), expansion.coeff(limits.eps, 1)
+    p.say("As a statement about the limit: Ω̄ = 1 + (first order) + O(ε²), where the first order is εω, not ω.")
+    e = sp.Symbol("e")  # the value of ε, a parameter of the words
+    p.printed(Equation("the part of Ω̄ up to order 1 = 1 + ω", [zeroth + e * first], [1 + spin], algebra))
+    p.corrected(
+        r"\bar\Omega_k \mapsto \mathbf I + \varepsilon\omega",
+        Equation("the part of Ω̄ up to order 1 = 1 + εω", [zeroth + e * first], [1 + e * spin], algebra),
+    )
+    turn = sp.Matrix([[0, 0, 0], [0, 0, -1], [0, 1, 0]])
+    values = {spin: turn, e: sp.Rational(1, 2)}
+    shown = {"ω": str(turn.tolist()), "ε": "1/2"}
+    p.counterexample(Point(shown, lambda expr: evaluate(expr, values)))
+    p.control(Equation("up to order 1 it is 1 - εω", [zeroth + e * first], [1 - e * spin], algebra))
 
 
 @claim(

@@ -4,7 +4,7 @@ import sympy as sp
 
 from chapsym.derive import ball
 from chapsym.derive.ball import ALGEBRA, D, Gamma, J, K, Omega, OmegaT
-from chapsym.derive.words import WordAlgebra, matrix_symbols
+from chapsym.derive.words import WordAlgebra, evaluate, matrix_symbols
 from chapsym.prove import Equation, Proof, claim, main
 
 
@@ -51,6 +51,77 @@ def compact_form(p: Proof) -> None:
     p.control(equation("the first form with -D/2 in its last term", mutated, now))
     p.control(equation("the first form with D in the place of D/2", first.subs(D, 2 * D), now))
     p.control(equation("the part of the step k-1 = -Ω𝒦Ωᵀ", before, -Omega * now * OmegaT))
+
+
+@claim(
+    "prop-1-proof",
+    r"M_k+\tfrac D2[\Omega_k\Gamma_k+\Gamma_k\Omega_k]-\tfrac D2[\Omega_k^T\Gamma_k+\Gamma_k\Omega_k^T]"
+    r"=\Omega_{k-1}^TM_{k-1}\Omega_{k-1}+\tfrac D2[\Gamma_{k-1}\Omega_{k-1}+\Omega_{k-1}^T\Gamma_{k-1}\Omega_{k-1}^2]"
+    r"-\tfrac D2[(\Omega_{k-1}^T)^2\Gamma_{k-1}\Omega_{k-1}+\Omega_{k-1}^T\Gamma_{k-1}]",
+    uses=["4.10", "4.11"],
+)
+def inside_the_proof(p: Proof) -> None:
+    """The display inside the proof of Proposition 1."""
+    now, before = ball.split_balance()
+    centre = Omega * J - J * OmegaT
+    left = centre + D / 2 * (Omega * Gamma + Gamma * Omega) - D / 2 * (OmegaT * Gamma + Gamma * OmegaT)
+
+    def right(text: str, sign: int) -> Equation:
+        lifted = Gamma * Omega + OmegaT * Gamma * Omega**2 - sign * (OmegaT**2 * Gamma * Omega + OmegaT * Gamma)
+        return equation(text, ball.carried(centre) + D / 2 * lifted, -before)
+
+    p.printed(
+        equation("the left side = the part of the balance that belongs to the step k", left, now),
+        right("the right side = minus the part that belongs to the step k-1", +1),
+    )
+    p.control(right("the right side with its last bracket added", -1))
+
+
+@claim(
+    "4.14",
+    r"M_k = \Omega_{k-1}^TM_{k-1}\Omega_{k-1},\ M_k = \Omega_kJ-J\Omega_k^T;\quad "
+    r"M_{k-1} = \Omega_{k-1}J-J\Omega_{k-1}^T,\ M_k = J\Omega_{k-1}-\Omega_{k-1}^TJ",
+    uses=["prop-1"],
+)
+def discrete_euler_top(p: Proof) -> None:
+    """The discrete Euler top is the case D = 0, with its intertwining relations."""
+    now, before = (part.subs(D, 0) for part in ball.split_balance())
+    centre = Omega * J - J * OmegaT
+    p.printed(
+        equation("𝒦 at D = 0 is M_k = ΩJ - JΩᵀ", now, centre),
+        equation("the balance at D = 0 is M_k = ΩᵀM_{k-1}Ω", -before, ball.carried(centre)),
+        equation("Ωᵀ(ΩJ - JΩᵀ)Ω = JΩ - ΩᵀJ", ball.carried(centre), J * Omega - OmegaT * J),
+    )
+    p.control(equation("Ωᵀ(ΩJ - JΩᵀ)Ω = ΩJ - JΩᵀ", ball.carried(centre), centre))
+
+
+@claim("4.13-multivalued", r"\text{(4.13), in general, has several solutions } \Omega_k", uses=["prop-1"])
+def several_solutions(p: Proof) -> None:
+    """Two rational rotations with the same momentum at the same vertical, for a ball with D > 0."""
+    first, second = (_turn(c, s) for c, s in (("7/25", "24/25"), ("-7/25", "24/25")))
+    vertical = sp.Matrix([0, 1, 0])
+    values = {J: sp.diag(1, 2, 4), Gamma: vertical * vertical.T, D: sp.Integer(3)}
+
+    def momentum(turn: sp.Matrix) -> sp.Matrix:
+        return evaluate(ball.momentum(), {**values, Omega: turn, OmegaT: turn.T})
+
+    p.say("Turns about e₁ with cos θ = ±7/25, sin θ = 24/25, at γ = e₂, J = (1,2,4), D = 3:")
+    p.show("𝒦 of the first", momentum(first))
+    p.printed_fact("both are rotations, they differ, and (4.13) gives the same 𝒦",
+                   first.T * first == sp.eye(3) == second.T * second
+                   and first.det() == 1 == second.det() and first != second
+                   and momentum(first) == momentum(second))  # fmt: skip
+    p.fact("𝒦 is not 0", not momentum(first).is_zero_matrix)
+    X, XT = matrix_symbols("X X^T")
+    other = ball.momentum().xreplace({Omega: X, OmegaT: XT})
+    algebra = WordAlgebra({**ALGEBRA.transposes, X: XT, XT: X}, {**ALGEBRA.rules, (X, XT): 1, (XT, X): 1})
+    p.control(equation("any two rotations have the same 𝒦", other, ball.momentum(), algebra))
+
+
+def _turn(cosine: str, sine: str) -> sp.Matrix:
+    """A turn about e₁."""
+    c, s = sp.Rational(cosine), sp.Rational(sine)
+    return sp.Matrix([[1, 0, 0], [0, c, -s], [0, s, c]])
 
 
 @claim(

@@ -4,7 +4,7 @@ import sympy as sp
 
 from chapsym.derive import principle
 from chapsym.derive.principle import ALGEBRA, R0, R0T, R1, R1T, RT, J, Lam, R, f, fT, gamma, gammaT, m, rho
-from chapsym.derive.words import evaluate
+from chapsym.derive.words import WordAlgebra, evaluate, matrix_symbols
 from chapsym.prove import Equation, Point, Proof, claim, main
 
 CORRECTED = principle.kinetic_factor()
@@ -174,6 +174,70 @@ def euler_poincare(p: Proof) -> None:
     turned = step * before * ALGEBRA.transpose(step)
     p.control(equation("the same with Ω M_{k-1} Ωᵀ", now - turned - rho * force, balance))
     p.control(equation("the same with γ∧F", now - moved + rho * force, balance))
+
+
+@claim("4.2", r"\dot r + \rho\,\dot R R^T\vec\gamma = 0", uses=["2.9"])
+def rolling_in_space(p: Proof) -> None:
+    """The rolling condition in the fixed frame is (2.9), carried there."""
+    p.assume("γ is directed downwards, as (2.9) needs (corrected there)")
+    p.say("With Ṙ = Rω, ṙ = Rv and γ⃗ = Rγ: the column of (4.2) is R times that of (2.9).")
+    spin, velocity, vertical = matrix_symbols("omega v gamma_k")
+    algebra = WordAlgebra({**ALGEBRA.transposes, spin: -spin}, ALGEBRA.rules)
+    fixed = principle.rolling_constraint(R * velocity, R * spin).subs(gamma, R * vertical)
+    body = velocity + rho * spin * vertical
+    p.printed(Equation("ṙ + ρṘRᵀγ⃗ = R(v + ρωγ)", [fixed], [R * body], algebra))
+    wrong = velocity - rho * spin * vertical
+    p.control(Equation("ṙ + ρṘRᵀγ⃗ = R(v - ρωγ)", [fixed], [R * wrong], algebra))
+
+
+@claim(
+    "4.6-body",
+    r"M_k = \mathrm{Ad}_{R_k} m_k \equiv \Omega_k J - J\Omega_k^T,\ \Omega_k = R_k^T R_{k+1}",
+    uses=["4.6"],
+)
+def body_momentum(p: Proof) -> None:
+    """The momentum in the body: the right side is right, but it is Ad of the inverse."""
+    p.assume("Ad_R X = R X R⁻¹, the adjoint action")
+    spatial = principle.spatial_momentum(R, R1)
+    body = RT * R1 * J - J * R1T * R
+    p.printed(equation("R_k m_k R_kᵀ = Ω_k J - J Ω_kᵀ", R * spatial * RT, body))
+    p.corrected(
+        r"M_k = \mathrm{Ad}_{R_k^{-1}} m_k = R_k^T m_k R_k",
+        equation("R_kᵀ m_k R_k = Ω_k J - J Ω_kᵀ", RT * spatial * R, body),
+    )
+    turn = sp.Matrix([[1, 0, 0], [0, "3/5", "-4/5"], [0, "4/5", "3/5"]])
+    other = sp.Matrix([["3/5", "-4/5", 0], ["4/5", "3/5", 0], [0, 0, 1]])
+    p.counterexample(path_point({R: turn, R1: other, J: sp.diag(1, 2, 3)}))
+    p.control(equation("R_kᵀ m_k R_k = J Ω_k - Ω_kᵀ J", RT * spatial * R, J * RT * R1 - R1T * R * J))
+
+
+@claim(
+    "4.6-frame",
+    r"M_k = \Omega_{k-1}^T M_{k-1}\Omega_{k-1} + \rho(R_k^T\vec f^k\gamma^T R_k - R_k^T\gamma_k\vec f^T R_k)",
+    uses=["4.6", "4.6-body"],
+)
+def balance_in_body(p: Proof) -> None:
+    """The balance carried to the body: γ_k stands where the spatial γ must."""
+    p.assume("γ without an index is the vertical in space; γ_k = R_kᵀγ is the one in the body (4.8)")
+    now = RT * principle.spatial_momentum(R, R1) * R
+    step, before = R0T * R, R0T * principle.spatial_momentum(R0, R) * R0
+    moved = ALGEBRA.transpose(step) * before * step
+    force = principle.reaction()
+    balance = RT * principle.momentum_balance(CORRECTED) * R
+
+    def carried(text: str, vertical: sp.Expr) -> Equation:
+        torque = RT * force * gammaT * R - RT * vertical * ALGEBRA.transpose(force) * R
+        return equation(text, now - moved - rho * torque, balance)
+
+    p.printed(carried("with R_kᵀγ_k fᵀR_k", RT * gamma))
+    p.corrected(
+        r"\rho(R_k^T\vec f^k\vec\gamma^T R_k - R_k^T\vec\gamma\vec f^T R_k)", carried("with R_kᵀγ fᵀR_k", gamma)
+    )
+    turn = sp.Matrix([[1, 0, 0], [0, "3/5", "-4/5"], [0, "4/5", "3/5"]])
+    values = {R0: turn, R: turn, R1: turn, J: sp.diag(1, 2, 3), gamma: sp.Matrix([0, 0, 1])}
+    values |= {principle.r0: sp.zeros(3, 1), principle.r: sp.zeros(3, 1), principle.r1: sp.Matrix([0, 1, 0])}
+    p.counterexample(path_point({**values, m: sp.S.One, rho: sp.S.One}))
+    p.control(carried("with -R_kᵀγ fᵀR_k", -gamma))
 
 
 @claim("4.11", r"\gamma_k = \Omega_{k-1}^T \gamma_{k-1}")

@@ -109,6 +109,7 @@ class Proof:
     counterexamples: list[dict[str, Any]] = field(default_factory=list)
     corrected_text: str | None = None
     condition: str | None = None
+    _facts: list[str] = field(default_factory=list)
     _printed: list[tuple[Equation, bool]] = field(default_factory=list)
     _corrected: list[tuple[Equation, bool]] = field(default_factory=list)
 
@@ -141,6 +142,13 @@ class Proof:
     def printed(self, *equations: Equation) -> None:
         """The formulas of the paper; each is decided as printed."""
         self._printed += [(e, self._decide(e, "printed: ")) for e in equations]
+
+    def printed_fact(self, text: str, truth: bool) -> None:
+        """A printed statement that is no equation: that something exists, or differs, shown by exact numbers."""
+        self._record(f"printed: {text}", truth)
+        if not truth:
+            self.problems.append(f"printed fact fails: {text}")
+        self._facts.append(text)
 
     def corrected(self, text: str, *equations: Equation) -> None:
         """The smallest correction of the printed formulas, and the equations that prove it."""
@@ -179,7 +187,7 @@ class Proof:
         """The verdict that the evidence supports; `open` when anything is missing or failed."""
         if not self.controls:
             self.problems.append("the proof has no negative control")
-        if not self._printed:
+        if not self._printed and not self._facts:
             self.problems.append("no printed form was judged")
         if self.problems:
             return Verdict.OPEN

@@ -242,6 +242,41 @@ def test_2_7_integrals(records):
     assert sides(records, "2.7-integrals", "corrected") == [([dot(spin, GAMMA)], [(h * h + D * l) * l / h**2])]
 
 
+def test_4_6_body_by_hand(records):
+    """R_k = turn about e1, R_{k+1} = turn about e3: RmRᵀ is not ΩJ - JΩᵀ, RᵀmR is."""
+    c, s = F(3, 5), F(4, 5)
+    now, after, tensor = turn_about_first(c, s), [[c, -s, F(0)], [s, c, F(0)], [F(0), F(0), F(1)]], diagonal((1, 2, 3))
+    half = matmul(matmul(after, tensor), transposed(now))
+    spatial = added((1, half), (-1, transposed(half)))
+    omega = matmul(transposed(now), after)
+    body = added((1, matmul(omega, tensor)), (-1, matmul(tensor, transposed(omega))))
+    assert matmul(matmul(transposed(now), spatial), now) == body
+    printed = matmul(matmul(now, spatial), transposed(now))
+    assert matrices(records, "4.6-body", "printed") == [written(printed), written(body)]
+
+
+def test_4_6_frame_by_hand(records):
+    """No rotation, R = turn, f = e2, γ = e3: the torque must be Rᵀ(f∧γ)R, and the balance is -ρ of it."""
+    turn, f, up = turn_about_first(F(3, 5), F(4, 5)), [F(0), F(1), F(0)], [F(0), F(0), F(1)]
+    body_f, body_up = times(transposed(turn), f), times(transposed(turn), up)
+    twice = times(transposed(turn), body_up)
+
+    def minus(a, b, c, d):
+        return [[-(a[i] * b[j] - c[i] * d[j]) for j in range(3)] for i in range(3)]
+
+    truth = minus(body_f, body_up, body_up, body_f)
+    assert matrices(records, "4.6-frame", "printed") == [written(minus(body_f, body_up, twice, body_f)), written(truth)]
+    assert matrices(records, "4.6-frame", "corrected") == [written(truth), written(truth)]
+
+
+def test_4_9_limit_by_hand(records):
+    """ω = e1×, ε = 1/2: 1 + ω is off by ω/2."""
+    spin = [[F(0), F(0), F(0)], [F(0), F(0), F(-1)], [F(0), F(1), F(0)]]
+    truth, printed = (written(added((1, diagonal((1, 1, 1))), (c, spin))) for c in (F(1, 2), F(1)))
+    assert matrices(records, "4.9-limit", "printed") == [truth, printed]
+    assert matrices(records, "4.9-limit", "corrected") == [truth, truth]
+
+
 def test_every_corrected_claim_is_recomputed_here(records):
     source = Path(__file__).read_text(encoding="utf-8")
     for id, record in records.items():

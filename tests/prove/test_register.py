@@ -13,6 +13,8 @@ VERDICTS = {
     "2.9": "corrected", "2.10": "holds", "2.11": "holds", "2.11-force": "corrected", "2.11-eliminated": "corrected",
     "2.12": "holds", "2.14": "holds", "2.15": "holds", "2.3": "holds", "2.2": "holds", "2.4": "holds",
     "2.4-kinetic": "corrected", "2.6": "holds", "2.7-vertical": "holds", "2.7": "holds", "2.7-integrals": "corrected",
+    "4.2": "holds", "4.6-body": "corrected", "4.6-frame": "corrected", "4.9-naive": "holds", "4.9-limit": "corrected",
+    "prop-1-proof": "holds", "4.14": "holds", "4.13-multivalued": "holds",
     "4.1": "corrected", "4.3": "holds", "4.4": "holds", "4.5": "holds", "4.6": "holds", "4.6-limit": "holds",
     "4.7": "holds", "4.9": "holds", "4.9-f": "holds", "4.9-F": "corrected", "4.9-wedge": "holds", "4.10": "holds",
     "4.11": "holds", "prop-1": "holds", "prop-2": "holds", "remark-3": "holds", "4.13-limit": "holds",
