@@ -1,10 +1,11 @@
 """The command: thin, every room imported only when it is asked for.
 
-Exit status: 0 done and proved, 1 a verdict or a check is not what it should be or a step could not be
-taken, 2 the input or the command line is wrong.
+Exit status: 0 done and proved; 1 a verdict or a check is not what it should be; 2 the input has no answer,
+or the command line is wrong; 130 interrupted; 141 nobody reads the output.
 """
 
 import json
+import os
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -15,17 +16,19 @@ from typing import TYPE_CHECKING, Annotated, Any, NoReturn
 import typer
 from typer.exceptions import TyperException
 
+import chapsym
 from chapsym.exact import NotANumber, mass_tensor_from, rational, rationals
 
 if TYPE_CHECKING:
     from chapsym.numbers import Rung
 
 app = typer.Typer(
-    help="A referee that can be run, for Fedorov's discrete Chaplygin ball.",
     add_completion=False,
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
 )
+
+INTERRUPTED = 130
 
 Json = Annotated[bool, typer.Option("--json", help="Print one JSON object on standard output.")]
 
@@ -36,15 +39,35 @@ def main() -> NoReturn:
         sys.argv.append("--help")
     try:
         status = typer.main.get_command(app).main(prog_name="chapsym", standalone_mode=False)
+        sys.stdout.flush()
+        if status == INTERRUPTED:
+            _fail("interrupted", INTERRUPTED)
         sys.exit(status if isinstance(status, int) else 0)
+    except SystemExit as stop:
+        if isinstance(stop.__context__, BrokenPipeError):  # typer turns it into exit 1, which means something else
+            _abandon_output()
+        raise
     except TyperException as error:
         _fail(f"{error.format_message()} (see chapsym --help)", 2)
     except NotANumber as error:
         _fail(str(error), 2)
     except (KeyboardInterrupt, typer.Abort):
-        _fail("interrupted", 130)
+        _fail("interrupted", INTERRUPTED)
     except BrokenPipeError:
-        sys.exit(141)
+        _abandon_output()
+    except OSError as error:
+        _silence_output()
+        _fail(f"the output cannot be written: {error.strerror or error}", 2)
+
+
+def _abandon_output() -> NoReturn:
+    _silence_output()
+    sys.exit(141)
+
+
+def _silence_output() -> None:
+    """Lets nothing more be flushed to an output that refuses it."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _fail(sentence: str, status: int) -> NoReturn:
@@ -70,6 +93,21 @@ def _progress(label: str, total: int) -> Iterator[Callable[[int], None]]:
     with bar:
         task = bar.add_task(label, total=total)
         yield lambda done: bar.update(task, completed=done)
+
+
+def _version(wanted: bool) -> None:
+    if wanted:
+        print(f"chapsym {chapsym.__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def options(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version.")
+    ] = False,
+) -> None:
+    """A referee that can be run, for Fedorov's discrete Chaplygin ball."""
 
 
 @app.command()
@@ -148,7 +186,11 @@ def codegen(
     if check:
         if trust:
             _fail("--trust writes fingerprints, so it does not go with --check", 2)
-        problems = build.check(place)
+        problems = _unproved(build.KERNELS)
+        try:
+            problems += build.check(place)
+        except ArithmeticError as error:
+            problems.append(f"the derivation fails: {error}")
         if as_json:
             _print_json({"folder": str(place), "problems": problems, "kept": not problems})
         elif not problems:
@@ -158,9 +200,14 @@ def codegen(
         return
     if not build.is_checkout(place):
         _fail("this chapsym is an installed copy: generate in a source checkout; here only --check applies", 2)
+    unproved = _unproved(build.KERNELS)
+    if unproved:
+        _fail("; ".join(unproved), 1)
     try:
         written = build.generate(place, trust or [])
-    except ValueError as error:
+    except build.UnknownKernel as error:
+        _fail(str(error), 2)
+    except (ValueError, ArithmeticError) as error:
         _fail(str(error), 1)
     except OSError as error:
         _fail(f"{place} cannot be written: {error.strerror or error}", 2)
@@ -168,6 +215,28 @@ def codegen(
         _print_json({"folder": str(place), "written": written})
     else:
         print(f"wrote {len(written)} files into {place.name}/")
+
+
+def _unproved(kernels: Any) -> list[str]:
+    """The claims that kernels name as their proof and that are not proved, one sentence each."""
+    from chapsym.prove import load, prove_all
+
+    named = {id: kernel.name for kernel in kernels for id in kernel.claims}
+    claims = load()
+    missing = [
+        f"{kernel} names the claim {id}, which no proof judges" for id, kernel in named.items() if id not in claims
+    ]
+    wanted = [id for id in claims if id in named]
+    with _progress("proving what the kernels come from", len(wanted)) as shown:
+        done: list[str] = []
+
+        def arrived(record: dict[str, Any]) -> None:
+            done.append(record["id"])
+            shown(len(done))
+
+        records = prove_all(wanted, None, arrived)
+    failed = [record["id"] for record in records if record["verdict"] == "open"]
+    return missing + [f"{named[id]} comes from the claim {id}, which is not proved" for id in failed]
 
 
 MassTensor = Annotated[str | None, typer.Option("--mass-tensor", metavar="J1,J2,J3", help="J of Sections 4 and 5.")]
@@ -299,7 +368,7 @@ def run(
         print(f"{summary['steps']} steps, {summary['frames']} frames in {destination}")
         print("relative drift of <K,gamma>, <K,K>, <gamma,gamma>: " + ", ".join(f"{x:.1e}" for x in summary["drift"]))
     if failure is not None:
-        _fail(f"{failure}; the {summary['steps']} steps before it are in {destination}", 1)
+        _fail(f"{failure}; the {summary['steps']} steps before it are in {destination}", 2)
 
 
 def _drift(invariants: Any) -> list[float]:

@@ -19,7 +19,11 @@ from collections.abc import Sequence
 from fractions import Fraction
 
 import numpy as np
-from hypothesis import strategies as st
+
+try:
+    from hypothesis import strategies as st
+except ModuleNotFoundError:
+    raise ModuleNotFoundError("chapsym.testing needs Hypothesis: pip install 'chapsym[test]'") from None
 
 from chapsym.dynamics import Ball
 from chapsym.dynamics.ball import Floats

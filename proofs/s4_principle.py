@@ -67,13 +67,14 @@ def discrete_lagrangian(p: Proof) -> None:
                 R1: sp.Matrix([[1, 0, 0], [0, "3/5", "-4/5"], [0, "4/5", "3/5"]]),
                 principle.r0: sp.zeros(3, 1),
                 principle.r: sp.zeros(3, 1),
-                principle.r1: sp.Matrix([0, 2, 0]),
+                principle.r1: sp.Matrix([0, "4/5", 0]),
                 J: sp.diag(1, 2, 3),
                 gamma: sp.Matrix([0, 0, 1]),
-                m: sp.S.One,
+                m: sp.Rational(5, 2),
                 rho: sp.S.One,
             },
             equation("the printed principle, S(1/2) = 0", principle.momentum_balance(PRINTED), sp.S.Zero),
+            equation("(4.9)", principle.discrete_constraint(R, R1, principle.r, principle.r1), sp.S.Zero),
         )
     )
     for factor, why in [(sp.S.One, "the sign alone"), (-PRINTED, "the factor alone")]:

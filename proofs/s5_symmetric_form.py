@@ -1,7 +1,7 @@
 """Section 5: the symmetric form of the reduced map (Proposition 4) and what it needs."""
 
 import sympy as sp
-from chapsym.proofs.s5_vertical import LARGE, SMALL, vertical_state
+from chapsym.proofs.s5_vertical import LARGE, NOT_ZERO, SMALL, vertical_state
 
 from chapsym.derive import vertical
 from chapsym.derive.quotient import Quotient
@@ -55,6 +55,7 @@ def symmetric(text: str, factor: sp.Expr) -> Equation:
 )
 def sum_and_difference(p: Proof) -> None:
     """Sum and difference of consecutive verticals."""
+    p.assume(NOT_ZERO)
     p.printed(
         Equation("γ~ + γ = (4q₀/σ)Λq", list(total()), list(4 * q0 / sigma * LAM * q), RING),
         Equation("γ~ - γ = (4/σ)Λq×q", list(difference()), list(4 / sigma * (LAM * q).cross(q)), RING),
@@ -69,6 +70,7 @@ def sum_and_difference(p: Proof) -> None:
 )
 def kappa_in_q0(p: Proof) -> None:
     """The symmetric form with ϰ = σ/q₀²."""
+    p.assume(NOT_ZERO)
     p.assume("q₀ ≠ 0: at a rotation by π the sum γ~ + γ vanishes")
     p.printed(symmetric("γ~ - γ = σ/(4q₀²)·(γ~+γ)×Λ⁻¹(γ~+γ)", sigma / (4 * q0**2)))
     p.control(symmetric("the same with σ/(2q₀²)", sigma / (2 * q0**2)))
@@ -82,6 +84,8 @@ def kappa_in_q0(p: Proof) -> None:
 )
 def q0_from_sum(p: Proof) -> None:
     """q₀ as a function of the sum: σ² is missing under the root, and the root has two signs."""
+    p.assume(NOT_ZERO)
+    p.assume("q₀ ≠ 0: at a rotation by π the sum γ~ + γ vanishes")
     p.say("By (5.12) |q|² = (σ²/16q₀²)⟨γ~+γ, Λ⁻²(γ~+γ)⟩, and |q|² = 1 - q₀²: a quadratic equation for q₀².")
     p.printed(square_of_root("(2q₀²-1)² = 1 - ¼⟨s, Λ⁻²s⟩, s = γ~+γ", sp.Rational(1, 4)))
     p.corrected(
@@ -112,6 +116,7 @@ def _signs() -> tuple[int, ...]:
 )
 def sigma_equation(p: Proof) -> None:
     """The equation that σ solves has the missing factor 2; the relation that closes it holds."""
+    p.assume(NOT_ZERO)
     lifted = D * sigma / 4 * vertical.gamma_now().dot(INVERSE * total())
     p.lemma(Equation("⟨γ, Λ⁻¹s⟩ = ½⟨s, Λ⁻¹s⟩", [vertical.gamma_now().dot(INVERSE * total())], [first_form() / 2], RING))
     p.printed(Equation("σ = h + D⟨γ, (σ/4)Λ⁻¹s⟩", [sigma], [vertical.height() + lifted], RING))

@@ -13,6 +13,10 @@ SMALL = {q0: "4/5", q1: "2/5", q2: "1/5", q3: "2/5", J1: 1, J2: 2, J3: 4, D: 1, 
 LARGE = {q0: "1/2", q1: "1/2", q2: "1/2", q3: "1/2", J1: 1, J2: 2, J3: 5, D: 2, sigma: 7}
 
 
+#: ⟨q, left⟩ = 2q₀⟨q, Λq⟩ and left(q₀ = 0) = 2 q×Λq leave 𝒦 = 0 when the left side vanishes: see prop-3.
+NOT_ZERO = "σ ≠ 0, which h ≠ 0 implies for a real q: σ = 0 makes the left side of (5.4) vanish, and then 𝒦 = hγ = 0"
+
+
 def vertical_state() -> list[Equation]:
     """What makes (q, σ) a state with 𝒦 = hγ: unit Euler parameters, and |γ| = 1 for γ = left/σ."""
     return [
@@ -74,6 +78,7 @@ def vertical_relation(p: Proof) -> None:
 @claim("5.6-sigma", r"\sigma_k = h + D\langle\gamma_k, q_0\mathbf q\rangle", uses=["5.4"])
 def sigma_definition(p: Proof) -> None:
     """σ inherits the missing factor 2 of (5.4)."""
+    p.assume(NOT_ZERO)
     p.say("σ is the factor for which the left side of (5.4) is σγ; h and γ are written in q, σ.")
     now, height = vertical.gamma_now(), vertical.height()
 
@@ -94,7 +99,7 @@ def sigma_definition(p: Proof) -> None:
 )
 def consecutive_verticals(p: Proof) -> None:
     """γ_k and γ_(k+1) in Euler parameters: the vectors are right, the sign of Ωᵀ is not."""
-    p.assume("σ_k ≠ 0, which h ≠ 0 implies: σ = 0 would make the left side of (5.4) and then 𝒦 = hγ vanish")
+    p.assume(NOT_ZERO)
     now = vertical.gamma_now()
     turned = sp.Matrix(three.rotation()).T * now
     p.lemma(Equation("γ_k as printed", list(2 / sigma * printed_vector(+1)), list(now), RING))
@@ -116,7 +121,7 @@ def consecutive_verticals(p: Proof) -> None:
 )
 def quadratic_integral(p: Proof) -> None:
     """The quadratic integral of the reduced map, for every branch and every h."""
-    p.assume("Λ = diag(J₂+J₃+D, ...) is invertible; (5.4) and (5.6) as corrected")
+    p.assume("q is real and Λ = diag(J₂+J₃+D, ...) is positive, as for every ball; (5.4) and (5.6) as corrected")
     inverse = vertical.lam().inv()
     now, after = vertical.gamma_now(), vertical.gamma_next()
     p.say("σ ≠ 0: both verticals are functions of q, σ on |q|² + q₀² = 1, |γ| = 1; no branch is chosen.")

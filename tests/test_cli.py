@@ -3,8 +3,10 @@
 import json
 import os
 import re
+import signal
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import numpy as np
@@ -85,9 +87,14 @@ def test_a_negative_first_component_is_no_option():
         (["prove", "9.9"], "no proof judges the claim '9.9'"),
         (["run", "missing.toml", "-o", "x.npz"], "missing.toml cannot be read: No such file or directory"),
         (["run", FIRST], "names no output: add -o OUT.npz"),
-        (["run", FIRST, "-o", "x.txt"], "x.txt: the output must end in .npz or .csv"),
+        (["run", FIRST, "-o", "x.txt"], "the output must end in .npz or .csv"),
         (["run", FIRST, "-o", "/nowhere/x.npz"], "the folder /nowhere does not exist"),
         (["codegen", "--check", "--trust", "all"], "does not go with --check"),
+        (["codegen", "--trust", "nonsense"], "there is no such kernel"),
+        ([*STEP, "--gamma", "0,0,1e5000"], "off 1 by more than 1e300"),
+        ([*STEP, "--momentum", "1e-400,0,0"], "below the range of float64; ask for more with --digits"),
+        (["run", FIRST, "-o", "x" * 300 + ".csv"], "cannot be written: File name too long"),
+        (["run", FIRST, "-o", ""], "the output must end in .npz or .csv"),
         (["check", "--states", "0"], "--states"),
     ],
 )
@@ -131,6 +138,54 @@ def test_codegen_check_passes():
     assert answer("codegen", "--check")["kept"] is True
 
 
+def test_kernels_are_not_generated_from_what_is_not_proved(tmp_path):
+    """A flipped sign in the rolling constraint of the principle: 𝒦 is no longer what the claims say."""
+    (tmp_path / "sitecustomize.py").write_text(
+        "import chapsym.derive.principle as principle\n"
+        "honest = principle.rolling_constraint\n"
+        "principle.rolling_constraint = lambda v, r: 2 * v - honest(v, r)\n"
+    )
+    for option in ("--check", "--trust=all"):
+        done = chapsym("codegen", option, env={**os.environ, "PYTHONPATH": str(tmp_path)})
+        assert done.returncode == 1
+        assert "which is not proved" in done.stderr
+    assert answer("codegen", "--check")["kept"] is True
+
+
+def test_output_that_cannot_be_written_is_one_sentence():
+    with open("/dev/full", "w") as full:
+        done = subprocess.run(
+            [sys.executable, "-m", "chapsym.cli", "prove", "--list"], stdout=full, stderr=subprocess.PIPE, text=True,
+            check=False,
+        )  # fmt: skip
+    assert done.returncode == 2
+    assert done.stderr == "chapsym: the output cannot be written: No space left on device\n"
+
+
+def test_output_that_nobody_reads_ends_with_141():
+    script = f"set -o pipefail; {sys.executable} -m chapsym.cli prove 4.3 --json | head -c 1"
+    done = subprocess.run(["bash", "-c", script], capture_output=True, text=True, check=False)
+    assert done.returncode in (0, 141)
+    assert done.stderr == ""
+
+
+@pytest.mark.parametrize("command", [["check", "--states", "500"], ["prove"]])
+def test_an_interrupt_is_told_and_quick(command):
+    with subprocess.Popen(
+        [sys.executable, "-m", "chapsym.cli", *command], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+        start_new_session=True,
+    ) as running:  # fmt: skip
+        time.sleep(2.5)
+        os.killpg(running.pid, signal.SIGINT)
+        _, told = running.communicate(timeout=20)
+    assert running.returncode == 130
+    assert told.strip().splitlines()[-1] == "chapsym: interrupted"
+
+
+def test_the_version_is_told():
+    assert chapsym("--version").stdout == "chapsym 0.1.0\n"
+
+
 @pytest.mark.parametrize("suffix", [".npz", ".csv"])
 def test_run_writes_a_trajectory(tmp_path, suffix):
     target = tmp_path / f"first{suffix}"
@@ -156,7 +211,7 @@ def test_a_run_that_meets_a_fold_keeps_what_it_has(tmp_path):
         'gamma = ["2/7", "3/7", "6/7"]\n[run]\nsteps = 100\n'
     )
     done = chapsym("run", str(scene), "-o", str(tmp_path / "fold.npz"))
-    assert done.returncode == 1
+    assert done.returncode == 2
     assert "step 3: the small-rotation branch folds" in done.stderr
     assert "the 3 steps before it are in" in done.stderr
     with np.load(tmp_path / "fold.npz") as data:

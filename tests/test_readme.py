@@ -55,7 +55,7 @@ def test_the_table_of_errata_names_every_corrected_group(records):
     named = " ".join(rows)
     for id, record in records.items():
         group = {"2.5-inverse": "before 2.5", "4.9-F": "F^k after 4.9", "5.6-sigma": "σ_k", "5.12-sigma": "σ"}
-        if record["verdict"] == "corrected" and id != "5.12-q0":  # which is the formula for ϰ of prop-4
+        if record["verdict"] == "corrected":
             assert group.get(id, id) in named, id
 
 

@@ -19,6 +19,10 @@ DIGITS = 40
 MEND = "chapsym codegen"
 
 
+class UnknownKernel(ValueError):
+    """A kernel was named that is not one."""
+
+
 def folder() -> Path:
     """Where the generated package lies: `generated/` of a checkout, or the installed copy."""
     spec = importlib.util.find_spec("chapsym.generated")
@@ -197,7 +201,9 @@ def generate(place: Path, trust: Sequence[str] = ()) -> list[str]:
     names = {kernel.name for kernel in KERNELS}
     unknown = [name for name in trust if name != "all" and name not in names]
     if unknown:
-        raise ValueError(f"--trust {unknown[0]}: there is no such kernel; the kernels are {', '.join(sorted(names))}")
+        raise UnknownKernel(
+            f"--trust {unknown[0]}: there is no such kernel; the kernels are {', '.join(sorted(names))}"
+        )
     accepted = names if "all" in trust else set(trust)
     problems = [p for p in distrusted(place) if p.split()[0] not in accepted and not p.startswith("the fingerprint of")]
     if problems:

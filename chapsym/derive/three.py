@@ -89,8 +89,10 @@ def _by_parameters(expr: sp.Expr) -> sp.Expr:
 
 def lam() -> sp.Matrix:
     """Λ = diag(J₂ + J₃ + D, ...): what B(γ) + Dγγᵀ is on the unit sphere."""
-    whole = sp.Matrix(contact_inertia()) + D * gamma * gamma.T
-    return whole.applyfunc(RING.normal)
+    whole = (sp.Matrix(contact_inertia()) + D * gamma * gamma.T).applyfunc(RING.normal)
+    if not whole.is_diagonal():
+        raise ArithmeticError("the inertia about the contact point is not a diagonal matrix less D gamma gamma^T")
+    return whole
 
 
 @cache

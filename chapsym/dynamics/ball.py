@@ -1,6 +1,7 @@
 """The ball: its mass tensor, its D = mρ², and the checks that a body can have them."""
 
 from dataclasses import dataclass
+from numbers import Number
 from typing import Any, Self
 
 import numpy as np
@@ -12,11 +13,12 @@ Floats = NDArray[np.float64]
 
 
 def numbers(value: ArrayLike, name: str, trailing: int | None = None) -> Floats:
-    """`value` as finite float64 numbers, with the last axis of length `trailing` if that is given."""
-    try:
-        array = np.asarray(value, dtype=np.float64)
-    except (TypeError, ValueError, OverflowError):
-        raise BadInput(f"{name} must be numbers, not {_brief(value)}") from None
+    """`value` as finite float64 numbers, with the last axis of length `trailing` if that is given.
+
+    Real numbers of any kind are taken, `Fraction` and `Decimal` too; complex numbers, texts, dates and
+    masked entries are refused with BadInput.
+    """
+    array = _as_float(value, name)
     if trailing is not None and (array.ndim == 0 or array.shape[-1] != trailing):
         raise BadInput(f"{name} must have {trailing} components along its last axis, not the shape {array.shape}")
     if not np.isfinite(array).all():
@@ -24,6 +26,24 @@ def numbers(value: ArrayLike, name: str, trailing: int | None = None) -> Floats:
         at = f" at index {tuple(map(int, where))}" if array.ndim else ""
         raise BadInput(f"{name} must be finite, but it is {array[tuple(where)]}{at}")
     return array
+
+
+def _as_float(value: ArrayLike, name: str) -> Floats:
+    wrong = BadInput(f"{name} must be real numbers, not {_brief(value)}")
+    try:
+        array = np.asarray(value)
+    except ValueError:  # rows of different length
+        raise wrong from None
+    if np.ma.is_masked(value) or array.dtype.kind not in "iufO":
+        raise wrong
+    if array.dtype.kind == "O" and not all(isinstance(x, Number) and not isinstance(x, complex) for x in array.flat):
+        raise wrong
+    try:
+        return array.astype(np.float64)
+    except OverflowError:
+        raise BadInput(f"{name} is beyond the range of float64, about 1.8e308") from None
+    except (TypeError, ValueError):
+        raise wrong from None
 
 
 def _brief(value: Any) -> str:
@@ -48,6 +68,8 @@ class Ball:
 
     def __post_init__(self) -> None:
         tensor, contact = numbers(self.mass_tensor, "mass_tensor", 3), numbers(self.D, "D")
+        radius = None if self.radius is None else numbers(self.radius, "radius")
+        _broadcast(tensor, contact, radius)
         object.__setattr__(self, "mass_tensor", tensor)
         object.__setattr__(self, "D", contact)
         if (tensor < 0).any():
@@ -57,14 +79,19 @@ class Ball:
             )
         if (contact < 0).any():
             raise BadInput(f"D = m ρ² must not be negative, but it is {contact.min():g}")
-        moments = tensor.sum(axis=-1, keepdims=True) - tensor + contact[..., np.newaxis]
+        with np.errstate(over="ignore"):
+            pairs = np.stack([tensor[..., i] + tensor[..., j] for i, j in ((1, 2), (0, 2), (0, 1))], axis=-1)
+            moments = pairs + contact[..., np.newaxis]
+        if not np.isfinite(moments).all():
+            raise BadInput("the moments of inertia J2 + J3 + D, ... are beyond the range of float64")
         if not (moments > 0).all():
             raise BadInput("the ball has no inertia about one of its axes: at most two of J1, J2, J3 and D may vanish")
-        if self.radius is not None:
-            radius = numbers(self.radius, "radius")
+        if radius is not None:
             if not (radius > 0).all():
                 raise BadInput(f"radius must be positive, but it is {radius.min():g}")
+            radius.flags.writeable = False
             object.__setattr__(self, "radius", radius)
+        tensor.flags.writeable = contact.flags.writeable = False
 
     @classmethod
     def from_inertia(
@@ -86,6 +113,16 @@ class Ball:
     def inertia(self) -> Floats:
         """The principal moments of inertia about the centre, (J2 + J3, J1 + J3, J1 + J2)."""
         return self.mass_tensor.sum(axis=-1, keepdims=True) - self.mass_tensor
+
+
+def _broadcast(tensor: Floats, contact: Floats, radius: Floats | None) -> None:
+    """Raises BadInput unless the leading axes of the parameters go together."""
+    shapes = [tensor.shape[:-1], contact.shape, *([] if radius is None else [radius.shape])]
+    try:
+        np.broadcast_shapes(*shapes)
+    except ValueError:
+        listed = ", ".join(map(str, shapes))
+        raise BadInput(f"the leading axes of mass_tensor, D and radius do not broadcast: {listed}") from None
 
 
 def mass_tensor_of(inertia: ArrayLike) -> Floats:

@@ -8,9 +8,12 @@ F(w) = 𝒦(p ∘ (1, w), γ) - t𝒦(1 + |w|²) is *quadratic* in w.  So the Ne
 estimate: with T = F'(0) it asks that |T⁻¹F(0)| · |T⁻¹F''| ≤ 1/2, and F'' is constant.  Each
 continuation step is as long as the test allows, hence it stays on the branch; where the steps shrink
 to nothing is the fold.
+
+The equation does not know units: J, D and 𝒦 are first scaled by a power of two, exactly, so that the
+largest moment of inertia is about 1.  No rotation has |𝒦| > 2Λmax, so the path need not go further.
 """
 
-from math import sqrt
+from math import frexp, ldexp, sqrt
 
 from chapsym.generated import compose, residual, tangent_hessian, tangent_jacobian
 
@@ -20,15 +23,17 @@ TAKEN, FOLDED, NOT_CONVERGED = 0, 1, 2
 CONTRACTION = 0.25
 #: A correction below this, relative to the rotation, is the last one: Newton squares it.
 SETTLED = 1e-9
-#: So is one below this many roundings of the residual.
+#: So is one that is below this many roundings of the residual, and shrinks no more.
 ROUNDINGS = 16.0
 UNIT_ROUNDOFF = 2.0**-53
 #: Nor can a correction get below a few of the smallest numbers that float64 has.
 SMALLEST = 2.0**-1070
-#: A continuation step below this fraction of the path is a fold.
+#: A continuation step below this fraction of what is behind it is a fold.
 SHORTEST = 4e-16
-MOST_STEPS = 5000
-MOST_CORRECTIONS = 12
+#: The path is followed as far as this multiple of Λmax.
+FARTHEST = 4.0
+MOST_STEPS = 20000
+MOST_CORRECTIONS = 20
 
 
 def small_rotation(K1, K2, K3, g1, g2, g3, J1, J2, J3, D, shortest=SHORTEST):
@@ -37,27 +42,37 @@ def small_rotation(K1, K2, K3, g1, g2, g3, J1, J2, J3, D, shortest=SHORTEST):
     Returns (status, reach, q0, q1, q2, q3): the unit Euler parameters with q0 ≥ 0, and the fraction t
     that was attained, 1 when the status is TAKEN.
     """
-    t = 0.0
+    _, exponent = frexp(max(J2 + J3, J1 + J3, J1 + J2) + D)
+    J1, J2, J3, D = ldexp(J1, -exponent), ldexp(J2, -exponent), ldexp(J3, -exponent), ldexp(D, -exponent)
+    K1, K2, K3 = ldexp(K1, -exponent), ldexp(K2, -exponent), ldexp(K3, -exponent)
+    largest = max(abs(K1), abs(K2), abs(K3))
+    end = 1.0 if largest <= FARTHEST else FARTHEST / largest
+    K1, K2, K3 = end * K1, end * K2, end * K3
+    t = 0.0  # of the path up to `end` times the momentum
     q0, q1, q2, q3 = 1.0, 0.0, 0.0, 0.0
     for _ in range(MOST_STEPS):
         det, speed, bend, d1, d2, d3 = tangent(q0, q1, q2, q3, K1, K2, K3, g1, g2, g3, J1, J2, J3, D)
         if not det > 0.0:
-            return FOLDED, t, q0, q1, q2, q3
-        steepness = speed * (bend + 2.0 * speed)
+            return FOLDED, t * end, q0, q1, q2, q3
+        # The longest step with speed·step·(bend + 2(t + step)·speed) ≤ CONTRACTION.
+        slope = bend + 2.0 * t * speed
+        length = 2.0 * CONTRACTION / (slope + sqrt(slope * slope + 8.0 * CONTRACTION))
         remaining = 1.0 - t
-        step = remaining if steepness * remaining <= CONTRACTION else CONTRACTION / steepness
-        if not step >= shortest:
-            return FOLDED, t, q0, q1, q2, q3
+        step = remaining if speed * remaining <= length else length / speed
+        if step < shortest * t:
+            return FOLDED, t * end, q0, q1, q2, q3
         t = 1.0 if step == remaining else t + step
         q0, q1, q2, q3 = turned(q0, q1, q2, q3, step * d1, step * d2, step * d3)
         settled, q0, q1, q2, q3 = corrected(q0, q1, q2, q3, t * K1, t * K2, t * K3, g1, g2, g3, J1, J2, J3, D)
         if not settled:
-            return NOT_CONVERGED, t, q0, q1, q2, q3
+            return NOT_CONVERGED, t * end, q0, q1, q2, q3
+        if t == 1.0 and end < 1.0:  # past what any rotation has: the fold was missed
+            return NOT_CONVERGED, end, q0, q1, q2, q3
         if t == 1.0:
             if q0 < 0.0:
                 q0, q1, q2, q3 = -q0, -q1, -q2, -q3
             return TAKEN, 1.0, q0, q1, q2, q3
-    return FOLDED, t, q0, q1, q2, q3
+    return NOT_CONVERGED, t * end, q0, q1, q2, q3
 
 
 def tangent(q0, q1, q2, q3, K1, K2, K3, g1, g2, g3, J1, J2, J3, D):
@@ -83,6 +98,7 @@ def corrected(q0, q1, q2, q3, K1, K2, K3, g1, g2, g3, J1, J2, J3, D):
     """Newton's iteration at a fixed momentum; returns (settled, q0, q1, q2, q3)."""
     size = max(abs(K1), abs(K2), abs(K3))
     top = max(J2 + J3, J1 + J3, J1 + J2) + D
+    before = 2.0
     for _ in range(MOST_CORRECTIONS):
         r1, r2, r3 = residual(q0, q1, q2, q3, K1, K2, K3, g1, g2, g3, J1, J2, J3, D)
         det, i11, i12, i13, i21, i22, i23, i31, i32, i33 = inverse(q0, q1, q2, q3, g1, g2, g3, J1, J2, J3, D)
@@ -96,8 +112,12 @@ def corrected(q0, q1, q2, q3, K1, K2, K3, g1, g2, g3, J1, J2, J3, D):
         extent = max(abs(q1), abs(q2), abs(q3))
         largest = max(abs(i11), abs(i12), abs(i13), abs(i21), abs(i22), abs(i23), abs(i31), abs(i32), abs(i33))
         noise = ROUNDINGS * UNIT_ROUNDOFF * largest * (size + 2.0 * top * extent)
-        if change <= max(SETTLED * extent, noise, SMALLEST):
+        if change <= max(SETTLED * extent, SMALLEST):
             return True, q0, q1, q2, q3
+        # Corrections that are rounding no longer shrink as Newton's do.
+        if change <= noise and change >= 0.25 * before:
+            return True, q0, q1, q2, q3
+        before = change
     return False, q0, q1, q2, q3
 
 

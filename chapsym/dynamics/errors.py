@@ -26,7 +26,7 @@ class Status(IntEnum):
 _SENTENCES = {
     Status.TAKEN: "the step was taken",
     Status.FOLDED: "the small-rotation branch folds before it reaches this momentum; take a shorter time step",
-    Status.NOT_CONVERGED: "the equation for the rotation did not converge to rounding; report this state",
+    Status.NOT_CONVERGED: "float64 cannot resolve the rotation: D is too large beside J, or the state is at a fold",
     Status.UNREACHABLE: "no rotation of this ball has this momentum at this gamma; take a shorter time step",
     Status.NO_INERTIA: "the ball has no inertia about the vertical at this gamma (all its mass lies on that axis)",
 }
@@ -38,6 +38,9 @@ class StepNotTaken(ArithmeticError):
     `status` says why, `index` which step of a trajectory it was (0 is the first), `reach` the fraction
     of the momentum that the branch attains, and `trajectory` holds the states before it, if there are any.
     """
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), (self.status, self.reach, self.index, self.trajectory)
 
     def __init__(self, status: Status, reach: float, index: int | None = None, trajectory: Any = None) -> None:
         self.status, self.reach, self.index, self.trajectory = status, reach, index, trajectory

@@ -50,8 +50,11 @@ def batch(ball: Ball, *vectors: Floats) -> tuple[tuple[int, ...], list[Floats]]:
 
     Returns (shape, [vector (n, 3) ..., mass_tensor (n, 3), D (n,)]).
     """
+    if not isinstance(ball, Ball):
+        raise BadInput(f"ball must be a chapsym.Ball, not {type(ball).__name__}")
+    radius = () if ball.radius is None else ball.radius.shape
     try:
-        shape = np.broadcast_shapes(ball.D.shape, ball.mass_tensor.shape[:-1], *(v.shape[:-1] for v in vectors))
+        shape = np.broadcast_shapes(ball.D.shape, ball.mass_tensor.shape[:-1], radius, *(v.shape[:-1] for v in vectors))
     except ValueError:
         shapes = ", ".join(str(s) for s in [ball.mass_tensor.shape, ball.D.shape, *(v.shape for v in vectors)])
         raise BadInput(f"the leading axes of ball (mass_tensor, D) and vectors do not broadcast: {shapes}") from None
@@ -101,8 +104,12 @@ def explain(status: int, reach: float, K: Floats, g: Floats, J: Floats, D: float
     """Why a step was not taken: FOLDED, unless the curve cannot start or no rotation at all has this momentum."""
     if status == Status.FOLDED and reach == 0.0:
         return Status.NO_INERTIA
-    if status == Status.FOLDED and np.sqrt(K @ K) > largest_momentum(K, g, J, D) * (1 + 1e-12):
-        return Status.UNREACHABLE
+    if status == Status.FOLDED:
+        scale = 2.0 ** -float(np.frexp(J.sum() + D)[1])  # the norm of a huge momentum must not overflow
+        # No rotation has more than twice the largest moment of inertia, which is below 1 now.
+        k = np.clip(K * scale, -4.0, 4.0)
+        if np.abs(k).max() == 4.0 or np.linalg.norm(k) > largest_momentum(k, g, J * scale, D * scale) * (1 + 1e-12):
+            return Status.UNREACHABLE
     return Status(int(status))
 
 
@@ -111,7 +118,8 @@ def largest_momentum(direction: Floats, g: Floats, J: Floats, D: float) -> float
 
     ⟨n, 𝒦(q, γ)⟩ is a quadratic form in the four Euler parameters: its largest eigenvalue.
     """
-    n = direction / np.sqrt(direction @ direction)
+    n = direction / np.abs(direction).max()
+    n /= np.sqrt(n @ n)
 
     def form(p: Floats) -> float:
         return float(n @ np.array(momentum_kernel(*p, *g, *J, D)))

@@ -1,23 +1,27 @@
 """One step at any precision: the float64 root, refined by the same kernels on other numbers."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
+import flint
+
 from chapsym import generated
 from chapsym.numbers import Ball as ArbBall
 from chapsym.numbers import Double, Rung
 
-from .ball import Ball
+from .ball import Ball, Floats
 from .branch import inverse, inverse_of
 from .errors import BadInput, Status, StepNotTaken
-from .map import step
+from .map import Step, step
 
 #: Refinement must stay this near to the float64 root, else another branch may have been met.
 NEAR = 1e-6
 MOST_REFINEMENTS = 60
 MOST_INFLATIONS = 12
+MOST_GUARDS = 4
 
 
 @dataclass(frozen=True)
@@ -61,40 +65,78 @@ def precise_step(
         numbers = [float(x) for x in (*mass_tensor, D, *momentum, *gamma)]
     except OverflowError:
         raise BadInput("a number of the input is beyond the range of float64, where every step starts") from None
+    if isinstance(rung, Double) and any(x != 0 and float(x) == 0.0 for x in momentum):
+        raise BadInput(
+            "a component of the momentum is below the range of float64; ask for more with --digits or --ball"
+        )
     J, K, g = numbers[:3], numbers[4:7], numbers[7:]
     start = step(Ball(J, numbers[3]), K, g)  # type: ignore[arg-type]
     if isinstance(rung, Double):
         return PreciseStep(rung, *(tuple(map(float, x)) for x in (start.rotation, start.momentum, start.gamma)))
+    for attempt in range(MOST_GUARDS):
+        lost = _digits_lost(start.rotation, J, numbers[3], g) << attempt
+        found = _taken(rung.guarded(lost), start, (momentum, gamma, mass_tensor, (D,)))
+        if found is not None:
+            return found
+    raise StepNotTaken(Status.NOT_CONVERGED, 1.0)
+
+
+def _digits_lost(q: Floats, J: list[float], D: float, g: list[float]) -> int:
+    """How many digits the conditioning of the state can cost: log₁₀ of |T⁻¹|·2Λmax, and a few."""
+    top = max(J[1] + J[2], J[0] + J[2], J[0] + J[1]) + D
+    det, *entries = inverse(*[*map(float, q), *g, *(x / top for x in J), D / top])
+    stretch = 2 * max(map(abs, entries)) if det else math.inf
+    return 5 + math.ceil(math.log10(max(1.0, min(stretch, 1e300))))
+
+
+def _taken(rung: Rung, start: Step, given: Sequence[Sequence[Fraction]]) -> PreciseStep | None:
+    """The step in the numbers of the rung; None if they do not settle, or if a ball is too large."""
     with rung.precision():
-        exact = [tuple(map(rung.number, x)) for x in (momentum, gamma, mass_tensor, (D,))]
+        exact = [tuple(map(rung.number, x)) for x in given]
         first = tuple(rung.number(Fraction(float(x))) for x in start.rotation)
         q = _enclosed(rung, first, *exact) if isinstance(rung, ArbBall) else _refined(rung, first, *exact)
-        return PreciseStep(rung, q, generated.transport(*q, *exact[0]), generated.transport(*q, *exact[1]))
+        if q is None:
+            return None
+        found = PreciseStep(rung, q, generated.transport(*q, *exact[0]), generated.transport(*q, *exact[1]))
+        return found if not isinstance(rung, ArbBall) or _small_enough(rung, found) else None
+
+
+def _small_enough(rung: ArbBall, found: PreciseStep) -> bool:
+    """Whether every ball has `bits` correct bits, relative to the largest component of its vector."""
+    unit = flint.arb(2) ** (3 - rung.bits)
+    for vector in (found.rotation, found.rotation[1:], found.momentum, found.gamma):
+        largest = max(abs(x.mid()) for x in vector)
+        if any(x.rad() > largest * unit for x in vector):
+            return False
+    return True
 
 
 def unit_exactly(gamma: Sequence[Fraction], rung: Rung) -> None:
     """Raises BadInput unless |γ|² = 1 to the digits of the rung."""
     off = abs(sum((x * x for x in gamma), Fraction(-1)))
-    tolerance = Fraction(1, 10**12) if isinstance(rung, Double) else Fraction(1, 10**rung.digits)
-    if off > tolerance:
+    shown = f"{float(off):.2g}" if off < 10**300 else "more than 1e300"
+    if off > Fraction(1, 10**rung.digits):
         raise BadInput(
-            f"gamma must be a unit vector to {rung.digits} digits, but |gamma|^2 is off 1 by {float(off):.2g}; "
+            f"gamma must be a unit vector to {rung.digits} digits, but |gamma|^2 is off 1 by {shown}; "
             "give it exactly, as rationals such as 2/7,3/7,6/7"
         )
 
 
-def _refined(rung: Rung, q: tuple, K: tuple, g: tuple, J: tuple, D: tuple) -> tuple:
-    """Newton's iteration in the numbers of the rung, until a correction is below the square root of the last digit."""
-    settled = rung.number(Fraction(1, 10 ** (rung.digits // 2 + 10)))
+def _refined(rung: Rung, q: tuple, K: tuple, g: tuple, J: tuple, D: tuple) -> tuple | None:
+    """Newton's iteration in the numbers of the rung, until a correction is below the square root of what is asked.
+
+    Newton squares the correction, up to the digits that the conditioning costs, which the guard covers.
+    """
+    settled = rung.number(Fraction(1, 10 ** (rung.carried // 2 - 2)))
     for _ in range(MOST_REFINEMENTS):
         w = _correction(q, K, g, J, D)
         change = max(abs(x) for x in w)
         if change > NEAR:
-            break
+            return None
         q = _normalised(rung, generated.compose(*q, 1, *w))
         if change <= settled * max(abs(x) for x in q[1:]):
             return q
-    raise StepNotTaken(Status.NOT_CONVERGED, 1.0)
+    return None
 
 
 def _correction(q: tuple, K: tuple, g: tuple, J: tuple, D: tuple) -> tuple:
@@ -109,17 +151,15 @@ def _normalised(rung: Rung, p: tuple) -> tuple:
     return tuple(x / length for x in p)
 
 
-def _enclosed(rung: ArbBall, q: tuple, K: tuple, g: tuple, J: tuple, D: tuple) -> tuple:
+def _enclosed(rung: ArbBall, q: tuple, K: tuple, g: tuple, J: tuple, D: tuple) -> tuple | None:
     """Unit Euler parameters as balls that contain the one root near the float64 root."""
-    import flint
-
     for _ in range(MOST_REFINEMENTS):
         w = tuple(x.mid() for x in _correction(q, K, g, J, D))
         change = max(abs(x) for x in w)
         if not change < NEAR:
-            break
+            return None
         q = tuple(x.mid() for x in _normalised(rung, generated.compose(*q, flint.arb(1), *w)))
-        if change <= max(abs(x) for x in q[1:]) * flint.arb(2) ** (-(rung.bits + rung.GUARD) // 2 - 2):
+        if change <= max(abs(x) for x in q[1:]) * flint.arb(2) ** (-(rung.bits + rung.guard) // 2 - 2):
             break
     # F(w) = 𝒦(q ∘ (1, w)) - |q|²(1 + |w|²)𝒦 vanishes exactly at the root; q is a point that is nearly unit.
     norm = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]
@@ -127,7 +167,7 @@ def _enclosed(rung: ArbBall, q: tuple, K: tuple, g: tuple, J: tuple, D: tuple) -
     tangent = generated.tangent_jacobian(*q, *g, *J, *D)
     hessian = generated.tangent_hessian(*q, *g, *J, *D)
     # At rest the value is exactly 0, so the box needs a size of its own.
-    least = flint.arb(2) ** -(rung.bits + rung.GUARD)
+    least = flint.arb(2) ** -(rung.bits + rung.guard)
     largest = max(abs(x).upper() for x in _apply(inverse_of(*tangent)[1:], value))
     radius = 4 * largest if largest > 0 else least
     for _ in range(MOST_INFLATIONS):
@@ -139,7 +179,7 @@ def _enclosed(rung: ArbBall, q: tuple, K: tuple, g: tuple, J: tuple, D: tuple) -
             if all(b.contains_interior(x) for b, x in zip(box, image, strict=True)):
                 return _normalised(rung, generated.compose(*q, flint.arb(1), *image))
         radius = radius * 4
-    raise StepNotTaken(Status.NOT_CONVERGED, 1.0)
+    return None
 
 
 def _apply(matrix: Sequence, vector: Sequence) -> tuple:

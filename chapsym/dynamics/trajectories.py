@@ -88,9 +88,14 @@ def attitude_with(gamma: Floats) -> Floats:
 
 def initial_attitude(attitude: bool | ArrayLike, gamma: Floats) -> Floats:
     """The attitude to start from: the one that was given, checked against γ, or the least rotation."""
-    if isinstance(attitude, bool):
+    if isinstance(attitude, bool | np.bool_):
         return attitude_with(gamma)
     given = numbers(attitude, "attitude", 4)
+    try:
+        np.broadcast_to(given, (*gamma.shape[:-1], 4))
+    except ValueError:
+        told = f"attitude has the leading axes {given.shape[:-1]}, the states have {gamma.shape[:-1]}"
+        raise BadInput(told) from None
     if (np.abs((given * given).sum(axis=-1) - 1) > UNIT_TOLERANCE).any():
         raise BadInput("attitude must be unit quaternions (scalar first); divide by the length")
     vertical = front.rotate(given, gamma)
@@ -123,16 +128,21 @@ def trajectory(
     Raises BadInput as `step` does, and for counts that are not positive integers.
     """
     steps, every = _count(steps, "steps", 0), _count(every, "every", 1)
+    every = min(every, steps + 1)
+    time_step = None if time_step is None else _seconds(time_step)
     shape, (K, g, J, D) = batch(ball, numbers(momentum, "momentum", 3), unit_vertical(gamma))
-    with_body = contact or attitude is not False
+    with_body = contact or not (isinstance(attitude, bool | np.bool_) and not attitude)
     if contact and ball.radius is None:
         raise BadInput("the contact point needs the radius: give the ball its radius")
     radius = np.broadcast_to(ball.radius if contact and ball.radius is not None else 0.0, shape).reshape(-1)
     balls, frames = len(D), steps // every + 1
-    momenta, verticals = (np.full((balls, frames, 3), np.nan) for _ in "Kg")
-    momenta[:, 0], verticals[:, 0] = K, g
     body_frames = frames if with_body else 0
-    attitudes, traces = np.full((balls, body_frames, 4), np.nan), np.full((balls, body_frames, 2), np.nan)
+    try:
+        momenta, verticals = (np.full((balls, frames, 3), np.nan) for _ in "Kg")
+        attitudes, traces = (np.full((balls, body_frames, n), np.nan) for n in (4, 2))
+    except (MemoryError, ValueError):
+        raise BadInput(f"{frames} frames of {balls} balls do not fit into memory; keep fewer with every=") from None
+    momenta[:, 0], verticals[:, 0] = K, g
     bodies = np.zeros((balls, 4))
     if with_body:
         bodies[:] = np.broadcast_to(initial_attitude(attitude, g.reshape(*shape, 3)), (*shape, 4)).reshape(-1, 4)
@@ -195,6 +205,13 @@ def _count(value: int, name: str, least: int) -> int:
     return int(value)
 
 
+def _seconds(value: ArrayLike) -> float:
+    epsilon = numbers(value, "time_step")
+    if epsilon.ndim or not epsilon > 0:
+        raise BadInput(f"time_step must be one positive number of seconds, not {value!r}")
+    return float(epsilon)
+
+
 def roll(
     ball: Ball,
     omega: ArrayLike,
@@ -213,13 +230,12 @@ def roll(
     time_step: ε in seconds.  The rest as for `trajectory`; the result has times, energies and, when
     asked for, the contact point in metres.
     """
-    epsilon = numbers(time_step, "time_step")
-    if epsilon.ndim or not epsilon > 0:
-        raise BadInput(f"time_step must be one positive number of seconds, not {time_step!r}")
+    epsilon = _seconds(time_step)
     vertical = unit_vertical(gamma)
     spin = numbers(omega, "omega", 3)
-    momentum = float(epsilon) * front.contact_momentum(spin, vertical, ball.mass_tensor, ball.D)
+    batch(ball, spin, vertical)  # so that a mistake is told in the names of this function
+    momentum = epsilon * front.contact_momentum(spin, vertical, ball.mass_tensor, ball.D)
     return trajectory(
         ball, momentum, vertical, steps, every=every, attitude=attitude, contact=contact,
-        time_step=float(epsilon), progress=progress,
+        time_step=epsilon, progress=progress,
     )  # fmt: skip

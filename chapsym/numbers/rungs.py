@@ -8,7 +8,7 @@ import math
 from abc import ABC, abstractmethod
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from typing import Any
@@ -35,7 +35,16 @@ class Rung(ABC):
     @property
     @abstractmethod
     def digits(self) -> int:
-        """Significant decimal digits."""
+        """Significant decimal digits of the input that matter."""
+
+    @property
+    def carried(self) -> int:
+        """Significant decimal digits of the arithmetic."""
+        return self.digits
+
+    def guarded(self, digits: int) -> "Rung":
+        """The same rung with as many guard digits more, where it has any."""
+        return self
 
     @contextmanager
     def precision(self) -> Iterator[None]:
@@ -58,20 +67,27 @@ class Double(Rung):
 
     @property
     def digits(self) -> int:
-        return 15
+        return 12
 
 
 @dataclass(frozen=True)
 class Digits(Rung):
-    """mpmath numbers, correct to `count` significant digits; a context of its own, no global state."""
+    """mpmath numbers, correct to `count` significant digits; a context of its own, no global state.
+
+    The arithmetic carries `guard` digits more.
+    """
 
     count: int
-    GUARD = 15
+    guard: int = 15
+
+    def guarded(self, digits: int) -> "Digits":
+        """The same rung with as many guard digits more."""
+        return replace(self, guard=self.guard + digits)
 
     @cached_property
     def _context(self) -> Any:
         context = mpmath.MPContext()
-        context.dps = self.count + self.GUARD
+        context.dps = self.count + self.guard
         return context
 
     def number(self, value: Fraction) -> Any:
@@ -81,19 +97,29 @@ class Digits(Rung):
         return self._context.sqrt(value)
 
     def write(self, value: Any) -> str:
-        return str(self._context.nstr(value, self.count, strip_zeros=False, min_fixed=-5, max_fixed=self.count))
+        text = self._context.nstr(value, self.count, strip_zeros=False, min_fixed=-5, max_fixed=self.count)
+        return str(text).removesuffix(".")
 
     @property
     def digits(self) -> int:
         return self.count
 
+    @property
+    def carried(self) -> int:
+        """Digits asked for, and guard digits."""
+        return self.count + self.guard
+
 
 @dataclass(frozen=True)
 class Ball(Rung):
-    """Arb balls: rigorous enclosures, with about `bits` correct bits."""
+    """Arb balls: rigorous enclosures, with about `bits` correct bits; the arithmetic carries `guard` more."""
 
     bits: int
-    GUARD = 40
+    guard: int = 40
+
+    def guarded(self, digits: int) -> "Ball":
+        """The same rung with guard bits for as many digits more."""
+        return replace(self, guard=self.guard + math.ceil(digits / math.log10(2)))
 
     def number(self, value: Fraction) -> Any:
         return flint.arb(flint.fmpq(value.numerator, value.denominator))
@@ -103,7 +129,9 @@ class Ball(Rung):
 
     def write(self, value: Any) -> str:
         text = value.str(self.digits + 2, radius=True)
-        return text if text.startswith("[") else f"[{text} +/- 0]"
+        if not text.startswith("["):
+            return f"[{text} +/- 0]"
+        return text.replace("[+/-", "[0 +/-")
 
     @property
     def digits(self) -> int:
@@ -111,5 +139,5 @@ class Ball(Rung):
 
     @contextmanager
     def precision(self) -> Iterator[None]:
-        with flint.ctx.workprec(self.bits + self.GUARD):
+        with flint.ctx.workprec(self.bits + self.guard):
             yield

@@ -3,6 +3,7 @@
 import importlib
 import multiprocessing
 import os
+import signal
 import sys
 import traceback
 from collections.abc import Callable, Iterable, Sequence
@@ -66,7 +67,9 @@ def prove_all(
             records[id] = prove_one(id)
             on_result(records[id])
         return [records[id] for id in ids]
-    pool = ProcessPoolExecutor(jobs, mp_context=multiprocessing.get_context("spawn"))
+    # An interrupt is for this process; the workers end with the claim that they are at.
+    context = multiprocessing.get_context("spawn")
+    pool = ProcessPoolExecutor(jobs, context, initializer=signal.signal, initargs=(signal.SIGINT, signal.SIG_IGN))
     try:
         for future in as_completed([pool.submit(prove_one, id) for id in ids]):
             record = future.result()

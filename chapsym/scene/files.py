@@ -30,16 +30,20 @@ def columns(run: Trajectory) -> dict[str, np.ndarray]:
 def check_destination(path: Path) -> None:
     """Raises SceneError, before anything is computed, if `path` cannot be written as it is named."""
     if path.suffix not in _WRITERS:
-        raise SceneError(f"{path}: the output must end in {' or '.join(_WRITERS)}")
+        raise SceneError(f"{str(path)!r}: the output must end in {' or '.join(_WRITERS)}")
     folder = path.parent
-    if not folder.is_dir():
-        raise SceneError(f"{path}: the folder {folder} does not exist")
-    if path.is_dir() or not os.access(folder, os.W_OK):
-        raise SceneError(f"{path} cannot be written: choose a file in a folder that is writable")
+    try:
+        if not folder.is_dir():
+            raise SceneError(f"{path}: the folder {folder} does not exist")
+        if path.is_dir() or not os.access(folder, os.W_OK):
+            raise SceneError(f"{path} cannot be written: choose a file in a folder that is writable")
+    except OSError as error:
+        raise SceneError(f"{path} cannot be written: {error.strerror or error}") from None
 
 
 def save(run: Trajectory, path: Path) -> None:
     """Writes the trajectory to .npz or .csv; raises SceneError if the disk refuses."""
+    path = Path(os.path.realpath(path))  # a link stays a link; its file is replaced
     check_destination(path)
     temporary = None
     try:

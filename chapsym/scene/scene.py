@@ -26,6 +26,8 @@ def _number(value: Any) -> Any:
             raise ValueError(str(error)) from None
     if isinstance(value, bool) or not isinstance(value, int | float):
         raise ValueError('it must be a number, or a string such as "2/7"')
+    if isinstance(value, int) and abs(value) > 10**300:
+        raise ValueError("it is beyond the range of float64")
     return value
 
 
@@ -103,7 +105,7 @@ class Scene(_Table):
 def load(path: Path) -> Scene:
     """Reads a scene file; raises SceneError with the file, the key and what would be right."""
     try:
-        text = path.read_text(encoding="utf-8")
+        text = path.read_text(encoding="utf-8-sig")
     except OSError as error:
         raise SceneError(f"{path} cannot be read: {error.strerror or error}") from None
     except UnicodeDecodeError:
@@ -119,12 +121,22 @@ def load(path: Path) -> Scene:
 def _sentence(error: Any) -> str:
     """One problem of a scene: its key and what would be right."""
     key = ".".join(str(part) for part in error["loc"]) or "the scene"
+    limits = error.get("ctx", {})
     kinds: dict[str, str] = {
         "missing": "is missing",
         "extra_forbidden": "is not a key of a scene",
+        "int_type": "must be a whole number",
+        "int_from_float": "must be a whole number",
+        "bool_type": "must be true or false",
+        "string_type": "must be a text in quotes",
+        "tuple_type": "must be a list of numbers in brackets",
+        "finite_number": "must be finite",
+        "too_long": f"must have {limits.get('max_length')} numbers",
+        "greater_than": f"must be greater than {limits.get('gt')}",
+        "greater_than_equal": f"must be at least {limits.get('ge')}",
     }
-    told = kinds.get(error["type"]) or error["msg"].removeprefix("Value error, ")
-    return f"{key}: {told}" if error["type"] not in kinds else f"{key} {told}"
+    told = kinds.get(error["type"])
+    return f"{key} {told}" if told else f"{key}: {error['msg'].removeprefix('Value error, ')}"
 
 
 def run(scene: Scene, progress: Callable[[int], None] = lambda steps_done: None) -> Trajectory:

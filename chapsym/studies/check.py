@@ -12,9 +12,10 @@ Norms of vectors are their largest components.
 
 import multiprocessing
 import os
+import signal
 from collections.abc import Callable
-from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import asdict, dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -176,11 +177,14 @@ def check(
 ) -> list[Row]:
     """One row for each stratum, side by side on the cores; `on_row` sees each as it is done."""
     jobs = jobs or os.cpu_count() or 1
-    with ProcessPoolExecutor(jobs, mp_context=multiprocessing.get_context("spawn")) as pool:
-        futures = [pool.submit(check_stratum, name, states, seed) for name in STRATA]
-        for future in as_completed(futures):
-            on_row(future.result())
-        return [future.result() for future in futures]
+    rows: dict[str, Row] = {}
+    # Leaving the pool by an interrupt ends the workers at once; they do not see the interrupt themselves.
+    context = multiprocessing.get_context("spawn")
+    with context.Pool(jobs, initializer=signal.signal, initargs=(signal.SIGINT, signal.SIG_IGN)) as pool:
+        for row in pool.imap_unordered(partial(check_stratum, states=states, seed=seed), STRATA):
+            rows[row.stratum] = row
+            on_row(row)
+    return [rows[name] for name in STRATA]
 
 
 @dataclass(frozen=True)

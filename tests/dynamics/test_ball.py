@@ -35,6 +35,9 @@ def test_a_flat_body_survives_rounding():
         (lambda: Ball((1, np.nan, 1), 1), "mass_tensor must be finite"),
         (lambda: Ball((1, 1), 1), "mass_tensor must have 3 components"),
         (lambda: Ball((1, 1, 1), 1, radius=0), "radius must be positive"),
+        (lambda: Ball([[1, 2, 4], [1, 1, 1]], [3, 0, 1]), "do not broadcast"),
+        (lambda: Ball([[1, 2, 4], [1, 1, 1]], [3, 1], radius=[1, 1, 1]), "do not broadcast"),
+        (lambda: Ball((1e308, 1e308, 0), 1), "beyond the range of float64"),
     ],
 )
 def test_a_ball_that_cannot_be_is_refused(build, sentence):
@@ -46,3 +49,12 @@ def test_a_ball_that_cannot_be_is_refused(build, sentence):
 def test_every_inertia_of_a_body_is_taken(moments):
     ball = Ball.from_inertia(moments, D=1)
     assert np.abs(ball.inertia - moments).max() <= 4 * 2**-52 * moments.max()
+
+
+def test_a_ball_does_not_change_with_the_array_it_was_made_from():
+    tensor = np.array([1.0, 2.0, 4.0])
+    ball = Ball(tensor, 3)
+    tensor[0] = -5
+    assert ball.mass_tensor.tolist() == [1, 2, 4]
+    with pytest.raises(ValueError, match="read-only"):
+        ball.mass_tensor[0] = -5

@@ -1,5 +1,7 @@
 """One step: against the oracle, at its limits, and what it refuses."""
 
+import warnings
+
 import numpy as np
 import pytest
 from hypothesis import example, given, settings
@@ -132,8 +134,15 @@ def test_the_branch_is_continuous_from_the_identity(state):
         ({"momentum": 1.0}, "momentum must have 3 components"),
         ({"momentum": (1, np.nan, 0)}, r"momentum must be finite, but it is nan at index \(1,\)"),
         ({"momentum": (1, np.inf, 0)}, "momentum must be finite"),
-        ({"momentum": ("a", 1, 2)}, "momentum must be numbers"),
-        ({"momentum": (1j, 1, 2)}, "momentum must be numbers"),
+        ({"momentum": ("a", 1, 2)}, "momentum must be real numbers"),
+        ({"momentum": ("1", "2", "3")}, "momentum must be real numbers"),
+        ({"momentum": np.ma.masked_invalid([1, np.nan, 2])}, "momentum must be real numbers"),
+        ({"momentum": np.array([1, 2, 3], dtype="M8[s]")}, "momentum must be real numbers"),
+        ({"momentum": [[1, 2, 3], [1, 2]]}, "momentum must be real numbers"),
+        ({"momentum": (True, False, None)}, "momentum must be real numbers"),
+        ({"momentum": (10**400, 0, 0)}, "momentum is beyond the range of float64"),
+        ({"ball": (1, 2, 4)}, "ball must be a chapsym.Ball, not tuple"),
+        ({"momentum": (1j, 1, 2)}, "momentum must be real numbers"),
         ({"gamma": (0, 0, 1.001)}, "gamma must be a unit vector, but its length is 1.00"),
         ({"gamma": (0, 0, 0)}, "gamma must be a unit vector, but its length is 0"),
         ({"momentum": np.zeros((2, 3)), "gamma": np.tile(GAMMA, (3, 1))}, "do not broadcast"),
@@ -141,7 +150,7 @@ def test_the_branch_is_continuous_from_the_identity(state):
 )
 def test_a_state_without_an_answer_is_refused(kwargs, sentence):
     with pytest.raises(BadInput, match=sentence):
-        chapsym.step(BALL, **{"momentum": K, "gamma": GAMMA, **kwargs})
+        chapsym.step(**{"ball": BALL, "momentum": K, "gamma": GAMMA, **kwargs})
 
 
 def test_a_batch_goes_on_for_the_others():
@@ -196,3 +205,51 @@ def test_cyclic_relabelling_of_the_axes_relabels_the_step(order):
     step = chapsym.step(BALL, K, GAMMA)
     again = chapsym.step(Ball(BALL.mass_tensor[p], 3), K[p], GAMMA[p])
     assert np.abs(again.momentum - step.momentum[p]).max() < 1e-15
+
+
+@pytest.mark.parametrize("exponent", [-1000, -300, 300, 1000])
+def test_the_step_does_not_know_units(exponent):
+    """J, D and 𝒦 times a power of two: the same rotation, to the bit."""
+    scale = 2.0**exponent
+    scaled = chapsym.step(Ball(np.array([1, 2, 4]) * scale, 3 * scale), K * scale, GAMMA)
+    step = chapsym.step(BALL, K, GAMMA)
+    assert (scaled.rotation == step.rotation).all()
+    assert (scaled.momentum == step.momentum * scale).all()
+
+
+@pytest.mark.parametrize("D", [1e6, 1e9, 1e12, 1e14])
+def test_a_heavy_contact_term_costs_no_digits_across_the_vertical(D):
+    """γ = e₃, 𝒦 = (D/2, 0, 0): the rotation is about e₁, by sin θ = D/(2(D + 6))."""
+    step = chapsym.step(Ball((1, 2, 4), D), (D / 2, 0, 0), (0, 0, 1))
+    angle = np.arcsin(D / 2 / (D + 6))
+    assert step.rotation == pytest.approx([np.cos(angle / 2), np.sin(angle / 2), 0, 0], rel=4e-16, abs=1e-300)
+
+
+def test_a_thin_body_keeps_its_digits():
+    step = chapsym.step(Ball((1e-15, 1e-15, 1), 0), (0, 0, 1e-15), (0, 0, 1))
+    assert step.rotation[3] == pytest.approx(np.sin(np.pi / 12), rel=4e-16)
+
+
+STIFF = Ball((3.7743108014335556e-06, 4.346928542885402e-06, 7.887792778909276e-06), 1.0)
+STIFF_GAMMA = np.array([0.9812528033905563, -0.1725015164186118, -0.08594278719853957])
+STIFF_K = np.array([33.74114732815733, -23.273797435753504, 91.21329579561905])
+
+
+@pytest.mark.parametrize("factor", [1e-6, 1e-5, 2e-3, 1.0, 1e200])
+def test_the_fold_is_the_same_from_however_far_it_is_asked_for(factor):
+    _, reach, *_ = small_rotation(*(factor * STIFF_K), *STIFF_GAMMA, *STIFF.mass_tensor, 1.0)
+    assert reach * factor == pytest.approx(4.16172919670e-07, rel=1e-10)
+
+
+@pytest.mark.parametrize("size", [1e3, 1e160, 1e200, 1e300])
+def test_a_huge_momentum_is_unreachable(size):
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        with pytest.raises(StepNotTaken) as caught:
+            chapsym.step(BALL, (size, -size, size), GAMMA)
+    assert caught.value.status is Status.UNREACHABLE
+
+
+def test_a_rod_on_its_end_has_no_inertia():
+    with pytest.raises(StepNotTaken, match="no inertia about the vertical"):
+        chapsym.step(Ball((1, 0, 0), 1), (0, 0, 1), (1, 0, 0))

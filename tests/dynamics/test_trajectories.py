@@ -1,5 +1,7 @@
 """Many steps: frames, attitude, contact point, batches, folds."""
 
+import pickle
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -172,6 +174,11 @@ def test_an_attitude_may_be_given():
         ({"steps": -1}, "steps must be a whole number from 0 on"),
         ({"steps": 2.5}, "steps must be a whole number"),
         ({"steps": True}, "steps must be a whole number"),
+        ({"time_step": 0.0}, "time_step must be one positive number"),
+        ({"time_step": np.nan}, "time_step must be finite"),
+        ({"time_step": "x"}, "time_step must be real numbers"),
+        ({"steps": 10**13}, "do not fit into memory"),
+        ({"attitude": np.ones((2, 4)) / 2}, r"attitude has the leading axes \(2,\), the states have \(\)"),
         ({"every": 0}, "every must be a whole number from 1 on"),
         ({"attitude": (1, 0, 0, 0)}, "attitude and gamma disagree"),
         ({"attitude": (1, 1, 0, 0)}, "attitude must be unit quaternions"),
@@ -182,6 +189,17 @@ def test_an_attitude_may_be_given():
 def test_a_run_without_an_answer_is_refused(kwargs, sentence):
     with pytest.raises(BadInput, match=sentence):
         chapsym.trajectory(**{"ball": BALL, "momentum": K, "gamma": GAMMA, "steps": 5, **kwargs})
+
+
+@pytest.mark.parametrize("steps", [5, 3000])
+def test_a_huge_every_keeps_the_start(steps):
+    assert chapsym.trajectory(BALL, K, GAMMA, steps, every=10**30).index.tolist() == [0]
+
+
+def test_a_step_that_was_not_taken_can_be_pickled():
+    error = StepNotTaken(Status.FOLDED, 0.5, 3)
+    again = pickle.loads(pickle.dumps(error))  # as a process pool does with an error of ours
+    assert (str(again), again.status, again.reach, again.index) == (str(error), error.status, 0.5, 3)
 
 
 def test_no_steps_are_a_trajectory_too():

@@ -69,7 +69,8 @@ def test_every_ball_is_written_in_arbs_form():
         for text in flat(precise_step(J, D, momentum, GAMMA, Ball(64)).write()):
             assert text.startswith("[")
             assert text.endswith("]")
-            assert "+/-" in text
+            assert " +/- " in text
+            assert not text.startswith("[ ")
 
 
 @pytest.mark.parametrize("rung", [Digits(20), Ball(80)])
@@ -100,3 +101,19 @@ def test_precision_of_others_is_left_alone():
     precise_step(J, D, K, GAMMA, Digits(60))
     precise_step(J, D, K, GAMMA, Ball(300))
     assert (mpmath.mp.prec, flint.ctx.prec) == before
+
+
+@pytest.mark.parametrize("exponent", [3, 8, 11])
+def test_a_stiff_ball_gets_all_its_digits(exponent):
+    """D = 10^exponent costs digits in float64; the rungs above carry more (from 10^14 float64 finds no start)."""
+    D = F(10**exponent)
+    K = (D * 3 / 20, -D / 10, F(0))  # horizontal: along the vertical the ball bears only a momentum like J
+    exact = truth(J, D, K, GAMMA, 60 + exponent)
+    for text, value in zip(flat(precise_step(J, D, K, GAMMA, Digits(20)).write()), exact, strict=True):
+        mpf = value.context.mpf
+        assert abs(value - mpf(text)) <= abs(value) * mpf(10) ** -19
+    with flint.ctx.workprec(500):
+        for text, value in zip(flat(precise_step(J, D, K, GAMMA, Ball(60)).write()), exact, strict=True):
+            enclosure = flint.arb(text)
+            assert enclosure.overlaps(flint.arb(str(value)) + flint.arb(0, f"{float(abs(value)) or 1}e-50"))
+            assert enclosure.rad() <= abs(enclosure).upper() * flint.arb(2) ** -45

@@ -171,7 +171,9 @@ def test_4_1_by_hand(records):
     after, tensor, gamma = turn_about_first(F(3, 5), F(4, 5)), diagonal((1, 2, 3)), [F(0), F(0), F(1)]
     half = matmul(after, tensor)
     m_k = added((1, half), (-1, transposed(half)))
-    force = [F(0), F(2), F(0)]  # m(r_+ - 2r + r_-) with m = 1
+    rolled = times(added((F(-1, 2), after), (F(1, 2), transposed(after))), gamma)  # (4.9) with ρ = 1
+    assert rolled == [F(0), F(4, 5), F(0)]
+    force = [F(5, 2) * x for x in rolled]  # m(r_+ - 2r + r_-) with m = 5/2, r = r_- = 0
     wedge = added((1, [[a * b for b in gamma] for a in force]), (-1, [[b * a for a in force] for b in gamma]))
     printed_principle = added((F(-1, 2), m_k), (-1, wedge))
     skew_part = added((1, m_k), (-1, wedge))

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from chapsym import Trajectory, scene
+from chapsym import BadInput, Trajectory, scene
 from chapsym.scene import SceneError
 
 GOOD = """
@@ -49,17 +49,18 @@ def test_the_shipped_scene_runs():
     [
         ("steps = 10", "steps = 10\nstep = 1", "run.step is not a key of a scene"),
         ("steps = 10", "", "run.steps is missing"),
-        ("steps = 10", "steps = -1", "run.steps: Input should be greater than or equal to 0"),
-        ("steps = 10", "steps = 1.5", "run.steps: Input should be a valid integer"),
-        ("steps = 10", "steps = 10\ntime_step = 0", "run.time_step: Input should be greater than 0"),
+        ("steps = 10", "steps = -1", "run.steps must be at least 0"),
+        ("steps = 10", "steps = 1.5", "run.steps must be a whole number"),
+        ("steps = 10", "steps = 10\ntime_step = 0", "run.time_step must be greater than 0"),
         ('"2/7"', '"2/0"', "start.gamma.0: value: '2/0' divides by zero"),
         ('"2/7"', '"import os"', "start.gamma.0: value: 'import os' is not a number"),
         ('"2/7"', "true", "start.gamma.0: it must be a number"),
-        ("0.1", "nan", "start.momentum.0: Input should be a finite number"),
+        ("0.1", "nan", "start.momentum.0 must be finite"),
         ("0.1,", "", "start.momentum.2 is missing"),
         ("momentum", "omega", "start.omega needs run.time_step, in seconds"),
         ("D = 3", "D = 3\ninertia = [1, 1, 1]", "ball: give either mass_tensor or inertia"),
         ("[ball]", "[ball", "is not TOML"),
+        ("D = 3", "D = 1" + "0" * 400, "ball.D: it is beyond the range of float64"),
     ],
 )
 def test_a_wrong_scene_names_the_key_and_what_would_be_right(write, old, new, sentence):
@@ -67,6 +68,20 @@ def test_a_wrong_scene_names_the_key_and_what_would_be_right(write, old, new, se
         scene.load(write(GOOD.replace(old, new, 1)))
     assert sentence in str(caught.value)
     assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("line", ["steps = 1000000000000", "steps = 100000000000000000000"])
+def test_more_frames_than_memory_are_refused(write, line):
+    with pytest.raises(BadInput, match="do not fit into memory; keep fewer with every="):
+        scene.run(scene.load(write(GOOD.replace("steps = 10", line))))
+
+
+def test_a_link_stays_a_link(write, tmp_path):
+    run = scene.run(scene.load(write(GOOD)))
+    (tmp_path / "link.npz").symlink_to(tmp_path / "real.npz")
+    scene.save(run, tmp_path / "link.npz")
+    assert (tmp_path / "link.npz").is_symlink()
+    assert (tmp_path / "real.npz").is_file()
 
 
 def test_saving_is_whole_or_not_at_all(write, tmp_path, monkeypatch):
