@@ -13,7 +13,6 @@ from chapsym.prove import Equation, Proof, claim, main, rational_point
 
 alpha = sp.Matrix(sp.symbols("a1:4"))  # dω/dt
 h, l = sp.symbols("h l")
-LAM = three.lam()
 FREE = Quotient((*alpha, *RING.symbols), RING.relations)
 VERTICAL_RATE = gamma.cross(omega)
 
@@ -36,7 +35,7 @@ def momentum_rate() -> sp.Matrix:
 
 def solved_acceleration() -> sp.Matrix:
     """ω̇ of (2.2)."""
-    gyration = (LAM * omega).cross(omega)
+    gyration = (three.lam() * omega).cross(omega)
     lift = D / rolling_factor() * (inverse_inertia() * gamma).dot(gyration) * gamma
     return inverse_inertia() * (gyration + lift)
 
@@ -57,7 +56,7 @@ def vector_equations(p: Proof) -> None:
         equation(
             "K of (2.13) is Λω - D⟨ω,γ⟩γ",
             three.axial(evaluate(words, values)),
-            LAM * omega - D * omega.dot(gamma) * gamma,
+            three.lam() * omega - D * omega.dot(gamma) * gamma,
         )
     )
     p.control(
@@ -78,8 +77,8 @@ def closed_system(p: Proof) -> None:
     acceleration = dict(zip(alpha, solved_acceleration(), strict=True))
     rate = momentum_rate().subs(acceleration, simultaneous=True)
     p.printed(equation("K̇ = K×ω", rate, momentum().cross(omega)))
-    p.lemma(equation("det B(γ) = det Λ · F", momentum().jacobian(omega).det(), LAM.det() * rolling_factor()))
-    wrong = dict(zip(alpha, inverse_inertia() * (LAM * omega).cross(omega), strict=True))
+    p.lemma(equation("det B(γ) = det Λ · F", momentum().jacobian(omega).det(), three.lam().det() * rolling_factor()))
+    wrong = dict(zip(alpha, inverse_inertia() * (three.lam() * omega).cross(omega), strict=True))
     p.control(
         equation(
             "K̇ = K×ω without the last term", momentum_rate().subs(wrong, simultaneous=True), momentum().cross(omega)
@@ -96,7 +95,7 @@ def closed_system(p: Proof) -> None:
 def four_integrals(p: Proof) -> None:
     """The four integrals, and that they are independent."""
     p.assume("J of Section 2 is the inertia tensor, Λ - D")
-    central = LAM - D * sp.eye(3)
+    central = three.lam() - D * sp.eye(3)
     k = momentum()
     p.say("Along (2.3) the first three are constant because ⟨x×ω, y⟩ + ⟨x, y×ω⟩ = 0.")
     rates = [
@@ -116,8 +115,8 @@ def four_integrals(p: Proof) -> None:
     p.fact(f"the rank at {BALL}, γ = (2/7,3/7,6/7), ω = (1,-1,2) is 4", gradients.subs(SPIN).rank() == 4)
     p.fact("a degenerate case: at rest, ω = 0, it is less", gradients.subs(dict.fromkeys(omega, 0)).rank() < 4)
     p.control(equation("d/dt ⟨K,ω⟩ = 0 for Λω̇ = Λω×ω", power.subs(
-        dict(zip(alpha, inverse_inertia() * (LAM * omega).cross(omega), strict=True)), simultaneous=True), 0))  # fmt: skip
-    p.control(equation("⟨K,γ⟩ = ⟨Λω,γ⟩", k.dot(gamma), (LAM * omega).dot(gamma)))
+        dict(zip(alpha, inverse_inertia() * (three.lam() * omega).cross(omega), strict=True)), simultaneous=True), 0))  # fmt: skip
+    p.control(equation("⟨K,γ⟩ = ⟨Λω,γ⟩", k.dot(gamma), (three.lam() * omega).dot(gamma)))
 
 
 @claim("2.4-kinetic", r"\langle K,\omega\rangle \text{ is the kinetic energy}", ["2.4"])
@@ -184,7 +183,7 @@ def vertical_momentum(p: Proof) -> None:
 @claim("2.7", r"\Lambda\dot\omega = \Lambda\omega\times\omega", ["2.2", "2.7-vertical"])
 def euler_top(p: Proof) -> None:
     """For vertical momentum the equations are those of the Euler top."""
-    lifted = (inverse_inertia() * gamma).dot((LAM * omega).cross(omega))
+    lifted = (inverse_inertia() * gamma).dot((three.lam() * omega).cross(omega))
     p.printed(equation("⟨Λ⁻¹γ, Λω×ω⟩ = 0, so that (2.2) is (2.7)", at_vertical(lifted), 0, VERTICAL))
     p.say("K = hγ stays: K and γ have the same equation (2.3).")
     p.control(equation("the same for any ω", lifted, 0))

@@ -1,5 +1,7 @@
 """Section 5: the symmetric form of the reduced map (Proposition 4) and what it needs."""
 
+from functools import cache
+
 import sympy as sp
 from chapsym.proofs.s5_vertical import LARGE, NOT_ZERO, SMALL, vertical_state
 
@@ -9,8 +11,11 @@ from chapsym.derive.three import J1, J2, J3, D, q, q0
 from chapsym.derive.vertical import RING, sigma
 from chapsym.prove import Equation, Proof, claim, main, rational_point
 
-LAM = vertical.lam()
-INVERSE = LAM.inv()
+
+@cache
+def inverse() -> sp.ImmutableMatrix:
+    """Λ⁻¹."""
+    return sp.ImmutableMatrix(vertical.lam().inv())
 
 
 def total() -> sp.Matrix:
@@ -25,12 +30,12 @@ def difference() -> sp.Matrix:
 
 def first_form() -> sp.Expr:
     """⟨γ+γ~, Λ⁻¹(γ+γ~)⟩."""
-    return total().dot(INVERSE * total())
+    return total().dot(inverse() * total())
 
 
 def second_form() -> sp.Expr:
     """⟨γ+γ~, Λ⁻²(γ+γ~)⟩."""
-    return total().dot(INVERSE**2 * total())
+    return total().dot(inverse() ** 2 * total())
 
 
 def square_of_root(text: str, factor: sp.Expr) -> Equation:
@@ -45,7 +50,7 @@ def closed_sigma(text: str, factor: sp.Expr) -> Equation:
 
 def symmetric(text: str, factor: sp.Expr) -> Equation:
     """γ~ - γ = factor·(γ+γ~) × Λ⁻¹(γ+γ~)."""
-    return Equation(text, list(difference()), list(factor * total().cross(INVERSE * total())), RING)
+    return Equation(text, list(difference()), list(factor * total().cross(inverse() * total())), RING)
 
 
 @claim(
@@ -57,10 +62,10 @@ def sum_and_difference(p: Proof) -> None:
     """Sum and difference of consecutive verticals."""
     p.assume(NOT_ZERO)
     p.printed(
-        Equation("γ~ + γ = (4q₀/σ)Λq", list(total()), list(4 * q0 / sigma * LAM * q), RING),
-        Equation("γ~ - γ = (4/σ)Λq×q", list(difference()), list(4 / sigma * (LAM * q).cross(q)), RING),
+        Equation("γ~ + γ = (4q₀/σ)Λq", list(total()), list(4 * q0 / sigma * vertical.lam() * q), RING),
+        Equation("γ~ - γ = (4/σ)Λq×q", list(difference()), list(4 / sigma * (vertical.lam() * q).cross(q)), RING),
     )
-    p.control(Equation("γ~ - γ = (4/σ)q×Λq", list(difference()), list(4 / sigma * q.cross(LAM * q)), RING))
+    p.control(Equation("γ~ - γ = (4/σ)q×Λq", list(difference()), list(4 / sigma * q.cross(vertical.lam() * q)), RING))
 
 
 @claim(
@@ -117,8 +122,10 @@ def _signs() -> tuple[int, ...]:
 def sigma_equation(p: Proof) -> None:
     """The equation that σ solves has the missing factor 2; the relation that closes it holds."""
     p.assume(NOT_ZERO)
-    lifted = D * sigma / 4 * vertical.gamma_now().dot(INVERSE * total())
-    p.lemma(Equation("⟨γ, Λ⁻¹s⟩ = ½⟨s, Λ⁻¹s⟩", [vertical.gamma_now().dot(INVERSE * total())], [first_form() / 2], RING))
+    lifted = D * sigma / 4 * vertical.gamma_now().dot(inverse() * total())
+    p.lemma(
+        Equation("⟨γ, Λ⁻¹s⟩ = ½⟨s, Λ⁻¹s⟩", [vertical.gamma_now().dot(inverse() * total())], [first_form() / 2], RING)
+    )
     p.printed(Equation("σ = h + D⟨γ, (σ/4)Λ⁻¹s⟩", [sigma], [vertical.height() + lifted], RING))
     p.corrected(
         r"\sigma = h+2D\langle\gamma,\tfrac\sigma4\Lambda^{-1}(\tilde\gamma+\gamma)\rangle",
@@ -186,7 +193,7 @@ def symmetric_form(p: Proof) -> None:
 
 def _product_is_not_zero(state: dict) -> bool:
     values = {symbol: sp.Rational(value) for symbol, value in state.items()}
-    return not total().cross(INVERSE * total()).subs(values, simultaneous=True).is_zero_matrix
+    return not total().cross(inverse() * total()).subs(values, simultaneous=True).is_zero_matrix
 
 
 def _converse(p: Proof) -> None:
@@ -195,18 +202,20 @@ def _converse(p: Proof) -> None:
     p.say("q = (σ/4q₀)Λ⁻¹s, γ = (s-d)/2, γ~ = (s+d)/2. Then |q|² + q₀² = 1 is the formula for ϰ, and")
     s = sp.Matrix(sp.symbols("s1:4"))
     free = Quotient((*s, sigma, q0, J1, J2, J3, D))
-    d = sigma / (4 * q0**2) * s.cross(INVERSE * s)
-    vector = sigma / (4 * q0) * INVERSE * s
-    left = 2 * (q0 * LAM * vector + vector.cross(LAM * vector))
-    right = 2 * (q0 * LAM * vector - vector.cross(LAM * vector))
+    d = sigma / (4 * q0**2) * s.cross(inverse() * s)
+    vector = sigma / (4 * q0) * inverse() * s
+    left = 2 * (q0 * vertical.lam() * vector + vector.cross(vertical.lam() * vector))
+    right = 2 * (q0 * vertical.lam() * vector - vector.cross(vertical.lam() * vector))
     p.lemma(Equation("the left side of (5.4) at that q is σγ", list(left), list(sigma * (s - d) / 2), free))
     p.lemma(Equation("and σΩᵀγ = 2(q₀Λq - q×Λq) is σγ~", list(right), list(sigma * (s + d) / 2), free))
     p.lemma(Equation("|γ~| = |γ|: ⟨s, d⟩ = 0", [s.dot(d)], [sp.S.Zero], free))
     lifted = 2 * D * q0 * ((s - d) / 2).dot(vector)
     p.lemma(
-        Equation("2Dq₀⟨γ,q⟩ = (D/4)σ⟨s, Λ⁻¹s⟩, the formula for σ", [lifted], [D / 4 * sigma * s.dot(INVERSE * s)], free)
+        Equation(
+            "2Dq₀⟨γ,q⟩ = (D/4)σ⟨s, Λ⁻¹s⟩, the formula for σ", [lifted], [D / 4 * sigma * s.dot(inverse() * s)], free
+        )
     )
-    p.control(Equation("the same with D/8", [lifted], [D / 8 * sigma * s.dot(INVERSE * s)], free))
+    p.control(Equation("the same with D/8", [lifted], [D / 8 * sigma * s.dot(inverse() * s)], free))
 
 
 if __name__ == "__main__":
