@@ -200,13 +200,15 @@ def codegen(
         return
     if not build.is_checkout(place):
         _fail("this chapsym is an installed copy: generate in a source checkout; here only --check applies", 2)
+    try:
+        build.check_names(trust or [])
+    except ValueError as error:
+        _fail(str(error), 2)
     unproved = _unproved(build.KERNELS)
     if unproved:
         _fail("; ".join(unproved), 1)
     try:
         written = build.generate(place, trust or [])
-    except build.UnknownKernel as error:
-        _fail(str(error), 2)
     except (ValueError, ArithmeticError) as error:
         _fail(str(error), 1)
     except OSError as error:

@@ -19,10 +19,6 @@ DIGITS = 40
 MEND = "chapsym codegen"
 
 
-class UnknownKernel(ValueError):
-    """A kernel was named that is not one."""
-
-
 def folder() -> Path:
     """Where the generated package lies: `generated/` of a checkout, or the installed copy."""
     spec = importlib.util.find_spec("chapsym.generated")
@@ -192,18 +188,23 @@ def _value_note(kernel: Kernel, content: bytes) -> list[str]:
     return [] if same else [f"{kernel.name}.py computes another value than the derivation"]
 
 
+def check_names(trust: Sequence[str]) -> None:
+    """Raises ValueError if a name in `trust` is no kernel's."""
+    names = {kernel.name for kernel in KERNELS} | {"all"}
+    for name in trust:
+        if name not in names:
+            listed = ", ".join(sorted(names))
+            raise ValueError(f"--trust {name}: there is no such kernel; the names are {listed}")
+
+
 def generate(place: Path, trust: Sequence[str] = ()) -> list[str]:
     """Writes every file into `place` and removes kernels that are no more; returns the names written.
 
     Raises ValueError, before anything is written, if a fingerprint is missing or contradicted and not
     named in `trust` ("all" names every kernel).
     """
+    check_names(trust)
     names = {kernel.name for kernel in KERNELS}
-    unknown = [name for name in trust if name != "all" and name not in names]
-    if unknown:
-        raise UnknownKernel(
-            f"--trust {unknown[0]}: there is no such kernel; the kernels are {', '.join(sorted(names))}"
-        )
     accepted = names if "all" in trust else set(trust)
     problems = [p for p in distrusted(place) if p.split()[0] not in accepted and not p.startswith("the fingerprint of")]
     if problems:

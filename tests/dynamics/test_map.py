@@ -113,12 +113,12 @@ def test_no_rotation_exceeds_the_largest_momentum(q, ball, gamma):
 
 
 @given(testing.states(fraction=(0.0, 0.95)))
-@settings(max_examples=30)
+@settings(max_examples=15)
 def test_the_branch_is_continuous_from_the_identity(state):
-    """Followed in 400 small steps by plain Newton, the curve arrives at the same rotation."""
+    """Followed in 200 small steps by plain Newton, the curve arrives at the same rotation."""
     ball, momentum, gamma = state
     q = np.array([1.0, 0, 0, 0])
-    for t in np.linspace(0, 1, 401)[1:]:
+    for t in np.linspace(0, 1, 201)[1:]:
         for _ in range(4):
             r = front.residual(q, t * momentum, gamma, ball.mass_tensor, ball.D)
             w = np.linalg.solve(front.tangent_jacobian(q, gamma, ball.mass_tensor, ball.D), -r)
