@@ -35,7 +35,7 @@ def chosen_constraint(p: Proof) -> None:
     limit = limits.constraint()
     p.show("(4.9)/ε - Δr/ε", f"{limit.limit} + ε^{limit.order}·({limit.leading}) + ...")
     continuous = principle.rolling_constraint(sp.S.Zero, limits.omega_space * R)
-    both = limits.space_algebra()
+    both = ALGEBRA
     p.printed(
         equation("γᵀ Δr_k = 0", vertical, sp.S.Zero),
         equation("(4.9) at R_{k+1} = R_k, r_{k+1} = r_k", diagonal, sp.S.Zero),
@@ -71,7 +71,7 @@ def naive_constraint(p: Proof) -> None:
 @claim("4.9-limit", r"\bar\Omega_k \mapsto \mathbf I + \omega", uses=["4.9"])
 def rotation_limit(p: Proof) -> None:
     """The continuous limit of the rotation: ε is missing."""
-    algebra, spin = limits.space_algebra(), limits.omega_space
+    algebra, spin = ALGEBRA, limits.omega_space
     expansion = sp.expand(limits.exponential(spin))
     p.show("Ω̄", expansion)
     zeroth, first = expansion.coeff(limits.eps, 0), expansion.coeff(limits.eps, 1)
@@ -120,8 +120,9 @@ def body_reaction(p: Proof) -> None:
         equation("F with + in its second term = R_kᵀ f", -after + before, force),
     )
     turn = sp.Matrix([[1, 0, 0], [0, "3/5", "-4/5"], [0, "4/5", "3/5"]])
+    other = sp.Matrix([["3/5", 0, "4/5"], [0, 1, 0], ["-4/5", 0, "3/5"]])
     p.counterexample(
-        path_point({R0: sp.eye(3), R: turn, R1: turn, gamma: sp.Matrix([0, 0, 1]), m: sp.S.One, rho: sp.S.One})
+        path_point({R0: sp.eye(3), R: turn, R1: other, gamma: sp.Matrix([0, 0, 1]), m: sp.S.One, rho: sp.S.One})
     )
     p.control(equation("F with both signs flipped", after - before, force))
 

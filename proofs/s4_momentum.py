@@ -150,7 +150,8 @@ def trace_integrals(p: Proof) -> None:
         word = carried(K) ** s * carried(Gamma) ** l
         p.printed(equation(f"tr 𝒦^{s}Γ^{l}", algebra.trace(word), algebra.trace(K**s * Gamma**l), algebra))
     p.printed(equation("tr Γ", algebra.trace(carried(Gamma)), algebra.trace(Gamma), algebra))
-    p.say("tr Γ = |γ|² = 1 by the choice of γ. Odd s give 0, as 𝒦 is skew and Γ symmetric, for l = 0.")
+    p.say("tr Γ = |γ|² = 1 by the choice of γ. Odd s give 0, as 𝒦 is skew and Γ symmetric, for l = 0:")
+    p.lemma(equation("tr 𝒦³ = 0", algebra.trace(K**3), sp.S.Zero, algebra))
     p.control(
         equation("tr 𝒦²Γ with Γ_k = ΩΓΩᵀ", algebra.trace(carried(K) ** 2 * Omega * Gamma * OmegaT),
                  algebra.trace(K**2 * Gamma), algebra)

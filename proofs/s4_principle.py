@@ -19,6 +19,9 @@ def equation(text: str, left: sp.Expr, right: sp.Expr) -> Equation:
 def path_point(values: dict, *hypotheses: Equation) -> Point:
     """Explicit rational attitudes, centres and parameters; the transposes are filled in."""
     full = dict(values)
+    for attitude in (R0, R, R1):
+        if attitude in values and values[attitude].det() != 1:
+            raise ValueError(f"{attitude} is no rotation: its determinant is {values[attitude].det()}")
     for symbol, value in values.items():
         if isinstance(value, sp.MatrixBase) and symbol in ALGEBRA.transposes:
             full[ALGEBRA.transposes[symbol]] = value.T

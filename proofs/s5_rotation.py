@@ -9,8 +9,8 @@ from chapsym.derive.three import J1, J2, J3, RING, D, K, axial, gamma, hat, q, q
 from chapsym.derive.words import evaluate
 from chapsym.prove import Equation, Proof, claim, main, rational_point
 
-#: A rotation by 120° about (1, 1, 1).
-HALF = dict(zip((q0, *q), [sp.Rational(1, 2)] * 4, strict=True))
+#: Unit Euler parameters in general position.
+UNIT = dict(zip((q0, *q), map(sp.Rational, ("4/5", "2/5", "1/5", "2/5")), strict=True))
 
 
 def unit_quaternion() -> Equation:
@@ -52,7 +52,7 @@ def rotation_matrix(p: Proof) -> None:
         r"\Omega_{32} = 2(q_2q_3 + q_0q_1)",
         Equation("(5.1) with the entry (3,2) mended, nine entries", list(corrected), list(rotation), RING),
     )
-    p.counterexample(rational_point(HALF, [unit_quaternion()]))
+    p.counterexample(rational_point(UNIT, [unit_quaternion()]))
     p.control(Equation("the printed matrix is orthogonal", list(printed.T * printed), list(sp.eye(3)), RING))
     p.control(Equation("the mended matrix is that of -q", list(corrected.T), list(rotation), RING))
     mutated = corrected.copy()

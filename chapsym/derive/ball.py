@@ -18,7 +18,7 @@ K = matrix_symbols("K")[0]
 D = space.D
 
 ALGEBRA = WordAlgebra(
-    {Omega: OmegaT, OmegaT: Omega, J: J, Gamma: Gamma, gamma: gammaT, gammaT: gamma, omega: -omega, K: -K},
+    {Omega: OmegaT, OmegaT: Omega, J: J, Gamma: Gamma, gamma: gammaT, gammaT: gamma, K: -K},
     {(Omega, OmegaT): 1, (OmegaT, Omega): 1, (gamma, gammaT): Gamma},
 )
 

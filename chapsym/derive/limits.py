@@ -41,21 +41,24 @@ def exponential(generator: sp.Expr, terms: int = CARRIED + 2) -> sp.Expr:
 
 def expand_words(expr: sp.Expr, algebra: WordAlgebra) -> Remainder:
     """The limit, order and leading term of an expansion in words."""
-    coefficients = [algebra.normal(sp.expand(expr).coeff(eps, k)) for k in range(CARRIED + 1)]
+    coefficients = [algebra.normal(sp.expand(expr).coeff(eps, k)) for k in range(-1, CARRIED + 1)]
     return _remainder(coefficients, lambda c: c == 0)
 
 
 def expand_vector(expr: sp.Matrix) -> Remainder:
     """The limit, order and leading term of a vector of polynomials in ε (on |γ| = 1)."""
     expanded = expr.applyfunc(sp.expand)
-    coefficients = [expanded.applyfunc(lambda e, k=k: RING.normal(e.coeff(eps, k))) for k in range(CARRIED + 1)]
+    coefficients = [expanded.applyfunc(lambda e, k=k: RING.normal(e.coeff(eps, k))) for k in range(-1, CARRIED + 1)]
     return _remainder(coefficients, lambda c: c.is_zero_matrix)
 
 
 def _remainder(coefficients: list, vanishes) -> Remainder:
-    for order, leading in enumerate(coefficients[1:], start=1):
+    """From the coefficients of ε⁻¹, 1, ε, ...; the first must vanish, otherwise there is no limit."""
+    if not vanishes(coefficients[0]):
+        raise ArithmeticError(f"there is no limit: the expansion begins with ({coefficients[0]})/epsilon")
+    for order, leading in enumerate(coefficients[2:], start=1):
         if not vanishes(leading):
-            return Remainder(coefficients[0], order, leading)
+            return Remainder(coefficients[1], order, leading)
     raise ArithmeticError(f"no remainder up to order {CARRIED}: the expansion may be exact")
 
 
@@ -80,11 +83,6 @@ def transport(tensor: sp.Symbol) -> Remainder:
     return expand_words(sp.expand((moved - tensor) / eps), ball.ALGEBRA)
 
 
-def space_algebra() -> WordAlgebra:
-    """Words of the space frame together with the spatial angular velocity ω̄."""
-    return WordAlgebra({**principle.ALGEBRA.transposes, omega_space: -omega_space}, principle.ALGEBRA.rules)
-
-
 def constraint() -> Remainder:
     """(constraint (4.9) - Δr)/ε for every n: the limit is ρ ω̄ γ, the rotational part of (4.2)."""
     rotational = principle.discrete_constraint(principle.R, principle.R1, 0, 0)
@@ -92,8 +90,7 @@ def constraint() -> Remainder:
     words = principle.ALGEBRA.normal(rotational).xreplace(
         {principle.R1: rotation * principle.R, principle.R1T: principle.RT * inverse}
     )
-    algebra = space_algebra()
-    return expand_words(algebra.normal(words) / eps, algebra)
+    return expand_words(principle.ALGEBRA.normal(words) / eps, principle.ALGEBRA)
 
 
 def euler_parameters() -> tuple[sp.Expr, sp.Matrix]:

@@ -125,7 +125,7 @@ def spatial_momentum(a: sp.Expr, b: sp.Expr) -> sp.Expr:
 
 def on_constraint(expr: sp.Expr) -> sp.Expr:
     """Replaces r_{k+1} and r_{k-1} by what the discrete constraint (4.9) makes of them."""
-    after = r - discrete_constraint(R, R1, 0, 0)
-    before = r + discrete_constraint(R0, R, 0, 0)
+    after = r1 - discrete_constraint(R, R1, r, r1)
+    before = r0 + discrete_constraint(R0, R, r0, r)
     places = {r1: after, r1T: ALGEBRA.transpose(after), r0: before, r0T: ALGEBRA.transpose(before)}
     return ALGEBRA.normal(sp.expand(expr.xreplace(places)))

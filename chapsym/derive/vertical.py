@@ -37,13 +37,11 @@ def next_left_side() -> sp.ImmutableMatrix:
     return sp.ImmutableMatrix(vector.applyfunc(unit.normal))
 
 
-# On 𝒦 = hγ the state is (q, σ): γ = left/σ, γ~ = Ωᵀγ, h = σ - (excess), and |γ| = 1 ties σ to q.
+# On 𝒦 = hγ the state is (q, σ): γ = left/σ, γ~ = Ωᵀγ, h = σ - (excess).  That |γ| = 1 ties σ to q
+# is part of a state, but none of the identities needs it.
 
-#: Q[q₀, q, J, D, σ] modulo |q|² + q₀² = 1 and |left|² = σ².
-RING = Quotient(
-    (sigma, q0, *q, J1, J2, J3, D),
-    [three.UNIT_QUATERNION, sp.expand(sp.Matrix(left_side()).dot(sp.Matrix(left_side())) - sigma**2)],
-)
+#: Q[q₀, q, J, D, σ] modulo |q|² + q₀² = 1.
+RING = Quotient((sigma, q0, *q, J1, J2, J3, D), [three.UNIT_QUATERNION])
 
 
 def gamma_now() -> sp.Matrix:

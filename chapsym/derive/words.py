@@ -28,7 +28,7 @@ class WordAlgebra:
     `transposes` maps each symbol to its transpose (an expression: `{J: J, xi: -xi, R: RT, RT: R}`).
     `rules` maps an adjacent pair to the expression that replaces it: `{(R, RT): 1}`.
 
-    Raises ValueError if the rules are not confluent.
+    Raises ValueError if the rules are not confluent, or if transposing twice does not give a symbol back.
     """
 
     def __init__(
@@ -38,6 +38,9 @@ class WordAlgebra:
     ) -> None:
         self.transposes = dict(transposes)
         self.rules = {pair: sp.sympify(value) for pair, value in (rules or {}).items()}
+        for symbol in self.transposes:
+            if self.transpose(self.transpose(symbol)) != symbol:
+                raise ValueError(f"transposing {symbol} twice does not give {symbol} back")
         for (a, b), left in self.rules.items():
             for (c, d), right in self.rules.items():
                 if b == c and self.normal(left * d) != self.normal(a * right):

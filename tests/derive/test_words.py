@@ -3,7 +3,7 @@
 import pytest
 import sympy as sp
 
-from chapsym.derive import ball
+from chapsym.derive import ball, limits
 from chapsym.derive.words import WordAlgebra, evaluate, matrix_symbols
 
 R, RT, J, X, XT, xi = matrix_symbols("R RT J X XT xi")
@@ -70,3 +70,15 @@ def test_derived_momentum_agrees_with_the_matrix_formula_in_four_dimensions():
     shifted = tensor + half * g * g.T
     expected = omega * shifted - shifted * omega.T + half * (g * g.T * omega - omega.T * g * g.T)
     assert evaluate(ball.momentum(), values) == expected
+
+
+def test_transposes_that_are_no_involution_are_refused():
+    with pytest.raises(ValueError, match="transposing X twice"):
+        WordAlgebra({X: -XT, XT: X})
+
+
+def test_an_expansion_without_a_limit_is_told():
+    with pytest.raises(ArithmeticError, match="there is no limit"):
+        limits.expand_words((J + limits.eps * X) / limits.eps, ALGEBRA)
+    with pytest.raises(ArithmeticError, match="may be exact"):
+        limits.expand_words(J, ALGEBRA)

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 from reference import added, axial, cross, diagonal, dot, matmul, momentum, rotation, times, transposed
 
-HALF = (F(1, 2),) * 4
+UNIT = (F(4, 5), F(2, 5), F(1, 5), F(2, 5))
 #: q0, q, J, D, sigma of the two states with vertical momentum.
 STATES = [
     ((F(4, 5), F(2, 5), F(1, 5), F(2, 5)), (F(1), F(2), F(4)), F(1), F(28, 5)),
@@ -51,11 +51,11 @@ def state(request):
 
 
 def test_5_1_the_entry_32(records):
-    q0, q1, q2, q3 = HALF
+    q0, q1, q2, q3 = UNIT
     [(printed, truth)] = sides(records, "5.1")
-    assert truth == [x for row in rotation(*HALF) for x in row]
-    assert printed[7] == -2 * (q2 * q3 - q0 * q1)
-    assert truth[7] == 2 * (q2 * q3 + q0 * q1) == 1
+    assert truth == [x for row in rotation(*UNIT) for x in row]
+    assert printed[7] == -2 * (q2 * q3 - q0 * q1) == F(12, 25)
+    assert truth[7] == 2 * (q2 * q3 + q0 * q1) == F(4, 5)
     assert [a == b for a, b in zip(printed, truth, strict=True)].count(False) == 1
 
 
@@ -183,13 +183,23 @@ def test_4_1_by_hand(records):
 
 
 def test_4_9_F_by_hand(records):
-    before, gamma = turn_about_first(F(3, 5), F(4, 5)), [F(0), F(0), F(1)]
-    # R_{k-1} = 1, R_k = R_{k+1} = turn: Ω_k = 1, Ω_{k-1} = turn, f = ½(Ω̄ - Ω̄ᵀ)γ with Ω̄ = turn.
-    skew = added((F(1, 2), before), (F(-1, 2), transposed(before)))
-    truth = times(transposed(before), times(skew, gamma))
-    printed = [-x for x in times(skew, times(transposed(before), gamma))]
-    column = [[x] for x in truth]
-    assert matrices(records, "4.9-F", "printed") == [written([[x] for x in printed]), written(column)]
+    """R_{k-1} = 1, R_k = a turn about e1, R_{k+1} = a turn about e2: f from (4.4) and (4.9), F = R_kᵀf."""
+    now, gamma = turn_about_first(F(3, 5), F(4, 5)), [F(0), F(0), F(1)]
+    after = [[F(3, 5), F(0), F(4, 5)], [F(0), F(1), F(0)], [F(-4, 5), F(0), F(3, 5)]]
+
+    def half_skew(a):
+        return added((F(1, 2), a), (F(-1, 2), transposed(a)))
+
+    step_after = [-x for x in times(half_skew(matmul(after, transposed(now))), gamma)]  # Δr_k by (4.9)
+    step_before = [-x for x in times(half_skew(now), gamma)]
+    force = [a - b for a, b in zip(step_after, step_before, strict=True)]
+    truth = times(transposed(now), force)
+    vertical = times(transposed(now), gamma)
+    omegas = matmul(transposed(now), after), now
+    terms = [times(half_skew(omega), vertical) for omega in omegas]
+    assert truth == [-a + b for a, b in zip(*terms, strict=True)]
+    column, printed = [[x] for x in truth], [[-a - b] for a, b in zip(*terms, strict=True)]
+    assert matrices(records, "4.9-F", "printed") == [written(printed), written(column)]
     assert matrices(records, "4.9-F", "corrected") == [written(column), written(column)]
 
 
