@@ -125,7 +125,7 @@ def _vertical(rng: np.random.Generator) -> State:
 STRATA: dict[str, Callable[[np.random.Generator], State]] = {
     "generic": _generic,
     "tiny momentum, 1e-300 to 1e-8": _tiny,
-    "large rotation, 0.9 to 0.999 of the fold": _large,
+    "rotation at 0.9 to 0.999 of the fold": _large,
     "1e-9 to 1e-4 before the fold": _near_fold,
     "D = 0": _top,
     "D = 1e3 to 1e6": _heavy,

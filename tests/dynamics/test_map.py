@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 import chapsym
 from chapsym import BadInput, Ball, Status, StepNotTaken, testing
 from chapsym.dynamics import front
-from chapsym.dynamics.branch import small_rotation
+from chapsym.dynamics.branch import small_rotation, tangent
 from chapsym.dynamics.map import largest_momentum
 from chapsym.studies.check import State, compare
 
@@ -253,3 +253,18 @@ def test_a_huge_momentum_is_unreachable(size):
 def test_a_rod_on_its_end_has_no_inertia():
     with pytest.raises(StepNotTaken, match="no inertia about the vertical"):
         chapsym.step(Ball((1, 0, 0), 1), (0, 0, 1), (1, 0, 0))
+
+
+@given(testing.rotations(), testing.balls(["generic"]), testing.unit_vectors())
+def test_the_direction_of_the_branch_and_its_bend(q, ball, gamma):
+    """d = T⁻¹𝒦 and |T⁻¹𝒦''| in the Frobenius norm, against linear algebra."""
+    T = front.tangent_jacobian(q, gamma, ball.mass_tensor, ball.D)
+    if abs(np.linalg.det(T)) < 1e-3:
+        return
+    _, speed, bend, *direction = tangent(*q, *K, *gamma, *ball.mass_tensor, float(ball.D))
+    expected = np.linalg.solve(T, K)
+    assert np.allclose(direction, expected, rtol=1e-9, atol=1e-12)
+    assert speed == pytest.approx(np.linalg.norm(expected))
+    rows = np.linalg.solve(T, front.tangent_hessian(q, gamma, ball.mass_tensor, ball.D).T)
+    weights = np.array([1, 1, 1, 2, 2, 2])
+    assert bend == pytest.approx(np.sqrt((rows**2 * weights).sum()), rel=1e-8)

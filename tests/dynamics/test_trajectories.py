@@ -128,6 +128,13 @@ def test_a_fold_stops_one_ball_with_the_step_and_the_trajectory_before_it():
     assert (again.momentum == error.trajectory.momentum).all()
 
 
+def test_a_fold_in_a_later_chunk_has_its_own_index(monkeypatch):
+    monkeypatch.setattr("chapsym.dynamics.trajectories.CHUNK", 2)
+    with pytest.raises(StepNotTaken) as caught:
+        chapsym.trajectory(BALL, FOLDING, GAMMA, 100)
+    assert caught.value.index == 3
+
+
 @pytest.mark.parametrize("extra", [1, 2000])
 def test_a_batch_reports_which_ball_stopped_where(extra):
     run = chapsym.trajectory(BALL, np.stack([K, FOLDING]), GAMMA, extra + 10, contact=True)

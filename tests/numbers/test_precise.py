@@ -8,7 +8,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from chapsym import BadInput, StepNotTaken, testing
+from chapsym import BadInput, StepNotTaken, generated, testing
+from chapsym.dynamics import precise
 from chapsym.dynamics.oracle import Oracle, OracleFailed
 from chapsym.dynamics.precise import precise_step
 from chapsym.numbers import Ball, Digits, Double
@@ -117,3 +118,44 @@ def test_a_stiff_ball_gets_all_its_digits(exponent):
             enclosure = flint.arb(text)
             assert enclosure.overlaps(flint.arb(str(value)) + flint.arb(0, f"{float(abs(value)) or 1}e-50"))
             assert enclosure.rad() <= abs(enclosure).upper() * flint.arb(2) ** -45
+
+
+@given(testing.rational_rotations(), testing.rational_unit_vectors(), testing.rational_balls())
+@settings(max_examples=15)
+def test_the_slope_of_the_enclosure_is_the_derivative(q, gamma, ball):
+    """F is quadratic, so a central difference is exact: on fractions `_slope` must equal it."""
+    J, D = ball
+    w, step = (F(1, 3), F(-2), F(5, 7)), F(1, 2)
+
+    def value(point):
+        scale = 1 + sum(x * x for x in point)
+        moved = generated.momentum(*generated.compose(*q, F(1), *point), *gamma, *J, D)
+        return [m - k * scale for m, k in zip(moved, K, strict=True)]
+
+    tangent, hessian = (f(*q, *gamma, *J, D) for f in (generated.tangent_jacobian, generated.tangent_hessian))
+    slope = precise._slope(tangent, hessian, K, w)
+    for j in range(3):
+        ahead, behind = ([x + s * step * (i == j) for i, x in enumerate(w)] for s in (1, -1))
+        difference = [(a - b) / (2 * step) for a, b in zip(value(ahead), value(behind), strict=True)]
+        assert [slope[3 * i + j] for i in range(3)] == difference
+
+
+def test_the_interval_test_itself_finds_the_root(monkeypatch):
+    """Without refinement the float64 root is off by 1e-16, and the one interval Newton step must put that right."""
+    monkeypatch.setattr(precise, "MOST_REFINEMENTS", 0)
+    monkeypatch.setattr(precise, "_small_enough", lambda rung, found: True)
+    found = flat(precise_step(J, D, K, GAMMA, Ball(200)).write())
+    with flint.ctx.workprec(400):
+        for text, value in zip(found, truth(J, D, K, GAMMA, 80), strict=True):
+            enclosure = flint.arb(text)
+            assert enclosure.overlaps(flint.arb(str(value)) + flint.arb(0, "1e-70"))
+            assert enclosure.rad() < flint.arb("1e-28")
+
+
+@pytest.mark.parametrize("rung", [Double(), Digits(20), Ball(80)])
+def test_rungs_make_root_and_write_numbers(rung):
+    with rung.precision():
+        root = rung.sqrt(rung.number(F(9, 4)))
+        assert root == rung.number(F(3, 2))
+        assert str(rung.write(root)).startswith(("1.5", "[1.5"))
+        assert rung.guarded(3).digits == rung.digits
