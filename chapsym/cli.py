@@ -35,6 +35,8 @@ Json = Annotated[bool, typer.Option("--json", help="Print one JSON object on sta
 
 def main() -> NoReturn:
     """The entry point: turns every foreseen error into one sentence and an exit status."""
+    if sys.stdout is None:  # closed by the caller
+        sys.stdout = open(os.devnull, "w")  # noqa: SIM115
     if len(sys.argv) == 1:
         sys.argv.append("--help")
     try:
@@ -122,10 +124,10 @@ def prove(
 
     Example: chapsym prove prop-4 5.11 --explain
     """
-    from chapsym.prove import load, prove_all
+    from chapsym.prove import prove_all
     from chapsym.prove.runner import explain as argument
 
-    claims = load()
+    claims = _claims()
     unknown = [id for id in ids or [] if id not in claims]
     if unknown:
         _fail(f"no proof judges the claim {unknown[0]!r}; chapsym prove --list names those that are judged", 2)
@@ -161,6 +163,16 @@ def prove(
         _fail(f"not proved: {', '.join(open_claims)}", 1)
 
 
+def _claims() -> dict[str, Any]:
+    """Every claim that has a proof; a script that cannot be loaded is a failed proof."""
+    from chapsym.prove import BrokenScript, load
+
+    try:
+        return load()
+    except BrokenScript as error:
+        _fail(str(error), 1)
+
+
 def _tally(records: list[dict[str, Any]]) -> str:
     counts: dict[str, int] = {}
     for record in records:
@@ -189,8 +201,8 @@ def codegen(
         problems = _unproved(build.KERNELS)
         try:
             problems += build.check(place)
-        except ArithmeticError as error:
-            problems.append(f"the derivation fails: {error}")
+        except Exception as error:  # whatever a broken derivation does
+            problems.append(f"the derivation fails: {type(error).__name__}: {error}")
         if as_json:
             _print_json({"folder": str(place), "problems": problems, "kept": not problems})
         elif not problems:
@@ -221,10 +233,10 @@ def codegen(
 
 def _unproved(kernels: Any) -> list[str]:
     """The claims that kernels name as their proof and that are not proved, one sentence each."""
-    from chapsym.prove import load, prove_all
+    from chapsym.prove import prove_all
 
     named = {id: kernel.name for kernel in kernels for id in kernel.claims}
-    claims = load()
+    claims = _claims()
     missing = [
         f"{kernel} names the claim {id}, which no proof judges" for id, kernel in named.items() if id not in claims
     ]
@@ -360,7 +372,7 @@ def run(
         "steps": int(result.taken),
         "frames": len(result.index),
         "final": {"momentum": result.momentum[-1].tolist(), "gamma": result.gamma[-1].tolist()},
-        "drift": _drift(result.invariants()),
+        "drift": _drift(result),
     }
     if result.contact is not None:
         summary["final"]["contact"] = result.contact[-1].tolist()
@@ -373,11 +385,13 @@ def run(
         _fail(f"{failure}; the {summary['steps']} steps before it are in {destination}", 2)
 
 
-def _drift(invariants: Any) -> list[float]:
-    """The largest change of each invariant, relative to its scale |𝒦|, |𝒦|², 1."""
-    size = float(invariants[0, 1]) or 1.0
-    change = abs(invariants - invariants[0]).max(axis=0)
-    return [float(c / scale) for c, scale in zip(change, (size**0.5, size, 1.0), strict=True)]
+def _drift(run: Any) -> list[float]:
+    """The largest change of each invariant, relative to the scale of the momentum."""
+    from chapsym.dynamics import front
+
+    size = float(abs(run.momentum[0]).max()) or 1.0
+    invariants = front.invariants(run.momentum / size, run.gamma)
+    return [float(x) for x in abs(invariants - invariants[0]).max(axis=0)]
 
 
 @app.command()

@@ -13,4 +13,5 @@ SCRIPTS = (
     "s5_rotation",
     "s5_vertical",
     "s5_symmetric_form",
+    "s5_elliptic",
 )

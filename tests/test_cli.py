@@ -134,6 +134,19 @@ def test_a_claim_that_is_not_proved_exits_1(tmp_path):
     assert "1 holds, 1 open" in done.stdout
 
 
+def test_a_derivation_that_cannot_be_loaded_is_one_sentence(tmp_path):
+    (tmp_path / "sitecustomize.py").write_text(
+        "import chapsym.derive.principle as principle\n"
+        "def broken(): raise KeyError('R_+')\n"
+        "principle.kinetic_factor = broken\n"
+    )
+    for command in (["prove"], ["codegen", "--check"]):
+        done = chapsym(*command, env={**os.environ, "PYTHONPATH": str(tmp_path)})
+        assert done.returncode == 1
+        assert done.stderr.startswith("chapsym: the proof script s4_principle cannot be loaded: KeyError")
+        assert done.stderr.count("\n") == 1
+
+
 def test_codegen_check_passes():
     assert answer("codegen", "--check")["kept"] is True
 

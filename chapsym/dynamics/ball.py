@@ -86,6 +86,8 @@ class Ball:
             raise BadInput("the moments of inertia J2 + J3 + D, ... are beyond the range of float64")
         if not (moments > 0).all():
             raise BadInput("the ball has no inertia about one of its axes: at most two of J1, J2, J3 and D may vanish")
+        if not (tensor > 0).any(axis=-1).all():
+            raise BadInput("mass_tensor must not be (0, 0, 0): such a ball has no inertia about the vertical")
         if radius is not None:
             if not (radius > 0).all():
                 raise BadInput(f"radius must be positive, but it is {radius.min():g}")

@@ -17,7 +17,7 @@ from math import frexp, ldexp, sqrt
 
 from chapsym.generated import compose, residual, tangent_hessian, tangent_jacobian
 
-TAKEN, FOLDED, NOT_CONVERGED = 0, 1, 2
+TAKEN, FOLDED, NOT_CONVERGED, NO_INERTIA = 0, 1, 2, 4
 
 #: The Kantorovich number that a continuation step may have; the theorem asks for at most 1/2.
 CONTRACTION = 0.25
@@ -30,8 +30,10 @@ UNIT_ROUNDOFF = 2.0**-53
 SMALLEST = 2.0**-1070
 #: A continuation step below this fraction of what is behind it is a fold.
 SHORTEST = 4e-16
-#: The path is followed as far as this multiple of Λmax.
-FARTHEST = 4.0
+#: The path is followed as far as a momentum of 2^FARTHEST, where Λmax is below 1.
+FARTHEST = 3
+#: A determinant of the tangent Jacobian below this, for Λmax about 1, is rounding.
+SINGULAR = 2.0**-50
 MOST_STEPS = 20000
 MOST_CORRECTIONS = 20
 
@@ -44,14 +46,16 @@ def small_rotation(K1, K2, K3, g1, g2, g3, J1, J2, J3, D, shortest=SHORTEST):
     """
     _, exponent = frexp(max(J2 + J3, J1 + J3, J1 + J2) + D)
     J1, J2, J3, D = ldexp(J1, -exponent), ldexp(J2, -exponent), ldexp(J3, -exponent), ldexp(D, -exponent)
-    K1, K2, K3 = ldexp(K1, -exponent), ldexp(K2, -exponent), ldexp(K3, -exponent)
-    largest = max(abs(K1), abs(K2), abs(K3))
-    end = 1.0 if largest <= FARTHEST else FARTHEST / largest
-    K1, K2, K3 = end * K1, end * K2, end * K3
+    _, size = frexp(max(abs(K1), abs(K2), abs(K3)))
+    shift = min(-exponent, FARTHEST - size)
+    K1, K2, K3 = ldexp(K1, shift), ldexp(K2, shift), ldexp(K3, shift)
+    end = ldexp(1.0, shift + exponent)
     t = 0.0  # of the path up to `end` times the momentum
     q0, q1, q2, q3 = 1.0, 0.0, 0.0, 0.0
     for _ in range(MOST_STEPS):
         det, speed, bend, d1, d2, d3 = tangent(q0, q1, q2, q3, K1, K2, K3, g1, g2, g3, J1, J2, J3, D)
+        if t == 0.0 and not det > SINGULAR:
+            return NO_INERTIA, 0.0, q0, q1, q2, q3
         if not det > 0.0:
             return FOLDED, t * end, q0, q1, q2, q3
         # The longest step with speed·step·(bend + 2(t + step)·speed) ≤ CONTRACTION.
@@ -61,11 +65,14 @@ def small_rotation(K1, K2, K3, g1, g2, g3, J1, J2, J3, D, shortest=SHORTEST):
         step = remaining if speed * remaining <= length else length / speed
         if step < shortest * t:
             return FOLDED, t * end, q0, q1, q2, q3
-        t = 1.0 if step == remaining else t + step
-        q0, q1, q2, q3 = turned(q0, q1, q2, q3, step * d1, step * d2, step * d3)
-        settled, q0, q1, q2, q3 = corrected(q0, q1, q2, q3, t * K1, t * K2, t * K3, g1, g2, g3, J1, J2, J3, D)
+        ahead = 1.0 if step == remaining else t + step
+        p0, p1, p2, p3 = turned(q0, q1, q2, q3, step * d1, step * d2, step * d3)
+        settled, p0, p1, p2, p3 = corrected(
+            p0, p1, p2, p3, ahead * K1, ahead * K2, ahead * K3, g1, g2, g3, J1, J2, J3, D
+        )
         if not settled:
             return NOT_CONVERGED, t * end, q0, q1, q2, q3
+        t, q0, q1, q2, q3 = ahead, p0, p1, p2, p3
         if t == 1.0 and end < 1.0:  # past what any rotation has: the fold was missed
             return NOT_CONVERGED, end, q0, q1, q2, q3
         if t == 1.0:

@@ -81,7 +81,7 @@ def step(ball: Ball, momentum: ArrayLike, gamma: ArrayLike) -> Step:
     failed = status != Status.TAKEN
     if failed.any():
         for i in np.flatnonzero(failed):
-            status[i] = explain(status[i], reach[i], K[i], g[i], J[i], D[i])
+            status[i] = explain(status[i], K[i], g[i], J[i], D[i])
         if not shape:
             raise StepNotTaken(Status(int(status[0])), float(reach[0]))
         K[failed], g[failed] = np.nan, np.nan
@@ -100,15 +100,15 @@ def advance_all(K: Floats, g: Floats, J: Floats, D: Floats, q: Floats, status: n
     compiled("advance_all")(K, g, J, D, q, status, reach)
 
 
-def explain(status: int, reach: float, K: Floats, g: Floats, J: Floats, D: float) -> Status:
-    """Why a step was not taken: FOLDED, unless the curve cannot start or no rotation at all has this momentum."""
-    if status == Status.FOLDED and reach == 0.0:
-        return Status.NO_INERTIA
-    if status == Status.FOLDED:
-        scale = 2.0 ** -float(np.frexp(J.sum() + D)[1])  # the norm of a huge momentum must not overflow
-        # No rotation has more than twice the largest moment of inertia, which is below 1 now.
-        k = np.clip(K * scale, -4.0, 4.0)
-        if np.abs(k).max() == 4.0 or np.linalg.norm(k) > largest_momentum(k, g, J * scale, D * scale) * (1 + 1e-12):
+def explain(status: int, K: Floats, g: Floats, J: Floats, D: float) -> Status:
+    """Why a step was not taken: UNREACHABLE if no rotation at all has this momentum."""
+    if status in (Status.FOLDED, Status.NOT_CONVERGED):
+        # Scaled so that Λmax is below 1: then no rotation has a component above 2, and nothing overflows.
+        shift = -int(np.frexp(J.sum() + D)[1])
+        with np.errstate(over="ignore"):
+            k = np.clip(np.ldexp(K, shift), -4.0, 4.0)
+        most = largest_momentum(k, g, np.ldexp(J, shift), float(np.ldexp(D, shift)))
+        if np.abs(k).max() == 4.0 or np.linalg.norm(k) > most * (1 + 1e-12):
             return Status.UNREACHABLE
     return Status(int(status))
 

@@ -79,7 +79,7 @@ class Oracle:
             moved = self._newton(rotation, trial * target, enough)
             if moved is None:
                 dt /= 2
-                if dt < mp.mpf(10) ** (-self.digits // 2):
+                if not dt >= mp.mpf(10) ** (-self.digits // 2):
                     raise OracleFailed(f"the branch folds at {mp.nstr(t, 12)} of the momentum")
             else:
                 rotation, t, dt = moved, trial, dt * 2

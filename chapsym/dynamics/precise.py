@@ -127,6 +127,7 @@ def _refined(rung: Rung, q: tuple, K: tuple, g: tuple, J: tuple, D: tuple) -> tu
 
     Newton squares the correction, up to the digits that the conditioning costs, which the guard covers.
     """
+    q = _normalised(rung, q)
     settled = rung.number(Fraction(1, 10 ** (rung.carried // 2 - 2)))
     for _ in range(MOST_REFINEMENTS):
         w = _correction(q, K, g, J, D)
@@ -153,6 +154,7 @@ def _normalised(rung: Rung, p: tuple) -> tuple:
 
 def _enclosed(rung: ArbBall, q: tuple, K: tuple, g: tuple, J: tuple, D: tuple) -> tuple | None:
     """Unit Euler parameters as balls that contain the one root near the float64 root."""
+    q = tuple(x.mid() for x in _normalised(rung, q))
     for _ in range(MOST_REFINEMENTS):
         w = tuple(x.mid() for x in _correction(q, K, g, J, D))
         change = max(abs(x) for x in w)

@@ -162,7 +162,7 @@ def trajectory(
             done += count
             progress(done)
             if status[i] != Status.TAKEN:
-                status[i] = explain(status[i], reach[i], K[i], g[i], J[i], D[i])
+                status[i] = explain(status[i], K[i], g[i], J[i], D[i])
                 break
     result = Trajectory(
         ball,

@@ -14,10 +14,22 @@ from typing import Any
 from .claims import Claim, Judgement, Proof, Verdict, register
 
 
+class BrokenScript(ImportError):
+    """A proof script cannot even be loaded: what it derives at import fails."""
+
+
 def load() -> dict[str, Claim]:
-    """Imports every proof script and returns the claims by id, in the order of the paper."""
+    """Imports every proof script and returns the claims by id, in the order of the paper.
+
+    Raises BrokenScript if a script, or the derivation that it starts from, raises on import.
+    """
     scripts = importlib.import_module("chapsym.proofs").SCRIPTS
-    modules = [importlib.import_module(f"chapsym.proofs.{name}").__name__ for name in scripts]
+    modules = []
+    for name in scripts:
+        try:
+            modules.append(importlib.import_module(f"chapsym.proofs.{name}").__name__)
+        except Exception as error:
+            raise BrokenScript(f"the proof script {name} cannot be loaded: {type(error).__name__}: {error}") from error
 
     def place(claim: Claim) -> tuple[int, int]:
         return modules.index(claim.prove.__module__), claim.prove.__code__.co_firstlineno

@@ -39,12 +39,14 @@ def check_destination(path: Path) -> None:
             raise SceneError(f"{path} cannot be written: choose a file in a folder that is writable")
     except OSError as error:
         raise SceneError(f"{path} cannot be written: {error.strerror or error}") from None
+    except ValueError as error:  # a null byte in the name
+        raise SceneError(f"{str(path)!r} cannot be written: {error}") from None
 
 
 def save(run: Trajectory, path: Path) -> None:
     """Writes the trajectory to .npz or .csv; raises SceneError if the disk refuses."""
-    path = Path(os.path.realpath(path))  # a link stays a link; its file is replaced
     check_destination(path)
+    path = Path(os.path.realpath(path))  # a link stays a link; its file is replaced
     temporary = None
     try:
         with tempfile.NamedTemporaryFile("wb", dir=path.parent, prefix=f".{path.name}.", delete=False) as stream:

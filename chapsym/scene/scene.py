@@ -112,10 +112,10 @@ def load(path: Path) -> Scene:
         raise SceneError(f"{path} is not UTF-8 text") from None
     try:
         return Scene.model_validate(tomllib.loads(text))
-    except tomllib.TOMLDecodeError as error:
-        raise SceneError(f"{path} is not TOML: {error}") from None
     except ValidationError as error:
         raise SceneError(f"{path}: " + "; ".join(_sentence(e) for e in error.errors())) from None
+    except (ValueError, RecursionError) as error:  # tomllib: wrong syntax, huge integers, deep nesting
+        raise SceneError(f"{path} is not TOML: {str(error).splitlines()[0]}") from None
 
 
 def _sentence(error: Any) -> str:

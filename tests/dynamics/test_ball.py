@@ -32,6 +32,7 @@ def test_a_flat_body_survives_rounding():
         (lambda: Ball((1, 2, 3), -1), "D = m ρ² must not be negative"),
         (lambda: Ball((1, 0, 0), 0), "no inertia about one of its axes"),
         (lambda: Ball((0, 0, 0), 0), "no inertia about one of its axes"),
+        (lambda: Ball((0, 0, 0), 1), "no inertia about the vertical"),
         (lambda: Ball((1, np.nan, 1), 1), "mass_tensor must be finite"),
         (lambda: Ball((1, 1), 1), "mass_tensor must have 3 components"),
         (lambda: Ball((1, 1, 1), 1, radius=0), "radius must be positive"),

@@ -250,6 +250,13 @@ def test_a_huge_momentum_is_unreachable(size):
     assert caught.value.status is Status.UNREACHABLE
 
 
+def test_a_momentum_beyond_the_range_of_its_ball_is_unreachable():
+    for ball, size in [(Ball((1e-300,) * 3, 0), 1e20), (Ball((5e-324,) * 3, 0), 1e308), (Ball((1, 2, 2), 1e3), 1e6)]:
+        with pytest.raises(StepNotTaken) as caught:
+            chapsym.step(ball, (-size / 2, -size, -size / 2), GAMMA)
+        assert caught.value.status is Status.UNREACHABLE
+
+
 def test_a_rod_on_its_end_has_no_inertia():
     with pytest.raises(StepNotTaken, match="no inertia about the vertical"):
         chapsym.step(Ball((1, 0, 0), 1), (0, 0, 1), (1, 0, 0))

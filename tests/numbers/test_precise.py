@@ -159,3 +159,14 @@ def test_rungs_make_root_and_write_numbers(rung):
         assert root == rung.number(F(3, 2))
         assert str(rung.write(root)).startswith(("1.5", "[1.5"))
         assert rung.guarded(3).digits == rung.digits
+
+
+@pytest.mark.parametrize("digits", range(12, 24))
+def test_no_number_of_digits_is_float64_in_disguise(digits):
+    """The float64 start is unit to 1e-16 only, and its first correction is as small."""
+    J = (F(232, 97), F(166, 97), F(290, 97))
+    K = (F(1050671085365083, 2361183241434822606848), F(2450623061553463, 2251799813685248), F(1, 10**6))
+    found = flat(precise_step(J, F(0), K, GAMMA, Digits(digits)).write())
+    for text, exact in zip(found, truth(J, F(0), K, GAMMA, 50), strict=True):
+        mpf = exact.context.mpf
+        assert abs(exact - mpf(text)) <= abs(exact) * mpf(10) ** (1 - digits)

@@ -289,6 +289,103 @@ def test_4_9_limit_by_hand(records):
     assert matrices(records, "4.9-limit", "corrected") == [truth, truth]
 
 
+def test_5_8_amplitudes(records):
+    """Λ = (4,2,1), l = 5/8: γ at cn = 1 must be unit, so C1² + C3² = 1."""
+    L1, L2, L3, level = F(4), F(2), F(1), F(5, 8)
+    printed = [L1 * (1 - L3 * level) / (L1 - L3), L2 * (1 - L3 * level) / (L2 - L3), L3 * (1 - L1 * level) / (L1 - L3)]
+    truth = [printed[0], printed[1], -printed[2]]
+    assert truth[0] + truth[2] == 1 != printed[0] + printed[2]
+    assert truth[0] / L1 + truth[2] / L3 == level
+    assert sides(records, "5.8") == [(printed, truth)]
+
+
+def test_5_13_at_zero_modulus(records):
+    """k = 0: cos(a+b) - cos(a-b) = -2 sin a sin b, with sin a = 3/5, sin b = 5/13."""
+    value = 2 * F(3, 5) * F(5, 13)
+    plus, minus = F(4, 5) * F(12, 13) - F(3, 13), F(4, 5) * F(12, 13) + F(3, 13)
+    assert plus - minus == -value
+    assert sides(records, "5.13") == [([-value], [value])]
+    assert sides(records, "5.13", "corrected") == [([-value], [-value])]
+
+
+class Increment:
+    """Λ = (6,5,2), l = 3/10, k² = 1/6, V = 1/5; sn δu = 24/25, cn δu = 7/25, dn δu = 23/25."""
+
+    def __init__(self, sn_mean):
+        lam, self.l, self.k2, self.V = (F(6), F(5), F(2)), F(3, 10), F(1, 6), F(1, 5)
+        self.lam = lam
+        sn, cn, dn = F(24, 25), F(7, 25), F(23, 25)
+        assert cn**2 + sn**2 == 1 == dn**2 + self.k2 * sn**2
+        L1, L2, L3 = lam
+        assert self.k2 == (L1 - L2) * (1 - L3 * self.l) / ((L2 - L3) * (L1 * self.l - 1))
+        assert (L2 - L3) * (L1 * self.l - 1) / (L1 * L2 * L3) == self.V**2
+        squares = [
+            L1 * (1 - L3 * self.l) / (L1 - L3),
+            L2 * (1 - L3 * self.l) / (L2 - L3),
+            L3 * (L1 * self.l - 1) / (L1 - L3),
+        ]
+        self.abc = [c / x**2 for c, x in zip(squares, lam, strict=True)]
+        self.y, self.c2, self.d2, self.w = sn**2, cn**2, dn**2, sn * cn * dn
+        self.scale = 1 - self.k2 * sn_mean**2 * self.y
+        self.lower = self.l - (1 - L3 * self.l) / (L2 - L3) * self.y
+        a, b, c = self.abc
+        self.G = a / self.k2 * self.c2 - b / self.k2 * self.c2 * self.d2 + c * self.d2
+        self.D = (2 * self.V * self.w - self.G) * self.scale / (2 * self.V * self.w * self.lower)
+
+
+def test_5_14_G(records):
+    """At ū = 0, s/2 = (C1 cn, 0, C3 dn): Π2 by hand, and G from Π2 𝒟² = G𝒟/sn² - V² cn² dn²/sn²."""
+    t = Increment(F(0))
+    a, b, c = t.abc
+    second = a * t.c2 + c * t.d2
+    assert (second + t.V**2 * t.c2 * t.d2 / t.y) * t.y == t.G
+    printed = a / t.k2 * t.c2 - b * t.c2 * t.d2 + c * t.d2
+    assert sides(records, "5.14-G") == [([printed], [t.G])]
+
+
+def test_5_14_alpha(records):
+    t = Increment(F(0))
+    L1, L2, L3 = t.lam
+    below = (L2 - L3) * (L1 * t.l - 1)
+    true = (2 * L1 * L3 * t.l - (L1 + L3 - L2)) / below
+    beta = L1 * L3 / (L2 - L3) ** 2 * (1 - L3 * t.l) / (L1 * t.l - 1)
+    assert t.V**2 * (1 + true * t.y - beta * t.y**2) == t.G
+    assert sides(records, "5.14-alpha") == [([(2 * L1 * L3 - (L1 + L3 - L2)) / below], [true])]
+
+
+def test_5_14_and_5_15(records):
+    """At the D that the true relation gives, prop-4 holds with sigma and kappa by hand, the printed relations fail."""
+    t = Increment(F(3, 5))
+    W = t.V * t.w / t.y
+    inverse, second = 1 - t.D * t.lower / t.scale, t.G * t.scale / t.y - W**2
+    assert 0 < t.D < 1
+    assert (W / inverse / t.scale - 1) ** 2 == 1 - second / (inverse * t.scale) ** 2
+    half = 1 - t.D / 2 * t.lower / t.scale
+    assert sides(records, "5.14") == [([half**2 * (t.scale**2 - second)], [(W - t.scale * half) ** 2])]
+    inside = t.G * t.scale - t.V**2 * t.c2 * t.d2
+    printed = -(t.D**2) / 4 * t.lower**2 / t.scale**2 * inside
+    printed += t.D * t.lower / t.scale * (inside - t.V * t.w * t.scale) + t.scale * (2 * t.V * t.w - t.G)
+    assert sides(records, "5.15") == [([printed], [F(0)])]
+
+
+def test_5_16(records):
+    """k² = 9/16, sn u = sn δu = 4/5, cn = 3/5, dn = 4/5: sn(u + δu) by the addition formula."""
+    k2, s, c, d = F(9, 16), F(4, 5), F(3, 5), F(4, 5)
+    x = s * s
+    added = 2 * s * c * d / (1 - k2 * x * x)
+    truth = 1 - k2 * added**2 * x
+    bracket = k2 * x * x * (2 - (k2 + 1) * x - k2 * x**2) + 2 * k2 * x * (s * c * d) ** 2 + k2 * x**2 * (1 - k2 * x) - 1
+    assert sides(records, "5.16") == [([bracket / (1 - k2 * x * x) ** 2], [truth])]
+
+
+def test_5_16_weierstrass(records):
+    """sn = 4/5, cn = 3/5, dn = 4/5, k² = 9/16: p - e3 = 1/sn², q = -2 cn dn/sn³."""
+    s, c, d = F(4, 5), F(3, 5), F(4, 5)
+    q, gap = -2 * c * d / s**3, 1 / s**2
+    assert s * c * d == -q / (2 * gap**2)
+    assert sides(records, "5.16-weierstrass-w") == [([q / (2 * gap**3)], [s * c * d])]
+
+
 def test_every_corrected_claim_is_recomputed_here(records):
     source = Path(__file__).read_text(encoding="utf-8")
     for id, record in records.items():

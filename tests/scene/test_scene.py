@@ -60,6 +60,8 @@ def test_the_shipped_scene_runs():
         ("momentum", "omega", "start.omega needs run.time_step, in seconds"),
         ("D = 3", "D = 3\ninertia = [1, 1, 1]", "ball: give either mass_tensor or inertia"),
         ("[ball]", "[ball", "is not TOML"),
+        ("[ball]", "a = " + "[" * 20000 + "\n[ball]", "is not TOML"),
+        ("[ball]", "a = " + "9" * 20000 + "\n[ball]", "is not TOML"),
         ("D = 3", "D = 1" + "0" * 400, "ball.D: it is beyond the range of float64"),
     ],
 )
