@@ -14,4 +14,5 @@ SCRIPTS = (
     "s5_vertical",
     "s5_symmetric_form",
     "s5_elliptic",
+    "s5_increment",
 )
