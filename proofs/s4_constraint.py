@@ -62,7 +62,7 @@ def naive_constraint(p: Proof) -> None:
     values = {R: sp.eye(3), RT: sp.eye(3), R1: turn, R1T: turn.T, gamma: up, rho: sp.S.One}
     naive = -rho * R1 * RT * gamma
     p.printed_fact("at Ω̄ = a turn by (3/5, 4/5) about e₁, γ = e₃: Δr = (0, 4/5, -3/5)",
-                   list(evaluate(naive, values)) == [0, sp.Rational(4, 5), sp.Rational(-3, 5)])  # fmt: skip
+                   turn.det() == 1 and list(evaluate(naive, values)) == [0, sp.Rational(4, 5), sp.Rational(-3, 5)])  # fmt: skip
     p.say("At Ω̄ = 1 it asks for Δr = -ργ: it does not admit (q, q), nor does it tend to (4.2).")
     p.lemma(equation("Δr at R_{k+1} = R_k is -ργ", naive.subs({R1: R, R1T: RT}), -rho * gamma))
     p.control(equation("its vertical component vanishes", ALGEBRA.trace(naive * gammaT), sp.S.Zero))
