@@ -13,7 +13,6 @@ from chapsym.prove import Equation, Proof, claim, main, rational_point
 
 alpha = sp.Matrix(sp.symbols("a1:4"))  # dω/dt
 h, l = sp.symbols("h l")
-FREE = Quotient((*alpha, *RING.symbols), RING.relations)
 VERTICAL_RATE = gamma.cross(omega)
 
 

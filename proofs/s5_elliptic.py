@@ -6,9 +6,9 @@ from chapsym.derive import elliptic
 from chapsym.derive.elliptic import HALF, L1, L2, L3, LAMBDA, MEAN, U, k2, l
 from chapsym.prove import Equation, Proof, claim, main, rational_point
 
-C1, C2, C3, kappa, V = sp.symbols("C1 C2 C3 kappa V")
+C1, C2, C3, V = sp.symbols("C1 C2 C3 V")
 ON_CURVE = elliptic.ring(U)
-TWO = elliptic.ring(MEAN, HALF, amplitudes=(C1, C2, C3, kappa, V))
+TWO = elliptic.ring(MEAN, HALF, amplitudes=(C1, C2, C3, V))
 
 #: Λ = (4, 2, 1), l = 5/8 lies between 1/2 and 1.
 BALL = {L1: 4, L2: 2, L3: 1, l: "5/8"}

@@ -30,10 +30,6 @@ class Quotient:
         basis = sp.groebner(self.relations, *self.symbols, order="grevlex", domain="QQ")
         return [self._ring.from_expr(g) for g in basis.exprs]
 
-    def with_relations(self, *relations: sp.Expr) -> "Quotient":
-        """The same ring under further hypotheses."""
-        return Quotient(self.symbols, self.relations + relations)
-
     def normal(self, expr: sp.Expr | int) -> sp.Expr:
         """The normal form of a polynomial modulo the relations."""
         return self._reduce(sp.sympify(expr)).as_expr()

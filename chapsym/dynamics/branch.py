@@ -46,8 +46,9 @@ def small_rotation(K1, K2, K3, g1, g2, g3, J1, J2, J3, D, shortest=SHORTEST):
     """
     _, exponent = frexp(max(J2 + J3, J1 + J3, J1 + J2) + D)
     J1, J2, J3, D = ldexp(J1, -exponent), ldexp(J2, -exponent), ldexp(J3, -exponent), ldexp(D, -exponent)
-    _, size = frexp(max(abs(K1), abs(K2), abs(K3)))
-    shift = min(-exponent, FARTHEST - size)
+    largest = max(abs(K1), abs(K2), abs(K3))
+    _, size = frexp(largest)
+    shift = min(-exponent, FARTHEST - size) if largest > 0.0 else -exponent
     K1, K2, K3 = ldexp(K1, shift), ldexp(K2, shift), ldexp(K3, shift)
     end = ldexp(1.0, shift + exponent)
     t = 0.0  # of the path up to `end` times the momentum

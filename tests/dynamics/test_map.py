@@ -63,8 +63,9 @@ def test_a_step_goes_back(state):
     assert np.abs(back.momentum + momentum).max() <= tolerance * np.abs(momentum).max() + 2.0**-1070
 
 
-def test_a_ball_at_rest_stays_at_rest():
-    step = chapsym.step(BALL, (0, 0, 0), GAMMA)
+@pytest.mark.parametrize("scale", [1e-300, 1e-3, 1.0, 1e300])
+def test_a_ball_at_rest_stays_at_rest(scale):
+    step = chapsym.step(Ball(BALL.mass_tensor * scale, BALL.D * scale), (0, 0, 0), GAMMA)
     assert step.rotation.tolist() == [1, 0, 0, 0]
     assert step.momentum.tolist() == [0, 0, 0]
     assert (step.gamma == GAMMA).all()
