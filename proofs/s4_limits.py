@@ -4,7 +4,7 @@ import sympy as sp
 
 from chapsym.derive import ball, limits
 from chapsym.derive.ball import ALGEBRA, D, Gamma, J, K, omega
-from chapsym.prove import Equation, Proof, claim, main
+from chapsym.prove import Equation, Fact, Proof, claim, main
 
 
 def equation(text: str, left: sp.Expr, right: sp.Expr) -> Equation:
@@ -33,7 +33,7 @@ def centre_limit(p: Proof) -> None:
     show(p, "M/ε", m)
     p.printed(equation("M/ε → Jω + ωJ", m.limit, J * omega + omega * J))
     p.lemma(equation("the leading remainder is ½[ω², J]", m.leading, commutator(omega**2, J) / 2))
-    p.fact(f"the remainder has the exact order 1, here {m.order}", m.order == 1)
+    p.lemma(Fact(f"the remainder has the exact order 1, here {m.order}", m.order == 1))
     p.control(equation("M/ε → Jω - ωJ", m.limit, J * omega - omega * J))
 
 
@@ -53,13 +53,13 @@ def momentum_limit(p: Proof) -> None:
             "𝒦/ε → Jω + ωJ + D(Γω + ωΓ)", momentum.limit, J * omega + omega * J + D * (Gamma * omega + omega * Gamma)
         )
     )
-    p.fact(f"the remainder of 𝒦/ε has the exact order 1, here {momentum.order}", momentum.order == 1)
+    p.lemma(Fact(f"the remainder of 𝒦/ε has the exact order 1, here {momentum.order}", momentum.order == 1))
     p.lemma(equation("its leading term is ½[ω², J], without D", momentum.leading, commutator(omega**2, J) / 2))
     for name, tensor in [("𝒦", K), ("Γ", Gamma)]:
         moved = limits.transport(tensor)
         show(p, f"(Ωᵀ{name}Ω - {name})/ε", moved)
         p.printed(equation(f"(Ωᵀ{name}Ω - {name})/ε → -[ω, {name}]", moved.limit, -commutator(omega, tensor)))
-        p.fact(f"its remainder has the exact order 1, here {moved.order}", moved.order == 1)
+        p.lemma(Fact(f"its remainder has the exact order 1, here {moved.order}", moved.order == 1))
         p.lemma(
             equation(
                 f"its leading term is ½[ω, [ω, {name}]]",

@@ -7,7 +7,7 @@ from chapsym.derive.limits import omega
 from chapsym.derive.quotient import Quotient
 from chapsym.derive.three import J1, J2, J3, RING, D, K, axial, gamma, hat, q, q0, q1, q2, q3
 from chapsym.derive.words import evaluate
-from chapsym.prove import Equation, Proof, claim, main, rational_point
+from chapsym.prove import Equation, Fact, Proof, claim, main, rational_point
 
 #: Unit Euler parameters in general position.
 UNIT = dict(zip((q0, *q), map(sp.Rational, ("4/5", "2/5", "1/5", "2/5")), strict=True))
@@ -131,8 +131,8 @@ def parameter_expansion(p: Proof) -> None:
         Equation("q/ε → ω/2", list(vector.limit), list(omega / 2), limits.RING),
         Equation("q₀ → 1", list(scalar.limit), [sp.S.One], limits.RING),
     )
-    p.fact(f"q - εω/2 has the exact order 3, here {vector.order + 1}", vector.order + 1 == 3)
-    p.fact(f"q₀ - 1 has the exact order 2, here {scalar.order}", scalar.order == 2)
+    p.lemma(Fact(f"q - εω/2 has the exact order 3, here {vector.order + 1}", vector.order + 1 == 3))
+    p.lemma(Fact(f"q₀ - 1 has the exact order 2, here {scalar.order}", scalar.order == 2))
     square = omega.dot(omega)
     p.lemma(
         Equation("the leading term of q is -|ω|²ω/48", list(vector.leading), list(-square / 48 * omega), limits.RING)
@@ -156,7 +156,7 @@ def vector_limit(p: Proof) -> None:
     lam = sp.diag(J2 + J3 + D, J1 + J3 + D, J1 + J2 + D)
     printed = lam * omega - D * gamma.dot(omega) * gamma
     p.printed(Equation("𝒦⃗/ε → Λω - D⟨γ,ω⟩γ", list(limit.limit), list(printed), limits.RING))
-    p.fact(f"the remainder has the exact order 1, here {limit.order}", limit.order == 1)
+    p.lemma(Fact(f"the remainder has the exact order 1, here {limit.order}", limit.order == 1))
     p.lemma(
         Equation("its leading term is ½ ω×Λω", list(limit.leading), list(omega.cross(lam * omega) / 2), limits.RING)
     )
@@ -192,7 +192,7 @@ def vector_form(p: Proof) -> None:
             "its leading remainder is ½(𝒦⃗×ω)×ω", list(limit.leading), list(K.cross(omega).cross(omega) / 2), limits.RING
         )
     )
-    p.fact(f"that remainder has the exact order 1, here {limit.order}", limit.order == 1)
+    p.lemma(Fact(f"that remainder has the exact order 1, here {limit.order}", limit.order == 1))
     p.control(Equation("the axial vector of Ωᵀ𝒦Ω = Ω𝒦⃗", list(moved), list(rotation * K), ring))
     p.control(Equation("𝒦̇ = ω×𝒦", list(limit.limit), list(omega.cross(K)), limits.RING))
 

@@ -9,7 +9,7 @@ from chapsym.derive import vertical
 from chapsym.derive.quotient import Quotient
 from chapsym.derive.three import J1, J2, J3, D, q, q0
 from chapsym.derive.vertical import RING, sigma
-from chapsym.prove import Equation, Proof, claim, main, rational_point
+from chapsym.prove import Equation, Fact, Proof, claim, main, rational_point
 
 
 @cache
@@ -102,7 +102,7 @@ def q0_from_sum(p: Proof) -> None:
         p.say(f"A rotation by an angle {name} 90°:")
         p.counterexample(rational_point(state, vertical_state()))
     p.say("2q₀² - 1 = cos θ, so the sign of the root is that of cos θ; the second state needs the minus sign:")
-    p.fact("2q₀² > 1 at the first state, 2q₀² < 1 at the second", _signs() == (1, -1))
+    p.lemma(Fact("2q₀² > 1 at the first state, 2q₀² < 1 at the second", _signs() == (1, -1)))
     p.control(square_of_root("(2q₀²-1)² = 1 - (σ/4)⟨s, Λ⁻²s⟩", sigma / 4))
     p.control(square_of_root("(2q₀²-1)² = 1 + (σ²/4)⟨s, Λ⁻²s⟩", -(sigma**2) / 4))
 
@@ -182,8 +182,8 @@ def symmetric_form(p: Proof) -> None:
     for name, state in [("below", SMALL), ("above", LARGE)]:
         p.say(f"A state with the rotation angle {name} 90°: the sign of the root is that of 2q₀² - 1 = cos θ.")
         p.counterexample(rational_point(state, vertical_state()))
-        p.fact("the vector product in (5.10) is not zero there", _product_is_not_zero(state))
-    p.fact("the two states need the two signs of the root", _signs() == (1, -1))
+        p.lemma(Fact("the vector product in (5.10) is not zero there", _product_is_not_zero(state)))
+    p.lemma(Fact("the two states need the two signs of the root", _signs() == (1, -1)))
     _converse(p)
     p.control(symmetric("5.10 with ϰ = 2σ/q₀²", sigma / (2 * q0**2)))
     p.control(symmetric("5.10 with Λ⁻¹s×s", -sigma / (4 * q0**2)))

@@ -11,7 +11,8 @@ from concurrent.futures import ProcessPoolExecutor, as_completed
 from pathlib import Path
 from typing import Any
 
-from .claims import Claim, Judgement, Proof, Verdict, register
+from .claims import Claim, Judgement, register
+from .evidence import Proof, Verdict
 
 
 class BrokenScript(ImportError):
@@ -105,6 +106,11 @@ def explain(record: dict[str, Any]) -> str:
                 left, right = ", ".join(sides["left"]), ", ".join(sides["right"])
                 sign = "=" if left == right else "≠"
                 lines += [f"    {kind}: {sides['statement']}:  ({left}) {sign} ({right})"]
+    for seen in evidence["witnesses"]:
+        at = ", ".join(f"{k} = {v}" for k, v in seen["point"].items())
+        lines += [f"  true at an exact point ({seen['name']}, statements: {seen['statements']}): {at}"]
+    lines += [f"  nothing to decide: {evidence['reason']}"] if evidence["reason"] else []
+    lines += [f"  tried: {text}" for text in evidence["tried"]]
     if record["corrected"]:
         lines += [f"  corrected: {record['corrected']}"]
     if evidence["downstream"]:
@@ -129,4 +135,9 @@ def report(records: Iterable[dict[str, Any]]) -> int:
     """Prints every argument; returns the exit status."""
     records = list(records)
     print("\n\n".join(explain(record) for record in records))
-    return 0 if all(record["verdict"] != Verdict.OPEN for record in records) else 1
+    return 1 if unproved(records) else 0
+
+
+def unproved(records: Iterable[dict[str, Any]]) -> list[str]:
+    """The ids whose proof failed: `open`, and not a question that the paper itself leaves open."""
+    return [r["id"] for r in records if r["verdict"] == Verdict.OPEN and not r["evidence"]["open_in_paper"]]
