@@ -29,6 +29,7 @@ def show(p: Proof, name: str, remainder: limits.Remainder) -> None:
 )
 def centre_limit(p: Proof) -> None:
     """M/ε → Jω + ωJ, with a remainder of the exact order 1."""
+    p.assume("read as M/ε, as the paper itself writes for 𝒦 after (4.13): M alone tends to 0")
     m = limits.centre_momentum()
     show(p, "M/ε", m)
     p.printed(equation("M/ε → Jω + ωJ", m.limit, J * omega + omega * J))

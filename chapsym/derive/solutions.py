@@ -127,3 +127,20 @@ class _Algebra:
 def _sign_changes(coefficients: Sequence[sp.Rational]) -> int:
     signs = [c > 0 for c in coefficients if c]
     return sum(a != b for a, b in itertools.pairwise(signs))
+
+
+def multiplicity(found: Count) -> int:
+    """The number of real solutions, each with its multiplicity."""
+    return sum(factor.count_roots() * power for factor, power in found.eliminant.sqf_list()[1])
+
+
+def after(
+    mass_tensor: Sequence[int | str], contact: int | str, gamma: Sequence[int | str], turn: Sequence[int]
+) -> tuple[list[sp.Rational], list[sp.Rational]]:
+    """(𝒦_k, γ_k) one step after a rational state: Ωᵀ𝒦(q, γ) and Ωᵀγ, Ω given by (q₀, q) up to length."""
+    values = dict(zip(POINT, turn, strict=True))
+    values |= dict(zip((J1, J2, J3, D, g1, g2, g3), map(sp.Rational, (*mass_tensor, contact, *gamma)), strict=True))
+    length = sp.Integer(sum(c**2 for c in turn))
+    rotation = sp.Matrix(three.rotation()).subs(values) / length
+    momentum = sp.Matrix(three.momentum()).subs(values, simultaneous=True) / length
+    return list(rotation.T * momentum), list(rotation.T * three.gamma.subs(values))

@@ -106,9 +106,10 @@ def explain(record: dict[str, Any]) -> str:
                 left, right = ", ".join(sides["left"]), ", ".join(sides["right"])
                 sign = "=" if left == right else "≠"
                 lines += [f"    {kind}: {sides['statement']}:  ({left}) {sign} ({right})"]
-    for seen in evidence["witnesses"]:
+    for seen in evidence["witnesses"][:1]:
         at = ", ".join(f"{k} = {v}" for k, v in seen["point"].items())
-        lines += [f"  true at an exact point ({seen['name']}, statements: {seen['statements']}): {at}"]
+        cases = ", ".join(case["name"] for case in evidence["witnesses"][1:])
+        lines += [f"  true at an exact point: {at}" + (f"; and for {cases}" if cases else "")]
     lines += [f"  nothing to decide: {evidence['reason']}"] if evidence["reason"] else []
     lines += [f"  tried: {text}" for text in evidence["tried"]]
     if record["corrected"]:

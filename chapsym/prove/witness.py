@@ -53,7 +53,7 @@ def look(equations: Sequence[Equation]) -> tuple[list[dict[str, Any]], list[str]
             if not truth:
                 wrong.append(f"{equation.text} ({case})")
             seen = found.setdefault(case, {"name": case, "point": {}, "statements": 0})
-            seen["point"] |= {str(symbol): _shown(value) for symbol, value in point.items()}
+            seen["point"] |= _shown(equation, point)
             seen["statements"] += 1
     return list(found.values()), wrong
 
@@ -196,5 +196,11 @@ def _cayley(*above: int) -> sp.Matrix:
     return (sp.eye(4) - generator).inv() * (sp.eye(4) + generator)
 
 
-def _shown(value: Any) -> str:
-    return str(value.tolist()) if isinstance(value, sp.MatrixBase) else str(value)
+def _shown(equation: Equation, point: dict[sp.Symbol, Any]) -> dict[str, str]:
+    """The values of the symbols that occur in the equation, by name."""
+    used = set().union(*(sp.sympify(e).free_symbols for e in (*equation.left, *equation.right)))
+    values = {str(symbol): value for symbol, value in point.items() if symbol in used}
+    return {
+        name: str(value.tolist() if isinstance(value, sp.MatrixBase) else value)
+        for name, value in sorted(values.items())
+    }
