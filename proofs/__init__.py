@@ -19,4 +19,6 @@ SCRIPTS = (
     "s5_symmetric_form",
     "s5_elliptic",
     "s5_increment",
+    "s5_reduced_map",
+    "s6_remarks",
 )

@@ -196,6 +196,34 @@ def _product_is_not_zero(state: dict) -> bool:
     return not total().cross(inverse() * total()).subs(values, simultaneous=True).is_zero_matrix
 
 
+@claim("5.12-scaling", r"h = 1 \text{ by rescaling of } \Lambda \text{ and } D", uses=["prop-4"])
+def rescaling(p: Proof) -> None:
+    """The map depends on Λ/h and D/h only."""
+    p.assume("h > 0 (for h < 0 turn γ round: (-h, -γ) is the same momentum); prop-4 as corrected")
+    scale = sp.Symbol("s")
+    ring = Quotient((scale, *RING.symbols), RING.relations)
+    changed = {x: x / scale for x in (J1, J2, J3, D, sigma)}
+
+    def rescaled(expr: sp.Expr) -> sp.Expr:
+        return expr.subs(changed, simultaneous=True)
+
+    p.say("J, D, σ ↦ J/s, D/s, σ/s, with the same q: γ and γ~ stay, h becomes h/s, so that s = h gives 1.")
+    now, after, lam = vertical.gamma_now(), vertical.gamma_next(), vertical.lam()
+    p.printed(
+        Equation("Λ becomes Λ/s", list(lam.applyfunc(rescaled)), list(lam / scale), ring),
+        Equation("γ stays", list(now.applyfunc(rescaled)), list(now), ring),
+        Equation("γ~ stays", list(after.applyfunc(rescaled)), list(after), ring),
+        Equation("h becomes h/s", [rescaled(vertical.height())], [vertical.height() / scale], ring),
+    )
+    root = sigma**2 / 4 * second_form()
+    p.lemma(Equation("in (5.10) ϰΛ⁻¹ stays", [rescaled(sigma / q0**2 / lam[0, 0])], [sigma / q0**2 / lam[0, 0]], ring))
+    p.lemma(Equation("and under its root (σ²/4)⟨s,Λ⁻²s⟩", [rescaled(root)], [root], ring))
+    printed = second_form() / 4
+    p.say("With the printed root, without σ², the scaling would not be one: that is the control.")
+    p.control(Equation("¼⟨s,Λ⁻²s⟩ stays", [rescaled(printed)], [printed], ring))
+    p.control(Equation("h stays", [rescaled(vertical.height())], [vertical.height()], ring))
+
+
 def _converse(p: Proof) -> None:
     """Every solution of the corrected form is a step of the map: q = (σ/4q₀)Λ⁻¹s solves (5.4)."""
     p.say("The converse: let s and d = (ϰ/4)s×Λ⁻¹s satisfy the corrected form, ϰ = σ/q₀², and put")

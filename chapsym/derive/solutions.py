@@ -23,6 +23,9 @@ POINT = (q0, *q)
 CHART = (7, 2, -3, 5)
 APART = (3, -5, 1, 11)
 
+#: q₀ in the chart.
+FIRST = (1 - sum(c * x for c, x in zip(CHART[1:], q, strict=True))) / sp.Integer(CHART[0])
+
 
 class NotFinite(ValueError):
     """The quadrics have a curve in common: there are infinitely many solutions."""
@@ -82,9 +85,7 @@ class _Algebra:
     """Q[q] modulo three quadrics in the chart: multiplication matrices in the basis of standard monomials."""
 
     def __init__(self, equations: Sequence[sp.Expr]) -> None:
-        first = (1 - sum(c * x for c, x in zip(CHART[1:], q, strict=True))) / sp.Integer(CHART[0])
-        self.first = first
-        basis = sp.groebner([e.subs(q0, first) for e in equations], *q, order="grevlex", domain="QQ")
+        basis = _groebner(equations)
         if not basis.is_zero_dimensional:
             raise NotFinite("the three quadrics have infinitely many points in common")
         self.ring = PolyRing(tuple(q), sp.QQ, sp.grevlex)
@@ -96,7 +97,7 @@ class _Algebra:
 
     def eliminant(self) -> sp.Poly:
         """The characteristic polynomial of multiplication by the form APART."""
-        element = self.ring.from_expr(sp.expand(APART[0] * self.first + sum(map(sp.Mul, APART[1:], q))))
+        element = self.ring.from_expr(sp.expand(APART[0] * FIRST + sum(map(sp.Mul, APART[1:], q))))
         return sp.Poly.from_list(self._matrix(element).charpoly(), sp.Symbol("t"))
 
     def inertia(self) -> tuple[int, int]:
@@ -144,3 +145,13 @@ def after(
     rotation = sp.Matrix(three.rotation()).subs(values) / length
     momentum = sp.Matrix(three.momentum()).subs(values, simultaneous=True) / length
     return list(rotation.T * momentum), list(rotation.T * three.gamma.subs(values))
+
+
+def have_common_point(equations: Sequence[sp.Expr]) -> bool:
+    """Whether forms in (q₀, q) have a common complex point in the chart: false when 1 is in their ideal."""
+    return _groebner(equations).exprs != [sp.S.One]
+
+
+def _groebner(equations: Sequence[sp.Expr]) -> sp.GroebnerBasis:
+    """The ideal of the forms in the chart."""
+    return sp.groebner([sp.expand(e.subs(q0, FIRST)) for e in equations], *q, order="grevlex", domain="QQ")

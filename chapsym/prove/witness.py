@@ -158,6 +158,7 @@ def _letters() -> dict[str, sp.Matrix]:
         "R": _cayley(0, 1, 0, 1, 1, 0),
         "R_+": _cayley(1, 1, 0, 0, 1, 0),
         "Omega": _cayley(1, 0, 0, 1, 0, 1),
+        "S": _cayley(1, 1, 1, 0, 0, 0),
     }
     columns = {
         **{"gamma": (1, 1, 1, 1), "r_-": (0, 2, 4, 2), "r": (2, 2, 0, 4), "r_+": (4, 0, 2, 2)},
