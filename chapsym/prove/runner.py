@@ -13,6 +13,7 @@ from typing import Any
 
 from .claims import Claim, Judgement, register
 from .evidence import Proof, Verdict
+from .records import fingerprint
 
 
 class BrokenScript(ImportError):
@@ -53,7 +54,9 @@ def downstream(id: str, claims: dict[str, Claim]) -> list[str]:
 def prove_one(id: str) -> dict[str, Any]:
     """Judges one claim and returns its record; a proof that raises is an open claim with the reason."""
     claims = load()
-    return judge(claims[id]).record(downstream(id, claims))
+    record = judge(claims[id]).record(downstream(id, claims))
+    record["evidence"]["fingerprint"] = fingerprint(claims[id])
+    return record
 
 
 def judge(claim: Claim) -> Judgement:

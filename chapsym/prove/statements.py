@@ -51,8 +51,8 @@ class Fact:
     method: str = "exact arithmetic"
 
     def holds(self) -> bool:
-        """What was decided."""
-        return self.truth
+        """What was decided; an undecided relation raises TypeError."""
+        return bool(self.truth)
 
 
 Statement = Equation | Fact

@@ -12,7 +12,6 @@ from typing import Any
 
 import sympy as sp
 
-from chapsym.derive.elliptic import Jacobi, added, k2
 from chapsym.derive.quotient import Quotient
 from chapsym.derive.words import WordAlgebra, evaluate
 
@@ -126,20 +125,19 @@ def _same(a: Any, b: Any) -> bool:
 @cache
 def _scalars() -> dict[str, sp.Rational]:
     table = {name: sp.Rational(value) for name, value in SCALARS.items()}
-    half = Jacobi(table["sh"], table["ch"], table["dh"])
-    mean = _sum(half, half)
-    table |= dict(zip(("sm", "cm", "dm"), mean, strict=True))
-    table |= dict(zip(("s", "c", "d"), _sum(mean, half), strict=True))
-    lowest = -(1 + table["k2"]) / 3  # Weierstrass' e3
-    table["p"] = lowest + 1 / half.sn**2
-    table["q"] = -2 * half.cn * half.dn / half.sn**3
+    k2, sn, cn, dn = (table[name] for name in ("k2", "sh", "ch", "dh"))
+    twice = _elliptic_sum(k2, (sn, cn, dn), (sn, cn, dn))
+    table |= dict(zip(("sm", "cm", "dm"), twice, strict=True))
+    table |= dict(zip(("s", "c", "d"), _elliptic_sum(k2, twice, (sn, cn, dn)), strict=True))
+    table["p"], table["q"] = 1 / sn**2 - (1 + k2) / 3, -2 * cn * dn / sn**3  # Weierstrass' function and derivative
     return table
 
 
-def _sum(x: Jacobi, y: Jacobi) -> Jacobi:
-    """The addition formulas at numbers."""
-    modulus = {k2: sp.Rational(SCALARS["k2"])}
-    return Jacobi(*(sp.sympify(value).xreplace(modulus) for value in added(x, y, 1)))
+def _elliptic_sum(k2: sp.Rational, x: tuple, y: tuple) -> tuple[sp.Rational, ...]:
+    """sn, cn, dn of a sum, from those of its terms."""
+    (s1, c1, d1), (s2, c2, d2) = x, y
+    sums = (s1 * c2 * d2 + s2 * c1 * d1, c1 * c2 - s1 * s2 * d1 * d2, d1 * d2 - k2 * s1 * s2 * c1 * c2)
+    return tuple(value / (1 - k2 * s1**2 * s2**2) for value in sums)
 
 
 @cache
