@@ -32,7 +32,13 @@ INTERRUPTED = 130
 
 Records = Annotated[
     Path | None,
-    typer.Option("--records", metavar="FILE", help="The JSON Lines file of verdicts; in the user's cache by default."),
+    typer.Option(
+        "--records",
+        metavar="FILE",
+        envvar="CHAPSYM_RECORDS",
+        show_envvar=False,
+        help="The JSON Lines file of verdicts; in the user's cache by default.",
+    ),
 ]
 
 Json = Annotated[bool, typer.Option("--json", help="Print one JSON object on standard output.")]

@@ -22,3 +22,18 @@ SCRIPTS = (
     "s5_reduced_map",
     "s6_remarks",
 )
+
+#: Everything in the paper that can be true or false, in its order: each has a proof in one of the scripts.
+CLAIMS = (
+    "2.1", "2.2", "2.2-F", "2.3", "2.4", "2.4-kinetic", "2.5-inverse", "2.5", "2.6", "2.7-vertical", "2.7",
+    "2.7-integrals", "2.9", "2.10", "2.11", "2.11-force", "2.11-eliminated", "2.12", "2.13", "2.14", "2.15",
+    "2.15-measure", "2.15-so3", "3.3-energy", "3.4-principle", "3.5", "remark-1", "remark-2", "4.1", "4.2", "4.3",
+    "4.4", "4.5", "4.6", "4.6-body", "4.6-limit", "4.6-frame", "4.7", "4.8", "4.9-naive", "4.9", "4.9-limit",
+    "4.9-f", "4.9-F", "4.9-wedge", "4.10", "4.11", "prop-1", "prop-1-proof", "4.13-limit", "4.13-multivalued",
+    "prop-2", "remark-3", "4.14", "5.1", "5.1-angle", "5.2", "5.2-expansion", "5.2-limit", "5.3", "5.3-at-most-4",
+    "5.3-at-least-2", "5.3-small", "5.3-integrals", "5.3-energy", "5.4", "prop-3", "5.6-sigma", "5.6", "5.6-curve",
+    "5.7", "5.8", "5.8-modulus", "5.9", "remark-4", "5.9-liouville", "5.9-circle", "5.9-open", "prop-4", "5.11",
+    "5.12", "5.12-kappa", "5.12-q0", "5.12-sigma", "5.12-scaling", "5.13", "5.13-V", "5.14", "5.14-Pi1", "5.14-Pi2",
+    "5.14-G", "5.14-alpha", "5.14-beta", "5.15", "5.15-euler", "5.16", "5.16-weierstrass-e", "5.16-weierstrass-w",
+    "5.16-integral", "6-vertical-energy", "6-LR", "6-open",
+)  # fmt: skip

@@ -11,15 +11,10 @@ from chapsym.prove import Equation, Fact, Proof, claim, main
 
 #: The ball and the vertical of the examples, and 𝒦 with the number of real solutions, each counted below.
 BALL, VERTICAL = (1, 2, 4), ("6/7", "2/7", "3/7")
-WITHOUT_ROLLING = {0: (0, 0, 4), 1: (0, 0, 3), 2: (0, 0, 2), 3: (0, 0, 1), 4: ("1/2", "1/2", "1/2")}
+WITHOUT_ROLLING = {0: (1, 1, 4), 1: (0, 0, 3), 2: (1, 1, 1), 3: (0, 0, 1), 4: ("1/2", "1/2", "1/2")}
 ROLLING = {
-    0: (2, 4, 6),
-    2: (0, 0, 4),
-    3: (2, 0, 0),
-    4: (1, 1, 1),
-    5: (0, 0, 1),
-    6: (0, 1, 0),
-    8: (0, -2, 0),
+    **{0: (2, 4, 6), 2: (1, 2, 1), 3: (2, 0, 0), 4: (1, 1, 1), 5: (0, 0, 1), 6: (0, 1, 1)},
+    8: ("-1/4", "-3/2", "1/2"),
 }
 STRONG = 1000
 
@@ -88,12 +83,20 @@ def upper_bound(p: Proof) -> None:
         Fact("all examples obey these bounds", most <= 8 and max(c.real for c in free.values()) <= 4),
     )
     worst = ROLLING[8]
-    state = {"J": "(1, 2, 4)", "D": str(STRONG), "γ": "(6/7, 2/7, 3/7)", "𝒦": str(worst).replace("'", "")}
+    state = {"J": "(1, 2, 4)", "D": str(STRONG), "γ": "(6/7, 2/7, 3/7)", "𝒦": "(-1/4, -3/2, 1/2)"}
     p.refute(state, "the number of real solutions", rolling[worst].real, "at most 4")
     for wanted, found in ((WITHOUT_ROLLING, free), (ROLLING, rolling)):
         p.lemma(
             Fact(f"every number of {sorted(wanted)} occurs", sorted(c.real for c in found.values()) == sorted(wanted))
         )
+    even = [
+        (contact, momenta[n])
+        for contact, momenta in ((0, WITHOUT_ROLLING), (STRONG, ROLLING))
+        for n in momenta
+        if n % 2 == 0
+    ]
+    half_turns = [solutions.have_common_point([*solutions.at(BALL, contact, VERTICAL, k), q0]) for contact, k in even]
+    p.lemma(Fact("no solution of the even examples is a rotation by π: all of them have q₀ > 0", not any(half_turns)))
     p.say("An odd number has a double solution in it, a fold, as 8 and 4 are even; 7 occurs at another vertical:")
     other = solutions.count(solutions.at(BALL, 100, (0, "3/5", "4/5"), (-2, 0, 0)))
     p.lemma(Fact("D = 100, γ = (0, 3/5, 4/5), 𝒦 = (-2, 0, 0): 7 real solutions, one double", other[:3] == (7, 7, 8)))
@@ -135,11 +138,11 @@ def lower_bound(p: Proof) -> None:
     p.say("and the non-real ones come in pairs: the number of real ones is even, so one solution is never alone.")
     even = all(solutions.multiplicity(c) % 2 == 0 for c in (*free.values(), *rolling.values()))
     p.under(
-        r"\mathcal K = \mathcal K(\Omega,\gamma) for some rotation, solutions counted with multiplicity",
+        "𝒦 = 𝒦(Ω, γ) for some rotation Ω, and solutions counted with multiplicity",
         Fact("the eliminants have the degree 8", all(c.degree == 8 for c in (*free.values(), *rolling.values()))),
         Fact("their numbers of real roots with multiplicity are even", even),
     )
-    state = {"J": "(1, 2, 4)", "D": "0", "γ": "(6/7, 2/7, 3/7)", "𝒦": "(0, 0, 4)"}
+    state = {"J": "(1, 2, 4)", "D": "0", "γ": "(6/7, 2/7, 3/7)", "𝒦": "(1, 1, 4)"}
     p.refute(state, "the number of real solutions", free[WITHOUT_ROLLING[0]].real, "at least 2")
     p.say("It happens on orbits with D > 0: one step after a state that has a rotation, there may be none.")
     momentum, vertical = solutions.after((3, 2, 1), 1, ("-4/9", "-7/9", "4/9"), (3, -1, 3, 0))
@@ -156,7 +159,7 @@ def lower_bound(p: Proof) -> None:
             "the one solution of 𝒦 = (0, 0, 3), D = 0, is double", solutions.multiplicity(free[WITHOUT_ROLLING[1]]) == 2
         )
     )
-    p.witness("2 solutions", state | {"𝒦": "(0, 0, 2)"}, Fact("two solutions", free[WITHOUT_ROLLING[2]].real == 2))
+    p.witness("2 solutions", state | {"𝒦": "(1, 1, 1)"}, Fact("two solutions", free[WITHOUT_ROLLING[2]].real == 2))
     p.control(Fact("every example has at least 1", least >= 1))
     p.control(Fact("the number of different real solutions is even", all(c.real % 2 == 0 for c in free.values())))
 

@@ -128,7 +128,8 @@ def test_a_claim_that_is_not_proved_exits_1(tmp_path):
         "honest = ball.split_balance\n"
         "ball.split_balance = lambda: (honest()[0] - 2 * ball.J * ball.Omega, honest()[1])\n"
     )
-    done = chapsym("prove", "prop-1", "4.3", env={**os.environ, "PYTHONPATH": str(tmp_path)})
+    env = {**os.environ, "PYTHONPATH": str(tmp_path), "CHAPSYM_RECORDS": str(tmp_path / "verdicts.jsonl")}
+    done = chapsym("prove", "prop-1", "4.3", env=env)
     assert done.returncode == 1
     assert done.stderr == "chapsym: not proved: prop-1\n"
     assert "1 holds, 1 open" in done.stdout

@@ -23,20 +23,20 @@ class BrokenScript(ImportError):
 def load() -> dict[str, Claim]:
     """Imports every proof script and returns the claims by id, in the order of the paper.
 
-    Raises BrokenScript if a script, or the derivation that it starts from, raises on import.
+    Raises BrokenScript if a script, or the derivation that it starts from, raises on import, or if a
+    claim of the paper has no proof.
     """
-    scripts = importlib.import_module("chapsym.proofs").SCRIPTS
-    modules = []
-    for name in scripts:
+    proofs = importlib.import_module("chapsym.proofs")
+    for name in proofs.SCRIPTS:
         try:
-            modules.append(importlib.import_module(f"chapsym.proofs.{name}").__name__)
+            importlib.import_module(f"chapsym.proofs.{name}")
         except Exception as error:
             raise BrokenScript(f"the proof script {name} cannot be loaded: {type(error).__name__}: {error}") from error
-
-    def place(claim: Claim) -> tuple[int, int]:
-        return modules.index(claim.prove.__module__), claim.prove.__code__.co_firstlineno
-
-    return {claim.id: claim for claim in sorted(register().values(), key=place)}
+    claims = register()
+    if set(claims) != set(proofs.CLAIMS):
+        missing = sorted(set(claims) ^ set(proofs.CLAIMS))
+        raise BrokenScript(f"the proofs and the list of the paper's claims differ: {', '.join(missing)}")
+    return {id: claims[id] for id in proofs.CLAIMS}
 
 
 def downstream(id: str, claims: dict[str, Claim]) -> list[str]:

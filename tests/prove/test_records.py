@@ -1,0 +1,108 @@
+"""Verdict records: fresh while nothing they depend on has changed, written whole, never silently lost."""
+
+import json
+import subprocess
+import sys
+
+import pytest
+
+from chapsym.prove import load, records
+
+
+def run(*arguments, **options):
+    return subprocess.run(
+        [sys.executable, "-m", "chapsym.cli", *arguments], capture_output=True, text=True, check=False, **options
+    )
+
+
+@pytest.fixture
+def fresh_cache(monkeypatch):
+    yield
+    monkeypatch.undo()
+    for cached in (records._of_module, records._imports, records._file):
+        cached.cache_clear()
+
+
+def made(id, **changes):
+    fingerprint = records.fingerprint(load()[id])
+    return {"id": id, "verdict": "holds", "evidence": {"fingerprint": fingerprint}, **changes}
+
+
+def test_records_survive_a_round_trip_in_the_order_of_the_paper(tmp_path):
+    path, claims = tmp_path / "new" / "verdicts.jsonl", load()
+    records.update(path, [made("prop-4"), made("2.1")], claims)
+    records.update(path, [made("4.1", verdict="corrected"), made("2.1")], claims)
+    assert list(records.read(path)) == ["2.1", "4.1", "prop-4"]
+    assert [json.loads(line)["id"] for line in path.read_text(encoding="utf-8").splitlines()] == [
+        "2.1",
+        "4.1",
+        "prop-4",
+    ]
+    assert [file.name for file in path.parent.iterdir()] == ["verdicts.jsonl"]
+
+
+def test_a_changed_derivation_makes_stale_what_imports_it(monkeypatch, fresh_cache):
+    kept = {id: made(id) for id in ("2.1", "5.16", "prop-2")}
+    claims = load()
+    assert records.stale(kept, claims) == []
+    honest = records._source
+
+    def changed(module):
+        return honest(module) + ("# changed" if module == "chapsym.derive.elliptic" else "")
+
+    monkeypatch.setattr(records, "_source", changed)
+    records._of_module.cache_clear()
+    assert records.stale(kept, claims) == ["5.16"]
+
+
+def test_another_version_of_a_library_makes_every_record_stale(monkeypatch, fresh_cache):
+    kept = {id: made(id) for id in ("2.1", "5.16")}
+    monkeypatch.setattr("importlib.metadata.version", lambda name: "0.0")
+    records._of_module.cache_clear()
+    assert records.stale(kept, load()) == ["2.1", "5.16"]
+
+
+def test_the_closure_of_a_script_is_what_it_can_reach():
+    reached = records._closure("chapsym.proofs.s5_increment")
+    assert {"chapsym.proofs.s5_elliptic", "chapsym.derive.elliptic", "chapsym.prove.evidence"} <= reached
+    assert not {name for name in reached if name.startswith(("chapsym.dynamics", "chapsym.cli"))}
+
+
+def test_a_broken_file_is_named_with_its_line(tmp_path):
+    path = tmp_path / "verdicts.jsonl"
+    path.write_text('{"id": "2.1", "verdict": "holds", "evidence": {"fingerprint": "x"}}\n{"id"\n', encoding="utf-8")
+    done = run("prove", "prop-2", "--records", path)
+    assert done.returncode == 2
+    assert "line 2 of" in done.stderr
+    assert "Traceback" not in done.stderr
+    assert path.read_text(encoding="utf-8").startswith('{"id": "2.1"')
+
+
+def test_prove_keeps_the_verdict_and_says_when_it_changes(tmp_path):
+    path = tmp_path / "verdicts.jsonl"
+    assert run("prove", "prop-2", "--records", path).returncode == 0
+    [line] = path.read_text(encoding="utf-8").splitlines()
+    assert json.loads(line)["verdict"] == "holds"
+    path.write_text(line.replace('"verdict": "holds"', '"verdict": "refuted"') + "\n", encoding="utf-8")
+    done = run("prove", "prop-2", "--records", path)
+    assert "prop-2 was refuted, and is holds now" in done.stderr
+
+
+def test_the_list_shows_what_is_on_record(tmp_path):
+    path = tmp_path / "verdicts.jsonl"
+    records.update(path, [made("2.1"), made("4.1", evidence={"fingerprint": "old"})], load())
+    rows = {row["id"]: row for row in json.loads(run("prove", "--list", "--json", "--records", path).stdout)["claims"]}
+    assert (rows["2.1"]["verdict"], rows["2.1"]["stale"]) == ("holds", False)
+    assert rows["4.1"]["stale"]
+    assert rows["prop-4"]["verdict"] is None
+    text = run("prove", "--list", "--records", path).stdout
+    assert "1 records are stale" in text or "1 record is stale" in text
+
+
+def test_a_folder_that_cannot_be_written_costs_only_the_records(tmp_path):
+    blocked = tmp_path / "file"
+    blocked.write_text("", encoding="utf-8")
+    done = run("prove", "prop-2", "--records", blocked / "verdicts.jsonl")
+    assert "Traceback" not in done.stderr
+    assert done.returncode in (0, 2)
+    assert "records" in done.stderr or "not kept" in done.stderr
