@@ -7,10 +7,11 @@ a space after it ends a piece.  So long formulas wrap on a phone, and only a sin
 import re
 import xml.etree.ElementTree as ET
 from functools import cache
+from itertools import pairwise
 from typing import NamedTuple
 
 from latex2mathml.converter import convert
-from markupsafe import Markup, escape
+from markupsafe import Markup
 
 NAMESPACE = "http://www.w3.org/1998/Math/MathML"
 
@@ -18,6 +19,8 @@ NAMESPACE = "http://www.w3.org/1998/Math/MathML"
 _ARITY = {"mfrac": 2, "msup": 2, "msub": 2, "mover": 2, "munder": 2, "mroot": 2, "msubsup": 3, "munderover": 3}
 _OTHER = {"math", "mrow", "mi", "mn", "mo", "mtext", "mspace", "mstyle", "msqrt", "mtable", "mtr", "mtd", "mpadded"}
 _ACCENTS = set("^~¯˙¨→ˇ´`")
+_SIGNS = set("+−±∓")
+_CLOSING = set(")]}⟩|…")
 _BRACKETS = set("()[]{}⟨⟩|")
 
 #: Where the mathematical alphabets start in Unicode: capital A, small a; browsers know no other way to them.
@@ -61,7 +64,7 @@ def html(latex: str) -> Markup:
 
 def _piece_html(piece: Piece) -> Markup:
     if piece.kind == "prose":
-        return escape(piece.text)
+        return Markup('<span class="prose">{}</span>').format(piece.text)
     return Markup('<span class="piece">{}</span> ').format(Markup(mathml(piece.text)))
 
 
@@ -139,11 +142,21 @@ def _mend(tree: ET.Element) -> None:
             element.set("mathvariant", "normal")
         if not any(child.tag == "mtable" for child in element):
             _flatten(element)
+        if element.tag == "mi" and len(element.text or "") == 1 and "Α" <= (element.text or "") <= "Ω":
+            element.set("mathvariant", "normal")  # TeX's Greek capitals are upright
         if element.tag == "mover" and (element[1].text or " ") in _ACCENTS:
-            element.set("accent", "true")
-            element[1].set("stretchy", "false")
+            _fit_accent(element)
     for element in list(tree.iter()):
         _space_after_names(element)
+        _bind_signs(element)
+
+
+def _fit_accent(element: ET.Element) -> None:
+    mark = element[1]
+    element.set("accent", "true")
+    mark.set("stretchy", "false")
+    if mark.text == "→":
+        mark.set("mathsize", "60%")
 
 
 def _flatten(row: ET.Element) -> None:
@@ -183,6 +196,14 @@ def _space_after_names(element: ET.Element) -> None:
     for index in range(len(element) - 1, 0, -1):
         if _is_name(element[index - 1]) and element[index].tag not in ("mo", "mspace"):
             element.insert(index, ET.Element("mspace", width="0.17em"))
+
+
+def _bind_signs(row: ET.Element) -> None:
+    """A sign behind another operator belongs to what follows: = -2, not = - 2."""
+    for before, sign in pairwise(row):
+        if sign.tag == "mo" and sign.text in _SIGNS:
+            after_operator = before.tag == "mo" and before.text not in _CLOSING or before.tag == "mspace"
+            sign.set("form", "prefix" if after_operator else "infix")
 
 
 def _is_name(element: ET.Element) -> bool:

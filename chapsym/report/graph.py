@@ -10,7 +10,7 @@ from markupsafe import Markup
 from .records import Record, sections, uses
 
 WIDTH = 400
-_ROW, _HEADING, _LETTER, _MARGIN = 17, 30, 7.3, 6
+_ROW, _HEADING, _LETTER, _MARGIN = 19, 32, 7.9, 4
 
 
 def svg(records: Sequence[Record]) -> Markup:
@@ -22,7 +22,7 @@ def svg(records: Sequence[Record]) -> Markup:
     reach = max((abs(rows[a] - rows[b]) for a, b in arcs), default=1)
     parts = [Markup('<line class="rule" x1="0" x2="{}" y1="{}" y2="{}"/>').format(WIDTH, y, y) for y, _ in headings]
     parts += [
-        Markup('<text class="section" x="{}" y="{}">{}</text>').format(_MARGIN, y + 18, title) for y, title in headings
+        Markup('<text class="section" x="{}" y="{}">{}</text>').format(_MARGIN, y + 20, title) for y, title in headings
     ]
     parts += [_arc(a, b, verdicts[a], rows, dots, reach) for a, b in arcs]
     parts += [_node(id, verdicts[id], rows[id], dots) for id in rows]

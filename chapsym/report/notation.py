@@ -55,13 +55,17 @@ def matrix(value: str) -> Matrix | None:
 
 
 def value(text: str) -> str | Matrix:
-    """A value as text, a column as a vector, or the rows of a matrix."""
+    """A value as text, a column as a vector, a diagonal matrix by its diagonal, or the rows of a matrix."""
     rows = matrix(text)
     if rows is None:
         return text
     if len(rows[0]) == 1:
         return f"({', '.join(row[0] for row in rows)})"
-    return rows
+    apart = {entry for i, row in enumerate(rows) for j, entry in enumerate(row) if i != j}
+    if apart != {"0"} or len(rows) != len(rows[0]):
+        return rows
+    diagonal = [row[i] for i, row in enumerate(rows)]
+    return "0" if set(diagonal) == {"0"} else f"diag({', '.join(diagonal)})"
 
 
 def sides(example: dict[str, Any], compact: bool = False) -> tuple[list[str | Matrix], list[str | Matrix]]:

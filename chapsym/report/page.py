@@ -51,7 +51,7 @@ class _Page:
             "sides": notation.sides, "differing": notation.differing, "reproduce": errata.reproduce,
             "truth": reading.truth, "by_method": by_method, "value": notation.value,
         }  # fmt: skip
-        self._templates.filters |= {"formula": formulas.html, "value": value, "label": reading.label, "code": code}
+        self._templates.filters |= {"formula": formulas.html, "value": value, "label": reading.label, "code": code, "prose": prose}
 
     def render(self, template: str, **context: Any) -> Markup:
         """A template of the room's folder, filled in."""
@@ -116,8 +116,10 @@ def claims(page: _Page) -> Markup:
 
 
 def symbol_table(page: _Page) -> Markup:
-    """The table of symbols."""
-    return page.render("symbols.html", header=symbols.HEADER, rows=symbols.SYMBOLS, text=symbols)
+    """The table of symbols, the meaning beside the symbol."""
+    order = ("paper", "meaning", "where", "chapsym", "unit")
+    rows = [symbol._asdict() for symbol in symbols.SYMBOLS]
+    return page.render("symbols.html", order=order, rows=rows, text=symbols)
 
 
 #: The sections of the page: anchor, title, and what writes it.
@@ -137,14 +139,25 @@ def by_method(checks: Sequence[Mapping[str, Any]]) -> list[tuple[str, list[Mappi
 
 def code(text: str) -> Markup:
     """Text with `code` and **emphasis**, as in the Markdown of the same text."""
-    marked = re.sub(r"`([^`]*)`", r"<code>\1</code>", str(escape(text)))
+    parts = re.split(r"`([^`]*)`", text)
+    marked = "".join(f"<code>{escape(x)}</code>" if i % 2 else prose(x) for i, x in enumerate(parts))
     return Markup(re.sub(r"\*\*([^*]*)\*\*", r"<b>\1</b>", marked))
+
+
+_FRACTION = re.compile(r"(\d+)/(\d+)")
+_INDEX = re.compile(r"_(?:\{([^{}]*)\}|\(([^()]*)\)|([A-Za-z0-9]{1,3}))|(?<=[A-Za-zΑ-ω𝒟ℰ])(\d+)")
+
+
+def prose(text: str) -> Markup:
+    """Plain text with its indices lowered and true minus signs: R_(k+1), C1 - 2."""
+    safe = re.sub(r"(?<![A-Za-z0-9])-(?=[ \dA-Za-zΑ-ω(⟨¼½√])", "−", str(escape(text)))
+    return Markup(_INDEX.sub(lambda found: f"<sub>{next(filter(None, found.groups())).replace('-', '−')}</sub>", safe))
 
 
 def value(text: str | notation.Matrix) -> Markup:
     """A value of a point or of a side: text with true minus signs, or a matrix as a formula."""
     shown = notation.value(text) if isinstance(text, str) else text
     if isinstance(shown, str):
-        return Markup("{}").format(shown.replace("-", "−"))
-    rows = r"\\".join("&".join(row) for row in shown)
+        return prose(shown)
+    rows = r"\\".join("&".join(_FRACTION.sub(r"\\tfrac{\1}{\2}", entry) for entry in row) for row in shown)
     return Markup(formulas.mathml(rf"\begin{{pmatrix}}{rows}\end{{pmatrix}}"))

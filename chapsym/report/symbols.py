@@ -1,6 +1,6 @@
 """The table of symbols: the paper uses many letters for several things.
 
-This is the only place where it is written; `python -m chapsym.report.symbols` prints docs/symbols.md.
+This is the only place where it is written.  docs/symbols.md is what `markdown` gives; a test compares them.
 """
 
 from typing import NamedTuple
@@ -126,7 +126,3 @@ def markdown() -> str:
 def _line(symbol: Symbol) -> str:
     fields = [field.replace("|", "\\|") for field in symbol]
     return " ".join(["|", *(f"{field} |" if field else "|" for field in fields)])
-
-
-if __name__ == "__main__":
-    print(markdown(), end="")

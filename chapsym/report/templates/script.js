@@ -60,6 +60,7 @@
       const a = document.createElement("a");
       a.href = `#claim-${id}`;
       a.textContent = id;
+      a.className = "id";
       return a;
     };
     const list = (place, id, next) => {
