@@ -124,7 +124,6 @@ def prove(
 
     Example: chapsym prove prop-4 5.11 --explain
     """
-    from chapsym.prove import prove_all
     from chapsym.prove.runner import explain as argument
 
     claims = _claims()
@@ -138,15 +137,7 @@ def prove(
         else:
             print("\n".join(f"{row['id']:16} {row['title']}" for row in rows))
         return
-    wanted = list(dict.fromkeys(ids or claims))
-    done: list[dict[str, Any]] = []
-    with _progress("proving", len(wanted)) as shown:
-
-        def arrived(record: dict[str, Any]) -> None:
-            done.append(record)
-            shown(len(done))
-
-        records = prove_all(wanted, jobs, arrived)
+    records = _judged("proving", list(dict.fromkeys(ids or claims)), jobs)
     open_claims = [record["id"] for record in records if record["verdict"] == "open"]
     if as_json:
         _print_json({"claims": records})
@@ -161,6 +152,20 @@ def prove(
         print(_tally(records))
     if open_claims:
         _fail(f"not proved: {', '.join(open_claims)}", 1)
+
+
+def _judged(label: str, ids: list[str], jobs: int | None = None) -> list[dict[str, Any]]:
+    """The records of claims, with a bar that moves as they arrive."""
+    from chapsym.prove import prove_all
+
+    done: list[str] = []
+    with _progress(label, len(ids)) as shown:
+
+        def arrived(record: dict[str, Any]) -> None:
+            done.append(record["id"])
+            shown(len(done))
+
+        return prove_all(ids, jobs, arrived)
 
 
 def _claims() -> dict[str, Any]:
@@ -178,6 +183,49 @@ def _tally(records: list[dict[str, Any]]) -> str:
     for record in records:
         counts[record["verdict"]] = counts.get(record["verdict"], 0) + 1
     return f"{len(records)} claims: " + ", ".join(f"{n} {verdict}" for verdict, n in sorted(counts.items()))
+
+
+@app.command()
+def report(
+    output: Annotated[
+        Path, typer.Option("-o", "--output", metavar="FILE", help="A page (.html), or the list of errata (.md, .tex).")
+    ] = Path("chapsym-report.html"),
+    as_json: Json = False,
+) -> None:
+    """Write the page of all verdicts, or the short list of errata.
+
+    Example: chapsym report -o errata.tex
+    """
+    from chapsym import files
+    from chapsym import report as reports
+
+    if output.suffix not in reports.WRITERS:
+        _fail(f"{str(output)!r}: the output must end in {' or '.join(reports.WRITERS)}", 2)
+    try:
+        files.check_destination(output)
+        found = records()
+        text = reports.WRITERS[output.suffix](found, _versions())
+        files.write_whole(output, lambda stream: stream.write(text.encode()))
+    except files.CannotWrite as error:
+        _fail(str(error), 2)
+    if as_json:
+        _print_json({"file": str(output), "counts": reports.counts(found), "claims": len(found)})
+    else:
+        print(f"wrote {output}: {_tally(found)}")
+    unproved = reports.unproved(found)
+    if unproved:
+        _fail(f"not proved: {', '.join(unproved)}", 1)
+
+
+def records() -> list[dict[str, Any]]:
+    """The records that the report is written from: every claim, judged now."""
+    return _judged("proving", list(_claims()))
+
+
+def _versions() -> dict[str, str]:
+    from importlib.metadata import version
+
+    return {"chapsym": chapsym.__version__, "sympy": version("sympy"), "python-flint": version("python-flint")}
 
 
 @app.command()
@@ -233,22 +281,13 @@ def codegen(
 
 def _unproved(kernels: Any) -> list[str]:
     """The claims that kernels name as their proof and that are not proved, one sentence each."""
-    from chapsym.prove import prove_all
-
     named = {id: kernel.name for kernel in kernels for id in kernel.claims}
     claims = _claims()
     missing = [
         f"{kernel} names the claim {id}, which no proof judges" for id, kernel in named.items() if id not in claims
     ]
     wanted = [id for id in claims if id in named]
-    with _progress("proving what the kernels come from", len(wanted)) as shown:
-        done: list[str] = []
-
-        def arrived(record: dict[str, Any]) -> None:
-            done.append(record["id"])
-            shown(len(done))
-
-        records = prove_all(wanted, None, arrived)
+    records = _judged("proving what the kernels come from", wanted)
     failed = [record["id"] for record in records if record["verdict"] == "open"]
     return missing + [f"{named[id]} comes from the claim {id}, which is not proved" for id in failed]
 

@@ -6,7 +6,7 @@ from typing import Any
 from . import notation
 from .records import Record, errors, label, truth
 
-PAPER = "Yu. N. Fedorov, A Discretization of the Nonholonomic Chaplygin Sphere Problem, SIGMA 3 (2007), 044"
+PAPER = "Yu.N. Fedorov, A Discretization of the Nonholonomic Chaplygin Sphere Problem, SIGMA 3 (2007), 044"
 NOTE = (
     "Equations are named as in the paper, with a word for a display or a statement beside them. "
     "Each counterexample is exact: all hypotheses hold at the point, and the two sides of what is printed differ. "
@@ -53,7 +53,7 @@ def _markdown_entry(record: Record) -> list[str]:
         point = ", ".join(f"{symbol} = {_plain(notation.value(value))}" for symbol, value in _point(example))
         for sides in example["printed"][:1]:
             left, right = (_plain_side(side) for side in notation.sides(sides, compact=True))
-            lines.append(f"- At `{point}`: `{left} ≠ {right}` in `{sides['statement']}`")
+            lines.append(f"- At `{point}`: `{sides['statement']}`; but `{left} ≠ {right}`")
     return [*lines, f"- Proof: `{reproduce(record['id'])}`", ""]
 
 
@@ -77,9 +77,8 @@ _PREAMBLE = r"""\documentclass[11pt]{article}
 \usepackage[margin=25mm]{geometry}
 \usepackage{amsmath,amssymb}
 \setlength{\parindent}{0pt}
-\setlength{\parskip}{4pt plus 1pt}
-\emergencystretch=4em
-\allowdisplaybreaks
+\setlength{\parskip}{3pt}
+\raggedright
 \begin{document}
 """
 
@@ -103,7 +102,8 @@ def latex(records: Sequence[Record], version: str) -> str:
 def _latex_entry(record: Record) -> list[str]:
     formula, prose = truth(record)
     title = notation.latex(record["evidence"]["title"])
-    lines = [rf"\subsection*{{{notation.latex(label(record['id']))}}}", title, "", *_row("Printed", record["printed"])]
+    lines = [r"\medskip", rf"\textbf{{{notation.latex(label(record['id']))}}}. {title}", ""]
+    lines += _row("Printed", record["printed"])
     if formula:
         lines += _row("True", formula)
     if prose:
@@ -111,22 +111,17 @@ def _latex_entry(record: Record) -> list[str]:
         lines += [rf"\textit{{{name}:}} {notation.latex(_bare(prose))}", ""]
     for example in record["evidence"].get("counterexamples", [])[:1]:
         point = ", ".join(
-            f"{_symbol(symbol)}$={notation.value_latex(value)}$" for symbol, value in _point(example)
+            f"${notation.symbol_latex(symbol)} = {notation.value_latex(value)}$" for symbol, value in _point(example)
         )
         for sides in example["printed"][:1]:
             left, right = (_latex_side(side) for side in notation.sides(sides, compact=True))
             statement = notation.latex(sides["statement"])
-            lines += [rf"\textit{{At}} {point}: ${left}\neq {right}$ in {statement}", ""]
+            lines += [rf"\textit{{At}} {point}: {statement}; but ${left}\neq {right}$", ""]
     return [*lines, rf"\textit{{Proof:}} \texttt{{{reproduce(record['id']).replace('--', '-{}-')}}}", ""]
 
 
-def _symbol(symbol: str) -> str:
-    return f"${notation.symbol_latex(symbol)}$"
-
-
 def _row(name: str, formula: str) -> list[str]:
-    """A formula that TeX may break at its commas, ragged."""
-    return [rf"{{\raggedright\textit{{{name}:}} $\displaystyle {formula}$\par}}", ""]
+    return [rf"\textit{{{name}:}} $\displaystyle {formula}$", ""]
 
 
 def _latex_side(side: list[str | notation.Matrix]) -> str:

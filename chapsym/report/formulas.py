@@ -19,7 +19,9 @@ NAMESPACE = "http://www.w3.org/1998/Math/MathML"
 _ARITY = {"mfrac": 2, "msup": 2, "msub": 2, "mover": 2, "munder": 2, "mroot": 2, "msubsup": 3, "munderover": 3}
 _OTHER = {"math", "mrow", "mi", "mn", "mo", "mtext", "mspace", "mstyle", "msqrt", "mtable", "mtr", "mtd", "mpadded"}
 _ACCENTS = set("^~¯˙¨→ˇ´`")
+_SLANTED = set("FTVWY")
 _SIGNS = set("+−±∓")
+_OPERATORS = set("⟨⟩±∓")  # the library takes them for letters
 _CLOSING = set(")]}⟩|…")
 _BRACKETS = set("()[]{}⟨⟩|")
 
@@ -131,7 +133,7 @@ def _mend(tree: ET.Element) -> None:
     tree.set("xmlns", NAMESPACE)
     tree.set("displaystyle", "true")
     for element in list(tree.iter("mi")):
-        if element.text in ("⟨", "⟩"):
+        if element.text in _OPERATORS:
             element.tag = "mo"
     for element in list(tree.iter()):
         _join_names(element)
@@ -144,6 +146,8 @@ def _mend(tree: ET.Element) -> None:
             _flatten(element)
         if element.tag == "mi" and len(element.text or "") == 1 and "Α" <= (element.text or "") <= "Ω":
             element.set("mathvariant", "normal")  # TeX's Greek capitals are upright
+        if element.tag == "msup" and element[0].text in _SLANTED:
+            _move_away(element)
         if element.tag == "mover" and (element[1].text or " ") in _ACCENTS:
             _fit_accent(element)
     for element in list(tree.iter()):
@@ -151,12 +155,19 @@ def _mend(tree: ET.Element) -> None:
         _bind_signs(element)
 
 
+def _move_away(element: ET.Element) -> None:
+    """Browsers let the superscript of a slanted capital run into it."""
+    row = ET.Element("mrow")
+    row.extend([ET.Element("mspace", width="0.15em"), element[1]])
+    element[1] = row
+
+
 def _fit_accent(element: ET.Element) -> None:
     mark = element[1]
     element.set("accent", "true")
     mark.set("stretchy", "false")
     if mark.text == "→":
-        mark.set("mathsize", "60%")
+        mark.set("mathsize", "50%")
 
 
 def _flatten(row: ET.Element) -> None:
@@ -202,7 +213,7 @@ def _bind_signs(row: ET.Element) -> None:
     """A sign behind another operator belongs to what follows: = -2, not = - 2."""
     for before, sign in pairwise(row):
         if sign.tag == "mo" and sign.text in _SIGNS:
-            after_operator = before.tag == "mo" and before.text not in _CLOSING or before.tag == "mspace"
+            after_operator = (before.tag == "mo" and before.text not in _CLOSING) or before.tag == "mspace"
             sign.set("form", "prefix" if after_operator else "infix")
 
 

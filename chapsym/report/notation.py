@@ -97,16 +97,18 @@ _COMMANDS = {
     "×": r"\times", "·": r"\cdot", "⟨": r"\langle", "⟩": r"\rangle", "½": r"\tfrac12", "¼": r"\tfrac14",
     "∧": r"\wedge", "≠": r"\neq", "→": r"\to", "↦": r"\mapsto", "±": r"\pm", "∓": r"\mp", "≤": r"\le", "≥": r"\ge",
     "≡": r"\equiv", "∈": r"\in", "∂": r"\partial", "√": r"\surd", "∞": r"\infty", "…": r"\dots", "−": "-", "∫": r"\int",
-    "≈": r"\approx", "∪": r"\cup", "⊂": r"\subset", "∇": r"\nabla", "∥": r"\parallel", "⊗": r"\otimes", "⇒": r"\Rightarrow",
-    "⇔": r"\Leftrightarrow", "←": r"\leftarrow", "⊥": r"\perp", "∀": r"\forall", "∑": r"\sum", "∏": r"\prod",
+    "≈": r"\approx", "∪": r"\cup", "⊂": r"\subset", "∇": r"\nabla", "∥": r"\parallel", "⊗": r"\otimes",
+    "⇒": r"\Rightarrow", "⇔": r"\Leftrightarrow", "←": r"\leftarrow", "⊥": r"\perp", "∀": r"\forall", "∑": r"\sum",
+    "∏": r"\prod",
     "℘": r"\wp", "ϰ": r"\varkappa", "ε": r"\varepsilon", "ℝ": r"\mathbb R", "ℕ": r"\mathbb N", "ℂ": r"\mathbb C",
     "ℤ": r"\mathbb Z", "ℚ": r"\mathbb Q", "ℰ": r"\mathcal E", "ℱ": r"\mathcal F", "ℓ": r"\ell", "°": r"^{\circ}",
     "′": "'", "⅓": r"\tfrac13", "⅛": r"\tfrac18", "¾": r"\tfrac34", "∘": r"\circ", "∖": r"\setminus", "|": "|",
     "{": r"\{", "}": r"\}", "%": r"\%", "&": r"\&", "#": r"\#", "$": r"\$", "~": r"\sim", "\\": r"\backslash",
-    "*": r"\ast", "✓": r"\checkmark", "✗": r"\times",
+    "*": r"\ast", "«": r"\text{``}", "»": r"\text{''}", "✓": r"\checkmark", "✗": r"\times",
 }  # fmt: skip
 _ACCENTS = {
-    "\u0307": "dot", "\u0308": "ddot", "\u0304": "bar", "\u0303": "tilde", "\u0302": "widehat", "\u20d7": "vec", "~": "tilde",
+    "\u0307": "dot", "\u0308": "ddot", "\u0304": "bar", "\u0303": "tilde", "\u0302": "widehat", "\u20d7": "vec",
+    "~": "tilde",
 }  # fmt: skip
 _PROSE = {
     "\\": r"\textbackslash{}", "{": r"\{", "}": r"\}", "%": r"\%", "&": r"\&", "#": r"\#", "$": r"\$", "_": r"\_",
@@ -116,10 +118,8 @@ _PROSE = {
 }  # fmt: skip
 _SUPERSCRIPTS = dict(zip("⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻⁽⁾ⁿᵀᵏˢˡ", "0123456789+-()nTksl", strict=True))
 _SUBSCRIPTS = dict(zip("₀₁₂₃₄₅₆₇₈₉₊₋₍₎ₖᵢⱼₙ", "0123456789+-()kijn", strict=True))
-_GREEK = (
-    "alpha beta gamma delta epsilon zeta eta theta iota kappa lambda mu nu xi omicron pi rho sigma tau upsilon "
-    "phi chi psi omega"
-).split()
+#: The capitals that LaTeX has; the others look like Latin letters.
+_CAPITALS = ("Gamma", "Delta", "Theta", "Lambda", "Xi", "Pi", "Sigma", "Upsilon", "Phi", "Psi", "Omega")
 
 
 def latex(text: str) -> str:
@@ -129,7 +129,8 @@ def latex(text: str) -> str:
 
     def close() -> None:
         if formula:
-            out.append(f"${_formula(' '.join(formula))}$")
+            text = " ".join(formula)
+            out.append(text if re.fullmatch(r"[\d.,() ]+", text) else f"${_formula(text)}$")
             formula.clear()
 
     for word in text.split():
@@ -157,7 +158,7 @@ def _is_formula(word: str) -> bool:
         return True
     if any(not x.isascii() and x not in _PROSE for x in bare) or re.search(r"[=+*/^_<>|⟨⟩\d]", bare):
         return not re.fullmatch(r"[\w.-]*[a-z]{3,}[\w.-]*", bare, re.ASCII)  # an id such as 2.5-inverse is prose
-    return bool(re.fullmatch(r"-|-?[A-Z]?[b-zA-Z]|[A-Z][A-Z]?\(.*|\W+", bare))
+    return bool(re.fullmatch(r"-|-?[b-zA-Z]|[A-Z]{1,2}(\(.*)?|\W+", bare))
 
 
 def _prose(word: str) -> str:
@@ -217,10 +218,11 @@ def _character(x: str) -> str:
     if x.isascii():
         return x
     name = unicodedata.name(x, "")
-    greek = re.fullmatch(r"GREEK (SMALL|CAPITAL) LETTER (\w+)", name)
-    if greek and greek.group(2).replace("LAMDA", "LAMBDA").lower() in _GREEK:
-        letter = greek.group(2).replace("LAMDA", "LAMBDA").lower()
-        return f"\\{letter if greek.group(1) == 'SMALL' else letter.capitalize()}"
+    greek = re.fullmatch(r"GREEK (SMALL|CAPITAL) LETTER ([A-Z]+)", name.replace("LAMDA", "LAMBDA"))
+    if greek and greek.group(1) == "SMALL":
+        return f"\\{greek.group(2).lower()}"
+    if greek and greek.group(2).capitalize() in _CAPITALS:
+        return f"\\{greek.group(2).capitalize()}"
     styled = re.fullmatch(r"MATHEMATICAL (SCRIPT|BOLD|DOUBLE-STRUCK) (CAPITAL|SMALL) ([A-Z])", name)
     if styled:
         command = {"SCRIPT": "mathcal", "BOLD": "mathbf", "DOUBLE-STRUCK": "mathbb"}[styled.group(1)]

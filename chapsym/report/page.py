@@ -51,7 +51,13 @@ class _Page:
             "sides": notation.sides, "differing": notation.differing, "reproduce": errata.reproduce,
             "truth": reading.truth, "by_method": by_method, "value": notation.value,
         }  # fmt: skip
-        self._templates.filters |= {"formula": formulas.html, "value": value, "label": reading.label, "code": code, "prose": prose}
+        self._templates.filters |= {
+            "formula": formulas.html,
+            "value": value,
+            "label": reading.label,
+            "code": code,
+            "prose": prose,
+        }
 
     def render(self, template: str, **context: Any) -> Markup:
         """A template of the room's folder, filled in."""
