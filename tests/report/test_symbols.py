@@ -1,5 +1,6 @@
 """The table of symbols: one source, and every letter of the paper that means several things."""
 
+from inspect import signature
 from pathlib import Path
 
 import pytest
@@ -47,7 +48,8 @@ def test_the_names_of_chapsym_are_those_of_the_program():
         steps=1, contact=True,
     )  # fmt: skip
     step = chapsym.step(ball, momentum=(1, -0.5, 0.75), gamma=(2 / 7, 3 / 7, 6 / 7))
-    known = {name for thing in (ball, run, step, chapsym) for name in dir(thing)} | {"inertia", "omega"}
+    parameters = {name for call in (chapsym.Ball.from_inertia, chapsym.roll) for name in signature(call).parameters}
+    known = {name for thing in (ball, run, step, chapsym) for name in dir(thing)} | parameters | {"inertia"}
     assert names <= known, names - known
 
 
