@@ -189,10 +189,11 @@ def _token(text: str, start: int) -> tuple[int, str]:
         return len(name.group()), f"\\operatorname{{{name.group()}}}"
     if name and len(name.group()) > 2:
         return len(name.group()), f"\\text{{{name.group()}}}"
-    index = re.match(r"([_^])(?:\{([^{}]*)\}|\(([^()]*)\)|([a-z]{3,}|[^\W_]))", here)
+    index = re.match(r"([_^])(?:\{([^{}]*)\}|\(([^()]*)\)|([a-z]+|[^\W_]))", here)
     if index:
         inner = next(x for x in index.groups()[1:] if x is not None)
-        return index.end(), f"{index.group(1)}{{{_formula(inner)}}}"
+        several = re.fullmatch(r"[a-z]{2,3}", inner)  # i, j, k and no word
+        return index.end(), f"{index.group(1)}{{{inner if several else _formula(inner)}}}"
     accent = here[1:2]
     if accent in _ACCENTS and here[0].isalpha():
         more, digits = 2, re.match(r"\d+", here[2:])

@@ -57,6 +57,7 @@ class _Page:
             "label": reading.label,
             "code": code,
             "prose": prose,
+            "symbols": symbols_html,
         }
 
     def render(self, template: str, **context: Any) -> Markup:
@@ -151,13 +152,22 @@ def code(text: str) -> Markup:
 
 
 _FRACTION = re.compile(r"(\d+)/(\d+)")
-_INDEX = re.compile(r"_(?:\{([^{}]*)\}|\(([^()]*)\)|([A-Za-z0-9]{1,3}))|(?<=[A-Za-zΑ-ω𝒟ℰ])(\d+)")
+#: A hyphen that is a minus sign: not that of n-dimensional or of the claim 5.12-q0.
+_MINUS = re.compile(r"(?<![A-Za-z0-9])-(?=[ \dA-Za-zΑ-ω])|-(?=[(⟨¼½√])|(?<=\b[A-Za-z])-(?=[a-z]?\d)")
+_INDEX = re.compile(
+    r"_(?:\{([^{}]*)\}|\(([^()]*)\)|([A-Za-z0-9]{1,3}))|(?<=[A-Za-zΑ-ω𝒟ℰ])(?<!\d-[A-Za-z])(?<!\d-[A-Za-z]{2})(\d+)"
+)
 
 
 def prose(text: str) -> Markup:
     """Plain text with its indices lowered and true minus signs: R_(k+1), C1 - 2."""
-    safe = re.sub(r"(?<![A-Za-z0-9])-(?=[ \dA-Za-zΑ-ω(⟨¼½√])", "−", str(escape(text)))
+    safe = _MINUS.sub("−", str(escape(text)))
     return Markup(_INDEX.sub(lambda found: f"<sub>{next(filter(None, found.groups())).replace('-', '−')}</sub>", safe))
+
+
+def symbols_html(text: str) -> Markup:
+    """A list of symbols, each as a formula."""
+    return Markup(", ").join(Markup(formulas.mathml(notation.symbol_latex(symbol))) for symbol in text.split(", "))
 
 
 def value(text: str | notation.Matrix) -> Markup:

@@ -80,7 +80,7 @@ def test_formulas_are_drawn(tab):
         ".errata math", "found => found.map(x => x.getBoundingClientRect()).map(r => [r.width, r.height])"
     )
     assert len(sizes) >= 58
-    assert all(width > 2 and height > 5 for width, height in sizes)
+    assert [size for size in sizes if min(size) < 2] == []
 
 
 def test_the_page_is_not_wider_than_the_window_even_unfolded(tab):
