@@ -85,6 +85,9 @@ def test_the_errata_are_in_the_order_of_the_paper(whole, register):
     assert "(309/49, −590/49, 192/49)" in row
     assert '<a class="id" href="#claim-2.5">2.5</a>' in row
     assert row.count("<math") == 2
+    row = re.search(r'<tr id="erratum-5.1".*?</tr>', whole, re.DOTALL).group()
+    assert re.findall(r'<span class="side">([^<]*)</span>', row) == ["12/25", "4/5"], "of nine entries what differs"
+    assert "(what differs)" in row
 
 
 def test_the_page_is_the_same_for_the_same_records(whole, register):
