@@ -48,17 +48,13 @@ def _markdown_entry(record: Record) -> list[str]:
     if formula:
         lines.append(f"- True: ${formula}$")
     if prose:
-        lines.append(f"- {'Condition' if record['verdict'] == 'conditional' else 'True'}: {_bare(prose)}")
+        lines.append(f"- {'Condition' if record['verdict'] == 'conditional' else 'True'}: {prose}")
     for example in record["evidence"].get("counterexamples", [])[:1]:
         point = ", ".join(f"{symbol} = {_plain(notation.value(value))}" for symbol, value in _point(example))
         for sides in example["printed"][:1]:
             left, right = (_plain_side(side) for side in notation.sides(sides, compact=True))
             lines.append(f"- At `{point}`: `{sides['statement']}`; but `{left} ≠ {right}`")
     return [*lines, f"- Proof: `{reproduce(record['id'])}`", ""]
-
-
-def _bare(prose: str) -> str:
-    return prose.removeprefix("under the condition: ")
 
 
 def _point(example: dict[str, Any]) -> list[tuple[str, str]]:
@@ -108,7 +104,7 @@ def _latex_entry(record: Record) -> list[str]:
         lines += _row("True", formula)
     if prose:
         name = "Condition" if record["verdict"] == "conditional" else "True"
-        lines += [rf"\textit{{{name}:}} {notation.latex(_bare(prose))}", ""]
+        lines += [rf"\textit{{{name}:}} {notation.latex(prose)}", ""]
     for example in record["evidence"].get("counterexamples", [])[:1]:
         point = ", ".join(
             f"${notation.symbol_latex(symbol)} = {notation.value_latex(value)}$" for symbol, value in _point(example)

@@ -161,7 +161,7 @@ _INDEX = re.compile(
 
 def prose(text: str) -> Markup:
     """Plain text with its indices lowered and true minus signs: R_(k+1), C1 - 2."""
-    safe = _MINUS.sub("−", str(escape(text)))
+    safe = _MINUS.sub("−", str(escape(text))).replace("≠", '<span class="unequal">≠</span>')
     return Markup(_INDEX.sub(lambda found: f"<sub>{next(filter(None, found.groups())).replace('-', '−')}</sub>", safe))
 
 

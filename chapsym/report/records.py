@@ -103,12 +103,11 @@ def errors(records: Iterable[Record]) -> list[Record]:
 
 
 def truth(record: Record) -> tuple[str, str]:
-    """What is true in the place of a printed error: LaTeX and prose; either may be empty."""
+    """What is true in the place of a printed error, as LaTeX, and in prose the condition or the whole truth."""
     evidence = record["evidence"]
     if record["verdict"] == "refuted":
         return record.get("corrected") or "", evidence.get("true_statement") or ""
-    condition = evidence.get("condition")
-    return record.get("corrected") or "", f"under the condition: {condition}" if condition else ""
+    return record.get("corrected") or "", evidence.get("condition") or ""
 
 
 def unproved(records: Iterable[Record]) -> list[str]:

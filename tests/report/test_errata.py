@@ -41,6 +41,12 @@ def test_every_kind_of_error_says_what_is_true(handmade):
     )
 
 
+def test_latex_has_the_condition_and_the_true_statement(handmade):
+    text = errata.latex(handmade, "1")
+    assert r"\textit{Condition:} $q$ is real" in text
+    assert r"\textit{True:} a is at most $b$" in text
+
+
 def test_latex_is_ascii_and_balanced(found):
     text = errata.latex(found, "1.2.3")
     assert text.isascii()

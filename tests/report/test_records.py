@@ -54,7 +54,7 @@ def test_errors_are_the_claims_that_are_false_as_printed(handmade):
 def test_the_truth_of_each_kind_of_error(handmade):
     corrected, conditional, refuted = reading.errors(handmade)
     assert reading.truth(corrected) == (r"a = \tfrac14 b", "")
-    assert reading.truth(conditional) == (r"\langle\gamma\rangle", "under the condition: q is real")
+    assert reading.truth(conditional) == (r"\langle\gamma\rangle", "q is real")
     assert reading.truth(refuted) == ("", "a is at most b")
 
 
