@@ -30,6 +30,11 @@ app = typer.Typer(
 
 INTERRUPTED = 130
 
+Records = Annotated[
+    Path | None,
+    typer.Option("--records", metavar="FILE", help="The JSON Lines file of verdicts; in the user's cache by default."),
+]
+
 Json = Annotated[bool, typer.Option("--json", help="Print one JSON object on standard output.")]
 
 
@@ -119,11 +124,13 @@ def prove(
     listing: Annotated[bool, typer.Option("--list", help="List the claims that have a proof.")] = False,
     explain: Annotated[bool, typer.Option("--explain", help="Print the whole argument.")] = False,
     jobs: Annotated[int | None, typer.Option(min=1, help="Processes; one for each core by default.")] = None,
+    kept_in: Records = None,
 ) -> None:
-    """Judge the printed claims: run their proofs, side by side.
+    """Judge the printed claims: run their proofs, side by side, and keep the verdicts.
 
     Example: chapsym prove prop-4 5.11 --explain
     """
+    from chapsym.prove import unproved
     from chapsym.prove.runner import explain as argument
 
     claims = _claims()
@@ -131,14 +138,11 @@ def prove(
     if unknown:
         _fail(f"no proof judges the claim {unknown[0]!r}; chapsym prove --list names those that are judged", 2)
     if listing:
-        rows = [{"id": claim.id, "title": claim.title} for claim in claims.values()]
-        if as_json:
-            _print_json({"claims": rows})
-        else:
-            print("\n".join(f"{row['id']:16} {row['title']}" for row in rows))
+        _list_claims(claims, as_json, kept_in)
         return
-    records = _judged("proving", list(dict.fromkeys(ids or claims)), jobs)
-    open_claims = [record["id"] for record in records if record["verdict"] == "open"]
+    records = _judge(list(dict.fromkeys(ids or claims)), claims, jobs, kept_in)
+    # The whole register is as it should be with the paper's open questions open; a claim that is named must be proved.
+    failed = [record["id"] for record in records if record["verdict"] == "open"] if ids else unproved(records)
     if as_json:
         _print_json({"claims": records})
     elif explain:
@@ -146,12 +150,60 @@ def prove(
     else:
         for record in records:
             title = f"{record['evidence']['title']}  ({record['seconds']:.2f} s)"
-            print(f"{record['id']:16} {record['verdict']:12} {title}")
+            print(f"{record['id']:18} {record['verdict']:12} {title}")
             for problem in record["evidence"]["problems"]:
-                print(f"{'':16} problem: {problem}")
+                print(f"{'':18} problem: {problem}")
         print(_tally(records))
-    if open_claims:
-        _fail(f"not proved: {', '.join(open_claims)}", 1)
+    if failed:
+        _fail(f"not proved: {', '.join(failed)}", 1)
+
+
+def _list_claims(claims: dict[str, Any], as_json: bool, kept_in: Path | None) -> None:
+    """Every claim with the verdict on record, and whether what it was made with has changed since."""
+    from chapsym.prove import records
+
+    kept = _kept(kept_in)
+    old = records.stale(kept, claims)
+    rows = [
+        {"id": id, "title": claim.title, "verdict": kept[id]["verdict"] if id in kept else None, "stale": id in old}
+        for id, claim in claims.items()
+    ]
+    if as_json:
+        _print_json({"claims": rows})
+        return
+    for row in rows:
+        state = "stale" if row["stale"] else row["verdict"] or "not judged"
+        print(f"{row['id']:18} {state:12} {row['title']}")
+    if old:
+        print(f"{len(old)} records are stale: their derivation has changed; chapsym prove judges them anew")
+
+
+def _judge(wanted: list[str], claims: dict[str, Any], jobs: int | None, kept_in: Path | None) -> list[dict[str, Any]]:
+    """Proves the claims, keeps their records, and says where a verdict is another than it was."""
+    from chapsym.prove import records
+
+    kept = _kept(kept_in)
+    judged = _judged("proving", wanted, jobs)
+    for record in judged:
+        before = kept.get(record["id"], record)["verdict"]
+        if before != record["verdict"]:
+            print(f"chapsym: {record['id']} was {before}, and is {record['verdict']} now", file=sys.stderr)
+    try:
+        records.update(kept_in or records.default_path(), judged, claims)
+    except OSError as error:
+        print(f"chapsym: the verdicts are not kept: {error.strerror or error}", file=sys.stderr)
+    return judged
+
+
+def _kept(kept_in: Path | None) -> dict[str, dict[str, Any]]:
+    from chapsym.prove import records
+
+    try:
+        return records.read(kept_in or records.default_path())
+    except (records.BrokenRecords, UnicodeDecodeError) as error:
+        _fail(str(error), 2)
+    except OSError as error:
+        _fail(f"the records {error.filename} cannot be read: {error.strerror}", 2)
 
 
 def _judged(label: str, ids: list[str], jobs: int | None = None) -> list[dict[str, Any]]:

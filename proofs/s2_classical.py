@@ -9,7 +9,7 @@ from chapsym.derive.limits import omega
 from chapsym.derive.quotient import Quotient
 from chapsym.derive.three import J1, J2, J3, D, K, gamma, hat
 from chapsym.derive.words import evaluate
-from chapsym.prove import Equation, Proof, claim, main, rational_point
+from chapsym.prove import Equation, Fact, Proof, claim, main, rational_point
 
 alpha = sp.Matrix(sp.symbols("a1:4"))  # dω/dt
 h, l = sp.symbols("h l")
@@ -111,8 +111,8 @@ def four_integrals(p: Proof) -> None:
     p.say("Independent: their gradients have rank 4 at a rational point, hence on an open dense set.")
     functions = sp.Matrix([gamma.dot(gamma), k.dot(gamma), k.dot(k), energy])
     gradients = functions.jacobian([*omega, *gamma]).subs({**BALL, **UNIT}, simultaneous=True)
-    p.fact(f"the rank at {BALL}, γ = (2/7,3/7,6/7), ω = (1,-1,2) is 4", gradients.subs(SPIN).rank() == 4)
-    p.fact("a degenerate case: at rest, ω = 0, it is less", gradients.subs(dict.fromkeys(omega, 0)).rank() < 4)
+    p.lemma(Fact(f"the rank at {BALL}, γ = (2/7,3/7,6/7), ω = (1,-1,2) is 4", gradients.subs(SPIN).rank() == 4))
+    p.lemma(Fact("a degenerate case: at rest, ω = 0, it is less", gradients.subs(dict.fromkeys(omega, 0)).rank() < 4))
     p.control(equation("d/dt ⟨K,ω⟩ = 0 for Λω̇ = Λω×ω", power.subs(
         dict(zip(alpha, inverse_inertia() * (three.lam() * omega).cross(omega), strict=True)), simultaneous=True), 0))  # fmt: skip
     p.control(equation("⟨K,γ⟩ = ⟨Λω,γ⟩", k.dot(gamma), (three.lam() * omega).dot(gamma)))

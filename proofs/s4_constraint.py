@@ -6,7 +6,7 @@ from chapsym.proofs.s4_principle import equation, path_point
 from chapsym.derive import ball, limits, principle
 from chapsym.derive.principle import ALGEBRA, R0, R0T, R1, R1T, RT, D, J, R, gamma, gammaT, m, rho
 from chapsym.derive.words import evaluate
-from chapsym.prove import Equation, Point, Proof, claim, main
+from chapsym.prove import Equation, Fact, Point, Proof, claim, main
 
 # Body rotations and the vertical tensor, as words in the attitudes.
 NOW, NOW_T = RT * R1, R1T * R
@@ -41,7 +41,7 @@ def chosen_constraint(p: Proof) -> None:
         equation("(4.9) at R_{k+1} = R_k, r_{k+1} = r_k", diagonal, sp.S.Zero),
         Equation("(4.9)/ε → the rotational part of (4.2), ρ ω̄ γ", [limit.limit], [continuous], both),
     )
-    p.fact(f"the remainder has the exact order 2, here {limit.order}", limit.order == 2)
+    p.lemma(Fact(f"the remainder has the exact order 2, here {limit.order}", limit.order == 2))
     p.lemma(Equation("its leading term is (ρ/6) ω̄³γ", [limit.leading], [rho * limits.omega_space**3 * gamma / 6], both))
     naive = rho * R1 * RT * gamma
     p.control(equation("the naive constraint is horizontal", ALGEBRA.trace(naive * gammaT), sp.S.Zero))
@@ -61,8 +61,9 @@ def naive_constraint(p: Proof) -> None:
     up = sp.Matrix([0, 0, 1])
     values = {R: sp.eye(3), RT: sp.eye(3), R1: turn, R1T: turn.T, gamma: up, rho: sp.S.One}
     naive = -rho * R1 * RT * gamma
-    p.printed_fact("at Ω̄ = a turn by (3/5, 4/5) about e₁, γ = e₃: Δr = (0, 4/5, -3/5)",
-                   turn.det() == 1 and list(evaluate(naive, values)) == [0, sp.Rational(4, 5), sp.Rational(-3, 5)])  # fmt: skip
+    p.printed(Fact("at Ω̄ = a turn by (3/5, 4/5) about e₁, γ = e₃: Δr = (0, 4/5, -3/5)",
+                   turn.det() == 1 and list(evaluate(naive, values)) == [0, sp.Rational(4, 5), sp.Rational(-3, 5)]))  # fmt: skip
+    p.witness("generic", {"Ω̄": str(turn.tolist()), "γ": "e3", "ρ": "1"})
     p.say("At Ω̄ = 1 it asks for Δr = -ργ: it does not admit (q, q), nor does it tend to (4.2).")
     p.lemma(equation("Δr at R_{k+1} = R_k is -ργ", naive.subs({R1: R, R1T: RT}), -rho * gamma))
     p.control(equation("its vertical component vanishes", ALGEBRA.trace(naive * gammaT), sp.S.Zero))

@@ -4,7 +4,7 @@ import sympy as sp
 
 from chapsym.derive import ball, limits
 from chapsym.derive.ball import ALGEBRA, D, Gamma, J, K, omega
-from chapsym.prove import Equation, Proof, claim, main
+from chapsym.prove import Equation, Fact, Proof, claim, main
 
 
 def equation(text: str, left: sp.Expr, right: sp.Expr) -> Equation:
@@ -29,11 +29,12 @@ def show(p: Proof, name: str, remainder: limits.Remainder) -> None:
 )
 def centre_limit(p: Proof) -> None:
     """M/ε → Jω + ωJ, with a remainder of the exact order 1."""
+    p.assume("read as M/ε, as the paper itself writes for 𝒦 after (4.13): M alone tends to 0")
     m = limits.centre_momentum()
     show(p, "M/ε", m)
     p.printed(equation("M/ε → Jω + ωJ", m.limit, J * omega + omega * J))
     p.lemma(equation("the leading remainder is ½[ω², J]", m.leading, commutator(omega**2, J) / 2))
-    p.fact(f"the remainder has the exact order 1, here {m.order}", m.order == 1)
+    p.lemma(Fact(f"the remainder has the exact order 1, here {m.order}", m.order == 1))
     p.control(equation("M/ε → Jω - ωJ", m.limit, J * omega - omega * J))
 
 
@@ -53,13 +54,13 @@ def momentum_limit(p: Proof) -> None:
             "𝒦/ε → Jω + ωJ + D(Γω + ωΓ)", momentum.limit, J * omega + omega * J + D * (Gamma * omega + omega * Gamma)
         )
     )
-    p.fact(f"the remainder of 𝒦/ε has the exact order 1, here {momentum.order}", momentum.order == 1)
+    p.lemma(Fact(f"the remainder of 𝒦/ε has the exact order 1, here {momentum.order}", momentum.order == 1))
     p.lemma(equation("its leading term is ½[ω², J], without D", momentum.leading, commutator(omega**2, J) / 2))
     for name, tensor in [("𝒦", K), ("Γ", Gamma)]:
         moved = limits.transport(tensor)
         show(p, f"(Ωᵀ{name}Ω - {name})/ε", moved)
         p.printed(equation(f"(Ωᵀ{name}Ω - {name})/ε → -[ω, {name}]", moved.limit, -commutator(omega, tensor)))
-        p.fact(f"its remainder has the exact order 1, here {moved.order}", moved.order == 1)
+        p.lemma(Fact(f"its remainder has the exact order 1, here {moved.order}", moved.order == 1))
         p.lemma(
             equation(
                 f"its leading term is ½[ω, [ω, {name}]]",

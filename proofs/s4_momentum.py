@@ -5,7 +5,7 @@ import sympy as sp
 from chapsym.derive import ball
 from chapsym.derive.ball import ALGEBRA, D, Gamma, J, K, Omega, OmegaT
 from chapsym.derive.words import WordAlgebra, evaluate, matrix_symbols
-from chapsym.prove import Equation, Proof, claim, main
+from chapsym.prove import Equation, Fact, Proof, claim, main
 
 
 def equation(text: str, left: sp.Expr, right: sp.Expr, algebra: WordAlgebra = ALGEBRA) -> Equation:
@@ -107,11 +107,12 @@ def several_solutions(p: Proof) -> None:
 
     p.say("Turns about e₁ with cos θ = ±7/25, sin θ = 24/25, at γ = e₂, J = (1,2,4), D = 3:")
     p.show("𝒦 of the first", momentum(first))
-    p.printed_fact("both are rotations, they differ, and (4.13) gives the same 𝒦",
+    p.printed(Fact("both are rotations, they differ, and (4.13) gives the same 𝒦",
                    first.T * first == sp.eye(3) == second.T * second
                    and first.det() == 1 == second.det() and first != second
-                   and momentum(first) == momentum(second))  # fmt: skip
-    p.fact("𝒦 is not 0", not momentum(first).is_zero_matrix)
+                   and momentum(first) == momentum(second)))  # fmt: skip
+    p.witness("generic", {"Ω": "a turn about e1 by cos θ = ±7/25, sin θ = 24/25", "γ": "e2", "J": "(1,2,4)", "D": "3"})
+    p.lemma(Fact("𝒦 is not 0", not momentum(first).is_zero_matrix))
     X, XT = matrix_symbols("X X^T")
     other = ball.momentum().xreplace({Omega: X, OmegaT: XT})
     algebra = WordAlgebra({**ALGEBRA.transposes, X: XT, XT: X}, {**ALGEBRA.rules, (X, XT): 1, (XT, X): 1})

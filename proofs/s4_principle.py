@@ -180,6 +180,15 @@ def euler_poincare(p: Proof) -> None:
     p.control(equation("the same with γ∧F", now - moved + rho * force, balance))
 
 
+@claim("4.8", r"\vec F^k = R_k^T\vec f^k,\ \gamma_k = R_k^T\vec\gamma", uses=["4.7"])
+def body_vectors(p: Proof) -> None:
+    """The names of the reaction and the vertical in the frame of the body."""
+    p.define("F^k and γ_k are names for f^k and γ⃗ seen from the body; that (4.7) uses them so is part of its proof")
+    carried = RT * ALGEBRA.wedge(f, gamma) * R
+    p.lemma(equation("R_kᵀ(f∧γ⃗)R_k = F∧γ_k: the torque of (4.6), carried", carried, ALGEBRA.wedge(RT * f, RT * gamma)))
+    p.control(equation("the same for γ_k = R_kγ⃗", carried, ALGEBRA.wedge(RT * f, R * gamma)))
+
+
 @claim("4.2", r"\dot r + \rho\,\dot R R^T\vec\gamma = 0", uses=["2.9"])
 def rolling_in_space(p: Proof) -> None:
     """The rolling condition in the fixed frame is (2.9), carried there."""

@@ -332,5 +332,43 @@ def weierstrass_w(p: Proof) -> None:
     p.control(Equation("w = ½q/(p-e3)²", [Q / (2 * (P - E3) ** 2)], [derived], WEIERSTRASS))
 
 
+@claim(
+    "5.16-integral",
+    r"\delta u^{(j)} = \int_\infty^{P^{(j)}}\frac{dp}{2\sqrt{(p-e_1)(p-e_2)(p-e_3)}}",
+    uses=["5.16-weierstrass-e", "5.15"],
+)
+def increment_integral(p: Proof) -> None:
+    """The increment as an integral on the curve, from p = ∞, where δu = 0."""
+    p.assume(
+        "the root is that of the point P on the curve: 2√(...) = q there, negative for small δu > 0 (5.16-weierstrass-w)"
+    )
+    p.assume("δu up to periods, as for every integral on the curve")
+    p.say("p = e3 + 1/sn²δu; p' = dp/dδu from sn' = cn dn:")
+    ring = elliptic.ring(HALF)
+    value = E3 + 1 / HALF.sn**2
+    slope = sp.diff(value, HALF.sn) * HALF.cn * HALF.dn
+    p.show("p'", slope)
+    quartic = sp.prod(value - root for root in (E1, E2, E3))
+    p.printed(Equation("(dp/dδu)² = 4(p-e1)(p-e2)(p-e3): dδu = dp/(2√...)", [slope**2], [4 * quartic], ring))
+    p.lemma(Equation("p → ∞ as δu → 0: 1/(p - e3) = sn²δu", [1 / (value - E3)], [HALF.sn**2], ring))
+    p.lemma(
+        Equation(
+            "p' = -2 cn dn/sn³: with the positive root the integral is -δu",
+            [slope],
+            [-2 * HALF.cn * HALF.dn / HALF.sn**3],
+            ring,
+        )
+    )
+    p.control(Equation("(dp/dδu)² = (p-e1)(p-e2)(p-e3)", [slope**2], [quartic], ring))
+    p.control(
+        Equation(
+            "the same with e2 for e3 in p",
+            [slope**2],
+            [4 * sp.prod(value - E3 + E2 - root for root in (E1, E2, E3))],
+            ring,
+        )
+    )
+
+
 if __name__ == "__main__":
     main(__file__)

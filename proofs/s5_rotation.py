@@ -7,7 +7,7 @@ from chapsym.derive.limits import omega
 from chapsym.derive.quotient import Quotient
 from chapsym.derive.three import J1, J2, J3, RING, D, K, axial, gamma, hat, q, q0, q1, q2, q3
 from chapsym.derive.words import evaluate
-from chapsym.prove import Equation, Proof, claim, main, rational_point
+from chapsym.prove import Equation, Fact, Proof, claim, main, rational_point
 
 #: Unit Euler parameters in general position.
 UNIT = dict(zip((q0, *q), map(sp.Rational, ("4/5", "2/5", "1/5", "2/5")), strict=True))
@@ -58,6 +58,43 @@ def rotation_matrix(p: Proof) -> None:
     mutated = corrected.copy()
     mutated[0, 1] = 2 * (q1 * q2 + q3 * q0)
     p.control(Equation("the mended matrix with one more sign flipped", list(mutated), list(rotation), RING))
+
+
+@claim(
+    "5.1-angle",
+    r"\Omega \text{ is the rotation about } \mathbf q \text{ by } \theta,\ q_0=\cos\tfrac\theta2,\ "
+    r"|\mathbf q|=\sin\tfrac\theta2,\ q_0>0",
+    uses=["5.1"],
+)
+def axis_and_angle(p: Proof) -> None:
+    """Axis and angle are right; q₀ > 0 leaves out the rotations by π."""
+    p.assume("Ω with the correction of (5.1); the axis is undefined at q = 0, where Ω = 1")
+    p.say("Rodrigues: Ωx = cosθ x + sinθ n×x + (1-cosθ)⟨n,x⟩n.  With q₀ = cos(θ/2), q = sin(θ/2) n these are")
+    p.say("cosθ = q₀² - |q|², sinθ n = 2q₀q, (1-cosθ) nnᵀ = 2qqᵀ:")
+    rotation = sp.Matrix(three.rotation())
+
+    def rodrigues(sign: int) -> sp.Matrix:
+        return (q0**2 - q.dot(q)) * sp.eye(3) + sign * 2 * q0 * hat(q) + 2 * q * q.T
+
+    p.printed(Equation("Ω = (q₀²-|q|²) + 2q₀ q× + 2qqᵀ, nine entries", list(rotation), list(rodrigues(1)), RING))
+    p.say("As (q₀, q) and (-q₀, -q) give the same Ω, q₀ ≥ 0 can be had; but tr Ω = 4q₀² - 1 is -1 only for q₀ = 0.")
+    half_turn = sp.diag(1, -1, -1)
+    square = (half_turn.trace() + 1) / sp.Integer(4)
+    p.printed(Fact("Ω = diag(1,-1,-1) has Euler parameters with q₀ > 0", bool(square > 0)))
+    of_axis = rotation.subs({q0: 0, q1: 1, q2: 0, q3: 0})
+    p.corrected(
+        r"q_0\ge 0,\text{ and } (0,\mathbf q)\sim(0,-\mathbf q)",
+        Fact("q₀ = 0, q = e₁ gives diag(1,-1,-1)", of_axis == half_turn),
+        Equation(
+            "(-q₀, -q) gives the same Ω",
+            list(rotation.subs({x: -x for x in (q0, *q)}, simultaneous=True)),
+            list(rotation),
+            RING,
+        ),
+        Equation("4q₀² = 1 + tr Ω", [4 * q0**2], [1 + rotation.trace()], RING),
+    )
+    p.refute({"Ω": "diag(1, -1, -1)"}, "q₀² = (1 + tr Ω)/4", square, "positive")
+    p.control(Equation("the same by the angle -θ", list(rotation), list(rodrigues(-1)), RING))
 
 
 def printed_centre_momentum() -> sp.Matrix:
@@ -131,8 +168,8 @@ def parameter_expansion(p: Proof) -> None:
         Equation("q/ε → ω/2", list(vector.limit), list(omega / 2), limits.RING),
         Equation("q₀ → 1", list(scalar.limit), [sp.S.One], limits.RING),
     )
-    p.fact(f"q - εω/2 has the exact order 3, here {vector.order + 1}", vector.order + 1 == 3)
-    p.fact(f"q₀ - 1 has the exact order 2, here {scalar.order}", scalar.order == 2)
+    p.lemma(Fact(f"q - εω/2 has the exact order 3, here {vector.order + 1}", vector.order + 1 == 3))
+    p.lemma(Fact(f"q₀ - 1 has the exact order 2, here {scalar.order}", scalar.order == 2))
     square = omega.dot(omega)
     p.lemma(
         Equation("the leading term of q is -|ω|²ω/48", list(vector.leading), list(-square / 48 * omega), limits.RING)
@@ -156,7 +193,7 @@ def vector_limit(p: Proof) -> None:
     lam = sp.diag(J2 + J3 + D, J1 + J3 + D, J1 + J2 + D)
     printed = lam * omega - D * gamma.dot(omega) * gamma
     p.printed(Equation("𝒦⃗/ε → Λω - D⟨γ,ω⟩γ", list(limit.limit), list(printed), limits.RING))
-    p.fact(f"the remainder has the exact order 1, here {limit.order}", limit.order == 1)
+    p.lemma(Fact(f"the remainder has the exact order 1, here {limit.order}", limit.order == 1))
     p.lemma(
         Equation("its leading term is ½ ω×Λω", list(limit.leading), list(omega.cross(lam * omega) / 2), limits.RING)
     )
@@ -192,9 +229,68 @@ def vector_form(p: Proof) -> None:
             "its leading remainder is ½(𝒦⃗×ω)×ω", list(limit.leading), list(K.cross(omega).cross(omega) / 2), limits.RING
         )
     )
-    p.fact(f"that remainder has the exact order 1, here {limit.order}", limit.order == 1)
+    p.lemma(Fact(f"that remainder has the exact order 1, here {limit.order}", limit.order == 1))
     p.control(Equation("the axial vector of Ωᵀ𝒦Ω = Ω𝒦⃗", list(moved), list(rotation * K), ring))
     p.control(Equation("𝒦̇ = ω×𝒦", list(limit.limit), list(omega.cross(K)), limits.RING))
+
+
+@claim(
+    "5.3-integrals",
+    r"\langle\mathcal K,\gamma\rangle = h,\ \langle\mathcal K,\mathcal K\rangle = n \text{ are preserved}",
+    uses=["5.3"],
+)
+def vector_integrals(p: Proof) -> None:
+    """The two momentum integrals of the vector map, whatever the branch."""
+    ring = Quotient((*K, *RING.symbols), RING.relations)
+    rotation = sp.Matrix(three.rotation())
+    moved, vertical = rotation.T * K, rotation.T * gamma
+    p.printed(
+        Equation("⟨Ωᵀ𝒦, Ωᵀγ⟩ = ⟨𝒦, γ⟩", [moved.dot(vertical)], [K.dot(gamma)], ring),
+        Equation("⟨Ωᵀ𝒦, Ωᵀ𝒦⟩ = ⟨𝒦, 𝒦⟩", [moved.dot(moved)], [K.dot(K)], ring),
+        Equation("|Ωᵀγ| = |γ|", [vertical.dot(vertical)], [sp.S.One], ring),
+    )
+    p.say("Only ΩᵀΩ = 1 is used: the branch of Ω does not matter.")
+    p.control(Equation("⟨Ωᵀ𝒦, Ωγ⟩ = ⟨𝒦, γ⟩", [moved.dot(rotation * gamma)], [K.dot(gamma)], ring))
+
+
+def rotation_of(parameters: tuple) -> sp.Matrix:
+    """Ω at unit Euler parameters."""
+    return sp.Matrix(three.rotation()).subs(dict(zip((q0, *q), map(sp.Rational, parameters), strict=True)))
+
+
+@claim("5.3-energy", r"\text{the energy integral (2.5) is not preserved}", uses=["5.3", "2.5"])
+def energy_changes(p: Proof) -> None:
+    """One exact step that changes the energy, (2.5) as corrected; as printed it changes, too."""
+    p.assume("the energy is (2.5) as corrected, in 𝒦")
+    ball = {J1: 1, J2: 2, J3: 4, D: 3}
+    state = {**UNIT, **dict(zip(gamma, map(sp.Rational, ("2/7", "3/7", "6/7")), strict=True)), **ball}
+    momentum = sp.Matrix(three.momentum()).subs(state, simultaneous=True)
+    rotation = sp.Matrix(three.rotation()).subs(state)
+    vertical = gamma.subs(state)
+
+    def energy(momentum: sp.Matrix, vertical: sp.Matrix, sign: int, contact: int = 3) -> sp.Rational:
+        inverse = (sp.diag(6, 5, 3) + contact * sp.eye(3)).inv()
+        lifted = vertical.dot(inverse * momentum)
+        return momentum.dot(inverse * momentum) + sign * contact * lifted**2 / (
+            1 - contact * vertical.dot(inverse * vertical)
+        )
+
+    values = {name: [energy(momentum, vertical, sign), energy(rotation.T * momentum, rotation.T * vertical, sign)]
+              for name, sign in (("as corrected", 1), ("as printed", -1))}  # fmt: skip
+    p.say("J = (1, 2, 4), D = 3, γ = (2, 3, 6)/7, Ω by (4, 2, 1, 2)/5; 𝒦 and γ after the step are Ωᵀ𝒦 and Ωᵀγ.")
+    for name, (before, after) in values.items():
+        p.show(f"(2.5) {name}, before and after", [before, after])
+        p.printed(Fact(f"(2.5) {name} changes in that step", before != after))
+    ends = {"J": "(1, 2, 4)", "D": "3", "γ": "(2, 3, 6)/7", "q₀, q": "(4, 2, 1, 2)/5", "𝒦": str(list(momentum))}
+    square = momentum.dot(momentum)
+    p.witness("generic", ends, Fact("⟨𝒦,𝒦⟩ does not", square == (rotation.T * momentum).dot(rotation.T * momentum)))
+    p.say(
+        "It may be kept in a step: a turn about an axis of the body that is vertical, or vertical momentum (6-vertical-energy)."
+    )
+    turn = rotation_of(("4/5", 0, 0, "3/5"))
+    along, upright = sp.Matrix([0, 0, 5]), sp.Matrix([0, 0, 1])
+    kept = energy(along, upright, 1) != energy(turn.T * along, turn.T * upright, 1)
+    p.control(Fact("it changes in a turn about e₃ with 𝒦, γ along e₃", kept))
 
 
 if __name__ == "__main__":

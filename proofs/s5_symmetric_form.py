@@ -9,7 +9,7 @@ from chapsym.derive import vertical
 from chapsym.derive.quotient import Quotient
 from chapsym.derive.three import J1, J2, J3, D, q, q0
 from chapsym.derive.vertical import RING, sigma
-from chapsym.prove import Equation, Proof, claim, main, rational_point
+from chapsym.prove import Equation, Fact, Proof, claim, main, rational_point
 
 
 @cache
@@ -102,7 +102,7 @@ def q0_from_sum(p: Proof) -> None:
         p.say(f"A rotation by an angle {name} 90°:")
         p.counterexample(rational_point(state, vertical_state()))
     p.say("2q₀² - 1 = cos θ, so the sign of the root is that of cos θ; the second state needs the minus sign:")
-    p.fact("2q₀² > 1 at the first state, 2q₀² < 1 at the second", _signs() == (1, -1))
+    p.lemma(Fact("2q₀² > 1 at the first state, 2q₀² < 1 at the second", _signs() == (1, -1)))
     p.control(square_of_root("(2q₀²-1)² = 1 - (σ/4)⟨s, Λ⁻²s⟩", sigma / 4))
     p.control(square_of_root("(2q₀²-1)² = 1 + (σ²/4)⟨s, Λ⁻²s⟩", -(sigma**2) / 4))
 
@@ -182,8 +182,8 @@ def symmetric_form(p: Proof) -> None:
     for name, state in [("below", SMALL), ("above", LARGE)]:
         p.say(f"A state with the rotation angle {name} 90°: the sign of the root is that of 2q₀² - 1 = cos θ.")
         p.counterexample(rational_point(state, vertical_state()))
-        p.fact("the vector product in (5.10) is not zero there", _product_is_not_zero(state))
-    p.fact("the two states need the two signs of the root", _signs() == (1, -1))
+        p.lemma(Fact("the vector product in (5.10) is not zero there", _product_is_not_zero(state)))
+    p.lemma(Fact("the two states need the two signs of the root", _signs() == (1, -1)))
     _converse(p)
     p.control(symmetric("5.10 with ϰ = 2σ/q₀²", sigma / (2 * q0**2)))
     p.control(symmetric("5.10 with Λ⁻¹s×s", -sigma / (4 * q0**2)))
@@ -194,6 +194,34 @@ def symmetric_form(p: Proof) -> None:
 def _product_is_not_zero(state: dict) -> bool:
     values = {symbol: sp.Rational(value) for symbol, value in state.items()}
     return not total().cross(inverse() * total()).subs(values, simultaneous=True).is_zero_matrix
+
+
+@claim("5.12-scaling", r"h = 1 \text{ by rescaling of } \Lambda \text{ and } D", uses=["prop-4"])
+def rescaling(p: Proof) -> None:
+    """The map depends on Λ/h and D/h only."""
+    p.assume("h > 0 (for h < 0 turn γ round: (-h, -γ) is the same momentum); prop-4 as corrected")
+    scale = sp.Symbol("s")
+    ring = Quotient((scale, *RING.symbols), RING.relations)
+    changed = {x: x / scale for x in (J1, J2, J3, D, sigma)}
+
+    def rescaled(expr: sp.Expr) -> sp.Expr:
+        return expr.subs(changed, simultaneous=True)
+
+    p.say("J, D, σ ↦ J/s, D/s, σ/s, with the same q: γ and γ~ stay, h becomes h/s, so that s = h gives 1.")
+    now, after, lam = vertical.gamma_now(), vertical.gamma_next(), vertical.lam()
+    p.printed(
+        Equation("Λ becomes Λ/s", list(lam.applyfunc(rescaled)), list(lam / scale), ring),
+        Equation("γ stays", list(now.applyfunc(rescaled)), list(now), ring),
+        Equation("γ~ stays", list(after.applyfunc(rescaled)), list(after), ring),
+        Equation("h becomes h/s", [rescaled(vertical.height())], [vertical.height() / scale], ring),
+    )
+    root = sigma**2 / 4 * second_form()
+    p.lemma(Equation("in (5.10) ϰΛ⁻¹ stays", [rescaled(sigma / q0**2 / lam[0, 0])], [sigma / q0**2 / lam[0, 0]], ring))
+    p.lemma(Equation("and under its root (σ²/4)⟨s,Λ⁻²s⟩", [rescaled(root)], [root], ring))
+    printed = second_form() / 4
+    p.say("With the printed root, without σ², the scaling would not be one: that is the control.")
+    p.control(Equation("¼⟨s,Λ⁻²s⟩ stays", [rescaled(printed)], [printed], ring))
+    p.control(Equation("h stays", [rescaled(vertical.height())], [vertical.height()], ring))
 
 
 def _converse(p: Proof) -> None:

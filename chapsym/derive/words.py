@@ -142,14 +142,14 @@ def _key(word: Word) -> tuple[str, ...]:
 def evaluate(expr: sp.Expr | int, values: Mapping[sp.Symbol, sp.Matrix | sp.Expr]) -> Any:
     """A sum of words at explicit matrices (columns and rows included) and values of the parameters.
 
-    The empty word is the identity of the size of the first matrix; a sum without words is the number 0.
+    The empty word is the identity of the size n (columns and rows have n entries); a sum without words is the number 0.
     """
     matrices = {symbol: value for symbol, value in values.items() if isinstance(value, sp.MatrixBase)}
     scalars = {symbol: value for symbol, value in values.items() if symbol not in matrices}
     parts = []
     for commuting, word in _terms(sp.expand(expr)):
         coefficient = commuting.subs(scalars, simultaneous=True)
-        product = matrices[word[0]] if word else sp.eye(next(iter(matrices.values())).rows)
+        product = matrices[word[0]] if word else sp.eye(max(matrix.rows for matrix in matrices.values()))
         for letter in word[1:]:
             product = product * matrices[letter]
         parts.append(coefficient * product)

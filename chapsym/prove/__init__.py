@@ -1,12 +1,15 @@
 """Exact verdicts: claims, evidence, negative controls, and the runner."""
 
-from .claims import Claim, Equation, Judgement, Point, Proof, Verdict, claim, rational_point
-from .runner import BrokenScript, load, main, prove_all
+from .claims import Claim, Judgement, claim
+from .evidence import Proof, Verdict
+from .runner import BrokenScript, load, main, prove_all, unproved
+from .statements import Equation, Fact, Point, rational_point
 
 __all__ = [
     "BrokenScript",
     "Claim",
     "Equation",
+    "Fact",
     "Judgement",
     "Point",
     "Proof",
@@ -16,4 +19,5 @@ __all__ = [
     "main",
     "prove_all",
     "rational_point",
+    "unproved",
 ]

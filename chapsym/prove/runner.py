@@ -11,7 +11,9 @@ from concurrent.futures import ProcessPoolExecutor, as_completed
 from pathlib import Path
 from typing import Any
 
-from .claims import Claim, Judgement, Proof, Verdict, register
+from .claims import Claim, Judgement, register
+from .evidence import Proof, Verdict
+from .records import fingerprint
 
 
 class BrokenScript(ImportError):
@@ -52,7 +54,9 @@ def downstream(id: str, claims: dict[str, Claim]) -> list[str]:
 def prove_one(id: str) -> dict[str, Any]:
     """Judges one claim and returns its record; a proof that raises is an open claim with the reason."""
     claims = load()
-    return judge(claims[id]).record(downstream(id, claims))
+    record = judge(claims[id]).record(downstream(id, claims))
+    record["evidence"]["fingerprint"] = fingerprint(claims[id])
+    return record
 
 
 def judge(claim: Claim) -> Judgement:
@@ -105,6 +109,12 @@ def explain(record: dict[str, Any]) -> str:
                 left, right = ", ".join(sides["left"]), ", ".join(sides["right"])
                 sign = "=" if left == right else "≠"
                 lines += [f"    {kind}: {sides['statement']}:  ({left}) {sign} ({right})"]
+    for seen in evidence["witnesses"][:1]:
+        at = ", ".join(f"{k} = {v}" for k, v in seen["point"].items())
+        cases = ", ".join(case["name"] for case in evidence["witnesses"][1:])
+        lines += [f"  true at an exact point: {at}" + (f"; and for {cases}" if cases else "")]
+    lines += [f"  nothing to decide: {evidence['reason']}"] if evidence["reason"] else []
+    lines += [f"  tried: {text}" for text in evidence["tried"]]
     if record["corrected"]:
         lines += [f"  corrected: {record['corrected']}"]
     if evidence["downstream"]:
@@ -129,4 +139,9 @@ def report(records: Iterable[dict[str, Any]]) -> int:
     """Prints every argument; returns the exit status."""
     records = list(records)
     print("\n\n".join(explain(record) for record in records))
-    return 0 if all(record["verdict"] != Verdict.OPEN for record in records) else 1
+    return 1 if unproved(records) else 0
+
+
+def unproved(records: Iterable[dict[str, Any]]) -> list[str]:
+    """The ids whose proof failed: `open`, and not a question that the paper itself leaves open."""
+    return [r["id"] for r in records if r["verdict"] == Verdict.OPEN and not r["evidence"]["open_in_paper"]]

@@ -3,10 +3,11 @@
 import pytest
 import sympy as sp
 
+from chapsym.derive import three
 from chapsym.derive.quotient import Quotient
-from chapsym.prove import Equation, Proof, Verdict, claim, rational_point
+from chapsym.prove import Equation, Fact, Proof, Verdict, claim, rational_point
 from chapsym.prove.claims import Claim
-from chapsym.prove.runner import downstream, explain, judge
+from chapsym.prove.runner import downstream, explain, judge, unproved
 
 x, y = sp.symbols("x y")
 CIRCLE = Quotient((x, y), [x**2 + y**2 - 1])
@@ -23,6 +24,7 @@ OFF_CIRCLE = rational_point({x: 1, y: 1}, [equation(x**2 + y**2, sp.S.One)])
 
 def verdict(*actions):
     proof = Proof()
+    proof.witness("generic", {"x": "3/5", "y": "4/5"})
     for name, *arguments in actions:
         getattr(proof, name)(*arguments)
     return proof.verdict(), proof.problems
@@ -48,7 +50,7 @@ def test_a_control_that_passes_breaks_the_proof():
 
 def test_a_false_lemma_breaks_the_proof():
     assert verdict(("printed", TRUE), ("control", FALSE), ("lemma", FALSE))[0] is Verdict.OPEN
-    assert verdict(("printed", TRUE), ("control", FALSE), ("fact", "1 < 0", False))[0] is Verdict.OPEN
+    assert verdict(("printed", TRUE), ("control", FALSE), ("lemma", Fact("1 < 0", False)))[0] is Verdict.OPEN
 
 
 def test_nothing_printed_is_nothing_judged():
@@ -96,6 +98,79 @@ def test_a_form_that_needs_a_hypothesis_is_conditional():
     proof.under("|x|² + |y|² = 1", TRUE)
     proof.control(FALSE)
     assert proof.verdict() is Verdict.CONDITIONAL
+
+
+def test_a_statement_needs_a_point_where_its_hypotheses_hold():
+    proof = Proof()
+    proof.printed(TRUE)
+    proof.control(FALSE)
+    assert proof.verdict() is Verdict.OPEN
+    assert proof.problems == ["no witness: it is not shown that the hypotheses can hold"]
+
+
+def test_a_statement_that_is_false_at_its_witness_breaks_the_proof():
+    result, problems = verdict(("printed", TRUE), ("control", FALSE), ("witness", "other", {}, FALSE))
+    assert result is Verdict.OPEN
+    assert problems == ["fails at its witness (other): false"]
+
+
+def test_the_table_of_witnesses_contradicts_a_wrong_decision():
+    """An algebra that accepts everything is caught where its symbols have values."""
+
+    class Gullible(Quotient):
+        def is_zero(self, expr):
+            return True
+
+    ring = Gullible(three.RING.symbols, three.RING.relations)
+    proof = Proof()
+    proof.printed(Equation("q₀ = 0", [three.q0], [sp.S.Zero], ring))
+    proof.control(FALSE)
+    assert proof.verdict() is Verdict.OPEN
+    assert "fails at its witness: q₀ = 0 (generic)" in proof.problems
+
+
+def test_degenerate_cases_are_looked_at_where_they_are_allowed():
+    proof = Proof()
+    proof.printed(Equation("|q|² = 1 - q₀²", [three.q.dot(three.q)], [1 - three.q0**2], three.RING))
+    proof.control(FALSE)
+    assert proof.verdict() is Verdict.HOLDS
+    assert [seen["name"] for seen in proof.witnesses] == ["generic", "equal J", "D = 0", "q = 0"]
+
+
+def test_a_second_route_must_agree():
+    steps = [("printed", TRUE), ("control", FALSE)]
+    assert verdict(*steps, ("route", "another", TRUE))[0] is Verdict.HOLDS
+    assert verdict(*steps, ("route", "another", FALSE)) == (Verdict.OPEN, ["the second route fails: another"])
+    assert verdict(*steps, ("route", "none"))[0] is Verdict.OPEN
+
+
+def test_a_printed_statement_that_is_no_equation():
+    claimed, found = Fact("at most 4", False), Fact("at most 8", True)
+    steps = [("printed", claimed), ("corrected", "at most 8", found), ("control", FALSE)]
+    assert verdict(*steps, ("refute", {"J": "1"}, "count", 6, "at most 4"))[0] is Verdict.CORRECTED
+    assert verdict(*steps)[0] is Verdict.OPEN
+    assert verdict(*steps, ("refute", {"J": "1"}, "count", 4, 4))[0] is Verdict.OPEN
+
+
+def test_a_definition_says_why_nothing_is_decided_and_has_a_control():
+    assert verdict(("define", "it names"), ("control", FALSE))[0] is Verdict.DEFINITION
+    assert verdict(("define", "it names"))[0] is Verdict.OPEN
+
+
+def test_an_open_question_of_the_paper_is_no_failed_proof():
+    def question(p):
+        """A question."""
+        p.leave_open("this was tried")
+
+    def failed(p):
+        """A failure."""
+        p.leave_open("this was tried")
+        p.lemma(FALSE)
+
+    records = [judge(Claim(id, "x", (), proof)).record() for id, proof in [("1", question), ("2", failed)]]
+    assert [record["verdict"] for record in records] == ["open", "open"]
+    assert unproved(records) == ["2"]
+    assert "tried: this was tried" in explain(records[0])
 
 
 def test_irrational_counterexamples_are_refused():

@@ -1,0 +1,184 @@
+"""The evidence for a verdict, and the rule that turns evidence into one.
+
+A proof is a function that receives a `Proof`, states the printed formulas, lemmas, controls and,
+where the printed form fails, its correction and an exact counterexample.  The verdict is computed
+from what those checks gave; no proof can assert one.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from enum import StrEnum
+from typing import Any
+
+import sympy as sp
+
+from . import witness
+from .statements import Equation, Point, Statement
+
+
+class Verdict(StrEnum):
+    """What is said of a printed claim."""
+
+    HOLDS = "holds"
+    CORRECTED = "corrected"
+    CONDITIONAL = "conditional"
+    REFUTED = "refuted"
+    SETTLED = "settled"
+    DEFINITION = "definition"
+    CITED = "cited"
+    OPEN = "open"
+
+
+@dataclass
+class Proof:
+    """Collects the derivation and the decided statements of one claim."""
+
+    lines: list[str] = field(default_factory=list)
+    checks: list[dict[str, Any]] = field(default_factory=list)
+    controls: list[dict[str, Any]] = field(default_factory=list)
+    problems: list[str] = field(default_factory=list)
+    hypotheses: list[str] = field(default_factory=list)
+    counterexamples: list[dict[str, Any]] = field(default_factory=list)
+    routes: list[dict[str, Any]] = field(default_factory=list)
+    witnesses: list[dict[str, Any]] = field(default_factory=list)
+    tried: list[str] = field(default_factory=list)
+    reason: str | None = None
+    corrected_text: str | None = None
+    condition: str | None = None
+    _printed: list[tuple[Statement, bool]] = field(default_factory=list)
+    _corrected: list[tuple[Statement, bool]] = field(default_factory=list)
+
+    def say(self, text: str) -> None:
+        """A line of the derivation."""
+        self.lines.append(text)
+
+    def show(self, name: str, value: Any) -> None:
+        """A line of the derivation that shows an expression that was just derived."""
+        if isinstance(value, sp.MatrixBase):
+            value = "[" + ",  ".join(str(entry) for entry in value) + "]"
+        self.lines.append(f"    {name} = {value}")
+
+    def assume(self, text: str) -> None:
+        """A hypothesis under which the claim is judged."""
+        self.hypotheses.append(text)
+
+    def lemma(self, statement: Statement) -> None:
+        """A statement that must hold for the proof to stand."""
+        if not self._decide(statement):
+            self.problems.append(f"lemma fails: {statement.text}")
+
+    def route(self, name: str, *statements: Statement) -> None:
+        """A second, independent proof of what was stated; it must agree."""
+        self.say(f"  second route: {name}")
+        decided = [self._decide(s, "second route: ") for s in statements]
+        holds = bool(decided) and all(decided)
+        self.routes.append({"name": name, "statements": [s.text for s in statements], "holds": holds})
+        if not holds:
+            self.problems.append(f"the second route fails: {name}")
+
+    def printed(self, *statements: Statement) -> None:
+        """What the paper states; each is decided as printed."""
+        self._printed += [(s, self._decide(s, "printed: ")) for s in statements]
+
+    def corrected(self, text: str, *statements: Statement) -> None:
+        """The smallest correction of what is printed, and the statements that prove it."""
+        self.corrected_text = text
+        self._corrected += [(s, self._decide(s, "corrected: ")) for s in statements]
+
+    def under(self, condition: str, *statements: Statement) -> None:
+        """What is printed under a hypothesis that the paper leaves out."""
+        self.condition = condition
+        self._corrected += [(s, self._decide(s, f"under {condition}: ")) for s in statements]
+
+    def counterexample(self, point: Point) -> None:
+        """Evaluates every printed and corrected formula that was stated so far at an exact point.
+
+        The hypotheses must hold there, some printed formula must fail, every corrected one must hold.
+        """
+        for failure in point.failures():
+            self.problems.append(f"the counterexample violates the hypothesis {failure}")
+        printed, corrected = _equations(self._printed), _equations(self._corrected)
+        wrong = [sides for e in printed if (sides := _sides(e, point))["left"] != sides["right"]]
+        right = [_sides(e, point) for e in corrected]
+        if not wrong:
+            self.problems.append("the counterexample does not contradict the printed form")
+        if any(sides["left"] != sides["right"] for sides in right):
+            self.problems.append("the correction fails at the counterexample")
+        self.counterexamples.append({"point": point.values, "printed": wrong, "corrected": right})
+
+    def refute(self, values: Mapping[str, str], statement: str, found: Any, claimed: Any) -> None:
+        """A counterexample to a printed statement that is no equation: what was found, exactly, and what is claimed."""
+        if found == claimed:
+            self.problems.append(f"the counterexample does not contradict: {statement}")
+        sides = {"statement": statement, "left": [str(found)], "right": [str(claimed)]}
+        self.counterexamples.append({"point": dict(values), "printed": [sides], "corrected": []})
+
+    def control(self, statement: Statement) -> None:
+        """A mutated statement, which the same machinery must reject."""
+        rejected = not statement.holds()
+        self.controls.append({"statement": statement.text, "rejected": rejected})
+        self.lines.append(f"  control: {statement.text}: {'rejected, as it must be' if rejected else 'ACCEPTED'}")
+        if not rejected:
+            self.problems.append(f"control accepted: {statement.text}")
+
+    def witness(self, name: str, values: Mapping[str, str], *statements: Statement) -> None:
+        """An exact point at which the hypotheses hold and the statements, evaluated, are true."""
+        wrong = [s.text for s in statements if not s.holds()]
+        self.problems += [f"fails at its witness ({name}): {text}" for text in wrong]
+        self.witnesses.append({"name": name, "point": dict(values), "statements": len(statements)})
+
+    def define(self, reason: str) -> None:
+        """Nothing to decide: a definition, and why it is one."""
+        self.reason = reason
+
+    def leave_open(self, *tried: str) -> None:
+        """A question that the paper leaves open and that is not settled here: what was tried."""
+        self.tried += tried
+
+    def verdict(self) -> Verdict:
+        """The verdict that the evidence supports; `open` when anything is missing or failed."""
+        if self.tried:
+            return Verdict.OPEN
+        self._look_at_witnesses()
+        if not self.controls:
+            self.problems.append("the proof has no negative control")
+        if not self._printed and not self.reason:
+            self.problems.append("no printed form was judged")
+        if self.problems:
+            return Verdict.OPEN
+        if self.reason:
+            return Verdict.DEFINITION
+        if all(holds for _, holds in self._printed):
+            return Verdict.HOLDS
+        if not self.counterexamples:
+            self.problems.append("the printed form is not proved, and there is no counterexample to it")
+            return Verdict.OPEN
+        if not self._corrected:
+            return Verdict.REFUTED
+        if not all(holds for _, holds in self._corrected):
+            self.problems.append("the correction is not proved")
+            return Verdict.OPEN
+        return Verdict.CONDITIONAL if self.condition else Verdict.CORRECTED
+
+    def _look_at_witnesses(self) -> None:
+        """Every true statement must be true at the exact points of its algebra; and there must be such a point."""
+        found, wrong = witness.look(_equations([pair for pair in [*self._printed, *self._corrected] if pair[1]]))
+        self.witnesses += found
+        self.problems += [f"fails at its witness: {text}" for text in wrong]
+        if not self.witnesses and not self.counterexamples and not self.reason:
+            self.problems.append("no witness: it is not shown that the hypotheses can hold")
+
+    def _decide(self, statement: Statement, prefix: str = "") -> bool:
+        holds = statement.holds()
+        self.checks.append({"statement": prefix + statement.text, "holds": holds, "method": statement.method})
+        self.lines.append(f"  {'✓' if holds else '✗'} {prefix}{statement.text}")
+        return holds
+
+
+def _equations(judged: Sequence[tuple[Statement, bool]]) -> list[Equation]:
+    return [statement for statement, _ in judged if isinstance(statement, Equation)]
+
+
+def _sides(equation: Equation, point: Point) -> dict[str, Any]:
+    left, right = equation.at(point.evaluate)
+    return {"statement": equation.text, "left": left, "right": right}

@@ -1,0 +1,140 @@
+"""Verdict records: one JSON Lines file, each line with the fingerprint of what its proof depends on.
+
+A record is fresh while the proof script, the derivations that it imports, the rules of evidence and the
+libraries that decide are those that it was made with.  A fresh record can be shown; a stale one is proved again.
+"""
+
+import ast
+import hashlib
+import importlib.metadata
+import importlib.util
+import json
+import os
+import tempfile
+from collections.abc import Iterable
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import platformdirs
+
+from .claims import Claim
+
+#: What decides beside this package.
+LIBRARIES = ("sympy", "python-flint")
+
+#: How records are run, printed and kept does not change what they say.
+_BESIDES = {"chapsym.prove.runner", "chapsym.prove.records"}
+
+
+class BrokenRecords(ValueError):
+    """The file of records cannot be read as such."""
+
+
+def default_path() -> Path:
+    """Where the records are kept unless a file is named: the user's cache."""
+    return platformdirs.user_cache_path("chapsym") / "verdicts.jsonl"
+
+
+def fingerprint(claim: Claim) -> str:
+    """A hash of everything that the claim's verdict depends on: sources, and the versions of the libraries."""
+    return _of_module(claim.prove.__module__)
+
+
+@cache
+def _of_module(module: str) -> str:
+    digest = hashlib.sha256()
+    for library in LIBRARIES:
+        digest.update(f"{library} {importlib.metadata.version(library)}\n".encode())
+    for name in sorted(_closure(module)):
+        digest.update(name.encode() + b"\n" + _source(name).encode())
+    return digest.hexdigest()[:16]
+
+
+def _closure(module: str) -> set[str]:
+    """The module and all modules of chapsym that it imports, directly or through others."""
+    reached: set[str] = set()
+    pending = [module]
+    while pending:
+        name = pending.pop()
+        if name not in reached and name not in _BESIDES:
+            reached.add(name)
+            pending += _imports(name)
+    return reached
+
+
+@cache
+def _imports(module: str) -> tuple[str, ...]:
+    package = module if _is_package(module) else module.rpartition(".")[0]
+    found: set[str] = set()
+    for node in ast.walk(ast.parse(_source(module))):
+        if isinstance(node, ast.Import):
+            found |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom):
+            base = importlib.util.resolve_name("." * node.level + (node.module or ""), package)
+            found |= {base} | {f"{base}.{alias.name}" for alias in node.names}
+    return tuple(name for name in found if name.startswith("chapsym.") and _file(name))
+
+
+@cache
+def _file(module: str) -> str | None:
+    """The source file of a module; None if the name is not one of a module."""
+    try:
+        spec = importlib.util.find_spec(module)
+    except (ModuleNotFoundError, AttributeError):
+        return None
+    return spec.origin if spec else None
+
+
+def _is_package(module: str) -> bool:
+    return Path(str(_file(module))).name == "__init__.py"
+
+
+def _source(module: str) -> str:
+    return Path(str(_file(module))).read_text(encoding="utf-8")
+
+
+def read(path: Path) -> dict[str, dict[str, Any]]:
+    """The records of a file, by id; none if there is no file.
+
+    Raises BrokenRecords, with the line, if a line is not a record.
+    """
+    records = {}
+    text = path.read_text(encoding="utf-8") if path.exists() else ""
+    for number, line in enumerate(text.splitlines(), start=1):
+        try:
+            record = json.loads(line)
+            records[record["id"]] = record
+            record["evidence"]["fingerprint"]
+        except (ValueError, TypeError, KeyError) as error:
+            raise BrokenRecords(
+                f"line {number} of {path} is not a verdict record; delete the file to start anew"
+            ) from error
+    return records
+
+
+def write(path: Path, records: Iterable[dict[str, Any]]) -> None:
+    """Writes the file whole: into a temporary file beside it, then renamed."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=path.name, suffix=".part")
+    try:
+        with open(handle, "w", encoding="utf-8") as file:
+            file.writelines(json.dumps(record, ensure_ascii=False) + "\n" for record in records)
+        os.replace(temporary, path)
+    except BaseException:
+        os.unlink(temporary)
+        raise
+
+
+def update(path: Path, records: Iterable[dict[str, Any]], claims: dict[str, Claim]) -> None:
+    """Puts new records in the place of old ones, in the order of the claims; records of unknown claims go."""
+    known = read(path) | {record["id"]: record for record in records}
+    write(path, [known[id] for id in claims if id in known])
+
+
+def stale(records: dict[str, dict[str, Any]], claims: dict[str, Claim]) -> list[str]:
+    """The ids whose record was made with another derivation, or other libraries, than those that are here."""
+    return [
+        id for id, record in records.items()
+        if id in claims and record["evidence"]["fingerprint"] != fingerprint(claims[id])
+    ]  # fmt: skip

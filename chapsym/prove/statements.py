@@ -1,0 +1,104 @@
+"""Statements that exact arithmetic decides, and the exact points at which they are looked at."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+import sympy as sp
+
+
+class Algebra(Protocol):
+    """Where an equation is decided: words for every n, or a quotient ring for n = 3."""
+
+    def is_zero(self, expr: Any) -> bool:
+        """Whether the expression is zero, exactly."""
+
+
+@dataclass(frozen=True)
+class Equation:
+    """left = right, entry by entry, in an algebra that decides it exactly."""
+
+    text: str
+    left: Sequence[Any]
+    right: Sequence[Any]
+    algebra: Algebra
+
+    def __post_init__(self) -> None:
+        if len(self.left) != len(self.right) or not self.left:
+            raise ValueError(f"the two sides of «{self.text}» have {len(self.left)} and {len(self.right)} entries")
+
+    @property
+    def method(self) -> str:
+        """How the statement is decided."""
+        return _METHODS.get(type(self.algebra).__name__, type(self.algebra).__name__)
+
+    def holds(self) -> bool:
+        """True exactly when every entry of left - right is zero in the algebra."""
+        return all(self.algebra.is_zero(a - b) for a, b in zip(self.left, self.right, strict=True))
+
+    def at(self, evaluate: "Callable[[Any], Any]") -> tuple[list[str], list[str]]:
+        """Both sides at a point, as exact rationals; raises if a value is not rational."""
+        pairs = [_same_shape(evaluate(a), evaluate(b)) for a, b in zip(self.left, self.right, strict=True)]
+        return [_exact(a) for a, _ in pairs], [_exact(b) for _, b in pairs]
+
+
+@dataclass(frozen=True)
+class Fact:
+    """A decided statement that is no equation: a count, an order, a strict inequality of rationals."""
+
+    text: str
+    truth: bool
+    method: str = "exact arithmetic"
+
+    def holds(self) -> bool:
+        """What was decided; an undecided relation raises TypeError."""
+        return bool(self.truth)
+
+
+Statement = Equation | Fact
+
+
+@dataclass(frozen=True)
+class Point:
+    """An exact rational point: what its symbols are, how to evaluate, and what must hold there."""
+
+    values: dict[str, str]
+    evaluate: Callable[[Any], Any]
+    hypotheses: Sequence[Equation] = ()
+
+    def failures(self) -> list[str]:
+        """The hypotheses that fail at the point."""
+        return [h.text for h in self.hypotheses if len(set(map(tuple, h.at(self.evaluate)))) != 1]
+
+
+def rational_point(values: dict[sp.Symbol, Any], hypotheses: Sequence[Equation] = ()) -> Point:
+    """A point given by rational numbers for commuting symbols."""
+    exact = {symbol: sp.Rational(value) for symbol, value in values.items()}
+
+    def evaluate(expr: Any) -> Any:
+        return sp.sympify(expr).xreplace(exact)
+
+    return Point({str(k): str(v) for k, v in exact.items()}, evaluate, hypotheses)
+
+
+def _same_shape(a: Any, b: Any) -> tuple[Any, Any]:
+    """Writes the number 0 as the zero matrix where the other side is a matrix."""
+    if isinstance(a, sp.MatrixBase) and b == 0:
+        return a, sp.zeros(*a.shape)
+    if isinstance(b, sp.MatrixBase) and a == 0:
+        return sp.zeros(*b.shape), b
+    return a, b
+
+
+def _exact(value: Any) -> str:
+    if isinstance(value, sp.MatrixBase):
+        return str([[_exact(x) for x in row] for row in value.tolist()]).replace("'", "")
+    if not value.is_Rational:
+        raise ArithmeticError(f"{value} is not a rational number")
+    return str(value)
+
+
+_METHODS = {
+    "WordAlgebra": "words in noncommuting symbols, every n",
+    "Quotient": "quotient ring over Q, Gröbner division",
+}

@@ -1,0 +1,191 @@
+"""Section 2: the inertia operator of the continuous ball for every n, the invariant measure, and n = 3."""
+
+import itertools
+
+import sympy as sp
+
+from chapsym.derive import continuous, motion, three
+from chapsym.derive.limits import omega as spin
+from chapsym.derive.motion import ALGEBRA, D, Gamma, J, K, commutator, eta, gamma, gammaT, omega, rate
+from chapsym.derive.quotient import Quotient
+from chapsym.derive.three import hat
+from chapsym.derive.words import evaluate
+from chapsym.prove import Equation, Fact, Proof, claim, main, rational_point
+
+POSITIVE = "J_i + J_j > 0 for i ≠ j, D ≥ 0"
+
+
+def equation(text: str, left: sp.Expr, right: sp.Expr) -> Equation:
+    """One matrix equation, or one of trace normal forms, between words."""
+    return Equation(text, [left], [right], ALGEBRA)
+
+
+def applied(x: sp.Expr) -> sp.Expr:
+    """𝒜x = Jx + xJ + D(Γx + xΓ), as (2.13) has it."""
+    return J * x + x * J + D * (Gamma * x + x * Gamma)
+
+
+def pairing(x: sp.Expr, y: sp.Expr) -> sp.Expr:
+    """⟨x, y⟩ = -½ tr(xy), the trace in normal form."""
+    return -ALGEBRA.trace(x * y) / 2
+
+
+@claim(
+    "2.13",
+    r"\mathbf K = J\omega+\omega J+D(\Gamma\omega+\omega\Gamma)\in so^*(m),\ "
+    r"\text{the operator } \mathcal A: \omega\mapsto\mathbf K \text{ is nondegenerate}",
+    ["2.12"],
+)
+def inertia_operator(p: Proof) -> None:
+    """The momentum about the contact point; its operator is nondegenerate when any two J_i have a positive sum."""
+    p.say("K is the momentum about the centre and that of the force: M + D(Γω + ωΓ); it is in so*(n), not so*(m).")
+    p.printed(equation("K = Jω + ωJ + D(Γω + ωΓ)", applied(omega), motion.contact_momentum()))
+    p.say("⟨ω, 𝒜ω⟩ for every n, and entry by entry (n = 5: the sum over i, j is symmetric for every n):")
+    size, mass = 5, sp.symbols("J1:6")
+    entries = {(i, j): sp.Symbol(f"x{i}{j}") for i, j in itertools.combinations(range(size), 2)}
+    matrix = sp.Matrix(size, size, lambda i, j: entries.get((i, j), -entries.get((j, i), 0)))
+    ring = Quotient((*entries.values(), *mass))
+    squares = sum((mass[i] + mass[j]) * x**2 for (i, j), x in entries.items())
+    central = -(matrix * (sp.diag(*mass) * matrix + matrix * sp.diag(*mass))).trace() / 2
+    p.lemma(Equation("-½ tr(ω(Jω + ωJ)) = Σ_{i<j} (J_i + J_j) ω_ij²", [central], [squares], ring))
+    form = -ALGEBRA.trace(omega * J * omega) + D * ALGEBRA.trace(gammaT * ALGEBRA.transpose(omega) * omega * gamma)
+    kernel, values = sp.Matrix([[0, 0, 0], [0, 0, -1], [0, 1, 0]]), {J: sp.diag(1, 0, 0), Gamma: sp.diag(1, 0, 0)}
+    image = evaluate(applied(omega), {**values, D: sp.S.One, omega: kernel})
+    p.printed(Fact("𝒜 has no kernel, whatever the constant diagonal J: here J = (1,0,0)", not image.is_zero_matrix))
+    p.under(
+        POSITIVE,
+        equation("⟨ω,𝒜ω⟩ = -tr(ωJω) + D|ωγ|² = Σ (J_i+J_j)ω_ij² + D|ωγ|² > 0", pairing(omega, applied(omega)), form),
+    )
+    p.refute({"J": "(1, 0, 0)", "D": "1", "γ": "e1", "ω": "e2∧e3"}, "𝒜ω for this ω ≠ 0", image.tolist(), "not zero")
+    p.say("J ≥ 0 alone is not enough: all mass on a line through the centre does not resist a turn about it.")
+    p.control(equation("⟨ω,𝒜ω⟩ = -tr(ωJω) - D|ωγ|²", pairing(omega, applied(omega)), form.subs(D, -D)))
+    wrong = sum(mass[i] * x**2 for (i, _), x in entries.items())
+    p.control(Equation("-½ tr(ω(Jω + ωJ)) = Σ_{i<j} J_i ω_ij²", [central], [wrong], ring))
+
+
+@claim("2.15-measure", r"\mu = \sqrt{\det\mathcal A} \text{ is the density of an invariant measure } \mu\,d\omega\wedge d\gamma",
+       ["2.12", "2.13"])  # fmt: skip
+def invariant_measure(p: Proof) -> None:
+    """√(det 𝒜) is the density of an invariant measure, for every n."""
+    p.assume("𝒜 is nondegenerate (2.13)")
+    p.say("In the variables (K, γ) the density is ν = (det 𝒜)^(-1/2), as dK = det 𝒜 dω at fixed γ; γ̇ = -ωγ, K̇ = [K,ω].")
+    p.say("ν is invariant when div = ½ tr(𝒜⁻¹𝒜̇).  A trace tr(S∘T) with a symmetric S on so(n) depends only on the")
+    p.say("quadratic form ⟨X,TX⟩, X in so(n); S is 1 or 𝒜⁻¹.  The parts of the divergence, as such forms:")
+    X = eta
+    p.lemma(equation("𝒜 is symmetric: ⟨X,𝒜K⟩ = ⟨𝒜X,K⟩", pairing(X, applied(K)), pairing(applied(X), K)))
+    p.lemma(equation("∂K̇/∂K at fixed ω: ⟨X,[X,ω]⟩ = 0", pairing(X, commutator(X, omega)), sp.S.Zero))
+    p.lemma(equation("∂K̇/∂K through ω = 𝒜⁻¹K: ⟨X,[K,X]⟩ = 0", pairing(X, commutator(K, X)), sp.S.Zero))
+    p.say("∂γ̇/∂γ: -tr ω = 0, and -Σ e_iᵀ(∂_i ω)γ with ∂_i ω = -𝒜⁻¹ D{e_iγᵀ + γe_iᵀ, ω}: as e_iᵀYγ = ⟨Y, e_i∧γ⟩ and")
+    p.say("Σ e_i (e_iᵀXγ) = Xγ, its form is D⟨{XΓ - ΓX, ω}, X⟩.  For ½𝒜̇ it is ½D⟨X, {Γ̇, X}⟩.")
+    vertical = X * Gamma - Gamma * X
+    p.lemma(
+        equation(
+            "⟨Y, vγᵀ - γvᵀ⟩ = vᵀYγ", pairing(X, ALGEBRA.wedge(motion.v, gamma)), ALGEBRA.trace(motion.vT * X * gamma)
+        )
+    )
+    divergence = D * pairing(vertical * omega + omega * vertical, X)
+    moved = rate(Gamma)
+
+    def half_rate(sign: int = 1) -> sp.Expr:
+        return sign * D / 2 * pairing(X, moved * X + X * moved)
+
+    p.printed(equation("div and ½ tr(𝒜⁻¹𝒜̇) have the same form, so ν is invariant", divergence, half_rate()))
+    for size in (3, 4, 5):
+        p.route(f"the exact divergence at a rational point, n = {size}", Fact(*_exact_divergence(size, half=1)))
+    p.control(equation("the same for (det 𝒜)^(+1/2) dK", divergence, half_rate(-1)))
+    p.control(Fact(*_exact_divergence(4, half=2)))
+
+
+def _exact_divergence(size: int, half: int) -> tuple[str, bool]:
+    """div(ω̇, γ̇) + half·½ tr(𝒜⁻¹𝒜̇) = 0 for the equations in (ω, γ), in coordinates, at a rational point."""
+    basis = [_unit(size, i, j) for i, j in itertools.combinations(range(size), 2)]
+    mass, roll = sp.diag(*[1, 2, 4, 5, 7][:size]), sp.Integer(3)
+    vertical = sp.Matrix([2, -1, 2, 4, -2][:size])
+    turning = sum((c * e for c, e in zip((1, -2, 3, 1, 2, -1, 2, 1, -3, 1), basis, strict=False)), sp.zeros(size, size))
+    tensor = vertical * vertical.T
+    tensor_rate = tensor * turning - turning * tensor
+
+    def operator(x: sp.Matrix, gamma_tensor: sp.Matrix, bare: sp.Matrix) -> sp.Matrix:
+        whole = bare + roll * gamma_tensor
+        return whole * x + x * whole
+
+    def coordinates(x: sp.Matrix) -> list[sp.Expr]:
+        return [-(e * x).trace() / 2 for e in basis]
+
+    def matrix_of(linear) -> sp.Matrix:
+        return sp.Matrix([coordinates(linear(e)) for e in basis]).T
+
+    inertia = matrix_of(lambda x: operator(x, tensor, mass))
+    inertia_rate = matrix_of(lambda x: operator(x, tensor_rate, sp.zeros(size, size)))
+
+    def torque_change(x: sp.Matrix) -> sp.Matrix:
+        """The derivative along x of 𝒜ω̇ = [K,ω] - 𝒜̇ω, where 𝒜̇ depends on ω through Γ̇ = [Γ,ω]."""
+        momentum, change = operator(turning, tensor, mass), operator(x, tensor, mass)
+        swept = tensor * x - x * tensor
+        torque = change * turning - turning * change + momentum * x - x * momentum
+        return torque - operator(x, tensor_rate, sp.zeros(size, size)) - operator(turning, swept, sp.zeros(size, size))
+
+    divergence = (inertia.inv() * matrix_of(torque_change)).trace() - turning.trace()
+    total = divergence + half * (inertia.inv() * inertia_rate).trace() / 2
+    return f"div(ω̇, γ̇) + {half}·½ tr(𝒜⁻¹𝒜̇) = 0 at J = {list(mass.diagonal())}, γ = {list(vertical)}", total == 0
+
+
+def _unit(size: int, i: int, j: int) -> sp.Matrix:
+    matrix = sp.zeros(size, size)
+    matrix[i, j], matrix[j, i] = 1, -1
+    return matrix
+
+
+@claim(
+    "2.15-so3",
+    r"\omega_{ij} = \varepsilon_{ijk}\omega_k,\ \mathbf K_{ij} = \varepsilon_{ijk}K_k: "
+    r"\text{(2.14), (2.15) and the measure become (2.4) and (2.6)}",
+    ["2.12", "2.15", "2.15-measure", "2.3"],
+)
+def isomorphism(p: Proof) -> None:
+    """The identification of so(3) with R³ has the wrong sign, and the energy becomes l/2."""
+    p.assume("n = 3: the J of (2.1) to (2.6) is tr J - J for the J of (2.10), so that Λ = diag(J2+J3+D, ...)")
+    ring = Quotient((*three.K, *spin, *three.gamma, three.J1, three.J2, three.J3, three.D), [three.UNIT_VERTICAL])
+    vertical = three.gamma * three.gamma.T
+
+    def carried(name: str, sign: int) -> list[Equation]:
+        """(2.12) under A = sign·(v×), as vector equations, and -¼ tr(ω𝒜ω)."""
+        turn, tensor = sign * hat(spin), sign * hat(three.K)
+        swept = -(turn * tensor - tensor * turn)
+        return [
+            Equation(f"{name}: K̇ = -[ω,K] is K̇ = K×ω", list(swept), list(sign * hat(three.K.cross(spin))), ring),
+            Equation(f"{name}: γ̇ = -ωγ is γ̇ = γ×ω", list(-turn * three.gamma), list(three.gamma.cross(spin)), ring),
+        ]
+
+    momentum = sp.Matrix(continuous.momentum())
+    values = {motion.J: three.J, motion.Gamma: vertical, motion.D: three.D, motion.omega: hat(spin)}
+    energy = -(hat(spin) * evaluate(motion.contact_momentum(), values)).trace() / 4
+    p.printed(*carried("ω_ij = ε_ijk ω_k", -1))
+    p.printed(Equation("H of (2.15) is l of (2.4)", [energy], [momentum.dot(spin)], ring))
+    p.corrected(
+        r"\omega_{ij} = -\varepsilon_{ijk}\omega_k,\ \mathbf K_{ij} = -\varepsilon_{ijk}K_k,\ H = \tfrac12l",
+        *carried("ω_ij = -ε_ijk ω_k", +1),
+        Equation("H of (2.15) is ½ l", [energy], [momentum.dot(spin) / 2], ring),
+    )
+    tensor = hat(three.K)
+    height = three.K.dot(three.gamma)
+    p.say("The integrals and the measure are even in the sign of the identification:")
+    p.lemma(Equation("tr K² = -2⟨K,K⟩", [(tensor**2).trace()], [-2 * three.K.dot(three.K)], ring))
+    p.lemma(
+        Equation("tr K²Γ = ⟨K,γ⟩² - ⟨K,K⟩", [(tensor**2 * vertical).trace()], [height**2 - three.K.dot(three.K)], ring)
+    )
+    determinant = sp.Matrix(three.contact_inertia()).det()
+    density = three.lam().det() * continuous.rolling_factor()
+    p.lemma(Equation("det 𝒜 = det Λ · F: the density of (2.6) but for a constant", [determinant], [density], ring))
+    point = {**dict(zip(spin, (0, 0, 1), strict=True)), **dict(zip(three.gamma, (1, 0, 0), strict=True))}
+    point |= {**dict(zip(three.K, (1, 2, 3), strict=True)), three.J1: 1, three.J2: 1, three.J3: 1, three.D: 1}
+    unit = Equation("|γ| = 1", [three.gamma.dot(three.gamma)], [sp.S.One], ring)
+    p.counterexample(rational_point(point, [unit]))
+    p.control(
+        Equation("tr K²Γ = ⟨K,γ⟩² + ⟨K,K⟩", [(tensor**2 * vertical).trace()], [height**2 + three.K.dot(three.K)], ring)
+    )
+    p.control(Equation("det 𝒜 = det Λ", [determinant], [three.lam().det()], ring))
+
+
+if __name__ == "__main__":
+    main(__file__)

@@ -1,0 +1,130 @@
+"""Section 3, Remark 2: the regularity matrix, for any system and for the ball near the diagonal."""
+
+import sympy as sp
+
+from chapsym.derive import continuous, principle, three
+from chapsym.derive.quotient import Quotient
+from chapsym.derive.three import J1, J2, J3, RING, D, gamma, hat, q, q0
+from chapsym.prove import Equation, Fact, Proof, claim, main
+
+m, rho = sp.symbols("m rho")
+BALL_RING = Quotient((m, rho, *RING.symbols), [*RING.relations, D - m * rho**2])
+TURN = sp.eye(3)  # R_k = 1: the principle does not see the attitude
+AXES = [hat(e) for e in sp.eye(3).columnspace()]
+
+
+def mixed_derivative(factor: sp.Expr, rotation: sp.Matrix) -> sp.Matrix:
+    """D1 D2 of factor·Tr(R_k J R_{k+1}ᵀ) + (m/2)|Δr|² for δR_k = R_kξ, δR_{k+1} = R_{k+1}η, in (ξ, δr)."""
+    turning = sp.Matrix(3, 3, lambda i, j: factor * (AXES[i] * three.J * AXES[j].T * rotation.T).trace())
+    return sp.diag(turning, -m * sp.eye(3))
+
+
+def forms() -> sp.Matrix:
+    """The forms of (4.2) as columns: δr + ρ ξγ in (ξ, δr)."""
+    return sp.Matrix.vstack(*[sp.Matrix([list(rho * axis * gamma)]) for axis in AXES], sp.eye(3))
+
+
+def constraint_derivative(rotation: sp.Matrix) -> sp.Matrix:
+    """D2 of (4.9), Δr + (ρ/2)(Ω̄ - Ω̄ᵀ)γ, in (η, δr_{k+1})."""
+    changes = [rho / 2 * (rotation * axis - (rotation * axis).T) * gamma for axis in AXES]
+    return sp.Matrix.hstack(*changes, sp.eye(3))
+
+
+def regularity_matrix(factor: sp.Expr, rotation: sp.Matrix) -> sp.Matrix:
+    """The matrix of Remark 2 for the ball, 9 × 9."""
+    upper = sp.Matrix.hstack(mixed_derivative(factor, rotation), forms())
+    lower = sp.Matrix.hstack(constraint_derivative(rotation), sp.zeros(3, 3))
+    return sp.Matrix.vstack(upper, lower)
+
+
+def eliminated(factor: sp.Expr, rotation: sp.Matrix) -> sp.Matrix:
+    """What is left of the matrix in (ξ, η): the blocks of r and of the multipliers, ±1 and -m, are eliminated."""
+    matrix = regularity_matrix(factor, rotation)
+    corner, side = matrix[3:, 3:], matrix[:3, 3:]
+    return (matrix[:3, :3] - side * corner.inv() * matrix[3:, :3]).applyfunc(sp.expand)
+
+
+def determinant(factor: sp.Expr, rotation: sp.Matrix) -> sp.Expr:
+    """The determinant of the regularity matrix."""
+    corner = regularity_matrix(factor, rotation)[3:, 3:]
+    return corner.det() * eliminated(factor, rotation).det(method="berkowitz")
+
+
+@claim(
+    "remark-2",
+    r"(q_{k-1},q_k)\mapsto(q_k,q_{k+1}) \text{ is well defined if } "
+    r"\begin{pmatrix}D_1D_2L_d & A^1\cdots A^s\\ D_2\mathcal F_j & 0\end{pmatrix} \text{ is invertible near the diagonal}",
+    ["3.5", "4.1", "4.9"],
+)
+def regularity(p: Proof) -> None:
+    """The regularity matrix; for the ball it is that of the inertia about the contact point near the diagonal."""
+    p.assume(
+        "well defined as a map near the diagonal: away from it the map is many-valued (4.13-multivalued); L_d is 𝕃"
+    )
+    p.say("The equations D1𝕃 + D2𝕃 - Σ λ_j A^j = 0, F_j = 0 have the derivative (D1D2𝕃, -A; D2F, 0) in (q_{k+1}, λ):")
+    size, count = 3, 2
+    second = sp.Matrix(size, size, sp.symbols("h1:10"))
+    columns, rows = sp.Matrix(size, count, sp.symbols("A1:7")), sp.Matrix(count, size, sp.symbols("f1:7"))
+    zero = sp.zeros(count, count)
+    printed = sp.Matrix.vstack(sp.Matrix.hstack(second, columns), sp.Matrix.hstack(rows, zero))
+    derivative = sp.Matrix.vstack(sp.Matrix.hstack(second, -columns), sp.Matrix.hstack(rows, zero))
+    free = Quotient((*second, *columns, *rows))
+    p.printed(Equation("det of the derivative = (-1)^s det of the matrix (n = 3, s = 2)",
+                       [derivative.det()], [(-1) ** count * printed.det()], free))  # fmt: skip
+    p.say("So by the implicit function theorem it is invertible where q_{k+1} is a function of (q_{k-1}, q_k) nearby.")
+    true, wrong = principle.kinetic_factor(), sp.Rational(1, 2)
+    inertia = three.lam() - D * sp.eye(3)
+    lifted = D * (sp.eye(3) - gamma * gamma.T)
+    p.say("The ball, n = 3, on the diagonal (Ω = 1), with 𝕃 as corrected (c = -1) and as printed (c = ½):")
+    at_rest = determinant(true, TURN)
+    p.lemma(Equation("c = -1: det = det(I + D(1 - γγᵀ))", [at_rest], [(inertia + lifted).det()], BALL_RING))
+    p.lemma(Equation("which is det Λ · F > 0", [at_rest], [three.lam().det() * continuous.rolling_factor()], BALL_RING))
+    p.lemma(
+        Equation(
+            "c = ½: det = -det(½I - D(1 - γγᵀ))", [determinant(wrong, TURN)], [-(inertia / 2 - lifted).det()], BALL_RING
+        )
+    )
+    homogeneous = {J1: 1, J2: 1, J3: 1, m: 1, rho: 1, D: 1, **dict(zip(gamma, (0, 0, 1), strict=True))}
+    singular, regular = (determinant(c, TURN).subs(homogeneous) for c in (wrong, true))
+    p.lemma(
+        Fact(
+            f"J = (1,1,1), m = ρ = 1, γ = e3: det = {singular} as printed, {regular} as corrected",
+            singular == 0 < regular,
+        )
+    )
+    p.say(
+        "So the printed Lagrangian has balls for which the map is not defined near the diagonal; the true one has none."
+    )
+    rotation = sp.Matrix(three.rotation())
+    jacobian = sp.Matrix(three.tangent_jacobian()) / 2
+    p.say("Away from the diagonal the determinant is that of ∂𝒦/∂Ω: regular exactly where 𝒦(q, γ) has no fold:")
+    left = list(eliminated(true, rotation))
+    p.lemma(Equation("c = -1: the matrix with r and λ eliminated is -∂𝒦/∂Ω", left, list(-jacobian), BALL_RING))
+    turns = {"(3, 1, 1, -1)": (3, 1, 1, -1), "(1, 1, 1, -1)": (1, 1, 1, -1)}
+    at = {
+        **homogeneous,
+        J1: 3,
+        J2: 2,
+        J3: 1,
+        gamma[2]: sp.Rational(6, 7),
+        gamma[0]: sp.Rational(2, 7),
+        gamma[1]: sp.Rational(3, 7),
+    }
+    signs = [_at_turn(jacobian, at, turn).det() for turn in turns.values()]
+    p.show("det ∂𝒦/∂Ω at Ω ~ (3,1,1,-1) and (1,1,1,-1), J = (3,2,1), D = 1, γ = (2,3,6)/7", signs)
+    p.lemma(Fact("it changes sign between these two turns", signs[0] * signs[1] < 0))
+    p.witness("generic", {"J": "(1,1,1)", "m": "1", "ρ": "1", "γ": "e3", "Ω": "1"}, Fact("det > 0", regular > 0))
+    p.control(
+        Equation("c = ½: det = det(I + D(1 - γγᵀ))", [determinant(wrong, TURN)], [(inertia + lifted).det()], BALL_RING)
+    )
+    p.control(Equation("det with D1D2𝕃 transposed and F for A", [derivative.det()], [-printed.det()], free))
+
+
+def _at_turn(matrix: sp.Matrix, ball: dict, turn: tuple[int, ...]) -> sp.Matrix:
+    """A matrix of forms of degree 2 in the Euler parameters, at a turn given up to length."""
+    raw = dict(zip((q0, *q), turn, strict=True))
+    return matrix.subs({**ball, **raw}, simultaneous=True) / sum(c**2 for c in turn)
+
+
+if __name__ == "__main__":
+    main(__file__)
