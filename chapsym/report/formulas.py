@@ -71,13 +71,15 @@ def _piece_html(piece: Piece) -> Markup:
 
 
 def pieces(latex: str) -> list[Piece]:
-    """Cuts a formula at its prose and behind its commas, outside every brace and \\left ... \\right."""
+    """Cuts a formula at its prose and behind its commas, outside braces, \\left ... \\right and matrices."""
     _check_braces(latex)
     found: list[Piece] = []
     start = depth = 0
-    for token in re.finditer(r"\\left|\\right|\\text\{([^{}]*)\}|[,;:](\\ |\\quad|\\qquad)|\\.|[{}]", latex):
+    for token in re.finditer(
+        r"\\left|\\right|\\begin|\\end|\\text\{([^{}]*)\}|[,;:](\\ |\\quad|\\qquad)|\\.|[{}]", latex
+    ):
         here = token.group()
-        depth += {"{": 1, "\\left": 1, "}": -1, "\\right": -1}.get(here, 0)
+        depth += {"{": 1, "\\left": 1, "\\begin": 1, "}": -1, "\\right": -1, "\\end": -1}.get(here, 0)
         if depth or token.start() < start:
             continue
         if here.startswith("\\text{"):

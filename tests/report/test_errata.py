@@ -26,7 +26,10 @@ def test_markdown_entries_are_complete(register):
     text = errata.markdown(register, "1")
     for record, entry in zip(records.errors(register), text.split("\n## ")[1:], strict=True):
         assert f"- Printed: ${record['printed']}$\n" in entry
-        assert f"${record['corrected']}$\n" in entry
+        assert (
+            f"- True: ${record['corrected']}$\n" in entry
+            or f"- Condition: {record['evidence']['condition']}\n" in entry
+        )
         assert f"`chapsym prove {record['id']} --explain`" in entry
         assert re.search(r"- At `.*`; but `.* ≠ .*`\n", entry), entry
 

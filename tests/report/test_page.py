@@ -73,7 +73,10 @@ def test_every_claim_is_there_with_its_verdict(whole, register):
         text = article(whole, record["id"])
         assert f'<span class="badge {record["verdict"]}">{record["verdict"]}</span>' in text
         assert f"chapsym prove {record['id']} --explain" in text
-        assert text.count("<li") == len(record["evidence"]["checks"]) + len(record["evidence"]["controls"])
+        evidence = record["evidence"]
+        lists = [evidence.get(name) or [] for name in ("checks", "controls", "witnesses", "problems", "tried")]
+        lists += [route["statements"] for route in evidence.get("routes") or []]
+        assert text.count("<li") == sum(map(len, lists))
     assert "not converted" not in whole
     assert 'class="failure"' not in whole
 
