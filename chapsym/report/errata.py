@@ -50,7 +50,7 @@ def _markdown_entry(record: Record) -> list[str]:
     if prose:
         lines.append(f"- {'Condition' if record['verdict'] == 'conditional' else 'True'}: {prose}")
     for example in record["evidence"].get("counterexamples", [])[:1]:
-        point = ", ".join(f"{symbol} = {_plain(notation.value(value))}" for symbol, value in _point(example))
+        point = ", ".join(f"{symbol} = {notation.plain(value)}" for symbol, value in _point(example))
         for sides in example["printed"][:1]:
             left, right = (_plain_side(side) for side in notation.sides(sides, compact=True))
             lines.append(f"- At `{point}`: `{sides['statement']}`; but `{left} ≠ {right}`")
@@ -61,12 +61,8 @@ def _point(example: dict[str, Any]) -> list[tuple[str, str]]:
     return notation.point(example["point"])
 
 
-def _plain(value: str | notation.Matrix) -> str:
-    return value if isinstance(value, str) else "[" + "; ".join(" ".join(row) for row in value) + "]"
-
-
 def _plain_side(side: list[str | notation.Matrix]) -> str:
-    return ", ".join(_plain(x) for x in side)
+    return ", ".join(notation.in_line(x) for x in side)
 
 
 _PREAMBLE = r"""\documentclass[11pt]{article}

@@ -9,6 +9,7 @@ from typing import Any
 #: The names of symbols in the points of the proofs, as the paper writes them.
 _SYMBOLS = {
     "w": "ω", "g": "γ", "L": "Λ", "rho": "ρ", "gamma": "γ", "omega": "ω", "sigma": "σ", "epsilon": "ε", "k2": "k²",
+    "Gamma": "Γ", "Omega": "Ω", "Lambda": "Λ", "delta": "δ", "theta": "θ",
     "sm": "sn ū", "cm": "cn ū", "dm": "dn ū", "sh": "sn δu", "ch": "cn δu", "dh": "dn δu",
     "R_-": "R_{k-1}", "R": "R_k", "R_+": "R_{k+1}", "r_-": "r_{k-1}", "r": "r_k", "r_+": "r_{k+1}",
 }  # fmt: skip
@@ -30,7 +31,7 @@ def point(values: dict[str, str]) -> list[tuple[str, str]]:
     found: list[tuple[str, str]] = []
     done: set[str] = set()
     for symbol, value in values.items():
-        if symbol in done:
+        if symbol in done or (symbol.removesuffix("^T") in values and symbol.endswith("^T")):
             continue
         stem = symbol.removesuffix("1")
         triple = [f"{stem}{i}" for i in (1, 2, 3)]
@@ -66,6 +67,16 @@ def value(text: str) -> str | Matrix:
         return rows
     diagonal = [row[i] for i, row in enumerate(rows)]
     return "0" if set(diagonal) == {"0"} else f"diag({', '.join(diagonal)})"
+
+
+def plain(text: str) -> str:
+    """A value in one line: a matrix as [1 0; 0 1]."""
+    return in_line(value(text))
+
+
+def in_line(shown: str | Matrix) -> str:
+    """What `value` gives, in one line."""
+    return shown if isinstance(shown, str) else "[" + "; ".join(" ".join(row) for row in shown) + "]"
 
 
 def sides(example: dict[str, Any], compact: bool = False) -> tuple[list[str | Matrix], list[str | Matrix]]:

@@ -58,6 +58,7 @@ class _Page:
             "code": code,
             "prose": prose,
             "symbols": symbols_html,
+            "plain": notation.plain,
         }
 
     def render(self, template: str, **context: Any) -> Markup:

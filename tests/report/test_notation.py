@@ -12,6 +12,10 @@ def test_components_of_a_point_are_gathered():
     ]  # fmt: skip
 
 
+def test_a_transpose_beside_its_vector_says_nothing_new():
+    assert notation.point({"gamma": "1", "gamma^T": "1", "Gamma": "1"}) == [("γ", "1"), ("Γ", "1")]
+
+
 def test_short_names_have_their_meaning_by_their_neighbours():
     assert notation.point({"s": "1"}) == [("s", "1")]
     assert notation.point({"s": "4/5", "sh": "3/5", "k2": "1/2"}) == [("sn u", "4/5"), ("sn δu", "3/5"), ("k²", "1/2")]

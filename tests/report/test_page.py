@@ -103,7 +103,8 @@ def test_everything_that_evidence_may_carry_is_shown(handmade):
     text = page.html(handmade, VERSIONS)
     assert "is &lt;b&gt;not&lt;/b&gt; bold" in article(text, "5.4")
     for said in (
-        "Witnesses and degenerate cases: equal J", "3 statements evaluated at", "Second routes: mpmath", "agrees",
+        "Witnesses and degenerate cases: equal J", "3 statements evaluated at", "J = (1, 1, 1)",
+        "Second routes: mpmath", "agrees",
         "1 statement decided, 1 control rejected", "a<sub>k</sub> = −b — fails", "By exact arithmetic", "0.25 s",
         "≠</span> 0", "a = 3b: rejected",
     ):  # fmt: skip
