@@ -186,17 +186,10 @@ def _list_claims(claims: dict[str, Any], as_json: bool, kept_in: Path | None) ->
 
 def _judge(wanted: list[str], claims: dict[str, Any], jobs: int | None, kept_in: Path | None) -> list[dict[str, Any]]:
     """Proves the claims, keeps their records, and says where a verdict is another than it was."""
-    from chapsym.prove import prove_all, records
+    from chapsym.prove import records
 
     kept = _kept(kept_in)
-    done: list[dict[str, Any]] = []
-    with _progress("proving", len(wanted)) as shown:
-
-        def arrived(record: dict[str, Any]) -> None:
-            done.append(record)
-            shown(len(done))
-
-        judged = prove_all(wanted, jobs, arrived)
+    judged = _judged("proving", wanted, jobs)
     for record in judged:
         before = kept.get(record["id"], record)["verdict"]
         if before != record["verdict"]:
@@ -219,6 +212,20 @@ def _kept(kept_in: Path | None) -> dict[str, dict[str, Any]]:
         _fail(f"the records {error.filename} cannot be read: {error.strerror}", 2)
 
 
+def _judged(label: str, ids: list[str], jobs: int | None = None) -> list[dict[str, Any]]:
+    """The records of claims, with a bar that moves as they arrive."""
+    from chapsym.prove import prove_all
+
+    done: list[str] = []
+    with _progress(label, len(ids)) as shown:
+
+        def arrived(record: dict[str, Any]) -> None:
+            done.append(record["id"])
+            shown(len(done))
+
+        return prove_all(ids, jobs, arrived)
+
+
 def _claims() -> dict[str, Any]:
     """Every claim that has a proof; a script that cannot be loaded is a failed proof."""
     from chapsym.prove import BrokenScript, load
@@ -234,6 +241,49 @@ def _tally(records: list[dict[str, Any]]) -> str:
     for record in records:
         counts[record["verdict"]] = counts.get(record["verdict"], 0) + 1
     return f"{len(records)} claims: " + ", ".join(f"{n} {verdict}" for verdict, n in sorted(counts.items()))
+
+
+@app.command()
+def report(
+    output: Annotated[
+        Path, typer.Option("-o", "--output", metavar="FILE", help="A page (.html), or the list of errata (.md, .tex).")
+    ] = Path("chapsym-report.html"),
+    as_json: Json = False,
+) -> None:
+    """Write the page of all verdicts, or the short list of errata.
+
+    Example: chapsym report -o errata.tex
+    """
+    from chapsym import files
+    from chapsym import report as reports
+
+    if output.suffix not in reports.WRITERS:
+        _fail(f"{str(output)!r}: the output must end in {' or '.join(reports.WRITERS)}", 2)
+    try:
+        files.check_destination(output)
+        found = records()
+        text = reports.WRITERS[output.suffix](found, _versions())
+        files.write_whole(output, lambda stream: stream.write(text.encode()))
+    except files.CannotWrite as error:
+        _fail(str(error), 2)
+    if as_json:
+        _print_json({"file": str(output), "counts": reports.counts(found), "claims": len(found)})
+    else:
+        print(f"wrote {output}: {_tally(found)}")
+    unproved = reports.unproved(found)
+    if unproved:
+        _fail(f"not proved: {', '.join(unproved)}", 1)
+
+
+def records() -> list[dict[str, Any]]:
+    """The records that the report is written from: every claim, judged now."""
+    return _judged("proving", list(_claims()))
+
+
+def _versions() -> dict[str, str]:
+    from importlib.metadata import version
+
+    return {"chapsym": chapsym.__version__, "sympy": version("sympy"), "python-flint": version("python-flint")}
 
 
 @app.command()
@@ -289,22 +339,13 @@ def codegen(
 
 def _unproved(kernels: Any) -> list[str]:
     """The claims that kernels name as their proof and that are not proved, one sentence each."""
-    from chapsym.prove import prove_all
-
     named = {id: kernel.name for kernel in kernels for id in kernel.claims}
     claims = _claims()
     missing = [
         f"{kernel} names the claim {id}, which no proof judges" for id, kernel in named.items() if id not in claims
     ]
     wanted = [id for id in claims if id in named]
-    with _progress("proving what the kernels come from", len(wanted)) as shown:
-        done: list[str] = []
-
-        def arrived(record: dict[str, Any]) -> None:
-            done.append(record["id"])
-            shown(len(done))
-
-        records = prove_all(wanted, None, arrived)
+    records = _judged("proving what the kernels come from", wanted)
     failed = [record["id"] for record in records if record["verdict"] == "open"]
     return missing + [f"{named[id]} comes from the claim {id}, which is not proved" for id in failed]
 

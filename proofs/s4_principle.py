@@ -38,8 +38,8 @@ def skew_part_of_4_3() -> sp.Expr:
 
 @claim(
     "4.1",
-    r"\mathbb L = \frac12 \mathrm{Tr}(R_k J R_{k+1}^T) + \frac m2 \langle\Delta r_k, \Delta r_k\rangle, "
-    r"the source of (4.3) and (4.4)",
+    r"\mathbb L = \frac12 \mathrm{Tr}(R_k J R_{k+1}^T) + \frac m2 \langle\Delta r_k, \Delta r_k\rangle,\ "
+    r"\text{the source of (4.3) and (4.4)}",
 )
 def discrete_lagrangian(p: Proof) -> None:
     """The printed discrete Lagrangian does not produce the printed equations: sign and factor."""

@@ -15,14 +15,16 @@ ROOT = Path(chapsym.__file__).parent
 ROOMS = {
     "generated": set(),
     "exact": set(),
+    "files": set(),
     "numbers": set(),
     "derive": set(),
     "prove": {"derive"},
     "codegen": {"derive", "generated"},
     "dynamics": {"generated", "numbers"},
-    "scene": {"dynamics", "exact"},
+    "scene": {"dynamics", "exact", "files"},
     "studies": {"dynamics", "scene"},
     "proofs": {"derive", "prove"},
+    "report": set(),
     "testing": {"dynamics"},
 }
 SYMPY_ROOMS = {"derive", "prove", "codegen", "proofs"}

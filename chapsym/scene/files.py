@@ -1,14 +1,13 @@
 """Trajectories on disk: NumPy's .npz, or .csv; each file is written whole, then renamed."""
 
 import csv
-import os
-import tempfile
 from collections.abc import Callable
 from pathlib import Path
 from typing import IO, Any
 
 import numpy as np
 
+from chapsym import files
 from chapsym.dynamics import Trajectory
 
 from .scene import SceneError
@@ -31,40 +30,19 @@ def check_destination(path: Path) -> None:
     """Raises SceneError, before anything is computed, if `path` cannot be written as it is named."""
     if path.suffix not in _WRITERS:
         raise SceneError(f"{str(path)!r}: the output must end in {' or '.join(_WRITERS)}")
-    folder = path.parent
     try:
-        if not folder.is_dir():
-            raise SceneError(f"{path}: the folder {folder} does not exist")
-        if path.is_dir() or not os.access(folder, os.W_OK):
-            raise SceneError(f"{path} cannot be written: choose a file in a folder that is writable")
-    except OSError as error:
-        raise SceneError(f"{path} cannot be written: {error.strerror or error}") from None
-    except ValueError as error:  # a null byte in the name
-        raise SceneError(f"{str(path)!r} cannot be written: {error}") from None
+        files.check_destination(path)
+    except files.CannotWrite as error:
+        raise SceneError(str(error)) from None
 
 
 def save(run: Trajectory, path: Path) -> None:
     """Writes the trajectory to .npz or .csv; raises SceneError if the disk refuses."""
     check_destination(path)
-    path = Path(os.path.realpath(path))  # a link stays a link; its file is replaced
-    temporary = None
     try:
-        with tempfile.NamedTemporaryFile("wb", dir=path.parent, prefix=f".{path.name}.", delete=False) as stream:
-            temporary = Path(stream.name)
-            _WRITERS[path.suffix](stream, columns(run))
-        os.chmod(temporary, 0o666 & ~_umask())
-        os.replace(temporary, path)
-    except OSError as error:
-        raise SceneError(f"{path} cannot be written: {error.strerror or error}") from None
-    finally:
-        if temporary is not None:
-            temporary.unlink(missing_ok=True)
-
-
-def _umask() -> int:
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask
+        files.write_whole(path, lambda stream: _WRITERS[path.suffix](stream, columns(run)))
+    except files.CannotWrite as error:
+        raise SceneError(str(error)) from None
 
 
 def _write_npz(stream: IO[bytes], data: dict[str, np.ndarray]) -> None:

@@ -1,0 +1,49 @@
+"""Files that are written whole: into a temporary file in the same folder, which is then renamed."""
+
+import os
+import tempfile
+from collections.abc import Callable
+from pathlib import Path
+from typing import IO
+
+
+class CannotWrite(Exception):
+    """A file cannot be written as it is named; the message says why."""
+
+
+def check_destination(path: Path) -> None:
+    """Raises CannotWrite, before anything is computed, if `path` cannot be a file in a writable folder."""
+    folder = path.parent
+    try:
+        if not folder.is_dir():
+            raise CannotWrite(f"{path}: the folder {folder} does not exist")
+        if path.is_dir() or not os.access(folder, os.W_OK):
+            raise CannotWrite(f"{path} cannot be written: choose a file in a folder that is writable")
+    except OSError as error:
+        raise CannotWrite(f"{path} cannot be written: {error.strerror or error}") from None
+    except ValueError as error:  # a null byte in the name
+        raise CannotWrite(f"{str(path)!r} cannot be written: {error}") from None
+
+
+def write_whole(path: Path, write: Callable[[IO[bytes]], object]) -> None:
+    """Replaces the file by what `write` puts into a stream; raises CannotWrite if the disk refuses."""
+    check_destination(path)
+    path = Path(os.path.realpath(path))  # a link stays a link; its file is replaced
+    temporary = None
+    try:
+        with tempfile.NamedTemporaryFile("wb", dir=path.parent, prefix=f".{path.name}.", delete=False) as stream:
+            temporary = Path(stream.name)
+            write(stream)
+        os.chmod(temporary, 0o666 & ~_umask())
+        os.replace(temporary, path)
+    except OSError as error:
+        raise CannotWrite(f"{path} cannot be written: {error.strerror or error}") from None
+    finally:
+        if temporary is not None:
+            temporary.unlink(missing_ok=True)
+
+
+def _umask() -> int:
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask

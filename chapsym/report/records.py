@@ -1,0 +1,127 @@
+"""Reading the records of `chapsym prove --json`: their order in the paper, their verdicts, what hangs on what.
+
+Evidence that a record does not carry is absent, not an error.
+"""
+
+import re
+from collections.abc import Iterable, Sequence
+from typing import Any, NamedTuple
+
+Record = dict[str, Any]
+
+#: Every verdict, in the order in which they are counted, with what it says.
+VERDICTS = {
+    "holds": "proved as printed",
+    "corrected": "false as printed; the smallest correction is proved",
+    "conditional": "false as printed; true under a hypothesis that the paper leaves out",
+    "refuted": "false, and no small correction saves it",
+    "settled": "left open in the paper, and decided here",
+    "definition": "a definition, with nothing to prove",
+    "cited": "a result of other authors, taken over from them",
+    "open": "not decided",
+}
+ERRORS = ("corrected", "conditional", "refuted")
+
+SECTIONS = {
+    1: "Introduction",
+    2: "The Chaplygin sphere and its multidimensional generalization",
+    3: "Discrete mechanical systems with nonholonomic constraints",
+    4: "A discretization of the Chaplygin sphere",
+    5: "Discrete Chaplygin sphere on E(3) and its particular solutions",
+    6: "Conclusive remarks",
+}
+
+#: Where the numbered statements stand among the equations: just after the one that is named.
+_STATEMENTS = {
+    "remark-1": (3, 4), "remark-2": (3, 5), "prop-1": (4, 12), "prop-2": (4, 13), "remark-3": (4, 14),
+    "prop-3": (5, 5), "remark-4": (5, 9), "prop-4": (5, 10),
+}  # fmt: skip
+_NAMES = {"prop": "Proposition", "remark": "Remark"}
+
+
+class Section(NamedTuple):
+    """A section of the paper and the records of its claims."""
+
+    number: int
+    title: str
+    records: list[Record]
+
+
+def place(id: str) -> tuple[int, int] | None:
+    """Section and equation of a claim; None for an id that names neither."""
+    name = re.match(r"(?:prop|remark)-\d+", id)
+    if name and name.group() in _STATEMENTS:
+        return _STATEMENTS[name.group()]
+    number = re.match(r"(\d+)(?:\.(\d+))?(?!\d)", id)
+    return (int(number.group(1)), int(number.group(2) or 0)) if number else None
+
+
+def in_paper_order(records: Iterable[Record]) -> list[Record]:
+    """The records as the paper has them; what names no equation stays behind the record before it."""
+    placed, last = [], (0, 0)
+    for record in records:
+        last = place(record["id"]) or last
+        placed.append((last, record))
+    return [record for _, record in sorted(placed, key=lambda pair: pair[0])]
+
+
+def sections(records: Iterable[Record]) -> list[Section]:
+    """The records by section of the paper."""
+    found: dict[int, list[Record]] = {}
+    number = 0
+    for record in in_paper_order(records):
+        number = (place(record["id"]) or (number, 0))[0]
+        found.setdefault(number, []).append(record)
+    return [Section(number, SECTIONS.get(number, "Elsewhere"), those) for number, those in found.items()]
+
+
+def label(id: str) -> str:
+    """The name of a claim for a reader: (5.12), q0 or Proposition 4."""
+    statement = re.fullmatch(r"(prop|remark)-(\d+)(?:-(.+))?", id)
+    if statement:
+        kind, number, part = statement.groups()
+        return f"{_NAMES[kind]} {number}" + (f", {part}" if part else "")
+    equation = re.fullmatch(r"(\d+\.\d+)(?:-(.+))?", id)
+    if equation:
+        number, part = equation.groups()
+        return f"({number})" + (f", {part}" if part else "")
+    return id
+
+
+def counts(records: Iterable[Record]) -> dict[str, int]:
+    """How many claims have each verdict, in the order of VERDICTS; verdicts that nothing has are left out."""
+    found: dict[str, int] = {}
+    for record in records:
+        found[record["verdict"]] = found.get(record["verdict"], 0) + 1
+    known = {verdict: found.pop(verdict) for verdict in VERDICTS if verdict in found}
+    return known | found
+
+
+def errors(records: Iterable[Record]) -> list[Record]:
+    """The claims that are not true as printed, in the order of the paper."""
+    return [record for record in in_paper_order(records) if record["verdict"] in ERRORS]
+
+
+def truth(record: Record) -> tuple[str, str]:
+    """What is true in the place of a printed error, as LaTeX, and in prose the condition or the whole truth."""
+    evidence = record["evidence"]
+    if record["verdict"] == "refuted":
+        return record.get("corrected") or "", evidence.get("true_statement") or ""
+    return record.get("corrected") or "", evidence.get("condition") or ""
+
+
+def unproved(records: Iterable[Record]) -> list[str]:
+    """The ids of the open claims, but for those that the paper itself leaves open."""
+    return [r["id"] for r in records if r["verdict"] == "open" and not r["evidence"].get("open_in_paper")]
+
+
+def uses(records: Sequence[Record]) -> dict[str, list[str]]:
+    """What each claim uses itself, among the records that are there."""
+    known = {record["id"] for record in records}
+    return {r["id"]: [id for id in r["evidence"].get("uses", []) if id in known] for r in records}
+
+
+def users(records: Sequence[Record]) -> dict[str, list[str]]:
+    """What uses each claim itself."""
+    used = uses(records)
+    return {record["id"]: [id for id in used if record["id"] in used[id]] for record in records}

@@ -1,0 +1,158 @@
+"""The page in a real browser, from disk: what it shows is what the records say, on a desk and on a phone."""
+
+import os
+import shutil
+
+import pytest
+
+from chapsym.report import page, records
+
+CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+FLAGS = [
+    "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
+    "--disable-component-update", "--disable-sync",
+]  # fmt: skip
+SIZES = {"desk": (1280, 900), "phone": (390, 844)}
+
+
+@pytest.fixture(scope="module")
+def written(register, tmp_path_factory):
+    path = tmp_path_factory.mktemp("report") / "page.html"
+    path.write_text(page.html(register, {"chapsym": "0.1.0"}), encoding="utf-8")
+    return path
+
+
+@pytest.fixture(scope="module", params=SIZES)
+def opened(request, written, tmp_path_factory):
+    """The page in Chromium, with everything that the console and the network said."""
+    if CHROMIUM is None:
+        if os.environ.get("CI"):
+            pytest.fail("no Chromium on this machine: .ci/run installs it")
+        pytest.skip("no Chromium on this machine (Debian: apt-get install chromium)")
+    from playwright.sync_api import sync_playwright
+
+    width, height = SIZES[request.param]
+    with sync_playwright() as driver:
+        context = driver.chromium.launch_persistent_context(
+            tmp_path_factory.mktemp("profile"), executable_path=CHROMIUM, headless=True, args=FLAGS,
+            viewport={"width": width, "height": height}, has_touch=request.param == "phone",
+        )  # fmt: skip
+        tab, said = context.pages[0], []
+        tab.on("console", lambda message: said.append(message.text))
+        tab.on("pageerror", lambda error: said.append(str(error)))
+        tab.on("request", lambda request: said.append(request.url))
+        tab.goto(written.as_uri())
+        yield tab, said
+        context.close()
+
+
+@pytest.fixture
+def tab(opened, written):
+    """The page, loaded afresh."""
+    tab, said = opened
+    said.clear()
+    tab.goto("about:blank")
+    said.clear()
+    tab.goto(written.as_uri())
+    yield tab
+    assert said == [written.as_uri()], "the page asks for nothing but itself, and says nothing on the console"
+
+
+def shown(tab):
+    return tab.eval_on_selector_all("#claims .claim:not([hidden])", "found => found.map(x => x.dataset.id)")
+
+
+def test_the_verdicts_are_those_of_the_records(tab, register):
+    badges = tab.eval_on_selector_all(
+        "#claims .claim", "found => found.map(x => [x.dataset.id, x.querySelector('header .badge').innerText])"
+    )
+    assert badges == [[r["id"], r["verdict"]] for r in records.in_paper_order(register)]
+    counts = tab.eval_on_selector_all(
+        ".segment", "found => found.map(x => [x.dataset.verdict, Number(x.querySelector('b').innerText)])"
+    )
+    assert dict(counts) == records.counts(register)
+    assert tab.locator(".errata tbody tr").count() == len(records.errors(register))
+    assert tab.locator(".failure, .unconverted").count() == 0
+
+
+def test_formulas_are_drawn(tab):
+    sizes = tab.eval_on_selector_all(
+        ".errata math", "found => found.map(x => x.getBoundingClientRect()).map(r => [r.width, r.height])"
+    )
+    assert len(sizes) >= 58
+    assert [size for size in sizes if min(size) < 2] == []
+
+
+def test_the_page_is_not_wider_than_the_window_even_unfolded(tab):
+    tab.evaluate("document.querySelectorAll('details').forEach(x => { x.open = true; })")
+    assert tab.evaluate("document.documentElement.scrollWidth <= innerWidth")
+    outside = tab.evaluate(
+        """[...document.querySelectorAll('main *')].filter(x => {
+            const box = x.getBoundingClientRect();
+            return box.width && box.right > innerWidth + 1 && !x.closest('.scroll, .graph, .chips, thead');
+        }).map(x => x.outerHTML.slice(0, 120))"""
+    )
+    assert outside == []
+
+
+def test_the_filter_shows_one_verdict(tab, register):
+    corrected = [r["id"] for r in records.in_paper_order(register) if r["verdict"] == "corrected"]
+    tab.locator(".segment.corrected").click()
+    assert shown(tab) == corrected
+    assert tab.locator("output.shown").inner_text() == f"{len(corrected)} of {len(register)}"
+    assert tab.locator(".chips [aria-pressed=true]").get_attribute("data-verdict") == "corrected"
+    tab.locator(".chips button").first.click()
+    assert len(shown(tab)) == len(register)
+
+
+def test_the_search_finds_ids_and_text(tab, register):
+    field = tab.locator(".tools input")
+    field.fill("5.12-kappa")
+    assert "5.12-kappa" in shown(tab)
+    field.fill("the power AND the sign")
+    assert shown(tab) == ["5.16-weierstrass-w"]
+    field.fill("Gröbner")
+    assert 1 < len(shown(tab)) < len(register)
+    field.fill("no such words")
+    assert shown(tab) == []
+    tab.evaluate("location.hash = '#claim-5.4'")
+    tab.wait_for_function("!document.getElementById('claim-5.4').hidden")
+    assert len(shown(tab)) == len(register)
+
+
+def test_a_claim_of_the_graph_is_highlighted_and_its_neighbours_are_named(tab, register):
+    node = tab.locator('.node[data-id="5.12"]')
+    node.scroll_into_view_if_needed()
+    node.click()
+    near = tab.eval_on_selector_all(".arc.near", "found => found.map(x => [x.dataset.from, x.dataset.to])")
+    uses, users = records.uses(register), records.users(register)
+    expected = [[id, "5.12"] for id in uses["5.12"]] + [["5.12", id] for id in users["5.12"]]
+    assert sorted(near) == sorted(expected)
+    assert tab.locator(".picked h3").inner_text() == "5.12"
+    named = tab.eval_on_selector_all(".picked .down a", "found => found.map(x => x.innerText)")
+    record = next(r for r in register if r["id"] == "5.12")
+    assert sorted(named) == sorted(record["evidence"]["downstream"])
+    assert tab.locator(".picked").is_visible()
+
+
+def test_the_graph_can_be_used_from_the_keyboard(tab):
+    tab.locator('.node[data-id="5.4"]').focus()
+    assert tab.locator(".picked h3").inner_text() == "5.4"
+    tab.keyboard.press("Tab")
+    assert tab.locator(".picked h3").inner_text() != "5.4"
+
+
+def test_letters_of_the_graph_can_be_read(tab):
+    size = tab.evaluate(
+        "document.querySelector('.graph').getBoundingClientRect().width"
+        " / document.querySelector('.graph').viewBox.baseVal.width"
+        " * parseFloat(getComputedStyle(document.querySelector('.node text')).fontSize)"
+    )
+    assert size >= 11
+
+
+def test_a_derivation_is_folded_until_it_is_asked_for(tab):
+    derivation = tab.locator('[id="claim-5.4"] pre')
+    assert not derivation.is_visible()
+    tab.locator('[id="claim-5.4"] summary', has_text="Derivation").click()
+    assert derivation.is_visible()

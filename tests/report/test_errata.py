@@ -1,0 +1,93 @@
+"""The list of errata: every error, once, with its counterexample; LaTeX that stands alone."""
+
+import re
+import shutil
+import subprocess
+
+import pytest
+
+from chapsym.report import errata, records
+
+
+@pytest.fixture(params=["register", "handmade"])
+def found(request):
+    return request.getfixturevalue(request.param)
+
+
+def test_markdown_has_an_entry_for_each_error_in_the_order_of_the_paper(found):
+    text = errata.markdown(found, "1.2.3")
+    expected = [records.label(record["id"]) for record in records.errors(found)]
+    assert re.findall(r"^## (.*)$", text, re.MULTILINE) == expected
+    assert f"{len(expected)} of {len(found)} judged claims" in text
+    assert "chapsym 1.2.3" in text
+
+
+def test_markdown_entries_are_complete(register):
+    text = errata.markdown(register, "1")
+    for record, entry in zip(records.errors(register), text.split("\n## ")[1:], strict=True):
+        assert f"- Printed: ${record['printed']}$\n" in entry
+        assert (
+            f"- True: ${record['corrected']}$\n" in entry
+            or f"- Condition: {record['evidence']['condition']}\n" in entry
+        )
+        assert f"`chapsym prove {record['id']} --explain`" in entry
+        assert re.search(r"- At `.*`; but `.* ≠ .*`\n", entry), entry
+
+
+def test_every_kind_of_error_says_what_is_true(handmade):
+    text = errata.markdown(handmade, "1")
+    assert "- Printed: $a = \\tfrac12 b$\n- True: $a = \\tfrac14 b$\n" in text
+    assert "- Condition: q is real\n" in text
+    assert "- True: a is at most b\n" in text
+    assert (
+        "- At `J = (1, 2, 4), γ = (0, 0, 1), sn δu = 3/5, sn u = 4/5`: `a_k = -b`; but `(1, 2/3) ≠ (1, -2/3)`" in text
+    )
+
+
+def test_latex_has_the_condition_and_the_true_statement(handmade):
+    text = errata.latex(handmade, "1")
+    assert r"\textit{Condition:} $q$ is real" in text
+    assert r"\textit{True:} a is at most $b$" in text
+
+
+def test_latex_is_ascii_and_balanced(found):
+    text = errata.latex(found, "1.2.3")
+    assert text.isascii()
+    assert "U+" not in text
+    body = re.sub(r"\\[{}$%&#_\\]", "", text)
+    depth = 0
+    for mark in re.findall(r"[{}]", body):
+        depth += 1 if mark == "{" else -1
+        assert depth >= 0
+    assert depth == 0
+    assert all(line.count("$") % 2 == 0 for line in body.splitlines())
+    assert re.findall(r"\\begin\{(\w+)\}", text).count("document") == 1
+    for name in set(re.findall(r"\\(?:begin|end)\{(\w+)\}", text)):
+        assert text.count(f"\\begin{{{name}}}") == text.count(f"\\end{{{name}}}"), name
+    assert text.count(r"\left(") == text.count(r"\right)")
+
+
+def test_latex_has_the_formulas_and_the_commands_of_every_error(found):
+    text = errata.latex(found, "1")
+    for record in records.errors(found):
+        assert rf"\textit{{Printed:}} $\displaystyle {record['printed']}$" in text
+        assert rf"\texttt{{chapsym prove {record['id']} -{{}}-explain}}" in text
+        assert record["corrected"] is None or f" {record['corrected']}$" in text
+    assert text.count(r"\neq") >= len(records.errors(found))
+
+
+@pytest.mark.skipif(shutil.which("pdflatex") is None, reason="no LaTeX on this machine; the source is checked without")
+def test_latex_compiles(found, tmp_path):
+    (tmp_path / "errata.tex").write_text(errata.latex(found, "1"), encoding="ascii")
+    done = subprocess.run(
+        ["pdflatex", "-interaction=nonstopmode", "-halt-on-error", "errata.tex"], cwd=tmp_path, capture_output=True,
+        text=True, check=False,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stdout[-2000:]
+    assert "Overfull" not in done.stdout
+
+
+def test_a_paper_without_errors_has_an_empty_list(record):
+    sound = [record("2.1", "holds")]
+    assert "0 of 1 judged claims" in errata.markdown(sound, "1")
+    assert errata.latex(sound, "1").endswith("\\end{document}\n")

@@ -1,0 +1,110 @@
+"""LaTeX to MathML: everything of the register converts, and what does not is shown as it is."""
+
+import re
+import xml.etree.ElementTree as ET
+
+import pytest
+
+from chapsym.report import formulas
+
+
+def shape(latex):
+    """The MathML without its namespace and the outer row."""
+    text = formulas.mathml(latex).replace(f' xmlns="{formulas.NAMESPACE}"', "")
+    return re.fullmatch(r'<math displaystyle="true"><mrow>(.*)</mrow></math>', text).group(1)
+
+
+def test_every_formula_of_the_register_converts(register):
+    seen = 0
+    for record in register:
+        for latex in filter(None, (record["printed"], record["corrected"])):
+            html = formulas.html(latex)
+            assert "unconverted" not in html, (record["id"], html)
+            assert "\\" not in html, (record["id"], html)
+            assert not re.search(r"<m(i|o|n|text)\s*/>|mathvariant=\"(?!normal)|merror", html), (record["id"], html)
+            seen += 1
+    assert seen >= 105
+
+
+def test_no_letter_of_the_register_is_lost(register):
+    """The letters of a formula are those of its source: nothing is dropped on the way."""
+    for record in register:
+        for latex in filter(None, (record["printed"], record["corrected"])):
+            source = re.sub(r"\\(?!text|math|operator)[A-Za-z]+|\\(text|mathrm|mathbf|mathcal|mathbb)", " ", latex)
+            digits = "".join(re.findall(r"\d", source))
+            shown = re.sub(r"<[^>]*>", "", formulas.html(latex))
+            assert "".join(re.findall(r"\d", shown)) == digits, record["id"]
+            shown = shown if "pmatrix" not in latex else re.sub(r"[()]", "", shown)
+            source = source if "pmatrix" not in latex else re.sub(r"[()]", "", source)
+            for kind in "()[]":
+                assert shown.count(kind) == source.count(kind), (record["id"], kind)
+
+
+@pytest.mark.parametrize(
+    ("latex", "expected"),
+    [
+        (r"\tfrac DF", '<mstyle displaystyle="false" scriptlevel="0"><mfrac><mi>D</mi><mi>F</mi></mfrac></mstyle>'),
+        (r"\mathcal G_h", "<msub><mi>𝒢</mi><mi>h</mi></msub>"),
+        (r"\mathcal{D}", "<mi>𝒟</mi>"),
+        (r"\mathcal E\mathcal H", "<mi>ℰ</mi><mi>ℋ</mi>"),
+        (r"\mathbf K", "<mi>𝐊</mi>"),
+        (r"\boldsymbol\omega", "<mi>𝝎</mi>"),
+        (r"\boldsymbol\Omega", "<mi>𝜴</mi>"),
+        (r"\mathbb R\mathbb L", "<mi>ℝ</mi><mi>𝕃</mi>"),
+        (r"\mathfrak g", "<mi>𝔤</mi>"),
+        (r"\Lambda\gamma", '<mi mathvariant="normal">Λ</mi><mi>γ</mi>'),
+        (r"\widehat J", '<mover accent="true"><mi>J</mi><mo stretchy="false">^</mo></mover>'),
+        (r"\dots", "<mo>…</mo>"),
+        (r"\langle x\rangle", '<mo stretchy="false">⟨</mo><mi>x</mi><mo stretchy="false">⟩</mo>'),
+        (r"\mathrm{sn}^2\bar u", '<msup><mi>sn</mi><mn>2</mn></msup><mspace width="0.17em" />'
+                                 '<mover accent="true"><mi>u</mi><mo stretchy="false">¯</mo></mover>'),
+        (r"\mathrm{sn}(u)", '<mi>sn</mi><mo stretchy="false">(</mo><mi>u</mi><mo stretchy="false">)</mo>'),
+        (r"x = -2", '<mi>x</mi><mo>=</mo><mo form="prefix">−</mo><mn>2</mn>'),
+        (r"(x) - 2",
+         '<mo stretchy="false">(</mo><mi>x</mi><mo stretchy="false">)</mo><mo form="infix">−</mo><mn>2</mn>'),
+        (r"\begin{pmatrix}1&2\\3&4\end{pmatrix}",
+         "<mo>(</mo><mtable><mtr><mtd><mn>1</mn></mtd><mtd><mn>2</mn></mtd></mtr>"
+         "<mtr><mtd><mn>3</mn></mtd><mtd><mn>4</mn></mtd></mtr></mtable><mo>)</mo>"),
+    ],
+)  # fmt: skip
+def test_what_the_paper_needs_is_rendered(latex, expected):
+    assert shape(latex) == expected
+
+
+def test_prose_inside_a_formula_is_prose_of_the_page():
+    html = formulas.html(r"K = h\gamma \text{ with } h \text{ constant}")
+    assert '<span class="prose"> with </span>' in html
+    assert "mtext" not in html
+
+
+def test_a_line_may_break_behind_a_comma_but_not_in_braces():
+    found = formulas.pieces(r"a,\ b_{i,\ j},\quad \left(c,\ d\right)")
+    assert [piece.text for piece in found] == ["a,", r"b_{i,\ j},", r" \left(c,\ d\right)"]
+    matrix = r"\begin{pmatrix}a,\ b & \text{any}\end{pmatrix}"
+    assert [piece.text for piece in formulas.pieces(matrix)] == [matrix]
+
+
+@pytest.mark.parametrize(
+    ("latex", "reason"),
+    [
+        (r"\nonsense x", "the command \\nonsense is not known"),
+        ("{a", "the braces do not match"),
+        ("a}{b", "the braces do not match"),
+        (r"\frac{1}", "mfrac"),
+        ("x^", "Missing"),
+        ("a & b", "not well-formed"),
+        (r"{\text{<script>x</script>}}", "an element"),
+    ],
+)
+def test_what_does_not_convert_shows_its_source_and_says_so(latex, reason):
+    html = formulas.html(latex)
+    assert html.startswith('<code class="latex">')
+    assert "not converted" in html
+    assert reason in html.unescape()
+    assert latex in html.unescape()
+    assert "<script" not in html
+
+
+def test_text_of_a_formula_is_escaped():
+    assert "<b>" not in formulas.html(r"\text{<b>bold</b>} x")
+    ET.fromstring(formulas.mathml("x < y"))

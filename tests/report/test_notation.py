@@ -1,0 +1,92 @@
+"""Points and statements: grouped for a reader, and as ASCII LaTeX."""
+
+import pytest
+
+from chapsym.report import notation
+
+
+def test_components_of_a_point_are_gathered():
+    values = {"J1": "1", "J2": "2", "J3": "4", "D": "3", "w1": "1", "w2": "0", "w3": "-1", "q0": "4/5", "g1": "2"}
+    assert notation.point(values) == [
+        ("J", "(1, 2, 4)"), ("D", "3"), ("ω", "(1, 0, -1)"), ("q0", "4/5"), ("g1", "2"),
+    ]  # fmt: skip
+
+
+def test_a_transpose_beside_its_vector_says_nothing_new():
+    assert notation.point({"gamma": "1", "gamma^T": "1", "Gamma": "1"}) == [("γ", "1"), ("Γ", "1")]
+
+
+def test_short_names_have_their_meaning_by_their_neighbours():
+    assert notation.point({"s": "1"}) == [("s", "1")]
+    assert notation.point({"s": "4/5", "sh": "3/5", "k2": "1/2"}) == [("sn u", "4/5"), ("sn δu", "3/5"), ("k²", "1/2")]
+    assert notation.point({"Dscr": "1", "y": "2"}) == [("𝒟", "1"), ("sn²δu", "2")]
+
+
+@pytest.mark.parametrize(
+    ("text", "shown"),
+    [
+        ("-3/5", "-3/5"),
+        ("e3", "e3"),
+        ("[[0], [-4/5], [1]]", "(0, -4/5, 1)"),
+        ("[[1, 0], [0, 2]]", "diag(1, 2)"),
+        ("[[0, 0], [0, 0]]", "0"),
+        ("[[0, 1/2], [-1, 0]]", [["0", "1/2"], ["-1", "0"]]),
+        ("[[1, 2], [3]]", "[[1, 2], [3]]"),
+        ("[[1, 2", "[[1, 2"),
+    ],
+)
+def test_values_are_text_vectors_or_matrices(text, shown):
+    assert notation.value(text) == shown
+
+
+def test_compact_sides_keep_what_differs():
+    example = {"left": ["1", "2", "3", "4"], "right": ["1", "2", "3", "5"]}
+    assert notation.sides(example) == (["(1, 2, 3, 4)"], ["(1, 2, 3, 5)"])
+    assert notation.sides(example, compact=True) == (["4"], ["5"])
+    assert notation.differing(example)
+    short = {"left": ["1", "2"], "right": ["1", "3"]}
+    assert notation.sides(short, compact=True) == (["(1, 2)"], ["(1, 3)"])
+    assert not notation.differing(short)
+
+
+@pytest.mark.parametrize(
+    ("text", "latex"),
+    [
+        ("Λω = K - (D/F)⟨γ, Λ⁻¹K⟩γ",
+         r"$\Lambda\omega = K - (D/F)\langle\gamma, \Lambda^{-1}K\rangle\gamma$"),
+        ("The sign of K(ω, γ) is wrong.", r"The sign of $K(\omega, \gamma)$ is wrong."),
+        ("γ~1 - γ1 = (2C1/𝒟) sn ū",
+         r"$\tilde{\gamma}_{1} - \gamma_{1} = (2C_{1}/\mathcal{D}) \operatorname{sn} \bar{u}$"),
+        ("R_kᵀγ_(k+1), Ω_{k-1}", r"$R_{k}^{T}\gamma_{k+1}$, $\Omega_{k-1}$"),
+        ("Ṙ R̈ ω̇ 𝒦⃗", r"$\dot{R} \ddot{R} \dot{\omega} \vec{\mathcal{K}}$"),
+        ("h ≠ 0: then ½q₀² ≤ 1", r"$h \neq 0$: then $\tfrac12q_{0}^{2} \le 1$"),
+        ("In Section 2 and (4.3), as 2.5-inverse says", "In Section 2 and (4.3), as 2.5-inverse says"),
+        ("100% of «a_b» & «more»", r"$100\%$ of $\text{``}a_{b}\text{''} \&$ ``more''"),
+        ("日", r"$\text{[U+65E5]}$"),
+    ],
+)  # fmt: skip
+def test_plain_text_becomes_latex(text, latex):
+    assert notation.latex(text) == latex
+
+
+def test_everything_that_the_register_says_has_ascii_latex(register):
+    for record in register:
+        evidence = record["evidence"]
+        texts = [evidence["title"], *evidence["hypotheses"], *(check["statement"] for check in evidence["checks"])]
+        for text in texts:
+            latex = notation.latex(text)
+            assert latex.isascii(), (record["id"], latex)
+            assert "U+" not in latex, (record["id"], latex)
+            assert latex.count("$") % 2 == 0
+            assert latex.count("{") == latex.count("}"), (record["id"], latex)
+        for example in evidence["counterexamples"]:
+            for symbol, value in notation.point(example["point"]):
+                for latex in (notation.symbol_latex(symbol), notation.value_latex(value)):
+                    assert latex.isascii(), (record["id"], symbol, latex)
+                    assert "U+" not in latex
+
+
+def test_a_matrix_is_small_in_latex():
+    assert (
+        notation.value_latex("[[0, -1/2], [1, 0]]") == r"\left(\begin{smallmatrix}0&-1/2\\1&0\end{smallmatrix}\right)"
+    )

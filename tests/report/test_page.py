@@ -1,0 +1,217 @@
+"""The page, as HTML: it says everything that the records say, needs nothing else, and survives what is broken."""
+
+import re
+from html.parser import HTMLParser
+from itertools import pairwise
+
+import pytest
+
+from chapsym.report import page, records
+
+VERSIONS = {"chapsym": "0.1.0", "sympy": "1.14.0", "python-flint": "0.9.0"}
+VOID = {"meta", "br", "hr", "input", "link", "img", "col"}
+
+
+class Outline(HTMLParser):
+    """Ids, links, texts, and whether every element is closed."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.open, self.ids, self.links, self.headings, self.attributes = [], [], [], [], []
+        self.feed(text)
+
+    def handle_starttag(self, tag, attributes):
+        attributes = dict(attributes)
+        self.attributes.append((tag, attributes))
+        self.ids += [attributes["id"]] if "id" in attributes else []
+        self.links += [attributes["href"]] if "href" in attributes else []
+        self.headings += [tag] if re.fullmatch("h[1-6]", tag) else []
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag, attributes):
+        self.handle_starttag(tag, attributes)
+        if tag not in VOID:
+            self.open.pop()
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag
+
+
+@pytest.fixture(scope="module")
+def whole(register):
+    return page.html(register, VERSIONS)
+
+
+def article(text, id):
+    return re.search(rf'<article class="claim [^>]*id="claim-{re.escape(id)}".*?</article>', text, re.DOTALL).group()
+
+
+def test_the_page_is_well_formed_and_its_links_lead_somewhere(whole):
+    outline = Outline(whole)
+    assert outline.open == []
+    assert len(outline.ids) == len(set(outline.ids))
+    assert all(link.startswith("#") for link in outline.links)
+    assert {link[1:] for link in outline.links} <= set(outline.ids)
+    assert outline.headings.count("h1") == 1
+    levels = [int(heading[1]) for heading in outline.headings]
+    assert all(b <= a + 1 for a, b in pairwise(levels)), "a level of heading is skipped"
+
+
+def test_the_page_needs_nothing_from_outside(whole):
+    outline = Outline(whole)
+    assert not any("src" in attributes or tag == "link" for tag, attributes in outline.attributes)
+    addresses = set(re.findall(r"https?://[^\s\"'<]+", whole))
+    assert addresses <= {"http://www.w3.org/1998/Math/MathML"}, "names of namespaces only"
+    assert "@import" not in whole
+    assert "url(" not in whole
+    assert "default-src 'none'" in whole
+
+
+def test_every_claim_is_there_with_its_verdict(whole, register):
+    for record in register:
+        text = article(whole, record["id"])
+        assert f'<span class="badge {record["verdict"]}">{record["verdict"]}</span>' in text
+        assert f"chapsym prove {record['id']} --explain" in text
+        evidence = record["evidence"]
+        lists = [evidence.get(name) or [] for name in ("checks", "controls", "witnesses", "problems", "tried")]
+        lists += [route["statements"] for route in evidence.get("routes") or []]
+        assert text.count("<li") == sum(map(len, lists))
+    assert "not converted" not in whole
+    assert 'class="failure"' not in whole
+
+
+def test_the_errata_are_in_the_order_of_the_paper(whole, register):
+    assert re.findall(r'<tr id="erratum-([^"]+)"', whole) == [r["id"] for r in records.errors(register)]
+    row = re.search(r'<tr id="erratum-2.5-inverse".*?</tr>', whole, re.DOTALL).group()
+    assert "(9, −8, 12)" in row
+    assert "(309/49, −590/49, 192/49)" in row
+    assert '<a class="id" href="#claim-2.5">2.5</a>' in row
+    assert row.count('class="formula"') == 2
+    row = re.search(r'<tr id="erratum-5.1".*?</tr>', whole, re.DOTALL).group()
+    assert re.findall(r'<span class="side">([^<]*)</span>', row) == ["12/25", "4/5"], "of nine entries what differs"
+    assert "(what differs)" in row
+
+
+def test_the_page_is_the_same_for_the_same_records(whole, register):
+    assert page.html(register, VERSIONS) == whole
+    assert "2026-01-02" in page.html(register, VERSIONS, date="2026-01-02")
+    assert not re.search(r"\b20[12]\d-\d\d-\d\d\b", whole)
+
+
+def test_everything_that_evidence_may_carry_is_shown(handmade):
+    text = page.html(handmade, VERSIONS)
+    assert "is &lt;b&gt;not&lt;/b&gt; bold" in article(text, "5.4")
+    for said in (
+        "Witnesses and degenerate cases: equal J", "3 statements evaluated at", "J = (1, 1, 1)",
+        "Second routes: mpmath", "agrees",
+        "1 statement decided, 1 control rejected", "a<sub>k</sub> = −b — fails", "By exact arithmetic", "0.25 s",
+        "≠</span> 0", "a = 3b: rejected",
+    ):  # fmt: skip
+        assert said in article(text, "5.4"), said
+    assert '<span class="tag">if</span> <div>q is real</div>' in article(text, "prop-3")
+    assert "a is at most b" in article(text, "5.7")
+    assert "There is no such measure." in article(text, "6.lr")
+    assert "It names the principle." in article(text, "3.1")
+    opened = re.search(r'<section id="open".*?</section>', text, re.DOTALL).group()
+    assert "The paper leaves this open." in opened
+    assert "a polynomial ansatz" in opened
+    assert "Open in the paper, settled here" in opened
+
+
+def test_an_open_claim_that_the_paper_states_is_told_at_the_top(handmade, record):
+    text = page.html([*handmade, record("4.1", "open", problems=["the proof has no negative control"])], VERSIONS)
+    assert re.search(r'class="failure">Not proved: <a href="#claim-4.1">4.1</a>', text)
+    assert "the proof has no negative control" in article(text, "4.1")
+    assert "The paper states this; it is not proved here." in text
+
+
+def test_a_control_that_was_accepted_is_not_called_rejected(record):
+    controls = [{"statement": "a", "rejected": False}]
+    text = article(page.html([record("2.1", "open", controls=controls)], VERSIONS), "2.1")
+    assert "ACCEPTED" in text
+    assert "1 control rejected" not in text
+
+
+def test_evidence_that_is_absent_is_no_error():
+    bare = {"id": "2.1", "verdict": "holds", "printed": "x", "evidence": {"title": "It holds."}}
+    text = page.html([bare], VERSIONS)
+    assert 'class="failure"' not in text
+    assert "It holds." in article(text, "2.1")
+
+
+def test_a_fingerprint_is_shown(record):
+    text = page.html([record("2.1", "holds") | {"fingerprint": "0123456789abcdef"}], VERSIONS)
+    assert "fingerprint 0123456789ab<" in article(text, "2.1")
+
+
+@pytest.mark.parametrize("name", list(page.SECTIONS))
+def test_a_broken_section_tells_its_error_and_the_rest_stays(name, handmade, monkeypatch):
+    title, _ = page.SECTIONS[name]
+
+    def broken(_):
+        raise RuntimeError("no ink <left>")
+
+    whole = page.html(handmade, VERSIONS)
+    monkeypatch.setitem(page.SECTIONS, name, (title, broken))
+    text = page.html(handmade, VERSIONS)
+    assert f"<strong>{title} could not be written.</strong> RuntimeError: no ink &lt;left&gt;" in text
+    assert text.count('class="failure"') == 1
+    for other in set(page.SECTIONS) - {name}:
+        section = rf'<section id="{other}".*?(?=<section id=|</main>)'
+        assert re.search(section, text, re.DOTALL).group() == re.search(section, whole, re.DOTALL).group()
+
+
+def test_a_broken_claim_tells_its_error_and_the_others_stay(handmade):
+    handmade[1]["evidence"]["checks"] = [{"text": "no such key"}]
+    text = page.html(handmade, VERSIONS)
+    assert '<div class="failure" id="claim-2.1" role="alert">' in text
+    assert "Claim 2.1 could not be written." in text
+    assert text.count('class="failure"') == 1
+    assert "0.25 s" in article(text, "5.4")
+
+
+def test_a_formula_that_does_not_convert_is_told(record):
+    text = article(page.html([record("2.1", "holds", r"\nonsense")], VERSIONS), "2.1")
+    assert '<code class="latex">\\nonsense</code> <span class="unconverted">not converted' in text
+
+
+def test_plain_text_has_indices_and_true_minus_signs():
+    assert page.prose("R_(k+1) = C1 - 2, m_{k-1}") == "R<sub>k+1</sub> = C<sub>1</sub> − 2, m<sub>k−1</sub>"
+    assert page.prose("q₀²-1, (p-e3), 1-(D/2), k-1") == "q₀²−1, (p−e<sub>3</sub>), 1−(D/2), k−1"
+    assert page.prose("n-dimensional <x> (5.12-q0), prop-1") == "n-dimensional &lt;x&gt; (5.12-q0), prop-1"
+    assert page.code("`a_b` is **not** a_b") == "<code>a_b</code> is <b>not</b> a<sub>b</sub>"
+
+
+def test_a_matrix_is_a_formula():
+    shown = page.value("[[0, -1/2], [1, 0]]")
+    assert "<mtable>" in shown
+    assert "<mfrac><mrow><mn>1</mn></mrow><mrow><mn>2</mn></mrow></mfrac>" in shown
+
+
+def test_each_verdict_has_a_colour_and_a_meaning():
+    style = (page._FOLDER / "style.css").read_text(encoding="utf-8")
+    for verdict in records.VERDICTS:
+        assert f".{verdict} {{ --v: var(--{verdict}); }}" in style
+        assert style.count(f"--{verdict}: #") == 2, "one for light, one for dark"
+
+
+def contrast(a, b):
+    """The contrast of two colours, as the accessibility guidelines define it."""
+
+    def light(colour):
+        channels = [int(colour[i : i + 2], 16) / 255 for i in (1, 3, 5)]
+        r, g, b = [c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in channels]
+        return 0.2126 * r + 0.7152 * g + 0.0722 * b
+
+    lighter, darker = sorted((light(a), light(b)), reverse=True)
+    return (lighter + 0.05) / (darker + 0.05)
+
+
+def test_colours_can_be_read_in_light_and_in_dark():
+    style = (page._FOLDER / "style.css").read_text(encoding="utf-8")
+    for root in re.findall(r":root \{(.*?)\}", style, re.DOTALL)[:2]:
+        colours = dict(re.findall(r"--([a-z]+): (#[0-9a-f]{6});", root))
+        for name in ("ink", "muted", "link", *records.VERDICTS):
+            for background in ("paper", "raised"):
+                assert contrast(colours[name], colours[background]) >= 4.5, (name, background)
