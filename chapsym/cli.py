@@ -186,6 +186,7 @@ def _list_claims(claims: dict[str, Any], as_json: bool, kept_in: Path | None) ->
 
 def _judge(wanted: list[str], claims: dict[str, Any], jobs: int | None, kept_in: Path | None) -> list[dict[str, Any]]:
     """Proves the claims, keeps their records, and says where a verdict is another than it was."""
+    from chapsym import files
     from chapsym.prove import records
 
     kept = _kept(kept_in)
@@ -196,8 +197,8 @@ def _judge(wanted: list[str], claims: dict[str, Any], jobs: int | None, kept_in:
             print(f"chapsym: {record['id']} was {before}, and is {record['verdict']} now", file=sys.stderr)
     try:
         records.update(kept_in or records.default_path(), judged, claims)
-    except OSError as error:
-        print(f"chapsym: the verdicts are not kept: {error.strerror or error}", file=sys.stderr)
+    except files.CannotWrite as error:
+        print(f"chapsym: the verdicts are not kept: {error}", file=sys.stderr)
     return judged
 
 
@@ -248,9 +249,11 @@ def report(
     output: Annotated[
         Path, typer.Option("-o", "--output", metavar="FILE", help="A page (.html), or the list of errata (.md, .tex).")
     ] = Path("chapsym-report.html"),
+    fresh: Annotated[bool, typer.Option("--fresh", help="Prove every claim again.")] = False,
     as_json: Json = False,
+    kept_in: Records = None,
 ) -> None:
-    """Write the page of all verdicts, or the short list of errata.
+    """Write the page of all verdicts, or the short list of errata; what is stale or was never judged is proved.
 
     Example: chapsym report -o errata.tex
     """
@@ -261,7 +264,7 @@ def report(
         _fail(f"{str(output)!r}: the output must end in {' or '.join(reports.WRITERS)}", 2)
     try:
         files.check_destination(output)
-        found = records()
+        found = _register({} if fresh else _kept(kept_in), kept_in)
         text = reports.WRITERS[output.suffix](found, _versions())
         files.write_whole(output, lambda stream: stream.write(text.encode()))
     except files.CannotWrite as error:
@@ -270,14 +273,24 @@ def report(
         _print_json({"file": str(output), "counts": reports.counts(found), "claims": len(found)})
     else:
         print(f"wrote {output}: {_tally(found)}")
-    unproved = reports.unproved(found)
-    if unproved:
-        _fail(f"not proved: {', '.join(unproved)}", 1)
+    failed = reports.unproved(found)
+    if failed:
+        _fail(f"not proved: {', '.join(failed)}", 1)
 
 
-def records() -> list[dict[str, Any]]:
-    """The records that the report is written from: every claim, judged now."""
-    return _judged("proving", list(_claims()))
+def _register(kept: dict[str, dict[str, Any]], kept_in: Path | None) -> list[dict[str, Any]]:
+    """The record of every claim: the one that is kept while it is fresh and no failure, otherwise judged now."""
+    from chapsym.prove import records, unproved
+    from chapsym.prove.runner import downstream
+
+    claims = _claims()
+    again = {*records.stale(kept, claims), *unproved(kept.values())}
+    wanted = [id for id in claims if id not in kept or id in again]
+    if wanted:
+        kept = kept | {record["id"]: record for record in _judge(wanted, claims, None, kept_in)}
+    for id in claims:  # what uses a claim is said by other scripts than its own
+        kept[id]["evidence"]["downstream"] = downstream(id, claims)
+    return [kept[id] for id in claims]
 
 
 def _versions() -> dict[str, str]:

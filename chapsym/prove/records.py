@@ -9,14 +9,14 @@ import hashlib
 import importlib.metadata
 import importlib.util
 import json
-import os
-import tempfile
 from collections.abc import Iterable
 from functools import cache
 from pathlib import Path
 from typing import Any
 
 import platformdirs
+
+from chapsym import files
 
 from .claims import Claim
 
@@ -101,7 +101,8 @@ def read(path: Path) -> dict[str, dict[str, Any]]:
     """
     records = {}
     text = path.read_text(encoding="utf-8") if path.exists() else ""
-    for number, line in enumerate(text.splitlines(), start=1):
+    lines = text.removesuffix("\n").split("\n") if text else []
+    for number, line in enumerate(lines, start=1):
         try:
             record = json.loads(line)
             records[record["id"]] = record
@@ -113,23 +114,18 @@ def read(path: Path) -> dict[str, dict[str, Any]]:
     return records
 
 
-def write(path: Path, records: Iterable[dict[str, Any]]) -> None:
-    """Writes the file whole: into a temporary file beside it, then renamed."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=path.name, suffix=".part")
-    try:
-        with open(handle, "w", encoding="utf-8") as file:
-            file.writelines(json.dumps(record, ensure_ascii=False) + "\n" for record in records)
-        os.replace(temporary, path)
-    except BaseException:
-        os.unlink(temporary)
-        raise
-
-
 def update(path: Path, records: Iterable[dict[str, Any]], claims: dict[str, Claim]) -> None:
-    """Puts new records in the place of old ones, in the order of the claims; records of unknown claims go."""
+    """Puts new records in the place of old ones, in the order of the claims; records of unknown claims go.
+
+    The file is written whole; raises CannotWrite if it cannot be.
+    """
     known = read(path) | {record["id"]: record for record in records}
-    write(path, [known[id] for id in claims if id in known])
+    lines = [json.dumps(known[id], ensure_ascii=False) + "\n" for id in claims if id in known]
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise files.CannotWrite(f"{path} cannot be written: {error.strerror or error}") from None
+    files.write_whole(path, lambda stream: stream.writelines(line.encode() for line in lines))
 
 
 def stale(records: dict[str, dict[str, Any]], claims: dict[str, Claim]) -> list[str]:

@@ -17,6 +17,7 @@ def make(id, verdict, printed="a = b", corrected=None, seconds=0.25, **evidence)
     base = {
         "title": f"The title of {id}.", "hypotheses": [], "condition": None, "derivation": [], "checks": [],
         "controls": [], "counterexamples": [], "uses": [], "downstream": [], "problems": [],
+        "open_in_paper": False,
     }  # fmt: skip
     return {
         "id": id, "verdict": verdict, "printed": printed, "corrected": corrected, "evidence": base | evidence,
