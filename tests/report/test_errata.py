@@ -3,10 +3,14 @@
 import re
 import shutil
 import subprocess
+from pathlib import Path
 
 import pytest
 
-from chapsym.report import errata, records
+import chapsym
+from chapsym.report import WRITERS, errata, records
+
+ROOT = Path(__file__).parents[2]
 
 
 @pytest.fixture(params=["register", "handmade"])
@@ -91,3 +95,10 @@ def test_a_paper_without_errors_has_an_empty_list(record):
     sound = [record("2.1", "holds")]
     assert "0 of 1 judged claims" in errata.markdown(sound, "1")
     assert errata.latex(sound, "1").endswith("\\end{document}\n")
+
+
+@pytest.mark.parametrize("suffix", [".md", ".tex"])
+def test_the_published_list_is_what_the_records_give(register, suffix):
+    """To mend: chapsym report -o docs/errata.md, and the same for errata.tex."""
+    published = (ROOT / "docs" / f"errata{suffix}").read_text(encoding="utf-8")
+    assert published == WRITERS[suffix](register, {"chapsym": chapsym.__version__})
