@@ -1,5 +1,7 @@
 """Section 2: the classical ball, n = 3: equations, integrals, the invariant measure, vertical momentum."""
 
+from dataclasses import replace
+
 import sympy as sp
 from chapsym.proofs.s2_continuous import BALL, SPIN, UNIT, unit_vertical
 
@@ -207,7 +209,9 @@ def top_integrals(p: Proof) -> None:
         equation("⟨ω,Λω⟩ = (h²+Dl)l/h²", spin.dot(body), (height**2 + D * power) * power / height**2, VERTICAL),
     )
     hypothesis = Equation("|γ| = 1", [gamma.dot(gamma)], [sp.S.One], VERTICAL)
-    p.counterexample(rational_point({**BALL, **UNIT, s: 1}, [hypothesis]))
+    point = rational_point({**BALL, **UNIT, s: 1}, [hypothesis])
+    shown = {name: value for name, value in point.values.items() if name != "s"} | {"Λω": "γ"}
+    p.counterexample(replace(point, values=shown))
     p.control(equation("⟨ω,Λω⟩ = (h²-Dl)l/h²", spin.dot(body), (height**2 - D * power) * power / height**2, VERTICAL))
 
 
