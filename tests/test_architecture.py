@@ -18,7 +18,7 @@ ROOMS = {
     "files": set(),
     "numbers": set(),
     "derive": set(),
-    "prove": {"derive"},
+    "prove": {"derive", "files"},
     "codegen": {"derive", "generated"},
     "dynamics": {"generated", "numbers"},
     "scene": {"dynamics", "exact", "files"},
