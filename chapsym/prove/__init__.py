@@ -2,6 +2,7 @@
 
 from .claims import Claim, Judgement, claim
 from .evidence import Proof, Verdict
+from .polynomials import Identity
 from .runner import BrokenScript, load, main, prove_all, unproved
 from .statements import Equation, Fact, Point, rational_point
 
@@ -10,6 +11,7 @@ __all__ = [
     "Claim",
     "Equation",
     "Fact",
+    "Identity",
     "Judgement",
     "Point",
     "Proof",

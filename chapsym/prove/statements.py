@@ -6,6 +6,8 @@ from typing import Any, Protocol
 
 import sympy as sp
 
+from .polynomials import Identity
+
 
 class Algebra(Protocol):
     """Where an equation is decided: words for every n, or a quotient ring for n = 3."""
@@ -55,7 +57,7 @@ class Fact:
         return bool(self.truth)
 
 
-Statement = Equation | Fact
+Statement = Equation | Fact | Identity
 
 
 @dataclass(frozen=True)

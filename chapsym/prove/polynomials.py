@@ -1,0 +1,133 @@
+"""Identities between rational functions of free parameters: a way to decide that needs no ideal.
+
+Where the constraints of a claim (rotations, unit vectors, a vertical momentum) are solved by rational
+functions of free parameters, both sides of an identity are quotients of polynomials, and it holds exactly
+when the numerator of the difference is the polynomial 0.  The arithmetic is that of python-flint's
+multivariate polynomials.  It shares nothing with the rewriting of words or with division by a
+Gröbner basis: what both decide is decided twice.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import prod
+from typing import Any
+
+from flint import Ordering, fmpq_mpoly, fmpq_mpoly_ctx
+
+#: The most products of terms in one multiplication; the proofs need a third of it.
+LIMIT = 10_000_000
+
+
+class TooLarge(ArithmeticError):
+    """An expression grows beyond all use, as it does where a wrong definition leaves nothing to cancel."""
+
+
+class Ratio:
+    """A rational function over Q in lowest terms; its denominator is monic and not 0."""
+
+    __slots__ = ("denominator", "numerator")
+
+    def __init__(self, numerator: fmpq_mpoly, denominator: fmpq_mpoly) -> None:
+        if denominator == 0:
+            raise ZeroDivisionError("the denominator is the polynomial 0")
+        common = numerator.gcd(denominator) * denominator.leading_coefficient()
+        self.numerator, self.denominator = numerator / common, denominator / common
+
+    def __eq__(self, other: object) -> bool:
+        if (known := self._coerced(other)) is None:
+            return NotImplemented
+        return bool((self - known).numerator == 0)
+
+    __hash__ = None  # type: ignore[assignment]  # as python-flint's polynomials have none
+
+    def __add__(self, other: Any) -> "Ratio":
+        if (other := self._coerced(other)) is None:
+            return NotImplemented
+        common = self.denominator.gcd(other.denominator)
+        mine, its = self.denominator / common, other.denominator / common
+        # Both are in lowest terms: only a factor of what their denominators share can cancel.
+        total = Ratio(_product(self.numerator, its) + _product(other.numerator, mine), common)
+        return Ratio._lowest(total.numerator, _product(total.denominator, _product(mine, its)))
+
+    def __mul__(self, other: Any) -> "Ratio":
+        if (other := self._coerced(other)) is None:
+            return NotImplemented
+        # Both are in lowest terms: what cancels is crosswise, and the product is in lowest terms, too.
+        one, two = Ratio(self.numerator, other.denominator), Ratio(other.numerator, self.denominator)
+        return Ratio._lowest(_product(one.numerator, two.numerator), _product(one.denominator, two.denominator))
+
+    def __truediv__(self, other: Any) -> "Ratio":
+        if (other := self._coerced(other)) is None:
+            return NotImplemented
+        return self * Ratio(other.denominator, other.numerator)
+
+    def __rtruediv__(self, other: Any) -> "Ratio":
+        return other * Ratio(self.denominator, self.numerator)
+
+    def __neg__(self) -> "Ratio":
+        return self * -1
+
+    def __sub__(self, other: Any) -> "Ratio":
+        return self + -other
+
+    def __rsub__(self, other: Any) -> "Ratio":
+        return -self + other
+
+    def __pow__(self, power: int) -> "Ratio":
+        base = self if power >= 0 else 1 / self
+        return prod([base] * abs(power), start=self._one())
+
+    __radd__, __rmul__ = __add__, __mul__
+
+    @classmethod
+    def _lowest(cls, numerator: fmpq_mpoly, denominator: fmpq_mpoly) -> "Ratio":
+        """Of two polynomials that are known to have no common factor, the second monic."""
+        ratio = object.__new__(cls)
+        ratio.numerator, ratio.denominator = numerator, denominator
+        return ratio
+
+    def _coerced(self, other: Any) -> "Ratio | None":
+        """The other operand as a rational function of the same parameters; None if it is not an integer or one."""
+        if isinstance(other, Ratio):
+            return other
+        return self._one(other) if isinstance(other, int) else None
+
+    def _one(self, times: int = 1) -> "Ratio":
+        """The constant 1, or a multiple of it."""
+        context = self.denominator.context()
+        return Ratio._lowest(context.constant(times), context.constant(1))
+
+
+def _product(a: fmpq_mpoly, b: fmpq_mpoly) -> fmpq_mpoly:
+    """The product of two polynomials; raises TooLarge rather than fill the memory."""
+    if len(a) * len(b) > LIMIT:
+        raise TooLarge(f"a product of polynomials of {len(a)} and {len(b)} terms")
+    return a * b
+
+
+def parameters(names: str) -> list[Ratio]:
+    """Free parameters, one for each name."""
+    context = fmpq_mpoly_ctx.get(tuple(names.split()), Ordering.degrevlex)
+    return [Ratio(generator, context.constant(1)) for generator in context.gens()]
+
+
+@dataclass(frozen=True)
+class Identity:
+    """left = right, entry by entry, for all values of the free parameters for which both sides are defined."""
+
+    text: str
+    left: Sequence[Ratio | int]
+    right: Sequence[Ratio | int]
+
+    def __post_init__(self) -> None:
+        if len(self.left) != len(self.right) or not len(self.left):
+            raise ValueError(f"the two sides of «{self.text}» have {len(self.left)} and {len(self.right)} entries")
+
+    @property
+    def method(self) -> str:
+        """How the statement is decided."""
+        return "python-flint polynomials, rational parameterisation"
+
+    def holds(self) -> bool:
+        """True exactly when the numerator of every left - right is the polynomial 0."""
+        return all(a - b == 0 for a, b in zip(self.left, self.right, strict=True))
