@@ -1,6 +1,7 @@
 """Section 4: the intertwining relations of Remark 3."""
 
 import sympy as sp
+from chapsym.proofs import free_parameters as again
 
 from chapsym.derive import ball, three
 from chapsym.derive.ball import ALGEBRA, D, Gamma, J, Omega, OmegaT
@@ -41,7 +42,7 @@ def intertwining(p: Proof) -> None:
         Equation("the relation for 𝒦_{k-1}, every n", [before], [momentum], ALGEBRA),
         Equation("the relation for 𝒦_k, every n", [after], [ball.carried(momentum)], ALGEBRA),
     )
-    p.say("A second route, n = 3: the same with the matrix of Euler parameters, modulo |q|² + q₀² = 1.")
+    p.say("For n = 3 the same with the matrix of Euler parameters, modulo |q|² + q₀² = 1:")
     p.printed(Equation("the relation for 𝒦_{k-1}, n = 3, nine entries", entries(before), entries(momentum), three.RING))
     p.printed(
         Equation(
@@ -52,6 +53,17 @@ def intertwining(p: Proof) -> None:
     p.control(Equation("the relation for 𝒦_{k-1} with Γ_{k-1} - Γ_k", [wrong_before], [momentum], ALGEBRA))
     p.control(Equation("the relation for 𝒦_k with Γ_{k-1} - Γ_k", [wrong_after], [ball.carried(momentum)], ALGEBRA))
     p.control(Equation("the two relations exchanged, n = 3", entries(after), entries(momentum), three.RING))
+    p.route(
+        "from (4.13) as printed, Ω the Cayley transform of a free skew matrix, n = 3 and n = 4",
+        *again.intertwining(3),
+        *again.intertwining(4),
+    )
+    for text, relations in [
+        ("Γ_{k-1} - Γ_k", again.intertwining(3, sign=-1)),
+        ("the momenta exchanged", again.intertwining(3, swapped=True)),
+    ]:
+        for time, relation in zip(("k-1", "k"), relations, strict=True):
+            p.control(again.mutated(f"n = 3: the relation for 𝒦_{{{time}}} with {text}", relation))
 
 
 if __name__ == "__main__":

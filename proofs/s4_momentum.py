@@ -1,6 +1,7 @@
 """Section 4: the momentum about the contact point (Propositions 1 and 2)."""
 
 import sympy as sp
+from chapsym.proofs import free_parameters as again
 
 from chapsym.derive import ball
 from chapsym.derive.ball import ALGEBRA, D, Gamma, J, K, Omega, OmegaT
@@ -51,6 +52,16 @@ def compact_form(p: Proof) -> None:
     p.control(equation("the first form with -D/2 in its last term", mutated, now))
     p.control(equation("the first form with D in the place of D/2", first.subs(D, 2 * D), now))
     p.control(equation("the part of the step k-1 = -Ω𝒦Ωᵀ", before, -Omega * now * OmegaT))
+    p.route(
+        "from the action to (4.13) in free parameters, every turn without the eigenvalue -1: "
+        "n = 3 in any axes of space, n = 4 in those of the body at the time k",
+        *again.conservation(3, any_axes=True),
+        *again.conservation(4, any_axes=False),
+    )
+    wrong = again.conservation(3, any_axes=False, last=-1)[1]
+    p.control(again.mutated("n = 3: (4.12) with -D/2 in the last term of the first form", wrong))
+    wrong = again.conservation(3, any_axes=False, naive=True)[1]
+    p.control(again.mutated("n = 3: (4.12) for the naive constraint before (4.9)", wrong))
 
 
 @claim(

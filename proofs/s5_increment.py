@@ -1,6 +1,7 @@
 """Section 5: the relation for the increment of the reduced map, and its algebraic form (5.14 to 5.16)."""
 
 import sympy as sp
+from chapsym.proofs import free_parameters as again
 from chapsym.proofs.s5_elliptic import TWO, V
 
 from chapsym.derive import elliptic
@@ -250,6 +251,18 @@ def relation_for_the_increment(p: Proof) -> None:
     p.counterexample(step_point())
     p.control(part("the same with D/2 in T", statement, factor * true_relation(contact=D / 2)))
     p.control(part("the same with -V in T", statement, factor * true_relation(root=-V)))
+    p.route(
+        "on the sphere, every two points of a curve: sn² of δu, ū and w are rational in γ, γ~ "
+        "by the addition theorem for ũ ± u; C1², C2², C3², k², G, μ typed as in the paper, corrected",
+        *again.increment(),
+    )
+    p.route(
+        "every step of the map with 𝒦 = γ, from (4.13), solved for the ball (q₀q₁q₂q₃ ≠ 0)",
+        again.increment_of_the_map(),
+    )
+    p.control(again.mutated("T with 2D at two points of a curve", again.increment(contact=2)[4]))
+    p.control(again.mutated("T with -V at two points of a curve", again.increment(sign=-1)[4]))
+    p.control(again.mutated("T = 0 with 2D at every step with 𝒦 = γ", again.increment_of_the_map(contact=2)))
 
 
 @claim("5.15-euler", r"d = 0:\ \text{the increment does not depend on } u", uses=["5.15"])

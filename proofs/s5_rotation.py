@@ -1,6 +1,7 @@
 """Section 5: the rotation in Euler parameters, the vector momentum, and the vector form of the map."""
 
 import sympy as sp
+from chapsym.proofs import free_parameters as again
 
 from chapsym.derive import ball, limits, three
 from chapsym.derive.limits import omega
@@ -142,7 +143,7 @@ def vector_momentum(p: Proof) -> None:
             RING,
         )
     )
-    p.say("A second route: 𝒦⃗ = 2q₀Λq + 2 q×Λq - 2Dq₀⟨γ,q⟩γ with Λ = diag(J₂+J₃+D, ...).")
+    p.say("In vectors: 𝒦⃗ = 2q₀Λq + 2 q×Λq - 2Dq₀⟨γ,q⟩γ with Λ = diag(J₂+J₃+D, ...).")
     lam = three.lam()
     second = 2 * (q0 * lam * q + q.cross(lam * q) - D * q0 * gamma.dot(q) * gamma)
     p.lemma(Equation("𝒦⃗ = 2(q₀Λq + q×Λq - Dq₀⟨γ,q⟩γ)", list(second), list(three.momentum()), RING))
@@ -154,6 +155,13 @@ def vector_momentum(p: Proof) -> None:
         p.control(Equation(text, list(mutated), list(three.momentum()), RING))
     free = Quotient(RING.symbols, [three.UNIT_QUATERNION])
     p.control(Equation("𝒦⃗ as printed, without |γ| = 1", list(printed_momentum()), list(three.momentum()), free))
+    p.route(
+        "from (4.13) as printed, Ω the Cayley transform of u×, q = q₀u with u free (no turn by π), γ on the unit sphere",
+        *again.vector_momentum(),
+    )
+    p.control(again.mutated("𝒦⃗ with + ⟨γ,q⟩γ", again.vector_momentum(sign=-1)[3]))
+    p.control(again.mutated("𝒦⃗ with D in the place of 2D", again.vector_momentum(factor=1)[4]))
+    p.control(again.mutated("M⃗ with J₃-J₂, J₁-J₃, J₂-J₁", again.vector_momentum(centre=-1)[2]))
 
 
 @claim(

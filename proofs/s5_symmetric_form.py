@@ -3,6 +3,7 @@
 from functools import cache
 
 import sympy as sp
+from chapsym.proofs import free_parameters as again
 from chapsym.proofs.s5_vertical import LARGE, NOT_ZERO, SMALL, vertical_state
 
 from chapsym.derive import vertical
@@ -189,6 +190,20 @@ def symmetric_form(p: Proof) -> None:
     p.control(symmetric("5.10 with Λ⁻¹s×s", -sigma / (4 * q0**2)))
     p.control(square_of_root("ϰ with σ in the place of σ²", sigma / 4))
     p.control(closed_sigma("σ with the sign of D flipped", -D / 4))
+    p.route(
+        "every step with 𝒦 = hγ satisfies the corrected form: Ω, |γ| = 1, D and h are free, "
+        "𝒦 = hγ with (4.13) is solved for the ball (q₀q₁q₂q₃ ≠ 0)",
+        *again.symmetric_form(),
+    )
+    p.route(
+        "the converse: γ, γ~ on the unit sphere, Λ2, Λ3 and D are free, σ is solved for, and u = (ϰ/4)Λ⁻¹s",
+        *again.steps_of_the_symmetric_form(),
+    )
+    p.control(again.mutated("σ with D/8, as printed", again.symmetric_form(part=8)[1]))
+    p.control(again.mutated("cos²θ = 1 - ¼⟨s, Λ⁻²s⟩, as printed", again.symmetric_form(under_root=0)[2]))
+    p.control(again.mutated("(5.10) with ϰ/2", again.symmetric_form(factor=2)[3]))
+    wrong = again.steps_of_the_symmetric_form(part=8)[4]
+    p.control(again.mutated("the converse with D/8 in σ: 𝒦 = hγ", wrong))
 
 
 def _product_is_not_zero(state: dict) -> bool:

@@ -1,6 +1,7 @@
 """Section 5: vertical momentum, the reduced map G_h and its integral (Proposition 3)."""
 
 import sympy as sp
+from chapsym.proofs import free_parameters as again
 
 from chapsym.derive import three, vertical
 from chapsym.derive.quotient import Quotient
@@ -147,6 +148,12 @@ def quadratic_integral(p: Proof) -> None:
     p.control(
         Equation("the integral with 2q₀ in γ_k", [wrong.dot(inverse * wrong)], [after.dot(inverse * after)], RING)
     )
+    p.route(
+        "Ω, |γ| = 1, D and h are free and 𝒦 = hγ with (4.13), linear in J, is solved for the ball (q₀q₁q₂q₃ ≠ 0)",
+        *again.quadratic_integral(),
+    )
+    p.control(again.mutated("⟨γ, Λγ⟩ is an integral", again.quadratic_integral(power=1)[1]))
+    p.control(again.mutated("the integral with γ~ = Ωγ", again.quadratic_integral(backwards=True)[1]))
 
 
 if __name__ == "__main__":
