@@ -21,7 +21,7 @@ from chapsym import files
 from .claims import Claim
 
 #: What decides beside this package.
-LIBRARIES = ("sympy", "python-flint")
+LIBRARIES = ("sympy", "python-flint", "numpy")
 
 #: How records are run, printed and kept does not change what they say.
 _BESIDES = {"chapsym.prove.runner", "chapsym.prove.records"}

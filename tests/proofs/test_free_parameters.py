@@ -14,6 +14,7 @@ from chapsym.proofs import s5_increment
 from chapsym.derive import ball, three, vertical
 from chapsym.derive.ball import D, Gamma, Omega, OmegaT
 from chapsym.prove import load
+from chapsym.prove import records as records_of_claims
 from chapsym.prove.runner import judge, prove_one
 
 CLAIMS = ("prop-1", "remark-3", "5.2", "prop-3", "prop-4", "5.15")
@@ -34,6 +35,10 @@ def test_the_second_routes_import_no_derivation():
     names = [a.name for node in ast.walk(tree) if isinstance(node, ast.Import) for a in node.names]
     names += [str(node.module) for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)]
     assert not [name for name in names if "derive" in name or "sympy" in name or "proofs" in name]
+
+
+def test_a_changed_second_route_makes_the_record_stale():
+    assert "chapsym.proofs.free_parameters" in records_of_claims._closure("chapsym.proofs.s5_vertical")
 
 
 def wrong_momentum(honest):
