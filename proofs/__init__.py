@@ -23,7 +23,7 @@ SCRIPTS = (
     "s6_remarks",
 )
 
-#: Everything in the paper that can be true or false, in its order: each has a proof in one of the scripts.
+#: The claims of the paper that need a verdict, in its order: each has a proof in one of the scripts.
 CLAIMS = (
     "2.1", "2.2", "2.2-F", "2.3", "2.4", "2.4-kinetic", "2.5-inverse", "2.5", "2.6", "2.7-vertical", "2.7",
     "2.7-integrals", "2.9", "2.10", "2.11", "2.11-force", "2.11-eliminated", "2.12", "2.13", "2.14", "2.15",

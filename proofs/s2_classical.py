@@ -72,6 +72,7 @@ def vector_equations(p: Proof) -> None:
 )
 def closed_system(p: Proof) -> None:
     """The equations for ω, γ follow from (2.3) and K = Λω - D⟨ω,γ⟩γ."""
+    p.assume("J_i + J_j > 0, so that Λ is regular and F > 0 (2.13)")
     p.say(
         "Put ω̇ from (2.2) into K̇ = ∂K/∂ω ω̇ + ∂K/∂γ (γ×ω); it must be K×ω. B(γ) = ∂K/∂ω is invertible, so ω̇ is unique."
     )
@@ -136,6 +137,7 @@ def kinetic_energy(p: Proof) -> None:
 )
 def invariant_measure(p: Proof) -> None:
     """The invariant measure, by the exact divergence."""
+    p.assume("J_i + J_j > 0, so that Λ is regular and F > 0 (2.13)")
     p.assume("|γ| = 1: F is taken as ⟨Iγ, Λ⁻¹γ⟩ near the sphere, and the field is tangent to it")
     p.say("div(√F X) = 0 is, times 2√F: Ḟ + 2F div X = 0, with X = (ω̇, γ×ω) of (2.2) in R⁶.")
     factor = rolling_factor()

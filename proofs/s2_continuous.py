@@ -70,6 +70,7 @@ def on_motion(expr: sp.Expr) -> sp.Expr:
 )
 def inverse_momentum(p: Proof) -> None:
     """The inverse of K(ω, γ): the sign is misprinted."""
+    p.assume("J_i + J_j > 0, so that Λ is regular and F > 0 (2.13)")
     p.show("K(ω, γ)", sp.Matrix(continuous.momentum()))
     lift = D / continuous.rolling_factor() * gamma.dot(inverse_inertia() * K) * gamma
     left = list(three.lam() * omega)
@@ -99,6 +100,7 @@ def inverse_momentum(p: Proof) -> None:
 )
 def energy_integral(p: Proof) -> None:
     """The energy integral as a function of K, γ: the sign is misprinted with that of the inverse."""
+    p.assume("J_i + J_j > 0, so that F > 0 (2.13)")
     p.say("ω(K, γ) is the inverse of K(ω, γ) that 2.5-inverse proves.")
     quadratic = K.dot(inverse_inertia() * K)
     lifted = D / continuous.rolling_factor() * gamma.dot(inverse_inertia() * K) ** 2

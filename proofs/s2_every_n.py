@@ -4,6 +4,7 @@ import sympy as sp
 
 from chapsym.derive import motion
 from chapsym.derive.motion import ALGEBRA, D, Gamma, J, K, alpha, commutator, gamma, m, omega, rate, rho
+from chapsym.derive.three import hat
 from chapsym.derive.words import evaluate
 from chapsym.prove import Equation, Point, Proof, claim, main
 
@@ -15,14 +16,14 @@ def equation(text: str, left: sp.Expr, right: sp.Expr) -> Equation:
     return Equation(text, [left], [right], ALGEBRA)
 
 
-def spinning_up() -> Point:
-    """n = 3, γ = e₃, at rest, with the angular acceleration that turns e₃ to e₁; m = ρ = 1."""
-    turn = sp.Matrix([[0, 0, 1], [0, 0, 0], [-1, 0, 0]])
-    up = sp.Matrix([0, 0, 1])
-    values = {alpha: turn, omega: sp.zeros(3, 3), J: sp.diag(1, 2, 4), gamma: up, motion.gammaT: up.T}
-    values |= {Gamma: up * up.T, m: sp.S.One, rho: sp.S.One, D: sp.S.One}
-    shown = {"ω": "0", "ω̇": str(turn.tolist()), "J": "diag(1, 2, 4)", "γ": "e3", "m": "1", "ρ": "1", "D": "1"}
-    return Point(shown, lambda expr: evaluate(expr, values))
+def motion_point() -> Point:
+    """n = 3, γ = e₃, ω = (1, 1, 1), and the ω̇ that the principle gives; m = ρ = 1."""
+    spin, gain = hat(sp.Matrix([1, 1, 1])), hat(sp.Matrix(["2/7", "-1/2", "1/3"]))
+    down = sp.Matrix([0, 0, 1])
+    values = {alpha: gain, omega: spin, J: sp.diag(1, 2, 4), gamma: down, motion.gammaT: down.T}
+    values |= {Gamma: down * down.T, m: sp.S.One, rho: sp.S.One, D: sp.S.One}
+    shown = {"ω": "(1, 1, 1)", "ω̇": "(2/7, -1/2, 1/3)", "J": "diag(1, 2, 4)", "γ": "e3", "m": "1", "ρ": "1", "D": "1"}
+    return Point(shown, lambda expr: evaluate(expr, values), [equation("the principle", eliminated(), sp.S.Zero)])
 
 
 @claim(
@@ -95,7 +96,7 @@ def reaction_force(p: Proof) -> None:
     p.show("F", force)
     p.printed(equation("F = mρω̇γ", m * rho * alpha * gamma, force))
     p.corrected(r"F = -m\rho\,\dot\omega\gamma", equation("F = -mρω̇γ", -m * rho * alpha * gamma, force))
-    p.counterexample(spinning_up())
+    p.counterexample(motion_point())
     p.control(equation("F = -mρ(ω̇ + ω²)γ", -m * rho * (alpha + omega * omega) * gamma, force))
 
 
@@ -116,12 +117,12 @@ def eliminated_force(p: Proof) -> None:
     balance = rate(momentum) + commutator(omega, momentum)
     lifted = D * (alpha * Gamma + Gamma * alpha)
     p.lemma(equation("Γ̇ + [ω,Γ] = 0", rate(Gamma) + commutator(omega, Gamma), sp.S.Zero))
-    p.printed(equation("Ṁ + [ω,M] - D(ω̇Γ + Γω̇) is the principle", balance - lifted, eliminated()))
+    p.printed(equation("Ṁ + [ω,M] - D(ω̇Γ + Γω̇) is what vanishes in a motion", balance - lifted, eliminated()))
     p.corrected(
         r"\dot M + [\omega, M] = -D(\dot\omega\Gamma + \Gamma\dot\omega)",
-        equation("Ṁ + [ω,M] + D(ω̇Γ + Γω̇) is the principle", balance + lifted, eliminated()),
+        equation("Ṁ + [ω,M] + D(ω̇Γ + Γω̇) is what vanishes in a motion", balance + lifted, eliminated()),
     )
-    p.counterexample(spinning_up())
+    p.counterexample(motion_point())
     p.control(equation("Ṁ + [ω,M] + 2D(ω̇Γ + Γω̇) is the principle", balance + 2 * lifted, eliminated()))
 
 

@@ -177,10 +177,11 @@ def isomorphism(p: Proof) -> None:
     determinant = sp.Matrix(three.contact_inertia()).det()
     density = three.lam().det() * continuous.rolling_factor()
     p.lemma(Equation("det 𝒜 = det Λ · F: the density of (2.6) but for a constant", [determinant], [density], ring))
-    point = {**dict(zip(spin, (0, 0, 1), strict=True)), **dict(zip(three.gamma, (1, 0, 0), strict=True))}
-    point |= {**dict(zip(three.K, (1, 2, 3), strict=True)), three.J1: 1, three.J2: 1, three.J3: 1, three.D: 1}
+    point = dict(zip((*spin, *three.gamma, *three.K), (1, 0, 1, 1, 0, 0, 6, 0, 4), strict=True))
+    point |= {three.J1: 1, three.J2: 2, three.J3: 4, three.D: 1}
     unit = Equation("|γ| = 1", [three.gamma.dot(three.gamma)], [sp.S.One], ring)
-    p.counterexample(rational_point(point, [unit]))
+    state = Equation("K = Λω - D⟨ω,γ⟩γ", list(three.K), list(momentum), ring)
+    p.counterexample(rational_point(point, [unit, state]))
     p.control(
         Equation("tr K²Γ = ⟨K,γ⟩² + ⟨K,K⟩", [(tensor**2 * vertical).trace()], [height**2 + three.K.dot(three.K)], ring)
     )

@@ -82,10 +82,12 @@ def discrete_sum(first: int) -> sp.Expr:
 
 @claim(
     "3.4-principle",
-    r"\sum_{k=0}^{N-1}(D_1\mathbb L(q_k,q_{k+1})+D_2\mathbb L(q_{k-1},q_k))\,\delta q_k = 0",
+    r"\sum_{k=0}^{N-1}(D_1\mathbb L(q_k,q_{k+1})+D_2\mathbb L(q_{k-1},q_k))\,\delta q_k = 0,\ "
+    r"\delta q_k\in\mathcal D_{q_k},\ (q_k,q_{k+1})\in\mathcal D_d",
 )
 def discrete_principle(p: Proof) -> None:
     """The discrete principle: its sum must begin at k = 1, with the ends fixed."""
+    p.assume("the path is q_0, ..., q_N, with N steps, as in the source that the paper quotes; it prints no path")
     p.say("The variation of Σ_{k=0}^{N-1} 𝕃(q_k, q_{k+1}); N = 3 and one coordinate show which terms there are.")
     p.say("The term k = 0 as printed has q_{-1}, which the path q_0, ..., q_N does not have.")
     end = [CHANGE[3]]
@@ -95,11 +97,18 @@ def discrete_principle(p: Proof) -> None:
         Equation("δS = the printed sum, for every δq_k, δq_N = 0", [first_variation()], [discrete_sum(0)], last_fixed)
     )
     p.corrected(
-        r"\sum_{k=1}^{N-1}(D_1\mathbb L(q_k,q_{k+1})+D_2\mathbb L(q_{k-1},q_k))\,\delta q_k = 0,\ \delta q_0 = \delta q_N = 0",
+        r"\sum_{k=1}^{N-1}(D_1\mathbb L(q_k,q_{k+1})+D_2\mathbb L(q_{k-1},q_k))\,\delta q_k = 0,\ \delta q_0 = \delta q_N = 0,\ \delta q_k\in\mathcal D_{q_k},\ (q_k,q_{k+1})\in\mathcal D_d",
         Equation("δS = Σ_{k=1}^{N-1}, for δq_0 = δq_N = 0", [first_variation()], [discrete_sum(1)], both_fixed),
     )
     p.say(
         "With δq_0 = 0 the printed sum says the same, but then its first term is void; the paper does not fix the ends."
+    )
+    p.say("For a path that begins at q_{-1}, with both ends fixed, the printed range would be right:")
+    longer = first_variation() + sp.diff(step_action(PATH[0], PATH[1]), PATH[1]) * CHANGE[0]
+    p.lemma(
+        Equation(
+            "δ Σ_{k=-1}^{N-1} 𝕃 = the printed sum, for δq_{-1} = δq_N = 0", [longer], [discrete_sum(0)], last_fixed
+        )
     )
     values = dict(zip((*PATH, *CHANGE, *QUADRATIC), (5, 0, 1, 3, 4, 1, 0, 0, 0, "1/2", -1, "1/2"), strict=True))
     exact = {k: sp.Rational(v) for k, v in values.items()}
@@ -165,7 +174,7 @@ def consistency(p: Proof) -> None:
     plane = Quotient((x1, x2, y1, y2, step))
     flat = (y2 - x2) / step
     p.corrected(
-        r"\mathcal D_d = \bigcup_c\mathcal N_c\times\mathcal N_c \text{ over all leaves, if } \Psi "
+        r"\mathcal D_d = \bigcup_c\mathcal N_c\times\mathcal N_c \text{ over all leaves, locally, if } \Psi "
         r"\text{ is taken in coordinates that straighten them}",
         Equation("its dimension: s parameters of leaves and two points", [count + 2 * (size - count)], [needed], ring),
         Equation("A∘Ψ = 0 in such coordinates is x2 = y2: the same leaf", [flat * step], [y2 - x2], plane),

@@ -57,10 +57,8 @@ def determinant(factor: sp.Expr, rotation: sp.Matrix) -> sp.Expr:
     ["3.5", "4.1", "4.9"],
 )
 def regularity(p: Proof) -> None:
-    """The regularity matrix; for the ball it is that of the inertia about the contact point near the diagonal."""
-    p.assume(
-        "well defined as a map near the diagonal: away from it the map is many-valued (4.13-multivalued); L_d is 𝕃"
-    )
+    """The regularity matrix says that a successor is unique nearby, not that there is one; the ball is regular at rest."""
+    p.assume("L_d is 𝕃; for the ball J_i + J_j > 0 (2.13)")
     p.say("The equations D1𝕃 + D2𝕃 - Σ λ_j A^j = 0, F_j = 0 have the derivative (D1D2𝕃, -A; D2F, 0) in (q_{k+1}, λ):")
     size, count = 3, 2
     second = sp.Matrix(size, size, sp.symbols("h1:10"))
@@ -69,9 +67,35 @@ def regularity(p: Proof) -> None:
     printed = sp.Matrix.vstack(sp.Matrix.hstack(second, columns), sp.Matrix.hstack(rows, zero))
     derivative = sp.Matrix.vstack(sp.Matrix.hstack(second, -columns), sp.Matrix.hstack(rows, zero))
     free = Quotient((*second, *columns, *rows))
-    p.printed(Equation("det of the derivative = (-1)^s det of the matrix (n = 3, s = 2)",
-                       [derivative.det()], [(-1) ** count * printed.det()], free))  # fmt: skip
-    p.say("So by the implicit function theorem it is invertible where q_{k+1} is a function of (q_{k-1}, q_k) nearby.")
+    jacobian_is_printed = Equation(
+        "det of the derivative = (-1)^s det of the matrix (n = 3, s = 2)",
+        [derivative.det()],
+        [(-1) ** count * printed.det()],
+        free,
+    )
+    p.say(
+        "Where a successor exists and the matrix is invertible, it is a function of (q_{k-1}, q_k) nearby, by the theorem on"
+    )
+    p.say(
+        "implicit functions.  That there is one does not follow: 𝕃 = ½ln(1 + u²) + 2x, u = y - x, without constraints, has"
+    )
+    p.say(
+        "D1D2𝕃 = -(1 - u²)/(1 + u²)² ≠ 0 for |u| < 1, and asks for w(u_k) = w(u_{k-1}) + 2 with w = u/(1 + u²), |w| ≤ ½."
+    )
+    step, bound = sp.symbols("u w")
+    slope, line = step / (1 + step**2), Quotient((step, bound))
+    second_derivative = -sp.diff(slope, step)
+    p.lemma(Equation("D1D2𝕃 = -(1-u²)/(1+u²)²", [second_derivative], [-(1 - step**2) / (1 + step**2) ** 2], line))
+    p.lemma(
+        Equation(
+            "½ - w = (1-u)²/(2(1+u²)) ≥ 0", [sp.Rational(1, 2) - slope], [(1 - step) ** 2 / (2 * (1 + step**2))], line
+        )
+    )
+    discriminant = sp.discriminant(2 * (1 + step**2) - step, step)
+    p.printed(Fact("u_{k-1} = 0 has a successor: 2(1 + u²) = u has a real root", bool(discriminant >= 0)))
+    p.under("there is a successor nearby, as Ω = 1 is one for the ball at rest", jacobian_is_printed)
+    p.refute({"Q": "R", "s": "0", "𝕃": "½ln(1 + u²) + 2x, u = y - x", "u_{k-1}": "0"},
+             "the discriminant of 2(1 + u²) = u for the next u", discriminant, "not negative")  # fmt: skip
     true, wrong = principle.kinetic_factor(), sp.Rational(1, 2)
     inertia = three.lam() - D * sp.eye(3)
     lifted = D * (sp.eye(3) - gamma * gamma.T)
@@ -93,7 +117,7 @@ def regularity(p: Proof) -> None:
         )
     )
     p.say(
-        "So the printed Lagrangian has balls for which the map is not defined near the diagonal; the true one has none."
+        "So with the printed Lagrangian the criterion fails at rest for some balls; with the true one it holds for every ball."
     )
     rotation = sp.Matrix(three.rotation())
     jacobian = sp.Matrix(three.tangent_jacobian()) / 2
@@ -117,7 +141,9 @@ def regularity(p: Proof) -> None:
     p.control(
         Equation("c = ½: det = det(I + D(1 - γγᵀ))", [determinant(wrong, TURN)], [(inertia + lifted).det()], BALL_RING)
     )
-    p.control(Equation("det with D1D2𝕃 transposed and F for A", [derivative.det()], [-printed.det()], free))
+    p.control(
+        Equation("det of the derivative = -det of the matrix, for s = 2", [derivative.det()], [-printed.det()], free)
+    )
 
 
 def _at_turn(matrix: sp.Matrix, ball: dict, turn: tuple[int, ...]) -> sp.Matrix:

@@ -49,7 +49,9 @@ def discrete_lagrangian(p: Proof) -> None:
     p.say("(4.3) with (4.4) says that a symmetric Λ_k exists, that is, that this vanishes:")
     p.show("skew part of (4.3)", skew_part_of_4_3())
     printed = equation(
-        "c = 1/2: the principle is (4.3) with (4.4)", skew_part_of_4_3(), principle.momentum_balance(PRINTED)
+        "with ½: (4.3)R_kᵀ less its transpose, by (4.4), is the variation of 𝕃",
+        skew_part_of_4_3(),
+        principle.momentum_balance(PRINTED),
     )
     p.printed(printed)
     p.say("The translational parts agree, so c is read off the rotational part: it must be -1.")
@@ -57,7 +59,7 @@ def discrete_lagrangian(p: Proof) -> None:
     p.corrected(
         r"\mathbb L = -\mathrm{Tr}(R_k J R_{k+1}^T) + \frac m2 \langle\Delta r_k, \Delta r_k\rangle",
         equation(
-            f"c = {CORRECTED}: the principle is (4.3) with (4.4)",
+            f"with {CORRECTED}: (4.3)R_kᵀ less its transpose, by (4.4), is the variation of 𝕃",
             skew_part_of_4_3(),
             principle.momentum_balance(CORRECTED),
         ),
@@ -247,9 +249,10 @@ def balance_in_body(p: Proof) -> None:
         r"\rho(R_k^T\vec f^k\vec\gamma^T R_k - R_k^T\vec\gamma\vec f^T R_k)", carried("with R_kᵀγ fᵀR_k", gamma)
     )
     turn = sp.Matrix([[1, 0, 0], [0, "3/5", "-4/5"], [0, "4/5", "3/5"]])
-    values = {R0: turn, R: turn, R1: turn, J: sp.diag(1, 2, 3), gamma: sp.Matrix([0, 0, 1])}
-    values |= {principle.r0: sp.zeros(3, 1), principle.r: sp.zeros(3, 1), principle.r1: sp.Matrix([0, 1, 0])}
-    p.counterexample(path_point({**values, m: sp.S.One, rho: sp.S.One}))
+    values = {R0: turn, R: turn, R1: turn * turn, J: sp.diag(1, 2, 3), gamma: sp.Matrix([0, 0, 1])}
+    values |= {principle.r0: sp.zeros(3, 1), principle.r: sp.zeros(3, 1), principle.r1: sp.Matrix([0, -4, 0])}
+    solved = equation("(4.6)", principle.momentum_balance(CORRECTED), sp.S.Zero)
+    p.counterexample(path_point({**values, m: sp.S.One, rho: sp.S.One}, solved))
     p.control(carried("with -R_kᵀγ fᵀR_k", -gamma))
 
 

@@ -1,5 +1,7 @@
 """Section 5: the relation for the increment of the reduced map, and its algebraic form (5.14 to 5.16)."""
 
+from dataclasses import replace
+
 import sympy as sp
 from chapsym.proofs import free_parameters as again
 from chapsym.proofs.s5_elliptic import TWO, V
@@ -110,7 +112,8 @@ def curve_point() -> Point:
     values = {L1: 6, L2: 5, L3: 2, k2: "1/6", HALF.sn: "24/25", HALF.cn: "7/25", HALF.dn: "23/25"}
     free = elliptic.ring(HALF)
     relations = Equation("the relations of δu", HALF.relations(), [sp.S.Zero] * 2, free)
-    return rational_point({**values, MEAN.sn: 0, MEAN.cn: 1, MEAN.dn: 1}, [relations])
+    point = rational_point({**values, MEAN.sn: 0, MEAN.cn: 1, MEAN.dn: 1}, [relations])
+    return replace(point, values={**point.values, "l": "3/10"})
 
 
 def coefficient(expr: sp.Expr, power: int) -> sp.Expr:
@@ -190,7 +193,9 @@ def step_point() -> Point:
         part("V² of (5.13-V)", V**2, square),
         part("T = 0", true_relation(), 0 * w),
     ]
-    return rational_point(exact, hypotheses)
+    found = rational_point(exact, hypotheses)
+    made_of = {"Λ": "(6, 5, 2)", "l": "3/10", "k²": "1/6", "sn δu": "24/25", "sn ū": "3/5"}
+    return replace(found, values={**made_of, **found.values})
 
 
 @claim(
@@ -200,18 +205,22 @@ def step_point() -> Point:
     uses=["5.13-V", "5.14-Pi1", "5.14-Pi2", "prop-4"],
 )
 def before_squaring(p: Proof) -> None:
-    """The relation before squaring: d must be D (h = 1), d/2 must be D, and σ² is missing under the root."""
+    """The relation before squaring: d stands for D (h = 1), its factor ½ must be 1, and σ² is missing under the root."""
     p.assume("h = 1 (5.12-scaling); sn δu, 𝒟 and 1 - DΠ1 do not vanish; d is D, the only thing (5.11) can make it")
     half = 1 - D / 2 * level / SCALE
     p.say("With 1/σ = 1 - DΠ1 (5.11) and 2𝒟/ϰ = V cn dn/sn =: W, prop-4 reads ±√(1 - σ²Π2) = σW/𝒟 - 1. Squared:")
     p.printed(
-        part("(1-(D/2)Π1)²(𝒟² - Π2𝒟²) = (W - 𝒟(1-(D/2)Π1))²", half**2 * (SCALE**2 - SECOND), (W - SCALE * half) ** 2)
+        part(
+            "(1-(D/2)Π1)²(𝒟² - Π2𝒟²) = (V cn dn/sn δu - 𝒟(1-(D/2)Π1))²",
+            half**2 * (SCALE**2 - SECOND),
+            (W - SCALE * half) ** 2,
+        )
     )
     p.corrected(
         r"\pm\sqrt{(1-D\Pi_1)^2\mathcal D^2-\Pi_2\mathcal D^2} = V\tfrac{\mathrm{cn}\delta u\,\mathrm{dn}\delta u}"
         r"{\mathrm{sn}\delta u} - \mathcal D(1-D\Pi_1)",
         part(
-            "(W - 𝒟(1-DΠ1))² - (1-DΠ1)²𝒟² + Π2𝒟² = T/sn²δu",
+            "(V cn dn/sn δu - 𝒟(1-DΠ1))² - (1-DΠ1)²𝒟² + Π2𝒟² = T/sn²δu",
             (W - SCALE * INVERSE) ** 2 - INVERSE**2 * SCALE**2 + SECOND,
             true_relation() / y,
         ),

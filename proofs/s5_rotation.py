@@ -83,15 +83,11 @@ def axis_and_angle(p: Proof) -> None:
     square = (half_turn.trace() + 1) / sp.Integer(4)
     p.printed(Fact("Ω = diag(1,-1,-1) has Euler parameters with q₀ > 0", bool(square > 0)))
     of_axis = rotation.subs({q0: 0, q1: 1, q2: 0, q3: 0})
-    p.corrected(
-        r"q_0\ge 0,\text{ and } (0,\mathbf q)\sim(0,-\mathbf q)",
+    minus = {x: -x for x in (q0, *q)}
+    p.under(
+        "Ω is no rotation by π; with those, q₀ ≥ 0 and (0, q) ~ (0, -q)",
         Fact("q₀ = 0, q = e₁ gives diag(1,-1,-1)", of_axis == half_turn),
-        Equation(
-            "(-q₀, -q) gives the same Ω",
-            list(rotation.subs({x: -x for x in (q0, *q)}, simultaneous=True)),
-            list(rotation),
-            RING,
-        ),
+        Equation("(-q₀, -q) gives the same Ω", list(rotation.subs(minus, simultaneous=True)), list(rotation), RING),
         Equation("4q₀² = 1 + tr Ω", [4 * q0**2], [1 + rotation.trace()], RING),
     )
     p.refute({"Ω": "diag(1, -1, -1)"}, "q₀² = (1 + tr Ω)/4", square, "positive")
@@ -244,7 +240,7 @@ def vector_form(p: Proof) -> None:
 
 @claim(
     "5.3-integrals",
-    r"\langle\mathcal K,\gamma\rangle = h,\ \langle\mathcal K,\mathcal K\rangle = n \text{ are preserved}",
+    r"\text{two independent integrals } \langle\mathcal K,\gamma\rangle = h,\ \langle\mathcal K,\mathcal K\rangle = n",
     uses=["5.3"],
 )
 def vector_integrals(p: Proof) -> None:
@@ -258,6 +254,16 @@ def vector_integrals(p: Proof) -> None:
         Equation("|Ωᵀγ| = |γ|", [vertical.dot(vertical)], [sp.S.One], ring),
     )
     p.say("Only ΩᵀΩ = 1 is used: the branch of Ω does not matter.")
+    gradients = sp.Matrix([K.dot(gamma), K.dot(K), gamma.dot(gamma)]).jacobian(sp.Matrix([*K, *gamma]))
+    at = dict(zip((*K, *gamma), map(sp.Rational, (1, "-1/2", "3/4", "2/7", "3/7", "6/7")), strict=True))
+    p.printed(
+        Fact(
+            "with |γ|² they are independent: the rank of the gradients is 3 at 𝒦 = (1, -1/2, 3/4), γ = (2, 3, 6)/7",
+            gradients.subs(at).rank() == 3,
+        )
+    )
+    along = dict(zip(K, (2 * g for g in gamma), strict=True))
+    p.lemma(Fact("a degenerate case: for 𝒦 parallel to γ the rank is 2", gradients.subs(along).subs(at).rank() == 2))
     p.control(Equation("⟨Ωᵀ𝒦, Ωγ⟩ = ⟨𝒦, γ⟩", [moved.dot(rotation * gamma)], [K.dot(gamma)], ring))
 
 

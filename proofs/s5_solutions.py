@@ -55,7 +55,7 @@ def isotropic_points() -> tuple[Quotient, list[sp.Expr]]:
     uses=["5.2"],
 )
 def upper_bound(p: Proof) -> None:
-    """At most 8 real solutions, and 8 occur; at most 4 only when D = 0."""
+    """At most 8 real solutions, and 8 occur; at most 4 when D = 0."""
     p.assume(REAL)
     p.assume(FINITE)
     p.say("𝒦(q, γ) - 𝒦(q₀² + |q|²) = 0 are three quadrics in P³: at most 8 points if finitely many (Bézout).")
@@ -132,26 +132,34 @@ def lower_bound(p: Proof) -> None:
     p.printed(
         Fact("every example has at least 2", least >= 2, "real roots of the eliminant over Q, and Hermite's form")
     )
-    p.say(
-        "The 8 points (at D = 0: the other 4) with multiplicity are the roots of an eliminant with real coefficients,"
-    )
-    p.say("and the non-real ones come in pairs: the number of real ones is even, so one solution is never alone.")
-    even = all(solutions.multiplicity(c) % 2 == 0 for c in (*free.values(), *rolling.values()))
+    p.say("Bézout: the quadrics have 8 common points with multiplicity (at D = 0 four of them are not rotations).")
+    p.say("Their coefficients are real, so the non-real points come in conjugate pairs: one solution is never alone.")
+    lonely = [c for c in (*free.values(), *rolling.values()) if c.real == 1 and solutions.multiplicity(c) < 2]
+    scale = sp.Symbol("s")
+    ring = Quotient((scale, *three.K, *RING.symbols))
+    grown = [e.subs({x: scale * x for x in solutions.POINT}, simultaneous=True) for e in solutions.quadrics()]
     p.under(
         "𝒦 = 𝒦(Ω, γ) for some rotation Ω, and solutions counted with multiplicity",
-        Fact("the eliminants have the degree 8", all(c.degree == 8 for c in (*free.values(), *rolling.values()))),
-        Fact("their numbers of real roots with multiplicity are even", even),
+        Equation("three quadrics with real coefficients", grown, [scale**2 * e for e in solutions.quadrics()], ring),
+        Fact("no example has a single solution that is simple", not lonely),
     )
-    state = {"J": "(1, 2, 4)", "D": "0", "γ": "(6/7, 2/7, 3/7)", "𝒦": "(1, 1, 4)"}
-    p.refute(state, "the number of real solutions", free[WITHOUT_ROLLING[0]].real, "at least 2")
+    p.say(
+        "A ball of matter inside its surface has D = mρ² ≥ J1 + J2 + J3.  Such balls, too, have momenta that no rotation has:"
+    )
+    heavy = solutions.count(solutions.at(BALL, 7, VERTICAL, (40, 0, 0)))
+    p.lemma(Fact("|𝒦| = 40 is above 5/2 Λmax = 65/2 there", sp.Rational(5, 2) * 13 < 40))
+    state = {"J": "(1, 2, 4)", "D": "7", "γ": "(6/7, 2/7, 3/7)", "𝒦": "(40, 0, 0)"}
+    p.refute(state, "the number of real solutions", heavy.real, "at least 2")
     p.say("It happens on orbits with D > 0: one step after a state that has a rotation, there may be none.")
-    momentum, vertical = solutions.after((3, 2, 1), 1, ("-4/9", "-7/9", "4/9"), (3, -1, 3, 0))
+    momentum, vertical = solutions.after((1, 2, 3), 7, ("1/3", "2/3", "2/3"), (4, 2, 4, -1))
     p.show("𝒦 after the step", momentum)
     p.show("γ after the step", vertical)
-    stopped = solutions.count(solutions.at((3, 2, 1), 1, vertical, momentum)).real
-    orbit = {"J": "(3, 2, 1)", "D": "1", "γ": "(-4/9, -7/9, 4/9)", "Ω": "Euler parameters ~ (3, -1, 3, 0)"}
+    stopped = solutions.count(solutions.at((1, 2, 3), 7, vertical, momentum)).real
+    orbit = {"J": "(1, 2, 3)", "D": "7", "γ": "(1/3, 2/3, 2/3)", "Ω": "Euler parameters ~ (4, 2, 4, -1)"}
     p.refute(orbit, "the number of real solutions after one step", stopped, "at least 2")
-    p.say("At 𝒦 = 0 the solutions are 1 and the rotations by π about the axes: 4, of which one has q₀ > 0.")
+    p.say(
+        "At 𝒦 = 0 the solutions are 1 and the rotations by π about the axes: 4, of which only one has the paper's q₀ > 0."
+    )
     rest = solutions.count(solutions.at(BALL, STRONG, VERTICAL, (0, 0, 0)))
     p.lemma(Fact("4 real solutions at 𝒦 = 0", rest.real == 4))
     p.lemma(
@@ -159,15 +167,19 @@ def lower_bound(p: Proof) -> None:
             "the one solution of 𝒦 = (0, 0, 3), D = 0, is double", solutions.multiplicity(free[WITHOUT_ROLLING[1]]) == 2
         )
     )
-    p.witness("2 solutions", state | {"𝒦": "(1, 1, 1)"}, Fact("two solutions", free[WITHOUT_ROLLING[2]].real == 2))
+    p.witness(
+        "2 solutions", state | {"D": "0", "𝒦": "(1, 1, 1)"}, Fact("two solutions", free[WITHOUT_ROLLING[2]].real == 2)
+    )
     p.control(Fact("every example has at least 1", least >= 1))
     p.control(Fact("the number of different real solutions is even", all(c.real % 2 == 0 for c in free.values())))
 
 
 @claim("5.3-small", r"\text{only one of the real solutions } \mathbf q \text{ is small}", uses=["5.2"])
 def small_solution(p: Proof) -> None:
-    """At most one solution is small: tan(θ/2) < 2 Imin/(9 Λmax), Imin the least of J2+J3, J1+J3, J1+J2."""
-    p.assume("Imin > 0; small means |u| < 2Imin/(9Λmax), where u = q/q₀ and |u| = tan(θ/2)")
+    """One solution is small, tan(θ/2) ≤ r = 2Imin/(9Λmax), when |𝒦| ≤ Imin²/(4Λmax); never more than one."""
+    p.assume(
+        "small means |u| ≤ r = 2Imin/(9Λmax), u = q/q₀, |u| = tan(θ/2); Imin > 0 is the least of J2+J3, J1+J3, J1+J2"
+    )
     u, v = sp.Matrix(sp.symbols("u1:4")), sp.Matrix(sp.symbols("v1:4"))
     ring = Quotient((*u, *v, *K, *RING.symbols), [three.UNIT_VERTICAL])
     inertia, lam = sp.Matrix(three.contact_inertia()), three.lam()
@@ -191,8 +203,18 @@ def small_solution(p: Proof) -> None:
     form = apart.dot(inertia * apart) - apart.dot(central * apart)
     p.lemma(Equation("⟨d,Bd⟩ = ⟨d,Id⟩ + D|γ×d|²", [form], [D * gamma.cross(apart).dot(gamma.cross(apart))], ring))
     p.say("So |Bd| ≥ Imin|d|, while |s×Λd + d×Λs| ≤ 2Λmax|s||d| and |𝒦| ≤ (5/2)Λmax: Imin|d| ≤ (9/2)Λmax|s||d|.")
+    p.say("Two different u, v with |u|, |v| ≤ r have |s| < r, a contradiction: two small solutions are one.")
     p.say(
-        "With |u|, |v| < 2Imin/(9Λmax) so is |s|, and d = 0: two small solutions are one. The ball's own Ω is there when small."
+        "There is one: u ↦ B⁻¹(½𝒦(1+|u|²) - u×Λu) maps |u| ≤ r into itself and contracts there, as |B⁻¹| ≤ 1/Imin and,"
+    )
+    p.say(
+        "with ρ = Imin/Λmax ≤ 1, |𝒦| ≤ ρ²Λmax/4, r = 2ρ/9, its values are below (ρ/8)(1+r²) + r²/ρ and its slope below"
+    )
+    p.say("(|𝒦|r + 2Λmax r)/Imin ≤ (2/9)(ρ²/4 + 2); both are largest, against r = 2ρ/9 and 1, at ρ = 1:")
+    radius = sp.Rational(2, 9)
+    p.printed(
+        Fact("(1/8)(1+r²) + r² < r at r = 2/9", sp.Rational(1, 8) * (1 + radius**2) + radius**2 < radius),
+        Fact("(2/9)(1/4 + 2) = 1/2 < 1", radius * (sp.Rational(1, 4) + 2) == sp.Rational(1, 2)),
     )
     bound = sp.Rational(2 * 3, 9 * (6 + 3))
     tiny = sp.Matrix([1, -1, 1]) / 40
@@ -220,6 +242,12 @@ def small_solution(p: Proof) -> None:
         )
     )
     p.control(Equation("⟨d,Bd⟩ = ⟨d,Id⟩", [form], [sp.S.Zero], ring))
+    p.control(
+        Fact(
+            "the ball r = 2/9 is mapped into itself when |𝒦| ≤ Λmax",
+            sp.Rational(1, 2) * (1 + radius**2) + radius**2 < radius,
+        )
+    )
 
 
 if __name__ == "__main__":

@@ -4,13 +4,13 @@ from functools import cache
 
 import sympy as sp
 from chapsym.proofs import free_parameters as again
-from chapsym.proofs.s5_vertical import LARGE, NOT_ZERO, SMALL, vertical_state
+from chapsym.proofs.s5_vertical import LARGE, NOT_ZERO, SMALL, vertical_point
 
 from chapsym.derive import vertical
 from chapsym.derive.quotient import Quotient
 from chapsym.derive.three import J1, J2, J3, D, q, q0
 from chapsym.derive.vertical import RING, sigma
-from chapsym.prove import Equation, Fact, Proof, claim, main, rational_point
+from chapsym.prove import Equation, Fact, Proof, claim, main
 
 
 @cache
@@ -101,7 +101,7 @@ def q0_from_sum(p: Proof) -> None:
     )
     for name, state in [("below", SMALL), ("above", LARGE)]:
         p.say(f"A rotation by an angle {name} 90°:")
-        p.counterexample(rational_point(state, vertical_state()))
+        p.counterexample(vertical_point(state))
     p.say("2q₀² - 1 = cos θ, so the sign of the root is that of cos θ; the second state needs the minus sign:")
     p.lemma(Fact("2q₀² > 1 at the first state, 2q₀² < 1 at the second", _signs() == (1, -1)))
     p.control(square_of_root("(2q₀²-1)² = 1 - (σ/4)⟨s, Λ⁻²s⟩", sigma / 4))
@@ -127,13 +127,13 @@ def sigma_equation(p: Proof) -> None:
     p.lemma(
         Equation("⟨γ, Λ⁻¹s⟩ = ½⟨s, Λ⁻¹s⟩", [vertical.gamma_now().dot(inverse() * total())], [first_form() / 2], RING)
     )
-    p.printed(Equation("σ = h + D⟨γ, (σ/4)Λ⁻¹s⟩", [sigma], [vertical.height() + lifted], RING))
+    p.printed(Equation("σ = h + D⟨γ, (σ/4)Λ⁻¹s⟩, s = γ~ + γ", [sigma], [vertical.height() + lifted], RING))
     p.corrected(
         r"\sigma = h+2D\langle\gamma,\tfrac\sigma4\Lambda^{-1}(\tilde\gamma+\gamma)\rangle",
-        Equation("σ = h + 2D⟨γ, (σ/4)Λ⁻¹s⟩", [sigma], [vertical.height() + 2 * lifted], RING),
+        Equation("σ = h + 2D⟨γ, (σ/4)Λ⁻¹s⟩, s = γ~ + γ", [sigma], [vertical.height() + 2 * lifted], RING),
     )
-    p.counterexample(rational_point(SMALL, vertical_state()))
-    p.control(Equation("σ = h - 2D⟨γ, (σ/4)Λ⁻¹s⟩", [sigma], [vertical.height() - 2 * lifted], RING))
+    p.counterexample(vertical_point(SMALL))
+    p.control(Equation("σ = h - 2D⟨γ, (σ/4)Λ⁻¹s⟩, s = γ~ + γ", [sigma], [vertical.height() - 2 * lifted], RING))
 
 
 @claim(
@@ -144,13 +144,13 @@ def sigma_equation(p: Proof) -> None:
 def sigma_of_sum(p: Proof) -> None:
     """σ as a function of the sum: D/8 must be D/4."""
     p.assume("h ≠ 0; then σ ≠ 0 and the denominator is h/σ, which does not vanish")
-    p.printed(closed_sigma("σ(1 - (D/8)⟨s, Λ⁻¹s⟩) = h", D / 8))
+    p.printed(closed_sigma("σ(1 - (D/8)⟨s, Λ⁻¹s⟩) = h, s = γ~ + γ", D / 8))
     p.corrected(
         r"\sigma = \frac h{1-\frac D4\langle\tilde\gamma+\gamma,\Lambda^{-1}(\tilde\gamma+\gamma)\rangle}",
         closed_sigma("σ(1 - (D/4)⟨s, Λ⁻¹s⟩) = h", D / 4),
     )
-    p.counterexample(rational_point(SMALL, vertical_state()))
-    p.counterexample(rational_point(LARGE, vertical_state()))
+    p.counterexample(vertical_point(SMALL))
+    p.counterexample(vertical_point(LARGE))
     p.control(closed_sigma("σ(1 + (D/4)⟨s, Λ⁻¹s⟩) = h", -D / 4))
     p.control(closed_sigma("σ(1 - (D/2)⟨s, Λ⁻¹s⟩) = h", D / 2))
 
@@ -169,8 +169,8 @@ def symmetric_form(p: Proof) -> None:
     p.say("Where the vector product is not 0, (5.10) leaves one ϰ, σ/q₀². The printed formula for it says")
     p.say("2σ/ϰ - 1 = √(...), that is 2q₀² - 1 = √(1 - ¼⟨s, Λ⁻²s⟩) with s = γ~ + γ; squared it is polynomial:")
     p.printed(
-        square_of_root("ϰ: (2q₀²-1)² = 1 - ¼⟨s, Λ⁻²s⟩", sp.Rational(1, 4)),
-        closed_sigma("σ: σ(1 - (D/8)⟨s, Λ⁻¹s⟩) = h", D / 8),
+        square_of_root("ϰ: (2q₀²-1)² = 1 - ¼⟨s, Λ⁻²s⟩, s = γ~ + γ", sp.Rational(1, 4)),
+        closed_sigma("σ: σ(1 - (D/8)⟨s, Λ⁻¹s⟩) = h, s = γ~ + γ", D / 8),
     )
     p.corrected(
         r"\varkappa = \frac{2\sigma}{1\pm\sqrt{1-\frac{\sigma^2}4\langle\tilde\gamma+\gamma,"
@@ -182,7 +182,7 @@ def symmetric_form(p: Proof) -> None:
     )
     for name, state in [("below", SMALL), ("above", LARGE)]:
         p.say(f"A state with the rotation angle {name} 90°: the sign of the root is that of 2q₀² - 1 = cos θ.")
-        p.counterexample(rational_point(state, vertical_state()))
+        p.counterexample(vertical_point(state))
         p.lemma(Fact("the vector product in (5.10) is not zero there", _product_is_not_zero(state)))
     p.lemma(Fact("the two states need the two signs of the root", _signs() == (1, -1)))
     _converse(p)

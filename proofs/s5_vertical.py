@@ -1,5 +1,7 @@
 """Section 5: vertical momentum, the reduced map G_h and its integral (Proposition 3)."""
 
+from dataclasses import replace
+
 import sympy as sp
 from chapsym.proofs import free_parameters as again
 
@@ -7,7 +9,7 @@ from chapsym.derive import three, vertical
 from chapsym.derive.quotient import Quotient
 from chapsym.derive.three import J1, J2, J3, D, gamma, q, q0, q1, q2, q3
 from chapsym.derive.vertical import RING, h, sigma
-from chapsym.prove import Equation, Proof, claim, main, rational_point
+from chapsym.prove import Equation, Point, Proof, claim, main, rational_point
 
 #: 𝒦 = hγ at two rational states, found by search: the rotation angle is below and above 90°.
 SMALL = {q0: "4/5", q1: "2/5", q2: "1/5", q3: "2/5", J1: 1, J2: 2, J3: 4, D: 1, sigma: "28/5"}
@@ -24,6 +26,14 @@ def vertical_state() -> list[Equation]:
         Equation("|q|² + q₀² = 1", [q0**2 + q.dot(q)], [sp.S.One], RING),
         Equation("|γ| = 1", [vertical.gamma_now().dot(vertical.gamma_now())], [sp.S.One], RING),
     ]
+
+
+def vertical_point(state: dict) -> Point:
+    """The state as a point that also shows what follows from it: γ, γ~ and h."""
+    point = rational_point(state, vertical_state())
+    here, there = (point.evaluate(x) for x in (vertical.gamma_now(), vertical.gamma_next()))
+    seen = {"γ": f"({', '.join(map(str, here))})", "γ~": f"({', '.join(map(str, there))})"}
+    return replace(point, values={**point.values, **seen, "h": str(point.evaluate(vertical.height()))})
 
 
 def printed_vector(sign: int) -> sp.Matrix:
@@ -88,7 +98,7 @@ def sigma_definition(p: Proof) -> None:
 
     p.printed(formula("σ = h + D⟨γ, q₀q⟩", 1))
     p.corrected(r"\sigma_k = h + 2D\langle\gamma_k, q_0\mathbf q\rangle", formula("σ = h + 2D⟨γ, q₀q⟩", 2))
-    p.counterexample(rational_point(SMALL, vertical_state()))
+    p.counterexample(vertical_point(SMALL))
     p.control(formula("σ = h - 2D⟨γ, q₀q⟩", -2))
 
 
@@ -111,7 +121,7 @@ def consecutive_verticals(p: Proof) -> None:
         r"\gamma_{k+1} = \Omega_k^T\gamma_k \equiv \tfrac2{\sigma_k}(\dots-\dots)^T",
         Equation("Ωᵀγ_k = (2/σ)(... - ...)", list(turned), second, RING),
     )
-    p.counterexample(rational_point(SMALL, vertical_state()))
+    p.counterexample(vertical_point(SMALL))
     p.control(Equation("Ωγ_k = (2/σ)(... - ...)", list(sp.Matrix(three.rotation()) * now), second, RING))
 
 

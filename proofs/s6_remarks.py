@@ -89,7 +89,7 @@ def energy_question(p: Proof) -> None:
     p.leave_open(
         "the energy (2.5) itself changes: an exact step shows it (5.3-energy)",
         "for 𝒦 parallel to γ it is kept (6-vertical-energy), so an obstruction must vanish there",
-        "for D = 0 the map is the discrete Euler top (4.14), which has an energy of its own; nothing was found for D > 0",
+        "for D = 0 the map is the discrete Euler top (4.14); a correction in powers of ε for D > 0 was not tried yet",
     )
 
 

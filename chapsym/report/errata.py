@@ -49,9 +49,9 @@ def _markdown_entry(record: Record) -> list[str]:
         lines.append(f"- True: ${formula}$")
     if prose:
         lines.append(f"- {'Condition' if record['verdict'] == 'conditional' else 'True'}: {prose}")
-    for example in record["evidence"].get("counterexamples", [])[:1]:
+    for example in record["evidence"].get("counterexamples", []):
         point = ", ".join(f"{symbol} = {notation.plain(value)}" for symbol, value in _point(example))
-        for sides in example["printed"][:1]:
+        for sides in example["printed"]:
             left, right = (_plain_side(side) for side in notation.sides(sides, compact=True))
             lines.append(f"- At `{point}`: `{sides['statement']}`; but `{left} ≠ {right}`")
     return [*lines, f"- Proof: `{reproduce(record['id'])}`", ""]
@@ -101,11 +101,11 @@ def _latex_entry(record: Record) -> list[str]:
     if prose:
         name = "Condition" if record["verdict"] == "conditional" else "True"
         lines += [rf"\textit{{{name}:}} {notation.latex(prose)}", ""]
-    for example in record["evidence"].get("counterexamples", [])[:1]:
+    for example in record["evidence"].get("counterexamples", []):
         point = ", ".join(
             f"${notation.symbol_latex(symbol)} = {notation.value_latex(value)}$" for symbol, value in _point(example)
         )
-        for sides in example["printed"][:1]:
+        for sides in example["printed"]:
             left, right = (_latex_side(side) for side in notation.sides(sides, compact=True))
             statement = notation.latex(sides["statement"])
             lines += [rf"\textit{{At}} {point}: {statement}; but ${left}\neq {right}$", ""]

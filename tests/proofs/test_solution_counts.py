@@ -87,20 +87,19 @@ def test_the_radius_is_not_found_where_there_is_no_solution():
 
 
 def test_a_momentum_that_no_rotation_has(records):
-    """|𝒦| ≤ 2Λmax|q|(|q₀| + |q|) ≤ (1 + √2)Λmax < 5/2 Λmax, with Λmax = 6 at D = 0."""
-    found = records["5.3-at-least-2"]["evidence"]["counterexamples"]
-    assert found[0]["printed"][0]["left"] == ["0"]
-    assert found[0]["point"]["𝒦"] == "(1, 1, 4)"
-    # here a sharper bound is needed: the trace form (5.2) in the direction of e₃ gives |𝒦₃| ≤ J₁ + J₂ = 3 < 4,
-    # as 𝒦₃ = 2((J₁+J₂)q₀q₃ + (J₁-J₂)q₁q₂) ≤ (J₁+J₂)(q₀² + q₃²) + |J₁-J₂|(q₁² + q₂²)
-    assert max(J[0] + J[1], abs(J[0] - J[1])) < 4
+    """|𝒦₁| = 2|(J₂+J₃+D)q₀q₁ + ...| ≤ |𝒦| ≤ 2Λmax|q|(|q₀| + |q|) ≤ (1 + √2)Λmax < 5/2·13 < 40."""
+    example = records["5.3-at-least-2"]["evidence"]["counterexamples"][0]
+    assert example["printed"][0]["left"] == ["0"]
+    assert example["point"] == {"J": "(1, 2, 4)", "D": "7", "γ": "(6/7, 2/7, 3/7)", "𝒦": "(40, 0, 0)"}
+    assert F(5, 2) * (J[1] + J[2] + 7) < 40
+    assert F(3, 2) ** 2 > 2, "5/2 is above 1 + √2"
 
 
 def test_the_orbit_that_stops(records):
-    """One step after (3, -1, 3, 0)/√19: 𝒦 and γ are those of the register."""
-    gamma = [F(-4, 9), F(-7, 9), F(4, 9)]
-    u, square = [F(-1, 3), F(1), F(0)], F(9, 19)
-    before = [2 * square * m for m in momentum_vector(u, [F(3), F(2), F(1)], F(1), gamma)]
+    """One step after (4, 2, 4, -1)/√37, from J = (1,2,3), D = 7: 𝒦 and γ are those of the register."""
+    gamma = [F(1, 3), F(2, 3), F(2, 3)]
+    u, square = [F(1, 2), F(1), F(-1, 4)], F(16, 37)
+    before = [2 * square * m for m in momentum_vector(u, [F(1), F(2), F(3)], F(7), gamma)]
     # Rodrigues for a turn given by u: with q₀² = square, q = q₀u, every entry is rational
     turn = [[square * x for x in row] for row in _unnormalized(u)]
     after = times(transposed(turn), before)
