@@ -114,7 +114,7 @@ def discrete_principle(p: Proof) -> None:
     exact = {k: sp.Rational(v) for k, v in values.items()}
     left, right = first_variation().subs(exact), discrete_sum(0).subs(exact)
     shown = {"𝕃": "(y - x)²/2", "q_{-1}, ..., q_3": "5, 0, 1, 3, 4", "δq": "1, 0, 0, 0"}
-    p.refute(shown, "the variation δS (left) is the printed sum (right)", left, right)
+    p.refute(shown, "δ Σ_{k=0}^{N-1} 𝕃(q_k, q_{k+1}), N = 3, is the printed sum", left, right)
     p.control(Equation("δS = Σ_{k=2}^{N-1}", [first_variation()], [discrete_sum(2)], both_fixed))
     p.control(Equation("δS = Σ_{k=1}^{N-1} with free ends", [first_variation()], [discrete_sum(1)], Quotient(symbols)))
 
