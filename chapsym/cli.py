@@ -284,8 +284,10 @@ def _register(kept: dict[str, dict[str, Any]], kept_in: Path | None) -> list[dic
     from chapsym.prove.runner import downstream
 
     claims = _claims()
-    again = {*records.stale(kept, claims), *unproved(kept.values())}
-    wanted = [id for id in claims if id not in kept or id in again]
+    stale = records.stale(kept, claims)
+    fresh = {id: record for id, record in kept.items() if id not in stale}
+    failed = unproved(fresh.values())
+    wanted = [id for id in claims if id not in fresh or id in failed]
     if wanted:
         kept = kept | {record["id"]: record for record in _judge(wanted, claims, None, kept_in)}
     for id in claims:  # what uses a claim is said by other scripts than its own

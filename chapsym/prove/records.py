@@ -103,15 +103,31 @@ def read(path: Path) -> dict[str, dict[str, Any]]:
     text = path.read_text(encoding="utf-8") if path.exists() else ""
     lines = text.removesuffix("\n").split("\n") if text else []
     for number, line in enumerate(lines, start=1):
-        try:
-            record = json.loads(line)
-            records[record["id"]] = record
-            record["evidence"]["fingerprint"]
-        except (ValueError, TypeError, KeyError) as error:
-            raise BrokenRecords(
-                f"line {number} of {path} is not a verdict record; delete the file to start anew"
-            ) from error
+        record = _parsed(line)
+        if record is None:
+            raise BrokenRecords(f"line {number} of {path} is not a verdict record; delete the file to start anew")
+        records[record["id"]] = record
     return records
+
+
+def _parsed(line: str) -> dict[str, Any] | None:
+    """The record that a line holds; None if it holds none."""
+    try:
+        record = json.loads(line)
+    except (ValueError, RecursionError):
+        return None
+    whole = isinstance(record, dict) and record.keys() >= {
+        "id",
+        "verdict",
+        "printed",
+        "corrected",
+        "evidence",
+        "seconds",
+    }
+    evidence = record["evidence"] if whole else None
+    return (
+        record if isinstance(evidence, dict) and evidence.keys() >= {"title", "fingerprint", "open_in_paper"} else None
+    )
 
 
 def update(path: Path, records: Iterable[dict[str, Any]], claims: dict[str, Claim]) -> None:

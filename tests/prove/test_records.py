@@ -24,8 +24,16 @@ def fresh_cache(monkeypatch):
 
 
 def made(id, **changes):
-    fingerprint = records.fingerprint(load()[id])
-    return {"id": id, "verdict": "holds", "evidence": {"fingerprint": fingerprint}, **changes}
+    evidence = {"title": "T.", "open_in_paper": False, "fingerprint": records.fingerprint(load()[id])}
+    return {
+        "id": id,
+        "verdict": "holds",
+        "printed": "x",
+        "corrected": None,
+        "seconds": 0.1,
+        "evidence": evidence,
+        **changes,
+    }
 
 
 def test_records_survive_a_round_trip_in_the_order_of_the_paper(tmp_path):
@@ -70,12 +78,16 @@ def test_the_closure_of_a_script_is_what_it_can_reach():
 
 def test_a_broken_file_is_named_with_its_line(tmp_path):
     path = tmp_path / "verdicts.jsonl"
-    path.write_text('{"id": "2.1", "verdict": "holds", "evidence": {"fingerprint": "x"}}\n{"id"\n', encoding="utf-8")
+    first = json.dumps(made("2.1"))
+    for second in ('{"id"', "[]", "7", '{"id": "4.1"}', json.dumps(made("4.1", evidence=[]))):
+        path.write_text(f"{first}\n{second}\n", encoding="utf-8")
+        with pytest.raises(records.BrokenRecords, match="line 2 of"):
+            records.read(path)
     done = run("prove", "prop-2", "--records", path)
     assert done.returncode == 2
     assert "line 2 of" in done.stderr
     assert "Traceback" not in done.stderr
-    assert path.read_text(encoding="utf-8").startswith('{"id": "2.1"')
+    assert path.read_text(encoding="utf-8").startswith(first)
 
 
 def test_prove_keeps_the_verdict_and_says_when_it_changes(tmp_path):
@@ -90,7 +102,9 @@ def test_prove_keeps_the_verdict_and_says_when_it_changes(tmp_path):
 
 def test_the_list_shows_what_is_on_record(tmp_path):
     path = tmp_path / "verdicts.jsonl"
-    records.update(path, [made("2.1"), made("4.1", evidence={"fingerprint": "old"})], load())
+    records.update(
+        path, [made("2.1"), made("4.1", evidence={"title": "T.", "open_in_paper": False, "fingerprint": "old"})], load()
+    )
     rows = {row["id"]: row for row in json.loads(run("prove", "--list", "--json", "--records", path).stdout)["claims"]}
     assert (rows["2.1"]["verdict"], rows["2.1"]["stale"]) == ("holds", False)
     assert rows["4.1"]["stale"]
