@@ -473,6 +473,24 @@ def test_5_9_circle_a_momentum_that_no_rotation_has(records):
     assert max(sum(abs(x) for x in row) for row in form) < 40
 
 
+#: Where a printed statement is no equation, the point is text: it must be the one that is recomputed above.
+POINTS = {
+    "2.13": {"J": "(1, 0, 0)", "D": "1", "γ": "e1", "ω": "e2∧e3"},
+    "3.4-principle": {"𝕃": "(y - x)²/2", "q_{-1}, ..., q_3": "5, 0, 1, 3, 4", "δq": "1, 0, 0, 0"},
+    "remark-1": {"Q": "R²", "A": "dx2", "N": "{x2 = 0}", "n, s": "2, 1"},
+    "remark-2": {"Q": "R", "s": "0", "𝕃": "½ln(1 + u²) + 2x, u = y - x", "u_{k-1}": "0"},
+    "5.1-angle": {"Ω": "diag(1, -1, -1)"},
+    "5.3-at-most-4": {"J": "(1, 2, 4)", "D": "1000", "γ": "(6/7, 2/7, 3/7)", "𝒦": "(-1/4, -3/2, 1/2)"},
+    "5.3-at-least-2": {"J": "(1, 2, 4)", "D": "7", "γ": "(6/7, 2/7, 3/7)", "𝒦": "(40, 0, 0)"},
+    "5.9-circle": {"J": "(1, 2, 4)", "D": "7", "γ": "(2, 3, 6)/7", "h": "40"},
+}
+
+
+def test_points_in_words_are_those_that_are_recomputed(records):
+    for id, point in POINTS.items():
+        assert records[id]["evidence"]["counterexamples"][0]["point"] == point
+
+
 def test_every_claim_that_fails_as_printed_is_recomputed_here(records):
     source = "".join(path.read_text(encoding="utf-8") for path in Path(__file__).parent.glob("test_*.py"))
     for id, record in records.items():

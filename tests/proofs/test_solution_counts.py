@@ -103,6 +103,8 @@ def test_the_orbit_that_stops(records):
     # Rodrigues for a turn given by u: with q₀² = square, q = q₀u, every entry is rational
     turn = [[square * x for x in row] for row in _unnormalized(u)]
     after = times(transposed(turn), before)
+    point = records["5.3-at-least-2"]["evidence"]["counterexamples"][1]["point"]
+    assert point == {"J": "(1, 2, 3)", "D": "7", "γ": "(1/3, 2/3, 2/3)", "Ω": "Euler parameters ~ (4, 2, 4, -1)"}
     lines = "\n".join(records["5.3-at-least-2"]["evidence"]["derivation"])
     assert f"𝒦 after the step = {list(map(str, after))}".replace("'", "") in lines
     assert f"γ after the step = {list(map(str, times(transposed(turn), gamma)))}".replace("'", "") in lines

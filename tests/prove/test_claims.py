@@ -181,6 +181,16 @@ def test_irrational_counterexamples_are_refused():
 def test_sides_of_different_length_are_refused():
     with pytest.raises(ValueError, match="2 and 1 entries"):
         Equation("e", [x, y], [x], CIRCLE)
+    with pytest.raises(ValueError, match="0 and 0 entries"):
+        Equation("e", [], [], CIRCLE)
+
+
+def test_a_zero_matrix_may_be_written_as_the_number_0():
+    point = rational_point({x: 1})
+    for left, right in ((sp.eye(2) * x, sp.S.Zero), (sp.S.Zero, sp.eye(2) * x)):
+        one, other = Equation("e", [left], [right], CIRCLE).at(lambda expr: expr.subs({x: 1}))
+        assert {*one, *other} == {"[[1, 0], [0, 1]]", "[[0, 0], [0, 0]]"}
+    assert point.failures() == []
 
 
 def test_a_proof_that_raises_leaves_the_claim_open_with_the_place():
