@@ -207,7 +207,7 @@ def _kept(kept_in: Path | None) -> dict[str, dict[str, Any]]:
 
     try:
         return records.read(kept_in or records.default_path())
-    except (records.BrokenRecords, UnicodeDecodeError) as error:
+    except records.BrokenRecords as error:
         _fail(str(error), 2)
     except OSError as error:
         _fail(f"the records {error.filename} cannot be read: {error.strerror}", 2)

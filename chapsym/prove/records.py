@@ -97,10 +97,13 @@ def _source(module: str) -> str:
 def read(path: Path) -> dict[str, dict[str, Any]]:
     """The records of a file, by id; none if there is no file.
 
-    Raises BrokenRecords, with the line, if a line is not a record.
+    Raises BrokenRecords if it is not such a file, with the line that is not a record.
     """
     records = {}
-    text = path.read_text(encoding="utf-8") if path.exists() else ""
+    try:
+        text = path.read_text(encoding="utf-8") if path.exists() else ""
+    except UnicodeDecodeError as error:
+        raise BrokenRecords(f"{path} is not a file of verdict records: it is no text ({error.reason})") from error
     lines = text.removesuffix("\n").split("\n") if text else []
     for number, line in enumerate(lines, start=1):
         record = _parsed(line)

@@ -90,6 +90,13 @@ def test_a_broken_file_is_named_with_its_line(tmp_path):
     assert path.read_text(encoding="utf-8").startswith(first)
 
 
+def test_a_binary_file_is_no_file_of_records(tmp_path):
+    path = tmp_path / "verdicts.jsonl"
+    path.write_bytes(b"\xc1\xff\n")
+    with pytest.raises(records.BrokenRecords, match=r"verdicts\.jsonl is not a file of verdict records"):
+        records.read(path)
+
+
 def test_prove_keeps_the_verdict_and_says_when_it_changes(tmp_path):
     path = tmp_path / "verdicts.jsonl"
     assert run("prove", "prop-2", "--records", path).returncode == 0
