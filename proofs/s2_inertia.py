@@ -56,7 +56,13 @@ def inertia_operator(p: Proof) -> None:
         POSITIVE,
         equation("⟨ω,𝒜ω⟩ = -tr(ωJω) + D|ωγ|² = Σ (J_i+J_j)ω_ij² + D|ωγ|² > 0", pairing(omega, applied(omega)), form),
     )
-    p.refute({"J": "(1, 0, 0)", "D": "1", "γ": "e1", "ω": "e2∧e3"}, "𝒜ω for this ω ≠ 0", image.tolist(), "not zero")
+    p.refute(
+        {"J": "(1, 0, 0)", "D": "1", "γ": "e1", "ω": "e2∧e3"},
+        "𝒜ω for this ω ≠ 0",
+        image.tolist(),
+        "not zero",
+        not image.is_zero_matrix,
+    )
     p.say("J ≥ 0 alone is not enough: all mass on a line through the centre does not resist a turn about it.")
     p.control(equation("⟨ω,𝒜ω⟩ = -tr(ωJω) - D|ωγ|²", pairing(omega, applied(omega)), form.subs(D, -D)))
     wrong = sum(mass[i] * x**2 for (i, _), x in entries.items())

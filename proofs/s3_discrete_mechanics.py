@@ -114,7 +114,7 @@ def discrete_principle(p: Proof) -> None:
     exact = {k: sp.Rational(v) for k, v in values.items()}
     left, right = first_variation().subs(exact), discrete_sum(0).subs(exact)
     shown = {"𝕃": "(y - x)²/2", "q_{-1}, ..., q_3": "5, 0, 1, 3, 4", "δq": "1, 0, 0, 0"}
-    p.refute(shown, "δ Σ_{k=0}^{N-1} 𝕃(q_k, q_{k+1}), N = 3, is the printed sum", left, right)
+    p.refute(shown, "δ Σ_{k=0}^{N-1} 𝕃(q_k, q_{k+1}), N = 3, is the printed sum", left, right, left == right)
     p.control(Equation("δS = Σ_{k=2}^{N-1}", [first_variation()], [discrete_sum(2)], both_fixed))
     p.control(Equation("δS = Σ_{k=1}^{N-1} with free ends", [first_variation()], [discrete_sum(1)], Quotient(symbols)))
 
@@ -165,7 +165,8 @@ def consistency(p: Proof) -> None:
     p.say("D_d must have the dimension of D as a bundle over Q, n + (n - s), and contain (q, q) for every q in Q.")
     ring = Quotient((size, count))
     needed = 2 * size - count
-    p.printed(Equation("dim N×N = dim D", [2 * (size - count)], [needed], ring))
+    product = 2 * (size - count)
+    p.printed(Equation("dim N×N = dim D", [product], [needed], ring))
     x1, x2, y1, y2, step = sp.symbols("x1 x2 y1 y2 epsilon")
     p.say("Q = R², A = dx2, the leaf N = {x2 = 0}: (q, q) with q = (0, 1) must be in D_d, and is not in N×N.")
     point = {x1: 0, x2: 1, y1: 0, y2: 1}
@@ -180,7 +181,9 @@ def consistency(p: Proof) -> None:
         Equation("A∘Ψ = 0 in such coordinates is x2 = y2: the same leaf", [flat * step], [y2 - x2], plane),
         Fact("it contains (q, q) for q = (0, 1)", bool(flat.subs(point) == 0)),
     )
-    p.refute({"Q": "R²", "A": "dx2", "N": "{x2 = 0}", "n, s": "2, 1"}, "dim N×N (left), dim D (right)", 2, 3)
+    dimensions = [x.subs({size: 2, count: 1}) for x in (product, needed)]
+    point_of = {"Q": "R²", "A": "dx2", "N": "{x2 = 0}", "n, s": "2, 1"}
+    p.refute(point_of, "dim N×N (left), dim D (right)", *dimensions, dimensions[0] == dimensions[1])
     p.say("Ψ matters: with the leaves x1² + x2² = c and Ψ(q, q') = (q, (q' - q)/ε) the pair (1, 0), (1, 1) is in D_d:")
     tangent = (x1 * (y1 - x1) + x2 * (y2 - x2)) / step
     pair = {x1: 1, x2: 0, y1: 1, y2: 1, step: 1}

@@ -95,7 +95,7 @@ def regularity(p: Proof) -> None:
     p.printed(Fact("u_{k-1} = 0 has a successor: 2(1 + u²) = u has a real root", bool(discriminant >= 0)))
     p.under("there is a successor nearby, as Ω = 1 is one for the ball at rest", jacobian_is_printed)
     p.refute({"Q": "R", "s": "0", "𝕃": "½ln(1 + u²) + 2x, u = y - x", "u_{k-1}": "0"},
-             "the discriminant of 2(1 + u²) = u for the next u", discriminant, "at least 0")  # fmt: skip
+             "the discriminant of 2(1 + u²) = u for the next u", discriminant, "at least 0", bool(discriminant >= 0))  # fmt: skip
     true, wrong = principle.kinetic_factor(), sp.Rational(1, 2)
     inertia = three.lam() - D * sp.eye(3)
     lifted = D * (sp.eye(3) - gamma * gamma.T)

@@ -150,11 +150,11 @@ def structure(p: Proof) -> None:
         f"(5.2) for γ~ and 𝒦~ = hγ~ has {successors.distinct} solutions, {successors.real} of them real; the count refuses to miss one."
     )
 
-    def keeps(value: sp.Expr) -> sp.Expr:
-        """2Dq₀⟨γ~,q⟩ = (value - h)(q₀² + |q|²): the solution has σ = value."""
-        return 2 * q0 * there.dot(q) - (value - height) * (q0**2 + q.dot(q))
+    def keeps(start: sp.Matrix, value: sp.Expr) -> sp.Expr:
+        """2Dq₀⟨γ,q⟩ = (value - h)(q₀² + |q|²): the solution for this γ has σ = value."""
+        return 2 * state[D] * q0 * start.dot(q) - (value - height) * (q0**2 + q.dot(q))
 
-    common = solutions.have_common_point([*equations, keeps(state[sigma])])
+    common = solutions.have_common_point([*equations, keeps(there, state[sigma])])
     p.printed(Fact("none of them has the σ of the step before: 1 is in the ideal of the four quadrics", not common))
     shown = {"J": "(1, 2, 4)", "D": "1", "h": str(height), "γ~": str(list(there)), "σ": str(state[sigma])}
     p.witness("generic", shown, Fact("|γ~| = 1", there.dot(there) == 1))
@@ -163,10 +163,7 @@ def structure(p: Proof) -> None:
     own = solutions.at((1, 2, 4), 1, list(here), list(height * here))
     p.control(
         Fact(
-            "the same for the step's own solutions",
-            not solutions.have_common_point(
-                [*own, 2 * q0 * here.dot(q) - (state[sigma] - height) * (q0**2 + q.dot(q))]
-            ),
+            "the same for the step's own solutions", not solutions.have_common_point([*own, keeps(here, state[sigma])])
         )
     )
     p.control(part("T = 𝒟(G - 2Vw) for every D", true_relation(), SCALE * (G - 2 * V * w)))
@@ -268,6 +265,7 @@ def circle(p: Proof) -> None:
         "the number of real q with 𝒦 = hγ",
         none.real,
         "at least 1",
+        none.real >= 1,
     )
     p.control(Equation("det B = det Λ", [inertia.det()], [three.lam().det()], RING))
     p.control(Fact("γ has an image at every h: 40 as well as 1/10", none.real == some.real))

@@ -90,7 +90,7 @@ def axis_and_angle(p: Proof) -> None:
         Equation("(-q₀, -q) gives the same Ω", list(rotation.subs(minus, simultaneous=True)), list(rotation), RING),
         Equation("4q₀² = 1 + tr Ω", [4 * q0**2], [1 + rotation.trace()], RING),
     )
-    p.refute({"Ω": "diag(1, -1, -1)"}, "q₀² = (1 + tr Ω)/4", square, "positive")
+    p.refute({"Ω": "diag(1, -1, -1)"}, "q₀² = (1 + tr Ω)/4", square, "positive", bool(square > 0))
     p.control(Equation("the same by the angle -θ", list(rotation), list(rodrigues(-1)), RING))
 
 

@@ -80,11 +80,11 @@ def upper_bound(p: Proof) -> None:
         Equation("the three equations are homogeneous of degree 2", grown, [scale**2 * e for e in quadrics], ring),
         Equation("D = 0: 2(q₀Λq + q×Λq) = 0 at those points", list(flat), [sp.S.Zero] * 3, points),
         Equation("and q₀² + |q|² = 0", [isotropic[0] ** 2 + spin.dot(spin)], [sp.S.Zero], points),
-        Fact("all examples obey these bounds", most <= 8 and max(c.real for c in free.values()) <= 4),
+        Fact("the examples reach these bounds and no more", most == 8 and max(c.real for c in free.values()) == 4),
     )
     worst = ROLLING[8]
     state = {"J": "(1, 2, 4)", "D": str(STRONG), "γ": "(6/7, 2/7, 3/7)", "𝒦": "(-1/4, -3/2, 1/2)"}
-    p.refute(state, "the number of real solutions", rolling[worst].real, "at most 4")
+    p.refute(state, "the number of real solutions", rolling[worst].real, "at most 4", rolling[worst].real <= 4)
     for wanted, found in ((WITHOUT_ROLLING, free), (ROLLING, rolling)):
         p.lemma(
             Fact(f"every number of {sorted(wanted)} occurs", sorted(c.real for c in found.values()) == sorted(wanted))
@@ -97,6 +97,8 @@ def upper_bound(p: Proof) -> None:
     ]
     half_turns = [solutions.have_common_point([*solutions.at(BALL, contact, VERTICAL, k), q0]) for contact, k in even]
     p.lemma(Fact("no solution of the even examples is a rotation by π: all of them have q₀ > 0", not any(half_turns)))
+    rest = solutions.at(BALL, STRONG, VERTICAL, (0, 0, 0))
+    p.control(Fact("no solution of 𝒦 = 0 is a rotation by π", not solutions.have_common_point([*rest, q0])))
     p.say("An odd number has a double solution in it, a fold, as 8 and 4 are even; 7 occurs at another vertical:")
     other = solutions.count(solutions.at(BALL, 100, (0, "3/5", "4/5"), (-2, 0, 0)))
     p.lemma(Fact("D = 100, γ = (0, 3/5, 4/5), 𝒦 = (-2, 0, 0): 7 real solutions, one double", other[:3] == (7, 7, 8)))
@@ -149,14 +151,14 @@ def lower_bound(p: Proof) -> None:
     heavy = solutions.count(solutions.at(BALL, 7, VERTICAL, (40, 0, 0)))
     p.lemma(Fact("|𝒦| = 40 is above 5/2 Λmax = 65/2 there", sp.Rational(5, 2) * 13 < 40))
     state = {"J": "(1, 2, 4)", "D": "7", "γ": "(6/7, 2/7, 3/7)", "𝒦": "(40, 0, 0)"}
-    p.refute(state, "the number of real solutions", heavy.real, "at least 2")
+    p.refute(state, "the number of real solutions", heavy.real, "at least 2", heavy.real >= 2)
     p.say("It happens on orbits with D > 0: one step after a state that has a rotation, there may be none.")
     momentum, vertical = solutions.after((1, 2, 3), 7, ("1/3", "2/3", "2/3"), (4, 2, 4, -1))
     p.show("𝒦 after the step", momentum)
     p.show("γ after the step", vertical)
     stopped = solutions.count(solutions.at((1, 2, 3), 7, vertical, momentum)).real
     orbit = {"J": "(1, 2, 3)", "D": "7", "γ": "(1/3, 2/3, 2/3)", "Ω": "Euler parameters ~ (4, 2, 4, -1)"}
-    p.refute(orbit, "the number of real solutions after one step", stopped, "at least 2")
+    p.refute(orbit, "the number of real solutions after one step", stopped, "at least 2", stopped >= 2)
     p.say(
         "At 𝒦 = 0 the solutions are 1 and the rotations by π about the axes: 4, of which only one has the paper's q₀ > 0."
     )

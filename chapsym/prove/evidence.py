@@ -106,9 +106,12 @@ class Proof:
             self.problems.append("the correction fails at the counterexample")
         self.counterexamples.append({"point": point.values, "printed": wrong, "corrected": right})
 
-    def refute(self, values: Mapping[str, str], statement: str, found: Any, claimed: Any) -> None:
-        """A counterexample to a printed statement that is no equation: what was found, exactly, and what is claimed."""
-        if found == claimed:
+    def refute(self, values: Mapping[str, str], statement: str, found: Any, claimed: Any, holds: bool) -> None:
+        """A counterexample to a printed statement that is no equation: what is found there, and what is claimed.
+
+        `holds` says whether the claim is true of what was found; it must not be.
+        """
+        if holds:
             self.problems.append(f"the counterexample does not contradict: {statement}")
         sides = {"statement": statement, "left": [str(found)], "right": [str(claimed)]}
         self.counterexamples.append({"point": dict(values), "printed": [sides], "corrected": []})

@@ -19,6 +19,7 @@ import platformdirs
 from chapsym import files
 
 from .claims import Claim
+from .evidence import Verdict
 
 #: What decides beside this package.
 LIBRARIES = ("sympy", "python-flint", "numpy")
@@ -127,7 +128,7 @@ def _parsed(line: str) -> dict[str, Any] | None:
         "evidence",
         "seconds",
     }
-    evidence = record["evidence"] if whole else None
+    evidence = record["evidence"] if whole and record["verdict"] in [*Verdict] else None
     return (
         record if isinstance(evidence, dict) and evidence.keys() >= {"title", "fingerprint", "open_in_paper"} else None
     )

@@ -30,7 +30,7 @@ def load() -> dict[str, Claim]:
     for name in proofs.SCRIPTS:
         try:
             importlib.import_module(f"chapsym.proofs.{name}")
-        except Exception as error:
+        except (Exception, SystemExit) as error:
             raise BrokenScript(f"the proof script {name} cannot be loaded: {type(error).__name__}: {error}") from error
     claims = register()
     if set(claims) != set(proofs.CLAIMS):
@@ -63,7 +63,7 @@ def judge(claim: Claim) -> Judgement:
     """Judges a claim; an exception in the proof leaves it open, with the place where it arose."""
     try:
         return claim.judge()
-    except Exception as error:
+    except (Exception, SystemExit) as error:  # a proof that leaves is no proof
         place = traceback.extract_tb(error.__traceback__)[-1]
         reason = f"the proof raised {type(error).__name__}: {error} ({Path(place.filename).name}:{place.lineno})"
         return Judgement(claim, Verdict.OPEN, Proof(problems=[reason]), 0.0)

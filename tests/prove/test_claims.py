@@ -147,9 +147,16 @@ def test_a_second_route_must_agree():
 def test_a_printed_statement_that_is_no_equation():
     claimed, found = Fact("at most 4", False), Fact("at most 8", True)
     steps = [("printed", claimed), ("corrected", "at most 8", found), ("control", FALSE)]
-    assert verdict(*steps, ("refute", {"J": "1"}, "count", 6, "at most 4"))[0] is Verdict.CORRECTED
+    assert verdict(*steps, ("refute", {"J": "1"}, "count", 6, "at most 4", False))[0] is Verdict.CORRECTED
     assert verdict(*steps)[0] is Verdict.OPEN
-    assert verdict(*steps, ("refute", {"J": "1"}, "count", 4, 4))[0] is Verdict.OPEN
+    assert verdict(*steps, ("refute", {"J": "1"}, "count", 4, "at most 4", True))[0] is Verdict.OPEN
+
+
+def test_the_checks_say_what_was_decided():
+    proof = Proof()
+    proof.printed(TRUE)
+    proof.lemma(TRUE)
+    assert [check["statement"] for check in proof.checks] == ["printed: true", "true"]
 
 
 def test_a_definition_says_why_nothing_is_decided_and_has_a_control():
@@ -198,6 +205,11 @@ def test_a_proof_that_raises_leaves_the_claim_open_with_the_place():
         """Broken."""
         raise ArithmeticError("no")
 
+    def leaves(p):
+        """Leaves."""
+        raise SystemExit(0)
+
+    assert judge(Claim("0.0", "x", (), leaves)).record()["verdict"] == "open"
     record = judge(Claim("0.0", "x", (), broken)).record()
     assert record["verdict"] == "open"
     assert "ArithmeticError: no (test_claims.py:" in record["evidence"]["problems"][0]
