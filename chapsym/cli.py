@@ -190,15 +190,18 @@ def _judge(wanted: list[str], claims: dict[str, Any], jobs: int | None, kept_in:
     from chapsym.prove import records
 
     kept = _kept(kept_in)
-    judged = _judged("proving", wanted, jobs)
+    arrived: list[dict[str, Any]] = []
+    try:
+        judged = _judged("proving", wanted, jobs, arrived)
+    finally:  # an interrupt keeps what was finished
+        try:
+            records.update(kept_in or records.default_path(), arrived, claims)
+        except files.CannotWrite as error:
+            print(f"chapsym: the verdicts are not kept: {error}", file=sys.stderr)
     for record in judged:
         before = kept.get(record["id"], record)["verdict"]
         if before != record["verdict"]:
             print(f"chapsym: {record['id']} was {before}, and is {record['verdict']} now", file=sys.stderr)
-    try:
-        records.update(kept_in or records.default_path(), judged, claims)
-    except files.CannotWrite as error:
-        print(f"chapsym: the verdicts are not kept: {error}", file=sys.stderr)
     return judged
 
 
@@ -213,15 +216,17 @@ def _kept(kept_in: Path | None) -> dict[str, dict[str, Any]]:
         _fail(f"the records {error.filename} cannot be read: {error.strerror}", 2)
 
 
-def _judged(label: str, ids: list[str], jobs: int | None = None) -> list[dict[str, Any]]:
-    """The records of claims, with a bar that moves as they arrive."""
+def _judged(
+    label: str, ids: list[str], jobs: int | None = None, done: list[dict[str, Any]] | None = None
+) -> list[dict[str, Any]]:
+    """The records of claims, with a bar that moves as they arrive; `done` collects those that have."""
     from chapsym.prove import prove_all
 
-    done: list[str] = []
+    done = [] if done is None else done
     with _progress(label, len(ids)) as shown:
 
         def arrived(record: dict[str, Any]) -> None:
-            done.append(record["id"])
+            done.append(record)
             shown(len(done))
 
         return prove_all(ids, jobs, arrived)

@@ -101,6 +101,8 @@ def read(path: Path) -> dict[str, dict[str, Any]]:
     Raises BrokenRecords if it is not such a file, with the line that is not a record.
     """
     records = {}
+    if path.exists() and not path.is_dir() and not path.is_file():
+        raise BrokenRecords(f"{path} is not a file of verdict records: it is a device or a pipe")
     try:
         text = path.read_text(encoding="utf-8") if path.exists() else ""
     except UnicodeDecodeError as error:

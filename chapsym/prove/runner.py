@@ -8,6 +8,7 @@ import sys
 import traceback
 from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
+from concurrent.futures.process import BrokenProcessPool
 from pathlib import Path
 from typing import Any
 
@@ -91,9 +92,23 @@ def prove_all(
             record = future.result()
             records[record["id"]] = record
             on_result(record)
+    except BrokenProcessPool:
+        for id in ids:
+            if id not in records:
+                records[id] = _abandoned(id)
+                on_result(records[id])
     finally:
         pool.shutdown(cancel_futures=True)
     return [records[id] for id in ids]
+
+
+def _abandoned(id: str) -> dict[str, Any]:
+    """The open record of a claim that was not judged because a process was lost."""
+    claims = load()
+    reason = "not judged: a process that ran proofs ended, perhaps for lack of memory; try --jobs 1"
+    record = Judgement(claims[id], Verdict.OPEN, Proof(problems=[reason]), 0.0).record(downstream(id, claims))
+    record["evidence"]["fingerprint"] = fingerprint(claims[id])
+    return record
 
 
 def explain(record: dict[str, Any]) -> str:

@@ -1,6 +1,7 @@
 """Verdict records: fresh while nothing they depend on has changed, written whole, never silently lost."""
 
 import json
+import os
 import subprocess
 import sys
 
@@ -95,6 +96,41 @@ def test_a_binary_file_is_no_file_of_records(tmp_path):
     path.write_bytes(b"\xc1\xff\n")
     with pytest.raises(records.BrokenRecords, match=r"verdicts\.jsonl is not a file of verdict records"):
         records.read(path)
+
+
+def test_a_pipe_is_not_read(tmp_path):
+    os.mkfifo(tmp_path / "pipe")
+    with pytest.raises(records.BrokenRecords, match="a device or a pipe"):
+        records.read(tmp_path / "pipe")
+
+
+def test_an_interrupt_keeps_what_was_finished(tmp_path):
+    (tmp_path / "sitecustomize.py").write_text(
+        "import chapsym.prove as prove\n"
+        "honest = prove.prove_all\n"
+        "def stopped(ids, jobs, arrived):\n"
+        "    honest(ids[:1], jobs, arrived)\n"
+        "    raise KeyboardInterrupt\n"
+        "prove.prove_all = stopped\n"
+    )
+    path = tmp_path / "verdicts.jsonl"
+    done = run("prove", "prop-2", "4.3", "--records", path, env={**os.environ, "PYTHONPATH": str(tmp_path)})
+    assert done.returncode == 130
+    assert list(records.read(path)) == ["prop-2"]
+
+
+def test_a_lost_process_leaves_its_claims_open(tmp_path):
+    (tmp_path / "sitecustomize.py").write_text(
+        "import os, chapsym.prove.runner as runner\n"
+        "honest = runner.judge\n"
+        "runner.judge = lambda claim: os._exit(9) if claim.id == '4.3' else honest(claim)\n"
+    )
+    path = tmp_path / "verdicts.jsonl"
+    env = {**os.environ, "PYTHONPATH": str(tmp_path)}
+    done = run("prove", "prop-2", "4.3", "--jobs", "2", "--records", path, env=env)
+    assert done.returncode == 1
+    assert "not judged: a process that ran proofs ended" in done.stdout
+    assert "Traceback" not in done.stderr
 
 
 def test_prove_keeps_the_verdict_and_says_when_it_changes(tmp_path):
