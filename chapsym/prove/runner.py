@@ -21,11 +21,11 @@ class BrokenScript(ImportError):
     """A proof script cannot even be loaded: what it derives at import fails."""
 
 
-def load() -> dict[str, Claim]:
-    """Imports every proof script and returns the claims by id, in the order of the paper.
+def load(lemmas: bool = False) -> dict[str, Claim]:
+    """Imports every proof script and returns the paper's claims by id, in its order; then the lemmas, if asked.
 
     Raises BrokenScript if a script, or the derivation that it starts from, raises on import, or if a
-    claim of the paper has no proof.
+    claim of the paper, or a lemma, has no proof.
     """
     proofs = importlib.import_module("chapsym.proofs")
     for name in proofs.SCRIPTS:
@@ -34,10 +34,11 @@ def load() -> dict[str, Claim]:
         except (Exception, SystemExit) as error:
             raise BrokenScript(f"the proof script {name} cannot be loaded: {type(error).__name__}: {error}") from error
     claims = register()
-    if set(claims) != set(proofs.CLAIMS):
-        missing = sorted(set(claims) ^ set(proofs.CLAIMS))
-        raise BrokenScript(f"the proofs and the list of the paper's claims differ: {', '.join(missing)}")
-    return {id: claims[id] for id in proofs.CLAIMS}
+    listed = {*proofs.CLAIMS, *proofs.LEMMAS}
+    if set(claims) != listed:
+        missing = sorted(set(claims) ^ listed)
+        raise BrokenScript(f"the proofs and the list of the paper's claims and lemmas differ: {', '.join(missing)}")
+    return {id: claims[id] for id in (*proofs.CLAIMS, *(proofs.LEMMAS if lemmas else ()))}
 
 
 def downstream(id: str, claims: dict[str, Claim]) -> list[str]:
@@ -54,7 +55,7 @@ def downstream(id: str, claims: dict[str, Claim]) -> list[str]:
 
 def prove_one(id: str) -> dict[str, Any]:
     """Judges one claim and returns its record; a proof that raises is an open claim with the reason."""
-    claims = load()
+    claims = load(lemmas=True)
     record = judge(claims[id]).record(downstream(id, claims))
     record["evidence"]["fingerprint"] = fingerprint(claims[id])
     return record
@@ -104,7 +105,7 @@ def prove_all(
 
 def _abandoned(id: str) -> dict[str, Any]:
     """The open record of a claim that was not judged because a process was lost."""
-    claims = load()
+    claims = load(lemmas=True)
     reason = "not judged: a process that ran proofs ended, perhaps for lack of memory; try --jobs 1"
     record = Judgement(claims[id], Verdict.OPEN, Proof(problems=[reason]), 0.0).record(downstream(id, claims))
     record["evidence"]["fingerprint"] = fingerprint(claims[id])
@@ -141,7 +142,7 @@ def explain(record: dict[str, Any]) -> str:
 
 def main(script: str) -> None:
     """Runs the claims of one proof script, prints their derivations, and exits 1 if one is not proved."""
-    claims = load()
+    claims = load(lemmas=True)
     name = f"chapsym.proofs.{Path(script).stem}"
     module = sys.modules.get(name)
     if module is None or not Path(str(module.__file__)).samefile(script):

@@ -1,0 +1,11 @@
+"""The command: thin, one module for each subcommand, every room imported only when it is asked for.
+
+Exit status: 0 done and proved; 1 a verdict or a check is not what it should be; 2 the input has no answer,
+or the command line is wrong; 130 interrupted; 141 nobody reads the output.
+"""
+
+# The order of the imports is that of the subcommands in --help.
+from . import prove, report, codegen, step, run, check  # noqa: F401, I001
+from .app import main
+
+__all__ = ["main"]

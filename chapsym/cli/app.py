@@ -1,0 +1,76 @@
+"""The typer application, and the entry point."""
+
+import os
+import sys
+from typing import Annotated, NoReturn
+
+import typer
+from typer.exceptions import TyperException
+
+import chapsym
+from chapsym.exact import NotANumber
+
+from .output import fail
+
+app = typer.Typer(
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    rich_markup_mode=None,
+)
+
+
+INTERRUPTED = 130
+
+
+def main() -> NoReturn:
+    """The entry point: turns every foreseen error into one sentence and an exit status."""
+    if sys.stdout is None:  # closed by the caller
+        sys.stdout = open(os.devnull, "w")  # noqa: SIM115
+    if len(sys.argv) == 1:
+        sys.argv.append("--help")
+    try:
+        status = typer.main.get_command(app).main(prog_name="chapsym", standalone_mode=False)
+        sys.stdout.flush()
+        if status == INTERRUPTED:
+            fail("interrupted", INTERRUPTED)
+        sys.exit(status if isinstance(status, int) else 0)
+    except SystemExit as stop:
+        if isinstance(stop.__context__, BrokenPipeError):  # typer turns it into exit 1, which means something else
+            _abandon_output()
+        raise
+    except TyperException as error:
+        fail(f"{error.format_message()} (see chapsym --help)", 2)
+    except NotANumber as error:
+        fail(str(error), 2)
+    except (KeyboardInterrupt, typer.Abort):
+        fail("interrupted", INTERRUPTED)
+    except BrokenPipeError:
+        _abandon_output()
+    except OSError as error:
+        _silence_output()
+        fail(f"the output cannot be written: {error.strerror or error}", 2)
+
+
+def _abandon_output() -> NoReturn:
+    _silence_output()
+    sys.exit(141)
+
+
+def _silence_output() -> None:
+    """Lets nothing more be flushed to an output that refuses it."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
+def _version(wanted: bool) -> None:
+    if wanted:
+        print(f"chapsym {chapsym.__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def options(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version.")
+    ] = False,
+) -> None:
+    """A referee that can be run, for Fedorov's discrete Chaplygin ball."""

@@ -1,0 +1,139 @@
+"""chapsym prove: judge the printed claims; and what other commands need of the verdicts."""
+
+import sys
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from .app import app
+from .options import Json, Records
+from .output import fail, print_json, progress_bar
+
+
+@app.command()
+def prove(
+    ids: Annotated[list[str] | None, typer.Argument(metavar="[ID ...]", help="Claims; all if none is named.")] = None,
+    as_json: Json = False,
+    listing: Annotated[bool, typer.Option("--list", help="List the claims that have a proof.")] = False,
+    explain: Annotated[bool, typer.Option("--explain", help="Print the whole argument.")] = False,
+    jobs: Annotated[int | None, typer.Option(min=1, help="Processes; one for each core by default.")] = None,
+    kept_in: Records = None,
+) -> None:
+    """Judge the printed claims: run their proofs, side by side, and keep the verdicts.
+
+    Example: chapsym prove prop-4 5.11 --explain
+    """
+    from chapsym.prove import unproved
+    from chapsym.prove.runner import explain as argument
+
+    claims = all_claims(lemmas=True)
+    unknown = [id for id in ids or [] if id not in claims]
+    if unknown:
+        fail(f"no proof judges the claim {unknown[0]!r}; chapsym prove --list names those that are judged", 2)
+    if listing:
+        _list_claims(claims, as_json, kept_in)
+        return
+    records = judge_and_keep(list(dict.fromkeys(ids or all_claims())), claims, jobs, kept_in)
+    # The whole register is as it should be with the paper's open questions open; a claim that is named must be proved.
+    failed = [record["id"] for record in records if record["verdict"] == "open"] if ids else unproved(records)
+    if as_json:
+        print_json({"claims": records})
+    elif explain:
+        print("\n\n".join(argument(record) for record in records))
+    else:
+        for record in records:
+            title = f"{record['evidence']['title']}  ({record['seconds']:.2f} s)"
+            print(f"{record['id']:18} {record['verdict']:12} {title}")
+            for problem in record["evidence"]["problems"]:
+                print(f"{'':18} problem: {problem}")
+        print(tally(records))
+    if failed:
+        fail(f"not proved: {', '.join(failed)}", 1)
+
+
+def _list_claims(claims: dict[str, Any], as_json: bool, kept_in: Path | None) -> None:
+    """Every claim with the verdict on record, and whether what it was made with has changed since."""
+    from chapsym.prove import records
+
+    kept = kept_records(kept_in)
+    old = records.stale(kept, claims)
+    rows = [
+        {"id": id, "title": claim.title, "verdict": kept[id]["verdict"] if id in kept else None, "stale": id in old}
+        for id, claim in claims.items()
+    ]
+    if as_json:
+        print_json({"claims": rows})
+        return
+    for row in rows:
+        state = "stale" if row["stale"] else row["verdict"] or "not judged"
+        print(f"{row['id']:18} {state:12} {row['title']}")
+    if old:
+        print(f"{len(old)} records are stale: their derivation has changed; chapsym prove judges them anew")
+
+
+def judge_and_keep(
+    wanted: list[str], claims: dict[str, Any], jobs: int | None, kept_in: Path | None
+) -> list[dict[str, Any]]:
+    """Proves the claims, keeps their records, and says where a verdict is another than it was."""
+    from chapsym import files
+    from chapsym.prove import records
+
+    kept = kept_records(kept_in)
+    arrived: list[dict[str, Any]] = []
+    try:
+        judged = judged_records("proving", wanted, jobs, arrived)
+    finally:  # an interrupt keeps what was finished
+        try:
+            records.update(kept_in or records.default_path(), arrived, claims)
+        except files.CannotWrite as error:
+            print(f"chapsym: the verdicts are not kept: {error}", file=sys.stderr)
+    for record in judged:
+        before = kept.get(record["id"], record)["verdict"]
+        if before != record["verdict"]:
+            print(f"chapsym: {record['id']} was {before}, and is {record['verdict']} now", file=sys.stderr)
+    return judged
+
+
+def kept_records(kept_in: Path | None) -> dict[str, dict[str, Any]]:
+    from chapsym.prove import records
+
+    try:
+        return records.read(kept_in or records.default_path())
+    except records.BrokenRecords as error:
+        fail(str(error), 2)
+    except OSError as error:
+        fail(f"the records {error.filename} cannot be read: {error.strerror}", 2)
+
+
+def judged_records(
+    label: str, ids: list[str], jobs: int | None = None, done: list[dict[str, Any]] | None = None
+) -> list[dict[str, Any]]:
+    """The records of claims, with a bar that moves as they arrive; `done` collects those that have."""
+    from chapsym.prove import prove_all
+
+    done = [] if done is None else done
+    with progress_bar(label, len(ids)) as shown:
+
+        def arrived(record: dict[str, Any]) -> None:
+            done.append(record)
+            shown(len(done))
+
+        return prove_all(ids, jobs, arrived)
+
+
+def all_claims(lemmas: bool = False) -> dict[str, Any]:
+    """The claims of the paper, and chapsym's own lemmas if asked; a script that cannot be loaded is a failed proof."""
+    from chapsym.prove import BrokenScript, load
+
+    try:
+        return load(lemmas)
+    except BrokenScript as error:
+        fail(str(error), 1)
+
+
+def tally(records: list[dict[str, Any]]) -> str:
+    counts: dict[str, int] = {}
+    for record in records:
+        counts[record["verdict"]] = counts.get(record["verdict"], 0) + 1
+    return f"{len(records)} claims: " + ", ".join(f"{n} {verdict}" for verdict, n in sorted(counts.items()))

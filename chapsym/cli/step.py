@@ -1,0 +1,49 @@
+"""chapsym step: one step of the map."""
+
+from typing import Annotated
+
+import typer
+
+from chapsym.exact import rationals
+
+from .app import app
+from .options import Contact, Inertia, Json, Mass, MassTensor, Radius, ball_from, rung_from
+from .output import fail, print_json
+
+
+@app.command()
+def step(
+    momentum: Annotated[str, typer.Option(metavar="K1,K2,K3", help="The discrete momentum.")],
+    gamma: Annotated[str, typer.Option(metavar="G1,G2,G3", help="The unit vertical, upwards, in the body.")],
+    mass_tensor: MassTensor = None,
+    inertia: Inertia = None,
+    contact: Contact = None,
+    mass: Mass = None,
+    radius: Radius = None,
+    digits: Annotated[int | None, typer.Option(min=1, max=100_000, help="Significant digits, by mpmath.")] = None,
+    rung: Annotated[str | None, typer.Option(help="double: IEEE float64, the default.")] = None,
+    ball: Annotated[int | None, typer.Option(min=2, max=1_000_000, help="Bits of an Arb enclosure.")] = None,
+    as_json: Json = False,
+) -> None:
+    """Take one step of the map, on the small-rotation branch.
+
+    Example: chapsym step --mass-tensor 1,2,4 --D 3 --momentum 1,-1/2,3/4 --gamma 2/7,3/7,6/7 --digits 50 --json
+    """
+    J, D = ball_from(mass_tensor, inertia, contact, mass, radius)
+    K, g = rationals(momentum, "--momentum", 3), rationals(gamma, "--gamma", 3)
+    chosen = rung_from(digits, rung, ball)
+    from chapsym.dynamics import BadInput, StepNotTaken
+    from chapsym.dynamics.precise import precise_step
+
+    try:
+        result = precise_step(J, D, K, g, chosen).write()
+    except BadInput as error:
+        fail(str(error), 2)
+    except StepNotTaken as error:
+        fail(str(error), 2)
+    if as_json:
+        print_json(result)
+        return
+    print(f"q0        {result['q0']}")
+    for name in ("q", "momentum", "gamma"):
+        print(f"{name:9} " + "  ".join(str(x) for x in result[name]))
