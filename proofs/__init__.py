@@ -21,6 +21,7 @@ SCRIPTS = (
     "s5_increment",
     "s5_reduced_map",
     "s6_remarks",
+    "map_gibbs",
 )
 
 #: The claims of the paper that need a verdict, in its order: each has a proof in one of the scripts.
@@ -39,4 +40,4 @@ CLAIMS = (
 )  # fmt: skip
 
 #: What the paper does not say and the map of chapsym rests on: judged like its claims, by name, outside its register.
-LEMMAS: tuple[str, ...] = ()
+LEMMAS = ("gibbs", "gibbs-newton", "gibbs-rotation", "small-branch")

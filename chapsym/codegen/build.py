@@ -5,13 +5,13 @@ import importlib.util
 import json
 import os
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from fractions import Fraction
 from pathlib import Path
 
 import sympy as sp
 
-from . import printer
+from . import passes, printer
 from .kernels import KERNELS, Kernel
 
 MANIFEST, FINGERPRINTS = "manifest.json", "fingerprints.json"
@@ -32,24 +32,14 @@ def is_checkout(place: Path) -> bool:
     return (place.parent / "pyproject.toml").is_file()
 
 
-def source(kernel: Kernel) -> tuple[str, dict]:
-    """The module text of one kernel and its row of the manifest."""
-    expressions = [sp.sympify(e) for e in kernel.build()]
-    digest = hashlib.sha256("\n".join(sp.srepr(e) for e in expressions).encode()).hexdigest()
-    terms, rest = printer.eliminate(expressions, kernel.inputs)
-    operations = sum(int(sp.count_ops(e)) for e in [*(e for _, e in terms), *rest])
+def code(kernel: Kernel, chosen: Collection[passes.Pass] = passes.PASSES) -> str:
+    """The function of a kernel, with the passes that are chosen."""
+    terms, rest = passes.lower(kernel, chosen)
     arguments = ", ".join(symbol.name for symbol in kernel.inputs)
+    as_products = passes.POWERS in chosen
     # Outputs are named o_... so that an output may share its name with an input (K, in `residual`).
     outputs = [f"o_{name}" for name in kernel.outputs]
     lines = [
-        f'"""{kernel.summary}',
-        "",
-        "Written by `chapsym codegen`: do not edit; change the derivation and generate again.",
-        f"Proved by: {', '.join(kernel.claims)}.  Operations: {operations}.  SymPy {sp.__version__}.",
-        f"Expression: sha256 {digest}.",
-        '"""',
-        "",
-        "",
         f"def {kernel.name}({arguments}):",
         f'    """{kernel.summary}',
         "",
@@ -58,19 +48,37 @@ def source(kernel: Kernel) -> tuple[str, dict]:
         '    """',
     ]
     lines += ["    # intermediate terms"] if terms else []
-    lines += [f"    {symbol} = {printer.text(expr)}" for symbol, expr in terms]
+    lines += [f"    {symbol} = {printer.text(expr, as_products)}" for symbol, expr in terms]
     lines += ["    # outputs"]
-    lines += [f"    {name} = {printer.text(expr)}" for name, expr in zip(outputs, rest, strict=True)]
-    lines += [f"    return {', '.join(outputs)}", ""]
+    lines += [f"    {name} = {printer.text(expr, as_products)}" for name, expr in zip(outputs, rest, strict=True)]
+    return "\n".join([*lines, f"    return {', '.join(outputs)}", ""])
+
+
+def source(kernel: Kernel) -> tuple[str, dict]:
+    """The module text of one kernel and its row of the manifest."""
+    expressions = [sp.sympify(e) for e in kernel.build()]
+    digest = hashlib.sha256("\n".join(sp.srepr(e) for e in expressions).encode()).hexdigest()
+    operations = passes.operations(passes.lower(kernel))
+    header = [
+        f'"""{kernel.summary}',
+        "",
+        "Written by `chapsym codegen`: do not edit; change the derivation and generate again.",
+        f"Proved by: {', '.join(kernel.claims)}.  Operations: {operations}.  SymPy {sp.__version__}.",
+        f"Expression: sha256 {digest}.",
+        '"""',
+        "",
+        "",
+    ]
     row = {
         "claims": list(kernel.claims),
         "inputs": {name: [s.name for s in symbols] for name, symbols in kernel.groups},
         "outputs": list(kernel.outputs),
         "shape": list(kernel.shape),
         "operations": operations,
+        "saved_by": passes.saved(kernel),
         "expression_sha256": digest,
     }
-    return "\n".join(lines), row
+    return "\n".join(header) + "\n" + code(kernel), row
 
 
 def _shape_note(kernel: Kernel) -> str:

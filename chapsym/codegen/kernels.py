@@ -5,11 +5,12 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from chapsym.derive import continuous, three
+from chapsym.derive import continuous, gibbs, three
 from chapsym.derive.limits import omega
 from chapsym.derive.three import J1, J2, J3, D, K, gamma, q, q0
 
 Group = tuple[str, tuple[sp.Symbol, ...]]
+Steps = Sequence[tuple[Sequence[sp.Symbol], Sequence[sp.Expr]]]
 
 QUATERNION: Group = ("rotation", (q0, *q))
 GAMMA: Group = ("gamma", tuple(gamma))
@@ -20,6 +21,11 @@ CONTACT: Group = ("D", (D,))
 FIRST: Group = ("first", sp.symbols("a0:4"))
 SECOND: Group = ("second", sp.symbols("b0:4"))
 VECTOR: Group = ("vector", sp.symbols("v1:4"))
+GIBBS: Group = ("gibbs", tuple(gibbs.u))
+HALF: Group = ("half_momentum", tuple(gibbs.k))
+CORRECTION: Group = ("correction", tuple(gibbs.d))
+INVERSE: Group = ("inverse", tuple(gibbs.INVERSE))
+INERTIA: Group = ("inertia", tuple(gibbs.INERTIA.diagonal()))
 BODY: tuple[Group, ...] = (GAMMA, MASS_TENSOR, CONTACT)
 
 
@@ -34,6 +40,8 @@ class Kernel:
     shape: tuple[int, ...]
     outputs: tuple[str, ...]
     build: Callable[[], Sequence[sp.Expr]]
+    #: The same value in steps: named intermediate expressions, and the outputs by those names.
+    factored: Callable[[], tuple[Steps, Sequence[sp.Expr]]] | None = None
 
     @property
     def inputs(self) -> tuple[sp.Symbol, ...]:
@@ -179,5 +187,45 @@ KERNELS: tuple[Kernel, ...] = (
         (3,),
         _vector("w"),
         continuous.angular_velocity,
+    ),
+    Kernel(
+        "gibbs_residual",
+        "G(u) = B(γ)u + u × Iu - (1 + |u|²)k with u = q/q0, k = 𝒦/2: zero for the rotation of the next step (5.2).",
+        ("gibbs",),
+        (GIBBS, HALF, GAMMA, INERTIA, CONTACT),
+        (3,),
+        _vector("r"),
+        gibbs.residual,
+        gibbs.residual_steps,
+    ),
+    Kernel(
+        "gibbs_newton",
+        "The Newton correction d = -(∂G/∂u)⁻¹G of the Gibbs vector, and (∂G/∂u)⁻¹ row by row.",
+        ("gibbs", "gibbs-newton"),
+        (GIBBS, HALF, GAMMA, INERTIA, CONTACT),
+        (12,),
+        (*_vector("d"), *_matrix("i")),
+        lambda: [*(-gibbs.flat_inverse() * sp.Matrix(gibbs.residual())), *gibbs.flat_inverse()],
+        lambda: (gibbs.solve_steps(), [*gibbs.newton(), *gibbs.inverse()]),
+    ),
+    Kernel(
+        "gibbs_second",
+        "The correction after a Newton correction d, by the same inverse: -(∂G/∂u)⁻¹(d × Id - |d|²k).",
+        ("gibbs-newton",),
+        (CORRECTION, HALF, INVERSE, INERTIA),
+        (3,),
+        _vector("e"),
+        gibbs.second_correction,
+        gibbs.second_correction_steps,
+    ),
+    Kernel(
+        "gibbs_increment",
+        "Ωᵀv - v = 2/(1 + |u|²)·(u × (u × v) - u × v) of the rotation with the Gibbs vector u.",
+        ("gibbs-rotation",),
+        (GIBBS, VECTOR),
+        (3,),
+        _vector("x"),
+        gibbs.increment,
+        gibbs.increment_steps,
     ),
 )

@@ -5,8 +5,6 @@ a rational coefficient p/q multiplies by p and divides by q, and a number that i
 is never printed on its own.
 """
 
-from collections.abc import Iterator, Sequence
-
 import sympy as sp
 from sympy.core.sorting import default_sort_key
 
@@ -15,41 +13,14 @@ class NotStraightLine(ValueError):
     """The expression needs more than + - * / and integers."""
 
 
-def eliminate(expressions: Sequence[sp.Expr], taken: Sequence[sp.Symbol]) -> tuple[list, list[sp.Expr]]:
-    """Common subexpressions as (symbol, expression) pairs t0, t1, ..., and what is left."""
-    names = {symbol.name for symbol in taken}
-    symbols = (s for s in sp.numbered_symbols("t") if s.name not in names)
-    terms, rest = sp.cse(list(expressions), symbols=symbols, order="canonical")
-    return _name_bases(terms, rest, symbols)
+def text(expr: sp.Expr, as_products: bool = True) -> str:
+    """The Python text of an expression; its powers as products, or as powers for a comparison of speed."""
+    return _sum(sp.sympify(expr), as_products)
 
 
-def _name_bases(terms: list, rest: list, symbols: Iterator[sp.Symbol]) -> tuple[list, list[sp.Expr]]:
-    """Gives every base of a power that is not a name one: the product of its copies repeats it."""
-    named: list = []
-    bases: dict[sp.Expr, sp.Symbol] = {}
-
-    def name(expr: sp.Expr) -> sp.Expr:
-        powers = [p for p in expr.atoms(sp.Pow) if not p.base.is_Symbol and abs(p.exp) > 1]
-        for power in sorted(powers, key=default_sort_key):
-            if power.base not in bases:
-                bases[power.base] = next(symbols)
-                named.append((bases[power.base], power.base))
-            expr = expr.xreplace({power: bases[power.base] ** power.exp})
-        return expr
-
-    for symbol, term in terms:
-        named.append((symbol, name(term)))
-    return named, [name(expr) for expr in rest]
-
-
-def text(expr: sp.Expr) -> str:
-    """The Python text of an expression."""
-    return _sum(sp.sympify(expr))
-
-
-def _sum(expr: sp.Expr) -> str:
+def _sum(expr: sp.Expr, as_products: bool) -> str:
     terms = sorted(sp.Add.make_args(expr), key=_positive_first)
-    pieces = [_product(term) for term in terms]
+    pieces = [_product(term, as_products) for term in terms]
     joined = pieces[0] + "".join(f" - {p[1:]}" if p.startswith("-") else f" + {p}" for p in pieces[1:])
     return joined
 
@@ -58,7 +29,7 @@ def _positive_first(term: sp.Expr) -> tuple:
     return bool(term.could_extract_minus_sign()), default_sort_key(term)
 
 
-def _product(expr: sp.Expr) -> str:
+def _product(expr: sp.Expr, as_products: bool) -> str:
     coefficient, factors = expr.as_coeff_mul()
     if not coefficient.is_Rational:
         raise NotStraightLine(f"{expr} has the coefficient {coefficient}, which is not rational")
@@ -68,7 +39,7 @@ def _product(expr: sp.Expr) -> str:
         base, power = factor.as_base_exp()
         if not power.is_Integer:
             raise NotStraightLine(f"{factor} is not an integer power; give the root as an input")
-        (above if power > 0 else below).extend([_factor(base)] * abs(int(power)))
+        (above if power > 0 else below).extend(_copies(_factor(base, as_products), abs(int(power)), as_products))
     if not factors and coefficient.q != 1:
         raise NotStraightLine(f"the number {coefficient} would be rounded; multiply something by it instead")
     numerator = abs(coefficient.p)
@@ -83,9 +54,13 @@ def _product(expr: sp.Expr) -> str:
     return f"{product} / {below[0]}" if len(below) == 1 else f"{product} / ({' * '.join(below)})"
 
 
-def _factor(expr: sp.Expr) -> str:
+def _copies(factor: str, power: int, as_products: bool) -> list[str]:
+    return [factor] * power if as_products or power == 1 else [f"{factor}**{power}"]
+
+
+def _factor(expr: sp.Expr, as_products: bool) -> str:
     if expr.is_Symbol or (expr.is_Integer and expr >= 0):
         return str(expr)
     if expr.is_Add or expr.is_Mul or expr.is_Pow:
-        return f"({_sum(expr)})"
+        return f"({_sum(expr, as_products)})"
     raise NotStraightLine(f"{expr} is not a sum, a product or a name")

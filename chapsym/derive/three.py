@@ -69,7 +69,7 @@ def contact_inertia() -> sp.ImmutableMatrix:
     J₂ + J₃ + D(γ₂² + γ₃²): nothing cancels when D is large.
     """
     mixed = sp.Matrix(axial(momentum_matrix())).jacobian(q).diff(q0) / 2
-    return sp.ImmutableMatrix(mixed.applyfunc(_by_parameters))
+    return sp.ImmutableMatrix(mixed.applyfunc(by_parameters))
 
 
 @cache
@@ -77,11 +77,11 @@ def momentum() -> sp.ImmutableMatrix:
     """𝒦(q, γ) of (5.2): the axial vector of (4.13), collected as 2 q₀ B(γ) q + 2 q × Jq-terms."""
     rows = sp.Matrix(contact_inertia()) * q
     whole = axial(momentum_matrix())
-    rest = (whole - 2 * q0 * rows).applyfunc(lambda e: _by_parameters(sp.expand(e)))
+    rest = (whole - 2 * q0 * rows).applyfunc(lambda e: by_parameters(sp.expand(e)))
     return sp.ImmutableMatrix(2 * (q0 * rows + rest / 2))
 
 
-def _by_parameters(expr: sp.Expr) -> sp.Expr:
+def by_parameters(expr: sp.Expr) -> sp.Expr:
     """Writes a polynomial as (a combination of the Jᵢ)·monomial + D·(...), factored."""
     inertial, contact = sp.expand(expr.subs(D, 0)), sp.expand(expr).coeff(D, 1)
     return sp.factor(inertial) + D * sp.factor(contact)
@@ -122,7 +122,7 @@ def tangent_hessian() -> sp.ImmutableMatrix:
     second = [sp.hessian(entry, [q0, *q]) for entry in momentum()]
     pairs = [(0, 0), (1, 1), (2, 2), (1, 2), (0, 2), (0, 1)]
     rows = [[(directions[i].T * h * directions[j])[0] for h in second] for i, j in pairs]
-    return sp.ImmutableMatrix(sp.Matrix(rows).applyfunc(_by_parameters))
+    return sp.ImmutableMatrix(sp.Matrix(rows).applyfunc(by_parameters))
 
 
 def _body_directions() -> list[sp.Matrix]:

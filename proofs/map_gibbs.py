@@ -1,0 +1,146 @@
+"""The map in the Gibbs vector u = q/q₀: lemmas of chapsym, which the paper does not state."""
+
+import sympy as sp
+
+from chapsym.derive import gibbs, three
+from chapsym.derive.gibbs import BY_INERTIA, I1, I2, I3, INERTIA, d, k, u, v
+from chapsym.derive.quotient import Quotient
+from chapsym.derive.three import D, gamma, q, q0
+from chapsym.prove import Equation, Fact, Proof, claim, main
+
+#: Free symbols: nothing is tied, |γ| = 1 is not used.
+FREE = Quotient((*u, *k, *d, *v, *gamma, I1, I2, I3, D), [])
+#: Unit Euler parameters, with u = q/q₀ cleared of its denominator.
+UNIT = Quotient((q0, *q, *v), [three.UNIT_QUATERNION])
+NORM = 1 + u.dot(u)
+
+
+def momentum_of(point: dict[sp.Symbol, sp.Expr]) -> sp.Matrix:
+    """𝒦(q, γ) with the moments of inertia, at (q₀, q)."""
+    return sp.Matrix(three.momentum()).subs(BY_INERTIA, simultaneous=True).subs(point, simultaneous=True)
+
+
+def equal(text: str, left: sp.Matrix, right: sp.Matrix, algebra: Quotient = FREE) -> Equation:
+    """An equation of vectors or matrices, entry by entry."""
+    return Equation(text, list(left), list(right), algebra)
+
+
+def staged(names: sp.Matrix) -> sp.Matrix:
+    """What the steps of the solve compute under these names, in the inputs alone."""
+    values: dict[sp.Symbol, sp.Expr] = {}
+    for symbols, expressions in gibbs.solve_steps()[:-2]:  # up to ∂G/∂u: without cofactors and division
+        values |= {s: sp.expand(e.xreplace(values)) for s, e in zip(symbols, expressions, strict=True)}
+    return names.xreplace(values)
+
+
+@claim("gibbs", r"B(\gamma)u + u\times Iu = \tfrac12(1+|u|^2)\mathcal K, \quad u = q/q_0", uses=("5.2",))
+def gibbs_form(p: Proof) -> None:
+    """With u = q/q₀ the vector equation (5.2) is quadratic in u, without a root."""
+    p.assume("q₀ ≠ 0: a rotation by π has no Gibbs vector")
+    p.say("𝒦(q, γ) is homogeneous of degree 2 in (q₀, q), and q₀² = 1/(1 + |u|²); with k = 𝒦/2:")
+    scale = sp.Symbol("r")
+    ring = Quotient((scale, *u, *gamma, I1, I2, I3, D), [])
+    scaled = momentum_of(dict(zip((q0, *q), (scale, *(scale * u)), strict=True)))
+    at_u = momentum_of({q0: sp.S.One, **dict(zip(q, u, strict=True))})
+    p.lemma(equal("𝒦(ru) = r²𝒦(u) for (q₀, q) = r(1, u)", scaled, scale**2 * at_u, ring))
+    residual = sp.Matrix(gibbs.residual())
+    p.show("G(u)", residual)
+    p.lemma(equal("½(𝒦(1, u) - 2k(1 + |u|²)) = G(u)", (at_u - 2 * k * NORM) / 2, residual))
+    B = sp.Matrix(gibbs.contact_inertia())
+    form = B * u + u.cross(INERTIA * u) - NORM * k
+    p.printed(equal("G(u) = B(γ)u + u × Iu - (1 + |u|²)k", residual, form))
+    p.lemma(equal("B(γ) = I + D(|γ|² - γγᵀ)", B, INERTIA + D * (gamma.dot(gamma) * sp.eye(3) - gamma * gamma.T)))
+    p.lemma(equal("u × Iu = u × Λu, as Λ = I + D", u.cross(INERTIA * u), u.cross((INERTIA + D * sp.eye(3)) * u)))
+    p.lemma(equal("the steps of the kernel compute the same G", staged(gibbs.R), residual))
+    p.control(equal("the same with Iu × u", residual, B * u - u.cross(INERTIA * u) - NORM * k))
+    p.control(equal("the same without |u|²", residual, B * u + u.cross(INERTIA * u) - k))
+
+
+@claim(
+    "gibbs-newton",
+    r"G(u+d) = d\times Id - |d|^2k \quad\text{when}\quad \partial_uG(u)\,d = -G(u)",
+    uses=("gibbs",),
+)
+def newton_leaves(p: Proof) -> None:
+    """What a Newton step leaves of G is known exactly: a second correction needs no second evaluation."""
+    residual, jacobian = sp.Matrix(gibbs.residual()), sp.Matrix(gibbs.jacobian())
+    after = residual.subs(dict(zip(u, u + d, strict=True)), simultaneous=True)
+    p.printed(equal("G(u + d) = G(u) + ∂G(u)d + d × Id - |d|²k", after, residual + jacobian * d + gibbs.bilinear(d)))
+    p.say("For the solve: with the cofactors C of a matrix A, A Cᵀ = det A; the kernel divides once.")
+    A, C = gibbs.A, gibbs.A.cofactor_matrix()
+    generic = Quotient(tuple(A), [])
+    p.lemma(equal("A Cᵀ = (first row · first cofactors)", A * C.T, (A[0, :] * C[0, :].T)[0] * sp.eye(3), generic))
+    p.lemma(equal("the steps of the kernel compute ∂G/∂u", staged(gibbs.A), jacobian))
+    p.control(equal("the same with + |d|²k", after, residual + jacobian * d + d.cross(INERTIA * d) + d.dot(d) * k))
+    p.control(equal("the same for ½∂G", after, residual + jacobian * d / 2 + gibbs.bilinear(d)))
+    p.control(equal("A C = det A", A * C, (A[0, :] * C[0, :].T)[0] * sp.eye(3), generic))
+
+
+@claim("gibbs-rotation", r"\Omega^Tv = v + \tfrac{2}{1+|u|^2}\,(u\times(u\times v) - u\times v)", uses=("5.1", "5.3"))
+def gibbs_rotation(p: Proof) -> None:
+    """The rotation of the Gibbs vector is rational: Ωᵀv from two vector products."""
+    p.assume("q₀ ≠ 0")
+    once = q.cross(v)
+    moved = v + 2 * (q.cross(once) - q0 * once)
+    rotation = sp.Matrix(three.rotation())
+    p.printed(equal("Ωᵀv = v + 2q₀²(u × (u × v) - u × v) with q₀u = q, q₀² = 1/(1 + |u|²)", rotation.T * v, moved, UNIT))
+    steps, value = gibbs.increment_steps()
+    for names, expressions in reversed(steps):
+        value = value.subs(dict(zip(names, expressions, strict=True)), simultaneous=True)
+    cleared = (value * NORM).applyfunc(sp.cancel)
+    p.lemma(equal("the steps of the kernel compute 2(u × (u × v) - u × v)/(1 + |u|²)", cleared,
+                  (gibbs.increment() * NORM).applyfunc(sp.cancel)))  # fmt: skip
+    p.control(equal("the same with + u × v", rotation.T * v, v + 2 * (q.cross(once) + q0 * once), UNIT))
+
+
+@claim(
+    "small-branch",
+    r"|\mathcal K| < I_{\min},\ \varrho\,(\tfrac12(I_{\max}-I_{\min}) + |\mathcal K|) < I_{\min},\ "
+    r"\varrho = \tan(\tfrac12\arcsin(|\mathcal K|/I_{\min})) \ \Rightarrow\ "
+    r"\text{one rotation with } |u| < 1, \text{ that of the small branch}",
+    uses=("gibbs", "gibbs-newton"),
+)
+def small_branch(p: Proof) -> None:
+    """A bound on |𝒦| under which a root with θ < 90° is the small branch's, whatever γ is."""
+    p.assume("|γ| = 1, I_min > 0")
+    B, jacobian = sp.Matrix(gibbs.contact_inertia()), sp.Matrix(gibbs.jacobian())
+    inertial = (u.T * INERTIA * u)[0]
+    residual = sp.Matrix(gibbs.residual())
+    along = Equation("⟨u, G(u)⟩ = ⟨u, Bu⟩ - (1 + |u|²)⟨k, u⟩", [u.dot(residual)],
+                     [(u.T * B * u)[0] - NORM * k.dot(u)], FREE)  # fmt: skip
+    p.printed(along)
+    above = Equation("⟨x, Bx⟩ = ⟨x, Ix⟩ + D|γ × x|² at x = u", [(u.T * B * u)[0]],
+                     [inertial + D * gamma.cross(u).dot(gamma.cross(u))], FREE)  # fmt: skip
+    p.lemma(above)
+    p.say("So a root has I_min|u| ≤ ½|𝒦|(1 + |u|²).  For t𝒦 with t|𝒦| < I_min this quadratic has the roots ϱ(t) < 1")
+    p.say("and 1/ϱ(t): every solution has |u| ≤ ϱ(t) or |u| ≥ 1/ϱ(t), ϱ(t) = tan(½ arcsin(t|𝒦|/I_min)), which grows with t.")
+    s, b = sp.symbols("s b")
+    curve = Quotient((s, b), [])
+    p.lemma(Equation("with |𝒦| = 2sb/(1 + s²), b = I_min: ½|𝒦|(1 + x²) - bx vanishes at x = s and at x = 1/s",
+                     [s * b * (1 + s**2) - b * s * (1 + s**2), s * b * (1 + s**2) - b * s**2 * (s + 1 / s)],
+                     [sp.S.Zero, sp.S.Zero], curve))  # fmt: skip
+    p.printed(Equation("⟨d, ∂G(u)d⟩ = ⟨d, Bd⟩ - ⟨u, d × Id⟩ - 2⟨d, k⟩⟨u, d⟩", [(d.T * jacobian * d)[0]],
+                       [(d.T * B * d)[0] - u.dot(d.cross(INERTIA * d)) - 2 * d.dot(k) * u.dot(d)], FREE))  # fmt: skip
+    p.say("|d × Id| = |d × (I - c)d| ≤ ½(I_max - I_min)|d|² for c in the middle.  So ⟨d, ∂G d⟩ > 0 for d ≠ 0 while")
+    p.say("|u|(½(I_max - I_min) + |𝒦|) < I_min: G is strictly monotone on that ball, and has one root there at most;")
+    p.say("for t𝒦 with t < 1 the ball is larger.  It contains |u| ≤ ϱ(1), so the curve from u = 0 never meets a fold")
+    p.say("for t ≤ 1 and cannot leave |u| ≤ ϱ(t) across the gap: at t = 1 it is the one root with |u| < 1.")
+    c = sp.Symbol("c")
+    shifted = Quotient((*d, I1, I2, I3, c), [])
+    p.lemma(equal("d × Id = d × (I - c)d", d.cross(INERTIA * d), d.cross((INERTIA - c * sp.eye(3)) * d), shifted))
+    p.lemma(_sharp())
+    p.control(Equation("⟨u, G(u)⟩ = ⟨u, Bu⟩ - ⟨k, u⟩", [u.dot(residual)], [(u.T * B * u)[0] - k.dot(u)], FREE))
+    p.control(Equation("⟨d, ∂G d⟩ without the vector product", [(d.T * jacobian * d)[0]],
+                       [(d.T * B * d)[0] - 2 * d.dot(k) * u.dot(d)], FREE))  # fmt: skip
+
+
+def _sharp() -> Fact:
+    """|d × Id| reaches ½(I_max - I_min)|d|², at the bisector of the two axes: the bound cannot be halved."""
+    bisector = sp.Matrix([1, 0, 1])
+    product = bisector.cross(sp.diag(3, 2, 1) * bisector)
+    reached = product.dot(product) / bisector.dot(bisector) ** 2
+    return Fact("|d × Id| = ½(I_max - I_min)|d|² at d = (1, 0, 1), I = (3, 2, 1)", reached == sp.Rational(3 - 1, 2) ** 2)
+
+
+if __name__ == "__main__":
+    main(__file__)
