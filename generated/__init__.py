@@ -5,9 +5,7 @@ from .centre_step import centre_step
 from .compose import compose
 from .contact_momentum import contact_momentum
 from .energy import energy
-from .gibbs_increment import gibbs_increment
 from .gibbs_newton import gibbs_newton
-from .gibbs_residual import gibbs_residual
 from .gibbs_second import gibbs_second
 from .invariants import invariants
 from .momentum import momentum
@@ -18,6 +16,7 @@ from .rotation import rotation
 from .tangent_hessian import tangent_hessian
 from .tangent_jacobian import tangent_jacobian
 from .transport import transport
+from .turn import turn
 
 # name: (function, (argument group, length) ..., shape of the result)
 TABLE = {
@@ -26,10 +25,8 @@ TABLE = {
     "compose": (compose, (('first', 4), ('second', 4)), (4,)),
     "contact_momentum": (contact_momentum, (('omega', 3), ('gamma', 3), ('mass_tensor', 3), ('D', 1)), (3,)),
     "energy": (energy, (('momentum', 3), ('gamma', 3), ('mass_tensor', 3), ('D', 1)), ()),
-    "gibbs_increment": (gibbs_increment, (('gibbs', 3), ('vector', 3)), (3,)),
-    "gibbs_newton": (gibbs_newton, (('gibbs', 3), ('half_momentum', 3), ('gamma', 3), ('inertia', 3), ('D', 1)), (12,)),
-    "gibbs_residual": (gibbs_residual, (('gibbs', 3), ('half_momentum', 3), ('gamma', 3), ('inertia', 3), ('D', 1)), (3,)),
-    "gibbs_second": (gibbs_second, (('correction', 3), ('half_momentum', 3), ('inverse', 9), ('inertia', 3)), (3,)),
+    "gibbs_newton": (gibbs_newton, (('gibbs', 3), ('half_momentum', 3), ('gamma', 3), ('inertia', 3), ('D', 1)), (13,)),
+    "gibbs_second": (gibbs_second, (('correction', 3), ('half_momentum', 3), ('cofactors', 9), ('inertia', 3)), (3,)),
     "invariants": (invariants, (('momentum', 3), ('gamma', 3)), (3,)),
     "momentum": (momentum, (('rotation', 4), ('gamma', 3), ('mass_tensor', 3), ('D', 1)), (3,)),
     "momentum_jacobian": (momentum_jacobian, (('rotation', 4), ('gamma', 3), ('mass_tensor', 3), ('D', 1)), (3, 3)),
@@ -39,4 +36,5 @@ TABLE = {
     "tangent_hessian": (tangent_hessian, (('rotation', 4), ('gamma', 3), ('mass_tensor', 3), ('D', 1)), (6, 3)),
     "tangent_jacobian": (tangent_jacobian, (('rotation', 4), ('gamma', 3), ('mass_tensor', 3), ('D', 1)), (3, 3)),
     "transport": (transport, (('rotation', 4), ('vector', 3)), (3,)),
+    "turn": (turn, (('quaternion', 4), ('vector', 3)), (3,)),
 }

@@ -14,8 +14,8 @@ def compose(a0, a1, a2, a3, b0, b1, b2, b3):
     Returns c0, c1, c2, c3.
     """
     # outputs
-    o_c0 = a0 * b0 - a1 * b1 - a2 * b2 - a3 * b3
-    o_c1 = a0 * b1 + a1 * b0 + a2 * b3 - a3 * b2
-    o_c2 = a0 * b2 + a2 * b0 + a3 * b1 - a1 * b3
-    o_c3 = a0 * b3 + a1 * b2 + a3 * b0 - a2 * b1
+    o_c0 = (a0 * b0 - a1 * b1) - (a2 * b2 + a3 * b3)
+    o_c1 = (a0 * b1 + a1 * b0) + (a2 * b3 - a3 * b2)
+    o_c2 = (a0 * b2 + a2 * b0) + (a3 * b1 - a1 * b3)
+    o_c3 = (a0 * b3 + a1 * b2) + (a3 * b0 - a2 * b1)
     return o_c0, o_c1, o_c2, o_c3

@@ -24,5 +24,5 @@ def energy(K1, K2, K3, g1, g2, g3, J1, J2, J3, D):
     t5 = 1 / (D + t4)
     t6 = K1 * g1 * t1 + K2 * g2 * t3 + K3 * g3 * t5
     # outputs
-    o_T = K1 * K1 * t1 / 2 + K2 * K2 * t3 / 2 + K3 * K3 * t5 / 2 + D * t6 * t6 / (2 * (g1 * g1 * t0 * t1 + g2 * g2 * t2 * t3 + g3 * g3 * t4 * t5))
+    o_T = (K1 * K1 * t1 / 2 + K2 * K2 * t3 / 2) + (K3 * K3 * t5 / 2 + D * t6 * t6 / (2 * (g1 * g1 * t0 * t1 + g2 * g2 * t2 * t3 + g3 * g3 * t4 * t5)))
     return o_T

@@ -27,7 +27,7 @@ def rotate(q0, q1, q2, q3, v1, v2, v3):
     t10 = q2 * q3
     t11 = 2 * v3
     # outputs
-    o_x1 = v1 + 2 * v3 * (t3 + t4) - t2 * (t0 + t1) - t7 * (t5 - t6)
-    o_x2 = v2 + t2 * (t5 + t6) - t11 * (t9 - t10) - t7 * (t1 + t8)
-    o_x3 = v3 + 2 * v2 * (t10 + t9) - t11 * (t0 + t8) - t2 * (t3 - t4)
+    o_x1 = (v1 + 2 * v3 * (t3 + t4)) - (t2 * (t0 + t1) + t7 * (t5 - t6))
+    o_x2 = (v2 + t2 * (t5 + t6)) - (t11 * (t9 - t10) + t7 * (t1 + t8))
+    o_x3 = (v3 + 2 * v2 * (t10 + t9)) - (t11 * (t0 + t8) + t2 * (t3 - t4))
     return o_x1, o_x2, o_x3

@@ -34,5 +34,5 @@ def rotation(q0, q1, q2, q3):
     o_R23 = 2 * q2 * q3 - t11
     o_R31 = 2 * q1 * q3 - t8
     o_R32 = t11 + 2 * q2 * q3
-    o_R33 = t10 + t2 + t3 + t4
+    o_R33 = (t10 + t2) + (t3 + t4)
     return o_R11, o_R12, o_R13, o_R21, o_R22, o_R23, o_R31, o_R32, o_R33

@@ -50,13 +50,13 @@ def tangent_jacobian(q0, q1, q2, q3, g1, g2, g3, J1, J2, J3, D):
     t31 = 2 * q1 * t29 - t23
     t32 = 2 * q3 * t26 - q1 * t11 - q2 * t22
     # outputs
-    o_dK11 = q3 * t10 + t0 * t4 - q1 * t14 - q2 * t13
-    o_dK12 = q0 * t10 + q1 * t13 - q2 * t14 - q3 * t15
-    o_dK13 = q0 * t13 + q2 * t15 - q1 * t10 - q3 * t14
-    o_dK21 = q0 * t21 + q3 * t19 - q1 * t25 - q2 * t24
-    o_dK22 = q1 * t24 + t0 * t18 - q2 * t25 - q3 * t21
-    o_dK23 = q0 * t24 + q2 * t21 - q1 * t19 - q3 * t25
-    o_dK31 = q0 * t30 + q3 * t31 - q1 * t32 - q2 * t28
-    o_dK32 = q0 * t31 + q1 * t28 - q2 * t32 - q3 * t30
-    o_dK33 = q2 * t30 + t0 * t27 - q1 * t31 - q3 * t32
+    o_dK11 = (q3 * t10 + t0 * t4) - (q1 * t14 + q2 * t13)
+    o_dK12 = (q0 * t10 + q1 * t13) - (q2 * t14 + q3 * t15)
+    o_dK13 = (q0 * t13 + q2 * t15) - (q1 * t10 + q3 * t14)
+    o_dK21 = (q0 * t21 + q3 * t19) - (q1 * t25 + q2 * t24)
+    o_dK22 = (q1 * t24 + t0 * t18) - (q2 * t25 + q3 * t21)
+    o_dK23 = (q0 * t24 + q2 * t21) - (q1 * t19 + q3 * t25)
+    o_dK31 = (q0 * t30 + q3 * t31) - (q1 * t32 + q2 * t28)
+    o_dK32 = (q0 * t31 + q1 * t28) - (q2 * t32 + q3 * t30)
+    o_dK33 = (q2 * t30 + t0 * t27) - (q1 * t31 + q3 * t32)
     return o_dK11, o_dK12, o_dK13, o_dK21, o_dK22, o_dK23, o_dK31, o_dK32, o_dK33

@@ -27,7 +27,7 @@ def transport(q0, q1, q2, q3, v1, v2, v3):
     t10 = q0 * q1
     t11 = q2 * q3
     # outputs
-    o_x1 = v1 + 2 * v2 * (t3 + t4) - t2 * (t0 + t1) - t7 * (t5 - t6)
-    o_x2 = v2 + 2 * v3 * (t10 + t11) - t2 * (t3 - t4) - t9 * (t1 + t8)
-    o_x3 = v3 + t2 * (t5 + t6) - t7 * (t0 + t8) - t9 * (t10 - t11)
+    o_x1 = (v1 + 2 * v2 * (t3 + t4)) - (t2 * (t0 + t1) + t7 * (t5 - t6))
+    o_x2 = (v2 + 2 * v3 * (t10 + t11)) - (t2 * (t3 - t4) + t9 * (t1 + t8))
+    o_x3 = (v3 + t2 * (t5 + t6)) - (t7 * (t0 + t8) + t9 * (t10 - t11))
     return o_x1, o_x2, o_x3

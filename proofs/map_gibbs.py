@@ -10,8 +10,8 @@ from chapsym.prove import Equation, Fact, Proof, claim, main
 
 #: Free symbols: nothing is tied, |γ| = 1 is not used.
 FREE = Quotient((*u, *k, *d, *v, *gamma, I1, I2, I3, D), [])
-#: Unit Euler parameters, with u = q/q₀ cleared of its denominator.
-UNIT = Quotient((q0, *q, *v), [three.UNIT_QUATERNION])
+#: A quaternion of any length, and a vector.
+ANY = Quotient((gibbs.p0, *gibbs.p, *v), [])
 NORM = 1 + u.dot(u)
 
 
@@ -26,9 +26,9 @@ def equal(text: str, left: sp.Matrix, right: sp.Matrix, algebra: Quotient = FREE
 
 
 def staged(names: sp.Matrix) -> sp.Matrix:
-    """What the steps of the solve compute under these names, in the inputs alone."""
+    """What the steps of the kernel compute under these names, in the inputs alone."""
     values: dict[sp.Symbol, sp.Expr] = {}
-    for symbols, expressions in gibbs.solve_steps()[:-2]:  # up to ∂G/∂u: without cofactors and division
+    for symbols, expressions in gibbs.newton_steps()[0][:-1]:  # up to ∂G/∂u: without the cofactors
         values |= {s: sp.expand(e.xreplace(values)) for s, e in zip(symbols, expressions, strict=True)}
     return names.xreplace(values)
 
@@ -51,46 +51,58 @@ def gibbs_form(p: Proof) -> None:
     p.printed(equal("G(u) = B(γ)u + u × Iu - (1 + |u|²)k", residual, form))
     p.lemma(equal("B(γ) = I + D(|γ|² - γγᵀ)", B, INERTIA + D * (gamma.dot(gamma) * sp.eye(3) - gamma * gamma.T)))
     p.lemma(equal("u × Iu = u × Λu, as Λ = I + D", u.cross(INERTIA * u), u.cross((INERTIA + D * sp.eye(3)) * u)))
-    p.lemma(equal("the steps of the kernel compute the same G", staged(gibbs.R), residual))
+    p.lemma(equal("∂G/∂u is the derivative of G", gibbs.jacobian(), residual.jacobian(u)))
     p.control(equal("the same with Iu × u", residual, B * u - u.cross(INERTIA * u) - NORM * k))
     p.control(equal("the same without |u|²", residual, B * u + u.cross(INERTIA * u) - k))
 
 
 @claim(
     "gibbs-newton",
-    r"G(u+d) = d\times Id - |d|^2k \quad\text{when}\quad \partial_uG(u)\,d = -G(u)",
+    r"\partial_uG(u)\,u' = u\times Iu + (1-|u|^2)k \ \Rightarrow\ G(u') = d\times Id - |d|^2k,\quad d = u'-u",
     uses=("gibbs",),
 )
 def newton_leaves(p: Proof) -> None:
-    """What a Newton step leaves of G is known exactly: a second correction needs no second evaluation."""
-    residual, jacobian = sp.Matrix(gibbs.residual()), sp.Matrix(gibbs.jacobian())
+    """The next Newton iterate without the residual, and what it leaves: a second correction needs no evaluation."""
+    residual, jacobian = sp.Matrix(gibbs.residual()), gibbs.jacobian()
     after = residual.subs(dict(zip(u, u + d, strict=True)), simultaneous=True)
-    p.printed(equal("G(u + d) = G(u) + ∂G(u)d + d × Id - |d|²k", after, residual + jacobian * d + gibbs.bilinear(d)))
-    p.say("For the solve: with the cofactors C of a matrix A, A Cᵀ = det A; the kernel divides once.")
+    p.printed(
+        equal("∂G(u)u - G(u) = u × Iu + (1 - |u|²)k", jacobian * u - residual, gibbs.newton_target()),
+        equal("G(u + d) = G(u) + ∂G(u)d + d × Id - |d|²k", after, residual + jacobian * d + gibbs.bilinear(d)),
+    )
+    p.say(
+        "For the solve: with the cofactors C of a matrix A, A Cᵀ = det A; so u' = Cᵀr/det A, a quaternion (det A, Cᵀr)."
+    )
     A, C = gibbs.A, gibbs.A.cofactor_matrix()
     generic = Quotient(tuple(A), [])
     p.lemma(equal("A Cᵀ = (first row · first cofactors)", A * C.T, (A[0, :] * C[0, :].T)[0] * sp.eye(3), generic))
     p.lemma(equal("the steps of the kernel compute ∂G/∂u", staged(gibbs.A), jacobian))
-    p.control(equal("the same with + |d|²k", after, residual + jacobian * d + d.cross(INERTIA * d) + d.dot(d) * k))
-    p.control(equal("the same for ½∂G", after, residual + jacobian * d / 2 + gibbs.bilinear(d)))
+    p.lemma(equal("and the right side", staged(gibbs.R), gibbs.newton_target()))
+    p.control(equal("G(u + d) with + |d|²k", after, residual + jacobian * d + d.cross(INERTIA * d) + d.dot(d) * k))
+    p.control(equal("G(u + d) with ½∂G", after, residual + jacobian * d / 2 + gibbs.bilinear(d)))
+    p.control(equal("the right side with 1 + |u|²", jacobian * u - residual, u.cross(INERTIA * u) + NORM * k))
     p.control(equal("A C = det A", A * C, (A[0, :] * C[0, :].T)[0] * sp.eye(3), generic))
 
 
-@claim("gibbs-rotation", r"\Omega^Tv = v + \tfrac{2}{1+|u|^2}\,(u\times(u\times v) - u\times v)", uses=("5.1", "5.3"))
-def gibbs_rotation(p: Proof) -> None:
-    """The rotation of the Gibbs vector is rational: Ωᵀv from two vector products."""
-    p.assume("q₀ ≠ 0")
-    once = q.cross(v)
-    moved = v + 2 * (q.cross(once) - q0 * once)
-    rotation = sp.Matrix(three.rotation())
-    p.printed(equal("Ωᵀv = v + 2q₀²(u × (u × v) - u × v) with q₀u = q, q₀² = 1/(1 + |u|²)", rotation.T * v, moved, UNIT))
-    steps, value = gibbs.increment_steps()
+@claim(
+    "gibbs-rotation",
+    r"\Omega^Tv = v + \tfrac{2}{p_0^2+|p|^2}\,(p\times(p\times v) - p_0\,p\times v)",
+    uses=("5.1", "5.3"),
+)
+def gibbs_rotation(proof: Proof) -> None:
+    """The rotation of a quaternion of any length is rational: Ωᵀv from two vector products."""
+    p0, p = gibbs.p0, gibbs.p
+    proof.assume("(p₀, p) ≠ 0; the Gibbs vector is p/p₀")
+    rotation = sp.Matrix(three.rotation()).subs(dict(zip((q0, *q), (p0, *p), strict=True)), simultaneous=True)
+    norm, once = p0**2 + p.dot(p), p.cross(v)
+    proof.say("Ω of (5.1) is homogeneous of degree 2, and (p₀² + |p|²)Ω for any (p₀, p):")
+    proof.printed(equal("|(p₀, p)|²(Ωᵀv - v) = 2(p × (p × v) - p₀ p × v)", rotation.T * v - norm * v,
+                        2 * (p.cross(once) - p0 * once), ANY))  # fmt: skip
+    steps, value = gibbs.turn_steps()
     for names, expressions in reversed(steps):
         value = value.subs(dict(zip(names, expressions, strict=True)), simultaneous=True)
-    cleared = (value * NORM).applyfunc(sp.cancel)
-    p.lemma(equal("the steps of the kernel compute 2(u × (u × v) - u × v)/(1 + |u|²)", cleared,
-                  (gibbs.increment() * NORM).applyfunc(sp.cancel)))  # fmt: skip
-    p.control(equal("the same with + u × v", rotation.T * v, v + 2 * (q.cross(once) + q0 * once), UNIT))
+    proof.lemma(equal("the steps of the kernel compute this", (value * norm).applyfunc(sp.cancel),
+                      2 * (p.cross(once) - p0 * once), ANY))  # fmt: skip
+    proof.control(equal("the same with + p₀ p × v", rotation.T * v - norm * v, 2 * (p.cross(once) + p0 * once), ANY))
 
 
 @claim(
@@ -103,7 +115,7 @@ def gibbs_rotation(p: Proof) -> None:
 def small_branch(p: Proof) -> None:
     """A bound on |𝒦| under which a root with θ < 90° is the small branch's, whatever γ is."""
     p.assume("|γ| = 1, I_min > 0")
-    B, jacobian = sp.Matrix(gibbs.contact_inertia()), sp.Matrix(gibbs.jacobian())
+    B, jacobian = sp.Matrix(gibbs.contact_inertia()), gibbs.jacobian()
     inertial = (u.T * INERTIA * u)[0]
     residual = sp.Matrix(gibbs.residual())
     along = Equation("⟨u, G(u)⟩ = ⟨u, Bu⟩ - (1 + |u|²)⟨k, u⟩", [u.dot(residual)],
@@ -113,7 +125,9 @@ def small_branch(p: Proof) -> None:
                      [inertial + D * gamma.cross(u).dot(gamma.cross(u))], FREE)  # fmt: skip
     p.lemma(above)
     p.say("So a root has I_min|u| ≤ ½|𝒦|(1 + |u|²).  For t𝒦 with t|𝒦| < I_min this quadratic has the roots ϱ(t) < 1")
-    p.say("and 1/ϱ(t): every solution has |u| ≤ ϱ(t) or |u| ≥ 1/ϱ(t), ϱ(t) = tan(½ arcsin(t|𝒦|/I_min)), which grows with t.")
+    p.say(
+        "and 1/ϱ(t): every solution has |u| ≤ ϱ(t) or |u| ≥ 1/ϱ(t), ϱ(t) = tan(½ arcsin(t|𝒦|/I_min)), which grows with t."
+    )
     s, b = sp.symbols("s b")
     curve = Quotient((s, b), [])
     p.lemma(Equation("with |𝒦| = 2sb/(1 + s²), b = I_min: ½|𝒦|(1 + x²) - bx vanishes at x = s and at x = 1/s",
@@ -139,7 +153,9 @@ def _sharp() -> Fact:
     bisector = sp.Matrix([1, 0, 1])
     product = bisector.cross(sp.diag(3, 2, 1) * bisector)
     reached = product.dot(product) / bisector.dot(bisector) ** 2
-    return Fact("|d × Id| = ½(I_max - I_min)|d|² at d = (1, 0, 1), I = (3, 2, 1)", reached == sp.Rational(3 - 1, 2) ** 2)
+    return Fact(
+        "|d × Id| = ½(I_max - I_min)|d|² at d = (1, 0, 1), I = (3, 2, 1)", reached == sp.Rational(3 - 1, 2) ** 2
+    )
 
 
 if __name__ == "__main__":

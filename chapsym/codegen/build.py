@@ -36,7 +36,7 @@ def code(kernel: Kernel, chosen: Collection[passes.Pass] = passes.PASSES) -> str
     """The function of a kernel, with the passes that are chosen."""
     terms, rest = passes.lower(kernel, chosen)
     arguments = ", ".join(symbol.name for symbol in kernel.inputs)
-    as_products = passes.POWERS in chosen
+    how = printer.Style(products=passes.POWERS in chosen, balanced=passes.BALANCED in chosen)
     # Outputs are named o_... so that an output may share its name with an input (K, in `residual`).
     outputs = [f"o_{name}" for name in kernel.outputs]
     lines = [
@@ -48,9 +48,9 @@ def code(kernel: Kernel, chosen: Collection[passes.Pass] = passes.PASSES) -> str
         '    """',
     ]
     lines += ["    # intermediate terms"] if terms else []
-    lines += [f"    {symbol} = {printer.text(expr, as_products)}" for symbol, expr in terms]
+    lines += [f"    {symbol} = {printer.text(expr, how)}" for symbol, expr in terms]
     lines += ["    # outputs"]
-    lines += [f"    {name} = {printer.text(expr, as_products)}" for name, expr in zip(outputs, rest, strict=True)]
+    lines += [f"    {name} = {printer.text(expr, how)}" for name, expr in zip(outputs, rest, strict=True)]
     return "\n".join([*lines, f"    return {', '.join(outputs)}", ""])
 
 

@@ -24,7 +24,8 @@ VECTOR: Group = ("vector", sp.symbols("v1:4"))
 GIBBS: Group = ("gibbs", tuple(gibbs.u))
 HALF: Group = ("half_momentum", tuple(gibbs.k))
 CORRECTION: Group = ("correction", tuple(gibbs.d))
-INVERSE: Group = ("inverse", tuple(gibbs.INVERSE))
+COFACTORS: Group = ("cofactors", tuple(gibbs.C))
+ANY_QUATERNION: Group = ("quaternion", (gibbs.p0, *gibbs.p))
 INERTIA: Group = ("inertia", tuple(gibbs.INERTIA.diagonal()))
 BODY: tuple[Group, ...] = (GAMMA, MASS_TENSOR, CONTACT)
 
@@ -189,43 +190,33 @@ KERNELS: tuple[Kernel, ...] = (
         continuous.angular_velocity,
     ),
     Kernel(
-        "gibbs_residual",
-        "G(u) = B(γ)u + u × Iu - (1 + |u|²)k with u = q/q0, k = 𝒦/2: zero for the rotation of the next step (5.2).",
-        ("gibbs",),
-        (GIBBS, HALF, GAMMA, INERTIA, CONTACT),
-        (3,),
-        _vector("r"),
-        gibbs.residual,
-        gibbs.residual_steps,
-    ),
-    Kernel(
         "gibbs_newton",
-        "The Newton correction d = -(∂G/∂u)⁻¹G of the Gibbs vector, and (∂G/∂u)⁻¹ row by row.",
+        "The next Newton iterate of the Gibbs vector, N/det, as a quaternion (det, N); and the cofactors of ∂G/∂u.",
         ("gibbs", "gibbs-newton"),
         (GIBBS, HALF, GAMMA, INERTIA, CONTACT),
-        (12,),
-        (*_vector("d"), *_matrix("i")),
-        lambda: [*(-gibbs.flat_inverse() * sp.Matrix(gibbs.residual())), *gibbs.flat_inverse()],
-        lambda: (gibbs.solve_steps(), [*gibbs.newton(), *gibbs.inverse()]),
+        (13,),
+        ("det", *_vector("N"), *_matrix("C")),
+        gibbs.newton,
+        gibbs.newton_steps,
     ),
     Kernel(
         "gibbs_second",
-        "The correction after a Newton correction d, by the same inverse: -(∂G/∂u)⁻¹(d × Id - |d|²k).",
+        "What N loses by a second correction after a Newton correction d, with the same cofactors.",
         ("gibbs-newton",),
-        (CORRECTION, HALF, INVERSE, INERTIA),
+        (CORRECTION, HALF, COFACTORS, INERTIA),
         (3,),
         _vector("e"),
-        gibbs.second_correction,
-        gibbs.second_correction_steps,
+        gibbs.second,
+        gibbs.second_steps,
     ),
     Kernel(
-        "gibbs_increment",
-        "Ωᵀv - v = 2/(1 + |u|²)·(u × (u × v) - u × v) of the rotation with the Gibbs vector u.",
+        "turn",
+        "Ωᵀv - v for the rotation of a quaternion that need not be unit (5.3).",
         ("gibbs-rotation",),
-        (GIBBS, VECTOR),
+        (ANY_QUATERNION, VECTOR),
         (3,),
         _vector("x"),
-        gibbs.increment,
-        gibbs.increment_steps,
+        gibbs.turn,
+        gibbs.turn_steps,
     ),
 )

@@ -25,9 +25,10 @@ class Pass:
 FACTORED = Pass("factored", "compute by the derivation's own steps: entries, cofactors, determinant, one division")
 COMMON = Pass("common", "name common subexpressions")
 POWERS = Pass("powers", "print an integer power as a product, and name its base")
+BALANCED = Pass("balanced", "print a sum as a balanced tree, so that fewer operations wait for each other")
 
 #: In the order in which they are applied.
-PASSES = (FACTORED, COMMON, POWERS)
+PASSES = (FACTORED, COMMON, POWERS, BALANCED)
 
 
 def lower(kernel: Kernel, passes: Collection[Pass] = PASSES) -> tuple[Assignments, list[sp.Expr]]:

@@ -5,6 +5,9 @@ a rational coefficient p/q multiplies by p and divides by q, and a number that i
 is never printed on its own.
 """
 
+from collections.abc import Sequence
+from dataclasses import dataclass
+
 import sympy as sp
 from sympy.core.sorting import default_sort_key
 
@@ -13,23 +16,48 @@ class NotStraightLine(ValueError):
     """The expression needs more than + - * / and integers."""
 
 
-def text(expr: sp.Expr, as_products: bool = True) -> str:
-    """The Python text of an expression; its powers as products, or as powers for a comparison of speed."""
-    return _sum(sp.sympify(expr), as_products)
+@dataclass(frozen=True)
+class Style:
+    """How to print: integer powers as products, sums as balanced trees.  False is for comparisons of speed."""
+
+    products: bool = True
+    balanced: bool = True
 
 
-def _sum(expr: sp.Expr, as_products: bool) -> str:
-    terms = sorted(sp.Add.make_args(expr), key=_positive_first)
-    pieces = [_product(term, as_products) for term in terms]
-    joined = pieces[0] + "".join(f" - {p[1:]}" if p.startswith("-") else f" + {p}" for p in pieces[1:])
-    return joined
+def text(expr: sp.Expr, how: Style = Style()) -> str:
+    """The Python text of an expression."""
+    return _sum(sp.sympify(expr), how)
+
+
+def _sum(expr: sp.Expr, how: Style) -> str:
+    pieces = [_product(term, how) for term in sorted(sp.Add.make_args(expr), key=_positive_first)]
+    return _tree(pieces) if how.balanced else _added(pieces)
+
+
+def _added(pieces: Sequence[str]) -> str:
+    return pieces[0] + "".join(f" - {p[1:]}" if p.startswith("-") else f" + {p}" for p in pieces[1:])
+
+
+def _tree(pieces: Sequence[str]) -> str:
+    """The sum as a balanced tree, in which no operation waits for more than the logarithm of the others."""
+    if len(pieces) <= 3:
+        return _added(pieces)
+    half = (len(pieces) + 1) // 2
+    first, rest = _tree(pieces[:half]), pieces[half:]
+    if all(p.startswith("-") for p in rest):
+        return f"{_grouped(first, half)} - {_grouped(_tree([p[1:] for p in rest]), len(rest))}"
+    return f"{_grouped(first, half)} + {_grouped(_tree(rest), len(rest))}"
+
+
+def _grouped(text: str, terms: int) -> str:
+    return f"({text})" if terms > 1 else text
 
 
 def _positive_first(term: sp.Expr) -> tuple:
     return bool(term.could_extract_minus_sign()), default_sort_key(term)
 
 
-def _product(expr: sp.Expr, as_products: bool) -> str:
+def _product(expr: sp.Expr, how: Style) -> str:
     coefficient, factors = expr.as_coeff_mul()
     if not coefficient.is_Rational:
         raise NotStraightLine(f"{expr} has the coefficient {coefficient}, which is not rational")
@@ -39,7 +67,7 @@ def _product(expr: sp.Expr, as_products: bool) -> str:
         base, power = factor.as_base_exp()
         if not power.is_Integer:
             raise NotStraightLine(f"{factor} is not an integer power; give the root as an input")
-        (above if power > 0 else below).extend(_copies(_factor(base, as_products), abs(int(power)), as_products))
+        (above if power > 0 else below).extend(_copies(_factor(base, how), abs(int(power)), how))
     if not factors and coefficient.q != 1:
         raise NotStraightLine(f"the number {coefficient} would be rounded; multiply something by it instead")
     numerator = abs(coefficient.p)
@@ -54,13 +82,13 @@ def _product(expr: sp.Expr, as_products: bool) -> str:
     return f"{product} / {below[0]}" if len(below) == 1 else f"{product} / ({' * '.join(below)})"
 
 
-def _copies(factor: str, power: int, as_products: bool) -> list[str]:
-    return [factor] * power if as_products or power == 1 else [f"{factor}**{power}"]
+def _copies(factor: str, power: int, how: Style) -> list[str]:
+    return [factor] * power if how.products or power == 1 else [f"{factor}**{power}"]
 
 
-def _factor(expr: sp.Expr, as_products: bool) -> str:
+def _factor(expr: sp.Expr, how: Style) -> str:
     if expr.is_Symbol or (expr.is_Integer and expr >= 0):
         return str(expr)
     if expr.is_Add or expr.is_Mul or expr.is_Pow:
-        return f"({_sum(expr, as_products)})"
+        return f"({_sum(expr, how)})"
     raise NotStraightLine(f"{expr} is not a sum, a product or a name")

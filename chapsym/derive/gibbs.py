@@ -27,14 +27,19 @@ INERTIA = sp.diag(I1, I2, I3)
 #: The mass tensor by the moments of inertia I₁ = J₂ + J₃, ...
 BY_INERTIA = {J1: (I2 + I3 - I1) / 2, J2: (I1 + I3 - I2) / 2, J3: (I1 + I2 - I3) / 2}
 
-#: Names of what is computed before the solve: ∂G/∂u, B, the cofactors, G, 1/det, 1 + |u|²; u × v; and the inverse as an input.
+#: Names of what is computed on the way: ∂G/∂u, B, the cofactors, a right side, p × v, the factor 2/|p|².
 A = sp.Matrix(3, 3, sp.symbols("a1:4(1:4)"))
 B = sp.Matrix(3, 3, lambda i, j: sp.Symbol(f"b{min(i, j) + 1}{max(i, j) + 1}"))
 C = sp.Matrix(3, 3, sp.symbols("c1:4(1:4)"))
 R = sp.Matrix(sp.symbols("r1:4"))
-ONCE = sp.Matrix(sp.symbols("p1:4"))
-SCALE, NORM = sp.symbols("s n")
-INVERSE = sp.Matrix(3, 3, sp.symbols("i1:4(1:4)"))
+ONCE = sp.Matrix(sp.symbols("x1:4"))
+SCALE = sp.Symbol("s")
+
+#: A quaternion that need not be unit: (det A, N) for the rotation with the Gibbs vector N/det A.
+p0, p1, p2, p3 = sp.symbols("p0:4")
+p = sp.Matrix([p1, p2, p3])
+
+Steps = list[tuple[sp.Matrix, sp.Matrix]]
 
 
 @cache
@@ -65,63 +70,52 @@ def polar(x: sp.Matrix) -> sp.Matrix:
     return whole.applyfunc(lambda e: sum(s * sp.expand(e).coeff(s) for s in x))
 
 
-def residual_steps() -> tuple[list[tuple[sp.Matrix, sp.Matrix]], sp.Matrix]:
-    """G by 1 + |u|² and the entries of B."""
-    steps = [(sp.Matrix([NORM]), sp.Matrix([1 + u.dot(u)])), (B, sp.Matrix(contact_inertia()))]
-    return steps, B * u + u.cross(INERTIA * u) - NORM * k
+def jacobian() -> sp.Matrix:
+    """∂G/∂u = B + ∂(u × Iu - |u|²k)/∂u."""
+    return sp.Matrix(contact_inertia()) + polar(u)
 
 
-def solve_steps() -> list[tuple[sp.Matrix, sp.Matrix]]:
-    """1 + |u|², B, G, ∂G/∂u, its cofactors and 1/det, in this order: each uses those before it."""
-    determinant = sum(A[0, j] * C[0, j] for j in range(3))
-    steps, value = residual_steps()
-    return [
-        *steps,
-        (R, value),
+def newton_target() -> sp.Matrix:
+    """(∂G/∂u)u - G(u), which is the Jacobian times the next Newton iterate: u × Iu + (1 - |u|²)k."""
+    return u.cross(INERTIA * u) + (1 - u.dot(u)) * k
+
+
+def newton() -> list[sp.Expr]:
+    """The next Newton iterate as a quaternion (det, N), u = N/det, and the cofactors of ∂G/∂u row by row."""
+    cofactors = jacobian().cofactor_matrix()
+    determinant = jacobian().det(method="berkowitz")
+    return [determinant, *(cofactors.T * newton_target()), *cofactors]
+
+
+def newton_steps() -> tuple[Steps, list[sp.Expr]]:
+    """The same by the entries of B, of the right side and of ∂G/∂u."""
+    steps = [
+        (B, sp.Matrix(contact_inertia())),
+        (R, newton_target()),
         (A, B + polar(u)),
         (C, A.cofactor_matrix()),
-        (sp.Matrix([SCALE]), sp.Matrix([1 / determinant])),
     ]
+    determinant = sum(A[0, j] * C[0, j] for j in range(3))
+    return steps, [determinant, *(C.T * R), *C]
 
 
-@cache
-def jacobian() -> sp.ImmutableMatrix:
-    """∂G/∂u."""
-    return sp.ImmutableMatrix(sp.Matrix(residual()).jacobian(u))
+def second() -> sp.Matrix:
+    """What N loses by the second correction, after a Newton correction d: Cᵀ(d × Id - |d|²k)."""
+    return C.T * bilinear(d)
 
 
-def flat_inverse() -> sp.Matrix:
-    """(∂G/∂u)⁻¹ in the inputs alone."""
-    return sp.Matrix(jacobian()).adjugate() / sp.Matrix(jacobian()).det(method="berkowitz")
-
-
-def newton() -> sp.Matrix:
-    """The Newton correction -(∂G/∂u)⁻¹ G by the names of `solve_steps`."""
-    return -SCALE * (C.T * R)
-
-
-def inverse() -> sp.Matrix:
-    """(∂G/∂u)⁻¹ by the names of `solve_steps`."""
-    return SCALE * C.T
-
-
-def second_correction() -> sp.Matrix:
-    """What is to be added to a Newton correction d: -(∂G/∂u)⁻¹(d × Id - |d|²k), with the same inverse."""
-    return -INVERSE * bilinear(d)
-
-
-def second_correction_steps() -> tuple[list[tuple[sp.Matrix, sp.Matrix]], sp.Matrix]:
+def second_steps() -> tuple[Steps, sp.Matrix]:
     """The same by what the Newton correction leaves of G."""
-    return [(R, bilinear(d))], -INVERSE * R
+    return [(R, bilinear(d))], C.T * R
 
 
-def increment() -> sp.Matrix:
-    """Ωᵀv - v = 2/(1 + |u|²)·(u × (u × v) - u × v)."""
-    once = u.cross(v)
-    return (2 / (1 + u.dot(u))) * (u.cross(once) - once)
+def turn() -> sp.Matrix:
+    """Ωᵀv - v = 2/(p₀² + |p|²)·(p × (p × v) - p₀ p × v) of any quaternion (p₀, p)."""
+    once = p.cross(v)
+    return (2 / (p0**2 + p.dot(p))) * (p.cross(once) - p0 * once)
 
 
-def increment_steps() -> tuple[list[tuple[sp.Matrix, sp.Matrix]], sp.Matrix]:
-    """The same by u × v."""
-    steps = [(sp.Matrix([SCALE]), sp.Matrix([2 / (1 + u.dot(u))])), (ONCE, u.cross(v))]
-    return steps, SCALE * (u.cross(ONCE) - ONCE)
+def turn_steps() -> tuple[Steps, sp.Matrix]:
+    """The same by p × v."""
+    steps = [(sp.Matrix([SCALE]), sp.Matrix([2 / (p0**2 + p.dot(p))])), (ONCE, p.cross(v))]
+    return steps, SCALE * (p.cross(ONCE) - p0 * ONCE)
