@@ -1,7 +1,7 @@
 """The next Newton iterate of the Gibbs vector, N/det, as a quaternion (det, N); and the cofactors of ∂G/∂u.
 
 Written by `chapsym codegen`: do not edit; change the derivation and generate again.
-Proved by: gibbs, gibbs-newton.  Operations: 129.  SymPy 1.14.0.
+Proved by: gibbs, gibbs-newton.  Operations: 124.  SymPy 1.14.0.
 Expression: sha256 13c5855efdcc3908807d2d024f47cd62af450fc3f819c0ecc29195f82d86fa62.
 """
 
@@ -17,39 +17,47 @@ def gibbs_newton(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D):
     Returns det, N1, N2, N3, C11, C12, C13, C21, C22, C23, C31, C32, C33.
     """
     # intermediate terms
-    t0 = g2 * g2
-    t1 = g3 * g3
-    t2 = D * g1
-    t3 = g1 * g1
-    b11 = I1 + D * (t0 + t1)
-    b12 = -g2 * t2
-    b13 = -g3 * t2
-    b22 = I2 + D * (t1 + t3)
-    b23 = -D * g2 * g3
-    b33 = I3 + D * (t0 + t3)
-    t4 = u2 * u3
-    t5 = (1 - u1 * u1) - (u2 * u2 + u3 * u3)
-    t6 = u1 * u3
-    t7 = u1 * u2
-    r1 = I3 * t4 + k1 * t5 - I2 * t4
-    r2 = I1 * t6 + k2 * t5 - I3 * t6
-    r3 = I2 * t7 + k3 * t5 - I1 * t7
-    t8 = 2 * k1
-    t9 = -I3
-    t10 = -I2 - t9
-    t11 = 2 * k2
-    t12 = I1 + t9
-    t13 = 2 * k3
-    t14 = I2 - I1
-    a11 = b11 - t8 * u1
-    a12 = b12 + t10 * u3 - t8 * u2
-    a13 = b13 + t10 * u2 - t8 * u3
-    a21 = b12 + t12 * u3 - t11 * u1
-    a22 = b22 - t11 * u2
-    a23 = b23 + t12 * u1 - t11 * u3
-    a31 = b13 + t14 * u2 - t13 * u1
-    a32 = b23 + t14 * u1 - t13 * u2
-    a33 = b33 - t13 * u3
+    w1 = D * g1
+    w2 = D * g2
+    w3 = D * g3
+    e11 = g1 * w1
+    e12 = g1 * w2
+    e13 = g1 * w3
+    e22 = g2 * w2
+    e23 = g2 * w3
+    e33 = g3 * w3
+    t0 = u2 * u3
+    t1 = (1 - u1 * u1) - (u2 * u2 + u3 * u3)
+    t2 = u1 * u3
+    t3 = u1 * u2
+    r1 = I3 * t0 + k1 * t1 - I2 * t0
+    r2 = I1 * t2 + k2 * t1 - I3 * t2
+    r3 = I2 * t3 + k3 * t1 - I1 * t3
+    t4 = 2 * k1
+    t5 = -I3
+    t6 = -I2 - t5
+    t7 = 2 * k2
+    t8 = I1 + t5
+    t9 = 2 * k3
+    t10 = I2 - I1
+    m11 = I1 - t4 * u1
+    m12 = t6 * u3 - t4 * u2
+    m13 = t6 * u2 - t4 * u3
+    m21 = t8 * u3 - t7 * u1
+    m22 = I2 - t7 * u2
+    m23 = t8 * u1 - t7 * u3
+    m31 = t10 * u2 - t9 * u1
+    m32 = t10 * u1 - t9 * u2
+    m33 = I3 - t9 * u3
+    a11 = e22 + e33 + m11
+    a12 = m12 - e12
+    a13 = m13 - e13
+    a21 = m21 - e12
+    a22 = e11 + e33 + m22
+    a23 = m23 - e23
+    a31 = m31 - e13
+    a32 = m32 - e23
+    a33 = e11 + e22 + m33
     c11 = a22 * a33 - a23 * a32
     c12 = a23 * a31 - a21 * a33
     c13 = a21 * a32 - a22 * a31

@@ -18,3 +18,12 @@ def records():
     from chapsym.prove import load, prove_all
 
     return {record["id"]: record for record in prove_all(list(load()))}
+
+
+@pytest.fixture(scope="session")
+def lemmas():
+    """Every lemma of chapsym's own, judged once."""
+    import chapsym.proofs
+    from chapsym.prove import prove_all
+
+    return {record["id"]: record for record in prove_all(list(chapsym.proofs.LEMMAS))}

@@ -9,7 +9,7 @@ from functools import cache
 import sympy as sp
 
 from . import three
-from .three import J1, J2, J3, q, q0
+from .three import J1, J2, J3, D, gamma, q, q0
 
 u1, u2, u3 = sp.symbols("u1:4")
 k1, k2, k3 = sp.symbols("k1:4")
@@ -27,9 +27,12 @@ INERTIA = sp.diag(I1, I2, I3)
 #: The mass tensor by the moments of inertia I₁ = J₂ + J₃, ...
 BY_INERTIA = {J1: (I2 + I3 - I1) / 2, J2: (I1 + I3 - I2) / 2, J3: (I1 + I2 - I3) / 2}
 
-#: Names of what is computed on the way: ∂G/∂u, B, the cofactors, a right side, p × v, the factor 2/|p|².
+#: Names of what is computed on the way: ∂G/∂u, Dγ, Dγγᵀ, the part of ∂G/∂u
+#: without D, the cofactors, a right side, p × v, the factor 2/|p|².
 A = sp.Matrix(3, 3, sp.symbols("a1:4(1:4)"))
-B = sp.Matrix(3, 3, lambda i, j: sp.Symbol(f"b{min(i, j) + 1}{max(i, j) + 1}"))
+W = sp.Matrix(sp.symbols("w1:4"))
+E = sp.Matrix(3, 3, lambda i, j: sp.Symbol(f"e{min(i, j) + 1}{max(i, j) + 1}"))
+M = sp.Matrix(3, 3, sp.symbols("m1:4(1:4)"))
 C = sp.Matrix(3, 3, sp.symbols("c1:4(1:4)"))
 R = sp.Matrix(sp.symbols("r1:4"))
 ONCE = sp.Matrix(sp.symbols("x1:4"))
@@ -88,11 +91,15 @@ def newton() -> list[sp.Expr]:
 
 
 def newton_steps() -> tuple[Steps, list[sp.Expr]]:
-    """The same by the entries of B, of the right side and of ∂G/∂u."""
+    """The same by Dγγᵀ and the rest of ∂G/∂u: what waits for γ is added last."""
+    rolling = sp.eye(3) * E.trace() - E
+    rolling = rolling.applyfunc(sp.expand)  # E₂₂ + E₃₃, ..., -E₁₂, ...: a sum of non-negative terms on the diagonal
     steps = [
-        (B, sp.Matrix(contact_inertia())),
+        (W, D * gamma),
+        (E, W * gamma.T),
         (R, newton_target()),
-        (A, B + polar(u)),
+        (M, INERTIA + polar(u)),
+        (A, M + rolling),
         (C, A.cofactor_matrix()),
     ]
     determinant = sum(A[0, j] * C[0, j] for j in range(3))

@@ -19,7 +19,12 @@ from numba.extending import register_jitable
 
 import chapsym.generated as generated
 
-from . import branch, loop
+from . import branch, gibbs, integrals, loop
+
+#: What the compiled code is made of.
+SOURCES = (generated, branch, gibbs, integrals, loop)
+#: The functions on the way of every step: a call would cost more than they do.
+INLINED = {generated.gibbs_newton, generated.gibbs_second, generated.turn, gibbs.settle, loop.three, loop.put}
 
 
 def _functions(module: ModuleType) -> Iterator[FunctionType]:
@@ -32,7 +37,7 @@ def _functions(module: ModuleType) -> Iterator[FunctionType]:
 def source_hash() -> str:
     """A hash of the kernels, of the solver and of the loops, and of numba's version."""
     digest = hashlib.sha256(numba.__version__.encode())
-    files = {f.__code__.co_filename for module in (generated, branch, loop) for f in _functions(module)}
+    files = {f.__code__.co_filename for module in SOURCES for f in _functions(module)}
     for name in sorted(files):
         digest.update(Path(name).read_bytes())
     return digest.hexdigest()[:16]
@@ -65,11 +70,11 @@ def _caching_in(folder: Path) -> Iterator[None]:
 @cache
 def _registered() -> None:
     seen = set()
-    for module in (generated, branch, loop):
+    for module in SOURCES:
         for function in _functions(module):
             if function.__module__.startswith("chapsym.") and function not in seen:
                 seen.add(function)
-                register_jitable(error_model="numpy")(function)
+                register_jitable(error_model="numpy", forceinline=function in INLINED)(function)
 
 
 @cache

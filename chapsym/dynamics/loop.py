@@ -1,8 +1,16 @@
 """The inner loops: one step, and many, of one ball.  Plain scalar Python that numba compiles."""
 
-from chapsym.generated import centre_step, compose, rotate, transport
+from math import sqrt
+
+from chapsym.generated import centre_step, compose, rotate, transport, turn
 
 from .branch import small_rotation
+from .gibbs import search, settle
+from .integrals import PERIOD, restore
+
+#: What a trajectory remembers beside k and γ: 6 compensations, 6 numbers for the integrals, and 8 vectors for the
+#: extrapolation of the Gibbs vector.
+MEMORY = 6 + 6 + 24
 
 
 def advance(K, g, J, D, q):
@@ -18,47 +26,138 @@ def advance(K, g, J, D, q):
     return status, reach
 
 
-def follow_body(q, g, attitude, contact, radius):
-    """Moves the contact point and the attitude by the step q that begins at the vertical g."""
-    s1, s2, s3 = centre_step(q[0], q[1], q[2], q[3], g[0], g[1], g[2])
+def advance_all(K, g, J, D, q, status, reach):
+    """One step of each ball of a batch, in place: arrays (n, 3), (n, 3), (n, 3), (n,), (n, 4), (n,), (n,)."""
+    for i in range(K.shape[0]):
+        status[i], reach[i] = advance(K[i], g[i], J[i], D[i], q[i])
+
+
+def three(array, at):
+    """Three numbers of an array, from `at` on."""
+    return array[at], array[at + 1], array[at + 2]
+
+
+def put(array, at, x, y, z):
+    """Writes three numbers into an array, from `at` on."""
+    array[at], array[at + 1], array[at + 2] = x, y, z
+
+
+def safe_rotation(u1, u2, u3, k1, k2, k3, g1, g2, g3, J, I, D, radius, contraction):
+    """The rotation of a step that the first round did not settle: from where it came, or by the continuation.
+
+    Returns (status, reach, p0, p1, p2, p3, u1, u2, u3).
+    """
+    if radius >= 0.0:
+        settled, p0, p1, p2, p3, w1, w2, w3 = search(
+            u1, u2, u3, k1, k2, k3, g1, g2, g3, I[0], I[1], I[2], D, radius, contraction
+        )  # fmt: skip
+        if settled:
+            return 0, 1.0, p0, p1, p2, p3, w1, w2, w3
+    status, reach, p0, p1, p2, p3 = small_rotation(
+        2.0 * k1, 2.0 * k2, 2.0 * k3, g1, g2, g3, J[0], J[1], J[2], D
+    )  # fmt: skip
+    if p0 == 0.0:
+        return status, reach, p0, p1, p2, p3, 0.0, 0.0, 0.0  # a rotation by π has no Gibbs vector
+    return status, reach, p0, p1, p2, p3, p1 / p0, p2 / p0, p3 / p0
+
+
+def follow_body(p0, p1, p2, p3, g1, g2, g3, attitude, contact, radius):
+    """Moves the contact point and the attitude by the step with the quaternion p that begins at the vertical g."""
+    length = sqrt((p0 * p0 + p1 * p1) + (p2 * p2 + p3 * p3))
+    q0, q1, q2, q3 = p0 / length, p1 / length, p2 / length, p3 / length
+    s1, s2, s3 = centre_step(q0, q1, q2, q3, g1, g2, g3)
     x, y, _ = rotate(attitude[0], attitude[1], attitude[2], attitude[3], s1, s2, s3)
     contact[0] += radius * x
     contact[1] += radius * y
-    a0, a1, a2, a3 = compose(attitude[0], attitude[1], attitude[2], attitude[3], q[0], q[1], q[2], q[3])
+    a0, a1, a2, a3 = compose(attitude[0], attitude[1], attitude[2], attitude[3], q0, q1, q2, q3)
     # One Newton step to length 1: the product of unit quaternions is off by a rounding only.
     scale = 1.5 - 0.5 * (a0 * a0 + a1 * a1 + a2 * a2 + a3 * a3)
     attitude[0], attitude[1], attitude[2], attitude[3] = a0 * scale, a1 * scale, a2 * scale, a3 * scale
 
 
 def march(
-    K, g, J, D, q, first, count, every, momenta, verticals, with_body, attitude, contact, radius, attitudes, traces
-):
+    k, g, J, I, D, radius, contraction, memory, first, count, every, scale,
+    momenta, verticals, with_body, attitude, contact, rho, attitudes, traces,
+):  # fmt: skip
     """Takes `count` steps from the step `first` on; keeps every `every`-th state in the frame arrays.
 
-    K, g, q, attitude and contact hold the present state and move.  The attitude and the trace are
-    touched only when `with_body`.  Returns (taken, status, reach).
+    k = 𝒦/2, g, memory, attitude and contact hold the present state and move; `scale` makes 𝒦 of k.  The attitude
+    and the trace are touched only when `with_body`.  Returns (taken, status, reach).
     """
-    before = g.copy()
-    for k in range(first, first + count):
-        if with_body:
-            before[0], before[1], before[2] = g[0], g[1], g[2]
-        status, reach = advance(K, g, J, D, q)
-        if status != 0:
-            return k - first, status, reach
-        if with_body:
-            follow_body(q, before, attitude, contact, radius)
-        if (k + 1) % every == 0:
-            frame = (k + 1) // every
-            momenta[frame, 0], momenta[frame, 1], momenta[frame, 2] = K[0], K[1], K[2]
-            verticals[frame, 0], verticals[frame, 1], verticals[frame, 2] = g[0], g[1], g[2]
+    k1, k2, k3 = three(k, 0)
+    g1, g2, g3 = three(g, 0)
+    I1, I2, I3 = three(I, 0)
+    x1, x2, x3 = three(memory, 0)
+    y1, y2, y3 = three(memory, 3)
+    a1, a2, a3 = three(memory, 12)
+    b1, b2, b3 = three(memory, 15)
+    c1, c2, c3 = three(memory, 18)
+    d1, d2, d3 = three(memory, 21)
+    e1, e2, e3 = three(memory, 24)
+    f1, f2, f3 = three(memory, 27)
+    h1, h2, h3 = three(memory, 30)
+    o1, o2, o3 = three(memory, 33)
+    step, status, reach = first, 0, 1.0
+    last = first + count
+    while step < last and status == 0:
+        # Up to the next frame, the next restoration, or the end.
+        stop = min(last, step + every - step % every, step + PERIOD - step % PERIOD)
+        while step < stop:
+            settled, p0, p1, p2, p3, w1, w2, w3 = settle(
+                a1, a2, a3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, radius, contraction
+            )  # fmt: skip
+            if not settled:
+                status, reach, p0, p1, p2, p3, w1, w2, w3 = safe_rotation(
+                    w1, w2, w3, k1, k2, k3, g1, g2, g3, J, I, D, radius, contraction
+                )  # fmt: skip
+                if status != 0:
+                    break
+            # The polynomial through the last 8 Gibbs vectors as a filter: the weights 8, -28, 56, -70, 56, -28, 8, -1.
+            a1, a2, a3 = b1 + 8.0 * w1, b2 + 8.0 * w2, b3 + 8.0 * w3
+            b1, b2, b3 = c1 - 28.0 * w1, c2 - 28.0 * w2, c3 - 28.0 * w3
+            c1, c2, c3 = d1 + 56.0 * w1, d2 + 56.0 * w2, d3 + 56.0 * w3
+            d1, d2, d3 = e1 - 70.0 * w1, e2 - 70.0 * w2, e3 - 70.0 * w3
+            e1, e2, e3 = f1 + 56.0 * w1, f2 + 56.0 * w2, f3 + 56.0 * w3
+            f1, f2, f3 = h1 - 28.0 * w1, h2 - 28.0 * w2, h3 - 28.0 * w3
+            h1, h2, h3 = o1 + 8.0 * w1, o2 + 8.0 * w2, o3 + 8.0 * w3
+            o1, o2, o3 = -w1, -w2, -w3
+            if with_body:
+                follow_body(p0, p1, p2, p3, g1, g2, g3, attitude, contact, rho)
+            z1, z2, z3 = turn(p0, p1, p2, p3, k1, k2, k3)
+            z1, z2, z3 = z1 - x1, z2 - x2, z3 - x3
+            w1, w2, w3 = k1 + z1, k2 + z2, k3 + z3
+            x1, x2, x3 = (w1 - k1) - z1, (w2 - k2) - z2, (w3 - k3) - z3
+            k1, k2, k3 = w1, w2, w3
+            z1, z2, z3 = turn(p0, p1, p2, p3, g1, g2, g3)
+            z1, z2, z3 = z1 - y1, z2 - y2, z3 - y3
+            w1, w2, w3 = g1 + z1, g2 + z2, g3 + z3
+            y1, y2, y3 = (w1 - g1) - z1, (w2 - g2) - z2, (w3 - g3) - z3
+            g1, g2, g3 = w1, w2, w3
+            step += 1
+        if status == 0 and step % PERIOD == 0:
+            put(memory, 0, x1, x2, x3)
+            put(memory, 3, y1, y2, y3)
+            restore(k1, k2, k3, g1, g2, g3, memory)
+            x1, x2, x3 = three(memory, 0)
+            y1, y2, y3 = three(memory, 3)
+        if status == 0 and step % every == 0:
+            frame = step // every
+            put(momenta[frame], 0, scale * k1, scale * k2, scale * k3)
+            put(verticals[frame], 0, g1, g2, g3)
             if with_body:
                 for i in range(4):
                     attitudes[frame, i] = attitude[i]
                 traces[frame, 0], traces[frame, 1] = contact[0], contact[1]
-    return count, 0, 1.0
-
-
-def advance_all(K, g, J, D, q, status, reach):
-    """One step of each ball of a batch, in place: arrays (n, 3), (n, 3), (n, 3), (n,), (n, 4), (n,), (n,)."""
-    for i in range(K.shape[0]):
-        status[i], reach[i] = advance(K[i], g[i], J[i], D[i], q[i])
+    put(k, 0, k1, k2, k3)
+    put(g, 0, g1, g2, g3)
+    put(memory, 0, x1, x2, x3)
+    put(memory, 3, y1, y2, y3)
+    put(memory, 12, a1, a2, a3)
+    put(memory, 15, b1, b2, b3)
+    put(memory, 18, c1, c2, c3)
+    put(memory, 21, d1, d2, d3)
+    put(memory, 24, e1, e2, e3)
+    put(memory, 27, f1, f2, f3)
+    put(memory, 30, h1, h2, h3)
+    put(memory, 33, o1, o2, o3)
+    return step - first, status, reach

@@ -7,13 +7,15 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from . import front, loop
+from . import front, gibbs, integrals, loop
 from .ball import Ball, Floats, numbers
 from .errors import BadInput, Status, StepNotTaken
 from .map import UNIT_TOLERANCE, batch, explain, unit_vertical
 
 #: Shorter runs than this many steps in all are taken in plain Python: compiling would take longer.
 SHORT_RUN = 2000
+#: Below this, for Λmax about 1, the squares of |𝒦| or of a determinant leave the range of float64.
+SMALLEST = 2.0**-120
 #: How far R γ may be from e₃ for an attitude that is given with its γ.
 AGREEMENT = 1e-9
 #: Steps of a ball between two calls of `progress`, and between two chances to interrupt.
@@ -149,20 +151,22 @@ def trajectory(
         attitudes[:, 0], traces[:, 0] = bodies, 0.0
     march = _march_for(steps * balls)
     taken, status = np.zeros(balls, dtype=np.int64), np.zeros(balls, dtype=np.int64)
-    reach, spots, q = np.ones(balls), np.zeros((balls, 2)), np.zeros(4)
+    reach, spots = np.ones(balls), np.zeros((balls, 2))
     done = 0
     for i in range(balls):
+        one = _scaled(K[i], g[i], J[i], D[i])
         for first in range(0, steps, CHUNK):
             count = min(CHUNK, steps - first)
             went, status[i], reach[i] = march(
-                K[i], g[i], J[i], D[i], q, first, count, every, momenta[i], verticals[i],
+                *one[:-1], first, count, every, one[-1], momenta[i], verticals[i],
                 with_body, bodies[i], spots[i], radius[i], attitudes[i], traces[i],
             )  # fmt: skip
             taken[i] += went
             done += count
             progress(done)
             if status[i] != Status.TAKEN:
-                status[i] = explain(status[i], K[i], g[i], J[i], D[i])
+                k, vertical, *_, scale = one
+                status[i] = explain(status[i], scale * k, vertical, J[i], D[i])
                 break
     result = Trajectory(
         ball,
@@ -178,6 +182,25 @@ def trajectory(
     if not shape and status[0] != Status.TAKEN:
         raise StepNotTaken(Status(int(status[0])), float(reach[0]), int(taken[0]), _up_to(result, int(taken[0])))
     return result
+
+
+def _scaled(K: Floats, g: Floats, J: Floats, D: float) -> tuple:
+    """What `march` needs of one ball: k = 𝒦/2 and the parameters, scaled by a power of two so that Λmax is about 1.
+
+    Returns (k, g, J, I, D, radius², contraction², memory, scale), with 𝒦 = scale·k.
+    """
+    exponent = int(np.frexp(J.sum() + D)[1])
+    tiny = bool(0.0 < np.abs(K).max() < np.ldexp(SMALLEST, exponent))
+    if tiny:
+        exponent = -1  # k = 𝒦: nothing of a subnormal momentum is lost
+    k, J, D = np.ldexp(K, -exponent - 1), np.ldexp(J, -exponent), np.ldexp(D, -exponent)
+    inertia = np.array([J[1] + J[2], J[0] + J[2], J[0] + J[1]])
+    radius, contraction = gibbs.certificate(*k.tolist(), *inertia.tolist())
+    if tiny or inertia.min() < SMALLEST:
+        radius = -1.0  # products of three or four such numbers would underflow: every step takes the safe way
+    memory = np.zeros(loop.MEMORY)
+    integrals.remember(k, g, memory)
+    return k, g.copy(), J, inertia, float(D), radius, contraction, memory, float(np.ldexp(1.0, exponent + 1))
 
 
 def _up_to(whole: Trajectory, taken: int) -> Trajectory:

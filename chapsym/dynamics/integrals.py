@@ -1,0 +1,83 @@
+"""⟨γ,γ⟩, ⟨𝒦,γ⟩ and ⟨𝒦,𝒦⟩ to twice the working precision, and how they are restored without a bias.
+
+Plain scalar Python, so that the same functions run on floats and are compiled by numba.
+
+The map turns 𝒦 and γ by one rotation.  Each turn is added with a compensation (Kahan), so that the sums carry
+twice the digits; what the rounding of the rotation itself still adds up is taken back every `PERIOD` steps.
+The correction goes into the compensation, not into 𝒦 and γ: renormalised and rounded vectors would lean to one side.
+"""
+
+#: Steps between two restorations.
+PERIOD = 1024
+#: Where sin² of the angle of 𝒦 and γ is below this, ⟨𝒦,γ⟩ follows from |𝒦| and |γ|.
+VERTICAL = 1e-6
+SPLITTER = 134217729.0  # 2^27 + 1
+
+
+def exact_product(a, b):
+    """a·b as a sum of two floats, exactly (Dekker)."""
+    product = a * b
+    t = SPLITTER * a
+    a_high = t - (t - a)
+    a_low = a - a_high
+    t = SPLITTER * b
+    b_high = t - (t - b)
+    b_low = b - b_high
+    return product, ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low
+
+
+def exact_sum(a, b):
+    """a + b as a sum of two floats, exactly (Knuth)."""
+    total = a + b
+    part = total - a
+    return total, (a - (total - part)) + (b - part)
+
+
+def inner(a1, a2, a3, b1, b2, b3, high, low):
+    """⟨a, b⟩ + high + low as (sum, rest), to about twice the working precision."""
+    x, x_low = exact_product(a1, b1)
+    y, y_low = exact_product(a2, b2)
+    z, z_low = exact_product(a3, b3)
+    total, e = exact_sum(x, y)
+    total, f = exact_sum(total, z)
+    total, g = exact_sum(total, high)
+    return exact_sum(total, (e + f) + (g + low) + ((x_low + y_low) + z_low))
+
+
+def remember(k, g, memory):
+    """Writes the three integrals of k = 𝒦/2 and γ, as pairs, into memory[6:12]."""
+    memory[6], memory[7] = inner(g[0], g[1], g[2], g[0], g[1], g[2], 0.0, 0.0)
+    memory[8], memory[9] = inner(k[0], k[1], k[2], g[0], g[1], g[2], 0.0, 0.0)
+    memory[10], memory[11] = inner(k[0], k[1], k[2], k[0], k[1], k[2], 0.0, 0.0)
+
+
+def restore(k1, k2, k3, g1, g2, g3, memory):
+    """Corrects the compensations memory[0:6] so that k and γ, with them, have the integrals in memory[6:12] again.
+
+    γ is stretched; k gets the least multiples of k and γ, or of k alone where the two are nearly parallel.
+    """
+    x1, x2, x3, y1, y2, y3 = memory[0], memory[1], memory[2], memory[3], memory[4], memory[5]
+    unit, _ = inner(g1, g2, g3, -g1, -g2, -g3, memory[6], memory[7])
+    height, _ = inner(k1, k2, k3, -g1, -g2, -g3, memory[8], memory[9])
+    squared, _ = inner(k1, k2, k3, -k1, -k2, -k3, memory[10], memory[11])
+    # The compensated vectors are k - x and γ - y.
+    unit += 2.0 * (g1 * y1 + g2 * y2 + g3 * y3)
+    height += (k1 * y1 + k2 * y2 + k3 * y3) + (g1 * x1 + g2 * x2 + g3 * x3)
+    squared += 2.0 * (k1 * x1 + k2 * x2 + k3 * x3)
+    h, n, one = memory[8], memory[10], memory[6]
+    if not n > 0.0:
+        return
+    stretch = 0.5 * unit / one
+    height -= stretch * h
+    sine = one - h * h / n
+    if sine > VERTICAL:
+        along_gamma = (height - 0.5 * squared * h / n) / sine
+        along_k = (0.5 * squared - along_gamma * h) / n
+    else:
+        along_gamma, along_k = 0.0, 0.5 * squared / n
+    memory[0], memory[1], memory[2] = (
+        x1 - (along_k * k1 + along_gamma * g1),
+        x2 - (along_k * k2 + along_gamma * g2),
+        x3 - (along_k * k3 + along_gamma * g3),
+    )
+    memory[3], memory[4], memory[5] = y1 - stretch * g1, y2 - stretch * g2, y3 - stretch * g3
