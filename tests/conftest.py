@@ -24,6 +24,7 @@ def records():
 def lemmas():
     """Every lemma of chapsym's own, judged once."""
     import chapsym.proofs
+
     from chapsym.prove import prove_all
 
     return {record["id"]: record for record in prove_all(list(chapsym.proofs.LEMMAS))}

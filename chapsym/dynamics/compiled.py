@@ -19,12 +19,16 @@ from numba.extending import register_jitable
 
 import chapsym.generated as generated
 
-from . import branch, gibbs, integrals, loop
+from . import block, branch, gibbs, integrals, loop
 
 #: What the compiled code is made of.
-SOURCES = (generated, branch, gibbs, integrals, loop)
+SOURCES = (generated, branch, gibbs, integrals, loop, block)
 #: The functions on the way of every step: a call would cost more than they do.
-INLINED = {generated.gibbs_newton, generated.gibbs_second, generated.turn, gibbs.settle, loop.three, loop.put}
+INLINED = {
+    *(generated.gibbs_newton, generated.gibbs_second, generated.turn),
+    *(gibbs.newton_round, gibbs.second_round, gibbs.settle, loop.three, loop.put),
+    *(block.predicted, block.corrected, block.turned, block.added, block.extrapolated),
+}
 
 
 def _functions(module: ModuleType) -> Iterator[FunctionType]:
@@ -35,9 +39,9 @@ def _functions(module: ModuleType) -> Iterator[FunctionType]:
 
 @cache
 def source_hash() -> str:
-    """A hash of the kernels, of the solver and of the loops, and of numba's version."""
+    """A hash of the kernels, of the solver, of the loops, of how they are compiled, and of numba's version."""
     digest = hashlib.sha256(numba.__version__.encode())
-    files = {f.__code__.co_filename for module in SOURCES for f in _functions(module)}
+    files = {__file__, *(f.__code__.co_filename for module in SOURCES for f in _functions(module))}
     for name in sorted(files):
         digest.update(Path(name).read_bytes())
     return digest.hexdigest()[:16]
@@ -79,7 +83,8 @@ def _registered() -> None:
 
 @cache
 def compiled(name: str) -> Callable[..., Any]:
-    """The compiled version of a function of `loop`."""
+    """The compiled version of a function of `loop` or `block`."""
+    function = getattr(block if name in vars(block) and not hasattr(loop, name) else loop, name)
     _registered()
     with _caching_in(cache_folder()):
-        return numba.njit(cache=True, error_model="numpy", nogil=True)(getattr(loop, name))
+        return numba.njit(cache=True, error_model="numpy", nogil=True)(function)

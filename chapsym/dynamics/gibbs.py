@@ -41,13 +41,8 @@ def certificate(k1, k2, k3, I1, I2, I3):
     return radius * radius, contraction * contraction
 
 
-def settle(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, radius, contraction):
-    """One round from a guess of the Gibbs vector: a Newton iterate, and a second correction where it is needed.
-
-    Returns (settled, p0, p1, p2, p3, u1, u2, u3): the rotation as a quaternion of any length, and as a Gibbs vector.
-    """
-    if not u1 * u1 + (u2 * u2 + u3 * u3) <= radius:
-        return False, 1.0, 0.0, 0.0, 0.0, u1, u2, u3
+def newton_round(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D):
+    """A Newton iterate: (p0, p1, p2, p3, w1, w2, w3, |d|², |w|², d, cofactors) with the quaternion p and w = u + d."""
     p0, p1, p2, p3, c11, c12, c13, c21, c22, c23, c31, c32, c33 = gibbs_newton(
         u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D
     )
@@ -55,15 +50,36 @@ def settle(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, radius, contractio
     w1, w2, w3 = p1 * scale, p2 * scale, p3 * scale
     d1, d2, d3 = w1 - u1, w2 - u2, w3 - u3
     first, size = d1 * d1 + (d2 * d2 + d3 * d3), w1 * w1 + (w2 * w2 + w3 * w3)
-    if contraction * (first * first) <= LEFT * size:
-        return True, p0, p1, p2, p3, w1, w2, w3
+    return p0, p1, p2, p3, w1, w2, w3, first, size, d1, d2, d3, c11, c12, c13, c21, c22, c23, c31, c32, c33
+
+
+def second_round(p0, p1, p2, p3, k1, k2, k3, d1, d2, d3, c11, c12, c13, c21, c22, c23, c31, c32, c33, I1, I2, I3):
+    """The second correction: (p1, p2, p3, w1, w2, w3, |e|², |w|²)."""
     e1, e2, e3 = gibbs_second(
         d1, d2, d3, k1, k2, k3, c11, c12, c13, c21, c22, c23, c31, c32, c33, I1, I2, I3
     )  # fmt: skip
+    scale = 1.0 / p0
     p1, p2, p3 = p1 - e1, p2 - e2, p3 - e3
     w1, w2, w3 = p1 * scale, p2 * scale, p3 * scale
     second = (e1 * e1 + (e2 * e2 + e3 * e3)) * (scale * scale)
-    size = w1 * w1 + (w2 * w2 + w3 * w3)
+    return p1, p2, p3, w1, w2, w3, second, w1 * w1 + (w2 * w2 + w3 * w3)
+
+
+def settle(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, radius, contraction):
+    """One round from a guess of the Gibbs vector: a Newton iterate, and a second correction where it is needed.
+
+    Returns (settled, p0, p1, p2, p3, u1, u2, u3): the rotation as a quaternion of any length, and as a Gibbs vector.
+    """
+    if not u1 * u1 + (u2 * u2 + u3 * u3) <= radius:
+        return False, 1.0, 0.0, 0.0, 0.0, u1, u2, u3
+    p0, p1, p2, p3, w1, w2, w3, first, size, d1, d2, d3, c11, c12, c13, c21, c22, c23, c31, c32, c33 = newton_round(
+        u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D
+    )
+    if contraction * (first * first) <= LEFT * size:
+        return True, p0, p1, p2, p3, w1, w2, w3
+    p1, p2, p3, w1, w2, w3, second, size = second_round(
+        p0, p1, p2, p3, k1, k2, k3, d1, d2, d3, c11, c12, c13, c21, c22, c23, c31, c32, c33, I1, I2, I3
+    )  # fmt: skip
     small = 9.0 * contraction * (max(first, second) * second) <= LEFT * size
     return small and size <= radius, p0, p1, p2, p3, w1, w2, w3
 

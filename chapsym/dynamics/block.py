@@ -1,0 +1,156 @@
+"""Many balls at once: blocks of `LANES` balls, each number in a row of its own, so that the loops become vector code.
+
+It does to each ball what `loop.march` does, with the same roundings; for numba only, as plain Python would crawl.
+"""
+
+import numpy as np
+
+from chapsym.generated import turn
+
+from .gibbs import LEFT, newton_round, second_round
+from .integrals import PERIOD, restore
+from .loop import MEMORY, safe_rotation
+
+#: Balls in a block: its rows stay in the first-level cache.
+LANES = 64
+#: Rows of a block: k, g, then what a trajectory remembers, then J, I, D, radius², contraction².
+K, G, X, A, J, I, D, RADIUS, CONTRACTION = 0, 3, 6, 18, 42, 45, 48, 49, 50
+ROWS = 51
+#: After a step that needed the second correction, so many are taken with it at once.
+PATIENCE = 64
+
+
+def predicted(S, P, ok):
+    """Every lane's rotation, by a Newton iterate from the extrapolation; returns how many did not settle."""
+    bad = 0
+    for i in range(LANES):
+        u1, u2, u3 = S[A, i], S[A + 1, i], S[A + 2, i]
+        p0, p1, p2, p3, w1, w2, w3, first, size, _, _, _, _, _, _, _, _, _, _, _, _ = newton_round(
+            u1, u2, u3, S[K, i], S[K + 1, i], S[K + 2, i], S[G, i], S[G + 1, i], S[G + 2, i],
+            S[I, i], S[I + 1, i], S[I + 2, i], S[D, i],
+        )  # fmt: skip
+        P[0, i], P[1, i], P[2, i], P[3, i], P[4, i], P[5, i], P[6, i] = p0, p1, p2, p3, w1, w2, w3
+        near = u1 * u1 + (u2 * u2 + u3 * u3) <= S[RADIUS, i]
+        settled = near & (S[CONTRACTION, i] * (first * first) <= LEFT * size)
+        ok[i] = 1 if settled else 0
+        bad += 1 - ok[i]
+    return bad
+
+
+def corrected(S, P, ok):
+    """The same with the second correction where it is needed."""
+    bad = 0
+    for i in range(LANES):
+        u1, u2, u3 = S[A, i], S[A + 1, i], S[A + 2, i]
+        k1, k2, k3, I1, I2, I3 = S[K, i], S[K + 1, i], S[K + 2, i], S[I, i], S[I + 1, i], S[I + 2, i]
+        p0, p1, p2, p3, w1, w2, w3, first, size, d1, d2, d3, c11, c12, c13, c21, c22, c23, c31, c32, c33 = newton_round(
+            u1, u2, u3, k1, k2, k3, S[G, i], S[G + 1, i], S[G + 2, i], I1, I2, I3, S[D, i]
+        )  # fmt: skip
+        r1, r2, r3, v1, v2, v3, second, longer = second_round(
+            p0, p1, p2, p3, k1, k2, k3, d1, d2, d3, c11, c12, c13, c21, c22, c23, c31, c32, c33, I1, I2, I3
+        )  # fmt: skip
+        near = u1 * u1 + (u2 * u2 + u3 * u3) <= S[RADIUS, i]
+        once = near & (S[CONTRACTION, i] * (first * first) <= LEFT * size)
+        twice = near & (longer <= S[RADIUS, i])
+        twice = twice & (9.0 * S[CONTRACTION, i] * (max(first, second) * second) <= LEFT * longer)
+        P[0, i], P[1, i], P[2, i], P[3, i] = p0, p1 if once else r1, p2 if once else r2, p3 if once else r3
+        P[4, i], P[5, i], P[6, i] = w1 if once else v1, w2 if once else v2, w3 if once else v3
+        ok[i] = 1 if once | twice else 0
+        bad += 1 - ok[i]
+    return bad
+
+
+def mend(S, P, ok, step, taken, status, reach, balls):
+    """The safe way for the lanes that did not settle; a ball that cannot go on rests from then on."""
+    for i in range(LANES):
+        if ok[i] == 1:
+            continue
+        near = S[A, i] * S[A, i] + (S[A + 1, i] * S[A + 1, i] + S[A + 2, i] * S[A + 2, i]) <= S[RADIUS, i]
+        from_here = P[4:7, i] if near else S[A : A + 3, i]
+        if i < balls and status[i] == 0:
+            status[i], reach[i], p0, p1, p2, p3, w1, w2, w3 = safe_rotation(
+                from_here[0], from_here[1], from_here[2], S[K, i], S[K + 1, i], S[K + 2, i],
+                S[G, i], S[G + 1, i], S[G + 2, i], S[J : J + 3, i], S[I : I + 3, i], S[D, i],
+                S[RADIUS, i], S[CONTRACTION, i],
+            )  # fmt: skip
+            if status[i] == 0:
+                P[0, i], P[1, i], P[2, i], P[3, i], P[4, i], P[5, i], P[6, i] = p0, p1, p2, p3, w1, w2, w3
+                continue
+            taken[i] = step
+        P[0, i], P[1, i], P[2, i], P[3, i], P[4, i], P[5, i], P[6, i] = 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+
+
+def turned(S, P):
+    """Turns k and γ of every lane, with compensation, and carries the extrapolation on."""
+    for i in range(LANES):
+        p0, p1, p2, p3, w1, w2, w3 = P[0, i], P[1, i], P[2, i], P[3, i], P[4, i], P[5, i], P[6, i]
+        z1, z2, z3 = turn(p0, p1, p2, p3, S[K, i], S[K + 1, i], S[K + 2, i])
+        added(S, K, X, i, z1)
+        added(S, K + 1, X + 1, i, z2)
+        added(S, K + 2, X + 2, i, z3)
+        z1, z2, z3 = turn(p0, p1, p2, p3, S[G, i], S[G + 1, i], S[G + 2, i])
+        added(S, G, X + 3, i, z1)
+        added(S, G + 1, X + 4, i, z2)
+        added(S, G + 2, X + 5, i, z3)
+        extrapolated(S, A, i, w1)
+        extrapolated(S, A + 1, i, w2)
+        extrapolated(S, A + 2, i, w3)
+
+
+def added(S, row, rest, i, z):
+    """Adds z to a row, and keeps what the rounding takes (Kahan)."""
+    z -= S[rest, i]
+    v = S[row, i] + z
+    S[rest, i] = (v - S[row, i]) - z
+    S[row, i] = v
+
+
+def extrapolated(S, row, i, w):
+    """The filter of `loop.march`, for one component."""
+    S[row, i] = S[row + 3, i] + 8.0 * w
+    S[row + 3, i] = S[row + 6, i] - 28.0 * w
+    S[row + 6, i] = S[row + 9, i] + 56.0 * w
+    S[row + 9, i] = S[row + 12, i] - 70.0 * w
+    S[row + 12, i] = S[row + 15, i] + 56.0 * w
+    S[row + 15, i] = S[row + 18, i] - 28.0 * w
+    S[row + 18, i] = S[row + 21, i] + 8.0 * w
+    S[row + 21, i] = -w
+
+
+def march_block(state, first, count, every, scale, momenta, verticals, taken, status, reach):
+    """`count` steps of the balls of a block from the step `first` on: state (ROWS, LANES), the rest as in `march`.
+
+    scale, taken, status and reach have one entry for each ball; lanes beyond them are idle copies.
+    """
+    S, P, ok = np.empty((ROWS, LANES)), np.empty((7, LANES)), np.empty(LANES, dtype=np.int64)
+    S[:, :] = state
+    balls = len(status)
+    step, last, patience = first, first + count, 0
+    while step < last:
+        stop = min(last, step + every - step % every, step + PERIOD - step % PERIOD)
+        while step < stop:
+            bad = 1
+            if patience == 0:
+                bad = predicted(S, P, ok)
+            if bad != 0:
+                patience = PATIENCE if patience == 0 else patience - 1
+                bad = corrected(S, P, ok)
+            if bad != 0:
+                mend(S, P, ok, step, taken, status, reach, balls)
+            turned(S, P)
+            step += 1
+        if step % PERIOD == 0:
+            for i in range(balls):
+                memory = S[X : X + MEMORY, i].copy()
+                restore(S[K, i], S[K + 1, i], S[K + 2, i], S[G, i], S[G + 1, i], S[G + 2, i], memory)
+                S[X : X + 6, i] = memory[:6]
+        if step % every == 0:
+            frame = step // every
+            for i in range(balls):
+                if status[i] == 0:
+                    for c in range(3):
+                        momenta[i, frame, c], verticals[i, frame, c] = scale[i] * S[K + c, i], S[G + c, i]
+    for i in range(balls):
+        if status[i] == 0:
+            taken[i] = last
+    state[:, :] = S
