@@ -9,13 +9,10 @@ from chapsym.generated import turn
 
 from .gibbs import LEFT, newton_round, second_round
 from .integrals import PERIOD, restore
-from .loop import MEMORY, safe_rotation
+from .loop import CONTRACTION, RADIUS, ROWS, A, D, G, I, K, X, safe_rotation
 
 #: Balls in a block: its rows stay in the first-level cache.
 LANES = 64
-#: Rows of a block: k, g, then what a trajectory remembers, then J, I, D, radius², contraction².
-K, G, X, A, J, I, D, RADIUS, CONTRACTION = 0, 3, 6, 18, 42, 45, 48, 49, 50
-ROWS = 51
 #: After a step that needed the second correction, so many are taken with it at once.
 PATIENCE = 64
 
@@ -69,14 +66,13 @@ def mend(S, P, ok, step, taken, status, reach, balls):
         from_here = P[4:7, i] if near else S[A : A + 3, i]
         if i < balls and status[i] == 0:
             status[i], reach[i], p0, p1, p2, p3, w1, w2, w3 = safe_rotation(
-                from_here[0], from_here[1], from_here[2], S[K, i], S[K + 1, i], S[K + 2, i],
-                S[G, i], S[G + 1, i], S[G + 2, i], S[J : J + 3, i], S[I : I + 3, i], S[D, i],
-                S[RADIUS, i], S[CONTRACTION, i],
-            )  # fmt: skip
+                from_here[0], from_here[1], from_here[2], S[:, i].copy()
+            )
             if status[i] == 0:
                 P[0, i], P[1, i], P[2, i], P[3, i], P[4, i], P[5, i], P[6, i] = p0, p1, p2, p3, w1, w2, w3
                 continue
             taken[i] = step
+        S[RADIUS, i] = -1.0
         P[0, i], P[1, i], P[2, i], P[3, i], P[4, i], P[5, i], P[6, i] = 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
 
 
@@ -141,9 +137,9 @@ def march_block(state, first, count, every, scale, momenta, verticals, taken, st
             step += 1
         if step % PERIOD == 0:
             for i in range(balls):
-                memory = S[X : X + MEMORY, i].copy()
-                restore(S[K, i], S[K + 1, i], S[K + 2, i], S[G, i], S[G + 1, i], S[G + 2, i], memory)
-                S[X : X + 6, i] = memory[:6]
+                one = S[:, i].copy()
+                restore(one)
+                S[X : X + 6, i] = one[X : X + 6]
         if step % every == 0:
             frame = step // every
             for i in range(balls):

@@ -44,27 +44,29 @@ def inner(a1, a2, a3, b1, b2, b3, high, low):
     return exact_sum(total, (e + f) + (g + low) + ((x_low + y_low) + z_low))
 
 
-def remember(k, g, memory):
-    """Writes the three integrals of k = 𝒦/2 and γ, as pairs, into memory[6:12]."""
-    memory[6], memory[7] = inner(g[0], g[1], g[2], g[0], g[1], g[2], 0.0, 0.0)
-    memory[8], memory[9] = inner(k[0], k[1], k[2], g[0], g[1], g[2], 0.0, 0.0)
-    memory[10], memory[11] = inner(k[0], k[1], k[2], k[0], k[1], k[2], 0.0, 0.0)
+def remember(state):
+    """Writes the three integrals of k = state[0:3] and γ = state[3:6], as pairs, into state[12:18]."""
+    k1, k2, k3, g1, g2, g3 = state[0], state[1], state[2], state[3], state[4], state[5]
+    state[12], state[13] = inner(g1, g2, g3, g1, g2, g3, 0.0, 0.0)
+    state[14], state[15] = inner(k1, k2, k3, g1, g2, g3, 0.0, 0.0)
+    state[16], state[17] = inner(k1, k2, k3, k1, k2, k3, 0.0, 0.0)
 
 
-def restore(k1, k2, k3, g1, g2, g3, memory):
-    """Corrects the compensations memory[0:6] so that k and γ, with them, have the integrals in memory[6:12] again.
+def restore(state):
+    """Corrects the compensations state[6:12] so that k and γ, with them, have the integrals in state[12:18] again.
 
     γ is stretched; k gets the least multiples of k and γ, or of k alone where the two are nearly parallel.
     """
-    x1, x2, x3, y1, y2, y3 = memory[0], memory[1], memory[2], memory[3], memory[4], memory[5]
-    unit, _ = inner(g1, g2, g3, -g1, -g2, -g3, memory[6], memory[7])
-    height, _ = inner(k1, k2, k3, -g1, -g2, -g3, memory[8], memory[9])
-    squared, _ = inner(k1, k2, k3, -k1, -k2, -k3, memory[10], memory[11])
+    k1, k2, k3, g1, g2, g3 = state[0], state[1], state[2], state[3], state[4], state[5]
+    x1, x2, x3, y1, y2, y3 = state[6], state[7], state[8], state[9], state[10], state[11]
+    unit, _ = inner(g1, g2, g3, -g1, -g2, -g3, state[12], state[13])
+    height, _ = inner(k1, k2, k3, -g1, -g2, -g3, state[14], state[15])
+    squared, _ = inner(k1, k2, k3, -k1, -k2, -k3, state[16], state[17])
     # The compensated vectors are k - x and γ - y.
     unit += 2.0 * (g1 * y1 + g2 * y2 + g3 * y3)
     height += (k1 * y1 + k2 * y2 + k3 * y3) + (g1 * x1 + g2 * x2 + g3 * x3)
     squared += 2.0 * (k1 * x1 + k2 * x2 + k3 * x3)
-    h, n, one = memory[8], memory[10], memory[6]
+    h, n, one = state[14], state[16], state[12]
     if not n > 0.0:
         return
     stretch = 0.5 * unit / one
@@ -75,9 +77,9 @@ def restore(k1, k2, k3, g1, g2, g3, memory):
         along_k = (0.5 * squared - along_gamma * h) / n
     else:
         along_gamma, along_k = 0.0, 0.5 * squared / n
-    memory[0], memory[1], memory[2] = (
+    state[6], state[7], state[8] = (
         x1 - (along_k * k1 + along_gamma * g1),
         x2 - (along_k * k2 + along_gamma * g2),
         x3 - (along_k * k3 + along_gamma * g3),
     )
-    memory[3], memory[4], memory[5] = y1 - stretch * g1, y2 - stretch * g2, y3 - stretch * g3
+    state[9], state[10], state[11] = y1 - stretch * g1, y2 - stretch * g2, y3 - stretch * g3

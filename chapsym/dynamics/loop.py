@@ -1,16 +1,19 @@
 """The inner loops: one step, and many, of one ball.  Plain scalar Python that numba compiles."""
 
-from math import sqrt
+from math import frexp, ldexp, sqrt
 
 from chapsym.generated import centre_step, compose, rotate, transport, turn
 
 from .branch import small_rotation
-from .gibbs import search, settle
-from .integrals import PERIOD, restore
+from .gibbs import certificate, search, settle
+from .integrals import PERIOD, remember, restore
 
-#: What a trajectory remembers beside k and γ: 6 compensations, 6 numbers for the integrals, and 8 vectors for the
-#: extrapolation of the Gibbs vector.
-MEMORY = 6 + 6 + 24
+#: The numbers that describe a ball under way, and where each begins: k = 𝒦/2, γ, their compensations, the three
+#: integrals as pairs, 8 vectors for the extrapolation of u, J, I, D, radius² and contraction² (lemma small-branch).
+K, G, X, INTEGRALS, A, J, I, D, RADIUS, CONTRACTION = 0, 3, 6, 12, 18, 42, 45, 48, 49, 50
+ROWS = 51
+#: Below this, for Λmax about 1, the squares of |𝒦| or of a determinant leave the range of float64.
+SMALLEST = 2.0**-120
 
 
 def advance(K, g, J, D, q):
@@ -42,19 +45,49 @@ def put(array, at, x, y, z):
     array[at], array[at + 1], array[at + 2] = x, y, z
 
 
-def safe_rotation(u1, u2, u3, k1, k2, k3, g1, g2, g3, J, I, D, radius, contraction):
+def prepare(momentum, g, tensor, contact, state):
+    """Writes the state of a ball at the start; returns `scale`, with 𝒦 = scale·k.
+
+    All is scaled by a power of two, exactly, so that the largest moment of inertia is about 1.
+    """
+    _, exponent = frexp(max(tensor[1] + tensor[2], tensor[0] + tensor[2], tensor[0] + tensor[1]) + contact)
+    largest = max(abs(momentum[0]), abs(momentum[1]), abs(momentum[2]))
+    tiny = 0.0 < largest < ldexp(SMALLEST, exponent)
+    if tiny:
+        exponent = -1  # k = 𝒦: nothing of a subnormal momentum is lost
+    for c in range(ROWS):
+        state[c] = 0.0
+    for c in range(3):
+        state[K + c] = ldexp(momentum[c], -exponent - 1)
+        state[G + c] = g[c]
+        state[J + c] = ldexp(tensor[c], -exponent)
+    state[I], state[I + 1], state[I + 2] = state[J + 1] + state[J + 2], state[J] + state[J + 2], state[J] + state[J + 1]
+    state[D] = ldexp(contact, -exponent)
+    k1, k2, k3 = three(state, K)
+    I1, I2, I3 = three(state, I)
+    state[RADIUS], state[CONTRACTION] = certificate(k1, k2, k3, I1, I2, I3)
+    if tiny or min(I1, I2, I3) < SMALLEST:
+        state[RADIUS] = -1.0  # products of three or four such numbers would underflow: every step takes the safe way
+    remember(state)
+    return ldexp(1.0, exponent + 1)
+
+
+def safe_rotation(u1, u2, u3, state):
     """The rotation of a step that the first round did not settle: from where it came, or by the continuation.
 
     Returns (status, reach, p0, p1, p2, p3, u1, u2, u3).
     """
-    if radius >= 0.0:
+    k1, k2, k3 = three(state, K)
+    g1, g2, g3 = three(state, G)
+    if state[RADIUS] >= 0.0:
         settled, p0, p1, p2, p3, w1, w2, w3 = search(
-            u1, u2, u3, k1, k2, k3, g1, g2, g3, I[0], I[1], I[2], D, radius, contraction
+            u1, u2, u3, k1, k2, k3, g1, g2, g3,
+            state[I], state[I + 1], state[I + 2], state[D], state[RADIUS], state[CONTRACTION],
         )  # fmt: skip
         if settled:
             return 0, 1.0, p0, p1, p2, p3, w1, w2, w3
     status, reach, p0, p1, p2, p3 = small_rotation(
-        2.0 * k1, 2.0 * k2, 2.0 * k3, g1, g2, g3, J[0], J[1], J[2], D
+        2.0 * k1, 2.0 * k2, 2.0 * k3, g1, g2, g3, state[J], state[J + 1], state[J + 2], state[D]
     )  # fmt: skip
     if p0 == 0.0:
         return status, reach, p0, p1, p2, p3, 0.0, 0.0, 0.0  # a rotation by π has no Gibbs vector
@@ -75,28 +108,26 @@ def follow_body(p0, p1, p2, p3, g1, g2, g3, attitude, contact, radius):
     attitude[0], attitude[1], attitude[2], attitude[3] = a0 * scale, a1 * scale, a2 * scale, a3 * scale
 
 
-def march(
-    k, g, J, I, D, radius, contraction, memory, first, count, every, scale,
-    momenta, verticals, with_body, attitude, contact, rho, attitudes, traces,
-):  # fmt: skip
+def march(state, first, count, every, scale, momenta, verticals, with_body, attitude, contact, rho, attitudes, traces):
     """Takes `count` steps from the step `first` on; keeps every `every`-th state in the frame arrays.
 
-    k = 𝒦/2, g, memory, attitude and contact hold the present state and move; `scale` makes 𝒦 of k.  The attitude
+    state (ROWS), attitude (4) and contact (2) hold the present state and move; `scale` makes 𝒦 of k.  The attitude
     and the trace are touched only when `with_body`.  Returns (taken, status, reach).
     """
-    k1, k2, k3 = three(k, 0)
-    g1, g2, g3 = three(g, 0)
-    I1, I2, I3 = three(I, 0)
-    x1, x2, x3 = three(memory, 0)
-    y1, y2, y3 = three(memory, 3)
-    a1, a2, a3 = three(memory, 12)
-    b1, b2, b3 = three(memory, 15)
-    c1, c2, c3 = three(memory, 18)
-    d1, d2, d3 = three(memory, 21)
-    e1, e2, e3 = three(memory, 24)
-    f1, f2, f3 = three(memory, 27)
-    h1, h2, h3 = three(memory, 30)
-    o1, o2, o3 = three(memory, 33)
+    k1, k2, k3 = three(state, K)
+    g1, g2, g3 = three(state, G)
+    x1, x2, x3 = three(state, X)
+    y1, y2, y3 = three(state, X + 3)
+    a1, a2, a3 = three(state, A)
+    b1, b2, b3 = three(state, A + 3)
+    c1, c2, c3 = three(state, A + 6)
+    d1, d2, d3 = three(state, A + 9)
+    e1, e2, e3 = three(state, A + 12)
+    f1, f2, f3 = three(state, A + 15)
+    h1, h2, h3 = three(state, A + 18)
+    o1, o2, o3 = three(state, A + 21)
+    I1, I2, I3 = three(state, I)
+    contact_term, radius, contraction = three(state, D)
     step, status, reach = first, 0, 1.0
     last = first + count
     while step < last and status == 0:
@@ -104,12 +135,12 @@ def march(
         stop = min(last, step + every - step % every, step + PERIOD - step % PERIOD)
         while step < stop:
             settled, p0, p1, p2, p3, w1, w2, w3 = settle(
-                a1, a2, a3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, radius, contraction
+                a1, a2, a3, k1, k2, k3, g1, g2, g3, I1, I2, I3, contact_term, radius, contraction
             )  # fmt: skip
             if not settled:
-                status, reach, p0, p1, p2, p3, w1, w2, w3 = safe_rotation(
-                    w1, w2, w3, k1, k2, k3, g1, g2, g3, J, I, D, radius, contraction
-                )  # fmt: skip
+                put(state, K, k1, k2, k3)
+                put(state, G, g1, g2, g3)
+                status, reach, p0, p1, p2, p3, w1, w2, w3 = safe_rotation(w1, w2, w3, state)
                 if status != 0:
                     break
             # The polynomial through the last 8 Gibbs vectors as a filter: the weights 8, -28, 56, -70, 56, -28, 8, -1.
@@ -135,11 +166,13 @@ def march(
             g1, g2, g3 = w1, w2, w3
             step += 1
         if status == 0 and step % PERIOD == 0:
-            put(memory, 0, x1, x2, x3)
-            put(memory, 3, y1, y2, y3)
-            restore(k1, k2, k3, g1, g2, g3, memory)
-            x1, x2, x3 = three(memory, 0)
-            y1, y2, y3 = three(memory, 3)
+            put(state, K, k1, k2, k3)
+            put(state, G, g1, g2, g3)
+            put(state, X, x1, x2, x3)
+            put(state, X + 3, y1, y2, y3)
+            restore(state)
+            x1, x2, x3 = three(state, X)
+            y1, y2, y3 = three(state, X + 3)
         if status == 0 and step % every == 0:
             frame = step // every
             put(momenta[frame], 0, scale * k1, scale * k2, scale * k3)
@@ -148,16 +181,16 @@ def march(
                 for i in range(4):
                     attitudes[frame, i] = attitude[i]
                 traces[frame, 0], traces[frame, 1] = contact[0], contact[1]
-    put(k, 0, k1, k2, k3)
-    put(g, 0, g1, g2, g3)
-    put(memory, 0, x1, x2, x3)
-    put(memory, 3, y1, y2, y3)
-    put(memory, 12, a1, a2, a3)
-    put(memory, 15, b1, b2, b3)
-    put(memory, 18, c1, c2, c3)
-    put(memory, 21, d1, d2, d3)
-    put(memory, 24, e1, e2, e3)
-    put(memory, 27, f1, f2, f3)
-    put(memory, 30, h1, h2, h3)
-    put(memory, 33, o1, o2, o3)
+    put(state, K, k1, k2, k3)
+    put(state, G, g1, g2, g3)
+    put(state, X, x1, x2, x3)
+    put(state, X + 3, y1, y2, y3)
+    put(state, A, a1, a2, a3)
+    put(state, A + 3, b1, b2, b3)
+    put(state, A + 6, c1, c2, c3)
+    put(state, A + 9, d1, d2, d3)
+    put(state, A + 12, e1, e2, e3)
+    put(state, A + 15, f1, f2, f3)
+    put(state, A + 18, h1, h2, h3)
+    put(state, A + 21, o1, o2, o3)
     return step - first, status, reach

@@ -7,19 +7,14 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from . import front, gibbs, integrals, loop
+from . import engine, front
 from .ball import Ball, Floats, numbers
+from .engine import Balls, Frames
 from .errors import BadInput, Status, StepNotTaken
-from .map import UNIT_TOLERANCE, batch, explain, unit_vertical
+from .map import UNIT_TOLERANCE, batch, unit_vertical
 
-#: Shorter runs than this many steps in all are taken in plain Python: compiling would take longer.
-SHORT_RUN = 2000
-#: Below this, for Λmax about 1, the squares of |𝒦| or of a determinant leave the range of float64.
-SMALLEST = 2.0**-120
 #: How far R γ may be from e₃ for an attitude that is given with its γ.
 AGREEMENT = 1e-9
-#: Steps of a ball between two calls of `progress`, and between two chances to interrupt.
-CHUNK = 200_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,6 +111,7 @@ def trajectory(
     attitude: bool | ArrayLike = False,
     contact: bool = False,
     time_step: float | None = None,
+    threads: int = 0,
     progress: Callable[[int], None] = lambda steps_done: None,
 ) -> Trajectory:
     """Takes `steps` steps of the map on the small-rotation branch and keeps every `every`-th state.
@@ -123,13 +119,14 @@ def trajectory(
     momentum, gamma: as for `step`; both broadcast with the balls.
     attitude: True (from the least rotation with R γ = e₃) or unit quaternions, (..., 4), to be followed.
     contact: whether to trace the contact point; it needs `ball.radius`, and implies the attitude.
-    progress: called with the steps done so far (of all balls together), after each ball and 200 000 steps.
+    threads: how many cores a batch may use; 0 for all.
+    progress: called with the steps done so far (of all balls together), every 200 000 steps or so.
 
     One ball that cannot take a step raises StepNotTaken with `index` and the `trajectory` before it.
     In a batch the others go on, and `status` and `taken` say which stopped, where.
     Raises BadInput as `step` does, and for counts that are not positive integers.
     """
-    steps, every = _count(steps, "steps", 0), _count(every, "every", 1)
+    steps, every, threads = _count(steps, "steps", 0), _count(every, "every", 1), _count(threads, "threads", 0)
     every = min(every, steps + 1)
     time_step = None if time_step is None else _seconds(time_step)
     shape, (K, g, J, D) = batch(ball, numbers(momentum, "momentum", 3), unit_vertical(gamma))
@@ -145,29 +142,12 @@ def trajectory(
     except (MemoryError, ValueError):
         raise BadInput(f"{frames} frames of {balls} balls do not fit into memory; keep fewer with every=") from None
     momenta[:, 0], verticals[:, 0] = K, g
-    bodies = np.zeros((balls, 4))
     if with_body:
-        bodies[:] = np.broadcast_to(initial_attitude(attitude, g.reshape(*shape, 3)), (*shape, 4)).reshape(-1, 4)
-        attitudes[:, 0], traces[:, 0] = bodies, 0.0
-    march = _march_for(steps * balls)
-    taken, status = np.zeros(balls, dtype=np.int64), np.zeros(balls, dtype=np.int64)
-    reach, spots = np.ones(balls), np.zeros((balls, 2))
-    done = 0
-    for i in range(balls):
-        one = _scaled(K[i], g[i], J[i], D[i])
-        for first in range(0, steps, CHUNK):
-            count = min(CHUNK, steps - first)
-            went, status[i], reach[i] = march(
-                *one[:-1], first, count, every, one[-1], momenta[i], verticals[i],
-                with_body, bodies[i], spots[i], radius[i], attitudes[i], traces[i],
-            )  # fmt: skip
-            taken[i] += went
-            done += count
-            progress(done)
-            if status[i] != Status.TAKEN:
-                k, vertical, *_, scale = one
-                status[i] = explain(status[i], scale * k, vertical, J[i], D[i])
-                break
+        attitudes[:, 0] = np.broadcast_to(initial_attitude(attitude, g.reshape(*shape, 3)), (*shape, 4)).reshape(-1, 4)
+        traces[:, 0] = 0.0
+    taken, status, reach = np.zeros(balls, dtype=np.int64), np.zeros(balls, dtype=np.int64), np.ones(balls)
+    frame = Frames(momenta, verticals, attitudes, traces, taken, status, reach, with_body)
+    engine.run(Balls(K, g, J, D, radius), steps, every, frame, progress, threads)
     result = Trajectory(
         ball,
         np.arange(frames) * every,
@@ -184,25 +164,6 @@ def trajectory(
     return result
 
 
-def _scaled(K: Floats, g: Floats, J: Floats, D: float) -> tuple:
-    """What `march` needs of one ball: k = 𝒦/2 and the parameters, scaled by a power of two so that Λmax is about 1.
-
-    Returns (k, g, J, I, D, radius², contraction², memory, scale), with 𝒦 = scale·k.
-    """
-    exponent = int(np.frexp(J.sum() + D)[1])
-    tiny = bool(0.0 < np.abs(K).max() < np.ldexp(SMALLEST, exponent))
-    if tiny:
-        exponent = -1  # k = 𝒦: nothing of a subnormal momentum is lost
-    k, J, D = np.ldexp(K, -exponent - 1), np.ldexp(J, -exponent), np.ldexp(D, -exponent)
-    inertia = np.array([J[1] + J[2], J[0] + J[2], J[0] + J[1]])
-    radius, contraction = gibbs.certificate(*k.tolist(), *inertia.tolist())
-    if tiny or inertia.min() < SMALLEST:
-        radius = -1.0  # products of three or four such numbers would underflow: every step takes the safe way
-    memory = np.zeros(loop.MEMORY)
-    integrals.remember(k, g, memory)
-    return k, g.copy(), J, inertia, float(D), radius, contraction, memory, float(np.ldexp(1.0, exponent + 1))
-
-
 def _up_to(whole: Trajectory, taken: int) -> Trajectory:
     """The frames of one ball that exist."""
     kept = whole.index <= taken
@@ -212,14 +173,6 @@ def _up_to(whole: Trajectory, taken: int) -> Trajectory:
         whole.ball, whole.index[kept], whole.momentum[kept], whole.gamma[kept], attitude, contact,
         whole.taken, whole.status, whole.time_step,
     )  # fmt: skip
-
-
-def _march_for(steps: int) -> Callable:
-    if steps < SHORT_RUN:
-        return loop.march
-    from .compiled import compiled
-
-    return compiled("march")
 
 
 def _count(value: int, name: str, least: int) -> int:
@@ -245,6 +198,7 @@ def roll(
     every: int = 1,
     attitude: bool | Literal[True] | ArrayLike = False,
     contact: bool = False,
+    threads: int = 0,
     progress: Callable[[int], None] = lambda steps_done: None,
 ) -> Trajectory:
     """Rolls a ball in SI units: the trajectory of 𝒦 = ε K with K = Λω - D⟨ω,γ⟩γ.
@@ -260,5 +214,5 @@ def roll(
     momentum = epsilon * front.contact_momentum(spin, vertical, ball.mass_tensor, ball.D)
     return trajectory(
         ball, momentum, vertical, steps, every=every, attitude=attitude, contact=contact,
-        time_step=epsilon, progress=progress,
+        time_step=epsilon, threads=threads, progress=progress,
     )  # fmt: skip

@@ -134,7 +134,7 @@ def test_a_fold_stops_one_ball_with_the_step_and_the_trajectory_before_it():
 
 
 def test_a_fold_in_a_later_chunk_has_its_own_index(monkeypatch):
-    monkeypatch.setattr("chapsym.dynamics.trajectories.CHUNK", 2)
+    monkeypatch.setattr("chapsym.dynamics.engine.CHUNK", 2)
     with pytest.raises(StepNotTaken) as caught:
         chapsym.trajectory(BALL, FOLDING, GAMMA, 100)
     assert caught.value.index == 3

@@ -1,0 +1,162 @@
+"""Runs many steps of one ball or of many: in plain Python, compiled, or compiled in blocks on every core."""
+
+import os
+import threading
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from dataclasses import dataclass
+
+import numpy as np
+
+from . import block, loop
+from .ball import Floats
+from .errors import Status
+from .map import explain
+
+#: Shorter runs than this many steps in all are taken in plain Python: compiling would take longer.
+SHORT_RUN = 2000
+#: Fewer balls than this do not fill a block.
+FEW = 8
+#: Steps of a ball, or of all balls of a block together, between two calls of `progress`: about ten milliseconds.
+CHUNK = 200_000
+
+
+@dataclass(frozen=True, eq=False)
+class Balls:
+    """The balls of a run: momentum 𝒦 and γ at the start, (n, 3); J, (n, 3); D and the radius, (n,)."""
+
+    momentum: Floats
+    gamma: Floats
+    mass_tensor: Floats
+    D: Floats
+    radius: Floats
+
+    def __len__(self) -> int:
+        return len(self.D)
+
+
+@dataclass(frozen=True, eq=False)
+class Frames:
+    """What a run fills: (n, frames, ...) arrays whose frame 0 is given, and how each ball ended, (n,).
+
+    attitude and contact have no frames unless `with_body`.
+    """
+
+    momentum: Floats
+    gamma: Floats
+    attitude: Floats
+    contact: Floats
+    taken: np.ndarray
+    status: np.ndarray
+    reach: Floats
+    with_body: bool
+
+
+class _Count:
+    """Adds up the steps that the threads have taken, and tells them when to stop."""
+
+    def __init__(self, progress: Callable[[int], None]) -> None:
+        self._progress, self._lock, self._done = progress, threading.Lock(), 0
+        self.stopped = False
+
+    def add(self, steps: int) -> None:
+        with self._lock:
+            self._done += steps
+            self._progress(self._done)
+
+
+def run(balls: Balls, steps: int, every: int, frames: Frames, progress: Callable[[int], None], threads: int) -> None:
+    """Takes `steps` steps of every ball into `frames`; `progress` is called with the steps of all balls together.
+
+    threads: how many cores to use; 0 for all that there are.
+    """
+    count, n = _Count(progress), len(balls)
+    if steps == 0 or n == 0:
+        return
+    if steps * n < SHORT_RUN:
+        for i in range(n):
+            _run_one(balls, i, steps, every, frames, count, False)
+        return
+    in_blocks = n >= FEW and not frames.with_body
+    _compile("march_block" if in_blocks else "march")  # before there are threads
+    width = block.LANES if in_blocks else 1
+    starts = range(0, n, width)
+
+    def task(start: int) -> None:
+        if in_blocks:
+            _run_block(balls, slice(start, min(n, start + width)), steps, every, frames, count)
+        else:
+            _run_one(balls, start, steps, every, frames, count, True)
+
+    workers = min(threads or os.cpu_count() or 1, len(starts))
+    if workers == 1:
+        for start in starts:
+            task(start)
+        return
+    _share(task, starts, workers, count)
+
+
+def _share(task: Callable[[int], None], starts: range, workers: int, count: _Count) -> None:
+    """Runs the tasks in threads; an interrupt stops each at its next chunk."""
+    with ThreadPoolExecutor(workers) as pool:
+        futures = [pool.submit(task, start) for start in starts]
+        try:
+            for done in as_completed(futures):
+                done.result()
+        except BaseException:
+            count.stopped = True
+            pool.shutdown(wait=True, cancel_futures=True)
+            raise
+
+
+def _compile(name: str) -> Callable:
+    from .compiled import compiled
+
+    return compiled(name)
+
+
+def _run_one(
+    balls: Balls, i: int, steps: int, every: int, frames: Frames, count: _Count, fast: bool
+) -> None:  # fmt: skip
+    march, prepare = (_compile("march"), _compile("prepare")) if fast else (loop.march, loop.prepare)
+    state, spot = np.zeros(loop.ROWS), np.zeros(2)
+    K, g, J, D = balls.momentum[i], balls.gamma[i], balls.mass_tensor[i], float(balls.D[i])
+    scale = prepare(K, g, J, D, state)
+    attitude = frames.attitude[i, 0].copy() if frames.with_body else np.zeros(4)
+    for first in range(0, steps, CHUNK):
+        chunk = min(CHUNK, steps - first)
+        went, frames.status[i], frames.reach[i] = march(
+            state, first, chunk, every, scale, frames.momentum[i], frames.gamma[i],
+            frames.with_body, attitude, spot, float(balls.radius[i]), frames.attitude[i], frames.contact[i],
+        )  # fmt: skip
+        frames.taken[i] += went
+        count.add(chunk)
+        if count.stopped:
+            return
+        if frames.status[i] != Status.TAKEN:
+            frames.status[i] = explain(frames.status[i], scale * state[:3], state[3:6], J, D)
+            return
+
+
+def _run_block(balls: Balls, which: slice, steps: int, every: int, frames: Frames, count: _Count) -> None:
+    march, prepare = _compile("march_block"), _compile("prepare")
+    n = which.stop - which.start
+    state, scale, one = np.zeros((loop.ROWS, block.LANES)), np.zeros(n), np.zeros(loop.ROWS)
+    for lane in range(block.LANES):
+        i = which.start + min(lane, n - 1)  # a block that is not full repeats its last ball
+        scale[min(lane, n - 1)] = prepare(
+            balls.momentum[i], balls.gamma[i], balls.mass_tensor[i], float(balls.D[i]), one
+        )  # fmt: skip
+        state[:, lane] = one
+    status, reach, taken = frames.status[which], frames.reach[which], frames.taken[which]
+    chunk = max(1, CHUNK // block.LANES)
+    for first in range(0, steps, chunk):
+        now = min(chunk, steps - first)
+        march(state, first, now, every, scale, frames.momentum[which], frames.gamma[which], taken, status, reach)
+        count.add(now * n)
+        if count.stopped:
+            return
+    for lane in map(int, np.flatnonzero(status)):
+        i = which.start + lane
+        K, g = scale[lane] * state[:3, lane], state[3:6, lane]
+        status[lane] = explain(status[lane], K, g, balls.mass_tensor[i], float(balls.D[i]))
