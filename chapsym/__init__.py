@@ -11,11 +11,33 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from .dynamics import BadInput, Ball, Status, Step, StepNotTaken, Trajectory, roll, step, trajectory
+    from .dynamics import (
+        BadInput,
+        Ball,
+        BallN,
+        Status,
+        Step,
+        StepN,
+        StepNotTaken,
+        Trajectory,
+        TrajectoryN,
+        axial,
+        invariants_n,
+        reverse_n,
+        roll,
+        skew,
+        step,
+        step_n,
+        trajectory,
+        trajectory_n,
+    )
 
 __version__ = "0.1.0"
 
-__all__ = ["BadInput", "Ball", "Status", "Step", "StepNotTaken", "Trajectory", "roll", "step", "trajectory"]
+__all__ = [
+    "BadInput", "Ball", "BallN", "Status", "Step", "StepN", "StepNotTaken", "Trajectory", "TrajectoryN", "axial",
+    "invariants_n", "reverse_n", "roll", "skew", "step", "step_n", "trajectory", "trajectory_n",
+]  # fmt: skip
 
 
 def __getattr__(name: str) -> Any:

@@ -1,0 +1,95 @@
+"""The branch in n dimensions: where it goes, where it folds, and Newton's iteration at its edges."""
+
+import warnings
+
+import numpy as np
+import pytest
+from balls_n import SIZES, UNIT_ROUNDOFF, offset
+
+import chapsym
+from chapsym import Ball, BallN, Status, skew, step_n
+from chapsym.dynamics import so_n
+from chapsym.dynamics.branch_n import _solved, corrected, small_rotation
+
+
+@pytest.mark.parametrize("heavy", [1.0, 1e7])
+def test_in_three_dimensions_the_fold_is_the_same(heavy):
+    """With a large D, up to what its roundings are beside the momentum of the fold."""
+    rng = np.random.default_rng(3)
+    J, D, gamma = rng.uniform(0.1, 2, (60, 3)), heavy * rng.uniform(0, 2, 60), rng.normal(size=(60, 3))
+    gamma /= np.linalg.norm(gamma, axis=-1, keepdims=True)
+    K = rng.normal(size=(60, 3)) * 10 ** rng.uniform(-1, 1, (60, 1))
+    general, special = step_n(BallN(J, D), skew(K), gamma), chapsym.step(Ball(J, D), K, gamma)
+    assert 5 < (special.status == Status.TAKEN).sum() < 55
+    assert ((general.status == Status.TAKEN) == (special.status == Status.TAKEN)).all()
+    assert np.isnan(general.rotation[general.status == Status.FOLDED]).all()
+    assert np.abs(general.reach - special.reach).max() <= 64 * UNIT_ROUNDOFF * (1 + heavy)
+
+
+def proven_branch(K, gamma, J, D):
+    """Ω - 1 at the end of the branch, by steps along t of which each is proven to stay on it; needs a small D/J.
+
+    From a point P the map f(ξ) = 𝒦(P exp ξ) has |Df(ξ)η - Tη| ≤ l|ξ||η| with l = 2 max J + D and
+    |ξ|² = Σ ξᵢⱼ², i > j: the derivative of exp ξ is off η by at most |ξ||η|, and 𝒦 is linear with the norm l.
+    So for the least singular value σ of T, f is injective on |ξ| < σ/l, and a curve of momenta no longer than
+    σ²/2l has its rotations there: it is enough to find one.
+    """
+    n, k, E, t = len(gamma), so_n.coordinates(K), np.zeros_like(K), 0.0
+    bound = 2 * J.max() + D
+    while t < 1:
+        least = np.linalg.svd(so_n.jacobian(E, gamma, J, D), compute_uv=False)[-1]
+        start, t = np.eye(n) + E, min(1.0, t + 0.99 * least**2 / (2 * bound * np.linalg.norm(k)))
+        for _ in range(6):
+            gap = t * k - so_n.coordinates(so_n.momentum(E, gamma, J, D))
+            E = so_n.turned(E, so_n.from_coordinates(np.linalg.solve(so_n.jacobian(E, gamma, J, D), gap), n))
+        assert np.abs(t * k - so_n.coordinates(so_n.momentum(E, gamma, J, D))).max() < 1e-12
+        angles = np.angle(np.linalg.eigvals(start.T @ (np.eye(n) + E)))
+        assert np.sqrt((angles**2).sum() / 2) < least / bound
+    return E
+
+
+@pytest.mark.parametrize("n", SIZES)
+def test_the_branch_is_the_proven_one(n):
+    rng = np.random.default_rng(n)
+    for i in range(12 if n < 8 else 4):
+        J, D, gamma = rng.uniform(0.1, 2, n), np.float64((0.0, 1.0)[i % 2]), rng.normal(size=n)
+        J[0] *= i % 3 > 0
+        gamma /= np.linalg.norm(gamma)
+        K = so_n.from_coordinates(rng.normal(size=n * (n - 1) // 2), n) * 100
+        _, _, reach = small_rotation(K[None], gamma[None], J[None], D[None])
+        K *= reach[0] * (0.2, 0.6, 0.95)[i % 3]
+        assert np.abs(offset((K, gamma, J, D)) - proven_branch(K, gamma, J, D)).max() < 1e-11
+
+
+@pytest.mark.parametrize("n", [4, 5])
+def test_past_the_fold_no_other_branch_is_taken(n):
+    """Newton alone, whatever its corrections, would find another rotation for some of these."""
+    rng = np.random.default_rng(5)
+    J, D, gamma = rng.uniform(0.1, 2, (400, n)), rng.uniform(0, 2, 400), rng.normal(size=(400, n))
+    gamma /= np.linalg.norm(gamma, axis=-1, keepdims=True)
+    J[::3, 0] = 0
+    K = so_n.from_coordinates(rng.normal(size=(400, n * (n - 1) // 2)), n) * 100
+    folded = step_n(BallN(J, D), K, gamma)
+    assert (folded.status == Status.FOLDED).all()
+    past = folded.reach * (1 + 10 ** rng.uniform(-4, -2, 400))
+    again = step_n(BallN(J, D), K * past[:, None, None], gamma)
+    assert (again.status == Status.FOLDED).all()
+    assert np.abs(again.reach * past / folded.reach - 1).max() < 1e-12
+
+
+def test_one_singular_system_does_not_spoil_the_others():
+    matrices = np.stack([np.eye(3), np.zeros((3, 3)), 2 * np.eye(3)])
+    assert _solved(matrices, np.ones((3, 3))).tolist() == [[1] * 3, [np.inf] * 3, [0.5] * 3]
+
+
+def test_from_a_fold_newton_does_not_settle_and_does_not_complain():
+    """At a rotation by 90° of a ball with J = 1, D = 0 the Jacobian is exactly singular."""
+    quarter = np.eye(4)[[1, 0, 2, 3]] * [[-1], [1], [1], [1]]
+    E = np.stack([quarter - np.eye(4), np.zeros((4, 4))])
+    state = np.tile(np.eye(4)[0], (2, 1)), np.ones((2, 4)), np.zeros(2)
+    assert np.linalg.matrix_rank(so_n.jacobian(E[0], *(x[0] for x in state))) < 6
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        moved, settled = corrected(E, np.full((2, 6), 0.1), *state)
+    assert settled.tolist() == [False, True]
+    assert np.abs(so_n.momentum(moved[1], *(x[1] for x in state))).max() == pytest.approx(0.1)

@@ -1,0 +1,237 @@
+"""Trajectories in n dimensions: integrals, the way back, attitude and contact, order, and what they refuse."""
+
+import numpy as np
+import pytest
+from balls_n import SIZES, UNIT_ROUNDOFF, batch
+
+import chapsym
+from chapsym import (
+    BadInput,
+    Ball,
+    BallN,
+    Status,
+    StepNotTaken,
+    axial,
+    invariants_n,
+    reverse_n,
+    skew,
+    step_n,
+    trajectory_n,
+)  # fmt: skip
+from chapsym.dynamics import front, so_n
+
+
+def invariant_scales(K):
+    """How much each invariant may change for a relative change of 1 of 𝒦 and γ: 2j|𝒦|²ʲ⁻¹|𝒦|_F, 2j|𝒦|²ʲ, 2."""
+    n, norm, frobenius = K.shape[-1], np.linalg.norm(K, 2, axis=(-2, -1)), np.linalg.norm(K, axis=(-2, -1))
+    traces = [2 * j * norm ** (2 * j - 1) * frobenius for j in range(1, n // 2 + 1)]
+    weights = [2 * j * norm ** (2 * j) for j in range(1, (n - 1) // 2 + 1)]
+    return np.stack([*traces, *weights, 2 * np.ones(len(K))], axis=-1)
+
+
+@pytest.mark.parametrize("size", [0.05, 0.3])
+@pytest.mark.parametrize("n", SIZES)
+def test_the_integrals_drift_like_roundings(n, size):
+    """Roundings that add up at random: 0.3 to 0.5 units · √steps, root mean square, were measured; six times that."""
+    steps = 1200
+    ball, K, gamma = batch(n, 6, size)
+    run = trajectory_n(ball, K, gamma, steps, every=100)
+    assert (run.taken == steps).all()
+    values = run.invariants()
+    assert values.shape == (6, 13, n // 2 + (n - 1) // 2 + 1)
+    drift = np.abs(values - values[:, :1]) / invariant_scales(K)[:, np.newaxis]
+    assert drift.max() <= 3 * UNIT_ROUNDOFF * np.sqrt(steps)
+    assert (run.momentum == -run.momentum.mT).all()
+
+
+@pytest.mark.parametrize("n", SIZES)
+def test_the_invariants_are_those_of_the_matrix(n):
+    _, K, gamma = batch(n, 2, 1.0)
+    eigenvalues = np.linalg.eigvals(K[0])
+    values = invariants_n(K, gamma)[0]
+    powers = range(2, n + 1, 2)
+    assert np.allclose(values[: n // 2], [(eigenvalues**p).sum().real for p in powers])
+    weights = [gamma[0] @ np.linalg.matrix_power(K[0], p) @ gamma[0] for p in powers if p < n]
+    assert np.allclose(values[n // 2 : -1], weights)
+    assert values[-1] == pytest.approx(1)
+
+
+def test_in_three_dimensions_the_invariants_are_the_vectors_ones():
+    _, K, gamma = batch(3, 4, 1.0)
+    h, square, unit = np.moveaxis(front.invariants(axial(K), gamma), -1, 0)
+    assert np.allclose(invariants_n(K, gamma), np.stack([-2 * square, h * h - square, unit], axis=-1), atol=1e-14)
+
+
+def growth(ball, K, gamma, steps):
+    """How much a change of 1e-7 of 𝒦 grows, relative to 𝒦, at the worst."""
+    n = ball.n
+    off = so_n.from_coordinates(np.linspace(1, 2, n * (n - 1) // 2), n)
+    off = off * 1e-7 * np.linalg.norm(K, axis=(-2, -1), keepdims=True) / np.linalg.norm(off)
+    here, there = (trajectory_n(ball, k, gamma, steps) for k in (K, K + off))
+    changes = np.abs(here.momentum - there.momentum).max() / np.abs(K).max(), np.abs(here.gamma - there.gamma).max()
+    return max(1.0, *(change / 1e-7 for change in changes))
+
+
+@pytest.mark.parametrize("n", SIZES)
+def test_the_way_back_leads_to_the_start(n):
+    """Each of the 2·steps steps adds a few roundings, which the motion magnifies by what is measured."""
+    steps = 150
+    ball, K, gamma = batch(n, 5, 0.1)
+    run = trajectory_n(ball, K, gamma, steps, contact=True, every=30)
+    back = reverse_n(run)
+    budget = 4 * UNIT_ROUNDOFF * 2 * steps * growth(ball, K, gamma, steps)
+    assert budget < 1e-10
+    assert np.abs(back.momentum[:, ::-1] + run.momentum).max() <= budget * np.abs(K).max()
+    assert np.abs(back.gamma[:, ::-1] - run.gamma).max() <= budget
+    assert np.abs(back.attitude[:, ::-1] - run.attitude).max() <= budget
+    length = np.abs(run.contact).max()
+    assert length > 0.3
+    assert np.abs(back.contact[:, ::-1] - run.contact).max() <= budget * length
+    assert back.index.tolist() == run.index.tolist()
+
+
+def test_in_three_dimensions_it_is_the_same_trajectory():
+    steps = 200
+    ball, K, gamma = batch(3, 5, 0.1)
+    special = chapsym.trajectory(
+        Ball(ball.mass_tensor, ball.D, ball.radius), axial(K), gamma, steps, every=50, contact=True
+    )  # fmt: skip
+    general = trajectory_n(ball, K, gamma, steps, every=50, contact=True)
+    budget = 4 * UNIT_ROUNDOFF * 2 * steps * growth(ball, K, gamma, steps)
+    assert np.abs(axial(general.momentum) - special.momentum).max() <= budget * np.abs(K).max()
+    assert np.abs(general.gamma - special.gamma).max() <= budget
+    assert np.abs(general.attitude - front.rotation(special.attitude)).max() <= budget
+    assert np.abs(general.contact - special.contact).max() <= budget * np.abs(special.contact).max()
+
+
+def continuous(J, D, K, gamma, time, steps):
+    """(2.12), (2.13) by Runge's and Kutta's fourth order: K' = [K, ω], γ' = -ωγ."""
+    n = len(J)
+    basis = so_n.from_coordinates(np.eye(n * (n - 1) // 2), n)
+
+    def rate(K, gamma):
+        Gamma = np.outer(gamma, gamma)
+        images = [np.diag(J) @ b + b @ np.diag(J) + D * (Gamma @ b + b @ Gamma) for b in basis]
+        matrix = np.stack([so_n.coordinates(image) for image in images], axis=-1)
+        omega = so_n.from_coordinates(np.linalg.solve(matrix, so_n.coordinates(K)), n)
+        return K @ omega - omega @ K, -omega @ gamma
+
+    h = time / steps
+    for _ in range(steps):
+        a = rate(K, gamma)
+        b = rate(K + h / 2 * a[0], gamma + h / 2 * a[1])
+        c = rate(K + h / 2 * b[0], gamma + h / 2 * b[1])
+        d = rate(K + h * c[0], gamma + h * c[1])
+        K, gamma = (x + h / 6 * (p + 2 * q + 2 * r + s) for x, p, q, r, s in zip((K, gamma), a, b, c, d, strict=True))
+    return K, gamma
+
+
+@pytest.mark.parametrize("n", [4, 5])
+def test_the_map_tends_to_the_continuous_ball_with_order_2(n):
+    J, D = np.linspace(0.5, 1.5, n), 0.7
+    _, K, gamma = (x[0] if isinstance(x, np.ndarray) else x for x in batch(n, 1, 1.0))
+    expected, coarse = (continuous(J, D, K, gamma, 1.0, steps) for steps in (800, 400))
+    truth = max(np.abs(x - y).max() for x, y in zip(expected, coarse, strict=True)) / 15
+    errors = []
+    for steps in (8, 16, 32, 64, 128):
+        run = trajectory_n(BallN(J, D), K / steps, gamma, steps, every=steps)
+        errors.append(
+            max(np.abs(run.momentum[-1] * steps - expected[0]).max(), np.abs(run.gamma[-1] - expected[1]).max())
+        )
+    assert truth < 1e-4 * errors[-1]
+    orders = np.log2(np.array(errors[:-1]) / errors[1:])
+    assert np.abs(orders - 2).max() < 0.05
+    assert abs(orders[-1] - 2) < 0.002
+
+
+def test_only_the_frames_that_are_kept_are_allocated():
+    ball, K, gamma = batch(4, 2, 0.1)
+    whole, some = (trajectory_n(ball, K, gamma, 50, every=k) for k in (1, 7))
+    assert some.index.tolist() == [0, 7, 14, 21, 28, 35, 42, 49]
+    assert (some.momentum == whole.momentum[:, ::7]).all()
+    assert some.momentum.base is None or some.momentum.base.shape[1] == 8
+    assert some.attitude is None
+    assert some.contact is None
+    assert trajectory_n(ball, K, gamma, 0).momentum.tolist() == K[:, np.newaxis].tolist()
+
+
+def leaving():
+    """A ball that folds on the way: its momentum is close to what its fold allows at this γ."""
+    ball, K, gamma = batch(4, 1, 1.0, seed=3)
+    one = BallN(ball.mass_tensor[0], ball.D[0])
+    with pytest.raises(StepNotTaken) as caught:
+        step_n(one, 100 * K[0], gamma[0])
+    return one, 100 * caught.value.reach * 0.999 * K[0], gamma[0]
+
+
+def test_one_ball_that_folds_tells_where():
+    ball, K, gamma = leaving()
+    with pytest.raises(StepNotTaken) as caught:
+        trajectory_n(ball, K, gamma, 100, every=2)
+    error = caught.value
+    assert error.status is Status.FOLDED
+    assert error.index >= 1
+    assert len(error.trajectory.index) == error.index // 2 + 1
+    assert np.isfinite(error.trajectory.momentum).all()
+    last = error.index // 2 * 2
+    again = trajectory_n(ball, K, gamma, last, every=2)
+    assert (again.momentum == error.trajectory.momentum).all()
+
+
+def test_a_batch_goes_on_for_the_others():
+    ball, K, gamma = leaving()
+    run = trajectory_n(ball, np.stack([0.1 * K, K, 0.2 * K]), gamma, 100)
+    assert run.status.tolist() == [Status.TAKEN, Status.FOLDED, Status.TAKEN]
+    assert run.taken[[0, 2]].tolist() == [100, 100]
+    stop = run.taken[1]
+    assert 1 <= stop < 100
+    assert np.isfinite(run.momentum[1, : stop + 1]).all()
+    assert np.isnan(run.momentum[1, stop + 1 :]).all()
+    assert np.isfinite(run.momentum[[0, 2]]).all()
+    for refused in (run.invariants, lambda: reverse_n(run)):
+        with pytest.raises(BadInput, match="a ball of the batch stopped early"):
+            refused()
+
+
+def test_an_empty_batch_has_empty_frames():
+    run = trajectory_n(BallN(np.ones(5), 1), np.zeros((0, 5, 5)), np.eye(5)[0], 3, attitude=True)
+    assert run.momentum.shape == (0, 4, 5, 5)
+    assert run.attitude.shape == (0, 4, 5, 5)
+    assert run.invariants().shape == (0, 4, 5)
+    assert reverse_n(run).momentum.shape == (0, 4, 5, 5)
+
+
+@pytest.mark.parametrize(
+    ("kwargs", "sentence"),
+    [
+        ({"steps": -1}, "steps must be a whole number from 0 on, not -1"),
+        ({"steps": 2.0}, "steps must be a whole number from 0 on, not 2.0"),
+        ({"every": 0}, "every must be a whole number from 1 on, not 0"),
+        ({"contact": True}, "the contact point needs the radius"),
+        ({"attitude": np.eye(3)}, r"attitude must be rotations of the shape \(..., 4, 4\), not \(3, 3\)"),
+        ({"attitude": np.zeros((2, 4, 4))}, r"attitude has the leading axes \(2,\), the states have \(\)"),
+        ({"attitude": 2 * np.eye(4)}, "attitude must be rotations"),
+        ({"attitude": np.diag([-1, 1, 1, 1])}, "attitude must be rotations"),
+        ({"attitude": np.diag([1, 1, -1, -1])}, "attitude and gamma disagree"),
+        ({"steps": 10**15}, "do not fit into memory"),
+    ],
+)
+def test_input_without_an_answer_is_refused(kwargs, sentence):
+    given = {"ball": BallN((1, 2, 0.5, 3), 3), "momentum": skew4(0.1), "gamma": (0, 0, 0, 1), "steps": 2}
+    with pytest.raises(BadInput, match=sentence):
+        trajectory_n(**{**given, **kwargs})
+
+
+def skew4(size):
+    return so_n.from_coordinates(size * np.linspace(-1, 1, 6), 4)
+
+
+def test_vectors_and_matrices_that_do_not_fit_are_refused():
+    for call, sentence in (
+        (lambda: skew((1, 2)), "vector must have 3 components"),
+        (lambda: axial(np.zeros((4, 4))), r"matrix must be skew matrices of the shape \(..., 3, 3\)"),
+        (lambda: invariants_n(np.zeros((4, 4)), (0, 0, 1)), "gamma must have 4 components"),
+        (lambda: invariants_n(1.0, (0, 0, 1)), "momentum must be skew matrices"),
+    ):
+        with pytest.raises(BadInput, match=sentence):
+            call()
