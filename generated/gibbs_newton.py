@@ -1,7 +1,7 @@
 """The next Newton iterate of the Gibbs vector, N/det, as a quaternion (det, N); and the cofactors of ∂G/∂u.
 
 Written by `chapsym codegen`: do not edit; change the derivation and generate again.
-Proved by: gibbs, gibbs-newton.  Operations: 124.  SymPy 1.14.0.
+Proved by: gibbs, gibbs-newton.  Operations: 128.  SymPy 1.14.0.
 Expression: sha256 13c5855efdcc3908807d2d024f47cd62af450fc3f819c0ecc29195f82d86fa62.
 """
 
@@ -34,20 +34,19 @@ def gibbs_newton(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D):
     r2 = I1 * t2 + k2 * t1 - I3 * t2
     r3 = I2 * t3 + k3 * t1 - I1 * t3
     t4 = 2 * k1
-    t5 = -I3
-    t6 = -I2 - t5
+    t5 = I3 * u3
+    t6 = I2 * u2
     t7 = 2 * k2
-    t8 = I1 + t5
+    t8 = I1 * u1
     t9 = 2 * k3
-    t10 = I2 - I1
     m11 = I1 - t4 * u1
-    m12 = t6 * u3 - t4 * u2
-    m13 = t6 * u2 - t4 * u3
-    m21 = t8 * u3 - t7 * u1
+    m12 = t5 - I2 * u3 - t4 * u2
+    m13 = I3 * u2 - t6 - t4 * u3
+    m21 = I1 * u3 - t5 - t7 * u1
     m22 = I2 - t7 * u2
-    m23 = t8 * u1 - t7 * u3
-    m31 = t10 * u2 - t9 * u1
-    m32 = t10 * u1 - t9 * u2
+    m23 = t8 - I3 * u1 - t7 * u3
+    m31 = t6 - I1 * u2 - t9 * u1
+    m32 = I2 * u1 - t8 - t9 * u2
     m33 = I3 - t9 * u3
     a11 = e22 + e33 + m11
     a12 = m12 - e12

@@ -1,5 +1,6 @@
 """The typer application, and the entry point."""
 
+import logging
 import os
 import sys
 from typing import Annotated, NoReturn
@@ -26,6 +27,8 @@ def main() -> NoReturn:
     """The entry point: turns every foreseen error into one sentence and an exit status."""
     if sys.stdout is None:  # closed by the caller
         sys.stdout = open(os.devnull, "w")  # noqa: SIM115
+    logging.basicConfig(format="chapsym: %(message)s", stream=sys.stderr)
+    logging.getLogger("chapsym").setLevel(logging.INFO)
     if len(sys.argv) == 1:
         sys.argv.append("--help")
     try:

@@ -68,9 +68,11 @@ def bilinear(x: sp.Matrix) -> sp.Matrix:
 
 
 def polar(x: sp.Matrix) -> sp.Matrix:
-    """The derivative of `bilinear` at x."""
-    whole = bilinear(x).jacobian(x)
-    return whole.applyfunc(lambda e: sum(s * sp.expand(e).coeff(s) for s in x))
+    """The derivative of `bilinear` at x.
+
+    Expanded: the differences I₃ - I₂, ... are never rounded once and for all, which would drift the energy.
+    """
+    return bilinear(x).jacobian(x).applyfunc(sp.expand)
 
 
 def jacobian() -> sp.Matrix:

@@ -5,6 +5,7 @@ numba itself would notice a change in `loop.py` only, and keep stale kernels.
 """
 
 import hashlib
+import logging
 import os
 import tempfile
 from collections.abc import Callable, Iterator
@@ -82,9 +83,18 @@ def _registered() -> None:
 
 
 @cache
+def _announce() -> None:
+    """Says once that compiling takes a while; who wants to hear it listens to the logger "chapsym"."""
+    logging.getLogger("chapsym").info("compiling the map for this processor: some seconds, once")
+
+
+@cache
 def compiled(name: str) -> Callable[..., Any]:
-    """The compiled version of a function of `loop` or `block`."""
-    function = getattr(block if name in vars(block) and not hasattr(loop, name) else loop, name)
+    """The compiled version of a function of `loop` or `block`; it is compiled when it is first called."""
+    module = block if name in vars(block) and not hasattr(loop, name) else loop
+    folder = cache_folder()
+    if not any(folder.glob(f"*/{module.__name__.rpartition('.')[2]}.{name}-*.nbi")):
+        _announce()
     _registered()
-    with _caching_in(cache_folder()):
-        return numba.njit(cache=True, error_model="numpy", nogil=True)(function)
+    with _caching_in(folder):
+        return numba.njit(cache=True, error_model="numpy", nogil=True)(getattr(module, name))
