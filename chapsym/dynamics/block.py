@@ -7,9 +7,9 @@ import numpy as np
 
 from chapsym.generated import turn
 
-from .gibbs import LEFT, newton_round, second_round
+from .gibbs import newton_round, second_round
 from .integrals import PERIOD, restore
-from .loop import CONTRACTION, RADIUS, ROWS, A, D, G, I, K, X, safe_rotation
+from .loop import ENOUGH, RADIUS, ROWS, A, D, G, I, K, X, safe_rotation
 
 #: Balls in a block: its rows stay in the first-level cache.
 LANES = 64
@@ -22,13 +22,12 @@ def predicted(S, P, ok):
     bad = 0
     for i in range(LANES):
         u1, u2, u3 = S[A, i], S[A + 1, i], S[A + 2, i]
-        p0, p1, p2, p3, w1, w2, w3, first, size, _, _, _, _, _, _, _, _, _, _, _, _ = newton_round(
+        p0, p1, p2, p3, w1, w2, w3, first, _, _, _, _, _, _, _, _, _, _, _, _ = newton_round(
             u1, u2, u3, S[K, i], S[K + 1, i], S[K + 2, i], S[G, i], S[G + 1, i], S[G + 2, i],
             S[I, i], S[I + 1, i], S[I + 2, i], S[D, i],
         )  # fmt: skip
         P[0, i], P[1, i], P[2, i], P[3, i], P[4, i], P[5, i], P[6, i] = p0, p1, p2, p3, w1, w2, w3
-        near = u1 * u1 + (u2 * u2 + u3 * u3) <= S[RADIUS, i]
-        settled = near & (S[CONTRACTION, i] * (first * first) <= LEFT * size)
+        settled = (u1 * u1 + (u2 * u2 + u3 * u3) <= S[RADIUS, i]) & (first <= S[ENOUGH, i])
         ok[i] = 1 if settled else 0
         bad += 1 - ok[i]
     return bad
@@ -40,16 +39,17 @@ def corrected(S, P, ok):
     for i in range(LANES):
         u1, u2, u3 = S[A, i], S[A + 1, i], S[A + 2, i]
         k1, k2, k3, I1, I2, I3 = S[K, i], S[K + 1, i], S[K + 2, i], S[I, i], S[I + 1, i], S[I + 2, i]
-        p0, p1, p2, p3, w1, w2, w3, first, size, d1, d2, d3, c11, c12, c13, c21, c22, c23, c31, c32, c33 = newton_round(
+        p0, p1, p2, p3, w1, w2, w3, first, d1, d2, d3, c11, c12, c13, c21, c22, c23, c31, c32, c33 = newton_round(
             u1, u2, u3, k1, k2, k3, S[G, i], S[G + 1, i], S[G + 2, i], I1, I2, I3, S[D, i]
         )  # fmt: skip
-        r1, r2, r3, v1, v2, v3, second, longer = second_round(
+        r1, r2, r3, v1, v2, v3, second = second_round(
             p0, p1, p2, p3, k1, k2, k3, d1, d2, d3, c11, c12, c13, c21, c22, c23, c31, c32, c33, I1, I2, I3
         )  # fmt: skip
         near = u1 * u1 + (u2 * u2 + u3 * u3) <= S[RADIUS, i]
-        once = near & (S[CONTRACTION, i] * (first * first) <= LEFT * size)
-        twice = near & (longer <= S[RADIUS, i])
-        twice = twice & (9.0 * S[CONTRACTION, i] * (max(first, second) * second) <= LEFT * longer)
+        enough = S[ENOUGH, i]
+        once = near & (first <= enough)
+        twice = near & (v1 * v1 + (v2 * v2 + v3 * v3) <= S[RADIUS, i])
+        twice = twice & (9.0 * max(first, second) * second <= enough * enough)
         P[0, i], P[1, i], P[2, i], P[3, i] = p0, p1 if once else r1, p2 if once else r2, p3 if once else r3
         P[4, i], P[5, i], P[6, i] = w1 if once else v1, w2 if once else v2, w3 if once else v3
         ok[i] = 1 if once | twice else 0

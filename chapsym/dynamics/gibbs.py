@@ -5,27 +5,28 @@ Plain scalar Python, so that the same functions run on floats and are compiled b
 With k = 𝒦/2 the step solves G(u) = B(γ)u + u × Iu - (1 + |u|²)k = 0.  Lemma `small-branch`: where |𝒦| is
 below a bound, a root with |u| < 1 is that of the small-rotation branch, for every γ, and in the ball
 |u| ≤ `radius` the Jacobian A satisfies ⟨d, Ad⟩ ≥ m|d|².  As |𝒦| is an integral of the map, the bound is looked
-at once for a trajectory.  A Newton correction d leaves an error of at most (½(I_max - I_min) + |k|)|d|²/m, a
-second one e with the same cofactors at most three times that with |d||e|: this is what is checked.
+at once for a trajectory.  A Newton correction d leaves an error of at most c|d|², c = (½(I_max - I_min) + |k|)/m,
+a second one e with the same cofactors at most 3c|d||e|.  That is compared with |u| ≥ |k|/(Λmax + ½(I_max - I_min)).
 """
 
 from math import sqrt
 
 from chapsym.generated import gibbs_newton, gibbs_second
 
-#: The square of the error that the last correction may leave, relative to |u|: a quarter of the unit roundoff.
-LEFT = 2.0**-110
+#: The error that the last correction may leave, relative to the least that |u| can be: the unit roundoff.
+LEFT = 2.0**-53
 #: How much of the bound may be used: at the bound the Jacobian is singular.
 INSIDE = 0.95
 MOST_ROUNDS = 12
 
 
-def certificate(k1, k2, k3, I1, I2, I3):
-    """(radius², contraction²) by lemma `small-branch`; (-1, 0) where |𝒦| is beyond its bound.
+def certificate(k1, k2, k3, I1, I2, I3, D):
+    """(radius², enough) by lemma `small-branch`; (-1, 0) where |𝒦| is beyond its bound.
 
-    contraction = (½(I_max - I_min) + |k|)/m: times |d|² it bounds what a Newton correction d leaves.
+    A Newton correction d with |d|² ≤ enough is the last: it leaves a relative error of `LEFT` at most.
     """
-    size = 2.0 * sqrt(k1 * k1 + k2 * k2 + k3 * k3)
+    half = sqrt(k1 * k1 + k2 * k2 + k3 * k3)
+    size = 2.0 * half
     least, most = min(I1, I2, I3), max(I1, I2, I3)
     spread = 0.5 * (most - least)
     if not size < least:
@@ -37,61 +38,62 @@ def certificate(k1, k2, k3, I1, I2, I3):
     limit = min(1.0, least / slope) if slope > 0.0 else 1.0
     # A little more than the ball that contains the root, inside the one on which G is monotone.
     radius = min(1.25 * inner, 0.5 * (inner + limit))
-    contraction = (spread + 0.5 * size) / (least - radius * slope)
-    return radius * radius, contraction * contraction
+    if half == 0.0:
+        return 0.0, 0.0
+    contraction = (spread + half) / (least - radius * slope)
+    return radius * radius, LEFT * half / ((most + D + spread) * contraction)
 
 
 def newton_round(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D):
-    """A Newton iterate: (p0, p1, p2, p3, w1, w2, w3, |d|², |w|², d, cofactors) with the quaternion p and w = u + d."""
+    """A Newton iterate: (p0, p1, p2, p3, w1, w2, w3, |d|², d, cofactors) with the quaternion p and w = u + d."""
     p0, p1, p2, p3, c11, c12, c13, c21, c22, c23, c31, c32, c33 = gibbs_newton(
         u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D
     )
     scale = 1.0 / p0
     w1, w2, w3 = p1 * scale, p2 * scale, p3 * scale
     d1, d2, d3 = w1 - u1, w2 - u2, w3 - u3
-    first, size = d1 * d1 + (d2 * d2 + d3 * d3), w1 * w1 + (w2 * w2 + w3 * w3)
-    return p0, p1, p2, p3, w1, w2, w3, first, size, d1, d2, d3, c11, c12, c13, c21, c22, c23, c31, c32, c33
+    first = d1 * d1 + (d2 * d2 + d3 * d3)
+    return p0, p1, p2, p3, w1, w2, w3, first, d1, d2, d3, c11, c12, c13, c21, c22, c23, c31, c32, c33
 
 
 def second_round(p0, p1, p2, p3, k1, k2, k3, d1, d2, d3, c11, c12, c13, c21, c22, c23, c31, c32, c33, I1, I2, I3):
-    """The second correction: (p1, p2, p3, w1, w2, w3, |e|², |w|²)."""
+    """The second correction e: (p1, p2, p3, w1, w2, w3, |e|²)."""
     e1, e2, e3 = gibbs_second(
         d1, d2, d3, k1, k2, k3, c11, c12, c13, c21, c22, c23, c31, c32, c33, I1, I2, I3
     )  # fmt: skip
     scale = 1.0 / p0
     p1, p2, p3 = p1 - e1, p2 - e2, p3 - e3
-    w1, w2, w3 = p1 * scale, p2 * scale, p3 * scale
     second = (e1 * e1 + (e2 * e2 + e3 * e3)) * (scale * scale)
-    return p1, p2, p3, w1, w2, w3, second, w1 * w1 + (w2 * w2 + w3 * w3)
+    return p1, p2, p3, p1 * scale, p2 * scale, p3 * scale, second
 
 
-def settle(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, radius, contraction):
+def settle(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, radius, enough):
     """One round from a guess of the Gibbs vector: a Newton iterate, and a second correction where it is needed.
 
     Returns (settled, p0, p1, p2, p3, u1, u2, u3): the rotation as a quaternion of any length, and as a Gibbs vector.
     """
     if not u1 * u1 + (u2 * u2 + u3 * u3) <= radius:
         return False, 1.0, 0.0, 0.0, 0.0, u1, u2, u3
-    p0, p1, p2, p3, w1, w2, w3, first, size, d1, d2, d3, c11, c12, c13, c21, c22, c23, c31, c32, c33 = newton_round(
+    p0, p1, p2, p3, w1, w2, w3, first, d1, d2, d3, c11, c12, c13, c21, c22, c23, c31, c32, c33 = newton_round(
         u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D
     )
-    if contraction * (first * first) <= LEFT * size:
+    if first <= enough:
         return True, p0, p1, p2, p3, w1, w2, w3
-    p1, p2, p3, w1, w2, w3, second, size = second_round(
+    p1, p2, p3, w1, w2, w3, second = second_round(
         p0, p1, p2, p3, k1, k2, k3, d1, d2, d3, c11, c12, c13, c21, c22, c23, c31, c32, c33, I1, I2, I3
     )  # fmt: skip
-    small = 9.0 * contraction * (max(first, second) * second) <= LEFT * size
-    return small and size <= radius, p0, p1, p2, p3, w1, w2, w3
+    settled = 9.0 * max(first, second) * second <= enough * enough and w1 * w1 + (w2 * w2 + w3 * w3) <= radius
+    return settled, p0, p1, p2, p3, w1, w2, w3
 
 
-def search(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, radius, contraction):
+def search(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, radius, enough):
     """Rounds of `settle` from a poor guess, and from no rotation where that leads nowhere; returns as it does."""
     for guess in range(2):
         if guess == 1:
             u1, u2, u3 = 0.0, 0.0, 0.0
         for _ in range(MOST_ROUNDS):
             settled, p0, p1, p2, p3, u1, u2, u3 = settle(
-                u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, radius, contraction
+                u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, radius, enough
             )  # fmt: skip
             if settled:
                 return True, p0, p1, p2, p3, u1, u2, u3

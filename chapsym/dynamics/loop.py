@@ -9,8 +9,8 @@ from .gibbs import certificate, search, settle
 from .integrals import PERIOD, remember, restore
 
 #: The numbers that describe a ball under way, and where each begins: k = 𝒦/2, γ, their compensations, the three
-#: integrals as pairs, 8 vectors for the extrapolation of u, J, I, D, radius² and contraction² (lemma small-branch).
-K, G, X, INTEGRALS, A, J, I, D, RADIUS, CONTRACTION = 0, 3, 6, 12, 18, 42, 45, 48, 49, 50
+#: integrals as pairs, 8 vectors for the extrapolation of u, J, I, D, radius² and enough (lemma small-branch).
+K, G, X, INTEGRALS, A, J, I, D, RADIUS, ENOUGH = 0, 3, 6, 12, 18, 42, 45, 48, 49, 50
 ROWS = 51
 #: Below this, for Λmax about 1, the squares of |𝒦| or of a determinant leave the range of float64.
 SMALLEST = 2.0**-120
@@ -65,7 +65,7 @@ def prepare(momentum, g, tensor, contact, state):
     state[D] = ldexp(contact, -exponent)
     k1, k2, k3 = three(state, K)
     I1, I2, I3 = three(state, I)
-    state[RADIUS], state[CONTRACTION] = certificate(k1, k2, k3, I1, I2, I3)
+    state[RADIUS], state[ENOUGH] = certificate(k1, k2, k3, I1, I2, I3, state[D])
     if tiny or min(I1, I2, I3) < SMALLEST:
         state[RADIUS] = -1.0  # products of three or four such numbers would underflow: every step takes the safe way
     remember(state)
@@ -82,7 +82,7 @@ def safe_rotation(u1, u2, u3, state):
     if state[RADIUS] >= 0.0:
         settled, p0, p1, p2, p3, w1, w2, w3 = search(
             u1, u2, u3, k1, k2, k3, g1, g2, g3,
-            state[I], state[I + 1], state[I + 2], state[D], state[RADIUS], state[CONTRACTION],
+            state[I], state[I + 1], state[I + 2], state[D], state[RADIUS], state[ENOUGH],
         )  # fmt: skip
         if settled:
             return 0, 1.0, p0, p1, p2, p3, w1, w2, w3
@@ -127,7 +127,7 @@ def march(state, first, count, every, scale, momenta, verticals, with_body, atti
     h1, h2, h3 = three(state, A + 18)
     o1, o2, o3 = three(state, A + 21)
     I1, I2, I3 = three(state, I)
-    contact_term, radius, contraction = three(state, D)
+    contact_term, radius, enough = three(state, D)
     step, status, reach = first, 0, 1.0
     last = first + count
     while step < last and status == 0:
@@ -135,7 +135,7 @@ def march(state, first, count, every, scale, momenta, verticals, with_body, atti
         stop = min(last, step + every - step % every, step + PERIOD - step % PERIOD)
         while step < stop:
             settled, p0, p1, p2, p3, w1, w2, w3 = settle(
-                a1, a2, a3, k1, k2, k3, g1, g2, g3, I1, I2, I3, contact_term, radius, contraction
+                a1, a2, a3, k1, k2, k3, g1, g2, g3, I1, I2, I3, contact_term, radius, enough
             )  # fmt: skip
             if not settled:
                 put(state, K, k1, k2, k3)

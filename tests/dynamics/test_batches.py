@@ -11,7 +11,7 @@ RNG = np.random.default_rng(4)
 
 
 def balls(n):
-    """n balls at random, with some of each kind: D = 0, at rest, beyond the certificate, one that folds, one subnormal."""
+    """n balls at random, some of each kind: D = 0, at rest, beyond the certificate, folding, subnormal."""
     J, D = RNG.uniform(0.1, 2.0, (n, 3)), RNG.uniform(0.0, 2.0, n)
     K, g = RNG.normal(size=(n, 3)), RNG.normal(size=(n, 3))
     K *= 0.3 * J.min(axis=1, keepdims=True) * RNG.uniform(0, 1, (n, 1)) / np.linalg.norm(K, axis=1, keepdims=True)
