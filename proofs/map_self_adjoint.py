@@ -52,13 +52,13 @@ def in_free_parameters(n: int, sign: int = -1, last: int = 1) -> Identity:
     "self-adjoint",
     r"\mathcal K(\Omega^T, \Omega^T\gamma) = -\Omega^T\mathcal K(\Omega, \gamma)\Omega;"
     r"\ \Phi_{-\varepsilon}\circ\Phi_\varepsilon = 1",
-    uses=["prop-1", "4.1", "4.9"],
+    uses=["prop-1", "4.1", "4.9", "small-branch"],
 )
 def self_adjoint(p: Proof) -> None:
     """The step with ε reversed undoes the step, for every n and entry by entry for n = 3."""
     p.assume(
-        "the step back takes the rotation Ωᵀ among those with its momentum: for small ε it is the small one (5.3-small); "
-        "just before a fold, for D > 0, the small rotation back can be another one"
+        "the step back takes the rotation Ωᵀ among those with its momentum; on the small-rotation branch it does where "
+        "|𝒦| is below the bound of small-branch, which does not depend on γ"
     )
     p.say("Φ_ε: (K, γ) ↦ (ΩᵀKΩ, Ωᵀγ), and in space R ↦ RΩ, r ↦ r + Δr by (4.9), with Ω from 𝒦(Ω, γ) = εK.")
     p.say("The Lagrangian (4.1) and the constraint (4.9) do not know which end is first:")
@@ -81,7 +81,11 @@ def self_adjoint(p: Proof) -> None:
         equation("K_+ = ΩᵀKΩ to ΩK_+Ωᵀ = K", Omega * (OmegaT * K * Omega) * OmegaT, K),
         equation("γ_+ = Ωᵀγ to Ωγ_+ = γ", Omega * (OmegaT * gamma), gamma),
     )
-    p.say("and RΩ to RΩΩᵀ = R, and r by the opposite of Δr. For n = 3 in Euler parameters, where Ωᵀ has -q:")
+    p.say(
+        "and RΩ to RΩΩᵀ = R, and r by the opposite of Δr.  Ω and Ωᵀ turn by one angle: with small-branch, Ωᵀ is the small"
+    )
+    p.say("rotation back where Ω is the one there.  Beyond its bound, just before a fold, it need not be.")
+    p.say("For n = 3 in Euler parameters, where Ωᵀ has -q:")
     carried = three.transported(sp.Matrix(three.momentum()))
     p.printed(
         Equation("𝒦⃗(q₀, -q, Ωᵀγ) = -Ωᵀ𝒦⃗(q₀, q, γ), n = 3", list(vector_with_ends_swapped()), list(-carried), three.RING)
