@@ -83,6 +83,6 @@ def substeps(order: int) -> Floats:
 
     Raises BadInput for any other order.
     """
-    if isinstance(order, bool) or order not in COMPOSITIONS:
+    if not isinstance(order, int) or order not in COMPOSITIONS:
         raise BadInput(f"order must be one of {', '.join(map(str, COMPOSITIONS))}, not {order!r}")
     return COMPOSITIONS[order].stages

@@ -45,7 +45,6 @@ def compose_step(ball: Ball, momentum: ArrayLike, gamma: ArrayLike, order: int) 
             if not shape:
                 raise StepNotTaken(Status(int(status[i])), float(reach[i]))
             rotation[i], K[i], g[i] = np.nan, np.nan, np.nan
-    rotation[rotation[:, 0] < 0] *= -1
     return Step(
         rotation.reshape(*shape, 4), K.reshape(*shape, 3), g.reshape(*shape, 3),
         status.reshape(shape), reach.reshape(shape),

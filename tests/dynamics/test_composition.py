@@ -12,7 +12,7 @@ from reference import dot
 
 import chapsym
 from chapsym import BadInput, Ball, Status, StepNotTaken, testing
-from chapsym.dynamics import front
+from chapsym.dynamics import composition, front
 from chapsym.dynamics.coefficients import COMPOSITIONS
 from chapsym.dynamics.order_conditions import defects, words
 from chapsym.studies.convergence import continuous_ball, convergence
@@ -150,7 +150,7 @@ def test_the_series_is_that_of_matrices():
     assert (found == expected).all()
 
 
-@pytest.mark.parametrize("order", [0, 3, 10, True, "4", None])
+@pytest.mark.parametrize("order", [0, 3, 10, True, 4.0, "4", None, [4]])
 def test_other_orders_are_refused(order):
     with pytest.raises(BadInput, match="order must be one of 2, 4, 6, 8"):
         chapsym.substeps(order)
@@ -328,9 +328,29 @@ def test_a_fold_stops_one_ball_and_a_batch_goes_on():
         chapsym.compose_step(HEAVY, 2 * far, GAMMA, 4)
     steps = chapsym.compose_step(HEAVY, [2 * far, 0.1 * FOLDING], GAMMA, 4)
     assert steps.status.tolist()[1] == Status.TAKEN
-    assert np.isnan(steps.momentum[0]).all()
-    assert np.isnan(steps.rotation[0]).all()
+    for name in ("momentum", "gamma", "rotation"):
+        assert np.isnan(getattr(steps, name)[0]).all()
+        assert not np.isnan(getattr(steps, name)[1]).any()
     assert steps.reach[0] < 1
+
+
+def test_a_long_run_goes_in_chunks_and_stops_where_it_failed(monkeypatch):
+    """To the bit as in one piece; a ball that failed is not asked again."""
+    whole = chapsym.composed_trajectory(BALL, 0.1 * K, GAMMA, 23, order=4, every=3, contact=True)
+    monkeypatch.setattr(composition, "CHUNK", 2)
+    parts, seen = chapsym.composed_trajectory(BALL, 0.1 * K, GAMMA, 23, order=4, every=3, contact=True), []
+    for name in ("momentum", "gamma", "attitude", "contact", "taken"):
+        assert (getattr(whole, name) == getattr(parts, name)).all()
+    with pytest.raises(StepNotTaken) as caught:
+        chapsym.composed_trajectory(HEAVY, 1.5 * FOLDING, GAMMA, 100, order=8, progress=seen.append)
+    assert caught.value.index == 4
+    assert seen == [2, 4, 6]
+
+
+def test_only_the_start_is_kept_of_a_run_that_is_shorter_than_every():
+    run = chapsym.composed_trajectory(BALL, 0.1 * K, GAMMA, 200, order=8, every=10**30)
+    assert run.index.tolist() == [0]
+    assert run.taken == 200
 
 
 def test_progress_and_bad_input():

@@ -1,6 +1,7 @@
 """The way back: it retraces states, attitude and contact point within what rounding and the flow's shear allow."""
 
 import pickle
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -172,6 +173,19 @@ def test_what_cannot_be_reversed():
     heavy, far = Ball((1, 2, 4), 3), np.array([4.32, -2.16, 3.24])
     with pytest.raises(BadInput, match="stopped early"):
         chapsym.reverse(chapsym.trajectory(heavy, [far, 0.1 * far], GAMMA, 10))
+
+
+def test_the_error_is_that_of_each_part():
+    """An error of 0.25 in one component of one part, beside the frame that it belongs to."""
+    run = rolled(2, steps=5, attitude=True)
+    back = chapsym.reverse(run)
+    size = np.abs(run.momentum).max()
+    for name, scale in (("momentum", size), ("gamma", 1), ("attitude", 1)):
+        changed = getattr(back, name).copy()
+        changed[4, 1] += 0.25 * scale
+        error = chapsym.retrace_error(run, replace(back, **{name: changed}))
+        assert error[1] == pytest.approx(0.25, abs=1e-14)
+        assert error[[0, 2, 3, 4, 5]].max() < 1e-14
 
 
 def test_a_ball_at_rest_comes_back():
