@@ -16,7 +16,7 @@ from .ball import Ball, Floats, numbers
 from .coefficients import substeps
 from .errors import BadInput, Status, StepNotTaken
 from .map import Step, batch, explain, unit_vertical
-from .trajectories import CHUNK, SHORT_RUN, Trajectory, _count, _seconds, initial_attitude
+from .trajectories import CHUNK, SHORT_RUN, Trajectory, _count, _scaled, _seconds, initial_attitude
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,12 +34,13 @@ def compose_step(ball: Ball, momentum: ArrayLike, gamma: ArrayLike, order: int) 
     """
     c = substeps(order)
     shape, (K, g, J, D) = batch(ball, numbers(momentum, "momentum", 3), unit_vertical(gamma))
-    q, spare, contact = np.zeros(4), np.zeros((2, 3)), np.zeros(2)
     rotation = np.tile([1.0, 0.0, 0.0, 0.0], (len(D), 1))
     status, reach = np.zeros(len(D), dtype=np.int64), np.ones(len(D))
-    one = _kernel("composed_step", len(D) * len(c))
+    take = _kernel("composed_step", len(D) * len(c))
     for i in range(len(D)):
-        status[i], reach[i] = one(K[i], g[i], J[i], D[i], q, c, *spare, True, rotation[i], contact, 0.0)
+        *one, scale = _scaled_stages(c, K[i], g[i], J[i], D[i])
+        status[i], reach[i] = take(*one, True, rotation[i], np.zeros(2), 0.0)
+        K[i], g[i] = scale * one[0], one[1]
         if status[i] != Status.TAKEN:
             status[i] = explain(status[i], K[i], g[i], J[i], D[i])
             if not shape:
@@ -86,19 +87,20 @@ def composed_trajectory(
         attitudes[:, 0], traces[:, 0] = bodies, 0.0
     march = _kernel("march_composed", steps * len(D) * len(c))
     taken, status = np.zeros(len(D), dtype=np.int64), np.zeros(len(D), dtype=np.int64)
-    reach, q, done = np.ones(len(D)), np.zeros(4), 0
+    reach, done = np.ones(len(D)), 0
     for i in range(len(D)):
+        *one, scale = _scaled_stages(c, K[i], g[i], J[i], D[i])
         for first in range(0, steps, CHUNK):
             count = min(CHUNK, steps - first)
             went, status[i], reach[i] = march(
-                K[i], g[i], J[i], D[i], q, c, first, count, every, momenta[i], verticals[i],
+                *one, first, count, every, scale, momenta[i], verticals[i],
                 with_body, bodies[i], spots[i], radius[i], attitudes[i], traces[i],
             )  # fmt: skip
             taken[i] += went
             done += count
             progress(done)
             if status[i] != Status.TAKEN:
-                status[i] = explain(status[i], K[i], g[i], J[i], D[i])
+                status[i] = explain(status[i], scale * one[0], one[1], J[i], D[i])
                 break
     momenta, verticals, attitudes, traces = (x.reshape(*shape, *x.shape[1:]) for x in frames)
     result = ComposedTrajectory(
@@ -109,6 +111,17 @@ def composed_trajectory(
     if not shape and status[0] != Status.TAKEN:
         raise StepNotTaken(Status(int(status[0])), float(reach[0]), int(taken[0]), _up_to(result, int(taken[0])))
     return result
+
+
+def _scaled_stages(c: Floats, K: Floats, g: Floats, J: Floats, D: float) -> tuple:
+    """What `composed_step` needs of one ball, scaled as for `march`, and the scale.
+
+    Each stage has the certificate of its own momentum, and a filter that knows nothing yet.
+    """
+    k, vertical, tensor, inertia, contact, _, _, memory, scale = _scaled(K, g, J, D)
+    radius, contraction = np.array([_scaled(x * K, g, J, D)[5:7] for x in c]).T
+    past = np.zeros((len(c), 8, 3))
+    return k, vertical, tensor, inertia, contact, c, radius.copy(), contraction.copy(), past, memory, scale
 
 
 def _frames(balls: int, frames: int, with_body: bool) -> list[Floats]:
@@ -141,6 +154,7 @@ def _compiled(name: str) -> Callable[..., Any]:
     from . import compiled
 
     compiled._registered()
-    register_jitable(error_model="numpy")(composed_loop.composed_step)
+    for function in (composed_loop.extrapolated, composed_loop.turned_with, composed_loop.composed_step):
+        register_jitable(error_model="numpy", forceinline=function is not composed_loop.composed_step)(function)
     with compiled._caching_in(compiled.cache_folder()):
         return numba.njit(cache=True, error_model="numpy", nogil=True)(getattr(composed_loop, name))

@@ -249,18 +249,23 @@ def test_order_2_is_the_map_to_the_bit():
 
 @pytest.mark.parametrize("order", ORDERS)
 def test_a_step_is_its_stages(order):
-    """𝒦 and γ turned by the rotation of each stage, found by `step` from cᵢ𝒦; and the product of the rotations."""
+    """𝒦 and γ turned by the rotation of each stage, found by `step` from cᵢ𝒦; and the product of the rotations.
+
+    Both round each stage by half an ulp or so: 2⁻⁵³ for each stage and way is allowed.
+    """
+    allowed = 2 * 2.0**-53 * len(chapsym.substeps(order))
     momentum, gamma, rotation = 0.5 * K, GAMMA, np.array([1.0, 0, 0, 0])
     for c in chapsym.substeps(order):
         stage = chapsym.step(BALL, c * momentum, gamma)
         momentum, gamma = front.transport(stage.rotation, momentum), stage.gamma
         rotation = front.compose(rotation, stage.rotation)
     whole = chapsym.compose_step(BALL, 0.5 * K, GAMMA, order)
-    assert (whole.momentum == momentum).all()
-    assert (whole.gamma == gamma).all()
-    assert whole.rotation == pytest.approx(rotation, abs=1e-15)
+    assert np.abs(whole.momentum - momentum).max() <= allowed * np.abs(momentum).max()
+    assert np.abs(whole.gamma - gamma).max() <= allowed
+    assert np.abs(whole.rotation - rotation).max() <= allowed
     run = chapsym.composed_trajectory(BALL, 0.5 * K, GAMMA, 1, order=order)
-    assert (run.momentum[1] == momentum).all()
+    assert (run.momentum[1] == whole.momentum).all()
+    assert (run.gamma[1] == whole.gamma).all()
     assert run.order == order
 
 
