@@ -21,7 +21,7 @@ def extrapolated(past, w1, w2, w3):
         past[j, 0] = past[j + 1, 0] + WEIGHTS[j] * w1
         past[j, 1] = past[j + 1, 1] + WEIGHTS[j] * w2
         past[j, 2] = past[j + 1, 2] + WEIGHTS[j] * w3
-    past[7, 0], past[7, 1], past[7, 2] = -w1, -w2, -w3
+    past[7, 0], past[7, 1], past[7, 2] = WEIGHTS[7] * w1, WEIGHTS[7] * w2, WEIGHTS[7] * w3
 
 
 def turned_with(p0, p1, p2, p3, v, rest, at):
