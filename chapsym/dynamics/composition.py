@@ -11,12 +11,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from . import composed_loop
+from . import composed_loop, loop
 from .ball import Ball, Floats, numbers
 from .coefficients import substeps
+from .engine import CHUNK, SHORT_RUN
 from .errors import BadInput, Status, StepNotTaken
 from .map import Step, batch, explain, unit_vertical
-from .trajectories import CHUNK, SHORT_RUN, Trajectory, _count, _scaled, _seconds, initial_attitude
+from .trajectories import Trajectory, _count, _seconds, initial_attitude
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,9 +39,9 @@ def compose_step(ball: Ball, momentum: ArrayLike, gamma: ArrayLike, order: int) 
     status, reach = np.zeros(len(D), dtype=np.int64), np.ones(len(D))
     take = _kernel("composed_step", len(D) * len(c))
     for i in range(len(D)):
-        *one, scale = _scaled_stages(c, K[i], g[i], J[i], D[i])
+        one, scale = _under_way(c, K[i], g[i], J[i], D[i])
         status[i], reach[i] = take(*one, True, rotation[i], np.zeros(2), 0.0)
-        K[i], g[i] = scale * one[0], one[1]
+        K[i], g[i] = scale * one[0][:3], one[0][3:6]
         if status[i] != Status.TAKEN:
             status[i] = explain(status[i], K[i], g[i], J[i], D[i])
             if not shape:
@@ -89,7 +90,7 @@ def composed_trajectory(
     taken, status = np.zeros(len(D), dtype=np.int64), np.zeros(len(D), dtype=np.int64)
     reach, done = np.ones(len(D)), 0
     for i in range(len(D)):
-        *one, scale = _scaled_stages(c, K[i], g[i], J[i], D[i])
+        one, scale = _under_way(c, K[i], g[i], J[i], D[i])
         for first in range(0, steps, CHUNK):
             count = min(CHUNK, steps - first)
             went, status[i], reach[i] = march(
@@ -100,7 +101,7 @@ def composed_trajectory(
             done += count
             progress(done)
             if status[i] != Status.TAKEN:
-                status[i] = explain(status[i], scale * one[0], one[1], J[i], D[i])
+                status[i] = explain(status[i], scale * one[0][:3], one[0][3:6], J[i], D[i])
                 break
     momenta, verticals, attitudes, traces = (x.reshape(*shape, *x.shape[1:]) for x in frames)
     result = ComposedTrajectory(
@@ -113,15 +114,18 @@ def composed_trajectory(
     return result
 
 
-def _scaled_stages(c: Floats, K: Floats, g: Floats, J: Floats, D: float) -> tuple:
-    """What `composed_step` needs of one ball, scaled as for `march`, and the scale.
+def _under_way(c: Floats, K: Floats, g: Floats, J: Floats, D: float) -> tuple[list[Floats], float]:
+    """What `composed_step` needs of one ball at its start, and the scale, with 𝒦 = scale·k, of `prepare`.
 
     Each stage has the certificate of its own momentum, and a filter that knows nothing yet.
     """
-    k, vertical, tensor, inertia, contact, _, _, memory, scale = _scaled(K, g, J, D)
-    radius, contraction = np.array([_scaled(x * K, g, J, D)[5:7] for x in c]).T
-    past = np.zeros((len(c), 8, 3))
-    return k, vertical, tensor, inertia, contact, c, radius.copy(), contraction.copy(), past, memory, scale
+    state, one = np.zeros((2, loop.ROWS))
+    certificates = np.zeros((2, len(c)))
+    for i, x in enumerate(c):
+        loop.prepare(x * K, g, J, float(D), one)
+        certificates[:, i] = one[loop.RADIUS], one[loop.CONTRACTION]
+    scale = loop.prepare(K, g, J, float(D), state)
+    return [state, c, *certificates, np.zeros((len(c), 8, 3))], scale
 
 
 def _frames(balls: int, frames: int, with_body: bool) -> list[Floats]:
