@@ -12,7 +12,7 @@ from reference import dot
 
 import chapsym
 from chapsym import BadInput, Ball, Status, StepNotTaken, testing
-from chapsym.dynamics import composed_loop, composition, front, gibbs
+from chapsym.dynamics import composed_loop, composition, front, gibbs, loop
 from chapsym.dynamics.coefficients import COMPOSITIONS
 from chapsym.dynamics.order_conditions import defects, words
 from chapsym.studies.convergence import continuous_ball, convergence
@@ -385,10 +385,17 @@ def test_the_guess_continues_polynomials_of_degree_7():
 def test_each_stage_has_the_certificate_of_its_own_momentum(monkeypatch):
     seen, honest = [], composed_loop.settle
     monkeypatch.setattr(composed_loop, "settle", lambda *a: seen.append((*a[3:6], *a[-2:])) or honest(*a))
+    safe, searched = composed_loop.safe_rotation, []
+    monkeypatch.setattr(
+        composed_loop,
+        "safe_rotation",
+        lambda *a: searched.append((*a[-1][:3], a[-1][loop.RADIUS], a[-1][loop.CONTRACTION])) or safe(*a),
+    )
     chapsym.composed_trajectory(BALL, 0.5 * K, GAMMA, 1, order=8)
+    assert searched
     inertia = (BALL.mass_tensor.sum() - BALL.mass_tensor) / 4  # Λmax is scaled into [1/2, 1)
     assert len(seen) == 17
-    for *k, radius, contraction in seen:
+    for *k, radius, contraction in seen + searched:
         assert (radius, contraction) == pytest.approx(gibbs.certificate(*k, *inertia), rel=1e-13)
     assert len({round(radius, 9) for *_, radius, _ in seen}) == 9
 
