@@ -15,6 +15,8 @@ if TYPE_CHECKING:
         BadInput,
         Ball,
         BallN,
+        ComposedTrajectory,
+        NotRetraced,
         Status,
         Step,
         StepN,
@@ -22,12 +24,17 @@ if TYPE_CHECKING:
         Trajectory,
         TrajectoryN,
         axial,
+        compose_step,
+        composed_trajectory,
         invariants_n,
+        retrace_error,
+        reverse,
         reverse_n,
         roll,
         skew,
         step,
         step_n,
+        substeps,
         trajectory,
         trajectory_n,
     )
@@ -35,8 +42,9 @@ if TYPE_CHECKING:
 __version__ = "0.1.0"
 
 __all__ = [
-    "BadInput", "Ball", "BallN", "Status", "Step", "StepN", "StepNotTaken", "Trajectory", "TrajectoryN", "axial",
-    "invariants_n", "reverse_n", "roll", "skew", "step", "step_n", "trajectory", "trajectory_n",
+    "BadInput", "Ball", "BallN", "ComposedTrajectory", "NotRetraced", "Status", "Step", "StepN", "StepNotTaken",
+    "Trajectory", "TrajectoryN", "axial", "compose_step", "composed_trajectory", "invariants_n", "retrace_error",
+    "reverse", "reverse_n", "roll", "skew", "step", "step_n", "substeps", "trajectory", "trajectory_n",
 ]  # fmt: skip
 
 

@@ -1,0 +1,87 @@
+"""The inner loop of compositions: plain scalar Python that numba compiles.
+
+A composition takes the stages Φ_{cᵢε} one after the other.  In the paper's variables 𝒦 = εK, so a stage finds its
+rotation from cᵢ𝒦 and then carries 𝒦 itself: 𝒦 and γ turn rigidly, whatever the coefficients are.  The Gibbs vector
+of the stage i is smooth from step to step, so each stage has an extrapolation of its own.
+"""
+
+from chapsym.generated import turn
+
+from .gibbs import settle
+from .integrals import PERIOD, restore
+from .loop import CONTRACTION, RADIUS, D, G, I, K, X, follow_body, put, safe_rotation, three
+
+#: The polynomial through the last 8 Gibbs vectors, as a filter.
+WEIGHTS = (8.0, -28.0, 56.0, -70.0, 56.0, -28.0, 8.0, -1.0)
+
+
+def extrapolated(past, w1, w2, w3):
+    """Takes the newest Gibbs vector of a stage into its filter (8, 3), the first row of which is the next guess."""
+    for j in range(7):
+        past[j, 0] = past[j + 1, 0] + WEIGHTS[j] * w1
+        past[j, 1] = past[j + 1, 1] + WEIGHTS[j] * w2
+        past[j, 2] = past[j + 1, 2] + WEIGHTS[j] * w3
+    past[7, 0], past[7, 1], past[7, 2] = WEIGHTS[7] * w1, WEIGHTS[7] * w2, WEIGHTS[7] * w3
+
+
+def turned_with(p0, p1, p2, p3, state, at, rest):
+    """Turns the vector at state[at:] by the quaternion p in place, with the compensation of its sum at state[rest:]."""
+    v1, v2, v3 = three(state, at)
+    x1, x2, x3 = three(state, rest)
+    z1, z2, z3 = turn(p0, p1, p2, p3, v1, v2, v3)
+    z1, z2, z3 = z1 - x1, z2 - x2, z3 - x3
+    w1, w2, w3 = v1 + z1, v2 + z2, v3 + z3
+    put(state, rest, (w1 - v1) - z1, (w2 - v2) - z2, (w3 - v3) - z3)
+    put(state, at, w1, w2, w3)
+
+
+def composed_step(state, c, radius, contraction, past, with_body, attitude, contact, rho):
+    """All stages of one step of the ball in `state` (ROWS), in place.
+
+    c, radius², contraction²: of the stages, (s,); past: their filters, (s, 8, 3).  Returns (status, reach).  Where a
+    stage is not taken, the state is left with its momentum and its vertical.
+    """
+    for i in range(c.shape[0]):
+        k1, k2, k3 = three(state, K)
+        g1, g2, g3 = three(state, G)
+        I1, I2, I3 = three(state, I)
+        settled, p0, p1, p2, p3, w1, w2, w3 = settle(
+            past[i, 0, 0], past[i, 0, 1], past[i, 0, 2], c[i] * k1, c[i] * k2, c[i] * k3, g1, g2, g3,
+            I1, I2, I3, state[D], radius[i], contraction[i],
+        )  # fmt: skip
+        if not settled:
+            put(state, K, c[i] * k1, c[i] * k2, c[i] * k3)
+            state[RADIUS], state[CONTRACTION] = radius[i], contraction[i]
+            status, reach, p0, p1, p2, p3, w1, w2, w3 = safe_rotation(w1, w2, w3, state)
+            if status != 0:
+                return status, reach
+            put(state, K, k1, k2, k3)
+        extrapolated(past[i], w1, w2, w3)
+        if with_body:
+            follow_body(p0, p1, p2, p3, g1, g2, g3, attitude, contact, rho)
+        turned_with(p0, p1, p2, p3, state, K, X)
+        turned_with(p0, p1, p2, p3, state, G, X + 3)
+    return 0, 1.0
+
+
+def march_composed(
+    state, c, radius, contraction, past, first, count, every, scale,
+    momenta, verticals, with_body, attitude, contact, rho, attitudes, traces,
+):  # fmt: skip
+    """`march` of `loop`, each step a composition with the stage coefficients c.  Returns (taken, status, reach)."""
+    period = max(1, PERIOD // c.shape[0])
+    for step in range(first + 1, first + count + 1):
+        status, reach = composed_step(state, c, radius, contraction, past, with_body, attitude, contact, rho)
+        if status != 0:
+            return step - 1 - first, status, reach
+        if step % period == 0:
+            restore(state)
+        if step % every == 0:
+            frame = step // every
+            put(momenta[frame], 0, scale * state[K], scale * state[K + 1], scale * state[K + 2])
+            put(verticals[frame], 0, state[G], state[G + 1], state[G + 2])
+            if with_body:
+                for i in range(4):
+                    attitudes[frame, i] = attitude[i]
+                traces[frame, 0], traces[frame, 1] = contact[0], contact[1]
+    return count, 0, 1.0

@@ -1,0 +1,51 @@
+"""The order conditions of compositions of a self-adjoint step, decided in a free algebra.
+
+A self-adjoint step of order 2 is Φ_ε = exp(εX₁ + ε³X₃ + ε⁵X₅ + ...) with operators Xᵢ that depend on the equation,
+and the flow is exp(εX₁).  So Φ_{c₁ε} ... Φ_{cₛε} has the order p for every equation exactly when the two
+series agree, word by word in free letters X₁, X₃, X₅, ..., through the weight p (a letter weighs its index).
+No tree and no bracket is needed: 54 words through the weight 8.
+
+Whether the first coefficient is that of the first stage or of the last does not matter for palindromes.
+"""
+
+from collections.abc import Iterator, Sequence
+from functools import reduce
+from math import factorial
+from typing import Any
+
+Word = tuple[int, ...]
+Series = dict[Word, Any]
+
+
+def words(weight: int) -> Iterator[Word]:
+    """Every word in the letters 1, 3, 5, ... that weighs `weight`."""
+    if weight == 0:
+        yield ()
+    for letter in range(1, weight + 1, 2):
+        for rest in words(weight - letter):
+            yield (letter, *rest)
+
+
+def words_through(order: int) -> list[Word]:
+    """The words that weigh at most `order`, the empty one first."""
+    return [word for weight in range(order + 1) for word in words(weight)]
+
+
+def step_series(c: Any, order: int) -> Series:
+    """exp(cX₁ + c³X₃ + ...): the word w of k letters has the coefficient c^|w|/k!."""
+    return {word: c ** sum(word) / factorial(len(word)) for word in words_through(order)}
+
+
+def product(left: Series, right: Series) -> Series:
+    """The product of two series in noncommuting letters, through the weight of `left`."""
+    return {word: sum(left[word[:i]] * right[word[i:]] for i in range(len(word) + 1)) for word in left}
+
+
+def defects(coefficients: Sequence[Any], order: int) -> Series:
+    """By how much the composition misses the flow, for each word of weight 1 to `order`.
+
+    coefficients: c₁, ..., cₛ as any numbers that divide: Fraction (then this is exact), mpf or arb.
+    """
+    composed = reduce(product, (step_series(c, order) for c in coefficients))
+    flow = {word: coefficients[0] ** 0 / factorial(len(word)) * (sum(word) == len(word)) for word in composed}
+    return {word: composed[word] - flow[word] for word in composed if word}

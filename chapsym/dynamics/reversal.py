@@ -1,0 +1,128 @@
+"""The way back: with the momentum reversed a ball rolls over the states it came by, to its start.
+
+The map is reversible (lemma `reversible`): with ϱ(𝒦, γ) = (-𝒦, γ), ϱΦϱ = Φ⁻¹; a symmetric composition is, too, and
+both carry the attitude and the contact point along.  So no step needs an inverse: the way back is a run of the map.
+"""
+
+from typing import Any
+
+import numpy as np
+
+from .ball import Ball, Floats
+from .composition import ComposedTrajectory, compose_step, composed_trajectory
+from .errors import BadInput
+from .map import step
+from .trajectories import Trajectory, trajectory
+
+#: Where the way back is this far from the way there, it is looked whether a step back took another branch.
+FAR = 1e-6
+
+
+class NotRetraced(ArithmeticError):
+    """The way back takes another way: a step is so near a fold that the small rotation back is another one.
+
+    index: the step of the run (0 is the first) that is not undone; balls: the indices of the balls, `()` for one ball,
+    the first of which `index` is about; trajectory: the whole way back, as the map goes it.
+    """
+
+    def __init__(self, index: int, balls: list[tuple[int, ...]], trajectory: Trajectory) -> None:
+        self.index, self.balls, self.trajectory = index, balls, trajectory
+        named = ", ".join(map(str, balls[:5])) + (", ..." if len(balls) > 5 else "")
+        which = f" (of the first of the balls {named})" if balls[0] else ""
+        super().__init__(
+            f"the step back does not undo the step {index}{which}: it is so near a fold that the small rotation back "
+            "is another one; take a shorter time step"
+        )
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), (self.index, self.balls, self.trajectory)
+
+
+def reverse(run: Trajectory) -> Trajectory:
+    """The way back: the trajectory that starts where `run` ends, with the momentum reversed, and ends where it began.
+
+    What is returned is a motion of its own, forward in its time: frame j is beside frame -1-j of the run, `gamma`,
+    `attitude` and `contact` are those of the run up to rounding, and `momentum` is the opposite (the ball turns the
+    other way).  So `reverse(reverse(run))` is the run again.  It has the order, the frames and the time step of the
+    run; a contact point starts where that of the run ended.  For one state there is nothing to do but to change the
+    sign of its momentum.
+
+    How near it comes is `retrace_error`: at most 2⁻⁵³·√(2·stages)·(1 + growth) was measured, where growth is the factor
+    by which the run stretches a small change of its start: about the angle turned, in radians, or less, but near an
+    unstable rotation exponential.
+
+    Raises BadInput if a ball of the run stopped early, or if the run has no frame beside its first; NotRetraced if a
+    step back takes another branch than the step there: never where |𝒦| is below the bound of the lemma `small-branch`,
+    and otherwise met only for D > 0, within 1% of a fold.  StepNotTaken as `trajectory` does.
+    """
+    steps, every = _frames(run)
+    if np.isnan(run.momentum).any():
+        raise BadInput("a ball of the batch stopped early; choose the frames up to `taken` first")
+    options: dict[str, Any] = {"every": every, "contact": run.contact is not None, "time_step": run.time_step}
+    options["attitude"] = False if run.attitude is None else run.attitude[..., -1, :]
+    back = _run(run.ball, -run.momentum[..., -1, :], run.gamma[..., -1, :], steps, _order(run), options)
+    if run.contact is not None and back.contact is not None:
+        back.contact[...] += run.contact[..., -1:, :]
+    strayed = _strayed(run, retrace_error(run, back))
+    if strayed:
+        raise NotRetraced(strayed[0][1], [ball for ball, _ in strayed], back)
+    return back
+
+
+def retrace_error(run: Trajectory, back: Trajectory) -> Floats:
+    """How far the way back is from the run beside each frame of the run, (..., frames).
+
+    The largest of the errors of 𝒦, relative to its largest component, of γ and, if there, of the attitude.
+    """
+    size = np.abs(run.momentum).max(axis=(-1, -2))[..., np.newaxis]
+    gap = np.abs(run.momentum + back.momentum[..., ::-1, :]).max(axis=-1) / np.where(size > 0, size, 1.0)
+    gap = np.maximum(gap, np.abs(run.gamma - back.gamma[..., ::-1, :]).max(axis=-1))
+    if run.attitude is None or back.attitude is None:
+        return gap
+    return np.maximum(gap, np.abs(run.attitude - back.attitude[..., ::-1, :]).max(axis=-1))
+
+
+def _frames(run: Trajectory) -> tuple[int, int]:
+    """The steps from the first frame to the last, and from one to the next."""
+    if not isinstance(run, Trajectory):
+        raise BadInput(f"reverse takes a Trajectory, not {type(run).__name__}; of a state, reverse the momentum")
+    if len(run.index) < 2:
+        raise BadInput("the run has no frame beside its first, so there is no way back")
+    return int(run.index[-1] - run.index[0]), int(run.index[1] - run.index[0])
+
+
+def _order(run: Trajectory) -> int:
+    return run.order if isinstance(run, ComposedTrajectory) else 2
+
+
+def _run(ball: Ball, K: Floats, g: Floats, steps: int, order: int, options: dict[str, Any]) -> Trajectory:
+    if order == 2:
+        return trajectory(ball, K, g, steps, **options)
+    return composed_trajectory(ball, K, g, steps, order=order, **options)
+
+
+def _strayed(run: Trajectory, error: Floats) -> list[tuple[tuple[int, ...], int]]:
+    """(ball, step) for each ball with a step that the small rotation back does not undo.
+
+    Rounding may bring a way back as far off, by an unstable rotation: so the steps where it strays are looked at alone.
+    """
+    found = []
+    for ball in map(tuple, np.argwhere((error > FAR).any(axis=-1)).tolist()):
+        frame = int(np.flatnonzero(error[ball] > FAR).max())
+        step = _last_not_undone(run, ball, frame)
+        if step is not None:
+            found.append((ball, int(run.index[frame]) + step))
+    return found
+
+
+def _last_not_undone(run: Trajectory, which: tuple[int, ...], frame: int) -> int | None:
+    """The last step between a frame and the next one after which the step back does not return; None if all do."""
+    leading = run.momentum.shape[:-2]
+    tensor = np.broadcast_to(run.ball.mass_tensor, (*leading, 3))[which]
+    ball = Ball(tensor, np.broadcast_to(run.ball.D, leading)[which])
+    between = _frames(run)[1]
+    there = _run(ball, run.momentum[which][frame], run.gamma[which][frame], between, _order(run), {})
+    ends = ball, -there.momentum[1:], there.gamma[1:]
+    back = step(*ends) if _order(run) == 2 else compose_step(*ends, _order(run))
+    off = ~(np.abs(back.gamma - there.gamma[:-1]).max(axis=-1) <= FAR)
+    return int(np.flatnonzero(off).max()) if off.any() else None

@@ -1,0 +1,412 @@
+"""Compositions: coefficients against the order conditions, orders against the continuous ball, exact integrals."""
+
+from fractions import Fraction
+from itertools import pairwise
+from math import factorial
+
+import mpmath
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from reference import dot
+
+import chapsym
+from chapsym import BadInput, Ball, Status, StepNotTaken, testing
+from chapsym.dynamics import composed_loop, composition, front, gibbs, loop
+from chapsym.dynamics.coefficients import COMPOSITIONS
+from chapsym.dynamics.order_conditions import defects, words
+from chapsym.studies.convergence import continuous_ball, convergence
+
+BALL = Ball((0.1, 0.5, 1.6), 0.7, radius=0.5)
+GAMMA = np.array([2, 3, 6]) / 7
+K = np.array([0.6, -0.5, 0.6])
+ORDERS = (4, 6, 8)
+#: As they are printed: Kahan and Li, Math. Comp. 66 (1997); also in Hairer, Lubich, Wanner, Geometric Numerical
+#: Integration, V.3.2.
+PUBLISHED = {
+    6: (
+        "0.39216144400731413927925056", "0.33259913678935943859974864", "-0.70624617255763935980996482",
+        "0.08221359629355080023149045", "0.79854399093482996339895035",
+    ),
+    8: (
+        "0.13020248308889008087881763", "0.56116298177510838456196441", "-0.38947496264484728640807860",
+        "0.15884190655515560089621075", "-0.39590389413323757733623154", "0.18453964097831570709183254",
+        "0.25837438768632204729397911", "0.29501172360931029887096624", "-0.60550853383003451169892108",
+    ),
+}  # fmt: skip
+#: Words without a proper suffix that is smaller: what the others of a group-like series follow from.
+LYNDON = {6: [(1,), (3,), (5,), (1, 1, 3)]}
+LYNDON[8] = [*LYNDON[6], (7,), (1, 1, 5), (1, 3, 3), (1, 1, 1, 1, 3)]
+
+
+def palindrome(half):
+    return [*half, *half[-2::-1]]
+
+
+def worst(coefficients, order):
+    return max(abs(defect) for defect in defects(coefficients, order).values())
+
+
+# The coefficients
+
+
+@pytest.mark.parametrize("order", ORDERS)
+def test_the_coefficients_solve_the_order_conditions(order):
+    """Exactly, up to their rounding: 40 decimals each, whose effect is measured, too."""
+    exact = COMPOSITIONS[order].exact
+    nudge = Fraction(1, 10**20)
+    moved = [worst([*exact[:i], c + nudge, *exact[i + 1 :]], order) / nudge for i, c in enumerate(exact)]
+    assert worst(exact, order) < sum(moved) / 2 * Fraction(1, 10**40)
+    assert worst(exact, order + 1) > 1e-6, "the order would be higher"
+
+
+@pytest.mark.parametrize("order", ORDERS)
+def test_a_wrong_digit_is_seen(order):
+    """Any of the first 37 digits of any coefficient: the defect is a hundred times that of the right ones."""
+    exact = COMPOSITIONS[order].exact
+    right = worst(exact, order)
+    for i, c in enumerate(exact[: len(exact) // 2 + 1]):
+        for digit in (1, 17, 26, 37):
+            half = [*exact[: len(exact) // 2 + 1]]
+            half[i] = c + Fraction(1, 10**digit)
+            assert worst(palindrome(half), order) > 100 * right
+
+
+@pytest.mark.parametrize("order", ORDERS)
+def test_a_composition_is_a_palindrome_and_a_step_of_length_one(order):
+    exact, stages = COMPOSITIONS[order].exact, chapsym.substeps(order)
+    assert exact == exact[::-1]
+    assert sum(exact) - 1 == pytest.approx(0, abs=1e-39)
+    assert stages.tolist() == [float(c) for c in exact]
+    assert len(stages) == {4: 5, 6: 9, 8: 17}[order]
+
+
+def test_suzukis_coefficient_is_what_it_should_be():
+    with mpmath.workdps(60):
+        assert abs(mpmath.mpf(COMPOSITIONS[4].half[0]) - 1 / (4 - mpmath.cbrt(4))) < mpmath.mpf("5.1e-41")
+
+
+@pytest.mark.parametrize("order", [6, 8])
+def test_newton_from_the_published_digits_gives_those_that_are_used(order):
+    """c₁ as published, the others from the order conditions at 60 digits; none moves by a unit of its last digit."""
+    with mpmath.workdps(60):
+        published = [mpmath.mpf(x) for x in PUBLISHED[order]]
+        half, small = list(published), mpmath.mpf(10) ** -30
+
+        def conditions(free):
+            found = defects(palindrome([half[0], *free]), order)
+            return mpmath.matrix([found[word] for word in LYNDON[order]])
+
+        for _ in range(3):
+            free, size = half[1:], len(half) - 1
+            slopes = mpmath.matrix(size, size)
+            for j in range(size):
+                ahead, behind = (conditions([c + s * (i == j) for i, c in enumerate(free)]) for s in (small, -small))
+                slopes[:, j] = (ahead - behind) / (2 * small)
+            change = mpmath.lu_solve(slopes, -conditions(free))
+            half[1:] = [c + d for c, d in zip(free, change, strict=True)]
+        assert max(abs(x) for x in change) < mpmath.mpf("1e-50")
+        assert worst(palindrome(half), order) < mpmath.mpf("1e-55")
+        for mine, refined, printed in zip(COMPOSITIONS[order].half, half, published, strict=True):
+            assert abs(refined - mpmath.mpf(mine)) < mpmath.mpf("5.1e-41")
+            assert abs(refined - printed) < mpmath.mpf("1e-26")
+
+
+def test_the_order_conditions_are_those_that_are_known():
+    """Σc = 1 and Σc³ = 0, which for a palindrome are those of order 4; a word for each sum of odd numbers."""
+    c = [Fraction(1, 3), Fraction(-2), Fraction(1, 3)]
+    found = defects(c, 4)
+    assert found[(1,)] == sum(c) - 1
+    assert found[(3,)] == sum(x**3 for x in c)
+    assert found[(1, 1)] == (sum(c) ** 2 - 1) / 2
+    assert [len(list(words(w))) for w in range(1, 9)] == [1, 1, 2, 3, 5, 8, 13, 21]
+    assert set(defects(c, 8)) == {word for w in range(1, 9) for word in words(w)}
+
+
+def test_the_series_is_that_of_matrices():
+    """The words at nilpotent matrices that do not commute: exact exponentials, multiplied."""
+    size, c = 6, [Fraction(1, 3), Fraction(-2), Fraction(1, 3)]
+    rng = np.random.default_rng(3)
+    letters = {i: np.triu(rng.integers(-3, 4, (size, size)), i).astype(object) for i in (1, 3, 5)}
+    one = np.eye(size, dtype=int).astype(object)
+
+    def exponential(x):
+        total, power = one, one
+        for n in range(1, size):
+            power = power @ x
+            total = total + power * Fraction(1, factorial(n))
+        return total
+
+    product = one
+    for x in c:
+        product = product @ exponential(sum(letters[i] * x**i for i in letters))
+    expected = product - exponential(letters[1])
+    found = one * Fraction(0)
+    for word, defect in defects(c, size - 1).items():  # the letter i raises by i places: heavier words vanish
+        term = one
+        for letter in word:
+            term = term @ letters[letter]
+        found = found + term * defect
+    assert (found == expected).all()
+
+
+@pytest.mark.parametrize("order", [0, 3, 10, True, 4.0, "4", None, [4]])
+def test_other_orders_are_refused(order):
+    with pytest.raises(BadInput, match="order must be one of 2, 4, 6, 8"):
+        chapsym.substeps(order)
+    with pytest.raises(BadInput, match="order must be one of"):
+        chapsym.composed_trajectory(BALL, K, GAMMA, 3, order=order)
+
+
+# The orders
+
+
+def test_the_reference_is_the_continuous_ball():
+    """Its integrals, its time reversal, and its own digits: K × ω from the momentum operator, not from its inverse."""
+    there = continuous_ball(BALL, K, GAMMA, 2.0)
+    more = continuous_ball(BALL, K, GAMMA, 2.0, digits=60)
+    assert max(abs(x - y) for x, y in zip(there, more, strict=True)) < 1e-40
+    momentum, gamma = there[:3], there[3:]
+    start_momentum, start_gamma = ([Fraction(float(x)) for x in v] for v in (K, GAMMA))
+    for found, start in (
+        (dot(momentum, gamma), dot(start_momentum, start_gamma)),
+        (dot(momentum, momentum), dot(start_momentum, start_momentum)),
+    ):
+        assert abs(found - found.context.mpf(start.numerator) / start.denominator) < found.context.mpf("1e-40")
+    h = 1e-5
+    ahead, behind = (np.array([float(x) for x in continuous_ball(BALL, K, GAMMA, 2.0 + s)]) for s in (h, -h))
+    state = np.array([float(x) for x in there])
+    omega = front.angular_velocity(state[:3], state[3:], BALL.mass_tensor, BALL.D)
+    rate = [*np.cross(state[:3], omega), *np.cross(state[3:], omega)]
+    # The central difference is off by h²/6 times a third derivative of about 1, and by 2⁻⁵³/h.
+    assert np.abs((ahead - behind) / (2 * h) - rate).max() < 1e-9
+
+
+@pytest.mark.parametrize(
+    ("order", "steps"),
+    [
+        (2, (80, 160, 320, 640, 1280)),
+        (4, (10, 20, 40, 80, 160, 320, 640, 1280)),
+        (6, (7, 10, 14, 20, 28, 40, 56, 80, 160, 320)),
+        (8, (7, 8, 10, 12, 14, 17, 20, 24, 28, 40, 80, 160)),
+    ],
+)
+@pytest.mark.parametrize("case", [0, 1])
+def test_the_order_is_measured(order, steps, case):
+    """Against the continuous ball after 5 s.
+
+    The error is h^p(a + b h² + ...), so a fit over steps of up to 0.7 s is off p by what b brings there: 0.14 was the
+    most; a composition of another even order would be off by 2.
+    """
+    ball, gamma, momentum = [
+        (BALL, GAMMA, K), (Ball((1.0, 0.6, 0.3), 1.5), np.array([-1, 4, 8]) / 9, np.array([0.9, 1.1, -0.7]))
+    ][case]  # fmt: skip
+    measured = convergence(ball, momentum, gamma, 5.0, order, steps)
+    assert measured.used.sum() >= 4
+    assert abs(measured.slope - order) < 0.2, measured
+
+
+def test_the_plateau_is_dropped():
+    measured = convergence(BALL, K, GAMMA, 5.0, 8, (14, 28, 160, 320, 640))
+    assert measured.used.tolist() == [True, True, False, False, False]
+    coarse = convergence(BALL, K, GAMMA, 5.0, 2, (10, 320, 640))
+    assert coarse.used.tolist() == [False, True, True]
+
+
+def test_the_contact_point_converges_with_the_order_too():
+    """Against ρ∫ω × e₃ in space along a fine run, the integral by Romberg's scheme from 128 intervals down."""
+    steps = 128
+    fine = chapsym.composed_trajectory(BALL, K / steps * 5, GAMMA, steps, order=8, contact=True)
+    omega = front.angular_velocity(fine.momentum * (steps / 5), fine.gamma, BALL.mass_tensor, BALL.D)
+    x, y, _ = front.rotate(fine.attitude, omega).T
+    velocity = 0.5 * np.stack([y, -x], axis=-1)
+
+    def trapezoid(stride):
+        values = velocity[::stride]
+        return (values.sum(axis=0) - (values[0] + values[-1]) / 2) * (5 / steps * stride)
+
+    table = [trapezoid(2**j) for j in range(6)][::-1]
+    for level in range(1, 6):
+        table = [b + (b - a) / (4**level - 1) for a, b in pairwise(table)]
+    for order, counts in ((4, (20, 40, 80)), (6, (20, 28, 40)), (8, (10, 14, 20))):
+        errors = []
+        for n in counts:
+            run = chapsym.composed_trajectory(BALL, K / n * 5, GAMMA, n, order=order, contact=True, every=n)
+            errors.append(np.abs(run.contact[-1] - table[0]).max())
+        slope = -np.polyfit(np.log(counts), np.log(errors), 1)[0]
+        assert abs(slope - order) < 0.35, (order, errors)
+
+
+# The loop
+
+
+def test_order_2_is_the_map_to_the_bit():
+    plain = chapsym.trajectory(BALL, 0.1 * K, GAMMA, 50, contact=True)
+    composed = chapsym.composed_trajectory(BALL, 0.1 * K, GAMMA, 50, order=2, contact=True)
+    for name in ("index", "momentum", "gamma", "attitude", "contact"):
+        assert (getattr(plain, name) == getattr(composed, name)).all()
+
+
+@pytest.mark.parametrize("order", ORDERS)
+def test_a_step_is_its_stages(order):
+    """𝒦 and γ turned by the rotation of each stage, found by `step` from cᵢ𝒦; and the product of the rotations.
+
+    Both round each stage by half an ulp or so: 2⁻⁵³ for each stage and way is allowed.
+    """
+    allowed = 2 * 2.0**-53 * len(chapsym.substeps(order))
+    momentum, gamma, rotation = 0.5 * K, GAMMA, np.array([1.0, 0, 0, 0])
+    for c in chapsym.substeps(order):
+        stage = chapsym.step(BALL, c * momentum, gamma)
+        momentum, gamma = front.transport(stage.rotation, momentum), stage.gamma
+        rotation = front.compose(rotation, stage.rotation)
+    whole = chapsym.compose_step(BALL, 0.5 * K, GAMMA, order)
+    assert np.abs(whole.momentum - momentum).max() <= allowed * np.abs(momentum).max()
+    assert np.abs(whole.gamma - gamma).max() <= allowed
+    assert np.abs(whole.rotation - rotation).max() <= allowed
+    run = chapsym.composed_trajectory(BALL, 0.5 * K, GAMMA, 1, order=order)
+    assert (run.momentum[1] == whole.momentum).all()
+    assert (run.gamma[1] == whole.gamma).all()
+    assert run.order == order
+
+
+@pytest.mark.parametrize("order", ORDERS)
+def test_all_momentum_integrals_stay_exact(order):
+    """Compensated and restored every 1024 stages, so that the error does not grow with the steps.
+
+    In between each stage rounds the turn θ of a unit vector by 2⁻⁵³·θ or so, as a random walk; a square counts it
+    twice.  Plain sums would be at 0.65·2⁻⁵³·√stages by now, several times that.
+    """
+    steps, c = 4000, chapsym.substeps(order)
+    run = chapsym.composed_trajectory(BALL, 0.3 * K, GAMMA, steps, order=order, every=9)
+    integrals, length = run.invariants(), 0.3 * np.sqrt(K @ K)
+    omega = front.angular_velocity(run.momentum, run.gamma, BALL.mass_tensor, BALL.D)
+    angle = np.abs(c).max() * np.sqrt((omega**2).sum(axis=-1)).max()
+    allowed = 2.0**-53 * (4 + 2 * np.sqrt(1024) * angle)
+    assert (np.abs(integrals - integrals[0]).max(axis=0) <= allowed * np.array([length, length**2, 1])).all()
+    assert allowed < 0.65 * 2.0**-53 * np.sqrt(steps * len(c)) / 2
+
+
+@given(testing.states(fraction=(0.05, 0.9)))
+@settings(max_examples=30)
+def test_the_integrals_stay_exact_for_every_ball(state):
+    ball, momentum, gamma = state
+    for order in ORDERS:
+        after = chapsym.compose_step(ball, momentum, gamma, order)
+        stages, size = len(chapsym.substeps(order)), np.abs(momentum).max()
+        before, now = (np.array(front.invariants(x, y)) for x, y in ((momentum, gamma), (after.momentum, after.gamma)))
+        # A rotation of a vector: 8 roundings of entries of size 1, in each stage.
+        assert (np.abs(now - before) <= 8 * 2.0**-53 * stages * np.array([3 * size, 3 * size**2, 1]) + 1e-300).all()
+
+
+def test_compiled_and_plain_agree_to_the_bit():
+    short = chapsym.composed_trajectory(BALL, 0.1 * K, GAMMA, 100, order=8, contact=True)
+    long = chapsym.composed_trajectory(BALL, 0.1 * K, GAMMA, 200, order=8, contact=True)
+    assert (short.momentum == long.momentum[:101]).all()
+    assert (short.contact == long.contact[:101]).all()
+
+
+def test_every_kth_state_is_kept_and_times_are_told():
+    whole, thin = (
+        chapsym.composed_trajectory(BALL, 0.1 * K, GAMMA, 23, order=4, every=n, time_step=0.1) for n in (1, 5)
+    )
+    assert thin.index.tolist() == [0, 5, 10, 15, 20]
+    assert (thin.momentum == whole.momentum[::5]).all()
+    assert thin.taken == 23
+    assert thin.time[-1] == pytest.approx(2.0)
+    assert thin.attitude is None
+    assert thin.contact is None
+    assert thin.kinetic_energy() == pytest.approx(thin.kinetic_energy()[0], rel=1e-4)
+
+
+FOLDING = np.array([4.32, -2.16, 3.24])
+HEAVY = Ball((1, 2, 4), 3)
+
+
+def test_a_fold_stops_one_ball_and_a_batch_goes_on():
+    far = 1.5 * FOLDING  # the fifth step folds, in one of its stages
+    with pytest.raises(StepNotTaken) as caught:
+        chapsym.composed_trajectory(HEAVY, far, GAMMA, 100, order=8, attitude=True)
+    error = caught.value
+    assert (error.status, error.index) == (Status.FOLDED, 4)
+    assert len(error.trajectory.momentum) == error.index + 1
+    assert error.trajectory.order == 8
+    run = chapsym.composed_trajectory(HEAVY, [far, 0.1 * FOLDING], GAMMA, 10, order=8)
+    assert run.status.tolist() == [error.status, Status.TAKEN]
+    assert run.taken.tolist() == [error.index, 10]
+    assert np.isnan(run.momentum[0, error.index + 1 :]).all()
+    assert (run.momentum[1] == chapsym.composed_trajectory(HEAVY, 0.1 * FOLDING, GAMMA, 10, order=8).momentum).all()
+    with pytest.raises(StepNotTaken):
+        chapsym.compose_step(HEAVY, 2 * far, GAMMA, 4)
+    steps = chapsym.compose_step(HEAVY, [2 * far, 0.1 * FOLDING], GAMMA, 4)
+    assert steps.status.tolist()[1] == Status.TAKEN
+    for name in ("momentum", "gamma", "rotation"):
+        assert np.isnan(getattr(steps, name)[0]).all()
+        assert not np.isnan(getattr(steps, name)[1]).any()
+    assert steps.reach[0] < 1
+
+
+def test_a_long_run_goes_in_chunks_and_stops_where_it_failed(monkeypatch):
+    """To the bit as in one piece; a ball that failed is not asked again."""
+    whole = chapsym.composed_trajectory(BALL, 0.1 * K, GAMMA, 23, order=4, every=3, contact=True)
+    monkeypatch.setattr(composition, "CHUNK", 2)
+    parts, seen = chapsym.composed_trajectory(BALL, 0.1 * K, GAMMA, 23, order=4, every=3, contact=True), []
+    for name in ("momentum", "gamma", "attitude", "contact", "taken"):
+        assert (getattr(whole, name) == getattr(parts, name)).all()
+    with pytest.raises(StepNotTaken) as caught:
+        chapsym.composed_trajectory(HEAVY, 1.5 * FOLDING, GAMMA, 100, order=8, progress=seen.append)
+    assert caught.value.index == 4
+    assert seen == [2, 4, 6]
+
+
+def test_only_the_start_is_kept_of_a_run_that_is_shorter_than_every():
+    run = chapsym.composed_trajectory(BALL, 0.1 * K, GAMMA, 200, order=8, every=10**30)
+    assert run.index.tolist() == [0]
+    assert run.taken == 200
+
+
+def test_a_stage_whose_momentum_no_rotation_has_is_told():
+    """The reason is that of the stage's momentum in its own units, not of what the loop makes of it."""
+    with pytest.raises(StepNotTaken) as caught:
+        chapsym.composed_trajectory(HEAVY, 2.5 * FOLDING, GAMMA, 3, order=6)
+    assert caught.value.status is Status.UNREACHABLE
+    with pytest.raises(StepNotTaken, match="no rotation of this ball has this momentum"):
+        chapsym.compose_step(HEAVY, 2.5 * FOLDING, GAMMA, 6)
+
+
+def test_the_guess_continues_polynomials_of_degree_7():
+    """Exactly, in integers; and not those of degree 8."""
+    for degree, exact in ((7, True), (8, False)):
+        past = np.zeros((8, 3))
+        for n in range(-8, 0):
+            composed_loop.extrapolated(past, float(n**degree), float((n + 2) ** degree), 1.0)
+        assert (past[0] == [0.0, 2.0**degree, 1.0]).all() == exact
+
+
+def test_each_stage_has_the_certificate_of_its_own_momentum(monkeypatch):
+    seen, honest = [], composed_loop.settle
+    monkeypatch.setattr(composed_loop, "settle", lambda *a: seen.append((*a[3:6], *a[-2:])) or honest(*a))
+    safe, searched = composed_loop.safe_rotation, []
+    monkeypatch.setattr(
+        composed_loop,
+        "safe_rotation",
+        lambda *a: searched.append((*a[-1][:3], a[-1][loop.RADIUS], a[-1][loop.CONTRACTION])) or safe(*a),
+    )
+    chapsym.composed_trajectory(BALL, 0.5 * K, GAMMA, 1, order=8)
+    assert searched
+    inertia = (BALL.mass_tensor.sum() - BALL.mass_tensor) / 4  # Λmax is scaled into [1/2, 1)
+    assert len(seen) == 17
+    for *k, radius, contraction in seen + searched:
+        assert (radius, contraction) == pytest.approx(gibbs.certificate(*k, *inertia), rel=1e-13)
+    assert len({round(radius, 9) for *_, radius, _ in seen}) == 9
+
+
+def test_progress_and_bad_input():
+    seen = []
+    chapsym.composed_trajectory(BALL, [0.1 * K] * 2, GAMMA, 7, order=4, progress=seen.append)
+    assert seen == [7, 14]
+    with pytest.raises(BadInput, match="steps must be a whole number"):
+        chapsym.composed_trajectory(BALL, K, GAMMA, -1, order=4)
+    with pytest.raises(BadInput, match="needs the radius"):
+        chapsym.composed_trajectory(HEAVY, K, GAMMA, 1, order=4, contact=True)
+    with pytest.raises(BadInput, match="do not fit into memory"):
+        chapsym.composed_trajectory(BALL, K, GAMMA, 10**15, order=4)
