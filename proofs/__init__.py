@@ -22,6 +22,7 @@ SCRIPTS = (
     "s5_reduced_map",
     "s6_remarks",
     "map_gibbs",
+    "map_vertical",
 )
 
 #: The claims of the paper that need a verdict, in its order: each has a proof in one of the scripts.
@@ -40,4 +41,6 @@ CLAIMS = (
 )  # fmt: skip
 
 #: What the paper does not say and the map of chapsym rests on: judged like its claims, by name, outside its register.
-LEMMAS = ("gibbs", "gibbs-newton", "gibbs-rotation", "small-branch")
+LEMMAS = (
+    "gibbs", "gibbs-newton", "gibbs-rotation", "small-branch", "vertical-rotation", "vertical-level", "vertical-top", "top-commutes",
+)  # fmt: skip
