@@ -15,28 +15,36 @@ if TYPE_CHECKING:
         BadInput,
         Ball,
         BallN,
+        Curve,
+        ExactTop,
         Status,
         Step,
         StepN,
         StepNotTaken,
         Trajectory,
         TrajectoryN,
+        VerticalTrajectory,
         axial,
+        exact_top,
+        increment,
         invariants_n,
         reverse_n,
         roll,
         skew,
         step,
         step_n,
+        step_vertical,
         trajectory,
         trajectory_n,
+        trajectory_vertical,
     )
 
 __version__ = "0.1.0"
 
 __all__ = [
-    "BadInput", "Ball", "BallN", "Status", "Step", "StepN", "StepNotTaken", "Trajectory", "TrajectoryN", "axial",
-    "invariants_n", "reverse_n", "roll", "skew", "step", "step_n", "trajectory", "trajectory_n",
+    "BadInput", "Ball", "BallN", "Curve", "ExactTop", "Status", "Step", "StepN", "StepNotTaken", "Trajectory",
+    "TrajectoryN", "VerticalTrajectory", "axial", "exact_top", "increment", "invariants_n", "reverse_n", "roll", "skew",
+    "step", "step_n", "step_vertical", "trajectory", "trajectory_n", "trajectory_vertical",
 ]  # fmt: skip
 
 
