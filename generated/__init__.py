@@ -17,6 +17,9 @@ from .tangent_hessian import tangent_hessian
 from .tangent_jacobian import tangent_jacobian
 from .transport import transport
 from .turn import turn
+from .vertical_level import vertical_level
+from .vertical_rotation import vertical_rotation
+from .vertical_square import vertical_square
 
 # name: (function, (argument group, length) ..., shape of the result)
 TABLE = {
@@ -37,4 +40,7 @@ TABLE = {
     "tangent_jacobian": (tangent_jacobian, (('rotation', 4), ('gamma', 3), ('mass_tensor', 3), ('D', 1)), (3, 3)),
     "transport": (transport, (('rotation', 4), ('vector', 3)), (3,)),
     "turn": (turn, (('quaternion', 4), ('vector', 3)), (3,)),
+    "vertical_level": (vertical_level, (('scalars', 2), ('level', 1), ('Lambda', 3)), (2,)),
+    "vertical_rotation": (vertical_rotation, (('sigma', 2), ('gamma', 3), ('Lambda', 3)), (4,)),
+    "vertical_square": (vertical_square, (('gamma', 3), ('Lambda', 3)), ()),
 }

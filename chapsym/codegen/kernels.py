@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from chapsym.derive import continuous, gibbs, three
+from chapsym.derive import continuous, gibbs, three, vertical
 from chapsym.derive.limits import omega
 from chapsym.derive.three import J1, J2, J3, D, K, gamma, q, q0
 
@@ -27,6 +27,7 @@ CORRECTION: Group = ("correction", tuple(gibbs.d))
 COFACTORS: Group = ("cofactors", tuple(gibbs.C))
 ANY_QUATERNION: Group = ("quaternion", (gibbs.p0, *gibbs.p))
 INERTIA: Group = ("inertia", tuple(gibbs.INERTIA.diagonal()))
+LAMBDA: Group = ("Lambda", vertical.INERTIA)
 BODY: tuple[Group, ...] = (GAMMA, MASS_TENSOR, CONTACT)
 
 
@@ -218,5 +219,33 @@ KERNELS: tuple[Kernel, ...] = (
         _vector("x"),
         gibbs.turn,
         gibbs.turn_steps,
+    ),
+    Kernel(
+        "vertical_square",
+        "⟨γ, adj(Λ)γ⟩ = det(Λ)⟨γ, Λ⁻¹γ⟩, the integral of the reduced map G_h without its denominators.",
+        ("prop-3",),
+        (GAMMA, LAMBDA),
+        (),
+        ("level",),
+        lambda: [vertical.weighted_square()],
+    ),
+    Kernel(
+        "vertical_level",
+        "The scalar equation of the level, zero for the step 𝒦 = hγ, and its derivative in v.",
+        ("vertical-level",),
+        (("scalars", (vertical.t, vertical.v)), ("level", (vertical.level,)), LAMBDA),
+        (2,),
+        ("f", "fv"),
+        vertical.level_newton,
+        vertical.level_steps,
+    ),
+    Kernel(
+        "vertical_rotation",
+        "The rotation of the step 𝒦 = hγ up to a factor, (q0, q) ∝ (det M, t adj(M)γ), M = Λ - e - t γ×.",
+        ("vertical-rotation",),
+        (("sigma", (vertical.t, vertical.e)), GAMMA, LAMBDA),
+        (4,),
+        ("p0", "p1", "p2", "p3"),
+        vertical.closed_rotation,
     ),
 )

@@ -1,0 +1,168 @@
+"""What chapsym's own reduced map rests on: the closed rotation, its scalar equations, and the exact top."""
+
+import sympy as sp
+
+from chapsym.derive import continuous, gibbs, three, vertical
+from chapsym.derive.quotient import Quotient
+from chapsym.derive.three import J1, J2, J3, D, gamma, q, q0
+from chapsym.derive.vertical import CLOSED, INERTIA, LAMBDA, e, h, level, t, v
+from chapsym.prove import Equation, Proof, claim, main
+
+#: Λ - D = (J2 + J3, ...) solved for J: the ball whose Λ is free.
+BALL = dict(zip((J1, J2, J3), ((sum(INERTIA) - 2 * x - D) / 2 for x in INERTIA), strict=True))
+RING = Quotient((h, D, *CLOSED.symbols), CLOSED.relations)
+
+
+def rotation() -> tuple[sp.Expr, sp.Matrix]:
+    """(q₀, q) of the closed rotation, as functions of t, e, γ, Λ."""
+    scalar, *vector = vertical.closed_rotation()
+    return scalar, sp.Matrix(vector)
+
+
+def momentum_of_it() -> sp.Matrix:
+    """𝒦(q, γ) of the closed rotation, homogeneous of degree 2 in it."""
+    scalar, vector = rotation()
+    values = {**BALL, q0: scalar, **dict(zip(q, vector, strict=True))}
+    return sp.Matrix(three.momentum()).subs(values, simultaneous=True)
+
+
+def closed_momentum(text: str, sign: int = 1) -> Equation:
+    """𝒦 = (2t(q₀² + |q|²) - 2Dq₀⟨γ,q⟩)γ + 2(q₀e - t⟨γ,q⟩)q."""
+    scalar, vector = rotation()
+    along = gamma.dot(vector)
+    right = (2 * t * (scalar**2 + vector.dot(vector)) - 2 * D * scalar * along) * gamma
+    return Equation(text, list(momentum_of_it()), list(right + sign * 2 * (scalar * e - t * along) * vector), RING)
+
+
+@claim(
+    "vertical-rotation",
+    r"(q_0, q) \propto (\det M, t\,\mathrm{adj}(M)\gamma),\ M = \Lambda - e - t\,\gamma\times:\ "
+    r"\vec{\mathcal K} = h\gamma \iff q_0e = t\langle\gamma,q\rangle,\ "
+    r"(2t - h)(q_0^2+|q|^2) = 2Dq_0\langle\gamma,q\rangle",
+    uses=["5.2", "5.4", "5.6-sigma"],
+)
+def closed_rotation(p: Proof) -> None:
+    """The rotation of a step with vertical momentum in closed form, up to two scalars t = σ/2 and e."""
+    p.assume("|γ| = 1; q₀ ≠ 0 and σ ≠ 0 for the step that is given")
+    scalar, vector = rotation()
+    p.say("Every step has this form.  (5.4) reads u×Λu + Λu = τγ with u = q/q₀, τ = t/q₀², and (1 + u×)⁻¹ gives")
+    p.say("(1 + |u|²)Λu = τ(γ - u×γ + ⟨u,γ⟩u), that is Mu = tγ with e = t⟨γ,u⟩:")
+    free = Quotient((*q, *gamma), [])
+    solved = gamma - q.cross(gamma) + q.dot(gamma) * q
+    p.lemma(
+        Equation("(1 + u×)(γ - u×γ + ⟨u,γ⟩u) = (1 + |u|²)γ", list(solved + q.cross(solved)),
+                 list((1 + q.dot(q)) * gamma), free)
+    )  # fmt: skip
+    matrix = sp.Matrix(vertical.closed_matrix())
+    p.printed(Equation("M q = tγ q₀", list(matrix * vector), list(t * scalar * gamma), CLOSED))
+    p.say("And for every t, e, with nothing solved yet:")
+    p.printed(closed_momentum("𝒦 = (2t(q₀²+|q|²) - 2Dq₀⟨γ,q⟩)γ + 2(q₀e - t⟨γ,q⟩)q"))
+    p.say("Where q is not along γ both scalars must vanish for 𝒦 = h(q₀²+|q|²)γ; where they do, it holds.")
+    p.control(closed_momentum("the same with -2(q₀e - t⟨γ,q⟩)q", -1))
+    wrong = (LAMBDA - e * sp.eye(3) + t * three.hat(gamma)) * vector
+    p.control(Equation("M q = tγ q₀ with M = Λ - e + t γ×", list(wrong), list(t * scalar * gamma), CLOSED))
+
+
+@claim(
+    "vertical-level",
+    r"q_0e = t\langle\gamma,q\rangle \iff v\det(\Lambda - e) + e\,\mathrm{tr}\Lambda - 2e^2 = "
+    r"\det(\Lambda)\,l + t^2,\ e = vt^2",
+    uses=["vertical-rotation", "prop-3"],
+)
+def level_equation(p: Proof) -> None:
+    """The first scalar equation depends on γ through the integral l only: for D = 0 its root serves a whole orbit."""
+    p.assume("|γ| = 1, t ≠ 0")
+    scalar, vector = rotation()
+    ring = Quotient((t, v, *gamma, *INERTIA), [three.UNIT_VERTICAL])
+    balance = (e * scalar - t * gamma.dot(vector)).subs(e, v * t**2)
+
+    def factored(text: str, shift: sp.Expr) -> Equation:
+        residual = vertical.level_residual().subs(level, vertical.weighted_square()) + shift
+        return Equation(text, [balance], [t**2 * residual], ring)
+
+    p.printed(factored("q₀e - t⟨γ,q⟩ = t²(v det(Λ-e) + e tr Λ - 2e² - det(Λ)l - t²)", sp.S.Zero))
+    p.say("So with D = 0, where t = h/2, the pair (t, e) is constant on an orbit and the map is rational in γ.")
+    p.say(
+        "With any t at all the root e makes ⟨γ,Λ⁻¹γ⟩ an integral: (q, 2t) is a step of a ball with D = 0 and the same Λ."
+    )
+    p.control(factored("the same with + t²", 2 * t**2))
+    p.control(factored("the same with 3e²", -(v**2) * t**4))
+
+
+@claim(
+    "vertical-top",
+    r"K = H\gamma \Rightarrow \omega = \frac H{1-Dl}\Lambda^{-1}\gamma,\ \dot\gamma = \gamma\times\omega,\ "
+    r"l = \langle\gamma,\Lambda^{-1}\gamma\rangle = \mathrm{const}",
+    uses=["2.5-inverse", "2.7"],
+)
+def rolling_as_a_top(p: Proof) -> None:
+    """With vertical momentum the rolling ball turns as the free top with the inertia Λ and the momentum Hγ/(1 - Dl)."""
+    p.assume("|γ| = 1, 1 - Dl ≠ 0, which holds for every ball: 1 - Dl = ⟨γ, (Λ-D)Λ⁻¹γ⟩ > 0")
+    scale = sp.Symbol("H")
+    ring = Quotient((scale, *three.RING.symbols), three.RING.relations)
+    lam = three.lam()
+    form = gamma.dot(lam.inv() * gamma)
+    values = dict(zip(three.K, scale * gamma, strict=True))
+    omega = sp.Matrix(continuous.angular_velocity()).subs(values, simultaneous=True)
+
+    def spin(text: str, contact: sp.Expr) -> Equation:
+        return Equation(text, list(omega * (1 - contact * form)), list(scale * lam.inv() * gamma), ring)
+
+    p.printed(spin("(1 - Dl)ω = HΛ⁻¹γ", D))
+    motion = gamma.cross(lam.inv() * gamma)
+    p.printed(Equation("d/dt ⟨γ,Λ⁻¹γ⟩ = 0 along γ' ∝ γ×Λ⁻¹γ", [gamma.dot(lam.inv() * motion)], [sp.S.Zero], ring))
+    p.say("The top with the mass tensor J + D/2 and D = 0 has the same Λ: its motion is this one, and the discrete")
+    p.say("top of (4.14) moves on the same curves by a constant increment (5.15-euler): only its rate is to be set.")
+    shifted = lam.subs({J1: J1 + D / 2, J2: J2 + D / 2, J3: J3 + D / 2, D: 0}, simultaneous=True)
+    p.lemma(Equation("Λ of J + D/2 and D = 0", list(shifted), list(lam), ring))
+    p.control(spin("(1 - 2Dl)ω = HΛ⁻¹γ", 2 * D))
+    p.control(Equation("⟨γ,Λγ⟩ is constant, too", [gamma.dot(lam * motion)], [sp.S.Zero], ring))
+
+
+@claim(
+    "top-commutes",
+    r"D = 0:\quad R' = R[\omega],\ \tilde R = R\Omega(\gamma)\ \Rightarrow\ \tilde R' = \tilde R[\tilde\omega],\quad "
+    r"\omega = \Lambda^{-1}\gamma,\ \tilde\omega = \Lambda^{-1}\tilde\gamma",
+    uses=["gibbs", "5.6"],
+)
+def commuting_tops(p: Proof) -> None:
+    """A step of the discrete top and the motion of the continuous one commute, the attitude included."""
+    p.assume("D = 0, q₀ ≠ 0, and ∂(γ)/∂(u) is regular at the step (no fold); γ stands for 𝒦/|𝒦|")
+    p.say(
+        "With u = q/q₀ the step with 𝒦 = hγ is (1+|u|²)(h/2)γ = Λu + u×Λu, and γ~ has u×Λu with the other sign (5.6)."
+    )
+    u, norm = gibbs.u, 1 + gibbs.u.dot(gibbs.u)
+    ring = Quotient((*u, *INERTIA), [])
+    crossed = u.cross(LAMBDA * u)
+    before, after = ((LAMBDA * u + sign * crossed) / norm for sign in (1, -1))
+    rates = [LAMBDA.inv() * x for x in (before, after)]
+    p.say("In units with h/2 = 1: where γ' = γ×Λ⁻¹γ, the u of the step from γ moves by")
+    motion = -(sp.eye(3) + u * u.T) * LAMBDA.inv() * crossed / norm
+    p.say("    u' = -(1 + uuᵀ)Λ⁻¹(u×Λu)/(1 + |u|²)")
+
+    def carried(text: str, velocity: sp.Matrix) -> Equation:
+        return Equation(text, list(before.jacobian(u) * velocity), list(before.cross(rates[0])), ring)
+
+    p.printed(carried("(∂γ/∂u)u' = γ×Λ⁻¹γ", motion))
+    p.say("R~ = RΩ follows the continuous top, R~' = R~[ω~], when (1, u)' = ½((1, u)∘ω~ - ω∘(1, u)) up to its length:")
+
+    def followed(text: str, first: sp.Matrix, last: sp.Matrix) -> Equation:
+        one = sp.Matrix([1, *u])
+        left, right = (sp.Matrix([0, *x]) for x in (first, last))
+        scalar, *vector = three.quaternion_product(one, right) - three.quaternion_product(left, one)
+        return Equation(text, list(motion), list((sp.Matrix(vector) - scalar * u) / 2), ring)
+
+    p.printed(followed("u' = ½(vector - scalar·u) of (1, u)∘ω~ - ω∘(1, u)", *rates))
+    p.say(
+        "So one step takes a motion of the continuous top to a motion of it.  On a curve of γ both are translations of u"
+    )
+    p.say(
+        "(5.7); when the increments are equal, R~ and the continuous R one increment later differ by a rotation about"
+    )
+    p.say("the fixed 𝒦, and it is the same along the motion: both follow the same ω.")
+    p.control(carried("the same with u' without uuᵀ", -LAMBDA.inv() * crossed / norm))
+    p.control(followed("the same with ω and ω~ exchanged", *rates[::-1]))
+
+
+if __name__ == "__main__":
+    main(__file__)

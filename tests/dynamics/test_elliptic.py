@@ -1,0 +1,233 @@
+"""The invariant curve in Jacobi's functions, the increment on it, and the top that has no error of the step."""
+
+from itertools import permutations
+
+import mpmath
+import numpy as np
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+import chapsym
+from chapsym import BadInput, Ball, Curve, exact_top, increment, step_vertical, testing, trajectory
+from chapsym.dynamics import front, jacobi
+from chapsym.dynamics.elliptic import height_of, squared_sine
+
+ULP = 2.0**-52
+GAMMA = np.array([2 / 7, 3 / 7, 6 / 7])
+BALLS = [Ball(J, D) for J in permutations((1.0, 2.0, 4.0)) for D in (0.0, 3.0)]
+
+
+def verticals(count, seed=7):
+    """Unit vectors on both sides of the separatrix."""
+    g = np.random.default_rng(seed).normal(size=(count, 3))
+    g /= np.sqrt((g * g).sum(axis=-1, keepdims=True))
+    return g / np.sqrt((g * g).sum(axis=-1, keepdims=True))
+
+
+@pytest.mark.parametrize("complement", [1.0, 0.999999, 0.7, 0.5000001, 0.4999999, 0.1, 1e-3, 1e-8, 1e-15])
+def test_jacobis_functions_are_those_of_mpmath(complement):
+    """Within 3(1 + |u|) ulps of 1, and K within 2: the reduction by K rounds u."""
+    modulus = np.sqrt((1 - complement) * (1 + complement))
+    quarter = jacobi.quarter_period(complement)
+    u = np.concatenate([np.linspace(-2, 2, 41), [1e-9, 1 - 1e-9]]) * quarter
+    with mpmath.workdps(60):
+        m = 1 - mpmath.mpf(complement) ** 2
+        assert abs(quarter / mpmath.ellipk(m) - 1) <= 2 * ULP
+        true = [[float(mpmath.ellipfun(f, mpmath.mpf(x), m=m)) for x in u] for f in ("sn", "cn", "dn")]
+    error = np.abs(np.array(jacobi.jacobi(u, modulus, complement)) - true).max(axis=0)
+    assert (error <= 3 * (1 + np.abs(u)) * ULP).all()
+
+
+@pytest.mark.parametrize("spread", [(-2, 1, 1), (2, -1, -1), (-1.9, 0, 1.9)])
+def test_carlsons_integral_where_its_series_takes_over(spread):
+    """Arguments that differ by 2e-3, where the last term of the series is 2 ulps."""
+    x, y, z = (np.array([1 + 1e-3 * s]) for s in spread)
+    with mpmath.workdps(40):
+        true = float(mpmath.elliprf(*(mpmath.mpf(float(a[0])) for a in (x, y, z))))
+    assert abs(jacobi.carlson(x, y, z)[0] / true - 1) <= 2 * ULP
+
+
+def test_on_the_separatrix_they_are_hyperbolic():
+    u = np.array([-800.0, -1.0, 0.0, 0.3, 800.0])
+    sn, cn, dn = jacobi.jacobi(u, 1.0, 0.0)
+    assert jacobi.quarter_period(0.0) == np.inf
+    assert np.abs(sn - np.tanh(u)).max() <= ULP
+    assert (cn == dn).all()
+    assert np.abs(jacobi.argument(sn[1:4], cn[1:4], dn[1:4], np.inf) - u[1:4]).max() <= 2 * ULP
+
+
+@pytest.mark.parametrize("ball", BALLS)
+def test_every_ball_has_its_curve_on_both_sides(ball):
+    """5.7, 5.8 as corrected: through γ within 8 ulps, on the sphere and the level, with the flow γ' = V dγ/du."""
+    inertia = ball.inertia + ball.D
+    sides = set()
+    for gamma in verticals(12):
+        curve = Curve.through(ball, gamma)
+        sides.add(bool(curve.level * np.sort(inertia)[1] > 1))
+        u = curve.argument(gamma)
+        assert np.abs(curve.point(u) - gamma).max() <= 8 * ULP
+        points = curve.point(np.linspace(-0.5, 0.5, 50) * curve.period)
+        assert np.abs((points**2).sum(axis=-1) - 1).max() <= 16 * ULP
+        assert np.abs((points**2 / inertia).sum(axis=-1) / curve.level - 1).max() <= 16 * ULP
+        assert np.abs(curve.point(u + curve.period) - gamma).max() <= 32 * ULP
+        slope = (curve.point(u + 1e-5) - curve.point(u - 1e-5)) / 2e-5
+        assert np.abs(slope * curve.rate - np.cross(gamma, gamma / inertia)).max() <= 1e-9
+        k2 = 1 - curve.complement**2
+        assert abs(curve.modulus**2 - k2) <= 8 * ULP
+    assert sides == {True, False}
+
+
+@given(testing.unit_vectors(), st.sampled_from(BALLS), st.floats(-0.5, 0.5))
+@settings(max_examples=100, deadline=None)
+def test_point_and_argument_are_inverse(gamma, ball, part):
+    """u comes back within ulps of u, plus the 8 ulps of γ over |dγ/du|, the condition of the inverse."""
+    inertia = ball.inertia + ball.D
+    assume(np.linalg.norm(np.cross(gamma, gamma / inertia)) > 1e-3)
+    curve = Curve.through(ball, gamma)
+    assume(curve.complement > 0)
+    u = part * curve.period
+    point = curve.point(u)
+    slope = np.linalg.norm(np.cross(point, point / inertia)) / abs(curve.rate)
+    back = curve.argument(point / np.linalg.norm(point))
+    assert abs(abs(back) - abs(u)) <= 8 * ULP * (1 + curve.period + 1 / slope)
+
+
+@pytest.mark.parametrize("epsilon", [1e-2, 1e-5, 1e-7, 0.0])
+def test_near_the_separatrix_and_near_its_ends(epsilon):
+    """γ at distance `epsilon` from the separatrix, and from the two stable axes."""
+    ball = Ball((1, 2, 4), 3)
+    La, Lb, Lc = ball.inertia + ball.D
+    x = np.sqrt((Lb - Lc) / Lc) / np.sqrt((La - Lb) / La)
+    angle = np.arctan2(x, 1.0) + epsilon
+    near = [np.array([np.sin(angle), 0.5, np.cos(angle)])]
+    near += [np.array([1.0, epsilon, 2 * epsilon]), np.array([epsilon, epsilon, -1.0])] if epsilon else []
+    for gamma in near:
+        gamma = gamma / np.linalg.norm(gamma)
+        gamma /= np.linalg.norm(gamma)
+        curve = Curve.through(ball, gamma)
+        assert np.abs(curve.point(curve.argument(gamma)) - gamma).max() <= 8 * ULP
+        u = float(curve.argument(gamma))
+        moved = curve.argument(step_vertical(ball, 0.5, gamma).gamma)
+        assert (
+            abs(moved - u - increment(curve, 0.5, u)) <= 64 * ULP / np.abs(np.cross(gamma, gamma / (La, Lb, Lc))).max()
+        )
+
+
+@pytest.mark.parametrize("ball", BALLS)
+@pytest.mark.parametrize("height", [0.02, -0.5, 1.5])
+def test_the_increment_is_that_of_the_map(ball, height):
+    """(5.15) as corrected against G_h itself: within 16 ulps over |dγ/du|."""
+    inertia = ball.inertia + ball.D
+    for gamma in verticals(8):
+        curve = Curve.through(ball, gamma)
+        u = float(curve.argument(gamma))
+        after = step_vertical(ball, height, gamma).gamma
+        moved = curve.argument(after) - u
+        miss = np.remainder(moved - increment(curve, height, u) + curve.period / 2, curve.period) - curve.period / 2
+        slope = min(np.linalg.norm(np.cross(g, g / inertia)) for g in (gamma, after)) / abs(curve.rate)
+        assert abs(miss) <= 16 * ULP * (1 + 1 / slope)
+
+
+def test_without_rolling_the_increment_is_constant_and_with_it_is_not():
+    u = np.linspace(0, 1, 20)
+    assert np.ptp(increment(Curve.through(Ball((1, 2, 4), 0), GAMMA), 1.0, u)) <= 4 * ULP
+    assert np.ptp(increment(Curve.through(Ball((1, 2, 4), 3), GAMMA), 1.0, u)) > 1e-6  # O(h³)
+
+
+def test_the_increment_tells_the_point():
+    """T is linear in sn²ū; where 1/dsn² is large, so is the error: 1e-10 here for increments of 0.2 and more."""
+    curve = Curve.through(Ball((1, 2, 4), 3), GAMMA)
+    u = np.linspace(-1, 1, 9)
+    half = increment(curve, 2.0, u) / 2
+    sn, _, _ = jacobi.jacobi(u + half, curve.modulus, curve.complement)
+    assert np.abs(squared_sine(curve, 2.0, half) - sn**2).max() <= 1e-10
+
+
+def test_the_derivative_of_the_height_is_its_derivative():
+    curve = Curve.through(Ball((1, 2, 4), 3), GAMMA)
+    half, u, e = 0.3, 0.2, 1e-5
+    above, below = (height_of(curve, half + s, u + half + s)[0] for s in (e, -e))
+    slope = height_of(curve, half, u + half)[1]
+    assert abs((above - below) / (2 * e) / slope - 1) <= 1e-8
+
+
+@pytest.mark.parametrize(
+    ("call", "sentence"),
+    [
+        (lambda: Curve.through(Ball((1, 2, 4), 3), (0, 0, 1)), "fixes this gamma"),
+        (lambda: Curve.through(Ball((1, 1, 1), 3), GAMMA), "fixes this gamma"),
+        (lambda: Curve.through(Ball((1, 2, 4), [3, 0]), GAMMA), "not of a batch"),
+        (lambda: Curve.through((1, 2, 4), GAMMA), r"must be a chapsym\.Ball"),
+        (lambda: Curve.through(BALLS[0], GAMMA).argument((0, 0, 1)), "not on this curve"),
+        (lambda: Curve.through(BALLS[0], GAMMA).argument(-GAMMA), "another one"),
+        (lambda: increment(Curve.through(BALLS[0], GAMMA), 50.0, 0.0), "take a smaller one"),
+        (lambda: squared_sine(Curve.through(BALLS[0], GAMMA), 1.0, 0.1), "needs D > 0"),
+        (lambda: exact_top(BALLS[1], (1, 0, 0), GAMMA), "must be along gamma"),
+        (lambda: exact_top(BALLS[0], (0, 0, 0), GAMMA), "must not vanish"),
+        (lambda: exact_top(BALLS[0], (50, 20, 30), GAMMA), "shorter time step"),
+        (lambda: exact_top(BALLS[0], (0, 0, 50), GAMMA), "more than 90"),
+        (lambda: exact_top(Ball((1, 2, 4), [0, 0]), GAMMA, GAMMA), "one ball"),
+    ],
+)
+def test_bad_input_is_told(call, sentence):
+    with pytest.raises(BadInput, match=sentence):
+        call()
+
+
+def taylor(moments, K, attitude, time, steps, order=28):
+    """The continuous free top K' = K × Λ⁻¹K, q' = ½ q∘(0, Λ⁻¹K) by Taylor series in long doubles: [(K, q), ...]."""
+    K, q, moments = (np.array(x, dtype=np.longdouble) for x in (K, attitude, moments))
+    powers = (np.longdouble(time) / steps) ** np.arange(order + 1, dtype=np.longdouble)
+    states = [(K, q)]
+    for _ in range(steps):
+        k, w, p = (np.zeros((order + 1, size), dtype=np.longdouble) for size in (3, 3, 4))
+        k[0], p[0] = K, q
+        for m in range(order):
+            w[m] = k[m] / moments
+            rates = w[m::-1]
+            k[m + 1] = np.cross(k[: m + 1], rates).sum(axis=0) / (m + 1)
+            p[m + 1, 0] = -(p[: m + 1, 1:] * rates).sum() / 2 / (m + 1)
+            p[m + 1, 1:] = (p[: m + 1, :1] * rates + np.cross(p[: m + 1, 1:], rates)).sum(axis=0) / 2 / (m + 1)
+        K, q = (k * powers[:, np.newaxis]).sum(axis=0), (p * powers[:, np.newaxis]).sum(axis=0)
+        states.append((K, q))
+    return states
+
+
+@pytest.mark.parametrize(("D", "epsilon"), [(0.0, 0.5), (3.0, 0.5), (0.0, 2.0), (3.0, 2.0)])
+def test_the_exact_top_has_no_error_of_the_step(D, epsilon):
+    """Up to t = 100: 𝒦, attitude and γ within n^(3/2) ulps of the continuous ball; the map itself is off by 1e-2."""
+    ball, steps = Ball((1, 2, 4), D), round(100 / epsilon)
+    K = GAMMA if D else np.array([1.0, -0.5, 0.75])
+    moments = ball.inertia + D
+    speed = 1 / (1 - D * (GAMMA**2 / moments).sum()) if D else 1.0  # K = HΓ turns as the top with H/(1 - Dl)
+    top = exact_top(ball, epsilon * K, GAMMA)
+    run = trajectory(top.ball, top.momentum, GAMMA, steps, attitude=True)
+    exact = top.restore(run)
+    fine = round(epsilon / 0.25)
+    states = taylor(moments, speed * K, run.attitude[0], 100, steps * fine)[::fine]
+    momenta = np.array([k / speed for k, _ in states], dtype=float)
+    attitudes = np.array([q for _, q in states], dtype=float)
+    sign = np.sign((attitudes * exact.attitude).sum(axis=-1, keepdims=True))
+    budget = steps**1.5 * ULP
+    assert np.abs(exact.momentum / epsilon - momenta).max() <= budget
+    assert np.abs(exact.attitude * sign - attitudes).max() <= budget
+    assert np.abs(exact.gamma - front.transport(attitudes, [0.0, 0.0, 1.0])).max() <= budget
+    plain = trajectory(ball, epsilon * K, GAMMA, steps)
+    assert np.abs(plain.momentum / epsilon - momenta).max() > 1e-2
+    assert abs(top.twist) > 1e-4
+
+
+def test_a_rotation_about_a_principal_axis_is_exact():
+    ball = Ball((1, 2, 4), 3)
+    axis = np.array([0.0, 0.0, 1.0])
+    top = exact_top(ball, 2.0 * axis, axis)
+    run = top.restore(trajectory(top.ball, top.momentum, axis, 10, attitude=True))
+    angle = 10 * 2.0 / (1 + 2)  # I3 = J1 + J2: without rolling about the vertical
+    assert np.abs(run.attitude[-1] - [np.cos(angle / 2), 0, 0, np.sin(angle / 2)]).max() <= 32 * ULP
+
+
+def test_only_its_own_run_is_restored():
+    top = exact_top(Ball((1, 2, 4), 0), (0.1, 0.2, 0.1), GAMMA)
+    with pytest.raises(BadInput, match="no trajectory of the exact top"):
+        top.restore(chapsym.trajectory(top.ball, 2 * top.momentum, GAMMA, 3))
