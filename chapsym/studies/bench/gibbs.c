@@ -1,105 +1,115 @@
-/* The loop of chapsym in C, to be timed beside it: one ball, the small-rotation branch.
+/* chapsym's loop for one ball in C, to be timed beside it; kernels.h has the generated kernels, line by line.
 
-   u = q/q0 solves B u + u x Lu = k (1 + |u|^2) with k = K/2, L = diag(J2 + J3 + D, ...), B = L - D g g^T.
-   It is extrapolated from six steps and corrected; the residual after a Newton step d is exactly
-   d x Ld - k |d|^2.  K and g are carried by compensated sums. */
+   u = q/q0 is extrapolated by the polynomial through its last 8 values, a Newton iterate (and a second correction) is
+   checked, k = K/2 and g are turned with compensated sums, and their integrals restored, as in chapsym's loop. */
 
 #include <math.h>
+#include "kernels.h"
 
-#define PAST 6
-#define MOST 30
+#define POINTS 8
+#define PERIOD 1024
+#define MOST_ROUNDS 12
+#define LEFT 0x1p-110  /* the square of the error that may be left, relative to |u| */
 
-typedef struct { double x, y, z; } vec;
+typedef struct { double I1, I2, I3, D, radius, contraction; } ball;
+typedef struct { double high, low; } pair;
 
-static inline vec add(vec a, vec b) { return (vec){a.x + b.x, a.y + b.y, a.z + b.z}; }
-static inline vec scaled(double s, vec a) { return (vec){s * a.x, s * a.y, s * a.z}; }
-static inline double dot(vec a, vec b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-static inline vec cross(vec a, vec b) {
-    return (vec){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-/* a x La: only differences of the moments enter. */
-static inline vec twist(vec a, vec E) { return (vec){E.x * a.y * a.z, E.y * a.z * a.x, E.z * a.x * a.y}; }
-
-typedef struct { double b11, b22, b33, b12, b13, b23; } sym;
-typedef struct { vec r1, r2, r3; } mat;  /* rows */
-
-static inline vec times(mat m, vec a) { return (vec){dot(m.r1, a), dot(m.r2, a), dot(m.r3, a)}; }
-
-/* The inverse of the derivative of the equation at u. */
-static inline mat inverse(vec u, vec k, sym b, vec E) {
-    double a11 = b.b11 - 2 * k.x * u.x, a12 = b.b12 + E.x * u.z - 2 * k.x * u.y, a13 = b.b13 + E.x * u.y - 2 * k.x * u.z;
-    double a21 = b.b12 + E.y * u.z - 2 * k.y * u.x, a22 = b.b22 - 2 * k.y * u.y, a23 = b.b23 + E.y * u.x - 2 * k.y * u.z;
-    double a31 = b.b13 + E.z * u.y - 2 * k.z * u.x, a32 = b.b23 + E.z * u.x - 2 * k.z * u.y, a33 = b.b33 - 2 * k.z * u.z;
-    double c11 = a22 * a33 - a23 * a32, c12 = a23 * a31 - a21 * a33, c13 = a21 * a32 - a22 * a31;
-    double s = 1 / (a11 * c11 + a12 * c12 + a13 * c13);
-    return (mat){{s * c11, s * (a13 * a32 - a12 * a33), s * (a12 * a23 - a13 * a22)},
-                 {s * c12, s * (a11 * a33 - a13 * a31), s * (a13 * a21 - a11 * a23)},
-                 {s * c13, s * (a12 * a31 - a11 * a32), s * (a11 * a22 - a12 * a21)}};
+/* One round from the guess u: the quaternion p of the rotation, and its Gibbs vector in u.  Returns whether it settled. */
+static inline int settle(double p[4], double u[3], const double k[3], const double g[3], ball b) {
+    double out[13], e[3], d[3], w[3];
+    if (!(u[0] * u[0] + (u[1] * u[1] + u[2] * u[2]) <= b.radius)) return 0;
+    gibbs_newton(u[0], u[1], u[2], k[0], k[1], k[2], g[0], g[1], g[2], b.I1, b.I2, b.I3, b.D, out);
+    double scale = 1 / out[0];
+    for (int i = 0; i < 4; i++) p[i] = out[i];
+    for (int i = 0; i < 3; i++) w[i] = p[i + 1] * scale, d[i] = w[i] - u[i];
+    for (int i = 0; i < 3; i++) u[i] = w[i];
+    double first = d[0] * d[0] + (d[1] * d[1] + d[2] * d[2]), size = w[0] * w[0] + (w[1] * w[1] + w[2] * w[2]);
+    if (b.contraction * (first * first) <= LEFT * size) return 1;
+    gibbs_second(d[0], d[1], d[2], k[0], k[1], k[2], out[4], out[5], out[6], out[7], out[8], out[9], out[10], out[11],
+                 out[12], b.I1, b.I2, b.I3, e);
+    for (int i = 0; i < 3; i++) p[i + 1] -= e[i], u[i] = p[i + 1] * scale;
+    double second = (e[0] * e[0] + (e[1] * e[1] + e[2] * e[2])) * (scale * scale);
+    size = u[0] * u[0] + (u[1] * u[1] + u[2] * u[2]);
+    return 9 * b.contraction * (fmax(first, second) * second) <= LEFT * size && size <= b.radius;
 }
 
-/* Newton's iteration from *u; each step is followed by one with the same inverse.  Returns whether it settled. */
-static inline int solve(vec *u, vec k, sym b, vec E) {
-    for (int i = 0; i < MOST; i++) {
-        vec v = *u;
-        double w = 1 + dot(v, v);
-        vec t = twist(v, E);
-        vec r = {b.b11 * v.x + b.b12 * v.y + b.b13 * v.z + t.x - w * k.x,
-                 b.b12 * v.x + b.b22 * v.y + b.b23 * v.z + t.y - w * k.y,
-                 b.b13 * v.x + b.b23 * v.y + b.b33 * v.z + t.z - w * k.z};
-        mat inv = inverse(v, k, b, E);
-        vec d = scaled(-1, times(inv, r));
-        double dd = dot(d, d), size = dot(v, v);
-        *u = add(v, d);
-        if (dd * dd <= 1e-34 * size) return 1;
-        vec e = scaled(-1, times(inv, add(twist(d, E), scaled(-dd, k))));
-        *u = add(*u, e);
-        if (dd * dot(e, e) <= 1e-34 * size) return 1;
+/* v += y, where c is what was rounded away before, and after. */
+static inline void accumulate(double v[3], double c[3], const double y[3]) {
+    for (int i = 0; i < 3; i++) {
+        double z = y[i] - c[i], sum = v[i] + z;
+        c[i] = (sum - v[i]) - z;
+        v[i] = sum;
     }
-    return 0;
 }
 
-/* s += y, with what was rounded away kept in c. */
-static inline void accumulate(double *s, double *c, double y) {
-    double z = y - *c, t = *s + z;
-    *c = (t - *s) - z;
-    *s = t;
+/* <a, b> + start to twice the working precision. */
+static pair inner(const double a[3], const double b[3], pair start) {
+    pair s = start;
+    for (int i = 0; i < 3; i++) {
+        double product = a[i] * b[i], rest = fma(a[i], b[i], -product);
+        double sum = s.high + product, part = sum - s.high;
+        s.low += ((s.high - (sum - part)) + (product - part)) + rest;
+        s.high = sum;
+    }
+    return s;
 }
 
-static inline void turn(vec *v, vec *c, vec u, double f) {
-    vec a = cross(u, *v), b = cross(u, a);
-    accumulate(&v->x, &c->x, f * (b.x - a.x));
-    accumulate(&v->y, &c->y, f * (b.y - a.y));
-    accumulate(&v->z, &c->z, f * (b.z - a.z));
+static double lost(const double a[3], const double b[3], pair kept) {
+    double minus[3] = {-b[0], -b[1], -b[2]};
+    pair s = inner(a, minus, kept);
+    return s.high + s.low;
 }
 
-/* Takes `steps` steps in place; returns how many were taken. */
-long gibbs_march(double *momentum, double *gamma, const double *J, double D, long steps) {
-    vec K = {momentum[0], momentum[1], momentum[2]}, g = {gamma[0], gamma[1], gamma[2]};
-    vec E = {J[1] - J[2], J[2] - J[0], J[0] - J[1]};
-    double S1 = J[1] + J[2], S2 = J[0] + J[2], S3 = J[0] + J[1];
-    vec cK = {0, 0, 0}, cg = {0, 0, 0}, past[PAST] = {{0}};
+/* Corrects the compensations so that the vectors k - x and g - y have their integrals again. */
+static void restore(const double k[3], const double g[3], double x[3], double y[3], const pair kept[3]) {
+    const pair none = {0, 0};
+    double unit = lost(g, g, kept[0]) + 2 * inner(g, y, none).high;
+    double height = lost(k, g, kept[1]) + inner(k, y, none).high + inner(g, x, none).high;
+    double squared = lost(k, k, kept[2]) + 2 * inner(k, x, none).high;
+    double h = kept[1].high, n = kept[2].high, stretch = 0.5 * unit / kept[0].high;
+    if (!(n > 0)) return;
+    height -= stretch * h;
+    double sine = kept[0].high - h * h / n, along_gamma = 0, along_k = 0.5 * squared / n;
+    if (sine > 1e-6) {
+        along_gamma = (height - 0.5 * squared * h / n) / sine;
+        along_k = (0.5 * squared - along_gamma * h) / n;
+    }
+    for (int i = 0; i < 3; i++) {
+        x[i] -= along_k * k[i] + along_gamma * g[i];
+        y[i] -= stretch * g[i];
+    }
+}
+
+/* Takes `steps` steps of (k, g) in place; returns how many were taken. */
+long gibbs_march(double *k_out, double *g_out, const double *I, double D, double radius, double contraction, long steps) {
+    static const double weights[POINTS] = {8, -28, 56, -70, 56, -28, 8, -1};
+    ball b = {I[0], I[1], I[2], D, radius, contraction};
+    double k[3], g[3], x[3] = {0}, y[3] = {0}, u[3] = {0}, sums[POINTS][3] = {{0}};
+    for (int i = 0; i < 3; i++) k[i] = k_out[i], g[i] = g_out[i];
+    const pair none = {0, 0}, kept[3] = {inner(g, g, none), inner(k, g, none), inner(k, k, none)};
     long n;
     for (n = 0; n < steps; n++) {
-        vec k = scaled(0.5, K);
-        double g1 = D * g.x * g.x, g2 = D * g.y * g.y, g3 = D * g.z * g.z;
-        sym b = {S1 + (g2 + g3), S2 + (g1 + g3), S3 + (g1 + g2), -D * g.x * g.y, -D * g.x * g.z, -D * g.y * g.z};
-        vec u;
-        if (n >= PAST) {
-            vec *p = past;
-            u.x = 6 * (p[0].x + p[4].x) - 15 * (p[1].x + p[3].x) + (20 * p[2].x - p[5].x);
-            u.y = 6 * (p[0].y + p[4].y) - 15 * (p[1].y + p[3].y) + (20 * p[2].y - p[5].y);
-            u.z = 6 * (p[0].z + p[4].z) - 15 * (p[1].z + p[3].z) + (20 * p[2].z - p[5].z);
-        } else {
-            u = n ? past[0] : (vec){0, 0, 0};
+        double p[4], w[3], v[3];
+        int settled = 0;
+        if (n >= POINTS) {
+            for (int i = 0; i < 3; i++) w[i] = weights[0] * u[i] + sums[0][i];
+            settled = settle(p, w, k, g, b);
         }
-        if (!solve(&u, k, b, E)) break;
-        for (int i = PAST - 1; i > 0; i--) past[i] = past[i - 1];
-        past[0] = u;
-        double f = 2 / (1 + dot(u, u));
-        turn(&K, &cK, u, f);
-        turn(&g, &cg, u, f);
+        if (__builtin_expect(!settled, 0)) {
+            for (int i = 0; i < 3; i++) w[i] = u[i];
+            for (int round = 0; round < MOST_ROUNDS && !settled; round++) settled = settle(p, w, k, g, b);
+            if (!settled) break;
+        }
+        /* The extrapolation as a filter: only its first weight waits for the last value. */
+        for (int j = 0; j < POINTS - 1; j++)
+            for (int i = 0; i < 3; i++) sums[j][i] = sums[j + 1][i] + weights[j + 1] * u[i];
+        for (int i = 0; i < 3; i++) u[i] = w[i];
+        turn(p[0], p[1], p[2], p[3], k[0], k[1], k[2], v);
+        accumulate(k, x, v);
+        turn(p[0], p[1], p[2], p[3], g[0], g[1], g[2], v);
+        accumulate(g, y, v);
+        if ((n + 1) % PERIOD == 0) restore(k, g, x, y, kept);
     }
-    momentum[0] = K.x, momentum[1] = K.y, momentum[2] = K.z;
-    gamma[0] = g.x, gamma[1] = g.y, gamma[2] = g.z;
+    for (int i = 0; i < 3; i++) k_out[i] = k[i], g_out[i] = g[i];
     return n;
 }

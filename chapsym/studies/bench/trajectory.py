@@ -30,25 +30,12 @@ def with_chapsym(K: np.ndarray, g: np.ndarray, J: np.ndarray, D: float, steps: i
     return end.momentum[-1], end.gamma[-1]
 
 
-def with_c() -> Peer:
-    """The loop in C; raises NoCompiler."""
-    march = c_peer.march()
-
-    def run(K: np.ndarray, g: np.ndarray, J: np.ndarray, D: float, steps: int) -> tuple[np.ndarray, np.ndarray]:
-        K, g = K.copy(), g.copy()
-        if march(K, g, J, D, steps) != steps:
-            raise NotComparable("the loop in C does not converge")
-        return K, g
-
-    return run
-
-
 def peers() -> tuple[dict[str, tuple[Peer, int]], dict[str, str]]:
     """The sides that can run here, each with the share of the steps that it takes (slow ones 1/share); the missing."""
     sides: dict[str, tuple[Peer, int]] = {CHAPSYM: (with_chapsym, 1), NEWTON: (scalar_peers.with_numba, 1)}
     missing = {}
     try:
-        sides[C] = with_c(), 1
+        sides[C] = c_peer.loop(), 1
     except c_peer.NoCompiler as reason:
         missing[C] = str(reason)
     sides[LISTS] = scalar_peers.with_lists, 100
