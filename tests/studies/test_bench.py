@@ -48,6 +48,12 @@ def test_every_side_is_timed_once_a_round_and_another_begins_each():
     assert {name: len(t.seconds) for name, t in timings.items()} == {"a": 3, "b": 3, "c": 3}
 
 
+def test_a_time_is_that_of_the_clock_for_a_unit_of_work():
+    ticks = iter([10.0, 16.0, 100.0, 104.0])
+    side = harness.Contender("a", lambda: None, 2, lambda: next(ticks))
+    assert harness.interleaved([side], 2)["a"].seconds.tolist() == [3.0, 2.0]
+
+
 def test_ratios_are_taken_round_by_round():
     """A machine that is ten times slower in one round changes no ratio."""
     a = harness.Timing("a", np.array([1.0, 10.0, 1.0, 1.0]))

@@ -1,5 +1,6 @@
 """A batch of balls: nanoseconds a ball and step, on one core and on two."""
 
+import time
 from collections.abc import Callable
 from functools import partial
 
@@ -54,7 +55,10 @@ def measure(quick: bool, on_round: Callable[[str], None] = lambda text: None) ->
     differ = agreement({name: partial(side, K, g, J, D, COMPARED) for name, (side, _) in SIDES.items()}, K, AGREEMENT)
     contenders = {
         (name, count): Contender(
-            f"{name}, {count}", partial(_on, count, side, K, g, J, D, steps // share), balls * (steps // share)
+            f"{name}, {count}",
+            partial(_on, count, side, K, g, J, D, steps // share),
+            balls * (steps // share),
+            time.process_time if count == 1 else time.perf_counter,
         )
         for name, (side, share) in SIDES.items()
         for count in (1, 2)

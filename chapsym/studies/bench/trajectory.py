@@ -63,7 +63,7 @@ def agreement(sides: dict[str, Callable[[], Any]], momentum: np.ndarray, bound: 
 
 def measure(quick: bool, on_round: Callable[[str], None] = lambda text: None) -> Result:
     """Times one trajectory for each ε; every side is checked against chapsym before."""
-    steps, rounds = (50_000, 5) if quick else (1_000_000, 15)
+    steps, rounds = (20_000, 5) if quick else (200_000, 41)
     sides, missing = peers()
     rows, reach = [], []
     for epsilon in EPSILONS:
@@ -75,7 +75,7 @@ def measure(quick: bool, on_round: Callable[[str], None] = lambda text: None) ->
             contenders = [
                 Contender(name, partial(side, K, GAMMA, MASS_TENSOR, D, count), count)
                 for name, (side, share) in sides.items()
-                if (count := max(20, steps // share))
+                if (count := max(10, steps // share))
             ]
             timings = interleaved(contenders, rounds, partial(_tell, on_round, epsilon, rounds))
         rows += [
