@@ -161,6 +161,13 @@ def test_the_integrators_solve_the_continuous_ball(peer, control, bound, package
     assert abs(peer(work_precision.STATE, 2.0, control) - exact).max() < bound
 
 
+@pytest.mark.filterwarnings("ignore")
+def test_an_integrator_that_gives_up_is_no_comparison():
+    pytest.importorskip("scipy")
+    with pytest.raises(bench.NotComparable, match="LSODA fails at the tolerance 1e-16"):
+        continuous.lsoda(work_precision.STATE, 2.0, 1e-16)
+
+
 def test_the_map_tends_to_the_continuous_ball_with_order_2():
     exact = np.array([float(x) for x in continuous.reference(work_precision.STATE, 2.0)])
     coarse, fine = (abs(work_precision.the_map(work_precision.STATE, 2.0, n) - exact).max() for n in (200, 400))

@@ -12,6 +12,7 @@ import numpy as np
 
 from chapsym import generated
 
+from .harness import NotComparable
 from .trajectory import MASS_TENSOR, D
 
 Peer = Callable[[np.ndarray, float, float], np.ndarray]
@@ -60,15 +61,21 @@ def dop853(y: np.ndarray, end: float, tolerance: float) -> np.ndarray:
     """SciPy's solve_ivp with DOP853."""
     from scipy.integrate import solve_ivp
 
-    return solve_ivp(compiled_rates(), (0.0, end), y, method="DOP853", rtol=tolerance, atol=tolerance).y[:, -1]
+    found = solve_ivp(compiled_rates(), (0.0, end), y, method="DOP853", rtol=tolerance, atol=tolerance)
+    if not found.success:
+        raise NotComparable(f"DOP853 fails at the tolerance {tolerance:g}: {found.message}")
+    return found.y[:, -1]
 
 
 def lsoda(y: np.ndarray, end: float, tolerance: float) -> np.ndarray:
     """SciPy's odeint, which is LSODA."""
     from scipy.integrate import odeint
 
-    times = np.array([0.0, end])
-    return odeint(compiled_rates(), y, times, tfirst=True, rtol=tolerance, atol=tolerance, mxstep=10**7)[-1]
+    times, options = np.array([0.0, end]), {"rtol": tolerance, "atol": tolerance, "mxstep": 10**7}
+    found, told = odeint(compiled_rates(), y, times, tfirst=True, full_output=True, **options)
+    if told["message"] != "Integration successful.":
+        raise NotComparable(f"LSODA fails at the tolerance {tolerance:g}: {told['message']}")
+    return found[-1]
 
 
 @cache

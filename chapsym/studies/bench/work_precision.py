@@ -62,7 +62,7 @@ def the_map(y: np.ndarray, end: float, steps: float, order: int = 2) -> np.ndarr
 
 def methods(quick: bool) -> tuple[list[Method], dict[str, str]]:
     """The methods that can run here, and why the others cannot."""
-    tolerances = tuple(10.0**-k for k in ((3, 6, 9, 12) if quick else range(2, 15)))
+    tolerances = tuple(10.0**-k for k in ((3, 6, 9, 12) if quick else range(2, 14)))
     refined = tuple(250.0 * 2**k for k in ((0, 3, 6) if quick else range(0, 11)))
     longer = tuple(250.0 * 4**k for k in (range(0, 4) if quick else range(0, 9)))
     found = [
