@@ -33,6 +33,16 @@ static inline int settle(double p[4], double u[3], const double k[3], const doub
     return 9 * b.contraction * (fmax(first, second) * second) <= LEFT * size && size <= b.radius;
 }
 
+/* Rounds of settle from a poor guess, and from no rotation where that leads nowhere. */
+static int search(double p[4], double u[3], const double k[3], const double g[3], ball b) {
+    for (int guess = 0; guess < 2; guess++) {
+        if (guess == 1) u[0] = u[1] = u[2] = 0;
+        for (int round = 0; round < MOST_ROUNDS; round++)
+            if (settle(p, u, k, g, b)) return 1;
+    }
+    return 0;
+}
+
 /* v += y, where c is what was rounded away before, and after. */
 static inline void accumulate(double v[3], double c[3], const double y[3]) {
     for (int i = 0; i < 3; i++) {
@@ -84,26 +94,16 @@ static void restore(const double k[3], const double g[3], double x[3], double y[
 long gibbs_march(double *k_out, double *g_out, const double *I, double D, double radius, double contraction, long steps) {
     static const double weights[POINTS] = {8, -28, 56, -70, 56, -28, 8, -1};
     ball b = {I[0], I[1], I[2], D, radius, contraction};
-    double k[3], g[3], x[3] = {0}, y[3] = {0}, u[3] = {0}, sums[POINTS][3] = {{0}};
+    double k[3], g[3], x[3] = {0}, y[3] = {0}, sums[POINTS + 1][3] = {{0}};
     for (int i = 0; i < 3; i++) k[i] = k_out[i], g[i] = g_out[i];
     const pair none = {0, 0}, kept[3] = {inner(g, g, none), inner(k, g, none), inner(k, k, none)};
     long n;
     for (n = 0; n < steps; n++) {
-        double p[4], w[3], v[3];
-        int settled = 0;
-        if (n >= POINTS) {
-            for (int i = 0; i < 3; i++) w[i] = weights[0] * u[i] + sums[0][i];
-            settled = settle(p, w, k, g, b);
-        }
-        if (__builtin_expect(!settled, 0)) {
-            for (int i = 0; i < 3; i++) w[i] = u[i];
-            for (int round = 0; round < MOST_ROUNDS && !settled; round++) settled = settle(p, w, k, g, b);
-            if (!settled) break;
-        }
+        double p[4], w[3] = {sums[0][0], sums[0][1], sums[0][2]}, v[3];
+        if (!settle(p, w, k, g, b) && !search(p, w, k, g, b)) break;
         /* The extrapolation as a filter: only its first weight waits for the last value. */
-        for (int j = 0; j < POINTS - 1; j++)
-            for (int i = 0; i < 3; i++) sums[j][i] = sums[j + 1][i] + weights[j + 1] * u[i];
-        for (int i = 0; i < 3; i++) u[i] = w[i];
+        for (int j = 0; j < POINTS; j++)
+            for (int i = 0; i < 3; i++) sums[j][i] = sums[j + 1][i] + weights[j] * w[i];
         turn(p[0], p[1], p[2], p[3], k[0], k[1], k[2], v);
         accumulate(k, x, v);
         turn(p[0], p[1], p[2], p[3], g[0], g[1], g[2], v);

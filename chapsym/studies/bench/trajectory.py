@@ -38,9 +38,9 @@ def peers() -> tuple[dict[str, tuple[Peer, int]], dict[str, str]]:
         sides[C] = c_peer.loop(), 1
     except c_peer.NoCompiler as reason:
         missing[C] = str(reason)
-    sides[LISTS] = scalar_peers.with_lists, 100
-    sides[TUNED] = scalar_peers.with_tuned_arrays, 1000
-    sides[ARRAYS] = scalar_peers.with_small_arrays, 5000
+    sides[LISTS] = scalar_peers.with_lists, 1000
+    sides[TUNED] = scalar_peers.with_tuned_arrays, 10_000
+    sides[ARRAYS] = scalar_peers.with_small_arrays, 50_000
     return sides, missing
 
 
@@ -63,7 +63,7 @@ def agreement(sides: dict[str, Callable[[], Any]], momentum: np.ndarray, bound: 
 
 def measure(quick: bool, on_round: Callable[[str], None] = lambda text: None) -> Result:
     """Times one trajectory for each ε; every side is checked against chapsym before."""
-    steps, rounds = (20_000, 5) if quick else (200_000, 41)
+    steps, rounds = (50_000, 5) if quick else (2_000_000, 21)
     sides, missing = peers()
     rows, reach = [], []
     for epsilon in EPSILONS:
@@ -75,7 +75,7 @@ def measure(quick: bool, on_round: Callable[[str], None] = lambda text: None) ->
             contenders = [
                 Contender(name, partial(side, K, GAMMA, MASS_TENSOR, D, count), count)
                 for name, (side, share) in sides.items()
-                if (count := max(10, steps // share))
+                if (count := max(20, steps // share))
             ]
             timings = interleaved(contenders, rounds, partial(_tell, on_round, epsilon, rounds))
         rows += [
