@@ -208,6 +208,15 @@ def test_the_time_to_an_error_is_read_off_a_straight_line():
     assert work_precision.time_to([*points[:2], point(0, 1e-6, 1e-20, (0.0, 0.0, 0.0))], 1e-3) == 1e-6
 
 
+def test_steps_that_are_too_long_are_left_out():
+    exact = np.zeros(6)
+    method = work_precision.Method("map", work_precision.the_map, (3.0, 2500.0))
+    (point,) = work_precision.swept([method], exact, 1, lambda text: None)["map"]
+    assert point.control == 2500.0
+    assert point.error == pytest.approx(1, abs=0.1)  # the largest of K and γ themselves
+    assert max(point.integrals[:2]) < 1e-15
+
+
 def test_slopes_of_known_growths():
     n = np.arange(100_001)
     for power in (0.0, 0.5, 1.0):

@@ -41,13 +41,13 @@ def panels(found: Result) -> dict[str, list[Curve]]:
 
 
 def _panel(axis: Any, title: str, curves: list[Curve], section: str) -> None:
-    ours_first = sorted(curves, key=lambda curve: not curve.label.startswith(OURS))
-    for i, curve in enumerate(ours_first):
+    for i, curve in enumerate(sorted(curves, key=lambda curve: not curve.label.startswith(OURS))):  # ours first
         shown = [(x, y) for x, y in zip(curve.x, curve.y, strict=True) if y > 0]
         ours = curve.label.startswith(OURS)
         axis.plot(
             [x for x, _ in shown], [y for _, y in shown], label=curve.label, marker=MARKERS[i % len(MARKERS)],
             markersize=4, linewidth=2.2 if ours else 1.0, zorder=3 if ours else 2,
+            linestyle="--" if "batch" in curve.label else "-", color=f"C{i}" if i < 10 else str(0.2 + 0.2 * (i - 10)),
         )  # fmt: skip
     if section == "long":
         first, last = curves[0].x[0], curves[0].x[-1]
