@@ -41,13 +41,15 @@ def panels(found: Result) -> dict[str, list[Curve]]:
 
 
 def _panel(axis: Any, title: str, curves: list[Curve], section: str) -> None:
-    for i, curve in enumerate(sorted(curves, key=lambda curve: not curve.label.startswith(OURS))):  # ours first
+    drawn = sorted(curves, key=lambda curve: not curve.label.startswith(OURS))
+    colours = {name: f"C{i}" for i, name in enumerate(dict.fromkeys(map(_alone, drawn)))}
+    for i, curve in enumerate(drawn):
         shown = [(x, y) for x, y in zip(curve.x, curve.y, strict=True) if y > 0]
         ours = curve.label.startswith(OURS)
         axis.plot(
             [x for x, _ in shown], [y for _, y in shown], label=curve.label, marker=MARKERS[i % len(MARKERS)],
+            color=colours[_alone(curve)], linestyle="-" if _alone(curve) == curve.label else "--",
             markersize=4, linewidth=2.2 if ours else 1.0, zorder=3 if ours else 2,
-            linestyle="--" if "batch" in curve.label else "-", color=f"C{i}" if i < 10 else str(0.2 + 0.2 * (i - 10)),
         )  # fmt: skip
     if section == "long":
         first, last = curves[0].x[0], curves[0].x[-1]
@@ -57,3 +59,8 @@ def _panel(axis: Any, title: str, curves: list[Curve], section: str) -> None:
         )
     axis.set(xscale="log", yscale="log", title=title, xlabel=AXES[section][0], ylabel=AXES[section][1])
     axis.grid(alpha=0.3)
+
+
+def _alone(curve: Curve) -> str:
+    """The name of the method for one ball: its batch has the same colour, and dashes."""
+    return curve.label.removesuffix(", batch")
