@@ -35,7 +35,7 @@ def with_chapsym(
     K: np.ndarray, g: np.ndarray, J: np.ndarray, D: np.ndarray, steps: int
 ) -> tuple[np.ndarray, np.ndarray]:
     """The public trajectory of a batch, of which only the end is kept."""
-    end = chapsym.trajectory(chapsym.Ball(J, D), K, g, steps, every=max(steps, 1))
+    end = chapsym.trajectory(chapsym.Ball(J, D), K, g, steps, every=max(steps, 1), threads=available_cores())
     return end.momentum[..., -1, :], end.gamma[..., -1, :]
 
 
@@ -44,20 +44,20 @@ SIDES = {
     CHAPSYM: (with_chapsym, 1),
     COLUMNS: (batch_peers.by_columns, 1),
     LOOP: (batch_peers.over_rows, 1),
-    ROWS: (batch_peers.by_rows, 10),
+    ROWS: (batch_peers.by_rows, 100),
 }
 
 
 def measure(quick: bool, on_round: Callable[[str], None] = lambda text: None) -> Result:
     """Times 10⁴ balls (quick: 2000) on one core and on two; every side is checked against chapsym before."""
-    balls, steps, rounds = (2_000, 30, 3) if quick else (10_000, 100, 9)
+    balls, steps, rounds = (2_000, 100, 3) if quick else (10_000, 1000, 7)
     K, g, J, D = states(balls)
     differ = agreement({name: partial(side, K, g, J, D, COMPARED) for name, (side, _) in SIDES.items()}, K, AGREEMENT)
     contenders = {
         (name, count): Contender(
             f"{name}, {count}",
-            partial(_on, count, side, K, g, J, D, steps // share),
-            balls * (steps // share),
+            partial(_on, count, side, K, g, J, D, max(1, steps // share)),
+            balls * max(1, steps // share),
             time.process_time if count == 1 else time.perf_counter,
         )
         for name, (side, share) in SIDES.items()
