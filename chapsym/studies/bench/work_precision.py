@@ -24,6 +24,8 @@ BEFORE = (1.7, 2.6, 3.0, 3.9)
 HEYOKA = "heyoka.py"
 #: Balls of one call of chapsym where a batch is timed: what the call itself costs is divided among them.
 BALLS = 16
+#: The least relative tolerance that solve_ivp takes is a hundred roundings.
+SMALLEST_RTOL = 2.3e-14
 #: How far the two reference solutions may be apart: a thousandth of what is to be told from them.
 SECOND_OPINION = 1e-15
 INTEGRALS = ("<K,γ>", "<K,K>", "energy")
@@ -85,7 +87,7 @@ def methods(quick: bool) -> tuple[list[Method], dict[str, str]]:
     if reason := installed("scipy"):
         missing["SciPy DOP853, LSODA"] = reason
     else:
-        found.append(Method("SciPy DOP853", continuous.dop853, tolerances))
+        found.append(Method("SciPy DOP853", continuous.dop853, (*tolerances, SMALLEST_RTOL)))
         found.append(Method("SciPy LSODA", continuous.lsoda, tolerances))
     if reason := installed("heyoka"):
         missing[HEYOKA] = reason
