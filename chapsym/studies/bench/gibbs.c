@@ -9,9 +9,8 @@
 #define POINTS 8
 #define PERIOD 1024
 #define MOST_ROUNDS 12
-#define LEFT 0x1p-110  /* the square of the error that may be left, relative to |u| */
 
-typedef struct { double I1, I2, I3, D, radius, contraction; } ball;
+typedef struct { double I1, I2, I3, D, radius, enough; } ball;  /* enough: |d|^2 of a correction that is the last */
 typedef struct { double high, low; } pair;
 
 /* One round from the guess u: the quaternion p of the rotation, and its Gibbs vector in u.  Returns whether it settled. */
@@ -23,14 +22,14 @@ static inline int settle(double p[4], double u[3], const double k[3], const doub
     for (int i = 0; i < 4; i++) p[i] = out[i];
     for (int i = 0; i < 3; i++) w[i] = p[i + 1] * scale, d[i] = w[i] - u[i];
     for (int i = 0; i < 3; i++) u[i] = w[i];
-    double first = d[0] * d[0] + (d[1] * d[1] + d[2] * d[2]), size = w[0] * w[0] + (w[1] * w[1] + w[2] * w[2]);
-    if (b.contraction * (first * first) <= LEFT * size) return 1;
+    double first = d[0] * d[0] + (d[1] * d[1] + d[2] * d[2]);
+    if (first <= b.enough) return 1;
     gibbs_second(d[0], d[1], d[2], k[0], k[1], k[2], out[4], out[5], out[6], out[7], out[8], out[9], out[10], out[11],
                  out[12], b.I1, b.I2, b.I3, e);
     for (int i = 0; i < 3; i++) p[i + 1] -= e[i], u[i] = p[i + 1] * scale;
     double second = (e[0] * e[0] + (e[1] * e[1] + e[2] * e[2])) * (scale * scale);
-    size = u[0] * u[0] + (u[1] * u[1] + u[2] * u[2]);
-    return 9 * b.contraction * (fmax(first, second) * second) <= LEFT * size && size <= b.radius;
+    double size = u[0] * u[0] + (u[1] * u[1] + u[2] * u[2]);
+    return 9 * fmax(first, second) * second <= b.enough * b.enough && size <= b.radius;
 }
 
 /* Rounds of settle from a poor guess, and from no rotation where that leads nowhere. */
@@ -91,9 +90,9 @@ static void restore(const double k[3], const double g[3], double x[3], double y[
 }
 
 /* Takes `steps` steps of (k, g) in place; returns how many were taken. */
-long gibbs_march(double *k_out, double *g_out, const double *I, double D, double radius, double contraction, long steps) {
+long gibbs_march(double *k_out, double *g_out, const double *I, double D, double radius, double enough, long steps) {
     static const double weights[POINTS] = {8, -28, 56, -70, 56, -28, 8, -1};
-    ball b = {I[0], I[1], I[2], D, radius, contraction};
+    ball b = {I[0], I[1], I[2], D, radius, enough};
     double k[3], g[3], x[3] = {0}, y[3] = {0}, sums[POINTS + 1][3] = {{0}};
     for (int i = 0; i < 3; i++) k[i] = k_out[i], g[i] = g_out[i];
     const pair none = {0, 0}, kept[3] = {inner(g, g, none), inner(k, g, none), inner(k, k, none)};
