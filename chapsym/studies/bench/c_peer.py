@@ -34,7 +34,8 @@ def loop() -> Callable[[np.ndarray, np.ndarray, np.ndarray, float, int], tuple[n
 
     def run(K: np.ndarray, g: np.ndarray, J: np.ndarray, D: float, steps: int) -> tuple[np.ndarray, np.ndarray]:
         k, g, inertia = K / 2, g.copy(), J.sum() - J
-        if march(k, g, inertia, D, *gibbs.certificate(*k.tolist(), *inertia.tolist(), D), steps) != steps:
+        radius, enough = gibbs.certificate(*map(float, (*k, *inertia, D)))
+        if march(k, g, inertia, D, radius, enough, steps) != steps:
             raise NotComparable("the loop in C does not converge")
         return 2 * k, g
 
