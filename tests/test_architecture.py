@@ -22,7 +22,7 @@ ROOMS = {
     "codegen": {"derive", "generated"},
     "dynamics": {"generated", "numbers"},
     "scene": {"dynamics", "exact", "files"},
-    "studies": {"dynamics", "scene"},
+    "studies": {"generated", "dynamics", "scene"},
     "proofs": {"derive", "prove"},
     "report": set(),
     "testing": {"dynamics"},
@@ -35,12 +35,12 @@ def files(room):
         folder = Path(__import__(f"chapsym.{room}", fromlist=["x"]).__file__).parent
     else:
         folder = ROOT / room
-    return sorted(folder.glob("*.py")) if folder.is_dir() else [folder.with_suffix(".py")]
+    return sorted(folder.rglob("*.py")) if folder.is_dir() else [folder.with_suffix(".py")]
 
 
 def imports(path, room):
     """Absolute names of what a file imports, at the top and inside functions."""
-    package = ["chapsym"] if path.parent.name != room and room not in ("generated", "proofs") else ["chapsym", room]
+    package = ["chapsym", *(path.parent.relative_to(ROOT).parts if path.is_relative_to(ROOT) else [room])]
     for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
         if isinstance(node, ast.Import):
             yield from (alias.name for alias in node.names)

@@ -1,0 +1,220 @@
+"""Measuring: all sides in one process, in rounds that interleave them, so that a drifting clock hits each alike."""
+
+import gc
+import os
+import platform
+import re
+import shutil
+import subprocess
+import time
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from importlib.metadata import PackageNotFoundError, version
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+#: The packages whose versions belong to a measurement.
+NAMED = ("chapsym", "numpy", "numba", "llvmlite", "scipy", "heyoka")
+
+
+class NotComparable(ArithmeticError):
+    """The sides do not compute the same thing, so their times say nothing; the message says which and how far apart."""
+
+
+@dataclass(frozen=True)
+class Contender:
+    """One side of a comparison: `run` does `work` units (steps, or balls times steps) of it.
+
+    clock: the time of the processor, which other programs on the machine do not lengthen, is right for one core only;
+    for more it must be that of the wall, `time.perf_counter`.
+    """
+
+    name: str
+    run: Callable[[], Any]
+    work: int
+    clock: Callable[[], float] = time.process_time
+
+
+@dataclass(frozen=True)
+class Timing:
+    """Seconds a unit of work in each round, (rounds,)."""
+
+    name: str
+    seconds: np.ndarray
+
+    @property
+    def median(self) -> float:
+        """The median time of a unit in seconds."""
+        return float(np.median(self.seconds))
+
+    def ratio_to(self, other: "Timing") -> tuple[float, float, float]:
+        """The median and the quartiles of the ratio, taken round by round: (median, lower, upper)."""
+        lower, middle, upper = np.quantile(self.seconds / other.seconds, [0.25, 0.5, 0.75])
+        return float(middle), float(lower), float(upper)
+
+
+@dataclass(frozen=True)
+class Result:
+    """What a section found.
+
+    rows: the table, dictionaries with the same keys; missing: the peers that could not run, and why;
+    reach: what the project set out to reach, `Reached`; curves: what the figure draws.
+    """
+
+    title: str
+    rows: list[dict[str, Any]]
+    missing: dict[str, str] = field(default_factory=dict)
+    reach: "list[Reached]" = field(default_factory=list)
+    curves: list["Curve"] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
+
+
+@dataclass(frozen=True)
+class Reached:
+    """A figure to reach: `value` must be at least (or at most) `wanted`."""
+
+    what: str
+    value: float
+    wanted: float
+    at_least: bool
+
+    @property
+    def met(self) -> bool:
+        """Whether it was reached in this run."""
+        return self.value >= self.wanted if self.at_least else self.value <= self.wanted
+
+
+@dataclass(frozen=True)
+class Curve:
+    """A line of a log-log figure, in one of its panels."""
+
+    panel: str
+    label: str
+    x: list[float]
+    y: list[float]
+
+
+def interleaved(
+    contenders: Sequence[Contender], rounds: int, on_round: Callable[[int], None] = lambda done: None
+) -> dict[str, Timing]:
+    """Times every contender once a round, beginning with another one each round; by name.
+
+    Each runs once before, unmeasured, so that compiling and first touches of memory are not in it.
+    """
+    for contender in contenders:
+        contender.run()
+    seconds = {contender.name: np.empty(rounds) for contender in contenders}
+    for i in range(rounds):
+        first = i % len(contenders)
+        for contender in (*contenders[first:], *contenders[:first]):
+            seconds[contender.name][i] = _seconds(contender) / contender.work
+        on_round(i + 1)
+    return {name: Timing(name, values) for name, values in seconds.items()}
+
+
+def _seconds(contender: Contender) -> float:
+    collecting = gc.isenabled()
+    gc.disable()
+    try:
+        start = contender.clock()
+        contender.run()
+        return contender.clock() - start
+    finally:
+        if collecting:
+            gc.enable()
+
+
+def ratio_columns(timing: Timing, reference: Timing, label: str) -> dict[str, Any]:
+    """The columns of a table that compare a side with the reference."""
+    middle, lower, upper = timing.ratio_to(reference)
+    return {f"to {label}": middle, "quartiles": [lower, upper]}
+
+
+@contextmanager
+def cores(count: int) -> Iterator[None]:
+    """Keeps every thread of this process, and numba's, to `count` cores, where the system can do that."""
+    import numba
+
+    before, threads = _affinity(), numba.get_num_threads()
+    settings: Any = numba.config
+    numba.set_num_threads(min(count, settings.NUMBA_NUM_THREADS))
+    if before:
+        _pin(sorted(before)[:count])
+    try:
+        yield
+    finally:
+        numba.set_num_threads(threads)
+        if before:
+            _pin(before)
+
+
+def _affinity() -> set[int]:
+    return os.sched_getaffinity(0) if hasattr(os, "sched_getaffinity") else set()
+
+
+def _pin(wanted: Sequence[int] | set[int]) -> None:
+    """Affinity belongs to a thread, so it is set for each that exists; new ones inherit it."""
+    tasks = Path("/proc/self/task")
+    for thread in [int(p.name) for p in tasks.iterdir()] if tasks.is_dir() else [0]:
+        try:
+            os.sched_setaffinity(thread, wanted)
+        except ProcessLookupError:  # it has ended since
+            continue
+
+
+def available_cores() -> int:
+    """The cores that this process may use."""
+    return len(_affinity()) or os.cpu_count() or 1
+
+
+def installed(package: str) -> str | None:
+    """None if an optional peer can be imported, otherwise the sentence that says why not."""
+    return None if find_spec(package) else f"{package} is not installed (pip install 'chapsym[bench]')"
+
+
+def compiler() -> str | None:
+    """The path of the C compiler: that of CC, or cc, gcc, clang, or None."""
+    wanted = os.environ.get("CC")
+    return next((path for path in map(shutil.which, [wanted] if wanted else ["cc", "gcc", "clang"]) if path), None)
+
+
+def machine() -> dict[str, Any]:
+    """What a measurement must name: the processor, its cores, the compiler, and the versions."""
+    return {
+        "cpu": _cpu(),
+        "cores": available_cores(),
+        "system": f"{platform.system()} {platform.machine()}",
+        "compiler": _compiler_version(),
+        "python": f"{platform.python_implementation()} {platform.python_version()}",
+        "versions": {name: _version(name) for name in NAMED},
+    }
+
+
+def _cpu() -> str:
+    try:
+        fields = dict(
+            re.findall(r"^(model name|cpu family|model|stepping)\s*: (.*)$", Path("/proc/cpuinfo").read_text(), re.M)
+        )
+    except OSError:
+        return platform.processor() or "unknown"
+    family = f"family {fields['cpu family']}, model {fields['model']}" if "cpu family" in fields else ""
+    return ", ".join(x for x in (fields.get("model name") or platform.processor(), family) if x) or "unknown"
+
+
+def _compiler_version() -> str:
+    path = compiler()
+    if path is None:
+        return "none"
+    done = subprocess.run([path, "--version"], capture_output=True, text=True, check=False)
+    return (done.stdout.splitlines() or [path])[0]
+
+
+def _version(package: str) -> str:
+    try:
+        return version(package)
+    except PackageNotFoundError:
+        return "not installed"

@@ -1,0 +1,88 @@
+"""Memory: a trajectory allocates the states that it keeps; a batch of 10⁶ balls runs in under 1 GB."""
+
+import subprocess
+import sys
+import tracemalloc
+from collections.abc import Callable
+
+import numpy as np
+
+import chapsym
+
+from .harness import Reached, Result
+from .trajectory import GAMMA, MASS_TENSOR, MOMENTUM, D
+
+#: A state that is kept: 𝒦 and γ, the number of its step, and one number more while that is made.
+BYTES_KEPT = 8 * 8
+#: What a run may take besides: less than a thousand states.
+BESIDES = 1000 * BYTES_KEPT
+GIGABYTE = 2**30
+
+#: Runs in a process of its own, so that the peak is that of the batch; prints it in bytes.
+CHILD = """
+import sys
+import numpy as np
+import chapsym
+balls, steps = int(sys.argv[1]), int(sys.argv[2])
+draw = np.random.default_rng(1)
+K, g = (v / np.linalg.norm(v, axis=-1, keepdims=True) for v in draw.normal(size=(2, balls, 3)))
+ball = chapsym.Ball(draw.uniform(0.3, 1.6, size=(balls, 3)), draw.uniform(0.0, 1.0, size=balls))
+end = chapsym.trajectory(ball, 0.05 * K, g, steps, every=steps)
+assert (end.taken == steps).all()
+from chapsym.studies.bench.memory import peak_of_this_process
+print(peak_of_this_process())
+"""
+
+
+def peak_of_this_process() -> int:
+    """The largest resident size so far, in bytes; raises OSError where the system does not tell."""
+    try:  # the process' own; getrusage begins with what its parent had
+        with open("/proc/self/status", encoding="ascii") as status:
+            return next(int(line.split()[1]) * 1024 for line in status if line.startswith("VmHWM"))
+    except (OSError, StopIteration):
+        pass
+    try:
+        import resource
+    except ImportError:
+        raise OSError("this system does not tell the peak of a process") from None
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * (1 if sys.platform == "darwin" else 1024)
+
+
+def peak_of_a_trajectory(steps: int, every: int) -> int:
+    """The peak of what a trajectory of one ball allocates, in bytes."""
+    ball = chapsym.Ball(MASS_TENSOR, D)  # type: ignore[arg-type]
+    momentum = 0.05 * np.asarray(MOMENTUM)
+    chapsym.trajectory(ball, momentum, GAMMA, 10_000, every=1000)  # compiles, which allocates too
+    tracemalloc.start()
+    try:
+        kept = chapsym.trajectory(ball, momentum, GAMMA, steps, every=every)
+        assert len(kept.index) == steps // every + 1
+        return tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+
+
+def peak_of_a_batch(balls: int, steps: int) -> int:
+    """The largest resident size of a fresh process that runs a batch, in bytes."""
+    done = subprocess.run(
+        [sys.executable, "-c", CHILD, str(balls), str(steps)], capture_output=True, text=True, check=True
+    )
+    return int(done.stdout)
+
+
+def measure(quick: bool, on_round: Callable[[str], None] = lambda text: None) -> Result:
+    """The peaks of a long trajectory that keeps few states, and of 10⁶ balls (quick: 10⁵) in a fresh process."""
+    rows, reach = [], []
+    steps = 1_000_000 if quick else 10_000_000
+    for every in (1000, 100):
+        on_round(f"one ball, {steps} steps, every {every}")
+        frames = steps // every + 1
+        peak, allowed = peak_of_a_trajectory(steps, every), frames * BYTES_KEPT + BESIDES
+        rows.append({"name": f"one ball, {steps} steps, every={every}", "MB": peak / 1e6, "allowed": allowed / 1e6})
+        reach.append(Reached(f"MB of {frames} states kept of {steps} steps", peak / 1e6, allowed / 1e6, False))
+    balls = 100_000 if quick else 1_000_000
+    on_round(f"{balls} balls in a fresh process")
+    peak = peak_of_a_batch(balls, 10)
+    rows.append({"name": f"{balls} balls, 10 steps, the whole process", "MB": peak / 1e6, "allowed": GIGABYTE / 1e6})
+    reach.append(Reached(f"MB of a process with {balls} balls", peak / 1e6, GIGABYTE / 1e6, False))
+    return Result("memory", rows, {}, reach)

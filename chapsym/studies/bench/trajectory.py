@@ -1,0 +1,101 @@
+"""One trajectory on one core: nanoseconds a step, chapsym beside what a user might write, and beside C."""
+
+from collections.abc import Callable
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+import chapsym
+
+from . import c_peer, scalar_peers
+from .harness import Contender, NotComparable, Reached, Result, cores, interleaved, ratio_columns
+
+#: The ball of the measurements in the project's notes, and a generic state of it: 𝒦/ε and γ.
+MASS_TENSOR, D = np.array((0.1, 0.5, 1.6)), 0.7
+MOMENTUM, GAMMA = np.array((6.0, -2.0, 3.0)) / 7, np.array((2.0, 3.0, 6.0)) / 7
+EPSILONS = (0.05, 0.4)
+CHAPSYM, NEWTON, C = "chapsym", "numba, Newton in q", "C, the same algorithm"
+ARRAYS, TUNED, LISTS = "NumPy, arrays of 3", "NumPy, arrays of 3, tuned", "Python floats"
+#: Steps after which the peers are compared, and by how much they may differ: 64 roundings a step.
+COMPARED = 100
+AGREEMENT = COMPARED * 64 * 2.0**-53
+
+Peer = Callable[[np.ndarray, np.ndarray, np.ndarray, float, int], tuple[np.ndarray, np.ndarray]]
+
+
+def with_chapsym(K: np.ndarray, g: np.ndarray, J: np.ndarray, D: float, steps: int) -> tuple[np.ndarray, np.ndarray]:
+    """The public trajectory, of which only the end is kept."""
+    end = chapsym.trajectory(chapsym.Ball(J, D), K, g, steps, every=max(steps, 1))  # type: ignore[arg-type]
+    return end.momentum[-1], end.gamma[-1]
+
+
+def peers() -> tuple[dict[str, tuple[Peer, int]], dict[str, str]]:
+    """The sides that can run here, each with the share of the steps that it takes (slow ones 1/share); the missing."""
+    sides: dict[str, tuple[Peer, int]] = {CHAPSYM: (with_chapsym, 1), NEWTON: (scalar_peers.with_numba, 1)}
+    missing = {}
+    try:
+        sides[C] = c_peer.loop(), 1
+    except c_peer.NoCompiler as reason:
+        missing[C] = str(reason)
+    sides[LISTS] = scalar_peers.with_lists, 1000
+    sides[TUNED] = scalar_peers.with_tuned_arrays, 10_000
+    sides[ARRAYS] = scalar_peers.with_small_arrays, 50_000
+    return sides, missing
+
+
+def agreement(sides: dict[str, Callable[[], Any]], momentum: np.ndarray, bound: float) -> dict[str, float]:
+    """The largest difference of each side's (K, g) from chapsym's, relative to |𝒦| and 1.
+
+    Raises NotComparable where it is beyond `bound`.
+    """
+    ends = {name: [np.asarray(x) for x in side()] for name, side in sides.items()}
+    size = np.linalg.norm(momentum, axis=-1, keepdims=True)
+    home = ends[CHAPSYM]
+    differences = {
+        name: float(max(abs((K - home[0]) / size).max(), abs(g - home[1]).max())) for name, (K, g) in ends.items()
+    }
+    for name, difference in differences.items():
+        if not difference <= bound:
+            raise NotComparable(f"{name} differs from chapsym by {difference:.1e}, more than roundings: {bound:.1e}")
+    return differences
+
+
+def measure(quick: bool, on_round: Callable[[str], None] = lambda text: None) -> Result:
+    """Times one trajectory for each ε; every side is checked against chapsym before."""
+    steps, rounds = (50_000, 5) if quick else (2_000_000, 21)
+    sides, missing = peers()
+    rows, reach = [], []
+    for epsilon in EPSILONS:
+        K = epsilon * MOMENTUM
+        differ = agreement(
+            {name: partial(side, K, GAMMA, MASS_TENSOR, D, COMPARED) for name, (side, _) in sides.items()}, K, AGREEMENT
+        )
+        with cores(1):
+            contenders = [
+                Contender(name, partial(side, K, GAMMA, MASS_TENSOR, D, count), count)
+                for name, (side, share) in sides.items()
+                if (count := max(20, steps // share))
+            ]
+            timings = interleaved(contenders, rounds, partial(_tell, on_round, epsilon, rounds))
+        rows += [
+            {
+                "name": name,
+                "ε": epsilon,
+                "ns a step": timing.median * 1e9,
+                **ratio_columns(timing, timings[NEWTON], "Newton in q"),
+            }
+            | {"differs by": differ[name]}
+            for name, timing in timings.items()
+        ]
+        if epsilon == EPSILONS[0]:
+            home = timings[CHAPSYM]
+            reach.append(Reached("numba Newton in q / chapsym", timings[NEWTON].ratio_to(home)[0], 3.5, True))
+            reach.append(Reached("NumPy arrays of 3 / chapsym", timings[ARRAYS].ratio_to(home)[0], 1000, True))
+            if C in timings:
+                reach.append(Reached("chapsym / the same algorithm in C", home.ratio_to(timings[C])[0], 1.3, False))
+    return Result("one trajectory, one core", rows, missing, reach)
+
+
+def _tell(on_round: Callable[[str], None], epsilon: float, rounds: int, done: int) -> None:
+    on_round(f"one trajectory, ε = {epsilon:g}: round {done} of {rounds}")

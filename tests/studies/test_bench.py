@@ -1,0 +1,358 @@
+"""The benchmark compares like with like, says what is missing, and can tell when it is wrong; no time is asserted."""
+
+import json
+import subprocess
+import sys
+from functools import partial
+
+import numpy as np
+import pytest
+
+import chapsym
+from chapsym.studies import bench
+from chapsym.studies.bench import (
+    batch,
+    c_peer,
+    continuous,
+    figure,
+    first_call,
+    harness,
+    long_runs,
+    memory,
+    trajectory,
+    work_precision,
+)
+
+COMMAND = [sys.executable, "-m", "chapsym.cli", "bench"]
+
+
+def without_compiler(monkeypatch):
+    monkeypatch.delenv("CC", raising=False)
+    monkeypatch.setenv("PATH", "")
+
+
+def without(monkeypatch, *packages):
+    find = harness.find_spec
+    monkeypatch.setattr(harness, "find_spec", lambda name: None if name in packages else find(name))
+
+
+def result(name, **more):
+    return harness.Result(name, [{"name": "x", "value": 1.5}], **more)
+
+
+def test_every_side_is_timed_once_a_round_and_another_begins_each():
+    calls = []
+    sides = [harness.Contender(name, lambda name=name: calls.append(name), 10) for name in "abc"]
+    timings = harness.interleaved(sides, 3)
+    assert "".join(calls) == "abc" + "abc" + "bca" + "cab"
+    assert {name: len(t.seconds) for name, t in timings.items()} == {"a": 3, "b": 3, "c": 3}
+
+
+def test_a_time_is_that_of_the_clock_for_a_unit_of_work():
+    ticks = iter([10.0, 16.0, 100.0, 104.0])
+    side = harness.Contender("a", lambda: None, 2, lambda: next(ticks))
+    assert harness.interleaved([side], 2)["a"].seconds.tolist() == [3.0, 2.0]
+
+
+def test_ratios_are_taken_round_by_round():
+    """A machine that is ten times slower in one round changes no ratio."""
+    a = harness.Timing("a", np.array([1.0, 10.0, 1.0, 1.0]))
+    b = harness.Timing("b", np.array([2.0, 20.0, 2.0, 4.0]))
+    assert b.median == 3.0
+    assert b.ratio_to(a) == (2.0, 2.0, 2.5)
+
+
+def test_one_core_is_one_core_and_is_given_back():
+    before = harness.available_cores()
+    with harness.cores(1):
+        assert harness.available_cores() == 1
+    assert harness.available_cores() == before
+
+
+@pytest.mark.parametrize("epsilon", trajectory.EPSILONS)
+def test_the_peers_take_the_steps_of_the_map(epsilon):
+    sides, _ = trajectory.peers()
+    K = epsilon * trajectory.MOMENTUM
+    runs = {
+        name: partial(side, K, trajectory.GAMMA, trajectory.MASS_TENSOR, trajectory.D, trajectory.COMPARED)
+        for name, (side, _) in sides.items()
+    }
+    differ = trajectory.agreement(runs, K, trajectory.AGREEMENT)
+    assert set(differ) == set(sides)
+    assert len(differ) == (6 if harness.compiler() else 5)
+
+
+def test_the_peers_of_a_batch_take_the_steps_of_the_map():
+    state = batch.states(70)
+    runs = {name: partial(side, *state, batch.COMPARED) for name, (side, _) in batch.SIDES.items()}
+    differ = trajectory.agreement(runs, state[0], batch.AGREEMENT)
+    assert len(differ) == 4
+
+
+@pytest.mark.parametrize("part", [0, 1])
+def test_a_peer_that_is_a_little_wrong_is_seen(part):
+    state = trajectory.MOMENTUM, trajectory.GAMMA
+
+    def wrong():
+        ends = [x.copy() for x in state]
+        ends[part][0] += 2e-12
+        return ends
+
+    sides = {trajectory.CHAPSYM: lambda: state, "wrong": wrong}
+    with pytest.raises(bench.NotComparable, match="wrong differs from chapsym by 2"):
+        trajectory.agreement(sides, state[0], trajectory.AGREEMENT)
+
+
+def test_a_peer_that_ends_in_nan_is_seen():
+    state = trajectory.MOMENTUM, trajectory.GAMMA
+    sides = {trajectory.CHAPSYM: lambda: state, "wrong": lambda: (state[0] * np.nan, state[1])}
+    with pytest.raises(bench.NotComparable):
+        trajectory.agreement(sides, state[0], trajectory.AGREEMENT)
+
+
+@pytest.mark.parametrize(
+    "name", ["Python floats", "numba, Newton in q", "NumPy, arrays of 3, tuned", "NumPy, arrays of 3"]
+)
+def test_a_peer_that_does_not_converge_says_so(name):
+    """No rotation has such a momentum, so no iteration may settle."""
+    peer = trajectory.peers()[0][name][0]
+    with pytest.raises((bench.NotComparable, ValueError), match=r"converge|math domain"):
+        peer(50 * trajectory.MOMENTUM, trajectory.GAMMA, trajectory.MASS_TENSOR, trajectory.D, 3)
+
+
+def test_a_missing_compiler_is_said(monkeypatch):
+    without_compiler(monkeypatch)
+    sides, missing = trajectory.peers()
+    assert trajectory.C not in sides
+    assert missing == {trajectory.C: "no C compiler: neither CC nor cc, gcc or clang is there"}
+    assert harness.machine()["compiler"] == "none"
+
+
+def test_a_compiler_that_refuses_is_said(monkeypatch):
+    monkeypatch.setenv("CC", "false")
+    with pytest.raises(c_peer.NoCompiler, match="does not compile"):
+        c_peer.loop()
+
+
+def test_missing_packages_are_said(monkeypatch):
+    without(monkeypatch, "scipy", "heyoka")
+    found, missing = work_precision.methods(quick=True)
+    assert not [m.name for m in found if "SciPy" in m.name or "heyoka" in m.name]
+    assert missing == {
+        "SciPy DOP853, LSODA": "scipy is not installed (pip install 'chapsym[bench]')",
+        "heyoka.py": "heyoka is not installed (pip install 'chapsym[bench]')",
+    }
+
+
+@pytest.mark.parametrize(
+    ("peer", "control", "bound", "package"),
+    [
+        (continuous.dop853, 1e-10, 1e-8, "scipy"),
+        (continuous.lsoda, 1e-10, 1e-8, "scipy"),
+        (continuous.rk4, 2000, 1e-10, "numba"),
+        (continuous.taylor, 1e-12, 1e-12, "heyoka"),
+        (continuous.taylor_batch, 1e-12, 1e-12, "heyoka"),
+    ],
+)
+def test_the_integrators_solve_the_continuous_ball(peer, control, bound, package):
+    """Each within a hundred times what its control promises (RK4: (2/2000)⁴ and a generous constant)."""
+    pytest.importorskip(package)
+    exact = np.array([float(x) for x in continuous.reference(work_precision.STATE, 2.0)])
+    assert abs(peer(work_precision.STATE, 2.0, control) - exact).max() < bound
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_an_integrator_that_gives_up_is_no_comparison():
+    pytest.importorskip("scipy")
+    with pytest.raises(bench.NotComparable, match="LSODA fails at the tolerance 1e-16"):
+        continuous.lsoda(work_precision.STATE, 2.0, 1e-16)
+
+
+def test_the_map_tends_to_the_continuous_ball_with_order_2():
+    exact = np.array([float(x) for x in continuous.reference(work_precision.STATE, 2.0)])
+    coarse, fine = (abs(work_precision.the_map(work_precision.STATE, 2.0, n) - exact).max() for n in (200, 400))
+    assert coarse / fine == pytest.approx(4, rel=0.02)
+
+
+def test_the_reference_has_more_digits_than_what_is_judged():
+    y, columns = work_precision.STATE, continuous.COLUMNS
+    usual = continuous.reference(y, 2.0)
+    other = continuous.reference(y, 2.0, density=3, columns=columns - 2)
+    assert max(abs(a - b) for a, b in zip(usual, other, strict=True)) < 1e-22
+    rough = [continuous.reference(y, 2.0, density, columns=2) for density in (8, 16)]
+    errors = [float(max(abs(a - b) for a, b in zip(usual, r, strict=True))) for r in rough]
+    assert errors[0] / errors[1] == pytest.approx(2**4, rel=0.1)  # of order 2·columns
+
+
+def test_references_that_disagree_are_refused(monkeypatch):
+    without(monkeypatch, "heyoka")
+    monkeypatch.setattr(work_precision, "END", 2.0)
+    honest = continuous.reference
+    assert "another step and order" in work_precision.reference()[1]
+
+    def depends_on_its_step(y, end, density=continuous.DENSITY, columns=continuous.COLUMNS):
+        return [x + density * 2e-15 for x in honest(y, end, density, columns)]
+
+    monkeypatch.setattr(continuous, "reference", depends_on_its_step)
+    with pytest.raises(bench.NotComparable, match="differ by 2"):
+        work_precision.reference()
+
+
+def test_the_time_to_an_error_is_read_off_a_straight_line():
+    point = work_precision.Point
+    points = [point(n, n * 1e-6, n**-4.0, (0.0, 0.0, 0.0)) for n in (10, 100, 1000)]
+    assert work_precision.time_to(points, 1e-6) == pytest.approx(10**1.5 * 1e-6)
+    assert work_precision.time_to(points, 1.0) == points[0].seconds
+    assert work_precision.time_to(points, 1e-13) is None
+    # A finer run that is faster is what one would take.
+    assert work_precision.time_to([*points[:2], point(0, 1e-6, 1e-20, (0.0, 0.0, 0.0))], 1e-3) == 1e-6
+
+
+def test_steps_that_are_too_long_are_left_out():
+    exact = np.zeros(6)
+    method = work_precision.Method("map", work_precision.the_map, (3.0, 2500.0))
+    (point,) = work_precision.swept([method], exact, 1, lambda text: None)["map"]
+    assert point.control == 2500.0
+    assert point.error == pytest.approx(1, abs=0.1)  # the largest of K and γ themselves
+    assert max(point.integrals[:2]) < 1e-15
+
+
+def test_slopes_of_known_growths():
+    n = np.arange(100_001)
+    for power in (0.0, 0.5, 1.0):
+        where, means = long_runs.octaves(1e-16 * n**power, 1)
+        assert long_runs.slope(where, means) == pytest.approx(power, abs=1e-3)
+
+
+def test_the_loops_of_the_long_runs_take_the_steps_of_the_map():
+    K, g, J, D = long_runs.balls(1)[0]
+    ends = [run(0.05 * K, g, J, D, 200, 10) for run in long_runs.WAYS.values()]
+    for momenta, verticals in ends:
+        assert momenta.shape == verticals.shape == (21, 3)
+        assert abs(momenta - ends[-1][0]).max() < 0.05 * trajectory.AGREEMENT
+        assert abs(verticals - ends[-1][1]).max() < trajectory.AGREEMENT
+
+
+def test_the_integrals_of_the_top_are_integrals():
+    """⟨𝒦, J²𝒦⟩ is kept to roundings at D = 0, at a large ε too; ⟨𝒦, J𝒦⟩ is not, and it is not at D > 0."""
+    K, g, J, _ = long_runs.balls(2)[1]
+    momenta, verticals = long_runs.with_chapsym(0.4 * K, g, J, 0.0, 1000, 10)
+    assert abs(long_runs.integrals(momenta, verticals, J, 0.0)["energy, D = 0"]).max() < 1e-13
+    assert abs(long_runs.integrals(momenta, verticals, np.sqrt(J), 0.0)["energy, D = 0"]).max() > 1e-4
+    rolling = long_runs.with_chapsym(0.4 * K, g, J, 0.5, 1000, 10)
+    assert abs(long_runs.integrals(*rolling, J, 0.0)["energy, D = 0"]).max() > 1e-4
+
+
+def test_a_trajectory_allocates_what_it_keeps():
+    few = 101 * memory.BYTES_KEPT + memory.BESIDES
+    assert memory.peak_of_a_trajectory(20_000, 200) <= few
+    assert memory.peak_of_a_trajectory(20_000, 1) > few
+
+
+def test_the_peak_of_a_batch_is_that_of_its_process():
+    """A process that imports NumPy takes more than 10 MB; 10⁵ balls more cost them at least their 13 numbers each."""
+    small, large = memory.peak_of_a_batch(100, 2), memory.peak_of_a_batch(100_100, 2)
+    assert 10e6 < small < memory.GIGABYTE
+    assert large - small > 1e5 * 13 * 8
+
+
+def test_a_command_that_fails_is_not_timed(tmp_path):
+    with pytest.raises(RuntimeError, match=r"chapsym run fails: chapsym: .*absent"):
+        first_call.timed(("run", "absent.toml", "-o", "x.npz"), tmp_path)
+
+
+@pytest.mark.parametrize("section", bench.SECTIONS)
+def test_a_quick_look_runs_and_is_plain_data(section, monkeypatch):
+    if section == "long":  # the rest is quick as it is
+        monkeypatch.setattr(long_runs, "QUICK", (2000, 2))
+    said = []
+    found = bench.run(section, True, said.append)
+    data = json.loads(json.dumps(bench.as_json({section: found}, True), allow_nan=False))
+    assert set(data) == {"machine", "quick", "sections"}
+    assert {"cpu", "cores", "compiler", "versions"} <= set(data["machine"])
+    assert {"numpy", "numba"} <= set(data["machine"]["versions"])
+    part = data["sections"][section]
+    assert set(part) == {"title", "rows", "missing", "reach", "curves", "notes"}
+    assert len({tuple(row) for row in part["rows"]}) == 1, "the rows of a table have the same columns"
+    assert all(set(r) == {"what", "value", "wanted", "at_least", "met"} for r in part["reach"])
+    assert part["reach"] or "heyoka.py" in part["missing"]
+    assert bool(part["curves"]) == (section in figure.AXES)
+    assert said
+
+
+def test_what_is_reached():
+    assert bench.Reached("x", 2.0, 2.0, True).met
+    assert not bench.Reached("x", 1.9, 2.0, True).met
+    assert bench.Reached("x", 1.9, 2.0, False).met
+    assert not bench.Reached("x", 2.1, 2.0, False).met
+
+
+def test_the_figure_has_a_panel_for_each_group_of_curves():
+    pytest.importorskip("matplotlib")
+    curves = [bench.Curve(panel, label, [1.0, 10.0], [1e-3, 0.0]) for panel in "pq" for label in ("chapsym", "other")]
+    drawn = figure.draw({"long": result("drifts", curves=curves), "memory": result("memory")})
+    titles = [axis.get_title() for axis in drawn.get_axes() if axis.get_visible()]
+    assert titles == ["p", "q"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        (["nonsense"], "there is no section 'nonsense'; there are trajectory, batch, memory"),
+        (["long", "-o", "x.txt"], "'x.txt': a figure must end in .svg, .png, .pdf"),
+        (["memory", "-o", "x.svg"], "only work-precision and long have a figure"),
+        (["long", "-o", "absent/x.svg"], "the folder absent does not exist"),
+    ],
+)
+def test_what_cannot_be_measured_is_said_before_measuring(arguments, sentence, tmp_path):
+    done = subprocess.run([*COMMAND, *arguments], capture_output=True, text=True, check=False, cwd=tmp_path, timeout=60)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert sentence in done.stderr
+    assert done.stderr.count("\n") == 1
+
+
+def test_the_command_prints_json_or_a_table(tmp_path):
+    wanted = [*COMMAND, "trajectory", "--quick"]
+    done = subprocess.run([*wanted, "--json"], capture_output=True, text=True, check=True)
+    assert list(json.loads(done.stdout)["sections"]) == ["trajectory"]
+    shown = subprocess.run(wanted, capture_output=True, text=True, check=True).stdout
+    assert "numba, Newton in q" in shown
+    assert "wanted: at least 3.5" in shown
+    assert f"chapsym {chapsym.__version__}" in shown
+
+
+def test_a_kernel_is_the_same_in_c():
+    """What is written alike in both languages, and nothing else, is translated."""
+
+    def kernel(a, b):
+        """Doc."""
+        s = 2 / (a * a + b)
+        o_x = -s * (a - b)
+        return s, o_x
+
+    assert c_peer.in_c(kernel).splitlines() == [
+        "static inline void kernel(double a, double b, double *out) {",
+        "    const double s = 2 / (a * a + b);",
+        "    const double o_x = -s * (a - b);",
+        "    out[0] = s;",
+        "    out[1] = o_x;",
+        "}",
+    ]
+
+    def bent(a):
+        """Doc."""
+        return a if a > 0 else -a
+
+    with pytest.raises(TypeError, match="bent has a statement that is no assignment"):
+        c_peer.in_c(bent)
+
+
+def test_the_loop_in_c_restores_the_integrals():
+    """10⁵ steps of compensated sums, restored: |𝒦|² and ⟨𝒦,γ⟩ within the roundings of the last state."""
+    if harness.compiler() is None:
+        pytest.skip("no C compiler")
+    K, g, J = 0.05 * trajectory.MOMENTUM, trajectory.GAMMA, trajectory.MASS_TENSOR
+    last, vertical = c_peer.loop()(K, g, J, trajectory.D, 100_000)
+    for a, b, c, d in ((last, last, K, K), (last, vertical, K, g), (vertical, vertical, g, g)):
+        size = np.linalg.norm(c) * np.linalg.norm(d)
+        assert abs(a @ b - c @ d) < 4 * 2.0**-53 * size
