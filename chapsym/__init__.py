@@ -15,13 +15,10 @@ if TYPE_CHECKING:
         BadInput,
         Ball,
         BallN,
-<<<<<<< HEAD
         ComposedTrajectory,
-        NotRetraced,
-=======
         Curve,
         ExactTop,
->>>>>>> 593005f1abbe72b62bda8d1703f1409bc56906d5
+        NotRetraced,
         Status,
         Step,
         StepN,
@@ -30,13 +27,10 @@ if TYPE_CHECKING:
         TrajectoryN,
         VerticalTrajectory,
         axial,
-<<<<<<< HEAD
         compose_step,
         composed_trajectory,
-=======
         exact_top,
         increment,
->>>>>>> 593005f1abbe72b62bda8d1703f1409bc56906d5
         invariants_n,
         retrace_error,
         reverse,
@@ -45,11 +39,8 @@ if TYPE_CHECKING:
         skew,
         step,
         step_n,
-<<<<<<< HEAD
-        substeps,
-=======
         step_vertical,
->>>>>>> 593005f1abbe72b62bda8d1703f1409bc56906d5
+        substeps,
         trajectory,
         trajectory_n,
         trajectory_vertical,
@@ -58,15 +49,10 @@ if TYPE_CHECKING:
 __version__ = "0.1.0"
 
 __all__ = [
-<<<<<<< HEAD
-    "BadInput", "Ball", "BallN", "ComposedTrajectory", "NotRetraced", "Status", "Step", "StepN", "StepNotTaken",
-    "Trajectory", "TrajectoryN", "axial", "compose_step", "composed_trajectory", "invariants_n", "retrace_error",
-    "reverse", "reverse_n", "roll", "skew", "step", "step_n", "substeps", "trajectory", "trajectory_n",
-=======
-    "BadInput", "Ball", "BallN", "Curve", "ExactTop", "Status", "Step", "StepN", "StepNotTaken", "Trajectory",
-    "TrajectoryN", "VerticalTrajectory", "axial", "exact_top", "increment", "invariants_n", "reverse_n", "roll", "skew",
-    "step", "step_n", "step_vertical", "trajectory", "trajectory_n", "trajectory_vertical",
->>>>>>> 593005f1abbe72b62bda8d1703f1409bc56906d5
+    "BadInput", "Ball", "BallN", "ComposedTrajectory", "Curve", "ExactTop", "NotRetraced", "Status", "Step", "StepN",
+    "StepNotTaken", "Trajectory", "TrajectoryN", "VerticalTrajectory", "axial", "compose_step",
+    "composed_trajectory", "exact_top", "increment", "invariants_n", "retrace_error", "reverse", "reverse_n", "roll",
+    "skew", "step", "step_n", "step_vertical", "substeps", "trajectory", "trajectory_n", "trajectory_vertical",
 ]  # fmt: skip
 
 

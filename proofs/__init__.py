@@ -22,11 +22,8 @@ SCRIPTS = (
     "s5_reduced_map",
     "s6_remarks",
     "map_gibbs",
-<<<<<<< HEAD
     "map_self_adjoint",
-=======
     "map_vertical",
->>>>>>> 593005f1abbe72b62bda8d1703f1409bc56906d5
 )
 
 #: The claims of the paper that need a verdict, in its order: each has a proof in one of the scripts.
@@ -46,10 +43,6 @@ CLAIMS = (
 
 #: What the paper does not say and the map of chapsym rests on: judged like its claims, by name, outside its register.
 LEMMAS = (
-<<<<<<< HEAD
-    "gibbs", "gibbs-newton", "gibbs-rotation", "small-branch",
-    "self-adjoint", "reversible", "momentum-integrals-composed",
-=======
-    "gibbs", "gibbs-newton", "gibbs-rotation", "small-branch", "vertical-rotation", "vertical-level", "vertical-top", "top-commutes",
->>>>>>> 593005f1abbe72b62bda8d1703f1409bc56906d5
+    "gibbs", "gibbs-newton", "gibbs-rotation", "small-branch", "self-adjoint", "reversible",
+    "momentum-integrals-composed", "vertical-rotation", "vertical-level", "vertical-top", "top-commutes",
 )  # fmt: skip

@@ -1,8 +1,22 @@
-"""The map in float64: step, trajectory, compositions of higher order, the way back; in three dimensions and in n."""
+"""The map: one ball or many, three dimensions or n, its branches, compositions and reductions."""
 
 from .ball import Ball
 from .ball_n import BallN, axial, skew
+from .coefficients import substeps
+from .composition import ComposedTrajectory, compose_step, composed_trajectory
+from .elliptic import Curve, increment
+from .errors import BadInput, Status, StepNotTaken
+from .exact import ExactTop, exact_top
+from .general import StepN, step_n
+from .map import Step, step
+from .reversal import NotRetraced, retrace_error, reverse
+from .trajectories import Trajectory, roll, trajectory
+from .trajectories_n import TrajectoryN, invariants_n, reverse_n, trajectory_n
+from .vertical import VerticalTrajectory, step_vertical, trajectory_vertical
 
 __all__ = [
-    "Ball", "BallN", "axial", "skew",
+    "BadInput", "Ball", "BallN", "ComposedTrajectory", "Curve", "ExactTop", "NotRetraced", "Status", "Step", "StepN",
+    "StepNotTaken", "Trajectory", "TrajectoryN", "VerticalTrajectory", "axial", "compose_step",
+    "composed_trajectory", "exact_top", "increment", "invariants_n", "retrace_error", "reverse", "reverse_n", "roll",
+    "skew", "step", "step_n", "step_vertical", "substeps", "trajectory", "trajectory_n", "trajectory_vertical",
 ]  # fmt: skip
