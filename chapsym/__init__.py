@@ -15,7 +15,6 @@ if TYPE_CHECKING:
         BadInput,
         Ball,
         BallN,
-        ComposedTrajectory,
         Curve,
         ExactTop,
         NotRetraced,
@@ -28,7 +27,6 @@ if TYPE_CHECKING:
         VerticalTrajectory,
         axial,
         compose_step,
-        composed_trajectory,
         exact_top,
         increment,
         invariants_n,
@@ -49,10 +47,10 @@ if TYPE_CHECKING:
 __version__ = "0.1.0"
 
 __all__ = [
-    "BadInput", "Ball", "BallN", "ComposedTrajectory", "Curve", "ExactTop", "NotRetraced", "Status", "Step", "StepN",
-    "StepNotTaken", "Trajectory", "TrajectoryN", "VerticalTrajectory", "axial", "compose_step",
-    "composed_trajectory", "exact_top", "increment", "invariants_n", "retrace_error", "reverse", "reverse_n", "roll",
-    "skew", "step", "step_n", "step_vertical", "substeps", "trajectory", "trajectory_n", "trajectory_vertical",
+    "BadInput", "Ball", "BallN", "Curve", "ExactTop", "NotRetraced", "Status", "Step", "StepN", "StepNotTaken",
+    "Trajectory", "TrajectoryN", "VerticalTrajectory", "axial", "compose_step", "exact_top", "increment",
+    "invariants_n", "retrace_error", "reverse", "reverse_n", "roll", "skew", "step", "step_n", "step_vertical",
+    "substeps", "trajectory", "trajectory_n", "trajectory_vertical",
 ]  # fmt: skip
 
 

@@ -3,7 +3,7 @@
 from .ball import Ball
 from .ball_n import BallN, axial, skew
 from .coefficients import substeps
-from .composition import ComposedTrajectory, compose_step, composed_trajectory
+from .composition import compose_step
 from .elliptic import Curve, increment
 from .errors import BadInput, Status, StepNotTaken
 from .exact import ExactTop, exact_top
@@ -15,8 +15,8 @@ from .trajectories_n import TrajectoryN, invariants_n, reverse_n, trajectory_n
 from .vertical import VerticalTrajectory, step_vertical, trajectory_vertical
 
 __all__ = [
-    "BadInput", "Ball", "BallN", "ComposedTrajectory", "Curve", "ExactTop", "NotRetraced", "Status", "Step", "StepN",
-    "StepNotTaken", "Trajectory", "TrajectoryN", "VerticalTrajectory", "axial", "compose_step",
-    "composed_trajectory", "exact_top", "increment", "invariants_n", "retrace_error", "reverse", "reverse_n", "roll",
-    "skew", "step", "step_n", "step_vertical", "substeps", "trajectory", "trajectory_n", "trajectory_vertical",
+    "BadInput", "Ball", "BallN", "Curve", "ExactTop", "NotRetraced", "Status", "Step", "StepN", "StepNotTaken",
+    "Trajectory", "TrajectoryN", "VerticalTrajectory", "axial", "compose_step", "exact_top", "increment",
+    "invariants_n", "retrace_error", "reverse", "reverse_n", "roll", "skew", "step", "step_n", "step_vertical",
+    "substeps", "trajectory", "trajectory_n", "trajectory_vertical",
 ]  # fmt: skip

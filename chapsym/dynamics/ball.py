@@ -29,21 +29,24 @@ def numbers(value: ArrayLike, name: str, trailing: int | None = None) -> Floats:
 
 
 def _as_float(value: ArrayLike, name: str) -> Floats:
-    wrong = BadInput(f"{name} must be real numbers, not {_brief(value)}")
     try:
         array = np.asarray(value)
     except ValueError:  # rows of different length
-        raise wrong from None
+        raise _not_numbers(value, name) from None
     if np.ma.is_masked(value) or array.dtype.kind not in "iufO":
-        raise wrong
+        raise _not_numbers(value, name)
     if array.dtype.kind == "O" and not all(isinstance(x, Number) and not isinstance(x, complex) for x in array.flat):
-        raise wrong
+        raise _not_numbers(value, name)
     try:
         return array.astype(np.float64)
     except OverflowError:
         raise BadInput(f"{name} is beyond the range of float64, about 1.8e308") from None
     except (TypeError, ValueError):
-        raise wrong from None
+        raise _not_numbers(value, name) from None
+
+
+def _not_numbers(value: Any, name: str) -> BadInput:
+    return BadInput(f"{name} must be real numbers, not {_brief(value)}")
 
 
 def _brief(value: Any) -> str:

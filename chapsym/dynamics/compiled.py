@@ -20,14 +20,15 @@ from numba.extending import register_jitable
 
 import chapsym.generated as generated
 
-from . import block, branch, gibbs, integrals, loop
+from . import block, branch, composed_loop, gibbs, integrals, loop, vertical_loop
 
 #: What the compiled code is made of.
-SOURCES = (generated, branch, gibbs, integrals, loop, block)
+SOURCES = (generated, branch, gibbs, integrals, loop, block, composed_loop, vertical_loop)
 #: The functions on the way of every step: a call would cost more than they do.
 INLINED = {
     *(generated.gibbs_newton, generated.gibbs_second, generated.turn),
     *(gibbs.newton_round, gibbs.second_round, gibbs.settle, loop.three, loop.put),
+    *(composed_loop.extrapolated, composed_loop.turned_with),
     *(block.predicted, block.corrected, block.turned, block.added, block.extrapolated),
 }
 
@@ -89,12 +90,11 @@ def _announce() -> None:
 
 
 @cache
-def compiled(name: str) -> Callable[..., Any]:
-    """The compiled version of a function of `loop` or `block`; it is compiled when it is first called."""
-    module = block if name in vars(block) and not hasattr(loop, name) else loop
-    folder = cache_folder()
-    if not any(folder.glob(f"*/{module.__name__.rpartition('.')[2]}.{name}-*.nbi")):
+def compiled(function: Callable[..., Any]) -> Callable[..., Any]:
+    """The compiled version of a function of one of the `SOURCES`; it is compiled when it is first called."""
+    folder, module = cache_folder(), function.__module__.rpartition(".")[2]
+    if not any(folder.glob(f"*/{module}.{function.__name__}-*.nbi")):
         _announce()
     _registered()
     with _caching_in(folder):
-        return numba.njit(cache=True, error_model="numpy", nogil=True)(getattr(module, name))
+        return numba.njit(cache=True, error_model="numpy", nogil=True)(function)

@@ -9,7 +9,7 @@ from chapsym.generated import turn
 
 from .gibbs import settle
 from .integrals import PERIOD, restore
-from .loop import CONTRACTION, RADIUS, D, G, I, K, X, follow_body, put, safe_rotation, three
+from .loop import ENOUGH, RADIUS, D, G, I, K, X, follow_body, prepare, put, safe_rotation, three
 
 #: The polynomial through the last 8 Gibbs vectors, as a filter.
 WEIGHTS = (8.0, -28.0, 56.0, -70.0, 56.0, -28.0, 8.0, -1.0)
@@ -35,10 +35,18 @@ def turned_with(p0, p1, p2, p3, state, at, rest):
     put(state, at, w1, w2, w3)
 
 
-def composed_step(state, c, radius, contraction, past, with_body, attitude, contact, rho):
+def prepare_composed(momentum, g, tensor, contact, c, state, radius, enough):
+    """`prepare` of `loop`, and the certificate of the momentum of each stage into radius and enough, (s,)."""
+    for i in range(c.shape[0]):
+        prepare(c[i] * momentum, g, tensor, contact, state)
+        radius[i], enough[i] = state[RADIUS], state[ENOUGH]
+    return prepare(momentum, g, tensor, contact, state)
+
+
+def composed_step(state, c, radius, enough, past, with_body, attitude, contact, rho):
     """All stages of one step of the ball in `state` (ROWS), in place.
 
-    c, radius², contraction²: of the stages, (s,); past: their filters, (s, 8, 3).  Returns (status, reach).  Where a
+    c, radius², enough: of the stages, (s,); past: their filters, (s, 8, 3).  Returns (status, reach).  Where a
     stage is not taken, the state is left with its momentum and its vertical.
     """
     for i in range(c.shape[0]):
@@ -47,11 +55,11 @@ def composed_step(state, c, radius, contraction, past, with_body, attitude, cont
         I1, I2, I3 = three(state, I)
         settled, p0, p1, p2, p3, w1, w2, w3 = settle(
             past[i, 0, 0], past[i, 0, 1], past[i, 0, 2], c[i] * k1, c[i] * k2, c[i] * k3, g1, g2, g3,
-            I1, I2, I3, state[D], radius[i], contraction[i],
+            I1, I2, I3, state[D], radius[i], enough[i],
         )  # fmt: skip
         if not settled:
             put(state, K, c[i] * k1, c[i] * k2, c[i] * k3)
-            state[RADIUS], state[CONTRACTION] = radius[i], contraction[i]
+            state[RADIUS], state[ENOUGH] = radius[i], enough[i]
             status, reach, p0, p1, p2, p3, w1, w2, w3 = safe_rotation(w1, w2, w3, state)
             if status != 0:
                 return status, reach
@@ -65,13 +73,13 @@ def composed_step(state, c, radius, contraction, past, with_body, attitude, cont
 
 
 def march_composed(
-    state, c, radius, contraction, past, first, count, every, scale,
+    state, c, radius, enough, past, first, count, every, scale,
     momenta, verticals, with_body, attitude, contact, rho, attitudes, traces,
 ):  # fmt: skip
     """`march` of `loop`, each step a composition with the stage coefficients c.  Returns (taken, status, reach)."""
     period = max(1, PERIOD // c.shape[0])
     for step in range(first + 1, first + count + 1):
-        status, reach = composed_step(state, c, radius, contraction, past, with_body, attitude, contact, rho)
+        status, reach = composed_step(state, c, radius, enough, past, with_body, attitude, contact, rho)
         if status != 0:
             return step - 1 - first, status, reach
         if step % period == 0:

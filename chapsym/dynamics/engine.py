@@ -2,14 +2,15 @@
 
 import os
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass
 
 import numpy as np
 
-from . import block, loop
+from . import block, composed_loop, loop
 from .ball import Floats
+from .coefficients import substeps
 from .errors import Status
 from .map import explain
 
@@ -19,6 +20,9 @@ SHORT_RUN = 2000
 FEW = 8
 #: Steps of a ball, or of all balls of a block together, between two calls of `progress`: about ten milliseconds.
 CHUNK = 200_000
+#: The loops that are compiled and loaded already, and the lock of those that are being.
+_ready: set[Callable] = set()
+_loading = threading.Lock()
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,20 +69,20 @@ class _Count:
             self._progress(self._done)
 
 
-def run(balls: Balls, steps: int, every: int, frames: Frames, progress: Callable[[int], None], threads: int) -> None:
+def run(
+    balls: Balls, steps: int, every: int, frames: Frames, order: int, threads: int, progress: Callable[[int], None]
+) -> None:
     """Takes `steps` steps of every ball into `frames`; `progress` is called with the steps of all balls together.
 
-    threads: how many cores to use; 0 for all that there are.
+    order: of the composition, 2 for the map itself.  threads: how many cores to use; 0 for all that there are.
     """
-    count, n = _Count(progress), len(balls)
+    count, n, stages = _Count(progress), len(balls), substeps(order)
     if steps == 0 or n == 0:
         return
-    if steps * n < SHORT_RUN:
-        for i in range(n):
-            _run_one(balls, i, steps, every, frames, count, False)
-        return
-    in_blocks = n >= FEW and not frames.with_body
-    _compile("march_block" if in_blocks else "march")  # before there are threads
+    work = steps * n * len(stages)
+    in_blocks = n >= FEW and not frames.with_body and order == 2 and work >= SHORT_RUN
+    if in_blocks:
+        chosen((block.march_block, loop.prepare), work)  # before there are threads
     width = block.LANES if in_blocks else 1
     starts = range(0, n, width)
 
@@ -86,14 +90,30 @@ def run(balls: Balls, steps: int, every: int, frames: Frames, progress: Callable
         if in_blocks:
             _run_block(balls, slice(start, min(n, start + width)), steps, every, frames, count)
         else:
-            _run_one(balls, start, steps, every, frames, count, True)
+            _run_one(balls, start, steps, every, frames, stages, work, count)
 
-    workers = min(threads or os.cpu_count() or 1, len(starts))
+    workers = min(threads or _cores(), len(starts)) if work >= SHORT_RUN else 1
     if workers == 1:
         for start in starts:
             task(start)
         return
     _share(task, starts, workers, count)
+
+
+def chosen(functions: Sequence[Callable], work: int) -> list[Callable]:
+    """The functions compiled, or as they are where compiling or loading them would take longer than `work` steps."""
+    if work < SHORT_RUN and functions[0] not in _ready:
+        return list(functions)
+    from .compiled import compiled
+
+    with _loading:
+        _ready.add(functions[0])
+        return [compiled(function) for function in functions]
+
+
+def _cores() -> int:
+    """The cores that this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def _share(task: Callable[[int], None], starts: range, workers: int, count: _Count) -> None:
@@ -109,37 +129,45 @@ def _share(task: Callable[[int], None], starts: range, workers: int, count: _Cou
             raise
 
 
-def _compile(name: str) -> Callable:
-    from .compiled import compiled
-
-    return compiled(name)
-
-
 def _run_one(
-    balls: Balls, i: int, steps: int, every: int, frames: Frames, count: _Count, fast: bool
-) -> None:  # fmt: skip
-    march, prepare = (_compile("march"), _compile("prepare")) if fast else (loop.march, loop.prepare)
-    state, spot = np.zeros(loop.ROWS), np.zeros(2)
+    balls: Balls, i: int, steps: int, every: int, frames: Frames, stages: Floats, work: int, count: _Count
+) -> None:
     K, g, J, D = balls.momentum[i], balls.gamma[i], balls.mass_tensor[i], float(balls.D[i])
-    scale = prepare(K, g, J, D, state)
+    march, state, scale = _under_way(K, g, J, D, stages, work)
     attitude = frames.attitude[i, 0].copy() if frames.with_body else np.zeros(4)
-    for first in range(0, steps, CHUNK):
-        chunk = min(CHUNK, steps - first)
+    spot = np.zeros(2)
+    chunk = max(1, CHUNK // len(stages))
+    for first in range(0, steps, chunk):
+        now = min(chunk, steps - first)
         went, frames.status[i], frames.reach[i] = march(
-            state, first, chunk, every, scale, frames.momentum[i], frames.gamma[i],
+            *state, first, now, every, scale, frames.momentum[i], frames.gamma[i],
             frames.with_body, attitude, spot, float(balls.radius[i]), frames.attitude[i], frames.contact[i],
         )  # fmt: skip
         frames.taken[i] += went
-        count.add(chunk)
+        count.add(now)
         if count.stopped:
             return
         if frames.status[i] != Status.TAKEN:
-            frames.status[i] = explain(frames.status[i], scale * state[:3], state[3:6], J, D)
+            frames.status[i] = explain(frames.status[i], scale * state[0][:3], state[0][3:6], J, D)
             return
 
 
+def _under_way(
+    K: Floats, g: Floats, J: Floats, D: float, stages: Floats, work: int
+) -> tuple[Callable, list[Floats], float]:
+    """The loop for one ball, the state that it takes, and the scale with 𝒦 = scale·k."""
+    state = np.zeros(loop.ROWS)
+    if len(stages) == 1:
+        march, prepare = chosen((loop.march, loop.prepare), work)
+        return march, [state], prepare(K, g, J, D, state)
+    march, prepare = chosen((composed_loop.march_composed, composed_loop.prepare_composed), work)
+    bounds, past = np.zeros((2, len(stages))), np.zeros((len(stages), 8, 3))
+    scale = prepare(K, g, J, D, stages, state, *bounds)
+    return march, [state, stages, *bounds, past], scale
+
+
 def _run_block(balls: Balls, which: slice, steps: int, every: int, frames: Frames, count: _Count) -> None:
-    march, prepare = _compile("march_block"), _compile("prepare")
+    march, prepare = chosen((block.march_block, loop.prepare), SHORT_RUN)
     n = which.stop - which.start
     state, scale, one = np.zeros((loop.ROWS, block.LANES)), np.zeros(n), np.zeros(loop.ROWS)
     for lane in range(block.LANES):

@@ -97,7 +97,7 @@ def advance_all(K: Floats, g: Floats, J: Floats, D: Floats, q: Floats, status: n
         return
     from .compiled import compiled
 
-    compiled("advance_all")(K, g, J, D, q, status, reach)
+    compiled(loop.advance_all)(K, g, J, D, q, status, reach)
 
 
 def explain(status: int, K: Floats, g: Floats, J: Floats, D: float) -> Status:

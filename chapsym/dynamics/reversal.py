@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from .ball import Ball, Floats
-from .composition import ComposedTrajectory, compose_step, composed_trajectory
+from .composition import compose_step
 from .errors import BadInput
 from .map import step
 from .trajectories import Trajectory, trajectory
@@ -59,8 +59,9 @@ def reverse(run: Trajectory) -> Trajectory:
     if np.isnan(run.momentum).any():
         raise BadInput("a ball of the batch stopped early; choose the frames up to `taken` first")
     options: dict[str, Any] = {"every": every, "contact": run.contact is not None, "time_step": run.time_step}
+    options["order"] = run.order
     options["attitude"] = False if run.attitude is None else run.attitude[..., -1, :]
-    back = _run(run.ball, -run.momentum[..., -1, :], run.gamma[..., -1, :], steps, _order(run), options)
+    back = trajectory(run.ball, -run.momentum[..., -1, :], run.gamma[..., -1, :], steps, **options)
     if run.contact is not None and back.contact is not None:
         back.contact[...] += run.contact[..., -1:, :]
     strayed = _strayed(run, retrace_error(run, back))
@@ -91,16 +92,6 @@ def _frames(run: Trajectory) -> tuple[int, int]:
     return int(run.index[-1] - run.index[0]), int(run.index[1] - run.index[0])
 
 
-def _order(run: Trajectory) -> int:
-    return run.order if isinstance(run, ComposedTrajectory) else 2
-
-
-def _run(ball: Ball, K: Floats, g: Floats, steps: int, order: int, options: dict[str, Any]) -> Trajectory:
-    if order == 2:
-        return trajectory(ball, K, g, steps, **options)
-    return composed_trajectory(ball, K, g, steps, order=order, **options)
-
-
 def _strayed(run: Trajectory, error: Floats) -> list[tuple[tuple[int, ...], int]]:
     """(ball, step) for each ball with a step that the small rotation back does not undo.
 
@@ -121,8 +112,8 @@ def _last_not_undone(run: Trajectory, which: tuple[int, ...], frame: int) -> int
     tensor = np.broadcast_to(run.ball.mass_tensor, (*leading, 3))[which]
     ball = Ball(tensor, np.broadcast_to(run.ball.D, leading)[which])
     between = _frames(run)[1]
-    there = _run(ball, run.momentum[which][frame], run.gamma[which][frame], between, _order(run), {})
+    there = trajectory(ball, run.momentum[which][frame], run.gamma[which][frame], between, order=run.order)
     ends = ball, -there.momentum[1:], there.gamma[1:]
-    back = step(*ends) if _order(run) == 2 else compose_step(*ends, _order(run))
+    back = step(*ends) if run.order == 2 else compose_step(*ends, run.order)
     off = ~(np.abs(back.gamma - there.gamma[:-1]).max(axis=-1) <= FAR)
     return int(np.flatnonzero(off).max()) if off.any() else None

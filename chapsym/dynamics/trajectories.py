@@ -28,6 +28,7 @@ class Trajectory:
     taken: the number of steps that were taken, (...); frames after it are NaN.
     status: why a ball stopped, a `Status`, (...).
     time_step: ε in seconds, if the run has one.
+    order: of the composition that made the steps; 2 for the map itself.
     """
 
     ball: Ball
@@ -39,6 +40,7 @@ class Trajectory:
     taken: np.ndarray
     status: np.ndarray
     time_step: float | None = None
+    order: int = 2
 
     @property
     def time(self) -> Floats:
@@ -73,6 +75,8 @@ def attitude_with(gamma: Floats) -> Floats:
     """The attitude of the least rotation for which γ is vertical, R γ = e₃, shape (..., 4)."""
     x, y, z = gamma[..., 0], gamma[..., 1], gamma[..., 2]
     zero = np.zeros_like(z)
+    # Components that are so small that their squares vanish are nothing beside a half turn.
+    x, y = (np.where(np.abs(v) < 1e-150, 0.0, v) for v in (x, y))
     upper = np.stack([1 + z, y, -x, zero], axis=-1)
     # Upside down, the axis of the half turn is free: take e₁.  1 + z cancels there, so use x² + y² = (1-z)(1+z).
     rounded = np.stack([(x * x + y * y) / (1 - np.where(z < 0, z, 0)), y, -x, zero], axis=-1)
@@ -107,6 +111,7 @@ def trajectory(
     gamma: ArrayLike,
     steps: int,
     *,
+    order: int = 2,
     every: int = 1,
     attitude: bool | ArrayLike = False,
     contact: bool = False,
@@ -117,6 +122,9 @@ def trajectory(
     """Takes `steps` steps of the map on the small-rotation branch and keeps every `every`-th state.
 
     momentum, gamma: as for `step`; both broadcast with the balls.
+    order: 2, or 4, 6, 8 for a symmetric composition of the map with stages cᵢ𝒦 (`substeps`): 𝒦, γ, the attitude and
+    the contact point then converge with that order to those of the continuous ball (2.3), and the momentum integrals
+    stay exact.
     attitude: True (from the least rotation with R γ = e₃) or unit quaternions, (..., 4), to be followed.
     contact: whether to trace the contact point; it needs `ball.radius`, and implies the attitude.
     threads: how many cores a batch may use; 0 for all.
@@ -147,7 +155,7 @@ def trajectory(
         traces[:, 0] = 0.0
     taken, status, reach = np.zeros(balls, dtype=np.int64), np.zeros(balls, dtype=np.int64), np.ones(balls)
     frame = Frames(momenta, verticals, attitudes, traces, taken, status, reach, with_body)
-    engine.run(Balls(K, g, J, D, radius), steps, every, frame, progress, threads)
+    engine.run(Balls(K, g, J, D, radius), steps, every, frame, order, threads, progress)
     result = Trajectory(
         ball,
         np.arange(frames) * every,
@@ -158,6 +166,7 @@ def trajectory(
         taken.reshape(shape),
         status.reshape(shape),
         time_step,
+        order,
     )
     if not shape and status[0] != Status.TAKEN:
         raise StepNotTaken(Status(int(status[0])), float(reach[0]), int(taken[0]), _up_to(result, int(taken[0])))
@@ -171,7 +180,7 @@ def _up_to(whole: Trajectory, taken: int) -> Trajectory:
     contact = None if whole.contact is None else whole.contact[kept]
     return Trajectory(
         whole.ball, whole.index[kept], whole.momentum[kept], whole.gamma[kept], attitude, contact,
-        whole.taken, whole.status, whole.time_step,
+        whole.taken, whole.status, whole.time_step, whole.order,
     )  # fmt: skip
 
 
@@ -195,6 +204,7 @@ def roll(
     steps: int,
     *,
     gamma: ArrayLike = (0.0, 0.0, 1.0),
+    order: int = 2,
     every: int = 1,
     attitude: bool | Literal[True] | ArrayLike = False,
     contact: bool = False,
@@ -213,6 +223,6 @@ def roll(
     batch(ball, spin, vertical)  # so that a mistake is told in the names of this function
     momentum = epsilon * front.contact_momentum(spin, vertical, ball.mass_tensor, ball.D)
     return trajectory(
-        ball, momentum, vertical, steps, every=every, attitude=attitude, contact=contact,
+        ball, momentum, vertical, steps, order=order, every=every, attitude=attitude, contact=contact,
         time_step=epsilon, threads=threads, progress=progress,
     )  # fmt: skip

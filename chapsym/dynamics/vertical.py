@@ -1,21 +1,16 @@
 """The reduced map G_h on the sphere: vertical momentum 𝒦 = hγ (Section 5), where the state is γ alone."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cache
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from . import gibbs, vertical_loop
 from .ball import Ball, Floats, numbers
+from .engine import chosen
 from .errors import BadInput, Status, StepNotTaken
 from .map import Step, batch, explain, unit_vertical
 from .trajectories import _count
-
-#: Shorter runs than this many steps in all are taken in plain Python: compiling would take longer.
-SHORT_RUN = 2000
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,7 +50,7 @@ def step_vertical(ball: Ball, height: ArrayLike, gamma: ArrayLike) -> Step:
     g, J, D, h = flat
     q, verticals = np.full((len(D), 4), np.nan), np.zeros((1, 3))
     status, reach = np.zeros(len(D), dtype=np.int64), np.ones(len(D))
-    march = _march_for(len(D))
+    (march,) = chosen((vertical_loop.march,), len(D))
     for i in range(len(D)):
         _, status[i], reach[i] = march(*_scaled(g[i], J[i], D[i], h[i]), 0, 1, 2, verticals, q[i])
     failed = status != Status.TAKEN
@@ -90,7 +85,7 @@ def trajectory_vertical(
         raise BadInput(f"{frames} frames of {len(D)} balls do not fit into memory; keep fewer with every=") from None
     verticals[:, 0] = g
     taken, status, reach = np.zeros(len(D), dtype=np.int64), np.zeros(len(D), dtype=np.int64), np.ones(len(D))
-    march, q = _march_for(steps * len(D)), np.zeros(4)
+    (march,), q = chosen((vertical_loop.march,), steps * len(D)), np.zeros(4)
     for i in range(len(D)):
         taken[i], status[i], reach[i] = march(*_scaled(g[i], J[i], D[i], h[i]), 0, steps, every, verticals[i], q)
         if status[i] != Status.TAKEN:
@@ -125,27 +120,8 @@ def _scaled(g: Floats, J: Floats, D: float, h: float) -> tuple[Floats, Floats, F
     with np.errstate(over="ignore"):
         tensor, contact, height = np.ldexp(J, -exponent), float(np.ldexp(D, -exponent)), float(np.ldexp(h, -exponent))
     moments = np.array([tensor[1] + tensor[2], tensor[0] + tensor[2], tensor[0] + tensor[1]])
-    radius, contraction = gibbs.certificate(0.5 * height, 0.0, 0.0, *map(float, moments))
+    first, second, third = map(float, moments)
+    radius, enough = gibbs.certificate(0.5 * height, 0.0, 0.0, first, second, third, contact)
     if 0.0 < abs(height) < vertical_loop.SMALLEST or moments.min() < vertical_loop.SMALLEST:
         radius = -1.0  # products of three or four such numbers would underflow: every step takes the safe way
-    return g, tensor, moments, contact, height, radius, contraction
-
-
-def _march_for(steps: int) -> Callable[..., Any]:
-    return vertical_loop.march if steps < SHORT_RUN else _compiled_march()
-
-
-@cache
-def _compiled_march() -> Callable[..., Any]:
-    """`march`, compiled by numba; the cache folder is named by all that it calls, and numba looks at its own file."""
-    import numba
-    from numba.extending import register_jitable
-
-    from . import compiled
-
-    compiled._registered()
-    for function in (vertical_loop.level_root, vertical_loop.safe_rotation):
-        register_jitable(error_model="numpy")(function)
-    with compiled._caching_in(compiled.cache_folder()):
-        march: Callable[..., Any] = numba.njit(cache=True, error_model="numpy", nogil=True)(vertical_loop.march)
-    return march
+    return g, tensor, moments, contact, height, radius, enough

@@ -31,7 +31,7 @@ def level_root(level, t, v, I1, I2, I3):
     return False, v
 
 
-def safe_rotation(u1, u2, u3, g1, g2, g3, J, I, D, h, radius, contraction):
+def safe_rotation(u1, u2, u3, g1, g2, g3, J, I, D, h, radius, enough):
     """The rotation of a step that is not settled: from the guess u, or by the continuation.
 
     Returns (status, reach, p0, p1, p2, p3, u1, u2, u3).
@@ -39,7 +39,7 @@ def safe_rotation(u1, u2, u3, g1, g2, g3, J, I, D, h, radius, contraction):
     if radius >= 0.0:
         k = 0.5 * h
         settled, p0, p1, p2, p3, w1, w2, w3 = search(
-            u1, u2, u3, k * g1, k * g2, k * g3, g1, g2, g3, I[0], I[1], I[2], D, radius, contraction
+            u1, u2, u3, k * g1, k * g2, k * g3, g1, g2, g3, I[0], I[1], I[2], D, radius, enough
         )  # fmt: skip
         if settled:
             return 0, 1.0, p0, p1, p2, p3, w1, w2, w3
@@ -49,10 +49,10 @@ def safe_rotation(u1, u2, u3, g1, g2, g3, J, I, D, h, radius, contraction):
     return status, reach, p0, p1, p2, p3, p1 / p0, p2 / p0, p3 / p0
 
 
-def march(g, J, I, D, h, radius, contraction, first, count, every, verticals, q):
+def march(g, J, I, D, h, radius, enough, first, count, every, verticals, q):
     """Takes `count` steps from the step `first` on; keeps every `every`-th γ in the frame array.
 
-    radius, contraction: of `gibbs.certificate`.  g holds the present γ and moves; q receives the last rotation,
+    radius, enough: of `gibbs.certificate`.  g holds the present γ and moves; q receives the last rotation,
     of any length.  Returns (taken, status, reach).
     """
     I1, I2, I3 = I[0], I[1], I[2]
@@ -78,11 +78,11 @@ def march(g, J, I, D, h, radius, contraction, first, count, every, verticals, q)
             v -= correction
         else:
             settled, p0, p1, p2, p3, w1, w2, w3 = settle(
-                a1, a2, a3, k * g1, k * g2, k * g3, g1, g2, g3, I1, I2, I3, D, radius, contraction
+                a1, a2, a3, k * g1, k * g2, k * g3, g1, g2, g3, I1, I2, I3, D, radius, enough
             )  # fmt: skip
         if not settled:
             status, reach, p0, p1, p2, p3, w1, w2, w3 = safe_rotation(
-                w1, w2, w3, g1, g2, g3, J, I, D, h, radius, contraction
+                w1, w2, w3, g1, g2, g3, J, I, D, h, radius, enough
             )  # fmt: skip
             if status != 0:
                 return step - first, status, reach

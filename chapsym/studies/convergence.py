@@ -17,7 +17,7 @@ import mpmath
 import numpy as np
 from numpy.typing import ArrayLike
 
-from chapsym.dynamics import Ball, composed_trajectory, front, substeps
+from chapsym.dynamics import Ball, front, substeps, trajectory
 from chapsym.dynamics.ball import Floats
 
 #: Errors above this are not yet in the regime of their first term.
@@ -56,7 +56,7 @@ def convergence(
     exact = continuous_ball(ball, K, g, time)
     errors = []
     for n in counts:
-        run = composed_trajectory(ball, K * (time / n), g, int(n), order=order, every=int(n))
+        run = trajectory(ball, K * (time / n), g, int(n), order=order, every=int(n))
         found = [*(run.momentum[-1] * (n / time)), *run.gamma[-1]]
         scale = [size] * 3 + [1.0] * 3
         errors.append(max(abs(float(x - y)) / s for x, y, s in zip(exact, found, scale, strict=True)))

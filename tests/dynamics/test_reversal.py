@@ -23,7 +23,7 @@ ROUNDOFF = 2.0**-53
 def rolled(order, ball=BALL, momentum=0.1 * K, gamma=GAMMA, steps=200, **options):
     if order == 2:
         return chapsym.trajectory(ball, momentum, gamma, steps, **options)
-    return chapsym.composed_trajectory(ball, momentum, gamma, steps, order=order, **options)
+    return chapsym.trajectory(ball, momentum, gamma, steps, order=order, **options)
 
 
 def growth(order, ball, momentum, gamma, steps):

@@ -61,9 +61,9 @@ def the_map(y: np.ndarray, end: float, steps: float, order: int = 2, balls: int 
     if order == 2:
         run = chapsym.trajectory(ball, K, g, count, every=count)
     else:
-        from chapsym.dynamics.composition import composed_trajectory
+        from chapsym.dynamics import trajectory
 
-        run = composed_trajectory(ball, K, g, count, order=order, every=count)
+        run = trajectory(ball, K, g, count, order=order, every=count)
     return np.concatenate([x[..., -1, :].reshape(-1, 3)[0] for x in (run.momentum / epsilon, run.gamma)])
 
 
