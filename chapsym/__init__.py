@@ -15,6 +15,9 @@ if TYPE_CHECKING:
         BadInput,
         Ball,
         BallN,
+        Branches,
+        Fold,
+        Followed,
         Status,
         Step,
         StepN,
@@ -22,7 +25,11 @@ if TYPE_CHECKING:
         Trajectory,
         TrajectoryN,
         axial,
+        branches,
+        fold,
+        follow,
         invariants_n,
+        margin,
         reverse_n,
         roll,
         skew,
@@ -35,8 +42,9 @@ if TYPE_CHECKING:
 __version__ = "0.1.0"
 
 __all__ = [
-    "BadInput", "Ball", "BallN", "Status", "Step", "StepN", "StepNotTaken", "Trajectory", "TrajectoryN", "axial",
-    "invariants_n", "reverse_n", "roll", "skew", "step", "step_n", "trajectory", "trajectory_n",
+    "BadInput", "Ball", "BallN", "Branches", "Fold", "Followed", "Status", "Step", "StepN", "StepNotTaken",
+    "Trajectory", "TrajectoryN", "axial", "branches", "fold", "follow", "invariants_n", "margin", "reverse_n", "roll",
+    "skew", "step", "step_n", "trajectory", "trajectory_n",
 ]  # fmt: skip
 
 

@@ -48,7 +48,7 @@ def branches(
 def _print_table(found: dict) -> None:
     plural = "rotation" if found["count"] == 1 else "rotations"
     print(f"{found['count']} {plural}, {'complete' if found['complete'] else 'not complete: ' + found['reason']}")
-    rows = [("angle", "q0", "q1", "q2", "q3", "multiplicity")]
+    rows: list[tuple[str, ...]] = [("angle", "q0", "q1", "q2", "q3", "multiplicity")]
     for s in found["solutions"]:
         small = ", the small rotation" if s["small_rotation"] else ""
         rows.append((*(str(x) for x in (s["angle"], s["q0"], *s["q"])), f"{s['multiplicity']}{small}"))

@@ -49,7 +49,8 @@ class Factor:
     def points(self, bits: int) -> Iterator[tuple[Any, ...]]:
         """Arb enclosures of homogeneous coordinates, computed with `bits`; coordinates that vanish are exactly 0."""
         with flint.ctx.workprec(bits):
-            for root, _ in self.polynomial.complex_roots():
+            roots: Any = self.polynomial.complex_roots()
+            for root, _ in roots:
                 if root.imag.is_zero():
                     yield tuple(c(root.real) for c in self.coordinates)
 
@@ -94,7 +95,7 @@ class _Algebra:
         if size > 8:
             raise NotFinite
         below, place = _monomials(DEGREE - 1), _places(DEGREE)
-        by_variable = [[[fmpq(x) for x in _row(kernel, place[_times(m, v)])] for m in below] for v in VARIABLES]
+        by_variable = [[_row(kernel, place[_times(m, v)]) for m in below] for v in VARIABLES]
         for k in PLANES:
             plane = [_combination(rows, _powers(k)) for rows in zip(*by_variable, strict=True)]
             chosen = _independent(plane)
@@ -102,10 +103,15 @@ class _Algebra:
                 break
         else:
             raise NotFinite
-        inverse = fmpq_mat([plane[i] for i in chosen]).inv()
+        inverse = fmpq_mat(fmpz_mat([plane[i] for i in chosen])).inv()
         self.size = size
         self.basis = [below[i] for i in chosen]
-        self.variables = [inverse * fmpq_mat(size, size, [x for i in chosen for x in r[i]]) for r in by_variable]
+        self.variables = [inverse * fmpq_mat(fmpz_mat([rows[i] for i in chosen])) for rows in by_variable]
+        # Free of denominators: the same positive multiple of each.
+        scale = fmpz(1)
+        for variable in self.variables:
+            scale = scale.lcm(variable.numer_denom()[1])
+        self.integral = [(scale * variable).numer_denom()[0] for variable in self.variables]
 
     def form(self, k: int) -> fmpq_mat:
         """The matrix of (q0 + k q1 + k² q2 + k³ q3)/h."""
@@ -113,18 +119,17 @@ class _Algebra:
 
     def inertia(self) -> tuple[int, int]:
         """Rank and signature of the trace form (a, b) -> tr(ab): the numbers of points, and of real points."""
-        elements = [self._product(m) for m in self.basis]
-        # Without its denominator an element is multiplied by a positive number, which the inertia does not see.
-        form = _traces([_integral(a) for a in elements], [_integral(b) for b in elements])
+        elements = [self._product(m) for m in self.basis]  # times a positive number, which the inertia does not see
+        form = _traces(elements, elements)
         # All roots are real, so that Descartes' rule is exact.
         polynomial = form.charpoly().coeffs()
         positive = _sign_changes(polynomial)
         negative = _sign_changes([-c if i % 2 else c for i, c in enumerate(polynomial)])
         return positive + negative, positive - negative
 
-    def _product(self, exponents: tuple[int, ...]) -> fmpq_mat:
-        matrix = fmpq_mat(_identity(self.size))
-        for factor, power in zip(self.variables, exponents, strict=True):
+    def _product(self, exponents: tuple[int, ...]) -> fmpz_mat:
+        matrix = _identity(self.size)
+        for factor, power in zip(self.integral, exponents, strict=True):
             for _ in range(power):
                 matrix = matrix * factor
         return matrix
@@ -160,10 +165,7 @@ def _representation(algebra: _Algebra, multiplication: fmpq_mat, parts: list) ->
     powers = [_identity(algebra.size)]
     for _ in range(free.degree() - 1):
         powers.append(powers[-1] * numerator)
-    scale = fmpz(1)
-    for variable in algebra.variables:
-        scale = scale.lcm(variable.numer_denom()[1])
-    traces = _traces([_integral(scale * variable) for variable in algebra.variables], powers)
+    traces = _traces(algebra.integral, powers)
     ascending = free.coeffs()
     found = []
     for v in VARIABLES:
@@ -212,23 +214,20 @@ def _row(matrix: fmpz_mat, i: int) -> list[fmpz]:
     return [matrix[i, j] for j in range(matrix.ncols())]
 
 
-def _combination(rows: Sequence[Sequence[fmpq]], coefficients: Sequence[int]) -> list[fmpq]:
-    return [sum((c * x for c, x in zip(coefficients, column, strict=True)), fmpq(0)) for column in zip(*rows)]
+def _combination(rows: Sequence[Sequence[fmpz]], coefficients: Sequence[int]) -> list[fmpz]:
+    return [
+        sum((c * x for c, x in zip(coefficients, column, strict=True)), fmpz(0)) for column in zip(*rows, strict=True)
+    ]
 
 
-def _independent(rows: Sequence[Sequence[fmpq]]) -> list[int]:
+def _independent(rows: Sequence[Sequence[fmpz]]) -> list[int]:
     """The first rows that span them all."""
-    reduced, rank = fmpq_mat(rows).transpose().rref()
+    reduced, _, rank = fmpz_mat(rows).transpose().rref()
     return [next(j for j in range(len(rows)) if reduced[i, j] != 0) for i in range(rank)]
 
 
 def _identity(size: int) -> fmpz_mat:
     return fmpz_mat(size, size, [int(i == j) for i in range(size) for j in range(size)])
-
-
-def _integral(matrix: fmpq_mat) -> fmpz_mat:
-    """The matrix times its least positive denominator."""
-    return matrix.numer_denom()[0]
 
 
 def _traces(left: Sequence[fmpz_mat], right: Sequence[fmpz_mat]) -> fmpz_mat:
@@ -237,6 +236,6 @@ def _traces(left: Sequence[fmpz_mat], right: Sequence[fmpz_mat]) -> fmpz_mat:
     return rows * fmpz_mat([b.transpose().entries() for b in right]).transpose()
 
 
-def _sign_changes(coefficients: Sequence[fmpq]) -> int:
+def _sign_changes(coefficients: Sequence[fmpz]) -> int:
     signs = [c > 0 for c in coefficients if c != 0]
     return sum(a != b for a, b in itertools.pairwise(signs))

@@ -8,7 +8,7 @@ from typing import Any
 
 import flint
 
-from chapsym import generated
+import chapsym.generated as generated
 from chapsym.numbers import Ball as ArbBall
 from chapsym.numbers import Double, Rung
 

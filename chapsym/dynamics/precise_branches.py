@@ -30,6 +30,8 @@ from .quadrics import Quadric, momentum_forms, quadrics
 MOST_PRECISIONS = 14
 #: Bits that an enclosure has beyond those that are written.
 SPARE = 12
+#: The rounding of a float64 step is below this, even where D is large or a fold is near.
+SAME = 1e-3
 #: The float64 step belongs to the nearest rotation, if the next one is so many times farther away.
 CLEARLY = 4.0
 
@@ -89,8 +91,8 @@ def precise_branches(
     unit_exactly(gamma, rung)
     J, (contact,), K, g = np.split(np.array(in_float64(mass_tensor, (D,), momentum, gamma)), [3, 4, 7])
     ball = Ball(J, contact)
-    state = tuple(tuple(fmpq(x.numerator, x.denominator) for x in v) for v in (momentum, gamma, mass_tensor, (D,)))
-    equations = quadrics(*state[:3], state[3][0])
+    state = [[fmpq(x.numerator, x.denominator) for x in v] for v in (momentum, gamma, mass_tensor, (D,))]
+    equations = quadrics(state[0], state[1], state[2], *state[3])
     try:
         points = common_points([_form(e) for e in (*equations, *_proportional(*state))])
     except NotFinite:
@@ -105,7 +107,7 @@ def _form(quadric: Quadric) -> Form:
     return {tuple(index.count(v) for v in range(4)): c for index, c in quadric.items()}
 
 
-def _proportional(K: tuple, g: tuple, J: tuple, D: tuple) -> Iterator[Quadric]:
+def _proportional(K: list, g: list, J: list, D: list) -> Iterator[Quadric]:
     """Linear equations that every rotation satisfies where 𝒦(q, γ) is q0 times a linear L(q), as for equal moments.
 
     Then q0 L(q) = 𝒦 ≠ 0, so that q0 ≠ 0 and 𝒦 × L(q) = 0, while the quadrics have a conic of complex points at q0 = 0.
@@ -202,10 +204,10 @@ def _with_small_rotation(branches: tuple[Branch, ...], ball: Ball, K: Any, g: An
         return branches
     places = [np.array([float(x.mid()) for x in branch.rotation]) for branch in branches]
     distances = [min(np.abs(q - taken).max(), np.abs(q + taken).max()) for q in places]
-    nearest = int(np.argmin(distances))
-    if any(CLEARLY * distances[nearest] >= d for i, d in enumerate(distances) if i != nearest):
+    first, second, *_ = [*sorted(distances), np.inf, np.inf]
+    if first > SAME or CLEARLY * first >= second:
         return branches
-    return tuple(replace(b, small_rotation=i == nearest) for i, b in enumerate(branches))
+    return tuple(replace(b, small_rotation=bool(d == first)) for b, d in zip(branches, distances, strict=True))
 
 
 def _the_small_one(

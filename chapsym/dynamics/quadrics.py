@@ -7,7 +7,7 @@ import itertools
 from collections.abc import Sequence
 from typing import Any
 
-from chapsym import generated
+from chapsym.generated import momentum
 
 #: A quadratic form: the coefficient of x_a x_b under (a, b), a ≤ b.
 Quadric = dict[tuple[int, int], Any]
@@ -19,7 +19,7 @@ def momentum_forms(gamma: Sequence[Any], mass_tensor: Sequence[Any], D: Any) -> 
     """𝒦₁, 𝒦₂, 𝒦₃ as quadratic forms in (q0, q1, q2, q3), by polarisation."""
 
     def value(*indices: int) -> tuple[Any, ...]:
-        return generated.momentum(*(int(v in indices) for v in range(4)), *gamma, *mass_tensor, D)
+        return momentum(*(int(v in indices) for v in range(4)), *gamma, *mass_tensor, D)
 
     single = [value(a) for a in range(4)]
     forms: list[Quadric] = [{}, {}, {}]
