@@ -29,9 +29,8 @@ MOST_EXTENDED = 12
 CLOSE = 1e-8
 #: How far a given rotation may be from a root.
 AT_THE_ROOT = 1e-6
-#: The places of the second derivatives 11, 22, 33, 23, 13, 12 in a symmetric matrix, and how often each is there.
+#: The places of the second derivatives 11, 22, 33, 23, 13, 12 in a symmetric matrix.
 PAIR = np.array([[0, 5, 4], [5, 1, 3], [4, 3, 2]])
-WEIGHT = np.sqrt([1.0, 1.0, 1.0, 2.0, 2.0, 2.0])
 
 
 @dataclass
@@ -97,17 +96,23 @@ class Marchers:
         return t, status
 
     def _longest(self, K: Floats, E: Floats) -> tuple[Floats, Floats]:
-        """The longest step s with s|d|(|T⁻¹H| + 2|T⁻¹𝒦| + 2s|d|) ≤ CONTRACTION, d = T⁻¹E; and det T."""
+        """The longest step s with s|d|·|F''| ≤ CONTRACTION, d = F'⁻¹E, F'' = H - 2(𝒦 + sE)⊗1; and det T.
+
+        The test holds in every norm: with T = U S Vᵀ this is that of z in w = V S^(-1/2) z, in which a singular
+        direction does not carry its small divisor over to the others.
+        """
         T = self._tangent()
-        det = np.linalg.det(T)
-        solved = np.linalg.solve(
-            _regular(T), np.concatenate([np.stack([E, K], axis=2), WEIGHT * self._hessian()], axis=2)
-        )
-        speed, along = np.linalg.norm(solved[..., 0], axis=1), np.linalg.norm(solved[..., 1], axis=1)
-        slope = np.linalg.norm(solved[..., 2:], axis=(1, 2)) + 2 * along
-        length = 2 * CONTRACTION / (slope + np.sqrt(slope * slope + 8 * CONTRACTION))
+        U, S, V = np.linalg.svd(_regular(T))
+        root = np.sqrt(S)[:, :, np.newaxis]
+        left, right = np.swapaxes(U, 1, 2) / root, V / root  # z to T⁻¹ and w, in rows
+        speed = np.linalg.norm(left @ E[..., np.newaxis], axis=(1, 2))
+        along = np.linalg.norm(left @ K[..., np.newaxis], axis=(1, 2))
+        metric = np.linalg.norm(right @ np.swapaxes(right, 1, 2), axis=(1, 2))
+        bent = np.einsum("nai,nijk,nbj,nck->nabc", left, self._hessian()[:, :, PAIR], right, right, optimize=True)
+        slope = np.linalg.norm(bent.reshape(-1, 27), axis=1) + 2 * along * metric
+        length = 2 * CONTRACTION / (slope + np.sqrt(slope * slope + 8 * CONTRACTION * metric))
         with np.errstate(divide="ignore"):
-            return length / speed, det
+            return length / speed, np.linalg.det(T)
 
     def correct(self, K: Floats) -> np.ndarray:
         """Newton's iteration at the (scaled) momentum K, in place; returns which balls settled."""
