@@ -23,7 +23,7 @@ from .ball import Ball
 from .errors import StepNotTaken
 from .intersection import Form, NotFinite, Points, common_points
 from .map import step
-from .precise import enclosed, in_float64, normalised, precise_step, unit_exactly
+from .precise import enclosed, in_float64, unit_exactly
 from .quadrics import Quadric, momentum_forms, quadrics
 
 #: Working precisions are doubled at most so often.
@@ -96,7 +96,7 @@ def precise_branches(
     try:
         points = common_points([_form(e) for e in (*equations, *_proportional(*state))])
     except NotFinite:
-        found = _the_small_one(mass_tensor, D, momentum, gamma, rung)
+        found = _the_small_one(ball, K, g, (momentum, gamma, mass_tensor, (D,)), rung)
         return PreciseBranches(rung, found, False, _why_infinite(equations))
     branches = _enclosures(points, rung, (momentum, gamma, mass_tensor, (D,)))
     return PreciseBranches(rung, _with_small_rotation(branches, ball, K, g), True)
@@ -210,17 +210,18 @@ def _with_small_rotation(branches: tuple[Branch, ...], ball: Ball, K: Any, g: An
     return tuple(replace(b, small_rotation=bool(d == first)) for b, d in zip(branches, distances, strict=True))
 
 
-def _the_small_one(
-    mass_tensor: Sequence[Fraction], D: Fraction, momentum: Sequence[Fraction], gamma: Sequence[Fraction], rung: Rung
-) -> tuple[Branch, ...]:
+def _the_small_one(ball: Ball, K: Any, g: Any, given: Sequence[Sequence[Fraction]], rung: Rung) -> tuple[Branch, ...]:
     """The small rotation, if there is one that the interval Newton test encloses."""
-    bits = _bits(rung) + SPARE
     try:
-        found = precise_step(mass_tensor, D, momentum, gamma, ArbBall(bits)).rotation
+        taken = step(ball, K, g).rotation
     except StepNotTaken:
         return ()
-    with flint.ctx.workprec(bits + 40):
-        return (replace(_branch(normalised(rung, found), 1), small_rotation=True),)
+    bits = 2 * (_bits(rung) + SPARE) + 64
+    with flint.ctx.workprec(bits):
+        box = ArbBall(bits - 40, guard=40)
+        state = [tuple(box.number(x) for x in vector) for vector in given]
+        found = enclosed(box, tuple(arb(float(x)) for x in taken), *state)
+        return () if found is None else (replace(_branch(found, 1), small_rotation=True),)
 
 
 def _bits(rung: Rung) -> int:

@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 import chapsym
 from chapsym import generated, testing
 from chapsym.derive import solutions
-from chapsym.dynamics import BadInput, Ball, branches, fold, intersection, precise_branches
+from chapsym.dynamics import BadInput, Ball, branches, candidates, fold, intersection, multivalued, precise_branches
 from chapsym.dynamics.branch import inverse
 from chapsym.dynamics.oracle import Oracle
 from chapsym.numbers import Ball as ArbBall
@@ -269,6 +269,30 @@ def test_near_a_fold_two_rotations_meet():
         assert above.complete.all()
         assert (below.count - above.count == 2).all()
         assert (below.small >= 0).all()
+
+
+def test_two_candidates_for_one_root_are_not_complete():
+    rng = np.random.default_rng(3)
+    points = np.linalg.qr(rng.normal(size=(8, 8)))[0][:, :4] + 1j * rng.normal(size=(8, 4))
+    points /= np.linalg.norm(points, axis=1, keepdims=True)
+    small, sound = np.full((1, 8), 1e-12), np.array([True])
+    whole = candidates.Candidates(points[np.newaxis], small, small + 1, sound)
+    assert multivalued._classified(whole)[1] == [True]
+    points[3] = 1j * points[5]
+    whole = candidates.Candidates(points[np.newaxis], small, small + 1, sound)
+    assert multivalued._classified(whole)[1] == [False]
+
+
+def test_a_step_above_the_fold_marks_no_rotation(monkeypatch):
+    """Where D is large float64 may step where exact arithmetic finds no small rotation."""
+    taken = chapsym.step(Ball((1, 2, 4), 3), (1, -0.5, 0.75), np.array([2, 3, 6]) / 7)
+    monkeypatch.setattr(precise_branches, "step", lambda *state: taken)
+    assert not any(s.small_rotation for s in solve(STATES[8]).solutions)
+
+
+def test_a_rounded_vertical_is_taken_as_it_is():
+    gamma = (0.0, 0.7071067811865476, 0.7071067811865476)
+    assert branches(Ball((1, 1, 1), 0), (0, 0, 0), gamma).count == 1
 
 
 def test_a_batch_is_its_balls():
