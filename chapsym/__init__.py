@@ -15,8 +15,11 @@ if TYPE_CHECKING:
         BadInput,
         Ball,
         BallN,
+        Branches,
         Curve,
         ExactTop,
+        Fold,
+        Followed,
         NotRetraced,
         Status,
         Step,
@@ -26,10 +29,14 @@ if TYPE_CHECKING:
         TrajectoryN,
         VerticalTrajectory,
         axial,
+        branches,
         compose_step,
         exact_top,
+        fold,
+        follow,
         increment,
         invariants_n,
+        margin,
         retrace_error,
         reverse,
         reverse_n,
@@ -47,10 +54,11 @@ if TYPE_CHECKING:
 __version__ = "0.1.0"
 
 __all__ = [
-    "BadInput", "Ball", "BallN", "Curve", "ExactTop", "NotRetraced", "Status", "Step", "StepN", "StepNotTaken",
-    "Trajectory", "TrajectoryN", "VerticalTrajectory", "axial", "compose_step", "exact_top", "increment",
-    "invariants_n", "retrace_error", "reverse", "reverse_n", "roll", "skew", "step", "step_n", "step_vertical",
-    "substeps", "trajectory", "trajectory_n", "trajectory_vertical",
+    "BadInput", "Ball", "BallN", "Branches", "Curve", "ExactTop", "Fold", "Followed", "NotRetraced", "Status",
+    "Step", "StepN", "StepNotTaken", "Trajectory", "TrajectoryN", "VerticalTrajectory", "axial", "branches",
+    "compose_step", "exact_top", "fold", "follow", "increment", "invariants_n", "margin", "retrace_error", "reverse",
+    "reverse_n", "roll", "skew", "step", "step_n", "step_vertical", "substeps", "trajectory", "trajectory_n",
+    "trajectory_vertical",
 ]  # fmt: skip
 
 

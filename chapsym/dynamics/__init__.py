@@ -4,19 +4,22 @@ from .ball import Ball
 from .ball_n import BallN, axial, skew
 from .coefficients import substeps
 from .composition import compose_step
+from .continuation import Fold, Followed, fold, follow, margin
 from .elliptic import Curve, increment
 from .errors import BadInput, Status, StepNotTaken
 from .exact import ExactTop, exact_top
 from .general import StepN, step_n
 from .map import Step, step
+from .multivalued import Branches, branches
 from .reversal import NotRetraced, retrace_error, reverse
 from .trajectories import Trajectory, roll, trajectory
 from .trajectories_n import TrajectoryN, invariants_n, reverse_n, trajectory_n
 from .vertical import VerticalTrajectory, step_vertical, trajectory_vertical
 
 __all__ = [
-    "BadInput", "Ball", "BallN", "Curve", "ExactTop", "NotRetraced", "Status", "Step", "StepN", "StepNotTaken",
-    "Trajectory", "TrajectoryN", "VerticalTrajectory", "axial", "compose_step", "exact_top", "increment",
-    "invariants_n", "retrace_error", "reverse", "reverse_n", "roll", "skew", "step", "step_n", "step_vertical",
-    "substeps", "trajectory", "trajectory_n", "trajectory_vertical",
+    "BadInput", "Ball", "BallN", "Branches", "Curve", "ExactTop", "Fold", "Followed", "NotRetraced", "Status",
+    "Step", "StepN", "StepNotTaken", "Trajectory", "TrajectoryN", "VerticalTrajectory", "axial", "branches",
+    "compose_step", "exact_top", "fold", "follow", "increment", "invariants_n", "margin", "retrace_error", "reverse",
+    "reverse_n", "roll", "skew", "step", "step_n", "step_vertical", "substeps", "trajectory", "trajectory_n",
+    "trajectory_vertical",
 ]  # fmt: skip

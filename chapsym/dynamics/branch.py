@@ -64,7 +64,7 @@ def small_rotation(K1, K2, K3, g1, g2, g3, J1, J2, J3, D, shortest=SHORTEST):
         length = 2.0 * CONTRACTION / (slope + sqrt(slope * slope + 8.0 * CONTRACTION))
         remaining = 1.0 - t
         step = remaining if speed * remaining <= length else length / speed
-        if step < shortest * t:
+        if step < shortest * t and step < remaining:
             return FOLDED, t * end, q0, q1, q2, q3
         ahead = 1.0 if step == remaining else t + step
         p0, p1, p2, p3 = turned(q0, q1, q2, q3, step * d1, step * d2, step * d3)

@@ -8,7 +8,7 @@ from typing import Any
 
 import flint
 
-from chapsym import generated
+import chapsym.generated as generated
 from chapsym.numbers import Ball as ArbBall
 from chapsym.numbers import Double, Rung
 
@@ -61,10 +61,7 @@ def precise_step(
     Raises BadInput, and StepNotTaken as `step` does.
     """
     unit_exactly(gamma, rung)
-    try:
-        numbers = [float(x) for x in (*mass_tensor, D, *momentum, *gamma)]
-    except OverflowError:
-        raise BadInput("a number of the input is beyond the range of float64, where every step starts") from None
+    numbers = in_float64(mass_tensor, (D,), momentum, gamma)
     if isinstance(rung, Double) and any(x != 0 and float(x) == 0.0 for x in momentum):
         raise BadInput(
             "a component of the momentum is below the range of float64; ask for more with --digits or --ball"
@@ -94,7 +91,7 @@ def _taken(rung: Rung, start: Step, given: Sequence[Sequence[Fraction]]) -> Prec
     with rung.precision():
         exact = [tuple(map(rung.number, x)) for x in given]
         first = tuple(rung.number(Fraction(float(x))) for x in start.rotation)
-        q = _enclosed(rung, first, *exact) if isinstance(rung, ArbBall) else _refined(rung, first, *exact)
+        q = enclosed(rung, first, *exact) if isinstance(rung, ArbBall) else _refined(rung, first, *exact)
         if q is None:
             return None
         found = PreciseStep(rung, q, generated.transport(*q, *exact[0]), generated.transport(*q, *exact[1]))
@@ -109,6 +106,14 @@ def _small_enough(rung: ArbBall, found: PreciseStep) -> bool:
         if any(x.rad() > largest * unit for x in vector):
             return False
     return True
+
+
+def in_float64(*vectors: Sequence[Fraction]) -> list[float]:
+    """All components as floats; raises BadInput for one that is too large."""
+    try:
+        return [float(x) for vector in vectors for x in vector]
+    except OverflowError:
+        raise BadInput("a number of the input is beyond the range of float64, where every step starts") from None
 
 
 def unit_exactly(gamma: Sequence[Fraction], rung: Rung) -> None:
@@ -127,14 +132,14 @@ def _refined(rung: Rung, q: tuple, K: tuple, g: tuple, J: tuple, D: tuple) -> tu
 
     Newton squares the correction, up to the digits that the conditioning costs, which the guard covers.
     """
-    q = _normalised(rung, q)
+    q = normalised(rung, q)
     settled = rung.number(Fraction(1, 10 ** (rung.carried // 2 - 2)))
     for _ in range(MOST_REFINEMENTS):
         w = _correction(q, K, g, J, D)
         change = max(abs(x) for x in w)
         if change > NEAR:
             return None
-        q = _normalised(rung, generated.compose(*q, 1, *w))
+        q = normalised(rung, generated.compose(*q, 1, *w))
         if change <= settled * max(abs(x) for x in q[1:]):
             return q
     return None
@@ -147,20 +152,21 @@ def _correction(q: tuple, K: tuple, g: tuple, J: tuple, D: tuple) -> tuple:
     return tuple(-(i[3 * n] * r[0] + i[3 * n + 1] * r[1] + i[3 * n + 2] * r[2]) for n in range(3))
 
 
-def _normalised(rung: Rung, p: tuple) -> tuple:
+def normalised(rung: Rung, p: tuple) -> tuple:
+    """p divided by its length."""
     length = rung.sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2] + p[3] * p[3])
     return tuple(x / length for x in p)
 
 
-def _enclosed(rung: ArbBall, q: tuple, K: tuple, g: tuple, J: tuple, D: tuple) -> tuple | None:
+def enclosed(rung: ArbBall, q: tuple, K: tuple, g: tuple, J: tuple, D: tuple) -> tuple | None:
     """Unit Euler parameters as balls that contain the one root near the float64 root."""
-    q = tuple(x.mid() for x in _normalised(rung, q))
+    q = tuple(x.mid() for x in normalised(rung, q))
     for _ in range(MOST_REFINEMENTS):
         w = tuple(x.mid() for x in _correction(q, K, g, J, D))
         change = max(abs(x) for x in w)
         if not change < NEAR:
             return None
-        q = tuple(x.mid() for x in _normalised(rung, generated.compose(*q, flint.arb(1), *w)))
+        q = tuple(x.mid() for x in normalised(rung, generated.compose(*q, flint.arb(1), *w)))
         if change <= max(abs(x) for x in q[1:]) * flint.arb(2) ** (-(rung.bits + rung.guard) // 2 - 2):
             break
     # F(w) = 𝒦(q ∘ (1, w)) - |q|²(1 + |w|²)𝒦 vanishes exactly at the root; q is a point that is nearly unit.
@@ -179,7 +185,7 @@ def _enclosed(rung: ArbBall, q: tuple, K: tuple, g: tuple, J: tuple, D: tuple) -
         if det > 0 or det < 0:
             image = tuple(-x for x in _apply(inverse_slope, value))
             if all(b.contains_interior(x) for b, x in zip(box, image, strict=True)):
-                return _normalised(rung, generated.compose(*q, flint.arb(1), *image))
+                return normalised(rung, generated.compose(*q, flint.arb(1), *image))
         radius = radius * 4
     return None
 

@@ -3,7 +3,6 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
-from importlib.util import find_spec
 from itertools import pairwise
 
 import mpmath
@@ -58,12 +57,7 @@ def the_map(y: np.ndarray, end: float, steps: float, order: int = 2, balls: int 
     ball = chapsym.Ball(MASS_TENSOR, D)  # type: ignore[arg-type]
     if balls == 1:
         K, g = K[0], g[0]
-    if order == 2:
-        run = chapsym.trajectory(ball, K, g, count, every=count)
-    else:
-        from chapsym.dynamics import trajectory
-
-        run = trajectory(ball, K, g, count, order=order, every=count)
+    run = chapsym.trajectory(ball, K, g, count, order=order, every=count)
     return np.concatenate([x[..., -1, :].reshape(-1, 3)[0] for x in (run.momentum / epsilon, run.gamma)])
 
 
@@ -77,9 +71,7 @@ def methods(quick: bool) -> tuple[list[Method], dict[str, str]]:
         Method("chapsym, order 2", the_map, longer),
     ]
     missing = {}
-    for order, first in (
-        () if find_spec("chapsym.dynamics.composition") is None else ((4, 250.0), (6, 125.0), (8, 62.0))
-    ):
+    for order, first in ((4, 250.0), (6, 125.0), (8, 62.0)):
         sweep = tuple(round(first * 2 ** (k / 2)) for k in (range(0, 9, 4) if quick else range(0, 17)))
         found.append(Method(f"chapsym, order {order}", partial(the_map, order=order), sweep))
         several = partial(the_map, order=order, balls=BALLS)

@@ -1,0 +1,57 @@
+"""chapsym branches: every rotation with a given momentum."""
+
+from typing import Annotated
+
+import typer
+
+from chapsym.exact import rationals
+
+from .app import app
+from .options import Contact, Inertia, Json, Mass, MassTensor, Radius, ball_from, rung_from
+from .output import fail, print_json
+
+
+@app.command()
+def branches(
+    momentum: Annotated[str, typer.Option(metavar="K1,K2,K3", help="The discrete momentum.")],
+    gamma: Annotated[str, typer.Option(metavar="G1,G2,G3", help="The unit vertical, upwards, in the body.")],
+    mass_tensor: MassTensor = None,
+    inertia: Inertia = None,
+    contact: Contact = None,
+    mass: Mass = None,
+    radius: Radius = None,
+    digits: Annotated[int | None, typer.Option(min=1, max=100_000, help="Significant digits.")] = None,
+    rung: Annotated[str | None, typer.Option(help="double: IEEE float64, the default.")] = None,
+    ball: Annotated[int | None, typer.Option(min=2, max=1_000_000, help="Bits of an Arb enclosure.")] = None,
+    as_json: Json = False,
+) -> None:
+    """Find every rotation with the given momentum: all branches of the map, by angle, counted exactly.
+
+    Example: chapsym branches --mass-tensor 1,2,4 --D 1000 --momentum=-1/4,-3/2,1/2 --gamma 6/7,2/7,3/7
+    """
+    J, D = ball_from(mass_tensor, inertia, contact, mass, radius)
+    K, g = rationals(momentum, "--momentum", 3), rationals(gamma, "--gamma", 3)
+    chosen = rung_from(digits, rung, ball)
+    from chapsym.dynamics import BadInput
+    from chapsym.dynamics.precise_branches import precise_branches
+
+    try:
+        found = precise_branches(J, D, K, g, chosen).write()
+    except BadInput as error:
+        fail(str(error), 2)
+    if as_json:
+        print_json(found)
+        return
+    _print_table(found)
+
+
+def _print_table(found: dict) -> None:
+    plural = "rotation" if found["count"] == 1 else "rotations"
+    print(f"{found['count']} {plural}, {'complete' if found['complete'] else 'not complete: ' + found['reason']}")
+    rows: list[tuple[str, ...]] = [("angle", "q0", "q1", "q2", "q3", "multiplicity")]
+    for s in found["solutions"]:
+        small = ", the small rotation" if s["small_rotation"] else ""
+        rows.append((*(str(x) for x in (s["angle"], s["q0"], *s["q"])), f"{s['multiplicity']}{small}"))
+    widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
+    for row in rows if found["solutions"] else ():
+        print("  ".join(f"{text:{width}}" for text, width in zip(row, widths, strict=True)).rstrip())

@@ -1,0 +1,180 @@
+"""Branches followed, their folds, and the margin of a state."""
+
+import numpy as np
+import pytest
+from hypothesis import assume, given, settings
+
+from chapsym import testing
+from chapsym.dynamics import BadInput, Ball, Status, branches, fold, follow, front, marching, margin, step
+
+GAMMA = np.array([2.0, 3.0, 6.0]) / 7
+BALL = Ball((1, 2, 4), 3)
+
+
+def seeded(n, D):
+    rng = np.random.default_rng(11)
+    J, g, K = rng.uniform(0.1, 2, (n, 3)), rng.normal(size=(n, 3)), rng.normal(size=(n, 3))
+    return Ball(J, np.full(n, D)), K, g / np.linalg.norm(g, axis=1, keepdims=True)
+
+
+def det(ball, q, gamma):
+    """det T for Λmax = 1."""
+    top = ball.inertia.max(axis=-1) + ball.D
+    return np.linalg.det(front.tangent_jacobian(q, gamma, ball.mass_tensor, ball.D)) / top**3
+
+
+@pytest.mark.parametrize("D", [0.0, 1.0, 1e2, 1e4])
+def test_a_fold_is_where_the_jacobian_is_singular(D):
+    """To roundoff: the residual of 𝒦(q) = t𝒦 and det T, in units of Λmax; and t."""
+    ball, K, gamma = seeded(50, D)
+    found = fold(ball, K, gamma)
+    assert found.settled.all()
+    assert np.abs(det(ball, found.rotation, gamma)).max() < 16 * 2.0**-52
+    top = (ball.inertia.max(axis=1) + D)[:, np.newaxis]
+    gap = front.momentum(found.rotation, gamma, ball.mass_tensor, ball.D) - found.reach[:, np.newaxis] * K
+    assert np.abs(gap / top).max() < 8 * 2.0**-52
+    # A rounding of the residual, Λmax 2^-52, is this fraction of the momentum: so near are the exact counts right.
+    rounding = (64 * 2.0**-52 * top / np.linalg.norm(found.reach[:, np.newaxis] * K, axis=1, keepdims=True))[:5]
+    few, t = Ball(ball.mass_tensor[:5], ball.D[:5]), found.reach[:5, np.newaxis]
+    below, above = (branches(few, t * (1 + s * rounding) * K[:5], gamma[:5]) for s in (-1, 1))
+    assert (below.count - above.count == 2).all()
+
+
+@pytest.mark.parametrize("D", [0.0, 5.0, 300.0])
+def test_two_rotations_merge_at_a_fold(D):
+    """Below they are 2√(2δ)·c apart for a distance δ, above they are gone: the count drops by 2."""
+    ball, K, gamma = seeded(20, D)
+    found = fold(ball, K, gamma)
+    t = found.reach[:, np.newaxis]
+    above = branches(ball, t * (1 + 1e-8) * K, gamma)
+    apart = []
+    for near in (1e-6, 1e-8):
+        below = branches(ball, t * (1 - near) * K, gamma)
+        assert below.complete.all()
+        assert above.complete.all()
+        assert (below.count - above.count == 2).all()
+        away = np.sort(np.linalg.norm(below.rotation - found.rotation[:, np.newaxis], axis=-1), axis=1)
+        apart.append(away[:, :2])
+    assert apart[0] / apart[1] == pytest.approx(np.full((20, 2), 10.0), rel=0.02)
+
+
+def test_closed_forms():
+    """D = 0: about the axis i, 𝒦 = 2(Jj + Jk) q₀q, largest at a right angle; and for equal moments about any axis."""
+    for i, most in enumerate((6, 5, 3)):
+        found = fold(Ball((1, 2, 4), 0), np.eye(3)[i], GAMMA)
+        assert found.settled
+        assert found.reach == pytest.approx(most, rel=1e-15)
+        assert found.rotation[[0, i + 1]] == pytest.approx(np.sqrt([0.5, 0.5]), rel=1e-15)
+    assert margin(Ball((1, 1, 1), 0), 0.5 * GAMMA, (0, 0, 1)) == pytest.approx(3, rel=1e-15)
+
+
+@settings(max_examples=60)
+@given(testing.states(fraction=(0.01, 1.3)))
+def test_the_margin_says_whether_the_step_is_taken(state):
+    ball, K, gamma = state
+    assume(np.abs(K).max() > 0)
+    left = margin(ball, K, gamma)
+    assume(abs(left) > 1e-9 * (1 + ball.D / ball.mass_tensor.max()))
+    found = step(ball, K[np.newaxis], gamma)
+    # A march that comes to 1 - 2^-53 of the way has arrived.
+    taken = found.status[0] == Status.TAKEN or found.reach[0] >= 1 - 2.0**-52
+    assert taken == (left > 0)
+
+
+def test_another_branch_folds_too():
+    ball, K, gamma = seeded(30, 50.0)
+    found = branches(ball, 0.2 * K, gamma)
+    which = np.flatnonzero(found.count >= 4)
+    assert len(which) > 5
+    for i in which:
+        one, k, g = Ball(ball.mass_tensor[i], ball.D[i]), 0.2 * K[i], gamma[i]
+        for q in found.rotation[i, : found.count[i]]:
+            top = fold(one, k, g, rotation=q)
+            assert top.settled
+            assert top.reach > 1
+            assert abs(det(one, top.rotation, g)) < 16 * 2.0**-52
+            below, above = (branches(one, top.reach * s * k, g) for s in (1 - 1e-7, 1 + 1e-7))
+            assert below.count - above.count == 2
+            assert np.linalg.norm(below.rotation - top.rotation, axis=-1)[: below.count].min() < 1e-2
+
+
+def test_small_folds_come_in_pairs_of_branches():
+    """Two branches that end in one fold have the same."""
+    found = branches(BALL, (1, -0.5, 0.75), GAMMA)
+    tops = [float(fold(BALL, (1, -0.5, 0.75), GAMMA, rotation=q).reach) for q in found.rotation[: found.count]]
+    assert found.count == 4
+    assert sorted(tops)[0] == pytest.approx(sorted(tops)[1], rel=1e-13)
+    assert sorted(tops)[2] == pytest.approx(sorted(tops)[3], rel=1e-13)
+
+
+def test_following_the_small_rotation_is_stepping():
+    ball, K, gamma = seeded(20, 1.0)
+    top = fold(ball, K, gamma).reach
+    path = np.linspace(0, 0.9, 5)[:, np.newaxis] * (top[:, np.newaxis] * K)[:, np.newaxis]
+    found = follow(ball, path, gamma)
+    assert found.rotation.shape == (20, 5, 4)
+    assert (found.status == Status.TAKEN).all()
+    assert (found.reach == 4).all()
+    assert np.isnan(found.fold.reach).all()
+    for k in range(1, 5):
+        assert np.abs(found.rotation[:, k] - step(ball, path[:, k], gamma).rotation).max() < 1e-13
+
+
+def test_a_path_that_leaves_the_branch_ends_at_the_fold():
+    K = np.array([1, -0.5, 0.75])
+    top = fold(BALL, K, GAMMA).reach
+    path = [0 * K, 0.5 * top * K, 1.5 * top * K, K]
+    found = follow(BALL, path, GAMMA)
+    assert found.status == Status.FOLDED
+    assert found.fold.settled
+    assert found.reach == found.fold.reach == pytest.approx(1.5, rel=1e-14)
+    assert np.isfinite(found.rotation[:2]).all()
+    assert np.isnan(found.rotation[2:]).all()
+
+
+def test_a_loop_comes_back_and_other_branches_stay_others():
+    K = np.array([1, -0.5, 0.75])
+    found = branches(BALL, K, GAMMA)
+    turn = 0.1 * np.array([[1, 0, 0], [0, 1, 0], [0, 0, 1], [-1, 0.5, 0]])
+    loop = np.concatenate([[K], K + turn, [K]])
+    ends = follow(BALL, np.broadcast_to(loop, (4, 6, 3)), GAMMA, found.rotation[:4])
+    assert (ends.status == Status.TAKEN).all()
+    assert np.abs(ends.rotation[:, -1] - found.rotation[:4]).max() < 1e-13
+    assert np.abs(ends.rotation[:, 1] - found.rotation[:4]).max() > 1e-3
+
+
+def test_tiny_and_large_momenta():
+    K = np.array([1.0, -0.5, 0.75])
+    here = fold(BALL, K, GAMMA).reach
+    assert fold(BALL, 1e-290 * K, GAMMA).reach == pytest.approx(1e290 * here, rel=1e-14)
+    assert fold(BALL, 1e290 * K, GAMMA).reach == pytest.approx(1e-290 * here, rel=1e-14)
+    along = fold(Ball((1, 2, 4), 1e6), GAMMA, GAMMA)  # the momentum about the vertical does not grow with D
+    assert along.settled
+    assert along.reach < 10
+
+
+def test_what_cannot_be_followed_is_told():
+    assert np.isnan(margin(Ball((0, 0, 1), 3), (0, 0, 1), (0, 0, 1)))
+    found = follow(Ball((0, 0, 1), 3), [[0, 0, 0], [0, 0, 1]], (0, 0, 1))
+    assert found.status == Status.NOT_CONVERGED
+    with pytest.raises(BadInput, match="at least 2 momenta"):
+        follow(BALL, [[0, 0, 0]], GAMMA)
+    with pytest.raises(BadInput, match="does not have the momentum where the path begins"):
+        follow(BALL, [[1, 0, 0], [2, 0, 0]], GAMMA)
+    with pytest.raises(BadInput, match="unit Euler parameters"):
+        follow(BALL, [[0, 0, 0], [1, 0, 0]], GAMMA, (2, 0, 0, 0))
+    with pytest.raises(BadInput, match="leading axes"):
+        follow(BALL, [[0, 0, 0], [1, 0, 0]], GAMMA, np.ones((3, 4)) / 2)
+    with pytest.raises(BadInput, match="momentum must not be 0"):
+        margin(BALL, (0, 0, 0), GAMMA)
+
+
+def test_a_fold_that_newton_does_not_find_is_not_settled(monkeypatch):
+    monkeypatch.setattr(marching, "MOST_EXTENDED", 0)
+    K = (1, -0.5, 0.75)
+    found = fold(BALL, K, GAMMA)
+    assert not found.settled
+    monkeypatch.undo()
+    there = fold(BALL, K, GAMMA)
+    assert there.settled
+    assert 0 < there.reach - found.reach < 1e-4
