@@ -9,7 +9,7 @@ from chapsym.generated import turn
 
 from .gibbs import newton_round, second_round
 from .integrals import PERIOD, restore
-from .loop import ENOUGH, RADIUS, ROWS, A, D, G, I, K, X, safe_rotation
+from .loop import ENOUGH, RADIUS, ROWS, A, D, G, I, K, X, prepare, safe_rotation
 
 #: Balls in a block: its rows stay in the first-level cache.
 LANES = 64
@@ -111,6 +111,15 @@ def extrapolated(S, row, i, w):
     S[row + 15, i] = S[row + 18, i] - 28.0 * w
     S[row + 18, i] = S[row + 21, i] + 8.0 * w
     S[row + 21, i] = -w
+
+
+def prepare_block(momentum, g, tensor, contact, state, scale):
+    """`loop.prepare` of each ball of a block; one that is not full repeats its last ball."""
+    one, last = np.empty(ROWS), len(contact) - 1
+    for lane in range(LANES):
+        i = min(lane, last)
+        scale[i] = prepare(momentum[i], g[i], tensor[i], contact[i], one)
+        state[:, lane] = one
 
 
 def march_block(state, first, count, every, scale, momenta, verticals, taken, status, reach):

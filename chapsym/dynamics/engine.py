@@ -82,7 +82,7 @@ def run(
     work = steps * n * len(stages)
     in_blocks = n >= FEW and not frames.with_body and order == 2 and work >= SHORT_RUN
     if in_blocks:
-        chosen((block.march_block, loop.prepare), work)  # before there are threads
+        chosen((block.march_block, block.prepare_block), work)  # before there are threads
     width = block.LANES if in_blocks else 1
     starts = range(0, n, width)
 
@@ -167,15 +167,10 @@ def _under_way(
 
 
 def _run_block(balls: Balls, which: slice, steps: int, every: int, frames: Frames, count: _Count) -> None:
-    march, prepare = chosen((block.march_block, loop.prepare), SHORT_RUN)
+    march, prepare = chosen((block.march_block, block.prepare_block), SHORT_RUN)
     n = which.stop - which.start
-    state, scale, one = np.zeros((loop.ROWS, block.LANES)), np.zeros(n), np.zeros(loop.ROWS)
-    for lane in range(block.LANES):
-        i = which.start + min(lane, n - 1)  # a block that is not full repeats its last ball
-        scale[min(lane, n - 1)] = prepare(
-            balls.momentum[i], balls.gamma[i], balls.mass_tensor[i], float(balls.D[i]), one
-        )  # fmt: skip
-        state[:, lane] = one
+    state, scale = np.zeros((loop.ROWS, block.LANES)), np.zeros(n)
+    prepare(balls.momentum[which], balls.gamma[which], balls.mass_tensor[which], balls.D[which], state, scale)
     status, reach, taken = frames.status[which], frames.reach[which], frames.taken[which]
     chunk = max(1, CHUNK // block.LANES)
     for first in range(0, steps, chunk):
