@@ -5,17 +5,19 @@ import importlib.util
 import json
 import os
 import tempfile
-from collections.abc import Collection, Sequence
-from fractions import Fraction
+from collections.abc import Callable, Collection, Sequence
+from functools import cache
 from pathlib import Path
+from typing import Any
 
 import sympy as sp
 
-from . import passes, printer
+from . import columns, passes, printer
 from .kernels import KERNELS, Kernel
+from .programs import PROGRAMS, Program
+from .values import columns_fingerprint, fingerprint, program_fingerprint, text_fingerprint
 
 MANIFEST, FINGERPRINTS = "manifest.json", "fingerprints.json"
-DIGITS = 40
 MEND = "chapsym codegen"
 
 
@@ -103,37 +105,6 @@ def package_source(kernels: Sequence[Kernel]) -> str:
     return "\n".join(lines)
 
 
-def point(symbols: Sequence[sp.Symbol]) -> dict[sp.Symbol, sp.Rational]:
-    """A rational point seeded from the names of the symbols, each value in (1/2, 3/2)."""
-
-    def value(name: str) -> sp.Rational:
-        seed = int.from_bytes(hashlib.sha256(name.encode()).digest()[:4], "big") % 1009
-        return sp.Rational(1009 + 2 * seed, 2018)
-
-    return {symbol: value(symbol.name) for symbol in symbols}
-
-
-def decimal(value: Fraction) -> str:
-    """40 significant digits of a rational number."""
-    return str(sp.Rational(value.numerator, value.denominator).evalf(DIGITS))
-
-
-def fingerprint(kernel: Kernel) -> list[str]:
-    """The values of the expressions at the rational point: they survive another order of the text."""
-    values = point(kernel.inputs)
-    exact = [sp.sympify(e).xreplace(values) for e in kernel.build()]
-    return [decimal(Fraction(int(e.p), int(e.q))) for e in exact]
-
-
-def text_fingerprint(kernel: Kernel, text: str) -> list[str]:
-    """The same values from the generated text, run on fractions."""
-    scope: dict = {}
-    exec(compile(text, f"{kernel.name}.py", "exec"), scope)  # our own text, never a user's
-    arguments = [Fraction(int(v.p), int(v.q)) for v in point(kernel.inputs).values()]
-    result = scope[kernel.name](*arguments)
-    return [decimal(value) for value in (result if isinstance(result, tuple) else (result,))]
-
-
 def build(kernels: Sequence[Kernel] = KERNELS) -> dict[str, str]:
     """Every generated file but the fingerprints, by name.
 
@@ -147,8 +118,32 @@ def build(kernels: Sequence[Kernel] = KERNELS) -> dict[str, str]:
         files[f"{kernel.name}.py"] = text
         rows[kernel.name] = {**row, "text_sha256": hashlib.sha256(text.encode()).hexdigest()}
     files["__init__.py"] = package_source(kernels)
-    files[MANIFEST] = json.dumps({"sympy": sp.__version__, "kernels": rows}, indent=1, ensure_ascii=False) + "\n"
+    files[columns.FILE], programs = columns_source()
+    table = {"sympy": sp.__version__, "kernels": rows, "columns": programs}
+    files[MANIFEST] = json.dumps(table, indent=1, ensure_ascii=False) + "\n"
     return files
+
+
+@cache
+def texts() -> dict[str, str]:
+    """The functions of the kernels that programs call, by name."""
+    wanted = {name for program in PROGRAMS for name in columns.called(program)}
+    return {kernel.name: code(kernel) for kernel in KERNELS if kernel.name in wanted}
+
+
+def columns_source() -> tuple[str, dict]:
+    """The module of the NumPy calls and its rows of the manifest; raises as `build` does."""
+    text = columns.source(texts(), {kernel.name: kernel.claims for kernel in KERNELS})
+    for program in PROGRAMS:
+        if columns_fingerprint(program, text) != program_fingerprint(program, texts()):
+            raise ArithmeticError(f"the columns of {program.name} do not compute the program")
+    return text, columns.manifest(texts())
+
+
+def fingerprints() -> dict[str, list[str]]:
+    """The values of every kernel and of every program, by name."""
+    programs = {p.name: program_fingerprint(p, texts()) for p in PROGRAMS}
+    return {k.name: fingerprint(k) for k in KERNELS} | programs
 
 
 def stored_fingerprints(place: Path) -> dict[str, list[str]]:
@@ -157,16 +152,15 @@ def stored_fingerprints(place: Path) -> dict[str, list[str]]:
     return json.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}
 
 
-def distrusted(place: Path, kernels: Sequence[Kernel] = KERNELS) -> list[str]:
-    """What the trusted fingerprints say against the derivation, one sentence for each kernel."""
-    trusted, problems = stored_fingerprints(place), []
-    for kernel in kernels:
-        if kernel.name not in trusted:
-            problems.append(f"{kernel.name} has no trusted fingerprint; after review: {MEND} --trust {kernel.name}")
-        elif trusted[kernel.name] != fingerprint(kernel):
-            problems.append(f"{kernel.name} changed its value; if that is meant: {MEND} --trust {kernel.name}")
-    known = {kernel.name for kernel in kernels}
-    problems += [f"the fingerprint of {name} belongs to no kernel" for name in sorted(set(trusted) - known)]
+def distrusted(place: Path) -> list[str]:
+    """What the trusted fingerprints say against the derivation, one sentence for each kernel or program."""
+    trusted, derived, problems = stored_fingerprints(place), fingerprints(), []
+    for name, value in derived.items():
+        if name not in trusted:
+            problems.append(f"{name} has no trusted fingerprint; after review: {MEND} --trust {name}")
+        elif trusted[name] != value:
+            problems.append(f"{name} changed its value; if that is meant: {MEND} --trust {name}")
+    problems += [f"the fingerprint of {name} belongs to no kernel" for name in sorted(set(trusted) - set(derived))]
     return problems
 
 
@@ -180,29 +174,47 @@ def check(place: Path) -> list[str]:
     problems = [f"{name} is missing" for name in sorted(set(fresh) - set(found))]
     problems += [f"{name} is extra" for name in sorted(set(found) - set(fresh))]
     problems += [f"{name} is changed" for name in sorted(set(fresh) & set(found)) if fresh[name] != found[name]]
-    for kernel in KERNELS:
-        name = f"{kernel.name}.py"
-        if name in found and found[name] != fresh[name]:
-            problems += _value_note(kernel, found[name])
+    for name in sorted(set(fresh) & set(found)):
+        if found[name] != fresh[name]:
+            problems += _value_notes(name, found[name].decode(errors="replace"))
     return problems + distrusted(place)
 
 
-def _value_note(kernel: Kernel, content: bytes) -> list[str]:
-    """Whether a changed text still computes the derived value."""
+def _value_notes(name: str, text: str) -> list[str]:
+    """Whether a changed text still computes the derived values: what is wrong with each of its functions."""
+    if name == columns.FILE:
+        notes = [_note(f"{p.name} in {name}", _same_program, p, text) for p in PROGRAMS]
+    else:
+        notes = [_note(name, _same_kernel, k, text) for k in KERNELS if name == f"{k.name}.py"]
+    return [note for note in notes if note]
+
+
+def _same_kernel(kernel: Kernel, text: str) -> bool:
+    return text_fingerprint(kernel, text) == fingerprint(kernel)
+
+
+def _same_program(program: Program, text: str) -> bool:
+    return columns_fingerprint(program, text) == program_fingerprint(program, texts())
+
+
+def _note(what: str, same: Callable[..., bool], *arguments: Any) -> str:
     try:
-        same = text_fingerprint(kernel, content.decode()) == fingerprint(kernel)
+        return "" if same(*arguments) else f"{what} computes another value than the derivation"
     except Exception as error:
-        return [f"{kernel.name}.py does not run: {error}"]
-    return [] if same else [f"{kernel.name}.py computes another value than the derivation"]
+        return f"{what} does not run: {error}"
 
 
 def check_names(trust: Sequence[str]) -> None:
-    """Raises ValueError if a name in `trust` is no kernel's."""
-    names = {kernel.name for kernel in KERNELS} | {"all"}
+    """Raises ValueError if a name in `trust` is no kernel's and no program's."""
+    names = _names() | {"all"}
     for name in trust:
         if name not in names:
             listed = ", ".join(sorted(names))
             raise ValueError(f"--trust {name}: there is no such kernel; the names are {listed}")
+
+
+def _names() -> set[str]:
+    return {kernel.name for kernel in KERNELS} | {program.name for program in PROGRAMS}
 
 
 def generate(place: Path, trust: Sequence[str] = ()) -> list[str]:
@@ -212,12 +224,12 @@ def generate(place: Path, trust: Sequence[str] = ()) -> list[str]:
     named in `trust` ("all" names every kernel).
     """
     check_names(trust)
-    names = {kernel.name for kernel in KERNELS}
+    names = _names()
     accepted = names if "all" in trust else set(trust)
     problems = [p for p in distrusted(place) if p.split()[0] not in accepted and not p.startswith("the fingerprint of")]
     if problems:
         raise ValueError("; ".join(problems))
-    trusted = {**stored_fingerprints(place), **{k.name: fingerprint(k) for k in KERNELS if k.name in accepted}}
+    trusted = {**stored_fingerprints(place), **{k: v for k, v in fingerprints().items() if k in accepted}}
     files = build()
     files[FINGERPRINTS] = json.dumps({k: trusted[k] for k in sorted(names)}, indent=1) + "\n"
     write(place, files)

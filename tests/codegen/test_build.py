@@ -16,7 +16,7 @@ import pytest
 import sympy as sp
 
 from chapsym import generated
-from chapsym.codegen import build, printer
+from chapsym.codegen import build, printer, values
 from chapsym.codegen.kernels import KERNELS
 
 x, y = sp.symbols("x y")
@@ -161,7 +161,7 @@ def test_the_printer_refuses_what_would_round(expr):
 
 
 def exact_arguments(kernel):
-    return [Fraction(int(v.p), int(v.q)) for v in build.point(kernel.inputs).values()]
+    return [Fraction(int(v.p), int(v.q)) for v in values.point(kernel.inputs).values()]
 
 
 @pytest.mark.parametrize("kernel", KERNELS, ids=lambda k: k.name)

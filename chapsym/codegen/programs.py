@@ -1,0 +1,75 @@
+"""What is generated as NumPy calls on columns: rounds of a step, as straight-line programs that call kernels.
+
+They do what `dynamics.gibbs.newton_round`, `second_round` and the two turns of `dynamics.loop` do, in that order.
+"""
+
+from dataclasses import dataclass
+
+from .kernels import ANY_QUATERNION, CONTACT, GAMMA, GIBBS, HALF, INERTIA, Group
+
+_NEWTON = """
+p0, p1, p2, p3, c11, c12, c13, c21, c22, c23, c31, c32, c33 = gibbs_newton(
+    u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D)
+s = 1 / p0
+w1, w2, w3 = p1 * s, p2 * s, p3 * s
+d1, d2, d3 = w1 - u1, w2 - u2, w3 - u3
+near = u1 * u1 + (u2 * u2 + u3 * u3)
+"""
+
+_SECOND = """
+first = d1 * d1 + (d2 * d2 + d3 * d3)
+e1, e2, e3 = gibbs_second(d1, d2, d3, k1, k2, k3, c11, c12, c13, c21, c22, c23, c31, c32, c33, I1, I2, I3)
+r1, r2, r3 = p1 - e1, p2 - e2, p3 - e3
+v1, v2, v3 = r1 * s, r2 * s, r3 * s
+second = (e1 * e1 + (e2 * e2 + e3 * e3)) * (s * s)
+longer = v1 * v1 + (v2 * v2 + v3 * v3)
+"""
+
+_TURNS = """
+x1, x2, x3 = turn(p0, p1, p2, p3, k1, k2, k3)
+y1, y2, y3 = turn(p0, p1, p2, p3, g1, g2, g3)
+"""
+
+
+@dataclass(frozen=True)
+class Program:
+    """Straight-line Python of kernel calls and + - * /: named inputs in groups, and the names that are its outputs."""
+
+    name: str
+    summary: str
+    groups: tuple[Group, ...]
+    outputs: tuple[str, ...]
+    text: str
+
+    @property
+    def inputs(self) -> tuple[str, ...]:
+        """The names of the arguments."""
+        return tuple(symbol.name for _, symbols in self.groups for symbol in symbols)
+
+
+_ROUND: tuple[Group, ...] = (GIBBS, HALF, GAMMA, INERTIA, CONTACT)
+_ITERATE = ("p0", "p1", "p2", "p3", "w1", "w2", "w3", "near")
+
+PROGRAMS: tuple[Program, ...] = (
+    Program(
+        "newton_columns",
+        "A Newton iterate as a quaternion p and as a Gibbs vector w; |u|² and d = w - u.",
+        _ROUND,
+        (*_ITERATE, "d1", "d2", "d3"),
+        _NEWTON,
+    ),
+    Program(
+        "second_columns",
+        "The same with |d|², and after the second correction e: (p0, r), v = r/p0, |e/p0|² and |v|².",
+        _ROUND,
+        (*_ITERATE, "first", "r1", "r2", "r3", "v1", "v2", "v3", "second", "longer"),
+        _NEWTON + _SECOND,
+    ),
+    Program(
+        "turn_columns",
+        "Ωᵀk - k and Ωᵀγ - γ for the rotation of a quaternion that need not be unit.",
+        (ANY_QUATERNION, HALF, GAMMA),
+        ("x1", "x2", "x3", "y1", "y2", "y3"),
+        _TURNS,
+    ),
+)

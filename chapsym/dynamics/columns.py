@@ -1,0 +1,216 @@
+"""Many balls without numba: a step is some hundred NumPy calls on columns, into rows that stay in the cache.
+
+It does to each ball what `loop.march` does, with the same roundings: the rounds are generated from the same text.
+The lanes that a round does not settle take the safe way one by one, in plain Python.
+"""
+
+import numpy as np
+
+from chapsym.generated.columns import POOL, newton_columns, second_columns, turn_columns
+
+from .ball import Floats
+from .block import PATIENCE
+from .integrals import PERIOD, VERTICAL, inner
+from .loop import ENOUGH, INTEGRALS, RADIUS, ROWS, A, D, G, I, K, X, safe_rotation
+
+#: Balls in a chunk, at most: its rows, about a hundred, stay in the second-level cache.  Longer dot products than
+#: that of three such rows would be shared out to other cores by the BLAS, and wait for them.
+LANES = 2560
+#: Doubles in a line of the cache: rows that begin on one are added and multiplied faster.
+LINE = 8
+#: Weights of the filter of `loop.march` that differ.
+WEIGHTS = tuple(np.array(weight) for weight in (8.0, 28.0, 56.0, 70.0))
+NINE = np.array(9.0)
+
+
+def march_columns(
+    state: Floats, first: int, count: int, every: int, scale: Floats, momenta: Floats, verticals: Floats,
+    taken: np.ndarray, status: np.ndarray, reach: Floats,
+) -> None:  # fmt: skip
+    """`count` steps of a batch from the step `first` on, without numba: what `block.march_block` does, for any width.
+
+    state: (ROWS, n), the rows of `loop`; it moves.  Balls are its first len(status) columns, the others stay.
+    scale, taken, status, reach: one for each ball, (balls,), with 𝒦 = scale·k; a ball whose status is not 0 rests.
+    momenta, verticals: (balls, frames, 3); the frame i gets the state after i·every steps.
+    """
+    balls = len(status)
+    chunks = -(-balls // LANES)
+    width = -(-balls // max(chunks, 1))
+    with np.errstate(all="ignore"):  # what a lane without a certificate computes is thrown away
+        for at in range(0, balls, max(width, 1)):
+            mine = slice(at, min(at + width, balls))
+            chunk = Chunk(state[:, mine], taken[mine], status[mine], reach[mine])
+            chunk.march(first, count, every, scale[mine], momenta[mine], verticals[mine])
+            state[:, mine] = chunk.states()
+
+
+def rows(count: int, width: int) -> Floats:
+    """`count` rows of `width` numbers, a multiple of LINE, each on a line of the cache."""
+    whole = np.zeros(count * width + LINE)
+    begin = -(whole.ctypes.data // whole.itemsize) % LINE
+    return whole[begin : begin + count * width].reshape(count, width)
+
+
+class Chunk:
+    """Some balls, one in each lane: their state S by the rows of `loop`, and the rows that a step writes."""
+
+    def __init__(self, state: Floats, taken: np.ndarray, status: np.ndarray, reach: Floats) -> None:
+        self.balls, self.taken, self.status, self.reach = state.shape[1], taken, status, reach
+        width = -(-self.balls // LINE) * LINE
+        self.S, self.P, self.Z, self.after = (rows(n, width) for n in (ROWS, 7, 6, 6))
+        self.checks, self.d, self.pool = (rows(n, width) for n in (4, 3, max(POOL, 18)))
+        self.settled, self.near = np.ones(width, dtype=bool), np.ones(width, dtype=bool)
+        self.S[:, : self.balls] = state
+        self.S[:, self.balls :] = state[:, :1]
+        #: The states of the balls that rest: their lanes get a ball that stands still, and so do those to spare.
+        self.resting: dict[int, Floats] = {}
+        for lane in (*np.flatnonzero(status), *range(self.balls, width)):
+            self.rest(int(lane))
+        S, P = self.S, self.P
+        self.certified = S[RADIUS] >= 0.0
+        still = ~(S[K : K + 3].any(axis=0) | S[A : A + 24].any(axis=0))  # they are predicted exactly: d = 0
+        self.enough = float(np.where(still, np.inf, S[ENOUGH]).min())
+        self.patience = 0
+        # Views, made once: the arguments of the rounds, and rows that follow each other as one.
+        arguments = [*S[A : A + 3], *S[K : K + 6], *S[I : I + 3], S[D]]
+        near, first, second, longer = self.checks
+        self.newton = [*arguments, *P, near, *self.d]
+        self.second = [*arguments, P[0], *self.after, near, first, *P[1:], second, longer]
+        self.turn = [*P[:4], *S[K : K + 6], *self.Z]
+        self.flat = [x.reshape(-1) for x in (S[K : K + 6], S[X : X + 6], self.Z, self.pool[12:18])]
+        self.filter = [S[A + i : A + i + 3].reshape(-1) for i in range(0, 24, 3)]
+        self.taps = [self.pool[i : i + 3].reshape(-1) for i in range(0, 12, 3)]
+        self.gibbs, self.change = P[4:].reshape(-1), self.d.reshape(-1)
+
+    def states(self) -> Floats:
+        """The rows of `loop` for every ball."""
+        state = self.S[:, : self.balls].copy()
+        for lane, column in self.resting.items():
+            if lane < self.balls:
+                state[:, lane] = column
+        return state
+
+    def rest(self, lane: int) -> None:
+        """Keeps the state of a ball that cannot go on, and puts a round one without momentum into its lane."""
+        self.resting[lane] = self.S[:, lane].copy()
+        self.S[K : K + 3, lane], self.S[X:, lane] = 0.0, 0.0
+        self.S[I : I + 3, lane] = 1.0
+
+    def march(self, first: int, count: int, every: int, scale: Floats, momenta: Floats, verticals: Floats) -> None:
+        """`march_columns` for these balls."""
+        step, last = first, first + count
+        while step < last:
+            stop = min(last, step + every - step % every, step + PERIOD - step % PERIOD)
+            for now in range(step, stop):
+                self.step(now)
+            step = stop
+            if step % PERIOD == 0:
+                restore(self.S)
+            if step % every == 0:
+                going = self.status == 0
+                k, g = self.S[K : K + 3, : self.balls], self.S[G : G + 3, : self.balls]
+                momenta[going, step // every] = (scale * k).T[going]
+                verticals[going, step // every] = g.T[going]
+        self.taken[self.status == 0] = last
+
+    def step(self, now: int) -> None:
+        """One step of every ball."""
+        settled = self.patience == 0 and self.predicted()
+        if not settled:
+            # A lane without a certificate never settles: no correction helps it.
+            if self.patience or (self.certified & ~self.settled).any():
+                self.patience = (self.patience or PATIENCE + 1) - 1
+                settled = self.corrected()
+            if not settled:
+                self.mend(now)
+        self.turned()
+
+    def predicted(self) -> bool:
+        """Every lane's rotation, by a Newton iterate from the extrapolation; whether all settled."""
+        newton_columns(*self.newton, self.pool)
+        np.less_equal(self.checks[0], self.S[RADIUS], self.near)
+        # The sum over the chunk first: where it is below the least bound of a lane, no lane need be looked at.
+        if self.change.dot(self.change) <= self.enough and self.near.all():
+            return True
+        x, y, z = np.multiply(self.d, self.d, self.pool[:3])
+        self.compare(x + (y + z))
+        return bool(self.settled.all())
+
+    def compare(self, first: Floats) -> None:
+        """Which lanes are settled by a Newton correction with |d|² = first from where they are near."""
+        np.less_equal(first, self.S[ENOUGH], self.settled)
+        np.logical_and(self.near, self.settled, self.settled)
+
+    def corrected(self) -> bool:
+        """The same with the second correction where it is needed."""
+        second_columns(*self.second, self.pool)
+        near, first, second, longer = self.checks
+        np.less_equal(near, self.S[RADIUS], self.near)
+        self.compare(first)
+        if self.settled.any():
+            np.copyto(self.P[1:], self.after, where=self.settled)
+        left, right = self.pool[:2]
+        np.maximum(first, second, out=left)
+        np.multiply(NINE, left, left)
+        np.multiply(left, second, left)
+        np.multiply(self.S[ENOUGH], self.S[ENOUGH], right)
+        self.settled |= self.near & (left <= right) & (longer <= self.S[RADIUS])
+        return bool(self.settled.all())
+
+    def mend(self, now: int) -> None:
+        """The safe way for the lanes that did not settle; a ball that cannot go on rests from then on."""
+        S, P = self.S, self.P
+        for lane in np.flatnonzero(~self.settled).tolist():
+            ball = S[:, lane].tolist()
+            u1, u2, u3 = P[4:, lane].tolist() if self.near[lane] else ball[A : A + 3]
+            status, reach, *rotation = safe_rotation(u1, u2, u3, ball)
+            self.reach[lane] = reach
+            if status == 0:
+                P[:, lane] = rotation
+            else:
+                P[:, lane] = 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+                self.taken[lane], self.status[lane] = now, status
+                self.rest(lane)
+                self.certified[lane] = True
+
+    def turned(self) -> None:
+        """Turns k and γ of every lane, with compensation, and carries the extrapolation on."""
+        turn_columns(*self.turn, self.pool)
+        vectors, rest, change, there = self.flat
+        np.subtract(change, rest, change)
+        np.add(vectors, change, there)
+        np.subtract(there, vectors, rest)
+        np.subtract(rest, change, rest)
+        np.add(vectors, change, vectors)
+        a, b, c, d, e, f, h, o = self.filter
+        by8, by28, by56, by70 = self.taps
+        for weight, tap in zip(WEIGHTS, self.taps, strict=True):
+            np.multiply(weight, self.gibbs, tap)
+        np.add(b, by8, a)
+        np.subtract(c, by28, b)
+        np.add(d, by56, c)
+        np.subtract(e, by70, d)
+        np.add(f, by56, e)
+        np.subtract(h, by28, f)
+        np.add(o, by8, h)
+        np.negative(self.gibbs, o)
+
+
+def restore(S: Floats) -> None:
+    """`integrals.restore` on every lane."""
+    k1, k2, k3, g1, g2, g3, x1, x2, x3, y1, y2, y3 = S[K : X + 6]
+    one, one_low, h, h_low, n, n_low = S[INTEGRALS : INTEGRALS + 6]
+    unit, _ = inner(g1, g2, g3, -g1, -g2, -g3, one, one_low)
+    height, _ = inner(k1, k2, k3, -g1, -g2, -g3, h, h_low)
+    squared, _ = inner(k1, k2, k3, -k1, -k2, -k3, n, n_low)
+    unit = unit + 2.0 * (g1 * y1 + g2 * y2 + g3 * y3)
+    height = height + ((k1 * y1 + k2 * y2 + k3 * y3) + (g1 * x1 + g2 * x2 + g3 * x3))
+    squared = squared + 2.0 * (k1 * x1 + k2 * x2 + k3 * x3)
+    stretch = 0.5 * unit / one
+    height = height - stretch * h
+    sine = one - h * h / n
+    apart, moving = sine > VERTICAL, n > 0.0
+    along_gamma = np.where(apart, (height - 0.5 * squared * h / n) / sine, 0.0)
+    along_k = np.where(apart, (0.5 * squared - along_gamma * h) / n, 0.5 * squared / n)
+    S[X : X + 3] = np.where(moving, S[X : X + 3] - (along_k * S[K : K + 3] + along_gamma * S[G : G + 3]), S[X : X + 3])
+    S[X + 3 : X + 6] = np.where(moving, S[X + 3 : X + 6] - stretch * S[G : G + 3], S[X + 3 : X + 6])
