@@ -116,7 +116,7 @@ def extrapolated(S, row, i, w):
 def prepare_block(momentum, g, tensor, contact, state, scale):
     """`loop.prepare` of each ball of a block; one that is not full repeats its last ball."""
     one, last = np.empty(ROWS), len(contact) - 1
-    for lane in range(LANES):
+    for lane in range(state.shape[1]):
         i = min(lane, last)
         scale[i] = prepare(momentum[i], g[i], tensor[i], contact[i], one)
         state[:, lane] = one

@@ -5,10 +5,12 @@ import threading
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass
+from functools import cache
+from importlib.util import find_spec
 
 import numpy as np
 
-from . import block, composed_loop, loop
+from . import block, columns, composed_loop, loop
 from .ball import Floats
 from .coefficients import substeps
 from .errors import Status
@@ -81,9 +83,9 @@ def run(
         return
     work = steps * n * len(stages)
     in_blocks = n >= FEW and not frames.with_body and order == 2 and work >= SHORT_RUN
-    if in_blocks:
+    if in_blocks and has_numba():
         chosen((block.march_block, block.prepare_block), work)  # before there are threads
-    width = block.LANES if in_blocks else 1
+    width = (block.LANES if has_numba() else columns.LANES) if in_blocks else 1
     starts = range(0, n, width)
 
     def task(start: int) -> None:
@@ -102,13 +104,19 @@ def run(
 
 def chosen(functions: Sequence[Callable], work: int) -> list[Callable]:
     """The functions compiled, or as they are where compiling or loading them would take longer than `work` steps."""
-    if work < SHORT_RUN and functions[0] not in _ready:
+    if not has_numba() or (work < SHORT_RUN and functions[0] not in _ready):
         return list(functions)
     from .compiled import compiled
 
     with _loading:
         _ready.add(functions[0])
         return [compiled(function) for function in functions]
+
+
+@cache
+def has_numba() -> bool:
+    """Whether loops can be compiled; without numba a batch runs in NumPy, by columns, and a ball in plain Python."""
+    return find_spec("numba") is not None
 
 
 def _cores() -> int:
@@ -167,12 +175,14 @@ def _under_way(
 
 
 def _run_block(balls: Balls, which: slice, steps: int, every: int, frames: Frames, count: _Count) -> None:
-    march, prepare = chosen((block.march_block, block.prepare_block), SHORT_RUN)
     n = which.stop - which.start
-    state, scale = np.zeros((loop.ROWS, block.LANES)), np.zeros(n)
+    march, prepare, lanes = columns.march_columns, block.prepare_block, n
+    if has_numba():
+        (march, prepare), lanes = chosen((block.march_block, block.prepare_block), SHORT_RUN), block.LANES
+    state, scale = np.zeros((loop.ROWS, lanes)), np.zeros(n)
     prepare(balls.momentum[which], balls.gamma[which], balls.mass_tensor[which], balls.D[which], state, scale)
     status, reach, taken = frames.status[which], frames.reach[which], frames.taken[which]
-    chunk = max(1, CHUNK // block.LANES)
+    chunk = max(1, CHUNK // lanes)
     for first in range(0, steps, chunk):
         now = min(chunk, steps - first)
         march(state, first, now, every, scale, frames.momentum[which], frames.gamma[which], taken, status, reach)

@@ -42,6 +42,17 @@ def test_a_batch_is_its_balls_to_the_bit(n):
         assert (alone.gamma == run.gamma[i]).all()
 
 
+def test_without_numba_a_batch_takes_the_same_steps(monkeypatch):
+    ball, K, g = balls(40)
+    run = chapsym.trajectory(ball, K, g, 200, every=10)
+    monkeypatch.setattr(engine, "has_numba", lambda: False)
+    plain = chapsym.trajectory(ball, K, g, 200, every=10)
+    assert np.array_equal(run.momentum, plain.momentum, equal_nan=True)
+    assert np.array_equal(run.gamma, plain.gamma, equal_nan=True)
+    for name in ("taken", "status"):
+        assert (getattr(run, name) == getattr(plain, name)).all()
+
+
 def test_threads_change_nothing():
     ball, K, g = balls(300)
     one, two = (chapsym.trajectory(ball, K, g, 100, threads=n) for n in (1, 2))
