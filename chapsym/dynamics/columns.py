@@ -4,18 +4,23 @@ It does to each ball what `loop.march` does, with the same roundings: the rounds
 The lanes that a round does not settle take the safe way one by one, in plain Python.
 """
 
+from typing import Any
+
 import numpy as np
 
 from chapsym.generated.columns import POOL, newton_columns, second_columns, turn_columns
 
 from .ball import Floats
 from .block import PATIENCE
-from .integrals import PERIOD, VERTICAL, inner
-from .loop import ENOUGH, INTEGRALS, RADIUS, ROWS, A, D, G, I, K, X, safe_rotation
+from .gibbs import MOST_ROUNDS, certificate, newton_round, second_round
+from .integrals import PERIOD, VERTICAL, inner, remember
+from .loop import ENOUGH, INTEGRALS, RADIUS, ROWS, SMALLEST, A, D, G, I, J, K, X, safe_rotation
 
 #: Balls in a chunk, at most: its rows, about a hundred, stay in the second-level cache.  Longer dot products than
 #: that of three such rows would be shared out to other cores by the BLAS, and wait for them.
 LANES = 2560
+#: Fewer lanes than this are mended one by one.
+FEW = 4
 #: Doubles in a line of the cache: rows that begin on one are added and multiplied faster.
 LINE = 8
 #: Weights of the filter of `loop.march` that differ.
@@ -160,6 +165,11 @@ class Chunk:
     def mend(self, now: int) -> None:
         """The safe way for the lanes that did not settle; a ball that cannot go on rests from then on."""
         S, P = self.S, self.P
+        lanes = np.flatnonzero(~self.settled & self.certified)
+        if len(lanes) > FEW:
+            guess = np.where(self.near, P[4:], S[A : A + 3])[:, lanes]
+            found, P[:, lanes] = search(guess, S[:, lanes], P[:, lanes])
+            self.settled[lanes[found]] = True
         for lane in np.flatnonzero(~self.settled).tolist():
             ball = S[:, lane].tolist()
             u1, u2, u3 = P[4:, lane].tolist() if self.near[lane] else ball[A : A + 3]
@@ -194,6 +204,59 @@ class Chunk:
         np.subtract(h, by28, f)
         np.add(o, by8, h)
         np.negative(self.gibbs, o)
+
+
+def search(guess: Floats, S: Floats, rotations: Floats) -> tuple[np.ndarray, Floats]:
+    """`gibbs.search` from a guess for some lanes at once: which settled, and the rotations (7, n) with theirs."""
+    done, rotations = np.zeros(S.shape[1], dtype=bool), rotations.copy()
+    for start in (guess, np.zeros_like(guess)):
+        u, going = start.copy(), np.flatnonzero(~done)
+        for _ in range(MOST_ROUNDS):
+            going = going[_squared(u[:, going]) <= S[RADIUS, going]]
+            if not len(going):
+                break
+            settled, found = _settle(u[:, going], S[:, going])
+            rotations[:, going[settled]] = found[:, settled]
+            done[going[settled]] = True
+            u[:, going] = found[4:]
+            going = going[~settled]
+    return done, rotations
+
+
+def _settle(u: Floats, S: Floats) -> tuple[np.ndarray, Floats]:
+    """`gibbs.settle` for some lanes at once, from inside the ball: which settled, and p and w of all, (7, n)."""
+    k, body, enough = S[K : K + 3], (*S[I : I + 3], S[D]), S[ENOUGH]
+    p0, *once, first, d1, d2, d3, c11, c12, c13, c21, c22, c23, c31, c32, c33 = newton_round(
+        *u, *k, *S[G : G + 3], *body
+    )
+    *twice, second = second_round(  # type: ignore[call-arg]
+        p0, *once[:3], *k, d1, d2, d3, c11, c12, c13, c21, c22, c23, c31, c32, c33, *body[:3]
+    )  # fmt: skip
+    enough_once = first <= enough
+    enough_twice = (9.0 * np.maximum(first, second) * second <= enough * enough) & (_squared(twice[3:]) <= S[RADIUS])
+    return enough_once | enough_twice, np.array([p0, *np.where(enough_once, once, twice)])
+
+
+def _squared(u: Any) -> Floats:
+    return u[0] * u[0] + (u[1] * u[1] + u[2] * u[2])
+
+
+def prepare_columns(momentum: Floats, g: Floats, tensor: Floats, contact: Floats, state: Floats, scale: Floats) -> None:
+    """`loop.prepare` of every ball of a chunk: (n, 3), (n, 3), (n, 3), (n,) into state (ROWS, n) and scale (n,)."""
+    pairs = tensor[:, [1, 0, 0]] + tensor[:, [2, 2, 1]]
+    exponent = np.frexp(pairs.max(axis=1) + contact)[1]
+    largest = np.abs(momentum).max(axis=1)
+    tiny = (largest > 0.0) & (largest < np.ldexp(SMALLEST, exponent))
+    exponent = np.where(tiny, -1, exponent)
+    state[:] = 0.0
+    state[K : K + 3], state[G : G + 3] = np.ldexp(momentum.T, -exponent - 1), g.T
+    state[J : J + 3], state[D] = np.ldexp(tensor.T, -exponent), np.ldexp(contact, -exponent)
+    state[I : I + 3] = state[[J + 1, J, J]] + state[[J + 2, J + 2, J + 1]]
+    for lane, numbers in enumerate(state[[K, K + 1, K + 2, I, I + 1, I + 2, D]].T.tolist()):
+        state[[RADIUS, ENOUGH], lane] = certificate(*numbers)
+    state[RADIUS, tiny | (state[I : I + 3].min(axis=0) < SMALLEST)] = -1.0
+    remember(state)
+    scale[:] = np.ldexp(1.0, exponent + 1)
 
 
 def restore(S: Floats) -> None:

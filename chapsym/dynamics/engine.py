@@ -176,7 +176,7 @@ def _under_way(
 
 def _run_block(balls: Balls, which: slice, steps: int, every: int, frames: Frames, count: _Count) -> None:
     n = which.stop - which.start
-    march, prepare, lanes = columns.march_columns, block.prepare_block, n
+    march, prepare, lanes = columns.march_columns, columns.prepare_columns, n
     if has_numba():
         (march, prepare), lanes = chosen((block.march_block, block.prepare_block), SHORT_RUN), block.LANES
     state, scale = np.zeros((loop.ROWS, lanes)), np.zeros(n)

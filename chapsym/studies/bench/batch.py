@@ -3,10 +3,12 @@
 import time
 from collections.abc import Callable
 from functools import partial
+from unittest.mock import patch
 
 import numpy as np
 
 import chapsym
+from chapsym.dynamics import engine
 
 from . import batch_peers
 from .harness import Contender, Reached, Result, available_cores, cores, interleaved, ratio_columns
@@ -14,7 +16,12 @@ from .trajectory import CHAPSYM, agreement
 
 EPSILON = 0.05
 SEED = 20074
-COLUMNS, ROWS, LOOP = "NumPy by columns", "NumPy (n, 3), linalg.solve", "numba over rows, Newton in q"
+NUMPY, COLUMNS, ROWS, LOOP = (
+    "chapsym without numba",
+    "NumPy by columns",
+    "NumPy (n, 3), linalg.solve",
+    "numba over rows, Newton in q",
+)
 #: The sides that use more than one core.
 THREADED = (CHAPSYM, LOOP)
 #: Steps after which the peers are compared, and by how much they may differ: 64 roundings a step.
@@ -39,9 +46,18 @@ def with_chapsym(
     return end.momentum[..., -1, :], end.gamma[..., -1, :]
 
 
+def without_numba(
+    K: np.ndarray, g: np.ndarray, J: np.ndarray, D: np.ndarray, steps: int
+) -> tuple[np.ndarray, np.ndarray]:
+    """The same where numba is missing: the engine then runs a batch in NumPy, by columns, from SHORT_RUN steps on."""
+    with patch.object(engine, "has_numba", lambda: False):
+        return with_chapsym(K, g, J, D, steps)
+
+
 #: Each with the share of the steps that it takes: slow ones take 1/share.
 SIDES = {
     CHAPSYM: (with_chapsym, 1),
+    NUMPY: (without_numba, 1),
     COLUMNS: (batch_peers.by_columns, 1),
     LOOP: (batch_peers.over_rows, 1),
     ROWS: (batch_peers.by_rows, 100),
@@ -50,7 +66,7 @@ SIDES = {
 
 def measure(quick: bool, on_round: Callable[[str], None] = lambda text: None) -> Result:
     """Times 10⁴ balls (quick: 2000) on one core and on two; every side is checked against chapsym before."""
-    balls, steps, rounds = (2_000, 100, 3) if quick else (10_000, 1000, 7)
+    balls, steps, rounds = (2_000, 100, 3) if quick else (10_000, 3000, 7)
     K, g, J, D = states(balls)
     differ = agreement({name: partial(side, K, g, J, D, COMPARED) for name, (side, _) in SIDES.items()}, K, AGREEMENT)
     contenders = {
@@ -80,6 +96,7 @@ def measure(quick: bool, on_round: Callable[[str], None] = lambda text: None) ->
         for (name, count), timing in timings.items()
     ]
     reach = [Reached("NumPy by columns / chapsym", timings[COLUMNS, 1].ratio_to(home)[0], 15, True)]
+    reach.append(Reached("chapsym without numba, ns a ball and step", timings[NUMPY, 1].median * 1e9, 80, False))
     missing = {}
     if (CHAPSYM, 2) in timings:
         reach.append(Reached("chapsym: one core / two cores", home.ratio_to(timings[CHAPSYM, 2])[0], 1.8, True))
