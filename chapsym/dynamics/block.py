@@ -12,7 +12,7 @@ from .integrals import PERIOD, restore
 from .loop import ENOUGH, RADIUS, ROWS, A, D, G, I, K, X, prepare, safe_rotation
 
 #: Balls in a block: its rows stay in the first-level cache.
-LANES = 64
+LANES = 40
 #: After a step that needed the second correction, so many are taken with it at once.
 PATIENCE = 64
 
