@@ -224,3 +224,10 @@ def test_a_step_beyond_the_fold_raises_for_one_and_is_told_for_a_batch(monkeypat
 def test_bad_input_gets_one_sentence(args, kwargs, words):
     with pytest.raises(chapsym.BadInput, match=words):
         chapsym.extrapolate(BALL, K, GAMMA, *args, **kwargs)
+
+
+def test_without_numba_it_runs_too(monkeypatch):
+    monkeypatch.setattr(extrapolation, "SHORT_RUN", 0)
+    monkeypatch.setattr(extrapolation, "has_numba", lambda: False)
+    monkeypatch.setattr("chapsym.dynamics.compiled.compiled", None)
+    assert chapsym.extrapolate(BALL, K, GAMMA, 0.5, 2).status == 0
