@@ -8,6 +8,7 @@ from .continuation import Fold, Followed, fold, follow, margin
 from .elliptic import Curve, increment
 from .errors import BadInput, Status, StepNotTaken
 from .exact import ExactTop, exact_top
+from .extrapolation import Extrapolated, extrapolate
 from .general import StepN, step_n
 from .map import Step, step
 from .multivalued import Branches, branches
@@ -17,9 +18,9 @@ from .trajectories_n import TrajectoryN, invariants_n, reverse_n, trajectory_n
 from .vertical import VerticalTrajectory, step_vertical, trajectory_vertical
 
 __all__ = [
-    "BadInput", "Ball", "BallN", "Branches", "Curve", "ExactTop", "Fold", "Followed", "NotRetraced", "Status",
-    "Step", "StepN", "StepNotTaken", "Trajectory", "TrajectoryN", "VerticalTrajectory", "axial", "branches",
-    "compose_step", "exact_top", "fold", "follow", "increment", "invariants_n", "margin", "retrace_error", "reverse",
-    "reverse_n", "roll", "skew", "step", "step_n", "step_vertical", "substeps", "trajectory", "trajectory_n",
-    "trajectory_vertical",
+    "BadInput", "Ball", "BallN", "Branches", "Curve", "ExactTop", "Extrapolated", "Fold", "Followed", "NotRetraced",
+    "Status", "Step", "StepN", "StepNotTaken", "Trajectory", "TrajectoryN", "VerticalTrajectory", "axial", "branches",
+    "compose_step", "exact_top", "extrapolate", "fold", "follow", "increment", "invariants_n", "margin",
+    "retrace_error", "reverse", "reverse_n", "roll", "skew", "step", "step_n", "step_vertical", "substeps",
+    "trajectory", "trajectory_n", "trajectory_vertical",
 ]  # fmt: skip

@@ -20,16 +20,17 @@ from numba.extending import register_jitable
 
 import chapsym.generated as generated
 
-from . import block, branch, composed_loop, gibbs, integrals, loop, vertical_loop
+from . import block, branch, composed_loop, gibbs, integrals, lanes, long_step, loop, vertical_loop
 
 #: What the compiled code is made of.
-SOURCES = (generated, branch, gibbs, integrals, loop, block, composed_loop, vertical_loop)
+SOURCES = (generated, branch, gibbs, integrals, loop, block, composed_loop, vertical_loop, long_step, lanes)
 #: The functions on the way of every step: a call would cost more than they do.
 INLINED = {
     *(generated.gibbs_newton, generated.gibbs_second, generated.turn),
     *(gibbs.newton_round, gibbs.second_round, gibbs.settle, loop.three, loop.put),
     *(composed_loop.extrapolated, composed_loop.turned_with),
     *(block.predicted, block.corrected, block.turned, block.added, block.extrapolated),
+    *(generated.compose, lanes.checked, lanes.moved, lanes.rates, lanes.begin, lanes.keep, lanes.side_by_side),
 }
 
 

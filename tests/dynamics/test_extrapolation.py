@@ -1,0 +1,233 @@
+"""The extrapolated rotation: its weights, its order, its integrals, and what it refuses."""
+
+from fractions import Fraction
+
+import mpmath
+import numpy as np
+import pytest
+
+import chapsym
+from chapsym.dynamics import extrapolation, front, guess, lanes
+from chapsym.dynamics.trajectories import initial_attitude
+
+BALL = chapsym.Ball((0.1, 0.5, 1.6), 0.7)
+K = np.array([1, -0.5, 0.75]) / np.sqrt(1 + 0.25 + 0.5625)
+GAMMA = np.array([2, 3, 6]) / 7
+UNIT_ROUNDOFF = 2.0**-53
+
+
+def continuous(time):
+    """(2.12), (2.13) by mpmath's Taylor series at 25 digits: nothing of the map in it."""
+    with mpmath.workdps(25):
+        J, D = [mpmath.mpf(float(x)) for x in BALL.mass_tensor], mpmath.mpf(float(BALL.D))
+        L = mpmath.diag([J[1] + J[2] + D, J[0] + J[2] + D, J[0] + J[1] + D])
+
+        def cross(a, b):
+            return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+
+        def field(_, y):
+            g = mpmath.matrix(y[3:])
+            omega = mpmath.lu_solve(L - D * g * g.T, mpmath.matrix(y[:3]))
+            return cross(y[:3], omega) + cross(y[3:], omega)
+
+        return np.array(mpmath.odefun(field, 0, [*K, *GAMMA])(time), dtype=float)
+
+
+@pytest.fixture(scope="module")
+def at_two():
+    return continuous(2)
+
+
+def error(reference, *args, **kwargs):
+    end = chapsym.extrapolate(BALL, K, GAMMA, *args, **kwargs)
+    return np.abs(np.r_[end.angular_momentum, end.gamma] - reference).max()
+
+
+@pytest.mark.parametrize("columns", range(1, 7))
+def test_weights_satisfy_the_order_conditions_exactly(columns):
+    w = extrapolation.weights(columns)
+    moments = [
+        sum(x / Fraction(n) ** (2 * j) for n, x in enumerate(w, extrapolation.FIRST)) for j in range(columns + 1)
+    ]
+    assert moments[:columns] == [1] + [0] * (columns - 1)
+    assert moments[columns] != 0
+
+
+@pytest.mark.parametrize(("columns", "steps"), [(2, 8), (3, 4), (4, 3)])
+def test_the_order_is_twice_the_columns(at_two, columns, steps):
+    coarse = error(at_two, 2 / steps, steps, columns=columns)
+    fine = error(at_two, 1 / steps, 2 * steps, columns=columns)
+    assert fine > 1e-13  # above the rounding, so that the ratio means something
+    assert np.log2(coarse / fine) == pytest.approx(2 * columns, abs=0.75)
+
+
+def test_against_two_independent_integrators_at_100():
+    # heyoka's Taylor series at 1e-18 and DOP853 at 3e-14 agree on this to 1.5e-13.
+    known = [0.5322013250293, 0.3245839836328, 0.7819251800563, 0.1859926074992, 0.9712226153368, 0.1487729189535]
+    end = chapsym.extrapolate(BALL, K, GAMMA, 0.5, 200)
+    np.testing.assert_allclose([*end.angular_momentum, *end.gamma], known, rtol=0, atol=1e-12)
+    assert 1e-16 < end.doubt < 1e-8
+
+
+def test_the_integrals_are_kept_at_a_low_order_too():
+    end = chapsym.extrapolate(BALL, K, GAMMA, 0.5, 400, columns=2)
+    # A turn rounds each of 6 components by a few units; in 400 steps, all of one sign, by 400 times that.
+    budget = 400 * 8 * UNIT_ROUNDOFF
+    before = np.array([K @ GAMMA, K @ K, GAMMA @ GAMMA])
+    after = np.array(
+        [end.angular_momentum @ end.gamma, end.angular_momentum @ end.angular_momentum, end.gamma @ end.gamma]
+    )
+    assert np.abs(after - before).max() < budget
+    trajectory_error = np.abs(
+        end.angular_momentum - chapsym.extrapolate(BALL, K, GAMMA, 0.5, 400).angular_momentum
+    ).max()
+    assert trajectory_error > 1e6 * budget  # kept although the state is off
+
+
+def test_back_in_time():
+    there = chapsym.extrapolate(BALL, K, GAMMA, 0.5, 20)
+    back = chapsym.extrapolate(BALL, there.angular_momentum, there.gamma, -0.5, 20)
+    # Not to rounding: a step is self-adjoint to the order of its error only; 3e-14 was measured.
+    np.testing.assert_allclose(back.angular_momentum, K, rtol=0, atol=1e-12)
+
+
+def at_random(n, seed=5):
+    """n balls with states at random, |K| from 0.1 to 2."""
+    rng = np.random.default_rng(seed)
+    K, g = rng.normal(size=(n, 3)), rng.normal(size=(n, 3))
+    K *= rng.uniform(0.1, 2.0, (n, 1)) / np.linalg.norm(K, axis=1, keepdims=True)
+    for _ in range(2):
+        g /= np.linalg.norm(g, axis=1, keepdims=True)
+    return chapsym.Ball(rng.uniform(0.1, 2.0, (n, 3)), rng.uniform(0.0, 2.0, n)), K, g
+
+
+@pytest.mark.parametrize("columns", range(2, 7))
+@pytest.mark.parametrize("time_step", [0.05, 0.5])
+def test_lanes_take_the_rotations_of_the_branch(monkeypatch, columns, time_step):
+    """The plain way proves each rotation to be that of the small-rotation branch, or continues it from no rotation.
+
+    The roots agree to roundings; 27 steps of the map, weights with Σ|w| < 60, and 4 long steps: 1e-12 is ample.
+    """
+    ball, K, g = at_random(20)
+    plain = chapsym.extrapolate(ball, K, g, time_step, 4, columns=columns, attitude=True)
+    assert (plain.status == 0).sum() >= 15
+    monkeypatch.setattr(extrapolation, "SHORT_RUN", 0)
+    lanes = chapsym.extrapolate(ball, K, g, time_step, 4, columns=columns, attitude=True)
+    assert (lanes.status == plain.status).all()
+    for name in ("angular_momentum", "gamma", "attitude", "doubt"):
+        np.testing.assert_allclose(getattr(lanes, name), getattr(plain, name), rtol=0, atol=1e-12)
+
+
+@pytest.mark.parametrize(("time_step", "rounds"), [(2.1, 3), (0.25, 0)])
+def test_lanes_do_not_need_the_safe_way(monkeypatch, time_step, rounds):
+    """Otherwise they would be right, and slow; so they would with poor guesses, which need more rounds.
+
+    At 2.1 three columns are beyond the lemma's bound.
+    """
+    calls = []
+    monkeypatch.setattr(lanes, "long_step", lambda *args: calls.append(1) or (0, 1.0, 0.0))
+    monkeypatch.setattr(lanes, "MOST_ROUNDS", rounds)
+    state, half, _ = extrapolation._scaled(K.copy(), BALL.mass_tensor, float(BALL.D), time_step)
+    full = np.array(extrapolation.weights(6), dtype=float)
+    start = K.copy(), GAMMA.copy(), np.array([1.0, 0, 0, 0])
+    taken, *_ = lanes.long_steps_in_lanes(*start, half, full, full, *guess.guess_weights(6), state, 40)
+    assert taken == 40
+    assert not calls
+
+
+@pytest.mark.parametrize("short_run", [0, 10**9])
+@pytest.mark.parametrize("thin", [1.0, 1e-6, 1e-12])
+def test_a_top_that_turns_about_its_axis(monkeypatch, short_run, thin):
+    """D = 0 and K along the axis: γ turns about it with ω = K3/I3, as thin as the body may be.
+
+    50 steps with a few roundings each, times Σ|w| = 54.
+    """
+    monkeypatch.setattr(extrapolation, "SHORT_RUN", short_run)
+    top = chapsym.Ball((thin, thin, 1.0), 0.0)
+    end = chapsym.extrapolate(top, (0, 0, thin), GAMMA, 0.5, 50)
+    angle = -0.5 * 0.5 * 50
+    x, y, z = GAMMA
+    turned = (x * np.cos(angle) - y * np.sin(angle), x * np.sin(angle) + y * np.cos(angle), z)
+    np.testing.assert_allclose(end.gamma, turned, rtol=0, atol=50 * 4 * 54 * UNIT_ROUNDOFF)
+    assert (end.angular_momentum == (0, 0, thin)).all()
+
+
+def test_a_body_too_thin_for_float64_is_refused(monkeypatch):
+    monkeypatch.setattr(extrapolation, "SHORT_RUN", 0)
+    with pytest.raises(chapsym.StepNotTaken) as caught:
+        chapsym.extrapolate(chapsym.Ball((1e-200, 1e-200, 1.0), 0.0), (0, 0, 1e-200), GAMMA, 0.5, 50)
+    assert caught.value.status is chapsym.Status.NO_INERTIA
+
+
+@pytest.mark.parametrize("short_run", [0, 10**9])
+@pytest.mark.parametrize(("mass", "time"), [(1.0, 1.0), (2.0**-200, 1.0), (2.0**300, 2.0**200), (1.0, 2.0**-400)])
+def test_units_do_not_matter(monkeypatch, short_run, mass, time):
+    monkeypatch.setattr(extrapolation, "SHORT_RUN", short_run)
+    known = chapsym.extrapolate(BALL, K, GAMMA, 0.5, 5)
+    ball = chapsym.Ball(BALL.mass_tensor * mass, BALL.D * mass)
+    end = chapsym.extrapolate(ball, K * (mass / time), GAMMA, 0.5 * time, 5)
+    assert (end.angular_momentum * (time / mass) == known.angular_momentum).all()
+    assert (end.gamma == known.gamma).all()
+
+
+@pytest.mark.parametrize("short_run", [0, 10**9])
+def test_where_nothing_moves(monkeypatch, short_run):
+    monkeypatch.setattr(extrapolation, "SHORT_RUN", short_run)
+    for momentum, time_step, steps in ((0 * K, 0.5, 9), (K, 0.0, 9), (K, 0.5, 0), (1e-310 * K, 0.5, 9)):
+        end = chapsym.extrapolate(BALL, momentum, GAMMA, time_step, steps)
+        assert (end.angular_momentum == momentum).all()
+        assert (end.gamma == GAMMA).all()
+        # The weights in float64 do not add up to exactly 1 and 0: Σ|w| is 54 and 25.
+        assert 0 <= end.doubt <= steps * 2 * (54 + 25) * 2 * UNIT_ROUNDOFF
+
+
+def test_the_attitude_turns_with_gamma_and_the_momentum_stays_in_space():
+    end = chapsym.extrapolate(BALL, K, GAMMA, 0.5, 400, attitude=True)
+    start = initial_attitude(True, GAMMA)
+    budget = 400 * 8 * UNIT_ROUNDOFF  # as for the integrals
+    assert np.abs(front.rotate(end.attitude, end.gamma) - [0, 0, 1]).max() < budget
+    space = front.rotate(start, K)
+    assert np.abs(front.rotate(end.attitude, end.angular_momentum) - space).max() < budget
+    assert abs(end.attitude @ end.attitude - 1) < 1e-15
+    again = chapsym.extrapolate(BALL, K, GAMMA, 0.5, 400, attitude=start)
+    assert (again.attitude == end.attitude).all()
+    assert chapsym.extrapolate(BALL, K, GAMMA, 0.5, 1).attitude is None
+
+
+@pytest.mark.parametrize("short_run", [0, 10**9])
+def test_a_step_beyond_the_fold_raises_for_one_and_is_told_for_a_batch(monkeypatch, short_run):
+    monkeypatch.setattr(extrapolation, "SHORT_RUN", short_run)
+    with pytest.raises(chapsym.StepNotTaken) as caught:
+        chapsym.extrapolate(BALL, 100 * K, GAMMA, 1.0, 3)
+    assert caught.value.index == 0
+    assert caught.value.status is chapsym.Status.FOLDED
+    batch = chapsym.extrapolate(BALL, [100 * K, K, 1e300 * K], GAMMA, 0.5, 3)
+    alone = chapsym.extrapolate(BALL, K, GAMMA, 0.5, 3)
+    assert batch.status.tolist() == [chapsym.Status.FOLDED, chapsym.Status.TAKEN, chapsym.Status.FOLDED]
+    assert np.isnan(batch.angular_momentum[[0, 2]]).all()
+    assert (batch.angular_momentum[1] == alone.angular_momentum).all()
+    assert (batch.gamma[1] == alone.gamma).all()
+
+
+@pytest.mark.parametrize(
+    ("args", "kwargs", "words"),
+    [
+        ((0.1, -1), {}, "steps must be a whole number from 0 on"),
+        ((0.1, 1.0), {}, "steps must be a whole number"),
+        ((0.1, True), {}, "steps must be a whole number"),
+        ((0.1, 1), {"columns": 1}, "columns must be a whole number from 2 to 6"),
+        ((0.1, 1), {"columns": 7}, "columns must be a whole number from 2 to 6"),
+        (([0.1, 0.2], 1), {}, "time_step must be one number"),
+        ((np.nan, 1), {}, "time_step must be finite"),
+    ],
+)
+def test_bad_input_gets_one_sentence(args, kwargs, words):
+    with pytest.raises(chapsym.BadInput, match=words):
+        chapsym.extrapolate(BALL, K, GAMMA, *args, **kwargs)
+
+
+def test_without_numba_it_runs_too(monkeypatch):
+    monkeypatch.setattr(extrapolation, "SHORT_RUN", 0)
+    monkeypatch.setattr(extrapolation, "has_numba", lambda: False)
+    monkeypatch.setattr("chapsym.dynamics.compiled.compiled", None)
+    assert chapsym.extrapolate(BALL, K, GAMMA, 0.5, 2).status == 0
