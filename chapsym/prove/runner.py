@@ -42,7 +42,7 @@ def load(lemmas: bool = False) -> dict[str, Claim]:
 
 
 def downstream(id: str, claims: dict[str, Claim]) -> list[str]:
-    """The claims that use `id`, directly or through others."""
+    """The claims among `claims` that use `id`, directly or through others."""
     reached: list[str] = []
     frontier = [id]
     while frontier:
@@ -56,9 +56,15 @@ def downstream(id: str, claims: dict[str, Claim]) -> list[str]:
 def prove_one(id: str) -> dict[str, Any]:
     """Judges one claim and returns its record; a proof that raises is an open claim with the reason."""
     claims = load(lemmas=True)
-    record = judge(claims[id]).record(downstream(id, claims))
+    record = judge(claims[id]).record(_used_by(id, claims))
     record["evidence"]["fingerprint"] = fingerprint(claims[id])
     return record
+
+
+def _used_by(id: str, claims: dict[str, Claim]) -> list[str]:
+    """What is downstream of a claim of the paper in the paper, and of a lemma anywhere."""
+    paper = load()
+    return downstream(id, paper if id in paper else claims)
 
 
 def judge(claim: Claim) -> Judgement:
@@ -107,7 +113,7 @@ def _abandoned(id: str) -> dict[str, Any]:
     """The open record of a claim that was not judged because a process was lost."""
     claims = load(lemmas=True)
     reason = "not judged: a process that ran proofs ended, perhaps for lack of memory; try --jobs 1"
-    record = Judgement(claims[id], Verdict.OPEN, Proof(problems=[reason]), 0.0).record(downstream(id, claims))
+    record = Judgement(claims[id], Verdict.OPEN, Proof(problems=[reason]), 0.0).record(_used_by(id, claims))
     record["evidence"]["fingerprint"] = fingerprint(claims[id])
     return record
 
