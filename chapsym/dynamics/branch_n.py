@@ -51,6 +51,9 @@ def small_rotation(K: Floats, gamma: Floats, J: Floats, D: Floats) -> tuple[Floa
             break
         ahead = np.minimum(t[going] + step[going], 1.0)
         moved, settled = corrected(E[going], ahead[:, np.newaxis] * k[going], gamma[going], J[going], D[going])
+        # The Jacobian is positive definite at rest: where its determinant is not positive, a fold has been passed.
+        slope = so_n.jacobian(moved, gamma[going], J[going], D[going])
+        settled &= np.linalg.slogdet(slope)[0] > 0
         arrived, refused = going[settled], going[~settled]
         E[arrived], t[arrived] = moved[settled], ahead[settled]
         step[arrived] *= 2

@@ -93,3 +93,17 @@ def test_from_a_fold_newton_does_not_settle_and_does_not_complain():
         moved, settled = corrected(E, np.full((2, 6), 0.1), *state)
     assert settled.tolist() == [False, True]
     assert np.abs(so_n.momentum(moved[1], *(x[1] for x in state))).max() == pytest.approx(0.1)
+
+
+def test_a_bifurcation_ends_the_branch_as_a_fold_does():
+    """The rotations about e₂ go on, but the Jacobian vanishes on the way: so it is in three dimensions."""
+    J, D, gamma = (0.0, 0.0, 1.0), 1.0, np.array([1.0, 0.0, 4.0]) / np.sqrt(17)
+    found = []
+    for step, momentum in ((chapsym.step, [0, 1.0, 0]), (chapsym.step_n, chapsym.skew([0, 1.0, 0]))):
+        ball = chapsym.Ball(J, D) if step is chapsym.step else chapsym.BallN(J, D)
+        with pytest.raises(chapsym.StepNotTaken) as caught:
+            step(ball, momentum, gamma)
+        assert caught.value.status == chapsym.Status.FOLDED
+        found.append(caught.value.reach)
+    assert found[0] == pytest.approx(16 / 17, rel=1e-7)
+    assert found[1] == pytest.approx(16 / 17, rel=1e-7)
