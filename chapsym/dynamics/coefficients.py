@@ -8,6 +8,7 @@ digits, and one parameter is free: c₁ is as published, and the others are Newt
 
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 
 import numpy as np
 
@@ -29,10 +30,12 @@ class Composition:
         half = tuple(map(Fraction, self.half))
         return half + half[-2::-1]
 
-    @property
+    @cached_property
     def stages(self) -> Floats:
         """c₁, ..., cₛ, each the nearest float64, shape (s,)."""
-        return np.array([float(c) for c in self.exact])
+        stages = np.array([float(c) for c in self.exact])
+        stages.flags.writeable = False
+        return stages
 
 
 COMPOSITIONS = {

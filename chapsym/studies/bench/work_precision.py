@@ -61,6 +61,13 @@ def the_map(y: np.ndarray, end: float, steps: float, order: int = 2, balls: int 
     return np.concatenate([x[..., -1, :].reshape(-1, 3)[0] for x in (run.momentum / epsilon, run.gamma)])
 
 
+def extrapolated(y: np.ndarray, end: float, steps: float) -> np.ndarray:
+    """The continuous ball to order 12: the rotation of each long step extrapolated from steps of the map."""
+    ball = chapsym.Ball(MASS_TENSOR, D)  # type: ignore[arg-type]
+    run = chapsym.extrapolate(ball, y[:3], y[3:], end / steps, int(steps))
+    return np.concatenate([run.angular_momentum, run.gamma])
+
+
 def methods(quick: bool) -> tuple[list[Method], dict[str, str]]:
     """The methods that can run here, and why the others cannot."""
     tolerances = tuple(10.0**-k for k in ((3, 6, 9, 12) if quick else range(2, 14)))
@@ -76,6 +83,8 @@ def methods(quick: bool) -> tuple[list[Method], dict[str, str]]:
         found.append(Method(f"chapsym, order {order}", partial(the_map, order=order), sweep))
         several = partial(the_map, order=order, balls=BALLS)
         found.append(Method(f"chapsym, order {order}, batch", several, sweep, BALLS))
+    long_steps = tuple(round(50.0 * 2 ** (k / 4)) for k in (range(0, 13, 6) if quick else range(0, 15)))
+    found.append(Method("chapsym.extrapolate", extrapolated, long_steps))
     if reason := installed("scipy"):
         missing["SciPy DOP853, LSODA"] = reason
     else:
