@@ -104,13 +104,18 @@ def run(
 
 def chosen(functions: Sequence[Callable], work: int) -> list[Callable]:
     """The functions compiled, or as they are where compiling or loading them would take longer than `work` steps."""
-    if not has_numba() or (work < SHORT_RUN and functions[0] not in _ready):
+    if not compiles(functions[0], work):
         return list(functions)
     from .compiled import compiled
 
     with _loading:
         _ready.add(functions[0])
         return [compiled(function) for function in functions]
+
+
+def compiles(function: Callable, work: int) -> bool:
+    """Whether `work` steps are worth the compiled function: many are, and any once it is loaded."""
+    return has_numba() and (work >= SHORT_RUN or function in _ready)
 
 
 @cache

@@ -18,15 +18,13 @@ from numpy.typing import ArrayLike
 
 from . import loop
 from .ball import Ball, Floats, numbers
-from .engine import has_numba
+from .engine import chosen, compiles
 from .errors import BadInput, Status, StepNotTaken
 from .lanes import MOST_COLUMNS, long_steps_in_lanes
 from .long_step import FIRST, long_steps
 from .map import batch, unit_vertical
 from .trajectories import initial_attitude
 
-#: Runs with fewer steps of the map are taken in plain Python, as compiling would take longer; all without numba.
-SHORT_RUN = 2000
 #: Longer steps than 2^LONGEST, in units where the momentum and the ball are about 1, have no rotation anyway.
 LONGEST = 100
 
@@ -107,12 +105,11 @@ def _march(columns: int, work: int) -> Callable[..., Any]:
     """What takes the long steps: (K, g, attitude, half, state, steps) -> (taken, status, reach, doubt)."""
     full = np.array(weights(columns), dtype=float)
     short = np.array([*weights(columns - 1), 0], dtype=float)
-    if work < SHORT_RUN or not has_numba():
+    if not compiles(long_steps_in_lanes, work):
         return lambda K, g, a, half, state, steps: long_steps(K, g, a, half, full, short, state, steps)
-    from .compiled import compiled
     from .guess import guess_weights
 
-    lanes, guesses = compiled(long_steps_in_lanes), guess_weights(columns)
+    (lanes,), guesses = chosen((long_steps_in_lanes,), work), guess_weights(columns)
     return lambda K, g, a, half, state, steps: lanes(K, g, a, half, full, short, *guesses, state, steps)
 
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import chapsym
-from chapsym.dynamics import extrapolation, front, guess, lanes
+from chapsym.dynamics import engine, extrapolation, front, guess, lanes
 from chapsym.dynamics.trajectories import initial_attitude
 
 BALL = chapsym.Ball((0.1, 0.5, 1.6), 0.7)
@@ -111,7 +111,8 @@ def test_lanes_take_the_rotations_of_the_branch(monkeypatch, columns, time_step)
     ball, K, g = at_random(20)
     plain = chapsym.extrapolate(ball, K, g, time_step, 4, columns=columns, attitude=True)
     assert (plain.status == 0).sum() >= 15
-    monkeypatch.setattr(extrapolation, "SHORT_RUN", 0)
+    monkeypatch.setattr(engine, "SHORT_RUN", 0)
+    monkeypatch.setattr(engine, "_ready", set())
     lanes = chapsym.extrapolate(ball, K, g, time_step, 4, columns=columns, attitude=True)
     assert (lanes.status == plain.status).all()
     for name in ("angular_momentum", "gamma", "attitude", "doubt"):
@@ -142,7 +143,8 @@ def test_a_top_that_turns_about_its_axis(monkeypatch, short_run, thin):
 
     50 steps with a few roundings each, times Σ|w| = 54.
     """
-    monkeypatch.setattr(extrapolation, "SHORT_RUN", short_run)
+    monkeypatch.setattr(engine, "SHORT_RUN", short_run)
+    monkeypatch.setattr(engine, "_ready", set())
     top = chapsym.Ball((thin, thin, 1.0), 0.0)
     end = chapsym.extrapolate(top, (0, 0, thin), GAMMA, 0.5, 50)
     angle = -0.5 * 0.5 * 50
@@ -153,7 +155,8 @@ def test_a_top_that_turns_about_its_axis(monkeypatch, short_run, thin):
 
 
 def test_a_body_too_thin_for_float64_is_refused(monkeypatch):
-    monkeypatch.setattr(extrapolation, "SHORT_RUN", 0)
+    monkeypatch.setattr(engine, "SHORT_RUN", 0)
+    monkeypatch.setattr(engine, "_ready", set())
     with pytest.raises(chapsym.StepNotTaken) as caught:
         chapsym.extrapolate(chapsym.Ball((1e-200, 1e-200, 1.0), 0.0), (0, 0, 1e-200), GAMMA, 0.5, 50)
     assert caught.value.status is chapsym.Status.NO_INERTIA
@@ -162,7 +165,8 @@ def test_a_body_too_thin_for_float64_is_refused(monkeypatch):
 @pytest.mark.parametrize("short_run", [0, 10**9])
 @pytest.mark.parametrize(("mass", "time"), [(1.0, 1.0), (2.0**-200, 1.0), (2.0**300, 2.0**200), (1.0, 2.0**-400)])
 def test_units_do_not_matter(monkeypatch, short_run, mass, time):
-    monkeypatch.setattr(extrapolation, "SHORT_RUN", short_run)
+    monkeypatch.setattr(engine, "SHORT_RUN", short_run)
+    monkeypatch.setattr(engine, "_ready", set())
     known = chapsym.extrapolate(BALL, K, GAMMA, 0.5, 5)
     ball = chapsym.Ball(BALL.mass_tensor * mass, BALL.D * mass)
     end = chapsym.extrapolate(ball, K * (mass / time), GAMMA, 0.5 * time, 5)
@@ -172,7 +176,8 @@ def test_units_do_not_matter(monkeypatch, short_run, mass, time):
 
 @pytest.mark.parametrize("short_run", [0, 10**9])
 def test_where_nothing_moves(monkeypatch, short_run):
-    monkeypatch.setattr(extrapolation, "SHORT_RUN", short_run)
+    monkeypatch.setattr(engine, "SHORT_RUN", short_run)
+    monkeypatch.setattr(engine, "_ready", set())
     for momentum, time_step, steps in ((0 * K, 0.5, 9), (K, 0.0, 9), (K, 0.5, 0), (1e-310 * K, 0.5, 9)):
         end = chapsym.extrapolate(BALL, momentum, GAMMA, time_step, steps)
         assert (end.angular_momentum == momentum).all()
@@ -196,7 +201,8 @@ def test_the_attitude_turns_with_gamma_and_the_momentum_stays_in_space():
 
 @pytest.mark.parametrize("short_run", [0, 10**9])
 def test_a_step_beyond_the_fold_raises_for_one_and_is_told_for_a_batch(monkeypatch, short_run):
-    monkeypatch.setattr(extrapolation, "SHORT_RUN", short_run)
+    monkeypatch.setattr(engine, "SHORT_RUN", short_run)
+    monkeypatch.setattr(engine, "_ready", set())
     with pytest.raises(chapsym.StepNotTaken) as caught:
         chapsym.extrapolate(BALL, 100 * K, GAMMA, 1.0, 3)
     assert caught.value.index == 0
@@ -227,7 +233,8 @@ def test_bad_input_gets_one_sentence(args, kwargs, words):
 
 
 def test_without_numba_it_runs_too(monkeypatch):
-    monkeypatch.setattr(extrapolation, "SHORT_RUN", 0)
-    monkeypatch.setattr(extrapolation, "has_numba", lambda: False)
+    monkeypatch.setattr(engine, "SHORT_RUN", 0)
+    monkeypatch.setattr(engine, "_ready", set())
+    monkeypatch.setattr(engine, "has_numba", lambda: False)
     monkeypatch.setattr("chapsym.dynamics.compiled.compiled", None)
     assert chapsym.extrapolate(BALL, K, GAMMA, 0.5, 2).status == 0

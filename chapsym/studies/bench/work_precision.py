@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
+from functools import cache, partial
 from itertools import pairwise
 
 import mpmath
@@ -50,21 +50,25 @@ class Point:
     integrals: tuple[float, float, float]
 
 
+@cache
+def _ball() -> chapsym.Ball:
+    """Made once, as heyoka.py's integrator is."""
+    return chapsym.Ball(MASS_TENSOR, D)  # type: ignore[arg-type]
+
+
 def the_map(y: np.ndarray, end: float, steps: float, order: int = 2, balls: int = 1) -> np.ndarray:
     """chapsym's map, or its composition of a higher order, with 𝒦 = εK; the first of the balls of one call."""
     epsilon, count = end / steps, int(steps)
     K, g = epsilon * np.tile(y[:3], (balls, 1)), np.tile(y[3:], (balls, 1))
-    ball = chapsym.Ball(MASS_TENSOR, D)  # type: ignore[arg-type]
     if balls == 1:
         K, g = K[0], g[0]
-    run = chapsym.trajectory(ball, K, g, count, order=order, every=count)
+    run = chapsym.trajectory(_ball(), K, g, count, order=order, every=count)
     return np.concatenate([x[..., -1, :].reshape(-1, 3)[0] for x in (run.momentum / epsilon, run.gamma)])
 
 
 def extrapolated(y: np.ndarray, end: float, steps: float) -> np.ndarray:
     """The continuous ball to order 12: the rotation of each long step extrapolated from steps of the map."""
-    ball = chapsym.Ball(MASS_TENSOR, D)  # type: ignore[arg-type]
-    run = chapsym.extrapolate(ball, y[:3], y[3:], end / steps, int(steps))
+    run = chapsym.extrapolate(_ball(), y[:3], y[3:], end / steps, int(steps))
     return np.concatenate([run.angular_momentum, run.gamma])
 
 
