@@ -86,6 +86,6 @@ def substeps(order: int) -> Floats:
 
     Raises BadInput for any other order.
     """
-    if not isinstance(order, int) or order not in COMPOSITIONS:
+    if isinstance(order, bool) or not isinstance(order, int | np.integer) or order not in COMPOSITIONS:
         raise BadInput(f"order must be one of {', '.join(map(str, COMPOSITIONS))}, not {order!r}")
-    return COMPOSITIONS[order].stages
+    return COMPOSITIONS[int(order)].stages

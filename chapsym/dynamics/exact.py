@@ -46,22 +46,25 @@ class ExactTop:
         """The continuous motion of `origin` from a trajectory of `ball` with `momentum`: εK, γ and the attitude.
 
         Step k is turned by k `twist` about 𝒦, so that nothing adds up.  The contact point is left out: its discrete
-        steps are chords.  Raises BadInput for a run of another ball or momentum.
+        steps are chords.  The order of the result is 0: its steps are no composition of the map.
+        Raises BadInput for a run of another ball, momentum or order, or from a γ that this top was not made for.
         """
         momentum = run.momentum[0] if run.momentum.ndim == 2 else None
-        if run.ball is not self.ball or momentum is None or not (momentum == self.momentum).all():
+        if run.ball is not self.ball or momentum is None or not (momentum == self.momentum).all() or run.order != 2:
             raise BadInput(
                 "this is no trajectory of the exact top: run `trajectory(top.ball, top.momentum, gamma, ...)`"
             )
-        axis = run.momentum / np.sqrt((run.momentum**2).sum(axis=-1, keepdims=True))
+        size = np.sqrt((run.momentum**2).sum(axis=-1, keepdims=True))
+        if float(self.origin.D) > 0.0 and np.abs(np.cross(momentum, run.gamma[0])).max() > VERTICAL * size[0, 0]:
+            raise BadInput("this run does not start at the gamma along the momentum, for which the exact top was made")
+        axis = np.sign(self.size) * run.momentum / size  # γ itself where D > 0, though 𝒦 may point downwards
         half = run.index * (self.twist / 2)
         turn = np.concatenate([np.cos(half)[:, np.newaxis], np.sin(half)[:, np.newaxis] * axis], axis=-1)
-        direction = np.sign(self.momentum @ axis[0])
         attitude = None if run.attitude is None else front.compose(run.attitude, turn)
         gamma = front.transport(turn, run.gamma)
         return Trajectory(
-            self.origin, run.index, self.size * direction * axis, gamma, attitude, None, run.taken, run.status,
-            run.time_step,
+            self.origin, run.index, self.size * axis, gamma, attitude, None, run.taken, run.status,
+            run.time_step, 0,
         )  # fmt: skip
 
 
@@ -82,21 +85,25 @@ def exact_top(ball: Ball, momentum: ArrayLike, gamma: ArrayLike) -> ExactTop:
         or g.shape != (3,)
     ):
         raise BadInput("an exact top is made for one ball, one momentum and one gamma")
-    size = float(np.sqrt(K @ K))
-    if size == 0.0:
+    largest = float(np.abs(K).max())
+    if largest == 0.0:
         raise BadInput("the momentum must not vanish: a ball at rest stays where it is")
-    contact = float(ball.D)
+    contact, unit = float(ball.D), K / largest
+    size = largest * float(np.sqrt(unit @ unit))
     if contact > 0.0:
         size = float(K @ g)
         if np.abs(K - size * g).max() > VERTICAL * abs(size):
             raise BadInput("for D > 0 only a motion with vertical momentum is a top's: momentum must be along gamma")
     axis = g if contact > 0.0 else K / size
-    moments = ball.inertia + contact
-    # 1 - Dl as a sum of positive terms.
-    speed = size / float((axis * axis * ball.inertia / moments).sum())
     top = Ball(ball.mass_tensor + contact / 2, 0.0)  # type: ignore[arg-type]
-    tau, twist = _fixed(top, axis, speed) if _is_fixed(top, axis) else _moving(top, axis, speed)
-    return ExactTop(top, tau * axis, twist, ball, size)
+    # In units in which the largest moment is about 1: products of three moments stay in range.
+    exponent = int(np.frexp(top.inertia.max())[1])
+    moments = np.ldexp(ball.inertia, -exponent)
+    # 1 - Dl as a sum of positive terms.
+    speed = float(np.ldexp(size, -exponent) / (axis * axis * moments / (moments + np.ldexp(contact, -exponent))).sum())
+    unit_top = Ball(np.ldexp(top.mass_tensor, -exponent), 0.0)  # type: ignore[arg-type]
+    tau, twist = _fixed(unit_top, axis, speed) if _is_fixed(unit_top, axis) else _moving(unit_top, axis, speed)
+    return ExactTop(top, np.ldexp(tau, exponent) * axis, twist, ball, size)
 
 
 def _is_fixed(top: Ball, axis: Floats) -> bool:

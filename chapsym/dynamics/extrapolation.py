@@ -72,6 +72,7 @@ def extrapolate(
     time_step^(2 columns), ⟨K,γ⟩, |K|² and |γ|² are kept to rounding.
     attitude: True (from the least rotation with R γ = e₃) or unit quaternions, (..., 4), to be followed.
 
+    A ball in a batch may differ from the same ball alone by roundings: short runs take another loop.
     One ball raises StepNotTaken where the map has no step of length time_step/n; a batch reports `status`.
     Raises BadInput as `step` does, for a time_step that is not one finite number, and for counts out of range.
     """

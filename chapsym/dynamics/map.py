@@ -102,6 +102,8 @@ def advance_all(K: Floats, g: Floats, J: Floats, D: Floats, q: Floats, status: n
 
 def explain(status: int, K: Floats, g: Floats, J: Floats, D: float) -> Status:
     """Why a step was not taken: UNREACHABLE if no rotation at all has this momentum."""
+    if status == Status.NO_INERTIA and (g * g * (J.sum() - J)).sum() > 0.0:
+        return Status.NOT_CONVERGED  # it has some, but beside D it is rounding
     if status in (Status.FOLDED, Status.NOT_CONVERGED):
         # Scaled so that Λmax is below 1: then no rotation has a component above 2, and nothing overflows.
         shift = -int(np.frexp(J.sum() + D)[1])

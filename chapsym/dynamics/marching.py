@@ -123,6 +123,9 @@ class Marchers:
             w[settled] = 0.0
             self._turn(w)
             extent = np.abs(self.q[:, 1:]).max(axis=1)
+            # Without momentum the small rotation is none: no digits of a rounding are asked for.
+            still = ~K.any(axis=1) & (extent < AT_THE_ROOT)
+            self.q[still, 1:], settled[still] = 0.0, True
             # What a rounding of the residual moves the rotation by, for Λmax of about 1.
             size = np.abs(K).max(axis=1) + 2 * extent
             noise = ROUNDINGS * UNIT_ROUNDOFF * np.abs(inverse).max(axis=(1, 2)) * size

@@ -56,6 +56,8 @@ def reverse(run: Trajectory) -> Trajectory:
     and otherwise met only for D > 0, within 1% of a fold.  StepNotTaken as `trajectory` does.
     """
     steps, every = _frames(run)
+    if run.order == 0:
+        raise BadInput("the way back of a restored run is that of exact_top with the opposite momentum at its end")
     if np.isnan(run.momentum).any():
         raise BadInput("a ball of the batch stopped early; choose the frames up to `taken` first")
     options: dict[str, Any] = {"every": every, "contact": run.contact is not None, "time_step": run.time_step}
@@ -75,6 +77,8 @@ def retrace_error(run: Trajectory, back: Trajectory) -> Floats:
 
     The largest of the errors of 𝒦, relative to its largest component, of γ and, if there, of the attitude.
     """
+    if not isinstance(run, Trajectory) or not isinstance(back, Trajectory) or run.gamma.shape != back.gamma.shape:
+        raise BadInput("retrace_error compares a trajectory with its way back, of equal shape: give it reverse(run)")
     size = np.abs(run.momentum).max(axis=(-1, -2))[..., np.newaxis]
     gap = np.abs(run.momentum + back.momentum[..., ::-1, :]).max(axis=-1) / np.where(size > 0, size, 1.0)
     gap = np.maximum(gap, np.abs(run.gamma - back.gamma[..., ::-1, :]).max(axis=-1))

@@ -13,6 +13,8 @@ from .engine import Balls, Frames
 from .errors import BadInput, Status, StepNotTaken
 from .map import UNIT_TOLERANCE, batch, unit_vertical
 
+#: Whoever asks for more steps than this, or for every so many, will not see the end of it.
+MOST_STEPS = 2**62
 #: How far R γ may be from e₃ for an attitude that is given with its γ.
 AGREEMENT = 1e-9
 
@@ -28,7 +30,7 @@ class Trajectory:
     taken: the number of steps that were taken, (...); frames after it are NaN.
     status: why a ball stopped, a `Status`, (...).
     time_step: ε in seconds, if the run has one.
-    order: of the composition that made the steps; 2 for the map itself.
+    order: of the composition that made the steps; 2 for the map itself, 0 for the continuous motion (`exact_top`).
     """
 
     ball: Ball
@@ -187,7 +189,7 @@ def _up_to(whole: Trajectory, taken: int) -> Trajectory:
 def _count(value: int, name: str, least: int) -> int:
     if isinstance(value, bool) or not isinstance(value, int | np.integer) or value < least:
         raise BadInput(f"{name} must be a whole number from {least} on, not {value!r}")
-    return int(value)
+    return min(int(value), MOST_STEPS)
 
 
 def _seconds(value: ArrayLike) -> float:

@@ -11,6 +11,7 @@ from .ball_n import BallN, flat_states, initial_attitudes, skew_matrices
 from .branch_n import small_rotation
 from .errors import BadInput, Status, StepNotTaken
 from .general import blocks
+from .trajectories import _count
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,6 +63,7 @@ def trajectory_n(
     Raises BadInput as `step_n` does, and for counts that are not whole numbers.
     """
     steps, every = _count(steps, "steps", 0), _count(every, "every", 1)
+    every = min(every, steps + 1)
     shape, (K, g, J, D) = flat_states(ball, momentum, gamma)
     if contact and ball.radius is None:
         raise BadInput("the contact point needs the radius: give the ball its radius")
@@ -137,6 +139,8 @@ def reverse_n(trajectory: TrajectoryN) -> TrajectoryN:
     the same, up to rounding.  Raises BadInput if a ball stopped early, StepNotTaken as `trajectory_n` does
     (only for a step so large that the way back leaves the small-rotation branch).
     """
+    if not isinstance(trajectory, TrajectoryN):
+        raise BadInput(f"reverse_n takes a TrajectoryN, not {type(trajectory).__name__}")
     if (trajectory.status != Status.TAKEN).any():
         raise BadInput("a ball of the batch stopped early; reverse the balls that did not")
     steps, every = int(trajectory.index[-1]), int((*trajectory.index, 1)[1])
@@ -177,9 +181,3 @@ def _frames(whole: TrajectoryN, kept: slice) -> TrajectoryN:
         attitude=None if whole.attitude is None else whole.attitude[kept],
         contact=None if whole.contact is None else whole.contact[kept],
     )  # fmt: skip
-
-
-def _count(value: int, name: str, least: int) -> int:
-    if isinstance(value, bool) or not isinstance(value, int | np.integer) or value < least:
-        raise BadInput(f"{name} must be a whole number from {least} on, not {value!r}")
-    return int(value)

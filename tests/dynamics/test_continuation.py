@@ -178,3 +178,14 @@ def test_a_fold_that_newton_does_not_find_is_not_settled(monkeypatch):
     there = fold(BALL, K, GAMMA)
     assert there.settled
     assert 0 < there.reach - found.reach < 1e-4
+
+
+def test_a_path_may_end_at_rest_and_go_through_it():
+    ball, K, g = Ball((1, 2, 4), 3), np.array([1, -0.5, 0.75]), np.array([2, 3, 6]) / 7
+    start = step(ball, K / 19, g).rotation
+    rest = follow(ball, [K / 19, 0 * K], g, start)
+    assert rest.status == 0
+    assert (np.abs(rest.rotation[-1]) == [1, 0, 0, 0]).all()
+    through = follow(ball, [K / 19, 0 * K, -K / 19], g, start)
+    assert through.status == 0
+    assert np.abs(through.rotation[-1] - step(ball, -K / 19, g).rotation).max() < 1e-14

@@ -231,3 +231,14 @@ def test_progress_is_told():
     seen = []
     chapsym.trajectory(BALL, K, GAMMA, 450_000, every=1000, progress=seen.append)
     assert seen == [200_000, 400_000, 450_000]
+
+
+def test_counts_beyond_all_bounds_are_only_large():
+    with pytest.raises(StepNotTaken):
+        chapsym.trajectory(BALL, 9 * K / abs(K).max(), GAMMA, 10**30, every=10**30)
+    assert chapsym.trajectory(BALL, K, GAMMA, 3, order=np.int64(4), every=10**30).taken == 3
+
+
+def test_a_huge_d_is_no_missing_inertia():
+    with pytest.raises(StepNotTaken, match="D is too large"):
+        chapsym.step(Ball((1, 2, 4), 1e16), K, GAMMA)

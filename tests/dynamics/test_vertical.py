@@ -144,3 +144,34 @@ def test_units_do_not_matter():
     scale = 2.0**300
     large = Ball(BALL.mass_tensor * scale, BALL.D * scale)
     assert (step_vertical(large, 0.3 * scale, GAMMA).gamma == step_vertical(BALL, 0.3, GAMMA).gamma).all()
+
+
+@pytest.mark.parametrize("height", [0.6, -0.6])
+def test_an_exact_top_turns_either_way(height):
+    """The continuous motion is reversible: with the opposite momentum the exact top comes back, attitude and all."""
+    ball = Ball((1, 2, 4), 3)
+    top = chapsym.exact_top(ball, height * GAMMA, GAMMA)
+    there = top.restore(chapsym.trajectory(top.ball, top.momentum, GAMMA, 20, attitude=True))
+    assert np.abs(there.momentum[0] - height * GAMMA).max() < 1e-15
+    assert np.abs(there.momentum - height * there.gamma).max() < 1e-14
+    end = there.gamma[-1] / np.sqrt(there.gamma[-1] @ there.gamma[-1])
+    again = chapsym.exact_top(ball, -height * end, end)
+    back = again.restore(chapsym.trajectory(again.ball, again.momentum, end, 20, attitude=there.attitude[-1]))
+    assert np.abs(back.gamma[-1] - GAMMA).max() < 1e-13
+    assert np.abs(back.attitude[::-1] - there.attitude).max() < 1e-13
+    with pytest.raises(BadInput, match="exact_top with the opposite momentum"):
+        chapsym.reverse(there)
+
+
+def test_only_what_the_exact_top_was_made_for_is_restored():
+    top = chapsym.exact_top(Ball((1, 2, 4), 3), 0.6 * GAMMA, GAMMA)
+    with pytest.raises(BadInput, match="no trajectory of the exact top"):
+        top.restore(chapsym.trajectory(top.ball, top.momentum, GAMMA, 5, order=4))
+    with pytest.raises(BadInput, match="does not start at the gamma"):
+        top.restore(chapsym.trajectory(top.ball, top.momentum, (0, 0.6, 0.8), 5))
+
+
+def test_the_exact_top_at_extreme_scales():
+    for scale in (1e-170, 1e200):
+        top = chapsym.exact_top(Ball(np.array([1, 2, 4]) * scale, 0), np.array([0.3, 0.2, 0.1]) * scale, GAMMA)
+        assert top.size == pytest.approx(np.sqrt(0.14) * scale, rel=1e-15)
