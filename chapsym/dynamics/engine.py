@@ -22,6 +22,8 @@ SHORT_RUN = 2000
 FEW = 8
 #: Steps of a ball, or of all balls of a block together, between two calls of `progress`: about ten milliseconds.
 CHUNK = 200_000
+#: The work of each thread comes in about so many parts, so that none is idle for long at the end.
+SHARES = 16
 #: The loops that are compiled and loaded already, and the lock of those that are being.
 _ready: set[Callable] = set()
 _loading = threading.Lock()
@@ -130,9 +132,16 @@ def _cores() -> int:
 
 
 def _share(task: Callable[[int], None], starts: range, workers: int, count: _Count) -> None:
-    """Runs the tasks in threads; an interrupt stops each at its next chunk."""
+    """Runs the tasks in threads, some at a time for each; an interrupt stops each at its next chunk."""
+    several = max(1, len(starts) // (workers * SHARES))
+
+    def group(at: int) -> None:
+        for start in starts[at : at + several]:
+            if not count.stopped:
+                task(start)
+
     with ThreadPoolExecutor(workers) as pool:
-        futures = [pool.submit(task, start) for start in starts]
+        futures = [pool.submit(group, at) for at in range(0, len(starts), several)]
         try:
             for done in as_completed(futures):
                 done.result()
