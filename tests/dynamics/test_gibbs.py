@@ -144,3 +144,10 @@ def test_turn_is_the_same_for_a_quaternion_of_any_length():
     moved = [x + y for x, y in zip(v, once, strict=True)]
     assert sum(x * x for x in moved) == sum(x * x for x in v)
     assert moved != v
+
+
+def test_what_would_underflow_takes_the_safe_way():
+    state = np.zeros(loop.ROWS)
+    scale = loop.prepare(np.array([1e-200, 0, 0]), G, np.array(J), D, state)
+    assert state[loop.RADIUS] == -1
+    assert scale * state[0] == 1e-200
