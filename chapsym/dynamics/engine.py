@@ -47,17 +47,19 @@ class Balls:
 class Frames:
     """What a run fills: (n, frames, ...) arrays whose frame 0 is given, and how each ball ended, (n,).
 
-    attitude and contact have no frames unless `with_body`.
+    attitude and contact have no frames unless `with_body`.  The arrays are of the numbers of the rung: float32,
+    float64, or objects; `low` has the second halves of double-double numbers.
     """
 
-    momentum: Floats
-    gamma: Floats
-    attitude: Floats
-    contact: Floats
+    momentum: np.ndarray
+    gamma: np.ndarray
+    attitude: np.ndarray
+    contact: np.ndarray
     taken: np.ndarray
     status: np.ndarray
     reach: Floats
     with_body: bool
+    low: "Frames | None" = None
 
 
 class _Count:

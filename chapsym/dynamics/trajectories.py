@@ -1,13 +1,15 @@
 """Trajectories: many steps of one ball or a batch, with attitude and contact point only when asked for."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
-from typing import Literal
+from dataclasses import dataclass, replace
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from . import engine, front
+from chapsym.numbers import NAMED, Rung
+
+from . import front, ladder
 from .ball import Ball, Floats, numbers
 from .engine import Balls, Frames
 from .errors import BadInput, Status, StepNotTaken
@@ -17,6 +19,16 @@ from .map import UNIT_TOLERANCE, batch, unit_vertical
 MOST_STEPS = 2**62
 #: How far R γ may be from e₃ for an attitude that is given with its γ.
 AGREEMENT = 1e-9
+
+
+@dataclass(frozen=True, eq=False)
+class Low:
+    """The second halves of the double-double numbers of a trajectory, each at most half an ulp of the first."""
+
+    momentum: Floats
+    gamma: Floats
+    attitude: Floats | None
+    contact: Floats | None
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,6 +43,8 @@ class Trajectory:
     status: why a ball stopped, a `Status`, (...).
     time_step: ε in seconds, if the run has one.
     order: of the composition that made the steps; 2 for the map itself, 0 for the continuous motion (`exact_top`).
+    precision: the rung of the numbers.  The arrays are float32 for Single, objects (mpf, arb) for Digits and Ball.
+    low: for Quad, what the numbers have beyond float64: `momentum` + `low.momentum` is 𝒦, and so on; else None.
     """
 
     ball: Ball
@@ -43,6 +57,8 @@ class Trajectory:
     status: np.ndarray
     time_step: float | None = None
     order: int = 2
+    precision: Rung = NAMED["double"]
+    low: "Low | None" = None
 
     @property
     def time(self) -> Floats:
@@ -118,6 +134,7 @@ def trajectory(
     attitude: bool | ArrayLike = False,
     contact: bool = False,
     time_step: float | None = None,
+    precision: str | Rung = "double",
     threads: int = 0,
     progress: Callable[[int], None] = lambda steps_done: None,
 ) -> Trajectory:
@@ -129,6 +146,8 @@ def trajectory(
     stay exact.
     attitude: True (from the least rotation with R γ = e₃) or unit quaternions, (..., 4), to be followed.
     contact: whether to trace the contact point; it needs `ball.radius`, and implies the attitude.
+    precision: "single", "double", "quad" (31 digits), `Digits(n)` (mpmath) or `Ball(bits)` (Arb, rigorous).  The floats
+    that are given are taken as exact on every rung, but γ (and an attitude) is divided by its length there.
     threads: how many cores a batch may use; 0 for all.
     progress: called with the steps done so far (of all balls together), every 200 000 steps or so.
 
@@ -139,6 +158,7 @@ def trajectory(
     steps, every, threads = _count(steps, "steps", 0), _count(every, "every", 1), _count(threads, "threads", 0)
     every = min(every, steps + 1)
     time_step = None if time_step is None else _seconds(time_step)
+    rung = ladder.rung_of(precision)
     shape, (K, g, J, D) = batch(ball, numbers(momentum, "momentum", 3), unit_vertical(gamma))
     with_body = contact or not (isinstance(attitude, bool | np.bool_) and not attitude)
     if contact and ball.radius is None:
@@ -146,30 +166,25 @@ def trajectory(
     radius = np.broadcast_to(ball.radius if contact and ball.radius is not None else 0.0, shape).reshape(-1)
     balls, frames = len(D), steps // every + 1
     body_frames = frames if with_body else 0
-    try:
-        momenta, verticals = (np.full((balls, frames, 3), np.nan) for _ in "Kg")
-        attitudes, traces = (np.full((balls, body_frames, n), np.nan) for n in (4, 2))
-    except (MemoryError, ValueError):
-        raise BadInput(f"{frames} frames of {balls} balls do not fit into memory; keep fewer with every=") from None
-    momenta[:, 0], verticals[:, 0] = K, g
+    frame = ladder.frames_for(rung, balls, frames, body_frames)
+    frame.momentum[:, 0], frame.gamma[:, 0] = K, g
     if with_body:
-        attitudes[:, 0] = np.broadcast_to(initial_attitude(attitude, g.reshape(*shape, 3)), (*shape, 4)).reshape(-1, 4)
-        traces[:, 0] = 0.0
-    taken, status, reach = np.zeros(balls, dtype=np.int64), np.zeros(balls, dtype=np.int64), np.ones(balls)
-    frame = Frames(momenta, verticals, attitudes, traces, taken, status, reach, with_body)
-    engine.run(Balls(K, g, J, D, radius), steps, every, frame, order, threads, progress)
+        first = np.broadcast_to(initial_attitude(attitude, g.reshape(*shape, 3)), (*shape, 4))
+        frame.attitude[:, 0], frame.contact[:, 0] = first.reshape(-1, 4), 0.0
+    ladder.run(rung, Balls(K, g, J, D, radius), steps, every, frame, order, threads, progress)
+
+    def shaped(array: np.ndarray) -> np.ndarray:
+        return array.reshape(*shape, *array.shape[1:])
+
+    def bodies(kept: Frames) -> tuple[np.ndarray, np.ndarray, np.ndarray | None, np.ndarray | None]:
+        attitude = shaped(kept.attitude) if with_body else None
+        return shaped(kept.momentum), shaped(kept.gamma), attitude, shaped(kept.contact) if contact else None
+
     result = Trajectory(
-        ball,
-        np.arange(frames) * every,
-        momenta.reshape(*shape, frames, 3),
-        verticals.reshape(*shape, frames, 3),
-        attitudes.reshape(*shape, frames, 4) if with_body else None,
-        traces.reshape(*shape, frames, 2) if contact else None,
-        taken.reshape(shape),
-        status.reshape(shape),
-        time_step,
-        order,
-    )
+        ball, np.arange(frames) * every, *bodies(frame), frame.taken.reshape(shape), frame.status.reshape(shape),
+        time_step, order, rung, None if frame.low is None else Low(*bodies(frame.low)),
+    )  # fmt: skip
+    taken, status, reach = frame.taken, frame.status, frame.reach
     if not shape and status[0] != Status.TAKEN:
         raise StepNotTaken(Status(int(status[0])), float(reach[0]), int(taken[0]), _up_to(result, int(taken[0])))
     return result
@@ -178,12 +193,13 @@ def trajectory(
 def _up_to(whole: Trajectory, taken: int) -> Trajectory:
     """The frames of one ball that exist."""
     kept = whole.index <= taken
-    attitude = None if whole.attitude is None else whole.attitude[kept]
-    contact = None if whole.contact is None else whole.contact[kept]
-    return Trajectory(
-        whole.ball, whole.index[kept], whole.momentum[kept], whole.gamma[kept], attitude, contact,
-        whole.taken, whole.status, whole.time_step, whole.order,
-    )  # fmt: skip
+
+    def these(of: Trajectory | Low) -> dict[str, Any]:
+        arrays = {name: getattr(of, name) for name in ("momentum", "gamma", "attitude", "contact")}
+        return {name: array if array is None else array[kept] for name, array in arrays.items()}
+
+    low = None if whole.low is None else Low(**these(whole.low))
+    return replace(whole, index=whole.index[kept], low=low, **these(whole))
 
 
 def _count(value: int, name: str, least: int) -> int:
@@ -210,6 +226,7 @@ def roll(
     every: int = 1,
     attitude: bool | Literal[True] | ArrayLike = False,
     contact: bool = False,
+    precision: str | Rung = "double",
     threads: int = 0,
     progress: Callable[[int], None] = lambda steps_done: None,
 ) -> Trajectory:
@@ -226,5 +243,5 @@ def roll(
     momentum = epsilon * front.contact_momentum(spin, vertical, ball.mass_tensor, ball.D)
     return trajectory(
         ball, momentum, vertical, steps, order=order, every=every, attitude=attitude, contact=contact,
-        time_step=epsilon, threads=threads, progress=progress,
+        time_step=epsilon, precision=precision, threads=threads, progress=progress,
     )  # fmt: skip

@@ -1,5 +1,5 @@
 """The rungs of the precision ladder: how a number is made, rooted and written on each."""
 
-from .rungs import Ball, Digits, Double, Rung
+from .rungs import NAMED, Ball, Digits, Double, Rung, Single, rung
 
-__all__ = ["Ball", "Digits", "Double", "Rung"]
+__all__ = ["NAMED", "Ball", "Digits", "Double", "Rung", "Single", "rung"]

@@ -1,4 +1,4 @@
-"""float64, mpmath at N digits, and Arb balls at N bits, behind the few operations that a step needs.
+"""float32 and float64, double-double, mpmath at N digits, and Arb balls at N bits: what a step needs of each.
 
 A kernel is `+ - * /` on whatever numbers it is given.  A rung makes those numbers from exact
 fractions, takes square roots, and writes results.
@@ -15,6 +15,7 @@ from typing import Any
 
 import flint
 import mpmath
+import numpy as np
 
 
 class Rung(ABC):
@@ -50,6 +51,24 @@ class Rung(ABC):
     def precision(self) -> Iterator[None]:
         """Within it the arithmetic has the precision of the rung."""
         yield
+
+
+@dataclass(frozen=True)
+class Single(Rung):
+    """IEEE float32."""
+
+    def number(self, value: Fraction) -> np.float32:
+        return np.float32(float(value))
+
+    def sqrt(self, value: np.float32) -> np.float32:
+        return np.sqrt(value)
+
+    def write(self, value: np.float32) -> float:
+        return float(value)
+
+    @property
+    def digits(self) -> int:
+        return 5
 
 
 @dataclass(frozen=True)
@@ -141,3 +160,16 @@ class Ball(Rung):
     def precision(self) -> Iterator[None]:
         with flint.ctx.workprec(self.bits + self.guard):
             yield
+
+
+#: What users call the rungs that have no parameter.
+NAMED: dict[str, Rung] = {"single": Single(), "double": Double()}
+
+
+def rung(precision: "str | Rung") -> Rung:
+    """The rung that a user named; raises ValueError, one sentence, for what is none."""
+    if isinstance(precision, Rung):
+        return precision
+    if isinstance(precision, str) and precision in NAMED:
+        return NAMED[precision]
+    raise ValueError(f'precision must be "single", "double", "quad", Digits(n) or Ball(bits), not {precision!r}')
