@@ -115,7 +115,7 @@ def extrapolated(S, row, i, w):
 
 def prepare_block(momentum, g, tensor, contact, state, scale):
     """`loop.prepare` of each ball of a block; one that is not full repeats its last ball."""
-    one, last = np.empty(ROWS), len(contact) - 1
+    one, last = np.empty(ROWS, state.dtype), len(contact) - 1
     for lane in range(state.shape[1]):
         i = min(lane, last)
         scale[i] = prepare(momentum[i], g[i], tensor[i], contact[i], one)
@@ -127,7 +127,8 @@ def march_block(state, first, count, every, scale, momenta, verticals, taken, st
 
     scale, taken, status and reach have one entry for each ball; lanes beyond them are idle copies.
     """
-    S, P, ok = np.empty((ROWS, LANES)), np.empty((7, LANES)), np.empty(LANES, dtype=np.int64)
+    S, P = np.empty((ROWS, LANES), state.dtype), np.empty((7, LANES), state.dtype)
+    ok = np.empty(LANES, dtype=np.int64)
     S[:, :] = state
     balls = len(status)
     step, last, patience = first, first + count, 0

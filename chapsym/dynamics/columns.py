@@ -7,6 +7,7 @@ The lanes that a round does not settle take the safe way one by one, in plain Py
 from typing import Any
 
 import numpy as np
+from numpy.typing import DTypeLike
 
 from chapsym.generated.columns import POOL, newton_columns, second_columns, turn_columns
 
@@ -49,9 +50,9 @@ def march_columns(
             state[:, mine] = chunk.states()
 
 
-def rows(count: int, width: int) -> Floats:
+def rows(count: int, width: int, dtype: DTypeLike = np.float64) -> Floats:
     """`count` rows of `width` numbers, a multiple of LINE, each on a line of the cache."""
-    whole = np.zeros(count * width + LINE)
+    whole = np.zeros(count * width + LINE, dtype)
     begin = -(whole.ctypes.data // whole.itemsize) % LINE
     return whole[begin : begin + count * width].reshape(count, width)
 
@@ -62,8 +63,8 @@ class Chunk:
     def __init__(self, state: Floats, taken: np.ndarray, status: np.ndarray, reach: Floats) -> None:
         self.balls, self.taken, self.status, self.reach = state.shape[1], taken, status, reach
         width = -(-self.balls // LINE) * LINE
-        self.S, self.P, self.Z, self.after = (rows(n, width) for n in (ROWS, 7, 6, 6))
-        self.checks, self.d, self.pool = (rows(n, width) for n in (4, 3, max(POOL, 18)))
+        self.S, self.P, self.Z, self.after = (rows(n, width, state.dtype) for n in (ROWS, 7, 6, 6))
+        self.checks, self.d, self.pool = (rows(n, width, state.dtype) for n in (4, 3, max(POOL, 18)))
         self.settled, self.near = np.ones(width, dtype=bool), np.ones(width, dtype=bool)
         self.S[:, : self.balls] = state
         self.S[:, self.balls :] = state[:, :1]

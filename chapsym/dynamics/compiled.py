@@ -20,10 +20,11 @@ from numba.extending import register_jitable
 
 import chapsym.generated as generated
 
-from . import block, branch, composed_loop, gibbs, integrals, lanes, long_step, loop, vertical_loop
+from . import block, branch, composed_loop, gibbs, integrals, lanes, long_step, loop, single_loop, single_step, vertical_loop
+from .retyped import Family
 
 #: What the compiled code is made of.
-SOURCES = (generated, branch, gibbs, integrals, loop, block, composed_loop, vertical_loop, long_step, lanes)
+SOURCES = (generated, branch, gibbs, integrals, loop, block, composed_loop, vertical_loop, long_step, lanes, single_loop, single_step)
 #: The functions on the way of every step: a call would cost more than they do.
 INLINED = {
     *(generated.gibbs_newton, generated.gibbs_second, generated.turn),
@@ -44,7 +45,8 @@ def _functions(module: ModuleType) -> Iterator[FunctionType]:
 def source_hash() -> str:
     """A hash of the kernels, of the solver, of the loops, of how they are compiled, and of numba's version."""
     digest = hashlib.sha256(numba.__version__.encode())
-    files = {__file__, *(f.__code__.co_filename for module in SOURCES for f in _functions(module))}
+    twins = (str(Path(__file__).with_name(name)) for name in ("retyped.py", "single.py"))
+    files = {__file__, *twins, *(f.__code__.co_filename for module in SOURCES for f in _functions(module))}
     for name in sorted(files):
         digest.update(Path(name).read_bytes())
     return digest.hexdigest()[:16]
@@ -75,13 +77,19 @@ def _caching_in(folder: Path) -> Iterator[None]:
 
 
 @cache
-def _registered() -> None:
+def _inlined() -> set[tuple[str, str]]:
+    return {(function.__code__.co_filename, function.__name__) for function in INLINED}
+
+
+@cache
+def _registered(modules: tuple[ModuleType, ...]) -> None:
     seen = set()
-    for module in SOURCES:
+    for module in modules:
         for function in _functions(module):
             if function.__module__.startswith("chapsym.") and function not in seen:
                 seen.add(function)
-                register_jitable(error_model="numpy", forceinline=function in INLINED)(function)
+                inlined = (function.__code__.co_filename, function.__name__) in _inlined()
+                register_jitable(error_model="numpy", forceinline=inlined)(function)
 
 
 @cache
@@ -92,10 +100,16 @@ def _announce() -> None:
 
 @cache
 def compiled(function: Callable[..., Any]) -> Callable[..., Any]:
-    """The compiled version of a function of one of the `SOURCES`; it is compiled when it is first called."""
-    folder, module = cache_folder(), function.__module__.rpartition(".")[2]
+    """The compiled version of a function of one of the `SOURCES`, or of a twin of one (`retyped`).
+
+    It is compiled when it is first called.
+    """
+    family: Family | None = function.__globals__.get("family")  # type: ignore[attr-defined]
+    folder, module = cache_folder() / (family.name if family else ""), function.__module__.rpartition(".")[2]
     if not any(folder.glob(f"*/{module}.{function.__name__}-*.nbi")):
         _announce()
-    _registered()
+    _registered(SOURCES)
+    if family:
+        _registered(tuple(family.twins.values()))
     with _caching_in(folder):
         return numba.njit(cache=True, error_model="numpy", nogil=True)(function)

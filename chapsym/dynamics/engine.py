@@ -7,6 +7,7 @@ from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass
 from functools import cache
 from importlib.util import find_spec
+from typing import Any
 
 import numpy as np
 
@@ -62,6 +63,25 @@ class Frames:
     low: "Frames | None" = None
 
 
+@dataclass(frozen=True, eq=False)
+class Loops:
+    """The loops that a run takes: the modules, or their twins in another type, and the numbers of their states."""
+
+    loop: Any = loop
+    composed_loop: Any = composed_loop
+    block: Any = block
+    columns: Any = columns
+    step: Any = loop
+    number: Callable[[Any], Any] = float
+    dtype: type = np.float64
+    #: How many numbers carry the attitude and the contact point from step to step.
+    attitude: int = 4
+    contact: int = 2
+
+
+DOUBLE = Loops()
+
+
 class _Count:
     """Adds up the steps that the threads have taken, and tells them when to stop."""
 
@@ -76,27 +96,29 @@ class _Count:
 
 
 def run(
-    balls: Balls, steps: int, every: int, frames: Frames, order: int, threads: int, progress: Callable[[int], None]
-) -> None:
+    balls: Balls, steps: int, every: int, frames: Frames, order: int, threads: int, progress: Callable[[int], None],
+    loops: Loops = DOUBLE,
+) -> None:  # fmt: skip
     """Takes `steps` steps of every ball into `frames`; `progress` is called with the steps of all balls together.
 
     order: of the composition, 2 for the map itself.  threads: how many cores to use; 0 for all that there are.
+    loops: whose numbers are those of the balls and of the frames.
     """
-    count, n, stages = _Count(progress), len(balls), substeps(order)
+    count, n, stages = _Count(progress), len(balls), substeps(order).astype(loops.dtype)
     if steps == 0 or n == 0:
         return
     work = steps * n * len(stages)
     in_blocks = n >= FEW and not frames.with_body and order == 2 and work >= SHORT_RUN
     if in_blocks and has_numba():
-        chosen((block.march_block, block.prepare_block), work)  # before there are threads
-    width = (block.LANES if has_numba() else columns.LANES) if in_blocks else 1
+        chosen((loops.block.march_block, loops.block.prepare_block), work)  # before there are threads
+    width = (loops.block.LANES if has_numba() else loops.columns.LANES) if in_blocks else 1
     starts = range(0, n, width)
 
     def task(start: int) -> None:
         if in_blocks:
-            _run_block(balls, slice(start, min(n, start + width)), steps, every, frames, count)
+            _run_block(balls, slice(start, min(n, start + width)), steps, every, frames, loops, count)
         else:
-            _run_one(balls, start, steps, every, frames, stages, work, count)
+            _run_one(balls, start, steps, every, frames, loops, stages, work, count)
 
     workers = min(threads or _cores(), len(starts)) if work >= SHORT_RUN else 1
     if workers == 1:
@@ -154,48 +176,58 @@ def _share(task: Callable[[int], None], starts: range, workers: int, count: _Cou
 
 
 def _run_one(
-    balls: Balls, i: int, steps: int, every: int, frames: Frames, stages: Floats, work: int, count: _Count
+    balls: Balls, i: int, steps: int, every: int, frames: Frames, loops: Loops, stages: Floats, work: int, count: _Count
 ) -> None:
-    K, g, J, D = balls.momentum[i], balls.gamma[i], balls.mass_tensor[i], float(balls.D[i])
-    march, state, scale = _under_way(K, g, J, D, stages, work)
-    attitude = frames.attitude[i, 0].copy() if frames.with_body else np.zeros(4)
-    spot = np.zeros(2)
+    K, g, J, D = balls.momentum[i], balls.gamma[i], balls.mass_tensor[i], loops.number(balls.D[i])
+    march, state, scale = _under_way(K, g, J, D, loops, stages, work)
+    attitude, spot = np.zeros(loops.attitude, loops.dtype), np.zeros(loops.contact, loops.dtype)
+    if frames.with_body:
+        attitude[:4] = frames.attitude[i, 0]
     chunk = max(1, CHUNK // len(stages))
     for first in range(0, steps, chunk):
         now = min(chunk, steps - first)
         went, frames.status[i], frames.reach[i] = march(
             *state, first, now, every, scale, frames.momentum[i], frames.gamma[i],
-            frames.with_body, attitude, spot, float(balls.radius[i]), frames.attitude[i], frames.contact[i],
+            frames.with_body, attitude, spot, loops.number(balls.radius[i]), frames.attitude[i], frames.contact[i],
         )  # fmt: skip
         frames.taken[i] += went
         count.add(now)
         if count.stopped:
             return
         if frames.status[i] != Status.TAKEN:
-            frames.status[i] = explain(frames.status[i], scale * state[0][:3], state[0][3:6], J, D)
+            frames.status[i] = _explained(frames.status[i], scale * state[0][:3], state[0][3:6], J, D)
             return
 
 
 def _under_way(
-    K: Floats, g: Floats, J: Floats, D: float, stages: Floats, work: int
+    K: Floats, g: Floats, J: Floats, D: float, loops: Loops, stages: Floats, work: int
 ) -> tuple[Callable, list[Floats], float]:
     """The loop for one ball, the state that it takes, and the scale with 𝒦 = scale·k."""
-    state = np.zeros(loop.ROWS)
+    state = np.zeros(loop.ROWS, loops.dtype)
     if len(stages) == 1:
-        march, prepare = chosen((loop.march, loop.prepare), work)
-        return march, [state], prepare(K, g, J, D, state)
-    march, prepare = chosen((composed_loop.march_composed, composed_loop.prepare_composed), work)
-    bounds, past = np.zeros((2, len(stages))), np.zeros((len(stages), 8, 3))
+        march, prepare = chosen((loops.loop.march, loops.loop.prepare), work)
+        return march, [state], loops.number(prepare(K, g, J, D, state))
+    composed = loops.composed_loop
+    march, prepare = chosen((composed.march_composed, composed.prepare_composed), work)
+    bounds, past = np.zeros((2, len(stages)), loops.dtype), np.zeros((len(stages), 8, 3), loops.dtype)
     scale = prepare(K, g, J, D, stages, state, *bounds)
-    return march, [state, stages, *bounds, past], scale
+    return march, [state, stages, *bounds, past], loops.number(scale)
 
 
-def _run_block(balls: Balls, which: slice, steps: int, every: int, frames: Frames, count: _Count) -> None:
+def _explained(status: int, K: Floats, g: Floats, J: Floats, D: float) -> Status:
+    """`explain` of a state of any floats."""
+    return explain(status, K.astype(np.float64), g.astype(np.float64), J.astype(np.float64), float(D))
+
+
+def _run_block(
+    balls: Balls, which: slice, steps: int, every: int, frames: Frames, loops: Loops, count: _Count
+) -> None:
     n = which.stop - which.start
-    march, prepare, lanes = columns.march_columns, columns.prepare_columns, n
+    march, prepare, lanes = loops.columns.march_columns, loops.columns.prepare_columns, n
     if has_numba():
-        (march, prepare), lanes = chosen((block.march_block, block.prepare_block), SHORT_RUN), block.LANES
-    state, scale = np.zeros((loop.ROWS, lanes)), np.zeros(n)
+        (march, prepare) = chosen((loops.block.march_block, loops.block.prepare_block), SHORT_RUN)
+        lanes = loops.block.LANES
+    state, scale = np.zeros((loop.ROWS, lanes), loops.dtype), np.zeros(n, loops.dtype)
     prepare(balls.momentum[which], balls.gamma[which], balls.mass_tensor[which], balls.D[which], state, scale)
     status, reach, taken = frames.status[which], frames.reach[which], frames.taken[which]
     chunk = max(1, CHUNK // lanes)
@@ -208,4 +240,4 @@ def _run_block(balls: Balls, which: slice, steps: int, every: int, frames: Frame
     for lane in map(int, np.flatnonzero(status)):
         i = which.start + lane
         K, g = scale[lane] * state[:3, lane], state[3:6, lane]
-        status[lane] = explain(status[lane], K, g, balls.mass_tensor[i], float(balls.D[i]))
+        status[lane] = _explained(status[lane], K, g, balls.mass_tensor[i], balls.D[i])

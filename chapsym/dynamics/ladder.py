@@ -7,7 +7,7 @@ import numpy as np
 from chapsym.numbers import Ball, Digits, Rung, Single
 from chapsym.numbers import rung as named
 
-from . import engine
+from . import engine, single
 from .engine import Balls, Frames
 from .errors import BadInput
 
@@ -38,4 +38,7 @@ def run(
     progress: Callable[[int], None],
 ) -> None:  # fmt: skip
     """`engine.run` on a rung.  Frame 0 is given in float64; other rungs write it anew, γ divided by its length."""
+    if isinstance(rung, Single):
+        single.run(balls, steps, every, frames, order, threads, progress)
+        return
     engine.run(balls, steps, every, frames, order, threads, progress)

@@ -1,0 +1,60 @@
+"""What the loops do otherwise in float32.  Plain scalar Python, read in float32 with the loops (`single`)."""
+
+from math import sqrt
+
+from numpy import float32, float64
+
+from chapsym.generated import centre_step, compose, rotate
+
+from .branch import small_rotation
+from .gibbs import certificate
+
+#: Below this the square of `enough` would leave the range of float32.
+LEAST_ENOUGH = 2.0**-62
+
+
+def checkable(k1, k2, k3, I1, I2, I3, D):
+    """`gibbs.certificate`; none either where float32 could not compare the squares that it is used with."""
+    radius, enough = certificate(k1, k2, k3, I1, I2, I3, D)
+    if radius > 0.0 and enough < LEAST_ENOUGH:
+        return -1.0, 0.0
+    return radius, enough
+
+
+def widened(K1, K2, K3, g1, g2, g3, J1, J2, J3, D):
+    """`branch.small_rotation` in float64, rounded: near a fold float32 could not tell a branch from the next."""
+    status, reach, q0, q1, q2, q3 = small_rotation(
+        float64(K1), float64(K2), float64(K3), float64(g1), float64(g2), float64(g3),
+        float64(J1), float64(J2), float64(J3), float64(D),
+    )  # fmt: skip
+    return status, float32(reach), float32(q0), float32(q1), float32(q2), float32(q3)
+
+
+def add(array, at, rest, z):
+    """Adds z to array[at], and keeps in array[rest] what the rounding takes (Kahan)."""
+    z = z - array[rest]
+    total = array[at] + z
+    array[rest] = (total - array[at]) - z
+    array[at] = total
+
+
+def follow_body(p0, p1, p2, p3, g1, g2, g3, attitude, contact, radius):
+    """`loop.follow_body` with compensation: attitude (4, then 4 rests) and contact (2, then 2 rests).
+
+    A slow ball turns and rolls less in a step than a float32 can be told apart from the next.
+    """
+    squared = p1 * p1 + (p2 * p2 + p3 * p3)
+    length = sqrt(p0 * p0 + squared)
+    q0, q1, q2, q3 = p0 / length, p1 / length, p2 / length, p3 / length
+    s1, s2, s3 = centre_step(q0, q1, q2, q3, g1, g2, g3)
+    a0, a1, a2, a3 = attitude[0], attitude[1], attitude[2], attitude[3]
+    x, y, _ = rotate(a0, a1, a2, a3, s1, s2, s3)
+    add(contact, 0, 2, radius * x)
+    add(contact, 1, 3, radius * y)
+    # a ∘ (q - 1), with q0 - 1 from the versed sine, and one Newton step to length 1.
+    z0, z1, z2, z3 = compose(a0, a1, a2, a3, -squared / (length * (length + p0)), q1, q2, q3)
+    stretch = 0.5 - 0.5 * ((a0 * a0 + a1 * a1) + (a2 * a2 + a3 * a3))
+    add(attitude, 0, 4, z0 + stretch * a0)
+    add(attitude, 1, 5, z1 + stretch * a1)
+    add(attitude, 2, 6, z2 + stretch * a2)
+    add(attitude, 3, 7, z3 + stretch * a3)
