@@ -19,7 +19,6 @@ PATIENCE = 64
 
 def predicted(S, P, ok):
     """Every lane's rotation, by a Newton iterate from the extrapolation; returns how many did not settle."""
-    bad = 0
     for i in range(LANES):
         u1, u2, u3 = S[A, i], S[A + 1, i], S[A + 2, i]
         p0, p1, p2, p3, w1, w2, w3, first, _, _, _, _, _, _, _, _, _, _, _, _ = newton_round(
@@ -29,13 +28,11 @@ def predicted(S, P, ok):
         P[0, i], P[1, i], P[2, i], P[3, i], P[4, i], P[5, i], P[6, i] = p0, p1, p2, p3, w1, w2, w3
         settled = (u1 * u1 + (u2 * u2 + u3 * u3) <= S[RADIUS, i]) & (first <= S[ENOUGH, i])
         ok[i] = 1 if settled else 0
-        bad += 1 - ok[i]
-    return bad
+    return unsettled(ok)
 
 
 def corrected(S, P, ok):
     """The same with the second correction where it is needed."""
-    bad = 0
     for i in range(LANES):
         u1, u2, u3 = S[A, i], S[A + 1, i], S[A + 2, i]
         k1, k2, k3, I1, I2, I3 = S[K, i], S[K + 1, i], S[K + 2, i], S[I, i], S[I + 1, i], S[I + 2, i]
@@ -53,6 +50,13 @@ def corrected(S, P, ok):
         P[0, i], P[1, i], P[2, i], P[3, i] = p0, p1 if once else r1, p2 if once else r2, p3 if once else r3
         P[4, i], P[5, i], P[6, i] = w1 if once else v1, w2 if once else v2, w3 if once else v3
         ok[i] = 1 if once | twice else 0
+    return unsettled(ok)
+
+
+def unsettled(ok):
+    """How many lanes did not settle: counted apart, as a wide counter would narrow the registers of the others."""
+    bad = 0
+    for i in range(LANES):
         bad += 1 - ok[i]
     return bad
 
@@ -128,7 +132,7 @@ def march_block(state, first, count, every, scale, momenta, verticals, taken, st
     scale, taken, status and reach have one entry for each ball; lanes beyond them are idle copies.
     """
     S, P = np.empty((ROWS, LANES), state.dtype), np.empty((7, LANES), state.dtype)
-    ok = np.empty(LANES, dtype=np.int64)
+    ok = np.empty(LANES, dtype=np.int32)
     S[:, :] = state
     balls = len(status)
     step, last, patience = first, first + count, 0

@@ -30,7 +30,7 @@ INLINED = {
     *(generated.gibbs_newton, generated.gibbs_second, generated.turn),
     *(gibbs.newton_round, gibbs.second_round, gibbs.settle, loop.three, loop.put),
     *(composed_loop.extrapolated, composed_loop.turned_with),
-    *(block.predicted, block.corrected, block.turned, block.added, block.extrapolated),
+    *(block.predicted, block.corrected, block.unsettled, block.turned, block.added, block.extrapolated),
     *(generated.compose, lanes.checked, lanes.moved, lanes.rates, lanes.begin, lanes.keep, lanes.side_by_side),
 }
 
