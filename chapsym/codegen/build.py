@@ -12,11 +12,17 @@ from typing import Any
 
 import sympy as sp
 
-from . import columns, passes, printer
+from . import columns, passes, printer, quad
 from .kernels import KERNELS, Kernel
-from .programs import PROGRAMS, Program
-from .values import columns_fingerprint, fingerprint, program_fingerprint, text_fingerprint
+from .programs import PAIR_PROGRAMS, PROGRAMS, Program
+from .values import columns_fingerprint, fingerprint, program_fingerprint, quad_fingerprint, text_fingerprint
 
+#: The modules that are written from programs: (how, its programs, their values by the text).
+TARGETS: tuple[tuple[Any, Sequence[Program], Callable[[Program, str], list[str]]], ...] = (
+    (columns, PROGRAMS, columns_fingerprint),
+    (quad, PAIR_PROGRAMS, quad_fingerprint),
+)
+ALL_PROGRAMS = (*PROGRAMS, *PAIR_PROGRAMS)
 MANIFEST, FINGERPRINTS = "manifest.json", "fingerprints.json"
 MEND = "chapsym codegen"
 
@@ -118,8 +124,9 @@ def build(kernels: Sequence[Kernel] = KERNELS) -> dict[str, str]:
         files[f"{kernel.name}.py"] = text
         rows[kernel.name] = {**row, "text_sha256": hashlib.sha256(text.encode()).hexdigest()}
     files["__init__.py"] = package_source(kernels)
-    files[columns.FILE], programs = columns_source()
-    table = {"sympy": sp.__version__, "kernels": rows, "columns": programs}
+    table = {"sympy": sp.__version__, "kernels": rows}
+    for target, programs, values in TARGETS:
+        files[target.FILE], table[target.KEY] = target_source(target, programs, values)
     files[MANIFEST] = json.dumps(table, indent=1, ensure_ascii=False) + "\n"
     return files
 
@@ -127,22 +134,22 @@ def build(kernels: Sequence[Kernel] = KERNELS) -> dict[str, str]:
 @cache
 def texts() -> dict[str, str]:
     """The functions of the kernels that programs call, by name."""
-    wanted = {name for program in PROGRAMS for name in columns.called(program)}
+    wanted = {name for program in ALL_PROGRAMS for name in columns.called(program)}
     return {kernel.name: code(kernel) for kernel in KERNELS if kernel.name in wanted}
 
 
-def columns_source() -> tuple[str, dict]:
-    """The module of the NumPy calls and its rows of the manifest; raises as `build` does."""
-    text = columns.source(texts(), {kernel.name: kernel.claims for kernel in KERNELS})
-    for program in PROGRAMS:
-        if columns_fingerprint(program, text) != program_fingerprint(program, texts()):
-            raise ArithmeticError(f"the columns of {program.name} do not compute the program")
-    return text, columns.manifest(texts())
+def target_source(target: Any, programs: Sequence[Program], values: Callable) -> tuple[str, dict]:
+    """A module that is written from programs and its rows of the manifest; raises as `build` does."""
+    text = target.source(texts(), {kernel.name: kernel.claims for kernel in KERNELS})
+    for program in programs:
+        if values(program, text) != program_fingerprint(program, texts()):
+            raise ArithmeticError(f"the text of {program.name} does not compute the program")
+    return text, target.manifest(texts())
 
 
 def fingerprints() -> dict[str, list[str]]:
     """The values of every kernel and of every program, by name."""
-    programs = {p.name: program_fingerprint(p, texts()) for p in PROGRAMS}
+    programs = {p.name: program_fingerprint(p, texts()) for p in ALL_PROGRAMS}
     return {k.name: fingerprint(k) for k in KERNELS} | programs
 
 
@@ -182,10 +189,10 @@ def check(place: Path) -> list[str]:
 
 def _value_notes(name: str, text: str) -> list[str]:
     """Whether a changed text still computes the derived values: what is wrong with each of its functions."""
-    if name == columns.FILE:
-        notes = [_note(f"{p.name} in {name}", _same_program, p, text) for p in PROGRAMS]
-    else:
-        notes = [_note(name, _same_kernel, k, text) for k in KERNELS if name == f"{k.name}.py"]
+    notes = [_note(name, _same_kernel, k, text) for k in KERNELS if name == f"{k.name}.py"]
+    for target, programs, values in TARGETS:
+        if name == target.FILE:
+            notes += [_note(f"{p.name} in {name}", _same_program, p, text, values) for p in programs]
     return [note for note in notes if note]
 
 
@@ -193,8 +200,8 @@ def _same_kernel(kernel: Kernel, text: str) -> bool:
     return text_fingerprint(kernel, text) == fingerprint(kernel)
 
 
-def _same_program(program: Program, text: str) -> bool:
-    return columns_fingerprint(program, text) == program_fingerprint(program, texts())
+def _same_program(program: Program, text: str, values: Callable) -> bool:
+    return values(program, text) == program_fingerprint(program, texts())
 
 
 def _note(what: str, same: Callable[..., bool], *arguments: Any) -> str:
@@ -214,7 +221,7 @@ def check_names(trust: Sequence[str]) -> None:
 
 
 def _names() -> set[str]:
-    return {kernel.name for kernel in KERNELS} | {program.name for program in PROGRAMS}
+    return {kernel.name for kernel in KERNELS} | {program.name for program in ALL_PROGRAMS}
 
 
 def generate(place: Path, trust: Sequence[str] = ()) -> list[str]:

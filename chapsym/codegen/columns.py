@@ -17,6 +17,8 @@ from .printer import NotStraightLine
 from .programs import PROGRAMS, Program
 
 FILE = "columns.py"
+#: Where the manifest has them.
+KEY = "columns"
 OPERATIONS = {ast.Add: "add", ast.Sub: "subtract", ast.Mult: "multiply", ast.Div: "divide"}
 COMMUTATIVE = ("add", "multiply")
 

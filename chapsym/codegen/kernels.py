@@ -24,6 +24,7 @@ VECTOR: Group = ("vector", sp.symbols("v1:4"))
 GIBBS: Group = ("gibbs", tuple(gibbs.u))
 HALF: Group = ("half_momentum", tuple(gibbs.k))
 CORRECTION: Group = ("correction", tuple(gibbs.d))
+NEXT: Group = ("next_correction", tuple(gibbs.e))
 COFACTORS: Group = ("cofactors", tuple(gibbs.C))
 ANY_QUATERNION: Group = ("quaternion", (gibbs.p0, *gibbs.p))
 INERTIA: Group = ("inertia", tuple(gibbs.INERTIA.diagonal()))
@@ -209,6 +210,26 @@ KERNELS: tuple[Kernel, ...] = (
         _vector("e"),
         gibbs.second,
         gibbs.second_steps,
+    ),
+    Kernel(
+        "gibbs_mixed",
+        "What N loses when a correction e follows a correction d with the cofactors from before d.",
+        ("gibbs-newton",),
+        (CORRECTION, NEXT, HALF, COFACTORS, INERTIA),
+        (3,),
+        _vector("x"),
+        gibbs.mixed,
+        gibbs.mixed_steps,
+    ),
+    Kernel(
+        "gibbs_residual",
+        "G(u) = B(γ)u + u × Iu - (1 + |u|²)k, which the Gibbs vector of the next step makes zero.",
+        ("gibbs",),
+        (GIBBS, HALF, GAMMA, INERTIA, CONTACT),
+        (3,),
+        _vector("r"),
+        gibbs.residual,
+        gibbs.residual_steps,
     ),
     Kernel(
         "turn",

@@ -1,11 +1,12 @@
-"""What is generated as NumPy calls on columns: rounds of a step, as straight-line programs that call kernels.
+"""What is generated for other numbers than scalars: rounds of a step, as straight-line programs that call kernels.
 
-They do what `dynamics.gibbs.newton_round`, `second_round` and the two turns of `dynamics.loop` do, in that order.
+Those on columns do what `dynamics.gibbs.newton_round`, `second_round` and the two turns of `dynamics.loop` do, in that
+order.  Those on pairs do in double-double what the loop in `dynamics.quad` needs.
 """
 
 from dataclasses import dataclass
 
-from .kernels import ANY_QUATERNION, CONTACT, GAMMA, GIBBS, HALF, INERTIA, Group
+from .kernels import ANY_QUATERNION, CONTACT, FIRST, GAMMA, GIBBS, HALF, INERTIA, Group, sp
 
 _NEWTON = """
 p0, p1, p2, p3, c11, c12, c13, c21, c22, c23, c31, c32, c33 = gibbs_newton(
@@ -31,6 +32,28 @@ y1, y2, y3 = turn(p0, p1, p2, p3, g1, g2, g3)
 """
 
 
+_RESIDUAL = """
+r1, r2, r3 = gibbs_residual(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D)
+"""
+
+_TURNED = """
+x1, x2, x3 = turn(1, u1, u2, u3, k1, k2, k3)
+y1, y2, y3 = turn(1, u1, u2, u3, g1, g2, g3)
+l1, l2, l3 = k1 + x1, k2 + x2, k3 + x3
+h1, h2, h3 = g1 + y1, g2 + y2, g3 + y3
+"""
+
+_ROLLED = """
+q1, q2, q3 = q0 * u1, q0 * u2, q0 * u3
+s1, s2, s3 = centre_step(q0, q1, q2, q3, g1, g2, g3)
+x1, x2, x3 = rotate(a0, a1, a2, a3, s1, s2, s3)
+n1, n2 = z1 + rho * x1, z2 + rho * x2
+c0, c1, c2, c3 = compose(a0, a1, a2, a3, q0, q1, q2, q3)
+t = (3 - ((c0 * c0 + c1 * c1) + (c2 * c2 + c3 * c3))) / 2
+b0, b1, b2, b3 = c0 * t, c1 * t, c2 * t, c3 * t
+"""
+
+
 @dataclass(frozen=True)
 class Program:
     """Straight-line Python of kernel calls and + - * /: named inputs in groups, and the names that are its outputs."""
@@ -40,6 +63,8 @@ class Program:
     groups: tuple[Group, ...]
     outputs: tuple[str, ...]
     text: str
+    #: Of the inputs, those that stay float64 where the others are pairs.
+    floats: tuple[str, ...] = ()
 
     @property
     def inputs(self) -> tuple[str, ...]:
@@ -71,5 +96,38 @@ PROGRAMS: tuple[Program, ...] = (
         (ANY_QUATERNION, HALF, GAMMA),
         ("x1", "x2", "x3", "y1", "y2", "y3"),
         _TURNS,
+    ),
+)
+
+PAIR_PROGRAMS: tuple[Program, ...] = (
+    Program(
+        "gibbs_residual_pairs",
+        "G(u) = B(γ)u + u × Iu - (1 + |u|²)k at a float64 u; what is small of it has the error of its terms.",
+        _ROUND,
+        ("r1", "r2", "r3"),
+        _RESIDUAL,
+        ("u1", "u2", "u3", "D"),
+    ),
+    Program(
+        "turn_pairs",
+        "Ωᵀk and Ωᵀγ for the rotation with the Gibbs vector u.",
+        (GIBBS, HALF, GAMMA),
+        ("l1", "l2", "l3", "h1", "h2", "h3"),
+        _TURNED,
+    ),
+    Program(
+        "roll_pairs",
+        "The attitude, divided by its length, and the contact point after the rotation q₀(1, u), q₀ = 1/√(1 + |u|²).",
+        (
+            ("scalar", sp.symbols("q0,")),
+            GIBBS,
+            GAMMA,
+            FIRST,
+            ("contact", sp.symbols("z1 z2")),
+            ("radius", sp.symbols("rho,")),
+        ),
+        ("b0", "b1", "b2", "b3", "n1", "n2"),
+        _ROLLED,
+        ("rho",),
     ),
 )

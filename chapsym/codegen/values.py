@@ -6,7 +6,7 @@ from fractions import Fraction
 
 import sympy as sp
 
-from . import columns
+from . import columns, quad
 from .kernels import Kernel
 from .programs import Program
 
@@ -63,3 +63,8 @@ def program_fingerprint(program: Program, texts: columns.Texts) -> list[str]:
 def columns_fingerprint(program: Program, text: str) -> list[str]:
     """The same values from the NumPy calls, run on columns of fractions."""
     return [decimal(value) for value in columns.text_values(program, text, _at)]
+
+
+def quad_fingerprint(program: Program, text: str) -> list[str]:
+    """The same values from the operations on pairs, run on pairs of fractions."""
+    return [decimal(value) for value in quad.text_values(program, text, _at)]

@@ -14,6 +14,7 @@ from .three import J1, J2, J3, D, gamma, q, q0
 u1, u2, u3 = sp.symbols("u1:4")
 k1, k2, k3 = sp.symbols("k1:4")
 d1, d2, d3 = sp.symbols("d1:4")
+e = sp.Matrix(sp.symbols("e1:4"))
 v1, v2, v3 = sp.symbols("v1:4")
 I1, I2, I3 = sp.symbols("I1:4")
 
@@ -28,7 +29,7 @@ INERTIA = sp.diag(I1, I2, I3)
 BY_INERTIA = {J1: (I2 + I3 - I1) / 2, J2: (I1 + I3 - I2) / 2, J3: (I1 + I2 - I3) / 2}
 
 #: Names of what is computed on the way: ∂G/∂u, Dγ, Dγγᵀ, the part of ∂G/∂u
-#: without D, the cofactors, a right side, p × v, the factor 2/|p|².
+#: without D, the cofactors, a right side, p × v or u × γ, Iu, the factor 2/|p|² or 1 + |u|².
 A = sp.Matrix(3, 3, sp.symbols("a1:4(1:4)"))
 W = sp.Matrix(sp.symbols("w1:4"))
 E = sp.Matrix(3, 3, lambda i, j: sp.Symbol(f"e{min(i, j) + 1}{max(i, j) + 1}"))
@@ -36,6 +37,7 @@ M = sp.Matrix(3, 3, sp.symbols("m1:4(1:4)"))
 C = sp.Matrix(3, 3, sp.symbols("c1:4(1:4)"))
 R = sp.Matrix(sp.symbols("r1:4"))
 ONCE = sp.Matrix(sp.symbols("x1:4"))
+SPIN = sp.Matrix(sp.symbols("y1:4"))
 SCALE = sp.Symbol("s")
 
 #: A quaternion that need not be unit: (det A, N) for the rotation with the Gibbs vector N/det A.
@@ -52,6 +54,12 @@ def residual() -> sp.ImmutableMatrix:
     momentum = sp.Matrix(three.momentum()).subs(values, simultaneous=True)
     whole = momentum - 2 * k * (1 + u.dot(u))
     return sp.ImmutableMatrix((whole / 2).applyfunc(lambda e: sp.expand(e.subs(BY_INERTIA, simultaneous=True))))
+
+
+def residual_steps() -> tuple[Steps, sp.Matrix]:
+    """The same by u × γ: B(γ)u = Iu + Dγ × (u × γ)."""
+    steps = [(ONCE, u.cross(gamma)), (SPIN, INERTIA * u), (sp.Matrix([SCALE]), sp.Matrix([1 + u.dot(u)]))]
+    return steps, SPIN + D * gamma.cross(ONCE) + u.cross(SPIN) - SCALE * k
 
 
 @cache
@@ -116,6 +124,16 @@ def second() -> sp.Matrix:
 def second_steps() -> tuple[Steps, sp.Matrix]:
     """The same by what the Newton correction leaves of G."""
     return [(R, bilinear(d))], C.T * R
+
+
+def mixed() -> sp.Matrix:
+    """What N loses when a correction e follows d with the cofactors from before d: Cᵀ times `polar` at d, times e."""
+    return C.T * (polar(d) * e)
+
+
+def mixed_steps() -> tuple[Steps, sp.Matrix]:
+    """The same by its product with the cofactors."""
+    return [(R, d.cross(INERTIA * e) + e.cross(INERTIA * d) - 2 * d.dot(e) * k)], C.T * R
 
 
 def turn() -> sp.Matrix:

@@ -19,18 +19,43 @@ import numba
 from numba.extending import register_jitable
 
 import chapsym.generated as generated
+import chapsym.generated.quad as generated_quad
+from chapsym.numbers import fused, pairs
 
-from . import block, branch, composed_loop, gibbs, integrals, lanes, long_step, loop, single_loop, single_step, vertical_loop
+from . import (
+    block,
+    branch,
+    composed_loop,
+    gibbs,
+    integrals,
+    lanes,
+    long_step,
+    loop,
+    quad_block,
+    quad_loop,
+    quad_step,
+    single_loop,
+    single_step,
+    vertical_loop,
+)
 from .retyped import Family
 
 #: What the compiled code is made of.
-SOURCES = (generated, branch, gibbs, integrals, loop, block, composed_loop, vertical_loop, long_step, lanes, single_loop, single_step)
+SOURCES = (
+    *(generated, branch, gibbs, integrals, loop, block, composed_loop, vertical_loop, long_step, lanes),
+    *(single_loop, single_step),
+    *(pairs, generated_quad, quad_step, quad_loop, quad_block),
+)
 #: The functions on the way of every step: a call would cost more than they do.
 INLINED = {
     *(generated.gibbs_newton, generated.gibbs_second, generated.turn),
     *(gibbs.newton_round, gibbs.second_round, gibbs.settle, loop.three, loop.put),
     *(composed_loop.extrapolated, composed_loop.turned_with),
     *(block.predicted, block.corrected, block.unsettled, block.turned, block.added, block.extrapolated),
+    *(value for value in vars(pairs).values() if isinstance(value, FunctionType)),
+    *(generated.gibbs_mixed, generated_quad.gibbs_residual_pairs, generated_quad.turn_pairs),
+    *(quad_step.correction, quad_step.small),
+    *(quad_block.approached, quad_block.residuals, quad_block.corrected, quad_block.turned),
     *(generated.compose, lanes.checked, lanes.moved, lanes.rates, lanes.begin, lanes.keep, lanes.side_by_side),
 }
 
@@ -46,7 +71,8 @@ def source_hash() -> str:
     """A hash of the kernels, of the solver, of the loops, of how they are compiled, and of numba's version."""
     digest = hashlib.sha256(numba.__version__.encode())
     twins = (str(Path(__file__).with_name(name)) for name in ("retyped.py", "single.py"))
-    files = {__file__, *twins, *(f.__code__.co_filename for module in SOURCES for f in _functions(module))}
+    sources = (f.__code__.co_filename for module in SOURCES for f in _functions(module))
+    files = {__file__, fused.__file__, *twins, *sources}
     for name in sorted(files):
         digest.update(Path(name).read_bytes())
     return digest.hexdigest()[:16]
@@ -83,7 +109,8 @@ def _inlined() -> set[tuple[str, str]]:
 
 @cache
 def _registered(modules: tuple[ModuleType, ...]) -> None:
-    seen = set()
+    fused.register()
+    seen = {pairs.two_product}
     for module in modules:
         for function in _functions(module):
             if function.__module__.startswith("chapsym.") and function not in seen:

@@ -219,9 +219,7 @@ def _explained(status: int, K: Floats, g: Floats, J: Floats, D: float) -> Status
     return explain(status, K.astype(np.float64), g.astype(np.float64), J.astype(np.float64), float(D))
 
 
-def _run_block(
-    balls: Balls, which: slice, steps: int, every: int, frames: Frames, loops: Loops, count: _Count
-) -> None:
+def _run_block(balls: Balls, which: slice, steps: int, every: int, frames: Frames, loops: Loops, count: _Count) -> None:
     n = which.stop - which.start
     march, prepare, lanes = loops.columns.march_columns, loops.columns.prepare_columns, n
     if has_numba():

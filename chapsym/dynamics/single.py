@@ -28,7 +28,6 @@ SLOWEST = 2.0**-48
 UNIT_TOLERANCE = 1e-6
 
 
-
 @cache
 def loops() -> Loops:
     """The loops in float32, each with the constants that its text has for float64."""

@@ -17,6 +17,11 @@ import flint
 import mpmath
 import numpy as np
 
+from .pair import Pair
+
+#: Significant digits of a double-double number in text: 2^-106 is 1.2e-32.
+WRITTEN = 32
+
 
 class Rung(ABC):
     """One kind of number."""
@@ -87,6 +92,29 @@ class Double(Rung):
     @property
     def digits(self) -> int:
         return 12
+
+
+@dataclass(frozen=True)
+class Quad(Rung):
+    """Double-double numbers: pairs of float64, about 31 digits."""
+
+    def number(self, value: Fraction) -> Pair:
+        return Pair.of(value)
+
+    def sqrt(self, value: Pair) -> Pair:
+        return value.sqrt()
+
+    def write(self, value: Pair) -> str:
+        return Digits(WRITTEN).write(Digits(WRITTEN).number(value.exactly()))
+
+    @property
+    def digits(self) -> int:
+        return 28
+
+    @property
+    def carried(self) -> int:
+        """106 bits."""
+        return 31
 
 
 @dataclass(frozen=True)
@@ -163,7 +191,7 @@ class Ball(Rung):
 
 
 #: What users call the rungs that have no parameter.
-NAMED: dict[str, Rung] = {"single": Single(), "double": Double()}
+NAMED: dict[str, Rung] = {"single": Single(), "double": Double(), "quad": Quad()}
 
 
 def rung(precision: "str | Rung") -> Rung:

@@ -1,0 +1,220 @@
+"""Kernels on double-double numbers: every operation of their text is one call of `chapsym.numbers.pairs`.
+
+The text of a program is numbered as for columns, so what two kernels share is done once.  Each value is a float64 or a
+pair of them, by its operands: a product of two floats is exact, a float beside a pair saves half the work.  Inside, the
+operations are the loose ones; what a program returns is normalised, and so is a divisor before the division.
+"""
+
+import ast
+import hashlib
+from collections.abc import Callable, Mapping, Sequence
+from fractions import Fraction
+from functools import cache
+
+from .columns import Texts, Values, called
+from .printer import NotStraightLine
+from .programs import PAIR_PROGRAMS, Program
+
+FILE = "quad.py"
+#: Where the manifest has them.
+KEY = "pairs"
+PROGRAMS = PAIR_PROGRAMS
+#: What a call costs, in float64 operations.
+COST = {
+    "two_sum": 6, "two_product": 2, "loose_add": 8, "loose_subtract": 8, "loose_add_float": 7, "loose_multiply": 6,
+    "loose_multiply_float": 4, "divide": 19,
+}  # fmt: skip
+
+
+class Folded(Values):
+    """The same without products by 1."""
+
+    def number(self, *node: int | str) -> int:
+        """The number of a value; that of the other factor for a product by 1."""
+        operation, *operands = node
+        if operation == "multiply":
+            for x, other in (operands, operands[::-1]):
+                if self.nodes[int(x)] == ("constant", 1):
+                    return int(other)
+        return super().number(*node)
+
+
+class Printer:
+    """Writes the operations of a program as calls; `lines` grows."""
+
+    def __init__(self, floats: Sequence[str]) -> None:
+        self.floats, self.lines = set(floats), list[str]()
+
+    def pair(self, name: str) -> str:
+        """The two halves of a value as arguments."""
+        return f"{name}, {self.low(name)}"
+
+    def low(self, name: str) -> str:
+        """The second half of a value; 0 for a float."""
+        return "0" if name in self.floats else f"{name}_"
+
+    def call(self, target: str, function: str, *arguments: str) -> None:
+        """One line."""
+        self.lines.append(f"{target}, {target}_ = {function}({', '.join(arguments)})")
+
+    def operation(self, target: str, operation: str, a: str, b: str = "") -> None:
+        """target = a operation b."""
+        few = [x for x in (a, b) if x in self.floats]
+        if operation == "negative" or (operation == "add" and a == b) or (operation, b) == ("divide", "2"):
+            sign, rest = {"negative": ("-", ""), "add": ("2 * ", ""), "divide": ("", " / 2")}[operation]
+            halves = [a] if a in self.floats else [a, f"{a}_"]
+            self.floats |= {target} if a in self.floats else set()
+            self.lines.append(
+                f"{', '.join(h.replace(a, target, 1) for h in halves)} = {', '.join(sign + h + rest for h in halves)}"
+            )
+        elif operation == "divide":
+            if b not in self.floats:
+                self.call(f"{target}d", "two_sum", b, f"{b}_")
+            self.call(target, "divide", self.pair(a), f"{target}d, {target}d_" if b not in self.floats else f"{b}, 0")
+        elif operation == "multiply":
+            self._scaled(target, "two_product", "loose_multiply_float", "loose_multiply", a, b)
+        elif operation == "add":
+            self._scaled(target, "two_sum", "loose_add_float", "loose_add", a, b)
+        elif not few:
+            self.call(target, "loose_subtract", self.pair(a), self.pair(b))
+        elif b in few:
+            exact = a in self.floats
+            self.call(target, *(("two_sum", a, f"-{b}") if exact else ("loose_add_float", self.pair(a), f"-{b}")))
+        else:
+            self.call(target, "loose_add_float", f"-{b}", f"-{b}_", a)
+
+    def _scaled(self, target: str, exact: str, mixed: str, full: str, a: str, b: str) -> None:
+        """A commutative operation, by the kinds of its operands."""
+        if a in self.floats and b in self.floats:
+            self.call(target, exact, a, b)
+        elif a in self.floats or b in self.floats:
+            x, y = (b, a) if a in self.floats else (a, b)
+            self.call(target, mixed, self.pair(x), y)
+        else:
+            self.call(target, full, self.pair(a), self.pair(b))
+
+
+def lowered(program: Program, texts: Texts) -> list[str]:
+    """The lines of the function's body, up to its return."""
+    values = Folded(texts)
+    known = {name: values.number("input", name) for name in program.inputs}
+    values.run(ast.parse(program.text).body, known)
+    outputs = [known[name] for name in program.outputs]
+    needed = set(outputs)
+    for number in reversed(range(len(values.nodes))):
+        if number in needed and values.nodes[number][0] not in ("input", "constant"):
+            needed |= {int(x) for x in values.nodes[number][1:]}
+    names = dict[int, str]()
+    constants = [str(n[1]) for n in values.nodes if n[0] == "constant"]
+    printer, count = Printer([*program.floats, *constants]), 0
+    for number in sorted(needed):
+        operation, *operands = values.nodes[number]
+        if operation in ("input", "constant"):
+            names[number] = str(operands[0])
+            continue
+        names[number], count = f"t{count}", count + 1
+        printer.operation(names[number], operation, *(names[int(x)] for x in operands))
+    for name, number in zip(program.outputs, outputs, strict=True):
+        if names[number] in printer.floats:
+            raise NotStraightLine(f"{program.name}: {name} is no pair")
+        printer.call(f"o_{name}", "two_sum", names[number], f"{names[number]}_")
+    return printer.lines
+
+
+def flops(lines: Sequence[str]) -> int:
+    """Float64 operations of the lines, a fused multiply-add as one."""
+    return sum(COST.get(line.split(" = ")[1].split("(")[0], 2) for line in lines)
+
+
+def arguments(program: Program) -> str:
+    """The parameters: both halves of a pair, one of a float."""
+    return ", ".join(name if name in program.floats else f"{name}, {name}_" for name in program.inputs)
+
+
+def code(program: Program, texts: Texts) -> str:
+    """The function of a program."""
+    lines = lowered(program, texts)
+    kinds = f"  {', '.join(program.floats)}: float64; the others are pairs." if program.floats else ""
+    body = [
+        f"def {program.name}({arguments(program)}):",
+        f'    """{program.summary}',
+        "",
+        *(f"    {name}: {', '.join(s.name for s in symbols)}" for name, symbols in program.groups),
+        f"    Returns {', '.join(program.outputs)} as normalised pairs.{kinds}",
+        f"    Operations: {flops(lines)}.",
+        '    """',
+        *(f"    {line}" for line in lines),
+        f"    return {', '.join(f'o_{name}, o_{name}_' for name in program.outputs)}",
+    ]
+    return "\n".join([*body, ""])
+
+
+def source(texts: Texts, claims: Mapping[str, Sequence[str]]) -> str:
+    """The text of the module with every program."""
+    kernels = sorted({name for program in PROGRAMS for name in called(program)})
+    ids = sorted({id for name in kernels for id in claims[name]})
+    digest = hashlib.sha256("\n".join(p.text for p in PROGRAMS).encode()).hexdigest()
+    functions = [code(program, texts) for program in PROGRAMS]
+    used = [name for name in COST if any(f" {name}(" in text for text in functions)]
+    header = [
+        '"""The parts of a step on double-double numbers; x and x_ are the halves of x.',
+        "",
+        "Written by `chapsym codegen`: do not edit; change the derivation and generate again.",
+        f"From the kernels {', '.join(kernels)}.",
+        f"Proved by: {', '.join(ids)}.",
+        f"Programs: sha256 {digest}.",
+        '"""',
+        "",
+        f"from chapsym.numbers.pairs import {', '.join(sorted(used))}",
+        "",
+        "",
+    ]
+    return "\n".join(header) + "\n" + "\n\n".join(functions)
+
+
+def manifest(texts: Texts) -> dict[str, dict]:
+    """The rows of the manifest."""
+    rows = {}
+    for program in PROGRAMS:
+        rows[program.name] = {
+            "kernels": called(program),
+            "inputs": {name: [s.name for s in symbols] for name, symbols in program.groups},
+            "floats": list(program.floats),
+            "outputs": list(program.outputs),
+            "operations": flops(lowered(program, texts)),
+            "text_sha256": hashlib.sha256(code(program, texts).encode()).hexdigest(),
+        }
+    return rows
+
+
+def _halves(value: Fraction) -> tuple[Fraction, Fraction]:
+    """A number as a pair whose halves are both large: whoever takes one for the other is far off."""
+    return value * Fraction(5, 7), value * Fraction(2, 7)
+
+
+@cache
+def exact_pairs() -> dict[str, Callable]:
+    """The functions of `chapsym.numbers.pairs` that texts call, without a rounding, on fractions."""
+    return {
+        "two_sum": lambda a, b: _halves(a + b),
+        "two_product": lambda a, b: _halves(a * b),
+        "loose_add": lambda a, a_, b, b_: _halves(a + a_ + b + b_),
+        "loose_subtract": lambda a, a_, b, b_: _halves(a + a_ - b - b_),
+        "loose_add_float": lambda a, a_, b: _halves(a + a_ + b),
+        "loose_multiply": lambda a, a_, b, b_: _halves((a + a_) * (b + b_)),
+        "loose_multiply_float": lambda a, a_, b: _halves((a + a_) * b),
+        "divide": lambda a, a_, b, b_: _halves(Fraction(a + a_) / (b + b_)),
+    }
+
+
+def text_values(program: Program, text: str, at: Callable[[str], Fraction]) -> list[Fraction]:
+    """What the generated text makes of the inputs that `at` gives, with exact operations on pairs of fractions."""
+    module = ast.parse(text)
+    module.body = [node for node in module.body if not isinstance(node, ast.ImportFrom)]
+    scope: dict = dict(exact_pairs())
+    exec(compile(module, FILE, "exec"), scope)  # our own text, never a user's
+    inputs: list[Fraction] = []
+    for name in program.inputs:
+        inputs += [at(name)] if name in program.floats else _halves(at(name))
+    found = scope[program.name](*inputs)
+    return [a + a_ for a, a_ in zip(found[::2], found[1::2], strict=True)]

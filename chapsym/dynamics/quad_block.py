@@ -1,0 +1,156 @@
+"""Many balls at once in double-double: blocks of `LANES` balls, as in `dynamics.block`; for numba only.
+
+Each lane has the bits of `quad_loop.march_quad` for that ball alone.
+"""
+
+import numpy as np
+
+from chapsym.generated.quad import gibbs_residual_pairs, turn_pairs
+from chapsym.numbers.pairs import two_sum
+
+from .block import extrapolated
+from .branch import TAKEN
+from .gibbs import newton_round
+from .quad_loop import ROWS, D, G, I, J, K, prepare_quad, write
+from .quad_step import correction, small, solved
+
+#: Balls in a block: its rows stay in the first-level cache.
+LANES = 16
+#: The filter of the Gibbs vector, radius² and enough follow the rows of the single ball.
+A, RADIUS, ENOUGH = ROWS, ROWS + 24, ROWS + 25
+ALL_ROWS = ROWS + 26
+#: Rows of the work space: u or w, d, det, cofactors, r, and e; then what `approach` would see of the last round.
+W, DELTA, DET, C, R, E = 0, 3, 6, 7, 16, 19
+WORK_ROWS = 22
+
+
+def approached(S, P, ok, again):
+    """One Newton iterate in float64 for every lane, from the guess or `again` from itself; returns how many go on."""
+    bad = 0
+    for i in range(LANES):
+        radius = S[RADIUS, i]
+        u1, u2, u3 = (P[W, i], P[W + 1, i], P[W + 2, i]) if again else (S[A, i], S[A + 1, i], S[A + 2, i])
+        near = u1 * u1 + (u2 * u2 + u3 * u3) <= radius
+        u1, u2, u3 = u1 if near else 0.0, u2 if near else 0.0, u3 if near else 0.0
+        p0, _, _, _, w1, w2, w3, first, d1, d2, d3, c11, c12, c13, c21, c22, c23, c31, c32, c33 = newton_round(
+            u1, u2, u3, S[K, i], S[K + 2, i], S[K + 4, i], S[G, i], S[G + 2, i], S[G + 4, i],
+            S[I, i], S[I + 2, i], S[I + 4, i], S[D, i],
+        )  # fmt: skip
+        done = again & (ok[i] == 1)
+        P[W, i], P[W + 1, i], P[W + 2, i] = (
+            P[W, i] if done else w1,
+            P[W + 1, i] if done else w2,
+            P[W + 2, i] if done else w3,
+        )
+        P[DELTA, i], P[DELTA + 1, i], P[DELTA + 2, i] = (
+            P[DELTA, i] if done else d1, P[DELTA + 1, i] if done else d2, P[DELTA + 2, i] if done else d3,
+        )  # fmt: skip
+        P[DET, i] = P[DET, i] if done else p0
+        for row, c in ((0, c11), (1, c12), (2, c13), (3, c21), (4, c22), (5, c23), (6, c31), (7, c32), (8, c33)):
+            P[C + row, i] = P[C + row, i] if done else c
+        ok[i] = 1 if done | ((radius >= 0.0) & (first <= S[ENOUGH, i])) else 0
+        bad += 1 - ok[i]
+    return bad
+
+
+def residuals(S, P):
+    """G at every lane's w, in pairs."""
+    for i in range(LANES):
+        P[R, i], _, P[R + 1, i], _, P[R + 2, i], _ = gibbs_residual_pairs(
+            P[W, i], P[W + 1, i], P[W + 2, i],
+            S[K, i], S[K + 1, i], S[K + 2, i], S[K + 3, i], S[K + 4, i], S[K + 5, i],
+            S[G, i], S[G + 1, i], S[G + 2, i], S[G + 3, i], S[G + 4, i], S[G + 5, i],
+            S[I, i], S[I + 1, i], S[I + 2, i], S[I + 3, i], S[I + 4, i], S[I + 5, i], S[D, i],
+        )  # fmt: skip
+
+
+def corrected(S, P, ok):
+    """The correction e of every lane; returns how many did not settle."""
+    bad = 0
+    for i in range(LANES):
+        w1, w2, w3 = P[W, i], P[W + 1, i], P[W + 2, i]
+        e1, e2, e3 = correction(
+            P[DELTA, i], P[DELTA + 1, i], P[DELTA + 2, i], P[R, i], P[R + 1, i], P[R + 2, i],
+            S[K, i], S[K + 2, i], S[K + 4, i], S[I, i], S[I + 2, i], S[I + 4, i], P[DET, i],
+            P[C, i], P[C + 1, i], P[C + 2, i], P[C + 3, i], P[C + 4, i], P[C + 5, i], P[C + 6, i], P[C + 7, i],
+            P[C + 8, i],
+        )  # fmt: skip
+        P[E, i], P[E + 1, i], P[E + 2, i] = e1, e2, e3
+        ok[i] = 1 if (ok[i] == 1) & small(w1, w2, w3, e1, e2, e3) else 0
+        bad += 1 - ok[i]
+    return bad
+
+
+def mend(S, P, ok, step, taken, status, reach):
+    """The whole of `solved` for the lanes that did not settle; a ball that cannot go on rests from then on."""
+    for i in range(LANES):
+        if ok[i] == 1:
+            continue
+        P[W, i], P[W + 1, i], P[W + 2, i], P[E, i], P[E + 1, i], P[E + 2, i] = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+        if i < len(status) and status[i] == TAKEN:
+            s = S[:, i].copy()
+            status[i], reach[i], u1, u1_, u2, u2_, u3, u3_ = solved(
+                s[A], s[A + 1], s[A + 2], s[K], s[K + 1], s[K + 2], s[K + 3], s[K + 4], s[K + 5],
+                s[G], s[G + 1], s[G + 2], s[G + 3], s[G + 4], s[G + 5],
+                s[I], s[I + 1], s[I + 2], s[I + 3], s[I + 4], s[I + 5], s[J], s[J + 1], s[J + 2], s[D],
+                s[RADIUS], s[ENOUGH],
+            )  # fmt: skip
+            if status[i] == TAKEN:
+                P[W, i], P[W + 1, i], P[W + 2, i], P[E, i], P[E + 1, i], P[E + 2, i] = u1, u2, u3, u1_, u2_, u3_
+                continue
+            taken[i] = step
+        S[RADIUS, i] = -1.0
+
+
+def turned(S, P):
+    """Turns k and γ of every lane, and carries the extrapolation on."""
+    for i in range(LANES):
+        (
+            S[0, i], S[1, i], S[2, i], S[3, i], S[4, i], S[5, i],
+            S[6, i], S[7, i], S[8, i], S[9, i], S[10, i], S[11, i],
+        ) = turn_pairs(
+            *two_sum(P[W, i], P[E, i]), *two_sum(P[W + 1, i], P[E + 1, i]), *two_sum(P[W + 2, i], P[E + 2, i]),
+            S[0, i], S[1, i], S[2, i], S[3, i], S[4, i], S[5, i],
+            S[6, i], S[7, i], S[8, i], S[9, i], S[10, i], S[11, i],
+        )  # fmt: skip
+        extrapolated(S, A, i, P[W, i] + P[E, i])
+        extrapolated(S, A + 1, i, P[W + 1, i] + P[E + 1, i])
+        extrapolated(S, A + 2, i, P[W + 2, i] + P[E + 2, i])
+
+
+def prepare_quad_block(momentum, g, tensor, contact, c, state, shift, beyond):
+    """`prepare_quad` of each ball of a block; one that is not full repeats its last ball."""
+    one, radius, enough, last = np.empty(ROWS), np.empty(1), np.empty(1), len(contact) - 1
+    for lane in range(state.shape[1]):
+        i = min(lane, last)
+        shift[i], beyond[i] = prepare_quad(momentum[i], g[i], tensor[i], contact[i], c, one, radius, enough)
+        state[:ROWS, lane] = one
+        state[ROWS:RADIUS, lane] = 0.0
+        state[RADIUS, lane], state[ENOUGH, lane] = radius[0], enough[0]
+
+
+def march_quad_block(state, first, count, every, shift, momenta, momenta_, verticals, verticals_, taken, status, reach):
+    """`count` steps of the balls of a block from the step `first` on: state (ALL_ROWS, LANES), the rest as `march_quad`.
+
+    shift, taken, status and reach have one entry for each ball; lanes beyond them are idle copies.
+    """
+    S, P, ok = np.empty((ALL_ROWS, LANES)), np.empty((WORK_ROWS, LANES)), np.empty(LANES, dtype=np.int64)
+    S[:, :] = state
+    for step in range(first, first + count):
+        if approached(S, P, ok, False) != 0:
+            approached(S, P, ok, True)
+        residuals(S, P)
+        if corrected(S, P, ok) != 0:
+            mend(S, P, ok, step, taken, status, reach)
+        turned(S, P)
+        if (step + 1) % every == 0:
+            frame = (step + 1) // every
+            for i in range(len(status)):
+                if status[i] == TAKEN:
+                    one = S[:, i].copy()
+                    write(momenta[i, frame], momenta_[i, frame], one, K, -shift[i])
+                    write(verticals[i, frame], verticals_[i, frame], one, G, 0)
+    for i in range(len(status)):
+        if status[i] == TAKEN:
+            taken[i] = first + count
+    state[:, :] = S

@@ -1,0 +1,141 @@
+"""One step in double-double: the float64 root, corrected once by a residual in pairs.  Plain Python that numba compiles.
+
+Names as in `numbers.pairs`: x, x_ are the halves of x.  Let w be a float64 Gibbs vector near the root of
+G(u) = B(γ)u + u × Iu - (1 + |u|²)k, found by a Newton correction d, and A the Jacobian before d, in float64.  G(w) in
+pairs is as exact as its terms allow, so e = -A⁻¹G(w) is the error of w to a few parts in 2⁵³, up to what A misses: by
+`gibbs-newton` that is exactly 2b(d, e) + b(e, e), b the quadratic part of G, and a second solution takes it back.
+There is left at most the square of c|d|, below 2⁻⁵³ where d settled (`dynamics.gibbs`), and the rounding of A⁻¹, each
+times |e|.  So where |e| is a few roundings of w, (w, e) has the error of a pair times the condition of A; where it
+is more, w + e is rounded and corrected afresh.
+"""
+
+from math import frexp
+
+from chapsym.generated import gibbs_mixed
+from chapsym.generated.quad import gibbs_residual_pairs
+from chapsym.numbers.pairs import divide, loose_add, root, two_product, two_sum
+
+from .branch import NOT_CONVERGED, TAKEN, small_rotation
+from .gibbs import MOST_ROUNDS, certificate, newton_round
+
+#: |e|² relative to |w|² from which the sum is corrected once more: 8 roundings of float64.
+SMALL = 2.0**-100
+#: Corrections in pairs: at a fold each may gain but little.
+MOST_CORRECTIONS = 60
+#: Scaled momenta are at least so large.  Then no product underflows, and what is not linear in 𝒦 is below 2^-200.
+LEAST = -200
+#: A moment of inertia below this, for Λmax about 1, has a determinant beyond float64: every step takes the safe way.
+SMALLEST = 2.0**-120
+
+
+def unit(a, b, c):
+    """The float vector (a, b, c) divided by its length, as pairs."""
+    n, n_ = loose_add(*two_product(a, a), *two_product(b, b))
+    n, n_ = loose_add(n, n_, *two_product(c, c))
+    n, n_ = root(*two_sum(n, n_))
+    x, x_ = divide(a, 0.0, n, n_)
+    y, y_ = divide(b, 0.0, n, n_)
+    z, z_ = divide(c, 0.0, n, n_)
+    return x, x_, y, y_, z, z_
+
+
+def scales(momentum, tensor, contact):
+    """Exponents (shift, beyond): k = 2^shift 𝒦, exactly, for Λmax about 1; tiny momenta are 2^beyond times as large."""
+    _, exponent = frexp(max(tensor[1] + tensor[2], tensor[0] + tensor[2], tensor[0] + tensor[1]) + contact)
+    largest = max(abs(momentum[0]), abs(momentum[1]), abs(momentum[2]))
+    _, size = frexp(largest)
+    beyond = max(0, LEAST - (size - exponent)) if largest > 0.0 else 0
+    return beyond - exponent - 1, beyond
+
+
+def bounds(k1, k2, k3, I1, I2, I3, D):
+    """(radius², enough) by the certificate of |𝒦|; radius² = -1 where every step takes the safe way."""
+    if min(I1, I2, I3) < SMALLEST:
+        return -1.0, 0.0
+    return certificate(k1, k2, k3, I1, I2, I3, D)
+
+
+def approach(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, radius, enough):
+    """Newton's iteration in float64: (settled, w, the last correction, det, cofactors before it)."""
+    for _ in range(MOST_ROUNDS):
+        if not u1 * u1 + (u2 * u2 + u3 * u3) <= radius:
+            u1, u2, u3 = 0.0, 0.0, 0.0
+        p0, _, _, _, w1, w2, w3, first, d1, d2, d3, c11, c12, c13, c21, c22, c23, c31, c32, c33 = newton_round(
+            u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D
+        )
+        if first <= enough or radius < 0.0:
+            break
+        u1, u2, u3 = w1, w2, w3
+    return (
+        radius >= 0.0 and first <= enough,
+        *(w1, w2, w3, d1, d2, d3, p0, c11, c12, c13, c21, c22, c23, c31, c32, c33),
+    )
+
+
+def correction(d1, d2, d3, r1, r2, r3, k1, k2, k3, I1, I2, I3, det,
+               c11, c12, c13, c21, c22, c23, c31, c32, c33):  # fmt: skip
+    """e with G(w + e) = 0 for r = G(w), by the Jacobian before the correction d that led to w."""
+    s = -1.0 / det
+    e1 = s * (c11 * r1 + c21 * r2 + c31 * r3)
+    e2 = s * (c12 * r1 + c22 * r2 + c32 * r3)
+    e3 = s * (c13 * r1 + c23 * r2 + c33 * r3)
+    x1, x2, x3 = gibbs_mixed(
+        d1 + 0.5 * e1, d2 + 0.5 * e2, d3 + 0.5 * e3, e1, e2, e3, k1, k2, k3,
+        c11, c12, c13, c21, c22, c23, c31, c32, c33, I1, I2, I3,
+    )  # fmt: skip
+    return e1 + s * x1, e2 + s * x2, e3 + s * x3
+
+
+def small(w1, w2, w3, e1, e2, e3):
+    """Whether e is a few roundings of w."""
+    return e1 * e1 + (e2 * e2 + e3 * e3) <= SMALL * (w1 * w1 + (w2 * w2 + w3 * w3))
+
+
+def polished(w1, w2, w3, k1, k1_, k2, k2_, k3, k3_, g1, g1_, g2, g2_, g3, g3_, I1, I1_, I2, I2_, I3, I3_, D):
+    """Corrections in pairs from a float64 w near the root; returns (settled, w, e)."""
+    for _ in range(MOST_CORRECTIONS):
+        det, _, _, _, _, _, _, _, _, _, _, c11, c12, c13, c21, c22, c23, c31, c32, c33 = newton_round(
+            w1, w2, w3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D
+        )
+        r1, _, r2, _, r3, _ = gibbs_residual_pairs(
+            w1, w2, w3, k1, k1_, k2, k2_, k3, k3_, g1, g1_, g2, g2_, g3, g3_, I1, I1_, I2, I2_, I3, I3_, D
+        )
+        e1, e2, e3 = correction(
+            0.0, 0.0, 0.0, r1, r2, r3, k1, k2, k3, I1, I2, I3, det,
+            c11, c12, c13, c21, c22, c23, c31, c32, c33,
+        )  # fmt: skip
+        if small(w1, w2, w3, e1, e2, e3):
+            return True, w1, w2, w3, e1, e2, e3
+        w1, w2, w3 = w1 + e1, w2 + e2, w3 + e3
+    return False, w1, w2, w3, 0.0, 0.0, 0.0
+
+
+def solved(
+    u1, u2, u3, k1, k1_, k2, k2_, k3, k3_, g1, g1_, g2, g2_, g3, g3_, I1, I1_, I2, I2_, I3, I3_, J1, J2, J3, D,
+    radius, enough,
+):  # fmt: skip
+    """The Gibbs vector of a step from a guess u: (status, reach, u1, u1_, u2, u2_, u3, u3_)."""
+    settled, w1, w2, w3, d1, d2, d3, det, c11, c12, c13, c21, c22, c23, c31, c32, c33 = approach(
+        u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, radius, enough
+    )
+    if settled:
+        r1, _, r2, _, r3, _ = gibbs_residual_pairs(
+            w1, w2, w3, k1, k1_, k2, k2_, k3, k3_, g1, g1_, g2, g2_, g3, g3_, I1, I1_, I2, I2_, I3, I3_, D
+        )
+        e1, e2, e3 = correction(
+            d1, d2, d3, r1, r2, r3, k1, k2, k3, I1, I2, I3, det,
+            c11, c12, c13, c21, c22, c23, c31, c32, c33,
+        )  # fmt: skip
+        if small(w1, w2, w3, e1, e2, e3):
+            return TAKEN, 1.0, *two_sum(w1, e1), *two_sum(w2, e2), *two_sum(w3, e3)
+        w1, w2, w3 = w1 + e1, w2 + e2, w3 + e3
+    else:
+        status, reach, p0, p1, p2, p3 = small_rotation(2.0 * k1, 2.0 * k2, 2.0 * k3, g1, g2, g3, J1, J2, J3, D)
+        if status != TAKEN or p0 == 0.0:  # a rotation by π has no Gibbs vector
+            return NOT_CONVERGED if status == TAKEN else status, reach, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+        w1, w2, w3 = p1 / p0, p2 / p0, p3 / p0
+    settled, w1, w2, w3, e1, e2, e3 = polished(
+        w1, w2, w3, k1, k1_, k2, k2_, k3, k3_, g1, g1_, g2, g2_, g3, g3_, I1, I1_, I2, I2_, I3, I3_, D
+    )
+    status = TAKEN if settled else NOT_CONVERGED
+    return status, 1.0, *two_sum(w1, e1), *two_sum(w2, e2), *two_sum(w3, e3)

@@ -1,0 +1,89 @@
+"""Double-double numbers with operators, so that the generated kernels run on them as they do on floats."""
+
+from fractions import Fraction
+from functools import total_ordering
+from typing import Any
+
+from . import pairs
+
+
+@total_ordering
+class Pair:
+    """The number high + low, normalised: |low| is at most half an ulp of high.  It mixes with int and float exactly."""
+
+    __slots__ = ("high", "low")
+
+    def __init__(self, high: float, low: float = 0.0) -> None:
+        self.high, self.low = pairs.two_sum(float(high), float(low))
+
+    @classmethod
+    def of(cls, value: "Fraction | int") -> "Pair":
+        """The pair nearest to a rational number, within 2^-106 of it; raises OverflowError beyond float64."""
+        high = float(value)
+        return cls(high, float(value - Fraction(high)))
+
+    def exactly(self) -> Fraction:
+        """The number as a fraction; raises ValueError or OverflowError for NaN and infinities."""
+        return Fraction(self.high) + Fraction(self.low)
+
+    def halves(self) -> tuple[float, float]:
+        """(high, low)."""
+        return self.high, self.low
+
+    def sqrt(self) -> "Pair":
+        """The square root; raises ValueError below 0."""
+        return Pair(*pairs.root(self.high, self.low))
+
+    def _pair(self, other: Any) -> "Pair":
+        if isinstance(other, Pair):
+            return other
+        return Pair.of(other) if isinstance(other, int) else Pair(other)
+
+    def __add__(self, other: Any) -> "Pair":
+        b = self._pair(other)
+        return Pair(*pairs.add(self.high, self.low, b.high, b.low))
+
+    def __sub__(self, other: Any) -> "Pair":
+        b = self._pair(other)
+        return Pair(*pairs.subtract(self.high, self.low, b.high, b.low))
+
+    def __mul__(self, other: Any) -> "Pair":
+        b = self._pair(other)
+        return Pair(*pairs.multiply(self.high, self.low, b.high, b.low))
+
+    def __truediv__(self, other: Any) -> "Pair":
+        b = self._pair(other)
+        return Pair(*pairs.divide(self.high, self.low, b.high, b.low))
+
+    def __rsub__(self, other: Any) -> "Pair":
+        return self._pair(other) - self
+
+    def __rtruediv__(self, other: Any) -> "Pair":
+        return self._pair(other) / self
+
+    __radd__, __rmul__ = __add__, __mul__
+
+    def __neg__(self) -> "Pair":
+        return Pair(-self.high, -self.low)
+
+    def __abs__(self) -> "Pair":
+        return -self if self.high < 0.0 else self
+
+    def __float__(self) -> float:
+        return self.high
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Pair | int | float):
+            return NotImplemented
+        b = self._pair(other)
+        return self.high == b.high and self.low == b.low
+
+    def __lt__(self, other: Any) -> bool:
+        b = self._pair(other)
+        return self.high < b.high or (self.high == b.high and self.low < b.low)
+
+    def __hash__(self) -> int:
+        return hash((self.high, self.low)) if self.low else hash(self.high)
+
+    def __repr__(self) -> str:
+        return f"Pair({self.high!r}, {self.low!r})"

@@ -1,0 +1,161 @@
+"""Double-double building blocks against exact fractions: each within its proved bound."""
+
+from fractions import Fraction as F
+
+import numpy as np
+import pytest
+from hypothesis import given, target
+from hypothesis import strategies as st
+
+from chapsym import generated
+from chapsym.numbers import Digits, Pair, Quad, pairs, rung
+
+U = F(1, 2**53)
+#: Mantissas with many or few bits, and exponents that neither overflow nor underflow in a product's error.
+floats = st.builds(
+    lambda bits, exponent, sign: sign * float(bits) * 2.0**exponent,
+    st.integers(2**52, 2**53 - 1) | st.integers(1, 8) | st.sampled_from([2**53 - 1, 2**52 + 1, 2**27 + 1]),
+    st.integers(-160, 160) | st.integers(-56, -50),
+    st.sampled_from([1.0, -1.0]),
+)
+#: Low halves of every size up to half an ulp of the high one.
+pair = st.builds(
+    lambda high, part, shift: pairs.two_sum(high, high * part * 2.0 ** -(53 + shift)),
+    floats, st.floats(-1, 1).filter(lambda x: abs(x) > 1e-3) | st.sampled_from([0.0, 0.5, -0.5, 1.0]),
+    st.integers(0, 60) | st.just(0),
+)  # fmt: skip
+
+
+def exact(x):
+    return F(x[0]) + F(x[1])
+
+
+def within(found, truth, bound, what):
+    """The error, in units of u² of the truth, is at most the bound; Hypothesis looks for the worst."""
+    if truth == 0:
+        assert exact(found) == 0
+        return
+    error = abs(exact(found) / truth - 1) / U**2
+    target(float(error), label=what)
+    assert error <= bound
+    assert found[0] == float(exact(found)), "normalised"
+
+
+@given(floats, floats)
+def test_sums_and_products_are_exact(a, b):
+    assert exact(pairs.two_sum(a, b)) == F(a) + F(b)
+    assert exact(pairs.two_product(a, b)) == F(a) * F(b)
+    big, small = (a, b) if abs(a) >= abs(b) else (b, a)
+    assert exact(pairs.quick_two_sum(big, small)) == F(a) + F(b)
+
+
+@given(pair, pair)
+def test_sums(x, y):
+    within(pairs.add(*x, *y), exact(x) + exact(y), 3 + 13 * U, "add")
+    within(pairs.subtract(*x, *y), exact(x) - exact(y), 3 + 13 * U, "subtract")
+
+
+@given(pair, floats)
+def test_sums_that_cancel(x, shift):
+    """The nearest neighbours of -x: the bound is relative to what is left."""
+    near = pairs.two_sum(-x[0], -x[1] * (1 + 2.0**-40))
+    within(pairs.add(*x, *near), exact(x) + exact(near), 3 + 13 * U, "cancel")
+
+
+@given(pair, pair)
+def test_products_and_quotients(x, y):
+    within(pairs.multiply(*x, *y), exact(x) * exact(y), 5, "multiply")
+    within(pairs.multiply_float(*x, y[0]), exact(x) * F(y[0]), F(3, 2) + 4 * U, "multiply_float")
+    within(pairs.divide(*x, *y), exact(x) / exact(y), 15 + 56 * U, "divide")
+
+
+@given(pair)
+def test_roots(x):
+    """Of x², bracketed: (1 ± bound)²x contains the square of the root."""
+    x = x if x[0] > 0 else (-x[0], -x[1])
+    found, bound = pairs.root(*x), F(25, 8) * U**2
+    assert (1 - bound) ** 2 * exact(x) <= exact(found) ** 2 <= (1 + bound) ** 2 * exact(x)
+    assert pairs.root(0.0, 0.0) == (0.0, 0.0)
+
+
+@given(pair, pair)
+def test_loose_operations_err_by_some_u2_of_the_terms(x, y):
+    """Their own roundings: two of the low half of a sum, four of that of a product and the a_·b_ that is left out."""
+    a, b = exact(x), exact(y)
+    terms = abs(a) + abs(b)
+    for found, truth in [
+        (pairs.loose_add(*x, *y), a + b),
+        (pairs.loose_subtract(*x, *y), a - b),
+        (pairs.loose_add_float(*x, y[0]), a + F(y[0])),
+    ]:
+        assert abs(exact(found) - truth) <= F(7, 2) * U**2 * terms
+    assert abs(exact(pairs.loose_multiply(*x, *y)) - a * b) <= 8 * U**2 * abs(a * b)
+    assert abs(exact(pairs.loose_multiply_float(*x, y[0])) - a * F(y[0])) <= 4 * U**2 * abs(a * F(y[0]))
+
+
+@given(pair, pair, st.integers(-9, 9))
+def test_the_class_does_the_same(x, y, n):
+    a, b = Pair(*x), Pair(*y)
+    for found, expected in [
+        (a + b, pairs.add(*x, *y)), (a - b, pairs.subtract(*x, *y)), (a * b, pairs.multiply(*x, *y)),
+        (a / b, pairs.divide(*x, *y)), (n * a, pairs.multiply(float(n), 0.0, *x)), (n - a, (-(a - n)).halves()),
+        (1 / b, pairs.divide(1.0, 0.0, *y)), (abs(a), x if x[0] > 0 else (-x[0], -x[1])),
+    ]:  # fmt: skip
+        assert found.halves() == tuple(expected)
+    assert ((a < b), (a == b)) == ((exact(x) < exact(y)), (exact(x) == exact(y)))
+    assert {2, Pair(*x)} == {Pair(2.0), Pair(*x)}
+    assert Pair(2.0) != "2"
+
+
+@given(st.fractions(max_denominator=10**30).filter(lambda x: x == 0 or abs(x) > F(1, 10**40)))
+def test_the_rung(value):
+    quad = rung("quad")
+    assert (type(quad), quad.carried) == (Quad, 31)
+    number = quad.number(value)
+    assert abs(number.exactly() - value) <= U**2 * abs(value)
+    assert abs(F(quad.write(number)) - number.exactly()) <= abs(value) * F(1, 10**31)
+    squared = quad.sqrt(abs(number)).exactly() ** 2
+    assert abs(squared - abs(number.exactly())) <= 7 * U**2 * abs(number.exactly())
+
+
+def test_a_kernel_runs_on_pairs():
+    """The residual at a rational point, where it does not cancel: no worse than u² by the operations of a product."""
+    point = [F(3 + 2 * i, 7 + i) for i in range(14)]
+    found = generated.residual(*map(Pair.of, point))
+    for x, truth in zip(found, generated.residual(*point), strict=True):
+        assert abs(x.exactly() - truth) <= 2000 * U**2
+    assert Digits(32).write(Digits(32).number(found[0].exactly())) == rung("quad").write(found[0])
+
+
+def test_compiled_they_have_the_same_bits():
+    """The compiled product is a fused multiply-add, the interpreted one Dekker's."""
+    import numba
+
+    from chapsym.numbers import fused
+
+    fused.register()
+    for name in ("two_sum", "quick_two_sum", "add", "subtract", "multiply", "divide", "loose_add", "loose_multiply"):
+        numba.extending.register_jitable(error_model="numpy")(getattr(pairs, name))
+    for name in ("multiply_float", "root", "loose_subtract", "loose_add_float", "loose_multiply_float"):
+        numba.extending.register_jitable(error_model="numpy")(getattr(pairs, name))
+    two_product, multiply, divide, root = pairs.two_product, pairs.multiply, pairs.divide, pairs.root
+
+    def chain(a, a_, b, b_):
+        x, x_ = two_product(a, b)
+        y, y_ = multiply(x, x_, b, b_)
+        z, z_ = divide(y, y_, a, a_)
+        r, r_ = root(abs(z), z_ if z > 0.0 else -z_)
+        return x, x_, y, y_, z, z_, r, r_
+
+    fast = numba.njit(chain, error_model="numpy")
+    rng = np.random.default_rng(5)
+    for _ in range(2000):
+        a, b = (float(x) for x in rng.normal(size=2) * 10.0 ** rng.integers(-40, 40, 2))
+        x, y = pairs.two_sum(a, a * 2.0**-54 * rng.uniform(-1, 1)), pairs.two_sum(b, b * 2.0**-55)
+        assert fast(*x, *y) == chain(*x, *y)
+    assert "fma" in next(iter(fast.inspect_llvm().values()))
+
+
+@pytest.mark.parametrize("tried", [F(1, 3), F(-22, 7), F(10**40, 3), F(1, 3**60)])
+def test_written_numbers(tried):
+    assert abs(F(rung("quad").write(Pair.of(tried))) / tried - 1) < F(3, 10**32)
