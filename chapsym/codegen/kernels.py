@@ -72,6 +72,7 @@ KERNELS: tuple[Kernel, ...] = (
         (3,),
         _vector("K"),
         three.momentum,
+        three.momentum_steps,
     ),
     Kernel(
         "momentum_jacobian",
@@ -108,6 +109,7 @@ KERNELS: tuple[Kernel, ...] = (
         (3,),
         _vector("r"),
         lambda: sp.Matrix(three.momentum()) - K,
+        three.residual_steps,
     ),
     Kernel(
         "rotation",
@@ -180,6 +182,7 @@ KERNELS: tuple[Kernel, ...] = (
         (3,),
         _vector("K"),
         continuous.momentum,
+        continuous.momentum_steps,
     ),
     Kernel(
         "angular_velocity",
