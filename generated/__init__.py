@@ -6,6 +6,7 @@ from .compose import compose
 from .contact_momentum import contact_momentum
 from .energy import energy
 from .gibbs_newton import gibbs_newton
+from .gibbs_newton_heavy import gibbs_newton_heavy
 from .gibbs_second import gibbs_second
 from .invariants import invariants
 from .momentum import momentum
@@ -29,6 +30,7 @@ TABLE = {
     "contact_momentum": (contact_momentum, (('omega', 3), ('gamma', 3), ('mass_tensor', 3), ('D', 1)), (3,)),
     "energy": (energy, (('momentum', 3), ('gamma', 3), ('mass_tensor', 3), ('D', 1)), ()),
     "gibbs_newton": (gibbs_newton, (('gibbs', 3), ('half_momentum', 3), ('gamma', 3), ('inertia', 3), ('D', 1)), (13,)),
+    "gibbs_newton_heavy": (gibbs_newton_heavy, (('gibbs', 3), ('half_momentum', 3), ('gamma', 3), ('inertia', 3), ('D', 1)), (13,)),
     "gibbs_second": (gibbs_second, (('correction', 3), ('half_momentum', 3), ('cofactors', 9), ('inertia', 3)), (3,)),
     "invariants": (invariants, (('momentum', 3), ('gamma', 3)), (3,)),
     "momentum": (momentum, (('rotation', 4), ('gamma', 3), ('mass_tensor', 3), ('D', 1)), (3,)),
