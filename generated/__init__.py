@@ -7,6 +7,7 @@ from .contact_momentum import contact_momentum
 from .energy import energy
 from .gibbs_mixed import gibbs_mixed
 from .gibbs_newton import gibbs_newton
+from .gibbs_newton_heavy import gibbs_newton_heavy
 from .gibbs_residual import gibbs_residual
 from .gibbs_second import gibbs_second
 from .invariants import invariants
@@ -32,6 +33,7 @@ TABLE = {
     "energy": (energy, (('momentum', 3), ('gamma', 3), ('mass_tensor', 3), ('D', 1)), ()),
     "gibbs_mixed": (gibbs_mixed, (('correction', 3), ('next_correction', 3), ('half_momentum', 3), ('cofactors', 9), ('inertia', 3)), (3,)),
     "gibbs_newton": (gibbs_newton, (('gibbs', 3), ('half_momentum', 3), ('gamma', 3), ('inertia', 3), ('D', 1)), (13,)),
+    "gibbs_newton_heavy": (gibbs_newton_heavy, (('gibbs', 3), ('half_momentum', 3), ('gamma', 3), ('inertia', 3), ('D', 1)), (13,)),
     "gibbs_residual": (gibbs_residual, (('gibbs', 3), ('half_momentum', 3), ('gamma', 3), ('inertia', 3), ('D', 1)), (3,)),
     "gibbs_second": (gibbs_second, (('correction', 3), ('half_momentum', 3), ('cofactors', 9), ('inertia', 3)), (3,)),
     "invariants": (invariants, (('momentum', 3), ('gamma', 3)), (3,)),

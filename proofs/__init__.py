@@ -23,6 +23,7 @@ SCRIPTS = (
     "s6_remarks",
     "map_gibbs",
     "map_self_adjoint",
+    "map_stable",
     "map_vertical",
 )
 
@@ -45,4 +46,5 @@ CLAIMS = (
 LEMMAS = (
     "gibbs", "gibbs-newton", "gibbs-rotation", "small-branch", "self-adjoint", "reversible",
     "momentum-integrals-composed", "vertical-rotation", "vertical-level", "vertical-top", "top-commutes",
+    "stable-momentum", "stable-determinant", "stable-inverse",
 )  # fmt: skip

@@ -68,11 +68,12 @@ KERNELS: tuple[Kernel, ...] = (
     Kernel(
         "momentum",
         "The discrete momentum 𝒦(q, γ) about the contact point (5.2); homogeneous of degree 2 in (q0, q).",
-        ("prop-1", "5.2"),
+        ("prop-1", "5.2", "stable-momentum"),
         (QUATERNION, *BODY),
         (3,),
         _vector("K"),
         three.momentum,
+        three.momentum_steps,
     ),
     Kernel(
         "momentum_jacobian",
@@ -104,11 +105,12 @@ KERNELS: tuple[Kernel, ...] = (
     Kernel(
         "residual",
         "𝒦(q, γ) - 𝒦, which the rotation of the next step makes zero (5.2).",
-        ("5.2",),
+        ("5.2", "stable-momentum"),
         (QUATERNION, MOMENTUM, *BODY),
         (3,),
         _vector("r"),
         lambda: sp.Matrix(three.momentum()) - K,
+        three.residual_steps,
     ),
     Kernel(
         "rotation",
@@ -167,7 +169,7 @@ KERNELS: tuple[Kernel, ...] = (
     Kernel(
         "energy",
         "The kinetic energy ½⟨K, ω⟩ of the continuous ball with the momentum K (2.5 as corrected).",
-        ("2.5",),
+        ("2.5", "stable-inverse"),
         (MOMENTUM, *BODY),
         (),
         ("T",),
@@ -176,16 +178,17 @@ KERNELS: tuple[Kernel, ...] = (
     Kernel(
         "contact_momentum",
         "K = Λω - D⟨ω,γ⟩γ, the momentum of the continuous ball about the contact point.",
-        ("4.13-limit", "5.2-limit"),
+        ("4.13-limit", "5.2-limit", "stable-momentum"),
         (OMEGA, *BODY),
         (3,),
         _vector("K"),
         continuous.momentum,
+        continuous.momentum_steps,
     ),
     Kernel(
         "angular_velocity",
         "ω(K, γ) of the continuous ball (the unnumbered inverse before 2.5, as corrected).",
-        ("2.5-inverse",),
+        ("2.5-inverse", "stable-inverse"),
         (MOMENTUM, *BODY),
         (3,),
         _vector("w"),
@@ -200,6 +203,16 @@ KERNELS: tuple[Kernel, ...] = (
         ("det", *_vector("N"), *_matrix("C")),
         gibbs.newton,
         gibbs.newton_steps,
+    ),
+    Kernel(
+        "gibbs_newton_heavy",
+        "What `gibbs_newton` computes, with a determinant in which nothing cancels for D ≫ I.",
+        ("gibbs", "gibbs-newton", "stable-determinant"),
+        (GIBBS, HALF, GAMMA, INERTIA, CONTACT),
+        (13,),
+        ("det", *_vector("N"), *_matrix("C")),
+        gibbs.newton,
+        gibbs.newton_heavy_steps,
     ),
     Kernel(
         "gibbs_second",

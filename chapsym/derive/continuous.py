@@ -21,6 +21,11 @@ def momentum() -> sp.ImmutableMatrix:
     return sp.ImmutableMatrix(inertia * omega)
 
 
+def momentum_steps() -> tuple[three.Steps, sp.Matrix]:
+    """The same as Iω + γ × D(ω × γ), in which no rounding of ω × γ reaches the vertical part."""
+    return three.carried_steps(omega)
+
+
 def inverse_inertia() -> sp.Matrix:
     """Λ⁻¹, with Λ read off the discrete momentum."""
     return three.lam().inv()

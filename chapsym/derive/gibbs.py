@@ -36,6 +36,8 @@ E = sp.Matrix(3, 3, lambda i, j: sp.Symbol(f"e{min(i, j) + 1}{max(i, j) + 1}"))
 M = sp.Matrix(3, 3, sp.symbols("m1:4(1:4)"))
 C = sp.Matrix(3, 3, sp.symbols("c1:4(1:4)"))
 R = sp.Matrix(sp.symbols("r1:4"))
+Y = sp.Matrix(sp.symbols("y1:4"))
+Z = sp.Matrix(sp.symbols("z1:4"))
 ONCE = sp.Matrix(sp.symbols("x1:4"))
 SPIN = sp.Matrix(sp.symbols("y1:4"))
 SCALE = sp.Symbol("s")
@@ -114,6 +116,16 @@ def newton_steps() -> tuple[Steps, list[sp.Expr]]:
     ]
     determinant = sum(A[0, j] * C[0, j] for j in range(3))
     return steps, [determinant, *(C.T * R), *C]
+
+
+def newton_heavy_steps() -> tuple[Steps, list[sp.Expr]]:
+    """The same for D ≫ I: A = M + D(|γ|² - γγᵀ) has γᵀA = γᵀM, so that |γ|² det A = ⟨Mᵀγ, adj(A)γ⟩ has no D³.
+
+    In the sum over a row of A terms of D³ cancel, and leave det A ∝ D² their roundings.
+    """
+    steps, (_, *rest) = newton_steps()
+    more: Steps = [(Y, M.T * gamma), (Z, C.T * gamma)]
+    return [*steps, *more], [Y.dot(Z) / gamma.dot(gamma), *rest]
 
 
 def second() -> sp.Matrix:

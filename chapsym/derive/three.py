@@ -95,6 +95,36 @@ def lam() -> sp.Matrix:
     return whole
 
 
+#: Names of what is computed on the way to 𝒦: x × γ, and D times it.
+SLIP = sp.Matrix(sp.symbols("c1:4"))
+DRAG = sp.Matrix(sp.symbols("f1:4"))
+
+Steps = list[tuple[sp.Matrix, sp.Matrix]]
+
+
+def carried_steps(x: sp.Matrix) -> tuple[Steps, sp.Matrix]:
+    """B(γ)x = Ix + γ × D(x × γ) in steps.
+
+    A rounding of x × γ moves this at a right angle to γ, where B is large, so that it is no more than a rounding of x:
+    for D ≫ J the sum over the entries of B loses ⟨γ, B x⟩ = ⟨γ, Ix⟩ to roundings of D.
+    """
+    central = sp.diag(J2 + J3, J1 + J3, J1 + J2)
+    return [(SLIP, x.cross(gamma)), (DRAG, D * SLIP)], central * x + gamma.cross(DRAG)
+
+
+def momentum_steps() -> tuple[Steps, sp.Matrix]:
+    """𝒦(q, γ) by B(γ)q in the steps that keep its vertical part."""
+    steps, carried = carried_steps(q)
+    gyroscopic = sp.Matrix(momentum()).subs(q0, 0)
+    return steps, 2 * (q0 * carried + gyroscopic / 2)
+
+
+def residual_steps() -> tuple[Steps, sp.Matrix]:
+    """𝒦(q, γ) - 𝒦 in the same steps."""
+    steps, value = momentum_steps()
+    return steps, value - K
+
+
 @cache
 def momentum_jacobian() -> sp.ImmutableMatrix:
     """∂𝒦/∂q (3×3) in the chart q₀ = √(1 - |q|²), where ∂q₀/∂q = -qᵀ/q₀."""

@@ -7,20 +7,39 @@ below a bound, a root with |u| < 1 is that of the small-rotation branch, for eve
 |u| ≤ `radius` the Jacobian A satisfies ⟨d, Ad⟩ ≥ m|d|².  As |𝒦| is an integral of the map, the bound is looked
 at once for a trajectory.  A Newton correction d leaves an error of at most c|d|², c = (½(I_max - I_min) + |k|)/m,
 a second one e with the same cofactors at most 3c|d||e|.  That is compared with |u| ≥ |k|/(Λmax + ½(I_max - I_min)).
+
+For D ≫ I the sum over a row of A leaves det A, and with it u, roundings of D/I: such a ball is `heavy`, has no
+certificate, and takes the safe way, with the determinant of lemma `stable-determinant`.
 """
 
 from math import sqrt
 
-from chapsym.generated import gibbs_newton, gibbs_second
+from chapsym.generated import gibbs_newton, gibbs_newton_heavy, gibbs_second
 
 #: The error that the last correction may leave, relative to the least that |u| can be: the unit roundoff.
 LEFT = 2.0**-53
 #: How much of the bound may be used: at the bound the Jacobian is singular.
 INSIDE = 0.95
 MOST_ROUNDS = 12
+#: Below this, for Λmax about 1, the squares of |𝒦| or of a determinant leave the range of float64.
+SMALLEST = 2.0**-120
+#: From this D/I_min on a ball is heavy: the determinant by a row loses up to about a third of it in ulps.
+HEAVY = 32.0
+
+
+def is_heavy(I1, I2, I3, D):
+    """Whether the determinant by a row of the Jacobian loses too much."""
+    return D > HEAVY * min(I1, I2, I3)
 
 
 def certificate(k1, k2, k3, I1, I2, I3, D):
+    """`bound` for a ball that is not heavy, else (-1, 0)."""
+    if is_heavy(I1, I2, I3, D):
+        return -1.0, 0.0
+    return bound(k1, k2, k3, I1, I2, I3, D)
+
+
+def bound(k1, k2, k3, I1, I2, I3, D):
     """(radius², enough) by lemma `small-branch`; (-1, 0) where |𝒦| is beyond its bound.
 
     A Newton correction d with |d|² ≤ enough is the last: it leaves a relative error of `LEFT` at most.
@@ -44,11 +63,16 @@ def certificate(k1, k2, k3, I1, I2, I3, D):
     return radius * radius, LEFT * half / ((most + D + spread) * contraction)
 
 
-def newton_round(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D):
+def newton_round(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, heavy=False):
     """A Newton iterate: (p0, p1, p2, p3, w1, w2, w3, |d|², d, cofactors) with the quaternion p and w = u + d."""
-    p0, p1, p2, p3, c11, c12, c13, c21, c22, c23, c31, c32, c33 = gibbs_newton(
-        u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D
-    )
+    if heavy:
+        p0, p1, p2, p3, c11, c12, c13, c21, c22, c23, c31, c32, c33 = gibbs_newton_heavy(
+            u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D
+        )
+    else:
+        p0, p1, p2, p3, c11, c12, c13, c21, c22, c23, c31, c32, c33 = gibbs_newton(
+            u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D
+        )
     scale = 1.0 / p0
     w1, w2, w3 = p1 * scale, p2 * scale, p3 * scale
     d1, d2, d3 = w1 - u1, w2 - u2, w3 - u3
@@ -67,7 +91,7 @@ def second_round(p0, p1, p2, p3, k1, k2, k3, d1, d2, d3, c11, c12, c13, c21, c22
     return p1, p2, p3, p1 * scale, p2 * scale, p3 * scale, second
 
 
-def settle(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, radius, enough):
+def settle(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, radius, enough, heavy=False):
     """One round from a guess of the Gibbs vector: a Newton iterate, and a second correction where it is needed.
 
     Returns (settled, p0, p1, p2, p3, u1, u2, u3): the rotation as a quaternion of any length, and as a Gibbs vector.
@@ -75,7 +99,7 @@ def settle(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, radius, enough):
     if not u1 * u1 + (u2 * u2 + u3 * u3) <= radius:
         return False, 1.0, 0.0, 0.0, 0.0, u1, u2, u3
     p0, p1, p2, p3, w1, w2, w3, first, d1, d2, d3, c11, c12, c13, c21, c22, c23, c31, c32, c33 = newton_round(
-        u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D
+        u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, heavy
     )
     if first <= enough:
         return True, p0, p1, p2, p3, w1, w2, w3
@@ -86,15 +110,25 @@ def settle(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, radius, enough):
     return settled, p0, p1, p2, p3, w1, w2, w3
 
 
-def search(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, radius, enough):
+def search(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, radius, enough, heavy=False):
     """Rounds of `settle` from a poor guess, and from no rotation where that leads nowhere; returns as it does."""
     for guess in range(2):
         if guess == 1:
             u1, u2, u3 = 0.0, 0.0, 0.0
         for _ in range(MOST_ROUNDS):
             settled, p0, p1, p2, p3, u1, u2, u3 = settle(
-                u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, radius, enough
+                u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, radius, enough, heavy
             )  # fmt: skip
             if settled:
                 return True, p0, p1, p2, p3, u1, u2, u3
     return False, 1.0, 0.0, 0.0, 0.0, u1, u2, u3
+
+
+def search_safely(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, radius, enough):
+    """`search` by the certificate, and for a heavy ball by `bound`; nothing where neither reaches, or would underflow."""
+    heavy = is_heavy(I1, I2, I3, D)
+    if heavy and min(I1, I2, I3) >= SMALLEST and max(abs(k1), abs(k2), abs(k3)) >= SMALLEST:
+        radius, enough = bound(k1, k2, k3, I1, I2, I3, D)
+    if not radius >= 0.0:
+        return False, 1.0, 0.0, 0.0, 0.0, u1, u2, u3
+    return search(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, radius, enough, heavy)

@@ -17,7 +17,7 @@ import numpy as np
 
 from chapsym.generated import angular_velocity, compose, turn
 
-from .gibbs import LEFT, certificate, newton_round, second_round
+from .gibbs import LEFT, certificate, is_heavy, newton_round, second_round
 from .long_step import FIRST, long_step, turn_all
 from .loop import D, I, J, put, three
 
@@ -135,7 +135,8 @@ def bounds(K0, half, most, state, table):
         size = sqrt(k1 * k1 + k2 * k2 + k3 * k3)
         radius, _ = certificate(k1, k2, k3, I1, I2, I3, state[D])
         least = LEFT * size / (max(I1, I2, I3) + state[D] + spread)
-        put(table[n], 0, (spread + size) ** 2, radius if radius >= 0.0 else ANYWHERE, least * least / BEHIND)
+        anywhere = -1.0 if is_heavy(I1, I2, I3, state[D]) else ANYWHERE  # a heavy ball takes the safe way
+        put(table[n], 0, (spread + size) ** 2, radius if radius >= 0.0 else anywhere, least * least / BEHIND)
 
 
 def rates(K0, g, half, state, R):

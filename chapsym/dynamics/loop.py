@@ -5,15 +5,13 @@ from math import frexp, ldexp, sqrt
 from chapsym.generated import centre_step, compose, rotate, transport, turn
 
 from .branch import small_rotation
-from .gibbs import certificate, search, settle
+from .gibbs import SMALLEST, certificate, search_safely, settle
 from .integrals import PERIOD, remember, restore
 
 #: The numbers that describe a ball under way, and where each begins: k = 𝒦/2, γ, their compensations, the three
 #: integrals as pairs, 8 vectors for the extrapolation of u, J, I, D, radius² and enough (lemma small-branch).
 K, G, X, INTEGRALS, A, J, I, D, RADIUS, ENOUGH = 0, 3, 6, 12, 18, 42, 45, 48, 49, 50
 ROWS = 51
-#: Below this, for Λmax about 1, the squares of |𝒦| or of a determinant leave the range of float64.
-SMALLEST = 2.0**-120
 
 
 def advance(K, g, J, D, q):
@@ -79,13 +77,12 @@ def safe_rotation(u1, u2, u3, state):
     """
     k1, k2, k3 = three(state, K)
     g1, g2, g3 = three(state, G)
-    if state[RADIUS] >= 0.0:
-        settled, p0, p1, p2, p3, w1, w2, w3 = search(
-            u1, u2, u3, k1, k2, k3, g1, g2, g3,
-            state[I], state[I + 1], state[I + 2], state[D], state[RADIUS], state[ENOUGH],
-        )  # fmt: skip
-        if settled:
-            return 0, 1.0, p0, p1, p2, p3, w1, w2, w3
+    settled, p0, p1, p2, p3, w1, w2, w3 = search_safely(
+        u1, u2, u3, k1, k2, k3, g1, g2, g3,
+        state[I], state[I + 1], state[I + 2], state[D], state[RADIUS], state[ENOUGH],
+    )  # fmt: skip
+    if settled:
+        return 0, 1.0, p0, p1, p2, p3, w1, w2, w3
     status, reach, p0, p1, p2, p3 = small_rotation(
         2.0 * k1, 2.0 * k2, 2.0 * k3, g1, g2, g3, state[J], state[J + 1], state[J + 2], state[D]
     )  # fmt: skip

@@ -10,7 +10,7 @@ Lemma `small-branch`: where `radius` > 0 a root with |q| < q₀ is that of the s
 from chapsym.generated import turn, vertical_level, vertical_rotation, vertical_square
 
 from .branch import small_rotation
-from .gibbs import search, settle
+from .gibbs import search_safely, settle
 
 #: A moment or h below this, for Λmax about 1, takes the safe way: products of three or four would underflow.
 SMALLEST = 2.0**-120
@@ -36,13 +36,12 @@ def safe_rotation(u1, u2, u3, g1, g2, g3, J, I, D, h, radius, enough):
 
     Returns (status, reach, p0, p1, p2, p3, u1, u2, u3).
     """
-    if radius >= 0.0:
-        k = 0.5 * h
-        settled, p0, p1, p2, p3, w1, w2, w3 = search(
-            u1, u2, u3, k * g1, k * g2, k * g3, g1, g2, g3, I[0], I[1], I[2], D, radius, enough
-        )  # fmt: skip
-        if settled:
-            return 0, 1.0, p0, p1, p2, p3, w1, w2, w3
+    k = 0.5 * h
+    settled, p0, p1, p2, p3, w1, w2, w3 = search_safely(
+        u1, u2, u3, k * g1, k * g2, k * g3, g1, g2, g3, I[0], I[1], I[2], D, radius, enough
+    )  # fmt: skip
+    if settled:
+        return 0, 1.0, p0, p1, p2, p3, w1, w2, w3
     status, reach, p0, p1, p2, p3 = small_rotation(h * g1, h * g2, h * g3, g1, g2, g3, J[0], J[1], J[2], D)
     if p0 == 0.0:
         return status, reach, p0, p1, p2, p3, 0.0, 0.0, 0.0  # a rotation by π has no Gibbs vector

@@ -1,0 +1,163 @@
+"""The forms in which the kernels keep their digits for D ≫ I: lemmas of chapsym, which the paper does not state."""
+
+import sympy as sp
+
+from chapsym.derive import continuous, gibbs, three
+from chapsym.derive.gibbs import BY_INERTIA, I1, I2, I3, INERTIA, k, u
+from chapsym.derive.gibbs import d as x
+from chapsym.derive.gibbs import v as e
+from chapsym.derive.limits import omega
+from chapsym.derive.quotient import Quotient
+from chapsym.derive.three import D, K, gamma, q, q0
+from chapsym.prove import Equation, Fact, Proof, claim, main
+
+#: Any 3×3 matrix.
+M = sp.Matrix(3, 3, sp.symbols("m1:4(1:4)"))
+NORM = gamma.dot(gamma)
+#: Free symbols: nothing is tied, |γ| = 1 is not used.
+FREE = Quotient((q0, *q, *omega, *x, *e, *u, *k, *K, *gamma, *M, I1, I2, I3, D), [])
+UNIT = Quotient((*K, *gamma, I1, I2, I3, D), [three.UNIT_VERTICAL])
+
+
+def equal(text: str, left: sp.Matrix, right: sp.Matrix, algebra: Quotient = FREE) -> Equation:
+    """An equation of vectors or matrices, entry by entry."""
+    return Equation(text, list(left), list(right), algebra)
+
+
+def scalar(text: str, left: sp.Expr, right: sp.Expr, algebra: Quotient = FREE) -> Equation:
+    """One equation."""
+    return Equation(text, [left], [right], algebra)
+
+
+def inertial(value: sp.Matrix) -> sp.Matrix:
+    """The same with the moments of inertia."""
+    return sp.Matrix(value).subs(BY_INERTIA, simultaneous=True)
+
+
+def staged(steps: three.Steps, value: sp.Matrix) -> sp.Matrix:
+    """What the steps of a kernel compute, in its inputs alone."""
+    for names, expressions in reversed(steps):
+        value = value.subs(dict(zip(names, expressions, strict=True)), simultaneous=True)
+    return value
+
+
+@claim(
+    "stable-momentum",
+    r"B(\gamma)x = Ix + \gamma\times D(x\times\gamma), \quad \langle\gamma, \gamma\times De\rangle = 0",
+    uses=("5.2", "gibbs"),
+)
+def stable_momentum(p: Proof) -> None:
+    """𝒦 = B(γ)q + ... by two vector products: what rounds x × γ does not reach the vertical part, which has no D."""
+    B = inertial(three.contact_inertia())
+    p.printed(equal("B(γ)x = Ix + γ × D(x × γ)", B * x, INERTIA * x + gamma.cross(D * x.cross(gamma))))
+    p.say("Let e be what rounding makes of x × γ: then D e moves the result across γ only,")
+    p.printed(scalar("⟨γ, Ix + γ × D(x × γ + e)⟩ = ⟨γ, Ix⟩",
+                     gamma.dot(INERTIA * x + gamma.cross(D * (x.cross(gamma) + e))), gamma.dot(INERTIA * x)))  # fmt: skip
+    p.say(
+        "where B(γ) ≥ D: the same as a change of x by |e|.  A rounding of an entry of B is one of D, and reaches it all:"
+    )
+    rounded = B + sp.Matrix(3, 3, lambda i, j: D * e[0] if (i, j) == (0, 0) else 0)
+    steps, value = three.momentum_steps()
+    p.lemma(
+        equal("the steps of `momentum` compute 𝒦(q, γ)", inertial(staged(steps, value)), inertial(three.momentum()))
+    )
+    steps, value = three.residual_steps()
+    p.lemma(equal("those of `residual` 𝒦(q, γ) - 𝒦", inertial(staged(steps, value)), inertial(three.momentum()) - K))
+    steps, value = continuous.momentum_steps()
+    p.lemma(equal("those of `contact_momentum` B(γ)ω", inertial(staged(steps, value)), B * omega))
+    p.control(scalar("⟨γ, (B + D e e₁e₁ᵀ)x⟩ = ⟨γ, Ix⟩", gamma.dot(rounded * x), gamma.dot(INERTIA * x)))
+    p.control(equal("B(γ)x = Ix + γ × D(γ × x)", B * x, INERTIA * x + gamma.cross(D * gamma.cross(x))))
+
+
+@claim(
+    "stable-determinant",
+    r"A = M + D(|\gamma|^2 - \gamma\gamma^T)\ \Rightarrow\ |\gamma|^2\det A = \langle M^T\gamma, \mathrm{adj}(A)\gamma\rangle",
+    uses=("gibbs-newton",),
+)
+def stable_determinant(p: Proof) -> None:
+    """The determinants of the step without D³, for ∂G/∂u and for the tangent Jacobian: the vertical sees no D."""
+    rolling = NORM * sp.eye(3) - gamma * gamma.T
+    A = M + D * rolling
+    adjugate = A.adjugate()
+    value = (gamma.T * M * adjugate * gamma)[0]
+    p.say("γᵀ(|γ|² - γγᵀ) = 0, so γᵀA = γᵀM; times adj(A)γ:")
+    p.printed(
+        equal("γᵀA = γᵀM", gamma.T * A, gamma.T * M), scalar("|γ|² det A = ⟨Mᵀγ, adj(A)γ⟩", NORM * A.det(), value)
+    )
+    p.say("adj(A) has D² at most, and M none.  In the sum over a row of A the terms have D³, which cancels:")
+    along = {gamma[0]: 2, gamma[1]: 3, gamma[2]: 6} | dict(zip(M, sp.eye(3), strict=True))
+    terms = [sp.expand((A[0, j] * adjugate[j, 0]).subs(along)).coeff(D, 3) for j in range(3)]
+    p.lemma(Fact("the coefficients of D³ in a row, at γ = (2, 3, 6), are not 0, but their sum is",
+                 all(terms) and sum(terms) == 0))  # fmt: skip
+    p.lemma(Fact("⟨Mᵀγ, adj(A)γ⟩ has D² at most, term by term", _degree(M.T * gamma) + _degree(adjugate * gamma) == 2))
+    B = sp.Matrix(gibbs.contact_inertia())
+    p.lemma(equal("∂G/∂u = (I + polar(u)) + D(|γ|² - γγᵀ)", gibbs.jacobian(), INERTIA + gibbs.polar(u) + D * rolling))
+    p.lemma(equal("B(γ) = I + D(|γ|² - γγᵀ)", B, INERTIA + D * rolling))
+    steps, (determinant, *rest) = gibbs.newton_heavy_steps()
+    last = [(names, values) for names, values in steps if names in (gibbs.Y, gibbs.Z)]
+    p.lemma(scalar("the kernel divides ⟨Mᵀγ, Cᵀγ⟩ by |γ|²", sp.cancel(staged(last, sp.Matrix([determinant]))[0] * NORM),
+                   (gamma.T * gibbs.M * gibbs.C.T * gamma)[0],
+                   Quotient((*gibbs.M, *gibbs.C, *gamma), [])))  # fmt: skip
+    p.lemma(Fact("and the rest is that of `gibbs_newton`", rest == gibbs.newton_steps()[1][1:]))
+    T = sp.Matrix(three.tangent_jacobian())
+    p.lemma(equal("γᵀT(D) = γᵀT(0) for the tangent Jacobian", inertial(gamma.T * T), inertial(gamma.T * T.subs(D, 0))))
+    p.control(scalar("|γ|² det A = ⟨Mγ, adj(A)γ⟩", NORM * A.det(), ((M * gamma).T * adjugate * gamma)[0]))
+    p.control(equal("T(D)γ = T(0)γ", inertial(T * gamma), inertial(T.subs(D, 0) * gamma)))
+    p.control(scalar("|γ|² det A = ⟨γ, M adj(M)γ⟩", NORM * A.det(), (gamma.T * M * M.adjugate() * gamma)[0]))
+
+
+def _degree(vector: sp.Matrix) -> int:
+    """The largest degree in D of a vector's entries."""
+    return max(sp.Poly(entry, D).degree() for entry in vector)
+
+
+@claim(
+    "stable-inverse",
+    r"B(\gamma/|\gamma|)^{-1} = \Lambda^{-1} + \tfrac DF\Lambda^{-1}\gamma\gamma^T\Lambda^{-1}, \quad "
+    r"F = \langle I\gamma, \Lambda^{-1}\gamma\rangle = |\gamma|^2 - D\langle\gamma, \Lambda^{-1}\gamma\rangle",
+    uses=("2.5-inverse", "2.5"),
+)
+def stable_inverse(p: Proof) -> None:
+    """ω and the energy by a sum in which only K can cancel: each entry of B⁻¹ is one product, or a sum of positive ones."""
+    p.assume("I > 0, D ≥ 0, γ ≠ 0; for |γ| = 1 it is B(γ)⁻¹, otherwise that of the direction of γ")
+    moments = [I1 + D, I2 + D, I3 + D]
+    whole, Lam = sp.prod(moments), sp.diag(*moments)
+    adjugate = Lam.adjugate()
+    f = gamma.dot(INERTIA * adjugate * gamma)  # F det Λ
+    inverse = f * adjugate + D * adjugate * gamma * gamma.T * adjugate  # times F (det Λ)²
+    p.printed(scalar("F det Λ = |γ|² det Λ - D⟨γ, adj(Λ)γ⟩", f, NORM * whole - D * gamma.dot(adjugate * gamma)),
+              equal("(|γ|²Λ - Dγγᵀ)(F adj(Λ) det Λ + D adj(Λ)γγᵀadj(Λ)) = |γ|² F (det Λ)²",
+                    (NORM * Lam - D * gamma * gamma.T) * inverse, NORM * f * whole * sp.eye(3)))  # fmt: skip
+    B = sp.Matrix(gibbs.contact_inertia())
+    p.lemma(equal("on |γ| = 1: B(γ) = Λ - Dγγᵀ", B, Lam - D * gamma * gamma.T, UNIT))
+    p.lemma(scalar("det B = F det Λ there", B.det(), f, UNIT))
+    p.say(
+        "F is a sum of positive terms; an entry i ≠ j is the product of D γᵢγⱼ and 1/(ΛᵢΛⱼF), one on the diagonal a sum"
+    )
+    p.say(
+        "of two positive terms.  So every entry has its digits, and ω has an error of a few roundings of |B⁻¹||K|: what"
+    )
+    p.say("a rounding of K does itself.  That is the condition of ω: |B⁻¹||K|/|ω|, up to Λmax/I_min for K across γ.")
+    p.lemma(Fact("F det Λ is a polynomial in γ², I, D without a minus sign", _positive(f)))
+    p.lemma(Fact("so is each entry of F (det Λ)² B⁻¹, but for the factor γᵢγⱼ", all(
+        _positive(inverse[i, j] if i == j else sp.cancel(inverse[i, j] / (gamma[i] * gamma[j])))
+        for i in range(3) for j in range(3))))  # fmt: skip
+    p.lemma(equal("ω of the kernel", _of_kernel(sp.Matrix(continuous.angular_velocity()), f * whole), inverse * K))
+    p.lemma(equal("its energy", _of_kernel(sp.Matrix([continuous.energy()]), 2 * f * whole), K.T * inverse * K))
+    p.control(scalar("F det Λ = det Λ - D⟨γ, adj(Λ)γ⟩ off |γ| = 1", f, whole - D * gamma.dot(adjugate * gamma)))
+    p.control(Fact("|γ|² det Λ - D⟨γ, adj(Λ)γ⟩, term by term, without a minus sign",
+                   _positive(NORM * whole) and _positive(-D * gamma.dot(adjugate * gamma))))  # fmt: skip
+    p.control(equal("B⁻¹ with -D/F", (NORM * Lam - D * gamma * gamma.T) * (2 * f * adjugate - inverse),
+                    NORM * f * whole * sp.eye(3)))  # fmt: skip
+
+
+def _positive(polynomial: sp.Expr) -> bool:
+    return all(c > 0 for c in sp.Poly(sp.expand(polynomial), *gamma, I1, I2, I3, D).coeffs())
+
+
+def _of_kernel(value: sp.Matrix, factor: sp.Expr) -> sp.Matrix:
+    return (inertial(value) * factor).applyfunc(sp.cancel)
+
+
+if __name__ == "__main__":
+    main(__file__)
