@@ -168,17 +168,17 @@ def increment(curve: Curve, height: ArrayLike, u: ArrayLike) -> Floats:
     """
     h, start = np.broadcast_arrays(numbers(height, "height"), numbers(u, "u"))
     half = np.asarray(curve.rate * h / (2.0 * curve.slack))
-    settled = np.zeros(half.shape, dtype=bool)
+    settled, lost = np.zeros(half.shape, dtype=bool), np.zeros(half.shape, dtype=bool)
     for _ in range(MOST_CORRECTIONS):
         found, slope = height_of(curve, half, start + half)
-        half = np.where(settled | (slope * curve.rate > 0.0), half, np.nan)
-        correction = np.where(settled, 0.0, (h - found) / slope)
+        lost |= ~settled & ~(slope * curve.rate > 0.0)
+        correction = np.divide(h - found, slope, out=np.zeros_like(half), where=~(settled | lost))
         half = half + correction
-        settled |= np.abs(correction) <= SETTLED * np.abs(half)
-        if (settled | np.isnan(half)).all():
+        settled |= ~lost & (np.abs(correction) <= SETTLED * np.abs(half))
+        if (settled | lost).all():
             break
     half = np.where(settled, half, np.nan)
-    if not half.ndim and np.isnan(half):
+    if not half.ndim and not settled:
         raise BadInput("no increment was found on the small-rotation branch for this height; take a smaller one")
     return np.asarray(2.0 * half)
 
