@@ -17,6 +17,8 @@ from math import frexp, ldexp, sqrt
 
 from chapsym.generated import compose, residual, tangent_hessian, tangent_jacobian
 
+from .gibbs import is_heavy
+
 TAKEN, FOLDED, NOT_CONVERGED, NO_INERTIA = 0, 1, 2, 4
 
 #: The Kantorovich number that a continuation step may have; the theorem asks for at most 1/2.
@@ -132,7 +134,18 @@ def corrected(q0, q1, q2, q3, K1, K2, K3, g1, g2, g3, J1, J2, J3, D):
 def inverse(q0, q1, q2, q3, g1, g2, g3, J1, J2, J3, D):
     """det T and T⁻¹, row by row, of the tangent Jacobian T; zeros if T is singular."""
     a11, a12, a13, a21, a22, a23, a31, a32, a33 = tangent_jacobian(q0, q1, q2, q3, g1, g2, g3, J1, J2, J3, D)
-    return inverse_of(a11, a12, a13, a21, a22, a23, a31, a32, a33)
+    det, i11, i12, i13, i21, i22, i23, i31, i32, i33 = inverse_of(a11, a12, a13, a21, a22, a23, a31, a32, a33)
+    if det == 0.0 or not is_heavy(J2 + J3, J1 + J3, J1 + J2, D):
+        return det, i11, i12, i13, i21, i22, i23, i31, i32, i33
+    # Lemma `stable-determinant`: γᵀT does not know D, and γᵀT T⁻¹γ = |γ|² would hold if `det` had no rounding of D³.
+    a11, a12, a13, a21, a22, a23, a31, a32, a33 = tangent_jacobian(q0, q1, q2, q3, g1, g2, g3, J1, J2, J3, 0.0 * D)
+    y1, y2, y3 = g1 * a11 + g2 * a21 + g3 * a31, g1 * a12 + g2 * a22 + g3 * a32, g1 * a13 + g2 * a23 + g3 * a33
+    z1, z2, z3 = i11 * g1 + i12 * g2 + i13 * g3, i21 * g1 + i22 * g2 + i23 * g3, i31 * g1 + i32 * g2 + i33 * g3
+    true = (y1 * z1 + y2 * z2 + y3 * z3) / (g1 * g1 + g2 * g2 + g3 * g3)
+    if true == 0.0:
+        return 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    s = 1.0 / true
+    return det * true, s * i11, s * i12, s * i13, s * i21, s * i22, s * i23, s * i31, s * i32, s * i33
 
 
 def inverse_of(a11, a12, a13, a21, a22, a23, a31, a32, a33):

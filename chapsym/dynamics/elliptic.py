@@ -26,7 +26,8 @@ class Curve:
     amplitudes: C_a, C_b > 0 and C_c, whose sign tells the half of the sphere.
     modulus, complement: k and k' = √(1 - k²); k' is known to its own last digits, also near the separatrix k = 1.
     level: l; rate: V of (5.13-V) with its sign, so that u' = V along γ' = γ × Λ⁻¹γ.
-    inertia: (Λ_a, Λ_b, Λ_c).
+    inertia: (Λ_a, Λ_b, Λ_c); gaps: (Λ_b - Λ_c, Λ_a - Λ_c, Λ_a - Λ_b), from J, which a large D does not round.
+    slack: F = 1 - Dl, as a sum of positive terms (lemma `stable-inverse`).
     """
 
     ball: Ball
@@ -37,6 +38,8 @@ class Curve:
     level: float
     rate: float
     inertia: tuple[float, float, float]
+    gaps: tuple[float, float, float]
+    slack: float
 
     @classmethod
     def through(cls, ball: Ball, gamma: ArrayLike) -> Self:
@@ -46,32 +49,33 @@ class Curve:
         g = unit_vertical(gamma)
         if ball.D.shape or ball.mass_tensor.shape != (3,) or g.shape != (3,):
             raise BadInput("a curve is of one ball and one gamma, not of a batch")
-        moments = ball.inertia + ball.D
-        order = np.argsort(-moments, kind="stable")
+        moments, tensor = ball.inertia + ball.D, ball.mass_tensor
+        order = np.argsort(tensor, kind="stable")  # the largest moment first
+        if not across(tensor, moments, g).any():
+            raise BadInput("the map fixes this gamma (a principal axis, or a ball with equal moments): it is no curve")
         # Λ_b l - 1 = x² - y²: its sign says on which side of the separatrix γ is.
-        x, y = _separatrix(moments, g, order)
+        x, y = _separatrix(tensor, moments, g, order)
         a, b, c = (int(i) for i in (order if x >= y else order[::-1]))
         La, Lb, Lc = (float(moments[i]) for i in (a, b, c))
+        gaps = float(tensor[c] - tensor[b]), float(tensor[c] - tensor[a]), float(tensor[b] - tensor[a])
+        bc, ac, ab = map(abs, gaps)
         # |1 - Λ_c l| and |Λ_a l - 1|: sums of terms of one sign.
-        upper = g[a] ** 2 * abs(La - Lc) / La + g[b] ** 2 * abs(Lb - Lc) / Lb
-        lower = g[b] ** 2 * abs(La - Lb) / Lb + g[c] ** 2 * abs(La - Lc) / Lc
-        if La == Lc or upper == 0.0 or lower == 0.0:
-            raise BadInput("the map fixes this gamma (a principal axis, or a ball with equal moments): it is no curve")
-        k2 = abs(La - Lb) * upper / (abs(Lb - Lc) * lower)
-        complement = np.sqrt(abs(La - Lc) * abs(x - y) * (x + y) / (abs(Lb - Lc) * lower))
-        spread = abs(La - Lc)
+        upper = g[a] ** 2 * ac / La + g[b] ** 2 * bc / Lb
+        lower = g[b] ** 2 * ab / Lb + g[c] ** 2 * ac / Lc
+        k2 = ab * upper / (bc * lower)
+        complement = np.sqrt(ac * abs(x - y) * (x + y) / (bc * lower))
         amplitudes = (
-            float(np.sqrt(La * upper / spread)),
-            float(np.sqrt(Lb * upper / abs(Lb - Lc))),
-            float(np.copysign(np.sqrt(Lc * lower / spread), g[c])),
+            float(np.sqrt(La * upper / ac)),
+            float(np.sqrt(Lb * upper / bc)),
+            float(np.copysign(np.sqrt(Lc * lower / ac), g[c])),
         )
         parity = 1.0 if (b - a) % 3 == 1 else -1.0
-        size = np.sqrt(abs(Lb - Lc) * lower / (La * Lb * Lc))
-        rate = -parity * np.sign(La - Lc) * np.sign(amplitudes[2]) * size
-        level = float((g * g / moments).sum())
+        size = np.sqrt(bc * lower / (La * Lb * Lc))
+        rate = -parity * np.sign(gaps[1]) * np.sign(amplitudes[2]) * size
+        level, slack = float((g * g / moments).sum()), float((g * g * ball.inertia / moments).sum())
         return cls(
             ball, (a, b, c), amplitudes, float(min(np.sqrt(k2), 1.0)), float(complement), level, float(rate),
-            (La, Lb, Lc),
+            (La, Lb, Lc), gaps, slack,
         )  # fmt: skip
 
     @property
@@ -105,22 +109,29 @@ class Curve:
         return u
 
 
-def _separatrix(moments: Floats, g: Floats, order: np.ndarray) -> tuple[float, float]:
+def across(tensor: Floats, moments: Floats, g: Floats) -> Floats:
+    """γ × Λ⁻¹γ, (..., 3), with Λ₂ - Λ₃ = J₃ - J₂, ..., which a large D does not round."""
+    b, c = np.roll(np.arange(3), -1), np.roll(np.arange(3), -2)
+    return np.asarray(g[..., b] * g[..., c] * ((tensor[c] - tensor[b]) / (moments[b] * moments[c])))
+
+
+def _separatrix(tensor: Floats, moments: Floats, g: Floats, order: np.ndarray) -> tuple[float, float]:
     """x, y ≥ 0 with Λ_b l - 1 = x² - y² for Λ in the given order, a to c."""
     a, b, c = order
-    x = abs(g[c]) * np.sqrt((moments[b] - moments[c]) / moments[c])
-    y = abs(g[a]) * np.sqrt((moments[a] - moments[b]) / moments[a])
+    x = abs(g[c]) * np.sqrt((tensor[c] - tensor[b]) / moments[c])
+    y = abs(g[a]) * np.sqrt((tensor[b] - tensor[a]) / moments[a])
     return float(x), float(y)
 
 
 def _parts(curve: Curve, sn: Floats, cn: Floats, dn: Floats) -> tuple[Floats, Floats, Floats, Floats]:
     """w = sn cn dn, λ = l - μ sn², G/V² = 1 + α sn² - β sn⁴ (5.14), and d(G/V²)/dδu, of the half increment."""
     La, Lb, Lc = curve.inertia
+    bc, ac, _ = curve.gaps
     Ca, _, Cc = curve.amplitudes
     level, y, w = curve.level, sn * sn, sn * cn * dn
-    lower = Cc * Cc * (La - Lc) / Lc  # Λ_a l - 1
-    alpha = (2.0 * La * Lc * level - (La + Lc - Lb)) / ((Lb - Lc) * lower)
-    beta = Lc * Ca * Ca * (La - Lc) / ((Lb - Lc) ** 2 * lower)
+    lower = Cc * Cc * ac / Lc  # Λ_a l - 1
+    alpha = (2.0 * La * Lc * level - (La + Lc - Lb)) / (bc * lower)
+    beta = Lc * Ca * Ca * ac / (bc * bc * lower)
     return w, level - curve.mu * y, 1.0 + y * (alpha - beta * y), 2.0 * w * (alpha - 2.0 * beta * y)
 
 
@@ -136,7 +147,8 @@ def height_of(curve: Curve, half: ArrayLike, mean: ArrayLike = 0.0) -> tuple[Flo
     k2, y = curve.modulus**2, sn * sn
     scale = 1.0 - k2 * s * s * y
     contact = float(curve.ball.D)
-    rolled = 1.0 - contact * lam / scale
+    # 1 - Dλ/𝒟 without the 1 - Dl that cancels for D ≫ J.
+    rolled = (curve.slack + y * (contact * curve.mu - k2 * s * s)) / scale
     height = 2.0 * w * rolled / (curve.rate * shape)
     # d/dδu of w, λ and 𝒟; ū moves with δu.
     w_rate = cn * cn * dn * dn - y * (dn * dn + k2 * cn * cn)
@@ -152,19 +164,23 @@ def increment(curve: Curve, height: ArrayLike, u: ArrayLike) -> Floats:
 
     height: h in kg m², (...); u: (...).  Solves (5.15) as corrected for δu by Newton's iteration from
     δu = Vh/(2(1 - Dl)), the rate of the continuous ball.  For D = 0 it does not depend on u (5.15-euler).
-    Raises BadInput where the iteration leaves the branch, as it does beyond its fold.
+    Where the iteration leaves the branch, as it does beyond its fold, raises BadInput; in a batch that entry is NaN.
     """
     h, start = np.broadcast_arrays(numbers(height, "height"), numbers(u, "u"))
-    half = curve.rate * h / (2.0 * (1.0 - float(curve.ball.D) * curve.level))
+    half = np.asarray(curve.rate * h / (2.0 * curve.slack))
+    settled, lost = np.zeros(half.shape, dtype=bool), np.zeros(half.shape, dtype=bool)
     for _ in range(MOST_CORRECTIONS):
         found, slope = height_of(curve, half, start + half)
-        if not (slope * curve.rate > 0.0).all():
-            break
-        correction = (h - found) / slope
+        lost |= ~settled & ~(slope * curve.rate > 0.0)
+        correction = np.divide(h - found, slope, out=np.zeros_like(half), where=~(settled | lost))
         half = half + correction
-        if (np.abs(correction) <= SETTLED * np.abs(half)).all():
-            return np.asarray(2.0 * half)
-    raise BadInput("no increment was found on the small-rotation branch for this height; take a smaller one")
+        settled |= ~lost & (np.abs(correction) <= SETTLED * np.abs(half))
+        if (settled | lost).all():
+            break
+    half = np.where(settled, half, np.nan)
+    if not half.ndim and not settled:
+        raise BadInput("no increment was found on the small-rotation branch for this height; take a smaller one")
+    return np.asarray(2.0 * half)
 
 
 def squared_sine(curve: Curve, height: ArrayLike, half: ArrayLike) -> Floats:

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from . import front
 from .ball import Ball, Floats, numbers
-from .elliptic import Curve, height_of
+from .elliptic import Curve, across, height_of
 from .errors import BadInput, StepNotTaken
 from .map import unit_vertical
 from .trajectories import Trajectory
@@ -107,13 +107,7 @@ def exact_top(ball: Ball, momentum: ArrayLike, gamma: ArrayLike) -> ExactTop:
 
 
 def _is_fixed(top: Ball, axis: Floats) -> bool:
-    return bool((_across(top.inertia, axis) == 0.0).all())
-
-
-def _across(moments: Floats, axis: Floats) -> Floats:
-    """γ × Λ⁻¹γ, with the differences of the moments taken first: (..., 3)."""
-    b, c = np.roll(np.arange(3), -1), np.roll(np.arange(3), -2)
-    return np.asarray(axis[..., b] * axis[..., c] * ((moments[b] - moments[c]) / (moments[b] * moments[c])))
+    return not across(top.mass_tensor, top.inertia, axis).any()
 
 
 def _fixed(top: Ball, axis: Floats, speed: float) -> tuple[float, float]:
@@ -137,7 +131,8 @@ def _moving(top: Ball, axis: Floats, speed: float) -> tuple[float, float]:
         step = None
     if step is None or not slope * curve.rate > 0.0 or np.abs(step.gamma - ahead).max() > AGREEMENT:
         raise BadInput("the continuous motion of this step is beyond the branch of the top; take a shorter time step")
-    before, after = _across(top.inertia, axis), front.rotate(step.rotation, _across(top.inertia, step.gamma))
+    before, there = (across(top.mass_tensor, top.inertia, v) for v in (axis, step.gamma))
+    after = front.rotate(step.rotation, there)
     discrete = np.arctan2(axis @ np.cross(before, after), before @ after)
     twist = _turn(curve, start, advance, speed) - float(discrete)
     return tau, float(np.remainder(twist + np.pi, 2 * np.pi) - np.pi)
@@ -146,6 +141,7 @@ def _moving(top: Ball, axis: Floats, speed: float) -> tuple[float, float]:
 def _turn(curve: Curve, start: float, advance: float, speed: float) -> float:
     """The angle about γ by which R(γ × Λ⁻¹γ) turns in one step: the integral of H⟨b,Λ⁻¹b⟩/|b|², b = γ × Λ⁻¹γ."""
     nodes, weights = np.polynomial.legendre.leggauss(NODES)
-    across = _across(curve.ball.inertia, curve.point(start + advance * (nodes + 1) / 2))
-    rates = (across * across / curve.ball.inertia).sum(axis=-1) / (across * across).sum(axis=-1)
+    top = curve.ball
+    turned = across(top.mass_tensor, top.inertia, curve.point(start + advance * (nodes + 1) / 2))
+    rates = (turned * turned / top.inertia).sum(axis=-1) / (turned * turned).sum(axis=-1)
     return speed * float(weights @ rates) / 2

@@ -69,8 +69,15 @@ def _pulses(u: Floats, modulus: float, complement: float) -> tuple[Floats, Float
             cn, dn = cn + sign * pulse, dn + pulse
         # The tanh of m and -m together: sinh 2su / (cosh s(u-2mK) cosh s(u+2mK)), small for m > 0.
         far = 2.0 * scale * m * 2.0 * quarter
-        sn = sn + sign * 2.0 * np.sinh(2.0 * scale * u) / (np.cosh(2.0 * scale * u) + np.cosh(min(far, 700.0)))
+        sn = sn + sign * 2.0 * _far_pair(2.0 * scale * u, far)
     return scale / modulus * sn, scale / modulus * cn, scale * dn
+
+
+def _far_pair(x: Floats, far: float) -> Floats:
+    """sinh x/(cosh x + cosh f) for f ≥ 2|x|, by exponentials that do not overflow."""
+    size = np.abs(x)
+    ahead, behind = np.exp(size - far), np.exp(-size - far)
+    return np.asarray(-np.sign(x) * ahead * np.expm1(-2.0 * size) / (1.0 + np.exp(-2.0 * far) + ahead + behind))
 
 
 def argument(sn: Floats, cn: Floats, dn: Floats, quarter: float) -> Floats:

@@ -44,8 +44,11 @@ def test_a_certified_root_is_that_of_the_continuation(state):
     assert u @ u <= array[loop.RADIUS] * (1 + 1e-12)
     found = gibbs.search(0.0, 0.0, 0.0, *array[0:3], *array[3:6], *array[45:48], *array[48:51])
     assert found[0]
-    top, least = array[45:48].max() + array[48], array[45:48].min()
-    assert np.abs(np.array(found[5:]) - u).max() <= 16 * 2.0**-53 * (top / least) * np.abs(u).max() + 1e-300
+    # ⟨d, ∂G d⟩ ≥ least|d|² by the lemma, and the residuals of both are rounded a few times: Bu, u × Iu, (1 + |u|²)k.
+    inertia, size = array[45:48], 2 * np.linalg.norm(array[0:3])
+    least = inertia.min() - np.linalg.norm(u) * ((inertia.max() - inertia.min()) / 2 + size)
+    rounded = (inertia.max() + array[48]) * np.linalg.norm(u) + size
+    assert np.abs(np.array(found[5:]) - u).max() <= 8 * 2.0**-53 * rounded / least + 1e-300
 
 
 @given(testing.states(fraction=(0.0, 0.3)), st.floats(0.0, 1e-6), testing.unit_vectors())

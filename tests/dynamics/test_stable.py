@@ -1,0 +1,258 @@
+"""What float64 keeps for D ≫ J: errors in ulps against mpmath, each beside the form that it replaced."""
+
+import mpmath
+import numpy as np
+import pytest
+from chapsym.generated import contact_momentum, gibbs_newton, gibbs_newton_heavy, tangent_jacobian
+
+from chapsym import BadInput, Ball, Curve, increment, roll, step, step_vertical, trajectory
+from chapsym.dynamics import branch, front, gibbs, jacobi, loop
+from chapsym.dynamics.branch import small_rotation
+from chapsym.dynamics.elliptic import height_of
+
+ULP = 2.0**-52
+MP = mpmath.MPContext()
+MP.dps = 60
+HEAVY = (1e2, 1e4, 1e6, 1e9, 1e12, 1e14)
+
+
+def exact(values):
+    return [MP.mpf(float(x)) for x in values]
+
+
+def unit(rng):
+    v = rng.normal(size=3)
+    v /= np.sqrt(v @ v)
+    return v / np.sqrt(v @ v)
+
+
+def states(D, count=12):
+    """Balls with momenta of the size of J in any direction: well conditioned, however large D is."""
+    rng = np.random.default_rng([5, int(np.log10(D))])
+    return [(rng.uniform(0.3, 2.0, 3), unit(rng) * rng.uniform(0.02, 0.2), unit(rng)) for _ in range(count)]
+
+
+def root(K, g, J, D, guess):
+    """The Gibbs vector to 50 digits, by B(γ)u + u × Iu = (1 + |u|²)k in matrices, from a float64 guess."""
+    k, g, J, D = [x / 2 for x in exact(K)], MP.matrix(exact(g)), exact(J), MP.mpf(D)
+    inertia = MP.diag([J[1] + J[2], J[0] + J[2], J[0] + J[1]])
+    B = inertia + D * ((g.T * g)[0] * MP.eye(3) - g * g.T)
+    u = MP.matrix(exact(guess))
+
+    def residual(u):
+        swirl = inertia * u
+        cross = [u[1] * swirl[2] - u[2] * swirl[1], u[2] * swirl[0] - u[0] * swirl[2], u[0] * swirl[1] - u[1] * swirl[0]]
+        return B * u + MP.matrix(cross) - (1 + (u.T * u)[0]) * MP.matrix(k)
+
+    for _ in range(200):
+        d = MP.lu_solve(B, residual(u))  # the small rotation contracts: |∂G - B| ≪ I
+        u -= d
+        if MP.norm(d) <= MP.mpf(10) ** -50 * MP.norm(u):
+            return u
+    raise AssertionError("no root")
+
+
+def off(found, true):
+    """The largest error in ulps of the largest component."""
+    return float(max(abs(MP.mpf(float(a)) - b) for a, b in zip(found, true, strict=True)) / max(map(abs, true))) / ULP
+
+
+def condition(K, g, J, D, u):
+    """Σⱼ |∂u/∂Kⱼ||Kⱼ| in its largest component, relative to u: what K alone asks for."""
+    q = np.array([1.0, *u]) / np.sqrt(1 + u @ u)
+    T = MP.matrix(np.reshape([float(x) for x in tangent_jacobian(*q, *g, *J, D)], (3, 3)).tolist())
+    inverse = np.abs(np.array((T**-1).tolist(), dtype=float))
+    return (inverse @ np.abs(K)).max() / np.abs(u).max()
+
+
+@pytest.mark.parametrize("D", HEAVY)
+def test_the_step_of_a_heavy_ball_has_its_digits(D):
+    """𝒦 of the size of J: q is as well conditioned as for D = 1, and 4(1 + κ) ulps are kept by the step and the run."""
+    for J, K, g in states(D):
+        q = step(Ball(J, D), K, g).rotation
+        u = root(K, g, J, D, q[1:] / q[0])
+        budget = 4 * (1 + condition(K, g, J, D, np.array([float(x) for x in u])))
+        assert budget < 1000
+        assert off(q[1:] / q[0], u) <= budget
+        state = np.zeros(loop.ROWS)
+        loop.prepare(K, g, J, D, state)
+        assert (state[loop.RADIUS] == -1.0) == gibbs.is_heavy(*(J.sum() - J), D)
+        status, _, *found = loop.safe_rotation(*(x / 2 for x in q[1:] / q[0]), state)
+        assert status == 0
+        assert off(found[4:], u) <= budget
+
+
+@pytest.mark.parametrize("D", HEAVY)
+def test_by_a_row_of_the_jacobian_they_were_lost(D):
+    """The control: one Newton iterate from the root, with the determinant by a row and by the vertical."""
+    by_row, by_vertical = [], []
+    for J, K, g in states(D):
+        inertia = J.sum() - J
+        u = root(K, g, J, D, np.zeros(3))
+        at = [float(x) for x in u]
+        for kernel, errors in ((gibbs_newton, by_row), (gibbs_newton_heavy, by_vertical)):
+            det, *n = kernel(*at, *(K / 2), *g, *inertia, D)[:4]
+            errors.append(off([x / det for x in n], u))
+    assert max(by_row) > 0.05 * D  # D/I ulps: 2 digits at D = 1e2, all at 1e14
+    assert np.median(by_vertical) <= 4
+
+
+@pytest.mark.parametrize("D", HEAVY[1:])
+def test_the_safe_way_needs_both_forms(D, monkeypatch):
+    """The control of the continuation: with 𝒦 by the entries of B(γ) its root is off by D/I ulps."""
+
+    def by_entries(q0, q1, q2, q3, K1, K2, K3, *body):
+        q, g, J, D = np.array([q1, q2, q3]), np.array(body[:3]), np.array(body[3:6]), body[6]
+        B = np.diag(J.sum() - J) + D * (np.eye(3) * (g @ g) - np.outer(g, g))
+        return tuple(2 * (q0 * (B @ q) + np.cross(q, (J.sum() - J) * q)) - (K1, K2, K3))
+
+    errors = []
+    monkeypatch.setattr(branch, "residual", by_entries)
+    for J, K, g in states(D):
+        _, _, q0, *q = small_rotation(*K, *g, *J, D)
+        errors.append(off(np.array(q) / q0, root(K, g, J, D, np.array(q) / q0)))
+    assert max(errors) > 0.01 * D
+
+
+@pytest.mark.parametrize("D", HEAVY)
+def test_the_determinant_of_the_tangent_jacobian(D):
+    for J, _, g in states(D):
+        q = np.array([1.0, *(0.05 * unit(np.random.default_rng(3)))])
+        q /= np.sqrt(q @ q)
+        true = MP.det(MP.matrix(_rows(tangent_jacobian(*exact(q), *exact(g), *exact(J), MP.mpf(D)))))
+        found = branch.inverse(*q, *g, *J, D)[0]
+        assert abs(float(MP.mpf(float(found)) / true - 1)) <= 64 * ULP / np.abs(g).max() ** 2
+        by_row = np.linalg.det(np.reshape(tangent_jacobian(*q, *g, *J, D), (3, 3)))
+        assert D < 1e9 or abs(float(MP.mpf(float(by_row)) / true - 1)) > 1e5 * ULP
+
+
+def _rows(nine):
+    return [list(nine[i : i + 3]) for i in (0, 3, 6)]
+
+
+def test_the_light_balls_are_not_touched():
+    """Up to D = 32 I_min the certificate is the lemma's, and the fast kernel serves."""
+    k, inertia = (0.01, 0.02, -0.01), (1.0, 1.5, 2.0)
+    assert not gibbs.is_heavy(*inertia, 32.0)
+    assert gibbs.certificate(*k, *inertia, 32.0) == gibbs.bound(*k, *inertia, 32.0)
+    assert gibbs.certificate(*k, *inertia, 32.1) == (-1.0, 0.0)
+    assert gibbs.bound(*k, *inertia, 32.1)[0] > 0
+
+
+def test_heavy_balls_in_a_batch_and_alone_agree_to_the_bit():
+    cases = states(1e6, 6) + [(np.array((0.1, 0.5, 1.6)), np.array((0.03, -0.02, 0.035)), np.array((2, 3, 6)) / 7)]
+    J, K, g = (np.array(x) for x in zip(*cases, strict=True))
+    D = np.array([1e2, 1e4, 1e6, 1e9, 1e12, 1e14, 0.7])
+    together = trajectory(Ball(J, D), K, g, 70, every=7)
+    assert (together.status == 0).all()
+    for i in range(len(D)):
+        alone = trajectory(Ball(J[i], D[i]), K[i], g[i], 70, every=7)
+        assert (alone.momentum == together.momentum[i]).all()
+        assert (alone.gamma == together.gamma[i]).all()
+
+
+@pytest.mark.parametrize("D", HEAVY)
+def test_a_ball_that_spins_about_the_vertical_keeps_its_momentum(D):
+    """ω almost along γ: ⟨K,γ⟩ = ⟨Iω,γ⟩ does not know D; by the entries of B(γ) it had roundings of D."""
+    rng = np.random.default_rng(8)
+    new, old = [], []
+    for J, _, g in states(D):
+        w = g + 1e-13 * unit(rng)
+        K = contact_momentum(*w, *g, *J, D)
+        spin = sum(a * b for a, b in zip(exact(K), exact(g), strict=True))
+        true = sum((J.sum() - J)[i] * a * b for i, (a, b) in enumerate(zip(exact(w), exact(g), strict=True)))
+        scale = max(map(abs, exact(K)))
+        new.append(float(abs(spin - true) / scale) / ULP)
+        B = np.diag(J.sum() - J) + D * (np.diag([g[1] ** 2 + g[2] ** 2, g[0] ** 2 + g[2] ** 2, g[0] ** 2 + g[1] ** 2])
+                                        - np.outer(g, g) + np.diag(g * g))  # fmt: skip
+        spin = sum(a * b for a, b in zip(exact(B @ w), exact(g), strict=True))
+        old.append(float(abs(spin - true) / scale) / ULP)
+    assert max(new) <= 4
+    assert D > 1e12 or max(old) > 0.01 * D  # beyond, K itself is the rounding of D
+
+
+def test_rolling_starts_from_the_spin_that_was_asked_for():
+    ball, g = Ball((1.0, 1.1, 1.2), 1e9), np.array((2, 3, 6)) / 7
+    run = roll(ball, 3.0 * g, 1e-3, 0, gamma=g)
+    spin = float(front.angular_velocity(run.momentum[0] / 1e-3, g, ball.mass_tensor, ball.D) @ g)
+    assert abs(spin - 3.0) <= 8 * ULP * 3
+
+
+@pytest.mark.parametrize("D", [0.0, 1.0, 1e6, 1e12])
+def test_the_curve_has_its_modulus_at_every_D(D):
+    """k, k', V by mpmath from the same floats: 8 ulps; with Λ_b - Λ_c from rounded moments they were lost."""
+    rng, lost = np.random.default_rng(4), 0.0
+    for kind in range(24):
+        J, g = np.sort(rng.uniform(0.1, 2.0, 3)), rng.normal(size=3)
+        if kind % 2:
+            g = np.eye(3)[kind // 2 % 3] + 10 ** rng.uniform(-12, -3) * g
+        g = g / np.sqrt(g @ g)
+        g = g / np.sqrt(g @ g)
+        curve = Curve.through(Ball(J, D), g)
+        true = invariants_of(curve, exact(J), MP.mpf(D), exact(g))
+        for found, value in zip((curve.modulus, curve.complement, abs(curve.rate), curve.slack), true, strict=True):
+            assert abs(float(MP.mpf(found) / value - 1)) <= 8 * ULP
+        moments = J.sum() - J + D
+        gap = moments[curve.axes[1]] - moments[curve.axes[2]]
+        exactly = MP.mpf(float(J[curve.axes[2]])) - MP.mpf(float(J[curve.axes[1]]))
+        lost = max(lost, abs(float(MP.mpf(float(gap)) / exactly - 1)) / ULP)
+    assert lost > max(0.1 * D, 1)
+
+
+def invariants_of(curve, J, D, g):
+    """k, k', |V| and 1 - Dl from their definitions (5.7), (5.13-V), on the direction of g."""
+    L, norm = [sum(J) - x + D for x in J], sum(x * x for x in g)
+    a, b, c = curve.axes
+    level = sum(x * x / m for x, m in zip(g, L, strict=True)) / norm
+    MP.dps = 90
+    lower, upper = abs(L[a] * level - 1), abs(1 - L[c] * level)
+    k2 = abs(L[a] - L[b]) * upper / (abs(L[b] - L[c]) * lower)
+    rest = abs(L[a] - L[c]) * abs(L[b] * level - 1) / (abs(L[b] - L[c]) * lower)
+    MP.dps = 60
+    V = MP.sqrt(abs(L[b] - L[c]) * lower / (L[0] * L[1] * L[2]))
+    return MP.sqrt(k2), MP.sqrt(rest), V, 1 - D * level
+
+
+@pytest.mark.parametrize("axis", [0, 1, 2])
+@pytest.mark.parametrize("D", [0.0, 3.0, 1e15])
+def test_no_curve_goes_through_a_principal_axis(axis, D):
+    """The middle one too, which gave a curve with k = 1 of its own."""
+    with pytest.raises(BadInput, match="the map fixes this gamma"):
+        Curve.through(Ball((1, 2, 4), D), np.eye(3)[axis])
+    assert Curve.through(Ball((1, 2, 4), D), (0.6, 0.0, 0.8)).modulus <= 1.0
+
+
+@pytest.mark.parametrize("D", [1e3, 1e6, 1e9])
+def test_the_increment_at_large_D_is_that_of_the_map(D):
+    ball, g, h = Ball((1, 2, 4), D), np.array((2, 3, 6)) / 7, 2.0
+    curve = Curve.through(ball, g)
+    u = float(curve.argument(g))
+    moved = float(curve.argument(step_vertical(ball, h, g).gamma))
+    speed = abs(curve.rate) / D  # |dγ/du| ~ 1 here; the arguments have roundings of γ
+    found = float(increment(curve, h, u))
+    assert abs((moved - u) - found) <= 64 * ULP + 1e-9 * abs(speed)
+    height, _ = height_of(curve, found / 2, u + found / 2)
+    assert abs(float(height) / h - 1) <= 64 * ULP
+
+
+def test_one_height_beyond_the_fold_does_not_spoil_a_batch():
+    curve = Curve.through(Ball((1, 2, 4), 3), np.array((2, 3, 6)) / 7)
+    several = increment(curve, [0.5, 50.0, 1.0], 0.3)
+    assert np.isnan(several).tolist() == [False, True, False]
+    assert several[[0, 2]].tolist() == [increment(curve, 0.5, 0.3), increment(curve, 1.0, 0.3)]
+    with pytest.raises(BadInput, match="take a smaller one"):
+        increment(curve, 50.0, 0.3)
+
+
+@pytest.mark.parametrize("complement", [1e-100, 1e-160, 1e-250, 1e-300])
+def test_jacobis_functions_do_not_overflow_near_the_separatrix(complement):
+    """u up to 2K ~ 1400: sinh 2u and cosh 4K are beyond float64, and their quotient is small."""
+    quarter = jacobi.quarter_period(complement)
+    u = np.array([-2.0, -1.2, -1.0, -0.3, 1e-3, 0.3, 1.0, 1.2, 2.0]) * quarter
+    with np.errstate(all="raise", under="ignore"):
+        sn, cn, dn = jacobi.jacobi(u, 1.0, complement)
+    assert np.isfinite([sn, cn, dn]).all()
+    assert np.abs(sn * sn + cn * cn - 1).max() <= 8 * ULP
+    assert np.abs(dn).min() >= complement * (1 - 1e-12)
+    near = np.abs(u) <= 0.4 * quarter
+    assert np.abs(sn[near] - np.tanh(u[near])).max() <= 4 * ULP
