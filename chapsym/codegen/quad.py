@@ -102,10 +102,11 @@ def lowered(program: Program, texts: Texts) -> list[str]:
     outputs = [known[name] for name in program.outputs]
     needed = set(outputs)
     for number in reversed(range(len(values.nodes))):
-        if number in needed and values.nodes[number][0] not in ("input", "constant"):
-            needed |= {int(x) for x in values.nodes[number][1:]}
+        operation, *operands = values.nodes[number]
+        if number in needed and operation not in ("input", "constant"):
+            needed |= set(map(int, operands))
     names = dict[int, str]()
-    constants = [str(n[1]) for n in values.nodes if n[0] == "constant"]
+    constants = [str(x) for operation, *rest in values.nodes if operation == "constant" for x in rest]
     printer, count = Printer([*program.floats, *constants]), 0
     for number in sorted(needed):
         operation, *operands = values.nodes[number]

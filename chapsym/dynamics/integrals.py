@@ -52,6 +52,22 @@ def remember(state):
     state[16], state[17] = inner(k1, k2, k3, k1, k2, k3, 0.0, 0.0)
 
 
+def shares(unit, height, squared, one, h, n):
+    """What takes the three integrals (one, h, n) up by (unit, height, squared): (stretch, along_k, along_gamma).
+
+    γ is to become (1 + stretch)γ, and k to become k + along_k k + along_gamma γ.
+    """
+    if not n > 0.0:
+        return 0.0, 0.0, 0.0
+    stretch = 0.5 * unit / one
+    height -= stretch * h
+    sine = one - h * h / n
+    if sine > VERTICAL:
+        along_gamma = (height - 0.5 * squared * h / n) / sine
+        return stretch, (0.5 * squared - along_gamma * h) / n, along_gamma
+    return stretch, 0.5 * squared / n, 0.0
+
+
 def restore(state):
     """Corrects the compensations state[6:12] so that k and γ, with them, have the integrals in state[12:18] again.
 
@@ -66,17 +82,7 @@ def restore(state):
     unit += 2.0 * (g1 * y1 + g2 * y2 + g3 * y3)
     height += (k1 * y1 + k2 * y2 + k3 * y3) + (g1 * x1 + g2 * x2 + g3 * x3)
     squared += 2.0 * (k1 * x1 + k2 * x2 + k3 * x3)
-    h, n, one = state[14], state[16], state[12]
-    if not n > 0.0:
-        return
-    stretch = 0.5 * unit / one
-    height -= stretch * h
-    sine = one - h * h / n
-    if sine > VERTICAL:
-        along_gamma = (height - 0.5 * squared * h / n) / sine
-        along_k = (0.5 * squared - along_gamma * h) / n
-    else:
-        along_gamma, along_k = 0.0, 0.5 * squared / n
+    stretch, along_k, along_gamma = shares(unit, height, squared, state[12], state[14], state[16])
     state[6], state[7], state[8] = (
         x1 - (along_k * k1 + along_gamma * g1),
         x2 - (along_k * k2 + along_gamma * g2),

@@ -24,7 +24,7 @@ CHUNK = 25_000
 def run(
     balls: Balls, steps: int, every: int, frames: Frames, order: int, threads: int, progress: Callable[[int], None]
 ) -> None:
-    """`engine.run` in double-double.  It writes frame 0 anew: γ and the attitude that are given, divided by their lengths."""
+    """`engine.run` in double-double.  It writes frame 0 anew: γ and the attitude are divided by their lengths."""
     low = frames.low
     assert low is not None
     stages = coefficients(order)

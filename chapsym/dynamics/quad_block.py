@@ -11,7 +11,8 @@ from chapsym.numbers.pairs import two_sum
 from .block import extrapolated
 from .branch import TAKEN
 from .gibbs import newton_round
-from .quad_loop import ROWS, D, G, I, J, K, prepare_quad, write
+from .integrals import PERIOD
+from .quad_loop import ROWS, D, G, I, J, K, prepare_quad, restore_pairs, write
 from .quad_step import correction, small, solved
 
 #: Balls in a block: its rows stay in the first-level cache.
@@ -130,7 +131,7 @@ def prepare_quad_block(momentum, g, tensor, contact, c, state, shift, beyond):
 
 
 def march_quad_block(state, first, count, every, shift, momenta, momenta_, verticals, verticals_, taken, status, reach):
-    """`count` steps of the balls of a block from the step `first` on: state (ALL_ROWS, LANES), the rest as `march_quad`.
+    """`count` steps of the balls of a block from the step `first` on: state (ALL_ROWS, LANES), the rest as `quad_loop`.
 
     shift, taken, status and reach have one entry for each ball; lanes beyond them are idle copies.
     """
@@ -143,6 +144,11 @@ def march_quad_block(state, first, count, every, shift, momenta, momenta_, verti
         if corrected(S, P, ok) != 0:
             mend(S, P, ok, step, taken, status, reach)
         turned(S, P)
+        if (step + 1) % PERIOD == 0:
+            for i in range(LANES):
+                one = S[:ROWS, i].copy()
+                restore_pairs(one)
+                S[:ROWS, i] = one
         if (step + 1) % every == 0:
             frame = (step + 1) // every
             for i in range(len(status)):

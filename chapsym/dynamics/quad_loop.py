@@ -1,21 +1,32 @@
 """Many steps of one ball in double-double: plain Python that numba compiles.
 
 A step is a composition with any stages, of which the map itself has one.  𝒦, γ, the attitude and the contact point are
-pairs, and need no compensation.
+pairs, and need no compensation; the integrals are restored now and then.
 """
 
 from math import ldexp
 
 from chapsym.generated.quad import roll_pairs, turn_pairs
-from chapsym.numbers.pairs import divide, loose_add, loose_add_float, loose_multiply, multiply, root, two_sum
+from chapsym.numbers.pairs import (
+    divide,
+    loose_add,
+    loose_add_float,
+    loose_multiply,
+    multiply,
+    root,
+    subtract,
+    two_sum,
+)
 
 from .branch import TAKEN
 from .composed_loop import extrapolated
+from .integrals import PERIOD, shares
 from .quad_step import bounds, scales, solved, unit
 
-#: The rows of the numbers that describe a ball under way: k = 𝒦/2, γ and I as pairs (high, low, high, ...), J, D.
-K, G, I, J, D = 0, 6, 12, 18, 21
-ROWS = 22
+#: The rows of the numbers that describe a ball under way: k = 𝒦/2, γ and I as pairs (high, low, high, ...), J,
+#: D, and the three integrals as pairs.
+K, G, I, J, D, INTEGRALS = 0, 6, 12, 18, 21, 22
+ROWS = 28
 
 
 def prepare_quad(momentum, g, tensor, contact, c, state, radius, enough):
@@ -30,12 +41,43 @@ def prepare_quad(momentum, g, tensor, contact, c, state, radius, enough):
     state[I], state[I + 1] = two_sum(state[J + 1], state[J + 2])
     state[I + 2], state[I + 3] = two_sum(state[J], state[J + 2])
     state[I + 4], state[I + 5] = two_sum(state[J], state[J + 1])
+    remember_pairs(state)
     for i in range(c.shape[0]):
         s = c[i, 0]
         radius[i], enough[i] = bounds(
             s * state[K], s * state[K + 2], s * state[K + 4], state[I], state[I + 2], state[I + 4], state[D]
         )
     return shift, beyond
+
+
+def inner(a, b):
+    """⟨a, b⟩ of two vectors of pairs."""
+    x, x_ = loose_multiply(a[0], a[1], b[0], b[1])
+    y, y_ = loose_multiply(a[2], a[3], b[2], b[3])
+    z, z_ = loose_multiply(a[4], a[5], b[4], b[5])
+    x, x_ = loose_add(x, x_, y, y_)
+    x, x_ = loose_add(x, x_, z, z_)
+    return two_sum(x, x_)
+
+
+def remember_pairs(state):
+    """Writes ⟨γ,γ⟩, ⟨k,γ⟩ and ⟨k,k⟩ into the state."""
+    k, g = state[K:G], state[G:I]
+    state[INTEGRALS], state[INTEGRALS + 1] = inner(g, g)
+    state[INTEGRALS + 2], state[INTEGRALS + 3] = inner(k, g)
+    state[INTEGRALS + 4], state[INTEGRALS + 5] = inner(k, k)
+
+
+def restore_pairs(state):
+    """Gives k and γ the three integrals again, up to the rounding of these: else they walk by u² at each step."""
+    k, g, h = state[K:G], state[G:I], state[INTEGRALS:ROWS]
+    unit, _ = subtract(h[0], h[1], *inner(g, g))
+    height, _ = subtract(h[2], h[3], *inner(k, g))
+    squared, _ = subtract(h[4], h[5], *inner(k, k))
+    stretch, along_k, along_gamma = shares(unit, height, squared, h[0], h[2], h[4])
+    for i in range(0, 6, 2):
+        k[i], k[i + 1] = two_sum(k[i], k[i + 1] + (along_k * k[i] + along_gamma * g[i]))
+        g[i], g[i + 1] = two_sum(g[i], g[i + 1] + stretch * g[i])
 
 
 def stage(state, c, c_, radius, enough, past):
@@ -97,6 +139,7 @@ def march_quad(
     state (ROWS), past (s, 8, 3), attitude (8) and contact (4) hold the present and move; shift and beyond are those of
     `scales`.  A name with _ is the low halves of its frames.  Returns (taken, status, reach).
     """
+    period = max(1, PERIOD // c.shape[0])
     for step in range(first + 1, first + count + 1):
         for i in range(c.shape[0]):
             status, reach, u1, u1_, u2, u2_, u3, u3_ = stage(state, c[i, 0], c[i, 1], radius[i], enough[i], past[i])
@@ -105,6 +148,8 @@ def march_quad(
             if with_body:
                 follow_body(u1, u1_, u2, u2_, u3, u3_, state, attitude, contact, rho)
             turn_both(u1, u1_, u2, u2_, u3, u3_, state)
+        if step % period == 0:
+            restore_pairs(state)
         if step % every == 0:
             frame = step // every
             write(momenta[frame], momenta_[frame], state, K, -shift)

@@ -1,0 +1,276 @@
+"""Trajectories in double-double: against the matrix oracle, against 60 digits, to the bit among themselves."""
+
+import functools
+from fractions import Fraction as F
+
+import flint
+import mpmath
+import numpy as np
+import pytest
+
+import chapsym
+from chapsym import generated
+from chapsym.dynamics import compiled, front, integrals, quad, quad_loop, quad_step
+from chapsym.dynamics.coefficients import COMPOSITIONS
+from chapsym.dynamics.errors import Status, StepNotTaken
+from chapsym.dynamics.map import step
+from chapsym.dynamics.oracle import Oracle
+from chapsym.dynamics.trajectories import attitude_with
+from chapsym.numbers import Quad, pairs
+from chapsym.studies import check
+
+#: One unit of double-double is the square of one of float64, 2⁻⁵²; the roundoff u² is a quarter of it.
+ULP = 2.0**-104
+U2 = 2.0**-106
+J, D, RADIUS = (0.1, 0.5, 1.6), 0.7, 0.1
+K, GAMMA = (0.03, -0.02, 0.035), (2 / 7, 3 / 7, 6 / 7)
+BALL = chapsym.Ball(J, D, RADIUS)
+HIGH = mpmath.MPContext()
+HIGH.dps = 70
+
+
+def whole(high, low):
+    """A vector of pairs as exact fractions."""
+    return [F(float(a)) + F(float(b)) for a, b in zip(high, low, strict=True)]
+
+
+def last(run, name):
+    return whole(getattr(run, name)[-1], getattr(run.low, name)[-1])
+
+
+def off(found, truth, size=1.0):
+    """The largest error in units of u², relative to size."""
+    return max(float(abs(HIGH.mpf(x.numerator) / x.denominator - t)) for x, t in zip(found, truth, strict=True)) / (
+        size * U2
+    )
+
+
+def reference(K, gamma, steps, order=2, attitude=None):
+    """The same run in Arb's midpoints with 200 bits: Newton in the Gibbs vector to its end, γ divided by its length.
+
+    Returns 𝒦, γ, the attitude and the contact point as mpf.
+    """
+    number = lambda x: flint.arb(flint.fmpq(*F(x).as_integer_ratio())).mid()  # noqa: E731
+    with flint.ctx.workprec(200):
+        g, k, rho, a = [number(float(x)) for x in gamma], [number(float(x)) / 2 for x in K], number(RADIUS), attitude
+        length = sum((x * x for x in g), flint.arb(0)).sqrt()
+        g, contact = [(x / length).mid() for x in g], [flint.arb(0)] * 2
+        tensor, D_ = [number(x) for x in J], number(D)
+        inertia = [sum(tensor) - x for x in tensor]
+        if a is not None:
+            a = [number(float(x)) for x in a]
+            length = sum((x * x for x in a), flint.arb(0)).sqrt()
+            a = [x / length for x in a]
+        for _ in range(steps):
+            for c in COMPOSITIONS[order].exact:
+                u, change = [flint.arb(0)] * 3, flint.arb(1)
+                while change > 1e-35 * max(abs(x) for x in u):
+                    det, *rest = generated.gibbs_newton(*u, *(number(c) * x for x in k), *g, *inertia, D_)[:4]
+                    new = [(x / det).mid() for x in rest]
+                    u, change = new, max(abs(x - y) for x, y in zip(u, new, strict=True))
+                if a is not None:
+                    q0 = 1 / (1 + sum(x * x for x in u)).sqrt()
+                    q = [q0, *(q0 * x for x in u)]
+                    moved = generated.rotate(*a, *generated.centre_step(*q, *g))
+                    contact = [(x + rho * y).mid() for x, y in zip(contact, moved, strict=False)]
+                    a = [x.mid() for x in generated.compose(*a, *q)]
+                k, g = ([(x + y).mid() for x, y in zip(v, generated.turn(1, *u, *v), strict=True)] for v in (k, g))
+        return [[HIGH.mpf(x.str(60, radius=False)) for x in v] for v in ([2 * x for x in k], g, a or [], contact)]
+
+
+def condition(state):
+    q = step(chapsym.Ball(state.J, state.D), state.K, state.g).rotation
+    size, extent = np.abs(state.K).max(), np.abs(q[1:]).max()
+    top = (state.J.sum() - state.J).max() + state.D
+    inverse = np.linalg.inv(front.tangent_jacobian(q, state.g, state.J, state.D))
+    return extent, float(np.linalg.norm(inverse, 2) * (size / extent + 2 * top))
+
+
+@pytest.mark.parametrize("stratum", check.STRATA)
+def test_steps_keep_the_promise_of_float64_squared(stratum):
+    """𝒦 and γ within 4(1 + |q|κ) units of the matrix equation's, as `chapsym check` has it, the units squared."""
+    rng = np.random.default_rng([31, list(check.STRATA).index(stratum)])
+    for _ in range(4):
+        state = check.STRATA[stratum](rng)
+        run = chapsym.trajectory(chapsym.Ball(state.J, state.D), state.K, state.g, 1, precision="quad")
+        g = [HIGH.mpf(float(x)) for x in state.g]
+        length = HIGH.sqrt(sum(x * x for x in g))
+        assert off(whole(run.gamma[0], run.low.gamma[0]), [x / length for x in g]) <= 8
+        truth = Oracle([*state.J], state.D, [x / length for x in g], 45).step([*map(float, state.K)])
+        extent, kappa = condition(state)
+        promise = check.BUDGET * (1 + extent * kappa) * ULP / U2
+        assert off(last(run, "momentum"), truth.momentum, np.abs(state.K).max()) <= promise
+        assert off(last(run, "gamma"), truth.gamma) <= promise
+
+
+@pytest.mark.parametrize(("steps", "budget"), [(1, 8), (30, 40), (1000, 1000)])
+def test_a_run_against_60_digits(steps, budget):
+    """An error of some u² at each step, which the motion carries on linearly."""
+    run = chapsym.trajectory(BALL, K, GAMMA, steps, every=steps, precision="quad")
+    truth = reference(K, GAMMA, steps)
+    assert off(last(run, "momentum"), truth[0], 0.05) <= budget
+    assert off(last(run, "gamma"), truth[1]) <= budget
+    assert (type(run.precision), run.low.attitude, run.low.contact) == (Quad, None, None)
+    plain = chapsym.trajectory(BALL, K, GAMMA, steps, every=steps)
+    np.testing.assert_allclose(run.gamma, plain.gamma, rtol=0, atol=steps * 1e-14)
+
+
+@pytest.mark.parametrize("order", [4, 6, 8])
+def test_orders(order):
+    run = chapsym.trajectory(BALL, K, GAMMA, 12, order=order, every=12, precision="quad")
+    truth = reference(K, GAMMA, 12, order)
+    assert off(last(run, "momentum"), truth[0], 0.05) <= 200
+    assert off(last(run, "gamma"), truth[1]) <= 200
+
+
+def test_the_attitude_and_the_contact_point():
+    """From a given attitude; every length and sum within some u² of 60 digits."""
+    start = attitude_with(np.array(GAMMA))
+    run = chapsym.trajectory(BALL, K, GAMMA, 60, every=20, attitude=start, contact=True, precision="quad")
+    truth = reference(K, GAMMA, 60, attitude=start)
+    assert off(last(run, "attitude"), truth[2]) <= 60
+    assert off(last(run, "contact"), truth[3], RADIUS) <= 60
+    length = sum(x * x for x in last(run, "attitude"))
+    assert abs(length - 1) <= 8 * U2
+    np.testing.assert_array_equal(run.contact[0], 0.0)
+
+
+def run_with(monkeypatch, choose, *arguments, **options):
+    monkeypatch.setattr(quad, "chosen", lambda functions, work: [choose(f) for f in functions])
+    return chapsym.trajectory(*arguments, precision="quad", **options)
+
+
+def same(one, other):
+    for name in ("momentum", "gamma", "attitude", "contact"):
+        for a, b in ((one, other), (one.low, other.low)):
+            x, y = getattr(a, name), getattr(b, name)
+            assert (x is None and y is None) or np.array_equal(x, y, equal_nan=True), name
+
+
+@pytest.mark.parametrize("options", [{}, {"order": 4}, {"attitude": True, "contact": True}])
+def test_compiled_runs_have_the_bits_of_plain_python(monkeypatch, options):
+    steps = integrals.PERIOD + 60 if not options else 120
+    plain = run_with(monkeypatch, lambda f: f, BALL, K, GAMMA, steps, **options)
+    same(plain, run_with(monkeypatch, compiled.compiled, BALL, K, GAMMA, steps, **options))
+
+
+@functools.cache
+def batch():
+    """Balls of every stratum, two that stop, one at rest."""
+    rng = np.random.default_rng(8)
+    states = [check.STRATA[name](rng) for name in check.STRATA for _ in range(2)]
+    states += [check.State(np.array(J), D, np.array(K) * 1e3, np.array(GAMMA)), states[0]]
+    states += [check.State(np.array(J), D, np.zeros(3), np.array(GAMMA))]
+    states += [check.State(np.array(J), D, np.array(K), np.array(GAMMA))] * 2
+    ball = chapsym.Ball(np.array([s.J for s in states]), np.array([s.D for s in states]))
+    return ball, np.array([s.K for s in states]), np.array([s.g for s in states])
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+def test_balls_of_a_batch_have_the_bits_of_single_ones(threads):
+    ball, K, gamma = batch()
+    steps = integrals.PERIOD + 100
+    together = chapsym.trajectory(ball, K, gamma, steps, every=4, precision="quad", threads=threads)
+    assert set(together.status) >= {Status.TAKEN, Status.UNREACHABLE}
+    for i in range(len(K)):
+        one = chapsym.Ball(ball.mass_tensor[i], ball.D[i])
+        try:
+            alone = chapsym.trajectory(one, K[i], gamma[i], steps, every=4, precision="quad")
+            end = Status.TAKEN, steps
+        except StepNotTaken as stopped:
+            alone, end = stopped.trajectory, (stopped.status, stopped.index)
+        assert (together.status[i], together.taken[i]) == end
+        for a, b in ((together, alone), (together.low, alone.low)):
+            np.testing.assert_array_equal(a.momentum[i, : len(alone.index)], b.momentum)
+            np.testing.assert_array_equal(a.gamma[i, : len(alone.index)], b.gamma)
+            assert np.isnan(a.gamma[i, len(alone.index) :]).all()
+
+
+def test_a_fold_is_told_as_in_float64():
+    ball, momentum = chapsym.Ball((1, 2, 4), 3), 3.9 * np.array([1, -0.5, 0.75])
+    with pytest.raises(StepNotTaken) as plain:
+        chapsym.trajectory(ball, momentum, GAMMA, 3000)
+    with pytest.raises(StepNotTaken) as stopped:
+        chapsym.trajectory(ball, momentum, GAMMA, 3000, precision="quad")
+    assert (stopped.value.status, stopped.value.index) == (plain.value.status, plain.value.index)
+    frames = stopped.value.trajectory
+    assert len(frames.index) == len(frames.low.gamma) == stopped.value.index + 1
+
+
+@pytest.mark.parametrize("size", [1e-5, 1e-40, 1e-150, 1e-300, 5e-324])
+def test_tiny_momenta(size):
+    """To the last bits that the halves can hold: the low ones are subnormal where 𝒦 is below 1e-290."""
+    momentum = np.array([size, 0.0, -3 * size])
+    start = attitude_with(np.array(GAMMA))
+    run = chapsym.trajectory(BALL, momentum, GAMMA, 3, attitude=start, contact=True, precision="quad")
+    truth = reference(momentum, GAMMA, 3, attitude=start)
+    assert off(last(run, "gamma"), truth[1]) <= 16
+    for name, exact, extent in (("momentum", truth[0], 3 * size), ("contact", truth[3], RADIUS * size)):
+        for x, y in zip(last(run, name), exact, strict=True):
+            assert abs(HIGH.mpf(x.numerator) / x.denominator - y) <= max(32 * U2 * extent, 5e-324)
+    again = chapsym.trajectory(BALL, np.tile(momentum, (5, 1)), GAMMA, 600, every=3, precision="quad")
+    for a, b in ((again, run), (again.low, run.low)):
+        np.testing.assert_array_equal(a.gamma[3, 1], b.gamma[-1])
+        np.testing.assert_array_equal(a.momentum[3, 1], b.momentum[-1])
+
+
+def test_integrals_do_not_walk():
+    """Restored every 1024 steps they stay within what that many steps add up to: one u² each, at random."""
+    steps = 60_000
+    run = chapsym.trajectory(BALL, K, GAMMA, steps, every=steps // 40, precision="quad")
+
+    def values(i):
+        k, g = whole(run.momentum[i], run.low.momentum[i]), whole(run.gamma[i], run.low.gamma[i])
+        return [sum(x * y for x, y in zip(a, b, strict=True)) for a, b in ((k, k), (g, g), (k, g))]
+
+    start = values(0)
+    for i in range(1, len(run.index)):
+        assert all(abs(a / b - 1) <= 120 * U2 for a, b in zip(values(i), start, strict=True))
+
+
+def test_restoring_takes_back_what_is_added():
+    """Off by 1e-26 in γ and k: then it is below a few u²."""
+    state = np.zeros(quad_loop.ROWS)
+    one = np.ones((1, 1))
+    quad_loop.prepare_quad(np.array(K), np.array(GAMMA), np.array(J), D, np.array([[1.0, 0.0]]), state, one[0], one[0])
+    before = state.copy()
+    state[1] += 3e-28
+    state[9] -= 1e-26
+    quad_loop.restore_pairs(state)
+    for pair in ((6, 6), (0, 6), (0, 0)):
+        a, b = (whole(state[i : i + 6 : 2], state[i + 1 : i + 6 : 2]) for i in pair)
+        c, d = (whole(before[i : i + 6 : 2], before[i + 1 : i + 6 : 2]) for i in pair)
+        then, now = (sum(x * y for x, y in zip(v, w, strict=True)) for v, w in ((c, d), (a, b)))
+        assert abs(now - then) <= 8 * U2 * max(abs(float(then)), 1e-3)
+
+
+def test_more_corrections_where_the_first_is_not_small():
+    """Beside a large D float64's root is off by more than 8 roundings, and is corrected afresh."""
+    rng = np.random.default_rng(2)
+    counted = 0
+    for _ in range(20):
+        state = check.STRATA["D = 1e3 to 1e6"](rng)
+        work = np.zeros(quad_loop.ROWS)
+        radius = np.zeros((2, 1))
+        quad_loop.prepare_quad(state.K, state.g, state.J, state.D, np.array([[1.0, 0.0]]), work, *radius)
+        k, g, I = (tuple(float(x) for x in work[i : i + 6]) for i in (0, 6, 12))
+        w = quad_step.approach(0.0, 0.0, 0.0, *k[::2], *g[::2], *I[::2], float(work[quad_loop.D]), *radius[:, 0])[1:4]
+        settled, *we = quad_step.polished(*w, *k, *g, *I, float(work[quad_loop.D]))
+        counted += tuple(we[:3]) != w
+        assert settled
+        assert quad_step.small(*we)
+    assert counted > 0
+
+
+def test_unit_vectors_in_pairs():
+    x = quad_step.unit(0.6, -0.3, 1.7)
+    square = sum((F(a) + F(b)) ** 2 for a, b in zip(x[::2], x[1::2], strict=True))
+    assert abs(square - 1) <= 24 * U2  # a root and a quotient: 2·(25/8 + 15) at most
+    assert pairs.two_sum(x[0], x[1]) == x[:2]
+
+
+def test_no_steps_and_no_balls():
+    run = chapsym.trajectory(BALL, K, GAMMA, 0, attitude=True, precision="quad")
+    assert abs(sum(x * x for x in whole(run.gamma[0], run.low.gamma[0])) - 1) <= 8 * U2
+    empty = chapsym.trajectory(chapsym.Ball(J, D), np.empty((0, 3)), np.empty((0, 3)), 5, precision="quad")
+    assert empty.low.gamma.shape == (0, 6, 3)
