@@ -20,11 +20,36 @@ from numba.extending import register_jitable
 
 import chapsym.generated as generated
 
-from . import block, branch, composed_loop, gibbs, integrals, lanes, long_step, loop, single_loop, single_step, vertical_loop
+from . import (
+    block,
+    branch,
+    composed_loop,
+    gibbs,
+    integrals,
+    lanes,
+    long_step,
+    loop,
+    single_loop,
+    single_step,
+    vertical_loop,
+)
 from .retyped import Family
 
 #: What the compiled code is made of.
-SOURCES = (generated, branch, gibbs, integrals, loop, block, composed_loop, vertical_loop, long_step, lanes, single_loop, single_step)
+SOURCES = (
+    generated,
+    branch,
+    gibbs,
+    integrals,
+    loop,
+    block,
+    composed_loop,
+    vertical_loop,
+    long_step,
+    lanes,
+    single_loop,
+    single_step,
+)
 #: The functions on the way of every step: a call would cost more than they do.
 INLINED = {
     *(generated.gibbs_newton, generated.gibbs_second, generated.turn),
@@ -104,7 +129,7 @@ def compiled(function: Callable[..., Any]) -> Callable[..., Any]:
 
     It is compiled when it is first called.
     """
-    family: Family | None = function.__globals__.get("family")  # type: ignore[attr-defined]
+    family: Family | None = function.__globals__.get("family")
     folder, module = cache_folder() / (family.name if family else ""), function.__module__.rpartition(".")[2]
     if not any(folder.glob(f"*/{module}.{function.__name__}-*.nbi")):
         _announce()
