@@ -78,7 +78,7 @@ def _one(request: Request, method: Method, law: Law, prices: Prices, least: int)
         return None
     coarse = multiple(request, max(request.time / step, least))
     steps = finer(request, method, coarse)
-    if request.floor(method.rung, steps * method.stages, method.summed) > ROUNDING * request.accuracy:
+    if request.floor(method.rung, steps * method.walked, method.summed) > ROUNDING * request.accuracy:
         return None
     cost = 0.0
     for n in (coarse, steps):

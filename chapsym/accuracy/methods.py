@@ -1,6 +1,7 @@
 """The ways to take a ball to the end: a rung of the precision ladder and an order, each by one call of dynamics."""
 
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
@@ -15,7 +16,7 @@ from chapsym.dynamics import (
     substeps,
     trajectory,
 )
-from chapsym.numbers import NAMED, Digits, Rung
+from chapsym.numbers import NAMED, Digits, Double, Rung, Single
 
 from .request import Request
 
@@ -39,8 +40,13 @@ class Method:
 
     @property
     def summed(self) -> bool:
-        """Whether 𝒦 and γ are summed with compensation, or carried with digits to spare."""
-        return self.order != EXTRAPOLATED and self.label != "single"
+        """Whether 𝒦 and γ are summed with compensation, as float64's are in a composition."""
+        return self.order != EXTRAPOLATED and isinstance(self.rung, Double)
+
+    @property
+    def walked(self) -> int:
+        """How many roundings of 𝒦, γ and the attitude a step adds."""
+        return 1 if self.order == EXTRAPOLATED else self.stages
 
     @property
     def stages(self) -> int:
@@ -89,8 +95,11 @@ def take(request: Request, method: Method, steps: int, frames: int, time: float 
         top = exact_top(ball, step * K, g)
         run = trajectory(top.ball, top.momentum, g, steps, every=every, attitude=body, time_step=step)
         return top.restore(run)
+    momentum: Any = step * K
+    if not isinstance(method.rung, Double | Single):  # T/n and its product with K, of which float64 has but 53 bits
+        momentum = [Fraction(end) / steps * Fraction(float(x)) for x in K]
     return trajectory(
-        ball, step * K, g, steps, order=method.order, every=every, attitude=body, contact=request.of == "contact",
+        ball, momentum, g, steps, order=method.order, every=every, attitude=body, contact=request.of == "contact",
         time_step=step, precision=method.rung,
     )  # fmt: skip
 

@@ -76,7 +76,7 @@ def _priced(rung: Rung) -> str:
 
 def rungs() -> list[Rung]:
     """The rungs that are priced, from the cheapest."""
-    return [NAMED["double"]]
+    return list(NAMED.values())
 
 
 def sample(of: str, time: float) -> Request:

@@ -20,8 +20,9 @@ NORMS = ("state", "contact")
 CHECKS = 16
 #: The coefficients of the compositions have 40 digits, and the times of a run are as exact as they.
 FINEST = 1e-30
-#: The unit roundoff of the rungs that have no parameter; that of double-double is a few units of its last place.
-ROUNDINGS = {"Single": 2.0**-24, "Double": 2.0**-53, "Quad": 2.0**-104}
+#: The unit roundoff of the rungs: that of double-double is a few units of its last place, and the momentum of mpmath's
+#: runs starts with 106 bits.
+ROUNDINGS = {"Single": 2.0**-24, "Double": 2.0**-53, "Quad": 2.0**-103, "Digits": 2.0**-106}
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,19 +110,19 @@ def _positive(value: Any, name: str) -> float:
 
 def rounding(rung: Rung) -> float:
     """The unit roundoff of a rung."""
-    return 10.0**-rung.carried if isinstance(rung, Digits) else ROUNDINGS[type(rung).__name__]
+    return ROUNDINGS["Digits" if isinstance(rung, Digits) else type(rung).__name__]
 
 
 def distance(request: Request, run: Trajectory, other: Trajectory) -> Floats:
     """How far apart two runs are in the request's norm, at each of their common frames but the first, (frames,)."""
     if request.of == "contact":
-        return _lengths(_difference(run, other, "contact"))
+        return _lengths(_difference(request, run, other, "contact"))
     size = float(np.sqrt((request.angular_momentum**2).sum())) or 1.0
-    return np.maximum(_lengths(_difference(run, other, "momentum")) / size, _lengths(_difference(run, other, "gamma")))
+    return np.maximum(_lengths(_difference(request, run, other, "momentum")) / size, _lengths(_difference(request, run, other, "gamma")))
 
 
-def _difference(run: Trajectory, other: Trajectory, name: str) -> Floats:
-    a, b = exact_values(run, name), exact_values(other, name)
+def _difference(request: Request, run: Trajectory, other: Trajectory, name: str) -> Floats:
+    a, b = exact_values(request, run, name), exact_values(request, other, name)
     return (a - b).astype(float)[1:]
 
 
@@ -129,17 +130,15 @@ def _lengths(v: Floats) -> Floats:
     return np.sqrt((v * v).sum(axis=-1))
 
 
-def exact_values(run: Trajectory, name: str) -> np.ndarray:
+def exact_values(request: Request, run: Trajectory, name: str) -> np.ndarray:
     """`contact`, `gamma`, or `momentum` divided by the time step: floats, or Fractions where a float would not do."""
     high, low = getattr(run, name), run.low and getattr(run.low, name)
-    step = run.time_step if name == "momentum" else 1.0
     if low is None and high.dtype != object:
-        return high.astype(float) / step
-    exact = Fraction(step)  # type: ignore[arg-type]
+        return np.asarray(high.astype(float) / (run.time_step if name == "momentum" else 1.0))
     whole = np.vectorize(_fraction, otypes=[object])(high)
     if low is not None:
         whole = whole + np.vectorize(_fraction, otypes=[object])(low)
-    return np.asarray(whole / exact)
+    return np.asarray(whole * (int(run.index[-1]) / Fraction(request.time)) if name == "momentum" else whole)
 
 
 def _fraction(value: Any) -> Fraction:

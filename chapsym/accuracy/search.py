@@ -118,7 +118,7 @@ class Search:
             self.least[method] = choice.steps
             return None
         apart = float(distance(request, run, coarse).max())
-        floor = request.floor(method.rung, choice.steps * method.stages, method.summed)
+        floor = request.floor(method.rung, choice.steps * method.walked, method.summed)
         self.attempts.append(Attempt(choice, apart + floor, clock.thread_time() - started))
         if apart + floor <= request.accuracy:
             return run

@@ -81,10 +81,10 @@ def true_error(request: Request, run: Trajectory, exact: np.ndarray) -> float:
     """The error of a run in the request's norm, at the worst time of comparison that is a frame of the run."""
     exact = exact[:: request.checks // (len(run.index) - 1)]
     if request.of == "contact":
-        return float(_lengths(exact_values(run, "contact") - exact[:, 6:]).max())
+        return float(_lengths(exact_values(request, run, "contact") - exact[:, 6:]).max())
     size = float(np.sqrt((request.angular_momentum**2).sum()))
-    momentum = _lengths(exact_values(run, "momentum") - exact[:, :3]) / size
-    return float(max(momentum.max(), _lengths(exact_values(run, "gamma") - exact[:, 3:6]).max()))
+    momentum = _lengths(exact_values(request, run, "momentum") - exact[:, :3]) / size
+    return float(max(momentum.max(), _lengths(exact_values(request, run, "gamma") - exact[:, 3:6]).max()))
 
 
 def _lengths(v: np.ndarray) -> Floats:
