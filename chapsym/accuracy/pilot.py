@@ -7,6 +7,7 @@ shortest step that rounding leaves alone; between the measured steps it is taken
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -77,7 +78,7 @@ def surveyed(request: Request) -> Request:
 
     Raises StepNotTaken if no step can be taken, and BadInput if the ball has no angular velocity.
     """
-    at_start = _rates(request, request.angular_momentum, request.gamma)[0]
+    at_start = _lengths(_omega(request, request.angular_momentum, request.gamma))
     if at_start == 0.0:
         return replace(request, condition=1.0)
     window, length = min(request.time, ANGLE / at_start), 0.2
@@ -89,19 +90,25 @@ def surveyed(request: Request) -> Request:
             length /= 2
             if length < SHORTEST:
                 raise
-    rates = _rates(request, run.angular_momentum(), run.gamma)
+    omega = _omega(request, run.angular_momentum(), run.gamma)
+    rates, rolling = _lengths(omega), _lengths(np.cross(omega, run.gamma))
     tensor, contact, g = request.ball.inertia, float(request.ball.D), run.gamma[:, :, np.newaxis]
     values = np.linalg.eigvalsh(np.diag(tensor + contact) - contact * g * g.mT)
     condition = float((values[:, -1] / np.maximum(values[:, 0], 1e-300)).max())
-    return replace(request, rate=float(rates.max()), speed=float(rates.mean()), condition=condition)
+    return replace(
+        request, rate=float(rates.max()), speed=float(rates.mean()), rolling=float(rolling.mean()), condition=condition
+    )
 
 
-def _rates(request: Request, K: Floats, gamma: Floats) -> Floats:
+def _omega(request: Request, K: Floats, gamma: Floats) -> Floats:
     omega = front.angular_velocity(K, gamma, request.ball.mass_tensor, request.ball.D)
-    rates = np.sqrt((omega * omega).sum(axis=-1)).reshape(-1)
-    if not np.isfinite(rates).all():
+    if not np.isfinite(omega).all():
         raise BadInput("the ball has no angular velocity at this gamma: no inertia about the vertical")
-    return np.asarray(rates)
+    return omega
+
+
+def _lengths(v: Floats) -> Any:
+    return np.sqrt((v * v).sum(axis=-1))
 
 
 def pilot(request: Request, orders: Iterable[int]) -> dict[int, Law]:

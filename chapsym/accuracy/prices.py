@@ -83,7 +83,7 @@ def sample(of: str, time: float) -> Request:
     """The ball of docs/first.toml, by which prices are taken."""
     ball = Ball.from_inertia((0.006, 0.007, 0.009), mass=2.0, radius=0.1)
     K, g = np.array([0.0446, -0.0346, 0.0313]), np.array([2.0, 3.0, 6.0]) / 7
-    return Request(ball, K, g, time, 1e-6, of, rate=3.742, speed=3.742, condition=3.0)
+    return Request(ball, K, g, time, 1e-6, of, rate=3.742, speed=3.742, rolling=2.0, condition=3.0)
 
 
 def calibrate(progress: Callable[[str], None] = lambda text: None) -> Prices:

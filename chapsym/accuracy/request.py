@@ -31,7 +31,8 @@ class Request:
 
     of: "state", the larger of |ΔK|/|K| and |Δγ|; or "contact", the distance in metres.
     frames: how many equal times, the last of them the end.  attitude: True, or a unit quaternion to be followed.
-    rate, speed: the largest and the mean |ω| in rad/s; condition: of Λ - Dγγᵀ.  `surveyed` finds them.
+    rate, speed, rolling: the largest and the mean |ω|, and the mean |ω × γ|, in rad/s; condition: of Λ - Dγγᵀ.
+    `surveyed` finds them.
     """
 
     ball: Ball
@@ -44,6 +45,7 @@ class Request:
     attitude: Any = False
     rate: float = 0.0
     speed: float = 0.0
+    rolling: float = 0.0
     condition: float = 0.0
 
     def __post_init__(self) -> None:
@@ -97,7 +99,7 @@ class Request:
         summed: whether 𝒦 and γ are summed with compensation; the attitude never is.  What is not walks at random.
         """
         turned = 0.0 if summed else self.condition * (1 + self.angle) * self.unit
-        rolled = 2 * (1 + self.angle) * self.unit if self.of == "contact" else 0.0
+        rolled = 2 * (1 + self.rolling * self.time) * self.unit if self.of == "contact" else 0.0
         return self.shared(rung) + rounding(rung) * math.sqrt(stages) * max(turned, rolled)
 
 
