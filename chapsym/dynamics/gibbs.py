@@ -125,7 +125,7 @@ def search(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, radius, enough, he
 
 
 def search_safely(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, radius, enough):
-    """`search` by the certificate, and for a heavy ball by `bound`; nothing where neither reaches, or would underflow."""
+    """`search` by the certificate, and for a heavy ball by `bound`; nothing where it does not reach, or underflows."""
     heavy = is_heavy(I1, I2, I3, D)
     if heavy and min(I1, I2, I3) >= SMALLEST and max(abs(k1), abs(k2), abs(k3)) >= SMALLEST:
         radius, enough = bound(k1, k2, k3, I1, I2, I3, D)

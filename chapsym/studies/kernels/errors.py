@@ -1,8 +1,9 @@
 """Errors of a kernel in ulps against 60 digits, and what a rounding of its arguments alone would do.
 
 An ulp is 2^-52 of the largest component of the exact output; of 𝒦, or of the level, where the kernel is a residual;
-and ⟨𝒦,γ⟩ is measured on the scale of 𝒦, whose own rounding moves it by as much.  The condition number κ is Σⱼ |∂f/∂xⱼ||xⱼ| in the largest component, relative to that size: rounding every argument by half
-an ulp moves the output by up to κ/2 ulps, so an error of a few κ is as good as one can ask.
+and ⟨𝒦,γ⟩ is measured on the scale of 𝒦, whose own rounding moves it by as much.  The condition number κ is
+Σⱼ |∂f/∂xⱼ||xⱼ| in the largest component, relative to that size: rounding every argument by half an ulp moves the output
+by up to κ/2 ulps, so an error of a few κ is as good as one can ask.
 """
 
 from collections.abc import Callable, Sequence
