@@ -135,10 +135,27 @@ def normalised(g):
     return [x / size for x in g]
 
 
+def quadratic(a, d):
+    """d × Id - |d|²k."""
+    return hat(d) * MP.diag(list(a["inertia"])) * d - (d.T * d)[0] * column(a["half_momentum"])
+
+
+def mixed(a):
+    d, e = column(a["correction"]), column(a["next_correction"])
+    C = matrix([a["cofactors"][i : i + 3] for i in (0, 3, 6)])
+    return list(C.T * (quadratic(a, d + e) - quadratic(a, d) - quadratic(a, e)))
+
+
+def gibbs_residual(a):
+    u, k, (D,) = column(a["gibbs"]), column(a["half_momentum"]), a["D"]
+    I = a["inertia"]
+    J = [sum(I) / 2 - x for x in I]
+    return list(rolled(J, D, a["gamma"]) * u + hat(u) * MP.diag(list(I)) * u - (1 + (u.T * u)[0]) * k)
+
+
 def second(a):
     d, C = column(a["correction"]), matrix([a["cofactors"][i : i + 3] for i in (0, 3, 6)])
-    left = hat(d) * MP.diag(list(a["inertia"])) * d - (d.T * d)[0] * column(a["half_momentum"])
-    return list(C.T * left)
+    return list(C.T * quadratic(a, d))
 
 
 def body(a):
@@ -179,6 +196,8 @@ INDEPENDENT = {
     "gibbs_newton": newton,
     "gibbs_newton_heavy": newton,
     "gibbs_second": second,
+    "gibbs_mixed": mixed,
+    "gibbs_residual": gibbs_residual,
     "turn": lambda a: list((turn(a["quaternion"]).T - MP.eye(3)) * column(a["vector"])),
     "vertical_square": lambda a: [dot([x * x for x in a["gamma"]], [math.prod(a["Lambda"]) / m for m in a["Lambda"]])],
     "vertical_level": level,

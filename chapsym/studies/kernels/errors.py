@@ -43,6 +43,7 @@ VIEWS: dict[str, dict[str, View]] = {
     "momentum": {"𝒦": _all, "⟨𝒦,γ⟩": _vertical},
     "contact_momentum": {"K": _all, "⟨K,γ⟩": _vertical},
     "residual": {"r": _all, "⟨r,γ⟩": _vertical},
+    "gibbs_residual": {"r": _all, "⟨r,γ⟩": _vertical},
     "invariants": {"h": _part(0, 1), "n": _part(1, 2), "unit": _part(2, 3)},
     "gibbs_newton": {"det": _part(0, 1), "N": _part(1, 4), "C": _part(4, 13)},
     "vertical_level": {"f": _part(0, 1), "fv": _part(1, 2)},
@@ -59,6 +60,8 @@ def _size(kernel: str, view: str, groups: dict[str, Sequence[Any]], output: Sequ
     if kernel == "residual":
         rolled = momentum(*groups["rotation"], *groups["gamma"], *groups["mass_tensor"], *groups["D"])
         return max(map(abs, rolled))
+    if kernel == "gibbs_residual":
+        return max(map(abs, groups["half_momentum"])) * (1 + sum(x * x for x in groups["gibbs"]))
     if VIEWS.get(kernel, {}).get(view) is _vertical:
         return max(map(abs, output))
     if view == "f":

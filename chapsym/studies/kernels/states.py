@@ -178,6 +178,7 @@ def _group(name: str, world: World, u: Sequence[float]) -> Any:
         "gibbs": lambda: _gibbs(world),
         "half_momentum": lambda: _momentum(world) / 2,
         "correction": lambda: 1e-3 * np.abs(_gibbs(world)).max() * world.tilt,
+        "next_correction": lambda: 1e-6 * np.abs(_gibbs(world)).max() * world.axis[[1, 2, 0]],
         "quaternion": lambda: (0.5 + u[12]) * world.rotation,
         "inertia": lambda: inertia,
         "Lambda": lambda: inertia + world.D,
