@@ -28,7 +28,7 @@ WORK_ROWS = 22
 
 
 def approached(S, P, ok, again):
-    """One Newton iterate in float64 for every lane, from the guess or `again` from itself; returns how many want another."""
+    """A Newton iterate in float64 for every lane, from the guess or `again` from itself; how many want another."""
     bad = 0
     for i in range(LANES):
         radius = S[RADIUS, i]
