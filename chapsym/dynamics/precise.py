@@ -10,7 +10,7 @@ import flint
 
 import chapsym.generated as generated
 from chapsym.numbers import Ball as ArbBall
-from chapsym.numbers import Double, Rung
+from chapsym.numbers import Double, Quad, Rung
 
 from .ball import Ball, Floats
 from .branch import inverse, inverse_of
@@ -54,17 +54,19 @@ def precise_step(
 ) -> PreciseStep:
     """One step of one ball from exact rational input (5.3), on the small-rotation branch.
 
-    Double: as `step`.  Digits(n): Newton in mpmath from the float64 root.  Ball(bits): Arb enclosures,
-    the root proved to exist and to be unique near the float64 root by the interval Newton test.
+    Double: as `step`.  Quad: Newton in double-double from the float64 root.  Digits(n): the same in mpmath.
+    Ball(bits): Arb enclosures, the root proved to exist and to be unique near the float64 root by the interval
+    Newton test.
     The branch is the one that the float64 continuation finds.
 
     Raises BadInput, and StepNotTaken as `step` does.
     """
     unit_exactly(gamma, rung)
     numbers = in_float64(mass_tensor, (D,), momentum, gamma)
-    if isinstance(rung, Double) and any(x != 0 and float(x) == 0.0 for x in momentum):
+    if any(0 < abs(x) <= rung.smallest for x in momentum):
+        told = "double-double numbers" if isinstance(rung, Quad) else "float64"
         raise BadInput(
-            "a component of the momentum is below the range of float64; ask for more with --digits or --ball"
+            f"a component of the momentum is below the range of {told}; ask for more with --digits or --ball"
         )
     J, K, g = numbers[:3], numbers[4:7], numbers[7:]
     start = step(Ball(J, numbers[3]), K, g)  # type: ignore[arg-type]
@@ -133,7 +135,7 @@ def _refined(rung: Rung, q: tuple, K: tuple, g: tuple, J: tuple, D: tuple) -> tu
     Newton squares the correction, up to the digits that the conditioning costs, which the guard covers.
     """
     q = normalised(rung, q)
-    settled = rung.number(Fraction(1, 10 ** (rung.carried // 2 - 2)))
+    settled = rung.number(rung.settled)
     for _ in range(MOST_REFINEMENTS):
         w = _correction(q, K, g, J, D)
         change = max(abs(x) for x in w)

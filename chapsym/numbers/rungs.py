@@ -48,6 +48,16 @@ class Rung(ABC):
         """Significant decimal digits of the arithmetic."""
         return self.digits
 
+    @property
+    def settled(self) -> Fraction:
+        """The relative correction after which Newton's iteration is done: its square is below the digits asked for."""
+        return Fraction(1, 10 ** (self.carried // 2 - 2))
+
+    @property
+    def smallest(self) -> Fraction:
+        """Numbers that are not 0 must be larger, or underflow takes digits from what is computed with them."""
+        return Fraction(0)
+
     def guarded(self, digits: int) -> "Rung":
         """The same rung with as many guard digits more, where it has any."""
         return self
@@ -93,6 +103,11 @@ class Double(Rung):
     def digits(self) -> int:
         return 12
 
+    @property
+    def smallest(self) -> Fraction:
+        """What rounds to 0."""
+        return Fraction(1, 2**1075)
+
 
 @dataclass(frozen=True)
 class Quad(Rung):
@@ -115,6 +130,16 @@ class Quad(Rung):
     def carried(self) -> int:
         """106 bits."""
         return 31
+
+    @property
+    def settled(self) -> Fraction:
+        """2^-53, whose square is the roundoff: there are no guard digits."""
+        return Fraction(1, 2**53)
+
+    @property
+    def smallest(self) -> Fraction:
+        """2^-900: the error of a product of two more is still a float64."""
+        return Fraction(1, 2**900)
 
 
 @dataclass(frozen=True)
