@@ -73,7 +73,7 @@ class Loops:
     columns: Any = columns
     step: Any = loop
     number: Callable[[Any], Any] = float
-    dtype: type = np.float64
+    dtype: Any = np.float64
     #: How many numbers carry the attitude and the contact point from step to step.
     attitude: int = 4
     contact: int = 2
@@ -195,7 +195,7 @@ def _run_one(
         if count.stopped:
             return
         if frames.status[i] != Status.TAKEN:
-            frames.status[i] = _explained(frames.status[i], scale * state[0][:3], state[0][3:6], J, D)
+            frames.status[i] = explained(frames.status[i], scale * state[0][:3], state[0][3:6], J, D)
             return
 
 
@@ -214,7 +214,7 @@ def _under_way(
     return march, [state, stages, *bounds, past], loops.number(scale)
 
 
-def _explained(status: int, K: Floats, g: Floats, J: Floats, D: float) -> Status:
+def explained(status: int, K: Floats, g: Floats, J: Floats, D: float) -> Status:
     """`explain` of a state of any floats."""
     return explain(status, K.astype(np.float64), g.astype(np.float64), J.astype(np.float64), float(D))
 
@@ -238,4 +238,4 @@ def _run_block(balls: Balls, which: slice, steps: int, every: int, frames: Frame
     for lane in map(int, np.flatnonzero(status)):
         i = which.start + lane
         K, g = scale[lane] * state[:3, lane], state[3:6, lane]
-        status[lane] = _explained(status[lane], K, g, balls.mass_tensor[i], balls.D[i])
+        status[lane] = explained(status[lane], K, g, balls.mass_tensor[i], balls.D[i])

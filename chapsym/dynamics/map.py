@@ -13,6 +13,8 @@ from .errors import BadInput, Status, StepNotTaken
 
 #: How far |γ|² may be from 1: more than the rounding of 10⁶ steps, so that a run may go on from its end.
 UNIT_TOLERANCE = 1e-12
+#: The same for what is given in float32: it is divided by its length.
+SINGLE_TOLERANCE = 1e-6
 #: Batches up to this size step in plain Python: compiling would take longer.
 SMALL_BATCH = 64
 
@@ -34,10 +36,17 @@ class Step:
     reach: Floats
 
 
+def in_single(value: ArrayLike) -> bool:
+    """Whether an array is of float32, in any byte order."""
+    return np.asarray(value).dtype.newbyteorder("=") == np.float32
+
+
 def unit_vertical(gamma: ArrayLike, tolerance: float = UNIT_TOLERANCE) -> Floats:
-    """γ as checked unit vectors, shape (..., 3)."""
+    """γ as checked unit vectors, shape (..., 3); a float32 array, which cannot be so near to unit, as divided."""
     array = numbers(gamma, "gamma", 3)
     squared = (array * array).sum(axis=-1)
+    if in_single(gamma) and (np.abs(squared - 1) <= SINGLE_TOLERANCE).all():
+        return array / np.sqrt(squared)[..., np.newaxis]
     off = np.abs(squared - 1)
     if array.size and (off > tolerance).any():
         worst = np.sqrt(squared.flat[int(off.argmax())])

@@ -18,7 +18,7 @@ class _Literals(ast.NodeTransformer):
     """Replaces literals of some types by names, and remembers which name stands for which number."""
 
     def __init__(self, types: tuple[type, ...]) -> None:
-        self.types, self.values = types, dict[str, float]()
+        self.types, self.values = types, dict[str, Any]()
 
     def visit_Constant(self, node: ast.Constant) -> ast.AST:
         if type(node.value) not in self.types:

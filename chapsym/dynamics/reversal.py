@@ -61,7 +61,7 @@ def reverse(run: Trajectory) -> Trajectory:
     if np.isnan(run.momentum).any():
         raise BadInput("a ball of the batch stopped early; choose the frames up to `taken` first")
     options: dict[str, Any] = {"every": every, "contact": run.contact is not None, "time_step": run.time_step}
-    options["order"] = run.order
+    options["order"], options["precision"] = run.order, run.precision
     options["attitude"] = False if run.attitude is None else run.attitude[..., -1, :]
     back = trajectory(run.ball, -run.momentum[..., -1, :], run.gamma[..., -1, :], steps, **options)
     if run.contact is not None and back.contact is not None:

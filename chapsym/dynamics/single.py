@@ -7,6 +7,7 @@ continuation of a step that is beyond the bound of lemma `small-branch`, rounded
 
 from collections.abc import Callable
 from functools import cache
+from typing import Any
 
 import numpy as np
 
@@ -17,16 +18,13 @@ from . import block, columns, composed_loop, engine, gibbs, integrals, loop, sin
 from .ball import Floats
 from .engine import Balls, Frames, Loops
 from .errors import BadInput
-from .map import SMALL_BATCH, explain
+from .map import SMALL_BATCH
 from .retyped import Family
 
 #: float32 has numbers from 2^-126 to 2^128; the scaled ones of a step need a little room.
 RANGE = 2.0**-120, 2.0**120
 #: A momentum below this, for Λmax = 1, turns the ball by less than the compensated sums of 𝒦 and γ can hold.
 SLOWEST = 2.0**-48
-#: As `map.UNIT_TOLERANCE`: a γ or an attitude that is given in float32 is a unit vector up to this.
-UNIT_TOLERANCE = 1e-6
-
 
 @cache
 def loops() -> Loops:
@@ -55,8 +53,10 @@ def run(
 ) -> None:
     """`engine.run` in float32, from the float64 state in `balls`: rounded, γ and the attitude divided by their length.
 
-    The contact point is summed in units of the radius.  Raises BadInput for momenta, moments of inertia or a
-    path beyond the range of float32, and for a momentum that is so small that a float32 ball would stand still.
+    The contact point is summed in units of the radius.  A ball that turns by less than 2^-36 or so a step, where its
+    checks would underflow, is as right, but takes each step by the continuation.  Raises BadInput for momenta,
+    moments of inertia or a path beyond the range of float32, and for a momentum so small that the ball would stand
+    still.
     """
     in_single = rounded(balls)
     slow = balls.momentum.any(axis=1) & (np.abs(balls.momentum).max(axis=1) < SLOWEST * _largest_moment(balls))
@@ -84,7 +84,8 @@ def rounded(balls: Balls) -> Balls:
                 'take other units, or precision="double"'
             )
     K, J, D = (x.astype(np.float32) for x in (balls.momentum, balls.mass_tensor, balls.D))
-    return Balls(K, unit(balls.gamma), J, D, np.ones(len(D), np.float32))
+    parts: tuple[Any, ...] = (K, unit(balls.gamma), J, D, np.ones(len(D), np.float32))
+    return Balls(*parts)
 
 
 def unit(vectors: Floats) -> np.ndarray:
@@ -127,6 +128,6 @@ def step_all(K: Floats, g: Floats, J: Floats, D: Floats) -> tuple[np.ndarray, ..
     with np.errstate(under="ignore"):
         take(moved, vertical, tensor, contact, q, status, reach)
     for i in np.flatnonzero(status):
-        status[i] = explain(status[i], *(x[i].astype(np.float64) for x in (moved, vertical, tensor)), float(contact[i]))
+        status[i] = engine.explained(status[i], moved[i], vertical[i], tensor[i], contact[i])
     moved[status != 0], vertical[status != 0] = np.nan, np.nan
     return q, moved, vertical, status, reach

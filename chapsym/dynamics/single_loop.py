@@ -22,9 +22,14 @@ def checkable(k1, k2, k3, I1, I2, I3, D):
 
 
 def widened(K1, K2, K3, g1, g2, g3, J1, J2, J3, D):
-    """`branch.small_rotation` in float64, rounded: near a fold float32 could not tell a branch from the next."""
+    """`branch.small_rotation` in float64, γ divided by its length, rounded.
+
+    Near a fold float32 could not tell a branch from the next, nor the length of γ how far the fold is.
+    """
+    x, y, z = float64(g1), float64(g2), float64(g3)
+    length = sqrt(x * x + (y * y + z * z))
     status, reach, q0, q1, q2, q3 = small_rotation(
-        float64(K1), float64(K2), float64(K3), float64(g1), float64(g2), float64(g3),
+        float64(K1), float64(K2), float64(K3), x / length, y / length, z / length,
         float64(J1), float64(J2), float64(J3), float64(D),
     )  # fmt: skip
     return status, float32(reach), float32(q0), float32(q1), float32(q2), float32(q3)

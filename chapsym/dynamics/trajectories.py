@@ -13,12 +13,14 @@ from . import front, ladder
 from .ball import Ball, Floats, numbers
 from .engine import Balls, Frames
 from .errors import BadInput, Status, StepNotTaken
-from .map import UNIT_TOLERANCE, batch, unit_vertical
+from .map import SINGLE_TOLERANCE, UNIT_TOLERANCE, batch, in_single, unit_vertical
 
 #: Whoever asks for more steps than this, or for every so many, will not see the end of it.
 MOST_STEPS = 2**62
 #: How far R γ may be from e₃ for an attitude that is given with its γ.
 AGREEMENT = 1e-9
+#: The same for an attitude that is given in float32, up to 10⁶ steps of it.
+SINGLE_AGREEMENT = 1e-4
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,12 +117,14 @@ def initial_attitude(attitude: bool | ArrayLike, gamma: Floats) -> Floats:
     except ValueError:
         told = f"attitude has the leading axes {given.shape[:-1]}, the states have {gamma.shape[:-1]}"
         raise BadInput(told) from None
-    if (np.abs((given * given).sum(axis=-1) - 1) > UNIT_TOLERANCE).any():
+    single = in_single(attitude)
+    squared = (given * given).sum(axis=-1)
+    if (np.abs(squared - 1) > (SINGLE_TOLERANCE if single else UNIT_TOLERANCE)).any():
         raise BadInput("attitude must be unit quaternions (scalar first); divide by the length")
     vertical = front.rotate(given, gamma)
-    if (np.abs(vertical - [0.0, 0.0, 1.0]) > AGREEMENT).any():
+    if (np.abs(vertical - [0.0, 0.0, 1.0]) > (SINGLE_AGREEMENT if single else AGREEMENT)).any():
         raise BadInput("attitude and gamma disagree: the attitude must turn gamma to (0, 0, 1)")
-    return given
+    return given / np.sqrt(squared)[..., np.newaxis] if single else given
 
 
 def trajectory(
@@ -147,7 +151,8 @@ def trajectory(
     attitude: True (from the least rotation with R γ = e₃) or unit quaternions, (..., 4), to be followed.
     contact: whether to trace the contact point; it needs `ball.radius`, and implies the attitude.
     precision: "single", "double", "quad" (31 digits), `Digits(n)` (mpmath) or `Ball(bits)` (Arb, rigorous).  The floats
-    that are given are taken as exact on every rung, but γ (and an attitude) is divided by its length there.
+    that are given are taken as exact on every rung, but γ (and an attitude) is divided by its length there; "single"
+    rounds all to float32.
     threads: how many cores a batch may use; 0 for all.
     progress: called with the steps done so far (of all balls together), every 200 000 steps or so.
 
@@ -167,7 +172,8 @@ def trajectory(
     balls, frames = len(D), steps // every + 1
     body_frames = frames if with_body else 0
     frame = ladder.frames_for(rung, balls, frames, body_frames)
-    frame.momentum[:, 0], frame.gamma[:, 0] = K, g
+    with np.errstate(over="ignore"):  # a rung of a smaller range refuses what it cannot hold
+        frame.momentum[:, 0], frame.gamma[:, 0] = K, g
     if with_body:
         first = np.broadcast_to(initial_attitude(attitude, g.reshape(*shape, 3)), (*shape, 4))
         frame.attitude[:, 0], frame.contact[:, 0] = first.reshape(-1, 4), 0.0

@@ -1,0 +1,307 @@
+"""The float32 rung: float32 throughout, within the promise of the check, no drift, and batches are their balls."""
+
+import re
+import warnings
+from collections import Counter
+
+import numpy as np
+import pytest
+
+import chapsym
+from chapsym import BadInput, Ball, Status, StepNotTaken
+from chapsym.dynamics import engine, front, single
+from chapsym.dynamics.oracle import Oracle
+from chapsym.studies import check
+
+ULP = 2.0**-23
+BALL, K, G = Ball((0.1, 0.5, 1.6), 0.7, radius=0.1), (0.03, -0.02, 0.035), (2 / 7, 3 / 7, 6 / 7)
+#: The strata of the check that float32 can hold.
+STRATA = [name for name in check.STRATA if not name.startswith("tiny")]
+
+
+def rounded(ball, momentum, gamma):
+    """The same ball and state after their rounding to float32, as float64."""
+    J, D, k = (np.asarray(x, np.float32).astype(float) for x in (ball.mass_tensor, ball.D, momentum))
+    g = single.unit(np.asarray(gamma, float)).astype(float)
+    return Ball(J, D, ball.radius), k, g / np.linalg.norm(g, axis=-1, keepdims=True)
+
+
+def step(state):
+    parts = (state.K, state.g, state.J, state.D)
+    return [x[0] for x in single.step_all(*(np.asarray(x, float)[np.newaxis] for x in parts))]
+
+
+@pytest.mark.parametrize("stratum", STRATA)
+def test_a_step_keeps_the_promise_of_the_check(stratum):
+    """The state is rounded first; the oracle then steps from float32's own numbers."""
+    rng = np.random.default_rng(32)
+    for _ in range(8):
+        state = check.STRATA[stratum](rng)
+        J, D, k, g = (np.asarray(x, np.float32).astype(float) for x in (state.J, state.D, state.K, state.g))
+        g = single.unit(g).astype(float)
+        q, after, vertical, status, _ = step(check.State(J, D, k, g))
+        wide = chapsym.step(Ball(J[np.newaxis], D), k, g / np.linalg.norm(g))
+        assert status == wide.status[0]
+        if status:  # the rounding took the state over the fold
+            assert "before the fold" in stratum
+            continue
+        truth = Oracle([*J], float(D), [*(g / np.linalg.norm(g))], 34).step([*k])
+        size, extent = np.abs(k).max(), np.abs(q[1:].astype(float)).max()
+        jacobian = front.tangent_jacobian(q.astype(float) / np.linalg.norm(q.astype(float)), g, J, D)
+        top = (J.sum() - J).max() + D
+        kappa = np.linalg.norm(np.linalg.inv(jacobian), 2) * (size / extent + 2 * top)
+
+        def ulps(values, exact, scale):
+            return max(abs(float(e) - float(v)) / scale for v, e in zip(values, exact, strict=True)) / ULP
+
+        assert ulps(q[1:], truth.q, extent) <= check.BUDGET * kappa
+        assert ulps(after, truth.momentum, size) <= check.BUDGET * (1 + extent * kappa)
+        assert ulps(vertical, truth.gamma, 1.0) <= check.BUDGET * (1 + extent * kappa)
+
+
+@pytest.mark.parametrize("size", [1e-3, 1e-7, 1e-11, 1e-20, 1e-29])
+def test_a_slow_step_has_all_its_digits(size):
+    state = check.State(BALL.mass_tensor, 0.7, np.array(K) * size, np.array(G))
+    ball, k, g = rounded(BALL, state.K, G)
+    q, _, _, status, _ = step(state)
+    exact = chapsym.step(ball, k, g).rotation
+    assert status == 0
+    assert np.abs(q[1:] / exact[1:] - 1).max() <= 4 * ULP
+
+
+def test_all_arrays_are_float32():
+    run = chapsym.trajectory(BALL, K, G, 10, contact=True, precision="single")
+    assert {x.dtype for x in (run.momentum, run.gamma, run.attitude, run.contact)} == {np.dtype(np.float32)}
+    q, k, g, _, _ = single.step_all(*(np.array([x]) for x in (K, G, BALL.mass_tensor)), np.array([0.7]))
+    assert {x.dtype for x in (q, k, g)} == {np.dtype(np.float32)}
+    assert (k[0] == run.momentum[1]).all()
+    assert (g[0] == run.gamma[1]).all()
+
+
+def arithmetic(march, *arguments):
+    """The operations of a compiled loop and of what it calls in the loops, by their types; and the modules seen."""
+    import numba
+
+    from chapsym.dynamics.compiled import compiled
+
+    compiled(march)  # so that what it calls is known
+    function = numba.njit(error_model="numpy", nogil=True)(march)
+    function(*arguments)
+    text = function.inspect_llvm(function.signatures[0])
+    loops = r"define [^@]*@_ZN7chapsym8dynamics(?!11single_loop7widened)(5gibbs|9integrals|4loop|5block|11single_loop)"
+    bodies = [x for x in re.findall(r"^define .*?^}", text, re.S | re.M) if re.match(loops, x)]
+    kinds = Counter(kind for x in bodies for kind in re.findall(r"\bf(?:add|sub|mul|div) (<\d+ x \w+>|\w+)", x))
+    return kinds, {re.match(loops, x)[1] for x in bodies}
+
+
+def test_the_compiled_block_computes_in_float32_only():
+    block, n = single.loops().block, 3
+    arguments = [np.zeros(s, np.float32) for s in ((n,), (n, 2, 3), (n, 2, 3))]
+    ends = np.zeros(n, np.int64), np.zeros(n, np.int64), np.ones(n)
+    kinds, seen = arithmetic(block.march_block, np.zeros((51, block.LANES), np.float32), 0, 0, 1, *arguments, *ends)
+    assert {"4loop", "5block", "9integrals"} <= seen
+    assert not [kind for kind in kinds if "double" in kind]
+    widths = {int(kind.split()[0][1:]): count for kind, count in kinds.items() if "float>" in kind}
+    assert sum(widths.values()) > 300
+    assert min(widths) == max(widths)  # no loop has narrower registers, as wider integers beside the floats would make
+
+
+def test_the_compiled_march_computes_in_float32_only():
+    march = single.loops().loop.march
+    z = lambda *s: np.zeros(s, np.float32)  # noqa: E731
+    frames = z(2, 3), z(2, 3), True, z(8), z(4), np.float32(1), z(2, 4), z(2, 2)
+    kinds, seen = arithmetic(march, z(51), 0, 0, 1, np.float32(1), *frames)
+    assert {"4loop", "9integrals"} <= seen
+    assert sum(count for kind, count in kinds.items() if "float" in kind) > 400
+    assert not [kind for kind in kinds if "double" in kind]
+
+
+@pytest.mark.parametrize("options", [{}, {"order": 4}, {"contact": True}, {"order": 8, "contact": True}])
+def test_plain_is_compiled_to_the_bit(options, monkeypatch):
+    plain = {}
+    with monkeypatch.context() as patch:
+        patch.setattr(engine, "has_numba", lambda: False)
+        plain = chapsym.trajectory(BALL, K, G, 1100, every=50, precision="single", **options)
+    run = chapsym.trajectory(BALL, K, G, 2200, every=50, precision="single", **options)
+    for name in ("momentum", "gamma", "attitude", "contact"):
+        a, b = getattr(plain, name), getattr(run, name)
+        assert a is b is None or (a == b[: len(a)]).all()
+
+
+def mixture(n):
+    """Balls at random, among them one at rest, one that folds at its fourth step, one beyond the certificate."""
+    rng = np.random.default_rng(9)
+    J, D = rng.uniform(0.1, 2.0, (n, 3)), rng.uniform(0.0, 2.0, n)
+    k, g = rng.normal(size=(n, 3)), rng.normal(size=(n, 3))
+    k *= 0.3 * J.min(axis=1, keepdims=True) * rng.uniform(0, 1, (n, 1)) / np.linalg.norm(k, axis=1, keepdims=True)
+    g /= np.linalg.norm(g, axis=1, keepdims=True)
+    D[0], k[1], k[4] = 0.0, 0.0, (1e-12, 2e-13, 0)
+    J[2], D[2], k[2], g[2] = (1, 2, 4), 3.0, (4.32, -2.16, 3.24), np.array([2, 3, 6]) / 7
+    J[3], D[3], k[3] = (1, 2, 4), 3.0, (3.1, 0.2, 0.1)
+    return Ball(J, D), k, g / np.linalg.norm(g, axis=1, keepdims=True)
+
+
+@pytest.mark.parametrize("numba", [True, False])
+@pytest.mark.parametrize("n", [9, 170])
+def test_a_batch_is_its_balls_to_the_bit(n, numba, monkeypatch):
+    ball, k, g = mixture(n)
+    if not numba:
+        monkeypatch.setattr(engine, "has_numba", lambda: False)
+    run = chapsym.trajectory(ball, k, g, 1100, every=11, precision="single")
+    assert run.momentum.dtype == np.float32
+    monkeypatch.undo()
+    for i in [*range(6), n - 1]:
+        one = Ball(ball.mass_tensor[i], ball.D[i])
+        if i == 2:
+            assert (run.status[i], run.taken[i]) == (Status.FOLDED, 3)
+            assert np.isnan(run.momentum[i, 1:]).all()
+            continue
+        alone = chapsym.trajectory(one, k[i], g[i], 1100, every=11, precision="single")
+        assert run.status[i] == 0
+        assert (alone.momentum == run.momentum[i]).all()
+        assert (alone.gamma == run.gamma[i]).all()
+
+
+@pytest.mark.parametrize("order", [2, 4, 6, 8])
+def test_a_run_is_that_of_float64_from_the_rounded_state(order):
+    """Each step errs by an ulp of its rotation, and they add up like √n: 100 steps by 5 ulps, at κ up to 10."""
+    run = chapsym.trajectory(BALL, K, G, 100, order=order, contact=True, precision="single")
+    ball, k, g = rounded(BALL, K, G)
+    exact = chapsym.trajectory(ball, k, g, 100, order=order, contact=True)
+    for name, size in (("momentum", 0.035), ("gamma", 1.0), ("attitude", 1.0), ("contact", 0.5)):
+        assert np.abs(getattr(run, name) - getattr(exact, name)).max() < 50 * ULP * size
+
+
+@pytest.mark.parametrize("order", [2, 8])
+def test_a_million_steps_keep_the_integrals(order):
+    """Restored every 1024 steps, they move by the rounding of 𝒦 and γ as they are given out: 2 ulps of a square."""
+    steps = 10**6 if order == 2 else 10**5
+    run = chapsym.trajectory(BALL, K, G, steps, every=997, order=order, attitude=True, precision="single")
+    values = front.invariants(run.momentum.astype(float), run.gamma.astype(float))
+    moved = np.abs(values / values[0] - 1).max(axis=0) / ULP
+    assert (moved <= [3, 2, 2]).all()
+    attitude = run.attitude.astype(float)
+    assert np.abs((attitude**2).sum(axis=-1) - 1).max() <= 4 * ULP
+    vertical = front.rotate(attitude, run.gamma.astype(float))
+    # The turns of γ and of the attitude are rounded each for itself: √n · |q| ulps, |q| = 0.025 and κ below 10.
+    assert np.abs(vertical - [0, 0, 1]).max() <= 10 * 0.025 * np.sqrt(steps) * ULP
+
+
+def test_a_slow_ball_does_not_stand_still():
+    """Each step turns and rolls it by less than the distance to the next float32."""
+    slow = np.array(K) * 1e-6
+    run = chapsym.trajectory(BALL, slow, G, 200_000, every=200_000, contact=True, precision="single")
+    ball, k, g = rounded(BALL, slow, G)
+    exact = chapsym.trajectory(ball, k, g, 200_000, every=200_000, contact=True)
+    turned = np.abs(exact.gamma[1] - exact.gamma[0]).max()
+    assert turned > 1e-3
+    assert np.abs(run.gamma[1] - exact.gamma[1]).max() <= 2 * ULP
+    assert np.abs(run.attitude[1] - exact.attitude[1]).max() <= 2 * ULP
+    assert np.abs(run.contact[1] - exact.contact[1]).max() <= 2 * ULP * np.abs(exact.contact[1]).max()
+
+
+def test_what_float32_cannot_hold_is_refused():
+    cases = [
+        (BALL, np.array(K) * 1e-38, "is beyond what float32"),
+        (BALL, np.array(K) * 1e-310, "is beyond what float32"),
+        (BALL, np.array(K) * 1e40, "is beyond what float32"),
+        (Ball((1e-50, 2e-50, 3e-50), 0), (0, 0, 0), "moment of inertia of 5e-50"),
+        (Ball((1, 2, 3), 1e60), K, "moment of inertia of 1e\\+60"),
+        (BALL, np.array(K) * 1e-15, "stand still"),
+    ]
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        for ball, k, told in cases:
+            with pytest.raises(BadInput, match=told):
+                chapsym.trajectory(ball, k, G, 10, precision="single")
+        far = Ball((0.1, 0.5, 1.6), 0.7, radius=1e38)
+        with pytest.raises(BadInput, match="contact point leaves the range"):
+            chapsym.trajectory(far, np.array(K) * 10, G, 100, contact=True, precision="single")
+
+
+def test_a_ball_of_any_units_takes_the_same_steps():
+    """A power of two in the units changes nothing but 𝒦 by it."""
+    run = chapsym.trajectory(BALL, K, G, 50, precision="single")
+    for exponent in (-100, 90):
+        scale = 2.0**exponent
+        other = Ball(BALL.mass_tensor * scale, 0.7 * scale)
+        scaled = chapsym.trajectory(other, np.array(K) * scale, G, 50, precision="single")
+        assert (scaled.gamma == run.gamma).all()
+        assert (scaled.momentum == run.momentum * np.float32(scale)).all()
+
+
+def test_statuses_are_those_of_float64():
+    ball = Ball((1, 2, 4), 3)
+    for k in ((4.32, -2.16, 3.24), (5, -2.5, 3.75), (50, -25, 37)):
+        with pytest.raises(StepNotTaken) as there:
+            chapsym.trajectory(ball, k, G, 10)
+        with pytest.raises(StepNotTaken) as here:
+            chapsym.trajectory(ball, k, G, 10, precision="single")
+        assert (here.value.status, here.value.index) == (there.value.status, there.value.index)
+        assert here.value.reach == pytest.approx(there.value.reach, rel=1e-6)
+    needle = [np.array([x], float) for x in ((0.1, 0, 0), (0, 0, 1), (0, 0, 1), 1)]
+    q, k, g, status, _ = single.step_all(*needle)
+    exact = chapsym.step(Ball(needle[2], needle[3]), *needle[:2])
+    assert status == exact.status == Status.NO_INERTIA
+    assert np.isnan([*q[0], *k[0], *g[0]]).all()
+
+
+def test_many_steps_at_once_are_single_steps():
+    ball, k, g = mixture(100)
+    whole = single.step_all(k, g, ball.mass_tensor, ball.D)
+    for i in range(8):
+        one = single.step_all(k[i : i + 1], g[i : i + 1], ball.mass_tensor[i : i + 1], ball.D[i : i + 1])
+        for a, b in zip(whole, one, strict=True):
+            assert np.array_equal(a[i], b[0], equal_nan=True)
+
+
+def test_a_run_goes_on_from_its_end_and_back():
+    run = chapsym.trajectory(BALL, K, G, 300, contact=True, precision="single")
+    on = chapsym.trajectory(BALL, run.momentum[-1], run.gamma[-1], 5, attitude=run.attitude[-1], precision="single")
+    assert np.abs(on.gamma[0] - run.gamma[-1]).max() <= ULP
+    assert chapsym.step(BALL, run.momentum[-1], run.gamma[-1]).status == 0
+    back = chapsym.reverse(run)
+    assert back.momentum.dtype == np.float32
+    assert np.abs(back.contact[-1]).max() < 100 * ULP
+    assert chapsym.retrace_error(run, back).max() < 100 * ULP
+
+
+KINDS = {
+    "float32": lambda x: x.astype(np.float32),
+    "big-endian": lambda x: x.astype(">f8"),
+    "big-endian float32": lambda x: x.astype(">f4"),
+    "non-contiguous": lambda x: np.repeat(x, 2, axis=-1)[..., ::2],
+    "reversed": lambda x: x[..., ::-1].copy()[..., ::-1],
+    "Fortran": np.asfortranarray,
+}
+
+
+@pytest.mark.parametrize("precision", ["single", "double"])
+@pytest.mark.parametrize("kind", KINDS)
+def test_arrays_of_every_kind_are_taken(precision, kind):
+    made = KINDS[kind]
+    J, D = np.array([[0.1, 0.5, 1.6], [1, 2, 4]]), np.array([0.7, 3.0])
+    k, g = np.array([K, K]), np.array([G, (0, 0.6, 0.8)])
+    plain = chapsym.trajectory(Ball(J, D), k, g, 3, precision=precision)
+    given = [made(x) for x in (J, D, k, g)]
+    for x in given:
+        x.flags.writeable = False
+    run = chapsym.trajectory(Ball(*given[:2]), *given[2:], 3, precision=precision)
+    assert run.momentum.dtype == plain.momentum.dtype
+    near = 4 * ULP if "32" in kind else 0.0
+    assert np.abs(run.momentum - plain.momentum).max() <= near
+    assert np.abs(run.gamma - plain.gamma).max() <= near
+    step = chapsym.step(Ball(*given[:2]), *given[2:])
+    assert np.abs(step.gamma - plain.gamma[:, 1]).max() <= 4 * ULP
+
+
+@pytest.mark.parametrize("precision", ["single", "double"])
+def test_no_balls_and_no_axes(precision):
+    none = chapsym.trajectory(Ball((1, 2, 4), 3), np.zeros((0, 3)), np.zeros((0, 3)), 5, precision=precision)
+    assert none.momentum.shape == (0, 6, 3)
+    run = chapsym.trajectory(Ball((1, 2, 4), np.array(3.0)), K, np.float32((0, 0, 1)), np.int64(5), precision=precision)
+    assert run.momentum.shape == (6, 3)
+    assert chapsym.trajectory(BALL, K, G, 0, precision=precision).momentum.shape == (1, 3)
+    assert (chapsym.trajectory(BALL, (0, 0, 0), G, 5, precision=precision).momentum == 0).all()
+    with pytest.raises(BadInput, match="3 components"):
+        chapsym.trajectory(BALL, np.float32(1.0), G, 5, precision=precision)
