@@ -7,15 +7,15 @@ from numpy import float32, float64
 from chapsym.generated import centre_step, compose, rotate
 
 from .branch import small_rotation
-from .gibbs import certificate
+from .gibbs import bound
 
 #: Below this the square of `enough` would leave the range of float32.
 LEAST_ENOUGH = 2.0**-62
 
 
 def checkable(k1, k2, k3, I1, I2, I3, D):
-    """`gibbs.certificate`; none either where float32 could not compare the squares that it is used with."""
-    radius, enough = certificate(k1, k2, k3, I1, I2, I3, D)
+    """`gibbs.bound`; none either where float32 could not compare the squares that it is used with."""
+    radius, enough = bound(k1, k2, k3, I1, I2, I3, D)
     if radius > 0.0 and enough < LEAST_ENOUGH:
         return -1.0, 0.0
     return radius, enough
