@@ -116,6 +116,19 @@ def test_the_compiled_march_computes_in_float32_only():
     assert not [kind for kind in kinds if "double" in kind]
 
 
+@pytest.mark.parametrize("moments", [(1.0, 1.0, 1.0), (1.0, 0.9, 0.2), (1.0, 1.0, 1e-3), (1.0, 1.0, 1e-9)])
+def test_no_bound_underflows(moments):
+    """What is compared with the square of a bound is compared in normal numbers; what has none takes the safe way."""
+    prepare = single.loops().loop.prepare
+    bound = prepare.__globals__["certificate"]
+    I = np.array(moments, np.float32)
+    found = [bound(np.float32(10.0**-e), *np.zeros(2, np.float32), *I, np.float32(0)) for e in range(1, 38)]
+    kept = [np.float32(enough) ** 2 for radius, enough in found if radius >= 0]
+    assert all(square >= np.finfo(np.float32).tiny for square in kept)
+    assert kept or min(moments) < 1e-6
+    assert found[-1] == (-1.0, 0.0)
+
+
 def test_products_are_split_exactly():
     a, b = np.random.default_rng(3).normal(size=(2, 200)).astype(np.float32)
     product, rest = single.loops().loop.remember.__globals__["exact_product"](a, b)
