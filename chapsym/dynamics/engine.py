@@ -32,13 +32,17 @@ _loading = threading.Lock()
 
 @dataclass(frozen=True, eq=False)
 class Balls:
-    """The balls of a run: momentum 𝒦 and γ at the start, (n, 3); J, (n, 3); D and the radius, (n,)."""
+    """The balls of a run: momentum 𝒦 and γ at the start, (n, 3); J, (n, 3); D and the radius, (n,).
+
+    rest: what 𝒦 has beyond float64, (n, 3), for the rungs that can hold it; None for nothing.
+    """
 
     momentum: Floats
     gamma: Floats
     mass_tensor: Floats
     D: Floats
     radius: Floats
+    rest: Floats | None = None
 
     def __len__(self) -> int:
         return len(self.D)

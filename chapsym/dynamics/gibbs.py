@@ -29,7 +29,7 @@ HEAVY = 32.0
 
 def is_heavy(I1, I2, I3, D):
     """Whether the determinant by a row of the Jacobian loses too much."""
-    return D > HEAVY * min(I1, I2, I3)
+    return HEAVY * min(I1, I2, I3) < D
 
 
 def certificate(k1, k2, k3, I1, I2, I3, D):

@@ -71,10 +71,10 @@ def halves(numbers: list[Pair]) -> tuple[Floats, Floats]:
     return np.array([x.high for x in numbers]), np.array([x.low for x in numbers])
 
 
-def _begin(frames: Frames, low: Frames, i: int, state: Floats) -> tuple[Floats, Floats]:
+def _begin(frames: Frames, low: Frames, i: int, state: Floats, rest: Floats | None) -> tuple[Floats, Floats]:
     """Writes frame 0 of a ball; its attitude and its contact point as pairs."""
     frames.gamma[i, 0], low.gamma[i, 0] = state[quad_loop.G : quad_loop.I : 2], state[quad_loop.G + 1 : quad_loop.I : 2]
-    low.momentum[i, 0] = 0.0
+    low.momentum[i, 0] = 0.0 if rest is None else rest[i]
     attitude, contact = np.zeros((4, 2)), np.zeros(4)
     if frames.with_body:
         attitude[:, 0], attitude[:, 1] = halves(normalised(frames.attitude[i, 0]))
@@ -91,7 +91,9 @@ def _run_one(
     K, g, J, D = balls.momentum[i], balls.gamma[i], balls.mass_tensor[i], float(balls.D[i])
     state, limits, past = np.zeros(quad_loop.ROWS), np.zeros((2, len(stages))), np.zeros((len(stages), 8, 3))
     shift, beyond = prepare(K, g, J, D, stages, state, *limits)
-    attitude, contact = _begin(frames, low, i, state)
+    if balls.rest is not None:
+        state[1:6:2] = np.ldexp(balls.rest[i], shift)
+    attitude, contact = _begin(frames, low, i, state, balls.rest)
     chunk = max(1, CHUNK // len(stages))
     for first in range(0, steps, chunk):
         now = min(chunk, steps - first)
@@ -120,7 +122,9 @@ def _run_block(
     prepare(balls.momentum[which], balls.gamma[which], balls.mass_tensor[which], balls.D[which], stages,
             state, shift, beyond)  # fmt: skip
     for lane in range(n):
-        _begin(frames, low, which.start + lane, state[:, lane])
+        if balls.rest is not None:
+            state[1:6:2, lane] = np.ldexp(balls.rest[which.start + lane], shift[lane])
+        _begin(frames, low, which.start + lane, state[:, lane], balls.rest)
     status, reach, taken = frames.status[which], frames.reach[which], frames.taken[which]
     chunk = max(1, CHUNK // quad_block.LANES)
     for first in range(0, steps, chunk):

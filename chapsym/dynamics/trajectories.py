@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from typing import Any, Literal
 
 import numpy as np
@@ -144,7 +145,8 @@ def trajectory(
 ) -> Trajectory:
     """Takes `steps` steps of the map on the small-rotation branch and keeps every `every`-th state.
 
-    momentum, gamma: as for `step`; both broadcast with the balls.
+    momentum, gamma: as for `step`; both broadcast with the balls.  A momentum of Fractions keeps 106 bits on "quad" and
+    higher rungs, so that εK may be exact there.
     order: 2, or 4, 6, 8 for a symmetric composition of the map with stages cᵢ𝒦 (`substeps`): 𝒦, γ, the attitude and
     the contact point then converge with that order to those of the continuous ball (2.3), and the momentum integrals
     stay exact.
@@ -174,10 +176,11 @@ def trajectory(
     frame = ladder.frames_for(rung, balls, frames, body_frames)
     with np.errstate(over="ignore"):  # a rung of a smaller range refuses what it cannot hold
         frame.momentum[:, 0], frame.gamma[:, 0] = K, g
+    rest = _beyond_float64(momentum, shape)
     if with_body:
         first = np.broadcast_to(initial_attitude(attitude, g.reshape(*shape, 3)), (*shape, 4))
         frame.attitude[:, 0], frame.contact[:, 0] = first.reshape(-1, 4), 0.0
-    ladder.run(rung, Balls(K, g, J, D, radius), steps, every, frame, order, threads, progress)
+    ladder.run(rung, Balls(K, g, J, D, radius, rest), steps, every, frame, order, threads, progress)
 
     def shaped(array: np.ndarray) -> np.ndarray:
         return array.reshape(*shape, *array.shape[1:])
@@ -206,6 +209,15 @@ def _up_to(whole: Trajectory, taken: int) -> Trajectory:
 
     low = None if whole.low is None else Low(**these(whole.low))
     return replace(whole, index=whole.index[kept], low=low, **these(whole))
+
+
+def _beyond_float64(momentum: ArrayLike, shape: tuple[int, ...]) -> Floats | None:
+    """What a momentum of Fractions has beyond float64, (n, 3); None if there is nothing."""
+    given = np.asarray(momentum)
+    if given.dtype != object or not all(isinstance(x, Fraction) for x in given.flat):
+        return None
+    rest = np.array([float(x - Fraction(float(x))) for x in given.flat]).reshape(given.shape)
+    return np.broadcast_to(rest, (*shape, 3)).reshape(-1, 3)
 
 
 def _count(value: int, name: str, least: int) -> int:

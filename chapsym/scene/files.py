@@ -23,7 +23,17 @@ def columns(run: Trajectory) -> dict[str, np.ndarray]:
         found["attitude"] = run.attitude
     if run.contact is not None:
         found["contact_m"] = run.contact
-    return found
+    if run.low is not None:  # what double-double numbers have beyond float64
+        low = {"momentum": run.low.momentum, "gamma": run.low.gamma, "attitude": run.low.attitude}
+        low["contact_m"] = run.low.contact
+        found |= {f"{name}_low": array for name, array in low.items() if array is not None}
+    with run.precision.precision():
+        return {name: _texts(run, array) if array.dtype == object else array for name, array in found.items()}
+
+
+def _texts(run: Trajectory, array: np.ndarray) -> np.ndarray:
+    """Numbers that no float holds, as decimal strings."""
+    return np.vectorize(run.precision.write, otypes=[str])(array)
 
 
 def check_destination(path: Path) -> None:

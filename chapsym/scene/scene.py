@@ -4,7 +4,7 @@ import tomllib
 from collections.abc import Callable
 from fractions import Fraction
 from pathlib import Path
-from typing import Annotated, Any, Self
+from typing import Annotated, Any, Literal, Self
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, model_validator
 
@@ -78,14 +78,23 @@ class StartTable(_Table):
 
 
 class RunTable(_Table):
-    """[run]: how many steps, which to keep, what to follow, where to write."""
+    """[run]: how many steps, which to keep, what to follow, where to write.
 
-    steps: Count
+    Or, instead of steps: `accuracy` of the contact point (m) or of the state after `time` seconds, as `of` says, at
+    `frames` equal times, within `limit` seconds of the processor.
+    """
+
+    steps: Count | None = None
     every: Annotated[int, Field(strict=True, ge=1)] = 1
     time_step: Annotated[Number, Field(gt=0)] | None = None
     attitude: Annotated[bool, Field(strict=True)] = False
     contact: Annotated[bool, Field(strict=True)] = False
     output: str | None = None
+    accuracy: Annotated[Number, Field(gt=0)] | None = None
+    time: Annotated[Number, Field(gt=0)] | None = None
+    of: Literal["state", "contact"] | None = None
+    frames: Annotated[int, Field(strict=True, ge=1)] | None = None
+    limit: Annotated[Number, Field(gt=0)] | None = None
 
 
 class Scene(_Table):
@@ -96,8 +105,27 @@ class Scene(_Table):
     run: RunTable
 
     @model_validator(mode="after")
+    def _steps_or_accuracy(self) -> Self:
+        run = self.run
+        told = {name for name in ("time", "of", "frames", "limit") if getattr(run, name) is not None}
+        if run.accuracy is None:
+            if told:
+                raise ValueError(f"run.{min(told)} goes with run.accuracy; without it give run.steps")
+            if run.steps is None:
+                raise ValueError("run.steps is missing (or give run.accuracy and run.time)")
+            return self
+        chosen = [name for name in ("steps", "every", "time_step") if name in run.model_fields_set]
+        if chosen:
+            raise ValueError(f"run.accuracy chooses the steps: leave out run.{chosen[0]}")
+        if run.time is None:
+            raise ValueError("run.accuracy needs run.time, in seconds")
+        if self.start.omega is None:
+            raise ValueError("run.accuracy needs start.omega, in rad/s: it is a motion in time that is approximated")
+        return self
+
+    @model_validator(mode="after")
     def _omega_needs_time(self) -> Self:
-        if self.start.omega is not None and self.run.time_step is None:
+        if self.run.accuracy is None and self.start.omega is not None and self.run.time_step is None:
             raise ValueError("start.omega needs run.time_step, in seconds")
         return self
 
@@ -131,6 +159,7 @@ def _sentence(error: Any) -> str:
         "string_type": "must be a text in quotes",
         "tuple_type": "must be a list of numbers in brackets",
         "finite_number": "must be finite",
+        "literal_error": f"must be {limits.get('expected')}",
         "too_long": f"must have {limits.get('max_length')} numbers",
         "greater_than": f"must be greater than {limits.get('gt')}",
         "greater_than_equal": f"must be at least {limits.get('ge')}",
@@ -141,6 +170,10 @@ def _sentence(error: Any) -> str:
 
 def run(scene: Scene, progress: Callable[[int], None] = lambda steps_done: None) -> Trajectory:
     """Runs a scene; raises BadInput, and StepNotTaken with the trajectory so far."""
+    if scene.run.accuracy is not None or scene.run.steps is None:
+        from .accurate import run_accurately
+
+        return run_accurately(scene).trajectory
     options: dict[str, Any] = {
         "every": scene.run.every,
         "attitude": scene.run.attitude,

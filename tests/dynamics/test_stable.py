@@ -41,7 +41,11 @@ def root(K, g, J, D, guess):
 
     def residual(u):
         swirl = inertia * u
-        cross = [u[1] * swirl[2] - u[2] * swirl[1], u[2] * swirl[0] - u[0] * swirl[2], u[0] * swirl[1] - u[1] * swirl[0]]
+        cross = [
+            u[1] * swirl[2] - u[2] * swirl[1],
+            u[2] * swirl[0] - u[0] * swirl[2],
+            u[0] * swirl[1] - u[1] * swirl[0],
+        ]
         return B * u + MP.matrix(cross) - (1 + (u.T * u)[0]) * MP.matrix(k)
 
     for _ in range(200):

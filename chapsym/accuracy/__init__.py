@@ -1,0 +1,13 @@
+"""A ball rolled to an accuracy: rung, order and step chosen from measured prices, and the result verified on itself."""
+
+from .accurate import Accurate, accurate
+from .choice import Choice, choices
+from .methods import Method, methods, take
+from .prices import Prices, load_prices
+from .request import Request, distance
+from .search import Attempt
+
+__all__ = [
+    "Accurate", "Attempt", "Choice", "Method", "Prices", "Request", "accurate", "choices", "distance", "load_prices",
+    "methods", "take",
+]  # fmt: skip

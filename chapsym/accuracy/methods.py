@@ -1,0 +1,140 @@
+"""The ways to take a ball to the end: a rung of the precision ladder and an order, each by one call of dynamics."""
+
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+
+from chapsym.dynamics import (
+    BadInput,
+    Status,
+    StepNotTaken,
+    Trajectory,
+    exact_top,
+    extrapolate,
+    substeps,
+    trajectory,
+)
+from chapsym.numbers import NAMED, Digits, Double, Rung, Single
+
+from .request import Request
+
+#: Orders of `trajectory`; of `extrapolate`; and that of the exact top, which has no error of the step.
+COMPOSED, EXTRAPOLATED, EXACT = (2, 4, 6, 8), 12, 0
+#: Columns of the extrapolation: half of its order.
+COLUMNS = EXTRAPOLATED // 2
+
+
+@dataclass(frozen=True)
+class Method:
+    """A rung and an order: 2, 4, 6, 8; 12 for `extrapolate`; 0 for `exact_top`."""
+
+    rung: Rung
+    order: int
+
+    @property
+    def label(self) -> str:
+        """The rung's name, with its digits."""
+        return rung_label(self.rung)
+
+    @property
+    def summed(self) -> bool:
+        """Whether 𝒦 and γ are summed with compensation, as float64's are in a composition."""
+        return self.order != EXTRAPOLATED and isinstance(self.rung, Double)
+
+    @property
+    def walked(self) -> int:
+        """How many roundings of 𝒦, γ and the attitude a step adds."""
+        return 1 if self.order == EXTRAPOLATED else self.stages
+
+    @property
+    def stages(self) -> int:
+        """Steps of the map in a step."""
+        if self.order == EXTRAPOLATED:
+            return COLUMNS * (COLUMNS + 3) // 2
+        return len(substeps(self.order or 2))
+
+
+def rung_label(rung: Rung) -> str:
+    """What a table calls a rung: "double", "digits30"."""
+    return f"digits{rung.count}" if isinstance(rung, Digits) else type(rung).__name__.lower()
+
+
+def methods(request: Request, rung: Rung) -> list[Method]:
+    """All that can be asked of a rung for this request."""
+    found = [Method(rung, order) for order in COMPOSED]
+    if rung == NAMED["double"] and request.of == "state":
+        found.append(Method(rung, EXTRAPOLATED))
+        if _is_top(request):
+            found.append(Method(rung, EXACT))
+    return found
+
+
+def _is_top(request: Request) -> bool:
+    step = 1e-3 * request.time / (1.0 + request.angle)
+    try:
+        exact_top(request.ball, step * request.angular_momentum, request.gamma)
+    except BadInput:
+        return False
+    return True
+
+
+def take(request: Request, method: Method, steps: int, frames: int, time: float | None = None) -> Trajectory:
+    """The ball after `frames` equal parts of `time` (the request's own, if None) in `steps` steps, a multiple of them.
+
+    Raises StepNotTaken where the map has no step of this length.
+    """
+    end = request.time if time is None else time
+    step, every = end / steps, steps // frames
+    body = request.attitude if request.with_body else False
+    ball, K, g = request.ball, request.angular_momentum, request.gamma
+    if method.order == EXTRAPOLATED:
+        return _extrapolated(request, step, every, frames, body)
+    if method.order == EXACT:
+        top = exact_top(ball, step * K, g)
+        run = trajectory(top.ball, top.momentum, g, steps, every=every, attitude=body, time_step=step)
+        return top.restore(run)
+    momentum: Any = step * K
+    if not isinstance(method.rung, Double | Single):  # T/n and its product with K, of which float64 has but 53 bits
+        momentum = [Fraction(end) / steps * Fraction(float(x)) for x in K]
+    return trajectory(
+        ball, momentum, g, steps, order=method.order, every=every, attitude=body, contact=request.of == "contact",
+        time_step=step, precision=method.rung,
+    )  # fmt: skip
+
+
+def _extrapolated(request: Request, step: float, every: int, frames: int, body: Any) -> Trajectory:
+    """`extrapolate` from frame to frame, as a trajectory of order 12."""
+    K, g, q = [request.angular_momentum], [request.gamma], [body]
+    for k in range(frames):
+        try:
+            found = extrapolate(request.ball, K[-1], g[-1], step, every, columns=COLUMNS, attitude=q[-1])
+        except StepNotTaken as error:
+            raise StepNotTaken(error.status, error.reach, k * every + (error.index or 0)) from None
+        K.append(found.angular_momentum)
+        g.append(found.gamma)
+        q.append(False if found.attitude is None else found.attitude)
+    attitude = None if body is False else np.array(q)
+    return Trajectory(
+        request.ball, np.arange(frames + 1) * every, np.array(K) * step, np.array(g), attitude, None,
+        np.array(frames * every), np.array(int(Status.TAKEN)), step, EXTRAPOLATED,
+    )  # fmt: skip
+
+
+def thinned(run: Trajectory, every: int) -> Trajectory:
+    """Every so many of the frames."""
+
+    def kept(array: Any) -> Any:
+        return None if array is None else array[::every]
+
+    low = run.low
+    if low is not None:
+        low = replace(
+            low, momentum=low.momentum[::every], gamma=low.gamma[::every], attitude=kept(low.attitude),
+            contact=kept(low.contact),
+        )  # fmt: skip
+    return replace(
+        run, index=run.index[::every], momentum=run.momentum[::every], gamma=run.gamma[::every],
+        attitude=kept(run.attitude), contact=kept(run.contact), low=low,
+    )  # fmt: skip

@@ -1,0 +1,166 @@
+"""What a step costs on this machine, for every rung, order and length of step: measured once, kept in the user's cache.
+
+A price is the seconds of a step at a few lengths θ = |ω|ε of the step (radians): long ones need more work, as the root
+is farther from its guess and the lemma that proves it at once does not cover them.  And what a call costs besides.
+"""
+
+import contextlib
+import hashlib
+import json
+import os
+import platform
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from statistics import median
+
+import numpy as np
+import platformdirs
+
+import chapsym
+from chapsym import files
+from chapsym.dynamics import BadInput, Ball, StepNotTaken
+from chapsym.dynamics.engine import SHORT_RUN
+from chapsym.numbers import NAMED, Digits, Rung
+
+from .methods import EXACT, Method, methods, rung_label, take
+from .request import Request
+
+#: Changes when the file does.
+VERSION = 1
+#: Lengths of steps at which prices are taken, in radians.
+LENGTHS = (0.02, 0.1, 0.25, 0.5, 1.0)
+#: Digits at which mpmath is priced.
+DIGITS = (30, 50)
+#: Each price is the median of so many runs, each of about so many seconds.
+RUNS, LEAST = 3, 1e-3
+#: A price grows at most to so many steps a run.
+MOST_STEPS = 1 << 14
+
+
+@dataclass(frozen=True)
+class Prices:
+    """calls: seconds of a call, by "rung/body"; steps: [(θ, seconds a step), ...] by "rung/order/body"."""
+
+    calls: dict[str, float]
+    steps: dict[str, list[tuple[float, float]]]
+
+    def of(self, method: Method, with_body: bool, length: float) -> float | None:
+        """Seconds of a step of θ = `length`, on a log-log scale between those measured; None if none was."""
+        found = self.steps.get(self._key(method, with_body))
+        if not found:
+            return None
+        x, y = np.log(np.array(found)).T
+        return float(np.exp(np.interp(np.log(length), x, y)))
+
+    def call(self, method: Method, with_body: bool) -> float:
+        """Seconds of a call besides its steps."""
+        return self.calls.get(f"{_priced(method.rung)}/{_body(with_body)}", 0.0)
+
+    @staticmethod
+    def _key(method: Method, with_body: bool) -> str:
+        return f"{_priced(method.rung)}/{method.order}/{_body(with_body)}"
+
+
+def _body(with_body: bool) -> str:
+    return "body" if with_body else "state"
+
+
+def _priced(rung: Rung) -> str:
+    """The rung whose price is taken: mpmath's is that of the next number of digits that was measured."""
+    if isinstance(rung, Digits):
+        rung = Digits(next((d for d in DIGITS if d >= rung.count), DIGITS[-1]))
+    return rung_label(rung)
+
+
+def rungs() -> list[Rung]:
+    """The rungs that are priced, from the cheapest."""
+    return list(NAMED.values())
+
+
+def sample(of: str, time: float) -> Request:
+    """The ball of docs/first.toml, by which prices are taken."""
+    ball = Ball.from_inertia((0.006, 0.007, 0.009), mass=2.0, radius=0.1)
+    K, g = np.array([0.0446, -0.0346, 0.0313]), np.array([2.0, 3.0, 6.0]) / 7
+    return Request(ball, K, g, time, 1e-6, of, rate=3.742, speed=3.742, rolling=2.0, condition=3.0)
+
+
+def calibrate(progress: Callable[[str], None] = lambda text: None) -> Prices:
+    """Takes all prices, in seconds; a method or a length of step that this ball cannot take has none."""
+    calls, steps = {}, {}
+    for rung in rungs():
+        progress(f"pricing {rung_label(rung)}")
+        for with_body in (False, True):
+            request = sample("contact" if with_body else "state", 1.0)
+            found = {m: _by_length(request, m) for m in methods(request, rung) if m.order != EXACT}
+            steps |= {Prices._key(m, with_body): priced for m, priced in found.items() if priced}
+            shortest = _seconds(request, Method(rung, 2), 1, 1e-3)
+            calls[f"{_priced(rung)}/{_body(with_body)}"] = shortest or 0.0
+    for body in ("state", "body"):  # the exact top runs the map itself
+        if f"double/2/{body}" in steps:
+            steps[f"double/{EXACT}/{body}"] = steps[f"double/2/{body}"]
+    return Prices(calls, steps)
+
+
+def _by_length(request: Request, method: Method) -> list[tuple[float, float]]:
+    found = []
+    for length in LENGTHS:
+        steps, took = 1, _seconds(request, method, 1, length)
+        while took is not None and steps < MOST_STEPS and (took < LEAST or _in_python(steps * method.stages, took)):
+            steps *= 4
+            took = _seconds(request, method, steps, length)
+        if took is None:
+            break
+        found.append((length, took / steps))
+    return found
+
+
+def _in_python(work: int, took: float) -> bool:
+    """Whether a run is so short that the loop may not be compiled yet, and yet affordable."""
+    return work < 2 * SHORT_RUN and took < 0.1
+
+
+def _seconds(request: Request, method: Method, steps: int, length: float) -> float | None:
+    """The time of the processor that a run takes, or None if it cannot be."""
+    taken = []
+    try:
+        take(request, method, steps, 1, steps * length / request.rate)
+        for _ in range(RUNS):
+            start = time.thread_time()
+            take(request, method, steps, 1, steps * length / request.rate)
+            taken.append(time.thread_time() - start)
+    except (StepNotTaken, BadInput):
+        return None
+    return median(taken)
+
+
+def path() -> Path:
+    """Where the prices of this machine are kept: one file for each machine, version and set of libraries."""
+    libraries = f"{np.__version__} {chapsym.__version__} {platform.python_version()}"
+    machine = f"{platform.machine()} {platform.processor()} {os.cpu_count()} {libraries} {VERSION}"
+    name = hashlib.sha256(machine.encode()).hexdigest()[:16]
+    return Path(platformdirs.user_cache_path("chapsym")) / f"prices-{name}.json"
+
+
+def load_prices(progress: Callable[[str], None] = lambda text: None) -> Prices:
+    """The prices that were kept, or else fresh ones, which are kept if the cache can be written."""
+    kept = path()
+    try:
+        found = json.loads(kept.read_text(encoding="utf-8"))
+        if found["version"] == VERSION:
+            return Prices(found["calls"], {k: [(float(x), float(y)) for x, y in v] for k, v in found["steps"].items()})
+    except (OSError, ValueError, KeyError, TypeError):
+        pass
+    progress("taking this machine's prices, once: some seconds")
+    fresh = calibrate(progress)
+    save(fresh, kept)
+    return fresh
+
+
+def save(prices: Prices, to: Path) -> None:
+    """Writes the file whole; a cache that cannot be written is done without."""
+    text = json.dumps({"version": VERSION, "calls": prices.calls, "steps": prices.steps})
+    with contextlib.suppress(OSError, files.CannotWrite):
+        to.parent.mkdir(parents=True, exist_ok=True)
+        files.write_whole(to, lambda stream: stream.write(text.encode()))

@@ -1,0 +1,153 @@
+"""What is asked for, the norm in which it is asked, and what rounding alone leaves of it."""
+
+import math
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from chapsym.dynamics import BadInput, Ball, Trajectory
+from chapsym.dynamics.ball import Floats, numbers
+from chapsym.dynamics.map import batch, unit_vertical
+from chapsym.dynamics.trajectories import initial_attitude
+from chapsym.numbers import Digits, Rung
+
+#: What the accuracy may be of.
+NORMS = ("state", "contact")
+#: Runs are compared at so many times at least: a difference that is small by chance at one is not so at all.
+CHECKS = 16
+#: The coefficients of the compositions have 40 digits, and the times of a run are as exact as they.
+FINEST = 1e-30
+#: The unit roundoff of the rungs: that of double-double is a few units of its last place, and the momentum of mpmath's
+#: runs starts with 106 bits.
+ROUNDINGS = {"Single": 2.0**-24, "Double": 2.0**-53, "Quad": 2.0**-103, "Digits": 2.0**-106}
+
+
+@dataclass(frozen=True, eq=False)
+class Request:
+    """The continuous ball (2.3) from K (kg m²/s) and γ for `time` seconds, to an absolute `accuracy` at every frame.
+
+    of: "state", the larger of |ΔK|/|K| and |Δγ|; or "contact", the distance in metres.
+    frames: how many equal times, the last of them the end.  attitude: True, or a unit quaternion to be followed.
+    rate, speed, rolling: the largest and the mean |ω|, and the mean |ω × γ|, in rad/s; condition: of Λ - Dγγᵀ.
+    `surveyed` finds them.
+    """
+
+    ball: Ball
+    angular_momentum: Floats
+    gamma: Floats
+    time: float
+    accuracy: float
+    of: str = "state"
+    frames: int = 1
+    attitude: Any = False
+    rate: float = 0.0
+    speed: float = 0.0
+    rolling: float = 0.0
+    condition: float = 0.0
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "angular_momentum", numbers(self.angular_momentum, "angular_momentum", 3))
+        object.__setattr__(self, "gamma", unit_vertical(self.gamma))
+        shape, (_, g, *_) = batch(self.ball, self.angular_momentum, self.gamma)
+        if shape:
+            raise BadInput("an accuracy is asked for one ball; a batch takes steps that you choose")
+        for name in ("time", "accuracy"):
+            object.__setattr__(self, name, _positive(getattr(self, name), name))
+        if self.of not in NORMS:
+            raise BadInput(f'of must be "state" or "contact", not {self.of!r}')
+        if self.of == "contact" and self.ball.radius is None:
+            raise BadInput("the contact point needs the radius: give the ball its mass and radius")
+        if isinstance(self.frames, bool) or not isinstance(self.frames, int | np.integer) or self.frames < 1:
+            raise BadInput(f"frames must be a whole number from 1 on, not {self.frames!r}")
+        if self.accuracy < FINEST:
+            raise BadInput(f"accuracy must be at least {FINEST:g}: the compositions' coefficients have 40 digits")
+        if self.with_body:
+            given = self.attitude if np.ndim(self.attitude) else True
+            object.__setattr__(self, "attitude", initial_attitude(given, g[0]))
+
+    @property
+    def with_body(self) -> bool:
+        """Whether the attitude must be followed."""
+        given = not isinstance(self.attitude, bool | np.bool_)
+        return given or bool(self.attitude) or self.of == "contact"
+
+    @property
+    def checks(self) -> int:
+        """The number of equal times at which runs are compared: a multiple of `frames`."""
+        return self.frames * max(1, -(-CHECKS // self.frames))
+
+    @property
+    def angle(self) -> float:
+        """About how far the ball turns, in radians."""
+        return self.speed * self.time
+
+    @property
+    def unit(self) -> float:
+        """What a relative error of the motion comes to in the norm: 1, or the radius in metres."""
+        return float(self.ball.radius) if self.of == "contact" else 1.0  # type: ignore[arg-type]
+
+    def shared(self, rung: Rung) -> float:
+        """The rounding that all runs on a rung have in common, so that no comparison shows it: of J, D, K and γ."""
+        return 2 * rounding(rung) * self.condition * (1 + self.angle) * self.unit
+
+    def floor(self, rung: Rung, stages: float, summed: bool) -> float:
+        """The error that rounding is expected to make in a run of so many stages.
+
+        summed: whether 𝒦 and γ are summed with compensation; the attitude never is.  What is not walks at random.
+        """
+        turned = 0.0 if summed else self.condition * (1 + self.angle) * self.unit
+        rolled = 2 * (1 + self.rolling * self.time) * self.unit if self.of == "contact" else 0.0
+        return self.shared(rung) + rounding(rung) * math.sqrt(stages) * max(turned, rolled)
+
+
+def _positive(value: Any, name: str) -> float:
+    found = numbers(value, name)
+    if found.ndim or not found > 0:
+        raise BadInput(f"{name} must be one positive number, not {value!r}")
+    return float(found)
+
+
+def rounding(rung: Rung) -> float:
+    """The unit roundoff of a rung."""
+    return ROUNDINGS["Digits" if isinstance(rung, Digits) else type(rung).__name__]
+
+
+def distance(request: Request, run: Trajectory, other: Trajectory) -> Floats:
+    """How far apart two runs are in the request's norm, at each of their common frames but the first, (frames,)."""
+    if request.of == "contact":
+        return _lengths(_difference(request, run, other, "contact"))
+    size = float(np.sqrt((request.angular_momentum**2).sum())) or 1.0
+    return np.maximum(_lengths(_difference(request, run, other, "momentum")) / size, _lengths(_difference(request, run, other, "gamma")))
+
+
+def _difference(request: Request, run: Trajectory, other: Trajectory, name: str) -> Floats:
+    a, b = exact_values(request, run, name), exact_values(request, other, name)
+    return (a - b).astype(float)[1:]
+
+
+def _lengths(v: Floats) -> Floats:
+    return np.sqrt((v * v).sum(axis=-1))
+
+
+def exact_values(request: Request, run: Trajectory, name: str) -> np.ndarray:
+    """`contact`, `gamma`, or `momentum` divided by the time step: floats, or Fractions where a float would not do."""
+    high, low = getattr(run, name), run.low and getattr(run.low, name)
+    if low is None and high.dtype != object:
+        return np.asarray(high.astype(float) / (run.time_step if name == "momentum" else 1.0))
+    whole = np.vectorize(_fraction, otypes=[object])(high)
+    if low is not None:
+        whole = whole + np.vectorize(_fraction, otypes=[object])(low)
+    return np.asarray(whole * (int(run.index[-1]) / Fraction(request.time)) if name == "momentum" else whole)
+
+
+def _fraction(value: Any) -> Fraction:
+    if isinstance(value, float):
+        return Fraction(value)
+    if hasattr(value, "man_exp"):
+        found = value.man_exp
+        mantissa, exponent = found if isinstance(found, tuple) else value.mid().man_exp()
+        return Fraction(int(mantissa)) * Fraction(2) ** int(exponent)
+    return Fraction(value)

@@ -1,0 +1,178 @@
+"""Requests that the chooser has not seen: does it meet them, and what does it cost against the best possible choice?"""
+
+import math
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from statistics import median
+from typing import Any
+
+import numpy as np
+
+from chapsym.accuracy import Accurate, Method, Prices, Request, accurate, load_prices, methods, take
+from chapsym.accuracy.prices import rungs
+from chapsym.accuracy.pilot import surveyed
+from chapsym.accuracy.request import exact_values
+from chapsym.dynamics import BadInput, Ball, StepNotTaken, Trajectory, front
+from chapsym.dynamics.ball import Floats
+from chapsym.dynamics.trajectories import attitude_with
+
+from .reference import continuous
+
+SEED, COUNT, QUICK = 2007, 50, 5
+#: The finest accuracy of most requests, and of one in FINER⁻¹.
+COARSE, FINE, FINER = 1e-12, 1e-20, 0.25
+#: The reference has so many digits beyond the accuracy, and those that the flow may cost.
+BEYOND = 3
+#: The best choice is found to this factor in the number of steps.
+GRID = 2**0.125
+#: A method whose steps would take longer than so many times the delivered run cannot be the best.
+DEAREST = 1.2
+RUNS = 3
+#: Seconds below which no run is too long to try.
+SHORT = 3e-3
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """A request, what the chooser made of it, and the best that could have been done.
+
+    error: the true one, at the worst of the times of comparison.  delivered, total: seconds of the processor for the run
+    that was delivered, and with pilot and verification.  best, seconds: the cheapest choice that is accurate enough.
+    """
+
+    request: Request
+    answer: Accurate | None
+    refused: str | None
+    error: float
+    delivered: float
+    total: float
+    best: str
+    seconds: float
+
+    @property
+    def hit(self) -> bool:
+        """Whether the true error is within the accuracy."""
+        return self.error <= self.request.accuracy
+
+
+def drawn(count: int, seed: int = SEED, quick: bool = False) -> Iterator[Request]:
+    """Random requests: balls from flat to even, 0.3 to 6 rad/s, 1 to 1000 s (20 s for a look), 1e-3 to 1e-12 or finer."""
+    random = np.random.default_rng(seed)
+    for _ in range(count):
+        tensor = 10.0 ** random.uniform(-3, -1.5, 3)
+        mass, radius = random.uniform(0.2, 8.0), random.uniform(0.03, 0.2)
+        ball = Ball.from_mass_tensor(tensor, mass=mass, radius=radius)
+        gamma, direction = (x / np.sqrt(x @ x) for x in random.normal(size=(2, 3)))
+        gamma /= np.sqrt(gamma @ gamma)
+        omega = direction * 10.0 ** random.uniform(-0.5, 0.8)
+        K = front.contact_momentum(omega, gamma, ball.mass_tensor, ball.D)
+        seconds = float(10.0 ** random.uniform(0, 1.3 if quick else 3))
+        finest = FINE if random.uniform() < FINER else COARSE
+        accuracy = float(10.0 ** random.uniform(math.log10(finest), -3))
+        yield surveyed(Request(ball, K, gamma, seconds, accuracy, str(random.choice(["state", "contact"]))))
+
+
+def truth(request: Request, digits: int = 0) -> np.ndarray:
+    """K, γ and the contact point at the times of comparison, (checks + 1, 8) Fractions."""
+    wanted = digits or math.ceil(-math.log10(request.accuracy) + math.log10(1 + request.angle)) + BEYOND
+    times = [Fraction(request.time) * k / request.checks for k in range(request.checks + 1)]
+    attitude = request.attitude if request.with_body else attitude_with(request.gamma)
+    return continuous(request.ball, request.angular_momentum, request.gamma, attitude, times, wanted)
+
+
+def true_error(request: Request, run: Trajectory, exact: np.ndarray) -> float:
+    """The error of a run in the request's norm, at the worst time of comparison that is a frame of the run."""
+    exact = exact[:: request.checks // (len(run.index) - 1)]
+    if request.of == "contact":
+        return float(_lengths(exact_values(request, run, "contact") - exact[:, 6:]).max())
+    size = float(np.sqrt((request.angular_momentum**2).sum()))
+    momentum = _lengths(exact_values(request, run, "momentum") - exact[:, :3]) / size
+    return float(max(momentum.max(), _lengths(exact_values(request, run, "gamma") - exact[:, 3:6]).max()))
+
+
+def _lengths(v: np.ndarray) -> Floats:
+    f = v.astype(float)
+    return np.sqrt((f * f).sum(axis=-1))
+
+
+def judge(request: Request, prices: Prices, compare: bool = True) -> Outcome:
+    """One request answered, its true error, and (with `compare`) the best choice by brute force."""
+    exact = truth(request)
+    try:
+        answer = accurate(
+            request.ball, request.angular_momentum, request.gamma, request.time, request.accuracy, of=request.of,
+            prices=prices,
+        )  # fmt: skip
+    except BadInput as error:
+        return Outcome(request, None, str(error), math.inf, math.inf, math.inf, "", math.inf)
+    choice = answer.choice
+    delivered = seconds_of(lambda: take(request, choice.method, choice.steps, 1))
+    run = take(request, choice.method, choice.steps, request.checks)
+    best, seconds = best_choice(request, exact, delivered) if compare else ("", math.nan)
+    return Outcome(request, answer, None, true_error(request, run, exact), delivered, answer.seconds, best, seconds)
+
+
+def best_choice(request: Request, exact: np.ndarray, delivered: float) -> tuple[str, float]:
+    """The cheapest rung, order and number of steps whose true error is within the accuracy, and its seconds."""
+    found = []
+    for rung in rungs():
+        for method in methods(request, rung):
+            steps = _fewest(request, method, exact, max(DEAREST * delivered, SHORT))
+            if steps:
+                took = seconds_of(lambda: take(request, method, steps, 1))  # noqa: B023
+                found.append((took, f"{method.label}, order {method.order}, {steps} steps"))
+    return (min(found)[1], min(found)[0]) if found else ("none", math.inf)
+
+
+def _fewest(request: Request, method: Method, exact: np.ndarray, dearest: float) -> int:
+    """The fewest steps that are accurate enough; 0 if none are within the time."""
+
+    def good(power: int) -> bool | None:
+        started = time.thread_time()
+        try:
+            run = take(request, method, steps(power), request.checks)
+        except (StepNotTaken, BadInput):
+            return False
+        took = time.thread_time() - started
+        if true_error(request, run, exact) <= request.accuracy:
+            return True
+        return None if took > dearest else False
+
+    def steps(power: int) -> int:
+        return request.checks * math.ceil(GRID**power)
+
+    high = 0
+    while not (found := good(high)):
+        if found is None or GRID**high > 1e7:
+            return 0
+        high += 8
+    low = max(high - 8, -1)
+    while high - low > 1:
+        middle = (low + high) // 2
+        low, high = (low, middle) if good(middle) else (middle, high)
+    return steps(high)
+
+
+def seconds_of(run: Callable[[], Any]) -> float:
+    """The median time of the processor."""
+    taken = []
+    for _ in range(RUNS):
+        start = time.thread_time()
+        run()
+        taken.append(time.thread_time() - start)
+    return median(taken)
+
+
+def study(
+    quick: bool = False, seed: int = SEED, count: int = 0,
+    progress: Callable[[str], None] = lambda text: None,
+) -> list[Outcome]:  # fmt: skip
+    """The outcomes of the random requests: 5 short ones for a look, or 50."""
+    prices, wanted = load_prices(progress), count or (QUICK if quick else COUNT)
+    found = []
+    for i, request in enumerate(drawn(wanted, seed, quick)):
+        progress(f"request {i + 1} of {wanted}: {request.accuracy:.1g} after {request.time:.3g} s")
+        found.append(judge(request, prices))
+    return found
