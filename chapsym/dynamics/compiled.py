@@ -131,7 +131,7 @@ def compiled(function: Callable[..., Any]) -> Callable[..., Any]:
 
     It is compiled when it is first called.
     """
-    family: Family | None = function.__globals__.get("family")  # type: ignore[attr-defined]
+    family: Family | None = function.__globals__.get("family")
     folder, module = cache_folder() / (family.name if family else ""), function.__module__.rpartition(".")[2]
     if not any(folder.glob(f"*/{module}.{function.__name__}-*.nbi")):
         _announce()

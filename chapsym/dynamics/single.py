@@ -33,17 +33,17 @@ def loops() -> Loops:
     family = Family("single", np.float32)
     family.kernels(generated)
     family.programs(generated_columns)
-    family.loops(gibbs, LEFT=np.float32(2.0**-24))  # the unit roundoff
+    rounds = family.loops(gibbs, LEFT=np.float32(2.0**-24), SMALLEST=np.float32(SLOWEST))
     # Dekker's 2^12 + 1, and the square of an angle that float32 can tell from 0.
     family.loops(integrals, SPLITTER=np.float32(4097.0), VERTICAL=np.float32(1e-4))
     own = family.loops(single_loop)
-    ways = {"certificate": own.checkable, "small_rotation": own.widened, "follow_body": own.follow_body}
-    march = family.loops(loop, SMALLEST=np.float32(SLOWEST), **ways)
+    rounds.bound = own.checkable
+    march = family.loops(loop, small_rotation=own.widened, follow_body=own.follow_body)
     return Loops(
         march,
         family.loops(composed_loop),
         family.loops(block, LANES=2 * block.LANES),
-        family.loops(columns, certificate=own.checkable),
+        family.loops(columns),
         family.loops(single_step),
         np.float32, np.float32, attitude=8, contact=4,
     )  # fmt: skip
