@@ -91,7 +91,7 @@ def _taken(rung: Rung, start: Step, given: Sequence[Sequence[Fraction]]) -> Prec
     with rung.precision():
         exact = [tuple(map(rung.number, x)) for x in given]
         first = tuple(rung.number(Fraction(float(x))) for x in start.rotation)
-        q = enclosed(rung, first, *exact) if isinstance(rung, ArbBall) else _refined(rung, first, *exact)
+        q = enclosed(rung, first, *exact) if isinstance(rung, ArbBall) else refined(rung, first, *exact)
         if q is None:
             return None
         found = PreciseStep(rung, q, generated.transport(*q, *exact[0]), generated.transport(*q, *exact[1]))
@@ -127,7 +127,7 @@ def unit_exactly(gamma: Sequence[Fraction], rung: Rung) -> None:
         )
 
 
-def _refined(rung: Rung, q: tuple, K: tuple, g: tuple, J: tuple, D: tuple) -> tuple | None:
+def refined(rung: Rung, q: tuple, K: tuple, g: tuple, J: tuple, D: tuple) -> tuple | None:
     """Newton's iteration in the numbers of the rung, until a correction is below the square root of what is asked.
 
     Newton squares the correction, up to the digits that the conditioning costs, which the guard covers.
