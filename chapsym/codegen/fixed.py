@@ -11,7 +11,7 @@ from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 
-from .columns import Node, Texts, Values, called
+from .columns import Texts, Values, called
 from .kernels import ANY_QUATERNION, CONTACT, FIRST, GAMMA, GIBBS, HALF, INERTIA
 from .programs import Program
 

@@ -71,7 +71,7 @@ def step(rung: Rung, shape: tuple[int, ...], K: Floats, g: Floats, J: Floats, D:
     def after(of: Frames) -> list[np.ndarray]:
         return [x[:, 1].reshape(*shape, x.shape[-1]) for x in (of.attitude, of.momentum, of.gamma)]
 
-    return Step(
-        *after(frames), frames.status.reshape(shape), frames.reach.reshape(shape), rung,
-        None if low is None else LowStep(*after(low)),
-    )  # fmt: skip
+    rotation, momentum, gamma = after(frames)
+    rest = None if low is None else LowStep(*after(low))
+    status, reach = frames.status.reshape(shape), frames.reach.reshape(shape)
+    return Step(rotation, momentum, gamma, status, reach, rung, rest)

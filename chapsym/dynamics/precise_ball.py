@@ -15,7 +15,6 @@ from typing import Any
 from flint import arb, ctx, fmpq, fmpz
 
 from chapsym.generated import centre_step, compose, gibbs_newton, gibbs_residual, rotate, transport, turn
-
 from chapsym.numbers import Ball as BallRung
 
 from .ball import Floats
@@ -107,7 +106,7 @@ class ArbBall:
         radius, slope = bound
         try:
             near, start = root(
-                extrapolated(past), self.fixed(k), self.fixed(self.g), self.fixed_I, self.fixed_D, self.P,  # type: ignore[arg-type]
+                extrapolated(past), self.fixed(k), self.fixed(self.g), self.fixed_I, self.fixed_D, self.P,
                 self.number, 0,
             )  # fmt: skip
         except (NotSettled, ZeroDivisionError, OverflowError):

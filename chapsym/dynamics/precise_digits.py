@@ -19,17 +19,14 @@ from .ball import Floats
 from .errors import Status, StepNotTaken
 from .gibbs import certificate
 from .precise import refined
-from .precise_start import start
 from .precise_root import NotSettled, extrapolated, root, to_float
+from .precise_start import start
 
 Numbers = tuple[Any, ...]
 
 
 def condition_bits(J: Sequence[float], D: float) -> int:
-    """The bits that the smallest moment of inertia can cost beside the largest; 0 for a moment of 0, which may cost all.
-
-    Then it is the vertical that says what is lost, at each step.
-    """
+    """The bits that the smallest moment of inertia that is not 0 can cost beside the largest."""
     moments = J[1] + J[2], J[0] + J[2], J[0] + J[1]
     least = min(x for x in moments if x > 0)
     return max(0, math.ceil(math.log2((max(moments) + D) / least)))
@@ -107,7 +104,7 @@ class DigitsBall:
         if not bound >= 0.0:
             return None
         try:
-            u, start = root(extrapolated(past), k, self.g, self.I, self.D, self.P, self.number, self.lost)  # type: ignore[arg-type]
+            u, start = root(extrapolated(past), k, self.g, self.I, self.D, self.P, self.number, self.lost)
         except (NotSettled, ZeroDivisionError, OverflowError):
             return None
         if not start[0] * start[0] + (start[1] * start[1] + start[2] * start[2]) <= bound:
@@ -123,7 +120,8 @@ class DigitsBall:
         length = self.number(math.isqrt(squared << P))
         p0 = (one << P) // length
         p = (p0, *((x * p0) >> P for x in u))
-        *self.a, x, y, _ = body_fixed(*self.a, *p, *self.g, P)  # type: ignore[misc]
+        *a, x, y, _ = body_fixed(*(self.a or ()), *p, *self.g, P)
+        self.a = tuple(a)
         self.x = [self.x[0] + x, self.x[1] + y]
 
     def _rotation(self, k: Numbers) -> Numbers:
@@ -138,7 +136,8 @@ class DigitsBall:
     def _turn_by(self, q: Numbers) -> None:
         fixed = self._into(q)
         if self.a is not None:
-            *self.a, x, y, _ = body_fixed(*self.a, *fixed, *self.g, self.P)
+            *a, x, y, _ = body_fixed(*self.a, *fixed, *self.g, self.P)
+            self.a = tuple(a)
             self.x = [self.x[0] + x, self.x[1] + y]
         k, g = (transport(*q, *(self.out(x) for x in v)) for v in (self.k, self.g))
         self.k, self.g = self._into(k), self._into(g)

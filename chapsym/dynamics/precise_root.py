@@ -27,7 +27,7 @@ INVERSE_BITS = 60
 #: The polynomial through the last 8 Gibbs vectors, newest first.
 WEIGHTS = (8.0, -28.0, 56.0, -70.0, 56.0, -28.0, 8.0, -1.0)
 
-Vector = tuple[Any, Any, Any]
+Vector = tuple[Any, ...]
 
 
 class NotSettled(ArithmeticError):
@@ -128,13 +128,11 @@ def root(
     fixed = [number(from_float(x, INVERSE_BITS)) for x in inverse]
     u = tuple(number(from_float(x, p)) for x in start)
     cut = P - p
-    given = [k, g, I, (D,)]
-    if cut:
-        given = [tuple(x >> cut for x in vector) for vector in given]
-    u = chord(u, *given[:3], given[3][0], fixed, p, lost)  # type: ignore[arg-type]
+    k_p, g_p, I_p = (tuple(x >> cut for x in vector) for vector in (k, g, I))
+    u = chord(u, k_p, g_p, I_p, D >> cut, fixed, p, lost)
     while levels:
         half, p = p, levels.pop()
         cut = P - p
         k_p, g_p, I_p = (tuple(x >> cut for x in vector) for vector in (k, g, I))
-        u = newton(tuple(x << (p - half) for x in u), k_p, g_p, I_p, D >> cut, p, half)  # type: ignore[arg-type]
-    return u, start  # type: ignore[return-value]
+        u = newton(tuple(x << (p - half) for x in u), k_p, g_p, I_p, D >> cut, p, half)
+    return u, start

@@ -3,9 +3,10 @@
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
-from chapsym.numbers import Ball, Digits, Rung
+from chapsym.numbers import Ball, Digits
 
 from .coefficients import COMPOSITIONS
 from .engine import Balls, Frames
@@ -21,8 +22,9 @@ MOST_GUARD = 2**22
 
 
 def run(
-    rung: Rung, balls: Balls, steps: int, every: int, frames: Frames, order: int, progress: Callable[[int], None]
-) -> None:
+    rung: Digits | Ball, balls: Balls, steps: int, every: int, frames: Frames, order: int,
+    progress: Callable[[int], None],
+) -> None:  # fmt: skip
     """Takes `steps` steps of every ball into `frames`, one ball after the other; frame 0 is written anew.
 
     Ball(bits): with as many bits more as the radii grow by, which is measured, so that `bits` are left at the end.
@@ -30,12 +32,17 @@ def run(
     done, bits = 0, rung.bits if isinstance(rung, Ball) else rung.context.prec
     for i in range(len(balls)):
         first = frames.attitude[i, 0].copy() if frames.with_body else None
-        way = _Way(balls, i, steps, every, frames, order, bits, lambda n, done=done: progress(done + n), first)
-        if isinstance(rung, Digits):
-            way.take(DigitsBall(rung, *way.given, steps))
-        else:
+        way = _Way(balls, i, steps, every, frames, order, bits, partial(_from, done, progress), first)
+        if isinstance(rung, Ball):
             _run_ball(rung, way)
+        else:
+            K, g, J, D, stages, attitude, radius = way.given
+            way.take(DigitsBall(rung, K, g, J, D, stages, attitude, radius, steps))
         done += int(frames.taken[i])
+
+
+def _from(before: int, progress: Callable[[int], None], steps: int) -> None:
+    progress(before + steps)
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,40 +92,49 @@ class _Way:
 
 
 def _run_ball(rung: Ball, way: _Way) -> None:
-    """Repeats the run with more bits until `rung.bits` are left; raises BadInput where that takes too many."""
+    """Repeats the run with more bits until `rung.bits` are left; raises BadInput where more do not help."""
+    guard, before = rung.guard, (0, -math.inf)
+    while guard <= MOST_GUARD:
+        precision = rung.bits + guard
+        step, left = _attempt(precision, way)
+        if left >= rung.bits:
+            return
+        if (step, left) <= before:
+            break
+        # What a step has cost, and a little more, for all steps.
+        lost = (precision - left) / step if step else 0.0
+        guard, before = max(2 * guard, math.ceil(1.1 * lost * way.steps) + rung.guard), (step, left)
+    raise BadInput(
+        f"the balls grow too much: after step {step} of {way.steps}, {precision} bits leave less than {rung.bits};"
+        " take fewer or shorter steps"
+    )
+
+
+def _attempt(precision: int, way: _Way) -> tuple[int, float]:
+    """Runs with so many bits while enough are left; the step where they were last looked at, and those left there.
+
+    None are left where a step could not be proved.
+    """
     from flint import ctx
 
     from .precise_ball import ArbBall, TooWide
 
-    given, guard, before = way.given, rung.guard, (0, -math.inf)
-    while guard <= MOST_GUARD:
-        precision, state = rung.bits + guard, [0, -math.inf]
-        with ctx.workprec(precision):
-            ball = ArbBall(precision, *given)
+    seen: tuple[int, float] = (0, math.inf)
+    with ctx.workprec(precision):
+        ball = ArbBall(precision, *way.given)
 
-            def enough(step: int, ball: ArbBall = ball) -> bool:
-                if step % LOOK and step % way.every and step != way.steps:
-                    return True
-                state[:] = step, ball.bits()
-                return state[1] >= rung.bits
+        def enough(step: int) -> bool:
+            nonlocal seen
+            if step % LOOK and step % way.every and step != way.steps:
+                return True
+            seen = (step, ball.bits())
+            return seen[1] >= way.bits
 
-            try:
-                way.take(ball, enough)
-            except TooWide:
-                pass
-            else:
-                if state[1] >= rung.bits or not state[0]:
-                    return
-        step, bits = state
-        if tuple(state) <= before:
-            break  # more bits were of no use
-        # What a step has cost, and a little more, for all steps.
-        lost = (precision - bits) / step if step else 0.0
-        guard, before = max(2 * guard, math.ceil(1.1 * lost * way.steps) + rung.guard), (step, bits)
-    raise BadInput(
-        f"the balls grow too much: after step {state[0]} of {way.steps}, {precision} bits leave less than {rung.bits};"
-        " take fewer or shorter steps"
-    )
+        try:
+            way.take(ball, enough)
+        except TooWide:
+            return seen[0] + 1, 0.0
+    return seen
 
 
 def write(frames: Frames, i: int, at: int, values: tuple[Any, Any, Any, Any]) -> None:

@@ -19,5 +19,5 @@ def start(K: Sequence[float], g: Sequence[float], J: Sequence[float], D: Sequenc
     g = [x / length for x in g]
     status, reach, *q = small_rotation(*K, *g, *J, *D)
     if status != Status.TAKEN:
-        raise StepNotTaken(explain(status, *map(np.array, (K, g, J)), float(D[0])), float(reach))
+        raise StepNotTaken(explain(status, np.array(K), np.array(g), np.array(J), float(D[0])), float(reach))
     return tuple(map(float, q))

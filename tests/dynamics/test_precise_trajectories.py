@@ -212,7 +212,7 @@ def test_a_mutated_formula_is_caught_by_the_oracle(monkeypatch, module, name, ch
 
 
 def test_a_point_that_is_no_root_costs_digits_and_no_truth(monkeypatch):
-    """The enclosure does not depend on the point: half of its digits wrong, and the balls still contain the oracle's."""
+    """The enclosure does not depend on the point: half of its digits wrong, the truth is still inside."""
     mutated(monkeypatch, precise_ball, "root", lambda found: (tuple(x + (x >> 60) for x in found[0]), found[1]))
     run = chapsym.trajectory(BALL, 0.4 * DIRECTION, GAMMA, 2, precision=Ball(90))
     exact = orbit(BALL, 0.4 * DIRECTION, GAMMA, 2, digits=80)
