@@ -58,8 +58,14 @@ def run(
 def step(rung: Rung, shape: tuple[int, ...], K: Floats, g: Floats, J: Floats, D: Floats) -> Step:
     """`map.step` on a rung, for flat arrays of balls and the leading axes `shape` of the result.
 
-    One step of a run, with an attitude that starts as the identity, and so ends as the rotation.
+    One step of a run, with an attitude that starts as the identity, and so ends as the rotation; float32 has its own.
     """
+    if isinstance(rung, Single):
+        q, moved, vertical, status, reach = single.step_all(K, g, J, D)
+        if not shape and status[0] != Status.TAKEN:
+            raise StepNotTaken(Status(int(status[0])), float(reach[0]))
+        arrays = (x.reshape(*shape, x.shape[-1]) for x in (q, moved, vertical))
+        return Step(*arrays, status.reshape(shape), reach.reshape(shape), rung)  # type: ignore[call-arg, misc]
     n = len(D)
     frames = frames_for(rung, n, 2, 2)
     frames.momentum[:, 0], frames.gamma[:, 0], frames.attitude[:, 0], frames.contact[:, 0] = K, g, [1.0, 0, 0, 0], 0.0
