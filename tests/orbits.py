@@ -46,7 +46,7 @@ def orbit(ball, momentum, gamma, steps, stages=(1,), digits=40, attitude=None):
     K, g = ([mp.mpf(float(x)) for x in v] for v in (momentum, gamma))
     length = mp.sqrt(sum(x * x for x in g))
     g = [x / length for x in g]
-    if attitude == "least":
+    if isinstance(attitude, str):
         attitude = (1 + g[2], g[1], -g[0], 0)
     R = from_quaternion(mp, (1, 0, 0, 0) if attitude is None else attitude)
     r = [mp.mpf(0)] * 3

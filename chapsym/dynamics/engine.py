@@ -68,6 +68,12 @@ class Frames:
     low: "Frames | None" = None
     least: bool = False
 
+    def part(self, i: int, kept: int) -> "Frames":
+        """The first frames of one ball, in the same memory."""
+        one = slice(i, i + 1)
+        arrays = (x[one, :kept] for x in (self.momentum, self.gamma, self.attitude, self.contact))
+        return Frames(*arrays, self.taken[one], self.status[one], self.reach[one], self.with_body)
+
 
 @dataclass(frozen=True, eq=False)
 class Loops:

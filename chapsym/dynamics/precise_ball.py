@@ -60,8 +60,8 @@ class ArbBall:
         tensor = [float(x) for x in J]
         self.exponent = math.frexp(max(tensor[1] + tensor[2], tensor[0] + tensor[2], tensor[0] + tensor[1]) + D)[1]
         scale = Fraction(2) ** -self.exponent
-        self.k: Numbers = tuple(exact(Fraction(float(x)) * scale / 2) for x in K)
-        self.g = unit(map(exact, map(float, g)))
+        self.k: Numbers = tuple(exact(Fraction(x) * scale / 2) for x in K)
+        self.g = unit(map(exact, g))
         self.J = tuple(exact(Fraction(x) * scale) for x in tensor)
         self.I = (self.J[1] + self.J[2], self.J[0] + self.J[2], self.J[0] + self.J[1])
         self.D = exact(Fraction(D) * scale)

@@ -52,12 +52,12 @@ class DigitsBall:
         self.scale = Fraction(2) ** -self.exponent
 
         def fixed(x: float, scale: Fraction = self.scale) -> Any:
-            exact = Fraction(float(x)) * scale
+            exact = Fraction(x) * scale
             return MPZ((exact.numerator << P) // exact.denominator)
 
         self.number = MPZ
         self.k = tuple(fixed(x, self.scale / 2) for x in K)
-        self.g = self._unit([Fraction(float(x)) for x in g])
+        self.g = self._unit(list(map(Fraction, g)))
         self.J, self.D = [fixed(x) for x in tensor], fixed(D)
         self.I = (self.J[1] + self.J[2], self.J[0] + self.J[2], self.J[0] + self.J[1])
         self.a: Numbers | None = None

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import partial
 from typing import Any
 
@@ -65,7 +66,7 @@ class _Way:
         b, i = self.balls, self.i
         attitude = None
         if self.frames.with_body:
-            attitude = () if self.frames.least else tuple(map(float, self.attitude))
+            attitude = () if self.frames.least else tuple(map(Fraction, self.attitude))
         stages = COMPOSITIONS[self.order].exact
         return b.momentum[i], b.gamma[i], b.mass_tensor[i], float(b.D[i]), stages, attitude, float(b.radius[i])
 
