@@ -72,12 +72,12 @@ def rung_from(digits: int | None, rung: str | None, ball: int | None) -> "Rung":
     """The rung of the precision ladder that the options name."""
     if sum(x is not None for x in (digits, rung, ball)) > 1:
         fail("choose one of --digits, --rung and --ball", 2)
-    from chapsym.numbers import Ball, Digits, Double
+    from chapsym.numbers import NAMED, Ball, Digits
 
     if digits is not None:
         return Digits(digits)
     if ball is not None:
         return Ball(ball)
-    if rung not in (None, "double"):
-        fail(f"--rung {rung}: the only rung so far is double; for more digits use --digits N or --ball BITS", 2)
-    return Double()
+    if rung is not None and rung not in NAMED:
+        fail(f"--rung {rung}: the rungs are {', '.join(NAMED)}; for more digits use --digits N or --ball BITS", 2)
+    return NAMED[rung or "double"]

@@ -64,8 +64,8 @@ def step(rung: Rung, shape: tuple[int, ...], K: Floats, g: Floats, J: Floats, D:
         q, moved, vertical, status, reach = single.step_all(K, g, J, D)
         if not shape and status[0] != Status.TAKEN:
             raise StepNotTaken(Status(int(status[0])), float(reach[0]))
-        arrays = (x.reshape(*shape, x.shape[-1]) for x in (q, moved, vertical))
-        return Step(*arrays, status.reshape(shape), reach.reshape(shape), rung)  # type: ignore[call-arg, misc]
+        q, moved, vertical = (x.reshape(*shape, x.shape[-1]) for x in (q, moved, vertical))
+        return Step(q, moved, vertical, status.reshape(shape), reach.reshape(shape), rung)
     n = len(D)
     frames = frames_for(rung, n, 2, 2)
     frames.momentum[:, 0], frames.gamma[:, 0], frames.attitude[:, 0], frames.contact[:, 0] = K, g, [1.0, 0, 0, 0], 0.0

@@ -20,7 +20,7 @@ from chapsym.numbers import Ball as BallRung
 from .ball import Floats
 from .precise import enclosed
 from .precise_root import NotSettled, extrapolated, root
-from .precise_start import start
+from .precise_start import fraction, start
 
 Numbers = tuple[Any, ...]
 
@@ -134,8 +134,8 @@ class ArbBall:
 
     def _rotation(self, k: Numbers) -> Numbers:
         """The rotation where the lemma does not hold, enclosed."""
-        K, g, J, D = (tuple(v) for v in ([2 * x for x in k], self.g, self.J, (self.D,)))
-        near = tuple(map(exact, start(*([float(x.mid()) for x in v] for v in (K, g, J, D)))))
+        K, g, J, D = tuple(2 * x for x in k), self.g, self.J, (self.D,)
+        near = tuple(map(exact, start(_exactly(K), _exactly(g), _exactly(J), fraction(self.D))))
         q = enclosed(BallRung(self.precision, 0), near, K, g, J, D)
         if q is None:
             raise TooWide
@@ -208,3 +208,7 @@ def certified(size: Any, inertia: Numbers) -> tuple[Any, Any] | None:
     radius = (radius if radius < 1 else arb(1)).abs_upper()
     m = (least - radius * slope).abs_lower()
     return (radius, m) if least - radius * slope > 0 else None
+
+
+def _exactly(v: Numbers) -> list[Fraction]:
+    return list(map(fraction, v))

@@ -20,7 +20,7 @@ from .errors import Status, StepNotTaken
 from .gibbs import certificate
 from .precise import refined
 from .precise_root import NotSettled, extrapolated, root, to_float
-from .precise_start import start
+from .precise_start import fraction, start
 
 Numbers = tuple[Any, ...]
 
@@ -127,7 +127,8 @@ class DigitsBall:
     def _rotation(self, k: Numbers) -> Numbers:
         """The rotation of a step by the float64 continuation, refined: where the lemma does not hold."""
         K, g, J, D = (tuple(self.out(x) for x in v) for v in ([2 * x for x in k], self.g, self.J, (self.D,)))
-        near = tuple(map(self.context.mpf, start(*(list(map(float, v)) for v in (K, g, J, D)))))
+        found = start(_exactly(K), _exactly(g), _exactly(J), fraction(D[0]))
+        near = tuple(self.rung.number(x) for x in found)
         q = refined(self.rung, near, K, g, J, D)
         if q is None:
             raise StepNotTaken(Status.NOT_CONVERGED, 1.0)
@@ -158,3 +159,7 @@ class DigitsBall:
     def out(self, x: Any) -> Any:
         """A fixed-point integer as an mpf with all its bits."""
         return self.context.make_mpf(from_man_exp(x, -self.P))
+
+
+def _exactly(v: Numbers) -> list[Fraction]:
+    return list(map(fraction, v))

@@ -15,7 +15,7 @@ from orbits import context, from_quaternion, orbit
 import chapsym
 from chapsym import BadInput, StepNotTaken, testing
 from chapsym.dynamics import precise_ball, precise_run
-from chapsym.dynamics.certify import proved_digits
+from chapsym.dynamics.certificates import proved_digits
 from chapsym.dynamics.coefficients import COMPOSITIONS
 from chapsym.numbers import Digits
 

@@ -1,7 +1,7 @@
 """Certificates: the true orbit of a float trajectory in Arb's balls, and what the trajectory is off by, as a proof."""
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
@@ -17,6 +17,7 @@ from .coefficients import COMPOSITIONS
 from .engine import Balls
 from .errors import BadInput, Status
 from .map import batch
+from .precise_start import fraction
 from .trajectories import Trajectory
 
 #: What a certificate is about; `contact` in metres.
@@ -27,8 +28,8 @@ NAMES = ("momentum", "gamma", "attitude", "contact")
 class Certificate:
     """The frames of a trajectory as balls that contain the true orbit, and bounds of what the trajectory is off by.
 
-    The true orbit is that of the map, the small-rotation branch, from the very numbers of frame 0: 𝒦 as it is, γ and the
-    attitude divided by their lengths, without any rounding after that; for the orders 4, 6 and 8 with the stage
+    The true orbit is that of the map, the small-rotation branch, from the very numbers of frame 0: 𝒦 as it is, γ and
+    the attitude divided by their lengths, without any rounding after that; for the orders 4, 6 and 8 with the stage
     coefficients as the 40 digits that are written in `coefficients`.  For `roll` it starts at the 𝒦 of frame 0.
 
     momentum, gamma, attitude, contact: Arb's balls, shaped as those of the trajectory; None where it has none.
@@ -48,7 +49,7 @@ class Certificate:
     contact_error: Floats | None
 
     def digits(self, name: str) -> np.ndarray:
-        """The true values as decimal strings, each rounded to the digits that its ball proves: all of them are right.
+        """The true values as decimal strings, each rounded to the digits that its ball proves: all are right.
 
         name: "momentum", "gamma", "attitude" or "contact".  A value that may be 0 is "0E-n": it is below 10^-n.
         Raises BadInput for another name, and for what the trajectory does not have.
@@ -56,9 +57,7 @@ class Certificate:
         values = getattr(self, name) if name in NAMES else None
         if values is None:
             raise BadInput(f"the certificate has no {name}; it has {', '.join(self._names())}")
-        texts = np.empty(values.shape, dtype=object)
-        texts.flat = [proved_digits(x) for x in values.flat]
-        return texts
+        return np.array([proved_digits(x) for x in values.flat], dtype=object).reshape(values.shape)
 
     def write(self) -> dict[str, Any]:
         """For JSON: the step numbers, and the digits and the bounds of the errors of every array."""
@@ -77,7 +76,7 @@ def certify(
 ) -> Certificate:
     """Encloses the true orbit of a trajectory, and bounds the errors of the trajectory, rigorously.
 
-    trajectory: on any rung, of one ball or a batch, of the order 2, 4, 6 or 8, with attitude and contact if it has them.
+    trajectory: on any rung, of one ball or a batch, of the order 2, 4, 6 or 8, with its attitude and contact.
     bits: how many correct bits the balls shall have; the run is repeated with as many more as its length costs.
     progress: called with the steps done so far (of all balls together); a run that is repeated counts again.
 
@@ -106,21 +105,9 @@ def exactly(trajectory: Trajectory, name: str) -> np.ndarray | None:
     if array is None:
         return None
     rest = None if trajectory.low is None else getattr(trajectory.low, name)
-    found = np.empty(array.shape, dtype=object)
     lows = [0.0] * array.size if rest is None else rest.flat
-    found.flat = [None if x != x else fraction(x) + fraction(y) for x, y in zip(array.flat, lows, strict=True)]
-    return found
-
-
-def fraction(x: Any) -> Fraction:
-    """A number of any rung, exactly; of a ball its midpoint."""
-    if hasattr(x, "mid"):
-        man, exp = x.mid().man_exp()
-        return Fraction(int(man)) * Fraction(2) ** int(exp)
-    if hasattr(x, "_mpf_"):
-        sign, man, exp, _ = x._mpf_
-        return (-1) ** sign * Fraction(int(man)) * Fraction(2) ** exp
-    return Fraction(float(x))
+    values = [None if x != x else fraction(x) + fraction(y) for x, y in zip(array.flat, lows, strict=True)]
+    return np.array(values, dtype=object).reshape(array.shape)
 
 
 def _orbit(
@@ -131,7 +118,9 @@ def _orbit(
     every = int(index[1] - index[0]) if count > 1 else 1
     start = [np.asarray(getattr(trajectory, name)[..., 0, :], dtype=float) for name in ("momentum", "gamma")]
     shape, (_, _, J, D) = batch(trajectory.ball, *start)
-    first = {name: None if array is None else array[..., 0, :].reshape(len(D), -1) for name, array in given.items()}
+    first: dict[str, Any] = {
+        name: None if array is None else array[..., 0, :].reshape(len(D), -1) for name, array in given.items()
+    }
     radius = np.zeros(len(D))
     if trajectory.contact is not None:
         assert trajectory.ball.radius is not None
@@ -142,7 +131,7 @@ def _orbit(
     if with_body:
         frames.attitude[:, 0] = first["attitude"]
     for i, taken in enumerate(trajectory.taken.reshape(-1)):
-        balls = Balls(*(x[i : i + 1] for x in (first["momentum"], first["gamma"], J, D, radius)))  # type: ignore[arg-type]
+        balls = Balls(*(x[i : i + 1] for x in (first["momentum"], first["gamma"], J, D, radius)))
         kept = int(taken) // every + 1
         part = frames.part(i, kept)
         precise_run.run(rung, balls, (kept - 1) * every, every, part, trajectory.order, progress)
@@ -162,17 +151,17 @@ def _errors(balls: np.ndarray, given: Any, bits: int) -> Floats:
     """Upper bounds of |given - ball| for each frame, (..., frames); NaN where there is no frame."""
     from flint import arb, ctx, fmpq
 
-    def bound(frame: Sequence[Any], exact: Sequence[Fraction | None]) -> float:
+    def bound(frame: np.ndarray, exact: np.ndarray) -> float:
         if any(x is None for x in exact) or any(not hasattr(x, "rad") for x in frame):
             return math.nan
-        off = [(x - arb(fmpq(y.numerator, y.denominator))).abs_upper() for x, y in zip(frame, exact, strict=True)]  # type: ignore[union-attr]
+        off = [(x - arb(fmpq(y.numerator, y.denominator))).abs_upper() for x, y in zip(frame, exact, strict=True)]
         length = sum((x * x for x in off), arb(0)).sqrt().abs_upper()
         return math.nextafter(float(length), math.inf) if length > 0 else 0.0
 
     width = balls.shape[-1]
     with ctx.workprec(2 * bits + 128):
         rows = zip(balls.reshape(-1, width), given.reshape(-1, width), strict=True)
-        return np.array([bound(*row) for row in rows]).reshape(balls.shape[:-1])
+        return np.array([bound(x, y) for x, y in rows]).reshape(balls.shape[:-1])
 
 
 def proved_digits(x: Any) -> str:
