@@ -6,7 +6,6 @@ from fractions import Fraction
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from chapsym.dynamics import BadInput, Ball, Trajectory
 from chapsym.dynamics.ball import Floats, numbers
@@ -120,7 +119,10 @@ def distance(request: Request, run: Trajectory, other: Trajectory) -> Floats:
     if request.of == "contact":
         return _lengths(_difference(request, run, other, "contact"))
     size = float(np.sqrt((request.angular_momentum**2).sum())) or 1.0
-    return np.maximum(_lengths(_difference(request, run, other, "momentum")) / size, _lengths(_difference(request, run, other, "gamma")))
+    return np.maximum(
+        _lengths(_difference(request, run, other, "momentum")) / size,
+        _lengths(_difference(request, run, other, "gamma")),
+    )
 
 
 def _difference(request: Request, run: Trajectory, other: Trajectory, name: str) -> Floats:

@@ -70,19 +70,22 @@ class Trajectory:
 
     def invariants(self) -> Floats:
         """⟨𝒦,γ⟩, ⟨𝒦,𝒦⟩ and ⟨γ,γ⟩ of each frame, (..., frames, 3)."""
-        return front.invariants(*self._finite(self.momentum, self.gamma))
+        with self.precision.precision():
+            return front.invariants(*self._finite(self.momentum, self.gamma))
 
     def angular_momentum(self) -> Floats:
         """K = 𝒦/ε in kg m²/s, (..., frames, 3)."""
-        return self.momentum / self._time_step()
+        with self.precision.precision():
+            return self.momentum / self._time_step()
 
     def kinetic_energy(self) -> Floats:
         """½⟨K, ω⟩ in joules for K = 𝒦/ε, (..., frames); the map keeps it up to an oscillation."""
         tensor, contact = self.ball.mass_tensor[..., np.newaxis, :], self.ball.D[..., np.newaxis]
-        return front.energy(*self._finite(self.angular_momentum(), self.gamma), tensor, contact)
+        with self.precision.precision():
+            return front.energy(*self._finite(self.angular_momentum(), self.gamma), tensor, contact)
 
     def _finite(self, *arrays: Floats) -> tuple[Floats, ...]:
-        if np.isnan(self.momentum).any():
+        if (self.taken < self.index[-1]).any():
             raise BadInput("a ball of the batch stopped early; choose the frames up to `taken` first")
         return arrays
 
@@ -173,7 +176,7 @@ def trajectory(
     radius = np.broadcast_to(ball.radius if contact and ball.radius is not None else 0.0, shape).reshape(-1)
     balls, frames = len(D), steps // every + 1
     body_frames = frames if with_body else 0
-    frame = ladder.frames_for(rung, balls, frames, body_frames)
+    frame = ladder.frames_for(rung, balls, frames, body_frames, isinstance(attitude, bool | np.bool_))
     with np.errstate(over="ignore"):  # a rung of a smaller range refuses what it cannot hold
         frame.momentum[:, 0], frame.gamma[:, 0] = K, g
     rest = _beyond_float64(momentum, shape)

@@ -13,8 +13,6 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
-import flint
-import mpmath
 import numpy as np
 
 from .pair import Pair
@@ -157,19 +155,22 @@ class Digits(Rung):
         return replace(self, guard=self.guard + digits)
 
     @cached_property
-    def _context(self) -> Any:
+    def context(self) -> Any:
+        """The mpmath context that the numbers belong to."""
+        import mpmath  # 40 ms with flint, which who runs on float64 need not wait for
+
         context = mpmath.MPContext()
         context.dps = self.count + self.guard
         return context
 
     def number(self, value: Fraction) -> Any:
-        return self._context.mpf(value.numerator) / value.denominator
+        return self.context.mpf(value.numerator) / value.denominator
 
     def sqrt(self, value: Any) -> Any:
-        return self._context.sqrt(value)
+        return self.context.sqrt(value)
 
     def write(self, value: Any) -> str:
-        text = self._context.nstr(value, self.count, strip_zeros=False, min_fixed=-5, max_fixed=self.count)
+        text = self.context.nstr(value, self.count, strip_zeros=False, min_fixed=-5, max_fixed=self.count)
         return str(text).removesuffix(".")
 
     @property
@@ -194,7 +195,9 @@ class Ball(Rung):
         return replace(self, guard=self.guard + math.ceil(digits / math.log10(2)))
 
     def number(self, value: Fraction) -> Any:
-        return flint.arb(flint.fmpq(value.numerator, value.denominator))
+        from flint import arb, fmpq
+
+        return arb(fmpq(value.numerator, value.denominator))
 
     def sqrt(self, value: Any) -> Any:
         return value.sqrt()
@@ -211,7 +214,9 @@ class Ball(Rung):
 
     @contextmanager
     def precision(self) -> Iterator[None]:
-        with flint.ctx.workprec(self.bits + self.guard):
+        from flint import ctx
+
+        with ctx.workprec(self.bits + self.guard):
             yield
 
 

@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 
 from chapsym.accuracy import Accurate, Method, Prices, Request, accurate, load_prices, methods, take
-from chapsym.accuracy.prices import rungs
 from chapsym.accuracy.pilot import surveyed
+from chapsym.accuracy.prices import rungs
 from chapsym.accuracy.request import exact_values
 from chapsym.dynamics import BadInput, Ball, StepNotTaken, Trajectory, front
 from chapsym.dynamics.ball import Floats
