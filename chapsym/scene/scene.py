@@ -104,6 +104,10 @@ class Scene(_Table):
     start: StartTable
     run: RunTable
 
+    def with_run(self, **changed: Any) -> Self:
+        """The same scene with other values under [run]."""
+        return self.model_copy(update={"run": self.run.model_copy(update=changed)})
+
     @model_validator(mode="after")
     def _steps_or_accuracy(self) -> Self:
         run = self.run
@@ -132,6 +136,31 @@ class Scene(_Table):
 
 def load(path: Path) -> Scene:
     """Reads a scene file; raises SceneError with the file, the key and what would be right."""
+    return checked(_read(path), f"{path}: ")
+
+
+def load_for(path: Path, accuracy: float, time: float | None = None) -> Scene:
+    """The scene of a file, but to an accuracy after `time` seconds; without, its own time, or its steps' time."""
+    data = _read(path)
+    run = data.get("run")
+    if isinstance(run, dict):
+        own, steps, step = (run.pop(name, None) for name in ("time", "steps", "time_step"))
+        run.pop("every", None)
+        if time is None and own is None and isinstance(steps, int) and isinstance(step, int | float):
+            own = steps * step
+        data["run"] = run | {"accuracy": accuracy} | ({"time": own if time is None else time} if time or own else {})
+    return checked(data, f"{path}: ")
+
+
+def checked(data: dict[str, Any], where: str = "") -> Scene:
+    """A scene from plain data; raises SceneError with the key and what would be right."""
+    try:
+        return Scene.model_validate(data)
+    except ValidationError as error:
+        raise SceneError(where + "; ".join(_sentence(e) for e in error.errors())) from None
+
+
+def _read(path: Path) -> dict[str, Any]:
     try:
         text = path.read_text(encoding="utf-8-sig")
     except OSError as error:
@@ -139,9 +168,7 @@ def load(path: Path) -> Scene:
     except UnicodeDecodeError:
         raise SceneError(f"{path} is not UTF-8 text") from None
     try:
-        return Scene.model_validate(tomllib.loads(text))
-    except ValidationError as error:
-        raise SceneError(f"{path}: " + "; ".join(_sentence(e) for e in error.errors())) from None
+        return tomllib.loads(text)
     except (ValueError, RecursionError) as error:  # tomllib: wrong syntax, huge integers, deep nesting
         raise SceneError(f"{path} is not TOML: {str(error).splitlines()[0]}") from None
 
