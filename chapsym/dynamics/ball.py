@@ -29,11 +29,13 @@ def numbers(value: ArrayLike, name: str, trailing: int | None = None) -> Floats:
 
 
 def _as_float(value: ArrayLike, name: str) -> Floats:
+    if _has_mask(value):
+        raise _not_numbers(value, name)
     try:
         array = np.asarray(value)
     except ValueError:  # rows of different length
         raise _not_numbers(value, name) from None
-    if np.ma.is_masked(value) or array.dtype.kind not in "iufO":
+    if array.dtype.kind not in "iufO":
         raise _not_numbers(value, name)
     if array.dtype.kind == "O" and not all(isinstance(x, Number) and not isinstance(x, complex) for x in array.flat):
         raise _not_numbers(value, name)
@@ -43,6 +45,13 @@ def _as_float(value: ArrayLike, name: str) -> Floats:
         raise BadInput(f"{name} is beyond the range of float64, about 1.8e308") from None
     except (TypeError, ValueError):
         raise _not_numbers(value, name) from None
+
+
+def _has_mask(value: Any) -> bool:
+    """Whether any entry is masked, in lists of arrays, too, of which NumPy forgets the masks."""
+    if isinstance(value, list | tuple):
+        return any(_has_mask(x) for x in value if isinstance(x, list | tuple | np.ma.MaskedArray))
+    return bool(np.ma.is_masked(value))
 
 
 def _not_numbers(value: Any, name: str) -> BadInput:
