@@ -10,4 +10,16 @@ from .cells import FAILED, REFUSED, WITHIN, Cell, Condition
 from .matrix import CONDITIONS, GROUPS, as_json, extremes, rows
 from .levels import NAMES
 
-__all__ = ["CONDITIONS", "FAILED", "GROUPS", "NAMES", "REFUSED", "WITHIN", "Cell", "Condition", "as_json", "extremes", "rows"]
+__all__ = [
+    "CONDITIONS",
+    "FAILED",
+    "GROUPS",
+    "NAMES",
+    "REFUSED",
+    "WITHIN",
+    "Cell",
+    "Condition",
+    "as_json",
+    "extremes",
+    "rows",
+]

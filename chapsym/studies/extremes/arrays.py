@@ -16,7 +16,10 @@ from .steps import both
 
 #: A state, and a batch of three.
 ONE = (np.array(states.K), np.array(states.G))
-MANY = (np.array([states.K, (0.3, 0.2, -0.1), (-0.4, 0.1, 0.2)]), np.array([states.G, (0.6, 0.0, 0.8), (0.0, 0.0, 1.0)]))
+MANY = (
+    np.array([states.K, (0.3, 0.2, -0.1), (-0.4, 0.1, 0.2)]),
+    np.array([states.G, (0.6, 0.0, 0.8), (0.0, 0.0, 1.0)]),
+)
 STEPS = 3
 
 Make = Callable[[np.ndarray], Any]

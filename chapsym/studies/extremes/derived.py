@@ -16,26 +16,9 @@ from . import states
 from .cells import BUDGET, Compared, Judged, compared, worst
 from .levels import CONTEXT as mp
 from .levels import Level
-from .truth import State, unit_gamma
-
-#: An input is changed by this, relatively, to see what becomes of the output.
-CHANGE = mp.mpf(10) ** -50
+from .truth import State, componentwise, unit_gamma
 
 Function = Callable[[Sequence[Any]], list[Any]]
-
-
-def componentwise(function: Function, inputs: Sequence[Any], change: Any = CHANGE) -> tuple[list[Any], float]:
-    """f of the inputs, in mpmath, and Σ |∂f/∂x · x|/|f|, with the largest component as the norm."""
-    exact = [mp.mpf(x) for x in inputs]
-    value = function(exact)
-    size = max(map(abs, value))
-    total = mp.zero
-    for i, x in enumerate(exact):
-        if x == 0:
-            continue
-        moved = function([*exact[:i], x * (1 + change), *exact[i + 1 :]])
-        total += max(abs(a - b) for a, b in zip(moved, value, strict=True)) / change
-    return value, float(total / size) if size else 0.0
 
 
 def split(inputs: Sequence[Any]) -> tuple[Any, Any, Any, Any]:

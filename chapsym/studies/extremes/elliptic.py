@@ -14,11 +14,10 @@ from chapsym.dynamics.oracle import Oracle
 
 from . import states
 from .cells import BUDGET, Compared, Judged, compared, worst
-from .derived import componentwise
 from .levels import CONTEXT as mp
 from .levels import Level
 from .steps import refused
-from .truth import State, Vector, unit_gamma
+from .truth import State, Vector, componentwise, unit_gamma
 
 #: Parts of a quarter period at which points are taken, and some beyond the first period.
 PARTS = (0.0, 0.3, 0.999999, 1.0, 1.7, 2.0, 3.1, 10.3)

@@ -33,8 +33,10 @@ GROUPS = {
     "arrays": "What is given: made otherwise, the same bits",
     "input": "What is given: no numbers, no states",
 }
+#: Groups whose rows of one name are about the same run.
+SHARED = ("runs", "batch", "reverse")
 _DOUBLE = ("double",)
-_RUNS = NAMES
+_BATCHED = ("single", "double", "quad")
 
 
 def _conditions() -> list[Condition]:
@@ -45,11 +47,11 @@ def _conditions() -> list[Condition]:
         for name, those in named.items()
     ]
     starts = runs.starts()
-    rows += [Condition(name, "runs", runs.ten_steps(name), _RUNS) for name in starts]
-    rows += [Condition(name, "batch", runs.ten_steps(name, runs.BATCH), ("single", "double", "quad")) for name in starts]
-    rows += [Condition(name, "order 8", runs.composed(name, 8), _RUNS) for name in starts]
+    rows += [Condition(name, "runs", runs.ten_steps(name), NAMES) for name in starts]
+    rows += [Condition(name, "batch", runs.ten_steps(name, runs.BATCH), _BATCHED) for name in starts]
+    rows += [Condition(name, "order 8", runs.composed(name, 8), NAMES) for name in starts]
     rows += [Condition(name, "reverse", runs.way_back(name), _DOUBLE) for name in starts]
-    rows += [Condition(f"ε = {size:g}", "long", runs.long_run(size), _RUNS) for size in (1e-3, 0.05, 0.4)]
+    rows += [Condition(f"ε = {size:g}", "long", runs.long_run(size), NAMES) for size in (1e-3, 0.05, 0.4)]
     rows += [Condition(name, "extrapolate", reduced.extrapolated(name), _DOUBLE) for name in reduced.LONG]
     rows += [
         Condition(f"{quantity}: {name}", "derived", derived.of(quantity, name), _DOUBLE)
@@ -68,7 +70,9 @@ def _conditions() -> list[Condition]:
     rows += [Condition(name, "arrays", arrays.same(make), NAMES) for name, make in arrays.SAME.items()]
     rows += [Condition("float32", "arrays", arrays.float32, NAMES), Condition("empty", "arrays", arrays.empty, NAMES)]
     rows += [Condition("huge batch", "arrays", arrays.huge, NAMES)]
-    return rows + [Condition(name, "input", arrays.refusals(*those), NAMES) for name, those in arrays.REFUSED_INPUT.items()]
+    return rows + [
+        Condition(name, "input", arrays.refusals(*those), NAMES) for name, those in arrays.REFUSED_INPUT.items()
+    ]
 
 
 CONDITIONS = _conditions()
@@ -89,18 +93,22 @@ def extremes(
     quick: shorter runs and smaller batches; rungs, groups: which columns and which rows, all by default.
     """
     wanted = [i for i, condition in enumerate(CONDITIONS) if groups is None or condition.group in groups]
+    tasks: dict[Any, list[int]] = {}  # rows with the same reference together: it is computed once
+    for i in wanted:
+        shares = CONDITIONS[i].group in SHARED
+        tasks.setdefault(CONDITIONS[i].name if shares else i, []).append(i)
     found: dict[int, list[Cell]] = {}
     # As in `check`: leaving the pool by an interrupt ends the workers at once; they do not see it themselves.
     context = multiprocessing.get_context("spawn")
     with context.Pool(jobs or os.cpu_count() or 1, signal.signal, (signal.SIGINT, signal.SIG_IGN)) as pool:
-        for index, cells in pool.imap_unordered(partial(_indexed, rungs=rungs, quick=quick), wanted):
-            found[index] = cells
+        for some in pool.imap_unordered(partial(_some, rungs=rungs, quick=quick), tasks.values()):
+            found |= some
             on_row(len(found))
     return [one for index in wanted for one in found[index]]
 
 
-def _indexed(index: int, rungs: Sequence[str], quick: bool) -> tuple[int, list[Cell]]:
-    return index, row(index, rungs, quick)
+def _some(indices: Sequence[int], rungs: Sequence[str], quick: bool) -> dict[int, list[Cell]]:
+    return {index: row(index, rungs, quick) for index in indices}
 
 
 def rows(groups: Sequence[str] | None = None) -> int:

@@ -13,13 +13,12 @@ from chapsym.dynamics.extrapolation import weights
 
 from . import states
 from .cells import BUDGET, FAILED, Compared, Judged, compared, worst
-from .derived import componentwise
 from .folds import fold_at
 from .levels import CONTEXT as mp
 from .levels import Level, number
 from .runs import ball_of, chain, promised, starts
 from .steps import beside, refused
-from .truth import State, truth
+from .truth import State, componentwise, truth
 
 _AXIS_1 = (1.0, 0.0, 0.0)
 
@@ -90,7 +89,9 @@ def fold_search(condition: str) -> Callable[[Level, bool], Judged]:
             return [mp.make_mpf(fold_at(tuple(x[6:9]), x[9], tuple(x[:3]), tuple(x[3:6]))._mpf_)]
 
         exact, kappa = componentwise(at, (*state.K, *state.g, *state.J, state.D), DIFFERENCE)
-        told = compared(level, [Compared("the reach", [number(found.reach) * mp.mpf(size)], exact, BUDGET * (1 + kappa))], kappa)
+        told = compared(
+            level, [Compared("the reach", [number(found.reach) * mp.mpf(size)], exact, BUDGET * (1 + kappa))], kappa
+        )
         if told.verdict == FAILED and not found.settled:
             return refused("Newton settles on no simple fold: `settled` is False, and the reach a lower bound", None)
         return told
@@ -126,7 +127,12 @@ def long_step(start: str, columns: int) -> tuple[State, list[Any], list[Any], fl
 def _compose(p: Sequence[Any], q: Sequence[Any]) -> list[Any]:
     a, b, c, d = p
     e, f, g, h = q
-    return [a * e - b * f - c * g - d * h, a * f + b * e + c * h - d * g, a * g - b * h + c * e + d * f, a * h + b * g - c * f + d * e]
+    return [
+        a * e - b * f - c * g - d * h,
+        a * f + b * e + c * h - d * g,
+        a * g - b * h + c * e + d * f,
+        a * h + b * g - c * f + d * e,
+    ]
 
 
 def _turned(q: Sequence[Any], v: Sequence[Any]) -> list[Any]:
@@ -144,7 +150,10 @@ def extrapolated(start: str) -> Callable[[Level, bool], Judged]:
             found = extrapolate(ball_of(state), state.K, state.g, 1.0, 1, columns=columns)
         except (BadInput, StepNotTaken) as refusal:
             return refused(str(refusal), None)
-        vectors = [Compared("the momentum", found.angular_momentum, K, ulps), Compared("gamma", found.gamma, g, ulps, 1)]
+        vectors = [
+            Compared("the momentum", found.angular_momentum, K, ulps),
+            Compared("gamma", found.gamma, g, ulps, 1),
+        ]
         return compared(level, vectors, kappa)
 
     return judged

@@ -1,6 +1,7 @@
 """The states of the matrix: balls and momenta at which formulas lose digits."""
 
 from collections.abc import Callable, Iterable
+from dataclasses import replace
 from functools import cache
 from math import nextafter, sqrt
 
@@ -93,7 +94,8 @@ def _tiny(size: float) -> Callable[[Level], list[State]]:
 
 
 def _heavy(D: float) -> Callable[[Level], list[State]]:
-    return lambda level: [halfway(J, D), halfway(J, D, G), halfway(J, D, _across(G)), halfway(J, D, K, AXIS)]
+    states = (halfway(J, D), halfway(J, D, G), halfway(J, D, K, AXIS))
+    return _of(*(replace(state, sharp=True) for state in states))
 
 
 def _axes() -> list[Vector]:
@@ -138,6 +140,9 @@ CONDITIONS: dict[str, dict[str, Callable[[Level], list[State]]]] = {
         "D = 1e6": _heavy(1e6),
         "D = 1e12": _heavy(1e12),
         "D = 1e15": _heavy(1e15),
+        "D = 1e6, momentum horizontal": lambda level: [halfway(J, 1e6, _across(G))],
+        "D = 1e12, momentum horizontal": lambda level: [halfway(J, 1e12, _across(G))],
+        "D = 1e15, momentum horizontal": lambda level: [halfway(J, 1e15, _across(G))],
     },
     "inertia": {
         "one ulp apart": lambda level: [halfway((1.0, _ulps(1.0, 1), _ulps(1.0, 2)), D), halfway((1.0, 1.0, _ulps(1.0, 5)), 0.0)],

@@ -9,7 +9,7 @@ from chapsym.dynamics import BadInput, Ball, Status, StepNotTaken, Trajectory, s
 from chapsym.dynamics.precise import precise_step
 from chapsym.numbers import Double, Pair, Quad, Single
 
-from .cells import BUDGET, FAILED, REFUSED, WITHIN, Compared, Judged, compared, worst
+from .cells import BUDGET, FAILED, NO_DIGIT, REFUSED, Compared, Judged, compared, worst
 from .levels import Level, number
 from .truth import State, Truth, reachable, truth, unit_gamma, fraction
 
@@ -32,7 +32,8 @@ def taken(level: Level, state: State) -> Found:
         return None, *last_frame(run)
     precise = precise_step(
         *([Fraction(x) for x in state.J], Fraction(state.D), [Fraction(x) for x in state.K]),
-        [fraction(x) for x in unit_gamma(state.g)], level.rung,
+        [fraction(x) for x in unit_gamma(state.g)],
+        level.rung,
     )
     return precise.rotation[1:], precise.momentum, precise.gamma
 
@@ -45,7 +46,13 @@ def judge(level: Level, state: State) -> Judged:
     except BadInput as refusal:
         return refused(str(refusal), exact)
     except StepNotTaken as refusal:
-        if lie := _lie(refusal.status, level, state, exact):
+        lie = _lie(refusal.status, level, state, exact)
+        if lie and exact and exact.condition * level.unit > NO_DIGIT:
+            told = (
+                f"rounded to this rung it is another state, as κ = {exact.condition:.2g}, of which it says: {refusal}"
+            )
+            return refused(told, exact)
+        if lie:
             return Judged(FAILED, condition=exact.condition if exact else None, reason=lie)
         return refused(str(refusal), exact)
     if exact is None and blurred(level, state):  # right for a momentum that is less than a rounding smaller
@@ -61,9 +68,16 @@ def beside(level: Level, found: Found, exact: Truth) -> Judged:
     extent = float(max(map(abs, exact.q)))
     moved = BUDGET * (1.0 + extent * kappa)
     q = exact.q
-    if found[0] is not None and exact.q0 <= BUDGET * kappa * number(level.unit) and sum(number(a) * b for a, b in zip(found[0], q, strict=True)) < 0:
+    if (
+        found[0] is not None
+        and exact.q0 <= BUDGET * kappa * number(level.unit)
+        and sum(number(a) * b for a, b in zip(found[0], q, strict=True)) < 0
+    ):
         q = [-x for x in q]  # a rotation by π, to rounding: q and -q are the same, and q₀ ≥ 0 does not tell
-    vectors = [Compared("the momentum", found[1], exact.momentum, moved), Compared("gamma", found[2], exact.gamma, moved, 1)]
+    vectors = [
+        Compared("the momentum", found[1], exact.momentum, moved),
+        Compared("gamma", found[2], exact.gamma, moved, 1),
+    ]
     if found[0] is not None:
         vectors.append(Compared("the rotation", found[0], q, BUDGET * kappa))
     return compared(level, vectors, exact.condition)

@@ -5,6 +5,7 @@
 as in `studies.check`, here from the oracle's matrices.
 """
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
@@ -18,6 +19,10 @@ from .levels import CONTEXT as mp
 
 #: More than any rung has, and what the root near its fold, and the Euler parameters near π, cost: `KNOWN` is left.
 DIGITS = 115
+#: What the oracle has for a difference, twice what that moves the input by.
+SHARP_DIGITS = 20
+#: An input is changed by this, relatively, to see what becomes of the output.
+CHANGE = mp.mpf(10) ** -50
 
 Vector = tuple[float, float, float]
 
@@ -27,6 +32,7 @@ class State:
     """A ball and its state, in float64, exactly.
 
     from_fold: how far 𝒦 is from the fold, relatively: positive before it, negative beyond; None if it is far.
+    sharp: whether the promise is by the componentwise condition number, where that is smaller than κ.
     """
 
     J: Vector
@@ -34,6 +40,7 @@ class State:
     K: Vector
     g: Vector
     from_fold: float | None = None
+    sharp: bool = False
 
 
 @dataclass(frozen=True)
@@ -60,6 +67,8 @@ def truth(state: State, unit: bool) -> Truth | None:
         return None
     exact = [[mp.make_mpf(x._mpf_) for x in v] for v in (step.q, step.momentum, step.gamma)]
     kappa = condition(state, oracle, step.rotation, exact[0])
+    if state.sharp:
+        kappa = min(kappa, sharp_condition(state))
     return Truth(mp.make_mpf(step.q0._mpf_), *exact, kappa)
 
 
@@ -86,6 +95,35 @@ def condition(state: State, oracle: Oracle, rotation: Any, q: list[Any]) -> floa
     stretch = np.linalg.norm(np.array((scaled**-1).tolist(), dtype=float), 2)
     size, extent = max(abs(mp.mpf(x)) for x in state.K), max(map(abs, q))
     return float(stretch * float(size / (extent * top) if extent else 0) + 2 * stretch)
+
+
+@cache
+def sharp_condition(state: State) -> float:
+    """1 + Σ |∂q/∂x · x|/|q| over the components of 𝒦, γ (kept a unit vector), J and D: what rounding them may do.
+
+    For D ≫ J it is far below κ unless 𝒦 is horizontal: no term of 𝒦(q, γ) that matters need be as large as D.
+    """
+
+    def rotation(x: Sequence[Any]) -> list[Any]:
+        return Oracle(x[6:9], x[9], unit_gamma(tuple(x[3:6])), 2 * SHARP_DIGITS).step(x[:3]).q
+
+    return 1.0 + componentwise(rotation, (*state.K, *state.g, *state.J, state.D), mp.mpf(10) ** -SHARP_DIGITS)[1]
+
+
+def componentwise(
+    function: Callable[[Sequence[Any]], list[Any]], inputs: Sequence[Any], change: Any = CHANGE
+) -> tuple[list[Any], float]:
+    """f of the inputs, in mpmath, and Σ |∂f/∂x · x|/|f|, with the largest component as the norm."""
+    exact = [mp.mpf(x) for x in inputs]
+    value = [mp.convert(x) for x in function(exact)]
+    size = max(map(abs, value))
+    total = mp.zero
+    for i, x in enumerate(exact):
+        if x == 0:
+            continue
+        moved = function([*exact[:i], x * (1 + change), *exact[i + 1 :]])
+        total += max(abs(mp.convert(a) - b) for a, b in zip(moved, value, strict=True)) / change
+    return value, float(total / size) if size else 0.0
 
 
 @cache
