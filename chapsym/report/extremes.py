@@ -39,14 +39,15 @@ def groups(matrix: Mapping[str, Any]) -> list[dict[str, Any]]:
 
 
 def reasons(cells: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
-    """Why cells are not within, one for each condition, verdict and sentence, with the rungs that it is about."""
-    merged: dict[tuple[str, str, str], list[str]] = {}
+    """Why cells are not within: each sentence once, with the conditions and the rungs that it is about."""
+    merged: dict[tuple[str, str], dict[str, list[str]]] = {}
     for cell in cells:
         if cell["verdict"] != "within":
-            merged.setdefault((cell["condition"], cell["verdict"], cell["reason"]), []).append(cell["rung"])
+            about = merged.setdefault((cell["verdict"], cell["reason"].removeprefix("step 0: ")), {})
+            about.setdefault(cell["condition"], []).append(cell["rung"])
     return [
-        {"condition": condition, "verdict": verdict, "reason": reason, "rungs": rungs}
-        for (condition, verdict, reason), rungs in merged.items()
+        {"verdict": verdict, "reason": reason, "about": [(name, ", ".join(rungs)) for name, rungs in about.items()]}
+        for (verdict, reason), about in merged.items()
     ]
 
 
@@ -73,4 +74,4 @@ def told(cell: Mapping[str, Any]) -> str:
 def heat(cell: Mapping[str, Any]) -> int:
     """How much of the promise is used up, in percent, from 12 on, so that a colour is seen."""
     share = cell["ulps"] / cell["promised"] if cell["ulps"] is not None and cell["promised"] else 0.0
-    return round(12 + 48 * min(1.0, share)) if cell["verdict"] == "within" else 30
+    return round(12 + 48 * min(1.0, share) ** 0.5) if cell["verdict"] == "within" else 30

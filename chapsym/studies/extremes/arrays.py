@@ -1,4 +1,4 @@
-"""What users hand over: arrays of every make must give the same bits as plain ones, and what is no number is refused."""
+"""What users hand over: arrays of every make give the same bits as plain ones, and what is no number is refused."""
 
 from collections.abc import Callable, Sequence
 from decimal import Decimal
@@ -25,9 +25,18 @@ STEPS = 3
 Make = Callable[[np.ndarray], Any]
 
 
+#: The ball of most of them.
+BALL = Ball(states.J, states.D)  # type: ignore[arg-type]
+
+
 def run(level: Level, momentum: Any, gamma: Any, J: Any = states.J, D: Any = states.D) -> Trajectory:
     """A short run on the rung."""
     return trajectory(Ball(J, D), momentum, gamma, STEPS, precision=level.rung)
+
+
+def scaled_gamma(size: float) -> Callable[[Level], object]:
+    """A run with a γ of this length."""
+    return lambda level: run(level, states.K, np.array(states.G) * size)
 
 
 def bits(found: Trajectory) -> list[Any]:
@@ -90,7 +99,7 @@ SAME: dict[str, Make] = {
     "fractions": objects,
     "decimals": decimals,
     "long doubles": lambda x: x.astype(np.longdouble),
-    "memory views": lambda x: memoryview(np.ascontiguousarray(x)),
+    "memory views": lambda x: np.ascontiguousarray(x).data,
 }
 
 
@@ -140,18 +149,16 @@ REFUSED_INPUT: dict[str, Sequence[Callable[[Level], object]]] = {
         lambda level: run(level, np.zeros((2, 3)), np.tile(states.G, (3, 1))),
         lambda level: run(level, [[1.0, 2.0, 3.0], [1.0]], states.G),
     ),
-    "gamma of length 0, 2 and 1 + 1e-9": tuple(
-        (lambda level, size=size: run(level, states.K, np.array(states.G) * size)) for size in (0.0, 2.0, 1 + 1e-9)
-    ),
+    "gamma of length 0, 2 and 1 + 1e-9": tuple(map(scaled_gamma, (0.0, 2.0, 1 + 1e-9))),
     "negative moments": (
         lambda level: run(level, states.K, states.G, (-1e-300, 1.0, 2.0)),
         lambda level: run(level, states.K, states.G, states.J, -1e-300),
     ),
     "more frames than memory": (
-        lambda level: trajectory(Ball(states.J, states.D), states.K, states.G, 10**15, precision=level.rung),
+        lambda level: trajectory(BALL, states.K, states.G, 10**15, precision=level.rung),
     ),
     "a precision that is none": (
-        lambda level: trajectory(Ball(states.J, states.D), states.K, states.G, 1, precision="triple"),
+        lambda level: trajectory(BALL, states.K, states.G, 1, precision="triple"),
     ),
 }  # fmt: skip
 
@@ -162,7 +169,7 @@ def empty(level: Level, quick: bool) -> Judged:
         found = run(level, np.zeros(shape), states.G)
         if found.momentum.shape != (*shape[:-1], STEPS + 1, 3) or found.status.shape != shape[:-1]:
             return Judged(FAILED, reason=f"an empty batch {shape} has the shape {found.momentum.shape}")
-    still = trajectory(Ball(states.J, states.D), states.K, states.G, 0, precision=level.rung)
+    still = trajectory(BALL, states.K, states.G, 0, precision=level.rung)
     return Judged(WITHIN, 0.0, 0.0) if still.momentum.shape == (1, 3) else Judged(FAILED, reason="0 steps have frames")
 
 
@@ -174,11 +181,10 @@ def huge(level: Level, quick: bool) -> Judged:
     """A batch of many balls, every 997th beside itself alone."""
     count = HUGE.get(level.name, (20, 200))[0 if quick else 1]
     momentum = np.random.default_rng(7).uniform(-0.3, 0.3, (count, 3))
-    ball = Ball(states.J, states.D)  # type: ignore[arg-type]
     options: dict[str, Any] = {"every": STEPS, "precision": level.rung}
-    whole = trajectory(ball, momentum, states.G, STEPS, **options)
+    whole = trajectory(BALL, momentum, states.G, STEPS, **options)
     for i in range(0, count, max(1, count // 9)):
-        alone = trajectory(ball, momentum[i], states.G, STEPS, **options)
+        alone = trajectory(BALL, momentum[i], states.G, STEPS, **options)
         if [number(x) for x in whole.momentum[i, -1]] != [number(x) for x in alone.momentum[-1]]:
             return Judged(FAILED, reason=f"ball {i} of {count} has other numbers than alone")
     return Judged(WITHIN, 0.0, 0.0)

@@ -1,11 +1,11 @@
 """A cell of the matrix: what was computed, what was promised, and the verdict."""
 
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import asdict, dataclass, replace
 from typing import Any
 
-from .levels import CONTEXT, KNOWN, Level, finite, number, radius
+from .levels import KNOWN, Level, finite, mp, number, radius
 
 WITHIN, REFUSED, FAILED = "within", "refused", "failed"
 #: From bad to worse.
@@ -35,7 +35,7 @@ class Judged:
 
 @dataclass(frozen=True)
 class Condition:
-    """A row of the matrix: `judge` takes a level and whether to be quick; `levels` are the columns that have this path."""
+    """A row: `judge` takes a level and whether to be quick; `levels` are the columns that have this path."""
 
     name: str
     group: str
@@ -93,7 +93,7 @@ class Compared:
     """A vector beside the truth, with the error that is promised in ulps of its size."""
 
     name: str
-    found: Sequence[Any]
+    found: Iterable[Any]
     truth: Sequence[Any]
     promised: float
     size: Any = None  # of the vector: its largest component, unless it is said
@@ -105,16 +105,17 @@ def compared(level: Level, vectors: Sequence[Compared], condition: float | None 
 
 
 def _one(level: Level, vector: Compared, condition: float | None) -> Judged:
-    if not finite(vector.found):
+    found = [*vector.found]
+    if not finite(found):
         return Judged(FAILED, reason=f"{vector.name} is not finite, and no reason is given")
-    largest = max((abs(x) for x in vector.truth), default=CONTEXT.zero)
+    largest = max((abs(x) for x in vector.truth), default=mp.zero)
     size = largest if vector.size is None else vector.size
-    away = [abs(number(x) - t) for x, t in zip(vector.found, vector.truth, strict=True)]
-    radii = [radius(x) for x in vector.found]
+    away = [abs(number(x) - t) for x, t in zip(found, vector.truth, strict=True)]
+    radii = [radius(x) for x in found]
     error = max([*away, *radii])
     spacing = level.spacing(size)
     ulps = float(error / spacing) if spacing else 0.0 if error == 0 else float("inf")
-    digits = float(-CONTEXT.log10(error / size)) if error and size else None
+    digits = float(-mp.log10(error / size)) if error and size else None
     if any(r and a > r + KNOWN * size for a, r in zip(away, radii, strict=True)):
         return Judged(FAILED, ulps, vector.promised, digits, condition, f"the ball of {vector.name} excludes the truth")
     if ulps > vector.promised:

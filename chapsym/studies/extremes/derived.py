@@ -14,8 +14,7 @@ from chapsym.dynamics import front
 
 from . import states
 from .cells import BUDGET, Compared, Judged, compared, worst
-from .levels import CONTEXT as mp
-from .levels import Level
+from .levels import Level, mp
 from .truth import State, componentwise, unit_gamma
 
 Function = Callable[[Sequence[Any]], list[Any]]

@@ -4,7 +4,6 @@ The reference takes (5.7), (5.8) and (5.13) as they are, with 140 digits, where 
 """
 
 from collections.abc import Callable, Sequence
-from functools import cache
 from typing import Any
 
 import numpy as np
@@ -14,8 +13,7 @@ from chapsym.dynamics.oracle import Oracle
 
 from . import states
 from .cells import BUDGET, Compared, Judged, compared, worst
-from .levels import CONTEXT as mp
-from .levels import Level
+from .levels import Level, mp
 from .steps import refused
 from .truth import State, Vector, componentwise, unit_gamma
 

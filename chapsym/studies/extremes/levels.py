@@ -11,10 +11,10 @@ import mpmath
 from chapsym.numbers import Ball, Digits, Double, Pair, Quad, Rung, Single
 
 #: Everything that is compared is compared with so many digits.
-CONTEXT = mpmath.MPContext()
-CONTEXT.dps = 140
+mp = mpmath.MPContext()
+mp.dps = 140
 #: The truth is known to this, relatively, and better.
-KNOWN = CONTEXT.mpf(10) ** -95
+KNOWN = mp.mpf(10) ** -95
 
 
 @dataclass(frozen=True)
@@ -54,20 +54,20 @@ def level(name: str) -> Level:
 def number(value: Any) -> Any:
     """The exact value of a number of any rung, as an mpf; of a ball its centre."""
     if isinstance(value, Fraction):
-        return CONTEXT.mpf(value.numerator) / value.denominator
+        return mp.mpf(value.numerator) / value.denominator
     if isinstance(value, flint.arb):
         mantissa, exponent = value.mid().man_exp()
-        return CONTEXT.ldexp(CONTEXT.mpf(int(mantissa)), int(exponent))
+        return mp.ldexp(mp.mpf(int(mantissa)), int(exponent))
     if isinstance(value, Pair):
-        return CONTEXT.mpf(value.high) + value.low
-    return CONTEXT.mpf(float(value)) if not hasattr(value, "_mpf_") else CONTEXT.make_mpf(value._mpf_)
+        return mp.mpf(value.high) + value.low
+    return mp.mpf(float(value)) if not hasattr(value, "_mpf_") else mp.make_mpf(value._mpf_)
 
 
 def radius(value: Any) -> Any:
     """How far the number may be from the truth, by its own account: 0 unless it is a ball."""
-    return number(value.rad()) if isinstance(value, flint.arb) else CONTEXT.zero
+    return number(value.rad()) if isinstance(value, flint.arb) else mp.zero
 
 
 def finite(values: Iterable[Any]) -> bool:
     """Whether all are numbers: no NaN, no infinity, no ball without bounds."""
-    return all(x.is_finite() if isinstance(x, flint.arb) else bool(CONTEXT.isfinite(number(x))) for x in values)
+    return all(x.is_finite() if isinstance(x, flint.arb) else bool(mp.isfinite(number(x))) for x in values)

@@ -9,8 +9,7 @@ import numpy as np
 from chapsym.dynamics import BadInput, BallN, StepNotTaken, step_n
 
 from .cells import BUDGET, Compared, Judged, compared, worst
-from .levels import CONTEXT as mp
-from .levels import Level
+from .levels import Level, mp
 from .steps import refused
 
 #: 𝒦 below the diagonal, row by row, of a generic state; γ, J and D with it.

@@ -3,7 +3,6 @@
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import cache
-from math import prod
 from typing import Any
 
 import numpy as np
@@ -14,8 +13,7 @@ from chapsym.dynamics.extrapolation import weights
 from . import states
 from .cells import BUDGET, FAILED, Compared, Judged, compared, worst
 from .folds import fold_at
-from .levels import CONTEXT as mp
-from .levels import Level, number
+from .levels import Level, mp, number
 from .runs import ball_of, chain, promised, starts
 from .steps import beside, refused
 from .truth import State, componentwise, truth
@@ -120,8 +118,7 @@ def long_step(start: str, columns: int) -> tuple[State, list[Any], list[Any], fl
         ulps += abs(float(w)) * promised(state, stages, False)
     length = mp.sqrt(sum(x * x for x in total))
     back = [x / length * sign for x, sign in zip(total, (1, -1, -1, -1), strict=True)]
-    ends = [_turned(back, v) for v in (state.K, state.g)]
-    return state, *ends, ulps, kappa
+    return state, _turned(back, state.K), _turned(back, state.g), ulps, kappa
 
 
 def _compose(p: Sequence[Any], q: Sequence[Any]) -> list[Any]:

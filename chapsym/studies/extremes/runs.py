@@ -16,8 +16,7 @@ from chapsym.numbers import Double
 
 from . import states
 from .cells import BUDGET, FAILED, Compared, Judged, compared, worst
-from .levels import CONTEXT as mp
-from .levels import Level, number
+from .levels import Level, mp, number
 from .steps import both, last_frame, refused
 from .truth import State, Truth, Vector, truth
 

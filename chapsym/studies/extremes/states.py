@@ -12,7 +12,7 @@ from chapsym.dynamics.oracle import Oracle
 
 from .folds import fold_at
 from .levels import Level
-from .truth import State, Vector, rotation_matrix
+from .truth import State, Vector, rotation_matrix, scaled
 
 J, D, G, K = (1.0, 2.0, 4.0), 3.0, (2 / 7, 3 / 7, 6 / 7), (1.0, -0.5, 0.75)
 #: A ball whose small rotations go up to π, and the axis of such a rotation.
@@ -21,12 +21,6 @@ FLIP = (-0.74, -0.63, -0.235)
 #: Exact multiples of it are exact in every rung, as those of γ = e₃ are.
 DYADIC, AXIS = (1.0, -0.5, 0.25), (0.0, 0.0, 1.0)
 SWEEP = (1e-12, 1e-9, 1e-6, 1e-3, 0.1, 0.5, 0.9, 0.99, 0.999)
-
-
-def scaled(v: Iterable[float], factor: float) -> Vector:
-    """A vector times a number."""
-    x, y, z = (factor * c for c in v)
-    return x, y, z
 
 
 def unit(v: Iterable[float]) -> Vector:
@@ -111,7 +105,9 @@ CONDITIONS: dict[str, dict[str, Callable[[Level], list[State]]]] = {
         "1e-150": _tiny(1e-150),
         "1e-300": _tiny(1e-300),
         "subnormal, 5e-320": _tiny(5e-320),
-        "components from 1 to 1e-300": _of(State(J, D, (0.5, 1e-150, 1e-300), G), State(J, D, (1e-300, 0.5, 0.0), AXIS)),
+        "components from 1 to 1e-300": _of(
+            State(J, D, (0.5, 1e-150, 1e-300), G), State(J, D, (1e-300, 0.5, 0.0), AXIS),
+        ),
         "from 1e-12 of the fold to 0.999": lambda level: [part(J, D, K, G, share) for share in SWEEP],
     },
     "rotation": {
@@ -145,11 +141,15 @@ CONDITIONS: dict[str, dict[str, Callable[[Level], list[State]]]] = {
         "D = 1e15, momentum horizontal": lambda level: [halfway(J, 1e15, _across(G))],
     },
     "inertia": {
-        "one ulp apart": lambda level: [halfway((1.0, _ulps(1.0, 1), _ulps(1.0, 2)), D), halfway((1.0, 1.0, _ulps(1.0, 5)), 0.0)],
+        "one ulp apart": lambda level: [
+            halfway((1.0, _ulps(1.0, 1), _ulps(1.0, 2)), D), halfway((1.0, 1.0, _ulps(1.0, 5)), 0.0),
+        ],
         "1e-15 apart": lambda level: [halfway((2.0, 2.0 * (1 + 1e-15), 2.0 * (1 - 1e-15)), D)],
         "equal": lambda level: [halfway((1.0, 1.0, 1.0), D), halfway((1.0, 1.0, 1.0), 0.0, G)],
         "a flat body, one J = 0": lambda level: [halfway((0.0, 1.0, 2.0), D), halfway((1.0, 0.0, 1.0), D, G, AXIS)],
-        "a rod, two J = 0": lambda level: [halfway((0.0, 0.0, 1.0), D), halfway((0.0, 0.0, 1.0), D, K, (1.0, 0.0, 0.0))],
+        "a rod, two J = 0": lambda level: [
+            halfway((0.0, 0.0, 1.0), D), halfway((0.0, 0.0, 1.0), D, K, (1.0, 0.0, 0.0)),
+        ],
         "a rod upright: no inertia about the vertical": _of(State((0.0, 0.0, 1.0), D, (0.1, 0.0, 0.0), AXIS)),
         "a rod 1e-6 from upright": lambda level: [halfway((0.0, 0.0, 1.0), D, K, unit((1e-6, 0.0, 1.0)))],
         "ratios of 1e12": lambda level: [

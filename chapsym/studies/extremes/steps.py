@@ -11,14 +11,14 @@ from chapsym.numbers import Double, Pair, Quad, Single
 
 from .cells import BUDGET, FAILED, NO_DIGIT, REFUSED, Compared, Judged, compared, worst
 from .levels import Level, number
-from .truth import State, Truth, reachable, truth, unit_gamma, fraction
+from .truth import State, Truth, fraction, reachable, scaled, truth, unit_gamma
 
 #: Beyond this share of a rounding from the fold, a rung cannot tell the two sides.
 BLUR = BUDGET
 
 
 #: q, 𝒦 and γ in the numbers of a rung.
-Found = tuple[Sequence[Any], Sequence[Any], Sequence[Any]]
+Found = tuple[Any, Any, Any]
 
 
 def taken(level: Level, state: State) -> Found:
@@ -124,7 +124,7 @@ def mirrored(state: State) -> State:
     """The state as far before its fold as it is beyond it."""
     assert state.from_fold is not None
     shrink = 1.0 + 2.0 * state.from_fold
-    return replace(state, K=tuple(x * shrink for x in state.K), from_fold=-state.from_fold)
+    return replace(state, K=scaled(state.K, shrink), from_fold=-state.from_fold)
 
 
 def of(states: Callable[[Level], Sequence[State]]) -> Callable[[Level, bool], Judged]:

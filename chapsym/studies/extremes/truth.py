@@ -5,7 +5,7 @@
 as in `studies.check`, here from the oracle's matrices.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
@@ -15,7 +15,7 @@ import numpy as np
 
 from chapsym.dynamics.oracle import Oracle, OracleFailed
 
-from .levels import CONTEXT as mp
+from .levels import mp
 
 #: More than any rung has, and what the root near its fold, and the Euler parameters near π, cost: `KNOWN` is left.
 DIGITS = 115
@@ -25,6 +25,12 @@ SHARP_DIGITS = 20
 CHANGE = mp.mpf(10) ** -50
 
 Vector = tuple[float, float, float]
+
+
+def scaled(v: Iterable[float], factor: float) -> Vector:
+    """A vector times a number."""
+    x, y, z = (factor * c for c in v)
+    return x, y, z
 
 
 @dataclass(frozen=True)
@@ -65,11 +71,11 @@ def truth(state: State, unit: bool) -> Truth | None:
         step = oracle.step(state.K)
     except OracleFailed:
         return None
-    exact = [[mp.make_mpf(x._mpf_) for x in v] for v in (step.q, step.momentum, step.gamma)]
-    kappa = condition(state, oracle, step.rotation, exact[0])
+    q, momentum, gamma = ([mp.convert(x) for x in v] for v in (step.q, step.momentum, step.gamma))
+    kappa = condition(state, oracle, step.rotation, q)
     if state.sharp:
         kappa = min(kappa, sharp_condition(state))
-    return Truth(mp.make_mpf(step.q0._mpf_), *exact, kappa)
+    return Truth(mp.convert(step.q0), q, momentum, gamma, kappa)
 
 
 def unit_gamma(g: Vector) -> list[Any]:
