@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from chapsym.numbers import NAMED, Rung
 
 from . import front, ladder
-from .ball import Ball, Floats, numbers
+from .ball import SMALLEST, Ball, Floats, numbers
 from .engine import Balls, Frames
 from .errors import BadInput, Status, StepNotTaken
 from .map import SINGLE_TOLERANCE, UNIT_TOLERANCE, batch, in_single, unit_vertical
@@ -262,6 +262,8 @@ def roll(
     spin = numbers(omega, "omega", 3)
     batch(ball, spin, vertical)  # so that a mistake is told in the names of this function
     momentum = epsilon * front.contact_momentum(spin, vertical, ball.mass_tensor, ball.D)
+    if np.any((np.abs(momentum).max(axis=-1) < SMALLEST) & spin.any(axis=-1) & (ball.inertia > 0).all(axis=-1)):
+        raise BadInput("𝒦 = εK is below the range of float64, about 2.2e-308; take a longer time step or other units")
     return trajectory(
         ball, momentum, vertical, steps, order=order, every=every, attitude=attitude, contact=contact,
         time_step=epsilon, precision=precision, threads=threads, progress=progress,

@@ -1,5 +1,6 @@
 """Scene files in TOML: parameters, the initial state, the number of steps, the output."""
 
+import sys
 import tomllib
 from collections.abc import Callable
 from fractions import Fraction
@@ -21,7 +22,10 @@ def _number(value: Any) -> Any:
     if isinstance(value, str):
         try:
             exact: Fraction = rational(value, "value")
-            return float(exact)
+            found = float(exact)
+            if abs(found) < sys.float_info.min and Fraction(found) != exact:
+                raise ValueError("it is below 2.2e-308, where float64 loses its digits; take other units")
+            return found
         except (NotANumber, OverflowError) as error:
             raise ValueError(str(error)) from None
     if isinstance(value, bool) or not isinstance(value, int | float):
@@ -29,6 +33,12 @@ def _number(value: Any) -> Any:
     if isinstance(value, int) and abs(value) > 10**300:
         raise ValueError("it is beyond the range of float64")
     return value
+
+
+def _toml_float(text: str) -> Any:
+    """A float, or its text where float64 has not all digits: then `_number` says so, with the key."""
+    value = float(text)
+    return text.replace("_", "") if abs(value) < sys.float_info.min else value
 
 
 Number = Annotated[float, BeforeValidator(_number), Field(allow_inf_nan=False)]
@@ -168,7 +178,13 @@ def _read(path: Path) -> dict[str, Any]:
     except UnicodeDecodeError:
         raise SceneError(f"{path} is not UTF-8 text") from None
     try:
+<<<<<<< HEAD
         return tomllib.loads(text)
+=======
+        return Scene.model_validate(tomllib.loads(text, parse_float=_toml_float))
+    except ValidationError as error:
+        raise SceneError(f"{path}: " + "; ".join(_sentence(e) for e in error.errors())) from None
+>>>>>>> h-extremes
     except (ValueError, RecursionError) as error:  # tomllib: wrong syntax, huge integers, deep nesting
         raise SceneError(f"{path} is not TOML: {str(error).splitlines()[0]}") from None
 
