@@ -178,13 +178,7 @@ def _read(path: Path) -> dict[str, Any]:
     except UnicodeDecodeError:
         raise SceneError(f"{path} is not UTF-8 text") from None
     try:
-<<<<<<< HEAD
-        return tomllib.loads(text)
-=======
-        return Scene.model_validate(tomllib.loads(text, parse_float=_toml_float))
-    except ValidationError as error:
-        raise SceneError(f"{path}: " + "; ".join(_sentence(e) for e in error.errors())) from None
->>>>>>> h-extremes
+        return tomllib.loads(text, parse_float=_toml_float)
     except (ValueError, RecursionError) as error:  # tomllib: wrong syntax, huge integers, deep nesting
         raise SceneError(f"{path} is not TOML: {str(error).splitlines()[0]}") from None
 
