@@ -16,6 +16,7 @@ if TYPE_CHECKING:
         Ball,
         BallN,
         Branches,
+        Certificate,
         Curve,
         ExactTop,
         Extrapolated,
@@ -31,6 +32,7 @@ if TYPE_CHECKING:
         VerticalTrajectory,
         axial,
         branches,
+        certify,
         compose_step,
         exact_top,
         extrapolate,
@@ -56,11 +58,11 @@ if TYPE_CHECKING:
 __version__ = "0.1.0"
 
 __all__ = [
-    "BadInput", "Ball", "BallN", "Branches", "Curve", "ExactTop", "Extrapolated", "Fold", "Followed", "NotRetraced",
-    "Status", "Step", "StepN", "StepNotTaken", "Trajectory", "TrajectoryN", "VerticalTrajectory", "axial", "branches",
-    "compose_step", "exact_top", "extrapolate", "fold", "follow", "increment", "invariants_n", "margin",
-    "retrace_error", "reverse", "reverse_n", "roll", "skew", "step", "step_n", "step_vertical", "substeps",
-    "trajectory", "trajectory_n", "trajectory_vertical",
+    "BadInput", "Ball", "BallN", "Branches", "Certificate", "Curve", "ExactTop", "Extrapolated", "Fold", "Followed",
+    "NotRetraced", "Status", "Step", "StepN", "StepNotTaken", "Trajectory", "TrajectoryN", "VerticalTrajectory",
+    "axial", "branches", "certify", "compose_step", "exact_top", "extrapolate", "fold", "follow", "increment",
+    "invariants_n", "margin", "retrace_error", "reverse", "reverse_n", "roll", "skew", "step", "step_n",
+    "step_vertical", "substeps", "trajectory", "trajectory_n", "trajectory_vertical",
 ]  # fmt: skip
 
 

@@ -23,7 +23,7 @@ ROOMS = {
     "dynamics": {"generated", "numbers"},
     "accuracy": {"dynamics", "files", "numbers"},
     "scene": {"accuracy", "dynamics", "exact", "files"},
-    "studies": {"accuracy", "generated", "dynamics", "scene"},
+    "studies": {"accuracy", "generated", "numbers", "dynamics", "scene"},
     "proofs": {"derive", "prove"},
     "report": set(),
     "testing": {"dynamics"},

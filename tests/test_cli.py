@@ -82,7 +82,7 @@ def test_a_negative_first_component_is_no_option():
         ([*STEP, "--mass", "1"], "either --D, or --mass and --radius"),
         ([*STEP, "--digits", "20", "--ball", "64"], "choose one of --digits, --rung and --ball"),
         ([*STEP, "--digits", "0"], "--digits"),
-        ([*STEP, "--rung", "single"], "the only rung so far is double"),
+        ([*STEP, "--rung", "half"], "--rung half: give single, double or quad, or for any number of digits"),
         (["step", "--inertia", "1,1,3", *STEP[3:]], "no body has the inertia 1,1,3"),
         (["prove", "9.9"], "no proof judges the claim '9.9'"),
         (["run", "missing.toml", "-o", "x.npz"], "missing.toml cannot be read: No such file or directory"),

@@ -13,12 +13,13 @@ from typing import Any
 from numpy.typing import ArrayLike
 
 from chapsym.dynamics import BadInput, Ball, StepNotTaken, Trajectory
+from chapsym.numbers import Digits, Double, Single
 
 from .choice import Choice
-from .methods import COMPOSED, EXACT, thinned
+from .methods import COMPOSED, EXACT, checks, thinned
 from .pilot import pilot, surveyed
 from .prices import Prices, load_prices
-from .request import Request
+from .request import Request, exact_values
 from .search import Attempt, Search
 
 #: A run that fails for a reason that is not foreseen is tried so many times.
@@ -44,6 +45,17 @@ class Accurate:
     def choice(self) -> Choice:
         """What was delivered."""
         return self.attempts[-1].choice
+
+    def final(self) -> dict[str, list[Any]]:
+        """K, γ and the contact point at the end: floats, or decimal strings where a float would not hold them."""
+        names = {"angular_momentum": "momentum", "gamma": "gamma", "contact": "contact"}
+        run, rung = self.trajectory, self.choice.method.rung
+        there = {told: name for told, name in names.items() if getattr(run, name) is not None}
+        values = {told: exact_values(self.request, run, name)[-1] for told, name in there.items()}
+        if isinstance(rung, Single | Double):
+            return {told: [float(x) for x in v] for told, v in values.items()}
+        written = Digits(rung.digits)
+        return {told: [written.write(written.number(x)) for x in v] for told, v in values.items()}
 
     @property
     def estimate(self) -> float:
@@ -92,7 +104,7 @@ def accurate(
         progress(choice.sentence())
         run = search.attempt(choice)
         if run is not None:
-            kept = thinned(run, request.checks // request.frames)
+            kept = thinned(run, checks(request, choice.method) // request.frames)
             return Accurate(kept, request, search.attempts, clock.thread_time() - started)
     best = min(one.estimate for one in search.attempts)
     raise BadInput(f"no run was verified to {accuracy:g} in {MOST_ATTEMPTS} attempts; the best differed by {best:.2g}")

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from chapsym.numbers import NAMED, Digits, Rung
 
-from .methods import EXACT, EXTRAPOLATED, Method, methods
+from .methods import EXACT, EXTRAPOLATED, Method, checks, methods
 from .pilot import Law
 from .prices import Prices
 from .request import Request
@@ -43,8 +43,9 @@ class Choice:
 
     def sentence(self) -> str:
         """The choice for a reader."""
-        order = {EXACT: "the exact top", EXTRAPOLATED: "extrapolated to order 12"}.get(self.method.order)
-        return f"{self.method.label}, {order or f'order {self.method.order}'}, {self.steps} steps of {self.time_step:.6g} s"
+        named = {EXACT: "the exact top", EXTRAPOLATED: "extrapolated to order 12"}
+        order = named.get(self.method.order, f"order {self.method.order}")
+        return f"{self.method.label}, {order}, {self.steps} steps of {self.time_step:.6g} s"
 
 
 def choices(
@@ -76,7 +77,7 @@ def _one(request: Request, method: Method, law: Law, prices: Prices, least: int)
     step = TOP / max(request.rate, 1 / request.time) if method.order == EXACT else law.step(MARGIN * request.accuracy)
     if not step > 0 or request.time / step > MOST_STEPS:
         return None
-    coarse = multiple(request, max(request.time / step, least))
+    coarse = multiple(request, method, max(request.time / step, least))
     steps = finer(request, method, coarse)
     if request.floor(method.rung, steps * method.walked, method.summed) > ROUNDING * request.accuracy:
         return None
@@ -85,17 +86,18 @@ def _one(request: Request, method: Method, law: Law, prices: Prices, least: int)
         price = prices.of(method, request.with_body, max(request.rate * request.time / n, 1e-12))
         if price is None:
             return None
-        calls = request.checks if method.order == EXTRAPOLATED else 1
+        calls = checks(request, method) if method.order == EXTRAPOLATED else 1
         cost += n * price + calls * prices.call(method, request.with_body)
     expected = 0.0 if method.order == EXACT else law.error(request.time / steps)
     return Choice(method, steps, coarse, request.time / steps, expected, cost)
 
 
-def multiple(request: Request, steps: float) -> int:
+def multiple(request: Request, method: Method, steps: float) -> int:
     """The least number of steps from `steps` on that the checks divide."""
-    return request.checks * max(1, math.ceil(steps / request.checks))
+    every = checks(request, method)
+    return every * max(1, math.ceil(steps / every))
 
 
 def finer(request: Request, method: Method, coarse: int) -> int:
     """The steps of the run that is delivered, for one of `coarse` steps that it is compared with."""
-    return multiple(request, coarse * LONGER[method.order > 4])
+    return multiple(request, method, coarse * LONGER[method.order > 4])

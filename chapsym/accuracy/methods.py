@@ -24,6 +24,8 @@ from .request import Request
 COMPOSED, EXTRAPOLATED, EXACT = (2, 4, 6, 8), 12, 0
 #: Columns of the extrapolation: half of its order.
 COLUMNS = EXTRAPOLATED // 2
+#: Runs are compared at so many times at least: a difference that is small by chance at one is not so at all.
+CHECKS, FEW = 16, 4
 
 
 @dataclass(frozen=True)
@@ -78,6 +80,12 @@ def _is_top(request: Request) -> bool:
     except BadInput:
         return False
     return True
+
+
+def checks(request: Request, method: Method) -> int:
+    """The equal times at which two runs are compared, a multiple of the frames: few where each costs a call."""
+    least = FEW if method.order == EXTRAPOLATED else CHECKS
+    return request.frames * -(-least // request.frames)
 
 
 def take(request: Request, method: Method, steps: int, frames: int, time: float | None = None) -> Trajectory:

@@ -88,7 +88,8 @@ def sample(of: str, time: float) -> Request:
 
 def calibrate(progress: Callable[[str], None] = lambda text: None) -> Prices:
     """Takes all prices, in seconds; a method or a length of step that this ball cannot take has none."""
-    calls, steps = {}, {}
+    calls: dict[str, float] = {}
+    steps: dict[str, list[tuple[float, float]]] = {}
     for rung in rungs():
         progress(f"pricing {rung_label(rung)}")
         for with_body in (False, True):

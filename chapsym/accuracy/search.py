@@ -9,7 +9,7 @@ from chapsym.dynamics.engine import SHORT_RUN
 from chapsym.numbers import Digits
 
 from .choice import Choice, choices, finer
-from .methods import COMPOSED, EXTRAPOLATED, Method, methods, take
+from .methods import COMPOSED, EXTRAPOLATED, Method, checks, methods, take
 from .pilot import Law, pilot
 from .prices import Prices
 from .request import Request, distance
@@ -109,8 +109,8 @@ class Search:
             steps = finer(request, method, n)
             choice = replace(choice, coarse=n, steps=steps, time_step=request.time / steps)
         try:
-            coarse = coarse or take(request, method, choice.coarse, request.checks)
-            run = take(request, method, choice.steps, request.checks)
+            coarse = coarse or take(request, method, choice.coarse, checks(request, method))
+            run = take(request, method, choice.steps, checks(request, method))
         except StepNotTaken as error:
             if error.status == Status.NO_INERTIA:
                 raise BadInput(f"the ball cannot be followed: {error}") from None

@@ -5,7 +5,11 @@ or the command line is wrong; 130 interrupted; 141 nobody reads the output.
 """
 
 # The order of the imports is that of the subcommands in --help.
-from . import prove, report, codegen, step, branches, run, check, bench  # noqa: F401, I001
+<<<<<<< HEAD
+from . import prove, report, codegen, step, branches, run, check, bench, trade  # noqa: F401, I001
+=======
+from . import prove, report, codegen, step, branches, run, check, extremes, bench  # noqa: F401, I001
+>>>>>>> h-extremes
 from .app import main
 
 __all__ = ["main"]

@@ -31,7 +31,7 @@ def branches(
     """
     J, D = ball_from(mass_tensor, inertia, contact, mass, radius)
     K, g = rationals(momentum, "--momentum", 3), rationals(gamma, "--gamma", 3)
-    chosen = rung_from(digits, rung, ball)
+    chosen = rung_from(digits, rung, ball, ("double",))
     from chapsym.dynamics import BadInput
     from chapsym.dynamics.precise_branches import precise_branches
 

@@ -1,5 +1,6 @@
 """Options that several commands share, and the ball that they describe."""
 
+from collections.abc import Sequence
 from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -68,16 +69,19 @@ def ball_from(
     return J, m * rho * rho
 
 
-def rung_from(digits: int | None, rung: str | None, ball: int | None) -> "Rung":
-    """The rung of the precision ladder that the options name."""
+def rung_from(
+    digits: int | None, rung: str | None, ball: int | None, known: Sequence[str] = ("single", "double", "quad")
+) -> "Rung":
+    """The rung of the precision ladder that the options name; `known` are the names that the command takes."""
     if sum(x is not None for x in (digits, rung, ball)) > 1:
         fail("choose one of --digits, --rung and --ball", 2)
-    from chapsym.numbers import Ball, Digits, Double
+    from chapsym.numbers import NAMED, Ball, Digits
 
     if digits is not None:
         return Digits(digits)
     if ball is not None:
         return Ball(ball)
-    if rung not in (None, "double"):
-        fail(f"--rung {rung}: the only rung so far is double; for more digits use --digits N or --ball BITS", 2)
-    return Double()
+    if rung is not None and rung not in known:
+        listed = " or ".join(filter(None, (", ".join(known[:-1]), known[-1])))
+        fail(f"--rung {rung}: give {listed}, or for any number of digits --digits N or --ball BITS", 2)
+    return NAMED[rung or "double"]

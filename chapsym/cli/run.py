@@ -31,7 +31,10 @@ def run(
             fail(f'{scene} names no output: add -o OUT.npz, or output = "..." under [run]', 2)
         check_destination(destination)
         failure = None
-        with progress_bar("rolling", wanted.run.steps) as shown:
+        if wanted.run.accuracy is not None:
+            _run_accurately(wanted, destination, as_json)
+            return
+        with progress_bar("rolling", wanted.run.steps or 0) as shown:
             try:
                 result = scenes.run(wanted, shown)
             except StepNotTaken as error:
@@ -55,6 +58,22 @@ def run(
         print("relative drift of <K,gamma>, <K,K>, <gamma,gamma>: " + ", ".join(f"{x:.1e}" for x in summary["drift"]))
     if failure is not None:
         fail(f"{failure}; the {summary['steps']} steps before it are in {destination}", 2)
+
+
+def _run_accurately(scene: Any, destination: Path, as_json: bool) -> None:
+    """A scene that asks for an accuracy: what was chosen is told with the result."""
+    from chapsym import scene as scenes
+
+    from .trade import described, print_answer, quiet, say
+
+    answer = scenes.run_accurately(scene, say)
+    scenes.save(answer.trajectory, destination)
+    quiet()
+    if as_json:
+        print_json({"output": str(destination), "frames": len(answer.trajectory.index)} | described(answer))
+        return
+    print(f"{len(answer.trajectory.index)} frames in {destination}")
+    print_answer(answer)
 
 
 def _drift(run: Any) -> list[float]:

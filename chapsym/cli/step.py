@@ -21,7 +21,7 @@ def step(
     mass: Mass = None,
     radius: Radius = None,
     digits: Annotated[int | None, typer.Option(min=1, max=100_000, help="Significant digits, by mpmath.")] = None,
-    rung: Annotated[str | None, typer.Option(help="double: IEEE float64, the default.")] = None,
+    rung: Annotated[str | None, typer.Option(help="single, double (the default) or quad: 7, 16 or 31 digits.")] = None,
     ball: Annotated[int | None, typer.Option(min=2, max=1_000_000, help="Bits of an Arb enclosure.")] = None,
     as_json: Json = False,
 ) -> None:

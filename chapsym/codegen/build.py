@@ -12,17 +12,25 @@ from typing import Any
 
 import sympy as sp
 
-from . import columns, passes, printer, quad
+from . import columns, fixed, passes, printer, quad
 from .kernels import KERNELS, Kernel
 from .programs import PAIR_PROGRAMS, PROGRAMS, Program
-from .values import columns_fingerprint, fingerprint, program_fingerprint, quad_fingerprint, text_fingerprint
+from .values import (
+    columns_fingerprint,
+    fingerprint,
+    fixed_fingerprint,
+    program_fingerprint,
+    quad_fingerprint,
+    text_fingerprint,
+)
 
 #: The modules that are written from programs: (how, its programs, their values by the text).
 TARGETS: tuple[tuple[Any, Sequence[Program], Callable[[Program, str], list[str]]], ...] = (
     (columns, PROGRAMS, columns_fingerprint),
     (quad, PAIR_PROGRAMS, quad_fingerprint),
+    (fixed, fixed.PROGRAMS, fixed_fingerprint),
 )
-ALL_PROGRAMS = (*PROGRAMS, *PAIR_PROGRAMS)
+ALL_PROGRAMS = (*PROGRAMS, *PAIR_PROGRAMS, *fixed.PROGRAMS)
 MANIFEST, FINGERPRINTS = "manifest.json", "fingerprints.json"
 MEND = "chapsym codegen"
 

@@ -6,7 +6,7 @@ from fractions import Fraction
 
 import sympy as sp
 
-from . import columns, quad
+from . import columns, fixed, quad
 from .kernels import Kernel
 from .programs import Program
 
@@ -68,3 +68,8 @@ def columns_fingerprint(program: Program, text: str) -> list[str]:
 def quad_fingerprint(program: Program, text: str) -> list[str]:
     """The same values from the operations on pairs, run on pairs of fractions."""
     return [decimal(value) for value in quad.text_values(program, text, _at)]
+
+
+def fixed_fingerprint(program: Program, text: str) -> list[str]:
+    """The same values from the text on integers, which has far more digits than are compared."""
+    return [decimal(value) for value in fixed.text_values(program, text, _at)]

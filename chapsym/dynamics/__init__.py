@@ -2,6 +2,7 @@
 
 from .ball import Ball
 from .ball_n import BallN, axial, skew
+from .certificates import Certificate, certify
 from .coefficients import substeps
 from .composition import compose_step
 from .continuation import Fold, Followed, fold, follow, margin
@@ -18,9 +19,9 @@ from .trajectories_n import TrajectoryN, invariants_n, reverse_n, trajectory_n
 from .vertical import VerticalTrajectory, step_vertical, trajectory_vertical
 
 __all__ = [
-    "BadInput", "Ball", "BallN", "Branches", "Curve", "ExactTop", "Extrapolated", "Fold", "Followed", "NotRetraced",
-    "Status", "Step", "StepN", "StepNotTaken", "Trajectory", "TrajectoryN", "VerticalTrajectory", "axial", "branches",
-    "compose_step", "exact_top", "extrapolate", "fold", "follow", "increment", "invariants_n", "margin",
-    "retrace_error", "reverse", "reverse_n", "roll", "skew", "step", "step_n", "step_vertical", "substeps",
-    "trajectory", "trajectory_n", "trajectory_vertical",
+    "BadInput", "Ball", "BallN", "Branches", "Certificate", "Curve", "ExactTop", "Extrapolated", "Fold", "Followed",
+    "NotRetraced", "Status", "Step", "StepN", "StepNotTaken", "Trajectory", "TrajectoryN", "VerticalTrajectory",
+    "axial", "branches", "certify", "compose_step", "exact_top", "extrapolate", "fold", "follow", "increment",
+    "invariants_n", "margin", "retrace_error", "reverse", "reverse_n", "roll", "skew", "step", "step_n",
+    "step_vertical", "substeps", "trajectory", "trajectory_n", "trajectory_vertical",
 ]  # fmt: skip

@@ -11,6 +11,9 @@ from .errors import BadInput
 
 Floats = NDArray[np.float64]
 
+#: Below this float64 loses digits.
+SMALLEST = np.finfo(np.float64).tiny
+
 
 def numbers(value: ArrayLike, name: str, trailing: int | None = None) -> Floats:
     """`value` as finite float64 numbers, with the last axis of length `trailing` if that is given.
@@ -29,20 +32,32 @@ def numbers(value: ArrayLike, name: str, trailing: int | None = None) -> Floats:
 
 
 def _as_float(value: ArrayLike, name: str) -> Floats:
+    if _has_mask(value):
+        raise _not_numbers(value, name)
     try:
         array = np.asarray(value)
     except ValueError:  # rows of different length
         raise _not_numbers(value, name) from None
-    if np.ma.is_masked(value) or array.dtype.kind not in "iufO":
+    if array.dtype.kind not in "iufO":
         raise _not_numbers(value, name)
     if array.dtype.kind == "O" and not all(isinstance(x, Number) and not isinstance(x, complex) for x in array.flat):
         raise _not_numbers(value, name)
     try:
-        return array.astype(np.float64)
+        floats = array.astype(np.float64)
+        if array.dtype.kind == "O" and ((floats == 0) & (array != 0)).any():
+            raise BadInput(f"{name} is below the range of float64, about 2.2e-308; take other units")
+        return floats
     except OverflowError:
         raise BadInput(f"{name} is beyond the range of float64, about 1.8e308") from None
     except (TypeError, ValueError):
         raise _not_numbers(value, name) from None
+
+
+def _has_mask(value: Any) -> bool:
+    """Whether any entry is masked, in lists of arrays, too, of which NumPy forgets the masks."""
+    if isinstance(value, list | tuple):
+        return any(_has_mask(x) for x in value if isinstance(x, list | tuple | np.ma.MaskedArray))
+    return bool(np.ma.is_masked(value))
 
 
 def _not_numbers(value: Any, name: str) -> BadInput:
@@ -155,4 +170,8 @@ def contact_term(mass: ArrayLike | None, radius: ArrayLike | None, D: ArrayLike 
     m, rho = numbers(mass, "mass"), numbers(radius, "radius")
     if not (m > 0).all() or not (rho > 0).all():
         raise BadInput("mass and radius must be positive")
-    return m * rho * rho
+    with np.errstate(over="ignore", under="ignore"):
+        contact = m * rho * rho
+    if (contact < SMALLEST).any():
+        raise BadInput("D = m ρ² is below the range of float64, about 2.2e-308; take other units")
+    return contact

@@ -53,7 +53,8 @@ class Frames:
     """What a run fills: (n, frames, ...) arrays whose frame 0 is given, and how each ball ended, (n,).
 
     attitude and contact have no frames unless `with_body`.  The arrays are of the numbers of the rung: float32,
-    float64, or objects; `low` has the second halves of double-double numbers.
+    float64, or objects; `low` has the second halves of double-double numbers.  least: the attitudes start as the least
+    rotations with R γ = e₃, which have more digits on other rungs than in frame 0.
     """
 
     momentum: np.ndarray
@@ -65,6 +66,13 @@ class Frames:
     reach: Floats
     with_body: bool
     low: "Frames | None" = None
+    least: bool = False
+
+    def part(self, i: int, kept: int) -> "Frames":
+        """The first frames of one ball, in the same memory."""
+        one = slice(i, i + 1)
+        arrays = (x[one, :kept] for x in (self.momentum, self.gamma, self.attitude, self.contact))
+        return Frames(*arrays, self.taken[one], self.status[one], self.reach[one], self.with_body)
 
 
 @dataclass(frozen=True, eq=False)

@@ -45,5 +45,6 @@ class StepNotTaken(ArithmeticError):
     def __init__(self, status: Status, reach: float, index: int | None = None, trajectory: Any = None) -> None:
         self.status, self.reach, self.index, self.trajectory = status, reach, index, trajectory
         where = "" if index is None else f"step {index}: "
-        extent = f" (it attains {reach:.6g} of it)" if status is Status.FOLDED else ""
+        attained = f"{reach:.6g}" if reach < 0.99999 else f"all but {max(1 - reach, 1e-16):.2g}"
+        extent = f" (it attains {attained} of it)" if status is Status.FOLDED else ""
         super().__init__(f"{where}{status.sentence}{extent}")

@@ -16,6 +16,13 @@ from .ball import Floats, numbers
 from .errors import BadInput
 
 
+def _array(value: ArrayLike, name: str, trailing: int | None) -> np.ndarray:
+    """The values of an argument: float64, or as they are where an array holds the numbers of another rung."""
+    if isinstance(value, np.ndarray) and value.dtype == object and trailing and value.shape[-1:] == (trailing,):
+        return value
+    return numbers(value, name, trailing)
+
+
 def kernel(name: str) -> Callable[..., Floats]:
     """The NumPy front of a kernel: arrays in the order of its groups, an array of its shape out."""
     function, groups, shape = TABLE[name]
@@ -26,7 +33,7 @@ def kernel(name: str) -> Callable[..., Floats]:
             raise BadInput(f"{name} takes {len(groups)} arguments ({listed}), not {len(arrays)}")
         columns = []
         for value, (group, length) in zip(arrays, groups, strict=True):
-            array = numbers(value, group, None if group == "D" else length)
+            array = _array(value, group, None if group == "D" else length)
             columns += [array] if group == "D" else [array[..., i] for i in range(length)]
         try:
             leading = np.broadcast_shapes(*(c.shape for c in columns))
@@ -59,7 +66,10 @@ energy = kernel("energy")
 contact_momentum = kernel("contact_momentum")
 angular_velocity = kernel("angular_velocity")
 gibbs_newton = kernel("gibbs_newton")
+gibbs_residual = kernel("gibbs_residual")
 gibbs_second = kernel("gibbs_second")
+gibbs_mixed = kernel("gibbs_mixed")
+gibbs_residual = kernel("gibbs_residual")
 vertical_square = kernel("vertical_square")
 vertical_level = kernel("vertical_level")
 gibbs_newton_heavy = kernel("gibbs_newton_heavy")

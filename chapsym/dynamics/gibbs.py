@@ -23,7 +23,7 @@ INSIDE = 0.95
 MOST_ROUNDS = 12
 #: Below this, for Λmax about 1, the squares of |𝒦| or of a determinant leave the range of float64.
 SMALLEST = 2.0**-120
-#: From this D/I_min on a ball is heavy: the determinant by a row loses up to about a third of it in ulps.
+#: From this D/I_min on a ball is heavy: by a row u loses up to half of D/I_min in ulps, a twelfth in the median.
 HEAVY = 32.0
 
 
@@ -125,7 +125,7 @@ def search(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, radius, enough, he
 
 
 def search_safely(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, radius, enough):
-    """`search` by the certificate, and for a heavy ball by `bound`; nothing where neither reaches, or would underflow."""
+    """`search` by the certificate, and for a heavy ball by `bound`; nothing where it does not reach, or underflows."""
     heavy = is_heavy(I1, I2, I3, D)
     if heavy and min(I1, I2, I3) >= SMALLEST and max(abs(k1), abs(k2), abs(k3)) >= SMALLEST:
         radius, enough = bound(k1, k2, k3, I1, I2, I3, D)

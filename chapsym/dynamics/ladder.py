@@ -8,8 +8,10 @@ from chapsym.numbers import NAMED, Ball, Digits, Quad, Rung, Single
 from chapsym.numbers import rung as named
 
 from . import engine, quad, single
+from .ball import Floats
 from .engine import Balls, Frames
-from .errors import BadInput
+from .errors import BadInput, Status, StepNotTaken
+from .map import LowStep, Step
 
 
 def rung_of(precision: str | Rung) -> Rung:
@@ -20,7 +22,7 @@ def rung_of(precision: str | Rung) -> Rung:
         raise BadInput(str(error)) from None
 
 
-def frames_for(rung: Rung, balls: int, frames: int, body_frames: int) -> Frames:
+def frames_for(rung: Rung, balls: int, frames: int, body_frames: int, least: bool = False) -> Frames:
     """Empty frames in the numbers of the rung; raises BadInput if they do not fit into memory."""
     objects = isinstance(rung, Digits | Ball)
     dtype = np.dtype(object if objects else np.float32 if isinstance(rung, Single) else np.float64)
@@ -31,7 +33,7 @@ def frames_for(rung: Rung, balls: int, frames: int, body_frames: int) -> Frames:
     except (MemoryError, ValueError):
         raise BadInput(f"{frames} frames of {balls} balls do not fit into memory; keep fewer with every=") from None
     taken, status, reach = np.zeros(balls, dtype=np.int64), np.zeros(balls, dtype=np.int64), np.ones(balls)
-    return Frames(momenta, verticals, attitudes, traces, taken, status, reach, body_frames > 0, low)
+    return Frames(momenta, verticals, attitudes, traces, taken, status, reach, body_frames > 0, low, least)
 
 
 def run(
@@ -45,4 +47,37 @@ def run(
     if isinstance(rung, Quad):
         quad.run(balls, steps, every, frames, order, threads, progress)
         return
+    if isinstance(rung, Digits | Ball):
+        from . import precise_run
+
+        precise_run.run(rung, balls, steps, every, frames, order, progress)
+        return
     engine.run(balls, steps, every, frames, order, threads, progress)
+
+
+def step(rung: Rung, shape: tuple[int, ...], K: Floats, g: Floats, J: Floats, D: Floats) -> Step:
+    """`map.step` on a rung, for flat arrays of balls and the leading axes `shape` of the result.
+
+    One step of a run, with an attitude that starts as the identity, and so ends as the rotation; float32 has its own.
+    """
+    if isinstance(rung, Single):
+        q, moved, vertical, status, reach = single.step_all(K, g, J, D)
+        if not shape and status[0] != Status.TAKEN:
+            raise StepNotTaken(Status(int(status[0])), float(reach[0]))
+        q, moved, vertical = (x.reshape(*shape, x.shape[-1]) for x in (q, moved, vertical))
+        return Step(q, moved, vertical, status.reshape(shape), reach.reshape(shape), rung)
+    n = len(D)
+    frames = frames_for(rung, n, 2, 2)
+    frames.momentum[:, 0], frames.gamma[:, 0], frames.attitude[:, 0], frames.contact[:, 0] = K, g, [1.0, 0, 0, 0], 0.0
+    run(rung, Balls(K, g, J, D, np.zeros(n)), 1, 1, frames, 2, 1, lambda done: None)
+    if not shape and frames.status[0] != Status.TAKEN:
+        raise StepNotTaken(Status(int(frames.status[0])), float(frames.reach[0]))
+    low = frames.low
+
+    def after(of: Frames) -> list[np.ndarray]:
+        return [x[:, 1].reshape(*shape, x.shape[-1]) for x in (of.attitude, of.momentum, of.gamma)]
+
+    rotation, momentum, gamma = after(frames)
+    rest = None if low is None else LowStep(*after(low))
+    status, reach = frames.status.reshape(shape), frames.reach.reshape(shape)
+    return Step(rotation, momentum, gamma, status, reach, rung, rest)

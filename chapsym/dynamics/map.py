@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from chapsym.generated import momentum as momentum_kernel
+from chapsym.numbers import NAMED, Double, Rung
 
 from . import loop
 from .ball import Ball, Floats, numbers
@@ -27,6 +28,8 @@ class Step:
     momentum, gamma: 𝒦 and γ after the step, shape (..., 3).
     status: a `Status` for each ball, shape (...); where it is not TAKEN the numbers above are NaN.
     reach: the fraction of the momentum that the small-rotation branch attains, shape (...).
+    precision: the rung of the numbers.  The arrays are float32 for Single, objects (mpf, arb) for Digits and Ball.
+    low: for Quad, what the numbers have beyond float64, as of `Trajectory`; else None.
     """
 
     rotation: Floats
@@ -34,6 +37,17 @@ class Step:
     gamma: Floats
     status: np.ndarray
     reach: Floats
+    precision: Rung = NAMED["double"]
+    low: "LowStep | None" = None
+
+
+@dataclass(frozen=True, eq=False)
+class LowStep:
+    """The second halves of the double-double numbers of a step, each at most half an ulp of the first."""
+
+    rotation: Floats
+    momentum: Floats
+    gamma: Floats
 
 
 def in_single(value: ArrayLike) -> bool:
@@ -71,7 +85,7 @@ def batch(ball: Ball, *vectors: Floats) -> tuple[tuple[int, ...], list[Floats]]:
     return shape, [*flat, np.broadcast_to(ball.D, shape).reshape(-1).copy()]
 
 
-def step(ball: Ball, momentum: ArrayLike, gamma: ArrayLike) -> Step:
+def step(ball: Ball, momentum: ArrayLike, gamma: ArrayLike, *, precision: str | Rung = "double") -> Step:
     """One step of the map (5.3) on the small-rotation branch.
 
     Solves 𝒦(q, γ) = 𝒦 for the rotation Ω (5.2) that is continued from the identity, and carries
@@ -79,11 +93,19 @@ def step(ball: Ball, momentum: ArrayLike, gamma: ArrayLike) -> Step:
 
     momentum: 𝒦 = ε K of the paper, in kg m², shape (..., 3); gamma: unit verticals upwards, (..., 3).
     Both broadcast with each other and with the balls.
+    precision: "single", "double", "quad" (31 digits), `Digits(n)` (mpmath) or `Ball(bits)` (Arb, rigorous).  The floats
+    that are given are taken as exact on every rung, but γ is divided by its length there.
 
     One ball (no leading axis) raises StepNotTaken if it has no step; a batch reports `status` instead.
     Raises BadInput for shapes, NaN, infinities, and a gamma that is not unit.
     """
     shape, (K, g, J, D) = batch(ball, numbers(momentum, "momentum", 3), unit_vertical(gamma))
+    if precision != "double":
+        from . import ladder
+
+        rung = ladder.rung_of(precision)
+        if not isinstance(rung, Double):
+            return ladder.step(rung, shape, K, g, J, D)
     q = np.full((len(D), 4), np.nan)
     status, reach = np.zeros(len(D), dtype=np.int64), np.ones(len(D))
     advance_all(K, g, J, D, q, status, reach)

@@ -10,12 +10,13 @@ import flint
 
 import chapsym.generated as generated
 from chapsym.numbers import Ball as ArbBall
-from chapsym.numbers import Double, Rung
+from chapsym.numbers import Double, Rung, Single
 
-from .ball import Ball, Floats
+from .ball import Ball
 from .branch import inverse, inverse_of
 from .errors import BadInput, Status, StepNotTaken
-from .map import Step, step
+from .map import step
+from .precise_start import exponent_of, start
 
 #: Refinement must stay this near to the float64 root, else another branch may have been met.
 NEAR = 1e-6
@@ -54,44 +55,70 @@ def precise_step(
 ) -> PreciseStep:
     """One step of one ball from exact rational input (5.3), on the small-rotation branch.
 
-    Double: as `step`.  Digits(n): Newton in mpmath from the float64 root.  Ball(bits): Arb enclosures,
-    the root proved to exist and to be unique near the float64 root by the interval Newton test.
-    The branch is the one that the float64 continuation finds.
+    Single, Double: as `step`.  Quad, Digits(n): Newton in those numbers from the root that the continuation finds.
+    Ball(bits): Arb enclosures, the root proved to exist and to be unique near that one by the interval Newton test.
+    The continuation is that of float64 where it can, else the same with more digits (`precise_start`); it is what says
+    that this is the small-rotation branch.
 
     Raises BadInput, and StepNotTaken as `step` does.
     """
     unit_exactly(gamma, rung)
-    numbers = in_float64(mass_tensor, (D,), momentum, gamma)
-    if isinstance(rung, Double) and any(x != 0 and float(x) == 0.0 for x in momentum):
-        raise BadInput(
-            "a component of the momentum is below the range of float64; ask for more with --digits or --ball"
-        )
-    J, K, g = numbers[:3], numbers[4:7], numbers[7:]
-    start = step(Ball(J, numbers[3]), K, g)  # type: ignore[arg-type]
-    if isinstance(rung, Double):
-        return PreciseStep(rung, *(tuple(map(float, x)) for x in (start.rotation, start.momentum, start.gamma)))
+    check_body(mass_tensor, D)
+    if isinstance(rung, Double | Single):
+        return _rounded(rung, mass_tensor, D, momentum, gamma)
+    if any(0 < abs(x) <= rung.smallest for x in momentum):
+        told = "a component of the momentum is below the range of double-double numbers"
+        raise BadInput(f"{told}; ask for more with --digits or --ball")
+    near = start(momentum, gamma, mass_tensor, D)
     for attempt in range(MOST_GUARDS):
-        lost = _digits_lost(start.rotation, J, numbers[3], g) << attempt
-        found = _taken(rung.guarded(lost), start, (momentum, gamma, mass_tensor, (D,)))
+        lost = _digits_lost(near, mass_tensor, D, gamma) << attempt
+        found = _taken(rung.guarded(lost), near, (momentum, gamma, mass_tensor, (D,)))
         if found is not None:
             return found
     raise StepNotTaken(Status.NOT_CONVERGED, 1.0)
 
 
-def _digits_lost(q: Floats, J: list[float], D: float, g: list[float]) -> int:
+def check_body(J: Sequence[Fraction], D: Fraction) -> None:
+    """Raises BadInput unless a body has these moments; as `Ball` does, but of any size."""
+    largest = max(map(abs, (*J, D)))
+    scale = Fraction(1)
+    if largest and not 1e-300 < largest < 1e300:
+        scale = Fraction(2) ** -exponent_of(largest)
+    # What is far smaller than the rest must not become 0: it is the difference between a body and none.
+    Ball([_at_least(x * scale) for x in J], _at_least(D * scale))  # type: ignore[arg-type]
+
+
+def _at_least(x: Fraction) -> float:
+    return float(x) if not x or abs(x) > 1e-300 else math.copysign(1e-300, x)
+
+
+def _rounded(
+    rung: Rung, J: Sequence[Fraction], D: Fraction, K: Sequence[Fraction], g: Sequence[Fraction]
+) -> PreciseStep:
+    """The step of the nearest floats."""
+    numbers = in_float64(J, (D,), K, g)
+    if any(x != 0 and float(x) == 0.0 for x in K):
+        raise BadInput(
+            "a component of the momentum is below the range of float64; ask for more with --digits or --ball"
+        )
+    found = step(Ball(numbers[:3], numbers[3]), numbers[4:7], numbers[7:], precision=rung)  # type: ignore[arg-type]
+    return PreciseStep(rung, *(tuple(map(float, x)) for x in (found.rotation, found.momentum, found.gamma)))
+
+
+def _digits_lost(q: Sequence[Fraction], J: Sequence[Fraction], D: Fraction, g: Sequence[Fraction]) -> int:
     """How many digits the conditioning of the state can cost: log₁₀ of |T⁻¹|·2Λmax, and a few."""
     top = max(J[1] + J[2], J[0] + J[2], J[0] + J[1]) + D
-    det, *entries = inverse(*[*map(float, q), *g, *(x / top for x in J), D / top])
-    stretch = 2 * max(map(abs, entries)) if det else math.inf
-    return 5 + math.ceil(math.log10(max(1.0, min(stretch, 1e300))))
+    det, *entries = inverse(*(*q, *g, *(x / top for x in J), D / top))
+    stretch = 2 * max(map(abs, entries)) if det else 10**300
+    return 5 + max(0, math.ceil(exponent_of(Fraction(stretch)) * math.log10(2)))
 
 
-def _taken(rung: Rung, start: Step, given: Sequence[Sequence[Fraction]]) -> PreciseStep | None:
+def _taken(rung: Rung, near: Sequence[Fraction], given: Sequence[Sequence[Fraction]]) -> PreciseStep | None:
     """The step in the numbers of the rung; None if they do not settle, or if a ball is too large."""
     with rung.precision():
         exact = [tuple(map(rung.number, x)) for x in given]
-        first = tuple(rung.number(Fraction(float(x))) for x in start.rotation)
-        q = enclosed(rung, first, *exact) if isinstance(rung, ArbBall) else _refined(rung, first, *exact)
+        first = tuple(map(rung.number, near))
+        q = enclosed(rung, first, *exact) if isinstance(rung, ArbBall) else refined(rung, first, *exact)
         if q is None:
             return None
         found = PreciseStep(rung, q, generated.transport(*q, *exact[0]), generated.transport(*q, *exact[1]))
@@ -127,13 +154,13 @@ def unit_exactly(gamma: Sequence[Fraction], rung: Rung) -> None:
         )
 
 
-def _refined(rung: Rung, q: tuple, K: tuple, g: tuple, J: tuple, D: tuple) -> tuple | None:
+def refined(rung: Rung, q: tuple, K: tuple, g: tuple, J: tuple, D: tuple) -> tuple | None:
     """Newton's iteration in the numbers of the rung, until a correction is below the square root of what is asked.
 
     Newton squares the correction, up to the digits that the conditioning costs, which the guard covers.
     """
     q = normalised(rung, q)
-    settled = rung.number(Fraction(1, 10 ** (rung.carried // 2 - 2)))
+    settled = rung.number(rung.settled)
     for _ in range(MOST_REFINEMENTS):
         w = _correction(q, K, g, J, D)
         change = max(abs(x) for x in w)

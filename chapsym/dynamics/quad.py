@@ -1,5 +1,6 @@
 """Runs in double-double: one ball at a time, or a batch in blocks; frames are pairs of arrays."""
 
+import math
 from collections.abc import Callable
 
 import numpy as np
@@ -66,6 +67,18 @@ def normalised(vector: Floats) -> list[Pair]:
     return [v / length for v in x]
 
 
+def least_rotation(x: Pair, y: Pair, z: Pair) -> list[Pair]:
+    """`attitude_with` in pairs: the attitude of the least rotation for which the unit vector is vertical."""
+    if z > 0:
+        p0 = 1 + z
+    else:  # 1 + z cancels, so x² + y² = (1 - z)(1 + z); scaled, as that may underflow
+        size = math.frexp(max(abs(x.high), abs(y.high)))[1]
+        x, y = (Pair(math.ldexp(v.high, -size), math.ldexp(v.low, -size)) for v in (x, y))
+        p0 = (x * x + y * y) / (1 - z) * math.ldexp(1.0, size)
+    length = (p0 * p0 + x * x + y * y).sqrt()
+    return [p0 / length, y / length, -x / length, Pair(0.0)] if length > 0 else list(map(Pair, (0.0, 1.0, 0.0, 0.0)))
+
+
 def halves(numbers: list[Pair]) -> tuple[Floats, Floats]:
     """The high and the low halves of pairs, one array each."""
     return np.array([x.high for x in numbers]), np.array([x.low for x in numbers])
@@ -77,7 +90,9 @@ def _begin(frames: Frames, low: Frames, i: int, state: Floats, rest: Floats | No
     low.momentum[i, 0] = 0.0 if rest is None else rest[i]
     attitude, contact = np.zeros((4, 2)), np.zeros(4)
     if frames.with_body:
-        attitude[:, 0], attitude[:, 1] = halves(normalised(frames.attitude[i, 0]))
+        g = map(Pair, frames.gamma[i, 0], low.gamma[i, 0])
+        first = least_rotation(*g) if getattr(frames, "least", False) else normalised(frames.attitude[i, 0])
+        attitude[:, 0], attitude[:, 1] = halves(first)
         frames.attitude[i, 0], low.attitude[i, 0] = attitude.T
         low.contact[i, 0] = 0.0
     return attitude.reshape(-1), contact

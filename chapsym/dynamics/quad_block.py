@@ -17,16 +17,18 @@ from .quad_step import correction, small, solved
 
 #: Balls in a block: its rows stay in the first-level cache.
 LANES = 16
+#: Iterates in float64 that all lanes take together, where one of them wants another.
+ROUNDS = 4
 #: The filter of the Gibbs vector, radius² and enough follow the rows of the single ball.
 A, RADIUS, ENOUGH = ROWS, ROWS + 24, ROWS + 25
 ALL_ROWS = ROWS + 26
-#: Rows of the work space: u or w, d, det, cofactors, r, and e; then what `approach` would see of the last round.
+#: Rows of the work space: w, the last correction d, det and cofactors before it, the residual, the correction e.
 W, DELTA, DET, C, R, E = 0, 3, 6, 7, 16, 19
 WORK_ROWS = 22
 
 
 def approached(S, P, ok, again):
-    """One Newton iterate in float64 for every lane, from the guess or `again` from itself; returns how many go on."""
+    """A Newton iterate in float64 for every lane, from the guess or `again` from itself; how many want another."""
     bad = 0
     for i in range(LANES):
         radius = S[RADIUS, i]
@@ -50,7 +52,7 @@ def approached(S, P, ok, again):
         for row, c in ((0, c11), (1, c12), (2, c13), (3, c21), (4, c22), (5, c23), (6, c31), (7, c32), (8, c33)):
             P[C + row, i] = P[C + row, i] if done else c
         ok[i] = 1 if done | ((radius >= 0.0) & (first <= S[ENOUGH, i])) else 0
-        bad += 1 - ok[i]
+        bad += 1 - ok[i] if radius >= 0.0 else 0
     return bad
 
 
@@ -138,8 +140,9 @@ def march_quad_block(state, first, count, every, shift, momenta, momenta_, verti
     S, P, ok = np.empty((ALL_ROWS, LANES)), np.empty((WORK_ROWS, LANES)), np.empty(LANES, dtype=np.int64)
     S[:, :] = state
     for step in range(first, first + count):
-        if approached(S, P, ok, False) != 0:
-            approached(S, P, ok, True)
+        bad, rounds = approached(S, P, ok, False), 1
+        while bad != 0 and rounds < ROUNDS:
+            bad, rounds = approached(S, P, ok, True), rounds + 1
         residuals(S, P)
         if corrected(S, P, ok) != 0:
             mend(S, P, ok, step, taken, status, reach)

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from chapsym.numbers import NAMED, Rung
 
 from . import front, ladder
-from .ball import Ball, Floats, numbers
+from .ball import SMALLEST, Ball, Floats, numbers
 from .engine import Balls, Frames
 from .errors import BadInput, Status, StepNotTaken
 from .map import SINGLE_TOLERANCE, UNIT_TOLERANCE, batch, in_single, unit_vertical
@@ -70,19 +70,22 @@ class Trajectory:
 
     def invariants(self) -> Floats:
         """⟨𝒦,γ⟩, ⟨𝒦,𝒦⟩ and ⟨γ,γ⟩ of each frame, (..., frames, 3)."""
-        return front.invariants(*self._finite(self.momentum, self.gamma))
+        with self.precision.precision():
+            return front.invariants(*self._finite(self.momentum, self.gamma))
 
     def angular_momentum(self) -> Floats:
         """K = 𝒦/ε in kg m²/s, (..., frames, 3)."""
-        return self.momentum / self._time_step()
+        with self.precision.precision():
+            return self.momentum / self._time_step()
 
     def kinetic_energy(self) -> Floats:
         """½⟨K, ω⟩ in joules for K = 𝒦/ε, (..., frames); the map keeps it up to an oscillation."""
         tensor, contact = self.ball.mass_tensor[..., np.newaxis, :], self.ball.D[..., np.newaxis]
-        return front.energy(*self._finite(self.angular_momentum(), self.gamma), tensor, contact)
+        with self.precision.precision():
+            return front.energy(*self._finite(self.angular_momentum(), self.gamma), tensor, contact)
 
     def _finite(self, *arrays: Floats) -> tuple[Floats, ...]:
-        if np.isnan(self.momentum).any():
+        if (self.taken < self.index[-1]).any():
             raise BadInput("a ball of the batch stopped early; choose the frames up to `taken` first")
         return arrays
 
@@ -173,7 +176,7 @@ def trajectory(
     radius = np.broadcast_to(ball.radius if contact and ball.radius is not None else 0.0, shape).reshape(-1)
     balls, frames = len(D), steps // every + 1
     body_frames = frames if with_body else 0
-    frame = ladder.frames_for(rung, balls, frames, body_frames)
+    frame = ladder.frames_for(rung, balls, frames, body_frames, isinstance(attitude, bool | np.bool_))
     with np.errstate(over="ignore"):  # a rung of a smaller range refuses what it cannot hold
         frame.momentum[:, 0], frame.gamma[:, 0] = K, g
     rest = _beyond_float64(momentum, shape)
@@ -259,6 +262,8 @@ def roll(
     spin = numbers(omega, "omega", 3)
     batch(ball, spin, vertical)  # so that a mistake is told in the names of this function
     momentum = epsilon * front.contact_momentum(spin, vertical, ball.mass_tensor, ball.D)
+    if np.any((np.abs(momentum).max(axis=-1) < SMALLEST) & spin.any(axis=-1) & (ball.inertia > 0).all(axis=-1)):
+        raise BadInput("𝒦 = εK is below the range of float64, about 2.2e-308; take a longer time step or other units")
     return trajectory(
         ball, momentum, vertical, steps, order=order, every=every, attitude=attitude, contact=contact,
         time_step=epsilon, precision=precision, threads=threads, progress=progress,

@@ -13,8 +13,6 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
-import flint
-import mpmath
 import numpy as np
 
 from .pair import Pair
@@ -47,6 +45,16 @@ class Rung(ABC):
     def carried(self) -> int:
         """Significant decimal digits of the arithmetic."""
         return self.digits
+
+    @property
+    def settled(self) -> Fraction:
+        """The relative correction after which Newton's iteration is done: its square is below the digits asked for."""
+        return Fraction(1, 10 ** (self.carried // 2 - 2))
+
+    @property
+    def smallest(self) -> Fraction:
+        """Numbers that are not 0 must be larger, or underflow takes digits from what is computed with them."""
+        return Fraction(0)
 
     def guarded(self, digits: int) -> "Rung":
         """The same rung with as many guard digits more, where it has any."""
@@ -93,6 +101,11 @@ class Double(Rung):
     def digits(self) -> int:
         return 12
 
+    @property
+    def smallest(self) -> Fraction:
+        """What rounds to 0."""
+        return Fraction(1, 2**1075)
+
 
 @dataclass(frozen=True)
 class Quad(Rung):
@@ -116,6 +129,16 @@ class Quad(Rung):
         """106 bits."""
         return 31
 
+    @property
+    def settled(self) -> Fraction:
+        """2^-53, whose square is the roundoff: there are no guard digits."""
+        return Fraction(1, 2**53)
+
+    @property
+    def smallest(self) -> Fraction:
+        """2^-900: the error of a product of two more is still a float64."""
+        return Fraction(1, 2**900)
+
 
 @dataclass(frozen=True)
 class Digits(Rung):
@@ -132,19 +155,22 @@ class Digits(Rung):
         return replace(self, guard=self.guard + digits)
 
     @cached_property
-    def _context(self) -> Any:
+    def context(self) -> Any:
+        """The mpmath context that the numbers belong to."""
+        import mpmath  # 40 ms with flint, which who runs on float64 need not wait for
+
         context = mpmath.MPContext()
         context.dps = self.count + self.guard
         return context
 
     def number(self, value: Fraction) -> Any:
-        return self._context.mpf(value.numerator) / value.denominator
+        return self.context.mpf(value.numerator) / value.denominator
 
     def sqrt(self, value: Any) -> Any:
-        return self._context.sqrt(value)
+        return self.context.sqrt(value)
 
     def write(self, value: Any) -> str:
-        text = self._context.nstr(value, self.count, strip_zeros=False, min_fixed=-5, max_fixed=self.count)
+        text = self.context.nstr(value, self.count, strip_zeros=False, min_fixed=-5, max_fixed=self.count)
         return str(text).removesuffix(".")
 
     @property
@@ -169,7 +195,9 @@ class Ball(Rung):
         return replace(self, guard=self.guard + math.ceil(digits / math.log10(2)))
 
     def number(self, value: Fraction) -> Any:
-        return flint.arb(flint.fmpq(value.numerator, value.denominator))
+        from flint import arb, fmpq
+
+        return arb(fmpq(value.numerator, value.denominator))
 
     def sqrt(self, value: Any) -> Any:
         return value.sqrt()
@@ -186,7 +214,9 @@ class Ball(Rung):
 
     @contextmanager
     def precision(self) -> Iterator[None]:
-        with flint.ctx.workprec(self.bits + self.guard):
+        from flint import ctx
+
+        with ctx.workprec(self.bits + self.guard):
             yield
 
 

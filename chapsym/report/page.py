@@ -16,7 +16,7 @@ from . import errata, formulas, graph, notation, symbols
 from . import records as reading
 from .records import Record
 
-_FOLDER = Path(__file__).parent / "templates"
+FOLDER = Path(__file__).parent / "templates"
 
 #: How many links a list shows before it folds.
 _MANY = 8
@@ -27,13 +27,21 @@ def html(records: Sequence[Record], versions: Mapping[str, str], date: str | Non
     page = _Page(records, versions)
     return page.render(
         "page.html",
-        style=Markup((_FOLDER / "style.css").read_text(encoding="utf-8")),
-        script=Markup((_FOLDER / "script.js").read_text(encoding="utf-8")),
+        style=Markup((FOLDER / "style.css").read_text(encoding="utf-8")),
+        script=Markup((FOLDER / "script.js").read_text(encoding="utf-8")),
         body=[(name, title, page.section(name, title, write)) for name, (title, write) in SECTIONS.items()],
         summary=page.section("summary", "Summary", summary),
         versions=versions,
         date=date,
     )
+
+
+def templates() -> Environment:
+    """The templates of the room."""
+    return Environment(
+        loader=FileSystemLoader(FOLDER), autoescape=True, undefined=StrictUndefined, trim_blocks=True,
+        lstrip_blocks=True,
+    )  # fmt: skip
 
 
 class _Page:
@@ -42,10 +50,7 @@ class _Page:
     def __init__(self, records: Sequence[Record], versions: Mapping[str, str]) -> None:
         self.records = records
         self.versions = versions
-        self._templates = Environment(
-            loader=FileSystemLoader(_FOLDER), autoescape=True, undefined=StrictUndefined, trim_blocks=True,
-            lstrip_blocks=True,
-        )  # fmt: skip
+        self._templates = templates()
         self._templates.globals |= {
             "VERDICTS": reading.VERDICTS, "MANY": _MANY, "NOTE": errata.NOTE, "point": notation.point,
             "sides": notation.sides, "differing": notation.differing, "reproduce": errata.reproduce,

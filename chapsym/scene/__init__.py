@@ -2,6 +2,6 @@
 
 from .accurate import run_accurately
 from .files import save
-from .scene import Scene, SceneError, load, run
+from .scene import Scene, SceneError, checked, load, load_for, run
 
-__all__ = ["Scene", "SceneError", "load", "run", "run_accurately", "save"]
+__all__ = ["Scene", "SceneError", "checked", "load", "load_for", "run", "run_accurately", "save"]

@@ -1,5 +1,6 @@
 """Scene files in TOML: parameters, the initial state, the number of steps, the output."""
 
+import sys
 import tomllib
 from collections.abc import Callable
 from fractions import Fraction
@@ -21,7 +22,10 @@ def _number(value: Any) -> Any:
     if isinstance(value, str):
         try:
             exact: Fraction = rational(value, "value")
-            return float(exact)
+            found = float(exact)
+            if abs(found) < sys.float_info.min and Fraction(found) != exact:
+                raise ValueError("it is below 2.2e-308, where float64 loses its digits; take other units")
+            return found
         except (NotANumber, OverflowError) as error:
             raise ValueError(str(error)) from None
     if isinstance(value, bool) or not isinstance(value, int | float):
@@ -29,6 +33,12 @@ def _number(value: Any) -> Any:
     if isinstance(value, int) and abs(value) > 10**300:
         raise ValueError("it is beyond the range of float64")
     return value
+
+
+def _toml_float(text: str) -> Any:
+    """A float, or its text where float64 has not all digits: then `_number` says so, with the key."""
+    value = float(text)
+    return text.replace("_", "") if abs(value) < sys.float_info.min else value
 
 
 Number = Annotated[float, BeforeValidator(_number), Field(allow_inf_nan=False)]
@@ -104,6 +114,10 @@ class Scene(_Table):
     start: StartTable
     run: RunTable
 
+    def with_run(self, **changed: Any) -> Self:
+        """The same scene with other values under [run]."""
+        return self.model_copy(update={"run": self.run.model_copy(update=changed)})
+
     @model_validator(mode="after")
     def _steps_or_accuracy(self) -> Self:
         run = self.run
@@ -132,6 +146,31 @@ class Scene(_Table):
 
 def load(path: Path) -> Scene:
     """Reads a scene file; raises SceneError with the file, the key and what would be right."""
+    return checked(_read(path), f"{path}: ")
+
+
+def load_for(path: Path, accuracy: float, time: float | None = None) -> Scene:
+    """The scene of a file, but to an accuracy after `time` seconds; without, its own time, or its steps' time."""
+    data = _read(path)
+    run = data.get("run")
+    if isinstance(run, dict):
+        own, steps, step = (run.pop(name, None) for name in ("time", "steps", "time_step"))
+        run.pop("every", None)
+        if time is None and own is None and isinstance(steps, int) and isinstance(step, int | float):
+            own = steps * step
+        data["run"] = run | {"accuracy": accuracy} | ({"time": own if time is None else time} if time or own else {})
+    return checked(data, f"{path}: ")
+
+
+def checked(data: dict[str, Any], where: str = "") -> Scene:
+    """A scene from plain data; raises SceneError with the key and what would be right."""
+    try:
+        return Scene.model_validate(data)
+    except ValidationError as error:
+        raise SceneError(where + "; ".join(_sentence(e) for e in error.errors())) from None
+
+
+def _read(path: Path) -> dict[str, Any]:
     try:
         text = path.read_text(encoding="utf-8-sig")
     except OSError as error:
@@ -139,9 +178,13 @@ def load(path: Path) -> Scene:
     except UnicodeDecodeError:
         raise SceneError(f"{path} is not UTF-8 text") from None
     try:
-        return Scene.model_validate(tomllib.loads(text))
+<<<<<<< HEAD
+        return tomllib.loads(text)
+=======
+        return Scene.model_validate(tomllib.loads(text, parse_float=_toml_float))
     except ValidationError as error:
         raise SceneError(f"{path}: " + "; ".join(_sentence(e) for e in error.errors())) from None
+>>>>>>> h-extremes
     except (ValueError, RecursionError) as error:  # tomllib: wrong syntax, huge integers, deep nesting
         raise SceneError(f"{path} is not TOML: {str(error).splitlines()[0]}") from None
 

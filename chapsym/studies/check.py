@@ -2,9 +2,10 @@
 
 The error of a step is given in ulps, units of 2^-52 relative to |q|, |𝒦| and |γ| = 1.  What float64
 can do depends on the state: a rounding of the residual of 𝒦(q, γ) = 𝒦 moves q by |T⁻¹| times it,
-where T is the tangent Jacobian.  So the promise is relative to the condition number
+where T is the tangent Jacobian.  Roundings of D's term lie across γ, where T is as large as D (lemma
+`stable-momentum`): they move q as its own do.  So the promise is relative to the condition number
 
-    κ = |T⁻¹| (|𝒦| + 2Λmax |q|) / |q|,
+    κ = 1 + |T⁻¹| (|𝒦| + 2 I_max |q|) / |q|,
 
 and it is: q within `BUDGET`·κ ulps, 𝒦 and γ after the step within `BUDGET`·(1 + |q| κ) ulps.
 Norms of vectors are their largest components.
@@ -155,8 +156,8 @@ def compare(state: State, digits: int = 34) -> Comparison:
         return max(float(abs(e - float(v)) / scale) for v, e in zip(values, exact, strict=True)) / ULP
 
     jacobian = front.tangent_jacobian(found.rotation, state.g, state.J, state.D)
-    top = (state.J.sum() - state.J).max() + state.D
-    kappa = float(np.linalg.norm(np.linalg.inv(jacobian), 2) * (size / extent + 2 * top))
+    top = (state.J.sum() - state.J).max()
+    kappa = 1 + float(np.linalg.norm(np.linalg.inv(jacobian), 2) * (size / extent + 2 * top))
     errors = [ulps(q, truth.q, extent), ulps(found.momentum, truth.momentum, size), ulps(found.gamma, truth.gamma, 1.0)]
     promised = [BUDGET * kappa, BUDGET * (1 + extent * kappa), BUDGET * (1 + extent * kappa)]
     return Comparison(np.array(errors), np.array(promised), kappa)

@@ -1,10 +1,12 @@
 """Balls that exist, and those that do not."""
 
+from fractions import Fraction
+
 import numpy as np
 import pytest
 from hypothesis import given
 
-from chapsym import BadInput, Ball, testing
+from chapsym import BadInput, Ball, roll, testing
 
 
 def test_inertia_and_mass_tensor_are_two_ways_to_say_the_same():
@@ -59,3 +61,21 @@ def test_a_ball_does_not_change_with_the_array_it_was_made_from():
     assert ball.mass_tensor.tolist() == [1, 2, 4]
     with pytest.raises(ValueError, match="read-only"):
         ball.mass_tensor[0] = -5
+
+
+@pytest.mark.parametrize(("mass", "radius"), [(1e-200, 1e-100), (1.0, 1e-155)])
+def test_a_contact_term_below_float64_is_not_silently_none(mass, radius):
+    with pytest.raises(BadInput, match=r"D = m ρ² is below the range"):
+        Ball.from_mass_tensor((1, 2, 4), mass=mass, radius=radius)
+
+
+def test_fractions_below_float64_are_refused():
+    with pytest.raises(BadInput, match="D is below the range of float64"):
+        Ball((1, 2, 4), Fraction(1, 10**400))
+
+
+def test_a_momentum_below_float64_is_refused_by_roll():
+    ball = Ball((1, 2, 4), 3)
+    with pytest.raises(BadInput, match="εK is below the range"):
+        roll(ball, (1e-200, 0, 0), 1e-150, 3)
+    assert roll(ball, (0, 0, 0), 1e-150, 3).taken == 3

@@ -138,6 +138,8 @@ def test_the_branch_is_continuous_from_the_identity(state):
         ({"momentum": ("a", 1, 2)}, "momentum must be real numbers"),
         ({"momentum": ("1", "2", "3")}, "momentum must be real numbers"),
         ({"momentum": np.ma.masked_invalid([1, np.nan, 2])}, "momentum must be real numbers"),
+        ({"momentum": [np.ma.masked_invalid([1, np.nan, 2])]}, "momentum must be real numbers"),
+        ({"momentum": (np.ma.masked, 1, 2)}, "momentum must be real numbers"),
         ({"momentum": np.array([1, 2, 3], dtype="M8[s]")}, "momentum must be real numbers"),
         ({"momentum": [[1, 2, 3], [1, 2]]}, "momentum must be real numbers"),
         ({"momentum": (True, False, None)}, "momentum must be real numbers"),

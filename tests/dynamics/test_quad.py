@@ -12,11 +12,12 @@ import chapsym
 from chapsym import generated
 from chapsym.dynamics import compiled, front, integrals, quad, quad_loop, quad_step
 from chapsym.dynamics.coefficients import COMPOSITIONS
-from chapsym.dynamics.errors import Status, StepNotTaken
+from chapsym.dynamics.errors import BadInput, Status, StepNotTaken
 from chapsym.dynamics.map import step
 from chapsym.dynamics.oracle import Oracle
+from chapsym.dynamics.precise import precise_step
 from chapsym.dynamics.trajectories import attitude_with
-from chapsym.numbers import Quad, pairs
+from chapsym.numbers import Digits, Pair, Quad, pairs
 from chapsym.studies import check
 
 #: One unit of double-double is the square of one of float64, 2⁻⁵²; the roundoff u² is a quarter of it.
@@ -267,6 +268,46 @@ def test_unit_vectors_in_pairs():
     square = sum((F(a) + F(b)) ** 2 for a, b in zip(x[::2], x[1::2], strict=True))
     assert abs(square - 1) <= 24 * U2  # a root and a quotient: 2·(25/8 + 15) at most
     assert pairs.two_sum(x[0], x[1]) == x[:2]
+
+
+@pytest.mark.parametrize("x", [0.48, 1e-9, 1e-170, 5e-324, 0.0])
+@pytest.mark.parametrize("sign", [1, -1])
+def test_the_least_rotation(x, sign):
+    """It turns γ to e₃ and has no part about e₃; upside down it is a half turn about e₁."""
+    y = Pair(0.6 if x == 0.48 else 3 * x)
+    z = sign * (1 - Pair(x) * x - y * y).sqrt()
+    a = quad.least_rotation(Pair(x), y, z)
+    exact = [v.exactly() for v in a]
+    gamma = [v.exactly() for v in (Pair(x), y, z)]
+    turned = generated.rotate(*exact, *gamma)
+    assert abs(turned[0]) + abs(turned[1]) + abs(turned[2] - 1) <= 100 * U2
+    assert a[3] == 0
+    if x == 0 and sign < 0:
+        assert a[:3] == [0, 1, 0]
+    if sign < 0 and x < 1e-150:  # float64's squares vanish, and it takes the half turn about e₁
+        return
+    np.testing.assert_allclose([float(v) for v in a], attitude_with(np.array(gamma, dtype=float)), atol=3e-16)
+
+
+def test_steps_from_exact_input():
+    """`precise_step` in pairs against 45 digits, by the condition of the state; too small a momentum is refused."""
+    for stratum in ("generic", "flat body, one J = 0", "rotation at 0.9 to 0.999 of the fold"):
+        rng = np.random.default_rng(5)
+        for _ in range(3):
+            state = check.STRATA[stratum](rng)
+            given = [F(float(x)) for x in state.J], F(float(state.D)), [F(float(x)) for x in state.K]
+            x, y = (F(float(v)).limit_denominator(1000) for v in state.g[:2] / (1.5 - state.g[2]))
+            gamma = (2 * x / (1 + x * x + y * y), 2 * y / (1 + x * x + y * y), 1 - 2 / (1 + x * x + y * y))
+            try:
+                truth = precise_step(*given, gamma, Digits(45))
+            except StepNotTaken:
+                continue
+            found = precise_step(*given, gamma, Quad())
+            extent, kappa = condition(check.State(state.J, state.D, state.K, np.array(gamma, dtype=float)))
+            promise = check.BUDGET * kappa * ULP / U2
+            assert off([v.exactly() for v in found.rotation], truth.rotation, extent) <= promise
+    with pytest.raises(BadInput, match="below the range of double-double numbers"):
+        precise_step((F(1), F(2), F(4)), F(3), (F(1), F(0), F(1, 10**280)), (F(0), F(0), F(1)), Quad())
 
 
 def test_no_steps_and_no_balls():

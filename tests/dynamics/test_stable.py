@@ -144,7 +144,8 @@ def test_the_light_balls_are_not_touched():
 
 
 def test_heavy_balls_in_a_batch_and_alone_agree_to_the_bit():
-    cases = states(1e6, 6) + [(np.array((0.1, 0.5, 1.6)), np.array((0.03, -0.02, 0.035)), np.array((2, 3, 6)) / 7)]
+    light = (np.array((0.1, 0.5, 1.6)), np.array((0.03, -0.02, 0.035)), np.array((2, 3, 6)) / 7)
+    cases = [*states(1e6, 6), light]
     J, K, g = (np.array(x) for x in zip(*cases, strict=True))
     D = np.array([1e2, 1e4, 1e6, 1e9, 1e12, 1e14, 0.7])
     together = trajectory(Ball(J, D), K, g, 70, every=7)

@@ -9,10 +9,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from chapsym import BadInput, StepNotTaken, generated, testing
-from chapsym.dynamics import precise
+from chapsym.dynamics import branch, precise, precise_start
 from chapsym.dynamics.oracle import Oracle, OracleFailed
 from chapsym.dynamics.precise import precise_step
-from chapsym.numbers import Ball, Digits, Double
+from chapsym.numbers import NAMED, Ball, Digits, Double
 
 J, D = (F(1), F(2), F(4)), F(3)
 K, GAMMA = (F(1), F(-1, 2), F(3, 4)), (F(2, 7), F(3, 7), F(6, 7))
@@ -170,3 +170,72 @@ def test_no_number_of_digits_is_float64_in_disguise(digits):
     for text, exact in zip(found, truth(J, F(0), K, GAMMA, 50), strict=True):
         mpf = exact.context.mpf
         assert abs(exact - mpf(text)) <= abs(exact) * mpf(10) ** (1 - digits)
+
+
+@pytest.mark.parametrize("exponent", [12, 14, 25])
+@pytest.mark.parametrize("rung", [Digits(20), Ball(66)])
+def test_a_ball_too_stiff_for_float64_is_continued_on_numbers_that_hold_it(exponent, rung):
+    """D/J from 10^12 on: float64 finds no start, or none that can be trusted."""
+    D = F(10**exponent)
+    K = (F(0), F(3, 2), F(-1, 2))
+    exact = truth(J, D, K, GAMMA, 2 * exponent + 30)
+    for text, value in zip(flat(precise_step(J, D, K, GAMMA, rung).write()), exact, strict=True):
+        mpf = value.context.mpf
+        middle, radius = text.strip("[]").split(" +/- ") if isinstance(rung, Ball) else (text, "0")
+        off = abs(mpf(middle) - value)
+        assert off <= abs(value) * mpf(10) ** -18
+        assert isinstance(rung, Digits) or off <= mpf(radius)
+
+
+@pytest.mark.parametrize("exponent", [-900, -400, 400, 900])
+@pytest.mark.parametrize("rung", [Digits(20), Ball(66)])
+def test_units_are_no_matter_beyond_the_range_of_float64(exponent, rung):
+    """J, D and 𝒦 in other units: the same rotation, and the momenta by as much."""
+    unit = F(10) ** exponent
+    plain = precise_step(J, D, K, GAMMA, Digits(25)).write()
+    found = precise_step([unit * x for x in J], unit * D, [unit * x for x in K], GAMMA, rung).write()
+    mp = mpmath.MPContext()
+    mp.dps = 40
+    for name, scale in (("q", 1), ("gamma", 1), ("momentum", mp.mpf(10) ** exponent)):
+        for text, exact in zip(found[name], plain[name], strict=True):
+            middle = text.strip("[]").split(" +/- ")[0]
+            assert abs(mp.mpf(middle) / scale / mp.mpf(exact) - 1) < mp.mpf(10) ** -18
+
+
+@pytest.mark.parametrize("rung", [Digits(20), Ball(66)])
+def test_momenta_beyond_the_range_of_float64_are_unreachable_or_folded(rung):
+    with pytest.raises(StepNotTaken, match="no rotation of this ball"):
+        precise_step(J, D, [x * 10**400 for x in K], GAMMA, rung)
+
+
+def test_the_continuation_is_the_same_on_other_numbers():
+    """`branch.small_rotation` with mpmath's numbers agrees with float64, in what it attains too."""
+    context = mpmath.MPContext()
+    context.dps = 30
+    for factor in (0.1, 1.0, 1.15, 5.0):
+        state = [factor * float(x) for x in K] + [2 / 7, 3 / 7, 6 / 7, 1.0, 2.0, 4.0, 3.0]
+        plain = branch.small_rotation(*state)
+        found = precise_start.on(context)(*map(context.mpf, state))
+        assert found[0] == plain[0]
+        assert abs(found[1] - plain[1]) < 1e-9
+        if plain[0] == 0:
+            assert all(abs(a - b) < 1e-12 for a, b in zip(found[2:], plain[2:], strict=True))
+
+
+def test_a_body_is_checked_at_any_size():
+    tiny = F(1, 10**400)
+    with pytest.raises(BadInput, match="negative moment"):
+        precise_step((tiny, tiny, -tiny), tiny, (F(0),) * 3, GAMMA, Digits(20))
+    with pytest.raises(BadInput, match="must not be negative"):
+        precise_step(J, -tiny, K, GAMMA, Digits(20))
+    with pytest.raises(BadInput, match="no inertia about one of its axes"):
+        precise_step((F(0), F(0), tiny), F(0), (F(0),) * 3, GAMMA, Digits(20))
+
+
+@pytest.mark.parametrize(("name", "digits"), [("single", 6), ("double", 15), ("quad", 30)])
+def test_the_named_rungs_are_the_map_to_their_digits(name, digits):
+    for found, exact in zip(
+        flat(precise_step(J, D, K, GAMMA, NAMED[name]).write()), truth(J, D, K, GAMMA, 40), strict=True
+    ):
+        mpf = exact.context.mpf
+        assert abs(mpf(found) - exact) < mpf(10) ** -digits

@@ -63,6 +63,9 @@ def test_the_shipped_scene_runs():
         ("[ball]", "a = " + "[" * 20000 + "\n[ball]", "is not TOML"),
         ("[ball]", "a = " + "9" * 20000 + "\n[ball]", "is not TOML"),
         ("D = 3", "D = 1" + "0" * 400, "ball.D: it is beyond the range of float64"),
+        ("0.1", "1e-400", "start.momentum.0: it is below 2.2e-308, where float64 loses its digits"),
+        ("0.1", "1.234_567e-315", "start.momentum.0: it is below 2.2e-308"),
+        ("0.1", '"1e-315"', "start.momentum.0"),
     ],
 )
 def test_a_wrong_scene_names_the_key_and_what_would_be_right(write, old, new, sentence):

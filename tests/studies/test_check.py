@@ -5,6 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 
+from chapsym.dynamics import branch
 from chapsym.studies import check
 
 
@@ -23,6 +24,19 @@ def test_a_step_that_is_a_little_wrong_is_seen(monkeypatch):
 
     monkeypatch.setattr(check, "step", wrong)
     assert not check.check_stratum("generic", 2, seed=3).kept
+
+
+def test_the_lost_digits_of_a_heavy_ball_are_seen(monkeypatch):
+    """The promise is sharp enough for the form of 𝒦 that it had before: by the entries of B(γ)."""
+
+    def by_entries(q0, q1, q2, q3, K1, K2, K3, g1, g2, g3, J1, J2, J3, D):
+        q, g, J = np.array([q1, q2, q3]), np.array([g1, g2, g3]), np.array([J1, J2, J3])
+        B = np.diag(J.sum() - J) + D * ((g @ g) * np.eye(3) - np.outer(g, g))
+        return tuple(2 * (q0 * (B @ q) + np.cross(q, (J.sum() - J) * q)) - (K1, K2, K3))
+
+    monkeypatch.setattr(branch, "residual", by_entries)
+    assert check.check_stratum("generic", 3, seed=3).kept
+    assert not check.check_stratum("D = 1e3 to 1e6", 3, seed=3).kept
 
 
 def test_a_drift_is_seen():

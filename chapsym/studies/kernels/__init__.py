@@ -66,18 +66,8 @@ def _measured(kernel: str, quick: bool) -> list[Row]:
         for view, met in sampled.items():
             strata = {s: max(w.ulps for w in met if w.stratum == s) for s in dict.fromkeys(w.stratum for w in met)}
             every = [*met, *climbed[view]]
-            rows.append(
-                Row(
-                    kernel,
-                    view,
-                    text.without,
-                    text.operations,
-                    nanoseconds,
-                    strata,
-                    search.worst(every, lambda w: w.ulps),
-                    search.worst(every, lambda w: w.share),
-                )  # fmt: skip
-            )
+            largest, hardest = (search.worst(every, key) for key in (lambda w: w.ulps, lambda w: w.share))
+            rows.append(Row(kernel, view, text.without, text.operations, nanoseconds, strata, largest, hardest))
     return rows
 
 

@@ -1,8 +1,9 @@
 """Errors of a kernel in ulps against 60 digits, and what a rounding of its arguments alone would do.
 
 An ulp is 2^-52 of the largest component of the exact output; of 𝒦, or of the level, where the kernel is a residual;
-and ⟨𝒦,γ⟩ is measured on the scale of 𝒦, whose own rounding moves it by as much.  The condition number κ is Σⱼ |∂f/∂xⱼ||xⱼ| in the largest component, relative to that size: rounding every argument by half
-an ulp moves the output by up to κ/2 ulps, so an error of a few κ is as good as one can ask.
+and ⟨𝒦,γ⟩ is measured on the scale of 𝒦, whose own rounding moves it by as much.  The condition number κ is
+Σⱼ |∂f/∂xⱼ||xⱼ| in the largest component, relative to that size: rounding every argument by half an ulp moves the output
+by up to κ/2 ulps, so an error of a few κ is as good as one can ask.
 """
 
 from collections.abc import Callable, Sequence
@@ -42,6 +43,7 @@ VIEWS: dict[str, dict[str, View]] = {
     "momentum": {"𝒦": _all, "⟨𝒦,γ⟩": _vertical},
     "contact_momentum": {"K": _all, "⟨K,γ⟩": _vertical},
     "residual": {"r": _all, "⟨r,γ⟩": _vertical},
+    "gibbs_residual": {"r": _all, "⟨r,γ⟩": _vertical},
     "invariants": {"h": _part(0, 1), "n": _part(1, 2), "unit": _part(2, 3)},
     "gibbs_newton": {"det": _part(0, 1), "N": _part(1, 4), "C": _part(4, 13)},
     "vertical_level": {"f": _part(0, 1), "fv": _part(1, 2)},
@@ -58,6 +60,8 @@ def _size(kernel: str, view: str, groups: dict[str, Sequence[Any]], output: Sequ
     if kernel == "residual":
         rolled = momentum(*groups["rotation"], *groups["gamma"], *groups["mass_tensor"], *groups["D"])
         return max(map(abs, rolled))
+    if kernel == "gibbs_residual":
+        return max(map(abs, groups["half_momentum"])) * (1 + sum(x * x for x in groups["gibbs"]))
     if VIEWS.get(kernel, {}).get(view) is _vertical:
         return max(map(abs, output))
     if view == "f":

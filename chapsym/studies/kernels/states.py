@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -157,14 +158,14 @@ def _vertical(world: World, u: Sequence[float]) -> tuple[float, float]:
     return t, level * (1 + 0.1 * (t / float(moments.min())) ** 2 * u[13])
 
 
-def _group(name: str, world: World, u: Sequence[float]) -> Sequence[float]:
+def _group(name: str, world: World, u: Sequence[float]) -> Any:
     inertia = world.J.sum() - world.J
     free = world.size * world.tilt
     if name == "cofactors":
         half = _momentum(world) / (2 * world.rotation[0] ** 2 * (1 + _gibbs(world) @ _gibbs(world)))
         return gibbs_newton(*_gibbs(world), *half, *world.gamma, *inertia, world.D)[4:]
     t, v = _vertical(world, u)
-    table: dict[str, Callable[[], Sequence[float]]] = {
+    table: dict[str, Callable[[], Any]] = {
         "rotation": lambda: world.rotation,
         "gamma": lambda: world.gamma,
         "mass_tensor": lambda: world.J,
@@ -177,6 +178,7 @@ def _group(name: str, world: World, u: Sequence[float]) -> Sequence[float]:
         "gibbs": lambda: _gibbs(world),
         "half_momentum": lambda: _momentum(world) / 2,
         "correction": lambda: 1e-3 * np.abs(_gibbs(world)).max() * world.tilt,
+        "next_correction": lambda: 1e-6 * np.abs(_gibbs(world)).max() * world.axis[[1, 2, 0]],
         "quaternion": lambda: (0.5 + u[12]) * world.rotation,
         "inertia": lambda: inertia,
         "Lambda": lambda: inertia + world.D,

@@ -18,8 +18,10 @@ from chapsym.dynamics import Ball
 from chapsym.dynamics.ball import Floats
 
 #: Digits carried beyond those that are asked for; and terms of the series for each digit, the best of what was tried.
-GUARD = 6
+GUARD = 10
 TERMS_PER_DIGIT = 1.2
+#: So many of the last terms, and the one before them, tell the length of a step.
+LAST = 3
 
 
 def continuous(
@@ -87,12 +89,12 @@ def _along(a: list[Any], b: list[Any], n: int) -> Any:
 
 
 def _length(series: list[list[Any]], sizes: list[Any], digits: int, terms: int) -> Fraction:
-    """A step, a short fraction, whose last two terms are 10^-digits of the state; one may vanish by a symmetry."""
+    """A step, a short fraction, whose last terms are 10^-digits of the state at most; some may vanish by a symmetry."""
     tails = [
-        (digits / k * np.log(10) + float((abs(one[k]) / size).mid().log()) / k)
+        (digits * np.log(10) + float((one[k].abs_upper() / size).log())) / k
         for one, size in zip(series, sizes, strict=False)
-        for k in (terms - 1, terms)
-        if not one[k].contains(0)
+        for k in range(terms - LAST, terms + 1)
+        if one[k].abs_upper() > 0
     ]
     if not tails:
         return Fraction(2**62)

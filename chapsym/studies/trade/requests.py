@@ -1,5 +1,6 @@
 """Requests that the chooser has not seen: does it meet them, and what does it cost against the best possible choice?"""
 
+import contextlib
 import math
 import time
 from collections.abc import Callable, Iterator
@@ -11,8 +12,9 @@ from typing import Any
 import numpy as np
 
 from chapsym.accuracy import Accurate, Method, Prices, Request, accurate, load_prices, methods, take
-from chapsym.accuracy.prices import rungs
+from chapsym.accuracy.methods import CHECKS, checks
 from chapsym.accuracy.pilot import surveyed
+from chapsym.accuracy.prices import rungs, sample
 from chapsym.accuracy.request import exact_values
 from chapsym.dynamics import BadInput, Ball, StepNotTaken, Trajectory, front
 from chapsym.dynamics.ball import Floats
@@ -38,8 +40,8 @@ SHORT = 3e-3
 class Outcome:
     """A request, what the chooser made of it, and the best that could have been done.
 
-    error: the true one, at the worst of the times of comparison.  delivered, total: seconds of the processor for the run
-    that was delivered, and with pilot and verification.  best, seconds: the cheapest choice that is accurate enough.
+    error: the true one, at the worst of the times of comparison.  delivered, total: seconds of the processor for the
+    run that was delivered, and with pilot and verification.  best, seconds: the cheapest choice that would have done.
     """
 
     request: Request
@@ -52,13 +54,21 @@ class Outcome:
     seconds: float
 
     @property
+    def chosen(self) -> str:
+        """What the chooser chose."""
+        if self.answer is None:
+            return "refused"
+        choice = self.answer.choice
+        return f"{choice.method.label}, order {choice.method.order}, {choice.steps}"
+
+    @property
     def hit(self) -> bool:
         """Whether the true error is within the accuracy."""
         return self.error <= self.request.accuracy
 
 
 def drawn(count: int, seed: int = SEED, quick: bool = False) -> Iterator[Request]:
-    """Random requests: balls from flat to even, 0.3 to 6 rad/s, 1 to 1000 s (20 s for a look), 1e-3 to 1e-12 or finer."""
+    """Random requests: 0.3 to 6 rad/s, 1 to 1000 s (20 s for a look), 1e-3 to 1e-12 or finer; conditions up to 100."""
     random = np.random.default_rng(seed)
     for _ in range(count):
         tensor = 10.0 ** random.uniform(-3, -1.5, 3)
@@ -77,14 +87,14 @@ def drawn(count: int, seed: int = SEED, quick: bool = False) -> Iterator[Request
 def truth(request: Request, digits: int = 0) -> np.ndarray:
     """K, γ and the contact point at the times of comparison, (checks + 1, 8) Fractions."""
     wanted = digits or math.ceil(-math.log10(request.accuracy) + math.log10(1 + request.angle)) + BEYOND
-    times = [Fraction(request.time) * k / request.checks for k in range(request.checks + 1)]
+    times = [Fraction(request.time) * k / CHECKS for k in range(CHECKS + 1)]
     attitude = request.attitude if request.with_body else attitude_with(request.gamma)
     return continuous(request.ball, request.angular_momentum, request.gamma, attitude, times, wanted)
 
 
 def true_error(request: Request, run: Trajectory, exact: np.ndarray) -> float:
     """The error of a run in the request's norm, at the worst time of comparison that is a frame of the run."""
-    exact = exact[:: request.checks // (len(run.index) - 1)]
+    exact = exact[:: CHECKS // (len(run.index) - 1)]
     if request.of == "contact":
         return float(_lengths(exact_values(request, run, "contact") - exact[:, 6:]).max())
     size = float(np.sqrt((request.angular_momentum**2).sum()))
@@ -109,7 +119,7 @@ def judge(request: Request, prices: Prices, compare: bool = True) -> Outcome:
         return Outcome(request, None, str(error), math.inf, math.inf, math.inf, "", math.inf)
     choice = answer.choice
     delivered = seconds_of(lambda: take(request, choice.method, choice.steps, 1))
-    run = take(request, choice.method, choice.steps, request.checks)
+    run = take(request, choice.method, choice.steps, checks(request, choice.method))
     best, seconds = best_choice(request, exact, delivered) if compare else ("", math.nan)
     return Outcome(request, answer, None, true_error(request, run, exact), delivered, answer.seconds, best, seconds)
 
@@ -122,7 +132,7 @@ def best_choice(request: Request, exact: np.ndarray, delivered: float) -> tuple[
             steps = _fewest(request, method, exact, max(DEAREST * delivered, SHORT))
             if steps:
                 took = seconds_of(lambda: take(request, method, steps, 1))  # noqa: B023
-                found.append((took, f"{method.label}, order {method.order}, {steps} steps"))
+                found.append((took, f"{method.label}, order {method.order}, {steps}"))
     return (min(found)[1], min(found)[0]) if found else ("none", math.inf)
 
 
@@ -132,7 +142,7 @@ def _fewest(request: Request, method: Method, exact: np.ndarray, dearest: float)
     def good(power: int) -> bool | None:
         started = time.thread_time()
         try:
-            run = take(request, method, steps(power), request.checks)
+            run = take(request, method, steps(power), checks(request, method))
         except (StepNotTaken, BadInput):
             return False
         took = time.thread_time() - started
@@ -141,7 +151,7 @@ def _fewest(request: Request, method: Method, exact: np.ndarray, dearest: float)
         return None if took > dearest else False
 
     def steps(power: int) -> int:
-        return request.checks * math.ceil(GRID**power)
+        return checks(request, method) * math.ceil(GRID**power)
 
     high = 0
     while not (found := good(high)):
@@ -165,14 +175,84 @@ def seconds_of(run: Callable[[], Any]) -> float:
     return median(taken)
 
 
-def study(
-    quick: bool = False, seed: int = SEED, count: int = 0,
-    progress: Callable[[str], None] = lambda text: None,
-) -> list[Outcome]:  # fmt: skip
-    """The outcomes of the random requests: 5 short ones for a look, or 50."""
-    prices, wanted = load_prices(progress), count or (QUICK if quick else COUNT)
+@dataclass(frozen=True)
+class Outcomes:
+    """The outcomes of random requests."""
+
+    outcomes: list[Outcome]
+
+    @property
+    def hits(self) -> int:
+        """How many were met."""
+        return sum(one.hit for one in self.outcomes)
+
+    @property
+    def title(self) -> str:
+        """The title of the table."""
+        return f"random requests: {self.hits} of {len(self.outcomes)} met"
+
+    def table(self) -> list[dict[str, Any]]:
+        """A row for each request."""
+        return [
+            {
+                "of": one.request.of, "s": one.request.time, "rad": one.request.angle, "wanted": one.request.accuracy,
+                "chosen": one.chosen, "estimate": one.answer.estimate if one.answer else math.inf, "error": one.error,
+                "ms": one.delivered * 1e3, "in all": one.total * 1e3, "best": one.best, "ms of it": one.seconds * 1e3,
+            }
+            for one in self.outcomes
+        ]  # fmt: skip
+
+    def ratios(self) -> tuple[list[float], list[float]]:
+        """The time of the delivered run, and of everything, to that of the best choice; the first sorted."""
+        met = [one for one in self.outcomes if one.answer and math.isfinite(one.seconds)]
+        return sorted(one.delivered / one.seconds for one in met), sorted(one.total / one.seconds for one in met)
+
+    def sentences(self) -> list[str]:
+        """Hits, and the cost against the best choice."""
+        (run, whole), told = self.ratios(), [one.refused for one in self.outcomes if one.refused]
+        found = [f"{self.hits} of {len(self.outcomes)} within the accuracy", *told]
+        if run:
+            found.append(
+                f"the run that is delivered takes {median(run):.2f} times the best choice, at most {run[-1]:.2f}"
+            )
+            found.append(f"with pilot and verification {median(whole):.1f} times, at most {whole[-1]:.1f}")
+        return found
+
+    def as_json(self) -> dict[str, Any]:
+        """The table and the hits as plain data."""
+        rows = [{k: v if v == v and abs(v) < 1e300 else None for k, v in _numbers(row).items()} | {
+            k: v for k, v in row.items() if isinstance(v, str)
+        } for row in self.table()]  # fmt: skip
+        return {
+            "title": self.title,
+            "hits": self.hits,
+            "count": len(self.outcomes),
+            "requests": rows,
+            "notes": self.sentences(),
+        }
+
+
+def _numbers(row: dict[str, Any]) -> dict[str, float]:
+    return {name: value for name, value in row.items() if not isinstance(value, str)}
+
+
+def measure(quick: bool, say: Callable[[str], None] = lambda text: None, seed: int = SEED, count: int = 0) -> Outcomes:
+    """The outcomes of random requests: 5 short ones for a look, or 50."""
+    prices, wanted = load_prices(say), count or (QUICK if quick else COUNT)
+    say("loading the loops")
+    warm(prices)
     found = []
     for i, request in enumerate(drawn(wanted, seed, quick)):
-        progress(f"request {i + 1} of {wanted}: {request.accuracy:.1g} after {request.time:.3g} s")
+        say(f"request {i + 1} of {wanted}: {request.accuracy:.1g} after {request.time:.3g} s")
         found.append(judge(request, prices))
-    return found
+    return Outcomes(found)
+
+
+def warm(prices: Prices) -> None:
+    """Loads the compiled loops, which a short first run would do without."""
+    for of in ("state", "contact"):
+        request = surveyed(sample(of, 1.0))
+        for rung in rungs():
+            for method in methods(request, rung):
+                with contextlib.suppress(StepNotTaken, BadInput):
+                    take(request, method, 4000 // method.stages, 1)

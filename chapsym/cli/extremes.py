@@ -1,0 +1,114 @@
+"""chapsym extremes: where each rung breaks."""
+
+import sys
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from .app import app
+from .options import Json
+from .output import fail, print_json, progress_bar
+
+#: How a verdict looks on a terminal; the signs read without colour.
+COLOURS = {"within": "green", "refused": "cyan", "failed": "bold red"}
+
+
+@app.command()
+def extremes(
+    groups: Annotated[
+        list[str] | None, typer.Argument(metavar="[GROUP]...", help="Groups of conditions; all by default.")
+    ] = None,
+    quick: Annotated[bool, typer.Option("--quick", help="Short runs and small batches: a minute or two.")] = False,
+    output: Annotated[
+        Path | None, typer.Option("-o", "--output", metavar="PAGE", help="A page, .html, that opens from disk.")
+    ] = None,
+    as_json: Json = False,
+) -> None:
+    """Judge every precision at the extremes: tiny momenta, folds, rotations by π, D up to 1e15, odd bodies and arrays.
+
+    Exit status 1 if a cell failed: wrong, or refused without a true reason.
+
+    Example: chapsym extremes --quick -o extremes.html
+    """
+    from chapsym import files
+    from chapsym.studies import extremes as study
+
+    wanted = list(dict.fromkeys(groups or study.GROUPS))
+    for name in wanted:
+        if name not in study.GROUPS:
+            fail(f"there is no group {name!r}; there are {', '.join(study.GROUPS)}", 2)
+    if output is not None:
+        if output.suffix != ".html":
+            fail(f"{str(output)!r}: the page must end in .html", 2)
+        _written(files.check_destination, output)
+    with progress_bar("judging", study.rows(wanted)) as shown:
+        cells = study.extremes(quick, groups=wanted, on_row=shown)
+    matrix = study.as_json(cells, quick)
+    if output is not None:
+        text = _page(matrix)
+        _written(files.write_whole, output, lambda stream: stream.write(text.encode()))
+    if as_json:
+        print_json(matrix)
+    else:
+        _print_matrix(matrix)
+        if output is not None:
+            print(f"wrote {output}")
+    if failed := matrix["counts"]["failed"]:
+        fail(f"{failed} of {len(cells)} cells failed", 1)
+
+
+def _written(write: Any, *arguments: Any) -> None:
+    from chapsym import files
+
+    try:
+        write(*arguments)
+    except files.CannotWrite as error:
+        fail(str(error), 2)
+
+
+def _page(matrix: dict[str, Any]) -> str:
+    from chapsym.report import extremes as page
+    from chapsym.studies.bench import harness
+
+    machine = harness.machine()
+    versions = {"chapsym": _chapsym_version(), **machine["versions"]}
+    return page.html(matrix, versions, f"{machine['cpu']}, {machine['cores']} cores, {machine['python']}")
+
+
+def _chapsym_version() -> str:
+    import chapsym
+
+    return chapsym.__version__
+
+
+def _print_matrix(matrix: dict[str, Any]) -> None:
+    from rich.console import Console
+    from rich.table import Table
+    from rich.text import Text
+
+    from chapsym.report import extremes as page
+
+    console = Console(width=None if sys.stdout.isatty() else 120, markup=False, highlight=False)
+    for group in page.groups(matrix):
+        table = Table(title=f"{group['name']}: {group['title']}", title_justify="left")
+        table.add_column("condition", min_width=46)
+        for rung in matrix["rungs"]:
+            table.add_column(rung, justify="right", min_width=10)
+        for condition, cells in group["rows"]:
+            shown = [
+                Text(page.shown(cells[rung]), COLOURS[cells[rung]["verdict"]]) if rung in cells else Text("·")
+                for rung in matrix["rungs"]
+            ]
+            table.add_row(condition, *shown)
+        console.print(table)
+        for one in group["reasons"]:
+            sign = page.VERDICTS[one["verdict"]][0]
+            console.print(
+                Text(f"  {sign} {one['condition']} ({', '.join(one['rungs'])}): ", COLOURS[one["verdict"]]), end=""
+            )
+            console.print(one["reason"])
+        console.print()
+    for verdict, (sign, meaning) in page.VERDICTS.items():
+        console.print(f"{sign} {verdict}: {meaning}")
+    console.print(", ".join(f"{count} {verdict}" for verdict, count in matrix["counts"].items()))

@@ -1,0 +1,236 @@
+"""chapsym trade: what speed costs in accuracy, and the cheapest run for an accuracy."""
+
+import sys
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from chapsym.exact import rationals
+
+from .app import app
+from .options import Contact, Inertia, Json, Mass, MassTensor, Radius, ball_from
+from .output import fail, print_json
+
+FIGURES = (".svg", ".png", ".pdf")
+
+
+@app.command()
+def trade(
+    what: Annotated[
+        list[str] | None,
+        typer.Argument(
+            metavar="[SECTION]... | SCENE.toml",
+            help="rounding, contact, state, batch, n4 (the default), requests, kernels; with --accuracy a scene.",
+        ),
+    ] = None,
+    accuracy: Annotated[
+        float | None, typer.Option(metavar="A", help="Choose, run and verify: the error wanted.")
+    ] = None,
+    time: Annotated[float | None, typer.Option(metavar="T", help="Seconds to roll, with --accuracy.")] = None,
+    of: Annotated[
+        str | None, typer.Option(help="contact (metres; the default with a radius) or state (relative).")
+    ] = None,
+    mass_tensor: MassTensor = None,
+    inertia: Inertia = None,
+    contact: Contact = None,
+    mass: Mass = None,
+    radius: Radius = None,
+    omega: Annotated[str | None, typer.Option(metavar="W1,W2,W3", help="Angular velocity in the body, rad/s.")] = None,
+    gamma: Annotated[
+        str | None, typer.Option(metavar="G1,G2,G3", help="The unit vertical, upwards, in the body.")
+    ] = None,
+    limit: Annotated[float, typer.Option(metavar="S", help="Seconds of the processor that a run may take.")] = 600.0,
+    quick: Annotated[bool, typer.Option("--quick", help="Fewer and shorter runs: seconds.")] = False,
+    output: Annotated[
+        Path | None,
+        typer.Option("-o", "--output", metavar="FILE", help="A figure; with --accuracy the run, .npz or .csv."),
+    ] = None,
+    as_json: Json = False,
+) -> None:
+    """Measure speed against accuracy; or, with --accuracy, answer what is cheapest, run it, and verify it.
+
+    Without a scene or a ball it rolls the ball of docs/first.toml.
+
+    Example: chapsym trade --accuracy 1e-8 --time 1000
+    """
+    given = {
+        "--mass-tensor": mass_tensor, "--inertia": inertia, "--D": contact, "--mass": mass, "--radius": radius,
+        "--omega": omega, "--gamma": gamma, "--of": of,
+    }  # fmt: skip
+    told = {name: value for name, value in given.items() if value is not None}
+    if accuracy is None:
+        if told or time is not None:
+            fail(f"{next(iter(told), '--time')} goes with --accuracy", 2)
+        _study(what or [], quick, output, as_json)
+        return
+    if len(what or []) > 1:
+        fail("--accuracy takes one scene at most", 2)
+    if what and set(told) - {"--of"}:
+        fail(f"the scene has the ball and its start: leave out {next(iter(set(told) - {'--of'}))}", 2)
+    _answer(Path(what[0]) if what else None, accuracy, time, told, limit, output, as_json)
+
+
+def _answer(
+    scene: Path | None, accuracy: float, time: float | None, told: dict[str, str], limit: float, output: Path | None,
+    as_json: bool,
+) -> None:  # fmt: skip
+    """Chooses, runs, verifies, and says what was chosen."""
+    from chapsym import scene as scenes
+    from chapsym.dynamics import BadInput
+    from chapsym.scene.files import check_destination
+
+    try:
+        if output is not None:
+            check_destination(output)
+        wanted = scenes.load_for(scene, accuracy, time) if scene else _described(accuracy, time, told)
+        changed = {"limit": limit, **({"of": told["--of"]} if "--of" in told else {})}
+        answer = scenes.run_accurately(wanted.with_run(**changed), say)
+        if output is not None:
+            scenes.save(answer.trajectory, output)
+    except BadInput as error:
+        quiet()
+        fail(str(error), 2)
+    quiet()
+    if as_json:
+        print_json(described(answer))
+    else:
+        print_answer(answer)
+
+
+def _described(accuracy: float, time: float | None, told: dict[str, str]) -> Any:
+    """A scene from the options of the command."""
+    from chapsym import scene as scenes
+
+    ball, start = {"inertia": (0.006, 0.007, 0.009), "mass": 2.0, "radius": 0.1}, {}
+    if set(told) & {"--mass-tensor", "--inertia", "--D", "--mass", "--radius"}:
+        J, D = ball_from(*(told.get(f"--{name}") for name in ("mass-tensor", "inertia", "D", "mass", "radius")))
+        ball = {"mass_tensor": tuple(map(float, J)), "D": float(D)}
+        if "--radius" in told:
+            ball["radius"] = float(rationals(told["--radius"], "--radius", 1)[0])
+    start["omega"] = tuple(map(float, rationals(told.get("--omega", "3,-2,1"), "--omega", 3)))
+    start["gamma"] = tuple(map(float, rationals(told.get("--gamma", "2/7,3/7,6/7"), "--gamma", 3)))
+    run = {"accuracy": accuracy, "time": time, "contact": "radius" in ball}
+    return scenes.checked({"ball": ball, "start": start, "run": {k: v for k, v in run.items() if v is not None}})
+
+
+def described(answer: Any) -> dict[str, Any]:
+    """The answer as plain data."""
+    request, choice = answer.request, answer.choice
+    return {
+        "accuracy": request.accuracy, "time": request.time, "of": request.of, "choice": _choice(choice),
+        "estimate": answer.estimate, "expected_seconds": choice.seconds, "seconds": answer.seconds,
+        "attempts": [
+            _choice(a.choice) | {"estimate": a.estimate if a.estimate < 1e300 else None, "seconds": a.seconds}
+            for a in answer.attempts
+        ],
+        "final": answer.final(),
+    }  # fmt: skip
+
+
+def _choice(choice: Any) -> dict[str, Any]:
+    return {
+        "precision": choice.method.label, "order": choice.method.order, "steps": choice.steps,
+        "time_step": choice.time_step,
+    }  # fmt: skip
+
+
+def print_answer(answer: Any) -> None:
+    """The answer for a reader."""
+    request, choice = answer.request, answer.choice
+    unit = "m" if request.of == "contact" else "relative"
+    print(f"chosen    {choice.sentence()}")
+    print(f"verified  the {request.of} is off by {answer.estimate:.1e} ({unit}) at most; wanted {request.accuracy:g}")
+    taken = answer.attempts[-1].seconds
+    print(f"cost      expected {choice.seconds:.2g} s; taken {taken:.2g} s, in all {answer.seconds:.2g} s")
+    for one in answer.attempts[:-1]:
+        print(f"          tried before: {one.choice.sentence()}, off by {one.estimate:.1e}")
+    for name, values in answer.final().items():
+        print(f"{name:9} " + "  ".join(map(str, values)))
+
+
+def say(text: str) -> None:
+    """Progress on standard error: one line that moves on a terminal; elsewhere only what is done once a machine."""
+    if sys.stderr.isatty():
+        print(f"\r\033[K{text}", end="", file=sys.stderr, flush=True)
+    elif "once" in text:
+        print(f"chapsym: {text}", file=sys.stderr)
+
+
+def quiet() -> None:
+    """Takes the line of progress away."""
+    if sys.stderr.isatty():
+        print("\r\033[K", end="", file=sys.stderr, flush=True)
+
+
+def _study(wanted: list[str], quick: bool, output: Path | None, as_json: bool) -> None:
+    from chapsym import files
+    from chapsym.studies import trade as study
+    from chapsym.studies.bench import NotComparable
+
+    sections = list(dict.fromkeys(wanted or study.DRAWN))
+    for name in sections:
+        if name not in study.SECTIONS:
+            fail(
+                f"there is no section {name!r}; there are {', '.join(study.SECTIONS)} (a scene goes with --accuracy)", 2
+            )
+    if output is not None:
+        _check_figure(output, sections, study.DRAWN)
+    found = {}
+    for name in sections:
+        try:
+            found[name] = study.measure(name, quick, say)
+        except (NotComparable, ModuleNotFoundError) as error:
+            quiet()
+            fail(f"trade {name}: {error}", 1)
+    quiet()
+    if output is not None:
+        from chapsym.studies.trade.figure import draw
+
+        drawn = draw({name: found[name] for name in study.DRAWN if name in found})
+        try:
+            files.write_whole(output, lambda stream: drawn.savefig(stream, format=output.suffix[1:], dpi=120))
+        except files.CannotWrite as error:
+            fail(str(error), 2)
+    if as_json:
+        print_json(study.as_json(found, quick))
+    else:
+        print_tables(found, study.as_json({}, quick)["machine"])
+    if missed := study.missed(found):
+        fail(missed, 1)
+
+
+def _check_figure(output: Path, sections: list[str], drawn: tuple[str, ...]) -> None:
+    from chapsym import files
+    from chapsym.studies.bench.harness import installed
+
+    if output.suffix not in FIGURES:
+        fail(f"{str(output)!r}: a figure must end in {', '.join(FIGURES)}", 2)
+    if not set(sections) & set(drawn):
+        fail(f"only {', '.join(drawn)} have a figure", 2)
+    if reason := installed("matplotlib"):
+        fail(f"a figure needs matplotlib, and {reason}", 2)
+    try:
+        files.check_destination(output)
+    except files.CannotWrite as error:
+        fail(str(error), 2)
+
+
+def print_tables(found: dict[str, Any], machine: dict[str, Any]) -> None:
+    """Each section's table and the sentences under it."""
+    from rich.console import Console
+    from rich.table import Table
+
+    console = Console(width=None if sys.stdout.isatty() else 120, markup=False, highlight=False)
+    for section in found.values():
+        rows = section.table()
+        shown = Table(title=section.title, title_justify="left")
+        for name in rows[0] if rows else []:
+            shown.add_column(name, justify="left" if isinstance(rows[0][name], str) else "right")
+        for row in rows:
+            shown.add_row(*(f"{x:.3g}" if isinstance(x, float) else str(x) for x in row.values()))
+        console.print(shown)
+        for sentence in section.sentences():
+            console.print(f"  {sentence}")
+        console.print()
+    console.print(f"{machine['cpu']}; {machine['cores']} cores; {machine['system']}; {machine['python']}")

@@ -1,0 +1,202 @@
+"""Programs on fixed-point numbers: Python integers, of which 2^bits is one.
+
+The texts of the kernels that a program calls are put in the place of the calls, and an operation that two of them
+share is done once, as for columns.  A sum of products is added up exactly and shifted once; a quotient and a sum
+of products are rounded down.
+"""
+
+import ast
+import hashlib
+from collections import Counter
+from collections.abc import Callable, Mapping, Sequence
+from fractions import Fraction
+
+from .columns import Texts, Values, called
+from .kernels import ANY_QUATERNION, CONTACT, FIRST, GAMMA, GIBBS, HALF, INERTIA
+from .programs import Program
+
+FILE, KEY = "fixed.py", "fixed"
+#: The precision at which the text is compared with the program, far beyond the digits that are compared.
+TRIED = 400
+
+PROGRAMS: tuple[Program, ...] = (
+    Program(
+        "residual_fixed",
+        "G(u), which the Gibbs vector of the step makes zero.",
+        (GIBBS, HALF, GAMMA, INERTIA, CONTACT),
+        ("r1", "r2", "r3"),
+        "r1, r2, r3 = gibbs_residual(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D)",
+    ),
+    Program(
+        "cofactors_fixed",
+        "The determinant and the cofactors of ∂G/∂u, row by row.",
+        (GIBBS, HALF, GAMMA, INERTIA, CONTACT),
+        ("det", "c11", "c12", "c13", "c21", "c22", "c23", "c31", "c32", "c33"),
+        "det, n1, n2, n3, c11, c12, c13, c21, c22, c23, c31, c32, c33 = gibbs_newton("
+        "u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D)",
+    ),
+    Program(
+        "turns_fixed",
+        "Ωᵀk and Ωᵀγ for the Gibbs vector u.",
+        (GIBBS, HALF, GAMMA),
+        ("x1", "x2", "x3", "y1", "y2", "y3"),
+        "x1, x2, x3 = turn(1, u1, u2, u3, k1, k2, k3)\n"
+        "y1, y2, y3 = turn(1, u1, u2, u3, g1, g2, g3)\n"
+        "x1, x2, x3, y1, y2, y3 = x1 + k1, x2 + k2, x3 + k3, y1 + g1, y2 + g2, y3 + g3",
+    ),
+    Program(
+        "body_fixed",
+        "The attitude a after the step with the unit quaternion p from the vertical γ, and Δr/ρ in space.",
+        (FIRST, ANY_QUATERNION, GAMMA),
+        ("c0", "c1", "c2", "c3", "x1", "x2", "x3"),
+        "c0, c1, c2, c3 = compose(a0, a1, a2, a3, p0, p1, p2, p3)\n"
+        "s1, s2, s3 = centre_step(p0, p1, p2, p3, g1, g2, g3)\n"
+        "x1, x2, x3 = rotate(a0, a1, a2, a3, s1, s2, s3)",
+    ),
+)
+
+
+class _Text:
+    """The assignments of a program, one for each value that is used twice or is a factor, a divisor or an output."""
+
+    def __init__(self, program: Program, texts: Texts) -> None:
+        values = _Folded(texts)
+        known = {name: values.number("input", name) for name in program.inputs}
+        values.run(ast.parse(program.text).body, known)
+        self.nodes, outputs = values.nodes, [known[name] for name in program.outputs]
+        needed = set(outputs)
+        for number in reversed(range(len(self.nodes))):
+            if number in needed and not self._leaf(number):
+                needed.update(map(int, self.nodes[number][1:]))
+        self.uses = Counter(outputs)
+        for number in needed:
+            if not self._leaf(number):
+                self.uses.update(map(int, self.nodes[number][1:]))
+        self.names: dict[int, str] = {}
+        self.lines: list[str] = []
+        self.outputs = [self.name(number) for number in outputs]
+
+    def _leaf(self, number: int) -> bool:
+        return self.nodes[number][0] in ("input", "constant")
+
+    def constant(self, number: int) -> int | None:
+        """The integer that a value is, if it is one."""
+        operation, *operands = self.nodes[number]
+        return int(operands[0]) if operation == "constant" else None
+
+    def name(self, number: int) -> str:
+        """The name of a value, which is assigned before."""
+        if number not in self.names:
+            operation, *operands = self.nodes[number]
+            if operation == "input":
+                return str(operands[0])
+            narrow, wide = self.terms(number)
+            total = _signed(wide)
+            text = _signed([*narrow, ("+", f"({total} >> P)")]) if wide else _signed(narrow)
+            self.names[number] = f"t{len(self.names)}"
+            self.lines.append(f"{self.names[number]} = {text}")
+        return self.names[number]
+
+    def terms(self, number: int, inner: bool = False) -> tuple[list[tuple[str, str]], list[tuple[str, str]]]:
+        """What is added up to a value: terms with their signs, and products that are still to be shifted."""
+        operation, *operands = self.nodes[number]
+        value = self.constant(number)
+        if value is not None:
+            return [("+", f"({value} << P)")], []
+        if operation == "input" or (inner and self.uses[number] > 1):
+            return [("+", self.name(number))], []
+        left, right = int(operands[0]), int(operands[-1])
+        if operation == "divide":
+            above = self.constant(left)
+            dividend = f"({self.name(left)} << P)" if above is None else f"({above} << 2 * P)"
+            return [("+", f"{dividend} // {self.name(right)}")], []
+        if operation == "multiply":
+            for factor, other in ((left, right), (right, left)):
+                times = self.constant(factor)
+                if times is not None:
+                    return [("+", f"{times} * {self.name(other)}")], []
+            return [], [("+", f"{self.name(left)} * {self.name(right)}")]
+        first = self.terms(left, True)
+        if operation == "negative":
+            return _negated(first[0]), _negated(first[1])
+        second = self.terms(right, True)
+        if operation == "subtract":
+            second = _negated(second[0]), _negated(second[1])
+        return first[0] + second[0], first[1] + second[1]
+
+
+class _Folded(Values):
+    """Values, with products by 1 left out."""
+
+    def number(self, *node: int | str) -> int:
+        """The number of an input, a constant or an operation; of the other factor of a product by 1."""
+        if node[0] == "multiply":
+            for factor, other in ((node[1], node[2]), (node[2], node[1])):
+                if self.nodes[int(factor)] == ("constant", 1):
+                    return int(other)
+        return super().number(*node)
+
+
+def _negated(terms: list[tuple[str, str]]) -> list[tuple[str, str]]:
+    return [("-" if sign == "+" else "+", text) for sign, text in terms]
+
+
+def _signed(terms: Sequence[tuple[str, str]]) -> str:
+    """The terms in one line, the positive ones first."""
+    positive = [text for sign, text in terms if sign == "+"]
+    negative = [text for sign, text in terms if sign == "-"]
+    return " + ".join(positive) + "".join(f" - {text}" for text in negative) if positive else "-" + " - ".join(negative)
+
+
+def code(program: Program, texts: Texts) -> str:
+    """The function of a program: inputs, then the bits P after the binary point."""
+    text = _Text(program, texts)
+    lines = [
+        f"def {program.name}({', '.join(program.inputs)}, P):",
+        f'    """{program.summary}',
+        "",
+        *(f"    {name}: {', '.join(s.name for s in symbols)}" for name, symbols in program.groups),
+        f"    Returns {', '.join(program.outputs)}.",
+        '    """',
+        *(f"    {line}" for line in text.lines),
+        f"    return {', '.join(text.outputs)}",
+    ]
+    return "\n".join([*lines, ""])
+
+
+def source(texts: Texts, claims: Mapping[str, Sequence[str]], programs: Sequence[Program] = PROGRAMS) -> str:
+    """The text of the module with every program."""
+    kernels = sorted({name for program in programs for name in called(program)})
+    ids = sorted({id for name in kernels for id in claims[name]})
+    header = [
+        '"""Parts of a step on fixed-point numbers: integers, of which 2^P is one.',
+        "",
+        "Written by `chapsym codegen`: do not edit; change the derivation and generate again.",
+        f"From the kernels {', '.join(kernels)}.",
+        f"Proved by: {', '.join(ids)}.",
+        '"""',
+        "",
+        "",
+    ]
+    return "\n".join(header) + "\n" + "\n\n".join(code(program, texts) for program in programs)
+
+
+def manifest(texts: Texts, programs: Sequence[Program] = PROGRAMS) -> dict[str, dict]:
+    """The rows of the manifest."""
+    return {
+        program.name: {
+            "kernels": called(program),
+            "inputs": {name: [s.name for s in symbols] for name, symbols in program.groups},
+            "outputs": list(program.outputs),
+            "text_sha256": hashlib.sha256(code(program, texts).encode()).hexdigest(),
+        }
+        for program in programs
+    }
+
+
+def text_values(program: Program, text: str, at: Callable[[str], Fraction]) -> list[Fraction]:
+    """What the generated text makes of the point that `at` gives, with `TRIED` bits."""
+    scope: dict = {}
+    exec(compile(text, FILE, "exec"), scope)  # our own text, never a user's
+    inputs = [int(at(name) * 2**TRIED) for name in program.inputs]
+    return [Fraction(x, 2**TRIED) for x in scope[program.name](*inputs, TRIED)]

@@ -1,0 +1,91 @@
+"""One ball against the continuous ball (2.3): every rung, order and length of step."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+
+from chapsym.accuracy import Method, Request, methods, take
+from chapsym.accuracy.methods import CHECKS, EXACT, rung_label
+from chapsym.accuracy.pilot import surveyed
+from chapsym.accuracy.prices import sample
+from chapsym.dynamics import StepNotTaken
+from chapsym.numbers import NAMED, Digits, Rung
+
+from ..bench.harness import Contender, NotComparable, cores, interleaved
+from .frontier import Frontier, Point, digits_of
+from .requests import true_error, truth
+
+Say = Callable[[str], None]
+#: Seconds of simulated time.
+END = 10.0
+#: Lengths of steps, |ω|ε in radians: of a look, and all.
+LENGTHS = {True: (0.4, 0.1, 0.03), False: (1.0, 0.7, 0.5, 0.35, 0.25, 0.18, 0.125, 0.09, 0.06, 0.04, 0.02, 0.01, 0.003)}
+#: The most seconds that a run of a rung may be expected to take, by these seconds a stage.
+STAGE = {"single": 5e-8, "double": 5e-8, "quad": 3e-7, "digits30": 3e-4, "digits50": 3e-4}
+LONGEST = {True: 0.02, False: 4.0}
+#: The digits of the reference, and how many of them another solution must confirm.
+DIGITS, CONFIRMED = 34, 24
+
+
+def measure(quick: bool, say: Say, of: str = "contact") -> Frontier:
+    """One ball: digits of the contact point, or of the state, after END seconds, and the time of a simulated second."""
+    request = surveyed(replace(sample(of, END), accuracy=1e-30, frames=1))
+    say(f"{of}: the reference")
+    exact, note = reference(request, quick)
+    contenders, errors = [], {}
+    for method, steps in choices(request, quick):
+        name = f"{name_of(method)} at {steps}"
+        say(f"{of}: {name}")
+        try:
+            errors[method, steps] = true_error(request, take(request, method, steps, CHECKS), exact)
+        except StepNotTaken:
+            continue
+        contenders.append(Contender(name, partial(take, request, method, steps, 1), 1))
+    with cores(1):
+        times = interleaved(contenders, 1 if quick else 5, lambda done: say(f"{of}: round {done}"))
+    points = []
+    for (method, steps), error in errors.items():
+        took = times[f"{name_of(method)} at {steps}"].median
+        length = request.rate * END / steps
+        points.append(Point(name_of(method), length, took / steps, took / END, digits_of(error, DIGITS)))
+    what = "the contact point (m)" if of == "contact" else "K/|K| and γ"
+    return Frontier(
+        f"one ball, {of}",
+        f"correct digits of {what} at the worst of {CHECKS} times in {END:g} s",
+        points,
+        [note],
+    )
+
+
+def reference(request: Request, quick: bool) -> tuple[np.ndarray, str]:
+    """The true motion by Taylor's series, confirmed by order 8 in double-double; raises NotComparable."""
+    exact = truth(request, DIGITS)
+    method, steps = Method(NAMED["quad"], 8), CHECKS * (100 if quick else 1000)
+    wanted = 10.0 ** -(14 if quick else CONFIRMED)
+    coarse, fine = (true_error(request, take(request, method, n, CHECKS), exact) for n in (steps // 2, steps))
+    if not fine <= wanted or not fine <= coarse / 16:
+        raise NotComparable(f"two solutions of the continuous ball differ by {fine:.1e} after {request.time:g} s")
+    return exact, (
+        f"reference: Taylor's series in Arb, {DIGITS} digits; order 8 in double-double comes to {coarse:.0e}, and with "
+        f"half the step to {fine:.0e} of it"
+    )
+
+
+def choices(request: Request, quick: bool) -> Iterator[tuple[Method, int]]:
+    """Every method and number of steps whose run is not too long."""
+    rungs: list[Rung] = [*NAMED.values(), *([] if quick else [Digits(30), Digits(50)])]
+    for rung in rungs:
+        for method in methods(request, rung):
+            if method.order == EXACT:
+                continue
+            for length in LENGTHS[quick]:
+                steps = CHECKS * max(1, round(request.rate * request.time / length / CHECKS))
+                if steps * method.stages * STAGE[rung_label(rung)] <= LONGEST[quick]:
+                    yield method, steps
+
+
+def name_of(method: Method) -> str:
+    """The rung and the order."""
+    return f"{method.label}, order {method.order}"

@@ -1,0 +1,66 @@
+"""The figure: for each section, digits against the time of a simulated second; the frontier drawn through."""
+
+from typing import Any
+
+from .frontier import Frontier, Point
+
+#: Okabe and Ito's colours, which the colour-blind tell apart, one for each order; and a marker for each rung.
+COLOURS = {"2": "#0072B2", "4": "#E69F00", "6": "#009E73", "8": "#D55E00", "12": "#CC79A7"}
+MARKERS = {"single": "v", "double": "o", "quad": "s"}
+OTHERS = "D^<>Ph*X"
+PANEL = (5.6, 4.2)  # inches
+
+
+def draw(found: dict[str, Frontier]) -> Any:
+    """A matplotlib figure with a panel for each section; needs matplotlib."""
+    from matplotlib.figure import Figure
+
+    columns = min(2, len(found))
+    rows = -(-len(found) // columns)
+    figure = Figure(figsize=(PANEL[0] * columns, PANEL[1] * rows + 0.9), layout="constrained")
+    axes = list(figure.subplots(rows, columns, squeeze=False).flat)
+    rungs = list(dict.fromkeys(_rung(p) for one in found.values() for p in one.points))
+    markers = {rung: MARKERS.get(rung, OTHERS[i % len(OTHERS)]) for i, rung in enumerate(rungs)}
+    for axis, one in zip(axes, found.values(), strict=False):
+        _panel(axis, one, markers)
+    for axis in axes[len(found) :]:
+        axis.set_visible(False)
+    figure.legend(handles=_legend(found, markers), loc="outside lower center", ncols=6, frameon=False)
+    return figure
+
+
+def _panel(axis: Any, one: Frontier, markers: dict[str, str]) -> None:
+    best = one.best
+    for point in one.points:
+        on = point in best
+        axis.plot(
+            point.digits, point.per_time * 1e6, marker=markers[_rung(point)], color=COLOURS[_order(point)],
+            markersize=7 if on else 4, alpha=1.0 if on else 0.45, linestyle="none",
+            markeredgecolor="black" if on else "none", markeredgewidth=0.8, zorder=3 if on else 2,
+        )  # fmt: skip
+    axis.step([p.digits for p in best], [p.per_time * 1e6 for p in best], where="pre", color="0.35", linewidth=1)
+    axis.set(yscale="log", title=one.title, xlabel=_wrapped(one.question), ylabel="µs a unit of simulated time")
+    axis.grid(alpha=0.3)
+
+
+def _legend(found: dict[str, Frontier], markers: dict[str, str]) -> list[Any]:
+    from matplotlib.lines import Line2D
+
+    orders = sorted({_order(p) for one in found.values() for p in one.points}, key=int)
+    shown = [Line2D([], [], color=COLOURS[o], marker="o", linestyle="none", label=f"order {o}") for o in orders]
+    shown += [Line2D([], [], color="0.3", marker=m, linestyle="none", label=rung) for rung, m in markers.items()]
+    return [*shown, Line2D([], [], color="0.35", linewidth=1, label="frontier")]
+
+
+def _rung(point: Point) -> str:
+    return point.name.partition(",")[0]
+
+
+def _order(point: Point) -> str:
+    return point.name.split("order ")[1].split(",")[0]
+
+
+def _wrapped(text: str) -> str:
+    import textwrap
+
+    return "\n".join(textwrap.wrap(text, 56))

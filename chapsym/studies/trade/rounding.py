@@ -1,0 +1,68 @@
+"""Rounding alone: each rung against the next but finer numbers, on the same steps of the map."""
+
+from collections.abc import Callable
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from chapsym.accuracy.methods import rung_label
+from chapsym.accuracy.prices import sample
+from chapsym.accuracy.request import as_fractions
+from chapsym.dynamics import BadInput, Trajectory, trajectory
+from chapsym.numbers import NAMED, Ball, Digits, Rung
+
+from ..bench.harness import Contender, cores, interleaved
+from .frontier import Frontier, Point, digits_of
+
+#: |ω|ε in radians.
+STEP = 0.1
+FINEST = Digits(120)
+RUNGS: tuple[Rung, ...] = (*NAMED.values(), Digits(30), Digits(50), Digits(100), Ball(100), Ball(300))
+#: How many steps of the cheap rungs make up a run that is timed: enough for a millisecond.
+TIMED = {"single": 20_000, "double": 20_000, "quad": 4_000}
+
+
+def measure(quick: bool, say: Callable[[str], None]) -> Frontier:
+    """The digits that are left of 𝒦 and γ after some steps of the map, on each rung, and the time of a step."""
+    request, steps, orders = sample("state", 1.0), 50 if quick else 400, (2,) if quick else (2, 8)
+    epsilon, points, missing = STEP / request.rate, [], []
+    for order in orders:
+        run = partial(trajectory, request.ball, epsilon * request.angular_momentum, request.gamma, order=order)
+        say(f"rounding: the reference at {FINEST.count} digits, order {order}")
+        exact = ends(run(steps, every=steps, precision=FINEST))
+        contenders, digits = [], {}
+        for rung in RUNGS:
+            name = f"{_name(rung)}, order {order}"
+            say(f"rounding: {name}")
+            try:
+                digits[name] = digits_of(_apart(ends(run(steps, every=steps, precision=rung)), exact), FINEST.count)
+            except BadInput as error:
+                missing.append(f"{name}: {error}")
+                continue
+            timed = TIMED.get(_name(rung), steps)
+            contenders.append(Contender(name, partial(run, timed, every=timed, precision=rung), timed))
+        with cores(1):
+            times = interleaved(contenders, 1 if quick else 5, lambda done: say(f"rounding: round {done}"))
+        points += [
+            Point(name, STEP, times[name].median, times[name].median * request.rate / STEP, digits[name])
+            for name in digits
+        ]
+    notes = [f"{steps} steps of |ω|ε = {STEP:g}; reference: the same steps at {FINEST.count} digits", *missing]
+    return Frontier("rounding alone", f"correct digits of 𝒦/|𝒦| and γ of the map after {steps} steps", points, notes)
+
+
+def ends(run: Trajectory) -> np.ndarray:
+    """𝒦 and γ of the last frame, six Fractions (the middles of balls)."""
+    return np.concatenate([as_fractions(run, name)[-1] for name in ("momentum", "gamma")])
+
+
+def _apart(a: np.ndarray, b: np.ndarray) -> float:
+    """The largest error of 𝒦/|𝒦| and γ."""
+    size = float(sum(x * x for x in b[:3])) ** 0.5
+    errors = abs(a - b).astype(float)
+    return float(max(errors[:3].max() / size, errors[3:].max()))
+
+
+def _name(rung: Any) -> str:
+    return f"ball{rung.bits}" if isinstance(rung, Ball) else rung_label(rung)

@@ -1,0 +1,170 @@
+"""Certificates: the balls contain the oracle's orbit, the bounds bound, and every digit shown is right."""
+
+from dataclasses import replace
+from decimal import Decimal
+from fractions import Fraction as F
+
+import flint
+import mpmath
+import numpy as np
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+from orbits import context, from_quaternion, orbit
+
+import chapsym
+from chapsym import BadInput, StepNotTaken, testing
+from chapsym.dynamics import precise_ball, precise_run
+from chapsym.dynamics.certificates import proved_digits
+from chapsym.dynamics.coefficients import COMPOSITIONS
+from chapsym.numbers import Digits
+
+BALL = chapsym.Ball((0.1, 0.5, 1.6), 0.7, radius=0.5)
+K = 0.3 * np.array([4, -2, 3]) / np.sqrt(29)
+GAMMA = (2 / 7, 3 / 7, 6 / 7)
+
+
+def length(mp, found, exact):
+    return mp.sqrt(sum((mp.mpf(float(x)) - y) ** 2 for x, y in zip(found, exact, strict=True)))
+
+
+def right(text, exact):
+    """Whether the digits of a decimal string are those of an mpf, rounded; it may be a unit in the last place off."""
+    value = Decimal(text)
+    mpf = exact.context.mpf
+    return abs(mpf(text) - exact) <= mpf(10) ** value.as_tuple().exponent * mpf("0.500001")
+
+
+@pytest.mark.parametrize("order", [2, 4, 6, 8])
+def test_the_bounds_are_the_errors_that_the_oracle_sees(order):
+    """With attitude and contact; the bound is not below the error, nor far above it."""
+    steps = 12 if order == 2 else 3
+    run = chapsym.trajectory(BALL, K, GAMMA, steps, order=order, contact=True)
+    proof = chapsym.certify(run)
+    exact = orbit(BALL, K, GAMMA, steps, COMPOSITIONS[order].exact, digits=40, attitude=run.attitude[0])
+    mp = context(60)
+    for k, (momentum, gamma, R, _) in enumerate(exact):
+        for name, truth in (("momentum", momentum), ("gamma", gamma)):
+            seen = length(mp, getattr(run, name)[k], truth)
+            assert seen <= getattr(proof, f"{name}_error")[k] <= seen * (1 + 1e-9)
+            assert all(right(text, x) for text, x in zip(proof.digits(name)[k], truth, strict=True))
+            assert all(len(text) > 30 for text in proof.digits(name)[k])
+        # |R(a) - R(b)| ≤ 2√2|a - b| for unit quaternions.
+        off = mp.sqrt(sum(x * x for x in np.ravel(np.array(from_quaternion(mp, run.attitude[k])) - np.array(R))))
+        assert off <= 2.83 * proof.attitude_error[k]
+    assert proof.momentum_error[0] == 0
+    assert 0 < proof.gamma_error[-1] < 1e-15 * 30
+    # R γ = e₃ holds to a rounding for the attitude that was given, so the oracle's trace is off by as much.
+    assert np.abs(proof.contact_error - [float(length(mp, c, [x / 2 for x in e[3][:2]])) for c, e in zip(
+        run.contact, exact, strict=True)]).max() < 1e-15  # fmt: skip
+
+
+@pytest.mark.parametrize("precision", ["single", "double", "quad", Digits(20)])
+def test_every_rung_is_certified_from_its_own_numbers(precision):
+    run = chapsym.trajectory(BALL, K, GAMMA, 200, every=50, contact=True, precision=precision)
+    proof = chapsym.certify(run)
+    unit = {"single": 2.0**-24, "double": 2.0**-53, "quad": 2.0**-104}.get(precision, 1e-33)
+    for name in ("gamma", "attitude"):
+        errors = getattr(proof, f"{name}_error")
+        assert errors.shape == (5,)
+        assert (errors < 2000 * unit).all()
+        assert errors[-1] > 0
+
+
+@given(testing.states(fraction=(0.05, 0.9)), st.sampled_from([2, 4]))
+@settings(max_examples=15)
+def test_float_trajectories_of_any_state_are_within_their_bounds(state, order):
+    ball, momentum, gamma = state
+    try:
+        run = chapsym.trajectory(ball, momentum / (1 if order == 2 else 2), gamma, 2, order=order)
+    except StepNotTaken:
+        assume(False)
+    proof = chapsym.certify(run, bits=100)
+    exact = orbit(ball, run.momentum[0], gamma, 2, COMPOSITIONS[order].exact, digits=50)
+    mp = context(60)
+    for k, (K, g, _, _) in enumerate(exact):
+        assert length(mp, run.momentum[k], K) <= proof.momentum_error[k]
+        assert length(mp, run.gamma[k], g) <= proof.gamma_error[k]
+        assert all(right(text, x) for text, x in zip(proof.digits("gamma")[k], g, strict=True))
+
+
+def test_a_wrong_trajectory_is_told_by_how_much():
+    """The control: a frame that is moved is off by what it was moved."""
+    run = chapsym.trajectory(BALL, K, GAMMA, 50)
+    run.gamma[30, 1] += 1e-9
+    proof = chapsym.certify(run)
+    assert abs(proof.gamma_error[30] - 1e-9) < 1e-14
+    assert proof.gamma_error[29] < 1e-14 > proof.gamma_error[31]
+
+
+def test_a_wrong_formula_breaks_the_bounds(monkeypatch):
+    """The control: with a turn that is off by 2⁻⁴⁰ the bound is no longer the error that the oracle sees."""
+    plain = precise_ball.turn
+    monkeypatch.setattr(precise_ball, "turn", lambda *v: tuple(x + flint.arb(2) ** -40 for x in plain(*v)))
+    run = chapsym.trajectory(BALL, K, GAMMA, 3)
+    seen = length(context(40), run.gamma[3], orbit(BALL, K, GAMMA, 3)[3][1])
+    assert chapsym.certify(run).gamma_error[3] > 100 * seen
+
+
+def test_digits_of_balls_that_are_too_small_are_wrong():
+    """The control: a radius that is cut shows digits that are not the truth's."""
+    with flint.ctx.workprec(200):
+        third = flint.arb(1) / 3
+        honest = third + flint.arb("1e-20") + flint.arb(0, "2e-20")
+        shrunk = third + flint.arb("1e-20") + flint.arb(0, "1e-30")
+    truth = mpmath.MPContext()
+    truth.dps = 60
+    assert right(proved_digits(honest), truth.mpf(1) / 3)
+    assert len(proved_digits(honest)) >= 20
+    assert not right(proved_digits(shrunk), truth.mpf(1) / 3)
+
+
+@given(st.floats(-1e6, 1e6), st.floats(0, 1e-3).map(lambda x: x if x > 1e-30 else 0.0))
+def test_both_ends_of_a_ball_round_to_what_is_shown(middle, radius):
+    with flint.ctx.workprec(300):
+        text = proved_digits(flint.arb(middle) + flint.arb(0, radius))
+    value, exponent = F(Decimal(text)), Decimal(text).as_tuple().exponent
+    half = F(10) ** exponent / 2
+    for end in (F(middle) - F(radius), F(middle) + F(radius)):
+        assert abs(end - value) <= (half if value else 2 * half)
+    if radius == 0:
+        assert value == F(middle)
+    elif abs(middle) > 100 * radius:
+        assert F(10) ** exponent <= 1000 * F(radius)
+
+
+def test_a_batch_with_a_ball_that_stopped():
+    ball = chapsym.Ball((1, 2, 4), 3)
+    run = chapsym.trajectory(ball, [(0.3, -0.1, 0.2), (3.9, -1.95, 2.925)], GAMMA, 40, every=2)
+    assert run.status.tolist() == [0, 1]
+    proof = chapsym.certify(run)
+    kept = int(run.taken[1]) // 2 + 1
+    assert np.isfinite(proof.gamma_error[0]).all()
+    assert np.isfinite(proof.gamma_error[1, :kept]).all()
+    assert np.isnan(proof.gamma_error[1, kept:]).all()
+    assert proof.digits("gamma")[1, -1].tolist() == ["nan"] * 3
+    assert set(proof.write()) == {"index", "momentum", "momentum_error", "gamma", "gamma_error"}
+
+
+def test_a_long_run_is_certified_and_tells_progress():
+    seen = []
+    run = chapsym.trajectory(BALL, K, GAMMA, 2000, every=500)
+    proof = chapsym.certify(run, bits=80, progress=seen.append)
+    assert seen[-1] == 2000
+    assert (proof.gamma_error < 1e-12).all()
+    assert all(len(text) > 22 for text in proof.digits("gamma")[-1])
+
+
+def test_what_cannot_be_certified_is_refused_in_one_sentence(monkeypatch):
+    run = chapsym.trajectory(BALL, K, GAMMA, 5)
+    with pytest.raises(BadInput, match="certify takes what"):
+        chapsym.certify(run.momentum)
+    with pytest.raises(BadInput, match="bits must be"):
+        chapsym.certify(run, bits=0)
+    with pytest.raises(BadInput, match="has no attitude"):
+        chapsym.certify(run).digits("attitude")
+    with pytest.raises(BadInput, match="certify takes orders"):
+        chapsym.certify(replace(run, order=0))
+    monkeypatch.setattr(precise_run, "MOST_GUARD", 50)
+    with pytest.raises(BadInput, match="grow too much: after step"):
+        chapsym.certify(chapsym.trajectory(BALL, K, GAMMA, 300))
