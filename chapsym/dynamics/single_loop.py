@@ -49,15 +49,16 @@ def follow_body(p0, p1, p2, p3, g1, g2, g3, attitude, contact, radius):
 
     A slow ball turns and rolls less in a step than a float32 can be told apart from the next.
     """
-    length = sqrt((p0 * p0 + p1 * p1) + (p2 * p2 + p3 * p3))
+    squared = p1 * p1 + (p2 * p2 + p3 * p3)
+    length = sqrt(p0 * p0 + squared)
     q0, q1, q2, q3 = p0 / length, p1 / length, p2 / length, p3 / length
     s1, s2, s3 = centre_step(q0, q1, q2, q3, g1, g2, g3)
     a0, a1, a2, a3 = attitude[0], attitude[1], attitude[2], attitude[3]
     x, y, _ = rotate(a0, a1, a2, a3, s1, s2, s3)
     add(contact, 0, 2, radius * x)
     add(contact, 1, 3, radius * y)
-    # a ∘ (q - 1), and one Newton step to length 1, which also takes care of the rounding of q0 - 1: both go along a.
-    z0, z1, z2, z3 = compose(a0, a1, a2, a3, q0 - 1.0, q1, q2, q3)
+    # a ∘ (q - 1), with q0 - 1 from the versed sine, and one Newton step to length 1.
+    z0, z1, z2, z3 = compose(a0, a1, a2, a3, -squared / (length * (length + p0)), q1, q2, q3)
     stretch = 0.5 - 0.5 * ((a0 * a0 + a1 * a1) + (a2 * a2 + a3 * a3))
     add(attitude, 0, 4, z0 + stretch * a0)
     add(attitude, 1, 5, z1 + stretch * a1)

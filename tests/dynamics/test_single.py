@@ -201,7 +201,8 @@ def test_a_million_steps_keep_the_integrals(order):
     moved = np.abs(values / values[0] - 1).max(axis=0) / ULP
     assert (moved <= [3, 2, 2]).all()
     attitude = run.attitude.astype(float)
-    assert np.abs((attitude**2).sum(axis=-1) - 1).max() <= 4 * ULP
+    # One ulp as the four numbers are rounded, 1.5 of the |a|² by which the length is kept.
+    assert np.abs((attitude**2).sum(axis=-1) - 1).max() <= 2.5 * ULP
     vertical = front.rotate(attitude, run.gamma.astype(float))
     # The turns of γ and of the attitude are rounded each for itself: √n · |q| ulps, |q| = 0.025 and κ below 10.
     assert np.abs(vertical - [0, 0, 1]).max() <= 10 * 0.025 * np.sqrt(steps) * ULP
