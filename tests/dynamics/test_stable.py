@@ -286,3 +286,22 @@ def test_jacobis_functions_do_not_overflow_near_the_separatrix(complement):
     assert np.abs(dn).min() >= complement * (1 - 1e-12)
     near = np.abs(u) <= 0.4 * quarter
     assert np.abs(sn[near] - np.tanh(u[near])).max() <= 4 * ULP
+
+
+@pytest.mark.parametrize("D", HEAVY)
+def test_the_angular_velocity_and_the_energy_are_as_good_as_k(D):
+    """By F = Σ γᵢ²Iᵢ/Λᵢ; with 1 - D⟨γ,Λ⁻¹γ⟩ both had roundings of D/I.  K along γ: nothing else is ill conditioned."""
+    lost = 0.0
+    for J, _, g in states(D):
+        K, inertia = 0.7 * g, J.sum() - J
+        unit = MP.matrix(exact(g)) / MP.norm(MP.matrix(exact(g)))
+        B = MP.diag(exact(inertia)) + MP.mpf(D) * (MP.eye(3) - unit * unit.T)
+        true = MP.lu_solve(B, MP.matrix(exact(K)))
+        moments = inertia + D
+        assert off(front.angular_velocity(K, g, J, D), true) <= 8
+        energy = sum(a * b for a, b in zip(true, exact(K), strict=True)) / 2
+        assert abs(float(MP.mpf(float(front.energy(K, g, J, D))) / energy - 1)) <= 8 * ULP
+        naive = 1 - D * (g * g / moments).sum()
+        old = (K + g * D * (g @ (K / moments)) / naive) / moments
+        lost = max(lost, off(old, true) if np.isfinite(old).all() else np.inf)
+    assert lost > 0.02 * D

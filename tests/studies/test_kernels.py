@@ -65,7 +65,7 @@ def test_an_ulp_is_an_ulp():
 
     def off(*a):
         c0, c1, c2, c3 = (errors.CONTEXT.mpf(x) for x in function(*map(errors.CONTEXT.mpf, a)))
-        return c0 + 3.5 * errors.ULP * size, c1, c2, c3
+        return c0 + 3.5 * 2.0**-52 * size, c1, c2, c3
 
     assert errors.ulps("compose", off, arguments, truth)[""] == pytest.approx(3.5, rel=1e-9)
     assert errors.ulps("compose", lambda *a: (math.nan,) * 4, arguments, truth)[""] == math.inf
