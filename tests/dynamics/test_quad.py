@@ -295,7 +295,7 @@ def test_steps_from_exact_input(fraction):
     """`precise_step` in pairs against 45 digits, by the condition of the state; near the fold one correction is few."""
     gamma = (F(2, 7), F(3, 7), F(6, 7))
     for direction in ((1, -0.5, 0.75), (0.1, 2, -1), (-3, 1, 1)):
-        K = np.array(direction) * 100
+        K = np.array(direction) * 100.0
         K *= float(small_rotation(*K, *GAMMA, *J, D)[1]) * fraction
         given = [F(x) for x in J], F(D), [F(float(x)) for x in K], gamma
         truth, found = precise_step(*given, Digits(45)), precise_step(*given, Quad())
