@@ -314,3 +314,18 @@ def test_no_steps_and_no_balls():
     assert abs(sum(x * x for x in whole(run.gamma[0], run.low.gamma[0])) - 1) <= 8 * U2
     empty = chapsym.trajectory(chapsym.Ball(J, D), np.empty((0, 3)), np.empty((0, 3)), 5, precision="quad")
     assert empty.low.gamma.shape == (0, 6, 3)
+
+
+@pytest.mark.parametrize("order", [2, 4])
+def test_against_digits(order):
+    """The other rung that is exact enough, from its own arithmetic: all four vectors of every frame, and one step."""
+    options = {"every": 10, "order": order, "attitude": True, "contact": True}
+    for gamma in (np.array(GAMMA), -np.array(GAMMA)):
+        run = chapsym.trajectory(BALL, K, gamma, 40, precision="quad", **options)
+        truth = chapsym.trajectory(BALL, K, gamma, 40, precision=Digits(40), **options)
+        for name, size in (("momentum", 0.05), ("gamma", 1), ("attitude", 1), ("contact", RADIUS)):
+            for high, low, exact in zip(getattr(run, name), getattr(run.low, name), getattr(truth, name), strict=True):
+                assert off(whole(high, low), [HIGH.mpf(x) for x in exact], size) <= 100 * order
+    one, exact = (chapsym.step(BALL, K, GAMMA, precision=p) for p in ("quad", Digits(40)))
+    for name in ("rotation", "momentum", "gamma"):
+        assert off(whole(getattr(one, name), getattr(one.low, name)), map(HIGH.mpf, getattr(exact, name))) <= 8
