@@ -91,7 +91,7 @@ def _begin(frames: Frames, low: Frames, i: int, state: Floats, rest: Floats | No
     attitude, contact = np.zeros((4, 2)), np.zeros(4)
     if frames.with_body:
         g = map(Pair, frames.gamma[i, 0], low.gamma[i, 0])
-        first = least_rotation(*g) if getattr(frames, "least", False) else normalised(frames.attitude[i, 0])
+        first = least_rotation(*g) if frames.least else normalised(frames.attitude[i, 0])
         attitude[:, 0], attitude[:, 1] = halves(first)
         frames.attitude[i, 0], low.attitude[i, 0] = attitude.T
         low.contact[i, 0] = 0.0
