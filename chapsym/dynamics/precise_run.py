@@ -68,7 +68,10 @@ class _Way:
         if self.frames.with_body:
             attitude = () if self.frames.least else tuple(map(Fraction, self.attitude))
         stages = COMPOSITIONS[self.order].exact
-        return b.momentum[i], b.gamma[i], b.mass_tensor[i], float(b.D[i]), stages, attitude, float(b.radius[i])
+        momentum = [Fraction(x) for x in b.momentum[i]]
+        if b.rest is not None:
+            momentum = [x + Fraction(y) for x, y in zip(momentum, b.rest[i], strict=True)]
+        return momentum, b.gamma[i], b.mass_tensor[i], float(b.D[i]), stages, attitude, float(b.radius[i])
 
     def take(self, ball: Any, enough: Callable[[int], bool] = lambda step: True) -> None:
         """Takes the steps and writes the frames; stops early where `enough` says no."""
