@@ -71,8 +71,11 @@ class Frames:
     def part(self, i: int, kept: int) -> "Frames":
         """The first frames of one ball, in the same memory."""
         one = slice(i, i + 1)
-        arrays = (x[one, :kept] for x in (self.momentum, self.gamma, self.attitude, self.contact))
-        return Frames(*arrays, self.taken[one], self.status[one], self.reach[one], self.with_body)
+        momentum, gamma, attitude, contact = (
+            x[one, :kept] for x in (self.momentum, self.gamma, self.attitude, self.contact)
+        )
+        ends = self.taken[one], self.status[one], self.reach[one]
+        return Frames(momentum, gamma, attitude, contact, *ends, self.with_body)
 
 
 @dataclass(frozen=True, eq=False)

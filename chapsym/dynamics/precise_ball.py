@@ -19,14 +19,14 @@ from chapsym.numbers import Ball as BallRung
 
 from .ball import Floats
 from .precise import enclosed
-from .precise_root import NotSettled, extrapolated, root
+from .precise_root import NotSettled, condition_bits, extrapolated, root
 from .precise_start import fraction, start
 
 Numbers = tuple[Any, ...]
 
 #: From so many bits on fmpz is faster than Python's integers.
 FMPZ_BITS = 300
-#: The precision of the matrices: what they multiply is as small as the radii.
+#: The precision of the matrices beyond what a determinant can lose: what they multiply is as small as the radii.
 MATRIX_BITS = 64
 
 
@@ -69,11 +69,14 @@ class ArbBall:
         self.radius, self.x = exact(radius), (arb(0), arb(0))
         self.size = math.frexp(max(map(abs, map(float, K))))[1] - self.exponent - 1
         self.number = int if precision < FMPZ_BITS else fmpz
-        self.P = precision - 8
+        # Components of a small 𝒦 get as many bits as large ones have.
+        self.P = precision - 8 + max(0, -self.size)
+        self.lost = condition_bits(tensor, D)
         self.one = arb(2) ** -self.P
         self.stages = [None if c == 1 else exact(c) for c in stages]
         self.bounds = [certified(2 * upper(self.k) * abs(exact(c)), self.I) for c in stages]
         self.fixed_I, self.fixed_D = self.fixed(self.I), self.fixed((self.D,))[0]
+        self.floats = tuple(map(float, self.I)), float(self.D)
         self.past: list[list[Any]] = [[] for _ in stages]
 
     def fixed(self, v: Sequence[Any]) -> Numbers:
@@ -106,8 +109,8 @@ class ArbBall:
         radius, slope = bound
         try:
             near, start = root(
-                extrapolated(past), self.fixed(k), self.fixed(self.g), self.fixed_I, self.fixed_D, self.P,
-                self.number, 0,
+                extrapolated(past), self.fixed(k), self.fixed(self.g), self.fixed_I, self.fixed_D, self.floats, self.P,
+                self.number, self.lost,
             )  # fmt: skip
         except (NotSettled, ZeroDivisionError, OverflowError):
             return None
@@ -117,7 +120,7 @@ class ArbBall:
         if not upper(u) <= radius:
             return None
         r = gibbs_residual(*u, *k, *self.g, *self.I, self.D)
-        ctx.prec = MATRIX_BITS
+        ctx.prec = MATRIX_BITS + 3 * self.lost
         try:
             off = (upper(r) / slope).abs_upper()
             box = tuple(x + arb(0, off) for x in u)

@@ -19,17 +19,10 @@ from .ball import Floats
 from .errors import Status, StepNotTaken
 from .gibbs import certificate
 from .precise import refined
-from .precise_root import NotSettled, extrapolated, root, to_float
+from .precise_root import NotSettled, condition_bits, extrapolated, root, to_float
 from .precise_start import fraction, start
 
 Numbers = tuple[Any, ...]
-
-
-def condition_bits(J: Sequence[float], D: float) -> int:
-    """The bits that the smallest moment of inertia that is not 0 can cost beside the largest."""
-    moments = J[1] + J[2], J[0] + J[2], J[0] + J[1]
-    least = min(x for x in moments if x > 0)
-    return max(0, math.ceil(math.log2((max(moments) + D) / least)))
 
 
 class DigitsBall:
@@ -66,6 +59,7 @@ class DigitsBall:
         self.radius, self.x = radius, [MPZ(0), MPZ(0)]
         self.stages = [None if c == 1 else MPZ((c.numerator << P) // c.denominator) for c in stages]
         floats = [[to_float(x, P) for x in v] for v in (self.k, self.I, (self.D,))]
+        self.floats = tuple(floats[1]), floats[2][0]
         scales = [abs(float(c)) for c in stages]
         self.bounds = [certificate(*(c * x for x in floats[0]), *floats[1], *floats[2])[0] for c in scales]
         self.past: list[list[Any]] = [[] for _ in stages]
@@ -104,7 +98,7 @@ class DigitsBall:
         if not bound >= 0.0:
             return None
         try:
-            u, start = root(extrapolated(past), k, self.g, self.I, self.D, self.P, self.number, self.lost)
+            u, start = root(extrapolated(past), k, self.g, self.I, self.D, self.floats, self.P, self.number, self.lost)
         except (NotSettled, ZeroDivisionError, OverflowError):
             return None
         if not start[0] * start[0] + (start[1] * start[1] + start[2] * start[2]) <= bound:

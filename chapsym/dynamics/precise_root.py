@@ -5,6 +5,7 @@ Where lemma `small-branch` holds the root is one in a convex region on which G i
 settles there has found it.
 """
 
+import math
 from collections.abc import Callable, Sequence
 from math import ldexp
 from typing import Any
@@ -15,7 +16,7 @@ from chapsym.generated.fixed import cofactors_fixed, residual_fixed
 #: A mantissa that float64's exponents can hold.
 FLOAT_BITS = 900
 #: Up to so many bits, corrections by the float64 Jacobian; beyond, Newton's, each with twice the bits of the last.
-CHORD_BITS = 320
+CHORD_BITS = 220
 #: The bits that the first correction by the float64 Jacobian is taken to gain.
 GAIN = 40
 #: Bits that Newton's iterates are short of twice those before.
@@ -34,6 +35,13 @@ class NotSettled(ArithmeticError):
     """The corrections did not become small."""
 
 
+def condition_bits(J: Sequence[float], D: float) -> int:
+    """The bits that the smallest moment of inertia that is not 0 can cost beside the largest."""
+    moments = J[1] + J[2], J[0] + J[2], J[0] + J[1]
+    least = min(x for x in moments if x > 0)
+    return max(0, math.ceil(math.log2((max(moments) + D) / least)))
+
+
 def to_float(x: Any, P: int) -> float:
     """A fixed-point integer as a float."""
     shift = P - FLOAT_BITS
@@ -42,6 +50,8 @@ def to_float(x: Any, P: int) -> float:
 
 def from_float(x: float, P: int) -> int:
     """A float as a fixed-point integer, rounded down."""
+    if P <= FLOAT_BITS and abs(x) < 2.0**100:
+        return math.floor(ldexp(x, P))
     numerator, denominator = x.as_integer_ratio()
     return (numerator << P) // denominator
 
@@ -110,17 +120,18 @@ def newton(u: Vector, k: Vector, g: Vector, I: Vector, D: Any, P: int, half: int
 
 
 def root(
-    guess: Vector, k: Vector, g: Vector, I: Vector, D: Any, P: int, number: Callable[[int], Any], lost: int
-) -> tuple[Vector, Vector]:
+    guess: Vector, k: Vector, g: Vector, I: Vector, D: Any, floats: tuple[Vector, float], P: int,
+    number: Callable[[int], Any], lost: int,
+) -> tuple[Vector, Vector]:  # fmt: skip
     """The Gibbs vector with P bits, from a guess in float64; returns it, and its float64 value.
 
-    number: makes an integer one of the kind that k, g, I and D are.  lost: the bits that the conditioning costs.
-    Raises NotSettled where it does not settle.
+    floats: I and D in float64.  number: makes an integer one of the kind that k, g, I and D are.  lost: the bits that
+    the conditioning costs.  Raises NotSettled where it does not settle.
     """
     kf = (to_float(k[0], P), to_float(k[1], P), to_float(k[2], P))
     gf = (to_float(g[0], P), to_float(g[1], P), to_float(g[2], P))
-    If = (to_float(I[0], P), to_float(I[1], P), to_float(I[2], P))
-    start, inverse = float_root(guess, kf, gf, If, to_float(D, P), MOST_ROUNDS if guess == (0.0, 0.0, 0.0) else 2)
+    rounds = MOST_ROUNDS if guess == (0.0, 0.0, 0.0) else 2
+    start, inverse = float_root(guess, kf, gf, *floats, rounds)
     levels = [P]
     while levels[-1] > CHORD_BITS + 4 * lost:
         levels.append(levels[-1] // 2 + SHORT + lost)

@@ -11,8 +11,7 @@ from chapsym.numbers import Ball, Digits
 
 from .coefficients import COMPOSITIONS
 from .engine import Balls, Frames
-from .errors import BadInput, StepNotTaken
-from .precise_digits import DigitsBall
+from .errors import BadInput, Status, StepNotTaken
 
 #: Steps of a ball between two calls of `progress`.
 CHUNK = 200
@@ -37,6 +36,8 @@ def run(
         if isinstance(rung, Ball):
             _run_ball(rung, way)
         else:
+            from .precise_digits import DigitsBall  # mpmath and flint take 40 ms
+
             K, g, J, D, stages, attitude, radius = way.given
             way.take(DigitsBall(rung, K, g, J, D, stages, attitude, radius, steps))
         done += int(frames.taken[i])
@@ -68,7 +69,10 @@ class _Way:
         if self.frames.with_body:
             attitude = () if self.frames.least else tuple(map(Fraction, self.attitude))
         stages = COMPOSITIONS[self.order].exact
-        return b.momentum[i], b.gamma[i], b.mass_tensor[i], float(b.D[i]), stages, attitude, float(b.radius[i])
+        momentum = [Fraction(x) for x in b.momentum[i]]
+        if b.rest is not None:
+            momentum = [x + Fraction(y) for x, y in zip(momentum, b.rest[i], strict=True)]
+        return momentum, b.gamma[i], b.mass_tensor[i], float(b.D[i]), stages, attitude, float(b.radius[i])
 
     def take(self, ball: Any, enough: Callable[[int], bool] = lambda step: True) -> None:
         """Takes the steps and writes the frames; stops early where `enough` says no."""
@@ -135,6 +139,10 @@ def _attempt(precision: int, way: _Way) -> tuple[int, float]:
             way.take(ball, enough)
         except TooWide:
             return seen[0] + 1, 0.0
+        if way.frames.status[way.i] != Status.TAKEN:
+            seen = (int(way.frames.taken[way.i]), ball.bits())
+    if seen[1] < way.bits:
+        way.frames.status[way.i], way.frames.reach[way.i] = Status.TAKEN, 1.0  # of balls that were too wide to tell
     return seen
 
 

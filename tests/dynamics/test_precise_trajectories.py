@@ -224,7 +224,7 @@ def test_fixed_point_roots_are_roots_at_any_precision():
         ball = precise_digits.DigitsBall(
             Digits(int(bits * 0.3)), 0.4 * DIRECTION, np.array(GAMMA), BALL.mass_tensor, 0.7, (F(1),), None, 0.0
         )
-        u, _ = precise_root.root((0.0, 0.0, 0.0), ball.k, ball.g, ball.I, ball.D, ball.P, int, ball.lost)
+        u, _ = precise_root.root((0.0, 0.0, 0.0), ball.k, ball.g, ball.I, ball.D, ball.floats, ball.P, int, ball.lost)
         left = precise_root.residual_fixed(*u, *ball.k, *ball.g, *ball.I, ball.D, ball.P)
         assert max(map(abs, left)) < 64
 
