@@ -21,7 +21,7 @@ ROOMS = {
     "prove": {"derive", "files"},
     "codegen": {"derive", "generated"},
     "dynamics": {"generated", "numbers"},
-    "accuracy": {"dynamics", "files", "numbers"},
+    "accuracy": {"dynamics", "files", "generated", "numbers"},
     "scene": {"accuracy", "dynamics", "exact", "files"},
     "studies": {"accuracy", "generated", "numbers", "dynamics", "scene"},
     "proofs": {"derive", "prove"},

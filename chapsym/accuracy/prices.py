@@ -19,7 +19,7 @@ import numpy as np
 import platformdirs
 
 import chapsym
-from chapsym import files
+from chapsym import dynamics, files, generated, numbers
 from chapsym.dynamics import BadInput, Ball, StepNotTaken
 from chapsym.dynamics.engine import SHORT_RUN
 from chapsym.numbers import NAMED, Digits, Rung
@@ -137,11 +137,17 @@ def _seconds(request: Request, method: Method, steps: int, length: float) -> flo
 
 
 def path() -> Path:
-    """Where the prices of this machine are kept: one file for each machine, version and set of libraries."""
+    """Where the prices of this machine are kept: one file for each machine, set of libraries and code of the map."""
     libraries = f"{np.__version__} {chapsym.__version__} {platform.python_version()}"
-    machine = f"{platform.machine()} {platform.processor()} {os.cpu_count()} {libraries} {VERSION}"
+    machine = f"{platform.machine()} {platform.processor()} {os.cpu_count()} {libraries} {VERSION} {_code()}"
     name = hashlib.sha256(machine.encode()).hexdigest()[:16]
     return Path(platformdirs.user_cache_path("chapsym")) / f"prices-{name}.json"
+
+
+def _code() -> str:
+    """The names and sizes of the files that run the map: other code has other prices."""
+    folders = [Path(module.__file__).parent for module in (dynamics, generated, numbers) if module.__file__]
+    return " ".join(f"{p.name}:{p.stat().st_size}" for folder in folders for p in sorted(folder.glob("*.py")))
 
 
 def load_prices(progress: Callable[[str], None] = lambda text: None) -> Prices:

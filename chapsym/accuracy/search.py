@@ -20,6 +20,8 @@ PROGRESS = 1.3
 PILOT = 5e-4
 #: From this on, in seconds, the first few choices are timed on the ball itself, each for this part of its run.
 TRIAL, FIRST, PART = 5e-3, 3, 0.05
+#: A trial takes about so many seconds at most; and prices are right to this factor.
+LONGEST, SURELY = 0.05, 10.0
 #: If rounding is more than this part of a difference, shorter steps do not help.
 FLOORS = 4.0
 #: No expectation is corrected by more than this at once: the difference of a coarse run may be anything.
@@ -60,8 +62,9 @@ class Search:
 
     def choose(self, left: float, limit: float) -> Choice:
         """The cheapest choice; raises BadInput if there is none, or none within the seconds that are left."""
-        found = self._timed(choices(self.request, self.laws, self.prices, self.least, self.barred))
-        request = self.request
+        request, found = self.request, choices(self.request, self.laws, self.prices, self.least, self.barred)
+        if found and found[0].seconds < SURELY * left:
+            found = self._timed(found)
         if not found:
             raise BadInput(
                 f"an accuracy of {request.accuracy:g} after {request.time:g} s cannot be had: it takes too many steps, "
@@ -88,7 +91,8 @@ class Search:
         """How many times the price the steps of a choice cost, by a short run."""
         method, request = choice.method, self.request
         least = 1 if isinstance(method.rung, Digits) else -(-2 * SHORT_RUN // method.stages)
-        steps = min(choice.steps, max(least, int(PART * choice.steps)))
+        part = min(PART, LONGEST / choice.seconds)
+        steps = min(choice.steps, max(least, int(part * choice.steps)))
         price = self.prices.of(method, request.with_body, request.rate * choice.time_step)
         try:
             take(request, method, 1, 1, choice.time_step)

@@ -176,7 +176,7 @@ def _study(wanted: list[str], quick: bool, output: Path | None, as_json: bool) -
             )
     if output is not None:
         _check_figure(output, sections, study.DRAWN)
-    found = {}
+    found: dict[str, Any] = {}
     for name in sections:
         try:
             found[name] = study.measure(name, quick, say)

@@ -84,6 +84,12 @@ def halves(numbers: list[Pair]) -> tuple[Floats, Floats]:
     return np.array([x.high for x in numbers]), np.array([x.low for x in numbers])
 
 
+def _add(rest: Floats, state: Floats, shift: int) -> None:
+    """Gives the start what 𝒦 has beyond float64, and its integrals, to which it is restored."""
+    state[1:6:2] = np.ldexp(rest, shift)
+    quad_loop.remember_pairs(state)
+
+
 def _begin(frames: Frames, low: Frames, i: int, state: Floats, rest: Floats | None) -> tuple[Floats, Floats]:
     """Writes frame 0 of a ball; its attitude and its contact point as pairs."""
     frames.gamma[i, 0], low.gamma[i, 0] = state[quad_loop.G : quad_loop.I : 2], state[quad_loop.G + 1 : quad_loop.I : 2]
@@ -107,7 +113,7 @@ def _run_one(
     state, limits, past = np.zeros(quad_loop.ROWS), np.zeros((2, len(stages))), np.zeros((len(stages), 8, 3))
     shift, beyond = prepare(K, g, J, D, stages, state, *limits)
     if balls.rest is not None:
-        state[1:6:2] = np.ldexp(balls.rest[i], shift)
+        _add(balls.rest[i], state, shift)
     attitude, contact = _begin(frames, low, i, state, balls.rest)
     chunk = max(1, CHUNK // len(stages))
     for first in range(0, steps, chunk):
@@ -138,7 +144,7 @@ def _run_block(
             state, shift, beyond)  # fmt: skip
     for lane in range(n):
         if balls.rest is not None:
-            state[1:6:2, lane] = np.ldexp(balls.rest[which.start + lane], shift[lane])
+            _add(balls.rest[which.start + lane], state[:, lane], int(shift[lane]))
         _begin(frames, low, which.start + lane, state[:, lane], balls.rest)
     status, reach, taken = frames.status[which], frames.reach[which], frames.taken[which]
     chunk = max(1, CHUNK // quad_block.LANES)
