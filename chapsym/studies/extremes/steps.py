@@ -40,7 +40,7 @@ def taken(level: Level, state: State) -> Found:
 
 def judge(level: Level, state: State) -> Judged:
     """The step of one state."""
-    exact = truth(state, not isinstance(level.rung, Double))
+    exact = truth(state)
     try:
         found = taken(level, state)
     except BadInput as refusal:
@@ -56,7 +56,7 @@ def judge(level: Level, state: State) -> Judged:
             return Judged(FAILED, condition=exact.condition if exact else None, reason=lie)
         return refused(str(refusal), exact)
     if exact is None and blurred(level, state):  # right for a momentum that is less than a rounding smaller
-        exact = truth(mirrored(state), not isinstance(level.rung, Double))
+        exact = truth(mirrored(state))
     if exact is None:
         return Judged(FAILED, reason="a rotation is given where the branch has folded: there is none")
     return beside(level, found, exact)

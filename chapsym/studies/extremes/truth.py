@@ -61,12 +61,11 @@ class Truth:
 
 
 @cache
-def truth(state: State, unit: bool) -> Truth | None:
-    """The step of the state, with γ as it is given, or divided by its length; None where the branch has folded."""
+def truth(state: State) -> Truth | None:
+    """The step of the state, with γ divided by its length; None where the branch has folded."""
     if state.from_fold is not None and state.from_fold < 0:
         return None  # known from `fold_at`; the oracle would search long
-    gamma = unit_gamma(state.g) if unit else [mp.mpf(x) for x in state.g]
-    oracle = Oracle(state.J, state.D, gamma, DIGITS)
+    oracle = Oracle(state.J, state.D, unit_gamma(state.g), DIGITS)
     try:
         step = oracle.step(state.K)
     except OracleFailed:
