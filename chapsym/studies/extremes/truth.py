@@ -7,7 +7,6 @@ as in `studies.check`, here from the oracle's matrices.
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 from functools import cache
 from typing import Any
 
@@ -159,10 +158,3 @@ def rotation_matrix(context: Any, p: list[Any]) -> Any:
         [2 * (x * y + a * z), a * a - x * x + y * y - z * z, 2 * (y * z - a * x)],
         [2 * (x * z - a * y), 2 * (y * z + a * x), a * a - x * x - y * y + z * z],
     ])  # fmt: skip
-
-
-def fraction(value: Any) -> Fraction:
-    """The exact value of an mpf."""
-    sign, mantissa, exponent, _ = value._mpf_
-    scale = Fraction(2) ** exponent
-    return (-1 if sign else 1) * int(mantissa) * scale
