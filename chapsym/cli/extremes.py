@@ -104,10 +104,8 @@ def _print_matrix(matrix: dict[str, Any]) -> None:
         console.print(table)
         for one in group["reasons"]:
             sign = page.VERDICTS[one["verdict"]][0]
-            console.print(
-                Text(f"  {sign} {one['condition']} ({', '.join(one['rungs'])}): ", COLOURS[one["verdict"]]), end=""
-            )
-            console.print(one["reason"])
+            about = "; ".join(f"{condition} ({rungs})" for condition, rungs in one["about"])
+            console.print(Text(f"  {sign} {about}:", COLOURS[one["verdict"]]), one["reason"])
         console.print()
     for verdict, (sign, meaning) in page.VERDICTS.items():
         console.print(f"{sign} {verdict}: {meaning}")

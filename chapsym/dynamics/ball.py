@@ -44,13 +44,13 @@ def _as_float(value: ArrayLike, name: str) -> Floats:
         raise _not_numbers(value, name)
     try:
         floats = array.astype(np.float64)
-        if array.dtype.kind == "O" and ((floats == 0) & (array != 0)).any():
-            raise BadInput(f"{name} is below the range of float64, about 2.2e-308; take other units")
-        return floats
     except OverflowError:
         raise BadInput(f"{name} is beyond the range of float64, about 1.8e308") from None
     except (TypeError, ValueError):
         raise _not_numbers(value, name) from None
+    if array.dtype.kind == "O" and ((floats == 0) & (array != 0)).any():
+        raise BadInput(f"{name} is below the range of float64, about 2.2e-308; take other units")
+    return floats
 
 
 def _has_mask(value: Any) -> bool:

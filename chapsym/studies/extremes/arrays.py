@@ -192,13 +192,13 @@ def huge(level: Level, quick: bool) -> Judged:
 
 def float32(level: Level, quick: bool) -> Judged:
     """float32 arrays are the float64 numbers that they hold, and γ is a unit vector as far as they tell."""
-    state = [x.astype(np.float32) for x in (np.array(states.K), np.array((0.6, 0.0, 0.8)))]
+    momentum, gamma = (x.astype(np.float32) for x in (np.array(states.K), np.array((0.6, 0.0, 0.8))))
     try:
-        found = run(level, *state, np.array(states.J, np.float32), np.float32(states.D))
+        found = run(level, momentum, gamma, np.array(states.J, np.float32), np.float32(states.D))
     except BadInput as refusal:
         return Judged(REFUSED, reason=str(refusal))
-    wide = [x.astype(np.float64) for x in state]
-    wide[1] /= np.sqrt(wide[1] @ wide[1])
-    away = max(abs(a - b) for a, b in zip(bits(found), bits(run(level, *wide)), strict=True))
+    wide = gamma.astype(np.float64)
+    plain = run(level, momentum.astype(np.float64), wide / np.sqrt(wide @ wide))
+    away = max(abs(a - b) for a, b in zip(bits(found), bits(plain), strict=True))
     ulps = float(away) * 2**23
     return Judged(WITHIN if ulps <= 16 else FAILED, ulps, 16.0, reason="" if ulps <= 16 else "not those numbers")

@@ -3,6 +3,7 @@
 import warnings
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import asdict, dataclass, replace
+from math import isfinite
 from typing import Any
 
 from .levels import KNOWN, Level, finite, mp, number, radius
@@ -58,8 +59,9 @@ class Cell:
     reason: str
 
     def write(self) -> dict[str, Any]:
-        """The cell for JSON."""
-        return asdict(self)
+        """The cell for JSON, where no number is NaN or infinite."""
+        fields = asdict(self)
+        return {name: None if isinstance(x, float) and not isfinite(x) else x for name, x in fields.items()}
 
 
 def cell(condition: Condition, level: Level, quick: bool) -> Cell:

@@ -21,7 +21,7 @@ GROUPS = {
     "directions": "One step: directions of γ and of the momentum",
     "runs": "Ten steps of a trajectory, beside ten of the oracle",
     "batch": "The same in a batch of 4096",
-    "order 8": "One step of the composition of order 8",
+    "order": "One step of the composition of order 8 (of order 4 when quick)",
     "reverse": "Ten steps, and back",
     "long": "Drift of ⟨𝒦,γ⟩, |𝒦|² and |γ|² in a long run",
     "extrapolate": "One long step, extrapolated",
@@ -49,7 +49,7 @@ def _conditions() -> list[Condition]:
     starts = runs.starts()
     rows += [Condition(name, "runs", runs.ten_steps(name), NAMES) for name in starts]
     rows += [Condition(name, "batch", runs.ten_steps(name, runs.BATCH), _BATCHED) for name in starts]
-    rows += [Condition(name, "order 8", runs.composed(name, 8), NAMES) for name in starts]
+    rows += [Condition(name, "order", runs.composed(name), NAMES) for name in starts]
     rows += [Condition(name, "reverse", runs.way_back(name), _DOUBLE) for name in starts]
     rows += [Condition(f"ε = {size:g}", "long", runs.long_run(size), NAMES) for size in (1e-3, 0.05, 0.4)]
     rows += [Condition(name, "extrapolate", reduced.extrapolated(name), _DOUBLE) for name in reduced.LONG]

@@ -16,7 +16,7 @@ from .steps import refused
 K, G, J, D = (0.3, -0.2, 0.5, 0.1, 0.4, -0.25), (0.1, 0.1, 0.7, 0.7), (1.0, 2.0, 0.5, 3.0), 3.0
 #: The oracle's steps along t𝒦, halved where Newton's iteration does not contract, down to this.
 SHORTEST = mp.mpf(10) ** -8
-SETTLED = mp.mpf(10) ** -60
+SETTLED = mp.mpf(10) ** -20  # Newton squares it
 
 
 def skew(x: Sequence[Any]) -> Any:

@@ -16,7 +16,7 @@ from .folds import fold_at
 from .levels import Level, mp, number
 from .runs import ball_of, chain, promised, starts
 from .steps import beside, refused
-from .truth import State, componentwise, truth
+from .truth import State, componentwise, truth, unit_gamma
 
 _AXIS_1 = (1.0, 0.0, 0.0)
 
@@ -46,7 +46,7 @@ def vertical(condition: str) -> Callable[[Level, bool], Judged]:
 
     def one(level: Level, state: State) -> Judged:
         height = float(np.dot(state.K, state.g))
-        exact = truth(State(state.J, state.D, tuple(mp.mpf(height) * x for x in state.g), state.g), False)
+        exact = truth(State(state.J, state.D, tuple(mp.mpf(height) * x for x in unit_gamma(state.g)), state.g))
         try:
             found = step_vertical(ball_of(state), height, state.g)
         except (BadInput, StepNotTaken) as refusal:
@@ -111,11 +111,11 @@ def long_step(start: str, columns: int) -> tuple[State, list[Any], list[Any], fl
         n = 2 + weights(columns).index(w)
         stages = (1 / mp.mpf(n),) * n
         product = [mp.one, mp.zero, mp.zero, mp.zero]
-        for one in chain(state, stages, False):
+        for one in chain(state, stages):
             product = _compose(product, [one.q0, *one.q])
             kappa = max(kappa, one.condition)
         total = [a + number(w) * b for a, b in zip(total, product, strict=True)]
-        ulps += abs(float(w)) * promised(state, stages, False)
+        ulps += abs(float(w)) * promised(state, stages)
     length = mp.sqrt(sum(x * x for x in total))
     back = [x / length * sign for x, sign in zip(total, (1, -1, -1, -1), strict=True)]
     return state, _turned(back, state.K), _turned(back, state.g), ulps, kappa

@@ -12,7 +12,6 @@ import numpy as np
 
 from chapsym.dynamics import BadInput, Ball, StepNotTaken, Trajectory, reverse, trajectory
 from chapsym.dynamics.coefficients import COMPOSITIONS
-from chapsym.numbers import Double
 
 from . import states
 from .cells import BUDGET, FAILED, Compared, Judged, compared, worst
@@ -30,11 +29,11 @@ STEPS = 10
 
 
 @cache
-def chain(state: State, stages: tuple[Any, ...], unit: bool) -> list[Truth]:
+def chain(state: State, stages: tuple[Any, ...]) -> list[Truth]:
     """The oracle's steps with the momenta cᵢ𝒦, one from the other; raises ArithmeticError where there is none."""
     steps: list[Truth] = []
     for c in stages:
-        step = truth(State(state.J, state.D, tuple(c * mp.mpf(x) for x in state.K), state.g), unit and not steps)
+        step = truth(State(state.J, state.D, tuple(c * mp.mpf(x) for x in state.K), state.g))
         if step is None:
             raise ArithmeticError("the oracle meets a fold on the way")
         steps.append(step)
@@ -43,12 +42,12 @@ def chain(state: State, stages: tuple[Any, ...], unit: bool) -> list[Truth]:
 
 
 @cache
-def promised(state: State, stages: tuple[Any, ...], unit: bool) -> float:
+def promised(state: State, stages: tuple[Any, ...]) -> float:
     """A Σ 4(1 + |q|κ)."""
-    steps = chain(state, stages, unit)
+    steps = chain(state, stages)
     size = max(abs(mp.mpf(x)) for x in state.K)
     moved = tuple(mp.mpf(x) + CHANGE * size * part for x, part in zip(state.K, DIRECTION, strict=True))
-    end = chain(State(state.J, state.D, moved, state.g), stages, unit)[-1]
+    end = chain(State(state.J, state.D, moved, state.g), stages)[-1]
     gaps = [abs(a - b) / size for a, b in zip(end.momentum, steps[-1].momentum, strict=True)]
     gaps += [abs(a - b) for a, b in zip(end.gamma, steps[-1].gamma, strict=True)]
     stretch = max(1.0, float(max(gaps) / CHANGE))
@@ -59,14 +58,13 @@ def ends(
     level: Level, state: State, stages: tuple[Any, ...], run: Callable[[], tuple[Sequence[Any], Sequence[Any]]]
 ) -> Judged:
     """𝒦 and γ after a run beside the end of the oracle's chain."""
-    unit = not isinstance(level.rung, Double)
-    exact = chain(state, stages, unit)
+    exact = chain(state, stages)
     kappa = max(step.condition for step in exact)
     try:
         momentum, gamma = run()
     except (BadInput, StepNotTaken) as refusal:
         return refused(str(refusal), exact[-1])
-    ulps = promised(state, stages, unit)
+    ulps = promised(state, stages)
     last = [x / stages[-1] for x in exact[-1].momentum]
     vectors = [Compared("the momentum", momentum, last, ulps), Compared("gamma", gamma, exact[-1].gamma, ulps, 1)]
     return compared(level, vectors, kappa)
@@ -108,10 +106,11 @@ def ten_steps(start: str, balls: int = 0) -> Callable[[Level, bool], Judged]:
     return judged
 
 
-def composed(start: str, order: int) -> Callable[[Level, bool], Judged]:
-    """One step of a composition, beside the oracle's composition with the same decimal coefficients."""
+def composed(start: str) -> Callable[[Level, bool], Judged]:
+    """A step of order 8, 4 when quick, beside the oracle's composition with the same decimal coefficients."""
 
     def judged(level: Level, quick: bool) -> Judged:
+        order = 4 if quick else 8
         state = starts()[start]
         if start == "at 0.8 of the fold":  # of that of the longest stage
             longest = max(abs(c) for c in COMPOSITIONS[order].exact)
@@ -130,13 +129,12 @@ def way_back(start: str) -> Callable[[Level, bool], Judged]:
 
     def judged(level: Level, quick: bool) -> Judged:
         state, stages = starts()[start], (mp.one,) * STEPS
-        unit = not isinstance(level.rung, Double)
         there = trajectory(ball_of(state), state.K, state.g, STEPS, precision=level.rung)
         momentum, gamma = last_frame(reverse(there))
-        ulps = 2 * promised(state, stages, unit)
+        ulps = 2 * promised(state, stages)
         first = [[number(x) for x in v] for v in (-there.momentum[0], there.gamma[0])]
         vectors = [Compared("the momentum", momentum, first[0], ulps), Compared("gamma", gamma, first[1], ulps, 1)]
-        return compared(level, vectors, max(step.condition for step in chain(state, stages, unit)))
+        return compared(level, vectors, max(step.condition for step in chain(state, stages)))
 
     return judged
 

@@ -2,16 +2,14 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from fractions import Fraction
 from typing import Any
 
-from chapsym.dynamics import BadInput, Ball, Status, StepNotTaken, Trajectory, step, trajectory
-from chapsym.dynamics.precise import precise_step
-from chapsym.numbers import Double, Pair, Quad, Single
+from chapsym.dynamics import BadInput, Ball, Status, StepNotTaken, Trajectory, step
+from chapsym.numbers import Pair
 
 from .cells import BUDGET, FAILED, NO_DIGIT, REFUSED, Compared, Judged, compared, worst
 from .levels import Level, number
-from .truth import State, Truth, fraction, reachable, scaled, truth, unit_gamma
+from .truth import State, Truth, reachable, scaled, truth
 
 #: Beyond this share of a rounding from the fold, a rung cannot tell the two sides.
 BLUR = BUDGET
@@ -24,23 +22,16 @@ Found = tuple[Any, Any, Any]
 def taken(level: Level, state: State) -> Found:
     """q, 𝒦 and γ after the step, in the numbers of the rung; raises BadInput and StepNotTaken."""
     ball = Ball(state.J, state.D)  # type: ignore[arg-type]
-    if isinstance(level.rung, Double):
-        found = step(ball, state.K, state.g)
-        return found.rotation[1:], found.momentum, found.gamma
-    if isinstance(level.rung, Single | Quad):
-        run = trajectory(ball, state.K, state.g, 1, precision=level.rung)
-        return None, *last_frame(run)
-    precise = precise_step(
-        *([Fraction(x) for x in state.J], Fraction(state.D), [Fraction(x) for x in state.K]),
-        [fraction(x) for x in unit_gamma(state.g)],
-        level.rung,
-    )
-    return precise.rotation[1:], precise.momentum, precise.gamma
+    found = step(ball, state.K, state.g, precision=level.rung)
+    q, momentum, gamma = found.rotation, found.momentum, found.gamma
+    if found.low is None:
+        return q[1:], momentum, gamma
+    return both(q, found.low.rotation)[1:], both(momentum, found.low.momentum), both(gamma, found.low.gamma)
 
 
 def judge(level: Level, state: State) -> Judged:
     """The step of one state."""
-    exact = truth(state, not isinstance(level.rung, Double))
+    exact = truth(state)
     try:
         found = taken(level, state)
     except BadInput as refusal:
@@ -56,7 +47,7 @@ def judge(level: Level, state: State) -> Judged:
             return Judged(FAILED, condition=exact.condition if exact else None, reason=lie)
         return refused(str(refusal), exact)
     if exact is None and blurred(level, state):  # right for a momentum that is less than a rounding smaller
-        exact = truth(mirrored(state), not isinstance(level.rung, Double))
+        exact = truth(mirrored(state))
     if exact is None:
         return Judged(FAILED, reason="a rotation is given where the branch has folded: there is none")
     return beside(level, found, exact)
@@ -69,17 +60,15 @@ def beside(level: Level, found: Found, exact: Truth) -> Judged:
     moved = BUDGET * (1.0 + extent * kappa)
     q = exact.q
     if (
-        found[0] is not None
-        and exact.q0 <= BUDGET * kappa * number(level.unit)
+        exact.q0 <= BUDGET * kappa * number(level.unit)
         and sum(number(a) * b for a, b in zip(found[0], q, strict=True)) < 0
     ):
         q = [-x for x in q]  # a rotation by π, to rounding: q and -q are the same, and q₀ ≥ 0 does not tell
     vectors = [
+        Compared("the rotation", found[0], q, BUDGET * kappa),
         Compared("the momentum", found[1], exact.momentum, moved),
         Compared("gamma", found[2], exact.gamma, moved, 1),
     ]
-    if found[0] is not None:
-        vectors.append(Compared("the rotation", found[0], q, BUDGET * kappa))
     return compared(level, vectors, exact.condition)
 
 
@@ -92,7 +81,7 @@ def last_frame(run: Trajectory) -> tuple[Sequence[Any], Sequence[Any]]:
     return both(momentum, low[0]), both(gamma, low[1])
 
 
-def both(high: Sequence[Any], low: Sequence[Any]) -> list[Pair]:
+def both(high: Any, low: Any) -> list[Pair]:
     """The double-double numbers of their halves."""
     return [Pair(float(a), float(b)) for a, b in zip(high, low, strict=True)]
 

@@ -7,7 +7,6 @@ as in `studies.check`, here from the oracle's matrices.
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 from functools import cache
 from typing import Any
 
@@ -61,12 +60,11 @@ class Truth:
 
 
 @cache
-def truth(state: State, unit: bool) -> Truth | None:
-    """The step of the state, with γ as it is given, or divided by its length; None where the branch has folded."""
+def truth(state: State) -> Truth | None:
+    """The step of the state, with γ divided by its length; None where the branch has folded."""
     if state.from_fold is not None and state.from_fold < 0:
         return None  # known from `fold_at`; the oracle would search long
-    gamma = unit_gamma(state.g) if unit else [mp.mpf(x) for x in state.g]
-    oracle = Oracle(state.J, state.D, gamma, DIGITS)
+    oracle = Oracle(state.J, state.D, unit_gamma(state.g), DIGITS)
     try:
         step = oracle.step(state.K)
     except OracleFailed:
@@ -160,10 +158,3 @@ def rotation_matrix(context: Any, p: list[Any]) -> Any:
         [2 * (x * y + a * z), a * a - x * x + y * y - z * z, 2 * (y * z - a * x)],
         [2 * (x * z - a * y), 2 * (y * z + a * x), a * a - x * x - y * y + z * z],
     ])  # fmt: skip
-
-
-def fraction(value: Any) -> Fraction:
-    """The exact value of an mpf."""
-    sign, mantissa, exponent, _ = value._mpf_
-    scale = Fraction(2) ** exponent
-    return (-1 if sign else 1) * int(mantissa) * scale

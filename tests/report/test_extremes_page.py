@@ -1,0 +1,114 @@
+"""The page of the extremes: what it shows is what the JSON says, in a real browser, on a desk and on a phone."""
+
+import os
+import shutil
+
+import pytest
+
+from chapsym.report import extremes
+
+RUNGS = ["single", "double", "quad", "Digits(50)", "Ball(200)"]
+SIZES = {"desk": (1280, 900), "phone": (390, 844)}
+CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+
+
+def cell(condition, rung, verdict, group="fold", ulps=1.0, digits=15.5, reason=""):
+    return {
+        "condition": condition, "group": group, "rung": rung, "verdict": verdict, "ulps": ulps, "promised": 4.0,
+        "digits": digits, "condition_number": 2.5, "reason": reason,
+    }  # fmt: skip
+
+
+FOLDED = "the branch folds before <it> reaches this momentum"
+CELLS = [
+    *(cell("1e-8 before it", rung, "within") for rung in RUNGS),
+    cell("one ulp beyond it", "single", "refused", reason=FOLDED, ulps=None, digits=None),
+    cell("one ulp beyond it", "double", "refused", reason=f"step 0: {FOLDED}", ulps=None, digits=None),
+    cell("one ulp beyond it", "quad", "failed", ulps=1e9, digits=2.0, reason="gamma is wrong by 1e+09 ulps"),
+    cell("a condition with a name that is quite long, as some are", "double", "within", "elliptic", 0.0, None),
+]
+MATRIX = {
+    "quick": True, "budget_ulps": 4.0, "rungs": RUNGS, "groups": {"fold": "Beside the fold", "elliptic": "The curve"},
+    "counts": {"within": 6, "refused": 2, "failed": 1}, "cells": CELLS,
+}  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def page():
+    return extremes.html(MATRIX, {"chapsym": "0.1.0"}, "a machine")
+
+
+def test_the_same_matrix_gives_the_same_page_with_nothing_from_outside(page):
+    assert page == extremes.html(MATRIX, {"chapsym": "0.1.0"}, "a machine")
+    assert "http" not in page.replace("http-equiv", "")
+    assert "<it>" not in page
+    assert "&lt;it&gt;" in page
+
+
+def test_a_sentence_is_said_once_for_all_that_it_is_about():
+    found = extremes.reasons(CELLS)
+    assert [one["verdict"] for one in found] == ["refused", "failed"]
+    assert found[0]["about"] == [("one ulp beyond it", "single, double")]
+
+
+def test_what_a_cell_shows():
+    assert extremes.shown(CELLS[0]) == "✓ 7.2"  # float32 has no more
+    assert extremes.shown(CELLS[1]) == "✓ 15.5"
+    assert extremes.shown(CELLS[5]) == "–"
+    assert extremes.shown(CELLS[7]) == "✗"
+    assert extremes.shown(CELLS[8]) == "✓ exact"
+    assert "1 ulps of 4 promised" in extremes.told(CELLS[0])
+    assert extremes.heat(CELLS[8]) < extremes.heat(CELLS[0]) < extremes.heat(cell("x", "double", "within", ulps=4.0))
+
+
+@pytest.mark.parametrize("size", SIZES)
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_in_a_browser(page, tmp_path, size, scheme):
+    if CHROMIUM is None:
+        if os.environ.get("CI"):
+            pytest.fail("no Chromium on this machine: .ci/run installs it")
+        pytest.skip("no Chromium on this machine (Debian: apt-get install chromium)")
+    from playwright.sync_api import sync_playwright
+
+    path, said = tmp_path / "page.html", []
+    path.write_text(page, encoding="utf-8")
+    width, height = SIZES[size]
+    with sync_playwright() as driver:
+        browser = driver.chromium.launch(
+            executable_path=CHROMIUM, headless=True, args=["--no-sandbox", "--disable-gpu", "--disable-quic"]
+        )
+        tab = browser.new_page(viewport={"width": width, "height": height}, color_scheme=scheme)
+        tab.on("console", lambda message: said.append(message.text))
+        tab.on("request", lambda request: said.append(request.url))
+        tab.goto(path.as_uri())
+        assert said == [path.as_uri()]
+        assert tab.evaluate("document.documentElement.scrollWidth <= innerWidth")
+        shown = tab.eval_on_selector_all("td[data-verdict]", "all => all.map(x => x.dataset.verdict)")
+        assert shown == [c["verdict"] for c in CELLS]
+        assert tab.locator("td.none").count() == 2 * len(RUNGS) + 5 - len(CELLS)
+        outside = tab.evaluate(
+            """[...document.querySelectorAll('td, th, li')].filter(x => {
+                const box = x.getBoundingClientRect();
+                return box.width && (box.right > innerWidth + 1 || x.scrollWidth > box.width + 1);
+            }).map(x => x.outerHTML.slice(0, 99))"""
+        )
+        assert outside == []
+        # Text and ground differ enough to be read (WCAG AA), whatever the heat.
+        assert tab.evaluate(CONTRAST) == []
+        tab.locator("td.failed a").click()
+        assert tab.locator(".why").first.is_visible()
+        browser.close()
+
+
+CONTRAST = """[...document.querySelectorAll('td[data-verdict]')].filter(x => {
+    const canvas = document.createElement('canvas').getContext('2d', {willReadFrequently: true});
+    const light = colour => {
+        canvas.fillStyle = colour; canvas.fillRect(0, 0, 1, 1);
+        const [r, g, b] = [...canvas.getImageData(0, 0, 1, 1).data].slice(0, 3).map(v => v / 255)
+            .map(v => v <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4);
+        return 0.2126 * r + 0.7152 * g + 0.0722 * b;
+    };
+    const inner = x.querySelector('a') || x;
+    const [a, b] = [light(getComputedStyle(inner).color), light(getComputedStyle(x).backgroundColor)].sort();
+    return (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05) < 4.5;
+}).map(x => x.outerHTML.slice(0, 99))"""
