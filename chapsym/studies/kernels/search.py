@@ -9,7 +9,6 @@ import numpy as np
 from .errors import Exact, Kernel, exact, ulps
 from .states import CHANGES, DRAWN, arguments
 
-
 #: A search moves each number that a state is drawn from by multiples of one part of this.
 FINENESS = 1 << 20
 
