@@ -12,7 +12,8 @@ from orbits import context, from_quaternion, orbit
 
 import chapsym
 from chapsym import BadInput, Status, StepNotTaken, generated, testing
-from chapsym.dynamics import precise_ball, precise_digits, precise_root
+from chapsym.dynamics import front, precise_ball, precise_digits, precise_root
+from chapsym.dynamics.branch import small_rotation
 from chapsym.dynamics.coefficients import COMPOSITIONS
 from chapsym.numbers import Ball, Digits
 
@@ -242,3 +243,32 @@ def test_more_bits_than_can_be_carried_are_refused_in_one_sentence(monkeypatch):
     ) as caught:
         chapsym.trajectory(BALL, 0.4 * DIRECTION, GAMMA, 1000, precision=Ball(60))
     assert re.fullmatch(r"[^\n]*", str(caught.value))
+
+
+@given(testing.states(fraction=(0.05, 1.0)), testing.unit_vectors())
+@settings(max_examples=40)
+def test_what_is_certified_is_monotone_and_contains_the_root(state, direction):
+    """Lemma small-branch in balls, on numbers: in the ball ∂G/∂u has at least the slope m, and the root is in it."""
+    ball, momentum, gamma = state
+    ratio = (ball.mass_tensor.sum() + float(ball.D)) / np.sort(ball.inertia)[0]
+    assume(ratio < 1e4)
+    with flint.ctx.workprec(150):
+        under_way = precise_ball.ArbBall(150, momentum, gamma, ball.mass_tensor, float(ball.D), (F(1),), None, 0.0)
+        bound = under_way.bounds[0]
+        inertia, contact = np.array(list(map(float, under_way.I))), float(under_way.D)
+        k = np.array(list(map(float, under_way.k)))
+    assume(bound is not None)
+    radius, slope = map(float, bound)
+    status, _, q0, *q = small_rotation(*momentum, *gamma, *ball.mass_tensor, float(ball.D))
+    assert status == 0
+    assert np.linalg.norm(q) / q0 <= radius * (1 + 1e-12)
+    u = radius * direction
+    ahead, behind = (front.gibbs_residual(u + s * np.eye(3), k, gamma, inertia, contact) for s in (0.5, -0.5))
+    matrix = (ahead - behind).T  # G is quadratic: the central difference is exact
+    assert np.linalg.eigvalsh((matrix + matrix.T) / 2)[0] >= slope - 1e-12 * (inertia.max() + contact)
+
+
+def test_reverse_refuses_what_it_would_round():
+    run = chapsym.trajectory(BALL, 0.1 * DIRECTION, GAMMA, 3, precision=Digits(20))
+    with pytest.raises(BadInput, match="reverse goes back in"):
+        chapsym.reverse(run)
