@@ -16,6 +16,7 @@ M = sp.Matrix(3, 3, sp.symbols("m1:4(1:4)"))
 NORM = gamma.dot(gamma)
 #: Free symbols: nothing is tied, |γ| = 1 is not used.
 FREE = Quotient((q0, *q, *omega, *x, *e, *u, *k, *K, *gamma, *M, I1, I2, I3, D), [])
+UNTIED = Quotient((*K, *gamma, I1, I2, I3, D), [])
 UNIT = Quotient((*K, *gamma, I1, I2, I3, D), [three.UNIT_VERTICAL])
 
 
@@ -142,8 +143,8 @@ def stable_inverse(p: Proof) -> None:
     p.lemma(Fact("so is each entry of F (det Λ)² B⁻¹, but for the factor γᵢγⱼ", all(
         _positive(inverse[i, j] if i == j else sp.cancel(inverse[i, j] / (gamma[i] * gamma[j])))
         for i in range(3) for j in range(3))))  # fmt: skip
-    p.lemma(equal("ω of the kernel", _of_kernel(sp.Matrix(continuous.angular_velocity()), f * whole), inverse * K))
-    p.lemma(equal("its energy", _of_kernel(sp.Matrix([continuous.energy()]), 2 * f * whole), K.T * inverse * K))
+    p.lemma(_quotient("ω of the kernel", sp.Matrix(continuous.angular_velocity()), inverse * K, f * whole))
+    p.lemma(_quotient("its energy", sp.Matrix([continuous.energy()]), K.T * inverse * K, 2 * f * whole))
     p.control(scalar("F det Λ = det Λ - D⟨γ, adj(Λ)γ⟩ off |γ| = 1", f, whole - D * gamma.dot(adjugate * gamma)))
     p.control(Fact("|γ|² det Λ - D⟨γ, adj(Λ)γ⟩, term by term, without a minus sign",
                    _positive(NORM * whole) and _positive(-D * gamma.dot(adjugate * gamma))))  # fmt: skip
@@ -155,8 +156,11 @@ def _positive(polynomial: sp.Expr) -> bool:
     return all(c > 0 for c in sp.Poly(sp.expand(polynomial), *gamma, I1, I2, I3, D).coeffs())
 
 
-def _of_kernel(value: sp.Matrix, factor: sp.Expr) -> sp.Matrix:
-    return (inertial(value) * factor).applyfunc(sp.cancel)
+def _quotient(text: str, value: sp.Matrix, above: sp.Matrix, below: sp.Expr) -> Equation:
+    """value = above/below, without denominators."""
+    parts = [sp.fraction(sp.together(e)) for e in inertial(value)]
+    left, right = zip(*((n * below, d * e) for (n, d), e in zip(parts, above, strict=True)), strict=True)
+    return Equation(text, left, right, UNTIED)
 
 
 if __name__ == "__main__":
