@@ -7,9 +7,11 @@ import numpy as np
 import pytest
 
 import chapsym
+import chapsym.numbers
 from chapsym.accuracy import Method, Prices, Request, accurate, choices, distance, take
 from chapsym.accuracy import prices as pricing
 from chapsym.accuracy.pilot import Law, pilot, surveyed
+from chapsym.accuracy.request import as_fractions
 from chapsym.accuracy.search import Search
 from chapsym.dynamics import BadInput, front
 from chapsym.numbers import NAMED
@@ -202,3 +204,11 @@ def test_choices_are_sorted_and_leave_out_what_is_barred():
     rest = choices(request, pilot(request, (2, 4, 6, 8)), PRICES, barred=frozenset([found[0].method]))
     assert [c.method for c in rest] == [c.method for c in found[1:]]
     assert all(Fraction(c.steps, 16).denominator == Fraction(c.coarse, 16).denominator == 1 for c in found)
+
+
+def test_numbers_of_every_rung_are_read_exactly_with_their_signs():
+    for precision in (chapsym.numbers.Digits(30), chapsym.numbers.Ball(100), "quad", "double", "single"):
+        run = chapsym.trajectory(BALL, -0.01 * K, GAMMA, 2, precision=precision)
+        exact = as_fractions(run, "momentum").astype(float)
+        np.testing.assert_allclose(exact, run.momentum.astype(float), rtol=1e-15)
+        assert (exact[0] * K <= 0).all()

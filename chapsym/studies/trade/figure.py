@@ -30,16 +30,19 @@ def draw(found: dict[str, Frontier]) -> Any:
 
 
 def _panel(axis: Any, one: Frontier, markers: dict[str, str]) -> None:
+    from matplotlib.ticker import NullFormatter
+
     best = one.best
     for point in one.points:
         on = point in best
         axis.plot(
             point.digits, point.per_time * 1e6, marker=markers[_rung(point)], color=COLOURS[_order(point)],
-            markersize=7 if on else 4, alpha=1.0 if on else 0.45, linestyle="none",
+            markersize=7 if on else 5, alpha=1.0 if on else 0.55, linestyle="none",
             markeredgecolor="black" if on else "none", markeredgewidth=0.8, zorder=3 if on else 2,
         )  # fmt: skip
     axis.step([p.digits for p in best], [p.per_time * 1e6 for p in best], where="pre", color="0.35", linewidth=1)
     axis.set(yscale="log", title=one.title, xlabel=_wrapped(one.question), ylabel="µs a unit of simulated time")
+    axis.yaxis.set_minor_formatter(NullFormatter())
     axis.grid(alpha=0.3)
 
 
@@ -63,4 +66,4 @@ def _order(point: Point) -> str:
 def _wrapped(text: str) -> str:
     import textwrap
 
-    return "\n".join(textwrap.wrap(text, 56))
+    return "\n".join(textwrap.wrap(text.replace("𝒦", "K"), 56))
