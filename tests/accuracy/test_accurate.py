@@ -172,7 +172,8 @@ def test_prices_are_kept_whole_and_taken_anew_if_they_are_broken(tmp_path, monke
     assert len(told) == 1
     assert pricing.load_prices() == PRICES
     assert len(taken) == 1
-    for broken in ("", "{}", '{"version": 0, "calls": {}, "steps": {}}', '{"version": 1, "calls": {}, "steps": {"a": 3}}', "[]"):
+    old = '{"version": 0, "calls": {}, "steps": {}}'
+    for broken in ("", "{}", old, '{"version": 1, "calls": {}, "steps": {"a": 3}}', "[]"):
         (tmp_path / "deep" / "prices.json").write_text(broken)
         assert pricing.load_prices() == PRICES
     assert len(taken) == 6
