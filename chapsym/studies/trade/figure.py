@@ -6,8 +6,10 @@ from .frontier import Frontier, Point
 
 #: Okabe and Ito's colours, which the colour-blind tell apart, one for each order; and a marker for each rung.
 COLOURS = {"2": "#0072B2", "4": "#E69F00", "6": "#009E73", "8": "#D55E00", "12": "#CC79A7"}
-MARKERS = {"single": "v", "double": "o", "quad": "s"}
-OTHERS = "D^<>Ph*X"
+MARKERS = {
+    "single": "v", "double": "o", "quad": "s", "digits30": "D", "digits50": "^", "digits100": "P", "ball100": "*",
+    "ball300": "X",
+}  # fmt: skip
 PANEL = (5.6, 4.2)  # inches
 
 
@@ -20,7 +22,7 @@ def draw(found: dict[str, Frontier]) -> Any:
     figure = Figure(figsize=(PANEL[0] * columns, PANEL[1] * rows + 0.9), layout="constrained")
     axes = list(figure.subplots(rows, columns, squeeze=False).flat)
     rungs = list(dict.fromkeys(_rung(p) for one in found.values() for p in one.points))
-    markers = {rung: MARKERS.get(rung, OTHERS[i % len(OTHERS)]) for i, rung in enumerate(rungs)}
+    markers = {rung: MARKERS.get(rung, "h") for rung in rungs}
     for axis, one in zip(axes, found.values(), strict=False):
         _panel(axis, one, markers)
     for axis in axes[len(found) :]:
