@@ -1,6 +1,6 @@
 """A ball rolled to an accuracy: rung, order and step chosen from measured prices, and the result verified on itself."""
 
-from .accurate import Accurate, accurate
+from .answer import Accurate, accurate
 from .choice import Choice, choices
 from .methods import Method, methods, take
 from .prices import Prices, load_prices

@@ -1,14 +1,12 @@
 """The choice: of all rungs and orders whose expected error is small enough, the one that is expected to cost least."""
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
-
-from chapsym.numbers import NAMED, Digits, Rung
 
 from .methods import EXACT, EXTRAPOLATED, Method, checks, methods
 from .pilot import Law
-from .prices import Prices
+from .prices import RUNGS, Prices
 from .request import Request
 
 #: How many times longer the steps are with which a run is compared, for orders up to 4 and above: by theory their
@@ -20,8 +18,6 @@ MARGIN = 0.4
 ROUNDING = 0.5
 #: The step of the exact top, in radians: far enough from the fold, and cheap.
 TOP = 0.2
-#: Digits that mpmath is given beyond those of the accuracy; it carries fifteen more.
-BEYOND = 3
 #: Runs of more steps are refused.
 MOST_STEPS = 2**53
 
@@ -58,18 +54,13 @@ def choices(
     """
     found = [
         choice
-        for rung in _rungs(request)
+        for rung in RUNGS
         for method in methods(request, rung)
         if method not in barred
         and method.order in laws
         and (choice := _one(request, method, laws[method.order], prices, (least or {}).get(method, 0)))
     ]
     return sorted(found, key=lambda choice: choice.seconds)
-
-
-def _rungs(request: Request) -> Iterator[Rung]:
-    yield from NAMED.values()
-    yield Digits(max(30, math.ceil(-math.log10(request.accuracy / (1 + request.angle))) + BEYOND))
 
 
 def _one(request: Request, method: Method, law: Law, prices: Prices, least: int) -> Choice | None:

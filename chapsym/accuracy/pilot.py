@@ -101,7 +101,8 @@ def surveyed(request: Request) -> Request:
 
 
 def _omega(request: Request, K: Floats, gamma: Floats) -> Floats:
-    omega = front.angular_velocity(K, gamma, request.ball.mass_tensor, request.ball.D)
+    with np.errstate(all="ignore"):
+        omega = front.angular_velocity(K, gamma, request.ball.mass_tensor, request.ball.D)
     if not np.isfinite(omega).all():
         raise BadInput("the ball has no angular velocity at this gamma: no inertia about the vertical")
     return omega

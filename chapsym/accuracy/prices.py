@@ -22,7 +22,7 @@ import chapsym
 from chapsym import dynamics, files, generated, numbers
 from chapsym.dynamics import BadInput, Ball, StepNotTaken
 from chapsym.dynamics.engine import SHORT_RUN
-from chapsym.numbers import NAMED, Digits, Rung
+from chapsym.numbers import NAMED
 
 from .methods import EXACT, Method, methods, rung_label, take
 from .request import Request
@@ -31,8 +31,9 @@ from .request import Request
 VERSION = 1
 #: Lengths of steps at which prices are taken, in radians.
 LENGTHS = (0.02, 0.1, 0.25, 0.5, 1.0)
-#: Digits at which mpmath is priced.
-DIGITS = (30, 50)
+#: What is priced, and chosen from.  One ball is no faster in float32 than in float64; mpmath, a thousand times slower
+#: than double-double, has hardly more digits here, as its runs start from the same 106 bits.
+RUNGS = (NAMED["double"], NAMED["quad"])
 #: Each price is the median of so many runs, each of about so many seconds.
 RUNS, LEAST = 3, 1e-3
 #: A price grows at most to so many steps a run.
@@ -56,27 +57,15 @@ class Prices:
 
     def call(self, method: Method, with_body: bool) -> float:
         """Seconds of a call besides its steps."""
-        return self.calls.get(f"{_priced(method.rung)}/{_body(with_body)}", 0.0)
+        return self.calls.get(f"{method.label}/{_body(with_body)}", 0.0)
 
     @staticmethod
     def _key(method: Method, with_body: bool) -> str:
-        return f"{_priced(method.rung)}/{method.order}/{_body(with_body)}"
+        return f"{method.label}/{method.order}/{_body(with_body)}"
 
 
 def _body(with_body: bool) -> str:
     return "body" if with_body else "state"
-
-
-def _priced(rung: Rung) -> str:
-    """The rung whose price is taken: mpmath's is that of the next number of digits that was measured."""
-    if isinstance(rung, Digits):
-        rung = Digits(next((d for d in DIGITS if d >= rung.count), DIGITS[-1]))
-    return rung_label(rung)
-
-
-def rungs() -> list[Rung]:
-    """The rungs that are priced, from the cheapest."""
-    return list(NAMED.values())
 
 
 def sample(of: str, time: float) -> Request:
@@ -90,14 +79,14 @@ def calibrate(progress: Callable[[str], None] = lambda text: None) -> Prices:
     """Takes all prices, in seconds; a method or a length of step that this ball cannot take has none."""
     calls: dict[str, float] = {}
     steps: dict[str, list[tuple[float, float]]] = {}
-    for rung in rungs():
+    for rung in RUNGS:
         progress(f"pricing {rung_label(rung)}")
         for with_body in (False, True):
             request = sample("contact" if with_body else "state", 1.0)
             found = {m: _by_length(request, m) for m in methods(request, rung) if m.order != EXACT}
             steps |= {Prices._key(m, with_body): priced for m, priced in found.items() if priced}
             shortest = _seconds(request, Method(rung, 2), 1, 1e-3)
-            calls[f"{_priced(rung)}/{_body(with_body)}"] = shortest or 0.0
+            calls[f"{rung_label(rung)}/{_body(with_body)}"] = shortest or 0.0
     for body in ("state", "body"):  # the exact top runs the map itself
         if f"double/2/{body}" in steps:
             steps[f"double/{EXACT}/{body}"] = steps[f"double/2/{body}"]

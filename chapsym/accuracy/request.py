@@ -152,6 +152,7 @@ def _fraction(value: Any) -> Fraction:
     if hasattr(value, "mid"):  # a ball of Arb
         value = value.mid()
         mantissa, exponent = value.man_exp()
-    else:  # an mpf
+    else:  # an mpf, whose mantissa has no sign
         mantissa, exponent = value.man_exp
+        mantissa = -mantissa if value < 0 else mantissa
     return Fraction(int(mantissa)) * Fraction(2) ** int(exponent)

@@ -6,7 +6,6 @@ from dataclasses import dataclass, field, replace
 
 from chapsym.dynamics import BadInput, Status, StepNotTaken, Trajectory
 from chapsym.dynamics.engine import SHORT_RUN
-from chapsym.numbers import Digits
 
 from .choice import Choice, choices, finer
 from .methods import COMPOSED, EXTRAPOLATED, Method, checks, methods, take
@@ -90,7 +89,7 @@ class Search:
     def _trial(self, choice: Choice) -> float:
         """How many times the price the steps of a choice cost, by a short run."""
         method, request = choice.method, self.request
-        least = 1 if isinstance(method.rung, Digits) else -(-2 * SHORT_RUN // method.stages)
+        least = -(-2 * SHORT_RUN // method.stages)  # enough that the compiled loop is taken
         part = min(PART, LONGEST / choice.seconds)
         steps = min(choice.steps, max(least, int(part * choice.steps)))
         price = self.prices.of(method, request.with_body, request.rate * choice.time_step)

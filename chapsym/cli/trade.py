@@ -21,7 +21,7 @@ def trade(
         list[str] | None,
         typer.Argument(
             metavar="[SECTION]... | SCENE.toml",
-            help="rounding, contact, state, batch, n4 (the default), requests, kernels; with --accuracy a scene.",
+            help="rounding, contact, state, batch, n4, n4-batch, requests, kernels; with --accuracy a scene.",
         ),
     ] = None,
     accuracy: Annotated[

@@ -103,3 +103,51 @@ def test_saving_is_whole_or_not_at_all(write, tmp_path, monkeypatch):
         scene.save(run, target)
     assert target.read_bytes() == before
     assert sorted(p.name for p in tmp_path.iterdir()) == ["run.npz", "scene.toml"]
+
+
+ACCURATE = (
+    GOOD.replace('momentum = [0.1, "-1/20", 0.075]', "omega = [3, -2, 1]")
+    .replace("D = 3", "mass = 2.0\nradius = 0.1")
+    .replace('[1, 2, "4"]', "[0.005, 0.004, 0.002]")
+    .replace("steps = 10", "accuracy = 1e-7\ntime = 4.0\nframes = 2\ncontact = true")
+)
+
+
+def test_a_scene_may_ask_for_an_accuracy(write, tmp_path):
+    wanted = scene.load(write(ACCURATE))
+    answer = scene.run_accurately(wanted)
+    assert answer.request.of == "contact"
+    assert answer.estimate <= 1e-7
+    run = scene.run(wanted)
+    assert run.time.tolist() == [0.0, 2.0, 4.0]
+    fine = scene.run_accurately(wanted.with_run(accuracy=1e-12))
+    np.testing.assert_allclose(run.contact, fine.trajectory.contact, atol=1.1e-7)
+    scene.save(run, tmp_path / "run.npz")
+    assert np.load(tmp_path / "run.npz")["time_s"].tolist() == [0.0, 2.0, 4.0]
+
+
+def test_more_digits_than_float64_has_are_written(write, tmp_path):
+    run = scene.run(scene.load(write(ACCURATE.replace("1e-7", "1e-19"))))
+    scene.save(run, tmp_path / "run.npz")
+    data = np.load(tmp_path / "run.npz")
+    assert abs(data["contact_m_low"][-1]).max() > 0
+    assert (data["contact_m_low"] == run.low.contact).all()
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "sentence"),
+    [
+        ("accuracy = 1e-7\n", "", "run.frames goes with run.accuracy"),
+        ("accuracy = 1e-7", "accuracy = 0", "run.accuracy must be greater than 0"),
+        ("time = 4.0\n", "", "run.accuracy needs run.time, in seconds"),
+        ("time = 4.0", "time = 4.0\nsteps = 3", "run.accuracy chooses the steps: leave out run.steps"),
+        ("time = 4.0", "time = 4.0\nevery = 1", "run.accuracy chooses the steps: leave out run.every"),
+        ("time = 4.0", "time = 4.0\ntime_step = 0.1", "run.accuracy chooses the steps: leave out run.time_step"),
+        ("time = 4.0", 'time = 4.0\nof = "energy"', "run.of must be 'state' or 'contact'"),
+        ("omega", "momentum", "run.accuracy needs start.omega"),
+    ],
+)
+def test_a_wrong_accuracy_names_the_key(write, old, new, sentence):
+    with pytest.raises(SceneError) as caught:
+        scene.load(write(ACCURATE.replace(old, new, 1)))
+    assert sentence in str(caught.value)

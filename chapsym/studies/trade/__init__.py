@@ -1,21 +1,20 @@
 """`chapsym trade`: what speed costs in accuracy, measured, and whether the chooser meets what is asked of it."""
 
 from collections.abc import Callable
-from functools import partial
 from importlib import import_module
 from typing import Any, Protocol
 
-from ..bench.harness import machine
+from ..bench.harness import NotComparable, machine
 from .frontier import Frontier, Point
 
-__all__ = ["DRAWN", "SECTIONS", "Frontier", "Point", "Section", "as_json", "measure", "missed"]
+__all__ = ["DRAWN", "SECTIONS", "Frontier", "NotComparable", "Point", "Section", "as_json", "measure", "missed"]
 
 #: The sections, with the module that measures each, and those that have a frontier.
 SECTIONS = {
-    "rounding": "rounding", "contact": "balls", "state": "balls", "batch": "batch", "n4": "four",
+    "rounding": "rounding", "contact": "balls", "state": "balls", "batch": "batch", "n4": "four", "n4-batch": "four",
     "requests": "requests", "kernels": "kernels",
 }  # fmt: skip
-DRAWN = ("rounding", "contact", "state", "batch", "n4")
+DRAWN = ("rounding", "contact", "state", "batch", "n4", "n4-batch")
 
 
 class Section(Protocol):
@@ -37,8 +36,11 @@ class Section(Protocol):
 
 def measure(section: str, quick: bool, say: Callable[[str], None] = lambda text: None) -> Section:
     """Measures a section; raises NotComparable where a reference is not confirmed."""
-    run = import_module(f".{SECTIONS[section]}", __name__).measure
-    found: Section = (partial(run, of=section) if SECTIONS[section] == "balls" else run)(quick, say)
+    module = import_module(f".{SECTIONS[section]}", __name__)
+    more: dict[str, Any] = {"of": section} if SECTIONS[section] == "balls" else {}
+    if section == "n4-batch":
+        more = {"balls": module.BATCH}
+    found: Section = module.measure(quick, say, **more)
     return found
 
 

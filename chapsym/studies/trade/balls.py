@@ -24,7 +24,7 @@ END = 10.0
 LENGTHS = {True: (0.4, 0.1, 0.03), False: (1.0, 0.7, 0.5, 0.35, 0.25, 0.18, 0.125, 0.09, 0.06, 0.04, 0.02, 0.01, 0.003)}
 #: The most seconds that a run of a rung may be expected to take, by these seconds a stage.
 STAGE = {"single": 5e-8, "double": 5e-8, "quad": 3e-7, "digits30": 3e-4, "digits50": 3e-4}
-LONGEST = {True: 0.02, False: 4.0}
+LONGEST = {True: 0.02, False: 1.0}
 #: The digits of the reference, and how many of them another solution must confirm.
 DIGITS, CONFIRMED = 34, 24
 

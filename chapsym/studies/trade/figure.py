@@ -6,8 +6,10 @@ from .frontier import Frontier, Point
 
 #: Okabe and Ito's colours, which the colour-blind tell apart, one for each order; and a marker for each rung.
 COLOURS = {"2": "#0072B2", "4": "#E69F00", "6": "#009E73", "8": "#D55E00", "12": "#CC79A7"}
-MARKERS = {"single": "v", "double": "o", "quad": "s"}
-OTHERS = "D^<>Ph*X"
+MARKERS = {
+    "single": "v", "double": "o", "quad": "s", "digits30": "D", "digits50": "^", "digits100": "P", "ball100": "*",
+    "ball300": "X",
+}  # fmt: skip
 PANEL = (5.6, 4.2)  # inches
 
 
@@ -20,7 +22,7 @@ def draw(found: dict[str, Frontier]) -> Any:
     figure = Figure(figsize=(PANEL[0] * columns, PANEL[1] * rows + 0.9), layout="constrained")
     axes = list(figure.subplots(rows, columns, squeeze=False).flat)
     rungs = list(dict.fromkeys(_rung(p) for one in found.values() for p in one.points))
-    markers = {rung: MARKERS.get(rung, OTHERS[i % len(OTHERS)]) for i, rung in enumerate(rungs)}
+    markers = {rung: MARKERS.get(rung, "h") for rung in rungs}
     for axis, one in zip(axes, found.values(), strict=False):
         _panel(axis, one, markers)
     for axis in axes[len(found) :]:
@@ -30,16 +32,19 @@ def draw(found: dict[str, Frontier]) -> Any:
 
 
 def _panel(axis: Any, one: Frontier, markers: dict[str, str]) -> None:
+    from matplotlib.ticker import NullFormatter
+
     best = one.best
     for point in one.points:
         on = point in best
         axis.plot(
             point.digits, point.per_time * 1e6, marker=markers[_rung(point)], color=COLOURS[_order(point)],
-            markersize=7 if on else 4, alpha=1.0 if on else 0.45, linestyle="none",
+            markersize=7 if on else 5, alpha=1.0 if on else 0.55, linestyle="none",
             markeredgecolor="black" if on else "none", markeredgewidth=0.8, zorder=3 if on else 2,
         )  # fmt: skip
     axis.step([p.digits for p in best], [p.per_time * 1e6 for p in best], where="pre", color="0.35", linewidth=1)
     axis.set(yscale="log", title=one.title, xlabel=_wrapped(one.question), ylabel="µs a unit of simulated time")
+    axis.yaxis.set_minor_formatter(NullFormatter())
     axis.grid(alpha=0.3)
 
 
@@ -63,4 +68,4 @@ def _order(point: Point) -> str:
 def _wrapped(text: str) -> str:
     import textwrap
 
-    return "\n".join(textwrap.wrap(text, 56))
+    return "\n".join(textwrap.wrap(text.replace("𝒦", "K"), 56))

@@ -22,24 +22,24 @@ LADDER = {True: (64, 128, 256, 512), False: (256, 512, 1024, 2048)}
 BATCH = 64
 
 
-def measure(quick: bool, say: Callable[[str], None]) -> Frontier:
-    """Digits of K and γ after END units of time of one ball and of each of a batch, and the time of a unit."""
+def measure(quick: bool, say: Callable[[str], None], balls: int = 1) -> Frontier:
+    """Digits of K and γ after END units of time, and the time of a unit for each ball of so many."""
     say("n = 4: the reference")
     exact, agreed = _reference(LADDER[quick])
     contenders, errors = [], {}
     for steps in STEPS[quick]:
         say(f"n = 4: {steps} steps")
         errors[steps] = float(abs(_end(1, steps) - exact).max())
-        contenders += [Contender(f"{balls} at {steps}", partial(_end, balls, steps), balls) for balls in (1, BATCH)]
+        contenders.append(Contender(str(steps), partial(_end, balls, steps), balls))
     with cores(1):
         times = interleaved(contenders, 1 if quick else 3, lambda done: say(f"n = 4: round {done}"))
     points = []
     for steps in STEPS[quick]:
-        for balls, name in ((1, "double, order 2, one ball"), (BATCH, f"double, order 2, {BATCH} balls")):
-            took = times[f"{balls} at {steps}"].median
-            points.append(Point(name, END / steps, took / steps, took / END, digits_of(errors[steps], 13.0)))
+        took = times[str(steps)].median
+        points.append(Point("double, order 2", END / steps, took / steps, took / END, digits_of(errors[steps], 13.0)))
     note = f"reference: {LADDER[quick]} steps extrapolated; with a column less it differs by {agreed:.0e}"
-    return Frontier("n = 4", f"correct digits of K and γ after {END:g} units of time", points, [note])
+    title = "n = 4, one ball" if balls == 1 else f"n = 4, a batch of {balls}"
+    return Frontier(title, f"correct digits of K and γ after {END:g} units of time", points, [note])
 
 
 def _end(balls: int, steps: int) -> Floats:

@@ -14,11 +14,12 @@ import numpy as np
 from chapsym.accuracy import Accurate, Method, Prices, Request, accurate, load_prices, methods, take
 from chapsym.accuracy.methods import CHECKS, checks
 from chapsym.accuracy.pilot import surveyed
-from chapsym.accuracy.prices import rungs, sample
+from chapsym.accuracy.prices import sample
 from chapsym.accuracy.request import exact_values
 from chapsym.dynamics import BadInput, Ball, StepNotTaken, Trajectory, front
 from chapsym.dynamics.ball import Floats
 from chapsym.dynamics.trajectories import attitude_with
+from chapsym.numbers import NAMED
 
 from .reference import continuous
 
@@ -127,7 +128,7 @@ def judge(request: Request, prices: Prices, compare: bool = True) -> Outcome:
 def best_choice(request: Request, exact: np.ndarray, delivered: float) -> tuple[str, float]:
     """The cheapest rung, order and number of steps whose true error is within the accuracy, and its seconds."""
     found = []
-    for rung in rungs():
+    for rung in NAMED.values():
         for method in methods(request, rung):
             steps = _fewest(request, method, exact, max(DEAREST * delivered, SHORT))
             if steps:
@@ -252,7 +253,7 @@ def warm(prices: Prices) -> None:
     """Loads the compiled loops, which a short first run would do without."""
     for of in ("state", "contact"):
         request = surveyed(sample(of, 1.0))
-        for rung in rungs():
+        for rung in NAMED.values():
             for method in methods(request, rung):
                 with contextlib.suppress(StepNotTaken, BadInput):
                     take(request, method, 4000 // method.stages, 1)

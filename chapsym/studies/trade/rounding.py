@@ -25,29 +25,27 @@ TIMED = {"single": 20_000, "double": 20_000, "quad": 4_000}
 
 def measure(quick: bool, say: Callable[[str], None]) -> Frontier:
     """The digits that are left of 𝒦 and γ after some steps of the map, on each rung, and the time of a step."""
-    request, steps, orders = sample("state", 1.0), 50 if quick else 400, (2,) if quick else (2, 8)
-    epsilon, points, missing = STEP / request.rate, [], []
-    for order in orders:
-        run = partial(trajectory, request.ball, epsilon * request.angular_momentum, request.gamma, order=order)
-        say(f"rounding: the reference at {FINEST.count} digits, order {order}")
-        exact = ends(run(steps, every=steps, precision=FINEST))
-        contenders, digits = [], {}
-        for rung in RUNGS:
-            name = f"{_name(rung)}, order {order}"
-            say(f"rounding: {name}")
-            try:
-                digits[name] = digits_of(_apart(ends(run(steps, every=steps, precision=rung)), exact), FINEST.count)
-            except BadInput as error:
-                missing.append(f"{name}: {error}")
-                continue
-            timed = TIMED.get(_name(rung), steps)
-            contenders.append(Contender(name, partial(run, timed, every=timed, precision=rung), timed))
-        with cores(1):
-            times = interleaved(contenders, 1 if quick else 5, lambda done: say(f"rounding: round {done}"))
-        points += [
-            Point(name, STEP, times[name].median, times[name].median * request.rate / STEP, digits[name])
-            for name in digits
-        ]
+    request, steps, order = sample("state", 1.0), 50 if quick else 400, 2
+    epsilon, missing = STEP / request.rate, []
+    run = partial(trajectory, request.ball, epsilon * request.angular_momentum, request.gamma, order=order)
+    say(f"rounding: the reference at {FINEST.count} digits, order {order}")
+    exact = ends(run(steps, every=steps, precision=FINEST))
+    contenders, digits = [], {}
+    for rung in RUNGS:
+        name = f"{_name(rung)}, order {order}"
+        say(f"rounding: {name}")
+        try:
+            digits[name] = digits_of(_apart(ends(run(steps, every=steps, precision=rung)), exact), FINEST.count)
+        except BadInput as error:
+            missing.append(f"{name}: {error}")
+            continue
+        timed = TIMED.get(_name(rung), steps)
+        contenders.append(Contender(name, partial(run, timed, every=timed, precision=rung), timed))
+    with cores(1):
+        times = interleaved(contenders, 1 if quick else 5, lambda done: say(f"rounding: round {done}"))
+    points = [
+        Point(name, STEP, times[name].median, times[name].median * request.rate / STEP, digits[name]) for name in digits
+    ]
     notes = [f"{steps} steps of |ω|ε = {STEP:g}; reference: the same steps at {FINEST.count} digits", *missing]
     return Frontier("rounding alone", f"correct digits of 𝒦/|𝒦| and γ of the map after {steps} steps", points, notes)
 

@@ -1,0 +1,215 @@
+"""Accuracy on demand: targets are met, fooled pilots are found out, and what cannot be had is refused."""
+
+from dataclasses import replace
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+import chapsym
+import chapsym.numbers
+from chapsym.accuracy import Method, Prices, Request, accurate, choices, distance, take
+from chapsym.accuracy import prices as pricing
+from chapsym.accuracy.pilot import Law, pilot, surveyed
+from chapsym.accuracy.request import as_fractions
+from chapsym.accuracy.search import Search
+from chapsym.dynamics import BadInput, front
+from chapsym.numbers import NAMED
+from chapsym.studies.trade.requests import true_error, truth
+
+BALL = chapsym.Ball.from_inertia((0.006, 0.007, 0.009), mass=2.0, radius=0.1)
+GAMMA = np.array([2.0, 3.0, 6.0]) / 7
+K = front.contact_momentum((3.0, -2.0, 1.0), GAMMA, BALL.mass_tensor, BALL.D)
+#: Prices that no machine has, so that every machine chooses the same.
+PRICES = Prices(
+    {f"{rung}/{body}": 1e-4 for rung in ("single", "double", "quad") for body in ("state", "body")},
+    {
+        f"{rung}/{order}/{body}": [(0.02, stages * price), (1.0, 8 * stages * price)]
+        for rung, price in (("single", 4e-8), ("double", 4e-8), ("quad", 3e-7))
+        for order, stages in ((2, 1), (4, 5), (6, 9), (8, 17), (12, 15), (0, 1))
+        for body in ("state", "body")
+        if rung == "double" or order in (2, 4, 6, 8)
+    },
+)
+
+
+def asked(accuracy, of="contact", time=5.0, **options):
+    return accurate(BALL, K, GAMMA, time, accuracy, of=of, prices=PRICES, **options)
+
+
+def error_of(answer):
+    request = answer.request
+    return true_error(request, answer.trajectory, truth(request))
+
+
+@pytest.mark.parametrize("of", ["contact", "state"])
+@pytest.mark.parametrize("accuracy", [1e-3, 1e-6, 1e-9, 1e-12, 1e-18])
+def test_the_true_error_is_within_the_estimate_and_that_within_the_accuracy(of, accuracy):
+    answer = asked(accuracy, of)
+    assert error_of(answer) <= answer.estimate <= accuracy
+
+
+def test_looser_targets_cost_less():
+    expected = [asked(10.0**-k).choice.seconds for k in (3, 6, 9, 12, 18)]
+    assert expected == sorted(expected)
+    assert asked(1e-18).choice.method.label == "quad"
+    assert asked(1e-6).choice.method.label != "quad"
+
+
+def test_every_frame_is_promised():
+    answer = asked(1e-8, frames=4)
+    assert answer.trajectory.contact.shape == (5, 2)
+    np.testing.assert_allclose(answer.trajectory.time, [0, 1.25, 2.5, 3.75, 5.0])
+    assert error_of(answer) <= answer.estimate <= 1e-8
+
+
+def test_a_pilot_that_is_fooled_is_found_out(monkeypatch):
+    """All errors are thought a million times smaller than they are: verification must notice, and escalate."""
+
+    def fooled(request, orders):
+        return {order: law.scaled(1e-6) for order, law in pilot(request, orders).items()}
+
+    monkeypatch.setattr("chapsym.accuracy.answer.pilot", fooled)
+    monkeypatch.setattr("chapsym.accuracy.search.pilot", fooled)
+    for of in ("contact", "state"):
+        answer = asked(1e-9, of)
+        assert len(answer.attempts) > 1
+        assert answer.attempts[0].estimate > 1e-9
+        assert error_of(answer) <= answer.estimate <= 1e-9
+
+
+def test_a_rung_whose_rounding_is_too_large_is_left(monkeypatch):
+    """Rounding is thought absent: the runs in float64 do not come nearer to each other, and the next rung is taken."""
+    monkeypatch.setattr(Request, "floor", lambda *_: 0.0)
+    answer = asked(1e-17, "state")
+    assert answer.attempts[0].choice.method.label == "double"
+    assert answer.choice.method.label == "quad"
+    assert error_of(answer) <= 1e-17
+
+
+def test_a_step_that_cannot_be_taken_is_shortened():
+    """A pilot that knows nothing of folds proposes steps beyond them."""
+    request = surveyed(Request(BALL, K, GAMMA, 50.0, 1e-2, "state"))
+    long = {2: Law(2, [(10.0, 1e-9)])}
+    search = Search(request, long, PRICES)
+    assert search.attempt(search.choose(60.0, 60.0)) is None
+    assert search.attempts[0].estimate == np.inf
+    after = search.choose(60.0, 60.0)
+    assert after.method.label == "quad" or after.coarse >= search.attempts[0].choice.steps
+
+
+def test_the_estimate_holds_where_errors_do_not_fall_evenly():
+    """A ball (condition 77) for which order 8 with 1920 and 2160 steps differ by a fifth of either's error."""
+    ball = chapsym.Ball((0.01735142, 0.00123814, 0.00137876), 0.19271859, 0.15807212)
+    gamma = np.array([-0.99897764, 0.02054697, -0.04026792])
+    gamma /= np.sqrt(gamma @ gamma)
+    gamma /= np.sqrt(gamma @ gamma)
+    momentum = (0.01399155, -0.67445142, -0.49429852)
+    for accuracy in (1e-5, 1e-7, 1e-8):
+        answer = accurate(ball, momentum, gamma, 30.0, accuracy, prices=PRICES)
+        assert error_of(answer) <= answer.estimate <= accuracy
+
+
+def test_the_exact_top_is_chosen_where_it_costs_least():
+    answer = accurate(chapsym.Ball((1, 2, 4), 0.0), (3.0, -1.0, 2.0), GAMMA, 500.0, 1e-9, prices=PRICES)
+    assert answer.choice.method.order == 0
+    assert error_of(answer) <= answer.estimate <= 1e-9
+
+
+def test_a_ball_at_rest_stays():
+    answer = accurate(BALL, (0, 0, 0), GAMMA, 5.0, 1e-6, prices=PRICES)
+    np.testing.assert_array_equal(answer.trajectory.gamma[-1], GAMMA)
+
+
+def test_exact_momenta_reach_the_higher_rungs():
+    """εK rounded to float64 would be off by 1e-16; steps enough that the integrals are restored on the way."""
+    request = surveyed(Request(BALL, K, GAMMA, 5.0, 1e-20, "state"))
+    run = take(request, Method(NAMED["quad"], 8), 3200, 1)
+    assert true_error(request, run, truth(request)) < 1e-19
+    assert run.momentum.dtype == float
+    assert abs(run.low.momentum[0]).max() > 0
+
+
+def test_distance_sees_what_float64_does_not():
+    request = surveyed(Request(BALL, K, GAMMA, 5.0, 1e-20, "state"))
+    run = take(request, Method(NAMED["quad"], 2), 160, 16)
+    moved = replace(run, low=replace(run.low, gamma=run.low.gamma + 1e-25))
+    np.testing.assert_allclose(distance(request, run, moved), np.sqrt(3) * 1e-25, rtol=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("options", "sentence"),
+    [
+        ({"time": 0.0}, "time must be one positive number"),
+        ({"accuracy": -1.0}, "accuracy must be one positive number"),
+        ({"accuracy": np.nan}, "accuracy must be finite"),
+        ({"accuracy": 1e-31}, "accuracy must be at least 1e-30"),
+        ({"accuracy": 1e-29, "time": 1000.0}, "cannot be had"),
+        ({"of": "energy"}, 'of must be "state" or "contact"'),
+        ({"frames": 0}, "frames must be a whole number from 1 on"),
+        ({"limit": 0}, "limit must be a positive number of seconds"),
+        ({"time": 1e9, "limit": 1.0}, "but the limit is 1 s"),
+        ({"ball": chapsym.Ball((1, 2, 4), 3)}, "the contact point needs the radius"),
+        ({"K": np.ones((2, 3))}, "an accuracy is asked for one ball"),
+        ({"ball": chapsym.Ball((0, 0, 1), 3, 0.1), "gamma": (0, 0, 1)}, "no inertia about the vertical"),
+    ],
+)
+def test_what_cannot_be_met_is_refused_with_a_sentence(options, sentence):
+    given = {"ball": BALL, "K": K, "gamma": GAMMA, "time": 5.0, "accuracy": 1e-6, "of": "contact"} | options
+    named = [given.pop(name) for name in ("ball", "K", "gamma", "time", "accuracy")]
+    with pytest.raises(BadInput) as caught:
+        accurate(*named, prices=PRICES, **given)
+    assert sentence in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+def test_prices_are_kept_whole_and_taken_anew_if_they_are_broken(tmp_path, monkeypatch):
+    taken = []
+    monkeypatch.setattr(pricing, "path", lambda: tmp_path / "deep" / "prices.json")
+    monkeypatch.setattr(pricing, "calibrate", lambda progress: taken.append(1) or PRICES)
+    told = []
+    assert pricing.load_prices(told.append) == PRICES
+    assert len(told) == 1
+    assert pricing.load_prices() == PRICES
+    assert len(taken) == 1
+    old = '{"version": 0, "calls": {}, "steps": {}}'
+    for broken in ("", "{}", old, '{"version": 1, "calls": {}, "steps": {"a": 3}}', "[]"):
+        (tmp_path / "deep" / "prices.json").write_text(broken)
+        assert pricing.load_prices() == PRICES
+    assert len(taken) == 6
+    assert [p.name for p in (tmp_path / "deep").iterdir()] == ["prices.json"]
+
+
+def test_a_folder_that_cannot_be_written_is_done_without(tmp_path, monkeypatch):
+    (tmp_path / "file").write_text("")
+    monkeypatch.setattr(pricing, "path", lambda: tmp_path / "file" / "prices.json")
+    monkeypatch.setattr(pricing, "calibrate", lambda progress: PRICES)
+    assert pricing.load_prices() == PRICES
+
+
+def test_the_law_of_an_order():
+    law = Law(4, [(0.2, 1e-4), (0.1, 1e-5)])
+    assert law.error(0.2) == pytest.approx(1e-4)
+    assert law.error(0.05) == pytest.approx(1e-5 / 16)
+    assert law.error(0.3) == np.inf
+    for error in (1e-3, 3e-5, 1e-9):
+        step = law.step(error)
+        assert law.error(step) <= error * (1 + 1e-9)
+        assert step == 0.2 or law.error(step * 1.01) > error
+
+
+def test_choices_are_sorted_and_leave_out_what_is_barred():
+    request = surveyed(Request(BALL, K, GAMMA, 5.0, 1e-6, "contact"))
+    found = choices(request, pilot(request, (2, 4, 6, 8)), PRICES)
+    assert [c.seconds for c in found] == sorted(c.seconds for c in found)
+    rest = choices(request, pilot(request, (2, 4, 6, 8)), PRICES, barred=frozenset([found[0].method]))
+    assert [c.method for c in rest] == [c.method for c in found[1:]]
+    assert all(Fraction(c.steps, 16).denominator == Fraction(c.coarse, 16).denominator == 1 for c in found)
+
+
+def test_numbers_of_every_rung_are_read_exactly_with_their_signs():
+    for precision in (chapsym.numbers.Digits(30), chapsym.numbers.Ball(100), "quad", "double", "single"):
+        run = chapsym.trajectory(BALL, -0.01 * K, GAMMA, 2, precision=precision)
+        exact = as_fractions(run, "momentum").astype(float)
+        np.testing.assert_allclose(exact, run.momentum.astype(float), rtol=1e-15)
+        assert (exact[0] * K <= 0).all()

@@ -1,0 +1,198 @@
+"""The trade of speed against accuracy: frontiers, references, the command."""
+
+import json
+import subprocess
+import sys
+from fractions import Fraction
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import chapsym
+from chapsym.accuracy import Method, take
+from chapsym.accuracy.prices import sample
+from chapsym.dynamics.trajectories import attitude_with
+from chapsym.numbers import NAMED
+from chapsym.studies import trade
+from chapsym.studies.convergence import continuous_ball
+from chapsym.studies.trade import balls, four
+from chapsym.studies.trade.frontier import Frontier, Point, digits_of
+from chapsym.studies.trade.reference import continuous
+from chapsym.studies.trade.requests import Outcomes, measure, true_error, truth
+
+FIRST = str(Path(__file__).parents[2] / "docs" / "first.toml")
+POINTS = [
+    Point("a, order 2", 0.1, 1.0, 10.0, 3.0),
+    Point("a, order 2", 0.05, 1.0, 20.0, 4.0),
+    Point("b, order 4", 0.1, 1.0, 15.0, 8.0),
+    Point("c, order 6", 0.1, 1.0, 16.0, 7.0),
+]
+
+
+def command(*arguments):
+    return subprocess.run(
+        [sys.executable, "-m", "chapsym.cli", *arguments], capture_output=True, text=True, check=False
+    )
+
+
+def test_the_frontier_and_what_is_dominated():
+    found = Frontier("t", "q", POINTS)
+    assert [(p.name, p.digits) for p in found.best] == [("a, order 2", 3.0), ("b, order 4", 8.0)]
+    assert found.dominated == {"c, order 6": "b, order 4"}
+    assert found.cheapest(3.5) == POINTS[2]
+    assert found.cheapest(9) is None
+    assert [row["digits"] for row in found.table()] == [3, 6]
+    plain = found.as_json()
+    assert [p["frontier"] for p in plain["points"]] == [True, False, True, False]
+    json.dumps(plain, allow_nan=False)
+
+
+def test_equal_points_do_not_dominate_each_other():
+    twins = [Point("a, order 2", 0.1, 1.0, 1.0, 3.0), Point("b, order 4", 0.1, 1.0, 1.0, 3.0)]
+    assert Frontier("t", "q", twins).dominated == {}
+
+
+def test_digits():
+    assert digits_of(1e-5, 30) == pytest.approx(5)
+    assert digits_of(0.0, 30) == 30
+    assert digits_of(2.0, 30) == 0
+
+
+def test_the_reference_agrees_with_mpmaths_taylor_series_and_with_a_run_in_double_double():
+    request = sample("contact", 2.0)
+    q = attitude_with(request.gamma)
+    found = continuous(request.ball, request.angular_momentum, request.gamma, q, [Fraction(2)], 25)[0]
+    other = continuous_ball(request.ball, request.angular_momentum, request.gamma / np.sqrt(1.0), 2.0)
+    # That one does not divide γ by its length, which is 1 to rounding.
+    assert max(abs(float(a) - float(b)) for a, b in zip(found[:6], other, strict=True)) < 1e-15
+    run = take(request, Method(NAMED["quad"], 8), 1600, 16)
+    assert true_error(request, run, truth(request, 25)) < 1e-21
+
+
+@pytest.mark.parametrize("digits", [12, 16, 20])
+def test_the_reference_has_its_digits_for_a_ball_whose_series_cancels(digits):
+    """Heavy and thin: coefficients that cancel told nothing of the step once, and the error was 1e-6."""
+    ball = chapsym.Ball((0.00126653, 0.00131799, 0.00255669), 0.13083978, 0.16692626)
+    g = np.array([-0.17170057, -0.47772868, 0.86156498])
+    given = ball, np.array([0.48771686, 0.04624645, 0.12380181]), g, attitude_with(g / np.sqrt(g @ g)), [Fraction(3)]
+    exact = continuous(*given, 30)[0]
+    error = abs(continuous(*given, digits)[0] - exact).astype(float).max()
+    assert error < 10.0**-digits
+
+
+def test_random_requests_are_met():
+    found = measure(quick=True, say=lambda text: None)
+    assert found.hits == len(found.outcomes) == 5
+    for one in found.outcomes:
+        assert one.error <= one.answer.estimate <= one.request.accuracy
+    plain = found.as_json()
+    assert plain["hits"] == 5
+    json.dumps(plain, allow_nan=False)
+    assert trade.missed({"requests": found}) is None
+
+
+def test_a_request_that_is_not_met_is_told():
+    from dataclasses import replace
+
+    one = measure(quick=True, count=1).outcomes[0]
+    assert one.hit
+    found = Outcomes([one, replace(one, error=2 * one.request.accuracy)])
+    assert trade.missed({"requests": found}) == "1 of 2 requests were not met"
+
+
+@pytest.mark.parametrize("section", ["contact", "n4"])
+def test_a_section_is_measured(section):
+    found = trade.measure(section, quick=True)
+    assert all(p.per_time > 0 and 0 <= p.digits <= 34 for p in found.points)
+    assert found.best
+    for name in {p.name for p in found.points}:  # shorter steps are more exact, up to the rounding of the rung
+        digits = [p.digits for p in sorted(found.points, key=lambda p: -p.step) if p.name == name]
+        most = 6 if name.startswith("single") else 12.5
+        assert all(b > a or min(a, b) > most for a, b in pairwise(digits)), name
+
+
+def test_two_references_that_differ_are_told(monkeypatch):
+    from dataclasses import replace
+
+    request = replace(sample("contact", 2.0), accuracy=1e-20)
+    monkeypatch.setattr(balls, "truth", lambda request, digits: truth(request, digits) + Fraction(1, 10**9))
+    with pytest.raises(trade.NotComparable, match="two solutions of the continuous ball differ by"):
+        balls.reference(request, quick=True)
+
+
+def test_the_reference_of_n_4_is_checked(monkeypatch):
+    with pytest.raises(trade.NotComparable, match="does not settle"):
+        four._reference((4, 5))
+
+
+def test_a_figure_is_drawn(tmp_path):
+    pytest.importorskip("matplotlib")
+    from chapsym.studies.trade.figure import draw
+
+    drawn = draw({"contact": Frontier("t", "q of 𝒦", POINTS), "n4": Frontier("u", "q", POINTS[:2])})
+    drawn.savefig(tmp_path / "figure.svg")
+    text = (tmp_path / "figure.svg").read_text()
+    assert text.startswith("<?xml")
+    assert len(drawn.axes) == 2
+    assert all(axis.get_yscale() == "log" for axis in drawn.axes)
+
+
+def test_the_command_chooses_runs_and_verifies(tmp_path):
+    done = command("trade", "--accuracy", "1e-8", "--time", "5", FIRST, "-o", str(tmp_path / "run.npz"), "--json")
+    assert done.returncode == 0, done.stderr
+    found = json.loads(done.stdout)
+    assert found["estimate"] <= found["accuracy"] == 1e-8
+    assert found["of"] == "contact"
+    assert set(found["choice"]) == {"precision", "order", "steps", "time_step"}
+    assert np.load(tmp_path / "run.npz")["contact_m"][-1].tolist() == found["final"]["contact"]
+    same = json.loads(command("trade", "--accuracy", "1e-8", "--time", "5", "--json").stdout)
+    np.testing.assert_allclose(same["final"]["contact"], found["final"]["contact"], atol=2e-8)
+
+
+def test_digits_that_no_float_holds_are_strings():
+    done = command("trade", "--accuracy", "1e-18", "--time", "2", "--of", "state", "--json")
+    found = json.loads(done.stdout)
+    assert found["choice"]["precision"] == "quad"
+    assert all(isinstance(x, str) and len(x) > 20 for x in found["final"]["gamma"])
+
+
+def test_run_prints_the_choice_of_a_scene(tmp_path):
+    text = Path(FIRST).read_text(encoding="utf-8")
+    text = text.replace("time_step = 0.01", "accuracy = 1e-6").replace("steps = 1000", "time = 3.0")
+    (tmp_path / "scene.toml").write_text(text, encoding="utf-8")
+    done = command("run", str(tmp_path / "scene.toml"), "-o", str(tmp_path / "run.csv"))
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.startswith(f"2 frames in {tmp_path / 'run.csv'}\nchosen    double, ")
+    assert "verified  the contact is off by " in done.stdout
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        (["nothing"], "there is no section 'nothing'"),
+        (["--time", "3"], "--time goes with --accuracy"),
+        (["--omega", "1,2,3"], "--omega goes with --accuracy"),
+        (["--accuracy", "1e-6"], "run.accuracy needs run.time"),
+        (["--accuracy", "-1", "--time", "3"], "run.accuracy must be greater than 0"),
+        (["--accuracy", "nan", "--time", "3"], "run.accuracy must be finite"),
+        (["--accuracy", "1e-50", "--time", "3"], "accuracy must be at least 1e-30"),
+        (["--accuracy", "1e-6", "--time", "1e12", "--limit", "1"], "but the limit is 1 s"),
+        (["--accuracy", "1e-6", "--time", "3", FIRST, FIRST], "one scene at most"),
+        (["--accuracy", "1e-6", "--time", "3", FIRST, "--D", "3"], "leave out --D"),
+        (["--accuracy", "1e-6", "--time", "3", "--of", "all"], 'of must be "state" or "contact"'),
+        (["--accuracy", "1e-6", "--time", "3", "--omega", "1,2"], "--omega"),
+        (["--accuracy", "1e-6", "--time", "3", "-o", "run.txt"], "the output must end in"),
+        (["--accuracy", "1e-6", "--time", "3", "missing.toml"], "cannot be read"),
+        (["contact", "-o", "figure.txt"], "a figure must end in"),
+        (["requests", "-o", "figure.svg"], "have a figure"),
+        (["contact", "-o", "/nowhere/figure.svg"], "does not exist"),
+    ],
+)
+def test_bad_input_gets_one_sentence(arguments, sentence):
+    done = command("trade", *arguments)
+    assert done.returncode == 2, done.stdout + done.stderr
+    assert done.stdout == ""
+    assert sentence in done.stderr.splitlines()[-1]
+    assert done.stderr.count("\n") <= 2  # a fresh cache tells that it takes prices
