@@ -1,7 +1,6 @@
 """The states of the matrix: balls and momenta at which formulas lose digits."""
 
 from collections.abc import Callable, Iterable
-from dataclasses import replace
 from functools import cache
 from math import nextafter, sqrt
 
@@ -89,7 +88,7 @@ def _tiny(size: float) -> Callable[[Level], list[State]]:
 
 def _heavy(D: float) -> Callable[[Level], list[State]]:
     states = (halfway(J, D), halfway(J, D, G), halfway(J, D, K, AXIS))
-    return _of(*(replace(state, sharp=True) for state in states))
+    return _of(*states)
 
 
 def _axes() -> list[Vector]:
