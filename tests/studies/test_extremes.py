@@ -90,7 +90,7 @@ def test_a_ball_that_excludes_the_truth_fails_though_it_is_near(monkeypatch):
 
 @pytest.mark.parametrize(
     ("status", "verdict"), [(Status.FOLDED, "failed"), (Status.UNREACHABLE, "failed"), (Status.NO_INERTIA, "failed"),
-                            (Status.NOT_CONVERGED, "refused")],
+                            (Status.NOT_CONVERGED, "failed")],
 )  # fmt: skip
 def test_a_refusal_that_is_not_true_fails(monkeypatch, status, verdict):
     def refuses(level, state):
@@ -98,6 +98,15 @@ def test_a_refusal_that_is_not_true_fails(monkeypatch, status, verdict):
 
     monkeypatch.setattr(steps, "taken", refuses)
     assert steps.judge(DOUBLE, GENERIC).verdict == verdict
+
+
+def test_what_float64_cannot_resolve_may_be_refused(monkeypatch):
+    def refuses(level, state):
+        raise StepNotTaken(Status.NOT_CONVERGED, 1.0)
+
+    heavy = states.CONDITIONS["D"]["D = 1e15, momentum horizontal"](DOUBLE)[0]
+    monkeypatch.setattr(steps, "taken", refuses)
+    assert steps.judge(DOUBLE, heavy).verdict == "refused"
 
 
 def test_a_momentum_that_other_rotations_have_is_not_out_of_reach(monkeypatch):
