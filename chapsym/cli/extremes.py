@@ -93,12 +93,12 @@ def _print_matrix(matrix: dict[str, Any]) -> None:
     for group in page.groups(matrix):
         table = Table(title=f"{group['name']}: {group['title']}", title_justify="left")
         table.add_column("condition", min_width=46)
-        for rung in matrix["rungs"]:
+        for rung in group["rungs"]:
             table.add_column(rung, justify="right", min_width=10)
         for condition, cells in group["rows"]:
             shown = [
                 Text(page.shown(cells[rung]), COLOURS[cells[rung]["verdict"]]) if rung in cells else Text("·")
-                for rung in matrix["rungs"]
+                for rung in group["rungs"]
             ]
             table.add_row(condition, *shown)
         console.print(table)

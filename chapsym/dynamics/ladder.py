@@ -1,13 +1,14 @@
 """A run on any rung of the precision ladder: who takes the steps, and the arrays that they fill."""
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 
 from chapsym.numbers import NAMED, Ball, Digits, Quad, Rung, Single
 from chapsym.numbers import rung as named
 
-from . import engine, quad, single
+from . import engine, quad, quad_step, single
 from .ball import Floats
 from .engine import Balls, Frames
 from .errors import BadInput, Status, StepNotTaken
@@ -67,9 +68,16 @@ def step(rung: Rung, shape: tuple[int, ...], K: Floats, g: Floats, J: Floats, D:
         q, moved, vertical = (x.reshape(*shape, x.shape[-1]) for x in (q, moved, vertical))
         return Step(q, moved, vertical, status.reshape(shape), reach.reshape(shape), rung)
     n = len(D)
+    beyond = np.array([quad_step.scales(*ball)[1] for ball in zip(K, J, D, strict=True)], dtype=np.int64)
     frames = frames_for(rung, n, 2, 2)
     frames.momentum[:, 0], frames.gamma[:, 0], frames.attitude[:, 0], frames.contact[:, 0] = K, g, [1.0, 0, 0, 0], 0.0
-    run(rung, Balls(K, g, J, D, np.zeros(n)), 1, 1, frames, 2, 1, lambda done: None)
+    fine = rung
+    if isinstance(rung, Ball) and n:  # an attitude has its digits beside 1; a small rotation needs more
+        fine = replace(rung, bits=rung.bits + 200 + int(beyond.max()))
+    run(fine, Balls(K, g, J, D, np.zeros(n)), 1, 1, frames, 2, 1, lambda done: None)
+    if frames.low is not None:  # where momenta are tiny, they were taken 2^beyond times as large
+        for of in (frames, frames.low):
+            of.attitude[:, 1, 1:] = np.ldexp(of.attitude[:, 1, 1:], -beyond[:, np.newaxis])
     if not shape and frames.status[0] != Status.TAKEN:
         raise StepNotTaken(Status(int(frames.status[0])), float(frames.reach[0]))
     low = frames.low

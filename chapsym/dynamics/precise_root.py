@@ -43,9 +43,12 @@ def condition_bits(J: Sequence[float], D: float) -> int:
 
 
 def to_float(x: Any, P: int) -> float:
-    """A fixed-point integer as a float."""
+    """A fixed-point integer as a float; one that is too large, which no rotation has for its momentum, as 1e150."""
     shift = P - FLOAT_BITS
-    return ldexp(int(x), -P) if shift <= 0 else ldexp(int(x >> shift), -FLOAT_BITS)
+    try:
+        return ldexp(int(x), -P) if shift <= 0 else ldexp(int(x >> shift), -FLOAT_BITS)
+    except OverflowError:
+        return math.copysign(1e150, int(x > 0) - 0.5)
 
 
 def from_float(x: float, P: int) -> int:

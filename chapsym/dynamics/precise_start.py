@@ -100,4 +100,6 @@ def on(context: Any) -> Callable[..., tuple]:
     for name, value in vars(branch).items():
         if isinstance(value, FunctionType) and value.__module__ == branch.__name__:
             names[name] = FunctionType(value.__code__, names, name, value.__defaults__)
-    return names["small_rotation"]
+    follow = names["small_rotation"]
+    follow.__defaults__ = (8 * unit,)  # a step that is shorter is a fold
+    return follow

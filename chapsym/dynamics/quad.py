@@ -50,8 +50,9 @@ def run(
     if workers > 1:
         _share(task, starts, workers, count)
     else:
-        for start in starts:
-            task(start)
+        with np.errstate(all="ignore"):  # what no rotation has overflows, and is refused
+            for start in starts:
+                task(start)
 
 
 def coefficients(order: int) -> Floats:

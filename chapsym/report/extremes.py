@@ -29,12 +29,14 @@ def html(matrix: Mapping[str, Any], versions: Mapping[str, str], machine: str, d
 
 
 def groups(matrix: Mapping[str, Any]) -> list[dict[str, Any]]:
-    """Each group with its rows, a row with its cells by rung, and the explanations of what is not within."""
+    """Each group with its rungs and rows, a row with its cells by rung, and why cells are not within."""
     found = []
     for name, those in groupby(matrix["cells"], lambda cell: cell["group"]):
         cells = list(those)
         rows = [(title, {c["rung"]: c for c in row}) for title, row in groupby(cells, lambda cell: cell["condition"])]
-        found.append({"name": name, "title": matrix["groups"][name], "rows": rows, "reasons": reasons(cells)})
+        rungs = [rung for rung in matrix["rungs"] if any(cell["rung"] == rung for cell in cells)]
+        title = matrix["groups"][name]
+        found.append({"name": name, "title": title, "rungs": rungs, "rows": rows, "reasons": reasons(cells)})
     return found
 
 

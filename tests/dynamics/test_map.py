@@ -281,3 +281,10 @@ def test_the_direction_of_the_branch_and_its_bend(q, ball, gamma):
     rows = np.linalg.solve(T, front.tangent_hessian(q, gamma, ball.mass_tensor, ball.D).T)
     weights = np.array([1, 1, 1, 2, 2, 2])
     assert bend == pytest.approx(np.sqrt((rows**2 * weights).sum()), rel=1e-8)
+
+
+@pytest.mark.parametrize(
+    ("reach", "said"), [(0.25, "it attains 0.25 of it"), (1 - 1e-9, "attains all but 1e-09"), (1.0, "all but 1e-16")]
+)
+def test_a_fold_that_is_near_says_how_near(reach, said):
+    assert said in str(chapsym.StepNotTaken(chapsym.Status.FOLDED, reach))

@@ -190,7 +190,7 @@ def test_a_matrix_is_a_formula():
 
 
 def test_each_verdict_has_a_colour_and_a_meaning():
-    style = (page._FOLDER / "style.css").read_text(encoding="utf-8")
+    style = (page.FOLDER / "style.css").read_text(encoding="utf-8")
     for verdict in records.VERDICTS:
         assert f".{verdict} {{ --v: var(--{verdict}); }}" in style
         assert style.count(f"--{verdict}: #") == 2, "one for light, one for dark"
@@ -209,7 +209,7 @@ def contrast(a, b):
 
 
 def test_colours_can_be_read_in_light_and_in_dark():
-    style = (page._FOLDER / "style.css").read_text(encoding="utf-8")
+    style = (page.FOLDER / "style.css").read_text(encoding="utf-8")
     for root in re.findall(r":root \{(.*?)\}", style, re.DOTALL)[:2]:
         colours = dict(re.findall(r"--([a-z]+): (#[0-9a-f]{6});", root))
         for name in ("ink", "muted", "link", *records.VERDICTS):

@@ -42,7 +42,7 @@ def momentum(X: Any, g: Any, tensor: Any, contact: Any) -> Any:
 
 @cache
 def truth(x: tuple[float, ...], g: tuple[float, ...], J: tuple[float, ...], D: float) -> tuple[Any, Any, Any, float]:
-    """Ω - 1, 𝒦 and γ after the step, and κ = |T⁻¹|(|𝒦| + 2Λmax |Ω - 1|)/|Ω - 1|; ArithmeticError at a fold."""
+    """Ω - 1, 𝒦 and γ after the step, and κ = 1 + |T⁻¹|(|𝒦| + 2 I_max |Ω - 1|)/|Ω - 1|; ArithmeticError at a fold."""
     size = max(map(abs, x))
     with mp.workdps(mp.dps + (max(0, -int(np.log10(size))) if size else 0)):  # Ω - 1 is as small as 𝒦
         return _truth(x, g, J, D, size)
@@ -64,11 +64,11 @@ def _truth(
         else:
             R, t = moved, trial
     jacobian = mp.matrix([below(momentum(R * e, gamma, tensor, contact)) for e in basis]).T
-    top = max(J) + sorted(J)[-2] + D
-    stretch = np.linalg.norm(np.array(((jacobian / top) ** -1).tolist(), dtype=float), 2)
+    top = sum(sorted(J)[-2:])
+    stretch = float(np.linalg.norm(np.array(((jacobian / top) ** -1).tolist(), dtype=float), 2))
     E = R - mp.eye(4)
     extent = max(abs(v) for v in E)
-    kappa = float(stretch * float(mp.mpf(size) / (extent * top)) + 2 * stretch) if size else 2 * float(stretch)
+    kappa = 1 + stretch * (float(mp.mpf(size) / (extent * top)) if size else 0.0) + 2 * stretch
     return E, R.T * target * R, R.T * gamma, kappa
 
 

@@ -1,7 +1,6 @@
 """The states of the matrix: balls and momenta at which formulas lose digits."""
 
 from collections.abc import Callable, Iterable
-from dataclasses import replace
 from functools import cache
 from math import nextafter, sqrt
 
@@ -89,7 +88,7 @@ def _tiny(size: float) -> Callable[[Level], list[State]]:
 
 def _heavy(D: float) -> Callable[[Level], list[State]]:
     states = (halfway(J, D), halfway(J, D, G), halfway(J, D, K, AXIS))
-    return _of(*(replace(state, sharp=True) for state in states))
+    return _of(*states)
 
 
 def _axes() -> list[Vector]:
@@ -105,6 +104,7 @@ CONDITIONS: dict[str, dict[str, Callable[[Level], list[State]]]] = {
         "1e-150": _tiny(1e-150),
         "1e-300": _tiny(1e-300),
         "subnormal, 5e-320": _tiny(5e-320),
+        "subnormal, 4e-313, D = 100": _of(State((1.0, 1.0, 1.0), 100.0, (4.4500984e-313, 0.0, 0.0), (1.0, 0.0, 0.0))),
         "components from 1 to 1e-300": _of(
             State(J, D, (0.5, 1e-150, 1e-300), G), State(J, D, (1e-300, 0.5, 0.0), AXIS),
         ),

@@ -13,6 +13,8 @@ from .truth import State, Truth, reachable, scaled, truth
 
 #: Beyond this share of a rounding from the fold, a rung cannot tell the two sides.
 BLUR = BUDGET
+#: A state whose κ ulps are below this has half its digits and more on any rung: then it can be resolved.
+RESOLVED = 1e-6
 
 
 #: q, 𝒦 and γ in the numbers of a rung.
@@ -99,6 +101,8 @@ def _lie(status: Status, level: Level, state: State, exact: Truth | None) -> str
         return f'says "{status.sentence}", but the oracle reaches it'
     if exact is not None and status is Status.NO_INERTIA:
         return f'says "{status.sentence}", but the oracle reaches it'
+    if exact is not None and status is Status.NOT_CONVERGED and exact.condition * level.unit < RESOLVED:
+        return f'says "{status.sentence}", but κ is only {exact.condition:.3g}'
     if exact is None and status is Status.UNREACHABLE and reachable(state):
         return f'says "{status.sentence}", but other rotations have it'
     return ""

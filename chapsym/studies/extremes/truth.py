@@ -1,6 +1,6 @@
 """The truth about one step, from the oracle: the matrix equation (4.13) in mpmath, and its condition number.
 
-    κ = |T⁻¹| (|𝒦| + 2Λmax |q|) / |q|,  T the tangent Jacobian in the Gibbs vector,
+    κ = 1 + |T⁻¹| (|𝒦| + 2 I_max |q|) / |q|,  T the tangent Jacobian in the Gibbs vector,
 
 as in `studies.check`, here from the oracle's matrices.
 """
@@ -18,8 +18,6 @@ from .levels import mp
 
 #: More than any rung has, and what the root near its fold, and the Euler parameters near π, cost: `KNOWN` is left.
 DIGITS = 115
-#: What the oracle has for a difference, twice what that moves the input by.
-SHARP_DIGITS = 20
 #: An input is changed by this, relatively, to see what becomes of the output.
 CHANGE = mp.mpf(10) ** -50
 
@@ -37,7 +35,6 @@ class State:
     """A ball and its state, in float64, exactly.
 
     from_fold: how far 𝒦 is from the fold, relatively: positive before it, negative beyond; None if it is far.
-    sharp: whether the promise is by the componentwise condition number, where that is smaller than κ.
     """
 
     J: Vector
@@ -45,7 +42,6 @@ class State:
     K: Vector
     g: Vector
     from_fold: float | None = None
-    sharp: bool = False
 
 
 @dataclass(frozen=True)
@@ -71,8 +67,6 @@ def truth(state: State) -> Truth | None:
         return None
     q, momentum, gamma = ([mp.convert(x) for x in v] for v in (step.q, step.momentum, step.gamma))
     kappa = condition(state, oracle, step.rotation, q)
-    if state.sharp:
-        kappa = min(kappa, sharp_condition(state))
     return Truth(mp.convert(step.q0), q, momentum, gamma, kappa)
 
 
@@ -94,24 +88,11 @@ def tangent(oracle: Oracle, rotation: Any) -> Any:
 
 def condition(state: State, oracle: Oracle, rotation: Any, q: list[Any]) -> float:
     """κ of the state at its rotation."""
-    top = mp.mpf(max(state.J[1] + state.J[2], state.J[0] + state.J[2], state.J[0] + state.J[1])) + state.D
-    scaled = tangent(oracle, rotation) / top
-    stretch = np.linalg.norm(np.array((scaled**-1).tolist(), dtype=float), 2)
+    largest = sum(state.J) - min(state.J)
+    scaled_tangent = tangent(oracle, rotation) / largest  # so that its inverse is a float
+    stretch = np.linalg.norm(np.array((scaled_tangent**-1).tolist(), dtype=float), 2)
     size, extent = max(abs(mp.mpf(x)) for x in state.K), max(map(abs, q))
-    return float(stretch * float(size / (extent * top) if extent else 0) + 2 * stretch)
-
-
-@cache
-def sharp_condition(state: State) -> float:
-    """1 + Σ |∂q/∂x · x|/|q| over the components of 𝒦, γ (kept a unit vector), J and D: what rounding them may do.
-
-    For D ≫ J it is far below κ unless 𝒦 is horizontal: no term of 𝒦(q, γ) that matters need be as large as D.
-    """
-
-    def rotation(x: Sequence[Any]) -> list[Any]:
-        return Oracle(x[6:9], x[9], unit_gamma(tuple(x[3:6])), 2 * SHARP_DIGITS).step(x[:3]).q
-
-    return 1.0 + componentwise(rotation, (*state.K, *state.g, *state.J, state.D), mp.mpf(10) ** -SHARP_DIGITS)[1]
+    return 1.0 + float(stretch * float(size / (extent * largest) if extent else 0) + 2 * stretch)
 
 
 def componentwise(
