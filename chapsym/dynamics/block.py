@@ -7,14 +7,17 @@ import numpy as np
 
 from chapsym.generated import turn
 
-from .gibbs import newton_round, second_round
+from .gibbs import newton_round, second_round, settle
 from .integrals import PERIOD, restore
-from .loop import ENOUGH, RADIUS, ROWS, A, D, G, I, K, X, prepare, safe_rotation
+from .loop import ENOUGH, RADIUS, ROWS, A, D, G, I, K, X, prepare, safe_rotation, three
 
 #: Balls in a block: its rows stay in the first-level cache.
 LANES = 40
 #: After a step that needed the second correction, so many are taken with it at once.
 PATIENCE = 64
+#: Rounds that all lanes take together where more than a few did not settle; those few are mended one by one.
+ROUNDS = 4
+FEW = 2
 
 
 def predicted(S, P, ok):
@@ -31,10 +34,18 @@ def predicted(S, P, ok):
     return unsettled(ok)
 
 
-def corrected(S, P, ok):
-    """The same with the second correction where it is needed."""
+def corrected(S, P, ok, again):
+    """The same with the second correction where it is needed; `again`, from there for the lanes that did not settle.
+
+    A lane that is not near, outside the ball of the lemma, stays, and begins again from no rotation: `gibbs.search`.
+    """
     for i in range(LANES):
-        u1, u2, u3 = S[A, i], S[A + 1, i], S[A + 2, i]
+        radius, enough = S[RADIUS, i], S[ENOUGH, i]
+        u1, u2, u3 = (P[4, i], P[5, i], P[6, i]) if again else (S[A, i], S[A + 1, i], S[A + 2, i])
+        near = u1 * u1 + (u2 * u2 + u3 * u3) <= radius
+        if again:
+            u1, u2, u3 = u1 if near else 0.0, u2 if near else 0.0, u3 if near else 0.0
+            near = radius >= 0.0
         k1, k2, k3, I1, I2, I3 = S[K, i], S[K + 1, i], S[K + 2, i], S[I, i], S[I + 1, i], S[I + 2, i]
         p0, p1, p2, p3, w1, w2, w3, first, d1, d2, d3, c11, c12, c13, c21, c22, c23, c31, c32, c33 = newton_round(
             u1, u2, u3, k1, k2, k3, S[G, i], S[G + 1, i], S[G + 2, i], I1, I2, I3, S[D, i]
@@ -42,14 +53,17 @@ def corrected(S, P, ok):
         r1, r2, r3, v1, v2, v3, second = second_round(
             p0, p1, p2, p3, k1, k2, k3, d1, d2, d3, c11, c12, c13, c21, c22, c23, c31, c32, c33, I1, I2, I3
         )  # fmt: skip
-        near = u1 * u1 + (u2 * u2 + u3 * u3) <= S[RADIUS, i]
-        enough = S[ENOUGH, i]
         once = near & (first <= enough)
-        twice = near & (v1 * v1 + (v2 * v2 + v3 * v3) <= S[RADIUS, i])
+        twice = near & (v1 * v1 + (v2 * v2 + v3 * v3) <= radius)
         twice = twice & (9.0 * max(first, second) * second <= enough * enough)
-        P[0, i], P[1, i], P[2, i], P[3, i] = p0, p1 if once else r1, p2 if once else r2, p3 if once else r3
-        P[4, i], P[5, i], P[6, i] = w1 if once else v1, w2 if once else v2, w3 if once else v3
-        ok[i] = 1 if once | twice else 0
+        done = again & (ok[i] == 1)
+        p1, p2, p3 = p1 if once else r1, p2 if once else r2, p3 if once else r3
+        w1, w2, w3 = w1 if once else v1, w2 if once else v2, w3 if once else v3
+        w1, w2, w3 = w1 if near else u1, w2 if near else u2, w3 if near else u3
+        P[0, i], P[1, i] = P[0, i] if done else p0, P[1, i] if done else p1
+        P[2, i], P[3, i] = P[2, i] if done else p2, P[3, i] if done else p3
+        P[4, i], P[5, i], P[6, i] = P[4, i] if done else w1, P[5, i] if done else w2, P[6, i] if done else w3
+        ok[i] = 1 if done | once | twice else 0
     return unsettled(ok)
 
 
@@ -61,17 +75,25 @@ def unsettled(ok):
     return bad
 
 
+def uncertified(S):
+    """How many lanes no round can settle."""
+    count = 0
+    for i in range(LANES):
+        count += 0 if S[RADIUS, i] >= 0.0 else 1
+    return count
+
+
 def mend(S, P, ok, step, taken, status, reach, balls):
-    """The safe way for the lanes that did not settle; a ball that cannot go on rests from then on."""
+    """The step of `loop.march` for the lanes that did not settle; a ball that cannot go on rests from then on."""
     for i in range(LANES):
         if ok[i] == 1:
             continue
-        near = S[A, i] * S[A, i] + (S[A + 1, i] * S[A + 1, i] + S[A + 2, i] * S[A + 2, i]) <= S[RADIUS, i]
-        from_here = P[4:7, i] if near else S[A : A + 3, i]
         if i < balls and status[i] == 0:
-            status[i], reach[i], p0, p1, p2, p3, w1, w2, w3 = safe_rotation(
-                from_here[0], from_here[1], from_here[2], S[:, i].copy()
+            one = S[:, i].copy()
+            _, _, _, _, _, u1, u2, u3 = settle(
+                *three(one, A), *three(one, K), *three(one, G), *three(one, I), one[D], one[RADIUS], one[ENOUGH]
             )
+            status[i], reach[i], p0, p1, p2, p3, w1, w2, w3 = safe_rotation(u1, u2, u3, one)
             if status[i] == 0:
                 P[0, i], P[1, i], P[2, i], P[3, i], P[4, i], P[5, i], P[6, i] = p0, p1, p2, p3, w1, w2, w3
                 continue
@@ -135,18 +157,21 @@ def march_block(state, first, count, every, scale, momenta, verticals, taken, st
     ok = np.empty(LANES, dtype=np.int32)
     S[:, :] = state
     balls = len(status)
-    step, last, patience = first, first + count, 0
+    step, last, patience, hopeless = first, first + count, 0, uncertified(S)
     while step < last:
         stop = min(last, step + every - step % every, step + PERIOD - step % PERIOD)
         while step < stop:
-            bad = 1
+            bad = hopeless + 1
             if patience == 0:
                 bad = predicted(S, P, ok)
-            if bad != 0:
+            if bad > hopeless:
                 patience = PATIENCE if patience == 0 else patience - 1
-                bad = corrected(S, P, ok)
+                bad, rounds = corrected(S, P, ok, False), 1
+                while bad > hopeless + FEW and rounds < ROUNDS:
+                    bad, rounds = corrected(S, P, ok, True), rounds + 1
             if bad != 0:
                 mend(S, P, ok, step, taken, status, reach, balls)
+                hopeless = uncertified(S)
             turned(S, P)
             step += 1
         if step % PERIOD == 0:

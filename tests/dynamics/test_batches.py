@@ -5,7 +5,7 @@ import pytest
 
 import chapsym
 from chapsym import Ball, Status
-from chapsym.dynamics import block, engine
+from chapsym.dynamics import block, engine, gibbs, loop
 
 RNG = np.random.default_rng(4)
 
@@ -40,6 +40,72 @@ def test_a_batch_is_its_balls_to_the_bit(n):
         assert run.taken[i] == 2100
         assert (alone.momentum == run.momentum[i]).all()
         assert (alone.gamma == run.gamma[i]).all()
+
+
+def long_steps(n, sizes=(0.25, 0.3, 0.4, 0.45)):
+    """n balls whose steps need more than one round, up to a little below the bound of the certificate."""
+    random = np.random.default_rng(9)
+    K, g = random.normal(size=(n, 3)), random.normal(size=(n, 3))
+    K *= random.choice(sizes, (n, 1)) / np.linalg.norm(K, axis=1, keepdims=True)
+    return Ball((0.1, 0.5, 1.6), 0.7), K, g / np.linalg.norm(g, axis=1, keepdims=True)
+
+
+@pytest.mark.parametrize("precision", ["double", "single"])
+def test_a_batch_of_long_steps_is_its_balls_to_the_bit(precision):
+    """One of them cannot be certified: it neither stops the rounds of the others nor is settled by them."""
+    ball, K, g = long_steps(2 * block.LANES + 5)
+    K[3] *= 0.7 / np.linalg.norm(K[3])
+    run = chapsym.trajectory(ball, K, g, 100, precision=precision)
+    for i in range(0, len(K), 3):
+        alone = chapsym.trajectory(ball, K[i], g[i], 100, precision=precision)
+        assert run.taken[i] == len(alone.momentum) - 1 == 100
+        assert (alone.momentum == run.momentum[i]).all()
+        assert (alone.gamma == run.gamma[i]).all()
+
+
+def block_of(n):
+    """A block of long steps after 20 of them, and the arrays that a step fills; in plain Python."""
+    ball, K, g = long_steps(n)
+    state, scale = np.zeros((loop.ROWS, block.LANES)), np.zeros(n)
+    block.prepare_block(K, g, np.tile(ball.mass_tensor, (n, 1)), np.full(n, ball.D), state, scale)
+    march = engine.chosen((block.march_block,), engine.SHORT_RUN)[0] if engine.has_numba() else block.march_block
+    frames, ends = np.zeros((n, 1, 3)), (np.zeros(n, np.int64), np.zeros(n, np.int64), np.ones(n))
+    march(state, 0, 20, 100, scale, frames, frames.copy(), *ends)
+    assert not ends[1].any()
+    return state, np.zeros((7, block.LANES)), np.zeros(block.LANES, np.int32)
+
+
+def test_further_rounds_are_those_of_the_search():
+    """Lane by lane and to the bit, also for a guess outside the ball of the lemma and for one that is far off."""
+    S, P, ok = block_of(block.LANES)
+    S[loop.A : loop.A + 3, 0] = 3.0  # outside: from no rotation
+    S[loop.A : loop.A + 3, 1] *= -0.9
+    S[loop.RADIUS, 2] = -1.0
+    settled, rounds = [], 0
+    while len(settled) < block.LANES - 1:
+        block.corrected(S, P, ok, rounds > 0)
+        rounds += 1
+        now = np.flatnonzero(ok)
+        assert set(settled) <= set(now)
+        settled = now.tolist()
+        assert rounds <= gibbs.MOST_ROUNDS
+    assert rounds >= 3
+    assert 2 not in settled
+    for i in settled:
+        s = S[:, i].tolist()
+        found = gibbs.search(*s[loop.A : loop.A + 3], *s[:6], *s[loop.I : loop.ENOUGH + 1])
+        assert found == (True, *P[:, i])
+
+
+def test_a_block_of_long_steps_mends_no_lane(monkeypatch):
+    """The rounds that all lanes take together settle them; were they wrong, mending would still find the rotation."""
+    S, _, _ = block_of(block.LANES)
+    n, few = block.LANES, []
+    monkeypatch.setattr(block, "FEW", 0)
+    monkeypatch.setattr(block, "mend", lambda S, P, ok, *rest: few.append(int((ok == 0).sum())))
+    frames, ends = np.zeros((n, 1, 3)), (np.zeros(n, np.int64), np.zeros(n, np.int64), np.ones(n))
+    block.march_block(S, 20, 5, 100, np.ones(n), frames, frames.copy(), *ends)
+    assert few == []
 
 
 def test_without_numba_a_batch_takes_the_same_steps(monkeypatch):
