@@ -1,9 +1,9 @@
 """The parts of a step on double-double numbers; x and x_ are the halves of x.
 
 Written by `chapsym codegen`: do not edit; change the derivation and generate again.
-From the kernels centre_step, compose, gibbs_residual, rotate, turn.
-Proved by: 2.1, 4.9, 5.1, gibbs, gibbs-rotation.
-Programs: sha256 c03b80832f13e2839745d7aecfe1a50b6c85dbf6aa858202fe15ae052473e8cd.
+From the kernels centre_step, compose, gibbs_residual, residual, rotate, turn.
+Proved by: 2.1, 4.9, 5.1, 5.2, gibbs, gibbs-rotation, stable-momentum.
+Programs: sha256 789e2210a7e0f5c64b7d6399b36de0f4cf50aaf53bd165e926605feceef7605a.
 """
 
 from chapsym.numbers.pairs import divide, loose_add, loose_add_float, loose_multiply, loose_multiply_float, loose_subtract, two_product, two_sum
@@ -75,6 +75,127 @@ def gibbs_residual_pairs(u1, u2, u3, k1, k1_, k2, k2_, k3, k3_, g1, g1_, g2, g2_
     o_r2, o_r2_ = two_sum(t39, t39_)
     o_r3, o_r3_ = two_sum(t50, t50_)
     return o_r1, o_r1_, o_r2, o_r2_, o_r3, o_r3_
+
+
+def residual_pairs(q0, q0_, q1, q1_, q2, q2_, q3, q3_, K1, K1_, K2, K2_, K3, K3_, g1, g1_, g2, g2_, g3, g3_, J1, J2, J3, D):
+    """𝒦(q, γ) - 𝒦 (5.2) at Euler parameters of length 1.
+
+    rotation: q0, q1, q2, q3
+    momentum: K1, K2, K3
+    gamma: g1, g2, g3
+    mass_tensor: J1, J2, J3
+    D: D
+    Returns r1, r2, r3 as normalised pairs.  J1, J2, J3, D: float64; the others are pairs.
+    Operations: 338.
+    """
+    t0, t0_ = loose_multiply(q2, q2_, g3, g3_)
+    t1, t1_ = loose_multiply(q3, q3_, g2, g2_)
+    t2, t2_ = loose_subtract(t0, t0_, t1, t1_)
+    t3, t3_ = loose_multiply(q3, q3_, g1, g1_)
+    t4, t4_ = loose_multiply(q1, q1_, g3, g3_)
+    t5, t5_ = loose_subtract(t3, t3_, t4, t4_)
+    t6, t6_ = loose_multiply(q1, q1_, g2, g2_)
+    t7, t7_ = loose_multiply(q2, q2_, g1, g1_)
+    t8, t8_ = loose_subtract(t6, t6_, t7, t7_)
+    t9, t9_ = loose_multiply_float(t2, t2_, D)
+    t10, t10_ = loose_multiply_float(t5, t5_, D)
+    t11, t11_ = loose_multiply_float(t8, t8_, D)
+    t12 = -J3
+    t13, t13_ = 2 * q3, 2 * q3_
+    t14, t14_ = 2 * q0, 2 * q0_
+    t15, t15_ = loose_multiply(g2, g2_, t11, t11_)
+    t16, t16_ = two_sum(J2, J3)
+    t17, t17_ = loose_multiply(q1, q1_, t16, t16_)
+    t18, t18_ = loose_add(t15, t15_, t17, t17_)
+    t19, t19_ = loose_multiply(g3, g3_, t10, t10_)
+    t20, t20_ = loose_subtract(t18, t18_, t19, t19_)
+    t21, t21_ = loose_multiply(t14, t14_, t20, t20_)
+    t22, t22_ = loose_multiply(q2, q2_, t13, t13_)
+    t23, t23_ = two_sum(J2, t12)
+    t24, t24_ = loose_multiply(t22, t22_, t23, t23_)
+    t25, t25_ = loose_add(t21, t21_, t24, t24_)
+    t26, t26_ = loose_subtract(t25, t25_, K1, K1_)
+    t27, t27_ = loose_multiply(g3, g3_, t9, t9_)
+    t28, t28_ = two_sum(J1, J3)
+    t29, t29_ = loose_multiply(q2, q2_, t28, t28_)
+    t30, t30_ = loose_add(t27, t27_, t29, t29_)
+    t31, t31_ = loose_multiply(g1, g1_, t11, t11_)
+    t32, t32_ = loose_subtract(t30, t30_, t31, t31_)
+    t33, t33_ = loose_multiply(t14, t14_, t32, t32_)
+    t34, t34_ = loose_subtract(t33, t33_, K2, K2_)
+    t35, t35_ = loose_multiply(q1, q1_, t13, t13_)
+    t36, t36_ = two_sum(J1, t12)
+    t37, t37_ = loose_multiply(t35, t35_, t36, t36_)
+    t38, t38_ = loose_subtract(t34, t34_, t37, t37_)
+    t39, t39_ = loose_multiply(g1, g1_, t10, t10_)
+    t40, t40_ = two_sum(J1, J2)
+    t41, t41_ = loose_multiply(q3, q3_, t40, t40_)
+    t42, t42_ = loose_add(t39, t39_, t41, t41_)
+    t43, t43_ = loose_multiply(g2, g2_, t9, t9_)
+    t44, t44_ = loose_subtract(t42, t42_, t43, t43_)
+    t45, t45_ = loose_multiply(t14, t14_, t44, t44_)
+    t46, t46_ = 2 * q1, 2 * q1_
+    t47, t47_ = loose_multiply(q2, q2_, t46, t46_)
+    t48, t48_ = two_sum(J1, -J2)
+    t49, t49_ = loose_multiply(t47, t47_, t48, t48_)
+    t50, t50_ = loose_add(t45, t45_, t49, t49_)
+    t51, t51_ = loose_subtract(t50, t50_, K3, K3_)
+    o_r1, o_r1_ = two_sum(t26, t26_)
+    o_r2, o_r2_ = two_sum(t38, t38_)
+    o_r3, o_r3_ = two_sum(t51, t51_)
+    return o_r1, o_r1_, o_r2, o_r2_, o_r3, o_r3_
+
+
+def moved_pairs(q0, q0_, q1, q1_, q2, q2_, q3, q3_, w1, w2, w3):
+    """q ∘ (1, w), divided by its length where w is small.
+
+    rotation: q0, q1, q2, q3
+    correction: w1, w2, w3
+    Returns b0, b1, b2, b3 as normalised pairs.  w1, w2, w3: float64; the others are pairs.
+    Operations: 249.
+    """
+    t0, t0_ = loose_multiply_float(q1, q1_, w1)
+    t1, t1_ = loose_subtract(q0, q0_, t0, t0_)
+    t2, t2_ = loose_multiply_float(q2, q2_, w2)
+    t3, t3_ = loose_multiply_float(q3, q3_, w3)
+    t4, t4_ = loose_add(t2, t2_, t3, t3_)
+    t5, t5_ = loose_subtract(t1, t1_, t4, t4_)
+    t6, t6_ = loose_multiply_float(q0, q0_, w1)
+    t7, t7_ = loose_add(q1, q1_, t6, t6_)
+    t8, t8_ = loose_multiply_float(q2, q2_, w3)
+    t9, t9_ = loose_multiply_float(q3, q3_, w2)
+    t10, t10_ = loose_subtract(t8, t8_, t9, t9_)
+    t11, t11_ = loose_add(t7, t7_, t10, t10_)
+    t12, t12_ = loose_multiply_float(q0, q0_, w2)
+    t13, t13_ = loose_add(q2, q2_, t12, t12_)
+    t14, t14_ = loose_multiply_float(q3, q3_, w1)
+    t15, t15_ = loose_multiply_float(q1, q1_, w3)
+    t16, t16_ = loose_subtract(t14, t14_, t15, t15_)
+    t17, t17_ = loose_add(t13, t13_, t16, t16_)
+    t18, t18_ = loose_multiply_float(q0, q0_, w3)
+    t19, t19_ = loose_multiply_float(q1, q1_, w2)
+    t20, t20_ = loose_add(t18, t18_, t19, t19_)
+    t21, t21_ = loose_multiply_float(q2, q2_, w1)
+    t22, t22_ = loose_subtract(q3, q3_, t21, t21_)
+    t23, t23_ = loose_add(t20, t20_, t22, t22_)
+    t24, t24_ = loose_multiply(t5, t5_, t5, t5_)
+    t25, t25_ = loose_multiply(t11, t11_, t11, t11_)
+    t26, t26_ = loose_add(t24, t24_, t25, t25_)
+    t27, t27_ = loose_multiply(t17, t17_, t17, t17_)
+    t28, t28_ = loose_multiply(t23, t23_, t23, t23_)
+    t29, t29_ = loose_add(t27, t27_, t28, t28_)
+    t30, t30_ = loose_add(t26, t26_, t29, t29_)
+    t31, t31_ = loose_add_float(-t30, -t30_, 3)
+    t32, t32_ = t31 / 2, t31_ / 2
+    t33, t33_ = loose_multiply(t5, t5_, t32, t32_)
+    t34, t34_ = loose_multiply(t11, t11_, t32, t32_)
+    t35, t35_ = loose_multiply(t17, t17_, t32, t32_)
+    t36, t36_ = loose_multiply(t23, t23_, t32, t32_)
+    o_b0, o_b0_ = two_sum(t33, t33_)
+    o_b1, o_b1_ = two_sum(t34, t34_)
+    o_b2, o_b2_ = two_sum(t35, t35_)
+    o_b3, o_b3_ = two_sum(t36, t36_)
+    return o_b0, o_b0_, o_b1, o_b1_, o_b2, o_b2_, o_b3, o_b3_
 
 
 def turn_pairs(u1, u1_, u2, u2_, u3, u3_, k1, k1_, k2, k2_, k3, k3_, g1, g1_, g2, g2_, g3, g3_):

@@ -6,7 +6,20 @@ order.  Those on pairs do in double-double what the loop in `dynamics.quad` need
 
 from dataclasses import dataclass
 
-from .kernels import ANY_QUATERNION, CONTACT, FIRST, GAMMA, GIBBS, HALF, INERTIA, Group, sp
+from .kernels import (
+    ANY_QUATERNION,
+    BODY,
+    CONTACT,
+    FIRST,
+    GAMMA,
+    GIBBS,
+    HALF,
+    INERTIA,
+    MOMENTUM,
+    QUATERNION,
+    Group,
+    sp,
+)
 
 _NEWTON = """
 p0, p1, p2, p3, c11, c12, c13, c21, c22, c23, c31, c32, c33 = gibbs_newton(
@@ -34,6 +47,16 @@ y1, y2, y3 = turn(p0, p1, p2, p3, g1, g2, g3)
 
 _RESIDUAL = """
 r1, r2, r3 = gibbs_residual(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D)
+"""
+
+_MISSED = """
+r1, r2, r3 = residual(q0, q1, q2, q3, K1, K2, K3, g1, g2, g3, J1, J2, J3, D)
+"""
+
+_MOVED = """
+c0, c1, c2, c3 = compose(q0, q1, q2, q3, 1, w1, w2, w3)
+t = (3 - ((c0 * c0 + c1 * c1) + (c2 * c2 + c3 * c3))) / 2
+b0, b1, b2, b3 = c0 * t, c1 * t, c2 * t, c3 * t
 """
 
 _TURNED = """
@@ -107,6 +130,22 @@ PAIR_PROGRAMS: tuple[Program, ...] = (
         ("r1", "r2", "r3"),
         _RESIDUAL,
         ("u1", "u2", "u3", "D"),
+    ),
+    Program(
+        "residual_pairs",
+        "𝒦(q, γ) - 𝒦 (5.2) at Euler parameters of length 1.",
+        (QUATERNION, MOMENTUM, *BODY),
+        ("r1", "r2", "r3"),
+        _MISSED,
+        ("J1", "J2", "J3", "D"),
+    ),
+    Program(
+        "moved_pairs",
+        "q ∘ (1, w), divided by its length where w is small.",
+        (QUATERNION, ("correction", sp.symbols("w1:4"))),
+        ("b0", "b1", "b2", "b3"),
+        _MOVED,
+        ("w1", "w2", "w3"),
     ),
     Program(
         "turn_pairs",

@@ -32,6 +32,9 @@ UNIT_ROUNDOFF = 2.0**-53
 SMALLEST = 2.0**-1070
 #: A continuation step below this fraction of what is behind it is a fold.
 SHORTEST = 4e-16
+#: A smaller momentum than 2^LEAST, where Λmax is below 1, is taken so large, and the rotation made as much smaller:
+#: what is not linear is below 2^(2 LEAST), and no product underflows.
+LEAST = -200
 #: The path is followed as far as a momentum of 2^FARTHEST, where Λmax is below 1.
 FARTHEST = 3
 #: A determinant of the tangent Jacobian below this, for Λmax about 1, is rounding.
@@ -51,7 +54,8 @@ def small_rotation(K1, K2, K3, g1, g2, g3, J1, J2, J3, D, shortest=SHORTEST):
     largest = max(abs(K1), abs(K2), abs(K3))
     _, size = frexp(largest)
     shift = min(-exponent, FARTHEST - size) if largest > 0.0 else -exponent
-    K1, K2, K3 = ldexp(K1, shift), ldexp(K2, shift), ldexp(K3, shift)
+    beyond = max(0, LEAST - (size + shift)) if largest > 0.0 else 0
+    K1, K2, K3 = ldexp(K1, shift + beyond), ldexp(K2, shift + beyond), ldexp(K3, shift + beyond)
     end = ldexp(1.0, shift + exponent)
     t = 0.0  # of the path up to `end` times the momentum
     q0, q1, q2, q3 = 1.0, 0.0, 0.0, 0.0
@@ -81,7 +85,7 @@ def small_rotation(K1, K2, K3, g1, g2, g3, J1, J2, J3, D, shortest=SHORTEST):
         if t == 1.0:
             if q0 < 0.0:
                 q0, q1, q2, q3 = -q0, -q1, -q2, -q3
-            return TAKEN, 1.0, q0, q1, q2, q3
+            return TAKEN, 1.0, q0, ldexp(q1, -beyond), ldexp(q2, -beyond), ldexp(q3, -beyond)
     return NOT_CONVERGED, t * end, q0, q1, q2, q3
 
 

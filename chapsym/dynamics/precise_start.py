@@ -95,7 +95,7 @@ def on(context: Any) -> Callable[..., tuple]:
     unit = context.ldexp(1, -context.prec)
     names: dict[str, Any] = {
         **vars(branch), "frexp": context.frexp, "ldexp": context.ldexp, "sqrt": context.sqrt,
-        "UNIT_ROUNDOFF": unit, "SMALLEST": 0, "SINGULAR": unit * 8,
+        "UNIT_ROUNDOFF": unit, "SMALLEST": 0, "LEAST": -math.inf, "SINGULAR": unit * 8,
     }  # fmt: skip
     for name, value in vars(branch).items():
         if isinstance(value, FunctionType) and value.__module__ == branch.__name__:

@@ -6,22 +6,28 @@ pairs is as exact as its terms allow, so e = -A⁻¹G(w) is the error of w to a 
 `gibbs-newton` that is exactly 2b(d, e) + b(e, e), b the quadratic part of G, and a second solution takes it back.
 There is left at most the square of c|d|, below 2⁻⁵³ where d settled (`dynamics.gibbs`), and the rounding of A⁻¹, each
 times |e|.  So where |e| is a few roundings of w, (w, e) has the error of a pair times the condition of A; where it
-is more, w + e is rounded and corrected afresh.
+is more, the rotation of w + e is corrected afresh, in Euler parameters (`polished`).
 """
 
-from math import frexp
+from math import frexp, sqrt
 
 from chapsym.generated import gibbs_mixed
-from chapsym.generated.quad import gibbs_residual_pairs
+from chapsym.generated.quad import gibbs_residual_pairs, moved_pairs, residual_pairs
 from chapsym.numbers.pairs import divide, loose_add, root, two_product, two_sum
 
-from .branch import NOT_CONVERGED, TAKEN, small_rotation
+from .branch import FOLDED, NOT_CONVERGED, TAKEN, inverse, small_rotation
 from .gibbs import MOST_ROUNDS, certificate, newton_round
 
 #: |e|² relative to |w|² from which the sum is corrected once more: 8 roundings of float64.
 SMALL = 2.0**-100
 #: Corrections in pairs: at a fold each may gain but little.
 MOST_CORRECTIONS = 60
+#: A correction of q, relative to |q|, that is a rounding of a pair; and one below which it may stop to shrink.
+ROUNDING, FLOOR = 2.0**-104, 2.0**-60
+#: Instead of q₀ = 0, a rotation by π, which has no Gibbs vector: it is off by less than a rounding.
+LEAST_COSINE = 2.0**-110
+#: Above this part of 𝒦 a fold of the float64 continuation may be one of rounding.
+NEARLY = 1.0 - 2.0**-45
 #: Scaled momenta are at least so large.  Then no product underflows, and what is not linear in 𝒦 is below 2^-200.
 LEAST = -200
 #: A moment of inertia below this, for Λmax about 1, has a determinant beyond float64: every step takes the safe way.
@@ -91,23 +97,35 @@ def small(w1, w2, w3, e1, e2, e3):
     return e1 * e1 + (e2 * e2 + e3 * e3) <= SMALL * (w1 * w1 + (w2 * w2 + w3 * w3))
 
 
-def polished(w1, w2, w3, k1, k1_, k2, k2_, k3, k3_, g1, g1_, g2, g2_, g3, g3_, I1, I1_, I2, I2_, I3, I3_, D):
-    """Corrections in pairs from a float64 w near the root; returns (settled, w, e)."""
+def polished(q0, q1, q2, q3, k1, k1_, k2, k2_, k3, k3_, g1, g1_, g2, g2_, g3, g3_, J1, J2, J3, D):
+    """Newton's iteration in pairs from a float64 rotation near the root: (settled, u as pairs).
+
+    In Euler parameters, so that it is regular at every rotation, and with their residual again at each pair: so it
+    keeps its digits for heavy balls, too, where one correction by a float64 Jacobian leaves those of D/I.
+    """
+    q0_, q1_, q2_, q3_, before = 0.0, 0.0, 0.0, 0.0, 1.0
+    settled = False
     for _ in range(MOST_CORRECTIONS):
-        det, _, _, _, _, _, _, _, _, _, _, c11, c12, c13, c21, c22, c23, c31, c32, c33 = newton_round(
-            w1, w2, w3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D
-        )
-        r1, _, r2, _, r3, _ = gibbs_residual_pairs(
-            w1, w2, w3, k1, k1_, k2, k2_, k3, k3_, g1, g1_, g2, g2_, g3, g3_, I1, I1_, I2, I2_, I3, I3_, D
-        )
-        e1, e2, e3 = correction(
-            0.0, 0.0, 0.0, r1, r2, r3, k1, k2, k3, I1, I2, I3, det,
-            c11, c12, c13, c21, c22, c23, c31, c32, c33,
+        r1, _, r2, _, r3, _ = residual_pairs(
+            q0, q0_, q1, q1_, q2, q2_, q3, q3_, 2.0 * k1, 2.0 * k1_, 2.0 * k2, 2.0 * k2_, 2.0 * k3, 2.0 * k3_,
+            g1, g1_, g2, g2_, g3, g3_, J1, J2, J3, D,
         )  # fmt: skip
-        if small(w1, w2, w3, e1, e2, e3):
-            return True, w1, w2, w3, e1, e2, e3
-        w1, w2, w3 = w1 + e1, w2 + e2, w3 + e3
-    return False, w1, w2, w3, 0.0, 0.0, 0.0
+        det, i11, i12, i13, i21, i22, i23, i31, i32, i33 = inverse(q0, q1, q2, q3, g1, g2, g3, J1, J2, J3, D)
+        if det == 0.0:
+            break
+        w1 = -(i11 * r1 + i12 * r2 + i13 * r3)
+        w2 = -(i21 * r1 + i22 * r2 + i23 * r3)
+        w3 = -(i31 * r1 + i32 * r2 + i33 * r3)
+        q0, q0_, q1, q1_, q2, q2_, q3, q3_ = moved_pairs(q0, q0_, q1, q1_, q2, q2_, q3, q3_, w1, w2, w3)
+        change, extent = max(abs(w1), abs(w2), abs(w3)), max(abs(q1), abs(q2), abs(q3))
+        # The last correction is a rounding of pairs, or one that the condition leaves: it shrinks no more.
+        settled = change <= ROUNDING * extent or (change <= FLOOR * extent and change >= 0.25 * before)
+        if settled:
+            break
+        before = change
+    if q0 == 0.0:
+        q0 = LEAST_COSINE
+    return settled, *divide(q1, q1_, q0, q0_), *divide(q2, q2_, q0, q0_), *divide(q3, q3_, q0, q0_)
 
 
 def solved(
@@ -129,13 +147,15 @@ def solved(
         if small(w1, w2, w3, e1, e2, e3):
             return TAKEN, 1.0, *two_sum(w1, e1), *two_sum(w2, e2), *two_sum(w3, e3)
         w1, w2, w3 = w1 + e1, w2 + e2, w3 + e3
+        p0 = 1.0 / sqrt(1.0 + (w1 * w1 + (w2 * w2 + w3 * w3)))
+        p1, p2, p3 = p0 * w1, p0 * w2, p0 * w3
     else:
         status, reach, p0, p1, p2, p3 = small_rotation(2.0 * k1, 2.0 * k2, 2.0 * k3, g1, g2, g3, J1, J2, J3, D)
-        if status != TAKEN or p0 == 0.0:  # a rotation by π has no Gibbs vector
-            return NOT_CONVERGED if status == TAKEN else status, reach, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-        w1, w2, w3 = p1 / p0, p2 / p0, p3 / p0
-    settled, w1, w2, w3, e1, e2, e3 = polished(
-        w1, w2, w3, k1, k1_, k2, k2_, k3, k3_, g1, g1_, g2, g2_, g3, g3_, I1, I1_, I2, I2_, I3, I3_, D
+        if status != TAKEN:
+            # So near to 1 float64 does not see on which side of the fold 𝒦 is.
+            status = NOT_CONVERGED if status == FOLDED and reach > NEARLY else status
+            return status, reach, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    settled, u1, u1_, u2, u2_, u3, u3_ = polished(
+        p0, p1, p2, p3, k1, k1_, k2, k2_, k3, k3_, g1, g1_, g2, g2_, g3, g3_, J1, J2, J3, D
     )
-    status = TAKEN if settled else NOT_CONVERGED
-    return status, 1.0, *two_sum(w1, e1), *two_sum(w2, e2), *two_sum(w3, e3)
+    return TAKEN if settled else NOT_CONVERGED, 1.0, u1, u1_, u2, u2_, u3, u3_
