@@ -90,7 +90,7 @@ def mend(S, P, ok, step, taken, status, reach, balls):
             continue
         if i < balls and status[i] == 0:
             one = S[:, i].copy()
-            _, _, _, _, _, u1, u2, u3 = settle(
+            _, _, _, _, _, u1, u2, u3 = settle(  # type: ignore[call-arg]
                 *three(one, A), *three(one, K), *three(one, G), *three(one, I), one[D], one[RADIUS], one[ENOUGH]
             )
             status[i], reach[i], p0, p1, p2, p3, w1, w2, w3 = safe_rotation(u1, u2, u3, one)

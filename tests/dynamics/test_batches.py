@@ -80,7 +80,7 @@ def test_further_rounds_are_those_of_the_search():
     S, P, ok = block_of(block.LANES)
     S[loop.A : loop.A + 3, 0] = 3.0  # outside: from no rotation
     S[loop.A : loop.A + 3, 1] *= -0.9
-    S[loop.RADIUS, 2] = -1.0
+    S[loop.RADIUS, 2], S[loop.ENOUGH, 2] = -1.0, 1.0  # a ball so slow that its squares underflow: never
     settled, rounds = [], 0
     while len(settled) < block.LANES - 1:
         block.corrected(S, P, ok, rounds > 0)
@@ -95,6 +95,18 @@ def test_further_rounds_are_those_of_the_search():
         s = S[:, i].tolist()
         found = gibbs.search(*s[loop.A : loop.A + 3], *s[:6], *s[loop.I : loop.ENOUGH + 1])
         assert found == (True, *P[:, i])
+
+
+def test_a_lane_that_has_settled_stays():
+    """Whatever a round from there would say, as where the root of one correction is a little outside."""
+    S, P, ok = block_of(block.LANES)
+    for again in (False, True, True, True):
+        block.corrected(S, P, ok, again)
+    assert ok.all()
+    kept = P.copy()
+    S[loop.RADIUS] = -1.0
+    assert block.corrected(S, P, ok, True) == 0
+    assert (kept == P).all()
 
 
 def test_a_block_of_long_steps_mends_no_lane(monkeypatch):
