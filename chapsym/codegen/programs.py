@@ -88,6 +88,8 @@ class Program:
     text: str
     #: Of the inputs, those that stay float64 where the others are pairs.
     floats: tuple[str, ...] = ()
+    #: On pairs: whether every sum is normalised: the halves of one that cancels overlap, which costs a product digits.
+    normal: bool = False
 
     @property
     def inputs(self) -> tuple[str, ...]:
@@ -138,6 +140,7 @@ PAIR_PROGRAMS: tuple[Program, ...] = (
         ("r1", "r2", "r3"),
         _MISSED,
         ("J1", "J2", "J3", "D"),
+        normal=True,
     ),
     Program(
         "moved_pairs",

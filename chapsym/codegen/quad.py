@@ -2,7 +2,8 @@
 
 The text of a program is numbered as for columns, so what two kernels share is done once.  Each value is a float64 or a
 pair of them, by its operands: a product of two floats is exact, a float beside a pair saves half the work.  Inside, the
-operations are the loose ones; what a program returns is normalised, and so is a divisor before the division.
+operations are the loose ones; what a program returns is normalised, and so is a divisor before the division, and where
+a program says so every sum.
 """
 
 import ast
@@ -42,8 +43,8 @@ class Folded(Values):
 class Printer:
     """Writes the operations of a program as calls; `lines` grows."""
 
-    def __init__(self, floats: Sequence[str]) -> None:
-        self.floats, self.lines = set(floats), list[str]()
+    def __init__(self, floats: Sequence[str], normal: bool = False) -> None:
+        self.floats, self.lines, self.normal = set(floats), list[str](), normal
 
     def pair(self, name: str) -> str:
         """The two halves of a value as arguments."""
@@ -56,6 +57,8 @@ class Printer:
     def call(self, target: str, function: str, *arguments: str) -> None:
         """One line."""
         self.lines.append(f"{target}, {target}_ = {function}({', '.join(arguments)})")
+        if self.normal and function in ("loose_add", "loose_subtract", "loose_add_float"):
+            self.lines.append(f"{target}, {target}_ = two_sum({self.pair(target)})")
 
     def operation(self, target: str, operation: str, a: str, b: str = "") -> None:
         """target = a operation b."""
@@ -107,7 +110,7 @@ def lowered(program: Program, texts: Texts) -> list[str]:
             needed |= set(map(int, operands))
     names = dict[int, str]()
     constants = [str(x) for operation, *rest in values.nodes if operation == "constant" for x in rest]
-    printer, count = Printer([*program.floats, *constants]), 0
+    printer, count = Printer([*program.floats, *constants], program.normal), 0
     for number in sorted(needed):
         operation, *operands = values.nodes[number]
         if operation in ("input", "constant"):

@@ -24,6 +24,8 @@ SMALL = 2.0**-100
 MOST_CORRECTIONS = 60
 #: A correction of q, relative to |q|, that is a rounding of a pair; and one below which it may stop to shrink.
 ROUNDING, FLOOR = 2.0**-104, 2.0**-60
+#: No correction is larger: the continuation ends nearer to the root than this, or a rounding before the fold.
+NEAR = 1e-6
 #: Instead of q₀ = 0, a rotation by π, which has no Gibbs vector: it is off by less than a rounding.
 LEAST_COSINE = 2.0**-110
 #: Above this part of 𝒦 a fold of the float64 continuation may be one of rounding.
@@ -101,9 +103,10 @@ def polished(q0, q1, q2, q3, k1, k1_, k2, k2_, k3, k3_, g1, g1_, g2, g2_, g3, g3
     """Newton's iteration in pairs from a float64 rotation near the root: (settled, u as pairs).
 
     In Euler parameters, so that it is regular at every rotation, and with their residual again at each pair: so it
-    keeps its digits for heavy balls, too, where one correction by a float64 Jacobian leaves those of D/I.
+    keeps its digits for heavy balls, too, where one correction by a float64 Jacobian leaves those of D/I.  Up to its
+    fold the branch has det > 0, and its mirror behind the fold det < 0: who gets there has left it.
     """
-    q0_, q1_, q2_, q3_, before = 0.0, 0.0, 0.0, 0.0, 1.0
+    q0_, q1_, q2_, q3_, before = 0.0, 0.0, 0.0, 0.0, NEAR
     settled = False
     for _ in range(MOST_CORRECTIONS):
         r1, _, r2, _, r3, _ = residual_pairs(
@@ -111,13 +114,15 @@ def polished(q0, q1, q2, q3, k1, k1_, k2, k2_, k3, k3_, g1, g1_, g2, g2_, g3, g3
             g1, g1_, g2, g2_, g3, g3_, J1, J2, J3, D,
         )  # fmt: skip
         det, i11, i12, i13, i21, i22, i23, i31, i32, i33 = inverse(q0, q1, q2, q3, g1, g2, g3, J1, J2, J3, D)
-        if det == 0.0:
+        if not det > 0.0:
             break
         w1 = -(i11 * r1 + i12 * r2 + i13 * r3)
         w2 = -(i21 * r1 + i22 * r2 + i23 * r3)
         w3 = -(i31 * r1 + i32 * r2 + i33 * r3)
         q0, q0_, q1, q1_, q2, q2_, q3, q3_ = moved_pairs(q0, q0_, q1, q1_, q2, q2_, q3, q3_, w1, w2, w3)
         change, extent = max(abs(w1), abs(w2), abs(w3)), max(abs(q1), abs(q2), abs(q3))
+        if change > NEAR:
+            break
         # The last correction is a rounding of pairs, or one that the condition leaves: it shrinks no more.
         settled = change <= ROUNDING * extent or (change <= FLOOR * extent and change >= 0.25 * before)
         if settled:
@@ -136,6 +141,7 @@ def solved(
     settled, w1, w2, w3, d1, d2, d3, det, c11, c12, c13, c21, c22, c23, c31, c32, c33 = approach(
         u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, radius, enough
     )
+    status, reach = TAKEN, 1.0
     if settled:
         r1, _, r2, _, r3, _ = gibbs_residual_pairs(
             w1, w2, w3, k1, k1_, k2, k2_, k3, k3_, g1, g1_, g2, g2_, g3, g3_, I1, I1_, I2, I2_, I3, I3_, D
@@ -151,11 +157,12 @@ def solved(
         p1, p2, p3 = p0 * w1, p0 * w2, p0 * w3
     else:
         status, reach, p0, p1, p2, p3 = small_rotation(2.0 * k1, 2.0 * k2, 2.0 * k3, g1, g2, g3, J1, J2, J3, D)
-        if status != TAKEN:
-            # So near to 1 float64 does not see on which side of the fold 𝒦 is.
-            status = NOT_CONVERGED if status == FOLDED and reach > NEARLY else status
+        # So near to 1 float64 does not see on which side of the fold 𝒦 is; pairs do.
+        if status != TAKEN and not (status == FOLDED and reach > NEARLY):
             return status, reach, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     settled, u1, u1_, u2, u2_, u3, u3_ = polished(
         p0, p1, p2, p3, k1, k1_, k2, k2_, k3, k3_, g1, g1_, g2, g2_, g3, g3_, J1, J2, J3, D
     )
-    return TAKEN if settled else NOT_CONVERGED, 1.0, u1, u1_, u2, u2_, u3, u3_
+    if settled:
+        return TAKEN, 1.0, u1, u1_, u2, u2_, u3, u3_
+    return FOLDED if status == FOLDED else NOT_CONVERGED, reach, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
