@@ -24,8 +24,8 @@ SMALL = 2.0**-100
 MOST_CORRECTIONS = 60
 #: A correction of q, relative to |q|, that is a rounding of a pair; and one below which it may stop to shrink.
 ROUNDING, FLOOR = 2.0**-104, 2.0**-60
-#: No correction is larger: the continuation ends nearer to the root than this, or a rounding before the fold.
-NEAR = 1e-6
+#: The largest correction: a fold that is one of rounding is so near to the root; a root of float64 has digits.
+BESIDE_FOLD, ANYWHERE = 1e-6, 0.1
 #: Instead of q₀ = 0, a rotation by π, which has no Gibbs vector: it is off by less than a rounding.
 LEAST_COSINE = 2.0**-110
 #: Above this part of 𝒦 a fold of the float64 continuation may be one of rounding.
@@ -99,14 +99,15 @@ def small(w1, w2, w3, e1, e2, e3):
     return e1 * e1 + (e2 * e2 + e3 * e3) <= SMALL * (w1 * w1 + (w2 * w2 + w3 * w3))
 
 
-def polished(q0, q1, q2, q3, k1, k1_, k2, k2_, k3, k3_, g1, g1_, g2, g2_, g3, g3_, J1, J2, J3, D):
+def polished(q0, q1, q2, q3, k1, k1_, k2, k2_, k3, k3_, g1, g1_, g2, g2_, g3, g3_, J1, J2, J3, D, near):
     """Newton's iteration in pairs from a float64 rotation near the root: (settled, u as pairs).
 
     In Euler parameters, so that it is regular at every rotation, and with their residual again at each pair: so it
     keeps its digits for heavy balls, too, where one correction by a float64 Jacobian leaves those of D/I.  Up to its
-    fold the branch has det > 0, and its mirror behind the fold det < 0: who gets there has left it.
+    fold the branch has det > 0, and its mirror behind the fold det < 0: who gets there has left it, as has who is
+    corrected by more than `near`.
     """
-    q0_, q1_, q2_, q3_, before = 0.0, 0.0, 0.0, 0.0, NEAR
+    q0_, q1_, q2_, q3_, before = 0.0, 0.0, 0.0, 0.0, near
     settled = False
     for _ in range(MOST_CORRECTIONS):
         r1, _, r2, _, r3, _ = residual_pairs(
@@ -121,7 +122,7 @@ def polished(q0, q1, q2, q3, k1, k1_, k2, k2_, k3, k3_, g1, g1_, g2, g2_, g3, g3
         w3 = -(i31 * r1 + i32 * r2 + i33 * r3)
         q0, q0_, q1, q1_, q2, q2_, q3, q3_ = moved_pairs(q0, q0_, q1, q1_, q2, q2_, q3, q3_, w1, w2, w3)
         change, extent = max(abs(w1), abs(w2), abs(w3)), max(abs(q1), abs(q2), abs(q3))
-        if change > NEAR:
+        if change > near:
             break
         # The last correction is a rounding of pairs, or one that the condition leaves: it shrinks no more.
         settled = change <= ROUNDING * extent or (change <= FLOOR * extent and change >= 0.25 * before)
@@ -161,8 +162,9 @@ def solved(
         if status != TAKEN and not (status == FOLDED and reach > NEARLY):
             return status, reach, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     settled, u1, u1_, u2, u2_, u3, u3_ = polished(
-        p0, p1, p2, p3, k1, k1_, k2, k2_, k3, k3_, g1, g1_, g2, g2_, g3, g3_, J1, J2, J3, D
-    )
+        p0, p1, p2, p3, k1, k1_, k2, k2_, k3, k3_, g1, g1_, g2, g2_, g3, g3_, J1, J2, J3, D,
+        BESIDE_FOLD if status == FOLDED else ANYWHERE,
+    )  # fmt: skip
     if settled:
         return TAKEN, 1.0, u1, u1_, u2, u2_, u3, u3_
     return FOLDED if status == FOLDED else NOT_CONVERGED, reach, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
