@@ -69,7 +69,7 @@ class Trajectory:
         return self.index * self._time_step()
 
     def invariants(self) -> Floats:
-        """⟨𝒦,γ⟩, ⟨𝒦,𝒦⟩ and ⟨γ,γ⟩ of each frame, (..., frames, 3)."""
+        """⟨𝒦,γ⟩, ⟨𝒦,𝒦⟩ and ⟨γ,γ⟩ of each frame, (..., frames, 3); on Quad in float64, of the first halves."""
         with self.precision.precision():
             return front.invariants(*self._finite(self.momentum, self.gamma))
 

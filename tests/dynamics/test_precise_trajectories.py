@@ -268,7 +268,8 @@ def test_what_is_certified_is_monotone_and_contains_the_root(state, direction):
     assert np.linalg.eigvalsh((matrix + matrix.T) / 2)[0] >= slope - 1e-12 * (inertia.max() + contact)
 
 
-def test_reverse_refuses_what_it_would_round():
-    run = chapsym.trajectory(BALL, 0.1 * DIRECTION, GAMMA, 3, precision=Digits(20))
+@pytest.mark.parametrize("precision", ["quad", Digits(20), Ball(80)], ids=str)
+def test_reverse_refuses_what_it_would_round(precision):
+    run = chapsym.trajectory(BALL, 0.1 * DIRECTION, GAMMA, 3, precision=precision)
     with pytest.raises(BadInput, match="reverse goes back in"):
         chapsym.reverse(run)
