@@ -119,7 +119,8 @@ def _orbit(
     start = [np.asarray(getattr(trajectory, name)[..., 0, :], dtype=float) for name in ("momentum", "gamma")]
     shape, (_, _, J, D) = batch(trajectory.ball, *start)
     first: dict[str, Any] = {
-        name: None if array is None else array[..., 0, :].reshape(len(D), -1) for name, array in given.items()
+        name: None if array is None else array[..., 0, :].reshape(len(D), array.shape[-1])
+        for name, array in given.items()
     }
     radius = np.zeros(len(D))
     if trajectory.contact is not None:
@@ -132,7 +133,7 @@ def _orbit(
         frames.attitude[:, 0] = first["attitude"]
     for i, taken in enumerate(trajectory.taken.reshape(-1)):
         balls = Balls(*(x[i : i + 1] for x in (first["momentum"], first["gamma"], J, D, radius)))
-        kept = int(taken) // every + 1
+        kept = min(count, int(taken) // every + 1)
         part = frames.part(i, kept)
         precise_run.run(rung, balls, (kept - 1) * every, every, part, trajectory.order, progress)
         if part.status[0] != Status.TAKEN:
@@ -171,7 +172,7 @@ def proved_digits(x: Any) -> str:
     middle, radius = fraction(x), fraction(x.rad())
     low, high = middle - radius, middle + radius
     if low <= 0 <= high:
-        return "0" if radius == 0 else str(Decimal((0, (0,), _decade(max(-low, high)) + 1)))
+        return "0" if radius == 0 else f"0E{_decade(max(-low, high)) + 1}"
     least = _decade(radius) if radius else _exact_places(middle)
     # At a tie the two ends differ for some digits more.
     for place in range(least, _decade(middle) + 2):
@@ -179,7 +180,7 @@ def proved_digits(x: Any) -> str:
         rounded = round(low / unit)
         if rounded == round(high / unit) and rounded:
             return str(Decimal((int(rounded < 0), tuple(map(int, str(abs(rounded)))), place)))
-    return str(Decimal((0, (0,), _decade(max(abs(low), abs(high))) + 1)))
+    return f"0E{_decade(max(abs(low), abs(high))) + 1}"
 
 
 def _decade(x: Fraction) -> int:

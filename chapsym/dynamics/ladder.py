@@ -10,6 +10,7 @@ from chapsym.numbers import rung as named
 
 from . import engine, quad, quad_step, single
 from .ball import Floats
+from .coefficients import substeps
 from .engine import Balls, Frames
 from .errors import BadInput, Status, StepNotTaken
 from .map import LowStep, Step
@@ -42,6 +43,7 @@ def run(
     progress: Callable[[int], None],
 ) -> None:  # fmt: skip
     """`engine.run` on a rung.  Frame 0 is given in float64; other rungs write it anew, γ divided by its length."""
+    substeps(order)  # raises BadInput for no order
     if isinstance(rung, Single):
         single.run(balls, steps, every, frames, order, threads, progress)
         return

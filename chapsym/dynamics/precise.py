@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
@@ -10,13 +10,13 @@ import flint
 
 import chapsym.generated as generated
 from chapsym.numbers import Ball as ArbBall
-from chapsym.numbers import Double, Rung, Single
+from chapsym.numbers import Double, Pair, Quad, Rung, Single
 
 from .ball import Ball
 from .branch import inverse, inverse_of
 from .errors import BadInput, Status, StepNotTaken
 from .map import step
-from .precise_start import exponent_of, start
+from .precise_start import Exact, exponent_of, start
 
 #: Refinement must stay this near to the float64 root, else another branch may have been met.
 NEAR = 1e-6
@@ -66,16 +66,33 @@ def precise_step(
     check_body(mass_tensor, D)
     if isinstance(rung, Double | Single):
         return _rounded(rung, mass_tensor, D, momentum, gamma)
-    if any(0 < abs(x) <= rung.smallest for x in momentum):
-        told = "a component of the momentum is below the range of double-double numbers"
-        raise BadInput(f"{told}; ask for more with --digits or --ball")
-    near = start(momentum, gamma, mass_tensor, D)
+    if isinstance(rung, Quad):
+        return _in_pairs(rung, mass_tensor, D, momentum, gamma)
+    return _settled(rung, mass_tensor, D, momentum, gamma)
+
+
+def _settled(rung: Rung, J: Exact, D: Fraction, K: Exact, g: Exact) -> PreciseStep:
+    """The step from where the continuation ends, with as many guard digits as it takes."""
+    near = start(K, g, J, D)
     for attempt in range(MOST_GUARDS):
-        lost = _digits_lost(near, mass_tensor, D, gamma) << attempt
-        found = _taken(rung.guarded(lost), near, (momentum, gamma, mass_tensor, (D,)))
+        lost = _digits_lost(near, J, D, g) << attempt
+        found = _taken(rung.guarded(lost), near, (K, g, J, (D,)))
         if found is not None:
             return found
     raise StepNotTaken(Status.NOT_CONVERGED, 1.0)
+
+
+def _in_pairs(rung: Quad, J: Exact, D: Fraction, K: Exact, g: Exact) -> PreciseStep:
+    """The step in units in which the ball is about 1: products of pairs underflow long before their halves do."""
+    in_float64(J, (D,), K)
+    exponent = exponent_of(max(J[1] + J[2], J[0] + J[2], J[0] + J[1]) + D)
+    unit = Fraction(2) ** exponent
+    if any(0 < abs(x) <= rung.smallest * max(Fraction(1), unit) for x in K):
+        told = "a component of the momentum is below the range of double-double numbers"
+        raise BadInput(f"{told}; ask for more with --digits or --ball")
+    found = _settled(rung, [x / unit for x in J], D / unit, [x / unit for x in K], g)
+    momentum = (Pair(*(math.ldexp(half, exponent) for half in x.halves())) for x in found.momentum)
+    return replace(found, momentum=tuple(momentum))
 
 
 def check_body(J: Sequence[Fraction], D: Fraction) -> None:

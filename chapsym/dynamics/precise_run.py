@@ -17,6 +17,8 @@ from .errors import BadInput, Status, StepNotTaken
 CHUNK = 200
 #: Steps between two looks at the radii.
 LOOK = 16
+#: Times that more bits may not help before it is given up: a root that cannot be proved with some may be with more.
+MOST_STUCK = 4
 #: The most bits beyond those that are asked for.
 MOST_GUARD = 2**22
 
@@ -98,13 +100,14 @@ class _Way:
 
 def _run_ball(rung: Ball, way: _Way) -> None:
     """Repeats the run with more bits until `rung.bits` are left; raises BadInput where more do not help."""
-    guard, before = rung.guard, (0, -math.inf)
+    guard, before, stuck = rung.guard, (0, -math.inf), 0
     while guard <= MOST_GUARD:
         precision = rung.bits + guard
         step, left = _attempt(precision, way)
         if left >= rung.bits:
             return
-        if (step, left) <= before:
+        stuck = stuck + 1 if (step, left) <= before else 0
+        if stuck == MOST_STUCK:
             break
         # What a step has cost, and a little more, for all steps.
         lost = (precision - left) / step if step else 0.0

@@ -21,6 +21,11 @@ from .pair import Pair
 WRITTEN = 32
 
 
+def _whole(name: str, value: Any, least: int) -> None:
+    if isinstance(value, bool) or not isinstance(value, int) or value < least:
+        raise ValueError(f"{name}(n) takes a whole number from {least} on, not {value!r}")
+
+
 class Rung(ABC):
     """One kind of number."""
 
@@ -150,6 +155,9 @@ class Digits(Rung):
     count: int
     guard: int = 15
 
+    def __post_init__(self) -> None:
+        _whole("Digits", self.count, 1)
+
     def guarded(self, digits: int) -> "Digits":
         """The same rung with as many guard digits more."""
         return replace(self, guard=self.guard + digits)
@@ -189,6 +197,9 @@ class Ball(Rung):
 
     bits: int
     guard: int = 40
+
+    def __post_init__(self) -> None:
+        _whole("Ball", self.bits, 2)
 
     def guarded(self, digits: int) -> "Ball":
         """The same rung with guard bits for as many digits more."""

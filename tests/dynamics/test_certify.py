@@ -168,3 +168,16 @@ def test_what_cannot_be_certified_is_refused_in_one_sentence(monkeypatch):
     monkeypatch.setattr(precise_run, "MOST_GUARD", 50)
     with pytest.raises(BadInput, match="grow too much: after step"):
         chapsym.certify(chapsym.trajectory(BALL, K, GAMMA, 300))
+
+
+@pytest.mark.parametrize("precision", ["double", "quad"])
+def test_a_run_that_keeps_its_start_only_is_certified(precision):
+    proved = chapsym.certify(chapsym.trajectory(BALL, K, GAMMA, 3, every=10, precision=precision))
+    assert proved.gamma.shape == (1, 3)
+    assert float(proved.momentum_error[0]) == 0.0
+
+
+def test_no_balls_have_a_certificate_of_none():
+    proved = chapsym.certify(chapsym.trajectory(BALL, np.empty((0, 3)), GAMMA, 3))
+    assert proved.momentum.shape == (0, 4, 3)
+    assert proved.gamma_error.shape == (0, 4)

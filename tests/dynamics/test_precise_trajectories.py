@@ -273,3 +273,20 @@ def test_reverse_refuses_what_it_would_round(precision):
     run = chapsym.trajectory(BALL, 0.1 * DIRECTION, GAMMA, 3, precision=precision)
     with pytest.raises(BadInput, match="reverse goes back in"):
         chapsym.reverse(run)
+
+
+@pytest.mark.parametrize("precision", ["single", "double", "quad", Digits(20), Ball(20)], ids=str)
+def test_an_order_that_is_none_is_refused_on_every_rung(precision):
+    with pytest.raises(BadInput, match="order must be one of 2, 4, 6, 8, not 5"):
+        chapsym.trajectory(BALL, 0.1 * DIRECTION, GAMMA, 3, order=5, precision=precision)
+
+
+def test_few_bits_of_a_heavy_ball_get_as_many_guards_as_they_need():
+    """Twice the guard does not prove the second step; four times does."""
+    ball = chapsym.Ball((1.779423646749144, 0.7875892554488442, 1.325351855087655), 9949625772.676554)
+    K = (0.028855133210578584, -0.04534716690488444, -0.09916930020971375)
+    gamma = (0.8775927590707405, -0.34737600149091397, 0.33039501027526086)
+    few = chapsym.trajectory(ball, K, gamma, 2, order=8, precision=Ball(40))
+    many = chapsym.trajectory(ball, K, gamma, 2, order=8, precision=Ball(300))
+    for one, other in zip(few.momentum[-1], many.momentum[-1], strict=True):
+        assert one.contains(other)

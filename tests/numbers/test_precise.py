@@ -12,7 +12,8 @@ from chapsym import BadInput, StepNotTaken, generated, testing
 from chapsym.dynamics import branch, precise, precise_start
 from chapsym.dynamics.oracle import Oracle, OracleFailed
 from chapsym.dynamics.precise import precise_step
-from chapsym.numbers import NAMED, Ball, Digits, Double
+from chapsym.dynamics.precise_start import fraction
+from chapsym.numbers import NAMED, Ball, Digits, Double, Quad
 
 J, D = (F(1), F(2), F(4)), F(3)
 K, GAMMA = (F(1), F(-1, 2), F(3, 4)), (F(2, 7), F(3, 7), F(6, 7))
@@ -239,3 +240,30 @@ def test_the_named_rungs_are_the_map_to_their_digits(name, digits):
     ):
         mpf = exact.context.mpf
         assert abs(mpf(found) - exact) < mpf(10) ** -digits
+
+
+@pytest.mark.parametrize("make", [Digits, Ball], ids=lambda make: make.__name__)
+@pytest.mark.parametrize("value", [0, -3, 2.5, True, "x", None], ids=repr)
+def test_a_rung_takes_a_whole_number(make, value):
+    with pytest.raises(ValueError, match="takes a whole number from"):
+        make(value)
+
+
+@pytest.mark.parametrize("exponent", [-240, -120, 100, 300])
+def test_a_quad_step_does_not_know_units(exponent):
+    """Products of pairs underflow long before their halves do: the step is taken in units of the ball."""
+    unit = F(10) ** exponent
+    ball, g = ([F(n) * unit for n in (1, 2, 4)], F(3) * unit), [F(n, 7) for n in (2, 3, 6)]
+    momentum = [F(n, 10) * unit for n in (1, 1, -1)]
+    found = precise_step(*ball, momentum, g, Quad())
+    truth = precise_step(*ball, momentum, g, Digits(40))
+    for one, other in zip(found.rotation, truth.rotation, strict=True):
+        assert abs(one.exactly() - fraction(other)) <= F(1, 2**101)
+    for one, other in zip(found.momentum, truth.momentum, strict=True):
+        assert abs(one.exactly() - fraction(other)) <= unit * F(1, 2**103)
+
+
+def test_a_quad_step_beyond_float64_is_refused():
+    unit = F(10) ** 310
+    with pytest.raises(BadInput, match="beyond the range of float64"):
+        precise_step([1 * unit, 2 * unit, 4 * unit], 3 * unit, [unit / 10] * 3, [F(n, 7) for n in (2, 3, 6)], Quad())
