@@ -159,8 +159,8 @@ def trajectory(
     that are given are taken as exact, but γ (and an attitude) is divided by its length on all but "double", and
     "single" rounds all to float32.  The coefficients of the orders 4, 6, 8 are rounded to float32 or float64; on higher
     rungs they are the 40 digits of `coefficients`, and the map composed with those is what a Ball encloses.  Of a Ball
-    `bits` are correct in every frame, beside the length of each vector; the branch is proved where |𝒦| is within the bound of
-    lemma `small-branch`, and beyond it that which the float64 continuation says.
+    `bits` are correct in every frame, beside the length of each vector; the branch is proved where |𝒦| is within the
+    bound of lemma `small-branch`, and beyond it that which the float64 continuation says.
     threads: how many cores a batch may use; 0 for all.  Digits and Ball use one.
     progress: called with the steps done so far (of all balls together), every 200 000 steps or so.
 
