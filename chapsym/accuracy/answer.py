@@ -10,6 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from chapsym.dynamics import BadInput, Ball, StepNotTaken, Trajectory
@@ -111,5 +112,6 @@ def accurate(
 
 
 def _positive_limit(limit: Any) -> None:
-    if isinstance(limit, bool) or not isinstance(limit, int | float) or not limit > 0:
+    number = isinstance(limit, int | float | np.integer | np.floating) and not isinstance(limit, bool)
+    if not number or not limit > 0:
         raise BadInput(f"limit must be a positive number of seconds, not {limit!r}")

@@ -16,6 +16,7 @@ from chapsym.dynamics import (
     substeps,
     trajectory,
 )
+from chapsym.dynamics.ball import Floats
 from chapsym.numbers import NAMED, Digits, Double, Rung, Single
 
 from .request import Request
@@ -24,6 +25,8 @@ from .request import Request
 COMPOSED, EXTRAPOLATED, EXACT = (2, 4, 6, 8), 12, 0
 #: Columns of the extrapolation: half of its order.
 COLUMNS = EXTRAPOLATED // 2
+#: Below this not all 106 bits of double-double, of a stage of a composition, are within the range of float64.
+SMALLEST = 2.0**-900
 #: Runs are compared at so many times at least: a difference that is small by chance at one is not so at all.
 CHECKS, FEW = 16, 4
 
@@ -95,6 +98,7 @@ def take(request: Request, method: Method, steps: int, frames: int, time: float 
     """
     end = request.time if time is None else time
     step, every = end / steps, steps // frames
+    _in_range(step, request.angular_momentum)
     body = request.attitude if request.with_body else False
     ball, K, g = request.ball, request.angular_momentum, request.gamma
     if method.order == EXTRAPOLATED:
@@ -112,9 +116,18 @@ def take(request: Request, method: Method, steps: int, frames: int, time: float 
     )  # fmt: skip
 
 
+def _in_range(step: float, K: Floats) -> None:
+    """Raises BadInput where the step or εK is so small that float64 loses digits of it that no comparison shows."""
+    largest = float(abs(K).max())
+    if step < SMALLEST or 0.0 < step * largest < SMALLEST:
+        what = "a step of ε = T/n" if step < SMALLEST else "εK"
+        raise BadInput(f"{what} is below {SMALLEST:.0e}, where float64 loses digits; take other units of time or mass")
+
+
 def _extrapolated(request: Request, step: float, every: int, frames: int, body: Any) -> Trajectory:
     """`extrapolate` from frame to frame, as a trajectory of order 12."""
-    K, g, q = [request.angular_momentum], [request.gamma], [body]
+    K, g = [request.angular_momentum], [request.gamma]
+    q: list[Any] = [False if body is False else request.first_attitude]
     for k in range(frames):
         try:
             found = extrapolate(request.ball, K[-1], g[-1], step, every, columns=COLUMNS, attitude=q[-1])

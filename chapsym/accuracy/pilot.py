@@ -7,16 +7,15 @@ shortest step that rounding leaves alone; between the measured steps it is taken
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
-from chapsym.dynamics import BadInput, StepNotTaken, Trajectory, front
+from chapsym.dynamics import BadInput, Ball, StepNotTaken, Trajectory, front
 from chapsym.dynamics.ball import Floats
 from chapsym.numbers import NAMED
 
 from .methods import Method, take
-from .request import Request, distance
+from .request import Request, distance, lengths
 
 #: The pilot turns the ball by so many radians, or to the end.
 ANGLE = 24.0
@@ -78,7 +77,7 @@ def surveyed(request: Request) -> Request:
 
     Raises StepNotTaken if no step can be taken, and BadInput if the ball has no angular velocity.
     """
-    at_start = _lengths(_omega(request, request.angular_momentum, request.gamma))
+    at_start = float(lengths(_omega(request, request.angular_momentum, request.gamma)))
     if at_start == 0.0:
         return replace(request, condition=1.0)
     window, length = min(request.time, ANGLE / at_start), 0.2
@@ -91,8 +90,9 @@ def surveyed(request: Request) -> Request:
             if length < SHORTEST:
                 raise
     omega = _omega(request, run.angular_momentum(), run.gamma)
-    rates, rolling = _lengths(omega), _lengths(np.cross(omega, run.gamma))
-    tensor, contact, g = request.ball.inertia, float(request.ball.D), run.gamma[:, :, np.newaxis]
+    rates, rolling = lengths(omega), lengths(np.cross(omega, run.gamma))
+    ball, g = _scaled(request.ball)[0], run.gamma[:, :, np.newaxis]
+    tensor, contact = ball.inertia, float(ball.D)
     values = np.linalg.eigvalsh(np.diag(tensor + contact) - contact * g * g.mT)
     condition = float((values[:, -1] / np.maximum(values[:, 0], 1e-300)).max())
     return replace(
@@ -101,15 +101,23 @@ def surveyed(request: Request) -> Request:
 
 
 def _omega(request: Request, K: Floats, gamma: Floats) -> Floats:
+    ball, moment = _scaled(request.ball)
+    size = int(np.frexp(abs(K).max())[1])
     with np.errstate(all="ignore"):
-        omega = front.angular_velocity(K, gamma, request.ball.mass_tensor, request.ball.D)
-    if not np.isfinite(omega).all():
+        unit = front.angular_velocity(np.ldexp(K, -size), gamma, ball.mass_tensor, ball.D)
+        omega = np.ldexp(unit, size - moment)
+        turned = lengths(omega) * request.time
+    if not np.isfinite(unit).all():
         raise BadInput("the ball has no angular velocity at this gamma: no inertia about the vertical")
+    if not np.isfinite(turned).all():
+        raise BadInput("the ball turns too fast for float64: |ω|, or |ω|T, is beyond 1.8e308; take other units")
     return omega
 
 
-def _lengths(v: Floats) -> Any:
-    return np.sqrt((v * v).sum(axis=-1))
+def _scaled(ball: Ball) -> tuple[Ball, int]:
+    """The ball in units in which its largest moment is about 1, and the power of two that was left out."""
+    power = int(np.frexp(ball.inertia.max() / 2 + ball.D / 2)[1])
+    return Ball(np.ldexp(ball.mass_tensor, -power), np.ldexp(ball.D, -power)), power
 
 
 def pilot(request: Request, orders: Iterable[int]) -> dict[int, Law]:

@@ -7,6 +7,7 @@ is farther from its guess and the lemma that proves it at once does not cover th
 import contextlib
 import hashlib
 import json
+import math
 import os
 import platform
 import time
@@ -14,6 +15,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from statistics import median
+from typing import Any
 
 import numpy as np
 import platformdirs
@@ -145,13 +147,32 @@ def load_prices(progress: Callable[[str], None] = lambda text: None) -> Prices:
     try:
         found = json.loads(kept.read_text(encoding="utf-8"))
         if found["version"] == VERSION:
-            return Prices(found["calls"], {k: [(float(x), float(y)) for x, y in v] for k, v in found["steps"].items()})
-    except (OSError, ValueError, KeyError, TypeError):
+            return _checked(found["calls"], found["steps"])
+    except (OSError, ValueError, KeyError, TypeError, AttributeError, OverflowError, RecursionError):
         pass
     progress("taking this machine's prices, once: some seconds")
     fresh = calibrate(progress)
     save(fresh, kept)
     return fresh
+
+
+def _checked(calls: Any, steps: Any) -> Prices:
+    """Prices from plain data; raises ValueError or TypeError for what `calibrate` cannot have written."""
+    for name in ("double/2/state", "double/2/body", "quad/2/state", "quad/2/body"):
+        if name not in steps or name.replace("/2", "") not in calls:
+            raise ValueError(f"no price of {name}")
+    priced = {name: [(_price(x), _price(y)) for x, y in points] for name, points in steps.items()}
+    for points in priced.values():
+        lengths = [x for x, _ in points]
+        if not lengths or lengths != sorted(set(lengths)) or not all(y > 0 for _, y in points) or not lengths[0] > 0:
+            raise ValueError("prices must be positive, of ascending lengths")
+    return Prices({name: _price(x) for name, x in calls.items()}, priced)
+
+
+def _price(value: Any) -> float:
+    if isinstance(value, bool) or not isinstance(value, int | float) or not 0 <= value < math.inf:
+        raise ValueError(f"{value!r} is no price")
+    return float(value)
 
 
 def save(prices: Prices, to: Path) -> None:

@@ -10,7 +10,7 @@ import numpy as np
 from chapsym.dynamics import BadInput, Ball, Trajectory
 from chapsym.dynamics.ball import Floats, numbers
 from chapsym.dynamics.map import batch, unit_vertical
-from chapsym.dynamics.trajectories import initial_attitude
+from chapsym.dynamics.trajectories import attitude_with, initial_attitude
 from chapsym.numbers import Digits, Rung
 
 #: What the accuracy may be of.
@@ -61,15 +61,24 @@ class Request:
             raise BadInput(f"frames must be a whole number from 1 on, not {self.frames!r}")
         if self.accuracy < FINEST:
             raise BadInput(f"accuracy must be at least {FINEST:g}: the compositions' coefficients have 40 digits")
-        if self.with_body:
-            given = self.attitude if np.ndim(self.attitude) else True
-            object.__setattr__(self, "attitude", initial_attitude(given, g[0]))
+        if not isinstance(self.attitude, bool | np.bool_):
+            object.__setattr__(self, "attitude", initial_attitude(self.attitude, g[0]))
+        elif self.with_body:
+            # Left to the run: every rung makes the least rotation in its own numbers.  What squares to nothing turns a
+            # rung of wider range by another half turn than float64, where γ is upside down.
+            object.__setattr__(self, "attitude", True)
+            object.__setattr__(self, "gamma", np.where(abs(self.gamma) < 1e-150, 0.0, self.gamma))
 
     @property
     def with_body(self) -> bool:
         """Whether the attitude must be followed."""
         given = not isinstance(self.attitude, bool | np.bool_)
         return given or bool(self.attitude) or self.of == "contact"
+
+    @property
+    def first_attitude(self) -> Floats:
+        """The attitude at the start in float64, a unit quaternion, (4,)."""
+        return attitude_with(self.gamma) if isinstance(self.attitude, bool | np.bool_) else np.asarray(self.attitude)
 
     @property
     def angle(self) -> float:
@@ -113,11 +122,11 @@ def rounding(rung: Rung) -> float:
 def distance(request: Request, run: Trajectory, other: Trajectory) -> Floats:
     """How far apart two runs are in the request's norm, at each of their common frames but the first, (frames,)."""
     if request.of == "contact":
-        return _lengths(_difference(request, run, other, "contact"))
-    size = float(np.sqrt((request.angular_momentum**2).sum())) or 1.0
+        return lengths(_difference(request, run, other, "contact"))
+    size = float(lengths(request.angular_momentum)) or 1.0
     return np.maximum(
-        _lengths(_difference(request, run, other, "momentum")) / size,
-        _lengths(_difference(request, run, other, "gamma")),
+        lengths(_difference(request, run, other, "momentum")) / size,
+        lengths(_difference(request, run, other, "gamma")),
     )
 
 
@@ -126,8 +135,12 @@ def _difference(request: Request, run: Trajectory, other: Trajectory, name: str)
     return (a - b).astype(float)[1:]
 
 
-def _lengths(v: Floats) -> Floats:
-    return np.sqrt((v * v).sum(axis=-1))
+def lengths(v: np.ndarray) -> Floats:
+    """The lengths of vectors, (..., n) floats or Fractions, whose squares float64 need not hold; (...)."""
+    v = v.astype(float)
+    largest = abs(v).max(axis=-1, keepdims=True)
+    unit = v / np.where(largest > 0, largest, 1.0)
+    return np.asarray(np.sqrt((unit * unit).sum(axis=-1)) * largest[..., 0])
 
 
 def exact_values(request: Request, run: Trajectory, name: str) -> np.ndarray:

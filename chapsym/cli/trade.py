@@ -1,5 +1,7 @@
 """chapsym trade: what speed costs in accuracy, and the cheapest run for an accuracy."""
 
+import math
+import re
 import sys
 from pathlib import Path
 from typing import Annotated, Any
@@ -80,6 +82,9 @@ def _answer(
     from chapsym.dynamics import BadInput
     from chapsym.scene.files import check_destination
 
+    _check_positive({"--accuracy": accuracy, "--time": time, "--limit": limit})
+    if scene is None and time is None:
+        fail("--accuracy needs --time, in seconds", 2)
     try:
         if output is not None:
             check_destination(output)
@@ -90,7 +95,7 @@ def _answer(
             scenes.save(answer.trajectory, output)
     except BadInput as error:
         quiet()
-        fail(str(error), 2)
+        fail(_in_options(str(error), scene is None), 2)
     quiet()
     if as_json:
         print_json(described(answer))
@@ -98,20 +103,40 @@ def _answer(
         print_answer(answer)
 
 
+def _check_positive(given: dict[str, float | None]) -> None:
+    for name, value in given.items():
+        if value is not None and not 0 < value < math.inf:
+            fail(f"{name} must be a positive number, not {value:g}", 2)
+
+
+def _in_options(sentence: str, all_of_it: bool) -> str:
+    """A sentence about a scene in the words of the command; without a scene file all keys are options."""
+    if not all_of_it:
+        return sentence.replace("run.accuracy needs run.time", "--accuracy needs --time, or run.time")
+    sentence = re.sub(r"\b(?:ball|start|run)\.(\w+)(?:\.\d)?", lambda key: "--" + key[1].replace("_", "-"), sentence)
+    return sentence.removeprefix("the scene: ")
+
+
 def _described(accuracy: float, time: float | None, told: dict[str, str]) -> Any:
     """A scene from the options of the command."""
     from chapsym import scene as scenes
 
-    ball, start = {"inertia": (0.006, 0.007, 0.009), "mass": 2.0, "radius": 0.1}, {}
+    start: dict[str, Any] = {}
+    ball: dict[str, Any] = {"inertia": (0.006, 0.007, 0.009), "mass": 2.0, "radius": 0.1}
     if set(told) & {"--mass-tensor", "--inertia", "--D", "--mass", "--radius"}:
         J, D = ball_from(*(told.get(f"--{name}") for name in ("mass-tensor", "inertia", "D", "mass", "radius")))
-        ball = {"mass_tensor": tuple(map(float, J)), "D": float(D)}
+        ball = {"mass_tensor": _texts(J), "D": str(D)}
         if "--radius" in told:
-            ball["radius"] = float(rationals(told["--radius"], "--radius", 1)[0])
-    start["omega"] = tuple(map(float, rationals(told.get("--omega", "3,-2,1"), "--omega", 3)))
-    start["gamma"] = tuple(map(float, rationals(told.get("--gamma", "2/7,3/7,6/7"), "--gamma", 3)))
+            ball["radius"] = str(rationals(told["--radius"], "--radius", 1)[0])
+    start["omega"] = _texts(rationals(told.get("--omega", "3,-2,1"), "--omega", 3))
+    start["gamma"] = _texts(rationals(told.get("--gamma", "2/7,3/7,6/7"), "--gamma", 3))
     run = {"accuracy": accuracy, "time": time, "contact": "radius" in ball}
     return scenes.checked({"ball": ball, "start": start, "run": {k: v for k, v in run.items() if v is not None}})
+
+
+def _texts(values: Any) -> tuple[str, ...]:
+    """Exact numbers as a scene reads them, which refuses what float64 does not hold."""
+    return tuple(map(str, values))
 
 
 def described(answer: Any) -> dict[str, Any]:

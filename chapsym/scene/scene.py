@@ -26,7 +26,9 @@ def _number(value: Any) -> Any:
             if abs(found) < sys.float_info.min and Fraction(found) != exact:
                 raise ValueError("it is below 2.2e-308, where float64 loses its digits; take other units")
             return found
-        except (NotANumber, OverflowError) as error:
+        except OverflowError:
+            raise ValueError("it is beyond the range of float64") from None
+        except NotANumber as error:
             raise ValueError(str(error)) from None
     if isinstance(value, bool) or not isinstance(value, int | float):
         raise ValueError('it must be a number, or a string such as "2/7"')

@@ -25,11 +25,13 @@ LAST = 3
 
 
 def continuous(
-    ball: Ball, angular_momentum: Floats, gamma: Floats, attitude: Floats, times: Sequence[Fraction], digits: int
-) -> np.ndarray:
+    ball: Ball, angular_momentum: Floats, gamma: Floats, attitude: Floats | None, times: Sequence[Fraction],
+    digits: int,
+) -> np.ndarray:  # fmt: skip
     """K (kg m²/s), γ and the contact point (m) at ascending times (s): Fractions, (times, 8).
 
-    attitude: a quaternion, body to space.  All floats are taken as exact, γ and the attitude divided by their length.
+    attitude: a quaternion, body to space; None for the least rotation that turns γ up.  All floats are taken as
+    exact, γ and the attitude divided by their length.
     digits: of the state, at every time; `error` of two runs with other digits tells whether they are there.
     """
     bits = int((digits + GUARD) * 3.33) + 8
@@ -37,7 +39,8 @@ def continuous(
         J, D = [_number(x) for x in ball.mass_tensor], _number(ball.D)
         radius = _number(0.0 if ball.radius is None else ball.radius)
         K, g = [_number(x) for x in angular_momentum], _unit([_number(x) for x in gamma])
-        state = [*K, *g, *_axes(_unit([_number(x) for x in attitude])), flint.arb(0), flint.arb(0)]
+        first = _least(*g) if attitude is None else [_number(x) for x in attitude]
+        state = [*K, *g, *_axes(_unit(first)), flint.arb(0), flint.arb(0)]
         inverse, terms = [1 / (sum(J) - x + D) for x in J], max(8, int(TERMS_PER_DIGIT * digits))
         # K may be of any size, and the error of a step is that of its last terms, relative to the state.
         sizes = [max(abs(x) for x in K)] * 3 + [flint.arb(1)] * 9
@@ -114,6 +117,14 @@ def _axes(q: Sequence[Any]) -> list[Any]:
     s, x, y, z = q
     first = [s * s + x * x - y * y - z * z, 2 * (x * y - s * z), 2 * (x * z + s * y)]
     return [*first, 2 * (x * y + s * z), s * s - x * x + y * y - z * z, 2 * (y * z - s * x)]
+
+
+def _least(x: Any, y: Any, z: Any) -> list[Any]:
+    """A quaternion of the least rotation that turns a unit vector up; from upside down about e₁."""
+    across = x * x + y * y
+    if across == 0 and z < 0:
+        return [flint.arb(0), flint.arb(1), flint.arb(0), flint.arb(0)]
+    return [1 + z if z > 0 else across / (1 - z), y, -x, flint.arb(0)]
 
 
 def _unit(v: Sequence[Any]) -> list[Any]:

@@ -15,10 +15,8 @@ from chapsym.accuracy import Accurate, Method, Prices, Request, accurate, load_p
 from chapsym.accuracy.methods import CHECKS, checks
 from chapsym.accuracy.pilot import surveyed
 from chapsym.accuracy.prices import sample
-from chapsym.accuracy.request import exact_values
+from chapsym.accuracy.request import exact_values, lengths
 from chapsym.dynamics import BadInput, Ball, StepNotTaken, Trajectory, front
-from chapsym.dynamics.ball import Floats
-from chapsym.dynamics.trajectories import attitude_with
 from chapsym.numbers import NAMED
 
 from .reference import continuous
@@ -89,7 +87,7 @@ def truth(request: Request, digits: int = 0) -> np.ndarray:
     """K, γ and the contact point at the times of comparison, (checks + 1, 8) Fractions."""
     wanted = digits or math.ceil(-math.log10(request.accuracy) + math.log10(1 + request.angle)) + BEYOND
     times = [Fraction(request.time) * k / CHECKS for k in range(CHECKS + 1)]
-    attitude = request.attitude if request.with_body else attitude_with(request.gamma)
+    attitude = None if isinstance(request.attitude, bool | np.bool_) else request.attitude
     return continuous(request.ball, request.angular_momentum, request.gamma, attitude, times, wanted)
 
 
@@ -97,15 +95,10 @@ def true_error(request: Request, run: Trajectory, exact: np.ndarray) -> float:
     """The error of a run in the request's norm, at the worst time of comparison that is a frame of the run."""
     exact = exact[:: CHECKS // (len(run.index) - 1)]
     if request.of == "contact":
-        return float(_lengths(exact_values(request, run, "contact") - exact[:, 6:]).max())
-    size = float(np.sqrt((request.angular_momentum**2).sum()))
-    momentum = _lengths(exact_values(request, run, "momentum") - exact[:, :3]) / size
-    return float(max(momentum.max(), _lengths(exact_values(request, run, "gamma") - exact[:, 3:6]).max()))
-
-
-def _lengths(v: np.ndarray) -> Floats:
-    f = v.astype(float)
-    return np.sqrt((f * f).sum(axis=-1))
+        return float(lengths(exact_values(request, run, "contact") - exact[:, 6:]).max())
+    size = float(lengths(request.angular_momentum))
+    momentum = lengths(exact_values(request, run, "momentum") - exact[:, :3]) / size
+    return float(max(momentum.max(), lengths(exact_values(request, run, "gamma") - exact[:, 3:6]).max()))
 
 
 def judge(request: Request, prices: Prices, compare: bool = True) -> Outcome:
