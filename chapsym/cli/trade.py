@@ -118,25 +118,20 @@ def _in_options(sentence: str, all_of_it: bool) -> str:
 
 
 def _described(accuracy: float, time: float | None, told: dict[str, str]) -> Any:
-    """A scene from the options of the command."""
+    """A scene from the options of the command; it reads exact numbers, and refuses what float64 does not hold."""
     from chapsym import scene as scenes
 
     start: dict[str, Any] = {}
     ball: dict[str, Any] = {"inertia": (0.006, 0.007, 0.009), "mass": 2.0, "radius": 0.1}
     if set(told) & {"--mass-tensor", "--inertia", "--D", "--mass", "--radius"}:
         J, D = ball_from(*(told.get(f"--{name}") for name in ("mass-tensor", "inertia", "D", "mass", "radius")))
-        ball = {"mass_tensor": _texts(J), "D": str(D)}
+        ball = {"mass_tensor": list(map(str, J)), "D": str(D)}
         if "--radius" in told:
             ball["radius"] = str(rationals(told["--radius"], "--radius", 1)[0])
-    start["omega"] = _texts(rationals(told.get("--omega", "3,-2,1"), "--omega", 3))
-    start["gamma"] = _texts(rationals(told.get("--gamma", "2/7,3/7,6/7"), "--gamma", 3))
+    start["omega"] = list(map(str, rationals(told.get("--omega", "3,-2,1"), "--omega", 3)))
+    start["gamma"] = list(map(str, rationals(told.get("--gamma", "2/7,3/7,6/7"), "--gamma", 3)))
     run = {"accuracy": accuracy, "time": time, "contact": "radius" in ball}
     return scenes.checked({"ball": ball, "start": start, "run": {k: v for k, v in run.items() if v is not None}})
-
-
-def _texts(values: Any) -> tuple[str, ...]:
-    """Exact numbers as a scene reads them, which refuses what float64 does not hold."""
-    return tuple(map(str, values))
 
 
 def described(answer: Any) -> dict[str, Any]:

@@ -25,5 +25,6 @@ def run_accurately(scene: Scene, progress: Callable[[str], None] = lambda text: 
         raise SceneError("K = Λω - D⟨ω,γ⟩γ is beyond the range of float64, about 1.8e308; take other units")
     return accurate(
         ball, K, start.gamma, wanted.time, wanted.accuracy, of=wanted.of or ("contact" if wanted.contact else "state"),
-        frames=wanted.frames or 1, attitude=wanted.attitude, limit=600.0 if wanted.limit is None else wanted.limit, progress=progress,
+        frames=wanted.frames or 1, attitude=wanted.attitude, limit=600.0 if wanted.limit is None else wanted.limit,
+        progress=progress,
     )  # fmt: skip

@@ -1,8 +1,10 @@
 """Accuracy on demand: targets are met, fooled pilots are found out, and what cannot be had is refused."""
 
+import json
 from dataclasses import replace
 from fractions import Fraction
 
+import mpmath
 import numpy as np
 import pytest
 
@@ -11,10 +13,11 @@ import chapsym.numbers
 from chapsym.accuracy import Method, Prices, Request, accurate, choices, distance, take
 from chapsym.accuracy import prices as pricing
 from chapsym.accuracy.pilot import Law, pilot, surveyed
-from chapsym.accuracy.request import as_fractions
+from chapsym.accuracy.request import as_fractions, exact_values
 from chapsym.accuracy.search import Search
 from chapsym.dynamics import BadInput, front
 from chapsym.numbers import NAMED
+from chapsym.studies.trade.reference import continuous
 from chapsym.studies.trade.requests import true_error, truth
 
 BALL = chapsym.Ball.from_inertia((0.006, 0.007, 0.009), mass=2.0, radius=0.1)
@@ -152,6 +155,18 @@ def test_distance_sees_what_float64_does_not():
         ({"ball": chapsym.Ball((1, 2, 4), 3)}, "the contact point needs the radius"),
         ({"K": np.ones((2, 3))}, "an accuracy is asked for one ball"),
         ({"ball": chapsym.Ball((0, 0, 1), 3, 0.1), "gamma": (0, 0, 1)}, "no inertia about the vertical"),
+        ({"limit": True}, "limit must be a positive number of seconds"),
+        ({"limit": np.float64("nan")}, "limit must be a positive number of seconds"),
+        ({"attitude": "x"}, "attitude must be real numbers"),
+        ({"attitude": None}, "attitude must be real numbers"),
+        ({"attitude": 1}, "attitude must have 4 components"),
+        ({"time": 1e-320}, "a step of ε = T/n is below 1e-271"),
+        ({"time": 1e-320, "K": 1e300 * K}, "a step of ε = T/n is below 1e-271"),
+        ({"time": 1e-15, "K": 1e-300 * K}, "εK is below 1e-271"),
+        ({"time": 1e-15, "K": 1e-300 * K, "of": "state"}, "εK is below 1e-271"),
+        ({"K": 1e160 * K}, "it takes too many steps"),
+        ({"K": (1e308, 1e308, 0)}, "the ball turns too fast for float64"),
+        ({"K": (1e300, 1e300, 0), "time": 1e10}, "the ball turns too fast for float64"),
     ],
 )
 def test_what_cannot_be_met_is_refused_with_a_sentence(options, sentence):
@@ -161,6 +176,56 @@ def test_what_cannot_be_met_is_refused_with_a_sentence(options, sentence):
         accurate(*named, prices=PRICES, **given)
     assert sentence in str(caught.value)
     assert "\n" not in str(caught.value)
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("scale", [1e160, 1e-200])
+def test_moments_whose_squares_leave_float64_are_followed(scale):
+    """|ΔK|/|K| was NaN for the one, and |ΔK| for the other."""
+    ball = chapsym.Ball(scale * BALL.mass_tensor, scale * BALL.D, BALL.radius)
+    answer = accurate(ball, scale * K, GAMMA, 5.0, 1e-9, prices=PRICES)
+    assert [a.estimate for a in answer.attempts] == [a.estimate for a in answer.attempts if a.estimate > 1e-14]
+    assert error_of(answer) <= answer.estimate <= 1e-9
+
+
+def test_a_tiny_angular_velocity_is_no_rest():
+    answer = accurate(BALL, 1e-170 * K, GAMMA, 5e170, 1e-9, prices=PRICES)
+    plain = asked(1e-9, "state")
+    np.testing.assert_allclose(answer.trajectory.gamma[-1], plain.trajectory.gamma[-1], atol=2e-9)
+
+
+@pytest.mark.parametrize("way", [1.0, -1.0])
+def test_a_contact_beyond_float64_starts_from_the_exact_least_rotation(way):
+    """In float64 the least rotation is off by 1e-16, and so was the contact point, beside an accuracy of 1e-19."""
+    ball, g = chapsym.Ball((1, 2, 4), 3.0, 0.1), way * np.array([9.0, 6.0, 2.0]) / 11
+    momentum = front.contact_momentum((1.0, 2.0, -3.0), g, ball.mass_tensor, ball.D)
+    answer = accurate(ball, momentum, g, 6.0, 1e-19, of="contact", prices=PRICES)
+    with mpmath.workdps(40):
+        x, y, z = (mpmath.mpf(float(v)) for v in g)
+        size = mpmath.sqrt(x * x + y * y + z * z)
+        x, y, z = x / size, y / size, z / size
+        half = mpmath.sqrt((1 + z) / 2)
+        exact = [half, y / (2 * half), -x / (2 * half), mpmath.mpf(0)]
+        start = [mpmath.mpf(float(a)) + float(b) for a, b in
+                 zip(answer.trajectory.attitude[0], answer.trajectory.low.attitude[0], strict=True)]  # fmt: skip
+        assert max(abs(a - b) for a, b in zip(start, exact, strict=True)) < 1e-30
+        given = [Fraction(int(v.man_exp[0])) * Fraction(2) ** v.man_exp[1] * (-1 if v < 0 else 1) for v in exact]
+    times = [Fraction(6)]
+    true = continuous(ball, momentum, g, given, times, 25)[0]
+    assert abs(continuous(ball, momentum, g, None, times, 25)[0] - true).max() < Fraction(1, 10**25)
+    off = exact_values(answer.request, answer.trajectory, "contact")[-1] - true[6:]
+    assert abs(off).max() <= Fraction(1, 10**19)
+
+
+def test_upside_down_every_rung_turns_about_the_first_axis():
+    """γ = (1e-160, 1e-160, -1) is upside down in float64; double-double, which sees more, would take another axis."""
+    request = surveyed(Request(BALL, K, (1e-160, 1e-160, -1.0), 1.0, 1e-9, "contact"))
+    runs = [take(request, Method(NAMED[name], 4), 1600, 16) for name in ("double", "quad")]
+    assert distance(request, *runs).max() < 1e-9
+
+
+def test_a_limit_of_numpy_is_a_limit():
+    assert asked(1e-6, limit=np.int64(3)).estimate <= 1e-6
 
 
 def test_prices_are_kept_whole_and_taken_anew_if_they_are_broken(tmp_path, monkeypatch):
@@ -177,6 +242,27 @@ def test_prices_are_kept_whole_and_taken_anew_if_they_are_broken(tmp_path, monke
         (tmp_path / "deep" / "prices.json").write_text(broken)
         assert pricing.load_prices() == PRICES
     assert len(taken) == 6
+    calls, steps, key = dict(PRICES.calls), dict(PRICES.steps), "double/2/state"
+    less = {k: v for k, v in steps.items() if k != key}
+    inside = [([], steps), ({}, steps), (calls, []), (calls, {}), (calls, less), (calls | {"double/body": -1.0}, steps)]
+    inside += [(calls | {"quad/body": value}, steps) for value in (np.nan, np.inf, "1", None, True, 10**400)]
+    wrong = (
+        [],
+        [[0.1, -1.0]],
+        [[0.1, np.nan]],
+        [[0.1, "1"]],
+        [[0.1, 0.0]],
+        [[0.0, 1.0]],
+        [[0.2, 1.0], [0.1, 1.0]],
+        3,
+        {},
+    )
+    inside += [(calls, steps | {key: points}) for points in wrong]
+    for count, (some, others) in enumerate(inside):
+        text = json.dumps({"version": pricing.VERSION, "calls": some, "steps": others})
+        (tmp_path / "deep" / "prices.json").write_text(text)
+        assert pricing.load_prices() == PRICES
+        assert len(taken) == 7 + count, text
     assert [p.name for p in (tmp_path / "deep").iterdir()] == ["prices.json"]
 
 

@@ -174,9 +174,9 @@ def test_run_prints_the_choice_of_a_scene(tmp_path):
         (["nothing"], "there is no section 'nothing'"),
         (["--time", "3"], "--time goes with --accuracy"),
         (["--omega", "1,2,3"], "--omega goes with --accuracy"),
-        (["--accuracy", "1e-6"], "run.accuracy needs run.time"),
-        (["--accuracy", "-1", "--time", "3"], "run.accuracy must be greater than 0"),
-        (["--accuracy", "nan", "--time", "3"], "run.accuracy must be finite"),
+        (["--accuracy", "1e-6"], "--accuracy needs --time, in seconds"),
+        (["--accuracy", "-1", "--time", "3"], "--accuracy must be a positive number, not -1"),
+        (["--accuracy", "nan", "--time", "3"], "--accuracy must be a positive number, not nan"),
         (["--accuracy", "1e-50", "--time", "3"], "accuracy must be at least 1e-30"),
         (["--accuracy", "1e-6", "--time", "1e12", "--limit", "1"], "but the limit is 1 s"),
         (["--accuracy", "1e-6", "--time", "3", FIRST, FIRST], "one scene at most"),
@@ -185,6 +185,15 @@ def test_run_prints_the_choice_of_a_scene(tmp_path):
         (["--accuracy", "1e-6", "--time", "3", "--omega", "1,2"], "--omega"),
         (["--accuracy", "1e-6", "--time", "3", "-o", "run.txt"], "the output must end in"),
         (["--accuracy", "1e-6", "--time", "3", "missing.toml"], "cannot be read"),
+        (["--accuracy", "1e-6", "--time", "0"], "--time must be a positive number, not 0"),
+        (["--accuracy", "1e-6", "--time", "3", "--limit", "0"], "--limit must be a positive number, not 0"),
+        (["--accuracy", "1e-6", "--time", "3", "--omega", "1e400,1,1"], "--omega: it is beyond the range of float64"),
+        (["--accuracy", "1e-6", "--time", "3", "--omega", "1e-400,1,1"], "--omega: it is below 2.2e-308"),
+        (
+            ["--accuracy", "1e-6", "--time", "3", "--inertia", "1e308,1e308,1e308", "--D", "1", "--of", "state"],
+            "beyond",
+        ),
+        (["--accuracy", "1e-6", "--time", "3", "--omega", "1e160,1,1"], "it takes too many steps"),
         (["contact", "-o", "figure.txt"], "a figure must end in"),
         (["requests", "-o", "figure.svg"], "have a figure"),
         (["contact", "-o", "/nowhere/figure.svg"], "does not exist"),
@@ -195,4 +204,5 @@ def test_bad_input_gets_one_sentence(arguments, sentence):
     assert done.returncode == 2, done.stdout + done.stderr
     assert done.stdout == ""
     assert sentence in done.stderr.splitlines()[-1]
+    assert "run." not in done.stderr
     assert done.stderr.count("\n") <= 2  # a fresh cache tells that it takes prices
