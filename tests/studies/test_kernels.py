@@ -131,20 +131,30 @@ def test_by_a_row_the_determinant_is_lost_and_by_the_vertical_it_is_not():
 
 
 def test_the_search_climbs(monkeypatch):
-    """Towards a smooth peak Hypothesis' target gets nearer than its examples alone, the same way every time."""
+    """Onto a needle in the unit square, 1/distance: `target` reaches its very tip, samples do not come within 1e-4.
 
-    def peak(kernel, function, at, truth):
-        return {"": 2.0 ** (-6 * ((at[0] - 0.3) ** 2 + (at[1] + 0.5) ** 2 + (at[3] - 2.2) ** 2 + (at[4] - 1.3) ** 2))}
+    What Hypothesis draws depends on what modules are loaded; that it climbs does not: 6 of 6 seeds came to 6e5, their
+    samples alone to 3 to 45.
+    """
+    needle = (0.7, 0.31)
+    monkeypatch.setattr(search, "DRAWN", 2)
+    monkeypatch.setattr(search, "arguments", lambda kernel, stratum, drawn: list(drawn))
+    monkeypatch.setattr(search, "exact", lambda *_: errors.Exact({}, {}, {"": 1.0}))
+    monkeypatch.setattr(
+        search, "ulps",
+        lambda kernel, function, at, truth: {
+            "": 1 / (2.0**-20 + sum(abs(x - c) for x, c in zip(at, needle, strict=True)))
+        },
+    )  # fmt: skip
 
     def best():
-        return max(w.share for w in search.searched("vertical_square", function, function, 300)[""])
+        return max(w.share for w in search.searched("vertical_square", None, None, 600)[""])
 
-    function = TABLE["vertical_square"][0]
-    monkeypatch.setattr(search, "ulps", peak)
     climbed = best()
     assert climbed == best()
+    assert climbed > 1e5
     monkeypatch.setattr(hypothesis, "target", lambda *args, **kwargs: None)
-    assert climbed > 1.5 * best()
+    assert best() < 1e4
 
 
 def test_measured_rows():
