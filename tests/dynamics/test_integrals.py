@@ -45,9 +45,12 @@ def test_the_integrals_come_back(state, off):
     array[9:12] = np.array(off[3:]) * 2.0**-53
     integrals.restore(array)
     assert (array[:6] == vectors).all()
-    for found, wanted, scale in zip(exact(array), kept(array), scales, strict=True):
+    # Where 𝒦 and γ are nearly parallel their angle is left, which 99 units in each component turn by 4·99 at most.
+    sine = np.linalg.norm(np.cross(array[0:3], array[3:6])) / size if size else 0.0
+    left = 4 * 99 * 2.0**-53 * sine if sine * sine <= 1.01 * integrals.VERTICAL else 0.0
+    for found, wanted, scale, more in zip(exact(array), kept(array), scales, [0.0, left, 0.0], strict=True):
         # The corrections are rounded to 53 bits of 1e2 units, and divided by sin² of the angle of 𝒦 and γ.
-        assert abs(float(found - wanted)) <= 1e-24 * scale / integrals.VERTICAL
+        assert abs(float(found - wanted)) <= (1e-24 / integrals.VERTICAL + more) * scale
 
 
 def test_rest_has_nothing_to_restore():
