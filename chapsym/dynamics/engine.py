@@ -97,7 +97,7 @@ class Loops:
 DOUBLE = Loops()
 
 
-class _Count:
+class Count:
     """Adds up the steps that the threads have taken, and tells them when to stop."""
 
     def __init__(self, progress: Callable[[int], None]) -> None:
@@ -105,6 +105,7 @@ class _Count:
         self.stopped = False
 
     def add(self, steps: int) -> None:
+        """So many steps more."""
         with self._lock:
             self._done += steps
             self._progress(self._done)
@@ -119,7 +120,7 @@ def run(
     order: of the composition, 2 for the map itself.  threads: how many cores to use; 0 for all that there are.
     loops: whose numbers are those of the balls and of the frames.
     """
-    count, n, stages = _Count(progress), len(balls), substeps(order).astype(loops.dtype)
+    count, n, stages = Count(progress), len(balls), substeps(order).astype(loops.dtype)
     if steps == 0 or n == 0:
         return
     work = steps * n * len(stages)
@@ -135,12 +136,12 @@ def run(
         else:
             _run_one(balls, start, steps, every, frames, loops, stages, work, count)
 
-    workers = min(threads or _cores(), len(starts)) if work >= SHORT_RUN else 1
+    workers = min(threads or cores(), len(starts)) if work >= SHORT_RUN else 1
     if workers == 1:
         for start in starts:
             task(start)
         return
-    _share(task, starts, workers, count)
+    share(task, starts, workers, count)
 
 
 def chosen(functions: Sequence[Callable], work: int) -> list[Callable]:
@@ -165,12 +166,12 @@ def has_numba() -> bool:
     return find_spec("numba") is not None
 
 
-def _cores() -> int:
+def cores() -> int:
     """The cores that this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
-def _share(task: Callable[[int], None], starts: range, workers: int, count: _Count) -> None:
+def share(task: Callable[[int], None], starts: range, workers: int, count: Count) -> None:
     """Runs the tasks in threads, some at a time for each; an interrupt stops each at its next chunk."""
     several = max(1, len(starts) // (workers * SHARES))
 
@@ -191,7 +192,7 @@ def _share(task: Callable[[int], None], starts: range, workers: int, count: _Cou
 
 
 def _run_one(
-    balls: Balls, i: int, steps: int, every: int, frames: Frames, loops: Loops, stages: Floats, work: int, count: _Count
+    balls: Balls, i: int, steps: int, every: int, frames: Frames, loops: Loops, stages: Floats, work: int, count: Count
 ) -> None:
     K, g, J, D = balls.momentum[i], balls.gamma[i], balls.mass_tensor[i], loops.number(balls.D[i])
     march, state, scale = _under_way(K, g, J, D, loops, stages, work)
@@ -234,7 +235,7 @@ def explained(status: int, K: Floats, g: Floats, J: Floats, D: float) -> Status:
     return explain(status, K.astype(np.float64), g.astype(np.float64), J.astype(np.float64), float(D))
 
 
-def _run_block(balls: Balls, which: slice, steps: int, every: int, frames: Frames, loops: Loops, count: _Count) -> None:
+def _run_block(balls: Balls, which: slice, steps: int, every: int, frames: Frames, loops: Loops, count: Count) -> None:
     n = which.stop - which.start
     march, prepare, lanes = loops.columns.march_columns, loops.columns.prepare_columns, n
     if has_numba():

@@ -10,7 +10,7 @@ from chapsym.numbers import Pair
 from . import quad_block, quad_loop
 from .ball import Floats
 from .coefficients import COMPOSITIONS, substeps
-from .engine import Balls, Frames, _cores, _Count, _share, chosen, has_numba
+from .engine import Balls, Count, Frames, chosen, cores, has_numba, share
 from .errors import Status
 from .map import explain
 
@@ -29,7 +29,7 @@ def run(
     low = frames.low
     assert low is not None
     stages = coefficients(order)
-    count, n = _Count(progress), len(balls)
+    count, n = Count(progress), len(balls)
     work = steps * n * len(stages)
     in_blocks = n >= FEW and not frames.with_body and order == 2 and work >= SHORT_RUN and has_numba()
     width = quad_block.LANES if in_blocks else 1
@@ -46,9 +46,9 @@ def run(
         else:
             _run_one(loops, balls, start, steps, every, frames, low, stages, count)
 
-    workers = min(threads or _cores(), len(starts)) if work >= SHORT_RUN else 1
+    workers = min(threads or cores(), len(starts)) if work >= SHORT_RUN else 1
     if workers > 1:
-        _share(task, starts, workers, count)
+        share(task, starts, workers, count)
     else:
         with np.errstate(all="ignore"):  # what no rotation has overflows, and is refused
             for start in starts:
@@ -107,7 +107,7 @@ def _begin(frames: Frames, low: Frames, i: int, state: Floats, rest: Floats | No
 
 def _run_one(
     loops: list[Callable], balls: Balls, i: int, steps: int, every: int, frames: Frames, low: Frames, stages: Floats,
-    count: _Count,
+    count: Count,
 ) -> None:  # fmt: skip
     march, prepare = loops
     K, g, J, D = balls.momentum[i], balls.gamma[i], balls.mass_tensor[i], float(balls.D[i])
@@ -135,7 +135,7 @@ def _run_one(
 
 def _run_block(
     loops: list[Callable], balls: Balls, which: slice, steps: int, every: int, frames: Frames, low: Frames,
-    stages: Floats, count: _Count,
+    stages: Floats, count: Count,
 ) -> None:  # fmt: skip
     march, prepare = loops
     n = which.stop - which.start
