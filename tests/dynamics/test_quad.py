@@ -326,3 +326,25 @@ def test_against_digits(order):
     one, exact = (chapsym.step(BALL, K, GAMMA, precision=p) for p in ("quad", Digits(40)))
     for name in ("rotation", "momentum", "gamma"):
         assert off(whole(getattr(one, name), getattr(one.low, name)), map(HIGH.mpf, getattr(exact, name))) <= 8
+
+
+def takes(ball, momentum, gamma, precision):
+    try:
+        chapsym.step(ball, momentum, gamma, precision=precision)
+    except StepNotTaken:
+        return False
+    return True
+
+
+def test_beside_a_fold_pairs_say_what_forty_digits_say():
+    """float64's continuation ends some roundings before a fold or behind it; pairs see on which side 𝒦 is."""
+    rng, taken = np.random.default_rng(5), 0
+    for _ in range(12):
+        (tensor, contact), gamma = check._ball(rng), check._unit(rng)
+        far = check._unit(rng) * 100 * (tensor.sum() + contact)
+        ball, fold = chapsym.Ball(tensor, contact), far * check._reach(far, gamma, tensor, contact)
+        for beyond in (3e-16, 4e-15):
+            found = takes(ball, fold * (1 + beyond), gamma, "quad")
+            assert found == takes(ball, fold * (1 + beyond), gamma, Digits(40))
+            taken += found
+    assert 0 < taken < 24
