@@ -22,10 +22,10 @@ ROOMS = {
     "codegen": {"derive", "generated"},
     "dynamics": {"generated", "numbers"},
     "accuracy": {"dynamics", "files", "generated", "numbers"},
-    "scene": {"accuracy", "dynamics", "exact", "files"},
+    "scene": {"accuracy", "dynamics", "exact", "files", "generated", "numbers"},
     "studies": {"accuracy", "generated", "numbers", "dynamics", "scene"},
     "proofs": {"derive", "prove"},
-    "report": set(),
+    "report": {"scene"},
     "testing": {"dynamics"},
 }
 #: Who may import more than its room: the study of the kernels runs their texts with and without each codegen pass.

@@ -1,0 +1,1 @@
+"""The models that a scene may need: one file each, the least first."""
