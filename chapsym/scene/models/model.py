@@ -1,0 +1,51 @@
+"""What a model is: a way to follow the balls of a scene, and when it serves."""
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Mapping
+from typing import ClassVar
+
+import numpy as np
+
+from ..members import Members
+from ..task import Columns, Task
+
+#: What the next segment needs: arrays by name, each (balls, ...); `taken` and `status` are always there.
+State = dict[str, np.ndarray]
+Progress = Callable[[int], None]
+
+
+class Model(ABC):
+    """A way to follow balls; without fields, so that its name says all.
+
+    name: as the plan tells it.  about: what it leaves out or knows, one clause.
+    columns: what it can follow.  kernels: the generated ones in its loops, for each column that it follows.
+    stepwise: whether its cost grows with the steps (else with the frames).
+    whole: whether it must run in one segment, as its state has more than float64 arrays.
+    unit_steps: steps of all balls in one unit of work: a second or two, which is what a killed run loses at most.
+    """
+
+    name: ClassVar[str]
+    about: ClassVar[str]
+    columns: ClassVar[frozenset[str]]
+    kernels: ClassVar[Mapping[str, tuple[str, ...]]] = {}
+    stepwise: ClassVar[bool] = True
+    whole: ClassVar[bool] = False
+    unit_steps: ClassVar[int] = 2**27
+
+    @abstractmethod
+    def refuses(self, members: Members, task: Task, needed: frozenset[str]) -> str | None:
+        """Why this model does not serve these balls and columns, in a clause; None if it does."""
+
+    def begin(self, members: Members, task: Task, needed: frozenset[str]) -> State:
+        """The state at the start."""
+        n = len(members)
+        return {"taken": np.zeros(n, dtype=np.int64), "status": np.zeros(n, dtype=np.int64)}
+
+    @abstractmethod
+    def advance(
+        self, members: Members, task: Task, needed: frozenset[str], state: State, segment: slice, progress: Progress
+    ) -> tuple[Columns, State]:
+        """The frames of a segment, (balls, frames, ...) of each column, in principal axes, and the state after it.
+
+        Frames of a ball after its `taken` are NaN.  The state that is given is left as it is.
+        """
