@@ -1,6 +1,6 @@
 """A ball rolled to an accuracy: rung, order and step chosen from measured prices, and the result verified on itself."""
 
-from .answer import Accurate, accurate
+from .answer import Accurate, accurate, foreseen
 from .choice import Choice, choices
 from .methods import Method, methods, take
 from .prices import Prices, load_prices
@@ -8,6 +8,6 @@ from .request import Request, distance
 from .search import Attempt
 
 __all__ = [
-    "Accurate", "Attempt", "Choice", "Method", "Prices", "Request", "accurate", "choices", "distance", "load_prices",
-    "methods", "take",
+    "Accurate", "Attempt", "Choice", "Method", "Prices", "Request", "accurate", "choices", "distance", "foreseen",
+    "load_prices", "methods", "take",
 ]  # fmt: skip

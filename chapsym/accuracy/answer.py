@@ -92,14 +92,8 @@ def accurate(
     started = clock.thread_time()
     request = Request(ball, angular_momentum, gamma, time, accuracy, of, frames, attitude)  # type: ignore[arg-type]
     _positive_limit(limit)
-    known = prices or load_prices(progress)
-    progress("a pilot run")
-    try:
-        request = surveyed(request)
-        search = Search(request, pilot(request, (EXACT, *COMPOSED)), known)
-        search.consider_extrapolation()
-    except StepNotTaken as error:
-        raise BadInput(f"the ball cannot be followed at all: {error.status.sentence}") from None
+    search = _search(request, prices or load_prices(progress), progress)
+    request = search.request
     for _ in range(MOST_ATTEMPTS):
         choice = search.choose(limit - (clock.thread_time() - started), limit)
         progress(choice.sentence())
@@ -109,6 +103,38 @@ def accurate(
             return Accurate(kept, request, search.attempts, clock.thread_time() - started)
     best = min(one.estimate for one in search.attempts)
     raise BadInput(f"no run was verified to {accuracy:g} in {MOST_ATTEMPTS} attempts; the best differed by {best:.2g}")
+
+
+def foreseen(
+    ball: Ball,
+    angular_momentum: ArrayLike,
+    gamma: ArrayLike,
+    time: float,
+    accuracy: float,
+    *,
+    of: str = "state",
+    frames: int = 1,
+    attitude: bool | ArrayLike = False,
+    limit: float = 600.0,
+    prices: Prices | None = None,
+    progress: Callable[[str], None] = lambda text: None,
+) -> Choice:
+    """What `accurate` would try first, by a pilot run alone; arguments and errors as there."""
+    request = Request(ball, angular_momentum, gamma, time, accuracy, of, frames, attitude)  # type: ignore[arg-type]
+    _positive_limit(limit)
+    return _search(request, prices or load_prices(progress), progress).choose(limit, limit)
+
+
+def _search(request: Request, prices: Prices, progress: Callable[[str], None]) -> Search:
+    """The choices that a survey and a pilot run leave."""
+    progress("a pilot run")
+    try:
+        request = surveyed(request)
+        search = Search(request, pilot(request, (EXACT, *COMPOSED)), prices)
+        search.consider_extrapolation()
+    except StepNotTaken as error:
+        raise BadInput(f"the ball cannot be followed at all: {error.status.sentence}") from None
+    return search
 
 
 def _positive_limit(limit: Any) -> None:

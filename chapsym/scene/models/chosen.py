@@ -1,8 +1,10 @@
 """The continuous motion to an accuracy: rung, order and step are chosen for each ball, and the result is verified."""
 
+from typing import Any
+
 import numpy as np
 
-from chapsym.accuracy import accurate
+from chapsym.accuracy import accurate, foreseen
 from chapsym.dynamics import Ball
 from chapsym.dynamics.ball_n import BallN
 
@@ -41,18 +43,26 @@ class Chosen(Model):
         progress(task.steps * len(members))
         return columns, state | {"taken": state["taken"] + task.steps, "error": np.array([error for _, error in runs])}
 
+    def seconds(self, members: Members, task: Task, needed: frozenset[str]) -> float:
+        """What the choice for the first ball is expected to take, for all."""
+        ball, start, options = self._request(members, 0, task, needed)
+        return foreseen(ball, *start, **options).seconds * len(members)
+
     @staticmethod
-    def _one(members: Members, i: int, task: Task, needed: frozenset[str]) -> tuple[Columns, float]:
-        """The columns of one ball, and the bound of its error by comparison."""
+    def _request(members: Members, i: int, task: Task, needed: frozenset[str]) -> tuple[Ball, Any, dict[str, Any]]:
+        """The arguments of `accurate` for one ball."""
         whole = members.ball
         ball = Ball(whole.mass_tensor[i], whole.D[i], None if whole.radius is None else whole.radius[i])
         given = None if members.attitude is None else members.attitude[i]
         with_body = "attitude" in needed or (given is not None and "contact" in needed)
-        answer = accurate(
-            ball, members.momentum[i], members.gamma[i], task.time, task.accuracy,  # type: ignore[arg-type]
-            of=task.of, frames=task.frames - 1, attitude=(True if given is None else given) if with_body else False,
-            limit=task.limit,
-        )  # fmt: skip
+        start = members.momentum[i], members.gamma[i], task.time, task.accuracy
+        body = (True if given is None else given) if with_body else False
+        return ball, start, {"of": task.of, "frames": task.frames - 1, "attitude": body, "limit": task.limit}
+
+    def _one(self, members: Members, i: int, task: Task, needed: frozenset[str]) -> tuple[Columns, float]:
+        """The columns of one ball, and the bound of its error by comparison."""
+        ball, start, options = self._request(members, i, task, needed)
+        answer = accurate(ball, *start, **options)
         run = answer.trajectory
         columns = {name: np.asarray(getattr(run, name), dtype=np.float64) for name in needed if name != "momentum"}
         if "momentum" in needed:

@@ -41,6 +41,10 @@ class Model(ABC):
         n = len(members)
         return {"taken": np.zeros(n, dtype=np.int64), "status": np.zeros(n, dtype=np.int64)}
 
+    def seconds(self, members: Members, task: Task, needed: frozenset[str]) -> float | None:
+        """What a run is expected to take, where the model knows it without a pilot run."""
+        return None
+
     @abstractmethod
     def advance(
         self, members: Members, task: Task, needed: frozenset[str], state: State, segment: slice, progress: Progress

@@ -1,0 +1,69 @@
+"""What a plan will cost, beside the model that follows everything: by short runs of both, of the very balls."""
+
+import time as clock
+from dataclasses import dataclass, replace
+
+from chapsym.dynamics import Ball
+
+from .columns import asked_for
+from .models import General, Rolling
+from .outputs import OUTPUTS, PER_BALL, columns_for
+from .plan import Plan
+
+#: Balls of a pilot run at most, and seconds from which on it tells enough.
+BALLS, ENOUGH = 512, 0.02
+
+
+@dataclass(frozen=True)
+class Cost:
+    """seconds: of the clock, on this machine, without the disk.  bytes: of the outputs, uncompressed."""
+
+    seconds: float
+    bytes: int
+
+
+def full(plan: Plan) -> Plan:
+    """The plan of the same frames with the model that follows everything: every output that it can give."""
+    model = Rolling() if isinstance(plan.members.ball, Ball) else General()
+    timed = plan.task.time_step is not None and plan.members.dimension == 3
+    left_out = {"phase"} | PER_BALL | (set() if plan.members.ball.radius is not None else {"contact"})
+    left_out |= set() if timed else {"omega", "energy"}
+    outputs = tuple(name for name in OUTPUTS if name not in left_out)
+    return replace(plan, model=model, task=replace(plan.task, outputs=outputs), needed=columns_for(outputs, False))
+
+
+def predicted(plan: Plan) -> Cost:
+    """The cost of a plan; of one that asks for an accuracy as the choice expects it."""
+    known = plan.model.seconds(plan.members, plan.task, plan.needed)
+    return Cost(_extrapolated(plan) if known is None else known, plan.bytes)
+
+
+def _extrapolated(plan: Plan) -> float:
+    """Seconds of a whole run, from the last two of pilot runs of twice the length each."""
+    chunk = slice(0, min(BALLS, len(plan.members)))
+    share = len(plan.members) / (chunk.stop - chunk.start)
+    work = plan.task.steps if plan.model.stepwise else plan.frames
+    _pilot(plan, chunk, 1)  # compiles what is not compiled yet
+    part, before = min(32, work), 0.0
+    while True:
+        took = _pilot(plan, chunk, part)
+        if took >= ENOUGH or part >= work:
+            break
+        part, before = min(2 * part, work), took
+    if part >= work:
+        return took * share
+    slope = max(took - before, took / 4) / (part / 2)
+    return (took + slope * (work - part)) * share
+
+
+def _pilot(plan: Plan, chunk: slice, part: int) -> float:
+    """Seconds of some balls for a part of the work: steps, or frames of a model that needs no steps between them."""
+    every = plan.task.every
+    steps = part if plan.model.stepwise else part * every
+    task = replace(plan.task, steps=steps, every=min(every, max(steps, 1)))
+    members = plan.members.of(chunk)
+    started = clock.perf_counter()
+    state = plan.model.begin(members, task, plan.needed)
+    columns, _ = plan.model.advance(members, task, plan.needed, state, slice(0, task.frames), lambda steps: None)
+    asked_for(members, task, columns)
+    return clock.perf_counter() - started

@@ -1,0 +1,162 @@
+"""The plan: what it follows, its units of work, and that a cut run is the whole one."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from chapsym.generated import TABLE
+
+import chapsym
+from chapsym.dynamics import Status, front
+from chapsym.scene import plan as plans
+from chapsym.scene import segments
+from chapsym.scene.models import MODELS, Rolling
+from chapsym.scene.outputs import OUTPUTS, PER_BALL, columns_for
+from chapsym.scene.plan import planned
+from chapsym.scene.task import Task
+
+STATE = ("momentum", "gamma", "attitude", "contact", "omega", "energy", "integrals")
+
+
+def rolled(plan, cut=None):
+    """All outputs of all balls, each segment from the state that the one before left."""
+    whole = slice(0, len(plan.members))
+    state, parts = segments.begin(plan, whole), []
+    for segment in cut or plan.segments:
+        columns, state = segments.advance(plan, whole, state, segment)
+        parts.append(columns)
+    return {name: np.concatenate([part[name] for part in parts], axis=1) for name in parts[0]}, state
+
+
+def test_a_cut_run_is_the_whole_one_up_to_roundings(members):
+    plan = planned(members(), Task(STATE, 1000, 10, 0.01))
+    whole, end = rolled(plan, [slice(0, 101)])
+    parts, also = rolled(plan, [slice(0, 1), slice(1, 40), slice(40, 100), slice(100, 101)])
+    assert (end["taken"] == 1000).all()
+    assert (also["taken"] == 1000).all()
+    for name in STATE:  # a thousand steps of some roundings each, at random
+        assert whole[name].shape == parts[name].shape
+        assert np.abs(whole[name] - parts[name]).max() <= 100 * 2**-53 * max(np.abs(whole[name]).max(), 1)
+
+
+def test_the_map_is_that_of_trajectory_to_the_bit(members):
+    some = members()
+    columns, _ = rolled(planned(some, Task(STATE, 100, 3, 0.01)))
+    run = chapsym.trajectory(some.ball, some.momentum, some.gamma, 100, every=3, contact=True, time_step=0.01)
+    for name in ("momentum", "gamma", "attitude", "contact"):
+        assert (columns[name] == getattr(run, name)).all()
+    assert (columns["energy"] == run.kinetic_energy()).all()
+
+
+def test_only_what_is_asked_for_is_followed_and_kept(members):
+    plan = planned(members(), Task(("energy",), 100, 1, 0.01))
+    assert plan.needed == {"momentum", "gamma"}
+    assert plan.numbers == 1
+    assert set(rolled(plan)[0]) == {"energy"}
+    state = segments.begin(plan, slice(0, 3))
+    assert not {"attitude", "contact"} & set(state)
+    assert columns_for(("omega",), top=True) == {"momentum"}
+    assert columns_for(("omega", "integrals"), top=True) == {"momentum", "gamma"}
+
+
+def test_a_ball_that_stops_is_NaN_from_there_on_and_says_why(members):
+    some = members()
+    faster = some.momentum.copy()
+    faster[0] *= 26.25  # it folds at its 35th step
+    plan = planned(replace(some, momentum=faster), Task(STATE, 50, 5, 0.01))
+    columns, state = rolled(plan, [slice(0, 4), slice(4, 11)])
+    assert state["status"].tolist() == [Status.FOLDED, Status.TAKEN, Status.TAKEN]
+    assert state["taken"].tolist() == [35, 50, 50]
+    stop = 8
+    for name in STATE:
+        assert np.isnan(columns[name][0, stop:]).all()
+        assert not np.isnan(columns[name][1:]).any()
+        assert not np.isnan(columns[name][0, :stop]).any()
+
+
+def test_outputs_are_in_the_axes_that_were_given(members):
+    some = members()
+    turn = np.array([[0.5, 0.5, 0.5, 0.5]] * 3)  # e1 -> e2 -> e3 -> e1
+    plain, _ = rolled(planned(some, Task(STATE, 20, 1, 0.01)))
+    turned, _ = rolled(planned(replace(some, axes=turn), Task(STATE, 20, 1, 0.01)))
+    for name in ("momentum", "gamma", "omega"):
+        assert np.abs(turned[name] - plain[name][..., [2, 0, 1]]).max() <= 4 * 2**-53 * np.abs(plain[name]).max()
+    for name in ("contact", "energy", "integrals"):
+        assert (turned[name] == plain[name]).all()
+    vertical = front.rotate(turned["attitude"], turned["gamma"])
+    assert np.abs(vertical - [0, 0, 1]).max() < 1e-14
+    in_space = front.rotate(turned["attitude"], turned["omega"])
+    assert np.abs(in_space - front.rotate(plain["attitude"], plain["omega"])).max() < 1e-14
+
+
+def test_the_contact_point_starts_where_the_ball_was_put(members):
+    some = members()
+    place = np.array([[1.0, 2.0]] * 3)
+    plain, _ = rolled(planned(some, Task(("contact",), 20, 1, 0.01)), [slice(0, 5), slice(5, 21)])
+    moved, _ = rolled(planned(replace(some, place=place), Task(("contact",), 20, 1, 0.01)), [slice(0, 5), slice(5, 21)])
+    assert (moved["contact"][:, 0] == place).all()
+    assert np.abs(moved["contact"] - plain["contact"] - place[:, np.newaxis]).max() < 1e-15
+
+
+def test_the_units_of_work_hold_each_ball_and_frame_once(members, monkeypatch):
+    monkeypatch.setattr(plans, "CHUNK", 4)
+    monkeypatch.setattr(plans, "UNIT_NUMBERS", 4 * 7 * 10)
+    plan = planned(members(10), Task(("momentum", "attitude"), 95, 1))
+    balls = np.concatenate([np.arange(10)[chunk] for chunk in plan.chunks])
+    frames = np.concatenate([np.arange(96)[segment] for segment in plan.segments])
+    assert balls.tolist() == list(range(10))
+    assert frames.tolist() == list(range(96))
+    assert max(s.stop - s.start for s in plan.segments) == 10
+
+
+@pytest.mark.parametrize("model", MODELS, ids=lambda model: model.name)
+def test_models_name_kernels_that_there_are_and_columns_that_are_outputs(model):
+    assert {kernel for of in model.kernels.values() for kernel in of} <= set(TABLE)
+    assert set(model.kernels) <= model.columns
+    assert model.columns <= {column for output in OUTPUTS.values() for column in output.needs}
+
+
+def test_outputs_name_kernels_that_there_are():
+    assert {kernel for output in OUTPUTS.values() for kernel in output.kernels} <= set(TABLE)
+    assert set(OUTPUTS) >= PER_BALL
+
+
+@pytest.mark.parametrize(
+    ("changed", "sentence"),
+    [
+        ({"outputs": ("speed",)}, "'speed' is no output; choose of momentum, gamma"),
+        ({"outputs": ()}, "outputs is empty"),
+        ({"outputs": ("omega",), "time_step": None}, "omega needs run.time_step"),
+    ],
+)
+def test_what_cannot_be_had_is_told(members, changed, sentence):
+    task = Task(**({"outputs": ("momentum",), "steps": 5, "time_step": 0.01} | changed))
+    with pytest.raises(chapsym.BadInput, match=sentence):
+        planned(members(), task)
+
+
+def test_a_contact_point_needs_a_radius(members):
+    with pytest.raises(chapsym.BadInput, match="needs the radius"):
+        planned(members(radius=None), Task(("contact",), 5))
+
+
+def test_an_accuracy_is_met_by_what_is_chosen_for_each_ball(members):
+    some = members(2)
+    some = replace(some, momentum=some.momentum / 0.01, place=np.array([[1.0, 0.0]] * 2))
+    task = Task(("contact", "momentum"), 4, accuracy=1e-7, time=2.0, of="contact")
+    plan = planned(some, task)
+    assert plan.model.name == "chosen for the accuracy"
+    assert plan.chunks == [slice(0, 1), slice(1, 2)]
+    for chunk in plan.chunks:
+        (segment,) = plan.segments
+        columns, state = segments.advance(plan, chunk, segments.begin(plan, chunk), segment)
+        assert columns["contact"].shape == (1, 5, 2)
+        assert state["error"][0] <= 1e-7
+        one, place = some.of(chunk), np.zeros((1, 2))
+        fine = Rolling().run(
+            replace(one, momentum=one.momentum * 2e-4), Task(("contact",), 10_000, 2500, 2e-4, order=8),
+            {"momentum": one.momentum * 2e-4, "gamma": one.gamma, "attitude": Rolling().attitude(one), "contact": place},
+            10_000, lambda steps: None,
+        )  # fmt: skip
+        assert np.abs(columns["contact"] - [1, 0] - fine.contact).max() < 1e-7
+        assert np.abs(columns["momentum"] - fine.momentum / 2e-4).max() < 1e-7
