@@ -18,6 +18,10 @@ from chapsym.scene.task import Task
 STATE = ("momentum", "gamma", "attitude", "contact", "omega", "energy", "integrals")
 
 
+def quiet(steps):
+    pass
+
+
 def rolled(plan, cut=None):
     """All outputs of all balls, each segment from the state that the one before left."""
     whole = slice(0, len(plan.members))
@@ -153,10 +157,10 @@ def test_an_accuracy_is_met_by_what_is_chosen_for_each_ball(members):
         assert columns["contact"].shape == (1, 5, 2)
         assert state["error"][0] <= 1e-7
         one, place = some.of(chunk), np.zeros((1, 2))
+        attitude = Rolling().attitude(one)
         fine = Rolling().run(
             replace(one, momentum=one.momentum * 2e-4), Task(("contact",), 10_000, 2500, 2e-4, order=8),
-            {"momentum": one.momentum * 2e-4, "gamma": one.gamma, "attitude": Rolling().attitude(one), "contact": place},
-            10_000, lambda steps: None,
+            {"momentum": one.momentum * 2e-4, "gamma": one.gamma, "attitude": attitude, "contact": place}, 10_000, quiet,
         )  # fmt: skip
         assert np.abs(columns["contact"] - [1, 0] - fine.contact).max() < 1e-7
         assert np.abs(columns["momentum"] - fine.momentum / 2e-4).max() < 1e-7
