@@ -160,7 +160,8 @@ def test_an_accuracy_is_met_by_what_is_chosen_for_each_ball(members):
         attitude = Rolling().attitude(one)
         fine = Rolling().run(
             replace(one, momentum=one.momentum * 2e-4), Task(("contact",), 10_000, 2500, 2e-4, order=8),
-            {"momentum": one.momentum * 2e-4, "gamma": one.gamma, "attitude": attitude, "contact": place}, 10_000, quiet,
+            {"momentum": one.momentum * 2e-4, "gamma": one.gamma, "attitude": attitude, "contact": place},
+            10_000, quiet,
         )  # fmt: skip
         assert np.abs(columns["contact"] - [1, 0] - fine.contact).max() < 1e-7
         assert np.abs(columns["momentum"] - fine.momentum / 2e-4).max() < 1e-7
