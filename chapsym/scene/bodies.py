@@ -1,7 +1,7 @@
 """The mass tensors ∫xxᵀdm of bodies, and the principal axes of a tensor.
 
-A body is a batch: masses and lengths are arrays (...), vectors (..., 3), and its tensor is (..., 3) where it is diagonal
-in the axes that the user gave, else (..., 3, 3).  Every centre of mass is the centre of the ball.
+A body is a batch: masses and lengths are arrays (...), vectors (..., 3), and its tensor is (..., 3) where it is
+diagonal in the axes that the user gave, else (..., 3, 3).  Every centre of mass is the centre of the ball.
 """
 
 from collections.abc import Callable, Mapping
@@ -66,9 +66,9 @@ def dumbbell(given: Mapping[str, Floats]) -> Floats:
 def bowling(given: Mapping[str, Floats]) -> Floats:
     """A homogeneous ball; in it a cuboid block with its middle at block_offset, and a counterweight.
 
-    Assumed: block_mass is what the block has beyond the core that it displaces; its edges block_size are along the axes.
-    The counterweight is a point on the surface, opposite to the block, of the mass block_mass |offset|/ρ, which brings
-    the centre of mass to the centre, as the rules of bowling ask for.  The rest of the mass is the homogeneous ball.
+    Assumed: block_mass is what the block has beyond the core that it displaces; its edges block_size are along the
+    axes.  The counterweight is a point on the surface, opposite to the block, of the mass block_mass |offset|/ρ, which
+    brings the centre of mass to the centre.  The rest of the mass is the homogeneous ball.
     ∫xxᵀdm = m₀ρ²/5 + block_mass (diag(size²)/12 + oo ᵀ) + block_mass |o| ρ ôôᵀ for the offset o = |o| ô.
     """
     block, size, offset, radius = (given[name] for name in ("block_mass", "block_size", "block_offset", "radius"))
@@ -116,8 +116,8 @@ def check_inside(mass_tensor: Floats, mass: Floats, radius: Floats) -> None:
     if outside.any():
         raise BadInput(
             f"some of its mass is outside of the ball: J1 + J2 + J3 = {trace[outside].flat[0]:.4g} kg m² is more than "
-            f"mass radius² = {most[outside].flat[0]:.4g}; did you mean other units? (for a body that reaches beyond its "
-            "rolling radius, give D = mass radius² in the place of mass)"
+            f"mass radius² = {most[outside].flat[0]:.4g}; did you mean other units? (for a body that reaches beyond "
+            "its rolling radius, give D = mass radius² in the place of mass)"
         )
 
 

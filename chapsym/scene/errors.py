@@ -41,7 +41,7 @@ def described(
 ) -> str:  # fmt: skip
     """All problems that pydantic found in `data`, one sentence each; `keys` has those of each table."""
     one_ball = not isinstance(data.get("ball"), list)
-    told = []
+    told: list[str] = []
     for error in errors[:MOST_PROBLEMS]:
         path = _in_file(error, one_ball)
         where = place(name if not told else "", text, path)

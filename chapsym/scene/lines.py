@@ -63,10 +63,9 @@ class _Ends:
 def _has(data: Any, path: Sequence[str | int]) -> bool:
     """Whether the data have something at a path of keys and, in arrays, indices."""
     for part in path:
-        if isinstance(data, dict) and part in data:
-            data = data[part]
-        elif isinstance(data, list) and isinstance(part, int) and part < len(data):
-            data = data[part]
-        else:
+        in_table = isinstance(data, dict) and part in data
+        in_list = isinstance(data, list) and isinstance(part, int) and part < len(data)
+        if not (in_table or in_list):
             return False
+        data = data[part]
     return True

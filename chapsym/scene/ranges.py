@@ -34,7 +34,8 @@ class Range:
         """The values of a range that spans a dimension, (count,)."""
         if self.kind == "grid":
             return np.array(self.values)
-        return np.linspace(*self.values, self.count)
+        first, last = self.values
+        return np.linspace(first, last, self.count)
 
     def draw(self, count: int, generator: np.random.Generator) -> Floats:
         """`count` values of a range that is drawn; sums and products only, so that machines agree."""
@@ -63,7 +64,7 @@ def value(given: Any, dimension: Dimension) -> Value:
     return _READ[kind](numbers, lambda x: number(x, dimension))
 
 
-def _linspace(given: list[Any], read: Callable[[Any], float]) -> Range:
+def _linspace(given: Any, read: Callable[[Any], float]) -> Range:
     if len(given) != 3 or isinstance(given[2], bool) or not isinstance(given[2], int) or given[2] < 1:
         raise ValueError("linspace takes [a, b, n]: the first value, the last, and how many (a whole number from 1 on)")
     if given[2] > MOST_BALLS:
@@ -71,13 +72,13 @@ def _linspace(given: list[Any], read: Callable[[Any], float]) -> Range:
     return Range("linspace", (read(given[0]), read(given[1])), given[2])
 
 
-def _grid(given: list[Any], read: Callable[[Any], float]) -> Range:
+def _grid(given: Any, read: Callable[[Any], float]) -> Range:
     if not given:
         raise ValueError("grid takes one value or more")
     return Range("grid", tuple(map(read, given)), len(given))
 
 
-def _random(given: list[Any], read: Callable[[Any], float]) -> Range:
+def _random(given: Any, read: Callable[[Any], float]) -> Range:
     if len(given) != 2:
         raise ValueError("random takes [a, b]: the draws lie between them")
     found = Range("random", (read(given[0]), read(given[1])))
@@ -86,7 +87,7 @@ def _random(given: list[Any], read: Callable[[Any], float]) -> Range:
     return found
 
 
-def _normal(given: list[Any], read: Callable[[Any], float]) -> Range:
+def _normal(given: Any, read: Callable[[Any], float]) -> Range:
     if len(given) != 2:
         raise ValueError("normal takes [mean, deviation]")
     found = Range("normal", (read(given[0]), read(given[1])))
@@ -95,7 +96,7 @@ def _normal(given: list[Any], read: Callable[[Any], float]) -> Range:
     return found
 
 
-_READ: dict[str, Callable[[list[Any], Callable[[Any], float]], Range]] = {
+_READ: dict[str, Callable[[Any, Callable[[Any], float]], Range]] = {
     "linspace": _linspace, "grid": _grid, "random": _random, "normal": _normal,
 }  # fmt: skip
 

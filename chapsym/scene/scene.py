@@ -44,7 +44,7 @@ class Scene(Table):
     ball: Balls
     start: StartTable | None = Field(None, description="The start of every ball that has none of its own.")
     run: RunTable
-    sweep: SweepTable = Field(SweepTable(), description="How ranges that are drawn make balls.")
+    sweep: SweepTable = Field(SweepTable.model_validate({}), description="How ranges that are drawn make balls.")
 
     _name: str = PrivateAttr("")
     _toml: str | None = PrivateAttr(None)

@@ -8,8 +8,22 @@ from .bodies import PRESETS
 from .errors import At
 from .outputs import OUTPUTS
 from .quantities import (
-    Inertia, Length, Lengths2, Lengths3, Mass, Moment, MomentsN, Momentum, Omega, Positive, PureN, Quantity,
-    Quaternion, Rate, Seconds, Speeds2,
+    Inertia,
+    Length,
+    Lengths2,
+    Lengths3,
+    Mass,
+    Moment,
+    MomentsN,
+    Momentum,
+    Omega,
+    Positive,
+    PureN,
+    Quantity,
+    Quaternion,
+    Rate,
+    Seconds,
+    Speeds2,
 )  # fmt: skip
 
 Count = Annotated[int, Field(strict=True, ge=0)]
@@ -213,8 +227,8 @@ KEYS: dict[str, Any] = {
 def units_of(key: str) -> str:
     """The SI unit of a dotted key such as "start.omega.1"."""
     table, name = key.split(".")[:2]
-    fields = {"ball": BallTable, "start": StartTable}[table].model_fields
-    return _units(Annotated[fields[name].annotation, *fields[name].metadata])  # type: ignore[name-defined]
+    owner: type[Table] = BallTable if table == "ball" else StartTable
+    return _units(owner.model_fields[name].annotation)
 
 
 def _units(annotation: Any) -> str:

@@ -91,7 +91,7 @@ def _registry() -> Any:
     """pint's units with exact factors; loaded when a scene first has a unit."""
     import pint
 
-    units = pint.UnitRegistry(non_int_type=Fraction)
+    units: Any = pint.UnitRegistry(non_int_type=Fraction)
     units.define("@alias revolution = rev")
     return units
 

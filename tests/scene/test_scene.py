@@ -47,7 +47,7 @@ def test_the_shipped_scene_runs():
 @pytest.mark.parametrize(
     ("old", "new", "sentence"),
     [
-        ("steps = 10", "steps = 10\nstep = 1", "line 9: run.step is not a key of [run]; did you mean steps?"),
+        ("steps = 10", "steps = 10\nstep = 1", "line 10: run.step is not a key of [run]; did you mean steps?"),
         ("steps = 10", "", "run.steps is missing"),
         ("steps = 10", "steps = -1", "run.steps must be at least 0"),
         ("steps = 10", "steps = 1.5", "run.steps must be a whole number"),
