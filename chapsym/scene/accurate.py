@@ -2,12 +2,10 @@
 
 from collections.abc import Callable
 
-import numpy as np
-
 from chapsym.accuracy import Accurate, accurate
-from chapsym.dynamics import front
 
-from .scene import Scene, SceneError
+from .expand import expand
+from .scene import Scene, SceneError, single
 
 
 def run_accurately(scene: Scene, progress: Callable[[str], None] = lambda text: None) -> Accurate:
@@ -16,15 +14,12 @@ def run_accurately(scene: Scene, progress: Callable[[str], None] = lambda text: 
     K = Λω - D⟨ω,γ⟩γ is rounded to float64 once, and is exact from there on, as J, D and γ/|γ| are.
     Raises BadInput where the accuracy cannot be had.
     """
-    wanted, start, ball = scene.run, scene.start, scene.ball.ball()
-    if wanted.accuracy is None or wanted.time is None or start.omega is None:
+    wanted = scene.run
+    if wanted.accuracy is None or wanted.time is None:
         raise SceneError("the scene asks for no accuracy: give run.accuracy, run.time and start.omega")
-    with np.errstate(over="ignore", invalid="ignore"):
-        K = front.contact_momentum(start.omega, start.gamma, ball.mass_tensor, ball.D)
-    if not np.isfinite(K).all():
-        raise SceneError("K = Λω - D⟨ω,γ⟩γ is beyond the range of float64, about 1.8e308; take other units")
+    members, task = expand(scene), scene.task()
     return accurate(
-        ball, K, start.gamma, wanted.time, wanted.accuracy, of=wanted.of or ("contact" if wanted.contact else "state"),
-        frames=wanted.frames or 1, attitude=wanted.attitude, limit=600.0 if wanted.limit is None else wanted.limit,
-        progress=progress,
+        single(members), members.momentum[0], members.gamma[0], wanted.time, wanted.accuracy, of=task.of,
+        frames=task.steps, attitude=wanted.attitude if members.attitude is None else members.attitude[0],
+        limit=task.limit, progress=progress,
     )  # fmt: skip

@@ -1,226 +1,219 @@
-"""Scene files in TOML: parameters, the initial state, the number of steps, the output."""
+"""Scene files in TOML: the balls, how they start, how long they roll, and what is kept of it."""
 
+import json
+import re
 import sys
 import tomllib
 from collections.abc import Callable
-from fractions import Fraction
+from copy import deepcopy
 from pathlib import Path
-from typing import Annotated, Any, Literal, Self
+from typing import Annotated, Any, Self
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, model_validator
+from pydantic import BeforeValidator, Field, PrivateAttr, ValidationError, model_validator
 
-from chapsym.dynamics import BadInput, Ball, Trajectory, roll, trajectory
-from chapsym.exact import NotANumber, rational
+from chapsym.dynamics import Ball, Trajectory, trajectory
 
+from .errors import At, SceneError, described, place
+from .expand import expand
+from .ranges import ranges_in
+from .tables import KEYS, BallTable, RunTable, StartTable, SweepTable, Table
+from .task import Task
+from .units import TIME, number
 
-class SceneError(BadInput):
-    """The scene cannot be run as it is written."""
-
-
-def _number(value: Any) -> Any:
-    """A TOML number, or a string such as "2/7", as a float."""
-    if isinstance(value, str):
-        try:
-            exact: Fraction = rational(value, "value")
-            found = float(exact)
-            if abs(found) < sys.float_info.min and Fraction(found) != exact:
-                raise ValueError("it is below 2.2e-308, where float64 loses its digits; take other units")
-            return found
-        except OverflowError:
-            raise ValueError("it is beyond the range of float64") from None
-        except NotANumber as error:
-            raise ValueError(str(error)) from None
-    if isinstance(value, bool) or not isinstance(value, int | float):
-        raise ValueError('it must be a number, or a string such as "2/7"')
-    if isinstance(value, int) and abs(value) > 10**300:
-        raise ValueError("it is beyond the range of float64")
-    return value
+#: A longer text is no scene that anybody wrote.
+MOST_BYTES = 10_000_000
 
 
-def _toml_float(text: str) -> Any:
-    """A float, or its text where float64 has not all digits: then `_number` says so, with the key."""
-    value = float(text)
-    return text.replace("_", "") if abs(value) < sys.float_info.min else value
+def _one_or_many(given: Any) -> Any:
+    """The balls as a list: [ball] is one of one."""
+    return given if isinstance(given, list | tuple) else [given]
 
 
-Number = Annotated[float, BeforeValidator(_number), Field(allow_inf_nan=False)]
-Vector = tuple[Number, Number, Number]
-Count = Annotated[int, Field(strict=True, ge=0)]
+Balls = Annotated[
+    tuple[BallTable, ...],
+    Field(min_length=1, description="A ball; or several, each [[ball]]."),
+    BeforeValidator(_one_or_many, json_schema_input_type=BallTable | list[BallTable]),
+]
 
 
-class _Table(BaseModel):
-    model_config = ConfigDict(extra="forbid", frozen=True)
+class Scene(Table):
+    """A whole scene, checked as it is written; `expand` makes the balls of it, `task` what is asked for."""
 
-
-class BallTable(_Table):
-    """[ball]: mass_tensor or inertia; D, or mass and radius."""
-
-    mass_tensor: Vector | None = None
-    inertia: Vector | None = None
-    D: Number | None = None
-    mass: Number | None = None
-    radius: Number | None = None
-
-    @model_validator(mode="after")
-    def _one_tensor(self) -> Self:
-        if (self.mass_tensor is None) == (self.inertia is None):
-            raise ValueError("give either mass_tensor or inertia")
-        return self
-
-    def ball(self) -> Ball:
-        """The ball."""
-        given = {"mass": self.mass, "radius": self.radius, "D": self.D}
-        if self.inertia is not None:
-            return Ball.from_inertia(self.inertia, **given)
-        return Ball.from_mass_tensor(self.mass_tensor, **given)  # type: ignore[arg-type]
-
-
-class StartTable(_Table):
-    """[start]: 𝒦 as `momentum` (kg m²), or `omega` (rad/s, body axes) with run.time_step; and γ."""
-
-    momentum: Vector | None = None
-    omega: Vector | None = None
-    gamma: Vector = (0.0, 0.0, 1.0)
-
-    @model_validator(mode="after")
-    def _one_motion(self) -> Self:
-        if (self.momentum is None) == (self.omega is None):
-            raise ValueError("give either momentum or omega")
-        return self
-
-
-class RunTable(_Table):
-    """[run]: how many steps, which to keep, what to follow, where to write.
-
-    Or, instead of steps: `accuracy` of the contact point (m) or of the state after `time` seconds, as `of` says, at
-    `frames` equal times, within `limit` seconds of the processor.
-    """
-
-    steps: Count | None = None
-    every: Annotated[int, Field(strict=True, ge=1)] = 1
-    time_step: Annotated[Number, Field(gt=0)] | None = None
-    attitude: Annotated[bool, Field(strict=True)] = False
-    contact: Annotated[bool, Field(strict=True)] = False
-    output: str | None = None
-    accuracy: Annotated[Number, Field(gt=0)] | None = None
-    time: Annotated[Number, Field(gt=0)] | None = None
-    of: Literal["state", "contact"] | None = None
-    frames: Annotated[int, Field(strict=True, ge=1)] | None = None
-    limit: Annotated[Number, Field(gt=0)] | None = None
-
-
-class Scene(_Table):
-    """A whole scene."""
-
-    ball: BallTable
-    start: StartTable
+    title: str | None = Field(None, description="One line.")
+    description: str | None = Field(None, description="As long as you like.")
+    ball: Balls
+    start: StartTable | None = Field(None, description="The start of every ball that has none of its own.")
     run: RunTable
+    sweep: SweepTable = Field(SweepTable.model_validate({}), description="How ranges that are drawn make balls.")
+
+    _name: str = PrivateAttr("")
+    _toml: str | None = PrivateAttr(None)
+    _data: dict[str, Any] = PrivateAttr(default_factory=dict)
+
+    @property
+    def name(self) -> str:
+        """The file from which it comes, or an empty text."""
+        return self._name
+
+    @property
+    def toml(self) -> str | None:
+        """The text of its file, if it comes from one as it is."""
+        return self._toml
+
+    @property
+    def source(self) -> str:
+        """What it was made of: the TOML text of its file, or else JSON."""
+        return self._toml if self._toml is not None else json.dumps(self._data, ensure_ascii=False, default=str)
+
+    @property
+    def scale(self) -> float:
+        """What multiplies K to give the momentum of the members: ε, or 1 where the steps are to be chosen."""
+        return 1.0 if self.run.time_step is None else self.run.time_step
+
+    def task(self) -> Task:
+        """What is asked for, with the defaults filled in."""
+        run, (steps, every) = self.run, self.run.counts()
+        of = run.of or ("contact" if "contact" in run.names() else "state")
+        return Task(
+            run.names(), steps, every, run.time_step, run.order or 2, run.precision or "double", run.accuracy,
+            None if run.accuracy is None else run.time, of, 600.0 if run.limit is None else run.limit,
+        )  # fmt: skip
 
     def with_run(self, **changed: Any) -> Self:
-        """The same scene with other values under [run]."""
-        return self.model_copy(update={"run": self.run.model_copy(update=changed)})
+        """The same scene with other values under [run], checked as if they stood there; None takes one away."""
+        data = deepcopy(self._data)
+        data["run"] = {key: value for key, value in (data["run"] | changed).items() if value is not None}
+        return checked(data, self._name)  # type: ignore[return-value]
 
     @model_validator(mode="after")
-    def _steps_or_accuracy(self) -> Self:
-        run = self.run
-        told = {name for name in ("time", "of", "frames", "limit") if getattr(run, name) is not None}
-        if run.accuracy is None:
-            if told:
-                raise ValueError(f"run.{min(told)} goes with run.accuracy; without it give run.steps")
-            if run.steps is None:
-                raise ValueError("run.steps is missing (or give run.accuracy and run.time)")
-            return self
-        chosen = [name for name in ("steps", "every", "time_step") if name in run.model_fields_set]
-        if chosen:
-            raise ValueError(f"run.accuracy chooses the steps: leave out run.{chosen[0]}")
-        if run.time is None:
-            raise ValueError("run.accuracy needs run.time, in seconds")
-        if self.start.omega is None:
-            raise ValueError("run.accuracy needs start.omega, in rad/s: it is a motion in time that is approximated")
+    def _together(self) -> Self:
+        names = [ball.name for ball in self.ball if ball.name is not None]
+        for i, ball in enumerate(self.ball):
+            if ball.start is None and self.start is None:
+                raise At("start is missing: give [start], or each ball its own start = { ... }", "ball", i)
+            if names.count(ball.name or "") > 1:
+                raise At(f"two balls have the name {ball.name!r}", "ball", i, "name")
+            self._check_ball(i, ball)
         return self
 
-    @model_validator(mode="after")
-    def _omega_needs_time(self) -> Self:
-        if self.run.accuracy is None and self.start.omega is not None and self.run.time_step is None:
-            raise ValueError("start.omega needs run.time_step, in seconds")
-        return self
+    def _check_ball(self, i: int, ball: BallTable) -> None:
+        start, run = ball.start or self.start, self.run
+        assert start is not None
+        path: tuple[str | int, ...] = ("ball", i, "start") if ball.start else ("start",)
+        if run.accuracy is not None and start.momentum is not None:
+            told = "run.accuracy needs start.omega, in rad/s: it is a motion in time that is approximated"
+            raise At(told, *path, "momentum")
+        if run.accuracy is None and run.time_step is None and start.momentum is None:
+            key = "omega" if start.omega is not None else "velocity"
+            raise At(f"start.{key} needs run.time_step, in seconds", *path, key)
+        if start.velocity is not None and ball.radius is None:
+            raise At("start.velocity needs ball.radius: the ball rolls without slipping", *path, "velocity")
+        if "contact" in run.names() and ball.radius is None:
+            raise At("the contact point needs the radius: give the ball its radius", "ball", i)
+        drawn = {
+            key: one
+            for name, table in (("ball", ball), ("start", start))
+            for field in type(table).model_fields
+            for key, one in ranges_in(getattr(table, field), f"{name}.{field}").items()
+            if one.drawn
+        }
+        if drawn and self.sweep.samples is None:
+            raise At(f"{next(iter(drawn))} is drawn: say how often, as samples = 100 under [sweep]", "ball", i)
 
 
 def load(path: Path) -> Scene:
-    """Reads a scene file; raises SceneError with the file, the key and what would be right."""
-    return checked(_read(path), f"{path}: ")
+    """Reads a scene file; raises SceneError with the file, the line, the key and what would be right."""
+    text = _text(path)
+    return checked(_parsed(text, path), str(path), text)
 
 
 def load_for(path: Path, accuracy: float, time: float | None = None) -> Scene:
     """The scene of a file, but to an accuracy after `time` seconds; without, its own time, or its steps' time."""
-    data = _read(path)
+    data = _parsed(_text(path), path)
     run = data.get("run")
     if isinstance(run, dict):
         own, steps, step = (run.pop(name, None) for name in ("time", "steps", "time_step"))
-        run.pop("every", None)
-        if time is None and own is None and isinstance(steps, int) and isinstance(step, int | float):
-            own = steps * step
+        for name in ("every", "order", "precision"):
+            run.pop(name, None)
+        if time is None and own is None and isinstance(steps, int):
+            own = steps * _seconds(step)
         data["run"] = run | {"accuracy": accuracy} | ({"time": own if time is None else time} if time or own else {})
-    return checked(data, f"{path}: ")
+    return checked(data, str(path))
 
 
-def checked(data: dict[str, Any], where: str = "") -> Scene:
-    """A scene from plain data; raises SceneError with the key and what would be right."""
+def checked(data: dict[str, Any], name: str = "", text: str | None = None) -> Scene:
+    """A scene from plain data; raises SceneError with the key and what would be right.
+
+    name: of the file from which the data are; text: its text, if they are all of it, for the lines of errors.
+    """
     try:
-        return Scene.model_validate(data)
+        scene = Scene.model_validate(data)
     except ValidationError as error:
-        raise SceneError(where + "; ".join(_sentence(e) for e in error.errors())) from None
+        raise SceneError(described(error.errors(include_url=False), name, text, data, KEYS)) from None
+    scene._name, scene._toml, scene._data = name, text, data
+    return scene
 
 
-def _read(path: Path) -> dict[str, Any]:
+def _text(path: Path) -> str:
     try:
-        text = path.read_text(encoding="utf-8-sig")
+        with path.open("rb") as stream:
+            content = stream.read(MOST_BYTES + 1)
+        if len(content) > MOST_BYTES:
+            raise SceneError(f"{path} is no scene: it has more than {MOST_BYTES} bytes")
+        return content.decode("utf-8-sig").replace("\r\n", "\n")
     except OSError as error:
         raise SceneError(f"{path} cannot be read: {error.strerror or error}") from None
     except UnicodeDecodeError:
         raise SceneError(f"{path} is not UTF-8 text") from None
+    except ValueError as error:  # a null byte in the name
+        raise SceneError(f"{str(path)!r} cannot be read: {error}") from None
+
+
+def _parsed(text: str, path: Path) -> dict[str, Any]:
     try:
         return tomllib.loads(text, parse_float=_toml_float)
     except (ValueError, RecursionError) as error:  # tomllib: wrong syntax, huge integers, deep nesting
-        raise SceneError(f"{path} is not TOML: {str(error).splitlines()[0]}") from None
+        told = str(error).splitlines()[0]
+        found = re.search(r" \(at line (\d+), column (\d+)\)$", told)
+        where = f"{path}, line {found[1]}, column {found[2]}" if found else str(path)
+        raise SceneError(f"{where}: this is not TOML: {told[: found.start()] if found else told}") from None
 
 
-def _sentence(error: Any) -> str:
-    """One problem of a scene: its key and what would be right."""
-    key = ".".join(str(part) for part in error["loc"]) or "the scene"
-    limits = error.get("ctx", {})
-    kinds: dict[str, str] = {
-        "missing": "is missing",
-        "extra_forbidden": "is not a key of a scene",
-        "int_type": "must be a whole number",
-        "int_from_float": "must be a whole number",
-        "bool_type": "must be true or false",
-        "string_type": "must be a text in quotes",
-        "tuple_type": "must be a list of numbers in brackets",
-        "finite_number": "must be finite",
-        "literal_error": f"must be {limits.get('expected')}",
-        "too_long": f"must have {limits.get('max_length')} numbers",
-        "greater_than": f"must be greater than {limits.get('gt')}",
-        "greater_than_equal": f"must be at least {limits.get('ge')}",
-    }
-    told = kinds.get(error["type"])
-    return f"{key} {told}" if told else f"{key}: {error['msg'].removeprefix('Value error, ')}"
+def _toml_float(text: str) -> Any:
+    """A float, or its text where float64 has not all digits: then `number` says so, with the key."""
+    value = float(text)
+    return text.replace("_", "") if abs(value) < sys.float_info.min else value
+
+
+def _seconds(given: Any) -> float:
+    """A time step as it is written; 0 where it is none."""
+    try:
+        return number(given, TIME)
+    except ValueError:
+        return 0.0
 
 
 def run(scene: Scene, progress: Callable[[int], None] = lambda steps_done: None) -> Trajectory:
-    """Runs a scene; raises BadInput, and StepNotTaken with the trajectory so far."""
-    if scene.run.accuracy is not None or scene.run.steps is None:
+    """Runs a scene of one ball; raises BadInput, and StepNotTaken with the trajectory so far."""
+    if scene.run.accuracy is not None:
         from .accurate import run_accurately
 
         return run_accurately(scene).trajectory
-    options: dict[str, Any] = {
-        "every": scene.run.every,
-        "attitude": scene.run.attitude,
-        "contact": scene.run.contact,
-        "progress": progress,
-    }
-    ball, start = scene.ball.ball(), scene.start
-    if start.omega is not None and scene.run.time_step is not None:
-        return roll(ball, start.omega, scene.run.time_step, scene.run.steps, gamma=start.gamma, **options)
-    momentum: Any = start.momentum
-    return trajectory(ball, momentum, start.gamma, scene.run.steps, time_step=scene.run.time_step, **options)
+    members, task = expand(scene), scene.task()
+    ball, attitude = single(members), members.attitude
+    return trajectory(
+        ball, members.momentum[0], members.gamma[0], task.steps, every=task.every, order=task.order,
+        attitude="attitude" in task.outputs if attitude is None else attitude[0], contact="contact" in task.outputs,
+        time_step=task.time_step, precision=task.precision, progress=progress,
+    )  # fmt: skip
+
+
+def single(members: Any) -> Ball:
+    """The ball of a scene that has one, in three dimensions and in the axes given; raises SceneError for others."""
+    if len(members) != 1 or members.dimension != 3 or members.axes is not None or members.place is not None:
+        raise SceneError("this run takes one ball in three dimensions, in principal axes, from the origin")
+    radius = members.ball.radius
+    return Ball(members.ball.mass_tensor[0], members.ball.D[0], None if radius is None else radius[0])
+
+
+__all__ = ["Scene", "SceneError", "checked", "expand", "load", "load_for", "place", "run", "single"]

@@ -1,0 +1,179 @@
+"""The mass tensors ∫xxᵀdm of bodies, and the principal axes of a tensor.
+
+A body is a batch: masses and lengths are arrays (...), vectors (..., 3), and its tensor is (..., 3) where it is
+diagonal in the axes that the user gave, else (..., 3, 3).  Every centre of mass is the centre of the ball.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from chapsym.dynamics import BadInput
+from chapsym.dynamics.ball import Floats
+
+#: How far mass may seem to be outside of the ball by rounding: that of a shell is at its radius.
+ROUNDING = 1e-12
+
+
+@dataclass(frozen=True)
+class Preset:
+    """about: what the body is.  required, optional: its keys beside mass and radius.  tensor: its ∫xxᵀdm."""
+
+    about: str
+    required: tuple[str, ...]
+    optional: tuple[str, ...]
+    tensor: Callable[[Mapping[str, Floats]], Floats]
+
+    @property
+    def keys(self) -> tuple[str, ...]:
+        """All its keys beside mass and radius."""
+        return self.required + self.optional
+
+
+def homogeneous(given: Mapping[str, Floats]) -> Floats:
+    """m ρ²/5 along each axis: ∫x²dm = ⅓ ∫r²dm with ∫r²dm = 3m/ρ³ ∫₀^ρ r⁴dr = 3mρ²/5."""
+    return _isotropic(given["mass"] * given["radius"] ** 2 / 5)
+
+
+def shell(given: Mapping[str, Floats]) -> Floats:
+    """m/5 (ρ⁵ - r⁵)/(ρ³ - r³) along each axis, between r = ρ - thickness and ρ; m ρ²/3 as the thickness goes to 0.
+
+    Both differences have the factor ρ - r, which is divided out.
+    """
+    outer = given["radius"]
+    inner = outer - given.get("thickness", 0 * outer)
+    _check((inner >= 0) & (inner <= outer), "thickness must be from 0 to the radius")
+    fourth = outer**4 + outer**3 * inner + (outer * inner) ** 2 + outer * inner**3 + inner**4
+    return _isotropic(given["mass"] / 5 * fourth / (outer**2 + outer * inner + inner**2))
+
+
+def dumbbell(given: Mapping[str, Floats]) -> Floats:
+    """A shell, and two equal point masses on the third axis, at ± separation/2; the shell has what is left of the mass.
+
+    The points add 2 point_mass (separation/2)² along the third axis.
+    """
+    point, separation, inner = given["point_mass"], given["separation"], given["radius"]
+    inner = inner - given.get("thickness", 0 * inner)
+    left = given["mass"] - 2 * point
+    _check(point >= 0, "point_mass must not be negative")
+    _check(left >= 0, "the two point masses are more than the mass, which is that of the whole ball")
+    _check((separation >= 0) & (separation <= 2 * inner), "separation must be from 0 to the inside of the shell")
+    points = point * separation**2 / 2
+    return shell({**given, "mass": left}) + np.stack([0 * points, 0 * points, points], axis=-1)
+
+
+def bowling(given: Mapping[str, Floats]) -> Floats:
+    """A homogeneous ball; in it a cuboid block with its middle at block_offset, and a counterweight.
+
+    Assumed: block_mass is what the block has beyond the core that it displaces; its edges block_size are along the
+    axes.  The counterweight is a point on the surface, opposite to the block, of the mass block_mass |offset|/ρ, which
+    brings the centre of mass to the centre.  The rest of the mass is the homogeneous ball.
+    ∫xxᵀdm = m₀ρ²/5 + block_mass (diag(size²)/12 + oo ᵀ) + block_mass |o| ρ ôôᵀ for the offset o = |o| ô.
+    """
+    block, size, offset, radius = (given[name] for name in ("block_mass", "block_size", "block_offset", "radius"))
+    distance = np.sqrt((offset * offset).sum(axis=-1))
+    counterweight = block * distance / radius
+    core = given["mass"] - block - counterweight
+    corner = np.sqrt(((np.abs(offset) + size / 2) ** 2).sum(axis=-1))
+    _check(block >= 0, "block_mass must not be negative")
+    _check((size >= 0).all(axis=-1), "block_size must not be negative")
+    _check(corner <= radius * (1 + ROUNDING), "the block reaches beyond the radius of the ball")
+    _check(core >= 0, "the block and its counterweight are more than the mass, which is that of the whole ball")
+    along = np.divide(radius, distance, out=np.zeros_like(distance * radius), where=distance > 0)
+    points = (
+        (block * (1 + along))[..., np.newaxis, np.newaxis] * offset[..., :, np.newaxis] * offset[..., np.newaxis, :]
+    )
+    even = _isotropic(core * radius**2 / 5) + block[..., np.newaxis] * size**2 / 12
+    return points + even[..., np.newaxis] * np.eye(3)
+
+
+PRESETS: dict[str, Preset] = {
+    "homogeneous": Preset("a ball of one material", (), (), homogeneous),
+    "shell": Preset("a hollow shell, thin without thickness", (), ("thickness",), shell),
+    "dumbbell": Preset(
+        "two point masses in a shell", ("point_mass", "separation"), ("thickness",), dumbbell
+    ),
+    "bowling": Preset(
+        "a ball with an off-core weight block", ("block_mass", "block_size", "block_offset"), (), bowling
+    ),
+}  # fmt: skip
+
+
+def _isotropic(moment: Floats) -> Floats:
+    return np.stack([moment, moment, moment], axis=-1)
+
+
+def _check(holds: np.ndarray | np.bool_, sentence: str) -> None:
+    if not np.all(holds):
+        raise BadInput(sentence)
+
+
+def check_inside(mass_tensor: Floats, mass: Floats, radius: Floats) -> None:
+    """Raises BadInput if mass is outside of the ball: then ∫r²dm = tr J is more than m ρ²."""
+    trace, most = np.broadcast_arrays(mass_tensor.sum(axis=-1), mass * radius**2)
+    outside = trace > most * (1 + ROUNDING)
+    if outside.any():
+        raise BadInput(
+            f"some of its mass is outside of the ball: J1 + J2 + J3 = {trace[outside].flat[0]:.4g} kg m² is more than "
+            f"mass radius² = {most[outside].flat[0]:.4g}; did you mean other units? (for a body that reaches beyond "
+            "its rolling radius, give D = mass radius² in the place of mass)"
+        )
+
+
+def from_inertia_tensor(inertia: Floats) -> Floats:
+    """∫xxᵀdm = ½ tr(I) - I, (..., 3, 3); raises BadInput if I is not symmetric to rounding."""
+    off, size = np.abs(inertia - inertia.mT).max(axis=(-2, -1)), np.abs(inertia).max(axis=(-2, -1))
+    if (off > ROUNDING * size).any():
+        raise BadInput(f"inertia must be symmetric, but it differs from its transpose by {off.max():.3g} kg m²")
+    even = (inertia + inertia.mT) / 2
+    return np.trace(even, axis1=-2, axis2=-1)[..., np.newaxis, np.newaxis] / 2 * np.eye(3) - even
+
+
+def principal(tensor: Floats) -> tuple[Floats, Floats | None]:
+    """The principal moments of ∫xxᵀdm, (..., 3), and unit quaternions (..., 4) that turn principal to given axes.
+
+    The axes are right-handed, in the order and with the signs that are nearest to the given axes; None where the tensor
+    is diagonal.  Moments that are negative by rounding are 0.  Raises BadInput where one is negative by more.
+    """
+    diagonal = np.diagonal(tensor, axis1=-2, axis2=-1)
+    off = np.abs(tensor - diagonal[..., np.newaxis] * np.eye(3)).max(axis=(-2, -1)) > 0
+    if not off.any():
+        return diagonal.copy(), None
+    moments, axes = np.linalg.eigh(tensor)
+    orders = np.array([[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]])
+    nearness = np.abs(axes[..., np.arange(3), orders]).sum(axis=-1)  # of each order: Σ |Qᵢ,order(i)|
+    order = orders[nearness.argmax(axis=-1)]
+    moments, axes = np.take_along_axis(moments, order, -1), np.take_along_axis(axes, order[..., np.newaxis, :], -1)
+    along = np.diagonal(axes, axis1=-2, axis2=-1)
+    axes = axes * np.where(along < 0, -1.0, 1.0)[..., np.newaxis, :]
+    weakest = np.arange(3) == np.abs(along).argmin(axis=-1)[..., np.newaxis]
+    mirrored = (np.linalg.det(axes) < 0)[..., np.newaxis]
+    axes = axes * np.where(weakest & mirrored, -1.0, 1.0)[..., np.newaxis, :]
+    moments = np.where(off[..., np.newaxis], moments, diagonal)
+    axes = np.where(off[..., np.newaxis, np.newaxis], axes, np.eye(3))
+    largest = np.abs(moments).max(axis=-1, keepdims=True)
+    rounded = (moments < 0) & (moments > -16 * np.finfo(np.float64).eps * largest)
+    return np.where(rounded, 0.0, moments), quaternions(axes)
+
+
+def quaternions(rotations: Floats) -> Floats:
+    """Unit quaternions, scalar first, (..., 4), of rotation matrices (..., 3, 3).
+
+    4qqᵀ is linear in the matrix; its row with the largest diagonal is q, but for the length.
+    """
+    r = np.moveaxis(rotations, (-2, -1), (0, 1))
+    x, y, z = r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1]
+    xy, xz, yz = r[0, 1] + r[1, 0], r[0, 2] + r[2, 0], r[1, 2] + r[2, 1]
+    rows = np.array(
+        [
+            [1 + r[0, 0] + r[1, 1] + r[2, 2], x, y, z],
+            [x, 1 + r[0, 0] - r[1, 1] - r[2, 2], xy, xz],
+            [y, xy, 1 - r[0, 0] + r[1, 1] - r[2, 2], yz],
+            [z, xz, yz, 1 - r[0, 0] - r[1, 1] + r[2, 2]],
+        ]
+    )
+    rows = np.moveaxis(rows, (0, 1), (-2, -1))
+    best = np.diagonal(rows, axis1=-2, axis2=-1).argmax(axis=-1)
+    chosen = np.take_along_axis(rows, best[..., np.newaxis, np.newaxis], -2)[..., 0, :]
+    return chosen / np.sqrt((chosen * chosen).sum(axis=-1, keepdims=True))

@@ -1,0 +1,113 @@
+"""What is wrong with a scene, in sentences: the file, the line, the key, and what would be right."""
+
+from collections.abc import Iterable, Sequence
+from difflib import get_close_matches
+from typing import Any
+
+from chapsym.dynamics import BadInput
+
+from .lines import line_of
+from .quantities import LIST, MATRIX
+
+#: More problems of one file are not listed.
+MOST_PROBLEMS = 5
+
+Path = tuple[str | int, ...]
+
+
+class SceneError(BadInput):
+    """The scene cannot be run as it is written."""
+
+
+class At(ValueError):
+    """A problem of several keys: a whole sentence, and where in the table that is checked it stands."""
+
+    def __init__(self, sentence: str, *path: str | int) -> None:
+        super().__init__(sentence)
+        self.path = path
+
+
+def place(name: str, text: str | None, path: Path) -> str:
+    """The file, and the line on which the key stands if there is one: "ball.toml, line 3"."""
+    for end in range(len(path), 0, -1):
+        line = line_of(text, path[:end]) if text is not None else None
+        if line is not None:
+            return f"{name}, line {line}" if name else f"line {line}"
+    return name
+
+
+def described(
+    errors: Sequence[Any], name: str, text: str | None, data: Any, keys: dict[str, Iterable[str]]
+) -> str:  # fmt: skip
+    """All problems that pydantic found in `data`, one sentence each; `keys` has those of each table."""
+    one_ball = not isinstance(data.get("ball"), list)
+    told: list[str] = []
+    for error in errors[:MOST_PROBLEMS]:
+        path = _in_file(error, one_ball)
+        where = place(name if not told else "", text, path)
+        told.append(f"{where}: {_sentence(error, keys)}" if where else _sentence(error, keys))
+    if len(errors) > MOST_PROBLEMS:
+        told.append(f"and {len(errors) - MOST_PROBLEMS} more")
+    return "; ".join(told)
+
+
+def _path(error: Any) -> Path:
+    """The keys and indices of an error; the tags of unions are none."""
+    own = getattr(error.get("ctx", {}).get("error"), "path", ())
+    return (*(part for part in error["loc"] if part not in (LIST, MATRIX)), *own)
+
+
+def _in_file(error: Any, one_ball: bool) -> Path:
+    """The same as it stands in the file, where one ball is a table and no list."""
+    path = _path(error)
+    return (path[0], *path[2:]) if one_ball and path[:2] == ("ball", 0) else path
+
+
+def _key(path: Path) -> str:
+    """The dotted name of a key; numbers of lists count from 1 on, and the first ball is "ball"."""
+    parts = [str(part + 1) if isinstance(part, int) else part for part in path]
+    if path[:2] == ("ball", 0):
+        del parts[1]
+    return ".".join(parts)
+
+
+def _sentence(error: Any, keys: dict[str, Iterable[str]]) -> str:
+    """One problem: its key and what would be right."""
+    path, limits = _path(error), error.get("ctx", {})
+    if isinstance(limits.get("error"), At):
+        return str(limits["error"])
+    key = _key(path) or "the scene"
+    if error["type"] == "extra_forbidden":
+        return _unknown(path, keys)
+    kinds: dict[str, str] = {
+        "missing": "is missing",
+        "int_type": "must be a whole number",
+        "int_from_float": "must be a whole number",
+        "int_parsing_size": "is beyond the range of whole numbers",
+        "bool_type": "must be true or false",
+        "string_type": "must be a text in quotes",
+        "tuple_type": "must be a list of numbers in brackets",
+        "model_type": f"must be a table: [{key}]",
+        "literal_error": f"must be {limits.get('expected')}",
+        "too_long": f"must have {limits.get('max_length')} numbers",
+        "too_short": f"must have at least {limits.get('min_length')} numbers",
+        "greater_than_equal": f"must be at least {limits.get('ge')}",
+    }
+    told = kinds.get(error["type"], ": " + error["msg"].removeprefix("Value error, "))
+    told = told.removeprefix(": it ") if told.startswith(": it ") else told
+    return f"{key}{told}" if told.startswith(":") else f"{key} {told}"
+
+
+def _unknown(path: Path, keys: dict[str, Iterable[str]]) -> str:
+    """A key that is none: the one that was meant, or the table in which it is one."""
+    wrong, table = str(path[-1]), _key(path[:-1])
+    kind = next((str(part) for part in reversed(path[:-1]) if isinstance(part, str)), "")
+    near = get_close_matches(wrong, list(keys[kind]), 1, 0.6)
+    others = [name for name, own in keys.items() if wrong in own and name != kind]
+    if near:
+        meant = f"; did you mean {near[0]}?"
+    elif others:
+        meant = f"; it stands under [{others[0]}]" if others[0] else "; it stands at the top of the file"
+    else:
+        meant = f"; there are {', '.join(keys[kind])}"
+    return f"{_key(path)} is not a key of {f'[{table}]' if table else 'a scene'}{meant}"

@@ -1,0 +1,129 @@
+"""Numbers of a scene: SI, or a text with a unit, read by pint and checked against the dimension of the key."""
+
+import re
+import sys
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cache
+from typing import Any
+
+from chapsym.exact import NotANumber, rational
+
+
+@dataclass(frozen=True)
+class Dimension:
+    """What a key measures.
+
+    name: as a sentence calls it.  units: SI, as written to files.  words: of the unit.  pint: the unit, as pint reads
+    it.  example: a number, and a text with another unit.
+    """
+
+    name: str
+    units: str
+    words: str
+    pint: str
+    example: tuple[str, str]
+
+
+LENGTH = Dimension("a length", "m", "metres", "m", ("0.1085", "108.5 mm"))
+MASS = Dimension("a mass", "kg", "kilograms", "kg", ("7.26", "16 lb"))
+TIME = Dimension("a time", "s", "seconds", "s", ("0.01", "10 ms"))
+MOMENT = Dimension("a moment of inertia", "kg m2", "kg m²", "kg*m**2", ("0.032", "320 kg cm^2"))
+RATE = Dimension("an angular velocity", "rad s-1", "radians per second", "rad/s", ("3.14", "30 rpm"))
+SPEED = Dimension("a velocity", "m s-1", "metres per second", "m/s", ("8.0", "29 km/h"))
+PURE = Dimension("a number without a unit", "1", "a number", "", ("0.5", "2/7"))
+KNOWN = (LENGTH, MASS, TIME, MOMENT, RATE, SPEED)
+
+_FORM = re.compile(r"\s*([+-]?[0-9./]+(?:[eE][+-]?[0-9]+)?)\s*(.*?)\s*", re.ASCII | re.DOTALL)
+#: No parentheses, and no numbers but exponents of one digit: nothing that is costly to work out.
+_UNIT = re.compile(r"(?:1\s*/)?(?:[^\W\d]|[\s°²³·*/^-]|[1-9](?!\d))+")
+
+
+def number(value: Any, dimension: Dimension = PURE) -> float:
+    """A number in SI, or a text such as "2/7" or "30 rpm", as a float; raises ValueError with what would be right."""
+    if isinstance(value, str):
+        return _float(_exact(value, dimension))
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        raise ValueError('it must be a number, or a text such as "2/7"' + ("" if dimension is PURE else _or(dimension)))
+    if isinstance(value, int) and abs(value) > 10**300:
+        raise ValueError("it is beyond the range of float64")
+    if value - value != 0:
+        raise ValueError(f"it must be finite, not {value}")
+    return float(value)
+
+
+def _or(dimension: Dimension) -> str:
+    return f' or "{dimension.example[1]}"'
+
+
+def _told(error: NotANumber) -> str:
+    return str(error).removeprefix("value: ")
+
+
+def _float(exact: Fraction) -> float:
+    """The nearest float; raises ValueError where it would lose digits."""
+    try:
+        found = float(exact)
+    except OverflowError:
+        raise ValueError("it is beyond the range of float64") from None
+    if abs(found) < sys.float_info.min and Fraction(found) != exact:
+        raise ValueError("it is below 2.2e-308, where float64 loses its digits; take other units")
+    return found
+
+
+def _exact(text: str, dimension: Dimension) -> Fraction:
+    """The number that a text means, in SI."""
+    parts = _FORM.fullmatch(text[:200])
+    if parts is None or not parts[2]:
+        try:
+            return rational(text, "value")
+        except NotANumber as error:
+            raise ValueError(_told(error) + ("" if dimension is PURE else _or(dimension))) from None
+    try:
+        amount = rational(parts[1], "value")
+    except NotANumber as error:
+        raise ValueError(_told(error)) from None
+    return amount * _factor(parts[2], text.strip(), dimension)
+
+
+@cache
+def _registry() -> Any:
+    """pint's units with exact factors; loaded when a scene first has a unit."""
+    import pint
+
+    units: Any = pint.UnitRegistry(non_int_type=Fraction)
+    units.define("@alias revolution = rev")
+    return units
+
+
+def _factor(unit: str, text: str, dimension: Dimension) -> Fraction:
+    """What the unit is in SI; raises ValueError for what is no unit, or one of another dimension."""
+    shown = text if len(text) <= 40 else text[:37] + "..."
+    write = f"write {dimension.words}, such as {dimension.example[0]}, or '{dimension.example[1]}'"
+    if len(unit) > 40 or not _UNIT.fullmatch(unit):
+        raise ValueError(f"it is {dimension.name}, but {shown!r} is not a number with a unit; {write}")
+    spelled = re.sub(r"([^\W\d])(-?[1-9])", r"\1^\2", unit)  # "kg m2" means kg m²
+    if dimension is PURE:
+        raise ValueError(f"it has no unit, but {shown!r} has one; {write}")
+    try:
+        found = _registry().parse_units(spelled)
+        measures = _measures(found)
+    except Exception:  # pint raises whatever its tokenizer meets: all of it means that this is no unit
+        raise ValueError(f"it is {dimension.name}, but {unit!r} in {shown!r} is not a known unit; {write}") from None
+    if measures != _measures(_registry().parse_units(dimension.pint)):
+        names = [known.name for known in KNOWN if _measures(_registry().parse_units(known.pint)) == measures]
+        told = f"is {names[0]}" if names else "measures something else"
+        raise ValueError(f"it is {dimension.name}, but {shown!r} {told}; {write}")
+    if dimension is RATE and "radian" not in _roots(found):  # to pint an angle is a number, and 1 Hz would be 1 rad/s
+        raise ValueError(f"it is {dimension.name}, but {shown!r} does not say which angle; write '30 rpm' or '3 rad/s'")
+    return Fraction(_registry().Quantity(Fraction(1), found).to_base_units().magnitude)
+
+
+def _measures(unit: Any) -> dict[str, Fraction]:
+    """The dimension, such as {"[length]": 1}."""
+    return {str(name): power for name, power in unit.dimensionality.items() if power}
+
+
+def _roots(unit: Any) -> set[str]:
+    """The names of the base units."""
+    return {str(name) for name in dict(_registry().Quantity(Fraction(1), unit).to_root_units().unit_items())}
