@@ -20,7 +20,7 @@ UNIT_NUMBERS = 2**22
 class Plan:
     """What will run.
 
-    model: the least that serves; needed: the columns that it follows.  refused: why each lesser one does not serve.
+    model: the least that serves; needed: the columns that it follows.  refused: why each reduction does not serve.
     chunks × segments are the units of work: balls × frames.  They are fixed by the scene, not by the machine, so that a
     run that was interrupted has the same bits as one that was not.
     """
@@ -110,7 +110,8 @@ def planned(members: Members, task: Task) -> Plan:
         missing = sorted(needed - model.columns)
         reason = f"it does not follow {', '.join(missing)}" if missing else model.refuses(members, task, needed)
         if reason is None:
-            return Plan(members, task, model, needed, refused)
+            lesser = {one.name: refused[one.name] for one in MODELS if one.reduction and one.name in refused}
+            return Plan(members, task, model, needed, lesser)
         refused[model.name] = reason
     raise BadInput("no model yields what is asked for: " + "; ".join(f"{name}: {why}" for name, why in refused.items()))
 

@@ -21,6 +21,7 @@ class Model(ABC):
     columns: what it can follow.  kernels: the generated ones in its loops, for each column that it follows.
     stepwise: whether its cost grows with the steps (else with the frames).
     whole: whether it must run in one segment, as its state has more than float64 arrays.
+    reduction: whether it is less than the model that serves every such ball; a plan tells why it does not serve.
     unit_steps: steps of all balls in one unit of work: a second or two, which is what a killed run loses at most.
     """
 
@@ -31,6 +32,7 @@ class Model(ABC):
     stepwise: ClassVar[bool] = True
     whole: ClassVar[bool] = False
     unit_steps: ClassVar[int] = 2**27
+    reduction: ClassVar[bool] = False
 
     @abstractmethod
     def refuses(self, members: Members, task: Task, needed: frozenset[str]) -> str | None:
