@@ -16,7 +16,7 @@ BALLS, ENOUGH = 512, 0.02
 
 @dataclass(frozen=True)
 class Cost:
-    """seconds: of the clock, on this machine, without the disk.  bytes: of the outputs, uncompressed."""
+    """seconds: of the processor, all cores together, without the disk.  bytes: of the outputs, uncompressed."""
 
     seconds: float
     bytes: int
@@ -39,7 +39,7 @@ def predicted(plan: Plan) -> Cost:
 
 
 def _extrapolated(plan: Plan) -> float:
-    """Seconds of a whole run, from the last two of pilot runs of twice the length each."""
+    """Seconds of the processor for a whole run, from the last two of pilot runs of twice the length each."""
     chunk = slice(0, min(BALLS, len(plan.members)))
     share = len(plan.members) / (chunk.stop - chunk.start)
     work = plan.task.steps if plan.model.stepwise else plan.frames
@@ -59,17 +59,17 @@ def _extrapolated(plan: Plan) -> float:
 def _pilot(plan: Plan, chunk: slice, part: int) -> float:
     """Seconds of some balls for a part of the work: steps, or frames of a model that needs no steps between them.
 
-    The better of two runs: the first of a length may load compiled code.
+    The best of three runs: the first of a length may load compiled code.
     """
     every = plan.task.every
     steps = part if plan.model.stepwise else part * every
     task = replace(plan.task, steps=steps, every=min(every, max(steps, 1)))
     members = plan.members.of(chunk)
     took = []
-    for _ in range(2):
-        started = clock.perf_counter()
+    for _ in range(3):
+        started = clock.process_time()
         state = plan.model.begin(members, task, plan.needed)
         columns, _ = plan.model.advance(members, task, plan.needed, state, slice(0, task.frames), lambda steps: None)
         asked_for(members, task, columns)
-        took.append(clock.perf_counter() - started)
+        took.append(clock.process_time() - started)
     return min(took)

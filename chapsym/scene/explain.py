@@ -35,7 +35,7 @@ def _told(cost: Cost) -> str:
     size, unit = float(cost.bytes), 0
     while size >= 1000 and unit < len(_UNITS) - 1:
         size, unit = size / 1000, unit + 1
-    return f"about {seconds_told(cost.seconds)}, {size:.3g} {_UNITS[unit]}"
+    return f"about {seconds_told(cost.seconds)} of the processor, {size:.3g} {_UNITS[unit]}"
 
 
 def seconds_told(seconds: float) -> str:
