@@ -26,18 +26,23 @@ def expand(scene: "Scene") -> Members:
     A range of [start] goes for each ball that has no start of its own, and is drawn afresh for each.
     Raises SceneError, which names the ball, for what no body can have and for starts that are none.
     """
-    bodies = [_Body(scene, i) for i in range(len(scene.ball))]
-    total = sum(len(body) for body in bodies)
+    tables = bodies(scene)
+    total = sum(len(body) for body in tables)
     if total > MOST_BALLS:
         raise SceneError(f"the scene has {total} balls; a sweep has {MOST_BALLS} at most")
-    parts = [body.members() for body in bodies]
+    parts = [body.members() for body in tables]
     if len({part.dimension for part in parts}) > 1:
         raise SceneError("the balls of a scene roll in one space: all mass_tensors need as many numbers")
     return parts[0] if len(parts) == 1 else _joined(parts)
 
 
+def bodies(scene: "Scene") -> list["Body"]:
+    """The tables of a scene, in its order, each with its start and its ranges."""
+    return [Body(scene, i) for i in range(len(scene.ball))]
+
+
 @dataclass(frozen=True, eq=False)
-class _Body:
+class Body:
     """One [ball] of a scene, and its start."""
 
     scene: "Scene"
@@ -45,16 +50,19 @@ class _Body:
 
     @property
     def ball(self) -> BallTable:
+        """Its table."""
         return self.scene.ball[self.index]
 
     @property
     def start(self) -> StartTable:
+        """Its own start, or that of all."""
         start = self.ball.start or self.scene.start
         assert start is not None
         return start
 
     @property
     def name(self) -> str:
+        """Its own name, or what it is called without."""
         if self.ball.name is not None:
             return self.ball.name
         return "ball" if len(self.scene.ball) == 1 else f"ball {self.index + 1}"

@@ -12,7 +12,7 @@ from .units import LENGTH, MASS, MOMENT, PURE, RATE, SPEED, TIME, Dimension, num
 class Quantity:
     """A key that measures something; `swept` says whether a range may stand there.
 
-    Its place in the JSON Schema is told by name, `{"quantity": ..., "swept": ...}`; `schema.py` spells it out once.
+    In the JSON Schema of pydantic it is told by name, `{"quantity": ..., ...}`; `schema.py` spells that out, once each.
     """
 
     def __init__(self, dimension: Dimension, *, swept: bool = True, positive: bool = False) -> None:
@@ -31,7 +31,7 @@ class Quantity:
     def __get_pydantic_json_schema__(
         self, schema: core_schema.CoreSchema, handler: GetJsonSchemaHandler
     ) -> dict[str, Any]:
-        return {"quantity": self.dimension.units, "swept": self.swept}
+        return {"quantity": self.dimension.units, "swept": self.swept, "positive": self.positive}
 
 
 Length = Annotated[Value, Quantity(LENGTH)]

@@ -100,12 +100,13 @@ class Scene(Table):
         start, run = ball.start or self.start, self.run
         assert start is not None
         path: tuple[str | int, ...] = ("ball", i, "start") if ball.start else ("start",)
-        if run.accuracy is not None and start.momentum is not None:
+        motion = start.given("momentum", "vertical_momentum", "omega", "velocity")[0]
+        of_one_step = motion.endswith("momentum")
+        if run.accuracy is not None and of_one_step:
             told = "run.accuracy needs start.omega, in rad/s: it is a motion in time that is approximated"
-            raise At(told, *path, "momentum")
-        if run.accuracy is None and run.time_step is None and start.momentum is None:
-            key = "omega" if start.omega is not None else "velocity"
-            raise At(f"start.{key} needs run.time_step, in seconds", *path, key)
+            raise At(told, *path, motion)
+        if run.accuracy is None and run.time_step is None and not of_one_step:
+            raise At(f"start.{motion} needs run.time_step, in seconds", *path, motion)
         if start.velocity is not None and ball.radius is None:
             raise At("start.velocity needs ball.radius: the ball rolls without slipping", *path, "velocity")
         if "contact" in run.names() and ball.radius is None:

@@ -62,6 +62,8 @@ def members_of(ball: BallTable, start: StartTable, given: Given, scale: float, n
             gamma, motion = (front.rotate(_inverse(axes), vector) for vector in (gamma, motion))
         gamma = unit_vertical(gamma)
         momentum = motion if of_momentum else _momentum_of(motion, gamma, body, scale)
+        if start.vertical_momentum is not None:
+            momentum = given.array(start.vertical_momentum, "start.vertical_momentum")[:, np.newaxis] * gamma
         return Members(
             names, body, numbers(momentum, "momentum"), gamma, axes, attitude, _position(start, given, 2)
         )  # fmt: skip
@@ -90,7 +92,7 @@ def _ball(table: BallTable, given: Given) -> tuple[Ball, Floats | None]:
 
 
 def _start(start: StartTable, given: Given, ball: Ball) -> tuple[Floats, Floats | None, Floats, bool]:
-    """γ, the attitude if it is given, 𝒦 or ω, all in the axes of the table, and whether it is 𝒦."""
+    """γ, the attitude if it is given, 𝒦 (or its direction) or ω, in the axes of the table, and whether it is 𝒦."""
     attitude = None
     if start.attitude is not None:
         attitude = given.unit(start.attitude, "start.attitude")
@@ -102,6 +104,8 @@ def _start(start: StartTable, given: Given, ball: Ball) -> tuple[Floats, Floats 
     else:
         gamma = given.unit(start.gamma or (0.0, 0.0, 1.0), "start.gamma")
     body_to_space = attitude if attitude is not None else attitude_with(unit_vertical(gamma))
+    if start.vertical_momentum is not None:
+        return gamma, attitude, gamma, True
     if start.velocity is not None:
         motion = front.rotate(_inverse(body_to_space), _rolling(start, given, ball))
         return gamma, attitude, motion, False
@@ -138,7 +142,7 @@ def _momentum_of(omega: Floats, gamma: Floats, ball: Ball, scale: float) -> Floa
 def _members_n(ball: BallTable, start: StartTable, given: Given, scale: float, names: tuple[str, ...]) -> Members:
     """The members of a ball in more than three dimensions; 𝒦 of ω is that of E = εω in (4.13), as it is linear."""
     n = len(ball.mass_tensor or ())
-    for key in ("velocity", "attitude"):
+    for key in ("velocity", "vertical_momentum", "attitude"):
         if getattr(start, key) is not None:
             raise BadInput(f"start.{key} is for three dimensions; give omega or momentum, a skew matrix, and gamma")
     if start.axes == "space":

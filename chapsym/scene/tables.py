@@ -53,6 +53,7 @@ class StartTable(Table):
     momentum: Momentum | None = Field(None, description="𝒦 = εK of one step; in n > 3 dimensions a skew matrix.")
     omega: Omega | None = Field(None, description="Angular velocity; in n > 3 dimensions a skew matrix.")
     axes: Literal["body", "space"] = Field("body", description="In which axes momentum or omega is given.")
+    vertical_momentum: Moment | None = Field(None, description="h, for the momentum 𝒦 = hγ of one step.")
     velocity: Speeds2 | None = Field(None, description="Of the centre along x and y of the plane; the ball rolls.")
     spin: Rate | None = Field(None, description="About the vertical, upwards, with velocity; 0 without.")
     gamma: PureN | None = Field(
@@ -63,11 +64,12 @@ class StartTable(Table):
 
     @model_validator(mode="after")
     def _one_motion(self) -> Self:
-        _one_of(self.given("momentum", "omega", "velocity"), "start", "momentum, omega or velocity")
+        motions = ("momentum", "vertical_momentum", "omega", "velocity")
+        _one_of(self.given(*motions), "start", "momentum, omega or velocity (or vertical_momentum)")
         if self.spin is not None and self.velocity is None:
             raise At("start.spin goes with start.velocity; omega holds the spin, too", "spin")
-        if self.velocity is not None and "axes" in self.model_fields_set:
-            raise At("start.axes goes with start.omega or start.momentum: a velocity is along the plane", "axes")
+        if self.momentum is None and self.omega is None and "axes" in self.model_fields_set:
+            raise At("start.axes goes with start.omega or start.momentum", "axes")
         if self.gamma is not None and self.attitude is not None:
             raise At("start: give either gamma or attitude, which turns gamma to (0, 0, 1)", "attitude")
         return self

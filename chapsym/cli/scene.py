@@ -1,0 +1,125 @@
+"""chapsym scene: a new scene file, what is in one, and its schema."""
+
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from .app import app
+from .options import Json
+from .output import fail, print_json
+
+scenes = typer.Typer()
+app.add_typer(scenes, name="scene")
+
+
+@scenes.callback(invoke_without_command=True)
+def scene(context: typer.Context) -> None:
+    """Begin a scene file, say what one will run, help an editor with them."""
+    if context.invoked_subcommand is None:
+        print(context.get_help())
+
+
+@scenes.command()
+def new(
+    file: Annotated[Path, typer.Argument(metavar="FILE.toml", help="What to write.")],
+    example: Annotated[
+        str, typer.Option(metavar="NAME", help="Which: bowling, four, robot, spread or vertical.")
+    ] = "bowling",
+    schema: Annotated[bool, typer.Option(help="Write the schema for editors beside it, and name it.")] = True,
+    force: Annotated[bool, typer.Option("--force", help="Replace a file that is there.")] = False,
+) -> None:
+    """Write a scene with comments, to change.
+
+    Example: chapsym scene new my-ball.toml --example robot
+    """
+    from chapsym import files
+    from chapsym.dynamics import BadInput
+    from chapsym.scene import example as examples
+
+    try:
+        text = examples.example(example)
+    except BadInput as error:
+        fail(str(error), 2)
+    if file.suffix != ".toml":
+        fail(f"{str(file)!r}: a scene must end in .toml", 2)
+    if (file.exists() or file.is_symlink()) and not force:
+        fail(f"{file} is there already: choose another name, or --force to replace it", 2)
+    beside = file.parent / examples.FILE
+    try:
+        _write(file, (examples.SCHEMA_LINE if schema else "") + text)
+        if schema:
+            _write(beside, _schema_text())
+    except files.CannotWrite as error:
+        fail(str(error), 2)
+    print(f"wrote {file}" + (f", and {beside} for editors" if schema else ""))
+
+
+@scenes.command()
+def schema(
+    output: Annotated[Path | None, typer.Option("-o", "--output", metavar="FILE", help="Write it there.")] = None,
+) -> None:
+    """Print the JSON Schema of scene files, with descriptions and units.
+
+    Example: chapsym scene schema -o chapsym-scene.schema.json
+    """
+    from chapsym import files
+
+    if output is None:
+        print(_schema_text(), end="")
+        return
+    try:
+        _write(output, _schema_text())
+    except files.CannotWrite as error:
+        fail(str(error), 2)
+    print(f"wrote {output}")
+
+
+@scenes.command()
+def check(
+    file: Annotated[Path, typer.Argument(metavar="SCENE.toml", help="What to read.")],
+    as_json: Json = False,
+) -> None:
+    """Say what a scene will run: its balls, starts and ranges, and the plan with what it costs.
+
+    Example: chapsym scene check docs/first.toml
+    """
+    from chapsym.dynamics import BadInput
+    from chapsym.scene import load
+    from chapsym.scene.expand import expand
+    from chapsym.scene.explain import explained
+    from chapsym.scene.plan import planned
+    from chapsym.scene.summary import refusals, summary
+
+    try:
+        scene = load(file)
+        members = expand(scene)
+        plan = planned(members, scene.task())
+        warnings = refusals(scene, members)
+    except BadInput as error:
+        told = str(error)
+        fail(told if told.startswith(str(file)) else f"{file}: {told}", 2)
+    if as_json:
+        print_json({"file": str(file), "title": scene.title, **plan.describe(), "warnings": warnings})
+        return
+    _print_rows([*summary(scene, members), *explained(plan), *(("warning", told) for told in warnings)])
+
+
+def _print_rows(rows: list[tuple[str, str]]) -> None:
+    width = min(max(len(key) for key, _ in rows), 24)
+    for key, text in rows:
+        print(f"{key:{width}}  {text}")
+
+
+def _schema_text() -> str:
+    import json
+
+    from chapsym.scene.schema import schema
+
+    return json.dumps(schema(), indent=1, ensure_ascii=False) + "\n"
+
+
+def _write(path: Path, text: str) -> Any:
+    from chapsym import files
+
+    return files.write_whole(path, lambda stream: stream.write(text.encode()))

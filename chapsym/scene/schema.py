@@ -1,0 +1,96 @@
+"""The JSON Schema of scene files, for editors: from the tables that check them."""
+
+from typing import Any
+
+from .scene import Scene
+from .units import KNOWN, PURE, Dimension
+
+#: How `chapsym scene new` and the first line of its files call it.
+FILE = "chapsym-scene.schema.json"
+
+_DIMENSIONS = {dimension.units: dimension for dimension in (*KNOWN, PURE)}
+
+
+def schema() -> dict[str, Any]:
+    """The schema (draft 2020-12) of a scene, with descriptions, units and ranges.
+
+    What goes with what, such as mass with radius, is no part of it: `chapsym scene check` says that.
+    """
+    definitions: dict[str, Any] = {}
+    whole = _spelled(Scene.model_json_schema(), definitions)
+    whole["$defs"] |= definitions
+    about = "A scene of chapsym: balls that roll without slipping; numbers are SI, or texts with a unit."
+    start = {"$schema": "https://json-schema.org/draft/2020-12/schema", "title": "chapsym scene", "description": about}
+    return start | {key: value for key, value in whole.items() if key not in start}
+
+
+def _spelled(node: Any, definitions: dict[str, Any]) -> Any:
+    """A part of pydantic's schema without what TOML does not have (null), and with references to quantities."""
+    if isinstance(node, list):
+        return [_spelled(part, definitions) for part in node]
+    if not isinstance(node, dict):
+        return node
+    if "quantity" in node:
+        return {key: value for key, value in node.items() if key == "description"} | _reference(node, definitions)
+    left = {key: value for key, value in node.items() if key != "title" or not isinstance(value, str)}
+    if left.get("default", 0) is None:
+        del left["default"]
+    if "anyOf" in left:
+        kinds = [kind for kind in left["anyOf"] if kind != {"type": "null"}]
+        left = {**left, "anyOf": kinds} if len(kinds) > 1 else {**left, **kinds[0]}
+        if len(kinds) == 1:
+            del left["anyOf"]
+            return _spelled(left, definitions)
+    items = left.get("prefixItems")
+    if items and all(part == items[0] for part in items):  # what more editors know
+        del left["prefixItems"]
+        left["items"] = items[0]
+    return {key: _spelled(value, definitions) for key, value in left.items()}
+
+
+def _reference(node: dict[str, Any], definitions: dict[str, Any]) -> dict[str, str]:
+    """A reference to a quantity, which is defined when it is first met."""
+    dimension = _DIMENSIONS[node["quantity"]]
+    short = "number" if dimension is PURE else dimension.name.removeprefix("an ").removeprefix("a ")
+    name = short if node["swept"] else f"{short} without ranges"
+    name = f"positive {name}" if node["positive"] else name
+    definitions.setdefault(name.replace(" ", "_"), _quantity(dimension, node["swept"], node["positive"]))
+    return {"$ref": f"#/$defs/{name.replace(' ', '_')}"}
+
+
+def _quantity(dimension: Dimension, swept: bool, positive: bool) -> dict[str, Any]:
+    amount: dict[str, Any] = {"type": "number", "description": f"In {dimension.words}, such as {dimension.example[0]}."}
+    if positive:
+        amount["exclusiveMinimum"] = 0
+    text = {
+        "type": "string",
+        "pattern": r"^\s*[+-]?[0-9.]" + ("[0-9./eE+-]*\\s*$" if dimension is PURE else ""),
+        "description": f'A fraction{"" if dimension is PURE else " or with a unit"}, such as "{dimension.example[1]}".',
+    }
+    if not swept:
+        return {"description": f"{dimension.name} ({dimension.units})", "anyOf": [amount, text]}
+    one = {"anyOf": [amount, text]}
+    ranges = {
+        "linspace": _list("Values from a to b at n equal distances: [a, b, n].", [one, one, _WHOLE]),
+        "grid": {"type": "array", "items": one, "minItems": 1, "description": "These values: [v1, v2, ...]."},
+        "random": _list("Drawn between a and b for each ball: [a, b].", [one, one]),
+        "normal": _list("Drawn for each ball with [mean, deviation].", [one, one]),
+    }
+    table = {
+        "type": "object",
+        "description": "A range, which makes a sweep.",
+        "properties": ranges,
+        "additionalProperties": False,
+        "minProperties": 1,
+        "maxProperties": 1,
+    }
+    return {"description": f"{dimension.name} ({dimension.units}), or a range", "anyOf": [amount, text, table]}
+
+
+_WHOLE = {"type": "integer", "minimum": 1}
+
+
+def _list(about: str, items: list[Any]) -> dict[str, Any]:
+    return {
+        "type": "array", "prefixItems": items, "minItems": len(items), "maxItems": len(items), "description": about,
+    }  # fmt: skip
