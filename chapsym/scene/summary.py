@@ -21,7 +21,8 @@ def summary(scene: Scene, members: Members) -> list[tuple[str, str]]:
     first = 0
     for body in bodies(scene):
         count = len(body)
-        rows.append((body.name, _ball(members, first) + (f" (the first of {count})" if count > 1 else "")))
+        name = body.name + (f" 1 (of {count})" if count > 1 else "")
+        rows.append(("ball", f"{name}: {_ball(members, first)}"))
         rows.append(("start", _start(scene, members, first)))
         rows += [(key, _range(one, members.parameters[key].units)) for key, one in body.sweep().ranges.items()]
         first += count

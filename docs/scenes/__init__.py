@@ -1,0 +1,1 @@
+"""The example scenes, packaged as `chapsym.scene.examples`: `chapsym scene new` writes them."""
