@@ -14,7 +14,7 @@ def line_of(text: str, path: Sequence[str | int]) -> int | None:
     A text up to the end of a line either is TOML, and then says which keys stand so far, or ends within a statement of
     several lines.  Keys never vanish as more is read, so the line is found by bisection.
     """
-    lines = text.split("\n")
+    lines = text.replace("\r\n", "\n").split("\n")
     if len(lines) > MOST_LINES:
         return None
     ends = _Ends(lines)

@@ -161,7 +161,7 @@ def _text(path: Path) -> str:
             content = stream.read(MOST_BYTES + 1)
         if len(content) > MOST_BYTES:
             raise SceneError(f"{path} is no scene: it has more than {MOST_BYTES} bytes")
-        return content.decode("utf-8-sig").replace("\r\n", "\n")
+        return content.decode("utf-8-sig")
     except OSError as error:
         raise SceneError(f"{path} cannot be read: {error.strerror or error}") from None
     except UnicodeDecodeError:

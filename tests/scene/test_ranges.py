@@ -61,12 +61,15 @@ def test_draws_are_told_by_the_seed_and_by_their_own_key():
 
 
 def test_the_draws_of_today_are_those_of_tomorrow():
-    """PCG64 and these two methods are stable by NumPy's policy for bit streams; a change would change every sweep."""
+    """NumPy keeps the bits of PCG64, and changes what a Generator makes of them only with notice: here it would show."""
     found = values(checked(({"random": [0, 1]}, {"normal": [0, 1]}, 0), {"samples": 2, "seed": 3}))
     assert found == PINNED
 
 
-PINNED = {}
+PINNED = {
+    "start.omega.1": [0.512666372902691, 0.5203620745241612],
+    "start.omega.2": [-1.6259734135820363, -0.11966005365509731],
+}
 
 
 def test_draws_have_the_distribution_that_was_asked_for():
