@@ -41,6 +41,7 @@ def described(
 ) -> str:  # fmt: skip
     """All problems that pydantic found in `data`, one sentence each; `keys` has those of each table."""
     one_ball = not isinstance(data.get("ball"), list)
+    errors = [error for error in errors if error["type"] != "too_short" or not _inside(error, errors)]
     told: list[str] = []
     for error in errors[:MOST_PROBLEMS]:
         path = _in_file(error, one_ball)
@@ -49,6 +50,12 @@ def described(
     if len(errors) > MOST_PROBLEMS:
         told.append(f"and {len(errors) - MOST_PROBLEMS} more")
     return "; ".join(told)
+
+
+def _inside(whole: Any, errors: Sequence[Any]) -> bool:
+    """Whether parts of a list are wrong: pydantic leaves them out, and then finds the list too short."""
+    length = len(whole["loc"])
+    return any(len(error["loc"]) > length and error["loc"][:length] == whole["loc"] for error in errors)
 
 
 def _path(error: Any) -> Path:
@@ -90,7 +97,9 @@ def _sentence(error: Any, keys: dict[str, Iterable[str]]) -> str:
         "model_type": f"must be a table: [{key}]",
         "literal_error": f"must be {limits.get('expected')}",
         "too_long": f"must have {limits.get('max_length')} numbers",
-        "too_short": f"must have at least {limits.get('min_length')} numbers",
+        "too_short": f"must have at least {limits.get('min_length')} numbers"
+        if path != ("ball",)
+        else "must not be []",
         "greater_than_equal": f"must be at least {limits.get('ge')}",
     }
     told = kinds.get(error["type"], ": " + error["msg"].removeprefix("Value error, "))

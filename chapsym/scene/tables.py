@@ -188,7 +188,7 @@ class RunTable(Table):
                 whole = max(steps, 1)
                 raise At(
                     f"run.time is {ratio:.9g} time steps, which is no whole number: take time = {whole * step:.9g} or "
-                    f"time_step = {time / whole:.17g}", "time",
+                    f"time_step = {time / whole!r}", "time",
                 )  # fmt: skip
         if self.frames is None:
             return steps, self.every or 1

@@ -95,7 +95,11 @@ def test_a_batch_of_bowling_balls_may_have_one_whose_block_is_at_the_centre():
         ("dumbbell", {"point_mass": 3.6, "separation": 0.1}, "the two point masses are more than the mass"),
         ("dumbbell", {"point_mass": -1, "separation": 0.1}, "point_mass must not be negative"),
         ("dumbbell", {"point_mass": 1, "separation": 0.22}, "separation must be from 0 to the inside"),
-        ("dumbbell", {"point_mass": 1, "separation": 0.2, "thickness": 0.01}, "separation must be from 0 to the inside"),
+        (
+            "dumbbell",
+            {"point_mass": 1, "separation": 0.2, "thickness": 0.01},
+            "separation must be from 0 to the inside",
+        ),
         ("bowling", {"block_mass": 6.9, "block_size": SIZE, "block_offset": OFFSET}, "are more than the mass"),
         ("bowling", {"block_mass": -1, "block_size": SIZE, "block_offset": OFFSET}, "block_mass must not be negative"),
         ("bowling", {"block_mass": 1, "block_size": (0.05, -0.1, 0), "block_offset": OFFSET}, "block_size must not"),

@@ -1,0 +1,205 @@
+"""What goes with what under [run], [ball] and [start], and the sentence for what does not."""
+
+import pytest
+
+from chapsym import scene
+from chapsym.scene import SceneError, checked
+from chapsym.scene.expand import expand
+
+DATA = {
+    "ball": {"inertia": [0.006, 0.007, 0.009], "mass": 2.0, "radius": 0.1},
+    "start": {"omega": [3, -2, 1]},
+    "run": {"time_step": 0.01, "steps": 1000},
+}
+
+
+def with_run(**run):
+    return checked(DATA | {"run": {"time_step": 0.01} | run})
+
+
+@pytest.mark.parametrize(
+    ("run", "steps", "every"),
+    [
+        ({"steps": 1000}, 1000, 1),
+        ({"time": 10.0}, 1000, 1),
+        ({"time": "1 min"}, 6000, 1),
+        ({"time": 0.3, "time_step": 0.1}, 3, 1),  # 0.3 / 0.1 is 2.9999999999999996
+        ({"time": 1000.1, "time_step": 1e-4}, 10_001_000, 1),
+        ({"time": 1, "time_step": "1/3"}, 3, 1),
+        ({"steps": 1000, "frames": 50}, 1000, 20),
+        ({"time": 10, "frames": 1000}, 1000, 1),
+        ({"steps": 7, "every": 3}, 7, 3),
+        ({"steps": 0}, 0, 1),
+        ({"steps": 0, "frames": 3}, 0, 1),
+    ],
+)
+def test_steps_and_frames(run, steps, every):
+    task = with_run(**run).task()
+    assert (task.steps, task.every) == (steps, every)
+
+
+@pytest.mark.parametrize(
+    ("run", "sentence"),
+    [
+        (
+            {"time": 0.015},
+            "run.time is 1.5 time steps, which is no whole number: take time = 0.02 or time_step = 0.0075",
+        ),
+        ({"time": 1 + 1e-12}, "which is no whole number"),
+        ({"time": 0.001}, "run.time is 0.1 time steps, which is no whole number: take time = 0.01"),
+        ({"time": 1e300}, "more than anybody waits for"),
+        ({"time": 1, "steps": 100}, "run: give either steps or time"),
+        ({"steps": 1000, "frames": 3}, "run.frames: 1000 steps do not divide into 3 equal parts; 2 do"),
+        ({"steps": 10, "frames": 11}, "run.frames: 10 steps do not divide into 11 equal parts; 10 do"),
+        ({"steps": 10, "frames": 5, "every": 2}, "run: give either every or frames"),
+        ({"steps": 10, "outputs": []}, "run.outputs is empty: choose of momentum, gamma, omega"),
+        ({"steps": 10, "outputs": ["omega", "omega"]}, "run.outputs names an output twice"),
+        ({"steps": 10, "outputs": ["spin"]}, "run.outputs.1 must be 'momentum', 'gamma', 'omega'"),
+        ({"steps": 10, "order": 3}, "run.order must be 2, 4, 6 or 8"),
+        ({"steps": 10, "precision": "half"}, "run.precision must be 'single', 'double' or 'quad'"),
+        ({"steps": 10, "limit": 3}, "run.limit goes with run.accuracy"),
+        ({"steps": 10, "time_step": -1}, "run.time_step must be greater than 0"),
+        ({"steps": 10, "time_step": {"grid": [1]}}, "run.time_step must be a number"),
+        ({"accuracy": 1e-3, "time": 3}, "run.accuracy chooses the steps: leave out run.time_step"),
+        ({"steps": True}, "run.steps must be a whole number"),
+        ({"steps": 10, "atitude": True}, "run.atitude is not a key of [run]; did you mean attitude?"),
+        ({"steps": 10, "radius": 3}, "run.radius is not a key of [run]; it stands under [ball]"),
+        ({"steps": 10, "zzz": 3}, "run.zzz is not a key of [run]; there are steps, time, time_step"),
+        ({"steps": 10, "ball": 3}, "run.ball is not a key of [run]; it stands at the top of the file"),
+    ],
+)
+def test_a_wrong_run_is_refused(run, sentence):
+    with pytest.raises(SceneError) as caught:
+        with_run(**run)
+    assert sentence in str(caught.value)
+
+
+def test_outputs_and_their_short_forms():
+    assert with_run(steps=1).task().outputs == ("momentum", "gamma")
+    assert with_run(steps=1, contact=True).task().outputs == ("momentum", "gamma", "contact")
+    assert with_run(steps=1, outputs=["energy"], attitude=True).task().outputs == ("attitude", "energy")
+    task = with_run(steps=1, order=4, precision="quad").task()
+    assert (task.order, task.precision, task.time_step) == (4, "quad", 0.01)
+
+
+def test_an_accuracy_is_a_task_of_frames():
+    task = checked(DATA | {"run": {"accuracy": 1e-3, "time": "2 min", "frames": 4, "contact": True}}).task()
+    assert (task.steps, task.every, task.frames, task.time, task.of, task.limit) == (4, 1, 5, 120.0, "contact", 600.0)
+    assert checked(DATA | {"run": {"accuracy": 1e-3, "time": 1}}).task().of == "state"
+
+
+@pytest.mark.parametrize(
+    ("ball", "sentence"),
+    [
+        ({"raduis": 1}, "ball.raduis is not a key of [ball]; did you mean radius?"),
+        ({"steps": 1}, "ball.steps is not a key of [ball]; it stands under [run]"),
+        ({"D": 1}, "ball: give either D or mass and radius, not both D and mass"),
+        ({"mass": None}, "ball.mass is missing: give it, or D"),
+        ({"radius": None}, "ball.radius is missing: give it, or D"),
+        ({"mass": None, "radius": None}, "ball.mass is missing: give mass and radius, or D"),
+        ({"inertia": None}, "ball: give either mass_tensor or inertia (or a preset)"),
+        ({"preset": "shell"}, "ball: give either mass_tensor or inertia (or a preset), not inertia and preset"),
+        ({"thickness": 1}, "ball.thickness goes with ball.preset"),
+        ({"inertia": None, "preset": "shell", "block_mass": 1}, "ball.block_mass does not go with the preset shell"),
+        ({"inertia": None, "preset": "dumbbell", "point_mass": 1}, "ball.separation is missing: the preset dumbbell"),
+        ({"inertia": None, "preset": "egg"}, "ball.preset must be 'homogeneous', 'shell', 'dumbbell' or 'bowling'"),
+        (
+            {"radius": "3 kg"},
+            "ball.radius is a length, but '3 kg' is a mass; write metres, such as 0.1085, or '108.5 mm'",
+        ),
+        ({"inertia": [1, 2]}, "ball.inertia.3 is missing"),
+        ({"inertia": [[1, 2, 3], [1, 2], [1, 2, 3]]}, "ball.inertia.2.3 is missing"),
+        ({"inertia": [1, 2, 3, 4]}, "ball.inertia must have 3 numbers"),
+        ({"inertia": "1"}, "ball.inertia must be a list of numbers in brackets"),
+        ({"name": ""}, "ball.name"),
+        (3, "ball must be a table: [ball]"),
+        ([], "ball must not be []"),
+    ],
+)
+def test_a_wrong_ball_is_refused(ball, sentence):
+    table = ball
+    if isinstance(ball, dict):
+        table = {key: value for key, value in (DATA["ball"] | ball).items() if value is not None}
+    with pytest.raises(SceneError) as caught:
+        checked(DATA | {"ball": table})
+    assert sentence in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("start", "sentence"),
+    [
+        ({}, "start: give either momentum, omega or velocity (or vertical_momentum)"),
+        ({"omega": [1, 2, 3], "momentum": [1, 2, 3]}, "not momentum and omega"),
+        ({"omega": [1, 2, 3], "spin": 1}, "start.spin goes with start.velocity"),
+        ({"velocity": [1, 2], "axes": "space"}, "start.axes goes with start.omega or start.momentum"),
+        ({"omega": [1, 2, 3], "gamma": [0, 0, 1], "attitude": [1, 0, 0, 0]}, "start: give either gamma or attitude"),
+        ({"omega": [1, 2, 3], "attitude": [1, 0, 0]}, "start.attitude.4 is missing"),
+        ({"velocity": "8 m/s"}, "start.velocity must be a list of numbers in brackets"),
+        ({"velocity": ["8 m", 0]}, "start.velocity.1 is a velocity, but '8 m' is a length"),
+        ({"omega": [1, 2, 3], "axes": "world"}, "start.axes must be 'body' or 'space'"),
+        (None, "start is missing: give [start], or each ball its own start = { ... }"),
+    ],
+)
+def test_a_wrong_start_is_refused(start, sentence):
+    with pytest.raises(SceneError) as caught:
+        checked({"ball": DATA["ball"], "run": DATA["run"]} | ({} if start is None else {"start": start}))
+    assert sentence in str(caught.value)
+
+
+def test_two_balls_of_one_name_and_wrong_keys_in_the_second_are_told():
+    with pytest.raises(SceneError, match="two balls have the name 'a'"):
+        checked(DATA | {"ball": [DATA["ball"] | {"name": "a"}] * 2})
+    with pytest.raises(SceneError, match=r"ball\.2\.mas is not a key of \[ball\.2\]; did you mean mass\?"):
+        checked(DATA | {"ball": [DATA["ball"], DATA["ball"] | {"mas": 1}]})
+
+
+def test_many_problems_are_told_with_their_lines_and_not_without_end(tmp_path):
+    path = tmp_path / "s.toml"
+    path.write_text(
+        '[ball]\nmas = 1\n[start]\nomga = 3\n[run]\nsteps = "x"\n' + "".join(f"k{i} = 1\n" for i in range(9))
+    )
+    with pytest.raises(SceneError) as caught:
+        scene.load(path)
+    told = str(caught.value)
+    assert told.startswith(f"{path}, line 2: ball.mas is not a key of [ball]; did you mean mass?; line 4: start.omga")
+    assert told.endswith("; and 7 more")
+    assert "line 6: run.steps must be a whole number" in told
+
+
+def test_a_refusal_of_a_ball_tells_its_line(tmp_path):
+    path = tmp_path / "s.toml"
+    path.write_text(
+        "[[ball]]\npreset = 'shell'\nmass = 1\nradius = 1\n\n[[ball]]\npreset = 'shell'\nmass = 1\nradius = -1\n"
+        "[start]\nomega = [1, 2, 3]\n[run]\ntime_step = 1\nsteps = 1\n"
+    )
+    with pytest.raises(SceneError) as caught:
+        expand(scene.load(path))
+    assert str(caught.value) == f"{path}, line 6: ball 2: mass and radius must be positive"
+
+
+def test_a_scene_knows_its_source_and_a_changed_one_is_checked(tmp_path):
+    path = tmp_path / "s.toml"
+    text = "# why\r\n[ball]\r\nmass_tensor = [1, 2, 4]\r\nD = '3 kg m2'\r\n[start]\r\nmomentum = [1, 0, 0]\r\n[run]\r\nsteps = 9\r\n"
+    path.write_bytes(text.encode())
+    first = scene.load(path)
+    assert first.source == text
+    changed = first.with_run(steps=None, time_step=0.5, time=2)
+    assert changed.task().steps == 4
+    assert '"time": 2' in changed.source
+    assert first.task().steps == 9
+    with pytest.raises(SceneError, match=r"run\.stps is not a key of \[run\]; did you mean steps\?"):
+        first.with_run(stps=3)
+
+
+def test_a_file_that_is_no_scene_is_one_sentence(tmp_path):
+    path = tmp_path / "s.toml"
+    path.write_text("[ball]\nmass = \n")
+    with pytest.raises(SceneError) as caught:
+        scene.load(path)
+    assert str(caught.value) == f"{path}, line 2, column 8: this is not TOML: Invalid value"
+    for wrong, sentence in [(tmp_path, "Is a directory"), (tmp_path / "no", "No such file"), (tmp_path / "\0", "null")]:
+        with pytest.raises(SceneError, match=sentence):
+            scene.load(wrong)
+    path.write_bytes(b"a = '\xff'")
+    with pytest.raises(SceneError, match="is not UTF-8 text"):
+        scene.load(path)
