@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray
-from small_units import EVERY, OUTPUTS, STEPS, plan
+from small_units import EVERY, OUTPUTS, STEPS, equal_to_the_bit, plan
 
 from chapsym.dynamics import Status
 from chapsym.scene import SceneError, segments, sweep
@@ -26,21 +26,6 @@ UNITS = 20
 def whole():
     """The result, computed in memory at once."""
     return sweep.run_in_memory(plan())
-
-
-def equal_to_the_bit(one, other):
-    """Coordinates, variables and attributes, NaN where NaN is, and the sign of zero."""
-    assert set(one.variables) == set(other.variables)
-    for name in one.variables:
-        a, b = one[name].values, other[name].values
-        assert one[name].dims == other[name].dims, name
-        if a.dtype.kind == "f":
-            assert a.dtype == b.dtype
-            assert (a.view(np.int64) == b.view(np.int64)).all(), name
-        else:
-            assert (a == b).all(), name
-        assert dict(one[name].attrs) == dict(other[name].attrs), name
-    assert {**one.attrs, "complete": True} == {**other.attrs, "complete": True}
 
 
 def opened(path):
