@@ -86,3 +86,50 @@ def batch(balls=400, steps=1500, every=5, seed=1, width=0.05):
         UNEVEN, omega, 0.01, steps, gamma=(2 / 7, 3 / 7, 6 / 7), every=every, contact=True
     )  # fmt: skip
     return of(run, ALL, f"{balls} nearby starts", {"start.omega.1": (omega[:, 0], "rad s-1")})
+
+
+def top(steps=300, every=1):
+    """D = 0: 𝒦 runs on its polhode, γ is not on a curve."""
+    run = chapsym.trajectory(chapsym.Ball((1.0, 2.0, 4.0), 0.0), (0.3, 0.6, 0.9), (2 / 7, 3 / 7, 6 / 7), steps, every=every)
+    return of(run, ("momentum", "gamma", "integrals"), "A free top")
+
+
+def four(steps=1500):
+    """A ball in four dimensions, with momentum, γ and contact."""
+    ball = chapsym.BallN(mass_tensor=(1, 2, 0.5, 3), D=3, radius=0.1)
+    momentum = np.zeros((4, 4))
+    momentum[1, 0], momentum[3, 2], momentum[2, 0] = 0.3, -0.2, 0.1
+    run = chapsym.trajectory_n(ball, momentum - momentum.T, (0.1, 0.1, 0.7, 0.7), steps, contact=True)
+    labels = ["1", "2", "3", "4"]
+    return xr.Dataset(
+        {
+            "momentum": (("ball", "frame", "row", "column"), run.momentum[np.newaxis], {"units": "kg m2"}),
+            "gamma": (("ball", "frame", "axis"), run.gamma[np.newaxis]),
+            "attitude": (("ball", "frame", "row", "column"), run.attitude[np.newaxis]),
+            "contact": (("ball", "frame", "plane"), run.contact[np.newaxis], {"units": "m"}),
+            "integrals": (("ball", "frame", "integral"), run.invariants()[np.newaxis]),
+            "mass_tensor": (("ball", "axis"), ball.mass_tensor[np.newaxis]), "D": ("ball", [3.0]),
+            "taken": ("ball", [int(run.taken)]), "status": ("ball", [0]),
+        },
+        {"ball": ["0"], "row": labels, "column": labels, "axis": labels, "plane": labels[:3],
+         "integral": ["tr K^2", "tr K^4", "gamma.K^2.gamma", "gamma.gamma"], "step": ("frame", run.index)},
+        {"title": "A ball in four dimensions"},
+    )  # fmt: skip
+
+
+def folded():
+    """Two balls, the second of which meets a fold."""
+    run = chapsym.trajectory(
+        chapsym.Ball((0.1, 0.5, 1.6), 0.7, 0.1), [(0.5, 0.3, 0.2), (1.44, 0.96, 0.3)], (2 / 7, 3 / 7, 6 / 7), 300, contact=True
+    )  # fmt: skip
+    return of(run, ("momentum", "gamma", "contact", "integrals"), "One ball stops", names=["slow", "fast"])
+
+
+def sweep(balls=60):
+    """Rotation numbers over a parameter, of a made-up smooth law."""
+    height = np.linspace(0.05, 0.5, balls)
+    return xr.Dataset(
+        {"rotation_number": ("ball", height / (1 + height)), "taken": ("ball", np.full(balls, 10)), "status": ("ball", np.zeros(balls))},
+        {"ball": [str(i) for i in range(balls)], "start.momentum": ("ball", height, {"units": "kg m2"}), "step": ("frame", [0])},
+        {"title": "Rotation number of a vertical momentum"},
+    )  # fmt: skip

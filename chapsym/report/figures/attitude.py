@@ -9,7 +9,7 @@ from chapsym.dynamics.ball import Floats
 
 from . import components, reading, series
 from .sphere import View, draw_globe, draw_orbit
-from .style import COLOURS, FEW, VERTICES, WIDTH
+from .style import COLOURS, FEW, VERTICES, WIDTH, entitle, legend
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -38,7 +38,7 @@ def draw(dataset: "Dataset") -> "Figure":
 
     figure = Figure(figsize=(WIDTH, 7.2), layout="constrained")
     above, below = figure.subplots(2, 1, height_ratios=[1.75, 1.0])
-    figure.suptitle(str(dataset.attrs.get("title", "")), parse_math=False)
+    entitle(figure, str(dataset.attrs.get("title", "")))
     one = quaternions[0][np.isfinite(quaternions[0]).all(axis=-1)]
     view = View.towards_eye(EYE)
     draw_globe(above, view, ("x", "y", "z"))
@@ -52,7 +52,7 @@ def draw(dataset: "Dataset") -> "Figure":
     for i in range(4):
         series.line(below, t, quaternions[0, :, i], ("#000000", *COLOURS)[i], names[i])
     below.set(xlabel=label, ylabel="quaternion", ylim=(-1.05, 1.05))
-    figure.legend(*below.get_legend_handles_labels(), loc="outside lower center", ncols=4)
+    legend(figure, [below])
     return figure
 
 

@@ -7,7 +7,7 @@ import numpy as np
 from chapsym.dynamics.ball import Floats
 
 from . import reading, series
-from .style import COLOURS, power
+from .style import COLOURS, FEW, power
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -25,14 +25,16 @@ def relative(quantity: Floats, size: Floats) -> Floats:
 
 
 def plot(axis: "Axes", dataset: "Dataset", changes: dict[str, Floats]) -> None:
-    """Lines for one ball, bands for more, of each change (balls, frames); the axis spans 20 ulps at least."""
+    """Lines for one ball (a few, if it is one change), bands for more, of each change (balls, frames); the axis spans 20 ulps at least."""
     t, label = reading.clock(dataset)
     largest = max((float(np.nanmax(np.abs(c), initial=0.0)) for c in changes.values()), default=0.0)
     factor, text = power(max(largest, ULPS * ULP / 2))
     for colour, (name, change) in zip(COLOURS, changes.items(), strict=False):
         told = f"{name}: {_brief(float(np.nanmax(np.abs(change), initial=0.0)))}"
-        if len(change) == 1:
-            series.line(axis, t, change[0] / factor, colour, told)
+        if len(change) == 1 or (len(changes) == 1 and len(change) <= FEW):
+            for i, one in enumerate(change):
+                each = told if len(change) == 1 else reading.ball_names(dataset)[i]
+                series.line(axis, t, one / factor, colour if len(change) == 1 else COLOURS[i], each)
         else:
             series.fan(axis, t, change / factor, colour, told)
     reach = max(1.1 * max(abs(v) for v in axis.get_ylim()) if largest > ULPS * ULP / 2 else 0.0, ULPS * ULP / 2 / factor)

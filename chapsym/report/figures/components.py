@@ -7,7 +7,7 @@ import numpy as np
 from chapsym.dynamics.ball import Floats
 
 from . import reading, series
-from .style import COLOURS, FEW, at_least, in_power, new, power
+from .style import COLOURS, FEW, at_least, in_power, legend, new, power
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -44,7 +44,7 @@ def draw(dataset: "Dataset", array: Floats, names: list[str], symbol: str, units
         at_least(axis, FLAT * max(map(abs, axis.get_ylim())))
     axes[-1].set_xlabel(label)
     if len(array) <= FEW:
-        figure.legend(loc="outside lower center", ncols=min(4, len(names) if alone else len(array)))
+        legend(figure, axes)
     else:
         figure.supxlabel("median of the balls; bands: 50 %, 90 %, all", fontsize=10, color="0.35")
     return figure

@@ -7,7 +7,7 @@ import numpy as np
 from chapsym.dynamics.ball import Floats
 
 from . import reading
-from .style import COLOURS, FEW, VERTICES, WIDTH, in_power, new, power, scale
+from .style import COLOURS, FEW, VERTICES, WIDTH, in_power, legend, new, power, scale
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -48,8 +48,7 @@ def draw(dataset: "Dataset") -> "Figure":
         _density(axis, dataset, trace)
     axis.set(xlabel=in_power("x", "m", text), ylabel=in_power("y", "m", text))
     axis.margins(0.06)
-    if axis.get_legend_handles_labels()[1]:
-        figure.legend(loc="outside lower center", ncols=3)
+    legend(figure, [axis])
     return figure
 
 
@@ -69,6 +68,8 @@ def lines(axis: "Axes", dataset: "Dataset", trace: Floats, legend: bool = True) 
     dense = trace.shape[0] * trace.shape[1] > VERTICES
     for i, path in enumerate(trace):
         path = path[: last[i] + 1]
+        if not len(path):
+            continue
         label = names[i] if few and len(trace) > 1 and legend else None
         axis.plot(*path.T, color=colours[i], linewidth=1.3 if few else 0.8, rasterized=dense, label=label, zorder=2)
         if few:

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from . import change, reading
-from .style import new
+from .style import legend, new
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -29,5 +29,5 @@ def draw(dataset: "Dataset") -> "Figure":
     low, high = float(start.min()), float(start.max())
     told = f"{low:.6g}" if low == high else f"{low:.4g} to {high:.4g}"
     axis.set_title(f"kinetic energy, {told} J at the start")
-    figure.legend(loc="outside lower center")
+    legend(figure, [axis])
     return figure

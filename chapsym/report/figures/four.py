@@ -39,6 +39,7 @@ def draw(dataset: "Dataset") -> "Figure":
     planes = [(0, 1), (2, 3)] if gamma is not None else []
     count = len(shown) + len(planes)
     figure, axes = new(str(dataset.attrs.get("title", "")), -(-count // 2), 2, height=2.9)
+    figure.set_layout_engine("compressed")
     for axis, (name, points) in zip(axes, shown, strict=False):
         view = View.of(points[np.isfinite(points).all(axis=-1)])
         draw_globe(axis, view, ("1", "2", "3"))
@@ -56,7 +57,7 @@ def draw(dataset: "Dataset") -> "Figure":
 def _some(dataset: "Dataset", points: Floats) -> list[Floats]:
     """The first balls, each up to its last frame."""
     last = reading.last_frames(dataset)
-    return [one[: last[i] + 1] for i, one in enumerate(points[:FEW])]
+    return [one[: last[i] + 1] for i, one in enumerate(points[:FEW]) if last[i] >= 0]
 
 
 def _plane(axis: "Axes", dataset: "Dataset", gamma: Floats, a: int, b: int) -> None:
@@ -75,7 +76,7 @@ def draw_pairs(dataset: "Dataset", trace: Floats) -> "Figure":
     from .contact import lines
 
     factor, text = power(float(np.nanmax(np.abs(trace), initial=0.0)))
-    names = [str(name) for name in dataset["plane"].values] if "plane" in dataset.coords else ["1", "2", "3"]
+    names = ["$x_1$", "$x_2$", "$x_3$"]
     figure, axes = new(str(dataset.attrs.get("title", "")), 2, 2, height=2.9)
     pairs = list(combinations(range(3), 2))
     for axis, (a, b) in zip(axes, pairs, strict=False):

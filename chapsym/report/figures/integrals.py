@@ -7,7 +7,7 @@ import numpy as np
 from chapsym.dynamics.ball import Floats
 
 from . import change, reading
-from .style import new
+from .style import legend, new
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -34,13 +34,21 @@ def draw(dataset: "Dataset") -> "Figure":
     names = names or [str(i + 1) for i in range(found.shape[-1])]
     figure, (axis,) = new(str(dataset.attrs.get("title", "")), height=3.6)
     changes = {
-        SYMBOLS.get(name, name): change.relative(found[..., i], _size(found[:, 0], names, i))
+        _symbol(name): change.relative(found[..., i], _size(found[:, 0], names, i))
         for i, name in enumerate(names)
     }
     change.plot(axis, dataset, changes)
     axis.set_title("momentum integrals, and the largest change of each")
-    figure.legend(loc="outside lower center", ncols=min(len(names), 3), columnspacing=1.2)
+    legend(figure, [axis])
     return figure
+
+
+def _symbol(name: str) -> str:
+    """A name of the result as mathematics: "tr K^2" is tr 𝒦²."""
+    if name in SYMBOLS:
+        return SYMBOLS[name]
+    told = name.replace("gamma", r"\gamma").replace("K", r"\mathcal{K}").replace("tr ", r"\mathrm{tr}\,").replace(".", " ")
+    return f"${told}$" if "K" in name else name
 
 
 def _size(start: Floats, names: list[str], i: int) -> Floats:

@@ -7,7 +7,7 @@ import numpy as np
 from chapsym.dynamics.ball import Floats
 
 from . import change, reading, series
-from .style import COLOURS, FEW, at_least, in_power, new, power
+from .style import COLOURS, FEW, at_least, in_power, legend, new, power
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -41,8 +41,7 @@ def draw(dataset: "Dataset") -> "Figure":
         axis.set_ylabel(in_power("phase u" if axis is above else "increment a step", "", text))
     at_least(below, _flat(u, each))
     below.set_xlabel(label)
-    if 1 < len(u) <= FEW:
-        figure.legend(loc="outside lower center", ncols=4)
+    legend(figure, [above])
     return figure
 
 

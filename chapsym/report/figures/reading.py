@@ -57,11 +57,14 @@ def clock(dataset: "Dataset") -> tuple[Floats, str]:
 
 
 def reached(dataset: "Dataset") -> np.ndarray:
-    """Which frames each ball reached, (balls, frames)."""
-    frames = steps(dataset)
+    """Which frames each ball reached, (balls, frames); none of a ball whose turn has not come."""
+    shape = dataset.sizes["ball"], dataset.sizes["frame"]
     if "taken" not in dataset:
-        return np.ones((dataset.sizes["ball"], len(frames)), dtype=bool)
-    return np.asarray(frames <= np.atleast_1d(dataset["taken"].values)[:, np.newaxis])
+        return np.ones(shape, dtype=bool)
+    taken = np.atleast_1d(dataset["taken"].values)[:, np.newaxis]
+    if "step" not in dataset.coords:  # the steps were chosen for each ball: it went to the end, or was not run
+        return np.broadcast_to(taken >= 0, shape)
+    return np.asarray(steps(dataset) <= taken)
 
 
 def values(dataset: "Dataset", name: str) -> Floats:
@@ -73,6 +76,8 @@ def values(dataset: "Dataset", name: str) -> Floats:
     with np.errstate(over="ignore"):
         array = array.astype(np.float64)
     there = reached(dataset)
+    if not there.any():
+        raise BadInput("no ball of this result has run yet: resume the run first")
     bad = there & ~np.isfinite(array).reshape(*there.shape, -1).all(axis=-1)
     if bad.any():
         ball, frame = map(int, np.argwhere(bad)[0])
@@ -103,7 +108,7 @@ def stopped(dataset: "Dataset") -> np.ndarray:
 
 
 def last_frames(dataset: "Dataset") -> np.ndarray:
-    """The last frame that each ball reached, (balls,)."""
+    """The last frame that each ball reached, (balls,); -1 for a ball whose turn has not come."""
     return reached(dataset).sum(axis=1) - 1
 
 

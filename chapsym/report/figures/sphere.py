@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 
 #: How much fainter what is behind the sphere is.
 BEHIND = 0.28
+CURVE = "#F5CE7E"
 #: Neighbours at a larger angle than this (radians) are points of a discrete orbit, not of a line.
 NEAR = 0.12
 
@@ -61,6 +62,8 @@ class View:
 
 def draw_globe(axis: "Axes", view: View, names: tuple[str, str, str]) -> None:
     """The outline, circles every 30°, and the ends of the three axes."""
+    from matplotlib.patheffects import withStroke
+
     axis.set_aspect("equal")
     axis.set_axis_off()
     axis.set(xlim=(-1.22, 1.22), ylim=(-1.22, 1.22))
@@ -80,6 +83,7 @@ def draw_globe(axis: "Axes", view: View, names: tuple[str, str, str]) -> None:
                 axis.annotate(
                     name, (x * away, y * away), xytext=offset, textcoords="offset points", ha="center", va="center",
                     fontsize=10, color="0.25", alpha=1.0 if front else 0.55, zorder=6,
+                    path_effects=[withStroke(linewidth=2.5, foreground="white", alpha=0.8)],
                 )  # fmt: skip
 
 
@@ -107,11 +111,10 @@ def _halves(axis: "Axes", view: View, points: Floats, colour: str, width: float,
             )  # fmt: skip
 
 
-def draw_curve(axis: "Axes", view: View, points: Floats, colour: str, width: float = 1.2, label: str = "") -> None:
-    """A curve on the sphere, (m, 3)."""
-    _halves(axis, view, points, colour, width, zorder=2)
-    if label:
-        axis.plot([], [], color=colour, linewidth=width, label=label)
+def draw_curve(axis: "Axes", view: View, points: Floats, label: str) -> None:
+    """A curve on which an orbit runs, (m, 3): broad, so that it is seen below the orbit."""
+    _halves(axis, view, points, CURVE, 4.5, zorder=2)
+    axis.plot([], [], color=CURVE, linewidth=4.5, label=label)
 
 
 def draw_orbit(axis: "Axes", view: View, points: Floats, colour: str, *, most: int = VERTICES) -> None:

@@ -10,7 +10,7 @@ from chapsym.dynamics.ball import Floats
 from . import reading
 from .invariant import Body, curve_through, energy_range, is_vertical, unit
 from .sphere import View, draw_curve, draw_globe, draw_orbit
-from .style import COLOURS, FEW, MAP, VERTICES, new
+from .style import COLOURS, FEW, MAP, VERTICES, legend, new
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -21,7 +21,9 @@ NEEDS = ("gamma", "momentum")
 ABOUT = "γ and 𝒦/|𝒦| on their spheres, with the invariant curve"
 TITLES = {"gamma": r"$\gamma$", "momentum": r"$\mathcal{K}/|\mathcal{K}|$"}
 #: Pixels of the region that the integrals forbid, and points of a cloud of many balls.
-PIXELS, CLOUD = 240, 200_000
+PIXELS, CLOUD = 240, 80_000
+#: The frames of a cloud.
+MOMENTS = 400
 
 
 def missing(dataset: "Dataset") -> str | None:
@@ -41,6 +43,10 @@ def draw(dataset: "Dataset") -> "Figure":
 
         return draw_four(dataset)
     found = {name: reading.values(dataset, name) for name in NEEDS if name in dataset}
+    t, _ = reading.clock(dataset)
+    if len(next(iter(found.values()))) > FEW:
+        balls, frames = _chosen(*next(iter(found.values())).shape[:2])
+        found, t = {name: array[np.ix_(balls, frames)] for name, array in found.items()}, t[frames]
     title = str(dataset.attrs.get("title", ""))
     still = "momentum" in found and not np.nan_to_num(found["momentum"]).any()
     if still and "gamma" in found:
@@ -50,11 +56,14 @@ def draw(dataset: "Dataset") -> "Figure":
     figure, axes = new(title, 1, len(shown), height=5.2 if len(shown) == 1 else 3.3)
     for axis, name in zip(axes, shown, strict=True):
         points = unit(found[name]) if name == "momentum" else found[name]
-        _panel(axis, dataset, name, points, found, vertical)
+        if len(points) > FEW:
+            _cloud(axis, t, points)
+        else:
+            _panel(axis, dataset, name, points, found, vertical)
         axis.set_title(r"$\gamma$, and $\mathcal{K} = h\gamma$" if vertical else TITLES[name])
-    handles = {label: handle for axis in axes for handle, label in zip(*axis.get_legend_handles_labels(), strict=True)}
-    if handles:
-        figure.legend(handles.values(), handles.keys(), loc="outside lower center", ncols=3 if len(handles) > 2 else 2)
+    if len(found[shown[0]]) > FEW:
+        _times(figure, axes, dataset)
+    legend(figure, axes)
     return figure
 
 
@@ -65,31 +74,26 @@ def _all_vertical(found: dict[str, Floats]) -> bool:
 
 def _panel(axis: "Axes", dataset: "Dataset", name: str, points: Floats, found: dict[str, Floats], vertical: bool) -> None:
     flat = points[np.isfinite(points).all(axis=-1)]
-    view = View.of(flat if len(flat) < 10_000 else flat[:: len(flat) // 10_000])
+    view = View.of(flat)
     draw_globe(axis, view, ("1", "2", "3"))
-    if len(points) > FEW:
-        _cloud(axis, dataset, view, points)
-        return
     last, names = reading.last_frames(dataset), reading.ball_names(dataset)
     bodies = _bodies(dataset)
     if len(points) == 1 and bodies and len(found) == 2 and not vertical and bodies[0].D > 0.0:
         _forbidden(axis, view, bodies[0], found, name == "gamma")
     for i, one in enumerate(points):
         orbit, colour = one[: last[i] + 1], COLOURS[i]
+        if not len(orbit):
+            continue
         if bodies and (vertical or (name == "momentum" and bodies[i].D == 0.0)):
             curve = curve_through(bodies[i], orbit, bodies[i].D if vertical else 0.0)
             if curve is not None:
-                draw_curve(axis, view, curve, "0.45" if len(points) == 1 else colour, 0.9, _curve_label(i, len(points)))
+                draw_curve(axis, view, curve, "invariant curve")
         draw_orbit(axis, view, orbit, colour, most=VERTICES // len(points))
         if len(points) > 1:
             axis.plot([], [], "o", color=colour, markersize=5, label=names[i])
     if len(points) == 1:
         axis.plot([], [], "o", color=COLOURS[0], markerfacecolor="white", label="start")
         axis.plot([], [], "s", color=COLOURS[0], label="end")
-
-
-def _curve_label(i: int, count: int) -> str:
-    return "invariant curve" if i == 0 and count == 1 else ""
 
 
 def _bodies(dataset: "Dataset") -> list[Body]:
@@ -124,20 +128,32 @@ def _forbidden(axis: "Axes", view: View, body: Body, found: dict[str, Floats], o
         axis.fill([], [], color="0.35", alpha=0.3, linewidth=0, label="not with these integrals")
 
 
-def _cloud(axis: "Axes", dataset: "Dataset", view: View, points: Floats) -> None:
+def _chosen(balls: int, frames: int) -> tuple[np.ndarray, np.ndarray]:
+    """Which balls and frames a cloud of points shows: evenly, the first and the last among them."""
+    instants = np.unique(np.linspace(0, frames - 1, min(frames, MOMENTS)).round().astype(int))
+    some = np.unique(np.linspace(0, balls - 1, min(balls, max(2, CLOUD // len(instants)))).round().astype(int))
+    return some, instants
+
+
+def _cloud(axis: "Axes", t: Floats, points: Floats) -> None:
     """Many balls: points in the colour of their time, rasterised."""
-    t, label = reading.clock(dataset)
-    frames = np.unique(np.linspace(0, len(t) - 1, max(2, min(len(t), CLOUD // len(points)))).round().astype(int))
-    balls = np.unique(np.linspace(0, len(points) - 1, min(len(points), CLOUD // len(frames))).round().astype(int))
-    some = points[np.ix_(balls, frames)]
-    when = np.broadcast_to(t[frames], some.shape[:2])
-    there = np.isfinite(some).all(axis=-1)
-    x, y, depth = view.project(some[there])
+    when = np.broadcast_to(t, points.shape[:2])
+    there = np.isfinite(points).all(axis=-1)
+    view = View.of(points[there])
+    draw_globe(axis, view, ("1", "2", "3"))
+    x, y, depth = view.project(points[there])
     for front_side in (False, True):
         seen = depth >= 0.0 if front_side else depth < 0.0
-        dots = axis.scatter(
+        axis.scatter(
             x[seen], y[seen], c=when[there][seen], cmap=MAP, vmin=t[0], vmax=t[-1], s=1.5 if len(x) > 5000 else 4,
             linewidths=0, alpha=0.8 if front_side else 0.2, zorder=3 + front_side, rasterized=True,
         )  # fmt: skip
-    bar = axis.figure.colorbar(dots, ax=axis, location="bottom", aspect=30, pad=0.02, fraction=0.06, label=label)
-    bar.solids.set_alpha(1.0)  # type: ignore[union-attr]
+
+
+def _times(figure: "Figure", axes: "list[Axes]", dataset: "Dataset") -> None:
+    from matplotlib.cm import ScalarMappable
+    from matplotlib.colors import Normalize
+
+    t, label = reading.clock(dataset)
+    mapped = ScalarMappable(Normalize(t[0], t[-1] if t[-1] > t[0] else t[0] + 1.0), MAP)
+    figure.colorbar(mapped, ax=axes, location="bottom", aspect=40, pad=0.02, fraction=0.06, label=label)

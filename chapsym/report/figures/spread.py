@@ -7,16 +7,19 @@ import numpy as np
 from chapsym.dynamics.ball import Floats
 
 from . import reading, series
-from .style import COLOURS, in_power, new, power
+from .style import COLOURS, in_power, legend, new, power
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
     from xarray import Dataset
 
 NEEDS = ("contact", "gamma")
 ABOUT = "distance of the balls from their mean over time"
-#: A spread that grows more than this is drawn in logarithms.
+#: A spread that grows more than this after a tenth of the run is drawn in logarithms.
 LOGARITHMIC = 30.0
+#: Distances below this part of the largest are roundoff.
+ROUNDOFF = 1e-12
 WANTED = ((5, 95, 0.18, "5 to 95 %"), (25, 75, 0.3, "25 to 75 %"))
 
 
@@ -38,25 +41,32 @@ def draw(dataset: "Dataset") -> "Figure":
         told, unit = ("distance from the mean", "m") if name == "contact" else (r"angle of $\gamma$ from its mean", "°")
         _panel(axis, t[some], far, colour, told, unit)
     axes[-1].set_xlabel(label)
-    figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=3)
+    legend(figure, axes[:1])
     return figure
 
 
-def _panel(axis, t, far, colour, told, unit):  # type: ignore[no-untyped-def]
+def _panel(axis: "Axes", t: Floats, far: Floats, colour: str, told: str, unit: str) -> None:
     wanted = sorted({p for low, high, *_ in WANTED for p in (low, high)} | {50})
     found = dict(zip(wanted, series.percentiles(far, tuple(wanted)), strict=True))
     half = found[50]
-    positive = half[np.isfinite(half) & (half > 0)]
-    logarithmic = positive.size > 1 and positive[-1] > LOGARITHMIC * positive[: max(1, len(positive) // 20)].min()
+    logarithmic = _grows(half)
     factor, text = (1.0, "") if logarithmic else power(float(np.nanmax(far, initial=0.0)))
     for low, high, alpha, name in WANTED:
         axis.fill_between(t, found[low] / factor, found[high] / factor, color=colour, alpha=alpha, linewidth=0, label=name)
     axis.plot(t, half / factor, color=colour, label="median")
     if logarithmic:
         axis.set_yscale("log", nonpositive="mask")
+        seen = found[WANTED[0][0]][1:]
+        axis.set_ylim(bottom=0.5 * float(np.nanmin(seen[seen > ROUNDOFF * np.nanmax(far)])))
     else:
         axis.set_ylim(bottom=0.0)
     axis.set_ylabel(in_power(told, unit, text))
+
+
+def _grows(half: Floats) -> bool:
+    """Whether the median distance grows by orders between a tenth of the run and its end: linear growth does not."""
+    going = half[np.isfinite(half)]
+    return len(going) > 10 and going[-1] > LOGARITHMIC * going[len(going) // 10] > 0.0
 
 
 def from_mean(points: Floats, on_sphere: bool) -> Floats:

@@ -1,6 +1,7 @@
 """How the figures look, and their bytes: one style, colours that the colour-blind tell apart, no dates in files."""
 
-from collections.abc import Iterator
+import re
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import IO, TYPE_CHECKING, Any
 
@@ -19,6 +20,8 @@ VERTICES = 16_000
 #: Inches: on a screen of 390 px the letters are still 10 px high.
 WIDTH = 5.6
 MAP = "viridis"
+#: So many letters fit below a figure.
+LETTERS = 66
 
 STYLE = {
     "font.family": ["DejaVu Sans"], "font.size": 11, "axes.titlesize": 11, "axes.labelsize": 11, "figure.titlesize": 12,
@@ -55,9 +58,29 @@ def new(title: str, rows: int = 1, columns: int = 1, height: float = 3.4, **opti
 
     figure = Figure(figsize=(WIDTH, height * rows + (0.35 if title else 0.0)), layout="constrained")
     axes = figure.subplots(rows, columns, squeeze=False, **options)
+    entitle(figure, title)
+    return figure, list(axes.flat)
+
+
+def entitle(figure: "Figure", title: str) -> None:
+    """The title of a scene above a figure: as it is written, in two lines at most."""
     if title:
         figure.suptitle(_wrapped(title), parse_math=False)
-    return figure, list(axes.flat)
+    figure.get_layout_engine().set(w_pad=0.06, h_pad=0.07)  # type: ignore[union-attr, call-arg]
+
+
+def legend(figure: "Figure", axes: "Sequence[Axes]") -> None:
+    """One legend below the figure, each name once, in as many columns as fit."""
+    found = {label: handle for axis in axes for handle, label in zip(*axis.get_legend_handles_labels(), strict=True)}
+    if not found:
+        return
+    lengths = [len(re.sub(r"[${}_]", "", re.sub(r"\\[a-z]+", "", label))) + 5 for label in found]
+    rows = 1 if sum(lengths) <= LETTERS else -(-len(found) // max(1, LETTERS // max(lengths)))
+    shown = figure.legend(
+        list(found.values()), list(found), loc="outside lower center", ncols=-(-len(found) // rows), columnspacing=1.2
+    )
+    for text in shown.get_texts():
+        text.set_parse_math(text.get_text().count("$") > 1)
 
 
 def _wrapped(text: str) -> str:
