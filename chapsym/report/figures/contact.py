@@ -82,6 +82,8 @@ def lines(axis: "Axes", dataset: "Dataset", trace: Floats, legend: bool = True) 
                 *path[end], marker, color=colours[i], markerfacecolor=face, markersize=7 if few else 3.5, zorder=4,
                 label=name if len(trace) == 1 and legend else None,
             )  # fmt: skip
+    if len(trace) > 1 and legend and stopped.any():
+        axis.plot([], [], "X", color="0.3", markersize=7 if few else 4, label="stopped early")
 
 
 def _by_parameter(axis: "Axes", dataset: "Dataset", count: int) -> list[Any]:

@@ -10,7 +10,7 @@ from chapsym.dynamics.ball import Floats
 from . import reading
 from .invariant import unit
 from .sphere import View, draw_globe, draw_orbit
-from .style import COLOURS, FEW, VERTICES, in_power, new, power
+from .style import COLOURS, FEW, VERTICES, WIDTH, entitle, in_power, new, power
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -30,6 +30,8 @@ def halves(momentum: Floats) -> tuple[Floats, Floats]:
 
 def draw(dataset: "Dataset") -> "Figure":
     """𝒦₊/|𝒦₊| and 𝒦₋/|𝒦₋| on their spheres, and γ in two planes."""
+    from matplotlib.figure import Figure
+
     shown: list[tuple[str, Floats]] = []
     if "momentum" in dataset:
         for sign, part in zip("+-", halves(reading.values(dataset, "momentum")), strict=True):
@@ -38,8 +40,11 @@ def draw(dataset: "Dataset") -> "Figure":
     gamma = reading.values(dataset, "gamma") if "gamma" in dataset else None
     planes = [(0, 1), (2, 3)] if gamma is not None else []
     count = len(shown) + len(planes)
-    figure, axes = new(str(dataset.attrs.get("title", "")), -(-count // 2), 2, height=2.9)
-    figure.set_layout_engine("compressed")
+    figure = Figure(figsize=(WIDTH, 2.9 * -(-count // 2) + 0.35), layout="constrained")
+    entitle(figure, str(dataset.attrs.get("title", "")))
+    # A row of its own each: the labels of the planes would make the spheres different in size.
+    rows = figure.subfigures(-(-count // 2), 1, squeeze=False).flat
+    axes = [axis for row in rows for axis in row.subplots(1, 2)]
     for axis, (name, points) in zip(axes, shown, strict=False):
         view = View.of(points[np.isfinite(points).all(axis=-1)])
         draw_globe(axis, view, ("1", "2", "3"))

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 #: A line has at most so many vertices; of more frames the range in each of as many intervals is drawn.
 MOST = 1500
 #: Percentiles are taken at so many frames at most.
-INSTANTS = 200
+INSTANTS = 600
 
 
 def line(axis: "Axes", t: Floats, y: Floats, colour: str, label: str | None = None, **options: object) -> None:
