@@ -11,8 +11,9 @@ from chapsym.dynamics import BadInput
 from . import reading
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
     from xarray import Dataset
+
+    from .picture import Picture
 
 __all__ = ["FIGURES", "FORMATS", "about", "available", "draw", "save", "save_all"]
 
@@ -32,11 +33,11 @@ def about(name: str) -> str:
     return str(_module(name).ABOUT)
 
 
-def draw(dataset: "Dataset", name: str, ball: str | int | None = None) -> "Figure":
+def draw(dataset: "Dataset", name: str, ball: str | int | None = None) -> "Picture":
     """A figure of a result, or of one of its balls (its name or index).
 
     Raises BadInput for a figure or ball that is not there, for one whose variables are missing, and where a frame that
-    was reached is not finite.  The figure is matplotlib's; pyplot is not touched.
+    was reached is not finite.  The figure is a matplotlib Figure that notebooks show as it is; pyplot is not touched.
     """
     from .style import styled
 
@@ -47,11 +48,11 @@ def draw(dataset: "Dataset", name: str, ball: str | int | None = None) -> "Figur
     if reason is not None:
         raise BadInput(f"{name}: {reason}")
     with styled():
-        figure: Figure = _module(name).draw(chosen)
+        figure: Picture = _module(name).draw(chosen)
     return figure
 
 
-def save(figure: "Figure", path: Path) -> None:
+def save(figure: "Picture", path: Path) -> None:
     """Writes a figure to .svg or .png, whole; the same data give the same bytes.  Raises BadInput and CannotWrite."""
     from .style import write
 

@@ -9,11 +9,12 @@ from chapsym.dynamics.ball import Floats
 
 from . import components, reading, series
 from .sphere import View, draw_globe, draw_orbit
-from .style import COLOURS, FEW, VERTICES, WIDTH, entitle, legend
+from .style import COLOURS, FEW, VERTICES, empty, entitle, legend
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
     from xarray import Dataset
+
+    from .picture import Picture
 
 NEEDS = ("attitude",)
 ABOUT = "paths of the body axes in space, and the quaternion over time"
@@ -28,15 +29,13 @@ def missing(dataset: "Dataset") -> str | None:
     return "the attitude is drawn in three dimensions only" if "quaternion" not in dataset["attitude"].dims else None
 
 
-def draw(dataset: "Dataset") -> "Figure":
+def draw(dataset: "Dataset") -> "Picture":
     """One ball: its axes on the sphere of space and its quaternion; several: their quaternions."""
     quaternions = continued(reading.values(dataset, "attitude"))
     names = [f"$q_{i}$" for i in range(4)]
     if len(quaternions) > 1:
         return components.draw(dataset, quaternions if len(quaternions) <= FEW else _signed(quaternions), names, "q", "")
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=(WIDTH, 7.2), layout="constrained")
+    figure = empty(7.2)
     above, below = figure.subplots(2, 1, height_ratios=[1.75, 1.0])
     entitle(figure, str(dataset.attrs.get("title", "")))
     one = quaternions[0][np.isfinite(quaternions[0]).all(axis=-1)]

@@ -10,14 +10,15 @@ from . import reading, series
 from .style import COLOURS, FEW, at_least, in_power, legend, new, power
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
     from xarray import Dataset
+
+    from .picture import Picture
 
 #: A change below this part of the largest component is drawn flat.
 FLAT = 1e-3
 
 
-def draw(dataset: "Dataset", array: Floats, names: list[str], symbol: str, units: str) -> "Figure":
+def draw(dataset: "Dataset", array: Floats, names: list[str], symbol: str, units: str) -> "Picture":
     """array (balls, frames, components): one panel with all components of one ball, else a panel for each."""
     t, label = reading.clock(dataset)
     factor, text = power(float(np.nanmax(np.abs(array), initial=0.0)))

@@ -11,8 +11,9 @@ from .style import COLOURS, FEW, VERTICES, WIDTH, in_power, legend, new, power, 
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
     from xarray import Dataset
+
+    from .picture import Picture
 
 NEEDS = ("contact",)
 ABOUT = "trace of the contact point on the plane"
@@ -31,7 +32,7 @@ def missing(dataset: "Dataset") -> str | None:
     return None if "contact" in dataset else 'no contact: add "contact" to run.outputs'
 
 
-def draw(dataset: "Dataset") -> "Figure":
+def draw(dataset: "Dataset") -> "Picture":
     """The traces, in metres, with equal axes; in n dimensions a panel for each pair of coordinates."""
     trace = reading.values(dataset, "contact")
     if trace.shape[-1] > 2:

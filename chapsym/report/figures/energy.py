@@ -8,8 +8,9 @@ from . import change, reading
 from .style import legend, new
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
     from xarray import Dataset
+
+    from .picture import Picture
 
 NEEDS = ("energy",)
 ABOUT = "kinetic energy over time, relative change"
@@ -20,7 +21,7 @@ def missing(dataset: "Dataset") -> str | None:
     return None if "energy" in dataset else 'no energy: add "energy" to run.outputs (and give run.time_step)'
 
 
-def draw(dataset: "Dataset") -> "Figure":
+def draw(dataset: "Dataset") -> "Picture":
     """(E - E₀)/E₀; the map keeps the energy up to an oscillation, and for D = 0 to roundoff."""
     energy = reading.values(dataset, "energy")
     start = energy[:, 0]

@@ -10,12 +10,13 @@ from chapsym.dynamics.ball import Floats
 from . import reading
 from .invariant import unit
 from .sphere import View, draw_globe, draw_orbit
-from .style import COLOURS, FEW, VERTICES, WIDTH, entitle, in_power, new, power
+from .style import COLOURS, FEW, VERTICES, empty, entitle, in_power, new, power
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
     from xarray import Dataset
+
+    from .picture import Picture
 
 
 def halves(momentum: Floats) -> tuple[Floats, Floats]:
@@ -28,10 +29,8 @@ def halves(momentum: Floats) -> tuple[Floats, Floats]:
     return first + last, first - last
 
 
-def draw(dataset: "Dataset") -> "Figure":
+def draw(dataset: "Dataset") -> "Picture":
     """𝒦₊/|𝒦₊| and 𝒦₋/|𝒦₋| on their spheres, and γ in two planes."""
-    from matplotlib.figure import Figure
-
     shown: list[tuple[str, Floats]] = []
     if "momentum" in dataset:
         for sign, part in zip("+-", halves(reading.values(dataset, "momentum")), strict=True):
@@ -40,7 +39,7 @@ def draw(dataset: "Dataset") -> "Figure":
     gamma = reading.values(dataset, "gamma") if "gamma" in dataset else None
     planes = [(0, 1), (2, 3)] if gamma is not None else []
     count = len(shown) + len(planes)
-    figure = Figure(figsize=(WIDTH, 2.9 * -(-count // 2) + 0.35), layout="constrained")
+    figure = empty(2.9 * -(-count // 2) + 0.35)
     entitle(figure, str(dataset.attrs.get("title", "")))
     # A row of its own each: the labels of the planes would make the spheres different in size.
     rows = figure.subfigures(-(-count // 2), 1, squeeze=False).flat
@@ -76,7 +75,7 @@ def _plane(axis: "Axes", dataset: "Dataset", gamma: Floats, a: int, b: int) -> N
     axis.set(xlim=(-1.1, 1.1), ylim=(-1.1, 1.1), xlabel=rf"$\gamma_{a + 1}$", ylabel=rf"$\gamma_{b + 1}$")
 
 
-def draw_pairs(dataset: "Dataset", trace: Floats) -> "Figure":
+def draw_pairs(dataset: "Dataset", trace: Floats) -> "Picture":
     """The contact point in a hyperplane, (balls, frames, n - 1): a panel for each pair of the first three coordinates."""
     from .contact import lines
 

@@ -10,8 +10,9 @@ from . import change, reading
 from .style import legend, new
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
     from xarray import Dataset
+
+    from .picture import Picture
 
 NEEDS = ("integrals",)
 ABOUT = "momentum integrals over time, relative change"
@@ -27,15 +28,15 @@ def missing(dataset: "Dataset") -> str | None:
     return None if "integrals" in dataset else 'no integrals: add "integrals" to run.outputs'
 
 
-def draw(dataset: "Dataset") -> "Figure":
+def draw(dataset: "Dataset") -> "Picture":
     """The map keeps the momentum integrals, so all that is seen is roundoff."""
     found = reading.values(dataset, "integrals")
     names = [str(name) for name in dataset["integral"].values] if "integral" in dataset.coords else []
     names = names or [str(i + 1) for i in range(found.shape[-1])]
     figure, (axis,) = new(str(dataset.attrs.get("title", "")), height=3.6)
     changes = {
-        _symbol(name): change.relative(found[..., i], _size(found[:, 0], names, i))
-        for i, name in enumerate(names)
+        _symbol(name): change.relative(found[..., i], size)
+        for i, (name, size) in enumerate(zip(names, sizes(found[:, 0], names), strict=True))
     }
     change.plot(axis, dataset, changes)
     axis.set_title("momentum integrals, and the largest change of each")
@@ -51,8 +52,12 @@ def _symbol(name: str) -> str:
     return f"${told}$" if "K" in name else name
 
 
-def _size(start: Floats, names: list[str], i: int) -> Floats:
-    """What a change is compared with, (balls,): the integral at the start; |𝒦||γ| for ⟨𝒦,γ⟩, which may vanish."""
-    if names[i] == "K.gamma" and {"K.K", "gamma.gamma"} <= set(names):
-        return np.sqrt(np.abs(start[:, names.index("K.K")] * start[:, names.index("gamma.gamma")]))
-    return np.abs(start[:, i])
+def sizes(start: Floats, names: list[str]) -> list[Floats]:
+    """What each change is compared with, (balls,): the integral at the start; |𝒦||γ| for ⟨𝒦,γ⟩, which may vanish.
+
+    start: the integrals at the start, (balls, integrals), with their names.
+    """
+    found = [np.abs(start[:, i]) for i in range(len(names))]
+    if {"K.gamma", "K.K", "gamma.gamma"} <= set(names):
+        found[names.index("K.gamma")] = np.sqrt(found[names.index("K.K")] * found[names.index("gamma.gamma")])
+    return found

@@ -10,8 +10,9 @@ from . import change, reading, series
 from .style import COLOURS, FEW, at_least, in_power, legend, new, power
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
     from xarray import Dataset
+
+    from .picture import Picture
 
 NEEDS = ("phase",)
 ABOUT = "elliptic phase u over time, and its increment a step"
@@ -24,7 +25,7 @@ def missing(dataset: "Dataset") -> str | None:
     return "an increment needs two frames" if dataset.sizes["frame"] < 2 else None
 
 
-def draw(dataset: "Dataset") -> "Figure":
+def draw(dataset: "Dataset") -> "Picture":
     """u(t) above; below (u of the next frame - u)/(steps between), constant for D = 0, else a function of u."""
     u = reading.values(dataset, "phase")
     t, label = reading.clock(dataset)

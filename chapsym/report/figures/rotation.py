@@ -8,8 +8,9 @@ from . import reading
 from .style import COLOURS, VERTICES, in_power, new, power, scale
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
     from xarray import Dataset
+
+    from .picture import Picture
 
 NEEDS = ("rotation_number",)
 ABOUT = "rotation number against the swept parameter"
@@ -22,7 +23,7 @@ def missing(dataset: "Dataset") -> str | None:
     return "one ball has one rotation number: sweep a parameter to see it change" if dataset.sizes["ball"] < 2 else None
 
 
-def draw(dataset: "Dataset") -> "Figure":
+def draw(dataset: "Dataset") -> "Picture":
     """Points over the first parameter; a second one is the colour.  Without parameters, over the number of the ball."""
     found = reading.per_ball(dataset, "rotation_number")
     assert found is not None

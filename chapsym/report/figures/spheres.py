@@ -14,8 +14,9 @@ from .style import COLOURS, FEW, MAP, VERTICES, legend, new
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
     from xarray import Dataset
+
+    from .picture import Picture
 
 NEEDS = ("gamma", "momentum")
 ABOUT = "γ and 𝒦/|𝒦| on their spheres, with the invariant curve"
@@ -36,7 +37,7 @@ def missing(dataset: "Dataset") -> str | None:
     return None
 
 
-def draw(dataset: "Dataset") -> "Figure":
+def draw(dataset: "Dataset") -> "Picture":
     """One sphere for each of γ and 𝒦/|𝒦|; one alone where 𝒦 is vertical, and they are the same."""
     if "row" in dataset.dims or dataset.sizes.get("axis") == 4:
         from .four import draw as draw_four
@@ -150,7 +151,7 @@ def _cloud(axis: "Axes", t: Floats, points: Floats) -> None:
         )  # fmt: skip
 
 
-def _times(figure: "Figure", axes: "list[Axes]", dataset: "Dataset") -> None:
+def _times(figure: "Picture", axes: "list[Axes]", dataset: "Dataset") -> None:
     from matplotlib.cm import ScalarMappable
     from matplotlib.colors import Normalize
 

@@ -11,8 +11,9 @@ from .style import COLOURS, in_power, legend, new, power
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
     from xarray import Dataset
+
+    from .picture import Picture
 
 NEEDS = ("contact", "gamma")
 ABOUT = "distance of the balls from their mean over time"
@@ -30,7 +31,7 @@ def missing(dataset: "Dataset") -> str | None:
     return None if "contact" in dataset or "gamma" in dataset else 'no contact and no γ: add "contact" to run.outputs'
 
 
-def draw(dataset: "Dataset") -> "Figure":
+def draw(dataset: "Dataset") -> "Picture":
     """Percentiles of the distance from the mean contact point (m), and of the angle of γ from its mean (degrees)."""
     shown = [name for name in NEEDS if name in dataset]
     figure, axes = new(str(dataset.attrs.get("title", "")), len(shown), height=2.8, sharex=True)

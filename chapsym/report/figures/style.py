@@ -11,6 +11,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+    from .picture import Picture
+
 #: Okabe and Ito's colours.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#F0E442")
 #: So many balls have a colour and a name each; more share a colour scale.
@@ -52,11 +54,16 @@ def write(figure: "Figure", stream: IO[bytes], form: str) -> None:
         figure.savefig(stream, format=form, metadata=metadata)  # type: ignore[arg-type]
 
 
-def new(title: str, rows: int = 1, columns: int = 1, height: float = 3.4, **options: Any) -> "tuple[Figure, list[Axes]]":
-    """An empty figure, `height` inches high for each row, titled, with its axes."""
-    from matplotlib.figure import Figure
+def empty(height: float) -> "Picture":
+    """A figure without axes, `height` inches high."""
+    from .picture import Picture
 
-    figure = Figure(figsize=(WIDTH, height * rows + (0.35 if title else 0.0)), layout="constrained")
+    return Picture(figsize=(WIDTH, height), layout="constrained")
+
+
+def new(title: str, rows: int = 1, columns: int = 1, height: float = 3.4, **options: Any) -> "tuple[Picture, list[Axes]]":
+    """An empty figure, `height` inches high for each row, titled, with its axes."""
+    figure = empty(height * rows + (0.35 if title else 0.0))
     axes = figure.subplots(rows, columns, squeeze=False, **options)
     entitle(figure, title)
     return figure, list(axes.flat)
