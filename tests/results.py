@@ -15,7 +15,8 @@ DIMS = {
 }  # fmt: skip
 UNITS = {"momentum": "kg m2", "gamma": "1", "omega": "rad s-1", "attitude": "1", "contact": "m", "energy": "J"}
 COORDS = {
-    "axis": ["1", "2", "3"], "plane": ["x", "y"], "quaternion": list("wxyz"), "integral": ["K.gamma", "K.K", "gamma.gamma"],
+    "axis": ["1", "2", "3"], "plane": ["x", "y"], "quaternion": list("wxyz"),
+    "integral": ["K.gamma", "K.K", "gamma.gamma"],
 }  # fmt: skip
 
 
@@ -58,7 +59,9 @@ ALL = ("momentum", "gamma", "omega", "attitude", "contact", "energy", "integrals
 def bowling(steps=2000, every=1, **options):
     """A bowling ball, two seconds of it."""
     run = chapsym.roll(BOWLING, (2.0, 30.0, 5.0), 1e-3, steps, every=every, contact=True)
-    return of(run, options.pop("outputs", ALL), options.pop("title", "A bowling ball with an off-centre core"), **options)
+    return of(
+        run, options.pop("outputs", ALL), options.pop("title", "A bowling ball with an off-centre core"), **options
+    )
 
 
 def uneven(steps=1000):
@@ -90,7 +93,9 @@ def batch(balls=400, steps=1500, every=5, seed=1, width=0.05):
 
 def top(steps=300, every=1):
     """D = 0: 𝒦 runs on its polhode, γ is not on a curve."""
-    run = chapsym.trajectory(chapsym.Ball((1.0, 2.0, 4.0), 0.0), (0.3, 0.6, 0.9), (2 / 7, 3 / 7, 6 / 7), steps, every=every)
+    run = chapsym.trajectory(
+        chapsym.Ball((1.0, 2.0, 4.0), 0.0), (0.3, 0.6, 0.9), (2 / 7, 3 / 7, 6 / 7), steps, every=every
+    )
     return of(run, ("momentum", "gamma", "integrals"), "A free top")
 
 
@@ -118,10 +123,9 @@ def four(steps=1500):
 
 
 def folded():
-    """Two balls, the second of which meets a fold."""
-    run = chapsym.trajectory(
-        chapsym.Ball((0.1, 0.5, 1.6), 0.7, 0.1), [(0.5, 0.3, 0.2), (1.44, 0.96, 0.3)], (2 / 7, 3 / 7, 6 / 7), 300, contact=True
-    )  # fmt: skip
+    """Two balls, the second of which meets a fold after 50 steps."""
+    ball, gamma = chapsym.Ball((0.1, 0.5, 1.6), 0.7, 0.1), (2 / 7, 3 / 7, 6 / 7)
+    run = chapsym.trajectory(ball, [(0.5, 0.3, 0.2), (1.44, 0.96, 0.3)], gamma, 300, contact=True)
     return of(run, ("momentum", "gamma", "contact", "integrals"), "One ball stops", names=["slow", "fast"])
 
 
@@ -129,7 +133,10 @@ def sweep(balls=60):
     """Rotation numbers over a parameter, of a made-up smooth law."""
     height = np.linspace(0.05, 0.5, balls)
     return xr.Dataset(
-        {"rotation_number": ("ball", height / (1 + height)), "taken": ("ball", np.full(balls, 10)), "status": ("ball", np.zeros(balls))},
+        {
+            "rotation_number": ("ball", height / (1 + height)), "taken": ("ball", np.full(balls, 10)),
+            "status": ("ball", np.zeros(balls)),
+        },
         {"ball": [str(i) for i in range(balls)], "start.momentum": ("ball", height, {"units": "kg m2"}), "step": ("frame", [0])},
         {"title": "Rotation number of a vertical momentum"},
     )  # fmt: skip

@@ -37,7 +37,7 @@ class Result:
         return figures.draw(self.dataset, name or self._telling(), ball)
 
     def show(self, ball: str | int | None = None) -> None:
-        """Displays all figures that can be drawn below a notebook's cell; elsewhere writes them, and opens their folder.
+        """Displays all figures that can be drawn below a notebook's cell; elsewhere opens a folder with them.
 
         Outside of a notebook the folder is a temporary one, whose name is printed.
         """
@@ -47,7 +47,7 @@ class Result:
             from IPython.display import display
 
             for name in wanted:
-                display(figures.draw(one, name))  # type: ignore[no-untyped-call]
+                display(figures.draw(one, name))
             return
         import tempfile
         import webbrowser
@@ -89,7 +89,9 @@ class Result:
         cell = 'style="text-align: left; padding: 0.1em 1em 0.1em 0"'
         rows = "".join(f"<tr><th {cell}>{escape(k)}</th><td {cell}>{escape(v)}</td></tr>" for k, v in self.rows())
         drawable = None in self.figures().values()
-        picture = self.figure().svg().replace("<svg ", '<svg style="max-width: 100%; height: auto" ', 1) if drawable else ""
+        picture = (
+            self.figure().svg().replace("<svg ", '<svg style="max-width: 100%; height: auto" ', 1) if drawable else ""
+        )
         caption = f"<caption {cell}>{title}</caption>" if title else ""
         return f"<table>{caption}<tbody>{rows}</tbody></table>{picture}"
 

@@ -34,7 +34,9 @@ def draw(dataset: "Dataset") -> "Picture":
     quaternions = continued(reading.values(dataset, "attitude"))
     names = [f"$q_{i}$" for i in range(4)]
     if len(quaternions) > 1:
-        return components.draw(dataset, quaternions if len(quaternions) <= FEW else _signed(quaternions), names, "q", "")
+        return components.draw(
+            dataset, quaternions if len(quaternions) <= FEW else _signed(quaternions), names, "q", ""
+        )
     figure = empty(7.2)
     above, below = figure.subplots(2, 1, height_ratios=[1.75, 1.0])
     entitle(figure, str(dataset.attrs.get("title", "")))

@@ -19,13 +19,16 @@ ULP = float(np.finfo(np.float64).eps)
 
 
 def relative(quantity: Floats, size: Floats) -> Floats:
-    """(x - x at the start)/size, (balls, frames), from x (balls, frames) and size (balls,); unscaled where that is 0."""
+    """(x - x at the start)/size, (balls, frames), of x (balls, frames) and size (balls,), not divided where that is 0."""
     divisor = np.where(size > 0.0, size, 1.0)[:, np.newaxis]
     return np.asarray((quantity - quantity[:, :1]) / divisor)
 
 
 def plot(axis: "Axes", dataset: "Dataset", changes: dict[str, Floats]) -> None:
-    """Lines for one ball (a few, if it is one change), bands for more, of each change (balls, frames); the axis spans 20 ulps at least."""
+    """Each change (balls, frames): lines for one ball, or a few if it is one change; bands for more.
+
+    The axis spans 20 ulps at least.
+    """
     t, label = reading.clock(dataset)
     largest = max((float(np.nanmax(np.abs(c), initial=0.0)) for c in changes.values()), default=0.0)
     factor, text = power(max(largest, ULPS * ULP / 2))
@@ -37,14 +40,8 @@ def plot(axis: "Axes", dataset: "Dataset", changes: dict[str, Floats]) -> None:
                 series.line(axis, t, one / factor, colour if len(change) == 1 else COLOURS[i], each)
         else:
             series.fan(axis, t, change / factor, colour, told)
-    reach = max(1.1 * max(abs(v) for v in axis.get_ylim()) if largest > ULPS * ULP / 2 else 0.0, ULPS * ULP / 2 / factor)
-    low, high = axis.get_ylim()
     if largest <= ULPS * ULP / 2:
-        axis.set_ylim(-reach, reach)
-    elif low > -0.1 * high or high < -0.1 * low:  # one-sided: leave the start at the edge
-        axis.set_ylim(low, high)
-    else:
-        axis.set_ylim(-reach, reach)
+        axis.set_ylim(-ULPS * ULP / 2 / factor, ULPS * ULP / 2 / factor)
     axis.axhline(0.0, color="0.6", linewidth=0.8, zorder=0.5)
     axis.set(xlabel=label, ylabel=f"relative change, {text}" if text else "relative change")
 

@@ -75,12 +75,11 @@ def lines(axis: "Axes", dataset: "Dataset", trace: Floats, legend: bool = True) 
         axis.plot(*path.T, color=colours[i], linewidth=1.3 if few else 0.8, rasterized=dense, label=label, zorder=2)
         if few:
             _arrows(axis, path, colours[i], 4 if len(trace) == 1 else 2)
-        ends: tuple[tuple[int, str, str, Any], ...] = (
-            (0, "start", "o", "white"), (-1, "stopped" if stopped[i] else "end", "X" if stopped[i] else "s", colours[i]),
-        )  # fmt: skip
-        for end, name, marker, face in ends:
+        end = ("stopped", "X") if stopped[i] else ("end", "s")
+        ends: tuple[tuple[int, str, str, Any], ...] = ((0, "start", "o", "white"), (-1, *end, colours[i]))
+        for at, name, marker, face in ends:
             axis.plot(
-                *path[end], marker, color=colours[i], markerfacecolor=face, markersize=7 if few else 3.5, zorder=4,
+                *path[at], marker, color=colours[i], markerfacecolor=face, markersize=7 if few else 3.5, zorder=4,
                 label=name if len(trace) == 1 and legend else None,
             )  # fmt: skip
     if len(trace) > 1 and legend and stopped.any():
@@ -123,10 +122,12 @@ def _density(axis: "Axes", dataset: "Dataset", trace: Floats) -> None:
     axis.set_aspect("equal", adjustable="datalim")
     axis.figure.colorbar(shown, ax=axis, location="bottom", aspect=40, pad=0.02, fraction=0.06,
                          label=f"frames of {len(trace)} balls in a cell")  # fmt: skip
-    going = np.isfinite(trace).all(axis=-1)
+    going: np.ndarray = np.isfinite(trace).all(axis=-1)
     frames = np.flatnonzero(going.sum(axis=0) > len(trace) // 2)
     mean = np.array([trace[going[:, k], k].mean(axis=0) for k in frames])
-    axis.plot(*mean.T, color="black", linewidth=1.0, label="mean of the balls", zorder=3, rasterized=len(mean) > VERTICES)
+    axis.plot(
+        *mean.T, color="black", linewidth=1.0, label="mean of the balls", zorder=3, rasterized=len(mean) > VERTICES
+    )
     for part in MOMENTS:
         k = int(frames[round(part * (len(frames) - 1))])
         for share in SHARES:

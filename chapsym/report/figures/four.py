@@ -70,13 +70,15 @@ def _plane(axis: "Axes", dataset: "Dataset", gamma: Floats, a: int, b: int) -> N
     for i, orbit in enumerate(_some(dataset, gamma)):
         axis.plot(orbit[:, a], orbit[:, b], ".", markersize=2, color=COLOURS[i], rasterized=len(orbit) > VERTICES // 6)
         for end, face in ((0, "white"), (-1, COLOURS[i])):
-            axis.plot(*orbit[end, [a, b]], "o" if end == 0 else "s", color=COLOURS[i], markerfacecolor=face, markersize=6)
+            axis.plot(
+                *orbit[end, [a, b]], "o" if end == 0 else "s", color=COLOURS[i], markerfacecolor=face, markersize=6
+            )
     axis.set_aspect("equal")
     axis.set(xlim=(-1.1, 1.1), ylim=(-1.1, 1.1), xlabel=rf"$\gamma_{a + 1}$", ylabel=rf"$\gamma_{b + 1}$")
 
 
 def draw_pairs(dataset: "Dataset", trace: Floats) -> "Picture":
-    """The contact point in a hyperplane, (balls, frames, n - 1): a panel for each pair of the first three coordinates."""
+    """The contact point in a hyperplane, (balls, frames, n - 1): a panel for each pair of the first three axes."""
     from .contact import lines
 
     factor, text = power(float(np.nanmax(np.abs(trace), initial=0.0)))

@@ -48,7 +48,9 @@ def _symbol(name: str) -> str:
     """A name of the result as mathematics: "tr K^2" is tr 𝒦²."""
     if name in SYMBOLS:
         return SYMBOLS[name]
-    told = name.replace("gamma", r"\gamma").replace("K", r"\mathcal{K}").replace("tr ", r"\mathrm{tr}\,").replace(".", " ")
+    told = (
+        name.replace("gamma", r"\gamma").replace("K", r"\mathcal{K}").replace("tr ", r"\mathrm{tr}\,").replace(".", " ")
+    )
     return f"${told}$" if "K" in name else name
 
 

@@ -77,7 +77,10 @@ def energy_range(body: Body, directions: Floats, cosine: float, of_gamma: bool) 
     first = unit(np.cross(directions, first))
     second = np.cross(directions, first)
     turn = np.linspace(0.0, 2.0 * np.pi, ANGLES, endpoint=False)
-    ring = np.cos(turn)[:, np.newaxis] * first[..., np.newaxis, :] + np.sin(turn)[:, np.newaxis] * second[..., np.newaxis, :]
+    ring = (
+        np.cos(turn)[:, np.newaxis] * first[..., np.newaxis, :]
+        + np.sin(turn)[:, np.newaxis] * second[..., np.newaxis, :]
+    )
     others = cosine * directions[..., np.newaxis, :] + np.sqrt(max(1.0 - cosine**2, 0.0)) * ring
     here = np.broadcast_to(directions[..., np.newaxis, :], others.shape)
     m, gamma = (others, here) if of_gamma else (here, others)

@@ -27,7 +27,9 @@ def draw(dataset: "Dataset") -> "Picture":
     array, names = reading.values(dataset, "omega"), [r"$\omega_1$", r"$\omega_2$", r"$\omega_3$"]
     if array.ndim == 4:
         array, names = upper(array, r"\omega")
-    return components.draw(dataset, array, names, r"$\omega$", reading.readable(dataset["omega"].attrs.get("units", "")))
+    return components.draw(
+        dataset, array, names, r"$\omega$", reading.readable(dataset["omega"].attrs.get("units", ""))
+    )
 
 
 def upper(array: Floats, symbol: str) -> tuple[Floats, list[str]]:

@@ -128,7 +128,7 @@ def labelled(name: str, units: Any) -> str:
 
 
 def readable(units: str) -> str:
-    """"kg m2 s-1" as kg m² s⁻¹; a pure number has no unit."""
+    """ "kg m2 s-1" as kg m² s⁻¹; a pure number has no unit."""
     raised = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
     if units.strip() in ("1", "dimensionless"):
         return ""

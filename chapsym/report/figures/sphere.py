@@ -98,7 +98,9 @@ def _graticule(turn: Floats) -> list[Floats]:
     return found
 
 
-def _halves(axis: "Axes", view: View, points: Floats, colour: str, width: float, *, zorder: float, **options: object) -> None:
+def _halves(
+    axis: "Axes", view: View, points: Floats, colour: str, width: float, *, zorder: float, **options: object
+) -> None:
     """A curve, (m, 3): in front of the sphere, and fainter behind it."""
     x, y, depth = view.project(points)
     for front in (False, True):

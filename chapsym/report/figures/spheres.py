@@ -73,7 +73,9 @@ def _all_vertical(found: dict[str, Floats]) -> bool:
     return is_vertical(found["momentum"][there], found["gamma"][there])
 
 
-def _panel(axis: "Axes", dataset: "Dataset", name: str, points: Floats, found: dict[str, Floats], vertical: bool) -> None:
+def _panel(
+    axis: "Axes", dataset: "Dataset", name: str, points: Floats, found: dict[str, Floats], vertical: bool
+) -> None:
     flat = points[np.isfinite(points).all(axis=-1)]
     view = View.of(flat)
     draw_globe(axis, view, ("1", "2", "3"))

@@ -53,7 +53,9 @@ def _panel(axis: "Axes", t: Floats, far: Floats, colour: str, told: str, unit: s
     logarithmic = _grows(half)
     factor, text = (1.0, "") if logarithmic else power(float(np.nanmax(far, initial=0.0)))
     for low, high, alpha, name in WANTED:
-        axis.fill_between(t, found[low] / factor, found[high] / factor, color=colour, alpha=alpha, linewidth=0, label=name)
+        axis.fill_between(
+            t, found[low] / factor, found[high] / factor, color=colour, alpha=alpha, linewidth=0, label=name
+        )
     axis.plot(t, half / factor, color=colour, label="median")
     if logarithmic:
         axis.set_yscale("log", nonpositive="mask")

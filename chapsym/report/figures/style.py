@@ -32,7 +32,7 @@ STYLE = {
     "grid.color": "0.9", "grid.linewidth": 0.8, "axes.axisbelow": True, "axes.formatter.useoffset": False,
     "lines.linewidth": 1.4, "figure.facecolor": "white", "axes.facecolor": "white", "savefig.facecolor": "white",
     "mathtext.fontset": "dejavusans", "axes.xmargin": 0.02, "text.color": "black", "axes.labelcolor": "black",
-    "xtick.color": "black", "ytick.color": "black", "axes.edgecolor": "0.3", "svg.fonttype": "path",
+    "xtick.color": "black", "ytick.color": "black", "axes.edgecolor": "0.3", "svg.fonttype": "path", "svg.hashsalt": "chapsym",
     "savefig.dpi": 160, "figure.dpi": 100, "path.simplify": True, "text.usetex": False,
     "axes.unicode_minus": True, "figure.autolayout": False,
 }  # fmt: skip
@@ -41,9 +41,9 @@ STYLE = {
 @contextmanager
 def styled() -> Iterator[None]:
     """matplotlib's defaults with this style, whatever the user has set; restored afterwards."""
-    from matplotlib import rc_context, style
+    from matplotlib import style
 
-    with rc_context({"svg.hashsalt": "chapsym"}), style.context(["default", STYLE]):
+    with style.context(["default", STYLE]):
         yield
 
 
@@ -51,7 +51,7 @@ def write(figure: "Figure", stream: IO[bytes], form: str) -> None:
     """The bytes of a figure, "svg" or "png": the same for the same data."""
     with styled():
         metadata = {"Date": None, "Creator": None} if form == "svg" else {"Software": None}
-        figure.savefig(stream, format=form, metadata=metadata)  # type: ignore[arg-type]
+        figure.savefig(stream, format=form, metadata=metadata)
 
 
 def empty(height: float) -> "Picture":
@@ -61,7 +61,9 @@ def empty(height: float) -> "Picture":
     return Picture(figsize=(WIDTH, height), layout="constrained")
 
 
-def new(title: str, rows: int = 1, columns: int = 1, height: float = 3.4, **options: Any) -> "tuple[Picture, list[Axes]]":
+def new(
+    title: str, rows: int = 1, columns: int = 1, height: float = 3.4, **options: Any
+) -> "tuple[Picture, list[Axes]]":
     """An empty figure, `height` inches high for each row, titled, with its axes."""
     figure = empty(height * rows + (0.35 if title else 0.0))
     axes = figure.subplots(rows, columns, squeeze=False, **options)
@@ -129,5 +131,5 @@ def scale(axis: "Axes", data: np.ndarray, label: str, cax: Any = None) -> Any:
     mapped = ScalarMappable(Normalize(low, high if high > low else low + 1.0), MAP)
     bar = axis.figure.colorbar(mapped, ax=axis, location="bottom", aspect=40, pad=0.02, fraction=0.06)
     bar.set_label(label, parse_math=False)
-    bar.outline.set_visible(False)  # type: ignore[operator]
+    bar.outline.set_visible(False)
     return mapped.to_rgba
