@@ -132,11 +132,10 @@ def folded():
 def sweep(balls=60):
     """Rotation numbers over a parameter, of a made-up smooth law."""
     height = np.linspace(0.05, 0.5, balls)
-    return xr.Dataset(
-        {
-            "rotation_number": ("ball", height / (1 + height)), "taken": ("ball", np.full(balls, 10)),
-            "status": ("ball", np.zeros(balls)),
-        },
-        {"ball": [str(i) for i in range(balls)], "start.momentum": ("ball", height, {"units": "kg m2"}), "step": ("frame", [0])},
-        {"title": "Rotation number of a vertical momentum"},
-    )  # fmt: skip
+    data = {"rotation_number": height / (1 + height), "taken": np.full(balls, 10), "status": np.zeros(balls, dtype=int)}
+    coords = {
+        "ball": [str(i) for i in range(balls)], "step": ("frame", [0]),
+        "start.momentum": ("ball", height, {"units": "kg m2"}),
+    }  # fmt: skip
+    title = {"title": "Rotation number of a vertical momentum"}
+    return xr.Dataset({name: ("ball", values) for name, values in data.items()}, coords, title)

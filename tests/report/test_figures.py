@@ -30,7 +30,7 @@ def test_the_trace_of_one_ball_is_its_contact_point_in_metres_with_its_ends_and_
     (axis,) = figure.axes
     (line,) = lines(axis)
     trace = dataset["contact"].values[0]
-    assert (np.array(line.get_data()).T == trace).all()
+    assert (trace == np.array(line.get_data()).T).all()
     assert axis.get_aspect() == 1.0
     assert (axis.get_xlabel(), axis.get_ylabel()) == ("x, m", "y, m")
     ends = {line.get_label(): np.ravel(line.get_data()) for line in axis.lines if len(line.get_xdata()) == 1}
@@ -77,7 +77,7 @@ def test_thousands_of_balls_are_a_density_that_counts_every_frame():
     (image,) = axis.images
     assert image.get_array().sum() == 300 * 41
     mean = next(line for line in axis.lines if line.get_label() == "mean of the balls")
-    assert np.array(mean.get_data()).T == pytest.approx(dataset["contact"].values.mean(axis=0))
+    assert pytest.approx(dataset["contact"].values.mean(axis=0)) == np.array(mean.get_data()).T
     assert len([line for line in axis.lines if len(line.get_xdata()) == 91]) == 8
 
 
@@ -325,7 +325,7 @@ def test_a_folder_that_cannot_be_is_one_sentence(tmp_path):
     with pytest.raises(files.CannotWrite, match="file cannot be made"):
         figures.save_all(results.sweep(4), tmp_path / "file")
     assert (tmp_path / "file").read_text() == "kept"
-    with pytest.raises(BadInput, match="ends in .svg or .png"):
+    with pytest.raises(BadInput, match=r"ends in \.svg or \.png"):
         figures.save(figures.draw(results.sweep(4), "rotation"), tmp_path / "a.pdf")
 
 

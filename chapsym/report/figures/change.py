@@ -19,7 +19,7 @@ ULP = float(np.finfo(np.float64).eps)
 
 
 def relative(quantity: Floats, size: Floats) -> Floats:
-    """(x - x at the start)/size, (balls, frames), of x (balls, frames) and size (balls,), not divided where that is 0."""
+    """(x - x at the start)/size, (balls, frames), of x (balls, frames) and size (balls,); undivided where that is 0."""
     divisor = np.where(size > 0.0, size, 1.0)[:, np.newaxis]
     return np.asarray((quantity - quantity[:, :1]) / divisor)
 

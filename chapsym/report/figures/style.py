@@ -32,7 +32,8 @@ STYLE = {
     "grid.color": "0.9", "grid.linewidth": 0.8, "axes.axisbelow": True, "axes.formatter.useoffset": False,
     "lines.linewidth": 1.4, "figure.facecolor": "white", "axes.facecolor": "white", "savefig.facecolor": "white",
     "mathtext.fontset": "dejavusans", "axes.xmargin": 0.02, "text.color": "black", "axes.labelcolor": "black",
-    "xtick.color": "black", "ytick.color": "black", "axes.edgecolor": "0.3", "svg.fonttype": "path", "svg.hashsalt": "chapsym",
+    "xtick.color": "black", "ytick.color": "black", "axes.edgecolor": "0.3", "svg.fonttype": "path",
+    "svg.hashsalt": "chapsym",
     "savefig.dpi": 160, "figure.dpi": 100, "path.simplify": True, "text.usetex": False,
     "axes.unicode_minus": True, "figure.autolayout": False,
 }  # fmt: skip
