@@ -122,7 +122,7 @@ def _density(axis: "Axes", dataset: "Dataset", trace: Floats) -> None:
     axis.set_aspect("equal", adjustable="datalim")
     axis.figure.colorbar(shown, ax=axis, location="bottom", aspect=40, pad=0.02, fraction=0.06,
                          label=f"frames of {len(trace)} balls in a cell")  # fmt: skip
-    going: np.ndarray = np.isfinite(trace).all(axis=-1)
+    going = np.asarray(np.isfinite(trace).all(axis=-1))
     frames = np.flatnonzero(going.sum(axis=0) > len(trace) // 2)
     mean = np.array([trace[going[:, k], k].mean(axis=0) for k in frames])
     axis.plot(
