@@ -46,8 +46,12 @@ def in_given_axes(members: Members, columns: Columns) -> Columns:
     back = axes * [1.0, -1.0, -1.0, -1.0]
     turned = dict(columns)
     for name in turned:
+        missing = np.isnan(columns[name])  # frames that a ball did not reach, which the kernels refuse
+        values = np.where(missing, 0.0, columns[name]) if missing.any() else columns[name]
         if name == "attitude":
-            turned[name] = front.compose(columns[name], np.broadcast_to(back, columns[name].shape))
+            turned[name] = front.compose(values, np.broadcast_to(back, values.shape))
         elif name in ("momentum", "gamma", "omega", "momentum_low", "gamma_low"):
-            turned[name] = front.rotate(np.broadcast_to(axes, (*columns[name].shape[:-1], 4)), columns[name])
+            turned[name] = front.rotate(np.broadcast_to(axes, (*values.shape[:-1], 4)), values)
+        if turned[name] is not columns[name]:
+            turned[name][missing] = np.nan
     return turned

@@ -23,6 +23,7 @@ class Plan:
     model: the least that serves; needed: the columns that it follows.  refused: why each reduction does not serve.
     chunks × segments are the units of work: balls × frames.  They are fixed by the scene, not by the machine, so that a
     run that was interrupted has the same bits as one that was not.
+    scene: the text of the scene, or JSON of a dict; seed: of its random ranges.  Both go with the result.
     """
 
     members: Members
@@ -30,6 +31,8 @@ class Plan:
     model: Model
     needed: frozenset[str]
     refused: dict[str, str]
+    scene: str = ""
+    seed: int | None = None
 
     @property
     def frames(self) -> int:

@@ -1,0 +1,91 @@
+"""A Dataset as one table, a row for each ball and frame, and back: for CSV and Parquet."""
+
+from collections.abc import Iterator, Mapping
+from itertools import product
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from xarray import Dataset
+
+#: Rows of one batch, whose memory is bounded.
+ROWS = 2**17
+
+
+def structure(data: "Dataset") -> dict[str, Any]:
+    """What the rows do not tell, as plain data: the labels of components; of each variable its columns and attributes."""
+    labels = {str(dim): data[dim].values.tolist() for dim in data.dims if dim not in ("ball", "frame") and dim in data}
+    variables = {
+        str(name): {
+            "dims": list(one.dims),
+            "columns": [f"{name}{suffix}" for suffix in _suffixes(one.dims, labels)],
+            "coordinate": name in data.coords,
+            "type": {"f": "double", "i": "int64"}.get(one.dtype.kind, "string"),
+            "attrs": plain(one.attrs),
+        }
+        for name, one in data.variables.items()
+        if name not in labels
+    }
+    return {
+        "balls": data.sizes["ball"], "frames": data.sizes["frame"], "labels": labels, "variables": _ordered(variables),
+    }  # fmt: skip
+
+
+def batches(data: "Dataset", told: Mapping[str, Any]) -> Iterator[dict[str, np.ndarray]]:
+    """The columns of some balls after the others, each (rows,); what a ball has once stands in each of its rows."""
+    frames = data.sizes["frame"]
+    several = max(1, ROWS // frames)
+    for first in range(0, data.sizes["ball"], several):
+        part = data.isel(ball=slice(first, first + several))
+        balls = part.sizes["ball"]
+        columns: dict[str, np.ndarray] = {}
+        for name, one in told["variables"].items():
+            values = part[name].values
+            if "frame" not in one["dims"]:
+                values = np.broadcast_to(values[:, np.newaxis], (balls, frames, *values.shape[1:]))
+            elif "ball" not in one["dims"]:
+                values = np.broadcast_to(values, (balls, frames))
+            flat = values.reshape(balls * frames, -1)
+            columns |= {column: flat[:, i] for i, column in enumerate(one["columns"])}
+        yield columns
+
+
+def assembled(columns: Mapping[str, np.ndarray], told: Mapping[str, Any], attrs: Mapping[str, Any]) -> "Dataset":
+    """The Dataset of a table; raises KeyError, ValueError or TypeError if the table is not whole."""
+    import xarray
+
+    balls, frames, labels = told["balls"], told["frames"], told["labels"]
+    coords: dict[Any, Any] = {dim: np.array(names, dtype=object) for dim, names in labels.items()}
+    variables: dict[Any, Any] = {}
+    for name, one in told["variables"].items():
+        inner = [len(labels[dim]) for dim in one["dims"] if dim in labels]
+        values = np.stack([columns[column] for column in one["columns"]], axis=-1).reshape(balls, frames, *inner)
+        if "frame" not in one["dims"]:
+            values = values[:, 0]
+        elif "ball" not in one["dims"]:
+            values = values[0]
+        (coords if one["coordinate"] else variables)[name] = (one["dims"], values, one["attrs"])
+    return xarray.Dataset(variables, coords, dict(attrs))
+
+
+def plain(attrs: Mapping[Any, Any]) -> dict[str, Any]:
+    """Attributes as JSON has them."""
+    arrays = (np.ndarray, np.generic)
+    return {str(key): value.tolist() if isinstance(value, arrays) else value for key, value in attrs.items()}
+
+
+def _suffixes(dims: tuple[Any, ...], labels: Mapping[str, list[str]]) -> list[str]:
+    """The ends of the columns' names: _1, _2, ... of a vector; _1_1, _1_2, ... of a matrix; of a number none."""
+    inner = [labels[dim] for dim in dims if dim in labels]
+    return ["".join(f"_{label}" for label in chosen) for chosen in product(*inner)]
+
+
+def _ordered(variables: dict[str, Any]) -> dict[str, Any]:
+    """Ball and frame first, then what has a value in every frame, then what a ball has once."""
+
+    def rank(name: str) -> tuple[int, bool]:
+        leading = {"ball": 0, "step": 1, "time": 2}
+        return leading.get(name, 3 if variables[name]["coordinate"] else 4), "frame" not in variables[name]["dims"]
+
+    return {name: variables[name] for name in sorted(variables, key=rank)}

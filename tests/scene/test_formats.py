@@ -1,0 +1,136 @@
+"""Results in NetCDF, CSV and Parquet: the same bits when they are read back, whole files, one sentence of refusal."""
+
+from pathlib import Path
+
+import numpy as np
+import pandas
+import pytest
+import xarray
+from small_units import equal_to_the_bit, plan
+
+from chapsym.scene import SceneError, formats, load, run, save, sweep
+from chapsym.scene.source import plan_of
+
+FILES = [".nc", ".csv", ".parquet"]
+
+
+@pytest.fixture(scope="module")
+def result():
+    """Balls with failures, every output, other axes; names and numbers that a format may spoil."""
+    data = sweep.run_in_memory(plan(scene='# Two\n# lines, "quoted"\na = 1\n'))
+    names = data.ball.values.copy()
+    names[:6] = ["nan", 'a,"b"', " blank ", "# hash", "two\nlines", "1e5"]
+    data["momentum"][0, 1] = [-0.0, 5e-324, 1.7976931348623157e308]
+    data["energy"][1] = 3.0  # a column that looks like integers
+    return data.assign_coords(ball=names)
+
+
+@pytest.mark.parametrize("suffix", FILES)
+def test_a_result_comes_back_to_the_bit(result, tmp_path, suffix):
+    path = tmp_path / f"run{suffix}"
+    formats.save(result, path)
+    found = formats.load(path)
+    equal_to_the_bit(found, result)
+    assert found.attrs == result.attrs
+    assert {n: v.dims for n, v in found.variables.items()} == {n: v.dims for n, v in result.variables.items()}
+    assert set(found.coords) == set(result.coords)
+    assert [p.name for p in tmp_path.iterdir()] == [path.name]
+    first = path.read_bytes()
+    formats.save(found, path)
+    assert path.read_bytes() == first
+
+
+def test_a_result_in_zarr_is_read_and_written_on(tmp_path):
+    sweep.run_to_store(plan(), tmp_path / "run.zarr")
+    found = formats.load(tmp_path / "run.zarr")
+    for suffix in FILES:
+        formats.save(found, tmp_path / f"run{suffix}")
+        equal_to_the_bit(formats.load(tmp_path / f"run{suffix}"), found.load())
+
+
+def test_plain_readers_have_the_same_numbers(result, tmp_path):
+    for suffix in FILES:
+        formats.save(result.isel(ball=slice(6, None)), tmp_path / f"run{suffix}")
+    table = pandas.read_csv(tmp_path / "run.csv", comment="#")
+    assert list(table.columns[:4]) == ["ball", "step", "time", "start.omega.1"]
+    wanted = result.isel(ball=slice(6, None))
+    for frame in (table, pandas.read_parquet(tmp_path / "run.parquet")):
+        np.testing.assert_array_equal(frame["momentum_2"].to_numpy().reshape(14, 34), wanted.momentum.sel(axis="2"))
+        np.testing.assert_array_equal(
+            frame["attitude_w"].to_numpy().reshape(14, 34), wanted.attitude.sel(quaternion="w")
+        )
+        assert frame["ball"].iloc[-1] == "ball 19"
+        assert frame["taken"].iloc[34 * 3] == wanted.taken[3]
+    with xarray.open_dataset(tmp_path / "run.nc", engine="h5netcdf") as found:
+        xarray.testing.assert_equal(found.load(), wanted)
+
+
+def test_four_dimensions_come_back(tmp_path):
+    scene = load(Path(__file__).parents[2] / "docs/scenes/four.toml")
+    data = sweep.run_in_memory(plan_of(scene))
+    assert data.momentum.dims == ("ball", "frame", "row", "column")
+    assert data.integral.values.tolist() == ["tr K^2", "tr K^4", "gamma.K^2.gamma", "gamma.gamma"]
+    for suffix in FILES:
+        formats.save(data, tmp_path / f"four{suffix}")
+        equal_to_the_bit(formats.load(tmp_path / f"four{suffix}"), data)
+
+
+def test_many_rows_go_in_batches(tmp_path, monkeypatch, result):
+    monkeypatch.setattr("chapsym.scene.flat.ROWS", 100)
+    for suffix in (".csv", ".parquet"):
+        formats.save(result, tmp_path / f"run{suffix}")
+        equal_to_the_bit(formats.load(tmp_path / f"run{suffix}"), result)
+
+
+def test_what_is_too_large_is_told_before_it_is_run(tmp_path, monkeypatch):
+    wanted = plan(("momentum",))
+    monkeypatch.setattr(formats, "MOST_ROWS", 20 * 34 - 1)
+    with pytest.raises(SceneError, match=r"680 rows.*write to \.parquet or \.zarr"):
+        formats.check_size(wanted, tmp_path / "run.csv")
+    formats.check_size(wanted, tmp_path / "run.parquet")
+    monkeypatch.setattr(formats, "_memory", lambda: 4.0 * wanted.bytes - 1)
+    for suffix in (".nc", ".parquet"):
+        with pytest.raises(SceneError, match=r"GB, which is too much .* write to \.zarr"):
+            formats.check_size(wanted, tmp_path / f"run{suffix}")
+    formats.check_size(wanted, tmp_path / "run.zarr")
+    monkeypatch.setattr(formats, "MOST_ROWS", 100)
+    with pytest.raises(SceneError, match="a CSV of more than 100 rows"):
+        formats.save(sweep.run_in_memory(wanted), tmp_path / "run.csv")
+
+
+@pytest.mark.parametrize("suffix", FILES)
+@pytest.mark.parametrize("damage", [lambda b: b[: len(b) // 2], lambda b: b"", lambda b: b"\x00\xff" * 500])
+def test_a_damaged_file_is_one_sentence(result, tmp_path, suffix, damage):
+    path = tmp_path / f"run{suffix}"
+    formats.save(result, path)
+    path.write_bytes(damage(path.read_bytes()))
+    with pytest.raises(SceneError, match=rf"run\{suffix} (is damaged|cannot be read)") as caught:
+        formats.load(path)
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("suffix", [*FILES, ".zarr", ".npz"])
+def test_a_file_that_is_not_there(tmp_path, suffix):
+    with pytest.raises(SceneError, match=r"run\.\w+ cannot be read: No such file"):
+        formats.load(tmp_path / f"run{suffix}")
+
+
+def test_a_name_that_is_no_result(tmp_path, result):
+    with pytest.raises(SceneError, match="is no result: one ends in"):
+        formats.load(tmp_path / "run.txt")
+    with pytest.raises(SceneError, match="a result is written to"):
+        formats.save(result, tmp_path / "run.xlsx")
+
+
+@pytest.mark.parametrize("suffix", [".npz", ".csv"])
+def test_the_files_of_one_ball_are_read_too(tmp_path, suffix):
+    first = load(Path(__file__).parents[2] / "docs/first.toml")
+    trajectory = run(first)
+    save(trajectory, tmp_path / f"first{suffix}")
+    found = formats.load(tmp_path / f"first{suffix}")
+    whole = sweep.run_in_memory(plan_of(first))
+    for name in ("momentum", "gamma", "contact"):
+        assert found[name].dims == whole[name].dims
+        assert (found[name].values == whole[name].values).all()
+    assert (found.time.values == whole.time.values).all()
+    assert found.taken.values == whole.taken.values

@@ -1,0 +1,300 @@
+"""Results in Zarr: equal to those in memory, resumable after SIGKILL, one writer, never mixed."""
+
+import os
+import random
+import signal
+import subprocess
+import sys
+import time
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray
+from small_units import EVERY, OUTPUTS, STEPS, equal_to_the_bit, plan
+
+from chapsym.dynamics import Status
+from chapsym.scene import SceneError, segments, sweep
+from chapsym.scene.store import Store, is_store, marks
+
+CHILD = [sys.executable, str(Path(__file__).parents[1] / "small_units.py")]
+UNITS = 20
+
+
+@pytest.fixture(scope="module")
+def whole():
+    """The result, computed in memory at once."""
+    return sweep.run_in_memory(plan())
+
+
+def opened(path):
+    with xarray.open_zarr(path) as store:
+        return store.load()
+
+
+def child(path, sleep=0.01):
+    running = subprocess.Popen(
+        [*CHILD, str(path), str(sleep)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
+    assert running.stdout.readline() == "ready\n", running.stderr.read()
+    return running
+
+
+def test_the_dataset_keeps_the_contract(whole):
+    assert dict(whole.sizes) == {"ball": 20, "frame": 34, "axis": 3, "quaternion": 4, "plane": 2, "integral": 3}
+    assert set(OUTPUTS) | {"taken", "status", "mass_tensor", "D", "radius", "axes"} == set(whole.data_vars)
+    assert all(whole[name].attrs["long_name"] for name in whole.data_vars)
+    assert all(whole[name].attrs["units"] for name in whole.data_vars if name != "status")
+    assert whole.step.values.tolist() == list(range(0, STEPS + 1, EVERY))
+    np.testing.assert_allclose(whole.time, 0.01 * whole.step, rtol=1e-15)
+    assert whole["start.omega.1"].attrs["units"] == "rad s-1"
+    assert whole.sel(ball="ball 2", axis="3").momentum.dims == ("frame",)
+    assert whole.attrs["seed"] == 7
+    assert "turn" in whole.attrs["kernels"]
+    stopped = whole.status.values != Status.TAKEN
+    assert 0 < stopped.sum() < 20
+    for ball in range(20):
+        after = whole.step.values > whole.taken.values[ball]
+        for name in OUTPUTS:
+            gone = np.isnan(whole[name].values[ball]).reshape(34, -1)
+            assert (gone == after[:, np.newaxis]).all(), name
+
+
+def test_a_store_has_the_bits_of_the_run_in_memory(whole, tmp_path):
+    outcome = sweep.run_to_store(plan(), tmp_path / "run.zarr")
+    assert outcome.complete
+    assert not outcome.nothing_to_do
+    assert outcome.failed == (whole.status.values != 0).sum()
+    found = opened(tmp_path / "run.zarr")
+    equal_to_the_bit(found, whole)
+    assert found.attrs["complete"] is True
+    assert [p.name for p in tmp_path.iterdir()] == ["run.zarr"]
+    assert not marks.folder(tmp_path / "run.zarr").exists()
+
+
+def test_a_finished_store_is_left_alone(tmp_path, monkeypatch):
+    path = tmp_path / "run.zarr"
+    first = sweep.run_to_store(plan(), path)
+    before = {p: p.stat().st_mtime_ns for p in path.rglob("*")}
+    monkeypatch.setattr(segments, "advance", None)
+    again = sweep.run_to_store(plan(), path)
+    assert again.nothing_to_do
+    assert again.failed == first.failed
+    assert {p: p.stat().st_mtime_ns for p in path.rglob("*")} == before
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_a_run_that_is_killed_goes_on_and_has_the_same_bits(whole, tmp_path, seed):
+    chance = random.Random(seed)
+    path = tmp_path / "run.zarr"
+    states = set()
+    for attempt in range(5):
+        running = child(path, 0.03)
+        # The first is killed while it makes the store, or soon after; the whole takes about a second.
+        time.sleep(chance.uniform(0, 0.15 if attempt == 0 else 0.4))
+        running.kill()
+        running.communicate()
+        if path.exists():
+            left = opened(path)
+            states.add(left.attrs["complete"])
+            waiting = left.taken.values == -1
+            assert np.isnan(left.momentum.values[waiting]).all() or not left.attrs["complete"]
+            assert (left.status.values[waiting] == -1).all()
+    running = child(path, 0)
+    calls, failed = map(int, running.communicate()[0].split())
+    assert running.returncode == 0
+    assert calls < UNITS, "nothing was kept"
+    assert False in states
+    assert failed == (whole.status.values != 0).sum()
+    equal_to_the_bit(opened(path), whole)
+    assert [p.name for p in tmp_path.iterdir()] == ["run.zarr"], "a killed creation was left"
+    assert not list(path.rglob("*.partial"))
+
+
+def test_every_moment_of_the_creation_may_be_the_last(whole, tmp_path, monkeypatch):
+    """Each file operation of the creation, in turn, is the last thing that the process does."""
+    path = tmp_path / "run.zarr"
+    operations = iter(range(100))
+
+    class Killed(BaseException):
+        pass
+
+    from chapsym.scene.store import creation
+
+    for name in ("_fill", "_to_zarr"):
+        real = getattr(creation, name)
+
+        def killed(*args, real=real):
+            real(*args)
+            raise Killed
+
+        with monkeypatch.context() as patched:
+            patched.setattr(creation, name, killed)
+            patched.setattr(creation.shutil, "rmtree", lambda *a, **k: None)  # a killed process tidies nothing
+            patched.setattr(creation.os, "getpid", lambda: 2**22 + next(operations))  # of a process that is gone
+            with pytest.raises(Killed):
+                sweep.run_to_store(plan(), path)
+        assert not path.exists()
+        assert any(tmp_path.iterdir())
+    sweep.run_to_store(plan(), path)
+    assert [p.name for p in tmp_path.iterdir()] == ["run.zarr"]
+    equal_to_the_bit(opened(path), whole)
+
+
+def interrupted(path, monkeypatch, after, wanted=None):
+    """A store of which `after` units are written."""
+    done = iter(range(after))
+    real = segments.advance
+
+    def advance(*args):
+        if next(done, None) is None:
+            raise KeyboardInterrupt
+        return real(*args)
+
+    with monkeypatch.context() as patched:
+        patched.setattr(segments, "advance", advance)
+        with pytest.raises(KeyboardInterrupt):
+            sweep.run_to_store(wanted or plan(), path)
+
+
+def test_an_unfinished_store_says_what_is_not_there(tmp_path, monkeypatch):
+    interrupted(tmp_path / "run.zarr", monkeypatch, 7)
+    found = opened(tmp_path / "run.zarr")
+    assert found.attrs["complete"] is False
+    waiting = found.taken.values == -1
+    assert waiting.any()
+    assert not waiting.all()
+    assert np.isnan(found.gamma.values[waiting]).all()
+    assert (found.status.values[waiting] == -1).all()
+    assert np.isfinite(found.gamma.values[~waiting][:, 0]).all()
+
+
+@pytest.mark.parametrize(
+    ("changed", "told"),
+    [
+        ({"scene": 'a = 1\nb = {c = "x"}'}, "another scene (b.c differs)"),
+        ({"scene": "a = 1"}, "another scene (b differs)"),
+        ({"steps": STEPS + 10}, "another plan"),
+        ({"outputs": ("momentum",)}, "another plan"),
+    ],
+)
+def test_a_store_of_another_run_is_not_touched(tmp_path, monkeypatch, changed, told):
+    path = tmp_path / "run.zarr"
+    scene = 'a = 1\nb = {c = "y"}'
+    interrupted(path, monkeypatch, 3, plan(scene=scene))
+    before = {p: p.read_bytes() for p in path.rglob("*") if p.is_file()}
+    with pytest.raises(SceneError, match="choose another name, or replace it with --fresh") as caught:
+        sweep.run_to_store(plan(**({"scene": scene} | changed)), path)
+    assert told in str(caught.value)
+    assert {p: p.read_bytes() for p in path.rglob("*") if p.is_file()} == before
+
+
+def test_versions_kernels_and_starts_are_not_mixed(tmp_path, monkeypatch):
+    path = tmp_path / "run.zarr"
+    interrupted(path, monkeypatch, 3)
+    from chapsym.scene import dataset
+
+    with monkeypatch.context() as patched:
+        patched.setattr("chapsym.__version__", "0.0.9")
+        with pytest.raises(SceneError, match="another version of chapsym"):
+            sweep.run_to_store(plan(), path)
+    with monkeypatch.context() as patched:
+        patched.setattr(dataset, "_kernel_hashes", lambda: dict.fromkeys(plan().kernels(), "0"))
+        with pytest.raises(SceneError, match="other kernels"):
+            sweep.run_to_store(plan(), path)
+    other = plan()
+    other.members.momentum[0, 0] = np.nextafter(other.members.momentum[0, 0], 1)
+    with pytest.raises(SceneError, match="other balls or starts"):
+        sweep.run_to_store(other, path)
+    with pytest.raises(SceneError, match="other balls or starts"):
+        sweep.run_to_store(replace(plan(), task=replace(plan().task, time_step=0.02)), path)
+
+
+def test_a_comment_or_another_output_is_no_other_scene(tmp_path, monkeypatch):
+    path = tmp_path / "run.zarr"
+    interrupted(path, monkeypatch, 3, plan(scene="[run]\na = 1\n"))
+    assert sweep.run_to_store(plan(scene="# Now.\n[run]\na = 1\noutput = 'run.zarr'"), path).complete
+
+
+def test_fresh_replaces_a_result_of_chapsym_only(whole, tmp_path, monkeypatch):
+    path = tmp_path / "run.zarr"
+    interrupted(path, monkeypatch, 3, plan(outputs=("momentum",)))
+    assert sweep.run_to_store(plan(), path, fresh=True).complete
+    equal_to_the_bit(opened(path), whole)
+    assert [p.name for p in tmp_path.iterdir()] == ["run.zarr"]
+    other = tmp_path / "photos.zarr"
+    other.mkdir()
+    (other / "holiday.jpg").write_bytes(b"x")
+    for fresh in (False, True):
+        with pytest.raises(SceneError, match=r"photos\.zarr is there, but it is no result of chapsym"):
+            sweep.run_to_store(plan(), other, fresh=fresh)
+    assert (other / "holiday.jpg").read_bytes() == b"x"
+
+
+def test_the_second_writer_is_told_who_writes(whole, tmp_path):
+    path = tmp_path / "run.zarr"
+    running = child(path, 0.2)
+    while not is_store(path) or not (marks.folder(path) / "lock").exists():
+        time.sleep(0.01)
+    time.sleep(0.05)
+    for fresh in (False, True):
+        with pytest.raises(SceneError, match=f"is being written by process {running.pid} on "):
+            sweep.run_to_store(plan(), path, fresh=fresh)
+    running.send_signal(signal.SIGKILL)  # and now its lock is nobody's
+    running.communicate()
+    assert sweep.run_to_store(plan(), path).complete
+    equal_to_the_bit(opened(path), whole)
+
+
+def test_a_store_that_is_held_by_its_name_only_is_taken_over(tmp_path, monkeypatch):
+    path = tmp_path / "run.zarr"
+    interrupted(path, monkeypatch, 3)
+    (marks.folder(path) / "lock").write_text('{"pid": 1, "host": "elsewhere"}')
+    assert sweep.run_to_store(plan(), path).complete
+
+
+@pytest.mark.parametrize("damage", [lambda b: b[: len(b) // 2], lambda b: b"", lambda b: b[:200] + b"XXXX" + b[204:]])
+def test_a_damaged_mark_is_named_and_costs_its_balls_only(whole, tmp_path, monkeypatch, damage):
+    path = tmp_path / "run.zarr"
+    interrupted(path, monkeypatch, 7)
+    mark = min(marks.folder(path).glob("chunk-*.npz"))
+    mark.write_bytes(damage(mark.read_bytes()))
+    with pytest.raises(SceneError, match=f"{mark.name} is damaged; delete it") as caught:
+        sweep.run_to_store(plan(), path)
+    assert "\n" not in str(caught.value)
+    mark.unlink()
+    assert sweep.run_to_store(plan(), path).complete
+    equal_to_the_bit(opened(path), whole)
+
+
+def test_a_store_that_is_deleted_meanwhile_leaves_no_debris(tmp_path, monkeypatch):
+    path = tmp_path / "run.zarr"
+    real = segments.advance
+    calls = iter(range(100))
+
+    def advance(*args):
+        if next(calls) == 5:
+            path.rename(tmp_path / "gone")
+        return real(*args)
+
+    monkeypatch.setattr(segments, "advance", advance)
+    with pytest.raises(SceneError, match="was deleted or moved while it was written"):
+        sweep.run_to_store(plan(), path)
+    assert not path.exists()
+    assert is_store(tmp_path / "gone")
+    assert sweep.run_to_store(plan(), path).complete
+
+
+def test_the_state_of_a_unit_survives_the_disk(tmp_path):
+    wanted = plan()
+    with Store.of(tmp_path / "run.zarr", wanted) as store:
+        state = segments.begin(wanted, wanted.chunks[1])
+        columns, after = segments.advance(wanted, wanted.chunks[1], state, wanted.segments[0])
+        store.keep(1, 0, columns, after)
+        done, found = store.start(1)
+        assert done == 1
+        assert set(found) == set(after)
+        assert all((found[name] == after[name]).all() and found[name].dtype == after[name].dtype for name in after)
+        assert store.start(0) == (0, None)
+    assert os.path.exists(tmp_path / "run.zarr")

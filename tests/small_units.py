@@ -1,0 +1,90 @@
+"""A run of many small units, for this process and for those that are killed: `python small_units.py STORE [SLEEP]`."""
+
+import sys
+import time
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+import chapsym
+from chapsym.dynamics import front
+from chapsym.scene import plan as plans
+from chapsym.scene import segments, sweep
+from chapsym.scene.members import Members, Parameter
+from chapsym.scene.plan import planned
+from chapsym.scene.task import Task
+
+BALLS, STEPS, EVERY = 20, 330, 10
+OUTPUTS = ("momentum", "gamma", "omega", "attitude", "contact", "energy", "integrals")
+
+
+class SmallUnits(plans.Plan):
+    """Five chunks of balls, four segments of frames; the last ones are shorter."""
+
+    @property
+    def chunks(self):
+        return [slice(i, min(i + 4, len(self.members))) for i in range(0, len(self.members), 4)]
+
+    @property
+    def segments(self):
+        return [slice(i, min(i + 9, self.frames)) for i in range(0, self.frames, 9)]
+
+
+def members(n=BALLS):
+    """Balls of which some meet a fold: the faster ones in the middle."""
+    spread = np.arange(n)[:, np.newaxis] / n
+    ball = chapsym.Ball(np.array([4.0, 3.0, 5.0]) * 1e-3 + 1e-3 * spread, np.full(n, 0.02), np.full(n, 0.1))
+    omega = np.array([3.0, -2.0, 1.0]) * np.where((np.arange(n) % 7 == 3)[:, np.newaxis], 60.0, 1.0 + spread)
+    gamma = np.broadcast_to(np.array([2.0, 3.0, 6.0]) / 7, (n, 3)).copy()
+    momentum = 0.01 * front.contact_momentum(omega, gamma, ball.mass_tensor, ball.D)
+    half = np.array([0.5, 0.5, 0.5, 0.5])
+    return Members(
+        tuple(f"ball {i}" for i in range(n)), ball, momentum, gamma, axes=np.broadcast_to(half, (n, 4)).copy(),
+        place=np.full((n, 2), 0.25), parameters={"start.omega.1": Parameter(omega[:, 0], "rad s-1")},
+    )  # fmt: skip
+
+
+def plan(outputs=OUTPUTS, scene="", steps=STEPS, seed=7, n=BALLS):
+    """Five times four units of 4 balls and 9 frames."""
+    whole = planned(members(n), Task(outputs, steps, EVERY, 0.01))
+    return replace(
+        SmallUnits(whole.members, whole.task, whole.model, whole.needed, whole.refused), scene=scene, seed=seed
+    )
+
+
+def equal_to_the_bit(one, other):
+    """Coordinates, variables and attributes, NaN where NaN is, and the sign of zero."""
+    assert set(one.variables) == set(other.variables)
+    for name in one.variables:
+        a, b = one[name].values, other[name].values
+        assert one[name].dims == other[name].dims, name
+        if a.dtype.kind == "f":
+            assert a.dtype == b.dtype
+            assert (a.view(np.int64) == b.view(np.int64)).all(), name
+        else:
+            assert (a == b).all(), name
+        assert dict(one[name].attrs) == dict(other[name].attrs), name
+    assert {**one.attrs, "complete": True} == {**other.attrs, "complete": True}
+
+
+if __name__ == "__main__":
+    calls = 0
+    real = segments.advance
+
+    def advance(*args, **kwargs):
+        """The real one, slower, and counted."""
+        global calls
+        calls += 1
+        time.sleep(float(sys.argv[2]))
+        return real(*args, **kwargs)
+
+    segments.advance = advance
+    wanted = plan()
+    import xarray  # noqa: F401
+    import zarr  # noqa: F401
+
+    real(wanted, wanted.chunks[0], segments.begin(wanted, wanted.chunks[0]), wanted.segments[0])
+    print("ready", flush=True)
+    outcome = sweep.run_to_store(wanted, Path(sys.argv[1]))
+    print(calls, outcome.failed, flush=True)
