@@ -55,21 +55,29 @@ if TYPE_CHECKING:
         trajectory_vertical,
     )
 
+if TYPE_CHECKING:
+    from .report.result import Result, open_result, run_scene
+
 __version__ = "0.1.0"
 
 __all__ = [
     "BadInput", "Ball", "BallN", "Branches", "Certificate", "Curve", "ExactTop", "Extrapolated", "Fold", "Followed",
-    "NotRetraced", "Status", "Step", "StepN", "StepNotTaken", "Trajectory", "TrajectoryN", "VerticalTrajectory",
-    "axial", "branches", "certify", "compose_step", "exact_top", "extrapolate", "fold", "follow", "increment",
-    "invariants_n", "margin", "retrace_error", "reverse", "reverse_n", "roll", "skew", "step", "step_n",
-    "step_vertical", "substeps", "trajectory", "trajectory_n", "trajectory_vertical",
+    "NotRetraced", "Result", "Status", "Step", "StepN", "StepNotTaken", "Trajectory", "TrajectoryN",
+    "VerticalTrajectory", "axial", "branches", "certify", "compose_step", "exact_top", "extrapolate", "fold",
+    "follow", "increment", "invariants_n", "margin", "open_result", "retrace_error", "reverse", "reverse_n", "roll",
+    "run_scene", "skew", "step", "step_n", "step_vertical", "substeps", "trajectory", "trajectory_n",
+    "trajectory_vertical",
 ]  # fmt: skip
+
+
+#: Names that are not of `chapsym.dynamics`: where they are.
+_ELSEWHERE = dict.fromkeys(("Result", "open_result", "run_scene"), "chapsym.report.result")
 
 
 def __getattr__(name: str) -> Any:
     if name not in __all__:
         raise AttributeError(f"module 'chapsym' has no attribute {name!r}")
-    value = getattr(import_module("chapsym.dynamics"), name)
+    value = getattr(import_module(_ELSEWHERE.get(name, "chapsym.dynamics")), name)
     globals()[name] = value
     return value
 

@@ -25,7 +25,7 @@ ROOMS = {
     "scene": {"accuracy", "dynamics", "exact", "files", "generated", "numbers"},
     "studies": {"accuracy", "generated", "numbers", "dynamics", "scene"},
     "proofs": {"derive", "prove"},
-    "report": {"scene"},
+    "report": {"dynamics", "files", "scene"},
     "testing": {"dynamics"},
 }
 #: Who may import more than its room: the study of the kernels runs their texts with and without each codegen pass.

@@ -1,0 +1,131 @@
+"""chapsym show: the pictures of a result, and the page on which it rolls."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from .app import app
+from .options import Json
+from .output import fail, print_json
+
+if TYPE_CHECKING:
+    from xarray import Dataset
+
+FORMATS = {"svg": ("svg",), "png": ("png",), "both": ("svg", "png")}
+
+
+@app.command()
+def show(
+    result: Annotated[Path, typer.Argument(metavar="RESULT", help="A result, or a scene (.toml), which is run first.")],
+    output: Annotated[
+        Path | None, typer.Option("-o", "--output", metavar="FOLDER", help="Where to; RESULT-figures by default.")
+    ] = None,
+    form: Annotated[str, typer.Option("--format", metavar="svg|png|both", help="Of the figures.")] = "svg",
+    ball: Annotated[str | None, typer.Option(metavar="NAME", help="Show one ball of several.")] = None,
+    names: Annotated[str | None, typer.Option("--figures", metavar="A,B", help="Only these; all by default.")] = None,
+    page: Annotated[
+        bool | None, typer.Option("--page/--no-page", help="The interactive page; by default if it can be made.")
+    ] = None,
+    open_it: Annotated[bool, typer.Option("--open", help="Open the page, or the folder, in the browser.")] = False,
+    as_json: Json = False,
+) -> None:
+    """Draw the figures of a result, and write the page on which the ball rolls.
+
+    Example: chapsym show docs/first.toml -o pictures
+    """
+    from chapsym import files
+    from chapsym.dynamics import BadInput
+
+    if form not in FORMATS:
+        fail(f"--format {form}: give svg, png or both", 2)
+    folder = output or result.with_name(f"{result.name.removesuffix(result.suffix)}-figures")
+    try:
+        written, missing = _pictures(result, folder, FORMATS[form], ball, names, page)
+    except (BadInput, files.CannotWrite) as error:
+        fail(str(error), 2)
+    if as_json:
+        print_json({"folder": str(folder), "files": [str(path) for path in written], "missing": missing})
+    else:
+        for path in written:
+            print(path)
+        for name, reason in missing.items():
+            print(f"no {name}: {reason}")
+    if open_it and written:
+        import webbrowser
+
+        chosen = next((path for path in written if path.suffix == ".html"), folder)
+        webbrowser.open(chosen.resolve().as_uri())
+
+
+def _pictures(
+    result: Path, folder: Path, formats: tuple[str, ...], ball: str | None, names: str | None, page: bool | None
+) -> tuple[list[Path], dict[str, str]]:
+    """Writes what was asked for; the files, and why each figure that is missing is."""
+    from chapsym.report import figures
+    from chapsym.report.figures import reading
+
+    dataset = reading.with_balls(_opened(result, folder), ball)
+    reasons = figures.available(dataset)
+    wanted = _named(names, list(reasons)) if names else [name for name, reason in reasons.items() if reason is None]
+    written = figures.save_all(dataset, folder, formats, names=wanted)
+    missing = {} if names else {name: reason for name, reason in reasons.items() if reason is not None}
+    if page is not False and (page or not names):
+        reason = _page(dataset, folder / "page.html", must=page is True)
+        if reason is None:
+            written.append(folder / "page.html")
+        else:
+            missing["page"] = reason
+    return written, missing
+
+
+def _named(names: str, known: list[str]) -> list[str]:
+    wanted = [name.strip() for name in names.split(",") if name.strip()]
+    unknown = [name for name in wanted if name not in known]
+    if unknown or not wanted:
+        fail(f"--figures {names}: choose of {', '.join(known)}", 2)
+    return list(dict.fromkeys(wanted))
+
+
+def _opened(result: Path, folder: Path) -> "Dataset":
+    """The result; a scene is run in memory, once the folder is known to take pictures."""
+    from chapsym.report import opening
+
+    if result.suffix != ".toml":
+        return opening.opened(result)
+    from chapsym import files
+    from chapsym.scene import load
+
+    scene = load(result)
+    if folder.exists():
+        files.check_destination(folder / "page.html")
+    with _progress() as shown:
+        return opening.run(scene, shown)
+
+
+def _progress() -> Any:
+    """A bar for the run of a scene."""
+    from contextlib import contextmanager
+
+    from .output import progress_bar
+
+    @contextmanager
+    def bar() -> Any:
+        with progress_bar("rolling", 1000) as shown:
+            yield lambda progress: shown(round(1000 * progress.steps / max(progress.of, 1)))
+
+    return bar()
+
+
+def _page(dataset: "Dataset", path: Path, must: bool) -> str | None:
+    """Writes the interactive page; why it cannot be made, unless it must be."""
+    from chapsym.dynamics import BadInput
+    from chapsym.report.rolling import write_page
+
+    try:
+        write_page(dataset, path)
+    except BadInput as error:
+        if must:
+            raise
+        return str(error)
+    return None

@@ -1,0 +1,137 @@
+"""What a figure reads from a result: checked arrays, (balls, frames, ...), the clock, and names for its labels."""
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from chapsym.dynamics import BadInput, Status
+from chapsym.dynamics.ball import Floats
+
+if TYPE_CHECKING:
+    from xarray import Dataset
+
+
+def with_balls(dataset: "Dataset", ball: str | int | None = None) -> "Dataset":
+    """The result with its dimension `ball` (restored where it was dropped), or the one ball that is named.
+
+    ball: a name, or an index.  Raises BadInput for a ball that is not there, and for a result without frames.
+    """
+    if "frame" not in dataset.dims and not _per_ball(dataset):
+        raise BadInput('this is no result of chapsym: it has no dimension "frame"')
+    if "ball" not in dataset.dims:
+        dataset = dataset.expand_dims("ball")
+    if ball is None:
+        return dataset
+    names = ball_names(dataset)
+    if isinstance(ball, str) and ball in names:
+        return dataset.isel(ball=[names.index(ball)])
+    if isinstance(ball, int) and -len(names) <= ball < len(names):
+        return dataset.isel(ball=[ball])
+    listed = ", ".join(names[:5]) + (f", ... ({len(names)} in all)" if len(names) > 5 else "")
+    raise BadInput(f"the result has no ball {ball!r}; it has {listed}")
+
+
+def _per_ball(dataset: "Dataset") -> bool:
+    return "rotation_number" in dataset
+
+
+def ball_names(dataset: "Dataset") -> list[str]:
+    """The names of the balls, or their indices."""
+    if "ball" in dataset.coords:
+        return [str(name) for name in np.atleast_1d(dataset["ball"].values)]
+    return [str(i) for i in range(dataset.sizes.get("ball", 1))]
+
+
+def steps(dataset: "Dataset") -> np.ndarray:
+    """The step number of each frame, (frames,)."""
+    if "step" in dataset.coords:
+        return np.asarray(dataset["step"].values)
+    return np.arange(dataset.sizes["frame"])
+
+
+def clock(dataset: "Dataset") -> tuple[Floats, str]:
+    """The time of each frame in seconds, or its step number, (frames,), and the label of that axis."""
+    if "time" in dataset.coords:
+        return np.asarray(dataset["time"].values, dtype=np.float64), "time, s"
+    return steps(dataset).astype(np.float64), "step"
+
+
+def reached(dataset: "Dataset") -> np.ndarray:
+    """Which frames each ball reached, (balls, frames); none of a ball whose turn has not come."""
+    shape = dataset.sizes["ball"], dataset.sizes["frame"]
+    if "taken" not in dataset:
+        return np.ones(shape, dtype=bool)
+    taken = np.atleast_1d(dataset["taken"].values)[:, np.newaxis]
+    if "step" not in dataset.coords:  # the steps were chosen for each ball: it went to the end, or was not run
+        return np.broadcast_to(taken >= 0, shape)
+    return np.asarray(steps(dataset) <= taken)
+
+
+def values(dataset: "Dataset", name: str) -> Floats:
+    """A variable as float64, (balls, frames, ...), NaN in the frames that a ball did not reach.
+
+    Decimal strings are rounded to float64.  Raises BadInput where a frame that was reached is not finite.
+    """
+    array = dataset[name].transpose("ball", "frame", ...).values
+    with np.errstate(over="ignore"):
+        array = array.astype(np.float64)
+    there = reached(dataset)
+    if not there.any():
+        raise BadInput("no ball of this result has run yet: resume the run first")
+    bad = there & ~np.isfinite(array).reshape(*there.shape, -1).all(axis=-1)
+    if bad.any():
+        ball, frame = map(int, np.argwhere(bad)[0])
+        raise BadInput(
+            f"{name} of the ball {ball_names(dataset)[ball]!r} is not finite at step {int(steps(dataset)[frame])}, "
+            "which it reached: the result is damaged"
+        )
+    if not there.all():
+        array[~there] = np.nan
+    return array
+
+
+def per_ball(dataset: "Dataset", name: str) -> Floats | None:
+    """A variable with one row a ball, (balls, ...), as float64; None if the result has none."""
+    if name not in dataset:
+        return None
+    array = dataset[name]
+    dims = [d for d in array.dims if d != "ball"]
+    return np.asarray((array if "ball" in array.dims else array.expand_dims("ball")).transpose("ball", *dims).values,
+                      dtype=np.float64)  # fmt: skip
+
+
+def stopped(dataset: "Dataset") -> np.ndarray:
+    """Which balls stopped early, (balls,)."""
+    if "status" not in dataset:
+        return np.zeros(dataset.sizes["ball"], dtype=bool)
+    return np.asarray(np.atleast_1d(dataset["status"].values) != int(Status.TAKEN))
+
+
+def last_frames(dataset: "Dataset") -> np.ndarray:
+    """The last frame that each ball reached, (balls,); -1 for a ball whose turn has not come."""
+    return reached(dataset).sum(axis=1) - 1
+
+
+def parameters(dataset: "Dataset") -> dict[str, tuple[Floats, str]]:
+    """What a sweep varied: dotted name: values (balls,), unit; only numbers that differ."""
+    found = {}
+    for name, coord in dataset.coords.items():
+        if name != "ball" and coord.dims == ("ball",) and coord.dtype.kind in "iuf" and len(np.unique(coord)) > 1:
+            found[str(name)] = np.asarray(coord.values, dtype=np.float64), str(coord.attrs.get("units", ""))
+    return found
+
+
+def labelled(name: str, units: Any) -> str:
+    """A name with its unit, as an axis is labelled."""
+    shown = readable(str(units or ""))
+    return f"{name}, {shown}" if shown else name
+
+
+def readable(units: str) -> str:
+    """ "kg m2 s-1" as kg m² s⁻¹; a pure number has no unit."""
+    raised = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
+    if units.strip() in ("1", "dimensionless"):
+        return ""
+    return " ".join(
+        part.rstrip("-0123456789") + part[len(part.rstrip("-0123456789")) :].translate(raised) for part in units.split()
+    )

@@ -1,0 +1,147 @@
+"""A unit sphere on paper: seen from far away, what is behind it drawn fainter."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Self
+
+import numpy as np
+
+from chapsym.dynamics.ball import Floats
+
+from .style import VERTICES
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+#: How much fainter what is behind the sphere is.
+BEHIND = 0.28
+CURVE = "#F5CE7E"
+#: Neighbours at a larger angle than this (radians) are points of a discrete orbit, not of a line.
+NEAR = 0.12
+
+
+@dataclass(frozen=True, eq=False)
+class View:
+    """A parallel projection: right, up and towards the eye, orthonormal, each (3,)."""
+
+    right: Floats
+    up: Floats
+    towards: Floats
+
+    @classmethod
+    def of(cls, points: Floats) -> Self:
+        """Where most of the points (n, 3) are in front: from their mean, or across the plane of a great circle."""
+        mean = points.mean(axis=0)
+        if np.sqrt(mean @ mean) < 0.25:
+            # Across the plane, but 55° off its normal: an orbit around the sphere is seen as a wide ellipse.
+            _, axes = np.linalg.eigh(points.T @ points)
+            normal, level = axes[:, 0], axes[:, 2]
+            normal = normal * np.sign(normal[np.abs(normal).argmax()])
+            mean = np.cos(0.95) * normal + np.sin(0.95) * level * np.sign(level[np.abs(level).argmax()])
+        return cls.towards_eye(mean)
+
+    @classmethod
+    def towards_eye(cls, eye: Floats) -> Self:
+        """The view from a direction, a little from above and from the side, with the third axis upwards."""
+        upright = np.array([0.0, 0.0, 1.0])
+        direction = eye / np.sqrt(eye @ eye)
+        side = np.cross(upright, direction)
+        if side @ side < 1e-4:
+            side = np.array([0.0, 1.0, 0.0])
+        direction = direction + 0.35 * side / np.sqrt(side @ side) + 0.3 * upright * np.sign(1e-9 + direction[2])
+        direction /= np.sqrt(direction @ direction)
+        right = np.cross(upright, direction)
+        if right @ right < 1e-6:
+            right = np.array([1.0, 0.0, 0.0])
+        right /= np.sqrt(right @ right)
+        return cls(right, np.cross(direction, right), direction)
+
+    def project(self, points: Floats) -> tuple[Floats, Floats, Floats]:
+        """x, y on paper and the depth towards the eye, (...), of points (..., 3)."""
+        return points @ self.right, points @ self.up, points @ self.towards
+
+
+def draw_globe(axis: "Axes", view: View, names: tuple[str, str, str]) -> None:
+    """The outline, circles every 30°, and the ends of the three axes."""
+    from matplotlib.patheffects import withStroke
+
+    axis.set_aspect("equal")
+    axis.set_axis_off()
+    axis.set(xlim=(-1.22, 1.22), ylim=(-1.22, 1.22))
+    turn = np.linspace(0.0, 2.0 * np.pi, 181)
+    axis.fill(np.cos(turn), np.sin(turn), facecolor="#f6f8fa", edgecolor="0.45", linewidth=0.9, zorder=0)
+    for circle in _graticule(turn):
+        _halves(axis, view, circle, "0.78", 0.6, zorder=0.5)
+    for i, name in enumerate(names):
+        for sign in (1.0, -1.0):
+            end = sign * np.eye(3)[i]
+            x, y, depth = view.project(end)
+            front = depth >= -1e-9
+            axis.plot(x, y, ".", color="0.35", markersize=5, alpha=1.0 if front else BEHIND, zorder=1)
+            if sign > 0:
+                away = 1.13 if x * x + y * y > 0.36 else 1.0
+                offset = (0, 0) if away > 1.0 else (7, 7)
+                axis.annotate(
+                    name, (x * away, y * away), xytext=offset, textcoords="offset points", ha="center", va="center",
+                    fontsize=10, color="0.25", alpha=1.0 if front else 0.55, zorder=6,
+                    path_effects=[withStroke(linewidth=2.5, foreground="white", alpha=0.8)],
+                )  # fmt: skip
+
+
+def _graticule(turn: Floats) -> list[Floats]:
+    """Circles of latitude and meridians of the third axis, every 30°, each (m, 3)."""
+    zero = np.zeros_like(turn)
+    found = []
+    for angle in np.deg2rad([-60, -30, 0, 30, 60]):
+        found.append(np.stack([np.cos(turn), np.sin(turn), zero + np.tan(angle)], -1) * np.cos(angle))
+    for angle in np.deg2rad([0, 30, 60, 90, 120, 150]):
+        found.append(np.stack([np.cos(angle) * np.cos(turn), np.sin(angle) * np.cos(turn), np.sin(turn)], -1))
+    return found
+
+
+def _halves(
+    axis: "Axes", view: View, points: Floats, colour: str, width: float, *, zorder: float, **options: object
+) -> None:
+    """A curve, (m, 3): in front of the sphere, and fainter behind it."""
+    x, y, depth = view.project(points)
+    for front in (False, True):
+        seen = depth >= 0.0 if front else depth <= 0.0
+        if seen.any():
+            axis.plot(
+                np.where(seen, x, np.nan), np.where(seen, y, np.nan), color=colour, linewidth=width,
+                alpha=1.0 if front else BEHIND, zorder=zorder + (0.3 if front else 0.0),
+                **(options if front else {}),  # type: ignore[arg-type]
+            )  # fmt: skip
+
+
+def draw_curve(axis: "Axes", view: View, points: Floats, label: str) -> None:
+    """A curve on which an orbit runs, (m, 3): broad, so that it is seen below the orbit."""
+    _halves(axis, view, points, CURVE, 4.5, zorder=2)
+    axis.plot([], [], color=CURVE, linewidth=4.5, label=label)
+
+
+def draw_orbit(axis: "Axes", view: View, points: Floats, colour: str, *, most: int = VERTICES) -> None:
+    """An orbit, (frames, 3): a line where neighbours are near, else points; its start a ring, its end a square."""
+    chosen = points if len(points) <= 20 * most else points[np.linspace(0, len(points) - 1, 20 * most).astype(int)]
+    dense = len(chosen) > most
+    apart = np.sqrt((np.diff(points, axis=0) ** 2).sum(axis=-1))
+    as_line = len(points) > 2 and apart.max() < NEAR and len(chosen) == len(points)
+    x, y, depth = view.project(chosen)
+    for front in (False, True):
+        seen = depth >= 0.0 if front else depth < 0.0
+        alpha = 1.0 if front else BEHIND
+        if as_line:
+            axis.plot(
+                np.where(seen, x, np.nan), np.where(seen, y, np.nan), color=colour, linewidth=1.2, alpha=alpha,
+                zorder=3 + front, rasterized=dense,
+            )  # fmt: skip
+        else:
+            size = 3.2 if len(chosen) < 400 else 1.6
+            axis.plot(
+                x[seen], y[seen], "o", color=colour, markersize=size, alpha=alpha, zorder=3 + front,
+                markeredgewidth=0, rasterized=dense,
+            )  # fmt: skip
+    for end, marker, face in ((0, "o", "white"), (-1, "s", colour)):
+        axis.plot(
+            x[end], y[end], marker, markersize=6, color=colour, markerfacecolor=face, zorder=5,
+            alpha=1.0 if depth[end] >= 0 else 0.5,
+        )  # fmt: skip

@@ -1,0 +1,136 @@
+"""How the figures look, and their bytes: one style, colours that the colour-blind tell apart, no dates in files."""
+
+import re
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from typing import IO, TYPE_CHECKING, Any
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from .picture import Picture
+
+#: Okabe and Ito's colours.
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#F0E442")
+#: So many balls have a colour and a name each; more share a colour scale.
+FEW = 6
+#: So many vertices are drawn as such; with more, the layer is rasterised: an SVG stays below 1 MB.
+VERTICES = 16_000
+#: Inches: on a screen of 390 px the letters are still 10 px high.
+WIDTH = 5.6
+MAP = "viridis"
+#: So many letters fit below a figure.
+LETTERS = 66
+
+STYLE = {
+    "font.family": ["DejaVu Sans"], "font.size": 11, "axes.titlesize": 11, "axes.labelsize": 11, "figure.titlesize": 12,
+    "xtick.labelsize": 10, "ytick.labelsize": 10, "legend.fontsize": 10, "legend.frameon": False,
+    "legend.handlelength": 1.4, "axes.spines.top": False, "axes.spines.right": False, "axes.grid": True,
+    "grid.color": "0.9", "grid.linewidth": 0.8, "axes.axisbelow": True, "axes.formatter.useoffset": False,
+    "lines.linewidth": 1.4, "figure.facecolor": "white", "axes.facecolor": "white", "savefig.facecolor": "white",
+    "mathtext.fontset": "dejavusans", "axes.xmargin": 0.02, "text.color": "black", "axes.labelcolor": "black",
+    "xtick.color": "black", "ytick.color": "black", "axes.edgecolor": "0.3", "svg.fonttype": "path",
+    "svg.hashsalt": "chapsym",
+    "savefig.dpi": 160, "figure.dpi": 100, "path.simplify": True, "text.usetex": False,
+    "axes.unicode_minus": True, "figure.autolayout": False,
+}  # fmt: skip
+
+
+@contextmanager
+def styled() -> Iterator[None]:
+    """matplotlib's defaults with this style, whatever the user has set; restored afterwards."""
+    from matplotlib import style
+
+    with style.context(["default", STYLE]):
+        yield
+
+
+def write(figure: "Figure", stream: IO[bytes], form: str) -> None:
+    """The bytes of a figure, "svg" or "png": the same for the same data."""
+    with styled():
+        metadata = {"Date": None, "Creator": None} if form == "svg" else {"Software": None}
+        figure.savefig(stream, format=form, metadata=metadata)
+
+
+def empty(height: float) -> "Picture":
+    """A figure without axes, `height` inches high."""
+    from .picture import Picture
+
+    return Picture(figsize=(WIDTH, height), layout="constrained")
+
+
+def new(
+    title: str, rows: int = 1, columns: int = 1, height: float = 3.4, **options: Any
+) -> "tuple[Picture, list[Axes]]":
+    """An empty figure, `height` inches high for each row, titled, with its axes."""
+    figure = empty(height * rows + (0.35 if title else 0.0))
+    axes = figure.subplots(rows, columns, squeeze=False, **options)
+    entitle(figure, title)
+    return figure, list(axes.flat)
+
+
+def entitle(figure: "Figure", title: str) -> None:
+    """The title of a scene above a figure: as it is written, in two lines at most."""
+    if title:
+        figure.suptitle(_wrapped(title), parse_math=False)
+    figure.get_layout_engine().set(w_pad=0.06, h_pad=0.07)  # type: ignore[union-attr, call-arg]
+
+
+def legend(figure: "Figure", axes: "Sequence[Axes]") -> None:
+    """One legend below the figure, each name once, in as many columns as fit."""
+    found = {label: handle for axis in axes for handle, label in zip(*axis.get_legend_handles_labels(), strict=True)}
+    if not found:
+        return
+    lengths = [len(re.sub(r"[${}_]", "", re.sub(r"\\[a-z]+", "", label))) + 5 for label in found]
+    rows = 1 if sum(lengths) <= LETTERS else -(-len(found) // max(1, LETTERS // max(lengths)))
+    shown = figure.legend(
+        list(found.values()), list(found), loc="outside lower center", ncols=-(-len(found) // rows), columnspacing=1.2
+    )
+    for text in shown.get_texts():
+        text.set_parse_math(text.get_text().count("$") > 1)
+
+
+def _wrapped(text: str) -> str:
+    import textwrap
+
+    lines = textwrap.wrap(" ".join(text.split()), 56)
+    return "\n".join(lines if len(lines) < 3 else [lines[0], lines[1][:53] + " ..."])
+
+
+def power(size: float) -> tuple[float, str]:
+    """What to divide values of this size by so that ticks are short, and how to say so: (1e-6, "10⁻⁶")."""
+    if not np.isfinite(size) or size == 0.0 or 1e-2 <= size < 1e5:
+        return 1.0, ""
+    exponent = 3 * int(np.floor(np.log10(size) / 3))
+    return 10.0**exponent, "10" + str(exponent).translate(str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻"))
+
+
+def in_power(name: str, units: str, factor: str) -> str:
+    """A label with its power of ten and unit: "x, 10⁻⁶ m"."""
+    unit = " ".join(filter(None, (factor, units)))
+    return f"{name}, {unit}" if unit else name
+
+
+def at_least(axis: "Axes", span: float) -> None:
+    """Widens the range of y to `span`, about its middle: what is smaller than that is flat."""
+    low, high = axis.get_ylim()
+    if high - low < span:
+        middle = (low + high) / 2
+        axis.set_ylim(middle - span / 2, middle + span / 2)
+
+
+def scale(axis: "Axes", data: np.ndarray, label: str, cax: Any = None) -> Any:
+    """A colour bar for values of the balls; returns what turns a value into its colour."""
+    from matplotlib.cm import ScalarMappable
+    from matplotlib.colors import Normalize
+
+    finite = data[np.isfinite(data)]
+    low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)
+    mapped = ScalarMappable(Normalize(low, high if high > low else low + 1.0), MAP)
+    bar = axis.figure.colorbar(mapped, ax=axis, location="bottom", aspect=40, pad=0.02, fraction=0.06)
+    bar.set_label(label, parse_math=False)
+    bar.outline.set_visible(False)
+    return mapped.to_rgba

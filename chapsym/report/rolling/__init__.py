@@ -1,0 +1,5 @@
+"""The balls of a result rolling in 3D: one HTML file that opens from disk, with no network."""
+
+from .page import html, write_page
+
+__all__ = ["html", "write_page"]
