@@ -40,12 +40,14 @@ if TYPE_CHECKING:
         follow,
         increment,
         invariants_n,
+        is_steady,
         margin,
         retrace_error,
         reverse,
         reverse_n,
         roll,
         skew,
+        steady_frames,
         step,
         step_n,
         step_vertical,
@@ -61,8 +63,8 @@ __all__ = [
     "BadInput", "Ball", "BallN", "Branches", "Certificate", "Curve", "ExactTop", "Extrapolated", "Fold", "Followed",
     "NotRetraced", "Status", "Step", "StepN", "StepNotTaken", "Trajectory", "TrajectoryN", "VerticalTrajectory",
     "axial", "branches", "certify", "compose_step", "exact_top", "extrapolate", "fold", "follow", "increment",
-    "invariants_n", "margin", "retrace_error", "reverse", "reverse_n", "roll", "skew", "step", "step_n",
-    "step_vertical", "substeps", "trajectory", "trajectory_n", "trajectory_vertical",
+    "invariants_n", "is_steady", "margin", "retrace_error", "reverse", "reverse_n", "roll", "skew", "steady_frames",
+    "step", "step_n", "step_vertical", "substeps", "trajectory", "trajectory_n", "trajectory_vertical",
 ]  # fmt: skip
 
 
