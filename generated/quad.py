@@ -2,7 +2,7 @@
 
 Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 From the kernels centre_step, compose, gibbs_residual, isotropic_spin, residual, rotate, turn.
-Proved by: 2.1, 4.9, 5.1, 5.2, gibbs, gibbs-rotation, isotropic-spin, stable-momentum, steady, steady-axis, steady-branch.
+Proved by: 2.1, 4.9, 5.1, 5.2, gibbs, gibbs-rotation, isotropic-spin, stable-momentum, steady, steady-axis, steady-branch, steady-roll.
 Programs: sha256 b75b4ab5dcace88022a775ee93122819ef669a5afc66bd119a25d73ce8975bdc.
 """
 

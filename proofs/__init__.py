@@ -47,6 +47,6 @@ CLAIMS = (
 LEMMAS = (
     "gibbs", "gibbs-newton", "gibbs-rotation", "small-branch", "self-adjoint", "reversible",
     "momentum-integrals-composed", "vertical-rotation", "vertical-level", "vertical-top", "top-commutes",
-    "stable-momentum", "stable-determinant", "stable-inverse", "steady", "steady-branch", "steady-axis",
+    "stable-momentum", "stable-determinant", "stable-inverse", "steady", "steady-branch", "steady-axis", "steady-roll",
     "isotropic-spin", "straight",
 )  # fmt: skip

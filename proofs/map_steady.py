@@ -135,6 +135,47 @@ def steady_axis(p: Proof) -> None:
 
 
 @claim(
+    "steady-roll",
+    r"w \parallel e_1 \perp \gamma:\quad \det\partial_uG(nw) = \tfrac{2-n}n(I_1+D)\bigl(I_2I_3 - (J_1-J_2)(J_3-J_1)|u|^2"
+    r" + \tfrac D2(I_2+I_3 + (I_2-I_3)(\gamma_2^2-\gamma_3^2+2u\gamma_2\gamma_3))\bigr)",
+    uses=("steady", "steady-axis"),
+)
+def steady_roll(p: Proof) -> None:
+    """Rolling straight about a principal axis the branch folds at a quarter turn, if I₂ and I₃ are not too different."""
+    p.assume("n = 1 + n²|w|², |γ| = 1; √2|I₂ - I₃| ≤ I₂ + I₃ for the conclusion")
+    u = n * w
+    values = {**dict(zip(gibbs.u, u, strict=True)), **dict(zip(k, carried(w), strict=True))}
+    mass = dict(zip((gibbs.I1, gibbs.I2, gibbs.I3), (J[1] + J[2], J[0] + J[2], J[0] + J[1]), strict=True))
+    jacobian = gibbs.jacobian().subs(values, simultaneous=True).subs(mass, simultaneous=True)
+    jacobian = jacobian.subs({moment: J[1] + J[2], w[1]: 0, w[2]: 0, gamma[0]: 0}, simultaneous=True)
+    unit = gamma[1] ** 2 + gamma[2] ** 2 - 1
+    ring = Quotient((w[0], n, *J, gamma[1], gamma[2], D), [n - 1 - n**2 * w[0] ** 2, unit])
+    determinant = jacobian.det(method="berkowitz")
+    first, second, third = J[1] + J[2], J[0] + J[2], J[0] + J[1]
+    turn = gamma[1] ** 2 - gamma[2] ** 2 + 2 * u[0] * gamma[1] * gamma[2]
+
+    def factored(text: str, sign: int) -> Equation:
+        across = second * third - (J[0] - J[1]) * (J[2] - J[0]) * u[0] ** 2
+        across += D * (second + third + sign * (second - third) * turn) / 2
+        return Equation(text, [sp.expand(n * determinant)], [sp.expand((2 - n) * (first + D) * across)], ring)
+
+    p.printed(factored("n det ∂G/∂u = (2 - n)(I₁ + D)(I₂I₃ - ... + D/2(I₂ + I₃ + (I₂ - I₃)c))", 1))
+    p.say(
+        "The first two terms are positive for |u| < 1 as in `steady-axis`; c = γ₂² - γ₃² + 2uγ₂γ₃ has c² ≤ 1 + u² < 2:"
+    )
+    rest = (u[0] * (gamma[1] ** 2 - gamma[2] ** 2) - 2 * gamma[1] * gamma[2]) ** 2
+    p.printed(Equation("1 + u² - c² = (u(γ₂² - γ₃²) - 2γ₂γ₃)²", [1 + u[0] ** 2 - turn**2], [rest],
+                       Quotient((w[0], n, gamma[1], gamma[2]), [unit])))  # fmt: skip
+    p.control(factored("the same with - (I₂ - I₃)c", -1))
+    point = {w[0]: "2/5", n: "5/4", J[0]: 1, J[1]: 2, J[2]: 4, gamma[1]: "3/5", gamma[2]: "4/5", D: 3}
+    exact = {symbol: sp.Rational(value) for symbol, value in point.items()}
+    whole = factored("at the point", 1)
+    values = {str(symbol): str(value) for symbol, value in point.items()}
+    left, right = ([x.subs(exact) for x in side] for side in (whole.left, whole.right))
+    p.witness("sin θ = 4/5", values, Equation("at the point", left, right, ring))
+
+
+@claim(
     "isotropic-spin",
     r"I_1 = I_2 = I_3 = I:\quad B(\gamma/|\gamma|)^{-1}k = \tfrac1{I+D}\bigl(k + \tfrac DI\tfrac{\langle k,\gamma\rangle}"
     r"{|\gamma|^2}\gamma\bigr)",

@@ -286,7 +286,7 @@ KERNELS: tuple[Kernel, ...] = (
     Kernel(
         "isotropic_spin",
         "w = B(γ/|γ|)⁻¹k for three equal moments: 2w is sin θ times the axis of the steady rotation.",
-        ("isotropic-spin", "steady", "steady-branch", "steady-axis"),
+        ("isotropic-spin", "steady", "steady-branch", "steady-axis", "steady-roll"),
         (HALF, GAMMA, MOMENT, CONTACT),
         (3,),
         _vector("w"),

@@ -1,9 +1,9 @@
 """Steady rotation: every step is the same rotation about an axis that stays, so that each state is known directly.
 
 Lemma `steady`: with w = B(γ)⁻¹𝒦/2 the Gibbs vector of a step is nw if w × Iw = 0, and the next w is the same one.
-That is any state of a ball with three equal moments, and a rotation about a principal axis where B(γ) keeps it:
-for D = 0, and for a vertical along it.  A ball at rest is one, too.  In space the contact point runs straight
-(lemma `straight`).
+That is any state of a ball with three equal moments, and a rotation about a principal axis where B(γ) keeps it: for
+D = 0, for a vertical along it, and for one across it, which is rolling straight.  A ball at rest is one, too.
+In space the contact point runs straight (lemma `straight`).
 """
 
 import numpy as np
@@ -19,14 +19,15 @@ from .frames import finished, step_numbers
 from .map import batch, explain, unit_vertical
 from .trajectories import Trajectory, initial_attitude
 
-#: A step by more than a quarter turn is beyond the fold (lemmas `steady-branch`, `steady-axis`).
+#: A step by more than a quarter turn is beyond the fold (lemmas `steady-branch`, `steady-axis`, `steady-roll`).
 QUARTER = 1.0
 
 
 def is_steady(ball: Ball, momentum: ArrayLike, gamma: ArrayLike) -> np.ndarray:
     """Which states rotate steadily, (...), so that `steady_frames` has them.
 
-    Where J₁ = J₂ = J₃; where 𝒦 = 0; and where 𝒦 has one component only and D = 0 or γ is along it.  There is no
+    Where J₁ = J₂ = J₃; where 𝒦 = 0; where 𝒦 has one component only and D = 0 or γ is along it; and where γ is across
+    it, if 2(J₂ - J₃)² ≤ (2J₁ + J₂ + J₃)²: then no fold comes before a quarter turn (lemma `steady-roll`).  There is no
     tolerance: moments or components that differ by an ulp turn the axis by about an ulp a step, which adds up; and from
     the middle principal axis roundings lead away, exponentially, in a run of the map, but not here.
     momentum, gamma: 𝒦 (kg m²) and γ, (..., 3); they broadcast with the balls.  Raises BadInput as `step` does.
@@ -35,16 +36,18 @@ def is_steady(ball: Ball, momentum: ArrayLike, gamma: ArrayLike) -> np.ndarray:
     return _equivalent(K, g, J, D)[0].reshape(shape)
 
 
-def _equivalent(K: Floats, g: Floats, J: Floats, D: Floats) -> tuple[np.ndarray, turns.Pair, Floats]:
-    """Which balls rotate steadily, and I (as a pair) and D of a ball with equal moments that has the same steps."""
+def _equivalent(K: Floats, g: Floats, J: Floats, D: Floats) -> tuple[np.ndarray, turns.Pair]:
+    """Which balls rotate steadily, and the I, as a pair, of a ball with equal moments that has the same steps."""
     axis = np.abs(K).argmax(axis=-1)
     rows = np.arange(len(D))
+    along, second, third = (J[rows, (axis + i) % 3] for i in range(3))
     single = (K != 0).sum(axis=-1) <= 1
     upright = (g != 0).sum(axis=-1) == 1
-    principal = single & ((D == 0) | ~K.any(axis=-1) | (upright & (g[rows, axis] != 0)))
+    tame = np.sqrt(2.0) * np.abs(second - third) <= 2.0 * along + second + third
+    kept = (upright & (g[rows, axis] != 0)) | (tame & (g[rows, axis] == 0))
+    principal = single & ((D == 0) | ~K.any(axis=-1) | kept)
     equal = (J[:, 0] == J[:, 1]) & (J[:, 1] == J[:, 2])
-    moment = pairs.two_sum(J[rows, (axis + 1) % 3], J[rows, (axis + 2) % 3])
-    return equal | principal, moment, np.where(equal, D, 0.0)
+    return equal | principal, pairs.two_sum(second, third)
 
 
 def steady_frames(
@@ -64,13 +67,13 @@ def steady_frames(
     """
     numbered = step_numbers(index)
     shape, (K, g, J, D) = batch(ball, numbers(momentum, "momentum", 3), unit_vertical(gamma))
-    steady, moment, term = _equivalent(K, g, J, D)
+    steady, moment = _equivalent(K, g, J, D)
     if not steady.all():
         raise BadInput(
             "this ball does not rotate steadily: its three J must be equal, or momentum along a principal axis "
-            "that is vertical (or D = 0); run `trajectory`"
+            "that is vertical or level (or D = 0), as `is_steady` says; run `trajectory`"
         )
-    axis, half, sine = _rotation(K, g, moment, term)
+    axis, half, sine = _rotation(K, g, moment, D)
     taken = sine < QUARTER
     angle = turns.fraction(half[0][:, np.newaxis], half[1][:, np.newaxis], numbered)
     cosine, along = turns.cosine_and_sine(angle)

@@ -14,9 +14,9 @@ Pair = tuple[Floats, Floats]
 
 #: 2π as a pair.
 FULL_TURN = (6.283185307179586, 2.4492935982947064e-16)
-#: Halvings of an angle of 45° or less before the series, and its terms: tan φ is then below 0.0246, and tan²²φ 2⁻¹¹⁷.
+#: Halvings of an angle of 45° or less before the series, and its terms: tan φ is then below 0.0246, and tan²⁰φ 2⁻¹⁰⁶.
 HALVINGS = 5
-TERMS = 11
+TERMS = 10
 #: Step numbers are split here, so that each part is a float.
 SPLIT = 2**32
 

@@ -38,8 +38,15 @@ def steady_states(draw):
         momentum = sine * ((2 * J + D) * axis - D * (axis @ gamma) * gamma)
         return Ball(unit * np.array([J, J, J]), unit * D, radius=0.5), unit * momentum, gamma
     J = draw(testing.mass_tensors(("generic",)))
+    sign = draw(st.sampled_from([-1.0, 1.0]))
+    if draw(st.booleans()):  # rolling straight about a level axis
+        i, D, angle = int(J.argmin()), draw(st.floats(0.0, 30.0)), draw(st.floats(0.0, 6.3))
+        gamma = np.roll([0.0, np.cos(angle), np.sin(angle)], i)
+        J[i] = J.max()
+        momentum = sign * sine * (J.sum() - J[i] + D) * np.eye(3)[i]
+        return Ball(unit * J, unit * D, radius=0.5), unit * momentum, gamma
     i, D = int(np.argsort(J)[draw(st.sampled_from([0, 2]))]), draw(st.sampled_from([0.0, 0.7, 3.0]))
-    axis = np.eye(3)[i] * draw(st.sampled_from([-1.0, 1.0]))
+    axis = np.eye(3)[i] * sign
     gamma = axis * draw(st.sampled_from([-1.0, 1.0])) if D else draw(testing.unit_vectors())
     return Ball(unit * J, unit * D, radius=0.5), unit * sine * (J.sum() - J[i]) * axis, gamma
 
@@ -132,6 +139,8 @@ def test_there_is_no_tolerance():
     assert not is_steady(Ball((1, 1, np.nextafter(1, 2)), 3), (0.1, 0.2, 0.1), GAMMA)
     assert not is_steady(Ball((1, 2, 4), 3), (1e-300, 0.2, 0), (0, 1, 0))
     assert not is_steady(Ball((1, 2, 4), 3), (0, 0.2, 0), GAMMA)
+    assert is_steady(Ball((1, 2, 4), 3), (0.2, 0, 0), (0, 0.6, 0.8))
+    assert not is_steady(Ball((0.1, 0.1, 4), 3), (0.2, 0, 0), (0, 0.6, 0.8))  # √2·3.9 > 0.2 + 4.1
     assert is_steady(Ball((1, 2, 4), [3, 0]), [[0, 0, 0], [0, 1, 0]], GAMMA).tolist() == [True, True]
     for ball, momentum in ((Ball((1, 1, 2), 3), (0.1, 0.2, 0.1)), (Ball((1, 2, 4), 3), (0, 0.2, 0))):
         with pytest.raises(BadInput, match="does not rotate steadily"):

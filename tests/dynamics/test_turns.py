@@ -29,6 +29,11 @@ def test_turns_of_a_tangent(t, part):
     assert abs(found - true) <= 2.0**-99 * true + 2.0**-1000
 
 
+def test_turns_of_the_largest_tangent():
+    """Where the series is longest; 2⁻¹⁰² is what its operations leave there."""
+    assert abs(exactly(turns.turns_of_tangent(np.array(1.0), np.array(0.0))) * 8 - 1) <= 2.0**-102
+
+
 @given(st.floats(-0.5, 0.5), st.floats(-0.5, 0.5), st.integers(0, 2**62))
 def test_the_fraction_of_many_turns(high, part, k):
     """Exact but for the low half of the low half, 2⁻¹⁰⁵k of a turn, and the last rounding, 2⁻⁵⁴."""

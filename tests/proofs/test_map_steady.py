@@ -7,7 +7,7 @@ from chapsym.derive import continuous, gibbs, steady, three
 from chapsym.prove import load
 from chapsym.prove.runner import judge, prove_one
 
-LEMMAS = ["steady", "steady-branch", "steady-axis", "isotropic-spin", "straight"]
+LEMMAS = ["steady", "steady-branch", "steady-axis", "steady-roll", "isotropic-spin", "straight"]
 
 
 @pytest.mark.parametrize("id", LEMMAS)
@@ -24,7 +24,7 @@ def verdict(id):
     return judge(load(lemmas=True)[id]).verdict.value
 
 
-@pytest.mark.parametrize("id", ["steady", "steady-branch", "steady-axis"])
+@pytest.mark.parametrize("id", ["steady", "steady-branch", "steady-axis", "steady-roll"])
 def test_a_wrong_momentum_is_seen(monkeypatch, id):
     wrong = sp.ImmutableMatrix(sp.Matrix(gibbs.residual()).subs(gibbs.u[0], -gibbs.u[0]))
     bent = gibbs.jacobian().subs(gibbs.u[0], -gibbs.u[0])
