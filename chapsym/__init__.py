@@ -40,12 +40,14 @@ if TYPE_CHECKING:
         follow,
         increment,
         invariants_n,
+        is_steady,
         margin,
         retrace_error,
         reverse,
         reverse_n,
         roll,
         skew,
+        steady_frames,
         step,
         step_n,
         step_vertical,
@@ -64,9 +66,9 @@ __all__ = [
     "BadInput", "Ball", "BallN", "Branches", "Certificate", "Curve", "ExactTop", "Extrapolated", "Fold", "Followed",
     "NotRetraced", "Result", "Status", "Step", "StepN", "StepNotTaken", "Trajectory", "TrajectoryN",
     "VerticalTrajectory", "axial", "branches", "certify", "compose_step", "exact_top", "extrapolate", "fold",
-    "follow", "increment", "invariants_n", "margin", "open_result", "retrace_error", "reverse", "reverse_n", "roll",
-    "run_scene", "skew", "step", "step_n", "step_vertical", "substeps", "trajectory", "trajectory_n",
-    "trajectory_vertical",
+    "follow", "increment", "invariants_n", "is_steady", "margin", "open_result", "retrace_error", "reverse",
+    "reverse_n", "roll", "run_scene", "skew", "steady_frames", "step", "step_n", "step_vertical", "substeps",
+    "trajectory", "trajectory_n", "trajectory_vertical",
 ]  # fmt: skip
 
 

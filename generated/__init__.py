@@ -11,6 +11,7 @@ from .gibbs_newton_heavy import gibbs_newton_heavy
 from .gibbs_residual import gibbs_residual
 from .gibbs_second import gibbs_second
 from .invariants import invariants
+from .isotropic_spin import isotropic_spin
 from .momentum import momentum
 from .momentum_jacobian import momentum_jacobian
 from .residual import residual
@@ -37,6 +38,7 @@ TABLE = {
     "gibbs_residual": (gibbs_residual, (('gibbs', 3), ('half_momentum', 3), ('gamma', 3), ('inertia', 3), ('D', 1)), (3,)),
     "gibbs_second": (gibbs_second, (('correction', 3), ('half_momentum', 3), ('cofactors', 9), ('inertia', 3)), (3,)),
     "invariants": (invariants, (('momentum', 3), ('gamma', 3)), (3,)),
+    "isotropic_spin": (isotropic_spin, (('half_momentum', 3), ('gamma', 3), ('moment', 1), ('D', 1)), (3,)),
     "momentum": (momentum, (('rotation', 4), ('gamma', 3), ('mass_tensor', 3), ('D', 1)), (3,)),
     "momentum_jacobian": (momentum_jacobian, (('rotation', 4), ('gamma', 3), ('mass_tensor', 3), ('D', 1)), (3, 3)),
     "residual": (residual, (('rotation', 4), ('momentum', 3), ('gamma', 3), ('mass_tensor', 3), ('D', 1)), (3,)),

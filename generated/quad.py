@@ -1,9 +1,9 @@
 """The parts of a step on double-double numbers; x and x_ are the halves of x.
 
 Written by `chapsym codegen`: do not edit; change the derivation and generate again.
-From the kernels centre_step, compose, gibbs_residual, residual, rotate, turn.
-Proved by: 2.1, 4.9, 5.1, 5.2, gibbs, gibbs-rotation, stable-momentum.
-Programs: sha256 789e2210a7e0f5c64b7d6399b36de0f4cf50aaf53bd165e926605feceef7605a.
+From the kernels centre_step, compose, gibbs_residual, isotropic_spin, residual, rotate, turn.
+Proved by: 2.1, 4.9, 5.1, 5.2, gibbs, gibbs-rotation, isotropic-spin, stable-momentum, steady, steady-axis, steady-branch, steady-roll.
+Programs: sha256 b75b4ab5dcace88022a775ee93122819ef669a5afc66bd119a25d73ce8975bdc.
 """
 
 from chapsym.numbers.pairs import divide, loose_add, loose_add_float, loose_multiply, loose_multiply_float, loose_subtract, two_product, two_sum
@@ -404,3 +404,51 @@ def roll_pairs(q0, q0_, u1, u1_, u2, u2_, u3, u3_, g1, g1_, g2, g2_, g3, g3_, a0
     o_n1, o_n1_ = two_sum(t48, t48_)
     o_n2, o_n2_ = two_sum(t50, t50_)
     return o_b0, o_b0_, o_b1, o_b1_, o_b2, o_b2_, o_b3, o_b3_, o_n1, o_n1_, o_n2, o_n2_
+
+
+def steady_pairs(k1, k2, k3, g1, g2, g3, moment, moment_, D):
+    """w = B(γ/|γ|)⁻¹k for three equal moments, and |w|².
+
+    half_momentum: k1, k2, k3
+    gamma: g1, g2, g3
+    moment: moment
+    D: D
+    Returns w1, w2, w3, square as normalised pairs.  k1, k2, k3, g1, g2, g3, D: float64; the others are pairs.
+    Operations: 220.
+    """
+    t0, t0_ = two_product(k1, g1)
+    t1, t1_ = two_product(k2, g2)
+    t2, t2_ = loose_add(t0, t0_, t1, t1_)
+    t3, t3_ = two_product(k3, g3)
+    t4, t4_ = loose_add(t2, t2_, t3, t3_)
+    t5, t5_ = loose_multiply_float(t4, t4_, D)
+    t6, t6_ = two_product(g1, g1)
+    t7, t7_ = two_product(g2, g2)
+    t8, t8_ = loose_add(t6, t6_, t7, t7_)
+    t9, t9_ = two_product(g3, g3)
+    t10, t10_ = loose_add(t8, t8_, t9, t9_)
+    t11, t11_ = loose_multiply(moment, moment_, t10, t10_)
+    t12d, t12d_ = two_sum(t11, t11_)
+    t12, t12_ = divide(t5, t5_, t12d, t12d_)
+    t13, t13_ = loose_add_float(moment, moment_, D)
+    t14d, t14d_ = two_sum(t13, t13_)
+    t14, t14_ = divide(1, 0, t14d, t14d_)
+    t15, t15_ = loose_multiply_float(t12, t12_, g1)
+    t16, t16_ = loose_add_float(t15, t15_, k1)
+    t17, t17_ = loose_multiply(t14, t14_, t16, t16_)
+    t18, t18_ = loose_multiply_float(t12, t12_, g2)
+    t19, t19_ = loose_add_float(t18, t18_, k2)
+    t20, t20_ = loose_multiply(t14, t14_, t19, t19_)
+    t21, t21_ = loose_multiply_float(t12, t12_, g3)
+    t22, t22_ = loose_add_float(t21, t21_, k3)
+    t23, t23_ = loose_multiply(t14, t14_, t22, t22_)
+    t24, t24_ = loose_multiply(t17, t17_, t17, t17_)
+    t25, t25_ = loose_multiply(t20, t20_, t20, t20_)
+    t26, t26_ = loose_add(t24, t24_, t25, t25_)
+    t27, t27_ = loose_multiply(t23, t23_, t23, t23_)
+    t28, t28_ = loose_add(t26, t26_, t27, t27_)
+    o_w1, o_w1_ = two_sum(t17, t17_)
+    o_w2, o_w2_ = two_sum(t20, t20_)
+    o_w3, o_w3_ = two_sum(t23, t23_)
+    o_square, o_square_ = two_sum(t28, t28_)
+    return o_w1, o_w1_, o_w2, o_w2_, o_w3, o_w3_, o_square, o_square_

@@ -24,6 +24,7 @@ SCRIPTS = (
     "map_gibbs",
     "map_self_adjoint",
     "map_stable",
+    "map_steady",
     "map_vertical",
 )
 
@@ -46,5 +47,6 @@ CLAIMS = (
 LEMMAS = (
     "gibbs", "gibbs-newton", "gibbs-rotation", "small-branch", "self-adjoint", "reversible",
     "momentum-integrals-composed", "vertical-rotation", "vertical-level", "vertical-top", "top-commutes",
-    "stable-momentum", "stable-determinant", "stable-inverse",
+    "stable-momentum", "stable-determinant", "stable-inverse", "steady", "steady-branch", "steady-axis", "steady-roll",
+    "isotropic-spin", "straight",
 )  # fmt: skip

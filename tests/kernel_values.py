@@ -202,4 +202,7 @@ INDEPENDENT = {
     "vertical_square": lambda a: [dot([x * x for x in a["gamma"]], [math.prod(a["Lambda"]) / m for m in a["Lambda"]])],
     "vertical_level": level,
     "vertical_rotation": closed,
+    "isotropic_spin": lambda a: list(
+        MP.lu_solve(rolled(3 * [a["moment"][0] / 2], a["D"][0], normalised(a["gamma"])), column(a["half_momentum"]))
+    ),
 }  # fmt: skip

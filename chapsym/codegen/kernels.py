@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from chapsym.derive import continuous, gibbs, three, vertical
+from chapsym.derive import continuous, gibbs, steady, three, vertical
 from chapsym.derive.limits import omega
 from chapsym.derive.three import J1, J2, J3, D, K, gamma, q, q0
 
@@ -28,6 +28,7 @@ NEXT: Group = ("next_correction", tuple(gibbs.e))
 COFACTORS: Group = ("cofactors", tuple(gibbs.C))
 ANY_QUATERNION: Group = ("quaternion", (gibbs.p0, *gibbs.p))
 INERTIA: Group = ("inertia", tuple(gibbs.INERTIA.diagonal()))
+MOMENT: Group = ("moment", (steady.moment,))
 LAMBDA: Group = ("Lambda", vertical.INERTIA)
 BODY: tuple[Group, ...] = (GAMMA, MASS_TENSOR, CONTACT)
 
@@ -281,5 +282,15 @@ KERNELS: tuple[Kernel, ...] = (
         (4,),
         ("p0", "p1", "p2", "p3"),
         vertical.closed_rotation,
+    ),
+    Kernel(
+        "isotropic_spin",
+        "w = B(γ/|γ|)⁻¹k for three equal moments: 2w is sin θ times the axis of the steady rotation.",
+        ("isotropic-spin", "steady", "steady-branch", "steady-axis", "steady-roll"),
+        (HALF, GAMMA, MOMENT, CONTACT),
+        (3,),
+        _vector("w"),
+        steady.spin,
+        steady.spin_steps,
     ),
 )

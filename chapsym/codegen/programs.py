@@ -15,6 +15,7 @@ from .kernels import (
     GIBBS,
     HALF,
     INERTIA,
+    MOMENT,
     MOMENTUM,
     QUATERNION,
     Group,
@@ -74,6 +75,12 @@ n1, n2 = z1 + rho * x1, z2 + rho * x2
 c0, c1, c2, c3 = compose(a0, a1, a2, a3, q0, q1, q2, q3)
 t = (3 - ((c0 * c0 + c1 * c1) + (c2 * c2 + c3 * c3))) / 2
 b0, b1, b2, b3 = c0 * t, c1 * t, c2 * t, c3 * t
+"""
+
+
+_STEADY = """
+w1, w2, w3 = isotropic_spin(k1, k2, k3, g1, g2, g3, moment, D)
+square = w1 * w1 + w2 * w2 + w3 * w3
 """
 
 
@@ -171,5 +178,13 @@ PAIR_PROGRAMS: tuple[Program, ...] = (
         ("b0", "b1", "b2", "b3", "n1", "n2"),
         _ROLLED,
         ("rho",),
+    ),
+    Program(
+        "steady_pairs",
+        "w = B(γ/|γ|)⁻¹k for three equal moments, and |w|².",
+        (HALF, GAMMA, MOMENT, CONTACT),
+        ("w1", "w2", "w3", "square"),
+        _STEADY,
+        ("k1", "k2", "k3", "g1", "g2", "g3", "D"),
     ),
 )

@@ -47,7 +47,7 @@ def test_any_changed_operation_or_half_changes_the_value(program):
              "loose_subtract": "loose_add", "loose_multiply": "divide", "divide": "loose_multiply",
              "loose_add_float": "loose_multiply_float", "loose_multiply_float": "loose_add_float"}  # fmt: skip
     calls = list(re.finditer(r"^    \w+, \w+ = (\w+)\((.*)\)$", text, re.MULTILINE))
-    assert len(calls) >= 40
+    assert len(calls) >= 35
     for call in calls:
         changed = text[: call.start(1)] + other[call[1]] + text[call.end(1) :]
         assert build.quad_fingerprint(program, changed) != trusted, call[0]

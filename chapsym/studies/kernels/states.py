@@ -181,6 +181,7 @@ def _group(name: str, world: World, u: Sequence[float]) -> Any:
         "next_correction": lambda: 1e-6 * np.abs(_gibbs(world)).max() * world.axis[[1, 2, 0]],
         "quaternion": lambda: (0.5 + u[12]) * world.rotation,
         "inertia": lambda: inertia,
+        "moment": lambda: inertia[:1],
         "Lambda": lambda: inertia + world.D,
         "scalars": lambda: [t, v],
         "level": lambda: [vertical_square(*world.gamma, *(inertia + world.D))],
