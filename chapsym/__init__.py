@@ -46,6 +46,7 @@ if TYPE_CHECKING:
         reverse,
         reverse_n,
         roll,
+        rotation_number,
         skew,
         steady_frames,
         step,
@@ -67,8 +68,8 @@ __all__ = [
     "NotRetraced", "Result", "Status", "Step", "StepN", "StepNotTaken", "Trajectory", "TrajectoryN",
     "VerticalTrajectory", "axial", "branches", "certify", "compose_step", "exact_top", "extrapolate", "fold",
     "follow", "increment", "invariants_n", "is_steady", "margin", "open_result", "retrace_error", "reverse",
-    "reverse_n", "roll", "run_scene", "skew", "steady_frames", "step", "step_n", "step_vertical", "substeps",
-    "trajectory", "trajectory_n", "trajectory_vertical",
+    "reverse_n", "roll", "rotation_number", "run_scene", "skew", "steady_frames", "step", "step_n", "step_vertical",
+    "substeps", "trajectory", "trajectory_n", "trajectory_vertical",
 ]  # fmt: skip
 
 

@@ -14,6 +14,7 @@ from .general import StepN, step_n
 from .map import Step, step
 from .multivalued import Branches, branches
 from .reversal import NotRetraced, retrace_error, reverse
+from .rotation import rotation_number
 from .steady import is_steady, steady_frames
 from .trajectories import Trajectory, roll, trajectory
 from .trajectories_n import TrajectoryN, invariants_n, reverse_n, trajectory_n
@@ -23,6 +24,7 @@ __all__ = [
     "BadInput", "Ball", "BallN", "Branches", "Certificate", "Curve", "ExactTop", "Extrapolated", "Fold", "Followed",
     "NotRetraced", "Status", "Step", "StepN", "StepNotTaken", "Trajectory", "TrajectoryN", "VerticalTrajectory",
     "axial", "branches", "certify", "compose_step", "exact_top", "extrapolate", "fold", "follow", "increment",
-    "invariants_n", "is_steady", "margin", "retrace_error", "reverse", "reverse_n", "roll", "skew", "steady_frames",
-    "step", "step_n", "step_vertical", "substeps", "trajectory", "trajectory_n", "trajectory_vertical",
+    "invariants_n", "is_steady", "margin", "retrace_error", "reverse", "reverse_n", "roll", "rotation_number",
+    "skew", "steady_frames", "step", "step_n", "step_vertical", "substeps", "trajectory", "trajectory_n",
+    "trajectory_vertical",
 ]  # fmt: skip

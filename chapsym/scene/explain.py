@@ -19,16 +19,23 @@ def explained(plan: Plan) -> list[tuple[str, str]]:
     cost = predicted(plan)
     rows.append(("cost", _told(cost)))
     if plan.task.accuracy is None:
-        everything = predicted(full(plan))
-        less = (
-            f"{_ratio(everything.seconds, cost.seconds)} the time, {_ratio(everything.bytes, cost.bytes)} the numbers"
-        )
-        rows.append(("everything", f"{_told(everything)}: {less}"))
+        rows.append(("everything", _beside(plan, cost)))
     units = len(plan.chunks) * len(plan.segments)
     rows.append(
         ("work", f"{units} unit{'s' if units > 1 else ''}: {len(plan.chunks)} × {len(plan.segments)}, balls × frames")
     )
     return rows
+
+
+def _beside(plan: Plan, cost: Cost) -> str:
+    """What the model that follows everything costs, where it follows what is asked for."""
+    whole = full(plan)
+    unknown = sorted(plan.needed - whole.model.columns)
+    everything = predicted(whole)
+    if unknown:
+        return f"{_told(everything)}, without {' and '.join(unknown)}, which it does not know"
+    ratios = _ratio(everything.seconds, cost.seconds), _ratio(everything.bytes, cost.bytes)
+    return f"{_told(everything)}: {ratios[0]} the time, {ratios[1]} the numbers"
 
 
 def _told(cost: Cost) -> str:
@@ -40,10 +47,9 @@ def _told(cost: Cost) -> str:
 
 def seconds_told(seconds: float) -> str:
     """A time for a reader."""
-    for unit, length in (("h", 3600.0), ("min", 60.0), ("s", 1.0), ("ms", 1e-3)):
-        if seconds >= length:
-            return f"{seconds / length:.2g} {unit}" if seconds < 100 * length else f"{seconds / length:.0f} {unit}"
-    return f"{seconds * 1e6:.2g} µs"
+    units = (("h", 3600.0), ("min", 60.0), ("s", 1.0), ("ms", 1e-3), ("µs", 1e-6))
+    unit, length = next(((unit, length) for unit, length in units if seconds >= length), units[-1])
+    return f"{float(f'{seconds / length:.2g}'):g} {unit}"
 
 
 def _ratio(more: float, less: float) -> str:

@@ -4,8 +4,10 @@ from .chosen import Chosen
 from .general import General
 from .model import Model, State
 from .rolling import Rolling
+from .steady import Steady
+from .vertical import Vertical
 
 #: The least first: the first that does not refuse is taken.
-MODELS: tuple[Model, ...] = (Chosen(), General(), Rolling())
+MODELS: tuple[Model, ...] = (Chosen(), General(), Steady(), Vertical(), Rolling())
 
-__all__ = ["MODELS", "Chosen", "General", "Model", "Rolling", "State"]
+__all__ = ["MODELS", "Chosen", "General", "Model", "Rolling", "State", "Steady", "Vertical"]

@@ -1,0 +1,113 @@
+"""Vertical momentum: the reduced map G_h on the sphere, where γ is the whole state."""
+
+import numpy as np
+
+from chapsym.dynamics import BadInput, Ball, Curve, Status, StepNotTaken, rotation_number, trajectory_vertical
+
+from ..members import Members
+from ..task import Columns, Task
+from .model import Model, Progress, State
+
+#: How far 𝒦 may be from hγ, relatively: 𝒦 was rounded, and its motion stays as near as that to the one with 𝒦 = hγ.
+VERTICAL = 4 * np.finfo(np.float64).eps
+#: From so many balls on, the vector lanes of the map on (𝒦, γ) are faster.
+FEW = 16
+
+
+class Vertical(Model):
+    """`trajectory_vertical`, and the phase u of γ on its elliptic curve."""
+
+    name = "vertical momentum"
+    about = "γ alone, on the sphere: 𝒦 = hγ; its phase on the curve ⟨γ,Λ⁻¹γ⟩ = l"
+    columns = frozenset({"momentum", "gamma", "phase", "rotation_number"})
+    kernels = {  # noqa: RUF012
+        "gamma": ("gibbs_newton", "gibbs_second", "turn"),
+        "momentum": ("gibbs_newton", "gibbs_second", "turn"),
+        "phase": ("gibbs_newton", "gibbs_second", "turn"),
+        "rotation_number": ("gibbs_newton", "gibbs_second", "turn"),
+    }
+    reduction = True
+    unit_steps = 2**25
+
+    def refuses(self, members: Members, task: Task, needed: frozenset[str]) -> str | None:
+        """Momenta that are not vertical; points that stay, where a phase is asked for; batches that are as fast."""
+        if not isinstance(members.ball, Ball):
+            return "it is one in three dimensions"
+        if task.order != 2 or task.precision != "double" or task.accuracy is not None:
+            return "it has order 2 and float64 only"
+        K, height = members.momentum, heights(members)
+        apart = np.abs(K - height[:, np.newaxis] * members.gamma).max(axis=-1) > VERTICAL * np.abs(height)
+        if apart.any() or (height == 0).any():
+            return f"the momentum of {members.names[int(np.argmax(apart | (height == 0)))]} is not along γ"
+        if needed & {"phase", "rotation_number"}:
+            return self._no_curve(members)
+        return "the vector lanes of the map on (𝒦, γ) are faster for so many balls" if len(members) >= FEW else None
+
+    @staticmethod
+    def _no_curve(members: Members) -> str | None:
+        for i, name in enumerate(members.names):
+            try:
+                curve = Curve.through(one_ball(members, i), members.gamma[i])
+            except BadInput as error:
+                return f"{name}: {error}"
+            if curve.complement == 0.0:
+                return f"{name} is on the separatrix, where the period is infinite"
+        return None
+
+    def begin(self, members: Members, task: Task, needed: frozenset[str]) -> State:
+        """γ, h, and the phase so far."""
+        state = super().begin(members, task, needed)
+        return state | {"gamma": members.gamma, "height": heights(members)}
+
+    def advance(
+        self, members: Members, task: Task, needed: frozenset[str], state: State, segment: slice, progress: Progress
+    ) -> tuple[Columns, State]:
+        """The frames of a segment; the last one takes the steps beyond the last frame, too."""
+        assert isinstance(members.ball, Ball)
+        after = int(segment.start > 0)
+        first = max(segment.start - 1, 0) * task.every
+        last = task.steps if segment.stop == task.frames else (segment.stop - 1) * task.every
+        gamma = np.full((len(members), segment.stop - segment.start, 3), np.nan)
+        ends = {name: array.copy() for name, array in state.items()}
+        going = np.flatnonzero(state["status"] == Status.TAKEN)
+        if len(going):
+            ball, height = members.of(going).ball, state["height"][going]
+            assert isinstance(ball, Ball)
+            run = trajectory_vertical(ball, height, state["gamma"][going], last - first, every=task.every)
+            gamma[going], ends["gamma"][going] = run.gamma[:, after:], run.gamma[:, -1]
+            ends["taken"][going], ends["status"][going] = first + run.taken, run.status
+        progress(len(members) * (last - first))
+        return self._columns(members, state["height"], gamma, needed), ends
+
+    @staticmethod
+    def _columns(members: Members, height: np.ndarray, gamma: np.ndarray, needed: frozenset[str]) -> Columns:
+        found: Columns = {"gamma": gamma, "momentum": height[:, np.newaxis, np.newaxis] * gamma}
+        if "phase" in needed:
+            found["phase"] = np.full(gamma.shape[:2], np.nan)
+            for i in range(len(members)):
+                there = np.isfinite(gamma[i, :, 0])
+                found["phase"][i, there] = Curve.through(one_ball(members, i), members.gamma[i]).argument(
+                    gamma[i, there]
+                )
+        if "rotation_number" in needed:
+            found["rotation_number"] = np.array([_turns(members, i, height[i]) for i in range(len(members))])
+        return {name: found[name] for name in found if name in needed}
+
+
+def heights(members: Members) -> np.ndarray:
+    """h = ⟨𝒦,γ⟩/⟨γ,γ⟩ in kg m², (n,): 𝒦 = hγ where 𝒦 is vertical."""
+    return np.asarray((members.momentum * members.gamma).sum(axis=-1) / (members.gamma**2).sum(axis=-1))
+
+
+def one_ball(members: Members, i: int) -> Ball:
+    """One ball of a batch, by itself."""
+    ball = members.ball
+    return Ball(ball.mass_tensor[i], ball.D[i], None if ball.radius is None else ball.radius[i])
+
+
+def _turns(members: Members, i: int, height: float) -> float:
+    """The rotation number, NaN for a ball whose orbit ends at a fold: it has none."""
+    try:
+        return rotation_number(one_ball(members, i), height, members.gamma[i])
+    except StepNotTaken:
+        return float("nan")

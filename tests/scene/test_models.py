@@ -1,0 +1,145 @@
+"""Each reduction agrees with the full model to roundoff, and serves where it says."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import chapsym
+from chapsym.dynamics import Status
+from chapsym.scene import segments
+from chapsym.scene.members import Members
+from chapsym.scene.models import Rolling, Steady, Vertical
+from chapsym.scene.plan import planned
+from chapsym.scene.task import Task
+
+EPS = 2.0**-53
+COLUMNS = ("momentum", "gamma", "attitude", "contact")
+
+
+def rolled(plan, cut=None):
+    """All outputs of all balls, each segment from the state that the one before left."""
+    whole = slice(0, len(plan.members))
+    state, parts = segments.begin(plan, whole), []
+    for segment in cut or plan.segments:
+        columns, state = segments.advance(plan, whole, state, segment)
+        parts.append(columns)
+    columns = {
+        name: parts[0][name] if parts[0][name].ndim == 1 else np.concatenate([part[name] for part in parts], axis=1)
+        for name in parts[0]
+    }
+    return columns, state
+
+
+def with_model(plan, model):
+    return replace(plan, model=model)
+
+
+@pytest.fixture
+def homogeneous():
+    rng = np.random.default_rng(6)
+    n = 5
+    moment = rng.uniform(0.5, 2.0, n)
+    ball = chapsym.Ball(np.repeat(moment[:, np.newaxis], 3, axis=1), rng.uniform(0, 5, n), rng.uniform(0.1, 1, n))
+    gamma = rng.normal(size=(n, 3))
+    gamma /= np.linalg.norm(gamma, axis=1, keepdims=True)
+    place = rng.normal(size=(n, 2))
+    return Members(tuple("abcde"), ball, 0.3 * rng.normal(size=(n, 3)), gamma, place=place)
+
+
+@pytest.fixture
+def vertical():
+    ball = chapsym.Ball(np.array([[1, 2, 4], [0.5, 2, 3], [1, 1.5, 4]]), np.array([7.0, 0.0, 3.0]))
+    gamma = np.array([[2, 3, 6], [6, -2, 3], [-3, 6, 2]]) / 7
+    return Members(tuple("abc"), ball, np.array([[0.8], [-0.7], [1.1]]) * gamma, gamma)
+
+
+def test_steady_rotation_is_the_map(homogeneous):
+    steps = 1000
+    plan = planned(homogeneous, Task(COLUMNS, steps, 7))
+    assert plan.model.name == Steady.name
+    direct, end = rolled(plan, [slice(0, 10), slice(10, plan.frames)])
+    stepped, also = rolled(with_model(plan, Rolling()))
+    assert (end["taken"] == also["taken"]).all()
+    lengths = {
+        "momentum": np.abs(homogeneous.momentum).max(),
+        "gamma": 1,
+        "attitude": 1,
+        "contact": np.abs(stepped["contact"]).max(),
+    }
+    for name in COLUMNS:  # the steps' roundings add up: an ulp a step at most
+        assert np.abs(direct[name] - stepped[name]).max() <= 2 * steps * EPS * lengths[name]
+
+
+def test_a_steady_ball_beyond_its_fold_stops_at_once(homogeneous):
+    plan = planned(replace(homogeneous, momentum=40 * homogeneous.momentum), Task(COLUMNS, 10))
+    columns, state = rolled(plan)
+    assert plan.model.name == Steady.name
+    assert (state["status"] != Status.TAKEN).any()
+    stopped = state["status"] != Status.TAKEN
+    assert (state["taken"] == np.where(stopped, 0, 10)).all()
+    assert np.isnan(columns["gamma"][stopped, 1:]).all()
+    assert not np.isnan(columns["gamma"][:, 0]).any()
+
+
+def test_unequal_moments_are_not_steady(homogeneous):
+    tensor = homogeneous.ball.mass_tensor.copy()
+    tensor[3, 0] = np.nextafter(tensor[3, 0], 9)
+    some = replace(homogeneous, ball=chapsym.Ball(tensor, homogeneous.ball.D, homogeneous.ball.radius))
+    plan = planned(some, Task(COLUMNS, 10))
+    assert plan.model.name == Rolling.name
+    assert "d has unequal moments" in plan.refused[Steady.name]
+
+
+def test_vertical_momentum_is_the_map(vertical):
+    steps = 2000
+    plan = planned(vertical, Task(("momentum", "gamma"), steps, 3))
+    assert plan.model.name == Vertical.name
+    reduced, end = rolled(plan, [slice(0, 100), slice(100, plan.frames)])
+    stepped, also = rolled(with_model(plan, Rolling()))
+    assert (end["taken"] == also["taken"]).all()
+    for name in ("momentum", "gamma"):  # both drift along the curve, by some roundings a step
+        assert np.abs(reduced[name] - stepped[name]).max() <= 10 * steps * EPS
+
+
+def test_the_phase_is_that_of_the_curve_and_turns_by_the_rotation_number(vertical):
+    steps = 3000
+    plan = planned(vertical, Task(("gamma", "phase", "rotation_number"), steps))
+    columns, _ = rolled(plan)
+    for i in range(3):
+        ball = chapsym.Ball(vertical.ball.mass_tensor[i], vertical.ball.D[i])
+        curve = chapsym.Curve.through(ball, vertical.gamma[i])
+        assert np.abs(curve.point(columns["phase"][i]) - columns["gamma"][i]).max() < 1e-12
+        turned = np.unwrap(columns["phase"][i], period=curve.period)
+        # The mean over N steps is off by a bounded part of a turn over N.
+        assert abs((turned[-1] - turned[0]) / curve.period / steps - columns["rotation_number"][i]) < 1 / steps
+
+
+def test_a_momentum_beside_the_vertical_is_not_vertical(vertical):
+    beside = vertical.momentum.copy()
+    beside[1, 0] += 1e-14
+    with pytest.raises(chapsym.BadInput, match="momentum of b is not along γ"):
+        planned(replace(vertical, momentum=beside), Task(("phase",), 10))
+    assert planned(replace(vertical, momentum=beside), Task(("gamma",), 10)).model.name == Rolling.name
+
+
+def test_a_phase_is_refused_where_there_is_no_curve(vertical):
+    along = np.tile([0.0, 0.0, 1.0], (3, 1))
+    with pytest.raises(chapsym.BadInput, match="the map fixes this gamma"):
+        planned(replace(vertical, gamma=along, momentum=0.5 * along), Task(("phase",), 10))
+
+
+def test_the_rotation_number_without_D_is_the_increment():
+    ball, gamma = chapsym.Ball((1, 2, 4), 0), np.array([2, 3, 6]) / 7
+    curve = chapsym.Curve.through(ball, gamma)
+    for h in (0.5, -0.02, 2.0):
+        turn = float(chapsym.increment(curve, h, 0.0)) / curve.period
+        assert chapsym.rotation_number(ball, h, gamma) == pytest.approx(turn, rel=1e-13)
+
+
+def test_the_rotation_number_is_that_of_any_point_of_the_curve():
+    ball, gamma = chapsym.Ball((1, 2, 4), 7), np.array([2, 3, 6]) / 7
+    curve = chapsym.Curve.through(ball, gamma)
+    found = [chapsym.rotation_number(ball, 2.0, curve.point(u)) for u in (0.0, 0.3, 1.7)]
+    assert max(found) - min(found) < 1e-11
+    assert found[0] != pytest.approx(float(chapsym.increment(curve, 2.0, 0.0)) / curve.period, rel=1e-6)
