@@ -10,8 +10,8 @@ from .models import General, Rolling
 from .outputs import OUTPUTS, PER_BALL, columns_for
 from .plan import Plan
 
-#: Balls of a pilot run at most, and seconds from which on it tells enough.
-BALLS, ENOUGH = 512, 0.02
+#: Balls of a pilot run at most; steps, or frames, of the first one; and seconds from which on one tells enough.
+BALLS, LEAST, ENOUGH = 512, 32, 0.02
 
 
 @dataclass(frozen=True)
@@ -39,20 +39,17 @@ def predicted(plan: Plan) -> Cost:
 
 
 def _extrapolated(plan: Plan) -> float:
-    """Seconds of the processor for a whole run, from the last two of pilot runs of twice the length each."""
+    """Seconds of the processor for a whole run, from pilot runs of which each has twice the length of the one before."""
     chunk = slice(0, min(BALLS, len(plan.members)))
     share = len(plan.members) / (chunk.stop - chunk.start)
     work = plan.task.steps if plan.model.stepwise else plan.frames
-    _pilot(plan, chunk, 1)  # compiles what is not compiled yet
-    part, before = min(32, work), 0.0
-    while True:
+    first = part = min(LEAST, work)
+    _pilot(plan, chunk, first)  # compiles what is not compiled yet
+    start = took = _pilot(plan, chunk, first)
+    while part < work and (took < ENOUGH or part == first):
+        part = min(2 * part, work)
         took = _pilot(plan, chunk, part)
-        if took >= ENOUGH or part >= work:
-            break
-        part, before = min(2 * part, work), took
-    if part >= work:
-        return took * share
-    slope = max(took - before, took / 4) / (part / 2)
+    slope = max(took - start, 0.0) / (part - first) if part > first else 0.0
     return (took + slope * (work - part)) * share
 
 
