@@ -39,7 +39,7 @@ def predicted(plan: Plan) -> Cost:
 
 
 def _extrapolated(plan: Plan) -> float:
-    """Seconds of the processor for a whole run, from pilot runs of which each has twice the length of the one before."""
+    """Seconds of the processor for a whole run, from pilot runs, each twice as long as the one before."""
     chunk = slice(0, min(BALLS, len(plan.members)))
     share = len(plan.members) / (chunk.stop - chunk.start)
     work = plan.task.steps if plan.model.stepwise else plan.frames
