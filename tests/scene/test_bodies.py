@@ -164,5 +164,5 @@ def test_an_inertia_tensor_must_be_symmetric():
     tensor = from_inertia_tensor(I)
     np.testing.assert_allclose(np.trace(tensor[0]) * np.eye(3) - tensor[0], I[0], atol=4 * EPS)
     I[0, 0, 1] = 0.2
-    with pytest.raises(BadInput, match="inertia must be symmetric, but it differs from its transpose by 0.1 kg m²"):
+    with pytest.raises(BadInput, match=r"inertia must be symmetric, but it differs from its transpose by 0\.1 kg m²"):
         from_inertia_tensor(I)

@@ -61,7 +61,7 @@ def test_draws_are_told_by_the_seed_and_by_their_own_key():
 
 
 def test_the_draws_of_today_are_those_of_tomorrow():
-    """NumPy keeps the bits of PCG64, and changes what a Generator makes of them only with notice: here it would show."""
+    """NumPy keeps the bits of PCG64, but may change what a Generator makes of them: here it would show."""
     found = values(checked(({"random": [0, 1]}, {"normal": [0, 1]}, 0), {"samples": 2, "seed": 3}))
     assert found == PINNED
 

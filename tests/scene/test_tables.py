@@ -179,7 +179,8 @@ def test_a_refusal_of_a_ball_tells_its_line(tmp_path):
 
 def test_a_scene_knows_its_source_and_a_changed_one_is_checked(tmp_path):
     path = tmp_path / "s.toml"
-    text = "# why\r\n[ball]\r\nmass_tensor = [1, 2, 4]\r\nD = '3 kg m2'\r\n[start]\r\nmomentum = [1, 0, 0]\r\n[run]\r\nsteps = 9\r\n"
+    text = "# why\n[ball]\nmass_tensor = [1, 2, 4]\nD = '3 kg m2'\n[start]\nmomentum = [1, 0, 0]\n[run]\nsteps = 9\n"
+    text = text.replace("\n", "\r\n")
     path.write_bytes(text.encode())
     first = scene.load(path)
     assert first.source == text
