@@ -33,7 +33,13 @@ def expand(scene: "Scene") -> Members:
     parts = [body.members() for body in tables]
     if len({part.dimension for part in parts}) > 1:
         raise SceneError("the balls of a scene roll in one space: all mass_tensors need as many numbers")
-    return parts[0] if len(parts) == 1 else _joined(parts)
+    if len(parts) == 1:
+        return parts[0]
+    names = [name for part in parts for name in part.names]
+    if len(set(names)) < len(names):
+        twice = next(name for name in names if names.count(name) > 1)
+        raise SceneError(f"two balls have the name {twice!r}: balls of a sweep are numbered")
+    return _joined(parts)
 
 
 def bodies(scene: "Scene") -> list["Body"]:

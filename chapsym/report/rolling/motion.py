@@ -97,7 +97,9 @@ def motion(dataset: "Dataset", balls: Sequence[str | int] | None = None) -> Moti
             continue
         one = part.isel(ball=i, frame=slice(0, end))
         spot = contact[i, :end] if rolls else None
-        rolling = _rolling(one, names[ball], attitude[i, :end], contact[i, :end], spot, float(radius[i]), kept[kept < end])
+        rolling = _rolling(
+            one, names[ball], attitude[i, :end], contact[i, :end], spot, float(radius[i]), kept[kept < end]
+        )
         rolling.notes.extend(_stopped(one, end == len(clock)))
         found.append(rolling)
     return Motion(clock[kept], "s" if timed else "steps", steps[kept], found, notes)

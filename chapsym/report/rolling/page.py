@@ -48,7 +48,11 @@ def html(dataset: "Dataset", *, balls: Sequence[str | int] | None = None) -> str
     """The text of the page; the same result gives the same bytes.  Raises ReportError as `write_page` does."""
     found = motion(dataset, balls)
     templates = Environment(
-        loader=FileSystemLoader(FOLDER), autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
+        loader=FileSystemLoader(FOLDER),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
     )
     return templates.get_template("page.html").render(
         title=str(dataset.attrs.get("title") or "A rolling ball"),

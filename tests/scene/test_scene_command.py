@@ -1,0 +1,117 @@
+"""chapsym scene new, check and schema, from outside."""
+
+import json
+import re
+import subprocess
+import sys
+
+import pytest
+
+from chapsym.scene.example import names
+
+
+def chapsym(*arguments, **kwargs):
+    return subprocess.run(
+        [sys.executable, "-m", "chapsym.cli", *map(str, arguments)],
+        capture_output=True,
+        text=True,
+        check=False,
+        **kwargs,
+    )
+
+
+def done(*arguments):
+    found = chapsym(*arguments)
+    assert found.returncode == 0, found.stderr
+    return found.stdout
+
+
+def refused(*arguments):
+    found = chapsym(*arguments)
+    assert found.returncode == 2, found.stdout + found.stderr
+    assert found.stdout == ""
+    assert found.stderr.count("\n") == 1
+    assert "Traceback" not in found.stderr
+    return found.stderr.removeprefix("chapsym: ").rstrip()
+
+
+def test_a_new_scene_has_comments_and_the_schema_for_editors_and_can_be_checked(tmp_path):
+    path = tmp_path / "ball.toml"
+    assert "and" in done("scene", "new", path, "--example", "robot")
+    text = path.read_text(encoding="utf-8")
+    assert text.startswith("#:schema ./chapsym-scene.schema.json\n# Numbers are SI;")
+    assert json.loads((tmp_path / "chapsym-scene.schema.json").read_text(encoding="utf-8"))["title"] == "chapsym scene"
+    shown = done("scene", "check", path)
+    for row in ("title  ", "ball  ", "start  ", "run  ", "model  ", "cost  "):
+        assert f"\n{row}" in f"\n{shown}"
+    assert "J = (0.0019, 0.0019, 0.0002)" in shown
+
+
+def test_new_replaces_nothing_without_force(tmp_path):
+    path = tmp_path / "ball.toml"
+    path.write_text("mine")
+    assert refused("scene", "new", path) == f"{path} is there already: choose another name, or --force to replace it"
+    assert path.read_text() == "mine"
+    assert [one.name for one in tmp_path.iterdir()] == ["ball.toml"]
+    done("scene", "new", path, "--force", "--no-schema")
+    assert path.read_text(encoding="utf-8").startswith("# Numbers are SI;")
+    assert [one.name for one in tmp_path.iterdir()] == ["ball.toml"]
+
+
+def test_new_refuses_what_it_cannot_write(tmp_path):
+    assert refused("scene", "new", tmp_path / "a.toml", "--example", "bowlin").endswith("did you mean bowling?")
+    assert refused("scene", "new", tmp_path / "a.json").endswith("a scene must end in .toml")
+    assert "does not exist" in refused("scene", "new", tmp_path / "no" / "a.toml")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_the_help_names_the_examples():
+    listed = re.search(r"Which: (.*?)\.", " ".join(done("scene", "new", "--help").split()))[1]
+    assert sorted(listed.replace(" or ", ", ").split(", ")) == names()
+    for command in ("new", "check", "schema"):
+        assert command in done("scene")
+
+
+def test_schema_is_json(tmp_path):
+    printed = done("scene", "schema")
+    done("scene", "schema", "-o", tmp_path / "s.json")
+    assert (tmp_path / "s.json").read_text(encoding="utf-8") == printed
+    assert json.loads(printed)["properties"]["ball"]
+
+
+SCENE = """[ball]
+mass_tensor = [1, 2, 4]
+D = 3
+[start]
+momentum = [{ grid = [0.1, 50] }, -0.05, 0.075]
+[run]
+steps = 10
+"""
+
+
+def test_check_tells_ranges_the_plan_and_balls_that_cannot_start(tmp_path):
+    path = tmp_path / "s.toml"
+    path.write_text(SCENE)
+    shown = done("scene", "check", path)
+    assert "start.momentum.1  2 values: 0.1, 50 kg m2" in shown
+    assert "ball 1 (of 2): J = (1, 2, 4)" in shown
+    assert "ball 2 cannot take the first step: no rotation of this ball has this momentum" in shown
+    found = json.loads(done("scene", "check", path, "--json"))
+    assert (found["balls"], found["steps"], found["outputs"]) == (2, 10, ["momentum", "gamma"])
+    assert len(found["warnings"]) == 1
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "sentence"),
+    [
+        ("D = 3", "E = 3", "s.toml, line 3: ball.E is not a key of [ball]"),
+        ("0.1, 50", "0.1, '5 m'", "line 5: start.momentum.1 is a moment of inertia, but '5 m' is a length"),
+        ("[1, 2, 4]", "[1, 2, -4]", "line 1: ball 1 (start.momentum.1 = 0.1): mass_tensor has the negative moment -4"),
+        ("steps = 10", "steps = 10\ncontact = true", "line 1: the contact point needs the radius"),
+        ("steps = 10", "steps = 10\noutputs = ['omega']", "s.toml: omega needs run.time_step"),
+    ],
+)
+def test_check_refuses_in_a_sentence(tmp_path, old, new, sentence):
+    path = tmp_path / "s.toml"
+    path.write_text(SCENE.replace(old, new))
+    assert sentence in refused("scene", "check", path)
