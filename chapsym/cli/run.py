@@ -34,7 +34,7 @@ def run(
         if wanted.run.accuracy is not None:
             _run_accurately(wanted, destination, as_json)
             return
-        with progress_bar("rolling", wanted.run.steps or 0) as shown:
+        with progress_bar("rolling", wanted.task().steps) as shown:
             try:
                 result = scenes.run(wanted, shown)
             except StepNotTaken as error:
