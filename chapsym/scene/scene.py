@@ -9,6 +9,7 @@ from copy import deepcopy
 from pathlib import Path
 from typing import Annotated, Any, Self
 
+import numpy as np
 from pydantic import BeforeValidator, Field, PrivateAttr, ValidationError, model_validator
 
 from chapsym.dynamics import Ball, Trajectory, trajectory
@@ -145,14 +146,25 @@ def load_for(path: Path, accuracy: float, time: float | None = None) -> Scene:
 def checked(data: dict[str, Any], name: str = "", text: str | None = None) -> Scene:
     """A scene from plain data; raises SceneError with the key and what would be right.
 
+    NumPy's arrays and numbers are taken as lists and numbers.
     name: of the file from which the data are; text: its text, if they are all of it, for the lines of errors.
     """
+    data = _plain(data)
     try:
         scene = Scene.model_validate(data)
     except ValidationError as error:
         raise SceneError(described(error.errors(include_url=False), name, text, data, KEYS)) from None
     scene._name, scene._toml, scene._data = name, text, data
     return scene
+
+
+def _plain(value: Any) -> Any:
+    """Without NumPy's types."""
+    if isinstance(value, dict):
+        return {key: _plain(part) for key, part in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(part) for part in value]
+    return value.tolist() if isinstance(value, np.ndarray | np.generic) else value
 
 
 def _text(path: Path) -> str:

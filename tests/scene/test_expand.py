@@ -1,5 +1,7 @@
 """The balls of a scene: what a start means, in which axes, and refusals that name the ball."""
 
+import json
+
 import numpy as np
 import pytest
 
@@ -40,6 +42,14 @@ def test_a_start_by_omega_is_that_of_roll_to_the_bit():
     assert found.gamma[0].tolist() == GAMMA
     assert (found.axes, found.attitude, found.place, found.parameters) == (None, None, None, {})
     assert found.names == ("ball",)
+
+
+def test_numpy_arrays_are_lists_and_the_source_is_json():
+    ball = {"mass_tensor": np.array([1, 2, 4]), "D": np.float64(3), "radius": np.float32(0.5)}
+    made = checked({"ball": ball, "start": {"momentum": (np.int64(1), 0, 0)}, "run": {"steps": np.int64(3)}})
+    assert expand(made).ball.mass_tensor.tolist() == [[1.0, 2.0, 4.0]]
+    again = checked(json.loads(made.source))
+    assert (again, again.source) == (made, made.source)
 
 
 def test_a_start_by_momentum_is_kept_to_the_bit():
