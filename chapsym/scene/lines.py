@@ -1,63 +1,64 @@
-"""On which line of a TOML text a key stands: TOML's own parser says, given the text up to each line."""
+"""On which line of a TOML text a key stands: TOML's own parser says, given the text up to each statement."""
 
+import re
 import tomllib
 from collections.abc import Sequence
+from functools import lru_cache
+from itertools import islice
 from typing import Any
 
-#: Longer files get their errors without a line: each look reads the text again.
-MOST_LINES = 5_000
+#: Longer files, and statements that could end on more lines than this, get their errors without a line.
+MOST_LINES, MOST_ENDS = 5_000, 300
+#: What a statement of several lines ends with.
+_END = re.compile(r"[]}]|\"\"\"|'''")
 
 
 def line_of(text: str, path: Sequence[str | int]) -> int | None:
     """The line, from 1 on, on which the statement that gives the key at `path` begins; None if there is none.
 
-    A text up to the end of a line either is TOML, and then says which keys stand so far, or ends within a statement of
-    several lines.  Keys never vanish as more is read, so the line is found by bisection.
+    Keys never vanish as more statements are read, so the first after which the key is there is found by bisection.
     """
-    lines = text.replace("\r\n", "\n").split("\n")
-    if len(lines) > MOST_LINES:
+    lines = _lines(text)
+    if len(lines) > MOST_LINES or not _has(_said(text), path):
         return None
-    ends = _Ends(lines)
-    low, high = 0, len(lines)  # the key is not there after `low` lines, and is after `high`
-    if not _has(ends.parsed(high)[1], path):
-        return None
+    starts = _statements(text)
+    low, high = 0, len(starts)  # the key is not there after `low` statements, and is after `high`
     while high - low > 1:
         middle = (low + high) // 2
-        if _has(ends.parsed(middle)[1], path):
+        if _has(_said("\n".join(lines[: starts[middle]])), path):
             high = middle
         else:
             low = middle
-    return ends.beginning(high)
+    return starts[low] + 1 if starts else None
 
 
-class _Ends:
-    """What the text says up to each line."""
+def _lines(text: str) -> list[str]:
+    return text.replace("\r\n", "\n").split("\n")
 
-    def __init__(self, lines: list[str]) -> None:
-        self.lines = lines
-        self.known: dict[int, Any] = {0: {}}
 
-    def read(self, count: int) -> Any:
-        """The first `count` lines as data, or None where they end within a statement."""
-        if count not in self.known:
-            try:
-                self.known[count] = tomllib.loads("\n".join(self.lines[:count]))
-            except (ValueError, RecursionError):
-                self.known[count] = None
-        return self.known[count]
+@lru_cache(maxsize=1)
+def _statements(text: str) -> list[int]:
+    """The index of the line on which each statement begins; none where one of them has no end that can be found."""
+    lines = _lines(text)
+    found: list[int] = []
+    start = 0
+    while start < len(lines):
+        ends = (i for i in range(start, len(lines)) if i == start or _END.search(lines[i]))
+        whole = (i for i in islice(ends, MOST_ENDS) if _said("\n".join(lines[start : i + 1])) is not None)
+        end = next(whole, None)
+        if end is None:
+            return []
+        found.append(start)
+        start = end + 1
+    return found
 
-    def parsed(self, count: int) -> tuple[int, Any]:
-        """At least `count` lines, up to the end of a statement, and their data."""
-        while count < len(self.lines) and self.read(count) is None:
-            count += 1
-        return count, self.read(count)
 
-    def beginning(self, end: int) -> int:
-        """The line on which the statement begins that stands on line `end`."""
-        before = end - 1
-        while self.read(before) is None:
-            before -= 1
-        return before + 1
+def _said(text: str) -> Any:
+    """The text as data; None if it is not TOML, such as a statement that is cut."""
+    try:
+        return tomllib.loads(text)
+    except (ValueError, RecursionError):
+        return None
 
 
 def _has(data: Any, path: Sequence[str | int]) -> bool:

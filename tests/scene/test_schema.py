@@ -52,6 +52,7 @@ BALL, START, RUN = DATA["small"]["ball"], DATA["small"]["start"], DATA["small"][
         {"ball": BALL | {"mass_tensor": [1, 2, {"linspace": [1, 2]}]}},
         {"ball": BALL | {"mass_tensor": [1, 2, {"linspace": [1, 2, 2.5]}]}},
         {"ball": BALL | {"mass_tensor": [1, 2, {"grid": [1], "random": [1, 2]}]}},
+        {"ball": BALL | {"mass_tensor": [1, 2, {"uniform": [1, 2]}]}},
         {"ball": {"preset": "egg", "mass": 1, "radius": 1}},
         {"start": START | {"gamma": ["1 m", 0, 0]}},
         {"start": START | {"axes": "world"}},
