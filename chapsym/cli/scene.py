@@ -15,7 +15,10 @@ app.add_typer(scenes, name="scene")
 
 @scenes.callback(invoke_without_command=True)
 def scene(context: typer.Context) -> None:
-    """Begin a scene file, say what one will run, help an editor with them."""
+    """Begin a scene file, say what one will run, help an editor with them.
+
+    Example: chapsym scene new ball.toml
+    """
     if context.invoked_subcommand is None:
         print(context.get_help())
 
@@ -80,7 +83,7 @@ def check(
     file: Annotated[Path, typer.Argument(metavar="SCENE.toml", help="What to read.")],
     as_json: Json = False,
 ) -> None:
-    """Say what a scene will run: its balls, starts and ranges, and the plan with what it costs.
+    """Say what a scene will run, and what that costs.
 
     Example: chapsym scene check docs/first.toml
     """
