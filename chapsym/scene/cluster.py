@@ -30,12 +30,25 @@ REACHED, ABANDONED = 10.0, 60.0
 AHEAD, TRIES = 2, 3
 
 
-def unit(text: str, about: dict[str, Any], path: str, chunk: int, segment: int, state: State | None) -> State:
-    """Computes and writes one unit, on a worker; returns the state after it.
+def unit(
+    text: str, about: dict[str, Any], path: str, chunk: int, segment: int, state: State | None
+) -> tuple[str, State | str]:
+    """Computes and writes one unit, on a worker: ("done", the state after it), or why not, as plain data.
 
     text, about: the scene and the provenance of its plan, which the worker's must equal.
-    Raises SceneError if it does not, or if the disk refuses; NoAnswer where the balls have none.
+    ("no answer", why) is of these balls only; ("refused", why) is of the disk, the store or the worker.
     """
+    try:
+        return "done", _unit(text, about, Path(path), chunk, segment, state)
+    except NoAnswer as error:
+        return "no answer", str(error)
+    except SceneError as error:
+        return "refused", str(error)
+    except Exception as error:  # of any kind: not all can be sent
+        return "no answer", f"{type(error).__name__} on a worker: {error}"
+
+
+def _unit(text: str, about: dict[str, Any], path: Path, chunk: int, segment: int, state: State | None) -> State:
     plan = _plan(text)
     told = difference(provenance(plan), about)
     if told is not None:
@@ -44,8 +57,8 @@ def unit(text: str, about: dict[str, Any], path: str, chunk: int, segment: int, 
     if state is None:
         state = segments.begin(plan, plan.chunks[chunk])
     columns, after = computed(plan, chunk, segment, state)
-    check_same(Path(path), plan)  # this worker may be late, and the store by now another's
-    write_region(Path(path), plan, chunk, segment, columns, after)
+    check_same(path, plan)  # this worker may be late, and the store by now another's
+    write_region(path, plan, chunk, segment, columns, after)
     return after
 
 
@@ -157,22 +170,21 @@ class _Flight:
 
         chunk, segment, state, tried = self.flying.pop(future)
         try:
-            after = future.result()
-        except SceneError:
-            raise
+            outcome, found = future.result()
         except (KilledWorker, CancelledError, OSError):
             if tried < TRIES:
                 self._send(chunk, segment, state, tried + 1)
             else:
                 self.lost[chunk] = f"its worker was lost, {tried} times"
-        except NoAnswer as error:
-            self.lost[chunk] = str(error)
-        except ImportError as error:
-            raise SceneError(f"a worker of the cluster has no such chapsym as here: {error}") from None
         except Exception as error:
-            self.lost[chunk] = f"{type(error).__name__} on a worker: {error}"
+            raise SceneError(f"a worker of the cluster has not this chapsym: {type(error).__name__}: {error}") from None
         else:
-            self.store.mark(chunk, segment, after)
-            self.tally.kept(chunk, segment + 1, after)
+            if outcome == "refused":
+                raise SceneError(found)
+            if outcome == "no answer":
+                self.lost[chunk] = found
+                return
+            self.store.mark(chunk, segment, found)
+            self.tally.kept(chunk, segment + 1, found)
             if segment + 1 < len(self.plan.segments):
-                self._send(chunk, segment + 1, after)
+                self._send(chunk, segment + 1, found)

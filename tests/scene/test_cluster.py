@@ -127,20 +127,19 @@ def test_a_run_goes_on_from_a_cluster_to_one_machine(local, scheduler, tmp_path)
     equal_to_the_bit(formats.load(path).load(), local)
 
 
-def test_units_that_kill_their_workers_are_listed_and_the_others_go_on(local, scheduler, tmp_path, monkeypatch):
+def test_units_that_kill_their_workers_are_listed_and_the_others_go_on(local, scheduler, tmp_path):
     """The workers die of one chunk, here by a preload that ends the process when it sees its balls."""
     deadly = tmp_path / "deadly.py"
     deadly.write_text(
         "import os, runpy\nfrom chapsym.scene import segments\n"
-        f"runpy.run_path({PRELOAD!r})\nreal = segments.advance\n"
-        "def advance(plan, chunk, *rest):\n    if chunk.start == 12:\n        os._exit(1)\n"
+        f"runpy.run_path({PRELOAD!r})\n"
+        "def advance(plan, chunk, *rest, real=segments.advance):\n    if chunk.start == 12:\n        os._exit(1)\n"
         "    return real(plan, chunk, *rest)\nsegments.advance = advance\n"
     )
-    monkeypatch.setattr(sys.modules[__name__], "PRELOAD", str(deadly))
     arguments = ["distributed.cli.dask_worker", scheduler, "--nanny", "--nthreads", "1", "--no-dashboard"]
     with process(*arguments, "--preload", str(deadly)), process(*arguments, "--preload", str(deadly)):
         outcome = sweep.run_to_store(plan_from(SCENE), tmp_path / "run.zarr", scheduler)
-    assert list(outcome.lost) == [(12, 16)]
+    assert list(outcome.lost) == [(12, 16)], outcome.lost
     assert "its worker was lost" in outcome.lost[12, 16]
     assert not outcome.complete
     found = formats.load(tmp_path / "run.zarr").load()
@@ -151,7 +150,10 @@ def test_units_that_kill_their_workers_are_listed_and_the_others_go_on(local, sc
 
 
 def test_workers_with_another_chapsym_are_one_sentence(scheduler, tmp_path):
-    with worker(scheduler, CHAPSYM_TEST_VERSION="0.0.9"), pytest.raises(SceneError, match=r"chapsym 0\.0\.9, and") as told:
+    with (
+        worker(scheduler, CHAPSYM_TEST_VERSION="0.0.9"),
+        pytest.raises(SceneError, match=r"chapsym 0\.0\.9, and") as told,
+    ):
         sweep.run_to_store(plan_from(SCENE), tmp_path / "run.zarr", scheduler)
     assert "another version of chapsym" in str(told.value)
     assert "\n" not in str(told.value)
@@ -160,7 +162,10 @@ def test_workers_with_another_chapsym_are_one_sentence(scheduler, tmp_path):
 
 @pytest.mark.parametrize(
     ("address", "told"),
-    [("tcp://127.0.0.1:9", "no Dask scheduler answers at tcp://127.0.0.1:9"), ("nonsense://x", "is no address of a Dask")],
+    [
+        ("tcp://127.0.0.1:9", "no Dask scheduler answers at tcp://127.0.0.1:9"),
+        ("nonsense://x", "is no address of a Dask"),
+    ],
 )
 def test_a_scheduler_that_is_not_there_is_one_sentence(tmp_path, monkeypatch, address, told):
     monkeypatch.setattr(cluster, "REACHED", 1.0)
