@@ -8,7 +8,7 @@ import subprocess
 import sys
 import threading
 import time
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 import pytest
@@ -59,10 +59,8 @@ def process(*arguments, **environment):
     try:
         yield running
     finally:
-        try:
+        with suppress(ProcessLookupError):
             os.killpg(running.pid, signal.SIGKILL)
-        except ProcessLookupError:
-            pass
         running.wait()
 
 
@@ -114,7 +112,8 @@ def test_a_run_goes_on_from_a_cluster_to_one_machine(local, scheduler, tmp_path)
     lines = [
         "import sys", f"sys.path.insert(0, {str(Path(PRELOAD).parent)!r})", "import slow_small_units",
         "from pathlib import Path", "from chapsym.scene import sweep", "from chapsym.scene.source import plan_from",
-        f"sweep.run_to_store(plan_from({SCENE!r}), Path({str(path)!r}), {scheduler!r}, report=lambda p: print(p, flush=True))",
+        "report = lambda at: print(at, flush=True)",
+        f"sweep.run_to_store(plan_from({SCENE!r}), Path({str(path)!r}), {scheduler!r}, report=report)",
     ]  # fmt: skip
     with worker(scheduler, "0.1"), worker(scheduler, "0.1"):
         client = subprocess.Popen([sys.executable, "-c", "\n".join(lines)], stdout=subprocess.PIPE, text=True)
