@@ -1,47 +1,150 @@
 """chapsym run: roll a scene."""
 
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from .app import app
+from .app import INTERRUPTED, app
 from .options import Json
 from .output import fail, print_json, progress_bar
+
+if TYPE_CHECKING:
+    from chapsym.scene import Scene
+    from chapsym.scene.plan import Plan
+
+OUT = "A .zarr, which can be gone on with; or .nc, .parquet, .csv, .npz."
 
 
 @app.command()
 def run(
     scene: Annotated[Path, typer.Argument(metavar="SCENE.toml", help="What to roll.")],
-    output: Annotated[Path | None, typer.Option("-o", "--output", metavar="OUT", help="A .npz or .csv file.")] = None,
+    output: Annotated[Path | None, typer.Option("-o", "--output", metavar="OUT", help=OUT)] = None,
+    scheduler: Annotated[
+        str | None, typer.Option(metavar="ADDRESS", help="A Dask scheduler, such as tcp://host:8786, for a .zarr.")
+    ] = None,
+    fresh: Annotated[bool, typer.Option("--fresh", help="Begin a .zarr anew, whatever result it holds.")] = False,
     as_json: Json = False,
 ) -> None:
-    """Run a scene and write the trajectory.
+    """Run a scene and write the result.
+
+    A run to a .zarr that was ended, however, goes on with the same command.
 
     Example: chapsym run docs/first.toml -o first.npz
     """
     from chapsym import scene as scenes
-    from chapsym.dynamics import BadInput, StepNotTaken
-    from chapsym.scene.files import check_destination
+    from chapsym.dynamics import BadInput
 
     try:
         wanted = scenes.load(scene)
         destination = output or (Path(wanted.run.output) if wanted.run.output else None)
         if destination is None:
             fail(f'{scene} names no output: add -o OUT.npz, or output = "..." under [run]', 2)
-        check_destination(destination)
-        failure = None
-        if wanted.run.accuracy is not None:
-            _run_accurately(wanted, destination, as_json)
-            return
-        with progress_bar("rolling", wanted.task().steps) as shown:
-            try:
-                result = scenes.run(wanted, shown)
-            except StepNotTaken as error:
-                failure, result = error, error.trajectory
-        scenes.save(result, destination)
+        if scheduler is not None and destination.suffix != ".zarr":
+            fail(f"{destination}: --scheduler needs a .zarr, of which each worker writes its part", 2)
+        _check(destination)
+        if _is_single(wanted, destination):
+            if wanted.run.accuracy is not None:
+                _run_accurately(wanted, destination, as_json)
+            else:
+                _run_single(wanted, destination, as_json)
+        else:
+            _run_plan(wanted, destination, scheduler, fresh, as_json)
     except BadInput as error:
         fail(str(error), 2)
+
+
+def _check(destination: Path) -> None:
+    """Raises SceneError, before anything is computed, if the result cannot be written as it is named."""
+    from chapsym import files
+    from chapsym.scene import SceneError
+    from chapsym.scene.formats import SUFFIXES
+
+    if destination.suffix not in SUFFIXES:
+        raise SceneError(f"{str(destination)!r}: the output must end in {', '.join(SUFFIXES[:-1])} or {SUFFIXES[-1]}")
+    if destination.suffix != ".zarr":
+        try:
+            files.check_destination(destination)
+        except files.CannotWrite as error:
+            raise SceneError(str(error)) from None
+
+
+def _is_single(scene: "Scene", destination: Path) -> bool:
+    """Whether one ball and its state go to .npz or .csv, which have a form of their own for it."""
+    from chapsym.scene import SceneError
+    from chapsym.scene.expand import expand
+    from chapsym.scene.scene import single
+
+    if destination.suffix not in (".npz", ".csv"):
+        return False
+    try:
+        single(expand(scene))
+        told = sorted(set(scene.task().outputs) - {"momentum", "gamma", "attitude", "contact"})
+        if told:
+            raise SceneError(f"{told[0]} is kept in .zarr, .nc, .parquet and .csv")
+    except SceneError as error:
+        if destination.suffix == ".npz":
+            raise SceneError(
+                f"{destination}: a .npz holds one ball and its state; write to .zarr or .nc ({error})"
+            ) from None
+        return False
+    return True
+
+
+def _run_plan(scene: "Scene", destination: Path, scheduler: str | None, fresh: bool, as_json: bool) -> None:
+    """Any scene, unit by unit, with the least model."""
+    from chapsym.scene import formats, sweep
+    from chapsym.scene.source import plan_of
+
+    from .following import following
+
+    plan = plan_of(scene)
+    formats.check_size(plan, destination)
+    try:
+        with following(as_json) as report:
+            if destination.suffix == ".zarr":
+                outcome = sweep.run_to_store(plan, destination, scheduler, fresh, report)
+            else:
+                data = sweep.run_in_memory(plan, report)
+                formats.save(data, destination)
+                outcome = sweep.Outcome(int((data.status != 0).sum()))
+    except KeyboardInterrupt:
+        kept = "the same command goes on from there" if destination.suffix == ".zarr" else "nothing was written"
+        fail(f"interrupted; {kept}", INTERRUPTED)
+    _tell(plan, destination, outcome, as_json)
+
+
+def _tell(plan: "Plan", destination: Path, outcome: Any, as_json: bool) -> None:
+    """What was run and where it is; units that were not run are an error, balls that stopped early are none."""
+    balls, failed = len(plan.members), outcome.failed
+    if as_json:
+        lost = [{"balls": list(which), "reason": why} for which, why in outcome.lost.items()]
+        run = {"balls": balls, "frames": plan.frames, "steps": plan.task.steps, "model": plan.model.name}
+        print_json({"output": str(destination), **run, "failed": failed, "complete": outcome.complete, "lost": lost})
+    else:
+        stopped = f"; {failed} stopped early, as their status says" if failed else ""
+        about = f"{balls} ball{'s' if balls > 1 else ''}, {plan.frames} frames, {plan.model.name}{stopped}"
+        where = f"{destination} was complete already" if outcome.nothing_to_do else f"in {destination}"
+        print(f"{about}; {where}" if outcome.nothing_to_do else f"{about}, {where}")
+    if outcome.lost:
+        (first, last), why = next(iter(outcome.lost.items()))
+        more = f", and {len(outcome.lost) - 1} other units" if len(outcome.lost) > 1 else ""
+        told = f"balls {first} to {last - 1} could not be run{more} ({why})"
+        fail(f"{told}; the others are in {destination}, and the same command tries these again", 2)
+
+
+def _run_single(scene: "Scene", destination: Path, as_json: bool) -> None:
+    """One ball and its state, up to the fold where there is one."""
+    from chapsym import scene as scenes
+    from chapsym.dynamics import StepNotTaken
+
+    failure = None
+    with progress_bar("rolling", scene.task().steps) as shown:
+        try:
+            result = scenes.run(scene, shown)
+        except StepNotTaken as error:
+            failure, result = error, error.trajectory
+    scenes.save(result, destination)
     summary: dict[str, Any] = {
         "output": str(destination),
         "steps": int(result.taken),
@@ -60,7 +163,7 @@ def run(
         fail(f"{failure}; the {summary['steps']} steps before it are in {destination}", 2)
 
 
-def _run_accurately(scene: Any, destination: Path, as_json: bool) -> None:
+def _run_accurately(scene: "Scene", destination: Path, as_json: bool) -> None:
     """A scene that asks for an accuracy: what was chosen is told with the result."""
     from chapsym import scene as scenes
 

@@ -14,7 +14,7 @@ ROWS = 2**17
 
 
 def structure(data: "Dataset") -> dict[str, Any]:
-    """What the rows do not tell, as plain data: the labels of components; of each variable its columns and attributes."""
+    """What the rows do not tell, as plain data: labels of components; the columns and attributes of each variable."""
     labels = {str(dim): data[dim].values.tolist() for dim in data.dims if dim not in ("ball", "frame") and dim in data}
     variables = {
         str(name): {

@@ -2,6 +2,7 @@
 
 import os
 import shutil
+import time
 from pathlib import Path
 from typing import Any
 
@@ -27,7 +28,7 @@ def create(path: Path, plan: Plan) -> None:
                 if not path.exists():
                     raise
     finally:
-        shutil.rmtree(beside, ignore_errors=True)
+        _remove(beside)
 
 
 def discard(path: Path) -> None:
@@ -51,6 +52,15 @@ def remove_partial(path: Path) -> None:
     """Removes the chunk files that a killed process has left half written."""
     for left in path.rglob("*.partial"):
         left.unlink(missing_ok=True)
+
+
+def _remove(folder: Path) -> None:
+    """Removes a folder, into which Zarr may still be writing after an error."""
+    for _ in range(20):
+        shutil.rmtree(folder, ignore_errors=True)
+        if not folder.exists():
+            return
+        time.sleep(0.05)
 
 
 def _beside(path: Path) -> Path:

@@ -42,14 +42,22 @@ def check_same(path: Path, plan: Plan) -> None:
         key = first_difference(_data(found.get("scene")), _data(wanted["scene"]))
         if key is not None:
             raise SceneError(f"{path} holds another scene ({key} differs); {ELSE}")
-    for name, about in (
-        ("chapsym_version", "was written by another version of chapsym"),
-        ("plan", "holds the run of another plan"),
-        ("kernels", "was written with other kernels"),
-        ("inputs_sha256", "holds the run of other balls or starts"),
+    told = difference(found, wanted)
+    if told is not None:
+        raise SceneError(f"{path} {told}; {ELSE}")
+
+
+def difference(found: dict[str, Any], wanted: dict[str, Any]) -> str | None:
+    """What differs of two runs apart from the text of the scene, as a verb and its object; None if nothing does."""
+    for name, told in (
+        ("chapsym_version", "is of another version of chapsym"),
+        ("plan", "is of another plan"),
+        ("kernels", "is of other kernels"),
+        ("inputs_sha256", "is of other balls or starts"),
     ):
-        if found.get(name) != wanted[name]:
-            raise SceneError(f"{path} {about}; {ELSE}")
+        if found.get(name) != wanted.get(name):
+            return told
+    return None
 
 
 def first_difference(one: Any, other: Any, key: str = "") -> str | None:

@@ -1,0 +1,216 @@
+"""A full disk, a read-only folder: one sentence, exit 2, nothing lost; with room the same command goes on."""
+
+import errno
+import json
+import os
+import re
+import resource
+import signal
+import subprocess
+import sys
+import time
+from contextlib import contextmanager
+from pathlib import Path
+
+import numpy as np
+import pytest
+from small_units import equal_to_the_bit, plan
+
+from chapsym.scene import SceneError, formats, sweep
+from chapsym.scene.store import marks
+
+DOCS = Path(__file__).parents[2] / "docs"
+#: Some seconds.
+LONG = """
+[ball]
+inertia = [0.006, 0.007, 0.009]
+mass = 2.0
+radius = 0.1
+[start]
+omega = [{ linspace = [3.0, 4.0, 9000] }, -2.0, 1.0]
+gamma = ["2/7", "3/7", "6/7"]
+[run]
+time_step = 0.01
+steps = 24_000
+every = 2000
+"""
+
+
+def chapsym(*arguments, **kwargs):
+    return subprocess.run(
+        [sys.executable, "-m", "chapsym.cli", *map(str, arguments)],
+        capture_output=True,
+        text=True,
+        check=False,
+        **kwargs,
+    )
+
+
+def refused(done):
+    """The one sentence of an error."""
+    assert done.returncode == 2, done.stderr
+    assert done.stdout == ""
+    assert done.stderr.startswith("chapsym: ")
+    assert done.stderr.count("\n") == 1, done.stderr
+    return done.stderr
+
+
+@contextmanager
+def mounted(folder, *options):
+    """A small disk of its own at `folder`; skips where none can be mounted."""
+    folder.mkdir(exist_ok=True)
+    if subprocess.run(["mount", *options, str(folder)], capture_output=True, check=False).returncode:
+        pytest.skip("only root can mount a disk")
+    try:
+        yield
+    finally:
+        subprocess.run(["umount", str(folder)], check=True)
+
+
+@pytest.fixture(scope="module")
+def whole():
+    return sweep.run_in_memory(plan())
+
+
+def small_disk(folder, size):
+    return mounted(folder, "-t", "tmpfs", "-o", f"size={size}", "tmpfs")
+
+
+def test_a_disk_that_fills_up_loses_nothing_and_the_same_run_goes_on(whole, tmp_path):
+    """A disk that grows a little after each refusal; what was written is never written again."""
+    disk = tmp_path / "disk"
+    kept = []
+    with small_disk(disk, "40k"):
+        path = disk / "run.zarr"
+        for size in range(100, 4000, 150):
+            try:
+                assert sweep.run_to_store(plan(), path).complete
+                break
+            except SceneError as error:
+                assert "No space left on device" in str(error)
+                assert "\n" not in str(error)
+            kept.append(len(list(path.glob(".chapsym/chunk-*"))))
+            subprocess.run(["mount", "-o", f"remount,size={size}k", str(disk)], check=True)
+        equal_to_the_bit(formats.load(path).load(), whole)
+        assert os.listdir(disk) == ["run.zarr"]
+    assert kept == sorted(kept)
+    assert kept[0] == 0 < kept[-1]
+
+
+@pytest.mark.parametrize("suffix", [".nc", ".csv", ".parquet"])
+def test_a_full_disk_leaves_the_file_that_was_there(whole, tmp_path, suffix):
+    disk = tmp_path / "disk"
+    with small_disk(disk, "64k"):
+        path = disk / f"run{suffix}"
+        path.write_bytes(b"precious")
+        with pytest.raises(SceneError, match="No space left on device"):
+            formats.save(whole, path)
+        assert path.read_bytes() == b"precious"
+        assert os.listdir(disk) == [path.name]
+
+
+def test_every_write_that_fails_is_one_sentence_and_is_mended_by_room(whole, tmp_path, monkeypatch):
+    """The disk is full at the n-th write of a file, whatever file it is."""
+    from zarr.storage import _local
+
+    real = _local._atomic_write
+    for failing in (0, 1, 2, 30, 55, 80, 150):
+        path = tmp_path / f"run{failing}.zarr"
+        writes = iter(range(10**6))
+
+        def full(*args, writes=writes, failing=failing, **kwargs):
+            if next(writes) == failing:
+                raise OSError(errno.ENOSPC, "No space left on device")
+            return real(*args, **kwargs)
+
+        with monkeypatch.context() as patched:
+            patched.setattr(_local, "_atomic_write", full)
+            with pytest.raises(SceneError, match="No space left on device; what was written stays: make room"):
+                sweep.run_to_store(plan(), path)
+        assert sweep.run_to_store(plan(), path).complete
+        equal_to_the_bit(formats.load(path).load(), whole)
+
+
+def test_a_mark_that_cannot_be_written_is_one_sentence(whole, tmp_path, monkeypatch):
+    path = tmp_path / "run.zarr"
+    calls = iter(range(100))
+    real = np.savez
+
+    def full(*args, **kwargs):
+        if next(calls) == 6:
+            raise OSError(errno.ENOSPC, "No space left on device")
+        return real(*args, **kwargs)
+
+    with monkeypatch.context() as patched:
+        patched.setattr(marks.np, "savez", full)
+        with pytest.raises(SceneError, match="No space left on device; what was written stays: make room"):
+            sweep.run_to_store(plan(), path)
+    assert sweep.run_to_store(plan(), path).complete
+    equal_to_the_bit(formats.load(path).load(), whole)
+
+
+def test_a_read_only_disk_is_one_sentence(tmp_path):
+    disk = tmp_path / "disk"
+    with small_disk(disk, "8m"):
+        done = disk / "done.zarr"
+        sweep.run_to_store(plan(), done)
+        subprocess.run(["mount", "-o", "remount,ro", str(disk)], check=True)
+        for name in ("run.zarr", "run.nc", "run.parquet", "run.csv", "run.npz"):
+            told = refused(chapsym("run", DOCS / "first.toml", "-o", disk / name))
+            assert re.search(rf"{name} cannot be written", told)
+        assert sweep.run_to_store(plan(), done).nothing_to_do
+        with pytest.raises(SceneError, match="Read-only file system"):
+            sweep.run_to_store(plan(), done, fresh=True)
+        assert formats.load(done).attrs["complete"] is True
+
+
+def test_a_limit_of_the_file_size_is_one_sentence(tmp_path):
+    def limit():
+        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (20_000, 20_000))
+
+    for suffix in (".nc", ".parquet", ".zarr", ".csv"):
+        told = refused(chapsym("run", DOCS / "first.toml", "-o", tmp_path / f"run{suffix}", preexec_fn=limit))
+        assert "File too large" in told
+    assert chapsym("run", DOCS / "first.toml", "-o", tmp_path / "run.zarr").returncode == 0
+    assert [p.name for p in tmp_path.iterdir()] == ["run.zarr"]
+
+
+def test_an_interrupted_command_stops_soon_and_goes_on(tmp_path):
+    scene, path = tmp_path / "long.toml", tmp_path / "run.zarr"
+    scene.write_text(LONG)
+    with subprocess.Popen(
+        [sys.executable, "-m", "chapsym.cli", "run", str(scene), "-o", str(path)],
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+    ) as running:  # fmt: skip
+        while not list(path.glob(".chapsym/chunk-*")):
+            assert running.poll() is None, running.stderr.read()
+            time.sleep(0.02)
+        asked = time.monotonic()
+        running.send_signal(signal.SIGINT)
+        _, told = running.communicate(timeout=20)
+    assert time.monotonic() - asked < 3
+    assert running.returncode == 130
+    assert told.splitlines()[-1] == "chapsym: interrupted; the same command goes on from there"
+    assert list(path.glob(".chapsym/chunk-*"))
+    done = chapsym("run", scene, "-o", path, "--json")
+    assert done.returncode == 0, done.stderr
+    found = json.loads(done.stdout)
+    assert found == {
+        "output": str(path), "balls": 9000, "frames": 13, "steps": 24_000, "model": "reduced map",
+        "failed": 0, "complete": True, "lost": [],
+    }  # fmt: skip
+    again = chapsym("run", scene, "-o", path)
+    assert again.stdout == f"9000 balls, 13 frames, reduced map; {path} was complete already\n"
+    scene.write_text(LONG.replace("4.0, 9000", "5.0, 9000"))
+    assert "holds another scene (start.omega differs)" in refused(chapsym("run", scene, "-o", path))
+
+
+def test_the_command_refuses_what_cannot_be(tmp_path):
+    scene = tmp_path / "long.toml"
+    scene.write_text(LONG)
+    assert "a .npz holds one ball" in refused(chapsym("run", scene, "-o", tmp_path / "run.npz"))
+    assert "needs a .zarr" in refused(chapsym("run", scene, "-o", tmp_path / "run.nc", "--scheduler", "tcp://x:1"))
+    scene.write_text(LONG.replace("every = 2000", "every = 2"))
+    assert "a CSV of more than 10000000 is of no use" in refused(chapsym("run", scene, "-o", tmp_path / "run.csv"))
+    assert [p.name for p in tmp_path.iterdir()] == ["long.toml"]
