@@ -8,6 +8,7 @@ import matplotlib
 import numpy as np
 import pytest
 import results
+import xarray as xr
 
 from chapsym import files
 from chapsym.dynamics import BadInput
@@ -27,7 +28,7 @@ def texts(figure):
 def test_the_trace_of_one_ball_is_its_contact_point_in_metres_with_its_ends_and_direction():
     dataset = results.uneven(200)
     figure = figures.draw(dataset, "contact")
-    (axis,) = figure.axes
+    axis = figure.axes[0]
     (line,) = lines(axis)
     trace = dataset["contact"].values[0]
     assert (trace == np.array(line.get_data()).T).all()
@@ -40,6 +41,23 @@ def test_the_trace_of_one_ball_is_its_contact_point_in_metres_with_its_ends_and_
     for arrow in axis.texts:  # along the path, the way the ball goes
         here = np.flatnonzero((trace == arrow.xy).all(axis=1))[0]
         assert (trace[here - 1] == arrow.xyann).all()
+
+
+def test_a_trace_that_is_nearly_straight_is_shown_enlarged_across_its_way():
+    dataset = results.uneven(500)
+    _, below = figures.draw(dataset, "contact").axes
+    trace = dataset["contact"].values[0]
+    way = (trace[-1] - trace[0]) @ [1, 1j]
+    turned = (trace - trace[0]) @ [1, 1j] / (way / abs(way))
+    line = below.lines[0]
+    assert line.get_xdata() == pytest.approx(turned.real)
+    assert line.get_ydata() * 1e-3 == pytest.approx(turned.imag)
+    assert below.get_ylabel() == "to the left, 10⁻³ m"
+    dataset["contact"] = dataset["contact"] * xr.DataArray([1.0, 0.0], dims="plane")
+    assert len(figures.draw(dataset, "contact").axes) == 1
+    turn = np.linspace(0, 3, 501)
+    dataset["contact"] = ("ball", "frame", "plane"), np.stack([np.cos(turn), np.sin(turn)], axis=-1)[np.newaxis]
+    assert len(figures.draw(dataset, "contact").axes) == 1
 
 
 def test_a_tiny_trace_is_drawn_in_a_power_of_ten_without_offsets():
