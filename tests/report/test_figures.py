@@ -10,10 +10,13 @@ import pytest
 import results
 import xarray as xr
 
+import chapsym
 from chapsym import files
 from chapsym.dynamics import BadInput
 from chapsym.report import figures
 from chapsym.report.figures import change, series
+
+GAMMA = (0.48, 0.6, 0.64)
 
 
 def lines(axis):
@@ -186,11 +189,40 @@ def test_the_phase_and_its_increments():
     dataset = results.vertical(100)
     above, below = figures.draw(dataset, "phase").axes
     u = dataset["phase"].values[0]
-    assert (lines(above)[0].get_ydata() == u).all()
+    assert lines(above)[0].get_ydata() == pytest.approx(u, abs=1e-13)
     assert (lines(below)[0].get_ydata() == np.diff(u)).all()
+    dataset["rotation_number"] = "ball", [np.diff(u).mean() / chapsym.Curve.through(results.VERTICAL, GAMMA).period]
     thinned = dataset.isel(frame=slice(None, None, 4))
     each = lines(figures.draw(thinned, "phase").axes[1])[0].get_ydata()
     assert each == pytest.approx(np.diff(u)[:100].reshape(25, 4).mean(axis=1), rel=1e-13)
+
+
+@pytest.mark.parametrize("every", [1, 5, 60])
+def test_a_phase_that_is_kept_within_its_period_is_drawn_as_it_runs(every):
+    dataset = results.vertical(300)
+    running = dataset["phase"].values[0]
+    curve = chapsym.Curve.through(results.VERTICAL, dataset["gamma"].values[0, 0])
+    wrapped = np.remainder(running + curve.period / 2, curve.period) - curve.period / 2
+    assert np.abs(np.diff(wrapped)).max() > curve.period / 2
+    dataset["phase"] = ("ball", "frame"), wrapped[np.newaxis]
+    dataset["rotation_number"] = "ball", [np.diff(running).mean() / curve.period]
+    thinned = dataset.isel(frame=slice(None, None, every))
+    above, below = figures.draw(thinned, "phase").axes
+    kept = running[::every]
+    assert lines(above)[0].get_ydata() - wrapped[0] == pytest.approx(kept - kept[0], abs=1e-12)
+    assert lines(below)[0].get_ydata() == pytest.approx(np.diff(kept) / every, abs=1e-12)
+
+
+def test_a_phase_whose_period_is_not_known_keeps_its_jumps_but_not_as_increments():
+    dataset = results.vertical(300)
+    period = chapsym.Curve.through(results.VERTICAL, dataset["gamma"].values[0, 0]).period
+    dataset["phase"] = np.remainder(dataset["phase"] + period / 2, period) - period / 2
+    above, below = figures.draw(dataset.drop_vars("gamma"), "phase").axes
+    assert below.get_ylabel() == "gain a frame"
+    each = lines(below)[0].get_ydata()
+    assert np.nanmax(np.abs(each)) < 0.2
+    assert np.isnan(each).sum() == (np.abs(np.diff(dataset["phase"].values[0])) > period / 2).sum() > 0
+    assert np.isnan(lines(above)[0].get_ydata()).sum() == np.isnan(each).sum()
 
 
 def test_an_increment_that_is_constant_looks_constant():
@@ -307,8 +339,6 @@ def test_a_result_of_one_frame_is_drawn(dataset, tmp_path):
 
 
 def test_a_ball_at_rest_is_drawn(tmp_path):
-    import chapsym
-
     run = chapsym.roll(results.UNEVEN, (0.0, 0.0, 0.0), 0.01, 20, contact=True)
     dataset = results.of(run, results.ALL, "At rest")
     assert len(figures.save_all(dataset, tmp_path)) == 6
