@@ -50,7 +50,7 @@ def show(
         for path in written:
             print(path)
         for name, reason in missing.items():
-            print(f"no {name}: {reason}")
+            print(f"not drawn: {name} ({reason})")
     if open_it and written:
         import webbrowser
 

@@ -1,74 +1,68 @@
-"""Results from scenes and files, and to files: which room does it for which suffix."""
+"""Results in memory from scenes, and to and from files."""
 
+import shutil
+import tempfile
 from collections.abc import Callable, Mapping
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from chapsym import files
 from chapsym.scene import Scene, SceneError, checked, load
 
 if TYPE_CHECKING:
     from xarray import Dataset
 
-#: What a result may be written to and read from.
-SUFFIXES = (".zarr", ".nc", ".npz", ".csv", ".parquet")
-
 
 def run(scene: "str | Path | Mapping[str, Any] | Scene", progress: Callable[[Any], None] | None = None) -> "Dataset":
-    """Runs a scene, a file or its tables, in memory; raises SceneError."""
-    from chapsym.scene.expand import expand
-    from chapsym.scene.plan import planned
+    """Runs a scene, a file or its tables, in memory on all cores; raises SceneError, and BadInput as the plan does."""
+    from chapsym.scene.source import plan_of
     from chapsym.scene.sweep import run_in_memory
 
     if isinstance(scene, Mapping):
         scene = checked(dict(scene))
     elif not isinstance(scene, Scene):
         scene = load(Path(scene))
-    plan = replace(planned(expand(scene), scene.task()), scene=scene.source, seed=scene.sweep.seed)
+    plan = plan_of(scene)
     dataset = run_in_memory(plan) if progress is None else run_in_memory(plan, progress)
-    if scene.title:
-        dataset.attrs["title"] = scene.title
-    return dataset
+    return dataset.assign_attrs(title=scene.title) if scene.title else dataset
 
 
 def opened(path: Path) -> "Dataset":
-    """The Dataset of a file; raises SceneError for what is not there, or is no result."""
-    if path.suffix not in SUFFIXES:
-        raise SceneError(f"{str(path)!r}: a result ends in {', '.join(SUFFIXES[:-1])} or {SUFFIXES[-1]}")
-    if not path.exists():
-        raise SceneError(f"{path} does not exist")
-    try:
-        dataset = _read(path)
-    except SceneError:
-        raise
-    except Exception as error:  # the libraries raise what they like for a file that is damaged or of something else
-        told = str(error).splitlines()[0] if str(error) else type(error).__name__
-        raise SceneError(f"{path} cannot be read as a result: {told}") from None
-    if "frame" not in dataset.dims and "rotation_number" not in dataset:
-        raise SceneError(f'{path} is no result of chapsym: it has no dimension "frame"')
-    return dataset
+    """The result in a file; raises SceneError for what is not there, or is no result."""
+    from chapsym.scene.formats import load as read
 
-
-def _read(path: Path) -> "Dataset":
-    import xarray
-
-    if path.suffix == ".zarr":
-        return xarray.open_dataset(path, engine="zarr", chunks=None)
-    if path.suffix == ".nc":
-        return xarray.open_dataset(path, engine="h5netcdf")
-    from chapsym.scene.tables_out import read
-
-    return read(path)
+    dataset = read(path)
+    title = _scene_title(str(dataset.attrs.get("scene", "")))
+    return dataset.assign_attrs(title=title) if title else dataset
 
 
 def save(dataset: "Dataset", path: Path) -> None:
-    """Writes a Dataset whole; raises SceneError if the disk refuses."""
-    if path.suffix not in SUFFIXES:
-        raise SceneError(f"{str(path)!r}: a result ends in {', '.join(SUFFIXES[:-1])} or {SUFFIXES[-1]}")
-    from chapsym.scene.tables_out import write
+    """Writes a result whole, to .zarr (a new one), .nc, .csv or .parquet; raises SceneError if the disk refuses."""
+    from chapsym.scene import formats
+
+    if path.suffix != ".zarr":
+        formats.save(dataset, path)
+        return
+    if path.exists():
+        raise SceneError(f"{path} is there already; remove it, or choose another name")
+    temporary = None
+    try:
+        temporary = Path(tempfile.mkdtemp(dir=path.parent, prefix=f".{path.name}."))
+        dataset.assign_attrs(complete=True).to_zarr(temporary / "whole", consolidated=False, zarr_format=3)
+        (temporary / "whole").rename(path)
+    except OSError as error:
+        raise SceneError(f"{path} cannot be written: {error.strerror or error}") from None
+    finally:
+        if temporary is not None:
+            shutil.rmtree(temporary, ignore_errors=True)
+
+
+def _scene_title(scene: str) -> str:
+    """The title in the text of a scene, TOML or JSON; empty if it has none."""
+    import json
+    import tomllib
 
     try:
-        write(dataset, path)
-    except files.CannotWrite as error:
-        raise SceneError(str(error)) from None
+        data = json.loads(scene) if scene.lstrip().startswith("{") else tomllib.loads(scene)
+    except ValueError:
+        return ""
+    return str(data.get("title") or "")

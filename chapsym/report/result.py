@@ -137,7 +137,7 @@ def _rows(dataset: "Dataset") -> list[tuple[str, str]]:
     )
     stored = [str(name) for name in dataset.data_vars if name not in _ASIDE and not str(name).endswith("_low")]
     return [
-        ("ball" if len(names) == 1 else "balls", balls),
+        ("ball" if len(names) == 1 else "balls", "" if balls == "ball" else balls),
         ("varied", varied),
         ("frames", _frames(dataset)),
         ("model", str(dataset.attrs.get("model", ""))),

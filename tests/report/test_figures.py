@@ -8,11 +8,15 @@ import matplotlib
 import numpy as np
 import pytest
 import results
+import xarray as xr
 
+import chapsym
 from chapsym import files
 from chapsym.dynamics import BadInput
 from chapsym.report import figures
 from chapsym.report.figures import change, series
+
+GAMMA = (0.48, 0.6, 0.64)
 
 
 def lines(axis):
@@ -27,7 +31,7 @@ def texts(figure):
 def test_the_trace_of_one_ball_is_its_contact_point_in_metres_with_its_ends_and_direction():
     dataset = results.uneven(200)
     figure = figures.draw(dataset, "contact")
-    (axis,) = figure.axes
+    axis = figure.axes[0]
     (line,) = lines(axis)
     trace = dataset["contact"].values[0]
     assert (trace == np.array(line.get_data()).T).all()
@@ -40,6 +44,23 @@ def test_the_trace_of_one_ball_is_its_contact_point_in_metres_with_its_ends_and_
     for arrow in axis.texts:  # along the path, the way the ball goes
         here = np.flatnonzero((trace == arrow.xy).all(axis=1))[0]
         assert (trace[here - 1] == arrow.xyann).all()
+
+
+def test_a_trace_that_is_nearly_straight_is_shown_enlarged_across_its_way():
+    dataset = results.uneven(500)
+    _, below = figures.draw(dataset, "contact").axes
+    trace = dataset["contact"].values[0]
+    way = (trace[-1] - trace[0]) @ [1, 1j]
+    turned = (trace - trace[0]) @ [1, 1j] / (way / abs(way))
+    line = below.lines[0]
+    assert line.get_xdata() == pytest.approx(turned.real)
+    assert line.get_ydata() * 1e-3 == pytest.approx(turned.imag)
+    assert below.get_ylabel() == "to the left, 10⁻³ m"
+    dataset["contact"] = dataset["contact"] * xr.DataArray([1.0, 0.0], dims="plane")
+    assert len(figures.draw(dataset, "contact").axes) == 1
+    turn = np.linspace(0, 3, 501)
+    dataset["contact"] = ("ball", "frame", "plane"), np.stack([np.cos(turn), np.sin(turn)], axis=-1)[np.newaxis]
+    assert len(figures.draw(dataset, "contact").axes) == 1
 
 
 def test_a_tiny_trace_is_drawn_in_a_power_of_ten_without_offsets():
@@ -168,11 +189,40 @@ def test_the_phase_and_its_increments():
     dataset = results.vertical(100)
     above, below = figures.draw(dataset, "phase").axes
     u = dataset["phase"].values[0]
-    assert (lines(above)[0].get_ydata() == u).all()
+    assert lines(above)[0].get_ydata() == pytest.approx(u, abs=1e-13)
     assert (lines(below)[0].get_ydata() == np.diff(u)).all()
+    dataset["rotation_number"] = "ball", [np.diff(u).mean() / chapsym.Curve.through(results.VERTICAL, GAMMA).period]
     thinned = dataset.isel(frame=slice(None, None, 4))
     each = lines(figures.draw(thinned, "phase").axes[1])[0].get_ydata()
     assert each == pytest.approx(np.diff(u)[:100].reshape(25, 4).mean(axis=1), rel=1e-13)
+
+
+@pytest.mark.parametrize("every", [1, 5, 60])
+def test_a_phase_that_is_kept_within_its_period_is_drawn_as_it_runs(every):
+    dataset = results.vertical(300)
+    running = dataset["phase"].values[0]
+    curve = chapsym.Curve.through(results.VERTICAL, dataset["gamma"].values[0, 0])
+    wrapped = np.remainder(running + curve.period / 2, curve.period) - curve.period / 2
+    assert np.abs(np.diff(wrapped)).max() > curve.period / 2
+    dataset["phase"] = ("ball", "frame"), wrapped[np.newaxis]
+    dataset["rotation_number"] = "ball", [np.diff(running).mean() / curve.period]
+    thinned = dataset.isel(frame=slice(None, None, every))
+    above, below = figures.draw(thinned, "phase").axes
+    kept = running[::every]
+    assert lines(above)[0].get_ydata() - wrapped[0] == pytest.approx(kept - kept[0], abs=1e-12)
+    assert lines(below)[0].get_ydata() == pytest.approx(np.diff(kept) / every, abs=1e-12)
+
+
+def test_a_phase_whose_period_is_not_known_keeps_its_jumps_but_not_as_increments():
+    dataset = results.vertical(300)
+    period = chapsym.Curve.through(results.VERTICAL, dataset["gamma"].values[0, 0]).period
+    dataset["phase"] = np.remainder(dataset["phase"] + period / 2, period) - period / 2
+    above, below = figures.draw(dataset.drop_vars("gamma"), "phase").axes
+    assert below.get_ylabel() == "gain a frame"
+    each = lines(below)[0].get_ydata()
+    assert np.nanmax(np.abs(each)) < 0.2
+    assert np.isnan(each).sum() == (np.abs(np.diff(dataset["phase"].values[0])) > period / 2).sum() > 0
+    assert np.isnan(lines(above)[0].get_ydata()).sum() == np.isnan(each).sum()
 
 
 def test_an_increment_that_is_constant_looks_constant():
@@ -289,8 +339,6 @@ def test_a_result_of_one_frame_is_drawn(dataset, tmp_path):
 
 
 def test_a_ball_at_rest_is_drawn(tmp_path):
-    import chapsym
-
     run = chapsym.roll(results.UNEVEN, (0.0, 0.0, 0.0), 0.01, 20, contact=True)
     dataset = results.of(run, results.ALL, "At rest")
     assert len(figures.save_all(dataset, tmp_path)) == 6

@@ -25,6 +25,8 @@ LOW, HIGH = 2.2, 5.6
 CELLS = 360
 MOMENTS = (0.25, 0.5, 0.75, 1.0)
 SHARES = (50, 90)
+#: Traces that stay this near to their chord (of its length) are shown a second time, enlarged across it.
+STRAIGHT = 0.08
 
 
 def missing(dataset: "Dataset") -> str | None:
@@ -41,7 +43,11 @@ def draw(dataset: "Dataset") -> "Picture":
         return draw_pairs(dataset, trace)
     factor, text = power(float(np.nanmax(np.abs(trace), initial=0.0)))
     trace = trace / factor
-    figure, (axis,) = new(str(dataset.attrs.get("title", "")), height=panel_height(trace))
+    aside = [] if len(trace) > FEW else sideways(trace, reading.last_frames(dataset))
+    heights = [panel_height(trace), *([2.1] if aside else [])]
+    figure, (axis, *below) = new(
+        str(dataset.attrs.get("title", "")), len(heights), height=sum(heights) / len(heights), height_ratios=heights
+    )
     axis.set_aspect("equal", adjustable="datalim")
     if len(trace) <= LINES:
         lines(axis, dataset, trace)
@@ -49,8 +55,38 @@ def draw(dataset: "Dataset") -> "Picture":
         _density(axis, dataset, trace)
     axis.set(xlabel=in_power("x", "m", text), ylabel=in_power("y", "m", text))
     axis.margins(0.06)
+    for panel in below:
+        _aside(panel, aside, in_power("along the way, from start to end", "m", text), factor)
     legend(figure, [axis])
     return figure
+
+
+def sideways(trace: Floats, last: np.ndarray) -> list[tuple[Floats, Floats]]:
+    """Of each ball how far it is along the line from its start to its end, and off it to the left, (frames,) each.
+
+    Nothing where the traces are not so straight that a picture with equal axes hides how they bend.
+    """
+    found = []
+    for path, end in zip(trace, last, strict=True):
+        way = path[end] - path[0] if end > 0 else np.zeros(2)
+        length = float(np.sqrt(way @ way))
+        if length == 0.0:
+            continue
+        away = path[: end + 1] - path[0]
+        along, off = away @ way / length, (away[:, 1] * way[0] - away[:, 0] * way[1]) / length
+        found.append((along, off))
+        if np.abs(off).max() > STRAIGHT * length:
+            return []
+    return found if any(np.abs(off).max() > 1e-12 * np.abs(along).max() for along, off in found) else []
+
+
+def _aside(panel: "Axes", aside: list[tuple[Floats, Floats]], label: str, factor: float) -> None:
+    """The same traces with the direction across the way enlarged."""
+    size = max(float(np.abs(off).max()) for _, off in aside)
+    unit, text = power(factor * size)
+    for colour, (along, off) in zip(COLOURS, aside, strict=False):
+        panel.plot(along, off * factor / unit, color=colour, linewidth=1.2)
+    panel.set(xlabel=label, ylabel=in_power("to the left", "m", text))
 
 
 def panel_height(trace: Floats) -> float:

@@ -8,7 +8,7 @@ from chapsym.dynamics import front
 from chapsym.dynamics.ball import Floats
 
 from . import reading
-from .invariant import Body, curve_through, energy_range, is_vertical, unit
+from .invariant import Body, bodies_of, curve_through, energy_range, is_vertical, unit
 from .sphere import View, draw_curve, draw_globe, draw_orbit
 from .style import COLOURS, FEW, MAP, VERTICES, legend, new
 
@@ -80,7 +80,7 @@ def _panel(
     view = View.of(flat)
     draw_globe(axis, view, ("1", "2", "3"))
     last, names = reading.last_frames(dataset), reading.ball_names(dataset)
-    bodies = _bodies(dataset)
+    bodies = bodies_of(dataset)
     if len(points) == 1 and bodies and len(found) == 2 and not vertical and bodies[0].D > 0.0:
         _forbidden(axis, view, bodies[0], found, name == "gamma")
     for i, one in enumerate(points):
@@ -97,15 +97,6 @@ def _panel(
     if len(points) == 1:
         axis.plot([], [], "o", color=COLOURS[0], markerfacecolor="white", label="start")
         axis.plot([], [], "s", color=COLOURS[0], label="end")
-
-
-def _bodies(dataset: "Dataset") -> list[Body]:
-    """J, D and the axes of each ball; none where the result does not know them."""
-    J, D = reading.per_ball(dataset, "mass_tensor"), reading.per_ball(dataset, "D")
-    if J is None or D is None:
-        return []
-    axes = reading.per_ball(dataset, "axes")
-    return [Body(J[i], float(D[i]), None if axes is None else axes[i]) for i in range(len(J))]
 
 
 def _forbidden(axis: "Axes", view: View, body: Body, found: dict[str, Floats], of_gamma: bool) -> None:

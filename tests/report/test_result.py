@@ -1,0 +1,185 @@
+"""Results in Python and in notebooks, and `chapsym show`."""
+
+import json
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+import results
+
+import chapsym
+from chapsym.dynamics import BadInput
+from chapsym.report.result import Result
+from chapsym.scene import SceneError
+
+SCENE = {
+    "title": "A ball of <2> kg & more",
+    "ball": {"inertia": [0.006, 0.007, 0.009], "mass": 2.0, "radius": 0.1},
+    "start": {"omega": [3.0, -2.0, 1.0], "gamma": ["2/7", "3/7", "6/7"]},
+    "run": {"time_step": 0.01, "steps": 60, "outputs": ["contact", "attitude", "energy", "integrals"]},
+}
+TOML = """\
+title = "From a file"
+[ball]
+inertia = [0.006, 0.007, 0.009]
+mass = 2.0
+radius = 0.1
+[start]
+omega = [3.0, -2.0, 1.0]
+gamma = ["2/7", "3/7", "6/7"]
+[run]
+time_step = 0.01
+steps = 60
+outputs = ["contact", "energy"]
+"""
+
+
+def show(*arguments):
+    command = [sys.executable, "-m", "chapsym.cli", "show", *map(str, arguments)]
+    return subprocess.run(command, capture_output=True, text=True, check=False)
+
+
+def test_a_scene_runs_from_a_dictionary_and_shows_itself():
+    result = chapsym.run_scene(SCENE)
+    run = chapsym.roll(results.UNEVEN, (3.0, -2.0, 1.0), 0.01, 60, gamma=(2 / 7, 3 / 7, 6 / 7), contact=True)
+    assert result.dataset["contact"].values[0] == pytest.approx(run.contact, abs=1e-15)
+    text = repr(result)
+    assert text.startswith("A ball of <2> kg & more\n")
+    assert re.search(r"frames +61, 60 steps, 0.6 s", text)
+    assert re.search(r"stored +attitude, contact, energy, integrals|stored +contact, attitude, energy, integrals", text)
+    assert re.search(r"drift +\d\.\de-1[56] at most", text)
+
+
+def test_in_a_notebook_it_is_a_table_and_the_most_telling_figure():
+    html = chapsym.run_scene(SCENE)._repr_html_()
+    assert "A ball of &lt;2&gt; kg &amp; more" in html
+    assert html.count("<svg ") == 1
+    assert html.count("<tr>") == len(chapsym.run_scene(SCENE).rows())
+    assert "<?xml" not in html
+    figure = chapsym.run_scene(SCENE).figure("energy")
+    assert figure._repr_svg_().startswith("<svg ")
+
+
+def test_figures_of_a_result_are_told_and_drawn_by_name():
+    result = Result(results.folded())
+    assert result.figures()["omega"] == 'no ω: add "omega" to run.outputs (and give run.time_step)'
+    assert len(result.figure("contact", ball="slow").axes[0].lines) == 3
+    with pytest.raises(BadInput, match="no ball 'x'"):
+        result.figure("contact", ball="x")
+
+
+def test_the_table_tells_sweeps_and_balls_that_stopped():
+    told = dict(Result(results.folded()).rows())
+    assert told["balls"] == "2, 1 of them stopped early"
+    assert dict(Result(results.folded().isel(ball=[1])).rows())["stopped"].startswith("after ")
+    told = dict(Result(results.sweep(7)).rows())
+    assert told["varied"] == "start.momentum from 0.05 to 0.5 kg m²"
+
+
+def test_the_drift_is_what_the_integrals_say():
+    dataset = results.uneven(50)
+    dataset["integrals"] = dataset["integrals"] * (1 + 1e-6 * np.arange(51)[:, np.newaxis])
+    assert dict(Result(dataset).rows())["drift"].startswith("5.0e-05")
+    from_state = results.of(
+        chapsym.trajectory(results.VERTICAL, (0.1, 0.2, 0.1), (2 / 7, 3 / 7, 6 / 7), 50), ("momentum", "gamma")
+    )
+    assert re.match(r"[1-9]\.\de-16", dict(Result(from_state).rows())["drift"])
+
+
+@pytest.mark.parametrize("suffix", [".zarr", ".nc", ".parquet", ".csv"])
+def test_a_result_that_is_saved_opens_as_it_was(tmp_path, suffix):
+    result, path = chapsym.run_scene(SCENE), tmp_path / f"a{suffix}"
+    result.save(path)
+    again = chapsym.open_result(str(path))
+    for name in ("contact", "energy", "taken"):
+        assert (again.dataset[name].values == result.dataset[name].values).all(), name
+    assert again.dataset.attrs["title"] == SCENE["title"]
+    assert sorted(p.name for p in tmp_path.iterdir()) == [path.name]
+    assert again.figures() == result.figures()
+
+
+def test_what_cannot_be_saved_or_opened_is_one_sentence(tmp_path):
+    result = chapsym.run_scene(SCENE)
+    result.save(tmp_path / "a.zarr")
+    with pytest.raises(SceneError, match="is there already"):
+        result.save(tmp_path / "a.zarr")
+    with pytest.raises(SceneError, match="cannot be written"):
+        result.save(tmp_path / "no" / "a.zarr")
+    for name in ("nothing.nc", "nothing.zarr", "nothing.csv"):
+        with pytest.raises(SceneError, match=name):
+            chapsym.open_result(tmp_path / name)
+    (tmp_path / "text.nc").write_text("no HDF5")
+    with pytest.raises(SceneError, match=r"text\.nc"):
+        chapsym.open_result(tmp_path / "text.nc")
+    with pytest.raises(SceneError, match="inertia"):
+        chapsym.run_scene(SCENE | {"ball": {"inertia": [1, 1, 9], "mass": 1, "radius": 1}})
+
+
+def test_the_page_is_written(tmp_path):
+    chapsym.run_scene(SCENE).page(tmp_path / "page.html")
+    assert "<html" in (tmp_path / "page.html").read_text(encoding="utf-8")
+
+
+def test_show_without_a_notebook_opens_a_folder(monkeypatch, capsys):
+    opened = []
+    monkeypatch.setattr("webbrowser.open", opened.append)
+    Result(results.sweep(5)).show()
+    folder = Path(opened[0].removeprefix("file://"))
+    assert [path.name for path in folder.iterdir()] == ["rotation.svg"]
+    assert str(folder) in capsys.readouterr().out
+
+
+def test_the_command_runs_a_scene_and_draws_it(tmp_path):
+    scene = tmp_path / "ball.toml"
+    scene.write_text(TOML)
+    done = show(scene, "--format", "both")
+    assert done.returncode == 0, done.stderr
+    folder = tmp_path / "ball-figures"
+    assert {path.name for path in folder.iterdir()} == {"contact.svg", "contact.png", "energy.svg", "energy.png"}
+    assert 'no attitude: add "attitude" to run.outputs' in done.stdout
+    assert "From a file" not in done.stderr
+
+
+def test_the_command_draws_a_result_with_its_page(tmp_path):
+    chapsym.run_scene(SCENE).save(tmp_path / "a.nc")
+    done = show(tmp_path / "a.nc", "-o", tmp_path / "pictures", "--json")
+    told = json.loads(done.stdout)
+    names = ["contact.svg", "attitude.svg", "energy.svg", "integrals.svg", "page.html"]
+    assert [Path(name).name for name in told["files"]] == names
+    assert set(told["missing"]) == {"spheres", "spread", "rotation", "phase", "omega"}
+    assert all(Path(name).stat().st_size > 1000 for name in told["files"])
+
+
+def test_the_command_draws_what_is_named(tmp_path):
+    results.folded().assign_attrs(chapsym_version="0").to_netcdf(tmp_path / "a.nc", engine="h5netcdf")
+    done = show(tmp_path / "a.nc", "-o", tmp_path / "p", "--figures", "integrals,contact", "--ball", "fast")
+    assert done.returncode == 0, done.stderr
+    assert sorted(path.name for path in (tmp_path / "p").iterdir()) == ["contact.svg", "integrals.svg"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        (["a.nc", "--figures", "trace"], "--figures trace: choose of contact, spheres"),
+        (["a.nc", "--figures", "energy"], 'energy: no energy: add "energy"'),
+        (["a.nc", "--format", "pdf"], "--format pdf: give svg, png or both"),
+        (["a.nc", "--ball", "third"], "no ball 'third'; it has slow, fast"),
+        (["a.nc", "--page"], "attitude"),
+        (["b.nc"], "b.nc"),
+        (["a.txt"], "a.txt"),
+        (["a.nc", "-o", "a.nc"], "cannot be made"),
+        (["no.toml"], "no.toml cannot be read"),
+    ],
+)
+def test_mistakes_are_one_sentence(tmp_path, arguments, sentence):
+    dataset = results.folded().assign_attrs(chapsym_version="0")
+    dataset.to_netcdf(tmp_path / "a.nc", engine="h5netcdf")
+    paths = [str(tmp_path / a) if a.endswith((".nc", ".txt", ".toml")) else a for a in arguments]
+    done = show(*paths, *([] if "-o" in paths else ["-o", tmp_path / "p"]))
+    assert done.returncode == 2
+    assert sentence in done.stderr
+    assert done.stderr.startswith("chapsym: ")
+    assert done.stderr.count("\n") == 1

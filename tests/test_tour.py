@@ -1,0 +1,63 @@
+"""The notebook of the docs runs, and its stored outputs are what it prints and draws."""
+
+import re
+from pathlib import Path
+
+import nbformat
+import pytest
+from nbclient import NotebookClient
+
+TOUR = Path(__file__).parents[1] / "docs" / "tour.ipynb"
+
+
+def executed(notebook):
+    """A notebook with the outputs of this run; numbers of executions, but no times and no ids of the session."""
+    fresh = nbformat.from_dict(notebook)
+    for cell in fresh.cells:
+        if cell.cell_type == "code":
+            cell.outputs, cell.execution_count = [], None
+    NotebookClient(fresh, timeout=120, kernel_name="python3", record_timing=False).execute()
+    return fresh
+
+
+def shown(cell):
+    """What a reader sees of the outputs of a cell: texts, and the pictures' kinds."""
+    found = []
+    for output in cell.outputs:
+        if output.output_type == "stream":
+            found.append(output.text)
+        else:
+            data = output.data
+            if "text/html" in data:
+                found.append(re.sub(r"<svg.*</svg>", "picture", data["text/html"], flags=re.DOTALL))
+            elif "image/svg+xml" in data:
+                found.append("picture")
+            else:
+                found.append(data["text/plain"])
+    # Roundoff differs from one processor to another, its size does not.
+    return [re.sub(r"\d\.\de-1[4-6]", "~1e-15", text) for text in found]
+
+
+@pytest.fixture(scope="module")
+def tour():
+    return nbformat.read(TOUR, as_version=4)
+
+
+def test_the_tour_runs_and_shows_what_is_stored(tour):
+    fresh = executed(tour)
+    for stored, now in zip(tour.cells, fresh.cells, strict=True):
+        if stored.cell_type == "code":
+            assert shown(stored) == shown(now), stored.source
+
+
+def test_every_cell_of_the_tour_has_its_outputs_stored(tour):
+    silent = [cell.source for cell in tour.cells if cell.cell_type == "code" and not cell.outputs]
+    assert not silent
+    pictures = str(tour.cells).count("<svg ")
+    assert pictures == 5
+    assert TOUR.stat().st_size < 1_000_000
+    assert not re.search(r"/(home|root|tmp|work)/", TOUR.read_text(encoding="utf-8"))
+
+
+if __name__ == "__main__":  # python tests/test_tour.py writes the outputs anew
+    nbformat.write(executed(nbformat.read(TOUR, as_version=4)), TOUR)
