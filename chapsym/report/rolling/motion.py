@@ -97,7 +97,9 @@ def motion(dataset: "Dataset", balls: Sequence[str | int] | None = None) -> Moti
             continue
         one = part.isel(ball=i, frame=slice(0, end))
         spot = contact[i, :end] if rolls else None
-        rolling = _rolling(one, names[ball], attitude[i, :end], contact[i, :end], spot, float(radius[i]), kept[kept < end])
+        rolling = _rolling(
+            one, names[ball], attitude[i, :end], contact[i, :end], spot, float(radius[i]), kept[kept < end]
+        )
         rolling.notes.extend(_stopped(one, end == len(clock)))
         found.append(rolling)
     return Motion(clock[kept], "s" if timed else "steps", steps[kept], found, notes)
@@ -154,8 +156,8 @@ def _side_by_side(radius: Floats, frames: int) -> Floats:
 
 def _end(attitude: Floats, contact: Floats) -> int:
     """How many frames there are before the first that is not finite."""
-    lost = ~(np.isfinite(attitude).all(axis=1) & np.isfinite(contact).all(axis=1))
-    return int(np.argmax(lost)) if lost.any() else len(lost)
+    there = np.isfinite(attitude).all(axis=1) & np.isfinite(contact).all(axis=1)
+    return len(attitude) if there.all() else int(np.argmin(there))
 
 
 def _kept(frames: int, balls: int, ends: list[int]) -> np.ndarray:

@@ -48,13 +48,18 @@ def html(dataset: "Dataset", *, balls: Sequence[str | int] | None = None) -> str
     """The text of the page; the same result gives the same bytes.  Raises ReportError as `write_page` does."""
     found = motion(dataset, balls)
     templates = Environment(
-        loader=FileSystemLoader(FOLDER), autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
+        loader=FileSystemLoader(FOLDER),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
     )
     return templates.get_template("page.html").render(
         title=str(dataset.attrs.get("title") or "A rolling ball"),
         plan=_plan_line(dataset, found),
         notes=_notes(found),
         balls=found.balls,
+        rolls="contact" in dataset,
         vectors=[name for name in ("gamma", "omega", "momentum") if any(name in ball.vectors for ball in found.balls)],
         ellipsoid=any(ball.inertia is not None for ball in found.balls),
         style=Markup(_text("page.css")),
