@@ -89,6 +89,12 @@ def test_a_wrong_omega_does_not_pass_for_a_known_turn():
     assert one(wrong).notes == [TOO_FAR]
 
 
+def test_a_quaternion_and_its_negative_are_the_same_attitude():
+    dataset = rolled(50, every=5)
+    flipped = dataset.assign(attitude=dataset["attitude"] * np.array([1, -1] * 5 + [1])[:, np.newaxis])
+    np.testing.assert_allclose(one(flipped).turn, one(dataset).turn, rtol=0, atol=16 * EPS)
+
+
 def test_thinned_frames_keep_their_whole_turns(monkeypatch):
     dataset = rolled(6000, ball=EVEN)
     fine = one(dataset)
@@ -97,10 +103,11 @@ def test_thinned_frames_keep_their_whole_turns(monkeypatch):
     found = motion(dataset)
     assert found.notes == [f"{len(found.clock)} of 6001 frames are shown"]
     assert len(found.clock) <= 22
-    assert found.steps[[0, -1]].tolist() == [0, 6000]
+    kept = np.round(found.clock / 0.005).astype(int)
+    assert kept[[0, -1]].tolist() == [0, 6000]
     ball = found.balls[0]
     assert np.linalg.norm(ball.turn[:-1], axis=1).min() > 2 * np.pi
-    sums = np.add.reduceat(fine.turn, found.steps[:-1])
+    sums = np.add.reduceat(fine.turn, kept[:-1])
     np.testing.assert_allclose(ball.turn, sums, rtol=1e-9)
 
 
@@ -142,6 +149,16 @@ def test_a_ball_that_stops_is_shown_up_to_there_and_told():
     dataset["attitude"][:] = np.nan
     with pytest.raises(BadInput, match="no frame that can be drawn"):
         motion(dataset)
+
+
+def test_a_ball_that_stops_between_the_frames_shown_is_shown_where_it_stops(monkeypatch):
+    monkeypatch.setattr(motions, "FRAMES", 20)
+    monkeypatch.setattr(motions, "LEAST", 10)
+    dataset = rolled(100, omega=[(3.0, 4.0, 10.0), (3.0, 4.0, 9.0)])
+    dataset["attitude"][1, 38:] = np.nan
+    found = motion(dataset)
+    assert found.balls[1].notes == ["it stops where its numbers end"]
+    np.testing.assert_array_equal(found.balls[1].contact[-1], dataset["contact"][1, 37])
 
 
 def test_balls_are_chosen_by_name_and_index():
@@ -186,8 +203,16 @@ def test_decimal_strings_and_steps_without_time_are_read():
     np.testing.assert_array_equal(found.balls[0].contact, one(dataset).contact)
 
 
+def test_frames_of_steps_that_were_chosen_are_not_taken_for_next_ones():
+    """A run to an accuracy has times but no steps: between two of its frames there may be any number of them."""
+    chosen = rolled(3900, every=60).drop_vars("step")
+    assert one(chosen).turn is not None
+    assert one(chosen.drop_vars("omega")).notes == [TOO_FAR]
+    assert "model: full · 66 frames in 19.5 s" in html(chosen)
+
+
 def test_the_page_is_whole_and_asks_for_nothing(tmp_path):
-    dataset = rolled(20, title="<b>A & B</b> </script>")
+    dataset = rolled(20, title="<b>A & B</b> </script>", names=["</script><b>"])
     write_page(dataset, tmp_path / "page.html")
     text = (tmp_path / "page.html").read_text(encoding="utf-8")
     assert text == html(dataset)
@@ -195,6 +220,8 @@ def test_the_page_is_whole_and_asks_for_nothing(tmp_path):
     assert "model: full · 20 steps of 0.005 s" in text
     assert not re.search(r'(src|href)="(?!data:)', text)
     assert "Copyright © 2010-2026 three.js authors" in text
+    assert text.count("</script>") == 3
+    assert r"\u003c/script>\u003cb>" in text
     assert 0.9e6 < len(text) < 1.3e6
 
 

@@ -173,25 +173,31 @@ def test_the_ball_rolls_between_the_frames_and_does_not_slip(opened):
 
 
 def test_body_axes_are_where_the_pattern_has_them(opened):
-    """The pattern on the sphere: white and dark octants by the sign of xyz, in body axes."""
+    """On the sphere, in body axes: bright and dark octants by the sign of xyz, marks that are dark at the positive ends."""
     page = opened()
     shades = page.ask(
         """(() => {
           const mesh = chapsym.stage.balls[0].body.children[0], { position, uv } = mesh.geometry.attributes;
           const image = mesh.material.map.image;
           const pixels = image.getContext('2d').getImageData(0, 0, image.width, image.height).data;
-          const found = [];
-          for (let i = 0; i < position.count; i += 7) {
-            const p = [position.getX(i), position.getY(i), position.getZ(i)];
-            if (Math.min(...p.map(Math.abs)) < 0.1 || Math.max(...p.map(Math.abs)) > 0.93) continue;
-            const x = Math.floor(uv.getX(i) * image.width), y = Math.floor((1 - uv.getY(i)) * image.height);
-            found.push([p[0] * p[1] * p[2] > 0, pixels[4 * (y * image.width + x)]]);
-          }
-          return found;
+          return Array.from({ length: position.count }, (_, i) => {
+            const at = (share, count) => Math.min(Math.floor(share * count), count - 1);
+            const x = at(uv.getX(i), image.width), y = at(1 - uv.getY(i), image.height);
+            return [position.getX(i), position.getY(i), position.getZ(i), pixels[4 * (y * image.width + x)]];
+          });
         })()"""
     )
-    assert len(shades) > 200
-    assert all(shade == (255 if bright else 150) for bright, shade in shades)
+    points, shade = np.array(shades)[:, :3], np.array(shades)[:, 3]
+    size = np.sort(np.abs(points), axis=1)
+    octants = (size[:, 0] > 0.1) & (size[:, 2] < 0.93)
+    assert octants.sum() > 1000
+    np.testing.assert_array_equal(shade[octants], np.where(points[octants].prod(axis=1) > 0, 255, 150))
+    beside = np.sqrt(1 - size[:, 2] ** 2) / 0.25  # of the number, and inside the rim
+    for axis in range(3):
+        for sign, colour in ((1, 30), (-1, 255)):
+            marks = (sign * points[:, axis] == size[:, 2]) & (beside > 0.68) & (beside < 0.84)
+            assert marks.any()
+            assert set(shade[marks]) == {colour}
 
 
 def test_scrub_and_keys(opened):
