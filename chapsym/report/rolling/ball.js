@@ -68,9 +68,14 @@ function numerals(size) {
   };
 }
 
-// The ball of radius 1 at height 1; `place` puts it where it is, in units of the scene.
+// The unit sphere for `count` balls, rounder for a few; its pole is turned to z, as the pattern has it.
+export function sphereFor(count) {
+  return new SphereGeometry(1, ...(count > 4 ? [48, 32] : [96, 64])).rotateX(Math.PI / 2);
+}
+
+// A ball, its arrows and its ellipsoid; `show` puts them where they are at a frame, relative to the anchor.
 export class RollingBall {
-  constructor(ball, colour, texture, order) {
+  constructor(ball, colour, texture, sphere, order) {
     this.ball = ball;
     this.group = new Group();
     this.body = new Group();
@@ -80,7 +85,6 @@ export class RollingBall {
     // Balls that start at the same place: the first is drawn in front of the others, always.
     const offset = { polygonOffset: true, polygonOffsetUnits: 4 * order, polygonOffsetFactor: 0 };
     this.material = new MeshStandardMaterial({ map: texture, color: colour, roughness: 0.5, ...offset });
-    const sphere = new SphereGeometry(1, 96, 64).rotateX(Math.PI / 2);
     this.body.add(new Mesh(sphere, this.material));
     this.arrows = {};
     for (const name of Object.keys(ball.vectors)) {

@@ -5,16 +5,15 @@ import {
   Vector2, Vector3, Vector4,
 } from 'three';
 
-const MOST_BALLS = 20;
 const PIECE = 512; // segments that share an origin: near it, float32 is exact enough for any trace
 const LIGHT = new Vector3(0.45, -0.35, 1).normalize();
 
 export class Floor {
-  constructor() {
+  constructor(count) {
     this.uniforms = {
       offset: { value: new Vector2() }, cell: { value: 1 }, reach: { value: 1 }, light: { value: LIGHT },
       paper: { value: new Color() }, line: { value: new Color() }, shade: { value: 0.5 },
-      balls: { value: Array.from({ length: MOST_BALLS }, () => new Vector4()) }, count: { value: 0 },
+      balls: { value: Array.from({ length: count }, () => new Vector4()) }, count: { value: 0 },
     };
     const material = new ShaderMaterial({
       uniforms: this.uniforms, depthWrite: false,
@@ -26,7 +25,7 @@ export class Floor {
         }`,
       fragmentShader: `varying vec2 place;
         uniform vec2 offset; uniform float cell, reach, shade; uniform vec3 paper, line, light;
-        uniform vec4 balls[${MOST_BALLS}]; uniform int count;
+        uniform vec4 balls[${count}]; uniform int count;
         float grid(vec2 p) {
           vec2 wide = fwidth(p), to = abs(fract(p - .5) - .5) / wide;
           return (1. - min(min(to.x, to.y), 1.)) * (1. - smoothstep(.15, .5, max(wide.x, wide.y)));
@@ -44,7 +43,7 @@ export class Floor {
           vec2 p = (place + offset) / cell;
           vec3 colour = mix(paper, line, max(.4 * grid(p), .9 * grid(p / 10.)));
           float lit = 1.;
-          for (int i = 0; i < ${MOST_BALLS}; i++) if (i < count) lit = min(lit, 1. - shade * shadow(balls[i]));
+          for (int i = 0; i < ${count}; i++) if (i < count) lit = min(lit, 1. - shade * shadow(balls[i]));
           colour *= lit;
           gl_FragColor = vec4(mix(colour, paper, smoothstep(.3, 1., length(place) / reach)), 1.);
           #include <colorspace_fragment>

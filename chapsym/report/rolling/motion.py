@@ -53,11 +53,10 @@ class Rolling:
 
 @dataclass(frozen=True, eq=False)
 class Motion:
-    """All that the page shows.  clock: of the kept frames, in `unit` ("s" or "steps"); steps: their numbers."""
+    """All that the page shows.  clock: of the kept frames, in `unit` ("s" or "steps")."""
 
     clock: Floats
     unit: str
-    steps: np.ndarray
     balls: list[Rolling]
     notes: list[str]
 
@@ -76,9 +75,9 @@ def motion(dataset: "Dataset", balls: Sequence[str | int] | None = None) -> Moti
     for i, length in zip(chosen, radius, strict=True):
         if not (np.isfinite(length) and length > 0):
             raise ReportError(f"{names[i]} has no radius, so it cannot be drawn: give ball.radius, in metres")
-    steps = np.asarray(part["step"].values if "step" in part.coords else np.arange(part.sizes["frame"]), dtype=np.int64)
     timed = "time" in part.coords
-    clock = np.asarray(part["time"].values, dtype=np.float64) if timed else steps.astype(np.float64)
+    counted = part["step"].values if "step" in part.coords else np.arange(part.sizes["frame"])
+    clock = np.asarray(part["time"].values if timed else counted, dtype=np.float64)
     attitude = _numbers(part, "attitude")
     rolls = "contact" in part
     contact = _numbers(part, "contact") if rolls else _side_by_side(radius, attitude.shape[1])
@@ -102,7 +101,7 @@ def motion(dataset: "Dataset", balls: Sequence[str | int] | None = None) -> Moti
         )
         rolling.notes.extend(_stopped(one, end == len(clock)))
         found.append(rolling)
-    return Motion(clock[kept], "s" if timed else "steps", steps[kept], found, notes)
+    return Motion(clock[kept], "s" if timed else "steps", found, notes)
 
 
 def _check_drawable(dataset: "Dataset") -> None:
@@ -156,8 +155,8 @@ def _side_by_side(radius: Floats, frames: int) -> Floats:
 
 def _end(attitude: Floats, contact: Floats) -> int:
     """How many frames there are before the first that is not finite."""
-    lost = ~(np.isfinite(attitude).all(axis=1) & np.isfinite(contact).all(axis=1))
-    return int(np.argmax(lost)) if lost.any() else len(lost)
+    there = np.isfinite(attitude).all(axis=1) & np.isfinite(contact).all(axis=1)
+    return len(attitude) if there.all() else int(np.argmin(there))
 
 
 def _kept(frames: int, balls: int, ends: list[int]) -> np.ndarray:
@@ -175,7 +174,8 @@ def _rolling(
     vectors = {key: _numbers(one, key) for key in ("omega", "momentum", "gamma") if key in one}
     omega = front.rotate(attitude, vectors["omega"]) if "omega" in vectors else None
     seconds = np.diff(np.asarray(one["time"].values, dtype=np.float64)) if "time" in one.coords else None
-    steps = np.diff(one["step"].values) if "step" in one.coords else np.ones(len(attitude) - 1)
+    # A run to an accuracy has no steps: they were chosen for each ball, and are many.
+    steps = np.diff(one["step"].values) if "step" in one.coords else np.full(len(attitude) - 1, np.inf)
     rolled = None if spot is None else np.hypot(*np.diff(spot, axis=0).T) / radius
     turns, known = turning.between(attitude, seconds, steps, omega, rolled)
     turn, shown = turning.thinned(attitude, turns, known, kept)

@@ -150,10 +150,8 @@ function connect() {
     button.style.setProperty('--c', ARROWS[button.dataset.arrow]);
     toggle(button, (on) => stage.showArrow(button.dataset.arrow, on));
   });
-  toggle(find('#ghost'), (on) => { for (const trace of stage.traces) trace.showGhost(on); stage.stale = true; });
-  if (find('#ellipsoid')) {
-    toggle(find('#ellipsoid'), (on) => { for (const ball of stage.balls) ball.showEllipsoid(on); stage.stale = true; });
-  }
+  every('#ghost', (button) => toggle(button, (on) => stage.showGhost(on)));
+  every('#ellipsoid', (button) => toggle(button, (on) => stage.showEllipsoid(on)));
   every('[name=followed]', (input) => input.addEventListener('change', () => { stage.follow(Number(input.value)); tell(); }));
   every('.seen input', (input) => input.addEventListener('change', () => stage.showBall(Number(input.value), input.checked)));
   document.addEventListener('keydown', onKey);

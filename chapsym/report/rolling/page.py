@@ -59,6 +59,7 @@ def html(dataset: "Dataset", *, balls: Sequence[str | int] | None = None) -> str
         plan=_plan_line(dataset, found),
         notes=_notes(found),
         balls=found.balls,
+        rolls="contact" in dataset,
         vectors=[name for name in ("gamma", "omega", "momentum") if any(name in ball.vectors for ball in found.balls)],
         ellipsoid=any(ball.inertia is not None for ball in found.balls),
         style=Markup(_text("page.css")),
@@ -70,13 +71,16 @@ def html(dataset: "Dataset", *, balls: Sequence[str | int] | None = None) -> str
 
 
 def _plan_line(dataset: "Dataset", found: Motion) -> str:
-    """The model and the steps."""
+    """The model, the steps or frames, and the time."""
     parts = [f"model: {dataset.attrs['model']}"] if dataset.attrs.get("model") else []
-    count = int(found.steps[-1])
-    steps = f"{count} step{'' if count == 1 else 's'}"
-    if found.unit == "s" and count:
-        steps += f" of {found.clock[-1] / count:.6g} s"
-    return " · ".join([*parts, steps, f"{len(found.balls)} balls"] if len(found.balls) > 1 else [*parts, steps])
+    span = found.clock[-1]
+    if "step" in dataset.coords:
+        count = int(dataset["step"].values[-1])
+        steps = f"{count} step{'' if count == 1 else 's'}"
+        parts.append(f"{steps} of {span / count:.6g} s" if found.unit == "s" and count else steps)
+    else:
+        parts.append(f"{dataset.sizes['frame']} frames" + (f" in {span:.6g} s" if found.unit == "s" else ""))
+    return " · ".join(parts + ([f"{len(found.balls)} balls"] if len(found.balls) > 1 else []))
 
 
 def _notes(found: Motion) -> list[str]:

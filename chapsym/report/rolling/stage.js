@@ -6,10 +6,10 @@ import {
   PointsMaterial, Scene, TOUCH, Vector3, Vector4, WebGLRenderer,
 } from 'three';
 import { OrbitControls } from 'orbit-controls';
-import { pattern, RollingBall } from 'ball';
+import { pattern, RollingBall, sphereFor } from 'ball';
 import { Floor, Trace } from 'floor';
 
-const OKABE_ITO = ['#0072b2', '#d55e00', '#009e73', '#cc79a7', '#e69f00', '#56b4e9'];
+const OKABE_ITO = ['#1f83c6', '#d55e00', '#009e73', '#cc79a7', '#e69f00', '#56b4e9'];
 const VIEW = 38; // degrees
 
 export const colourOf = (i, count) =>
@@ -28,11 +28,11 @@ export class Stage {
     this.sun = new DirectionalLight('#fff', 2.4);
     this.sun.position.set(0.45, -0.35, 1);
     this.sky = new AmbientLight('#fff');
-    this.floor = new Floor();
+    this.floor = new Floor(motion.balls.length);
     this.scene.add(this.sun, this.sky, this.floor.mesh);
-    const texture = pattern();
+    const texture = pattern(), sphere = sphereFor(motion.balls.length);
     this.colours = motion.balls.map((_, i) => colourOf(i, motion.balls.length));
-    this.balls = motion.balls.map((ball, i) => new RollingBall(ball, this.colours[i], texture, i));
+    this.balls = motion.balls.map((ball, i) => new RollingBall(ball, this.colours[i], texture, sphere, i));
     this.traces = motion.balls.map((ball) => new Trace(ball));
     this.dots = dots(this.colours);
     for (const part of [...this.balls, ...this.traces]) this.scene.add(part.group);
@@ -119,6 +119,16 @@ export class Stage {
 
   showArrow(name, on) {
     for (const { arrows } of this.balls) if (arrows[name]) arrows[name].visible = on;
+    this.stale = true;
+  }
+
+  showGhost(on) {
+    for (const trace of this.traces) trace.showGhost(on);
+    this.stale = true;
+  }
+
+  showEllipsoid(on) {
+    for (const ball of this.balls) ball.showEllipsoid(on);
     this.stale = true;
   }
 

@@ -1,0 +1,485 @@
+"""The rolling ball in a real browser, from disk and offline: it moves, as it should, on a desk and on a phone."""
+
+import io
+import os
+import shutil
+import time
+
+import numpy as np
+import pytest
+from matplotlib import image
+from rolling_results import EVEN, rolled
+
+from chapsym.dynamics import Status, front
+from chapsym.report.rolling import write_page
+from chapsym.report.rolling.motion import TOO_FAR, motion
+
+CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+QUIET = [
+    "--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update",
+    "--disable-sync",
+]  # fmt: skip
+#: WebGL without a graphics card.
+WEBGL = ["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+DESK, PHONE = {"width": 1280, "height": 800}, {"width": 390, "height": 844}
+SINGLE = float(np.finfo(np.float32).eps)
+
+
+@pytest.fixture(scope="module")
+def driver():
+    if CHROMIUM is None:
+        if os.environ.get("CI"):
+            pytest.fail("no Chromium on this machine: .ci/run installs it")
+        pytest.skip("no Chromium on this machine (Debian: apt-get install chromium)")
+    from playwright.sync_api import sync_playwright
+
+    with sync_playwright() as driver:
+        yield driver
+
+
+@pytest.fixture(scope="module")
+def browser(driver):
+    browser = driver.chromium.launch(executable_path=CHROMIUM, headless=True, args=QUIET + WEBGL)
+    yield browser
+    browser.close()
+
+
+class Shown:
+    """A page that is open, offline, with everything that the console and the network said."""
+
+    def __init__(self, browser, path, size=DESK, **options):
+        options = {"reduced_motion": "reduce", "viewport": size} | options
+        self.context = browser.new_context(offline=True, **options)
+        self.tab, self.said, self.path = self.context.new_page(), [], path
+        self.tab.on("console", lambda message: self.said.append(message.text))
+        self.tab.on("pageerror", lambda error: self.said.append(str(error)))
+        self.tab.on("request", lambda request: self.said.append(request.url))
+        self.tab.goto(path.as_uri())
+        self.drawn()
+
+    def drawn(self):
+        """Waits for two frames of the browser."""
+        self.tab.evaluate("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
+
+    def ask(self, text, *given):
+        return self.tab.evaluate(text, *given)
+
+    def until(self, text):
+        """Waits until an expression is true; the page forbids the `eval` of playwright's own waiting."""
+        ends = time.monotonic() + 20
+        while not self.ask(text):
+            assert time.monotonic() < ends, text
+            self.drawn()
+
+    def picture(self):
+        self.drawn()
+        return self.tab.locator("canvas").screenshot()
+
+    def foreign(self):
+        """What was asked for or said, other than the page itself and the data: URLs inside."""
+        return [text for text in self.said if text != self.path.as_uri() and not text.startswith("data:")]
+
+
+@pytest.fixture(scope="module")
+def results(tmp_path_factory):
+    """Pages of one ball and of three, and what they show."""
+    folder = tmp_path_factory.mktemp("rolling")
+    one = rolled(600)
+    three = rolled(400, omega=[(3.0, 4.0 + i, 10.0) for i in range(3)], every=4, title="Three starts")
+    for name in ("momentum", "gamma", "omega", "attitude", "contact"):
+        three[name][2, 51:] = np.nan
+    three["taken"][2], three["status"][2] = 200, Status.FOLDED
+    write_page(one, folder / "one.html")
+    write_page(three, folder / "three.html")
+    return {"one": (folder / "one.html", one), "three": (folder / "three.html", three)}
+
+
+@pytest.fixture
+def opened(browser, results):
+    """Opens a page; in the end it has said nothing and asked for nothing."""
+    open_pages = []
+
+    def open_page(name="one", size=DESK, **options):
+        open_pages.append(Shown(browser, results[name][0], size, **options))
+        return open_pages[-1]
+
+    yield open_page
+    for page in open_pages:
+        assert page.foreign() == []
+        page.context.close()
+
+
+def test_play_moves_the_ball(opened):
+    page = opened()
+    assert page.ask("[chapsym.playing, chapsym.frame]") == [False, 0]
+    before, place = page.picture(), page.ask("chapsym.position(chapsym.frame)")
+    page.tab.get_by_role("button", name="Play").click()
+    page.until("chapsym.frame > 60")
+    page.tab.get_by_role("button", name="Pause").click()
+    assert page.ask("chapsym.playing") is False
+    assert page.picture() != before
+    after = page.ask("chapsym.position(chapsym.frame)")
+    assert np.hypot(*np.subtract(after, place)) > 0.02
+    stopped = page.ask("chapsym.frame")
+    page.drawn()
+    assert page.ask("chapsym.frame") == stopped
+    clock = page.tab.locator("#now").inner_text()
+    assert clock == f"{page.ask('chapsym.motion.timeAt(chapsym.frame).toFixed(3)')} / 3.000 s"
+
+
+def test_it_plays_at_once_unless_motion_is_unwelcome_and_stops_at_the_end(opened):
+    page = opened(reduced_motion="no-preference")
+    assert page.ask("chapsym.playing") is True
+    page.ask("chapsym.seek(597)")
+    page.until("!chapsym.playing")
+    assert page.ask("chapsym.frame") == 600
+    page.tab.keyboard.press("Space")
+    assert page.ask("chapsym.playing && chapsym.frame < 300") is True
+
+
+def test_what_is_drawn_is_what_was_computed(opened, results):
+    page, ball = opened(), motion(results["one"][1]).balls[0]
+    positions = page.ask("Array.from({length: 601}, (_, i) => chapsym.position(i))")
+    np.testing.assert_array_equal(positions, ball.contact)
+    quaternions = page.ask("Array.from({length: 601}, (_, i) => chapsym.quaternion(i))")
+    np.testing.assert_allclose(quaternions, ball.attitude, rtol=0, atol=2 * SINGLE)
+    page.ask("chapsym.seek(321.25)")
+    page.drawn()
+    drawn = page.ask(
+        """(() => { const { balls: [one], anchor } = chapsym.stage;
+           const { x, y } = one.group.position, q = one.body.quaternion;
+           return [x + anchor[0], y + anchor[1], one.body.position.z, q.w, q.x, q.y, q.z]; })()"""
+    )
+    asked = page.ask("[...chapsym.position(321.25), 0.11, ...chapsym.quaternion(321.25)]")
+    np.testing.assert_allclose(drawn, asked, rtol=0, atol=1e-14)
+
+
+def test_the_ball_rolls_between_the_frames_and_does_not_slip(opened):
+    """ẋ = ρ ω × e₃ sin φ/φ: the discrete ball goes ρ sin φ where it turns by φ (4.9)."""
+    page = opened()
+    at = [i + s for i in (0, 100, 377, 599) for s in (0.05, 0.5)]
+    h = 0.4
+    found = page.ask(f"{at}.map(i => [i, i + {h}].map(j => [chapsym.position(j), chapsym.quaternion(j)]))")
+    for (r0, q0), (r1, q1) in found:
+        turn = front.compose(np.array(q1), np.array(q0) * [1, -1, -1, -1])
+        turn *= np.sign(turn[0])
+        angle = 2 * np.arcsin(np.linalg.norm(turn[1:]))
+        axis = turn[1:] / np.linalg.norm(turn[1:])
+        step = angle / h
+        way = 0.11 * np.cross(axis, [0, 0, 1])[:2] * h * np.sin(step)
+        # The attitudes are known to float32, both of them.
+        np.testing.assert_allclose(np.subtract(r1, r0), way, rtol=0, atol=0.11 * 8 * SINGLE)
+        assert np.hypot(*way) > 1000 * 0.11 * 8 * SINGLE
+
+
+def test_body_axes_are_where_the_pattern_has_them(opened):
+    """On the sphere, in body axes: bright and dark octants by the sign of xyz, marks that are dark at the positive ends."""
+    page = opened()
+    shades = page.ask(
+        """(() => {
+          const mesh = chapsym.stage.balls[0].body.children[0], { position, uv } = mesh.geometry.attributes;
+          const image = mesh.material.map.image;
+          const pixels = image.getContext('2d').getImageData(0, 0, image.width, image.height).data;
+          return Array.from({ length: position.count }, (_, i) => {
+            const at = (share, count) => Math.min(Math.floor(share * count), count - 1);
+            const x = at(uv.getX(i), image.width), y = at(1 - uv.getY(i), image.height);
+            return [position.getX(i), position.getY(i), position.getZ(i), pixels[4 * (y * image.width + x)]];
+          });
+        })()"""
+    )
+    points, shade = np.array(shades)[:, :3], np.array(shades)[:, 3]
+    size = np.sort(np.abs(points), axis=1)
+    octants = (size[:, 0] > 0.1) & (size[:, 2] < 0.93)
+    assert octants.sum() > 1000
+    np.testing.assert_array_equal(shade[octants], np.where(points[octants].prod(axis=1) > 0, 255, 150))
+    beside = np.sqrt(1 - size[:, 2] ** 2) / 0.25  # of the number, and inside the rim
+    for axis in range(3):
+        for sign, colour in ((1, 30), (-1, 255)):
+            marks = (sign * points[:, axis] == size[:, 2]) & (beside > 0.68) & (beside < 0.84)
+            assert marks.any()
+            assert set(shade[marks]) == {colour}
+
+
+def test_scrub_and_keys(opened):
+    page = opened()
+    slider = page.tab.get_by_role("slider", name="Time")
+    slider.fill("1.5")
+    assert page.ask("chapsym.frame") == pytest.approx(300)
+    assert slider.get_attribute("aria-valuetext") == "1.500 s"
+    assert page.tab.locator("[data-read=time]").inner_text() == "1.500 s"
+    press = page.tab.keyboard.press
+    for key, frame in [("Home", 0), ("ArrowRight", 6), ("Shift+ArrowRight", 7), ("Shift+ArrowLeft", 6), ("End", 600)]:
+        press(key)
+        assert page.ask("chapsym.frame") == pytest.approx(frame, abs=1e-9), key
+    pace = page.tab.locator("#speed")
+    before = pace.inner_text()
+    press("+")
+    press("+")
+    faster = pace.inner_text()
+    press("-")
+    press("-")
+    assert (before, pace.inner_text(), faster == before) == (before, before, False)
+    for key, mode in [("t", "top"), ("o", "free"), ("f", "follow")]:
+        press(key)
+        assert page.tab.locator("[data-look][aria-pressed=true]").get_attribute("data-look") == mode
+    view = "chapsym.stage.camera.position.toArray()"
+    page.ask("chapsym.stage.camera.position.multiplyScalar(2)")
+    moved = page.ask(view)
+    press("r")
+    assert page.ask(view) != moved
+    press("?")
+    assert page.tab.get_by_role("dialog").is_visible()
+    press("Escape")
+    assert not page.tab.get_by_role("dialog").is_visible()
+    press("Home")
+    press("Space")
+    assert page.ask("chapsym.playing") is True
+
+
+def test_every_control_has_a_name_and_can_be_focused(opened):
+    page = opened("three")
+    names = page.ask(
+        """[...document.querySelectorAll('button, input, summary')].filter(x => x.checkVisibility())
+           .map(x => x.getAttribute('aria-label') || x.textContent.trim() || '')"""
+    )
+    assert len(names) > 15
+    assert all(names)
+    reached = set()
+    for _ in range(40):
+        page.tab.keyboard.press("Tab")
+        reached.add(page.ask("(document.activeElement.ariaLabel || document.activeElement.textContent.trim())"))
+    assert {"Play", "Time", "Slower", "Faster", "Orbit", "Top", "Whole trace", "Help", "Show ball 2"} <= reached
+
+
+def test_the_camera_follows_the_ball_or_stays(opened):
+    page = opened()
+    where = "chapsym.stage.balls[0].group.position.toArray().slice(0, 2)"
+    page.ask("chapsym.seek(500)")
+    page.drawn()
+    assert np.abs(page.ask(where)).max() < 1e-9
+    page.tab.get_by_role("button", name="Orbit").click()
+    page.ask("chapsym.seek(0)")
+    page.drawn()
+    assert np.hypot(*page.ask(where)) > 0.5
+    page.tab.get_by_role("button", name="Top").click()
+    page.drawn()
+    page.ask("chapsym.stage.camera.updateMatrixWorld()")
+    corners = page.ask(
+        """[0, 600].map(i => { const [x, y] = chapsym.position(i), { anchor, camera } = chapsym.stage;
+           const place = camera.position.clone().set(x - anchor[0], y - anchor[1], 0);
+           return place.project(camera).toArray().slice(0, 2); })"""
+    )
+    assert np.abs(corners).max() < 1
+
+
+@pytest.mark.parametrize("name", ["γ, the vertical", "ω, the angular velocity", "K, the momentum"])
+def test_arrows_are_shown_when_asked_for(opened, name):
+    page = opened()
+    page.ask("chapsym.seek(200)")
+    before = page.picture()
+    button = page.tab.get_by_role("button", name=f"Arrow of {name}")
+    button.click()
+    assert button.get_attribute("aria-pressed") == "true"
+    assert page.picture() != before
+    button.click()
+    page.tab.mouse.move(640, 5)
+    assert page.picture() == before
+
+
+def test_arrows_are_the_vectors_in_space(opened, results):
+    """γ stands upright, 𝒦 stays where it is, ω has its length; in body axes they all turn."""
+    page, ball = opened(), motion(results["one"][1]).balls[0]
+    found = page.ask(
+        """(() => { const [ball] = chapsym.motion.balls, at = [0, 150.5, 600];
+           return ['gamma', 'momentum', 'omega'].map(name => at.map(i => ball.inSpace(name, i).toArray())); })()"""
+    )
+    gamma, momentum, omega = map(np.array, found)
+    np.testing.assert_allclose(gamma, np.tile([0, 0, 1], (3, 1)), atol=8 * SINGLE)
+    size = np.linalg.norm(ball.vectors["momentum"][0])
+    np.testing.assert_allclose(momentum, np.tile(momentum[0], (3, 1)), atol=8 * SINGLE * size)
+    lengths = np.linalg.norm(ball.vectors["omega"], axis=1)
+    np.testing.assert_allclose(np.linalg.norm(omega[[0, 2]], axis=1), lengths[[0, -1]], rtol=8 * SINGLE)
+    assert np.ptp(ball.vectors["momentum"], axis=0).max() > 0.1 * size
+
+
+def test_many_balls_are_followed_hidden_and_stop(opened):
+    page = opened("three")
+    assert page.tab.locator("h1").inner_text() == "Three starts"
+    assert page.tab.locator(".plan").inner_text() == "model: full · 400 steps of 0.005 s · 3 balls"
+    assert "ball 3: it stops after step 200: the small-rotation branch folds" in page.tab.locator(".notes").inner_text()
+    page.ask("chapsym.seek(80)")
+    assert page.ask("chapsym.position(80, 2)") == page.ask("chapsym.position(50, 2)")
+    assert page.tab.locator(".balls em").evaluate_all("found => found.map(x => x.checkVisibility())") == [
+        False,
+        False,
+        True,
+    ]
+    before = page.tab.locator("[data-read=position]").inner_text()
+    page.tab.get_by_role("radio", name="Follow ball 2").check()
+    assert page.tab.locator("[data-read=position]").inner_text() != before
+    shown = page.picture()
+    page.tab.get_by_role("checkbox", name="Show ball 1").uncheck()
+    page.tab.get_by_role("checkbox", name="Show ball 2").uncheck()
+    assert page.picture() != shown
+
+
+def pixels(png):
+    """The colours of a picture, (rows, columns, 3)."""
+    return image.imread(io.BytesIO(png))[..., :3]
+
+
+def boxes_apart(page):
+    """No two of the page's parts overlap, and none is wider than the window."""
+    parts = page.ask(
+        """['h1', '.plan', '.notes', '.stage', '.readout', '.balls', '.clock', '.tools']
+           .map(name => document.querySelector(name))
+           .filter(x => x && x.checkVisibility()).map(x => x.getBoundingClientRect().toJSON())"""
+    )
+    buttons = page.ask(
+        "[...document.querySelectorAll('footer button, footer input')].map(x => x.getBoundingClientRect().toJSON())"
+    )
+    for group in (parts, buttons):
+        for i, a in enumerate(group):
+            assert a["left"] >= 0
+            assert a["right"] <= page.ask("innerWidth")
+            for b in group[:i]:
+                across = min(a["right"], b["right"]) - max(a["left"], b["left"])
+                along = min(a["bottom"], b["bottom"]) - max(a["top"], b["top"])
+                assert min(across, along) <= 1, (a, b)
+    assert page.ask("document.documentElement.scrollWidth <= innerWidth")
+    return buttons
+
+
+@pytest.mark.parametrize("name", ["one", "three"])
+def test_a_phone(opened, name):
+    """At 390 px nothing overlaps; a finger presses play, and one that drags turns the view."""
+    page = opened(name, PHONE, has_touch=True, is_mobile=True, device_scale_factor=2)
+    buttons = boxes_apart(page)
+    assert min(box["height"] for box in buttons) >= 44
+    page.tab.get_by_role("button", name="Play").tap()
+    page.until("chapsym.frame > 5")
+    page.tab.get_by_role("button", name="Pause").tap()
+    assert page.ask("document.querySelector('.stage').getBoundingClientRect().bottom <= innerHeight")
+    eye = "chapsym.stage.camera.position.toArray()"
+    before = page.ask(eye)
+    fingers = page.context.new_cdp_session(page.tab)
+    for kind, points in [
+        ("touchStart", [{"x": 150, "y": 250}]), ("touchMove", [{"x": 180, "y": 260}]),
+        ("touchMove", [{"x": 230, "y": 270}]), ("touchEnd", []),
+    ]:  # fmt: skip
+        fingers.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
+    page.drawn()
+    after = page.ask(eye)
+    assert np.linalg.norm(np.subtract(after, before)) > 0.05
+    distance = "chapsym.stage.controls.getDistance()"
+    near = page.ask(distance)
+    for kind, gap in [("touchStart", 30), ("touchMove", 50), ("touchMove", 100)]:
+        points = [{"x": 195 - gap, "y": 250, "id": 0}, {"x": 195 + gap, "y": 250, "id": 1}]
+        fingers.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
+    fingers.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+    page.drawn()
+    assert page.ask(distance) < 0.7 * near
+
+
+@pytest.mark.parametrize("size", [DESK, {"width": 900, "height": 700}])
+def test_nothing_overlaps_on_a_desk(opened, size):
+    boxes_apart(opened("three", size))
+
+
+def test_dark_and_light(opened):
+    page = opened(color_scheme="dark")
+    dark = page.picture()
+    background = "getComputedStyle(document.body).backgroundColor"
+    assert page.ask(background) == "rgb(20, 23, 26)"
+    page.tab.emulate_media(color_scheme="light", reduced_motion="reduce")
+    page.drawn()
+    assert page.ask(background) == "rgb(252, 252, 250)"
+    assert page.picture() != dark
+
+
+def test_far_away_nothing_jitters(browser, tmp_path):
+    """50 000 km from the origin floats are 4 m apart; the ball, its trace and the eye stay together to a hair."""
+    far = rolled(900)
+    far["contact"] += 5e7
+    write_page(far, tmp_path / "far.html")
+    page = Shown(browser, tmp_path / "far.html")
+    for frame in (0.5, 511.5, 513.25, 899.5):
+        page.ask(f"chapsym.seek({frame})")
+        page.drawn()
+        ball, tip = page.ask(
+            """(() => { const { balls: [one], traces: [trace] } = chapsym.stage;
+               const ends = trace.tip.geometry.attributes.ends.array;
+               return [one.group.position.toArray().slice(0, 2),
+                       [trace.tip.position.x + ends[2], trace.tip.position.y + ends[3]]]; })()"""
+        )
+        assert np.abs(ball).max() < 1e-4
+        # What doubles resolve at 5e7.
+        np.testing.assert_allclose(tip, ball, rtol=0, atol=2e-8)
+        pieces = page.ask(
+            """chapsym.stage.traces[0].pieces.map(p => [p.solid.position.x, p.origin[0] - chapsym.stage.anchor[0],
+               Math.max(...p.solid.geometry.attributes.ends.array.map(Math.abs))])"""
+        )
+        for placed, wanted, longest in pieces:
+            assert placed == wanted
+            assert longest < 5
+    assert page.foreign() == []
+    page.context.close()
+
+
+def test_a_ball_on_the_spot_has_no_way(browser, tmp_path):
+    write_page(rolled(50).drop_vars(["contact", "time"]), tmp_path / "spot.html")
+    page = Shown(browser, tmp_path / "spot.html")
+    assert page.tab.locator("[data-read=position], #ghost").count() == 0
+    assert page.tab.locator("#speed").inner_text() == "2 steps/s"
+    page.tab.keyboard.press("End")
+    assert page.tab.locator("[data-read=time]").inner_text() == "step 50 of 50"
+    assert page.ask("chapsym.position(0)") == page.ask("chapsym.position(50)") == [0, 0]
+    assert page.ask("chapsym.quaternion(0)") != page.ask("chapsym.quaternion(50)")
+    assert page.foreign() == []
+    page.context.close()
+
+
+def test_frames_too_far_apart_are_shown_as_they_are(browser, tmp_path):
+    write_page(rolled(3900, every=60, ball=EVEN).drop_vars("omega"), tmp_path / "coarse.html")
+    page = Shown(browser, tmp_path / "coarse.html")
+    assert TOO_FAR in page.tab.locator(".notes").inner_text()
+    assert page.ask("chapsym.quaternion(3.7)") == page.ask("chapsym.quaternion(3)")
+    assert page.ask("chapsym.position(3.7)") != page.ask("chapsym.position(3)")
+    page.context.close()
+    write_page(rolled(3900, every=60, ball=EVEN), tmp_path / "told.html")
+    page = Shown(browser, tmp_path / "told.html")
+    assert page.tab.locator(".notes").count() == 0
+    half = page.ask("[3, 3.5, 4].map(i => chapsym.quaternion(i))")
+    first, second = (2 * np.arccos(min(1, abs(np.dot(a, b)))) for a, b in ((half[0], half[1]), (half[1], half[2])))
+    assert first == pytest.approx(second, abs=1e-3)
+    # Both halves of the same turn of more than π: 11.18 rad/s for 0.15 s.
+    assert first == pytest.approx(np.linalg.norm([3, 4, 10]) * 0.15, rel=2e-3)
+    page.context.close()
+
+
+def test_lost_graphics_are_told_and_come_back(opened):
+    page = opened()
+    shown = page.picture()
+    page.ask(
+        """window.lost = document.querySelector('canvas').getContext('webgl2').getExtension('WEBGL_lose_context');
+           lost.loseContext()"""
+    )
+    alert = page.tab.get_by_role("alert")
+    alert.wait_for(state="visible")
+    assert "taken the graphics away" in alert.inner_text()
+    page.ask("lost.restoreContext()")
+    alert.wait_for(state="hidden")
+    back = page.picture()
+    page.said[:] = [text for text in page.said if not text.startswith("THREE.WebGLRenderer: Context")]
+    # Edges are smoothed otherwise in the new context; the ball, takes 5 % of the picture.
+    changed = np.abs(pixels(back) - pixels(shown)).max(axis=2) > 0.3
+    assert changed.mean() < 0.005
+
+
+def test_no_webgl_is_told(driver, results):
+    browser = driver.chromium.launch(executable_path=CHROMIUM, headless=True, args=[*QUIET, "--disable-3d-apis"])
+    page = Shown(browser, results["one"][0])
+    alert = page.tab.get_by_role("alert")
+    assert "which this browser does not offer" in alert.inner_text()
+    assert page.tab.locator("[data-read=position]").inner_text() == "0.000, 0.000 m"
+    browser.close()
