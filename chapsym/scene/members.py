@@ -60,6 +60,12 @@ class Members:
         return replace(self, names=names, ball=_some(self.ball, chosen), parameters=some, **arrays)
 
 
+def one_ball(members: Members, i: int) -> Ball:
+    """One ball of a batch in three dimensions, by itself."""
+    ball = members.ball
+    return Ball(ball.mass_tensor[i], ball.D[i], None if ball.radius is None else ball.radius[i])
+
+
 def _some(ball: Ball | BallN, chosen: slice | np.ndarray) -> Ball | BallN:
     """Some balls of a batch."""
     return type(ball)(ball.mass_tensor[chosen], ball.D[chosen], None if ball.radius is None else ball.radius[chosen])

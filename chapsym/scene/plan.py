@@ -109,14 +109,26 @@ def planned(members: Members, task: Task) -> Plan:
     _check_outputs(members, task)
     needed = columns_for(task.outputs, top)
     refused: dict[str, str] = {}
+    prices: dict[str, float] = {}
     for model in MODELS:
         missing = sorted(needed - model.columns)
         reason = f"it does not follow {', '.join(missing)}" if missing else model.refuses(members, task, needed)
-        if reason is None:
-            lesser = {one.name: refused[one.name] for one in MODELS if one.reduction and one.name in refused}
-            return Plan(members, task, model, needed, lesser)
-        refused[model.name] = reason
-    raise BadInput("no model yields what is asked for: " + "; ".join(f"{name}: {why}" for name, why in refused.items()))
+        if reason is not None:
+            refused[model.name] = reason
+        else:
+            prices[model.name] = model.price(members, task, needed)
+    if not prices:
+        told = "; ".join(f"{name}: {why}" for name, why in refused.items())
+        raise BadInput(f"no model yields what is asked for: {told}")
+    least = min(prices, key=lambda name: prices[name])
+    dearer = {
+        name: f"it would cost {price / prices[least]:.1f} times as much"
+        for name, price in prices.items()
+        if name != least
+    }
+    lesser = {model.name: (refused | dearer).get(model.name) for model in MODELS if model.reduction}
+    (chosen,) = (model for model in MODELS if model.name == least)
+    return Plan(members, task, chosen, needed, {name: why for name, why in lesser.items() if why is not None})
 
 
 def _check_outputs(members: Members, task: Task) -> None:

@@ -5,9 +5,10 @@ from .general import General
 from .model import Model, State
 from .rolling import Rolling
 from .steady import Steady
+from .top import Top
 from .vertical import Vertical
 
-#: The least first: the first that does not refuse is taken.
-MODELS: tuple[Model, ...] = (Chosen(), General(), Steady(), Vertical(), Rolling())
+#: Of those that do not refuse, the cheapest is taken; of two of one price the first.
+MODELS: tuple[Model, ...] = (Chosen(), General(), Steady(), Top(), Vertical(), Rolling())
 
-__all__ = ["MODELS", "Chosen", "General", "Model", "Rolling", "State", "Steady", "Vertical"]
+__all__ = ["MODELS", "Chosen", "General", "Model", "Rolling", "State", "Steady", "Top", "Vertical"]

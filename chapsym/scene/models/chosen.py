@@ -8,7 +8,7 @@ from chapsym.accuracy import accurate, foreseen
 from chapsym.dynamics import Ball
 from chapsym.dynamics.ball_n import BallN
 
-from ..members import Members
+from ..members import Members, one_ball
 from ..task import Columns, Task
 from .model import Model, Progress, State
 
@@ -51,8 +51,7 @@ class Chosen(Model):
     @staticmethod
     def _request(members: Members, i: int, task: Task, needed: frozenset[str]) -> tuple[Ball, Any, dict[str, Any]]:
         """The arguments of `accurate` for one ball."""
-        whole = members.ball
-        ball = Ball(whole.mass_tensor[i], whole.D[i], None if whole.radius is None else whole.radius[i])
+        ball = one_ball(members, i)
         given = None if members.attitude is None else members.attitude[i]
         with_body = "attitude" in needed or (given is not None and "contact" in needed)
         start = members.momentum[i], members.gamma[i], task.time, task.accuracy

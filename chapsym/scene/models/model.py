@@ -43,6 +43,13 @@ class Model(ABC):
         n = len(members)
         return {"taken": np.zeros(n, dtype=np.int64), "status": np.zeros(n, dtype=np.int64)}
 
+    def price(self, members: Members, task: Task, needed: frozenset[str]) -> float:
+        """What it costs in nanoseconds of one core: nominal, so that a plan does not depend on the machine.
+
+        The prices are those of `chapsym bench plans`; the default is of models that serve where no other does.
+        """
+        return 1.0
+
     def seconds(self, members: Members, task: Task, needed: frozenset[str]) -> float | None:
         """What a run is expected to take, where the model knows it without a pilot run."""
         return None

@@ -2,13 +2,16 @@
 
 import numpy as np
 
-from chapsym.dynamics import Ball, Trajectory, trajectory
+from chapsym.dynamics import Ball, Trajectory, substeps, trajectory
 from chapsym.dynamics.trajectories import attitude_with
 
 from ..members import Members
 from ..task import Task
 from .model import Progress, State
 from .stepwise import Stepwise
+
+#: From so many balls on a batch runs in vector lanes.
+BATCH = 16
 
 
 class Rolling(Stepwise):
@@ -23,8 +26,16 @@ class Rolling(Stepwise):
     }
 
     def refuses(self, members: Members, task: Task, needed: frozenset[str]) -> str | None:
-        """Only balls in more dimensions."""
+        """Balls in more dimensions, and steps that are to be chosen."""
+        if task.accuracy is not None:
+            return "the steps are to be chosen"
         return None if isinstance(members.ball, Ball) else f"the ball is one in {members.dimension} dimensions"
+
+    def price(self, members: Members, task: Task, needed: frozenset[str]) -> float:
+        """Vector lanes for batches without a body."""
+        body = bool(needed & {"attitude", "contact"})
+        step = 45.0 if body else 8.0 if len(members) >= BATCH and task.order == 2 else 27.0
+        return len(members) * (task.steps * len(substeps(task.order)) * step + task.frames * 10.0)
 
     def attitude(self, members: Members) -> np.ndarray:
         """The least rotation with R γ = e₃."""

@@ -36,6 +36,10 @@ class Steady(Model):
             return f"{members.names[int(np.argmin(steady))]} has unequal moments and is in no steady rotation"
         return None
 
+    def price(self, members: Members, task: Task, needed: frozenset[str]) -> float:
+        """The frames alone."""
+        return 8.5e5 + len(members) * task.frames * 300.0
+
     def advance(
         self, members: Members, task: Task, needed: frozenset[str], state: State, segment: slice, progress: Progress
     ) -> tuple[Columns, State]:

@@ -1,0 +1,87 @@
+"""Discrete tops: D = 0, or vertical momentum and two equal moments; every frame at once, by Jacobi's functions."""
+
+import numpy as np
+
+from chapsym.dynamics import BadInput, Ball, Status, StepNotTaken, TopMotion, is_top, top_frames
+
+from ..members import Members, one_ball
+from ..task import Columns, Task
+from .model import Model, Progress, State
+
+
+class Top(Model):
+    """`top_frames`: no step is taken."""
+
+    name = "discrete top"
+    about = "𝒦 runs around its curve by the same phase each step: every frame by Jacobi's functions, no step between"
+    columns = frozenset({"momentum", "gamma", "attitude", "phase", "rotation_number"})
+    kernels = {"momentum": ("curve_increment",), "gamma": ("transport",), "attitude": ("compose",)}  # noqa: RUF012
+    stepwise = False
+    reduction = True
+
+    def refuses(self, members: Members, task: Task, needed: frozenset[str]) -> str | None:
+        """Balls that are no such tops, tops on the separatrix, and what `top_frames` does not have."""
+        if not isinstance(members.ball, Ball):
+            return "it is one in three dimensions"
+        if task.order != 2 or task.precision != "double" or task.accuracy is not None:
+            return "it has order 2 and float64 only"
+        tops = is_top(members.ball, members.momentum, members.gamma)
+        if not tops.all():
+            return f"D of {members.names[int(np.argmin(tops))]} is not 0, or its 𝒦 stays"
+        for i, name in enumerate(members.names):
+            try:
+                motion_of(members, i)
+            except BadInput as error:
+                return f"{name}: {error}"
+            except StepNotTaken:
+                pass
+        return None
+
+    def price(self, members: Members, task: Task, needed: frozenset[str]) -> float:
+        """The increment of each ball in 320 bits, and the frames."""
+        turned = bool(needed & {"attitude", "gamma"})
+        return len(members) * ((2.3e6 if turned else 7e5) + task.frames * (900.0 if turned else 290.0))
+
+    def advance(
+        self, members: Members, task: Task, needed: frozenset[str], state: State, segment: slice, progress: Progress
+    ) -> tuple[Columns, State]:
+        """The frames by their step numbers."""
+        assert isinstance(members.ball, Ball)
+        index = np.arange(segment.start, segment.stop) * task.every
+        given = True if members.attitude is None else members.attitude
+        found: Columns = {}
+        status = np.zeros(len(members), dtype=np.int64)
+        if needed & {"gamma", "attitude", "momentum"}:
+            run = top_frames(
+                members.ball, members.momentum, members.gamma, index, attitude=given if "attitude" in needed else False,
+                time_step=task.time_step,
+            )  # fmt: skip
+            found = {name: getattr(run, name) for name in ("momentum", "gamma", "attitude") if name in needed}
+            status = run.status
+        if needed & {"phase", "rotation_number"}:
+            found |= _phases(members, needed, index, status)
+        last = task.steps if segment.stop == task.frames else int(index[-1])
+        progress(len(members) * last)
+        return found, {"taken": np.where(status == Status.TAKEN, last, 0), "status": status}
+
+
+def motion_of(members: Members, i: int) -> TopMotion:
+    """The motion of one ball; raises as `TopMotion` does."""
+    ball, K, g = one_ball(members, i), members.momentum[i], members.gamma[i]
+    if float(ball.D) == 0.0:
+        return TopMotion.free(ball, K)
+    return TopMotion.vertical(ball, float(K @ g) / float(np.sqrt(g @ g)), g)
+
+
+def _phases(members: Members, needed: frozenset[str], index: np.ndarray, status: np.ndarray) -> Columns:
+    """u of each frame and the turns a step; NaN, with `status` set, for a ball that cannot take a step."""
+    phase, turns = np.full((len(members), len(index)), np.nan), np.full(len(members), np.nan)
+    for i in range(len(members)):
+        try:
+            motion = motion_of(members, i)
+        except StepNotTaken as stopped:
+            status[i] = stopped.status
+            continue
+        phase[i], turns[i] = motion.phase(index), motion.rotation_number
+    found = {"phase": phase, "rotation_number": turns}
+    return {name: found[name] for name in found if name in needed}
