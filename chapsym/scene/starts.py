@@ -64,8 +64,10 @@ def members_of(ball: BallTable, start: StartTable, given: Given, scale: float, n
         momentum = motion if of_momentum else _momentum_of(motion, gamma, body, scale)
         if start.vertical_momentum is not None:
             momentum = given.array(start.vertical_momentum, "start.vertical_momentum")[:, np.newaxis] * gamma
+        if not np.isfinite(momentum).all():
+            raise BadInput("K = Λω - D⟨ω,γ⟩γ is beyond the range of float64, about 1.8e308; take other units")
         return Members(
-            names, body, numbers(momentum, "momentum"), gamma, axes, attitude, _position(start, given, 2)
+            names, body, momentum, gamma, axes, attitude, _position(start, given, 2)
         )  # fmt: skip
 
 

@@ -206,7 +206,7 @@ def test_an_accuracy_has_the_momentum_of_continuous_time():
         ),
         ({}, {"position": [0, 0, 0]}, "ball: start.position must have 2 numbers"),
         ({}, {"omega": [1e-310, 0, 0.0]}, "ball: 𝒦 = εK is below the range of float64"),
-        ({"mass_tensor": [1e5] * 3}, {"omega": [0, 1e308, 0]}, "ball: momentum must be finite, but it is inf"),
+        ({"mass_tensor": [1e5] * 3}, {"omega": [0, 1e308, 0]}, "ball: K = Λω - D⟨ω,γ⟩γ is beyond the range of float64"),
         ({}, {"omega": [[0, 1, 0, 0]] * 4}, "ball: start.omega must be three numbers"),
         ({"mass_tensor": [1, 2, 3, 4]}, {}, "ball: start.omega must be skew matrices of the shape (..., 4, 4)"),
         ({"D": -1}, {}, "ball: D = m ρ² must not be negative"),

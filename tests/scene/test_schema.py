@@ -14,7 +14,8 @@ from chapsym.scene.tables import KEYS
 from .test_scene_fuzz import DATA
 
 SCHEMA = schema()
-FIRST = (Path(__file__).parents[2] / "docs" / "first.toml").read_text(encoding="utf-8")
+DOCS = Path(__file__).parents[2] / "docs"
+FIRST = (DOCS / "first.toml").read_text(encoding="utf-8")
 
 
 def valid(data):
@@ -25,6 +26,10 @@ def test_it_is_a_schema():
     jsonschema.Draft202012Validator.check_schema(SCHEMA)
     assert "quantity" not in str(SCHEMA)
     assert "null" not in str(SCHEMA)
+
+
+def test_the_examples_are_those_of_the_docs():
+    assert names() == sorted(path.stem for path in (DOCS / "scenes").glob("*.toml"))
 
 
 @pytest.mark.parametrize("text", [FIRST, *map(example, names())], ids=["first", *names()])
