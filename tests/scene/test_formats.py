@@ -9,7 +9,7 @@ import xarray
 from small_units import equal_to_the_bit, plan
 
 from chapsym.scene import SceneError, formats, load, run, save, sweep
-from chapsym.scene.source import plan_of
+from chapsym.scene.source import plan_from, plan_of
 
 FILES = [".nc", ".csv", ".parquet"]
 
@@ -134,3 +134,45 @@ def test_the_files_of_one_ball_are_read_too(tmp_path, suffix):
         assert (found[name].values == whole[name].values).all()
     assert (found.time.values == whole.time.values).all()
     assert found.taken.values == whole.taken.values
+
+
+BALL = """
+[ball]
+inertia = [0.006, 0.007, 0.009]
+mass = 2.0
+radius = 0.1
+[start]
+omega = [3.0, -2.0, 1.0]
+gamma = ["2/7", "3/7", "6/7"]
+[run]
+"""
+KINDS = {
+    "quad": 'time_step = 0.01\nsteps = 20\noutputs = ["momentum", "attitude", "contact"]\nprecision = "quad"',
+    "single": 'time_step = 0.01\nsteps = 20\noutputs = ["gamma", "energy"]\nprecision = "single"',
+    "accuracy": 'time = 1.0\naccuracy = 1e-7\nframes = 4\noutputs = ["momentum", "contact"]',
+    "start": "time_step = 0.01\nsteps = 0",
+    "every": "time_step = 0.01\nsteps = 7\nevery = 5",
+    "vertical": (Path(__file__).parents[2] / "docs/scenes/vertical.toml").read_text(encoding="utf-8"),
+}
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_every_kind_of_run_comes_back_from_every_format(tmp_path, kind):
+    wanted = plan_from(KINDS[kind] if kind == "vertical" else BALL + KINDS[kind])
+    data = sweep.run_in_memory(wanted)
+    sweep.run_to_store(wanted, tmp_path / "run.zarr")
+    equal_to_the_bit(formats.load(tmp_path / "run.zarr").load(), data)
+    for suffix in FILES:
+        formats.save(data, tmp_path / f"run{suffix}")
+        equal_to_the_bit(formats.load(tmp_path / f"run{suffix}"), data)
+    if kind == "quad":
+        assert (data.contact_low.values[0, 1:] != 0).all()
+        assert (abs(data.contact_low.values) <= 2.0**-53 * abs(data.contact.values)).all()
+    if kind == "accuracy":
+        assert data.momentum.attrs["units"] == "kg m2 s-1"
+        assert data.time.values.tolist() == [0, 0.25, 0.5, 0.75, 1.0]
+        assert 0 < data.error.values[0] <= 1e-7
+        assert "step" not in data.coords
+    if kind == "vertical":
+        assert data.rotation_number.dims == ("ball",)
+        assert np.isfinite(data.phase.values).all()
