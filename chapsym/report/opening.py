@@ -2,6 +2,7 @@
 
 import shutil
 import tempfile
+import warnings
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -47,7 +48,9 @@ def save(dataset: "Dataset", path: Path) -> None:
     temporary = None
     try:
         temporary = Path(tempfile.mkdtemp(dir=path.parent, prefix=f".{path.name}."))
-        dataset.assign_attrs(complete=True).to_zarr(temporary / "whole", consolidated=False, zarr_format=3)
+        with warnings.catch_warnings():  # as the store of a run: other readers may not know its one file of metadata
+            warnings.filterwarnings("ignore", message="Consolidated metadata")
+            dataset.assign_attrs(complete=True).to_zarr(temporary / "whole", consolidated=True, zarr_format=3)
         (temporary / "whole").rename(path)
     except OSError as error:
         raise SceneError(f"{path} cannot be written: {error.strerror or error}") from None

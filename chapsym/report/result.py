@@ -58,7 +58,7 @@ class Result:
         webbrowser.open(folder.as_uri())
 
     def save(self, path: str | Path) -> None:
-        """Writes the result to .zarr, .nc, .npz, .csv or .parquet, whole; raises SceneError if the disk refuses."""
+        """Writes the result to .zarr, .nc, .csv or .parquet, whole; raises SceneError if the disk refuses."""
         from .opening import save
 
         save(self.dataset, Path(path))
@@ -89,9 +89,7 @@ class Result:
         cell = 'style="text-align: left; padding: 0.1em 1em 0.1em 0"'
         rows = "".join(f"<tr><th {cell}>{escape(k)}</th><td {cell}>{escape(v)}</td></tr>" for k, v in self.rows())
         drawable = None in self.figures().values()
-        picture = (
-            self.figure().svg().replace("<svg ", '<svg style="max-width: 100%; height: auto" ', 1) if drawable else ""
-        )
+        picture = self.figure().svg() if drawable else ""
         caption = f"<caption {cell}>{title}</caption>" if title else ""
         return f"<table>{caption}<tbody>{rows}</tbody></table>{picture}"
 

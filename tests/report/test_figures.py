@@ -14,7 +14,7 @@ import chapsym
 from chapsym import files
 from chapsym.dynamics import BadInput
 from chapsym.report import figures
-from chapsym.report.figures import change, series
+from chapsym.report.figures import change, reading, series
 
 GAMMA = (0.48, 0.6, 0.64)
 
@@ -288,6 +288,12 @@ def test_what_is_missing_is_said_in_a_sentence():
             figures.draw(dataset, name)
 
 
+@pytest.mark.parametrize("output", ["contact", "omega", "energy", "attitude", "integrals"])
+def test_one_output_is_one_figure(output):
+    found = figures.available(results.bowling(5, outputs=(output,)))
+    assert [name for name, reason in found.items() if reason is None] == [output]
+
+
 def test_wrong_names_are_told_with_the_right_ones():
     dataset = results.folded()
     with pytest.raises(BadInput, match="no figure 'trace'; choose of contact, spheres"):
@@ -325,6 +331,14 @@ def test_balls_whose_turn_has_not_come_are_left_out():
         figures.draw(dataset, "contact")
 
 
+def test_what_stands_behind_the_last_step_of_a_ball_is_not_read():
+    dataset = results.folded()
+    dataset["contact"] = dataset["contact"].fillna(99.0)
+    read = reading.values(dataset, "contact")
+    assert np.isnan(read[1, int(dataset["taken"][1]) + 1 :]).all()
+    assert np.isfinite(read[0]).all()
+
+
 def test_decimal_strings_are_drawn_as_the_numbers_they_are():
     dataset = results.bowling(10, outputs=("contact",))
     expected = dataset["contact"].values[0, :, 0]
@@ -348,7 +362,9 @@ def test_a_ball_at_rest_is_drawn(tmp_path):
 def test_the_same_result_gives_the_same_bytes_whatever_the_user_has_set(tmp_path):
     dataset = results.vertical(60)
     first = figures.save_all(dataset, tmp_path / "a", ("svg", "png"))
-    with matplotlib.rc_context({"font.size": 30, "axes.facecolor": "red", "svg.hashsalt": "other"}):
+    with matplotlib.rc_context(
+        {"font.size": 30, "axes.linewidth": 5.0, "axes.facecolor": "red", "svg.hashsalt": "other"}
+    ):
         second = figures.save_all(dataset, tmp_path / "b", ("svg", "png"))
         assert matplotlib.rcParams["font.size"] == 30
     assert [path.name for path in first] == [path.name for path in second]

@@ -36,6 +36,9 @@ def test_no_curve_is_drawn_that_is_not_the_orbits():
     assert curve_through(Body(J[[1, 0, 2]], D), orbit, D) is None
     assert curve_through(Body(J, D), np.tile([0.0, 0.0, 1.0], (5, 1)), D) is None
     assert curve_through(Body(np.ones(3), D), orbit, D) is None
+    astray = orbit.copy()
+    astray[50] = unit(astray[50] + [1e-3, 0.0, 0.0])
+    assert curve_through(Body(J, D), astray, D) is None
 
 
 def test_the_polhode_is_that_of_the_momentum_of_a_top():
@@ -89,7 +92,7 @@ def test_the_range_of_the_energy_is_that_of_all_states_with_these_integrals(of_g
 
 
 @pytest.mark.parametrize(
-    "make", [lambda: results.uneven(1000), lambda: results.bowling(500)], ids=["uneven", "bowling"]
+    "make", [lambda: results.uneven(1000), lambda: results.bowling(500), lambda: results.folded().isel(ball=[0])]
 )
 def test_no_state_of_the_run_is_where_it_is_grey(make):
     dataset = make()
