@@ -8,7 +8,7 @@ import time
 import numpy as np
 import pytest
 from matplotlib import image
-from rolling_results import EVEN, rolled
+from rolling_results import BALL, EVEN, rolled
 
 from chapsym.dynamics import Status, front
 from chapsym.report.rolling import write_page
@@ -173,7 +173,7 @@ def test_the_ball_rolls_between_the_frames_and_does_not_slip(opened):
 
 
 def test_body_axes_are_where_the_pattern_has_them(opened):
-    """On the sphere, in body axes: bright and dark octants by the sign of xyz, marks that are dark at the positive ends."""
+    """On the sphere, in body axes: octants by the sign of xyz, and marks that are dark at the positive ends."""
     page = opened()
     shades = page.ask(
         """(() => {
@@ -436,6 +436,27 @@ def test_a_ball_on_the_spot_has_no_way(browser, tmp_path):
     assert page.ask("chapsym.position(0)") == page.ask("chapsym.position(50)") == [0, 0]
     assert page.ask("chapsym.quaternion(0)") != page.ask("chapsym.quaternion(50)")
     assert page.foreign() == []
+    page.context.close()
+
+
+def test_the_ellipsoid_has_the_principal_axes(browser, tmp_path):
+    """Its semi-axes are as 1/√I, along the principal axes, which the quaternion `axes` turns to those of the body."""
+    turned = rolled(10).assign(axes=(("ball", "quaternion"), [[0.5, 0.5, -0.5, 0.5]]))
+    write_page(turned, tmp_path / "axes.html")
+    page = Shown(browser, tmp_path / "axes.html")
+    before = page.picture()
+    page.tab.get_by_role("button", name="Ellipsoid of inertia").click()
+    assert page.picture() != before
+    axes = np.array(
+        page.ask(
+            """(() => { const { ellipsoid, body } = chapsym.stage.balls[0], [surface] = ellipsoid.children;
+               chapsym.stage.scene.updateMatrixWorld();
+               const seen = body.matrixWorld.clone().invert().multiply(surface.matrixWorld);
+               return [0, 1, 2].map(i => seen.elements.slice(4 * i, 4 * i + 3)); })()"""
+        )
+    )
+    wanted = front.rotate(np.full((3, 4), [0.5, 0.5, -0.5, 0.5]), np.diag(1 / np.sqrt(BALL.inertia)))
+    np.testing.assert_allclose(axes / np.linalg.norm(axes), wanted / np.linalg.norm(wanted), rtol=0, atol=1e-12)
     page.context.close()
 
 
