@@ -27,6 +27,7 @@ if TYPE_CHECKING:
         Step,
         StepN,
         StepNotTaken,
+        TopMotion,
         Trajectory,
         TrajectoryN,
         VerticalTrajectory,
@@ -41,6 +42,7 @@ if TYPE_CHECKING:
         increment,
         invariants_n,
         is_steady,
+        is_top,
         margin,
         retrace_error,
         reverse,
@@ -53,6 +55,7 @@ if TYPE_CHECKING:
         step_n,
         step_vertical,
         substeps,
+        top_frames,
         trajectory,
         trajectory_n,
         trajectory_vertical,
@@ -65,11 +68,11 @@ __version__ = "0.1.0"
 
 __all__ = [
     "BadInput", "Ball", "BallN", "Branches", "Certificate", "Curve", "ExactTop", "Extrapolated", "Fold", "Followed",
-    "NotRetraced", "Result", "Status", "Step", "StepN", "StepNotTaken", "Trajectory", "TrajectoryN",
-    "VerticalTrajectory", "axial", "branches", "certify", "compose_step", "exact_top", "extrapolate", "fold",
-    "follow", "increment", "invariants_n", "is_steady", "margin", "open_result", "retrace_error", "reverse",
+    "NotRetraced", "Result", "Status", "Step", "StepN", "StepNotTaken", "TopMotion", "Trajectory", "TrajectoryN",
+    "VerticalTrajectory", "axial", "branches", "certify", "compose_step", "exact_top", "extrapolate", "fold", "follow",
+    "increment", "invariants_n", "is_steady", "is_top", "margin", "open_result", "retrace_error", "reverse",
     "reverse_n", "roll", "rotation_number", "run_scene", "skew", "steady_frames", "step", "step_n", "step_vertical",
-    "substeps", "trajectory", "trajectory_n", "trajectory_vertical",
+    "substeps", "top_frames", "trajectory", "trajectory_n", "trajectory_vertical",
 ]  # fmt: skip
 
 

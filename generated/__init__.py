@@ -4,6 +4,7 @@ from .angular_velocity import angular_velocity
 from .centre_step import centre_step
 from .compose import compose
 from .contact_momentum import contact_momentum
+from .curve_increment import curve_increment
 from .energy import energy
 from .gibbs_mixed import gibbs_mixed
 from .gibbs_newton import gibbs_newton
@@ -14,6 +15,7 @@ from .invariants import invariants
 from .isotropic_spin import isotropic_spin
 from .momentum import momentum
 from .momentum_jacobian import momentum_jacobian
+from .precession_parts import precession_parts
 from .residual import residual
 from .rotate import rotate
 from .rotation import rotation
@@ -31,6 +33,7 @@ TABLE = {
     "centre_step": (centre_step, (('rotation', 4), ('gamma', 3)), (3,)),
     "compose": (compose, (('first', 4), ('second', 4)), (4,)),
     "contact_momentum": (contact_momentum, (('omega', 3), ('gamma', 3), ('mass_tensor', 3), ('D', 1)), (3,)),
+    "curve_increment": (curve_increment, (('ordered', 3), ('inverse_square', 1)), (5,)),
     "energy": (energy, (('momentum', 3), ('gamma', 3), ('mass_tensor', 3), ('D', 1)), ()),
     "gibbs_mixed": (gibbs_mixed, (('correction', 3), ('next_correction', 3), ('half_momentum', 3), ('cofactors', 9), ('inertia', 3)), (3,)),
     "gibbs_newton": (gibbs_newton, (('gibbs', 3), ('half_momentum', 3), ('gamma', 3), ('inertia', 3), ('D', 1)), (13,)),
@@ -41,6 +44,7 @@ TABLE = {
     "isotropic_spin": (isotropic_spin, (('half_momentum', 3), ('gamma', 3), ('moment', 1), ('D', 1)), (3,)),
     "momentum": (momentum, (('rotation', 4), ('gamma', 3), ('mass_tensor', 3), ('D', 1)), (3,)),
     "momentum_jacobian": (momentum_jacobian, (('rotation', 4), ('gamma', 3), ('mass_tensor', 3), ('D', 1)), (3, 3)),
+    "precession_parts": (precession_parts, (('ordered', 3), ('inverse_square', 1)), (4,)),
     "residual": (residual, (('rotation', 4), ('momentum', 3), ('gamma', 3), ('mass_tensor', 3), ('D', 1)), (3,)),
     "rotate": (rotate, (('rotation', 4), ('vector', 3)), (3,)),
     "rotation": (rotation, (('rotation', 4),), (3, 3)),

@@ -164,5 +164,36 @@ def commuting_tops(p: Proof) -> None:
     p.control(followed("the same with ω and ω~ exchanged", *rates[::-1]))
 
 
+@claim(
+    "top-precession",
+    r"\gamma' = b = \gamma\times\Lambda^{-1}\gamma:\quad \langle\gamma\times b, b' + \Lambda^{-1}\gamma\times b\rangle = "
+    r"\langle b,\Lambda^{-1}b\rangle = \tfrac{\langle\gamma,\Lambda\gamma\rangle l - 1}{\det\Lambda},\quad "
+    r"|b|^2 = \langle\gamma,\Lambda^{-2}\gamma\rangle - l^2",
+    uses=["vertical-top"],
+)
+def precession(p: Proof) -> None:
+    """In space Rb turns about the fixed Rγ by ⟨b,Λ⁻¹b⟩/|b|², which is a quotient of linear functions of sn²u."""
+    p.assume("|γ| = 1; ω = Λ⁻¹γ, and Rb changes by R(b' + ω×b)")
+    p.say("The rate of the angle of Rb about Rγ is ⟨γ×b, b' + ω×b⟩/|b|², as b is across γ.")
+    ring = Quotient((*gamma, *INERTIA), [three.UNIT_VERTICAL])
+    spin = LAMBDA.inv() * gamma
+    b = gamma.cross(spin)
+    rate = b.jacobian(gamma) * b + spin.cross(b)
+    weighted = b.dot(LAMBDA.inv() * b)
+
+    def turning(text: str, value: sp.Expr) -> Equation:
+        return Equation(text, [gamma.cross(b).dot(rate)], [value], ring)
+
+    form = gamma.dot(spin)
+    p.printed(
+        turning("⟨γ×b, b' + ω×b⟩ = ⟨b,Λ⁻¹b⟩", weighted),
+        Equation(
+            "det(Λ)⟨b,Λ⁻¹b⟩ = ⟨γ,Λγ⟩l - 1", [LAMBDA.det() * weighted], [gamma.dot(LAMBDA * gamma) * form - 1], ring
+        ),
+        Equation("|b|² = ⟨γ,Λ⁻²γ⟩ - l²", [b.dot(b)], [spin.dot(spin) - form**2], ring),
+    )
+    p.control(turning("⟨γ×b, b' + ω×b⟩ = ⟨b,Λb⟩", b.dot(LAMBDA * b)))
+
+
 if __name__ == "__main__":
     main(__file__)

@@ -175,6 +175,34 @@ def closed(a):
     return [MP.det(M), *(t * MP.det(M) * MP.lu_solve(M, column(g)))]
 
 
+def on_curve(a):
+    """k², G at three points of sn², and μ, from |γ|² = 1 and ⟨γ,Λ⁻¹γ⟩ = l solved at sn = 0 and 1."""
+    L, right = a["ordered"], column([1, a["inverse_square"][0]])
+    first, third = MP.lu_solve(matrix([[1, 1], [1 / L[0], 1 / L[2]]]), right)
+    second, rest = MP.lu_solve(matrix([[1, 1], [1 / L[1], 1 / L[2]]]), right)
+    k2 = 1 - rest / third
+
+    def G(y):
+        cn2, dn2 = 1 - y, 1 - k2 * y
+        return (first / L[0] ** 2 - second / L[1] ** 2 * dn2) * cn2 / k2 + third / L[2] ** 2 * dn2
+
+    points = [MP.mpf(x) for x in (0, 1, 2)]
+    return [k2, *MP.lu_solve(matrix([[1, x, x * x] for x in points]), column([G(x) for x in points])), second / L[1]]
+
+
+def precession(a):
+    """The products b, b and b, Λ⁻¹b of vectors γ × Λ⁻¹γ at sn = 0 and 1, where γ has two components."""
+    L, right = a["ordered"], column([1, a["inverse_square"][0]])
+    found = []
+    for i in (0, 1):
+        other = MP.lu_solve(matrix([[1, 1], [1 / L[i], 1 / L[2]]]), right)
+        # b² = γᵢ²γ₃²(1/Λᵢ - 1/Λ₃)² along the third axis.
+        square = other[0] * other[1] * (1 / L[i] - 1 / L[2]) ** 2
+        found.append((square, square / L[1 - i]))
+    (first, weighted), (second, heavier) = found
+    return [first, second - first, weighted, heavier - weighted]
+
+
 #: Each kernel by another formulation: the oracle's matrices (4.13), linear solves, 3×3 determinants.
 INDEPENDENT = {
     "momentum": lambda a: oracle_momentum(*body(a)),
@@ -202,6 +230,8 @@ INDEPENDENT = {
     "vertical_square": lambda a: [dot([x * x for x in a["gamma"]], [math.prod(a["Lambda"]) / m for m in a["Lambda"]])],
     "vertical_level": level,
     "vertical_rotation": closed,
+    "curve_increment": on_curve,
+    "precession_parts": precession,
     "isotropic_spin": lambda a: list(
         MP.lu_solve(rolled(3 * [a["moment"][0] / 2], a["D"][0], normalised(a["gamma"])), column(a["half_momentum"]))
     ),

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from chapsym.derive import continuous, gibbs, steady, three, vertical
+from chapsym.derive import continuous, elliptic, gibbs, steady, three, vertical
 from chapsym.derive.limits import omega
 from chapsym.derive.three import J1, J2, J3, D, K, gamma, q, q0
 
@@ -28,6 +28,8 @@ NEXT: Group = ("next_correction", tuple(gibbs.e))
 COFACTORS: Group = ("cofactors", tuple(gibbs.C))
 ANY_QUATERNION: Group = ("quaternion", (gibbs.p0, *gibbs.p))
 INERTIA: Group = ("inertia", tuple(gibbs.INERTIA.diagonal()))
+ORDERED: Group = ("ordered", elliptic.LAMBDA)
+SQUARE: Group = ("inverse_square", (elliptic.l,))
 MOMENT: Group = ("moment", (steady.moment,))
 LAMBDA: Group = ("Lambda", vertical.INERTIA)
 BODY: tuple[Group, ...] = (GAMMA, MASS_TENSOR, CONTACT)
@@ -292,5 +294,23 @@ KERNELS: tuple[Kernel, ...] = (
         _vector("w"),
         steady.spin,
         steady.spin_steps,
+    ),
+    Kernel(
+        "curve_increment",
+        "k², G = G0 + G1 sn² + G2 sn⁴ and μ of a curve: hG𝒟 = 2Vw(𝒟 - D(l - μ sn²)), V² = G0, at the half increment.",
+        ("5.8", "5.8-modulus", "5.14-G", "5.15"),
+        (ORDERED, SQUARE),
+        (5,),
+        ("k2", "G0", "G1", "G2", "mu"),
+        elliptic.increment_parts,
+    ),
+    Kernel(
+        "precession_parts",
+        "|b|² = P0 + P1 sn² and ⟨b,Λ⁻¹b⟩ = N0 + N1 sn² on a curve, b = γ × Λ⁻¹γ: Rb turns about γ by their quotient.",
+        ("5.8", "5.8-modulus", "top-precession"),
+        (ORDERED, SQUARE),
+        (4,),
+        ("P0", "P1", "N0", "N1"),
+        elliptic.precession_parts,
     ),
 )

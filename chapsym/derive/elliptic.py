@@ -89,3 +89,35 @@ def quarter_form(power: int) -> sp.Expr:
     sums = [x + y for x, y in ((before.cn, after.cn), (before.sn, after.sn), (before.dn, after.dn))]
     squares = squared_amplitudes()
     return sum(c * s**2 / (4 * lam**power) for c, s, lam in zip(squares, sums, LAMBDA, strict=True))
+
+
+def increment_parts() -> list[sp.Expr]:
+    """k², the coefficients G₀ = V², G₁, G₂ of G = Π₂𝒟 + ... (5.14-G as corrected) in sn²δu, and μ, by Λ and l.
+
+    With them (5.15) as corrected reads hG𝒟 = 2Vw(𝒟 - D(l - μ sn²δu)), w = sn cn dn of δu.
+    """
+    modulus, y = squared_modulus(), sp.Symbol("y")
+    first, second, third = (c / lam**2 for c, lam in zip(squared_amplitudes(), LAMBDA, strict=True))
+    cosine, delta = 1 - y, 1 - modulus * y
+    whole = sp.Poly(sp.cancel((first * cosine - second * cosine * delta) / modulus + third * delta), y)
+    if whole.degree() != 2:
+        raise ArithmeticError("G is not of degree 2 in sn² of the half increment")
+    mean = squared_amplitudes()[1] / L2
+    return [modulus, *(sp.factor(whole.coeff_monomial(y**i)) for i in range(3)), sp.factor(mean)]
+
+
+def precession_parts() -> list[sp.Expr]:
+    """P₀, P₁, N₀, N₁ with |b|² = P₀ + P₁ sn²u and ⟨b,Λ⁻¹b⟩ = N₀ + N₁ sn²u on the curve, b = γ × Λ⁻¹γ, by Λ and l.
+
+    Lemma `top-precession`: |b|² = ⟨γ,Λ⁻²γ⟩ - l² and det(Λ)⟨b,Λ⁻¹b⟩ = ⟨γ,Λγ⟩l - 1.
+    """
+    modulus, squares = squared_modulus(), squared_amplitudes()
+
+    def parts(weights: list[sp.Expr]) -> tuple[sp.Expr, sp.Expr]:
+        a, b, c = (x * square for x, square in zip(weights, squares, strict=True))
+        return a + c, b - a - modulus * c
+
+    inverse, direct = parts([1 / lam**2 for lam in LAMBDA]), parts(list(LAMBDA))
+    whole = sp.prod(LAMBDA)
+    found = [inverse[0] - l**2, inverse[1], (direct[0] * l - 1) / whole, direct[1] * l / whole]
+    return [sp.factor(sp.cancel(x)) for x in found]

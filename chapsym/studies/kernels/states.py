@@ -158,6 +158,12 @@ def _vertical(world: World, u: Sequence[float]) -> tuple[float, float]:
     return t, level * (1 + 0.1 * (t / float(moments.min())) ** 2 * u[13])
 
 
+def _ordered(moments: np.ndarray) -> np.ndarray:
+    """Three different moments, the largest first: a curve needs them."""
+    largest = float(moments.max())
+    return np.array([1.0, 0.5, 0.25]) * largest + np.sort(moments)[::-1]
+
+
 def _group(name: str, world: World, u: Sequence[float]) -> Any:
     inertia = world.J.sum() - world.J
     free = world.size * world.tilt
@@ -181,6 +187,8 @@ def _group(name: str, world: World, u: Sequence[float]) -> Any:
         "next_correction": lambda: 1e-6 * np.abs(_gibbs(world)).max() * world.axis[[1, 2, 0]],
         "quaternion": lambda: (0.5 + u[12]) * world.rotation,
         "inertia": lambda: inertia,
+        "ordered": lambda: _ordered(inertia + world.D),
+        "inverse_square": lambda: [(u[12] + 0.01) / _ordered(inertia + world.D)[2]],
         "moment": lambda: inertia[:1],
         "Lambda": lambda: inertia + world.D,
         "scalars": lambda: [t, v],
