@@ -75,14 +75,15 @@ def steady_frames(
         )
     axis, half, sine = _rotation(K, g, moment, D)
     taken = sine < QUARTER
-    angle = turns.fraction(half[0][:, np.newaxis], half[1][:, np.newaxis], numbered)
-    cosine, along = turns.cosine_and_sine(angle)
-    q = np.concatenate([cosine[..., np.newaxis], along[..., np.newaxis] * axis[:, np.newaxis]], axis=-1)
-    momenta, verticals = (v[:, np.newaxis] + front.turn(q, v[:, np.newaxis]) for v in (K, g))
+    cosine, along = turns.cosines_and_sines(*half, numbered)
+    momenta, verticals = (_turned(v, axis, cosine, along) for v in (K, g))
     attitudes = traces = None
     if contact or not (isinstance(attitude, bool | np.bool_) and not attitude):
         first = np.broadcast_to(initial_attitude(attitude, g.reshape(*shape, 3)), (*shape, 4)).reshape(-1, 4)
-        attitudes = front.compose(first[:, np.newaxis], q)
+        later = front.compose(first, np.concatenate([np.zeros((len(axis), 1)), axis], axis=-1))
+        attitudes = np.empty((*cosine.shape, 4))
+        for i in range(4):
+            attitudes[..., i] = cosine * first[:, i, np.newaxis] + along * later[:, i, np.newaxis]
         if contact:
             traces = _straight(ball, shape, first, g, axis, half, numbered)
     for frames in (momenta, verticals, attitudes, traces):
@@ -118,6 +119,22 @@ def _rotation(K: Floats, g: Floats, moment: turns.Pair, D: Floats) -> tuple[Floa
     still = ~K.any(axis=-1)
     axis[still | ~taken] = 0.0
     return axis, (half, half_), np.where(still, 0.0, size)
+
+
+def _turned(v: Floats, axis: Floats, cosine: Floats, along: Floats) -> Floats:
+    """Ω⁻ᵏv, (n, frames, 3), by the cos and sin of half the angle: `turn` is quadratic in the quaternion (c, s axis)."""
+    moves = axis.any(axis=-1, keepdims=True)
+    axis = np.where(moves, axis, [1.0, 0.0, 0.0])
+    pure, both = (front.turn(np.concatenate([np.full((len(v), 1), c), axis], axis=-1), v) for c in (0.0, 1.0))
+    # At (0, a) it is 2a×(a×v), at (1, a) the half of that less a×v.
+    square, mixed = np.where(moves, pure, 0.0), np.where(moves, 2.0 * both - pure, 0.0)
+    found = np.empty((*cosine.shape, 3))
+    across, beside = along * along, along * cosine
+    for i in range(3):
+        np.multiply(across, square[:, i, np.newaxis], out=found[..., i])
+        found[..., i] += beside * mixed[:, i, np.newaxis]
+        found[..., i] += v[:, i, np.newaxis]
+    return found
 
 
 def _straight(

@@ -17,6 +17,8 @@ FULL_TURN = (6.283185307179586, 2.4492935982947064e-16)
 #: Halvings of an angle of 45° or less before the series, and its terms: tan φ is then below 0.0246, and tan²⁰φ 2⁻¹⁰⁶.
 HALVINGS = 5
 TERMS = 10
+#: From so many step numbers on there are fewer angles than frames.
+MANY = 64
 #: Step numbers are split here, so that each part is a float.
 SPLIT = 2**32
 
@@ -67,3 +69,22 @@ def cosine_and_sine(fractions: Floats) -> tuple[Floats, Floats]:
     odd, quarter = quarters % 2 != 0, quarters % 4
     x, y = np.where(odd, sine, cosine), np.where(odd, cosine, sine)
     return np.where((quarter == 1) | (quarter == 2), -x, x), np.where(quarter >= 2, -y, y)
+
+
+def cosines_and_sines(turns: Floats, turns_: Floats, index: np.ndarray) -> tuple[Floats, Floats]:
+    """cos and sin of 2πkτ for pairs τ, (n,), and ascending step numbers k, (frames,): two arrays (n, frames).
+
+    Many step numbers at equal distances are made of a coarse and a fine part, so that there are few angles:
+    a product of two rotations, within 3 ulps.
+    """
+    high, low = turns[:, np.newaxis], turns_[:, np.newaxis]
+    count, every = len(index), int(index[1] - index[0]) if len(index) > 1 else 1
+    if count < MANY or (np.diff(index) != every).any():
+        return cosine_and_sine(fraction(high, low, index))
+    width = int(np.sqrt(count))
+    fine = np.arange(width) * every
+    coarse = index[0] + np.arange(0, count, width) * every
+    (a, b), (c, d) = (cosine_and_sine(fraction(high, low, part)) for part in (coarse, fine))
+    a, b, c, d = a[:, :, np.newaxis], b[:, :, np.newaxis], c[:, np.newaxis], d[:, np.newaxis]
+    cosine, sine = a * c - b * d, a * d + b * c
+    return cosine.reshape(len(turns), -1)[:, :count], sine.reshape(len(turns), -1)[:, :count]

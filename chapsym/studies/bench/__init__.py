@@ -13,6 +13,7 @@ SECTIONS = {
     "trajectory": "trajectory",
     "batch": "batch",
     "memory": "memory",
+    "plans": "plans",
     "first-call": "first_call",
     "long": "long_runs",
     "work-precision": "work_precision",

@@ -1,0 +1,119 @@
+"""What each reduction saves: its time beside that of the full model, for every frame and for a few far ones."""
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+import chapsym
+from chapsym.dynamics import TopMotion
+
+from .harness import Contender, NotComparable, Result, cores, interleaved, ratio_columns
+
+FULL = "full model"
+MOMENTUM, GAMMA = np.array((6.0, -2.0, 3.0)) / 7, np.array((2.0, 3.0, 6.0)) / 7
+#: |𝒦|, with moments of about 2.
+EPSILON = 0.05
+#: Many balls, on one core.
+BATCH = 1000
+#: How far the ends of the two may be apart: n^(3/2) roundings, which the full model makes.
+ROUNDING = 2.0**-50
+
+Run = Callable[[int, int], Any]
+
+
+@dataclass(frozen=True)
+class Pair:
+    """A reduction and the full model on the same states: both take (steps, every) and return 𝒦 or γ at the end."""
+
+    name: str
+    reduced: Run
+    full: Run
+    balls: int = 1
+
+
+def _ball(J: tuple[float, float, float], D: float, balls: int = 1) -> chapsym.Ball:
+    tensor = np.array(J) if balls == 1 else np.tile(J, (balls, 1)) * np.linspace(1, 2, balls)[:, np.newaxis]
+    return chapsym.Ball(tensor, D, radius=0.1)  # type: ignore[arg-type]
+
+
+def _index(steps: int, every: int) -> np.ndarray:
+    return np.arange(0, steps + 1, every)
+
+
+def _full(ball: chapsym.Ball, K: np.ndarray, steps: int, every: int, **body: bool) -> np.ndarray:
+    return chapsym.trajectory(ball, K, GAMMA, steps, every=every, threads=1, **body).momentum[..., -1, :]  # type: ignore[arg-type]
+
+
+def _steady(ball: chapsym.Ball, K: np.ndarray, steps: int, every: int, **body: bool) -> np.ndarray:
+    return chapsym.steady_frames(ball, K, GAMMA, _index(steps, every), **body).momentum[..., -1, :]
+
+
+def _top(ball: chapsym.Ball, K: np.ndarray, steps: int, every: int, **body: bool) -> np.ndarray:
+    return chapsym.top_frames(ball, K, GAMMA, _index(steps, every), **body).momentum[..., -1, :]
+
+
+def _momenta(ball: chapsym.Ball, K: np.ndarray, steps: int, every: int) -> np.ndarray:
+    return TopMotion.free(ball, K).momenta(_index(steps, every))[-1]
+
+
+def _vertical(ball: chapsym.Ball, height: float, gamma: np.ndarray, steps: int, every: int) -> np.ndarray:
+    return chapsym.trajectory_vertical(ball, height, gamma, steps, every=every).momentum[-1]
+
+
+def pairs() -> list[Pair]:
+    """Every reduction with the full model that it stands for."""
+    K, up = EPSILON * MOMENTUM, EPSILON * GAMMA
+    equal, many = _ball((1, 1, 1), 0.7), _ball((1, 1, 1), 0.7, BATCH)
+    top, round_top, ball = _ball((0.1, 0.5, 1.6), 0.0), _ball((0.5, 0.5, 1.6), 0.7), _ball((0.1, 0.5, 1.6), 0.7)
+    return [
+        Pair("equal J: 𝒦, γ", partial(_steady, equal, K), partial(_full, equal, K)),
+        Pair("equal J: with the contact point", partial(_steady, equal, K, contact=True),
+             partial(_full, equal, K, contact=True)),
+        Pair(f"equal J: 𝒦, γ, {BATCH} balls", partial(_steady, many, K), partial(_full, many, K), BATCH),
+        Pair("top: 𝒦 at once", partial(_momenta, top, K), partial(_full, top, K)),
+        Pair("top: 𝒦 step by step (G_h)", partial(_vertical, top, EPSILON, MOMENTUM), partial(_full, top, K)),
+        Pair("top: 𝒦, γ, attitude at once", partial(_top, top, K, attitude=True),
+             partial(_full, top, K, attitude=True)),
+        Pair("two equal J, vertical 𝒦: at once", partial(_top, round_top, up), partial(_full, round_top, up)),
+        Pair("vertical 𝒦: step by step (G_h)", partial(_vertical, ball, EPSILON, GAMMA), partial(_full, ball, up)),
+    ]  # fmt: skip
+
+
+def measure(quick: bool, on_round: Callable[[str], None] = lambda text: None) -> Result:
+    """Times each reduction beside the full model, all frames and 1 of 1000; their ends are compared before."""
+    rounds = 5 if quick else 15
+    rows: list[dict[str, Any]] = []
+    for pair in pairs():
+        # The two ways to ask: every frame of a short run, few of a long one.
+        for steps, every in ((100, 1), (2000, 1)) if pair.balls > 1 else ((1000, 1), (20_000, 1)):
+            rows.append(_row(pair, steps, every, rounds, on_round))
+        steps = (2_000 if pair.balls > 1 else 100_000) * (1 if quick else 10)
+        rows.append(_row(pair, steps, steps // 10, rounds, on_round))
+    return Result("the reductions beside the full model, one core", rows)
+
+
+def _row(pair: Pair, steps: int, every: int, rounds: int, on_round: Callable[[str], None]) -> dict[str, Any]:
+    ends = [side(steps, every) for side in (pair.reduced, pair.full)]
+    apart = float(np.abs(ends[0] - ends[1]).max() / EPSILON)
+    if not apart <= ROUNDING * steps**1.5:
+        raise NotComparable(f"{pair.name} differs from the full model by {apart:.1e} after {steps} steps")
+    with cores(1):
+        timed = interleaved(
+            [Contender(name, partial(side, steps, every), 1, time.thread_time)
+             for name, side in (("reduced", pair.reduced), (FULL, pair.full))],
+            rounds, lambda done: on_round(f"{pair.name}: round {done} of {rounds}"),
+        )  # fmt: skip
+    reduced, full = timed["reduced"], timed[FULL]
+    return {
+        "name": pair.name,
+        "steps": steps,
+        "frames": steps // every + 1,
+        "ms": reduced.median * 1e3,
+        f"{FULL}, ms": full.median * 1e3,
+        **ratio_columns(reduced, full, FULL),
+        "differs by": apart,
+    }
