@@ -183,8 +183,7 @@ function begin() {
     trouble('This page draws with WebGL, which this browser does not offer: turn on hardware acceleration, or try another browser.');
     return;
   }
-  canvas.addEventListener('webglcontextlost', (event) => {
-    event.preventDefault();
+  canvas.addEventListener('webglcontextlost', () => { // three asks for it back
     trouble('The browser has taken the graphics away from this page; the picture returns when it gives them back, or reload.');
   });
   canvas.addEventListener('webglcontextrestored', () => { trouble(''); stage.stale = true; });
