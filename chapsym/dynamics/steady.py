@@ -21,6 +21,8 @@ from .trajectories import Trajectory, initial_attitude
 
 #: A step by more than a quarter turn is beyond the fold (lemmas `steady-branch`, `steady-axis`, `steady-roll`).
 QUARTER = 1.0
+#: Numbers that are worked on at a time, so that they stay in the cache.
+BLOCK = 8192
 
 
 def is_steady(ball: Ball, momentum: ArrayLike, gamma: ArrayLike) -> np.ndarray:
@@ -106,19 +108,27 @@ def steady_frames(
 
 def _rotation(K: Floats, g: Floats, moment: turns.Pair, D: Floats) -> tuple[Floats, turns.Pair, Floats]:
     """The axis of the steady rotation, (n, 3), half its angle in turns as a pair, and sin θ = |2w|, inf for I = 0."""
+    still, hollow = ~K.any(axis=-1), moment[0] == 0.0
+    up, down = np.frexp(np.abs(K).max(axis=-1))[1], np.frexp(moment[0] + D)[1]
     with np.errstate(all="ignore"):
-        up, down = np.frexp(np.abs(K).max(axis=-1))[1], np.frexp(moment[0] + D)[1]
-        k, I, I_ = np.ldexp(K, -up[:, np.newaxis]), np.ldexp(moment[0], -down), np.ldexp(moment[1], -down)
-        w1, _, w2, _, w3, _, square, square_ = steady_pairs(*k.T, *g.T, I, I_, np.ldexp(D, -down))
-        size, size_ = (np.ldexp(half, up - down) for half in turns.root(square, square_))
-        cosine = turns.root(*pairs.subtract(1.0, 0.0, *pairs.multiply(size, size_, size, size_)))
-        tangent = pairs.divide(size, size_, *pairs.add(1.0, 0.0, *cosine))
+        k = np.ldexp(K, -up[:, np.newaxis])
+        I, I_ = (np.where(hollow, one, np.ldexp(x, -down)) for x, one in zip(moment, (1.0, 0.0), strict=True))
+        w1, _, w2, _, w3, _, square, square_ = turns.each(steady_pairs, *k.T, *g.T, I, I_, np.ldexp(D, -down))
+        square, square_ = np.where(still, 1.0, square), np.where(still, 0.0, square_)
+        size, size_ = (np.ldexp(x, up - down) for x in turns.each(turns.root, square, square_))
+        size, size_ = np.where(still, 0.0, np.where(hollow, np.inf, size)), np.where(still | hollow, 0.0, size_)
         taken = size < QUARTER
-        half, half_ = turns.turns_of_tangent(*(np.where(taken, x, 0.0) for x in tangent))
+        sine = (np.where(taken, x, 0.0) for x in (size, size_))
+        half = turns.each(_half_angle, *sine)
         axis = np.stack([w1, w2, w3], axis=-1) / np.sqrt(square)[:, np.newaxis]
-    still = ~K.any(axis=-1)
     axis[still | ~taken] = 0.0
-    return axis, (half, half_), np.where(still, 0.0, size)
+    return axis, (half[0], half[1]), size
+
+
+def _half_angle(sine: Floats, sine_: Floats) -> turns.Pair:
+    """θ/2 in turns by tan(θ/2) = sin θ/(1 + cos θ), for pairs 0 ≤ sin θ < 1."""
+    cosine = turns.root(*pairs.subtract(1.0, 0.0, *pairs.multiply(sine, sine_, sine, sine_)))
+    return turns.turns_of_tangent(*pairs.divide(sine, sine_, *pairs.add(1.0, 0.0, *cosine)))
 
 
 def _turned(v: Floats, axis: Floats, cosine: Floats, along: Floats) -> Floats:
@@ -129,11 +139,14 @@ def _turned(v: Floats, axis: Floats, cosine: Floats, along: Floats) -> Floats:
     # At (0, a) it is 2a×(a×v), at (1, a) the half of that less a×v.
     square, mixed = np.where(moves, pure, 0.0), np.where(moves, 2.0 * both - pure, 0.0)
     found = np.empty((*cosine.shape, 3))
-    across, beside = along * along, along * cosine
-    for i in range(3):
-        np.multiply(across, square[:, i, np.newaxis], out=found[..., i])
-        found[..., i] += beside * mixed[:, i, np.newaxis]
-        found[..., i] += v[:, i, np.newaxis]
+    frames = max(1, BLOCK // max(len(v), 1))
+    for at in range(0, cosine.shape[1], frames):
+        part = slice(at, at + frames)
+        across, beside = along[:, part] * along[:, part], along[:, part] * cosine[:, part]
+        for i in range(3):
+            moved = across * square[:, i, np.newaxis]
+            moved += beside * mixed[:, i, np.newaxis]
+            np.add(moved, v[:, i, np.newaxis], out=found[:, part, i])
     return found
 
 
