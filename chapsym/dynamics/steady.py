@@ -21,8 +21,8 @@ from .trajectories import Trajectory, initial_attitude
 
 #: A step by more than a quarter turn is beyond the fold (lemmas `steady-branch`, `steady-axis`, `steady-roll`).
 QUARTER = 1.0
-#: Numbers that are worked on at a time, so that they stay in the cache.
-BLOCK = 8192
+#: Frames of balls whose angles are found at a time, and whose vectors are turned at a time: they stay in the caches.
+CHUNK, BLOCK = 2**16, 2**13
 
 
 def is_steady(ball: Ball, momentum: ArrayLike, gamma: ArrayLike) -> np.ndarray:
@@ -77,20 +77,27 @@ def steady_frames(
         )
     axis, half, sine = _rotation(K, g, moment, D)
     taken = sine < QUARTER
-    cosine, along = turns.cosines_and_sines(*half, numbered)
-    momenta, verticals = (_turned(v, axis, cosine, along) for v in (K, g))
-    attitudes = traces = None
+    balls, frames = len(D), len(numbered)
+    momenta, verticals = np.empty((2, balls, frames, 3))
+    attitudes = traces = first = later = None
     if contact or not (isinstance(attitude, bool | np.bool_) and not attitude):
         first = np.broadcast_to(initial_attitude(attitude, g.reshape(*shape, 3)), (*shape, 4)).reshape(-1, 4)
         later = front.compose(first, np.concatenate([np.zeros((len(axis), 1)), axis], axis=-1))
-        attitudes = np.empty((*cosine.shape, 4))
-        for i in range(4):
-            attitudes[..., i] = cosine * first[:, i, np.newaxis] + along * later[:, i, np.newaxis]
+        attitudes = np.empty((balls, frames, 4))
         if contact:
             traces = _straight(ball, shape, first, g, axis, half, numbered)
-    for frames in (momenta, verticals, attitudes, traces):
-        if frames is not None:
-            frames[~taken[:, np.newaxis] & (numbered > 0)] = np.nan
+    size = max(1, CHUNK // frames)
+    for part in (slice(i, i + size) for i in range(0, balls, size)):
+        cosine, along = turns.cosines_and_sines(half[0][part], half[1][part], numbered)
+        for v, found in ((K, momenta), (g, verticals)):
+            _turn(v[part], axis[part], cosine, along, found[part])
+        if attitudes is not None and first is not None and later is not None:
+            for i in range(4):
+                np.add(cosine * first[part, i, np.newaxis], along * later[part, i, np.newaxis],
+                       out=attitudes[part, :, i])  # fmt: skip
+    for kept in (momenta, verticals, attitudes, traces):
+        if kept is not None:
+            kept[~taken[:, np.newaxis] & (numbered > 0)] = np.nan
     status = np.where(taken, Status.TAKEN, Status.FOLDED).astype(np.int64)
     for i in map(int, np.flatnonzero(~taken)):
         status[i] = Status.NO_INERTIA if moment[0][i] == 0.0 else explain(status[i], K[i], g[i], J[i], D[i])
@@ -131,14 +138,13 @@ def _half_angle(sine: Floats, sine_: Floats) -> turns.Pair:
     return turns.turns_of_tangent(*pairs.divide(sine, sine_, *pairs.add(1.0, 0.0, *cosine)))
 
 
-def _turned(v: Floats, axis: Floats, cosine: Floats, along: Floats) -> Floats:
-    """Ω⁻ᵏv, (n, frames, 3), by the cos and sin of half the angle: `turn` is quadratic in the quaternion (c, s axis)."""
+def _turn(v: Floats, axis: Floats, cosine: Floats, along: Floats, found: Floats) -> None:
+    """Writes Ω⁻ᵏv into `found`, (n, frames, 3), by cos and sin of half the angle: `turn` is quadratic in (c, s axis)."""
     moves = axis.any(axis=-1, keepdims=True)
     axis = np.where(moves, axis, [1.0, 0.0, 0.0])
     pure, both = (front.turn(np.concatenate([np.full((len(v), 1), c), axis], axis=-1), v) for c in (0.0, 1.0))
     # At (0, a) it is 2a×(a×v), at (1, a) the half of that less a×v.
     square, mixed = np.where(moves, pure, 0.0), np.where(moves, 2.0 * both - pure, 0.0)
-    found = np.empty((*cosine.shape, 3))
     frames = max(1, BLOCK // max(len(v), 1))
     for at in range(0, cosine.shape[1], frames):
         part = slice(at, at + frames)
@@ -147,7 +153,6 @@ def _turned(v: Floats, axis: Floats, cosine: Floats, along: Floats) -> Floats:
             moved = across * square[:, i, np.newaxis]
             moved += beside * mixed[:, i, np.newaxis]
             np.add(moved, v[:, i, np.newaxis], out=found[:, part, i])
-    return found
 
 
 def _straight(

@@ -11,7 +11,7 @@ import numpy as np
 import chapsym
 from chapsym.dynamics import TopMotion
 
-from .harness import Contender, NotComparable, Result, cores, interleaved, ratio_columns
+from .harness import Contender, NotComparable, Reached, Result, cores, interleaved, ratio_columns
 
 FULL = "full model"
 MOMENTUM, GAMMA = np.array((6.0, -2.0, 3.0)) / 7, np.array((2.0, 3.0, 6.0)) / 7
@@ -93,7 +93,9 @@ def measure(quick: bool, on_round: Callable[[str], None] = lambda text: None) ->
             rows.append(_row(pair, steps, every, rounds, on_round))
         steps = (2_000 if pair.balls > 1 else 100_000) * (1 if quick else 10)
         rows.append(_row(pair, steps, steps // 10, rounds, on_round))
-    return Result("the reductions beside the full model, one core", rows)
+    few = [row for row in rows if row["steps"] > 20 * row["frames"]]
+    reach = [Reached(f"{row['name']}, few frames: to the full model", row[f"to {FULL}"], 1.0, False) for row in few]
+    return Result("the reductions beside the full model, one core", rows, reach=reach)
 
 
 def _row(pair: Pair, steps: int, every: int, rounds: int, on_round: Callable[[str], None]) -> dict[str, Any]:
