@@ -23,17 +23,14 @@ def run(scene: "str | Path | Mapping[str, Any] | Scene", progress: Callable[[Any
     elif not isinstance(scene, Scene):
         scene = load(Path(scene))
     plan = plan_of(scene)
-    dataset = run_in_memory(plan) if progress is None else run_in_memory(plan, progress)
-    return dataset.assign_attrs(title=scene.title) if scene.title else dataset
+    return run_in_memory(plan) if progress is None else run_in_memory(plan, progress)
 
 
 def opened(path: Path) -> "Dataset":
     """The result in a file; raises SceneError for what is not there, or is no result."""
     from chapsym.scene.formats import load as read
 
-    dataset = read(path)
-    title = _scene_title(str(dataset.attrs.get("scene", "")))
-    return dataset.assign_attrs(title=title) if title else dataset
+    return read(path)
 
 
 def save(dataset: "Dataset", path: Path) -> None:
@@ -57,15 +54,3 @@ def save(dataset: "Dataset", path: Path) -> None:
     finally:
         if temporary is not None:
             shutil.rmtree(temporary, ignore_errors=True)
-
-
-def _scene_title(scene: str) -> str:
-    """The title in the text of a scene, TOML or JSON; empty if it has none."""
-    import json
-    import tomllib
-
-    try:
-        data = json.loads(scene) if scene.lstrip().startswith("{") else tomllib.loads(scene)
-    except ValueError:
-        return ""
-    return str(data.get("title") or "")

@@ -165,7 +165,7 @@ def provenance(plan: Plan) -> dict[str, Any]:
     balls = "1 ball" if len(plan.members) == 1 else f"{len(plan.members)} balls"
     hashes = _kernel_hashes()
     found = {
-        "title": f"Discrete Chaplygin ball: {balls}, {plan.model.name}",
+        "title": plan.title or f"Discrete Chaplygin ball: {balls}, {plan.model.name}",
         "chapsym_version": chapsym.__version__,
         "scene": plan.scene,
         "model": plan.model.name,

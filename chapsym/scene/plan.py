@@ -23,7 +23,7 @@ class Plan:
     model: the least that serves; needed: the columns that it follows.  refused: why each reduction does not serve.
     chunks × segments are the units of work: balls × frames.  They are fixed by the scene, not by the machine, so that a
     run that was interrupted has the same bits as one that was not.
-    scene: the text of the scene, or JSON of a dict; seed: of its random ranges.  Both go with the result.
+    scene: the text of the scene, or JSON of a dict; title: its own; seed: of its random ranges.  They go with the result.
     """
 
     members: Members
@@ -32,6 +32,7 @@ class Plan:
     needed: frozenset[str]
     refused: dict[str, str]
     scene: str = ""
+    title: str | None = None
     seed: int | None = None
 
     @property

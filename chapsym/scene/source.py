@@ -10,10 +10,10 @@ from .scene import Scene, SceneError, _toml_float, checked
 
 
 def plan_of(scene: Scene) -> Plan:
-    """The plan of a scene, with its text; raises BadInput where no model yields what it asks for."""
+    """The plan of a scene, with its text and title; raises BadInput where no model yields what it asks for."""
     plan = planned(expand(scene), scene.task())
     drawn = scene.sweep.samples is not None
-    return replace(plan, scene=scene.source, seed=scene.sweep.seed if drawn else None)
+    return replace(plan, scene=scene.source, title=scene.title, seed=scene.sweep.seed if drawn else None)
 
 
 def plan_from(text: str) -> Plan:
