@@ -176,3 +176,13 @@ def test_every_kind_of_run_comes_back_from_every_format(tmp_path, kind):
     if kind == "vertical":
         assert data.rotation_number.dims == ("ball",)
         assert np.isfinite(data.phase.values).all()
+
+
+def test_numbers_that_look_like_others_keep_their_type(result, tmp_path):
+    """Names that are numbers, floats that are whole, and a column of -0.0, which as integers would lose its sign."""
+    data = result.copy(deep=True).assign_coords(ball=np.array([f"0{i}" for i in range(20)], dtype=object))
+    data["energy"][:] = -0.0
+    data["omega"][:] = 7.0
+    for suffix in FILES:
+        formats.save(data, tmp_path / f"run{suffix}")
+        equal_to_the_bit(formats.load(tmp_path / f"run{suffix}"), data)

@@ -14,9 +14,10 @@ import pytest
 import xarray
 from small_units import EVERY, OUTPUTS, STEPS, equal_to_the_bit, plan
 
-from chapsym.dynamics import Status
+from chapsym.dynamics import BadInput, Status
 from chapsym.scene import SceneError, segments, sweep
 from chapsym.scene.store import Store, is_store, marks
+from chapsym.scene.store.refusals import refusals
 
 CHILD = [sys.executable, str(Path(__file__).parents[1] / "small_units.py")]
 UNITS = 20
@@ -305,3 +306,63 @@ def test_the_state_of_a_unit_survives_the_disk(tmp_path):
         assert all((found[name] == after[name]).all() and found[name].dtype == after[name].dtype for name in after)
         assert store.start(0) == (0, None)
     assert os.path.exists(tmp_path / "run.zarr")
+
+
+def test_what_a_killed_process_left_half_written_goes(tmp_path, monkeypatch):
+    path = tmp_path / "run.zarr"
+    interrupted(path, monkeypatch, 7)
+    left = path / "momentum" / "c" / "0" / "0.5a.partial"
+    left.parent.mkdir(parents=True, exist_ok=True)
+    left.write_bytes(b"half")
+    assert sweep.run_to_store(plan(), path).complete
+    assert not list(path.rglob("*.partial"))
+
+
+def test_what_zarr_makes_anew_of_a_deleted_store_goes_again(tmp_path):
+    path = tmp_path / "run.zarr"
+    (path / "momentum" / "c" / "0").mkdir(parents=True)
+    (path / "momentum" / "c" / "0" / "0").write_bytes(b"a chunk")
+    with pytest.raises(SceneError, match="was deleted or moved"), refusals(path, ["momentum"]):
+        raise FileNotFoundError(2, "No such file or directory")
+    assert not path.exists()
+
+
+def test_units_that_run_stop_when_another_ends_the_run(tmp_path, monkeypatch):
+    def advance(wanted, chunk, state, segment, progress):
+        time.sleep(0.2)
+        if chunk.start == 0:
+            raise KeyboardInterrupt
+        for _ in range(500):
+            time.sleep(0.02)
+            progress(1)
+        raise AssertionError("it was not stopped")
+
+    monkeypatch.setattr(segments, "advance", advance)
+    monkeypatch.setattr(sweep, "cores", lambda: 4)
+    started = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        sweep.run_to_store(plan(), tmp_path / "run.zarr")
+    assert time.monotonic() - started < 5
+
+
+def test_balls_without_an_answer_are_listed_and_the_others_go_on(whole, tmp_path, monkeypatch):
+    path = tmp_path / "run.zarr"
+    real = segments.advance
+
+    def advance(wanted, chunk, *rest):
+        if chunk.start == 8:
+            raise BadInput("no answer here")
+        return real(wanted, chunk, *rest)
+
+    with monkeypatch.context() as patched:
+        patched.setattr(segments, "advance", advance)
+        outcome = sweep.run_to_store(plan(), path)
+        with pytest.raises(BadInput, match="no answer here"):
+            sweep.run_in_memory(plan())
+    assert outcome.lost == {(8, 12): "no answer here"}
+    assert not outcome.complete
+    found = opened(path)
+    assert found.attrs["complete"] is False
+    assert (found.taken.values == -1).tolist() == [8 <= i < 12 for i in range(20)]
+    assert sweep.run_to_store(plan(), path).complete
+    equal_to_the_bit(opened(path), whole)
