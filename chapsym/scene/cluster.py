@@ -58,7 +58,7 @@ def _unit(text: str, about: dict[str, Any], path: Path, chunk: int, segment: int
         state = segments.begin(plan, plan.chunks[chunk])
     columns, after = computed(plan, chunk, segment, state)
     check_same(path, plan)  # this worker may be late, and the store by now another's
-    write_region(path, plan, chunk, segment, columns, after)
+    write_region(path, plan, chunk, segment, columns)
     return after
 
 

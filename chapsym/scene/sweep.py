@@ -12,6 +12,7 @@ from chapsym.dynamics import BadInput
 from chapsym.dynamics.engine import cores
 
 from . import segments
+from .dataset import layout, sizes
 from .models import State
 from .plan import Plan
 from .scene import SceneError
@@ -56,8 +57,6 @@ class Memory:
     """Keeps the columns of all balls and frames."""
 
     def __init__(self, plan: Plan) -> None:
-        from .dataset import layout, sizes
-
         self.plan, length = plan, sizes(plan)
         self.variables = layout(plan)
         try:
@@ -166,11 +165,14 @@ def computed(
 ) -> tuple[Columns, State]:
     """The values of a unit and the state after it; raises NoAnswer where its balls have none."""
     try:
-        return segments.advance(plan, plan.chunks[chunk], state, plan.segments[segment], progress)
+        columns, after = segments.advance(plan, plan.chunks[chunk], state, plan.segments[segment], progress)
     except Stopped:
         raise
     except (BadInput, ArithmeticError, MemoryError) as error:
         raise NoAnswer(str(error) or type(error).__name__) from error
+    missing = set(layout(plan)) - set(columns) - set(after)
+    assert not missing, f"{plan.model.name} left out {missing}"
+    return columns, after
 
 
 def _failed(path: Path) -> int:

@@ -16,7 +16,7 @@ from small_units import EVERY, OUTPUTS, STEPS, equal_to_the_bit, plan
 
 from chapsym.dynamics import BadInput, Status
 from chapsym.scene import SceneError, segments, sweep
-from chapsym.scene.store import Store, is_store, marks
+from chapsym.scene.store import Store, is_store, marks, write_region
 from chapsym.scene.store.refusals import refusals
 
 CHILD = [sys.executable, str(Path(__file__).parents[1] / "small_units.py")]
@@ -365,4 +365,14 @@ def test_balls_without_an_answer_are_listed_and_the_others_go_on(whole, tmp_path
     assert found.attrs["complete"] is False
     assert (found.taken.values == -1).tolist() == [8 <= i < 12 for i in range(20)]
     assert sweep.run_to_store(plan(), path).complete
+    equal_to_the_bit(opened(path), whole)
+
+
+def test_a_worker_that_is_late_changes_nothing(whole, tmp_path):
+    """It writes its region again, when a later segment of its balls is done already."""
+    path, wanted = tmp_path / "run.zarr", plan()
+    state = segments.begin(wanted, wanted.chunks[1])
+    columns, _ = segments.advance(wanted, wanted.chunks[1], state, wanted.segments[0])
+    assert sweep.run_to_store(wanted, path).complete
+    write_region(path, wanted, 1, 0, columns)
     equal_to_the_bit(opened(path), whole)

@@ -21,6 +21,9 @@ from . import creation, identity, marks
 from .lock import held
 from .refusals import refusals
 
+#: What the state says of each ball.
+OUTCOME = ("taken", "status", "error")
+
 
 class Store:
     """A Zarr group with the Dataset of a plan, and the marks of its units in a folder inside.
@@ -74,11 +77,15 @@ class Store:
 
     def keep(self, chunk: int, segment: int, columns: Columns, state: State) -> None:
         """Writes a unit, then its mark with the state for the next segment."""
-        write_region(self.path, self.plan, chunk, segment, columns, state)
+        write_region(self.path, self.plan, chunk, segment, columns)
         self.mark(chunk, segment, state)
 
     def mark(self, chunk: int, segment: int, state: State) -> None:
-        """The mark alone, of a unit that a worker has written."""
+        """The mark of a unit whose region is written, after how its balls fared.
+
+        That changes from segment to segment, so only the process that holds the lock writes it: a worker may be late.
+        """
+        write_region(self.path, self.plan, chunk, segment, {name: state[name] for name in OUTCOME if name in state})
         with refusals(self.path, layout(self.plan)):
             marks.write(self.path, chunk, segment + 1, state)
 
@@ -92,12 +99,11 @@ class Store:
             shutil.rmtree(marks.folder(self.path), ignore_errors=True)
 
 
-def write_region(path: Path, plan: Plan, chunk: int, segment: int, columns: Columns, state: State) -> None:
-    """Writes the values of one unit, which share no Zarr chunk with those of another; raises SceneError."""
+def write_region(path: Path, plan: Plan, chunk: int, segment: int, values: Columns) -> None:
+    """Writes variables of one unit, which share no Zarr chunk with those of another; raises SceneError."""
     import zarr
 
-    variables = layout(plan)
-    values = {name: (state if name in ("taken", "status", "error") else columns)[name] for name in variables}
+    variables = {name: one for name, one in layout(plan).items() if name in values}
     where = {"ball": plan.chunks[chunk], "frame": plan.segments[segment]}
     with refusals(path, variables):
         (path / "zarr.json").stat()
