@@ -50,7 +50,7 @@ class Precession:
         u = motion.phase(index)
         angle = 2.0 * np.pi * turns.fraction(np.asarray(high[0]), np.asarray(high[1]), index)
         angle = angle + self.wave(u) - self.wave(np.asarray(motion.start))
-        ball, here = motion.curve.ball, motion.directions(index)
+        here = motion.directions(index)
         first = motion.direction / np.sqrt(motion.direction @ motion.direction)
         # The least rotation from the direction now to the first one, and the rest about that.
         middle = first + here
@@ -58,9 +58,9 @@ class Precession:
         least = (
             np.concatenate([(middle @ first)[:, np.newaxis], np.cross(here, first)], axis=-1) / length[:, np.newaxis]
         )
-        moments = ball.inertia + ball.D
-        before = across(ball.mass_tensor, moments, first)
-        after = front.rotate(least, across(ball.mass_tensor, moments, here))
+        tensor, moments, _ = _scaled(motion)
+        before = across(tensor, moments, first)
+        after = front.rotate(least, across(tensor, moments, here))
         rest = angle - np.arctan2(np.cross(before, after) @ first, after @ before)
         about = np.concatenate([np.cos(rest / 2.0)[:, np.newaxis], np.sin(rest / 2.0)[:, np.newaxis] * first], axis=-1)
         whole = front.compose(about, least)
@@ -77,21 +77,31 @@ class Precession:
         return np.asarray(b * np.sin(x))
 
 
+def _scaled(motion: TopMotion) -> tuple[Floats, Floats, float]:
+    """J, Λ and V in units in which the largest Λ is about 1: squares of γ × Λ⁻¹γ stay in range."""
+    ball = motion.curve.ball
+    moments = ball.inertia + ball.D
+    exponent = int(np.frexp(moments.max())[1])
+    return np.ldexp(ball.mass_tensor, -exponent), np.ldexp(moments, -exponent), float(
+        np.ldexp(motion.curve.rate, exponent)
+    )  # fmt: skip
+
+
 def _series(motion: TopMotion) -> Floats:
     """The sines of P from the rate at equal steps of u over half the period."""
     curve = motion.curve
     if curve.modulus == 0.0:
         return np.zeros(0)
-    count = FEWEST
+    count, (tensor, moments, unit) = FEWEST, _scaled(motion)
     while count <= MOST:
         u = np.arange(2 * count) * (curve.period / (4 * count))
-        moments = np.array(curve.ball.inertia + curve.ball.D)
-        turned = across(curve.ball.mass_tensor, moments, curve.point(u))
-        rate = (turned * turned / moments).sum(axis=-1) / (turned * turned).sum(axis=-1) / curve.rate
+        turned = across(tensor, moments, curve.point(u))
+        rate = (turned * turned / moments).sum(axis=-1) / (turned * turned).sum(axis=-1) / unit
         waves = np.fft.rfft(rate).real[1:count] / count
-        if np.abs(waves[-(count // 4) :]).max() <= ROUNDING * np.abs(rate).max():
+        noise = ROUNDING / curve.complement * np.abs(rate).max()  # b is as short as k' near the unstable axis
+        if np.abs(waves[-(count // 4) :]).max() <= noise:
             order = np.arange(1, count)
-            felt = np.flatnonzero(np.abs(waves) > ROUNDING / 4.0 * np.abs(rate).max())
+            felt = np.flatnonzero(np.abs(waves) > noise / 4.0)
             return (waves * curve.period / (4.0 * np.pi * order))[: felt.max(initial=-1) + 1]
         count *= 2
     raise BadInput("the motion is too near to the separatrix for its attitude at once; run `trajectory`")

@@ -139,7 +139,7 @@ def _half_angle(sine: Floats, sine_: Floats) -> turns.Pair:
 
 
 def _turn(v: Floats, axis: Floats, cosine: Floats, along: Floats, found: Floats) -> None:
-    """Writes Ω⁻ᵏv into `found`, (n, frames, 3), by cos and sin of half the angle: `turn` is quadratic in (c, s axis)."""
+    """Writes Ω⁻ᵏv into `found`, (n, frames, 3): `turn` is quadratic in cos and sin of half the angle."""
     moves = axis.any(axis=-1, keepdims=True)
     axis = np.where(moves, axis, [1.0, 0.0, 0.0])
     pure, both = (front.turn(np.concatenate([np.full((len(v), 1), c), axis], axis=-1), v) for c in (0.0, 1.0))

@@ -36,9 +36,14 @@ def far_from(run, found):
 
 
 def budget(motion):
-    """8 ulps, and what an ulp of u is: a period is 4K, and |dγ/du| ≤ 1; for the body 2/k' more; for every k."""
-    momentum = 8 + 4 * motion.curve.period
-    return np.array([momentum, momentum + 2 / motion.curve.complement]) * ULP
+    """8 ulps, and what an ulp of u is, for every k: a period is 4K, and |dγ/du| ≤ 1.
+
+    The body turns about 𝒦 by 1/(Λmin V) at most while u moves by 1; and 2/k' for b near the unstable axis.
+    """
+    curve = motion.curve
+    momentum = 8 + 4 * curve.period
+    turns = 1 / (min(curve.inertia) * abs(curve.rate))
+    return np.array([momentum, momentum * max(1, turns) + 2 / curve.complement]) * ULP
 
 
 @st.composite
@@ -95,6 +100,7 @@ def test_vertical_momentum_on_a_ball_with_two_equal_moments(axis, own, other, co
         (Ball((1, 4, 4), 0), (-1, -0.5, 0.75)),
         (Ball((1, 1 + 1e-15, 4), 0), (1, -0.5, 0.75)),
         (Ball((1e100, 2e100, 4e100), 0), (1e100, -5e99, 7e99)),
+        (Ball((1e100, 2e100, 5e99), 0), (0, 7.5e99, 4e92)),
     ],
 )
 @pytest.mark.parametrize("gamma", [GAMMA, -GAMMA])
