@@ -23,7 +23,7 @@ class Plan:
     model: the least that serves; needed: the columns that it follows.  refused: why each reduction does not serve.
     chunks × segments are the units of work: balls × frames.  They are fixed by the scene, not by the machine, so that a
     run that was interrupted has the same bits as one that was not.
-    scene: the text of the scene, or JSON of a dict; title: its own; seed: of its random ranges.  They go with the result.
+    scene: its text, or JSON of a dict; title: its own; seed: of its random ranges.  They go with the result.
     """
 
     members: Members
@@ -142,5 +142,9 @@ def _check_outputs(members: Members, task: Task) -> None:
     timed = {"omega", "energy"} & set(task.outputs)
     if timed and task.time_step is None and task.accuracy is None:
         raise BadInput(f"{min(timed)} needs run.time_step, in seconds: 𝒦 = εK alone does not tell it")
+    if members.axes is not None and task.precision == "quad":
+        raise BadInput(
+            "31 digits are kept in principal axes only: give the principal moments, and the start in their axes"
+        )
     if members.dimension > 3 and timed:
         raise BadInput(f"{min(timed)} is known in three dimensions only")
