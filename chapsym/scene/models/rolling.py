@@ -34,8 +34,8 @@ class Rolling(Stepwise):
     def price(self, members: Members, task: Task, needed: frozenset[str]) -> float:
         """Vector lanes for batches without a body."""
         body = bool(needed & {"attitude", "contact"})
-        step = 45.0 if body else 8.0 if len(members) >= BATCH and task.order == 2 else 27.0
-        return len(members) * (task.steps * len(substeps(task.order)) * step + task.frames * 10.0)
+        step = 40.0 if body else 8.0 if len(members) >= BATCH and task.order == 2 else 27.0
+        return 3e4 + len(members) * (task.steps * len(substeps(task.order)) * step + task.frames * 10.0)
 
     def attitude(self, members: Members) -> np.ndarray:
         """The least rotation with R γ = e₃."""

@@ -38,7 +38,8 @@ class Steady(Model):
 
     def price(self, members: Members, task: Task, needed: frozenset[str]) -> float:
         """The frames alone."""
-        return 8.5e5 + len(members) * task.frames * 300.0
+        frame = 75.0 if needed & {"attitude", "contact"} else 40.0
+        return 4.5e5 + len(members) * task.frames * frame
 
     def advance(
         self, members: Members, task: Task, needed: frozenset[str], state: State, segment: slice, progress: Progress

@@ -38,9 +38,11 @@ class Top(Model):
         return None
 
     def price(self, members: Members, task: Task, needed: frozenset[str]) -> float:
-        """The increment of each ball in 320 bits, and the frames."""
-        turned = bool(needed & {"attitude", "gamma"})
-        return len(members) * ((2.3e6 if turned else 7e5) + task.frames * (900.0 if turned else 290.0))
+        """The increment of each ball in hundreds of bits, and the frames; γ of D = 0 needs the precession."""
+        free = not members.ball.D.any()
+        turned = "attitude" in needed or (free and "gamma" in needed)
+        fixed, frame = (2.7e6, 650.0) if turned else (9e5, 110.0) if free else (1e6, 220.0)
+        return len(members) * (fixed + task.frames * frame)
 
     def advance(
         self, members: Members, task: Task, needed: frozenset[str], state: State, segment: slice, progress: Progress
