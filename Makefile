@@ -6,7 +6,7 @@ BIN := $(VENV)/bin
 SHELL := bash
 .SHELLFLAGS := -e -o pipefail -c
 
-.PHONY: verify test lint clean
+.PHONY: verify test lint pictures clean
 
 verify: $(VENV)/.installed
 	@mkdir -p out
@@ -28,6 +28,11 @@ lint: $(VENV)/.installed
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
+
+# The pictures of the examples, in docs/pictures.
+pictures: $(VENV)/.installed
+	for one in bowling:contact robot:spheres,attitude vertical:spheres,phase spread:contact,spread four:spheres; do \
+	  $(BIN)/chapsym show docs/scenes/$${one%%:*}.toml -o docs/pictures/$${one%%:*} --figures $${one##*:} --no-page; done
 
 # The editable install maps generated/ and proofs/ into the package; it is renewed when the metadata change.
 $(VENV)/.installed: pyproject.toml constraints.txt

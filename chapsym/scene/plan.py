@@ -113,7 +113,9 @@ def planned(members: Members, task: Task) -> Plan:
     prices: dict[str, float] = {}
     for model in MODELS:
         missing = sorted(needed - model.columns)
-        reason = f"it does not follow {', '.join(missing)}" if missing else model.refuses(members, task, needed)
+        reason = model.refuses(members, task, needed)
+        if reason is None and missing:
+            reason = f"it does not follow {', '.join(missing)}"
         if reason is not None:
             refused[model.name] = reason
         else:

@@ -22,7 +22,7 @@ class Top(Model):
     def refuses(self, members: Members, task: Task, needed: frozenset[str]) -> str | None:
         """Balls that are no such tops, tops on the separatrix, and what `top_frames` does not have."""
         if not isinstance(members.ball, Ball):
-            return "it is one in three dimensions"
+            return "it is for balls in three dimensions"
         if task.order != 2 or task.precision != "double" or task.accuracy is not None:
             return "it has order 2 and float64 only"
         tops = is_top(members.ball, members.momentum, members.gamma)

@@ -30,7 +30,7 @@ class Vertical(Model):
     def refuses(self, members: Members, task: Task, needed: frozenset[str]) -> str | None:
         """Momenta that are not vertical; points that stay, where a phase is asked for."""
         if not isinstance(members.ball, Ball):
-            return "it is one in three dimensions"
+            return "it is for balls in three dimensions"
         if task.order != 2 or task.precision != "double" or task.accuracy is not None:
             return "it has order 2 and float64 only"
         K, height = members.momentum, heights(members)
