@@ -10,8 +10,9 @@ from .models import General, Rolling
 from .outputs import OUTPUTS, PER_BALL, columns_for
 from .plan import Plan
 
-#: Balls of a pilot run at most; steps, or frames, of the first one; and seconds from which on one tells enough.
-BALLS, LEAST, ENOUGH = 512, 32, 0.02
+#: Balls of a pilot run at most; steps, or frames, of the first one; and how many seconds longer the last one takes, so
+#: that what its steps cost is more than what a busy machine adds to the overhead.
+BALLS, LEAST, ENOUGH = 512, 32, 0.03
 
 
 @dataclass(frozen=True)
@@ -46,7 +47,7 @@ def _extrapolated(plan: Plan) -> float:
     first = part = min(LEAST, work)
     _pilot(plan, chunk, first)  # compiles what is not compiled yet
     start = took = _pilot(plan, chunk, first)
-    while part < work and (took < ENOUGH or part == first):
+    while part < work and took - start < ENOUGH:
         part = min(2 * part, work)
         took = _pilot(plan, chunk, part)
     slope = max(took - start, 0.0) / (part - first) if part > first else 0.0
