@@ -4,10 +4,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from rolled import rolled
 
 import chapsym
 from chapsym.dynamics import Status
-from chapsym.scene import segments
 from chapsym.scene.members import Members
 from chapsym.scene.models import Rolling, Steady, Top, Vertical
 from chapsym.scene.plan import planned
@@ -15,20 +15,6 @@ from chapsym.scene.task import Task
 
 EPS = 2.0**-53
 COLUMNS = ("momentum", "gamma", "attitude", "contact")
-
-
-def rolled(plan, cut=None):
-    """All outputs of all balls, each segment from the state that the one before left."""
-    whole = slice(0, len(plan.members))
-    state, parts = segments.begin(plan, whole), []
-    for segment in cut or plan.segments:
-        columns, state = segments.advance(plan, whole, state, segment)
-        parts.append(columns)
-    columns = {
-        name: parts[0][name] if parts[0][name].ndim == 1 else np.concatenate([part[name] for part in parts], axis=1)
-        for name in parts[0]
-    }
-    return columns, state
 
 
 def with_model(plan, model):

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from chapsym.generated import TABLE
+from rolled import rolled
 
 import chapsym
 from chapsym.dynamics import Status, front
@@ -20,16 +21,6 @@ STATE = ("momentum", "gamma", "attitude", "contact", "omega", "energy", "integra
 
 def quiet(steps):
     pass
-
-
-def rolled(plan, cut=None):
-    """All outputs of all balls, each segment from the state that the one before left."""
-    whole = slice(0, len(plan.members))
-    state, parts = segments.begin(plan, whole), []
-    for segment in cut or plan.segments:
-        columns, state = segments.advance(plan, whole, state, segment)
-        parts.append(columns)
-    return {name: np.concatenate([part[name] for part in parts], axis=1) for name in parts[0]}, state
 
 
 def test_a_cut_run_is_the_whole_one_up_to_roundings(members):

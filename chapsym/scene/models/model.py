@@ -6,6 +6,8 @@ from typing import ClassVar
 
 import numpy as np
 
+from chapsym.dynamics import Ball
+
 from ..members import Members
 from ..task import Columns, Task
 
@@ -62,3 +64,12 @@ class Model(ABC):
 
         Frames of a ball after its `taken` are NaN.  The state that is given is left as it is.
         """
+
+
+def beyond_a_reduction(members: Members, task: Task) -> str | None:
+    """Why no reduction serves: they are of the map itself, in three dimensions and float64."""
+    if not isinstance(members.ball, Ball):
+        return "it is for balls in three dimensions"
+    if task.order != 2 or task.precision != "double" or task.accuracy is not None:
+        return "it has order 2 and float64 only"
+    return None

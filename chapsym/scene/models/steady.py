@@ -6,7 +6,7 @@ from chapsym.dynamics import Ball, Status, is_steady, steady_frames
 
 from ..members import Members
 from ..task import Columns, Task
-from .model import Model, Progress, State
+from .model import Model, Progress, State, beyond_a_reduction
 from .stepwise import FOLLOWED
 
 
@@ -27,10 +27,9 @@ class Steady(Model):
 
     def refuses(self, members: Members, task: Task, needed: frozenset[str]) -> str | None:
         """Balls that do not rotate steadily, and what `steady_frames` does not have."""
-        if not isinstance(members.ball, Ball):
-            return "it is for balls in three dimensions"
-        if task.order != 2 or task.precision != "double" or task.accuracy is not None:
-            return "it has order 2 and float64 only"
+        if (reason := beyond_a_reduction(members, task)) is not None:
+            return reason
+        assert isinstance(members.ball, Ball)
         steady = is_steady(members.ball, members.momentum, members.gamma)
         if not steady.all():
             return f"{members.names[int(np.argmin(steady))]} has unequal moments and is in no steady rotation"

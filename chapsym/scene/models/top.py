@@ -6,7 +6,7 @@ from chapsym.dynamics import BadInput, Ball, Status, StepNotTaken, TopMotion, is
 
 from ..members import Members, one_ball
 from ..task import Columns, Task
-from .model import Model, Progress, State
+from .model import Model, Progress, State, beyond_a_reduction
 
 
 class Top(Model):
@@ -21,10 +21,9 @@ class Top(Model):
 
     def refuses(self, members: Members, task: Task, needed: frozenset[str]) -> str | None:
         """Balls that are no such tops, tops on the separatrix, and what `top_frames` does not have."""
-        if not isinstance(members.ball, Ball):
-            return "it is for balls in three dimensions"
-        if task.order != 2 or task.precision != "double" or task.accuracy is not None:
-            return "it has order 2 and float64 only"
+        if (reason := beyond_a_reduction(members, task)) is not None:
+            return reason
+        assert isinstance(members.ball, Ball)
         tops = is_top(members.ball, members.momentum, members.gamma)
         if not tops.all():
             return f"D of {members.names[int(np.argmin(tops))]} is not 0, or its 𝒦 stays"

@@ -6,7 +6,7 @@ from chapsym.dynamics import BadInput, Ball, Curve, Status, StepNotTaken, rotati
 
 from ..members import Members, one_ball
 from ..task import Columns, Task
-from .model import Model, Progress, State
+from .model import Model, Progress, State, beyond_a_reduction
 
 #: How far 𝒦 may be from hγ, relatively: 𝒦 was rounded, and its motion stays as near as that to the one with 𝒦 = hγ.
 VERTICAL = 4 * np.finfo(np.float64).eps
@@ -29,10 +29,9 @@ class Vertical(Model):
 
     def refuses(self, members: Members, task: Task, needed: frozenset[str]) -> str | None:
         """Momenta that are not vertical; points that stay, where a phase is asked for."""
-        if not isinstance(members.ball, Ball):
-            return "it is for balls in three dimensions"
-        if task.order != 2 or task.precision != "double" or task.accuracy is not None:
-            return "it has order 2 and float64 only"
+        if (reason := beyond_a_reduction(members, task)) is not None:
+            return reason
+        assert isinstance(members.ball, Ball)
         K, height = members.momentum, heights(members)
         apart = np.abs(K - height[:, np.newaxis] * members.gamma).max(axis=-1) > VERTICAL * np.abs(height)
         if apart.any() or (height == 0).any():
