@@ -12,6 +12,11 @@ def fail(sentence: str, status: int) -> NoReturn:
     sys.exit(status)
 
 
+def note(sentence: str) -> None:
+    """One sentence on standard error, and no failure."""
+    print(f"chapsym: {sentence}", file=sys.stderr)
+
+
 def print_json(value: Any) -> None:
     print(json.dumps(value, ensure_ascii=False, allow_nan=False))
 

@@ -7,7 +7,7 @@ import typer
 
 from .app import INTERRUPTED, app
 from .options import Json
-from .output import fail, print_json, progress_bar
+from .output import fail, note, print_json, progress_bar
 
 if TYPE_CHECKING:
     from chapsym.scene import Scene
@@ -122,15 +122,36 @@ def _tell(plan: "Plan", destination: Path, outcome: Any, as_json: bool) -> None:
         run = {"balls": balls, "frames": plan.frames, "steps": plan.task.steps, "model": plan.model.name}
         print_json({"output": str(destination), **run, "failed": failed, "complete": outcome.complete, "lost": lost})
     else:
-        stopped = f"; {failed} stopped early, as their status says" if failed else ""
+        stopped = f"; {failed} stopped early" if failed else ""
         about = f"{balls} ball{'s' if balls > 1 else ''}, {plan.frames} frames, {plan.model.name}{stopped}"
         where = f"{destination} was complete already" if outcome.nothing_to_do else f"in {destination}"
         print(f"{about}; {where}" if outcome.nothing_to_do else f"{about}, {where}")
+    if failed:
+        told = _reasons(destination)
+        if failed == balls:
+            fail(f"no ball got to the end: {told}; the frames before are in {destination}", 2)
+        note(f"stopped early: {told}")
     if outcome.lost:
         (first, last), why = next(iter(outcome.lost.items()))
         more = f", and {len(outcome.lost) - 1} other units" if len(outcome.lost) > 1 else ""
         told = f"balls {first} to {last - 1} could not be run{more} ({why})"
         fail(f"{told}; the others are in {destination}, and the same command tries these again", 2)
+
+
+def _reasons(destination: Path) -> str:
+    """Why balls stopped early: of each reason how many, and the first of them."""
+    from chapsym.dynamics import Status
+    from chapsym.scene import formats
+
+    data = formats.load(destination)
+    status, taken, names = data["status"].values, data["taken"].values, data["ball"].values
+    reasons = []
+    for reason in sorted(set(map(int, status)) - {-1, int(Status.TAKEN)}):
+        which = (status == reason).nonzero()[0]
+        first = f"{names[which[0]]} at step {taken[which[0]]}"
+        count = f"{len(which)} balls, the first {first}" if len(which) > 1 else first
+        reasons.append(f"{count}: {Status(reason).sentence}")
+    return "; ".join(reasons)
 
 
 def _run_single(scene: "Scene", destination: Path, as_json: bool) -> None:

@@ -115,3 +115,40 @@ def test_check_refuses_in_a_sentence(tmp_path, old, new, sentence):
     path = tmp_path / "s.toml"
     path.write_text(SCENE.replace(old, new))
     assert sentence in refused("scene", "check", path)
+
+
+UNREACHABLE = """
+[[ball]]
+name = "slow"
+mass_tensor = [0.1, 0.5, 1.6]
+D = 0.7
+start = { momentum = [0.01, 0.0, 0.02] }
+[[ball]]
+name = "fast"
+mass_tensor = [0.1, 0.5, 1.6]
+D = 0.7
+start = { momentum = [10.0, 0.0, 20.0] }
+[run]
+steps = 5
+"""
+
+
+def test_a_ball_that_stops_early_is_told_with_its_reason(tmp_path):
+    (tmp_path / "scene.toml").write_text(UNREACHABLE, encoding="utf-8")
+    found = chapsym("run", "scene.toml", "-o", "out.nc", cwd=tmp_path)
+    assert found.returncode == 0
+    assert "1 stopped early" in found.stdout
+    assert found.stderr == (
+        "chapsym: stopped early: fast at step 0: no rotation of this ball has this momentum at this gamma; "
+        "take a shorter time step\n"
+    )
+
+
+def test_a_run_of_which_no_ball_gets_to_the_end_fails(tmp_path):
+    text = UNREACHABLE.replace("[0.01, 0.0, 0.02]", "[10.0, 0.0, 20.0]")
+    (tmp_path / "scene.toml").write_text(text, encoding="utf-8")
+    for name in ("out.nc", "out.zarr"):
+        found = chapsym("run", "scene.toml", "-o", name, cwd=tmp_path)
+        assert found.returncode == 2
+        assert "no ball got to the end: 2 balls, the first slow at step 0: no rotation" in found.stderr
+        assert (tmp_path / name).exists()
