@@ -42,7 +42,7 @@ def _ball(members: Members, i: int) -> str:
         told += f", radius {ball.radius[i]:.6g} m"
     if members.axes is not None:
         angle = 2 * np.degrees(np.arccos(min(abs(members.axes[i, 0]), 1.0)))
-        told += f", principal axes turned by {angle:.4g}°"
+        told += f", principal axes turned by {angle:.4g}°" if angle else ""
     return told
 
 

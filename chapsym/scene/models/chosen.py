@@ -11,6 +11,7 @@ from chapsym.dynamics.ball_n import BallN
 from ..members import Members, one_ball
 from ..task import Columns, Task
 from .model import Model, Progress, State
+from .rolling import Rolling
 
 
 class Chosen(Model):
@@ -19,6 +20,7 @@ class Chosen(Model):
     name = "chosen for the accuracy"
     about = "the cheapest rung, order and step that meet the accuracy, verified on the run"
     columns = frozenset({"momentum", "gamma", "attitude", "contact"})
+    kernels = Rolling.kernels
     whole = True
 
     def refuses(self, members: Members, task: Task, needed: frozenset[str]) -> str | None:

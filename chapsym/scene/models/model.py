@@ -70,6 +70,8 @@ def beyond_a_reduction(members: Members, task: Task) -> str | None:
     """Why no reduction serves: they are of the map itself, in three dimensions and float64."""
     if not isinstance(members.ball, Ball):
         return "it is for balls in three dimensions"
-    if task.order != 2 or task.precision != "double" or task.accuracy is not None:
+    if task.accuracy is not None:
+        return "it is of the map, and an accuracy is one of the continuous motion"
+    if task.order != 2 or task.precision != "double":
         return "it has order 2 and float64 only"
     return None
