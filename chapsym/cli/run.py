@@ -77,8 +77,9 @@ def _is_single(scene: "Scene", destination: Path) -> bool:
 
     if destination.suffix not in (".npz", ".csv"):
         return False
+    members = expand(scene)
     try:
-        single(expand(scene))
+        single(members)
         told = sorted(set(scene.task().outputs) - {"momentum", "gamma", "attitude", "contact"})
         if told:
             raise SceneError(f"{told[0]} is kept in .zarr, .nc, .parquet and .csv")
