@@ -137,7 +137,9 @@ def _check_outputs(members: Members, task: Task) -> None:
     unknown = [name for name in task.outputs if name not in OUTPUTS]
     if unknown:
         raise BadInput(f"{unknown[0]!r} is no output; choose of {', '.join(OUTPUTS)}")
-    if "contact" in task.outputs and members.ball.radius is None:
+    if members.ball.radius is None and (
+        "contact" in task.outputs or (task.accuracy is not None and task.of == "contact")
+    ):
         raise BadInput("the contact point needs the radius: give the ball its mass and radius")
     timed = {"omega", "energy"} & set(task.outputs)
     if timed and task.time_step is None and task.accuracy is None:
