@@ -101,6 +101,10 @@ def _sentence(error: Any, keys: dict[str, Iterable[str]]) -> str:
         if path != ("ball",)
         else "must not be []",
         "greater_than_equal": f"must be at least {limits.get('ge')}",
+        "less_than_equal": f"must be at most {limits.get('le')}",
+        "string_pattern_mismatch": "must be one line of text, without control characters",
+        "string_too_short": "must not be empty",
+        "string_too_long": f"must have at most {limits.get('max_length')} characters",
     }
     told = kinds.get(error["type"], ": " + error["msg"].removeprefix("Value error, "))
     told = told.removeprefix(": it ") if told.startswith(": it ") else told
