@@ -84,6 +84,13 @@ def test_a_title_is_one_line_and_a_seed_has_64_bits():
         checked(DATA | {"sweep": {"seed": 2**63}})
 
 
+@pytest.mark.filterwarnings("error")
+def test_a_range_beyond_float64_is_refused_without_a_warning():
+    omega = [{"linspace": [-1e308, 1e308, 3]}, 0, 0]
+    with pytest.raises(SceneError, match="omega must be finite"):
+        expand(checked(DATA | {"start": {"omega": omega}}))
+
+
 def test_outputs_and_their_short_forms():
     assert with_run(steps=1).task().outputs == ("momentum", "gamma")
     assert with_run(steps=1, contact=True).task().outputs == ("momentum", "gamma", "contact")
