@@ -77,8 +77,9 @@ def _is_single(scene: "Scene", destination: Path) -> bool:
 
     if destination.suffix not in (".npz", ".csv"):
         return False
+    members = expand(scene)
     try:
-        single(expand(scene))
+        single(members)
         told = sorted(set(scene.task().outputs) - {"momentum", "gamma", "attitude", "contact"})
         if told:
             raise SceneError(f"{told[0]} is kept in .zarr, .nc, .parquet and .csv")
@@ -134,7 +135,9 @@ def _tell(plan: "Plan", destination: Path, outcome: Any, as_json: bool) -> None:
     if outcome.lost:
         (first, last), why = next(iter(outcome.lost.items()))
         more = f", and {len(outcome.lost) - 1} other units" if len(outcome.lost) > 1 else ""
-        told = f"balls {first} to {last - 1} could not be run{more} ({why})"
+        if last - first == balls:
+            fail(why, 2)
+        told = f"balls {first + 1} to {last} could not be run{more} ({why})"
         fail(f"{told}; the others are in {destination}, and the same command tries these again", 2)
 
 

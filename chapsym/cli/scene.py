@@ -99,13 +99,14 @@ def check(
         members = expand(scene)
         plan = planned(members, scene.task())
         warnings = refusals(scene, members)
+        rows = [] if as_json else [*summary(scene, members), *explained(plan)]
     except BadInput as error:
         told = str(error)
         fail(told if told.startswith(str(file)) else f"{file}: {told}", 2)
     if as_json:
         print_json({"file": str(file), "title": scene.title, **plan.describe(), "warnings": warnings})
         return
-    _print_rows([*summary(scene, members), *explained(plan), *(("warning", told) for told in warnings)])
+    _print_rows([*rows, *(("warning", told) for told in warnings)])
 
 
 def _print_rows(rows: list[tuple[str, str]]) -> None:

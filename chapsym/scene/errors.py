@@ -93,7 +93,7 @@ def _sentence(error: Any, keys: dict[str, Iterable[str]]) -> str:
         "int_parsing_size": "is beyond the range of whole numbers",
         "bool_type": "must be true or false",
         "string_type": "must be a text in quotes",
-        "tuple_type": "must be a list of numbers in brackets",
+        "tuple_type": f"must be a list of {'names' if key == 'run.outputs' else 'numbers'} in brackets",
         "model_type": f"must be a table: [{key}]",
         "literal_error": f"must be {limits.get('expected')}",
         "too_long": f"must have {limits.get('max_length')} numbers",
@@ -101,6 +101,10 @@ def _sentence(error: Any, keys: dict[str, Iterable[str]]) -> str:
         if path != ("ball",)
         else "must not be []",
         "greater_than_equal": f"must be at least {limits.get('ge')}",
+        "less_than_equal": f"must be at most {limits.get('le')}",
+        "string_pattern_mismatch": "must be one line of text, without control characters",
+        "string_too_short": "must not be empty",
+        "string_too_long": f"must have at most {limits.get('max_length')} characters",
     }
     told = kinds.get(error["type"], ": " + error["msg"].removeprefix("Value error, "))
     told = told.removeprefix(": it ") if told.startswith(": it ") else told

@@ -121,8 +121,9 @@ def planned(members: Members, task: Task) -> Plan:
         else:
             prices[model.name] = model.price(members, task, needed)
     if not prices:
-        told = "; ".join(f"{name}: {why}" for name, why in refused.items())
-        raise BadInput(f"no model yields what is asked for: {told}")
+        able = [model.name for model in MODELS if needed <= model.columns] or list(refused)
+        told = "; ".join(f"{name}: {refused[name]}" for name in able)
+        raise BadInput(f"no model yields {', '.join(task.outputs)} for these balls: {told}")
     least = min(prices, key=lambda name: prices[name])
     dearer = {
         name: f"it would cost {price / prices[least]:.1f} times as much"
@@ -139,7 +140,9 @@ def _check_outputs(members: Members, task: Task) -> None:
     unknown = [name for name in task.outputs if name not in OUTPUTS]
     if unknown:
         raise BadInput(f"{unknown[0]!r} is no output; choose of {', '.join(OUTPUTS)}")
-    if "contact" in task.outputs and members.ball.radius is None:
+    if members.ball.radius is None and (
+        "contact" in task.outputs or (task.accuracy is not None and task.of == "contact")
+    ):
         raise BadInput("the contact point needs the radius: give the ball its mass and radius")
     timed = {"omega", "energy"} & set(task.outputs)
     if timed and task.time_step is None and task.accuracy is None:

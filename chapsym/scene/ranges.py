@@ -35,7 +35,8 @@ class Range:
         if self.kind == "grid":
             return np.array(self.values)
         first, last = self.values
-        return np.linspace(first, last, self.count)
+        with np.errstate(over="ignore", invalid="ignore"):  # what has no finite value is refused by its name
+            return np.linspace(first, last, self.count)
 
     def draw(self, count: int, generator: np.random.Generator) -> Floats:
         """`count` values of a range that is drawn; sums and products only, so that machines agree."""

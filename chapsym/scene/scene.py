@@ -17,7 +17,7 @@ from chapsym.dynamics import Ball, Trajectory, trajectory
 from .errors import At, SceneError, described, place
 from .expand import expand
 from .ranges import ranges_in
-from .tables import KEYS, BallTable, RunTable, StartTable, SweepTable, Table
+from .tables import KEYS, BallTable, Line, RunTable, StartTable, SweepTable, Table
 from .task import Task
 from .units import TIME, number
 
@@ -40,7 +40,7 @@ Balls = Annotated[
 class Scene(Table):
     """A whole scene, checked as it is written; `expand` makes the balls of it, `task` what is asked for."""
 
-    title: str | None = Field(None, description="One line.")
+    title: Line | None = Field(None, description="One line.")
     description: str | None = Field(None, description="As long as you like.")
     ball: Balls
     start: StartTable | None = Field(None, description="The start of every ball that has none of its own.")

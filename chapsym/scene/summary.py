@@ -75,7 +75,8 @@ def _run(scene: Scene) -> str:
     time = "" if task.time_step is None else f" of {task.time_step:.6g} s: {task.steps * task.time_step:.6g} s"
     order = "" if task.order == 2 else f", order {task.order}"
     precision = "" if task.precision == "double" else f", precision {task.precision}"
-    return f"{task.steps} steps{time}; {task.frames} frames{order}{precision}"
+    last = "" if task.steps % task.every == 0 else f", the last after {(task.frames - 1) * task.every} steps"
+    return f"{task.steps} steps{time}; {task.frames} frames{last}{order}{precision}"
 
 
 def _vector(values: Any) -> str:

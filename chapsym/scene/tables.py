@@ -29,6 +29,12 @@ from .quantities import (
 Count = Annotated[int, Field(strict=True, ge=0)]
 Whole = Annotated[int, Field(strict=True, ge=1)]
 Switch = Annotated[bool, Field(strict=True)]
+#: Files and pictures have no place for control characters.
+Line = Annotated[str, Field(pattern=r"^[^\x00-\x1f\x7f-\x9f]*$")]
+#: Of one ball: nobody waits for more steps, and the coordinates of more frames take gigabytes.
+MOST_STEPS, MOST_FRAMES = 2**53, 10**8
+#: A step in n dimensions solves n(n-1)/2 equations.
+MOST_DIMENSIONS = 32
 Output = Literal[*OUTPUTS]  # type: ignore[valid-type]
 
 
@@ -78,7 +84,7 @@ class StartTable(Table):
 class BallTable(Table):
     """A ball: mass_tensor, inertia or a preset; and mass and radius, or D."""
 
-    name: str | None = Field(None, min_length=1, max_length=80, description="Of the ball, in results and errors.")
+    name: Line | None = Field(None, min_length=1, max_length=80, description="Of the ball, in results and errors.")
     mass_tensor: MomentsN | None = Field(None, description="J = ∫x²dm, ∫y²dm, ∫z²dm; n numbers in n dimensions.")
     inertia: Inertia | None = Field(
         None, description="Principal moments of inertia about the centre, or the symmetric 3×3 tensor."
@@ -100,6 +106,11 @@ class BallTable(Table):
         _one_of(self.given("mass_tensor", "inertia", "preset"), "ball", "mass_tensor or inertia (or a preset)")
         own = {key for preset in PRESETS.values() for key in preset.keys}
         told = self.given(*sorted(own))
+        if self.mass_tensor is not None and len(self.mass_tensor) > MOST_DIMENSIONS:
+            told_n = (
+                f"ball.mass_tensor has {len(self.mass_tensor)} numbers, and {MOST_DIMENSIONS} dimensions are the most"
+            )
+            raise At(f"{told_n}: a step of more takes a second and longer", "mass_tensor")
         if self.preset is None:
             if told:
                 raise At(f"ball.{told[0]} goes with ball.preset", told[0])
@@ -173,6 +184,8 @@ class RunTable(Table):
             raise At(f"run.accuracy chooses the steps: leave out run.{chosen[0]}", chosen[0])
         if self.time is None:
             raise At("run.accuracy needs run.time, in seconds", "accuracy")
+        if self.frames is not None and self.frames > MOST_FRAMES:
+            raise At(f"run.frames is more than {MOST_FRAMES}", "frames")
 
     def _counted(self) -> tuple[int, int]:
         """The steps, and how many between two frames; raises where they are not whole."""
@@ -181,7 +194,7 @@ class RunTable(Table):
             assert time is not None
             assert step is not None
             ratio = time / step
-            if not ratio < 2**53:
+            if not ratio < MOST_STEPS:
                 raise At(f"run.time is {ratio:.3g} time steps, more than anybody waits for", "time")
             steps = round(ratio)
             if abs(ratio - steps) > 4 * 2.0**-52 * ratio:  # time, time_step and their ratio are rounded
@@ -190,6 +203,11 @@ class RunTable(Table):
                     f"run.time is {ratio:.9g} time steps, which is no whole number: take time = {whole * step:.9g} or "
                     f"time_step = {time / whole!r}", "time",
                 )  # fmt: skip
+        if not steps < MOST_STEPS:
+            raise At(f"run.steps is {float(min(steps, 10**300)):.3g}, more than anybody waits for", "steps")
+        frames = self.frames if self.frames is not None else steps // (self.every or 1)
+        if frames > MOST_FRAMES:
+            raise At(f"run keeps {frames} frames of a ball, and {MOST_FRAMES} are the most: give every or frames")
         if self.frames is None:
             return steps, self.every or 1
         if steps % self.frames:
@@ -213,7 +231,9 @@ class SweepTable(Table):
     """How ranges that are drawn make balls."""
 
     samples: Whole | None = Field(None, description="Draws at each point of the other ranges.")
-    seed: Count = Field(0, description="Of the draws: the same seed gives the same balls on every machine.")
+    seed: Annotated[Count, Field(le=2**63 - 1)] = Field(
+        0, description="Of the draws: the same seed gives the same balls on every machine."
+    )
 
 
 #: The keys of each table, for what is close to a key that is none.

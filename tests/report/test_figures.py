@@ -415,3 +415,11 @@ def test_pyplot_is_not_touched():
 def test_changes_are_relative_to_what_they_are_compared_with():
     x = np.array([[2.0, 2.5], [0.0, 0.25]])
     assert (change.relative(x, np.array([2.0, 0.0])) == [[0.0, 0.25], [0.0, 0.25]]).all()
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_name_that_the_font_has_not_is_drawn_without_warnings(tmp_path):
+    ball = {"name": "球", "inertia": [0.006, 0.007, 0.009], "mass": 2, "radius": 0.1}
+    scene = {"ball": [ball, ball | {"name": "b"}], "start": {"omega": [1, 2, 3]}, "run": {"time_step": 0.1, "steps": 3}}
+    run = chapsym.run_scene(scene)
+    assert len(figures.save_all(run.dataset, tmp_path, ("png",), names=["spheres"])) == 1

@@ -152,3 +152,38 @@ def test_a_run_of_which_no_ball_gets_to_the_end_fails(tmp_path):
         assert found.returncode == 2
         assert "no ball got to the end: 2 balls, the first slow at step 0: no rotation" in found.stderr
         assert (tmp_path / name).exists()
+
+
+def _scene(tmp_path, *changes):
+    text = """[ball]
+inertia = [0.006, 0.0071, 0.0089]
+D = 0.02
+[start]
+omega = [1, 2, 3]
+[run]
+accuracy = 1e-8
+time = 1
+"""
+    path = tmp_path / "ball.toml"
+    for old, new in changes:
+        assert old in text
+        text = text.replace(old, new)
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def test_an_accuracy_that_cannot_be_had_is_one_sentence(tmp_path):
+    told = refused("scene", "check", _scene(tmp_path, ("1e-8", "1e-30")))
+    assert "an accuracy of 1e-30 after 1 s cannot be had" in told
+
+
+def test_an_accuracy_of_the_contact_needs_the_radius_before_anything_runs(tmp_path):
+    told = refused("run", _scene(tmp_path, ("time = 1", 'time = 1\nof = "contact"')), "-o", tmp_path / "out.zarr")
+    assert told == "the contact point needs the radius: give the ball its mass and radius"
+    assert not (tmp_path / "out.zarr").exists()
+
+
+def test_a_wrong_scene_is_not_told_to_choose_another_format(tmp_path):
+    told = refused("run", _scene(tmp_path, ("0.0089", "0.02")), "-o", tmp_path / "out.npz")
+    assert "no body has the inertia" in told
+    assert ".npz holds" not in told

@@ -48,6 +48,9 @@ def test_steps_and_frames(run, steps, every):
         ({"time": 1 + 1e-12}, "which is no whole number"),
         ({"time": 0.001}, "run.time is 0.1 time steps, which is no whole number: take time = 0.01"),
         ({"time": 1e300}, "more than anybody waits for"),
+        ({"steps": 10**400}, "run.steps is 1e+300, more than anybody waits for"),
+        ({"steps": 2**53}, "more than anybody waits for"),
+        ({"steps": 10**9}, "run keeps 1000000000 frames of a ball, and 100000000 are the most: give every or frames"),
         ({"time": 1, "steps": 100}, "run: give either steps or time"),
         ({"steps": 1000, "frames": 3}, "run.frames: 1000 steps do not divide into 3 equal parts; 2 do"),
         ({"steps": 10, "frames": 11}, "run.frames: 10 steps do not divide into 11 equal parts; 10 do"),
@@ -72,6 +75,20 @@ def test_a_wrong_run_is_refused(run, sentence):
     with pytest.raises(SceneError) as caught:
         with_run(**run)
     assert sentence in str(caught.value)
+
+
+def test_a_title_is_one_line_and_a_seed_has_64_bits():
+    with pytest.raises(SceneError, match="title must be one line of text"):
+        checked(DATA | {"title": "a\0b"})
+    with pytest.raises(SceneError, match="seed must be at most 9223372036854775807"):
+        checked(DATA | {"sweep": {"seed": 2**63}})
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_range_beyond_float64_is_refused_without_a_warning():
+    omega = [{"linspace": [-1e308, 1e308, 3]}, 0, 0]
+    with pytest.raises(SceneError, match="omega must be finite"):
+        expand(checked(DATA | {"start": {"omega": omega}}))
 
 
 def test_outputs_and_their_short_forms():
@@ -111,7 +128,10 @@ def test_an_accuracy_is_a_task_of_frames():
         ({"inertia": [[1, 2, 3], [1, 2], [1, 2, 3]]}, "ball.inertia.2.3 is missing"),
         ({"inertia": [1, 2, 3, 4]}, "ball.inertia must have 3 numbers"),
         ({"inertia": "1"}, "ball.inertia must be a list of numbers in brackets"),
-        ({"name": ""}, "ball.name"),
+        ({"name": ""}, "ball.name must not be empty"),
+        ({"name": "a\x00b"}, "ball.name must be one line of text, without control characters"),
+        ({"name": "a\nb"}, "ball.name must be one line of text, without control characters"),
+        ({"name": "x" * 81}, "ball.name must have at most 80 characters"),
         (3, "ball must be a table: [ball]"),
         ([], "ball must not be []"),
     ],
@@ -204,3 +224,15 @@ def test_a_file_that_is_no_scene_is_one_sentence(tmp_path):
     path.write_bytes(b"a = '\xff'")
     with pytest.raises(SceneError, match="is not UTF-8 text"):
         scene.load(path)
+
+
+def test_dimensions_that_nobody_waits_for_are_refused():
+    data = {"ball": {"mass_tensor": [1.0] * 33, "D": 1}, "start": {"momentum": [1, 0, 0]}, "run": {"steps": 1}}
+    with pytest.raises(scene.SceneError, match="ball.mass_tensor has 33 numbers, and 32 dimensions are the most"):
+        scene.checked(data)
+
+
+def test_outputs_are_a_list_of_names():
+    data = {"ball": {"mass_tensor": [1, 2, 4], "D": 1}, "start": {"momentum": [1, 0, 0]}}
+    with pytest.raises(scene.SceneError, match="run.outputs must be a list of names in brackets"):
+        scene.checked({**data, "run": {"steps": 1, "outputs": "gamma"}})

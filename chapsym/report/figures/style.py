@@ -50,7 +50,11 @@ def styled() -> Iterator[None]:
 
 def write(figure: "Figure", stream: IO[bytes], form: str) -> None:
     """The bytes of a figure, "svg" or "png": the same for the same data."""
-    with styled():
+    import warnings
+
+    with styled(), warnings.catch_warnings():
+        # A name in a script that the font has not: drawn as boxes, of which matplotlib would tell five times.
+        warnings.filterwarnings("ignore", message="Glyph .* missing from font")
         metadata = {"Date": None, "Creator": None} if form == "svg" else {"Software": None}
         figure.savefig(stream, format=form, metadata=metadata)
 
