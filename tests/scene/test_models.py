@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import chapsym
-from chapsym.dynamics import Status
+from chapsym.dynamics import Status, precession
 from chapsym.scene import segments
 from chapsym.scene.members import Members
 from chapsym.scene.models import Rolling, Steady, Top, Vertical
@@ -192,3 +192,20 @@ def test_the_rotation_number_is_that_of_any_point_of_the_curve():
     found = [chapsym.rotation_number(ball, 2.0, curve.point(u)) for u in (0.0, 0.3, 1.7)]
     assert max(found) - min(found) < 1e-11
     assert found[0] != pytest.approx(float(chapsym.increment(curve, 2.0, 0.0)) / curve.period, rel=1e-6)
+
+
+def test_a_top_without_an_attitude_at_once_takes_its_steps(tops, monkeypatch):
+    task = Task(("gamma",), 1_000_000, 100_000)
+    assert planned(tops, task).model.name == Top.name
+    monkeypatch.setattr(precession, "MOST", 0)
+    plan = planned(tops, task)
+    assert plan.model.name == Rolling.name
+    assert "too near to the separatrix" in plan.refused[Top.name]
+    assert planned(tops, replace(task, outputs=("momentum",))).model.name == Top.name
+
+
+def test_the_balls_of_a_model_that_is_dearer_are_not_looked_at_one_by_one(tops, monkeypatch):
+    monkeypatch.setattr("chapsym.scene.models.top.motion_of", None)
+    plan = planned(tops, Task(("momentum",), 10))
+    assert plan.model.name == Rolling.name
+    assert "times as much" in plan.refused[Top.name]

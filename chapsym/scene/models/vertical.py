@@ -28,7 +28,7 @@ class Vertical(Model):
     unit_steps = 2**25
 
     def refuses(self, members: Members, task: Task, needed: frozenset[str]) -> str | None:
-        """Momenta that are not vertical; points that stay, where a phase is asked for."""
+        """Momenta that are not vertical."""
         if not isinstance(members.ball, Ball):
             return "it is one in three dimensions"
         if task.order != 2 or task.precision != "double" or task.accuracy is not None:
@@ -37,12 +37,12 @@ class Vertical(Model):
         apart = np.abs(K - height[:, np.newaxis] * members.gamma).max(axis=-1) > VERTICAL * np.abs(height)
         if apart.any() or (height == 0).any():
             return f"the momentum of {members.names[int(np.argmax(apart | (height == 0)))]} is not along γ"
-        if needed & {"phase", "rotation_number"}:
-            return self._no_curve(members)
         return None
 
-    @staticmethod
-    def _no_curve(members: Members) -> str | None:
+    def unfit(self, members: Members, task: Task, needed: frozenset[str]) -> str | None:
+        """Points that stay, and the separatrix, where a phase is asked for."""
+        if not needed & {"phase", "rotation_number"}:
+            return None
         for i, name in enumerate(members.names):
             try:
                 curve = Curve.through(one_ball(members, i), members.gamma[i])
