@@ -209,3 +209,28 @@ def test_the_balls_of_a_model_that_is_dearer_are_not_looked_at_one_by_one(tops, 
     plan = planned(tops, Task(("momentum",), 10))
     assert plan.model.name == Rolling.name
     assert "times as much" in plan.refused[Top.name]
+
+
+def test_a_ball_beyond_its_fold_has_no_rotation_number_and_the_others_theirs(vertical):
+    wild = replace(vertical, momentum=vertical.momentum * np.array([[50.0], [1.0], [1.0]]))
+    task = Task(("gamma", "rotation_number"), 100)
+    plan = planned(wild, task)
+    columns, state = rolled(plan)
+    assert state["status"].tolist()[1:] == [0, 0]
+    assert np.isnan(columns["rotation_number"]).tolist() == [True, False, False]
+    alone, _ = rolled(planned(vertical, task))
+    assert (columns["rotation_number"][1:] == alone["rotation_number"][1:]).all()
+
+
+@pytest.mark.parametrize("apart", [1e-11, -3e-12])
+def test_next_to_the_separatrix_a_phase_is_as_good_as_the_roundings_leave_it(apart):
+    ball = chapsym.Ball(np.array([[1.0, 2.0, 4.0]]), np.array([3.0]))
+    # ⟨γ,Λ⁻¹γ⟩ = 1/Λ₂ for Λ = (9, 8, 6) where γ₁²/9 = γ₃²/3
+    gamma = np.array([[1.0, 0.5, np.sqrt(1 / 3) * (1 + apart)]])
+    gamma /= np.sqrt((gamma**2).sum())
+    near = Members(("near",), ball, gamma, gamma)
+    columns, state = rolled(planned(near, Task(("gamma", "phase", "rotation_number"), 100_000, 10)))
+    assert state["status"] == 0
+    curve = chapsym.Curve.through(chapsym.Ball((1, 2, 4), 3), gamma[0])
+    assert np.abs(curve.point(columns["phase"][0]) - columns["gamma"][0]).max() < 1e-13 / curve.complement
+    assert np.isfinite(columns["rotation_number"])

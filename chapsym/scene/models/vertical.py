@@ -10,6 +10,8 @@ from .model import Model, Progress, State
 
 #: How far 𝒦 may be from hγ, relatively: 𝒦 was rounded, and its motion stays as near as that to the one with 𝒦 = hγ.
 VERTICAL = 4 * np.finfo(np.float64).eps
+#: Next to the separatrix roundings lead from curve to curve, and to the other side of it, where k' is less than this.
+NEAREST = 1e-6
 
 
 class Vertical(Model):
@@ -48,8 +50,8 @@ class Vertical(Model):
                 curve = Curve.through(one_ball(members, i), members.gamma[i])
             except BadInput as error:
                 return f"{name}: {error}"
-            if curve.complement == 0.0:
-                return f"{name} is on the separatrix, where the period is infinite"
+            if curve.complement < NEAREST:
+                return f"{name} is on the separatrix, where the period is infinite, or too near to it for a phase"
         return None
 
     def price(self, members: Members, task: Task, needed: frozenset[str]) -> float:
