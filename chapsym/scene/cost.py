@@ -4,6 +4,7 @@ import time as clock
 from dataclasses import dataclass, replace
 
 from chapsym.dynamics import Ball
+from chapsym.dynamics.engine import SHORT_RUN
 
 from .columns import asked_for
 from .models import General, Rolling
@@ -12,6 +13,8 @@ from .plan import Plan
 
 #: Balls of a pilot run at most; steps, or frames, of the first one; and seconds from which on one tells enough.
 BALLS, LEAST, ENOUGH = 512, 32, 0.02
+#: How many times what the first took tells what the steps take, beside what a run takes at once, and the noise of both.
+SLOPED = 1.5
 
 
 @dataclass(frozen=True)
@@ -44,10 +47,11 @@ def _extrapolated(plan: Plan) -> float:
     share = len(plan.members) / (chunk.stop - chunk.start)
     work = plan.task.steps if plan.model.stepwise else plan.frames
     first = part = min(LEAST, work)
-    _pilot(plan, chunk, first)  # compiles what is not compiled yet
+    # Loads, or compiles, what the whole run would: from so many steps on.
+    _pilot(plan, chunk, max(first, min(work, -(-SHORT_RUN // chunk.stop))) if plan.model.stepwise else first)
     start = took = _pilot(plan, chunk, first)
-    while part < work and (took < ENOUGH or part == first):
-        part = min(2 * part, work)
+    while part < work and (took < ENOUGH or took < SLOPED * start):
+        part = min((2 if took > SLOPED * start else 8) * part, work)
         took = _pilot(plan, chunk, part)
     slope = max(took - start, 0.0) / (part - first) if part > first else 0.0
     return (took + slope * (work - part)) * share

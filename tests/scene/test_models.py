@@ -234,3 +234,9 @@ def test_next_to_the_separatrix_a_phase_is_as_good_as_the_roundings_leave_it(apa
     curve = chapsym.Curve.through(chapsym.Ball((1, 2, 4), 3), gamma[0])
     assert np.abs(curve.point(columns["phase"][0]) - columns["gamma"][0]).max() < 1e-13 / curve.complement
     assert np.isfinite(columns["rotation_number"])
+
+
+def test_a_rotation_number_of_a_top_is_not_found_step_by_step(vertical):
+    top = replace(vertical, ball=chapsym.Ball(vertical.ball.mass_tensor, np.zeros(3)))
+    for outputs in (("rotation_number",), ("rotation_number", "gamma")):
+        assert planned(top, Task(outputs, 3000, 100)).model.name == Top.name

@@ -7,9 +7,9 @@ import pytest
 from chapsym.generated import TABLE
 
 import chapsym
-from chapsym.dynamics import Status, front
+from chapsym.dynamics import Status, engine, front
+from chapsym.scene import cost, segments
 from chapsym.scene import plan as plans
-from chapsym.scene import segments
 from chapsym.scene.models import MODELS, Rolling
 from chapsym.scene.outputs import OUTPUTS, PER_BALL, columns_for
 from chapsym.scene.plan import planned
@@ -165,3 +165,17 @@ def test_an_accuracy_is_met_by_what_is_chosen_for_each_ball(members):
         )  # fmt: skip
         assert np.abs(columns["contact"] - [1, 0] - fine.contact).max() < 1e-7
         assert np.abs(columns["momentum"] - fine.momentum / 2e-4).max() < 1e-7
+
+
+def test_a_cost_is_that_of_the_compiled_loops(members, monkeypatch):
+    monkeypatch.setattr(engine, "_ready", set())
+    monkeypatch.setattr(cost, "ENOUGH", 0.002)
+    plan = planned(members(1), Task(("contact",), 10**6, 10**5))
+    assert cost.predicted(plan).seconds < 2.0  # plain Python takes ten
+
+
+def test_what_a_run_takes_at_once_is_no_price_of_a_step(members, monkeypatch):
+    """A rotation number takes long before the first step, and never twice the same."""
+    monkeypatch.setattr(cost, "_pilot", lambda plan, chunk, part: 0.025 + 25e-9 * part + 0.002 * (part == 64))
+    plan = planned(members(1), Task(("momentum",), 1_000_000))
+    assert 0.04 < cost.predicted(plan).seconds < 0.06
