@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import chapsym
-from chapsym.dynamics import Status, precession
+from chapsym.dynamics import Status, front, precession
 from chapsym.scene import segments
 from chapsym.scene.members import Members
 from chapsym.scene.models import Rolling, Steady, Top, Vertical
@@ -240,3 +240,23 @@ def test_a_rotation_number_of_a_top_is_not_found_step_by_step(vertical):
     top = replace(vertical, ball=chapsym.Ball(vertical.ball.mass_tensor, np.zeros(3)))
     for outputs in (("rotation_number",), ("rotation_number", "gamma")):
         assert planned(top, Task(outputs, 3000, 100)).model.name == Top.name
+
+
+def test_a_given_attitude_is_that_of_the_first_frame(homogeneous, tops):
+    for members in (homogeneous, tops):
+        spun = np.broadcast_to([0.6, 0.0, 0.0, 0.8], (len(members), 4))
+        attitude = front.compose(spun, Rolling().attitude(members))
+        plan = planned(replace(members, attitude=attitude), Task(("attitude",), 100_000_000, 50_000_000))
+        assert plan.model.name in (Steady.name, Top.name)
+        for model in (plan.model, Rolling()):
+            start, _ = rolled(with_model(replace(plan, task=Task(("attitude",), 5, 5)), model))
+            assert np.abs(start["attitude"][:, 0] - attitude).max() < EPS * 2
+
+
+def test_a_ball_that_has_stopped_leaves_the_others_theirs(vertical):
+    wild = replace(vertical, momentum=vertical.momentum * np.array([[50.0], [1.0], [1.0]]))
+    plan = with_model(planned(wild, Task(("gamma",), 60, 2)), Vertical())
+    columns, _ = rolled(plan, [slice(0, 10), slice(10, 31)])
+    for i in (1, 2):
+        alone = replace(plan, members=wild.of(slice(i, i + 1)))
+        assert (columns["gamma"][i] == rolled(alone, [slice(0, 10), slice(10, 31)])[0]["gamma"][0]).all()

@@ -179,3 +179,12 @@ def test_what_a_run_takes_at_once_is_no_price_of_a_step(members, monkeypatch):
     monkeypatch.setattr(cost, "_pilot", lambda plan, chunk, part: 0.025 + 25e-9 * part + 0.002 * (part == 64))
     plan = planned(members(1), Task(("momentum",), 1_000_000))
     assert 0.04 < cost.predicted(plan).seconds < 0.06
+
+
+def test_the_angular_velocity_and_the_energy_are_those_of_the_momentum(members):
+    some = members()
+    columns, _ = rolled(planned(some, Task(("momentum", "gamma", "omega", "energy"), 40, 3, 0.01)))
+    omega, gamma, D = columns["omega"], columns["gamma"], some.ball.D[:, np.newaxis, np.newaxis]
+    K = some.ball.inertia[:, np.newaxis] * omega + D * np.cross(gamma, np.cross(omega, gamma))
+    assert np.abs(0.01 * K / columns["momentum"] - 1).max() < 1e-12
+    assert np.abs((K * omega).sum(-1) / 2 / columns["energy"] - 1).max() < 1e-13
