@@ -11,7 +11,8 @@ from .errors import BadInput
 from .jacobi import argument, jacobi, quarter_period
 from .map import unit_vertical
 
-#: How near to the curve a γ must be whose argument is asked for.
+#: How near to the curve a γ must be whose argument is asked for; next to the separatrix roundings of a run lead 1/k'
+#: times as far.
 ON_CURVE = 1e-9
 MOST_CORRECTIONS = 60
 #: A correction of the increment below this, relatively, is the last: Newton squares it.
@@ -70,7 +71,9 @@ class Curve:
             float(np.copysign(np.sqrt(Lc * lower / ac), g[c])),
         )
         parity = 1.0 if (b - a) % 3 == 1 else -1.0
-        size = np.sqrt(bc * lower / (La * Lb * Lc))
+        unit = int(np.frexp(max(La, Lb, Lc))[1])  # whose third power may be out of range
+        ma, mb, mc = np.ldexp((La, Lb, Lc), -unit)
+        size = np.ldexp(np.sqrt(np.ldexp(bc, -unit) * lower / (ma * mb * mc)), -unit)
         rate = -parity * np.sign(gaps[1]) * np.sign(amplitudes[2]) * size
         level, slack = float((g * g / moments).sum()), float((g * g * ball.inertia / moments).sum())
         return cls(
@@ -104,7 +107,7 @@ class Curve:
         g = unit_vertical(gamma)
         cn, sn, dn = (g[..., axis] / size for axis, size in zip(self.axes, self.amplitudes, strict=True))
         u = argument(sn, cn, np.abs(dn), quarter_period(self.complement))
-        if g.size and np.abs(self.point(u) - g).max() > ON_CURVE:
+        if g.size and np.abs(self.point(u) - g).max() * self.complement > ON_CURVE:
             raise BadInput("gamma is not on this curve: its ⟨γ,Λ⁻¹γ⟩ or its half of the sphere is another one")
         return u
 
@@ -112,7 +115,7 @@ class Curve:
 def across(tensor: Floats, moments: Floats, g: Floats) -> Floats:
     """γ × Λ⁻¹γ, (..., 3), with Λ₂ - Λ₃ = J₃ - J₂, ..., which a large D does not round."""
     b, c = np.roll(np.arange(3), -1), np.roll(np.arange(3), -2)
-    return np.asarray(g[..., b] * g[..., c] * ((tensor[c] - tensor[b]) / (moments[b] * moments[c])))
+    return np.asarray(g[..., b] * g[..., c] * ((tensor[c] - tensor[b]) / moments[b] / moments[c]))
 
 
 def _separatrix(tensor: Floats, moments: Floats, g: Floats, order: np.ndarray) -> tuple[float, float]:
@@ -130,8 +133,8 @@ def _parts(curve: Curve, sn: Floats, cn: Floats, dn: Floats) -> tuple[Floats, Fl
     Ca, _, Cc = curve.amplitudes
     level, y, w = curve.level, sn * sn, sn * cn * dn
     lower = Cc * Cc * ac / Lc  # Λ_a l - 1
-    alpha = (2.0 * La * Lc * level - (La + Lc - Lb)) / (bc * lower)
-    beta = Lc * Ca * Ca * ac / (bc * bc * lower)
+    alpha = (2.0 * La * (Lc * level) - (La + Lc - Lb)) / (bc * lower)
+    beta = (Lc / bc) * (Ca * Ca * (ac / bc)) / lower
     return w, level - curve.mu * y, 1.0 + y * (alpha - beta * y), 2.0 * w * (alpha - 2.0 * beta * y)
 
 

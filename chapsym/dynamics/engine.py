@@ -131,10 +131,11 @@ def run(
     starts = range(0, n, width)
 
     def task(start: int) -> None:
-        if in_blocks:
-            _run_block(balls, slice(start, min(n, start + width)), steps, every, frames, loops, count)
-        else:
-            _run_one(balls, start, steps, every, frames, loops, stages, work, count)
+        with np.errstate(over="ignore", invalid="ignore"):  # compiled loops do not warn either; `status` tells
+            if in_blocks:
+                _run_block(balls, slice(start, min(n, start + width)), steps, every, frames, loops, count)
+            else:
+                _run_one(balls, start, steps, every, frames, loops, stages, work, count)
 
     workers = min(threads or cores(), len(starts)) if work >= SHORT_RUN else 1
     if workers == 1:

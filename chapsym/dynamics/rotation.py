@@ -6,7 +6,7 @@ from numpy.typing import ArrayLike
 from .ball import Ball, Floats
 from .elliptic import Curve, increment
 from .errors import BadInput
-from .vertical import trajectory_vertical
+from .vertical import step_vertical, trajectory_vertical
 
 #: Turns that are averaged over, and the least and most steps for them.
 TURNS, LEAST, MOST = 100, 2**11, 2**18
@@ -37,6 +37,7 @@ def rotation_number(ball: Ball, height: float, gamma: ArrayLike) -> float:
     if curve.complement == 0.0:
         raise BadInput("on the separatrix there is no turn, so no rotation number")
     start = float(curve.argument(gamma))
+    step_vertical(ball, height, gamma)  # raises where there is none
     turn = abs(float(increment(curve, height, start))) / curve.period
     steps = LEAST if turn * LEAST >= TURNS else min(int(TURNS / turn), MOST) if turn * MOST > TURNS else MOST
     u = phases(curve, height, trajectory_vertical(ball, height, gamma, steps).gamma)

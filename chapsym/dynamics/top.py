@@ -5,7 +5,8 @@ curve is a circle, and (5.15) as corrected does not know ū.  For three differen
 The increment over the period is the rotation number; as a double-double number it is good for 10¹⁴ steps and more.
 """
 
-from dataclasses import dataclass
+import math
+from dataclasses import dataclass, replace
 from typing import Any, Self
 
 import numpy as np
@@ -103,6 +104,7 @@ class TopMotion:
         with ArbBall(BITS).precision():
             exact = ExactCurve.of(curve, axis, scaled, size, half)
             found = as_pair(exact.half / (2 * exact.quarter))
+            curve = exact.nearest()
         return cls(curve, size, float(exact.start.mid()), axis, found, exact, step.rotation)
 
     @property
@@ -184,10 +186,24 @@ class ExactCurve:
         found = s * acb.elliptic_rf(acb(1 - s * s), acb(1 - k2 * s * s), acb(1)).real
         rate = G[0].sqrt() * (1 if curve.rate > 0.0 else -1)
         found *= 1 if size * curve.rate > 0.0 else -1
+        if not k2 < 1:
+            raise BadInput("the motion is on the other side of the separatrix by a rounding; run `trajectory`")
         start = acb.elliptic_f(acb(amplitude(curve, moments, direction)), acb(k2)).real
         return cls(
             curve, tensor, contact, moments, direction, height, level, rate, k2, start, found,
             acb(k2).elliptic_k().real,
+        )  # fmt: skip
+
+    def nearest(self) -> Curve:
+        """The curve with numbers rounded from these: next to the separatrix roundings of a direction are of its k'."""
+        La, Lb, Lc = self.moments
+        upper, lower = abs(1 - Lc * self.level), abs(La * self.level - 1)
+        bc, ac = abs(Lb - Lc), abs(La - Lc)
+        squares = La * upper / ac, Lb * upper / bc, Lc * lower / ac
+        Ca, Cb, Cc = (float(square.sqrt()) for square in squares)
+        return replace(
+            self.curve, amplitudes=(Ca, Cb, math.copysign(Cc, self.curve.amplitudes[2])), rate=float(self.rate),
+            modulus=float(self.k2.sqrt()), complement=float((1 - self.k2).sqrt()), level=float(self.level),
         )  # fmt: skip
 
 

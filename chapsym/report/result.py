@@ -167,7 +167,8 @@ def _drift(dataset: "Dataset") -> str:
     elif {"momentum", "gamma"} <= set(dataset.data_vars) and "row" not in dataset.dims and dataset["gamma"].size < MOST:
         momentum, gamma = reading.values(dataset, "momentum"), reading.values(dataset, "gamma")
         there = np.isfinite(gamma).all(axis=-1, keepdims=True)
-        found = front.invariants(np.where(there, momentum, 0.0), np.where(there, gamma, 0.0))
+        with np.errstate(over="ignore", invalid="ignore"):
+            found = front.invariants(np.where(there, momentum, 0.0), np.where(there, gamma, 0.0))
         found, names = np.where(there, found, np.nan), ["K.gamma", "K.K", "gamma.gamma"]
     else:
         return ""

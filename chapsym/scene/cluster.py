@@ -82,9 +82,9 @@ def on_cluster(plan: Plan, store: Store, tally: Tally, address: str) -> dict[int
 def _client(address: str) -> Iterator[Any]:
     from distributed import Client
 
-    logger = logging.getLogger("distributed")
-    level = logger.level
-    logger.setLevel(logging.CRITICAL)  # what went wrong is told once, in a sentence
+    levels = {logger: logger.level for logger in map(logging.getLogger, ("distributed", "distributed.client"))}
+    for logger in levels:
+        logger.setLevel(logging.CRITICAL)  # what went wrong is told once, in a sentence
     try:
         client = Client(address, timeout=REACHED, set_as_default=False)
     except (OSError, TimeoutError):
@@ -96,7 +96,8 @@ def _client(address: str) -> Iterator[Any]:
             yield client
     finally:
         client.close(timeout=2)
-        logger.setLevel(level)
+        for logger, level in levels.items():
+            logger.setLevel(level)
 
 
 class _Flight:

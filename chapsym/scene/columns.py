@@ -9,6 +9,7 @@ from .outputs import OUTPUTS
 from .task import Columns, Task
 
 
+@np.errstate(over="ignore", invalid="ignore")  # the square of a momentum may be beyond float64
 def asked_for(members: Members, task: Task, columns: Columns) -> Columns:
     """The outputs of a task from the columns of a model in principal axes; what was not asked for is left out."""
     found: Columns = {}

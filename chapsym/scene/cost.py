@@ -4,6 +4,7 @@ import time as clock
 from dataclasses import dataclass, replace
 
 from chapsym.dynamics import Ball
+from chapsym.dynamics.engine import SHORT_RUN
 
 from .columns import asked_for
 from .models import General, Rolling
@@ -13,6 +14,10 @@ from .plan import Plan
 #: Balls of a pilot run at most; steps, or frames, of the first one; and how many seconds longer the last one takes, so
 #: that what its steps cost is more than what a busy machine adds to the overhead.
 BALLS, LEAST, ENOUGH = 512, 32, 0.03
+#: How many times what the first took tells what the steps take, beside what a run takes at once.
+SLOPED = 1.5
+#: Nanoseconds that the balls of a pilot run may take at once, and seconds after which it is not repeated.
+AT_ONCE, LONG = 2e8, 0.2
 
 
 @dataclass(frozen=True)
@@ -41,23 +46,30 @@ def predicted(plan: Plan) -> Cost:
 
 def _extrapolated(plan: Plan) -> float:
     """Seconds of the processor for a whole run, from pilot runs, each twice as long as the one before."""
-    chunk = slice(0, min(BALLS, len(plan.members)))
+    chunk = slice(0, _balls(plan))
     share = len(plan.members) / (chunk.stop - chunk.start)
     work = plan.task.steps if plan.model.stepwise else plan.frames
     first = part = min(LEAST, work)
-    _pilot(plan, chunk, first)  # compiles what is not compiled yet
+    # Loads, or compiles, what the whole run would: from so many steps on.
+    _pilot(plan, chunk, max(first, min(work, -(-SHORT_RUN // chunk.stop))) if plan.model.stepwise else first)
     start = took = _pilot(plan, chunk, first)
     while part < work and took - start < ENOUGH:
-        part = min(2 * part, work)
+        part = min((2 if took > SLOPED * start else 8) * part, work)
         took = _pilot(plan, chunk, part)
     slope = max(took - start, 0.0) / (part - first) if part > first else 0.0
     return (took + slope * (work - part)) * share
 
 
+def _balls(plan: Plan) -> int:
+    """How many balls a pilot run has: fewer where each costs much, whatever its steps."""
+    once = plan.model.price(plan.members, replace(plan.task, steps=1, every=1), plan.needed) / len(plan.members)
+    return max(1, min(BALLS, len(plan.members), int(AT_ONCE / once)))
+
+
 def _pilot(plan: Plan, chunk: slice, part: int) -> float:
     """Seconds of some balls for a part of the work: steps, or frames of a model that needs no steps between them.
 
-    The best of three runs: the first of a length may load compiled code.
+    The best of three runs, if they are short: the first of a length may load compiled code.
     """
     every = plan.task.every
     steps = part if plan.model.stepwise else part * every
@@ -70,4 +82,6 @@ def _pilot(plan: Plan, chunk: slice, part: int) -> float:
         columns, _ = plan.model.advance(members, task, plan.needed, state, slice(0, task.frames), lambda steps: None)
         asked_for(members, task, columns)
         took.append(clock.process_time() - started)
+        if took[-1] > LONG:
+            break
     return min(took)

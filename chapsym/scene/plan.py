@@ -120,18 +120,23 @@ def planned(members: Members, task: Task) -> Plan:
             refused[model.name] = reason
         else:
             prices[model.name] = model.price(members, task, needed)
-    if not prices:
+    for model in sorted((model for model in MODELS if model.name in prices), key=lambda model: prices[model.name]):
+        reason = model.unfit(members, task, needed)
+        if reason is None:
+            chosen = model
+            break
+        refused[model.name] = reason
+        del prices[model.name]
+    else:
         able = [model.name for model in MODELS if needed <= model.columns] or list(refused)
         told = "; ".join(f"{name}: {refused[name]}" for name in able)
         raise BadInput(f"no model yields {', '.join(task.outputs)} for these balls: {told}")
-    least = min(prices, key=lambda name: prices[name])
     dearer = {
-        name: f"it would cost {price / prices[least]:.1f} times as much"
+        name: f"it would cost {price / prices[chosen.name]:.1f} times as much"
         for name, price in prices.items()
-        if name != least
+        if name != chosen.name
     }
     lesser = {model.name: (refused | dearer).get(model.name) for model in MODELS if model.reduction}
-    (chosen,) = (model for model in MODELS if model.name == least)
     return Plan(members, task, chosen, needed, {name: why for name, why in lesser.items() if why is not None})
 
 

@@ -50,7 +50,8 @@ def _start(scene: Scene, members: Members, i: int) -> str:
     what = "K" if scene.run.accuracy is not None else "𝒦"
     unit = "kg m²/s" if scene.run.accuracy is not None else "kg m²"
     momentum = members.momentum[i]
-    size = np.sqrt((momentum * momentum).sum() / (1 if momentum.ndim == 1 else 2))
+    with np.errstate(over="ignore"):
+        size = np.sqrt((momentum * momentum).sum() / (1 if momentum.ndim == 1 else 2))
     shown = f"{what} = {_vector(momentum)} {unit}, " if momentum.ndim == 1 else ""
     return f"{shown}|{what}| = {size:.6g} {unit}, γ = {_vector(members.gamma[i])}, in principal axes"
 

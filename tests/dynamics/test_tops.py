@@ -190,3 +190,30 @@ def test_a_body_turns_as_its_vectors():
     assert np.abs(front.rotate(found.attitude, found.gamma) - [0, 0, 1]).max() <= 8 * ULP
     fixed = front.rotate(found.attitude, found.momentum)
     assert np.abs(fixed - fixed[0]).max() <= 16 * ULP
+
+
+@pytest.mark.parametrize("apart", [1e-15, 1e-13, -1e-11, 1e-8])
+def test_next_to_the_separatrix_the_curve_is_that_of_the_momentum(apart):
+    """k'² is as small as the roundings of 𝒦/|𝒦|: those must not be of the curve."""
+    ball = Ball((0.3, 1.3, 0.05), 0.0)
+    moments = ball.inertia
+    a, b, c = np.argsort(-moments)
+    momentum = np.empty(3)
+    momentum[c] = np.sqrt((ball.mass_tensor[b] - ball.mass_tensor[a]) / moments[a])
+    momentum[a] = np.sqrt((ball.mass_tensor[c] - ball.mass_tensor[b]) / moments[c]) * (1 + apart)
+    momentum[b] = 0.1
+    momentum *= 1e-3
+    run = trajectory(ball, momentum, (0, 0, 1), 3000, every=500, precision="quad")
+    motion = TopMotion.free(ball, momentum)
+    assert motion.curve.complement < 2 * np.sqrt(abs(apart)) + 1e-7
+    far = np.abs(motion.momenta(run.index) - run.momentum).max() / np.abs(momentum).max()
+    assert far <= budget(motion)[0]
+
+
+@pytest.mark.parametrize("unit", [2.0**-500, 2.0**500])
+@pytest.mark.parametrize("third", [4.0, 1.0 + 2.0**-50])
+def test_units_may_be_as_small_and_as_large_as_those_of_the_map(unit, third):
+    ball, momentum = Ball(unit * np.array([1, 1 + 2.0**-52, third]), 0.0), unit * np.array([0.3, -0.2, 0.5])
+    run = trajectory(ball, momentum, (0, 0, 1), 100, every=10, attitude=True, precision="quad")
+    found = top_frames(ball, momentum, (0, 0, 1), run.index, attitude=True)
+    assert (far_from(run, found) <= budget(TopMotion.free(ball, momentum))).all()

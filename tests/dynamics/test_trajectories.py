@@ -242,3 +242,10 @@ def test_counts_beyond_all_bounds_are_only_large():
 def test_a_huge_d_is_no_missing_inertia():
     with pytest.raises(StepNotTaken, match="D is too large"):
         chapsym.step(Ball((1, 2, 4), 1e16), K, GAMMA)
+
+
+def test_a_momentum_beyond_squares_stops_without_a_warning(monkeypatch, recwarn):
+    monkeypatch.setattr(engine, "_ready", set())  # plain Python's loops
+    run = chapsym.trajectory(chapsym.Ball((1, 2, 4), 3), [(1e200, 0, 0)] * 2, (2 / 7, 3 / 7, 6 / 7), 5)
+    assert (run.status != chapsym.Status.TAKEN).all()
+    assert not recwarn.list

@@ -1,6 +1,7 @@
 """Sweeps on a real Dask scheduler with worker processes: equal to the local ones, whatever happens to a worker."""
 
 import json
+import logging
 import os
 import random
 import signal
@@ -180,7 +181,11 @@ def test_a_scheduler_without_workers_is_one_sentence(scheduler, tmp_path, monkey
         sweep.run_to_store(plan_from(SCENE), tmp_path / "run.zarr", scheduler)
 
 
-def test_a_scheduler_that_ends_is_one_sentence_and_loses_nothing(local, tmp_path):
+def test_a_scheduler_that_ends_is_one_sentence_and_loses_nothing(local, tmp_path, caplog, monkeypatch):
+    import distributed  # noqa: F401 -- sets its loggers up
+
+    for name in ("distributed", "distributed.client"):
+        monkeypatch.setattr(logging.getLogger(name), "handlers", [caplog.handler])
     file = tmp_path / "scheduler.json"
     arguments = ["distributed.cli.dask_scheduler", "--host", "127.0.0.1", "--port", "0", "--no-dashboard"]
     with process(*arguments, "--scheduler-file", str(file)) as running:
@@ -194,6 +199,7 @@ def test_a_scheduler_that_ends_is_one_sentence_and_loses_nothing(local, tmp_path
 
         with worker(address, "0.2"), pytest.raises(SceneError, match="is lost; the same command goes on"):
             sweep.run_to_store(plan_from(SCENE), tmp_path / "run.zarr", address, report=end)
+    assert not caplog.records
     before = formats.load(tmp_path / "run.zarr").taken.values
     assert (before != -1).sum() >= 8
     assert sweep.run_to_store(plan_from(SCENE), tmp_path / "run.zarr").complete

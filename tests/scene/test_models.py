@@ -7,7 +7,7 @@ import pytest
 from rolled import rolled
 
 import chapsym
-from chapsym.dynamics import Status
+from chapsym.dynamics import Status, front, precession
 from chapsym.scene.members import Members
 from chapsym.scene.models import Rolling, Steady, Top, Vertical
 from chapsym.scene.plan import planned
@@ -178,3 +178,81 @@ def test_the_rotation_number_is_that_of_any_point_of_the_curve():
     found = [chapsym.rotation_number(ball, 2.0, curve.point(u)) for u in (0.0, 0.3, 1.7)]
     assert max(found) - min(found) < 1e-11
     assert found[0] != pytest.approx(float(chapsym.increment(curve, 2.0, 0.0)) / curve.period, rel=1e-6)
+
+
+def test_a_top_without_an_attitude_at_once_takes_its_steps(tops, monkeypatch):
+    task = Task(("gamma",), 1_000_000, 100_000)
+    assert planned(tops, task).model.name == Top.name
+    monkeypatch.setattr(precession, "MOST", 0)
+    plan = planned(tops, task)
+    assert plan.model.name == Rolling.name
+    assert "too near to the separatrix" in plan.refused[Top.name]
+    assert planned(tops, replace(task, outputs=("momentum",))).model.name == Top.name
+
+
+def test_the_balls_of_a_model_that_is_dearer_are_not_looked_at_one_by_one(tops, monkeypatch):
+    monkeypatch.setattr("chapsym.scene.models.top.motion_of", None)
+    plan = planned(tops, Task(("momentum",), 10))
+    assert plan.model.name == Rolling.name
+    assert "times as much" in plan.refused[Top.name]
+
+
+def test_a_ball_beyond_its_fold_has_no_rotation_number_and_the_others_theirs(vertical):
+    wild = replace(vertical, momentum=vertical.momentum * np.array([[50.0], [1.0], [1.0]]))
+    task = Task(("gamma", "rotation_number"), 100)
+    plan = planned(wild, task)
+    columns, state = rolled(plan)
+    assert state["status"].tolist()[1:] == [0, 0]
+    assert np.isnan(columns["rotation_number"]).tolist() == [True, False, False]
+    alone, _ = rolled(planned(vertical, task))
+    assert (columns["rotation_number"][1:] == alone["rotation_number"][1:]).all()
+
+
+@pytest.mark.parametrize("apart", [1e-11, -3e-12])
+def test_next_to_the_separatrix_a_phase_is_as_good_as_the_roundings_leave_it(apart):
+    ball = chapsym.Ball(np.array([[1.0, 2.0, 4.0]]), np.array([3.0]))
+    # ⟨γ,Λ⁻¹γ⟩ = 1/Λ₂ for Λ = (9, 8, 6) where γ₁²/9 = γ₃²/3
+    gamma = np.array([[1.0, 0.5, np.sqrt(1 / 3) * (1 + apart)]])
+    gamma /= np.sqrt((gamma**2).sum())
+    near = Members(("near",), ball, gamma, gamma)
+    columns, state = rolled(planned(near, Task(("gamma", "phase", "rotation_number"), 100_000, 10)))
+    assert state["status"] == 0
+    curve = chapsym.Curve.through(chapsym.Ball((1, 2, 4), 3), gamma[0])
+    assert np.abs(curve.point(columns["phase"][0]) - columns["gamma"][0]).max() < 1e-13 / curve.complement
+    assert np.isfinite(columns["rotation_number"])
+
+
+def test_a_rotation_number_of_a_top_is_not_found_step_by_step(vertical):
+    top = replace(vertical, ball=chapsym.Ball(vertical.ball.mass_tensor, np.zeros(3)))
+    for outputs in (("rotation_number",), ("rotation_number", "gamma")):
+        assert planned(top, Task(outputs, 3000, 100)).model.name == Top.name
+
+
+def test_a_given_attitude_is_that_of_the_first_frame(homogeneous, tops):
+    for members in (homogeneous, tops):
+        spun = np.broadcast_to([0.6, 0.0, 0.0, 0.8], (len(members), 4))
+        attitude = front.compose(spun, Rolling().attitude(members))
+        plan = planned(replace(members, attitude=attitude), Task(("attitude",), 100_000_000, 50_000_000))
+        assert plan.model.name in (Steady.name, Top.name)
+        for model in (plan.model, Rolling()):
+            start, _ = rolled(with_model(replace(plan, task=Task(("attitude",), 5, 5)), model))
+            assert np.abs(start["attitude"][:, 0] - attitude).max() < EPS * 2
+
+
+def test_a_ball_that_has_stopped_leaves_the_others_theirs(vertical):
+    wild = replace(vertical, momentum=vertical.momentum * np.array([[50.0], [1.0], [1.0]]))
+    plan = with_model(planned(wild, Task(("gamma",), 60, 2)), Vertical())
+    columns, _ = rolled(plan, [slice(0, 10), slice(10, 31)])
+    for i in (1, 2):
+        alone = replace(plan, members=wild.of(slice(i, i + 1)))
+        assert (columns["gamma"][i] == rolled(alone, [slice(0, 10), slice(10, 31)])[0]["gamma"][0]).all()
+
+
+def test_a_top_near_the_separatrix_is_followed_step_by_step_where_its_attitude_would_lose_digits():
+    K, gamma = np.array([[1e-4, 0.5, 0]]), np.array([[0, 0, 1.0]])
+    some = Members(("a",), chapsym.Ball(np.array([[1.0, 2.0, 4.0]]), [0.0]), K, gamma)
+    assert chapsym.Curve.through(chapsym.Ball((1, 2, 4), 0), K[0] / np.linalg.norm(K)).complement < 1e-3
+    plan = planned(some, Task(("momentum", "gamma", "attitude"), 10**7, 10**6))
+    assert plan.model.name == Rolling.name
+    assert plan.refused[Top.name] == "a is near the separatrix, where an attitude at once loses digits"
+    assert planned(some, Task(("momentum",), 10**7, 10**6)).model.name == Top.name

@@ -8,9 +8,9 @@ from chapsym.generated import TABLE
 from rolled import rolled
 
 import chapsym
-from chapsym.dynamics import Status, front
+from chapsym.dynamics import Status, engine, front
+from chapsym.scene import cost, segments
 from chapsym.scene import plan as plans
-from chapsym.scene import segments
 from chapsym.scene.models import MODELS, Rolling
 from chapsym.scene.outputs import OUTPUTS, PER_BALL, columns_for
 from chapsym.scene.plan import planned
@@ -156,3 +156,57 @@ def test_an_accuracy_is_met_by_what_is_chosen_for_each_ball(members):
         )  # fmt: skip
         assert np.abs(columns["contact"] - [1, 0] - fine.contact).max() < 1e-7
         assert np.abs(columns["momentum"] - fine.momentum / 2e-4).max() < 1e-7
+
+
+def test_a_cost_is_that_of_the_compiled_loops(members, monkeypatch):
+    monkeypatch.setattr(engine, "_ready", set())
+    monkeypatch.setattr(cost, "ENOUGH", 0.002)
+    plan = planned(members(1), Task(("contact",), 10**6, 10**5))
+    assert cost.predicted(plan).seconds < 2.0  # plain Python takes ten
+
+
+def test_what_a_run_takes_at_once_is_no_price_of_a_step(members, monkeypatch):
+    """A rotation number takes long before the first step, and never twice the same."""
+    monkeypatch.setattr(cost, "_pilot", lambda plan, chunk, part: 0.025 + 25e-9 * part + 0.002 * (part == 64))
+    plan = planned(members(1), Task(("momentum",), 1_000_000))
+    assert 0.04 < cost.predicted(plan).seconds < 0.06
+
+
+def test_the_angular_velocity_and_the_energy_are_those_of_the_momentum(members):
+    some = members()
+    columns, _ = rolled(planned(some, Task(("momentum", "gamma", "omega", "energy"), 40, 3, 0.01)))
+    omega, gamma, D = columns["omega"], columns["gamma"], some.ball.D[:, np.newaxis, np.newaxis]
+    K = some.ball.inertia[:, np.newaxis] * omega + D * np.cross(gamma, np.cross(omega, gamma))
+    assert np.abs(0.01 * K / columns["momentum"] - 1).max() < 1e-12
+    assert np.abs((K * omega).sum(-1) / 2 / columns["energy"] - 1).max() < 1e-13
+
+
+def test_a_ball_that_stops_is_NaN_in_the_axes_that_were_given_too(members):
+    some = members()
+    faster = some.momentum.copy()
+    faster[0] *= 26.25
+    turned = replace(some, momentum=faster, axes=np.array([[0.5, 0.5, 0.5, 0.5]] * 3))
+    columns, _ = rolled(planned(turned, Task(STATE, 50, 5, 0.01)))
+    for name in STATE:
+        assert np.isnan(columns[name][0, 8:]).all()
+        assert not np.isnan(columns[name][0, :8]).any()
+
+
+def test_31_digits_are_refused_in_other_axes(members):
+    turned = replace(members(), axes=np.array([[0.5, 0.5, 0.5, 0.5]] * 3))
+    with pytest.raises(chapsym.BadInput, match="31 digits are kept in principal axes only"):
+        planned(turned, Task(("momentum",), 5, precision="quad"))
+    assert planned(members(), Task(("momentum",), 5, precision="quad")).model.name == "reduced map"
+
+
+def test_the_energy_of_a_run_to_an_accuracy_is_that_of_K(members):
+    some = members(1)
+    some = replace(some, momentum=some.momentum / 0.01)
+    plan = planned(some, Task(("energy", "momentum", "gamma"), 2, accuracy=1e-7, time=1.0))
+    columns, _ = rolled(plan)
+    J, D = some.ball.mass_tensor[0], float(some.ball.D[0])
+    inertia = np.diag(J.sum() - J + D)  # ½⟨K,ω⟩ with K = (Λ - Dγγᵀ)ω
+    for k in range(3):
+        K, g = columns["momentum"][0, k], columns["gamma"][0, k]
+        energy = 0.5 * K @ np.linalg.solve(inertia - D * np.outer(g, g), K)
+        assert columns["energy"][0, k] == pytest.approx(energy, rel=1e-12)

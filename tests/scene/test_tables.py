@@ -228,11 +228,11 @@ def test_a_file_that_is_no_scene_is_one_sentence(tmp_path):
 
 def test_dimensions_that_nobody_waits_for_are_refused():
     data = {"ball": {"mass_tensor": [1.0] * 33, "D": 1}, "start": {"momentum": [1, 0, 0]}, "run": {"steps": 1}}
-    with pytest.raises(scene.SceneError, match="ball.mass_tensor has 33 numbers, and 32 dimensions are the most"):
+    with pytest.raises(scene.SceneError, match=r"ball\.mass_tensor has 33 numbers, and 32 dimensions are the most"):
         scene.checked(data)
 
 
 def test_outputs_are_a_list_of_names():
     data = {"ball": {"mass_tensor": [1, 2, 4], "D": 1}, "start": {"momentum": [1, 0, 0]}}
-    with pytest.raises(scene.SceneError, match="run.outputs must be a list of names in brackets"):
+    with pytest.raises(scene.SceneError, match=r"run\.outputs must be a list of names in brackets"):
         scene.checked({**data, "run": {"steps": 1, "outputs": "gamma"}})

@@ -40,6 +40,10 @@ class Model(ABC):
     def refuses(self, members: Members, task: Task, needed: frozenset[str]) -> str | None:
         """Why this model does not serve these balls and columns, in a clause; None if it does."""
 
+    def unfit(self, members: Members, task: Task, needed: frozenset[str]) -> str | None:
+        """The same, by a look at each ball that may take as long as its run: asked of the cheapest models only."""
+        return None
+
     def begin(self, members: Members, task: Task, needed: frozenset[str]) -> State:
         """The state at the start."""
         n = len(members)

@@ -3,10 +3,14 @@
 import numpy as np
 
 from chapsym.dynamics import BadInput, Ball, Status, StepNotTaken, TopMotion, is_top, top_frames
+from chapsym.dynamics.precession import Precession
 
 from ..members import Members, one_ball
 from ..task import Columns, Task
 from .model import Model, Progress, State, beyond_a_reduction
+
+#: γ and the attitude lose up to 1/k' ulps: three digits at most.
+NEAREST = 1e-3
 
 
 class Top(Model):
@@ -20,16 +24,24 @@ class Top(Model):
     reduction = True
 
     def refuses(self, members: Members, task: Task, needed: frozenset[str]) -> str | None:
-        """Balls that are no such tops, tops on the separatrix, and what `top_frames` does not have."""
+        """Balls that are no such tops, and what `top_frames` does not have."""
         if (reason := beyond_a_reduction(members, task)) is not None:
             return reason
         assert isinstance(members.ball, Ball)
         tops = is_top(members.ball, members.momentum, members.gamma)
         if not tops.all():
             return f"D of {members.names[int(np.argmin(tops))]} is not 0, or its 𝒦 stays"
+        return None
+
+    def unfit(self, members: Members, task: Task, needed: frozenset[str]) -> str | None:
+        """Tops on the separatrix, or too near to it."""
         for i, name in enumerate(members.names):
             try:
-                motion_of(members, i)
+                motion = motion_of(members, i)
+                if _turned(members, needed):
+                    if motion.curve.complement < NEAREST:
+                        return f"{name} is near the separatrix, where an attitude at once loses digits"
+                    Precession.of(motion)
             except BadInput as error:
                 return f"{name}: {error}"
             except StepNotTaken:
@@ -39,8 +51,7 @@ class Top(Model):
     def price(self, members: Members, task: Task, needed: frozenset[str]) -> float:
         """The increment of each ball in hundreds of bits, and the frames; γ of D = 0 needs the precession."""
         free = not members.ball.D.any()
-        turned = "attitude" in needed or (free and "gamma" in needed)
-        fixed, frame = (2.7e6, 650.0) if turned else (9e5, 110.0) if free else (1e6, 220.0)
+        fixed, frame = (2.7e6, 650.0) if _turned(members, needed) else (9e5, 110.0) if free else (1e6, 220.0)
         return len(members) * (fixed + task.frames * frame)
 
     def advance(
@@ -64,6 +75,11 @@ class Top(Model):
         last = task.steps if segment.stop == task.frames else int(index[-1])
         progress(len(members) * last)
         return found, {"taken": np.where(status == Status.TAKEN, last, 0), "status": status}
+
+
+def _turned(members: Members, needed: frozenset[str]) -> bool:
+    """Whether the precession is followed: of the attitude, and of γ for D = 0."""
+    return "attitude" in needed or ("gamma" in needed and not members.ball.D.all())
 
 
 def motion_of(members: Members, i: int) -> TopMotion:

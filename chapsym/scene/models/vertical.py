@@ -10,6 +10,8 @@ from .model import Model, Progress, State, beyond_a_reduction
 
 #: How far 𝒦 may be from hγ, relatively: 𝒦 was rounded, and its motion stays as near as that to the one with 𝒦 = hγ.
 VERTICAL = 4 * np.finfo(np.float64).eps
+#: Next to the separatrix roundings lead from curve to curve, and to the other side of it, where k' is less than this.
+NEAREST = 1e-6
 
 
 class Vertical(Model):
@@ -28,7 +30,7 @@ class Vertical(Model):
     unit_steps = 2**25
 
     def refuses(self, members: Members, task: Task, needed: frozenset[str]) -> str | None:
-        """Momenta that are not vertical; points that stay, where a phase is asked for."""
+        """Momenta that are not vertical."""
         if (reason := beyond_a_reduction(members, task)) is not None:
             return reason
         assert isinstance(members.ball, Ball)
@@ -36,25 +38,25 @@ class Vertical(Model):
         apart = np.abs(K - height[:, np.newaxis] * members.gamma).max(axis=-1) > VERTICAL * np.abs(height)
         if apart.any() or (height == 0).any():
             return f"the momentum of {members.names[int(np.argmax(apart | (height == 0)))]} is not along γ"
-        if needed & {"phase", "rotation_number"}:
-            return self._no_curve(members)
         return None
 
-    @staticmethod
-    def _no_curve(members: Members) -> str | None:
+    def unfit(self, members: Members, task: Task, needed: frozenset[str]) -> str | None:
+        """Points that stay, and the separatrix, where a phase is asked for."""
+        if not needed & {"phase", "rotation_number"}:
+            return None
         for i, name in enumerate(members.names):
             try:
                 curve = Curve.through(one_ball(members, i), members.gamma[i])
             except BadInput as error:
                 return f"{name}: {error}"
-            if curve.complement == 0.0:
-                return f"{name} is on the separatrix, where the period is infinite"
+            if curve.complement < NEAREST:
+                return f"{name} is on the separatrix, where the period is infinite, or too near to it for a phase"
         return None
 
     def price(self, members: Members, task: Task, needed: frozenset[str]) -> float:
         """The steps of each ball, its phases, and the steps of its rotation number."""
         frame = 1300.0 if "phase" in needed else 10.0
-        turns = 2e6 if "rotation_number" in needed else 0.0
+        turns = 5e7 if "rotation_number" in needed else 0.0
         return len(members) * (task.steps * 25.0 + task.frames * frame + turns)
 
     def begin(self, members: Members, task: Task, needed: frozenset[str]) -> State:
