@@ -12,8 +12,8 @@ from .jacobi import argument, jacobi, quarter_period
 from .map import unit_vertical
 
 #: How near to the curve a γ must be whose argument is asked for; next to the separatrix roundings of a run lead 1/k'
-#: times as far.
-ON_CURVE = 1e-9
+#: times as far, which is followed up to 1/k' = 10⁶.
+ON_CURVE, NEAREST = 1e-9, 1e-6
 MOST_CORRECTIONS = 60
 #: A correction of the increment below this, relatively, is the last: Newton squares it.
 SETTLED = 1e-9
@@ -107,7 +107,7 @@ class Curve:
         g = unit_vertical(gamma)
         cn, sn, dn = (g[..., axis] / size for axis, size in zip(self.axes, self.amplitudes, strict=True))
         u = argument(sn, cn, np.abs(dn), quarter_period(self.complement))
-        if g.size and np.abs(self.point(u) - g).max() * self.complement > ON_CURVE:
+        if g.size and np.abs(self.point(u) - g).max() * max(self.complement, NEAREST) > ON_CURVE:
             raise BadInput("gamma is not on this curve: its ⟨γ,Λ⁻¹γ⟩ or its half of the sphere is another one")
         return u
 

@@ -160,6 +160,7 @@ def test_the_derivative_of_the_height_is_its_derivative():
         (lambda: Curve.through(Ball((1, 2, 4), [3, 0]), GAMMA), "not of a batch"),
         (lambda: Curve.through((1, 2, 4), GAMMA), r"must be a chapsym\.Ball"),
         (lambda: Curve.through(BALLS[0], GAMMA).argument((0, 0, 1)), "not on this curve"),
+        (lambda: Curve.through(BALLS[0], (1e-9, 1, 0)).argument((0.6, 0, 0.8)), "not on this curve"),
         (lambda: Curve.through(BALLS[0], GAMMA).argument(-GAMMA), "another one"),
         (lambda: increment(Curve.through(BALLS[0], GAMMA), 50.0, 0.0), "take a smaller one"),
         (lambda: squared_sine(Curve.through(BALLS[0], GAMMA), 1.0, 0.1), "needs D > 0"),
