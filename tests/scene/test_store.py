@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray
+import zarr
 from small_units import EVERY, OUTPUTS, STEPS, equal_to_the_bit, plan
 
 from chapsym.dynamics import BadInput, Status
@@ -292,6 +293,24 @@ def test_a_store_that_is_deleted_meanwhile_leaves_no_debris(tmp_path, monkeypatc
     assert not path.exists()
     assert is_store(tmp_path / "gone")
     assert sweep.run_to_store(plan(), path).complete
+
+
+def test_a_store_that_is_deleted_under_a_unit_leaves_no_debris(tmp_path, monkeypatch):
+    wanted, path = plan(), tmp_path / "run.zarr"
+    with Store.of(path, wanted):
+        chunk = wanted.chunks[0]
+        columns, _ = segments.advance(wanted, chunk, segments.begin(wanted, chunk), wanted.segments[0])
+        real = zarr.Array.__setitem__
+
+        def late(array, where, values):  # the store goes after the check, before the write
+            if path.exists() and not (tmp_path / "gone").exists():
+                path.rename(tmp_path / "gone")
+            real(array, where, values)
+
+        monkeypatch.setattr(zarr.Array, "__setitem__", late)
+        with pytest.raises(SceneError, match="was deleted or moved while it was written"):
+            write_region(path, wanted, 0, 0, columns)
+    assert not path.exists()
 
 
 def test_the_state_of_a_unit_survives_the_disk(tmp_path):
