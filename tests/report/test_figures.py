@@ -430,11 +430,21 @@ def test_the_only_frame_of_a_ball_is_seen():
     one = results.of(run, ["omega", "energy"]).isel(frame=[0])
     for name in ("omega", "energy"):
         drawn = [line for line in figures.draw(one, name).axes[0].lines if line.get_zorder() >= 2]
-        assert drawn and all(line.get_marker() == "o" for line in drawn)
+        assert drawn
+        assert all(line.get_marker() == "o" for line in drawn)
 
 
 @pytest.mark.filterwarnings("error")
 def test_phases_of_balls_that_have_not_run_yet_are_drawn_without_a_warning():
     u = np.array([np.linspace(0.0, 1.0, 9), np.full(9, np.nan)])
     gained, known = phase.gains(u, np.ones(8), None, None)
-    assert not known and np.array_equal(gained, np.diff(u, axis=1), equal_nan=True)
+    assert not known
+    assert np.array_equal(gained, np.diff(u, axis=1), equal_nan=True)
+
+
+def test_a_spread_needs_three_balls_that_go_on():
+    J = np.repeat(np.atleast_2d(results.UNEVEN.mass_tensor), 5, axis=0)
+    balls = chapsym.Ball(J, np.repeat(results.UNEVEN.D, 5), np.repeat(results.UNEVEN.radius, 5))
+    omega = np.array([[10.0, -2.0, 1.0]] * 2 + [[3000.0, -2.0, 1.0]] * 3)
+    two = results.of(chapsym.roll(balls, omega, time_step=0.01, steps=5, contact=True), ["contact", "gamma"])
+    assert figures.available(two)["spread"] == "a spread needs at least three balls that go on"
