@@ -106,7 +106,7 @@ def run_scene(scene: "str | Path | Mapping[str, Any]", progress: Callable[[Any],
 
 
 def open_result(path: str | Path) -> Result:
-    """Opens a result, .zarr, .nc, .npz, .csv or .parquet; arrays of .zarr and .nc are read when they are used.
+    """Opens a result, .zarr, .nc, .npz, .csv or .parquet; arrays of .zarr are read when they are used.
 
     Raises SceneError for a file that is not there, or is no result.
     """

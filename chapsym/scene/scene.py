@@ -89,15 +89,21 @@ class Scene(Table):
     @model_validator(mode="after")
     def _together(self) -> Self:
         names = [ball.name for ball in self.ball if ball.name is not None]
+        drawn = False
         for i, ball in enumerate(self.ball):
             if ball.start is None and self.start is None:
                 raise At("start is missing: give [start], or each ball its own start = { ... }", "ball", i)
             if names.count(ball.name or "") > 1:
                 raise At(f"two balls have the name {ball.name!r}", "ball", i, "name")
-            self._check_ball(i, ball)
+            drawn |= self._check_ball(i, ball)
+        if self.sweep.samples is not None and not drawn:
+            raise At(
+                "sweep.samples goes with a range that is drawn, random or normal: there is none", "sweep", "samples"
+            )
         return self
 
-    def _check_ball(self, i: int, ball: BallTable) -> None:
+    def _check_ball(self, i: int, ball: BallTable) -> bool:
+        """Raises where its keys do not fit together; returns whether any of its ranges is drawn."""
         start, run = ball.start or self.start, self.run
         assert start is not None
         path: tuple[str | int, ...] = ("ball", i, "start") if ball.start else ("start",)
@@ -121,6 +127,7 @@ class Scene(Table):
         }
         if drawn and self.sweep.samples is None:
             raise At(f"{next(iter(drawn))} is drawn: say how often, as samples = 100 under [sweep]", "ball", i)
+        return bool(drawn)
 
 
 def load(path: Path) -> Scene:

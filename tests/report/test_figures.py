@@ -14,7 +14,7 @@ import chapsym
 from chapsym import files
 from chapsym.dynamics import BadInput
 from chapsym.report import figures
-from chapsym.report.figures import change, reading, series
+from chapsym.report.figures import change, phase, reading, series
 
 GAMMA = (0.48, 0.6, 0.64)
 
@@ -423,3 +423,28 @@ def test_a_name_that_the_font_has_not_is_drawn_without_warnings(tmp_path):
     scene = {"ball": [ball, ball | {"name": "b"}], "start": {"omega": [1, 2, 3]}, "run": {"time_step": 0.1, "steps": 3}}
     run = chapsym.run_scene(scene)
     assert len(figures.save_all(run.dataset, tmp_path, ("png",), names=["spheres"])) == 1
+
+
+def test_the_only_frame_of_a_ball_is_seen():
+    run = chapsym.roll(results.UNEVEN, (3.0, -2.0, 1.0), time_step=0.01, steps=1)
+    one = results.of(run, ["omega", "energy"]).isel(frame=[0])
+    for name in ("omega", "energy"):
+        drawn = [line for line in figures.draw(one, name).axes[0].lines if line.get_zorder() >= 2]
+        assert drawn
+        assert all(line.get_marker() == "o" for line in drawn)
+
+
+@pytest.mark.filterwarnings("error")
+def test_phases_of_balls_that_have_not_run_yet_are_drawn_without_a_warning():
+    u = np.array([np.linspace(0.0, 1.0, 9), np.full(9, np.nan)])
+    gained, known = phase.gains(u, np.ones(8), None, None)
+    assert not known
+    assert np.array_equal(gained, np.diff(u, axis=1), equal_nan=True)
+
+
+def test_a_spread_needs_three_balls_that_go_on():
+    J = np.repeat(np.atleast_2d(results.UNEVEN.mass_tensor), 5, axis=0)
+    balls = chapsym.Ball(J, np.repeat(results.UNEVEN.D, 5), np.repeat(results.UNEVEN.radius, 5))
+    omega = np.array([[10.0, -2.0, 1.0]] * 2 + [[3000.0, -2.0, 1.0]] * 3)
+    two = results.of(chapsym.roll(balls, omega, time_step=0.01, steps=5, contact=True), ["contact", "gamma"])
+    assert figures.available(two)["spread"] == "a spread needs at least three balls that go on"

@@ -1,6 +1,7 @@
 """Each reduction agrees with the full model to roundoff, and serves where it says."""
 
 from dataclasses import replace
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -256,3 +257,21 @@ def test_a_top_near_the_separatrix_is_followed_step_by_step_where_its_attitude_w
     assert plan.model.name == Rolling.name
     assert plan.refused[Top.name] == "a is near the separatrix, where an attitude at once loses digits"
     assert planned(some, Task(("momentum",), 10**7, 10**6)).model.name == Top.name
+
+
+def test_31_digits_of_attitude_and_contact():
+    run = {"time_step": 0.01, "steps": 20, "precision": "quad", "outputs": ["gamma", "attitude", "contact"]}
+    body = {"inertia": [0.006, 0.007, 0.009], "mass": 2, "radius": 0.1}
+    start = {"omega": [3, -2, 1], "gamma": ["2/7", "3/7", "6/7"]}
+    origin = chapsym.run_scene({"ball": body, "start": start, "run": run}).dataset.isel(ball=0)
+    moved = {**start, "position": ["1/3", -2.7]}
+    placed = chapsym.run_scene({"ball": body, "start": moved, "run": run}).dataset.isel(ball=0)
+
+    def exact(data, name):
+        return np.vectorize(Fraction)(data[name].values) + np.vectorize(Fraction)(data[f"{name}_low"].values)
+
+    w, x, y, z = exact(origin, "attitude").T
+    up = np.stack([2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z], -1)
+    assert abs(up - exact(origin, "gamma")).max() < 1e-30
+    place = np.array([Fraction(1 / 3), Fraction(-2.7)])
+    assert abs(exact(placed, "contact") - exact(origin, "contact") - place).max() < 1e-30

@@ -128,3 +128,8 @@ def test_a_million_balls_take_seconds_and_bounded_memory():
     assert len(found) == 10**6
     assert took < 20  # 3 s on a slow core; tracemalloc takes some of it
     assert peak < 1.2e9
+
+
+def test_samples_without_a_range_that_is_drawn_are_refused():
+    with pytest.raises(SceneError, match=r"sweep\.samples goes with a range that is drawn"):
+        checked((1, {"linspace": [2, 5, 4]}, 0), {"samples": 3})

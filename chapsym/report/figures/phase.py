@@ -83,7 +83,7 @@ def gains(u: Floats, apart: np.ndarray, period: Floats | None, turns: Floats | N
         return gained - whole * np.round((gained - expected) / whole), True
     if np.isnan(u).all():
         return gained, False
-    span = np.nanmax(u, axis=1, keepdims=True) - np.nanmin(u, axis=1, keepdims=True)
+    span = np.fmax.reduce(u, axis=1, keepdims=True) - np.fmin.reduce(u, axis=1, keepdims=True)
     monotone = (np.nan_to_num(gained) >= 0).all(axis=1, keepdims=True) | (np.nan_to_num(gained) <= 0).all(
         axis=1, keepdims=True
     )

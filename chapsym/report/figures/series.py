@@ -18,7 +18,8 @@ INSTANTS = 600
 def line(axis: "Axes", t: Floats, y: Floats, colour: str, label: str | None = None, **options: object) -> None:
     """One series, t and y (frames,): a line, or where that were too dense the range of y in each interval of t."""
     if len(t) <= 2 * MOST:
-        axis.plot(t, y, color=colour, label=label, **options)  # type: ignore[arg-type]
+        alone = {"marker": "o", "markersize": 5} if np.count_nonzero(np.isfinite(y)) == 1 else {}
+        axis.plot(t, y, color=colour, label=label, **(alone | options))  # type: ignore[arg-type]
         return
     edges = np.linspace(0, len(t), MOST + 1).astype(int)[:-1]
     low, high = np.fmin.reduceat(y, edges), np.fmax.reduceat(y, edges)

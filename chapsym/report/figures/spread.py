@@ -28,7 +28,10 @@ def missing(dataset: "Dataset") -> str | None:
     """Why this figure cannot be drawn, in a sentence; None if it can."""
     if dataset.sizes.get("ball", 1) < 3:
         return "a spread needs at least three balls"
-    return None if "contact" in dataset or "gamma" in dataset else 'no contact and no γ: add "contact" to run.outputs'
+    if "contact" not in dataset and "gamma" not in dataset:
+        return 'no contact and no γ: add "contact" to run.outputs'
+    going = np.count_nonzero(reading.last_frames(dataset) > 0)
+    return "a spread needs at least three balls that go on" if going < 3 else None
 
 
 def draw(dataset: "Dataset") -> "Picture":

@@ -44,8 +44,11 @@ class Rolling(Stepwise):
     def run(self, members: Members, task: Task, state: State, steps: int, progress: Progress) -> Trajectory:
         """`chapsym.trajectory` of the batch."""
         assert isinstance(members.ball, Ball)
+        attitude = state.get("attitude", False)
+        if "attitude" in state and members.attitude is None and task.precision == "quad":
+            attitude = True  # in 31 digits, as γ; such a run has one segment
         return trajectory(
             members.ball, state["momentum"], state["gamma"], steps, every=task.every, order=task.order,
-            attitude=state.get("attitude", False), contact="contact" in state,
+            attitude=attitude, contact="contact" in state,
             precision=task.precision, time_step=task.time_step, progress=progress,
         )  # fmt: skip

@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 from chapsym.dynamics import Status
+from chapsym.numbers.pairs import add
 
 from ..members import Members
 from ..task import Columns, Task
@@ -53,10 +54,14 @@ class Stepwise(Model):
             run = self.run(members.of(going) if len(going) < n else members, task, here, last - first, progress)
             for name in followed:
                 values = np.asarray(getattr(run, name), dtype=np.float64)
-                values = values + here[name][:, np.newaxis] if name == "contact" else values
+                low = None if getattr(run, "low", None) is None else getattr(run.low, name)
+                if name == "contact" and low is not None:
+                    values, low = add(values, low, here[name][:, np.newaxis], 0.0)
+                elif name == "contact":
+                    values = values + here[name][:, np.newaxis]
                 columns[name][going], ends[name][going] = values[:, after:], values[:, -1]
-                if getattr(run, "low", None) is not None:
+                if low is not None:
                     columns.setdefault(f"{name}_low", np.full_like(columns[name], np.nan))
-                    columns[f"{name}_low"][going] = getattr(run.low, name)[:, after:]
+                    columns[f"{name}_low"][going] = low[:, after:]
             ends["taken"][going], ends["status"][going] = first + run.taken, run.status
         return {name: array for name, array in columns.items() if name.removesuffix("_low") in needed}, ends
