@@ -3,8 +3,8 @@
 import json
 import os
 import shutil
-from collections.abc import Iterable, Iterator
-from contextlib import ExitStack, contextmanager, suppress
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import Any, Self
 
@@ -115,18 +115,7 @@ def write_region(path: Path, plan: Plan, chunk: int, segment: int, values: Colum
             raise SceneError(f"{path} is damaged, or is being deleted; replace it with --fresh") from None
         for name, one in variables.items():
             arrays[name][tuple(where.get(dim, slice(None)) for dim in one.dims)] = np.asarray(values[name], one.dtype)
-        if not (path / "zarr.json").exists():
-            _remove_debris(path, variables)
-        (path / "zarr.json").stat()
-
-
-def _remove_debris(path: Path, names: Iterable[str]) -> None:
-    """What Zarr has made anew of a store that was deleted while a unit was written: folders without their metadata."""
-    for name in names:
-        if not (path / name / "zarr.json").exists():
-            shutil.rmtree(path / name, ignore_errors=True)
-    with suppress(OSError):  # not empty, or gone
-        path.rmdir()
+        (path / "zarr.json").stat()  # of a store that was deleted since, Zarr has made these folders anew
 
 
 def check_place(path: Path) -> None:
