@@ -40,7 +40,7 @@ def save(data: "Dataset", path: Path) -> None:
     """Writes a result to .nc, .csv or .parquet, whole or not at all; raises SceneError if the disk refuses.
 
     Of a CSV or Parquet file each row is a ball and a frame; what is not in the rows stands in `# ` lines, or in the
-    metadata.  `pandas.read_csv(path, comment="#", float_precision="round_trip")` has the same bits.
+    metadata.  `pandas.read_csv(path, comment="#")` has the same bits (older pandas with float_precision="round_trip").
     """
     write = _WRITERS.get(path.suffix)
     if write is None:

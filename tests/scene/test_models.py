@@ -11,6 +11,7 @@ import chapsym
 from chapsym.dynamics import Status, front, precession
 from chapsym.scene.members import Members
 from chapsym.scene.models import Rolling, Steady, Top, Vertical
+from chapsym.scene.models import vertical as models_vertical
 from chapsym.scene.plan import planned
 from chapsym.scene.task import Task
 
@@ -275,3 +276,12 @@ def test_31_digits_of_attitude_and_contact():
     assert abs(up - exact(origin, "gamma")).max() < 1e-30
     place = np.array([Fraction(1 / 3), Fraction(-2.7)])
     assert abs(exact(placed, "contact") - exact(origin, "contact") - place).max() < 1e-30
+
+
+def test_a_rotation_number_is_computed_once_for_all_segments(vertical, monkeypatch):
+    asked = []
+    real = chapsym.rotation_number
+    monkeypatch.setattr(models_vertical, "rotation_number", lambda *of: asked.append(of) or real(*of))
+    columns, _ = rolled(planned(vertical, Task(("rotation_number", "gamma"), 30)), [slice(0, 9), slice(9, 31)])
+    assert len(asked) == 3
+    assert np.isfinite(columns["rotation_number"]).all()

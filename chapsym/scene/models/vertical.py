@@ -60,9 +60,12 @@ class Vertical(Model):
         return len(members) * (task.steps * 25.0 + task.frames * frame + turns)
 
     def begin(self, members: Members, task: Task, needed: frozenset[str]) -> State:
-        """γ, h, and the phase so far."""
-        state = super().begin(members, task, needed)
-        return state | {"gamma": members.gamma, "height": heights(members)}
+        """γ and h; and the rotation number, which every segment tells and one computes."""
+        height = heights(members)
+        state = super().begin(members, task, needed) | {"gamma": members.gamma, "height": height}
+        if "rotation_number" in needed:
+            state["rotation_number"] = np.array([_turns(members, i, height[i]) for i in range(len(members))])
+        return state
 
     def advance(
         self, members: Members, task: Task, needed: frozenset[str], state: State, segment: slice, progress: Progress
@@ -82,11 +85,11 @@ class Vertical(Model):
             gamma[going], ends["gamma"][going] = run.gamma[:, after:], run.gamma[:, -1]
             ends["taken"][going], ends["status"][going] = first + run.taken, run.status
         progress(len(members) * (last - first))
-        return self._columns(members, state["height"], gamma, needed), ends
+        return self._columns(members, state, gamma, needed), ends
 
     @staticmethod
-    def _columns(members: Members, height: np.ndarray, gamma: np.ndarray, needed: frozenset[str]) -> Columns:
-        found: Columns = {"gamma": gamma, "momentum": height[:, np.newaxis, np.newaxis] * gamma}
+    def _columns(members: Members, state: State, gamma: np.ndarray, needed: frozenset[str]) -> Columns:
+        found: Columns = {"gamma": gamma, "momentum": state["height"][:, np.newaxis, np.newaxis] * gamma}
         if "phase" in needed:
             found["phase"] = np.full(gamma.shape[:2], np.nan)
             for i in range(len(members)):
@@ -95,7 +98,7 @@ class Vertical(Model):
                     gamma[i, there]
                 )
         if "rotation_number" in needed:
-            found["rotation_number"] = np.array([_turns(members, i, height[i]) for i in range(len(members))])
+            found["rotation_number"] = state["rotation_number"]
         return {name: found[name] for name in found if name in needed}
 
 
