@@ -64,7 +64,8 @@ def unit_vertical(gamma: ArrayLike, tolerance: float = UNIT_TOLERANCE) -> Floats
     off = np.abs(squared - 1)
     if array.size and (off > tolerance).any():
         worst = np.sqrt(squared.flat[int(off.argmax())])
-        raise BadInput(f"gamma must be a unit vector, but its length is {worst:.17g}; divide it by its length")
+        right = "divide it by its length" if worst else "it is the vertical, upwards, in the axes of the body"
+        raise BadInput(f"gamma must be a unit vector, but its length is {worst:.17g}; {right}")
     return array
 
 
