@@ -1,6 +1,5 @@
-"""The numbers of a certificate: exact rationals, Arb's balls, and decimals that are rounded outwards."""
+"""The numbers of a certificate: exact rationals, Arb's balls, and decimals to which every number of a ball rounds."""
 
-import math
 from fractions import Fraction
 from typing import Any
 
@@ -9,11 +8,9 @@ from flint import arb
 from chapsym.dynamics.precise_ball import exact
 from chapsym.dynamics.precise_start import fraction
 
-#: An enclosure in a file is this much wider than what was computed, so that a checker need not be as sharp; and by
-#: 2^(SLACK - bits), so that it need not round as well.
-WIDER, SLACK = 2, 10
-#: Digits of a radius in a file.
-RADIUS_DIGITS = 3
+
+class NotProved(ArithmeticError):
+    """The balls are too wide for what the proof needs."""
 
 
 def ball(centre: Fraction, radius: Fraction = Fraction(0)) -> Any:
@@ -21,18 +18,20 @@ def ball(centre: Fraction, radius: Fraction = Fraction(0)) -> Any:
     return exact(centre) + arb(0, exact(radius).abs_upper())
 
 
-def places(bits: int) -> int:
-    """Decimal places that `bits` binary ones are worth, rounded down."""
-    return math.floor(bits * math.log10(2))
+def rounded(x: Any, digits: int, wider: int = 1) -> str:
+    """The numbers of a ball rounded to so many decimals; raises NotProved where they round differently.
 
-
-def rounded(x: Any, digits: int) -> Fraction:
-    """The middle of a ball, rounded to a multiple of 10^-digits."""
-    return Fraction(round(fraction(x) * 10**digits), 10**digits)
+    wider: those up to so many radii from the middle must round alike, for a checker with wider intervals.
+    """
+    middle, off = fraction(x), wider * fraction(x.rad())
+    found = round((middle - off) * 10**digits)
+    if found != round((middle + off) * 10**digits):
+        raise NotProved(f"a number does not round to {digits} decimals alike in the whole box")
+    return decimal(Fraction(found, 10**digits), digits)
 
 
 def decimal(x: Fraction, digits: int) -> str:
-    """A multiple of 10^-digits as a decimal without exponent."""
+    """A multiple of 10^-digits with so many decimals."""
     scaled = x * 10**digits
     assert scaled.denominator == 1, "not rounded"
     whole = str(abs(scaled.numerator)).rjust(digits + 1, "0")
@@ -40,38 +39,21 @@ def decimal(x: Fraction, digits: int) -> str:
     return f"-{text}" if x < 0 else text
 
 
+def decimals(x: Fraction) -> int | None:
+    """How many decimals a number has; None for infinitely many."""
+    most = x.denominator.bit_length()
+    return next((n for n in range(most + 1) if 10**n % x.denominator == 0), None)
+
+
 def shortest(x: Fraction) -> str:
     """An exact text of a number: 1e-40 for a power of 10 below 1, a decimal, else a fraction."""
-    digits = 0
-    while (x * 10**digits).denominator != 1 and digits < x.denominator.bit_length():
-        digits += 1
-    if (x * 10**digits).denominator != 1:
+    digits = decimals(x)
+    if digits is None:
         return str(x)
     return f"1e-{digits}" if digits and x * 10**digits == 1 else decimal(x, digits)
 
 
-def radius_text(x: Fraction) -> str:
-    """An upper bound of x ≥ 0 with few digits, such as 2.31e-29."""
-    if x == 0:
-        return "0"
-    exponent = _decade(x)
-    more = RADIUS_DIGITS - 1
-    return f"{decimal(Fraction(math.ceil(x * Fraction(10) ** (more - exponent)), 10**more), more)}e{exponent}"
-
-
-def outwards(x: Any, bits: int) -> list[str]:
-    """[centre, radius] of an interval around a ball, as the file has it: wider by WIDER and SLACK."""
-    middle, radius = fraction(x), WIDER * fraction(x.rad()) + Fraction(2) ** (SLACK - bits)
-    digits = max(0, -_decade(radius) + RADIUS_DIGITS - 1)
-    centre = rounded(x, digits)
-    return [decimal(centre, digits), radius_text(radius + abs(centre - middle))]
-
-
-def inside(pair: list[str]) -> Any:
-    """The Arb ball of what `outwards` wrote."""
-    return ball(*map(Fraction, pair))
-
-
-def _decade(x: Fraction) -> int:
-    """The exponent n with about 10ⁿ ≤ x < 10ⁿ⁺¹."""
-    return math.floor(math.log10(x.numerator) - math.log10(x.denominator))
+def decade(x: Fraction) -> int:
+    """The exponent n with 10ⁿ ≤ x < 10ⁿ⁺¹, of x > 0."""
+    n = len(str(x.numerator)) - len(str(x.denominator))
+    return n if x >= Fraction(10) ** n else n - 1

@@ -19,8 +19,7 @@ def sealed(kind: str, statement: str, **fields: Any) -> dict[str, Any]:
 def digest(document: dict[str, Any]) -> str:
     """SHA-256, in hexadecimal, of the canonical JSON of all but the digest."""
     rest = {name: value for name, value in document.items() if name != "digest"}
-    text = json.dumps(rest, sort_keys=True, separators=(",", ":"), ensure_ascii=False)
-    return hashlib.sha256(text.encode()).hexdigest()
+    return hashlib.sha256(json.dumps(rest, sort_keys=True, separators=(",", ":")).encode("ascii")).hexdigest()
 
 
 def text(document: dict[str, Any]) -> str:

@@ -10,47 +10,56 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import pairwise
 from typing import Any
 
 from flint import arb, ctx
 
 from chapsym.dynamics.errors import BadInput
 from chapsym.dynamics.precise_ball import TooWide
+from chapsym.dynamics.precise_start import fraction
 
 from . import plateau
-from .balls import ball, decimal, inside, outwards, places, rounded, shortest
+from .balls import NotProved, ball, decade, decimals, rounded, shortest
 from .document import sealed
-from .reduced import Axes, NotProved, Reduced, Top, Vector, angle, cross
+from .reduced import Axes, Reduced, Top, Vector, angle, cross
 
 KIND = "no-invariant-measure"
-STATEMENT = (
-    "For all parameters in the box, the iterate of the reduced map moves one point of the level circle by more, and "
-    "another by less, than the given number of half turns."
-)
-#: Bits that a step costs, by boxes that grow, and those beyond; the most.
-STEP_BITS, SPARE_BITS, MOST_BITS = 4, 64, 20_000
+#: The precision beyond the digits: for what a step may widen the balls, and to decide how numbers round.
+STEP_BITS, SPARE_BITS = 4, 64
 #: A plateau is resolved when it is 2^RESOLVED_BITS units in the last place wide.
 RESOLVED_BITS = 40
+#: Significant digits that the smaller displacement has at least, and how many more are tried where a number happens to
+#: lie between two decimals; the most decimals that a checker takes.
+SIGNIFICANT, MORE, MOST_DIGITS = 3, 3, 2000
 
 
 @dataclass(frozen=True)
 class Orbit:
-    """q steps from the point with γ_a = 0 or γ_b = 0, proved: the Gibbs vectors, the boxes of γ, and δ."""
+    """q steps from the point with γ_a = 0 or γ_b = 0, enclosed: the Gibbs vectors, γ after each step, and δ."""
 
     start: str
-    gibbs: list[list[str]]
-    boxes: list[list[list[str]]]
-    displacement: list[str]
+    gibbs: list[Vector]
+    gammas: list[Vector]
+    displacement: Any
 
     def sign(self) -> int:
         """The proved sign of δ; 0 where it may be either."""
-        delta = inside(self.displacement)
-        return 1 if delta > 0 else -1 if delta < 0 else 0
+        return 1 if self.displacement > 0 else -1 if self.displacement < 0 else 0
 
-    def write(self) -> dict[str, Any]:
-        """For JSON."""
-        steps = [{"u": u, "gamma": box} for u, box in zip(self.gibbs, self.boxes, strict=True)]
-        return {"start": self.start, "steps": steps, "displacement": self.displacement}
+    def write(self, digits: int) -> dict[str, Any]:
+        """For JSON, rounded; raises NotProved where the numbers of a ball do not round alike."""
+        steps = [
+            {name: [rounded(x, digits, _wider(k)) for x in v] for name, v in (("u", u), ("gamma", gamma))}
+            for k, (u, gamma) in enumerate(zip(self.gibbs, self.gammas, strict=True), 1)
+        ]
+        moved = rounded(self.displacement, digits, _wider(len(steps)))
+        return {"start": self.start, "steps": steps, "displacement": moved}
+
+
+def _wider(steps: int) -> int:
+    """How much wider the intervals of a checker may be after so many steps; those of ours are, by 2^(0.7 steps + 1)."""
+    return 2 ** (steps + 2)
 
 
 @dataclass(frozen=True)
@@ -65,39 +74,33 @@ class Resonance:
 
 def no_invariant_measure(
     top: Top, *, steps: int | None = None, half_turns: int | None = None, level: Fraction | None = None,
-    bits: int | None = None, radius: Fraction | None = None, progress: Callable[[str], None] = lambda what: None,
+    digits: int | None = None, radius: Fraction | None = None, progress: Callable[[str], None] = lambda what: None,
 ) -> dict[str, Any]:  # fmt: skip
     """Finds the certificate that G_h of a top preserves no measure with a positive continuous density.
 
     steps: q, odd; the least that turns by `half_turns` by default.  half_turns: p; 1, or what the level has.
-    level: l; in the middle of the plateau by default.  bits: the precision; as many as needed by default.
-    radius: how far the parameters may be off; the largest power of 10 that is proved by default.
+    level: l; in the middle of the plateau by default.  digits: decimals of the file; what the displacement needs.
+    radius: how far each of J, D, h and l may be off; the largest power of 10 that is proved by default, and 0 where a
+    component of J is 0, as it must not be negative.
     Returns the object of the file (`document`).  Raises BadInput, one sentence, for what has no certificate.
     """
-    _check(top, steps, half_turns, bits, radius)
+    _check(top, steps, half_turns, digits, radius)
     if level is None:
         axes, near, steps, half_turns = _resonance(top, steps, half_turns or 1, progress)
+        size = -plateau.nome_power(top, near[0], axes, steps)
+        level = _middle(top, near, axes, steps, size, progress)
     else:
         axes = top.axes_of(level)
-        steps, half_turns, near = *_turns_at(top, level, axes, steps, half_turns), (level, level)
-    size = -plateau.nome_power(top, near[0], axes, steps)
-    tried = bits or 32 * math.ceil((size + STEP_BITS * steps + SPARE_BITS) / 32)
-    while tried <= MOST_BITS:
-        progress(f"{half_turns} half turns in {steps} steps around axis {axes[2] + 1}, with {tried} bits")
-        with ctx.workprec(tried):
-            middle = _middle(top, near, axes, steps, tried) if level is None else level
-            found = middle is not None and _enclosed(
-                top, Resonance(axes, middle, steps, half_turns), radius, tried, progress
-            )
-        if found:
-            return found
-        if bits is not None:
-            raise BadInput(f"{bits} bits do not resolve the displacement; take more, or leave them to chapsym")
-        tried *= 2
-    raise BadInput(f"the displacement is not resolved with {MOST_BITS} bits; take fewer steps")
+        steps, half_turns = _turns_at(top, level, axes, steps, half_turns)
+    at = Resonance(axes, level, steps, half_turns)
+    progress("enclosing both orbits")
+    least = _least_digits(top, at)
+    if digits is not None and digits < least:
+        raise BadInput(f"{digits} digits are too few for this displacement and level; take {least} or more")
+    return _largest(top, at, least if digits is None else digits, digits is not None, radius, progress)
 
 
-def _check(top: Top, steps: int | None, half_turns: int | None, bits: int | None, radius: Fraction | None) -> None:
+def _check(top: Top, steps: int | None, half_turns: int | None, digits: int | None, radius: Fraction | None) -> None:
     if top.D == 0:
         raise BadInput(
             "for D = 0 there is nothing to find: G_h is a rotation on every circle, and its displacement vanishes"
@@ -117,10 +120,12 @@ def _check(top: Top, steps: int | None, half_turns: int | None, bits: int | None
         raise BadInput(
             f"{half_turns} half turns in {steps} steps are fewer in fewer steps: divide by the common factor"
         )
-    if bits is not None and not 64 <= bits <= MOST_BITS:
-        raise BadInput(f"the precision must be from 64 to {MOST_BITS} bits, not {bits}")
+    if digits is not None and not 1 <= digits <= MOST_DIGITS:
+        raise BadInput(f"the number of digits must be from 1 to {MOST_DIGITS}, not {digits}")
     if radius is not None and radius < 0:
         raise BadInput("the radius must not be negative")
+    if radius is not None and min(top.J) < radius:
+        raise BadInput(f"with the radius {radius} the least component of J, {min(top.J)}, may be negative")
 
 
 def _resonance(
@@ -159,74 +164,93 @@ def _turns_at(top: Top, level: Fraction, axes: Axes, steps: int | None, half_tur
     return steps, counted
 
 
-def _middle(top: Top, near: tuple[Fraction, Fraction], axes: Axes, steps: int, bits: int) -> Fraction | None:
-    """The simplest level in the middle half of the plateau; None where so many bits do not resolve it."""
-    reduced = Reduced(top)
-    low, high = sorted(plateau.end_of_plateau(reduced, near, axes, zero, steps, bits) for zero in "ab")
-    width = high - low
-    if width < plateau.unit_in_last_place(low, bits - RESOLVED_BITS):
-        return None
-    return plateau.simplest(low + width / 4, high - width / 4)[0]
+def _middle(
+    top: Top, near: tuple[Fraction, Fraction], axes: Axes, steps: int, size: float, progress: Callable[[str], None]
+) -> Fraction:
+    """The simplest level in the middle half of the plateau, with twice the precision until it is resolved."""
+    bits = math.ceil(size) + _spare(steps)
+    while bits < MOST_DIGITS * 10 // 3:
+        progress(f"looking for {steps} steps around axis {axes[2] + 1} with {bits} bits")
+        with ctx.workprec(bits):
+            reduced = Reduced(top)
+            low, high = sorted(plateau.end_of_plateau(reduced, near, axes, zero, steps, bits) for zero in "ab")
+        if high - low > plateau.unit_in_last_place(low, bits - RESOLVED_BITS):
+            return plateau.simplest(low + (high - low) / 4, high - (high - low) / 4)
+        bits *= 2
+    raise BadInput(f"the displacement after {steps} steps is not resolved with {MOST_DIGITS} digits; take fewer steps")
 
 
-def _enclosed(
-    top: Top, at: Resonance, radius: Fraction | None, bits: int, progress: Callable[[str], None]
-) -> dict[str, Any] | None:
-    """The certificate with the largest radius; None where it takes more bits.  Raises BadInput off the plateau."""
-    try:
-        exactly = _orbits(top, at, Fraction(0), bits)
-    except (NotProved, TooWide):
-        return None
-    if exactly[0].sign() == exactly[1].sign() != 0:
-        raise BadInput(
-            f"both displacements are {'positive' if exactly[0].sign() > 0 else 'negative'}: the level is outside of "
-            f"the plateau of {at.half_turns} half turns in {at.steps} steps"
-        )
-    if 0 in (exactly[0].sign(), exactly[1].sign()):
-        return None
-    if radius is not None:
-        radii = [radius]
-    else:
-        least = min(abs(Fraction(x.displacement[0])) for x in exactly)
-        radii = [Fraction(1, 10**n) for n in range(math.floor(-math.log10(least)), places(bits))]
-    for tried in radii:
-        progress(f"displacements {' and '.join(f'{float(Fraction(x.displacement[0])):.1e}' for x in exactly)};"
-                 f" trying the radius {float(tried):.0e}")  # fmt: skip
-        try:
-            orbits = _orbits(top, at, tried, bits)
-        except (NotProved, TooWide, BadInput):
-            continue
-        if orbits[0].sign() * orbits[1].sign() < 0:
-            return _document(top, at, tried, orbits, bits)
-    if radius is not None:
-        raise BadInput(f"with the radius {radius} the signs of the displacements are not proved; take a smaller one")
-    return None
+def _spare(steps: int) -> int:
+    return STEP_BITS * steps + SPARE_BITS
 
 
-def _orbits(top: Top, at: Resonance, radius: Fraction, bits: int) -> list[Orbit]:
-    reduced, centre = Reduced(top, radius), Reduced(top)
-    return [_orbit(reduced, centre, at, radius, zero, bits) for zero in "ab"]
+def _least_digits(top: Top, at: Resonance) -> int:
+    """Decimals for the level, and SIGNIFICANT digits of both displacements; raises BadInput off the plateau."""
+    bits = _spare(at.steps)
+    while bits < MOST_DIGITS * 10 // 3:
+        bits *= 2
+        with ctx.workprec(bits):
+            try:
+                found = _orbits(top, at, Fraction(0))
+            except (NotProved, TooWide):
+                continue
+            signs = [x.sign() for x in found]
+            if signs[0] == signs[1] != 0:
+                raise BadInput(
+                    f"both displacements are {'positive' if signs[0] > 0 else 'negative'}: the level is outside of the "
+                    f"plateau of {at.half_turns} half turns in {at.steps} steps"
+                )
+            if 0 not in signs:
+                least = min(fraction(abs(x.displacement)) for x in found)
+                return max(SIGNIFICANT - 1 - decade(least), decimals(at.level) or 0)
+    raise BadInput(f"the displacement on this level is not told from 0 with {MOST_DIGITS} digits")
 
 
-def _orbit(reduced: Reduced, centre: Reduced, at: Resonance, radius: Fraction, zero: str, bits: int) -> Orbit:
-    """Every step from the box that the file has after the step before; raises NotProved."""
-    digits = places(bits)
-    first = gamma = reduced.start(ball(at.level, radius), at.axes, zero)
-    point = centre.start(ball(at.level), at.axes, zero)
-    gibbs, boxes, angles = [], [], []
+def _largest(
+    top: Top, at: Resonance, least: int, only: bool, radius: Fraction | None, progress: Callable[[str], None]
+) -> dict[str, Any]:
+    """The certificate with the largest radius, and the fewest digits for it."""
+    candidates = [least] if only else range(least, least + MORE + 1)
+    most = candidates[-1]
+    radii = [Fraction(1, 10**n) for n in range(least, least + 2 * at.steps + 20)] if radius is None else [radius]
+    if radius is None and min(top.J) == 0:
+        radii = [Fraction(0)]
+    with ctx.workprec(math.ceil(most * 10 / 3) + _spare(at.steps)):
+        for tried in radii:
+            progress(f"trying the radius {shortest(tried)}")
+            try:
+                orbits = _orbits(top, at, tried)
+            except (NotProved, TooWide, BadInput):  # such a radius may be beyond the bound of small-branch
+                continue
+            for digits in candidates:
+                try:
+                    return _document(top, at, tried, orbits, digits)
+                except NotProved:
+                    continue
+    raise BadInput(
+        f"the numbers do not round to {least} digits alike for all parameters within {shortest(radii[-1])}; "
+        f"take a smaller radius, or another number of digits"
+    )
+
+
+def _orbits(top: Top, at: Resonance, radius: Fraction) -> list[Orbit]:
+    reduced = Reduced(top, radius)
+    return [_orbit(reduced, at, reduced.start(ball(at.level, radius), at.axes, zero), zero) for zero in "ab"]
+
+
+def _orbit(reduced: Reduced, at: Resonance, start: Vector, zero: str) -> Orbit:
+    """Every step, proved; raises NotProved."""
+    gibbs, gammas = [], [start]
     for _ in range(at.steps):
-        u = [rounded(x, digits) for x in centre.root(point)]
-        pairs = [outwards(x, bits) for x in reduced.image(tuple(map(ball, u)), gamma)]
-        after = tuple(map(inside, pairs))
-        angles.append(_turn(gamma, after, at.axes))
-        gibbs.append([decimal(x, digits) for x in u])
-        boxes.append(pairs)
-        gamma, point = after, tuple(ball(Fraction(centre)) for centre, _ in pairs)
+        u, gamma = reduced.image(reduced.root(gammas[-1]), gammas[-1])
+        gibbs.append(u)
+        gammas.append(gamma)
+    angles = [_turn(x, y, at.axes) for x, y in pairwise(gammas)]
     direction = 1 if angles[0] > 0 else -1
     if not (all(direction * x > 0 for x in angles) and abs(sum(angles) / arb.pi() - direction * at.half_turns) < 0.5):
         raise NotProved("the half turns are not proved")
-    delta = direction * (-1) ** at.half_turns * cross(first, gamma, at.axes)
-    return Orbit(zero, gibbs, boxes, outwards(delta, bits))
+    delta = direction * (-1) ** at.half_turns * cross(start, gammas[-1], at.axes)
+    return Orbit(zero, gibbs, gammas[1:], delta)
 
 
 def _turn(before: Vector, after: Vector, axes: Axes) -> Any:
@@ -236,15 +260,25 @@ def _turn(before: Vector, after: Vector, axes: Axes) -> Any:
     return angle(before, after, axes)
 
 
-def _document(top: Top, at: Resonance, radius: Fraction, orbits: list[Orbit], bits: int) -> dict[str, Any]:
+def _document(top: Top, at: Resonance, radius: Fraction, orbits: list[Orbit], digits: int) -> dict[str, Any]:
+    if orbits[0].sign() * orbits[1].sign() >= 0:
+        raise NotProved("the signs of the displacements are not proved")
+    J, axes = [str(x) for x in top.J], [i + 1 for i in at.axes]
+    level, within = shortest(at.level), shortest(radius)
+    statement = (
+        f"For every ball with J = ({', '.join(J)}), D = {top.D} and momentum {top.height} γ: on the circle "
+        f"⟨γ, Λ⁻¹γ⟩ = {level}, γ_{axes[2]} > 0, every number within {within}, some points are back after "
+        f"{at.steps} steps and {at.half_turns} half turns and others are not, so the map leaves no finite "
+        f"measure invariant that is positive on every arc."
+    )
     return sealed(
         KIND,
-        STATEMENT,
-        ball={"J": [str(x) for x in top.J], "D": str(top.D), "height": str(top.height), "level": shortest(at.level)},
-        radius=shortest(radius),
-        axes=[i + 1 for i in at.axes],
+        statement,
+        ball={"J": J, "D": str(top.D), "height": str(top.height), "level": level},
+        radius=within,
+        axes=axes,
         steps=at.steps,
         half_turns=at.half_turns,
-        bits=bits,
-        orbits=[x.write() for x in orbits],
+        digits=digits,
+        orbits=[x.write(digits) for x in orbits],
     )

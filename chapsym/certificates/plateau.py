@@ -78,7 +78,7 @@ def trajectory(reduced: Reduced, level: Fraction, axes: Axes, zero: str, steps: 
     """γ from a start on, rounded after every step."""
     orbit = [tuple(x.mid() for x in reduced.start(ball(level), axes, zero))]
     for _ in range(steps):
-        orbit.append(tuple(x.mid() for x in reduced.image(reduced.root(orbit[-1]), orbit[-1])))
+        orbit.append(tuple(x.mid() for x in reduced.image(reduced.root(orbit[-1]), orbit[-1])[1]))
     return orbit
 
 
@@ -137,13 +137,13 @@ def _quarter(k2: Fraction) -> Any:
     return acb(ball(k2)).elliptic_k().real
 
 
-def simplest(low: Fraction, high: Fraction) -> tuple[Fraction, int]:
-    """The number with the fewest decimal places between two, nearest to their middle, and how many these are."""
+def simplest(low: Fraction, high: Fraction) -> Fraction:
+    """The number with the fewest decimals between two, nearest to their middle."""
     digits, middle = 0, (low + high) / 2
     while True:
         found = Fraction(round(middle * 10**digits), 10**digits)
         if low <= found <= high:
-            return found, digits
+            return found
         digits += 1
 
 

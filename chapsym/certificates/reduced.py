@@ -15,16 +15,12 @@ from chapsym.dynamics.errors import BadInput
 from chapsym.dynamics.precise_ball import MATRIX_BITS, certified, newton_enclosure, upper
 from chapsym.generated import gibbs_newton, turn
 
-from .balls import ball
+from .balls import NotProved, ball
 
 Vector = tuple[Any, ...]
 Axes = tuple[int, int, int]
 
 MOST_CORRECTIONS = 64
-
-
-class NotProved(ArithmeticError):
-    """The balls are too wide for a strict inequality that the proof needs."""
 
 
 @dataclass(frozen=True)
@@ -104,15 +100,15 @@ class Reduced:
                 return u
         raise NotProved("Newton's iteration did not settle")
 
-    def image(self, u: Vector, gamma: Vector) -> Vector:
-        """Encloses G_h of all γ in a box, for all parameters; u: a point near the Gibbs vectors of these steps.
+    def image(self, u: Vector, gamma: Vector) -> tuple[Vector, Vector]:
+        """Encloses the Gibbs vectors and G_h of all γ in a box, for all parameters; u: a point near these vectors.
 
         Lemma `small-branch` holds for these parameters: a root with |u| < 1 is the small branch's, and the one.
         """
         if not upper(u) <= self.inner:
             raise NotProved("the Gibbs vector is not within the bound of lemma small-branch")
         v = newton_enclosure(u, self.slope, self._momentum(gamma), gamma, self.I, self.D, 2 * MATRIX_BITS)
-        return tuple(x + y for x, y in zip(gamma, turn(1, *v, *gamma), strict=True))
+        return v, tuple(x + y for x, y in zip(gamma, turn(1, *v, *gamma), strict=True))
 
     def _momentum(self, gamma: Vector) -> Vector:
         return tuple(self.half * x for x in gamma)

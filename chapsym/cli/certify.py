@@ -34,7 +34,7 @@ def no_invariant_measure(
     steps: Annotated[int | None, typer.Option(metavar="Q", help="Steps, odd; the fewest possible.")] = None,
     turns: Annotated[int | None, typer.Option(metavar="P", help="Half turns in them; 1.")] = None,
     level: Annotated[str | None, typer.Option(metavar="L", help="The level; found by default.")] = None,
-    bits: Annotated[int | None, typer.Option(metavar="N", help="The precision; as needed by default.")] = None,
+    digits: Annotated[int | None, typer.Option(metavar="N", help="Decimals; as many as needed by default.")] = None,
     radius: Annotated[
         str | None, typer.Option(metavar="R", help="How far parameters may be off; the largest power of 10.")
     ] = None,
@@ -60,7 +60,7 @@ def no_invariant_measure(
 
     def find(progress: Callable[[str], None]) -> dict[str, Any]:
         return measure.no_invariant_measure(
-            Top((J[0], J[1], J[2]), D, h), steps=steps, half_turns=turns, level=at, bits=bits, radius=within,
+            Top((J[0], J[1], J[2]), D, h), steps=steps, half_turns=turns, level=at, digits=digits, radius=within,
             progress=progress,
         )  # fmt: skip
 
@@ -74,9 +74,9 @@ def _describe(found: dict[str, Any]) -> None:
     print(f"J = ({', '.join(ball['J'])}), D = {ball['D']}, h = {ball['height']}, level {ball['level']}")
     print(f"and all within {found['radius']} of each of these: around axis {axes[2]} in {found['steps']} steps")
     for orbit in found["orbits"]:
-        centre, radius = map(Decimal, orbit["displacement"])
         axis = axes["ab".index(orbit["start"])]
-        print(f"  {found['half_turns']} half turns and a displacement {centre:.2e} ± {radius:.2e} from gamma{axis} = 0")
+        moved = f"{Decimal(orbit['displacement']):.2e}"
+        print(f"  {found['half_turns']} half turns and a displacement {moved} from gamma{axis} = 0")
 
 
 @certify.command()
@@ -106,11 +106,12 @@ def deliver(
             found = find(progress)
         if output is not None:
             write(output, found)
-            note(f"wrote {output}; chapsym certify check {output} checks it")
     except (BadInput, files.CannotWrite) as error:
         fail(str(error), 2)
     if as_json:
         print_json(found)
+    elif output is not None:
+        print(f"wrote {output}; check it by chapsym certify check {output}")
     return found
 
 
