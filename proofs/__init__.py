@@ -22,6 +22,7 @@ SCRIPTS = (
     "s5_reduced_map",
     "s6_remarks",
     "map_gibbs",
+    "map_modified",
     "map_self_adjoint",
     "map_stable",
     "map_steady",
@@ -49,4 +50,5 @@ LEMMAS = (
     "momentum-integrals-composed", "vertical-rotation", "vertical-level", "vertical-top", "top-commutes", "top-precession",
     "stable-momentum", "stable-determinant", "stable-inverse", "steady", "steady-branch", "steady-axis", "steady-roll",
     "isotropic-spin", "straight",
+    "modified-field", "modified-energy", "energy-without-rolling", "modified-measure", "map-symmetries",
 )  # fmt: skip
