@@ -21,7 +21,7 @@ KINDS = {"no-invariant-measure": measure, "periodic-orbit": orbit}
 
 @dataclass(frozen=True)
 class Verdict:
-    """An accepted certificate: its kind, the theorem that it proves in one sentence, and the numbers that were proved."""
+    """An accepted certificate: its kind, the theorem that it proves in one sentence, and numbers that were proved."""
 
     kind: str
     statement: str

@@ -1,4 +1,4 @@
-"""python -m chapsym.checker FILE... or, without anything installed, python checker FILE...: exit 0, 1 (rejected) or 2."""
+"""python -m chapsym.checker FILE..., or python checker FILE... with nothing installed: exit 0, 1 (rejected) or 2."""
 
 import argparse
 import json
@@ -38,4 +38,6 @@ if __name__ == "__main__":
         sys.path[0] = str(Path(__file__).resolve().parent.parent)
         runpy.run_module("checker", run_name="__main__", alter_sys=True)
     else:
+        for stream in (sys.stdout, sys.stderr):
+            stream.reconfigure(errors="backslashreplace")  # type: ignore[union-attr]  # for a terminal without Greek
         sys.exit(main())

@@ -3,6 +3,7 @@
 import hashlib
 import json
 import re
+from collections.abc import Sequence
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
@@ -68,7 +69,8 @@ def count(value: Any, least: int, most: int, where: str) -> int:
 
 def exact(text: Any, where: str) -> Fraction:
     """A rational number such as 12/5, -3, 0.25 or 1e-90."""
-    if not isinstance(text, str) or len(text) > MOST_DIGITS + 10 or not _EXACT.fullmatch(text):
+    fits = isinstance(text, str) and len(text) <= MOST_DIGITS + 10 and _EXACT.fullmatch(text)
+    if not fits or (text[0] == "-" and not text.partition("e")[0].strip("-0.")):
         raise Rejected(f"{where} must be a number in quotes such as 12/5, -3, 0.25 or 1e-90")
     try:
         return Fraction(text)
@@ -89,7 +91,7 @@ def decimals(data: Any, digits: int, where: str) -> list[Fraction]:
     return [decimal(x, digits, where) for x in listed(data, 3, where)]
 
 
-def check_rounded(true: list[Interval], given: list[Fraction], digits: int, where: str) -> None:
+def check_rounded(true: Sequence[Interval], given: Sequence[Fraction], digits: int, where: str) -> None:
     """Raises Rejected unless each number of the file is the true one, correctly rounded, for all parameters.
 
     Two decimals of as many digits cannot both be that: no digit can be changed.
@@ -100,5 +102,6 @@ def check_rounded(true: list[Interval], given: list[Fraction], digits: int, wher
 
 
 def scale(digits: int, steps: int) -> int:
-    """The bits that the checker works with: the digits, 4 for what a step may widen, and 64 to decide the rounding."""
-    return -(-10 * digits // 3) + 4 * steps + 64
+    """The bits that the checker works with: the digits, 8 for what a step widens on the way there and in what follows
+    from the end, and 128 for a matrix close to singular and to decide the rounding.  Too few could only refuse."""
+    return -(-10 * digits // 3) + 8 * steps + 128

@@ -1,6 +1,6 @@
 """Intervals in integers: [lo, hi]·2^-bits, every result rounded outward.
 
-The one property that everything rests on: if x lies in X and y in Y, then x∘y lies in X∘Y, for ∘ = + - * / and √x in √X.
+The one property that everything rests on: if x lies in X and y in Y, then x∘y lies in X∘Y, ∘ = + - * /, and √x in √X.
 Sums are exact; a product, a quotient or a root is rounded down at the lower end and up at the upper end, by integer
 arithmetic alone (`>>` and `//` round down, also for negative numbers).  No floating-point number occurs.
 """

@@ -68,11 +68,13 @@ def solve(matrix: Matrix, right: Matrix) -> Matrix:
 def newton(residual: Callable[[Vector], Vector], jacobian: Callable[[Vector], Matrix], centre: Vector) -> Vector:
     """A box that contains one root of a map f of Rⁿ near `centre`, by Newton's test in intervals; else raises Rejected.
 
-    `residual` and `jacobian` enclose f and f′ for all values of the parameters that they contain.  With a box X around
-    the centre c, and 𝒜 = jacobian(X): for x, y in X is f(x) - f(y) = A(x, y)(x - y), A the mean of f′ on the segment, in
-    𝒜.  If all of 𝒜 is regular and N = c - 𝒜⁻¹f(c) lies inside X, the continuous map x ↦ c - A(x, c)⁻¹f(c) takes X into
-    N, so it has a fixed point (Brouwer), which is a root, in N; two roots x, y in X would have A(x, y)(x - y) = 0, x = y.
-    This holds for each value of the parameters: the root is a function of them, and N contains its values.
+    `residual` and `jacobian` enclose f and f′ for all values of the parameters that they contain.  Let X be a box about
+    the centre c and S = jacobian(X).  For x, y in X is f(x) - f(y) = A(x, y)(x - y), where A, the mean of f′ on the
+    segment, lies in S.  If all matrices in S are regular and N = c - S⁻¹f(c) lies inside X, then the continuous map
+    x ↦ c - A(x, c)⁻¹f(c) takes X into N, so it has a fixed point (Brouwer), a root of f, in N; and two roots x, y in X
+    would have A(x, y)(x - y) = 0, x = y.  This holds for each value of the parameters: the root is a function of them,
+    and N contains its values.  Once more from the middle m of N: the root x has x - m = -A(x, m)⁻¹f(m) with A(x, m) in
+    jacobian(N), which encloses it anew and closer.
     """
     at_centre = [[x] for x in residual(centre)]
     first = solve(jacobian(centre), at_centre)
@@ -80,4 +82,5 @@ def newton(residual: Callable[[Vector], Vector], jacobian: Callable[[Vector], Ma
     root = minus(centre, [s for (s,) in solve(jacobian(box), at_centre)])
     if not all(x.inside(y) for x, y in zip(root, box, strict=True)):
         raise Rejected("Newton's test proves no root near the numbers of the file")
-    return root
+    middle = [x.point() for x in root]
+    return minus(middle, [s for (s,) in solve(jacobian(root), [[x] for x in residual(middle)])])

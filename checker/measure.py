@@ -2,30 +2,43 @@
 
 For 𝒦 = hγ the step (step.py) gives a map G_h of the sphere |γ| = 1 into itself.
 
-The circle.  With c = ½h(1 + |u|²) + D⟨γ, u⟩ equation (1) reads cγ = w + u × Iu = w + u × w for w = Λu, as u × u = 0; so by
-(2) cγ̃ = w - u × w.  Hence c²⟨γ, Λ⁻¹γ⟩ = ⟨w, Λ⁻¹w⟩ ± 2⟨u × w, u⟩ + ⟨u × w, Λ⁻¹(u × w)⟩ = c²⟨γ̃, Λ⁻¹γ̃⟩, where the middle is 0
-and c ≠ 0, because w = 0 only for h = 0: ⟨γ, Λ⁻¹γ⟩ is an integral.  If 1/Λ_c is the least or the greatest of the three
-1/Λ and the level l lies strictly between it and the next, the level consists of two circles, γ_c > 0 and γ_c < 0; the
-projection to the plane of the other two, a and b, is an ellipse about 0.  G_h depends smoothly on h and is the identity
-for h = 0, so it takes the circle γ_c > 0 to itself; G_-h is its inverse (u ↦ -u, γ ↔ γ̃ in the two equations for c).
+The circle.  With s = ½h(1 + |u|²) + D⟨γ, u⟩ and w = Λu equation (1) reads sγ = w + u × w (as u × Iu = u × Λu), so by
+(2) sγ̃ = w - u × w.  Hence both s²⟨γ, Λ⁻¹γ⟩ and s²⟨γ̃, Λ⁻¹γ̃⟩ are ⟨w, Λ⁻¹w⟩ ± 2⟨u × w, u⟩ + ⟨u × w, Λ⁻¹(u × w)⟩; the
+middle is 0, and s ≠ 0, as w = 0 only for h = 0: ⟨γ, Λ⁻¹γ⟩ is an integral.  If 1/Λ_c is the least or greatest 1/Λ
+and the level l lies strictly between it and the next, the level consists of two circles, γ_c > 0 and γ_c < 0, and its
+projection to the plane of the other two axes, a and b, is an ellipse about 0.  G_h depends smoothly on h and is the
+identity for h = 0, so it takes the circle γ_c > 0 to itself.  G_-h is its inverse: the two equations for γ and γ̃ are
+exchanged by (h, u, w, s) ↦ -(h, u, w, s).
 
-The lift.  Let φ be the angle in the plane (a, b) and g a lift of G_h: φ ↦ g(φ).  The rotation R by π about the axis c
-commutes with G_h, so g(φ + π) = g(φ) + π (twice this is 2π), and any two values of g(φ) - φ differ by less than π.  If a
-step turns by an angle in (0, π) in one direction at some points, one lift g turns by an angle in (0, π) at all of these.
+The lift.  Let φ be the angle in the plane (a, b), and g a lift of G_h to the line, φ ↦ g(φ).  The rotation R by π about
+the axis c commutes with G_h, so g(φ + π) = g(φ) + π (done twice it adds 2π), and any two values of g(φ) - φ differ by
+less than π.  Thus if a step turns by an angle in (0, π) in one direction at each of some points, this is the angle of
+one and the same lift g at all of them.
 
-The two orbits.  Let θ be the angle by which the q steps turn.  It passes pπ in one orbit, not in the other: sin of θ - pπ
-has opposite signs, and the half-turns that are completed, counted by the sign of the sine after each step, are p and
-p - 1.  So R^p G^q has a fixed point on the circle, and is not the identity.  A measure that G leaves invariant is, on
-the circle, carried by the points with G^(2q)x = x (an orbit of G^2q that is not fixed moves monotonically to a fixed
-point: no arc between two neighbouring fixed points can have a measure).  These are not all: the measure is 0 on an arc.
-A measure with a continuous positive density on the sphere, or near the circle, would have such measures on the circles.
+The two orbits.  Let θ be the angle of the q steps of g, a continuous function of the start.  The sign of sin(θ - pπ) is
+proved to be + in one orbit and - in the other; the half-turns that are completed on the way, counted by the sign of the
+sine after each step, are p and p - 1.  So θ > pπ here and θ < pπ there: R^p G^q has a fixed point, and is not the
+identity.  Its points between two neighbouring fixed points all move to one of the two, so no finite measure that
+R^p G^q leaves invariant is positive on this arc; this holds for (R^p G^q)² = G^2q, and so for G.  A continuous positive
+density on the sphere, or near the circle, that G leaves invariant would give such a measure on each circle.
 """
 
 from fractions import Fraction
 from itertools import pairwise
 from typing import Any
 
-from .document import MOST_DIGITS, MOST_STEPS, check_names, check_rounded, count, decimal, decimals, exact, listed, scale
+from .document import (
+    MOST_DIGITS,
+    MOST_STEPS,
+    check_names,
+    check_rounded,
+    count,
+    decimal,
+    decimals,
+    exact,
+    listed,
+    scale,
+)
 from .interval import Interval, Rejected
 from .linear import Vector, times
 from .step import Ball, check_small_branch, gibbs_vector, turned
@@ -37,10 +50,10 @@ def statement(data: dict[str, Any]) -> str:
     """What is proved, with the numbers of the file."""
     ball = data["ball"]
     return (
-        f"For every ball with J = ({', '.join(ball['J'])}), D = {ball['D']} and momentum {ball['height']} γ: on the circle "
-        f"⟨γ, Λ⁻¹γ⟩ = {ball['level']}, γ_{data['axes'][2]} > 0, every number within {data['radius']}, some points are back "
-        f"after {data['steps']} steps and {data['half_turns']} half turns and others are not, so the map leaves no finite "
-        f"measure invariant that is positive on every arc."
+        f"For every ball with J = ({', '.join(ball['J'])}), D = {ball['D']} and momentum {ball['height']} γ: on the "
+        f"circle ⟨γ, Λ⁻¹γ⟩ = {ball['level']}, γ_{data['axes'][2]} > 0, every number within {data['radius']}, some "
+        f"points are back after {data['steps']} steps and {data['half_turns']} half turns and others are not, so the "
+        f"map leaves no finite measure invariant that is positive on every arc."
     )
 
 
@@ -58,7 +71,7 @@ def check_form(data: dict[str, Any]) -> None:
 
 
 class Circle:
-    """The circle of a certificate for every parameter of its box, and the map on it; raises Rejected where it is none."""
+    """The circle of a certificate for every parameter of its box, and the map on it; raises Rejected if it is none."""
 
     def __init__(self, data: dict[str, Any], bits: int):
         radius = exact(data["radius"], "radius")
@@ -108,7 +121,9 @@ class Circle:
             u = gibbs_vector(self.ball, state, [Interval.enclosing(x, x, bits).point() for x in near])
             gammas.append(turned(u, gammas[-1]))
             check_rounded(u, near, digits, f"u of {where}")
-            check_rounded(gammas[-1], decimals(given["gamma"], digits, f"gamma of {where}"), digits, f"gamma of {where}")
+            check_rounded(
+                gammas[-1], decimals(given["gamma"], digits, f"gamma of {where}"), digits, f"gamma of {where}"
+            )
         return gammas
 
     def direction(self, gammas: list[Vector]) -> int:

@@ -1,24 +1,35 @@
 """Certificates of kind periodic-orbit: a point that is back after q steps, and the derivative of these steps there.
 
 Existence.  The step turns 𝒦 and γ by one rotation, so |γ|², |𝒦|² and ⟨𝒦, γ⟩ are integrals; where γ and 𝒦 are not
-parallel, their level M is the set of all (R𝒦, Rγ), R in SO(3): of dimension 3, with the tangent vectors (w × 𝒦, w × γ).
-With the numbers (𝒦₀, γ₀) of the file let P(𝒦, γ) = 𝒦₀ × 𝒦 + γ₀ × γ.  Newton's test in the six unknowns x = (𝒦, γ) proves a
-root of
+parallel, their level M is the set of all (R𝒦, Rγ), R in SO(3): of dimension 3, with tangent vectors (w × 𝒦, w × γ).
+With the numbers (𝒦₀, γ₀) of the file let P(𝒦, γ) = 𝒦₀ × 𝒦 + γ₀ × γ.  Newton's test in the six unknowns x = (𝒦, γ)
+proves a root of
     |γ|² = 1,  |𝒦|² and ⟨𝒦, γ⟩ as given,  P(G^q(x) - x) = 0.
 Then x and G^q(x) have the same integrals and the same P.  The derivative of (integrals, P) is regular on a box that
 contains both, so this map is injective there (as in linear.newton): G^q(x) = x.  The step is evaluated for all |γ| near
 1; at the root |γ| = 1, |u| < 1, and the step is that of the small branch.
 
-The derivative W of G^q on M, in the basis w = e1, e2, e3 of the tangent vectors V at x: DG^q·V = V·W, as the tangent space
-is the same before and after; so W = (PV)⁻¹ P·DG^q·V.  If det W ≠ 1, no measure with a continuous positive density near
-the orbit on M is invariant.  If det(1 - W) ≠ 0, no eigenvalue of W is 1: an integral F of class C¹ has dF·W = dF at x, so
-dF = 0 there on M: F depends to first order on the momentum integrals alone.
+The derivative W of G^q on M, in the basis V of tangent vectors at x with w = e1, e2, e3: DG^q·V = V·W, as x is the same
+before and after; so W = (PV)⁻¹ P·DG^q·V.  If det W ≠ 1, no measure with a continuous positive density near the orbit
+on M is invariant.  If det(1 - W) ≠ 0, no eigenvalue of W is 1: an integral F of class C¹ has dF·W = dF at x, so dF = 0
+there on M: F depends to first order on the momentum integrals alone.
 """
 
 from fractions import Fraction
 from typing import Any
 
-from .document import MOST_DIGITS, MOST_STEPS, check_names, check_rounded, count, decimal, decimals, exact, listed, scale
+from .document import (
+    MOST_DIGITS,
+    MOST_STEPS,
+    check_names,
+    check_rounded,
+    count,
+    decimal,
+    decimals,
+    exact,
+    listed,
+    scale,
+)
 from .interval import Interval, Rejected
 from .linear import Matrix, Vector, cross, determinant, dot, minus, newton, plus, solve, times, transposed, unit
 from .step import Ball, Pair, check_small_branch, gibbs_vector, moved, tangents
@@ -31,9 +42,9 @@ def statement(data: dict[str, Any]) -> str:
     """What is proved, with the numbers of the file."""
     size, height = (data["integrals"][name] for name in INTEGRALS)
     return (
-        f"For the ball with J = ({', '.join(data['ball']['J'])}), D = {data['ball']['D']}: with ⟨𝒦, 𝒦⟩ = {size}, ⟨𝒦, γ⟩ = "
-        f"{height} a point is back after {data['steps']} steps, and the derivative of these steps on the level of the "
-        f"integrals there has a determinant other than 1 and no eigenvalue 1."
+        f"For the ball with J = ({', '.join(data['ball']['J'])}), D = {data['ball']['D']}: with ⟨𝒦, 𝒦⟩ = {size}, "
+        f"⟨𝒦, γ⟩ = {height} a point is back after {data['steps']} steps, and the derivative of these steps on the "
+        f"level of the integrals there has a determinant other than 1 and no eigenvalue 1."
     )
 
 
@@ -67,6 +78,7 @@ class Search:
             self.gibbs.append(decimals(given["u"], self.digits, f"u of step {i}"))
         self.near = [[enclosed(x).point() for x in u] for u in self.gibbs]
         self.given = [decimals(data["start"][name], self.digits, name) for name in ("momentum", "gamma")]
+        self.stated = {name: decimal(data[name], self.digits, name) for name in ("determinant", "unit_eigenvalue")}
         self.centre = [enclosed(x).point() for v in self.given for x in v]
         self.units = [unit(i, self.size) for i in range(3)]
 
@@ -75,7 +87,7 @@ class Search:
         state, gibbs = (x[:3], x[3:]), []
         for near in self.near:
             u = gibbs_vector(self.ball, state, near)
-            vectors = tangents(self.ball, state, u, vectors)
+            vectors = tangents(self.ball, state, u, vectors) if vectors else []
             state = moved(u, state)
             gibbs.append(u)
         return [*state[0], *state[1]], vectors, gibbs
@@ -139,7 +151,7 @@ def check(data: dict[str, Any]) -> dict[str, str]:
     one_less = [minus(e, row) for e, row in zip(search.units, W, strict=True)]
     proved = {"determinant": determinant(W), "unit_eigenvalue": determinant(one_less)}
     for name, value in proved.items():
-        check_rounded([value], [decimal(data[name], digits, name)], digits, name)
+        check_rounded([value], [search.stated[name]], digits, name)
     if not (proved["determinant"] - 1).sign or not proved["unit_eigenvalue"].sign:
         raise Rejected("the determinant is not proved to differ from 1, or an eigenvalue may be 1")
     return {name: data[name] for name in proved}
