@@ -13,7 +13,7 @@ from .interval import Interval, Rejected
 FORMAT = "chapsym-certificate/1"
 #: Most digits and steps of a certificate: what a reader can wait for.
 MOST_DIGITS, MOST_STEPS = 2_000, 1_000
-_EXACT = re.compile(r"-?\d+(/\d+|(\.\d+)?(e-?\d{1,4})?)", re.ASCII)
+_EXACT = re.compile(r"-?\d+(/\d+|(\.\d+)?(e-?\d{1,3})?)", re.ASCII)
 _DECIMAL = re.compile(r"-?(0|[1-9]\d*)\.\d+", re.ASCII)
 
 
@@ -101,7 +101,11 @@ def check_rounded(true: Sequence[Interval], given: Sequence[Fraction], digits: i
             raise Rejected(f"{where} is not proved to be rounded correctly to {digits} digits after the point")
 
 
-def scale(digits: int, steps: int) -> int:
-    """The bits that the checker works with: the digits, 8 for what a step widens on the way there and in what follows
-    from the end, and 128 for a matrix close to singular and to decide the rounding.  Too few could only refuse."""
-    return -(-10 * digits // 3) + 8 * steps + 128
+def scale(digits: int, steps: int, parameters: Sequence[Fraction]) -> int:
+    """The bits that the checker works with; too few could only refuse.
+
+    The digits; 8 for what a step widens on the way there and in what follows from the end; 4 for each power of 2 in the
+    greatest or least parameter; 128 for a matrix close to singular and to decide the rounding.
+    """
+    size = max(abs(x.numerator.bit_length() - x.denominator.bit_length()) for x in parameters if x)
+    return -(-10 * digits // 3) + 8 * steps + 4 * size + 128

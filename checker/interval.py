@@ -98,9 +98,15 @@ class Interval:
         """The greatest |x|·2^bits in the interval."""
         return max(-self.lo, self.hi)
 
+    @property
+    def width(self) -> int:
+        """(hi - lo)·2^bits."""
+        return self.hi - self.lo
+
     def point(self) -> Interval:
         """One number near the middle."""
-        return Interval(*[(self.lo + self.hi) >> 1] * 2, self.bits)
+        middle = (self.lo + self.hi) >> 1
+        return Interval(middle, middle, self.bits)
 
     def wider(self, units: int) -> Interval:
         """Both ends moved outward by units·2^-bits."""

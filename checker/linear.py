@@ -73,8 +73,8 @@ def newton(residual: Callable[[Vector], Vector], jacobian: Callable[[Vector], Ma
     segment, lies in S.  If all matrices in S are regular and N = c - S⁻¹f(c) lies inside X, then the continuous map
     x ↦ c - A(x, c)⁻¹f(c) takes X into N, so it has a fixed point (Brouwer), a root of f, in N; and two roots x, y in X
     would have A(x, y)(x - y) = 0, x = y.  This holds for each value of the parameters: the root is a function of them,
-    and N contains its values.  Once more from the middle m of N: the root x has x - m = -A(x, m)⁻¹f(m) with A(x, m) in
-    jacobian(N), which encloses it anew and closer.
+    and N contains its values.  Again from the middle m of N: the root x has x - m = -A(x, m)⁻¹f(m) with A(x, m) in
+    jacobian(N), which encloses it anew; this is repeated while the box shrinks by half.
     """
     at_centre = [[x] for x in residual(centre)]
     first = solve(jacobian(centre), at_centre)
@@ -82,5 +82,9 @@ def newton(residual: Callable[[Vector], Vector], jacobian: Callable[[Vector], Ma
     root = minus(centre, [s for (s,) in solve(jacobian(box), at_centre)])
     if not all(x.inside(y) for x, y in zip(root, box, strict=True)):
         raise Rejected("Newton's test proves no root near the numbers of the file")
-    middle = [x.point() for x in root]
-    return minus(middle, [s for (s,) in solve(jacobian(root), [[x] for x in residual(middle)])])
+    while True:
+        middle = [x.point() for x in root]
+        closer = minus(middle, [s for (s,) in solve(jacobian(root), [[x] for x in residual(middle)])])
+        if 2 * max(x.width for x in closer) >= max(x.width for x in root):
+            return root
+        root = closer

@@ -52,8 +52,9 @@ def statement(data: dict[str, Any]) -> str:
     return (
         f"For every ball with J = ({', '.join(ball['J'])}), D = {ball['D']} and momentum {ball['height']} γ: on the "
         f"circle ⟨γ, Λ⁻¹γ⟩ = {ball['level']}, γ_{data['axes'][2]} > 0, every number within {data['radius']}, some "
-        f"points are back after {data['steps']} steps and {data['half_turns']} half turns and others are not, so the "
-        f"map leaves no finite measure invariant that is positive on every arc."
+        f"points are back after {data['steps']} steps and {data['half_turns']} half turn"
+        f"{'s' * (data['half_turns'] != 1)}, others are not, and so the map leaves no finite measure invariant that is "
+        f"positive on every arc."
     )
 
 
@@ -73,18 +74,15 @@ def check_form(data: dict[str, Any]) -> None:
 class Circle:
     """The circle of a certificate for every parameter of its box, and the map on it; raises Rejected if it is none."""
 
-    def __init__(self, data: dict[str, Any], bits: int):
-        radius = exact(data["radius"], "radius")
+    def __init__(self, data: dict[str, Any]):
+        radius = Fraction(data["radius"])
         if radius < 0:
             raise Rejected("the radius must not be negative")
-
-        def near(text: str) -> Interval:
-            centre = Fraction(text)
-            return Interval.enclosing(centre - radius, centre + radius, bits)
-
-        given = data["ball"]
-        self.ball = Ball.within([Fraction(x) for x in given["J"]], Fraction(given["D"]), radius, bits)
-        self.height, self.level = near(given["height"]), near(given["level"])
+        J = [Fraction(x) for x in data["ball"]["J"]]
+        D, height, level = (Fraction(data["ball"][name]) for name in ("D", "height", "level"))
+        bits = scale(data["digits"], data["steps"], [*J, D, height, level])
+        self.ball = Ball.within(J, D, radius, bits)
+        self.height, self.level = (Interval.enclosing(x - radius, x + radius, bits) for x in (height, level))
         if not self.height.sign:
             raise Rejected("the height is not proved to differ from 0")
         check_small_branch(self.ball, self.height.sign * self.height)
@@ -148,7 +146,7 @@ def check(data: dict[str, Any]) -> dict[str, str]:
     turns = count(data["half_turns"], 1, q, "half_turns")
     if len(data["ball"]["level"].partition(".")[2]) > digits:
         raise Rejected("the level has more decimals than the numbers that depend on it")
-    circle = Circle(data, scale(digits, q))
+    circle = Circle(data)
     found = set()
     for given in listed(data["orbits"], 2, "orbits"):
         check_names(given, "start steps displacement", "an orbit")

@@ -35,6 +35,9 @@ from .linear import Matrix, Vector, cross, determinant, dot, minus, newton, plus
 from .step import Ball, Pair, check_small_branch, gibbs_vector, moved, tangents
 
 NAMES = "format kind statement ball integrals steps digits start orbit determinant unit_eigenvalue digest"
+ATTRACTING = " All its eigenvalues are inside the unit circle: the orbit attracts what starts near it on the level."
+#: Of W; "trace" only if the orbit is said to be attracting.
+MULTIPLIERS = ("determinant", "unit_eigenvalue", "trace")
 INTEGRALS = ("momentum.momentum", "momentum.gamma")
 
 
@@ -45,12 +48,13 @@ def statement(data: dict[str, Any]) -> str:
         f"For the ball with J = ({', '.join(data['ball']['J'])}), D = {data['ball']['D']}: with ⟨𝒦, 𝒦⟩ = {size}, "
         f"⟨𝒦, γ⟩ = {height} a point is back after {data['steps']} steps, and the derivative of these steps on the "
         f"level of the integrals there has a determinant other than 1 and no eigenvalue 1."
+        f"{ATTRACTING if 'trace' in data else ''}"
     )
 
 
 def check_form(data: dict[str, Any]) -> None:
     """Raises Rejected unless all numbers are there, in their form."""
-    check_names(data, NAMES, "the certificate")
+    check_names(data, NAMES + " trace" * ("trace" in data), "the certificate")
     check_names(data["ball"], "J D", "ball")
     check_names(data["integrals"], " ".join(INTEGRALS), "integrals")
     check_names(data["start"], "momentum gamma", "start")
@@ -63,14 +67,15 @@ class Search:
 
     def __init__(self, data: dict[str, Any]):
         self.digits, q = count(data["digits"], 1, MOST_DIGITS, "digits"), count(data["steps"], 1, MOST_STEPS, "steps")
-        bits = scale(self.digits, q)
+        J, D = [Fraction(x) for x in data["ball"]["J"]], Fraction(data["ball"]["D"])
+        integrals = [Fraction(data["integrals"][name]) for name in INTEGRALS]
+        bits = scale(self.digits, q, [*J, D, *integrals])
 
         def enclosed(x: Fraction) -> Interval:
             return Interval.enclosing(x, x, bits)
 
-        J, D = [Fraction(x) for x in data["ball"]["J"]], Fraction(data["ball"]["D"])
         self.ball = Ball.within(J, D, Fraction(0), bits)
-        self.size, self.height = (enclosed(Fraction(data["integrals"][name])) for name in INTEGRALS)
+        self.size, self.height = (enclosed(x) for x in integrals)
         check_small_branch(self.ball, self.size.sqrt())
         self.gibbs = []
         for i, given in enumerate(listed(data["orbit"], q, "orbit"), 1):
@@ -78,7 +83,7 @@ class Search:
             self.gibbs.append(decimals(given["u"], self.digits, f"u of step {i}"))
         self.near = [[enclosed(x).point() for x in u] for u in self.gibbs]
         self.given = [decimals(data["start"][name], self.digits, name) for name in ("momentum", "gamma")]
-        self.stated = {name: decimal(data[name], self.digits, name) for name in ("determinant", "unit_eigenvalue")}
+        self.stated = {name: decimal(data[name], self.digits, name) for name in MULTIPLIERS if name in data}
         self.centre = [enclosed(x).point() for v in self.given for x in v]
         self.units = [unit(i, self.size) for i in range(3)]
 
@@ -149,9 +154,21 @@ def check(data: dict[str, Any]) -> dict[str, str]:
     for i, (u, near) in enumerate(zip(gibbs, search.gibbs, strict=True), 1):
         check_rounded(u, near, digits, f"u of step {i}")
     one_less = [minus(e, row) for e, row in zip(search.units, W, strict=True)]
-    proved = {"determinant": determinant(W), "unit_eigenvalue": determinant(one_less)}
-    for name, value in proved.items():
-        check_rounded([value], [search.stated[name]], digits, name)
+    proved = dict(zip(MULTIPLIERS, (determinant(W), determinant(one_less), W[0][0] + W[1][1] + W[2][2]), strict=True))
+    for name, number in search.stated.items():
+        check_rounded([proved[name]], [number], digits, name)
     if not (proved["determinant"] - 1).sign or not proved["unit_eigenvalue"].sign:
         raise Rejected("the determinant is not proved to differ from 1, or an eigenvalue may be 1")
-    return {name: data[name] for name in proved}
+    if "trace" in data and not attracts(*proved.values()):
+        raise Rejected("the eigenvalues are not all proved to be inside the unit circle")
+    return {name: data[name] for name in search.stated}
+
+
+def attracts(det: Interval, chi: Interval, trace: Interval) -> bool:
+    """Whether all eigenvalues of W are inside the unit circle, by Jury's criterion for χ(λ) = λ³ - tλ² + mλ - d.
+
+    χ(1) > 0, χ(-1) < 0, |d| < 1, |m - td| < 1 - d², where m = χ(1) - 1 + t + d.
+    """
+    minors = chi - 1 + trace + det
+    rest, room = minors - trace * det, 1 - det * det
+    return chi > 0 and 1 + trace + minors + det > 0 and room > 0 and rest < room and -rest < room

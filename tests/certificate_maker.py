@@ -97,8 +97,8 @@ def _measure(J, D, height, level, steps, turns, axes, digits, radius):
         "kind": "no-invariant-measure",
         "statement": f"For every ball with J = ({', '.join(J)}), D = {D} and momentum {height} γ: on the circle "
         f"⟨γ, Λ⁻¹γ⟩ = {level}, γ_{axes[2]} > 0, every number within {radius}, some points are back after {steps} steps "
-        f"and {turns} half turns and others are not, so the map leaves no finite measure invariant that is positive on "
-        "every arc.",
+        f"and {turns} half turn{'s' * (turns != 1)}, others are not, and so the map leaves no finite measure invariant "
+        "that is positive on every arc.",
         "ball": {"J": list(J), "D": D, "height": height, "level": level},
         "radius": radius,
         "axes": list(axes),

@@ -1,6 +1,7 @@
 """Certificates of kind periodic-orbit."""
 
 import random
+from fractions import Fraction
 
 import certificate_maker as maker
 import mpmath as mp
@@ -8,7 +9,10 @@ import pytest
 from certificate_changes import at, changed, leaves, refused, replaced, resealed
 from chapsym.checker import Rejected, check
 from chapsym.checker.interval import Interval
-from chapsym.checker.orbit import Search
+from chapsym.checker.linear import newton
+from chapsym.checker.orbit import Search, attracts
+from hypothesis import given
+from hypothesis import strategies as st
 
 from chapsym import checker
 
@@ -38,6 +42,28 @@ def test_numbers_that_are_changed_are_refused_by_mathematics_alone(right):
     for path in [*paths, *rng.sample([p for p in leaves(right) if p[0] == "orbit"], 3)]:
         data = resealed(replaced(right, path, changed(at(right, path), rng)))
         assert refused(data), (path, at(data, path))
+
+
+def test_a_trace_is_proved_and_an_orbit_with_a_determinant_above_1_does_not_attract(right):
+    """det W = 1 + 3e-9; the trace to 40 digits is what the checker itself encloses."""
+    search = Search(right)
+    trace = sum(search.return_map(newton(search.residual, search.jacobian, search.centre))[0][i][i] for i in range(3))
+    with mp.workdps(80):
+        text = maker.rounded(mp.mpf(trace.lo) / mp.mpf(2) ** trace.bits, 40)
+    with pytest.raises(Rejected, match="inside the unit circle"):
+        check(resealed(right | {"trace": text}))
+    with pytest.raises(Rejected, match="trace is not proved"):
+        check(resealed(right | {"trace": text[:-1] + str((int(text[-1]) + 1) % 10)}))
+
+
+@given(st.lists(st.integers(-16, 16), min_size=3, max_size=3), st.booleans())
+def test_jurys_criterion_is_that_of_the_eigenvalues(eighths, pair):
+    """Three real eigenvalues n/8, or one and a pair (n ± i n')/8."""
+    a, b, c = (Fraction(n, 8) for n in eighths)
+    total, product = (2 * b, b * b + c * c) if pair else (b + c, b * c)
+    inside = abs(a) < 1 and (product < 1 if pair else max(abs(b), abs(c)) < 1)
+    det, trace, chi = a * product, a + total, (1 - a) * (1 - total + product)
+    assert attracts(*(Interval.enclosing(x, x, 40) for x in (det, chi, trace))) == inside
 
 
 @pytest.mark.parametrize("name", ["start", "orbit", "ball", "integrals", "determinant", "unit_eigenvalue", "steps"])
