@@ -22,7 +22,7 @@ from chapsym.dynamics.precise_start import fraction
 from . import resonance
 from .balls import NotProved, ball, decade, decimals, rounded, shortest
 from .document import sealed
-from .reduced import Axes, Reduced, Top, Vector, angle, cross
+from .reduced import Reduced, Top, Vector, angle, cross
 from .resonance import MOST_DIGITS, MOST_STEPS, Resonance, spare_bits
 
 KIND = "no-invariant-measure"
@@ -182,19 +182,21 @@ def _orbit(reduced: Reduced, at: Resonance, start: Vector, zero: str) -> Orbit:
         u, gamma = reduced.image(reduced.root(gammas[-1]), gammas[-1])
         gibbs.append(u)
         gammas.append(gamma)
-    angles = [_turn(x, y, at.axes) for x, y in pairwise(gammas)]
-    direction = 1 if angles[0] > 0 else -1
-    if not (all(direction * x > 0 for x in angles) and abs(sum(angles) / arb.pi() - direction * at.half_turns) < 0.5):
+    s = direction([(cross(x, y, at.axes), angle(x, y, at.axes)) for x, y in pairwise(gammas)], at.half_turns)
+    return Orbit(zero, gibbs, gammas[1:], s * (-1) ** at.half_turns * cross(start, gammas[-1], at.axes))
+
+
+def direction(turned: list[tuple[Any, Any]], half_turns: int) -> int:
+    """1 or -1: the sign of all steps, from their (sines times a length, angles); raises NotProved.
+
+    Each is proved to turn by less than half a turn in this direction, and all by about so many half turns.
+    """
+    s = 1 if turned[0][0] > 0 else -1
+    if not all(s * sine > 0 for sine, _ in turned):
+        raise NotProved("the steps are not proved to turn in one direction by less than half a turn")
+    if not abs(sum(s * x for _, x in turned) / arb.pi() - half_turns) < 0.5:
         raise NotProved("the half turns are not proved")
-    delta = direction * (-1) ** at.half_turns * cross(start, gammas[-1], at.axes)
-    return Orbit(zero, gibbs, gammas[1:], delta)
-
-
-def _turn(before: Vector, after: Vector, axes: Axes) -> Any:
-    """The angle of one step, not 0 and less than half a turn; raises NotProved."""
-    if not cross(before, after, axes) != 0:
-        raise NotProved("a step may turn by no angle or by half a turn")
-    return angle(before, after, axes)
+    return s
 
 
 def _document(top: Top, at: Resonance, radius: Fraction, orbits: list[Orbit], digits: int) -> dict[str, Any]:

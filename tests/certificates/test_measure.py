@@ -4,15 +4,16 @@ import json
 import random
 import subprocess
 import sys
+from dataclasses import replace
 from fractions import Fraction
 from importlib.resources import files
 
 import pytest
 from certificates import elliptic
-from flint import ctx
+from flint import arb, ctx
 
-from chapsym.certificates import document, plateau, resonance
-from chapsym.certificates.balls import rounded
+from chapsym.certificates import document, measure, plateau, resonance
+from chapsym.certificates.balls import NotProved, ball, rounded
 from chapsym.certificates.measure import no_invariant_measure
 from chapsym.certificates.reduced import Reduced, Top, cross
 from chapsym.dynamics import BadInput
@@ -191,3 +192,57 @@ def test_the_command_refuses_with_one_sentence():
     assert (done.returncode, done.stdout) == (2, "")
     assert done.stderr.startswith("chapsym: for D = 0")
     assert done.stderr.count("\n") == 1
+
+
+def orbits():
+    with ctx.workprec(200):
+        return measure._orbits(top(), resonance.Resonance((0, 1, 2), LEVEL, 9, 1), Fraction(0))
+
+
+def test_a_certificate_needs_opposite_signs():
+    at, (one, other) = resonance.Resonance((0, 1, 2), LEVEL, 9, 1), orbits()
+    assert measure._document(top(), at, Fraction(0), [one, other], 31) == no_invariant_measure(
+        top(), level=LEVEL, steps=9, radius=Fraction(0)
+    )
+    with pytest.raises(NotProved, match="signs"):
+        measure._document(top(), at, Fraction(0), [one, one], 31)
+
+
+def test_a_checker_may_have_a_wider_displacement():
+    one = orbits()[0]
+    one.write(31)
+    for off in (10, 14):  # 2.802e-29 rounds to 2.80e-29 up to 3e-32 off; with 2^11 times the radius only up to 1e-35
+        wide = replace(one, displacement=one.displacement + ball(Fraction(0), Fraction(1, 10 ** (22 + off))))
+        if off == 10:
+            with pytest.raises(NotProved):
+                wide.write(31)
+        else:
+            wide.write(31)
+
+
+def test_steps_turn_in_one_direction_by_so_many_half_turns():
+    third = (arb(1), arb.pi() / 3)
+    back = (arb(-1), -arb.pi() / 3)
+    assert measure.direction([third] * 3, 1) == 1
+    assert measure.direction([back] * 6, 2) == -1
+    for wrong, half_turns in ((5 * [third], 1), ([third] * 3, 2), ([third] * 4 + [back], 1)):
+        with pytest.raises(NotProved):
+            measure.direction(wrong, half_turns)
+    with pytest.raises(NotProved, match="direction"):
+        measure.direction([third, (arb(0, 1), arb.pi() / 3), third], 1)
+    with pytest.raises(NotProved, match="direction"):
+        measure.direction([(arb(0, 1), arb.pi() / 3), third, third], 1)
+
+
+def test_a_step_is_enclosed_from_a_poor_point_too():
+    """One Newton iterate from there is far off; the ball is not."""
+    with ctx.workprec(200):
+        reduced = Reduced(top())
+        gamma = reduced.start(ball(LEVEL), (0, 1, 2), "a")
+        root = reduced.root(gamma)
+        poor = tuple(x + ball(Fraction(1, 1000)).mid() for x in root)
+        enclosed, _ = reduced.image(poor, gamma)
+        assert all(x.overlaps(y) for x, y in zip(enclosed, root, strict=True))
+        assert max(float(x.rad()) for x in enclosed) < 1e-4
+        with pytest.raises(NotProved, match="small-branch"):
+            reduced.image((ball(Fraction(2)),) * 3, gamma)
