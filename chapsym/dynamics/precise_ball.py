@@ -119,21 +119,7 @@ class ArbBall:
         u = tuple(arb(x) * self.one for x in near)
         if not upper(u) <= radius:
             return None
-        r = gibbs_residual(*u, *k, *self.g, *self.I, self.D)
-        ctx.prec = MATRIX_BITS + 3 * self.lost
-        try:
-            off = (upper(r) / slope).abs_upper()
-            box = tuple(x + arb(0, off) for x in u)
-            det, _, _, _, c11, c12, c13, c21, c22, c23, c31, c32, c33 = gibbs_newton(*box, *k, *self.g, *self.I, self.D)
-            if not det > 0:
-                raise TooWide
-            r1, r2, r3 = r
-            d1 = (c11 * r1 + c21 * r2 + c31 * r3) / det
-            d2 = (c12 * r1 + c22 * r2 + c32 * r3) / det
-            d3 = (c13 * r1 + c23 * r2 + c33 * r3) / det
-        finally:
-            ctx.prec = self.precision
-        return u[0] - d1, u[1] - d2, u[2] - d3
+        return newton_enclosure(u, slope, k, self.g, self.I, self.D, MATRIX_BITS + 3 * self.lost)
 
     def _rotation(self, k: Numbers) -> Numbers:
         """The rotation where the lemma does not hold, enclosed."""
@@ -169,6 +155,25 @@ class ArbBall:
             return tuple(tuple(+x for x in v) for v in (momentum, self.g, self.a, trace))  # type: ignore[return-value]
         finally:
             ctx.prec = self.precision
+
+
+def newton_enclosure(u: Numbers, slope: Any, k: Numbers, g: Numbers, I: Numbers, D: Any, matrix_bits: int) -> Numbers:
+    """The root of G within |G(u)|/m of a point u, where G is monotone with m = `slope`, for all k, γ, I and D in balls.
+
+    It is u - A⁻¹G(u) with A = ∂G/∂u at the middle between the two.  Raises TooWide where det A may be 0.
+    """
+    r = gibbs_residual(*u, *k, *g, *I, D)
+    with ctx.workprec(matrix_bits):
+        off = (upper(r) / slope).abs_upper()
+        box = tuple(x + arb(0, off) for x in u)
+        det, _, _, _, c11, c12, c13, c21, c22, c23, c31, c32, c33 = gibbs_newton(*box, *k, *g, *I, D)
+        if not det > 0:
+            raise TooWide
+        r1, r2, r3 = r
+        d1 = (c11 * r1 + c21 * r2 + c31 * r3) / det
+        d2 = (c12 * r1 + c22 * r2 + c32 * r3) / det
+        d3 = (c13 * r1 + c23 * r2 + c33 * r3) / det
+    return u[0] - d1, u[1] - d2, u[2] - d3
 
 
 def log_radius(x: Any) -> float:

@@ -1,0 +1,59 @@
+"""The numbers of a certificate: exact rationals, Arb's balls, and decimals to which every number of a ball rounds."""
+
+from fractions import Fraction
+from typing import Any
+
+from flint import arb
+
+from chapsym.dynamics.precise_ball import exact
+from chapsym.dynamics.precise_start import fraction
+
+
+class NotProved(ArithmeticError):
+    """The balls are too wide for what the proof needs."""
+
+
+def ball(centre: Fraction, radius: Fraction = Fraction(0)) -> Any:
+    """An Arb ball that contains centre ± radius."""
+    return exact(centre) + arb(0, exact(radius).abs_upper())
+
+
+def rounded(x: Any, digits: int, wider: int = 1) -> str:
+    """The numbers of a ball rounded to so many decimals; raises NotProved where they round differently.
+
+    wider: those up to so many radii from the middle must round alike, for a checker with wider intervals.
+    """
+    middle, off = fraction(x), wider * fraction(x.rad())
+    found = round((middle - off) * 10**digits)
+    if found != round((middle + off) * 10**digits):
+        raise NotProved(f"a number does not round to {digits} decimals alike in the whole box")
+    return decimal(Fraction(found, 10**digits), digits)
+
+
+def decimal(x: Fraction, digits: int) -> str:
+    """A multiple of 10^-digits with so many decimals."""
+    scaled = x * 10**digits
+    assert scaled.denominator == 1, "not rounded"
+    whole = str(abs(scaled.numerator)).rjust(digits + 1, "0")
+    text = f"{whole[:-digits]}.{whole[-digits:]}" if digits else whole
+    return f"-{text}" if x < 0 else text
+
+
+def decimals(x: Fraction) -> int | None:
+    """How many decimals a number has; None for infinitely many."""
+    most = x.denominator.bit_length()
+    return next((n for n in range(most + 1) if 10**n % x.denominator == 0), None)
+
+
+def shortest(x: Fraction) -> str:
+    """An exact text of a number: 1e-40 for a power of 10 below 1, a decimal, else a fraction."""
+    digits = decimals(x)
+    if digits is None:
+        return str(x)
+    return f"1e-{digits}" if digits and x * 10**digits == 1 else decimal(x, digits)
+
+
+def decade(x: Fraction) -> int:
+    """The exponent n with 10ⁿ ≤ x < 10ⁿ⁺¹, of x > 0."""
+    n = len(str(x.numerator)) - len(str(x.denominator))
+    return n if x >= Fraction(10) ** n else n - 1

@@ -1,0 +1,223 @@
+"""Certificate `no-invariant-measure`: two points of a circle that q steps of G_h move by more and by less than p half
+turns.
+
+δ = s(-1)^p(γ_a⁰γ_b^q - γ_b⁰γ_a^q), with s = ±1 the direction of the motion, has the sign of the displacement after q
+steps less p half turns, where this is below half a turn.  If G_h preserved a measure with a positive continuous density
+on the circle, it would be conjugate to a rotation, and δ would have one sign, or be 0, everywhere.
+"""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import pairwise
+from typing import Any
+
+from flint import arb, ctx
+
+from chapsym.dynamics.errors import BadInput
+from chapsym.dynamics.precise_ball import TooWide
+from chapsym.dynamics.precise_start import fraction
+
+from . import resonance
+from .balls import NotProved, ball, decade, decimals, rounded, shortest
+from .document import sealed
+from .reduced import Reduced, Top, Vector, angle, cross
+from .resonance import MOST_DIGITS, MOST_STEPS, Resonance, spare_bits
+
+KIND = "no-invariant-measure"
+#: Significant digits that the smaller displacement has at least, and how many more are tried where a number happens to
+#: lie between two decimals.
+SIGNIFICANT, MORE = 3, 3
+#: Decimals by which a radius must be smaller for every step; boxes grow by less.
+LOST = 2
+
+
+@dataclass(frozen=True)
+class Orbit:
+    """q steps from the point with γ_a = 0 or γ_b = 0, enclosed: the Gibbs vectors, γ after each step, and δ."""
+
+    start: str
+    gibbs: list[Vector]
+    gammas: list[Vector]
+    displacement: Any
+
+    def sign(self) -> int:
+        """The proved sign of δ; 0 where it may be either."""
+        return 1 if self.displacement > 0 else -1 if self.displacement < 0 else 0
+
+    def write(self, digits: int) -> dict[str, Any]:
+        """For JSON, rounded; raises NotProved where the numbers of a ball do not round alike."""
+        steps = [
+            {name: [rounded(x, digits, _wider(k)) for x in v] for name, v in (("u", u), ("gamma", gamma))}
+            for k, (u, gamma) in enumerate(zip(self.gibbs, self.gammas, strict=True), 1)
+        ]
+        moved = rounded(self.displacement, digits, _wider(len(steps)))
+        return {"start": self.start, "steps": steps, "displacement": moved}
+
+
+def _wider(steps: int) -> int:
+    """How much wider the intervals of a checker may be after so many steps; those of ours are, by 2^(0.7 steps + 1)."""
+    return 2 ** (steps + 2)
+
+
+def no_invariant_measure(
+    top: Top, *, steps: int | None = None, half_turns: int | None = None, level: Fraction | None = None,
+    digits: int | None = None, radius: Fraction | None = None, progress: Callable[[str], None] = lambda what: None,
+) -> dict[str, Any]:  # fmt: skip
+    """Finds the certificate that G_h of a top preserves no measure with a positive continuous density.
+
+    steps: q, odd; the least that turns by `half_turns` by default.  half_turns: p; 1, or what the level has.
+    level: l; in the middle of the plateau by default.  digits: decimals of the file; what the displacement needs.
+    radius: how far each of J, D, h and l may be off; the largest power of 10 that is proved by default, and 0 where a
+    component of J is 0, as it must not be negative.
+    Returns the object of the file (`document`).  Raises BadInput, one sentence, for what has no certificate.
+    """
+    _check(top, steps, half_turns, digits, radius)
+    if level is None:
+        at = resonance.find(top, steps, half_turns or 1, progress)
+    else:
+        at = resonance.on_level(top, level, steps, half_turns)
+    progress("enclosing both orbits")
+    least = _least_digits(top, at)
+    if digits is not None and digits < least:
+        raise BadInput(f"{digits} digits are too few for this displacement and level; take {least} or more")
+    return _largest(top, at, least if digits is None else digits, digits is not None, radius, progress)
+
+
+def _check(top: Top, steps: int | None, half_turns: int | None, digits: int | None, radius: Fraction | None) -> None:
+    if top.D == 0:
+        raise BadInput(
+            "for D = 0 there is nothing to find: G_h is a rotation on every circle, and its displacement vanishes"
+        )
+    if len(set(top.J)) < 3:
+        raise BadInput(
+            "the three entries of J must differ: else G_h commutes with all rotations about an axis, and its "
+            "displacement vanishes"
+        )
+    if top.height == 0:
+        raise BadInput("for the height 0 the map moves nothing")
+    if steps is not None and not (3 <= steps <= MOST_STEPS and steps % 2):
+        raise BadInput(
+            f"the number of steps must be odd, so that both starts are extreme, from 3 to {MOST_STEPS}, not {steps}"
+        )
+    if half_turns is not None and half_turns < 1:
+        raise BadInput(f"the number of half turns must be at least 1, not {half_turns}")
+    if steps is not None and half_turns is not None:
+        resonance.check_reduced(steps, half_turns)
+    if digits is not None and not 1 <= digits <= MOST_DIGITS:
+        raise BadInput(f"the number of digits must be from 1 to {MOST_DIGITS}, not {digits}")
+    if radius is not None and radius < 0:
+        raise BadInput("the radius must not be negative")
+    if radius is not None and min(top.J) < radius:
+        raise BadInput(f"within the radius {shortest(radius)} the least component of J, {min(top.J)}, may be negative")
+
+
+def _least_digits(top: Top, at: Resonance) -> int:
+    """Decimals for the level, and SIGNIFICANT digits of both displacements; raises BadInput off the plateau."""
+    bits = spare_bits(at.steps)
+    while bits < MOST_DIGITS * 10 // 3:
+        bits *= 2
+        with ctx.workprec(bits):
+            try:
+                found = _orbits(top, at, Fraction(0))
+            except (NotProved, TooWide):
+                continue
+            signs = [x.sign() for x in found]
+            if signs[0] == signs[1] != 0:
+                raise BadInput(
+                    f"both displacements are {'positive' if signs[0] > 0 else 'negative'}: the level is outside of the "
+                    f"plateau of {resonance.turns(at.half_turns)} in {at.steps} steps"
+                )
+            if 0 not in signs:
+                least = min(fraction(abs(x.displacement)) for x in found)
+                digits = max(SIGNIFICANT - 1 - decade(least), decimals(at.level) or 0)
+                if digits <= MOST_DIGITS:
+                    return digits
+    raise BadInput(f"the displacement on this level is not told from 0 with {MOST_DIGITS} digits")
+
+
+def _largest(
+    top: Top, at: Resonance, least: int, only: bool, radius: Fraction | None, progress: Callable[[str], None]
+) -> dict[str, Any]:
+    """The certificate with the largest radius, and the fewest digits for it."""
+    candidates = [least] if only else range(least, min(least + MORE, MOST_DIGITS) + 1)
+    most = candidates[-1]
+    radii = _radii(top, at, least) if radius is None else [radius]
+    with ctx.workprec(math.ceil(most * 10 / 3) + spare_bits(at.steps)):
+        for tried in radii:
+            progress(f"trying the radius {shortest(tried)}")
+            try:
+                orbits = _orbits(top, at, tried)
+            except (NotProved, TooWide, BadInput):  # such a radius may be beyond the bound of small-branch
+                continue
+            for digits in candidates:
+                try:
+                    return _document(top, at, tried, orbits, digits)
+                except NotProved:
+                    continue
+    raise BadInput(
+        f"the numbers do not round to {least} digits alike for all parameters within {shortest(radii[-1])}; "
+        f"take a smaller radius, or another number of digits"
+    )
+
+
+def _radii(top: Top, at: Resonance, digits: int) -> list[Fraction]:
+    """Powers of 10 down to what boxes that grow in every step need, for parameters of any size; 0 where a J is 0."""
+    if min(top.J) == 0:
+        return [Fraction(0)]
+    scales = [abs(decade(abs(x))) for x in (*top.J, top.D, top.height, at.level)]
+    return [Fraction(1, 10**n) for n in range(digits, digits + LOST * at.steps + 2 * max(scales) + 20)]
+
+
+def _orbits(top: Top, at: Resonance, radius: Fraction) -> list[Orbit]:
+    reduced = Reduced(top, radius)
+    return [_orbit(reduced, at, reduced.start(ball(at.level, radius), at.axes, zero), zero) for zero in "ab"]
+
+
+def _orbit(reduced: Reduced, at: Resonance, start: Vector, zero: str) -> Orbit:
+    """Every step, proved; raises NotProved."""
+    gibbs, gammas = [], [start]
+    for _ in range(at.steps):
+        u, gamma = reduced.image(reduced.root(gammas[-1]), gammas[-1])
+        gibbs.append(u)
+        gammas.append(gamma)
+    s = direction([(cross(x, y, at.axes), angle(x, y, at.axes)) for x, y in pairwise(gammas)], at.half_turns)
+    return Orbit(zero, gibbs, gammas[1:], s * (-1) ** at.half_turns * cross(start, gammas[-1], at.axes))
+
+
+def direction(turned: list[tuple[Any, Any]], half_turns: int) -> int:
+    """1 or -1: the sign of all steps, from their (sines times a length, angles); raises NotProved.
+
+    Each is proved to turn by less than half a turn in this direction, and all by about so many half turns.
+    """
+    s = 1 if turned[0][0] > 0 else -1
+    if not all(s * sine > 0 for sine, _ in turned):
+        raise NotProved("the steps are not proved to turn in one direction by less than half a turn")
+    if not abs(sum(s * x for _, x in turned) / arb.pi() - half_turns) < 0.5:
+        raise NotProved("the half turns are not proved")
+    return s
+
+
+def _document(top: Top, at: Resonance, radius: Fraction, orbits: list[Orbit], digits: int) -> dict[str, Any]:
+    if orbits[0].sign() * orbits[1].sign() >= 0:
+        raise NotProved("the signs of the displacements are not proved")
+    J, axes = [str(x) for x in top.J], [i + 1 for i in at.axes]
+    level, within = shortest(at.level), shortest(radius)
+    statement = (
+        f"For every ball with J = ({', '.join(J)}), D = {top.D} and momentum {top.height} γ: on the circle "
+        f"⟨γ, Λ⁻¹γ⟩ = {level}, γ_{axes[2]} > 0, every number within {within}, some points are back after "
+        f"{at.steps} steps and {at.half_turns} half turns and others are not, so the map leaves no finite "
+        f"measure invariant that is positive on every arc."
+    )
+    return sealed(
+        KIND,
+        statement,
+        ball={"J": J, "D": str(top.D), "height": str(top.height), "level": level},
+        radius=within,
+        axes=axes,
+        steps=at.steps,
+        half_turns=at.half_turns,
+        digits=digits,
+        orbits=[x.write(digits) for x in orbits],
+    )

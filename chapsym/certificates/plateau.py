@@ -1,0 +1,151 @@
+"""The levels on which G_h turns by p half turns in q steps, for some points of the circle: a plateau, found.
+
+For odd q the displacement after q steps is least and largest at the points with γ_a = 0 and γ_b = 0, which reflections
+fix.  So the two levels on which one of them returns to p half turns are the ends of the plateau; it is about as narrow,
+beside the range of levels, as the q-th power of the nome.  Nothing here is proved: that is for the balls to do.
+"""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import pairwise
+from typing import Any
+
+from flint import acb, arb, ctx
+
+from chapsym.dynamics.precise_start import exponent_of, fraction
+
+from .balls import ball
+from .reduced import Axes, Reduced, Top, Vector, angle, cross
+
+#: The levels that are looked at have x/(1 - x) = e^t for so many t up to ±REACH, x from the separatrix to the axis.
+LEVELS, REACH = 29, 14.0
+#: Bits and steps of this look, and how well it finds the level, in half turns.
+LOOK_BITS, LOOK_STEPS, LOOK_NEAR = 64, 63, 1e-3
+MOST_SECANTS = 60
+
+
+@dataclass(frozen=True)
+class Staircase:
+    """Half turns after 1, 2, ... steps from the point γ_b = 0 of circles around one axis, from the separatrix on."""
+
+    axes: Axes
+    levels: list[Fraction]
+    turns: list[list[float]]
+
+    def fastest(self) -> float:
+        """The most half turns a step, in the mean."""
+        return max(turns[-1] / len(turns) for turns in self.turns)
+
+    def between(self, steps: int, half_turns: int) -> tuple[Fraction, Fraction] | None:
+        """Two levels with fewer and with more half turns in so many steps."""
+        found = [turns[steps - 1] for turns in self.turns]
+        for i in range(len(found) - 1):
+            if (found[i] < half_turns) != (found[i + 1] < half_turns):
+                low, high = (i, i + 1) if found[i] < half_turns else (i + 1, i)
+                return self.levels[low], self.levels[high]
+        return None
+
+
+def staircases(top: Top, steps: int, progress: Callable[[str], None]) -> list[Staircase]:
+    """The circles around both axes; raises BadInput beyond the bound of lemma `small-branch`."""
+    found = []
+    for axes in top.sides():
+        _, b, c = axes
+        inner, outer = 1 / top.moments[b], 1 / top.moments[c]
+        levels = [inner + (outer - inner) * Fraction(_logistic(i)) for i in range(LEVELS)]
+        turns = []
+        for number, level in enumerate(levels):
+            progress(f"looking for the level: circle {number + 1} of {LEVELS} around axis {c + 1}")
+            turns.append(half_turns(top, level, axes, steps))
+        found.append(Staircase(axes, levels, turns))
+    return found
+
+
+def half_turns(top: Top, level: Fraction, axes: Axes, steps: int) -> list[float]:
+    """Half turns after 1, 2, ... steps from the point with γ_b = 0, in the direction of the motion."""
+    with ctx.workprec(LOOK_BITS):
+        orbit = trajectory(Reduced(top), level, axes, "b", steps)
+        total, found = 0.0, []
+        for before, after in pairwise(orbit):
+            total += float(angle(before, after, axes)) / math.pi
+            found.append(abs(total))
+        return found
+
+
+def trajectory(reduced: Reduced, level: Fraction, axes: Axes, zero: str, steps: int) -> list[Vector]:
+    """γ from a start on, rounded after every step."""
+    orbit = [tuple(x.mid() for x in reduced.start(ball(level), axes, zero))]
+    for _ in range(steps):
+        orbit.append(tuple(x.mid() for x in reduced.image(reduced.root(orbit[-1]), orbit[-1])[1]))
+    return orbit
+
+
+def refined(top: Top, ends: tuple[Fraction, Fraction], axes: Axes, steps: int, turns: int) -> tuple[Fraction, Fraction]:
+    """Halves the way between two levels, one with fewer turns, until q steps from both turn nearly the same."""
+    (low, high), off = ends, [math.inf, math.inf]
+    for _ in range(LOOK_BITS):
+        middle = (low + high) / 2
+        found = half_turns(top, middle, axes, steps)[-1] - turns
+        if found < 0:
+            low, off[0] = middle, -found
+        else:
+            high, off[1] = middle, found
+        if max(off) < LOOK_NEAR:
+            break
+    return low, high
+
+
+def end_of_plateau(
+    reduced: Reduced, near: tuple[Fraction, Fraction], axes: Axes, zero: str, steps: int, bits: int
+) -> Fraction:
+    """The level near two others on which the start with γ_a = 0 or γ_b = 0 is on its axis again, by secants."""
+
+    def off(level: Fraction) -> Fraction:
+        orbit = trajectory(reduced, level, axes, zero, steps)
+        return fraction(cross(orbit[0], orbit[-1], axes))
+
+    (x, y), limit = near, unit_in_last_place(near[0], bits)
+    before, now = off(x), off(y)
+    for _ in range(MOST_SECANTS):
+        if before == now or x == y:
+            break
+        step = now * (y - x) / (now - before)
+        x, y = y, Fraction(round((y - step) / limit)) * limit
+        before, now = now, off(y)
+        if abs(step) < 64 * limit:
+            break
+    return y
+
+
+def unit_in_last_place(x: Fraction, bits: int) -> Fraction:
+    """2^-bits times a power of 2 about as large as x."""
+    return Fraction(2) ** (exponent_of(x) - bits)
+
+
+def nome_power(top: Top, level: Fraction, axes: Axes, steps: int) -> float:
+    """The logarithm to base 2 of nome^q, the size of the displacement but for a factor: -q·πK'/K, over log 2."""
+    La, Lb, Lc = (top.moments[i] for i in axes)
+    k2 = (Lc * level - 1) * (La - Lb) / ((La * level - 1) * (Lc - Lb))  # the modulus² of (5.8), between 0 and 1
+    with ctx.workprec(LOOK_BITS):
+        nome = (-arb.pi() * _quarter(1 - k2) / _quarter(k2)).exp()
+        return steps * float(nome.log()) / math.log(2)
+
+
+def _quarter(k2: Fraction) -> Any:
+    return acb(ball(k2)).elliptic_k().real
+
+
+def simplest(low: Fraction, high: Fraction) -> Fraction:
+    """The number with the fewest decimals between two, nearest to their middle."""
+    digits, middle = 0, (low + high) / 2
+    while True:
+        found = Fraction(round(middle * 10**digits), 10**digits)
+        if low <= found <= high:
+            return found
+        digits += 1
+
+
+def _logistic(i: int) -> float:
+    return 1.0 / (1.0 + math.exp(REACH * (1.0 - 2.0 * i / (LEVELS - 1))))

@@ -1,0 +1,142 @@
+"""chapsym certify: certificates of what the paper left open, found, written and checked."""
+
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from decimal import Decimal
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from chapsym.exact import rational
+
+from .app import app
+from .options import Contact, Inertia, Json, MassTensor, ball_from
+from .output import fail, note, print_json
+
+#: Seconds between two lines of progress where standard error is no terminal.
+PAUSE = 5.0
+
+certify = typer.Typer(
+    help="""Find and check certificates of what the paper left open.
+
+    Example: chapsym certify no-invariant-measure -o found.json && chapsym certify check found.json
+    """,
+    rich_markup_mode=None,
+)
+app.add_typer(certify, name="certify")
+
+Output = Annotated[Path | None, typer.Option("-o", "--output", metavar="FILE", help="Write the certificate there.")]
+
+
+@certify.command("no-invariant-measure")
+def no_invariant_measure(
+    mass_tensor: MassTensor = None,
+    inertia: Inertia = None,
+    contact: Contact = None,
+    height: Annotated[str, typer.Option(metavar="H", help="h of G_h: the momentum is h gamma.")] = "12/5",
+    steps: Annotated[int | None, typer.Option(metavar="Q", help="Steps, odd; the fewest possible.")] = None,
+    turns: Annotated[int | None, typer.Option(metavar="P", help="Half turns in them; 1.")] = None,
+    level: Annotated[str | None, typer.Option(metavar="L", help="The level; found by default.")] = None,
+    digits: Annotated[int | None, typer.Option(metavar="N", help="Decimals; as many as needed by default.")] = None,
+    radius: Annotated[
+        str | None, typer.Option(metavar="R", help="How far parameters may be off; the largest power of 10.")
+    ] = None,
+    output: Output = None,
+    as_json: Json = False,
+) -> None:
+    """Certify that the reduced map preserves no measure with a positive continuous density.
+
+    On a level circle with the rotation number p/q one point is moved by more, another by less than p half turns in q
+    steps.  By default for the ball with J = (1, 2, 4), D = 1.
+
+    Example: chapsym certify no-invariant-measure --mass-tensor 1,2,4 --D 7 --steps 21 -o real-ball.json
+    """
+    if mass_tensor is inertia is contact is None:
+        mass_tensor, contact = "1,2,4", "1"
+    if contact is None:
+        fail("D is missing: give --D", 2)
+    J, D = ball_from(mass_tensor, inertia, contact, None, None)
+    h = rational(height, "--height")
+    at, within = (None if x is None else rational(x, name) for x, name in ((level, "--level"), (radius, "--radius")))
+    from chapsym.certificates import measure
+    from chapsym.certificates.reduced import Top
+
+    def find(progress: Callable[[str], None]) -> dict[str, Any]:
+        return measure.no_invariant_measure(
+            Top((J[0], J[1], J[2]), D, h), steps=steps, half_turns=turns, level=at, digits=digits, radius=within,
+            progress=progress,
+        )  # fmt: skip
+
+    found = deliver(find, output, as_json)
+    if not as_json:
+        _describe(found)
+
+
+def _describe(found: dict[str, Any]) -> None:
+    ball, axes = found["ball"], found["axes"]
+    print(f"J = ({', '.join(ball['J'])}), D = {ball['D']}, h = {ball['height']}, level {ball['level']}")
+    print(f"and all within {found['radius']} of each of these: around axis {axes[2]} in {found['steps']} steps")
+    for orbit in found["orbits"]:
+        axis = axes["ab".index(orbit["start"])]
+        moved = f"{Decimal(orbit['displacement']):.2e}"
+        print(f"  half turns: {found['half_turns']}, and {moved} more, from gamma{axis} = 0")
+
+
+@certify.command()
+def check(
+    files: Annotated[list[Path], typer.Argument(metavar="FILE...", help="Certificates.")],
+) -> None:
+    """Check certificates by the independent checker: exit status 0 accepted, 1 rejected, 2 unreadable."""
+    import subprocess
+
+    # A process of its own, so that nothing loaded here has a part in it.
+    done = subprocess.run([sys.executable, "-m", "chapsym.checker", *map(str, files)], check=False)
+    raise typer.Exit(done.returncode)
+
+
+def deliver(
+    find: Callable[[Callable[[str], None]], dict[str, Any]], output: Path | None, as_json: bool
+) -> dict[str, Any]:
+    """Finds a certificate with its progress on standard error, and writes it; one sentence where there is none."""
+    from chapsym import files
+    from chapsym.certificates.document import write
+    from chapsym.dynamics import BadInput
+
+    try:
+        if output is not None:
+            files.check_destination(output)
+        with telling() as progress:
+            found = find(progress)
+        if output is not None:
+            write(output, found)
+    except (BadInput, files.CannotWrite) as error:
+        fail(str(error), 2)
+    if as_json:
+        print_json(found)
+    elif output is not None:
+        print(f"wrote {output}; check it by chapsym certify check {output}")
+    return found
+
+
+@contextmanager
+def telling() -> Iterator[Callable[[str], None]]:
+    """Yields a function of a sentence: a line that changes on a terminal, elsewhere a line every few seconds."""
+    from rich.console import Console
+
+    console = Console(stderr=True, highlight=False, markup=False)
+    if console.is_terminal:
+        with console.status("") as status:
+            yield status.update
+        return
+    last = time.monotonic()
+
+    def tell(sentence: str) -> None:
+        nonlocal last
+        if time.monotonic() - last >= PAUSE:
+            last = time.monotonic()
+            note(sentence)
+
+    yield tell
