@@ -47,7 +47,9 @@ def coordinate(a: sp.Expr) -> sp.Expr:
 def chord(p: Proof) -> None:
     """The map on its curve is a relation between Z(u~) - Z(u) and u~ - u; to first order in D it is a rotation."""
     p.assume("0 < k < 1, h > 0; (5.15) as corrected; a = δu, y = sn²a, w = sn cn dn a; λ = l - μy, V, w, 𝒟 are not 0")
-    p.assume("to first order: M(a₀) = 0, M'(a₀) ≠ 0, and a is the root near a₀, as on the small branch whose root at D = 0 is a₀")
+    p.assume(
+        "to first order: M(a₀) = 0, M'(a₀) ≠ 0, and a is the root near a₀, as on the small branch whose root at D = 0 is a₀"
+    )
     p.say("Z is Jacobi's zeta function: odd, of period 2K, Z' = dn² - E/K. Its addition theorem")
     p.say("Z(u+v) = Z(u) + Z(v) - k² sn u sn v sn(u+v) is an identity at u = 0, and its derivative by u is one:")
     p.lemma(addition())
@@ -58,9 +60,13 @@ def chord(p: Proof) -> None:
     p.lemma(Equation("w/y = cn dn/sn", [SMALL_W / Y], [RATIO], TWO))
     p.say("With Ψ = 2Z + 2w/y that is Ψ(a) - Z(u~) + Z(u) = 2w/(y𝒟). And (5.15), T = 0, says 1/𝒟 = (1 - G/(2Vw))/(Dλ):")
     M, whole = (2 * w - G / V) / (y * level), V * y * level * SCALE
-    p.printed(part("M(a) - D·2w/(y𝒟) = -T/(Vyλ𝒟), M = (2w - G/V)/(yλ)", M - 2 * D * w / (y * SCALE), -true_relation() / whole))
+    p.printed(
+        part("M(a) - D·2w/(y𝒟) = -T/(Vyλ𝒟), M = (2w - G/V)/(yλ)", M - 2 * D * w / (y * SCALE), -true_relation() / whole)
+    )
     p.say("So M(a) = D(Ψ(a) - Z(u~) + Z(u)) is the map, for D = 0 as well.  For 𝒦 = hγ it is (5.15) with Λ/h, D/h, lh")
-    p.say("(5.12-scaling), where V, G, λ get the factors h, h², h: T/h is hG𝒟 - 2Vw(𝒟 - Dλ), and M has hG in the place of G.")
+    p.say(
+        "(5.12-scaling), where V, G, λ get the factors h, h², h: T/h is hG𝒟 - 2Vw(𝒟 - Dλ), and M has hG in the place of G."
+    )
     h = sp.Symbol("h")
     scaled = {V: h * V, G: h**2 * G, level: h * level, D: D / h}
     height = Quotient((h, SCALE, G, V, D, y, w, level))
@@ -68,7 +74,9 @@ def chord(p: Proof) -> None:
         Equation("T scaled", [true_relation().subs(scaled, simultaneous=True)],
                  [h * (h * G * SCALE - 2 * V * w * (SCALE - D * level))], height),
         )  # fmt: skip
-    p.say("Let M(a₀) = 0 and M'(a₀) ≠ 0, and A the inverse of M near 0. As z = Z(u~) - Z(u) is bounded, a = A(D(Ψ(a) - z))")
+    p.say(
+        "Let M(a₀) = 0 and M'(a₀) ≠ 0, and A the inverse of M near 0. As z = Z(u~) - Z(u) is bounded, a = A(D(Ψ(a) - z))"
+    )
     p.say("has one solution near a₀ for |D| small, analytic in D and z, and uniformly in z, modulo D³, it is")
     a = half_increment()
     p.printed(
@@ -76,13 +84,19 @@ def chord(p: Proof) -> None:
                  [A1 * coordinate(a) + A2 / 2 * coordinate(a) ** 2], [a], SECOND_ORDER),
     )  # fmt: skip
     p.say("So u~ - u = 2a = const - 2DA'z + D²(const + const·z + A''z²) + O(D³), the constants those of the curve.")
-    p.lemma(Equation("the coefficient of D²z² in 2a is A''", [sp.expand(2 * a).coeff(D, 2).coeff(z, 2)], [A2], SECOND_ORDER))
-    p.say("z is a difference along the orbit: with v = u + 2DA'(0)Z(u) the map is v~ = v + const + O(D²), a rotation on every")
+    p.lemma(
+        Equation("the coefficient of D²z² in 2a is A''", [sp.expand(2 * a).coeff(D, 2).coeff(z, 2)], [A2], SECOND_ORDER)
+    )
+    p.say(
+        "z is a difference along the orbit: with v = u + 2DA'(0)Z(u) the map is v~ = v + const + O(D²), a rotation on every"
+    )
     p.say("curve, resonant or not.  What tells it from one is of the order D², and the sum of z² along an orbit.")
     p.control(addition(-1))
     wrong = Equation("the same with 1/𝒟 - 1", [chord_of_zeta()], [-shape], TWO)
     p.control(wrong)
-    p.control(part("M with G/(2V)", (2 * w - G / (2 * V)) / (y * level) - 2 * D * w / (y * SCALE), -true_relation() / whole))
+    p.control(
+        part("M with G/(2V)", (2 * w - G / (2 * V)) / (y * level) - 2 * D * w / (y * SCALE), -true_relation() / whole)
+    )
     b = half_increment(A2)
     p.control(Equation("a with A'' for ½A''", [A1 * coordinate(b) + A2 / 2 * coordinate(b) ** 2], [b], SECOND_ORDER))
 

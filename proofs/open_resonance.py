@@ -53,10 +53,18 @@ def chords_of_a_polygon(most: int, weight: int = 2) -> bool:
 
 def in_fourier_series(p: Proof) -> None:
     """Σz² once more, from the Fourier series of Z: the same coefficients, by telescoping."""
-    p.say("Z = (π/K) Σ sin(nθ)/sinh(nη), θ = πu/K, η = πK'/K; over the orbit the harmonics N = mq of z² remain, q-fold, and")
-    p.say("the coefficient of e^{iNθ} in z² is -(π/2K)² Σ_n (2 - 2cos(2πpn/q))/(sinh nη sinh(N-n)η), n ≠ 0, N. The product")
-    p.say("is (coth nη - coth(n-N)η)/sinh Nη: within a class of n mod N the sum telescopes to 2/sinh Nη, and the weights,")
-    p.say("0 in the class of 0, add up to 2N. So it is -(π/K)²N/sinh Nη, and the one of -2dn² = -2Z' - 2E/K over q points,")
+    p.say(
+        "Z = (π/K) Σ sin(nθ)/sinh(nη), θ = πu/K, η = πK'/K; over the orbit the harmonics N = mq of z² remain, q-fold, and"
+    )
+    p.say(
+        "the coefficient of e^{iNθ} in z² is -(π/2K)² Σ_n (2 - 2cos(2πpn/q))/(sinh nη sinh(N-n)η), n ≠ 0, N. The product"
+    )
+    p.say(
+        "is (coth nη - coth(n-N)η)/sinh Nη: within a class of n mod N the sum telescopes to 2/sinh Nη, and the weights,"
+    )
+    p.say(
+        "0 in the class of 0, add up to 2N. So it is -(π/K)²N/sinh Nη, and the one of -2dn² = -2Z' - 2E/K over q points,"
+    )
     p.say("divided by q, is -(π/K)²N/sinh Nη, too.")
     p.route(
         "from the Fourier series of Z", product_of_poles(),
@@ -75,24 +83,49 @@ def in_fourier_series(p: Proof) -> None:
 )
 def resonance(p: Proof) -> None:
     """At a resonance the displacement after q steps is D² times a function of u₀ that is never constant, up to O(D³)."""
-    p.assume("chord: Λ1 > Λ2 > Λ3, 1/Λ2 < l < 1/Λ3, so that 0 < k < 1, M(a₀) = 0, M'(a₀) ≠ 0; p ≠ 0, q ≥ 2 without common factor")
+    p.assume(
+        "chord: Λ1 > Λ2 > Λ3, 1/Λ2 < l < 1/Λ3, so that 0 < k < 1, M(a₀) = 0, M'(a₀) ≠ 0; p ≠ 0, q ≥ 2 without common factor"
+    )
     p.assume("δ = u_q - u_0 - 2Kp is O(D²) at some u₀, as D → 0 with Λ, l, h such that 2a₀q = 2Kp + O(D)")
-    p.say("By chord u~ - u = 2a = 2a₀ + D(c₁ - 2A'z) + D²(c₂ + c₃z + A''z²) + O(D³) with z = Z(u~) - Z(u), c_i of the curve.")
+    p.say(
+        "By chord u~ - u = 2a = 2a₀ + D(c₁ - 2A'z) + D²(c₂ + c₃z + A''z²) + O(D³) with z = Z(u~) - Z(u), c_i of the curve."
+    )
     p.say("Over q steps δ = O(D), and Σz = Z(u_q) - Z(u_0) = Z(u_0 + δ) - Z(u_0) = O(δ), as 2K is a period of Z. So")
     p.say("δ = const + O(D²): as it is O(D²) at one u₀, it is at all, and then Σz = O(D²). To second order")
-    p.say("    δ = const + D²A'' Σz² + O(D³), in Σz² the orbit u_0 + 2Kpj/q of a rotation: the points u_0 + 2Kj/q mod 2K.")
+    p.say(
+        "    δ = const + D²A'' Σz² + O(D³), in Σz² the orbit u_0 + 2Kpj/q of a rotation: the points u_0 + 2Kj/q mod 2K."
+    )
     p.say("The squares, with c = Z(v) + cn dn/sn(v) and v = 2Kp/q (v is no multiple of 2K, as q ≥ 2):")
     p.printed(square())
-    p.say("that is (z - c)² = c' - dn²u - dn²u~ by the addition theorem. With Σz = 0 on the orbit: Σz² = const - 2Σdn².")
+    p.say(
+        "that is (z - c)² = c' - dn²u - dn²u~ by the addition theorem. With Σz = 0 on the orbit: Σz² = const - 2Σdn²."
+    )
     M1, M2 = sp.symbols("M1 M2")
     inverse = Quotient((M1, M2))
-    p.lemma(Equation("A(M(a)) = a twice differentiated, at A' = 1/M', A'' = -M''/M'³", [-M2 / M1**3 * M1**2 + M2 / M1], [sp.S.Zero], inverse))
-    p.say("f(u) = Σ_j dn²(u + 2Kj/q) has the periods 2K/q, 2iK' and in a cell one pole, double, at iK', as dn² has in its")
-    p.say("own and the q shifts of iK' differ: f is not constant. f' has order 3, so its zeros are those that it must have,")
+    p.lemma(
+        Equation(
+            "A(M(a)) = a twice differentiated, at A' = 1/M', A'' = -M''/M'³",
+            [-M2 / M1**3 * M1**2 + M2 / M1],
+            [sp.S.Zero],
+            inverse,
+        )
+    )
+    p.say(
+        "f(u) = Σ_j dn²(u + 2Kj/q) has the periods 2K/q, 2iK' and in a cell one pole, double, at iK', as dn² has in its"
+    )
+    p.say(
+        "own and the q shifts of iK' differ: f is not constant. f' has order 3, so its zeros are those that it must have,"
+    )
     p.say("as it is odd: 0, K/q, K/q + iK'. On the real axis f is strictly monotone between 0 and K/q, mod 2K/q.")
-    p.say("By the Fourier series of dn², with η = πK'/K: f = qE/K + q(π/K)² Σ_{m≥1} mq cos(mqπu/K)/sinh(mqη), all harmonics")
-    p.say("of one sign: f has its maximum at 0, its minimum at K/q, and f(0) - f(K/q) = 2q(π/K)² Σ_{m odd} mq/sinh(mqη).")
-    p.say("So, if A'' ≠ 0, the displacement is extreme near u₀ = 0, where γ_b = 0, and near K/q, which for odd q is u₀ = K,")
+    p.say(
+        "By the Fourier series of dn², with η = πK'/K: f = qE/K + q(π/K)² Σ_{m≥1} mq cos(mqπu/K)/sinh(mqη), all harmonics"
+    )
+    p.say(
+        "of one sign: f has its maximum at 0, its minimum at K/q, and f(0) - f(K/q) = 2q(π/K)² Σ_{m odd} mq/sinh(mqη)."
+    )
+    p.say(
+        "So, if A'' ≠ 0, the displacement is extreme near u₀ = 0, where γ_b = 0, and near K/q, which for odd q is u₀ = K,"
+    )
     p.say("where γ_a = 0, mod 2K/q. It differs there by 2A''D²(f(0) - f(K/q)) + O(D³), least at γ_b = 0 where A'' > 0.")
     in_fourier_series(p)
     p.control(square(pole=-POLE))
@@ -117,12 +150,22 @@ def slow_parts() -> tuple[sp.Expr, sp.Expr, Quotient]:
 )
 def plateaus(p: Proof) -> None:
     """For every ball with three different moments, every small h and every smaller D there are levels with displacements of both signs."""
-    p.assume("Λ1 > Λ2 > Λ3 fixed and D → 0, or I1 > I2 > I3 fixed and Λ = I + D: all below is uniform in Λ near its limit")
+    p.assume(
+        "Λ1 > Λ2 > Λ3 fixed and D → 0, or I1 > I2 > I3 fixed and Λ = I + D: all below is uniform in Λ near its limit"
+    )
     p.assume("0 < h < h₀ for some h₀ that depends on Λ; h < 0 is the inverse map; the small branch")
-    p.say("1. Let a level l₀ have 2a₀q = 2Kp, A'' ≠ 0 and let ω(l) = a₀/K have ω' ≠ 0 there. δ at u₀ = 0 plus δ at u₀ = K/q is")
-    p.say("4q(a₀ - Kp/q) + O(D), which changes its sign within |l - l₀| ≤ CD: it is 0 at some l*. By the first order of")
-    p.say("resonance δ is const + O(D²) there, hence O(D²), and δ = ±A''D²(f(0) - f(K/q)) + O(D³) at the two points: of")
-    p.say("opposite signs for D small enough. As ∂δ/∂l = 2qK ω' + O(D), they stay so on an interval around l* of a length")
+    p.say(
+        "1. Let a level l₀ have 2a₀q = 2Kp, A'' ≠ 0 and let ω(l) = a₀/K have ω' ≠ 0 there. δ at u₀ = 0 plus δ at u₀ = K/q is"
+    )
+    p.say(
+        "4q(a₀ - Kp/q) + O(D), which changes its sign within |l - l₀| ≤ CD: it is 0 at some l*. By the first order of"
+    )
+    p.say(
+        "resonance δ is const + O(D²) there, hence O(D²), and δ = ±A''D²(f(0) - f(K/q)) + O(D³) at the two points: of"
+    )
+    p.say(
+        "opposite signs for D small enough. As ∂δ/∂l = 2qK ω' + O(D), they stay so on an interval around l* of a length"
+    )
     p.say("that is A''D²(f(0) - f(K/q))/(qK|ω'|) to leading order: the width of the plateau p/q.")
     p.say("2. Both hypotheses hold for small h. M = (2w - hG/V)/(yλ), with (5.14-alpha) and a = hb, modulo h²:")
     above, below, ring = slow_parts()
@@ -134,14 +177,22 @@ def plateaus(p: Proof) -> None:
     P = (2 * b - V) / (b**2 * l)
     plain = Quotient((b, V, l))
     at = {b: V / 2}
-    p.say("So hM(hb) = (2b - V)/(b²l) + O(h²), with its derivatives, for b in a compact set of b > 0; at the zero b = V/2")
+    p.say(
+        "So hM(hb) = (2b - V)/(b²l) + O(h²), with its derivatives, for b in a compact set of b > 0; at the zero b = V/2"
+    )
     p.printed(
         Equation("the first derivative is 8/(lV²)", [sp.diff(P, b).subs(at)], [8 / (l * V**2)], plain),
         Equation("the second is -64/(lV³)", [sp.diff(P, b, 2).subs(at)], [-64 / (l * V**3)], plain),
-        Equation("A''(0) = h³l²V³/8 to leading order", [64 / (l * V**3) / (8 / (l * V**2)) ** 3], [l**2 * V**3 / 8], plain),
+        Equation(
+            "A''(0) = h³l²V³/8 to leading order", [64 / (l * V**3) / (8 / (l * V**2)) ** 3], [l**2 * V**3 / 8], plain
+        ),
     )
-    p.say("so M' > 0, M'' < 0, A'' > 0; 2a₀ → 0 with h is the increment of the small branch (5.9-circle), V > 0 by the choice of u.")
-    p.say("ω = a₀/K = hV/(2K) + O(h³), with its derivative by l, on a compact interval of 1/Λ2 < l < 1/Λ3. V/K increases:")
+    p.say(
+        "so M' > 0, M'' < 0, A'' > 0; 2a₀ → 0 with h is the increment of the small branch (5.9-circle), V > 0 by the choice of u."
+    )
+    p.say(
+        "ω = a₀/K = hV/(2K) + O(h³), with its derivative by l, on a compact interval of 1/Λ2 < l < 1/Λ3. V/K increases:"
+    )
     level = Quotient((L1, L2, L3, l))
     rate, slope = sp.diff((L2 - L3) * (L1 * l - 1) / (L1 * L2 * L3), l), sp.diff(elliptic.squared_modulus(), l)
     falling = -(L1 - L2) * (L1 - L3) / ((L2 - L3) * (L1 * l - 1) ** 2)
@@ -149,7 +200,9 @@ def plateaus(p: Proof) -> None:
         Equation("dV²/dl = (Λ2 - Λ3)/(Λ2Λ3) > 0", [rate], [(L2 - L3) / (L2 * L3)], level),
         Equation("dk²/dl = -(Λ1-Λ2)(Λ1-Λ3)/((Λ2-Λ3)(Λ1l-1)²) < 0", [slope], [falling], level),
     )
-    p.say("and K increases with k. So ω' > 0 for h small, ω takes an interval of values, with rational ones p/q among them,")
+    p.say(
+        "and K increases with k. So ω' > 0 for h small, ω takes an interval of values, with rational ones p/q among them,"
+    )
     p.say("and 1. applies to each of these: h₀ and the interval of l are chosen first, then h, then p/q, then D₀.")
     p.witness("a level", {"Λ": "(6, 5, 2)", "l": "3/10", "V²": "1/25", "k²": "1/6"},
               Fact("V² > 0 and 0 < k² < 1", all(0 < x < 1 for x in _at_a_level())))  # fmt: skip

@@ -68,13 +68,17 @@ def test_the_page_needs_nothing_from_outside(whole):
     assert "default-src 'none'" in whole
 
 
+#: What of the evidence is a list on the page.
+LISTED = ("checks", "controls", "witnesses", "problems", "tried", "certificates", "measured", "conjectures")
+
+
 def test_every_claim_is_there_with_its_verdict(whole, register):
     for record in register:
         text = article(whole, record["id"])
         assert f'<span class="badge {record["verdict"]}">{record["verdict"]}</span>' in text
         assert f"chapsym prove {record['id']} --explain" in text
         evidence = record["evidence"]
-        lists = [evidence.get(name) or [] for name in ("checks", "controls", "witnesses", "problems", "tried")]
+        lists = [evidence.get(name) or [] for name in LISTED]
         lists += [route["statements"] for route in evidence.get("routes") or []]
         assert text.count("<li") == sum(map(len, lists))
     assert "not converted" not in whole
