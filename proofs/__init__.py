@@ -23,6 +23,7 @@ SCRIPTS = (
     "s6_remarks",
     "open_chord",
     "open_resonance",
+    "open_generic",
     "open_locking",
     "open_measure",
     "map_gibbs",
@@ -53,5 +54,5 @@ LEMMAS = (
     "gibbs", "gibbs-newton", "gibbs-rotation", "small-branch", "self-adjoint", "reversible",
     "momentum-integrals-composed", "vertical-rotation", "vertical-level", "vertical-top", "top-commutes", "top-precession",
     "stable-momentum", "stable-determinant", "stable-inverse", "steady", "steady-branch", "steady-axis", "steady-roll",
-    "isotropic-spin", "straight", "symmetries", "chord", "resonance", "plateaus", "locked-circle",
+    "isotropic-spin", "straight", "symmetries", "chord", "resonance", "plateaus", "almost-every", "locked-circle",
 )  # fmt: skip

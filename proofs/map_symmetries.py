@@ -53,15 +53,11 @@ def symmetries(p: Proof) -> None:
     p.say("So Φ(-σ𝒦, σγ) is (-σ, σ) of Φ(𝒦, γ), and with 𝒦 = hγ it is G_{-h}σ = σG_h.  The equation is even in γ:")
     one = sp.eye(3)
     p.printed(*carried("-1: u, γ, 𝒦 ↦ u, -γ, 𝒦", one, -one, one))
-    p.say("So G_{-h}(-γ) = -G_h(γ).  The step with -h undoes that with h (self-adjoint): G_{-h} = G_h⁻¹.  Hence")
-    p.say("σ G_h σ = G_h⁻¹ and G_h(-γ) = -G_h⁻¹(γ): the half γ_c < 0 of the sphere repeats the half γ_c > 0.")
-    p.say(
-        "On a level circle around the axis c let F be a lift of R^p G_h^q, R the rotation by π about c, and δ = F - 1."
-    )
-    p.say(
-        "With the coordinate 0 where γ_a (or γ_b) is 0, σ gives F⁻¹(x) = -F(-x), that is δ(-x - δ(x)) = δ(x): where δ"
-    )
-    p.say("is small it is almost even about these points, which is why they are the starts of a certificate.")
+    p.say("So G_{-h}(-γ) = -G_h(γ).  The step with -h undoes that with h (self-adjoint): G_{-h} = G_h⁻¹.  Hence σ G_h")
+    p.say("σ = G_h⁻¹ and G_h(-γ) = -G_h⁻¹(γ): the half γ_c < 0 of the sphere repeats the half γ_c > 0. On a level")
+    p.say("circle around the axis c let F be a lift of R^p G_h^q, R the rotation by π about c, and δ = F - 1. With the")
+    p.say("coordinate 0 where γ_a (or γ_b) is 0, σ gives F⁻¹(x) = -F(-x), that is δ(-x - δ(x)) = δ(x): where δ is")
+    p.say("small it is almost even about these points, which is why they are the starts of a certificate.")
     S, mirror = HALF_TURNS["S1"], MIRRORS["σ1"]
     p.lemma(equal("S and σ are their own inverses", S * S * u + mirror * mirror * k, u + k))
     p.control(carried("σ1 as if it were a rotation", mirror, mirror, mirror)[0])

@@ -50,11 +50,11 @@ def chord(p: Proof) -> None:
     p.assume(
         "to first order: M(a₀) = 0, M'(a₀) ≠ 0, and a is the root near a₀, as on the small branch whose root at D = 0 is a₀"
     )
-    p.say("Z is Jacobi's zeta function: odd, of period 2K, Z' = dn² - E/K. Its addition theorem")
-    p.say("Z(u+v) = Z(u) + Z(v) - k² sn u sn v sn(u+v) is an identity at u = 0, and its derivative by u is one:")
+    p.say("Z is Jacobi's zeta function: odd, of period 2K, Z' = dn² - E/K. Its addition theorem Z(u+v) = Z(u) + Z(v) -")
+    p.say("k² sn u sn v sn(u+v) is an identity at u = 0, and its derivative by u is one:")
     p.lemma(addition())
-    p.say("With (ū, a) and with (ū, -a), and the difference of both, as Z is odd:")
-    p.say("Z(ū+a) - Z(ū-a) = 2Z(a) - k² sn ū sn a (sn(ū+a) + sn(ū-a)), that is 2Z(a) + (2w/y)(1 - 1/𝒟):")
+    p.say("With (ū, a) and with (ū, -a), and the difference of both, as Z is odd: Z(ū+a) - Z(ū-a) = 2Z(a) - k² sn ū sn")
+    p.say("a (sn(ū+a) + sn(ū-a)), that is 2Z(a) + (2w/y)(1 - 1/𝒟):")
     shape = 2 * RATIO * (1 - 1 / elliptic.denominator())
     p.printed(Equation("-k² sn ū sn a (sn(ū+a) + sn(ū-a)) = (2w/y)(1 - 1/𝒟)", [chord_of_zeta()], [shape], TWO))
     p.lemma(Equation("w/y = cn dn/sn", [SMALL_W / Y], [RATIO], TWO))
@@ -64,9 +64,8 @@ def chord(p: Proof) -> None:
         part("M(a) - D·2w/(y𝒟) = -T/(Vyλ𝒟), M = (2w - G/V)/(yλ)", M - 2 * D * w / (y * SCALE), -true_relation() / whole)
     )
     p.say("So M(a) = D(Ψ(a) - Z(u~) + Z(u)) is the map, for D = 0 as well.  For 𝒦 = hγ it is (5.15) with Λ/h, D/h, lh")
-    p.say(
-        "(5.12-scaling), where V, G, λ get the factors h, h², h: T/h is hG𝒟 - 2Vw(𝒟 - Dλ), and M has hG in the place of G."
-    )
+    p.say("(5.12-scaling), where V, G, λ get the factors h, h², h: T/h is hG𝒟 - 2Vw(𝒟 - Dλ), and M has hG in the place")
+    p.say("of G.")
     h = sp.Symbol("h")
     scaled = {V: h * V, G: h**2 * G, level: h * level, D: D / h}
     height = Quotient((h, SCALE, G, V, D, y, w, level))
@@ -74,10 +73,8 @@ def chord(p: Proof) -> None:
         Equation("T scaled", [true_relation().subs(scaled, simultaneous=True)],
                  [h * (h * G * SCALE - 2 * V * w * (SCALE - D * level))], height),
         )  # fmt: skip
-    p.say(
-        "Let M(a₀) = 0 and M'(a₀) ≠ 0, and A the inverse of M near 0. As z = Z(u~) - Z(u) is bounded, a = A(D(Ψ(a) - z))"
-    )
-    p.say("has one solution near a₀ for |D| small, analytic in D and z, and uniformly in z, modulo D³, it is")
+    p.say("Let M(a₀) = 0 and M'(a₀) ≠ 0, and A the inverse of M near 0. As z = Z(u~) - Z(u) is bounded, a = A(D(Ψ(a) -")
+    p.say("z)) has one solution near a₀ for |D| small, analytic in D and z, and uniformly in z, modulo D³, it is")
     a = half_increment()
     p.printed(
         Equation("a = a₀ + A'm + ½A''m² at a = a₀ + DA'(Ψ₀-z) + D²(A'²Ψ₀'(Ψ₀-z) + ½A''(Ψ₀-z)²)",
@@ -87,10 +84,9 @@ def chord(p: Proof) -> None:
     p.lemma(
         Equation("the coefficient of D²z² in 2a is A''", [sp.expand(2 * a).coeff(D, 2).coeff(z, 2)], [A2], SECOND_ORDER)
     )
-    p.say(
-        "z is a difference along the orbit: with v = u + 2DA'(0)Z(u) the map is v~ = v + const + O(D²), a rotation on every"
-    )
-    p.say("curve, resonant or not.  What tells it from one is of the order D², and the sum of z² along an orbit.")
+    p.say("z is a difference along the orbit: with v = u + 2DA'(0)Z(u) the map is v~ = v + const + O(D²), a rotation")
+    p.say("on every curve, resonant or not.  What tells it from one is of the order D², and the sum of z² along an")
+    p.say("orbit.")
     p.control(addition(-1))
     wrong = Equation("the same with 1/𝒟 - 1", [chord_of_zeta()], [-shape], TWO)
     p.control(wrong)

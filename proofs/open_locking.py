@@ -23,7 +23,7 @@ def projected(last: sp.Expr = 1 / L3) -> Equation:
 
 
 def area(factor: int = 1) -> Equation:
-    """dA = r²/(2γ_c|l_r|...) in polar coordinates of the plane: positive, finite, smooth off the axis c."""
+    """The area in the coordinates (l, ψ): positive and finite on the open half γ_c > 0, off the axis c."""
     r, c, s, t = sp.symbols("r c s t")
     plane = Quotient((r, c, s, t, L1, L2, L3), [c**2 + s**2 - 1, r**2 + t**2 - 1])
     gap = c**2 * (1 / L1 - 1 / L3) + s**2 * (1 / L2 - 1 / L3)
@@ -64,68 +64,41 @@ def locked_circle(p: Proof) -> None:
     p.assume(
         "an invariant measure is a Borel measure ν ≥ 0 with ν(G_h⁻¹E) = ν(E), finite on the circle (on the sphere)"
     )
-    p.say(
-        "1. The circle. By small-branch the root is unique, regular and so analytic in (γ, h): G_h is an analytic map of"
-    )
-    p.say(
-        "the sphere, and G_{-h} its inverse (self-adjoint). It keeps l (prop-3), and the path G_{th}, 0 ≤ t ≤ 1, from the"
-    )
-    p.say("identity keeps each component of the level. These are two circles: in the plane of (γ_a, γ_b)")
+    p.say("1. The circle. By small-branch the root is unique, regular and so analytic in (γ, h): G_h is an analytic")
+    p.say("map of the sphere, and G_{-h} its inverse (self-adjoint). It keeps l (prop-3), and the path G_{th}, 0 ≤ t ≤")
+    p.say("1, from the identity keeps each component of the level. These are two circles: in the plane of (γ_a, γ_b)")
     p.printed(projected())
-    p.say(
-        "where the three differences have one sign. So the polar angle ψ of (γ_a, γ_b) is a coordinate of the circle C with"
-    )
-    p.say(
-        "γ_c > 0, g = G_h|C is an analytic diffeomorphism that keeps the orientation, and the path gives it a lift g~."
-    )
-    p.say(
-        "2. R, the rotation by π about c, is ψ ↦ ψ + π on C and commutes with G_{th} (symmetries): g~(ψ + π) = g~(ψ) + π."
-    )
-    p.say(
-        "Let F = g~^q - pπ, a lift of f = R^p g^q, and δ = F - 1, of period π. The sign is read from two points of the plane:"
-    )
+    p.say("where the three differences have one sign. So the polar angle ψ of (γ_a, γ_b) is a coordinate of the circle")
+    p.say("C with γ_c > 0, g = G_h|C is an analytic diffeomorphism that keeps the orientation, and the path gives it a")
+    p.say("lift g~.")
+    p.say("2. R, the rotation by π about c, is ψ ↦ ψ + π on C and commutes with G_{th} (symmetries): g~(ψ + π) = g~(ψ)")
+    p.say("+ π. Let F = g~^q - pπ, a lift of f = R^p g^q, and δ = F - 1, of period π. The sign is read from two points")
+    p.say("of the plane:")
     p.printed(displacement())
-    p.say("as soon as |δ| < π/2; p counts the half turns in the sense of ψ, with its sign.")
-    p.say(
-        "3. If δ takes both signs it has a zero: there R^p g^q = 1 and g^{2q} = 1, as R² = 1. It is analytic and not 0, so it"
-    )
-    p.say(
-        "has finitely many zeros on C. On an open arc I between two of them, next to each other, f has no fixed point, and F"
-    )
-    p.say("moves all of I in one sense: I is the disjoint union of f^{2n}[x, f²(x)) over all integers n.")
-    p.say(
-        "An invariant ν is invariant under f² = g^{2q}: these half-open arcs have one measure, and ν(I) is finite: so ν(I) = 0."
-    )
-    p.say("Hence ν is carried by the zeros of δ, points of period 2q at most (q for even p), and has no density.")
-    p.say("Finite is needed. Near a fixed point f(x) = x/2 leaves dx/x invariant:")
+    p.say("The half turns that the steps complete are counted: p where δ > 0, p - 1 where δ < 0, p and ψ in the sense")
+    p.say("of the motion.")
+    p.say("3. If δ takes both signs it has a zero: there R^p g^q = 1 and g^{2q} = 1, as R² = 1. It is analytic and not")
+    p.say("0, so it has finitely many zeros on C. On an open arc I between two of them, next to each other, f has no")
+    p.say("fixed point, and F moves all of I in one sense: I is the disjoint union of f^{2n}[x, f²(x)) over all")
+    p.say("integers n. An invariant ν is invariant under f² = g^{2q}: these half-open arcs have one measure, and ν(I)")
+    p.say("is finite: so ν(I) = 0. Hence ν is carried by the zeros of δ, points of period 2q at most (q for even p),")
+    p.say("and has no density. Finite is needed. Near a fixed point f(x) = x/2 leaves dx/x invariant:")
     p.lemma(infinite_density())
-    p.say(
-        "Nor is there a real u = f(s), f a homeomorphism onto the lift of C, with u_{k+1} = f(s_k + Δs) (5.9-liouville): a"
-    )
-    p.say("translation with one periodic point has all points periodic, and δ would be 0.")
-    p.say(
-        "4. The half γ_c < 0: G_h(-γ) = -G_h⁻¹(γ) (symmetries), so there -δ∘F⁻¹ takes the place of δ: both signs as well."
-    )
-    p.say(
-        "5. The sphere. δ is continuous in l, ψ and in the parameters J, D, h: what has both signs strictly has them nearby. On"
-    )
-    p.say("an open interval O of levels with both signs let 𝒜 = {l ∈ O} ⊂ S² and ν = ρ dA be finite and invariant. By")
+    p.say("Nor is there a real u = f(s), f a homeomorphism onto the lift of C, with u_{k+1} = f(s_k + Δs)")
+    p.say("(5.9-liouville): a translation with one periodic point has all points periodic, and δ would be 0.")
+    p.say("4. The half γ_c < 0: there G_h(-γ) = -G_h⁻¹(γ) (symmetries), and what G_h^q does beyond -p half turns is")
+    p.say("F⁻¹ - 1 = -δ∘F⁻¹: both signs as well.")
+    p.say("5. The sphere. δ is continuous in l, ψ and in the parameters J, D, h: what has both signs strictly has them")
+    p.say("nearby. On an open interval O of levels with both signs let 𝒜 = {l ∈ O} ⊂ S² and let ν = ρ dA be finite and")
+    p.say("invariant. By")
     p.printed(area())
-    p.say(
-        "ν has the density ρ·|that| in (l, ψ) on each half of 𝒜, integrable over ψ for almost every l, and ν(E × B) for E ⊂ O,"
-    )
-    p.say(
-        "B an arc with rational ends, G_h invariant for all E: so for almost every l it is an invariant density on C, finite,"
-    )
-    p.say(
-        "hence 0. So ρ = 0 almost everywhere on 𝒜: no invariant measure has a density that is positive almost everywhere."
-    )
-    p.say(
-        "For a density that is positive and continuous near one circle with both signs, 5.9-liouville gives a contradiction on"
-    )
-    p.say(
-        "this circle alone. Not excluded are point masses on periodic orbits, and densities that vanish on all such 𝒜."
-    )
+    p.say("ν has the density ρ·|that| in (l, ψ) on each half of 𝒜, integrable over ψ for almost every l (Fubini). As")
+    p.say("G_h keeps l, ν({l ∈ E, ψ ∈ B}) = ν({l ∈ E} ∩ G_h⁻¹{ψ ∈ B}) for every Borel set E ⊂ O and each of the")
+    p.say("countably many arcs B with rational ends: for almost every l the density is that of a finite invariant")
+    p.say("measure on the circle, so it is 0 by 3. Hence ρ = 0 almost everywhere on 𝒜: no finite invariant measure has")
+    p.say("a density that is positive almost everywhere. Where ρ is continuous and positive near one circle,")
+    p.say("invariance holds at every point, and this circle alone contradicts it. Not excluded are point masses on")
+    p.say("periodic orbits, and densities that vanish on all such 𝒜.")
     at = dict(zip((*LAMBDA, l), (6, 5, 2, sp.Rational(3, 10)), strict=True))
     gaps = [sp.sympify(e).subs(at) for e in (1 / L3 - 1 / L1, 1 / L3 - 1 / L2, 1 / L3 - l)]
     p.witness("a level", {"Λ": "(6, 5, 2)", "l": "3/10"}, Fact("three differences of one sign", min(gaps) > 0))

@@ -9,6 +9,7 @@ from chapsym.proofs import (
     map_self_adjoint,
     map_symmetries,
     open_chord,
+    open_generic,
     open_locking,
     open_resonance,
 )
@@ -24,18 +25,20 @@ FILES = certified.files(KIND)
 #: What the argument rests on, beside the paper's claims: proved anew with it.
 LEMMAS = {
     "small-branch": map_gibbs, "self-adjoint": map_self_adjoint, "symmetries": map_symmetries, "chord": open_chord,
-    "resonance": open_resonance, "plateaus": open_resonance, "locked-circle": open_locking,
+    "resonance": open_resonance, "plateaus": open_resonance, "almost-every": open_generic,
+    "locked-circle": open_locking,
 }  # fmt: skip
 
 ANSWER = (
-    "No, in general; with D > 0 and three different moments of inertia. On the small branch the map G_h leaves no finite "
-    "measure on the sphere invariant whose density is positive almost everywhere, so none with a positive continuous "
-    "density, and there is no real u = f(s, l), f a homeomorphism for each l, in which the increment is constant, (1) for "
-    "every ball with three different moments, every h ≠ 0 with |h| small enough, and every D with 0 < D < D₀(h); (2) for "
-    "the J, D and h of the certificates, and all within their radii of these. In both cases some of the levels l that are "
-    "circles form an interval on each of which q steps turn by more than p half turns at one point and by less at "
-    "another: every finite invariant measure is carried there by finitely many periodic points. Yes, for D = 0 (every "
-    "branch) and for two equal moments (small branch): there the area of the sphere is invariant."
+    "No, in general, for D > 0 and three different moments of inertia: on the small branch G_h leaves no finite measure "
+    "on the sphere invariant whose density is positive almost everywhere, so none with a positive continuous density, "
+    "and there is no real u = f(s, l), f a homeomorphism for each l, in which the increment is constant. This is proved "
+    "for every ball with three different moments (1) for every h ≠ 0 with |h| small enough and every D with "
+    "0 < D < D₀(h); (2) for almost every pair of D > 0 and h with 0 < |h| < h₀(D); (3) for the J, D and h of the "
+    "certificates, and all within their radii of these. In each case there is an interval of levels l on which q steps "
+    "turn by more than p half turns at one point and by less at another: there every finite invariant measure is carried "
+    "by finitely many periodic points on each circle. Yes, for D = 0 and for two equal moments: there the area of the "
+    "sphere is invariant."
 )
 
 
@@ -64,25 +67,17 @@ def yes(p: Proof) -> None:
 
 
 def no(p: Proof) -> None:
-    """The two theorems."""
+    """The theorems."""
     p.say("No, in general, for three different moments. What is used is proved anew:")
     for id in LEMMAS:
         p.lemma(judged(id))
-    p.say(
-        "(1) Let Λ or I be fixed, h small, 0 < D < D₀(h). By plateaus there is an interval of levels, of a length that is"
-    )
-    p.say(
-        "D² times a positive constant to leading order, with displacements of both signs; by locked-circle the finite"
-    )
-    p.say("invariant measures are carried there by periodic points, and none has a density positive almost everywhere.")
-    p.say(
-        "(2) For D that is not small, two orbits enclosed in interval arithmetic, one beyond and one short of p half turns:"
-    )
+    p.say("(1) By plateaus, (2) by almost-every there is an interval of levels with displacements of both signs; for h")
+    p.say("< 0, the inverse map, as well. By locked-circle the finite invariant measures are carried there by periodic")
+    p.say("points: none has a density that is positive almost everywhere.")
+    p.say("(3) For numbers at hand two orbits, in interval arithmetic, one beyond and one short of p half turns:")
     accepted = certified.present(p, FILES, KIND)
-    p.say(
-        "As the signs are strict for one set of numbers, they are for all near by, and the radius says how near: an interval"
-    )
-    p.say("of levels for every J, D, h of the box, to which locked-circle applies.")
+    p.say("The radius says how far J, D, h and l may be off: there is an interval of levels for every J, D, h of the")
+    p.say("box, to which locked-circle applies.")
     if accepted:
         tampered(p, accepted[0])
 
@@ -112,8 +107,9 @@ def tampered(p: Proof, data: dict[str, Any]) -> None:
 )
 def invariant_measure_question(p: Proof) -> None:
     """Open in the paper, settled here: for D > 0 not in general, as levels lock to periodic orbits."""
+    p.assume("the small branch, |h| below the bound of small-branch")
     p.assume(
-        "the small branch, |h| below the bound of small-branch; in the paper's sense of measure: a density that is positive"
+        "a measure in the sense of the paper, with a density that is positive; finite, as one with a continuous density is"
     )
     yes(p)
     no(p)
@@ -122,16 +118,16 @@ def invariant_measure_question(p: Proof) -> None:
         "The second order of resonance against the map, 110 digits: Λ = (6, 5, 3), l = 1/4, q = 5, p = 1, h such that the "
         "displacement is 0 at γ2 = 0: at γ1 = 0 it is 1.6545129995e-19 for D = 1e-6, where 2A''D²(f(0) - f(K/q)) is "
         "1.6545253392e-19; the ratio is 1 - 7.46 D.",
-        "J = (1, 2, 4), h = 12/5: certificates were found, and accepted by the checker, for D = 1/1000, 1/100, 1/10, 1/2, 1, 2, "
-        "5, 7, 10 and 20, with q = 9, 9, 9, 9, 9, 11, 15, 17, 21 and 33 and displacements from 3e-27 to 6e-134.",
-        "The sign of the displacement at γ1 = 0 is + up to D = 1 and - at D = 2: for one q the displacement vanishes at some D "
-        "between, to leading order; for all q at once it was never seen to.",
+        "J = (1, 2, 4), h = 12/5: certificates were found, and accepted by the checker, for D = 1/1000, 1/100, 1/10, 1/2, "
+        "1, 2, 5, 7, 10 and 20, with q = 9, 9, 9, 9, 9, 11, 15, 17, 21 and 33 and displacements from 3e-25 to 6e-134.",
+        "With q = 11 the displacement at γ1 = 0 is positive at D = 1/10 and 1 (4e-24, 8e-27), negative at D = 3/2 and 2 "
+        "(-1e-29, -1e-31), positive at D = 3 (8e-51): it vanishes at two D between, where 2q is to be looked at.",
     )
     p.conjecture(
-        "With three different moments and D > 0 there is no h ≠ 0, |h| below the bound of small-branch, for which G_h preserves "
-        "a measure with a density that is positive almost everywhere.",
-        "For D small the levels without such displacements have positive measure, as for families of circle maps near rotations "
-        "(Arnold, Herman): then there are invariant densities that are positive on these levels only.",
+        "With three different moments and D > 0 there is no h ≠ 0 at all, |h| below the bound of small-branch, for which "
+        "G_h preserves a finite measure with a density that is positive almost everywhere.",
+        "For D small the levels without such displacements have positive measure, as for families of circle maps near "
+        "rotations (Arnold, Herman): then there are invariant densities that are positive on these levels only.",
     )
 
 

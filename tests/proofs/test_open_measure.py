@@ -1,4 +1,4 @@
-"""The open question of Section 5: the lemmas' verdicts, their formulas against the map in mpmath, and what settles it."""
+"""The open question of Section 5: its lemmas, their formulas against the map in mpmath, and what settles it."""
 
 import json
 
@@ -10,7 +10,7 @@ from chapsym.prove import Fact, Verdict, load
 from chapsym.prove.records import fingerprint
 from chapsym.prove.runner import judge, prove_one
 
-LEMMAS = ["symmetries", "chord", "resonance", "plateaus", "locked-circle"]
+LEMMAS = ["symmetries", "chord", "resonance", "plateaus", "almost-every", "locked-circle"]
 DIGITS = 110
 
 
