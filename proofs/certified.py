@@ -15,8 +15,15 @@ FOLDER = Path(__file__).with_name("certificates")
 
 
 def files(kind: str) -> tuple[Path, ...]:
-    """The certificates of a kind, by name."""
-    return tuple(sorted(FOLDER.glob(f"{kind}-*.json")))
+    """The certificates of a kind, by name; with them what cannot be read, so that it is missed."""
+    return tuple(file for file in sorted(FOLDER.glob("*.json")) if _kind(file) in (kind, None))
+
+
+def _kind(file: Path) -> str | None:
+    try:
+        return str(checker.read(file).get("kind"))
+    except (checker.Unreadable, checker.Rejected):
+        return None
 
 
 def present(p: Proof, found: Sequence[Path], kind: str) -> list[dict[str, Any]]:
