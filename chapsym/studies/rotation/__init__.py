@@ -25,9 +25,15 @@ def study(
     planned = units(quick)
     results = iter(run_units([unit for section in planned.values() for unit in section], path, scheduler, report))
     found: dict[str, Any] = {name: [next(results) for _ in section] for name, section in planned.items()}
+    return assembled(found, quick)
+
+
+def assembled(found: dict[str, Any], quick: bool) -> dict[str, Any]:
+    """The results of the units of each section as the data of the study."""
     told = machine()
     ball, top, plateaus = found["staircase"]
     return {
-        "study": "rotation", "quick": quick, "machine": {name: told[name] for name in ("cpu", "cores", "system", "python")}, **found, "times": found["times"][0],
-        "staircase": {"ball": ball, "top": {**top, "plateaus": plateaus}},
+        "study": "rotation", "quick": quick,
+        "machine": {name: told[name] for name in ("cpu", "cores", "system", "python")}, **found,
+        "times": found["times"][0], "staircase": {"ball": ball, "top": {**top, "plateaus": plateaus}},
     }  # fmt: skip

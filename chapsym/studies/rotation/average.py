@@ -3,9 +3,12 @@
 The mean of φ~ - φ is that of any coordinate of the circle, so that no elliptic function is needed.
 """
 
+from fractions import Fraction
 from typing import Any
 
 from flint import arb, ctx
+
+from chapsym.dynamics import BadInput
 
 from .circle import Level, middle, number
 from .plateau import decades, levels, text
@@ -42,9 +45,7 @@ def mean(found: list[Any], steps: int) -> Any:
     return middle(sum(w * x for w, x in zip(weights(steps), found, strict=False)) / arb.pi())
 
 
-def convergence(
-    tensor: list[Any], D: Any, height: Any, level: Any, counts: list[int], digits: int
-) -> dict[str, Any]:
+def convergence(tensor: list[Any], D: Any, height: Any, level: Any, counts: list[int], digits: int) -> dict[str, Any]:
     """Averages over growing numbers of steps; errors from 15-euler for D = 0, else from the longest average.
 
     Raises BadInput where there is no step.
@@ -65,15 +66,11 @@ def convergence(
         }  # fmt: skip
 
 
-def row(
-    tensor: list[Any], D: Any, height: Any, outer: bool, points: int, steps: int, digits: int
-) -> dict[str, Any]:
+def row(tensor: list[Any], D: Any, height: Any, outer: bool, points: int, steps: int, digits: int) -> dict[str, Any]:
     """[level, rotation number in half turns, its error] on levels of equal distance; None where the branch ends.
 
     error: the distance to the average over half the steps, which is more than its own.
     """
-    from chapsym.dynamics import BadInput
-
     found: list[list[Any] | None] = []
     with ctx.workdps(digits):
         low, high = levels(tensor, D, outer)
@@ -86,4 +83,4 @@ def row(
                 continue
             whole, half = mean(turned, steps), mean(turned, steps // 2)
             found.append([float(f"{float(l):.8g}"), text(whole, 25), float(f"{float(abs(whole - half)):.2g}")])
-    return {"tensor": list(map(str, tensor)), "D": str(D), "height": str(height), "row": found}
+    return {"tensor": list(map(str, tensor)), "D": str(D), "height": str(Fraction(height)), "row": found}

@@ -68,6 +68,8 @@ class Level:
         sense = parity if float(La) < float(Lc) else -parity
         self.amplitudes = Ca, sense * Cb, Cc
         self.m = middle((squares[1] - squares[0]) / squares[2])
+        if not 0 < self.m < 1:
+            raise BadInput(f"the level {float(self.l):.6g} is the separatrix, or two moments are equal")
         self.K = real(acb(self.m).elliptic_k())
         self.half = 2 * self.K
         self.complement = real(acb(1 - self.m).elliptic_k())  # K'

@@ -14,16 +14,29 @@ COMPARED = 3
 
 
 def middle_level(
-    tensor: Sequence[Any], D: Any, height: Any, steps: int, turns: int, outer: bool, kick: Any, digits: int
+    tensor: Sequence[Any], D: Any, height: Any, steps: int, turns: int, outer: bool, kick: Any, samples: int
 ) -> Any:
-    """The level at which the two symmetric orbits are displaced by opposite amounts, to the working digits."""
+    """The level in the middle of the plateau, to the working digits.
+
+    There the two symmetric orbits are displaced by opposite amounts; a perturbed top, which has no reversor, has the
+    mean displacement 0.
+    """
     near, _, _ = resonance(tensor, D, height, steps, turns, outer, kick)
+    phases = starts(Level(tensor, D, height, near, kick), samples)
 
     def off(l: Any) -> Any:
         level = Level(tensor, D, height, l, kick)
-        return sum(level.displacement(x, steps, turns) for x in symmetric_starts(level, steps))
+        return sum(
+            level.displacement(x, steps, turns)
+            for x in (phases if number(kick) != 0 else symmetric_starts(level, steps))
+        )
 
     return solved(off, near, number(near) * (1 + arb(10) ** -15))
+
+
+def starts(level: Level, samples: int) -> list[Any]:
+    """The phases of u = 2Ki/n."""
+    return [level.amplitude(level.half * i / samples) for i in range(samples)]
 
 
 def spectrum(values: Sequence[Any]) -> list[tuple[Any, Any]]:
@@ -48,19 +61,26 @@ def fraction(p: int, q: int) -> Any:
 
 
 def displacement(
-    tensor: Sequence[Any], D: Any, height: Any, steps: int, turns: int, digits: int, samples: int,
-    outer: bool = True, kick: Any = 0,
+    tensor: Sequence[Any],
+    D: Any,
+    height: Any,
+    steps: int,
+    turns: int,
+    digits: int,
+    samples: int,
+    outer: bool = True,
+    kick: Any = 0,
 ) -> dict[str, Any]:
-    """(G^q(u) - u)/2K - p at u = 2Ki/n in the middle of the plateau, and its Fourier coefficients in jπu/K.
+    """(G^q(u) - u)/2K - p at u = 2Ki/n, in the middle of the plateau, and its Fourier coefficients in jπu/K.
 
     values, cosines, sines: decimal strings, in half turns; routes: the greatest difference from the displacement by
-    (5.15), a second route without the sphere; chord: that of the chord form from 0 along a step; odd: the greatest
-    odd part about u = 0 beside the greatest value.  kick: τ of a perturbed top; that has the first route only.
+    (5.15), a second route without the sphere; chord: how far the chord form is from 0 along a step.
+    kick: τ of a perturbed top; that has the first route only.
     """
     with ctx.workdps(digits):
-        l = middle_level(tensor, D, height, steps, turns, outer, kick, digits)
+        l = middle_level(tensor, D, height, steps, turns, outer, kick, samples)
         level = Level(tensor, D, height, l, kick)
-        phases = [level.amplitude(level.half * i / samples) for i in range(samples)]
+        phases = starts(level, samples)
         values = [level.displacement(x, steps, turns) for x in phases]
         coefficients = spectrum(values)
         found: dict[str, Any] = {
@@ -69,14 +89,12 @@ def displacement(
             "cosines": [text(c, 6) for c, _ in coefficients], "sines": [text(s, 6) for _, s in coefficients],
             "modulus": float(level.m.sqrt()), "half_period": text(level.half),
         }  # fmt: skip
-        if kick == 0:
+        if number(kick) == 0:
             found |= second_route(level, phases, values, steps, turns)
         return found
 
 
-def second_route(
-    level: Level, phases: list[Any], values: list[Any], steps: int, turns: int
-) -> dict[str, Any]:
+def second_route(level: Level, phases: list[Any], values: list[Any], steps: int, turns: int) -> dict[str, Any]:
     """How far (5.15) and its chord form are from the sphere, in half turns."""
     relation = Relation(level)
     chosen = range(0, len(phases), max(1, len(phases) // COMPARED))

@@ -16,7 +16,9 @@ SOLID = {"tensor": [1, 2, 4], "D": "7", "height": "12/5"}
 LONG = {"tensor": [0, 1, 10], "D": "1/2", "height": "3/2"}
 
 #: τ of the perturbed top beside the ball, and of the one whose staircase the eye sees.
-WEAK, STRONG = "1/100", "2/5"
+WEAK, STRONG = "1/100", "9/20"
+#: The top whose perturbation float64 sees: steps as long as its own small branch has them.
+TOP = {"tensor": [0, 1, 3], "D": "0", "height": "19/20"}
 #: The part of the range of levels in which staircases are drawn.
 INSIDE = 0.02, 0.98
 #: Plateaus of the staircases: q to this.
@@ -114,14 +116,15 @@ def fractions(largest: int, low: float, high: float) -> list[tuple[int, int]]:
 
 def staircase(quick: bool) -> list[Unit]:
     """ρ(l) of the ball and of the perturbed top, in float64, and the plateaus of the latter."""
-    points, steps = (60, 400) if quick else (400, 3000)
-    found = []
-    for D, kick in (("1/2", "0"), ("0", STRONG)):
-        case = {**LAMINA, "D": D, "kick": kick, "inside": list(INSIDE)}
-        found.append(Unit(f"{HERE}.staircase:curve", {**case, "points": points, "steps": steps}))
-        listed = [list(x) for x in fractions(8 if quick else LARGEST, 0.0, 0.16)]
-        found += [Unit(f"{HERE}.staircase:plateaus", {**case, "fractions": listed})] if kick != "0" else []
-    return found
+    points, steps = (60, 400) if quick else (600, 3000)
+    drawn = {"inside": list(INSIDE), "points": points, "steps": steps}
+    kicked = {**TOP, "kick": STRONG, "inside": list(INSIDE)}
+    listed = [list(x) for x in fractions(8 if quick else LARGEST, 0.0, 0.3)]
+    return [
+        Unit(f"{HERE}.staircase:curve", {**LAMINA, "kick": "0", **drawn}),
+        Unit(f"{HERE}.staircase:curve", {**kicked, **drawn}),
+        Unit(f"{HERE}.staircase:plateaus", {**kicked, "fractions": listed}),
+    ]
 
 
 def times(quick: bool) -> list[Unit]:

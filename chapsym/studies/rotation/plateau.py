@@ -17,8 +17,8 @@ from .relation import Relation
 
 #: Digits by which the level is known better than the plateau is wide, and the fewest digits.
 SPARE, FEWEST = 25, 50
-#: Digits at which a level is looked for, and the points of the search.
-COARSE, SEARCHED = 20, 33
+#: Digits at which a level is looked for, and the points of the search, more of them next to the separatrix.
+COARSE, SEARCHED = 20, 48
 MOST_ROUNDS = 40
 
 
@@ -74,7 +74,7 @@ def bracket(tensor: Sequence[Any], D: Any, height: Any, steps: int, turns: int, 
     low, high = levels(tensor, D, outer)
     before = None
     for i in range(1, SEARCHED):
-        l = low + (high - low) * i / SEARCHED
+        l = low + (high - low) * i * i / SEARCHED**2 if outer else high - (high - low) * i * i / SEARCHED**2
         try:
             here = off(l)
         except BadInput:  # the branch has ended, or the step turns too far
@@ -121,7 +121,7 @@ def plateau(
     width: in l; width_in_height: in h at the middle level; displacement: that of the symmetric orbits in the middle, in
     half turns, (even q: of u = 0 and of the mean chord); law: the width that the law predicts; digits: worked with.
     """
-    near, guess, digits = resonance(tensor, D, height, steps, turns, outer)
+    near, _, digits = resonance(tensor, D, height, steps, turns, outer)
     with ctx.workdps(digits):
 
         def off(which: int, **changed: Any) -> Any:

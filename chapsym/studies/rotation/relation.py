@@ -63,7 +63,7 @@ class Relation:
         return middle((u - start) / self.level.half - half_turns)
 
     def momentum(self, half: Any) -> Any:
-        """M(a) = (2w/y)N(a), N = (1 - hG/(2Vw))/λ: it vanishes where the top, D = 0 with these Λ, has this increment."""
+        """M(a) = (2w/y)N(a), N = (1 - hG/(2Vw))/λ; 0 where the top, D = 0 with these Λ, has this increment."""
         w, y, shape, weight = self._parts(half)
         return middle(2 * (w - self.level.h * self.V * shape / 2) / (y * weight))
 

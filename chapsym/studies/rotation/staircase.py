@@ -41,7 +41,7 @@ class Levels:
         for i in range(steps):
             moved = self._stepped(phase)
             found[i] = np.mod(moved - phase + np.pi, 2 * np.pi) - np.pi
-            phase = phase + found[i]
+            phase = moved  # not phase + angle: a phase that grows is rounded more and more
         return found
 
     def _stepped(self, phase: Floats) -> Floats:
@@ -76,8 +76,14 @@ def curve(
     d, h, tau = _floats(D, height, kick)
     l = np.linspace(*_range(tensor, d, inside), points)
     rho = rotation_numbers(tensor, d, h, l, steps, tau)
-    return {"tensor": tensor, "D": D, "height": height, "kick": kick, "levels": [float(f"{x:.10g}") for x in l],
-            "rotation_numbers": [float(f"{x:.10g}") for x in rho]}
+    return {
+        "tensor": tensor,
+        "D": D,
+        "height": height,
+        "kick": kick,
+        "levels": [float(f"{x:.10g}") for x in l],
+        "rotation_numbers": [float(f"{x:.10g}") for x in rho],
+    }
 
 
 def edges(
