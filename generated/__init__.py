@@ -6,6 +6,7 @@ from .compose import compose
 from .contact_momentum import contact_momentum
 from .curve_increment import curve_increment
 from .energy import energy
+from .energy_rate import energy_rate
 from .gibbs_mixed import gibbs_mixed
 from .gibbs_newton import gibbs_newton
 from .gibbs_newton_heavy import gibbs_newton_heavy
@@ -13,6 +14,8 @@ from .gibbs_residual import gibbs_residual
 from .gibbs_second import gibbs_second
 from .invariants import invariants
 from .isotropic_spin import isotropic_spin
+from .modified_load import modified_load
+from .modified_rotation import modified_rotation
 from .momentum import momentum
 from .momentum_jacobian import momentum_jacobian
 from .precession_parts import precession_parts
@@ -21,6 +24,7 @@ from .rotate import rotate
 from .rotation import rotation
 from .tangent_hessian import tangent_hessian
 from .tangent_jacobian import tangent_jacobian
+from .torque import torque
 from .transport import transport
 from .turn import turn
 from .vertical_level import vertical_level
@@ -35,6 +39,7 @@ TABLE = {
     "contact_momentum": (contact_momentum, (('omega', 3), ('gamma', 3), ('mass_tensor', 3), ('D', 1)), (3,)),
     "curve_increment": (curve_increment, (('ordered', 3), ('inverse_square', 1)), (5,)),
     "energy": (energy, (('momentum', 3), ('gamma', 3), ('mass_tensor', 3), ('D', 1)), ()),
+    "energy_rate": (energy_rate, (('omega', 3), ('rate', 3), ('gamma', 3), ('D', 1)), ()),
     "gibbs_mixed": (gibbs_mixed, (('correction', 3), ('next_correction', 3), ('half_momentum', 3), ('cofactors', 9), ('inertia', 3)), (3,)),
     "gibbs_newton": (gibbs_newton, (('gibbs', 3), ('half_momentum', 3), ('gamma', 3), ('inertia', 3), ('D', 1)), (13,)),
     "gibbs_newton_heavy": (gibbs_newton_heavy, (('gibbs', 3), ('half_momentum', 3), ('gamma', 3), ('inertia', 3), ('D', 1)), (13,)),
@@ -42,6 +47,8 @@ TABLE = {
     "gibbs_second": (gibbs_second, (('correction', 3), ('half_momentum', 3), ('cofactors', 9), ('inertia', 3)), (3,)),
     "invariants": (invariants, (('momentum', 3), ('gamma', 3)), (3,)),
     "isotropic_spin": (isotropic_spin, (('half_momentum', 3), ('gamma', 3), ('moment', 1), ('D', 1)), (3,)),
+    "modified_load": (modified_load, (('omega', 3), ('rate', 3), ('gamma', 3), ('mass_tensor', 3), ('D', 1)), (3,)),
+    "modified_rotation": (modified_rotation, (('omega', 3), ('rate', 3), ('share', 3)), (3,)),
     "momentum": (momentum, (('rotation', 4), ('gamma', 3), ('mass_tensor', 3), ('D', 1)), (3,)),
     "momentum_jacobian": (momentum_jacobian, (('rotation', 4), ('gamma', 3), ('mass_tensor', 3), ('D', 1)), (3, 3)),
     "precession_parts": (precession_parts, (('ordered', 3), ('inverse_square', 1)), (4,)),
@@ -50,6 +57,7 @@ TABLE = {
     "rotation": (rotation, (('rotation', 4),), (3, 3)),
     "tangent_hessian": (tangent_hessian, (('rotation', 4), ('gamma', 3), ('mass_tensor', 3), ('D', 1)), (6, 3)),
     "tangent_jacobian": (tangent_jacobian, (('rotation', 4), ('gamma', 3), ('mass_tensor', 3), ('D', 1)), (3, 3)),
+    "torque": (torque, (('omega', 3), ('mass_tensor', 3)), (3,)),
     "transport": (transport, (('rotation', 4), ('vector', 3)), (3,)),
     "turn": (turn, (('quaternion', 4), ('vector', 3)), (3,)),
     "vertical_level": (vertical_level, (('scalars', 2), ('level', 1), ('Lambda', 3)), (2,)),

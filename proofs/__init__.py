@@ -27,6 +27,7 @@ SCRIPTS = (
     "open_locking",
     "open_measure",
     "map_gibbs",
+    "map_modified",
     "map_self_adjoint",
     "map_stable",
     "map_steady",
@@ -55,4 +56,5 @@ LEMMAS = (
     "momentum-integrals-composed", "vertical-rotation", "vertical-level", "vertical-top", "top-commutes", "top-precession",
     "stable-momentum", "stable-determinant", "stable-inverse", "steady", "steady-branch", "steady-axis", "steady-roll",
     "isotropic-spin", "straight", "symmetries", "chord", "resonance", "plateaus", "almost-every", "locked-circle",
+    "modified-field", "modified-energy", "energy-without-rolling", "modified-measure", "map-symmetries",
 )  # fmt: skip

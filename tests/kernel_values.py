@@ -203,6 +203,20 @@ def precession(a):
     return [first, second - first, weighted, heavier - weighted]
 
 
+def cross(a, b):
+    return list(hat(a) * column(b))
+
+
+def load(a):
+    """-d²/dε² of B(γ)ω along the field, by its parts: the swing of Iω and what turns with γ."""
+    w, r, g, D = a["omega"], a["rate"], a["gamma"], a["D"][0]
+    I = moments(a["mass_tensor"])
+    swing = hat(w) * MP.diag(I) * column(r) - hat([i * x for i, x in zip(I, w, strict=True)]) * column(r)
+    moving = column(cross(g, w))
+    outer = moving * column(g).T
+    return list(swing + 2 * D * (outer + outer.T) * column(r))
+
+
 #: Each kernel by another formulation: the oracle's matrices (4.13), linear solves, 3×3 determinants.
 INDEPENDENT = {
     "momentum": lambda a: oracle_momentum(*body(a)),
@@ -235,4 +249,14 @@ INDEPENDENT = {
     "isotropic_spin": lambda a: list(
         MP.lu_solve(rolled(3 * [a["moment"][0] / 2], a["D"][0], normalised(a["gamma"])), column(a["half_momentum"]))
     ),
+    "torque": lambda a: list(
+        hat([i * x for i, x in zip(moments(a["mass_tensor"]), a["omega"], strict=True)]) * column(a["omega"])
+    ),
+    "modified_load": load,
+    "modified_rotation": lambda a: list(
+        2 * dot(a["omega"], a["omega"]) * column(a["omega"]) + hat(a["rate"]) * column(a["omega"]) - column(a["share"])
+    ),
+    "energy_rate": lambda a: [
+        a["D"][0] * dot(a["gamma"], a["rate"]) * MP.det(matrix([a["gamma"], a["omega"], a["rate"]]))
+    ],
 }  # fmt: skip

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from chapsym.derive import continuous, elliptic, gibbs, steady, three, vertical
+from chapsym.derive import continuous, elliptic, gibbs, modified, steady, three, vertical
 from chapsym.derive.limits import omega
 from chapsym.derive.three import J1, J2, J3, D, K, gamma, q, q0
 
@@ -16,6 +16,8 @@ QUATERNION: Group = ("rotation", (q0, *q))
 GAMMA: Group = ("gamma", tuple(gamma))
 MOMENTUM: Group = ("momentum", tuple(K))
 OMEGA: Group = ("omega", tuple(omega))
+RATE: Group = ("rate", tuple(modified.rate))
+SHARE: Group = ("share", tuple(modified.share))
 MASS_TENSOR: Group = ("mass_tensor", (J1, J2, J3))
 CONTACT: Group = ("D", (D,))
 FIRST: Group = ("first", sp.symbols("a0:4"))
@@ -312,5 +314,41 @@ KERNELS: tuple[Kernel, ...] = (
         (4,),
         ("P0", "P1", "N0", "N1"),
         elliptic.precession_parts,
+    ),
+    Kernel(
+        "torque",
+        "B(γ)ω' = Iω × ω, ω' the rate of ω of the continuous ball.",
+        ("modified-field",),
+        (OMEGA, MASS_TENSOR),
+        (3,),
+        _vector("x"),
+        modified.torque,
+    ),
+    Kernel(
+        "modified_load",
+        "The load of the modified equations: 12ω₃ = 2|ω|²ω - ω × ω' - B(γ)⁻¹load, ω' the rate.",
+        ("modified-field",),
+        (OMEGA, RATE, *BODY),
+        (3,),
+        _vector("x"),
+        modified.load,
+    ),
+    Kernel(
+        "modified_rotation",
+        "12ω₃: the step of size ε is that of the continuous ball with ω + ε²ω₃, up to ε⁴; share = B(γ)⁻¹load.",
+        ("modified-field",),
+        (OMEGA, RATE, SHARE),
+        (3,),
+        _vector("x"),
+        modified.correction,
+    ),
+    Kernel(
+        "energy_rate",
+        "4X₃(H) = D⟨γ,ω'⟩⟨γ × ω,ω'⟩: in a step of size ε the energy changes by ε³X₃(H), up to ε⁴.",
+        ("modified-energy",),
+        (OMEGA, RATE, GAMMA, CONTACT),
+        (),
+        ("rate",),
+        lambda: [4 * modified.energy_rate()],
     ),
 )
