@@ -14,6 +14,7 @@ from itertools import product
 from typing import Any
 
 import numpy as np
+
 from chapsym.dynamics.ball import Ball, Floats
 from chapsym.dynamics.map import step
 from chapsym.dynamics.precise_ball import exact

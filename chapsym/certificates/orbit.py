@@ -75,9 +75,7 @@ def _check(
         Map.of(Level((J[0], J[1], J[2]), D, size, Fraction(0)))  # the bound of the lemma
 
 
-def _found(
-    level: Level, steps: int, height: Fraction | None, progress: Callable[[str], None]
-) -> tuple[Level, Member]:
+def _found(level: Level, steps: int, height: Fraction | None, progress: Callable[[str], None]) -> tuple[Level, Member]:
     """The level, and an orbit near it."""
     best: tuple[Fraction, Fraction, Member] | None = None
     with ctx.workprec(SEARCH_BITS):
@@ -147,4 +145,3 @@ def _document(level: Level, steps: int, start: Vector, passage: Passage, digits:
         orbit=[{"u": [rounded(x, digits) for x in u]} for u in passage.gibbs],
         determinant=rounded(det, digits), unit_eigenvalue=rounded(unit, digits),
     )  # fmt: skip
-

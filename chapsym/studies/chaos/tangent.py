@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from chapsym.dynamics.gibbs import HEAVY
-from chapsym.dynamics.loop import ENOUGH, ROWS, D, G, I, K, prepare, put, safe_rotation, three
+from chapsym.dynamics.loop import ROWS, D, G, I, K, prepare, put, safe_rotation, three
 from chapsym.generated import energy, gibbs_newton, turn
 
 #: What `follow` returns for an orbit, in this order.
@@ -117,9 +117,7 @@ def follow(momentum, gamma, tensor, contact, steps, row):
         t = derivative((u1, u2, u3), k, g, three(state, I), state[D])
         moved(t, frame, growth)
         volume = log(abs(determinant(t)))
-        T = energy(
-            scale * k[0], scale * k[1], scale * k[2], g[0], g[1], g[2], tensor[0], tensor[1], tensor[2], contact
-        )
+        T = energy(scale * k[0], scale * k[1], scale * k[2], g[0], g[1], g[2], tensor[0], tensor[1], tensor[2], contact)
         second = n >= half
         share = weight(n - half if second else n, half)
         total += 0.0 if second else share
@@ -162,6 +160,8 @@ def follow_orbits(ball: Any, momenta: np.ndarray, gammas: np.ndarray, steps: int
     if (HEAVY * ball.inertia.min() < ball.D).any():
         raise ValueError("the derivative of the step is computed for balls with D ≤ 32 I_min only")
     rows = np.empty((len(momenta), len(COLUMNS)))
-    _compiled()(np.ascontiguousarray(momenta), np.ascontiguousarray(gammas), ball.mass_tensor, float(ball.D), steps, rows)
+    _compiled()(
+        np.ascontiguousarray(momenta), np.ascontiguousarray(gammas), ball.mass_tensor, float(ball.D), steps, rows
+    )
     rows[rows[:, 0] < 2 * (steps // 2), 1:] = np.nan
     return dict(zip(COLUMNS, rows.T, strict=True))
