@@ -21,11 +21,17 @@ SCRIPTS = (
     "s5_increment",
     "s5_reduced_map",
     "s6_remarks",
+    "open_chord",
+    "open_resonance",
+    "open_generic",
+    "open_locking",
+    "open_measure",
     "map_gibbs",
     "map_modified",
     "map_self_adjoint",
     "map_stable",
     "map_steady",
+    "map_symmetries",
     "map_vertical",
 )
 
@@ -49,6 +55,6 @@ LEMMAS = (
     "gibbs", "gibbs-newton", "gibbs-rotation", "small-branch", "self-adjoint", "reversible",
     "momentum-integrals-composed", "vertical-rotation", "vertical-level", "vertical-top", "top-commutes", "top-precession",
     "stable-momentum", "stable-determinant", "stable-inverse", "steady", "steady-branch", "steady-axis", "steady-roll",
-    "isotropic-spin", "straight",
+    "isotropic-spin", "straight", "symmetries", "chord", "resonance", "plateaus", "almost-every", "locked-circle",
     "modified-field", "modified-energy", "energy-without-rolling", "modified-measure", "map-symmetries",
 )  # fmt: skip

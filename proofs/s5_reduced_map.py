@@ -271,20 +271,5 @@ def circle(p: Proof) -> None:
     p.control(Fact("γ has an image at every h: 40 as well as 1/10", none.real == some.real))
 
 
-@claim(
-    "5.9-open",
-    r"\text{does } \mathcal G_h \text{ preserve an invariant measure? (open in the paper)}",
-    ["5.9-liouville", "5.9", "5.9-circle"],
-)
-def invariant_measure_question(p: Proof) -> None:
-    """Open in the paper, and not settled here."""
-    p.leave_open(
-        "D = 0: yes, the increment is constant (5.15-euler), so du is invariant",
-        "D > 0: du itself is not invariant, as the increment depends on u (5.9); another density is not excluded by that",
-        "what was not tried yet: a density exists exactly if the map on each curve is conjugate to a translation (5.9-liouville); on a curve with a "
-        "rational rotation number every orbit would have to be periodic",
-    )
-
-
 if __name__ == "__main__":
     main(__file__)

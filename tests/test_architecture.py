@@ -13,6 +13,7 @@ ROOT = Path(chapsym.__file__).parent
 
 #: room: the rooms it may import (design, "The house"); lower rows never import higher ones.
 ROOMS = {
+    "checker": set(),  # of certificates: the standard library only, see below
     "generated": {"numbers"},  # quad.py is made of double-double operations
     "exact": set(),
     "files": set(),
@@ -25,7 +26,7 @@ ROOMS = {
     "accuracy": {"dynamics", "files", "generated", "numbers"},
     "scene": {"accuracy", "dynamics", "exact", "files", "generated", "numbers"},
     "studies": {"accuracy", "generated", "numbers", "dynamics", "scene"},
-    "proofs": {"derive", "prove"},
+    "proofs": {"checker", "derive", "prove"},
     "report": {"dynamics", "files", "scene"},
     "testing": {"dynamics"},
 }
@@ -35,7 +36,7 @@ SYMPY_ROOMS = {"derive", "prove", "codegen", "proofs"}
 
 
 def files(room):
-    if room == "generated" or room == "proofs":
+    if room in ("checker", "generated", "proofs"):
         folder = Path(__import__(f"chapsym.{room}", fromlist=["x"]).__file__).parent
     else:
         folder = ROOT / room
@@ -75,7 +76,15 @@ def test_what_runs_the_map_does_not_import_sympy(room):
 
 def test_every_room_is_listed():
     folders = {p.name for p in ROOT.iterdir() if p.is_dir() and not p.name.startswith("_")}
-    assert folders - {"cli"} | {"generated", "proofs"} <= set(ROOMS)
+    assert folders - {"cli"} | {"checker", "generated", "proofs"} <= set(ROOMS)
+
+
+def test_the_checker_of_certificates_uses_the_standard_library_and_itself():
+    for path in files("checker"):
+        for name in imports(path, "checker"):
+            assert name.split(".")[0] in sys.stdlib_module_names or name.startswith("chapsym.checker"), (
+                f"{path}: {name}"
+            )
 
 
 def loaded_by(program):

@@ -19,19 +19,18 @@ from chapsym.dynamics.errors import BadInput
 from chapsym.dynamics.precise_ball import TooWide
 from chapsym.dynamics.precise_start import fraction
 
-from . import plateau
+from . import resonance
 from .balls import NotProved, ball, decade, decimals, rounded, shortest
 from .document import sealed
-from .reduced import Axes, Reduced, Top, Vector, angle, cross
+from .reduced import Reduced, Top, Vector, angle, cross
+from .resonance import MOST_DIGITS, MOST_STEPS, Resonance, spare_bits
 
 KIND = "no-invariant-measure"
-#: The precision beyond the digits: for what a step may widen the balls, and to decide how numbers round.
-STEP_BITS, SPARE_BITS = 4, 64
-#: A plateau is resolved when it is 2^RESOLVED_BITS units in the last place wide.
-RESOLVED_BITS = 40
 #: Significant digits that the smaller displacement has at least, and how many more are tried where a number happens to
-#: lie between two decimals; the most decimals that a checker takes.
-SIGNIFICANT, MORE, MOST_DIGITS = 3, 3, 2000
+#: lie between two decimals.
+SIGNIFICANT, MORE = 3, 3
+#: Decimals by which a radius must be smaller for every step; boxes grow by less.
+LOST = 2
 
 
 @dataclass(frozen=True)
@@ -62,16 +61,6 @@ def _wider(steps: int) -> int:
     return 2 ** (steps + 2)
 
 
-@dataclass(frozen=True)
-class Resonance:
-    """A level, and what happens there: p half turns in q steps."""
-
-    axes: Axes
-    level: Fraction
-    steps: int
-    half_turns: int
-
-
 def no_invariant_measure(
     top: Top, *, steps: int | None = None, half_turns: int | None = None, level: Fraction | None = None,
     digits: int | None = None, radius: Fraction | None = None, progress: Callable[[str], None] = lambda what: None,
@@ -86,13 +75,9 @@ def no_invariant_measure(
     """
     _check(top, steps, half_turns, digits, radius)
     if level is None:
-        axes, near, steps, half_turns = _resonance(top, steps, half_turns or 1, progress)
-        size = -plateau.nome_power(top, near[0], axes, steps)
-        level = _middle(top, near, axes, steps, size, progress)
+        at = resonance.find(top, steps, half_turns or 1, progress)
     else:
-        axes = top.axes_of(level)
-        steps, half_turns = _turns_at(top, level, axes, steps, half_turns)
-    at = Resonance(axes, level, steps, half_turns)
+        at = resonance.on_level(top, level, steps, half_turns)
     progress("enclosing both orbits")
     least = _least_digits(top, at)
     if digits is not None and digits < least:
@@ -112,81 +97,25 @@ def _check(top: Top, steps: int | None, half_turns: int | None, digits: int | No
         )
     if top.height == 0:
         raise BadInput("for the height 0 the map moves nothing")
-    if steps is not None and (steps < 3 or steps % 2 == 0):
-        raise BadInput(f"the number of steps must be odd and at least 3, so that both starts are extreme, not {steps}")
+    if steps is not None and not (3 <= steps <= MOST_STEPS and steps % 2):
+        raise BadInput(
+            f"the number of steps must be odd, so that both starts are extreme, from 3 to {MOST_STEPS}, not {steps}"
+        )
     if half_turns is not None and half_turns < 1:
         raise BadInput(f"the number of half turns must be at least 1, not {half_turns}")
-    if steps and half_turns and math.gcd(steps, half_turns) > 1:
-        raise BadInput(
-            f"{half_turns} half turns in {steps} steps are fewer in fewer steps: divide by the common factor"
-        )
+    if steps is not None and half_turns is not None:
+        resonance.check_reduced(steps, half_turns)
     if digits is not None and not 1 <= digits <= MOST_DIGITS:
         raise BadInput(f"the number of digits must be from 1 to {MOST_DIGITS}, not {digits}")
     if radius is not None and radius < 0:
         raise BadInput("the radius must not be negative")
     if radius is not None and min(top.J) < radius:
-        raise BadInput(f"with the radius {radius} the least component of J, {min(top.J)}, may be negative")
-
-
-def _resonance(
-    top: Top, steps: int | None, half_turns: int, progress: Callable[[str], None]
-) -> tuple[Axes, tuple[Fraction, Fraction], int, int]:
-    """The circles with this rotation number where the displacement is largest, and two levels near by."""
-    sides = plateau.staircases(top, steps or plateau.LOOK_STEPS, progress)
-    numbers = [steps] if steps else [q for q in range(3, plateau.LOOK_STEPS + 1, 2) if math.gcd(q, half_turns) == 1]
-    for q in numbers:
-        found = [
-            (side.axes, plateau.refined(top, ends, side.axes, q, half_turns))
-            for side in sides
-            if (ends := side.between(q, half_turns))
-        ]
-        if found:
-            axes, near = max(found, key=lambda x: plateau.nome_power(top, x[1][0], x[0], q))
-            return axes, near, q, half_turns
-    most = max(side.fastest() for side in sides)
-    wanted = f"{half_turns} in {steps}" if steps else f"{half_turns} in an odd number up to {plateau.LOOK_STEPS}"
-    raise BadInput(
-        f"no circle turns by half turns {wanted} steps: at this height there are up to about {most:.3f} a step"
-    )
-
-
-def _turns_at(top: Top, level: Fraction, axes: Axes, steps: int | None, half_turns: int | None) -> tuple[int, int]:
-    """q and p of a level that was given."""
-    if steps is None:
-        raise BadInput("a level needs the number of steps after which its points return, --steps")
-    found = plateau.half_turns(top, level, axes, steps)[-1]
-    counted = round(found)
-    if counted < 1 or abs(found - counted) > 0.25 or half_turns not in (None, counted):
-        wanted = "a whole number" if half_turns is None else half_turns
-        raise BadInput(f"on this level {steps} steps turn by {found:.6g} half turns, not by {wanted}")
-    if math.gcd(steps, counted) > 1:
-        raise BadInput(f"{counted} half turns in {steps} steps are fewer in fewer steps: divide by the common factor")
-    return steps, counted
-
-
-def _middle(
-    top: Top, near: tuple[Fraction, Fraction], axes: Axes, steps: int, size: float, progress: Callable[[str], None]
-) -> Fraction:
-    """The simplest level in the middle half of the plateau, with twice the precision until it is resolved."""
-    bits = math.ceil(size) + _spare(steps)
-    while bits < MOST_DIGITS * 10 // 3:
-        progress(f"looking for {steps} steps around axis {axes[2] + 1} with {bits} bits")
-        with ctx.workprec(bits):
-            reduced = Reduced(top)
-            low, high = sorted(plateau.end_of_plateau(reduced, near, axes, zero, steps, bits) for zero in "ab")
-        if high - low > plateau.unit_in_last_place(low, bits - RESOLVED_BITS):
-            return plateau.simplest(low + (high - low) / 4, high - (high - low) / 4)
-        bits *= 2
-    raise BadInput(f"the displacement after {steps} steps is not resolved with {MOST_DIGITS} digits; take fewer steps")
-
-
-def _spare(steps: int) -> int:
-    return STEP_BITS * steps + SPARE_BITS
+        raise BadInput(f"within the radius {shortest(radius)} the least component of J, {min(top.J)}, may be negative")
 
 
 def _least_digits(top: Top, at: Resonance) -> int:
     """Decimals for the level, and SIGNIFICANT digits of both displacements; raises BadInput off the plateau."""
-    bits = _spare(at.steps)
+    bits = spare_bits(at.steps)
     while bits < MOST_DIGITS * 10 // 3:
         bits *= 2
         with ctx.workprec(bits):
@@ -198,11 +127,13 @@ def _least_digits(top: Top, at: Resonance) -> int:
             if signs[0] == signs[1] != 0:
                 raise BadInput(
                     f"both displacements are {'positive' if signs[0] > 0 else 'negative'}: the level is outside of the "
-                    f"plateau of {at.half_turns} half turns in {at.steps} steps"
+                    f"plateau of {resonance.turns(at.half_turns)} in {at.steps} steps"
                 )
             if 0 not in signs:
                 least = min(fraction(abs(x.displacement)) for x in found)
-                return max(SIGNIFICANT - 1 - decade(least), decimals(at.level) or 0)
+                digits = max(SIGNIFICANT - 1 - decade(least), decimals(at.level) or 0)
+                if digits <= MOST_DIGITS:
+                    return digits
     raise BadInput(f"the displacement on this level is not told from 0 with {MOST_DIGITS} digits")
 
 
@@ -210,12 +141,10 @@ def _largest(
     top: Top, at: Resonance, least: int, only: bool, radius: Fraction | None, progress: Callable[[str], None]
 ) -> dict[str, Any]:
     """The certificate with the largest radius, and the fewest digits for it."""
-    candidates = [least] if only else range(least, least + MORE + 1)
+    candidates = [least] if only else range(least, min(least + MORE, MOST_DIGITS) + 1)
     most = candidates[-1]
-    radii = [Fraction(1, 10**n) for n in range(least, least + 2 * at.steps + 20)] if radius is None else [radius]
-    if radius is None and min(top.J) == 0:
-        radii = [Fraction(0)]
-    with ctx.workprec(math.ceil(most * 10 / 3) + _spare(at.steps)):
+    radii = _radii(top, at, least) if radius is None else [radius]
+    with ctx.workprec(math.ceil(most * 10 / 3) + spare_bits(at.steps)):
         for tried in radii:
             progress(f"trying the radius {shortest(tried)}")
             try:
@@ -233,6 +162,14 @@ def _largest(
     )
 
 
+def _radii(top: Top, at: Resonance, digits: int) -> list[Fraction]:
+    """Powers of 10 down to what boxes that grow in every step need, for parameters of any size; 0 where a J is 0."""
+    if min(top.J) == 0:
+        return [Fraction(0)]
+    scales = [abs(decade(abs(x))) for x in (*top.J, top.D, top.height, at.level)]
+    return [Fraction(1, 10**n) for n in range(digits, digits + LOST * at.steps + 2 * max(scales) + 20)]
+
+
 def _orbits(top: Top, at: Resonance, radius: Fraction) -> list[Orbit]:
     reduced = Reduced(top, radius)
     return [_orbit(reduced, at, reduced.start(ball(at.level, radius), at.axes, zero), zero) for zero in "ab"]
@@ -245,19 +182,21 @@ def _orbit(reduced: Reduced, at: Resonance, start: Vector, zero: str) -> Orbit:
         u, gamma = reduced.image(reduced.root(gammas[-1]), gammas[-1])
         gibbs.append(u)
         gammas.append(gamma)
-    angles = [_turn(x, y, at.axes) for x, y in pairwise(gammas)]
-    direction = 1 if angles[0] > 0 else -1
-    if not (all(direction * x > 0 for x in angles) and abs(sum(angles) / arb.pi() - direction * at.half_turns) < 0.5):
+    s = direction([(cross(x, y, at.axes), angle(x, y, at.axes)) for x, y in pairwise(gammas)], at.half_turns)
+    return Orbit(zero, gibbs, gammas[1:], s * (-1) ** at.half_turns * cross(start, gammas[-1], at.axes))
+
+
+def direction(turned: list[tuple[Any, Any]], half_turns: int) -> int:
+    """1 or -1: the sign of all steps, from their (sines times a length, angles); raises NotProved.
+
+    Each is proved to turn by less than half a turn in this direction, and all by about so many half turns.
+    """
+    s = 1 if turned[0][0] > 0 else -1
+    if not all(s * sine > 0 for sine, _ in turned):
+        raise NotProved("the steps are not proved to turn in one direction by less than half a turn")
+    if not abs(sum(s * x for _, x in turned) / arb.pi() - half_turns) < 0.5:
         raise NotProved("the half turns are not proved")
-    delta = direction * (-1) ** at.half_turns * cross(start, gammas[-1], at.axes)
-    return Orbit(zero, gibbs, gammas[1:], delta)
-
-
-def _turn(before: Vector, after: Vector, axes: Axes) -> Any:
-    """The angle of one step, not 0 and less than half a turn; raises NotProved."""
-    if not cross(before, after, axes) != 0:
-        raise NotProved("a step may turn by no angle or by half a turn")
-    return angle(before, after, axes)
+    return s
 
 
 def _document(top: Top, at: Resonance, radius: Fraction, orbits: list[Orbit], digits: int) -> dict[str, Any]:

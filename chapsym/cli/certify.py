@@ -19,7 +19,13 @@ from .output import fail, note, print_json
 #: Seconds between two lines of progress where standard error is no terminal.
 PAUSE = 5.0
 
-certify = typer.Typer(help="Find and check certificates of what the paper left open.", rich_markup_mode=None)
+certify = typer.Typer(
+    help="""Find and check certificates of what the paper left open.
+
+    Example: chapsym certify no-invariant-measure -o found.json && chapsym certify check found.json
+    """,
+    rich_markup_mode=None,
+)
 app.add_typer(certify, name="certify")
 
 Output = Annotated[Path | None, typer.Option("-o", "--output", metavar="FILE", help="Write the certificate there.")]
@@ -76,7 +82,7 @@ def _describe(found: dict[str, Any]) -> None:
     for orbit in found["orbits"]:
         axis = axes["ab".index(orbit["start"])]
         moved = f"{Decimal(orbit['displacement']):.2e}"
-        print(f"  {found['half_turns']} half turns and a displacement {moved} from gamma{axis} = 0")
+        print(f"  half turns: {found['half_turns']}, and {moved} more, from gamma{axis} = 0")
 
 
 @certify.command()

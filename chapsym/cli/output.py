@@ -22,8 +22,8 @@ def print_json(value: Any) -> None:
 
 
 @contextmanager
-def progress_bar(label: str, total: int) -> Iterator[Callable[[int], None]]:
-    """A bar on standard error, when that is a terminal; yields a function that takes what is done."""
+def progress_bar(label: str, total: int) -> Iterator[Callable[..., None]]:
+    """A bar on standard error, when that is a terminal; yields a function of what is done, and of a new total."""
     from rich.console import Console
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
@@ -34,4 +34,4 @@ def progress_bar(label: str, total: int) -> Iterator[Callable[[int], None]]:
     )  # fmt: skip
     with bar:
         task = bar.add_task(label, total=total)
-        yield lambda done: bar.update(task, completed=done)
+        yield lambda done, of=None: bar.update(task, completed=done, total=of)

@@ -1,5 +1,6 @@
 """chapsym report: the page of verdicts, and the short lists of errata."""
 
+import json
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -11,6 +12,7 @@ from .app import app
 from .options import Json, Records
 from .output import fail, print_json
 from .prove import all_claims, judge_and_keep, kept_records, tally
+from .study import STUDIES
 
 
 @app.command()
@@ -19,6 +21,10 @@ def report(
         Path, typer.Option("-o", "--output", metavar="FILE", help="A page (.html), or the list of errata (.md, .tex).")
     ] = Path("chapsym-report.html"),
     fresh: Annotated[bool, typer.Option("--fresh", help="Prove every claim again.")] = False,
+    studies: Annotated[
+        Path | None,
+        typer.Option("--open", metavar="DIR", help="The page of the open questions, with the studies in DIR."),
+    ] = None,
     as_json: Json = False,
     kept_in: Records = None,
 ) -> None:
@@ -31,6 +37,9 @@ def report(
 
     if output.suffix not in reports.WRITERS:
         fail(f"{str(output)!r}: the output must end in {' or '.join(reports.WRITERS)}", 2)
+    if studies is not None:
+        _open_questions(output, studies, {} if fresh else kept_records(kept_in), kept_in, as_json)
+        return
     try:
         files.check_destination(output)
         found = _register({} if fresh else kept_records(kept_in), kept_in)
@@ -47,12 +56,89 @@ def report(
         fail(f"not proved: {', '.join(failed)}", 1)
 
 
+def _open_questions(
+    output: Path, folder: Path, kept: dict[str, dict[str, Any]], kept_in: Path | None, as_json: bool
+) -> None:
+    """Writes the page about what the paper left open: proofs, certificates, and the studies that the folder has."""
+    from chapsym import files
+    from chapsym.report import questions
+
+    if output.suffix != ".html":
+        fail(f"{str(output)!r}: the page of the open questions must end in .html", 2)
+    if not folder.is_dir():
+        fail(f"there is no folder {folder}; chapsym study NAME -o {folder} makes it", 2)
+    everything = all_claims(lemmas=True)
+    wanted = {id: everything[id] for id in _behind(list(questions.QUESTIONS), everything)}
+    try:
+        files.check_destination(output)
+        found = _records_of(wanted, kept, kept_in)
+        evidence = [one for name in STUDIES if (one := _evidence(name, folder)) is not None]
+        text = questions.html(found, _certificates(), evidence, _versions())
+        files.write_whole(output, lambda stream: stream.write(text.encode()))
+    except files.CannotWrite as error:
+        fail(str(error), 2)
+    verdicts = {record["id"]: record["verdict"] for record in found if record["id"] in questions.QUESTIONS}
+    if as_json:
+        print_json({"file": str(output), "verdicts": verdicts, "studies": [one.name for one in evidence]})
+    else:
+        told = ", ".join(f"{id} {verdict}" for id, verdict in verdicts.items())
+        print(f"wrote {output}: {told}; studies: {', '.join(one.name for one in evidence) or 'none'}")
+
+
+def _behind(questions: list[str], claims: dict[str, Any]) -> list[str]:
+    """The questions, and the lemmas of our own that their proofs use, directly or through others."""
+    from chapsym.proofs import LEMMAS
+
+    reached = list(questions)
+    for id in reached:  # grows while it is read
+        reached += [used for used in claims[id].uses if used in LEMMAS and used not in reached]
+    return reached
+
+
+def _evidence(name: str, folder: Path) -> Any:
+    """What a study left in the folder; None if it left nothing."""
+    from importlib import import_module
+
+    from chapsym.report.questions import Evidence
+
+    data = folder / f"{name}.json"
+    if not data.is_file():
+        return None
+    module = import_module(f"chapsym.studies.{name}")
+    try:
+        found = json.loads(data.read_text(encoding="utf-8"))
+        drawn = [(caption, folder / file) for file, caption in module.CAPTIONS.items() if (folder / file).is_file()]
+        figures = [(caption, path.read_text(encoding="utf-8")) for caption, path in drawn]
+        return Evidence(name, module.TITLE, module.sentences(found), figures)
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        fail(f"{data} cannot be read as what chapsym study {name} -o writes: {type(error).__name__}: {error}", 2)
+
+
+def _certificates() -> list[Any]:
+    """Every certificate that the proofs rest on, checked now."""
+    from chapsym import checker, proofs
+    from chapsym.report.questions import Checked
+
+    found = []
+    for path in sorted((Path(proofs.__path__[0]) / "certificates").glob("*.json")):
+        data = checker.read(path)
+        try:
+            found.append(Checked(path.name, data, checker.check(data).numbers, ""))
+        except checker.Rejected as error:
+            found.append(Checked(path.name, data, {}, str(error)))
+    return found
+
+
 def _register(kept: dict[str, dict[str, Any]], kept_in: Path | None) -> list[dict[str, Any]]:
+    """The record of every claim of the paper."""
+    return _records_of(all_claims(), kept, kept_in)
+
+
+def _records_of(claims: dict[str, Any], kept: dict[str, dict[str, Any]], kept_in: Path | None) -> list[dict[str, Any]]:
     """The record of every claim: the one that is kept while it is fresh and no failure, otherwise judged now."""
     from chapsym.prove import records, unproved
     from chapsym.prove.runner import downstream
 
-    claims = all_claims()
     stale = records.stale(kept, claims)
     fresh = {id: record for id, record in kept.items() if id not in stale}
     failed = unproved(fresh.values())

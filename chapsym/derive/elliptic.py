@@ -66,6 +66,12 @@ def added(x: Jacobi, y: Jacobi, sign: int) -> Jacobi:
     )
 
 
+def derivative(expr: sp.Expr, x: Jacobi) -> sp.Expr:
+    """d/dx by sn' = cn dn, cn' = -sn dn, dn' = -k² sn cn of the argument x."""
+    rates = (x.cn * x.dn, -x.sn * x.dn, -k2 * x.sn * x.cn)
+    return sum(sp.diff(expr, f) * rate for f, rate in zip(x, rates, strict=True))
+
+
 def ring(*arguments: Jacobi, amplitudes: tuple[sp.Symbol, ...] = ()) -> Quotient:
     """Q[sn, cn, dn, ..., k², Λ, l] modulo the relations of the arguments."""
     symbols = [symbol for argument in arguments for symbol in argument]

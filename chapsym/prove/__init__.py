@@ -1,6 +1,6 @@
 """Exact verdicts: claims, evidence, negative controls, and the runner."""
 
-from .claims import Claim, Judgement, claim
+from .claims import Claim, Judgement, claim, judged
 from .evidence import Proof, Verdict
 from .polynomials import Identity
 from .runner import BrokenScript, load, main, prove_all, unproved
@@ -17,6 +17,7 @@ __all__ = [
     "Proof",
     "Verdict",
     "claim",
+    "judged",
     "load",
     "main",
     "prove_all",

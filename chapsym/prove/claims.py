@@ -3,19 +3,22 @@
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 from .evidence import Proof, Verdict
+from .statements import Fact
 
 
 @dataclass(frozen=True)
 class Claim:
-    """One row of the list of claims: how it is printed, what it uses, and its proof."""
+    """One row of the list of claims: how it is printed, what it uses, its proof, and the files that the proof reads."""
 
     id: str
     printed: str
     uses: tuple[str, ...]
     prove: Callable[[Proof], None]
+    files: tuple[Path, ...] = ()
 
     @property
     def title(self) -> str:
@@ -58,6 +61,10 @@ class Judgement:
                 "reason": self.proof.reason,
                 "open_in_paper": self.open_in_paper,
                 "tried": self.proof.tried,
+                "answer": self.proof.answer,
+                "certificates": self.proof.certificates,
+                "measured": self.proof.measured,
+                "conjectures": self.proof.conjectures,
                 "derivation": self.proof.lines,
                 "checks": self.proof.checks,
                 "controls": self.proof.controls,
@@ -75,17 +82,25 @@ class Judgement:
 _REGISTER: dict[str, Claim] = {}
 
 
-def claim(id: str, printed: str, uses: Sequence[str] = ()) -> Callable[[Callable[[Proof], None]], Callable]:
-    """Registers a proof as the judge of the claim `id`."""
+def claim(
+    id: str, printed: str, uses: Sequence[str] = (), files: Sequence[Path] = ()
+) -> Callable[[Callable[[Proof], None]], Callable]:
+    """Registers a proof as the judge of the claim `id`; `files` are what it reads, and its records depend on them."""
 
     def register(prove: Callable[[Proof], None]) -> Callable[[Proof], None]:
         if prove.__module__ != "__main__":  # a script that runs alone is run through its package name
             if id in _REGISTER:
                 raise ValueError(f"two proofs judge the claim {id}")
-            _REGISTER[id] = Claim(id, printed, tuple(uses), prove)
+            _REGISTER[id] = Claim(id, printed, tuple(uses), prove, tuple(files))
         return prove
 
     return register
+
+
+def judged(id: str) -> Fact:
+    """That a claim is proved, by its own proof, run now; its script must have been imported."""
+    proved = (Verdict.HOLDS, Verdict.CORRECTED, Verdict.CONDITIONAL)
+    return Fact(f"{id} is proved", _REGISTER[id].judge().verdict in proved, "its own proof, run now")
 
 
 def register() -> dict[str, Claim]:

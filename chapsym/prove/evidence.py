@@ -42,6 +42,10 @@ class Proof:
     routes: list[dict[str, Any]] = field(default_factory=list)
     witnesses: list[dict[str, Any]] = field(default_factory=list)
     tried: list[str] = field(default_factory=list)
+    certificates: list[dict[str, Any]] = field(default_factory=list)
+    measured: list[str] = field(default_factory=list)
+    conjectures: list[str] = field(default_factory=list)
+    answer: str | None = None
     reason: str | None = None
     corrected_text: str | None = None
     condition: str | None = None
@@ -138,6 +142,25 @@ class Proof:
         """A question that the paper leaves open and that is not settled here: what was tried."""
         self.tried += tried
 
+    def certificate(self, file: str, statement: str, digest: str, accepted: bool) -> None:
+        """A file that the independent checker has judged, with the sentence that it proves."""
+        self.certificates.append({"file": file, "statement": statement, "digest": digest, "accepted": accepted})
+        self.lines.append(f"  {'✓' if accepted else '✗'} certificate {file}: {statement}")
+        if not accepted:
+            self.problems.append(f"the checker does not accept {file}")
+
+    def settle(self, answer: str) -> None:
+        """The answer to a question that the paper leaves open: what the lemmas and certificates prove, and no more."""
+        self.answer = answer
+
+    def measure(self, *findings: str) -> None:
+        """Numerical evidence beside what is proved, with its digits; no verdict rests on it."""
+        self.measured += findings
+
+    def conjecture(self, *texts: str) -> None:
+        """What is believed and not proved; no verdict rests on it."""
+        self.conjectures += texts
+
     def verdict(self) -> Verdict:
         """The verdict that the evidence supports; `open` when anything is missing or failed."""
         if self.tried:
@@ -145,10 +168,14 @@ class Proof:
         self._look_at_witnesses()
         if not self.controls:
             self.problems.append("the proof has no negative control")
-        if not self._printed and not self.reason:
+        if not self._printed and not self.reason and not self.answer:
             self.problems.append("no printed form was judged")
+        if self.answer and not any(check["holds"] for check in self.checks):
+            self.problems.append("the answer has no lemma that is decided")
         if self.problems:
             return Verdict.OPEN
+        if self.answer:
+            return Verdict.SETTLED
         if self.reason:
             return Verdict.DEFINITION
         if all(holds for _, holds in self._printed):
@@ -168,7 +195,7 @@ class Proof:
         found, wrong = witness.look(_equations([pair for pair in [*self._printed, *self._corrected] if pair[1]]))
         self.witnesses += found
         self.problems += [f"fails at its witness: {text}" for text in wrong]
-        if not self.witnesses and not self.counterexamples and not self.reason:
+        if not (self.witnesses or self.counterexamples or self.certificates or self.reason):
             self.problems.append("no witness: it is not shown that the hypotheses can hold")
 
     def _decide(self, statement: Statement, prefix: str = "") -> bool:

@@ -38,8 +38,14 @@ def default_path() -> Path:
 
 
 def fingerprint(claim: Claim) -> str:
-    """A hash of everything that the claim's verdict depends on: sources, and the versions of the libraries."""
-    return _of_module(claim.prove.__module__)
+    """A hash of everything that the claim's verdict depends on: sources, files, and the versions of the libraries."""
+    sources = _of_module(claim.prove.__module__)
+    if not claim.files:
+        return sources
+    digest = hashlib.sha256(sources.encode())
+    for file in claim.files:
+        digest.update(file.name.encode() + b"\n" + (file.read_bytes() if file.is_file() else b"missing"))
+    return digest.hexdigest()[:16]
 
 
 @cache

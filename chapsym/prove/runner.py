@@ -137,6 +137,9 @@ def explain(record: dict[str, Any]) -> str:
         lines += [f"  true at an exact point: {at}" + (f"; and for {cases}" if cases else "")]
     lines += [f"  nothing to decide: {evidence['reason']}"] if evidence["reason"] else []
     lines += [f"  tried: {text}" for text in evidence["tried"]]
+    lines += [f"  ANSWER: {evidence['answer']}"] if evidence["answer"] else []
+    lines += [f"  measured, not proved: {text}" for text in evidence["measured"]]
+    lines += [f"  conjecture: {text}" for text in evidence["conjectures"]]
     if record["corrected"]:
         lines += [f"  corrected: {record['corrected']}"]
     if evidence["downstream"]:

@@ -74,12 +74,12 @@ def on_cluster(plan: Plan, store: Store, tally: Tally, address: str) -> dict[int
     workers are left, if one has another chapsym, or if the disk refuses.
     """
     plan_from(plan.scene)  # raises SceneError for a plan that has no scene
-    with _client(address) as client:
+    with connected(address) as client:
         return _Flight(plan, store, tally, client, address).run()
 
 
 @contextmanager
-def _client(address: str) -> Iterator[Any]:
+def connected(address: str) -> Iterator[Any]:
     from distributed import Client
 
     levels = {logger: logger.level for logger in map(logging.getLogger, ("distributed", "distributed.client"))}

@@ -1,12 +1,10 @@
-"""The displacement by the relation (5.15) on the elliptic curve, in balls: it shares no formula with the step of γ."""
+"""The displacement by the relation (5.15) on the elliptic curve, to any number of bits: a second route."""
 
-from fractions import Fraction
-
+from chapsym.generated import curve_increment
 from flint import acb, arb, ctx
 
 from chapsym.certificates.balls import ball
 from chapsym.dynamics.precise_start import fraction
-from chapsym.generated import curve_increment
 
 
 class Relation:
@@ -35,7 +33,7 @@ class Relation:
         return self.h * G * scale - 2 * self.V * sn * cn * dn * (scale - self.D * (self.l - self.mu * y))
 
     def step(self, u):
-        """u after the step: δu enclosed by Newton's interval test, with the derivative by a difference quotient's ball."""
+        """u after the step: 2δu by Newton's iteration from the rate of the continuous ball; to rounding."""
         half = (self.V * self.h / (2 * (1 - self.D * self.l))).mid()
         gap = arb(2) ** -(ctx.prec // 3)
         for _ in range(60):
@@ -56,6 +54,3 @@ def displacement(top, level, axes, zero, steps, half_turns):
     sizes = [(L * (Lc * relation.l - 1) / (Lc - L)).sqrt() for L in (La, Lb)]
     (sn0, cn0, _), (sn, cn, _) = relation.jacobi(start), relation.jacobi(u)
     return fraction((-1) ** half_turns * sizes[0] * sizes[1] * (cn0 * sn - sn0 * cn))
-
-
-__all__ = ["Fraction", "displacement"]

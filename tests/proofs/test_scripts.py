@@ -11,7 +11,7 @@ FOLDER = Path(chapsym.proofs.__file__).parent
 
 
 def test_every_script_is_in_the_list():
-    found = {path.stem for path in (*FOLDER.glob("s[2-6]_*.py"), *FOLDER.glob("map_*.py"))}
+    found = {path.stem for path in (*FOLDER.glob("s[2-6]_*.py"), *FOLDER.glob("open_*.py"), *FOLDER.glob("map_*.py"))}
     assert found == set(chapsym.proofs.SCRIPTS)
 
 

@@ -5,7 +5,7 @@ import sympy as sp
 
 from chapsym.derive import three
 from chapsym.derive.quotient import Quotient
-from chapsym.prove import Equation, Fact, Proof, Verdict, claim, rational_point
+from chapsym.prove import Equation, Fact, Proof, Verdict, claim, claims, judged, load, rational_point
 from chapsym.prove.claims import Claim
 from chapsym.prove.runner import downstream, explain, judge, unproved
 
@@ -66,6 +66,54 @@ def test_a_correction_needs_a_counterexample():
 def test_a_correction_must_be_proved():
     steps = [("printed", FALSE), ("corrected", "c", equation(x, y)), ("control", FALSE)]
     assert verdict(*steps, ("counterexample", rational_point({x: "3/5", y: "3/5"})))[0] is Verdict.OPEN
+
+
+def test_a_question_is_settled_by_an_answer_and_what_proves_it():
+    steps = [("lemma", TRUE), ("control", FALSE), ("certificate", "c.json", "x > 0", "0", True), ("settle", "No.")]
+    assert verdict(*steps) == (Verdict.SETTLED, [])
+    assert verdict(*steps[1:]) == (Verdict.OPEN, ["the answer has no lemma that is decided"])
+    assert verdict(steps[0], *steps[2:]) == (Verdict.OPEN, ["the proof has no negative control"])
+    assert verdict(*steps, ("lemma", FALSE))[0] is Verdict.OPEN
+    assert verdict(*steps, ("control", TRUE))[0] is Verdict.OPEN
+    assert verdict(*steps, ("leave_open", "a polynomial"))[0] is Verdict.OPEN
+    rejected = ("certificate", "d.json", "x > 1", "0", False)
+    assert verdict(*steps, rejected) == (Verdict.OPEN, ["the checker does not accept d.json"])
+
+
+def test_evidence_and_conjectures_settle_nothing():
+    steps = [("lemma", TRUE), ("control", FALSE), ("measure", "1e-28"), ("conjecture", "never")]
+    assert verdict(*steps) == (Verdict.OPEN, ["no printed form was judged"])
+
+
+def test_a_settled_question_is_proved_and_explained(monkeypatch):
+    def settles(p):
+        """Title."""
+        p.lemma(TRUE)
+        p.control(FALSE)
+        p.certificate("c.json", "x > 0", "0", True)
+        p.settle("No.")
+        p.measure("1e-28")
+        p.conjecture("never")
+
+    record = judge(Claim("9.9", "x?", (), settles)).record()
+    record["evidence"]["fingerprint"] = "0"
+    assert record["verdict"] == "settled"
+    assert unproved([record]) == []
+    assert not record["evidence"]["open_in_paper"]
+    lines = explain(record).splitlines()
+    assert "  ✓ certificate c.json: x > 0" in lines
+    assert lines[-4:-1] == ["  ANSWER: No.", "  measured, not proved: 1e-28", "  conjecture: never"]
+
+
+def test_what_a_proof_rests_on_is_proved_anew(monkeypatch):
+    def fails(p):
+        """Title."""
+        p.printed(FALSE)
+
+    load()
+    monkeypatch.setitem(claims._REGISTER, "2.1", Claim("2.1", "x", (), fails))
+    assert judged("2.2").holds()
+    assert not judged("2.1").holds()
 
 
 def test_a_counterexample_must_satisfy_the_hypotheses():

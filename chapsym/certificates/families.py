@@ -1,0 +1,190 @@
+"""Families of periodic orbits of the whole map, looked for from the symmetric ones.
+
+A reversor (𝒦, γ) ↦ -R(𝒦, γ), R the rotation by π about an axis a, keeps the level M and fixes the states with 𝒦_a = γ_a =
+0.  If x is fixed by that of a, and after n steps is fixed by that of b, or is mapped by it to the next state, then x is back
+after 2n or 2n + 1 steps, up to R_aR_b.  On M such a point is an accident: there are two conditions for one unknown.  But
+⟨𝒦, γ⟩ may vary: through each leads a family of periodic orbits, mirrored by the reversor, so with a fold of ⟨𝒦, γ⟩ in the
+middle; beside it the orbits are not symmetric.  As the map is near an integrable one, ⟨𝒦, γ⟩ hardly changes along it.
+"""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import product
+from typing import Any
+
+import numpy as np
+
+from chapsym.dynamics.ball import Ball, Floats
+from chapsym.dynamics.map import step
+from chapsym.dynamics.precise_ball import exact
+from chapsym.dynamics.precise_start import fraction
+
+from .passage import Level, Map, Vector, columns, cross, dot
+
+#: Starts along each of the two angles of 𝒦 and γ, Newton's iterations, their longest and what is settled.
+GRID, ROUNDS, LONGEST, SETTLED = (8, 16), 24, 0.2, 1e-11
+DIFFERENCE = 1e-6
+#: Members of a family that are looked at, their distance, and Newton's iterations for each.
+MEMBERS, APART, CORRECTIONS = 16, 0.02, 6
+#: Two families whose ⟨𝒦, γ⟩ agree so far are one; a motion whose γ_i vary less is a steady rotation.
+SAME = 1e-7
+
+
+@dataclass(frozen=True)
+class Member:
+    """One orbit of a family: ⟨𝒦, γ⟩, and the start."""
+
+    height: Any
+    momentum: Vector
+    gamma: Vector
+
+
+def families(level: Level, steps: int, progress: Callable[[str], None]) -> Iterator[list[Member]]:
+    """The families of orbits of so many steps at this |𝒦|², a stretch of each; `level.height` is not used."""
+    found: list[float] = []
+    for state in _symmetric(level, steps):
+        height = abs(float(state[:3] @ state[3:]))
+        if any(abs(height - x) < SAME for x in found):
+            continue
+        found.append(height)
+        progress(f"orbits of {steps} steps: the family {len(found)}, with <momentum, gamma> = {height:.9f}")
+        yield _followed(level, steps, state)
+
+
+def _symmetric(level: Level, steps: int) -> Iterator[Floats]:
+    """The starts (𝒦, γ) of symmetric orbits, with ⟨𝒦, γ⟩ > 0, in float64."""
+    periods = [(steps, a, a) for a in range(3)]
+    if steps % 2 == 0:
+        periods += [(steps // 2, a, b) for a, b in product(range(3), repeat=2) if a != b]
+    ball, size = Ball([float(x) for x in level.J], float(level.D)), float(level.size) ** 0.5
+    for period, a, b in periods:
+        for state in _solved(ball, size, period, a, b):
+            state[3:] *= np.copysign(1.0, state[:3] @ state[3:])  # γ ↦ -γ commutes with the map
+            if SAME < state[:3] @ state[3:] < size * (1 - SAME) and not _steady(ball, state, period):
+                yield state
+
+
+def _solved(ball: Ball, size: float, period: int, a: int, b: int) -> list[Floats]:
+    """Newton's method in the angles of 𝒦 and γ in the plane normal to the axis a, from a grid of starts."""
+    x, y = (np.linspace(0, turn, n, endpoint=False) + 0.01 for n, turn in zip(GRID, (np.pi, 2 * np.pi), strict=True))
+    angles = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
+
+    def off(angles: Floats) -> Floats:
+        end = before = _fixed(angles, size, a)
+        for i in range((period + 1) // 2):
+            before, end = end, _after(ball, end)
+        # Odd: the last two states are each other's mirror images; so their sum is fixed.
+        middle = end + before if period % 2 else end
+        return middle[:, [b, 3 + b]]
+
+    for _ in range(ROUNDS):
+        steps = DIFFERENCE * np.eye(2)
+        slope = np.stack([(off(angles + h) - off(angles - h)) / (2 * DIFFERENCE) for h in steps], axis=-1)
+        regular = np.abs(np.linalg.det(slope)) > SETTLED
+        angles, slope = angles[regular], slope[regular]
+        if not len(angles):
+            return []
+        move = np.linalg.solve(slope, off(angles)[..., np.newaxis])[..., 0]
+        angles = angles - move * np.minimum(1, LONGEST / np.maximum(np.abs(move).max(axis=-1), LONGEST))[:, np.newaxis]
+    return list(_fixed(angles[np.abs(off(angles)).max(axis=-1) < SETTLED], size, a))
+
+
+def _fixed(angles: Floats, size: float, a: int) -> Floats:
+    """(𝒦, γ), normal to the axis a, with these angles from the next axis."""
+    state = np.zeros((len(angles), 6))
+    for at, length, angle in ((0, size, angles[:, 0]), (3, 1.0, angles[:, 1])):
+        state[:, at + (a + 1) % 3], state[:, at + (a + 2) % 3] = length * np.cos(angle), length * np.sin(angle)
+    return state
+
+
+def _after(ball: Ball, state: Floats) -> Floats:
+    gamma = state[..., 3:] / np.linalg.norm(state[..., 3:], axis=-1, keepdims=True)
+    done = step(ball, state[..., :3], gamma)
+    return np.concatenate([done.momentum, done.gamma], axis=-1)
+
+
+def _steady(ball: Ball, state: Floats, period: int) -> bool:
+    """Whether an axis of the body keeps its angle with γ: the whole circle of its states is periodic, at one ⟨𝒦, γ⟩."""
+    states = [state]
+    for _ in range(period):
+        states.append(_after(ball, states[-1]))
+    return bool(np.ptp(np.abs(np.array(states)[:, 3:]), axis=0).min() < SAME)
+
+
+def _followed(level: Level, steps: int, state: Floats) -> list[Member]:
+    """A stretch of the family of a symmetric orbit, with the working precision of Arb."""
+    at = Map.of(level)
+    member = Member(None, [exact(x) for x in state[:3]], [exact(x) for x in state[3:]])
+    members: list[Member] = []
+    along = np.zeros(4)
+    while len(members) < MEMBERS:
+        for _ in range(CORRECTIONS):
+            now = at.passage(member.momentum, member.gamma, steps)
+            slope = now.slope()
+            back = slope.transpose() * (slope * slope.transpose()).solve(now.error())
+            member = _moved(level, member, [-1 * back[i, 0] for i in range(4)])
+        members.append(member)
+        kernel = np.linalg.svd([[float(x) for x in row] for row in slope.tolist()])[2][3]
+        along = kernel if along @ kernel >= 0 else -kernel
+        member = _moved(level, member, [exact(APART * x) for x in along])
+    return members
+
+
+def _moved(level: Level, member: Member, by: Vector) -> Member:
+    """The member varied as `Passage.change` says."""
+    K, g = member.momentum, member.gamma
+    towards = cross(cross(K, g), K)
+    K = [(x + y + by[3] * z).mid() for x, y, z in zip(K, cross(by[:3], K), towards, strict=True)]
+    g = [(x + y).mid() for x, y in zip(g, cross(by[:3], g), strict=True)]
+    scale, length = (exact(level.size) / dot(K, K)).sqrt(), dot(g, g).sqrt()
+    K, g = [(x * scale).mid() for x in K], [(x / length).mid() for x in g]
+    return Member(dot(K, g).mid(), K, g)
+
+
+def solved(level: Level, steps: int, near: Member, rounds: int) -> tuple[Vector, Vector]:
+    """The orbit of the exact level by Newton's method from one near by; on the level, but for rounding."""
+    at = Map.of(level)
+    K, g = on_level(level, near.momentum, near.gamma)
+    for _ in range(rounds):
+        now = at.passage(*_middles(K, g), steps)
+        w = [-x for x in _solution(columns(now.slope(), 3), now.error())]
+        K, g = ([(x + y).mid() for x, y in zip(v, cross(w, v), strict=True)] for v in (K, g))
+        K, g = on_level(level, K, g)
+    return K, g
+
+
+def _middles(K: Vector, g: Vector) -> tuple[Vector, Vector]:
+    return [x.mid() for x in K], [x.mid() for x in g]
+
+
+def _solution(matrix: Any, right: Any) -> list[Any]:
+    return [matrix.mid().solve(right)[i, 0].mid() for i in range(3)]
+
+
+def on_level(level: Level, momentum: Vector, gamma: Vector) -> tuple[Vector, Vector]:
+    """Balls of a point that is exactly on the level, near 𝒦 and γ."""
+    length = dot(gamma, gamma).sqrt()
+    g = [x / length for x in gamma]
+    along = dot(momentum, g)
+    across = [x - along * y for x, y in zip(momentum, g, strict=True)]
+    height = exact(level.height)
+    scale = ((exact(level.size) - height * height) / dot(across, across)).sqrt()
+    return [height * y + scale * x for x, y in zip(across, g, strict=True)], g
+
+
+def extent(family: list[Member]) -> tuple[Fraction, Fraction]:
+    """The least and the largest ⟨𝒦, γ⟩ of the members."""
+    heights = [fraction(x.height) for x in family]
+    return min(heights), max(heights)
+
+
+def chosen(family: list[Member], height: Fraction | None) -> tuple[Fraction, Member]:
+    """⟨𝒦, γ⟩, by default the shortest decimal in the middle half of those of a family, and the member nearest to it."""
+    low, high = extent(family)
+    digits = 0
+    while height is None:
+        rounded = Fraction(round((low + high) / 2 * 10**digits), 10**digits)
+        height = rounded if abs(rounded - (low + high) / 2) <= (high - low) / 4 else None
+        digits += 1
+    return height, min(family, key=lambda x: abs(fraction(x.height) - height))

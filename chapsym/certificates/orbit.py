@@ -1,0 +1,147 @@
+"""Certificate `periodic-orbit`: a point that is back after q steps, where det DG^q ≠ 1 and det(1 - DG^q) ≠ 0 on the level M.
+
+Existence.  Let f(x) be the vector part of the quaternion by which q steps from x turn: x is back where f = 0.  For |w_i| ≤ r,
+f(exp(w)x₀) = f(x₀) + Aw with A in the hull of the derivatives of f on a box that contains all exp(w)x₀.  If, with Y near
+f'(x₀)⁻¹, all -Yf(x₀) + (1 - YA)w are within r, Brouwer's theorem gives a w with f(exp(w)x₀) = 0.  The point x₀ is a ball of
+points that are exactly on M.
+"""
+
+import math
+from collections.abc import Callable
+from fractions import Fraction
+from typing import Any
+
+from flint import arb, ctx
+
+from chapsym.dynamics.errors import BadInput
+from chapsym.dynamics.precise_ball import upper
+from chapsym.dynamics.precise_start import fraction
+
+from . import families
+from .balls import NotProved, rounded, shortest
+from .document import sealed
+from .families import Member
+from .passage import Level, Map, Passage, Vector, column, columns, entries, identity
+
+KIND = "periodic-orbit"
+#: Bits with which families are followed; ⟨𝒦, γ⟩ must vary by more than 2^-RESOLVED along one.
+SEARCH_BITS, RESOLVED = 256, 160
+#: Decimals that are written beyond those of det(1 - DG^q); the largest number of them, and of steps.
+SPARE_DIGITS, MOST_DIGITS, MOST_STEPS = 30, 4_000, 1_000
+
+
+def periodic_orbit(
+    J: tuple[Fraction, Fraction, Fraction], D: Fraction, size: Fraction, steps: int, height: Fraction | None = None,
+    digits: int | None = None, progress: Callable[[str], None] = lambda what: None,
+) -> dict[str, Any]:  # fmt: skip
+    """Finds the certificate of an orbit of so many steps, not symmetric, with det DG^q ≠ 1 and without an eigenvalue 1.
+
+    J, D: the ball.  size: |𝒦|².  height: ⟨𝒦, γ⟩; the shortest decimal in the middle of the widest family by default.
+    digits: decimals of the numbers in the file; enough by default.
+    Returns the object of the file (`document`).  Raises BadInput, one sentence, for what has no certificate.
+    """
+    _check(J, D, size, steps, height, digits)
+    level, near = _found(Level(J, D, size, Fraction(0)), steps, height, progress)
+    bits = SEARCH_BITS
+    while True:
+        progress(f"<momentum, gamma> = {shortest(level.height)}: {bits} bits")
+        try:
+            with ctx.workprec(bits):
+                start, passage = proved(level, *families.solved(level, steps, near, 4 + bits.bit_length()), steps)
+                written = digits or _enough(passage)
+                return _document(level, steps, start, passage, written)
+        except NotProved:
+            if bits > 8 * (SEARCH_BITS + 4 * (digits or 0)):
+                raise BadInput(f"no orbit of {steps} steps is proved there; choose another <momentum, gamma>") from None
+            bits = 2 * bits
+
+
+def _check(
+    J: tuple[Fraction, ...], D: Fraction, size: Fraction, steps: int, height: Fraction | None, digits: int | None
+) -> None:
+    if len(set(J)) < 3 or min(J) < 0:
+        raise BadInput("the three entries of J must differ and be at least 0: else a measure is preserved")
+    if D <= 0:
+        raise BadInput("D must be positive: for D = 0 the map preserves a volume, and det DG^q = 1")
+    if size <= 0:
+        raise BadInput("<momentum, momentum> must be positive")
+    if height is not None and height**2 >= size:
+        raise BadInput("<momentum, gamma> must be less than |momentum|: else the two are parallel")
+    if not 2 <= steps <= MOST_STEPS:
+        raise BadInput(f"the number of steps must be from 2 to {MOST_STEPS}, not {steps}")
+    if digits is not None and not 1 <= digits <= MOST_DIGITS:
+        raise BadInput(f"the number of decimals must be from 1 to {MOST_DIGITS}, not {digits}")
+    with ctx.workprec(SEARCH_BITS):
+        Map.of(Level((J[0], J[1], J[2]), D, size, Fraction(0)))  # the bound of the lemma
+
+
+def _found(level: Level, steps: int, height: Fraction | None, progress: Callable[[str], None]) -> tuple[Level, Member]:
+    """The level, and an orbit near it."""
+    best: tuple[Fraction, Fraction, Member] | None = None
+    with ctx.workprec(SEARCH_BITS):
+        for family in families.families(level, steps, progress):
+            low, high = families.extent(family)
+            inside = height is None or low < height < high
+            if inside and high - low > Fraction(1, 2**RESOLVED) and (best is None or high - low > best[0]):
+                best = high - low, *families.chosen(family, height)
+    if best is None:
+        where = "" if height is None else f" with <momentum, gamma> = {shortest(height)}"
+        raise BadInput(f"no family of orbits of {steps} steps{where} was found that are not symmetric")
+    return Level(level.J, level.D, level.size, best[1]), best[2]
+
+
+def proved(level: Level, momentum: Vector, gamma: Vector, steps: int) -> tuple[Vector, Passage]:
+    """Balls of the periodic point near a point of the level, and of its passage; raises NotProved.
+
+    momentum, gamma: balls of a point that is exactly on the level (`families.on_level`).
+    """
+    at = Map.of(level)
+    there = at.passage(momentum, gamma, steps)
+    try:
+        Y = columns(there.slope(), 3).mid().inv().mid()
+    except ZeroDivisionError:
+        raise NotProved("the derivative is singular") from None
+    first = Y * there.error()
+    r = (4 * upper(entries(first)) + arb(2) ** (-ctx.prec)).abs_upper()
+    reach = r * arb(3).sqrt()
+    # |exp(w)v - v| ≤ |w||v|.
+    K, g = ([x + arb(0, (reach * upper(v)).abs_upper()) for x in v] for v in (momentum, gamma))
+    passage = at.passage(K, g, steps)
+    rest = identity() - Y * columns(passage.slope(), 3)
+    moved = rest * column([arb(0, r)] * 3) - first
+    if not all(abs(x) < r for x in entries(moved)):
+        raise NotProved("Newton's map does not take the box into itself")
+    return [*K, *g], passage
+
+
+def determinants(passage: Passage) -> tuple[Any, Any]:
+    """det DG^q and det(1 - DG^q) on M; raises NotProved unless they are proved to be other than 1 and 0."""
+    W = passage.derivative()
+    det, unit = W.det(), (identity() - W).det()
+    if det.contains(1) or unit.contains(0):
+        raise NotProved("det DG^q may be 1, or an eigenvalue may be")
+    return det, unit
+
+
+def _enough(passage: Passage) -> int:
+    """Decimals that show det DG^q - 1 and det(1 - DG^q)."""
+    det, unit = determinants(passage)
+    least = min(abs(fraction(det.mid()) - 1), abs(fraction(unit.mid())))
+    return SPARE_DIGITS + math.ceil(-math.log10(least))
+
+
+def _document(level: Level, steps: int, start: Vector, passage: Passage, digits: int) -> dict[str, Any]:
+    det, unit = determinants(passage)
+    J, D, size, height = [str(x) for x in level.J], str(level.D), str(level.size), shortest(level.height)
+    statement = (
+        f"For the ball with J = ({', '.join(J)}), D = {D}: with ⟨𝒦, 𝒦⟩ = {size}, ⟨𝒦, γ⟩ = {height} a point is back after "
+        f"{steps} steps, and the derivative of these steps on the level of the integrals there has a determinant other "
+        f"than 1 and no eigenvalue 1."
+    )
+    texts = [rounded(x, digits) for x in start]
+    return sealed(
+        KIND, statement, ball={"J": J, "D": D}, integrals={"momentum.momentum": size, "momentum.gamma": height},
+        steps=steps, digits=digits, start={"momentum": texts[:3], "gamma": texts[3:]},
+        orbit=[{"u": [rounded(x, digits) for x in u]} for u in passage.gibbs],
+        determinant=rounded(det, digits), unit_eigenvalue=rounded(unit, digits),
+    )  # fmt: skip

@@ -1,0 +1,166 @@
+"""q steps of the whole map in Arb's balls: how far they turn the body, and the derivative of that.
+
+A step carries 𝒦 and γ by one rotation.  So the level M of |γ|, |𝒦| and ⟨𝒦, γ⟩ is, where 𝒦 and γ are not parallel, the set
+of all (R𝒦, Rγ), R in SO(3); a tangent vector is (w × 𝒦, w × γ); and a point is back after q steps if and only if the
+product T of their rotations is 1.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+from flint import arb, arb_mat, ctx
+
+from chapsym.dynamics.errors import BadInput
+from chapsym.dynamics.precise_ball import certified, exact, upper
+from chapsym.generated import compose, gibbs_newton, gibbs_residual
+
+from .balls import NotProved
+
+Vector = Sequence[Any]
+#: Newton's iterations from u = 0, which double the bits.
+ROUNDS = 8
+
+
+@dataclass(frozen=True)
+class Level:
+    """A ball and the level M: J, D, |𝒦|² and ⟨𝒦, γ⟩, exact."""
+
+    J: tuple[Fraction, Fraction, Fraction]
+    D: Fraction
+    size: Fraction
+    height: Fraction
+
+
+@dataclass(frozen=True)
+class Passage:
+    """Of q steps: the product T of their rotations, and how it changes with the start.
+
+    quaternion: of T, which takes the start to the end.  turned: T, (3, 3).  change: the ω of dT = [ω]×T for four variations
+    of the start, (3, 4): (w × 𝒦, w × γ) for w = e1, e2, e3, and ((𝒦 × γ) × 𝒦, 0), which turns 𝒦 alone, and which changes
+    ⟨𝒦, γ⟩ by |𝒦 × γ|².  gibbs: the Gibbs vectors of the steps.
+    """
+
+    quaternion: Vector
+    turned: Any
+    change: Any
+    gibbs: list[Vector]
+
+    def error(self) -> Any:
+        """The vector part of the quaternion, which is 0 if and only if the point is back."""
+        return column(self.quaternion[1:])
+
+    def slope(self) -> Any:
+        """The derivative of `error` by the four variations: dp = ½ω∘p."""
+        return (self.quaternion[0] * identity() - hat(self.quaternion[1:])) * self.change / 2
+
+    def derivative(self) -> Any:
+        """W, with DG^q(w × 𝒦, w × γ) = (Ww × 𝒦', Ww × γ') at the end (𝒦', γ')."""
+        return self.turned + columns(self.change, 3)
+
+
+class Map:
+    """The steps of one ball at one |𝒦|², for all parameters in balls; to be used with one precision of Arb's."""
+
+    def __init__(self, J: Vector, D: Any, size: Any) -> None:
+        self.inertia, self.D = (J[1] + J[2], J[0] + J[2], J[0] + J[1]), D
+        bound = certified(size.sqrt(), self.inertia)
+        if bound is None:
+            raise BadInput("|momentum| is beyond the bound of the lemma small-branch, so no step is certified")
+        self.radius, self.monotone = bound
+
+    @classmethod
+    def of(cls, level: Level) -> "Map":
+        """The map of an exact level."""
+        return cls([exact(x) for x in level.J], exact(level.D), exact(level.size))
+
+    def passage(self, momentum: Vector, gamma: Vector, steps: int) -> Passage:
+        """`steps` steps from 𝒦 and γ.  Raises NotProved where the balls are too wide."""
+        K, g = column(momentum), column(gamma)
+        dK, dg, change = self._variations(momentum, gamma)
+        turned, quaternion, gibbs = identity(), (arb(1), arb(0), arb(0), arb(0)), []
+        for _ in range(steps):
+            k, v = [x / 2 for x in entries(K)], entries(g)
+            u, inverse = self.root(k, v)
+            U, norm = hat(u), 1 + dot(u, u)
+            step = identity() + (U * U - U) * (2 / norm)
+            # Of G(u) = 0 with |γ| = 1: ∂G du = ½(1 + |u|²)d𝒦 + D(⟨dγ, u⟩γ + ⟨γ, u⟩dγ); then dΩᵀΩ = [ω]×.
+            du = inverse * (dK * (norm / 2) + (g * (column(u).transpose() * dg) + dg * dot(v, u)) * self.D)
+            omega = (U - identity()) * du * (2 / norm)
+            K, g, turned, change = step * K, step * g, step * turned, step * change + omega
+            dK, dg = step * dK - hat(entries(K)) * omega, step * dg - hat(entries(g)) * omega
+            length = norm.sqrt()
+            quaternion = compose(*(x / length for x in (arb(1), *(-y for y in u))), *quaternion)
+            gibbs.append(u)
+        return Passage(quaternion, turned, change, gibbs)
+
+    def root(self, k: Vector, g: Vector) -> tuple[Vector, Any]:
+        """The root |u| < 1 of G for all k and γ in their balls, by lemma `small-branch`, and (∂G/∂u)⁻¹ there."""
+        near = self._near([x.mid() for x in k], [x.mid() for x in g])
+        if not upper(near) <= self.radius:
+            raise NotProved("a step is not near its root")
+        residual = gibbs_residual(*near, *k, *g, *self.inertia, self.D)
+        # G is monotone: the root is within |G|/m; and with ∂G on this box it is u - (∂G)⁻¹G(u).
+        off = (upper(residual) / self.monotone).abs_upper()
+        box = [x + arb(0, off) for x in near]
+        u = entries(column(near) - self._inverse(box, k, g) * column(residual))
+        return u, self._inverse(u, k, g)
+
+    def _near(self, k: Vector, g: Vector) -> Vector:
+        u: Vector = [arb(0)] * 3
+        for _ in range(ROUNDS + ctx.prec.bit_length()):
+            det, *numerators = gibbs_newton(*u, *k, *g, *self.inertia, self.D)[:4]
+            u = [(x / det).mid() for x in numerators]
+        return u
+
+    def _inverse(self, u: Vector, k: Vector, g: Vector) -> Any:
+        found = gibbs_newton(*u, *k, *g, *self.inertia, self.D)
+        det, cofactors = found[0], found[4:]
+        if not det > 0:
+            raise NotProved("the balls are too wide for a step")
+        return arb_mat([[cofactors[3 * j + i] / det for j in range(3)] for i in range(3)])
+
+    def _variations(self, momentum: Vector, gamma: Vector) -> tuple[Any, Any, Any]:
+        """d𝒦, dγ and ω of the four variations at the start."""
+        towards = cross(cross(momentum, gamma), momentum)
+        dK, dg = (
+            arb_mat([[*row, x] for row, x in zip((-1 * hat(v)).tolist(), last, strict=True)])
+            for v, last in ((momentum, towards), (gamma, [0, 0, 0]))
+        )
+        return dK, dg, arb_mat(3, 4)
+
+
+def column(v: Vector) -> Any:
+    """A vector as a matrix of one column."""
+    return arb_mat([[x] for x in v])
+
+
+def entries(v: Any) -> list[Any]:
+    """The entries of a column."""
+    return [v[i, 0] for i in range(v.nrows())]
+
+
+def columns(m: Any, count: int) -> Any:
+    """The first columns of a matrix."""
+    return arb_mat([row[:count] for row in m.tolist()])
+
+
+def identity() -> Any:
+    """The unit matrix."""
+    return arb_mat([[int(i == j) for j in range(3)] for i in range(3)])
+
+
+def hat(v: Vector) -> Any:
+    """[v]×, the matrix of the vector product."""
+    return arb_mat([[0, -v[2], v[1]], [v[2], 0, -v[0]], [-v[1], v[0], 0]])
+
+
+def cross(v: Vector, w: Vector) -> list[Any]:
+    """v × w."""
+    return entries(hat(v) * column(w))
+
+
+def dot(v: Vector, w: Vector) -> Any:
+    """⟨v, w⟩."""
+    return sum((x * y for x, y in zip(v, w, strict=True)), arb(0))

@@ -1,0 +1,116 @@
+"""A circle on which G_h turns by p half turns in q steps: looked for on both sides, or on a level that is given."""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from fractions import Fraction
+
+from flint import ctx
+
+from chapsym.dynamics.errors import BadInput
+
+from . import plateau
+from .reduced import Axes, Reduced, Top
+
+#: The precision beyond the digits: for what a step may widen the balls, and to decide how numbers round.
+STEP_BITS, SPARE_BITS = 4, 64
+#: A plateau is resolved when it is 2^RESOLVED_BITS units in the last place wide.
+RESOLVED_BITS = 40
+#: The most that the checker takes.
+MOST_DIGITS, MOST_STEPS = 2000, 1000
+
+
+@dataclass(frozen=True)
+class Resonance:
+    """A level, and what happens there: p half turns in q steps."""
+
+    axes: Axes
+    level: Fraction
+    steps: int
+    half_turns: int
+
+
+def find(top: Top, steps: int | None, half_turns: int, progress: Callable[[str], None]) -> Resonance:
+    """The simplest level in the middle of the plateau with this rotation number; the fewest steps where none are given.
+
+    Raises BadInput where there is none, or where it is too narrow.
+    """
+    axes, near, steps = _circle(top, steps, half_turns, progress)
+    return Resonance(axes, _middle(top, near, axes, steps, progress), steps, half_turns)
+
+
+def _circle(
+    top: Top, steps: int | None, half_turns: int, progress: Callable[[str], None]
+) -> tuple[Axes, tuple[Fraction, Fraction], int]:
+    """The axes of the circle with the larger displacement, two levels near it, and the steps."""
+    sides = plateau.staircases(top, steps or plateau.LOOK_STEPS, progress)
+    numbers = [steps] if steps else [q for q in range(3, plateau.LOOK_STEPS + 1, 2) if math.gcd(q, half_turns) == 1]
+    for q in numbers:
+        found = [
+            (side.axes, plateau.refined(top, ends, side.axes, q, half_turns))
+            for side in sides
+            if (ends := side.between(q, half_turns))
+        ]
+        if found:
+            axes, near = max(found, key=lambda x: plateau.nome_power(top, x[1][0], x[0], q))
+            return axes, near, q
+    raise BadInput(_why(sides, steps, half_turns))
+
+
+def _why(sides: list[plateau.Staircase], steps: int | None, half_turns: int) -> str:
+    """Why no circle was found."""
+    wanted = f"{turns(half_turns)} in {steps or f'an odd number up to {plateau.LOOK_STEPS}'} steps"
+    most = max(side.fastest() for side in sides)
+    if half_turns < most * (steps or plateau.LOOK_STEPS):
+        return f"circles with {wanted} are too near the separatrix; take another number of steps"
+    return f"no circle has {wanted}: at this height there are at most about {most:.2g} half turns a step"
+
+
+def turns(half_turns: int) -> str:
+    """So many half turns, in words."""
+    return f"{half_turns} half turn{'s' if half_turns > 1 else ''}"
+
+
+def on_level(top: Top, level: Fraction, steps: int | None, half_turns: int | None) -> Resonance:
+    """A level that is given, with the half turns that it has; raises BadInput where there are others."""
+    axes = top.axes_of(level)
+    if steps is None:
+        raise BadInput("a level needs the number of steps after which its points return, --steps")
+    found = plateau.half_turns(top, level, axes, steps)[-1]
+    counted = round(found)
+    if counted < 1 or abs(found - counted) > 0.25 or half_turns not in (None, counted):
+        wanted = "a whole number" if half_turns is None else half_turns
+        raise BadInput(f"on this level {steps} steps turn by {found:.6g} half turns, not by {wanted}")
+    check_reduced(steps, counted)
+    return Resonance(axes, level, steps, counted)
+
+
+def _middle(
+    top: Top, near: tuple[Fraction, Fraction], axes: Axes, steps: int, progress: Callable[[str], None]
+) -> Fraction:
+    """The simplest level in the middle half of the plateau, with twice the precision until it is resolved."""
+    bits = math.ceil(-plateau.nome_power(top, near[0], axes, steps)) + spare_bits(steps)
+    while bits < MOST_DIGITS * 10 // 3:
+        progress(f"looking for {steps} steps around axis {axes[2] + 1} with {bits} bits")
+        with ctx.workprec(bits):
+            reduced = Reduced(top)
+            low, high = sorted(plateau.end_of_plateau(reduced, near, axes, zero, steps, bits) for zero in "ab")
+        if high - low > plateau.unit_in_last_place(low, bits - RESOLVED_BITS):
+            return plateau.simplest(low + (high - low) / 4, high - (high - low) / 4)
+        bits *= 2
+    raise BadInput(
+        f"the displacement after {steps} steps is not told from 0 with {MOST_DIGITS} digits; take fewer, or a larger D"
+    )
+
+
+def spare_bits(steps: int) -> int:
+    """How many bits beyond those of the numbers so many steps need."""
+    return STEP_BITS * steps + SPARE_BITS
+
+
+def check_reduced(steps: int, half_turns: int) -> None:
+    """Raises BadInput unless p/q is in lowest terms."""
+    if math.gcd(steps, half_turns) > 1:
+        raise BadInput(
+            f"{turns(half_turns)} in {steps} steps are fewer in fewer steps: divide both by the common factor"
+        )

@@ -1,0 +1,73 @@
+"""chapsym study: numerical evidence about the questions that the paper left open."""
+
+import json
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from .app import app
+from .options import Json
+from .output import fail, print_json, progress_bar
+
+#: The packages of chapsym.studies that offer study(quick, path, scheduler, report), sentences(found) and
+#: save_figures(found, folder).
+STUDIES = ("rotation", "energy", "chaos")
+
+
+@app.command()
+def study(
+    name: Annotated[str, typer.Argument(metavar="NAME", help=f"{', '.join(STUDIES)}.")],
+    quick: Annotated[bool, typer.Option("--quick", help="Fewer and coarser: a minute or two.")] = False,
+    output: Annotated[
+        Path | None,
+        typer.Option("-o", "--output", metavar="DIR", help="A folder for the data and figures; one left goes on."),
+    ] = None,
+    scheduler: Annotated[
+        str | None, typer.Option(metavar="ADDRESS", help="A Dask scheduler, such as tcp://host:8786.")
+    ] = None,
+    as_json: Json = False,
+) -> None:
+    """Measure: rotation numbers and plateaus of the reduced map, the energy of the full map, how much is chaotic.
+
+    With -o every unit of work is kept as it is done: the same command goes on after a kill.
+
+    Example: chapsym study rotation --quick -o open
+    """
+    from importlib import import_module
+
+    from chapsym.dynamics import BadInput
+    from chapsym.studies import units
+
+    if name not in STUDIES:
+        fail(f"there is no study {name!r}; there are {', '.join(STUDIES)}", 2)
+    module = import_module(f"chapsym.studies.{name}")
+    try:
+        folder = None if output is None else units.folder(output)
+        kept = None if folder is None else folder / f"{name}.jsonl"
+        with progress_bar(name, 0) as shown:
+            found = module.study(quick, kept, scheduler, shown)
+        written = [] if folder is None else _write(module, name, found, folder)
+    except BadInput as error:
+        fail(str(error), 2)
+    if as_json:
+        print_json(found)
+        return
+    for sentence in module.sentences(found):
+        print(sentence)
+    for path in written:
+        print(f"wrote {path}")
+
+
+def _write(module: Any, name: str, found: dict[str, Any], folder: Path) -> list[Path]:
+    """The data as JSON and the figures, each whole."""
+    from chapsym import files
+    from chapsym.dynamics import BadInput
+
+    try:
+        data = folder / f"{name}.json"
+        text = json.dumps(found, ensure_ascii=False, allow_nan=False, indent=1) + "\n"
+        files.write_whole(data, lambda stream: stream.write(text.encode()))
+    except files.CannotWrite as error:
+        raise BadInput(str(error)) from None
+    return [data, *module.save_figures(found, folder)]

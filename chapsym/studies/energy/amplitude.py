@@ -1,0 +1,110 @@
+"""The energy along runs of the map: its range, its drift with an error, and its change by a loop of a closed orbit.
+
+Functions of plain data: the units of the study.
+"""
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from chapsym.dynamics.ball import Floats
+
+from .continuous import Level
+from .resonance import closed_orbits, profile
+from .section import coordinates, crossings, state
+
+#: Steps that are kept at once.
+CHUNK = 1 << 17
+#: Parts of a run, whose averages the drift is fitted to.
+PARTS = 64
+
+
+def chunks(level: Level, K: Floats, g: Floats, epsilon: float, steps: int) -> Iterator[tuple[Floats, Floats]]:
+    """The states (K, γ) of a run, in chunks that begin with the last state of the one before."""
+    done = 0
+    while done < steps:
+        count = min(CHUNK, steps - done)
+        k, v = level.steps(K, g, epsilon, count)
+        yield k, v
+        K, g, done = k[-1], v[-1] / np.linalg.norm(v[-1]), done + count
+
+
+def amplitude(
+    ball: list[Any], theta: float, psi: float, epsilon: float, steps: int, vertical: bool = False
+) -> dict[str, float]:
+    """The range of H = energy/ε² over a run, and its drift, both relative to H at the start.
+
+    ball: the arguments of `Level`.  (θ, ψ): the start on the section; `vertical`: with K along γ instead.
+    drift, error: the slope of a line through the averages of PARTS equal parts, with smooth weights, times the length
+    of the run, and its standard error from the residuals.
+    """
+    level = Level(tuple(ball[0]), *ball[1:])
+    K, g = state(level, theta, psi)
+    K = level.size * g if vertical else K
+    H = np.concatenate([level.energy(k[1:], v[1:]) for k, v in chunks(level, K, g, epsilon, steps)])
+    first = float(level.energy(K, g))
+    slope, error = drift(H[: len(H) // PARTS * PARTS] / first - 1.0)
+    return {"epsilon": epsilon, "steps": steps, "range": float(np.ptp(H)) / first, "drift": slope, "error": error}
+
+
+def drift(H: Floats) -> tuple[float, float]:
+    """The rise of H over a run by a fitted line, and its standard error; (steps,), a multiple of PARTS."""
+    parts = H.reshape(PARTS, -1)
+    t = (np.arange(parts.shape[1]) + 1.0) / (parts.shape[1] + 1.0)
+    weights = np.exp(-1.0 / (t * (1.0 - t)))
+    averages = parts @ (weights / weights.sum())
+    x = (np.arange(PARTS) + 0.5) / PARTS - 0.5
+    slope = float(x @ averages / (x @ x))
+    left = averages - averages.mean() - slope * x
+    return slope, float(np.sqrt(left @ left / (PARTS - 2) / (x @ x)))
+
+
+def resonances(ball: list[Any], most: int, time: float, grid: int) -> list[dict[str, Any]]:
+    """The resonances of a level with closed orbits through ψ = 0, as plain data, the widest first."""
+    level = Level(tuple(ball[0]), *ball[1:])
+    found = [profile(level, 0.0, *orbit) for orbit in closed_orbits(level, 0.0, most, time, grid)]
+    return [
+        {
+            "ball": ball, "returns": r.returns, "theta": r.theta, "period": r.period, "energy": r.energy,
+            "loop": [float(f"{a:.4e}") for a in r.loop], "beta": r.beta, "start": list(r.start), "width": r.width,
+            "swing": r.swing, "libration": r.libration,
+        }
+        for r in sorted((r for r in found if r is not None), key=lambda r: -r.width)
+    ]  # fmt: skip
+
+
+def loop_change(ball: list[Any], theta: float, psi: float, period: float, counts: list[int]) -> list[dict[str, float]]:
+    """H(Gⁿx) - H(x), divided by ε² = (T/n)², for each n of `counts` that is not stopped by a fold."""
+    level = Level(tuple(ball[0]), *ball[1:])
+    K, g = state(level, theta, psi)
+    found = []
+    for n in counts:
+        epsilon = period / n
+        k, v = level.steps(K, g, epsilon, n)
+        change = float(level.energy(k[-1], v[-1]) - level.energy(K, g))
+        found.append({"epsilon": epsilon, "change": change / epsilon**2})
+    return found
+
+
+def island(ball: list[Any], theta: float, psi: float, epsilon: float, steps: int, most: int) -> dict[str, Any]:
+    """At most `most` points (ψ, H) of a run on the section, evenly taken, and the times of all, as the swing's period.
+
+    period: the steps between two upward passages of the mean of H, averaged; 0 if there are less than two.
+    """
+    level = Level(tuple(ball[0]), *ball[1:])
+    K, g = state(level, theta, psi)
+    psis, energies = [], []
+    for k, v in chunks(level, K, g, epsilon, steps):
+        _, kc, gc = crossings(k, v)
+        psis.append(coordinates(kc, gc)[1])
+        energies.append(level.energy(kc, gc))
+    where, H = np.concatenate(psis), np.concatenate(energies)
+    middle = (H.max() + H.min()) / 2
+    up = np.flatnonzero((H[:-1] < middle) & (H[1:] >= middle))
+    swing = float((up[-1] - up[0]) / (len(up) - 1) * steps / len(H)) if len(up) > 1 else 0.0
+    at = np.unique(np.linspace(0, len(H) - 1, min(most, len(H))).astype(int))
+    return {
+        "psi": [round(float(x), 4) for x in where[at]], "energy": [round(float(x), 8) for x in H[at]], "period": swing,
+        "range": float(np.ptp(H)),
+    }  # fmt: skip

@@ -1,0 +1,39 @@
+"""`chapsym study rotation`: what the reduced map with vertical momentum does where its rotation number is rational.
+
+All in half turns of a circle (π in the amplitude, 2K in u), with which the map commutes.
+"""
+
+from pathlib import Path
+from typing import Any
+
+from ..bench.harness import machine
+from ..units import Report, run_units
+from .figure import save_figures
+from .plan import units
+from .words import sentences
+
+__all__ = ["save_figures", "sentences", "study"]
+
+
+def study(
+    quick: bool, path: Path | None = None, scheduler: str | None = None, report: Report = lambda done, of: None
+) -> dict[str, Any]:
+    """All that is measured, as plain data; quick takes less than a minute.
+
+    path, scheduler, report: as `run_units`.  Raises BadInput as it does.
+    """
+    planned = units(quick)
+    results = iter(run_units([unit for section in planned.values() for unit in section], path, scheduler, report))
+    found: dict[str, Any] = {name: [next(results) for _ in section] for name, section in planned.items()}
+    return assembled(found, quick)
+
+
+def assembled(found: dict[str, Any], quick: bool) -> dict[str, Any]:
+    """The results of the units of each section as the data of the study."""
+    told = machine()
+    ball, top, plateaus = found["staircase"]
+    return {
+        "study": "rotation", "quick": quick,
+        "machine": {name: told[name] for name in ("cpu", "cores", "system", "python")}, **found,
+        "times": found["times"][0], "staircase": {"ball": ball, "top": {**top, "plateaus": plateaus}},
+    }  # fmt: skip

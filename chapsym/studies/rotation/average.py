@@ -1,0 +1,86 @@
+"""The rotation number of a level by weighted Birkhoff averages of the turned angle, and D = 0, where it is exact.
+
+The mean of φ~ - φ is that of any coordinate of the circle, so that no elliptic function is needed.
+"""
+
+from fractions import Fraction
+from typing import Any
+
+from flint import arb, ctx
+
+from chapsym.dynamics import BadInput
+
+from .circle import Level, middle, number
+from .plateau import decades, levels, text
+from .relation import Relation
+
+#: Digits beyond those that are asked for.
+SPARE = 10
+
+
+def weights(steps: int) -> list[Any]:
+    """exp(-1/(t(1-t))) at t = 1/(n+1), ..., n/(n+1) (Das and Yorke), of sum 1."""
+    found = []
+    for i in range(1, steps // 2 + 1):
+        t = arb(i) / (steps + 1)
+        found.append(middle((-1 / (t * (1 - t))).exp()))
+    odd = [middle(arb(-4).exp())] if steps % 2 else []
+    found = [*found, *odd, *reversed(found)]
+    total = middle(arb(1) / sum(found))
+    return [x * total for x in found]
+
+
+def angles(level: Level, steps: int) -> list[Any]:
+    """φ~ - φ of successive steps from φ = 0."""
+    gamma, found = level.point(arb(0)), []
+    for _ in range(steps):
+        after = level.step(gamma)
+        found.append(level.turned(gamma, after))
+        gamma = after
+    return found
+
+
+def mean(found: list[Any], steps: int) -> Any:
+    """The weighted average of the first so many angles, in half turns."""
+    return middle(sum(w * x for w, x in zip(weights(steps), found, strict=False)) / arb.pi())
+
+
+def convergence(tensor: list[Any], D: Any, height: Any, level: Any, counts: list[int], digits: int) -> dict[str, Any]:
+    """Averages over growing numbers of steps; errors from 15-euler for D = 0, else from the longest average.
+
+    Raises BadInput where there is no step.
+    """
+    with ctx.workdps(digits + SPARE):
+        at = Level(tensor, D, height, level)
+        found = angles(at, counts[-1])
+        means = [mean(found, n) for n in counts]
+        exact = number(D) == 0
+        best = middle(Relation(at).increment(arb(0)) / at.half) if exact else means[-1]
+        floor = arb(10) ** (-digits - SPARE)
+        errors = [max(abs(x - best), floor) for x in (means if exact else means[:-1])]
+        return {
+            "tensor": list(map(str, tensor)), "D": str(D), "height": str(height), "level": str(level),
+            "digits": digits + SPARE, "steps": counts if exact else counts[:-1], "exact": exact,
+            "rotation_number": text(best, digits if exact else min(digits, 1 - decades(errors[-1]))),
+            "errors": [text(x, 3) for x in errors],
+        }  # fmt: skip
+
+
+def row(tensor: list[Any], D: Any, height: Any, outer: bool, points: int, steps: int, digits: int) -> dict[str, Any]:
+    """[level, rotation number in half turns, its error] on levels of equal distance; None where the branch ends.
+
+    error: the distance to the average over half the steps, which is more than its own.
+    """
+    found: list[list[Any] | None] = []
+    with ctx.workdps(digits):
+        low, high = levels(tensor, D, outer)
+        for i in range(points):
+            l = low + (high - low) * (2 * i + 1) / (2 * points)
+            try:
+                turned = angles(Level(tensor, D, height, l), steps)
+            except BadInput:
+                found.append(None)
+                continue
+            whole, half = mean(turned, steps), mean(turned, steps // 2)
+            found.append([float(f"{float(l):.8g}"), text(whole, 25), float(f"{float(abs(whole - half)):.2g}")])
+    return {"tensor": list(map(str, tensor)), "D": str(D), "height": str(Fraction(height)), "row": found}

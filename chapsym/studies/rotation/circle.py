@@ -1,0 +1,178 @@
+"""A level of the reduced map at any precision: its circle, the step on the sphere, and the lift around the circle.
+
+Numbers are Arb's midpoints: nothing here is a proof (that is `chapsym certify`), the working digits are the caller's
+(flint's `ctx.workdps`).  Every level has its own sense: γ_b is reflected where that makes the motion positive, which
+commutes with the map's symmetries.
+"""
+
+from collections.abc import Sequence
+from fractions import Fraction
+from typing import Any, Self
+
+from flint import acb, arb, ctx, fmpq
+
+from chapsym.dynamics import BadInput
+from chapsym.dynamics.branch import TAKEN, small_rotation
+from chapsym.dynamics.gibbs import bound, search
+from chapsym.generated import gibbs_newton, turn
+
+Vector = tuple[Any, Any, Any]
+
+#: Bits of a float64 Newton root that Arb's iteration may count on.
+FIRST_BITS = 40
+
+
+def number(x: Any) -> Any:
+    """A fraction or decimal, as text or number, as an Arb midpoint."""
+    if isinstance(x, arb):
+        return middle(x)
+    x = Fraction(x)
+    return middle(arb(fmpq(x.numerator, x.denominator)))
+
+
+def middle(x: Any) -> Any:
+    """A ball without its radius."""
+    return arb(x.mid())
+
+
+def real(x: Any) -> Any:
+    """The midpoint of the real part."""
+    return middle(x.real)
+
+
+class Level:
+    """γ = (C_a cn u, C_b sn u, C_c dn u), the circle ⟨γ,Λ⁻¹γ⟩ = l around the axis c, and G_h on it.
+
+    tensor: J; D; height: h > 0; level: l, strictly between two of 1/Λ; kick: τ, by which a top is perturbed (`step`).
+    Phases φ are amplitudes, φ = am u, positive in the sense of the motion; half: 2K, a half turn in u.
+    Raises BadInput where l is no circle's.
+    """
+
+    def __init__(self, tensor: Sequence[Any], D: Any, height: Any, level: Any, kick: Any = 0) -> None:
+        J = [number(x) for x in tensor]
+        self.tensor, self.D, self.h, self.l, self.kick = J, number(D), number(height), number(level), number(kick)
+        self.I = (J[1] + J[2], J[0] + J[2], J[0] + J[1])
+        moments = [x + self.D for x in self.I]
+        a, b, c = sorted(range(3), key=lambda i: -float(moments[i]))
+        if not self.l > 1 / moments[b]:
+            a, c = c, a
+        La, Lb, Lc = self.moments = moments[a], moments[b], moments[c]
+        low, high = 1 - Lc * self.l, La * self.l - 1
+        squares = -La * low / (Lc - La), -Lb * low / (Lc - Lb), -Lc * high / (Lc - La)
+        if not all(x > 0 for x in squares):
+            raise BadInput(f"the level {float(self.l):.6g} is no circle around an axis")
+        self.axes = a, b, c
+        Ca, Cb, Cc = (middle(x.sqrt()) for x in squares)
+        # V of (5.13-V) is positive with this sign of C_b.
+        parity = 1 if (b - a) % 3 == 1 else -1
+        sense = parity if float(La) < float(Lc) else -parity
+        self.amplitudes = Ca, sense * Cb, Cc
+        self.m = middle((squares[1] - squares[0]) / squares[2])
+        if not 0 < self.m < 1:
+            raise BadInput(f"the level {float(self.l):.6g} is the separatrix, or two moments are equal")
+        self.K = real(acb(self.m).elliptic_k())
+        self.half = 2 * self.K
+        self.complement = real(acb(1 - self.m).elliptic_k())  # K'
+        self._floats = [float(x) for x in (*self.I, self.D)]
+        self._J = [float(x) for x in J]
+        h = float(self.h)
+        self._bound = bound(h / 2, 0.0, 0.0, *self._floats)
+
+    def at(self, **changed: Any) -> Self:
+        """The same with another level or height."""
+        given = {"tensor": self.tensor, "D": self.D, "height": self.h, "level": self.l, "kick": self.kick}
+        return type(self)(**{**given, **changed})
+
+    def point(self, phase: Any) -> Vector:
+        """γ at a phase."""
+        sine, gamma = phase.sin(), [arb(0)] * 3
+        values = phase.cos(), sine, (1 - self.m * sine * sine).sqrt()
+        for axis, size, value in zip(self.axes, self.amplitudes, values, strict=True):
+            gamma[axis] = middle(size * value)
+        return gamma[0], gamma[1], gamma[2]
+
+    def direction(self, gamma: Vector) -> tuple[Any, Any]:
+        """(cos φ, sin φ) of γ, up to a positive factor."""
+        a, b, _ = self.axes
+        return gamma[a] / self.amplitudes[0], gamma[b] / self.amplitudes[1]
+
+    def step(self, gamma: Vector) -> Vector:
+        """G_h(γ); for a perturbed top then φ is turned on to φ + τ sin 2φ on the same level."""
+        k = tuple(self.h * x / 2 for x in gamma)
+        u = self._root(k, gamma)
+        moved = tuple(middle(x + d) for x, d in zip(gamma, turn(1, *u, *gamma), strict=True))
+        return self._kicked(moved) if self.kick != 0 else moved  # type: ignore[return-value]
+
+    def _kicked(self, gamma: Any) -> Vector:
+        c, s = self.direction(gamma)
+        phase = arb.atan2(s, c)
+        return self.point(middle(phase + self.kick * (2 * phase).sin()))
+
+    def _root(self, k: Any, gamma: Vector) -> Any:
+        """The Gibbs vector: Newton's iteration in Arb from the float64 root on the small-rotation branch."""
+        u = tuple(map(arb, self._near([float(x) for x in k], [float(x) for x in gamma])))
+        bits = FIRST_BITS
+        while True:
+            p0, p1, p2, p3, *_ = gibbs_newton(*u, *k, *gamma, *self.I, self.D)
+            new = tuple(middle(p / p0) for p in (p1, p2, p3))
+            off = max(abs(float(x - y)) for x, y in zip(new, u, strict=True))
+            u, bits = new, 2 * bits
+            if bits >= ctx.prec:
+                break
+        if not off <= 2.0 ** -min(FIRST_BITS, ctx.prec // 2 - 4):
+            raise BadInput("Newton's iteration did not settle on the root of a step")
+        return u
+
+    def _near(self, k: list[float], gamma: list[float]) -> Any:
+        radius, enough = self._bound
+        if radius >= 0.0:
+            settled, *_, u1, u2, u3 = search(0.0, 0.0, 0.0, *k, *gamma, *self._floats, radius, enough)
+            if settled:
+                return u1, u2, u3
+        status, _, q0, *q = small_rotation(*(2 * x for x in k), *gamma, *self._J, self._floats[3])
+        if status != TAKEN or q0 < 1e-6:
+            raise BadInput(f"the small-rotation branch ends before the height {float(self.h):.6g}")
+        return tuple(x / q0 for x in q)
+
+    def turned(self, gamma: Vector, after: Vector) -> Any:
+        """The angle φ~ - φ between successive γ, in (-π, π)."""
+        (c, s), (x, y) = self.direction(gamma), self.direction(after)
+        return middle(arb.atan2(c * y - s * x, c * x + s * y))
+
+    def argument(self, phase: Any) -> Any:
+        """u = F(φ, m), going on from turn to turn."""
+        turns = round(float(phase) / 3.141592653589793)
+        rest = middle(phase - turns * arb.pi())
+        return middle(real(acb.elliptic_f(acb(rest), acb(self.m))) + turns * self.half)
+
+    def amplitude(self, u: Any) -> Any:
+        """φ = am u, by theta functions, going on from turn to turn."""
+        turns = round(float(u / self.half))
+        sn, cn, _ = self.jacobi(u - turns * self.half)
+        return middle(arb.atan2(sn, cn) + turns * arb.pi())
+
+    def jacobi(self, u: Any) -> tuple[Any, Any, Any]:
+        """sn, cn, dn of u, by theta functions."""
+        tau = acb(0, middle(self.complement / self.K))
+        zero = acb(0).modular_theta(tau)
+        theta = acb(u / self.half).modular_theta(tau)
+        t2, t3, t4 = (real(x) for x in zero[1:])
+        s1, s2, s3, s4 = (real(x) for x in theta)
+        return middle(t3 * s1 / (t2 * s4)), middle(t4 * s2 / (t2 * s4)), middle(t4 * s3 / (t3 * s4))
+
+    def lift(self, phase: Any, steps: int) -> Any:
+        """The phase after so many steps, going on from turn to turn."""
+        gamma, total = self.point(phase), float(phase)
+        for _ in range(steps):
+            after = self.step(gamma)
+            total += float(self.turned(gamma, after))
+            gamma = after
+        c, s = self.direction(gamma)
+        end = middle(arb.atan2(s, c))
+        return end + 2 * arb.pi() * round((total - float(end)) / 6.283185307179586)
+
+    def displacement(self, phase: Any, steps: int, half_turns: int) -> Any:
+        """(G^q(u) - u)/2K - p, in half turns, of the orbit that starts at a phase."""
+        start = number(phase)
+        moved = self.argument(self.lift(start, steps)) - self.argument(start)
+        return middle(moved / self.half - half_turns)

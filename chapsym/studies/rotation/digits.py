@@ -1,0 +1,64 @@
+"""Which digits a plateau needs, and what a step costs at so many digits."""
+
+from collections.abc import Sequence
+from statistics import median
+from time import perf_counter
+from typing import Any
+
+from flint import arb, ctx
+
+from chapsym.dynamics import BadInput
+
+from .circle import Level, number
+from .plateau import decades, plateau, symmetric_starts
+
+#: Digits above those that the displacement has, from which the search for the fewest goes down; and where it ends.
+ABOVE, FEWEST = 15, 4
+#: Steps that are timed together, and how often.
+TIMED, REPEATS = 60, 5
+
+
+def measured(
+    tensor: Sequence[Any], D: Any, height: Any, steps: int, turns: int, outer: bool = True, in_height: bool = False
+) -> dict[str, Any]:
+    """`plateau`, with the fewest working digits at which it is seen."""
+    found = plateau(tensor, D, height, steps, turns, outer, in_height)
+    return {**found, "needed": needed(found)}
+
+
+def needed(found: dict[str, Any]) -> int:
+    """The fewest digits from which on the two displacements are seen: each off by less than half of it."""
+    digits = ABOVE - decades(abs(number(found["displacement"][0])))
+    while digits > FEWEST and seen(found, digits - 1):
+        digits -= 1
+    return digits
+
+
+def seen(found: dict[str, Any], digits: int) -> bool:
+    """Whether both symmetric orbits are displaced as they should be, computed with so many digits."""
+    with ctx.workdps(digits):
+        level = Level(found["tensor"], found["D"], found["height"], found["level"])
+        steps, turns = found["steps"], found["half_turns"]
+        try:
+            got = [level.displacement(x, steps, turns) for x in symmetric_starts(level, steps)]
+        except BadInput:  # the secant method has no digits left for the second start
+            return False
+    true = [number(x) for x in found["displacement"]]
+    return all(abs(x - y) < abs(y) / 2 for x, y in zip(got, true, strict=True))
+
+
+def times(tensor: Sequence[Any], D: Any, height: Any, level: Any, digits: Sequence[int]) -> list[dict[str, Any]]:
+    """Seconds of a step on the sphere at so many digits: the median of some runs."""
+    found = []
+    for n in digits:
+        with ctx.workdps(n):
+            at = Level(tensor, D, height, level)
+            found.append({"digits": n, "seconds": float(f"{median(_run(at) for _ in range(REPEATS)):.3g}")})
+    return found
+
+
+def _run(level: Level) -> float:
+    gamma, start = level.point(arb(1)), perf_counter()
+    for _ in range(TIMED):
+        gamma = level.step(gamma)
+    return (perf_counter() - start) / TIMED

@@ -1,0 +1,182 @@
+"""Figures of the plateaus: the staircase, their widths with the law, and the digits that they need."""
+
+from typing import Any
+
+import numpy as np
+
+from .drawn_circle import continued
+from .figure import BLUE, COLOURS, GREEN, GREY, RED, decimal, log10, named, panels
+
+#: float64's roundings, beside 1.
+FLOAT64 = -15.95
+
+
+def staircase(found: dict[str, Any]) -> Any:
+    """ρ(l) of the ball and of the perturbed top; below, the widths of their plateaus on one logarithmic scale."""
+    figure, axes = panels(2, 2, sharex="col")
+    ball, top = found["staircase"]["ball"], found["staircase"]["top"]
+    widths = [(x["half_turns"], x["steps"], log10(x["width"])) for x in found["farey"]]
+    for axis, case, colour in ((axes[0], ball, BLUE), (axes[1], top, RED)):
+        axis.plot(case["levels"], case["rotation_numbers"], color=colour)
+        axis.tick_params(labelbottom=True)
+        axis.set(ylim=(0, None), xlabel="level l", ylabel="ρ, half turns a step")
+    axes[0].set(title=f"Ball, {named(ball)}")
+    axes[1].set(title=f"Top, {named(top)}, φ kicked by {decimal(top['kick'])} sin 2φ")
+    _inset(axes[0], found)
+    _steps(axes[1], top)
+    seen = [
+        (p["half_turns"], p["steps"], sum(p["edges"]) / 2, np.log10(p["edges"][1] - p["edges"][0]))
+        for p in top["plateaus"] if p["edges"][1] - p["edges"][0] > 1e-14
+    ]  # fmt: skip
+    _stems(axes[2], [(p, q, float(x["level"]), w) for (p, q, w), x in zip(widths, found["farey"], strict=True)], BLUE)
+    _stems(axes[3], seen, RED)
+    for axis in axes[2:]:
+        axis.axhline(FLOAT64, color="0.35", linestyle=":", linewidth=1.3)
+        axis.set(ylim=(-_floor(widths), 1), xlabel="level l", ylabel="$\\log_{10}$ width of the plateau in l")
+    axes[2].text(
+        0.99, FLOAT64 + 0.8, "float64 is blind below", transform=axes[2].get_yaxis_transform(), ha="right", color="0.3",
+        fontsize=9.5,
+    )  # fmt: skip
+    return figure
+
+
+def _floor(widths: list[tuple[int, int, float]]) -> float:
+    return 10.0 * np.ceil(-min(w for *_, w in widths) / 10 + 0.2)
+
+
+def _steps(axis: Any, top: dict[str, Any]) -> None:
+    """The plateaus of the top, drawn thick, and the names of the widest."""
+    named_ones = sorted(top["plateaus"], key=lambda p: p["edges"][0] - p["edges"][1])[:6]
+    for p in top["plateaus"]:
+        rho = p["half_turns"] / p["steps"]
+        axis.plot(p["edges"], [rho, rho], color="black", linewidth=2.4, solid_capstyle="butt")
+    for p in named_ones:
+        rho, middle = p["half_turns"] / p["steps"], sum(p["edges"]) / 2
+        axis.annotate(
+            f"{p['half_turns']}/{p['steps']}",
+            (middle, rho),
+            (-6, 3),
+            textcoords="offset points",
+            ha="right",
+            fontsize=9.5,
+        )
+
+
+def _inset(axis: Any, found: dict[str, Any]) -> None:
+    """The plateau at 1/8, magnified until it is seen: G⁸ is next to the identity there, the time of a flow."""
+    case = next(x for x in found["displacement"] if x["steps"] == 8)
+    slope = next(float(x["slope"]) for x in found["farey"] if (x["half_turns"], x["steps"]) == (1, 8))
+    power = int(np.floor(max(log10(x) for x in case["values"])))
+    _, d = continued(case, power)
+    d = d[:-1]
+    size = 3 * (d.max() - d.min())
+    shifts = np.linspace(-size, size, 801)
+    # The rotation number of u ↦ u + d(u) for a small d > 0 is the harmonic mean of d.
+    means = [0.0 if (d + s).min() * (d + s).max() <= 0 else 1 / np.mean(1 / (d + s)) for s in shifts]
+    inset = axis.inset_axes((0.56, 0.14, 0.42, 0.37))
+    inset.plot(shifts / slope, np.array(means) / 8, color=BLUE)
+    inset.set_xlabel(f"$l-l_0$, $10^{{{power}}}$", fontsize=9, labelpad=1)
+    inset.set_ylabel(f"$\\rho-1/8$, $10^{{{power}}}$", fontsize=9, labelpad=1)
+    inset.tick_params(labelsize=8)
+    inset.text(0.04, 0.86, "the plateau at 1/8", transform=inset.transAxes, fontsize=9)
+    middle = float(case["level"])
+    axis.plot([middle], [1 / 8], "o", color="black", markersize=4.5)
+    axis.annotate("1/8", (middle, 1 / 8), (-6, 4), textcoords="offset points", ha="right", fontsize=9.5)
+
+
+def _stems(axis: Any, seen: list[tuple[int, int, float, float]], colour: str) -> None:
+    for p, q, level, width in seen:
+        axis.plot([level, level], [-200, width], color=colour, linewidth=1.1, alpha=0.35)
+        axis.plot([level], [width], "o", color=colour, markersize=4)
+        if q <= 10 or (p > 1 and q <= 17):
+            axis.annotate(f"{p}/{q}", (level, width), (0, 5), textcoords="offset points", ha="center", fontsize=8.5)
+
+
+def widths(found: dict[str, Any]) -> Any:
+    """Widths against q near one rotation number, with the law; against D; and what is measured beside the law."""
+    figure, axes = panels(2, 2)
+    _against_q(axes[0], found["fifth"])
+    _against_D(axes[1], axes[3], found["small_D"])
+    _one_half_turn(axes[2], found["turns"])
+    return figure
+
+
+def _against_q(axis: Any, found: list[dict[str, Any]]) -> None:
+    contacts = list(dict.fromkeys(x["D"] for x in found))
+    for D, colour, marker in zip(contacts, COLOURS, "osD^v", strict=False):
+        rows = sorted((x for x in found if x["D"] == D), key=lambda x: x["steps"])
+        q = [x["steps"] for x in rows]
+        axis.plot(q, [log10(x["width"]) for x in rows], marker, color=colour, markersize=4.5, label=f"D = {D}")
+        if contacts[0] == D:
+            axis.plot(q, [log10(x["law"]) for x in rows], color=colour, linewidth=1, label=f"law, D = {D}")
+    axis.axhline(FLOAT64, color="0.35", linestyle=":", linewidth=1.2)
+    axis.set(
+        xlabel="q", ylabel="$\\log_{10}$ width in l", title=f"p/q next to 1/5, {named(found[0], 'J', 'h')}",
+    )  # fmt: skip
+    axis.legend(loc="lower left")
+
+
+def _against_D(axis: Any, below: Any, found: list[dict[str, Any]]) -> None:
+    from fractions import Fraction
+
+    for q, colour, marker in zip(sorted({x["steps"] for x in found}), COLOURS, "osD^", strict=False):
+        rows = sorted((x for x in found if x["steps"] == q), key=lambda x: Fraction(x["D"]))
+        D = [float(Fraction(x["D"])) for x in rows]
+        axis.plot(D, [log10(x["width"]) for x in rows], marker, color=colour, markersize=4.5, label=f"p/q = 1/{q}")
+        axis.plot(D, [log10(x["law"]) for x in rows], color=colour, linewidth=1)
+        below.plot(D, [1 - x["ratio"] for x in rows], marker + "-", color=colour, markersize=4, linewidth=0.8)
+        if q == min(x["steps"] for x in found):
+            small = np.array([D[0], D[-1]])
+            below.plot(small, (1 - rows[0]["ratio"]) * small / D[0], "--", color=GREY, linewidth=1, label="∝ D")
+    axis.set(
+        xscale="log", xlabel="D", ylabel="$\\log_{10}$ width in l",
+        title=f"Widths against D, {named(found[0], 'J', 'h')}; lines: the law",
+    )  # fmt: skip
+    axis.legend(loc="lower right")
+    below.set(
+        xscale="log", yscale="log", xlabel="D", ylabel="1 - measured / law", title="What the law leaves for D → 0"
+    )
+    below.legend(loc="lower right")
+
+
+def _one_half_turn(axis: Any, found: list[dict[str, Any]]) -> None:
+    cases = list(dict.fromkeys(named(x) for x in found))
+    for case, colour, marker in zip(cases, COLOURS, "osD^", strict=False):
+        rows = [x for x in found if named(x) == case]
+        axis.plot(
+            [x["steps"] for x in rows], [log10(x["width"]) for x in rows], marker + "-", color=colour, markersize=4,
+            linewidth=0.8, label=case,
+        )  # fmt: skip
+    axis.axhline(FLOAT64, color="0.35", linestyle=":", linewidth=1.2)
+    axis.text(
+        0.99, FLOAT64 + 0.6, "float64", transform=axis.get_yaxis_transform(), ha="right", color="0.3", fontsize=9.5
+    )
+    axis.set(xlabel="q", ylabel="$\\log_{10}$ width in l", title="One half turn in q steps, h fixed")
+    axis.legend(loc="lower right", fontsize=8.5)
+
+
+def digits(found: dict[str, Any]) -> Any:
+    """The digits at which each plateau is first seen, and the time of a step at so many digits."""
+    figure, axes = panels(1, 2, height=4.2)
+    seen = [(-log10(x["displacement"][0]), x["needed"]) for name in ("turns", "fifth", "farey") for x in found[name]]
+    far = max(x for x, _ in seen) * 1.04
+    axes[0].fill_between([0, far], 0, 15.95, color=GREEN, alpha=0.10, linewidth=0)
+    axes[0].text(far * 0.98, 8, "float64 can see", ha="right", va="center", color=GREEN)
+    axes[0].plot([0, far], [0, far], color=GREY, linewidth=0.9)
+    axes[0].plot(*zip(*seen, strict=True), "o", color=BLUE, markersize=4)
+    axes[0].set(
+        xlabel="$-\\log_{10}$ |displacement of $G^q$|, in half turns", ylabel="working digits needed", xlim=(0, far),
+        ylim=(0, far), title=f"Digits at which {len(seen)} plateaus are seen",
+    )  # fmt: skip
+    rows = found["times"]
+    axes[1].plot([x["digits"] for x in rows], [x["seconds"] * 1e6 for x in rows], "o-", color=RED, markersize=5)
+    axes[1].set(
+        xscale="log", yscale="log", xlabel="working digits", ylabel="µs a step", title="What a step costs in Arb",
+    )  # fmt: skip
+    from matplotlib.ticker import NullFormatter, ScalarFormatter
+
+    axes[1].set_xticks([x["digits"] for x in rows if x["digits"] in (15, 30, 60, 120, 240, 400, 1000)])
+    axes[1].xaxis.set_major_formatter(ScalarFormatter())
+    axes[1].xaxis.set_minor_formatter(NullFormatter())
+    axes[1].set_ylim(bottom=10)
+    return figure

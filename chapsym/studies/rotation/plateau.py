@@ -1,0 +1,152 @@
+"""The plateau of a rational rotation number: its edges in l and in h, the displacement in its middle, and the law.
+
+The reflections γ_a → -γ_a and γ_b → -γ_b, R, reverse G_h: RGR = G⁻¹.  A symmetric q-periodic orbit has multiplier 1, so
+that the edges of a plateau are where the symmetric orbits close: for odd q those of u = 0 and u = K, for even q those
+of u = 0 and of the chord whose mean is ū = 0.
+"""
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from flint import arb, ctx
+
+from chapsym.dynamics import BadInput
+
+from .circle import Level, middle, number
+from .relation import Relation
+
+#: Digits by which the level is known better than the plateau is wide, and the fewest digits.
+SPARE, FEWEST = 25, 50
+#: Digits at which a level is looked for, and the points of the search, more of them next to the separatrix.
+COARSE, SEARCHED = 20, 48
+MOST_ROUNDS = 40
+
+
+def text(x: Any, digits: int = 12) -> str:
+    """A number in decimal."""
+    return str(middle(x).str(digits, radius=False))
+
+
+def decades(x: Any) -> int:
+    """The decimal logarithm of a positive number, rounded down."""
+    return int(float(x.log()) // 2.302585092994046)
+
+
+def solved(function: Callable[[Any], Any], first: Any, second: Any) -> Any:
+    """A root by the secant method, to the working digits."""
+    a, b = number(first), number(second)
+    fa = function(a)
+    for _ in range(MOST_ROUNDS):
+        fb = function(b)
+        if fb == fa or abs(fb) < arb(2) ** (6 - ctx.prec):
+            return b
+        a, b, fa = b, middle(b - fb * (b - a) / (fb - fa)), fb
+        if abs(b - a) < abs(b) * arb(2) ** (4 - ctx.prec):
+            return b
+    raise BadInput("the secant method did not settle on a resonance")
+
+
+def symmetric_starts(level: Level, steps: int) -> tuple[Any, Any]:
+    """The phases of the two symmetric orbits of q steps."""
+    if steps % 2:
+        return arb(0), middle(arb.pi() / 2)
+
+    def closed(phase: Any) -> Any:
+        return level.lift(phase, 1) + phase
+
+    guess = -level.lift(arb(0), 1) / 2
+    return arb(0), solved(closed, guess, guess * arb("0.99"))
+
+
+def levels(tensor: Sequence[Any], D: Any, outer: bool) -> tuple[Any, Any]:
+    """The range of l: (1/Λ_b, greatest 1/Λ) if outer, else (least 1/Λ, 1/Λ_b)."""
+    J = [number(x) for x in tensor]
+    inverse = sorted((1 / (sum(J) - x + number(D)) for x in J), key=float)
+    return (inverse[1], inverse[2]) if outer else (inverse[0], inverse[1])
+
+
+def bracket(tensor: Sequence[Any], D: Any, height: Any, steps: int, turns: int, outer: bool, kick: Any = 0) -> Any:
+    """Two levels near each other between which the rotation number passes p/q, found at few digits."""
+
+    def off(l: Any) -> Any:
+        return Level(tensor, D, height, l, kick).displacement(0, steps, turns)
+
+    low, high = levels(tensor, D, outer)
+    before = None
+    for i in range(1, SEARCHED):
+        l = low + (high - low) * i * i / SEARCHED**2 if outer else high - (high - low) * i * i / SEARCHED**2
+        try:
+            here = off(l)
+        except BadInput:  # the branch has ended, or the step turns too far
+            before = None
+            continue
+        if before is not None and (before[1] > 0) != (here > 0):
+            return _closer(off, *before, l)
+        before = l, here
+    raise BadInput(f"no level has the rotation number {turns}/{steps} half turns")
+
+
+def _closer(off: Callable[[Any], Any], a: Any, at_a: Any, b: Any) -> tuple[Any, Any]:
+    for _ in range(8):
+        c = middle((a + b) / 2)
+        at_c = off(c)
+        a, at_a, b = (c, at_c, b) if (at_c > 0) == (at_a > 0) else (a, at_a, c)
+    return a, b
+
+
+def resonance(
+    tensor: Sequence[Any], D: Any, height: Any, steps: int, turns: int, outer: bool = True, kick: Any = 0
+) -> tuple[Any, Any, int]:
+    """(l, width by the law, digits to work with) near a resonance, at few digits."""
+    with ctx.workdps(COARSE):
+        ends = bracket(tensor, D, height, steps, turns, outer, kick)
+
+        def off(l: Any) -> Any:
+            return Level(tensor, D, height, l, kick).displacement(0, steps, turns)
+
+        l = solved(off, *ends)
+        slope = (off(ends[1]) - off(ends[0])) / (ends[1] - ends[0])
+    if number(D) == 0:
+        return l, arb(0), FEWEST
+    with ctx.workdps(FEWEST):
+        width = 2 * Relation(Level(tensor, D, height, l)).law(steps, turns) / abs(slope)
+    return l, width, max(FEWEST, SPARE - decades(width))
+
+
+def plateau(
+    tensor: Sequence[Any], D: Any, height: Any, steps: int, turns: int, outer: bool = True, in_height: bool = False
+) -> dict[str, Any]:
+    """Edges, middle, displacement and law of one plateau; numbers as decimal strings.
+
+    width: in l; width_in_height: in h at the middle level; displacement: that of the symmetric orbits in the middle, in
+    half turns, (even q: of u = 0 and of the mean chord); law: the width that the law predicts; digits: worked with.
+    """
+    near, _, digits = resonance(tensor, D, height, steps, turns, outer)
+    with ctx.workdps(digits):
+
+        def off(which: int, **changed: Any) -> Any:
+            level = Level(**{"tensor": tensor, "D": D, "height": height, "level": near, **changed})
+            return level.displacement(symmetric_starts(level, steps)[which], steps, turns)
+
+        nudge = number(near) * (1 + arb(10) ** (5 - COARSE))
+        edges = [solved(lambda l, w=which: off(w, level=l), near, nudge) for which in (0, 1)]
+        width, centre = abs(edges[1] - edges[0]), middle((edges[0] + edges[1]) / 2)
+        far = centre * (1 + arb(10) ** (-digits // 3))
+        slope = (off(0, level=far) - off(0, level=centre)) / (far - centre)
+        level = Level(tensor, D, height, centre)
+        law = 2 * Relation(level).law(steps, turns) / abs(slope)
+        found = {
+            "tensor": list(map(str, tensor)), "D": str(D), "height": str(height), "outer": outer, "steps": steps,
+            "half_turns": turns, "digits": digits, "level": text(centre, digits - 5), "width": text(width),
+            "displacement": [text(off(w, level=centre)) for w in (0, 1)], "slope": text(slope), "law": text(law),
+            "ratio": float(width / law) if law > 0 else None, "modulus": float(level.m.sqrt()),
+            "eta": float(arb.pi() * level.complement / level.K),
+        }  # fmt: skip
+        if in_height:
+            h = number(height)
+            there = [
+                solved(lambda x, w=which: off(w, level=centre, height=x), h, h * (1 + arb(10) ** (5 - COARSE)))
+                for which in (0, 1)
+            ]
+            found["width_in_height"] = text(abs(there[1] - there[0]))
+    return found

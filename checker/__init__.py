@@ -1,0 +1,46 @@
+"""A small checker of certificates: the standard library only, and nothing of the rest of chapsym.
+
+    from chapsym.checker import check, read        or        python checker FILE...  in the folder of the repository
+    verdict = check(read("proofs/certificates/….json"))
+
+To be read in this order: interval.py (arithmetic), linear.py (elimination, Newton's test), step.py (the map), then
+measure.py and orbit.py (what a certificate says and why it is proved), document.py (the form of a file).
+"""
+
+from dataclasses import dataclass
+from typing import Any
+
+from . import measure, orbit
+from .document import FORMAT, Unreadable, digest, read
+from .interval import Rejected
+
+__all__ = ["Rejected", "Unreadable", "Verdict", "check", "digest", "read", "statement"]
+
+KINDS = {"no-invariant-measure": measure, "periodic-orbit": orbit}
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """An accepted certificate: its kind, the theorem that it proves in one sentence, and numbers that were proved."""
+
+    kind: str
+    statement: str
+    numbers: dict[str, str]
+
+
+def statement(data: dict[str, Any]) -> str:
+    """The sentence that a certificate with these numbers must have as its "statement"."""
+    return KINDS[data["kind"]].statement(data)
+
+
+def check(data: dict[str, Any]) -> Verdict:
+    """The verdict on a certificate; raises Rejected, with one sentence, unless its statement is proved."""
+    kind = data.get("kind") if isinstance(data, dict) else None
+    if not isinstance(kind, str) or kind not in KINDS or data.get("format") != FORMAT:
+        raise Rejected(f"not a certificate of format {FORMAT} and of kind {' or '.join(KINDS)}")
+    KINDS[kind].check_form(data)
+    if data["statement"] != statement(data):
+        raise Rejected("the statement is not the one that the numbers make")
+    if data["digest"] != digest(data):
+        raise Rejected("the digest is not that of the file: something in it was changed")
+    return Verdict(kind, data["statement"], KINDS[kind].check(data))

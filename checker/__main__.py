@@ -1,0 +1,43 @@
+"""python -m chapsym.checker FILE..., or python checker FILE... with nothing installed: exit 0, 1 (rejected) or 2."""
+
+import argparse
+import json
+import runpy
+import sys
+from pathlib import Path
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Judges files: 0 if all are accepted, 1 if one is rejected, 2 if one cannot be read."""
+    from . import Rejected, Unreadable, check, read
+
+    parser = argparse.ArgumentParser(prog="checker", description="Checks certificates, with the standard library only.")
+    parser.add_argument("files", nargs="+", metavar="FILE")
+    parser.add_argument("--json", action="store_true", help="one JSON object on standard output")
+    options = parser.parse_args(arguments)
+    found, worst = [], 0
+    for file in options.files:
+        try:
+            verdict = check(read(file))
+        except (Rejected, Unreadable) as error:
+            worst = max(worst, 1 if isinstance(error, Rejected) else 2)
+            found.append({"file": file, "accepted": False, "reason": str(error)})
+            print(f"{file}: {'rejected' if isinstance(error, Rejected) else 'unreadable'}: {error}", file=sys.stderr)
+            continue
+        found.append({"file": file, "accepted": True, **vars(verdict)})
+        if not options.json:
+            print(f"{file}: accepted ({verdict.kind})\n  Proved: {verdict.statement}")
+            print(*(f"  {name}: {value}" for name, value in verdict.numbers.items()), sep="\n")
+    if options.json:
+        print(json.dumps({"certificates": found}, ensure_ascii=False, indent=1))
+    return worst
+
+
+if __name__ == "__main__":
+    if not __package__:  # run as a folder: start again as a package, so that the files find each other
+        sys.path[0] = str(Path(__file__).resolve().parent.parent)
+        runpy.run_module("checker", run_name="__main__", alter_sys=True)
+    else:
+        for stream in (sys.stdout, sys.stderr):
+            stream.reconfigure(errors="backslashreplace")  # type: ignore[union-attr]  # for a terminal without Greek
+        sys.exit(main())

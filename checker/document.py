@@ -1,0 +1,111 @@
+"""The file: read, its digest, and its numbers, each of which can be written in one way only."""
+
+import hashlib
+import json
+import re
+from collections.abc import Sequence
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+from .interval import Interval, Rejected
+
+FORMAT = "chapsym-certificate/1"
+#: Most digits and steps of a certificate: what a reader can wait for.
+MOST_DIGITS, MOST_STEPS = 2_000, 1_000
+_EXACT = re.compile(r"-?\d+(/\d+|(\.\d+)?(e-?\d{1,3})?)", re.ASCII)
+_DECIMAL = re.compile(r"-?(0|[1-9]\d*)\.\d+", re.ASCII)
+
+
+class Unreadable(Exception):
+    """There is no JSON object to judge; the message says why in one sentence."""
+
+
+def read(path: str | Path) -> dict[str, Any]:
+    """The object of a JSON file; raises Unreadable, or Rejected for a name that stands twice in an object."""
+    try:
+        data = json.loads(Path(path).read_text(encoding="utf-8"), object_pairs_hook=_once)
+    except OSError as error:
+        raise Unreadable(f"{path} cannot be read: {error.strerror or error}") from None
+    except (ValueError, RecursionError):  # not UTF-8, not JSON, a number of too many digits, too deep
+        raise Unreadable(f"{path} is not a JSON file") from None
+    if not isinstance(data, dict):
+        raise Unreadable(f"{path} does not contain a JSON object")
+    return data
+
+
+def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    data = dict(pairs)
+    if len(data) < len(pairs):
+        raise Rejected("a name stands twice in one object")
+    return data
+
+
+def digest(data: dict[str, Any]) -> str:
+    """SHA-256 of everything but "digest": JSON with sorted names, without spaces, in ASCII."""
+    rest = {name: value for name, value in data.items() if name != "digest"}
+    return hashlib.sha256(json.dumps(rest, sort_keys=True, separators=(",", ":")).encode("ascii")).hexdigest()
+
+
+def check_names(data: Any, names: str, where: str) -> None:
+    """Raises Rejected unless `data` is an object with these names and no others."""
+    if not isinstance(data, dict) or set(data) != set(names.split()):
+        raise Rejected(f"{where} must have exactly the names {', '.join(names.split())}")
+
+
+def listed(data: Any, length: int, where: str) -> list[Any]:
+    """A list of this length."""
+    if not isinstance(data, list) or len(data) != length:
+        raise Rejected(f"{where} must be a list of {length}")
+    return data
+
+
+def count(value: Any, least: int, most: int, where: str) -> int:
+    """An integer from `least` to `most`."""
+    if type(value) is not int or not least <= value <= most:
+        raise Rejected(f"{where} must be an integer from {least} to {most}")
+    return value
+
+
+def exact(text: Any, where: str) -> Fraction:
+    """A rational number such as 12/5, -3, 0.25 or 1e-90."""
+    fits = isinstance(text, str) and len(text) <= MOST_DIGITS + 10 and _EXACT.fullmatch(text)
+    if not fits or (text[0] == "-" and not text.partition("e")[0].strip("-0.")):
+        raise Rejected(f"{where} must be a number in quotes such as 12/5, -3, 0.25 or 1e-90")
+    try:
+        return Fraction(text)
+    except ZeroDivisionError:
+        raise Rejected(f"{where} divides by 0") from None
+
+
+def decimal(text: Any, digits: int, where: str) -> Fraction:
+    """A decimal with exactly `digits` digits after the point, in its only form: no leading 0, no -0."""
+    fits = isinstance(text, str) and len(text) <= digits + 12 and _DECIMAL.fullmatch(text)
+    if not fits or len(text.partition(".")[2]) != digits or (text[0] == "-" and not text.strip("-0.")):
+        raise Rejected(f"{where} must be a decimal in quotes with {digits} digits after the point")
+    return Fraction(text)
+
+
+def decimals(data: Any, digits: int, where: str) -> list[Fraction]:
+    """Three of them."""
+    return [decimal(x, digits, where) for x in listed(data, 3, where)]
+
+
+def check_rounded(true: Sequence[Interval], given: Sequence[Fraction], digits: int, where: str) -> None:
+    """Raises Rejected unless each number of the file is the true one, correctly rounded, for all parameters.
+
+    Two decimals of as many digits cannot both be that: no digit can be changed.
+    """
+    for x, number in zip(true, given, strict=True):
+        if not x.rounds_to(number, digits):
+            raise Rejected(f"{where} is not proved to be rounded correctly to {digits} digits after the point")
+
+
+def scale(digits: int, steps: int, parameters: Sequence[Fraction]) -> int:
+    """The bits that the checker works with; too few could only refuse.
+
+    The digits; 8 for what a step widens on the way there and in what follows from the end; 4 for each power of 2 in the
+    greatest or least parameter; 128 for a matrix close to singular and to decide the rounding.
+    """
+    size = max(abs(x.numerator.bit_length() - x.denominator.bit_length()) for x in parameters if x)
+    return -(-10 * digits // 3) + 8 * steps + 4 * size + 128

@@ -1,0 +1,126 @@
+"""Intervals in integers: [lo, hi]·2^-bits, every result rounded outward.
+
+The one property that everything rests on: if x lies in X and y in Y, then x∘y lies in X∘Y, ∘ = + - * /, and √x in √X.
+Sums are exact; a product, a quotient or a root is rounded down at the lower end and up at the upper end, by integer
+arithmetic alone (`>>` and `//` round down, also for negative numbers).  No floating-point number occurs.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from math import isqrt
+
+
+class Rejected(Exception):
+    """The certificate proves nothing; the message says why in one sentence."""
+
+
+class Interval:
+    """The real numbers from lo·2^-bits to hi·2^-bits; `lo`, `hi`, `bits` are integers."""
+
+    __slots__ = ("bits", "hi", "lo")
+
+    def __init__(self, lo: int, hi: int, bits: int):
+        self.lo, self.hi, self.bits = lo, hi, bits
+
+    @classmethod
+    def enclosing(cls, lo: Fraction, hi: Fraction, bits: int) -> Interval:
+        """The least interval of these bits that contains lo ≤ x ≤ hi."""
+        return cls((lo.numerator << bits) // lo.denominator, -((-hi.numerator << bits) // hi.denominator), bits)
+
+    def _of(self, other: Interval | int) -> Interval:
+        """An integer as an interval, exactly; an interval as it is, if the scales agree."""
+        if isinstance(other, int):
+            return Interval(other << self.bits, other << self.bits, self.bits)
+        if other.bits != self.bits:
+            raise TypeError("intervals of different scales")
+        return other
+
+    def __neg__(self) -> Interval:
+        return Interval(-self.hi, -self.lo, self.bits)
+
+    def __add__(self, other: Interval | int) -> Interval:
+        other = self._of(other)
+        return Interval(self.lo + other.lo, self.hi + other.hi, self.bits)
+
+    def __sub__(self, other: Interval | int) -> Interval:
+        other = self._of(other)
+        return Interval(self.lo - other.hi, self.hi - other.lo, self.bits)
+
+    def __mul__(self, other: Interval | int) -> Interval:
+        other = self._of(other)
+        ends = [x * y for x in (self.lo, self.hi) for y in (other.lo, other.hi)]
+        return Interval(min(ends) >> self.bits, -(-max(ends) >> self.bits), self.bits)
+
+    def __truediv__(self, other: Interval | int) -> Interval:
+        other = self._of(other)
+        if other.lo <= 0 <= other.hi:
+            raise Rejected("a number that is divided by is not proved to differ from 0")
+        pairs = [(x << self.bits, y) for x in (self.lo, self.hi) for y in (other.lo, other.hi)]
+        return Interval(min(x // y for x, y in pairs), max(-(-x // y) for x, y in pairs), self.bits)
+
+    __radd__ = __add__
+    __rmul__ = __mul__
+
+    def __rsub__(self, other: int) -> Interval:
+        return -self + other
+
+    def __rtruediv__(self, other: int) -> Interval:
+        return self._of(other) / self
+
+    def sqrt(self) -> Interval:
+        """The root of every number of an interval of positive numbers."""
+        if self.lo <= 0:
+            raise Rejected("a number under a root is not proved to be positive")
+        below, above = isqrt(self.lo << self.bits), self.hi << self.bits
+        return Interval(below, isqrt(above - 1) + 1, self.bits)
+
+    def __lt__(self, other: Interval | int) -> bool:
+        """Whether every number here is less than every number there (so neither x < y nor y < x may hold)."""
+        return self.hi < self._of(other).lo
+
+    def __gt__(self, other: Interval | int) -> bool:
+        """Whether every number here is greater than every number there."""
+        return self.lo > self._of(other).hi
+
+    @property
+    def sign(self) -> int:
+        """1 or -1 if all numbers have this sign, else 0: not decided."""
+        return (self.lo > 0) - (self.hi < 0)
+
+    @property
+    def least(self) -> int:
+        """The least |x|·2^bits in the interval, for the choice of a pivot."""
+        return max(self.lo, -self.hi, 0)
+
+    @property
+    def most(self) -> int:
+        """The greatest |x|·2^bits in the interval."""
+        return max(-self.lo, self.hi)
+
+    @property
+    def width(self) -> int:
+        """(hi - lo)·2^bits."""
+        return self.hi - self.lo
+
+    def point(self) -> Interval:
+        """One number near the middle."""
+        middle = (self.lo + self.hi) >> 1
+        return Interval(middle, middle, self.bits)
+
+    def wider(self, units: int) -> Interval:
+        """Both ends moved outward by units·2^-bits."""
+        return Interval(self.lo - units, self.hi + units, self.bits)
+
+    def inside(self, other: Interval) -> bool:
+        """Whether this interval lies in the interior of the other."""
+        return other.lo < self.lo and self.hi < other.hi
+
+    def hull(self, other: Interval) -> Interval:
+        """The least interval that contains both."""
+        return Interval(min(self.lo, other.lo), max(self.hi, other.hi), self.bits)
+
+    def rounds_to(self, number: Fraction, digits: int) -> bool:
+        """Whether all x here have |x - number| < ½·10^-digits: `number` is x rounded to that many decimals."""
+        half = Fraction(1, 2 * 10**digits)
+        return (number - half) * 2**self.bits < self.lo and self.hi < (number + half) * 2**self.bits

@@ -1,0 +1,90 @@
+"""Vectors and matrices of intervals, linear equations, Newton's test."""
+
+from collections.abc import Callable, Sequence
+
+from .interval import Interval, Rejected
+
+Vector = Sequence[Interval]
+Matrix = Sequence[Vector]
+
+
+def dot(v: Vector, w: Vector) -> Interval:
+    """⟨v, w⟩."""
+    first, *rest = (x * y for x, y in zip(v, w, strict=True))
+    return sum(rest, first)
+
+
+def cross(v: Vector, w: Vector) -> Vector:
+    """v × w in three dimensions."""
+    return [v[i - 2] * w[i - 1] - v[i - 1] * w[i - 2] for i in range(3)]
+
+
+def plus(v: Vector, w: Vector) -> Vector:
+    """v + w."""
+    return [x + y for x, y in zip(v, w, strict=True)]
+
+
+def minus(v: Vector, w: Vector) -> Vector:
+    """v - w."""
+    return [x - y for x, y in zip(v, w, strict=True)]
+
+
+def times(s: Interval | int, v: Vector) -> Vector:
+    """s·v."""
+    return [s * x for x in v]
+
+
+def unit(i: int, one: Interval) -> Vector:
+    """The i-th of the three unit vectors, in intervals of the scale of `one`."""
+    return [one._of(int(i == j)) for j in range(3)]
+
+
+def transposed(matrix: Matrix) -> Matrix:
+    """The columns of a matrix, as rows."""
+    return [list(column) for column in zip(*matrix, strict=True)]
+
+
+def determinant(matrix: Matrix) -> Interval:
+    """det of a 3 × 3 matrix: ⟨first row, second × third⟩."""
+    return dot(matrix[0], cross(matrix[1], matrix[2]))
+
+
+def solve(matrix: Matrix, right: Matrix) -> Matrix:
+    """X with A X = B by elimination, for every A in `matrix` (n × n) and B in `right` (n × m); n × m.
+
+    For each A and B the steps are those of the real elimination, and no pivot is 0 (else a division raises Rejected):
+    so every A in `matrix` is regular, and the solution lies in what is returned.
+    """
+    rows = [[*a, *b] for a, b in zip(matrix, right, strict=True)]
+    for i in range(len(rows)):
+        best = max(range(i, len(rows)), key=lambda j: rows[j][i].least)
+        rows[i], rows[best] = rows[best], rows[i]
+        pivot = [x / rows[i][i] for x in rows[i][i + 1 :]]
+        rows = [[*row[: i + 1], *minus(row[i + 1 :], times(row[i], pivot))] for row in rows]
+        rows[i][i + 1 :] = pivot
+    return [row[len(rows) :] for row in rows]
+
+
+def newton(residual: Callable[[Vector], Vector], jacobian: Callable[[Vector], Matrix], centre: Vector) -> Vector:
+    """A box that contains one root of a map f of Rⁿ near `centre`, by Newton's test in intervals; else raises Rejected.
+
+    `residual` and `jacobian` enclose f and f′ for all values of the parameters that they contain.  Let X be a box about
+    the centre c and S = jacobian(X).  For x, y in X is f(x) - f(y) = A(x, y)(x - y), where A, the mean of f′ on the
+    segment, lies in S.  If all matrices in S are regular and N = c - S⁻¹f(c) lies inside X, then the continuous map
+    x ↦ c - A(x, c)⁻¹f(c) takes X into N, so it has a fixed point (Brouwer), a root of f, in N; and two roots x, y in X
+    would have A(x, y)(x - y) = 0, x = y.  This holds for each value of the parameters: the root is a function of them,
+    and N contains its values.  Again from the middle m of N: the root x has x - m = -A(x, m)⁻¹f(m) with A(x, m) in
+    jacobian(N), which encloses it anew; this is repeated while the box shrinks by half.
+    """
+    at_centre = [[x] for x in residual(centre)]
+    first = solve(jacobian(centre), at_centre)
+    box = [x.wider(2 * max(s.most for (s,) in first) + 8) for x in centre]
+    root = minus(centre, [s for (s,) in solve(jacobian(box), at_centre)])
+    if not all(x.inside(y) for x, y in zip(root, box, strict=True)):
+        raise Rejected("Newton's test proves no root near the numbers of the file")
+    while True:
+        middle = [x.point() for x in root]
+        closer = minus(middle, [s for (s,) in solve(jacobian(root), [[x] for x in residual(middle)])])
+        if 2 * max(x.width for x in closer) >= max(x.width for x in root):
+            return root
+        root = closer

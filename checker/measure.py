@@ -1,0 +1,166 @@
+"""Certificates of kind no-invariant-measure: the reduced map of the ball is not conjugate to a rotation on a circle.
+
+For 𝒦 = hγ the step (step.py) gives a map G_h of the sphere |γ| = 1 into itself.
+
+The circle.  With s = ½h(1 + |u|²) + D⟨γ, u⟩ and w = Λu equation (1) reads sγ = w + u × w (as u × Iu = u × Λu), so by
+(2) sγ̃ = w - u × w.  Hence both s²⟨γ, Λ⁻¹γ⟩ and s²⟨γ̃, Λ⁻¹γ̃⟩ are ⟨w, Λ⁻¹w⟩ ± 2⟨u × w, u⟩ + ⟨u × w, Λ⁻¹(u × w)⟩; the
+middle is 0, and s ≠ 0, as w = 0 only for h = 0: ⟨γ, Λ⁻¹γ⟩ is an integral.  If 1/Λ_c is the least or greatest 1/Λ
+and the level l lies strictly between it and the next, the level consists of two circles, γ_c > 0 and γ_c < 0, and its
+projection to the plane of the other two axes, a and b, is an ellipse about 0.  G_h depends smoothly on h and is the
+identity for h = 0, so it takes the circle γ_c > 0 to itself.  G_-h is its inverse: the two equations for γ and γ̃ are
+exchanged by (h, u, w, s) ↦ -(h, u, w, s).
+
+The lift.  Let φ be the angle in the plane (a, b), and g a lift of G_h to the line, φ ↦ g(φ).  The rotation R by π about
+the axis c commutes with G_h, so g(φ + π) = g(φ) + π (done twice it adds 2π), and any two values of g(φ) - φ differ by
+less than π.  Thus if a step turns by an angle in (0, π) in one direction at each of some points, this is the angle of
+one and the same lift g at all of them.
+
+The two orbits.  Let θ be the angle of the q steps of g, a continuous function of the start.  The sign of sin(θ - pπ) is
+proved to be + in one orbit and - in the other; the half-turns that are completed on the way, counted by the sign of the
+sine after each step, are p and p - 1.  So θ > pπ here and θ < pπ there: R^p G^q has a fixed point, and is not the
+identity.  Its points between two neighbouring fixed points all move to one of the two, so no finite measure that
+R^p G^q leaves invariant is positive on this arc; this holds for (R^p G^q)² = G^2q, and so for G.  A continuous positive
+density on the sphere, or near the circle, that G leaves invariant would give such a measure on each circle.
+"""
+
+from fractions import Fraction
+from itertools import pairwise
+from typing import Any
+
+from .document import (
+    MOST_DIGITS,
+    MOST_STEPS,
+    check_names,
+    check_rounded,
+    count,
+    decimal,
+    decimals,
+    exact,
+    listed,
+    scale,
+)
+from .interval import Interval, Rejected
+from .linear import Vector, times
+from .step import Ball, check_small_branch, gibbs_vector, turned
+
+NAMES = "format kind statement ball radius axes steps half_turns digits orbits digest"
+
+
+def statement(data: dict[str, Any]) -> str:
+    """What is proved, with the numbers of the file."""
+    ball = data["ball"]
+    return (
+        f"For every ball with J = ({', '.join(ball['J'])}), D = {ball['D']} and momentum {ball['height']} γ: on the "
+        f"circle ⟨γ, Λ⁻¹γ⟩ = {ball['level']}, γ_{data['axes'][2]} > 0, every number within {data['radius']}, some "
+        f"points are back after {data['steps']} steps and {data['half_turns']} half turn"
+        f"{'s' * (data['half_turns'] != 1)}, others are not, and so the map leaves no finite measure invariant that is "
+        f"positive on every arc."
+    )
+
+
+def check_form(data: dict[str, Any]) -> None:
+    """Raises Rejected unless all numbers are there, in their form."""
+    check_names(data, NAMES, "the certificate")
+    check_names(data["ball"], "J D height level", "ball")
+    for name in ("D", "height", "level"):
+        exact(data["ball"][name], name)
+    for x in listed(data["ball"]["J"], 3, "J"):
+        exact(x, "J")
+    exact(data["radius"], "radius")
+    if sorted(count(x, 1, 3, "an axis") for x in listed(data["axes"], 3, "axes")) != [1, 2, 3]:
+        raise Rejected("axes must be 1, 2, 3 in some order")
+
+
+class Circle:
+    """The circle of a certificate for every parameter of its box, and the map on it; raises Rejected if it is none."""
+
+    def __init__(self, data: dict[str, Any]):
+        radius = Fraction(data["radius"])
+        if radius < 0:
+            raise Rejected("the radius must not be negative")
+        J = [Fraction(x) for x in data["ball"]["J"]]
+        D, height, level = (Fraction(data["ball"][name]) for name in ("D", "height", "level"))
+        bits = scale(data["digits"], data["steps"], [*J, D, height, level])
+        self.ball = Ball.within(J, D, radius, bits)
+        self.height, self.level = (Interval.enclosing(x - radius, x + radius, bits) for x in (height, level))
+        if not self.height.sign:
+            raise Rejected("the height is not proved to differ from 0")
+        check_small_branch(self.ball, self.height.sign * self.height)
+        self.a, self.b, self.c = (i - 1 for i in data["axes"])
+        self.weights = [1 / x for x in self.ball.contact]
+        of_a, of_b, of_c = (self.weights[i] for i in (self.a, self.b, self.c))
+        if not (of_a < of_b or of_b < of_a):
+            raise Rejected("the three moments of inertia are not proved to be different")
+        if not (of_c < self.level and self.level < of_a and self.level < of_b) and not (
+            self.level < of_c and of_a < self.level and of_b < self.level
+        ):
+            raise Rejected("the level is not proved to be a circle around its axis")
+
+    def start(self, zero: int) -> Vector:
+        """The point of the circle with γ_zero = 0, where `zero` is a or b, and the other two positive."""
+        other = self.a + self.b - zero
+        share = (self.level - self.weights[self.c]) / (self.weights[other] - self.weights[self.c])
+        gamma = [0 * share] * 3
+        gamma[other], gamma[self.c] = share.sqrt(), (1 - share).sqrt()
+        return gamma
+
+    def sine(self, v: Vector, w: Vector) -> Interval:
+        """A positive multiple of the sine of the angle from v to w in the plane (a, b)."""
+        return v[self.a] * w[self.b] - v[self.b] * w[self.a]
+
+    def orbit(self, start: Vector, steps: list[Any], digits: int) -> list[Vector]:
+        """γ after 0, 1, … steps; the Gibbs vectors and γ of the file are compared on the way."""
+        gammas, bits = [start], self.level.bits
+        for number, given in enumerate(steps, 1):
+            where = f"step {number}"
+            check_names(given, "u gamma", where)
+            near = decimals(given["u"], digits, f"u of {where}")
+            state = times(self.height, gammas[-1]), gammas[-1]
+            u = gibbs_vector(self.ball, state, [Interval.enclosing(x, x, bits).point() for x in near])
+            gammas.append(turned(u, gammas[-1]))
+            check_rounded(u, near, digits, f"u of {where}")
+            check_rounded(
+                gammas[-1], decimals(given["gamma"], digits, f"gamma of {where}"), digits, f"gamma of {where}"
+            )
+        return gammas
+
+    def direction(self, gammas: list[Vector]) -> int:
+        """1 or -1: the sign of the angle of all steps, each less than π."""
+        signs = {self.sine(v, w).sign for v, w in pairwise(gammas)}
+        if len(signs) > 1 or 0 in signs:
+            raise Rejected("the steps do not all turn in one direction by less than half a turn")
+        return signs.pop()
+
+
+def half_turns(sines: list[Interval]) -> int:
+    """How many times an angle that grows by less than π a step has passed a multiple of π, from its sine after each."""
+    signs = [1, *(x.sign for x in sines)]
+    if 0 in signs:
+        raise Rejected("it is not decided on which side of the line of the start an orbit is")
+    return sum(before != after for before, after in pairwise(signs))
+
+
+def check(data: dict[str, Any]) -> dict[str, str]:
+    """Raises Rejected unless the two orbits prove the statement; returns what was found on the way, in words."""
+    digits, q = count(data["digits"], 1, MOST_DIGITS, "digits"), count(data["steps"], 1, MOST_STEPS, "steps")
+    turns = count(data["half_turns"], 1, q, "half_turns")
+    if len(data["ball"]["level"].partition(".")[2]) > digits:
+        raise Rejected("the level has more decimals than the numbers that depend on it")
+    circle = Circle(data)
+    found = set()
+    for given in listed(data["orbits"], 2, "orbits"):
+        check_names(given, "start steps displacement", "an orbit")
+        if given["start"] not in ("a", "b"):
+            raise Rejected("the start of an orbit must be a or b")
+        start = circle.start(circle.a if given["start"] == "a" else circle.b)
+        gammas = circle.orbit(start, listed(given["steps"], q, "the steps of an orbit"), digits)
+        direction = circle.direction(gammas)
+        sines = [direction * circle.sine(start, w) for w in gammas[1:]]
+        displacement = sines[-1] * (-1) ** turns
+        check_rounded([displacement], [decimal(given["displacement"], digits, "displacement")], digits, "displacement")
+        if half_turns(sines) != (turns if displacement > 0 else turns - 1):
+            raise Rejected(f"the {q} steps of an orbit do not turn by about {turns} half turns")
+        found.add((direction, displacement.sign))
+    if found not in ({(1, 1), (1, -1)}, {(-1, 1), (-1, -1)}):
+        raise Rejected("the two orbits do not turn in one direction with displacements of opposite signs")
+    return {"displacements": " and ".join(x["displacement"] for x in data["orbits"]), "steps": str(q)}

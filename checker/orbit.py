@@ -1,0 +1,174 @@
+"""Certificates of kind periodic-orbit: a point that is back after q steps, and the derivative of these steps there.
+
+Existence.  The step turns 𝒦 and γ by one rotation, so |γ|², |𝒦|² and ⟨𝒦, γ⟩ are integrals; where γ and 𝒦 are not
+parallel, their level M is the set of all (R𝒦, Rγ), R in SO(3): of dimension 3, with tangent vectors (w × 𝒦, w × γ).
+With the numbers (𝒦₀, γ₀) of the file let P(𝒦, γ) = 𝒦₀ × 𝒦 + γ₀ × γ.  Newton's test in the six unknowns x = (𝒦, γ)
+proves a root of
+    |γ|² = 1,  |𝒦|² and ⟨𝒦, γ⟩ as given,  P(G^q(x) - x) = 0.
+Then x and G^q(x) have the same integrals and the same P.  The derivative of (integrals, P) is regular on a box that
+contains both, so this map is injective there (as in linear.newton): G^q(x) = x.  The step is evaluated for all |γ| near
+1; at the root |γ| = 1, |u| < 1, and the step is that of the small branch.
+
+The derivative W of G^q on M, in the basis V of tangent vectors at x with w = e1, e2, e3: DG^q·V = V·W, as x is the same
+before and after; so W = (PV)⁻¹ P·DG^q·V.  If det W ≠ 1, no measure with a continuous positive density near the orbit
+on M is invariant.  If det(1 - W) ≠ 0, no eigenvalue of W is 1: an integral F of class C¹ has dF·W = dF at x, so dF = 0
+there on M: F depends to first order on the momentum integrals alone.
+"""
+
+from fractions import Fraction
+from typing import Any
+
+from .document import (
+    MOST_DIGITS,
+    MOST_STEPS,
+    check_names,
+    check_rounded,
+    count,
+    decimal,
+    decimals,
+    exact,
+    listed,
+    scale,
+)
+from .interval import Interval, Rejected
+from .linear import Matrix, Vector, cross, determinant, dot, minus, newton, plus, solve, times, transposed, unit
+from .step import Ball, Pair, check_small_branch, gibbs_vector, moved, tangents
+
+NAMES = "format kind statement ball integrals steps digits start orbit determinant unit_eigenvalue digest"
+ATTRACTING = " All its eigenvalues are inside the unit circle: the orbit attracts what starts near it on the level."
+#: Of W; "trace" only if the orbit is said to be attracting.
+MULTIPLIERS = ("determinant", "unit_eigenvalue", "trace")
+INTEGRALS = ("momentum.momentum", "momentum.gamma")
+
+
+def statement(data: dict[str, Any]) -> str:
+    """What is proved, with the numbers of the file."""
+    size, height = (data["integrals"][name] for name in INTEGRALS)
+    return (
+        f"For the ball with J = ({', '.join(data['ball']['J'])}), D = {data['ball']['D']}: with ⟨𝒦, 𝒦⟩ = {size}, "
+        f"⟨𝒦, γ⟩ = {height} a point is back after {data['steps']} steps, and the derivative of these steps on the "
+        f"level of the integrals there has a determinant other than 1 and no eigenvalue 1."
+        f"{ATTRACTING if 'trace' in data else ''}"
+    )
+
+
+def check_form(data: dict[str, Any]) -> None:
+    """Raises Rejected unless all numbers are there, in their form."""
+    check_names(data, NAMES + " trace" * ("trace" in data), "the certificate")
+    check_names(data["ball"], "J D", "ball")
+    check_names(data["integrals"], " ".join(INTEGRALS), "integrals")
+    check_names(data["start"], "momentum gamma", "start")
+    for x in [*listed(data["ball"]["J"], 3, "J"), data["ball"]["D"], *data["integrals"].values()]:
+        exact(x, "a number of ball or integrals")
+
+
+class Search:
+    """The equations of the periodic orbit and their derivative, in intervals."""
+
+    def __init__(self, data: dict[str, Any]):
+        self.digits, q = count(data["digits"], 1, MOST_DIGITS, "digits"), count(data["steps"], 1, MOST_STEPS, "steps")
+        J, D = [Fraction(x) for x in data["ball"]["J"]], Fraction(data["ball"]["D"])
+        integrals = [Fraction(data["integrals"][name]) for name in INTEGRALS]
+        bits = scale(self.digits, q, [*J, D, *integrals])
+
+        def enclosed(x: Fraction) -> Interval:
+            return Interval.enclosing(x, x, bits)
+
+        self.ball = Ball.within(J, D, Fraction(0), bits)
+        self.size, self.height = (enclosed(x) for x in integrals)
+        check_small_branch(self.ball, self.size.sqrt())
+        self.gibbs = []
+        for i, given in enumerate(listed(data["orbit"], q, "orbit"), 1):
+            check_names(given, "u", f"step {i}")
+            self.gibbs.append(decimals(given["u"], self.digits, f"u of step {i}"))
+        self.near = [[enclosed(x).point() for x in u] for u in self.gibbs]
+        self.given = [decimals(data["start"][name], self.digits, name) for name in ("momentum", "gamma")]
+        self.stated = {name: decimal(data[name], self.digits, name) for name in MULTIPLIERS if name in data}
+        self.centre = [enclosed(x).point() for v in self.given for x in v]
+        self.units = [unit(i, self.size) for i in range(3)]
+
+    def after(self, x: Vector, vectors: list[Pair]) -> tuple[Vector, list[Pair], list[Vector]]:
+        """G^q(x), the derivative applied to tangent vectors, and the Gibbs vectors of the steps."""
+        state, gibbs = (x[:3], x[3:]), []
+        for near in self.near:
+            u = gibbs_vector(self.ball, state, near)
+            vectors = tangents(self.ball, state, u, vectors) if vectors else []
+            state = moved(u, state)
+            gibbs.append(u)
+        return [*state[0], *state[1]], vectors, gibbs
+
+    def projection(self, x: Vector) -> Vector:
+        """P(x)."""
+        return plus(cross(self.centre[:3], x[:3]), cross(self.centre[3:], x[3:]))
+
+    def residual(self, x: Vector) -> Vector:
+        """The six equations."""
+        momentum, gamma = x[:3], x[3:]
+        integrals = [dot(gamma, gamma) - 1, dot(momentum, momentum) - self.size, dot(momentum, gamma) - self.height]
+        return [*integrals, *self.projection(minus(self.after(x, [])[0], x))]
+
+    def gradients(self, x: Vector) -> Matrix:
+        """The derivatives of the three integrals."""
+        momentum, gamma = x[:3], x[3:]
+        zero = times(0, gamma)
+        return [[*zero, *times(2, gamma)], [*times(2, momentum), *zero], [*gamma, *momentum]]
+
+    def basis(self) -> list[Pair]:
+        """The six unit vectors of (𝒦, γ)."""
+        zero = times(0, self.units[0])
+        return [(e, zero) for e in self.units] + [(zero, e) for e in self.units]
+
+    def jacobian(self, x: Vector) -> Matrix:
+        """The derivative of the six equations."""
+        basis = self.basis()
+        moved_basis = self.after(x, basis)[1]
+        columns = [self.projection(minus(_flat(v), _flat(e))) for v, e in zip(moved_basis, basis, strict=True)]
+        return [*self.gradients(x), *transposed(columns)]
+
+    def check_injective(self, x: Vector) -> None:
+        """Raises Rejected unless (integrals, P) is injective on the box x: its derivative is regular there."""
+        matrix = [*self.gradients(x), *transposed([self.projection(_flat(e)) for e in self.basis()])]
+        solve(matrix, [[y] for y in x])
+
+    def return_map(self, x: Vector) -> tuple[Matrix, list[Vector]]:
+        """W, and the Gibbs vectors of the orbit."""
+        before = [(cross(e, x[:3]), cross(e, x[3:])) for e in self.units]
+        after, gibbs = self.after(x, before)[1:]
+        left, right = (transposed([self.projection(_flat(v)) for v in vectors]) for vectors in (before, after))
+        return solve(left, right), gibbs
+
+
+def _flat(v: Pair) -> Vector:
+    return [*v[0], *v[1]]
+
+
+def check(data: dict[str, Any]) -> dict[str, str]:
+    """Raises Rejected unless the orbit is there and its derivative as stated; returns the numbers that were proved."""
+    search = Search(data)
+    digits = search.digits
+    x = newton(search.residual, search.jacobian, search.centre)
+    end = search.after(x, [])[0]
+    search.check_injective([y.hull(z) for y, z in zip(x, end, strict=True)])
+    check_rounded(x, [*search.given[0], *search.given[1]], digits, "start")
+    W, gibbs = search.return_map(x)
+    for i, (u, near) in enumerate(zip(gibbs, search.gibbs, strict=True), 1):
+        check_rounded(u, near, digits, f"u of step {i}")
+    one_less = [minus(e, row) for e, row in zip(search.units, W, strict=True)]
+    proved = dict(zip(MULTIPLIERS, (determinant(W), determinant(one_less), W[0][0] + W[1][1] + W[2][2]), strict=True))
+    for name, number in search.stated.items():
+        check_rounded([proved[name]], [number], digits, name)
+    if not (proved["determinant"] - 1).sign or not proved["unit_eigenvalue"].sign:
+        raise Rejected("the determinant is not proved to differ from 1, or an eigenvalue may be 1")
+    if "trace" in data and not attracts(*proved.values()):
+        raise Rejected("the eigenvalues are not all proved to be inside the unit circle")
+    return {name: data[name] for name in search.stated}
+
+
+def attracts(det: Interval, chi: Interval, trace: Interval) -> bool:
+    """Whether all eigenvalues of W are inside the unit circle, by Jury's criterion for χ(λ) = λ³ - tλ² + mλ - d.
+
+    χ(1) > 0, χ(-1) < 0, |d| < 1, |m - td| < 1 - d², where m = χ(1) - 1 + t + d.
+    """
+    minors = chi - 1 + trace + det
+    rest, room = minors - trace * det, 1 - det * det
+    return chi > 0 and 1 + trace + minors + det > 0 and room > 0 and rest < room and -rest < room

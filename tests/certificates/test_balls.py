@@ -1,0 +1,66 @@
+"""The numbers of a certificate: rounded to what every number of a ball rounds to, or refused."""
+
+from fractions import Fraction
+
+import pytest
+from flint import ctx
+from hypothesis import given
+from hypothesis import strategies as st
+
+from chapsym.certificates.balls import NotProved, ball, decade, decimal, decimals, rounded, shortest
+from chapsym.certificates.document import digest, sealed
+
+fractions = st.fractions(max_denominator=10**9).filter(lambda x: abs(x) < 10**6)
+
+
+@given(fractions, st.fractions(0, 1, max_denominator=10**6), st.integers(0, 12), st.sampled_from([1, 64]))
+def test_every_number_of_a_ball_rounds_to_its_decimals(centre, radius, digits, wider):
+    radius /= 10**7
+    with ctx.workprec(120):
+        x = ball(centre, radius)
+        try:
+            text = rounded(x, digits, wider)
+        except NotProved:
+            off = wider * radius + Fraction(1, 2**90)  # only where an end is on another side of a tie
+            assert round((centre - off) * 10**digits) != round((centre + off) * 10**digits)
+            return
+    for number in (centre - wider * radius, centre, centre + wider * radius):
+        assert abs(number - Fraction(text)) <= Fraction(1, 2 * 10**digits)
+    assert len(text.partition(".")[2]) == digits
+    assert not text.startswith("-") or Fraction(text) != 0
+
+
+def test_a_ball_across_a_tie_is_refused():
+    with ctx.workprec(60):
+        tie = ball(Fraction(15, 100), Fraction(1, 10**9))
+        with pytest.raises(NotProved):
+            rounded(tie, 1)
+        assert rounded(tie, 2) == "0.15"
+        with pytest.raises(NotProved):
+            rounded(tie, 2, 10**7)
+
+
+@given(st.integers(-(10**9), 10**9), st.integers(0, 12))
+def test_decimals_are_exact(scaled, digits):
+    x = Fraction(scaled, 10**digits)
+    assert Fraction(decimal(x, digits)) == x
+    assert Fraction(shortest(x)) == x
+    assert decimals(x) <= digits
+
+
+@given(fractions.filter(lambda x: x > 0))
+def test_decade(x):
+    assert Fraction(10) ** decade(x) <= x < Fraction(10) ** (decade(x) + 1)
+
+
+def test_texts():
+    texts = ["12/5", "1/3", "1e-40", "0.25", "-3", "0", "1"]
+    assert [shortest(Fraction(x)) for x in texts] == ["2.4", "1/3", "1e-40", "0.25", "-3", "0", "1"]
+    assert decimals(Fraction(1, 3)) is None
+
+
+def test_the_digest_is_of_everything_but_itself():
+    document = sealed("kind", "statement γ", one="1", two=[1, {"b": "2", "a": "3"}])
+    assert document["digest"] == digest(document) == digest({**document, "digest": ""})
+    assert digest({**document, "one": "2"}) != document["digest"]
+    assert digest(dict(reversed(document.items()))) == document["digest"]

@@ -1,0 +1,248 @@
+"""Certificates that the reduced map leaves no measure invariant: found, true in the whole box, and refused."""
+
+import json
+import random
+import subprocess
+import sys
+from dataclasses import replace
+from fractions import Fraction
+from importlib.resources import files
+
+import pytest
+from certificates import elliptic
+from flint import arb, ctx
+
+from chapsym.certificates import document, measure, plateau, resonance
+from chapsym.certificates.balls import NotProved, ball, rounded
+from chapsym.certificates.measure import no_invariant_measure
+from chapsym.certificates.reduced import Reduced, Top, cross
+from chapsym.dynamics import BadInput
+from chapsym.dynamics.precise_start import fraction
+
+SIMPLEST = {"J": "1,2,4", "D": "1", "height": "12/5"}
+LEVEL = Fraction("0.24300095290638263550532672206")
+
+#: The certificates that are committed: the arguments that find them.
+COMMITTED = {
+    "measure-simplest": (SIMPLEST, {}),
+    "measure-real-ball": ({"J": "1,2,8", "D": "12", "height": "12/5"}, {}),
+    "measure-large": ({"J": "1,4,8", "D": "1/2", "height": "22/5"}, {}),
+}
+
+
+def top(J="1,2,4", D="1", height="12/5"):
+    return Top(tuple(map(Fraction, J.split(","))), Fraction(D), Fraction(height))
+
+
+def committed(name):
+    return json.loads(files("chapsym.proofs").joinpath(f"certificates/{name}.json").read_text(encoding="utf-8"))
+
+
+def displacements(found):
+    return [Fraction(orbit["displacement"]) for orbit in found["orbits"]]
+
+
+@pytest.mark.parametrize("name", COMMITTED)
+def test_the_committed_certificates_are_what_is_found(name):
+    ball, arguments = COMMITTED[name]
+    found = no_invariant_measure(top(**ball), **arguments)
+    assert found == committed(name)
+    first, second = displacements(found)
+    assert first * second < 0
+    assert Fraction(found["radius"]) > 0
+    assert found["digest"] == document.digest(found)
+
+
+def test_the_real_ball_is_one():
+    """J1 + J2 + J3 = ∫r² dm is at most mρ² = D, in the whole box."""
+    found = committed("measure-real-ball")
+    J, D, off = found["ball"]["J"], found["ball"]["D"], Fraction(found["radius"])
+    assert sum(Fraction(x) + off for x in J) < Fraction(D) - off
+
+
+@pytest.mark.parametrize("name", COMMITTED)
+def test_numbers_anywhere_in_the_box_have_these_decimals(name):
+    """Random corners of the box and inner points, with points in the place of balls and twice the precision."""
+    found, rng = committed(name), random.Random(7)
+    off, digits, axes = Fraction(found["radius"]), found["digits"], tuple(i - 1 for i in found["axes"])
+    ball = found["ball"]
+    for _ in range(5):
+        moved = [
+            Fraction(x) + off * rng.choice([-1, 1, Fraction(rng.randint(-9, 9), 10)])
+            for x in (*ball["J"], ball["D"], ball["height"], ball["level"])
+        ]
+        with ctx.workprec(8 * digits):
+            reduced = Reduced(Top(tuple(moved[:3]), moved[3], moved[4]))
+            for orbit in found["orbits"]:
+                gammas = plateau.trajectory(reduced, moved[5], axes, orbit["start"], found["steps"])
+                for gamma, step in zip(gammas, orbit["steps"], strict=False):
+                    assert [rounded(x, digits) for x in reduced.root(gamma)] == step["u"]
+                assert [[rounded(x, digits) for x in v] for v in gammas[1:]] == [x["gamma"] for x in orbit["steps"]]
+                sine = abs(fraction(cross(gammas[0], gammas[-1], axes)))
+                assert abs(sine - abs(Fraction(orbit["displacement"]))) <= Fraction(1, 2 * 10**digits)
+
+
+@pytest.mark.parametrize(
+    ("ball", "arguments"),
+    [
+        (SIMPLEST, {}),
+        ({"J": "1,2,4", "D": "7", "height": "12/5"}, {}),
+        ({"J": "4,1,2", "D": "1", "height": "-12/5"}, {"steps": 11}),
+        ({"J": "1,2,4", "D": "1", "height": "12/5"}, {"half_turns": 2}),
+        ({"J": "0,1,3", "D": "1/2", "height": "7/10"}, {"steps": 7}),
+        ({"J": "4,5,6", "D": "1/3", "height": "15/2"}, {}),
+    ],
+)
+def test_the_elliptic_relation_has_the_same_displacement_to_all_digits(ball, arguments):
+    """Two routes: steps of γ in balls on the sphere, and increments of u by (5.15)."""
+    found = no_invariant_measure(top(**ball), digits=150, radius=Fraction(0), **arguments)
+    axes, level = tuple(i - 1 for i in found["axes"]), Fraction(found["ball"]["level"])
+    with ctx.workprec(700):
+        for orbit in found["orbits"]:
+            other = elliptic.displacement(top(**ball), level, axes, orbit["start"], found["steps"], found["half_turns"])
+            assert abs(other - Fraction(orbit["displacement"])) <= Fraction(1, 2 * 10**150)
+
+
+def test_circles_around_the_axis_of_the_largest_moment():
+    """Where those around the other axis have the larger displacement, only a level says that these are meant."""
+    around = plateau.staircases(top(), 23, lambda what: None)[1]
+    assert around.axes == (2, 1, 0)
+    ends = plateau.refined(top(), around.between(23, 1), around.axes, 23, 1)
+    level = resonance._middle(top(), ends, around.axes, 23, lambda what: None)
+    found = no_invariant_measure(top(), level=level, steps=23)
+    assert found["axes"] == [3, 2, 1]
+    assert displacements(found)[0] * displacements(found)[1] < 0
+    assert no_invariant_measure(top(), steps=23)["axes"] == [1, 2, 3]
+
+
+def test_circles_next_to_the_separatrix_are_not_looked_at(monkeypatch):
+    monkeypatch.setattr(plateau, "REACH", 0.1)
+    with pytest.raises(BadInput, match="too near the separatrix"):
+        no_invariant_measure(top(), steps=25)
+
+
+@pytest.mark.parametrize("side", [-1, 1])
+def test_a_level_outside_of_the_plateau_is_refused(side):
+    """The plateau is 4e-29 wide, and the level in its middle half."""
+    with pytest.raises(BadInput, match=r"both displacements are (positive|negative): the level is outside"):
+        no_invariant_measure(top(), level=LEVEL + side * Fraction(1, 10**26), steps=9)
+    inside = no_invariant_measure(top(), level=LEVEL + side * Fraction(1, 10**31), steps=9)
+    assert displacements(inside)[0] > 0 > displacements(inside)[1]
+
+
+def test_without_contact_both_displacements_are_one_number():
+    """The control: D = 0 is refused; towards it the displacement goes to 0 as D²."""
+    with pytest.raises(BadInput, match="for D = 0 there is nothing to find"):
+        no_invariant_measure(top(D="0"))
+    wide, narrow = (no_invariant_measure(top(D=x), radius=Fraction(0)) for x in ("1e-10", "1e-20"))
+    spread = [abs(x - y) for x, y in map(displacements, (wide, narrow))]
+    assert abs(spread[0] / spread[1] / 10**20 - 1) < 0.01  # k' is nearly 1: δ_a/k' - δ_b is the same all over a plateau
+
+
+@pytest.mark.parametrize(
+    ("ball", "arguments", "sentence"),
+    [
+        ({"J": "1,1,4"}, {}, "must differ"),
+        ({"J": "-1,2,4"}, {}, "entries J ≥ 0"),
+        ({"J": "0,0,4"}, {}, "at most one is 0"),
+        ({"D": "-1"}, {}, "must not be negative"),
+        ({"height": "0"}, {}, "moves nothing"),
+        ({"height": "3"}, {}, "beyond the bound of lemma small-branch"),
+        ({"height": "1/100"}, {}, "at most about"),
+        ({}, {"steps": 5}, "no circle has 1 half turn in 5 steps"),
+        ({}, {"steps": 1001}, "from 3 to 1000"),
+        ({}, {"steps": 8}, "must be odd"),
+        ({}, {"steps": 9, "half_turns": 3}, "common factor"),
+        ({}, {"half_turns": 0}, "at least 1"),
+        ({}, {"digits": 20}, "take 31 or more"),
+        ({}, {"digits": 3000}, "from 1 to 2000"),
+        ({}, {"radius": Fraction(-1)}, "must not be negative"),
+        ({}, {"radius": Fraction(1, 10**30)}, "take a smaller radius"),
+        ({"J": "0,1,3"}, {"radius": Fraction(1, 10**60)}, "may be negative"),
+        ({}, {"level": Fraction(1, 2), "steps": 9}, "the levels of circles are between"),
+        ({}, {"level": Fraction(1, 6), "steps": 9}, "the levels of circles are between"),
+        ({}, {"level": LEVEL}, "--steps"),
+        ({}, {"level": LEVEL, "steps": 13}, "half turns, not by a whole number"),
+        ({}, {"level": LEVEL, "steps": 9, "half_turns": 2}, "not by 2"),
+        ({"D": "1e-900"}, {}, "is not told from 0"),
+    ],
+)
+def test_what_has_no_certificate_is_one_sentence(ball, arguments, sentence):
+    with pytest.raises(BadInput, match=sentence) as refused:
+        no_invariant_measure(top(**ball), **arguments)
+    assert "\n" not in str(refused.value)
+
+
+def chapsym(*arguments):
+    return subprocess.run(
+        [sys.executable, "-m", "chapsym.cli", "certify", *arguments], capture_output=True, text=True, check=False
+    )
+
+
+def test_the_command_writes_what_it_prints(tmp_path):
+    file = tmp_path / "found.json"
+    done = chapsym("no-invariant-measure", "-o", str(file), "--json")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert json.loads(done.stdout) == json.loads(file.read_text(encoding="utf-8")) == committed("measure-simplest")
+    assert file.read_text(encoding="utf-8") == document.text(committed("measure-simplest"))
+
+
+def test_the_command_refuses_with_one_sentence():
+    done = chapsym("no-invariant-measure", "--mass-tensor", "1,2,4", "--D", "0")
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr.startswith("chapsym: for D = 0")
+    assert done.stderr.count("\n") == 1
+
+
+def orbits():
+    with ctx.workprec(200):
+        return measure._orbits(top(), resonance.Resonance((0, 1, 2), LEVEL, 9, 1), Fraction(0))
+
+
+def test_a_certificate_needs_opposite_signs():
+    at, (one, other) = resonance.Resonance((0, 1, 2), LEVEL, 9, 1), orbits()
+    assert measure._document(top(), at, Fraction(0), [one, other], 31) == no_invariant_measure(
+        top(), level=LEVEL, steps=9, radius=Fraction(0)
+    )
+    with pytest.raises(NotProved, match="signs"):
+        measure._document(top(), at, Fraction(0), [one, one], 31)
+
+
+def test_a_checker_may_have_a_wider_displacement():
+    one = orbits()[0]
+    one.write(31)
+    for off in (10, 14):  # 2.802e-29 rounds to 2.80e-29 up to 3e-32 off; with 2^11 times the radius only up to 1e-35
+        wide = replace(one, displacement=one.displacement + ball(Fraction(0), Fraction(1, 10 ** (22 + off))))
+        if off == 10:
+            with pytest.raises(NotProved):
+                wide.write(31)
+        else:
+            wide.write(31)
+
+
+def test_steps_turn_in_one_direction_by_so_many_half_turns():
+    third = (arb(1), arb.pi() / 3)
+    back = (arb(-1), -arb.pi() / 3)
+    assert measure.direction([third] * 3, 1) == 1
+    assert measure.direction([back] * 6, 2) == -1
+    for wrong, half_turns in ((5 * [third], 1), ([third] * 3, 2), ([third] * 4 + [back], 1)):
+        with pytest.raises(NotProved):
+            measure.direction(wrong, half_turns)
+    with pytest.raises(NotProved, match="direction"):
+        measure.direction([third, (arb(0, 1), arb.pi() / 3), third], 1)
+    with pytest.raises(NotProved, match="direction"):
+        measure.direction([(arb(0, 1), arb.pi() / 3), third, third], 1)
+
+
+def test_a_step_is_enclosed_from_a_poor_point_too():
+    """One Newton iterate from there is far off; the ball is not."""
+    with ctx.workprec(200):
+        reduced = Reduced(top())
+        gamma = reduced.start(ball(LEVEL), (0, 1, 2), "a")
+        root = reduced.root(gamma)
+        poor = tuple(x + ball(Fraction(1, 1000)).mid() for x in root)
+        enclosed, _ = reduced.image(poor, gamma)
+        assert all(x.overlaps(y) for x, y in zip(enclosed, root, strict=True))
+        assert max(float(x.rad()) for x in enclosed) < 1e-3
+        with pytest.raises(NotProved, match="small-branch"):
+            reduced.image((ball(Fraction(2)),) * 3, gamma)

@@ -1,0 +1,76 @@
+"""python -m chapsym.checker and python checker: exit statuses, sentences, JSON."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import certificate_maker as maker
+import chapsym.checker
+import pytest
+from chapsym.checker.__main__ import main
+
+FOLDER = Path(chapsym.checker.__file__).parent
+
+
+@pytest.fixture
+def files(tmp_path):
+    """A right certificate, a changed one, a text, and one that is not there."""
+    right = maker.measure(level="0.2430009529063826355053267220620552038", digits=37)
+    (tmp_path / "right.json").write_text(json.dumps(right))
+    (tmp_path / "changed.json").write_text(json.dumps(right | {"steps": 8}))
+    (tmp_path / "text.json").write_text("nonsense")
+    return {name: str(tmp_path / f"{name}.json") for name in ("right", "changed", "text", "missing")}
+
+
+@pytest.mark.parametrize(
+    ("names", "status"),
+    [
+        ("right", 0),
+        ("right right", 0),
+        ("changed", 1),
+        ("right changed", 1),
+        ("text", 2),
+        ("missing", 2),
+        ("text changed", 2),
+    ],
+)
+def test_the_exit_status_is_that_of_the_worst_file(files, names, status, capsys):
+    assert main([files[name] for name in names.split()]) == status
+    out, err = capsys.readouterr()
+    assert len(err.splitlines()) == sum(name != "right" for name in names.split())
+    assert out.count("Proved: For every ball with J = (1, 2, 4)") == names.count("right")
+
+
+def test_json_is_one_object_and_nothing_else_on_standard_output(files, capsys):
+    assert main(["--json", *files.values()]) == 2
+    right, changed, text, missing = json.loads(capsys.readouterr().out)["certificates"]
+    assert right["accepted"]
+    assert right["statement"].startswith("For every ball")
+    assert not changed["accepted"]
+    assert "statement" in changed["reason"]
+    assert "JSON" in text["reason"]
+    assert "No such file" in missing["reason"]
+
+
+@pytest.mark.parametrize("content", [b"\xff\xfe", b"[1]", b"null", b"[" * 100_000, b'{"a":' + b"9" * 5000 + b"}", b""])
+def test_what_is_no_json_object_is_unreadable_in_one_sentence(tmp_path, content, capsys):
+    file = tmp_path / "x.json"
+    file.write_bytes(content)
+    assert main([str(file)]) == 2
+    assert len(capsys.readouterr().err.splitlines()) == 1
+
+
+def test_a_name_that_stands_twice_is_rejected(tmp_path, files, capsys):
+    text = Path(files["right"]).read_text()
+    (tmp_path / "twice.json").write_text(text.replace('"steps": 9,', '"steps": 9, "steps": 9,'))
+    assert main([str(tmp_path / "twice.json")]) == 1
+    assert "twice" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("how", [["-m", "chapsym.checker"], ["-I", "-S", str(FOLDER)]])
+def test_it_runs_as_a_module_and_as_a_folder_without_anything_installed(files, how):
+    run = subprocess.run([sys.executable, *how, files["right"], files["changed"]], capture_output=True, text=True)
+    assert run.returncode == 1
+    assert run.stdout.startswith(f"{files['right']}: accepted (no-invariant-measure)\n  Proved: For every ball")
+    assert run.stderr == f"{files['changed']}: rejected: the statement is not the one that the numbers make\n"

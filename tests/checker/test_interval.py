@@ -1,0 +1,150 @@
+"""The arithmetic of the checker against exact fractions: what is true is never left out, and little more is let in."""
+
+from fractions import Fraction
+
+import pytest
+from chapsym.checker.interval import Interval, Rejected
+from chapsym.checker.linear import newton, solve
+from hypothesis import assume, given
+from hypothesis import strategies as st
+
+BITS = 12
+ends = st.integers(-(2**20), 2**20)
+
+
+@st.composite
+def intervals(draw, bits=BITS):
+    lo, hi = sorted((draw(ends), draw(ends)))
+    return Interval(lo, hi if draw(st.booleans()) else lo, bits)
+
+
+@st.composite
+def with_points(draw):
+    """An interval and a rational number in it, often an end."""
+    x = draw(intervals())
+    share = draw(st.sampled_from([Fraction(0), Fraction(1), Fraction(1, 3)]))
+    return x, (x.lo + share * (x.hi - x.lo)) / 2**BITS
+
+
+def contains(x, number):
+    return x.lo <= number * 2**x.bits <= x.hi
+
+
+@given(with_points(), with_points())
+def test_sums_products_and_quotients_contain_the_true_ones(first, second):
+    (x, a), (y, b) = first, second
+    assert contains(x + y, a + b)
+    assert contains(x - y, a - b)
+    assert contains(x * y, a * b)
+    assert contains(-x, -a)
+    if y.sign:
+        assert contains(x / y, a / b)
+
+
+@given(with_points(), st.integers(-50, 50))
+def test_integers_are_exact_on_both_sides(pair, n):
+    x, a = pair
+    assert contains(x + n, a + n)
+    assert contains(n + x, a + n)
+    assert contains(n - x, n - a)
+    assert contains(x - n, a - n)
+    assert contains(n * x, a * n)
+    if x.sign:
+        assert contains(n / x, n / a)
+
+
+def hull(numbers):
+    """The ends that outward rounding gives to the exact hull."""
+    scaled = [n * 2**BITS for n in numbers]
+    return min(scaled).__floor__(), max(scaled).__ceil__()
+
+
+@given(intervals(), intervals())
+def test_an_operation_gives_the_least_interval_and_no_wider_one(x, y):
+    corners = [(Fraction(a, 2**BITS), Fraction(b, 2**BITS)) for a in (x.lo, x.hi) for b in (y.lo, y.hi)]
+    product = x * y
+    assert (product.lo, product.hi) == hull([a * b for a, b in corners])
+    if y.sign:
+        quotient = x / y
+        assert (quotient.lo, quotient.hi) == hull([a / b for a, b in corners])
+
+
+@given(intervals())
+def test_a_root_is_the_tightest(x):
+    assume(x.lo > 0)
+    root = x.sqrt()
+    assert root.lo**2 <= x.lo << BITS < (root.lo + 1) ** 2
+    assert (root.hi - 1) ** 2 < x.hi << BITS <= root.hi**2
+
+
+@given(st.fractions(), st.fractions())
+def test_a_rational_number_is_enclosed_as_closely_as_can_be(a, b):
+    x = Interval.enclosing(min(a, b), max(a, b), BITS)
+    assert (x.lo, x.hi) == hull([a, b])
+
+
+@given(with_points(), with_points())
+def test_an_order_or_a_sign_is_never_claimed_wrongly(first, second):
+    (x, a), (y, b) = first, second
+    assert not x < y or a < b
+    assert not x > y or a > b
+    assert x.sign in (0, (a > 0) - (a < 0))
+
+
+@given(with_points(), st.integers(0, 4))
+def test_what_rounds_to_a_decimal_is_less_than_half_a_unit_from_it(pair, digits):
+    x, a = pair
+    number = Fraction(round(a * 10**digits), 10**digits)
+    if x.rounds_to(number, digits):
+        assert abs(a - number) < Fraction(1, 2 * 10**digits)
+        assert not x.rounds_to(number + Fraction(1, 10**digits), digits)
+
+
+def test_a_tie_rounds_to_neither_side():
+    half = Interval(1 << (BITS - 1), 1 << (BITS - 1), BITS)
+    assert not half.rounds_to(Fraction(0), 0)
+    assert not half.rounds_to(Fraction(1), 0)
+
+
+@given(st.lists(st.integers(-(2**14), 2**14), min_size=12, max_size=12), st.integers(0, 40))
+def test_the_solution_of_every_system_in_the_intervals_is_enclosed(numbers, width):
+    a, b = numbers[:9], numbers[9:]
+    columns = [a[:3], a[3:6], a[6:]]
+    det = _det(columns)
+    assume(det)
+    try:
+        found = solve([[Interval(c[i] - width, c[i] + width, BITS) for c in columns] for i in range(3)],
+                      [[Interval(x, x, BITS)] for x in b])  # fmt: skip
+    except Rejected:
+        return
+    for i, (x,) in enumerate(found):
+        assert contains(x, Fraction(_det([b if i == j else c for j, c in enumerate(columns)]), det))
+
+
+def _det(c):
+    return sum(c[0][i] * (c[1][i - 2] * c[2][i - 1] - c[1][i - 1] * c[2][i - 2]) for i in range(3))
+
+
+def test_a_matrix_that_may_be_singular_is_refused():
+    one, wide = Interval(1 << BITS, 1 << BITS, BITS), Interval(0, 2 << BITS, BITS)
+    with pytest.raises(Rejected, match="differ from 0"):
+        solve([[one, one], [one, wide]], [[one], [one]])
+
+
+def root_of_two(centre, shift=0):
+    """Newton's test for x² = 2."""
+    x = Interval.enclosing(Fraction(centre), Fraction(centre), 60)
+    return newton(lambda v: [v[0] * v[0] - 2 - shift], lambda v: [[2 * v[0]]], [x])[0]
+
+
+def test_newtons_test_encloses_the_root_and_shrinks_quadratically():
+    x = root_of_two("1.4142")
+    assert x.lo**2 < 2 << 120 < x.hi**2
+    assert x.hi - x.lo < 2 ** (60 - 30)  # |1.4142 - √2| is 1.4e-5 = 2^-16: its square
+
+
+def test_newtons_test_refuses_a_double_root_and_none():
+    with pytest.raises(Rejected):
+        newton(lambda v: [v[0] * v[0]], lambda v: [[2 * v[0]]], [Interval(5, 5, 60)])
+    with pytest.raises(Rejected):
+        newton(lambda v: [v[0] * v[0] + 1], lambda v: [[2 * v[0]]], [Interval(1 << 58, 1 << 58, 60)])

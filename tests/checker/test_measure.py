@@ -1,0 +1,167 @@
+"""Certificates of kind no-invariant-measure: a right one is accepted, a changed or a false one is not."""
+
+import copy
+import json
+import random
+from fractions import Fraction
+
+import certificate_maker as maker
+import pytest
+from certificate_changes import at, changed, leaves, refused, replaced, resealed
+from chapsym.checker import Rejected, check
+
+from chapsym import checker
+
+#: The level at which the two displacements of 9 steps are opposite, to 45 digits.
+LEVEL = "0.243000952906382635505326722062055203819199224"
+DIGITS = 45
+
+
+@pytest.fixture(scope="module")
+def right():
+    return maker.measure(level=LEVEL, digits=DIGITS)
+
+
+def test_a_right_certificate_is_accepted_and_says_what_it_proves(right):
+    verdict = check(right)
+    assert verdict.kind == "no-invariant-measure"
+    assert verdict.statement == right["statement"] == checker.statement(right)
+    assert right["orbits"][0]["displacement"] in verdict.numbers["displacements"]
+    assert {x["displacement"][0] for x in right["orbits"]} == {"0", "-"}
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"axes": (2, 1, 3), "level": LEVEL, "digits": 50},
+        {"J": ("0", "1", "3"), "D": "1/2", "height": "7/10", "steps": 7, "digits": 50,
+         "level": "0.6299712912791615185566315062403207442484"},
+        {"J": ("0", "1", "3"), "D": "1/2", "height": "-7/10", "steps": 11, "digits": 45,
+         "level": "0.4698400604780373216438265275474216963111"},
+        {"level": LEVEL[:42], "digits": 40, "radius": "1e-50"},
+    ],
+)  # fmt: skip
+def test_other_balls_axes_directions_and_a_box_of_parameters(options):
+    check(maker.measure(**options))
+
+
+def test_a_box_that_is_too_large_for_the_digits_is_refused():
+    with pytest.raises(Rejected, match="rounded correctly"):
+        check(maker.measure(level=LEVEL, digits=DIGITS, radius="1e-40"))
+
+
+def test_each_number_that_is_changed_is_refused_by_the_digest(right):
+    rng = random.Random(7)
+    for path in [*leaves(right), ("digest",)]:
+        changed_one = replaced(right, path, changed(at(right, path), rng))
+        assert refused(changed_one), path
+
+
+def test_each_number_that_is_changed_is_refused_by_mathematics_alone(right):
+    """With the sentence and the digest made anew: all of them, where the radius is 0."""
+    rng = random.Random(11)
+    for path in leaves(right):
+        for _ in range(1 if len(path) > 3 else 8):
+            data = resealed(replaced(right, path, changed(at(right, path), rng)))
+            assert refused(data), (path, at(data, path))
+
+
+def test_in_a_box_of_parameters_only_the_radius_can_be_changed_to_another_true_one():
+    """A smaller box proves less, and a somewhat larger one proves more, with the same digits."""
+    rng = random.Random(17)
+    right = maker.measure(level=LEVEL[:42], digits=40, radius="1e-50")
+    for path in [path for path in leaves(right) if len(path) < 4]:
+        for _ in range(8):
+            data = resealed(replaced(right, path, changed(at(right, path), rng)))
+            assert refused(data) or (path == ("radius",) and Fraction(data["radius"]) < Fraction("1e-45"))
+
+
+def test_every_place_of_one_decimal_counts(right):
+    rng = random.Random(13)
+    for path in (("orbits", 0, "steps", 0, "u", 1), ("orbits", 1, "steps", 8, "gamma", 2), ("ball", "level")):
+        text = at(right, path)
+        for i in (i for i, c in enumerate(text) if c.isdigit()):
+            other = text[:i] + rng.choice([c for c in "0123456789" if c != text[i]]) + text[i + 1 :]
+            assert refused(resealed(replaced(right, path, other))), (path, i)
+
+
+def test_a_change_of_the_sentence_is_refused(right):
+    with pytest.raises(Rejected, match="statement"):
+        check(maker.sealed(right | {"statement": right["statement"].replace("9 steps", "8 steps")}))
+
+
+def test_an_orbit_or_a_step_more_or_less_is_refused(right):
+    for data in (right | {"orbits": right["orbits"][:1]}, right | {"orbits": right["orbits"] * 2},
+                 right | {"orbits": [right["orbits"][0]] * 2}, right | {"extra": 1},
+                 {k: v for k, v in right.items() if k != "radius"}):  # fmt: skip
+        assert refused(maker.sealed(data))
+    shorter = copy.deepcopy(right)
+    del shorter["orbits"][0]["steps"][-1]
+    assert refused(maker.sealed(shorter))
+    shorter["steps"] = 8
+    del shorter["orbits"][1]["steps"][-1]
+    assert refused(resealed(shorter))
+
+
+def test_the_displacements_off_the_resonance_have_one_sign_and_are_refused():
+    with pytest.raises(Rejected, match="opposite signs"):
+        check(maker.measure(level="0.243000952906382635505326723", digits=DIGITS))
+
+
+def test_a_ball_without_d_is_refused_and_its_map_has_no_opposite_signs():
+    with pytest.raises(Rejected, match="D and the moments"):
+        check(maker.measure(D="0", level="0.243", digits=30))
+
+
+def test_an_integrable_map_cannot_be_faked():
+    """Two equal moments: the map is a rotation of the circle.  A top with D = 0 taken for a ball has other orbits."""
+    with pytest.raises(Rejected, match="three moments"):
+        check(maker.measure(J=("2", "2", "4"), level="1/5", axes=(1, 2, 3), digits=30))
+    top = maker.measure(D="0", level="0.3", digits=30)
+    for D in ("1/1000000", "1e-20", "1"):
+        fake = resealed(replaced(top, ("ball", "D"), D))
+        with pytest.raises(Rejected):
+            check(fake)
+
+
+def test_displacements_that_are_made_up_are_refused(right):
+    """Orbits of one sign, one of them said to have the other."""
+    data = maker.measure(level="0.243000952906382635505326723", digits=DIGITS)
+    text = data["orbits"][0]["displacement"]
+    data["orbits"][0]["displacement"] = text[1:] if text[0] == "-" else "-" + text
+    with pytest.raises(Rejected, match="displacement is not proved"):
+        check(maker.sealed(data))
+
+
+def test_the_number_of_half_turns_is_counted(right):
+    """Half-turns enter the displacement by their parity only; 3 in place of 1 must fail by the count."""
+    with pytest.raises(Rejected, match="about 3 half turns"):
+        check(resealed(right | {"half_turns": 3}))
+
+
+@pytest.mark.parametrize(
+    "bad", ["nan", "1_0", " 1", "1e99999", "1/0", "", "0x1", "１", "1" * 5000, 1, 1.5, None, [], True]
+)
+def test_a_number_in_another_form_is_refused_with_a_sentence(right, bad):
+    for path in (("ball", "D"), ("ball", "J", 0), ("radius",), ("steps",), ("digits",), ("axes", 0),
+                 ("orbits", 0, "start"), ("orbits", 0, "displacement"), ("orbits", 1, "steps", 3, "u", 0)):  # fmt: skip
+        if bad == 1 and path[0] in ("axes",):
+            continue
+        assert refused(resealed(replaced(right, path, bad))), path
+
+
+@pytest.mark.parametrize(
+    "path",
+    [("ball",), ("ball", "J"), ("axes",), ("kind",), ("format",), ("orbits",), ("orbits", 0), ("orbits", 0, "steps"),
+     ("orbits", 0, "steps", 4), ("orbits", 0, "steps", 4, "u")],
+)  # fmt: skip
+@pytest.mark.parametrize("bad", [None, 3, "x", [], {}, [[]], {"J": 1}])
+def test_any_shape_is_refused_with_a_sentence(right, path, bad):
+    assert refused(resealed(replaced(right, path, bad)))
+    assert refused(right | {"digest": bad})
+    assert refused(maker.sealed(right | {"statement": bad}))
+
+
+def test_the_digest_is_the_one_of_the_format(right):
+    assert checker.digest(right) == right["digest"]
+    assert checker.digest(json.loads(json.dumps(right, indent=4))) == right["digest"]

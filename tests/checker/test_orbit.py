@@ -1,0 +1,96 @@
+"""Certificates of kind periodic-orbit."""
+
+import random
+from fractions import Fraction
+
+import certificate_maker as maker
+import mpmath as mp
+import pytest
+from certificate_changes import at, changed, leaves, refused, replaced, resealed
+from chapsym.checker import Rejected, check
+from chapsym.checker.interval import Interval
+from chapsym.checker.linear import newton
+from chapsym.checker.orbit import Search, attracts
+from hypothesis import given
+from hypothesis import strategies as st
+
+from chapsym import checker
+
+
+@pytest.fixture(scope="module")
+def right():
+    return maker.periodic()
+
+
+def test_an_orbit_that_no_symmetry_maps_to_itself_is_accepted(right):
+    verdict = check(right)
+    assert verdict.statement == right["statement"] == checker.statement(right)
+    assert verdict.numbers["determinant"].startswith("1.000000002547893309716")
+    assert verdict.numbers["unit_eigenvalue"].startswith("0.0000000001028216319205041")
+
+
+def test_each_number_that_is_changed_is_refused_by_the_digest(right):
+    rng = random.Random(19)
+    for path in [*leaves(right), ("digest",)]:
+        assert refused(replaced(right, path, changed(at(right, path), rng))), path
+
+
+def test_numbers_that_are_changed_are_refused_by_mathematics_alone(right):
+    """Half a second each: some of the Gibbs vectors, all that stands once."""
+    rng = random.Random(23)
+    paths = [path for path in leaves(right) if path[0] != "orbit"]
+    for path in [*paths, *rng.sample([p for p in leaves(right) if p[0] == "orbit"], 3)]:
+        data = resealed(replaced(right, path, changed(at(right, path), rng)))
+        assert refused(data), (path, at(data, path))
+
+
+def test_a_trace_is_proved_and_an_orbit_with_a_determinant_above_1_does_not_attract(right):
+    """det W = 1 + 3e-9; the trace to 40 digits is what the checker itself encloses."""
+    search = Search(right)
+    trace = sum(search.return_map(newton(search.residual, search.jacobian, search.centre))[0][i][i] for i in range(3))
+    with mp.workdps(80):
+        text = maker.rounded(mp.mpf(trace.lo) / mp.mpf(2) ** trace.bits, 40)
+    with pytest.raises(Rejected, match="inside the unit circle"):
+        check(resealed(right | {"trace": text}))
+    with pytest.raises(Rejected, match="trace is not proved"):
+        check(resealed(right | {"trace": text[:-1] + str((int(text[-1]) + 1) % 10)}))
+
+
+@given(st.lists(st.integers(-16, 16), min_size=3, max_size=3), st.booleans())
+def test_jurys_criterion_is_that_of_the_eigenvalues(eighths, pair):
+    """Three real eigenvalues n/8, or one and a pair (n ± i n')/8."""
+    a, b, c = (Fraction(n, 8) for n in eighths)
+    total, product = (2 * b, b * b + c * c) if pair else (b + c, b * c)
+    inside = abs(a) < 1 and (product < 1 if pair else max(abs(b), abs(c)) < 1)
+    det, trace, chi = a * product, a + total, (1 - a) * (1 - total + product)
+    assert attracts(*(Interval.enclosing(x, x, 40) for x in (det, chi, trace))) == inside
+
+
+@pytest.mark.parametrize("name", ["start", "orbit", "ball", "integrals", "determinant", "unit_eigenvalue", "steps"])
+@pytest.mark.parametrize("bad", [None, 3, "x", [], {}, [[]], {"u": 1}])
+def test_any_shape_is_refused_with_a_sentence(right, name, bad):
+    assert refused(resealed(right | {name: bad}))
+
+
+def test_the_derivative_of_the_equations_is_that_of_the_equations(right):
+    """Central differences of h = 2^-100: an error of h² times third derivatives, below 2^20 here."""
+    search = Search(right)
+    h = 1 << (search.size.bits - 100)
+    exact = search.jacobian(search.centre)
+    for j in range(6):
+        there, back = (
+            search.residual([Interval(x.lo + s * h * (i == j), x.lo + s * h * (i == j), x.bits)
+                             for i, x in enumerate(search.centre)])
+            for s in (1, -1)
+        )  # fmt: skip
+        for row, a, b in zip(exact, there, back, strict=True):
+            difference = mp.mpf(a.lo - b.lo) / (2 * h)
+            assert abs(difference - mp.mpf(row[j].lo) / mp.mpf(2) ** row[j].bits) < mp.mpf(2) ** -150
+
+
+@pytest.mark.parametrize("J", [("1", "2", "4"), ("2", "2", "4")])
+def test_a_point_that_is_parallel_to_its_momentum_or_does_not_come_back_is_refused(right, J):
+    ball = {"J": list(J), "D": "2"}
+    assert refused(resealed(right | {"ball": ball, "start": right["start"] | {"gamma": right["start"]["momentum"]}}))
+    with pytest.raises(Rejected):
+        check(resealed(right | {"steps": 19, "orbit": right["orbit"][:19]}))

@@ -1,0 +1,116 @@
+"""The step of the checker against the quaternion form of the paper, in mpmath."""
+
+from fractions import Fraction
+
+import mpmath as mp
+import pytest
+from chapsym.checker.interval import Interval, Rejected
+from chapsym.checker.linear import cross
+from chapsym.checker.step import Ball, check_small_branch, gibbs_vector, moved, tangents
+
+BITS = 240
+J, D = (1, 2, 4), Fraction(7, 2)
+BALL = Ball.within([Fraction(x) for x in J], D, Fraction(0), BITS)
+MOMENTUM, GAMMA = (Fraction(1), Fraction(-1, 2), Fraction(3, 4)), (Fraction(2, 7), Fraction(3, 7), Fraction(6, 7))
+VECTORS = [[1, 0, 0, 0, 0, 0], [0, 0, 0, 0, 1, 0], [1, 2, -1, 3, -2, 1]]
+
+
+def enclosed(numbers):
+    return [Interval.enclosing(Fraction(x), Fraction(x), BITS) for x in numbers]
+
+
+def value(x):
+    assert x.hi - x.lo < 2**20, "an enclosure much wider than the last bits"
+    return mp.mpf(x.lo + x.hi) / mp.mpf(2) ** (BITS + 1)
+
+
+def of(fraction):
+    return mp.mpf(fraction.numerator) / fraction.denominator
+
+
+def quaternion(x):
+    """(q₀, q) of (5.2) for a state of six numbers of mpmath, by findroot; (5.2) is typed in from the paper."""
+    K, g = x[:3], x[3:]
+
+    def equations(q0, *q):
+        M = [2 * ((J[i - 2] + J[i - 1]) * q0 * q[i] + (J[i - 2] - J[i - 1]) * q[i - 2] * q[i - 1]) for i in range(3)]
+        along = sum(a * b for a, b in zip(g, q, strict=True))
+        return [M[i] + 2 * of(D) * q0 * (q[i] - along * g[i]) - K[i] for i in range(3)] + [
+            q0**2 + sum(a * a for a in q) - 1
+        ]
+
+    return mp.findroot(equations, (1, 0, 0, 0), tol=1e-120)
+
+
+def stepped(x):
+    """(Ωᵀ𝒦, Ωᵀγ) with the matrix (5.1)."""
+    q0, a, b, c = quaternion(x)
+    omega = mp.matrix([[q0**2 + a**2 - b**2 - c**2, 2 * (a * b - c * q0), 2 * (a * c + b * q0)],
+                       [2 * (a * b + c * q0), q0**2 + b**2 - a**2 - c**2, 2 * (b * c - q0 * a)],
+                       [2 * (a * c - b * q0), 2 * (b * c + q0 * a), q0**2 + c**2 - a**2 - b**2]])  # fmt: skip
+    return [*(omega.T * mp.matrix(x[:3])), *(omega.T * mp.matrix(x[3:]))]
+
+
+@pytest.fixture(scope="module")
+def step():
+    with mp.workdps(70):
+        start = [of(x) for x in (*MOMENTUM, *GAMMA)]
+        q = quaternion(start)
+        near = [Fraction(int(mp.nint(q[i] / q[0] * 10**40)), 10**40) for i in (1, 2, 3)]
+        state = enclosed(MOMENTUM), enclosed(GAMMA)
+        u = gibbs_vector(BALL, state, [x.point() for x in enclosed(near)])
+        yield start, state, u, [q[i] / q[0] for i in (1, 2, 3)]
+
+
+def test_the_gibbs_vector_and_the_state_after_it_are_those_of_the_paper(step):
+    start, state, u, true = step
+    assert all(abs(value(x) - t) < mp.mpf(10) ** -65 for x, t in zip(u, true, strict=True))
+    after = [value(x) for v in moved(u, state) for x in v]
+    assert max(abs(a - b) for a, b in zip(after, stepped(start), strict=True)) < mp.mpf(10) ** -65
+
+
+def test_the_derivative_is_that_of_the_step(step):
+    """Central differences with h = 1e-20: an error of h² = 1e-40, times third derivatives of size 10."""
+    start, state, u, _ = step
+    h = mp.mpf(10) ** -20
+    found = tangents(BALL, state, u, [(enclosed(v[:3]), enclosed(v[3:])) for v in VECTORS])
+    for v, pair in zip(VECTORS, found, strict=True):
+        there, back = (stepped([x + s * h * y for x, y in zip(start, v, strict=True)]) for s in (1, -1))
+        for x, a, b in zip([*pair[0], *pair[1]], there, back, strict=True):
+            assert abs(value(x) - (a - b) / (2 * h)) < mp.mpf(10) ** -37
+
+
+def test_a_vector_product_is_right_handed():
+    assert [x.lo >> BITS for x in cross(enclosed((1, 2, 3)), enclosed((4, 5, 6)))] == [-3, 6, -3]
+
+
+@pytest.mark.parametrize(
+    ("size", "fine"), [("1/10", True), ("12/5", True), ("29/10", False), ("3", False), ("7", False)]
+)
+def test_the_small_branch_is_proved_within_its_bound(size, fine):
+    """I = (6, 5, 3): ϱ(3/2 + |𝒦|) < 3 with ϱ = tan ½ arcsin(|𝒦|/3) holds up to |𝒦| = 2.8126…."""
+    try:
+        check_small_branch(BALL, enclosed([size])[0])
+    except Rejected:
+        assert not fine
+    else:
+        assert fine
+
+
+def test_the_bound_of_the_small_branch_is_where_it_should_be():
+    with mp.workdps(30):
+        bound = mp.findroot(lambda k: mp.tan(mp.asin(k / 3) / 2) * (1.5 + k) - 3, (2.6, 2.9), solver="anderson")
+        least = Fraction(mp.nstr(bound - mp.mpf(10) ** -15, 25))
+    check_small_branch(BALL, enclosed([least])[0])
+    with pytest.raises(Rejected, match="beyond the bound"):
+        check_small_branch(BALL, enclosed([least + Fraction(2, 10**15)])[0])
+
+
+@pytest.mark.parametrize(
+    ("J", "D", "radius"),
+    [((-1, 2, 4), 1, 0), ((0, 1, 2), 1, "1/10"), ((0, 0, 1), 1, 0), ((1, 2, 4), 0, 0), ((1, 2, 4), -1, 0),
+     ((1, 2, 4), "1/10", "1/10")],
+)  # fmt: skip
+def test_what_is_no_ball_is_refused(J, D, radius):
+    with pytest.raises(Rejected):
+        Ball.within([Fraction(x) for x in J], Fraction(D), Fraction(radius), BITS)

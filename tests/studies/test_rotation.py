@@ -1,0 +1,275 @@
+"""The study of the rotation number: two routes, the closed forms, the plateaus and their law, and the controls."""
+
+import json
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from flint import arb, ctx
+
+import chapsym
+from chapsym.dynamics import BadInput
+from chapsym.dynamics.elliptic import Curve, increment
+from chapsym.dynamics.vertical import step_vertical
+from chapsym.studies import rotation
+from chapsym.studies.rotation import average, digits, displacement, figure, plateau, staircase
+from chapsym.studies.rotation.circle import Level, number
+from chapsym.studies.rotation.plan import units
+from chapsym.studies.rotation.relation import Relation
+
+BALL = ((1, 2, 4), 1, "12/5")
+LAMINA = ((0, 1, 3), "1/2", "7/10")
+#: Around either axis, any order of the moments, in and beyond small-branch's bound, light and heavy.
+LEVELS = [
+    (*BALL, "243/1000"), (*BALL, "3/20"), ((4, 1, 2), 1, "12/5", "4/25"), ((2, 4, 1), 7, "12/5", "48/500"),
+    ((0, 1, 10), "1/2", "3/2", "1/5"), ((1, 2, 4), 0, "12/5", "27/100"), ((3, 1, 2), 50, "3", "187/10000"),
+]  # fmt: skip
+
+
+@pytest.fixture
+def sixty():
+    with ctx.workdps(60):
+        yield 10.0**-57  # a thousand roundings of numbers of order 1
+
+
+@pytest.mark.parametrize("case", LEVELS)
+def test_the_sphere_and_the_relation_are_displaced_alike(case, sixty):
+    level = Level(*case)
+    for phase in ("0", "2/3", "-7/5", "5"):
+        moved = level.displacement(phase, 5, 0)
+        assert moved > 0
+        assert abs(moved - Relation(level).displacement(phase, 5, 0)) < sixty
+
+
+@pytest.mark.parametrize("case", LEVELS)
+def test_the_chord_form_holds_on_the_sphere(case, sixty):
+    level, phase = Level(*case), number("3/7")
+    relation = Relation(level)
+    u, after = level.argument(phase), level.argument(level.lift(phase, 1))
+    assert abs(relation.chord(u, after)) < sixty * abs(relation.momentum((after - u) / 3))
+    assert abs(relation.chord(u, after + arb("1e-20"))) > arb("1e-25")  # and for another step it does not
+
+
+@pytest.mark.parametrize("case", LEVELS)
+def test_the_step_is_that_of_the_package(case):
+    with ctx.workdps(30):
+        level = Level(*case)
+        gamma = level.point(number("4/5"))
+        after = [float(x) for x in level.step(gamma)]
+        ball = chapsym.Ball([float(x) for x in case[0]], float(Fraction(case[1])))
+        g = [float(x) for x in gamma]
+        expected = step_vertical(ball, float(level.h), g)
+        np.testing.assert_allclose(after, expected.gamma if hasattr(expected, "gamma") else expected, atol=4e-15)
+        curve = Curve.through(ball, g)
+        assert float(level.m) == pytest.approx(curve.modulus**2, rel=1e-13)
+        size = abs(float(increment(curve, float(level.h), float(curve.argument(g)))))
+        moved = level.argument(level.lift(number("4/5"), 1)) - level.argument(number("4/5"))
+        assert float(moved) == pytest.approx(size, rel=1e-12)
+
+
+def test_phases_and_arguments_are_inverse_from_turn_to_turn(sixty):
+    level = Level(*BALL, "243/1000")
+    for phase in (-9, -1, 0, 1, 2, 8):
+        assert abs(level.amplitude(level.argument(number(phase))) - phase) < sixty
+    assert abs(level.argument(arb.pi() * 3) - 3 * level.half) < sixty * 10
+    assert abs(level.jacobi(level.K)[0] - 1) < sixty
+
+
+def test_averages_converge_to_the_exact_increment_of_the_top():
+    found = average.convergence([1, 2, 4], "0", "12/5", "6/25", [128, 512, 1024], 30)
+    errors = [float(x) for x in found["errors"]]
+    assert found["exact"]
+    assert errors[0] > 1e3 * errors[1] > 1e6 * errors[2]
+    assert errors[2] < 1e-15
+
+
+def test_averages_agree_with_those_of_the_package_s_increments():
+    steps = 400
+    with ctx.workdps(20):
+        level = Level(*BALL, "6/25")
+        here = float(average.mean(average.angles(level, steps), steps))
+        curve = Curve.through(chapsym.Ball((1, 2, 4), 1), [float(x) for x in level.point(arb(0))])
+    t = np.arange(1, steps + 1) / (steps + 1)
+    weights, u, moved = np.exp(-1 / (t * (1 - t))), 0.0, []
+    for _ in range(steps):
+        moved.append(float(increment(curve, 2.4, u)))
+        u += moved[-1]
+    assert here == pytest.approx(abs(weights @ moved) / weights.sum() / (curve.period / 2), abs=1e-9)
+
+
+def test_a_row_says_where_the_branch_ends():
+    found = average.row([0, 1, 3], "1/2", "6/4", True, 3, 40, 20)
+    assert found["height"] == "3/2"
+    assert found["row"][-1] is None
+    assert 0.05 < float(found["row"][0][1]) < 0.4
+
+
+@pytest.mark.parametrize("steps", [8, 9])
+def test_the_edges_of_a_plateau_are_those_of_every_orbit(steps):
+    """Just beyond an edge all orbits go on one way; just inside they do not: the symmetric ones are the extremes."""
+    found = plateau.plateau(*LAMINA, steps, 1)
+    with ctx.workdps(found["digits"]):
+        for side in (-1, 1):
+            for factor, ways in (("0.505", 1), ("0.495", 2)):
+                l = number(found["level"]) + side * number(factor) * number(found["width"])
+                level = Level(*LAMINA, l)
+                moved = [level.displacement(arb.pi() * i / (8 * steps), steps, 1) for i in range(9)]
+                assert len({x > 0 for x in moved}) == ways
+
+
+def test_the_law_is_met_as_D_goes_to_0():
+    off = []
+    for power in (8, 10, 12):
+        found = plateau.plateau((0, 1, 3), Fraction(1, 2**power), "7/10", 8, 1)
+        off.append(1 - found["ratio"])
+    assert off[2] == pytest.approx(0.0013, abs=2e-4)
+    assert off[0] / off[1] == pytest.approx(4, rel=0.03)
+    assert off[1] / off[2] == pytest.approx(4, rel=0.01)
+
+
+def test_the_width_in_the_height_is_that_in_the_level_by_the_slopes():
+    found = plateau.plateau(*LAMINA, 9, 1, in_height=True)
+    with ctx.workdps(50):
+        here = number(found["level"])
+        e = arb("1e-12")
+        of_l = Level(*LAMINA, here + e).displacement(0, 9, 1) / e
+        of_h = Level(LAMINA[0], LAMINA[1], number("7/10") + e, here).displacement(0, 9, 1) / e
+        ratio = number(found["width_in_height"]) / number(found["width"]) * of_h / of_l
+    assert float(ratio) == pytest.approx(1, abs=1e-9)
+
+
+def test_the_known_plateau_of_9():
+    found = digits.measured(*BALL, 9, 1)
+    assert found["level"].startswith("0.243000952906382635505326")
+    assert [round(float(x) * 1e28, 3) for x in found["displacement"]] == [-1.403, 1.403]
+    assert found["needed"] in (28, 29)
+    assert not digits.seen(found, 16)
+
+
+def test_the_top_is_not_displaced_and_a_kicked_one_is():
+    ball = displacement.displacement(*BALL, 9, 1, 60, 32)
+    top = displacement.displacement((1, 2, 4), "0", "12/5", 9, 1, 60, 32)
+    kicked = displacement.displacement((1, 2, 4), "0", "12/5", 9, 1, 60, 32, kick="1/100")
+
+    def largest(case):
+        return max(abs(float(x)) for x in case["values"])
+
+    assert largest(top) < 1e-58
+    assert largest(ball) == pytest.approx(1.4035e-28, rel=1e-3)
+    assert largest(kicked) > 1e-18
+    assert abs(float(ball["cosines"][9])) == pytest.approx(1.403e-28, rel=1e-3)
+    assert max(abs(float(x)) for x in ball["sines"]) < 1e-50  # even, but for the square of the displacement
+    assert float(ball["routes"]) < 1e-57
+    assert float(ball["chord"]) < 1e-55
+    assert "routes" not in kicked
+
+
+def test_a_spectrum_has_its_coefficients(sixty):
+    n = 12
+    values = [3 + 2 * (arb.pi() * 2 * i / n).cos() - (arb.pi() * 8 * i / n).sin() for i in range(n)]
+    found = displacement.spectrum(values)
+    expected = {0: (3, 0), 1: (2, 0), 4: (0, -1)}
+    for j, (c, s) in enumerate(found):
+        assert abs(c - expected.get(j, (0, 0))[0]) < sixty
+        assert abs(s - expected.get(j, (0, 0))[1]) < sixty
+
+
+def test_float64_follows_arb_and_its_kick():
+    with ctx.workdps(30):
+        for kick in ("0", "9/20"):
+            level = Level((0, 1, 3), 0, "19/20", "3/4", kick)
+            here = staircase.Levels((0, 1, 3), 0, 0.95, 0.75, float(Fraction(kick))).angles(0.3, 8)[:, 0]
+            gamma, there = level.point(number("3/10")), []
+            for _ in range(8):
+                after = level.step(gamma)
+                there.append(float(level.turned(gamma, after)))
+                gamma = after
+            np.testing.assert_allclose(here, there, atol=2e-13)
+
+
+def test_the_staircase_of_the_kicked_top_is_seen_and_that_of_the_top_is_not():
+    args = [0, 1, 3], "0", "19/20"
+    seen = staircase.plateaus(*args, "9/20", [0.02, 0.98], [[1, 5]])
+    low, high = seen[0]["edges"]
+    assert 0.01 < high - low < 0.02
+    held = staircase.Levels([0, 1, 3], 0.0, 0.95, (low + high) / 2, 0.45).angles(0.3, 1205)[-5:]
+    assert float(held.sum()) == pytest.approx(np.pi, abs=1e-14)  # the orbit is on the attracting one
+    low, high = staircase.plateaus(*args, "0", [0.02, 0.98], [[1, 5]])[0]["edges"]
+    assert high - low < 1e-12
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        ((*BALL, "1/2"), "is no circle"),
+        (((1, 2, 4), 3, 1, "1/8"), "is the separatrix"),
+        (((2, 2, 4), 1, 1, "3/20"), "two moments are equal"),
+        (((1, 2, 4), 1, 6, "6/25"), "branch ends"),
+    ],
+)
+def test_what_is_no_level_or_step_is_said(arguments, sentence):
+    with ctx.workdps(30), pytest.raises(BadInput, match=sentence):
+        Level(*arguments).displacement(0, 3, 0)
+
+
+def test_a_resonance_that_is_not_there_is_said():
+    with pytest.raises(BadInput, match="no level has the rotation number 1/3 half turns"):
+        plateau.plateau(*BALL, 3, 1)
+
+
+def test_the_working_digits_are_put_back():
+    before = ctx.prec
+    plateau.plateau(*LAMINA, 9, 1)
+    assert ctx.prec == before
+
+
+def test_every_unit_is_plain_data_and_the_full_study_has_more():
+    quick, full = units(True), units(False)
+    assert list(quick) == list(full)
+    for name, section in quick.items():
+        assert len(section) <= len(full[name])
+        for unit in section:
+            assert json.loads(json.dumps(unit.arguments)) == unit.arguments
+
+
+@pytest.fixture(scope="module")
+def small():
+    """A study of one or two units a section, in this process."""
+    from chapsym.studies.units import compute
+
+    planned = units(True)
+    cut = {"fifth": 4, "turns": 2, "small_D": 3, "farey": 4}
+    found = {
+        name: [compute(u.function, small_arguments(u)) for u in section[: cut.get(name)]]
+        for name, section in planned.items()
+    }
+    return rotation.assembled(found, True)
+
+
+def small_arguments(unit):
+    less = {"counts": [32, 64, 128], "digits": 20} if unit.function.endswith("convergence") else {}
+    less |= {"points": 4, "steps": 20} if unit.function.endswith("row") else {}
+    less |= {"fractions": [[1, 5]]} if unit.function.endswith("plateaus") else {}
+    less |= {"samples": 32} if unit.function.endswith("displacement") else {}
+    less |= {"digits": [15, 30]} if unit.function.endswith("times") else {}
+    less |= {"points": 20, "steps": 50} if unit.function.endswith("curve") else {}
+    return {**unit.arguments, **less}
+
+
+def test_the_figures_are_drawn_the_same_twice(small, tmp_path):
+    small = json.loads(json.dumps(small, allow_nan=False))
+    written = rotation.save_figures(small, tmp_path)
+    assert [x.name for x in written] == [
+        f"rotation-{x}.svg" for x in ("staircase", "widths", "digits", "displacement", "numbers")
+    ]
+    assert all(x.read_bytes().startswith(b"<?xml") for x in written)
+    assert figure.drawn(small, "digits") == written[2].read_bytes()
+    with pytest.raises(BadInput, match="does not exist"):
+        rotation.save_figures(small, tmp_path / "nowhere")
+
+
+def test_the_sentences_say_what_locks(small):
+    told = rotation.sentences(small)
+    assert any("zero but for rounding" in x for x in told)
+    assert any("D = 1, h = 12/5, 1/9 half turns, 60 digits: the displacement reaches 10^-27.9" in x for x in told)
+    assert any("13 plateaus were measured, and all are open" in x for x in told)

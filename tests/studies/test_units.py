@@ -1,0 +1,103 @@
+"""Units of a study: kept as they are done, gone on with after a kill, the same on a cluster."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+
+from chapsym.dynamics import BadInput
+from chapsym.studies.units import Unit, folder, run_units
+
+
+def units(count=4):
+    return [Unit("builtins:dict", {"n": i}) for i in range(count)]
+
+
+def test_results_are_in_the_order_of_the_units(tmp_path):
+    seen = []
+    found = run_units(units(), tmp_path / "u.jsonl", report=lambda done, of: seen.append((done, of)))
+    assert found == [{"n": i} for i in range(4)]
+    assert seen == [(i, 4) for i in range(5)]
+
+
+def test_what_is_kept_is_not_computed_again(tmp_path):
+    path = tmp_path / "u.jsonl"
+    run_units(units(), path)
+    lines = path.read_text().splitlines()
+    record = json.loads(lines[1])
+    lines[1] = json.dumps({**record, "result": "kept"})
+    path.write_text("\n".join(lines) + "\n")
+    found = run_units(units(6), path)
+    assert found.count("kept") == 1
+    assert len(path.read_text().splitlines()) == 6
+
+
+def test_a_line_that_was_cut_off_is_computed_again(tmp_path):
+    path = tmp_path / "u.jsonl"
+    run_units(units(), path)
+    text = path.read_text()
+    path.write_text(text[:-9])
+    assert run_units(units(), path) == [{"n": i} for i in range(4)]
+    assert sorted(path.read_text().splitlines()) == sorted(text.splitlines())
+
+
+def test_a_file_of_something_else_is_refused(tmp_path):
+    path = tmp_path / "u.jsonl"
+    path.write_text("first\n")
+    with pytest.raises(BadInput, match=r"line 1 of .* is no result of a study"):
+        run_units(units(), path)
+    assert path.read_text() == "first\n"
+
+
+def test_a_unit_that_fails_is_named_and_the_others_are_kept(tmp_path):
+    path = tmp_path / "u.jsonl"
+    wrong = Unit("builtins:int", {"base": 40})
+    with pytest.raises(BadInput, match=r"int\(base = 40\)"):
+        run_units([*units(1), wrong], path)
+    assert run_units(units(1), path) == [{"n": 0}]
+
+
+def test_a_killed_run_goes_on(tmp_path):
+    path = tmp_path / "u.jsonl"
+    program = (
+        "from chapsym.studies.units import Unit, run_units\nfrom pathlib import Path\nimport sys\n"
+        "if __name__ == '__main__':\n"
+        "    run_units([Unit('builtins:dict', {'n': 0}),"
+        " Unit('subprocess:run', {'args': ['sleep', '60']})], Path(sys.argv[1]))\n"
+    )
+    script = tmp_path / "run.py"
+    script.write_text(program)
+    process = subprocess.Popen([sys.executable, str(script), str(path)], start_new_session=True)
+    until = time.monotonic() + 60
+    while not (path.exists() and path.read_text().endswith("\n")) and time.monotonic() < until:
+        time.sleep(0.1)
+    os.killpg(process.pid, signal.SIGKILL)
+    process.wait()
+    assert [json.loads(line)["result"] for line in path.read_text().splitlines()] == [{"n": 0}]
+    assert run_units(units(1), path) == [{"n": 0}]
+
+
+def test_the_same_on_a_cluster(tmp_path):
+    distributed = pytest.importorskip("distributed")
+    path = tmp_path / "u.jsonl"
+    with distributed.LocalCluster(
+        n_workers=1, threads_per_worker=1, processes=False, dashboard_address=None
+    ) as cluster:
+        found = run_units(units(), path, scheduler=cluster.scheduler_address)
+    assert found == run_units(units(), path) == [{"n": i} for i in range(4)]
+
+
+def test_no_scheduler_is_said(tmp_path):
+    with pytest.raises(BadInput, match="Dask scheduler"):
+        run_units(units(), None, scheduler="inproc://nobody")
+
+
+def test_a_file_is_no_folder(tmp_path):
+    (tmp_path / "file").write_text("")
+    with pytest.raises(BadInput, match="is a file"):
+        folder(tmp_path / "file")
+    assert folder(tmp_path / "new" / "deep").is_dir()
