@@ -190,7 +190,11 @@ def energy_question(p: Proof) -> None:
     )
 
 
-MEASURED = ""
+MEASURED = (
+    "The map itself, 160 bits, from the centres of the certificates, nε = 2T: (H(Φ^n x) - H(x))/ε² is -0.0053052, "
+    "-0.0052390, -0.0052224 for n = 500, 1000, 2000 with J = (0, 1, 3), D = 4, against ∮X₃(H)dt = -0.0052169; and "
+    "0.00178004, 0.00178030 for n = 500, 1000 with J = (1, 2, 4), D = 1, against 0.00178039."
+)
 
 if __name__ == "__main__":
     main(__file__)

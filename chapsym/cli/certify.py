@@ -98,7 +98,10 @@ def check(
 
 
 def deliver(
-    find: Callable[[Callable[[str], None]], dict[str, Any]], output: Path | None, as_json: bool
+    find: Callable[[Callable[[str], None]], dict[str, Any]],
+    output: Path | None,
+    as_json: bool,
+    check: str = "chapsym certify check",
 ) -> dict[str, Any]:
     """Finds a certificate with its progress on standard error, and writes it; one sentence where there is none."""
     from chapsym import files
@@ -117,7 +120,7 @@ def deliver(
     if as_json:
         print_json(found)
     elif output is not None:
-        print(f"wrote {output}; check it by chapsym certify check {output}")
+        print(f"wrote {output}; check it by {check} {output}")
     return found
 
 

@@ -50,7 +50,7 @@ def energy_drift(
     def find(progress: Callable[[str], None]) -> dict[str, Any]:
         return search(J, D, K, g, tuple(map(int, signs)), end, vary - 1, digits=digits, progress=progress)
 
-    found = deliver(find, output, as_json)
+    found = deliver(find, output, as_json, "chapsym certify energy-drift --verify")
     if not as_json:
         _describe(found)
 

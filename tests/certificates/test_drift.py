@@ -145,7 +145,7 @@ def test_a_start_that_does_not_close_is_not_proved():
     orbit = drift_file.read(certificate(FILES[0]))
     varied = tuple(x + 10 * orbit.radius * (i == orbit.varied) for i, x in enumerate(orbit.momentum))
     with pytest.raises(NotEnclosed, match="between the two ends"):
-        drift.enclose(replace(orbit, momentum=varied), 256, 64)
+        drift.enclose(replace(orbit, momentum=varied), 192, 52)
 
 
 def test_a_changed_file_is_refused():

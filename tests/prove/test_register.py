@@ -32,7 +32,7 @@ VERDICTS = {
     "5.15-euler": "holds", "5.16": "corrected", "5.16-weierstrass-e": "holds", "5.16-weierstrass-w": "corrected",
     "5.16-integral": "holds", "5.6-curve": "holds", "5.9": "holds", "remark-4": "holds", "5.9-liouville": "holds",
     "5.9-circle": "conditional", "5.9-open": "settled", "6-vertical-energy": "holds", "6-LR": "holds",
-    "6-open": "open",
+    "6-open": "settled",
 }  # fmt: skip
 
 
