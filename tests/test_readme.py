@@ -57,7 +57,7 @@ def test_the_readme_counts_what_is_on_record(records):
     left_open, settled = (sum(r["verdict"] == verdict for r in records.values()) for verdict in ("open", "settled"))
     assert f"Every one of the {len(records)} statements" in README
     assert f"{wrong} are not true as printed" in README
-    assert f"{left_open + settled} are open in the\npaper: {settled} is settled here, {left_open} left open" in README
+    assert f"{left_open + settled} are open in the\npaper: {settled} are settled here, {left_open} left open" in README
 
 
 def test_what_the_readme_calls_wrong_is_on_record_as_wrong(records):

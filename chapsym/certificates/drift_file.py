@@ -23,8 +23,8 @@ def document(orbit: Orbit, found: Enclosures, bits: int, order: int) -> dict[str
     momentum = ", ".join(map(shortest, orbit.momentum))
     statement = (
         f"The continuous ball with J = {J}, D = {orbit.D} has a closed orbit through gamma = {listed(orbit.gamma)}, "
-        f"K = ({momentum}), K{orbit.varied + 1} up to {shortest(orbit.radius)}, of the period {'T' if times == 1 else '2T'}; "
-        "the integrals over [0, T] of X3(H) and of the divergence of X3 are not 0."
+        f"K = ({momentum}), K{orbit.varied + 1} up to {shortest(orbit.radius)}, of the period "
+        f"{'T' if times == 1 else '2T'}; the integrals over [0, T] of X3(H) and of the divergence of X3 are not 0."
     )
     return sealed(
         KIND, statement,

@@ -1,5 +1,7 @@
 """The modified equations: their lemmas, what a wrong term in them does, and the map itself at high precision."""
 
+from itertools import pairwise
+
 import mpmath
 import pytest
 import sympy as sp
@@ -114,5 +116,5 @@ def test_the_defect_of_the_step_is_of_order_5():
     for power in (7, 8, 9):
         size = MP.mpf(2) ** -power
         defects.append(MP.norm(MP.matrix([x for v in step(K, g, size) for x in v]) - flow(K, g, size)))
-    slopes = [float(MP.log(a / b, 2)) for a, b in zip(defects, defects[1:], strict=False)]
+    slopes = [float(MP.log(a / b, 2)) for a, b in pairwise(defects)]
     assert slopes == pytest.approx([5, 5], abs=0.02)
