@@ -22,7 +22,7 @@ ROOMS = {
     "prove": {"derive", "files"},
     "codegen": {"derive", "generated"},
     "dynamics": {"generated", "numbers"},
-    "certificates": {"dynamics", "exact", "files", "generated", "numbers"},
+    "certificates": {"checker", "dynamics", "exact", "files", "generated", "numbers"},
     "accuracy": {"dynamics", "files", "generated", "numbers"},
     "scene": {"accuracy", "dynamics", "exact", "files", "generated", "numbers"},
     "studies": {"accuracy", "generated", "numbers", "dynamics", "scene"},
