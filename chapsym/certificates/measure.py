@@ -136,28 +136,39 @@ def _least_digits(top: Top, at: Resonance) -> int:
 def _largest(
     top: Top, at: Resonance, least: int, only: bool, radius: Fraction | None, progress: Callable[[str], None]
 ) -> dict[str, Any]:
-    """The certificate with the largest radius, and the fewest digits for it."""
-    candidates = [least] if only else range(least, min(least + MORE, MOST_DIGITS) + 1)
-    most = candidates[-1]
+    """The certificate with the largest radius, and the fewest digits for it: the smaller, the easier, so by halving."""
+    digits = [least] if only else list(range(least, min(least + MORE, MOST_DIGITS) + 1))
     radii = _radii(top, at, least) if radius is None else [radius]
-    with ctx.workprec(math.ceil(most * 10 / 3) + spare_bits(at.steps)):
-        for tried in radii:
-            progress(f"trying the radius {shortest(tried)}")
+    first, last = 0, len(radii) - 1
+    found = _accepted(top, at, radii[last], digits)
+    if found is None:
+        raise BadInput(
+            f"the numbers do not round to {least} digits alike for all parameters within {shortest(radii[last])}; "
+            f"take a smaller radius, or another number of digits"
+        )
+    while first < last:
+        middle = (first + last) // 2
+        progress(f"trying the radius {shortest(radii[middle])}")
+        other = _accepted(top, at, radii[middle], digits)
+        first, last, found = (middle + 1, last, found) if other is None else (first, middle, other)
+    return found
+
+
+def _accepted(top: Top, at: Resonance, radius: Fraction, candidates: list[int]) -> dict[str, Any] | None:
+    """The certificate with this radius and the fewest digits, proved, and accepted by the checker."""
+    with ctx.workprec(math.ceil(candidates[-1] * 10 / 3) + spare_bits(at.steps)):
+        try:
+            orbits = _orbits(top, at, radius)
+        except (NotProved, TooWide, BadInput):  # such a radius may be beyond the bound of small-branch
+            return None
+        for digits in candidates:
             try:
-                orbits = _orbits(top, at, tried)
-            except (NotProved, TooWide, BadInput):  # such a radius may be beyond the bound of small-branch
+                found = _document(top, at, radius, orbits, digits)
+                checker.check(found)
+            except (NotProved, checker.Rejected):
                 continue
-            for digits in candidates:
-                try:
-                    found = _document(top, at, tried, orbits, digits)
-                    checker.check(found)
-                except (NotProved, checker.Rejected):
-                    continue
-                return found
-    raise BadInput(
-        f"the numbers do not round to {least} digits alike for all parameters within {shortest(radii[-1])}; "
-        f"take a smaller radius, or another number of digits"
-    )
+            return found
+    return None
 
 
 def _radii(top: Top, at: Resonance, digits: int) -> list[Fraction]:
