@@ -93,9 +93,10 @@ def test_every_place_of_one_decimal_counts(right):
     [(("ball", "height"), "0", "height is not proved"), (("ball", "height"), "29/10", "beyond the bound"),
      (("ball", "height"), "-3", "least moment"), (("radius",), "-1e-60", "radius must not be negative"),
      (("radius",), "10", "mass tensor"), (("axes",), [3, 2, 1], "circle around"),
-     (("axes",), [1, 3, 2], "circle around"), (("axes",), [1, 2, 2], "in some order"), 
-     (("ball", "level"), "1/5", "no root near"), (("ball", "level"), LEVEL + "0", "more decimals"), (("ball", "J"), ["1", "2"], "list of 3"),
-     (("orbits", 1, "start"), "a", "no root near"), (("orbits", 1, "start"), "c", "must be a or b")],
+     (("axes",), [1, 3, 2], "circle around"), (("axes",), [1, 2, 2], "in some order"),
+     (("ball", "level"), "1/5", "no root near"), (("ball", "level"), LEVEL + "0", "more decimals"),
+     (("ball", "J"), ["1", "2"], "list of 3"), (("orbits", 1, "start"), "a", "no root near"),
+     (("orbits", 1, "start"), "c", "must be a or b")],
 )  # fmt: skip
 def test_each_hypothesis_is_proved_from_the_numbers(right, path, value, sentence):
     with pytest.raises(Rejected, match=sentence):
