@@ -52,13 +52,17 @@ def determinant(matrix: Matrix) -> Interval:
 def solve(matrix: Matrix, right: Matrix) -> Matrix:
     """X with A X = B by elimination, for every A in `matrix` (n × n) and B in `right` (n × m); n × m.
 
-    For each A and B the steps are those of the real elimination, and no pivot is 0 (else a division raises Rejected):
-    so every A in `matrix` is regular, and the solution lies in what is returned.
+    For each A and B the steps are those of the real elimination, and no pivot is 0 (else this raises Rejected): so
+    every A in `matrix` is regular, and the solution lies in what is returned.
     """
     rows = [[*a, *b] for a, b in zip(matrix, right, strict=True)]
     for i in range(len(rows)):
         best = max(range(i, len(rows)), key=lambda j: rows[j][i].least)
         rows[i], rows[best] = rows[best], rows[i]
+        if not rows[i][i].sign:
+            raise Rejected(
+                "there is no root near the numbers of the file, or it may be multiple: a matrix may be singular"
+            )
         pivot = [x / rows[i][i] for x in rows[i][i + 1 :]]
         rows = [[*row[: i + 1], *minus(row[i + 1 :], times(row[i], pivot))] for row in rows]
         rows[i][i + 1 :] = pivot
