@@ -183,6 +183,13 @@ def test_for_small_heights_the_second_derivative_is_what_the_lemma_says():
     assert abs(circle.second(a, h) / (h**3 * circle.level**2 * circle.V**3 / 8) - 1) < 1e-9
 
 
+@pytest.mark.parametrize("D", ["0.5", "2.5"])
+def test_for_small_heights_the_increment_is_that_of_the_flow_of_almost_every(D):
+    circle, D, h = Circle((6, 5, 3), mp.mpf(1) / 4), mp.mpf(D), mp.mpf("1e-9")
+    rate = h * circle.V / (1 - D * circle.level)
+    assert all(abs(circle.displaced(mp.mpf(u), D, h, 1) / rate - 1) < 1e-15 for u in (0, 1, 2.5))
+
+
 @pytest.mark.parametrize("start", [0, 1])
 def test_without_rolling_the_displacement_vanishes_to_every_digit(start):
     circle, q, p = Circle((6, 5, 3), mp.mpf(1) / 4), 5, 1
