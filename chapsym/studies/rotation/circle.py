@@ -7,6 +7,7 @@ commutes with the map's symmetries.
 
 from collections.abc import Sequence
 from fractions import Fraction
+from math import pi
 from typing import Any, Self
 
 from flint import acb, arb, ctx, fmpq
@@ -140,10 +141,19 @@ class Level:
         return middle(arb.atan2(c * y - s * x, c * x + s * y))
 
     def argument(self, phase: Any) -> Any:
-        """u = F(φ, m), going on from turn to turn."""
-        turns = round(float(phase) / 3.141592653589793)
+        """u = F(φ, m), going on from turn to turn; next to π/2, where Arb's reduction is torn, by K - F."""
+        turns = round(float(phase) / pi)
         rest = middle(phase - turns * arb.pi())
-        return middle(real(acb.elliptic_f(acb(rest), acb(self.m))) + turns * self.half)
+        c, s, k = rest.cos(), rest.sin(), (1 - self.m).sqrt()
+        if s * s * k < c * c:
+            part = self._first_kind(rest)
+        else:
+            part = self.K - self._first_kind(middle(arb.atan2(c, k * abs(s))))
+            part = part if s > 0 else -part
+        return middle(part + turns * self.half)
+
+    def _first_kind(self, phase: Any) -> Any:
+        return real(acb.elliptic_f(acb(phase), acb(self.m)))
 
     def amplitude(self, u: Any) -> Any:
         """φ = am u, by theta functions, going on from turn to turn."""
@@ -169,7 +179,7 @@ class Level:
             gamma = after
         c, s = self.direction(gamma)
         end = middle(arb.atan2(s, c))
-        return end + 2 * arb.pi() * round((total - float(end)) / 6.283185307179586)
+        return end + 2 * arb.pi() * round((total - float(end)) / (2 * pi))
 
     def displacement(self, phase: Any, steps: int, half_turns: int) -> Any:
         """(G^q(u) - u)/2K - p, in half turns, of the orbit that starts at a phase."""

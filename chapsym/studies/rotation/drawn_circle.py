@@ -83,7 +83,7 @@ def numbers(found: dict[str, Any]) -> Any:
     axes[0].legend(loc="upper left")
     contacts = list(dict.fromkeys(row["D"] for row in found["overview"]))
     top = max(float(cell[1]) for row in found["overview"] for cell in row["row"] if cell)
-    levels = np.arange(0.02, top + 0.02, 0.02)
+    levels = np.arange(0, top + 0.02, 0.02)
     drawn = None
     for axis, D in zip(axes[1:], contacts, strict=True):
         rows = [row for row in found["overview"] if row["D"] == D]
