@@ -54,15 +54,6 @@ def turning(v: sp.Matrix) -> sp.Matrix:
     return 2 * (v.hat() - sp.eye(3)) / (1 + v.dot(v))
 
 
-def derivative(u_: sp.Matrix, gamma_: sp.Matrix, domain: sp.Domain) -> DomainMatrix:
-    """S = Ωᵀ - E(∂G/∂u)⁻¹𝒢 of one step, in exact numbers."""
-    T, E, A, W = (
-        DomainMatrix.from_Matrix(m(*a)).convert_to(domain)
-        for m, a in ((turn, [u_]), (turning, [u_]), (slope, [u_, gamma_]), (by_turns, [u_, gamma_]))
-    )
-    return T - E * A.inv() * W
-
-
 @claim(
     "step-determinant",
     r"\det D\Phi|_M = \frac{\det\partial_uG(-u;\, \Omega^T\gamma, -\Omega^Tk)}{\det\partial_uG(u;\, \gamma, k)}",
@@ -80,41 +71,32 @@ def step_determinant(p: Proof) -> None:
                   at(gibbs.residual(), -u, turned * gamma, -turned * k), -turned * sp.Matrix(gibbs.residual())))  # fmt: skip
     change = sum((turned.diff(a) * b for a, b in zip(u, d, strict=True)), sp.zeros(3, 3))
     p.lemma(equal("dT = [E du]×T, E = 2([u]× - 1)/(1 + |u|²)", change, (turning(u) * d).hat() * turned))
-    p.say("𝒜 = ∂G/∂u, 𝒢w its change by γ ↦ w × γ, k ↦ w × k: du = -𝒜⁻¹𝒢w, and S = T - E𝒜⁻¹𝒢. So")
-    p.say("det S = det(1 - 𝒢T⁻¹E𝒜⁻¹) = det(𝒜 - 𝒢T⁻¹E)/det 𝒜.  With 𝒜~ = 𝒜 at (-u; Tγ, -Tk), k by G = 0:")
-    here, there, back = slope(u, gamma), slope(-u, turned * gamma), turn(-u)
+    p.say("𝒜 = ∂G/∂u, 𝒢w its change by γ ↦ w × γ, k ↦ w × k: du = -𝒜⁻¹𝒢w, and S = T - E𝒜⁻¹𝒢; 𝒜~ and 𝒢~ are those at")
+    p.say("(-u; Tγ, -Tk).  Where G = 0 the first lemma, differentiated by turns of the start and by u, says 𝒢~T = -T𝒢 and")
+    p.say("𝒢~E - 𝒜~ = -T𝒜, that is T⁻¹𝒜~ = 𝒜 - 𝒢T⁻¹E.  So det S = det(1 - 𝒢T⁻¹E𝒜⁻¹) = det 𝒜~/det 𝒜.  For one u, all γ, D:")
+    point = sp.Matrix([sp.Rational(1, 3), sp.Rational(-1, 4), sp.Rational(1, 5)])
+    ball, free = {I1: 6, I2: 5, I3: 3}, Quotient((*gamma, D), [])
+    here, there = slope(point, gamma).subs(ball), slope(-point, turn(point) * gamma).subs(ball)
+    change = by_turns(point, gamma).subs(ball) * turn(-point) * turning(point)
 
     def key(text: str, sign: int) -> Equation:
-        left = NORM * (here - sign * by_turns(u, gamma) * back * turning(u))
-        return Equation(text, list(left), list(NORM * back * there), FREE)
+        return equal(text, here - sign * change, turn(-point) * there, free)
 
-    p.printed(key("𝒜 - 𝒢T⁻¹E = T⁻¹𝒜~", 1))
+    p.printed(key("T⁻¹𝒜~ = 𝒜 - 𝒢T⁻¹E, J = (1, 2, 4), u = (1/3, -1/4, 1/5)", 1))
     p.say("For D = 0 the two dets are equal: there the volume is invariant.")
     without = {D: sp.S.Zero}
-    p.lemma(Equation("det 𝒜~ = det 𝒜 for D = 0", [_determinant(slope(-u, gamma).subs(without))],
+    p.printed(Equation("det 𝒜~ = det 𝒜 for D = 0", [_determinant(slope(-u, gamma).subs(without))],
                      [_determinant(slope(u, gamma).subs(without))], FREE))  # fmt: skip
-    point = sp.Matrix([sp.Rational(1, 3), sp.Rational(-1, 4), sp.Rational(1, 5)]), sp.Matrix([2, 3, 6]) / 7
-    numbers = {I1: 6, I2: 5, I3: 3, D: 2}
-    quotient = (_determinant(slope(-point[0], turn(point[0]) * point[1])) / _determinant(slope(*point))).subs(numbers)
-    by_definition = _numbers(point, numbers).det()
-    p.lemma(Fact("det S by its definition is this quotient, at one rational point", sp.QQ.to_sympy(by_definition) == quotient))
-    p.control(key("𝒜 + 𝒢T⁻¹E = T⁻¹𝒜~", -1))
-    p.control(Fact("det S = 1 at this point", by_definition == 1))
-    p.control(Equation("det 𝒜~ = det 𝒜 for D ≠ 0", [_determinant(slope(-u, turned * gamma).subs(_few()))],
-                       [_determinant(slope(u, gamma).subs(_few()))], FREE))  # fmt: skip
-
-
-def _few() -> dict[sp.Symbol, sp.Expr]:
-    return {u[0]: sp.Rational(1, 3), u[1]: sp.Rational(1, 4), I1: 6, I2: 5, I3: 3}
+    numbers = {**dict(zip(gamma, sp.Matrix([2, 3, 6]) / 7, strict=True)), D: 2, **ball}
+    S = turn(point) - turning(point) * here.subs(numbers).inv() * by_turns(point, gamma).subs(numbers)
+    quotient = _determinant(there.subs(numbers)) / _determinant(here.subs(numbers))
+    p.lemma(Fact("det S by its definition is this quotient, at γ = (2, 3, 6)/7, D = 2", S.det() == quotient))
+    p.control(key("T⁻¹𝒜~ = 𝒜 + 𝒢T⁻¹E", -1))
+    p.control(Fact("det S = 1 at this γ and D", S.det() == 1))
 
 
 def _determinant(m: sp.Matrix) -> sp.Expr:
     return m.det(method="berkowitz")
-
-
-def _numbers(point: tuple[sp.Matrix, sp.Matrix], numbers: dict[sp.Symbol, int]) -> DomainMatrix:
-    T, E, A, W = (m.subs(numbers) for m in (turn(point[0]), turning(point[0]), slope(*point), by_turns(*point)))
-    return DomainMatrix.from_Matrix(T - E * A.inv() * W).convert_to(sp.QQ)
 
 
 def steady_level(t_: sp.Expr) -> sp.Expr:
@@ -176,18 +158,18 @@ def steady_circles(p: Proof) -> None:
 def _example(p: Proof) -> None:
     p.say("Example, in Q(√2): J = (1, 2, 4), D = 1, θ = 45°, γ = (3, 4, 5)√2/10.  The product of det S by its definition:")
     field = sp.QQ.algebraic_field(ROOT)
-    axis, vertical = (v.subs(EXAMPLE) for v in (sp.Matrix([0, 0, t]), sp.Matrix([x, y, c])))
-    momentum = (2 * half_momentum(axis, vertical).subs(EXAMPLE)).applyfunc(sp.radsimp)
+    axis, vertical = (v.subs(EXAMPLE).applyfunc(_simple) for v in (sp.Matrix([0, 0, t]), sp.Matrix([x, y, c])))
+    momentum = (2 * half_momentum(axis, vertical).subs(EXAMPLE)).applyfunc(_simple)
     product, start = field.one, vertical
     for _ in range(4):
-        product *= _exact(axis, vertical, field).det()
-        vertical = (turn(axis) * vertical).applyfunc(sp.radsimp)
+        product *= _derivative(axis, vertical, field).det()
+        vertical = (turn(axis) * vertical).applyfunc(_simple)
     facts = (
         Fact("|𝒦|² = 25/4 and ⟨𝒦, γ⟩ = 3/2", _simple(momentum.dot(momentum)) == sp.Rational(25, 4)
              and _simple(momentum.dot(start)) == sp.Rational(3, 2)),
         Fact("5/2 is below the bound of small-branch: ϱ < 3/4 as 5/6 < 24/25 = sin(2 arctan ¾), and ¾(½(6 - 3) + 5/2) = 3",
              sp.Rational(5, 6) < 2 * sp.Rational(3, 4) / (1 + sp.Rational(9, 16)) and sp.Rational(3, 4) * 4 <= 3),
-        Fact("after 4 steps γ has turned by π about e₃", vertical == sp.diag(-1, -1, 1) * start),
+        Fact("after 4 steps γ has turned by π about e₃", list(vertical) == [-start[0], -start[1], start[2]]),
         Fact("the determinant of 4 steps is not 1", product != field.one),
         Fact("it is Πf(φ - (j + ½)θ)/f(φ - jθ)", product == _by_formula(field)),
     )  # fmt: skip
@@ -202,7 +184,8 @@ def _simple(value: sp.Expr) -> sp.Expr:
     return sp.radsimp(sp.expand(value))
 
 
-def _exact(axis: sp.Matrix, vertical: sp.Matrix, field: sp.Domain) -> DomainMatrix:
+def _derivative(axis: sp.Matrix, vertical: sp.Matrix, field: sp.Domain) -> DomainMatrix:
+    """S of one step of the example, by its definition."""
     parts = (turn(axis), turning(axis), slope(axis, vertical), by_turns(axis, vertical))
     T, E, A, W = (DomainMatrix.from_Matrix(m.subs(EXAMPLE).applyfunc(_simple)).convert_to(field) for m in parts)
     return T - E * A.inv() * W
