@@ -39,6 +39,10 @@ class Member:
     momentum: Vector
     gamma: Vector
 
+    def mirrored(self) -> "Member":
+        """The image by the reversor -1: of the orbit that goes back, with the inverse derivative."""
+        return Member(self.height, [-x for x in self.momentum], [-x for x in self.gamma])
+
 
 def families(level: Level, steps: int, progress: Callable[[str], None]) -> Iterator[list[Member]]:
     """The families of orbits of so many steps at this |𝒦|², a stretch of each; `level.height` is not used."""
