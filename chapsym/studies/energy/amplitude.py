@@ -12,7 +12,7 @@ from chapsym.dynamics.ball import Floats
 
 from .continuous import Level
 from .resonance import closed_orbits, on_level, profile
-from .section import coordinates, crossings
+from .section import coordinates, crossings, state
 
 #: Steps that are kept at once.
 CHUNK = 1 << 17
@@ -89,22 +89,25 @@ def island(
 ) -> dict[str, Any]:
     """At most `most` points (ψ, H) on the section of a run from `start`, moved to H = `energy`, and how it swings.
 
+    Where a torus crosses the section in two sheets, one above the other in θ, those of the first crossing are kept.
+
     period: the steps between two upward passages of the middle of the range of H, averaged; 0 if there are less than
     two.  range: of H on the section.
     """
     level = Level(tuple(ball[0]), *ball[1:])
     K, g = on_level(level, energy, *np.array(start)[:, np.newaxis])[:, 0]
-    psis, energies = [], []
+    found = []
     for k, v in chunks(level, K, g, epsilon, steps):
         _, kc, gc = crossings(k, v)
-        psis.append(coordinates(kc, gc)[1])
-        energies.append(level.energy(kc, gc))
-    where, H = np.concatenate(psis), np.concatenate(energies)
+        found.append((*coordinates(kc, gc), level.energy(kc, gc)))
+    theta, psi, H = (np.concatenate(parts) for parts in zip(*found, strict=True))
     middle = (H.max() + H.min()) / 2
     up = np.flatnonzero((H[:-1] < middle) & (H[1:] >= middle))
     swing = float((up[-1] - up[0]) / (len(up) - 1) * steps / len(H)) if len(up) > 1 else 0.0
-    at = np.unique(np.linspace(0, len(H) - 1, min(most, len(H))).astype(int))
+    sheet = level.energy(*state(level, theta + 1e-6, psi)) > level.energy(*state(level, theta - 1e-6, psi))
+    same = np.flatnonzero(sheet == sheet[0])
+    at = np.random.default_rng(0).choice(same, min(most, len(same)), replace=False)
     return {
-        "psi": [round(float(x), 4) for x in where[at]], "energy": [round(float(x), 8) for x in H[at]], "period": swing,
+        "psi": [round(float(x), 3) for x in psi[at]], "energy": [round(float(x), 7) for x in H[at]], "period": swing,
         "range": float(np.ptp(H)),
     }  # fmt: skip

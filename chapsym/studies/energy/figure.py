@@ -8,20 +8,21 @@ import numpy as np
 from chapsym import files
 from chapsym.dynamics import BadInput
 
-COLOURS = {"generic": "#0072B2", "euler": "0.6", "resonant": "#D55E00"}
-LABELS = {"generic": "generic starts", "euler": "the same, $D=0$", "resonant": "in the widest resonance"}
+COLOURS = {"generic": "#0072B2", "resonant": "#D55E00"}
+LABELS = {"generic": "generic starts", "resonant": "in the widest resonances"}
 RC = {"svg.hashsalt": "chapsym", "font.size": 11, "mathtext.fontset": "dejavusans"}
 
 
 def draw_amplitudes(found: dict[str, Any]) -> Any:
     """The range of H over each run against ε, with lines ε and ε²; and the change by a loop beside the quadrature."""
     from matplotlib.figure import Figure
+    from matplotlib.ticker import NullFormatter
 
     figure = Figure(figsize=(10.4, 4.6), layout="constrained")
     left, right = figure.subplots(1, 2)
-    for name in ("euler", "generic", "resonant"):
+    for name in ("generic", "resonant"):
         x, y = np.array([(run["epsilon"], run["range"]) for run in found[name]]).T
-        left.plot(x, y, "o", color=COLOURS[name], markersize=4.5, alpha=0.8, label=LABELS[name], markeredgewidth=0)
+        left.plot(x, y, "o", color=COLOURS[name], markersize=4.5, alpha=0.7, label=LABELS[name], markeredgewidth=0)
     span = np.array([min(run["epsilon"] for run in found["generic"]), 0.5])
     for power, name in ((2, "generic"), (1, "resonant")):
         runs = [run for run in found[name] if run["epsilon"] <= 0.1]
@@ -44,6 +45,7 @@ def draw_amplitudes(found: dict[str, Any]) -> Any:
     right.set_title("The change by a closed orbit of the ball", fontsize=11)
     right.legend(frameon=False, loc="lower right")
     for axis in (left, right):
+        axis.xaxis.set_minor_formatter(NullFormatter())
         axis.grid(alpha=0.25)
         axis.spines[["top", "right"]].set_visible(False)
     return figure
