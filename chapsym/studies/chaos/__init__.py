@@ -16,8 +16,12 @@ EPSILONS = (0.2, 0.3, 0.45, 0.6, 0.9, 1.2, 1.5, 2.0, 3.0)
 #: The length of the runs is varied for this ball at this ε.
 LENGTHS = (5_000, 20_000, 80_000, 320_000)
 VARIED = ((0, 1, 3), 1.0, 0.9)
-#: What is drawn: ball with cosine, and ε.
-PICTURES = (([[0, 1, 3], 1.0, 0.5], 0.9), ([[0, 1, 3], 1.0, 0.5], 2.0))
+#: What is drawn: a level at a moderate ε, and a chaotic layer of it at a large one.
+LEVEL = [[0, 1, 3], 1.0, 0.5]
+PICTURES: tuple[dict[str, Any], ...] = (
+    {"ball": LEVEL, "epsilon": 0.9, "lines": [[0.0, -0.2, 0.6], [1.0, -0.1, 0.5]]},
+    {"ball": LEVEL, "epsilon": 2.0, "lines": [[1.0, 0.335, 0.35], [0.0, 0.41, 0.435]]},
+)
 
 
 def study(
@@ -40,7 +44,7 @@ def study(
 
 
 def _units(quick: bool) -> list[tuple[str, Unit]]:
-    orbits, steps = (64, 4_000) if quick else (512, 40_000)
+    orbits, steps = (64, 4_000) if quick else (256, 20_000)
     epsilons = (0.3, 0.9, 2.0) if quick else EPSILONS
     units = []
 
@@ -54,10 +58,9 @@ def _units(quick: bool) -> list[tuple[str, Unit]]:
                 add("samples", J, D, epsilon, near, steps)
     for length in LENGTHS[: 2 if quick else 4]:
         add("lengths", *VARIED, True, length)
-    for ball, epsilon in PICTURES:
-        shown = {"ball": ball, "epsilon": epsilon, "orbits": 40 if quick else 110}
-        shown.update({"steps": 20_000, "points": 60} if quick else {"steps": 150_000, "points": 120})
-        units.append(("pictures", Unit(HERE + "picture", shown)))
+    size = {"orbits": 30, "steps": 15_000, "points": 60} if quick else {"orbits": 72, "steps": 80_000, "points": 130}
+    for shown in PICTURES:
+        units.append(("pictures", Unit(HERE + "picture", {**shown, **size})))
     return units
 
 

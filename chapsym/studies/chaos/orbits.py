@@ -40,8 +40,8 @@ def sample(
 
     folded: orbits that met a fold, which are not counted.  growth: quantiles of log(growth)/log(steps) of the regular
     ones, at most LIMIT.  exponent: the mean and the largest Lyapunov exponent of the chaotic ones, a step.
-    volume: the largest |average of log|det T|| of the regular ones, by smooth weights; for the chaotic ones the mean
-    and its standard error.  averages: the median change of the average energy, from one half of the run to the other,
+    volume: the largest |average of log|det T|| of the regular ones, by smooth weights, over the second half; for the
+    chaotic ones the mean over all and its standard error.  averages: the median change of the average energy, from one half of the run to the other,
     relative, of the regular and of the chaotic ones.
     """
     ball = Ball(mass_tensor, D)
@@ -64,7 +64,7 @@ def sample(
         }
     if chaotic.any():
         exponents = kept["growth1"][chaotic] / steps
-        volume = sum(kept[f"growth{i}"][chaotic] for i in (1, 2, 3)) / steps
+        volume = (kept["volume_first"][chaotic] + kept["volume_second"][chaotic]) / 2
         told["wild"] = {
             "growth": float(growth[chaotic].min()), "exponent": [float(exponents.mean()), float(exponents.max())],
             "volume": [float(np.mean(volume)), float(np.std(volume) / np.sqrt(len(volume)))],
@@ -73,14 +73,17 @@ def sample(
     return told
 
 
-def picture(ball: list[Any], epsilon: float, orbits: int, steps: int, points: int) -> list[dict[str, Any]]:
-    """For starts on ψ = 0 and ψ = π of the section: the exponent and at most `points` points (θ, ψ), in π/1000.
+def picture(
+    ball: list[Any], epsilon: float, lines: list[list[float]], orbits: int, steps: int, points: int
+) -> list[dict[str, Any]]:
+    """For starts on lines (ψ, first θ, last θ), in π: the exponent and at most `points` points (ψ, θ), in 10⁻⁵π.
 
-    Chaotic orbits have three times as many.  A start that meets a fold is left out.
+    Chaotic orbits have four times as many.  A start that meets a fold, or does not cross upwards, is left out.
     """
     level = Level(tuple(ball[0]), *ball[1:])
-    theta = np.repeat(np.linspace(-np.pi / 4, 3 * np.pi / 4, orbits // 2, endpoint=False), 2)
-    K, g = state(level, theta, np.tile([0.0, np.pi], orbits // 2))
+    count = orbits // len(lines)
+    theta_starts = np.pi * np.concatenate([np.linspace(*line[1:], count) for line in lines])
+    K, g = state(level, theta_starts, np.pi * np.repeat([line[0] for line in lines], count))
     up = rising(level, K, g)
     K, g = K[up], g[up]
     found = follow_orbits(level.ball, epsilon * K, g, steps)
@@ -89,13 +92,13 @@ def picture(ball: list[Any], epsilon: float, orbits: int, steps: int, points: in
         if not np.isfinite(growth):
             continue
         chaotic = bool(growth > LIMIT * np.log(steps))
-        theta, psi = np.concatenate([slab(level, *part) for part in chunks(level, k, v, epsilon, steps)], axis=1)
-        at = np.random.default_rng(0).permutation(len(theta))[: points * (3 if chaotic else 1)]
+        where = np.concatenate([slab(level, *part) for part in chunks(level, k, v, epsilon, steps)], axis=1)
+        at = np.random.default_rng(0).permutation(where.shape[1])[: points * (4 if chaotic else 1)]
         told.append(
             {
                 "exponent": float(f"{growth / steps:.3e}"), "chaotic": chaotic, "energy": float(level.energy(k, v)),
-                "theta": np.round(1000 * theta[at] / np.pi).astype(int).tolist(),
-                "psi": np.round(1000 * psi[at] / np.pi).astype(int).tolist(),
+                "theta": np.round(1e5 * where[0, at] / np.pi).astype(int).tolist(),
+                "psi": np.round(1e5 * where[1, at] / np.pi).astype(int).tolist(),
             }
         )  # fmt: skip
     return told

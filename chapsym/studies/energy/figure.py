@@ -69,9 +69,7 @@ def draw_islands(found: dict[str, Any]) -> Any:
             colour = "#D55E00" if i < 5 else "#0072B2"
             axis.plot(psi, rise, ".", color=colour, markersize=2.2, markeredgewidth=0)
         J, D, cosine = r["ball"]
-        axis.set_title(
-            f"$J=({J[0]:g},{J[1]:g},{J[2]:g})$, $D={D:g}$, $T={r['period']:.2f}$", fontsize=11
-        )
+        axis.set_title(f"$J=({J[0]:g},{J[1]:g},{J[2]:g})$, $D={D:g}$, $T={r['period']:.2f}$", fontsize=11)
         axis.set(xlabel=r"$\psi/\pi$", ylabel=r"$(H-H_*)\,/\,\varepsilon H_*$", xlim=(0, 2))
         axis.spines[["top", "right"]].set_visible(False)
     for axis in list(axes.flat)[count:]:

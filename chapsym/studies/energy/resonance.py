@@ -195,6 +195,7 @@ def on_level(level: Level, energy: float, K: Floats, g: Floats) -> Floats:
 
 def _turn(K: Floats, g: Floats, x: Floats) -> tuple[Floats, Floats]:
     """K and γ turned about x by |x|, up to |x|³."""
+
     def turned(v: Floats) -> Floats:
         once = np.cross(v, x)
         return v + once + np.cross(once, x) / 2
