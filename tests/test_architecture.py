@@ -25,7 +25,7 @@ ROOMS = {
     "certificates": {"checker", "dynamics", "exact", "files", "generated", "numbers"},
     "accuracy": {"dynamics", "files", "generated", "numbers"},
     "scene": {"accuracy", "dynamics", "exact", "files", "generated", "numbers"},
-    "studies": {"accuracy", "generated", "numbers", "dynamics", "scene"},
+    "studies": {"accuracy", "files", "generated", "numbers", "dynamics", "scene"},
     "proofs": {"checker", "derive", "prove"},
     "report": {"dynamics", "files", "scene"},
     "testing": {"dynamics"},

@@ -167,7 +167,9 @@ def _document(
     )
     more = {}
     if attracting:
-        statement += " All its eigenvalues are inside the unit circle: the orbit attracts what starts near it on the level."
+        statement += (
+            " All its eigenvalues are inside the unit circle: the orbit attracts what starts near it on the level."
+        )
         more["trace"] = rounded(W[0, 0] + W[1, 1] + W[2, 2], digits)
     texts = [rounded(x, digits) for x in start]
     return sealed(
@@ -176,4 +178,3 @@ def _document(
         orbit=[{"u": [rounded(x, digits) for x in u]} for u in passage.gibbs],
         determinant=rounded(det, digits), unit_eigenvalue=rounded(unit, digits), **more,
     )  # fmt: skip
-
