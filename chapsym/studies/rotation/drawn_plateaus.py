@@ -23,15 +23,17 @@ def staircase(found: dict[str, Any]) -> Any:
         axis.tick_params(labelbottom=True)
         axis.set(ylim=(0, None), xlabel="level l", ylabel="ρ, half turns a step")
     axes[0].set(title=f"Ball, {named(ball)}")
-    axes[1].set(title=f"Top, {named(top)}, φ kicked by {decimal(top['kick'])} sin 2φ")
+    axes[1].set(title=f"Kicked top, {named(top)}, τ = {decimal(top['kick'])}")
     _inset(axes[0], found)
     _steps(axes[1], top)
     seen = [
         (p["half_turns"], p["steps"], sum(p["edges"]) / 2, np.log10(p["edges"][1] - p["edges"][0]))
         for p in top["plateaus"] if p["edges"][1] - p["edges"][0] > 1e-14
     ]  # fmt: skip
-    _stems(axes[2], [(p, q, float(x["level"]), w) for (p, q, w), x in zip(widths, found["farey"], strict=True)], BLUE)
-    _stems(axes[3], seen, RED)
+    _stems(
+        axes[2], [(p, q, float(x["level"]), w) for (p, q, w), x in zip(widths, found["farey"], strict=True)], BLUE, 10
+    )
+    _stems(axes[3], seen, RED, 5)
     for axis in axes[2:]:
         axis.axhline(FLOAT64, color="0.35", linestyle=":", linewidth=1.3)
         axis.set(ylim=(-_floor(widths), 1), xlabel="level l", ylabel="$\\log_{10}$ width of the plateau in l")
@@ -86,11 +88,12 @@ def _inset(axis: Any, found: dict[str, Any]) -> None:
     axis.annotate("1/8", (middle, 1 / 8), (-6, 4), textcoords="offset points", ha="right", fontsize=9.5)
 
 
-def _stems(axis: Any, seen: list[tuple[int, int, float, float]], colour: str) -> None:
+def _stems(axis: Any, seen: list[tuple[int, int, float, float]], colour: str, largest: int) -> None:
+    """Widths over levels; those with a small q, at most `largest`, are named."""
     for p, q, level, width in seen:
         axis.plot([level, level], [-200, width], color=colour, linewidth=1.1, alpha=0.35)
         axis.plot([level], [width], "o", color=colour, markersize=4)
-        if q <= 10 or (p > 1 and q <= 17):
+        if q <= largest or (p > 1 and q <= 2 * largest - 3):
             axis.annotate(f"{p}/{q}", (level, width), (0, 5), textcoords="offset points", ha="center", fontsize=8.5)
 
 
