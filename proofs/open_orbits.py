@@ -1,7 +1,7 @@
 """Periodic orbits of the whole map, 𝒦 not parallel to γ, and what they exclude: lemmas of chapsym on Section 6."""
 
 import sympy as sp
-from chapsym.proofs.map_gibbs import FREE, NORM, equal
+from chapsym.proofs.map_gibbs import FREE, equal
 from sympy.polys.matrices import DomainMatrix
 
 from chapsym.derive import gibbs
@@ -179,7 +179,11 @@ def steady_circles(p: Proof) -> None:
     p.say(
         "circle on M.  In the phase space there is none near any steady circle with γ ∦ e₃, as such angles θ are dense."
     )
+<<<<<<< HEAD
     p.say("(p even, or m = 1 with p even, gives 1: there the places half a step ahead are places of the orbit.)")
+=======
+    p.say("(For p even the determinant is 1: there the places half a step ahead are places of the orbit.)")
+>>>>>>> h-orbit
     _example(p)
     p.control(steady("the same without Q", sp.S.Zero))
     p.control(Equation("det DΦ = 1", [around(x1, y1, -t)], [around(x, y, t)], STEADY))
@@ -201,7 +205,7 @@ def _example(p: Proof) -> None:
              and _simple(momentum.dot(start)) == sp.Rational(3, 2)),
         Fact("5/2 is below the bound of small-branch: ϱ < 3/4 as 5/6 < 24/25 = sin(2 arctan ¾), and ¾(½(6 - 3) + 5/2) = 3",
              sp.Rational(5, 6) < 2 * sp.Rational(3, 4) / (1 + sp.Rational(9, 16)) and sp.Rational(3, 4) * 4 <= 3),
-        Fact("after 4 steps γ has turned by π about e₃", list(vertical) == [-start[0], -start[1], start[2]]),
+        Fact("after 4 steps γ has turned by π about e₃", [_simple(v) for v in vertical - sp.diag(-1, -1, 1) * start] == [0, 0, 0]),
         Fact("the determinant of 4 steps is not 1", product != field.one),
         Fact("it is Πf(φ - (j + ½)θ)/f(φ - jθ)", product == _by_formula(field)),
     )  # fmt: skip

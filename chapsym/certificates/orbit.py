@@ -1,13 +1,15 @@
-"""Certificate `periodic-orbit`: a point that is back after q steps, where det DG^q ≠ 1 and det(1 - DG^q) ≠ 0 on the level M.
+"""Certificate `periodic-orbit`: a point that is back after q steps, where det DG^q ≠ 1 and det(1 - DG^q) ≠ 0 on the
+level M.
 
-Existence.  Let f(x) be the vector part of the quaternion by which q steps from x turn: x is back where f = 0.  For |w_i| ≤ r,
-f(exp(w)x₀) = f(x₀) + Aw with A in the hull of the derivatives of f on a box that contains all exp(w)x₀.  If, with Y near
-f'(x₀)⁻¹, all -Yf(x₀) + (1 - YA)w are within r, Brouwer's theorem gives a w with f(exp(w)x₀) = 0.  The point x₀ is a ball of
-points that are exactly on M.
+Existence.  Let f(x) be the vector part of the quaternion by which q steps from x turn: x is back where f = 0.  For
+|w_i| ≤ r, f(exp(w)x₀) = f(x₀) + Aw with A in the hull of the derivatives of f on a box that contains all exp(w)x₀.
+If, with Y near f'(x₀)⁻¹, all -Yf(x₀) + (1 - YA)w are within r, Brouwer's theorem gives a w with f(exp(w)x₀) = 0.
+The point x₀ is a ball of points that are exactly on M.
 """
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
@@ -34,13 +36,15 @@ def periodic_orbit(
     J: tuple[Fraction, Fraction, Fraction], D: Fraction, size: Fraction, steps: int, height: Fraction | None = None,
     digits: int | None = None, attracting: bool = False, progress: Callable[[str], None] = lambda what: None,
 ) -> dict[str, Any]:  # fmt: skip
-    """Finds the certificate of an orbit of so many steps, not symmetric, with det DG^q < 1 and without an eigenvalue 1.
+    """Finds the certificate of an orbit of so many steps, not symmetric, with det DG^q < 1 and without an eigenvalue
+    1.
 
     Of it and its mirror image, with the reciprocal determinant, it is the one that contracts volumes.
 
-    J, D: the ball.  size: |𝒦|².  height: ⟨𝒦, γ⟩; the shortest decimal in the middle of the widest family by default.
-    digits: decimals of the numbers in the file; enough by default.  attracting: all eigenvalues are to be inside the unit
-    circle.
+    J, D: the ball.  size: |𝒦|².  height: ⟨𝒦, γ⟩; the shortest decimal in the middle of the widest family by
+    default.
+    digits: decimals of the numbers in the file; enough by default.  attracting: all eigenvalues are to be inside
+    the unit circle.
     Returns the object of the file (`document`).  Raises BadInput, one sentence, for what has no certificate.
     """
     _check(J, D, size, steps, height, digits)
@@ -82,14 +86,15 @@ def _found(
     level: Level, steps: int, height: Fraction | None, attracting: bool, progress: Callable[[str], None]
 ) -> tuple[Level, Member]:
     """The level of the widest family that serves, and a member near it."""
-    best: tuple[Fraction, Fraction, Member] | None = None
+    best: tuple[Fraction, Level, Member] | None = None
     with ctx.workprec(SEARCH_BITS):
         for family in families.families(level, steps, progress):
             low, high = families.extent(family)
             inside = height is None or low < height < high
             if not inside or high - low < max(Fraction(1, 2**RESOLVED), best[0] if best else Fraction(0)):
                 continue
-            at, member = families.chosen(family, height)
+            at = replace(level, height=families.middle(family) if height is None else height)
+            member = families.near(at, steps, family)
             W = Map.of(level).passage(member.momentum, member.gamma, steps).derivative()
             if W.det() > 1:
                 member, W = member.mirrored(), W.inv()
@@ -99,7 +104,7 @@ def _found(
         where = "" if height is None else f" with <momentum, gamma> = {shortest(height)}"
         kind = "attract" if attracting else "are not symmetric"
         raise BadInput(f"no orbits of {steps} steps{where} that {kind} were found")
-    return Level(level.J, level.D, level.size, best[1]), best[2]
+    return best[1], best[2]
 
 
 def proved(level: Level, momentum: Vector, gamma: Vector, steps: int) -> tuple[Vector, Passage]:
@@ -161,8 +166,8 @@ def _document(
         raise NotProved("an eigenvalue may be outside of the unit circle")
     J, D, size, height = [str(x) for x in level.J], str(level.D), str(level.size), shortest(level.height)
     statement = (
-        f"For the ball with J = ({', '.join(J)}), D = {D}: with ⟨𝒦, 𝒦⟩ = {size}, ⟨𝒦, γ⟩ = {height} a point is back after "
-        f"{steps} steps, and the derivative of these steps on the level of the integrals there has a determinant other "
+        f"For the ball with J = ({', '.join(J)}), D = {D}: with ⟨𝒦, 𝒦⟩ = {size}, ⟨𝒦, γ⟩ = {height} a point is back "
+        f"after {steps} steps, and the derivative of these steps on the level of the integrals there has a determinant other "
         f"than 1 and no eigenvalue 1."
     )
     more = {}
