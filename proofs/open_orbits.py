@@ -179,11 +179,7 @@ def steady_circles(p: Proof) -> None:
     p.say(
         "circle on M.  In the phase space there is none near any steady circle with γ ∦ e₃, as such angles θ are dense."
     )
-<<<<<<< HEAD
-    p.say("(p even, or m = 1 with p even, gives 1: there the places half a step ahead are places of the orbit.)")
-=======
     p.say("(For p even the determinant is 1: there the places half a step ahead are places of the orbit.)")
->>>>>>> h-orbit
     _example(p)
     p.control(steady("the same without Q", sp.S.Zero))
     p.control(Equation("det DΦ = 1", [around(x1, y1, -t)], [around(x, y, t)], STEADY))
