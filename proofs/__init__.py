@@ -26,6 +26,7 @@ SCRIPTS = (
     "open_generic",
     "open_locking",
     "open_measure",
+    "open_energy",
     "map_gibbs",
     "map_modified",
     "map_self_adjoint",

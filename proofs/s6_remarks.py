@@ -1,4 +1,4 @@
-"""Section 6: the energy for vertical momentum, the symmetries of the discrete system, and the open question."""
+"""Section 6: the energy for vertical momentum, and the symmetries of the discrete system."""
 
 import sympy as sp
 
@@ -77,20 +77,6 @@ def left_right(p: Proof) -> None:
     form = principle.rolling_constraint(shift, turn)
     p.lemma(Equation("δr + ρ δR Rᵀγ is right-invariant", [form.xreplace({**right, turn: turn * S})], [form], algebra))
     p.control(Equation("(4.9) is left-invariant", [constraint(left)], [start], algebra))
-
-
-@claim(
-    "6-open",
-    r"\text{is there another integral that tends to the energy, } \mathcal K\nparallel\gamma\text{? (open in the paper)}",
-    ["5.3-energy", "6-vertical-energy"],
-)
-def energy_question(p: Proof) -> None:
-    """Open in the paper, and not settled here."""
-    p.leave_open(
-        "the energy (2.5) itself changes: an exact step shows it (5.3-energy)",
-        "for 𝒦 parallel to γ it is kept (6-vertical-energy), so an obstruction must vanish there",
-        "for D = 0 the map is the discrete Euler top (4.14); a correction in powers of ε for D > 0 was not tried yet",
-    )
 
 
 if __name__ == "__main__":

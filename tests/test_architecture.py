@@ -26,7 +26,7 @@ ROOMS = {
     "accuracy": {"dynamics", "files", "generated", "numbers"},
     "scene": {"accuracy", "dynamics", "exact", "files", "generated", "numbers"},
     "studies": {"accuracy", "files", "generated", "numbers", "dynamics", "scene"},
-    "proofs": {"checker", "derive", "prove"},
+    "proofs": {"certificates", "checker", "derive", "prove"},
     "report": {"dynamics", "files", "scene"},
     "testing": {"dynamics"},
 }

@@ -128,10 +128,10 @@ def enclose(orbit: Orbit, bits: int, order: int) -> Enclosures:
         bare = flow._replace(densities=lambda state: [])
         misses = [_return(orbit, bare, arb(end)) for end in (-1, 1)]
         below, above = (found[orbit.along] - start[orbit.along] for start, found in misses)
-        start, found = _return(orbit, flow, arb(0, 1))
-        _distinguish(orbit, start, found)
         if not below * above < 0:
             raise NotEnclosed("the return does not cross the start between the two ends, as far as the balls tell")
+        start, found = _return(orbit, flow, arb(0, 1))
+        _distinguish(orbit, start, found)
         if not (found[6] != 0 and found[7] != 0):
             raise NotEnclosed("an integral may be 0")
         return Enclosures((below, above), found[6], found[7])

@@ -80,6 +80,8 @@ class Flow(NamedTuple):
         """One step of at most the length `most` from all states in balls; its length, and its R, at most `reach`."""
         middle = [arb(x.mid()) for x in state]
         error = _largest((x.rad() / w for x, w in zip(state, self.weights, strict=True)))
+        if not error < exact(TUBE):
+            raise NotEnclosed("no step can be enclosed: the balls are too wide")
         exactly, integrals = self._polynomials(middle)
         for _ in range(40):
             bounds = self._on_disc(exactly, exact(reach))
@@ -112,20 +114,29 @@ class Flow(NamedTuple):
         """How far the solutions and the integrals are from their polynomials within a step; None if beyond the tube."""
         defect = self._defect(p, length, reach, rates)
         error = error + length * defect
-        growth = []
+        growth, near = [], []
         for k in range(PARTS):
             inside = length / PARTS * arb(k + 0.5, 0.5)
             for time in (inside, -inside):
-                tube = [arb_poly(x)(time) + arb(0, exact(TUBE) * w) for x, w in zip(p, self.weights, strict=True)]
+                middle = [arb_poly(x)(time) for x in p]
+                near.append(list(map(abs, self.densities(self._around(middle)))))
+                tube = [x + arb(0, exact(TUBE) * w) for x, w in zip(middle, self.weights, strict=True)]
                 growth.append(self._slope(tube) * length / PARTS)
         exponent = _largest(sum(growth[i::2], arb(0)) for i in (0, 1))
         error = (error * exponent.exp()).abs_upper()
         if not error < exact(TUBE):
             return None
         part = error / exact(WIDER)
-        tail = (length / reach) ** self.order / (1 - length / reach) + part / (1 - part)
-        found = [error * w for w in self.weights] + [length * tail * size for size in sizes]
-        return [x.abs_upper() for x in found]
+        tail = (length / reach) ** self.order / (1 - length / reach)
+        beside = [_largest(x) * part / (1 - part) for x in zip(*near, strict=True)]
+        found = [error * w for w in self.weights]
+        found += [length * (tail * size + off) for size, off in zip(sizes, beside, strict=True)]
+        return [x.abs_upper() for x in found] if all(x.is_finite() for x in found) else None
+
+    def _around(self, state: State) -> State:
+        """Polydiscs about a state, in complex boxes."""
+        radii = [exact(WIDER) * w for w in self.weights]
+        return [acb(x + arb(0, r), arb(0, r)) for x, r in zip(state, radii, strict=True)]
 
     def _defect(self, p: list[list[Any]], length: Any, reach: Any, rates: State) -> Any:
         """A bound of |p' - f(p)|, beside the weights, for |t| ≤ length."""
@@ -143,16 +154,15 @@ class Flow(NamedTuple):
         return _largest((x + tail * y) / w for x, y, w in zip(sums, rates, self.weights, strict=True))
 
     def _on_disc(self, p: list[list[Any]], reach: Any) -> tuple[State, State] | None:
-        """Bounds of the field and the densities about p(t), |t| ≤ reach; None where they are not seen to be analytic."""
+        """Bounds of the field and the densities on p(t), |t| ≤ reach; None where they may not be analytic."""
         polynomials = [acb_poly(x) for x in p]
-        about = [acb(arb(0, r), arb(0, r)) for r in (exact(WIDER) * w for w in self.weights)]
         side = reach / BOXES
         rates, sizes = [], []
         for i, j in itertools.product(range(-BOXES, BOXES), repeat=2):
             if min(i * i, (i + 1) ** 2) + min(j * j, (j + 1) ** 2) >= BOXES**2:
                 continue
             time = acb((i + arb(0.5, 0.5)) * side, (j + arb(0.5, 0.5)) * side)
-            state = [x(time) + y for x, y in zip(polynomials, about, strict=True)]
+            state = [x(time) for x in polynomials]
             rates.append([abs(x) for x in self.field(state)])
             sizes.append([abs(x) for x in self.densities(state)])
             if not all(x.is_finite() for x in (*rates[-1], *sizes[-1])):

@@ -1,0 +1,181 @@
+"""Energy drift: the validated integration, the densities, what the certificates state, and what is refused."""
+
+import json
+from dataclasses import replace
+from fractions import Fraction
+from pathlib import Path
+
+import chapsym.proofs
+import mpmath
+import numpy as np
+import pytest
+from flint import arb, ctx
+from scipy.integrate import solve_ivp
+
+from chapsym.certificates import drift, drift_file, duals, taylor
+from chapsym.certificates.taylor import NotEnclosed, exact
+from chapsym.dynamics import BadInput
+
+FILES = sorted((Path(chapsym.proofs.__file__).parent / "certificates").glob("energy-drift-*.json"))
+J, D = (Fraction(1), Fraction(2), Fraction(4)), Fraction(1)
+START = [Fraction(x) for x in ("1", "2", "17/5", "3/7", "6/7", "2/7")]
+
+
+@pytest.fixture(autouse=True)
+def precision():
+    with ctx.workprec(160):
+        yield
+
+
+def certificate(path):
+    return json.loads(path.read_text(encoding="utf-8"))
+
+
+def plain(tensor, contact):
+    """ω, ω', ω₃ and the two densities by linear algebra and differences: nothing of chapsym."""
+    inertia = sum(tensor) - np.array(tensor, float)
+
+    def solved(x, g):
+        return np.linalg.solve(np.diag(inertia + contact) - contact * np.outer(g, g), x)
+
+    def correction(K, g):
+        w = solved(K, g)
+        a = solved(np.cross(inertia * w, w), g)
+        turning = np.cross(g, w)
+        second = solved(
+            np.cross(inertia * a, w) + np.cross(inertia * w, a)
+            + contact * (turning * (g @ a) + g * (turning @ a)), g
+        )  # fmt: skip
+        pull = solved(contact * (turning * (g @ a) + g * (turning @ a)), g)
+        return w @ w * w / 6 + second / 12 - np.cross(w, a) / 12 - pull / 4
+
+    def densities(K, g, step=1e-4):
+        w, w3 = solved(K, g), correction(K, g)
+        divergence = 0.0
+        for j, e in enumerate(np.eye(3)):
+            ends = [correction(K + s * step * np.cross(K, e), g + s * step * np.cross(g, e))[j] for s in (-1, 1)]
+            divergence += (ends[1] - ends[0]) / (2 * step)
+        z = g / (inertia + contact)
+        lift = contact * z @ np.cross(g, w3) / (1 - contact * g @ z)
+        return w3 @ np.cross(w, inertia * w), divergence + lift
+
+    def rates(_, y):
+        K, g = y[:3], y[3:6]
+        w = solved(K, g)
+        return [*np.cross(K, w), *np.cross(g, w), *densities(K, g)]
+
+    return rates
+
+
+def test_the_densities_are_those_of_the_modified_equations():
+    found = drift.flow_of(J, D, 8, Fraction(3)).densities([exact(x) for x in START])
+    wanted = plain((1, 2, 4), 1.0)(0, np.array(START, float))[6:]
+    np.testing.assert_allclose(
+        [float(x) for x in found], wanted, rtol=0, atol=2e-8
+    )  # differences with 1e-4: about 1e-8
+
+
+def test_the_flow_is_that_of_mpmath():
+    """Both to 30 digits over a time of 1."""
+    flow = drift.flow_of(J, D, 56, Fraction(3))._replace(densities=lambda state: [])
+    found = flow.run([exact(x) for x in START], Fraction(1))
+    with mpmath.workdps(34):
+        moments = [mpmath.mpf(x) for x in (6, 5, 3)]
+
+        def rates(_, y):
+            K, g = y[:3], y[3:]
+            B = mpmath.diag([x + 1 for x in moments]) - mpmath.matrix(g) * mpmath.matrix(g).T
+            w = mpmath.lu_solve(B, mpmath.matrix(K))
+            return [*drift.cross(K, w), *drift.cross(g, w)]
+
+        end = mpmath.odefun(
+            rates, 0, [mpmath.mpf(x.numerator) / x.denominator for x in START], tol=mpmath.mpf(10) ** -31
+        )(1)
+        for x, y in zip(found, end, strict=True):
+            assert x.rad() < 1e-25
+            assert abs(mpmath.mpf(x.mid().str(34, radius=False)) - y) < mpmath.mpf(10) ** -27
+
+
+def test_a_ball_of_starts_contains_the_images_of_its_points():
+    flow = drift.flow_of(J, D, 32, Fraction(3))._replace(densities=lambda state: [])
+    whole = flow.run([exact(x) + arb(0, 1e-9) for x in START], Fraction(1, 2))
+    for sign in (-1, 1):
+        point = flow.run(
+            [exact(x) + sign * exact(Fraction(1, 10**9)) * (k % 2) for k, x in enumerate(START)], Fraction(1, 2)
+        )
+        assert all(x.contains(y) for x, y in zip(whole, point, strict=True))
+        assert any(abs(x.mid() - y.mid()) > 1e-10 for x, y in zip(whole, point, strict=True))
+
+
+def test_a_radius_beyond_the_tube_is_refused():
+    flow = drift.flow_of(J, D, 32, Fraction(3))
+    with pytest.raises(NotEnclosed, match="too wide"):
+        flow.run([exact(x) + arb(0, 1e-3) for x in START], Fraction(1, 2))
+
+
+def test_duals_differentiate():
+    def rational(x):
+        return (1 - x[0] * x[1] / (2 + x[1])) / x[0] - x[1]
+
+    a, b = Fraction(3, 2), Fraction(2, 5)
+    wanted = -1 / a**2 * 5 + (-1 * (2 / (2 + b) ** 2) - 1) * 7  # (1/a - b/(2 + b) - b)
+    assert duals.derivative(rational, [a, b], [5, 7]) == wanted
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda p: p.stem)
+def test_the_stated_integrals_are_those_of_another_integrator(path):
+    data = certificate(path)
+    orbit = drift_file.read(data)
+    start = [float(x) for x in (*orbit.momentum, *orbit.gamma)]
+    rates = plain([float(x) for x in orbit.J], float(orbit.D))
+    end = solve_ivp(rates, (0, float(orbit.time)), [*start, 0, 0], method="DOP853", rtol=1e-9, atol=1e-10).y[:, -1]
+    np.testing.assert_allclose(end[:6] * np.tile(orbit.signs, 2), start, rtol=0, atol=1e-5)
+    stated = [float(data["energy"][0]), float(data["density"][0])]
+    np.testing.assert_allclose(end[6:], stated, rtol=0, atol=1e-6)
+    assert min(map(abs, stated)) > 1e-4
+
+
+def test_there_is_a_certificate_of_a_real_ball():
+    """The mass of a ball of the radius ϱ is inside: J1 + J2 + J3 ≤ D."""
+    assert any(sum(map(Fraction, x["ball"]["J"])) <= Fraction(x["ball"]["D"]) for x in map(certificate, FILES))
+
+
+def test_a_start_that_does_not_close_is_not_proved():
+    """The starts moved by 10 radii: the two ends miss on the same side."""
+    orbit = drift_file.read(certificate(FILES[0]))
+    varied = tuple(x + 10 * orbit.radius * (i == orbit.varied) for i, x in enumerate(orbit.momentum))
+    with pytest.raises(NotEnclosed, match="between the two ends"):
+        drift.enclose(replace(orbit, momentum=varied), 256, 64)
+
+
+def test_a_changed_file_is_refused():
+    data = certificate(FILES[0])
+    with pytest.raises(BadInput, match="digest"):
+        drift_file.read({**data, "varied": "K1"})
+    with pytest.raises(BadInput, match="field"):
+        drift_file.read(
+            {k: v for k, v in data.items() if k != "ball"}
+            | {"digest": drift_file.digest({k: v for k, v in data.items() if k != "ball"})}
+        )
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [({"gamma": (Fraction(1), Fraction(1), Fraction(0))}, "unit"), ({"signs": (1, 1, -1)}, "signs"),
+     ({"J": (Fraction(-1), Fraction(1), Fraction(1))}, "no ball")],
+)  # fmt: skip
+def test_what_is_no_orbit_is_refused(change, words):
+    orbit = drift_file.read(certificate(FILES[0]))
+    with pytest.raises(BadInput, match=words):
+        replace(orbit, **change)
+
+
+def test_a_rest_of_the_series_that_is_left_out_is_seen(monkeypatch):
+    """With the bound of the defect taken away the ball of a coarse series misses the point of a fine one."""
+    start = [exact(x) for x in START]
+    fine = drift.flow_of(J, D, 48, Fraction(3))._replace(densities=lambda state: [])
+    coarse, end = fine._replace(order=16), Fraction(1, 4)
+    truth = fine.run(start, end)
+    assert all(x.overlaps(y) for x, y in zip(coarse.run(start, end), truth, strict=True))
+    monkeypatch.setattr(taylor.Flow, "_defect", lambda self, *rest: arb(0))
+    assert not all(x.overlaps(y) for x, y in zip(coarse.run(start, end), truth, strict=True))
