@@ -70,7 +70,7 @@ def draw_section(found: dict[str, Any]) -> Any:
                 psi, height, ".", markersize=2.2,
                 markeredgewidth=0, color=colour, rasterized=True,
             )  # fmt: skip
-        J, D, cosine = one["ball"]
+        J, D, _ = one["ball"]
         axis.set_title(f"$J=({J[0]:g},{J[1]:g},{J[2]:g})$, $D={D:g}$, $\\varepsilon={one['epsilon']:g}$", fontsize=11)
         axis.set(xlabel=r"$\psi/\pi$", xlim=(-1, 1), xticks=(-1, -0.5, 0, 0.5, 1))
         axis.spines[["top", "right"]].set_visible(False)

@@ -1,4 +1,4 @@
-"""Samples of orbits, told chaotic or regular, and pictures of the section.  Functions of plain data: units of the study.
+"""Samples of orbits, told chaotic or regular, and pictures of the section: functions of plain data, units of the study.
 
 A deviation grows at most like n on a torus, and like e^{λn} in chaos: an orbit is told chaotic if in n steps it has
 grown by more than n^LIMIT.  D = 0, which is integrable, measures how often that is wrong.
@@ -41,10 +41,10 @@ def sample(
     folded: orbits that met a fold, which are not counted.  growth: quantiles of log(growth)/log(steps) of the regular
     ones, at most LIMIT.  exponent: the mean and the largest Lyapunov exponent of the chaotic ones, a step.
     volume: the largest |average of log|det T|| of the regular ones, by smooth weights, over the second half; for the
-    chaotic ones the mean over all and its standard error.  averages: the median change of the average energy, from one half of the run to the other,
-    relative, of the regular and of the chaotic ones.
+    chaotic ones the mean over all and its standard error.  change: the median relative change of the
+    average energy from one half of the run to the other.
     """
-    ball = Ball(mass_tensor, D)
+    ball = Ball(np.array(mass_tensor, dtype=float), np.array(float(D)))
     K, g = starts(orbits, near, seed)
     found = follow_orbits(ball, epsilon * ball.inertia.min() * K, g, steps)
     kept = {name: column[np.isfinite(found["growth1"])] for name, column in found.items()}
@@ -82,7 +82,7 @@ def picture(
     """
     level = Level(tuple(ball[0]), *ball[1:])
     count = orbits // len(lines)
-    theta_starts = np.pi * np.concatenate([np.linspace(*line[1:], count) for line in lines])
+    theta_starts = np.pi * np.concatenate([np.linspace(line[1], line[2], count) for line in lines])
     K, g = state(level, theta_starts, np.pi * np.repeat([line[0] for line in lines], count))
     up = rising(level, K, g)
     K, g = K[up], g[up]

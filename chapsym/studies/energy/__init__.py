@@ -23,6 +23,8 @@ EPSILONS = (0.01, 0.014, 0.02, 0.03, 0.045, 0.07, 0.1, 0.14, 0.2, 0.3, 0.45, 0.6
 SMALL = 0.1
 GENERIC = 3
 SWINGS = 4
+#: Where a swing takes so many steps that a run would be longer than this, it is left out.
+LONGEST = 10**7
 #: The island is drawn at this ε, and the long run in it taken.
 SHOWN = 0.05
 ISLAND = (0.02, 0.3, 0.55, 0.8, 0.93, 1.03, -1.03, 1.25, -1.25)
@@ -47,9 +49,9 @@ def study(
     results = run_units([unit for _, unit in units], path, scheduler, report)
     found: dict[str, Any] = {"seed": SEED, "shown": SHOWN, "resonances": _table(levels), "widest": resonant}
     for (group, unit), result in zip(units, results, strict=True):
-        told = {"ball": unit.arguments["ball"]}
+        told = {"ball": unit.arguments["ball"], "start": unit.arguments["start"]}
         found.setdefault(group, []).append({**told, **(result if isinstance(result, dict) else {"runs": result})})
-    found["exponents"] = {name: _exponent(found[name]) for name in ("generic", "resonant")}
+    found["powers"] = {name: _exponent(found[name]) for name in ("generic", "resonant")}
     return found
 
 
@@ -84,12 +86,14 @@ def _units(resonant: list[dict[str, Any]], quick: bool) -> list[tuple[str, Unit]
         for start in starts(Level(tuple(J), D, cosine).size):
             for epsilon in epsilons:
                 run("generic", r["ball"], start, epsilon, steps)
-                run("euler", [J, 0.0, cosine], start, epsilon, steps)
+            run("euler", [J, 0.0, cosine], start, epsilons[-1], steps)
         upright = start[1] * np.linalg.norm(start[0])
         run("vertical", r["ball"], [upright, start[1]], epsilons[-1], steps)
         for epsilon in epsilons:
-            run("resonant", r["ball"], r["start"], epsilon, max(steps, int(SWINGS * r["libration"] / epsilon**2)))
-        run("long", r["ball"], r["start"], 0.1, 10**6 if quick else 3 * 10**7)
+            count = max(steps, int(SWINGS * r["libration"] / epsilon**2))
+            if count <= LONGEST:
+                run("resonant", r["ball"], r["start"], epsilon, count)
+        run("long", r["ball"], r["start"], 0.1, 10**6 if quick else LONGEST)
         counts = [int(r["period"] / e) for e in (0.4, 0.2, 0.1, 0.05)]
         loop = {"ball": r["ball"], "start": r["start"], "period": r["period"], "counts": counts}
         units.append(("loops", Unit(HERE + "loop_change", loop)))
@@ -97,7 +101,7 @@ def _units(resonant: list[dict[str, Any]], quick: bool) -> list[tuple[str, Unit]
             shown = {
                 "ball": r["ball"], "start": r["centre"], "epsilon": SHOWN, "most": 200 if quick else 320,
                 "energy": r["energy"] * (1 + share * SHOWN * r["width"] / 2),
-                "steps": int((2 if quick else 12) * r["libration"] / SHOWN**2),
+                "steps": min(int((2 if quick else 6) * r["libration"] / SHOWN**2), LONGEST),
             }  # fmt: skip
             units.append(("islands", Unit(HERE + "island", shown)))
     return units
@@ -111,17 +115,23 @@ def starts(size: float) -> np.ndarray:
 
 
 def _exponent(runs: list[dict[str, Any]]) -> dict[str, float]:
-    """The power of ε that the relative range follows, fitted up to SMALL for each start, averaged; standard error."""
-    small = sorted({run["epsilon"] for run in runs if run["epsilon"] <= SMALL})
-    x = np.log(small)
-    y = np.log(np.array([run["range"] for run in runs if run["epsilon"] <= SMALL])).reshape(-1, len(small))
-    powers = np.polynomial.polynomial.polyfit(x, y.T, 1)[1]
-    return {"power": float(powers.mean()), "error": float(powers.std(ddof=1) / np.sqrt(len(powers)))}
+    """The power of ε that the relative range follows: fitted up to SMALL for each start, and averaged.
+
+    error: the standard error of the average; 0 of a single one.
+    """
+    series: dict[str, list[tuple[float, float]]] = {}
+    for run in runs:
+        if run["epsilon"] <= SMALL:
+            series.setdefault(str(run["start"]), []).append((run["epsilon"], run["range"]))
+    logs = [np.log(np.array(one)) for one in series.values() if len(one) > 1]
+    powers = np.array([np.polyfit(one[:, 0], one[:, 1], 1)[0] for one in logs])
+    error = powers.std(ddof=1) / np.sqrt(len(powers)) if len(powers) > 1 else 0.0
+    return {"power": float(powers.mean()), "error": float(error)}
 
 
 def sentences(found: dict[str, Any]) -> list[str]:
     """What was found, a line each."""
-    powers = found["exponents"]
+    powers = found["powers"]
     told = [
         f"range of H ∝ ε^{powers[name]['power']:.3f} ± {powers[name]['error']:.3f} {where}"
         for name, where in (("generic", "at generic starts"), ("resonant", "in resonances"))
@@ -129,8 +139,8 @@ def sentences(found: dict[str, Any]) -> list[str]:
     for name, where in (("generic", "generic starts"), ("long", "resonances")):
         worst = max(found[name], key=lambda run: abs(run["drift"]) / run["range"])
         told.append(
-            f"drift, {where}: at most {abs(worst['drift']) / worst['range']:.1e} of the range in {worst['steps']} steps "
-            f"({worst['drift']:.1e} ± {worst['error']:.1e} of H)"
+            f"drift, {where}: at most {abs(worst['drift']) / worst['range']:.1e} of the range in {worst['steps']} steps"
+            f" ({worst['drift']:.1e} ± {worst['error']:.1e} of H)"
         )
     for name, where in (("euler", "D = 0"), ("vertical", "vertical momentum")):
         told.append(f"{where}: H kept to {max(run['range'] for run in found[name]):.1e}")
@@ -139,7 +149,8 @@ def sentences(found: dict[str, Any]) -> list[str]:
         last = loops["runs"][-1]
         told.append(
             f"J = {tuple(J)}, D = {D:g}, cos = {cosine:g}: the widest resonance, T = {r['period']:.5f}, H swings by "
-            f"{r['width']:.4f} εH; a loop changes H by {last['change']:.5e} ε² (quadrature {max(r['loop'], key=abs):.4e})"
+            f"{r['width']:.4f} εH; a loop changes H by {last['change']:.5e} ε² "
+            f"(quadrature {max(r['loop'], key=abs):.4e})"
         )
     return told
 

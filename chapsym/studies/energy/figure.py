@@ -10,7 +10,7 @@ from chapsym.dynamics import BadInput
 
 COLOURS = {"generic": "#0072B2", "resonant": "#D55E00"}
 LABELS = {"generic": "generic starts", "resonant": "in the widest resonances"}
-RC = {"svg.hashsalt": "chapsym", "font.size": 11, "mathtext.fontset": "dejavusans"}
+RC: dict[str, Any] = {"svg.hashsalt": "chapsym", "font.size": 11, "mathtext.fontset": "dejavusans"}
 
 
 def draw_amplitudes(found: dict[str, Any]) -> Any:
@@ -68,7 +68,7 @@ def draw_islands(found: dict[str, Any]) -> Any:
             rise = (np.array(one["energy"]) / r["energy"] - 1) / epsilon
             colour = "#D55E00" if i < 5 else "#0072B2"
             axis.plot(psi, rise, ".", color=colour, markersize=2.2, markeredgewidth=0)
-        J, D, cosine = r["ball"]
+        J, D, _ = r["ball"]
         axis.set_title(f"$J=({J[0]:g},{J[1]:g},{J[2]:g})$, $D={D:g}$, $T={r['period']:.2f}$", fontsize=11)
         axis.set(xlabel=r"$\psi/\pi$", ylabel=r"$(H-H_*)\,/\,\varepsilon H_*$", xlim=(0, 2))
         axis.spines[["top", "right"]].set_visible(False)
@@ -82,7 +82,7 @@ def write(figure: Any, path: Path) -> Path:
     """The figure as SVG, the same bytes for the same data; raises BadInput if it cannot be written."""
     from matplotlib import rc_context
 
-    with rc_context(RC):
+    with rc_context(RC):  # type: ignore[arg-type]
         try:
             files.write_whole(path, lambda s: figure.savefig(s, format="svg", metadata={"Date": None, "Creator": None}))
         except files.CannotWrite as error:

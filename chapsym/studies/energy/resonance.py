@@ -153,7 +153,7 @@ def profile(level: Level, psi: float, q: int, theta: float, period: float) -> Re
         return None
     shifted = float(level.energy(*neighbour)) - energy
     starts = on_level(level, energy, *states[:, : round(loops)])
-    loop = loop_drift(level, *starts, period)
+    loop = loop_drift(level, starts[0], starts[1], period)
     if not abs(loop.mean()) < BALANCED * np.abs(loop).max():
         return None
     beta = 1.0 / (loops * shifted)
