@@ -80,15 +80,18 @@ def newton(residual: Callable[[Vector], Vector], jacobian: Callable[[Vector], Ma
     and N contains its values.  Again from the middle m of N: the root x has x - m = -A(x, m)⁻¹f(m) with A(x, m) in
     jacobian(N), which encloses it anew; this is repeated while the box shrinks by half.
     """
-    at_centre = [[x] for x in residual(centre)]
-    first = solve(jacobian(centre), at_centre)
-    box = [x.wider(2 * max(s.most for (s,) in first) + 8) for x in centre]
-    root = minus(centre, [s for (s,) in solve(jacobian(box), at_centre)])
+
+    def step(at: Vector, over: Vector) -> Vector:
+        return minus(at, [s for (s,) in solve(jacobian(over), [[x] for x in residual(at)])])
+
+    centre = [x.point() for x in step(centre, centre)]  # Newton's iteration: the test may start from any point
+    size = max(x.most for x in minus(step(centre, centre), centre))
+    box = [x.wider(2 * size + 8) for x in centre]
+    root = step(centre, box)
     if not all(x.inside(y) for x, y in zip(root, box, strict=True)):
         raise Rejected("Newton's test proves no root near the numbers of the file")
     while True:
-        middle = [x.point() for x in root]
-        closer = minus(middle, [s for (s,) in solve(jacobian(root), [[x] for x in residual(middle)])])
+        closer = step([x.point() for x in root], root)
         if 2 * max(x.width for x in closer) >= max(x.width for x in root):
             return root
         root = closer

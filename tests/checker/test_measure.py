@@ -94,8 +94,8 @@ def test_every_place_of_one_decimal_counts(right):
      (("ball", "height"), "-3", "least moment"), (("radius",), "-1e-60", "radius must not be negative"),
      (("radius",), "10", "mass tensor"), (("axes",), [3, 2, 1], "circle around"),
      (("axes",), [1, 3, 2], "circle around"), (("axes",), [1, 2, 2], "in some order"),
-     (("ball", "level"), "1/5", "no root near"), (("ball", "level"), LEVEL + "0", "more decimals"),
-     (("ball", "J"), ["1", "2"], "list of 3"), (("orbits", 1, "start"), "a", "no root near"),
+     (("ball", "level"), "1/5", "u of step 1"), (("ball", "level"), LEVEL + "0", "more decimals"),
+     (("ball", "J"), ["1", "2"], "list of 3"), (("orbits", 1, "start"), "a", "u of step 1"),
      (("orbits", 1, "start"), "c", "must be a or b")],
 )  # fmt: skip
 def test_each_hypothesis_is_proved_from_the_numbers(right, path, value, sentence):
