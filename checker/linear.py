@@ -52,13 +52,17 @@ def determinant(matrix: Matrix) -> Interval:
 def solve(matrix: Matrix, right: Matrix) -> Matrix:
     """X with A X = B by elimination, for every A in `matrix` (n × n) and B in `right` (n × m); n × m.
 
-    For each A and B the steps are those of the real elimination, and no pivot is 0 (else a division raises Rejected):
-    so every A in `matrix` is regular, and the solution lies in what is returned.
+    For each A and B the steps are those of the real elimination, and no pivot is 0 (else this raises Rejected): so
+    every A in `matrix` is regular, and the solution lies in what is returned.
     """
     rows = [[*a, *b] for a, b in zip(matrix, right, strict=True)]
     for i in range(len(rows)):
         best = max(range(i, len(rows)), key=lambda j: rows[j][i].least)
         rows[i], rows[best] = rows[best], rows[i]
+        if not rows[i][i].sign:
+            raise Rejected(
+                "there is no root near the numbers of the file, or it may be multiple: a matrix may be singular"
+            )
         pivot = [x / rows[i][i] for x in rows[i][i + 1 :]]
         rows = [[*row[: i + 1], *minus(row[i + 1 :], times(row[i], pivot))] for row in rows]
         rows[i][i + 1 :] = pivot
@@ -76,15 +80,18 @@ def newton(residual: Callable[[Vector], Vector], jacobian: Callable[[Vector], Ma
     and N contains its values.  Again from the middle m of N: the root x has x - m = -A(x, m)⁻¹f(m) with A(x, m) in
     jacobian(N), which encloses it anew; this is repeated while the box shrinks by half.
     """
-    at_centre = [[x] for x in residual(centre)]
-    first = solve(jacobian(centre), at_centre)
-    box = [x.wider(2 * max(s.most for (s,) in first) + 8) for x in centre]
-    root = minus(centre, [s for (s,) in solve(jacobian(box), at_centre)])
+
+    def step(at: Vector, over: Vector) -> Vector:
+        return minus(at, [s for (s,) in solve(jacobian(over), [[x] for x in residual(at)])])
+
+    centre = [x.point() for x in step(centre, centre)]  # Newton's iteration: the test may start from any point
+    size = max(x.most for x in minus(step(centre, centre), centre))
+    box = [x.wider(2 * size + 8) for x in centre]
+    root = step(centre, box)
     if not all(x.inside(y) for x, y in zip(root, box, strict=True)):
         raise Rejected("Newton's test proves no root near the numbers of the file")
     while True:
-        middle = [x.point() for x in root]
-        closer = minus(middle, [s for (s,) in solve(jacobian(root), [[x] for x in residual(middle)])])
+        closer = step([x.point() for x in root], root)
         if 2 * max(x.width for x in closer) >= max(x.width for x in root):
             return root
         root = closer

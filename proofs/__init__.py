@@ -34,6 +34,7 @@ SCRIPTS = (
     "map_steady",
     "map_symmetries",
     "map_vertical",
+    "open_orbits",
 )
 
 #: The claims of the paper that need a verdict, in its order: each has a proof in one of the scripts.
@@ -58,4 +59,5 @@ LEMMAS = (
     "stable-momentum", "stable-determinant", "stable-inverse", "steady", "steady-branch", "steady-axis", "steady-roll",
     "isotropic-spin", "straight", "symmetries", "chord", "resonance", "plateaus", "almost-every", "locked-circle",
     "modified-field", "modified-energy", "energy-without-rolling", "modified-measure", "map-symmetries",
+    "step-determinant", "steady-circles", "periodic-orbits",
 )  # fmt: skip

@@ -1,5 +1,5 @@
 """Certificates: what is proved of the map in ball arithmetic, as files that a checker verifies without this code.
 
 A module for each kind of certificate finds it and encloses it; `balls` and `document` are what they share.
-`chapsym.checker` verifies the files; it imports nothing from here, and nothing here trusts it.
+`chapsym.checker` imports nothing from here; here it only says how wide a box its own intervals bear.
 """

@@ -18,12 +18,9 @@ def ball(centre: Fraction, radius: Fraction = Fraction(0)) -> Any:
     return exact(centre) + arb(0, exact(radius).abs_upper())
 
 
-def rounded(x: Any, digits: int, wider: int = 1) -> str:
-    """The numbers of a ball rounded to so many decimals; raises NotProved where they round differently.
-
-    wider: those up to so many radii from the middle must round alike, for a checker with wider intervals.
-    """
-    middle, off = fraction(x), wider * fraction(x.rad())
+def rounded(x: Any, digits: int) -> str:
+    """The numbers of a ball rounded to so many decimals; raises NotProved where they round differently."""
+    middle, off = fraction(x), fraction(x.rad())
     found = round((middle - off) * 10**digits)
     if found != round((middle + off) * 10**digits):
         raise NotProved(f"a number does not round to {digits} decimals alike in the whole box")

@@ -1,16 +1,17 @@
 """Families of periodic orbits of the whole map, looked for from the symmetric ones.
 
-A reversor (𝒦, γ) ↦ -R(𝒦, γ), R the rotation by π about an axis a, keeps the level M and fixes the states with 𝒦_a = γ_a =
-0.  If x is fixed by that of a, and after n steps is fixed by that of b, or is mapped by it to the next state, then x is back
-after 2n or 2n + 1 steps, up to R_aR_b.  On M such a point is an accident: there are two conditions for one unknown.  But
-⟨𝒦, γ⟩ may vary: through each leads a family of periodic orbits, mirrored by the reversor, so with a fold of ⟨𝒦, γ⟩ in the
-middle; beside it the orbits are not symmetric.  As the map is near an integrable one, ⟨𝒦, γ⟩ hardly changes along it.
+A reversor (𝒦, γ) ↦ -R(𝒦, γ), R the rotation by π about an axis a, keeps the level M and fixes the states with 𝒦_a =
+γ_a = 0.  If x is fixed by that of a, and after n steps is fixed by that of b, or is mapped by it to the next state,
+then x is back after 2n or 2n + 1 steps, up to R_aR_b.  On M such a point is an accident: there are two conditions
+for one unknown.  But ⟨𝒦, γ⟩ may vary: through each leads a family of periodic orbits, mirrored by the reversor, so
+with a fold of ⟨𝒦, γ⟩ in the middle; beside it the orbits are not symmetric.  As the map is near an integrable one,
+⟨𝒦, γ⟩ hardly changes along it.
 """
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from itertools import product
+from itertools import pairwise, product
 from typing import Any
 
 import numpy as np
@@ -25,19 +26,24 @@ from .passage import Level, Map, Vector, columns, cross, dot
 #: Starts along each of the two angles of 𝒦 and γ, Newton's iterations, their longest and what is settled.
 GRID, ROUNDS, LONGEST, SETTLED = (8, 16), 24, 0.2, 1e-11
 DIFFERENCE = 1e-6
-#: Members of a family that are looked at, their distance, and Newton's iterations for each.
-MEMBERS, APART, CORRECTIONS = 16, 0.02, 6
+#: Members of a family that are looked at, their distance, Newton's iterations for each, and halvings of the distance.
+MEMBERS, APART, CORRECTIONS, HALVINGS = 16, 0.02, 6, 6
 #: Two families whose ⟨𝒦, γ⟩ agree so far are one; a motion whose γ_i vary less is a steady rotation.
 SAME = 1e-7
 
 
 @dataclass(frozen=True)
 class Member:
-    """One orbit of a family: ⟨𝒦, γ⟩, and the start."""
+    """One orbit of a family: ⟨𝒦, γ⟩, the start, and the direction of the family as by `Passage.change`."""
 
     height: Any
     momentum: Vector
     gamma: Vector
+    along: Floats = field(default_factory=lambda: np.zeros(4))
+
+    def mirrored(self) -> "Member":
+        """The image by the reversor -1: of the orbit that goes back, with the inverse derivative."""
+        return Member(self.height, [-x for x in self.momentum], [-x for x in self.gamma])
 
 
 def families(level: Level, steps: int, progress: Callable[[str], None]) -> Iterator[list[Member]]:
@@ -57,7 +63,7 @@ def _symmetric(level: Level, steps: int) -> Iterator[Floats]:
     periods = [(steps, a, a) for a in range(3)]
     if steps % 2 == 0:
         periods += [(steps // 2, a, b) for a, b in product(range(3), repeat=2) if a != b]
-    ball, size = Ball([float(x) for x in level.J], float(level.D)), float(level.size) ** 0.5
+    ball, size = Ball(np.array(level.J, dtype=float), np.array(float(level.D))), float(level.size) ** 0.5
     for period, a, b in periods:
         for state in _solved(ball, size, period, a, b):
             state[3:] *= np.copysign(1.0, state[:3] @ state[3:])  # γ ↦ -γ commutes with the map
@@ -72,7 +78,7 @@ def _solved(ball: Ball, size: float, period: int, a: int, b: int) -> list[Floats
 
     def off(angles: Floats) -> Floats:
         end = before = _fixed(angles, size, a)
-        for i in range((period + 1) // 2):
+        for _ in range((period + 1) // 2):
             before, end = end, _after(ball, end)
         # Odd: the last two states are each other's mirror images; so their sum is fixed.
         middle = end + before if period % 2 else end
@@ -114,21 +120,30 @@ def _steady(ball: Ball, state: Floats, period: int) -> bool:
 
 def _followed(level: Level, steps: int, state: Floats) -> list[Member]:
     """A stretch of the family of a symmetric orbit, with the working precision of Arb."""
-    at = Map.of(level)
     member = Member(None, [exact(x) for x in state[:3]], [exact(x) for x in state[3:]])
-    members: list[Member] = []
-    along = np.zeros(4)
+    members = [_corrected(level, steps, member)]
     while len(members) < MEMBERS:
-        for _ in range(CORRECTIONS):
-            now = at.passage(member.momentum, member.gamma, steps)
-            slope = now.slope()
-            back = slope.transpose() * (slope * slope.transpose()).solve(now.error())
-            member = _moved(level, member, [-1 * back[i, 0] for i in range(4)])
-        members.append(member)
-        kernel = np.linalg.svd([[float(x) for x in row] for row in slope.tolist()])[2][3]
-        along = kernel if along @ kernel >= 0 else -kernel
-        member = _moved(level, member, [exact(APART * x) for x in along])
+        before = members[-1]
+        found = _corrected(level, steps, _ahead(level, before, Fraction(APART)))
+        same_way = np.dot(found.along, before.along) >= 0
+        members.append(found if same_way else replace(found, along=-found.along))
     return members
+
+
+def _ahead(level: Level, member: Member, distance: Fraction) -> Member:
+    """A point near the family, so far along it."""
+    return _moved(level, member, [exact(distance * Fraction(x)) for x in member.along])
+
+
+def _corrected(level: Level, steps: int, member: Member) -> Member:
+    """The nearest member of the family, by Newton's method with the shortest corrections, and its direction."""
+    at = Map.of(level)
+    for _ in range(CORRECTIONS):
+        now = at.passage(member.momentum, member.gamma, steps)
+        slope = now.slope()
+        back = slope.transpose() * (slope * slope.transpose()).solve(now.error())
+        member = _moved(level, member, [-1 * back[i, 0] for i in range(4)])
+    return replace(member, along=np.linalg.svd([[float(x) for x in row] for row in slope.tolist()])[2][3])
 
 
 def _moved(level: Level, member: Member, by: Vector) -> Member:
@@ -142,10 +157,10 @@ def _moved(level: Level, member: Member, by: Vector) -> Member:
     return Member(dot(K, g).mid(), K, g)
 
 
-def solved(level: Level, steps: int, near: Member, rounds: int) -> tuple[Vector, Vector]:
+def solved(level: Level, steps: int, member: Member, rounds: int) -> tuple[Vector, Vector]:
     """The orbit of the exact level by Newton's method from one near by; on the level, but for rounding."""
     at = Map.of(level)
-    K, g = on_level(level, near.momentum, near.gamma)
+    K, g = on_level(level, member.momentum, member.gamma)
     for _ in range(rounds):
         now = at.passage(*_middles(K, g), steps)
         w = [-x for x in _solution(columns(now.slope(), 3), now.error())]
@@ -179,12 +194,29 @@ def extent(family: list[Member]) -> tuple[Fraction, Fraction]:
     return min(heights), max(heights)
 
 
-def chosen(family: list[Member], height: Fraction | None) -> tuple[Fraction, Member]:
-    """⟨𝒦, γ⟩, by default the shortest decimal in the middle half of those of a family, and the member nearest to it."""
+def middle(family: list[Member]) -> Fraction:
+    """The shortest decimal in the middle half of the ⟨𝒦, γ⟩ of the members."""
     low, high = extent(family)
-    digits = 0
-    while height is None:
-        rounded = Fraction(round((low + high) / 2 * 10**digits), 10**digits)
-        height = rounded if abs(rounded - (low + high) / 2) <= (high - low) / 4 else None
+    digits, height = 0, Fraction(round((low + high) / 2))
+    while abs(height - (low + high) / 2) > (high - low) / 4:
         digits += 1
-    return height, min(family, key=lambda x: abs(fraction(x.height) - height))
+        height = Fraction(round((low + high) / 2 * 10**digits), 10**digits)
+    return height
+
+
+def near(level: Level, steps: int, family: list[Member]) -> Member:
+    """A member whose ⟨𝒦, γ⟩ is near the `level.height`, which must be in the extent of the family: by halving."""
+    before, after = next(
+        (x, y)
+        for x, y in pairwise(family)
+        if (fraction(x.height) - level.height) * (fraction(y.height) - level.height) <= 0
+    )
+    distance, below = Fraction(APART), fraction(before.height) < level.height
+    for _ in range(HALVINGS):
+        distance /= 2
+        member = _corrected(level, steps, _ahead(level, before, distance))
+        if (fraction(member.height) < level.height) == below:
+            before = replace(member, along=before.along)
+        else:
+            after = member
+    return min(before, after, key=lambda x: abs(fraction(x.height) - level.height))

@@ -15,6 +15,7 @@ from typing import Any
 
 from flint import arb, ctx
 
+from chapsym import checker
 from chapsym.dynamics.errors import BadInput
 from chapsym.dynamics.precise_ball import TooWide
 from chapsym.dynamics.precise_start import fraction
@@ -30,7 +31,7 @@ KIND = "no-invariant-measure"
 #: lie between two decimals.
 SIGNIFICANT, MORE = 3, 3
 #: Decimals by which a radius must be smaller for every step; boxes grow by less.
-LOST = 2
+LOST = 3
 
 
 @dataclass(frozen=True)
@@ -49,16 +50,10 @@ class Orbit:
     def write(self, digits: int) -> dict[str, Any]:
         """For JSON, rounded; raises NotProved where the numbers of a ball do not round alike."""
         steps = [
-            {name: [rounded(x, digits, _wider(k)) for x in v] for name, v in (("u", u), ("gamma", gamma))}
-            for k, (u, gamma) in enumerate(zip(self.gibbs, self.gammas, strict=True), 1)
+            {name: [rounded(x, digits) for x in v] for name, v in (("u", u), ("gamma", gamma))}
+            for u, gamma in zip(self.gibbs, self.gammas, strict=True)
         ]
-        moved = rounded(self.displacement, digits, _wider(len(steps)))
-        return {"start": self.start, "steps": steps, "displacement": moved}
-
-
-def _wider(steps: int) -> int:
-    """How much wider the intervals of a checker may be after so many steps; those of ours are, by 2^(0.7 steps + 1)."""
-    return 2 ** (steps + 2)
+        return {"start": self.start, "steps": steps, "displacement": rounded(self.displacement, digits)}
 
 
 def no_invariant_measure(
@@ -71,7 +66,8 @@ def no_invariant_measure(
     level: l; in the middle of the plateau by default.  digits: decimals of the file; what the displacement needs.
     radius: how far each of J, D, h and l may be off; the largest power of 10 that is proved by default, and 0 where a
     component of J is 0, as it must not be negative.
-    Returns the object of the file (`document`).  Raises BadInput, one sentence, for what has no certificate.
+    Returns the object of the file (`document`), which `chapsym.checker`, whose intervals are wider, accepts, too.
+    Raises BadInput, one sentence, for what has no certificate.
     """
     _check(top, steps, half_turns, digits, radius)
     if level is None:
@@ -140,26 +136,39 @@ def _least_digits(top: Top, at: Resonance) -> int:
 def _largest(
     top: Top, at: Resonance, least: int, only: bool, radius: Fraction | None, progress: Callable[[str], None]
 ) -> dict[str, Any]:
-    """The certificate with the largest radius, and the fewest digits for it."""
-    candidates = [least] if only else range(least, min(least + MORE, MOST_DIGITS) + 1)
-    most = candidates[-1]
+    """The certificate with the largest radius, and the fewest digits for it: the smaller, the easier, so by halving."""
+    digits = [least] if only else list(range(least, min(least + MORE, MOST_DIGITS) + 1))
     radii = _radii(top, at, least) if radius is None else [radius]
-    with ctx.workprec(math.ceil(most * 10 / 3) + spare_bits(at.steps)):
-        for tried in radii:
-            progress(f"trying the radius {shortest(tried)}")
+    first, last = 0, len(radii) - 1
+    found = _accepted(top, at, radii[last], digits)
+    if found is None:
+        raise BadInput(
+            f"the numbers do not round to {least} digits alike for all parameters within {shortest(radii[last])}; "
+            f"take a smaller radius, or another number of digits"
+        )
+    while first < last:
+        middle = (first + last) // 2
+        progress(f"trying the radius {shortest(radii[middle])}")
+        other = _accepted(top, at, radii[middle], digits)
+        first, last, found = (middle + 1, last, found) if other is None else (first, middle, other)
+    return found
+
+
+def _accepted(top: Top, at: Resonance, radius: Fraction, candidates: list[int]) -> dict[str, Any] | None:
+    """The certificate with this radius and the fewest digits, proved, and accepted by the checker."""
+    with ctx.workprec(math.ceil(candidates[-1] * 10 / 3) + spare_bits(at.steps)):
+        try:
+            orbits = _orbits(top, at, radius)
+        except (NotProved, TooWide, BadInput):  # such a radius may be beyond the bound of small-branch
+            return None
+        for digits in candidates:
             try:
-                orbits = _orbits(top, at, tried)
-            except (NotProved, TooWide, BadInput):  # such a radius may be beyond the bound of small-branch
+                found = _document(top, at, radius, orbits, digits)
+                checker.check(found)
+            except (NotProved, checker.Rejected):
                 continue
-            for digits in candidates:
-                try:
-                    return _document(top, at, tried, orbits, digits)
-                except NotProved:
-                    continue
-    raise BadInput(
-        f"the numbers do not round to {least} digits alike for all parameters within {shortest(radii[-1])}; "
-        f"take a smaller radius, or another number of digits"
-    )
+            return found
+    return None
 
 
 def _radii(top: Top, at: Resonance, digits: int) -> list[Fraction]:
@@ -207,7 +216,7 @@ def _document(top: Top, at: Resonance, radius: Fraction, orbits: list[Orbit], di
     statement = (
         f"For every ball with J = ({', '.join(J)}), D = {top.D} and momentum {top.height} γ: on the circle "
         f"⟨γ, Λ⁻¹γ⟩ = {level}, γ_{axes[2]} > 0, every number within {within}, some points are back after "
-        f"{at.steps} steps and {at.half_turns} half turns and others are not, so the map leaves no finite "
+        f"{at.steps} steps and {resonance.turns(at.half_turns)}, others are not, and so the map leaves no finite "
         f"measure invariant that is positive on every arc."
     )
     return sealed(

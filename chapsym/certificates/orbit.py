@@ -1,13 +1,15 @@
-"""Certificate `periodic-orbit`: a point that is back after q steps, where det DG^q ≠ 1 and det(1 - DG^q) ≠ 0 on the level M.
+"""Certificate `periodic-orbit`: a point that is back after q steps, where det DG^q ≠ 1 and det(1 - DG^q) ≠ 0 on the
+level M.
 
-Existence.  Let f(x) be the vector part of the quaternion by which q steps from x turn: x is back where f = 0.  For |w_i| ≤ r,
-f(exp(w)x₀) = f(x₀) + Aw with A in the hull of the derivatives of f on a box that contains all exp(w)x₀.  If, with Y near
-f'(x₀)⁻¹, all -Yf(x₀) + (1 - YA)w are within r, Brouwer's theorem gives a w with f(exp(w)x₀) = 0.  The point x₀ is a ball of
-points that are exactly on M.
+Existence.  Let f(x) be the vector part of the quaternion by which q steps from x turn: x is back where f = 0.  For
+|w_i| ≤ r, f(exp(w)x₀) = f(x₀) + Aw with A in the hull of the derivatives of f on a box that contains all exp(w)x₀.
+If, with Y near f'(x₀)⁻¹, all -Yf(x₀) + (1 - YA)w are within r, Brouwer's theorem gives a w with f(exp(w)x₀) = 0.
+The point x₀ is a ball of points that are exactly on M.
 """
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
@@ -32,16 +34,21 @@ SPARE_DIGITS, MOST_DIGITS, MOST_STEPS = 30, 4_000, 1_000
 
 def periodic_orbit(
     J: tuple[Fraction, Fraction, Fraction], D: Fraction, size: Fraction, steps: int, height: Fraction | None = None,
-    digits: int | None = None, progress: Callable[[str], None] = lambda what: None,
+    digits: int | None = None, attracting: bool = False, progress: Callable[[str], None] = lambda what: None,
 ) -> dict[str, Any]:  # fmt: skip
-    """Finds the certificate of an orbit of so many steps, not symmetric, with det DG^q ≠ 1 and without an eigenvalue 1.
+    """Finds the certificate of an orbit of so many steps, not symmetric, with det DG^q < 1 and without an eigenvalue
+    1.
 
-    J, D: the ball.  size: |𝒦|².  height: ⟨𝒦, γ⟩; the shortest decimal in the middle of the widest family by default.
-    digits: decimals of the numbers in the file; enough by default.
+    Of it and its mirror image, with the reciprocal determinant, it is the one that contracts volumes.
+
+    J, D: the ball.  size: |𝒦|².  height: ⟨𝒦, γ⟩; the shortest decimal in the middle of the widest family by
+    default.
+    digits: decimals of the numbers in the file; enough by default.  attracting: all eigenvalues are to be inside
+    the unit circle.
     Returns the object of the file (`document`).  Raises BadInput, one sentence, for what has no certificate.
     """
     _check(J, D, size, steps, height, digits)
-    level, near = _found(Level(J, D, size, Fraction(0)), steps, height, progress)
+    level, near = _found(Level(J, D, size, Fraction(0)), steps, height, attracting, progress)
     bits = SEARCH_BITS
     while True:
         progress(f"<momentum, gamma> = {shortest(level.height)}: {bits} bits")
@@ -49,7 +56,7 @@ def periodic_orbit(
             with ctx.workprec(bits):
                 start, passage = proved(level, *families.solved(level, steps, near, 4 + bits.bit_length()), steps)
                 written = digits or _enough(passage)
-                return _document(level, steps, start, passage, written)
+                return _document(level, steps, start, passage, written, attracting)
         except NotProved:
             if bits > 8 * (SEARCH_BITS + 4 * (digits or 0)):
                 raise BadInput(f"no orbit of {steps} steps is proved there; choose another <momentum, gamma>") from None
@@ -75,19 +82,29 @@ def _check(
         Map.of(Level((J[0], J[1], J[2]), D, size, Fraction(0)))  # the bound of the lemma
 
 
-def _found(level: Level, steps: int, height: Fraction | None, progress: Callable[[str], None]) -> tuple[Level, Member]:
-    """The level, and an orbit near it."""
-    best: tuple[Fraction, Fraction, Member] | None = None
+def _found(
+    level: Level, steps: int, height: Fraction | None, attracting: bool, progress: Callable[[str], None]
+) -> tuple[Level, Member]:
+    """The level of the widest family that serves, and a member near it."""
+    best: tuple[Fraction, Level, Member] | None = None
     with ctx.workprec(SEARCH_BITS):
         for family in families.families(level, steps, progress):
             low, high = families.extent(family)
             inside = height is None or low < height < high
-            if inside and high - low > Fraction(1, 2**RESOLVED) and (best is None or high - low > best[0]):
-                best = high - low, *families.chosen(family, height)
+            if not inside or high - low < max(Fraction(1, 2**RESOLVED), best[0] if best else Fraction(0)):
+                continue
+            at = replace(level, height=families.middle(family) if height is None else height)
+            member = families.near(at, steps, family)
+            W = Map.of(level).passage(member.momentum, member.gamma, steps).derivative()
+            if W.det() > 1:
+                member, W = member.mirrored(), W.inv()
+            if attracts(W) or not attracting:
+                best = high - low, at, member
     if best is None:
         where = "" if height is None else f" with <momentum, gamma> = {shortest(height)}"
-        raise BadInput(f"no family of orbits of {steps} steps{where} was found that are not symmetric")
-    return Level(level.J, level.D, level.size, best[1]), best[2]
+        kind = "attract" if attracting else "are not symmetric"
+        raise BadInput(f"no orbits of {steps} steps{where} that {kind} were found")
+    return best[1], best[2]
 
 
 def proved(level: Level, momentum: Vector, gamma: Vector, steps: int) -> tuple[Vector, Passage]:
@@ -123,6 +140,16 @@ def determinants(passage: Passage) -> tuple[Any, Any]:
     return det, unit
 
 
+def attracts(W: Any) -> bool:
+    """Whether all eigenvalues are proved to be inside the unit circle: Schur and Cohn's test of det(λ - W)."""
+    trace, det = W[0, 0] + W[1, 1] + W[2, 2], W.det()
+    unit = (identity() - W).det()
+    minors = unit - 1 + trace + det
+    return bool(
+        unit > 0 and 1 + trace + minors + det > 0 and abs(det) < 1 and abs(minors - trace * det) < 1 - det * det
+    )
+
+
 def _enough(passage: Passage) -> int:
     """Decimals that show det DG^q - 1 and det(1 - DG^q)."""
     det, unit = determinants(passage)
@@ -130,18 +157,29 @@ def _enough(passage: Passage) -> int:
     return SPARE_DIGITS + math.ceil(-math.log10(least))
 
 
-def _document(level: Level, steps: int, start: Vector, passage: Passage, digits: int) -> dict[str, Any]:
+def _document(
+    level: Level, steps: int, start: Vector, passage: Passage, digits: int, attracting: bool
+) -> dict[str, Any]:
     det, unit = determinants(passage)
+    W = passage.derivative()
+    if attracting and not attracts(W):
+        raise NotProved("an eigenvalue may be outside of the unit circle")
     J, D, size, height = [str(x) for x in level.J], str(level.D), str(level.size), shortest(level.height)
     statement = (
-        f"For the ball with J = ({', '.join(J)}), D = {D}: with ⟨𝒦, 𝒦⟩ = {size}, ⟨𝒦, γ⟩ = {height} a point is back after "
-        f"{steps} steps, and the derivative of these steps on the level of the integrals there has a determinant other "
+        f"For the ball with J = ({', '.join(J)}), D = {D}: with ⟨𝒦, 𝒦⟩ = {size}, ⟨𝒦, γ⟩ = {height} a point is back "
+        f"after {steps} steps, and the derivative of these steps on the level of the integrals there has a determinant other "
         f"than 1 and no eigenvalue 1."
     )
+    more = {}
+    if attracting:
+        statement += (
+            " All its eigenvalues are inside the unit circle: the orbit attracts what starts near it on the level."
+        )
+        more["trace"] = rounded(W[0, 0] + W[1, 1] + W[2, 2], digits)
     texts = [rounded(x, digits) for x in start]
     return sealed(
         KIND, statement, ball={"J": J, "D": D}, integrals={"momentum.momentum": size, "momentum.gamma": height},
         steps=steps, digits=digits, start={"momentum": texts[:3], "gamma": texts[3:]},
         orbit=[{"u": [rounded(x, digits) for x in u]} for u in passage.gibbs],
-        determinant=rounded(det, digits), unit_eigenvalue=rounded(unit, digits),
+        determinant=rounded(det, digits), unit_eigenvalue=rounded(unit, digits), **more,
     )  # fmt: skip

@@ -1,8 +1,8 @@
 """q steps of the whole map in Arb's balls: how far they turn the body, and the derivative of that.
 
-A step carries 𝒦 and γ by one rotation.  So the level M of |γ|, |𝒦| and ⟨𝒦, γ⟩ is, where 𝒦 and γ are not parallel, the set
-of all (R𝒦, Rγ), R in SO(3); a tangent vector is (w × 𝒦, w × γ); and a point is back after q steps if and only if the
-product T of their rotations is 1.
+A step carries 𝒦 and γ by one rotation.  So the level M of |γ|, |𝒦| and ⟨𝒦, γ⟩ is, where 𝒦 and γ are not parallel,
+the set of all (R𝒦, Rγ), R in SO(3); a tangent vector is (w × 𝒦, w × γ); and a point is back after q steps if and
+only if the product T of their rotations is 1.
 """
 
 from collections.abc import Sequence
@@ -37,9 +37,9 @@ class Level:
 class Passage:
     """Of q steps: the product T of their rotations, and how it changes with the start.
 
-    quaternion: of T, which takes the start to the end.  turned: T, (3, 3).  change: the ω of dT = [ω]×T for four variations
-    of the start, (3, 4): (w × 𝒦, w × γ) for w = e1, e2, e3, and ((𝒦 × γ) × 𝒦, 0), which turns 𝒦 alone, and which changes
-    ⟨𝒦, γ⟩ by |𝒦 × γ|².  gibbs: the Gibbs vectors of the steps.
+    quaternion: of T, which takes the start to the end.  turned: T, (3, 3).  change: the ω of dT = [ω]×T for four
+    variations of the start, (3, 4): (w × 𝒦, w × γ) for w = e1, e2, e3, and ((𝒦 × γ) × 𝒦, 0), which turns 𝒦 alone,
+    and which changes ⟨𝒦, γ⟩ by |𝒦 × γ|².  gibbs: the Gibbs vectors of the steps.
     """
 
     quaternion: Vector

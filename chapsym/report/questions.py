@@ -55,7 +55,8 @@ def html(
     found = page._Page(records, versions)
     style = "".join((FOLDER / name).read_text(encoding="utf-8") for name in ("style.css", "questions.css"))
     return found.render(
-        "questions.html", style=Markup(style), questions=_questions(found), certificates=list(map(_shown, certificates)),
+        "questions.html", style=Markup(style), questions=_questions(found),
+        certificates=list(map(_shown, certificates)),
         evidence=[{"title": e.title, "name": e.name, "sentences": e.sentences, "figures": list(map(_figure, e.figures))}
                   for e in evidence],
         lemmas=[_claim(found, record) for record in records if record["id"] not in QUESTIONS], versions=versions,
@@ -79,7 +80,8 @@ def _claim(found: Any, record: Record) -> Markup:
         f"claim-{record['id']}", record["id"],
         lambda whole: whole.render(
             "claim.html", record=record, evidence=record["evidence"],
-            uses=[id for id in uses[record["id"]] if id in here], users=[id for id in users[record["id"]] if id in here],
+            uses=[id for id in uses[record["id"]] if id in here],
+            users=[id for id in users[record["id"]] if id in here],
         ),
     )  # fmt: skip
 

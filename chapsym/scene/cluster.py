@@ -80,6 +80,7 @@ def on_cluster(plan: Plan, store: Store, tally: Tally, address: str) -> dict[int
 
 @contextmanager
 def connected(address: str) -> Iterator[Any]:
+    """A client of the Dask scheduler at an address; raises SceneError if none answers there."""
     from distributed import Client
 
     levels = {logger: logger.level for logger in map(logging.getLogger, ("distributed", "distributed.client"))}

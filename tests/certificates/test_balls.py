@@ -13,18 +13,18 @@ from chapsym.certificates.document import digest, sealed
 fractions = st.fractions(max_denominator=10**9).filter(lambda x: abs(x) < 10**6)
 
 
-@given(fractions, st.fractions(0, 1, max_denominator=10**6), st.integers(0, 12), st.sampled_from([1, 64]))
-def test_every_number_of_a_ball_rounds_to_its_decimals(centre, radius, digits, wider):
+@given(fractions, st.fractions(0, 1, max_denominator=10**6), st.integers(0, 12))
+def test_every_number_of_a_ball_rounds_to_its_decimals(centre, radius, digits):
     radius /= 10**7
     with ctx.workprec(120):
         x = ball(centre, radius)
         try:
-            text = rounded(x, digits, wider)
+            text = rounded(x, digits)
         except NotProved:
-            off = wider * radius + Fraction(1, 2**90)  # only where an end is on another side of a tie
+            off = radius + Fraction(1, 2**90)  # only where an end is on another side of a tie
             assert round((centre - off) * 10**digits) != round((centre + off) * 10**digits)
             return
-    for number in (centre - wider * radius, centre, centre + wider * radius):
+    for number in (centre - radius, centre, centre + radius):
         assert abs(number - Fraction(text)) <= Fraction(1, 2 * 10**digits)
     assert len(text.partition(".")[2]) == digits
     assert not text.startswith("-") or Fraction(text) != 0
@@ -36,8 +36,6 @@ def test_a_ball_across_a_tie_is_refused():
         with pytest.raises(NotProved):
             rounded(tie, 1)
         assert rounded(tie, 2) == "0.15"
-        with pytest.raises(NotProved):
-            rounded(tie, 2, 10**7)
 
 
 @given(st.integers(-(10**9), 10**9), st.integers(0, 12))

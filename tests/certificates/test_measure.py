@@ -4,7 +4,6 @@ import json
 import random
 import subprocess
 import sys
-from dataclasses import replace
 from fractions import Fraction
 from importlib.resources import files
 
@@ -12,6 +11,7 @@ import pytest
 from certificates import elliptic
 from flint import arb, ctx
 
+from chapsym import checker
 from chapsym.certificates import document, measure, plateau, resonance
 from chapsym.certificates.balls import NotProved, ball, rounded
 from chapsym.certificates.measure import no_invariant_measure
@@ -164,13 +164,18 @@ def test_without_contact_both_displacements_are_one_number():
         ({}, {"level": LEVEL}, "--steps"),
         ({}, {"level": LEVEL, "steps": 13}, "half turns, not by a whole number"),
         ({}, {"level": LEVEL, "steps": 9, "half_turns": 2}, "not by 2"),
-        ({"D": "1e-900"}, {}, "is not told from 0"),
     ],
 )
 def test_what_has_no_certificate_is_one_sentence(ball, arguments, sentence):
     with pytest.raises(BadInput, match=sentence) as refused:
         no_invariant_measure(top(**ball), **arguments)
     assert "\n" not in str(refused.value)
+
+
+def test_a_displacement_that_is_too_small_is_not_looked_for_forever(monkeypatch):
+    monkeypatch.setattr(resonance, "MOST_DIGITS", 100)
+    with pytest.raises(BadInput, match="not told from 0 with 100 digits"):
+        no_invariant_measure(top(D="1e-90"), steps=9)
 
 
 def chapsym(*arguments):
@@ -185,6 +190,21 @@ def test_the_command_writes_what_it_prints(tmp_path):
     assert (done.returncode, done.stderr) == (0, "")
     assert json.loads(done.stdout) == json.loads(file.read_text(encoding="utf-8")) == committed("measure-simplest")
     assert file.read_text(encoding="utf-8") == document.text(committed("measure-simplest"))
+
+
+def test_the_command_has_the_checker_judge(tmp_path):
+    file = tmp_path / "changed.json"
+    found = committed("measure-large")
+    good = tmp_path / "good.json"
+    document.write(good, found)
+    done = chapsym("check", str(good))
+    assert (done.returncode, done.stderr) == (0, "")
+    found["orbits"][0]["displacement"] = found["orbits"][0]["displacement"].replace("415", "416")
+    document.write(file, {**found, "digest": document.digest(found)})
+    done = chapsym("check", str(good), str(file))
+    assert done.returncode == 1
+    assert "rejected" in done.stderr
+    assert chapsym("check", str(tmp_path / "nowhere.json")).returncode == 2
 
 
 def test_the_command_refuses_with_one_sentence():
@@ -208,16 +228,17 @@ def test_a_certificate_needs_opposite_signs():
         measure._document(top(), at, Fraction(0), [one, one], 31)
 
 
-def test_a_checker_may_have_a_wider_displacement():
-    one = orbits()[0]
-    one.write(31)
-    for off in (10, 14):  # 2.802e-29 rounds to 2.80e-29 up to 3e-32 off; with 2^11 times the radius only up to 1e-35
-        wide = replace(one, displacement=one.displacement + ball(Fraction(0), Fraction(1, 10 ** (22 + off))))
-        if off == 10:
-            with pytest.raises(NotProved):
-                wide.write(31)
-        else:
-            wide.write(31)
+def test_a_radius_that_the_checker_does_not_bear_is_not_taken(monkeypatch):
+    """Its intervals are the wider ones for this ball; without it the radius would be larger."""
+    ball = top(J="1,15,3/5", D="37/800", height="-3/5")
+    found = no_invariant_measure(ball)
+    assert checker.check(found).kind == found["kind"] == "no-invariant-measure"
+    monkeypatch.setattr(measure.checker, "check", lambda document: None)
+    other = no_invariant_measure(ball)
+    assert Fraction(other["radius"]) > Fraction(found["radius"])
+    monkeypatch.undo()
+    with pytest.raises(checker.Rejected):
+        checker.check(other)
 
 
 def test_steps_turn_in_one_direction_by_so_many_half_turns():

@@ -125,22 +125,41 @@ def _det(c):
     return sum(c[0][i] * (c[1][i - 2] * c[2][i - 1] - c[1][i - 1] * c[2][i - 2]) for i in range(3))
 
 
+@pytest.mark.parametrize("ends", [(0, 1), (-1, 0), (0, 0), (-1, 1)])
+def test_what_may_be_zero_is_neither_divided_by_nor_under_a_root(ends):
+    x = Interval(*ends, BITS)
+    with pytest.raises(Rejected, match="differ from 0"):
+        1 / x
+    with pytest.raises(Rejected, match="positive"):
+        x.sqrt()
+
+
+def test_the_interior_is_without_the_ends():
+    x = Interval(0, 4, BITS)
+    assert Interval(1, 3, BITS).inside(x)
+    assert not any(Interval(*ends, BITS).inside(x) for ends in ((0, 4), (0, 3), (1, 4), (-1, 3)))
+
+
 def test_a_matrix_that_may_be_singular_is_refused():
     one, wide = Interval(1 << BITS, 1 << BITS, BITS), Interval(0, 2 << BITS, BITS)
-    with pytest.raises(Rejected, match="differ from 0"):
+    with pytest.raises(Rejected, match="may be singular"):
         solve([[one, one], [one, wide]], [[one], [one]])
 
 
-def root_of_two(centre, shift=0):
-    """Newton's test for x² = 2."""
-    x = Interval.enclosing(Fraction(centre), Fraction(centre), 60)
-    return newton(lambda v: [v[0] * v[0] - 2 - shift], lambda v: [[2 * v[0]]], [x])[0]
+@pytest.mark.parametrize("bits", [60, 600])
+def test_newtons_test_encloses_the_root_of_two_to_the_last_bits(bits):
+    """From 4 decimals; a derivative at the middle only would give boxes that are narrower than their error."""
+    centre = Interval.enclosing(Fraction("1.4142"), Fraction("1.4142"), bits).point()
+    (x,) = newton(lambda v: [v[0] * v[0] - 2], lambda v: [[2 * v[0]]], [centre])
+    assert x.lo**2 < 2 << (2 * bits) < x.hi**2
+    assert x.width < 16
 
 
-def test_newtons_test_encloses_the_root_and_shrinks_quadratically():
-    x = root_of_two("1.4142")
-    assert x.lo**2 < 2 << 120 < x.hi**2
-    assert x.hi - x.lo < 2 ** (60 - 30)  # |1.4142 - √2| is 1.4e-5 = 2^-16: its square
+def test_newtons_test_refuses_a_box_that_the_root_may_have_left():
+    """f(0) = 1 with f′(0) = 4 says -1/4, but a slope of 1 elsewhere may put the root at -1, outside the box tried."""
+    one, zero = 1 << 60, Interval(0, 0, 60)
+    with pytest.raises(Rejected, match="Newton"):
+        newton(lambda v: [zero + 1], lambda v: [[Interval(one if v[0].width else 4 * one, 4 * one, 60)]], [zero])
 
 
 def test_newtons_test_refuses_a_double_root_and_none():

@@ -2,6 +2,7 @@
 
 import copy
 import json
+import math
 import random
 from fractions import Fraction
 
@@ -9,6 +10,8 @@ import certificate_maker as maker
 import pytest
 from certificate_changes import at, changed, leaves, refused, replaced, resealed
 from chapsym.checker import Rejected, check
+from chapsym.checker.interval import Interval
+from chapsym.checker.measure import Circle, half_turns
 
 from chapsym import checker
 
@@ -83,6 +86,51 @@ def test_every_place_of_one_decimal_counts(right):
         for i in (i for i, c in enumerate(text) if c.isdigit()):
             other = text[:i] + rng.choice([c for c in "0123456789" if c != text[i]]) + text[i + 1 :]
             assert refused(resealed(replaced(right, path, other))), (path, i)
+
+
+@pytest.mark.parametrize(
+    ("path", "value", "sentence"),
+    [(("ball", "height"), "0", "height is not proved"), (("ball", "height"), "29/10", "beyond the bound"),
+     (("ball", "height"), "-3", "least moment"), (("radius",), "-1e-60", "radius must not be negative"),
+     (("radius",), "10", "mass tensor"), (("axes",), [3, 2, 1], "circle around"),
+     (("axes",), [1, 3, 2], "circle around"), (("axes",), [1, 2, 2], "in some order"),
+     (("ball", "level"), "1/5", "u of step 1"), (("ball", "level"), LEVEL + "0", "more decimals"),
+     (("ball", "J"), ["1", "2"], "list of 3"), (("orbits", 1, "start"), "a", "u of step 1"),
+     (("orbits", 1, "start"), "c", "must be a or b")],
+)  # fmt: skip
+def test_each_hypothesis_is_proved_from_the_numbers(right, path, value, sentence):
+    with pytest.raises(Rejected, match=sentence):
+        check(resealed(replaced(right, path, value)))
+
+
+def points(*degrees):
+    """γ in the plane (a, b) at these angles."""
+    turns = [[Fraction(f(math.radians(d))).limit_denominator(10**9) for f in (math.cos, math.sin)] for d in degrees]
+    return [[Interval.enclosing(x, x, 60) for x in (*turn, Fraction(0))] for turn in turns]
+
+
+def test_steps_in_both_directions_or_of_half_a_turn_are_refused(right):
+    circle = Circle(right)
+    assert circle.direction(points(0, 100, 200, 370)) == 1
+    assert circle.direction(points(0, -100, -200, -370)) == -1
+    for degrees in ((0, 100, 50), (0, 180), (0, 0), (0, 100, 300)):
+        with pytest.raises(Rejected, match="one direction"):
+            circle.direction(points(*degrees))
+
+
+def test_half_turns_are_counted_by_the_changes_of_the_sine(right):
+    circle = Circle(right)
+    for count, degrees in ((0, (10, 100, 179)), (1, (100, 181)), (2, (100, 200, 350, 400)), (3, (170, 340, 500, 600))):
+        start, *others = points(0, *degrees)
+        assert half_turns([circle.sine(start, v) for v in others]) == count
+    with pytest.raises(Rejected, match="line of the start"):
+        half_turns([Interval(1, 2, 60), Interval(-1, 1, 60)])
+
+
+def test_two_orbits_in_opposite_directions_are_refused(right, monkeypatch):
+    directions = iter((1, -1))
+    monkeypatch.setattr(Circle, "direction", lambda self, gammas: next(directions))
+    assert refused(right)
 
 
 def test_a_change_of_the_sentence_is_refused(right):

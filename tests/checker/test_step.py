@@ -97,6 +97,23 @@ def test_the_small_branch_is_proved_within_its_bound(size, fine):
         assert fine
 
 
+def test_a_momentum_as_large_as_the_least_moment_is_named():
+    with pytest.raises(Rejected, match="least moment of inertia"):
+        check_small_branch(BALL, enclosed(["3"])[0])
+
+
+def test_the_root_beyond_a_right_angle_is_refused():
+    """𝒦 = γ = e3, I3 = 3: 3u = ½(1 + u²) has the roots 3 ± √8."""
+    state, near = (enclosed((0, 0, 1)), enclosed((0, 0, 1))), [Fraction(0), Fraction(0)]
+    for root in ("0.171573", "5.828427"):
+        u = [x.point() for x in enclosed([*near, root])]
+        if root < "1":
+            gibbs_vector(BALL, state, u)
+        else:
+            with pytest.raises(Rejected, match=r"\|u\| < 1"):
+                gibbs_vector(BALL, state, u)
+
+
 def test_the_bound_of_the_small_branch_is_where_it_should_be():
     with mp.workdps(30):
         bound = mp.findroot(lambda k: mp.tan(mp.asin(k / 3) / 2) * (1.5 + k) - 3, (2.6, 2.9), solver="anderson")

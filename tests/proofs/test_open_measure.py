@@ -6,6 +6,7 @@ import mpmath as mp
 import pytest
 from chapsym.proofs import certified, open_measure
 
+from chapsym import checker
 from chapsym.prove import Fact, Verdict, load
 from chapsym.prove.records import fingerprint
 from chapsym.prove.runner import judge, prove_one
@@ -183,6 +184,13 @@ def test_for_small_heights_the_second_derivative_is_what_the_lemma_says():
     assert abs(circle.second(a, h) / (h**3 * circle.level**2 * circle.V**3 / 8) - 1) < 1e-9
 
 
+@pytest.mark.parametrize("D", ["0.5", "2.5"])
+def test_for_small_heights_the_increment_is_that_of_the_flow_of_almost_every(D):
+    circle, D, h = Circle((6, 5, 3), mp.mpf(1) / 4), mp.mpf(D), mp.mpf("1e-9")
+    rate = h * circle.V / (1 - D * circle.level)
+    assert all(abs(circle.displaced(mp.mpf(u), D, h, 1) / rate - 1) < 1e-15 for u in (0, 1, 2.5))
+
+
 @pytest.mark.parametrize("start", [0, 1])
 def test_without_rolling_the_displacement_vanishes_to_every_digit(start):
     circle, q, p = Circle((6, 5, 3), mp.mpf(1) / 4), 5, 1
@@ -218,6 +226,15 @@ def test_without_certificates_or_with_a_rejected_one_it_is_open(tmp_path, monkey
         judgement = judge(claim)
         assert judgement.verdict is Verdict.OPEN
         assert judgement.proof.problems == [f"the checker does not accept {path.name}"]
+
+
+def test_a_changed_certificate_is_sealed_so_that_arithmetic_judges_it():
+    """A smaller box is proved as well as the box: it is accepted, and so no seal is what rejects the others."""
+    data = checker.read(open_measure.FILES[0])
+    assert certified.changed("a smaller box", data, ("radius",), "1e-300").holds()
+    assert not certified.changed("one half turn more", data, ("half_turns",), data["half_turns"] + 1).holds()
+    with pytest.raises(ValueError, match="nothing is changed"):
+        certified.changed("the same", data, ("radius",), data["radius"])
 
 
 def test_a_lemma_that_fails_leaves_it_open(monkeypatch):

@@ -1,0 +1,105 @@
+"""How much of the map is chaotic (6-open): Lyapunov exponents over samples of starts, phase volume, pictures.
+
+ε = |𝒦|/I_min is about the angle of a step, in radians; to ε = 1 lemma `small-branch` can reach.
+"""
+
+from pathlib import Path
+from typing import Any
+
+from ..units import Report, Unit, run_units
+
+HERE = "chapsym.studies.chaos.orbits:"
+SEED = 7
+#: J and D; D = 0 is the control, D = J1 + J2 + J3 the least of a real ball.
+BALLS = (((0, 1, 3), 0.0), ((0, 1, 3), 1.0), ((0, 1, 3), 4.0), ((1, 2, 4), 1.0), ((1, 2, 4), 7.0))
+EPSILONS = (0.2, 0.3, 0.45, 0.6, 0.9, 1.2, 1.5, 2.0, 3.0)
+#: The length of the runs is varied for this ball at this ε.
+LENGTHS = (5_000, 20_000, 80_000, 320_000)
+VARIED = ((0, 1, 3), 1.0, 0.9)
+#: What is drawn: a level at a moderate ε, and a chaotic layer of it at a large one.
+LEVEL = [[0, 1, 3], 1.0, 0.5]
+PICTURES: tuple[dict[str, Any], ...] = (
+    {"ball": LEVEL, "epsilon": 0.9, "lines": [[0.0, -0.2, 0.6], [1.0, -0.1, 0.5]]},
+    {"ball": LEVEL, "epsilon": 2.0, "lines": [[1.0, 0.335, 0.35], [0.0, 0.41, 0.435]]},
+)
+
+
+def study(
+    quick: bool = False,
+    path: Path | None = None,
+    scheduler: str | None = None,
+    report: Report = lambda done, of: None,
+) -> dict[str, Any]:
+    """Counts of chaotic orbits against ε, their exponents, what the phase volume does, and pictures; JSON data.
+
+    path, scheduler, report: as for `run_units`.  Raises BadInput as it does.
+    """
+    units = _units(quick)
+    results = run_units([unit for _, unit in units], path, scheduler, report)
+    found: dict[str, Any] = {"seed": SEED, "samples": [], "lengths": [], "pictures": []}
+    for (group, unit), result in zip(units, results, strict=True):
+        told = {name: value for name, value in unit.arguments.items() if name not in ("seed", "points")}
+        found[group].append({**told, **(result if isinstance(result, dict) else {"found": result})})
+    return found
+
+
+def _units(quick: bool) -> list[tuple[str, Unit]]:
+    orbits, steps = (64, 4_000) if quick else (256, 20_000)
+    epsilons = (0.3, 0.9, 2.0) if quick else EPSILONS
+    units = []
+
+    def add(group: str, J: Any, D: float, epsilon: float, near: bool, length: int) -> None:
+        arguments = {"mass_tensor": list(J), "D": D, "epsilon": epsilon, "near": near, "orbits": orbits}
+        units.append((group, Unit(HERE + "sample", {**arguments, "steps": length, "seed": SEED})))
+
+    for J, D in BALLS[:3] if quick else BALLS:
+        for near in (False, True):
+            for epsilon in epsilons:
+                add("samples", J, D, epsilon, near, steps)
+    for length in LENGTHS[: 2 if quick else 4]:
+        add("lengths", *VARIED, True, length)
+    size = {"orbits": 30, "steps": 15_000, "points": 60} if quick else {"orbits": 72, "steps": 80_000, "points": 130}
+    for shown in PICTURES:
+        units.append(("pictures", Unit(HERE + "picture", {**shown, **size})))
+    return units
+
+
+def share(counted: int, chaotic: int) -> tuple[float, float, float]:
+    """The share of chaotic orbits with the ends of its 95% interval (Wilson)."""
+    if not counted:
+        return float("nan"), 0.0, 1.0
+    z, p = 1.96, chaotic / counted
+    middle = (p + z * z / (2 * counted)) / (1 + z * z / counted)
+    half = z * ((p * (1 - p) + z * z / (4 * counted)) / counted) ** 0.5 / (1 + z * z / counted)
+    return p, max(0.0, middle - half), min(1.0, middle + half)
+
+
+def sentences(found: dict[str, Any]) -> list[str]:
+    """What was found, a line each."""
+    told = []
+    control = [s for s in found["samples"] if s["D"] == 0]
+    wrong, of = sum(s["chaotic"] for s in control), sum(s["counted"] for s in control)
+    told.append(f"D = 0, integrable: {wrong} of {of} orbits told chaotic (at most {share(of, wrong)[2]:.1e}, 95%)")
+    for near, where in ((False, "starts at random"), (True, "starts near the unstable rotation")):
+        for J, D in sorted({(tuple(s["mass_tensor"]), s["D"]) for s in found["samples"] if s["D"] > 0}):
+            runs = [s for s in found["samples"] if (tuple(s["mass_tensor"]), s["D"], s["near"]) == (J, D, near)]
+            shares = ", ".join(f"ε {s['epsilon']:g}: {s['chaotic']}/{s['counted']}" for s in runs)
+            told.append(f"J = {J}, D = {D:g}, {where}, chaotic: {shares}")
+    for s in found["lengths"]:
+        rate = s["wild"].get("exponent", [0.0])[0]
+        told.append(f"{s['steps']} steps: {s['chaotic']}/{s['counted']} chaotic, mean exponent {rate:.4f}")
+    last = found["lengths"][-1]
+    told.append(
+        f"phase volume, {last['steps']} steps: |average of log|det|| of the regular orbits at most "
+        f"{last['regular']['volume']:.1e} (median {last['regular']['median_volume']:.1e}), "
+        f"of the chaotic ones {last['wild']['volume'][0]:.1e} ± {last['wild']['volume'][1]:.1e}"
+    )
+    return told
+
+
+def save_figures(found: dict[str, Any], folder: Path) -> list[Path]:
+    """chaos.svg, the shares, and section.svg, the pictures."""
+    from ..energy.figure import write
+    from .figure import draw_section, draw_shares
+
+    return [write(draw_shares(found), folder / "chaos.svg"), write(draw_section(found), folder / "section.svg")]

@@ -1,4 +1,4 @@
-"""The map with its derivative, along an orbit: Lyapunov exponents, phase volume, and averages that tell order from chaos.
+"""The derivative of the map along an orbit: Lyapunov exponents, phase volume, averages that tell order from chaos.
 
 The map turns 𝒦 and γ by one rotation, so that on M = {|𝒦|, ⟨𝒦,γ⟩, |γ| fixed} ≅ SO(3) a tangent vector is ξ ∈ ℝ³:
 δ𝒦 = 𝒦 × ξ, δγ = γ × ξ.  The derivative of the step is the 3×3 matrix T: ξ ↦ Ωᵀξ + w, with the Gibbs vector u,

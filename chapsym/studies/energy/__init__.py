@@ -1,0 +1,162 @@
+"""The energy of the map (6-open): an oscillation ∝ ε⁴ in general, ∝ ε³ in a resonance, and no drift seen.
+
+Of D = 0 the map keeps H itself, to rounding, and of a vertical momentum, too: the two controls.
+
+H = energy/ε² is 2.5 as corrected of K = 𝒦/ε; all ranges are relative to H.
+"""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..units import Report, Unit, run_units
+from .continuous import Level
+
+HERE = "chapsym.studies.energy.amplitude:"
+SEED = 44
+#: J and D; real balls have D ≥ J1 + J2 + J3.
+BALLS = (((1, 2, 4), 1.0), ((1, 2, 4), 7.0), ((0, 1, 3), 1.0), ((0, 1, 3), 4.0))
+COSINES = (0.2, 0.35, 0.5, 0.617126, 0.8)
+EPSILONS = (0.01, 0.014, 0.02, 0.03, 0.045, 0.07, 0.1, 0.14, 0.2, 0.3, 0.45, 0.6, 0.8)
+#: How a range grows with ε is fitted to those of the generic starts up to here.
+SMALL = 0.1
+GENERIC = 3
+SWINGS = 4
+#: Where a swing takes so many steps that a run would be longer than this, it is left out.
+LONGEST = 10**7
+#: The island is drawn at this ε, and the long run in it taken.
+SHOWN = 0.05
+ISLAND = (0.02, 0.3, 0.55, 0.8, 0.93, 1.03, -1.03, 1.25, -1.25)
+
+
+def study(
+    quick: bool = False,
+    path: Path | None = None,
+    scheduler: str | None = None,
+    report: Report = lambda done, of: None,
+) -> dict[str, Any]:
+    """Range and drift of the energy at generic, vertical and resonant starts, and with D = 0; JSON data.
+
+    path, scheduler, report: as for `run_units`.  Raises BadInput as it does.
+    """
+    balls = [[list(J), D, c] for J, D in BALLS for c in COSINES]
+    balls = [[[0, 1, 3], 4.0, 0.5], [[1, 2, 4], 1.0, 0.617126]] if quick else balls
+    search = {"most": 1 if quick else 3, "time": 60.0 if quick else 80.0, "grid": 64 if quick else 96}
+    levels = run_units([Unit(HERE + "resonances", {"ball": b, **search}) for b in balls], path, scheduler, report)
+    resonant = _widest([r for level in levels for r in level])
+    units = _units(resonant, quick)
+    results = run_units([unit for _, unit in units], path, scheduler, report)
+    found: dict[str, Any] = {"seed": SEED, "shown": SHOWN, "resonances": _table(levels), "widest": resonant}
+    for (group, unit), result in zip(units, results, strict=True):
+        told = {"ball": unit.arguments["ball"], "start": unit.arguments["start"]}
+        found.setdefault(group, []).append({**told, **(result if isinstance(result, dict) else {"runs": result})})
+    found["powers"] = {name: _exponent(found[name]) for name in ("generic", "resonant")}
+    return found
+
+
+def _widest(resonances: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    """The widest resonance of each ball."""
+    best: dict[str, dict[str, Any]] = {}
+    for r in resonances:
+        name = str(r["ball"][:2])
+        if name not in best or best[name]["width"] < r["width"]:
+            best[name] = r
+    return list(best.values())
+
+
+def _table(levels: list[list[dict[str, Any]]]) -> list[dict[str, Any]]:
+    """What is told of every resonance."""
+    names = ("ball", "returns", "period", "energy", "beta", "width", "libration")
+    return [{**{n: r[n] for n in names}, "loop": max(r["loop"], key=abs)} for level in levels for r in level]
+
+
+def _units(resonant: list[dict[str, Any]], quick: bool) -> list[tuple[str, Unit]]:
+    """The runs, each with the group that it belongs to."""
+    epsilons = (0.05, 0.1, 0.2, 0.4) if quick else EPSILONS
+    steps = 10**4 if quick else 10**6
+    units = []
+
+    def run(group: str, ball: list[Any], start: Any, epsilon: float, count: int) -> None:
+        arguments = {"ball": ball, "start": np.asarray(start).tolist(), "epsilon": epsilon, "steps": count}
+        units.append((group, Unit(HERE + "amplitude", arguments)))
+
+    for r in resonant:
+        J, D, cosine = r["ball"]
+        for start in starts(Level(tuple(J), D, cosine).size):
+            for epsilon in epsilons:
+                run("generic", r["ball"], start, epsilon, steps)
+            run("euler", [J, 0.0, cosine], start, epsilons[-1], steps)
+        upright = start[1] * np.linalg.norm(start[0])
+        run("vertical", r["ball"], [upright, start[1]], epsilons[-1], steps)
+        for epsilon in epsilons:
+            count = max(steps, int(SWINGS * r["libration"] / epsilon**2))
+            if count <= LONGEST:
+                run("resonant", r["ball"], r["start"], epsilon, count)
+        run("long", r["ball"], r["start"], 0.1, 10**6 if quick else LONGEST)
+        counts = [int(r["period"] / e) for e in (0.4, 0.2, 0.1, 0.05)]
+        loop = {"ball": r["ball"], "start": r["start"], "period": r["period"], "counts": counts}
+        units.append(("loops", Unit(HERE + "loop_change", loop)))
+        for share in ISLAND:
+            shown = {
+                "ball": r["ball"], "start": r["centre"], "epsilon": SHOWN, "most": 200 if quick else 320,
+                "energy": r["energy"] * (1 + share * SHOWN * r["width"] / 2),
+                "steps": min(int((2 if quick else 6) * r["libration"] / SHOWN**2), LONGEST),
+            }  # fmt: skip
+            units.append(("islands", Unit(HERE + "island", shown)))
+    return units
+
+
+def starts(size: float) -> np.ndarray:
+    """GENERIC random states K, γ, (GENERIC, 2, 3), seeded."""
+    drawn = np.random.default_rng(SEED).normal(size=(GENERIC, 2, 3))
+    drawn /= np.linalg.norm(drawn, axis=-1, keepdims=True)
+    return drawn * np.array([size, 1.0])[:, np.newaxis]
+
+
+def _exponent(runs: list[dict[str, Any]]) -> dict[str, float]:
+    """The power of ε that the relative range follows: fitted up to SMALL for each start, and averaged.
+
+    error: the standard error of the average; 0 of a single one.
+    """
+    series: dict[str, list[tuple[float, float]]] = {}
+    for run in runs:
+        if run["epsilon"] <= SMALL:
+            series.setdefault(str(run["start"]), []).append((run["epsilon"], run["range"]))
+    logs = [np.log(np.array(one)) for one in series.values() if len(one) > 1]
+    powers = np.array([np.polyfit(one[:, 0], one[:, 1], 1)[0] for one in logs])
+    error = powers.std(ddof=1) / np.sqrt(len(powers)) if len(powers) > 1 else 0.0
+    return {"power": float(powers.mean()), "error": float(error)}
+
+
+def sentences(found: dict[str, Any]) -> list[str]:
+    """What was found, a line each."""
+    powers = found["powers"]
+    told = [
+        f"range of H ∝ ε^{powers[name]['power']:.3f} ± {powers[name]['error']:.3f} {where}"
+        for name, where in (("generic", "at generic starts"), ("resonant", "in resonances"))
+    ]
+    for name, where in (("generic", "generic starts"), ("long", "resonances")):
+        worst = max(found[name], key=lambda run: abs(run["drift"]) / run["range"])
+        told.append(
+            f"drift, {where}: at most {abs(worst['drift']) / worst['range']:.1e} of the range in {worst['steps']} steps"
+            f" ({worst['drift']:.1e} ± {worst['error']:.1e} of H)"
+        )
+    for name, where in (("euler", "D = 0"), ("vertical", "vertical momentum")):
+        told.append(f"{where}: H kept to {max(run['range'] for run in found[name]):.1e}")
+    for r, loops in zip(found["widest"], found["loops"], strict=True):
+        J, D, cosine = r["ball"]
+        last = loops["runs"][-1]
+        told.append(
+            f"J = {tuple(J)}, D = {D:g}, cos = {cosine:g}: the widest resonance, T = {r['period']:.5f}, H swings by "
+            f"{r['width']:.4f} εH; a loop changes H by {last['change']:.5e} ε² "
+            f"(quadrature {max(r['loop'], key=abs):.4e})"
+        )
+    return told
+
+
+def save_figures(found: dict[str, Any], folder: Path) -> list[Path]:
+    """energy.svg and islands.svg."""
+    from .figure import draw_amplitudes, draw_islands, write
+
+    return [write(draw_amplitudes(found), folder / "energy.svg"), write(draw_islands(found), folder / "islands.svg")]

@@ -11,7 +11,7 @@ import numpy as np
 from chapsym.dynamics.ball import Floats
 
 from .continuous import Level
-from .resonance import closed_orbits, profile
+from .resonance import closed_orbits, on_level, profile
 from .section import coordinates, crossings, state
 
 #: Steps that are kept at once.
@@ -30,18 +30,15 @@ def chunks(level: Level, K: Floats, g: Floats, epsilon: float, steps: int) -> It
         K, g, done = k[-1], v[-1] / np.linalg.norm(v[-1]), done + count
 
 
-def amplitude(
-    ball: list[Any], theta: float, psi: float, epsilon: float, steps: int, vertical: bool = False
-) -> dict[str, float]:
+def amplitude(ball: list[Any], start: list[list[float]], epsilon: float, steps: int) -> dict[str, float]:
     """The range of H = energy/ε² over a run, and its drift, both relative to H at the start.
 
-    ball: the arguments of `Level`.  (θ, ψ): the start on the section; `vertical`: with K along γ instead.
+    ball: the arguments of `Level`; start: K and γ.
     drift, error: the slope of a line through the averages of PARTS equal parts, with smooth weights, times the length
     of the run, and its standard error from the residuals.
     """
     level = Level(tuple(ball[0]), *ball[1:])
-    K, g = state(level, theta, psi)
-    K = level.size * g if vertical else K
+    K, g = np.array(start)
     H = np.concatenate([level.energy(k[1:], v[1:]) for k, v in chunks(level, K, g, epsilon, steps)])
     first = float(level.energy(K, g))
     slope, error = drift(H[: len(H) // PARTS * PARTS] / first - 1.0)
@@ -67,17 +64,18 @@ def resonances(ball: list[Any], most: int, time: float, grid: int) -> list[dict[
     return [
         {
             "ball": ball, "returns": r.returns, "theta": r.theta, "period": r.period, "energy": r.energy,
-            "loop": [float(f"{a:.4e}") for a in r.loop], "beta": r.beta, "start": list(r.start), "width": r.width,
+            "loop": [float(f"{a:.4e}") for a in r.loop], "beta": r.beta, "start": r.start.tolist(),
+            "centre": r.centre.tolist(), "width": r.width,
             "swing": r.swing, "libration": r.libration,
         }
         for r in sorted((r for r in found if r is not None), key=lambda r: -r.width)
     ]  # fmt: skip
 
 
-def loop_change(ball: list[Any], theta: float, psi: float, period: float, counts: list[int]) -> list[dict[str, float]]:
+def loop_change(ball: list[Any], start: list[list[float]], period: float, counts: list[int]) -> list[dict[str, float]]:
     """H(Gⁿx) - H(x), divided by ε² = (T/n)², for each n of `counts` that is not stopped by a fold."""
     level = Level(tuple(ball[0]), *ball[1:])
-    K, g = state(level, theta, psi)
+    K, g = np.array(start)
     found = []
     for n in counts:
         epsilon = period / n
@@ -87,24 +85,30 @@ def loop_change(ball: list[Any], theta: float, psi: float, period: float, counts
     return found
 
 
-def island(ball: list[Any], theta: float, psi: float, epsilon: float, steps: int, most: int) -> dict[str, Any]:
-    """At most `most` points (ψ, H) of a run on the section, evenly taken, and the times of all, as the swing's period.
+def island(
+    ball: list[Any], start: list[list[float]], energy: float, epsilon: float, steps: int, most: int
+) -> dict[str, Any]:
+    """At most `most` points (ψ, H) on the section of a run from `start`, moved to H = `energy`, and how it swings.
 
-    period: the steps between two upward passages of the mean of H, averaged; 0 if there are less than two.
+    Where a torus crosses the section in two sheets, one above the other in θ, those of the first crossing are kept.
+
+    period: the steps between two upward passages of the middle of the range of H, averaged; 0 if there are less than
+    two.  range: of H on the section.
     """
     level = Level(tuple(ball[0]), *ball[1:])
-    K, g = state(level, theta, psi)
-    psis, energies = [], []
+    K, g = on_level(level, energy, *np.array(start)[:, np.newaxis])[:, 0]
+    found = []
     for k, v in chunks(level, K, g, epsilon, steps):
         _, kc, gc = crossings(k, v)
-        psis.append(coordinates(kc, gc)[1])
-        energies.append(level.energy(kc, gc))
-    where, H = np.concatenate(psis), np.concatenate(energies)
+        found.append((*coordinates(kc, gc), level.energy(kc, gc)))
+    theta, psi, H = (np.concatenate(parts) for parts in zip(*found, strict=True))
     middle = (H.max() + H.min()) / 2
     up = np.flatnonzero((H[:-1] < middle) & (H[1:] >= middle))
     swing = float((up[-1] - up[0]) / (len(up) - 1) * steps / len(H)) if len(up) > 1 else 0.0
-    at = np.unique(np.linspace(0, len(H) - 1, min(most, len(H))).astype(int))
+    sheet = level.energy(*state(level, theta + 1e-6, psi)) > level.energy(*state(level, theta - 1e-6, psi))
+    same = np.flatnonzero(sheet == sheet[0])
+    at = np.random.default_rng(0).choice(same, min(most, len(same)), replace=False)
     return {
-        "psi": [round(float(x), 4) for x in where[at]], "energy": [round(float(x), 8) for x in H[at]], "period": swing,
+        "psi": [round(float(x), 3) for x in psi[at]], "energy": [round(float(x), 7) for x in H[at]], "period": swing,
         "range": float(np.ptp(H)),
     }  # fmt: skip

@@ -4,6 +4,7 @@ With K = 𝒦/ε a step is the time-ε flow of a field X + ε²X₃ + ..., in ev
 changes H (2.5 as corrected) by ε³X₃(H) + O(ε⁴), and n = T/ε steps over a closed orbit by ε²∮X₃(H)dt + O(ε³).
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -28,7 +29,7 @@ class Level:
 
     @property
     def ball(self) -> Ball:
-        return Ball(self.mass_tensor, self.D)
+        return Ball(np.array(self.mass_tensor, dtype=float), np.array(float(self.D)))
 
     @property
     def size(self) -> float:
@@ -83,7 +84,7 @@ def _inner(a: Floats, b: Floats) -> Floats:
     return np.asarray((a * b).sum(axis=-1))
 
 
-def _product(a: Floats, b: Floats, times=np.multiply) -> Floats:  # type: ignore[no-untyped-def]
+def _product(a: Floats, b: Floats, times: Callable[[Floats, Floats], Floats] = np.multiply) -> Floats:
     """The product of two series, with any bilinear `times` of their coefficients."""
     return np.stack([sum(times(a[j], b[n - j]) for j in range(n + 1)) for n in range(TERMS)])
 

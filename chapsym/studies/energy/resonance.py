@@ -1,11 +1,11 @@
 """Resonances of the continuous ball: closed orbits, the drift ∮X₃(H)dt over each, and the pendulum that follows.
 
-By q returns to the section a torus of energy H is turned by β(H - H*) of a full turn, the one of closed orbits, H*, by
-none.  A loop of the map changes H by ε²A(φ), A = ∮X₃(H)dt over the closed orbit at the phase φ, and φ by β(H - H*):
+Among tori of closed orbits, of energy H* and period T, those of energy H are turned across by β(H - H*) of a full turn
+in T.  A loop of the map changes H by ε²A(φ), A = ∮X₃(H)dt over the closed orbit at the phase φ, and φ by β(H - H*):
 with V' = A/β the sum (H - H*)²/2 - ε²V(φ) is kept to this order.  So H - H* swings by as much as ±ε sqrt(2 max V).
 
-A torus at H* + δ goes through all phases in 1/(βδ) loops, by equal steps: so its q-th returns, moved to H*, are starts of
-closed orbits at equally spaced phases, up to δ.
+A motion at H* + δ goes through all phases in 1/(βδ) periods, by equal steps: so its states at the periods, moved to H*,
+are starts of closed orbits at equally spaced phases, up to δ.
 """
 
 from dataclasses import dataclass
@@ -33,7 +33,7 @@ class Resonance:
     """The closed orbits of a level with q `returns`, through (θ, ψ) on the section: period T, energy H*.
 
     loop: A at equally spaced phases, from that of (θ, ψ) on, (about LOOPS,); beta: β.
-    start: (θ, ψ) of the closed orbit at the phase with the largest |A|.
+    start, centre: K and γ, (2, 3), on the closed orbits with the largest |A| and with the largest V.
     """
 
     level: Level
@@ -44,7 +44,8 @@ class Resonance:
     energy: float
     loop: Floats
     beta: float
-    start: tuple[float, float]
+    start: Floats
+    centre: Floats
 
     @property
     def potential(self) -> Floats:
@@ -135,66 +136,93 @@ def _closed(
 
 
 def profile(level: Level, psi: float, q: int, theta: float, period: float) -> Resonance | None:
-    """The resonance with the closed orbit through (θ, ψ); None if its torus has no neighbours beside the section."""
-    offset, energy = 1e-3, float(level.energy(*state(level, theta, psi)))
+    """The resonance with the closed orbit through (θ, ψ); None if its neighbours are not found to turn around it."""
+    K, g = state(level, theta, psi)
+    energy, curve = float(level.energy(K, g)), np.stack(_flow(level, K, g, period))
+    offset = 1e-3
     for _ in range(MOST_TRIES):
-        swept = _swept(level, psi, q, theta + offset, (1.5 * LOOPS + 2) * period)
-        loops = 3.0 * LOOPS if swept is None else swept[0]
-        if swept is not None and 0.8 * LOOPS < loops < 1.25 * LOOPS:
+        neighbour = state(level, theta + offset, psi)
+        states = _at_periods(level, *neighbour, period)
+        loops = _turn_of(_away(states, curve))
+        if 0.8 * LOOPS < loops < 1.25 * LOOPS:
             break
         offset *= float(np.clip(loops / LOOPS, 0.2, 5.0))
         if abs(offset) > 0.1:
             return None
     else:
         return None
-    shifted = float(level.energy(*state(level, theta + offset, psi))) - energy
-    points = _on_level(level, energy, swept[1][: round(loops)])
-    loop = loop_drift(level, points, period)
+    shifted = float(level.energy(*neighbour)) - energy
+    starts = on_level(level, energy, *states[:, : round(loops)])
+    loop = loop_drift(level, starts[0], starts[1], period)
     if not abs(loop.mean()) < BALANCED * np.abs(loop).max():
         return None
-    at = int(np.argmax(np.abs(loop)))
-    start = (float(points[at, 0]), float(points[at, 1]))
-    return Resonance(level, q, theta, psi, period, energy, loop, 1.0 / (loops * shifted), start)
+    beta = 1.0 / (loops * shifted)
+    middle = int(np.argmax(np.cumsum(loop) / beta))
+    start, centre = starts[:, np.argmax(np.abs(loop))], starts[:, middle]
+    return Resonance(level, q, theta, psi, period, energy, loop, beta, start, centre)
 
 
-def loop_drift(level: Level, points: Floats, period: float) -> Floats:
-    """∮X₃(H)dt over the closed orbits from the points (θ, ψ), (n, 2): by trapezoids, which are exact here."""
+def loop_drift(level: Level, K: Floats, g: Floats, period: float) -> Floats:
+    """∮X₃(H)dt over the closed orbits from the states (n, 3), (n, 3): by trapezoids, which are exact here."""
+    k, v = _flow(level, K, g, period)
+    return np.asarray(level.energy_rate(k[..., :-1, :], v[..., :-1, :]).mean(axis=-1) * period)
+
+
+def _flow(level: Level, K: Floats, g: Floats, time: float) -> tuple[Floats, Floats]:
+    return level.flow(K, g, time, int(np.ceil(time / STEP)))
+
+
+def _at_periods(level: Level, K: Floats, g: Floats, period: float) -> Floats:
+    """The states (2, n, 3) of a motion at the multiples of a period, over 1.5 LOOPS of them."""
     count = int(np.ceil(period / STEP))
-    K, g = level.flow(*state(level, points[:, 0], points[:, 1]), period, count)
-    return np.asarray(level.energy_rate(K[:, :-1], g[:, :-1]).sum(axis=-1) * period / count)
+    loops = int(1.5 * LOOPS)
+    k, v = level.flow(K, g, loops * period, loops * count)
+    return np.stack([k[::count], v[::count]])
 
 
-def _on_level(level: Level, energy: float, points: Floats) -> Floats:
-    """The points (θ, ψ), (n, 2), moved to H = `energy` along the gradient of H on the section."""
+def on_level(level: Level, energy: float, K: Floats, g: Floats) -> Floats:
+    """States (2, n, 3) of the level with H = `energy`, turned from K and γ along the gradient of H."""
     small = 1e-6
     for _ in range(6):
-        theta, psi = points.T
-        across = level.energy(*state(level, theta + small, psi)) - level.energy(*state(level, theta - small, psi))
-        along = level.energy(*state(level, theta, psi + small)) - level.energy(*state(level, theta, psi - small))
-        slope = np.stack([across, along], axis=-1) / (2 * small)
-        lacking = energy - level.energy(*state(level, theta, psi))
-        points = points + slope * (lacking / (slope * slope).sum(axis=-1))[:, np.newaxis]
-    return points
+        slope = np.stack(
+            [(level.energy(*_turn(K, g, x)) - level.energy(*_turn(K, g, -x))) / (2 * small) for x in small * np.eye(3)],
+            axis=-1,
+        )
+        lacking = energy - level.energy(K, g)
+        K, g = _turn(K, g, slope * (lacking / (slope * slope).sum(axis=-1))[:, np.newaxis])
+    return np.stack([K, g])
 
 
-def _swept(level: Level, psi: float, q: int, theta: float, time: float) -> tuple[float, Floats] | None:
-    """The loops in which a torus goes through all phases, and (θ, ψ) before each; None if `time` is too short for it."""
-    _, thetas, lifted = returns(level, theta, psi, time)
-    thetas, psis = np.append(theta, thetas[q - 1 :: q]), np.append(psi, lifted[q - 1 :: q])
-    loops = _turn_of(np.stack([thetas, np.cos(psis), np.sin(psis)]))
-    return None if loops is None else (loops, np.stack([thetas, psis], axis=-1))
+def _turn(K: Floats, g: Floats, x: Floats) -> tuple[Floats, Floats]:
+    """K and γ turned about x by |x|, up to |x|³."""
+
+    def turned(v: Floats) -> Floats:
+        once = np.cross(v, x)
+        return v + once + np.cross(once, x) / 2
+
+    K_turned, g_turned = turned(K), turned(g)
+    size = np.linalg.norm(K, axis=-1, keepdims=True) / np.linalg.norm(K_turned, axis=-1, keepdims=True)
+    return K_turned * size, g_turned / np.linalg.norm(g_turned, axis=-1, keepdims=True)
 
 
-def _turn_of(points: Floats) -> float | None:
-    """After how many of the points, (3, n), on a closed curve the first one is passed again."""
-    away = np.linalg.norm(points - points[:, :1], axis=0)
+def _away(states: Floats, curve: Floats) -> Floats:
+    """The distances of states (2, n, 3) from a curve (2, m, 3), (n,), with K in units of its length."""
+    scale = np.array([np.linalg.norm(curve[0, 0]), 1.0])[:, np.newaxis, np.newaxis]
+    a, b = states / scale, curve / scale
+    gaps = a[:, :, np.newaxis] - b[:, np.newaxis]
+    return np.asarray(np.sqrt((gaps * gaps).sum(axis=(0, 3))).min(axis=1))
+
+
+def _turn_of(away: Floats) -> float:
+    """After how many steps a motion about a torus is again as near as it began; more than there are if it never was."""
     far = int(np.argmax(away > away.max() / 2))
     near = np.flatnonzero(away[far:] < away.max() / 5)
     if len(near) == 0:
-        return None
+        return 3.0 * len(away)
     first = far + int(near[0])
     at = first + int(np.argmin(away[first : first + max(3, first // 4)]))
-    if at + 1 >= len(away):
-        return None
-    chord = (points[:, at + 1] - points[:, at - 1]) / 2
-    return at + float((points[:, 0] - points[:, at]) @ chord / (chord @ chord))
+    if not 0 < at < len(away) - 1:
+        return 3.0 * len(away)
+    # Beside the minimum the distance is |linear|: two lines of equal and opposite slope meet there.
+    left, here, right = away[at - 1 : at + 2]
+    return at + float((left - right) / (2 * (max(left, right) - here)))

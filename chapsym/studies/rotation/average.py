@@ -67,11 +67,11 @@ def convergence(tensor: list[Any], D: Any, height: Any, level: Any, counts: list
 
 
 def row(tensor: list[Any], D: Any, height: Any, outer: bool, points: int, steps: int, digits: int) -> dict[str, Any]:
-    """[level, rotation number in half turns, its error] on levels of equal distance; None where the branch ends.
+    """The rotation number in half turns, as text, on levels of equal distance; None where the branch ends.
 
-    error: the distance to the average over half the steps, which is more than its own.
+    With as many digits as the average over half the steps has, which has fewer.
     """
-    found: list[list[Any] | None] = []
+    found: list[str | None] = []
     with ctx.workdps(digits):
         low, high = levels(tensor, D, outer)
         for i in range(points):
@@ -82,5 +82,5 @@ def row(tensor: list[Any], D: Any, height: Any, outer: bool, points: int, steps:
                 found.append(None)
                 continue
             whole, half = mean(turned, steps), mean(turned, steps // 2)
-            found.append([float(f"{float(l):.8g}"), text(whole, 25), float(f"{float(abs(whole - half)):.2g}")])
+            found.append(text(whole, max(3, -decades(abs(whole - half)))))
     return {"tensor": list(map(str, tensor)), "D": str(D), "height": str(Fraction(height)), "row": found}

@@ -7,6 +7,7 @@ commutes with the map's symmetries.
 
 from collections.abc import Sequence
 from fractions import Fraction
+from math import pi
 from typing import Any, Self
 
 from flint import acb, arb, ctx, fmpq
@@ -73,8 +74,8 @@ class Level:
         self.K = real(acb(self.m).elliptic_k())
         self.half = 2 * self.K
         self.complement = real(acb(1 - self.m).elliptic_k())  # K'
-        self._floats = [float(x) for x in (*self.I, self.D)]
-        self._J = [float(x) for x in J]
+        self._floats: Any = [float(x) for x in (*self.I, self.D)]
+        self._J: Any = [float(x) for x in J]
         h = float(self.h)
         self._bound = bound(h / 2, 0.0, 0.0, *self._floats)
 
@@ -100,8 +101,8 @@ class Level:
         """G_h(γ); for a perturbed top then φ is turned on to φ + τ sin 2φ on the same level."""
         k = tuple(self.h * x / 2 for x in gamma)
         u = self._root(k, gamma)
-        moved = tuple(middle(x + d) for x, d in zip(gamma, turn(1, *u, *gamma), strict=True))
-        return self._kicked(moved) if self.kick != 0 else moved  # type: ignore[return-value]
+        moved: Any = tuple(middle(x + d) for x, d in zip(gamma, turn(1, *u, *gamma), strict=True))
+        return self._kicked(moved) if self.kick != 0 else moved
 
     def _kicked(self, gamma: Any) -> Vector:
         c, s = self.direction(gamma)
@@ -123,13 +124,14 @@ class Level:
             raise BadInput("Newton's iteration did not settle on the root of a step")
         return u
 
-    def _near(self, k: list[float], gamma: list[float]) -> Any:
-        radius, enough = self._bound
-        if radius >= 0.0:
-            settled, *_, u1, u2, u3 = search(0.0, 0.0, 0.0, *k, *gamma, *self._floats, radius, enough)
+    def _near(self, k: Any, gamma: Any) -> Any:
+        if self._bound[0] >= 0.0:
+            certified: Any = (0.0, 0.0, 0.0, *k, *gamma, *self._floats, *self._bound)
+            settled, *_, u1, u2, u3 = search(*certified)
             if settled:
                 return u1, u2, u3
-        status, _, q0, *q = small_rotation(*(2 * x for x in k), *gamma, *self._J, self._floats[3])
+        given: Any = (*(2 * x for x in k), *gamma, *self._J, self._floats[3])
+        status, _, q0, *q = small_rotation(*given)
         if status != TAKEN or q0 < 1e-6:
             raise BadInput(f"the small-rotation branch ends before the height {float(self.h):.6g}")
         return tuple(x / q0 for x in q)
@@ -140,10 +142,19 @@ class Level:
         return middle(arb.atan2(c * y - s * x, c * x + s * y))
 
     def argument(self, phase: Any) -> Any:
-        """u = F(φ, m), going on from turn to turn."""
-        turns = round(float(phase) / 3.141592653589793)
+        """u = F(φ, m), going on from turn to turn; next to π/2, where Arb's reduction is torn, by K - F."""
+        turns = round(float(phase) / pi)
         rest = middle(phase - turns * arb.pi())
-        return middle(real(acb.elliptic_f(acb(rest), acb(self.m))) + turns * self.half)
+        c, s, k = rest.cos(), rest.sin(), (1 - self.m).sqrt()
+        if s * s * k < c * c:
+            part = self._first_kind(rest)
+        else:
+            part = self.K - self._first_kind(middle(arb.atan2(c, k * abs(s))))
+            part = part if s > 0 else -part
+        return middle(part + turns * self.half)
+
+    def _first_kind(self, phase: Any) -> Any:
+        return real(acb.elliptic_f(acb(phase), acb(self.m)))
 
     def amplitude(self, u: Any) -> Any:
         """φ = am u, by theta functions, going on from turn to turn."""
@@ -154,8 +165,8 @@ class Level:
     def jacobi(self, u: Any) -> tuple[Any, Any, Any]:
         """sn, cn, dn of u, by theta functions."""
         tau = acb(0, middle(self.complement / self.K))
-        zero = acb(0).modular_theta(tau)
-        theta = acb(u / self.half).modular_theta(tau)
+        zero = acb.modular_theta(acb(0), tau)
+        theta = acb.modular_theta(acb(u / self.half), tau)
         t2, t3, t4 = (real(x) for x in zero[1:])
         s1, s2, s3, s4 = (real(x) for x in theta)
         return middle(t3 * s1 / (t2 * s4)), middle(t4 * s2 / (t2 * s4)), middle(t4 * s3 / (t3 * s4))
@@ -169,7 +180,7 @@ class Level:
             gamma = after
         c, s = self.direction(gamma)
         end = middle(arb.atan2(s, c))
-        return end + 2 * arb.pi() * round((total - float(end)) / 6.283185307179586)
+        return end + 2 * arb.pi() * round((total - float(end)) / (2 * pi))
 
     def displacement(self, phase: Any, steps: int, half_turns: int) -> Any:
         """(G^q(u) - u)/2K - p, in half turns, of the orbit that starts at a phase."""

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from statistics import median
-from time import perf_counter
+from time import process_time
 from typing import Any
 
 from flint import arb, ctx
@@ -48,7 +48,7 @@ def seen(found: dict[str, Any], digits: int) -> bool:
 
 
 def times(tensor: Sequence[Any], D: Any, height: Any, level: Any, digits: Sequence[int]) -> list[dict[str, Any]]:
-    """Seconds of a step on the sphere at so many digits: the median of some runs."""
+    """Seconds of a processor for a step on the sphere at so many digits: the median of some runs."""
     found = []
     for n in digits:
         with ctx.workdps(n):
@@ -58,7 +58,7 @@ def times(tensor: Sequence[Any], D: Any, height: Any, level: Any, digits: Sequen
 
 
 def _run(level: Level) -> float:
-    gamma, start = level.point(arb(1)), perf_counter()
+    gamma, start = level.point(arb(1)), process_time()
     for _ in range(TIMED):
         gamma = level.step(gamma)
-    return (perf_counter() - start) / TIMED
+    return (process_time() - start) / TIMED

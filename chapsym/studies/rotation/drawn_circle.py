@@ -82,14 +82,14 @@ def numbers(found: dict[str, Any]) -> Any:
     axes[0].text(axes[0].get_xlim()[1], 16.5, "float64", ha="right", va="bottom", color="0.4", fontsize=9.5)
     axes[0].legend(loc="upper left")
     contacts = list(dict.fromkeys(row["D"] for row in found["overview"]))
-    top = max(float(cell[1]) for row in found["overview"] for cell in row["row"] if cell)
-    levels = np.arange(0.02, top + 0.02, 0.02)
+    top = max(float(cell) for row in found["overview"] for cell in row["row"] if cell)
+    levels = np.arange(0, top + 0.02, 0.02)
     drawn = None
     for axis, D in zip(axes[1:], contacts, strict=True):
         rows = [row for row in found["overview"] if row["D"] == D]
         heights = [float(Fraction(row["height"])) for row in rows]
         n = len(rows[0]["row"])
-        rho = np.array([[float(cell[1]) if cell else np.nan for cell in row["row"]] for row in rows])
+        rho = np.array([[float(cell) if cell else np.nan for cell in row["row"]] for row in rows])
         drawn = axis.contourf((np.arange(n) + 0.5) / n, heights, rho, levels=levels, cmap="viridis")
         fine = [1 / q for q in (12, 10, 8, 7, 6, 5, 4)]
         lines = axis.contour((np.arange(n) + 0.5) / n, heights, rho, levels=fine, colors="white", linewidths=0.9)

@@ -9,6 +9,8 @@ from .figure import BLUE, COLOURS, GREEN, GREY, RED, decimal, log10, named, pane
 
 #: float64's roundings, beside 1.
 FLOAT64 = -15.95
+#: The law is drawn for D to this.
+SMALL = 0.25
 
 
 def staircase(found: dict[str, Any]) -> Any:
@@ -21,15 +23,17 @@ def staircase(found: dict[str, Any]) -> Any:
         axis.tick_params(labelbottom=True)
         axis.set(ylim=(0, None), xlabel="level l", ylabel="ρ, half turns a step")
     axes[0].set(title=f"Ball, {named(ball)}")
-    axes[1].set(title=f"Top, {named(top)}, φ kicked by {decimal(top['kick'])} sin 2φ")
+    axes[1].set(title=f"Kicked top, {named(top)}, τ = {decimal(top['kick'])}")
     _inset(axes[0], found)
     _steps(axes[1], top)
     seen = [
         (p["half_turns"], p["steps"], sum(p["edges"]) / 2, np.log10(p["edges"][1] - p["edges"][0]))
         for p in top["plateaus"] if p["edges"][1] - p["edges"][0] > 1e-14
     ]  # fmt: skip
-    _stems(axes[2], [(p, q, float(x["level"]), w) for (p, q, w), x in zip(widths, found["farey"], strict=True)], BLUE)
-    _stems(axes[3], seen, RED)
+    _stems(
+        axes[2], [(p, q, float(x["level"]), w) for (p, q, w), x in zip(widths, found["farey"], strict=True)], BLUE, 10
+    )
+    _stems(axes[3], seen, RED, 5)
     for axis in axes[2:]:
         axis.axhline(FLOAT64, color="0.35", linestyle=":", linewidth=1.3)
         axis.set(ylim=(-_floor(widths), 1), xlabel="level l", ylabel="$\\log_{10}$ width of the plateau in l")
@@ -84,11 +88,12 @@ def _inset(axis: Any, found: dict[str, Any]) -> None:
     axis.annotate("1/8", (middle, 1 / 8), (-6, 4), textcoords="offset points", ha="right", fontsize=9.5)
 
 
-def _stems(axis: Any, seen: list[tuple[int, int, float, float]], colour: str) -> None:
+def _stems(axis: Any, seen: list[tuple[int, int, float, float]], colour: str, largest: int) -> None:
+    """Widths over levels; those with a small q, at most `largest`, are named."""
     for p, q, level, width in seen:
         axis.plot([level, level], [-200, width], color=colour, linewidth=1.1, alpha=0.35)
         axis.plot([level], [width], "o", color=colour, markersize=4)
-        if q <= 10 or (p > 1 and q <= 17):
+        if q <= largest or (p > 1 and q <= 2 * largest - 3):
             axis.annotate(f"{p}/{q}", (level, width), (0, 5), textcoords="offset points", ha="center", fontsize=8.5)
 
 
@@ -123,16 +128,17 @@ def _against_D(axis: Any, below: Any, found: list[dict[str, Any]]) -> None:
         rows = sorted((x for x in found if x["steps"] == q), key=lambda x: Fraction(x["D"]))
         D = [float(Fraction(x["D"])) for x in rows]
         axis.plot(D, [log10(x["width"]) for x in rows], marker, color=colour, markersize=4.5, label=f"p/q = 1/{q}")
-        axis.plot(D, [log10(x["law"]) for x in rows], color=colour, linewidth=1)
+        small = [x for x in rows if Fraction(x["D"]) <= SMALL]
+        axis.plot(D[: len(small)], [log10(x["law"]) for x in small], color=colour, linewidth=1)
         below.plot(D, [1 - x["ratio"] for x in rows], marker + "-", color=colour, markersize=4, linewidth=0.8)
         if q == min(x["steps"] for x in found):
-            small = np.array([D[0], D[-1]])
-            below.plot(small, (1 - rows[0]["ratio"]) * small / D[0], "--", color=GREY, linewidth=1, label="∝ D")
+            ends = np.array([D[0], 0.25])
+            below.plot(ends, (1 - rows[0]["ratio"]) * ends / D[0], "--", color=GREY, linewidth=1, label="∝ D")
     axis.set(
         xscale="log", xlabel="D", ylabel="$\\log_{10}$ width in l",
         title=f"Widths against D, {named(found[0], 'J', 'h')}; lines: the law",
     )  # fmt: skip
-    axis.legend(loc="lower right")
+    axis.legend(loc="upper left")
     below.set(
         xscale="log", yscale="log", xlabel="D", ylabel="1 - measured / law", title="What the law leaves for D → 0"
     )
@@ -152,13 +158,18 @@ def _one_half_turn(axis: Any, found: list[dict[str, Any]]) -> None:
         0.99, FLOAT64 + 0.6, "float64", transform=axis.get_yaxis_transform(), ha="right", color="0.3", fontsize=9.5
     )
     axis.set(xlabel="q", ylabel="$\\log_{10}$ width in l", title="One half turn in q steps, h fixed")
+    axis.set_ylim(bottom=axis.get_ylim()[0] - 22)
     axis.legend(loc="lower right", fontsize=8.5)
 
 
 def digits(found: dict[str, Any]) -> Any:
     """The digits at which each plateau is first seen, and the time of a step at so many digits."""
     figure, axes = panels(1, 2, height=4.2)
-    seen = [(-log10(x["displacement"][0]), x["needed"]) for name in ("turns", "fifth", "farey") for x in found[name]]
+    seen = [
+        (-log10(x["displacement"][0]), x["needed"])
+        for name in ("turns", "fifth", "small_D", "farey")
+        for x in found[name]
+    ]
     far = max(x for x, _ in seen) * 1.04
     axes[0].fill_between([0, far], 0, 15.95, color=GREEN, alpha=0.10, linewidth=0)
     axes[0].text(far * 0.98, 8, "float64 can see", ha="right", va="center", color=GREEN)

@@ -6,6 +6,7 @@ of u = 0 and of the chord whose mean is ū = 0.
 """
 
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Any
 
 from flint import arb, ctx
@@ -124,29 +125,27 @@ def plateau(
     near, _, digits = resonance(tensor, D, height, steps, turns, outer)
     with ctx.workdps(digits):
 
-        def off(which: int, **changed: Any) -> Any:
-            level = Level(**{"tensor": tensor, "D": D, "height": height, "level": near, **changed})
+        def off(which: int, l: Any, h: Any = height) -> Any:
+            level = Level(tensor, D, h, l)
             return level.displacement(symmetric_starts(level, steps)[which], steps, turns)
 
         nudge = number(near) * (1 + arb(10) ** (5 - COARSE))
-        edges = [solved(lambda l, w=which: off(w, level=l), near, nudge) for which in (0, 1)]
+        edges = [solved(partial(off, which), near, nudge) for which in (0, 1)]
         width, centre = abs(edges[1] - edges[0]), middle((edges[0] + edges[1]) / 2)
         far = centre * (1 + arb(10) ** (-digits // 3))
-        slope = (off(0, level=far) - off(0, level=centre)) / (far - centre)
+        slope = (off(0, far) - off(0, centre)) / (far - centre)
         level = Level(tensor, D, height, centre)
         law = 2 * Relation(level).law(steps, turns) / abs(slope)
         found = {
             "tensor": list(map(str, tensor)), "D": str(D), "height": str(height), "outer": outer, "steps": steps,
             "half_turns": turns, "digits": digits, "level": text(centre, digits - 5), "width": text(width),
-            "displacement": [text(off(w, level=centre)) for w in (0, 1)], "slope": text(slope), "law": text(law),
+            "displacement": [text(off(w, centre)) for w in (0, 1)], "slope": text(slope), "law": text(law),
             "ratio": float(width / law) if law > 0 else None, "modulus": float(level.m.sqrt()),
             "eta": float(arb.pi() * level.complement / level.K),
         }  # fmt: skip
         if in_height:
             h = number(height)
-            there = [
-                solved(lambda x, w=which: off(w, level=centre, height=x), h, h * (1 + arb(10) ** (5 - COARSE)))
-                for which in (0, 1)
-            ]
+            higher = h * (1 + arb(10) ** (5 - COARSE))
+            there = [solved(partial(off, which, centre), h, higher) for which in (0, 1)]
             found["width_in_height"] = text(abs(there[1] - there[0]))
     return found

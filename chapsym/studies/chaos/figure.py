@@ -1,0 +1,88 @@
+"""The figures: the share of chaotic orbits against ε, and the section K₂ = 0 at a moderate and at a large ε."""
+
+from typing import Any
+
+import numpy as np
+
+from ..energy.continuous import Level
+from ..energy.section import state
+from . import share
+
+COLOURS = ("#0072B2", "#009E73", "#D55E00", "#CC79A7")
+
+
+def draw_shares(found: dict[str, Any]) -> Any:
+    """Two panels, by how the starts were drawn: shares with 95% intervals, one line a ball."""
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(10.4, 4.4), layout="constrained")
+    axes = figure.subplots(1, 2, sharey=True)
+    balls = sorted({(tuple(s["mass_tensor"]), s["D"]) for s in found["samples"]}, key=lambda b: (b[1] == 0, b))
+    for axis, near in zip(axes, (False, True), strict=True):
+        for i, (J, D) in enumerate(balls):
+            runs = [s for s in found["samples"] if (tuple(s["mass_tensor"]), s["D"], s["near"]) == (J, D, near)]
+            x = np.array([s["epsilon"] for s in runs]) * (1 + 0.02 * (i - len(balls) / 2))
+            p, low, high = np.array([share(s["counted"], s["chaotic"]) for s in runs]).T
+            colour = "0.55" if D == 0 else COLOURS[i % 4]
+            axis.errorbar(
+                x, p, [p - low, high - p], marker="o", markersize=4.5, linewidth=1.2, elinewidth=0.9, capsize=2,
+                color=colour, label=f"$J=({J[0]:g},{J[1]:g},{J[2]:g})$, $D={D:g}$", zorder=1 if D == 0 else 2,
+            )  # fmt: skip
+        axis.set(xscale="log", xlabel=r"$\varepsilon=|\mathcal{K}|/I_{min}$")
+        axis.set_yscale("symlog", linthresh=0.01)
+        axis.set_yticks([0, 0.01, 0.1, 1], ["0", "0.01", "0.1", "1"])
+        axis.set_xticks([0.2, 0.5, 1, 2, 3], ["0.2", "0.5", "1", "2", "3"])
+        axis.set_xticks([], minor=True)
+        axis.set_ylim(0, 1)
+        axis.set_title("starts near the unstable rotation" if near else "starts at random", fontsize=11)
+        axis.grid(alpha=0.25)
+        axis.spines[["top", "right"]].set_visible(False)
+    axes[0].set_ylabel("share of chaotic orbits")
+    axes[0].legend(frameon=False, loc="upper left")
+    return figure
+
+
+def draw_section(found: dict[str, Any]) -> Any:
+    """The section (ψ, θ) at the moderate ε, (ψ, H) around the layer; regular orbits in blue by their energy, chaotic
+    ones by their exponent."""
+    from matplotlib import colormaps
+    from matplotlib.cm import ScalarMappable
+    from matplotlib.colors import Normalize
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(10.4, 5.6), layout="constrained")
+    axes = figure.subplots(1, len(found["pictures"]), squeeze=False)[0]
+    orbits = [orbit for one in found["pictures"] for orbit in one["found"]]
+    most = max([orbit["exponent"] for orbit in orbits if orbit["chaotic"]], default=1.0)
+    hot = Normalize(0.0, most)
+    for axis, one in zip(axes, found["pictures"], strict=True):
+        zoom = None if axis is axes[0] else float(np.mean([orbit["energy"] for orbit in one["found"]] or [1.0]))
+        energies = [orbit["energy"] for orbit in one["found"]]
+        cold = Normalize(min(energies, default=0.0) - 1e-9, max(energies, default=1.0))
+        for orbit in sorted(one["found"], key=lambda orbit: orbit["chaotic"]):
+            if orbit["chaotic"]:
+                colour = colormaps["autumn_r"](0.25 + 0.75 * hot(orbit["exponent"]))
+            else:
+                colour = colormaps["YlGnBu"](0.35 + 0.65 * cold(orbit["energy"]))
+            psi, theta = np.array(orbit["psi"]) / 1e5, np.array(orbit["theta"]) / 1e5
+            height = theta if zoom is None else _energy(one, psi, theta) / zoom - 1
+            axis.plot(
+                psi, height, ".", markersize=2.2,
+                markeredgewidth=0, color=colour, rasterized=True,
+            )  # fmt: skip
+        J, D, _ = one["ball"]
+        axis.set_title(f"$J=({J[0]:g},{J[1]:g},{J[2]:g})$, $D={D:g}$, $\\varepsilon={one['epsilon']:g}$", fontsize=11)
+        axis.set(xlabel=r"$\psi/\pi$", xlim=(-1, 1), xticks=(-1, -0.5, 0, 0.5, 1))
+        axis.spines[["top", "right"]].set_visible(False)
+        axis.set_ylabel(r"$\theta/\pi$" if zoom is None else r"$H/\langle H\rangle-1$")
+    scale = ScalarMappable(Normalize(0.0, most), colormaps["autumn_r"])
+    figure.colorbar(scale, ax=list(axes), label="Lyapunov exponent a step (chaotic orbits)", shrink=0.8)
+    figure.set_dpi(160)
+    return figure
+
+
+def _energy(one: dict[str, Any], psi: np.ndarray, theta: np.ndarray) -> np.ndarray:
+    """H at points of the section."""
+    J, D, cosine = one["ball"]
+    level = Level(tuple(J), D, cosine)
+    return level.energy(*state(level, np.pi * theta, np.pi * psi))

@@ -1,0 +1,178 @@
+"""Certificates of periodic orbits of the whole map: found, proved, and refused."""
+
+import json
+from fractions import Fraction
+from importlib.resources import files
+
+import numpy as np
+import pytest
+from flint import arb, arb_mat, ctx
+
+import chapsym
+from chapsym import checker
+from chapsym.certificates import families, orbit
+from chapsym.certificates.balls import NotProved, rounded
+from chapsym.certificates.passage import Level, Map, columns, identity
+from chapsym.dynamics import BadInput
+from chapsym.dynamics.precise_ball import exact
+
+COMMITTED = ("periodic-orbit-simplest", "periodic-orbit-attracting")
+#: The resonance of the simplest certificate: 10 steps up to the rotation by π about e₃.
+NEAR = Level((Fraction(1), Fraction(2), Fraction(4)), Fraction(2), Fraction(15, 2), Fraction(0))
+START = [0.31, 1.27, 2.41], [0.4, -0.2, 0.9]
+
+
+@pytest.fixture(autouse=True)
+def precision():
+    with ctx.workprec(256):
+        yield
+
+
+def committed(name):
+    return json.loads(files("chapsym.proofs").joinpath(f"certificates/{name}.json").read_text(encoding="utf-8"))
+
+
+def level_of(data):
+    sizes = (data["integrals"][name] for name in ("momentum.momentum", "momentum.gamma"))
+    return Level(tuple(map(Fraction, data["ball"]["J"])), Fraction(data["ball"]["D"]), *map(Fraction, sizes))
+
+
+def member_of(data, shift=0):
+    momentum, gamma = ([exact(Fraction(x) + shift) for x in data["start"][name]] for name in ("momentum", "gamma"))
+    return families.Member(None, momentum, gamma)
+
+
+def started(level):
+    return families.on_level(level, *([exact(x) for x in v] for v in START))
+
+
+@pytest.fixture(scope="module")
+def symmetric():
+    """The symmetric orbit through which a family of 20 steps leads, to all bits."""
+    with ctx.workprec(256), pytest.MonkeyPatch.context() as patch:
+        patch.setattr(families, "MEMBERS", 1)
+        return next(families.families(NEAR, 20, lambda what: None))[0]
+
+
+@pytest.mark.parametrize("name", COMMITTED)
+def test_a_committed_certificate_is_proved_anew_and_accepted(name):
+    data = committed(name)
+    level, steps = level_of(data), data["steps"]
+    ctx.prec = 512
+    start, passage = orbit.proved(level, *families.solved(level, steps, member_of(data), 4), steps)
+    numbers = [*data["start"]["momentum"], *data["start"]["gamma"]]
+    assert [rounded(x, data["digits"]) for x in start] == numbers
+    det, unit = orbit.determinants(passage)
+    assert det < 1
+    assert [rounded(x, data["digits"]) for x in (det, unit)] == [data["determinant"], data["unit_eigenvalue"]]
+    assert orbit.attracts(passage.derivative()) == ("trace" in data)
+    assert checker.check(data).kind == orbit.KIND
+
+
+def test_the_statement_is_that_of_the_checker():
+    for name in COMMITTED:
+        data = committed(name)
+        assert data["statement"] == checker.statement(data)
+        assert data["digest"] == checker.digest(data)
+
+
+def test_a_moved_start_is_refused():
+    data = committed(COMMITTED[0])
+    level = level_of(data)
+    moved = member_of(data, Fraction(1, 10**6))
+    with pytest.raises(NotProved):
+        orbit.proved(level, *families.on_level(level, moved.momentum, moved.gamma), data["steps"])
+
+
+def test_a_level_off_the_family_is_refused():
+    data = committed(COMMITTED[0])
+    level = level_of(data)
+    off = Level(level.J, level.D, level.size, level.height + Fraction(1, 10**8))  # ten times the width of the family
+    with pytest.raises(NotProved):
+        orbit.proved(off, *families.solved(off, data["steps"], member_of(data), 8), data["steps"])
+
+
+def test_a_symmetric_orbit_keeps_the_volume_and_proves_nothing(symmetric):
+    level = Level(NEAR.J, NEAR.D, NEAR.size, families.fraction(symmetric.height))
+    passage = Map.of(level).passage(symmetric.momentum, symmetric.gamma, 20)
+    # The start is symmetric to 1e-11; Newton's shortest corrections leave the square of that, times d det = 1e-8.
+    assert abs(passage.derivative().det() - 1) < 1e-30
+    assert abs((identity() - passage.derivative()).det()) < 1e-30
+    with pytest.raises(NotProved):
+        orbit.proved(level, *families.on_level(level, symmetric.momentum, symmetric.gamma), 20)
+
+
+def test_without_rolling_no_volume_changes():
+    level = Level(NEAR.J, Fraction(0), Fraction(15, 2), Fraction(5, 2))
+    det = Map.of(level).passage(*started(level), 5).derivative().det()
+    assert det.contains(1)
+    assert det.rad() < 1e-50
+    rolling = Level(NEAR.J, Fraction(1), Fraction(15, 2), Fraction(5, 2))
+    assert not Map.of(rolling).passage(*started(rolling), 5).derivative().det().contains(1)
+
+
+def test_the_passage_is_that_of_the_map():
+    level = Level(NEAR.J, NEAR.D, Fraction(15, 2), Fraction(5, 2))
+    momentum, gamma = started(level)
+    run = chapsym.trajectory(chapsym.Ball((1, 2, 4), 2), *([float(x) for x in v] for v in (momentum, gamma)), 6)
+    turned = Map.of(level).passage(momentum, gamma, 6).turned
+    for start, end in ((momentum, run.momentum[-1]), (gamma, run.gamma[-1])):
+        found = [float((turned * arb_mat([[x] for x in start]))[i, 0]) for i in range(3)]
+        assert np.abs(np.array(found) - end).max() < 1e-13  # float64 through 6 steps
+
+
+def test_the_slope_is_a_difference_quotient():
+    level = Level(NEAR.J, NEAR.D, Fraction(15, 2), Fraction(5, 2))
+    momentum, gamma = ([x.mid() for x in v] for v in started(level))
+    there, h = Map.of(level), arb(2) ** -80
+    slope = there.passage(momentum, gamma, 4).slope()
+    for j in range(4):
+        by = [h if i == j else arb(0) for i in range(4)]
+        ends = []
+        for sign in (1, -1):
+            member = families._moved(level, families.Member(None, momentum, gamma), [sign * x for x in by])
+            ends.append(there.passage(member.momentum, member.gamma, 4).error())
+        quotient = (ends[0] - ends[1]) / (2 * h)
+        assert all(abs(quotient[i, 0] - slope[i, j]) < 1e-40 for i in range(3))  # h² = 1e-48
+
+
+def test_the_mirror_image_has_the_inverse_derivative():
+    data = committed(COMMITTED[0])
+    level, steps = level_of(data), data["steps"]
+    member = families.Member(None, *families.solved(level, steps, member_of(data), 4))
+    here, there = (Map.of(level).passage(x.momentum, x.gamma, steps).derivative() for x in (member, member.mirrored()))
+    product = here * there - identity()
+    assert all(abs(product[i, j]) < 1e-50 for i in range(3) for j in range(3))
+
+
+@pytest.mark.parametrize(("eigenvalues", "inside"), [((0.9, 0.5, -0.3), True), ((0.9, 1.1, 0.2), False),
+                                                 ((-1.01, 0.5, 0.5), False), ((1, 0.5, 0.5), False)])  # fmt: skip
+def test_attraction(eigenvalues, inside):
+    diagonal = arb_mat([[x if i == j else 0 for j in range(3)] for i, x in enumerate(eigenvalues)])
+    assert orbit.attracts(diagonal) == inside
+    spiral = arb_mat([[0.6, -0.7, 0], [0.7, 0.6, 0], [0, 0, eigenvalues[0]]])  # of modulus 0.92
+    assert orbit.attracts(spiral) == (abs(eigenvalues[0]) < 1)
+
+
+def test_an_orbit_is_found(monkeypatch):
+    """With fewer members: the arc from the symmetric orbit on which <momentum, gamma> grows by 1e-10."""
+    monkeypatch.setattr(families, "MEMBERS", 4)
+    data = orbit.periodic_orbit(NEAR.J, NEAR.D, NEAR.size, 20, digits=45)
+    assert checker.check(data).numbers["determinant"] == data["determinant"] < "1"
+    assert data["integrals"]["momentum.gamma"].startswith("2.51")
+
+
+@pytest.mark.parametrize(("change", "sentence"), [
+    ({"J": (1, 1, 4)}, "must differ"), ({"D": 0}, "D must be positive"), ({"size": 9}, "beyond the bound"),
+    ({"size": 0}, "must be positive"), ({"height": 3}, "parallel"), ({"steps": 1}, "number of steps"),
+    ({"digits": 0}, "number of decimals"),
+])  # fmt: skip
+def test_what_has_no_certificate_is_refused(change, sentence):
+    given = {"J": (1, 2, 4), "D": 2, "size": Fraction(15, 2), "steps": 20, **change}
+    given |= {"J": tuple(map(Fraction, given["J"])), "D": Fraction(given["D"]), "size": Fraction(given["size"])}
+    with pytest.raises(BadInput, match=sentence):
+        orbit.periodic_orbit(**given)
+
+
+def test_columns_takes_the_first():
+    assert columns(arb_mat([[1, 2], [3, 4]]), 1) == arb_mat([[1], [3]])
