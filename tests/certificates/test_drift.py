@@ -1,6 +1,8 @@
 """Energy drift: the validated integration, the densities, what the certificates state, and what is refused."""
 
 import json
+import subprocess
+import sys
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
@@ -179,3 +181,14 @@ def test_a_rest_of_the_series_that_is_left_out_is_seen(monkeypatch):
     assert all(x.overlaps(y) for x, y in zip(coarse.run(start, end), truth, strict=True))
     monkeypatch.setattr(taylor.Flow, "_defect", lambda self, *rest: arb(0))
     assert not all(x.overlaps(y) for x, y in zip(coarse.run(start, end), truth, strict=True))
+
+
+def test_the_command_refuses_a_changed_file(tmp_path):
+    """The subcommand is there, and tells a file that was changed from one that is proved."""
+    path = tmp_path / "changed.json"
+    path.write_text(json.dumps({**certificate(FILES[0]), "bits": 100}), encoding="utf-8")
+    command = [sys.executable, "-m", "chapsym.cli", "certify", "energy-drift", "--verify", str(path)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 2
+    assert "digest" in done.stderr
+    assert done.stderr.count("\n") == 1
