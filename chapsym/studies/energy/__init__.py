@@ -24,7 +24,7 @@ SMALL = 0.1
 GENERIC = 3
 SWINGS = 4
 #: Where a swing takes so many steps that a run would be longer than this, it is left out.
-LONGEST = 10**7
+LONGEST = 5 * 10**6
 #: The island is drawn at this ε, and the long run in it taken.
 SHOWN = 0.05
 ISLAND = (0.02, 0.3, 0.55, 0.8, 0.93, 1.03, -1.03, 1.25, -1.25)
@@ -95,7 +95,7 @@ def _units(resonant: list[dict[str, Any]], quick: bool) -> list[tuple[str, Unit]
                 run("resonant", r["ball"], r["start"], epsilon, count)
         run("long", r["ball"], r["start"], 0.1, 10**6 if quick else LONGEST)
         counts = [int(r["period"] / e) for e in (0.4, 0.2, 0.1, 0.05)]
-        loop = {"ball": r["ball"], "start": r["start"], "period": r["period"], "counts": counts}
+        loop = {"ball": r["ball"], "start": r["start"], "period": r["start_period"], "counts": counts}
         units.append(("loops", Unit(HERE + "loop_change", loop)))
         for share in ISLAND:
             shown = {
