@@ -126,6 +126,7 @@ def test_share_has_wilson_s_interval():
 
 
 def test_sentences_and_figures(tmp_path, monkeypatch):
+    monkeypatch.setattr("chapsym.studies.units.cores", lambda: 1)
     monkeypatch.setattr(chaos, "_units", small_units)
     found = chaos.study(quick=True)
     json.dumps(found, allow_nan=False)

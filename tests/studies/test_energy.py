@@ -123,6 +123,7 @@ def test_drift_finds_a_slope_and_its_error():
 
 
 def test_sentences_and_figures(tmp_path, monkeypatch):
+    monkeypatch.setattr("chapsym.studies.units.cores", lambda: 1)
     monkeypatch.setattr(energy, "_units", lambda resonant, quick: small_units(resonant, quick))
     found = energy.study(quick=True)
     json.dumps(found, allow_nan=False)
