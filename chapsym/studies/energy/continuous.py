@@ -29,6 +29,7 @@ class Level:
 
     @property
     def ball(self) -> Ball:
+        """The ball of the level."""
         return Ball(np.array(self.mass_tensor, dtype=float), np.array(float(self.D)))
 
     @property
