@@ -1,5 +1,7 @@
 """A level circle on which q steps go both beyond and short of p half turns: what an invariant measure can be there."""
 
+from dataclasses import replace
+
 import sympy as sp
 from chapsym.proofs.s5_reduced_map import REGULAR
 
@@ -103,9 +105,9 @@ def locked_circle(p: Proof) -> None:
     at = dict(zip((*LAMBDA, l), (6, 5, 2, sp.Rational(3, 10)), strict=True))
     gaps = [sp.sympify(e).subs(at) for e in (1 / L3 - 1 / L1, 1 / L3 - 1 / L2, 1 / L3 - l)]
     p.witness("a level", {"Λ": "(6, 5, 2)", "l": "3/10"}, Fact("three differences of one sign", min(gaps) > 0))
-    p.control(projected(last=1 / L2))
-    p.control(area(factor=2))
-    p.control(displacement(-1))
+    p.control(replace(projected(last=1 / L2), text="the same ellipse with 1/Λ_b for 1/Λ_c on the left"))
+    p.control(replace(area(factor=2), text="twice ⟨γ, γ_l × γ_ψ⟩ is the same"))
+    p.control(replace(displacement(-1), text="the displacement with the other sign"))
     p.control(infinite_density(power=0))
 
 

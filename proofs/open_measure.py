@@ -1,5 +1,6 @@
 """The open question of Section 5, settled: for D > 0 the reduced map preserves, in general, no measure with a positive density."""
 
+from dataclasses import replace
 from typing import Any
 
 import sympy as sp
@@ -77,7 +78,7 @@ def yes(p: Proof) -> None:
         p.lemma(statement)
     p.say("and keeps l = (1 - γ₃²)/Λ1 + γ₃²/Λ3, so the circles of latitude, each of which it turns: dA is invariant.")
     p.say("(If all three are equal it commutes with every rotation, those about γ among them: it fixes γ.)")
-    p.control(renamed(axial=-1)[0])
+    p.control(replace(renamed(axial=-1)[0], text="1 and 3 exchanged without the signs of u and 𝒦"))
     p.control(about_the_axis(swap=True)[0])
 
 
