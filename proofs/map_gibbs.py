@@ -114,7 +114,7 @@ def gibbs_rotation(proof: Proof) -> None:
 )
 def small_branch(p: Proof) -> None:
     """A bound on |𝒦| under which a root with θ < 90° is the small branch's, whatever γ is."""
-    p.assume("|γ| = 1, I_min > 0")
+    p.assume("|γ| = 1, I_min > 0, D ≥ 0")
     B, jacobian = sp.Matrix(gibbs.contact_inertia()), gibbs.jacobian()
     inertial = (u.T * INERTIA * u)[0]
     residual = sp.Matrix(gibbs.residual())

@@ -1,5 +1,7 @@
 """A level circle on which q steps go both beyond and short of p half turns: what an invariant measure can be there."""
 
+from dataclasses import replace
+
 import sympy as sp
 from chapsym.proofs.s5_reduced_map import REGULAR
 
@@ -84,8 +86,9 @@ def locked_circle(p: Proof) -> None:
     p.say("is finite: so ν(I) = 0. Hence ν is carried by the zeros of δ, points of period 2q at most (q for even p),")
     p.say("and has no density. Finite is needed. Near a fixed point f(x) = x/2 leaves dx/x invariant:")
     p.lemma(infinite_density())
-    p.say("Nor is there a real u = f(s), f a homeomorphism onto the lift of C, with u_{k+1} = f(s_k + Δs)")
-    p.say("(5.9-liouville): a translation with one periodic point has all points periodic, and δ would be 0.")
+    p.say("Nor is there a real u = f(s), f a homeomorphism onto the lift of C, f(s + S) = f(s) + the period of u, with")
+    p.say("u_{k+1} = f(s_k + Δs) (5.9-liouville): at a zero of δ 2q steps are p turns, so 2qΔs = pS, 2q steps are p")
+    p.say("turns everywhere, F² = 1, and δ would be 0. (Without S there is an f: g~ may have no fixed point.)")
     p.say("4. The half γ_c < 0: there G_h(-γ) = -G_h⁻¹(γ) (symmetries), and what G_h^q does beyond -p half turns is")
     p.say("F⁻¹ - 1 = -δ∘F⁻¹: both signs as well.")
     p.say("5. The sphere. δ is continuous in l, ψ and in the parameters J, D, h: what has both signs strictly has them")
@@ -102,9 +105,9 @@ def locked_circle(p: Proof) -> None:
     at = dict(zip((*LAMBDA, l), (6, 5, 2, sp.Rational(3, 10)), strict=True))
     gaps = [sp.sympify(e).subs(at) for e in (1 / L3 - 1 / L1, 1 / L3 - 1 / L2, 1 / L3 - l)]
     p.witness("a level", {"Λ": "(6, 5, 2)", "l": "3/10"}, Fact("three differences of one sign", min(gaps) > 0))
-    p.control(projected(last=1 / L2))
-    p.control(area(factor=2))
-    p.control(displacement(-1))
+    p.control(replace(projected(last=1 / L2), text="the same ellipse with 1/Λ_b for 1/Λ_c on the left"))
+    p.control(replace(area(factor=2), text="twice ⟨γ, γ_l × γ_ψ⟩ is the same"))
+    p.control(replace(displacement(-1), text="the displacement with the other sign"))
     p.control(infinite_density(power=0))
 
 

@@ -1,5 +1,6 @@
 """The open question of Section 5, settled: for D > 0 the reduced map preserves, in general, no measure with a positive density."""
 
+from dataclasses import replace
 from typing import Any
 
 import sympy as sp
@@ -16,7 +17,7 @@ from chapsym.proofs import (
 from chapsym.proofs.map_gibbs import FREE
 from chapsym.proofs.map_symmetries import carried
 
-from chapsym.derive.gibbs import I1, I2
+from chapsym.derive.gibbs import I1, I2, I3
 from chapsym.derive.quotient import Quotient
 from chapsym.prove import Equation, Proof, claim, judged, main
 
@@ -30,15 +31,15 @@ LEMMAS = {
 }  # fmt: skip
 
 ANSWER = (
-    "No, in general, for D > 0 and three different moments of inertia: on the small branch G_h leaves no finite measure "
-    "on the sphere invariant whose density is positive almost everywhere, so none with a positive continuous density, "
-    "and there is no real u = f(s, l), f a homeomorphism for each l, in which the increment is constant. This is proved "
-    "for every ball with three different moments (1) for every h ≠ 0 with |h| small enough and every D with "
-    "0 < D < D₀(h); (2) for almost every pair of D > 0 and h with 0 < |h| < h₀(D); (3) for the J, D and h of the "
-    "certificates, and all within their radii of these. In each case there is an interval of levels l on which q steps "
-    "turn by more than p half turns at one point and by less at another: there every finite invariant measure is carried "
-    "by finitely many periodic points on each circle. Yes, for D = 0 and for two equal moments: there the area of the "
-    "sphere is invariant."
+    "No, in general, for D > 0 and three different moments of inertia: on the small branch G_h leaves no finite "
+    "measure on the sphere invariant whose density is positive almost everywhere, so none with a positive continuous "
+    "density, and there is no real u = f(s, l), for each l a homeomorphism from a circle of s to the circle of u, in "
+    "which the increment is constant. This is proved for every ball with three different moments (1) for every h ≠ 0 "
+    "with |h| small enough and every D with 0 < D < D₀(h); (2) for almost every pair of D > 0 and h with 0 < |h| < "
+    "h₀(D); (3) for the J, D and h of the certificates, and all within their radii of these. In each case there is an "
+    "interval of levels l on which q steps turn by more than p half turns at one point and by less at another: there "
+    "every finite invariant measure is carried by finitely many periodic points on each circle. Yes, on this branch, "
+    "for D = 0 and for two equal moments: there the area of the sphere is invariant."
 )
 
 
@@ -56,13 +57,28 @@ def about_the_axis(swap: bool = False) -> list[Equation]:
     ]
 
 
+def renamed(axial: int = 1) -> list[Equation]:
+    """The axes 1 and 3 exchanged, a reflection: axial vectors, u and 𝒦 = hγ, change sign with it, and so does h."""
+    swap = sp.Matrix([[0, 0, 1], [0, 1, 0], [1, 0, 0]])
+    other = {I1: I3, I3: I1}
+    return [
+        Equation(e.text, [sp.sympify(x).subs(other, simultaneous=True) for x in e.left], e.right, FREE)
+        for e in carried("1 and 3 exchanged", -axial * swap, swap, -axial * swap)[:2]
+    ]
+
+
 def yes(p: Proof) -> None:
     """The cases with an invariant measure."""
     p.say("Yes for D = 0: du is invariant on every curve (5.15-euler), and dA = c(l)/2 dl du (5.9-liouville): dA is.")
+    p.say("That is for l > 1/Λ2; for l < 1/Λ2 exchange 1 and 3: the map is the inverse of the renamed ball's.")
+    for statement in renamed():
+        p.lemma(statement)
     p.say("Yes for I1 = I2: G_h commutes with the rotations about e₃,")
     for statement in about_the_axis():
         p.lemma(statement)
     p.say("and keeps l = (1 - γ₃²)/Λ1 + γ₃²/Λ3, so the circles of latitude, each of which it turns: dA is invariant.")
+    p.say("(If all three are equal it commutes with every rotation, those about γ among them: it fixes γ.)")
+    p.control(replace(renamed(axial=-1)[0], text="1 and 3 exchanged without the signs of u and 𝒦"))
     p.control(about_the_axis(swap=True)[0])
 
 
@@ -115,8 +131,9 @@ def invariant_measure_question(p: Proof) -> None:
     no(p)
     p.settle(ANSWER)
     p.measure(
-        "The second order of resonance against the map, 110 digits: Λ = (6, 5, 3), l = 1/4, q = 5, p = 1, h such that the "
-        "displacement is 0 at γ2 = 0: at γ1 = 0 it is 1.6545129995e-19 for D = 1e-6, where 2A''D²(f(0) - f(K/q)) is "
+        "The second order of resonance against the map, 110 digits: Λ = (6, 5, 3), l = 1/4, q = 5, p = 1, h ≈ 3.839 such "
+        "that the displacement is 0 at γ2 = 0 (beyond the bound of small-branch, on the root continued from h = 0): at "
+        "γ1 = 0 it is 1.6545129995e-19 for D = 1e-6, where 2A''D²(f(0) - f(K/q)) is "
         "1.6545253392e-19; the ratio is 1 - 7.46 D.",
         "J = (1, 2, 4), h = 12/5: certificates were found, and accepted by the checker, for D = 1/1000, 1/100, 1/10, 1/2, "
         "1, 2, 5, 7, 10 and 20, with q = 9, 9, 9, 9, 9, 11, 15, 17, 21 and 33 and displacements from 3e-25 to 6e-134.",

@@ -181,6 +181,10 @@ def invariant_density(p: Proof) -> None:
         "regular levels l, where u is a coordinate; a branch of the map that is a diffeomorphism of each; densities positive and smooth"
     )
     p.assume("Δs is constant on a curve; it may depend on l. f and μ are smooth and positive in u and in l together")
+    p.assume(
+        "s is a coordinate of the circle, as u is: f(s + S) = f(s) + the period of u. On the line alone there is an f for "
+        "every step without a fixed point: any increasing one from [0, Δs] to [u, u~], continued by the step"
+    )
     s, shift = sp.symbols("s c")
     f, mu = sp.Function("f"), sp.Function("mu")
     p.say("u = f(s), u~ = f(s + c) with f' = 1/μ(f): du~/du = f'(s+c)/f'(s), by the chain rule.")
@@ -191,6 +195,7 @@ def invariant_density(p: Proof) -> None:
     densities = Quotient((now, after))
     p.printed(Equation("du~/du = μ(u)/μ(u~)", [slope.subs(slopes).subs(plain)], [now / after], densities))
     p.say("The other way round s = ∫μ du: ds~ = μ(u~)du~ = μ(u)du = ds, so s~ - s is constant on the curve.")
+    p.say("μ = 1/f' has the period of u exactly when f(s + S) = f(s) + that period, with S = ∫μ du over the circle.")
     p.lemma(Equation("μ(u~) du~/du = μ(u) for that slope", [after * (now / after)], [now], densities))
     p.say("On the sphere: (l, u) ↦ (l, u~) has the Jacobian ∂u~/∂u.  The area is a function of l times dl du:")
     a, b, c = elliptic.squared_amplitudes()

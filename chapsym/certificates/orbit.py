@@ -167,8 +167,8 @@ def _document(
     J, D, size, height = [str(x) for x in level.J], str(level.D), str(level.size), shortest(level.height)
     statement = (
         f"For the ball with J = ({', '.join(J)}), D = {D}: with ⟨𝒦, 𝒦⟩ = {size}, ⟨𝒦, γ⟩ = {height} a point is back "
-        f"after {steps} steps, and the derivative of these steps on the level of the integrals there has a determinant other "
-        f"than 1 and no eigenvalue 1."
+        f"after {steps} steps, and the derivative of these steps on the level of the integrals there has a determinant "
+        f"other than 1 and no eigenvalue 1."
     )
     more = {}
     if attracting:

@@ -1,6 +1,7 @@
 """chapsym certify energy-drift: what a closed orbit of the continuous ball proves of the energy."""
 
 import json
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated, Any
@@ -11,7 +12,7 @@ from chapsym.exact import rational, rationals
 
 from .certify import Output, certify, deliver, telling
 from .options import Contact, Inertia, Json, MassTensor, ball_from
-from .output import fail, print_json
+from .output import fail
 
 
 @certify.command("energy-drift")
@@ -25,7 +26,6 @@ def energy_drift(
     time: Annotated[str, typer.Option(metavar="T", help="When it is back.")] = "8.5478",
     vary: Annotated[int, typer.Option(min=1, max=3, help="The component of the momentum that is adjusted.")] = 3,
     digits: Annotated[int, typer.Option(min=12, max=200, help="Its decimals.")] = 20,
-    verify: Annotated[Path | None, typer.Option(metavar="FILE", help="Prove a certificate again instead.")] = None,
     output: Output = None,
     as_json: Json = False,
 ) -> None:
@@ -35,9 +35,6 @@ def energy_drift(
 
     Example: chapsym certify energy-drift -o drift.json
     """
-    if verify is not None:
-        _again(verify, as_json)
-        return
     if mass_tensor is inertia is contact is None:
         mass_tensor, contact = "1,2,4", "1"
     if contact is None:
@@ -50,31 +47,27 @@ def energy_drift(
     def find(progress: Callable[[str], None]) -> dict[str, Any]:
         return search(J, D, K, g, tuple(map(int, signs)), end, vary - 1, digits=digits, progress=progress)
 
-    found = deliver(find, output, as_json, "chapsym certify energy-drift --verify")
+    found = deliver(find, output, as_json)
     if not as_json:
         _describe(found)
 
 
-def _again(file: Path, as_json: bool) -> None:
+def prove_again(file: Path) -> int:
+    """Encloses the orbit of a certificate anew and prints what comes of it; 0 proved, 1 not proved."""
     from chapsym.certificates.drift_file import verify
     from chapsym.certificates.taylor import NotEnclosed
     from chapsym.dynamics import BadInput
 
+    data = json.loads(file.read_text(encoding="utf-8"))
     try:
-        data = json.loads(file.read_text(encoding="utf-8"))
         with telling() as progress:
             progress("the orbit is enclosed anew")
             verify(data)
-    except (OSError, UnicodeDecodeError, json.JSONDecodeError) as error:
-        fail(f"{file} cannot be read: {error}", 2)
-    except BadInput as error:
-        fail(f"{file}: {error}", 2)
-    except NotEnclosed as error:
-        fail(f"{file} is not proved: {error}", 1)
-    if as_json:
-        print_json({"file": str(file), "statement": data["statement"], "proved": True})
-    else:
-        print(f"proved anew: {data['statement']}")
+    except (BadInput, NotEnclosed) as error:
+        print(f"{file}: rejected: {error}", file=sys.stderr)
+        return 1
+    print(f"{file}: accepted (energy-drift)\n  Proved anew: {data['statement']}")
+    return 0
 
 
 def _describe(found: dict[str, Any]) -> None:

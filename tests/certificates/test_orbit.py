@@ -12,11 +12,11 @@ import chapsym
 from chapsym import checker
 from chapsym.certificates import families, orbit
 from chapsym.certificates.balls import NotProved, rounded
-from chapsym.certificates.passage import Level, Map, columns, identity
+from chapsym.certificates.passage import Level, Map, Passage, columns, identity
 from chapsym.dynamics import BadInput
 from chapsym.dynamics.precise_ball import exact
 
-COMMITTED = ("periodic-orbit-simplest", "periodic-orbit-attracting")
+COMMITTED = ("periodic-orbit-simplest", "periodic-orbit-attracting", "periodic-orbit-real-ball")
 #: The resonance of the simplest certificate: 10 steps up to the rotation by π about e₃.
 NEAR = Level((Fraction(1), Fraction(2), Fraction(4)), Fraction(2), Fraction(15, 2), Fraction(0))
 START = [0.31, 1.27, 2.41], [0.4, -0.2, 0.9]
@@ -152,6 +152,18 @@ def test_attraction(eigenvalues, inside):
     assert orbit.attracts(diagonal) == inside
     spiral = arb_mat([[0.6, -0.7, 0], [0.7, 0.6, 0], [0, 0, eigenvalues[0]]])  # of modulus 0.92
     assert orbit.attracts(spiral) == (abs(eigenvalues[0]) < 1)
+
+
+@pytest.mark.parametrize(("eigenvalues", "proves"), [((0.5, 2, 3), True), ((0.5, 2, -1), True), ((0.25, 2, 2), False),
+                                                     ((0.5, 2, 1), False), ((0.5, 3, 1), False)])  # fmt: skip
+def test_a_determinant_of_1_and_an_eigenvalue_1_prove_nothing(eigenvalues, proves):
+    diagonal = arb_mat([[x if i == j else 0 for j in range(3)] for i, x in enumerate(eigenvalues)])
+    passage = Passage((arb(1), arb(0), arb(0), arb(0)), diagonal, arb_mat(3, 4), [])
+    if proves:
+        assert orbit.determinants(passage)[0] == np.prod(eigenvalues)
+        return
+    with pytest.raises(NotProved):
+        orbit.determinants(passage)
 
 
 def test_an_orbit_is_found(monkeypatch):

@@ -44,7 +44,7 @@ def test_derivative_against_differences(D):
 def test_volume_is_kept_without_contact_and_not_with_it():
     K, g = starts(1, False, 5)
     assert determinant(matrix(K[0], g[0], chapsym.Ball((1, 2, 4), 0.0))) == pytest.approx(1, abs=1e-14)
-    assert abs(determinant(matrix(K[0], g[0])) - 1) > 1e-3
+    assert abs(determinant(matrix(K[0], g[0])) - 1) > 1e-4
 
 
 def test_reversed_step_has_the_inverse_determinant():
@@ -55,12 +55,12 @@ def test_reversed_step_has_the_inverse_determinant():
 
 
 def test_growths_add_up_to_the_volume():
-    K, g = starts(8, False, 1)
-    found = follow_orbits(BALL, 2.0 * K, g, 1000)
+    K, g = starts(2, False, 1)
+    found = follow_orbits(BALL, 2.0 * K, g, 100)
     total = found["growth1"] + found["growth2"] + found["growth3"]
     volume = []
     for k, v in zip(2.0 * K, g, strict=True):
-        run = chapsym.trajectory(BALL, k, v, 999)
+        run = chapsym.trajectory(BALL, k, v, 99)
         volume.append(sum(np.log(determinant(matrix(*s))) for s in zip(run.momentum, run.gamma, strict=True)))
     assert total == pytest.approx(np.array(volume), abs=1e-10)
 
@@ -126,6 +126,7 @@ def test_share_has_wilson_s_interval():
 
 
 def test_sentences_and_figures(tmp_path, monkeypatch):
+    monkeypatch.setattr("chapsym.studies.units.cores", lambda: 1)
     monkeypatch.setattr(chaos, "_units", small_units)
     found = chaos.study(quick=True)
     json.dumps(found, allow_nan=False)

@@ -54,20 +54,20 @@ def test_section_and_crossings():
     assert np.allclose(coordinates(K, g), (theta, psi), atol=1e-14)
     assert np.allclose(coordinates(K * [-1, 1, -1], g * [-1, 1, -1]), (theta, psi), atol=1e-14)
     assert rising(LEVEL, K, g).all()
-    k, v = LEVEL.flow(K[0], g[0], 30.0, 750)
+    k, v = LEVEL.flow(K[0], g[0], 40.0, 1000)
     at, kc, gc = crossings(k, v)
-    assert len(at) >= 2
+    assert len(at) == 2
     assert np.abs(kc[:, 1]).max() < 1e-14
     # The interpolation by degree 7 leaves (step of 0.04)^8, the flow less.
     assert np.ptp(LEVEL.energy(kc, gc)) < 1e-10
-    finer, _, _ = crossings(*LEVEL.flow(K[0], g[0], 30.0, 1500))
+    finer, _, _ = crossings(*LEVEL.flow(K[0], g[0], 40.0, 2000))
     assert at * 2 == pytest.approx(finer, abs=1e-8)
 
 
 def test_closed_orbit_and_its_profile(resonance):
     assert resonance.period == pytest.approx(24.64334, abs=1e-5)
     K, g = resonance.start
-    k, v = LEVEL.flow(K, g, resonance.period, 800)
+    k, v = LEVEL.flow(K, g, resonance.start_period, 800)
     assert np.abs(k[-1] - K).max() < 1e-6
     assert np.abs(v[-1] - g).max() < 1e-6
     assert np.abs(resonance.loop).max() == pytest.approx(5.425e-4, rel=1e-3)
@@ -75,20 +75,21 @@ def test_closed_orbit_and_its_profile(resonance):
 
 
 def test_loop_of_the_map_is_the_quadrature(resonance):
-    """What is left is ∝ ε², about 0.3 ε² here."""
-    found = loop_change(BALL, resonance.start.tolist(), resonance.period, [246, 493])
+    """What is left is ∝ ε²: 0.704 ε² here, of 0.05 and of 0.0125."""
+    found = loop_change(BALL, resonance.start.tolist(), resonance.start_period, [246, 493])
     exact = resonance.loop[np.argmax(np.abs(resonance.loop))]
     for one in found:
-        assert one["change"] / exact == pytest.approx(1, abs=0.4 * one["epsilon"] ** 2)
+        assert one["change"] / exact == pytest.approx(1, abs=0.75 * one["epsilon"] ** 2)
 
 
 def test_swing_in_the_resonance_is_of_order_epsilon(resonance):
     ranges = []
     for epsilon in (0.1, 0.05):
-        steps = int(2 * resonance.libration / epsilon**2)
+        steps = int(4 * resonance.libration / epsilon**2)
         found = amplitude(BALL, resonance.start.tolist(), epsilon, steps)
         ranges.append(found["range"] / epsilon)
-        assert abs(found["drift"]) < 0.1 * found["range"]
+        # A line through m swings of a sine rises by 3/(πm) of its range at most.
+        assert abs(found["drift"]) < 3 / (4 * np.pi) * found["range"]
     # The fast oscillation adds a share ∝ ε.
     assert 2 * ranges[1] - ranges[0] == pytest.approx(resonance.swing, rel=0.06)
 
@@ -96,7 +97,7 @@ def test_swing_in_the_resonance_is_of_order_epsilon(resonance):
 def test_symmetric_orbits_have_no_drift(resonance):
     K, g = state(LEVEL, resonance.theta, 0.0)
     here = on_level(LEVEL, resonance.energy, K[np.newaxis], g[np.newaxis])
-    assert abs(loop_drift(LEVEL, here[0], here[1], resonance.period)[0]) < 1e-12
+    assert abs(loop_drift(LEVEL, here[0], here[1], np.array([resonance.period]))[0]) < 1e-12
 
 
 def test_generic_range_is_of_order_epsilon_squared():
@@ -122,6 +123,7 @@ def test_drift_finds_a_slope_and_its_error():
 
 
 def test_sentences_and_figures(tmp_path, monkeypatch):
+    monkeypatch.setattr("chapsym.studies.units.cores", lambda: 1)
     monkeypatch.setattr(energy, "_units", lambda resonant, quick: small_units(resonant, quick))
     found = energy.study(quick=True)
     json.dumps(found, allow_nan=False)

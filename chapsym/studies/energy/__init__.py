@@ -17,14 +17,14 @@ HERE = "chapsym.studies.energy.amplitude:"
 SEED = 44
 #: J and D; real balls have D ≥ J1 + J2 + J3.
 BALLS = (((1, 2, 4), 1.0), ((1, 2, 4), 7.0), ((0, 1, 3), 1.0), ((0, 1, 3), 4.0))
-COSINES = (0.2, 0.35, 0.5, 0.617126, 0.8)
+COSINES = (0.35, 0.5, 0.617126)
 EPSILONS = (0.01, 0.014, 0.02, 0.03, 0.045, 0.07, 0.1, 0.14, 0.2, 0.3, 0.45, 0.6, 0.8)
 #: How a range grows with ε is fitted to those of the generic starts up to here.
 SMALL = 0.1
 GENERIC = 3
 SWINGS = 4
 #: Where a swing takes so many steps that a run would be longer than this, it is left out.
-LONGEST = 10**7
+LONGEST = 5 * 10**6
 #: The island is drawn at this ε, and the long run in it taken.
 SHOWN = 0.05
 ISLAND = (0.02, 0.3, 0.55, 0.8, 0.93, 1.03, -1.03, 1.25, -1.25)
@@ -42,7 +42,7 @@ def study(
     """
     balls = [[list(J), D, c] for J, D in BALLS for c in COSINES]
     balls = [[[0, 1, 3], 4.0, 0.5], [[1, 2, 4], 1.0, 0.617126]] if quick else balls
-    search = {"most": 1 if quick else 3, "time": 60.0 if quick else 80.0, "grid": 64 if quick else 96}
+    search = {"most": 1 if quick else 2, "time": 60.0, "grid": 64}
     levels = run_units([Unit(HERE + "resonances", {"ball": b, **search}) for b in balls], path, scheduler, report)
     resonant = _widest([r for level in levels for r in level])
     units = _units(resonant, quick)
@@ -95,7 +95,7 @@ def _units(resonant: list[dict[str, Any]], quick: bool) -> list[tuple[str, Unit]
                 run("resonant", r["ball"], r["start"], epsilon, count)
         run("long", r["ball"], r["start"], 0.1, 10**6 if quick else LONGEST)
         counts = [int(r["period"] / e) for e in (0.4, 0.2, 0.1, 0.05)]
-        loop = {"ball": r["ball"], "start": r["start"], "period": r["period"], "counts": counts}
+        loop = {"ball": r["ball"], "start": r["start"], "period": r["start_period"], "counts": counts}
         units.append(("loops", Unit(HERE + "loop_change", loop)))
         for share in ISLAND:
             shown = {

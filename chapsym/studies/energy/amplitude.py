@@ -65,7 +65,8 @@ def resonances(ball: list[Any], most: int, time: float, grid: int) -> list[dict[
         {
             "ball": ball, "returns": r.returns, "theta": r.theta, "period": r.period, "energy": r.energy,
             "loop": [float(f"{a:.4e}") for a in r.loop], "beta": r.beta, "start": r.start.tolist(),
-            "centre": r.centre.tolist(), "width": r.width,
+            "centre": r.centre.tolist(),
+            "start_period": r.start_period, "width": r.width,
             "swing": r.swing, "libration": r.libration,
         }
         for r in sorted((r for r in found if r is not None), key=lambda r: -r.width)

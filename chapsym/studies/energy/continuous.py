@@ -29,6 +29,7 @@ class Level:
 
     @property
     def ball(self) -> Ball:
+        """The ball of the level."""
         return Ball(np.array(self.mass_tensor, dtype=float), np.array(float(self.D)))
 
     @property
@@ -49,11 +50,11 @@ class Level:
         run = trajectory(self.ball, epsilon * K, g, count, threads=1)
         return run.momentum / epsilon, run.gamma
 
-    def flow(self, K: Floats, g: Floats, time: float, count: int) -> tuple[Floats, Floats]:
-        """The states (..., count + 1, 3) of the continuous motion, at equal times from 0 to `time`."""
-        step = time / count
+    def flow(self, K: Floats, g: Floats, time: Floats | float, count: int) -> tuple[Floats, Floats]:
+        """The states (..., count + 1, 3) of the continuous motion, at equal times from 0 to `time`, () or (...)."""
+        step = np.asarray(time)[..., np.newaxis] / count
         run = trajectory(self.ball, step * K, g, count, order=ORDER, threads=1)
-        return run.momentum / step, run.gamma
+        return run.momentum / step[..., np.newaxis], run.gamma
 
     def energy_rate(self, K: Floats, g: Floats) -> Floats:
         """X₃(H), (...): the coefficient of ε³ in the change of H by a step with 𝒦 = εK."""

@@ -34,6 +34,8 @@ class Resonance:
 
     loop: A at equally spaced phases, from that of (θ, ψ) on, (about LOOPS,); beta: β.
     start, centre: K and γ, (2, 3), on the closed orbits with the largest |A| and with the largest V.
+    start_period: the period from `start`.  On a torus the motion is even after a change of time only: so all its orbits
+    are closed, with periods that differ a little.
     """
 
     level: Level
@@ -46,6 +48,7 @@ class Resonance:
     beta: float
     start: Floats
     centre: Floats
+    start_period: float
 
     @property
     def potential(self) -> Floats:
@@ -138,7 +141,7 @@ def _closed(
 def profile(level: Level, psi: float, q: int, theta: float, period: float) -> Resonance | None:
     """The resonance with the closed orbit through (θ, ψ); None if its neighbours are not found to turn around it."""
     K, g = state(level, theta, psi)
-    energy, curve = float(level.energy(K, g)), np.stack(_flow(level, K, g, period))
+    energy, curve = float(level.energy(K, g)), np.stack(level.flow(K, g, period, int(np.ceil(period / STEP))))
     offset = 1e-3
     for _ in range(MOST_TRIES):
         neighbour = state(level, theta + offset, psi)
@@ -153,23 +156,33 @@ def profile(level: Level, psi: float, q: int, theta: float, period: float) -> Re
         return None
     shifted = float(level.energy(*neighbour)) - energy
     starts = on_level(level, energy, *states[:, : round(loops)])
-    loop = loop_drift(level, starts[0], starts[1], period)
+    periods = closing(level, starts[0], starts[1], period)
+    loop = loop_drift(level, starts[0], starts[1], periods)
     if not abs(loop.mean()) < BALANCED * np.abs(loop).max():
         return None
     beta = 1.0 / (loops * shifted)
     middle = int(np.argmax(np.cumsum(loop) / beta))
-    start, centre = starts[:, np.argmax(np.abs(loop))], starts[:, middle]
-    return Resonance(level, q, theta, psi, period, energy, loop, beta, start, centre)
+    steepest = int(np.argmax(np.abs(loop)))
+    start, centre = starts[:, steepest], starts[:, middle]
+    return Resonance(level, q, theta, psi, period, energy, loop, beta, start, centre, float(periods[steepest]))
 
 
-def loop_drift(level: Level, K: Floats, g: Floats, period: float) -> Floats:
+def closing(level: Level, K: Floats, g: Floats, period: float) -> Floats:
+    """The periods (n,) of the closed orbits from the states (n, 3), (n, 3), by Newton from one nearby."""
+    omega = level.omega(K, g)
+    velocity = np.concatenate([np.cross(K, omega), np.cross(g, omega)], axis=-1)
+    periods = np.full(len(K), period)
+    for _ in range(4):
+        k, v = level.flow(K, g, periods, int(np.ceil(period / STEP)))
+        gap = np.concatenate([k[:, -1] - K, v[:, -1] - g], axis=-1)
+        periods -= (gap * velocity).sum(axis=-1) / (velocity * velocity).sum(axis=-1)
+    return periods
+
+
+def loop_drift(level: Level, K: Floats, g: Floats, periods: Floats) -> Floats:
     """∮X₃(H)dt over the closed orbits from the states (n, 3), (n, 3): by trapezoids, which are exact here."""
-    k, v = _flow(level, K, g, period)
-    return np.asarray(level.energy_rate(k[..., :-1, :], v[..., :-1, :]).mean(axis=-1) * period)
-
-
-def _flow(level: Level, K: Floats, g: Floats, time: float) -> tuple[Floats, Floats]:
-    return level.flow(K, g, time, int(np.ceil(time / STEP)))
+    k, v = level.flow(K, g, periods, int(np.ceil(periods.max() / STEP)))
+    return np.asarray(level.energy_rate(k[..., :-1, :], v[..., :-1, :]).mean(axis=-1) * periods)
 
 
 def _at_periods(level: Level, K: Floats, g: Floats, period: float) -> Floats:
