@@ -28,8 +28,9 @@ from .passage import Level, Map, Passage, Vector, column, columns, entries, iden
 KIND = "periodic-orbit"
 #: Bits with which families are followed; ⟨𝒦, γ⟩ must vary by more than 2^-RESOLVED along one.
 SEARCH_BITS, RESOLVED = 256, 160
-#: Decimals that are written beyond those of det(1 - DG^q); the largest number of them, and of steps.
-SPARE_DIGITS, MOST_DIGITS, MOST_STEPS = 30, 4_000, 1_000
+#: Decimals that are written beyond those of det(1 - DG^q), and one a step, by which a checker's boxes may grow;
+#: the largest number of them, and of steps.
+SPARE_DIGITS, MOST_DIGITS, MOST_STEPS = 20, 4_000, 1_000
 
 
 def periodic_orbit(
@@ -55,7 +56,7 @@ def periodic_orbit(
         try:
             with ctx.workprec(bits):
                 start, passage = proved(level, *families.solved(level, steps, near, 4 + bits.bit_length()), steps)
-                written = digits or _enough(passage)
+                written = digits or _enough(passage, steps)
                 return _document(level, steps, start, passage, written, attracting)
         except NotProved:
             if bits > 8 * (SEARCH_BITS + 4 * (digits or 0)):
@@ -150,11 +151,11 @@ def attracts(W: Any) -> bool:
     )
 
 
-def _enough(passage: Passage) -> int:
+def _enough(passage: Passage, steps: int) -> int:
     """Decimals that show det DG^q - 1 and det(1 - DG^q)."""
     det, unit = determinants(passage)
     least = min(abs(fraction(det.mid()) - 1), abs(fraction(unit.mid())))
-    return SPARE_DIGITS + math.ceil(-math.log10(least))
+    return SPARE_DIGITS + steps + math.ceil(-math.log10(least))
 
 
 def _document(
