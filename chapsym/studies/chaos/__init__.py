@@ -6,6 +6,7 @@
 from pathlib import Path
 from typing import Any
 
+from ..energy.section import packed
 from ..units import Report, Unit, run_units
 
 HERE = "chapsym.studies.chaos.orbits:"
@@ -41,7 +42,9 @@ def study(
     found: dict[str, Any] = {"seed": SEED, "samples": [], "lengths": [], "pictures": []}
     for (group, unit), result in zip(units, results, strict=True):
         told = {name: value for name, value in unit.arguments.items() if name not in ("seed", "points")}
-        found[group].append({**told, **(result if isinstance(result, dict) else {"found": result})})
+        if group == "pictures":
+            result = {"found": [{**o, "psi": packed(o["psi"]), "theta": packed(o["theta"])} for o in result]}
+        found[group].append({**told, **result})
     return found
 
 

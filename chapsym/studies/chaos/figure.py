@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 from ..energy.continuous import Level
-from ..energy.section import state
+from ..energy.section import state, unpacked
 from . import share
 
 COLOURS = ("#0072B2", "#009E73", "#D55E00", "#CC79A7")
@@ -21,6 +21,7 @@ def draw_shares(found: dict[str, Any]) -> Any:
     for axis, near in zip(axes, (False, True), strict=True):
         for i, (J, D) in enumerate(balls):
             runs = [s for s in found["samples"] if (tuple(s["mass_tensor"]), s["D"], s["near"]) == (J, D, near)]
+            runs = [s for s in runs if s["counted"]]
             x = np.array([s["epsilon"] for s in runs]) * (1 + 0.02 * (i - len(balls) / 2))
             p, low, high = np.array([share(s["counted"], s["chaotic"]) for s in runs]).T
             colour = "0.55" if D == 0 else COLOURS[i % 4]
@@ -64,7 +65,7 @@ def draw_section(found: dict[str, Any]) -> Any:
                 colour = colormaps["autumn_r"](0.25 + 0.75 * hot(orbit["exponent"]))
             else:
                 colour = colormaps["YlGnBu"](0.35 + 0.65 * cold(orbit["energy"]))
-            psi, theta = np.array(orbit["psi"]) / 1e5, np.array(orbit["theta"]) / 1e5
+            psi, theta = unpacked(orbit["psi"]) / 1e5, unpacked(orbit["theta"]) / 1e5
             height = theta if zoom is None else _energy(one, psi, theta) / zoom - 1
             axis.plot(
                 psi, height, ".", markersize=2.2,
@@ -77,7 +78,7 @@ def draw_section(found: dict[str, Any]) -> Any:
         axis.set_ylabel(r"$\theta/\pi$" if zoom is None else r"$H/\langle H\rangle-1$")
     scale = ScalarMappable(Normalize(0.0, most), colormaps["autumn_r"])
     figure.colorbar(scale, ax=list(axes), label="Lyapunov exponent a step (chaotic orbits)", shrink=0.8)
-    figure.set_dpi(160)
+    figure.set_dpi(200)
     return figure
 
 

@@ -12,6 +12,7 @@ import numpy as np
 
 from ..units import Report, Unit, run_units
 from .continuous import Level
+from .section import packed
 
 HERE = "chapsym.studies.energy.amplitude:"
 SEED = 44
@@ -23,6 +24,7 @@ EPSILONS = (0.01, 0.014, 0.02, 0.03, 0.045, 0.07, 0.1, 0.14, 0.2, 0.3, 0.45, 0.6
 SMALL = 0.1
 GENERIC = 3
 SWINGS = 4
+LONGER = 16
 #: Where a swing takes so many steps that a run would be longer than this, it is left out.
 LONGEST = 5 * 10**6
 #: The island is drawn at this ε, and the long run in it taken.
@@ -50,7 +52,13 @@ def study(
     found: dict[str, Any] = {"seed": SEED, "shown": SHOWN, "resonances": _table(levels), "widest": resonant}
     for (group, unit), result in zip(units, results, strict=True):
         told = {"ball": unit.arguments["ball"], "start": unit.arguments["start"]}
+        if group == "islands":
+            result = {**result, "psi": packed(result["psi"]), "energy": packed(result["energy"])}
         found.setdefault(group, []).append({**told, **(result if isinstance(result, dict) else {"runs": result})})
+    # What drifts most among the generic starts may swing slowly: it is followed for longer.
+    worst = max(found["generic"], key=lambda run: abs(run["drift"]) / run["range"])
+    longer = {name: worst[name] for name in ("ball", "start", "epsilon")} | {"steps": LONGER * worst["steps"]}
+    found["longer"] = run_units([Unit(HERE + "amplitude", longer)], path, scheduler, report)
     found["powers"] = {name: _exponent(found[name]) for name in ("generic", "resonant")}
     return found
 
@@ -136,7 +144,11 @@ def sentences(found: dict[str, Any]) -> list[str]:
         f"range of H ∝ ε^{powers[name]['power']:.3f} ± {powers[name]['error']:.3f} {where}"
         for name, where in (("generic", "at generic starts"), ("resonant", "in resonances"))
     ]
-    for name, where in (("generic", "generic starts"), ("long", "resonances")):
+    for name, where in (
+        ("generic", "generic starts"),
+        ("longer", "the worst of them for longer"),
+        ("long", "resonances"),
+    ):
         worst = max(found[name], key=lambda run: abs(run["drift"]) / run["range"])
         told.append(
             f"drift, {where}: at most {abs(worst['drift']) / worst['range']:.1e} of the range in {worst['steps']} steps"

@@ -8,6 +8,8 @@ import numpy as np
 from chapsym import files
 from chapsym.dynamics import BadInput
 
+from .section import unpacked
+
 COLOURS = {"generic": "#0072B2", "resonant": "#D55E00"}
 LABELS = {"generic": "generic starts", "resonant": "in the widest resonances"}
 RC: dict[str, Any] = {"svg.hashsalt": "chapsym", "font.size": 11, "mathtext.fontset": "dejavusans"}
@@ -56,24 +58,25 @@ def draw_islands(found: dict[str, Any]) -> Any:
     from matplotlib.figure import Figure
 
     count = len(found["widest"])
-    columns = min(2, count)
+    columns = count if count <= 3 else 2
     rows = -(-count // columns)
-    figure = Figure(figsize=(5.2 * columns, 3.9 * rows), layout="constrained")
+    figure = Figure(figsize=((4.2 if columns == 3 else 5.2) * columns, 3.9 * rows), layout="constrained")
     axes = figure.subplots(rows, columns, squeeze=False)
     epsilon = found["shown"]
     for axis, r in zip(axes.flat, found["widest"], strict=False):
         orbits = [one for one in found["islands"] if one["ball"] == r["ball"]]
         for i, one in enumerate(orbits):
-            psi = np.mod(np.array(one["psi"]) / np.pi, 2)
-            rise = (np.array(one["energy"]) / r["energy"] - 1) / epsilon
+            psi = np.mod(unpacked(one["psi"]) / np.pi, 2)
+            rise = (unpacked(one["energy"]) / r["energy"] - 1) / epsilon
             colour = "#D55E00" if i < 5 else "#0072B2"
-            axis.plot(psi, rise, ".", color=colour, markersize=2.2, markeredgewidth=0)
+            axis.plot(psi, rise, ".", color=colour, markersize=2.4, markeredgewidth=0, rasterized=True)
         J, D, _ = r["ball"]
         axis.set_title(f"$J=({J[0]:g},{J[1]:g},{J[2]:g})$, $D={D:g}$, $T={r['period']:.2f}$", fontsize=11)
         axis.set(xlabel=r"$\psi/\pi$", ylabel=r"$(H-H_*)\,/\,\varepsilon H_*$", xlim=(0, 2))
         axis.spines[["top", "right"]].set_visible(False)
     for axis in list(axes.flat)[count:]:
         axis.set_visible(False)
+    figure.set_dpi(200)
     figure.suptitle(rf"Islands of the energy on the section $K_2=0$, $\varepsilon={epsilon:g}$", fontsize=12)
     return figure
 

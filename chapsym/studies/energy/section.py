@@ -16,6 +16,16 @@ POINTS = 8
 NEWTONS = 6
 
 
+def packed(numbers: list[float]) -> str:
+    """Numbers in one line of text, for JSON that is written with a line for each entry of a list."""
+    return " ".join(repr(x) for x in numbers)
+
+
+def unpacked(text: str) -> Floats:
+    """The numbers of `packed`."""
+    return np.array(text.split(), dtype=float)
+
+
 def state(level: Level, theta: Floats | float, psi: Floats | float) -> tuple[Floats, Floats]:
     """K and γ, (..., 3) each, at the points (θ, ψ) of the section."""
     theta, psi = np.broadcast_arrays(np.asarray(theta, dtype=float), np.asarray(psi, dtype=float))
