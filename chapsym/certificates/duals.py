@@ -13,7 +13,8 @@ class Dual:
         self.value, self.slope = value, slope
 
     def __add__(self, other: Any) -> "Dual":
-        other = _dual(other)
+        if not isinstance(other, Dual):
+            return Dual(self.value + other, self.slope)
         return Dual(self.value + other.value, self.slope + other.slope)
 
     def __neg__(self) -> "Dual":
@@ -27,7 +28,8 @@ class Dual:
         return _dual(other) - self
 
     def __mul__(self, other: Any) -> "Dual":
-        other = _dual(other)
+        if not isinstance(other, Dual):
+            return Dual(self.value * other, self.slope * other)
         return Dual(self.value * other.value, self.value * other.slope + self.slope * other.value)
 
     def __truediv__(self, other: Any) -> "Dual":
