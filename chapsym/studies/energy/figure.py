@@ -54,7 +54,7 @@ def draw_amplitudes(found: dict[str, Any]) -> Any:
 
 
 def draw_islands(found: dict[str, Any]) -> Any:
-    """For each ball the section near its widest resonance: H - H*, divided by εH*, against ψ."""
+    """For each ball the section near its widest resonance: H - H*, divided by εH*, against ψ about the island."""
     from matplotlib.figure import Figure
 
     count = len(found["widest"])
@@ -65,14 +65,15 @@ def draw_islands(found: dict[str, Any]) -> Any:
     epsilon = found["shown"]
     for axis, r in zip(axes.flat, found["widest"], strict=False):
         orbits = [one for one in found["islands"] if one["ball"] == r["ball"]]
+        centre = np.angle(np.exp(1j * unpacked(orbits[0]["psi"])).mean()) / np.pi if orbits else 0.0
         for i, one in enumerate(orbits):
-            psi = np.mod(unpacked(one["psi"]) / np.pi, 2)
+            psi = np.mod(unpacked(one["psi"]) / np.pi - centre + 1, 2) - 1
             rise = (unpacked(one["energy"]) / r["energy"] - 1) / epsilon
             colour = "#D55E00" if i < 5 else "#0072B2"
             axis.plot(psi, rise, ".", color=colour, markersize=2.4, markeredgewidth=0, rasterized=True)
         J, D, _ = r["ball"]
         axis.set_title(f"$J=({J[0]:g},{J[1]:g},{J[2]:g})$, $D={D:g}$, $T={r['period']:.2f}$", fontsize=11)
-        axis.set(xlabel=r"$\psi/\pi$", ylabel=r"$(H-H_*)\,/\,\varepsilon H_*$", xlim=(0, 2))
+        axis.set(xlabel=r"$(\psi-\psi_*)/\pi$", ylabel=r"$(H-H_*)\,/\,\varepsilon H_*$", xlim=(-1, 1))
         axis.spines[["top", "right"]].set_visible(False)
     for axis in list(axes.flat)[count:]:
         axis.set_visible(False)
