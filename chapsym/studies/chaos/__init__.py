@@ -12,8 +12,8 @@ from ..units import Report, Unit, run_units
 TITLE = "How much of the map is chaotic"
 #: What each figure shows, in the order in which they are shown.
 CAPTIONS = {
-    "chaos.svg": "The share of chaotic orbits among 128 against ε = |𝒦|/I_min, with 95% intervals: at random starts none "
-    "is found for small ε; chaos starts at the unstable rotation. D = 0 is the control.",
+    "chaos.svg": "The share of chaotic orbits among 128 against ε = |𝒦|/I_min, with 95% intervals: at random starts "
+    "none is found for small ε; chaos starts at the unstable rotation. D = 0 is the control.",
     "section.svg": "Poincaré sections of the map, J = (0, 1, 3), D = 1, on K₂ = 0: at ε = 0.9 invariant curves and "
     "islands, at ε = 2 a chaotic layer (red) between them.",
 }

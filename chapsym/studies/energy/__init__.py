@@ -17,11 +17,11 @@ from .section import packed
 TITLE = "The energy of the whole map"
 #: What each figure shows, in the order in which they are shown.
 CAPTIONS = {
-    "energy.svg": "Left: over a long run the energy H of K = 𝒦/ε ranges by a part ∝ ε² of itself at generic starts, and "
-    "∝ ε in the widest resonances. Right: what the map adds to H along a closed orbit of the continuous ball, "
-    "(H(Gⁿx) - H(x))/ε², tends to the integral of X₃(H) that the certificates enclose.",
-    "islands.svg": "In a resonance the energy swings as a pendulum does, and does not drift: the section K₂ = 0 near the "
-    "widest resonance of three balls (orange: starts inside the predicted separatrix).",
+    "energy.svg": "Left: over a long run the energy H of K = 𝒦/ε ranges by a part ∝ ε² of itself at generic starts, "
+    "and ∝ ε in the widest resonances. Right: what the map adds to H along a closed orbit of the continuous ball, "
+    "(H(Gⁿx) - H(x))/ε², tends to the integral of X₃(H).",
+    "islands.svg": "In a resonance the energy swings as a pendulum does, and does not drift: the section K₂ = 0 near "
+    "the widest resonance of three balls (orange: starts inside the predicted separatrix).",
 }
 
 HERE = "chapsym.studies.energy.amplitude:"
