@@ -36,11 +36,17 @@ def statement(data: dict[str, Any]) -> str:
 def check(data: dict[str, Any]) -> Verdict:
     """The verdict on a certificate; raises Rejected, with one sentence, unless its statement is proved."""
     kind = data.get("kind") if isinstance(data, dict) else None
-    if not isinstance(kind, str) or kind not in KINDS or data.get("format") != FORMAT:
-        raise Rejected(f"not a certificate of format {FORMAT} and of kind {' or '.join(KINDS)}")
+    if not isinstance(kind, str) or data.get("format") != FORMAT:
+        raise Rejected(f"not a certificate of format {FORMAT}")
+    if kind not in KINDS:
+        raise Rejected(f"this checker judges certificates of kind {' and '.join(KINDS)}, and none of kind {kind!a:.60}")
     KINDS[kind].check_form(data)
-    if data["statement"] != statement(data):
+    try:
+        sentence, seal = statement(data), digest(data)
+    except RecursionError:
+        raise Rejected("lists in lists too deep to be a certificate") from None
+    if data["statement"] != sentence:
         raise Rejected("the statement is not the one that the numbers make")
-    if data["digest"] != digest(data):
+    if data["digest"] != seal:
         raise Rejected("the digest is not that of the file: something in it was changed")
     return Verdict(kind, data["statement"], KINDS[kind].check(data))

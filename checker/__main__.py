@@ -2,8 +2,10 @@
 
 import argparse
 import json
+import os
 import runpy
 import sys
+from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
 
 
@@ -35,9 +37,20 @@ def main(arguments: list[str] | None = None) -> int:
 
 if __name__ == "__main__":
     if not __package__:  # run as a folder: start again as a package, so that the files find each other
-        sys.path[0] = str(Path(__file__).resolve().parent.parent)
+        folder = Path(__file__).resolve().parent  # found by its place: what lies beside it must not hide a module
+        found = spec_from_file_location("checker", folder / "__init__.py", submodule_search_locations=[str(folder)])
+        sys.modules["checker"] = package = module_from_spec(found)  # type: ignore[arg-type]
+        found.loader.exec_module(package)  # type: ignore[union-attr]
         runpy.run_module("checker", run_name="__main__", alter_sys=True)
     else:
         for stream in (sys.stdout, sys.stderr):
             stream.reconfigure(errors="backslashreplace")  # type: ignore[union-attr]  # for a terminal without Greek
-        sys.exit(main())
+        try:
+            status = main()
+            sys.stdout.flush()
+        except BrokenPipeError:  # nobody reads the output
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+            status = 141
+        except KeyboardInterrupt:
+            status = 130
+        sys.exit(status)

@@ -107,5 +107,5 @@ def scale(digits: int, steps: int, parameters: Sequence[Fraction]) -> int:
     The digits; 8 for what a step widens on the way there and in what follows from the end; 4 for each power of 2 in the
     greatest or least parameter; 128 for a matrix close to singular and to decide the rounding.
     """
-    size = max(abs(x.numerator.bit_length() - x.denominator.bit_length()) for x in parameters if x)
+    size = max((abs(x.numerator.bit_length() - x.denominator.bit_length()) for x in parameters if x), default=0)
     return -(-10 * digits // 3) + 8 * steps + 4 * size + 128

@@ -6,8 +6,9 @@ With the numbers (𝒦₀, γ₀) of the file let P(𝒦, γ) = 𝒦₀ × 𝒦 
 proves a root of
     |γ|² = 1,  |𝒦|² and ⟨𝒦, γ⟩ as given,  P(G^q(x) - x) = 0.
 Then x and G^q(x) have the same integrals and the same P.  The derivative of (integrals, P) is regular on a box that
-contains both, so this map is injective there (as in linear.newton): G^q(x) = x.  The step is evaluated for all |γ| near
-1; at the root |γ| = 1, |u| < 1, and the step is that of the small branch.
+contains both, so this map is injective there (as in linear.newton): G^q(x) = x.  The step is evaluated for all 𝒦 and γ
+of a box, with other lengths too, and each time the root u is found anew: it is proved to be the only one with |u| < 1
+for all of them (`check_branch`), so these are values of one function.  At the root |γ| = 1: it is the small branch.
 
 The derivative W of G^q on M, in the basis V of tangent vectors at x with w = e1, e2, e3: DG^q·V = V·W, as x is the same
 before and after; so W = (PV)⁻¹ P·DG^q·V.  If det W ≠ 1, no measure with a continuous positive density near the orbit
@@ -89,6 +90,7 @@ class Search:
 
     def after(self, x: Vector, vectors: list[Pair]) -> tuple[Vector, list[Pair], list[Vector]]:
         """G^q(x), the derivative applied to tangent vectors, and the Gibbs vectors of the steps."""
+        self.check_branch(x)
         state, gibbs = (x[:3], x[3:]), []
         for near in self.near:
             u = gibbs_vector(self.ball, state, near)
@@ -96,6 +98,16 @@ class Search:
             state = moved(u, state)
             gibbs.append(u)
         return [*state[0], *state[1]], vectors, gibbs
+
+    def check_branch(self, x: Vector) -> None:
+        """Raises Rejected unless (1) of step.py has one root with |u| < 1 for all 𝒦 and γ of the box, and after steps.
+
+        The steps keep |𝒦| and |γ|.  As ⟨u, Λu - D⟨γ, u⟩γ⟩ ≥ ⟨u, Iu⟩ - D(|γ|² - 1)|u|², the proof in check_small_branch
+        holds for every |γ| with I - D(|γ|² - 1) for I.
+        """
+        momentum, gamma = x[:3], x[3:]
+        off = self.ball.D * (dot(gamma, gamma) - 1)
+        check_small_branch(Ball([I - off for I in self.ball.inertia], self.ball.D), dot(momentum, momentum).sqrt())
 
     def projection(self, x: Vector) -> Vector:
         """P(x)."""

@@ -245,3 +245,11 @@ def test_check_passes_in_its_budget():
     assert found["kept"] is True
     assert len(found["strata"]) == 9
     assert all(row["kept"] for row in found["strata"])
+
+
+def test_every_kind_of_certificate_has_its_subcommand():
+    """A file chapsym/cli/certify_x.py that nothing imports is a subcommand that is lost."""
+    import chapsym.cli
+
+    names = {path.stem for path in Path(chapsym.cli.__file__).parent.glob("certify_*.py")}
+    assert {"certify_drift", "certify_orbit"} <= names <= {name.rpartition(".")[2] for name in sys.modules}

@@ -58,6 +58,12 @@ class Orbit:
             raise BadInput(f"gamma must be a unit vector of rationals, such as 2/7,3/7,6/7, not {listed(self.gamma)}")
         if min(self.J) < 0 or sorted(self.J)[1] <= 0 or self.D < 0:
             raise BadInput(f"J = {listed(self.J)}, D = {self.D} is no ball")
+        if self.varied not in range(3) or min(self.radius, self.window, self.time) < 0:
+            raise BadInput(
+                "a component of the momentum is varied; the radius, the window and the time are not negative"
+            )
+        if len(self.J) != 3 or len(self.momentum) != 3 or len(self.gamma) != 3:
+            raise BadInput("J, the momentum and gamma have three components each")
         if tuple(self.signs) not in SYMMETRIES:
             raise BadInput(f"the signs must be one of {', '.join(map(listed, SYMMETRIES))}, not {listed(self.signs)}")
 

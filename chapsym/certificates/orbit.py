@@ -15,6 +15,7 @@ from typing import Any
 
 from flint import arb, ctx
 
+from chapsym import checker
 from chapsym.dynamics.errors import BadInput
 from chapsym.dynamics.precise_ball import upper
 from chapsym.dynamics.precise_start import fraction
@@ -28,9 +29,9 @@ from .passage import Level, Map, Passage, Vector, column, columns, entries, iden
 KIND = "periodic-orbit"
 #: Bits with which families are followed; ⟨𝒦, γ⟩ must vary by more than 2^-RESOLVED along one.
 SEARCH_BITS, RESOLVED = 256, 160
-#: Decimals that are written beyond those of det(1 - DG^q), and one a step, by which a checker's boxes may grow;
-#: the largest number of them, and of steps.
-SPARE_DIGITS, MOST_DIGITS, MOST_STEPS = 20, 4_000, 1_000
+#: Decimals beyond those of det(1 - DG^q), at least; by default, with one a step, by which a checker's boxes may grow;
+#: the most decimals and steps that the checker takes.
+SIGNIFICANT, SPARE_DIGITS, MOST_DIGITS, MOST_STEPS = 3, 20, 2_000, 1_000
 
 
 def periodic_orbit(
@@ -56,8 +57,11 @@ def periodic_orbit(
         try:
             with ctx.workprec(bits):
                 start, passage = proved(level, *families.solved(level, steps, near, 4 + bits.bit_length()), steps)
-                written = digits or _enough(passage, steps)
-                return _document(level, steps, start, passage, written, attracting)
+                found = _document(level, steps, start, passage, _digits(passage, steps, digits), attracting)
+            checker.check(found)
+            return found
+        except checker.Rejected as error:
+            raise BadInput(f"the checker does not accept what was found: {error}; take other digits") from None
         except NotProved:
             if bits > 8 * (SEARCH_BITS + 4 * (digits or 0)):
                 raise BadInput(f"no orbit of {steps} steps is proved there; choose another <momentum, gamma>") from None
@@ -151,11 +155,13 @@ def attracts(W: Any) -> bool:
     )
 
 
-def _enough(passage: Passage, steps: int) -> int:
-    """Decimals that show det DG^q - 1 and det(1 - DG^q)."""
+def _digits(passage: Passage, steps: int, wanted: int | None) -> int:
+    """Decimals that show det DG^q - 1 and det(1 - DG^q); raises BadInput where fewer are wanted."""
     det, unit = determinants(passage)
-    least = min(abs(fraction(det.mid()) - 1), abs(fraction(unit.mid())))
-    return SPARE_DIGITS + steps + math.ceil(-math.log10(least))
+    least = math.ceil(-math.log10(min(abs(fraction(det.mid()) - 1), abs(fraction(unit.mid())))))
+    if wanted is not None and wanted < least + SIGNIFICANT:
+        raise BadInput(f"{wanted} digits are too few to show the determinants; take {least + SIGNIFICANT} or more")
+    return wanted or SPARE_DIGITS + steps + least
 
 
 def _document(

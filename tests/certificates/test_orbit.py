@@ -3,6 +3,7 @@
 import json
 from fractions import Fraction
 from importlib.resources import files
+from unittest.mock import Mock
 
 import numpy as np
 import pytest
@@ -172,12 +173,17 @@ def test_an_orbit_is_found(monkeypatch):
     data = orbit.periodic_orbit(NEAR.J, NEAR.D, NEAR.size, 20, digits=45)
     assert checker.check(data).numbers["determinant"] == data["determinant"] < "1"
     assert data["integrals"]["momentum.gamma"].startswith("2.51")
+    with pytest.raises(BadInput, match="too few to show"):
+        orbit.periodic_orbit(NEAR.J, NEAR.D, NEAR.size, 20, digits=8)
+    monkeypatch.setattr(checker, "check", Mock(side_effect=checker.Rejected("no")))
+    with pytest.raises(BadInput, match="does not accept"):
+        orbit.periodic_orbit(NEAR.J, NEAR.D, NEAR.size, 20)
 
 
 @pytest.mark.parametrize(("change", "sentence"), [
     ({"J": (1, 1, 4)}, "must differ"), ({"D": 0}, "D must be positive"), ({"size": 9}, "beyond the bound"),
     ({"size": 0}, "must be positive"), ({"height": 3}, "parallel"), ({"steps": 1}, "number of steps"),
-    ({"digits": 0}, "number of decimals"),
+    ({"digits": 0}, "number of decimals"), ({"digits": 2001}, "number of decimals"),
 ])  # fmt: skip
 def test_what_has_no_certificate_is_refused(change, sentence):
     given = {"J": (1, 2, 4), "D": 2, "size": Fraction(15, 2), "steps": 20, **change}

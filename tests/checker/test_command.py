@@ -1,6 +1,8 @@
 """python -m chapsym.checker and python checker: exit statuses, sentences, JSON."""
 
 import json
+import os
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -74,3 +76,39 @@ def test_it_runs_as_a_module_and_as_a_folder_without_anything_installed(files, h
     assert run.returncode == 1
     assert run.stdout.startswith(f"{files['right']}: accepted (no-invariant-measure)\n  Proved: For every ball")
     assert run.stderr == f"{files['changed']}: rejected: the statement is not the one that the numbers make\n"
+
+
+def test_it_runs_from_a_folder_beside_which_a_file_has_the_name_of_a_module(files, tmp_path):
+    """As in an installed chapsym: beside the checker is chapsym/numbers, which is not Python's."""
+    shutil.copytree(FOLDER, tmp_path / "checker")
+    (tmp_path / "numbers.py").write_text("raise SystemExit(7)")
+    for folder in (tmp_path / "checker", FOLDER):
+        run = subprocess.run([sys.executable, str(folder), files["right"]], capture_output=True, text=True)
+        assert (run.returncode, run.stderr) == (0, "")
+
+
+def test_nobody_reading_the_output_is_no_traceback(files):
+    read, write = os.pipe()
+    os.close(read)
+    command = [sys.executable, "-m", "chapsym.checker", files["right"]]
+    run = subprocess.run(command, stdout=write, stderr=subprocess.PIPE, text=True)
+    os.close(write)
+    assert (run.returncode, run.stderr) == (141, "")
+
+
+def test_a_certificate_of_another_kind_is_named(files, capsys):
+    file = Path(files["text"])
+    file.write_text(json.dumps({"format": "chapsym-certificate/1", "kind": "energy-drift"}))
+    assert main([str(file)]) == 1
+    assert capsys.readouterr().err.endswith("and none of kind 'energy-drift'\n")
+
+
+def test_lists_in_lists_of_any_depth_are_refused_in_one_sentence(files, capsys):
+    """At one depth the file can be read, but not be written again for its digest."""
+    right = json.loads(Path(files["right"]).read_text())
+    right["orbits"][1]["displacement"] = "HERE"
+    text, file = json.dumps(right), Path(files["text"])
+    for n in range(900, 1001):
+        file.write_text(text.replace('"HERE"', "[" * n + "]" * n))
+        assert main([str(file)]) in (1, 2)
+    assert len(capsys.readouterr().err.splitlines()) == 101

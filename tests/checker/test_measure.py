@@ -210,6 +210,11 @@ def test_any_shape_is_refused_with_a_sentence(right, path, bad):
     assert refused(maker.sealed(right | {"statement": bad}))
 
 
+def test_no_ball_at_all_is_refused(right):
+    """The bits are chosen from the size of the parameters: all are 0."""
+    assert refused(resealed(right | {"ball": {"J": ["0"] * 3, "D": "0", "height": "0", "level": "0"}}))
+
+
 def test_the_digest_is_the_one_of_the_format(right):
     assert checker.digest(right) == right["digest"]
     assert checker.digest(json.loads(json.dumps(right, indent=4))) == right["digest"]

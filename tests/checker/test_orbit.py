@@ -88,6 +88,16 @@ def test_the_derivative_of_the_equations_is_that_of_the_equations(right):
             assert abs(difference - mp.mpf(row[j].lo) / mp.mpf(2) ** row[j].bits) < mp.mpf(2) ** -150
 
 
+def test_the_root_of_a_step_is_proved_to_be_the_only_one_for_every_gamma_of_a_box(right):
+    """It is for |γ| = 1, |𝒦| = 2.76; for |γ| = 1.05 or |𝒦| = 2.9 Newton finds a root, but it may not be alone."""
+    search = Search(right)
+    search.after(search.centre, [])
+    momentum, gamma = search.centre[:3], search.centre[3:]
+    for longer in ([*momentum, *(x * 21 / 20 for x in gamma)], [*(x * 9 / 8 for x in momentum), *gamma]):
+        with pytest.raises(Rejected, match="small branch"):
+            search.after(longer, [])
+
+
 @pytest.mark.parametrize("J", [("1", "2", "4"), ("2", "2", "4")])
 def test_a_point_that_is_parallel_to_its_momentum_or_does_not_come_back_is_refused(right, J):
     ball = {"J": list(J), "D": "2"}
