@@ -34,11 +34,12 @@ class Evidence:
 
 @dataclass(frozen=True)
 class Checked:
-    """A certificate file: its name and content, the numbers that the checker proved, or why it was rejected."""
+    """A certificate file: its name and content, the numbers that are proved, and how; or why it was rejected."""
 
     name: str
     data: Mapping[str, Any]
     proved: Mapping[str, str]
+    how: str
     rejected: str = ""
 
 
@@ -91,7 +92,10 @@ def _shown(checked: Checked) -> dict[str, Any]:
     data = checked.data
     given = {**data.get("ball", {}), **{name: data[name] for name in GIVEN if name in data}, **checked.proved}
     rows = [(name.replace("_", " "), ", ".join(v) if isinstance(v, list) else v) for name, v in given.items()]
-    return {"name": checked.name, "statement": data.get("statement", ""), "rows": rows, "rejected": checked.rejected}
+    return {
+        "name": checked.name, "statement": data.get("statement", ""), "rows": rows, "how": checked.how,
+        "rejected": checked.rejected,
+    }  # fmt: skip
 
 
 def _figure(figure: tuple[str, str]) -> dict[str, str]:
