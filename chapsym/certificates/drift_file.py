@@ -19,23 +19,31 @@ KIND = "energy-drift"
 
 def document(orbit: Orbit, found: Enclosures, bits: int, order: int) -> dict[str, Any]:
     """The certificate as it is written; numbers are strings, exact rationals or decimals."""
-    J, times = listed(orbit.J), 1 if orbit.signs == SYMMETRIES[0] else 2
-    momentum = ", ".join(map(shortest, orbit.momentum))
-    statement = (
-        f"The continuous ball with J = {J}, D = {orbit.D} has a closed orbit through gamma = {listed(orbit.gamma)}, "
-        f"K = ({momentum}), K{orbit.varied + 1} up to {shortest(orbit.radius)}, of the period "
-        f"{'T' if times == 1 else '2T'}; the integrals over [0, T] of X3(H) and of the divergence of X3 are not 0."
-    )
     return sealed(
-        KIND, statement,
+        KIND, statement(orbit),
         ball={"J": [str(x) for x in orbit.J], "D": str(orbit.D)},
         start={"momentum": [shortest(x) for x in orbit.momentum], "gamma": [str(x) for x in orbit.gamma]},
         varied=NAMES[orbit.varied], radius=shortest(orbit.radius),
-        symmetry=list(orbit.signs), periods=times, time=shortest(orbit.time), window=shortest(orbit.window),
+        symmetry=list(orbit.signs), periods=_periods(orbit), time=shortest(orbit.time), window=shortest(orbit.window),
         section=NAMES[orbit.section], along=NAMES[orbit.along], bits=bits, order=order,
         misses=[_outward(x) for x in found.misses],
         energy=_outward(found.energy), density=_outward(found.density),
     )  # fmt: skip
+
+
+def statement(orbit: Orbit) -> str:
+    """What a certificate of the orbit proves, in words."""
+    momentum = ", ".join(map(shortest, orbit.momentum))
+    return (
+        f"The continuous ball with J = {listed(orbit.J)}, D = {orbit.D} has a closed orbit through "
+        f"gamma = {listed(orbit.gamma)}, K = ({momentum}), K{orbit.varied + 1} up to {shortest(orbit.radius)}, of the "
+        f"period {'T' if _periods(orbit) == 1 else '2T'}; the integrals over [0, T] of X3(H) and of the divergence of "
+        "X3 are not 0."
+    )
+
+
+def _periods(orbit: Orbit) -> int:
+    return 1 if orbit.signs == SYMMETRIES[0] else 2
 
 
 def read(data: dict[str, Any]) -> Orbit:
@@ -44,7 +52,7 @@ def read(data: dict[str, Any]) -> Orbit:
         if data["kind"] != KIND or digest(data) != data["digest"]:
             raise BadInput(f"this is no certificate of the kind {KIND}, or its digest is not that of its text")
         ball, start = data["ball"], data["start"]
-        return Orbit(
+        orbit = Orbit(
             tuple(map(Fraction, ball["J"])), Fraction(ball["D"]),
             tuple(map(Fraction, start["momentum"])), tuple(map(Fraction, start["gamma"])),
             NAMES.index(data["varied"]), Fraction(data["radius"]), tuple(data["symmetry"]), Fraction(data["time"]),
@@ -52,26 +60,29 @@ def read(data: dict[str, Any]) -> Orbit:
         )  # fmt: skip
     except (KeyError, TypeError, ValueError, AttributeError, ZeroDivisionError) as error:
         raise BadInput(f"the certificate lacks a field, or has another form: {error!r}") from None
+    if data.get("statement") != statement(orbit) or data.get("periods") != _periods(orbit):
+        raise BadInput("the statement of the certificate is not that of its numbers")
+    return orbit
 
 
 def verify(data: dict[str, Any], bits: int | None = None, order: int | None = None) -> Enclosures:
     """Proves a certificate again, with 64 bits and 8 terms more unless they are given, and compares the enclosures.
 
-    Raises BadInput for what is no certificate, NotEnclosed where its numbers are not those that are found.
+    Raises BadInput for what is no certificate, NotEnclosed where what is stated does not contain what is found.
     """
     orbit = read(data)
     found = enclose(orbit, bits or data["bits"] + 64, order or data["order"] + 8)
     stated = [*data["misses"], data["energy"], data["density"]]
     for ours, (centre, radius) in zip((*found.misses, found.energy, found.density), stated, strict=True):
         with ctx.workprec(2 * data["bits"]):
-            if abs(ours - exact(Fraction(centre))) > exact(Fraction(radius)):
+            if not abs(ours - exact(Fraction(centre))) <= exact(Fraction(radius)):
                 raise NotEnclosed(f"{centre} ± {radius} is stated, and {ours} is found")
     return found
 
 
 def _outward(x: Any) -> list[str]:
-    """A ball [centre, radius] in decimals, which contains it."""
-    middle, radius = fraction(x.mid()), fraction(x.rad())
+    """A ball [centre, radius] in decimals, which contains it; twice as wide, for what other bits and terms find."""
+    middle, radius = fraction(x.mid()), 2 * fraction(x.rad())
     digits = max(2 - decade(radius), 0) if radius else 60
     centre = rounded(middle, digits)
     return [shortest(centre), shortest(Fraction(math.ceil((radius + abs(middle - centre)) * 10**digits), 10**digits))]
