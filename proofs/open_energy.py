@@ -1,11 +1,11 @@
-"""The open question of Section 6, settled: no integral of the map tends to the energy in C¹ as ε tends to 0, for D > 0 in general."""
+"""The open question of Section 6, settled: no integral of the map tends to the energy in C¹ as ε tends to 0, for balls with D > 0."""
 
 import json
 from pathlib import Path
 from typing import Any
 
 import sympy as sp
-from chapsym.proofs import map_gibbs, map_modified, map_self_adjoint
+from chapsym.proofs import certified, map_gibbs, map_modified, map_self_adjoint, open_orbits
 from chapsym.proofs.map_modified import FREE
 
 from chapsym.certificates import drift_file
@@ -15,22 +15,28 @@ from chapsym.derive.limits import omega
 from chapsym.prove import Equation, Fact, Proof, claim, judged, main
 
 FILES = tuple(sorted(Path(__file__).with_name("certificates").glob("energy-drift-*.json")))
+ORBITS = certified.files("periodic-orbit")
 #: What the argument rests on, beside the paper's claims: proved anew with it.
 LEMMAS = {
     "small-branch": map_gibbs, "reversible": map_self_adjoint, "modified-field": map_modified,
     "modified-energy": map_modified, "energy-without-rolling": map_modified, "modified-measure": map_modified,
-    "map-symmetries": map_modified,
+    "map-symmetries": map_modified, "step-determinant": open_orbits, "steady-circles": open_orbits,
+    "periodic-orbits": open_orbits,
 }  # fmt: skip
 
 ANSWER = (
-    "No, not in C¹; for D > 0 in general.  Let Φ_ε be the step in K = 𝒦/ε, γ, on the small branch, and let the continuous "
-    "ball (J, D) have a closed orbit on which ∮X₃(H)dt ≠ 0, where X₃(H) = (D/4)⟨γ,ω'⟩⟨γ',ω'⟩: the balls of the "
-    "certificates do. Then, for every neighbourhood U of the orbit and every sequence ε_j → 0, there are no C¹ integrals "
-    "F_j of Φ_{ε_j} on U that tend in C¹(U) to f(H, |K|², ⟨K,γ⟩), f any C² function with ∂f/∂H ≠ 0 on the orbit: in "
-    "particular none H + ε²H₂ + .. in powers of ε with C¹ coefficients. If ∮div_μ X₃ dt ≠ 0, which the certificates "
-    "prove, too, no invariant densities of Φ_{ε_j} tend in C¹(U) to the density of the continuous ball, times any positive "
-    "C¹ function of |K|², ⟨K,γ⟩. Yes, for D = 0, where the energy itself is an integral of the map (every branch), and for 𝒦 "
-    "parallel to γ. Integrals that tend to the energy uniformly, but not with their derivatives, are not excluded."
+    "No, not in C¹, for the balls of the certificates, D > 0, and all balls near them.  Let Φ_ε be the step in K = 𝒦/ε, γ, "
+    "on the small branch, and let the continuous ball (J, D) have a closed orbit on which ∮X₃(H)dt ≠ 0, where "
+    "X₃(H) = (D/4)⟨γ,ω'⟩⟨γ',ω'⟩: these balls do. Then, for every neighbourhood U of the orbit in R³ × S² and every sequence "
+    "ε_j → 0, ε_j > 0, there are no C¹ integrals F_j of Φ_{ε_j} on U that tend in C¹(U) to f(H, |K|², ⟨K,γ⟩), f any C² "
+    "function with ∂f/∂H ≠ 0 on the orbit; nor any integrals f + ε_jH₁ + ε_j²H₂ + o(ε_j²), uniformly on U, with H₁ of class "
+    "C¹ and H₂ continuous. In particular no integral of the map that is real analytic near 𝒦 = 0 is H(𝒦,γ) + O(|𝒦|³). If "
+    "∮div_μ X₃ dt ≠ 0, which the certificates prove, too, no invariant densities of Φ_{ε_j} tend in C¹(U) to the density of "
+    "the continuous ball, times any positive C¹ function of |K|², ⟨K,γ⟩. For a fixed 𝒦, every D > 0 and I₁ ≠ I₂: no "
+    "measure with a continuous positive density is invariant near the steady rotations about e₃; and at the periodic "
+    "orbits of the certificates every C¹ integral depends, to first order, on |γ|, |𝒦|, ⟨𝒦,γ⟩ alone. Yes, for D = 0, where "
+    "the energy itself is an integral of the map (every branch), and for 𝒦 parallel to γ. Not excluded are integrals that tend to the energy "
+    "uniformly, and have neither derivatives that tend to those of f nor such an expansion."
 )
 
 
@@ -96,6 +102,10 @@ def no_integral(p: Proof) -> None:
     p.say(
         "   least |f_H ∮X₃(H)dt|/(4C) for all small ε, and does not tend to 0.  (A short arc of V joins the two points.)"
     )
+    p.say(
+        "   And if r = εH₁ + ε²H₂ + o(ε²) uniformly, H₁ of class C¹, H₂ continuous, the right side is O(ε³) + o(ε²): too little."
+    )
+    p.say("   An analytic F = H + O(|𝒦|³) at 𝒦 = εK, over ε², is H + O(ε) in C¹: so it is no integral.")
 
 
 def no_density(p: Proof) -> None:
@@ -124,7 +134,10 @@ def certificates(p: Proof) -> None:
         "   and these two tell states apart: so for a start between, S·x(T) = x. S is a symmetry (map-symmetries), so the"
     )
     p.say("   orbit is closed after 2T (or T), and the integrals over it are 2 (or 1) times those over [0, T].")
-    p.say("   They are proved anew here in Arb's balls, with other bits; not by the independent checker.")
+    p.say("   They are proved anew here in Arb's balls, with other bits and terms; not by the independent checker.")
+    p.say(
+        "   What they prove are strict inequalities between continuous functions of J and D: so it holds for all balls near."
+    )
     p.lemma(Fact("there is a certificate of the kind energy-drift", bool(FILES), "a look into the folder"))
     for file in FILES:
         data = json.loads(file.read_text(encoding="utf-8"))
@@ -135,13 +148,27 @@ def certificates(p: Proof) -> None:
         p.control(Fact("the first certificate with another time", proved(_changed(data)), METHOD))
 
 
-METHOD = "Arb balls, validated Taylor integration: proved anew with other bits"
+def fixed_step(p: Proof) -> None:
+    """What holds for one 𝒦, without ε: measures and integrals near periodic orbits."""
+    p.say("For a fixed 𝒦: by steady-circles no measure with a continuous positive density is invariant near a steady")
+    p.say(
+        "   circle. And by periodic-orbits, where an orbit is back and its derivative on the level of |γ|, |𝒦|, ⟨𝒦,γ⟩ has"
+    )
+    p.say("   no eigenvalue 1, dF is 0 on that level for every C¹ integral F:")
+    accepted = certified.present(p, ORBITS, "periodic-orbit")
+    if accepted:
+        size = accepted[0]["integrals"]["momentum.momentum"]
+        wrong = ("integrals", "momentum.momentum"), f"{sp.Rational(size) + 1}"
+        p.control(certified.changed(f"the orbit of {accepted[0]['steps']} steps at another |𝒦|", accepted[0], *wrong))
+
+
+METHOD = "Arb balls, validated Taylor integration: proved anew with other bits and terms"
 
 
 def proved(data: dict[str, Any]) -> bool:
-    """Whether the orbit is enclosed anew, with integrals that agree with those that are stated."""
+    """Whether the orbit is enclosed anew, with integrals that are within what is stated."""
     try:
-        drift_file.verify(data, data["bits"] + 32, data["order"])
+        drift_file.verify(data)
     except (drift_file.BadInput, NotEnclosed):
         return False
     return True
@@ -157,10 +184,10 @@ def _changed(data: dict[str, Any]) -> dict[str, Any]:
     "6-open",
     r"\text{is there another integral that tends to the energy, } \mathcal K\nparallel\gamma\text{? (open in the paper)}",
     ["5.3-energy", "6-vertical-energy", "2.5", "2.15-measure", *LEMMAS],
-    files=FILES,
+    files=(*FILES, *ORBITS),
 )
 def energy_question(p: Proof) -> None:
-    """Open in the paper, settled here: for D > 0 in general no integral of the map tends to the energy in C¹."""
+    """Open in the paper, settled here: no integral of the map tends to the energy in C¹, for an open set of balls."""
     p.assume("the small branch; K = 𝒦/ε and γ near the orbit, ε small: then small-branch holds")
     p.say(
         "For D = 0 the energy is an integral of the map (energy-without-rolling), for 𝒦 ∥ γ it is one, too (6-vertical-energy)."
@@ -172,6 +199,7 @@ def energy_question(p: Proof) -> None:
     no_integral(p)
     no_density(p)
     certificates(p)
+    fixed_step(p)
     odd = dict(zip(omega, -omega, strict=True))
     p.say(
         "On an orbit that a reversal of the map takes to itself both integrals are 0: the certificates' orbits are none."
@@ -182,7 +210,7 @@ def energy_question(p: Proof) -> None:
     p.control(Equation("X₃(H) is 0 for every D", [modified.energy_rate()], [sp.S.Zero], FREE))
     p.lemma(Equation("X₃(H) is 0 for D = 0", [modified.energy_rate().subs(three.D, 0)], [sp.S.Zero], FREE))
     p.settle(ANSWER)
-    p.measure(MEASURED)
+    p.measure(*MEASURED)
     p.conjecture(
         "For every ball with three different moments and D > 0 there is such an orbit: in every resonance of the "
         "continuous ball that is crossed with a twist some orbits have ∮X₃(H)dt ≠ 0.",
@@ -194,7 +222,12 @@ def energy_question(p: Proof) -> None:
 MEASURED = (
     "The map itself, 160 bits, from the centres of the certificates, nε = 2T: (H(Φ^n x) - H(x))/ε² is -0.0053052, "
     "-0.0052390, -0.0052224 for n = 500, 1000, 2000 with J = (0, 1, 3), D = 4, against ∮X₃(H)dt = -0.0052169; and "
-    "0.00178004, 0.00178030 for n = 500, 1000 with J = (1, 2, 4), D = 1, against 0.00178039."
+    "0.00178004, 0.00178030 for n = 500, 1000 with J = (1, 2, 4), D = 1, against 0.00178039.",
+    "chapsym study energy, float64: H ranges by a part ∝ ε^2.00 of itself at generic starts (ε ≤ 0.1) and ∝ ε^(1.04 ± 0.03) "
+    "in the widest resonances, where it swings as a pendulum does. Drift: (3 ± 5)e-13 of H in 1.6e7 steps at a generic start, "
+    "(1.4 ± 25)e-5 in 5e6 steps in a resonance, ε = 0.1.",
+    "chapsym study chaos, 128 orbits of 20000 steps: at random starts none is chaotic for ε ≤ 0.6; beside the unstable "
+    "rotation 4% at ε = 0.3 and 90% at ε = 3 for J = (0, 1, 3), D = 1. D = 0, the control: none of 1233.",
 )
 
 if __name__ == "__main__":

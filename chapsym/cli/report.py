@@ -15,7 +15,7 @@ from .prove import all_claims, judge_and_keep, kept_records, tally
 from .study import STUDIES
 
 #: How a certificate is judged.
-CHECKED = "accepted by the separate checker while this page was written"
+CHECKED = "accepted by the separate checker as this page was written"
 PROVED = (
     "enclosed anew by the proof of 6-open, with the code that found it: the separate checker does not know its kind"
 )
@@ -121,7 +121,7 @@ def _evidence(name: str, folder: Path) -> Any:
 
 
 def _certificates(found: list[dict[str, Any]]) -> list[Any]:
-    """Every certificate that the proofs rest on: checked now, and those that the checker does not know by the proofs."""
+    """Every certificate that the proofs rest on: checked now; what the checker does not know, as the proofs judged it."""
     from chapsym import checker, proofs
     from chapsym.report.questions import Checked
 
