@@ -87,20 +87,20 @@ def _stated(data: dict[str, Any]) -> list[tuple[Fraction, Fraction]]:
 def verify(data: dict[str, Any], bits: int | None = None, order: int | None = None) -> Enclosures:
     """Proves a certificate again, with 64 bits and 8 terms more unless they are given, and compares the enclosures.
 
-    Raises BadInput for what is no certificate, NotEnclosed where its numbers are not those that are found.
+    Raises BadInput for what is no certificate, NotEnclosed where what is stated does not contain what is found.
     """
     orbit = read(data)
     found = enclose(orbit, bits or data["bits"] + 64, order or data["order"] + 8)
     for ours, (centre, radius) in zip((*found.misses, found.energy, found.density), _stated(data), strict=True):
         with ctx.workprec(2 * data["bits"]):
-            if abs(ours - exact(centre)) > exact(radius):
+            if not abs(ours - exact(centre)) <= exact(radius):
                 raise NotEnclosed(f"{centre} ± {radius} is stated, and {ours} is found")
     return found
 
 
 def _outward(x: Any) -> list[str]:
-    """A ball [centre, radius] in decimals, which contains it."""
-    middle, radius = fraction(x.mid()), fraction(x.rad())
+    """A ball [centre, radius] in decimals, which contains it; twice as wide, for what other bits and terms find."""
+    middle, radius = fraction(x.mid()), 2 * fraction(x.rad())
     digits = max(2 - decade(radius), 0) if radius else 60
     centre = rounded(middle, digits)
     return [shortest(centre), shortest(Fraction(math.ceil((radius + abs(middle - centre)) * 10**digits), 10**digits))]

@@ -161,6 +161,21 @@ def test_a_changed_file_is_refused():
         )
 
 
+def test_an_enclosure_narrower_than_what_is_found_is_refused(monkeypatch):
+    """The stated one contains that of other bits and terms: to overlap is not enough."""
+    data, radius = certificate(FILES[0]), Fraction(1, 10**13)
+    stated = [exact(Fraction(x[0])) for x in (*data["misses"], data["energy"], data["density"])]
+    found = [
+        x + arb(0, exact(Fraction(y[1])) / 2)
+        for x, y in zip(stated, (*data["misses"], *2 * [["", radius]]), strict=True)
+    ]
+    monkeypatch.setattr(drift_file, "enclose", lambda *rest: drift.Enclosures((found[0], found[1]), *found[2:]))
+    drift_file.verify(data)
+    narrow = {**data, "energy": [data["energy"][0], "0.00000000000000001"]}
+    with pytest.raises(NotEnclosed, match="stated"):
+        drift_file.verify({**narrow, "digest": drift_file.digest(narrow)})
+
+
 @pytest.mark.parametrize(
     ("change", "words"),
     [({"statement": "The energy of every ball is conserved."}, "statement"), ({"periods": 1}, "periods"),
