@@ -259,7 +259,7 @@ def periodic_orbits(p: Proof) -> None:
     p.say(
         "If all eigenvalues of W are inside the unit circle, x attracts a neighbourhood on M: every continuous integral is"
     )
-    p.say("constant on M there, and every invariant measure on that neighbourhood is carried by the orbit.")
+    p.say("constant on M there, and every finite invariant measure on that neighbourhood is carried by the orbit.")
     p.say(
         "A reversor ϱ_R(𝒦, γ) = -R(𝒦, γ), R = 1 or the rotation by π about a principal axis, keeps M.  If it maps the orbit"
     )

@@ -47,7 +47,7 @@ def gibbs_jet() -> list[sp.Matrix]:
 
 
 def energy_rate() -> sp.Expr:
-    """X₃(H) = (D/4)⟨γ,ω'⟩⟨γ̇,ω'⟩: the energy (2.5) changes by ε³X₃(H) + O(ε⁵) in a step."""
+    """X₃(H) = (D/4)⟨γ,ω'⟩⟨γ̇,ω'⟩: the energy (2.5) changes by ε³X₃(H) + O(ε⁴) in a step."""
     return D * gamma.dot(rate) * gamma.cross(omega).dot(rate) / 4
 
 
