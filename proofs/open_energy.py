@@ -1,4 +1,4 @@
-"""The open question of Section 6, settled: no integral of the map tends to the energy in C¹ as ε tends to 0, for D > 0 in general."""
+"""The open question of Section 6, settled: no integral of the map tends to the energy in C¹ as ε tends to 0, for balls with D > 0."""
 
 import json
 from pathlib import Path
@@ -23,14 +23,16 @@ LEMMAS = {
 }  # fmt: skip
 
 ANSWER = (
-    "No, not in C¹; for D > 0 in general.  Let Φ_ε be the step in K = 𝒦/ε, γ, on the small branch, and let the continuous "
-    "ball (J, D) have a closed orbit on which ∮X₃(H)dt ≠ 0, where X₃(H) = (D/4)⟨γ,ω'⟩⟨γ',ω'⟩: the balls of the "
-    "certificates do. Then, for every neighbourhood U of the orbit and every sequence ε_j → 0, there are no C¹ integrals "
-    "F_j of Φ_{ε_j} on U that tend in C¹(U) to f(H, |K|², ⟨K,γ⟩), f any C² function with ∂f/∂H ≠ 0 on the orbit: in "
-    "particular none H + ε²H₂ + .. in powers of ε with C¹ coefficients. If ∮div_μ X₃ dt ≠ 0, which the certificates "
-    "prove, too, no invariant densities of Φ_{ε_j} tend in C¹(U) to the density of the continuous ball, times any positive "
-    "C¹ function of |K|², ⟨K,γ⟩. Yes, for D = 0, where the energy itself is an integral of the map (every branch), and for 𝒦 "
-    "parallel to γ. Integrals that tend to the energy uniformly, but not with their derivatives, are not excluded."
+    "No, not in C¹, for the balls of the certificates, D > 0, and all balls near them.  Let Φ_ε be the step in K = 𝒦/ε, γ, "
+    "on the small branch, and let the continuous ball (J, D) have a closed orbit on which ∮X₃(H)dt ≠ 0, where "
+    "X₃(H) = (D/4)⟨γ,ω'⟩⟨γ',ω'⟩: these balls do. Then, for every neighbourhood U of the orbit in R³ × S² and every sequence "
+    "ε_j → 0, ε_j > 0, there are no C¹ integrals F_j of Φ_{ε_j} on U that tend in C¹(U) to f(H, |K|², ⟨K,γ⟩), f any C² "
+    "function with ∂f/∂H ≠ 0 on the orbit; nor any integrals f + ε_jH₁ + ε_j²H₂ + o(ε_j²), uniformly on U, with H₁ of class "
+    "C¹ and H₂ continuous. In particular no integral of the map that is real analytic near 𝒦 = 0 is H(𝒦,γ) + O(|𝒦|³). If "
+    "∮div_μ X₃ dt ≠ 0, which the certificates prove, too, no invariant densities of Φ_{ε_j} tend in C¹(U) to the density of "
+    "the continuous ball, times any positive C¹ function of |K|², ⟨K,γ⟩. Yes, for D = 0, where the energy itself is an "
+    "integral of the map (every branch), and for 𝒦 parallel to γ. Not excluded are integrals that tend to the energy "
+    "uniformly, and have neither derivatives that tend to those of f nor such an expansion."
 )
 
 
@@ -96,6 +98,10 @@ def no_integral(p: Proof) -> None:
     p.say(
         "   least |f_H ∮X₃(H)dt|/(4C) for all small ε, and does not tend to 0.  (A short arc of V joins the two points.)"
     )
+    p.say(
+        "   And if r = εH₁ + ε²H₂ + o(ε²) uniformly, H₁ of class C¹, H₂ continuous, the right side is O(ε³) + o(ε²): too little."
+    )
+    p.say("   An analytic F = H + O(|𝒦|³) at 𝒦 = εK, over ε², is H + O(ε) in C¹: so it is no integral.")
 
 
 def no_density(p: Proof) -> None:
@@ -125,6 +131,9 @@ def certificates(p: Proof) -> None:
     )
     p.say("   orbit is closed after 2T (or T), and the integrals over it are 2 (or 1) times those over [0, T].")
     p.say("   They are proved anew here in Arb's balls, with other bits; not by the independent checker.")
+    p.say(
+        "   What they prove are strict inequalities between continuous functions of J and D: so it holds for all balls near."
+    )
     p.lemma(Fact("there is a certificate of the kind energy-drift", bool(FILES), "a look into the folder"))
     for file in FILES:
         data = json.loads(file.read_text(encoding="utf-8"))
@@ -139,7 +148,7 @@ METHOD = "Arb balls, validated Taylor integration: proved anew with other bits"
 
 
 def proved(data: dict[str, Any]) -> bool:
-    """Whether the orbit is enclosed anew, with integrals that agree with those that are stated."""
+    """Whether the orbit is enclosed anew, with integrals that are within what is stated."""
     try:
         drift_file.verify(data, data["bits"] + 32, data["order"])
     except (drift_file.BadInput, NotEnclosed):
@@ -160,7 +169,7 @@ def _changed(data: dict[str, Any]) -> dict[str, Any]:
     files=FILES,
 )
 def energy_question(p: Proof) -> None:
-    """Open in the paper, settled here: for D > 0 in general no integral of the map tends to the energy in C¹."""
+    """Open in the paper, settled here: no integral of the map tends to the energy in C¹, for an open set of balls."""
     p.assume("the small branch; K = 𝒦/ε and γ near the orbit, ε small: then small-branch holds")
     p.say(
         "For D = 0 the energy is an integral of the map (energy-without-rolling), for 𝒦 ∥ γ it is one, too (6-vertical-energy)."
