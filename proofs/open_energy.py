@@ -35,8 +35,8 @@ ANSWER = (
     "the continuous ball, times any positive C¹ function of |K|², ⟨K,γ⟩. For a fixed 𝒦, every D > 0 and I₁ ≠ I₂: no "
     "measure with a continuous positive density is invariant near the steady rotations about e₃; and at the periodic "
     "orbits of the certificates every C¹ integral depends, to first order, on |γ|, |𝒦|, ⟨𝒦,γ⟩ alone. Yes, for D = 0, where "
-    "the energy itself is an integral of the map (every branch), and for 𝒦 parallel to γ. Not excluded are integrals that tend to the energy "
-    "uniformly, and have neither derivatives that tend to those of f nor such an expansion."
+    "the energy itself is an integral of the map (every branch), and for 𝒦 parallel to γ. Not excluded are integrals that "
+    "tend to the energy uniformly, and have neither derivatives that tend to those of f nor such an expansion."
 )
 
 

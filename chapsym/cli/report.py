@@ -121,7 +121,7 @@ def _evidence(name: str, folder: Path) -> Any:
 
 
 def _certificates(found: list[dict[str, Any]]) -> list[Any]:
-    """Every certificate that the proofs rest on: checked now; what the checker does not know, as the proofs judged it."""
+    """Every certificate that the proofs rest on: checked now, or, of a kind that the checker lacks, by the proofs."""
     from chapsym import checker, proofs
     from chapsym.report.questions import Checked
 
