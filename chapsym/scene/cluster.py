@@ -82,7 +82,14 @@ def on_cluster(plan: Plan, store: Store, tally: Tally, address: str) -> dict[int
 def connected(address: str) -> Iterator[Any]:
     """A client of the Dask scheduler at an address; raises SceneError if none answers there."""
     from distributed import Client
+    from distributed.comm import parse_address, parse_host_port
 
+    try:  # a client that could not parse it would wait, and then tell so, when it is collected
+        scheme, place = parse_address(address)
+        if scheme != "inproc":
+            parse_host_port(place)
+    except ValueError as error:
+        raise SceneError(f"{address!r} is no address of a Dask scheduler, such as tcp://host:8786: {error}") from None
     levels = {logger: logger.level for logger in map(logging.getLogger, ("distributed", "distributed.client"))}
     for logger in levels:
         logger.setLevel(logging.CRITICAL)  # what went wrong is told once, in a sentence

@@ -8,6 +8,7 @@ import json
 import multiprocessing
 import os
 import signal
+import threading
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
@@ -134,17 +135,30 @@ def _local(units: list[Unit]) -> Iterator[tuple[Unit, Any]]:
         return
     # A child is not forked: numba's threads and Arb's precision are of a process.
     context = multiprocessing.get_context("spawn")
-    pool = ProcessPoolExecutor(abreast, context, initializer=signal.signal, initargs=(signal.SIGINT, signal.SIG_IGN))
+    pool = ProcessPoolExecutor(abreast, context, initializer=_begin)
     try:
         flying = {pool.submit(compute, unit.function, unit.arguments): unit for unit in units}
         for future in as_completed(flying):
             yield flying[future], _checked(flying[future], future.result)
     finally:
+        children = list((pool._processes or {}).values())  # the pool forgets them at its shutdown
         pool.shutdown(wait=False, cancel_futures=True)
-        for process in list((getattr(pool, "_processes", None) or {}).values()):
-            if not process.is_alive():
-                continue
-            process.terminate()
+        for process in children:
+            if process.is_alive():
+                process.terminate()
+
+
+def _begin() -> None:
+    """In a child: an interrupt is for the parent, and when that is killed, the child ends."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    threading.Thread(target=_outlived, daemon=True).start()
+
+
+def _outlived() -> None:
+    parent = multiprocessing.parent_process()
+    if parent is not None:
+        parent.join()
+        os._exit(1)
 
 
 def _checked(unit: Unit, result: Callable[[], Any]) -> Any:

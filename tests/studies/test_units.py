@@ -1,5 +1,6 @@
 """Units of a study: kept as they are done, gone on with after a kill, the same on a cluster."""
 
+import gc
 import json
 import os
 import signal
@@ -81,6 +82,27 @@ def test_a_killed_run_goes_on(tmp_path):
     assert run_units(units(1), path) == [{"n": 0}]
 
 
+@pytest.mark.parametrize("sent", [signal.SIGINT, signal.SIGKILL])
+def test_no_process_is_left_of_a_study_that_was_ended(tmp_path, sent):
+    """An interrupt does not wait for the units in flight, and of a parent that is killed no child lives on."""
+    path, script = tmp_path / "u.jsonl", tmp_path / "run.py"
+    script.write_text(
+        "from chapsym.studies import units\nfrom pathlib import Path\nimport sys\n"
+        "if __name__ == '__main__':\n"
+        "    units.cores = lambda: 2\n"
+        "    units.run_units([units.Unit('builtins:dict', {}), units.Unit('slow:wait')], Path(sys.argv[1]))\n"
+    )
+    (tmp_path / "slow.py").write_text("import time\n\ndef wait():\n    time.sleep(40)\n")
+    process = subprocess.Popen([sys.executable, str(script), str(path)], stderr=subprocess.PIPE)
+    until = time.monotonic() + 60
+    while not (path.exists() and path.read_text().endswith("\n")) and time.monotonic() < until:
+        time.sleep(0.1)
+    begun = time.monotonic()
+    process.send_signal(sent)
+    process.communicate()  # the pipe is closed when the last of them has ended
+    assert time.monotonic() - begun < 20
+
+
 def test_the_same_on_a_cluster(tmp_path):
     distributed = pytest.importorskip("distributed")
     path = tmp_path / "u.jsonl"
@@ -94,6 +116,14 @@ def test_the_same_on_a_cluster(tmp_path):
 def test_no_scheduler_is_said(tmp_path):
     with pytest.raises(BadInput, match="Dask scheduler"):
         run_units(units(), None, scheduler="inproc://nobody")
+
+
+def test_what_is_no_address_is_said_at_once():
+    begun = time.monotonic()
+    with pytest.raises(BadInput, match="'nonsense' is no address of a Dask scheduler"):
+        run_units(units(), None, scheduler="nonsense")
+    gc.collect()  # of a client that could not begin, this would wait for twenty seconds
+    assert time.monotonic() - begun < 15
 
 
 def test_a_file_is_no_folder(tmp_path):
