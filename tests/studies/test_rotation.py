@@ -274,6 +274,6 @@ def test_the_figures_are_drawn_the_same_twice(small, tmp_path):
 def test_the_sentences_say_what_locks(small):
     told = rotation.sentences(small)
     assert any("zero but for rounding" in x for x in told)
-    assert any("D = 1, h = 12/5, 1/9 half turns, 60 digits: the displacement reaches 10^-27.9" in x for x in told)
-    assert any("kicked by 1/100 sin 2φ: the displacement reaches 10^-16.8: it locks" in x for x in told)
-    assert any("13 plateaus were measured, and all are open" in x for x in told)
+    assert any("D = 1, h = 12/5, 1/9 half turns, 60 digits: the displacement reaches 1.4e-28" in x for x in told)
+    assert any("kicked by 1/100 sin 2φ: the displacement reaches 1.4e-17: it locks" in x for x in told)
+    assert any("plateaus that were measured: 13, each of positive width" in x for x in told)

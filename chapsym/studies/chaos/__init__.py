@@ -98,19 +98,21 @@ def sentences(found: dict[str, Any]) -> list[str]:
         for J, D in sorted({(tuple(s["mass_tensor"]), s["D"]) for s in found["samples"] if s["D"] > 0}):
             runs = [s for s in found["samples"] if (tuple(s["mass_tensor"]), s["D"], s["near"]) == (J, D, near)]
             shares = ", ".join(f"ε {s['epsilon']:g}: {s['chaotic']}/{s['counted']}" for s in runs)
-            told.append(f"J = {J}, D = {D:g}, {where}, chaotic: {shares}")
+            told.append(f"J = {J}, D = {D:g}, {where}, chaotic of those with a step throughout: {shares}")
     for s in found["lengths"]:
         rate = s["wild"].get("exponent", [0.0])[0]
-        told.append(f"{s['steps']} steps: {s['chaotic']}/{s['counted']} chaotic, mean exponent {rate:.4f}")
+        told.append(f"{s['steps']} steps: {s['chaotic']}/{s['counted']} chaotic, mean exponent {rate:.4f} a step")
     last = found["lengths"][-1]
     regular, wild = last["regular"].get("volume"), last["wild"].get("volume")
     if regular is not None:
         told.append(
-            f"phase volume, {last['steps']} steps: |average of log|det|| of the regular orbits at most {regular:.1e} "
+            f"phase volume, {last['steps']} steps: on regular orbits the average of log |det| is {regular:.1e} at most "
             f"(median {last['regular']['median_volume']:.1e})"
         )
     if wild is not None:
-        told.append(f"the same of the chaotic ones, averaged with its sign: {wild[0]:.1e} ± {wild[1]:.1e}")
+        told.append(
+            f"phase volume: the average of log |det| on chaotic orbits, over all of them: {wild[0]:.1e} ± {wild[1]:.1e}"
+        )
     return told
 
 

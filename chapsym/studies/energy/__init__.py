@@ -1,4 +1,4 @@
-"""The energy of the map (6-open): an oscillation ∝ ε⁴ in general, ∝ ε³ in a resonance, and no drift seen.
+"""The energy ε²H of the map (6-open): an oscillation ∝ ε⁴ in general, ∝ ε³ in a resonance, and no drift seen.
 
 Of D = 0 the map keeps H itself, to rounding, and of a vertical momentum, too: the two controls.
 
@@ -151,11 +151,13 @@ def sentences(found: dict[str, Any]) -> list[str]:
     """What was found, a line each."""
     powers = found["powers"]
     told = [
-        f"range of H ∝ ε^{powers[name]['power']:.3f} ± {powers[name]['error']:.3f} {where}"
+        f"in long runs H ranges by a part ∝ ε^{powers[name]['power']:.3f}"
+        + (f" ± {powers[name]['error']:.3f}" if powers[name]["error"] else "")
+        + f" of itself {where}"
         for name, where in (("generic", "at generic starts"), ("resonant", "in resonances"))
     ]
     for name, where in (
-        ("generic", "generic starts"),
+        ("generic", "generic starts (slow swings count as drift)"),
         ("longer", "the worst of them for longer"),
         ("long", "resonances"),
     ):
@@ -170,9 +172,9 @@ def sentences(found: dict[str, Any]) -> list[str]:
         J, D, cosine = r["ball"]
         last = loops["runs"][-1]
         told.append(
-            f"J = {tuple(J)}, D = {D:g}, cos = {cosine:g}: the widest resonance, T = {r['period']:.5f}, H swings by "
-            f"{r['width']:.4f} εH; a loop changes H by {last['change']:.5e} ε² "
-            f"(quadrature {max(r['loop'], key=abs):.4e})"
+            f"J = {tuple(J)}, D = {D:g}, cos = {cosine:g}: the widest resonance, of closed orbits with "
+            f"T = {r['period']:.5f}; H swings by {r['width']:.4f} εH; the map changes H along one by "
+            f"{last['change']:.5e} ε², the integral of X₃(H) is {max(r['loop'], key=abs):.4e}"
         )
     return told
 

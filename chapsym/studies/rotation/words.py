@@ -1,5 +1,6 @@
 """What the study found, in sentences: measured, not proved."""
 
+import math
 from typing import Any
 
 from .figure import log10, named
@@ -7,7 +8,7 @@ from .figure import log10, named
 
 def sentences(found: dict[str, Any]) -> list[str]:
     """Terse sentences with their figures."""
-    return [*_averages(found["convergence"]), *_displacements(found["displacement"]), *_plateaus(found), *_law(found)]
+    return [*_plateaus(found), *_law(found), *_displacements(found["displacement"]), *_averages(found["convergence"])]
 
 
 def _averages(cases: list[dict[str, Any]]) -> list[str]:
@@ -25,12 +26,13 @@ def _displacements(cases: list[dict[str, Any]]) -> list[str]:
         size = max(log10(x) for x in case["values"])
         at = f"{named(case)}, {case['half_turns']}/{case['steps']} half turns, {case['digits']} digits"
         if case["D"] == "0" and case["kick"] == "0":
-            found.append(f"{at}: the displacement is at most 10^{size:.1f}: zero but for rounding")
+            found.append(f"{at}: the displacement is at most {power(size)}: zero but for rounding")
         elif case["kick"] != "0":
-            found.append(f"{at}, kicked by {case['kick']} sin 2φ: the displacement reaches 10^{size:.1f}: it locks")
+            found.append(f"{at}, kicked by {case['kick']} sin 2φ: the displacement reaches {power(size)}: it locks")
         else:
             found.append(
-                f"{at}: the displacement reaches 10^{size:.1f}, {case['cosines'][case['steps']]} cos(qπu/K): it locks; "
+                f"{at}: the displacement reaches {power(size)}, its leading Fourier term is "
+                f"{case['cosines'][case['steps']]} cos(qπu/K): it locks; "
                 f"the sphere and (5.15) agree to {case['routes']}"
             )
     return found
@@ -41,11 +43,17 @@ def _plateaus(found: dict[str, Any]) -> list[str]:
     widths = [log10(x["width"]) for x in rows]
     needed = [x["needed"] for x in rows]
     return [
-        f"{len(rows)} plateaus were measured, and all are open: their widths in l are from 10^{min(widths):.1f} to "
-        f"10^{max(widths):.1f}",
-        f"{sum(n <= 15 for n in needed)} of them are seen with float64's 53 bits; the others need {_above(needed)} to "
+        f"plateaus that were measured: {len(rows)}, each of positive width, in l from {power(min(widths))} to "
+        f"{power(max(widths))}",
+        f"seen with float64's 53 bits: {sum(n <= 15 for n in needed)} of them; the others need {_above(needed)} to "
         f"{max(needed)} digits",
     ]
+
+
+def power(exponent: float) -> str:
+    """10 to this power, with two digits: 1.3e-28."""
+    whole = math.floor(exponent)
+    return f"{10 ** (exponent - whole):.1f}e{whole}"
 
 
 def _above(needed: list[int]) -> int:
