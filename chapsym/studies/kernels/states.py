@@ -178,6 +178,8 @@ def _group(name: str, world: World, u: Sequence[float]) -> Any:
         "D": lambda: [world.D],
         "momentum": lambda: free,
         "omega": lambda: free,
+        "rate": lambda: (0.1 + u[12]) * world.axis[[1, 2, 0]],  # not as ω: X₃(H) would underflow, or be 0
+        "share": lambda: world.size * world.axis[[2, 0, 1]],
         "vector": lambda: free,
         "first": lambda: world.rotation,
         "second": lambda: np.array([np.cos(u[12]), *(np.sin(u[12]) * world.tilt)]),
