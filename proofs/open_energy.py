@@ -25,18 +25,19 @@ LEMMAS = {
 }  # fmt: skip
 
 ANSWER = (
-    "No, not in C¹, for the balls of the certificates, D > 0, and all balls near them.  Let Φ_ε be the step in K = 𝒦/ε, γ, "
-    "on the small branch, and let the continuous ball (J, D) have a closed orbit on which ∮X₃(H)dt ≠ 0, where "
-    "X₃(H) = (D/4)⟨γ,ω'⟩⟨γ',ω'⟩: these balls do. Then, for every neighbourhood U of the orbit in R³ × S² and every sequence "
-    "ε_j → 0, ε_j > 0, there are no C¹ integrals F_j of Φ_{ε_j} on U that tend in C¹(U) to f(H, |K|², ⟨K,γ⟩), f any C² "
-    "function with ∂f/∂H ≠ 0 on the orbit; nor any integrals f + ε_jH₁ + ε_j²H₂ + o(ε_j²), uniformly on U, with H₁ of class "
-    "C¹ and H₂ continuous. In particular no integral of the map that is real analytic near 𝒦 = 0 is H(𝒦,γ) + O(|𝒦|³). If "
-    "∮div_μ X₃ dt ≠ 0, which the certificates prove, too, no invariant densities of Φ_{ε_j} tend in C¹(U) to the density of "
-    "the continuous ball, times any positive C¹ function of |K|², ⟨K,γ⟩. For a fixed 𝒦, every D > 0 and I₁ ≠ I₂: no "
-    "measure with a continuous positive density is invariant near the steady rotations about e₃; and at the periodic "
-    "orbits of the certificates every C¹ integral depends, to first order, on |γ|, |𝒦|, ⟨𝒦,γ⟩ alone. Yes, for D = 0, where "
-    "the energy itself is an integral of the map (every branch), and for 𝒦 parallel to γ. Not excluded are integrals that "
-    "tend to the energy uniformly, and have neither derivatives that tend to those of f nor such an expansion."
+    "No, not in C¹, for the balls of the certificates, D > 0, and all balls near them. Let Φ_ε be the step in K = "
+    "𝒦/ε, γ, on the small branch, and let the continuous ball (J, D) have a closed orbit on which ∮X₃(H)dt ≠ 0, "
+    "where X₃(H) = (D/4)⟨γ,ω'⟩⟨γ',ω'⟩: these balls do. Then, for every neighbourhood U of the orbit in R³ × S² and "
+    "every sequence ε_j → 0, ε_j > 0, there are no C¹ integrals F_j on U of the step with ε = ε_j that tend in "
+    "C¹(U) to f(H, |K|², ⟨K,γ⟩), f any C² function with ∂f/∂H ≠ 0 on the orbit; nor any integrals f + ε_j H₁ + ε_j² "
+    "H₂ + o(ε_j²), uniformly on U, with H₁ of class C¹ and H₂ continuous. In particular no integral of the map that "
+    "is real analytic near 𝒦 = 0 is H(𝒦,γ) + O(|𝒦|³). If ∮div_μ X₃ dt ≠ 0, which the certificates prove, too, no "
+    "invariant densities of these steps tend in C¹(U) to the density of the continuous ball, times any positive C¹ "
+    "function of |K|², ⟨K,γ⟩. Without ε: for every D > 0 and I₁ ≠ I₂ no measure with a continuous positive density "
+    "is invariant near the steady rotations about e₃ with γ not parallel to e₃, and at the periodic orbits of the "
+    "certificates every C¹ integral depends, to first order, on |γ|, |𝒦|, ⟨𝒦,γ⟩ alone. Yes, for D = 0, where the "
+    "energy itself is an integral of the map (every branch), and for 𝒦 parallel to γ. Not excluded are integrals "
+    "that tend to the energy uniformly, and have neither derivatives that tend to those of f nor such an expansion."
 )
 
 

@@ -161,7 +161,7 @@ _FRACTION = re.compile(r"(\d+)/(\d+)")
 #: A hyphen that is a minus sign: not that of n-dimensional or of the claim 5.12-q0.
 _MINUS = re.compile(r"(?<![A-Za-z0-9])-(?=[ \dA-Za-zΑ-ω])|-(?=[(⟨¼½√])|(?<=\b[A-Za-z])-(?=[a-z]?\d)")
 _INDEX = re.compile(
-    r"_(?:\{([^{}]*)\}|\(([^()]*)\)|([A-Za-z0-9]{1,3}))|(?<=[A-Za-zΑ-ω𝒟ℰ])(?<!\d-[A-Za-z])(?<!\d-[A-Za-z]{2})(\d+)"
+    r"_(?:\{([^{}]*)\}|\(([^()]*)\)|([A-Za-z0-9]{1,3}|[α-ω]))|(?<=[A-Za-zΑ-ω𝒟ℰ])(?<!\d-[A-Za-z])(?<!\d-[A-Za-z]{2})(\d+)"
 )
 
 
