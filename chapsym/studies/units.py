@@ -4,6 +4,7 @@ A unit is a function of a module and its arguments, as plain data; its result is
 of a JSON Lines file, so that a killed study loses only the units that were in flight.
 """
 
+import hashlib
 import json
 import multiprocessing
 import os
@@ -14,7 +15,7 @@ from concurrent.futures import ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from dataclasses import dataclass, field
-from functools import partial
+from functools import cache, partial
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -37,8 +38,21 @@ class Unit:
 
     @property
     def key(self) -> str:
-        """What its result depends on: the call and the version of chapsym."""
-        return json.dumps([chapsym.__version__, self.function, self.arguments], sort_keys=True, ensure_ascii=False)
+        """What its result depends on: the call, the version of chapsym, and the sources beside the function."""
+        made_by = [chapsym.__version__, _sources(self.function.partition(":")[0]), self.function]
+        return json.dumps([*made_by, self.arguments], sort_keys=True, ensure_ascii=False)
+
+
+@cache
+def _sources(module: str) -> str:
+    """A hash of the folder that a module is in; empty for one that is in no file."""
+    file = getattr(import_module(module), "__file__", None)
+    if file is None:
+        return ""
+    digest = hashlib.sha256()
+    for path in sorted(Path(file).parent.glob("*.py")):
+        digest.update(path.name.encode() + b"\n" + path.read_bytes())
+    return digest.hexdigest()[:16]
 
 
 def compute(function: str, arguments: dict[str, Any]) -> Any:

@@ -11,6 +11,7 @@ import time
 import pytest
 
 from chapsym.dynamics import BadInput
+from chapsym.studies import units as units_module
 from chapsym.studies.units import Unit, folder, run_units
 
 
@@ -35,6 +36,20 @@ def test_what_is_kept_is_not_computed_again(tmp_path):
     found = run_units(units(6), path)
     assert found.count("kept") == 1
     assert len(path.read_text().splitlines()) == 6
+
+
+def test_what_another_code_computed_is_computed_again(tmp_path, monkeypatch):
+    folder = tmp_path / "made"
+    folder.mkdir()
+    (folder / "__init__.py").write_text("")
+    (folder / "source.py").write_text("def one():\n    return 1\n")
+    monkeypatch.syspath_prepend(tmp_path)
+    unit, path = Unit("made.source:one"), tmp_path / "u.jsonl"
+    assert run_units([unit], path) == [1]
+    (folder / "beside.py").write_text("")
+    units_module._sources.cache_clear()
+    run_units([unit], path)
+    assert len(path.read_text().splitlines()) == 2
 
 
 def test_a_line_that_was_cut_off_is_computed_again(tmp_path):
