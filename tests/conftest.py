@@ -1,3 +1,5 @@
+import fcntl
+import json
 import os
 import tempfile
 
@@ -12,19 +14,32 @@ settings.load_profile("ci" if os.environ.get("CI") else "dev")
 os.environ["CHAPSYM_RECORDS"] = os.path.join(tempfile.mkdtemp(prefix="chapsym-tests-"), "verdicts.jsonl")
 
 
+def judged(ids, name, tmp_path_factory):
+    """The records of claims by id, judged once for all processes of a test run: the first does, the others wait."""
+    from chapsym.prove import prove_all
+
+    folder = tmp_path_factory.getbasetemp()
+    if "PYTEST_XDIST_WORKER" in os.environ:
+        folder = folder.parent  # that of the whole run
+    kept = folder / f"{name}.json"
+    with open(folder / f"{name}.lock", "w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        if not kept.exists():
+            kept.write_text(json.dumps(prove_all(list(ids))), encoding="utf-8")
+    return {record["id"]: record for record in json.loads(kept.read_text(encoding="utf-8"))}
+
+
 @pytest.fixture(scope="session")
-def records():
+def records(tmp_path_factory):
     """Every claim, judged once."""
-    from chapsym.prove import load, prove_all
+    from chapsym.prove import load
 
-    return {record["id"]: record for record in prove_all(list(load()))}
+    return judged(load(), "records", tmp_path_factory)
 
 
 @pytest.fixture(scope="session")
-def lemmas():
+def lemmas(tmp_path_factory):
     """Every lemma of chapsym's own, judged once."""
     import chapsym.proofs
 
-    from chapsym.prove import prove_all
-
-    return {record["id"]: record for record in prove_all(list(chapsym.proofs.LEMMAS))}
+    return judged(chapsym.proofs.LEMMAS, "lemmas", tmp_path_factory)
