@@ -136,7 +136,7 @@ def invariant_measure_question(p: Proof) -> None:
         "γ1 = 0 it is 1.6545129995e-19 for D = 1e-6, where 2A''D²(f(0) - f(K/q)) is "
         "1.6545253392e-19; the ratio is 1 - 7.46 D.",
         "J = (1, 2, 4), h = 12/5: certificates were found, and accepted by the checker, for D = 1/1000, 1/100, 1/10, 1/2, "
-        "1, 2, 5, 7, 10 and 20, with q = 9, 9, 9, 9, 9, 11, 15, 17, 21 and 33 and displacements from 3e-25 to 6e-134.",
+        "1, 2, 5, 7, 10 and 20, with q = 9, 9, 9, 9, 9, 11, 15, 17, 21 and 33 and displacements between 9e-24 and 6e-134.",
         "With q = 11 the displacement at γ1 = 0 is positive at D = 1/10 and 1 (4e-24, 8e-27), negative at D = 3/2 and 2 "
         "(-1e-29, -1e-31), positive at D = 3 (8e-51): it vanishes at two D between, where 2q is to be looked at.",
     )
