@@ -62,7 +62,7 @@ if TYPE_CHECKING:
     )
 
 if TYPE_CHECKING:
-    from .report.result import Result, open_result, run_scene
+    from .show.result import Result, open_result, run_scene
 
 __version__ = "0.1.0"
 
@@ -77,7 +77,7 @@ __all__ = [
 
 
 #: Names that are not of `chapsym.dynamics`: where they are.
-_ELSEWHERE = dict.fromkeys(("Result", "open_result", "run_scene"), "chapsym.report.result")
+_ELSEWHERE = dict.fromkeys(("Result", "open_result", "run_scene"), "chapsym.show.result")
 
 
 def __getattr__(name: str) -> Any:

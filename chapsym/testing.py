@@ -27,7 +27,7 @@ except ModuleNotFoundError:
 
 from chapsym.dynamics import Ball
 from chapsym.dynamics.ball import Floats
-from chapsym.dynamics.branch import small_rotation
+from chapsym.dynamics.loops.branch import small_rotation
 
 ROTATIONS = ("generic", "near identity", "near pi")
 BALLS = ("generic", "degenerate")

@@ -4,8 +4,8 @@ import numpy as np
 from hypothesis import strategies as st
 
 from chapsym import BallN, Status, testing
-from chapsym.dynamics import so_n
-from chapsym.dynamics.branch_n import small_rotation
+from chapsym.dynamics.n import so_n
+from chapsym.dynamics.n.branch_n import small_rotation
 
 UNIT_ROUNDOFF = 2.0**-53
 SIZES = [3, 4, 5, 8]

@@ -4,7 +4,7 @@ import numpy as np
 import xarray as xr
 
 import chapsym
-from chapsym.dynamics import front
+from chapsym.dynamics import kernels
 
 BOWLING = chapsym.Ball.from_inertia((0.0300, 0.0312, 0.0318), mass=7.0, radius=0.1085)
 UNEVEN = chapsym.Ball.from_inertia((0.006, 0.007, 0.009), mass=2.0, radius=0.1)
@@ -32,11 +32,11 @@ def of(run, outputs, title="A ball", parameters=None, names=None):
     there = np.isfinite(K).all(axis=-1)[..., np.newaxis]
     safe_K, safe_g = np.where(there, K, 0.0), np.where(there, g, [0.0, 0.0, 1.0])
     nan = np.where(there, 0.0, np.nan)
-    found["integrals"] = front.invariants(safe_K, safe_g) + nan
+    found["integrals"] = kernels.invariants(safe_K, safe_g) + nan
     if run.time_step is not None:
         arguments = safe_K / run.time_step, safe_g, J[:, np.newaxis], D[:, np.newaxis]
-        found["energy"] = front.energy(*arguments) + nan[..., 0]
-        found["omega"] = front.angular_velocity(*arguments) + nan
+        found["energy"] = kernels.energy(*arguments) + nan[..., 0]
+        found["omega"] = kernels.angular_velocity(*arguments) + nan
     data = {
         name: (("ball", "frame", *DIMS[name]), found[name], {"units": UNITS.get(name, "")}) for name in outputs
     }  # fmt: skip

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from chapsym.scene import segments
+from chapsym.scene.running import segments
 
 
 def rolled(plan, cut=None):

@@ -4,7 +4,7 @@ import numpy as np
 import xarray as xr
 
 import chapsym
-from chapsym.dynamics import front
+from chapsym.dynamics import kernels
 
 BALL = chapsym.Ball.from_inertia((0.02, 0.028, 0.035), mass=7.0, radius=0.11)
 EVEN = chapsym.Ball.from_inertia((0.02, 0.02, 0.02), mass=7.0, radius=0.11)
@@ -14,7 +14,7 @@ COMPONENTS = {"attitude": "quaternion", "contact": "plane"}
 def result(run, ball, variables=("momentum", "gamma", "omega", "attitude", "contact"), names=None, **attrs):
     """The Dataset of a trajectory, with the variables that were asked for."""
     arrays = {name: getattr(run, name) for name in ("momentum", "gamma", "attitude", "contact")}
-    arrays["omega"] = front.angular_velocity(run.momentum / run.time_step, run.gamma, ball.mass_tensor, ball.D)
+    arrays["omega"] = kernels.angular_velocity(run.momentum / run.time_step, run.gamma, ball.mass_tensor, ball.D)
     arrays = {name: array if array.ndim == 3 else array[np.newaxis] for name, array in arrays.items()}
     count = len(arrays["momentum"])
     data = {name: (("ball", "frame", COMPONENTS.get(name, "axis")), arrays[name]) for name in variables}

@@ -3,8 +3,9 @@
 import os
 import time
 
-from chapsym.scene import plan, segments
-from chapsym.scene.models import Rolling
+from chapsym.scene.plan.models import Rolling
+from chapsym.scene.plan.plan import plan
+from chapsym.scene.running import segments
 
 plan.CHUNK = 4
 Rolling.unit_steps = 4 * 100  # ten frames

@@ -8,12 +8,12 @@ from pathlib import Path
 import numpy as np
 
 import chapsym
-from chapsym.dynamics import front
-from chapsym.scene import plan as plans
-from chapsym.scene import segments, sweep
-from chapsym.scene.members import Members, Parameter
-from chapsym.scene.plan import planned
-from chapsym.scene.task import Task
+from chapsym.dynamics import kernels
+from chapsym.scene.members.members import Members, Parameter
+from chapsym.scene.plan.plan import plan as plans
+from chapsym.scene.plan.plan import planned
+from chapsym.scene.running import segments, sweep
+from chapsym.scene.running.task import Task
 
 BALLS, STEPS, EVERY = 20, 330, 10
 OUTPUTS = ("momentum", "gamma", "omega", "attitude", "contact", "energy", "integrals")
@@ -37,7 +37,7 @@ def members(n=BALLS):
     ball = chapsym.Ball(np.array([4.0, 3.0, 5.0]) * 1e-3 + 1e-3 * spread, np.full(n, 0.02), np.full(n, 0.1))
     omega = np.array([3.0, -2.0, 1.0]) * np.where((np.arange(n) % 7 == 3)[:, np.newaxis], 60.0, 1.0 + spread)
     gamma = np.broadcast_to(np.array([2.0, 3.0, 6.0]) / 7, (n, 3)).copy()
-    momentum = 0.01 * front.contact_momentum(omega, gamma, ball.mass_tensor, ball.D)
+    momentum = 0.01 * kernels.contact_momentum(omega, gamma, ball.mass_tensor, ball.D)
     half = np.array([0.5, 0.5, 0.5, 0.5])
     return Members(
         tuple(f"ball {i}" for i in range(n)), ball, momentum, gamma, axes=np.broadcast_to(half, (n, 4)).copy(),

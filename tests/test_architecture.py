@@ -27,7 +27,8 @@ ROOMS = {
     "scene": {"accuracy", "dynamics", "exact", "files", "generated", "numbers"},
     "studies": {"accuracy", "files", "generated", "numbers", "dynamics", "scene"},
     "proofs": {"certificates", "checker", "derive", "prove"},
-    "report": {"dynamics", "files", "scene"},
+    "report": {"files"},
+    "show": {"dynamics", "files", "scene"},
     "testing": {"dynamics"},
 }
 #: Who may import more than its room: the study of the kernels runs their texts with and without each codegen pass.

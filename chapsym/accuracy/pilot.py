@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from chapsym.dynamics import BadInput, Ball, StepNotTaken, Trajectory, front
+from chapsym.dynamics import BadInput, Ball, StepNotTaken, Trajectory, kernels
 from chapsym.dynamics.ball import Floats
 from chapsym.numbers import NAMED
 
@@ -104,7 +104,7 @@ def _omega(request: Request, K: Floats, gamma: Floats) -> Floats:
     ball, moment = _scaled(request.ball)
     size = int(np.frexp(abs(K).max())[1])
     with np.errstate(all="ignore"):
-        unit = front.angular_velocity(np.ldexp(K, -size), gamma, ball.mass_tensor, ball.D)
+        unit = kernels.angular_velocity(np.ldexp(K, -size), gamma, ball.mass_tensor, ball.D)
         omega = np.ldexp(unit, size - moment)
         turned = lengths(omega) * request.time
     if not np.isfinite(unit).all():

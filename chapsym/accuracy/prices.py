@@ -23,7 +23,7 @@ import platformdirs
 import chapsym
 from chapsym import dynamics, files, generated, numbers
 from chapsym.dynamics import BadInput, Ball, StepNotTaken
-from chapsym.dynamics.engine import SHORT_RUN
+from chapsym.dynamics.levels.double import SHORT_RUN
 from chapsym.numbers import NAMED
 
 from .methods import EXACT, Method, methods, rung_label, take

@@ -5,7 +5,7 @@ import time as clock
 from dataclasses import dataclass, field, replace
 
 from chapsym.dynamics import BadInput, Status, StepNotTaken, Trajectory
-from chapsym.dynamics.engine import SHORT_RUN
+from chapsym.dynamics.levels.double import SHORT_RUN
 
 from .choice import Choice, choices, finer
 from .methods import COMPOSED, EXTRAPOLATED, Method, checks, methods, take

@@ -5,8 +5,8 @@ from typing import Any
 
 from flint import arb
 
-from chapsym.dynamics.precise_ball import exact
-from chapsym.dynamics.precise_start import fraction
+from chapsym.dynamics.levels.balls import exact
+from chapsym.dynamics.levels.start import fraction
 
 
 class NotProved(ArithmeticError):

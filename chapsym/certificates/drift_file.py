@@ -7,7 +7,7 @@ from typing import Any
 from flint import ctx
 
 from chapsym.dynamics import BadInput
-from chapsym.dynamics.precise_start import fraction
+from chapsym.dynamics.levels.start import fraction
 
 from .balls import decade, shortest
 from .document import FORMAT, digest, sealed

@@ -9,7 +9,7 @@ from typing import Any
 from flint import arb, arb_mat, ctx
 
 from chapsym.dynamics import BadInput
-from chapsym.dynamics.precise_start import fraction
+from chapsym.dynamics.levels.start import fraction
 
 from .drift import Orbit, enclose, flow_of, told_apart
 from .drift_file import document, rounded

@@ -17,9 +17,9 @@ from typing import Any
 import numpy as np
 
 from chapsym.dynamics.ball import Ball, Floats
+from chapsym.dynamics.levels.balls import exact
+from chapsym.dynamics.levels.start import fraction
 from chapsym.dynamics.map import step
-from chapsym.dynamics.precise_ball import exact
-from chapsym.dynamics.precise_start import fraction
 
 from .passage import Level, Map, Vector, columns, cross, dot
 

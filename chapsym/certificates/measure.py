@@ -17,8 +17,8 @@ from flint import arb, ctx
 
 from chapsym import checker
 from chapsym.dynamics.errors import BadInput
-from chapsym.dynamics.precise_ball import TooWide
-from chapsym.dynamics.precise_start import fraction
+from chapsym.dynamics.levels.balls import TooWide
+from chapsym.dynamics.levels.start import fraction
 
 from . import resonance
 from .balls import NotProved, ball, decade, decimals, rounded, shortest

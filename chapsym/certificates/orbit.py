@@ -17,8 +17,8 @@ from flint import arb, ctx
 
 from chapsym import checker
 from chapsym.dynamics.errors import BadInput
-from chapsym.dynamics.precise_ball import upper
-from chapsym.dynamics.precise_start import fraction
+from chapsym.dynamics.levels.balls import upper
+from chapsym.dynamics.levels.start import fraction
 
 from . import families
 from .balls import NotProved, rounded, shortest

@@ -13,7 +13,7 @@ from typing import Any
 from flint import arb, arb_mat, ctx
 
 from chapsym.dynamics.errors import BadInput
-from chapsym.dynamics.precise_ball import certified, exact, upper
+from chapsym.dynamics.levels.balls import certified, exact, upper
 from chapsym.generated import compose, gibbs_newton, gibbs_residual
 
 from .balls import NotProved

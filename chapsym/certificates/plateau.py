@@ -14,7 +14,7 @@ from typing import Any
 
 from flint import acb, arb, ctx
 
-from chapsym.dynamics.precise_start import exponent_of, fraction
+from chapsym.dynamics.levels.start import exponent_of, fraction
 
 from .balls import ball
 from .reduced import Axes, Reduced, Top, Vector, angle, cross

@@ -12,7 +12,7 @@ from typing import Any
 from flint import arb, ctx
 
 from chapsym.dynamics.errors import BadInput
-from chapsym.dynamics.precise_ball import MATRIX_BITS, certified, newton_enclosure, upper
+from chapsym.dynamics.levels.balls import MATRIX_BITS, certified, newton_enclosure, upper
 from chapsym.generated import gibbs_newton, turn
 
 from .balls import NotProved, ball

@@ -33,7 +33,7 @@ def branches(
     K, g = rationals(momentum, "--momentum", 3), rationals(gamma, "--gamma", 3)
     chosen = rung_from(digits, rung, ball, ("double",))
     from chapsym.dynamics import BadInput
-    from chapsym.dynamics.precise_branches import precise_branches
+    from chapsym.dynamics.solutions.enclosed import precise_branches
 
     try:
         found = precise_branches(J, D, K, g, chosen).write()

@@ -11,7 +11,7 @@ from .output import fail, note, print_json, progress_bar
 
 if TYPE_CHECKING:
     from chapsym.scene import Scene
-    from chapsym.scene.plan import Plan
+    from chapsym.scene.plan.plan import Plan
 
 OUT = "A .zarr, which can be gone on with; or .nc, .parquet, .csv, .npz."
 
@@ -58,7 +58,7 @@ def _check(destination: Path) -> None:
     """Raises SceneError, before anything is computed, if the result cannot be written as it is named."""
     from chapsym import files
     from chapsym.scene import SceneError
-    from chapsym.scene.formats import SUFFIXES
+    from chapsym.scene.result.formats import SUFFIXES
 
     if destination.suffix not in SUFFIXES:
         raise SceneError(f"{str(destination)!r}: the output must end in {', '.join(SUFFIXES[:-1])} or {SUFFIXES[-1]}")
@@ -72,8 +72,8 @@ def _check(destination: Path) -> None:
 def _is_single(scene: "Scene", destination: Path) -> bool:
     """Whether one ball and its state go to .npz or .csv, which have a form of their own for it."""
     from chapsym.scene import SceneError
-    from chapsym.scene.expand import expand
-    from chapsym.scene.scene import single
+    from chapsym.scene.members.expand import expand
+    from chapsym.scene.read.scene import single
 
     if destination.suffix not in (".npz", ".csv"):
         return False
@@ -94,8 +94,9 @@ def _is_single(scene: "Scene", destination: Path) -> bool:
 
 def _run_plan(scene: "Scene", destination: Path, scheduler: str | None, fresh: bool, as_json: bool) -> None:
     """Any scene, unit by unit, with the least model."""
-    from chapsym.scene import formats, sweep
-    from chapsym.scene.source import plan_of
+    from chapsym.scene.result import formats
+    from chapsym.scene.running import sweep
+    from chapsym.scene.running.source import plan_of
 
     from .following import following
 
@@ -144,7 +145,7 @@ def _tell(plan: "Plan", destination: Path, outcome: Any, as_json: bool) -> None:
 def _reasons(destination: Path) -> str:
     """Why balls stopped early: of each reason how many, and the first of them."""
     from chapsym.dynamics import Status
-    from chapsym.scene import formats
+    from chapsym.scene.result import formats
 
     data = formats.load(destination)
     status, taken, names = data["status"].values, data["taken"].values, data["ball"].values
@@ -205,8 +206,8 @@ def _run_accurately(scene: "Scene", destination: Path, as_json: bool) -> None:
 
 def _drift(run: Any) -> list[float]:
     """The largest change of each invariant, relative to the scale of the momentum."""
-    from chapsym.dynamics import front
+    from chapsym.dynamics import kernels
 
     size = float(abs(run.momentum[0]).max()) or 1.0
-    invariants = front.invariants(run.momentum / size, run.gamma)
+    invariants = kernels.invariants(run.momentum / size, run.gamma)
     return [float(x) for x in abs(invariants - invariants[0]).max(axis=0)]

@@ -38,7 +38,7 @@ def new(
     """
     from chapsym import files
     from chapsym.dynamics import BadInput
-    from chapsym.scene import example as examples
+    from chapsym.scene.read import example as examples
 
     try:
         text = examples.example(example)
@@ -89,10 +89,10 @@ def check(
     """
     from chapsym.dynamics import BadInput
     from chapsym.scene import load
-    from chapsym.scene.expand import expand
-    from chapsym.scene.explain import explained
-    from chapsym.scene.plan import planned
-    from chapsym.scene.summary import refusals, summary
+    from chapsym.scene.members.expand import expand
+    from chapsym.scene.plan.explain import explained
+    from chapsym.scene.plan.plan import planned
+    from chapsym.scene.result.summary import refusals, summary
 
     try:
         scene = load(file)
@@ -118,7 +118,7 @@ def _print_rows(rows: list[tuple[str, str]]) -> None:
 def _schema_text() -> str:
     import json
 
-    from chapsym.scene.schema import schema
+    from chapsym.scene.read.schema import schema
 
     return json.dumps(schema(), indent=1, ensure_ascii=False) + "\n"
 

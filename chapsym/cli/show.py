@@ -62,8 +62,8 @@ def _pictures(
     result: Path, folder: Path, formats: tuple[str, ...], ball: str | None, names: str | None, page: bool | None
 ) -> tuple[list[Path], dict[str, str]]:
     """Writes what was asked for; the files, and why each figure that is missing is."""
-    from chapsym.report import figures
-    from chapsym.report.figures import reading
+    from chapsym.show import figures
+    from chapsym.show.drawing import reading
 
     dataset = reading.with_balls(_opened(result, folder), ball)
     reasons = figures.available(dataset)
@@ -89,7 +89,7 @@ def _named(names: str, known: list[str]) -> list[str]:
 
 def _opened(result: Path, folder: Path) -> "Dataset":
     """The result; a scene is run in memory, once the folder is known to take pictures."""
-    from chapsym.report import opening
+    from chapsym.show import opening
 
     if result.suffix != ".toml":
         return opening.opened(result)
@@ -120,7 +120,7 @@ def _progress() -> Any:
 def _page(dataset: "Dataset", path: Path, must: bool) -> str | None:
     """Writes the interactive page; why it cannot be made, unless it must be."""
     from chapsym.dynamics import BadInput
-    from chapsym.report.rolling import write_page
+    from chapsym.show.rolling import write_page
 
     try:
         write_page(dataset, path)

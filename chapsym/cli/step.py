@@ -33,7 +33,7 @@ def step(
     K, g = rationals(momentum, "--momentum", 3), rationals(gamma, "--gamma", 3)
     chosen = rung_from(digits, rung, ball)
     from chapsym.dynamics import BadInput, StepNotTaken
-    from chapsym.dynamics.precise import precise_step
+    from chapsym.dynamics.levels.newton import precise_step
 
     try:
         result = precise_step(J, D, K, g, chosen).write()

@@ -80,7 +80,7 @@ def _answer(
     """Chooses, runs, verifies, and says what was chosen."""
     from chapsym import scene as scenes
     from chapsym.dynamics import BadInput
-    from chapsym.scene.files import check_destination
+    from chapsym.scene.result.files import check_destination
 
     _check_positive({"--accuracy": accuracy, "--time": time, "--limit": limit})
     if scene is None and time is None:

@@ -12,7 +12,7 @@ from typing import Any
 
 import sympy as sp
 
-from . import columns, fixed, passes, printer, quad
+from . import columns, fixed, pairs, passes, printer
 from .kernels import KERNELS, Kernel
 from .programs import PAIR_PROGRAMS, PROGRAMS, Program
 from .values import (
@@ -27,7 +27,7 @@ from .values import (
 #: The modules that are written from programs: (how, its programs, their values by the text).
 TARGETS: tuple[tuple[Any, Sequence[Program], Callable[[Program, str], list[str]]], ...] = (
     (columns, PROGRAMS, columns_fingerprint),
-    (quad, PAIR_PROGRAMS, quad_fingerprint),
+    (pairs, PAIR_PROGRAMS, quad_fingerprint),
     (fixed, fixed.PROGRAMS, fixed_fingerprint),
 )
 ALL_PROGRAMS = (*PROGRAMS, *PAIR_PROGRAMS, *fixed.PROGRAMS)

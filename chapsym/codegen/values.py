@@ -6,7 +6,7 @@ from fractions import Fraction
 
 import sympy as sp
 
-from . import columns, fixed, quad
+from . import columns, fixed, pairs
 from .kernels import Kernel
 from .programs import Program
 
@@ -67,7 +67,7 @@ def columns_fingerprint(program: Program, text: str) -> list[str]:
 
 def quad_fingerprint(program: Program, text: str) -> list[str]:
     """The same values from the operations on pairs, run on pairs of fractions."""
-    return [decimal(value) for value in quad.text_values(program, text, _at)]
+    return [decimal(value) for value in pairs.text_values(program, text, _at)]
 
 
 def fixed_fingerprint(program: Program, text: str) -> list[str]:

@@ -1,26 +1,26 @@
 """The map: one ball or many, three dimensions or n, its branches, compositions and reductions."""
 
 from .ball import Ball
-from .ball_n import BallN, axial, skew
-from .certificates import Certificate, certify
+from .certified import Certificate, certify
+from .closed.elliptic import Curve, increment
+from .closed.exact_top import ExactTop, exact_top
+from .closed.rotation_number import rotation_number
+from .closed.steady import is_steady, steady_frames
+from .closed.top import TopMotion
+from .closed.tops import is_top, top_frames
+from .closed.vertical import VerticalTrajectory, step_vertical, trajectory_vertical
 from .coefficients import substeps
 from .composition import compose_step
-from .continuation import Fold, Followed, fold, follow, margin
-from .elliptic import Curve, increment
 from .errors import BadInput, Status, StepNotTaken
-from .exact import ExactTop, exact_top
 from .extrapolation import Extrapolated, extrapolate
-from .general import StepN, step_n
 from .map import Step, step
-from .multivalued import Branches, branches
+from .n.ball_n import BallN, axial, skew
+from .n.step_n import StepN, step_n
+from .n.trajectory_n import TrajectoryN, invariants_n, reverse_n, trajectory_n
 from .reversal import NotRetraced, retrace_error, reverse
-from .rotation import rotation_number
-from .steady import is_steady, steady_frames
-from .top import TopMotion
-from .tops import is_top, top_frames
+from .solutions.continuation import Fold, Followed, fold, follow, margin
+from .solutions.multivalued import Branches, branches
 from .trajectories import Trajectory, roll, trajectory
-from .trajectories_n import TrajectoryN, invariants_n, reverse_n, trajectory_n
-from .vertical import VerticalTrajectory, step_vertical, trajectory_vertical
 
 __all__ = [
     "BadInput", "Ball", "BallN", "Branches", "Certificate", "Curve", "ExactTop", "Extrapolated", "Fold", "Followed",

@@ -12,10 +12,10 @@ from numpy.typing import DTypeLike
 from chapsym.generated.columns import POOL, newton_columns, second_columns, turn_columns
 
 from .ball import Floats
-from .block import PATIENCE
-from .gibbs import MOST_ROUNDS, certificate, newton_round, second_round
-from .integrals import PERIOD, VERTICAL, inner, remember
-from .loop import ENOUGH, INTEGRALS, RADIUS, ROWS, SMALLEST, A, D, G, I, J, K, X, safe_rotation
+from .loops.block import PATIENCE
+from .loops.gibbs import MOST_ROUNDS, certificate, newton_round, second_round
+from .loops.integrals import PERIOD, VERTICAL, inner, remember
+from .loops.loop import ENOUGH, INTEGRALS, RADIUS, ROWS, SMALLEST, A, D, G, I, J, K, X, safe_rotation
 
 #: Balls in a chunk, at most: its rows, about a hundred, stay in the second-level cache.  Longer dot products than
 #: that of three such rows would be shared out to other cores by the BLAS, and wait for them.

@@ -6,11 +6,11 @@ All momentum integrals stay exact: every stage turns 𝒦 and γ by one rotation
 import numpy as np
 from numpy.typing import ArrayLike
 
-from . import composed_loop, loop
 from .ball import Ball, numbers
 from .coefficients import substeps
-from .engine import chosen
 from .errors import Status, StepNotTaken
+from .levels.double import chosen
+from .loops import composed_loop, loop
 from .map import Step, batch, explain, unit_vertical
 
 

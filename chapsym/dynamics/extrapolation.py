@@ -16,12 +16,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from . import loop
 from .ball import Ball, Floats, numbers
-from .engine import chosen, compiles
 from .errors import BadInput, Status, StepNotTaken
-from .lanes import MOST_COLUMNS, long_steps_in_lanes
-from .long_step import FIRST, long_steps
+from .levels.double import chosen, compiles
+from .loops import loop
+from .loops.lanes import MOST_COLUMNS, long_steps_in_lanes
+from .loops.long_step import FIRST, long_steps
 from .map import batch, unit_vertical
 from .trajectories import initial_attitude
 
@@ -108,7 +108,7 @@ def _march(columns: int, work: int) -> Callable[..., Any]:
     short = np.array([*weights(columns - 1), 0], dtype=float)
     if not compiles(long_steps_in_lanes, work):
         return lambda K, g, a, half, state, steps: long_steps(K, g, a, half, full, short, state, steps)
-    from .guess import guess_weights
+    from .loops.guess import guess_weights
 
     (lanes,), guesses = chosen((long_steps_in_lanes,), work), guess_weights(columns)
     return lambda K, g, a, half, state, steps: lanes(K, g, a, half, full, short, *guesses, state, steps)

@@ -8,9 +8,9 @@ from numpy.typing import ArrayLike
 from chapsym.generated import momentum as momentum_kernel
 from chapsym.numbers import NAMED, Double, Rung
 
-from . import loop
 from .ball import Ball, Floats, numbers
 from .errors import BadInput, Status, StepNotTaken
+from .loops import loop
 
 #: How far |γ|² may be from 1: more than the rounding of 10⁶ steps, so that a run may go on from its end.
 UNIT_TOLERANCE = 1e-12
@@ -102,7 +102,7 @@ def step(ball: Ball, momentum: ArrayLike, gamma: ArrayLike, *, precision: str | 
     """
     shape, (K, g, J, D) = batch(ball, numbers(momentum, "momentum", 3), unit_vertical(gamma))
     if precision != "double":
-        from . import ladder
+        from .levels import ladder
 
         rung = ladder.rung_of(precision)
         if not isinstance(rung, Double):
@@ -127,7 +127,7 @@ def advance_all(K: Floats, g: Floats, J: Floats, D: Floats, q: Floats, status: n
     if len(D) <= SMALL_BATCH:
         loop.advance_all(K, g, J, D, q, status, reach)
         return
-    from .compiled import compiled
+    from .levels.compiled import compiled
 
     compiled(loop.advance_all)(K, g, J, D, q, status, reach)
 

@@ -10,10 +10,11 @@ from numpy.typing import ArrayLike
 
 from chapsym.numbers import NAMED, Rung
 
-from . import front, ladder
+from . import kernels
 from .ball import SMALLEST, Ball, Floats, numbers
-from .engine import Balls, Frames
 from .errors import BadInput, Status, StepNotTaken
+from .levels import ladder
+from .levels.double import Balls, Frames
 from .map import SINGLE_TOLERANCE, UNIT_TOLERANCE, batch, in_single, unit_vertical
 
 #: Whoever asks for more steps than this, or for every so many, will not see the end of it.
@@ -71,7 +72,7 @@ class Trajectory:
     def invariants(self) -> Floats:
         """⟨𝒦,γ⟩, ⟨𝒦,𝒦⟩ and ⟨γ,γ⟩ of each frame, (..., frames, 3); on Quad in float64, of the first halves."""
         with self.precision.precision():
-            return front.invariants(*self._finite(self.momentum, self.gamma))
+            return kernels.invariants(*self._finite(self.momentum, self.gamma))
 
     def angular_momentum(self) -> Floats:
         """K = 𝒦/ε in kg m²/s, (..., frames, 3)."""
@@ -82,7 +83,7 @@ class Trajectory:
         """½⟨K, ω⟩ in joules for K = 𝒦/ε, (..., frames); the map keeps it up to an oscillation."""
         tensor, contact = self.ball.mass_tensor[..., np.newaxis, :], self.ball.D[..., np.newaxis]
         with self.precision.precision():
-            return front.energy(*self._finite(self.angular_momentum(), self.gamma), tensor, contact)
+            return kernels.energy(*self._finite(self.angular_momentum(), self.gamma), tensor, contact)
 
     def _finite(self, *arrays: Floats) -> tuple[Floats, ...]:
         if (self.taken < self.index[-1]).any():
@@ -125,7 +126,7 @@ def initial_attitude(attitude: bool | ArrayLike, gamma: Floats) -> Floats:
     squared = (given * given).sum(axis=-1)
     if (np.abs(squared - 1) > (SINGLE_TOLERANCE if single else UNIT_TOLERANCE)).any():
         raise BadInput("attitude must be unit quaternions (scalar first); divide by the length")
-    vertical = front.rotate(given, gamma)
+    vertical = kernels.rotate(given, gamma)
     if (np.abs(vertical - [0.0, 0.0, 1.0]) > (SINGLE_AGREEMENT if single else AGREEMENT)).any():
         raise BadInput("attitude and gamma disagree: the attitude must turn gamma to (0, 0, 1)")
     return given / np.sqrt(squared)[..., np.newaxis] if single else given
@@ -264,7 +265,7 @@ def roll(
     vertical = unit_vertical(gamma)
     spin = numbers(omega, "omega", 3)
     batch(ball, spin, vertical)  # so that a mistake is told in the names of this function
-    momentum = epsilon * front.contact_momentum(spin, vertical, ball.mass_tensor, ball.D)
+    momentum = epsilon * kernels.contact_momentum(spin, vertical, ball.mass_tensor, ball.D)
     if np.any((np.abs(momentum).max(axis=-1) < SMALLEST) & spin.any(axis=-1) & (ball.inertia > 0).all(axis=-1)):
         raise BadInput("𝒦 = εK is below the range of float64, about 2.2e-308; take a longer time step or other units")
     return trajectory(

@@ -28,9 +28,9 @@ def load(lemmas: bool = False) -> dict[str, Claim]:
     claim of the paper, or a lemma, has no proof.
     """
     proofs = importlib.import_module("chapsym.proofs")
-    for name in proofs.SCRIPTS:
+    for name in _scripts():
         try:
-            importlib.import_module(f"chapsym.proofs.{name}")
+            importlib.import_module(name)
         except (Exception, SystemExit) as error:
             raise BrokenScript(f"the proof script {name} cannot be loaded: {type(error).__name__}: {error}") from error
     claims = register()
@@ -39,6 +39,11 @@ def load(lemmas: bool = False) -> dict[str, Claim]:
         missing = sorted(set(claims) ^ listed)
         raise BrokenScript(f"the proofs and the list of the paper's claims and lemmas differ: {', '.join(missing)}")
     return {id: claims[id] for id in (*proofs.CLAIMS, *(proofs.LEMMAS if lemmas else ()))}
+
+
+def _scripts() -> list[str]:
+    """The full names of the proof scripts."""
+    return [f"chapsym.proofs.{name}" for name in importlib.import_module("chapsym.proofs").SCRIPTS]
 
 
 def downstream(id: str, claims: dict[str, Claim]) -> list[str]:
@@ -152,10 +157,9 @@ def explain(record: dict[str, Any]) -> str:
 def main(script: str) -> None:
     """Runs the claims of one proof script, prints their derivations, and exits 1 if one is not proved."""
     claims = load(lemmas=True)
-    name = f"chapsym.proofs.{Path(script).stem}"
-    module = sys.modules.get(name)
-    if module is None or not Path(str(module.__file__)).samefile(script):
-        sys.exit(f"{script} is not the installed {name}; install this checkout first (pip install -e .)")
+    name = next((name for name in _scripts() if Path(str(sys.modules[name].__file__)).samefile(script)), None)
+    if name is None:
+        sys.exit(f"{script} is not an installed proof of chapsym; install this checkout first (pip install -e .)")
     records = [prove_one(id) for id, claim in claims.items() if claim.prove.__module__ == name]
     sys.exit(report(records))
 

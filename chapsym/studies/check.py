@@ -21,9 +21,9 @@ from typing import Any
 
 import numpy as np
 
-from chapsym.dynamics import Ball, front, trajectory
+from chapsym.dynamics import Ball, kernels, trajectory
 from chapsym.dynamics.ball import Floats
-from chapsym.dynamics.branch import small_rotation
+from chapsym.dynamics.loops.branch import small_rotation
 from chapsym.dynamics.map import step
 from chapsym.dynamics.oracle import Oracle, OracleStep
 
@@ -155,7 +155,7 @@ def compare(state: State, digits: int = 34) -> Comparison:
     def ulps(values: Floats, exact: list[Any], scale: float) -> float:
         return max(float(abs(e - float(v)) / scale) for v, e in zip(values, exact, strict=True)) / ULP
 
-    jacobian = front.tangent_jacobian(found.rotation, state.g, state.J, state.D)
+    jacobian = kernels.tangent_jacobian(found.rotation, state.g, state.J, state.D)
     top = (state.J.sum() - state.J).max()
     kappa = 1 + float(np.linalg.norm(np.linalg.inv(jacobian), 2) * (size / extent + 2 * top))
     errors = [ulps(q, truth.q, extent), ulps(found.momentum, truth.momentum, size), ulps(found.gamma, truth.gamma, 1.0)]

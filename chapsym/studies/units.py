@@ -23,7 +23,7 @@ from typing import Any
 import chapsym
 from chapsym import files
 from chapsym.dynamics import BadInput
-from chapsym.dynamics.engine import cores
+from chapsym.dynamics.levels.double import cores
 
 #: Called with the units that are done and how many there are.
 Report = Callable[[int, int], None]
@@ -194,7 +194,7 @@ def _remote(units: list[Unit], address: str) -> Iterator[tuple[Unit, Any]]:
     """Results as they come, from the workers of a Dask scheduler."""
     from distributed import as_completed as arriving
 
-    from chapsym.scene.cluster import connected
+    from chapsym.scene.running.cluster import connected
 
     if not units:
         return

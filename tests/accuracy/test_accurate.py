@@ -15,14 +15,14 @@ from chapsym.accuracy import prices as pricing
 from chapsym.accuracy.pilot import Law, pilot, surveyed
 from chapsym.accuracy.request import as_fractions, exact_values
 from chapsym.accuracy.search import Search
-from chapsym.dynamics import BadInput, front
+from chapsym.dynamics import BadInput, kernels
 from chapsym.numbers import NAMED
 from chapsym.studies.trade.reference import continuous
 from chapsym.studies.trade.requests import true_error, truth
 
 BALL = chapsym.Ball.from_inertia((0.006, 0.007, 0.009), mass=2.0, radius=0.1)
 GAMMA = np.array([2.0, 3.0, 6.0]) / 7
-K = front.contact_momentum((3.0, -2.0, 1.0), GAMMA, BALL.mass_tensor, BALL.D)
+K = kernels.contact_momentum((3.0, -2.0, 1.0), GAMMA, BALL.mass_tensor, BALL.D)
 #: Prices that no machine has, so that every machine chooses the same.
 PRICES = Prices(
     {f"{rung}/{body}": 1e-4 for rung in ("single", "double", "quad") for body in ("state", "body")},
@@ -198,7 +198,7 @@ def test_a_tiny_angular_velocity_is_no_rest():
 def test_a_contact_beyond_float64_starts_from_the_exact_least_rotation(way):
     """In float64 the least rotation is off by 1e-16, and so was the contact point, beside an accuracy of 1e-19."""
     ball, g = chapsym.Ball((1, 2, 4), 3.0, 0.1), way * np.array([9.0, 6.0, 2.0]) / 11
-    momentum = front.contact_momentum((1.0, 2.0, -3.0), g, ball.mass_tensor, ball.D)
+    momentum = kernels.contact_momentum((1.0, 2.0, -3.0), g, ball.mass_tensor, ball.D)
     answer = accurate(ball, momentum, g, 6.0, 1e-19, of="contact", prices=PRICES)
     with mpmath.workdps(40):
         x, y, z = (mpmath.mpf(float(v)) for v in g)

@@ -1,10 +1,10 @@
 """The displacement by the relation (5.15) on the elliptic curve, to any number of bits: a second route."""
 
-from chapsym.generated import curve_increment
 from flint import acb, arb, ctx
 
 from chapsym.certificates.balls import ball
-from chapsym.dynamics.precise_start import fraction
+from chapsym.dynamics.levels.start import fraction
+from chapsym.generated import curve_increment
 
 
 class Relation:

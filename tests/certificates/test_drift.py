@@ -7,13 +7,13 @@ from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 
-import chapsym.proofs
 import mpmath
 import numpy as np
 import pytest
 from flint import arb, ctx
 from scipy.integrate import solve_ivp
 
+import chapsym.proofs
 from chapsym.certificates import drift, drift_file, duals, taylor
 from chapsym.certificates.taylor import NotEnclosed, exact
 from chapsym.dynamics import BadInput

@@ -17,7 +17,7 @@ from chapsym.certificates.balls import NotProved, ball, rounded
 from chapsym.certificates.measure import no_invariant_measure
 from chapsym.certificates.reduced import Reduced, Top, cross
 from chapsym.dynamics import BadInput
-from chapsym.dynamics.precise_start import fraction
+from chapsym.dynamics.levels.start import fraction
 
 SIMPLEST = {"J": "1,2,4", "D": "1", "height": "12/5"}
 LEVEL = Fraction("0.24300095290638263550532672206")

@@ -15,7 +15,7 @@ from chapsym.certificates import families, orbit
 from chapsym.certificates.balls import NotProved, rounded
 from chapsym.certificates.passage import Level, Map, Passage, columns, identity
 from chapsym.dynamics import BadInput
-from chapsym.dynamics.precise_ball import exact
+from chapsym.dynamics.levels.balls import exact
 
 COMMITTED = ("periodic-orbit-simplest", "periodic-orbit-attracting", "periodic-orbit-real-ball")
 #: The resonance of the simplest certificate: 10 steps up to the rotation by π about e₃.

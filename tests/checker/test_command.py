@@ -8,8 +8,9 @@ import sys
 from pathlib import Path
 
 import certificate_maker as maker
-import chapsym.checker
 import pytest
+
+import chapsym.checker
 from chapsym.checker.__main__ import main
 
 FOLDER = Path(chapsym.checker.__file__).parent

@@ -3,10 +3,11 @@
 from fractions import Fraction
 
 import pytest
-from chapsym.checker.interval import Interval, Rejected
-from chapsym.checker.linear import newton, solve
 from hypothesis import assume, given
 from hypothesis import strategies as st
+
+from chapsym.checker.interval import Interval, Rejected
+from chapsym.checker.linear import newton, solve
 
 BITS = 12
 ends = st.integers(-(2**20), 2**20)

@@ -9,11 +9,11 @@ from fractions import Fraction
 import certificate_maker as maker
 import pytest
 from certificate_changes import at, changed, leaves, refused, replaced, resealed
+
+from chapsym import checker
 from chapsym.checker import Rejected, check
 from chapsym.checker.interval import Interval
 from chapsym.checker.measure import Circle, half_turns
-
-from chapsym import checker
 
 #: The level at which the two displacements of 9 steps are opposite, to 45 digits.
 LEVEL = "0.243000952906382635505326722062055203819199224"

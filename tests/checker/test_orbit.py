@@ -7,14 +7,14 @@ import certificate_maker as maker
 import mpmath as mp
 import pytest
 from certificate_changes import at, changed, leaves, refused, replaced, resealed
-from chapsym.checker import Rejected, check
-from chapsym.checker.interval import Interval
-from chapsym.checker.linear import newton
-from chapsym.checker.orbit import Search, attracts
 from hypothesis import given
 from hypothesis import strategies as st
 
 from chapsym import checker
+from chapsym.checker import Rejected, check
+from chapsym.checker.interval import Interval
+from chapsym.checker.linear import newton
+from chapsym.checker.orbit import Search, attracts
 
 
 @pytest.fixture(scope="module")

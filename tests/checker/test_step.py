@@ -4,6 +4,7 @@ from fractions import Fraction
 
 import mpmath as mp
 import pytest
+
 from chapsym.checker.interval import Interval, Rejected
 from chapsym.checker.linear import cross
 from chapsym.checker.step import Ball, check_small_branch, gibbs_vector, moved, tangents

@@ -7,13 +7,13 @@ import shutil
 
 import numpy as np
 import pytest
-from chapsym.generated import columns as generated
 
 from chapsym.codegen import build, columns
 from chapsym.codegen.kernels import CONTACT, GAMMA
 from chapsym.codegen.printer import NotStraightLine
 from chapsym.codegen.programs import PROGRAMS, Program
-from chapsym.dynamics import gibbs, loop
+from chapsym.dynamics.loops import gibbs, loop
+from chapsym.generated import columns as generated
 
 TEXTS = {"twice": "def twice(a):\n    '''2a, and a²'''\n    t = a * a\n    return 2 * a, t\n"}
 

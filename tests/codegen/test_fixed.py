@@ -4,10 +4,10 @@ import re
 from fractions import Fraction as F
 
 import pytest
-from chapsym.generated import fixed as generated
 
 from chapsym import generated as kernels
 from chapsym.codegen import build, fixed
+from chapsym.generated import fixed as generated
 
 BITS = 200
 

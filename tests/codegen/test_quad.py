@@ -5,15 +5,15 @@ import shutil
 from fractions import Fraction as F
 
 import pytest
-from chapsym.generated import quad as generated
 from hypothesis import given
 from hypothesis import strategies as st
 
 from chapsym import generated as kernels
-from chapsym.codegen import build, quad
+from chapsym.codegen import build, pairs
 from chapsym.codegen.kernels import CONTACT, GAMMA
 from chapsym.codegen.printer import NotStraightLine
 from chapsym.codegen.programs import PAIR_PROGRAMS, Program
+from chapsym.generated import quad as generated
 from chapsym.numbers import Pair
 
 U2 = 2.0**-106
@@ -33,7 +33,7 @@ def copy(tmp_path):
 
 def text_of(name):
     """The head of the generated module and one of its functions."""
-    head, *functions = re.split(r"\n\n\n(?=def )", (build.folder() / quad.FILE).read_text(encoding="utf-8"))
+    head, *functions = re.split(r"\n\n\n(?=def )", (build.folder() / pairs.FILE).read_text(encoding="utf-8"))
     return head + "\n\n\n" + next(f for f in functions if f.startswith(f"def {name}("))
 
 
@@ -60,7 +60,7 @@ def test_any_changed_operation_or_half_changes_the_value(program):
 
 
 def test_a_changed_line_is_named(copy):
-    path = copy / quad.FILE
+    path = copy / pairs.FILE
     text = path.read_text(encoding="utf-8")
     path.write_text(text.replace("= loose_subtract(", "= loose_add(", 1), encoding="utf-8")
     assert build.check(copy) == [
@@ -105,18 +105,18 @@ def test_turns_against_the_kernel_on_pairs(values):
 
 def test_kinds_of_operands():
     """Floats stay floats where an operation with a pair can use it, and what cannot be a pair is told."""
-    lines = quad.lowered(program("x = D * g1 + (g2 - D) * D * D - D\ny = D - g2", ("x", "y"), ("D",)), {})
+    lines = pairs.lowered(program("x = D * g1 + (g2 - D) * D * D - D\ny = D - g2", ("x", "y"), ("D",)), {})
     used = [line.split(" = ")[1].split("(")[0] for line in lines]
     assert used == [
         "loose_multiply_float", "loose_add_float", "loose_multiply_float", "loose_multiply_float", "loose_add",
         "loose_add_float", "loose_add_float", "two_sum", "two_sum",
     ]  # fmt: skip
     with pytest.raises(NotStraightLine, match="x is no pair"):
-        quad.lowered(program("x = D", floats=("D",)), {})
-    assert "t1, t1_ = 2 * g1, 2 * g1_" in quad.lowered(program("x, y = twice(g1)", ("x", "y")), TEXTS)
-    assert quad.lowered(program("x = 1 * g1 * 1 / 2"), {})[0] == "t0, t0_ = g1 / 2, g1_ / 2"
+        pairs.lowered(program("x = D", floats=("D",)), {})
+    assert "t1, t1_ = 2 * g1, 2 * g1_" in pairs.lowered(program("x, y = twice(g1)", ("x", "y")), TEXTS)
+    assert pairs.lowered(program("x = 1 * g1 * 1 / 2"), {})[0] == "t0, t0_ = g1 / 2, g1_ / 2"
 
 
 def test_what_a_program_costs():
-    lines = quad.lowered(program("x = g1 * g2 + D", floats=("D",)), {})
-    assert quad.flops(lines) == 6 + 7 + 6
+    lines = pairs.lowered(program("x = g1 * g2 + D", floats=("D",)), {})
+    assert pairs.flops(lines) == 6 + 7 + 6

@@ -5,7 +5,8 @@ import pytest
 
 import chapsym
 from chapsym import Ball, Status
-from chapsym.dynamics import block, engine, gibbs, loop
+from chapsym.dynamics.levels import double
+from chapsym.dynamics.loops import block, gibbs, loop
 
 RNG = np.random.default_rng(4)
 
@@ -68,7 +69,7 @@ def block_of(n):
     ball, K, g = long_steps(n)
     state, scale = np.zeros((loop.ROWS, block.LANES)), np.zeros(n)
     block.prepare_block(K, g, np.tile(ball.mass_tensor, (n, 1)), np.full(n, ball.D), state, scale)
-    march = engine.chosen((block.march_block,), engine.SHORT_RUN)[0] if engine.has_numba() else block.march_block
+    march = double.chosen((block.march_block,), double.SHORT_RUN)[0] if double.has_numba() else block.march_block
     frames, ends = np.zeros((n, 1, 3)), (np.zeros(n, np.int64), np.zeros(n, np.int64), np.ones(n))
     march(state, 0, 20, 100, scale, frames, frames.copy(), *ends)
     assert not ends[1].any()
@@ -123,7 +124,7 @@ def test_a_block_of_long_steps_mends_no_lane(monkeypatch):
 def test_without_numba_a_batch_takes_the_same_steps(monkeypatch):
     ball, K, g = balls(40)
     run = chapsym.trajectory(ball, K, g, 200, every=10)
-    monkeypatch.setattr(engine, "has_numba", lambda: False)
+    monkeypatch.setattr(double, "has_numba", lambda: False)
     plain = chapsym.trajectory(ball, K, g, 200, every=10)
     assert np.array_equal(run.momentum, plain.momentum, equal_nan=True)
     assert np.array_equal(run.gamma, plain.gamma, equal_nan=True)
@@ -144,7 +145,7 @@ def test_threads_change_nothing():
 def test_chunks_change_nothing(monkeypatch):
     ball, K, g = balls(70)
     whole = chapsym.trajectory(ball, K, g, 1300, every=13)
-    monkeypatch.setattr(engine, "CHUNK", 97 * block.LANES)
+    monkeypatch.setattr(double, "CHUNK", 97 * block.LANES)
     parts = chapsym.trajectory(ball, K, g, 1300, every=13)
     assert np.array_equal(whole.momentum, parts.momentum, equal_nan=True)
     assert (whole.taken == parts.taken).all()

@@ -8,8 +8,8 @@ from balls_n import SIZES, UNIT_ROUNDOFF, offset
 
 import chapsym
 from chapsym import Ball, BallN, Status, skew, step_n
-from chapsym.dynamics import so_n
-from chapsym.dynamics.branch_n import _solved, corrected, small_rotation
+from chapsym.dynamics.n import so_n
+from chapsym.dynamics.n.branch_n import _solved, corrected, small_rotation
 
 
 @pytest.mark.parametrize("heavy", [1.0, 1e7])

@@ -16,9 +16,10 @@ from hypothesis import strategies as st
 import chapsym
 from chapsym import generated, testing
 from chapsym.derive import solutions
-from chapsym.dynamics import BadInput, Ball, branches, candidates, fold, intersection, multivalued, precise_branches
-from chapsym.dynamics.branch import inverse
+from chapsym.dynamics import BadInput, Ball, branches, fold
+from chapsym.dynamics.loops.branch import inverse
 from chapsym.dynamics.oracle import Oracle
+from chapsym.dynamics.solutions import candidates, enclosed, intersection, multivalued
 from chapsym.numbers import Ball as ArbBall
 from chapsym.numbers import Digits, Double
 
@@ -43,7 +44,7 @@ def exact(state):
 
 
 def solve(state, rung=Double()):  # noqa: B008
-    return precise_branches.precise_branches(*exact(state), rung)
+    return enclosed.precise_branches(*exact(state), rung)
 
 
 def multiplicities(found):
@@ -196,7 +197,7 @@ def test_the_counts_must_agree(monkeypatch):
 
 def test_the_interval_newton_test_must_find_the_same_root(monkeypatch):
     found = solve(STATES[8]).solutions
-    monkeypatch.setattr(precise_branches, "enclosed", lambda rung, q, *state: found[0].rotation)
+    monkeypatch.setattr(enclosed, "enclosed", lambda rung, q, *state: found[0].rotation)
     with pytest.raises(ArithmeticError, match="another rotation"):
         solve(STATES[8])
 
@@ -286,7 +287,7 @@ def test_two_candidates_for_one_root_are_not_complete():
 def test_a_step_above_the_fold_marks_no_rotation(monkeypatch):
     """Where D is large float64 may step where exact arithmetic finds no small rotation."""
     taken = chapsym.step(Ball((1, 2, 4), 3), (1, -0.5, 0.75), np.array([2, 3, 6]) / 7)
-    monkeypatch.setattr(precise_branches, "step", lambda *state: taken)
+    monkeypatch.setattr(enclosed, "step", lambda *state: taken)
     assert not any(s.small_rotation for s in solve(STATES[8]).solutions)
 
 

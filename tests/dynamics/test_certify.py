@@ -14,9 +14,9 @@ from orbits import context, from_quaternion, orbit
 
 import chapsym
 from chapsym import BadInput, StepNotTaken, testing
-from chapsym.dynamics import precise_ball, precise_run
-from chapsym.dynamics.certificates import proved_digits
+from chapsym.dynamics.certified import proved_digits
 from chapsym.dynamics.coefficients import COMPOSITIONS
+from chapsym.dynamics.levels import balls, high
 from chapsym.numbers import Digits
 
 BALL = chapsym.Ball((0.1, 0.5, 1.6), 0.7, radius=0.5)
@@ -99,8 +99,8 @@ def test_a_wrong_trajectory_is_told_by_how_much():
 
 def test_a_wrong_formula_breaks_the_bounds(monkeypatch):
     """The control: with a turn that is off by 2⁻⁴⁰ the bound is no longer the error that the oracle sees."""
-    plain = precise_ball.turn
-    monkeypatch.setattr(precise_ball, "turn", lambda *v: tuple(x + flint.arb(2) ** -40 for x in plain(*v)))
+    plain = balls.turn
+    monkeypatch.setattr(balls, "turn", lambda *v: tuple(x + flint.arb(2) ** -40 for x in plain(*v)))
     run = chapsym.trajectory(BALL, K, GAMMA, 3)
     seen = length(context(40), run.gamma[3], orbit(BALL, K, GAMMA, 3)[3][1])
     assert chapsym.certify(run).gamma_error[3] > 100 * seen
@@ -165,7 +165,7 @@ def test_what_cannot_be_certified_is_refused_in_one_sentence(monkeypatch):
         chapsym.certify(run).digits("attitude")
     with pytest.raises(BadInput, match="certify takes orders"):
         chapsym.certify(replace(run, order=0))
-    monkeypatch.setattr(precise_run, "MOST_GUARD", 50)
+    monkeypatch.setattr(high, "MOST_GUARD", 50)
     with pytest.raises(BadInput, match="grow too much: after step"):
         chapsym.certify(chapsym.trajectory(BALL, K, GAMMA, 300))
 

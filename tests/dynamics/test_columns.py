@@ -3,9 +3,10 @@
 import numpy as np
 import pytest
 
-from chapsym.dynamics import columns, loop
+from chapsym.dynamics import columns
 from chapsym.dynamics.errors import Status
-from chapsym.dynamics.loop import ENOUGH, RADIUS, ROWS, A
+from chapsym.dynamics.loops import loop
+from chapsym.dynamics.loops.loop import ENOUGH, RADIUS, ROWS, A
 
 #: A step of this ball folds: the fourth.
 FOLDING = ((4.32, -2.16, 3.24), (2 / 7, 3 / 7, 6 / 7), (1, 2, 4), 3)

@@ -7,15 +7,17 @@ from math import factorial
 import mpmath
 import numpy as np
 import pytest
+from convergence import continuous_ball, convergence
 from hypothesis import given, settings
 from reference import dot
 
 import chapsym
 from chapsym import BadInput, Ball, Status, StepNotTaken, testing
-from chapsym.dynamics import composed_loop, engine, front, gibbs, loop
+from chapsym.derive.composition import defects, words
+from chapsym.dynamics import kernels
 from chapsym.dynamics.coefficients import COMPOSITIONS
-from chapsym.dynamics.order_conditions import defects, words
-from chapsym.studies.convergence import continuous_ball, convergence
+from chapsym.dynamics.levels import double
+from chapsym.dynamics.loops import composed_loop, gibbs, loop
 
 BALL = Ball((0.1, 0.5, 1.6), 0.7, radius=0.5)
 GAMMA = np.array([2, 3, 6]) / 7
@@ -176,7 +178,7 @@ def test_the_reference_is_the_continuous_ball():
     h = 1e-5
     ahead, behind = (np.array([float(x) for x in continuous_ball(BALL, K, GAMMA, 2.0 + s)]) for s in (h, -h))
     state = np.array([float(x) for x in there])
-    omega = front.angular_velocity(state[:3], state[3:], BALL.mass_tensor, BALL.D)
+    omega = kernels.angular_velocity(state[:3], state[3:], BALL.mass_tensor, BALL.D)
     rate = [*np.cross(state[:3], omega), *np.cross(state[3:], omega)]
     # The central difference is off by h²/6 times a third derivative of about 1, and by 2⁻⁵³/h.
     assert np.abs((ahead - behind) / (2 * h) - rate).max() < 1e-9
@@ -217,8 +219,8 @@ def test_the_contact_point_converges_with_the_order_too():
     """Against ρ∫ω × e₃ in space along a fine run, the integral by Romberg's scheme from 128 intervals down."""
     steps = 128
     fine = chapsym.trajectory(BALL, K / steps * 5, GAMMA, steps, order=8, contact=True)
-    omega = front.angular_velocity(fine.momentum * (steps / 5), fine.gamma, BALL.mass_tensor, BALL.D)
-    x, y, _ = front.rotate(fine.attitude, omega).T
+    omega = kernels.angular_velocity(fine.momentum * (steps / 5), fine.gamma, BALL.mass_tensor, BALL.D)
+    x, y, _ = kernels.rotate(fine.attitude, omega).T
     velocity = 0.5 * np.stack([y, -x], axis=-1)
 
     def trapezoid(stride):
@@ -257,8 +259,8 @@ def test_a_step_is_its_stages(order):
     momentum, gamma, rotation = 0.5 * K, GAMMA, np.array([1.0, 0, 0, 0])
     for c in chapsym.substeps(order):
         stage = chapsym.step(BALL, c * momentum, gamma)
-        momentum, gamma = front.transport(stage.rotation, momentum), stage.gamma
-        rotation = front.compose(rotation, stage.rotation)
+        momentum, gamma = kernels.transport(stage.rotation, momentum), stage.gamma
+        rotation = kernels.compose(rotation, stage.rotation)
     whole = chapsym.compose_step(BALL, 0.5 * K, GAMMA, order)
     assert np.abs(whole.momentum - momentum).max() <= allowed * np.abs(momentum).max()
     assert np.abs(whole.gamma - gamma).max() <= allowed
@@ -279,7 +281,7 @@ def test_all_momentum_integrals_stay_exact(order):
     steps, c = 4000, chapsym.substeps(order)
     run = chapsym.trajectory(BALL, 0.3 * K, GAMMA, steps, order=order, every=9)
     integrals, length = run.invariants(), 0.3 * np.sqrt(K @ K)
-    omega = front.angular_velocity(run.momentum, run.gamma, BALL.mass_tensor, BALL.D)
+    omega = kernels.angular_velocity(run.momentum, run.gamma, BALL.mass_tensor, BALL.D)
     angle = np.abs(c).max() * np.sqrt((omega**2).sum(axis=-1)).max()
     allowed = 2.0**-53 * (4 + 2 * np.sqrt(1024) * angle)
     assert (np.abs(integrals - integrals[0]).max(axis=0) <= allowed * np.array([length, length**2, 1])).all()
@@ -293,7 +295,9 @@ def test_the_integrals_stay_exact_for_every_ball(state):
     for order in ORDERS:
         after = chapsym.compose_step(ball, momentum, gamma, order)
         stages, size = len(chapsym.substeps(order)), np.abs(momentum).max()
-        before, now = (np.array(front.invariants(x, y)) for x, y in ((momentum, gamma), (after.momentum, after.gamma)))
+        before, now = (
+            np.array(kernels.invariants(x, y)) for x, y in ((momentum, gamma), (after.momentum, after.gamma))
+        )
         # A rotation of a vector: 8 roundings of entries of size 1, in each stage.
         assert (np.abs(now - before) <= 8 * 2.0**-53 * stages * np.array([3 * size, 3 * size**2, 1]) + 1e-300).all()
 
@@ -346,7 +350,7 @@ def test_a_fold_stops_one_ball_and_a_batch_goes_on():
 def test_a_long_run_goes_in_chunks_and_stops_where_it_failed(monkeypatch):
     """To the bit as in one piece; a ball that failed is not asked again."""
     whole = chapsym.trajectory(BALL, 0.1 * K, GAMMA, 23, order=4, every=3, contact=True)
-    monkeypatch.setattr(engine, "CHUNK", 34)  # 6 steps of 5 stages, 2 steps of 17
+    monkeypatch.setattr(double, "CHUNK", 34)  # 6 steps of 5 stages, 2 steps of 17
     parts, seen = chapsym.trajectory(BALL, 0.1 * K, GAMMA, 23, order=4, every=3, contact=True), []
     for name in ("momentum", "gamma", "attitude", "contact", "taken"):
         assert (getattr(whole, name) == getattr(parts, name)).all()
@@ -381,7 +385,7 @@ def test_the_guess_continues_polynomials_of_degree_7():
 
 
 def test_each_stage_has_the_certificate_of_its_own_momentum(monkeypatch):
-    monkeypatch.setattr(engine, "_ready", set())  # in plain Python
+    monkeypatch.setattr(double, "_ready", set())  # in plain Python
     seen, honest = [], composed_loop.settle
     monkeypatch.setattr(composed_loop, "settle", lambda *a: seen.append((*a[3:6], *a[-2:])) or honest(*a))
     safe, searched = composed_loop.safe_rotation, []

@@ -5,7 +5,8 @@ import pytest
 from hypothesis import assume, given, settings
 
 from chapsym import testing
-from chapsym.dynamics import BadInput, Ball, Status, branches, fold, follow, front, marching, margin, step
+from chapsym.dynamics import BadInput, Ball, Status, branches, fold, follow, kernels, margin, step
+from chapsym.dynamics.solutions import marching
 
 GAMMA = np.array([2.0, 3.0, 6.0]) / 7
 BALL = Ball((1, 2, 4), 3)
@@ -20,7 +21,7 @@ def seeded(n, D):
 def det(ball, q, gamma):
     """det T for Λmax = 1."""
     top = ball.inertia.max(axis=-1) + ball.D
-    return np.linalg.det(front.tangent_jacobian(q, gamma, ball.mass_tensor, ball.D)) / top**3
+    return np.linalg.det(kernels.tangent_jacobian(q, gamma, ball.mass_tensor, ball.D)) / top**3
 
 
 @pytest.mark.parametrize("D", [0.0, 1.0, 1e2, 1e4])
@@ -31,7 +32,7 @@ def test_a_fold_is_where_the_jacobian_is_singular(D):
     assert found.settled.all()
     assert np.abs(det(ball, found.rotation, gamma)).max() < 16 * 2.0**-52
     top = (ball.inertia.max(axis=1) + D)[:, np.newaxis]
-    gap = front.momentum(found.rotation, gamma, ball.mass_tensor, ball.D) - found.reach[:, np.newaxis] * K
+    gap = kernels.momentum(found.rotation, gamma, ball.mass_tensor, ball.D) - found.reach[:, np.newaxis] * K
     assert np.abs(gap / top).max() < 8 * 2.0**-52
     # A rounding of the residual, Λmax 2^-52, is this fraction of the momentum: so near are the exact counts right.
     rounding = (64 * 2.0**-52 * top / np.linalg.norm(found.reach[:, np.newaxis] * K, axis=1, keepdims=True))[:5]

@@ -10,8 +10,9 @@ from hypothesis import strategies as st
 
 import chapsym
 from chapsym import BadInput, Ball, Curve, exact_top, increment, step_vertical, testing, trajectory
-from chapsym.dynamics import front, jacobi
-from chapsym.dynamics.elliptic import height_of, squared_sine
+from chapsym.dynamics import kernels
+from chapsym.dynamics.closed import jacobi
+from chapsym.dynamics.closed.elliptic import height_of, squared_sine
 
 ULP = 2.0**-52
 GAMMA = np.array([2 / 7, 3 / 7, 6 / 7])
@@ -213,7 +214,7 @@ def test_the_exact_top_has_no_error_of_the_step(D, epsilon):
     budget = steps**1.5 * ULP
     assert np.abs(exact.momentum / epsilon - momenta).max() <= budget
     assert np.abs(exact.attitude * sign - attitudes).max() <= budget
-    assert np.abs(exact.gamma - front.transport(attitudes, [0.0, 0.0, 1.0])).max() <= budget
+    assert np.abs(exact.gamma - kernels.transport(attitudes, [0.0, 0.0, 1.0])).max() <= budget
     plain = trajectory(ball, epsilon * K, GAMMA, steps)
     assert np.abs(plain.momentum / epsilon - momenta).max() > 1e-2
     assert abs(top.twist) > 1e-4

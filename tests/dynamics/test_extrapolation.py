@@ -7,7 +7,9 @@ import numpy as np
 import pytest
 
 import chapsym
-from chapsym.dynamics import engine, extrapolation, front, guess, lanes
+from chapsym.dynamics import extrapolation, kernels
+from chapsym.dynamics.levels import double
+from chapsym.dynamics.loops import guess, lanes
 from chapsym.dynamics.trajectories import initial_attitude
 
 BALL = chapsym.Ball((0.1, 0.5, 1.6), 0.7)
@@ -111,8 +113,8 @@ def test_lanes_take_the_rotations_of_the_branch(monkeypatch, columns, time_step)
     ball, K, g = at_random(20)
     plain = chapsym.extrapolate(ball, K, g, time_step, 4, columns=columns, attitude=True)
     assert (plain.status == 0).sum() >= 15
-    monkeypatch.setattr(engine, "SHORT_RUN", 0)
-    monkeypatch.setattr(engine, "_ready", set())
+    monkeypatch.setattr(double, "SHORT_RUN", 0)
+    monkeypatch.setattr(double, "_ready", set())
     lanes = chapsym.extrapolate(ball, K, g, time_step, 4, columns=columns, attitude=True)
     assert (lanes.status == plain.status).all()
     for name in ("angular_momentum", "gamma", "attitude", "doubt"):
@@ -143,8 +145,8 @@ def test_a_top_that_turns_about_its_axis(monkeypatch, short_run, thin):
 
     50 steps with a few roundings each, times Σ|w| = 54.
     """
-    monkeypatch.setattr(engine, "SHORT_RUN", short_run)
-    monkeypatch.setattr(engine, "_ready", set())
+    monkeypatch.setattr(double, "SHORT_RUN", short_run)
+    monkeypatch.setattr(double, "_ready", set())
     top = chapsym.Ball((thin, thin, 1.0), 0.0)
     end = chapsym.extrapolate(top, (0, 0, thin), GAMMA, 0.5, 50)
     angle = -0.5 * 0.5 * 50
@@ -155,8 +157,8 @@ def test_a_top_that_turns_about_its_axis(monkeypatch, short_run, thin):
 
 
 def test_a_body_too_thin_for_float64_is_refused(monkeypatch):
-    monkeypatch.setattr(engine, "SHORT_RUN", 0)
-    monkeypatch.setattr(engine, "_ready", set())
+    monkeypatch.setattr(double, "SHORT_RUN", 0)
+    monkeypatch.setattr(double, "_ready", set())
     with pytest.raises(chapsym.StepNotTaken) as caught:
         chapsym.extrapolate(chapsym.Ball((1e-200, 1e-200, 1.0), 0.0), (0, 0, 1e-200), GAMMA, 0.5, 50)
     assert caught.value.status is chapsym.Status.NO_INERTIA
@@ -165,8 +167,8 @@ def test_a_body_too_thin_for_float64_is_refused(monkeypatch):
 @pytest.mark.parametrize("short_run", [0, 10**9])
 @pytest.mark.parametrize(("mass", "time"), [(1.0, 1.0), (2.0**-200, 1.0), (2.0**300, 2.0**200), (1.0, 2.0**-400)])
 def test_units_do_not_matter(monkeypatch, short_run, mass, time):
-    monkeypatch.setattr(engine, "SHORT_RUN", short_run)
-    monkeypatch.setattr(engine, "_ready", set())
+    monkeypatch.setattr(double, "SHORT_RUN", short_run)
+    monkeypatch.setattr(double, "_ready", set())
     known = chapsym.extrapolate(BALL, K, GAMMA, 0.5, 5)
     ball = chapsym.Ball(BALL.mass_tensor * mass, BALL.D * mass)
     end = chapsym.extrapolate(ball, K * (mass / time), GAMMA, 0.5 * time, 5)
@@ -176,8 +178,8 @@ def test_units_do_not_matter(monkeypatch, short_run, mass, time):
 
 @pytest.mark.parametrize("short_run", [0, 10**9])
 def test_where_nothing_moves(monkeypatch, short_run):
-    monkeypatch.setattr(engine, "SHORT_RUN", short_run)
-    monkeypatch.setattr(engine, "_ready", set())
+    monkeypatch.setattr(double, "SHORT_RUN", short_run)
+    monkeypatch.setattr(double, "_ready", set())
     for momentum, time_step, steps in ((0 * K, 0.5, 9), (K, 0.0, 9), (K, 0.5, 0), (1e-310 * K, 0.5, 9)):
         end = chapsym.extrapolate(BALL, momentum, GAMMA, time_step, steps)
         assert (end.angular_momentum == momentum).all()
@@ -190,9 +192,9 @@ def test_the_attitude_turns_with_gamma_and_the_momentum_stays_in_space():
     end = chapsym.extrapolate(BALL, K, GAMMA, 0.5, 400, attitude=True)
     start = initial_attitude(True, GAMMA)
     budget = 400 * 8 * UNIT_ROUNDOFF  # as for the integrals
-    assert np.abs(front.rotate(end.attitude, end.gamma) - [0, 0, 1]).max() < budget
-    space = front.rotate(start, K)
-    assert np.abs(front.rotate(end.attitude, end.angular_momentum) - space).max() < budget
+    assert np.abs(kernels.rotate(end.attitude, end.gamma) - [0, 0, 1]).max() < budget
+    space = kernels.rotate(start, K)
+    assert np.abs(kernels.rotate(end.attitude, end.angular_momentum) - space).max() < budget
     assert abs(end.attitude @ end.attitude - 1) < 1e-15
     again = chapsym.extrapolate(BALL, K, GAMMA, 0.5, 400, attitude=start)
     assert (again.attitude == end.attitude).all()
@@ -201,8 +203,8 @@ def test_the_attitude_turns_with_gamma_and_the_momentum_stays_in_space():
 
 @pytest.mark.parametrize("short_run", [0, 10**9])
 def test_a_step_beyond_the_fold_raises_for_one_and_is_told_for_a_batch(monkeypatch, short_run):
-    monkeypatch.setattr(engine, "SHORT_RUN", short_run)
-    monkeypatch.setattr(engine, "_ready", set())
+    monkeypatch.setattr(double, "SHORT_RUN", short_run)
+    monkeypatch.setattr(double, "_ready", set())
     with pytest.raises(chapsym.StepNotTaken) as caught:
         chapsym.extrapolate(BALL, 100 * K, GAMMA, 1.0, 3)
     assert caught.value.index == 0
@@ -233,8 +235,8 @@ def test_bad_input_gets_one_sentence(args, kwargs, words):
 
 
 def test_without_numba_it_runs_too(monkeypatch):
-    monkeypatch.setattr(engine, "SHORT_RUN", 0)
-    monkeypatch.setattr(engine, "_ready", set())
-    monkeypatch.setattr(engine, "has_numba", lambda: False)
-    monkeypatch.setattr("chapsym.dynamics.compiled.compiled", None)
+    monkeypatch.setattr(double, "SHORT_RUN", 0)
+    monkeypatch.setattr(double, "_ready", set())
+    monkeypatch.setattr(double, "has_numba", lambda: False)
+    monkeypatch.setattr("chapsym.dynamics.levels.compiled.compiled", None)
     assert chapsym.extrapolate(BALL, K, GAMMA, 0.5, 2).status == 0

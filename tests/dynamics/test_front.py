@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from chapsym import BadInput, generated
-from chapsym.dynamics import front
+from chapsym.dynamics import kernels
 
 Q = np.array([0.8, 0.4, 0.2, 0.4])
 GAMMA = np.array([2, 3, 6]) / 7
@@ -14,7 +14,7 @@ J = np.array([1.0, 2.0, 4.0])
 @pytest.mark.parametrize("name", generated.TABLE)
 def test_every_kernel_has_a_front_of_its_shape(name):
     _, groups, shape = generated.TABLE[name]
-    function = getattr(front, name)
+    function = getattr(kernels, name)
     arrays = [np.ones(()) if g == "D" else np.linspace(0.1, 0.9, n) for g, n in groups]
     assert function(*arrays).shape == shape
     stacked = [np.broadcast_to(a, (5, 2, *a.shape)) for a in arrays]
@@ -23,7 +23,7 @@ def test_every_kernel_has_a_front_of_its_shape(name):
 
 
 def test_leading_axes_broadcast():
-    result = front.momentum(np.tile(Q, (4, 1, 1)), np.tile(GAMMA, (3, 1)), J, 3)
+    result = kernels.momentum(np.tile(Q, (4, 1, 1)), np.tile(GAMMA, (3, 1)), J, 3)
     assert result.shape == (4, 3, 3)
     assert (result[2, 1] == generated.momentum(*Q, *GAMMA, *J, 3.0)).all()
 
@@ -39,4 +39,4 @@ def test_leading_axes_broadcast():
 )
 def test_wrong_shapes_are_one_sentence(arguments, sentence):
     with pytest.raises(BadInput, match=sentence):
-        front.momentum(*arguments)
+        kernels.momentum(*arguments)

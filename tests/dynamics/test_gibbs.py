@@ -5,13 +5,13 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from chapsym.generated import gibbs_newton, gibbs_second, turn
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from chapsym import testing
-from chapsym.dynamics import gibbs, loop
-from chapsym.dynamics.branch import small_rotation
+from chapsym.dynamics.loops import gibbs, loop
+from chapsym.dynamics.loops.branch import small_rotation
+from chapsym.generated import gibbs_newton, gibbs_second, turn
 
 J = (0.1, 0.5, 1.6)
 I = (2.1, 1.7, 0.6)

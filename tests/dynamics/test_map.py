@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 
 import chapsym
 from chapsym import BadInput, Ball, Status, StepNotTaken, testing
-from chapsym.dynamics import front
-from chapsym.dynamics.branch import small_rotation, tangent
+from chapsym.dynamics import kernels
+from chapsym.dynamics.loops.branch import small_rotation, tangent
 from chapsym.dynamics.map import largest_momentum
 from chapsym.studies.check import State, compare
 
@@ -34,7 +34,7 @@ def test_a_step_agrees_with_the_matrix_equation(state):
 def test_a_step_keeps_the_invariants(state):
     ball, momentum, gamma = state
     step = chapsym.step(ball, momentum, gamma)
-    before, after = front.invariants(momentum, gamma), front.invariants(step.momentum, step.gamma)
+    before, after = kernels.invariants(momentum, gamma), kernels.invariants(step.momentum, step.gamma)
     size = np.sqrt(before[1])
     assert np.all(np.abs(after - before) <= 8 * 2**-52 * np.array([size, size**2, 1]) + 2.0**-1070)
 
@@ -45,7 +45,7 @@ def test_a_step_intertwines_its_momenta(state):
     ball, momentum, gamma = state
     step = chapsym.step(ball, momentum, gamma)
     back = step.rotation * [1, -1, -1, -1]
-    expected = -front.momentum(back, step.gamma, ball.mass_tensor, ball.D)
+    expected = -kernels.momentum(back, step.gamma, ball.mass_tensor, ball.D)
     top = ball.mass_tensor.sum() + ball.D
     scale = np.abs(momentum).max() + top * np.abs(step.rotation[1:]).max()
     # A subnormal component of q is off by up to 2^-1075, which moves 𝒦 by 2Λmax as much.
@@ -58,7 +58,7 @@ def test_a_step_goes_back(state):
     ball, momentum, gamma = state
     there = chapsym.step(ball, momentum, gamma)
     back = chapsym.step(ball, -there.momentum, there.gamma)
-    jacobian = front.tangent_jacobian(there.rotation, gamma, ball.mass_tensor, ball.D)
+    jacobian = kernels.tangent_jacobian(there.rotation, gamma, ball.mass_tensor, ball.D)
     size = np.abs(momentum).max() + 2 * (ball.mass_tensor.sum() + ball.D) * np.abs(there.rotation[1:]).max()
     tolerance = 16 * 2**-52 * (1 + np.linalg.norm(np.linalg.inv(jacobian), 2) * size)
     assert np.abs(back.gamma - gamma).max() <= tolerance
@@ -77,7 +77,7 @@ def test_a_ball_at_rest_stays_at_rest(scale):
 def test_a_tiny_momentum_keeps_its_digits(size):
     """q tends to half of ω = B⁻¹𝒦, relative to its own size."""
     step = chapsym.step(BALL, K * size, GAMMA)
-    omega = front.angular_velocity(K * size, GAMMA, BALL.mass_tensor, BALL.D)
+    omega = kernels.angular_velocity(K * size, GAMMA, BALL.mass_tensor, BALL.D)
     assert np.allclose(step.rotation[1:], omega / 2, rtol=max(4e-16 * 8, 3 * size), atol=0)
 
 
@@ -109,7 +109,7 @@ def test_the_branch_ends_before_all_rotations_do():
 
 @given(testing.rotations(), testing.balls(), testing.unit_vectors())
 def test_no_rotation_exceeds_the_largest_momentum(q, ball, gamma):
-    momentum = front.momentum(q, gamma, ball.mass_tensor, ball.D)
+    momentum = kernels.momentum(q, gamma, ball.mass_tensor, ball.D)
     if np.abs(momentum).max() > 1e-9:
         most = largest_momentum(momentum, gamma, ball.mass_tensor, float(ball.D))
         assert np.linalg.norm(momentum) <= most * (1 + 1e-12)
@@ -123,9 +123,9 @@ def test_the_branch_is_continuous_from_the_identity(state):
     q = np.array([1.0, 0, 0, 0])
     for t in np.linspace(0, 1, 201)[1:]:
         for _ in range(4):
-            r = front.residual(q, t * momentum, gamma, ball.mass_tensor, ball.D)
-            w = np.linalg.solve(front.tangent_jacobian(q, gamma, ball.mass_tensor, ball.D), -r)
-            q = front.compose(q, [1.0, *w])
+            r = kernels.residual(q, t * momentum, gamma, ball.mass_tensor, ball.D)
+            w = np.linalg.solve(kernels.tangent_jacobian(q, gamma, ball.mass_tensor, ball.D), -r)
+            q = kernels.compose(q, [1.0, *w])
             q /= np.linalg.norm(q)
     assert np.abs(chapsym.step(ball, momentum, gamma).rotation - q).max() < 1e-9
 
@@ -273,14 +273,14 @@ def test_a_rod_on_its_end_has_no_inertia():
 @given(testing.rotations(), testing.balls(["generic"]), testing.unit_vectors())
 def test_the_direction_of_the_branch_and_its_bend(q, ball, gamma):
     """d = T⁻¹𝒦 and |T⁻¹𝒦''| in the Frobenius norm, against linear algebra."""
-    T = front.tangent_jacobian(q, gamma, ball.mass_tensor, ball.D)
+    T = kernels.tangent_jacobian(q, gamma, ball.mass_tensor, ball.D)
     if abs(np.linalg.det(T)) < 1e-3:
         return
     _, speed, bend, *direction = tangent(*q, *K, *gamma, *ball.mass_tensor, float(ball.D))
     expected = np.linalg.solve(T, K)
     assert np.allclose(direction, expected, rtol=1e-9, atol=1e-12)
     assert speed == pytest.approx(np.linalg.norm(expected))
-    rows = np.linalg.solve(T, front.tangent_hessian(q, gamma, ball.mass_tensor, ball.D).T)
+    rows = np.linalg.solve(T, kernels.tangent_hessian(q, gamma, ball.mass_tensor, ball.D).T)
     weights = np.array([1, 1, 1, 2, 2, 2])
     assert bend == pytest.approx(np.sqrt((rows**2 * weights).sum()), rel=1e-8)
 

@@ -12,9 +12,10 @@ from orbits import context, from_quaternion, orbit
 
 import chapsym
 from chapsym import BadInput, Status, StepNotTaken, generated, testing
-from chapsym.dynamics import front, precise_ball, precise_digits, precise_root
-from chapsym.dynamics.branch import small_rotation
+from chapsym.dynamics import kernels
 from chapsym.dynamics.coefficients import COMPOSITIONS
+from chapsym.dynamics.levels import balls, digits, root
+from chapsym.dynamics.loops.branch import small_rotation
 from chapsym.numbers import Ball, Digits
 
 BALL = chapsym.Ball((0.1, 0.5, 1.6), 0.7, radius=0.5)
@@ -116,9 +117,9 @@ def test_three_steps_of_any_state_are_enclosed(state):
 def test_a_thousand_steps_keep_all_their_bits(size):
     run = chapsym.trajectory(BALL, size * DIRECTION, GAMMA, 1000, every=1000, precision=Ball(200))
     more = chapsym.trajectory(BALL, size * DIRECTION, GAMMA, 1000, every=1000, precision=Digits(80))
-    for balls, numbers in ((run.momentum[-1], more.momentum[-1]), (run.gamma[-1], more.gamma[-1])):
-        assert contains(balls, list(numbers), 75)
-        assert max(x.rad() for x in balls) <= max(abs(x).mid() for x in balls) * flint.arb(2) ** -198
+    for enclosed, numbers in ((run.momentum[-1], more.momentum[-1]), (run.gamma[-1], more.gamma[-1])):
+        assert contains(enclosed, list(numbers), 75)
+        assert max(x.rad() for x in enclosed) <= max(abs(x).mid() for x in enclosed) * flint.arb(2) ** -198
     fewer = chapsym.trajectory(BALL, size * DIRECTION, GAMMA, 1000, every=1000, precision=Digits(30))
     assert off(fewer.momentum, [list(x) for x in more.momentum]) < 1e-30
 
@@ -195,17 +196,17 @@ def mutated(monkeypatch, module, name, change):
 @pytest.mark.parametrize(
     ("module", "name", "change"),
     [
-        (precise_ball, "turn", lambda x: (-x[0], *x[1:])),
-        (precise_ball, "turn", lambda x: (x[0] + flint.arb(2) ** -80, *x[1:])),
-        (precise_ball, "gibbs_residual", lambda r: (r[0] + flint.arb(2) ** -60, *r[1:])),
-        (precise_ball, "certified", lambda b: (b[0], b[1] * 0 + 10**9)),
+        (balls, "turn", lambda x: (-x[0], *x[1:])),
+        (balls, "turn", lambda x: (x[0] + flint.arb(2) ** -80, *x[1:])),
+        (balls, "gibbs_residual", lambda r: (r[0] + flint.arb(2) ** -60, *r[1:])),
+        (balls, "certified", lambda b: (b[0], b[1] * 0 + 10**9)),
     ],
 )
 def test_a_mutated_formula_is_caught_by_the_oracle(monkeypatch, module, name, change):
     """The controls: with one formula changed, the comparison of `contains` fails."""
     if name == "certified":  # with a slope that claims too much, points that are no roots must be caught
-        mutated(monkeypatch, precise_ball, "root", lambda found: (tuple(x + (x >> 60) for x in found[0]), found[1]))
-        mutated(monkeypatch, precise_ball, "gibbs_newton", lambda n: (n[0], *n[1:4], *(x * 0 for x in n[4:])))
+        mutated(monkeypatch, balls, "root", lambda found: (tuple(x + (x >> 60) for x in found[0]), found[1]))
+        mutated(monkeypatch, balls, "gibbs_newton", lambda n: (n[0], *n[1:4], *(x * 0 for x in n[4:])))
     mutated(monkeypatch, module, name, change)
     run = chapsym.trajectory(BALL, 0.4 * DIRECTION, GAMMA, 2, precision=Ball(90))
     exact = orbit(BALL, 0.4 * DIRECTION, GAMMA, 2, digits=80)
@@ -214,7 +215,7 @@ def test_a_mutated_formula_is_caught_by_the_oracle(monkeypatch, module, name, ch
 
 def test_a_point_that_is_no_root_costs_digits_and_no_truth(monkeypatch):
     """The enclosure does not depend on the point: half of its digits wrong, the truth is still inside."""
-    mutated(monkeypatch, precise_ball, "root", lambda found: (tuple(x + (x >> 60) for x in found[0]), found[1]))
+    mutated(monkeypatch, balls, "root", lambda found: (tuple(x + (x >> 60) for x in found[0]), found[1]))
     run = chapsym.trajectory(BALL, 0.4 * DIRECTION, GAMMA, 2, precision=Ball(90))
     exact = orbit(BALL, 0.4 * DIRECTION, GAMMA, 2, digits=80)
     assert contains([*run.momentum[-1], *run.gamma[-1]], [*exact[-1][0], *exact[-1][1]], 70)
@@ -222,11 +223,11 @@ def test_a_point_that_is_no_root_costs_digits_and_no_truth(monkeypatch):
 
 def test_fixed_point_roots_are_roots_at_any_precision():
     for bits in (60, 100, 319, 321, 700, 3000):
-        ball = precise_digits.DigitsBall(
+        ball = digits.DigitsBall(
             Digits(int(bits * 0.3)), 0.4 * DIRECTION, np.array(GAMMA), BALL.mass_tensor, 0.7, (F(1),), None, 0.0
         )
-        u, _ = precise_root.root((0.0, 0.0, 0.0), ball.k, ball.g, ball.I, ball.D, ball.floats, ball.P, int, ball.lost)
-        left = precise_root.residual_fixed(*u, *ball.k, *ball.g, *ball.I, ball.D, ball.P)
+        u, _ = root.root((0.0, 0.0, 0.0), ball.k, ball.g, ball.I, ball.D, ball.floats, ball.P, int, ball.lost)
+        left = root.residual_fixed(*u, *ball.k, *ball.g, *ball.I, ball.D, ball.P)
         assert max(map(abs, left)) < 64
 
 
@@ -237,7 +238,7 @@ def test_progress_counts_the_steps_of_all_balls():
 
 
 def test_more_bits_than_can_be_carried_are_refused_in_one_sentence(monkeypatch):
-    monkeypatch.setattr("chapsym.dynamics.precise_run.MOST_GUARD", 100)
+    monkeypatch.setattr("chapsym.dynamics.levels.high.MOST_GUARD", 100)
     with pytest.raises(
         BadInput, match=r"the balls grow too much: after step \d+ of 1000, 100 bits leave less than 60"
     ) as caught:
@@ -253,7 +254,7 @@ def test_what_is_certified_is_monotone_and_contains_the_root(state, direction):
     ratio = (ball.mass_tensor.sum() + float(ball.D)) / np.sort(ball.inertia)[0]
     assume(ratio < 1e4)
     with flint.ctx.workprec(150):
-        under_way = precise_ball.ArbBall(150, momentum, gamma, ball.mass_tensor, float(ball.D), (F(1),), None, 0.0)
+        under_way = balls.ArbBall(150, momentum, gamma, ball.mass_tensor, float(ball.D), (F(1),), None, 0.0)
         bound = under_way.bounds[0]
         inertia, contact = np.array(list(map(float, under_way.I))), float(under_way.D)
         k = np.array(list(map(float, under_way.k)))
@@ -263,7 +264,7 @@ def test_what_is_certified_is_monotone_and_contains_the_root(state, direction):
     assert status == 0
     assert np.linalg.norm(q) / q0 <= radius * (1 + 1e-12)
     u = radius * direction
-    ahead, behind = (front.gibbs_residual(u + s * np.eye(3), k, gamma, inertia, contact) for s in (0.5, -0.5))
+    ahead, behind = (kernels.gibbs_residual(u + s * np.eye(3), k, gamma, inertia, contact) for s in (0.5, -0.5))
     matrix = (ahead - behind).T  # G is quadratic: the central difference is exact
     assert np.linalg.eigvalsh((matrix + matrix.T) / 2)[0] >= slope - 1e-12 * (inertia.max() + contact)
 

@@ -10,14 +10,16 @@ import pytest
 
 import chapsym
 from chapsym import generated
-from chapsym.dynamics import compiled, front, integrals, quad, quad_loop, quad_step
-from chapsym.dynamics.branch import small_rotation
+from chapsym.dynamics import kernels
 from chapsym.dynamics.coefficients import COMPOSITIONS
 from chapsym.dynamics.errors import BadInput, Status, StepNotTaken
+from chapsym.dynamics.levels import compiled, quad
+from chapsym.dynamics.levels.newton import precise_step
+from chapsym.dynamics.levels.start import fraction
+from chapsym.dynamics.loops import integrals, quad_loop, quad_step
+from chapsym.dynamics.loops.branch import small_rotation
 from chapsym.dynamics.map import step
 from chapsym.dynamics.oracle import Oracle
-from chapsym.dynamics.precise import precise_step
-from chapsym.dynamics.precise_start import fraction
 from chapsym.dynamics.trajectories import attitude_with
 from chapsym.numbers import Digits, Pair, Quad, pairs
 from chapsym.studies import check
@@ -85,7 +87,7 @@ def condition(state):
     q = step(chapsym.Ball(state.J, state.D), state.K, state.g).rotation
     size, extent = np.abs(state.K).max(), np.abs(q[1:]).max()
     top = (state.J.sum() - state.J).max() + state.D
-    inverse = np.linalg.inv(front.tangent_jacobian(q, state.g, state.J, state.D))
+    inverse = np.linalg.inv(kernels.tangent_jacobian(q, state.g, state.J, state.D))
     return extent, float(np.linalg.norm(inverse, 2) * (size / extent + 2 * top))
 
 

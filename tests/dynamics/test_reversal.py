@@ -9,9 +9,9 @@ from hypothesis import assume, given, settings
 
 import chapsym
 from chapsym import BadInput, Ball, NotRetraced, testing
-from chapsym.dynamics import front
-from chapsym.dynamics.branch import small_rotation
-from chapsym.dynamics.loop import RADIUS, ROWS, prepare
+from chapsym.dynamics import kernels
+from chapsym.dynamics.loops.branch import small_rotation
+from chapsym.dynamics.loops.loop import RADIUS, ROWS, prepare
 
 BALL = Ball((0.1, 0.5, 1.6), 0.7, radius=0.5)
 GAMMA = np.array([2, 3, 6]) / 7
@@ -147,7 +147,9 @@ def test_a_step_back_on_another_branch_is_told():
     there = chapsym.step(ball, momentum, VERTICAL)
     parameters = (*ball.mass_tensor, float(ball.D))
     conjugate = there.rotation * [1, -1, -1, -1]
-    assert front.momentum(conjugate, there.gamma, ball.mass_tensor, ball.D) == pytest.approx(-there.momentum, abs=1e-14)
+    assert kernels.momentum(conjugate, there.gamma, ball.mass_tensor, ball.D) == pytest.approx(
+        -there.momentum, abs=1e-14
+    )
     status, _, *small = small_rotation(*-there.momentum, *there.gamma, *parameters)
     assert status == 0
     assert np.abs(small - conjugate).max() > 1e-3

@@ -9,7 +9,8 @@ import pytest
 
 import chapsym
 from chapsym import BadInput, Ball, Status, StepNotTaken
-from chapsym.dynamics import engine, front, single
+from chapsym.dynamics import kernels
+from chapsym.dynamics.levels import double, single
 from chapsym.dynamics.oracle import Oracle
 from chapsym.studies import check
 
@@ -47,7 +48,7 @@ def test_a_step_keeps_the_promise_of_the_check(stratum):
             continue
         truth = Oracle([*J], float(D), [*(g / np.linalg.norm(g))], 34).step([*k])
         size, extent = np.abs(k).max(), np.abs(q[1:].astype(float)).max()
-        jacobian = front.tangent_jacobian(q.astype(float) / np.linalg.norm(q.astype(float)), g, J, D)
+        jacobian = kernels.tangent_jacobian(q.astype(float) / np.linalg.norm(q.astype(float)), g, J, D)
         top = (J.sum() - J).max() + D
         kappa = np.linalg.norm(np.linalg.inv(jacobian), 2) * (size / extent + 2 * top)
 
@@ -82,7 +83,7 @@ def arithmetic(march, *arguments):
     """The operations of a compiled loop and of what it calls in the loops, but for the safe way; and the modules."""
     import numba
 
-    from chapsym.dynamics.compiled import compiled
+    from chapsym.dynamics.levels.compiled import compiled
 
     compiled(march)  # so that what it calls is known
     function = numba.njit(error_model="numpy", nogil=True)(march)
@@ -140,7 +141,7 @@ def test_products_are_split_exactly():
 def test_plain_is_compiled_to_the_bit(options, monkeypatch):
     plain = {}
     with monkeypatch.context() as patch:
-        patch.setattr(engine, "has_numba", lambda: False)
+        patch.setattr(double, "has_numba", lambda: False)
         plain = chapsym.trajectory(BALL, K, G, 1100, every=50, precision="single", **options)
     run = chapsym.trajectory(BALL, K, G, 2200, every=50, precision="single", **options)
     for name in ("momentum", "gamma", "attitude", "contact"):
@@ -166,7 +167,7 @@ def mixture(n):
 def test_a_batch_is_its_balls_to_the_bit(n, numba, monkeypatch):
     ball, k, g = mixture(n)
     if not numba:
-        monkeypatch.setattr(engine, "has_numba", lambda: False)
+        monkeypatch.setattr(double, "has_numba", lambda: False)
     run = chapsym.trajectory(ball, k, g, 1100, every=11, precision="single")
     assert run.momentum.dtype == np.float32
     monkeypatch.undo()
@@ -197,13 +198,13 @@ def test_a_million_steps_keep_the_integrals(order):
     """Restored every 1024 steps, they move by the rounding of 𝒦 and γ as they are given out: 2 ulps of a square."""
     steps = 10**6 if order == 2 else 10**5
     run = chapsym.trajectory(BALL, K, G, steps, every=997, order=order, attitude=True, precision="single")
-    values = front.invariants(run.momentum.astype(float), run.gamma.astype(float))
+    values = kernels.invariants(run.momentum.astype(float), run.gamma.astype(float))
     moved = np.abs(values / values[0] - 1).max(axis=0) / ULP
     assert (moved <= [3, 2, 2]).all()
     attitude = run.attitude.astype(float)
     # One ulp as the four numbers are rounded, 1.5 of the |a|² by which the length is kept.
     assert np.abs((attitude**2).sum(axis=-1) - 1).max() <= 2.5 * ULP
-    vertical = front.rotate(attitude, run.gamma.astype(float))
+    vertical = kernels.rotate(attitude, run.gamma.astype(float))
     # The turns of γ and of the attitude are rounded each for itself: √n · |q| ulps, |q| = 0.025 and κ below 10.
     assert np.abs(vertical - [0, 0, 1]).max() <= 10 * 0.025 * np.sqrt(steps) * ULP
 

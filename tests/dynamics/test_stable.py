@@ -3,12 +3,14 @@
 import mpmath
 import numpy as np
 import pytest
-from chapsym.generated import contact_momentum, gibbs_newton, gibbs_newton_heavy, tangent_jacobian
 
 from chapsym import BadInput, Ball, Curve, increment, roll, step, step_vertical, trajectory
-from chapsym.dynamics import branch, front, gibbs, jacobi, loop
-from chapsym.dynamics.branch import small_rotation
-from chapsym.dynamics.elliptic import height_of
+from chapsym.dynamics import kernels
+from chapsym.dynamics.closed import jacobi
+from chapsym.dynamics.closed.elliptic import height_of
+from chapsym.dynamics.loops import branch, gibbs, loop
+from chapsym.dynamics.loops.branch import small_rotation
+from chapsym.generated import contact_momentum, gibbs_newton, gibbs_newton_heavy, tangent_jacobian
 
 ULP = 2.0**-52
 MP = mpmath.MPContext()
@@ -179,7 +181,7 @@ def test_a_ball_that_spins_about_the_vertical_keeps_its_momentum(D):
 def test_rolling_starts_from_the_spin_that_was_asked_for():
     ball, g = Ball((1.0, 1.1, 1.2), 1e9), np.array((2, 3, 6)) / 7
     run = roll(ball, 3.0 * g, 1e-3, 0, gamma=g)
-    spin = float(front.angular_velocity(run.momentum[0] / 1e-3, g, ball.mass_tensor, ball.D) @ g)
+    spin = float(kernels.angular_velocity(run.momentum[0] / 1e-3, g, ball.mass_tensor, ball.D) @ g)
     assert abs(spin - 3.0) <= 8 * ULP * 3
 
 
@@ -298,9 +300,9 @@ def test_the_angular_velocity_and_the_energy_are_as_good_as_k(D):
         B = MP.diag(exact(inertia)) + MP.mpf(D) * (MP.eye(3) - unit * unit.T)
         true = MP.lu_solve(B, MP.matrix(exact(K)))
         moments = inertia + D
-        assert off(front.angular_velocity(K, g, J, D), true) <= 8
+        assert off(kernels.angular_velocity(K, g, J, D), true) <= 8
         energy = sum(a * b for a, b in zip(true, exact(K), strict=True)) / 2
-        assert abs(float(MP.mpf(float(front.energy(K, g, J, D))) / energy - 1)) <= 8 * ULP
+        assert abs(float(MP.mpf(float(kernels.energy(K, g, J, D))) / energy - 1)) <= 8 * ULP
         naive = 1 - D * (g * g / moments).sum()
         old = (K + g * D * (g @ (K / moments)) / naive) / moments
         lost = max(lost, off(old, true) if np.isfinite(old).all() else np.inf)

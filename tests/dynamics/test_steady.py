@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from chapsym import BadInput, Ball, Status, StepNotTaken, is_steady, steady_frames, testing, trajectory
-from chapsym.dynamics import front
+from chapsym.dynamics import kernels
 
 ULP = 2.0**-52
 GAMMA = np.array([2 / 7, 3 / 7, 6 / 7])
@@ -121,8 +121,8 @@ def test_a_batch_is_its_balls():
     assert (whole.momentum[1] == 0).all()
     assert (whole.contact[1:] == 0).all()  # at rest, or spinning on the spot
     turned = [np.sqrt(0.5), 0.0, 0.0, np.sqrt(0.5)]  # about e₃ in space, which R γ = e₃ allows
-    other = steady_frames(balls, momentum, gamma, index, attitude=front.compose(turned, whole.attitude[:, 0]))
-    assert np.abs(other.attitude - front.compose(turned, whole.attitude)).max() <= BUDGET
+    other = steady_frames(balls, momentum, gamma, index, attitude=kernels.compose(turned, whole.attitude[:, 0]))
+    assert np.abs(other.attitude - kernels.compose(turned, whole.attitude)).max() <= BUDGET
 
 
 def test_the_fold_is_where_the_map_says():

@@ -8,7 +8,8 @@ from hypothesis import given, settings
 
 import chapsym
 from chapsym import BadInput, Ball, Status, StepNotTaken, testing
-from chapsym.dynamics import engine, front
+from chapsym.dynamics import kernels
+from chapsym.dynamics.levels import double
 from chapsym.dynamics.oracle import Oracle
 from chapsym.dynamics.trajectories import attitude_with
 
@@ -34,7 +35,7 @@ def test_a_trajectory_is_its_steps():
 
 
 def test_compiled_and_plain_trajectories_agree_to_the_bit(monkeypatch):
-    monkeypatch.setattr(engine, "_ready", set())  # what another test has loaded does not count
+    monkeypatch.setattr(double, "_ready", set())  # what another test has loaded does not count
     short = chapsym.trajectory(BALL, K, GAMMA, 1999, contact=True)
     long = chapsym.trajectory(BALL, K, GAMMA, 2500, contact=True)
     assert (short.momentum == long.momentum[:2000]).all()
@@ -61,8 +62,8 @@ def test_attitude_and_contact_come_only_when_asked_for():
 
 def test_attitude_keeps_the_vertical_up_and_the_momentum_fixed_in_space():
     run = chapsym.trajectory(BALL, K, GAMMA, 1500, attitude=True)
-    assert np.abs(front.rotate(run.attitude, run.gamma) - [0, 0, 1]).max() < 5e-14
-    space = front.rotate(run.attitude, run.momentum)
+    assert np.abs(kernels.rotate(run.attitude, run.gamma) - [0, 0, 1]).max() < 5e-14
+    space = kernels.rotate(run.attitude, run.momentum)
     assert np.abs(space - space[0]).max() < 5e-14
     assert np.abs((run.attitude**2).sum(axis=-1) - 1).max() < 1e-15
 
@@ -70,7 +71,7 @@ def test_attitude_keeps_the_vertical_up_and_the_momentum_fixed_in_space():
 def test_the_contact_point_obeys_the_discrete_constraint():
     """Δr = (ρ/2)(Ω̄ - Ω̄ᵀ)e₃ with Ω̄ = R_{k+1}R_kᵀ, from rotation matrices, γ upwards."""
     run = chapsym.trajectory(BALL, K, GAMMA, 200, contact=True)
-    R = front.rotation(run.attitude)
+    R = kernels.rotation(run.attitude)
     turn = R[1:] @ R[:-1].swapaxes(-1, -2)
     steps = 0.25 * (turn - turn.swapaxes(-1, -2)) @ np.array([0, 0, 1.0])
     assert np.abs(np.diff(run.contact, axis=0) - steps[:, :2]).max() < 1e-15
@@ -88,7 +89,7 @@ def test_si_front_is_the_map_of_epsilon_times_k():
     run = chapsym.roll(BALL, (0.3, -0.2, 0.1), 0.01, 50, gamma=GAMMA)
     paper = chapsym.trajectory(BALL, run.momentum[0], GAMMA, 50)
     assert (run.momentum == paper.momentum).all()
-    omega = front.angular_velocity(run.angular_momentum()[0], GAMMA, BALL.mass_tensor, BALL.D)
+    omega = kernels.angular_velocity(run.angular_momentum()[0], GAMMA, BALL.mass_tensor, BALL.D)
     assert np.allclose(omega, (0.3, -0.2, 0.1), rtol=1e-14)
     slip = np.cross(omega, GAMMA)
     kinetic = 0.5 * 3 * slip @ slip + 0.5 * omega @ (BALL.inertia * omega)
@@ -100,11 +101,11 @@ def test_the_map_tends_to_the_continuous_ball_with_order_two():
 
     def rate(state):
         k, g = state[:3], state[3:]
-        w = front.angular_velocity(k, g, BALL.mass_tensor, BALL.D)
+        w = kernels.angular_velocity(k, g, BALL.mass_tensor, BALL.D)
         return np.concatenate([np.cross(k, w), np.cross(g, w)])
 
     omega = np.array([0.9, -1.2, 0.7])
-    state = np.concatenate([front.contact_momentum(omega, GAMMA, BALL.mass_tensor, BALL.D), GAMMA])
+    state = np.concatenate([kernels.contact_momentum(omega, GAMMA, BALL.mass_tensor, BALL.D), GAMMA])
     h = 1e-3
     for _ in range(1000):
         a = rate(state)
@@ -135,7 +136,7 @@ def test_a_fold_stops_one_ball_with_the_step_and_the_trajectory_before_it():
 
 
 def test_a_fold_in_a_later_chunk_has_its_own_index(monkeypatch):
-    monkeypatch.setattr("chapsym.dynamics.engine.CHUNK", 2)
+    monkeypatch.setattr("chapsym.dynamics.levels.double.CHUNK", 2)
     with pytest.raises(StepNotTaken) as caught:
         chapsym.trajectory(BALL, FOLDING, GAMMA, 100)
     assert caught.value.index == 3
@@ -171,12 +172,12 @@ def test_the_least_attitude_turns_gamma_up(gamma):
     gamma = np.array(gamma, dtype=float)
     quaternion = attitude_with(gamma)
     assert abs(quaternion @ quaternion - 1) < 4e-16
-    assert np.abs(front.rotate(quaternion, gamma) - [0, 0, 1]).max() < 4e-16
+    assert np.abs(kernels.rotate(quaternion, gamma) - [0, 0, 1]).max() < 4e-16
 
 
 def test_an_attitude_may_be_given():
     given_attitude = np.array([0.5, 0.5, 0.5, 0.5])
-    gamma = front.transport(given_attitude, [0.0, 0.0, 1.0])
+    gamma = kernels.transport(given_attitude, [0.0, 0.0, 1.0])
     run = chapsym.trajectory(BALL, K, gamma, 2, attitude=given_attitude)
     assert (run.attitude[0] == given_attitude).all()
 
@@ -245,7 +246,7 @@ def test_a_huge_d_is_no_missing_inertia():
 
 
 def test_a_momentum_beyond_squares_stops_without_a_warning(monkeypatch, recwarn):
-    monkeypatch.setattr(engine, "_ready", set())  # plain Python's loops
+    monkeypatch.setattr(double, "_ready", set())  # plain Python's loops
     run = chapsym.trajectory(chapsym.Ball((1, 2, 4), 3), [(1e200, 0, 0)] * 2, (2 / 7, 3 / 7, 6 / 7), 5)
     assert (run.status != chapsym.Status.TAKEN).all()
     assert not recwarn.list

@@ -18,7 +18,8 @@ from chapsym import (
     step_n,
     trajectory_n,
 )  # fmt: skip
-from chapsym.dynamics import front, so_n
+from chapsym.dynamics import kernels
+from chapsym.dynamics.n import so_n
 
 
 def invariant_scales(K):
@@ -58,7 +59,7 @@ def test_the_invariants_are_those_of_the_matrix(n):
 
 def test_in_three_dimensions_the_invariants_are_the_vectors_ones():
     _, K, gamma = batch(3, 4, 1.0)
-    h, square, unit = np.moveaxis(front.invariants(axial(K), gamma), -1, 0)
+    h, square, unit = np.moveaxis(kernels.invariants(axial(K), gamma), -1, 0)
     assert np.allclose(invariants_n(K, gamma), np.stack([-2 * square, h * h - square, unit], axis=-1), atol=1e-14)
 
 
@@ -100,7 +101,7 @@ def test_in_three_dimensions_it_is_the_same_trajectory():
     budget = 4 * UNIT_ROUNDOFF * 2 * steps * growth(ball, K, gamma, steps)
     assert np.abs(axial(general.momentum) - special.momentum).max() <= budget * np.abs(K).max()
     assert np.abs(general.gamma - special.gamma).max() <= budget
-    assert np.abs(general.attitude - front.rotation(special.attitude)).max() <= budget
+    assert np.abs(general.attitude - kernels.rotation(special.attitude)).max() <= budget
     assert np.abs(general.contact - special.contact).max() <= budget * np.abs(special.contact).max()
 
 

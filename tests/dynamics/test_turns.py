@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from chapsym.dynamics import turns
+from chapsym.dynamics.closed import turns
 
 MP = mpmath.MPContext()
 MP.dps = 60

@@ -7,7 +7,9 @@ from hypothesis import strategies as st
 
 import chapsym
 from chapsym import BadInput, Ball, Status, StepNotTaken, step_vertical, testing, trajectory_vertical
-from chapsym.dynamics import engine, vertical, vertical_loop
+from chapsym.dynamics.closed import vertical
+from chapsym.dynamics.levels import double
+from chapsym.dynamics.loops import vertical_loop
 
 ULP = 2.0**-52
 GAMMA = np.array([2 / 7, 3 / 7, 6 / 7])
@@ -64,8 +66,8 @@ def test_the_closed_form_needs_no_other_path(monkeypatch):
 
     monkeypatch.setattr(vertical_loop, "safe_rotation", refuse)
     monkeypatch.setattr(vertical_loop, "settle", refuse)
-    monkeypatch.setattr(engine, "SHORT_RUN", 10**9)
-    monkeypatch.setattr(engine, "_ready", set())
+    monkeypatch.setattr(double, "SHORT_RUN", 10**9)
+    monkeypatch.setattr(double, "_ready", set())
     trajectory_vertical(TOP, 1.0, GAMMA, 20_000, every=20_000)
 
 

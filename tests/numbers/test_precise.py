@@ -9,10 +9,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from chapsym import BadInput, StepNotTaken, generated, testing
-from chapsym.dynamics import branch, precise, precise_start
+from chapsym.dynamics.levels import newton, start
+from chapsym.dynamics.levels.newton import precise_step
+from chapsym.dynamics.levels.start import fraction
+from chapsym.dynamics.loops import branch
 from chapsym.dynamics.oracle import Oracle, OracleFailed
-from chapsym.dynamics.precise import precise_step
-from chapsym.dynamics.precise_start import fraction
 from chapsym.numbers import NAMED, Ball, Digits, Double, Quad
 
 J, D = (F(1), F(2), F(4)), F(3)
@@ -134,7 +135,7 @@ def test_the_slope_of_the_enclosure_is_the_derivative(q, gamma, ball):
         return [m - k * scale for m, k in zip(moved, K, strict=True)]
 
     tangent, hessian = (f(*q, *gamma, *J, D) for f in (generated.tangent_jacobian, generated.tangent_hessian))
-    slope = precise._slope(tangent, hessian, K, w)
+    slope = newton._slope(tangent, hessian, K, w)
     for j in range(3):
         ahead, behind = ([x + s * step * (i == j) for i, x in enumerate(w)] for s in (1, -1))
         difference = [(a - b) / (2 * step) for a, b in zip(value(ahead), value(behind), strict=True)]
@@ -143,8 +144,8 @@ def test_the_slope_of_the_enclosure_is_the_derivative(q, gamma, ball):
 
 def test_the_interval_test_itself_finds_the_root(monkeypatch):
     """Without refinement the float64 root is off by 1e-16, and the one interval Newton step must put that right."""
-    monkeypatch.setattr(precise, "MOST_REFINEMENTS", 0)
-    monkeypatch.setattr(precise, "_small_enough", lambda rung, found: True)
+    monkeypatch.setattr(newton, "MOST_REFINEMENTS", 0)
+    monkeypatch.setattr(newton, "_small_enough", lambda rung, found: True)
     found = flat(precise_step(J, D, K, GAMMA, Ball(200)).write())
     with flint.ctx.workprec(400):
         for text, value in zip(found, truth(J, D, K, GAMMA, 80), strict=True):
@@ -216,7 +217,7 @@ def test_the_continuation_is_the_same_on_other_numbers():
     for factor in (0.1, 1.0, 1.15, 5.0):
         state = [factor * float(x) for x in K] + [2 / 7, 3 / 7, 6 / 7, 1.0, 2.0, 4.0, 3.0]
         plain = branch.small_rotation(*state)
-        found = precise_start.on(context)(*map(context.mpf, state))
+        found = start.on(context)(*map(context.mpf, state))
         assert found[0] == plain[0]
         assert abs(found[1] - plain[1]) < 1e-9
         if plain[0] == 0:

@@ -8,11 +8,11 @@ import flint
 import mpmath
 import numpy as np
 import pytest
-from chapsym.proofs import free_parameters as again
-from chapsym.proofs import s5_increment
 
 from chapsym.derive import ball, three, vertical
 from chapsym.derive.ball import D, Gamma, Omega, OmegaT
+from chapsym.proofs import second_routes as again
+from chapsym.proofs.paper import s5_increment
 from chapsym.prove import load
 from chapsym.prove import records as records_of_claims
 from chapsym.prove.runner import judge, prove_one
@@ -38,7 +38,7 @@ def test_the_second_routes_import_no_derivation():
 
 
 def test_a_changed_second_route_makes_the_record_stale():
-    assert "chapsym.proofs.free_parameters" in records_of_claims._closure("chapsym.proofs.s5_vertical")
+    assert "chapsym.proofs.second_routes" in records_of_claims._closure("chapsym.proofs.paper.s5_vertical")
 
 
 def wrong_momentum(honest):

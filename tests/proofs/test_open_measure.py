@@ -4,9 +4,9 @@ import json
 
 import mpmath as mp
 import pytest
-from chapsym.proofs import certified, open_measure
 
 from chapsym import checker
+from chapsym.proofs.open import certified, measure
 from chapsym.prove import Fact, Verdict, load
 from chapsym.prove.records import fingerprint
 from chapsym.prove.runner import judge, prove_one
@@ -206,23 +206,23 @@ def test_the_question_is_settled_by_lemmas_and_certificates():
     assert evidence["measured"]
     assert evidence["conjectures"]
     assert evidence["certificates"]
-    assert {seen["file"] for seen in evidence["certificates"]} == {file.name for file in open_measure.FILES}
+    assert {seen["file"] for seen in evidence["certificates"]} == {file.name for file in measure.FILES}
     assert all(seen["accepted"] and len(seen["digest"]) == 64 for seen in evidence["certificates"])
-    assert {f"{id} is proved" for id in open_measure.LEMMAS} <= {check["statement"] for check in evidence["checks"]}
+    assert {f"{id} is proved" for id in measure.LEMMAS} <= {check["statement"] for check in evidence["checks"]}
     assert not evidence["tried"]
 
 
 def test_without_certificates_or_with_a_rejected_one_it_is_open(tmp_path, monkeypatch):
     claim = load()["5.9-open"]
-    monkeypatch.setattr(open_measure, "LEMMAS", {})
-    monkeypatch.setattr(open_measure, "FILES", ())
+    monkeypatch.setattr(measure, "LEMMAS", {})
+    monkeypatch.setattr(measure, "FILES", ())
     assert judge(claim).verdict is Verdict.OPEN
-    file = certified.files(open_measure.KIND)[0]
+    file = certified.files(measure.KIND)[0]
     data = json.loads(file.read_text(encoding="utf-8"))
     data["half_turns"] += 1
     (tmp_path / file.name).write_text(json.dumps(data), encoding="utf-8")
     for path in (tmp_path / file.name, tmp_path / "missing.json"):
-        monkeypatch.setattr(open_measure, "FILES", (path,))
+        monkeypatch.setattr(measure, "FILES", (path,))
         judgement = judge(claim)
         assert judgement.verdict is Verdict.OPEN
         assert judgement.proof.problems == [f"the checker does not accept {path.name}"]
@@ -230,7 +230,7 @@ def test_without_certificates_or_with_a_rejected_one_it_is_open(tmp_path, monkey
 
 def test_a_changed_certificate_is_sealed_so_that_arithmetic_judges_it():
     """A smaller box is proved as well as the box: it is accepted, and so no seal is what rejects the others."""
-    data = checker.read(open_measure.FILES[0])
+    data = checker.read(measure.FILES[0])
     assert certified.changed("a smaller box", data, ("radius",), "1e-300").holds()
     assert not certified.changed("one half turn more", data, ("half_turns",), data["half_turns"] + 1).holds()
     with pytest.raises(ValueError, match="nothing is changed"):
@@ -238,8 +238,8 @@ def test_a_changed_certificate_is_sealed_so_that_arithmetic_judges_it():
 
 
 def test_a_lemma_that_fails_leaves_it_open(monkeypatch):
-    monkeypatch.setattr(open_measure, "FILES", open_measure.FILES[:1])
-    monkeypatch.setattr(open_measure, "judged", lambda id: Fact(f"{id} is proved", id != "resonance"))
+    monkeypatch.setattr(measure, "FILES", measure.FILES[:1])
+    monkeypatch.setattr(measure, "judged", lambda id: Fact(f"{id} is proved", id != "resonance"))
     judgement = judge(load()["5.9-open"])
     assert judgement.verdict is Verdict.OPEN
     assert judgement.proof.problems == ["lemma fails: resonance is proved"]
@@ -247,7 +247,7 @@ def test_a_lemma_that_fails_leaves_it_open(monkeypatch):
 
 def test_the_record_depends_on_the_certificates(tmp_path):
     claim = load()["5.9-open"]
-    assert claim.files == open_measure.FILES
+    assert claim.files == measure.FILES
     copy = tmp_path / claim.files[0].name
     copy.write_bytes(claim.files[0].read_bytes() + b"\n")
     changed = type(claim)(claim.id, claim.printed, claim.uses, claim.prove, (copy, *claim.files[1:]))

@@ -4,8 +4,9 @@ import subprocess
 import sys
 from pathlib import Path
 
-import chapsym.proofs
 import pytest
+
+import chapsym.proofs
 
 FOLDER = Path(chapsym.proofs.__file__).parent
 
@@ -42,4 +43,4 @@ def test_a_copy_of_a_script_is_not_mistaken_for_the_installed_one(tmp_path):
     copy.write_text((FOLDER / "s4_limits.py").read_text(encoding="utf-8"), encoding="utf-8")
     done = subprocess.run([sys.executable, copy], capture_output=True, text=True, check=False)
     assert done.returncode == 1
-    assert "is not the installed chapsym.proofs.s4_limits" in done.stderr
+    assert "is not the installed chapsym.proofs.paper.s4_limits" in done.stderr

@@ -72,8 +72,8 @@ def test_another_version_of_a_library_makes_every_record_stale(monkeypatch, fres
 
 
 def test_the_closure_of_a_script_is_what_it_can_reach():
-    reached = records._closure("chapsym.proofs.s5_increment")
-    assert {"chapsym.proofs.s5_elliptic", "chapsym.derive.elliptic", "chapsym.prove.evidence"} <= reached
+    reached = records._closure("chapsym.proofs.paper.s5_increment")
+    assert {"chapsym.proofs.paper.s5_elliptic", "chapsym.derive.elliptic", "chapsym.prove.evidence"} <= reached
     assert not {name for name in reached if name.startswith(("chapsym.dynamics", "chapsym.cli"))}
 
 

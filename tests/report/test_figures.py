@@ -13,8 +13,9 @@ import xarray as xr
 import chapsym
 from chapsym import files
 from chapsym.dynamics import BadInput
-from chapsym.report import figures
-from chapsym.report.figures import change, phase, reading, series
+from chapsym.show import figures
+from chapsym.show.drawing import reading, series
+from chapsym.show.figures import change, phase
 
 GAMMA = (0.48, 0.6, 0.64)
 
@@ -105,7 +106,7 @@ def test_thousands_of_balls_are_a_density_that_counts_every_frame():
 def test_an_ellipse_holds_its_share_of_the_balls():
     from matplotlib.path import Path
 
-    from chapsym.report.figures.contact import ellipse
+    from chapsym.show.figures.contact import ellipse
 
     points = np.random.default_rng(3).standard_normal((2000, 2)) @ [[3.0, 1.0], [0.0, 0.5]] + [10.0, -4.0]
     for share in (50, 90):

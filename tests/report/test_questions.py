@@ -7,10 +7,10 @@ from importlib import import_module
 from pathlib import Path
 
 import pytest
-from chapsym.proofs import certified
 
 from chapsym import checker
 from chapsym.cli import report as command
+from chapsym.proofs.open import certified
 from chapsym.report import questions
 
 VERSIONS = {"chapsym": "0.1.0"}

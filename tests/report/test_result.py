@@ -12,8 +12,8 @@ import results
 
 import chapsym
 from chapsym.dynamics import BadInput
-from chapsym.report.result import Result
 from chapsym.scene import SceneError
+from chapsym.show.result import Result
 
 SCENE = {
     "title": "A ball of <2> kg & more",

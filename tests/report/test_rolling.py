@@ -10,10 +10,10 @@ import pytest
 from rolling_results import EVEN, rolled
 
 import chapsym
-from chapsym.dynamics import BadInput, Status, front
-from chapsym.report.rolling import html, turning, write_page
-from chapsym.report.rolling import motion as motions
-from chapsym.report.rolling.motion import TOO_FAR, TOO_MANY, motion
+from chapsym.dynamics import BadInput, Status, kernels
+from chapsym.show.rolling import html, turning, write_page
+from chapsym.show.rolling import motion as motions
+from chapsym.show.rolling.motion import TOO_FAR, TOO_MANY, motion
 
 FOLDER = Path(motions.__file__).parent
 UP = np.array([0.0, 0.0, 1.0])
@@ -39,7 +39,7 @@ def test_the_contact_point_goes_as_far_as_the_ball_turns():
 def test_the_attitude_turns_gamma_upwards():
     ball = one(rolled())
     np.testing.assert_allclose(
-        front.rotate(ball.attitude, ball.vectors["gamma"]), np.tile(UP, (601, 1)), atol=600 * EPS
+        kernels.rotate(ball.attitude, ball.vectors["gamma"]), np.tile(UP, (601, 1)), atol=600 * EPS
     )
 
 
@@ -48,7 +48,7 @@ def test_turns_lead_from_frame_to_frame():
     angle = np.linalg.norm(ball.turn, axis=1, keepdims=True)
     assert angle.min() > np.pi / 2
     step = np.concatenate([np.cos(angle / 2), np.sin(angle / 2) * ball.turn / angle], axis=1)
-    reached = front.compose(step, ball.attitude[:-1])
+    reached = kernels.compose(step, ball.attitude[:-1])
     overlap = np.abs((reached * ball.attitude[1:]).sum(axis=1))
     np.testing.assert_allclose(overlap, 1, rtol=0, atol=16 * EPS)
 
@@ -234,6 +234,6 @@ def test_three_js_is_unmodified_and_packaged():
     if not project.is_file():
         pytest.skip("an installed wheel has no pyproject.toml")
     told = tomllib.loads(project.read_text(encoding="utf-8"))["tool"]["setuptools"]
-    packaged = {path for glob in told["package-data"]["chapsym.report.rolling"] for path in FOLDER.glob(glob)}
-    assert "chapsym.report.rolling" in told["packages"]
+    packaged = {path for glob in told["package-data"]["chapsym.show.rolling"] for path in FOLDER.glob(glob)}
+    assert "chapsym.show.rolling" in told["packages"]
     assert packaged == {path for path in FOLDER.rglob("*") if path.is_file() and not path.suffix.startswith(".py")}

@@ -10,9 +10,9 @@ import pytest
 from matplotlib import image
 from rolling_results import BALL, EVEN, rolled
 
-from chapsym.dynamics import Status, front
-from chapsym.report.rolling import write_page
-from chapsym.report.rolling.motion import TOO_FAR, motion
+from chapsym.dynamics import Status, kernels
+from chapsym.show.rolling import write_page
+from chapsym.show.rolling.motion import TOO_FAR, motion
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 QUIET = [
@@ -161,7 +161,7 @@ def test_the_ball_rolls_between_the_frames_and_does_not_slip(opened):
     h = 0.4
     found = page.ask(f"{at}.map(i => [i, i + {h}].map(j => [chapsym.position(j), chapsym.quaternion(j)]))")
     for (r0, q0), (r1, q1) in found:
-        turn = front.compose(np.array(q1), np.array(q0) * [1, -1, -1, -1])
+        turn = kernels.compose(np.array(q1), np.array(q0) * [1, -1, -1, -1])
         turn *= np.sign(turn[0])
         angle = 2 * np.arcsin(np.linalg.norm(turn[1:]))
         axis = turn[1:] / np.linalg.norm(turn[1:])
@@ -457,7 +457,7 @@ def test_the_ellipsoid_has_the_principal_axes(browser, tmp_path):
                return [0, 1, 2].map(i => seen.elements.slice(4 * i, 4 * i + 3)); })()"""
         )
     )
-    wanted = front.rotate(np.full((3, 4), [0.5, 0.5, -0.5, 0.5]), np.diag(1 / np.sqrt(BALL.inertia)))
+    wanted = kernels.rotate(np.full((3, 4), [0.5, 0.5, -0.5, 0.5]), np.diag(1 / np.sqrt(BALL.inertia)))
     np.testing.assert_allclose(axes / np.linalg.norm(axes), wanted / np.linalg.norm(wanted), rtol=0, atol=1e-12)
     page.context.close()
 

@@ -4,10 +4,11 @@ import numpy as np
 import pytest
 import results
 
-from chapsym.dynamics import front
-from chapsym.report import figures
-from chapsym.report.figures import four, invariant, sphere
-from chapsym.report.figures.invariant import Body, curve_through, energy_range, unit
+from chapsym.dynamics import kernels
+from chapsym.show import figures
+from chapsym.show.drawing import invariant, sphere
+from chapsym.show.drawing.invariant import Body, curve_through, energy_range, unit
+from chapsym.show.figures import four
 
 J, D = np.array([0.1, 0.5, 1.6]), 0.7
 AXES = np.array([0.8, 0.36, -0.48, 0.0])
@@ -85,7 +86,7 @@ def test_the_range_of_the_energy_is_that_of_all_states_with_these_integrals(of_g
         )
         here = np.broadcast_to(direction, others.shape)
         m, gamma = (others, here) if of_gamma else (here, others)
-        energy = front.energy(m, gamma, J, np.float64(D))
+        energy = kernels.energy(m, gamma, J, np.float64(D))
         # A parabola through samples 7.5° apart: 1.6e-4 of the whole range was measured; the grey leaves 1e-3 free.
         assert low == pytest.approx(energy.min(), abs=2e-4 * whole)
         assert high == pytest.approx(energy.max(), abs=2e-4 * whole)
@@ -169,15 +170,15 @@ def test_the_body_axes_in_space_are_those_of_the_attitude():
     quaternions = dataset["attitude"].values[0]
     drawn = [line.get_ydata() for line in below.lines]
     assert all((line == quaternions[:, i]).all() for i, line in enumerate(drawn))
-    ends = front.rotate(quaternions[-1], np.eye(3)[2])
-    from chapsym.report.figures.attitude import EYE
+    ends = kernels.rotate(quaternions[-1], np.eye(3)[2])
+    from chapsym.show.figures.attitude import EYE
 
     x, y, _ = sphere.View.towards_eye(EYE).project(ends)
     assert any(line.get_marker() == "s" and line.get_xydata()[0] == pytest.approx([x, y]) for line in globe.lines)
 
 
 def test_quaternions_do_not_jump_where_only_their_sign_does():
-    from chapsym.report.figures.attitude import continued
+    from chapsym.show.figures.attitude import continued
 
     q = results.bowling(60)["attitude"].values.copy()
     flipped = q.copy()

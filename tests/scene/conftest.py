@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 import chapsym
-from chapsym.dynamics import front
-from chapsym.scene.members import Members
+from chapsym.dynamics import kernels
+from chapsym.scene.members.members import Members
 
 TIME_STEP = 0.01
 
@@ -22,7 +22,7 @@ def members():
         ball = changed.pop("ball", ball)
         omega = np.array([3.0, -2.0, 1.0]) + spread
         gamma = np.broadcast_to(np.array([2, 3, 6]) / 7, (n, 3)).copy()
-        momentum = TIME_STEP * front.contact_momentum(omega, gamma, ball.mass_tensor, ball.D)
+        momentum = TIME_STEP * kernels.contact_momentum(omega, gamma, ball.mass_tensor, ball.D)
         return Members(
             **({"names": tuple(map(str, range(n))), "ball": ball, "momentum": momentum, "gamma": gamma} | changed)
         )

@@ -6,8 +6,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from chapsym import BadInput
-from chapsym.dynamics import front
-from chapsym.scene.bodies import PRESETS, check_inside, from_inertia_tensor, principal
+from chapsym.dynamics import kernels
+from chapsym.scene.members.bodies import PRESETS, check_inside, from_inertia_tensor, principal
 
 EPS = np.finfo(np.float64).eps
 
@@ -126,14 +126,14 @@ turns = st.tuples(*[st.floats(-1, 1)] * 4).filter(lambda q: np.linalg.norm(q) > 
 @given(moments, turns)
 def test_principal_axes_give_the_tensor_back(J, turn):
     q = np.array(turn) / np.linalg.norm(turn)
-    basis = np.stack([front.rotate(q, e) for e in np.eye(3)], axis=-1)
+    basis = np.stack([kernels.rotate(q, e) for e in np.eye(3)], axis=-1)
     tensor = (basis * J) @ basis.T
     tensor = (tensor + tensor.T) / 2
     found, axes = principal(tensor[None])
     if axes is None:
         assert found[0].tolist() == np.diagonal(tensor).tolist()
         return
-    columns = np.stack([front.rotate(axes[0], e) for e in np.eye(3)], axis=-1)
+    columns = np.stack([kernels.rotate(axes[0], e) for e in np.eye(3)], axis=-1)
     np.testing.assert_allclose((columns * found[0]) @ columns.T, tensor, atol=64 * EPS * max(J))
     assert abs(np.linalg.norm(axes[0]) - 1) < 4 * EPS
     np.testing.assert_allclose(np.linalg.det(columns), 1, atol=16 * EPS)
@@ -145,7 +145,7 @@ def test_a_small_turn_of_the_body_is_a_small_turn_of_the_axes():
     J = np.array([3.0, 1.0, 2.0])
     q = np.array([1, 0.01, -0.02, 0.015])
     q = q / np.linalg.norm(q)
-    basis = np.stack([front.rotate(q, e) for e in np.eye(3)], axis=-1)
+    basis = np.stack([kernels.rotate(q, e) for e in np.eye(3)], axis=-1)
     found, axes = principal(((basis * J) @ basis.T)[None])
     np.testing.assert_allclose(found[0], J, atol=16 * EPS)
     np.testing.assert_allclose(axes[0], q, atol=16 * EPS)

@@ -15,10 +15,12 @@ from pathlib import Path
 import pytest
 from small_units import equal_to_the_bit
 
-from chapsym.scene import SceneError, cluster, formats, sweep
-from chapsym.scene import plan as plans
-from chapsym.scene.models import Rolling
-from chapsym.scene.source import plan_from
+from chapsym.scene import SceneError
+from chapsym.scene.plan.models import Rolling
+from chapsym.scene.plan.plan import plan as plans
+from chapsym.scene.result import formats
+from chapsym.scene.running import cluster, sweep
+from chapsym.scene.running.source import plan_from
 
 PRELOAD = str(Path(__file__).parents[1] / "slow_small_units.py")
 SCENE = """
@@ -112,7 +114,8 @@ def test_a_run_goes_on_from_a_cluster_to_one_machine(local, scheduler, tmp_path)
     path = tmp_path / "run.zarr"
     lines = [
         "import sys", f"sys.path.insert(0, {str(Path(PRELOAD).parent)!r})", "import slow_small_units",
-        "from pathlib import Path", "from chapsym.scene import sweep", "from chapsym.scene.source import plan_from",
+        "from pathlib import Path", "from chapsym.scene.running import sweep",
+        "from chapsym.scene.running.source import plan_from",
         "report = lambda at: print(at, flush=True)",
         f"sweep.run_to_store(plan_from({SCENE!r}), Path({str(path)!r}), {scheduler!r}, report=report)",
     ]  # fmt: skip

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from chapsym import Ball, axial, roll, skew, trajectory
-from chapsym.dynamics import front
+from chapsym.dynamics import kernels
 from chapsym.dynamics.trajectories import attitude_with
 from chapsym.scene import SceneError, checked
-from chapsym.scene.expand import expand
+from chapsym.scene.members.expand import expand
 
 EPS = np.finfo(np.float64).eps
 BALL = {"inertia": [0.006, 0.007, 0.009], "mass": 2.0, "radius": 0.1}
@@ -32,7 +32,7 @@ def rolled(found, steps=2000, **options):
 
 
 def matrix(q):
-    return np.stack([front.rotate(q, e) for e in np.eye(3)], axis=-1)
+    return np.stack([kernels.rotate(q, e) for e in np.eye(3)], axis=-1)
 
 
 def test_a_start_by_omega_is_that_of_roll_to_the_bit():
@@ -77,8 +77,8 @@ def test_velocity_and_spin_start_any_ball_as_told():
     found.momentum[0] *= -1
     back = rolled(found, 1).contact[1]
     np.testing.assert_allclose((there - back) / 0.002, [1.5, -0.4], atol=2e-4)  # |ω|²ε² of 1.5 m/s
-    omega = front.angular_velocity(-found.momentum / 0.001, found.gamma, found.ball.mass_tensor, found.ball.D)
-    np.testing.assert_allclose(front.rotate(found.attitude, omega)[0], [4, 15, 40 * 2 * np.pi / 60], rtol=64 * EPS)
+    omega = kernels.angular_velocity(-found.momentum / 0.001, found.gamma, found.ball.mass_tensor, found.ball.D)
+    np.testing.assert_allclose(kernels.rotate(found.attitude, omega)[0], [4, 15, 40 * 2 * np.pi / 60], rtol=64 * EPS)
 
 
 def test_omega_in_space_axes_is_turned_to_the_body():
@@ -115,7 +115,7 @@ def test_a_body_given_in_other_axes_rolls_the_same_way(start):
         if key in start:
             turned[key] = (Q @ start[key]).tolist()
     if "attitude" in start:
-        turned["attitude"] = front.compose(TURN, turn * [1, -1, -1, -1]).tolist()
+        turned["attitude"] = kernels.compose(TURN, turn * [1, -1, -1, -1]).tolist()
     plain = members(start)
     other = members(turned, BALL | {"inertia": ((tensor + tensor.T) / 2).tolist()})
     assert other.axes is not None
@@ -131,13 +131,13 @@ def test_the_attitude_is_of_the_given_axes_whatever_the_principal_are():
     tensor = [[0.02, 0.001, 0], [0.001, 0.021, 0.002], [0, 0.002, 0.025]]
     ball = {"inertia": tensor, "mass": 3, "radius": 0.15}
     found = members({"omega": [1, 2, 3], "attitude": TURN.tolist()}, ball)
-    back = front.compose(found.attitude, found.axes * [1, -1, -1, -1])  # principal to space, after given to principal
+    back = kernels.compose(found.attitude, found.axes * [1, -1, -1, -1])  # principal to space, after given to principal
     np.testing.assert_allclose(back[0], TURN, atol=4 * EPS)
     J = np.trace(tensor) / 2 * np.eye(3) - np.array(tensor)
     Q = matrix(found.axes[0])
     np.testing.assert_allclose((Q * found.ball.mass_tensor[0]) @ Q.T, J, atol=4 * EPS)
     least = members({"omega": [1, 2, 3], "gamma": GAMMA}, ball)
-    given = front.compose(least.attitude, least.axes * [1, -1, -1, -1])
+    given = kernels.compose(least.attitude, least.axes * [1, -1, -1, -1])
     np.testing.assert_allclose(given[0], attitude_with(np.array(GAMMA)), atol=4 * EPS)
 
 
@@ -181,7 +181,7 @@ def test_unit_vectors_typed_with_few_digits_are_divided_and_those_that_vary_too(
 
 def test_an_accuracy_has_the_momentum_of_continuous_time():
     found = members({"omega": [1, 2, 3]}, run={"accuracy": 1e-6, "time": 1})
-    K = front.contact_momentum((1.0, 2.0, 3.0), (0.0, 0.0, 1.0), found.ball.mass_tensor[0], found.ball.D[0])
+    K = kernels.contact_momentum((1.0, 2.0, 3.0), (0.0, 0.0, 1.0), found.ball.mass_tensor[0], found.ball.D[0])
     assert found.momentum[0].tolist() == K.tolist()
 
 

@@ -8,8 +8,10 @@ import pytest
 import xarray
 from small_units import equal_to_the_bit, plan
 
-from chapsym.scene import SceneError, formats, load, run, save, sweep
-from chapsym.scene.source import plan_from, plan_of
+from chapsym.scene import SceneError, load, run, save
+from chapsym.scene.result import formats
+from chapsym.scene.running import sweep
+from chapsym.scene.running.source import plan_from, plan_of
 
 FILES = [".nc", ".csv", ".parquet"]
 
@@ -76,7 +78,7 @@ def test_four_dimensions_come_back(tmp_path):
 
 
 def test_many_rows_go_in_batches(tmp_path, monkeypatch, result):
-    monkeypatch.setattr("chapsym.scene.flat.ROWS", 100)
+    monkeypatch.setattr("chapsym.scene.result.flat.ROWS", 100)
     for suffix in (".csv", ".parquet"):
         formats.save(result, tmp_path / f"run{suffix}")
         equal_to_the_bit(formats.load(tmp_path / f"run{suffix}"), result)

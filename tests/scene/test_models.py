@@ -8,12 +8,13 @@ import pytest
 from rolled import rolled
 
 import chapsym
-from chapsym.dynamics import Status, front, precession
-from chapsym.scene.members import Members
-from chapsym.scene.models import Rolling, Steady, Top, Vertical
-from chapsym.scene.models import vertical as models_vertical
-from chapsym.scene.plan import planned
-from chapsym.scene.task import Task
+from chapsym.dynamics import Status, kernels
+from chapsym.dynamics.closed import precession
+from chapsym.scene.members.members import Members
+from chapsym.scene.plan.models import Rolling, Steady, Top, Vertical
+from chapsym.scene.plan.models import vertical as models_vertical
+from chapsym.scene.plan.plan import planned
+from chapsym.scene.running.task import Task
 
 EPS = 2.0**-53
 COLUMNS = ("momentum", "gamma", "attitude", "contact")
@@ -193,7 +194,7 @@ def test_a_top_without_an_attitude_at_once_takes_its_steps(tops, monkeypatch):
 
 
 def test_the_balls_of_a_model_that_is_dearer_are_not_looked_at_one_by_one(tops, monkeypatch):
-    monkeypatch.setattr("chapsym.scene.models.top.motion_of", None)
+    monkeypatch.setattr("chapsym.scene.plan.models.top.motion_of", None)
     plan = planned(tops, Task(("momentum",), 10))
     assert plan.model.name == Rolling.name
     assert "times as much" in plan.refused[Top.name]
@@ -233,7 +234,7 @@ def test_a_rotation_number_of_a_top_is_not_found_step_by_step(vertical):
 def test_a_given_attitude_is_that_of_the_first_frame(homogeneous, tops):
     for members in (homogeneous, tops):
         spun = np.broadcast_to([0.6, 0.0, 0.0, 0.8], (len(members), 4))
-        attitude = front.compose(spun, Rolling().attitude(members))
+        attitude = kernels.compose(spun, Rolling().attitude(members))
         plan = planned(replace(members, attitude=attitude), Task(("attitude",), 100_000_000, 50_000_000))
         assert plan.model.name in (Steady.name, Top.name)
         for model in (plan.model, Rolling()):

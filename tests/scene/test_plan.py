@@ -4,17 +4,18 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from chapsym.generated import TABLE
 from rolled import rolled
 
 import chapsym
-from chapsym.dynamics import Status, engine, front
-from chapsym.scene import cost, segments
-from chapsym.scene import plan as plans
-from chapsym.scene.models import MODELS, Rolling
-from chapsym.scene.outputs import OUTPUTS, PER_BALL, columns_for
-from chapsym.scene.plan import planned
-from chapsym.scene.task import Task
+from chapsym.dynamics import Status, kernels
+from chapsym.dynamics.levels import double
+from chapsym.generated import TABLE
+from chapsym.scene.plan.models import MODELS, Rolling
+from chapsym.scene.plan.outputs import OUTPUTS, PER_BALL, columns_for
+from chapsym.scene.plan.plan import cost, planned
+from chapsym.scene.plan.plan import plan as plans
+from chapsym.scene.running import segments
+from chapsym.scene.running.task import Task
 
 STATE = ("momentum", "gamma", "attitude", "contact", "omega", "energy", "integrals")
 
@@ -78,10 +79,10 @@ def test_outputs_are_in_the_axes_that_were_given(members):
         assert np.abs(turned[name] - plain[name][..., [2, 0, 1]]).max() <= 4 * 2**-53 * np.abs(plain[name]).max()
     for name in ("contact", "energy", "integrals"):
         assert (turned[name] == plain[name]).all()
-    vertical = front.rotate(turned["attitude"], turned["gamma"])
+    vertical = kernels.rotate(turned["attitude"], turned["gamma"])
     assert np.abs(vertical - [0, 0, 1]).max() < 1e-14
-    in_space = front.rotate(turned["attitude"], turned["omega"])
-    assert np.abs(in_space - front.rotate(plain["attitude"], plain["omega"])).max() < 1e-14
+    in_space = kernels.rotate(turned["attitude"], turned["omega"])
+    assert np.abs(in_space - kernels.rotate(plain["attitude"], plain["omega"])).max() < 1e-14
 
 
 def test_the_contact_point_starts_where_the_ball_was_put(members):
@@ -159,7 +160,7 @@ def test_an_accuracy_is_met_by_what_is_chosen_for_each_ball(members):
 
 
 def test_a_cost_is_that_of_the_compiled_loops(members, monkeypatch):
-    monkeypatch.setattr(engine, "_ready", set())
+    monkeypatch.setattr(double, "_ready", set())
     monkeypatch.setattr(cost, "ENOUGH", 0.002)
     plan = planned(members(1), Task(("contact",), 10**6, 10**5))
     assert cost.predicted(plan).seconds < 2.0  # plain Python takes ten

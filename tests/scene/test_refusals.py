@@ -16,8 +16,10 @@ import numpy as np
 import pytest
 from small_units import equal_to_the_bit, plan
 
-from chapsym.scene import SceneError, formats, sweep
-from chapsym.scene.store import marks
+from chapsym.scene import SceneError
+from chapsym.scene.result import formats
+from chapsym.scene.running import sweep
+from chapsym.scene.running.store import marks
 
 DOCS = Path(__file__).parents[2] / "docs"
 #: Some seconds.

@@ -7,7 +7,7 @@ import sys
 
 import pytest
 
-from chapsym.scene.example import names
+from chapsym.scene.read.example import names
 
 
 def chapsym(*arguments, **kwargs):

@@ -12,7 +12,7 @@ from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
 from chapsym.scene import Scene, SceneError, checked, load
-from chapsym.scene.expand import expand
+from chapsym.scene.members.expand import expand
 
 WHOLE = """title = "all keys"
 [[ball]]

@@ -7,9 +7,9 @@ import jsonschema
 import pytest
 
 from chapsym.scene import SceneError, checked
-from chapsym.scene.example import example, names
-from chapsym.scene.schema import schema
-from chapsym.scene.tables import KEYS
+from chapsym.scene.read.example import example, names
+from chapsym.scene.read.schema import schema
+from chapsym.scene.read.tables import KEYS
 
 from .test_scene_fuzz import DATA
 

@@ -16,9 +16,10 @@ import zarr
 from small_units import EVERY, OUTPUTS, STEPS, equal_to_the_bit, plan
 
 from chapsym.dynamics import BadInput, Status
-from chapsym.scene import SceneError, segments, sweep
-from chapsym.scene.store import Store, is_store, marks, write_region
-from chapsym.scene.store.refusals import refusals
+from chapsym.scene import SceneError
+from chapsym.scene.running import segments, sweep
+from chapsym.scene.running.store import Store, is_store, marks, write_region
+from chapsym.scene.running.store.refusals import refusals
 
 CHILD = [sys.executable, str(Path(__file__).parents[1] / "small_units.py")]
 UNITS = 20
@@ -129,7 +130,7 @@ def test_every_moment_of_the_creation_may_be_the_last(whole, tmp_path, monkeypat
     class Killed(BaseException):
         pass
 
-    from chapsym.scene.store import creation
+    from chapsym.scene.running.store import creation
 
     for name in ("_fill", "_to_zarr"):
         real = getattr(creation, name)
@@ -202,7 +203,7 @@ def test_a_store_of_another_run_is_not_touched(tmp_path, monkeypatch, changed, t
 def test_versions_kernels_and_starts_are_not_mixed(tmp_path, monkeypatch):
     path = tmp_path / "run.zarr"
     interrupted(path, monkeypatch, 3)
-    from chapsym.scene import dataset
+    from chapsym.scene.result import dataset
 
     with monkeypatch.context() as patched:
         patched.setattr("chapsym.__version__", "0.0.9")

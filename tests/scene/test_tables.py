@@ -4,7 +4,7 @@ import pytest
 
 from chapsym import scene
 from chapsym.scene import SceneError, checked
-from chapsym.scene.expand import expand
+from chapsym.scene.members.expand import expand
 
 DATA = {
     "ball": {"inertia": [0.006, 0.007, 0.009], "mass": 2.0, "radius": 0.1},

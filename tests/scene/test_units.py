@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from chapsym.scene.units import LENGTH, MASS, MOMENT, PURE, RATE, SPEED, TIME, number
+from chapsym.scene.read.units import LENGTH, MASS, MOMENT, PURE, RATE, SPEED, TIME, number
 
 
 @pytest.mark.parametrize(

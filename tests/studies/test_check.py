@@ -5,7 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 
-from chapsym.dynamics import branch
+from chapsym.dynamics.loops import branch
 from chapsym.studies import check
 
 

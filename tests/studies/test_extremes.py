@@ -9,7 +9,7 @@ import mpmath
 import numpy as np
 import pytest
 
-from chapsym.dynamics import BadInput, Status, StepNotTaken, front
+from chapsym.dynamics import BadInput, Status, StepNotTaken, kernels
 from chapsym.dynamics.oracle import Oracle, OracleFailed
 from chapsym.studies import check
 from chapsym.studies.extremes import cells, derived, elliptic, matrix, n_dim, reduced, states, steps
@@ -205,7 +205,7 @@ def unstable_velocity(K, g, J, D):
 
 
 def test_the_printed_form_of_the_velocity_fails_where_it_cancels(monkeypatch):
-    monkeypatch.setattr(front, "angular_velocity", unstable_velocity)
+    monkeypatch.setattr(kernels, "angular_velocity", unstable_velocity)
     assert derived.of("ω", "D = 3")(DOUBLE, True).verdict == "within"
     for condition in ("D = 1e6", "D = 1e12"):
         assert derived.of("ω", condition)(DOUBLE, True).verdict == "failed"

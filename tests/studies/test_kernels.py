@@ -8,9 +8,9 @@ import sys
 import hypothesis
 import numpy as np
 import pytest
-from chapsym.generated import TABLE
 from kernel_values import INDEPENDENT, MP, normalised
 
+from chapsym.generated import TABLE
 from chapsym.studies import kernels
 from chapsym.studies.kernels import errors, search, states, texts, timing
 

@@ -9,8 +9,8 @@ from flint import arb, ctx
 
 import chapsym
 from chapsym.dynamics import BadInput
-from chapsym.dynamics.elliptic import Curve, increment
-from chapsym.dynamics.vertical import step_vertical
+from chapsym.dynamics.closed.elliptic import Curve, increment
+from chapsym.dynamics.closed.vertical import step_vertical
 from chapsym.studies import rotation
 from chapsym.studies.rotation import average, digits, displacement, figure, plateau, staircase
 from chapsym.studies.rotation.circle import Level, number

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from convergence import continuous_ball
 
 import chapsym
 from chapsym.accuracy import Method, take
@@ -16,7 +17,6 @@ from chapsym.accuracy.prices import sample
 from chapsym.dynamics.trajectories import attitude_with
 from chapsym.numbers import NAMED
 from chapsym.studies import trade
-from chapsym.studies.convergence import continuous_ball
 from chapsym.studies.trade import balls, four
 from chapsym.studies.trade.frontier import Frontier, Point, digits_of
 from chapsym.studies.trade.reference import continuous

@@ -8,7 +8,7 @@ from unittest.mock import patch
 import numpy as np
 
 import chapsym
-from chapsym.dynamics import engine
+from chapsym.dynamics.levels import double
 
 from . import batch_peers
 from .harness import Contender, Reached, Result, available_cores, cores, interleaved, ratio_columns
@@ -50,7 +50,7 @@ def without_numba(
     K: np.ndarray, g: np.ndarray, J: np.ndarray, D: np.ndarray, steps: int
 ) -> tuple[np.ndarray, np.ndarray]:
     """The same where numba is missing: the engine then runs a batch in NumPy, by columns, from SHORT_RUN steps on."""
-    with patch.object(engine, "has_numba", lambda: False):
+    with patch.object(double, "has_numba", lambda: False):
         return with_chapsym(K, g, J, D, steps)
 
 

@@ -13,7 +13,7 @@ from textwrap import dedent
 import numpy as np
 
 from chapsym import generated
-from chapsym.dynamics import gibbs
+from chapsym.dynamics.loops import gibbs
 
 from .harness import NotComparable, compiler
 

@@ -14,8 +14,8 @@ from typing import Any
 
 import numpy as np
 
-from chapsym.dynamics.gibbs import HEAVY
-from chapsym.dynamics.loop import ROWS, D, G, I, K, prepare, put, safe_rotation, three
+from chapsym.dynamics.loops.gibbs import HEAVY
+from chapsym.dynamics.loops.loop import ROWS, D, G, I, K, prepare, put, safe_rotation, three
 from chapsym.generated import energy, gibbs_newton, turn
 
 #: What `follow` returns for an orbit, in this order.
@@ -145,7 +145,7 @@ def follow_all(momenta, gammas, tensor, contact, steps, rows):
 def _compiled() -> Callable[..., Any]:
     from numba.extending import register_jitable
 
-    from chapsym.dynamics.compiled import compiled
+    from chapsym.dynamics.levels.compiled import compiled
 
     for function in (cross, column, derivative, determinant, moved, weight, follow):
         register_jitable(error_model="numpy")(function)

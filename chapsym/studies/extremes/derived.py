@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from chapsym.dynamics import front
+from chapsym.dynamics import kernels
 
 from . import states
 from .cells import BUDGET, Compared, Judged, compared, worst
@@ -62,7 +62,7 @@ def reference(quantity: str, inputs: tuple[float, ...]) -> tuple[list[Any], floa
 def judge(quantity: str, level: Level, state: State) -> Judged:
     """One quantity of one state; `state.K` is its vector: K, or ω."""
     exact, kappa = reference(quantity, (*state.K, *state.g, *state.J, state.D))
-    kernel = getattr(front, QUANTITIES[quantity][1])
+    kernel = getattr(kernels, QUANTITIES[quantity][1])
     found = np.atleast_1d(kernel(state.K, state.g, state.J, state.D))
     return compared(level, [Compared(quantity, list(found), exact, BUDGET * (1 + kappa))], kappa)
 

@@ -6,7 +6,7 @@ from math import nextafter, sqrt
 
 import numpy as np
 
-from chapsym.dynamics.branch import small_rotation
+from chapsym.dynamics.loops.branch import small_rotation
 from chapsym.dynamics.oracle import Oracle
 
 from .folds import fold_at

@@ -13,8 +13,8 @@ from typing import Any, Self
 from flint import acb, arb, ctx, fmpq
 
 from chapsym.dynamics import BadInput
-from chapsym.dynamics.branch import TAKEN, small_rotation
-from chapsym.dynamics.gibbs import bound, search
+from chapsym.dynamics.loops.branch import TAKEN, small_rotation
+from chapsym.dynamics.loops.gibbs import bound, search
 from chapsym.generated import gibbs_newton, turn
 
 Vector = tuple[Any, Any, Any]

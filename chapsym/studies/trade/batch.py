@@ -10,7 +10,7 @@ from chapsym.accuracy import Method, take
 from chapsym.accuracy.methods import EXTRAPOLATED
 from chapsym.accuracy.pilot import surveyed
 from chapsym.accuracy.prices import sample
-from chapsym.dynamics import Ball, StepNotTaken, extrapolate, front, trajectory
+from chapsym.dynamics import Ball, StepNotTaken, extrapolate, kernels, trajectory
 from chapsym.numbers import Digits
 
 from ..bench.harness import Contender, cores, interleaved
@@ -31,7 +31,7 @@ def measure(quick: bool, say: Say) -> Frontier:
     gamma = one.gamma + np.cross(turned, one.gamma)
     gamma /= np.sqrt((gamma * gamma).sum(axis=-1, keepdims=True))
     gamma /= np.sqrt((gamma * gamma).sum(axis=-1, keepdims=True))
-    K = front.contact_momentum(np.array([3.0, -2.0, 1.0]) + turned, gamma, one.ball.mass_tensor, one.ball.D)
+    K = kernels.contact_momentum(np.array([3.0, -2.0, 1.0]) + turned, gamma, one.ball.mass_tensor, one.ball.D)
     some = [surveyed(replace(one, angular_momentum=K[i], gamma=gamma[i])) for i in range(1 if quick else SHOWN)]
     say("batch: the references")
     exact = [truth(request, 20) for request in some]

@@ -16,7 +16,7 @@ from chapsym.accuracy.methods import CHECKS, checks
 from chapsym.accuracy.pilot import surveyed
 from chapsym.accuracy.prices import sample
 from chapsym.accuracy.request import exact_values, lengths
-from chapsym.dynamics import BadInput, Ball, StepNotTaken, Trajectory, front
+from chapsym.dynamics import BadInput, Ball, StepNotTaken, Trajectory, kernels
 from chapsym.numbers import NAMED
 
 from .reference import continuous
@@ -76,7 +76,7 @@ def drawn(count: int, seed: int = SEED, quick: bool = False) -> Iterator[Request
         gamma, direction = (x / np.sqrt(x @ x) for x in random.normal(size=(2, 3)))
         gamma /= np.sqrt(gamma @ gamma)
         omega = direction * 10.0 ** random.uniform(-0.5, 0.8)
-        K = front.contact_momentum(omega, gamma, ball.mass_tensor, ball.D)
+        K = kernels.contact_momentum(omega, gamma, ball.mass_tensor, ball.D)
         seconds = float(10.0 ** random.uniform(0, 1.3 if quick else 3))
         finest = FINE if random.uniform() < FINER else COARSE
         accuracy = float(10.0 ** random.uniform(math.log10(finest), -3))

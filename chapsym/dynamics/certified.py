@@ -1,0 +1,197 @@
+"""Certificates: the true orbit of a float trajectory in Arb's balls, and what the trajectory is off by, as a proof."""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from decimal import Decimal
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+
+from chapsym.numbers import Ball as BallRung
+
+from .ball import Floats
+from .coefficients import COMPOSITIONS
+from .errors import BadInput, Status
+from .levels import high, ladder
+from .levels.double import Balls
+from .levels.start import fraction
+from .map import batch
+from .trajectories import Trajectory
+
+#: What a certificate is about; `contact` in metres.
+NAMES = ("momentum", "gamma", "attitude", "contact")
+
+
+@dataclass(frozen=True, eq=False)
+class Certificate:
+    """The frames of a trajectory as balls that contain the true orbit, and bounds of what the trajectory is off by.
+
+    The true orbit is that of the map, the small-rotation branch, from the very numbers of frame 0: 𝒦 as it is, γ and
+    the attitude divided by their lengths, without any rounding after that; for the orders 4, 6 and 8 with the stage
+    coefficients as the 40 digits that are written in `coefficients`.  For `roll` it starts at the 𝒦 of frame 0.
+
+    momentum, gamma, attitude, contact: Arb's balls, shaped as those of the trajectory; None where it has none.
+    momentum_error, gamma_error, attitude_error, contact_error: upper bounds, (..., frames), of the length of the
+    difference between the trajectory and the true orbit, in the unit of the array.  NaN after the last step.
+    trajectory: what was certified.
+    """
+
+    trajectory: Trajectory
+    momentum: np.ndarray
+    gamma: np.ndarray
+    attitude: np.ndarray | None
+    contact: np.ndarray | None
+    momentum_error: Floats
+    gamma_error: Floats
+    attitude_error: Floats | None
+    contact_error: Floats | None
+
+    def digits(self, name: str) -> np.ndarray:
+        """The true values as decimal strings, each rounded to the digits that its ball proves: all are right.
+
+        name: "momentum", "gamma", "attitude" or "contact".  A value that may be 0 is "0E-n": it is below 10^-n.
+        Raises BadInput for another name, and for what the trajectory does not have.
+        """
+        values = getattr(self, name) if name in NAMES else None
+        if values is None:
+            raise BadInput(f"the certificate has no {name}; it has {', '.join(self._names())}")
+        return np.array([proved_digits(x) for x in values.flat], dtype=object).reshape(values.shape)
+
+    def write(self) -> dict[str, Any]:
+        """For JSON: the step numbers, and the digits and the bounds of the errors of every array."""
+        found: dict[str, Any] = {"index": self.trajectory.index.tolist()}
+        for name in self._names():
+            found[name] = self.digits(name).tolist()
+            found[f"{name}_error"] = getattr(self, f"{name}_error").tolist()
+        return found
+
+    def _names(self) -> list[str]:
+        return [name for name in NAMES if getattr(self, name) is not None]
+
+
+def certify(
+    trajectory: Trajectory, *, bits: int = 128, progress: Callable[[int], None] = lambda steps_done: None
+) -> Certificate:
+    """Encloses the true orbit of a trajectory, and bounds the errors of the trajectory, rigorously.
+
+    trajectory: on any rung, of one ball or a batch, of the order 2, 4, 6 or 8, with its attitude and contact.
+    bits: how many correct bits the balls shall have; the run is repeated with as many more as its length costs.
+    progress: called with the steps done so far (of all balls together); a run that is repeated counts again.
+
+    The branch is proved by lemma `small-branch` where |𝒦| is within its bound; beyond it the float64 continuation says
+    which root is followed, and only that this is a root, and one alone near by, is proved.
+    Raises BadInput, one sentence, for what is no such trajectory, and where the true orbit cannot be followed to the
+    end: balls that grow too much, or a step that the true orbit does not have.
+    """
+    if not isinstance(trajectory, Trajectory):
+        raise BadInput(f"certify takes what `trajectory` and `roll` return, not {type(trajectory).__name__}")
+    if trajectory.order not in COMPOSITIONS:
+        raise BadInput(f"certify takes orders {', '.join(map(str, COMPOSITIONS))}: this is no orbit of the map")
+    if isinstance(bits, bool) or not isinstance(bits, int | np.integer) or bits < 2:
+        raise BadInput(f"bits must be a whole number from 2 on, not {bits!r}")
+    given = {name: exactly(trajectory, name) for name in NAMES}
+    enclosed = _orbit(trajectory, given, int(bits), progress)
+    errors = {
+        name: None if array is None else _errors(array, given[name], int(bits)) for name, array in enclosed.items()
+    }
+    return Certificate(trajectory, *enclosed.values(), *errors.values())  # type: ignore[arg-type]
+
+
+def exactly(trajectory: Trajectory, name: str) -> np.ndarray | None:
+    """An array of a trajectory as exact fractions, None where there are no numbers; None if it has no such array."""
+    array = getattr(trajectory, name)
+    if array is None:
+        return None
+    rest = None if trajectory.low is None else getattr(trajectory.low, name)
+    lows = [0.0] * array.size if rest is None else rest.flat
+    values = [None if x != x else fraction(x) + fraction(y) for x, y in zip(array.flat, lows, strict=True)]
+    return np.array(values, dtype=object).reshape(array.shape)
+
+
+def _orbit(
+    trajectory: Trajectory, given: dict[str, Any], bits: int, progress: Callable[[int], None]
+) -> dict[str, np.ndarray | None]:
+    """The frames of the true orbit."""
+    index, count = trajectory.index, len(trajectory.index)
+    every = int(index[1] - index[0]) if count > 1 else 1
+    start = [np.asarray(getattr(trajectory, name)[..., 0, :], dtype=float) for name in ("momentum", "gamma")]
+    shape, (_, _, J, D) = batch(trajectory.ball, *start)
+    first: dict[str, Any] = {
+        name: None if array is None else array[..., 0, :].reshape(len(D), array.shape[-1])
+        for name, array in given.items()
+    }
+    radius = np.zeros(len(D))
+    if trajectory.contact is not None:
+        assert trajectory.ball.radius is not None
+        radius = np.broadcast_to(trajectory.ball.radius, shape).reshape(-1)
+    with_body = first["attitude"] is not None
+    rung = BallRung(bits)
+    frames = ladder.frames_for(rung, len(D), count, count if with_body else 0)
+    if with_body:
+        frames.attitude[:, 0] = first["attitude"]
+    for i, taken in enumerate(trajectory.taken.reshape(-1)):
+        balls = Balls(*(x[i : i + 1] for x in (first["momentum"], first["gamma"], J, D, radius)))
+        kept = min(count, int(taken) // every + 1)
+        part = frames.part(i, kept)
+        high.run(rung, balls, (kept - 1) * every, every, part, trajectory.order, progress)
+        if part.status[0] != Status.TAKEN:
+            raise BadInput(
+                f"the true orbit{f' of ball {i}' if shape else ''} does not take step {int(part.taken[0])}:"
+                f" {Status(int(part.status[0])).sentence}"
+            )
+    arrays = (frames.momentum, frames.gamma, frames.attitude, frames.contact)
+    return {
+        name: None if first[name] is None else array.reshape(*shape, *array.shape[1:])
+        for name, array in zip(NAMES, arrays, strict=True)
+    }
+
+
+def _errors(balls: np.ndarray, given: Any, bits: int) -> Floats:
+    """Upper bounds of |given - ball| for each frame, (..., frames); NaN where there is no frame."""
+    from flint import arb, ctx, fmpq
+
+    def bound(frame: np.ndarray, exact: np.ndarray) -> float:
+        if any(x is None for x in exact) or any(not hasattr(x, "rad") for x in frame):
+            return math.nan
+        off = [(x - arb(fmpq(y.numerator, y.denominator))).abs_upper() for x, y in zip(frame, exact, strict=True)]
+        length = sum((x * x for x in off), arb(0)).sqrt().abs_upper()
+        return math.nextafter(float(length), math.inf) if length > 0 else 0.0
+
+    width = balls.shape[-1]
+    with ctx.workprec(2 * bits + 128):
+        rows = zip(balls.reshape(-1, width), given.reshape(-1, width), strict=True)
+        return np.array([bound(x, y) for x, y in rows]).reshape(balls.shape[:-1])
+
+
+def proved_digits(x: Any) -> str:
+    """A decimal number to which every number of the ball rounds; "nan" for what is no ball."""
+    if not hasattr(x, "rad"):
+        return "nan"
+    middle, radius = fraction(x), fraction(x.rad())
+    low, high = middle - radius, middle + radius
+    if low <= 0 <= high:
+        return "0" if radius == 0 else f"0E{_decade(max(-low, high)) + 1}"
+    least = _decade(radius) if radius else _exact_places(middle)
+    # At a tie the two ends differ for some digits more.
+    for place in range(least, _decade(middle) + 2):
+        unit = Fraction(10) ** place
+        rounded = round(low / unit)
+        if rounded == round(high / unit) and rounded:
+            return str(Decimal((int(rounded < 0), tuple(map(int, str(abs(rounded)))), place)))
+    return f"0E{_decade(max(abs(low), abs(high))) + 1}"
+
+
+def _decade(x: Fraction) -> int:
+    """The exponent n with 10ⁿ ≤ |x| < 10ⁿ⁺¹."""
+    x = abs(x)
+    guess = math.floor((x.numerator.bit_length() - x.denominator.bit_length()) * math.log10(2)) - 1
+    while Fraction(10) ** (guess + 1) <= x:
+        guess += 1
+    return guess
+
+
+def _exact_places(x: Fraction) -> int:
+    """The place of the last digit of a dyadic fraction, which has finitely many."""
+    return -(x.denominator.bit_length() - 1)

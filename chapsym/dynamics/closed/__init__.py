@@ -1,0 +1,1 @@
+"""Closed forms: steady rotations, tops, the elliptic curve, vertical momentum."""

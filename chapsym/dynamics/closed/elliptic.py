@@ -1,0 +1,202 @@
+"""The invariant curve of the reduced map in Jacobi's functions (5.7, 5.8), and the increment on it (5.15)."""
+
+from dataclasses import dataclass
+from typing import Self
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..ball import Ball, Floats, numbers
+from ..errors import BadInput
+from ..map import unit_vertical
+from .jacobi import argument, jacobi, quarter_period
+
+#: How near to the curve a γ must be whose argument is asked for; next to the separatrix roundings of a run lead 1/k'
+#: times as far, which is followed up to 1/k' = 10⁶.
+ON_CURVE, NEAREST = 1e-9, 1e-6
+MOST_CORRECTIONS = 60
+#: A correction of the increment below this, relatively, is the last: Newton squares it.
+SETTLED = 1e-9
+
+
+@dataclass(frozen=True, eq=False)
+class Curve:
+    """γ = (C_a cn u, C_b sn u, C_c dn u) on the axes (a, b, c), a level ⟨γ,Λ⁻¹γ⟩ = l on the sphere, for one ball.
+
+    axes: which component has cn, sn, dn: decreasing Λ for l > 1/Λ_b, the middle one, else increasing.
+    amplitudes: C_a, C_b > 0 and C_c, whose sign tells the half of the sphere.
+    modulus, complement: k and k' = √(1 - k²); k' is known to its own last digits, also near the separatrix k = 1.
+    level: l; rate: V of (5.13-V) with its sign, so that u' = V along γ' = γ × Λ⁻¹γ.
+    inertia: (Λ_a, Λ_b, Λ_c); gaps: (Λ_b - Λ_c, Λ_a - Λ_c, Λ_a - Λ_b), from J, which a large D does not round.
+    slack: F = 1 - Dl, as a sum of positive terms (lemma `stable-inverse`).
+    """
+
+    ball: Ball
+    axes: tuple[int, int, int]
+    amplitudes: tuple[float, float, float]
+    modulus: float
+    complement: float
+    level: float
+    rate: float
+    inertia: tuple[float, float, float]
+    gaps: tuple[float, float, float]
+    slack: float
+
+    @classmethod
+    def through(cls, ball: Ball, gamma: ArrayLike) -> Self:
+        """The curve through a unit γ, (3,); raises BadInput where the map fixes γ, and for a batch of balls."""
+        if not isinstance(ball, Ball):
+            raise BadInput(f"ball must be a chapsym.Ball, not {type(ball).__name__}")
+        g = unit_vertical(gamma)
+        if ball.D.shape or ball.mass_tensor.shape != (3,) or g.shape != (3,):
+            raise BadInput("a curve is of one ball and one gamma, not of a batch")
+        moments, tensor = ball.inertia + ball.D, ball.mass_tensor
+        order = np.argsort(tensor, kind="stable")  # the largest moment first
+        if not across(tensor, moments, g).any():
+            raise BadInput("the map fixes this gamma (a principal axis, or a ball with equal moments): it is no curve")
+        # Λ_b l - 1 = x² - y²: its sign says on which side of the separatrix γ is.
+        x, y = _separatrix(tensor, moments, g, order)
+        a, b, c = (int(i) for i in (order if x >= y else order[::-1]))
+        La, Lb, Lc = (float(moments[i]) for i in (a, b, c))
+        gaps = float(tensor[c] - tensor[b]), float(tensor[c] - tensor[a]), float(tensor[b] - tensor[a])
+        bc, ac, ab = map(abs, gaps)
+        # |1 - Λ_c l| and |Λ_a l - 1|: sums of terms of one sign.
+        upper = g[a] ** 2 * ac / La + g[b] ** 2 * bc / Lb
+        lower = g[b] ** 2 * ab / Lb + g[c] ** 2 * ac / Lc
+        k2 = ab * upper / (bc * lower)
+        complement = np.sqrt(ac * abs(x - y) * (x + y) / (bc * lower))
+        amplitudes = (
+            float(np.sqrt(La * upper / ac)),
+            float(np.sqrt(Lb * upper / bc)),
+            float(np.copysign(np.sqrt(Lc * lower / ac), g[c])),
+        )
+        parity = 1.0 if (b - a) % 3 == 1 else -1.0
+        unit = int(np.frexp(max(La, Lb, Lc))[1])  # whose third power may be out of range
+        ma, mb, mc = np.ldexp((La, Lb, Lc), -unit)
+        size = np.ldexp(np.sqrt(np.ldexp(bc, -unit) * lower / (ma * mb * mc)), -unit)
+        rate = -parity * np.sign(gaps[1]) * np.sign(amplitudes[2]) * size
+        level, slack = float((g * g / moments).sum()), float((g * g * ball.inertia / moments).sum())
+        return cls(
+            ball, (a, b, c), amplitudes, float(min(np.sqrt(k2), 1.0)), float(complement), level, float(rate),
+            (La, Lb, Lc), gaps, slack,
+        )  # fmt: skip
+
+    @property
+    def mu(self) -> float:
+        """μ = (1 - Λ_c l)/(Λ_b - Λ_c) of (5.14-Pi1)."""
+        return self.amplitudes[1] ** 2 / self.inertia[1]
+
+    @property
+    def period(self) -> float:
+        """4K(k), after which γ is back; infinite on the separatrix."""
+        return 4.0 * quarter_period(self.complement)
+
+    def point(self, u: ArrayLike) -> Floats:
+        """γ(u), shape (..., 3), for real u, (...)."""
+        sn, cn, dn = jacobi(numbers(u, "u"), self.modulus, self.complement)
+        gamma = np.empty((*sn.shape, 3))
+        for axis, amplitude, value in zip(self.axes, self.amplitudes, (cn, sn, dn), strict=True):
+            gamma[..., axis] = amplitude * value
+        return gamma
+
+    def argument(self, gamma: ArrayLike) -> Floats:
+        """u in [-2K, 2K] with γ(u) = γ, shape (...), for γ on the curve, (..., 3).
+
+        An error of γ along the curve is one of u divided by |dγ/du|.  Raises BadInput for a γ off the curve.
+        """
+        g = unit_vertical(gamma)
+        cn, sn, dn = (g[..., axis] / size for axis, size in zip(self.axes, self.amplitudes, strict=True))
+        u = argument(sn, cn, np.abs(dn), quarter_period(self.complement))
+        if g.size and np.abs(self.point(u) - g).max() * max(self.complement, NEAREST) > ON_CURVE:
+            raise BadInput("gamma is not on this curve: its ⟨γ,Λ⁻¹γ⟩ or its half of the sphere is another one")
+        return u
+
+
+def across(tensor: Floats, moments: Floats, g: Floats) -> Floats:
+    """γ × Λ⁻¹γ, (..., 3), with Λ₂ - Λ₃ = J₃ - J₂, ..., which a large D does not round."""
+    b, c = np.roll(np.arange(3), -1), np.roll(np.arange(3), -2)
+    return np.asarray(g[..., b] * g[..., c] * ((tensor[c] - tensor[b]) / moments[b] / moments[c]))
+
+
+def _separatrix(tensor: Floats, moments: Floats, g: Floats, order: np.ndarray) -> tuple[float, float]:
+    """x, y ≥ 0 with Λ_b l - 1 = x² - y² for Λ in the given order, a to c."""
+    a, b, c = order
+    x = abs(g[c]) * np.sqrt((tensor[c] - tensor[b]) / moments[c])
+    y = abs(g[a]) * np.sqrt((tensor[b] - tensor[a]) / moments[a])
+    return float(x), float(y)
+
+
+def _parts(curve: Curve, sn: Floats, cn: Floats, dn: Floats) -> tuple[Floats, Floats, Floats, Floats]:
+    """w = sn cn dn, λ = l - μ sn², G/V² = 1 + α sn² - β sn⁴ (5.14), and d(G/V²)/dδu, of the half increment."""
+    La, Lb, Lc = curve.inertia
+    bc, ac, _ = curve.gaps
+    Ca, _, Cc = curve.amplitudes
+    level, y, w = curve.level, sn * sn, sn * cn * dn
+    lower = Cc * Cc * ac / Lc  # Λ_a l - 1
+    alpha = (2.0 * La * (Lc * level) - (La + Lc - Lb)) / (bc * lower)
+    beta = (Lc / bc) * (Ca * Ca * (ac / bc)) / lower
+    return w, level - curve.mu * y, 1.0 + y * (alpha - beta * y), 2.0 * w * (alpha - 2.0 * beta * y)
+
+
+def height_of(curve: Curve, half: ArrayLike, mean: ArrayLike = 0.0) -> tuple[Floats, Floats]:
+    """The h whose step leads from γ(ū - δu) to γ(ū + δu), and its derivative in δu at a fixed u = ū - δu.
+
+    (5.15) as corrected, h G𝒟 = 2Vw(𝒟 - D(l - μ sn²δu)), solved for h.  half: δu; mean: ū; shapes (...).
+    """
+    delta, centre = numbers(half, "half"), numbers(mean, "mean")
+    sn, cn, dn = jacobi(delta, curve.modulus, curve.complement)
+    s, c, d = jacobi(centre, curve.modulus, curve.complement)
+    w, lam, shape, shape_rate = _parts(curve, sn, cn, dn)
+    k2, y = curve.modulus**2, sn * sn
+    scale = 1.0 - k2 * s * s * y
+    contact = float(curve.ball.D)
+    # 1 - Dλ/𝒟 without the 1 - Dl that cancels for D ≫ J.
+    rolled = (curve.slack + y * (contact * curve.mu - k2 * s * s)) / scale
+    height = 2.0 * w * rolled / (curve.rate * shape)
+    # d/dδu of w, λ and 𝒟; ū moves with δu.
+    w_rate = cn * cn * dn * dn - y * (dn * dn + k2 * cn * cn)
+    lam_rate = -2.0 * curve.mu * w
+    scale_rate = -2.0 * k2 * s * (c * d * y + s * w)
+    rolled_rate = -contact * (lam_rate - lam * scale_rate / scale) / scale
+    slope = 2.0 / (curve.rate * shape) * (w_rate * rolled + w * rolled_rate - w * rolled * shape_rate / shape)
+    return height, slope
+
+
+def increment(curve: Curve, height: ArrayLike, u: ArrayLike) -> Floats:
+    """2δu of the step of G_h from γ(u), on the branch that starts at δu = 0 for h = 0: u ↦ u + 2δu; shape (...).
+
+    height: h in kg m², (...); u: (...).  Solves (5.15) as corrected for δu by Newton's iteration from
+    δu = Vh/(2(1 - Dl)), the rate of the continuous ball.  For D = 0 it does not depend on u (5.15-euler).
+    Where the iteration leaves the branch, as it does beyond its fold, raises BadInput; in a batch that entry is NaN.
+    """
+    h, start = np.broadcast_arrays(numbers(height, "height"), numbers(u, "u"))
+    half = np.asarray(curve.rate * h / (2.0 * curve.slack))
+    settled, lost = np.zeros(half.shape, dtype=bool), np.zeros(half.shape, dtype=bool)
+    for _ in range(MOST_CORRECTIONS):
+        found, slope = height_of(curve, half, start + half)
+        lost |= ~settled & ~(slope * curve.rate > 0.0)
+        correction = np.divide(h - found, slope, out=np.zeros_like(half), where=~(settled | lost))
+        half = half + correction
+        settled |= ~lost & (np.abs(correction) <= SETTLED * np.abs(half))
+        if (settled | lost).all():
+            break
+    half = np.where(settled, half, np.nan)
+    if not half.ndim and not settled:
+        raise BadInput("no increment was found on the small-rotation branch for this height; take a smaller one")
+    return np.asarray(2.0 * half)
+
+
+def squared_sine(curve: Curve, height: ArrayLike, half: ArrayLike) -> Floats:
+    """sn²ū of the mean ū at which the half increment of G_h is δu, by (5.15) as corrected, which is linear in it.
+
+    A value outside [0, 1] says that no step on this curve has this increment.  Raises BadInput for D = 0, where the
+    increment does not tell ū, and on a curve with k = 0 or for δu = 0.
+    """
+    h, delta = numbers(height, "height"), numbers(half, "half")
+    sn, cn, dn = jacobi(delta, curve.modulus, curve.complement)
+    contact = float(curve.ball.D)
+    if contact == 0.0 or curve.modulus == 0.0 or (sn == 0.0).any():
+        raise BadInput("the increment does not tell the point: it needs D > 0, a curve with k > 0 and an increment")
+    w, lam, shape, _ = _parts(curve, sn, cn, dn)
+    scale = 2.0 * w * contact * lam / (2.0 * w - h * curve.rate * shape)
+    return np.asarray((1.0 - scale) / (curve.modulus**2 * sn * sn))

@@ -1,0 +1,169 @@
+"""Steady rotation: every step is the same rotation about an axis that stays, so that each state is known directly.
+
+Lemma `steady`: with w = B(γ)⁻¹𝒦/2 the Gibbs vector of a step is nw if w × Iw = 0, and the next w is the same one.
+That is any state of a ball with three equal moments, and a rotation about a principal axis where B(γ) keeps it: for
+D = 0, for a vertical along it, and for one across it, which is rolling straight.  A ball at rest is one, too.
+In space the contact point runs straight (lemma `straight`).
+"""
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from chapsym.generated.quad import steady_pairs
+from chapsym.numbers import pairs
+
+from .. import kernels
+from ..ball import Ball, Floats, numbers
+from ..errors import BadInput, Status
+from ..map import batch, explain, unit_vertical
+from ..trajectories import Trajectory, initial_attitude
+from . import turns
+from .frames import finished, step_numbers
+
+#: A step by more than a quarter turn is beyond the fold (lemmas `steady-branch`, `steady-axis`, `steady-roll`).
+QUARTER = 1.0
+#: Frames of balls whose angles are found at a time, and whose vectors are turned at a time: they stay in the caches.
+CHUNK, BLOCK = 2**16, 2**13
+
+
+def is_steady(ball: Ball, momentum: ArrayLike, gamma: ArrayLike) -> np.ndarray:
+    """Which states rotate steadily, (...), so that `steady_frames` has them.
+
+    Where J₁ = J₂ = J₃; where 𝒦 = 0; where 𝒦 has one component only and D = 0 or γ is along it; and where γ is across
+    it, if 2(J₂ - J₃)² ≤ (2J₁ + J₂ + J₃)²: then no fold comes before a quarter turn (lemma `steady-roll`).  There is no
+    tolerance: moments or components that differ by an ulp turn the axis by about an ulp a step, which adds up; and from
+    the middle principal axis roundings lead away, exponentially, in a run of the map, but not here.
+    momentum, gamma: 𝒦 (kg m²) and γ, (..., 3); they broadcast with the balls.  Raises BadInput as `step` does.
+    """
+    shape, (K, g, J, D) = batch(ball, numbers(momentum, "momentum", 3), unit_vertical(gamma))
+    return _equivalent(K, g, J, D)[0].reshape(shape)
+
+
+def _equivalent(K: Floats, g: Floats, J: Floats, D: Floats) -> tuple[np.ndarray, turns.Pair]:
+    """Which balls rotate steadily, and the I, as a pair, of a ball with equal moments that has the same steps."""
+    axis = np.abs(K).argmax(axis=-1)
+    rows = np.arange(len(D))
+    along, second, third = (J[rows, (axis + i) % 3] for i in range(3))
+    single = (K != 0).sum(axis=-1) <= 1
+    upright = (g != 0).sum(axis=-1) == 1
+    tame = np.sqrt(2.0) * np.abs(second - third) <= 2.0 * along + second + third
+    kept = (upright & (g[rows, axis] != 0)) | (tame & (g[rows, axis] == 0))
+    principal = single & ((D == 0) | ~K.any(axis=-1) | kept)
+    equal = (J[:, 0] == J[:, 1]) & (J[:, 1] == J[:, 2])
+    return equal | principal, pairs.two_sum(second, third)
+
+
+def steady_frames(
+    ball: Ball, momentum: ArrayLike, gamma: ArrayLike, index: ArrayLike, *, attitude: bool | ArrayLike = False,
+    contact: bool = False, time_step: float | None = None,
+) -> Trajectory:  # fmt: skip
+    """The states of `trajectory` at the step numbers `index`, each at once, where `is_steady`.
+
+    𝒦ₖ = Ω⁻ᵏ𝒦, γₖ = Ω⁻ᵏγ, Rₖ = R₀Ωᵏ for the one rotation Ω by θ, sin θ = 2|w|, about w = B(γ)⁻¹𝒦/2, and the contact
+    point moves by the same vector each step.  The cost does not depend on the step numbers, nor does the error: a few
+    ulps of |𝒦|, of 1, and of the length of the path, for k below 10¹⁴.  γ counts as divided by its length, as on the
+    higher rungs.
+
+    index: ascending whole numbers from 0 on, (frames,).  The other arguments, what is raised (StepNotTaken for one ball
+    beyond the fold, a `status` in a batch) and the result are those of `trajectory`.
+    Raises BadInput for a ball that does not rotate steadily, too.
+    """
+    numbered = step_numbers(index)
+    shape, (K, g, J, D) = batch(ball, numbers(momentum, "momentum", 3), unit_vertical(gamma))
+    steady, moment = _equivalent(K, g, J, D)
+    if not steady.all():
+        raise BadInput(
+            "this ball does not rotate steadily: its three J must be equal, or momentum along a principal axis "
+            "that is vertical or level (or D = 0), as `is_steady` says; run `trajectory`"
+        )
+    axis, half, sine = _rotation(K, g, moment, D)
+    taken = sine < QUARTER
+    balls, frames = len(D), len(numbered)
+    momenta, verticals = np.empty((2, balls, frames, 3))
+    attitudes = traces = first = later = None
+    if contact or not (isinstance(attitude, bool | np.bool_) and not attitude):
+        first = np.broadcast_to(initial_attitude(attitude, g.reshape(*shape, 3)), (*shape, 4)).reshape(-1, 4)
+        later = kernels.compose(first, np.concatenate([np.zeros((len(axis), 1)), axis], axis=-1))
+        attitudes = np.empty((balls, frames, 4))
+        if contact:
+            traces = _straight(ball, shape, first, g, axis, half, numbered)
+    size = max(1, CHUNK // frames)
+    for part in (slice(i, i + size) for i in range(0, balls, size)):
+        cosine, along = turns.cosines_and_sines(half[0][part], half[1][part], numbered)
+        for v, found in ((K, momenta), (g, verticals)):
+            _turn(v[part], axis[part], cosine, along, found[part])
+        if attitudes is not None and first is not None and later is not None:
+            for i in range(4):
+                np.add(cosine * first[part, i, np.newaxis], along * later[part, i, np.newaxis],
+                       out=attitudes[part, :, i])  # fmt: skip
+    for kept in (momenta, verticals, attitudes, traces):
+        if kept is not None:
+            kept[~taken[:, np.newaxis] & (numbered > 0)] = np.nan
+    status = np.where(taken, Status.TAKEN, Status.FOLDED).astype(np.int64)
+    for i in map(int, np.flatnonzero(~taken)):
+        status[i] = Status.NO_INERTIA if moment[0][i] == 0.0 else explain(status[i], K[i], g[i], J[i], D[i])
+
+    def shaped(array: np.ndarray | None) -> np.ndarray | None:
+        return None if array is None else array.reshape(*shape, *array.shape[1:])
+
+    return finished(
+        Trajectory(
+            ball, numbered, shaped(momenta), shaped(verticals), shaped(attitudes), shaped(traces),  # type: ignore[arg-type]
+            np.where(taken, numbered[-1], 0).reshape(shape), status.reshape(shape), time_step,
+        ), 1.0 / np.where(taken, 1.0, sine),
+    )  # fmt: skip
+
+
+def _rotation(K: Floats, g: Floats, moment: turns.Pair, D: Floats) -> tuple[Floats, turns.Pair, Floats]:
+    """The axis of the steady rotation, (n, 3), half its angle in turns as a pair, and sin θ = |2w|, inf for I = 0."""
+    still, hollow = ~K.any(axis=-1), moment[0] == 0.0
+    up, down = np.frexp(np.abs(K).max(axis=-1))[1], np.frexp(moment[0] + D)[1]
+    with np.errstate(all="ignore"):
+        k = np.ldexp(K, -up[:, np.newaxis])
+        I, I_ = (np.where(hollow, one, np.ldexp(x, -down)) for x, one in zip(moment, (1.0, 0.0), strict=True))
+        w1, _, w2, _, w3, _, square, square_ = turns.each(steady_pairs, *k.T, *g.T, I, I_, np.ldexp(D, -down))
+        square, square_ = np.where(still, 1.0, square), np.where(still, 0.0, square_)
+        size, size_ = (np.ldexp(x, up - down) for x in turns.each(turns.root, square, square_))
+        size, size_ = np.where(still, 0.0, np.where(hollow, np.inf, size)), np.where(still | hollow, 0.0, size_)
+        taken = size < QUARTER
+        sine = (np.where(taken, x, 0.0) for x in (size, size_))
+        half = turns.each(_half_angle, *sine)
+        axis = np.stack([w1, w2, w3], axis=-1) / np.sqrt(square)[:, np.newaxis]
+    axis[still | ~taken] = 0.0
+    return axis, (half[0], half[1]), size
+
+
+def _half_angle(sine: Floats, sine_: Floats) -> turns.Pair:
+    """θ/2 in turns by tan(θ/2) = sin θ/(1 + cos θ), for pairs 0 ≤ sin θ < 1."""
+    cosine = turns.root(*pairs.subtract(1.0, 0.0, *pairs.multiply(sine, sine_, sine, sine_)))
+    return turns.turns_of_tangent(*pairs.divide(sine, sine_, *pairs.add(1.0, 0.0, *cosine)))
+
+
+def _turn(v: Floats, axis: Floats, cosine: Floats, along: Floats, found: Floats) -> None:
+    """Writes Ω⁻ᵏv into `found`, (n, frames, 3): `turn` is quadratic in cos and sin of half the angle."""
+    moves = axis.any(axis=-1, keepdims=True)
+    axis = np.where(moves, axis, [1.0, 0.0, 0.0])
+    pure, both = (kernels.turn(np.concatenate([np.full((len(v), 1), c), axis], axis=-1), v) for c in (0.0, 1.0))
+    # At (0, a) it is 2a×(a×v), at (1, a) the half of that less a×v.
+    square, mixed = np.where(moves, pure, 0.0), np.where(moves, 2.0 * both - pure, 0.0)
+    frames = max(1, BLOCK // max(len(v), 1))
+    for at in range(0, cosine.shape[1], frames):
+        part = slice(at, at + frames)
+        across, beside = along[:, part] * along[:, part], along[:, part] * cosine[:, part]
+        for i in range(3):
+            moved = across * square[:, i, np.newaxis]
+            moved += beside * mixed[:, i, np.newaxis]
+            np.add(moved, v[:, i, np.newaxis], out=found[:, part, i])
+
+
+def _straight(
+    ball: Ball, shape: tuple[int, ...], attitude: Floats, g: Floats, axis: Floats, half: turns.Pair, index: np.ndarray
+) -> Floats:
+    """The contact points k ρ Δ, (n, frames, 2), for the vector Δ of the first step."""
+    if ball.radius is None:
+        raise BadInput("the contact point needs the radius: give the ball its radius")
+    cosine, sine = turns.cosine_and_sine(half[0])
+    q = np.concatenate([cosine[:, np.newaxis], sine[:, np.newaxis] * axis], axis=-1)
+    step = kernels.rotate(attitude, kernels.centre_step(q, g))[:, np.newaxis, :2]
+    radius = np.broadcast_to(ball.radius, shape).reshape(-1, 1, 1)
+    return np.asarray(index[:, np.newaxis] * (radius * step))

@@ -1,0 +1,222 @@
+"""One ball under way in Arb's balls: every step encloses the true one, of every state in the balls.
+
+Where lemma `small-branch` holds, and |𝒦| is an integral of the map so that it is looked at once, G is monotone in a
+ball of Gibbs vectors, ⟨x, G(v + x) - G(v)⟩ ≥ m|x|², and the step has one root there.  So the root is within |G(u)|/m
+of any u: that is the proof of existence and uniqueness, for all 𝒦 and γ in their balls.  As ∂G/∂u is affine in u, the
+root is u - A⁻¹G(u) with A = ∂G/∂u at the middle between the two, which Cramer's rule encloses.  Elsewhere the branch
+is that which the float64 continuation finds, and the interval Newton test of `precise` encloses its root.
+"""
+
+import math
+from collections.abc import Iterable, Sequence
+from fractions import Fraction
+from typing import Any
+
+from flint import arb, ctx, fmpq, fmpz
+
+from chapsym.generated import centre_step, compose, gibbs_newton, gibbs_residual, rotate, transport, turn
+from chapsym.numbers import Ball as BallRung
+
+from ..ball import Floats
+from .newton import enclosed
+from .root import NotSettled, condition_bits, extrapolated, root
+from .start import fraction, start
+
+Numbers = tuple[Any, ...]
+
+#: From so many bits on fmpz is faster than Python's integers.
+FMPZ_BITS = 300
+#: The precision of the matrices beyond what a determinant can lose: what they multiply is as small as the radii.
+MATRIX_BITS = 64
+
+
+class TooWide(ArithmeticError):
+    """The balls have grown so much that a step cannot be proved: more bits are needed."""
+
+
+def exact(x: float | Fraction) -> Any:
+    """A float or a fraction as a ball; exact if the precision holds it."""
+    x = Fraction(x)
+    return arb(fmpq(x.numerator, x.denominator))
+
+
+def upper(v: Sequence[Any]) -> Any:
+    """An upper bound of the length of a vector, as an exact number."""
+    bounds = [x.abs_upper() for x in v]
+    return sum(x * x for x in bounds).sqrt().abs_upper()
+
+
+class ArbBall:
+    """A ball that takes steps in balls of `precision` bits; `stages` are the exact coefficients of the composition.
+
+    Every method is to be called with that precision set.
+    """
+
+    def __init__(
+        self, precision: int, K: Floats, g: Floats, J: Floats, D: float, stages: Sequence[Fraction],
+        attitude: Sequence[float] | None, radius: float,
+    ) -> None:  # fmt: skip
+        self.precision = precision
+        tensor = [float(x) for x in J]
+        self.exponent = math.frexp(max(tensor[1] + tensor[2], tensor[0] + tensor[2], tensor[0] + tensor[1]) + D)[1]
+        scale = Fraction(2) ** -self.exponent
+        self.k: Numbers = tuple(exact(Fraction(x) * scale / 2) for x in K)
+        self.g = unit(map(exact, g))
+        self.J = tuple(exact(Fraction(x) * scale) for x in tensor)
+        self.I = (self.J[1] + self.J[2], self.J[0] + self.J[2], self.J[0] + self.J[1])
+        self.D = exact(Fraction(D) * scale)
+        self.a: Numbers = () if attitude is None else unit(map(exact, attitude) if attitude else least(*self.g))
+        self.radius, self.x = exact(radius), (arb(0), arb(0))
+        self.size = math.frexp(max(map(abs, map(float, K))))[1] - self.exponent - 1
+        self.number = int if precision < FMPZ_BITS else fmpz
+        # Components of a small 𝒦 get as many bits as large ones have.
+        self.P = precision - 8 + max(0, -self.size)
+        self.lost = condition_bits(tensor, D)
+        self.one = arb(2) ** -self.P
+        self.stages = [None if c == 1 else exact(c) for c in stages]
+        self.bounds = [certified(2 * upper(self.k) * abs(exact(c)), self.I) for c in stages]
+        self.fixed_I, self.fixed_D = self.fixed(self.I), self.fixed((self.D,))[0]
+        self.floats = tuple(map(float, self.I)), float(self.D)
+        self.past: list[list[Any]] = [[] for _ in stages]
+
+    def fixed(self, v: Sequence[Any]) -> Numbers:
+        """The midpoints as integers, of which 2^P is one."""
+        found = []
+        for x in v:
+            man, exp = x.mid().man_exp()
+            shift = int(exp) + self.P
+            man = self.number(man)
+            found.append(man << shift if shift >= 0 else man >> -shift)
+        return tuple(found)
+
+    def step(self) -> None:
+        """Takes one step; raises StepNotTaken, and TooWide where the balls are too large to prove one."""
+        for c, bound, past in zip(self.stages, self.bounds, self.past, strict=True):
+            k = self.k if c is None else tuple(c * x for x in self.k)
+            u = self._gibbs(k, bound, past) if bound else None
+            if u is None:
+                past.clear()
+                self._turn_by(self._rotation(k))
+            else:
+                if self.a:
+                    length = (1 + u[0] * u[0] + u[1] * u[1] + u[2] * u[2]).sqrt()
+                    self._follow((1 / length, *(x / length for x in u)))
+                moved = (tuple(a + b for a, b in zip(v, turn(1, *u, *v), strict=True)) for v in (self.k, self.g))
+                self.k, self.g = moved
+
+    def _gibbs(self, k: Numbers, bound: tuple[Any, Any], past: list) -> Any:
+        """The Gibbs vector, enclosed; None where no good point was found."""
+        radius, slope = bound
+        try:
+            near, start = root(
+                extrapolated(past), self.fixed(k), self.fixed(self.g), self.fixed_I, self.fixed_D, self.floats, self.P,
+                self.number, self.lost,
+            )  # fmt: skip
+        except (NotSettled, ZeroDivisionError, OverflowError):
+            return None
+        past.insert(0, start)
+        del past[8:]
+        u = tuple(arb(x) * self.one for x in near)
+        if not upper(u) <= radius:
+            return None
+        return newton_enclosure(u, slope, k, self.g, self.I, self.D, MATRIX_BITS + 3 * self.lost)
+
+    def _rotation(self, k: Numbers) -> Numbers:
+        """The rotation where the lemma does not hold, enclosed."""
+        K, g, J, D = tuple(2 * x for x in k), self.g, self.J, (self.D,)
+        near = tuple(map(exact, start(_exactly(K), _exactly(g), _exactly(J), fraction(self.D))))
+        q = enclosed(BallRung(self.precision, 0), near, K, g, J, D)
+        if q is None:
+            raise TooWide
+        return q
+
+    def _turn_by(self, q: Numbers) -> None:
+        if self.a:
+            self._follow(q)
+        self.k, self.g = transport(*q, *self.k), transport(*q, *self.g)
+
+    def _follow(self, q: Numbers) -> None:
+        """Moves the contact point and the attitude by the rotation q."""
+        x, y, _ = rotate(*self.a, *centre_step(*q, *self.g))
+        self.x = (self.x[0] + x, self.x[1] + y)
+        self.a = compose(*self.a, *q)
+
+    def bits(self) -> float:
+        """The correct bits of 𝒦, γ and the attitude, each beside the length of its vector."""
+        widest = [max(map(log_radius, v), default=-math.inf) for v in (self.k, self.g, self.a)]
+        return -max(widest[0] - self.size, *widest[1:])
+
+    def frame(self, bits: int) -> tuple[Numbers, Numbers, Numbers, Numbers]:
+        """𝒦, γ, the attitude and the contact point, rounded to so many bits."""
+        scale = arb(2) ** (self.exponent + 1)
+        momentum, trace = tuple(x * scale for x in self.k), tuple(x * self.radius for x in self.x)
+        ctx.prec = bits
+        try:
+            return tuple(tuple(+x for x in v) for v in (momentum, self.g, self.a, trace))  # type: ignore[return-value]
+        finally:
+            ctx.prec = self.precision
+
+
+def newton_enclosure(u: Numbers, slope: Any, k: Numbers, g: Numbers, I: Numbers, D: Any, matrix_bits: int) -> Numbers:
+    """The root of G within |G(u)|/m of a point u, where G is monotone with m = `slope`, for all k, γ, I and D in balls.
+
+    It is u - A⁻¹G(u) with A = ∂G/∂u at the middle between the two.  Raises TooWide where det A may be 0.
+    """
+    r = gibbs_residual(*u, *k, *g, *I, D)
+    with ctx.workprec(matrix_bits):
+        off = (upper(r) / slope).abs_upper()
+        box = tuple(x + arb(0, off) for x in u)
+        det, _, _, _, c11, c12, c13, c21, c22, c23, c31, c32, c33 = gibbs_newton(*box, *k, *g, *I, D)
+        if not det > 0:
+            raise TooWide
+        r1, r2, r3 = r
+        d1 = (c11 * r1 + c21 * r2 + c31 * r3) / det
+        d2 = (c12 * r1 + c22 * r2 + c32 * r3) / det
+        d3 = (c13 * r1 + c23 * r2 + c33 * r3) / det
+    return u[0] - d1, u[1] - d2, u[2] - d3
+
+
+def log_radius(x: Any) -> float:
+    """The logarithm to base 2 of the radius, rounded up."""
+    man, exp = x.rad().man_exp()
+    return int(exp) + int(man).bit_length() if man else -math.inf
+
+
+def unit(v: Iterable[Any]) -> Numbers:
+    """A vector divided by its length."""
+    balls = list(v)
+    length = sum(x * x for x in balls).sqrt()
+    return tuple(x / length for x in balls)
+
+
+def least(x: Any, y: Any, z: Any) -> Numbers:
+    """The quaternion, of any length, of the least rotation that turns (x, y, z) up: as `attitude_with`."""
+    flat = x * x + y * y
+    if flat == 0 and z < 0:
+        return arb(0), arb(1), arb(0), arb(0)
+    return (1 + z if z > 0 else flat / (1 - z)), y, -x, arb(0)
+
+
+def certified(size: Any, inertia: Numbers) -> tuple[Any, Any] | None:
+    """(radius, m) by lemma `small-branch` for |𝒦| ≤ size, both exact; None where |𝒦| is beyond its bound.
+
+    There is one root with |u| < 1, it has |u| ≤ radius and is that of the small-rotation branch, and in this ball
+    ⟨x, (∂G/∂u)x⟩ ≥ m|x|².
+    """
+    least, most = (f(f(inertia[0], inertia[1]), inertia[2]) for f in (arb.min, arb.max))
+    size = size.abs_upper()
+    if not size < least:
+        return None
+    slope = (most - least) / 2 + size
+    inner = size / (least + (least * least - size * size).sqrt())
+    if not inner * slope < least:
+        return None
+    # The root is within `inner`; a point near it may be a little outside.
+    radius = inner.abs_upper() + (least / slope - inner).abs_lower() / 8
+    radius = (radius if radius < 1 else arb(1)).abs_upper()
+    m = (least - radius * slope).abs_lower()
+    return (radius, m) if least - radius * slope > 0 else None
+
+
+def _exactly(v: Numbers) -> list[Fraction]:
+    return list(map(fraction, v))

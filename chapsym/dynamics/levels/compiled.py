@@ -1,0 +1,142 @@
+"""The loops, compiled by numba: the same functions that run in plain Python.
+
+The compiled code is cached on disk in a folder named by a hash of every source that it is made of:
+numba itself would notice a change in `loop.py` only, and keep stale kernels.
+"""
+
+import hashlib
+import logging
+import os
+import tempfile
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from functools import cache
+from pathlib import Path
+from types import FunctionType, ModuleType
+from typing import Any
+
+import numba
+from numba.extending import register_jitable
+
+import chapsym.generated as generated
+import chapsym.generated.quad as generated_quad
+from chapsym.numbers import fused, pairs
+
+from ..loops import (
+    block,
+    branch,
+    composed_loop,
+    gibbs,
+    integrals,
+    lanes,
+    long_step,
+    loop,
+    quad_block,
+    quad_loop,
+    quad_step,
+    single_loop,
+    single_step,
+    vertical_loop,
+)
+from .retyped import Family
+
+#: What the compiled code is made of.
+SOURCES = (
+    *(generated, branch, gibbs, integrals, loop, block, composed_loop, vertical_loop, long_step, lanes),
+    *(single_loop, single_step),
+    *(pairs, generated_quad, quad_step, quad_loop, quad_block),
+)
+#: The functions on the way of every step: a call would cost more than they do.
+INLINED = {
+    *(generated.gibbs_newton, generated.gibbs_second, generated.turn),
+    *(gibbs.newton_round, gibbs.second_round, gibbs.settle, loop.three, loop.put),
+    *(composed_loop.extrapolated, composed_loop.turned_with),
+    *(block.predicted, block.corrected, block.unsettled, block.turned, block.added, block.extrapolated),
+    *(value for value in vars(pairs).values() if isinstance(value, FunctionType)),
+    *(generated.gibbs_mixed, generated_quad.gibbs_residual_pairs, generated_quad.turn_pairs),
+    *(quad_step.correction, quad_step.small),
+    *(quad_block.approached, quad_block.residuals, quad_block.corrected, quad_block.turned),
+    *(generated.compose, lanes.checked, lanes.moved, lanes.rates, lanes.begin, lanes.keep, lanes.side_by_side),
+}
+
+
+def _functions(module: ModuleType) -> Iterator[FunctionType]:
+    for value in vars(module).values():
+        if isinstance(value, FunctionType):
+            yield value
+
+
+@cache
+def source_hash() -> str:
+    """A hash of the kernels, of the solver, of the loops, of how they are compiled, and of numba's version."""
+    digest = hashlib.sha256(numba.__version__.encode())
+    twins = (str(Path(__file__).with_name(name)) for name in ("retyped.py", "single.py"))
+    sources = (f.__code__.co_filename for module in SOURCES for f in _functions(module))
+    files = {__file__, fused.__file__, *twins, *sources}
+    for name in sorted(files):
+        digest.update(Path(name).read_bytes())
+    return digest.hexdigest()[:16]
+
+
+def cache_folder() -> Path:
+    """Where compiled code is kept: under the user's cache, or a temporary folder if that cannot be written."""
+    base = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "chapsym"
+    try:
+        base.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=base):
+            pass
+    except OSError:
+        base = Path(tempfile.gettempdir()) / f"chapsym-{os.getuid() if hasattr(os, 'getuid') else 'cache'}"
+    return base / source_hash()
+
+
+@contextmanager
+def _caching_in(folder: Path) -> Iterator[None]:
+    """Numba asks where to cache when a function is decorated, so the setting is borrowed for that only."""
+    settings: Any = numba.config
+    before = settings.CACHE_DIR
+    settings.CACHE_DIR = str(folder)
+    try:
+        yield
+    finally:
+        settings.CACHE_DIR = before
+
+
+@cache
+def _inlined() -> set[tuple[str, str]]:
+    return {(function.__code__.co_filename, function.__name__) for function in INLINED}
+
+
+@cache
+def _registered(modules: tuple[ModuleType, ...]) -> None:
+    fused.register()
+    seen = {pairs.two_product}
+    for module in modules:
+        for function in _functions(module):
+            if function.__module__.startswith("chapsym.") and function not in seen:
+                seen.add(function)
+                inlined = (function.__code__.co_filename, function.__name__) in _inlined()
+                register_jitable(error_model="numpy", forceinline=inlined)(function)
+
+
+@cache
+def _announce() -> None:
+    """Says once that compiling takes a while; who wants to hear it listens to the logger "chapsym"."""
+    logging.getLogger("chapsym").info("compiling the map for this processor: some seconds, once")
+
+
+@cache
+def compiled(function: Callable[..., Any]) -> Callable[..., Any]:
+    """The compiled version of a function of one of the `SOURCES`, or of a twin of one (`retyped`).
+
+    It is compiled when it is first called.
+    """
+    family: Family | None = function.__globals__.get("family")
+    folder, module = cache_folder() / (family.name if family else ""), function.__module__.rpartition(".")[2]
+    if not any(folder.glob(f"*/{module}.{function.__name__}-*.nbi")):
+        _announce()
+    _registered(SOURCES)
+    if family:
+        _registered(tuple(family.twins.values()))
+    with _caching_in(folder):
+        return numba.njit(cache=True, error_model="numpy", nogil=True)(function)

@@ -1,0 +1,259 @@
+"""Runs many steps of one ball or of many: in plain Python, compiled, or compiled in blocks on every core."""
+
+import os
+import threading
+from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from dataclasses import dataclass
+from functools import cache
+from importlib.util import find_spec
+from typing import Any
+
+import numpy as np
+
+from .. import columns
+from ..ball import Floats
+from ..coefficients import substeps
+from ..errors import Status
+from ..loops import block, composed_loop, loop
+from ..map import explain
+
+#: Shorter runs than this many steps in all are taken in plain Python: compiling would take longer.
+SHORT_RUN = 2000
+#: Fewer balls than this do not fill a block.
+FEW = 8
+#: Steps of a ball, or of all balls of a block together, between two calls of `progress`: about ten milliseconds.
+CHUNK = 200_000
+#: The work of each thread comes in about so many parts, so that none is idle for long at the end.
+SHARES = 16
+#: The loops that are compiled and loaded already, and the lock of those that are being.
+_ready: set[Callable] = set()
+_loading = threading.Lock()
+
+
+@dataclass(frozen=True, eq=False)
+class Balls:
+    """The balls of a run: momentum 𝒦 and γ at the start, (n, 3); J, (n, 3); D and the radius, (n,).
+
+    rest: what 𝒦 has beyond float64, (n, 3), for the rungs that can hold it; None for nothing.
+    """
+
+    momentum: Floats
+    gamma: Floats
+    mass_tensor: Floats
+    D: Floats
+    radius: Floats
+    rest: Floats | None = None
+
+    def __len__(self) -> int:
+        return len(self.D)
+
+
+@dataclass(frozen=True, eq=False)
+class Frames:
+    """What a run fills: (n, frames, ...) arrays whose frame 0 is given, and how each ball ended, (n,).
+
+    attitude and contact have no frames unless `with_body`.  The arrays are of the numbers of the rung: float32,
+    float64, or objects; `low` has the second halves of double-double numbers.  least: the attitudes start as the least
+    rotations with R γ = e₃, which have more digits on other rungs than in frame 0.
+    """
+
+    momentum: np.ndarray
+    gamma: np.ndarray
+    attitude: np.ndarray
+    contact: np.ndarray
+    taken: np.ndarray
+    status: np.ndarray
+    reach: Floats
+    with_body: bool
+    low: "Frames | None" = None
+    least: bool = False
+
+    def part(self, i: int, kept: int) -> "Frames":
+        """The first frames of one ball, in the same memory."""
+        one = slice(i, i + 1)
+        momentum, gamma, attitude, contact = (
+            x[one, :kept] for x in (self.momentum, self.gamma, self.attitude, self.contact)
+        )
+        ends = self.taken[one], self.status[one], self.reach[one]
+        return Frames(momentum, gamma, attitude, contact, *ends, self.with_body)
+
+
+@dataclass(frozen=True, eq=False)
+class Loops:
+    """The loops that a run takes: the modules, or their twins in another type, and the numbers of their states."""
+
+    loop: Any = loop
+    composed_loop: Any = composed_loop
+    block: Any = block
+    columns: Any = columns
+    step: Any = loop
+    number: Callable[[Any], Any] = float
+    dtype: Any = np.float64
+    #: How many numbers carry the attitude and the contact point from step to step.
+    attitude: int = 4
+    contact: int = 2
+
+
+DOUBLE = Loops()
+
+
+class Count:
+    """Adds up the steps that the threads have taken, and tells them when to stop."""
+
+    def __init__(self, progress: Callable[[int], None]) -> None:
+        self._progress, self._lock, self._done = progress, threading.Lock(), 0
+        self.stopped = False
+
+    def add(self, steps: int) -> None:
+        """So many steps more."""
+        with self._lock:
+            self._done += steps
+            self._progress(self._done)
+
+
+def run(
+    balls: Balls, steps: int, every: int, frames: Frames, order: int, threads: int, progress: Callable[[int], None],
+    loops: Loops = DOUBLE,
+) -> None:  # fmt: skip
+    """Takes `steps` steps of every ball into `frames`; `progress` is called with the steps of all balls together.
+
+    order: of the composition, 2 for the map itself.  threads: how many cores to use; 0 for all that there are.
+    loops: whose numbers are those of the balls and of the frames.
+    """
+    count, n, stages = Count(progress), len(balls), substeps(order).astype(loops.dtype)
+    if steps == 0 or n == 0:
+        return
+    work = steps * n * len(stages)
+    in_blocks = n >= FEW and not frames.with_body and order == 2 and work >= SHORT_RUN
+    if in_blocks and has_numba():
+        chosen((loops.block.march_block, loops.block.prepare_block), work)  # before there are threads
+    width = (loops.block.LANES if has_numba() else loops.columns.LANES) if in_blocks else 1
+    starts = range(0, n, width)
+
+    def task(start: int) -> None:
+        with np.errstate(over="ignore", invalid="ignore"):  # compiled loops do not warn either; `status` tells
+            if in_blocks:
+                _run_block(balls, slice(start, min(n, start + width)), steps, every, frames, loops, count)
+            else:
+                _run_one(balls, start, steps, every, frames, loops, stages, work, count)
+
+    workers = min(threads or cores(), len(starts)) if work >= SHORT_RUN else 1
+    if workers == 1:
+        for start in starts:
+            task(start)
+        return
+    share(task, starts, workers, count)
+
+
+def chosen(functions: Sequence[Callable], work: int) -> list[Callable]:
+    """The functions compiled, or as they are where compiling or loading them would take longer than `work` steps."""
+    if not compiles(functions[0], work):
+        return list(functions)
+    from .compiled import compiled
+
+    with _loading:
+        _ready.add(functions[0])
+        return [compiled(function) for function in functions]
+
+
+def compiles(function: Callable, work: int) -> bool:
+    """Whether `work` steps are worth the compiled function: many are, and any once it is loaded."""
+    return has_numba() and (work >= SHORT_RUN or function in _ready)
+
+
+@cache
+def has_numba() -> bool:
+    """Whether loops can be compiled; without numba a batch runs in NumPy, by columns, and a ball in plain Python."""
+    return find_spec("numba") is not None
+
+
+def cores() -> int:
+    """The cores that this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+def share(task: Callable[[int], None], starts: range, workers: int, count: Count) -> None:
+    """Runs the tasks in threads, some at a time for each; an interrupt stops each at its next chunk."""
+    several = max(1, len(starts) // (workers * SHARES))
+
+    def group(at: int) -> None:
+        for start in starts[at : at + several]:
+            if not count.stopped:
+                task(start)
+
+    with ThreadPoolExecutor(workers) as pool:
+        futures = [pool.submit(group, at) for at in range(0, len(starts), several)]
+        try:
+            for done in as_completed(futures):
+                done.result()
+        except BaseException:
+            count.stopped = True
+            pool.shutdown(wait=True, cancel_futures=True)
+            raise
+
+
+def _run_one(
+    balls: Balls, i: int, steps: int, every: int, frames: Frames, loops: Loops, stages: Floats, work: int, count: Count
+) -> None:
+    K, g, J, D = balls.momentum[i], balls.gamma[i], balls.mass_tensor[i], loops.number(balls.D[i])
+    march, state, scale = _under_way(K, g, J, D, loops, stages, work)
+    attitude, spot = np.zeros(loops.attitude, loops.dtype), np.zeros(loops.contact, loops.dtype)
+    if frames.with_body:
+        attitude[:4] = frames.attitude[i, 0]
+    chunk = max(1, CHUNK // len(stages))
+    for first in range(0, steps, chunk):
+        now = min(chunk, steps - first)
+        went, frames.status[i], frames.reach[i] = march(
+            *state, first, now, every, scale, frames.momentum[i], frames.gamma[i],
+            frames.with_body, attitude, spot, loops.number(balls.radius[i]), frames.attitude[i], frames.contact[i],
+        )  # fmt: skip
+        frames.taken[i] += went
+        count.add(now)
+        if count.stopped:
+            return
+        if frames.status[i] != Status.TAKEN:
+            frames.status[i] = explained(frames.status[i], scale * state[0][:3], state[0][3:6], J, D)
+            return
+
+
+def _under_way(
+    K: Floats, g: Floats, J: Floats, D: float, loops: Loops, stages: Floats, work: int
+) -> tuple[Callable, list[Floats], float]:
+    """The loop for one ball, the state that it takes, and the scale with 𝒦 = scale·k."""
+    state = np.zeros(loop.ROWS, loops.dtype)
+    if len(stages) == 1:
+        march, prepare = chosen((loops.loop.march, loops.loop.prepare), work)
+        return march, [state], loops.number(prepare(K, g, J, D, state))
+    composed = loops.composed_loop
+    march, prepare = chosen((composed.march_composed, composed.prepare_composed), work)
+    bounds, past = np.zeros((2, len(stages)), loops.dtype), np.zeros((len(stages), 8, 3), loops.dtype)
+    scale = prepare(K, g, J, D, stages, state, *bounds)
+    return march, [state, stages, *bounds, past], loops.number(scale)
+
+
+def explained(status: int, K: Floats, g: Floats, J: Floats, D: float) -> Status:
+    """`explain` of a state of any floats."""
+    return explain(status, K.astype(np.float64), g.astype(np.float64), J.astype(np.float64), float(D))
+
+
+def _run_block(balls: Balls, which: slice, steps: int, every: int, frames: Frames, loops: Loops, count: Count) -> None:
+    n = which.stop - which.start
+    march, prepare, lanes = loops.columns.march_columns, loops.columns.prepare_columns, n
+    if has_numba():
+        (march, prepare) = chosen((loops.block.march_block, loops.block.prepare_block), SHORT_RUN)
+        lanes = loops.block.LANES
+    state, scale = np.zeros((loop.ROWS, lanes), loops.dtype), np.zeros(n, loops.dtype)
+    prepare(balls.momentum[which], balls.gamma[which], balls.mass_tensor[which], balls.D[which], state, scale)
+    status, reach, taken = frames.status[which], frames.reach[which], frames.taken[which]
+    chunk = max(1, CHUNK // lanes)
+    for first in range(0, steps, chunk):
+        now = min(chunk, steps - first)
+        march(state, first, now, every, scale, frames.momentum[which], frames.gamma[which], taken, status, reach)
+        count.add(now * n)
+        if count.stopped:
+            return
+    for lane in map(int, np.flatnonzero(status)):
+        i = which.start + lane
+        K, g = scale[lane] * state[:3, lane], state[3:6, lane]
+        status[lane] = explained(status[lane], K, g, balls.mass_tensor[i], balls.D[i])

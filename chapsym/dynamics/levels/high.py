@@ -1,0 +1,157 @@
+"""Runs and steps on the rungs of any precision: Digits(n) in mpmath's numbers, Ball(bits) in Arb's balls."""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import partial
+from typing import Any
+
+from chapsym.numbers import Ball, Digits
+
+from ..coefficients import COMPOSITIONS
+from ..errors import BadInput, Status, StepNotTaken
+from .double import Balls, Frames
+
+#: Steps of a ball between two calls of `progress`.
+CHUNK = 200
+#: Steps between two looks at the radii.
+LOOK = 16
+#: Times that more bits may not help before it is given up: a root that cannot be proved with some may be with more.
+MOST_STUCK = 4
+#: The most bits beyond those that are asked for.
+MOST_GUARD = 2**22
+
+
+def run(
+    rung: Digits | Ball, balls: Balls, steps: int, every: int, frames: Frames, order: int,
+    progress: Callable[[int], None],
+) -> None:  # fmt: skip
+    """Takes `steps` steps of every ball into `frames`, one ball after the other; frame 0 is written anew.
+
+    Ball(bits): with as many bits more as the radii grow by, which is measured, so that `bits` are left at the end.
+    """
+    done, bits = 0, rung.bits if isinstance(rung, Ball) else rung.context.prec
+    for i in range(len(balls)):
+        first = frames.attitude[i, 0].copy() if frames.with_body else None
+        way = _Way(balls, i, steps, every, frames, order, bits, partial(_from, done, progress), first)
+        if isinstance(rung, Ball):
+            _run_ball(rung, way)
+        else:
+            from .digits import DigitsBall  # mpmath and flint take 40 ms
+
+            K, g, J, D, stages, attitude, radius = way.given
+            way.take(DigitsBall(rung, K, g, J, D, stages, attitude, radius, steps))
+        done += int(frames.taken[i])
+
+
+def _from(before: int, progress: Callable[[int], None], steps: int) -> None:
+    progress(before + steps)
+
+
+@dataclass(frozen=True, eq=False)
+class _Way:
+    """What one ball of a run has before it."""
+
+    balls: Balls
+    i: int
+    steps: int
+    every: int
+    frames: Frames
+    order: int
+    bits: int
+    progress: Callable[[int], None]
+    attitude: Any  # that frame 0 was given, in float64
+
+    @property
+    def given(self) -> tuple[Any, ...]:
+        """𝒦, γ, J, D, the exact coefficients, the attitude (empty: the least rotation) and the radius."""
+        b, i = self.balls, self.i
+        attitude = None
+        if self.frames.with_body:
+            attitude = () if self.frames.least else tuple(map(Fraction, self.attitude))
+        stages = COMPOSITIONS[self.order].exact
+        momentum = [Fraction(x) for x in b.momentum[i]]
+        if b.rest is not None:
+            momentum = [x + Fraction(y) for x, y in zip(momentum, b.rest[i], strict=True)]
+        return momentum, b.gamma[i], b.mass_tensor[i], float(b.D[i]), stages, attitude, float(b.radius[i])
+
+    def take(self, ball: Any, enough: Callable[[int], bool] = lambda step: True) -> None:
+        """Takes the steps and writes the frames; stops early where `enough` says no."""
+        frames, i = self.frames, self.i
+        frames.taken[i] = 0
+        frames.momentum[i, 1:], frames.gamma[i, 1:] = math.nan, math.nan
+        frames.attitude[i, 1:], frames.contact[i, 1:] = math.nan, math.nan
+        write(frames, i, 0, ball.frame(self.bits))
+        for step in range(1, self.steps + 1):
+            try:
+                ball.step()
+            except StepNotTaken as stop:
+                frames.status[i], frames.reach[i] = stop.status, stop.reach
+                return
+            frames.taken[i] = step
+            if not enough(step):
+                return
+            if step % self.every == 0:
+                write(frames, i, step // self.every, ball.frame(self.bits))
+            if step % CHUNK == 0 or step == self.steps:
+                self.progress(step)
+
+
+def _run_ball(rung: Ball, way: _Way) -> None:
+    """Repeats the run with more bits until `rung.bits` are left; raises BadInput where more do not help."""
+    guard, before, stuck = rung.guard, (0, -math.inf), 0
+    while guard <= MOST_GUARD:
+        precision = rung.bits + guard
+        step, left = _attempt(precision, way)
+        if left >= rung.bits:
+            return
+        stuck = stuck + 1 if (step, left) <= before else 0
+        if stuck == MOST_STUCK:
+            break
+        # What a step has cost, and a little more, for all steps.
+        lost = (precision - left) / step if step else 0.0
+        guard, before = max(2 * guard, math.ceil(1.1 * lost * way.steps) + rung.guard), (step, left)
+    raise BadInput(
+        f"the balls grow too much: after step {step} of {way.steps}, {precision} bits leave less than {rung.bits};"
+        " take fewer or shorter steps"
+    )
+
+
+def _attempt(precision: int, way: _Way) -> tuple[int, float]:
+    """Runs with so many bits while enough are left; the step where they were last looked at, and those left there.
+
+    None are left where a step could not be proved.
+    """
+    from flint import ctx
+
+    from .balls import ArbBall, TooWide
+
+    seen: tuple[int, float] = (0, math.inf)
+    with ctx.workprec(precision):
+        ball = ArbBall(precision, *way.given)
+
+        def enough(step: int) -> bool:
+            nonlocal seen
+            if step % LOOK and step % way.every and step != way.steps:
+                return True
+            seen = (step, ball.bits())
+            return seen[1] >= way.bits
+
+        try:
+            way.take(ball, enough)
+        except TooWide:
+            return seen[0] + 1, 0.0
+        if way.frames.status[way.i] != Status.TAKEN:
+            seen = (int(way.frames.taken[way.i]), ball.bits())
+    if seen[1] < way.bits:
+        way.frames.status[way.i], way.frames.reach[way.i] = Status.TAKEN, 1.0  # of balls that were too wide to tell
+    return seen
+
+
+def write(frames: Frames, i: int, at: int, values: tuple[Any, Any, Any, Any]) -> None:
+    """One frame of one ball: 𝒦, γ, and the attitude and the contact point where there are any."""
+    momentum, gamma, attitude, contact = values
+    frames.momentum[i, at], frames.gamma[i, at] = momentum, gamma
+    if frames.with_body:
+        frames.attitude[i, at], frames.contact[i, at] = attitude, contact

@@ -1,0 +1,164 @@
+"""Runs in double-double: one ball at a time, or a batch in blocks; frames are pairs of arrays."""
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+
+from chapsym.numbers import Pair
+
+from ..ball import Floats
+from ..coefficients import COMPOSITIONS, substeps
+from ..errors import Status
+from ..loops import quad_block, quad_loop
+from ..map import explain
+from .double import Balls, Count, Frames, chosen, cores, has_numba, share
+
+#: Shorter runs than this many steps in all are taken in plain Python: loading the compiled loops would take longer.
+SHORT_RUN = 500
+#: Fewer balls than this do not fill a block.
+FEW = 4
+#: Steps between two calls of `progress`: about ten milliseconds.
+CHUNK = 25_000
+
+
+def run(
+    balls: Balls, steps: int, every: int, frames: Frames, order: int, threads: int, progress: Callable[[int], None]
+) -> None:
+    """`engine.run` in double-double.  It writes frame 0 anew: γ and the attitude are divided by their lengths."""
+    low = frames.low
+    assert low is not None
+    stages = coefficients(order)
+    count, n = Count(progress), len(balls)
+    work = steps * n * len(stages)
+    in_blocks = n >= FEW and not frames.with_body and order == 2 and work >= SHORT_RUN and has_numba()
+    width = quad_block.LANES if in_blocks else 1
+    starts = range(0, n, width)
+    loops = chosen(
+        (quad_block.march_quad_block, quad_block.prepare_quad_block) if in_blocks
+        else (quad_loop.march_quad, quad_loop.prepare_quad),
+        work * 4,
+    )  # fmt: skip
+
+    def task(start: int) -> None:
+        if in_blocks:
+            _run_block(loops, balls, slice(start, min(n, start + width)), steps, every, frames, low, stages, count)
+        else:
+            _run_one(loops, balls, start, steps, every, frames, low, stages, count)
+
+    workers = min(threads or cores(), len(starts)) if work >= SHORT_RUN else 1
+    if workers > 1:
+        share(task, starts, workers, count)
+    else:
+        with np.errstate(all="ignore"):  # what no rotation has overflows, and is refused
+            for start in starts:
+                task(start)
+
+
+def coefficients(order: int) -> Floats:
+    """The stage coefficients of the composition of order 2, 4, 6 or 8 as pairs, (stages, 2); raises as `substeps`."""
+    substeps(order)
+    return np.array([Pair.of(c).halves() for c in COMPOSITIONS[int(order)].exact])
+
+
+def normalised(vector: Floats) -> list[Pair]:
+    """A float64 vector divided by its length."""
+    x = [Pair(float(v)) for v in vector]
+    length = sum((v * v for v in x), Pair(0.0)).sqrt()
+    return [v / length for v in x]
+
+
+def least_rotation(x: Pair, y: Pair, z: Pair) -> list[Pair]:
+    """`attitude_with` in pairs: the attitude of the least rotation for which the unit vector is vertical."""
+    if z > 0:
+        p0 = 1 + z
+    else:  # 1 + z cancels, so x² + y² = (1 - z)(1 + z); scaled, as that may underflow
+        size = math.frexp(max(abs(x.high), abs(y.high)))[1]
+        x, y = (Pair(math.ldexp(v.high, -size), math.ldexp(v.low, -size)) for v in (x, y))
+        p0 = (x * x + y * y) / (1 - z) * math.ldexp(1.0, size)
+    length = (p0 * p0 + x * x + y * y).sqrt()
+    return [p0 / length, y / length, -x / length, Pair(0.0)] if length > 0 else list(map(Pair, (0.0, 1.0, 0.0, 0.0)))
+
+
+def halves(numbers: list[Pair]) -> tuple[Floats, Floats]:
+    """The high and the low halves of pairs, one array each."""
+    return np.array([x.high for x in numbers]), np.array([x.low for x in numbers])
+
+
+def _add(rest: Floats, state: Floats, shift: int) -> None:
+    """Gives the start what 𝒦 has beyond float64, and its integrals, to which it is restored."""
+    state[1:6:2] = np.ldexp(rest, shift)
+    quad_loop.remember_pairs(state)
+
+
+def _begin(frames: Frames, low: Frames, i: int, state: Floats, rest: Floats | None) -> tuple[Floats, Floats]:
+    """Writes frame 0 of a ball; its attitude and its contact point as pairs."""
+    frames.gamma[i, 0], low.gamma[i, 0] = state[quad_loop.G : quad_loop.I : 2], state[quad_loop.G + 1 : quad_loop.I : 2]
+    low.momentum[i, 0] = 0.0 if rest is None else rest[i]
+    attitude, contact = np.zeros((4, 2)), np.zeros(4)
+    if frames.with_body:
+        g = map(Pair, frames.gamma[i, 0], low.gamma[i, 0])
+        first = least_rotation(*g) if frames.least else normalised(frames.attitude[i, 0])
+        attitude[:, 0], attitude[:, 1] = halves(first)
+        frames.attitude[i, 0], low.attitude[i, 0] = attitude.T
+        low.contact[i, 0] = 0.0
+    return attitude.reshape(-1), contact
+
+
+def _run_one(
+    loops: list[Callable], balls: Balls, i: int, steps: int, every: int, frames: Frames, low: Frames, stages: Floats,
+    count: Count,
+) -> None:  # fmt: skip
+    march, prepare = loops
+    K, g, J, D = balls.momentum[i], balls.gamma[i], balls.mass_tensor[i], float(balls.D[i])
+    state, limits, past = np.zeros(quad_loop.ROWS), np.zeros((2, len(stages))), np.zeros((len(stages), 8, 3))
+    shift, beyond = prepare(K, g, J, D, stages, state, *limits)
+    if balls.rest is not None:
+        _add(balls.rest[i], state, shift)
+    attitude, contact = _begin(frames, low, i, state, balls.rest)
+    chunk = max(1, CHUNK // len(stages))
+    for first in range(0, steps, chunk):
+        now = min(chunk, steps - first)
+        went, frames.status[i], frames.reach[i] = march(
+            state, stages, *limits, past, first, now, every, shift, beyond,
+            frames.momentum[i], low.momentum[i], frames.gamma[i], low.gamma[i], frames.with_body, attitude, contact,
+            float(balls.radius[i]), frames.attitude[i], low.attitude[i], frames.contact[i], low.contact[i],
+        )  # fmt: skip
+        frames.taken[i] += went
+        count.add(now)
+        if count.stopped:
+            return
+        if frames.status[i] != Status.TAKEN:
+            frames.status[i] = explain(frames.status[i], np.ldexp(state[:6:2], -shift), state[6:12:2], J, D)
+            return
+
+
+def _run_block(
+    loops: list[Callable], balls: Balls, which: slice, steps: int, every: int, frames: Frames, low: Frames,
+    stages: Floats, count: Count,
+) -> None:  # fmt: skip
+    march, prepare = loops
+    n = which.stop - which.start
+    state = np.zeros((quad_block.ALL_ROWS, quad_block.LANES))
+    shift, beyond = np.zeros(n, dtype=np.int64), np.zeros(n, dtype=np.int64)
+    prepare(balls.momentum[which], balls.gamma[which], balls.mass_tensor[which], balls.D[which], stages,
+            state, shift, beyond)  # fmt: skip
+    for lane in range(n):
+        if balls.rest is not None:
+            _add(balls.rest[which.start + lane], state[:, lane], int(shift[lane]))
+        _begin(frames, low, which.start + lane, state[:, lane], balls.rest)
+    status, reach, taken = frames.status[which], frames.reach[which], frames.taken[which]
+    chunk = max(1, CHUNK // quad_block.LANES)
+    for first in range(0, steps, chunk):
+        now = min(chunk, steps - first)
+        march(
+            state, first, now, every, shift, frames.momentum[which], low.momentum[which],
+            frames.gamma[which], low.gamma[which], taken, status, reach,
+        )  # fmt: skip
+        count.add(now * n)
+        if count.stopped:
+            return
+    for lane in map(int, np.flatnonzero(status)):
+        i = which.start + lane
+        K, g = np.ldexp(state[:6:2, lane], -int(shift[lane])), state[6:12:2, lane]
+        status[lane] = explain(status[lane], K, g, balls.mass_tensor[i], float(balls.D[i]))

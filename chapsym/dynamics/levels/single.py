@@ -1,0 +1,136 @@
+"""The float32 rung: the loops of float64, read in float32 (`retyped`), with the bounds of that type.
+
+State, sums and rotations are float32; each register holds twice as many balls.  𝒦, γ, the attitude and the contact
+point are summed with compensation, and the integrals restored, as in float64.  Two things are float64 still: the
+continuation of a step that is beyond the bound of lemma `small-branch`, rounded, and why such a step has no rotation.
+"""
+
+from collections.abc import Callable
+from functools import cache
+from typing import Any
+
+import numpy as np
+
+import chapsym.generated as generated
+import chapsym.generated.columns as generated_columns
+
+from .. import columns
+from ..ball import Floats
+from ..errors import BadInput
+from ..loops import block, composed_loop, gibbs, integrals, loop, single_loop, single_step
+from ..map import SMALL_BATCH
+from . import double
+from .double import Balls, Frames, Loops
+from .retyped import Family
+
+#: float32 has numbers from 2^-126 to 2^128; the scaled ones of a step need a little room.
+RANGE = 2.0**-120, 2.0**120
+#: A momentum below this, for Λmax = 1, turns the ball by less than the compensated sums of 𝒦 and γ can hold.
+SLOWEST = 2.0**-48
+
+
+@cache
+def loops() -> Loops:
+    """The loops in float32, each with the constants that its text has for float64."""
+    family = Family("single", np.float32)
+    family.kernels(generated)
+    family.programs(generated_columns)
+    rounds = family.loops(gibbs, LEFT=np.float32(2.0**-24), SMALLEST=np.float32(SLOWEST))
+    # Dekker's 2^12 + 1, and the square of an angle that float32 can tell from 0.
+    family.loops(integrals, SPLITTER=np.float32(4097.0), VERTICAL=np.float32(1e-4))
+    own = family.loops(single_loop)
+    rounds.bound = own.checkable
+    march = family.loops(loop, small_rotation=own.widened, follow_body=own.follow_body)
+    return Loops(
+        march,
+        family.loops(composed_loop),
+        family.loops(block, LANES=2 * block.LANES),
+        family.loops(columns),
+        family.loops(single_step),
+        np.float32, np.float32, attitude=8, contact=4,
+    )  # fmt: skip
+
+
+def run(
+    balls: Balls, steps: int, every: int, frames: Frames, order: int, threads: int, progress: Callable[[int], None]
+) -> None:
+    """`engine.run` in float32, from the float64 state in `balls`: rounded, γ and the attitude divided by their length.
+
+    The contact point is summed in units of the radius.  A ball that turns by less than 2^-36 or so a step, where its
+    checks would underflow, is as right, but takes each step by the continuation.  Raises BadInput for momenta,
+    moments of inertia or a path beyond the range of float32, and for a momentum so small that the ball would stand
+    still.
+    """
+    in_single = rounded(balls)
+    slow = balls.momentum.any(axis=1) & (np.abs(balls.momentum).max(axis=1) < SLOWEST * _largest_moment(balls))
+    if steps and slow.any():
+        raise BadInput(
+            f"the momentum {_worst(balls.momentum, slow)} turns the ball by less than 2^-48 a step, and in float32 it "
+            'would stand still; take a longer time step, or precision="double"'
+        )
+    frames.momentum[:, 0], frames.gamma[:, 0] = in_single.momentum, in_single.gamma
+    if frames.with_body:
+        frames.attitude[:, 0] = unit(frames.attitude[:, 0])
+    with np.errstate(under="ignore"):
+        double.run(in_single, steps, every, frames, order, threads, progress, loops())
+        if frames.with_body:
+            _in_metres(frames.contact, balls.radius)
+
+
+def rounded(balls: Balls) -> Balls:
+    """The balls in float32, γ divided by its length, with the radius 1; raises BadInput where they leave its range."""
+    for name, size in (("momentum", np.abs(balls.momentum).max(axis=1)), ("moment of inertia", _largest_moment(balls))):
+        outside = (size > 0.0) & ~((size >= RANGE[0]) & (size <= RANGE[1]))
+        if outside.any():
+            raise BadInput(
+                f"a {name} of {size[outside][0]:g} is beyond what float32 can step with, 1e-36 to 1e36; "
+                'take other units, or precision="double"'
+            )
+    K, J, D = (x.astype(np.float32) for x in (balls.momentum, balls.mass_tensor, balls.D))
+    parts: tuple[Any, ...] = (K, unit(balls.gamma), J, D, np.ones(len(D), np.float32))
+    return Balls(*parts)
+
+
+def unit(vectors: Floats) -> np.ndarray:
+    """Vectors divided by their length, rounded to float32."""
+    wide = vectors.astype(np.float64)
+    return (wide / np.linalg.norm(wide, axis=-1, keepdims=True)).astype(np.float32)
+
+
+def _largest_moment(balls: Balls) -> Floats:
+    J = balls.mass_tensor
+    return np.asarray((J.sum(axis=1, keepdims=True) - J).max(axis=1) + balls.D)
+
+
+def _worst(momentum: Floats, which: np.ndarray) -> str:
+    return "({})".format(", ".join(f"{x:g}" for x in momentum[which][0]))
+
+
+def _in_metres(traces: np.ndarray, radius: Floats) -> None:
+    """Multiplies traces in units of the radius by it."""
+    with np.errstate(over="ignore"):
+        traces *= radius.astype(np.float32)[:, np.newaxis, np.newaxis]
+    if np.isinf(traces).any():
+        raise BadInput('the contact point leaves the range of float32, 3.4e38 metres; use precision="double"')
+
+
+def step_all(K: Floats, g: Floats, J: Floats, D: Floats) -> tuple[np.ndarray, ...]:
+    """One step of each ball of a batch in float32: (n, 3), (n, 3), (n, 3), (n,), float64, of which it makes float32.
+
+    Returns (q, 𝒦, γ, status, reach), of shapes (n, 4), (n, 3), (n, 3), (n,), (n,): unit Euler parameters with q0 ≥ 0,
+    and what they turn; NaN where the status is not TAKEN.  It is the first step of a trajectory, to the bit.
+    Raises BadInput for momenta and moments of inertia beyond the range of float32.
+    """
+    n = len(D)
+    balls = rounded(Balls(K, g, J, D, np.ones(n)))
+    moved, vertical, tensor, contact = balls.momentum.copy(), balls.gamma.copy(), balls.mass_tensor, balls.D
+    q, status, reach = np.full((n, 4), np.nan, np.float32), np.zeros(n, np.int64), np.ones(n)
+    take = loops().step.advance_all
+    if n > SMALL_BATCH:
+        take = double.chosen((take,), double.SHORT_RUN)[0]
+    with np.errstate(under="ignore"):
+        take(moved, vertical, tensor, contact, q, status, reach)
+    for i in np.flatnonzero(status):
+        status[i] = double.explained(status[i], moved[i], vertical[i], tensor[i], contact[i])
+    moved[status != 0], vertical[status != 0] = np.nan, np.nan
+    return q, moved, vertical, status, reach

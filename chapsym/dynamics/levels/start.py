@@ -1,0 +1,105 @@
+"""Where a step on a high rung starts: the rotation that the continuation finds, in float64 or in mpmath's numbers.
+
+float64 says which branch it is wherever it can.  Where it fails, or might, by the range of its exponents or because D
+is large beside J, the same continuation, the very functions of `branch`, runs on numbers with enough digits.
+"""
+
+import math
+from collections.abc import Callable, Sequence
+from fractions import Fraction
+from types import FunctionType
+from typing import Any
+
+import numpy as np
+
+from ..errors import Status, StepNotTaken
+from ..loops import branch
+from ..map import explain
+
+Exact = Sequence[Fraction]
+
+#: With a ratio of the moments of inertia above this, or a momentum below or above this, float64 is not asked.
+STIFF, TINY, HUGE = 1e8, 2.0**-900, 2.0**10
+#: The digits of the continuation beyond those that the ratio of the moments costs twice.
+DIGITS = 40
+
+
+def start(K: Exact, g: Exact, J: Exact, D: Fraction) -> tuple[Fraction, ...]:
+    """The rotation of the small-rotation branch, to 16 digits or a few more than the conditioning costs.
+
+    Raises StepNotTaken as `step` does.
+    """
+    moments = (J[1] + J[2], J[0] + J[2], J[0] + J[1])
+    scale = Fraction(2) ** -exponent_of(max(moments) + D)
+    J, D, K = [x * scale for x in J], D * scale, [x * scale for x in K]
+    factor = Fraction(1)
+    largest = max(map(abs, K))
+    if largest > HUGE:  # no rotation has so much; floats could not hold it
+        factor = Fraction(2) ** (10 - exponent_of(largest))
+        K = [x * factor for x in K]
+    least = min((x for x in moments if x > 0), default=Fraction(1)) * scale
+    stiff = largest * factor < TINY or least * Fraction(STIFF) < 1
+    floats = [[float(x) for x in v] for v in (K, _unit(g), J, (D,))]
+    if not stiff:
+        status, reach, *q = branch.small_rotation(*floats[0], *floats[1], *floats[2], *floats[3])
+        if status == Status.TAKEN:
+            return tuple(map(Fraction, q))
+    status, reach, q = _on_numbers(K, g, J, D, math.ceil(2 * (_log10(1 / least) + 1)) + DIGITS)
+    if status == Status.TAKEN and factor == 1:
+        return tuple(q)
+    k, g_unit, tensor = (np.array(x) for x in floats[:3])
+    why = explain(int(status), k, g_unit, tensor, float(D)) if status else Status.UNREACHABLE
+    raise StepNotTaken(why, float(reach * factor))
+
+
+def fraction(x: Any) -> Fraction:
+    """A number of any rung, exactly; of a ball its midpoint."""
+    if hasattr(x, "mid"):
+        man, exp = x.mid().man_exp()
+        return Fraction(int(man)) * Fraction(2) ** int(exp)
+    if hasattr(x, "_mpf_"):
+        sign, man, exp, _ = x._mpf_
+        return (-1) ** sign * Fraction(int(man)) * Fraction(2) ** exp
+    return Fraction(float(x))
+
+
+def _log10(x: Fraction) -> float:
+    return exponent_of(x) * math.log10(2)
+
+
+def exponent_of(x: Fraction) -> int:
+    """An exponent e with |x| < 2^e, and |x| ≥ 2^(e-2), of a fraction that is not 0."""
+    return x.numerator.bit_length() - x.denominator.bit_length() + 1
+
+
+def _unit(g: Exact) -> list[float]:
+    length = math.hypot(*map(float, g))
+    return [float(x) / length for x in g]
+
+
+def _on_numbers(K: Exact, g: Exact, J: Exact, D: Fraction, digits: int) -> tuple[int, Any, list[Fraction]]:
+    """`branch.small_rotation` with so many digits: (status, reach, rotation)."""
+    import mpmath
+
+    context = mpmath.MPContext()
+    context.dps = digits
+    values = [[context.mpf(x.numerator) / x.denominator for x in v] for v in (K, g, J, (D,))]
+    length = context.sqrt(sum(x * x for x in values[1]))
+    values[1] = [x / length for x in values[1]]
+    status, reach, *q = on(context)(*(x for v in values for x in v))
+    return status, fraction(reach), list(map(fraction, q))
+
+
+def on(context: Any) -> Callable[..., tuple]:
+    """`branch.small_rotation` in the numbers of an mpmath context: the same functions with its own limits."""
+    unit = context.ldexp(1, -context.prec)
+    names: dict[str, Any] = {
+        **vars(branch), "frexp": context.frexp, "ldexp": context.ldexp, "sqrt": context.sqrt,
+        "UNIT_ROUNDOFF": unit, "SMALLEST": 0, "LEAST": -math.inf, "SINGULAR": unit * 8,
+    }  # fmt: skip
+    for name, value in vars(branch).items():
+        if isinstance(value, FunctionType) and value.__module__ == branch.__name__:
+            names[name] = FunctionType(value.__code__, names, name, value.__defaults__)
+    follow = names["small_rotation"]
+    follow.__defaults__ = (8 * unit,)  # a step that is shorter is a fold
+    return follow

@@ -1,0 +1,157 @@
+"""The ball in n dimensions, its states, and the checks of both."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..ball import Floats, numbers
+from ..errors import BadInput
+from ..map import UNIT_TOLERANCE
+from . import so_n
+
+#: How far 𝒦 + 𝒦ᵀ may be from 0, relative to 𝒦.
+SKEW_TOLERANCE = 1e-12
+#: How far R Rᵀ may be from 1, and R γ from eₙ, for an attitude that is given.
+AGREEMENT = 1e-9
+
+
+@dataclass(frozen=True, eq=False)
+class BallN:
+    """A ball in n ≥ 3 dimensions, or an array of such balls, that rolls without slipping on a hyperplane.
+
+    mass_tensor: the diagonal of J = ∫ x xᵀ dm about the centre (Section 4), shape (..., n), in kg m².
+    D: m ρ² in kg m², shape (...); D = 0 is the Euler top on SO(n).
+    radius: ρ in m, shape (...); needed for the trace of the contact point only.
+
+    Raises BadInput for a moment below 0, a D below 0, a radius that is not positive, and for moments with
+    which the momentum operator is singular at every γ: at most one may vanish, two if D > 0.
+    """
+
+    mass_tensor: Floats
+    D: Floats
+    radius: Floats | None = None
+
+    def __post_init__(self) -> None:
+        tensor, contact = numbers(self.mass_tensor, "mass_tensor"), numbers(self.D, "D")
+        radius = None if self.radius is None else numbers(self.radius, "radius")
+        if not tensor.ndim or tensor.shape[-1] < 3:
+            raise BadInput(f"mass_tensor must have n >= 3 moments along its last axis, not the shape {tensor.shape}")
+        shapes = [tensor.shape[:-1], contact.shape, *([] if radius is None else [radius.shape])]
+        _common(shapes, "mass_tensor, D and radius")
+        for name, value in (("mass_tensor", tensor), ("D", contact)):
+            if (value < 0).any():
+                raise BadInput(f"{name} must not be negative, but it is {value.min():g}")
+        if radius is not None and not (radius > 0).all():
+            raise BadInput(f"radius must be positive, but it is {radius.min():g}")
+        with np.errstate(over="ignore"):
+            top = np.sort(tensor, axis=-1)[..., -2:].sum(axis=-1) + contact
+        if not np.isfinite(top).all():
+            raise BadInput("the moments of inertia J1 + J2 + D, ... are beyond the range of float64")
+        vanishing = (tensor == 0).sum(axis=-1)
+        if (vanishing + np.where(contact > 0, 0, 1) > 2).any():
+            raise BadInput(
+                "the ball has no inertia about some plane: one moment of mass_tensor may vanish, two if D > 0"
+            )
+        for name, array in (("mass_tensor", tensor), ("D", contact), ("radius", radius)):
+            if array is not None:
+                array.flags.writeable = False
+                object.__setattr__(self, name, array)
+
+    @property
+    def n(self) -> int:
+        """The dimension."""
+        return int(self.mass_tensor.shape[-1])
+
+
+def skew(vector: ArrayLike) -> Floats:
+    """The skew matrix of a vector in three dimensions, (..., 3, 3): skew(v) x = v × x, as in Section 5."""
+    v = numbers(vector, "vector", 3)
+    return so_n.from_coordinates(np.stack([v[..., 2], -v[..., 1], v[..., 0]], axis=-1), 3)
+
+
+def axial(matrix: ArrayLike) -> Floats:
+    """The vector (A₃₂, A₁₃, A₂₁) of a skew 3×3 matrix, (..., 3): the inverse of `skew`."""
+    lower = so_n.coordinates(skew_matrices(matrix, 3, "matrix"))
+    return np.stack([lower[..., 2], -lower[..., 1], lower[..., 0]], axis=-1)
+
+
+def skew_matrices(value: ArrayLike, n: int, name: str = "momentum") -> Floats:
+    """`value` as exactly skew matrices, (..., n, n); raises BadInput if it is not skew to 1e-12."""
+    array = numbers(value, name)
+    if array.shape[-2:] != (n, n):
+        raise BadInput(f"{name} must be skew matrices of the shape (..., {n}, {n}), not {array.shape}")
+    with np.errstate(over="ignore"):
+        off, largest = np.abs(array / 2 + array.mT / 2), np.abs(array)
+    if (off > SKEW_TOLERANCE / 2 * largest.max(axis=(-2, -1), keepdims=True, initial=0.0)).any():
+        raise BadInput(f"{name} must be skew, but it differs from minus its transpose by {2 * off.max():.2g}")
+    return np.where(off == 0, array, array / 2 - array.mT / 2)
+
+
+def unit_verticals(gamma: ArrayLike, n: int) -> Floats:
+    """γ as checked unit vectors, (..., n)."""
+    array = numbers(gamma, "gamma", n)
+    length = np.sqrt((array * array).sum(axis=-1))
+    off = np.abs(length - 1)
+    if (off > UNIT_TOLERANCE / 2).any():
+        worst = length.flat[int(off.argmax())]
+        raise BadInput(f"gamma must be a unit vector, but its length is {worst:.17g}; divide it by its length")
+    return array
+
+
+def flat_states(ball: BallN, momentum: ArrayLike, gamma: ArrayLike) -> tuple[tuple[int, ...], tuple[Floats, ...]]:
+    """The common leading shape, and (𝒦, γ, J, D) as arrays to read with one leading axis; all are checked."""
+    if not isinstance(ball, BallN):
+        raise BadInput(f"ball must be a chapsym.BallN, not {type(ball).__name__}")
+    K, g = skew_matrices(momentum, ball.n), unit_verticals(gamma, ball.n)
+    radius = () if ball.radius is None else ball.radius.shape
+    leading = [ball.mass_tensor.shape[:-1], ball.D.shape, radius, K.shape[:-2], g.shape[:-1]]
+    shape = _common(leading, "ball (mass_tensor, D, radius), momentum and gamma")
+    wide = ((K, K.shape[-2:]), (g, g.shape[-1:]), (ball.mass_tensor, g.shape[-1:]), (ball.D, ()))
+    count = int(np.prod(shape, dtype=np.int64))
+    return shape, tuple(np.broadcast_to(x, (*shape, *own)).reshape(count, *own) for x, own in wide)
+
+
+def attitudes_with(gamma: Floats) -> Floats:
+    """The attitudes of the least rotations with R γ = eₙ, (..., n, n), from the body to space.
+
+    R = 1 - vvᵀ/(1 + γₙ) + 2 eₙγᵀ with v = γ + eₙ; upside down, a half turn of the last two axes.
+    """
+    n, last = gamma.shape[-1], gamma[..., -1]
+    flat2 = (gamma[..., :-1] ** 2).sum(axis=-1)
+    # 1 + γₙ cancels for a γ that points down; there it is the same as (1 - γₙ²)/(1 - γₙ).
+    upper = np.where(last < 0, flat2 / (1 - np.minimum(last, 0)), 1 + last)
+    down = upper == 0
+    upper = np.where(down, 1.0, upper)
+    v = np.concatenate([gamma[..., :-1], upper[..., np.newaxis]], axis=-1)
+    R = np.eye(n) - v[..., :, np.newaxis] * v[..., np.newaxis, :] / upper[..., np.newaxis, np.newaxis]
+    R[..., -1, :] += 2 * gamma
+    R[down] = np.diag([*[1.0] * (n - 2), -1.0, -1.0])
+    return so_n.polar(R)
+
+
+def initial_attitudes(attitude: bool | ArrayLike, gamma: Floats, shape: tuple[int, ...]) -> Floats:
+    """The attitudes to start from, (b, n, n): those that were given, checked against γ, or the least rotations."""
+    n = gamma.shape[-1]
+    if isinstance(attitude, bool | np.bool_):
+        return attitudes_with(gamma)
+    R = numbers(attitude, "attitude")
+    if R.shape[-2:] != (n, n):
+        raise BadInput(f"attitude must be rotations of the shape (..., {n}, {n}), not {R.shape}")
+    try:
+        R = np.broadcast_to(R, (*shape, n, n)).reshape(-1, n, n)
+    except ValueError:
+        raise BadInput(f"attitude has the leading axes {R.shape[:-2]}, the states have {shape}") from None
+    if (np.abs(R @ R.mT - np.eye(n)) > AGREEMENT).any() or (np.linalg.det(R) < 0).any():
+        raise BadInput("attitude must be rotations: R Rᵀ = 1 with determinant 1")
+    if (np.abs((R @ gamma[..., np.newaxis])[..., 0] - np.eye(n)[-1]) > AGREEMENT).any():
+        raise BadInput("attitude and gamma disagree: the attitude must turn gamma to (0, ..., 0, 1)")
+    return R
+
+
+def _common(shapes: list[tuple[int, ...]], names: str) -> tuple[int, ...]:
+    try:
+        return np.broadcast_shapes(*shapes)
+    except ValueError:
+        listed = ", ".join(map(str, shapes))
+        raise BadInput(f"the leading axes of {names} do not broadcast: {listed}") from None

@@ -1,0 +1,120 @@
+"""The small-rotation branch for every n: the Ω with a given momentum, continued from the identity, in batches.
+
+For fixed γ the branch is the curve Ω(t) with 𝒦(Ω(t), γ) = t𝒦 that starts at Ω(0) = 1.  From a point of
+it Newton's iteration in so(n), Ω becoming Ω·Cayley(ξ), aims at a later t.  It is believed to have stayed
+on the branch if the first correction, which is the step along the tangent, is at most LARGEST and each
+correction is below SHRINK of the one before: Newton on Kantorovich's majorant does so exactly when the
+number that his theorem bounds by 1/2 is at most 1/4.  Otherwise the step along t is halved; where steps
+shrink to nothing is the fold.  The ratio of two corrections measures that number, it does not bound it; the tests
+compare with steps that are proven to stay on the branch, which are shorter (|𝒦| times the step at most σ²/2l,
+σ the least singular value of the Jacobian, l = 2 max J + D).
+
+Units: J, D and 𝒦 are first scaled by a power of two, exactly, so that the largest moment is about 1.
+"""
+
+import numpy as np
+
+from ..ball import Floats
+from ..errors import Status
+from . import so_n
+
+#: The largest first correction, in radians.
+LARGEST = 0.5
+#: What a correction may be of the one before.
+SHRINK = 1 / 6
+#: A correction below this, relative to the rotation, is the last one: Newton squares it.
+SETTLED = 1e-9
+#: A step along t below this fraction of what is behind it is a fold.
+SHORTEST = 1e-15
+#: The path is followed as far as a momentum of 2^FARTHEST; no entry of 𝒦(Ω, γ) is above 1.
+FARTHEST = 3
+#: An eigenvalue of the inertia about the contact point below this, for a largest one of about 1, is rounding.
+SINGULAR = 2.0**-50
+MOST_STEPS = 5000
+MOST_CORRECTIONS = 20
+
+
+def small_rotation(K: Floats, gamma: Floats, J: Floats, D: Floats) -> tuple[Floats, np.ndarray, Floats]:
+    """Solves 𝒦(Ω, γ) = 𝒦 on the small-rotation branch, for balls (b, n, n), (b, n), (b, n), (b,).
+
+    Returns (E, status, reach): Ω - 1 (b, n, n), NaN where the status is not TAKEN, and the fraction of the
+    momentum that was attained.
+    """
+    K, J, D, end = _scaled(K, J, D)
+    k = so_n.coordinates(K)
+    status = np.full(len(D), Status.NOT_CONVERGED, dtype=np.int64)
+    E, t, step = np.zeros_like(K), np.zeros(len(D)), np.ones(len(D))
+    status[_without_inertia(gamma, J, D)] = Status.NO_INERTIA
+    going = np.flatnonzero(status != Status.NO_INERTIA)
+    for _ in range(MOST_STEPS):
+        if not going.size:
+            break
+        ahead = np.minimum(t[going] + step[going], 1.0)
+        moved, settled = corrected(E[going], ahead[:, np.newaxis] * k[going], gamma[going], J[going], D[going])
+        # The Jacobian is positive definite at rest: where its determinant is not positive, a fold has been passed.
+        slope = so_n.jacobian(moved, gamma[going], J[going], D[going])
+        settled &= np.linalg.slogdet(slope)[0] > 0
+        arrived, refused = going[settled], going[~settled]
+        E[arrived], t[arrived] = moved[settled], ahead[settled]
+        step[arrived] *= 2
+        step[refused] /= 2
+        status[refused[step[refused] < SHORTEST * t[refused]]] = Status.FOLDED
+        status[arrived[t[arrived] == 1]] = Status.TAKEN  # never on a path that was cut: no rotation has its end
+        going = going[(status[going] == Status.NOT_CONVERGED) & (t[going] < 1)]
+    E[status != Status.TAKEN] = np.nan
+    return so_n.orthogonal(E), status, t * end
+
+
+def corrected(E: Floats, k: Floats, gamma: Floats, J: Floats, D: Floats) -> tuple[Floats, np.ndarray]:
+    """Newton's iteration at a fixed momentum with the coordinates k, (b, N); returns (E, settled)."""
+    n, result, settled = E.shape[-1], E.copy(), np.zeros(len(D), dtype=bool)
+    at, limit = np.arange(len(D)), np.full(len(D), LARGEST)
+    for _ in range(MOST_CORRECTIONS):
+        slope = so_n.jacobian(E, gamma, J, D)
+        xi = _solved(slope, k - so_n.coordinates(so_n.momentum(E, gamma, J, D)))
+        change = np.sqrt((xi * xi).sum(axis=-1))
+        fits = change <= limit
+        if not fits.all():
+            at, E, k, gamma, J, D, xi, change = (x[fits] for x in (at, E, k, gamma, J, D, xi, change))
+        E = so_n.turned(E, so_n.from_coordinates(xi, n))
+        done = change <= SETTLED * np.abs(E).max(axis=(-2, -1))
+        result[at[done]], settled[at[done]] = E[done], True
+        if done.all():
+            break
+        if done.any():
+            at, E, k, gamma, J, D, change = (x[~done] for x in (at, E, k, gamma, J, D, change))
+        limit = SHRINK * change
+    return result, settled
+
+
+def _solved(matrix: Floats, vector: Floats) -> Floats:
+    """Solutions of linear systems, (b, N); infinite where a matrix is singular."""
+    try:
+        return np.linalg.solve(matrix, vector[..., np.newaxis])[..., 0].astype(np.float64, copy=False)
+    except np.linalg.LinAlgError:
+        if len(matrix) == 1:
+            return np.full_like(vector, np.inf)
+        return np.concatenate([_solved(matrix[i : i + 1], vector[i : i + 1]) for i in range(len(matrix))])
+
+
+def _top(J: Floats, D: Floats) -> Floats:
+    """The largest moment of inertia about the contact point, Jᵢ + Jⱼ + D: a bound of every entry of 𝒦."""
+    return np.sort(J, axis=-1)[..., -2:].sum(axis=-1) + D
+
+
+def _scaled(K: Floats, J: Floats, D: Floats) -> tuple[Floats, Floats, Floats, Floats]:
+    """𝒦, J and D times a power of two for a largest moment of about 1, 𝒦 cut at 2^FARTHEST, and the fraction left."""
+    exponent = np.frexp(_top(J, D))[1]
+    largest = np.abs(K).max(axis=(-2, -1))
+    shift = np.where(largest > 0, np.minimum(-exponent, FARTHEST - np.frexp(largest)[1]), -exponent)
+    J, D = np.ldexp(J, -exponent[:, np.newaxis]), np.ldexp(D, -exponent)
+    return np.ldexp(K, shift[:, np.newaxis, np.newaxis]), J, D, np.ldexp(1.0, shift + exponent)
+
+
+def _without_inertia(gamma: Floats, J: Floats, D: Floats) -> np.ndarray:
+    """Whether a rotation has no inertia about the contact point; needs two vanishing moments in J."""
+    found = np.sort(J, axis=-1)[..., :2].sum(axis=-1) <= SINGULAR
+    if found.any():
+        start = so_n.jacobian(np.zeros((int(found.sum()), *2 * J.shape[-1:])), gamma[found], J[found], D[found])
+        found[found] = np.linalg.eigvalsh(start)[:, 0] <= SINGULAR
+    return found

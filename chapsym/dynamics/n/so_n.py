@@ -1,0 +1,90 @@
+"""so(n) and the momentum (4.13) on arrays, for every n.
+
+A rotation Ω is kept as E = Ω - 1: the words of (4.13) are linear in Ω and vanish at Ω = 1, so 𝒦 is the
+same function of E, and a small rotation has all its digits.  Vectors are (..., n), matrices (..., n, n).
+"""
+
+from functools import cache
+
+import numpy as np
+
+from ..ball import Floats
+
+
+@cache
+def places(n: int) -> tuple[np.ndarray, np.ndarray]:
+    """The rows and the columns of the coordinates of a skew matrix: what is below the diagonal."""
+    return np.tril_indices(n, -1)
+
+
+def coordinates(skew: Floats) -> Floats:
+    """The N = n(n-1)/2 entries of a skew matrix below its diagonal, (..., N)."""
+    rows, columns = places(skew.shape[-1])
+    return skew[..., rows, columns]
+
+
+def from_coordinates(x: Floats, n: int) -> Floats:
+    """The skew matrix with the coordinates x, (..., n, n)."""
+    rows, columns = places(n)
+    skew = np.zeros((*x.shape[:-1], n, n))
+    skew[..., rows, columns] = x
+    skew[..., columns, rows] = -x
+    return skew
+
+
+@cache
+def _basis(n: int) -> Floats:
+    """The transposes of the skew matrices with one coordinate 1, one below the other, (N n, n)."""
+    return np.ascontiguousarray(from_coordinates(np.eye(n * (n - 1) // 2), n).mT.reshape(-1, n))
+
+
+def twist(X: Floats, gamma: Floats) -> Floats:
+    """(X - Xᵀ)γ, (..., n); half of it is Δr/ρ of a step in the body, γ upwards (4.9 with 2.9 as corrected)."""
+    return ((X - X.mT) @ gamma[..., np.newaxis])[..., 0]
+
+
+def momentum(X: Floats, gamma: Floats, J: Floats, D: Floats) -> Floats:
+    """𝒦 = XJ - JXᵀ + D/2 (XΓ - ΓXᵀ + ΓX - XᵀΓ), skew, for X = Ω or Ω - 1 (prop-1, 4.13).
+
+    As Γ = γγᵀ, the last bracket is cγᵀ - γcᵀ with c = (X - Xᵀ)γ.  J is the diagonal, (..., n); D is (...).
+    """
+    c = D[..., np.newaxis] / 2 * twist(X, gamma)
+    half = X * J[..., np.newaxis, :] + c[..., :, np.newaxis] * gamma[..., np.newaxis, :]
+    return half - half.mT
+
+
+def jacobian(E: Floats, gamma: Floats, J: Floats, D: Floats) -> Floats:
+    """The derivative of 𝒦 along Ω(1 + ξ), ξ skew, in coordinates, (..., N, N): exactly 𝒦(Ωξ), as 𝒦 is linear."""
+    n = E.shape[-1]
+    transposed = (_basis(n) @ (E.mT + np.eye(n))).reshape(*E.shape[:-2], -1, n, n)
+    columns = momentum(transposed.mT, gamma[..., np.newaxis, :], J[..., np.newaxis, :], D[..., np.newaxis])
+    return coordinates(columns).mT
+
+
+def turned(E: Floats, xi: Floats) -> Floats:
+    """Ω·Cayley(ξ) - 1 for Cayley(ξ) = (1 - ξ/2)⁻¹(1 + ξ/2), which is 1 + (1 - ξ/2)⁻¹ξ."""
+    turn = np.linalg.solve(np.eye(xi.shape[-1]) - xi / 2, xi)
+    return E + turn + E @ turn
+
+
+def orthogonal(E: Floats) -> Floats:
+    """E of the rotation nearest to 1 + E, which is one but for roundings: a step of Newton and Schulz."""
+    defect = E + E.mT + E.mT @ E
+    return E - (defect + E @ defect) / 2
+
+
+def polar(R: Floats) -> Floats:
+    """The rotation nearest to R, in the same way."""
+    return R - R @ (R.mT @ R - np.eye(R.shape[-1])) / 2
+
+
+def carried(skew: Floats, E: Floats) -> Floats:
+    """ΩᵀAΩ for a skew matrix A, as A and an increment: exactly skew."""
+    first = skew @ E
+    half = first + E.mT @ first / 2
+    return skew + (half - half.mT)
+
+
+def transported(gamma: Floats, E: Floats) -> Floats:
+    """Ωᵀγ, as γ and an increment."""
+    return gamma + (E.mT @ gamma[..., np.newaxis])[..., 0]

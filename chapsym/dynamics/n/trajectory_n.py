@@ -1,0 +1,183 @@
+"""Trajectories in n dimensions: many steps, with attitude and contact point only when asked for."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..ball import Floats, numbers
+from ..errors import BadInput, Status, StepNotTaken
+from ..trajectories import _count
+from . import so_n
+from .ball_n import BallN, flat_states, initial_attitudes, skew_matrices
+from .branch_n import small_rotation
+from .step_n import blocks
+
+
+@dataclass(frozen=True, eq=False)
+class TrajectoryN:
+    """States of one ball, shape (frames, ...), or of a batch, shape (balls..., frames, ...).
+
+    index: the step number of each frame, (frames,).
+    momentum, gamma: 𝒦 (..., frames, n, n), in kg m², and γ (..., frames, n).
+    attitude: R from the body to space, R γ = eₙ, (..., frames, n, n), or None.
+    contact: the contact point on the hyperplane in metres, from 0, (..., frames, n-1), or None.
+    taken: the number of steps that were taken, (...); frames after it are NaN.
+    status: why a ball stopped, a `Status`, (...).
+    """
+
+    ball: BallN
+    index: np.ndarray
+    momentum: Floats
+    gamma: Floats
+    attitude: Floats | None
+    contact: Floats | None
+    taken: np.ndarray
+    status: np.ndarray
+
+    def invariants(self) -> Floats:
+        """`invariants_n` of each frame, (..., frames, m); raises BadInput if a ball stopped early."""
+        if np.isnan(self.momentum).any():
+            raise BadInput("a ball of the batch stopped early; choose the frames up to `taken` first")
+        return invariants_n(self.momentum, self.gamma)
+
+
+def trajectory_n(
+    ball: BallN,
+    momentum: ArrayLike,
+    gamma: ArrayLike,
+    steps: int,
+    *,
+    every: int = 1,
+    attitude: bool | ArrayLike = False,
+    contact: bool = False,
+) -> TrajectoryN:
+    """Takes `steps` steps of the map on the small-rotation branch and keeps every `every`-th state.
+
+    momentum, gamma: as for `step_n`.
+    attitude: True (from the least rotation with R γ = eₙ) or rotations, (..., n, n), to be followed.
+    contact: whether to trace the contact point; it needs `ball.radius`, and implies the attitude.
+
+    One ball that cannot take a step raises StepNotTaken with `index` and the `trajectory` before it.
+    In a batch the others go on, and `status` and `taken` say which stopped, where.
+    Raises BadInput as `step_n` does, and for counts that are not whole numbers.
+    """
+    steps, every = _count(steps, "steps", 0), _count(every, "every", 1)
+    every = min(every, steps + 1)
+    shape, (K, g, J, D) = flat_states(ball, momentum, gamma)
+    if contact and ball.radius is None:
+        raise BadInput("the contact point needs the radius: give the ball its radius")
+    with_body = contact or not (isinstance(attitude, bool | np.bool_) and not attitude)
+    n, balls, count = ball.n, len(D), steps // every + 1
+    sizes = {"momentum": (n, n), "gamma": (n,)}
+    sizes |= {"attitude": (n, n)} if with_body else {}
+    sizes |= {"contact": (n - 1,)} if contact else {}
+    try:
+        frames = {name: np.full((balls, count, *size), np.nan) for name, size in sizes.items()}
+    except (MemoryError, ValueError):
+        raise BadInput(f"{count} frames of {balls} balls do not fit into memory; keep fewer with every=") from None
+    state = {"momentum": K, "gamma": g, "mass_tensor": J, "D": D}
+    if with_body:
+        state["attitude"] = initial_attitudes(attitude, g, shape)
+    if contact:
+        state["contact"] = np.zeros((balls, n - 1))
+        state["radius"] = np.broadcast_to(np.asarray(ball.radius), shape).reshape(-1)
+    taken, status, reach = np.zeros(balls, dtype=np.int64), np.zeros(balls, dtype=np.int64), np.ones(balls)
+    for block in blocks(balls, n):
+        here = {name: array[block] for name, array in state.items()}
+        kept = {name: array[block] for name, array in frames.items()}
+        _march(here, kept, steps, every, taken[block], status[block], reach[block])
+    shaped = {name: frames[name].reshape(*shape, count, *size) for name, size in sizes.items()}
+    result = TrajectoryN(
+        ball, np.arange(count) * every, shaped["momentum"], shaped["gamma"], shaped.get("attitude"),
+        shaped.get("contact"), taken.reshape(shape), status.reshape(shape),
+    )  # fmt: skip
+    if not shape and status[0] != Status.TAKEN:
+        before = _frames(result, slice(None, int(taken[0]) // every + 1))
+        raise StepNotTaken(Status(int(status[0])), float(reach[0]), int(taken[0]), before)
+    return result
+
+
+def _march(
+    state: dict[str, Floats], frames: dict[str, Floats], steps: int, every: int,
+    taken: np.ndarray, status: np.ndarray, reach: Floats,
+) -> None:  # fmt: skip
+    """Steps some balls together, and writes their frames, counts, statuses and reaches in place."""
+    at = np.arange(len(taken))
+    for name in frames:
+        frames[name][:, 0] = state[name]
+    for k in range(1, steps + 1):
+        E, status[at], reach[at] = small_rotation(*(state[x] for x in ("momentum", "gamma", "mass_tensor", "D")))
+        went = status[at] == Status.TAKEN
+        if not went.all():
+            at, E, state = at[went], E[went], {name: array[went] for name, array in state.items()}
+            if not at.size:
+                return
+        state = _moved(state, E)
+        taken[at] += 1
+        if k % every == 0:
+            for name in frames:
+                frames[name][at, k // every] = state[name]
+
+
+def _moved(state: dict[str, Floats], E: Floats) -> dict[str, Floats]:
+    """The state after a step with the rotation 1 + E: 𝒦 and γ, and those of attitude and contact that there are."""
+    K, g = state["momentum"], state["gamma"]
+    after = {**state, "momentum": so_n.carried(K, E), "gamma": so_n.transported(g, E)}
+    if "contact" in state:
+        stride = (state["attitude"] @ so_n.twist(E, g)[..., np.newaxis])[..., :-1, 0]
+        after["contact"] = state["contact"] + state["radius"][:, np.newaxis] / 2 * stride
+    if "attitude" in state:
+        after["attitude"] = so_n.polar(state["attitude"] + state["attitude"] @ E)
+    return after
+
+
+def reverse_n(trajectory: TrajectoryN) -> TrajectoryN:
+    """The trajectory back from the last frame: from (-𝒦, γ) the map takes the same steps with Ωᵀ.
+
+    Its frame j is the time reversal of the frame -1 - j: 𝒦 has the other sign, γ, attitude and contact are
+    the same, up to rounding.  Raises BadInput if a ball stopped early, StepNotTaken as `trajectory_n` does
+    (only for a step so large that the way back leaves the small-rotation branch).
+    """
+    if not isinstance(trajectory, TrajectoryN):
+        raise BadInput(f"reverse_n takes a TrajectoryN, not {type(trajectory).__name__}")
+    if (trajectory.status != Status.TAKEN).any():
+        raise BadInput("a ball of the batch stopped early; reverse the balls that did not")
+    steps, every = int(trajectory.index[-1]), int((*trajectory.index, 1)[1])
+    attitude = False if trajectory.attitude is None else trajectory.attitude[..., -1, :, :]
+    back = trajectory_n(
+        trajectory.ball, -trajectory.momentum[..., -1, :, :], trajectory.gamma[..., -1, :], steps,
+        every=every, attitude=attitude, contact=trajectory.contact is not None,
+    )  # fmt: skip
+    if trajectory.contact is None or back.contact is None:
+        return back
+    return replace(back, contact=back.contact + trajectory.contact[..., -1:, :])
+
+
+def invariants_n(momentum: ArrayLike, gamma: ArrayLike) -> Floats:
+    """What the map keeps on every branch (prop-2): functions of 𝒦 and γ that no rotation of both changes.
+
+    momentum: skew, (..., n, n); gamma: (..., n).  Returns (..., m): tr 𝒦²ʲ for j = 1, ..., ⌊n/2⌋, then
+    γᵀ𝒦²ʲγ for j = 1, ..., ⌊(n-1)/2⌋, then |γ|²: as many as are independent.
+    Raises BadInput as `step_n` does.
+    """
+    K = numbers(momentum, "momentum")
+    K = skew_matrices(K, K.shape[-1] if K.ndim else 3)
+    n = K.shape[-1]
+    g = numbers(gamma, "gamma", n)[..., np.newaxis]
+    square, power, moved = K @ K, np.eye(n), g
+    traces, weights = [], []
+    for j in range(1, n // 2 + 1):
+        power, moved = power @ square, square @ moved
+        traces.append(np.trace(power, axis1=-2, axis2=-1))
+        weights += [(g.mT @ moved)[..., 0, 0]] if j <= (n - 1) // 2 else []
+    return np.stack(np.broadcast_arrays(*traces, *weights, (g.mT @ g)[..., 0, 0]), axis=-1)
+
+
+def _frames(whole: TrajectoryN, kept: slice) -> TrajectoryN:
+    """Those frames of one ball."""
+    return replace(
+        whole, index=whole.index[kept], momentum=whole.momentum[kept], gamma=whole.gamma[kept],
+        attitude=None if whole.attitude is None else whole.attitude[kept],
+        contact=None if whole.contact is None else whole.contact[kept],
+    )  # fmt: skip

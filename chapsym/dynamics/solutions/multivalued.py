@@ -1,0 +1,186 @@
+"""Every rotation with a given momentum, in float64, for one ball or a batch.
+
+The eight complex solutions of (5.2) are found together (`candidates`).  A ball is settled if each of them is proved,
+up to roundings, to be an isolated root: the Newton-Kantorovich test holds with room to spare, and the eight differ.
+Then Bézout's theorem leaves no other, and a root is real if its conjugate is not another one.  Complex roots far from
+all real points need no such proof.  A ball that is not settled in this way, which is near a fold or has infinitely
+many complex solutions, is counted exactly (`precise_branches`): float64 numbers are rational numbers.
+"""
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from chapsym.generated import compose, residual, tangent_jacobian
+
+from ..ball import Ball, Floats, numbers
+from ..errors import Status
+from ..map import batch, step, unit_vertical
+from .candidates import Candidates, candidates
+from .quadrics import quadrics
+
+#: Most rotations that can have one momentum: the Bézout number of three quadrics.
+MOST = 8
+#: What error·bend may be; the theorem asks for at most 1/2, without room for what the two leave out.
+CERTAIN = 1 / 16
+#: Roots nearer than this, in units of 1/bend, are one root.
+SAME = 1 / 3
+#: A complex point of length 1 with an imaginary part above this is not a badly computed real one.
+FAR = 0.05
+#: A q0 of a unit quaternion that is not above this is 0: the rotation is by π.
+ROUNDING = 2.0**-51
+#: Balls that are worked on together.
+CHUNK = 1024
+#: The rounding of a step is below this, even where D is large or a fold is near.
+ROUNDED = 1e-3
+POLISHINGS = 2
+
+
+@dataclass(frozen=True, eq=False)
+class Branches:
+    """All rotations with a momentum, by angle, for one ball or a batch with the leading axes (...).
+
+    rotation: Euler parameters (q0, q1, q2, q3), q0 ≥ 0, and at q0 = 0 the first of the others that is not 0 is
+    positive; shape (..., 8, 4), NaN beyond the count.
+    angle: of the rotations, in [0, π], shape (..., 8), NaN beyond the count.
+    multiplicity: of the roots, shape (..., 8), 0 beyond the count; above 1 at a fold.
+    count: the number of rotations, shape (...).
+    small: the place of the rotation that `step` takes, or -1 if it takes none, shape (...).
+    complete: whether the rotations are known to be all, shape (...).
+    """
+
+    rotation: Floats
+    angle: Floats
+    multiplicity: np.ndarray
+    count: np.ndarray
+    small: np.ndarray
+    complete: np.ndarray
+
+
+def branches(ball: Ball, momentum: ArrayLike, gamma: ArrayLike, *, settle: bool = True) -> Branches:
+    """Every rotation Ω with 𝒦(q, γ) = 𝒦 (5.2): all branches of the map.
+
+    momentum: 𝒦 in kg m², shape (..., 3); gamma: unit verticals upwards, (..., 3).  Both broadcast with the balls.
+    settle: whether a ball that float64 does not settle is counted exactly, in some 0.1 s each; otherwise it is
+    not complete, and its rotations are a guess.
+
+    Raises BadInput as `step` does.
+    """
+    shape, (K, g, J, D) = batch(ball, numbers(momentum, "momentum", 3), unit_vertical(gamma))
+    n = len(D)
+    found = Branches(
+        np.full((n, MOST, 4), np.nan), np.full((n, MOST), np.nan), np.zeros((n, MOST), dtype=np.int64),
+        np.zeros(n, dtype=np.int64), np.full(n, -1), np.zeros(n, dtype=bool),
+    )  # fmt: skip
+    for first in range(0, n, CHUNK):
+        part = slice(first, first + CHUNK)
+        _solve(found, part, K[part], g[part], J[part], D[part])
+    if settle:
+        for i in np.flatnonzero(~found.complete):
+            _settle(found, i, K[i], g[i], J[i], D[i])
+    _mark_small(found, K, g, J, D)
+    return Branches(*(x.reshape((*shape, *x.shape[1:])) for x in vars(found).values()))
+
+
+def _solve(found: Branches, part: slice, K: Floats, g: Floats, J: Floats, D: Floats) -> None:
+    """The rotations of some balls, written into their rows."""
+    K, J, D = _scaled(K, J, D)
+    # Where D is large, half turns differ in q0 by J/D only: measured in a larger unit of q0 they are far apart.
+    with np.errstate(over="ignore", divide="ignore"):
+        unit = np.minimum(1 + D / J.max(axis=1), 1e20) ** 0.75
+    forms = _forms(K, g, J, D)
+    forms[:, :, 0] /= unit[:, np.newaxis, np.newaxis]
+    forms[:, :, :, 0] /= unit[:, np.newaxis, np.newaxis]
+    eight = candidates(forms)
+    real, found.complete[part] = _classified(eight)
+    q = eight.points.real.copy()
+    q[..., 0] /= unit[:, np.newaxis]
+    where = np.nonzero(real)[0]
+    roots = _polished(q[real], K[where], g[where], J[where], D[where])
+    q[real] = _signed(roots)
+    q[~real] = np.nan
+    angle = 2 * np.arctan2(np.linalg.norm(q[..., 1:], axis=-1), q[..., 0])
+    order = np.lexsort((-q[..., 3], -q[..., 2], -q[..., 1], angle))  # NaN comes last
+    found.rotation[part] = np.take_along_axis(q, order[..., np.newaxis], axis=1)
+    found.angle[part] = np.take_along_axis(angle, order, axis=1)
+    found.count[part] = real.sum(axis=1)
+    found.multiplicity[part] = ~np.isnan(found.angle[part])
+
+
+def _scaled(K: Floats, J: Floats, D: Floats) -> tuple[Floats, Floats, Floats]:
+    """The same in units in which Λmax is about 1; a momentum that no rotation has is made smaller, not attainable."""
+    exponent = np.frexp(np.maximum(J.sum(axis=1) - J.min(axis=1) + D, np.finfo(float).tiny))[1]
+    K = np.clip(np.ldexp(K, -exponent[:, np.newaxis]), -16.0, 16.0)
+    return K, np.ldexp(J, -exponent[:, np.newaxis]), np.ldexp(D, -exponent)
+
+
+def _forms(K: Floats, g: Floats, J: Floats, D: Floats) -> Floats:
+    """The quadrics as symmetric matrices, (n, 3, 4, 4)."""
+    matrices = np.zeros((len(D), 3, 4, 4))
+    for i, quadric in enumerate(quadrics(tuple(K.T), tuple(g.T), tuple(J.T), D)):
+        for (a, b), coefficient in quadric.items():
+            matrices[:, i, a, b] += coefficient / 2
+            matrices[:, i, b, a] += coefficient / 2
+    return matrices
+
+
+def _classified(eight: Candidates) -> tuple[np.ndarray, np.ndarray]:
+    """Which of the points are real, (n, 8), and for which balls that is certain, (n,)."""
+    imaginary = np.linalg.norm(eight.points.imag, axis=-1)
+    real = 2 * imaginary * eight.bend < SAME
+    isolated = eight.error * eight.bend < CERTAIN
+    far = (imaginary > FAR) & ~real
+    along = np.einsum("npa,nqa->npq", eight.points.conj(), eight.points)
+    apart = eight.points[:, np.newaxis] - along[..., np.newaxis] * eight.points[:, :, np.newaxis]
+    distance = np.linalg.norm(apart, axis=-1)
+    errors = eight.error[:, :, np.newaxis] + eight.error[:, np.newaxis]
+    proved = isolated[:, :, np.newaxis] & isolated[:, np.newaxis] & ~np.eye(MOST, dtype=bool)
+    different = ((distance > 2 * errors) | ~proved).all(axis=(1, 2))
+    return real, (isolated | far).all(axis=1) & different & eight.sound
+
+
+def _polished(q: Floats, K: Floats, g: Floats, J: Floats, D: Floats) -> Floats:
+    """Newton's iteration with the kernels, on rotations (m, 4)."""
+    state = (*g.T, *J.T, D)
+    q = q / np.linalg.norm(q, axis=1, keepdims=True)
+    for _ in range(POLISHINGS):
+        slope = np.stack(np.broadcast_arrays(*tangent_jacobian(*q.T, *state)), axis=-1).reshape(-1, 3, 3)
+        slope[~(np.abs(np.linalg.det(slope)) > 0)] = np.eye(3)
+        gap = np.stack(residual(*q.T, *K.T, *state), axis=-1)
+        w = -np.linalg.solve(slope, gap[..., np.newaxis])[..., 0]
+        q = np.stack(compose(*q.T, 1.0, *w.T), axis=-1)
+        q /= np.linalg.norm(q, axis=1, keepdims=True)
+    return q
+
+
+def _signed(q: Floats) -> Floats:
+    """The one of q and -q whose first component that is not 0 is positive; a q0 that is rounding is 0."""
+    q = np.where(np.abs(q) > [ROUNDING, 0.0, 0.0, 0.0], q, 0.0)
+    leading = np.take_along_axis(q, (q != 0).argmax(axis=1)[:, np.newaxis], axis=1)
+    return np.where(leading < 0, -q, q)
+
+
+def _settle(found: Branches, i: np.intp, K: Floats, g: Floats, J: Floats, D: float) -> None:
+    """The rotations of one ball, from exact arithmetic, which is loaded only when it is needed."""
+    from chapsym.numbers import Double
+
+    from .enclosed import precise_branches
+
+    exact = [[Fraction(float(x)) for x in v] for v in (J, K, g)]
+    known = precise_branches(exact[0], Fraction(float(D)), exact[1], exact[2], Double()).write()
+    found.rotation[i], found.angle[i], found.multiplicity[i] = np.nan, np.nan, 0
+    found.count[i], found.complete[i] = known["count"], known["complete"]
+    for place, solution in enumerate(known["solutions"]):
+        found.rotation[i, place] = [solution["q0"], *solution["q"]]
+        found.angle[i, place], found.multiplicity[i, place] = solution["angle"], solution["multiplicity"]
+
+
+def _mark_small(found: Branches, K: Floats, g: Floats, J: Floats, D: Floats) -> None:
+    """Says which of the rotations is the one that `step` takes."""
+    taken = step(Ball(J, D), K, g)
+    distance = np.abs(found.rotation - taken.rotation[:, np.newaxis]).max(axis=-1)
+    distance = np.where(np.isnan(distance), np.inf, distance)
+    marked = (taken.status == Status.TAKEN) & (distance.min(axis=1) < ROUNDED)
+    found.small[marked] = distance[marked].argmin(axis=1)

@@ -1,0 +1,1 @@
+"""The balls of a scene: their bodies and their starts."""

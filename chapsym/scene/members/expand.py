@@ -1,0 +1,173 @@
+"""From a scene to its balls: every range spelled out, in principal axes, checked."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from chapsym.dynamics import BadInput
+from chapsym.dynamics.ball import Floats
+from chapsym.dynamics.trajectories import attitude_with
+
+from ..read.errors import SceneError, place
+from ..read.ranges import MOST_BALLS, Range, Sweep, ranges_in
+from ..read.tables import BallTable, StartTable, units_of
+from .members import Members, Parameter
+from .starts import Given, members_of
+
+if TYPE_CHECKING:
+    from ..read.scene import Scene
+
+
+def expand(scene: "Scene") -> Members:
+    """The balls of a scene with their starts, the product of all ranges, checked.
+
+    A range of [start] goes for each ball that has no start of its own, and is drawn afresh for each.
+    Raises SceneError, which names the ball, for what no body can have and for starts that are none.
+    """
+    tables = bodies(scene)
+    total = sum(len(body) for body in tables)
+    if total > MOST_BALLS:
+        raise SceneError(f"the scene has {total} balls; a sweep has {MOST_BALLS} at most")
+    parts = [body.members() for body in tables]
+    if len({part.dimension for part in parts}) > 1:
+        raise SceneError("the balls of a scene roll in one space: all mass_tensors need as many numbers")
+    if len(parts) == 1:
+        return parts[0]
+    names = [name for part in parts for name in part.names]
+    if len(set(names)) < len(names):
+        twice = next(name for name in names if names.count(name) > 1)
+        raise SceneError(f"two balls have the name {twice!r}: balls of a sweep are numbered")
+    return _joined(parts)
+
+
+def bodies(scene: "Scene") -> list["Body"]:
+    """The tables of a scene, in its order, each with its start and its ranges."""
+    return [Body(scene, i) for i in range(len(scene.ball))]
+
+
+@dataclass(frozen=True, eq=False)
+class Body:
+    """One [ball] of a scene, and its start."""
+
+    scene: "Scene"
+    index: int
+
+    @property
+    def ball(self) -> BallTable:
+        """Its table."""
+        return self.scene.ball[self.index]
+
+    @property
+    def start(self) -> StartTable:
+        """Its own start, or that of all."""
+        start = self.ball.start or self.scene.start
+        assert start is not None
+        return start
+
+    @property
+    def name(self) -> str:
+        """Its own name, or what it is called without."""
+        if self.ball.name is not None:
+            return self.ball.name
+        return "ball" if len(self.scene.ball) == 1 else f"ball {self.index + 1}"
+
+    def sweep(self) -> Sweep:
+        """Its ranges, those of the ball first."""
+        found: dict[str, Range] = {}
+        for table, keys in (("ball", self.ball), ("start", self.start)):
+            for key in type(keys).model_fields:
+                found |= ranges_in(getattr(keys, key), f"{table}.{key}")
+        sweep = self.scene.sweep
+        try:
+            return Sweep(found, sweep.samples or 1, sweep.seed, str(self.index))
+        except ValueError as error:
+            raise SceneError(f"{self._place()}{error}") from None
+
+    def __len__(self) -> int:
+        return len(self.sweep())
+
+    def members(self) -> Members:
+        """Its members; raises SceneError with the name of the first that cannot be."""
+        sweep = self.sweep()
+        values, count = sweep.values(), len(sweep)
+        names = (self.name,) if not values else tuple(f"{self.name} {i}" for i in range(1, count + 1))
+        parameters = {key: Parameter(array, units_of(key)) for key, array in values.items()}
+
+        def made(chosen: slice) -> Members:
+            given = Given({key: array[chosen] for key, array in values.items()}, len(range(count)[chosen]))
+            return members_of(self.ball, self.start, given, self.scene.scale, names[chosen])
+
+        try:
+            found = made(slice(0, count))
+        except BadInput:
+            first, error = _first_refused(made, count)
+            told = ", ".join(f"{key} = {array[first]:.6g}" for key, array in list(values.items())[:4])
+            raise SceneError(f"{self._place()}{names[first]}{f' ({told})' if told else ''}: {error}") from None
+        return Members(**{**vars(found), "parameters": parameters})
+
+    def _place(self) -> str:
+        where = place(self.scene.name, self.scene.toml, ("ball", self.index))
+        return f"{where}: " if where else ""
+
+
+def _first_refused(made: Callable[[slice], Any], count: int) -> tuple[int, BadInput]:
+    """The first ball that is refused, and why: a batch that is refused is halved."""
+    low, high = 0, count
+    while high - low > 1:
+        middle = (low + high) // 2
+        if _refusal(made, slice(low, middle)) is None:
+            low = middle
+        else:
+            high = middle
+    error = _refusal(made, slice(low, high))
+    assert error is not None
+    return low, error
+
+
+def _refusal(made: Callable[[slice], Any], chosen: slice) -> BadInput | None:
+    try:
+        made(chosen)
+    except BadInput as error:
+        return error
+    return None
+
+
+def _joined(parts: list[Members]) -> Members:
+    """The balls of several tables one after the other; what one of them does not have is as if it were not given."""
+    sizes = [len(part) for part in parts]
+    radii = [part.ball.radius for part in parts]
+    known = [radius for radius in radii if radius is not None]
+    if known and len(known) < len(radii):
+        raise SceneError("some balls have a radius and others have none: give it to all")
+    ball = type(parts[0].ball)(
+        np.concatenate([part.ball.mass_tensor for part in parts]), np.concatenate([part.ball.D for part in parts]),
+        np.concatenate(known) if known else None,
+    )  # fmt: skip
+    keys = dict.fromkeys(key for part in parts for key in part.parameters)
+    parameters = {
+        key: Parameter(
+            np.concatenate([_values(part, key, size) for part, size in zip(parts, sizes, strict=True)]), units_of(key)
+        )
+        for key in keys
+    }
+    return Members(
+        tuple(name for part in parts for name in part.names), ball,
+        np.concatenate([part.momentum for part in parts]), np.concatenate([part.gamma for part in parts]),
+        _filled([part.axes for part in parts], lambda i: np.tile([1.0, 0.0, 0.0, 0.0], (sizes[i], 1))),
+        _filled([part.attitude for part in parts], lambda i: attitude_with(parts[i].gamma)),
+        _filled([part.place for part in parts], lambda i: np.zeros((sizes[i], parts[i].dimension - 1))), parameters,
+    )  # fmt: skip
+
+
+def _values(part: Members, key: str, size: int) -> Floats:
+    """The values of a parameter; NaN for balls of which it is not varied."""
+    return part.parameters[key].values if key in part.parameters else np.full(size, np.nan)
+
+
+def _filled(arrays: list[Floats | None], default: Callable[[int], Floats]) -> Floats | None:
+    """The arrays one after the other, where any is given; else None."""
+    if all(array is None for array in arrays):
+        return None
+    return np.concatenate([default(i) if array is None else array for i, array in enumerate(arrays)])

@@ -1,0 +1,1 @@
+"""What a scene asks for, by which model, and what it costs."""

@@ -1,0 +1,160 @@
+"""The least model that yields what a scene asks for, and how its run is cut into units of work."""
+
+from dataclasses import dataclass
+from typing import Any
+
+from chapsym.dynamics import BadInput, Ball
+
+from ..members.members import Members
+from ..running.task import Task
+from .models import MODELS, Model
+from .outputs import OUTPUTS, PER_BALL, columns_for
+
+#: Balls of one unit of work: enough for the vector lanes and threads of a batch, little enough for its memory.
+CHUNK = 4096
+#: Numbers kept by one unit, 32 MB.
+UNIT_NUMBERS = 2**22
+
+
+@dataclass(frozen=True, eq=False)
+class Plan:
+    """What will run.
+
+    model: the least that serves; needed: the columns that it follows.  refused: why each reduction does not serve.
+    chunks × segments are the units of work: balls × frames.  They are fixed by the scene, not by the machine, so that a
+    run that was interrupted has the same bits as one that was not.
+    scene: its text, or JSON of a dict; title: its own; seed: of its random ranges.  They go with the result.
+    """
+
+    members: Members
+    task: Task
+    model: Model
+    needed: frozenset[str]
+    refused: dict[str, str]
+    scene: str = ""
+    title: str | None = None
+    seed: int | None = None
+
+    @property
+    def frames(self) -> int:
+        """How many states are kept of each ball."""
+        return self.task.frames
+
+    @property
+    def numbers(self) -> int:
+        """How many numbers are kept of one frame of one ball."""
+        return sum(width(self.members, name) for name in self.task.outputs if name not in PER_BALL)
+
+    @property
+    def chunks(self) -> list[slice]:
+        """The balls of each unit."""
+        size = 1 if self.task.accuracy is not None else CHUNK
+        return [slice(i, min(i + size, len(self.members))) for i in range(0, len(self.members), size)]
+
+    @property
+    def segments(self) -> list[slice]:
+        """The frames of each unit; the first holds the start."""
+        if self.model.whole or self.task.precision != "double":
+            return [slice(0, self.frames)]
+        balls = min(CHUNK, len(self.members))
+        by_steps = self.model.unit_steps // (balls * self.task.every) if self.model.stepwise else self.frames
+        size = max(1, min(by_steps, UNIT_NUMBERS // (balls * max(self.numbers, 1)), self.frames))
+        return [slice(i, min(i + size, self.frames)) for i in range(0, self.frames, size)]
+
+    @property
+    def bytes(self) -> int:
+        """What the outputs take, uncompressed."""
+        return 8 * len(self.members) * (self.frames * self.numbers + len(PER_BALL & set(self.task.outputs)))
+
+    def kernels(self) -> list[str]:
+        """The generated kernels that run."""
+        of_model = {kernel for column in self.needed for kernel in self.model.kernels.get(column, ())}
+        return sorted(of_model | {kernel for name in self.task.outputs for kernel in OUTPUTS[name].kernels})
+
+    def describe(self) -> dict[str, Any]:
+        """The plan as plain data."""
+        return {
+            "model": self.model.name,
+            "about": self.model.about,
+            "balls": len(self.members),
+            "dimension": self.members.dimension,
+            "frames": self.frames,
+            "steps": self.task.steps,
+            "outputs": list(self.task.outputs),
+            "follows": sorted(self.needed),
+            "kernels": self.kernels(),
+            "bytes": self.bytes,
+            "units": len(self.chunks) * len(self.segments),
+            "refused": self.refused,
+        }
+
+
+def width(members: Members, output: str) -> int:
+    """How many numbers an output has for one frame of one ball."""
+    n = members.dimension
+    vector = n * n if n > 3 else 3
+    sizes = {"axis": n, "quaternion": n * n if n > 3 else 4, "plane": n - 1, "integral": 3 if n == 3 else n}
+    if output in ("momentum", "omega"):
+        return vector
+    found = 1
+    for dim in OUTPUTS[output].dims:
+        found *= sizes[dim]
+    return found
+
+
+def planned(members: Members, task: Task) -> Plan:
+    """The plan with the least model; raises BadInput where no model yields what is asked for, with the reasons."""
+    if not task.outputs:
+        raise BadInput(f"run.outputs is empty: choose of {', '.join(OUTPUTS)}")
+    top = isinstance(members.ball, Ball) and not members.ball.D.any()
+    _check_outputs(members, task)
+    needed = columns_for(task.outputs, top)
+    refused: dict[str, str] = {}
+    prices: dict[str, float] = {}
+    for model in MODELS:
+        missing = sorted(needed - model.columns)
+        reason = model.refuses(members, task, needed)
+        if reason is None and missing:
+            reason = f"it does not follow {', '.join(missing)}"
+        if reason is not None:
+            refused[model.name] = reason
+        else:
+            prices[model.name] = model.price(members, task, needed)
+    for model in sorted((model for model in MODELS if model.name in prices), key=lambda model: prices[model.name]):
+        reason = model.unfit(members, task, needed)
+        if reason is None:
+            chosen = model
+            break
+        refused[model.name] = reason
+        del prices[model.name]
+    else:
+        able = [model.name for model in MODELS if needed <= model.columns] or list(refused)
+        told = "; ".join(f"{name}: {refused[name]}" for name in able)
+        raise BadInput(f"no model yields {', '.join(task.outputs)} for these balls: {told}")
+    dearer = {
+        name: f"it would cost {price / prices[chosen.name]:.1f} times as much"
+        for name, price in prices.items()
+        if name != chosen.name
+    }
+    lesser = {model.name: (refused | dearer).get(model.name) for model in MODELS if model.reduction}
+    return Plan(members, task, chosen, needed, {name: why for name, why in lesser.items() if why is not None})
+
+
+def _check_outputs(members: Members, task: Task) -> None:
+    """Raises BadInput for outputs that these balls cannot have."""
+    unknown = [name for name in task.outputs if name not in OUTPUTS]
+    if unknown:
+        raise BadInput(f"{unknown[0]!r} is no output; choose of {', '.join(OUTPUTS)}")
+    if members.ball.radius is None and (
+        "contact" in task.outputs or (task.accuracy is not None and task.of == "contact")
+    ):
+        raise BadInput("the contact point needs the radius: give the ball its mass and radius")
+    timed = {"omega", "energy"} & set(task.outputs)
+    if timed and task.time_step is None and task.accuracy is None:
+        raise BadInput(f"{min(timed)} needs run.time_step, in seconds: 𝒦 = εK alone does not tell it")
+    if members.axes is not None and task.precision == "quad":
+        raise BadInput(
+            "31 digits are kept in principal axes only: give the principal moments, and the start in their axes"
+        )
+    if members.dimension > 3 and timed:
+        raise BadInput(f"{min(timed)} is known in three dimensions only")

@@ -1,0 +1,1 @@
+"""A scene file is read: tables, quantities, units, and what is wrong with them."""

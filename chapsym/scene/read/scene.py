@@ -1,0 +1,239 @@
+"""Scene files in TOML: the balls, how they start, how long they roll, and what is kept of it."""
+
+import json
+import re
+import sys
+import tomllib
+from collections.abc import Callable
+from copy import deepcopy
+from pathlib import Path
+from typing import Annotated, Any, Self
+
+import numpy as np
+from pydantic import BeforeValidator, Field, PrivateAttr, ValidationError, model_validator
+
+from chapsym.dynamics import Ball, Trajectory, trajectory
+
+from ..members.expand import expand
+from ..running.task import Task
+from .errors import At, SceneError, described, place
+from .ranges import ranges_in
+from .tables import KEYS, BallTable, Line, RunTable, StartTable, SweepTable, Table
+from .units import TIME, number
+
+#: A longer text is no scene that anybody wrote.
+MOST_BYTES = 10_000_000
+
+
+def _one_or_many(given: Any) -> Any:
+    """The balls as a list: [ball] is one of one."""
+    return given if isinstance(given, list | tuple) else [given]
+
+
+Balls = Annotated[
+    tuple[BallTable, ...],
+    Field(min_length=1, description="A ball; or several, each [[ball]]."),
+    BeforeValidator(_one_or_many, json_schema_input_type=BallTable | list[BallTable]),
+]
+
+
+class Scene(Table):
+    """A whole scene, checked as it is written; `expand` makes the balls of it, `task` what is asked for."""
+
+    title: Line | None = Field(None, description="One line.")
+    description: str | None = Field(None, description="As long as you like.")
+    ball: Balls
+    start: StartTable | None = Field(None, description="The start of every ball that has none of its own.")
+    run: RunTable
+    sweep: SweepTable = Field(SweepTable.model_validate({}), description="How ranges that are drawn make balls.")
+
+    _name: str = PrivateAttr("")
+    _toml: str | None = PrivateAttr(None)
+    _data: dict[str, Any] = PrivateAttr(default_factory=dict)
+
+    @property
+    def name(self) -> str:
+        """The file from which it comes, or an empty text."""
+        return self._name
+
+    @property
+    def toml(self) -> str | None:
+        """The text of its file, if it comes from one as it is."""
+        return self._toml
+
+    @property
+    def source(self) -> str:
+        """What it was made of: the TOML text of its file, or else JSON."""
+        return self._toml if self._toml is not None else json.dumps(self._data, ensure_ascii=False, default=str)
+
+    @property
+    def scale(self) -> float:
+        """What multiplies K to give the momentum of the members: ε, or 1 where the steps are to be chosen."""
+        return 1.0 if self.run.time_step is None else self.run.time_step
+
+    def task(self) -> Task:
+        """What is asked for, with the defaults filled in."""
+        run, (steps, every) = self.run, self.run.counts()
+        of = run.of or ("contact" if "contact" in run.names() else "state")
+        return Task(
+            run.names(), steps, every, run.time_step, run.order or 2, run.precision or "double", run.accuracy,
+            None if run.accuracy is None else run.time, of, 600.0 if run.limit is None else run.limit,
+        )  # fmt: skip
+
+    def with_run(self, **changed: Any) -> Self:
+        """The same scene with other values under [run], checked as if they stood there; None takes one away."""
+        data = deepcopy(self._data)
+        data["run"] = {key: value for key, value in (data["run"] | changed).items() if value is not None}
+        return checked(data, self._name)  # type: ignore[return-value]
+
+    @model_validator(mode="after")
+    def _together(self) -> Self:
+        names = [ball.name for ball in self.ball if ball.name is not None]
+        drawn = False
+        for i, ball in enumerate(self.ball):
+            if ball.start is None and self.start is None:
+                raise At("start is missing: give [start], or each ball its own start = { ... }", "ball", i)
+            if names.count(ball.name or "") > 1:
+                raise At(f"two balls have the name {ball.name!r}", "ball", i, "name")
+            drawn |= self._check_ball(i, ball)
+        if self.sweep.samples is not None and not drawn:
+            raise At(
+                "sweep.samples goes with a range that is drawn, random or normal: there is none", "sweep", "samples"
+            )
+        return self
+
+    def _check_ball(self, i: int, ball: BallTable) -> bool:
+        """Raises where its keys do not fit together; returns whether any of its ranges is drawn."""
+        start, run = ball.start or self.start, self.run
+        assert start is not None
+        path: tuple[str | int, ...] = ("ball", i, "start") if ball.start else ("start",)
+        motion = start.given("momentum", "vertical_momentum", "omega", "velocity")[0]
+        of_one_step = motion.endswith("momentum")
+        if run.accuracy is not None and of_one_step:
+            told = "run.accuracy needs start.omega, in rad/s: it is a motion in time that is approximated"
+            raise At(told, *path, motion)
+        if run.accuracy is None and run.time_step is None and not of_one_step:
+            raise At(f"start.{motion} needs run.time_step, in seconds", *path, motion)
+        if start.velocity is not None and ball.radius is None:
+            raise At("start.velocity needs ball.radius: the ball rolls without slipping", *path, "velocity")
+        if "contact" in run.names() and ball.radius is None:
+            raise At("the contact point needs the radius: give the ball its radius", "ball", i)
+        drawn = {
+            key: one
+            for name, table in (("ball", ball), ("start", start))
+            for field in type(table).model_fields
+            for key, one in ranges_in(getattr(table, field), f"{name}.{field}").items()
+            if one.drawn
+        }
+        if drawn and self.sweep.samples is None:
+            raise At(f"{next(iter(drawn))} is drawn: say how often, as samples = 100 under [sweep]", "ball", i)
+        return bool(drawn)
+
+
+def load(path: Path) -> Scene:
+    """Reads a scene file; raises SceneError with the file, the line, the key and what would be right."""
+    text = _text(path)
+    return checked(_parsed(text, path), str(path), text)
+
+
+def load_for(path: Path, accuracy: float, time: float | None = None) -> Scene:
+    """The scene of a file, but to an accuracy after `time` seconds; without, its own time, or its steps' time."""
+    data = _parsed(_text(path), path)
+    run = data.get("run")
+    if isinstance(run, dict):
+        own, steps, step = (run.pop(name, None) for name in ("time", "steps", "time_step"))
+        for name in ("every", "order", "precision"):
+            run.pop(name, None)
+        if time is None and own is None and isinstance(steps, int):
+            own = steps * _seconds(step)
+        data["run"] = run | {"accuracy": accuracy} | ({"time": own if time is None else time} if time or own else {})
+    return checked(data, str(path))
+
+
+def checked(data: dict[str, Any], name: str = "", text: str | None = None) -> Scene:
+    """A scene from plain data; raises SceneError with the key and what would be right.
+
+    NumPy's arrays and numbers are taken as lists and numbers.
+    name: of the file from which the data are; text: its text, if they are all of it, for the lines of errors.
+    """
+    data = _plain(data)
+    try:
+        scene = Scene.model_validate(data)
+    except ValidationError as error:
+        raise SceneError(described(error.errors(include_url=False), name, text, data, KEYS)) from None
+    scene._name, scene._toml, scene._data = name, text, data
+    return scene
+
+
+def _plain(value: Any) -> Any:
+    """Without NumPy's types."""
+    if isinstance(value, dict):
+        return {key: _plain(part) for key, part in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(part) for part in value]
+    return value.tolist() if isinstance(value, np.ndarray | np.generic) else value
+
+
+def _text(path: Path) -> str:
+    try:
+        with path.open("rb") as stream:
+            content = stream.read(MOST_BYTES + 1)
+        if len(content) > MOST_BYTES:
+            raise SceneError(f"{path} is no scene: it has more than {MOST_BYTES} bytes")
+        return content.decode("utf-8-sig")
+    except OSError as error:
+        raise SceneError(f"{path} cannot be read: {error.strerror or error}") from None
+    except UnicodeDecodeError:
+        raise SceneError(f"{path} is not UTF-8 text") from None
+    except ValueError as error:  # a null byte in the name
+        raise SceneError(f"{str(path)!r} cannot be read: {error}") from None
+
+
+def _parsed(text: str, path: Path) -> dict[str, Any]:
+    try:
+        return tomllib.loads(text, parse_float=_toml_float)
+    except (ValueError, RecursionError) as error:  # tomllib: wrong syntax, huge integers, deep nesting
+        told = str(error).splitlines()[0]
+        found = re.search(r" \(at line (\d+), column (\d+)\)$", told)
+        where = f"{path}, line {found[1]}, column {found[2]}" if found else str(path)
+        raise SceneError(f"{where}: this is not TOML: {told[: found.start()] if found else told}") from None
+
+
+def _toml_float(text: str) -> Any:
+    """A float, or its text where float64 has not all digits: then `number` says so, with the key."""
+    value = float(text)
+    return text.replace("_", "") if abs(value) < sys.float_info.min else value
+
+
+def _seconds(given: Any) -> float:
+    """A time step as it is written; 0 where it is none."""
+    try:
+        return number(given, TIME)
+    except ValueError:
+        return 0.0
+
+
+def run(scene: Scene, progress: Callable[[int], None] = lambda steps_done: None) -> Trajectory:
+    """Runs a scene of one ball; raises BadInput, and StepNotTaken with the trajectory so far."""
+    if scene.run.accuracy is not None:
+        from ..running.accurate import run_accurately
+
+        return run_accurately(scene).trajectory
+    members, task = expand(scene), scene.task()
+    ball, attitude = single(members), members.attitude
+    return trajectory(
+        ball, members.momentum[0], members.gamma[0], task.steps, every=task.every, order=task.order,
+        attitude="attitude" in task.outputs if attitude is None else attitude[0], contact="contact" in task.outputs,
+        time_step=task.time_step, precision=task.precision, progress=progress,
+    )  # fmt: skip
+
+
+def single(members: Any) -> Ball:
+    """The ball of a scene that has one, in three dimensions and in the axes given; raises SceneError for others."""
+    if len(members) != 1 or members.dimension != 3 or members.axes is not None or members.place is not None:
+        raise SceneError("this run takes one ball in three dimensions, in principal axes, from the origin")
+    radius = members.ball.radius
+    return Ball(members.ball.mass_tensor[0], members.ball.D[0], None if radius is None else radius[0])
+
+
+__all__ = ["Scene", "SceneError", "checked", "expand", "load", "load_for", "place", "run", "single"]

@@ -1,0 +1,260 @@
+"""The tables of a scene file, as pydantic checks them; what they mean together is checked in `scene.py`."""
+
+from typing import Annotated, Any, Literal, Self, get_args
+
+from pydantic import BaseModel, ConfigDict, Field, model_validator
+
+from ..members.bodies import PRESETS
+from ..plan.outputs import OUTPUTS
+from .errors import At
+from .quantities import (
+    Inertia,
+    Length,
+    Lengths2,
+    Lengths3,
+    Mass,
+    Moment,
+    MomentsN,
+    Momentum,
+    Omega,
+    Positive,
+    PureN,
+    Quantity,
+    Quaternion,
+    Rate,
+    Seconds,
+    Speeds2,
+)  # fmt: skip
+
+Count = Annotated[int, Field(strict=True, ge=0)]
+Whole = Annotated[int, Field(strict=True, ge=1)]
+Switch = Annotated[bool, Field(strict=True)]
+#: Files and pictures have no place for control characters.
+Line = Annotated[str, Field(pattern=r"^[^\x00-\x1f\x7f-\x9f]*$")]
+#: Of one ball: nobody waits for more steps, and the coordinates of more frames take gigabytes.
+MOST_STEPS, MOST_FRAMES = 2**53, 10**8
+#: A step in n dimensions solves n(n-1)/2 equations.
+MOST_DIMENSIONS = 32
+Output = Literal[*OUTPUTS]  # type: ignore[valid-type]
+
+
+class Table(BaseModel):
+    """A table: keys that are not in it are refused."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    def given(self, *names: str) -> list[str]:
+        """Those of the keys that are given."""
+        return [name for name in names if getattr(self, name) is not None]
+
+
+def _one_of(told: list[str], table: str, names: str) -> None:
+    if len(told) != 1:
+        raise At(f"{table}: give either {names}" + (f", not {' and '.join(told)}" if told else ""), *told[1:2])
+
+
+class StartTable(Table):
+    """The motion (momentum, omega, or velocity and spin) and the orientation (gamma, or attitude)."""
+
+    momentum: Momentum | None = Field(None, description="𝒦 = εK of one step; in n > 3 dimensions a skew matrix.")
+    omega: Omega | None = Field(None, description="Angular velocity; in n > 3 dimensions a skew matrix.")
+    axes: Literal["body", "space"] = Field("body", description="In which axes momentum or omega is given.")
+    vertical_momentum: Moment | None = Field(None, description="h, for the momentum 𝒦 = hγ of one step.")
+    velocity: Speeds2 | None = Field(None, description="Of the centre along x and y of the plane; the ball rolls.")
+    spin: Rate | None = Field(None, description="About the vertical, upwards, with velocity; 0 without.")
+    gamma: PureN | None = Field(
+        None, description="The vertical, upwards, in body axes, a unit vector; 0, 0, 1 without."
+    )
+    attitude: Quaternion | None = Field(None, description="Unit quaternion, scalar first, from body to space axes.")
+    position: Lengths2 | None = Field(None, description="The contact point at the start; 0, 0 without.")
+
+    @model_validator(mode="after")
+    def _one_motion(self) -> Self:
+        motions = ("momentum", "vertical_momentum", "omega", "velocity")
+        _one_of(self.given(*motions), "start", "momentum, omega or velocity (or vertical_momentum)")
+        if self.spin is not None and self.velocity is None:
+            raise At("start.spin goes with start.velocity; omega holds the spin, too", "spin")
+        if self.momentum is None and self.omega is None and "axes" in self.model_fields_set:
+            raise At("start.axes goes with start.omega or start.momentum", "axes")
+        if self.gamma is not None and self.attitude is not None:
+            raise At("start: give either gamma or attitude, which turns gamma to (0, 0, 1)", "attitude")
+        return self
+
+
+class BallTable(Table):
+    """A ball: mass_tensor, inertia or a preset; and mass and radius, or D."""
+
+    name: Line | None = Field(None, min_length=1, max_length=80, description="Of the ball, in results and errors.")
+    mass_tensor: MomentsN | None = Field(None, description="J = ∫x²dm, ∫y²dm, ∫z²dm; n numbers in n dimensions.")
+    inertia: Inertia | None = Field(
+        None, description="Principal moments of inertia about the centre, or the symmetric 3×3 tensor."
+    )
+    preset: Literal[*PRESETS] | None = Field(None, description="A body whose moments are known.")  # type: ignore[valid-type]
+    mass: Mass | None = Field(None, description="Of the whole ball.")
+    radius: Length | None = Field(None, description="Of the ball.")
+    D: Moment | None = Field(None, description="m ρ², in the place of mass; 0 for a top.")
+    thickness: Length | None = Field(None, description="Of the shell; thin without. Presets shell and dumbbell.")
+    point_mass: Mass | None = Field(None, description="Each of the two masses of a dumbbell.")
+    separation: Length | None = Field(None, description="Of the two masses of a dumbbell.")
+    block_mass: Mass | None = Field(None, description="Of a bowling ball's block, beyond the core that it displaces.")
+    block_size: Lengths3 | None = Field(None, description="Edges of a bowling ball's block along the axes.")
+    block_offset: Lengths3 | None = Field(None, description="Middle of a bowling ball's block, from the centre.")
+    start: StartTable | None = Field(None, description="Its own start, in the place of [start].")
+
+    @model_validator(mode="after")
+    def _one_body(self) -> Self:
+        _one_of(self.given("mass_tensor", "inertia", "preset"), "ball", "mass_tensor or inertia (or a preset)")
+        own = {key for preset in PRESETS.values() for key in preset.keys}
+        told = self.given(*sorted(own))
+        if self.mass_tensor is not None and len(self.mass_tensor) > MOST_DIMENSIONS:
+            told_n = (
+                f"ball.mass_tensor has {len(self.mass_tensor)} numbers, and {MOST_DIMENSIONS} dimensions are the most"
+            )
+            raise At(f"{told_n}: a step of more takes a second and longer", "mass_tensor")
+        if self.preset is None:
+            if told:
+                raise At(f"ball.{told[0]} goes with ball.preset", told[0])
+            return self._with_contact()
+        preset = PRESETS[self.preset]
+        if wrong := [key for key in told if key not in preset.keys]:
+            raise At(f"ball.{wrong[0]} does not go with the preset {self.preset}", wrong[0])
+        if missing := [key for key in ("mass", "radius", *preset.required) if getattr(self, key) is None]:
+            raise At(f"ball.{missing[0]} is missing: the preset {self.preset} needs it", "preset")
+        return self._with_contact()
+
+    def _with_contact(self) -> Self:
+        if self.D is not None and self.mass is not None:
+            raise At("ball: give either D or mass and radius, not both D and mass", "D")
+        if self.D is None and (self.mass is None or self.radius is None):
+            missing = "mass" if self.mass is None else "radius"
+            other = "radius" if missing == "mass" else "mass"
+            has_other = getattr(self, other) is not None
+            raise At(f"ball.{missing} is missing: give {'it' if has_other else 'mass and radius'}, or D")
+        return self
+
+
+class RunTable(Table):
+    """How long, what to keep, and where to write it; or, in the place of steps, an accuracy."""
+
+    steps: Count | None = Field(None, description="How many steps; or give time.")
+    time: Seconds | None = Field(None, description="How long, in the place of steps: a whole number of time steps.")
+    time_step: Seconds | None = Field(
+        None, description="ε; without it momentum is 𝒦 of one step, and there is no time."
+    )
+    every: Whole | None = Field(None, description="Keep every so many steps; 1 without.")
+    frames: Whole | None = Field(None, description="Keep so many states beside the start, in the place of every.")
+    outputs: tuple[Output, ...] | None = Field(None, description="What to keep; momentum and gamma without.")
+    attitude: Switch = Field(False, description='Short for "attitude" in outputs.')
+    contact: Switch = Field(False, description='Short for "contact" in outputs.')
+    output: str | None = Field(None, description="Where the result is written.")
+    order: Literal[2, 4, 6, 8] | None = Field(
+        None, description="Of the composition in the time step; 2, the map itself, without."
+    )
+    precision: Literal["single", "double", "quad"] | None = Field(
+        None, description="Of the numbers: 7, 16 or 31 digits; double without."
+    )
+    accuracy: Positive | None = Field(None, description="In the place of steps: of the contact point (m) or the state.")
+    of: Literal["state", "contact"] | None = Field(None, description="What the accuracy is of.")
+    limit: Seconds | None = Field(None, description="Of the processor, for a run to an accuracy; 600 s without.")
+
+    @model_validator(mode="after")
+    def _steps_or_accuracy(self) -> Self:
+        if self.outputs is not None and len(set(self.outputs)) < len(self.outputs):
+            raise At("run.outputs names an output twice", "outputs")
+        if self.outputs == ():
+            raise At(f"run.outputs is empty: choose of {', '.join(OUTPUTS)}", "outputs")
+        if self.accuracy is not None:
+            self._check_accuracy()
+            return self
+        if self.every is not None and self.frames is not None:
+            raise At("run: give either every or frames", "frames")
+        if told := self.given("limit", "of"):
+            raise At(f"run.{told[0]} goes with run.accuracy", told[0])
+        if self.steps is None and self.time is None:
+            raise At("run.steps is missing (or give run.time with run.time_step, or run.accuracy and run.time)")
+        if self.steps is not None and self.time is not None:
+            raise At("run: give either steps or time", "time")
+        if self.time is not None and self.time_step is None:
+            raise At("run.time needs run.time_step (or run.accuracy, which chooses the steps)", "time")
+        self._counted()
+        return self
+
+    def _check_accuracy(self) -> None:
+        if chosen := self.given("steps", "every", "time_step", "order", "precision"):
+            raise At(f"run.accuracy chooses the steps: leave out run.{chosen[0]}", chosen[0])
+        if self.time is None:
+            raise At("run.accuracy needs run.time, in seconds", "accuracy")
+        if self.frames is not None and self.frames > MOST_FRAMES:
+            raise At(f"run.frames is more than {MOST_FRAMES}", "frames")
+
+    def _counted(self) -> tuple[int, int]:
+        """The steps, and how many between two frames; raises where they are not whole."""
+        steps, time, step = self.steps, self.time, self.time_step
+        if steps is None:
+            assert time is not None
+            assert step is not None
+            ratio = time / step
+            if not ratio < MOST_STEPS:
+                raise At(f"run.time is {ratio:.3g} time steps, more than anybody waits for", "time")
+            steps = round(ratio)
+            if abs(ratio - steps) > 4 * 2.0**-52 * ratio:  # time, time_step and their ratio are rounded
+                whole = max(steps, 1)
+                raise At(
+                    f"run.time is {ratio:.9g} time steps, which is no whole number: take time = {whole * step:.9g} or "
+                    f"time_step = {time / whole!r}", "time",
+                )  # fmt: skip
+        if not steps < MOST_STEPS:
+            raise At(f"run.steps is {float(min(steps, 10**300)):.3g}, more than anybody waits for", "steps")
+        frames = self.frames if self.frames is not None else steps // (self.every or 1)
+        if frames > MOST_FRAMES:
+            raise At(f"run keeps {frames} frames of a ball, and {MOST_FRAMES} are the most: give every or frames")
+        if self.frames is None:
+            return steps, self.every or 1
+        if steps % self.frames:
+            near = [n for n in range(self.frames, 0, -1) if steps % n == 0][:1] if self.frames < 10**6 else []
+            told = f"; {near[0]} do" if near else ""
+            raise At(f"run.frames: {steps} steps do not divide into {self.frames} equal parts{told}", "frames")
+        return steps, max(steps // self.frames, 1)
+
+    def counts(self) -> tuple[int, int]:
+        """(steps, every); where the steps are chosen for an accuracy, (frames, 1)."""
+        return self._counted() if self.accuracy is None else (self.frames or 1, 1)
+
+    def names(self) -> tuple[str, ...]:
+        """The outputs, each once, in the order of `OUTPUTS`."""
+        wanted = {"momentum", "gamma"} if self.outputs is None else set(self.outputs)
+        wanted |= {name for name in ("attitude", "contact") if getattr(self, name)}
+        return tuple(name for name in OUTPUTS if name in wanted)
+
+
+class SweepTable(Table):
+    """How ranges that are drawn make balls."""
+
+    samples: Whole | None = Field(None, description="Draws at each point of the other ranges.")
+    seed: Annotated[Count, Field(le=2**63 - 1)] = Field(
+        0, description="Of the draws: the same seed gives the same balls on every machine."
+    )
+
+
+#: The keys of each table, for what is close to a key that is none.
+KEYS: dict[str, Any] = {
+    "": ("title", "description", "ball", "start", "run", "sweep"),
+    "ball": tuple(BallTable.model_fields),
+    "start": tuple(StartTable.model_fields),
+    "run": tuple(RunTable.model_fields),
+    "sweep": tuple(SweepTable.model_fields),
+}
+
+
+def units_of(key: str) -> str:
+    """The SI unit of a dotted key such as "start.omega.1"."""
+    table, name = key.split(".")[:2]
+    owner: type[Table] = BallTable if table == "ball" else StartTable
+    return _units(owner.model_fields[name].annotation)
+
+
+def _units(annotation: Any) -> str:
+    """The unit of the first quantity in a type."""
+    own = [part.dimension.units for part in getattr(annotation, "__metadata__", ()) if isinstance(part, Quantity)]
+    found = own + [units for part in get_args(annotation) if (units := _units(part))]
+    return found[0] if found else ""

@@ -1,0 +1,1 @@
+"""What a run gives: data sets, file formats, a summary."""

@@ -1,0 +1,194 @@
+"""Results as labelled arrays: an xarray.Dataset with units, coordinates and where it comes from."""
+
+import hashlib
+import json
+from collections.abc import Hashable, Mapping
+from dataclasses import asdict, dataclass
+from functools import cache
+from importlib.resources import files
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+import chapsym
+from chapsym.dynamics import Status
+
+from ..plan.outputs import OUTPUTS, PER_BALL
+from ..plan.plan import Plan
+
+if TYPE_CHECKING:
+    from xarray import Dataset
+
+#: `taken` and `status` of balls whose turn has not come.
+NOT_RUN = -1
+#: The outputs that have second halves on the rung "quad".
+DOUBLED = ("momentum", "gamma", "attitude", "contact")
+
+
+@dataclass(frozen=True)
+class Variable:
+    """The dimensions of a variable, its type and its attributes."""
+
+    dims: tuple[str, ...]
+    attrs: Mapping[str, Any]
+    dtype: type = np.float64
+
+    @property
+    def missing(self) -> float | int:
+        """What stands where nothing was computed."""
+        return np.nan if self.dtype is np.float64 else NOT_RUN
+
+
+def layout(plan: Plan) -> dict[str, Variable]:
+    """The variables of a result that come from its run, by name: what was asked for, then `taken` and `status`."""
+    found: dict[str, Variable] = {}
+    for name in plan.task.outputs:
+        where = ("ball",) if name in PER_BALL else ("ball", "frame")
+        found[name] = Variable((*where, *_own_dims(plan, name)), _attrs(plan, name))
+        if plan.task.precision == "quad" and name in DOUBLED:
+            beyond = {"long_name": f"{OUTPUTS[name].long_name}: what it has beyond float64"}
+            found[f"{name}_low"] = Variable(found[name].dims, {**found[name].attrs, **beyond})
+    flags = {
+        "flag_values": [NOT_RUN, *map(int, Status)],
+        "flag_meanings": " ".join(["not_run", *(status.name.lower() for status in Status)]),
+    }
+    found["taken"] = Variable(("ball",), {"units": "1", "long_name": "steps taken"}, np.int64)
+    found["status"] = Variable(("ball",), {"long_name": "why the ball stopped", **flags}, np.int64)
+    if plan.task.accuracy is not None:
+        error = {"units": "m" if plan.task.of == "contact" else "1", "long_name": "bound of the error, by comparison"}
+        found["error"] = Variable(("ball",), error)
+    return found
+
+
+def sizes(plan: Plan) -> dict[str, int]:
+    """The length of each dimension that a result may have."""
+    names = _labels(plan.members.dimension)
+    return {"ball": len(plan.members), "frame": plan.frames} | {dim: len(labels) for dim, labels in names.items()}
+
+
+def build(plan: Plan, columns: Mapping[str, Any], state: Mapping[str, Any]) -> "Dataset":
+    """The result of a plan.
+
+    columns: the outputs of all balls and frames, (balls, frames, ...), in the axes given; arrays, or Dask's.
+    state: `taken` and `status` after the last frame, (balls,), and `error` of a run to an accuracy.
+    The Dataset has no other values than those, the plan's, and the version's: the same run gives the same bits.
+    """
+    import xarray
+
+    outcome = {"taken", "status", "error"}
+    variables = {
+        name: (one.dims, (state if name in outcome else columns)[name], dict(one.attrs))
+        for name, one in layout(plan).items()
+    }
+    variables |= _bodies(plan)
+    used = {dim for dims, *_ in variables.values() for dim in dims}
+    labels = {
+        dim: np.array(names, dtype=object) for dim, names in _labels(plan.members.dimension).items() if dim in used
+    }
+    coords: dict[Hashable, Any] = {"ball": np.array(plan.members.names, dtype=object)}
+    coords.update(labels)
+    coords.update(_moments(plan))
+    for key, parameter in plan.members.parameters.items():
+        coords[key] = ("ball", parameter.values, {"units": parameter.units, "long_name": key})
+    return xarray.Dataset(variables, coords, provenance(plan))
+
+
+def _moments(plan: Plan) -> dict[Hashable, Any]:
+    """`step` and, where it is known, `time` of each frame."""
+    task = plan.task
+    step = np.arange(plan.frames, dtype=np.int64) * task.every
+    found: dict[Hashable, Any] = {"step": ("frame", step, {"units": "1", "long_name": "step of the map"})}
+    seconds = {"units": "s", "long_name": "time"}
+    if task.accuracy is not None and task.time is not None:
+        del found["step"]  # they were chosen for each ball
+        found["time"] = ("frame", np.arange(plan.frames) * task.time / max(plan.frames - 1, 1), seconds)
+    elif task.time_step is not None:
+        found["time"] = ("frame", step * task.time_step, seconds)
+    return found
+
+
+def _bodies(plan: Plan) -> dict[str, Any]:
+    """The parameters of the balls, for pictures."""
+    members = plan.members
+    about = "kg m2"
+    tensor = {"units": about, "long_name": "principal mass tensor J, principal axes"}
+    found: dict[str, Any] = {
+        "mass_tensor": (("ball", "axis"), members.ball.mass_tensor, tensor),
+        "D": ("ball", members.ball.D, {"units": about, "long_name": "D = m ρ²"}),
+    }
+    if members.ball.radius is not None:
+        found["radius"] = ("ball", members.ball.radius, {"units": "m", "long_name": "radius ρ"})
+    if members.axes is not None:
+        turn = {"units": "1", "long_name": "principal axes to body axes, unit quaternion"}
+        found["axes"] = (("ball", "quaternion"), members.axes, turn)
+    return found
+
+
+def _own_dims(plan: Plan, name: str) -> tuple[str, ...]:
+    """The dimensions of an output beside ball and frame; skew matrices and rotations where quaternions do not serve."""
+    if plan.members.dimension > 3 and name in ("momentum", "omega", "attitude"):
+        return ("row", "column")
+    return OUTPUTS[name].dims
+
+
+def _attrs(plan: Plan, name: str) -> dict[str, str]:
+    """Units and a name; the momentum of a run whose steps were chosen is K itself."""
+    if name == "momentum" and plan.task.accuracy is not None:
+        return {"units": "kg m2 s-1", "long_name": "angular momentum K about the contact point, body axes"}
+    if name == "integrals":
+        units = ", ".join(_integrals(plan.members.dimension).values())
+        return {"units": units, "long_name": OUTPUTS[name].long_name}
+    return {"units": OUTPUTS[name].units, "long_name": OUTPUTS[name].long_name}
+
+
+def _labels(n: int) -> dict[str, list[str]]:
+    """The coordinates of the components in n dimensions."""
+    numbered = [str(i) for i in range(1, n + 1)]
+    plane = ["x", "y"] if n == 3 else numbered[:-1]
+    return {
+        "axis": numbered, "plane": plane, "quaternion": list("wxyz"), "integral": list(_integrals(n)),
+        "row": numbered, "column": numbered,
+    }  # fmt: skip
+
+
+def _integrals(n: int) -> dict[str, str]:
+    """The momentum integrals in the order of `invariants` and `invariants_n`, each with its units."""
+    if n == 3:
+        return {"K.gamma": "kg m2", "K.K": "kg2 m4", "gamma.gamma": "1"}
+    found = {f"tr K^{2 * j}": f"kg{2 * j} m{4 * j}" for j in range(1, n // 2 + 1)}
+    found |= {f"gamma.K^{2 * j}.gamma": f"kg{2 * j} m{4 * j}" for j in range(1, (n - 1) // 2 + 1)}
+    return found | {"gamma.gamma": "1"}
+
+
+def provenance(plan: Plan) -> dict[str, Any]:
+    """Where a result comes from: the scene, the plan, and the versions of what made it, as attributes."""
+    balls = "1 ball" if len(plan.members) == 1 else f"{len(plan.members)} balls"
+    hashes = _kernel_hashes()
+    found = {
+        "title": plan.title or f"Discrete Chaplygin ball: {balls}, {plan.model.name}",
+        "chapsym_version": chapsym.__version__,
+        "scene": plan.scene,
+        "model": plan.model.name,
+        "plan": json.dumps(plan.describe()),
+        "kernels": json.dumps({name: hashes[name] for name in plan.kernels()}),
+        "inputs_sha256": _fingerprint(plan),
+        "Conventions": "CF-1.11",
+    }
+    return found | ({} if plan.seed is None else {"seed": plan.seed})
+
+
+def _fingerprint(plan: Plan) -> str:
+    """A hash of all that the values depend on: bodies, starts and the task."""
+    members, ball = plan.members, plan.members.ball
+    found = hashlib.sha256(json.dumps([asdict(plan.task), list(members.names)]).encode())
+    starts = (members.momentum, members.gamma, members.axes, members.attitude, members.place)
+    for array in (ball.mass_tensor, ball.D, ball.radius, *starts):
+        found.update(b"none" if array is None else np.ascontiguousarray(array).tobytes())
+    return found.hexdigest()
+
+
+@cache
+def _kernel_hashes() -> dict[str, str]:
+    """The hash of the text of each generated kernel, from the manifest."""
+    manifest = json.loads(files("chapsym.generated").joinpath("manifest.json").read_text(encoding="utf-8"))
+    return {name: row["text_sha256"] for name, row in manifest["kernels"].items()}

@@ -1,0 +1,192 @@
+"""Results in files: NetCDF, and for the small CSV and Parquet, each written whole; and how all are read back."""
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import IO, TYPE_CHECKING, Any
+
+import numpy as np
+
+from chapsym import files
+
+from ..plan.plan import Plan
+from ..read.scene import SceneError
+from ..running import single
+from .flat import assembled, batches, plain, structure
+
+if TYPE_CHECKING:
+    from xarray import Dataset
+
+#: More rows make a CSV that nothing opens.
+MOST_ROWS = 10**7
+#: The share of this machine's memory that a result may take before it goes to Zarr.
+SHARE = 0.25
+#: What may follow the dot of a result.
+SUFFIXES = (".zarr", ".nc", ".csv", ".parquet", ".npz")
+
+
+def check_size(plan: Plan, path: Path) -> None:
+    """Raises SceneError, before anything is computed, if the result is too large for a file of this kind."""
+    rows = len(plan.members) * plan.frames
+    if path.suffix == ".csv" and rows > MOST_ROWS:
+        told = f"{rows} rows, and a CSV of more than {MOST_ROWS} is of no use; write to .parquet or .zarr"
+        raise SceneError(f"{path}: the result has {told}, or keep fewer frames with run.every")
+    if path.suffix != ".zarr" and plan.bytes > SHARE * _memory():
+        told = "which is too much to be written at once on this machine; write to .zarr"
+        raise SceneError(f"{path}: the result has {plan.bytes / 1e9:.3g} GB, {told}")
+
+
+def save(data: "Dataset", path: Path) -> None:
+    """Writes a result to .nc, .csv or .parquet, whole or not at all; raises SceneError if the disk refuses.
+
+    Of a CSV or Parquet file each row is a ball and a frame; what is not in the rows stands in `# ` lines, or in the
+    metadata.  `pandas.read_csv(path, comment="#")` has the same bits (older pandas with float_precision="round_trip").
+    """
+    write = _WRITERS.get(path.suffix)
+    if write is None:
+        raise SceneError(f"{str(path)!r}: a result is written to {', '.join(_WRITERS)}")
+    if path.suffix == ".csv" and data.sizes["ball"] * data.sizes["frame"] > MOST_ROWS:
+        raise SceneError(f"{path}: a CSV of more than {MOST_ROWS} rows is of no use; write to .parquet or .nc")
+    try:
+        files.write_whole(path, lambda stream: write(stream, data))
+    except files.CannotWrite as error:
+        raise SceneError(str(error)) from None
+    except MemoryError:
+        raise SceneError(f"{path}: the result does not fit into memory a second time; write to .zarr") from None
+
+
+def load(path: Path) -> "Dataset":
+    """A result as `chapsym run` wrote it, whatever its format; from Zarr its values are read when they are needed.
+
+    Raises SceneError if there is no such result.
+    """
+    read = _READERS.get(path.suffix)
+    if read is None:
+        raise SceneError(f"{str(path)!r} is no result: one ends in {', '.join(_READERS)}")
+    try:
+        path.stat()
+        data = read(path)
+    except SceneError:
+        raise
+    except OSError as error:
+        reason = error.strerror or str(error).splitlines()[0]
+        raise SceneError(f"{path} cannot be read: {reason}") from None
+    except (ValueError, KeyError, TypeError, EOFError, AttributeError, IndexError) as error:
+        told = (str(error).splitlines() or [type(error).__name__])[0]
+        raise SceneError(f"{path} is damaged, or no result of chapsym: {told}") from None
+    for one in data.variables.values():
+        one.attrs = plain(one.attrs)
+    return data.assign_attrs(plain(data.attrs))
+
+
+def _memory() -> float:
+    """Bytes of memory that this machine has."""
+    import os
+
+    try:
+        return float(os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE"))
+    except (AttributeError, ValueError, OSError):
+        return 8e9
+
+
+def _write_netcdf(stream: IO[bytes], data: "Dataset") -> None:
+    # In memory first: HDF5 ends the process when the disk under it is full.
+    whole = data.assign_attrs({key: int(v) if isinstance(v, bool) else v for key, v in data.attrs.items()})
+    stream.write(whole.to_netcdf(engine="h5netcdf"))
+
+
+def _arrow(columns: dict[str, np.ndarray]) -> Any:
+    import pyarrow
+
+    texts = {name: values.tolist() for name, values in columns.items() if values.dtype.kind in "OUT"}
+    return pyarrow.table({**columns, **texts})
+
+
+def _write_parquet(stream: IO[bytes], data: "Dataset") -> None:
+    from pyarrow import parquet
+
+    told = structure(data)
+    writer = None
+    about = {"chapsym": json.dumps({"structure": told, "attrs": plain(data.attrs)}, ensure_ascii=False)}
+    for columns in batches(data, told):
+        table = _arrow(columns).replace_schema_metadata(about)
+        writer = writer or parquet.ParquetWriter(stream, table.schema, compression="zstd")
+        writer.write_table(table)
+    if writer is not None:
+        writer.close()
+
+
+def _write_csv(stream: IO[bytes], data: "Dataset") -> None:
+    from pyarrow import csv
+
+    told = structure(data)
+    for key, value in (plain(data.attrs) | {"structure": told}).items():
+        stream.write(f"# {key}: {json.dumps(value, ensure_ascii=False)}\n".encode())
+    writer = None
+    for columns in batches(data, told):
+        table = _arrow(columns)
+        writer = writer or csv.CSVWriter(stream, table.schema, write_options=csv.WriteOptions(quoting_style="needed"))
+        writer.write_table(table)
+    if writer is not None:
+        writer.close()
+
+
+def _read_zarr(path: Path) -> "Dataset":
+    import xarray
+
+    from ..running.store import check_ours
+
+    check_ours(path)
+    return xarray.open_zarr(path)
+
+
+def _read_netcdf(path: Path) -> "Dataset":
+    import xarray
+
+    with path.open("rb"):  # so that a missing file has the system's sentence
+        return xarray.load_dataset(path, engine="h5netcdf")
+
+
+def _read_parquet(path: Path) -> "Dataset":
+    from pyarrow import parquet
+
+    table = parquet.ParquetFile(path).read()
+    about = json.loads((table.schema.metadata or {})[b"chapsym"])
+    return assembled(_columns(table), about["structure"], about["attrs"])
+
+
+def _read_csv(path: Path) -> "Dataset":
+    import pyarrow
+    from pyarrow import csv
+
+    attrs: dict[str, Any] = {}
+    lines = 0
+    with path.open(encoding="utf-8", newline="") as stream:
+        if not stream.readline().startswith("# "):
+            return single.read_csv(path)
+        stream.seek(0)
+        while (line := stream.readline()).startswith("# "):
+            key, _, value = line[2:].partition(": ")
+            attrs[key], lines = json.loads(value), lines + 1
+    told = attrs.pop("structure")
+    types = {
+        column: pyarrow.type_for_alias(one["type"]) for one in told["variables"].values() for column in one["columns"]
+    }
+    table = csv.read_csv(
+        path, csv.ReadOptions(skip_rows=lines), csv.ParseOptions(newlines_in_values=True),
+        csv.ConvertOptions(column_types=types),
+    )  # fmt: skip
+    return assembled(_columns(table), told, attrs)
+
+
+def _columns(table: Any) -> dict[str, np.ndarray]:
+    return {name: table[name].to_numpy() for name in table.column_names}
+
+
+_WRITERS: dict[str, Callable[[IO[bytes], Any], None]] = {
+    ".nc": _write_netcdf, ".csv": _write_csv, ".parquet": _write_parquet,
+}  # fmt: skip
+_READERS: dict[str, Callable[[Path], Any]] = {
+    ".zarr": _read_zarr, ".nc": _read_netcdf, ".csv": _read_csv, ".parquet": _read_parquet,
+    ".npz": single.read_npz,
+}  # fmt: skip

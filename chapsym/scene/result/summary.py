@@ -1,0 +1,99 @@
+"""What a scene says, for a reader: its balls with their moments and starts, its ranges, how long it runs."""
+
+from typing import Any
+
+import numpy as np
+
+from chapsym.dynamics import Ball, Status, step, step_n
+
+from ..members.expand import bodies
+from ..members.members import Members
+from ..read.ranges import Range
+from ..read.scene import Scene
+
+#: Of more balls, this many are asked whether they can take the first step.
+TRIED = 20_000
+
+
+def summary(scene: Scene, members: Members) -> list[tuple[str, str]]:
+    """Rows of a key and a text."""
+    rows = [("title", scene.title)] if scene.title else []
+    first = 0
+    for body in bodies(scene):
+        count = len(body)
+        name = body.name + (f" 1 (of {count})" if count > 1 else "")
+        rows.append(("ball", f"{name}: {_ball(members, first)}"))
+        rows.append(("start", _start(scene, members, first)))
+        rows += [(key, _range(one, members.parameters[key].units)) for key, one in body.sweep().ranges.items()]
+        first += count
+    if any(one.drawn for body in bodies(scene) for one in body.sweep().ranges.values()):
+        rows.append(("draws", f"{scene.sweep.samples} at each point of the other ranges, seed {scene.sweep.seed}"))
+    rows.append(("run", _run(scene)))
+    return rows
+
+
+def _ball(members: Members, i: int) -> str:
+    ball = members.ball
+    told = f"J = {_vector(ball.mass_tensor[i])}"
+    if isinstance(ball, Ball):
+        told += f", I = {_vector(ball.inertia[i])}"
+    told += f", D = {ball.D[i]:.6g} kg m²"
+    if ball.radius is not None:
+        told += f", radius {ball.radius[i]:.6g} m"
+    if members.axes is not None:
+        angle = 2 * np.degrees(np.arccos(min(abs(members.axes[i, 0]), 1.0)))
+        told += f", principal axes turned by {angle:.4g}°" if angle else ""
+    return told
+
+
+def _start(scene: Scene, members: Members, i: int) -> str:
+    what = "K" if scene.run.accuracy is not None else "𝒦"
+    unit = "kg m²/s" if scene.run.accuracy is not None else "kg m²"
+    momentum = members.momentum[i]
+    with np.errstate(over="ignore"):
+        size = np.sqrt((momentum * momentum).sum() / (1 if momentum.ndim == 1 else 2))
+    shown = f"{what} = {_vector(momentum)} {unit}, " if momentum.ndim == 1 else ""
+    return f"{shown}|{what}| = {size:.6g} {unit}, γ = {_vector(members.gamma[i])}, in principal axes"
+
+
+def _range(one: Range, units: str) -> str:
+    unit = "" if units == "1" else f" {units}"
+    if one.kind == "grid":
+        shown = ", ".join(f"{x:.6g}" for x in one.values[:6]) + (", ..." if one.count > 6 else "")
+        return f"{one.count} values: {shown}{unit}"
+    first, second = (f"{x:.6g}" for x in one.values)
+    if one.kind == "linspace":
+        return f"{one.count} values from {first} to {second}{unit}"
+    return f"drawn between {first} and {second}{unit}" if one.kind == "random" else (
+        f"drawn, mean {first}, deviation {second}{unit}"
+    )  # fmt: skip
+
+
+def _run(scene: Scene) -> str:
+    task = scene.task()
+    if task.accuracy is not None:
+        return f"{task.time:.6g} s to {task.accuracy:.3g} of the {task.of}; {task.frames} frames"
+    time = "" if task.time_step is None else f" of {task.time_step:.6g} s: {task.steps * task.time_step:.6g} s"
+    order = "" if task.order == 2 else f", order {task.order}"
+    precision = "" if task.precision == "double" else f", precision {task.precision}"
+    last = "" if task.steps % task.every == 0 else f", the last after {(task.frames - 1) * task.every} steps"
+    return f"{task.steps} steps{time}; {task.frames} frames{last}{order}{precision}"
+
+
+def _vector(values: Any) -> str:
+    return "(" + ", ".join(f"{x:.6g}" for x in values) + ")"
+
+
+def refusals(scene: Scene, members: Members) -> list[str]:
+    """Which of the balls cannot take the first step, and why: a sentence for each reason."""
+    if scene.run.accuracy is not None or not scene.task().steps:
+        return []
+    some = members.of(slice(0, TRIED))
+    take: Any = step if isinstance(some.ball, Ball) else step_n
+    status = take(some.ball, some.momentum, some.gamma).status
+    told = []
+    for reason in sorted(set(status[status != Status.TAKEN].tolist())):
+        which = np.flatnonzero(status == reason)
+        balls = some.names[which[0]] + ("" if len(which) == 1 else f" and {len(which) - 1} more of {len(some)}")
+        told.append(f"{balls} cannot take the first step: {Status(reason).sentence}")
+    return told

@@ -1,0 +1,25 @@
+"""From a scene, or its text, to the plan of its run: what a worker of a cluster is sent is the text."""
+
+import json
+import tomllib
+from dataclasses import replace
+
+from ..members.expand import expand
+from ..plan.plan import Plan, planned
+from ..read.scene import Scene, SceneError, _toml_float, checked
+
+
+def plan_of(scene: Scene) -> Plan:
+    """The plan of a scene, with its text and title; raises BadInput where no model yields what it asks for."""
+    plan = planned(expand(scene), scene.task())
+    drawn = scene.sweep.samples is not None
+    return replace(plan, scene=scene.source, title=scene.title, seed=scene.sweep.seed if drawn else None)
+
+
+def plan_from(text: str) -> Plan:
+    """The plan of a scene from its text, `Plan.scene`: TOML, or JSON of a dict."""
+    try:
+        data = json.loads(text) if text.lstrip().startswith("{") else tomllib.loads(text, parse_float=_toml_float)
+    except ValueError:
+        raise SceneError("this plan has no scene that it could be made of again") from None
+    return replace(plan_of(checked(data)), scene=text)

@@ -1,0 +1,111 @@
+"""Where a ball may be on the spheres of γ and 𝒦/|𝒦|: its invariant curve, or the region that the integrals leave it."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from chapsym.dynamics import BadInput, Ball, Curve, kernels
+from chapsym.dynamics.ball import Floats
+
+from . import reading
+
+if TYPE_CHECKING:
+    from xarray import Dataset
+
+#: 𝒦 is vertical up to this, relatively; and how far an orbit may be from a curve that is drawn for it.
+VERTICAL = 1e-9
+NEAR = 1e-6
+#: Points of a curve; on the separatrix u runs from -LONGEST to LONGEST.
+POINTS, LONGEST = 721, 20.0
+#: Places of the other vector on its circle, for the range of the energy.
+ANGLES = 48
+
+
+@dataclass(frozen=True, eq=False)
+class Body:
+    """J (3,), D, and the unit quaternion that turns principal axes to those of the result (or None)."""
+
+    mass_tensor: Floats
+    D: float
+    axes: Floats | None = None
+
+    def principal(self, vectors: Floats) -> Floats:
+        """Vectors (..., 3) in principal axes, from those of the result."""
+        if self.axes is None:
+            return vectors
+        return kernels.rotate(np.broadcast_to(self.axes * [1.0, -1.0, -1.0, -1.0], (*vectors.shape[:-1], 4)), vectors)
+
+    def given(self, vectors: Floats) -> Floats:
+        """Vectors (..., 3) in the axes of the result, from principal ones."""
+        if self.axes is None:
+            return vectors
+        return kernels.rotate(np.broadcast_to(self.axes, (*vectors.shape[:-1], 4)), vectors)
+
+
+def bodies_of(dataset: "Dataset") -> list[Body]:
+    """The body of each ball of a result; none where the result does not know J and D."""
+    J, D = reading.per_ball(dataset, "mass_tensor"), reading.per_ball(dataset, "D")
+    if J is None or D is None:
+        return []
+    axes = reading.per_ball(dataset, "axes")
+    return [Body(J[i], float(D[i]), None if axes is None else axes[i]) for i in range(len(J))]
+
+
+def unit(vectors: Floats) -> Floats:
+    """Vectors (..., 3) divided by their lengths; zero stays zero."""
+    length = np.sqrt((vectors * vectors).sum(axis=-1, keepdims=True))
+    return np.asarray(np.divide(vectors, length, out=np.zeros_like(vectors), where=length > 0.0))
+
+
+def is_vertical(momentum: Floats, gamma: Floats) -> bool:
+    """Whether 𝒦 = hγ, h ≠ 0, in every frame, (frames, 3)."""
+    direction = unit(momentum)
+    return bool(momentum.any() and np.abs(np.cross(direction, gamma)).max() < VERTICAL)
+
+
+def curve_through(body: Body, orbit: Floats, D: float) -> Floats | None:
+    """The curve ⟨x,Λ⁻¹x⟩ = l, Λ = I + D, on which an orbit (frames, 3) of unit vectors runs, (m, 3).
+
+    For γ of a ball with vertical momentum D is the ball's; for 𝒦/|𝒦| of a ball with D = 0 it is Poinsot's polhode.
+    None where the orbit is a fixed point, and where it is not on that curve: then the result's J and D are not its own.
+    """
+    principal = body.principal(orbit)
+    try:
+        curve = Curve.through(Ball(body.mass_tensor, np.float64(D)), principal[0])  # type: ignore[arg-type]
+        curve.argument(principal[-1])
+    except BadInput:
+        return None
+    moments = curve.ball.inertia + D
+    if np.abs((principal**2 / moments).sum(axis=-1) / curve.level - 1.0).max() > NEAR:
+        return None
+    end = min(curve.period / 2.0, LONGEST)
+    return body.given(curve.point(np.linspace(-end, end, POINTS)))
+
+
+def energy_range(body: Body, directions: Floats, cosine: float, of_gamma: bool) -> tuple[Floats, Floats]:
+    """Least and largest ½⟨m,ω⟩/|𝒦|² for γ (if `of_gamma`) or m = 𝒦/|𝒦| at `directions`, (...), the angle kept.
+
+    directions: unit vectors in principal axes, (..., 3).  The other vector is anywhere on the circle ⟨m,γ⟩ = `cosine`.
+    """
+    first = np.where(np.abs(directions[..., :1]) < 0.6, [1.0, 0.0, 0.0], [0.0, 1.0, 0.0])
+    first = unit(np.cross(directions, first))
+    second = np.cross(directions, first)
+    turn = np.linspace(0.0, 2.0 * np.pi, ANGLES, endpoint=False)
+    ring = (
+        np.cos(turn)[:, np.newaxis] * first[..., np.newaxis, :]
+        + np.sin(turn)[:, np.newaxis] * second[..., np.newaxis, :]
+    )
+    others = cosine * directions[..., np.newaxis, :] + np.sqrt(max(1.0 - cosine**2, 0.0)) * ring
+    here = np.broadcast_to(directions[..., np.newaxis, :], others.shape)
+    m, gamma = (others, here) if of_gamma else (here, others)
+    energy = kernels.energy(m, gamma, body.mass_tensor, np.float64(body.D))
+    return -_largest(-energy), _largest(energy)
+
+
+def _largest(samples: Floats) -> Floats:
+    """The maximum of a smooth periodic function from samples, (..., angles): a parabola through the three highest."""
+    at = samples.argmax(axis=-1)[..., np.newaxis]
+    before, top, after = (np.take_along_axis(samples, (at + d) % samples.shape[-1], -1)[..., 0] for d in (-1, 0, 1))
+    bend = before - 2.0 * top + after
+    return np.asarray(top - np.divide((after - before) ** 2, 8.0 * bend, out=np.zeros_like(top), where=bend < 0.0))

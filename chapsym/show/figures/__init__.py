@@ -1,0 +1,89 @@
+"""Pictures of a result: one module for each kind of figure, each drawn only where its variables are there."""
+
+from collections.abc import Sequence
+from importlib import import_module
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from chapsym import files
+from chapsym.dynamics import BadInput
+
+from ..drawing import reading
+
+if TYPE_CHECKING:
+    from xarray import Dataset
+
+    from ..drawing.picture import Picture
+
+__all__ = ["FIGURES", "FORMATS", "about", "available", "draw", "save", "save_all"]
+
+#: The modules, which are the names of the figures, the most telling first.
+FIGURES = ("contact", "spheres", "spread", "rotation", "phase", "omega", "attitude", "energy", "integrals")
+FORMATS = ("svg", "png")
+
+
+def available(dataset: "Dataset") -> dict[str, str | None]:
+    """Every figure by name: None where it can be drawn, else why not, in a sentence."""
+    whole = reading.with_balls(dataset)
+    return {name: _module(name).missing(whole) for name in FIGURES}
+
+
+def about(name: str) -> str:
+    """What a figure shows, in a few words."""
+    return str(_module(name).ABOUT)
+
+
+def draw(dataset: "Dataset", name: str, ball: str | int | None = None) -> "Picture":
+    """A figure of a result, or of one of its balls (its name or index).
+
+    Raises BadInput for a figure or ball that is not there, for one whose variables are missing, and where a frame that
+    was reached is not finite.  The figure is a matplotlib Figure that notebooks show as it is; pyplot is not touched.
+    """
+    from ..drawing.style import styled
+
+    if name not in FIGURES:
+        raise BadInput(f"there is no figure {name!r}; choose of {', '.join(FIGURES)}")
+    chosen = reading.with_balls(dataset, ball)
+    reason = _module(name).missing(chosen)
+    if reason is not None:
+        raise BadInput(f"{name}: {reason}")
+    with styled():
+        figure: Picture = _module(name).draw(chosen)
+    return figure
+
+
+def save(figure: "Picture", path: Path) -> None:
+    """Writes a figure to .svg or .png, whole; the same data give the same bytes.  Raises BadInput and CannotWrite."""
+    from ..drawing.style import write
+
+    form = path.suffix[1:]
+    if form not in FORMATS:
+        raise BadInput(f"{str(path)!r}: a figure ends in .svg or .png")
+    files.write_whole(path, lambda stream: write(figure, stream, form))
+
+
+def save_all(
+    dataset: "Dataset", folder: Path, formats: Sequence[str] = ("svg",), *, names: Sequence[str] | None = None,
+    ball: str | int | None = None,
+) -> list[Path]:  # fmt: skip
+    """Draws all figures that can be drawn, or those that are named, into a folder, which is made; the files written.
+
+    Raises BadInput as `draw` does, and CannotWrite if the disk refuses.
+    """
+    chosen = reading.with_balls(dataset, ball)
+    wanted = [name for name, reason in available(chosen).items() if reason is None] if names is None else names
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise files.CannotWrite(f"{folder} cannot be made: {error.strerror or error}") from None
+    written = []
+    for name in wanted:
+        figure = draw(chosen, name)
+        for form in formats:
+            written.append(folder / f"{name}.{form}")
+            save(figure, written[-1])
+    return written
+
+
+def _module(name: str) -> Any:
+    return import_module(f".{name}", __name__)

@@ -1,0 +1,195 @@
+"""The trace of the contact point on the plane: of one ball, of several in colours, of thousands as a density."""
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from chapsym.dynamics.ball import Floats
+
+from ..drawing import reading
+from ..drawing.style import COLOURS, FEW, VERTICES, WIDTH, in_power, legend, new, power, scale
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from xarray import Dataset
+
+    from ..drawing.picture import Picture
+
+NEEDS = ("contact",)
+ABOUT = "trace of the contact point on the plane"
+#: More balls than this are a density; fewer have a line each.
+LINES = 60
+#: Inches of the trace's panel, from flat to tall.
+LOW, HIGH = 2.2, 5.6
+#: Cells of the density along each side; and when ellipses around the balls are drawn, as parts of the run.
+CELLS = 360
+MOMENTS = (0.25, 0.5, 0.75, 1.0)
+SHARES = (50, 90)
+#: Traces that stay this near to their chord (of its length) are shown a second time, enlarged across it.
+STRAIGHT = 0.08
+
+
+def missing(dataset: "Dataset") -> str | None:
+    """Why this figure cannot be drawn, in a sentence; None if it can."""
+    return None if "contact" in dataset else 'no contact: add "contact" to run.outputs'
+
+
+def draw(dataset: "Dataset") -> "Picture":
+    """The traces, in metres, with equal axes; in n dimensions a panel for each pair of coordinates."""
+    trace = reading.values(dataset, "contact")
+    if trace.shape[-1] > 2:
+        from .four import draw_pairs
+
+        return draw_pairs(dataset, trace)
+    factor, text = power(float(np.nanmax(np.abs(trace), initial=0.0)))
+    trace = trace / factor
+    aside = [] if len(trace) > FEW else sideways(trace, reading.last_frames(dataset))
+    heights = [panel_height(trace), *([2.1] if aside else [])]
+    figure, (axis, *below) = new(
+        str(dataset.attrs.get("title", "")), len(heights), height=sum(heights) / len(heights), height_ratios=heights
+    )
+    axis.set_aspect("equal", adjustable="datalim")
+    if len(trace) <= LINES:
+        lines(axis, dataset, trace)
+    else:
+        _density(axis, dataset, trace)
+    axis.set(xlabel=in_power("x", "m", text), ylabel=in_power("y", "m", text))
+    axis.margins(0.06)
+    for panel in below:
+        _aside(panel, aside, in_power("along the way, from start to end", "m", text), factor)
+    legend(figure, [axis])
+    return figure
+
+
+def sideways(trace: Floats, last: np.ndarray) -> list[tuple[Floats, Floats]]:
+    """Of each ball how far it is along the line from its start to its end, and off it to the left, (frames,) each.
+
+    Nothing where the traces are not so straight that a picture with equal axes hides how they bend.
+    """
+    found = []
+    for path, end in zip(trace, last, strict=True):
+        way = path[end] - path[0] if end > 0 else np.zeros(2)
+        length = float(np.sqrt(way @ way))
+        if length == 0.0:
+            continue
+        away = path[: end + 1] - path[0]
+        along, off = away @ way / length, (away[:, 1] * way[0] - away[:, 0] * way[1]) / length
+        found.append((along, off))
+        if np.abs(off).max() > STRAIGHT * length:
+            return []
+    return found if any(np.abs(off).max() > 1e-12 * np.abs(along).max() for along, off in found) else []
+
+
+def _aside(panel: "Axes", aside: list[tuple[Floats, Floats]], label: str, factor: float) -> None:
+    """The same traces with the direction across the way enlarged."""
+    size = max(float(np.abs(off).max()) for _, off in aside)
+    unit, text = power(factor * size)
+    for colour, (along, off) in zip(COLOURS, aside, strict=False):
+        panel.plot(along, off * factor / unit, color=colour, linewidth=1.2)
+    panel.set(xlabel=label, ylabel=in_power("to the left", "m", text))
+
+
+def panel_height(trace: Floats) -> float:
+    """Inches for the panel, such that the trace fills it with equal axes."""
+    low, high = (f(trace.reshape(-1, trace.shape[-1]), axis=0) for f in (np.nanmin, np.nanmax))
+    across, up = (float(x) for x in (high - low)[:2])
+    inside = WIDTH - 0.9
+    return float(np.clip(inside * up / across if across > 0.0 else HIGH, LOW, HIGH)) + 0.9
+
+
+def lines(axis: "Axes", dataset: "Dataset", trace: Floats, legend: bool = True) -> None:
+    """A line for each ball, with its start, its end, and arrows along it."""
+    last, names, stopped = reading.last_frames(dataset), reading.ball_names(dataset), reading.stopped(dataset)
+    few = len(trace) <= FEW
+    colours = list(COLOURS[: len(trace)]) if few else _by_parameter(axis, dataset, len(trace))
+    dense = trace.shape[0] * trace.shape[1] > VERTICES
+    for i, path in enumerate(trace):
+        path = path[: last[i] + 1]
+        if not len(path):
+            continue
+        label = names[i] if few and len(trace) > 1 and legend else None
+        axis.plot(*path.T, color=colours[i], linewidth=1.3 if few else 0.8, rasterized=dense, label=label, zorder=2)
+        if few:
+            _arrows(axis, path, colours[i], 4 if len(trace) == 1 else 2)
+        end = ("stopped", "X") if stopped[i] else ("end", "s")
+        ends: tuple[tuple[int, str, str, Any], ...] = ((0, "start", "o", "white"), (-1, *end, colours[i]))
+        for at, name, marker, face in ends:
+            axis.plot(
+                *path[at], marker, color=colours[i], markerfacecolor=face, markersize=7 if few else 3.5, zorder=4,
+                label=name if len(trace) == 1 and legend else None,
+            )  # fmt: skip
+    if len(trace) > 1 and legend and stopped.any():
+        axis.plot([], [], "X", color="0.3", markersize=7 if few else 4, label="stopped early")
+
+
+def _by_parameter(axis: "Axes", dataset: "Dataset", count: int) -> list[Any]:
+    """Colours by the first parameter of the sweep, or by the number of the ball."""
+    varied = reading.parameters(dataset)
+    if varied:
+        name, (data, units) = next(iter(varied.items()))
+        return [tuple(c) for c in scale(axis, data, reading.labelled(name, units))(data)]
+    number = np.arange(count, dtype=np.float64)
+    return [tuple(c) for c in scale(axis, number, "ball")(number)]
+
+
+def _arrows(axis: "Axes", path: Floats, colour: str, count: int) -> None:
+    """Heads of arrows at equal parts of the length of a path."""
+    along = np.concatenate([[0.0], np.cumsum(np.sqrt((np.diff(path, axis=0) ** 2).sum(axis=-1)))])
+    if along[-1] == 0.0:
+        return
+    for part in (np.arange(count) + 0.5) / count:
+        k = int(np.clip(np.searchsorted(along, part * along[-1]), 1, len(path) - 1))
+        axis.annotate(
+            "", xy=tuple(path[k]), xytext=tuple(path[k - 1]), zorder=3,
+            arrowprops={"arrowstyle": "-|>,head_width=0.28,head_length=0.55", "color": colour, "linewidth": 0,
+                        "shrinkA": 0, "shrinkB": 0},
+        )  # fmt: skip
+
+
+def _density(axis: "Axes", dataset: "Dataset", trace: Floats) -> None:
+    """How often each place was visited, the mean path, and ellipses that hold 50 and 90 % of the balls."""
+    from matplotlib.colors import LogNorm
+
+    count, edges = _visits(trace)
+    shown = axis.imshow(
+        np.ma.masked_equal(count.T, 0), extent=(*edges[0], *edges[1]), origin="lower", cmap="viridis_r",
+        norm=LogNorm(1, max(2.0, float(count.max()))), interpolation="nearest", aspect="equal", zorder=1,
+    )  # fmt: skip
+    axis.set_aspect("equal", adjustable="datalim")
+    axis.figure.colorbar(shown, ax=axis, location="bottom", aspect=40, pad=0.02, fraction=0.06,
+                         label=f"frames of {len(trace)} balls in a cell")  # fmt: skip
+    going = np.asarray(np.isfinite(trace).all(axis=-1))
+    frames = np.flatnonzero(going.sum(axis=0) > len(trace) // 2)
+    mean = np.array([trace[going[:, k], k].mean(axis=0) for k in frames])
+    axis.plot(
+        *mean.T, color="black", linewidth=1.0, label="mean of the balls", zorder=3, rasterized=len(mean) > VERTICES
+    )
+    for part in MOMENTS:
+        k = int(frames[round(part * (len(frames) - 1))])
+        for share in SHARES:
+            told = f"{SHARES[0]} and {SHARES[1]} % of them" if part == MOMENTS[0] and share == SHARES[0] else None
+            axis.plot(*ellipse(trace[going[:, k], k], share).T, color=COLOURS[1], linewidth=1.3, label=told, zorder=4)
+
+
+def _visits(trace: Floats) -> tuple[np.ndarray, list[tuple[float, float]]]:
+    """Counts in square cells, (nx, ny), and the range of each side."""
+    flat = trace.reshape(-1, 2)
+    flat = flat[np.isfinite(flat).all(axis=-1)]
+    low, high = flat.min(axis=0), flat.max(axis=0)
+    size = float((high - low).max()) / CELLS or 1.0
+    cells = np.maximum(np.ceil((high - low) / size).astype(int), 1)
+    at = np.minimum(((flat - low) / size).astype(int), cells - 1)
+    count = np.bincount(at[:, 0] * cells[1] + at[:, 1], minlength=cells.prod()).reshape(cells)
+    return count, [(float(a), float(a + n * size)) for a, n in zip(low, cells, strict=True)]
+
+
+def ellipse(points: Floats, share: float) -> Floats:
+    """The ellipse about the mean of points (balls, 2), shaped as their covariance, that holds `share` % of them."""
+    centre = points.mean(axis=0)
+    widths, axes = np.linalg.eigh(np.atleast_2d(np.cov(points.T, bias=True)))
+    widths = np.sqrt(np.maximum(widths, 0.0))
+    local = (points - centre) @ axes
+    inside = np.divide(local, widths, out=np.zeros_like(local), where=widths > 1e-12 * max(widths.max(), 1e-300))
+    radius = np.percentile(np.sqrt((inside**2).sum(axis=-1)), share)
+    turn = np.linspace(0.0, 2.0 * np.pi, 91)
+    return centre + radius * (np.stack([np.cos(turn), np.sin(turn)], -1) * widths) @ axes.T

@@ -1,0 +1,66 @@
+"""The momentum integrals over time, as their relative changes."""
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from chapsym.dynamics.ball import Floats
+
+from ..drawing import reading
+from ..drawing.style import legend, new
+from . import change
+
+if TYPE_CHECKING:
+    from xarray import Dataset
+
+    from ..drawing.picture import Picture
+
+NEEDS = ("integrals",)
+ABOUT = "momentum integrals over time, relative change"
+SYMBOLS = {
+    "K.gamma": r"$\langle\mathcal{K},\gamma\rangle$",
+    "K.K": r"$\langle\mathcal{K},\mathcal{K}\rangle$",
+    "gamma.gamma": r"$\langle\gamma,\gamma\rangle$",
+}
+
+
+def missing(dataset: "Dataset") -> str | None:
+    """Why this figure cannot be drawn, in a sentence; None if it can."""
+    return None if "integrals" in dataset else 'no integrals: add "integrals" to run.outputs'
+
+
+def draw(dataset: "Dataset") -> "Picture":
+    """The map keeps the momentum integrals, so all that is seen is roundoff."""
+    found = reading.values(dataset, "integrals")
+    names = [str(name) for name in dataset["integral"].values] if "integral" in dataset.coords else []
+    names = names or [str(i + 1) for i in range(found.shape[-1])]
+    figure, (axis,) = new(str(dataset.attrs.get("title", "")), height=3.6)
+    changes = {
+        _symbol(name): change.relative(found[..., i], size)
+        for i, (name, size) in enumerate(zip(names, sizes(found[:, 0], names), strict=True))
+    }
+    change.plot(axis, dataset, changes)
+    axis.set_title("momentum integrals, and the largest change of each")
+    legend(figure, [axis])
+    return figure
+
+
+def _symbol(name: str) -> str:
+    """A name of the result as mathematics: "tr K^2" is tr 𝒦²."""
+    if name in SYMBOLS:
+        return SYMBOLS[name]
+    told = (
+        name.replace("gamma", r"\gamma").replace("K", r"\mathcal{K}").replace("tr ", r"\mathrm{tr}\,").replace(".", " ")
+    )
+    return f"${told}$" if "K" in name else name
+
+
+def sizes(start: Floats, names: list[str]) -> list[Floats]:
+    """What each change is compared with, (balls,): the integral at the start; |𝒦||γ| for ⟨𝒦,γ⟩, which may vanish.
+
+    start: the integrals at the start, (balls, integrals), with their names.
+    """
+    found = [np.abs(start[:, i]) for i in range(len(names))]
+    if {"K.gamma", "K.K", "gamma.gamma"} <= set(names):
+        found[names.index("K.gamma")] = np.sqrt(found[names.index("K.K")] * found[names.index("gamma.gamma")])
+    return found

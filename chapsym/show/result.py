@@ -1,0 +1,177 @@
+"""A result in Python and in notebooks: a Dataset that shows itself as a short table and its most telling figure."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from html import escape
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from chapsym.dynamics import kernels
+
+from . import figures
+from .drawing import reading
+
+if TYPE_CHECKING:
+    from xarray import Dataset
+
+    from .drawing.picture import Picture
+
+#: Numbers beyond which the drift is not computed for a table, as it would take seconds.
+MOST = 10_000_000
+
+
+@dataclass(frozen=True, eq=False)
+class Result:
+    """The result of a scene: `dataset`, an xarray.Dataset with dimensions `ball` and `frame`, and its pictures."""
+
+    dataset: "Dataset"
+
+    def figures(self) -> dict[str, str | None]:
+        """Every figure by name: None where it can be drawn, else why not, in a sentence."""
+        return figures.available(self.dataset)
+
+    def figure(self, name: str | None = None, ball: str | int | None = None) -> "Picture":
+        """A figure of all balls or of one (name or index), by default the most telling; raises BadInput."""
+        return figures.draw(self.dataset, name or self._telling(), ball)
+
+    def show(self, ball: str | int | None = None) -> None:
+        """Displays all figures that can be drawn below a notebook's cell; elsewhere opens a folder with them.
+
+        Outside of a notebook the folder is a temporary one, whose name is printed.
+        """
+        one = reading.with_balls(self.dataset, ball)
+        wanted = [name for name, reason in figures.available(one).items() if reason is None]
+        if in_notebook():
+            from IPython.display import display
+
+            for name in wanted:
+                display(figures.draw(one, name))
+            return
+        import tempfile
+        import webbrowser
+
+        folder = Path(tempfile.mkdtemp(prefix="chapsym-"))
+        written = figures.save_all(one, folder, names=wanted)
+        print(f"{len(written)} figures in {folder}")
+        webbrowser.open(folder.as_uri())
+
+    def save(self, path: str | Path) -> None:
+        """Writes the result to .zarr, .nc, .csv or .parquet, whole; raises SceneError if the disk refuses."""
+        from .opening import save
+
+        save(self.dataset, Path(path))
+
+    def page(self, path: str | Path, ball: str | int | None = None) -> None:
+        """Writes the page on which the ball rolls, one HTML file that needs no network; it needs the attitude."""
+        from .rolling import write_page
+
+        write_page(self.dataset, path, balls=None if ball is None else [ball])
+
+    def rows(self) -> list[tuple[str, str]]:
+        """The short table: what was rolled, for how long, what was stored, and how far the integrals drifted."""
+        return [row for row in _rows(reading.with_balls(self.dataset)) if row[1]]
+
+    def _telling(self) -> str:
+        """The name of the most telling figure; raises BadInput where there is none."""
+        reasons = self.figures()
+        return next((name for name, reason in reasons.items() if reason is None), next(iter(reasons)))
+
+    def __repr__(self) -> str:
+        rows = self.rows()
+        width = max(len(key) for key, _ in rows)
+        title = str(self.dataset.attrs.get("title") or "a result of chapsym")
+        return "\n".join([title, *(f"  {key:{width}}  {text}" for key, text in rows)])
+
+    def _repr_html_(self) -> str:
+        title = escape(str(self.dataset.attrs.get("title") or ""))
+        cell = 'style="text-align: left; padding: 0.1em 1em 0.1em 0"'
+        rows = "".join(f"<tr><th {cell}>{escape(k)}</th><td {cell}>{escape(v)}</td></tr>" for k, v in self.rows())
+        drawable = None in self.figures().values()
+        picture = self.figure().svg() if drawable else ""
+        caption = f"<caption {cell}>{title}</caption>" if title else ""
+        return f"<table>{caption}<tbody>{rows}</tbody></table>{picture}"
+
+
+def run_scene(scene: "str | Path | Mapping[str, Any]", progress: Callable[[Any], None] | None = None) -> Result:
+    """Runs a scene, a .toml file or the same as a dictionary, in memory on all cores.
+
+    Raises SceneError for a scene that cannot be run as it is written.  A ball that meets a fold stops there: `status`
+    and `taken` in the result say so.
+    """
+    from .opening import run
+
+    return Result(run(scene, progress))
+
+
+def open_result(path: str | Path) -> Result:
+    """Opens a result, .zarr, .nc, .npz, .csv or .parquet; arrays of .zarr are read when they are used.
+
+    Raises SceneError for a file that is not there, or is no result.
+    """
+    from .opening import opened
+
+    return Result(opened(Path(path)))
+
+
+def in_notebook() -> bool:
+    """Whether this runs in a notebook's kernel."""
+    import sys
+
+    if "IPython" not in sys.modules:
+        return False
+    shell = sys.modules["IPython"].get_ipython()
+    return shell is not None and hasattr(shell, "kernel")
+
+
+def _rows(dataset: "Dataset") -> list[tuple[str, str]]:
+    names = reading.ball_names(dataset)
+    stopped = int(reading.stopped(dataset).sum())
+    balls = names[0] if len(names) == 1 else f"{len(names)}" + (f", {stopped} of them stopped early" if stopped else "")
+    varied = ", ".join(
+        f"{name} from {data.min():.6g} to {data.max():.6g}{' ' + reading.readable(units) if units else ''}"
+        for name, (data, units) in reading.parameters(dataset).items()
+    )
+    stored = [str(name) for name in dataset.data_vars if name not in _ASIDE and not str(name).endswith("_low")]
+    return [
+        ("ball" if len(names) == 1 else "balls", "" if balls == "ball" else balls),
+        ("varied", varied),
+        ("frames", _frames(dataset)),
+        ("model", str(dataset.attrs.get("model", ""))),
+        ("stored", ", ".join(stored)),
+        ("drift", _drift(dataset)),
+        ("stopped", f"after {int(dataset['taken'].values[0])} steps" if len(names) == 1 and stopped else ""),
+    ]
+
+
+_ASIDE = {"taken", "status", "mass_tensor", "D", "radius", "axes", "error"}
+
+
+def _frames(dataset: "Dataset") -> str:
+    if not dataset.sizes.get("frame"):
+        return ""
+    t, label = reading.clock(dataset)
+    last = int(reading.steps(dataset)[-1])
+    steps = f", {last} steps" if "step" in dataset.coords else ""
+    return f"{len(t)}{steps}" + (f", {t[-1]:.6g} s" if label == "time, s" else "")
+
+
+def _drift(dataset: "Dataset") -> str:
+    """The largest relative change of the momentum integrals, from what is stored."""
+    from .figures.change import relative
+    from .figures.integrals import sizes
+
+    if "integrals" in dataset and "integral" in dataset.coords and dataset["integrals"].size < MOST:
+        found, names = reading.values(dataset, "integrals"), [str(name) for name in dataset["integral"].values]
+    elif {"momentum", "gamma"} <= set(dataset.data_vars) and "row" not in dataset.dims and dataset["gamma"].size < MOST:
+        momentum, gamma = reading.values(dataset, "momentum"), reading.values(dataset, "gamma")
+        there = np.isfinite(gamma).all(axis=-1, keepdims=True)
+        with np.errstate(over="ignore", invalid="ignore"):
+            found = kernels.invariants(np.where(there, momentum, 0.0), np.where(there, gamma, 0.0))
+        found, names = np.where(there, found, np.nan), ["K.gamma", "K.K", "gamma.gamma"]
+    else:
+        return ""
+    changes = [relative(found[..., i], size) for i, size in enumerate(sizes(found[:, 0], names))]
+    largest = max(float(np.nanmax(np.abs(change), initial=0.0)) for change in changes)
+    return f"{largest:.1e} at most, of the momentum integrals, relatively"

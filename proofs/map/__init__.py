@@ -1,0 +1,1 @@
+"""Lemmas on the map that chapsym runs."""

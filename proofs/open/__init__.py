@@ -1,0 +1,1 @@
+"""The two questions that the paper left open."""

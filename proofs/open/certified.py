@@ -1,0 +1,67 @@
+"""The certificates beside the proofs: what the independent checker says of a file, and of copies with one number changed.
+
+A copy is sealed anew, with the statement that its numbers make: it must be rejected by arithmetic, not by its digest.
+"""
+
+import copy
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from chapsym import checker
+from chapsym.prove import Fact, Proof
+
+FOLDER = Path(__file__).parents[1].joinpath("certificates")
+
+
+def files(kind: str) -> tuple[Path, ...]:
+    """The certificates of a kind, by name; with them what cannot be read, so that it is missed."""
+    return tuple(file for file in sorted(FOLDER.glob("*.json")) if _kind(file) in (kind, None))
+
+
+def _kind(file: Path) -> str | None:
+    try:
+        return str(checker.read(file).get("kind"))
+    except (checker.Unreadable, checker.Rejected):
+        return None
+
+
+def present(p: Proof, found: Sequence[Path], kind: str) -> list[dict[str, Any]]:
+    """Puts files before the checker, as evidence; returns those that it accepts, the one with the fewest steps first."""
+    p.lemma(Fact(f"there is a certificate of kind {kind}", bool(found), "a look into the folder"))
+    accepted = []
+    for file in found:
+        try:
+            data = checker.read(file)
+            verdict = checker.check(data)
+        except (checker.Rejected, checker.Unreadable) as error:
+            p.certificate(file.name, str(error), "", accepted=False)
+            continue
+        p.certificate(file.name, verdict.statement, data["digest"], accepted=verdict.kind == kind)
+        accepted.append(data)
+    return sorted(accepted, key=lambda data: data["steps"])
+
+
+def changed(text: str, data: dict[str, Any], place: Sequence[str | int], value: Any) -> Fact:
+    """That the checker accepts a copy in which the number at `place` is another, sealed anew."""
+    whole = copy.deepcopy(data)
+    inside: Any = whole
+    for name in place[:-1]:
+        inside = inside[name]
+    if inside[place[-1]] == value:
+        raise ValueError(f"nothing is changed: {text}")
+    inside[place[-1]] = value
+    whole["statement"] = checker.statement(whole)
+    whole["digest"] = checker.digest(whole)
+    try:
+        checker.check(whole)
+    except checker.Rejected:
+        return Fact(text, False, "the checker")
+    return Fact(text, True, "the checker")
+
+
+def other_digit(decimal: str, place: int = -1) -> str:
+    """A decimal with another digit at this place."""
+    digits = list(decimal)
+    digits[place] = str((int(digits[place]) + 1) % 10)
+    return "".join(digits)

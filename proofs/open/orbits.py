@@ -1,0 +1,284 @@
+"""Periodic orbits of the whole map, 𝒦 not parallel to γ, and what they exclude: lemmas of chapsym on Section 6."""
+
+import sympy as sp
+from sympy.polys.matrices import DomainMatrix
+
+from chapsym.derive import gibbs
+from chapsym.derive.gibbs import I1, I2, I3, D, d, k, u
+from chapsym.derive.quotient import Quotient
+from chapsym.derive.three import gamma
+from chapsym.proofs.map.gibbs import FREE, equal
+from chapsym.prove import Equation, Fact, Proof, claim, main
+
+#: Of a steady rotation about e₃ by the angle θ: u = (0, 0, t), t = tan(θ/2), γ = (x, y, c).
+t = sp.Symbol("t")
+x, y, c = gamma
+STEADY = Quotient((t, x, y, c, I1, I2, I3, D), [x**2 + y**2 + c**2 - 1])
+#: The example: a turn by 45° a step, in Q(√2).
+ROOT = sp.sqrt(2)
+EXAMPLE = {I1: sp.Integer(6), I2: sp.Integer(5), I3: sp.Integer(3), D: sp.Integer(1), t: ROOT - 1, c: ROOT / 2}
+EXAMPLE |= {x: 3 * ROOT / 10, y: 4 * ROOT / 10}
+
+
+def turn(v: sp.Matrix) -> sp.Matrix:
+    """Ωᵀ for the Gibbs vector v (lemma `gibbs-rotation`)."""
+    V = v.hat()
+    return sp.eye(3) + 2 * (V * V - V) / (1 + v.dot(v))
+
+
+def at(expr: sp.Matrix, u_: sp.Matrix, gamma_: sp.Matrix, k_: sp.Matrix) -> sp.Matrix:
+    """An expression of u, γ and k at other places."""
+    places = [*zip(u, u_, strict=True), *zip(gamma, gamma_, strict=True), *zip(k, k_, strict=True)]
+    return sp.Matrix(expr).subs(dict(places), simultaneous=True)
+
+
+def half_momentum(u_: sp.Matrix, gamma_: sp.Matrix) -> sp.Matrix:
+    """The k of the step whose Gibbs vector is given."""
+    return at(gibbs.residual(), u_, gamma_, sp.zeros(3, 1)) / (1 + u_.dot(u_))
+
+
+def slope(u_: sp.Matrix, gamma_: sp.Matrix) -> sp.Matrix:
+    """∂G/∂u at the step whose Gibbs vector is given."""
+    return at(gibbs.jacobian(), u_, gamma_, half_momentum(u_, gamma_))
+
+
+def by_turns(u_: sp.Matrix, gamma_: sp.Matrix) -> sp.Matrix:
+    """𝒢: how G changes as γ and k turn by w, γ ↦ w × γ, k ↦ w × k."""
+    residual = sp.Matrix(gibbs.residual())
+    change = residual.jacobian(gamma) * -gamma.hat() + residual.jacobian(k) * -k.hat()
+    return at(change, u_, gamma_, half_momentum(u_, gamma_))
+
+
+def turning(v: sp.Matrix) -> sp.Matrix:
+    """E: dΩᵀ = [E du]×Ωᵀ."""
+    return 2 * (v.hat() - sp.eye(3)) / (1 + v.dot(v))
+
+
+@claim(
+    "step-determinant",
+    r"\det D\Phi|_M = \frac{\det\partial_uG(-u;\, \Omega^T\gamma, -\Omega^Tk)}{\det\partial_uG(u;\, \gamma, k)}",
+    uses=("gibbs", "gibbs-rotation", "self-adjoint"),
+)
+def step_determinant(p: Proof) -> None:
+    """How a step changes volumes: the quotient of two Jacobians, that of the step back and that of the step."""
+    p.assume("𝒦 and γ not parallel, ∂G/∂u regular (below the bound of small-branch it is)")
+    p.say("M: |γ| = 1, |𝒦| and ⟨𝒦, γ⟩ fixed. It is the set of all (R𝒦, Rγ), R in SO(3), with the tangent vectors")
+    p.say(
+        "(w × 𝒦, w × γ); DΦ on M is w ↦ Sw in these coordinates. The volume of SO(3) that is invariant under rotations"
+    )
+    p.say(
+        "makes one of M; d³𝒦 dσ(γ) on the phase space is it times a function of |𝒦| and ⟨𝒦, γ⟩, as it is invariant, too."
+    )
+    p.say("So all dets on M, on the 5-dimensional phase space and (at a fixed point) in R⁶ are one.  With T = Ωᵀ:")
+    turned = turn(u)
+    p.lemma(equal("self-adjoint in u: G(-u; Tγ, -Tk) = -TG(u; γ, k), for all u, γ, k",
+                  at(gibbs.residual(), -u, turned * gamma, -turned * k), -turned * sp.Matrix(gibbs.residual())))  # fmt: skip
+    change = sum((turned.diff(a) * b for a, b in zip(u, d, strict=True)), sp.zeros(3, 3))
+    p.lemma(equal("dT = [E du]×T, E = 2([u]× - 1)/(1 + |u|²)", change, (turning(u) * d).hat() * turned))
+    p.say("𝒜 = ∂G/∂u, 𝒢w its change by γ ↦ w × γ, k ↦ w × k: du = -𝒜⁻¹𝒢w, and S = T - E𝒜⁻¹𝒢; 𝒜~ and 𝒢~ are those at")
+    p.say(
+        "(-u; Tγ, -Tk).  Where G = 0 the first lemma, differentiated by turns of the start and by u, says 𝒢~T = -T𝒢 and"
+    )
+    p.say(
+        "𝒢~E - 𝒜~ = -T𝒜, that is T⁻¹𝒜~ = 𝒜 - 𝒢T⁻¹E.  So det S = det(1 - 𝒢T⁻¹E𝒜⁻¹) = det 𝒜~/det 𝒜.  For one u, all γ, D:"
+    )
+    point = sp.Matrix([sp.Rational(1, 3), sp.Rational(-1, 4), sp.Rational(1, 5)])
+    ball, free = {I1: 6, I2: 5, I3: 3}, Quotient((*gamma, D), [])
+    here, there = slope(point, gamma).subs(ball), slope(-point, turn(point) * gamma).subs(ball)
+    change = by_turns(point, gamma).subs(ball) * turn(-point) * turning(point)
+
+    def key(text: str, sign: int) -> Equation:
+        return equal(text, here - sign * change, turn(-point) * there, free)
+
+    p.printed(key("T⁻¹𝒜~ = 𝒜 - 𝒢T⁻¹E, J = (1, 2, 4), u = (1/3, -1/4, 1/5)", 1))
+    p.say("For D = 0 the two dets are equal: there the volume is invariant.")
+    without = {D: sp.S.Zero}
+    p.printed(Equation("det 𝒜~ = det 𝒜 for D = 0", [_determinant(slope(-u, gamma).subs(without))],
+                     [_determinant(slope(u, gamma).subs(without))], FREE))  # fmt: skip
+    numbers = {**dict(zip(gamma, sp.Matrix([2, 3, 6]) / 7, strict=True)), D: 2, **ball}
+    S = turn(point) - turning(point) * here.subs(numbers).inv() * by_turns(point, gamma).subs(numbers)
+    quotient = _determinant(there.subs(numbers)) / _determinant(here.subs(numbers))
+    p.lemma(Fact("det S by its definition is this quotient, at γ = (2, 3, 6)/7, D = 2", S.det() == quotient))
+    p.control(key("T⁻¹𝒜~ = 𝒜 + 𝒢T⁻¹E", -1))
+    p.control(Fact("det S = 1 at this γ and D", S.det() == 1))
+
+
+def _determinant(m: sp.Matrix) -> sp.Expr:
+    return m.det(method="berkowitz")
+
+
+def steady_level(t_: sp.Expr) -> sp.Expr:
+    """P: the part of (1 + t²)/(1 - t²) det ∂G/∂u that is constant on the circle, even in t."""
+    m = I1 * I2 + t_**2 * (I1 - I3) * (I2 - I3)
+    outer = D * (1 - c**2) * ((D + I3) * (I1 + I2) / 2 + D * I3 * c**2 + m)
+    return outer + I3 * (D**2 * c**4 + D * (I1 + I2) * c**2 + m)
+
+
+#: Q, the size of the part that is not.
+SWING = D * (D + I3) * (I1 - I2) / 2
+
+
+def around(x_: sp.Expr, y_: sp.Expr, t_: sp.Expr) -> sp.Expr:
+    """Re((1 - it)(x + iy)²)."""
+    return x_**2 - y_**2 + 2 * t_ * x_ * y_
+
+
+@claim(
+    "steady-circles",
+    r"u \parallel e_3,\ \gamma \not\parallel e_3,\ I_1 \ne I_2,\ D > 0,\ m\theta = p\pi,\ p \text{ odd} \ \Rightarrow\ "
+    r"\det D\Phi^{2m} = \Bigl(\frac{1 + z^{2m} + 2(-z)^m\cos m\psi}{1 + z^{2m} - 2(-z)^m\cos m\psi}\Bigr)^2,\ 0 < |z| < 1",
+    uses=("steady", "small-branch", "step-determinant"),
+)
+def steady_circles(p: Proof) -> None:
+    """Circles of periodic states on which volumes are not preserved, for every ball with D > 0: in closed form."""
+    p.assume("|𝒦| below the bound of small-branch, |u| < 1")
+    p.say(
+        "Where u = te₃, each step turns the ball by θ = 2 arctan t about e₃ (steady), whatever γ is.  Of γ = (x, y, c) only"
+    )
+    p.say(
+        "x + iy = re^{iφ} changes, by e^{-iθ}: a circle of states on one level M, all back after 2m steps where mθ = pπ."
+    )
+    axis, vertical = sp.Matrix([0, 0, t]), sp.Matrix([x, y, c])
+    turned = turn(axis)
+    p.lemma(Equation("after a step k is that of the same u", list((1 + t**2) ** 2 * half_momentum(axis, turned * vertical)),
+                     list((1 + t**2) ** 2 * turned * half_momentum(axis, vertical)), STEADY))  # fmt: skip
+
+    def steady(text: str, swing: sp.Expr) -> Equation:
+        return Equation(text, [(1 + t**2) * _determinant(slope(axis, vertical))],
+                        [(1 - t**2) * (steady_level(t) + swing * around(x, y, t))], STEADY)  # fmt: skip
+
+    p.printed(steady("(1 + t²) det 𝒜 = (1 - t²) f, f = P + Q Re((1 - it)(x + iy)²)", SWING))
+    p.say(
+        "with Q = ½D(D + I₃)(I₁ - I₂), and P a function of t² and c.  So f = P + Qr² cos(2φ - θ/2)/cos(θ/2), > 0 on the"
+    )
+    p.say("circle, as det 𝒜 > 0.  The step back has -t, and (x + iy)e^{-iθ}, e^{-iθ} = (1 - it)/(1 + it):")
+    x1, y1, _ = turned * vertical
+    cosine, sine = (1 - t**2) / (1 + t**2), 2 * t / (1 + t**2)
+    half = cosine * around(x, y, t) + sine * (2 * x * y - t * (x**2 - y**2))
+    p.printed(
+        Equation("Re((1 + it)(x + iy)²e^{-2iθ}) = Re(e^{-iθ}(1 - it)(x + iy)²)", [around(x1, y1, -t)], [half], STEADY)
+    )
+    p.say(
+        "so det DΦ at φ is f(φ - ½θ)/f(φ): the place half a step ahead.  f/P is (1 + z² + 2z cos ψ)/(1 + z²), ψ = 2φ - θ/2,"
+    )
+    p.say(
+        "0 < |z| < 1.  In m steps ψ takes m places that are 2π/m apart, as p and m may be taken coprime; with ω^m = 1"
+    )
+    p.say(
+        "Π(1 + z² + 2z cos(ψ + 2πj/m)) = |Π(1 + z e^{iψ}ω^j)|² = |1 - (-z)^m e^{imψ}|² = 1 + z^{2m} - 2(-z)^m cos mψ,"
+    )
+    p.say(
+        "and half a step ahead mψ is less by mθ = pπ: its cosine has the other sign.  So the determinant of m steps (and of"
+    )
+    p.say(
+        "2m, its square) is other than 1 but where cos mψ = 0.  A continuous positive density ϱ of an invariant measure,"
+    )
+    p.say(
+        "on M or on the phase space, would have ϱ(Φ^{2m}x) det DΦ^{2m} = ϱ(x), with Φ^{2m}x = x: there is none near such a"
+    )
+    p.say(
+        "circle on M.  In the phase space there is none near any steady circle with γ ∦ e₃, as such angles θ are dense."
+    )
+    p.say("(For p even the determinant is 1: there the places half a step ahead are places of the orbit.)")
+    _example(p)
+    p.control(steady("the same without Q", sp.S.Zero))
+    p.control(Equation("det DΦ = 1", [around(x1, y1, -t)], [around(x, y, t)], STEADY))
+
+
+def _example(p: Proof) -> None:
+    p.say(
+        "Example, in Q(√2): J = (1, 2, 4), D = 1, θ = 45°, γ = (3, 4, 5)√2/10.  The product of det S by its definition:"
+    )
+    field = sp.QQ.algebraic_field(ROOT)
+    axis, vertical = (v.subs(EXAMPLE).applyfunc(_simple) for v in (sp.Matrix([0, 0, t]), sp.Matrix([x, y, c])))
+    momentum = (2 * half_momentum(axis, vertical).subs(EXAMPLE)).applyfunc(_simple)
+    product, start = field.one, vertical
+    for _ in range(4):
+        product *= _derivative(axis, vertical, field).det()
+        vertical = (turn(axis) * vertical).applyfunc(_simple)
+    facts = (
+        Fact("|𝒦|² = 25/4 and ⟨𝒦, γ⟩ = 3/2", _simple(momentum.dot(momentum)) == sp.Rational(25, 4)
+             and _simple(momentum.dot(start)) == sp.Rational(3, 2)),
+        Fact("5/2 is below the bound of small-branch: ϱ < 3/4 as 5/6 < 24/25 = sin(2 arctan ¾), and ¾(½(6 - 3) + 5/2) = 3",
+             sp.Rational(5, 6) < 2 * sp.Rational(3, 4) / (1 + sp.Rational(9, 16)) and sp.Rational(3, 4) * 4 <= 3),
+        Fact("after 4 steps γ has turned by π about e₃", [_simple(v) for v in vertical - sp.diag(-1, -1, 1) * start] == [0, 0, 0]),
+        Fact("the determinant of 4 steps is not 1", product != field.one),
+        Fact("it is Πf(φ - (j + ½)θ)/f(φ - jθ)", product == _by_formula(field)),
+    )  # fmt: skip
+    for fact in facts:
+        p.lemma(fact)
+    p.witness("J = (1, 2, 4), D = 1, θ = 45°", {str(name): str(value) for name, value in EXAMPLE.items()}, *facts)
+    p.show("\\det D\\Phi^4", field.to_sympy(product))
+    p.control(Fact("the determinant of 4 steps is 1", product == field.one))
+
+
+def _simple(value: sp.Expr) -> sp.Expr:
+    return sp.radsimp(sp.expand(value))
+
+
+def _derivative(axis: sp.Matrix, vertical: sp.Matrix, field: sp.Domain) -> DomainMatrix:
+    """S of one step of the example, by its definition."""
+    parts = (turn(axis), turning(axis), slope(axis, vertical), by_turns(axis, vertical))
+    T, E, A, W = (DomainMatrix.from_Matrix(m.subs(EXAMPLE).applyfunc(_simple)).convert_to(field) for m in parts)
+    return T - E * A.inv() * W
+
+
+def _by_formula(field: sp.Domain) -> object:
+    """Π f(φ - (j + ½)θ)/f(φ - jθ) in the field: the closed form, with (x + iy)² turned by multiples of e^{-iθ}."""
+    P, Q = (field.from_sympy(_simple(v.subs(EXAMPLE))) for v in (steady_level(t), SWING))
+    real = [field.from_sympy(_simple(v.subs(EXAMPLE))) for v in (around(x, y, t), 2 * x * y - t * (x**2 - y**2))]
+    cosine = field.from_sympy(ROOT / 2)
+    value = field.one
+    for j in range(8):
+        value = value / (P + Q * real[0]) if j % 2 == 0 else value * (P + Q * real[0])
+        real = [cosine * (real[0] + real[1]), cosine * (real[1] - real[0])]
+    return value
+
+
+@claim(
+    "periodic-orbits",
+    r"\Phi^q(x) = x,\ W = D\Phi^q|_M,\ \varrho_R(\mathcal O) = \mathcal O \text{ for a } "
+    r"\varrho_R(\mathcal K, \gamma) = -R(\mathcal K, \gamma) \ \Rightarrow\ \det W = 1,\ \det(1 - W) = 0",
+    uses=("step-determinant", "reversible", "small-branch"),
+)
+def periodic_orbits(p: Proof) -> None:
+    """What one periodic orbit excludes, on its level and on all levels and for all balls near by."""
+    p.say("ϱ(Φ^q x) det DΦ^q = ϱ(x) at Φ^q(x) = x, ϱ(x) > 0, gives det W = 1; so it is for M and for the phase space.")
+    p.say(
+        "F∘Φ^q = F, F of class C¹ near the orbit: dF W = dF on T_xM, so dF = 0 there if 1 is no eigenvalue of W.  As then"
+    )
+    p.say(
+        "Φ^q(x) - x has a regular derivative on M, the implicit function theorem gives such an orbit, with det W ≠ 1 and"
+    )
+    p.say(
+        "det(1 - W) ≠ 0, for all |𝒦|², ⟨𝒦, γ⟩, J and D near by: an open set of the phase space is met.  In it a C¹ integral F"
+    )
+    p.say(
+        "has dF = f d|𝒦|² + g d⟨𝒦, γ⟩ along a surface of such points, so no third integral is independent of these there."
+    )
+    p.say(
+        "If all eigenvalues of W are inside the unit circle, x attracts a neighbourhood on M: every continuous integral is"
+    )
+    p.say("constant on M there, and every finite invariant measure on that neighbourhood is carried by the orbit.")
+    p.say(
+        "A reversor ϱ_R(𝒦, γ) = -R(𝒦, γ), R = 1 or the rotation by π about a principal axis, keeps M.  If it maps the orbit"
+    )
+    p.say(
+        "to itself, W is similar to W⁻¹: det W = 1 (it is positive), and, as M has an odd dimension, 1 is an eigenvalue:"
+    )
+    a, b = sp.symbols("a1 a2")
+    ring = Quotient((a, b), [])
+
+    def unit(text: str, second: sp.Expr) -> Equation:
+        return Equation(text, [1 - a + second - 1], [sp.S.Zero], ring)
+
+    p.printed(unit("χ(1) = 1 - tr W + tr W⁻¹ - 1 = 0 where tr W⁻¹ = tr W", a))
+    p.say(
+        "So only orbits that no reversor keeps say something; on M they are the generic ones, and they come in pairs with"
+    )
+    p.say("reciprocal determinants.  `chapsym certify periodic-orbit` finds and encloses them.")
+    p.control(unit("the same with another trace of W⁻¹", b))
+
+
+if __name__ == "__main__":
+    main(__file__)

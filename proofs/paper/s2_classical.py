@@ -1,0 +1,221 @@
+"""Section 2: the classical ball, n = 3: equations, integrals, the invariant measure, vertical momentum."""
+
+from dataclasses import replace
+
+import sympy as sp
+
+from chapsym.derive import continuous, motion, three
+from chapsym.derive.continuous import RING, inverse_inertia, rolling_factor
+from chapsym.derive.limits import omega
+from chapsym.derive.quotient import Quotient
+from chapsym.derive.three import J1, J2, J3, D, K, gamma, hat
+from chapsym.derive.words import evaluate
+from chapsym.proofs.paper.s2_continuous import BALL, SPIN, UNIT, unit_vertical
+from chapsym.prove import Equation, Fact, Proof, claim, main, rational_point
+
+alpha = sp.Matrix(sp.symbols("a1:4"))  # dω/dt
+h, l = sp.symbols("h l")
+VERTICAL_RATE = gamma.cross(omega)
+
+
+def equation(text: str, left, right, ring: Quotient = RING) -> Equation:
+    """One scalar or vector equation."""
+    pair = [list(side) if isinstance(side, sp.MatrixBase) else [sp.sympify(side)] for side in (left, right)]
+    return Equation(text, *pair, ring)
+
+
+def momentum() -> sp.Matrix:
+    """K(ω, γ)."""
+    return sp.Matrix(continuous.momentum())
+
+
+def momentum_rate() -> sp.Matrix:
+    """dK/dt along γ̇ = γ×ω, for any ω̇."""
+    return momentum().jacobian(omega) * alpha + momentum().jacobian(gamma) * VERTICAL_RATE
+
+
+def solved_acceleration() -> sp.Matrix:
+    """ω̇ of (2.2)."""
+    gyration = (three.lam() * omega).cross(omega)
+    lift = D / rolling_factor() * (inverse_inertia() * gamma).dot(gyration) * gamma
+    return inverse_inertia() * (gyration + lift)
+
+
+@claim("2.3", r"\dot K = K\times\omega,\ \dot\gamma = \gamma\times\omega", ["2.12"])
+def vector_equations(p: Proof) -> None:
+    """The conservation of the momentum about the contact point, as vectors: (2.12) for n = 3."""
+    p.assume("the vector of a skew matrix A is (A₃₂, A₁₃, A₂₁), as in Section 5: ωx = ω×x")
+    spin, tensor = hat(omega), hat(K)
+    ring = Quotient(RING.symbols)
+    p.printed(
+        equation("the vector of -[ω,K] is K×ω", -three.axial(spin * tensor - tensor * spin), K.cross(omega), ring),
+        equation("-ωγ = γ×ω", -spin * gamma, gamma.cross(omega), ring),
+    )
+    words = motion.contact_momentum()
+    values = {motion.omega: spin, motion.J: three.J, motion.Gamma: gamma * gamma.T, motion.D: D}
+    p.lemma(
+        equation(
+            "K of (2.13) is Λω - D⟨ω,γ⟩γ",
+            three.axial(evaluate(words, values)),
+            three.lam() * omega - D * omega.dot(gamma) * gamma,
+        )
+    )
+    p.control(
+        equation("the vector of -[ω,K] is ω×K", -three.axial(spin * tensor - tensor * spin), omega.cross(K), ring)
+    )
+
+
+@claim(
+    "2.2",
+    r"\Lambda\dot\omega = \Lambda\omega\times\omega + \tfrac DF\langle\Lambda^{-1}\gamma,\Lambda\omega\times\omega\rangle\gamma",
+    ["2.3", "2.2-F"],
+)
+def closed_system(p: Proof) -> None:
+    """The equations for ω, γ follow from (2.3) and K = Λω - D⟨ω,γ⟩γ."""
+    p.assume("J_i + J_j > 0, so that Λ is regular and F > 0 (2.13)")
+    p.say(
+        "Put ω̇ from (2.2) into K̇ = ∂K/∂ω ω̇ + ∂K/∂γ (γ×ω); it must be K×ω. B(γ) = ∂K/∂ω is invertible, so ω̇ is unique."
+    )
+    acceleration = dict(zip(alpha, solved_acceleration(), strict=True))
+    rate = momentum_rate().subs(acceleration, simultaneous=True)
+    p.printed(equation("K̇ = K×ω", rate, momentum().cross(omega)))
+    p.lemma(equation("det B(γ) = det Λ · F", momentum().jacobian(omega).det(), three.lam().det() * rolling_factor()))
+    wrong = dict(zip(alpha, inverse_inertia() * (three.lam() * omega).cross(omega), strict=True))
+    p.control(
+        equation(
+            "K̇ = K×ω without the last term", momentum_rate().subs(wrong, simultaneous=True), momentum().cross(omega)
+        )
+    )
+
+
+@claim(
+    "2.4",
+    r"\langle\gamma,\gamma\rangle,\ \langle K,\gamma\rangle\equiv\langle J\omega,\gamma\rangle = h,\ "
+    r"\langle K,K\rangle = n,\ \langle K,\omega\rangle = l \text{ are four independent integrals}",
+    ["2.3", "2.2"],
+)
+def four_integrals(p: Proof) -> None:
+    """The four integrals, and that they are independent."""
+    p.assume("J of Section 2 is the inertia tensor, Λ - D")
+    central = three.lam() - D * sp.eye(3)
+    k = momentum()
+    p.say("Along (2.3) the first three are constant because ⟨x×ω, y⟩ + ⟨x, y×ω⟩ = 0.")
+    rates = [
+        ("⟨γ,γ⟩", 2 * gamma.dot(gamma.cross(omega))),
+        ("⟨K,γ⟩", K.cross(omega).dot(gamma) + K.dot(gamma.cross(omega))),
+        ("⟨K,K⟩", 2 * K.dot(K.cross(omega))),
+    ]
+    p.printed(*(equation(f"d/dt {name} = 0", value, 0) for name, value in rates))
+    p.printed(equation("⟨K,γ⟩ = ⟨Jω,γ⟩", k.dot(gamma), (central * omega).dot(gamma)))
+    energy = k.dot(omega)
+    acceleration = dict(zip(alpha, solved_acceleration(), strict=True))
+    power = (sp.Matrix([energy]).jacobian(omega) * alpha + sp.Matrix([energy]).jacobian(gamma) * VERTICAL_RATE)[0]
+    p.printed(equation("d/dt ⟨K,ω⟩ = 0", power.subs(acceleration, simultaneous=True), 0))
+    p.say("Independent: their gradients have rank 4 at a rational point, hence on an open dense set.")
+    functions = sp.Matrix([gamma.dot(gamma), k.dot(gamma), k.dot(k), energy])
+    gradients = functions.jacobian([*omega, *gamma]).subs({**BALL, **UNIT}, simultaneous=True)
+    p.lemma(Fact(f"the rank at {BALL}, γ = (2/7,3/7,6/7), ω = (1,-1,2) is 4", gradients.subs(SPIN).rank() == 4))
+    p.lemma(Fact("a degenerate case: at rest, ω = 0, it is less", gradients.subs(dict.fromkeys(omega, 0)).rank() < 4))
+    p.control(equation("d/dt ⟨K,ω⟩ = 0 for Λω̇ = Λω×ω", power.subs(
+        dict(zip(alpha, inverse_inertia() * (three.lam() * omega).cross(omega), strict=True)), simultaneous=True), 0))  # fmt: skip
+    p.control(equation("⟨K,γ⟩ = ⟨Λω,γ⟩", k.dot(gamma), (three.lam() * omega).dot(gamma)))
+
+
+@claim("2.4-kinetic", r"\langle K,\omega\rangle \text{ is the kinetic energy}", ["2.4"])
+def kinetic_energy(p: Proof) -> None:
+    """⟨K,ω⟩ is twice the kinetic energy."""
+    kinetic = continuous.lagrangian_energy()
+    left = momentum().dot(omega)
+    p.printed(equation("⟨K,ω⟩ = ½m|v|² + ½⟨Iω,ω⟩", left, kinetic))
+    p.corrected(r"\langle K,\omega\rangle = 2T", equation("⟨K,ω⟩ = m|v|² + ⟨Iω,ω⟩", left, 2 * kinetic))
+    p.counterexample(rational_point({**BALL, **UNIT, **SPIN}, [unit_vertical()]))
+    p.control(equation("⟨K,ω⟩ = -2T", left, -2 * kinetic))
+
+
+@claim(
+    "2.6", r"\sqrt{\langle J\gamma,\Lambda^{-1}\gamma\rangle}\,d\omega_1\wedge\dots\wedge d\gamma_3", ["2.2", "2.2-F"]
+)
+def invariant_measure(p: Proof) -> None:
+    """The invariant measure, by the exact divergence."""
+    p.assume("J_i + J_j > 0, so that Λ is regular and F > 0 (2.13)")
+    p.assume("|γ| = 1: F is taken as ⟨Iγ, Λ⁻¹γ⟩ near the sphere, and the field is tangent to it")
+    p.say("div(√F X) = 0 is, times 2√F: Ḟ + 2F div X = 0, with X = (ω̇, γ×ω) of (2.2) in R⁶.")
+    factor = rolling_factor()
+    field = sp.Matrix([*solved_acceleration(), *VERTICAL_RATE])
+    places = [*omega, *gamma]
+    divergence = sum(sp.diff(field[i], places[i]) for i in range(6))
+    rate = (sp.Matrix([factor]).jacobian(gamma) * VERTICAL_RATE)[0]
+    p.printed(equation("Ḟ + 2F div X = 0", rate + 2 * factor * divergence, 0))
+    p.control(equation("Ḟ + F div X = 0 (density F)", rate + factor * divergence, 0))
+    p.control(equation("div X = 0 (density 1)", divergence, 0))
+
+
+def at_vertical(expr: sp.Expr | sp.Matrix):
+    """On K = hγ: ω = Λ⁻¹(h + D⟨ω,γ⟩)γ = sΛ⁻¹γ; the claims are judged in s and γ."""
+    return expr.subs(dict(zip(omega, s * inverse_inertia() * gamma, strict=True)), simultaneous=True)
+
+
+#: K = hγ is Λω = sγ, and s = h + D⟨ω,γ⟩.
+s = sp.Symbol("s")
+VERTICAL = Quotient((s, *gamma, J1, J2, J3, D), [three.UNIT_VERTICAL])
+
+
+def vertical_values() -> tuple[sp.Expr, sp.Expr]:
+    """h and l = ⟨K,ω⟩ on Λω = sγ."""
+    height = at_vertical(momentum()).dot(gamma)
+    return height, height * at_vertical(omega).dot(gamma)
+
+
+@claim(
+    "2.7-vertical",
+    r"K = h\gamma:\ \langle\omega,\gamma\rangle = \tfrac lh,\ \Lambda\omega = \tfrac{h^2+Dl}h\gamma",
+    ["2.4"],
+)
+def vertical_momentum(p: Proof) -> None:
+    """What K = hγ makes of ω."""
+    p.assume("h ≠ 0; l = ⟨K,ω⟩ as in (2.4)")
+    height, power = vertical_values()
+    p.lemma(equation("Λω = sγ makes K = hγ", at_vertical(momentum()), height * gamma, VERTICAL))
+    p.printed(
+        equation("⟨ω,γ⟩ = l/h", at_vertical(omega).dot(gamma), power / height, VERTICAL),
+        equation("Λω = ((h²+Dl)/h)γ", s * gamma, (height**2 + D * power) / height * gamma, VERTICAL),
+    )
+    p.control(equation("Λω = ((h²-Dl)/h)γ", s * gamma, (height**2 - D * power) / height * gamma, VERTICAL))
+
+
+@claim("2.7", r"\Lambda\dot\omega = \Lambda\omega\times\omega", ["2.2", "2.7-vertical"])
+def euler_top(p: Proof) -> None:
+    """For vertical momentum the equations are those of the Euler top."""
+    lifted = (inverse_inertia() * gamma).dot((three.lam() * omega).cross(omega))
+    p.printed(equation("⟨Λ⁻¹γ, Λω×ω⟩ = 0, so that (2.2) is (2.7)", at_vertical(lifted), 0, VERTICAL))
+    p.say("K = hγ stays: K and γ have the same equation (2.3).")
+    p.control(equation("the same for any ω", lifted, 0))
+
+
+@claim(
+    "2.7-integrals",
+    r"\langle\omega,\Lambda\omega\rangle = l,\ \langle\Lambda\omega,\Lambda\omega\rangle = k^2 \text{ with the } l \text{ of (2.4)}",
+    ["2.7-vertical"],
+)
+def top_integrals(p: Proof) -> None:
+    """The two integrals of the top are constant, but the first is not the l of (2.4)."""
+    p.assume("h ≠ 0")
+    height, power = vertical_values()
+    spin, body = at_vertical(omega), s * gamma
+    p.lemma(
+        equation("|Λω|² = ((h²+Dl)/h)², a constant", body.dot(body), ((height**2 + D * power) / height) ** 2, VERTICAL)
+    )
+    p.printed(equation("⟨ω,Λω⟩ = l", spin.dot(body), power, VERTICAL))
+    p.corrected(
+        r"\langle\omega,\Lambda\omega\rangle = \frac{(h^2+Dl)\,l}{h^2}",
+        equation("⟨ω,Λω⟩ = (h²+Dl)l/h²", spin.dot(body), (height**2 + D * power) * power / height**2, VERTICAL),
+    )
+    hypothesis = Equation("|γ| = 1", [gamma.dot(gamma)], [sp.S.One], VERTICAL)
+    point = rational_point({**BALL, **UNIT, s: 1}, [hypothesis])
+    shown = {name: value for name, value in point.values.items() if name != "s"} | {"Λω": "γ"}
+    p.counterexample(replace(point, values=shown))
+    p.control(equation("⟨ω,Λω⟩ = (h²-Dl)l/h²", spin.dot(body), (height**2 - D * power) * power / height**2, VERTICAL))
+
+
+if __name__ == "__main__":
+    main(__file__)

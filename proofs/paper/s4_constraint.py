@@ -1,0 +1,186 @@
+"""Section 4: the discrete constraint, the reaction force, and the closed equation."""
+
+import sympy as sp
+
+from chapsym.derive import ball, limits, principle
+from chapsym.derive.principle import ALGEBRA, R0, R0T, R1, R1T, RT, D, J, R, gamma, gammaT, m, rho
+from chapsym.derive.words import evaluate
+from chapsym.proofs.paper.s4_principle import equation, path_point
+from chapsym.prove import Equation, Fact, Point, Proof, claim, main
+
+# Body rotations and the vertical tensor, as words in the attitudes.
+NOW, NOW_T = RT * R1, R1T * R
+BEFORE, BEFORE_T = R0T * R, RT * R0
+GAMMA = RT * gamma * gammaT * R
+
+
+def spatial_rotation(a: sp.Expr, b: sp.Expr) -> sp.Expr:
+    """Ω̄ - Ω̄ᵀ for the step from the attitude a to b."""
+    rotation = b * ALGEBRA.transpose(a)
+    return rotation - ALGEBRA.transpose(rotation)
+
+
+@claim(
+    "4.9",
+    r"\Delta r_k + \frac\rho2(\bar\Omega_k - \bar\Omega_k^T)\vec\gamma = 0 "
+    r"\text{ is horizontal, admits }(q,q)\text{ and tends to (4.2)}",
+)
+def chosen_constraint(p: Proof) -> None:
+    """The chosen discrete constraint: horizontal, consistent on the diagonal, of second order."""
+    p.assume("(4.2) and (4.9) share the direction of γ; with γ upwards both need ρ → -ρ (see 2.1)")
+    rotational = principle.discrete_constraint(R, R1, sp.S.Zero, sp.S.Zero)
+    p.say("Δr is minus the rotational part of the constraint; its vertical component is γᵀΔr = tr(Δr γᵀ).")
+    vertical = ALGEBRA.trace(rotational * gammaT)
+    diagonal = rotational.subs({R1: R, R1T: RT})
+    limit = limits.constraint()
+    p.show("(4.9)/ε - Δr/ε", f"{limit.limit} + ε^{limit.order}·({limit.leading}) + ...")
+    continuous = principle.rolling_constraint(sp.S.Zero, limits.omega_space * R)
+    both = ALGEBRA
+    p.printed(
+        equation("γᵀ Δr_k = 0", vertical, sp.S.Zero),
+        equation("(4.9) at R_{k+1} = R_k, r_{k+1} = r_k", diagonal, sp.S.Zero),
+        Equation("(4.9)/ε → the rotational part of (4.2), ρ ω̄ γ", [limit.limit], [continuous], both),
+    )
+    p.lemma(Fact(f"the remainder has the exact order 2, here {limit.order}", limit.order == 2))
+    p.lemma(Equation("its leading term is (ρ/6) ω̄³γ", [limit.leading], [rho * limits.omega_space**3 * gamma / 6], both))
+    naive = rho * R1 * RT * gamma
+    p.control(equation("the naive constraint is horizontal", ALGEBRA.trace(naive * gammaT), sp.S.Zero))
+    p.control(equation("the naive constraint admits (q, q)", naive.subs({R1: R, R1T: RT}), sp.S.Zero))
+    p.control(Equation("(4.9)/ε → ρ ω̄ᵀγ", [limit.limit], [-rho * limits.omega_space * gamma], both))
+
+
+@claim(
+    "4.9-naive",
+    r"\Delta r_k + \rho\,\bar\Omega_k\bar\gamma = 0 \text{ imitates (2.9) and allows } \Delta r_k"
+    r"\text{ that are not horizontal}",
+)
+def naive_constraint(p: Proof) -> None:
+    """The naive constraint allows displacements that are not horizontal, even at rest."""
+    p.say("It has the form of (2.9), with Δr for v and Ω̄ for ω. Its vertical component is -ρ γᵀΩ̄γ:")
+    turn = sp.Matrix([[1, 0, 0], [0, "3/5", "-4/5"], [0, "4/5", "3/5"]])
+    up = sp.Matrix([0, 0, 1])
+    values = {R: sp.eye(3), RT: sp.eye(3), R1: turn, R1T: turn.T, gamma: up, rho: sp.S.One}
+    naive = -rho * R1 * RT * gamma
+    p.printed(Fact("at Ω̄ = a turn by (3/5, 4/5) about e₁, γ = e₃: Δr = (0, 4/5, -3/5)",
+                   turn.det() == 1 and list(evaluate(naive, values)) == [0, sp.Rational(4, 5), sp.Rational(-3, 5)]))  # fmt: skip
+    p.witness("generic", {"Ω̄": str(turn.tolist()), "γ": "e3", "ρ": "1"})
+    p.say("At Ω̄ = 1 it asks for Δr = -ργ: it does not admit (q, q), nor does it tend to (4.2).")
+    p.lemma(equation("Δr at R_{k+1} = R_k is -ργ", naive.subs({R1: R, R1T: RT}), -rho * gamma))
+    p.control(equation("its vertical component vanishes", ALGEBRA.trace(naive * gammaT), sp.S.Zero))
+
+
+@claim("4.9-limit", r"\bar\Omega_k \mapsto \mathbf I + \omega", uses=["4.9"])
+def rotation_limit(p: Proof) -> None:
+    """The continuous limit of the rotation: ε is missing."""
+    algebra, spin = ALGEBRA, limits.omega_space
+    expansion = sp.expand(limits.exponential(spin))
+    p.show("Ω̄", expansion)
+    zeroth, first = expansion.coeff(limits.eps, 0), expansion.coeff(limits.eps, 1)
+    p.say("As a statement about the limit: Ω̄ = 1 + (first order) + O(ε²), where the first order is εω, not ω.")
+    e = sp.Symbol("e")  # the value of ε, a parameter of the words
+    p.printed(Equation("the part of Ω̄ up to order 1 = 1 + ω", [zeroth + e * first], [1 + spin], algebra))
+    p.corrected(
+        r"\bar\Omega_k \mapsto \mathbf I + \varepsilon\omega",
+        Equation("the part of Ω̄ up to order 1 = 1 + εω", [zeroth + e * first], [1 + e * spin], algebra),
+    )
+    turn = sp.Matrix([[0, 0, 0], [0, 0, -1], [0, 1, 0]])
+    values = {spin: turn, e: sp.Rational(1, 2)}
+    shown = {"ω": str(turn.tolist()), "ε": "1/2"}
+    p.counterexample(Point(shown, lambda expr: evaluate(expr, values)))
+    p.control(Equation("up to order 1 it is 1 - εω", [zeroth + e * first], [1 - e * spin], algebra))
+
+
+@claim(
+    "4.9-f",
+    r"\vec f^k = -\frac{m\rho}2(\bar\Omega_k-\bar\Omega_k^T)\vec\gamma "
+    r"+ \frac{m\rho}2(\bar\Omega_{k-1}-\bar\Omega_{k-1}^T)\vec\gamma",
+    uses=["4.4", "4.9"],
+)
+def spatial_reaction(p: Proof) -> None:
+    """The reaction in space: (4.4) on the discrete constraint."""
+    force = principle.on_constraint(principle.reaction())
+    p.show("f", force)
+    after, before = (m * rho / 2 * spatial_rotation(*pair) * gamma for pair in [(R, R1), (R0, R)])
+    p.printed(equation("f as printed = m(Δr_k - Δr_{k-1}) on (4.9)", -after + before, force))
+    p.control(equation("f with its second sign flipped", -after - before, force))
+
+
+@claim(
+    "4.9-F",
+    r"\vec F^k = -\frac{m\rho}2(\Omega_k-\Omega_k^T)\gamma_k - \frac{m\rho}2(\Omega_{k-1}-\Omega_{k-1}^T)\gamma_k",
+    uses=["4.9-f"],
+)
+def body_reaction(p: Proof) -> None:
+    """The reaction in the body: the sign of its second term is misprinted."""
+    force = RT * principle.on_constraint(principle.reaction())
+    after = m * rho / 2 * (NOW - NOW_T) * RT * gamma
+    before = m * rho / 2 * (BEFORE - BEFORE_T) * RT * gamma
+    p.printed(equation("F as printed = R_kᵀ f", -after - before, force))
+    p.corrected(
+        r"\vec F^k = -\frac{m\rho}2(\Omega_k-\Omega_k^T)\gamma_k + \frac{m\rho}2(\Omega_{k-1}-\Omega_{k-1}^T)\gamma_k",
+        equation("F with + in its second term = R_kᵀ f", -after + before, force),
+    )
+    turn = sp.Matrix([[1, 0, 0], [0, "3/5", "-4/5"], [0, "4/5", "3/5"]])
+    other = sp.Matrix([["3/5", 0, "4/5"], [0, 1, 0], ["-4/5", 0, "3/5"]])
+    p.counterexample(
+        path_point({R0: sp.eye(3), R: turn, R1: other, gamma: sp.Matrix([0, 0, 1]), m: sp.S.One, rho: sp.S.One})
+    )
+    p.control(equation("F with both signs flipped", after - before, force))
+
+
+@claim(
+    "4.9-wedge",
+    r"\vec F^k\wedge\gamma_k^T = -\frac{m\rho}2[\Omega_k\Gamma_k+\Gamma_k\Omega_k] "
+    r"+ \frac{m\rho}2[\Omega_k^T\Gamma_k+\Gamma_k\Omega_k^T] "
+    r"+ \frac{m\rho}2[\Omega_{k-1}\Gamma_k+\Gamma_k\Omega_{k-1}] "
+    r"- \frac{m\rho}2[\Omega_{k-1}^T\Gamma_k+\Gamma_k\Omega_{k-1}^T]",
+    uses=["4.9-F"],
+)
+def torque(p: Proof) -> None:
+    """The torque of the reaction, from the corrected F."""
+    p.assume("F with the correction of (4.9-F); its printed sign does not give the printed torque")
+
+    def both_sides(x: sp.Expr) -> sp.Expr:
+        return m * rho / 2 * (x * GAMMA + GAMMA * x)
+
+    printed = -both_sides(NOW) + both_sides(NOW_T) + both_sides(BEFORE) - both_sides(BEFORE_T)
+    force = RT * principle.on_constraint(principle.reaction())
+    derived = ALGEBRA.wedge(force, RT * gamma)
+    p.printed(equation("the printed torque = Fγᵀ - γFᵀ", printed, derived))
+    wrong = -m * rho / 2 * ((NOW - NOW_T) + (BEFORE - BEFORE_T)) * RT * gamma
+    p.control(equation("the printed torque = Fγᵀ - γFᵀ with the printed F", printed, ALGEBRA.wedge(wrong, RT * gamma)))
+
+
+def closed_sides(sign: int = 1) -> tuple[sp.Expr, sp.Expr]:
+    """The two sides of (4.10) as printed; `sign` mutates the first D-term of the right side."""
+
+    def both_sides(x: sp.Expr) -> sp.Expr:
+        return D / 2 * (x * GAMMA + GAMMA * x)
+
+    now, before = NOW * J - J * NOW_T, BEFORE * J - J * BEFORE_T
+    left = now + both_sides(NOW) - both_sides(NOW_T)
+    right = BEFORE_T * before * BEFORE + sign * both_sides(BEFORE) - both_sides(BEFORE_T)
+    return left, right
+
+
+@claim(
+    "4.10",
+    r"M_k + \frac{m\rho^2}2[\Omega_k\Gamma_k+\Gamma_k\Omega_k] - \frac{m\rho^2}2[\Omega_k^T\Gamma_k+\Gamma_k\Omega_k^T] "
+    r"= \Omega_{k-1}^T M_{k-1}\Omega_{k-1} + \frac{m\rho^2}2[\Omega_{k-1}\Gamma_k+\Gamma_k\Omega_{k-1}] "
+    r"- \frac{m\rho^2}2[\Omega_{k-1}^T\Gamma_k+\Gamma_k\Omega_{k-1}^T]",
+    uses=["4.7", "4.9-wedge"],
+)
+def closed_equation(p: Proof) -> None:
+    """The closed equation for (Ω, γ): the balance with the forces eliminated."""
+    p.say("R_kᵀ S R_k with m = D/ρ² and Δr from (4.9); it vanishes along every path:")
+    balance = ball.body_balance()
+    p.show("R_kᵀ S R_k", balance)
+    left, right = closed_sides()
+    p.printed(equation("(4.10) left - right = R_kᵀ S R_k", left - right, balance))
+    left, right = closed_sides(sign=-1)
+    p.control(equation("(4.10) with one sign flipped", left - right, balance))
+    p.control(equation("(4.10) with D in the place of D/2", (left - right).subs(D, 2 * D), balance))
+
+
+if __name__ == "__main__":
+    main(__file__)

@@ -1,0 +1,70 @@
+"""Section 4: the intertwining relations of Remark 3."""
+
+import sympy as sp
+
+from chapsym.derive import ball, three
+from chapsym.derive.ball import ALGEBRA, D, Gamma, J, Omega, OmegaT
+from chapsym.derive.words import evaluate
+from chapsym.proofs import second_routes
+from chapsym.prove import Equation, Proof, claim, main
+
+
+def printed_relations(sign: int = 1) -> tuple[sp.Expr, sp.Expr]:
+    """The right sides of the relations for 𝒦_{k-1} and 𝒦_k; `sign` mutates the place of Γ_k."""
+    mean = J + D / 2 * (Gamma + sign * ball.carried(Gamma))
+    return Omega * mean - mean * OmegaT, mean * Omega - OmegaT * mean
+
+
+def entries(expr: sp.Expr) -> list[sp.Expr]:
+    """The nine entries for n = 3, in Euler parameters."""
+    rotation = sp.Matrix(three.rotation())
+    values = {Omega: rotation, OmegaT: rotation.T, J: three.J, Gamma: three.gamma * three.gamma.T, D: three.D}
+    return list(evaluate(expr, values))
+
+
+@claim(
+    "remark-3",
+    r"\mathcal K_{k-1} = \Omega_{k-1}(J+\tfrac D2(\Gamma_{k-1}+\Gamma_k)) - (J+\tfrac D2(\Gamma_{k-1}+\Gamma_k))"
+    r"\Omega_{k-1}^T,\ \mathcal K_k = (J+\tfrac D2(\Gamma_{k-1}+\Gamma_k))\Omega_{k-1} "
+    r"- \Omega_{k-1}^T(J+\tfrac D2(\Gamma_{k-1}+\Gamma_k))",
+    uses=["prop-1"],
+)
+def intertwining(p: Proof) -> None:
+    """The subsequent momenta intertwine, for every n and entry by entry for n = 3."""
+    momentum = ball.momentum()
+    p.say("𝒦_{k-1} in Ω = Ω_{k-1}, Γ = Γ_{k-1}; Γ_k = ΩᵀΓΩ; ΩΩᵀ = ΩᵀΩ = 1:")
+    p.show("𝒦_{k-1}", momentum)
+    p.show("𝒦_k = Ωᵀ𝒦_{k-1}Ω", ball.carried(momentum))
+    before, after = printed_relations()
+    p.show("right side for 𝒦_{k-1}", ALGEBRA.normal(before))
+    p.show("right side for 𝒦_k", ALGEBRA.normal(after))
+    p.printed(
+        Equation("the relation for 𝒦_{k-1}, every n", [before], [momentum], ALGEBRA),
+        Equation("the relation for 𝒦_k, every n", [after], [ball.carried(momentum)], ALGEBRA),
+    )
+    p.say("For n = 3 the same with the matrix of Euler parameters, modulo |q|² + q₀² = 1:")
+    p.printed(Equation("the relation for 𝒦_{k-1}, n = 3, nine entries", entries(before), entries(momentum), three.RING))
+    p.printed(
+        Equation(
+            "the relation for 𝒦_k, n = 3, nine entries", entries(after), entries(ball.carried(momentum)), three.RING
+        )
+    )
+    wrong_before, wrong_after = printed_relations(sign=-1)
+    p.control(Equation("the relation for 𝒦_{k-1} with Γ_{k-1} - Γ_k", [wrong_before], [momentum], ALGEBRA))
+    p.control(Equation("the relation for 𝒦_k with Γ_{k-1} - Γ_k", [wrong_after], [ball.carried(momentum)], ALGEBRA))
+    p.control(Equation("the two relations exchanged, n = 3", entries(after), entries(momentum), three.RING))
+    p.route(
+        "from (4.13) as printed, Ω the Cayley transform of a free skew matrix, n = 3 and n = 4",
+        *second_routes.intertwining(3),
+        *second_routes.intertwining(4),
+    )
+    for text, relations in [
+        ("Γ_{k-1} - Γ_k", second_routes.intertwining(3, sign=-1)),
+        ("the momenta exchanged", second_routes.intertwining(3, swapped=True)),
+    ]:
+        for time, relation in zip(("k-1", "k"), relations, strict=True):
+            p.control(second_routes.mutated(f"n = 3: the relation for 𝒦_{{{time}}} with {text}", relation))
+
+
+if __name__ == "__main__":
+    main(__file__)

@@ -1,0 +1,175 @@
+"""Section 4: the momentum about the contact point (Propositions 1 and 2)."""
+
+import sympy as sp
+
+from chapsym.derive import ball
+from chapsym.derive.ball import ALGEBRA, D, Gamma, J, K, Omega, OmegaT
+from chapsym.derive.words import WordAlgebra, evaluate, matrix_symbols
+from chapsym.proofs import second_routes
+from chapsym.prove import Equation, Fact, Proof, claim, main
+
+
+def equation(text: str, left: sp.Expr, right: sp.Expr, algebra: WordAlgebra = ALGEBRA) -> Equation:
+    """One matrix equation between words."""
+    return Equation(text, [left], [right], algebra)
+
+
+def printed_forms() -> tuple[sp.Expr, sp.Expr]:
+    """The two forms of (4.13)."""
+    shifted = J + D / 2 * Gamma
+    rest = D / 2 * (Gamma * Omega - OmegaT * Gamma)
+    centre = Omega * J - J * OmegaT
+    first = Omega * shifted - shifted * OmegaT + rest
+    second = centre + D / 2 * (Omega * Gamma - Gamma * OmegaT) + rest
+    return first, second
+
+
+@claim(
+    "prop-1",
+    r"\mathcal K_k = \Omega_{k-1}^T\mathcal K_{k-1}\Omega_{k-1},\ \Gamma_k = \Omega_{k-1}^T\Gamma_{k-1}\Omega_{k-1},"
+    r"\ \mathcal K_k = \Omega_k(J+\tfrac D2\Gamma_k)-(J+\tfrac D2\Gamma_k)\Omega_k^T"
+    r"+\tfrac D2(\Gamma_k\Omega_k-\Omega_k^T\Gamma_k)"
+    r"\equiv M_k+\tfrac D2(\Omega_k\Gamma_k-\Gamma_k\Omega_k^T)+\tfrac D2(\Gamma_k\Omega_k-\Omega_k^T\Gamma_k)",
+    uses=["4.10", "4.11"],
+)
+def compact_form(p: Proof) -> None:
+    """The closed equation is the conservation of one momentum, for every n."""
+    p.assume("Γ is even in γ: (4.12) fixes γ_k up to a common sign, and (4.11) fixes the sign")
+    p.say("The balance splits into a part with R_{k+1} and a part with R_{k-1}. In the symbols of their own steps:")
+    now, before = ball.split_balance()
+    p.show("part of the step k", now)
+    p.show("part of the step k-1", before)
+    first, second = printed_forms()
+    p.printed(
+        equation("(4.13), first form = the part of the step k", first, now),
+        equation("(4.13), second form = the part of the step k", second, now),
+        equation("the part of the step k-1 = -Ωᵀ𝒦_{k-1}Ω", before, -ball.carried(now)),
+    )
+    p.say("So 𝒦_k - Ωᵀ𝒦_{k-1}Ω is the balance itself: (4.12) and (4.10) say the same.")
+    p.lemma(equation("Γ_k = ΩᵀΓ_{k-1}Ω from (4.11)", OmegaT * ball.gamma * ball.gammaT * Omega, ball.carried(Gamma)))
+    p.lemma(equation("𝒦ᵀ = -𝒦", ALGEBRA.transpose(now), -now))
+    mutated = first - D * (Gamma * Omega - OmegaT * Gamma)
+    p.control(equation("the first form with -D/2 in its last term", mutated, now))
+    p.control(equation("the first form with D in the place of D/2", first.subs(D, 2 * D), now))
+    p.control(equation("the part of the step k-1 = -Ω𝒦Ωᵀ", before, -Omega * now * OmegaT))
+    p.route(
+        "from the action to (4.13) in free parameters, every turn without the eigenvalue -1: "
+        "n = 3 in any axes of space, n = 4 in those of the body at the time k",
+        *second_routes.conservation(3, any_axes=True),
+        *second_routes.conservation(4, any_axes=False),
+    )
+    wrong = second_routes.conservation(3, any_axes=False, last=-1)[1]
+    p.control(second_routes.mutated("n = 3: (4.12) with -D/2 in the last term of the first form", wrong))
+    wrong = second_routes.conservation(3, any_axes=False, naive=True)[1]
+    p.control(second_routes.mutated("n = 3: (4.12) for the naive constraint before (4.9)", wrong))
+
+
+@claim(
+    "prop-1-proof",
+    r"M_k+\tfrac D2[\Omega_k\Gamma_k+\Gamma_k\Omega_k]-\tfrac D2[\Omega_k^T\Gamma_k+\Gamma_k\Omega_k^T]"
+    r"=\Omega_{k-1}^TM_{k-1}\Omega_{k-1}+\tfrac D2[\Gamma_{k-1}\Omega_{k-1}+\Omega_{k-1}^T\Gamma_{k-1}\Omega_{k-1}^2]"
+    r"-\tfrac D2[(\Omega_{k-1}^T)^2\Gamma_{k-1}\Omega_{k-1}+\Omega_{k-1}^T\Gamma_{k-1}]",
+    uses=["4.10", "4.11"],
+)
+def inside_the_proof(p: Proof) -> None:
+    """The display inside the proof of Proposition 1."""
+    now, before = ball.split_balance()
+    centre = Omega * J - J * OmegaT
+    left = centre + D / 2 * (Omega * Gamma + Gamma * Omega) - D / 2 * (OmegaT * Gamma + Gamma * OmegaT)
+
+    def right(text: str, sign: int) -> Equation:
+        lifted = Gamma * Omega + OmegaT * Gamma * Omega**2 - sign * (OmegaT**2 * Gamma * Omega + OmegaT * Gamma)
+        return equation(text, ball.carried(centre) + D / 2 * lifted, -before)
+
+    p.printed(
+        equation("the left side = the part of the balance that belongs to the step k", left, now),
+        right("the right side = minus the part that belongs to the step k-1", +1),
+    )
+    p.control(right("the right side with its last bracket added", -1))
+
+
+@claim(
+    "4.14",
+    r"M_k = \Omega_{k-1}^TM_{k-1}\Omega_{k-1},\ M_k = \Omega_kJ-J\Omega_k^T;\quad "
+    r"M_{k-1} = \Omega_{k-1}J-J\Omega_{k-1}^T,\ M_k = J\Omega_{k-1}-\Omega_{k-1}^TJ",
+    uses=["prop-1"],
+)
+def discrete_euler_top(p: Proof) -> None:
+    """The discrete Euler top is the case D = 0, with its intertwining relations."""
+    now, before = (part.subs(D, 0) for part in ball.split_balance())
+    centre = Omega * J - J * OmegaT
+    p.printed(
+        equation("𝒦 at D = 0 is M_k = ΩJ - JΩᵀ", now, centre),
+        equation("the balance at D = 0 is M_k = ΩᵀM_{k-1}Ω", -before, ball.carried(centre)),
+        equation("Ωᵀ(ΩJ - JΩᵀ)Ω = JΩ - ΩᵀJ", ball.carried(centre), J * Omega - OmegaT * J),
+    )
+    p.control(equation("Ωᵀ(ΩJ - JΩᵀ)Ω = ΩJ - JΩᵀ", ball.carried(centre), centre))
+
+
+@claim("4.13-multivalued", r"\text{(4.13), in general, has several solutions } \Omega_k", uses=["prop-1"])
+def several_solutions(p: Proof) -> None:
+    """Two rational rotations with the same momentum at the same vertical, for a ball with D > 0."""
+    first, second = (_turn(c, s) for c, s in (("7/25", "24/25"), ("-7/25", "24/25")))
+    vertical = sp.Matrix([0, 1, 0])
+    values = {J: sp.diag(1, 2, 4), Gamma: vertical * vertical.T, D: sp.Integer(3)}
+
+    def momentum(turn: sp.Matrix) -> sp.Matrix:
+        return evaluate(ball.momentum(), {**values, Omega: turn, OmegaT: turn.T})
+
+    p.say("Turns about e₁ with cos θ = ±7/25, sin θ = 24/25, at γ = e₂, J = (1,2,4), D = 3:")
+    p.show("𝒦 of the first", momentum(first))
+    p.printed(Fact("both are rotations, they differ, and (4.13) gives the same 𝒦",
+                   first.T * first == sp.eye(3) == second.T * second
+                   and first.det() == 1 == second.det() and first != second
+                   and momentum(first) == momentum(second)))  # fmt: skip
+    p.witness("generic", {"Ω": "a turn about e1 by cos θ = ±7/25, sin θ = 24/25", "γ": "e2", "J": "(1,2,4)", "D": "3"})
+    p.lemma(Fact("𝒦 is not 0", not momentum(first).is_zero_matrix))
+    X, XT = matrix_symbols("X X^T")
+    other = ball.momentum().xreplace({Omega: X, OmegaT: XT})
+    algebra = WordAlgebra({**ALGEBRA.transposes, X: XT, XT: X}, {**ALGEBRA.rules, (X, XT): 1, (XT, X): 1})
+    p.control(equation("any two rotations have the same 𝒦", other, ball.momentum(), algebra))
+
+
+def _turn(cosine: str, sine: str) -> sp.Matrix:
+    """A turn about e₁."""
+    c, s = sp.Rational(cosine), sp.Rational(sine)
+    return sp.Matrix([[1, 0, 0], [0, c, -s], [0, s, c]])
+
+
+@claim(
+    "prop-2",
+    r"\mathrm{tr}\,\mathcal K^s,\ \mathrm{tr}(\mathcal K^s\Gamma^l),\ \mathrm{tr}\,\Gamma = 1 "
+    r"\text{ are preserved by every branch},\ s = 2,4,\dots,\ l\in\mathbb N",
+    uses=["prop-1"],
+)
+def trace_integrals(p: Proof) -> None:
+    """The trace integrals, for every n, every s and l, and whatever the branch."""
+    X, XT, Y, YT = matrix_symbols("X X^T Y Y^T")
+    algebra = WordAlgebra({**ALGEBRA.transposes, X: XT, XT: X, Y: YT, YT: Y}, ALGEBRA.rules)
+
+    def carried(expr: sp.Expr) -> sp.Expr:
+        return OmegaT * expr * Omega
+
+    p.say("The only fact about the step is (4.12): 𝒦_k = Ωᵀ𝒦_{k-1}Ω, Γ_k = ΩᵀΓ_{k-1}Ω with ΩΩᵀ = 1.")
+    p.lemma(
+        equation("carrying is multiplicative: (ΩᵀXΩ)(ΩᵀYΩ) = ΩᵀXYΩ", carried(X) * carried(Y), carried(X * Y), algebra)
+    )
+    p.lemma(equation("it fixes the identity", carried(sp.S.One), sp.S.One, algebra))
+    p.say("By induction (𝒦_k)^s(Γ_k)^l = Ωᵀ(𝒦_{k-1})^s(Γ_{k-1})^lΩ for all s, l; and the trace does not see Ω:")
+    trace_free = equation("tr ΩᵀXΩ = tr X", algebra.trace(carried(X)), algebra.trace(X), algebra)
+    p.lemma(trace_free)
+    for s, l in [(2, 0), (2, 1), (2, 2), (4, 0), (4, 1), (6, 3)]:
+        word = carried(K) ** s * carried(Gamma) ** l
+        p.printed(equation(f"tr 𝒦^{s}Γ^{l}", algebra.trace(word), algebra.trace(K**s * Gamma**l), algebra))
+    p.printed(equation("tr Γ", algebra.trace(carried(Gamma)), algebra.trace(Gamma), algebra))
+    p.say("tr Γ = |γ|² = 1 by the choice of γ. Odd s give 0, as 𝒦 is skew and Γ symmetric, for l = 0:")
+    p.lemma(equation("tr 𝒦³ = 0", algebra.trace(K**3), sp.S.Zero, algebra))
+    p.control(
+        equation("tr 𝒦²Γ with Γ_k = ΩΓΩᵀ", algebra.trace(carried(K) ** 2 * Omega * Gamma * OmegaT),
+                 algebra.trace(K**2 * Gamma), algebra)
+    )  # fmt: skip
+    p.control(equation("tr ΩXΩ = tr X", algebra.trace(Omega * X * Omega), algebra.trace(X), algebra))
+
+
+if __name__ == "__main__":
+    main(__file__)

@@ -1,0 +1,398 @@
+"""Section 5: the relation for the increment of the reduced map, and its algebraic form (5.14 to 5.16)."""
+
+from dataclasses import replace
+
+import sympy as sp
+
+from chapsym.derive import elliptic
+from chapsym.derive.elliptic import HALF, L1, L2, L3, LAMBDA, MEAN, U, k2, l
+from chapsym.derive.quotient import Quotient
+from chapsym.proofs import second_routes
+from chapsym.proofs.paper.s5_elliptic import TWO, V
+from chapsym.prove import Equation, Point, Proof, claim, main, rational_point
+
+
+def on_curve(expr: sp.Expr) -> sp.Expr:
+    """l replaced by what the modulus makes of it, so that k² is free."""
+    return sp.sympify(expr).subs(l, elliptic.level())
+
+
+def curve_equation(text: str, left: sp.Expr, right: sp.Expr) -> Equation:
+    """An equation in sn, cn, dn of ū and δu, with l in terms of k²."""
+    return Equation(text, [on_curve(left)], [on_curve(right)], TWO)
+
+
+#: Everything below has h = 1 (5.12-scaling), and y = sn²δu, w = sn cn dn of δu.
+D, Y = sp.Symbol("D"), HALF.sn**2
+SMALL_W = HALF.sn * HALF.cn * HALF.dn
+MU = (1 - L3 * l) / (L2 - L3)
+V_SQUARED = (L2 - L3) * (L1 * l - 1) / (L1 * L2 * L3)
+RATIO = HALF.cn * HALF.dn / HALF.sn
+
+
+def quotients() -> list[sp.Expr]:
+    """C1²/Λ1², C2²/Λ2², C3²/Λ3²."""
+    return [c / lam**2 for c, lam in zip(elliptic.squared_amplitudes(), LAMBDA, strict=True)]
+
+
+def true_g() -> sp.Expr:
+    """G as it must be: with k² under the second term, too."""
+    a, b, c = quotients()
+    return a / k2 * HALF.cn**2 - b / k2 * HALF.cn**2 * HALF.dn**2 + c * HALF.dn**2
+
+
+@claim(
+    "5.14-Pi1",
+    r"\Pi_1 = \tfrac1{\mathcal D}(\tfrac{C_1^2}{\Lambda_1}+\tfrac{C_3^2}{\Lambda_3}"
+    r"-\tfrac{C_2^2}{\Lambda_2}\mathrm{sn}^2\delta u) \equiv \tfrac1{\mathcal D}(l-\mu\,\mathrm{sn}^2\delta u),\ "
+    r"\mu = \tfrac{1-\Lambda_3l}{\Lambda_2-\Lambda_3}",
+    uses=["5.13", "5.8"],
+)
+def first_form(p: Proof) -> None:
+    """Π1 in Jacobi's functions."""
+    p.assume("C3 with the correction of (5.8)")
+    a, b, c = (square / lam for square, lam in zip(elliptic.squared_amplitudes(), LAMBDA, strict=True))
+    p.printed(
+        curve_equation("Π1 = (l - μ sn²δu)/𝒟", elliptic.quarter_form(1), (l - MU * Y) / elliptic.denominator()),
+        curve_equation("C1²/Λ1 + C3²/Λ3 - (C2²/Λ2) sn²δu = l - μ sn²δu", a + c - b * Y, l - MU * Y),
+    )
+    p.control(curve_equation("Π1 = (l + μ sn²δu)/𝒟", elliptic.quarter_form(1), (l + MU * Y) / elliptic.denominator()))
+
+
+@claim(
+    "5.14-Pi2",
+    r"\Pi_2 = \tfrac1{\mathcal D^2}(\dots) \equiv \tfrac1{\mathcal D^2}\bigl(\tfrac G{\mathrm{sn}^2\delta u}\mathcal D"
+    r"-V^2\tfrac{\mathrm{cn}^2\delta u\,\mathrm{dn}^2\delta u}{\mathrm{sn}^2\delta u}\bigr)",
+    uses=["5.13", "5.14-G"],
+)
+def second_form(p: Proof) -> None:
+    """Π2 in terms of G."""
+    p.assume("G with the correction of (5.14-G)")
+    a, b, c = quotients()
+    middle = a * MEAN.cn**2 * HALF.cn**2 + b * MEAN.sn**2 * HALF.cn**2 * HALF.dn**2 + c * MEAN.dn**2 * HALF.dn**2
+    square = elliptic.denominator() ** 2
+    right = true_g() / Y * elliptic.denominator() - V_SQUARED * RATIO**2
+    p.printed(
+        curve_equation("Π2 = (C1²/Λ1² cn²ū cn²δu + ...)/𝒟²", elliptic.quarter_form(2), middle / square),
+        curve_equation("Π2 𝒟² = G𝒟/sn² - V² cn² dn²/sn²", elliptic.quarter_form(2) * square, right),
+    )
+    wrong = true_g() / Y * elliptic.denominator() + V_SQUARED * RATIO**2
+    p.control(curve_equation("Π2 𝒟² = G𝒟/sn² + V² cn² dn²/sn²", elliptic.quarter_form(2) * square, wrong))
+
+
+@claim(
+    "5.14-G",
+    r"G = \tfrac{C_1^2}{k^2\Lambda_1^2}\mathrm{cn}^2\delta u-\tfrac{C_2^2}{\Lambda_2^2}\mathrm{cn}^2\delta u\,"
+    r"\mathrm{dn}^2\delta u+\tfrac{C_3^2}{\Lambda_3^2}\mathrm{dn}^2\delta u",
+    uses=["5.8", "5.8-modulus"],
+)
+def g_function(p: Proof) -> None:
+    """G: k² is missing under its second term."""
+    p.say("G is what Π2 𝒟² = G𝒟/sn² - V² cn² dn²/sn² makes of it, an identity in sn²ū:")
+    a, b, c = quotients()
+    derived = (
+        (elliptic.quarter_form(2) * elliptic.denominator() ** 2 + V_SQUARED * RATIO**2) * Y / elliptic.denominator()
+    )
+
+    def printed(under: sp.Expr) -> sp.Expr:
+        return a / k2 * HALF.cn**2 - b / under * HALF.cn**2 * HALF.dn**2 + c * HALF.dn**2
+
+    p.printed(curve_equation("G as printed", printed(sp.S.One), derived))
+    p.corrected(
+        r"G = \tfrac{C_1^2}{k^2\Lambda_1^2}\mathrm{cn}^2\delta u-\tfrac{C_2^2}{k^2\Lambda_2^2}\mathrm{cn}^2\delta u\,"
+        r"\mathrm{dn}^2\delta u+\tfrac{C_3^2}{\Lambda_3^2}\mathrm{dn}^2\delta u",
+        curve_equation("G with k² under the second term", printed(k2), derived),
+    )
+    p.counterexample(curve_point())
+    p.control(curve_equation("G with k² under the third term", printed(k2) + c * HALF.dn**2 * (1 / k2 - 1), derived))
+
+
+def curve_point() -> Point:
+    """Λ = (6,5,2), l = 3/10: k² = 1/6, V = 1/5; sn δu = 24/25, ū = 0."""
+    values = {L1: 6, L2: 5, L3: 2, k2: "1/6", HALF.sn: "24/25", HALF.cn: "7/25", HALF.dn: "23/25"}
+    free = elliptic.ring(HALF)
+    relations = Equation("the relations of δu", HALF.relations(), [sp.S.Zero] * 2, free)
+    point = rational_point({**values, MEAN.sn: 0, MEAN.cn: 1, MEAN.dn: 1}, [relations])
+    return replace(point, values={**point.values, "l": "3/10"})
+
+
+def coefficient(expr: sp.Expr, power: int) -> sp.Expr:
+    """The coefficient of sn^(2·power) δu in G/V², with cn² and dn² in terms of sn²."""
+    y = sp.Symbol("y")
+    in_y = sp.expand(expr).subs({HALF.cn**2: 1 - y, HALF.dn**2: 1 - k2 * y})
+    return sp.together(sp.expand(in_y).coeff(y, power) / V_SQUARED)
+
+
+@claim(
+    "5.14-alpha",
+    r"G \equiv V^2(1+\alpha\,\mathrm{sn}^2-\beta\,\mathrm{sn}^4),\ "
+    r"\alpha = \frac{2\Lambda_1\Lambda_3-(\Lambda_1+\Lambda_3-\Lambda_2)}{(\Lambda_2-\Lambda_3)(\Lambda_1l-1)}",
+    uses=["5.14-G"],
+)
+def alpha(p: Proof) -> None:
+    """α: l is missing beside 2Λ1Λ3 in the numerator."""
+    p.lemma(curve_equation("the constant term of G/V² is 1", coefficient(true_g(), 0), sp.S.One))
+    derived = coefficient(true_g(), 1)
+    p.show("α", sp.factor(on_curve(derived)))
+    below = (L2 - L3) * (L1 * l - 1)
+    p.printed(curve_equation("α as printed", (2 * L1 * L3 - (L1 + L3 - L2)) / below, derived))
+    p.corrected(
+        r"\alpha = \frac{2\Lambda_1\Lambda_3l-(\Lambda_1+\Lambda_3-\Lambda_2)}{(\Lambda_2-\Lambda_3)(\Lambda_1l-1)}",
+        curve_equation("α with 2Λ1Λ3 l", (2 * L1 * L3 * l - (L1 + L3 - L2)) / below, derived),
+    )
+    p.counterexample(curve_point())
+    p.control(curve_equation("α with Λ1Λ3 l", (L1 * L3 * l - (L1 + L3 - L2)) / below, derived))
+
+
+@claim(
+    "5.14-beta",
+    r"\beta = \frac{\Lambda_1\Lambda_3}{(\Lambda_2-\Lambda_3)^2}\frac{1-\Lambda_3l}{\Lambda_1l-1}",
+    uses=["5.14-G"],
+)
+def beta(p: Proof) -> None:
+    """β, for the G that is right."""
+    p.assume("G with the correction of (5.14-G)")
+    printed = L1 * L3 / (L2 - L3) ** 2 * (1 - L3 * l) / (L1 * l - 1)
+    p.printed(curve_equation("-β is the coefficient of sn⁴ in G/V²", -printed, coefficient(true_g(), 2)))
+    p.control(curve_equation("β with the other sign", printed, coefficient(true_g(), 2)))
+
+
+# The relation for the increment, in what it is made of: 𝒟, G, V, D and, for δu, y = sn², e = cn² dn²,
+# w = sn cn dn, λ = l - μ sn².  Between these only w² = y e is needed: 5.14-Pi1 and 5.14-Pi2 do the rest.
+SCALE, G, y, e, w, level = sp.symbols("Dscr G y e w lam")
+PARTS = Quotient((SCALE, G, V, D, y, e, w, level), [w**2 - y * e])
+
+
+def part(text: str, left: sp.Expr, right: sp.Expr) -> Equation:
+    """An equation between the parts."""
+    return Equation(text, [left], [right], PARTS)
+
+
+def true_relation(contact: sp.Expr = D, root: sp.Expr = V) -> sp.Expr:
+    """T = G𝒟 - 2Vw(𝒟 - Dλ): the relation for the increment is T = 0."""
+    return G * SCALE - 2 * root * w * (SCALE - contact * level)
+
+
+#: 1/σ = 1 - DΠ1 (5.11, h = 1), W = 2𝒟/ϰ = V cn dn/sn (5.13-V) and Π2𝒟² (5.14-Pi2).
+INVERSE, W, SECOND = 1 - D * level / SCALE, V * w / y, G * SCALE / y - V**2 * e / y
+
+
+def step_point() -> Point:
+    """Λ = (6,5,2), l = 3/10, V = 1/5, sn δu = 24/25, sn ū = 3/5, and the D that makes T = 0: about 0.92."""
+    point = {L1: 6, L2: 5, L3: 2, k2: sp.Rational(1, 6), l: sp.Rational(3, 10), MEAN.sn: sp.Rational(3, 5)}
+    point |= dict(zip(HALF, map(sp.Rational, ("24/25", "7/25", "23/25")), strict=True))
+    values = {
+        **{SCALE: elliptic.denominator(), G: true_g(), y: Y, e: (HALF.cn * HALF.dn) ** 2},
+        **{w: SMALL_W, level: l - MU * Y, V: sp.Rational(1, 5)},
+    }
+    exact = {symbol: sp.sympify(value).subs(point, simultaneous=True) for symbol, value in values.items()}
+    exact[D] = sp.solve(true_relation().subs(exact), D)[0]
+    square = V_SQUARED.subs(point, simultaneous=True)
+    hypotheses = [
+        part("w² = y e", w**2, y * e),
+        part("V² of (5.13-V)", V**2, square),
+        part("T = 0", true_relation(), 0 * w),
+    ]
+    found = rational_point(exact, hypotheses)
+    made_of = {"Λ": "(6, 5, 2)", "l": "3/10", "k²": "1/6", "sn δu": "24/25", "sn ū": "3/5"}
+    return replace(found, values={**made_of, **found.values})
+
+
+@claim(
+    "5.14",
+    r"(1-\tfrac d2\Pi_1)\sqrt{\mathcal D^2-\Pi_2\mathcal D^2} = V\tfrac{\mathrm{cn}\delta u\,\mathrm{dn}\delta u}"
+    r"{\mathrm{sn}\delta u} - \mathcal D(1-\tfrac d2\Pi_1)",
+    uses=["5.13-V", "5.14-Pi1", "5.14-Pi2", "prop-4"],
+)
+def before_squaring(p: Proof) -> None:
+    """The relation before squaring: d stands for D (h = 1), its factor ½ must be 1, and σ² is missing under the root."""
+    p.assume("h = 1 (5.12-scaling); sn δu, 𝒟 and 1 - DΠ1 do not vanish; d is D, the only thing (5.11) can make it")
+    half = 1 - D / 2 * level / SCALE
+    p.say("With 1/σ = 1 - DΠ1 (5.11) and 2𝒟/ϰ = V cn dn/sn =: W, prop-4 reads ±√(1 - σ²Π2) = σW/𝒟 - 1. Squared:")
+    p.printed(
+        part(
+            "(1-(D/2)Π1)²(𝒟² - Π2𝒟²) = (V cn dn/sn δu - 𝒟(1-(D/2)Π1))²",
+            half**2 * (SCALE**2 - SECOND),
+            (W - SCALE * half) ** 2,
+        )
+    )
+    p.corrected(
+        r"\pm\sqrt{(1-D\Pi_1)^2\mathcal D^2-\Pi_2\mathcal D^2} = V\tfrac{\mathrm{cn}\delta u\,\mathrm{dn}\delta u}"
+        r"{\mathrm{sn}\delta u} - \mathcal D(1-D\Pi_1)",
+        part(
+            "(V cn dn/sn δu - 𝒟(1-DΠ1))² - (1-DΠ1)²𝒟² + Π2𝒟² = T/sn²δu",
+            (W - SCALE * INVERSE) ** 2 - INVERSE**2 * SCALE**2 + SECOND,
+            true_relation() / y,
+        ),
+    )
+    p.counterexample(step_point())
+    p.control(part("the same with D/2", (W - SCALE * half) ** 2 - half**2 * SCALE**2 + SECOND, true_relation() / y))
+
+
+@claim(
+    "5.15",
+    r"-\tfrac{d^2}4\tfrac{(l-\mu\,\mathrm{sn}^2)^2}{\mathcal D^2}(G\mathcal D-V^2\mathrm{cn}^2\mathrm{dn}^2)"
+    r"+d\tfrac{l-\mu\,\mathrm{sn}^2}{\mathcal D}((G\mathcal D-V^2\mathrm{cn}^2\mathrm{dn}^2)-Vw\mathcal D)"
+    r"+\mathcal D(2Vw-G) = 0",
+    uses=["5.14"],
+)
+def relation_for_the_increment(p: Proof) -> None:
+    """The relation for the increment is linear in 𝒟, for both signs of the root, with no extraneous solution."""
+    p.assume("h = 1; w = sn cn dn of δu; sn δu, 𝒟 and σ are finite and not 0; G as corrected; d is D")
+    p.say("From prop-4 as corrected: (2σ/ϰ - 1)² = 1 - σ²Π2, 2σ/ϰ = σW/𝒟. The V² terms cancel, and one factor σ:")
+    statement = (W / (INVERSE * SCALE) - 1) ** 2 - 1 + SECOND / (INVERSE * SCALE) ** 2
+    factor = 1 / (INVERSE * SCALE) ** 2 / y
+    inside = G * SCALE - V**2 * e
+    printed = -(D**2) / 4 * level**2 / SCALE**2 * inside
+    printed += D * level / SCALE * (inside - V * w * SCALE) + SCALE * (2 * V * w - G)
+    p.printed(part("the printed relation", printed, 0 * w))
+    p.corrected(
+        r"G\,\mathcal D = 2Vw\,(\mathcal D - D(l-\mu\,\mathrm{sn}^2\delta u)),\text{ that is }"
+        r"1-k^2\mathrm{sn}^2\bar u\,\mathrm{sn}^2\delta u = \frac{2VwD(l-\mu\,\mathrm{sn}^2\delta u)}{2Vw-G}",
+        part(
+            "(2σ/ϰ-1)² - (1-σ²Π2) = T·σ²/(𝒟² sn²δu), T = G𝒟 - 2Vw(𝒟 - D(l-μ sn²δu))",
+            statement,
+            factor * true_relation(),
+        ),
+    )
+    p.say("So T = 0 is equivalent to the map, for both signs of the root. It is linear in sn²ū: the increment fixes")
+    p.say("sn²ū by an explicit formula, and ū ↦ δu is the inverse of that function. It depends on u through D only.")
+    p.counterexample(step_point())
+    p.control(part("the same with D/2 in T", statement, factor * true_relation(contact=D / 2)))
+    p.control(part("the same with -V in T", statement, factor * true_relation(root=-V)))
+    p.route(
+        "on the sphere, every two points of a curve: sn² of δu, ū and w are rational in γ, γ~ "
+        "by the addition theorem for ũ ± u; C1², C2², C3², k², G, μ typed as in the paper, corrected",
+        *second_routes.increment(),
+    )
+    p.route(
+        "every step of the map with 𝒦 = γ, from (4.13), solved for the ball (q₀q₁q₂q₃ ≠ 0)",
+        second_routes.increment_of_the_map(),
+    )
+    p.control(second_routes.mutated("T with 2D at two points of a curve", second_routes.increment(contact=2)[4]))
+    p.control(second_routes.mutated("T with -V at two points of a curve", second_routes.increment(sign=-1)[4]))
+    p.control(
+        second_routes.mutated("T = 0 with 2D at every step with 𝒦 = γ", second_routes.increment_of_the_map(contact=2))
+    )
+
+
+@claim("5.15-euler", r"d = 0:\ \text{the increment does not depend on } u", uses=["5.15"])
+def euler_increment(p: Proof) -> None:
+    """Without rolling the increment is constant."""
+    p.assume("(5.15) as corrected; 𝒟 ≠ 0")
+    factored = SCALE * (G - 2 * V * w)
+    p.printed(part("T at D = 0 is 𝒟(G - 2Vw), and ū is in 𝒟 only", true_relation(contact=sp.S.Zero), factored))
+    p.control(part("the same for any D", true_relation(), factored))
+
+
+@claim(
+    "5.16",
+    r"\mathcal D = \tfrac1{[1-k^2\mathrm{sn}^2u\,\mathrm{sn}^2\delta u]^2}(k^2\mathrm{sn}^2u\,\mathrm{sn}^2\delta u"
+    r"(2-(k^2+1)\mathrm{sn}^2\delta u-k^2\mathrm{sn}^4\delta u)+2k^2\mathrm{sn}^2\delta u\,w(\delta u)W(u)"
+    r"+k^2\mathrm{sn}^4\delta u[1-k^2\mathrm{sn}^2u]-1)",
+    uses=["5.13"],
+)
+def denominator_of_u(p: Proof) -> None:
+    """𝒟 as a function of u and δu: the sign of the whole and three coefficients are wrong."""
+    p.say("sn ū = sn(u + δu) by the addition formula, into 𝒟 = 1 - k² sn²ū sn²δu.")
+    ring = elliptic.ring(U, HALF)
+    derived = 1 - k2 * elliptic.added(U, HALF, 1).sn ** 2 * HALF.sn**2
+    x, y, big = U.sn**2, HALF.sn**2, U.sn * U.cn * U.dn
+    below = (1 - k2 * x * y) ** 2
+    printed = k2 * x * y * (2 - (k2 + 1) * y - k2 * y**2) + 2 * k2 * y * SMALL_W * big + k2 * y**2 * (1 - k2 * x) - 1
+    true = 1 - k2 * x * y * (3 - 2 * (k2 + 1) * y + k2 * y**2) - 2 * k2 * y * SMALL_W * big - k2 * y**2
+    p.printed(Equation("𝒟 as printed", [printed / below], [derived], ring))
+    p.corrected(
+        r"\mathcal D = \tfrac1{[1-k^2\mathrm{sn}^2u\,\mathrm{sn}^2\delta u]^2}(1-k^2\mathrm{sn}^2u\,\mathrm{sn}^2\delta u"
+        r"(3-2(k^2+1)\mathrm{sn}^2\delta u+k^2\mathrm{sn}^4\delta u)-2k^2\mathrm{sn}^2\delta u\,w(\delta u)W(u)"
+        r"-k^2\mathrm{sn}^4\delta u)",
+        Equation("𝒟 with the corrected bracket", [true / below], [derived], ring),
+    )
+    values = {k2: "9/16", U.sn: "4/5", U.cn: "3/5", U.dn: "4/5", HALF.sn: "4/5", HALF.cn: "3/5", HALF.dn: "4/5"}
+    relations = Equation("the relations", U.relations() + HALF.relations(), [sp.S.Zero] * 4, ring)
+    p.counterexample(rational_point(values, [relations]))
+    p.control(Equation("the printed bracket with its sign changed", [-printed / below], [derived], ring))
+
+
+P, Q = sp.symbols("p q")
+E1, E2, E3 = (2 - k2) / 3, (2 * k2 - 1) / 3, -(1 + k2) / 3
+WEIERSTRASS = Quotient((P, Q, k2), [sp.expand(Q**2 - 4 * (P - E1) * (P - E2) * (P - E3))])
+
+
+@claim(
+    "5.16-weierstrass-e",
+    r"e_1 = \tfrac13(2-k^2),\ e_2 = \tfrac13(2k^2-1),\ e_3 = -\tfrac13(1+k^2),\ "
+    r"\mathrm{sn}^2 = \tfrac1{p-e_3},\ \mathrm{cn}^2 = \tfrac{p-e_1}{p-e_3},\ \mathrm{dn}^2 = \tfrac{p-e_2}{p-e_3}",
+)
+def weierstrass_form(p: Proof) -> None:
+    """Jacobi's functions by Weierstrass' ones, with e1 - e3 = 1."""
+    square, cosine, delta = 1 / (P - E3), (P - E1) / (P - E3), (P - E2) / (P - E3)
+    p.printed(
+        Equation("e1 + e2 + e3 = 0", [E1 + E2 + E3], [sp.S.Zero], WEIERSTRASS),
+        Equation("cn² = 1 - sn²", [cosine], [1 - square], WEIERSTRASS),
+        Equation("dn² = 1 - k² sn²", [delta], [1 - k2 * square], WEIERSTRASS),
+    )
+    p.say("and d/du sn² = 2 sn cn dn agrees with dp/du = q: (2 sn cn dn)² = (dsn²/dp)² q².")
+    rate = sp.diff(square, P)
+    p.printed(Equation("4 sn² cn² dn² = (d sn²/dp)² q²", [4 * square * cosine * delta], [rate**2 * Q**2], WEIERSTRASS))
+    p.control(Equation("dn² = 1 - sn²", [delta], [1 - square], WEIERSTRASS))
+
+
+@claim("5.16-weierstrass-w", r"w(\delta u) = \tfrac12\tfrac q{(p-e_3)^3}", uses=["5.16-weierstrass-e"])
+def weierstrass_w(p: Proof) -> None:
+    """w = sn cn dn: the power and the sign are wrong."""
+    p.say("w = ½ d(sn²)/du = ½ (d sn²/dp) q, with sn² = 1/(p - e3) and q = dp/du:")
+    derived = sp.diff(1 / (P - E3), P) * Q / 2
+    p.printed(Equation("w = ½q/(p-e3)³", [Q / (2 * (P - E3) ** 3)], [derived], WEIERSTRASS))
+    p.corrected(
+        r"w(\delta u) = -\tfrac12\tfrac q{(p-e_3)^2}",
+        Equation("w = -½q/(p-e3)²", [-Q / (2 * (P - E3) ** 2)], [derived], WEIERSTRASS),
+    )
+    p.lemma(Equation("w² = sn² cn² dn²", [derived**2], [(P - E1) * (P - E2) / (P - E3) ** 3], WEIERSTRASS))
+    p.say("k² = 9/16, sn = 4/5, cn = 3/5, dn = 4/5: p = e3 + 25/16, q = -2 cn dn/sn³, w = 48/125.")
+    values = {k2: "9/16", P: sp.Rational(25, 16) - sp.Rational(25, 48), Q: sp.Rational(-2 * 12 * 125, 25 * 64)}
+    curve = Equation("q² = 4(p-e1)(p-e2)(p-e3)", [Q**2], [4 * (P - E1) * (P - E2) * (P - E3)], WEIERSTRASS)
+    p.counterexample(rational_point(values, [curve]))
+    p.control(Equation("w = ½q/(p-e3)²", [Q / (2 * (P - E3) ** 2)], [derived], WEIERSTRASS))
+
+
+@claim(
+    "5.16-integral",
+    r"\delta u^{(j)} = \int_\infty^{P^{(j)}}\frac{dp}{2\sqrt{(p-e_1)(p-e_2)(p-e_3)}}",
+    uses=["5.16-weierstrass-e", "5.15"],
+)
+def increment_integral(p: Proof) -> None:
+    """The increment as an integral on the curve, from p = ∞, where δu = 0."""
+    p.assume(
+        "the root is that of the point P on the curve: 2√(...) = q there, negative for small δu > 0 (5.16-weierstrass-w)"
+    )
+    p.assume("δu up to periods, as for every integral on the curve")
+    p.say("p = e3 + 1/sn²δu; p' = dp/dδu from sn' = cn dn:")
+    ring = elliptic.ring(HALF)
+    value = E3 + 1 / HALF.sn**2
+    slope = sp.diff(value, HALF.sn) * HALF.cn * HALF.dn
+    p.show("p'", slope)
+    quartic = sp.prod(value - root for root in (E1, E2, E3))
+    p.printed(Equation("(dp/dδu)² = 4(p-e1)(p-e2)(p-e3): dδu = dp/(2√...)", [slope**2], [4 * quartic], ring))
+    p.lemma(Equation("p → ∞ as δu → 0: 1/(p - e3) = sn²δu", [1 / (value - E3)], [HALF.sn**2], ring))
+    p.lemma(
+        Equation(
+            "p' = -2 cn dn/sn³: with the positive root the integral is -δu",
+            [slope],
+            [-2 * HALF.cn * HALF.dn / HALF.sn**3],
+            ring,
+        )
+    )
+    p.control(Equation("(dp/dδu)² = (p-e1)(p-e2)(p-e3)", [slope**2], [quartic], ring))
+    p.control(
+        Equation(
+            "the same with e2 for e3 in p",
+            [slope**2],
+            [4 * sp.prod(value - E3 + E2 - root for root in (E1, E2, E3))],
+            ring,
+        )
+    )
+
+
+if __name__ == "__main__":
+    main(__file__)

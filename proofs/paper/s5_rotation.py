@@ -1,0 +1,311 @@
+"""Section 5: the rotation in Euler parameters, the vector momentum, and the vector form of the map."""
+
+import sympy as sp
+
+from chapsym.derive import ball, limits, three
+from chapsym.derive.limits import omega
+from chapsym.derive.quotient import Quotient
+from chapsym.derive.three import J1, J2, J3, RING, D, K, axial, gamma, hat, q, q0, q1, q2, q3
+from chapsym.derive.words import evaluate
+from chapsym.proofs import second_routes
+from chapsym.prove import Equation, Fact, Proof, claim, main, rational_point
+
+#: Unit Euler parameters in general position.
+UNIT = dict(zip((q0, *q), map(sp.Rational, ("4/5", "2/5", "1/5", "2/5")), strict=True))
+
+
+def unit_quaternion() -> Equation:
+    """|q|² + q₀² = 1."""
+    return Equation("|q|² + q₀² = 1", [q0**2 + q.dot(q)], [sp.S.One], RING)
+
+
+def printed_rotation() -> sp.Matrix:
+    """(5.1) as printed."""
+    return sp.Matrix(
+        [
+            [q0**2 + q1**2 - q2**2 - q3**2, 2 * (q1 * q2 - q3 * q0), 2 * (q1 * q3 + q2 * q0)],
+            [2 * (q1 * q2 + q3 * q0), q0**2 + q2**2 - q1**2 - q3**2, 2 * (q2 * q3 - q0 * q1)],
+            [2 * (q1 * q3 - q2 * q0), -2 * (q2 * q3 - q0 * q1), q0**2 + q3**2 - q1**2 - q2**2],
+        ]
+    )
+
+
+@claim(
+    "5.1",
+    r"\Omega_{32} = -2(q_2q_3 - q_0q_1), \text{ and the eight other entries of (5.1)}",
+)
+def rotation_matrix(p: Proof) -> None:
+    """The rotation matrix, entry by entry: the entry (3,2) is misprinted."""
+    p.say("x ↦ q x q̄ with Hamilton's product, read off on the basis:")
+    rotation = sp.Matrix(three.rotation())
+    for row in range(3):
+        p.show(f"row {row + 1}", rotation[row, :])
+    p.lemma(Equation("ΩᵀΩ = 1", list(rotation.T * rotation), list(sp.eye(3)), RING))
+    p.lemma(Equation("det Ω = 1", [rotation.det()], [sp.S.One], RING))
+    p.lemma(Equation("Ωq = q: the axis", list(rotation * q), list(q), RING))
+    p.lemma(Equation("tr Ω = 4q₀² - 1 = 1 + 2cos θ with q₀ = cos(θ/2)", [rotation.trace()], [4 * q0**2 - 1], RING))
+    p.lemma(Equation("Ω - Ωᵀ = 4q₀ q×: right-handed about q", list(rotation - rotation.T), list(4 * q0 * hat(q)), RING))
+    printed = printed_rotation()
+    p.printed(Equation("(5.1), nine entries", list(printed), list(rotation), RING))
+    corrected = printed.copy()
+    corrected[2, 1] = 2 * (q2 * q3 + q0 * q1)
+    p.corrected(
+        r"\Omega_{32} = 2(q_2q_3 + q_0q_1)",
+        Equation("(5.1) with the entry (3,2) mended, nine entries", list(corrected), list(rotation), RING),
+    )
+    p.counterexample(rational_point(UNIT, [unit_quaternion()]))
+    p.control(Equation("the printed matrix is orthogonal", list(printed.T * printed), list(sp.eye(3)), RING))
+    p.control(Equation("the mended matrix is that of -q", list(corrected.T), list(rotation), RING))
+    mutated = corrected.copy()
+    mutated[0, 1] = 2 * (q1 * q2 + q3 * q0)
+    p.control(Equation("the mended matrix with one more sign flipped", list(mutated), list(rotation), RING))
+
+
+@claim(
+    "5.1-angle",
+    r"\Omega \text{ is the rotation about } \mathbf q \text{ by } \theta,\ q_0=\cos\tfrac\theta2,\ "
+    r"|\mathbf q|=\sin\tfrac\theta2,\ q_0>0",
+    uses=["5.1"],
+)
+def axis_and_angle(p: Proof) -> None:
+    """Axis and angle are right; q₀ > 0 leaves out the rotations by π."""
+    p.assume("Ω with the correction of (5.1); the axis is undefined at q = 0, where Ω = 1")
+    p.say("Rodrigues: Ωx = cosθ x + sinθ n×x + (1-cosθ)⟨n,x⟩n.  With q₀ = cos(θ/2), q = sin(θ/2) n these are")
+    p.say("cosθ = q₀² - |q|², sinθ n = 2q₀q, (1-cosθ) nnᵀ = 2qqᵀ:")
+    rotation = sp.Matrix(three.rotation())
+
+    def rodrigues(sign: int) -> sp.Matrix:
+        return (q0**2 - q.dot(q)) * sp.eye(3) + sign * 2 * q0 * hat(q) + 2 * q * q.T
+
+    p.printed(Equation("Ω = (q₀²-|q|²) + 2q₀ q× + 2qqᵀ, nine entries", list(rotation), list(rodrigues(1)), RING))
+    p.say("As (q₀, q) and (-q₀, -q) give the same Ω, q₀ ≥ 0 can be had; but tr Ω = 4q₀² - 1 is -1 only for q₀ = 0.")
+    half_turn = sp.diag(1, -1, -1)
+    square = (half_turn.trace() + 1) / sp.Integer(4)
+    p.printed(Fact("Ω = diag(1,-1,-1) has Euler parameters with q₀ > 0", bool(square > 0)))
+    of_axis = rotation.subs({q0: 0, q1: 1, q2: 0, q3: 0})
+    minus = {x: -x for x in (q0, *q)}
+    p.under(
+        "Ω is no rotation by π; with those, q₀ ≥ 0 and (0, q) ~ (0, -q)",
+        Fact("q₀ = 0, q = e₁ gives diag(1,-1,-1)", of_axis == half_turn),
+        Equation("(-q₀, -q) gives the same Ω", list(rotation.subs(minus, simultaneous=True)), list(rotation), RING),
+        Equation("4q₀² = 1 + tr Ω", [4 * q0**2], [1 + rotation.trace()], RING),
+    )
+    p.refute({"Ω": "diag(1, -1, -1)"}, "q₀² = (1 + tr Ω)/4", square, "positive", bool(square > 0))
+    p.control(Equation("the same by the angle -θ", list(rotation), list(rodrigues(-1)), RING))
+
+
+def printed_centre_momentum() -> sp.Matrix:
+    """M⃗ of (5.2) as printed."""
+    return 2 * sp.Matrix(
+        [
+            (J2 + J3) * q0 * q1 + (J2 - J3) * q2 * q3,
+            (J1 + J3) * q0 * q2 + (J3 - J1) * q1 * q3,
+            (J1 + J2) * q0 * q3 + (J1 - J2) * q1 * q2,
+        ]
+    )
+
+
+def printed_momentum(sign: int = 1, factor: int = 2) -> sp.Matrix:
+    """𝒦⃗ of (5.2) as printed; the arguments mutate its last term."""
+    return printed_centre_momentum() + factor * D * q0 * (q - sign * gamma.dot(q) * gamma)
+
+
+@claim(
+    "5.2",
+    r"\vec M = 2((J_2+J_3)q_0q_1+(J_2-J_3)q_2q_3,\ (J_1+J_3)q_0q_2+(J_3-J_1)q_1q_3,\ "
+    r"(J_1+J_2)q_0q_3+(J_1-J_2)q_1q_2)^T,\quad "
+    r"\vec{\mathcal K} = \vec M + 2Dq_0(\mathbf q - \langle\gamma,\mathbf q\rangle\gamma)",
+    uses=["prop-1", "5.1"],
+)
+def vector_momentum(p: Proof) -> None:
+    """The vector momentum, by substituting the rotation into (4.13)."""
+    p.assume("|γ| = 1 and |q|² + q₀² = 1; Ω with the correction of (5.1)")
+    rotation = sp.Matrix(three.rotation())
+    values = {ball.Omega: rotation, ball.OmegaT: rotation.T, ball.J: three.J}
+    centre = axial(evaluate(ball.centre_momentum(), values))
+    p.say(
+        "Into (4.13) go the matrix of the Euler parameters, J = diag(J₁,J₂,J₃) and Γ = γγᵀ; (A₃₂, A₁₃, A₂₁) comes out:"
+    )
+    p.show("𝒦", sp.Matrix(three.momentum()))
+    p.printed(
+        Equation("M⃗ as printed", list(printed_centre_momentum()), list(centre), RING),
+        Equation("𝒦⃗ as printed", list(printed_momentum()), list(axial(three.momentum_matrix())), RING),
+    )
+    p.lemma(
+        Equation(
+            "the collected form, which the kernels use",
+            list(three.momentum()),
+            list(axial(three.momentum_matrix())),
+            RING,
+        )
+    )
+    p.say("In vectors: 𝒦⃗ = 2q₀Λq + 2 q×Λq - 2Dq₀⟨γ,q⟩γ with Λ = diag(J₂+J₃+D, ...).")
+    lam = three.lam()
+    second = 2 * (q0 * lam * q + q.cross(lam * q) - D * q0 * gamma.dot(q) * gamma)
+    p.lemma(Equation("𝒦⃗ = 2(q₀Λq + q×Λq - Dq₀⟨γ,q⟩γ)", list(second), list(three.momentum()), RING))
+    for text, mutated in [
+        ("𝒦⃗ with + ⟨γ,q⟩γ", printed_momentum(sign=-1)),
+        ("𝒦⃗ with D in the place of 2D", printed_momentum(factor=1)),
+        ("𝒦⃗ at -q₀", printed_momentum().subs(q0, -q0)),
+    ]:
+        p.control(Equation(text, list(mutated), list(three.momentum()), RING))
+    free = Quotient(RING.symbols, [three.UNIT_QUATERNION])
+    p.control(Equation("𝒦⃗ as printed, without |γ| = 1", list(printed_momentum()), list(three.momentum()), free))
+    p.route(
+        "from (4.13) as printed, Ω the Cayley transform of u×, q = q₀u with u free (no turn by π), γ on the unit sphere",
+        *second_routes.vector_momentum(),
+    )
+    p.control(second_routes.mutated("𝒦⃗ with + ⟨γ,q⟩γ", second_routes.vector_momentum(sign=-1)[3]))
+    p.control(second_routes.mutated("𝒦⃗ with D in the place of 2D", second_routes.vector_momentum(factor=1)[4]))
+    p.control(second_routes.mutated("M⃗ with J₃-J₂, J₁-J₃, J₂-J₁", second_routes.vector_momentum(centre=-1)[2]))
+
+
+@claim(
+    "5.2-expansion",
+    r"\mathbf q = \tfrac\varepsilon2\omega + O(\varepsilon^3),\ q_0 = 1 - O(\varepsilon^2)",
+    uses=["5.1"],
+)
+def parameter_expansion(p: Proof) -> None:
+    """The Euler parameters of a small rotation."""
+    vector, scalar = limits.vector_parameters()
+    p.printed(
+        Equation("q/ε → ω/2", list(vector.limit), list(omega / 2), limits.RING),
+        Equation("q₀ → 1", list(scalar.limit), [sp.S.One], limits.RING),
+    )
+    p.lemma(Fact(f"q - εω/2 has the exact order 3, here {vector.order + 1}", vector.order + 1 == 3))
+    p.lemma(Fact(f"q₀ - 1 has the exact order 2, here {scalar.order}", scalar.order == 2))
+    square = omega.dot(omega)
+    p.lemma(
+        Equation("the leading term of q is -|ω|²ω/48", list(vector.leading), list(-square / 48 * omega), limits.RING)
+    )
+    p.lemma(Equation("the leading term of q₀ is -|ω|²/8", list(scalar.leading), [-square / 8], limits.RING))
+    p.control(Equation("q/ε → ω", list(vector.limit), list(omega), limits.RING))
+
+
+@claim(
+    "5.2-limit",
+    r"\tfrac1\varepsilon\vec{\mathcal K} = \Lambda\omega - D\langle\gamma,\omega\rangle\gamma"
+    r"\text{ up to terms of order }\varepsilon,\ \Lambda = \mathrm{diag}(J_2+J_3+D, J_1+J_3+D, J_1+J_2+D)",
+    uses=["5.2", "5.2-expansion"],
+)
+def vector_limit(p: Proof) -> None:
+    """𝒦⃗/ε tends to the momentum of the continuous ball; the remainder has the exact order 1."""
+    p.assume("|γ| = 1; the rotation of the step is exp(ε ω)")
+    limit = limits.vector_momentum()
+    p.show("limit", limit.limit)
+    p.show(f"leading remainder, order {limit.order}", limit.leading)
+    lam = sp.diag(J2 + J3 + D, J1 + J3 + D, J1 + J2 + D)
+    printed = lam * omega - D * gamma.dot(omega) * gamma
+    p.printed(Equation("𝒦⃗/ε → Λω - D⟨γ,ω⟩γ", list(limit.limit), list(printed), limits.RING))
+    p.lemma(Fact(f"the remainder has the exact order 1, here {limit.order}", limit.order == 1))
+    p.lemma(
+        Equation("its leading term is ½ ω×Λω", list(limit.leading), list(omega.cross(lam * omega) / 2), limits.RING)
+    )
+    p.control(
+        Equation("𝒦⃗/ε → Λω + D⟨γ,ω⟩γ", list(limit.limit), list(lam * omega + D * gamma.dot(omega) * gamma), limits.RING)
+    )
+    mass = sp.diag(J1 + D, J2 + D, J3 + D)
+    p.control(
+        Equation(
+            "the same with Λ = J + D", list(limit.limit), list(mass * omega - D * gamma.dot(omega) * gamma), limits.RING
+        )
+    )
+
+
+@claim(
+    "5.3",
+    r"\vec{\mathcal K}_k = \Omega_{k-1}^T\vec{\mathcal K}_{k-1},\ \gamma_k = \Omega_{k-1}^T\gamma_{k-1}",
+    uses=["prop-1", "4.11", "5.1"],
+)
+def vector_form(p: Proof) -> None:
+    """The vector form of the map, and its continuum limit."""
+    ring = Quotient((*K, *RING.symbols), RING.relations)
+    rotation = sp.Matrix(three.rotation())
+    p.say("The axial vector of Ωᵀ𝒦Ω, for a skew 𝒦 with the free vector (K₁,K₂,K₃):")
+    moved = axial(rotation.T * hat(K) * rotation)
+    p.printed(Equation("the axial vector of Ωᵀ𝒦Ω = Ωᵀ𝒦⃗", list(moved), list(rotation.T * K), ring))
+    p.say("γ_k = Ωᵀγ_{k-1} is (4.11).")
+    limit = limits.vector_transport()
+    p.show(f"(Ωᵀ𝒦⃗ - 𝒦⃗)/ε, leading remainder of order {limit.order}", limit.leading)
+    p.lemma(Equation("(Ωᵀ𝒦⃗ - 𝒦⃗)/ε → 𝒦⃗×ω", list(limit.limit), list(K.cross(omega)), limits.RING))
+    p.lemma(
+        Equation(
+            "its leading remainder is ½(𝒦⃗×ω)×ω", list(limit.leading), list(K.cross(omega).cross(omega) / 2), limits.RING
+        )
+    )
+    p.lemma(Fact(f"that remainder has the exact order 1, here {limit.order}", limit.order == 1))
+    p.control(Equation("the axial vector of Ωᵀ𝒦Ω = Ω𝒦⃗", list(moved), list(rotation * K), ring))
+    p.control(Equation("𝒦̇ = ω×𝒦", list(limit.limit), list(omega.cross(K)), limits.RING))
+
+
+@claim(
+    "5.3-integrals",
+    r"\text{two independent integrals } \langle\mathcal K,\gamma\rangle = h,\ \langle\mathcal K,\mathcal K\rangle = n",
+    uses=["5.3"],
+)
+def vector_integrals(p: Proof) -> None:
+    """The two momentum integrals of the vector map, whatever the branch."""
+    ring = Quotient((*K, *RING.symbols), RING.relations)
+    rotation = sp.Matrix(three.rotation())
+    moved, vertical = rotation.T * K, rotation.T * gamma
+    p.printed(
+        Equation("⟨Ωᵀ𝒦, Ωᵀγ⟩ = ⟨𝒦, γ⟩", [moved.dot(vertical)], [K.dot(gamma)], ring),
+        Equation("⟨Ωᵀ𝒦, Ωᵀ𝒦⟩ = ⟨𝒦, 𝒦⟩", [moved.dot(moved)], [K.dot(K)], ring),
+        Equation("|Ωᵀγ| = |γ|", [vertical.dot(vertical)], [sp.S.One], ring),
+    )
+    p.say("Only ΩᵀΩ = 1 is used: the branch of Ω does not matter.")
+    gradients = sp.Matrix([K.dot(gamma), K.dot(K), gamma.dot(gamma)]).jacobian(sp.Matrix([*K, *gamma]))
+    at = dict(zip((*K, *gamma), map(sp.Rational, (1, "-1/2", "3/4", "2/7", "3/7", "6/7")), strict=True))
+    p.printed(
+        Fact(
+            "with |γ|² they are independent: the rank of the gradients is 3 at 𝒦 = (1, -1/2, 3/4), γ = (2, 3, 6)/7",
+            gradients.subs(at).rank() == 3,
+        )
+    )
+    along = dict(zip(K, (2 * g for g in gamma), strict=True))
+    p.lemma(Fact("a degenerate case: for 𝒦 parallel to γ the rank is 2", gradients.subs(along).subs(at).rank() == 2))
+    p.control(Equation("⟨Ωᵀ𝒦, Ωγ⟩ = ⟨𝒦, γ⟩", [moved.dot(rotation * gamma)], [K.dot(gamma)], ring))
+
+
+def rotation_of(parameters: tuple) -> sp.Matrix:
+    """Ω at unit Euler parameters."""
+    return sp.Matrix(three.rotation()).subs(dict(zip((q0, *q), map(sp.Rational, parameters), strict=True)))
+
+
+@claim("5.3-energy", r"\text{the energy integral (2.5) is not preserved}", uses=["5.3", "2.5"])
+def energy_changes(p: Proof) -> None:
+    """One exact step that changes the energy, (2.5) as corrected; as printed it changes, too."""
+    p.assume("the energy is (2.5) as corrected, in 𝒦")
+    ball = {J1: 1, J2: 2, J3: 4, D: 3}
+    state = {**UNIT, **dict(zip(gamma, map(sp.Rational, ("2/7", "3/7", "6/7")), strict=True)), **ball}
+    momentum = sp.Matrix(three.momentum()).subs(state, simultaneous=True)
+    rotation = sp.Matrix(three.rotation()).subs(state)
+    vertical = gamma.subs(state)
+
+    def energy(momentum: sp.Matrix, vertical: sp.Matrix, sign: int, contact: int = 3) -> sp.Rational:
+        inverse = (sp.diag(6, 5, 3) + contact * sp.eye(3)).inv()
+        lifted = vertical.dot(inverse * momentum)
+        return momentum.dot(inverse * momentum) + sign * contact * lifted**2 / (
+            1 - contact * vertical.dot(inverse * vertical)
+        )
+
+    values = {name: [energy(momentum, vertical, sign), energy(rotation.T * momentum, rotation.T * vertical, sign)]
+              for name, sign in (("as corrected", 1), ("as printed", -1))}  # fmt: skip
+    p.say("J = (1, 2, 4), D = 3, γ = (2, 3, 6)/7, Ω by (4, 2, 1, 2)/5; 𝒦 and γ after the step are Ωᵀ𝒦 and Ωᵀγ.")
+    for name, (before, after) in values.items():
+        p.show(f"(2.5) {name}, before and after", [before, after])
+        p.printed(Fact(f"(2.5) {name} changes in that step", before != after))
+    ends = {"J": "(1, 2, 4)", "D": "3", "γ": "(2, 3, 6)/7", "q₀, q": "(4, 2, 1, 2)/5", "𝒦": str(list(momentum))}
+    square = momentum.dot(momentum)
+    p.witness("generic", ends, Fact("⟨𝒦,𝒦⟩ does not", square == (rotation.T * momentum).dot(rotation.T * momentum)))
+    p.say(
+        "It may be kept in a step: a turn about an axis of the body that is vertical, or vertical momentum (6-vertical-energy)."
+    )
+    turn = rotation_of(("4/5", 0, 0, "3/5"))
+    along, upright = sp.Matrix([0, 0, 5]), sp.Matrix([0, 0, 1])
+    kept = energy(along, upright, 1) != energy(turn.T * along, turn.T * upright, 1)
+    p.control(Fact("it changes in a turn about e₃ with 𝒦, γ along e₃", kept))
+
+
+if __name__ == "__main__":
+    main(__file__)

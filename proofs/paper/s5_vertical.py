@@ -1,0 +1,170 @@
+"""Section 5: vertical momentum, the reduced map G_h and its integral (Proposition 3)."""
+
+from dataclasses import replace
+
+import sympy as sp
+
+from chapsym.derive import three, vertical
+from chapsym.derive.quotient import Quotient
+from chapsym.derive.three import J1, J2, J3, D, gamma, q, q0, q1, q2, q3
+from chapsym.derive.vertical import RING, h, sigma
+from chapsym.proofs import second_routes
+from chapsym.prove import Equation, Point, Proof, claim, main, rational_point
+
+#: 𝒦 = hγ at two rational states, found by search: the rotation angle is below and above 90°.
+SMALL = {q0: "4/5", q1: "2/5", q2: "1/5", q3: "2/5", J1: 1, J2: 2, J3: 4, D: 1, sigma: "28/5"}
+LARGE = {q0: "1/2", q1: "1/2", q2: "1/2", q3: "1/2", J1: 1, J2: 2, J3: 5, D: 2, sigma: 7}
+
+
+#: ⟨q, left⟩ = 2q₀⟨q, Λq⟩ and left(q₀ = 0) = 2 q×Λq leave 𝒦 = 0 when the left side vanishes: see prop-3.
+NOT_ZERO = "σ ≠ 0, which h ≠ 0 implies for a real q: σ = 0 makes the left side of (5.4) vanish, and then 𝒦 = hγ = 0"
+
+
+def vertical_state() -> list[Equation]:
+    """What makes (q, σ) a state with 𝒦 = hγ: unit Euler parameters, and |γ| = 1 for γ = left/σ."""
+    return [
+        Equation("|q|² + q₀² = 1", [q0**2 + q.dot(q)], [sp.S.One], RING),
+        Equation("|γ| = 1", [vertical.gamma_now().dot(vertical.gamma_now())], [sp.S.One], RING),
+    ]
+
+
+def vertical_point(state: dict) -> Point:
+    """The state as a point that also shows what follows from it: γ, γ~ and h."""
+    point = rational_point(state, vertical_state())
+    here, there = (point.evaluate(x) for x in (vertical.gamma_now(), vertical.gamma_next()))
+    seen = {"γ": f"({', '.join(map(str, here))})", "γ~": f"({', '.join(map(str, there))})"}
+    return replace(point, values={**point.values, **seen, "h": str(point.evaluate(vertical.height()))})
+
+
+def printed_vector(sign: int) -> sp.Matrix:
+    """The vector of (5.6) as printed, without 2/σ; the sign is that of its second terms."""
+    h1, h2, h3 = (J + D / 2 for J in (J1, J2, J3))
+    return sp.Matrix(
+        [
+            (h2 + h3) * q0 * q1 + sign * (h2 - h3) * q2 * q3,
+            (h1 + h3) * q0 * q2 + sign * (h3 - h1) * q1 * q3,
+            (h1 + h2) * q0 * q3 + sign * (h1 - h2) * q1 * q2,
+        ]
+    )
+
+
+@claim(
+    "5.4",
+    r"\vec{\mathcal K} = h\gamma:\quad 2(\dots)^T = [h + D q_0\langle\gamma,\mathbf q\rangle]\gamma,"
+    r"\ \widehat J = J + \tfrac D2 I",
+    uses=["5.2"],
+)
+def vertical_relation(p: Proof) -> None:
+    """The relation between γ and q when the momentum is vertical: a factor 2 is missing."""
+    p.assume("|γ| = 1, |q|² + q₀² = 1; the equations are judged modulo 𝒦 - hγ = 0")
+    ring = Quotient((h, *three.RING.symbols), three.RING.relations)
+    left = 2 * printed_vector(+1)
+    p.lemma(Equation("the left side: 𝒦 of a ball with Ĵ and D = 0", list(left), list(vertical.left_side()), ring))
+    p.show("left side - 𝒦 = γ times", vertical.excess())
+    balance = sp.Matrix(three.momentum()) - h * gamma
+
+    def relation(text: str, factor: int) -> Equation:
+        return Equation(text, list(left), list((h + factor * D * q0 * gamma.dot(q)) * gamma + balance), ring)
+
+    p.printed(relation("left side = [h + D q₀⟨γ,q⟩]γ", 1))
+    p.corrected(
+        r"2(\dots)^T = [h + 2D q_0\langle\gamma,\mathbf q\rangle]\gamma",
+        relation("left side = [h + 2D q₀⟨γ,q⟩]γ", 2),
+    )
+    values = {k: sp.Rational(v) for k, v in SMALL.items()}
+    now = vertical.gamma_now().subs(values, simultaneous=True)
+    height = vertical.height().subs(values, simultaneous=True)
+    p.say(f"At the counterexample 𝒦 = hγ exactly, with h = {height}, γ = {list(now)}.")
+    point = {**{k: v for k, v in SMALL.items() if k != sigma}, **dict(zip(gamma, now, strict=True)), h: height}
+    hypotheses = [
+        Equation("|γ| = 1", [gamma.dot(gamma)], [sp.S.One], ring),
+        Equation("|q|² + q₀² = 1", [q0**2 + q.dot(q)], [sp.S.One], ring),
+        Equation("𝒦 = hγ", list(three.momentum()), list(h * gamma), ring),
+    ]
+    p.counterexample(rational_point(point, hypotheses))
+    p.control(relation("left side = [h - 2D q₀⟨γ,q⟩]γ", -2))
+    p.control(relation("left side = [h + 4D q₀⟨γ,q⟩]γ", 4))
+
+
+@claim("5.6-sigma", r"\sigma_k = h + D\langle\gamma_k, q_0\mathbf q\rangle", uses=["5.4"])
+def sigma_definition(p: Proof) -> None:
+    """σ inherits the missing factor 2 of (5.4)."""
+    p.assume(NOT_ZERO)
+    p.say("σ is the factor for which the left side of (5.4) is σγ; h and γ are written in q, σ.")
+    now, height = vertical.gamma_now(), vertical.height()
+
+    def formula(text: str, factor: int) -> Equation:
+        return Equation(text, [sigma], [height + factor * D * q0 * now.dot(q)], RING)
+
+    p.printed(formula("σ = h + D⟨γ, q₀q⟩", 1))
+    p.corrected(r"\sigma_k = h + 2D\langle\gamma_k, q_0\mathbf q\rangle", formula("σ = h + 2D⟨γ, q₀q⟩", 2))
+    p.counterexample(vertical_point(SMALL))
+    p.control(formula("σ = h - 2D⟨γ, q₀q⟩", -2))
+
+
+@claim(
+    "5.6",
+    r"\gamma_k = \tfrac2{\sigma_k}(\dots+\dots)^T,\ "
+    r"\gamma_{k+1} = -\Omega_k^T\gamma_k \equiv \tfrac2{\sigma_k}(\dots-\dots)^T",
+    uses=["5.4", "5.3", "5.1"],
+)
+def consecutive_verticals(p: Proof) -> None:
+    """γ_k and γ_(k+1) in Euler parameters: the vectors are right, the sign of Ωᵀ is not."""
+    p.assume(NOT_ZERO)
+    now = vertical.gamma_now()
+    turned = sp.Matrix(three.rotation()).T * now
+    p.lemma(Equation("γ_k as printed", list(2 / sigma * printed_vector(+1)), list(now), RING))
+    second = list(2 / sigma * printed_vector(-1))
+    p.lemma(Equation("the vector for γ_{k+1} is the derived Ωᵀγ_k", second, list(vertical.gamma_next()), RING))
+    p.printed(Equation("-Ωᵀγ_k = (2/σ)(... - ...)", list(-turned), second, RING))
+    p.corrected(
+        r"\gamma_{k+1} = \Omega_k^T\gamma_k \equiv \tfrac2{\sigma_k}(\dots-\dots)^T",
+        Equation("Ωᵀγ_k = (2/σ)(... - ...)", list(turned), second, RING),
+    )
+    p.counterexample(vertical_point(SMALL))
+    p.control(Equation("Ωγ_k = (2/σ)(... - ...)", list(sp.Matrix(three.rotation()) * now), second, RING))
+
+
+@claim(
+    "prop-3",
+    r"\langle\gamma,\Lambda^{-1}\gamma\rangle = l \text{ is an integral of every branch of }\mathcal G_h",
+    uses=["5.4", "5.6", "5.3"],
+)
+def quadratic_integral(p: Proof) -> None:
+    """The quadratic integral of the reduced map, for every branch and every h."""
+    p.assume("q is real and Λ = diag(J₂+J₃+D, ...) is positive, as for every ball; (5.4) and (5.6) as corrected")
+    inverse = vertical.lam().inv()
+    now, after = vertical.gamma_now(), vertical.gamma_next()
+    p.say("σ ≠ 0: both verticals are functions of q, σ on |q|² + q₀² = 1, |γ| = 1; no branch is chosen.")
+    p.printed(
+        Equation("⟨γ_k, Λ⁻¹γ_k⟩ = ⟨γ_{k+1}, Λ⁻¹γ_{k+1}⟩", [now.dot(inverse * now)], [after.dot(inverse * after)], RING)
+    )
+    p.say("σ = 0 (only for h = 0): ⟨q, left⟩ = 2q₀⟨q,Λq⟩ = 0, so q = 0 (Ω = 1) or q₀ = 0 and then q×Λq = 0.")
+    lam, left = vertical.lam(), sp.Matrix(vertical.left_side())
+    p.lemma(Equation("⟨q, left⟩ = 2q₀⟨q, Λq⟩", [q.dot(left)], [2 * q0 * q.dot(lam * q)], RING))
+    rotation = sp.Matrix(three.rotation())
+    half_turn, crossed = rotation.subs(q0, 0), q.cross(lam * q)
+    p.lemma(Equation("left at q₀ = 0 is 2 q×Λq", list(left.subs(q0, 0)), list(2 * crossed), RING))
+    commutator = half_turn.T * lam - lam * half_turn.T
+    p.lemma(
+        Equation(
+            "at q₀ = 0 the entries of [Ωᵀ, Λ] are twice those of q×Λq, so Ω commutes with Λ",
+            [commutator[1, 2], commutator[2, 0], commutator[0, 1]], list(2 * crossed), RING,
+        )
+    )  # fmt: skip
+    p.control(Equation("⟨γ, γ_next⟩ = 1", [now.dot(after)], [sp.S.One], RING))
+    p.control(Equation("⟨γ, Λγ⟩ is an integral", [now.dot(lam * now)], [after.dot(lam * after)], RING))
+    wrong = vertical.gamma_now().subs(q0, 2 * q0)
+    p.control(
+        Equation("the integral with 2q₀ in γ_k", [wrong.dot(inverse * wrong)], [after.dot(inverse * after)], RING)
+    )
+    p.route(
+        "Ω, |γ| = 1, D and h are free and 𝒦 = hγ with (4.13), linear in J, is solved for the ball (q₀q₁q₂q₃ ≠ 0)",
+        *second_routes.quadratic_integral(),
+    )
+    p.control(second_routes.mutated("⟨γ, Λγ⟩ is an integral", second_routes.quadratic_integral(power=1)[1]))
+    p.control(second_routes.mutated("the integral with γ~ = Ωγ", second_routes.quadratic_integral(backwards=True)[1]))
+
+
+if __name__ == "__main__":
+    main(__file__)
