@@ -3,8 +3,8 @@
 import os
 import time
 
+from chapsym.scene.plan import plan
 from chapsym.scene.plan.models import Rolling
-from chapsym.scene.plan.plan import plan
 from chapsym.scene.running import segments
 
 plan.CHUNK = 4

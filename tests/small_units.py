@@ -10,7 +10,7 @@ import numpy as np
 import chapsym
 from chapsym.dynamics import kernels
 from chapsym.scene.members.members import Members, Parameter
-from chapsym.scene.plan.plan import plan as plans
+from chapsym.scene.plan import plan as plans
 from chapsym.scene.plan.plan import planned
 from chapsym.scene.running import segments, sweep
 from chapsym.scene.running.task import Task

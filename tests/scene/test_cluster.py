@@ -16,8 +16,8 @@ import pytest
 from small_units import equal_to_the_bit
 
 from chapsym.scene import SceneError
+from chapsym.scene.plan import plan as plans
 from chapsym.scene.plan.models import Rolling
-from chapsym.scene.plan.plan import plan as plans
 from chapsym.scene.result import formats
 from chapsym.scene.running import cluster, sweep
 from chapsym.scene.running.source import plan_from
