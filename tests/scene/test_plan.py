@@ -10,10 +10,11 @@ import chapsym
 from chapsym.dynamics import Status, kernels
 from chapsym.dynamics.levels import double
 from chapsym.generated import TABLE
-from chapsym.scene.plan import cost, planned
+from chapsym.scene.plan import cost
 from chapsym.scene.plan import plan as plans
 from chapsym.scene.plan.models import MODELS, Rolling
 from chapsym.scene.plan.outputs import OUTPUTS, PER_BALL, columns_for
+from chapsym.scene.plan.plan import planned
 from chapsym.scene.running import segments
 from chapsym.scene.running.task import Task
 
