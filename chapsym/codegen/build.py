@@ -4,7 +4,6 @@ import hashlib
 import importlib.util
 import json
 import os
-import tempfile
 from collections.abc import Callable, Collection, Sequence
 from functools import cache
 from pathlib import Path
@@ -72,8 +71,7 @@ def code(kernel: Kernel, chosen: Collection[passes.Pass] = passes.PASSES) -> str
 
 def source(kernel: Kernel) -> tuple[str, dict]:
     """The module text of one kernel and its row of the manifest."""
-    expressions = [sp.sympify(e) for e in kernel.build()]
-    digest = hashlib.sha256("\n".join(sp.srepr(e) for e in expressions).encode()).hexdigest()
+    digest = hashlib.sha256("\n".join(sp.srepr(e) for e in kernel.expressions).encode()).hexdigest()
     operations = passes.operations(passes.lower(kernel))
     header = [
         f'"""{kernel.summary}',
@@ -119,19 +117,20 @@ def package_source(kernels: Sequence[Kernel]) -> str:
     return "\n".join(lines)
 
 
-def build(kernels: Sequence[Kernel] = KERNELS) -> dict[str, str]:
+@cache
+def build() -> dict[str, str]:
     """Every generated file but the fingerprints, by name.
 
     Raises ArithmeticError if a text does not compute its expression exactly.
     """
     files, rows = {}, {}
-    for kernel in kernels:
+    for kernel in KERNELS:
         text, row = source(kernel)
         if text_fingerprint(kernel, text) != fingerprint(kernel):
             raise ArithmeticError(f"the text of {kernel.name} does not compute its expression")
         files[f"{kernel.name}.py"] = text
         rows[kernel.name] = {**row, "text_sha256": hashlib.sha256(text.encode()).hexdigest()}
-    files["__init__.py"] = package_source(kernels)
+    files["__init__.py"] = package_source(KERNELS)
     table = {"sympy": sp.__version__, "kernels": rows}
     for target, programs, values in TARGETS:
         files[target.FILE], table[target.KEY] = target_source(target, programs, values)
@@ -155,6 +154,7 @@ def target_source(target: Any, programs: Sequence[Program], values: Callable) ->
     return text, target.manifest(texts())
 
 
+@cache
 def fingerprints() -> dict[str, list[str]]:
     """The values of every kernel and of every program, by name."""
     programs = {p.name: program_fingerprint(p, texts()) for p in ALL_PROGRAMS}
@@ -181,9 +181,7 @@ def distrusted(place: Path) -> list[str]:
 
 def check(place: Path) -> list[str]:
     """Compares a fresh build with `place`: listing, bytes and values; returns what is wrong."""
-    with tempfile.TemporaryDirectory() as temporary:
-        write(Path(temporary), build())
-        fresh = {p.name: p.read_bytes() for p in Path(temporary).iterdir()}
+    fresh = {name: text.encode() for name, text in build().items()}
     found = {p.name: p.read_bytes() for p in place.iterdir() if p.is_file()}
     found.pop(FINGERPRINTS, None)
     problems = [f"{name} is missing" for name in sorted(set(fresh) - set(found))]
@@ -245,7 +243,7 @@ def generate(place: Path, trust: Sequence[str] = ()) -> list[str]:
     if problems:
         raise ValueError("; ".join(problems))
     trusted = {**stored_fingerprints(place), **{k: v for k, v in fingerprints().items() if k in accepted}}
-    files = build()
+    files = dict(build())
     files[FINGERPRINTS] = json.dumps({k: trusted[k] for k in sorted(names)}, indent=1) + "\n"
     write(place, files)
     for path in place.iterdir():

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import sympy as sp
 
@@ -50,6 +51,16 @@ class Kernel:
     build: Callable[[], Sequence[sp.Expr]]
     #: The same value in steps: named intermediate expressions, and the outputs by those names.
     factored: Callable[[], tuple[Steps, Sequence[sp.Expr]]] | None = None
+
+    @cached_property
+    def expressions(self) -> tuple[sp.Expr, ...]:
+        """What is computed, derived once."""
+        return tuple(sp.sympify(e) for e in self.build())
+
+    @cached_property
+    def steps(self) -> tuple[Steps, Sequence[sp.Expr]]:
+        """The same value in the derivation's own steps, if it has some; derived once."""
+        return self.factored() if self.factored else ([], self.expressions)
 
     @property
     def inputs(self) -> tuple[sp.Symbol, ...]:

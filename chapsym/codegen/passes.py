@@ -5,6 +5,7 @@ Each can be left out, so that the manifest says what it saves in operations, and
 
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
+from functools import cache
 
 import sympy as sp
 from sympy.core.sorting import default_sort_key
@@ -33,10 +34,12 @@ PASSES = (FACTORED, COMMON, POWERS, BALANCED)
 
 def lower(kernel: Kernel, passes: Collection[Pass] = PASSES) -> tuple[Assignments, list[sp.Expr]]:
     """The assignments of a kernel, in order, and its outputs by their names."""
-    if FACTORED in passes and kernel.factored is not None:
-        steps, outputs = kernel.factored()
-    else:
-        steps, outputs = [], kernel.build()
+    return _lower(kernel, tuple(p for p in (FACTORED, COMMON, POWERS) if p in passes))
+
+
+@cache
+def _lower(kernel: Kernel, passes: tuple[Pass, ...]) -> tuple[Assignments, list[sp.Expr]]:
+    steps, outputs = kernel.steps if FACTORED in passes else ([], kernel.expressions)
     taken = {s.name for s in (*kernel.inputs, *(symbol for names, _ in steps for symbol in names))}
     fresh = (s for s in sp.numbered_symbols("t") if s.name not in taken)
     done: Assignments = []

@@ -3,6 +3,7 @@
 import hashlib
 from collections.abc import Callable, Sequence
 from fractions import Fraction
+from functools import cache
 
 import sympy as sp
 
@@ -28,10 +29,11 @@ def decimal(value: Fraction) -> str:
     return str(sp.Rational(value.numerator, value.denominator).evalf(DIGITS))
 
 
+@cache
 def fingerprint(kernel: Kernel) -> list[str]:
     """The values of the expressions at the rational point: they survive another order of the text."""
     values = point(kernel.inputs)
-    exact = [sp.sympify(e).xreplace(values) for e in kernel.build()]
+    exact = [e.xreplace(values) for e in kernel.expressions]
     return [decimal(Fraction(int(e.p), int(e.q))) for e in exact]
 
 
