@@ -1,15 +1,12 @@
 """The loops, compiled by numba: the same functions that run in plain Python.
 
-The compiled code is cached on disk in a folder named by a hash of every source that it is made of:
-numba itself would notice a change in `loop.py` only, and keep stale kernels.
+The compiled code is cached on disk (`code_cache`) in a folder named by a hash of every source that it is made of, so
+that all clones and installations of the same text share it.
 """
 
 import hashlib
-import logging
-import os
-import tempfile
+import inspect
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from functools import cache
 from pathlib import Path
 from types import FunctionType, ModuleType
@@ -38,6 +35,7 @@ from ..loops import (
     single_step,
     vertical_loop,
 )
+from .code_cache import folder_for, keep
 from .retyped import Family
 
 #: What the compiled code is made of.
@@ -73,33 +71,9 @@ def source_hash() -> str:
     twins = (str(Path(__file__).with_name(name)) for name in ("retyped.py", "single.py"))
     sources = (f.__code__.co_filename for module in SOURCES for f in _functions(module))
     files = {__file__, fused.__file__, *twins, *sources}
-    for name in sorted(files):
-        digest.update(Path(name).read_bytes())
+    for text in sorted(hashlib.sha256(Path(name).read_bytes()).digest() for name in files):  # wherever they lie
+        digest.update(text)
     return digest.hexdigest()[:16]
-
-
-def cache_folder() -> Path:
-    """Where compiled code is kept: under the user's cache, or a temporary folder if that cannot be written."""
-    base = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "chapsym"
-    try:
-        base.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryFile(dir=base):
-            pass
-    except OSError:
-        base = Path(tempfile.gettempdir()) / f"chapsym-{os.getuid() if hasattr(os, 'getuid') else 'cache'}"
-    return base / source_hash()
-
-
-@contextmanager
-def _caching_in(folder: Path) -> Iterator[None]:
-    """Numba asks where to cache when a function is decorated, so the setting is borrowed for that only."""
-    settings: Any = numba.config
-    before = settings.CACHE_DIR
-    settings.CACHE_DIR = str(folder)
-    try:
-        yield
-    finally:
-        settings.CACHE_DIR = before
 
 
 @cache
@@ -120,23 +94,17 @@ def _registered(modules: tuple[ModuleType, ...]) -> None:
 
 
 @cache
-def _announce() -> None:
-    """Says once that compiling takes a while; who wants to hear it listens to the logger "chapsym"."""
-    logging.getLogger("chapsym").info("compiling the map for this processor: some seconds, once")
-
-
-@cache
 def compiled(function: Callable[..., Any]) -> Callable[..., Any]:
     """The compiled version of a function of one of the `SOURCES`, or of a twin of one (`retyped`).
 
     It is compiled when it is first called.
     """
     family: Family | None = function.__globals__.get("family")
-    folder, module = cache_folder() / (family.name if family else ""), function.__module__.rpartition(".")[2]
-    if not any(folder.glob(f"*/{module}.{function.__name__}-*.nbi")):
-        _announce()
     _registered(SOURCES)
     if family:
         _registered(tuple(family.twins.values()))
-    with _caching_in(folder):
-        return numba.njit(cache=True, error_model="numpy", nogil=True)(function)
+    ready = numba.njit(error_model="numpy", nogil=True)(function)
+    path = Path(inspect.getfile(function))
+    name = ".".join((*((family.name,) if family else ()), path.stem, function.__name__))
+    keep(ready, folder_for(source_hash()), name, path.read_bytes())
+    return ready
