@@ -1,6 +1,7 @@
 """The command's contract, from outside: output, exit status, one sentence for an error."""
 
 import json
+import logging
 import os
 import re
 import signal
@@ -245,6 +246,19 @@ def test_check_passes_in_its_budget():
     assert found["kept"] is True
     assert len(found["strata"]) == 9
     assert all(row["kept"] for row in found["strata"])
+
+
+def test_an_unforeseen_end_of_a_file_is_no_interruption(monkeypatch):
+    from chapsym.cli import app, step
+
+    def at_its_end(*arguments):
+        raise EOFError("a damaged file")
+
+    monkeypatch.setattr(step, "rationals", at_its_end)
+    monkeypatch.setattr(sys, "argv", ["chapsym", *STEP])
+    monkeypatch.setattr(logging.getLogger("chapsym"), "level", logging.INFO)  # the entry point sets it
+    with pytest.raises(EOFError, match="a damaged file"):
+        app.main()
 
 
 def test_every_kind_of_certificate_has_its_subcommand():

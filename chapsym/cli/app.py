@@ -45,7 +45,9 @@ def main() -> NoReturn:
         fail(f"{error.format_message()} (see chapsym --help)", 2)
     except NotANumber as error:
         fail(str(error), 2)
-    except (KeyboardInterrupt, typer.Abort):
+    except (KeyboardInterrupt, typer.Abort) as stop:
+        if isinstance(stop.__cause__, EOFError):  # typer takes one for the end of an answer, and we ask nothing
+            raise stop.__cause__ from None
         fail("interrupted", INTERRUPTED)
     except BrokenPipeError:
         _abandon_output()

@@ -67,7 +67,7 @@ def _closed(folder: Path) -> bool:
     found = folder.lstat()  # not through a link, which may point to another folder tomorrow
     good = stat.S_ISDIR(found.st_mode) and found.st_uid == os.getuid() and not found.st_mode & 0o022
     if not good:
-        _say(f"{folder} is no folder of yours that is closed to others; no compiled code is kept there")
+        _say(f"compiled code is not kept in {folder}: others may write there, or it is not a folder of yours")
     return good
 
 
