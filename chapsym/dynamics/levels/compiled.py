@@ -90,7 +90,8 @@ def _registered(modules: tuple[ModuleType, ...]) -> None:
             if function.__module__.startswith("chapsym.") and function not in seen:
                 seen.add(function)
                 inlined = (function.__code__.co_filename, function.__name__) in _inlined()
-                register_jitable(error_model="numpy", forceinline=inlined)(function)
+                # Nobody calls it but compiled code: it needs no way in from C, which takes time to compile.
+                register_jitable(error_model="numpy", forceinline=inlined, no_cfunc_wrapper=True)(function)
 
 
 @cache
