@@ -8,7 +8,7 @@ import threading
 
 import pytest
 
-from chapsym.dynamics import code_cache, compiled
+from chapsym.dynamics.levels import code_cache, compiled
 
 
 def twice(x):
