@@ -89,15 +89,16 @@ def plus(honest):
     return lambda self, sign: honest(self, -sign)
 
 
+#: A slip, and claims whose second route takes that function: each claim meets several slips, each slip some claims.
 SECOND_ROUTE = {
-    "the last sign of (4.13)": (again, "momentum", wrong_last, CLAIMS),
-    "a factor in (4.13)": (again, "momentum_by_centre", doubled, ("prop-1", "5.2", "prop-3", "prop-4")),
+    "the last sign of (4.13)": (again, "momentum", wrong_last, ("remark-3", "prop-3", "5.15")),
+    "a factor in (4.13)": (again, "momentum_by_centre", doubled, ("prop-1", "5.2")),
     "the constraint": (again, "centre_step", naive, ("prop-1",)),
     "the sign of the action": (again, "action", negated, ("prop-1",)),
     "half the action": (again, "action", doubled, ("prop-1",)),
-    "no rotation": (again, "cayley", doubled, ("prop-1", "remark-3", "5.2", "prop-3", "prop-4")),
-    "off the sphere": (again, "sphere", doubled, ("5.2", "prop-3", "prop-4", "5.15")),
-    "no hat": (again, "hat", negated, ("5.2", "prop-4")),
+    "no rotation": (again, "cayley", doubled, ("remark-3", "prop-4")),
+    "off the sphere": (again, "sphere", doubled, ("5.2", "5.15")),
+    "no hat": (again, "hat", negated, ("5.2",)),
     "the half argument": (again.Increment, "half_square", plus, ("5.15",)),
     "the relation": (again.Parts, "relation", lambda h: lambda self, D, sign=1: h(self, 2 * D, sign), ("5.15",)),
     "σ": (again.VerticalStep, "sigma", doubled, ("prop-4",)),

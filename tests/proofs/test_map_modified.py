@@ -9,14 +9,14 @@ import sympy as sp
 from chapsym.derive import modified
 from chapsym.derive.three import D
 from chapsym.prove import load
-from chapsym.prove.runner import judge, prove_one
+from chapsym.prove.runner import judge
 
 LEMMAS = ["modified-field", "modified-energy", "energy-without-rolling", "modified-measure", "map-symmetries"]
 
 
 @pytest.mark.parametrize("id", LEMMAS)
-def test_the_lemma_holds_with_its_evidence(id):
-    record = prove_one(id)
+def test_the_lemma_holds_with_its_evidence(lemmas, id):
+    record = lemmas[id]
     evidence = record["evidence"]
     assert record["verdict"] == "holds", evidence["problems"]
     assert evidence["witnesses"]

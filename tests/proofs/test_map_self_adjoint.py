@@ -9,14 +9,14 @@ from reference import added, axial, diagonal, matmul, momentum, outer, rotation,
 from chapsym import testing
 from chapsym.derive import ball
 from chapsym.prove import load
-from chapsym.prove.runner import judge, prove_one
+from chapsym.prove.runner import judge
 
 LEMMAS = ["self-adjoint", "reversible", "momentum-integrals-composed"]
 
 
 @pytest.mark.parametrize("id", LEMMAS)
-def test_the_lemma_holds_with_its_evidence(id):
-    record = prove_one(id)
+def test_the_lemma_holds_with_its_evidence(lemmas, id):
+    record = lemmas[id]
     evidence = record["evidence"]
     assert record["verdict"] == "holds", evidence["problems"]
     assert evidence["witnesses"]

@@ -9,15 +9,15 @@ from chapsym import checker
 from chapsym.proofs.open import certified, measure
 from chapsym.prove import Fact, Verdict, load
 from chapsym.prove.records import fingerprint
-from chapsym.prove.runner import judge, prove_one
+from chapsym.prove.runner import judge
 
 LEMMAS = ["symmetries", "chord", "resonance", "plateaus", "almost-every", "locked-circle"]
 DIGITS = 110
 
 
 @pytest.mark.parametrize("id", LEMMAS)
-def test_the_lemma_holds_with_its_evidence(id):
-    record = prove_one(id)
+def test_the_lemma_holds_with_its_evidence(lemmas, id):
+    record = lemmas[id]
     evidence = record["evidence"]
     assert record["verdict"] == "holds", evidence["problems"]
     assert evidence["witnesses"]
@@ -198,8 +198,8 @@ def test_without_rolling_the_displacement_vanishes_to_every_digit(start):
     assert abs(circle.displaced(start * circle.K / q, mp.mpf(0), h, q) - 2 * circle.K * p) < mp.mpf(10) ** (8 - DIGITS)
 
 
-def test_the_question_is_settled_by_lemmas_and_certificates():
-    record = prove_one("5.9-open")
+def test_the_question_is_settled_by_lemmas_and_certificates(records):
+    record = records["5.9-open"]
     evidence = record["evidence"]
     assert record["verdict"] == "settled", evidence["problems"]
     assert evidence["answer"].startswith("No, in general")
