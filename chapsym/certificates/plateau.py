@@ -109,7 +109,7 @@ def end_of_plateau(
     (x, y), limit = near, unit_in_last_place(near[0], bits)
     before, now = off(x), off(y)
     for _ in range(MOST_SECANTS):
-        if before == now or x == y:
+        if before == now:
             break
         step = now * (y - x) / (now - before)
         x, y = y, Fraction(round((y - step) / limit)) * limit

@@ -176,7 +176,12 @@ def test_an_enclosure_narrower_than_what_is_found_is_refused(monkeypatch):
         x + arb(0, exact(Fraction(y[1])) / 2)
         for x, y in zip(stated, (*data["misses"], *2 * [["", radius]]), strict=True)
     ]
-    monkeypatch.setattr(drift_file, "enclose", lambda *rest: drift.Enclosures((found[0], found[1]), *found[2:]))
+
+    def enclosed(orbit, bits, order):
+        assert (orbit, bits, order) == (drift_file.read(data), data["bits"] + 64, data["order"] + 8)
+        return drift.Enclosures((found[0], found[1]), *found[2:])
+
+    monkeypatch.setattr(drift_file, "enclose", enclosed)
     drift_file.verify(data)
     narrow = {**data, "energy": [data["energy"][0], "0.00000000000000001"]}
     with pytest.raises(NotEnclosed, match="stated"):

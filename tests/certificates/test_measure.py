@@ -103,6 +103,16 @@ def test_the_elliptic_relation_has_the_same_displacement_to_all_digits(ball, arg
             assert abs(other - Fraction(orbit["displacement"])) <= Fraction(1, 2 * 10**150)
 
 
+def test_secants_find_the_end_of_a_plateau_and_stop_where_there_is_none():
+    """Two levels whose displacements are the same to the last bit have no secant."""
+    near = LEVEL - Fraction(1, 10**6), LEVEL + Fraction(1, 10**6)
+    with ctx.workprec(128):
+        found = plateau.end_of_plateau(Reduced(top()), near, (0, 1, 2), "a", 9, 128)
+        assert abs(found - LEVEL) < Fraction(1, 10**28)  # the plateau is 4e-29 wide
+        same = LEVEL, LEVEL + Fraction(1, 2**200)
+        assert plateau.end_of_plateau(Reduced(top()), same, (0, 1, 2), "a", 9, 128) == same[1]
+
+
 def test_circles_around_the_axis_of_the_largest_moment():
     """Where those around the other axis have the larger displacement, only a level says that these are meant."""
     around = plateau.staircases(top(), 23, lambda what: None)[1]

@@ -53,6 +53,17 @@ def test_a_box_that_is_too_large_for_the_digits_is_refused():
         check(maker.measure(level=LEVEL, digits=DIGITS, radius="1e-40"))
 
 
+def test_the_circle_is_that_of_the_whole_box(right):
+    """What a certificate claims holds within the radius on both sides of each number."""
+    ball, off = {"J": ["1", "2", "4"], "D": "1", "height": "12/5", "level": LEVEL}, Fraction(1, 10**9)
+    circle = Circle(right | {"ball": ball, "radius": str(off)})
+    around = [(circle.height, Fraction(12, 5), off), (circle.level, Fraction(LEVEL), off)]
+    around += [(box, Fraction(x), 3 * off) for box, x in zip(circle.ball.contact, (7, 6, 4), strict=True)]  # I + D
+    for box, x, radius in around:
+        assert box.lo <= (x - radius) * 2**box.bits
+        assert box.hi >= (x + radius) * 2**box.bits
+
+
 def test_each_number_that_is_changed_is_refused_by_the_digest(right):
     rng = random.Random(7)
     for path in [*leaves(right), ("digest",)]:
