@@ -1,4 +1,4 @@
-"""A run of many small units, for this process and for those that are killed: `python small_units.py STORE [SLEEP]`."""
+"""A run of many small units, for this process and for those that are killed: `small_units.py STORE SLEEP [MOST]`."""
 
 import sys
 import time
@@ -6,6 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+from waiting import GUARD
 
 import chapsym
 from chapsym.dynamics import kernels
@@ -16,6 +17,7 @@ from chapsym.scene.running import segments, sweep
 from chapsym.scene.running.task import Task
 
 BALLS, STEPS, EVERY = 20, 330, 10
+UNITS = 20
 OUTPUTS = ("momentum", "gamma", "omega", "attitude", "contact", "energy", "integrals")
 
 
@@ -69,14 +71,14 @@ def equal_to_the_bit(one, other):
 
 
 if __name__ == "__main__":
-    calls = 0
+    calls, most = 0, int(sys.argv[3]) if len(sys.argv) > 3 else UNITS
     real = segments.advance
 
     def advance(*args, **kwargs):
-        """The real one, slower, and counted."""
+        """The real one, slower, and counted; after MOST units none is begun."""
         global calls
         calls += 1
-        time.sleep(float(sys.argv[2]))
+        time.sleep(float(sys.argv[2]) if calls <= most else GUARD)
         return real(*args, **kwargs)
 
     segments.advance = advance

@@ -7,11 +7,11 @@ import re
 import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import numpy as np
 import pytest
+from waiting import GUARD, INTERRUPTIBLE
 
 STEP = ["step", "--mass-tensor", "1,2,4", "--D", "3", "--momentum", "1,-1/2,3/4", "--gamma", "2/7,3/7,6/7"]
 FIRST = str(Path(__file__).parents[1] / "docs" / "first.toml")
@@ -184,15 +184,31 @@ def test_output_that_nobody_reads_ends_with_141():
     assert done.stderr == ""
 
 
-@pytest.mark.parametrize("command", [["check", "--states", "500"], ["prove"]])
-def test_an_interrupt_is_told_and_quick(command):
+#: The command, which says when the first part of its work has arrived, and waits there.
+ARRIVED = f"""{INTERRUPTIBLE}
+import time
+from contextlib import contextmanager
+from chapsym.cli import check, main, prove
+
+@contextmanager
+def bar(label, total):
+    yield lambda done: (print("arrived", flush=True), time.sleep({GUARD}))
+
+check.progress_bar = prove.progress_bar = bar
+main()
+"""
+
+
+@pytest.mark.parametrize("command", [["check", "--states", "1"], ["prove", "4.3", "2.1", "2.7"]])
+def test_an_interrupt_is_told_and_ends_the_command(command):
+    """Sent to all processes of the command, as a terminal does."""
     with subprocess.Popen(
-        [sys.executable, "-m", "chapsym.cli", *command], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+        [sys.executable, "-c", ARRIVED, *command], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
         start_new_session=True,
     ) as running:  # fmt: skip
-        time.sleep(2.5)
+        assert running.stdout.readline() == "arrived\n"
         os.killpg(running.pid, signal.SIGINT)
-        _, told = running.communicate(timeout=20)
+        _, told = running.communicate()
     assert running.returncode == 130
     assert told.strip().splitlines()[-1] == "chapsym: interrupted"
 

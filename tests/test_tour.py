@@ -6,6 +6,7 @@ from pathlib import Path
 import nbformat
 import pytest
 from nbclient import NotebookClient
+from waiting import GUARD
 
 TOUR = Path(__file__).parents[1] / "docs" / "tour.ipynb"
 
@@ -16,7 +17,7 @@ def executed(notebook):
     for cell in fresh.cells:
         if cell.cell_type == "code":
             cell.outputs, cell.execution_count = [], None
-    NotebookClient(fresh, timeout=120, kernel_name="python3", record_timing=False).execute()
+    NotebookClient(fresh, timeout=GUARD, startup_timeout=GUARD, kernel_name="python3", record_timing=False).execute()
     return fresh
 
 

@@ -194,14 +194,11 @@ def test_balls_of_a_batch_have_the_bits_of_single_ones(threads):
 def test_a_batch_of_another_order_is_not_taken_in_blocks(monkeypatch):
     """Blocks have the stage of order 2 only; 4 balls in plain Python, though they would fill one."""
     monkeypatch.setattr(quad, "SHORT_RUN", 0)
-    ball, start = (
-        chapsym.Ball(np.array([J] * quad.FEW), np.full(quad.FEW, D), np.full(quad.FEW, RADIUS)),
-        [K] * quad.FEW,
-    )
-    together = run_with(monkeypatch, lambda f: f, ball, start, [GAMMA] * quad.FEW, 3, order=4)
+    n, balls = quad.FEW, chapsym.Ball(np.array([J] * quad.FEW), np.full(quad.FEW, D), np.full(quad.FEW, RADIUS))
+    together = run_with(monkeypatch, lambda f: f, balls, [K] * n, [GAMMA] * n, 3, order=4)
     alone = run_with(monkeypatch, lambda f: f, BALL, K, GAMMA, 3, order=4)
     for a, b in ((together, alone), (together.low, alone.low)):
-        np.testing.assert_array_equal(a.momentum, [b.momentum] * quad.FEW)
+        np.testing.assert_array_equal(a.momentum, [b.momentum] * n)
 
 
 def test_a_fold_is_told_as_in_float64():

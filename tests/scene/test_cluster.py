@@ -8,12 +8,12 @@ import signal
 import subprocess
 import sys
 import threading
-import time
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
 import pytest
 from small_units import equal_to_the_bit
+from waiting import GUARD, until
 
 from chapsym.scene import SceneError
 from chapsym.scene.plan import plan as plans
@@ -41,9 +41,11 @@ outputs = ["momentum", "contact", "energy"]
 
 @pytest.fixture(autouse=True)
 def _small(monkeypatch):
-    """Here as in the workers."""
+    """Here as in the workers; a scheduler or a worker may be slow to come."""
     monkeypatch.setattr(plans, "CHUNK", 4)
     monkeypatch.setattr(Rolling, "unit_steps", 400)
+    monkeypatch.setattr(cluster, "REACHED", GUARD)
+    monkeypatch.setattr(cluster, "ABANDONED", GUARD)
 
 
 @pytest.fixture
@@ -67,15 +69,23 @@ def process(*arguments, **environment):
         running.wait()
 
 
-@pytest.fixture
-def scheduler(tmp_path):
-    file = tmp_path / "scheduler.json"
+@contextmanager
+def scheduling(file):
+    """A scheduler that writes this file, and its address."""
     arguments = ["distributed.cli.dask_scheduler", "--host", "127.0.0.1", "--port", "0", "--no-dashboard"]
     with process(*arguments, "--scheduler-file", str(file)) as running:
-        while not file.exists():
-            assert running.poll() is None
-            time.sleep(0.05)
-        yield str(json.loads(file.read_text())["address"])
+
+        def address():
+            with suppress(FileNotFoundError, ValueError):  # it is there before it is whole
+                return json.loads(file.read_text())["address"]
+
+        yield running, until(address, running)
+
+
+@pytest.fixture
+def scheduler(tmp_path):
+    with scheduling(tmp_path / "scheduler.json") as (_, address):
+        yield address
 
 
 def worker(address, sleep="0.05", **environment):
@@ -111,18 +121,20 @@ def test_a_worker_that_is_killed_in_the_middle_changes_nothing(local, scheduler,
 
 
 def test_a_run_goes_on_from_a_cluster_to_one_machine(local, scheduler, tmp_path):
+    """The client is killed when it has told some units and waits: in the middle, however fast the workers are."""
     path = tmp_path / "run.zarr"
     lines = [
-        "import sys", f"sys.path.insert(0, {str(Path(PRELOAD).parent)!r})", "import slow_small_units",
-        "from pathlib import Path", "from chapsym.scene.running import sweep",
+        "import sys, time", f"sys.path.insert(0, {str(Path(PRELOAD).parent)!r})", "import slow_small_units",
+        "from pathlib import Path", "from chapsym.scene.running import cluster, sweep",
         "from chapsym.scene.running.source import plan_from",
-        "report = lambda at: print(at, flush=True)",
+        f"cluster.REACHED = cluster.ABANDONED = {GUARD}",
+        f"told = iter(range({random.Random(5).randrange(4, 12)}))",
+        f"report = lambda at: next(told, None) is None and (print(flush=True), time.sleep({GUARD}))",
         f"sweep.run_to_store(plan_from({SCENE!r}), Path({str(path)!r}), {scheduler!r}, report=report)",
     ]  # fmt: skip
     with worker(scheduler, "0.1"), worker(scheduler, "0.1"):
         client = subprocess.Popen([sys.executable, "-c", "\n".join(lines)], stdout=subprocess.PIPE, text=True)
-        for _ in range(random.Random(5).randrange(4, 12)):
-            assert client.stdout.readline()
+        assert client.stdout.readline()
         client.kill()
         client.communicate()
         assert formats.load(path).attrs["complete"] is False
@@ -166,16 +178,14 @@ def test_workers_with_another_chapsym_are_one_sentence(scheduler, tmp_path):
 @pytest.mark.parametrize(
     ("address", "told"),
     [
-        ("tcp://127.0.0.1:9", "no Dask scheduler answers at tcp://127.0.0.1:9"),
+        ("tcp://127.0.0.1:9", r"no Dask scheduler answers at tcp://127\.0\.0\.1:9 \(waited 1 s\)"),
         ("nonsense://x", "is no address of a Dask"),
     ],
 )
 def test_a_scheduler_that_is_not_there_is_one_sentence(tmp_path, monkeypatch, address, told):
     monkeypatch.setattr(cluster, "REACHED", 1.0)
-    started = time.monotonic()
     with pytest.raises(SceneError, match=told):
         sweep.run_to_store(plan_from(SCENE), tmp_path / "run.zarr", address)
-    assert time.monotonic() - started < 10
 
 
 def test_a_scheduler_without_workers_is_one_sentence(scheduler, tmp_path, monkeypatch):
@@ -189,12 +199,7 @@ def test_a_scheduler_that_ends_is_one_sentence_and_loses_nothing(local, tmp_path
 
     for name in ("distributed", "distributed.client"):
         monkeypatch.setattr(logging.getLogger(name), "handlers", [caplog.handler])
-    file = tmp_path / "scheduler.json"
-    arguments = ["distributed.cli.dask_scheduler", "--host", "127.0.0.1", "--port", "0", "--no-dashboard"]
-    with process(*arguments, "--scheduler-file", str(file)) as running:
-        while not file.exists():
-            time.sleep(0.05)
-        address = json.loads(file.read_text())["address"]
+    with scheduling(tmp_path / "scheduler.json") as (running, address):
 
         def end(progress):
             if progress.balls >= 8:

@@ -8,13 +8,13 @@ import resource
 import signal
 import subprocess
 import sys
-import time
 from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
 import pytest
 from small_units import equal_to_the_bit, plan
+from waiting import INTERRUPTIBLE
 
 from chapsym.scene import SceneError
 from chapsym.scene.result import formats
@@ -22,19 +22,19 @@ from chapsym.scene.running import sweep
 from chapsym.scene.running.store import marks
 
 DOCS = Path(__file__).parents[2] / "docs"
-#: Some seconds.
+#: Eleven units of work.
 LONG = """
 [ball]
 inertia = [0.006, 0.007, 0.009]
 mass = 2.0
 radius = 0.1
 [start]
-omega = [{ linspace = [3.0, 4.0, 9000] }, -2.0, 1.0]
+omega = [{ linspace = [3.0, 4.0, 45_000] }, -2.0, 1.0]
 gamma = ["2/7", "3/7", "6/7"]
 [run]
 time_step = 0.01
-steps = 24_000
-every = 2000
+steps = 240
+every = 20
 """
 
 
@@ -178,33 +178,49 @@ def test_a_limit_of_the_file_size_is_one_sentence(tmp_path):
     assert [p.name for p in tmp_path.iterdir()] == ["run.zarr"]
 
 
-def test_an_interrupted_command_stops_soon_and_goes_on(tmp_path):
+#: The command, which interrupts itself once, when the first unit of its work is kept.
+INTERRUPTED = f"""{INTERRUPTIBLE}
+import sys, threading
+from contextlib import contextmanager
+from pathlib import Path
+from chapsym.cli import following, main
+
+once = iter([signal.SIGINT])
+
+def report(progress):
+    if list(Path(sys.argv[-1]).glob(".chapsym/chunk-*")):
+        for sent in once:
+            signal.pthread_kill(threading.main_thread().ident, sent)
+
+@contextmanager
+def reporting(as_json):
+    yield report
+
+following.following = reporting
+main()
+"""
+
+
+def test_an_interrupted_command_stops_and_goes_on(tmp_path):
     scene, path = tmp_path / "long.toml", tmp_path / "run.zarr"
     scene.write_text(LONG)
-    with subprocess.Popen(
-        [sys.executable, "-m", "chapsym.cli", "run", str(scene), "-o", str(path)],
-        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-    ) as running:  # fmt: skip
-        while not list(path.glob(".chapsym/chunk-*")):
-            assert running.poll() is None, running.stderr.read()
-            time.sleep(0.02)
-        asked = time.monotonic()
-        running.send_signal(signal.SIGINT)
-        _, told = running.communicate(timeout=20)
-    assert time.monotonic() - asked < 3
-    assert running.returncode == 130
-    assert told.splitlines()[-1] == "chapsym: interrupted; the same command goes on from there"
+    done = subprocess.run(
+        [sys.executable, "-c", INTERRUPTED, "run", str(scene), "-o", str(path)],
+        capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    assert done.returncode == 130, done.stderr
+    assert done.stderr.splitlines()[-1] == "chapsym: interrupted; the same command goes on from there"
     assert list(path.glob(".chapsym/chunk-*"))
     done = chapsym("run", scene, "-o", path, "--json")
     assert done.returncode == 0, done.stderr
     found = json.loads(done.stdout)
     assert found == {
-        "output": str(path), "balls": 9000, "frames": 13, "steps": 24_000, "model": "reduced map",
+        "output": str(path), "balls": 45_000, "frames": 13, "steps": 240, "model": "reduced map",
         "failed": 0, "complete": True, "lost": [],
     }  # fmt: skip
     again = chapsym("run", scene, "-o", path)
-    assert again.stdout == f"9000 balls, 13 frames, reduced map; {path} was complete already\n"
-    scene.write_text(LONG.replace("4.0, 9000", "5.0, 9000"))
+    assert again.stdout == f"45000 balls, 13 frames, reduced map; {path} was complete already\n"
+    scene.write_text(LONG.replace("4.0, 45_000", "5.0, 45_000"))
     assert "holds another scene (start.omega differs)" in refused(chapsym("run", scene, "-o", path))
 
 
@@ -213,6 +229,6 @@ def test_the_command_refuses_what_cannot_be(tmp_path):
     scene.write_text(LONG)
     assert "a .npz holds one ball" in refused(chapsym("run", scene, "-o", tmp_path / "run.npz"))
     assert "needs a .zarr" in refused(chapsym("run", scene, "-o", tmp_path / "run.nc", "--scheduler", "tcp://x:1"))
-    scene.write_text(LONG.replace("every = 2000", "every = 2"))
+    scene.write_text(LONG.replace("every = 20", "every = 1"))
     assert "a CSV of more than 10000000 is of no use" in refused(chapsym("run", scene, "-o", tmp_path / "run.csv"))
     assert [p.name for p in tmp_path.iterdir()] == ["long.toml"]

@@ -2,10 +2,11 @@
 
 import os
 import random
-import signal
 import subprocess
 import sys
+import threading
 import time
+from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 
@@ -13,16 +14,17 @@ import numpy as np
 import pytest
 import xarray
 import zarr
-from small_units import EVERY, OUTPUTS, STEPS, equal_to_the_bit, plan
+from small_units import EVERY, OUTPUTS, STEPS, UNITS, equal_to_the_bit, plan
+from waiting import GUARD, until
 
 from chapsym.dynamics import BadInput, Status
 from chapsym.scene import SceneError
 from chapsym.scene.running import segments, sweep
 from chapsym.scene.running.store import Store, is_store, marks, write_region
 from chapsym.scene.running.store.refusals import refusals
+from chapsym.scene.running.tally import Stopped
 
 CHILD = [sys.executable, str(Path(__file__).parents[1] / "small_units.py")]
-UNITS = 20
 
 
 @pytest.fixture(scope="module")
@@ -41,12 +43,17 @@ def marked(path):
     return {mark.name: mark.stat().st_mtime_ns for mark in marks.folder(path).glob("chunk-*.npz")}
 
 
-def child(path, sleep=0.01):
-    running = subprocess.Popen(
-        [*CHILD, str(path), str(sleep)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
-    )
-    assert running.stdout.readline() == "ready\n", running.stderr.read()
-    return running
+@contextmanager
+def child(path, sleep, most=UNITS):
+    """A process that runs the plan, so many units of it, and is killed in the end."""
+    with subprocess.Popen(
+        [*CHILD, str(path), str(sleep), str(most)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    ) as running:
+        try:
+            assert running.stdout.readline() == "ready\n", running.stderr.read()
+            yield running
+        finally:
+            running.kill()
 
 
 def test_the_dataset_keeps_the_contract(whole):
@@ -98,21 +105,19 @@ def test_a_run_that_is_killed_goes_on_and_has_the_same_bits(whole, tmp_path, see
     path = tmp_path / "run.zarr"
     states = set()
     for attempt in range(4):
-        before, running = marked(path), child(path, 0.03)
-        if attempt:  # later ones after they have done something; the first while it makes the store, or soon after
-            while marked(path) == before and running.poll() is None:
-                time.sleep(0.005)
-        time.sleep(chance.uniform(0, 0.1 if attempt else 0.3))
-        running.kill()
-        running.communicate()
+        before = marked(path)
+        with child(path, 0.03, most=4) as running:
+            if attempt:  # later ones after they have done something; the first while it makes the store, or soon after
+                until(lambda before=before: marked(path) != before, running)
+            time.sleep(chance.uniform(0, 0.1 if attempt else 0.3))
         if path.exists():
             left = opened(path)
             states.add(left.attrs["complete"])
             waiting = left.taken.values == -1
             assert np.isnan(left.momentum.values[waiting]).all() or not left.attrs["complete"]
             assert (left.status.values[waiting] == -1).all()
-    running = child(path, 0)
-    calls, failed = map(int, running.communicate()[0].split())
+    with child(path, 0) as running:
+        calls, failed = map(int, running.communicate()[0].split())
     assert running.returncode == 0
     assert calls < UNITS, "nothing was kept"
     assert False in states
@@ -244,15 +249,13 @@ def test_fresh_replaces_a_result_of_chapsym_only(whole, tmp_path, monkeypatch):
 
 def test_the_second_writer_is_told_who_writes(whole, tmp_path):
     path = tmp_path / "run.zarr"
-    running = child(path, 0.2)
-    while not is_store(path) or not (marks.folder(path) / "lock").exists():
-        time.sleep(0.01)
-    time.sleep(0.05)
-    for fresh in (False, True):
-        with pytest.raises(SceneError, match=f"is being written by process {running.pid} on "):
-            sweep.run_to_store(plan(), path, fresh=fresh)
-    running.send_signal(signal.SIGKILL)  # and now its lock is nobody's
-    running.communicate()
+    lock = marks.folder(path) / "lock"
+    with child(path, 0, most=0) as running:
+        until(lambda: is_store(path) and lock.exists() and lock.read_text(), running)
+        for fresh in (False, True):
+            with pytest.raises(SceneError, match=f"is being written by process {running.pid} on "):
+                sweep.run_to_store(plan(), path, fresh=fresh)
+    # It was killed, and now its lock is nobody's.
     assert sweep.run_to_store(plan(), path).complete
     equal_to_the_bit(opened(path), whole)
 
@@ -348,21 +351,26 @@ def test_what_zarr_makes_anew_of_a_deleted_store_goes_again(tmp_path):
 
 
 def test_units_that_run_stop_when_another_ends_the_run(tmp_path, monkeypatch):
+    others, stopped = threading.Event(), []
+
     def advance(wanted, chunk, state, segment, progress):
-        time.sleep(0.2)
         if chunk.start == 0:
+            assert others.wait(GUARD)
             raise KeyboardInterrupt
-        for _ in range(500):
-            time.sleep(0.02)
-            progress(1)
-        raise AssertionError("it was not stopped")
+        others.set()
+        try:
+            for _ in range(50 * GUARD):
+                time.sleep(0.02)
+                progress(1)
+        except Stopped:
+            stopped.append(chunk)
+            raise
 
     monkeypatch.setattr(segments, "advance", advance)
     monkeypatch.setattr(sweep, "cores", lambda: 4)
-    started = time.monotonic()
     with pytest.raises(KeyboardInterrupt):
         sweep.run_to_store(plan(), tmp_path / "run.zarr")
-    assert time.monotonic() - started < 5
+    assert stopped
 
 
 def test_balls_without_an_answer_are_listed_and_the_others_go_on(whole, tmp_path, monkeypatch):

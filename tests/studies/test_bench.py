@@ -305,7 +305,7 @@ def test_the_figure_has_a_panel_for_each_group_of_curves():
     ],
 )
 def test_what_cannot_be_measured_is_said_before_measuring(arguments, sentence, tmp_path):
-    done = subprocess.run([*COMMAND, *arguments], capture_output=True, text=True, check=False, cwd=tmp_path, timeout=60)
+    done = subprocess.run([*COMMAND, *arguments], capture_output=True, text=True, check=False, cwd=tmp_path)
     assert (done.returncode, done.stdout) == (2, "")
     assert sentence in done.stderr
     assert done.stderr.count("\n") == 1
