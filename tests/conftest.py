@@ -3,12 +3,39 @@ import json
 import os
 import tempfile
 
+import chromium
 import pytest
-from hypothesis import settings
+from budget import EXAMPLES, THOROUGH
+from hypothesis import HealthCheck, settings
 
-settings.register_profile("ci", deadline=None, derandomize=True, max_examples=60)
-settings.register_profile("dev", deadline=None, max_examples=200)
-settings.load_profile("ci" if os.environ.get("CI") else "dev")
+#: The same examples everywhere; all that depends on CI or on the clock in Hypothesis's own profiles is set.
+settings.register_profile(
+    "same", max_examples=EXAMPLES, derandomize=True, database=None, deadline=None, print_blob=True,
+    suppress_health_check=[HealthCheck.too_slow],
+)  # fmt: skip
+settings.register_profile("thorough", settings.get_profile("same"), max_examples=THOROUGH * EXAMPLES, derandomize=False)
+
+
+def pytest_addoption(parser):
+    parser.addoption("--thorough", action="store_true", help="random seeds, ten times the examples, every slow cell")
+
+
+def pytest_configure(config):
+    settings.load_profile("thorough" if config.getoption("--thorough") else "same")
+
+
+def pytest_terminal_summary(terminalreporter, config):
+    if config.getoption("--thorough"):
+        terminalreporter.write_line("thorough: random seeds, ten times the examples, every slow cell")
+    if left_out := chromium.left_out(terminalreporter.stats.get("skipped", [])):
+        terminalreporter.write_line(left_out)
+
+
+@pytest.fixture(scope="session")
+def thorough(pytestconfig):
+    """Whether the slow cells are wanted, too."""
+    return pytestconfig.getoption("--thorough")
+
 
 # The verdicts that the tests provoke are not the user's.
 os.environ["CHAPSYM_RECORDS"] = os.path.join(tempfile.mkdtemp(prefix="chapsym-tests-"), "verdicts.jsonl")

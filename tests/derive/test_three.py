@@ -3,7 +3,8 @@
 from fractions import Fraction
 
 import sympy as sp
-from hypothesis import given, settings
+from budget import examples
+from hypothesis import given
 from reference import axial, dot, matmul, momentum, rotation, times, transposed
 
 from chapsym import generated, testing
@@ -32,7 +33,7 @@ def test_transport_and_rotate_are_inverse(q, v):
 
 
 @given(UNITS, testing.rational_unit_vectors(), testing.rational_balls())
-@settings(max_examples=25)
+@examples(25)
 def test_the_expansion_around_a_rotation_is_exact(q, g, ball):
     """𝒦(q ∘ (1, w)) = 𝒦(q) + T w + ½ Σ H w w, with no further terms."""
     J, D = ball
@@ -48,7 +49,7 @@ def test_the_expansion_around_a_rotation_is_exact(q, g, ball):
 
 
 @given(UNITS.filter(lambda q: q[0] != 0), testing.rational_unit_vectors(), testing.rational_balls())
-@settings(max_examples=25)
+@examples(25)
 def test_the_two_jacobians_differ_by_the_chart(q, g, ball):
     """T = (∂𝒦/∂q)(q0 + q×): in the chart q moves by q0 w + q × w."""
     J, D = ball

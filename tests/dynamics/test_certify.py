@@ -8,7 +8,8 @@ import flint
 import mpmath
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from budget import examples
+from hypothesis import assume, given
 from hypothesis import strategies as st
 from orbits import context, from_quaternion, orbit
 
@@ -72,7 +73,7 @@ def test_every_rung_is_certified_from_its_own_numbers(precision):
 
 
 @given(testing.states(fraction=(0.05, 0.9)), st.sampled_from([2, 4]))
-@settings(max_examples=15)
+@examples(15)
 def test_float_trajectories_of_any_state_are_within_their_bounds(state, order):
     ball, momentum, gamma = state
     try:

@@ -7,8 +7,9 @@ from math import factorial
 import mpmath
 import numpy as np
 import pytest
+from budget import examples
 from convergence import continuous_ball, convergence
-from hypothesis import given, settings
+from hypothesis import given
 from reference import dot
 
 import chapsym
@@ -289,7 +290,7 @@ def test_all_momentum_integrals_stay_exact(order):
 
 
 @given(testing.states(fraction=(0.05, 0.9)))
-@settings(max_examples=30)
+@examples(30)
 def test_the_integrals_stay_exact_for_every_ball(state):
     ball, momentum, gamma = state
     for order in ORDERS:

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 
 from chapsym import testing
 from chapsym.dynamics import BadInput, Ball, Status, branches, fold, follow, kernels, margin, step
@@ -69,7 +69,6 @@ def test_closed_forms():
     assert margin(Ball((1, 1, 1), 0), 0.5 * GAMMA, (0, 0, 1)) == pytest.approx(3, rel=1e-15)
 
 
-@settings(max_examples=60)
 @given(testing.states(fraction=(0.01, 1.3)))
 def test_the_margin_says_whether_the_step_is_taken(state):
     ball, K, gamma = state

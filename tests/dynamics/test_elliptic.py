@@ -5,7 +5,8 @@ from itertools import permutations
 import mpmath
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from budget import examples
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 import chapsym
@@ -80,7 +81,7 @@ def test_every_ball_has_its_curve_on_both_sides(ball):
 
 
 @given(testing.unit_vectors(), st.sampled_from(BALLS), st.floats(-0.5, 0.5))
-@settings(max_examples=100, deadline=None)
+@examples(100)
 def test_point_and_argument_are_inverse(gamma, ball, part):
     """u comes back within ulps of u, plus the 8 ulps of γ over |dγ/du|, the condition of the inverse."""
     inertia = ball.inertia + ball.D

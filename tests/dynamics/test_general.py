@@ -6,7 +6,8 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from balls_n import SIZES, UNIT_ROUNDOFF, condition, offset, states
-from hypothesis import given, settings
+from budget import examples
+from hypothesis import given
 
 import chapsym
 from chapsym import BadInput, Ball, BallN, Status, StepNotTaken, axial, step_n
@@ -22,7 +23,7 @@ def test_a_step_solves_the_equation(n):
     """Evaluated exactly at the Ω - 1 that was found: only roundings of the residual are left, and Ω is a rotation."""
 
     @given(states(n))
-    @settings(max_examples=25 if n < 8 else 8)
+    @examples(25 if n < 8 else 8)
     def solves(state):
         K, _, J, D = state
         E, (X, k, g, j, d) = offset(state), (np.vectorize(Fraction)(x) for x in (offset(state), *state))
@@ -35,7 +36,7 @@ def test_a_step_solves_the_equation(n):
 
 
 @given(states(3))
-@settings(max_examples=40)
+@examples(40)
 def test_in_three_dimensions_it_is_the_same_map(state):
     K, gamma, J, D = state
     general, special = step_n(BallN(J, D), K, gamma), chapsym.step(Ball(J, D), axial(K), gamma)
@@ -51,7 +52,7 @@ def test_a_step_goes_back(n):
     """The map is reversible: from (-𝒦, γ) after the step Ωᵀ leads to (-𝒦, γ) before it."""
 
     @given(states(n, fraction=(0.0, 0.3)))
-    @settings(max_examples=20 if n < 8 else 6)
+    @examples(20 if n < 8 else 6)
     def back(state):
         K, gamma, J, D = state
         ball = BallN(J, D)

@@ -7,7 +7,8 @@ import flint
 import mpmath
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from budget import examples
+from hypothesis import assume, given
 from orbits import context, from_quaternion, orbit
 
 import chapsym
@@ -93,7 +94,7 @@ def test_balls_contain_the_oracle_step_by_step_and_are_small(size):
 
 
 @given(testing.states(fraction=(0.05, 0.95)))
-@settings(max_examples=25)
+@examples(25)
 def test_three_steps_of_any_state_are_enclosed(state):
     """Inside the bound of the lemma and beyond it, degenerate and stiff balls."""
     ball, momentum, gamma = state
@@ -247,7 +248,7 @@ def test_more_bits_than_can_be_carried_are_refused_in_one_sentence(monkeypatch):
 
 
 @given(testing.states(fraction=(0.05, 1.0)), testing.unit_vectors())
-@settings(max_examples=40)
+@examples(40)
 def test_what_is_certified_is_monotone_and_contains_the_root(state, direction):
     """Lemma small-branch in balls, on numbers: in the ball ∂G/∂u has at least the slope m, and the root is in it."""
     ball, momentum, gamma = state

@@ -5,7 +5,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from budget import examples
+from hypothesis import assume, given
 
 import chapsym
 from chapsym import BadInput, Ball, NotRetraced, testing
@@ -109,7 +110,7 @@ def test_a_batch_comes_back():
 
 
 @given(testing.states(strata=("generic",), fraction=(0.05, 0.6)))
-@settings(max_examples=25)
+@examples(25)
 def test_every_ball_comes_back(state):
     """Up to 0.6 of a fold no step back was met on another branch; past the bound of `small-branch` it is not proved."""
     ball, momentum, gamma = state
@@ -122,7 +123,7 @@ def test_every_ball_comes_back(state):
 
 
 @given(testing.states(fraction=(0.05, 0.9)))
-@settings(max_examples=40)
+@examples(40)
 def test_below_the_bound_of_small_branch_the_step_back_is_the_conjugate(state):
     """What `self-adjoint` says of the small-rotation branch, for every ball, degenerate ones too."""
     ball, momentum, gamma = state

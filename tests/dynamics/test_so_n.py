@@ -5,7 +5,8 @@ from fractions import Fraction
 import numpy as np
 import pytest
 import sympy as sp
-from hypothesis import given, settings
+from budget import examples
+from hypothesis import given
 from hypothesis import strategies as st
 
 from chapsym import axial, skew
@@ -46,7 +47,7 @@ def words(X, gamma, J, D):
 @pytest.mark.parametrize("n", SIZES)
 def test_the_momentum_is_the_derived_one(n):
     @given(integers(n))
-    @settings(max_examples=15)
+    @examples(15)
     def exactly(values):
         assert (so_n.momentum(*values) == words(*values)).all()
 
@@ -58,7 +59,7 @@ def test_the_jacobian_is_the_derived_momentum_along_every_plane(n):
     """𝒦 is linear in Ω, so its derivative along Ω(1 + ξ) is 𝒦(Ωξ); Ω stands for any matrix here."""
 
     @given(integers(n))
-    @settings(max_examples=3)
+    @examples(3)
     def exactly(values):
         X, gamma, J, D = values
         slope = so_n.jacobian(X - np.eye(n), gamma, J, D)

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from chapsym import BadInput, Ball, Status, StepNotTaken, is_steady, steady_frames, testing, trajectory
@@ -52,7 +52,6 @@ def steady_states(draw):
 
 
 @given(steady_states(), st.integers(1, 400))
-@settings(max_examples=60, deadline=None)
 def test_every_frame_is_that_of_the_map(state, every):
     ball, momentum, gamma = state
     assert is_steady(ball, momentum, gamma)

@@ -4,7 +4,8 @@ import pickle
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from budget import examples
+from hypothesis import given
 
 import chapsym
 from chapsym import BadInput, Ball, Status, StepNotTaken, testing
@@ -156,7 +157,7 @@ def test_a_batch_reports_which_ball_stopped_where(extra):
 
 
 @given(testing.states(fraction=(0.0, 0.2)))
-@settings(max_examples=20)
+@examples(20)
 def test_invariants_stay(state):
     ball, momentum, gamma = state
     values = chapsym.trajectory(ball, momentum, gamma, 50).invariants()

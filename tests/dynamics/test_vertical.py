@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 import chapsym
@@ -17,7 +17,6 @@ TOP, BALL = Ball((1, 2, 4), 0), Ball((1, 2, 4), 3)
 
 
 @given(testing.balls(), testing.unit_vectors(), st.floats(-0.5, 0.5))
-@settings(max_examples=60, deadline=None)
 def test_a_step_is_that_of_the_full_map(ball, gamma, part):
     """h up to half the least moment: below the fold, where both are within a few ulps times the condition."""
     height = part * ball.inertia.min()

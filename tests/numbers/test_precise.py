@@ -5,7 +5,8 @@ from fractions import Fraction as F
 import flint
 import mpmath
 import pytest
-from hypothesis import given, settings
+from budget import examples
+from hypothesis import given
 from hypothesis import strategies as st
 
 from chapsym import BadInput, StepNotTaken, generated, testing
@@ -43,7 +44,7 @@ def test_digits_are_correct_to_the_last_one(digits):
 
 
 @given(testing.rational_balls(), testing.rational_unit_vectors(), testing.rational_unit_vectors(), st.integers(1, 12))
-@settings(max_examples=12)
+@examples(12)
 def test_balls_contain_the_truth_and_are_small(ball, gamma, direction, part):
     J, D = ball
     K = tuple(x * min(a + b for a, b in [(J[1], J[2]), (J[0], J[2]), (J[0], J[1])]) * F(part, 20) for x in direction)
@@ -123,7 +124,7 @@ def test_a_stiff_ball_gets_all_its_digits(exponent):
 
 
 @given(testing.rational_rotations(), testing.rational_unit_vectors(), testing.rational_balls())
-@settings(max_examples=15)
+@examples(15)
 def test_the_slope_of_the_enclosure_is_the_derivative(q, gamma, ball):
     """F is quadratic, so a central difference is exact: on fractions `_slope` must equal it."""
     J, D = ball

@@ -3,7 +3,8 @@
 from fractions import Fraction as F
 
 import pytest
-from hypothesis import given, settings
+from budget import examples
+from hypothesis import given
 from reference import added, axial, diagonal, matmul, momentum, outer, rotation, times, transposed
 
 from chapsym import testing
@@ -44,7 +45,7 @@ def carried(turn, matrix):
 
 
 @given(testing.rational_rotations(), testing.rational_unit_vectors(), testing.rational_balls())
-@settings(max_examples=40)
+@examples(40)
 def test_the_step_back_with_fractions_alone(q, gamma, ball):
     J, D = ball
     turn = rotation(*q)

@@ -1,13 +1,10 @@
 """The page in a real browser, from disk: what it shows is what the records say, on a desk and on a phone."""
 
-import os
-import shutil
-
+import chromium
 import pytest
 
 from chapsym.report import page, records
 
-CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 FLAGS = [
     "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
     "--disable-component-update", "--disable-sync",
@@ -25,18 +22,17 @@ def written(register, tmp_path_factory):
 @pytest.fixture(scope="module", params=SIZES)
 def opened(request, written, tmp_path_factory):
     """The page in Chromium, with everything that the console and the network said."""
-    if CHROMIUM is None:
-        if os.environ.get("CI"):
-            pytest.fail("no Chromium on this machine: .ci/run installs it")
-        pytest.skip("no Chromium on this machine (Debian: apt-get install chromium)")
+    browser = chromium.path()
     from playwright.sync_api import sync_playwright
 
     width, height = SIZES[request.param]
     with sync_playwright() as driver:
         context = driver.chromium.launch_persistent_context(
-            tmp_path_factory.mktemp("profile"), executable_path=CHROMIUM, headless=True, args=FLAGS,
+            tmp_path_factory.mktemp("profile"), executable_path=browser, headless=True, args=FLAGS,
             viewport={"width": width, "height": height}, has_touch=request.param == "phone",
+            timeout=chromium.PATIENCE,
         )  # fmt: skip
+        context.set_default_timeout(chromium.PATIENCE)
         tab, said = context.pages[0], []
         tab.on("console", lambda message: said.append(message.text))
         tab.on("pageerror", lambda error: said.append(str(error)))

@@ -1,15 +1,12 @@
 """The page of the extremes: what it shows is what the JSON says, in a real browser, on a desk and on a phone."""
 
-import os
-import shutil
-
+import chromium
 import pytest
 
 from chapsym.report import extremes
 
 RUNGS = ["single", "double", "quad", "Digits(50)", "Ball(200)"]
 SIZES = {"desk": (1280, 900), "phone": (390, 844)}
-CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 
 
 def cell(condition, rung, verdict, group="fold", ulps=1.0, digits=15.5, reason=""):
@@ -64,10 +61,7 @@ def test_what_a_cell_shows():
 @pytest.mark.parametrize("size", SIZES)
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_in_a_browser(page, tmp_path, size, scheme):
-    if CHROMIUM is None:
-        if os.environ.get("CI"):
-            pytest.fail("no Chromium on this machine: .ci/run installs it")
-        pytest.skip("no Chromium on this machine (Debian: apt-get install chromium)")
+    executable = chromium.path()
     from playwright.sync_api import sync_playwright
 
     path, said = tmp_path / "page.html", []
@@ -75,9 +69,11 @@ def test_in_a_browser(page, tmp_path, size, scheme):
     width, height = SIZES[size]
     with sync_playwright() as driver:
         browser = driver.chromium.launch(
-            executable_path=CHROMIUM, headless=True, args=["--no-sandbox", "--disable-gpu", "--disable-quic"]
-        )
+            executable_path=executable, headless=True, args=["--no-sandbox", "--disable-gpu", "--disable-quic"],
+            timeout=chromium.PATIENCE,
+        )  # fmt: skip
         tab = browser.new_page(viewport={"width": width, "height": height}, color_scheme=scheme)
+        tab.set_default_timeout(chromium.PATIENCE)
         tab.on("console", lambda message: said.append(message.text))
         tab.on("request", lambda request: said.append(request.url))
         tab.goto(path.as_uri())

@@ -1,20 +1,19 @@
 """The rolling ball in a real browser, from disk and offline: it moves, as it should, on a desk and on a phone."""
 
 import io
-import os
-import shutil
-import time
+from functools import partial
 
+import chromium
 import numpy as np
 import pytest
 from matplotlib import image
 from rolling_results import BALL, EVEN, rolled
+from waiting import until
 
 from chapsym.dynamics import Status, kernels
 from chapsym.show.rolling import write_page
 from chapsym.show.rolling.motion import TOO_FAR, motion
 
-CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 QUIET = [
     "--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update",
     "--disable-sync",
@@ -26,20 +25,18 @@ SINGLE = float(np.finfo(np.float32).eps)
 
 
 @pytest.fixture(scope="module")
-def driver():
-    if CHROMIUM is None:
-        if os.environ.get("CI"):
-            pytest.fail("no Chromium on this machine: .ci/run installs it")
-        pytest.skip("no Chromium on this machine (Debian: apt-get install chromium)")
+def launch():
+    """Launches a browser with some flags."""
+    executable = chromium.path()
     from playwright.sync_api import sync_playwright
 
     with sync_playwright() as driver:
-        yield driver
+        yield partial(driver.chromium.launch, executable_path=executable, headless=True, timeout=chromium.PATIENCE)
 
 
 @pytest.fixture(scope="module")
-def browser(driver):
-    browser = driver.chromium.launch(executable_path=CHROMIUM, headless=True, args=QUIET + WEBGL)
+def browser(launch):
+    browser = launch(args=QUIET + WEBGL)
     yield browser
     browser.close()
 
@@ -51,6 +48,7 @@ class Shown:
         options = {"reduced_motion": "reduce", "viewport": size} | options
         self.context = browser.new_context(offline=True, **options)
         self.tab, self.said, self.path = self.context.new_page(), [], path
+        self.tab.set_default_timeout(chromium.PATIENCE)
         self.tab.on("console", lambda message: self.said.append(message.text))
         self.tab.on("pageerror", lambda error: self.said.append(str(error)))
         self.tab.on("request", lambda request: self.said.append(request.url))
@@ -66,10 +64,7 @@ class Shown:
 
     def until(self, text):
         """Waits until an expression is true; the page forbids the `eval` of playwright's own waiting."""
-        ends = time.monotonic() + 20
-        while not self.ask(text):
-            assert time.monotonic() < ends, text
-            self.drawn()
+        until(lambda: self.drawn() or self.ask(text))
 
     def picture(self):
         self.drawn()
@@ -499,8 +494,8 @@ def test_lost_graphics_are_told_and_come_back(opened):
     assert changed.mean() < 0.005
 
 
-def test_no_webgl_is_told(driver, results):
-    browser = driver.chromium.launch(executable_path=CHROMIUM, headless=True, args=[*QUIET, "--disable-3d-apis"])
+def test_no_webgl_is_told(launch, results):
+    browser = launch(args=[*QUIET, "--disable-3d-apis"])
     page = Shown(browser, results["one"][0])
     alert = page.tab.get_by_role("alert")
     assert "which this browser does not offer" in alert.inner_text()
