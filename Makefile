@@ -1,4 +1,4 @@
-# `make verify` is the main job, `make test` the tests; each sets up what it needs on a machine with Python.
+# `make verify` is the main job, `make test` the tests, `make thorough` those with large budgets; each sets up what it needs on a machine with Python.
 
 PYTHON ?= python3
 VENV := .venv
@@ -6,7 +6,7 @@ BIN := $(VENV)/bin
 SHELL := bash
 .SHELLFLAGS := -e -o pipefail -c
 
-.PHONY: verify test lint pictures clean
+.PHONY: verify test thorough lint pictures clean
 
 verify: $(VENV)/.installed
 	@mkdir -p out
@@ -25,6 +25,10 @@ verify: $(VENV)/.installed
 
 test: $(VENV)/.installed
 	$(BIN)/python -m pytest -n auto
+
+# Random seeds, ten times the examples of each property, and the slow cells of the extremes.
+thorough: $(VENV)/.installed
+	$(BIN)/python -m pytest -n auto --thorough
 
 lint: $(VENV)/.installed
 	$(BIN)/ruff check .

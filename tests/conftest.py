@@ -1,3 +1,5 @@
+"""What all tests share: the examples of Hypothesis, `--thorough`, the verdicts judged once, what was not run."""
+
 import fcntl
 import json
 import os
@@ -13,11 +15,12 @@ settings.register_profile(
     "same", max_examples=EXAMPLES, derandomize=True, database=None, deadline=None, print_blob=True,
     suppress_health_check=[HealthCheck.too_slow],
 )  # fmt: skip
+LARGE = f"random seeds, {THOROUGH} times the examples of each property, every slow cell of the extremes"
 settings.register_profile("thorough", settings.get_profile("same"), max_examples=THOROUGH * EXAMPLES, derandomize=False)
 
 
 def pytest_addoption(parser):
-    parser.addoption("--thorough", action="store_true", help="random seeds, ten times the examples, every slow cell")
+    parser.addoption("--thorough", action="store_true", help=LARGE)
 
 
 def pytest_configure(config):
@@ -26,7 +29,7 @@ def pytest_configure(config):
 
 def pytest_terminal_summary(terminalreporter, config):
     if config.getoption("--thorough"):
-        terminalreporter.write_line("thorough: random seeds, ten times the examples, every slow cell")
+        terminalreporter.write_line(f"thorough: {LARGE}")
     if left_out := chromium.left_out(terminalreporter.stats.get("skipped", [])):
         terminalreporter.write_line(left_out)
 
