@@ -44,10 +44,8 @@ def thorough(pytestconfig):
 os.environ["CHAPSYM_RECORDS"] = os.path.join(tempfile.mkdtemp(prefix="chapsym-tests-"), "verdicts.jsonl")
 
 
-def judged(ids, name, tmp_path_factory):
-    """The records of claims by id, judged once for all processes of a test run: the first does, the others wait."""
-    from chapsym.prove import prove_all
-
+def once(name, made, tmp_path_factory):
+    """What `made` returns, as plain data, made once for all processes of a run: the first makes it, the others wait."""
     folder = tmp_path_factory.getbasetemp()
     if "PYTEST_XDIST_WORKER" in os.environ:
         folder = folder.parent  # that of the whole run
@@ -55,21 +53,30 @@ def judged(ids, name, tmp_path_factory):
     with open(folder / f"{name}.lock", "w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
         if not kept.exists():
-            kept.write_text(json.dumps(prove_all(list(ids))), encoding="utf-8")
-    return {record["id"]: record for record in json.loads(kept.read_text(encoding="utf-8"))}
+            kept.write_text(json.dumps(made()), encoding="utf-8")
+    return json.loads(kept.read_text(encoding="utf-8"))
 
 
 @pytest.fixture(scope="session")
-def records(tmp_path_factory):
-    """Every claim, judged once."""
-    from chapsym.prove import load
+def verdicts(tmp_path_factory):
+    """Every claim and every lemma by id, judged once."""
+    from chapsym.prove import load, prove_all
 
-    return judged(load(), "records", tmp_path_factory)
+    records = once("verdicts", lambda: prove_all(list(load(lemmas=True))), tmp_path_factory)
+    return {record["id"]: record for record in records}
 
 
 @pytest.fixture(scope="session")
-def lemmas(tmp_path_factory):
-    """Every lemma of chapsym's own, judged once."""
+def records(verdicts):
+    """The verdicts on the claims of the paper."""
     import chapsym.proofs
 
-    return judged(chapsym.proofs.LEMMAS, "lemmas", tmp_path_factory)
+    return {id: verdicts[id] for id in chapsym.proofs.CLAIMS}
+
+
+@pytest.fixture(scope="session")
+def lemmas(verdicts):
+    """The verdicts on chapsym's own lemmas."""
+    import chapsym.proofs
+
+    return {id: verdicts[id] for id in chapsym.proofs.LEMMAS}

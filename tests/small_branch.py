@@ -4,7 +4,7 @@ import numpy as np
 from hypothesis import strategies as st
 
 from chapsym import testing
-from chapsym.dynamics import gibbs, loop
+from chapsym.dynamics.loops import gibbs, loop
 
 
 def prepared(state):
