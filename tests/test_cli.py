@@ -11,16 +11,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from commands import chapsym, child
 from waiting import GUARD, INTERRUPTIBLE
 
 STEP = ["step", "--mass-tensor", "1,2,4", "--D", "3", "--momentum", "1,-1/2,3/4", "--gamma", "2/7,3/7,6/7"]
 FIRST = str(Path(__file__).parents[1] / "docs" / "first.toml")
-
-
-def chapsym(*arguments, **kwargs):
-    return subprocess.run(
-        [sys.executable, "-m", "chapsym.cli", *arguments], capture_output=True, text=True, check=False, **kwargs
-    )
 
 
 def answer(*arguments):
@@ -130,7 +125,7 @@ def test_a_claim_that_is_not_proved_exits_1(tmp_path):
         "ball.split_balance = lambda: (honest()[0] - 2 * ball.J * ball.Omega, honest()[1])\n"
     )
     env = {**os.environ, "PYTHONPATH": str(tmp_path), "CHAPSYM_RECORDS": str(tmp_path / "verdicts.jsonl")}
-    done = chapsym("prove", "prop-1", "4.3", env=env)
+    done = child("prove", "prop-1", "4.3", env=env)
     assert done.returncode == 1
     assert done.stderr == "chapsym: not proved: prop-1\n"
     assert "1 holds, 1 open" in done.stdout
@@ -143,7 +138,7 @@ def test_a_derivation_that_cannot_be_loaded_is_one_sentence(tmp_path):
         "principle.kinetic_factor = broken\n"
     )
     for command in (["prove"], ["codegen", "--check"]):
-        done = chapsym(*command, env={**os.environ, "PYTHONPATH": str(tmp_path)})
+        done = child(*command, env={**os.environ, "PYTHONPATH": str(tmp_path)})
         assert done.returncode == 1
         assert done.stderr.startswith("chapsym: the proof script s4_principle cannot be loaded: KeyError")
         assert done.stderr.count("\n") == 1
@@ -161,7 +156,7 @@ def test_kernels_are_not_generated_from_what_is_not_proved(tmp_path):
         "principle.rolling_constraint = lambda v, r: 2 * v - honest(v, r)\n"
     )
     for option in ("--check", "--trust=all"):
-        done = chapsym("codegen", option, env={**os.environ, "PYTHONPATH": str(tmp_path)})
+        done = child("codegen", option, env={**os.environ, "PYTHONPATH": str(tmp_path)})
         assert done.returncode == 1
         assert "which is not proved" in done.stderr
     assert answer("codegen", "--check")["kept"] is True

@@ -2,13 +2,12 @@
 
 import json
 import random
-import subprocess
-import sys
 from fractions import Fraction
 from importlib.resources import files
 
 import pytest
 from certificates import elliptic
+from commands import chapsym, child
 from flint import arb, ctx
 
 from chapsym import checker
@@ -188,15 +187,9 @@ def test_a_displacement_that_is_too_small_is_not_looked_for_forever(monkeypatch)
         no_invariant_measure(top(D="1e-90"), steps=9)
 
 
-def chapsym(*arguments):
-    return subprocess.run(
-        [sys.executable, "-m", "chapsym.cli", "certify", *arguments], capture_output=True, text=True, check=False
-    )
-
-
 def test_the_command_writes_what_it_prints(tmp_path):
     file = tmp_path / "found.json"
-    done = chapsym("no-invariant-measure", "-o", str(file), "--json")
+    done = chapsym("certify", "no-invariant-measure", "-o", str(file), "--json")
     assert (done.returncode, done.stderr) == (0, "")
     assert json.loads(done.stdout) == json.loads(file.read_text(encoding="utf-8")) == committed("measure-simplest")
     assert file.read_text(encoding="utf-8") == document.text(committed("measure-simplest"))
@@ -207,18 +200,18 @@ def test_the_command_has_the_checker_judge(tmp_path):
     found = committed("measure-large")
     good = tmp_path / "good.json"
     document.write(good, found)
-    done = chapsym("check", str(good))
+    done = child("certify", "check", str(good))
     assert (done.returncode, done.stderr) == (0, "")
     found["orbits"][0]["displacement"] = found["orbits"][0]["displacement"].replace("415", "416")
     document.write(file, {**found, "digest": document.digest(found)})
-    done = chapsym("check", str(good), str(file))
+    done = child("certify", "check", str(good), str(file))
     assert done.returncode == 1
     assert "rejected" in done.stderr
-    assert chapsym("check", str(tmp_path / "nowhere.json")).returncode == 2
+    assert chapsym("certify", "check", str(tmp_path / "nowhere.json")).returncode == 2
 
 
 def test_the_command_refuses_with_one_sentence():
-    done = chapsym("no-invariant-measure", "--mass-tensor", "1,2,4", "--D", "0")
+    done = chapsym("certify", "no-invariant-measure", "--mass-tensor", "1,2,4", "--D", "0")
     assert (done.returncode, done.stdout) == (2, "")
     assert done.stderr.startswith("chapsym: for D = 0")
     assert done.stderr.count("\n") == 1

@@ -2,8 +2,6 @@
 
 import itertools
 import json
-import subprocess
-import sys
 from fractions import Fraction
 
 import flint
@@ -11,6 +9,7 @@ import mpmath
 import numpy as np
 import pytest
 from budget import examples
+from commands import chapsym as run
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -326,12 +325,6 @@ def test_bad_input_is_refused():
 
 
 COMMAND = ["branches", "--mass-tensor", "1,2,4", "--D", "1000", "--momentum=-1/4,-3/2,1/2", "--gamma", "6/7,2/7,3/7"]
-
-
-def run(*arguments):
-    return subprocess.run(
-        [sys.executable, "-m", "chapsym.cli", *arguments], capture_output=True, text=True, check=False
-    )
 
 
 def test_the_command_gives_the_contracts_fields():

@@ -2,18 +2,11 @@
 
 import json
 import os
-import subprocess
-import sys
 
 import pytest
+from commands import chapsym, child
 
 from chapsym.prove import load, records
-
-
-def run(*arguments, **options):
-    return subprocess.run(
-        [sys.executable, "-m", "chapsym.cli", *arguments], capture_output=True, text=True, check=False, **options
-    )
 
 
 @pytest.fixture
@@ -84,7 +77,7 @@ def test_a_broken_file_is_named_with_its_line(tmp_path):
         path.write_text(f"{first}\n{second}\n", encoding="utf-8")
         with pytest.raises(records.BrokenRecords, match="line 2 of"):
             records.read(path)
-    done = run("prove", "prop-2", "--records", path)
+    done = chapsym("prove", "prop-2", "--records", path)
     assert done.returncode == 2
     assert "line 2 of" in done.stderr
     assert "Traceback" not in done.stderr
@@ -114,7 +107,7 @@ def test_an_interrupt_keeps_what_was_finished(tmp_path):
         "prove.prove_all = stopped\n"
     )
     path = tmp_path / "verdicts.jsonl"
-    done = run("prove", "prop-2", "4.3", "--records", path, env={**os.environ, "PYTHONPATH": str(tmp_path)})
+    done = child("prove", "prop-2", "4.3", "--records", path, env={**os.environ, "PYTHONPATH": str(tmp_path)})
     assert done.returncode == 130
     assert list(records.read(path)) == ["prop-2"]
 
@@ -127,7 +120,7 @@ def test_a_lost_process_leaves_its_claims_open(tmp_path):
     )
     path = tmp_path / "verdicts.jsonl"
     env = {**os.environ, "PYTHONPATH": str(tmp_path)}
-    done = run("prove", "prop-2", "4.3", "--jobs", "2", "--records", path, env=env)
+    done = child("prove", "prop-2", "4.3", "--jobs", "2", "--records", path, env=env)
     assert done.returncode == 1
     assert "not judged: a process that ran proofs ended" in done.stdout
     assert "Traceback" not in done.stderr
@@ -135,11 +128,11 @@ def test_a_lost_process_leaves_its_claims_open(tmp_path):
 
 def test_prove_keeps_the_verdict_and_says_when_it_changes(tmp_path):
     path = tmp_path / "verdicts.jsonl"
-    assert run("prove", "prop-2", "--records", path).returncode == 0
+    assert chapsym("prove", "prop-2", "--records", path).returncode == 0
     [line] = path.read_text(encoding="utf-8").splitlines()
     assert json.loads(line)["verdict"] == "holds"
     path.write_text(line.replace('"verdict": "holds"', '"verdict": "refuted"') + "\n", encoding="utf-8")
-    done = run("prove", "prop-2", "--records", path)
+    done = chapsym("prove", "prop-2", "--records", path)
     assert "prop-2 was refuted, and is holds now" in done.stderr
 
 
@@ -148,18 +141,20 @@ def test_the_list_shows_what_is_on_record(tmp_path):
     records.update(
         path, [made("2.1"), made("4.1", evidence={"title": "T.", "open_in_paper": False, "fingerprint": "old"})], load()
     )
-    rows = {row["id"]: row for row in json.loads(run("prove", "--list", "--json", "--records", path).stdout)["claims"]}
+    rows = {
+        row["id"]: row for row in json.loads(chapsym("prove", "--list", "--json", "--records", path).stdout)["claims"]
+    }
     assert (rows["2.1"]["verdict"], rows["2.1"]["stale"]) == ("holds", False)
     assert rows["4.1"]["stale"]
     assert rows["prop-4"]["verdict"] is None
-    text = run("prove", "--list", "--records", path).stdout
+    text = chapsym("prove", "--list", "--records", path).stdout
     assert "1 records are stale" in text or "1 record is stale" in text
 
 
 def test_a_folder_that_cannot_be_written_costs_only_the_records(tmp_path):
     blocked = tmp_path / "file"
     blocked.write_text("", encoding="utf-8")
-    done = run("prove", "prop-2", "--records", blocked / "verdicts.jsonl")
+    done = chapsym("prove", "prop-2", "--records", blocked / "verdicts.jsonl")
     assert "Traceback" not in done.stderr
     assert done.returncode in (0, 2)
     assert "records" in done.stderr or "not kept" in done.stderr

@@ -1,24 +1,17 @@
 """`chapsym extremes`, from outside: table, JSON, page, exit status."""
 
 import json
-import subprocess
-import sys
 
 import pytest
+from commands import chapsym
 
 from chapsym.cli import extremes as command
 from chapsym.studies import extremes as study
 
 
-def chapsym(*arguments):
-    return subprocess.run(
-        [sys.executable, "-m", "chapsym.cli", "extremes", *arguments], capture_output=True, text=True, check=False
-    )
-
-
 def test_a_group_as_json_and_as_a_page(tmp_path):
     page = tmp_path / "page.html"
-    done = chapsym("--quick", "fold search", "derived", "-o", str(page), "--json")
+    done = chapsym("extremes", "--quick", "fold search", "derived", "-o", str(page), "--json")
     found = json.loads(done.stdout)
     assert [*found["groups"]] == ["derived", "fold search"]
     assert {cell["rung"] for cell in found["cells"]} == {"double"}
@@ -34,7 +27,7 @@ def test_a_group_as_json_and_as_a_page(tmp_path):
      (["-o", "/nowhere/page.html"], "does not exist")],
 )  # fmt: skip
 def test_what_is_wrong_is_said_before_anything_is_computed(arguments, sentence):
-    done = chapsym(*arguments)
+    done = chapsym("extremes", *arguments)
     assert done.returncode == 2
     assert done.stderr.startswith("chapsym: ")
     assert sentence in done.stderr

@@ -1,14 +1,13 @@
 """The trade of speed against accuracy: frontiers, references, the command."""
 
 import json
-import subprocess
-import sys
 from fractions import Fraction
 from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
 import pytest
+from commands import chapsym as command
 from convergence import continuous_ball
 
 import chapsym
@@ -29,12 +28,6 @@ POINTS = [
     Point("b, order 4", 0.1, 1.0, 15.0, 8.0),
     Point("c, order 6", 0.1, 1.0, 16.0, 7.0),
 ]
-
-
-def command(*arguments):
-    return subprocess.run(
-        [sys.executable, "-m", "chapsym.cli", *arguments], capture_output=True, text=True, check=False
-    )
 
 
 def test_the_frontier_and_what_is_dominated():

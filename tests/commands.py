@@ -1,0 +1,35 @@
+"""The command `chapsym`, in this process where nothing else is asked for: a child starts for a second or two."""
+
+import contextlib
+import io
+import logging
+import subprocess
+import sys
+from unittest import mock
+
+from chapsym.cli import main
+
+
+def chapsym(*arguments):
+    """What the command writes and its exit status, as of a child."""
+    said, told = io.StringIO(), io.StringIO()
+    handlers, level = list(logging.root.handlers), logging.getLogger("chapsym").level
+    logging.root.handlers.clear()  # so that the command takes its own, as in a new process
+    try:
+        with (
+            mock.patch.object(sys, "argv", ["chapsym", *map(str, arguments)]),
+            contextlib.redirect_stdout(said),
+            contextlib.redirect_stderr(told),
+        ):
+            main()
+    except SystemExit as ended:
+        return subprocess.CompletedProcess(arguments, ended.code, said.getvalue(), told.getvalue())
+    finally:
+        logging.root.handlers[:] = handlers
+        logging.getLogger("chapsym").setLevel(level)
+
+
+def child(*arguments, **options):
+    """The same in a process of its own."""
+    arguments = [sys.executable, "-m", "chapsym.cli", *map(str, arguments)]
+    return subprocess.run(arguments, capture_output=True, text=True, check=False, **options)
