@@ -11,9 +11,9 @@ from chapsym.studies import extremes as study
 
 def test_a_group_as_json_and_as_a_page(tmp_path):
     page = tmp_path / "page.html"
-    done = chapsym("extremes", "--quick", "fold search", "derived", "-o", str(page), "--json")
+    done = chapsym("extremes", "--quick", "derived", "extrapolate", "-o", str(page), "--json")
     found = json.loads(done.stdout)
-    assert [*found["groups"]] == ["derived", "fold search"]
+    assert [*found["groups"]] == ["extrapolate", "derived"]
     assert {cell["rung"] for cell in found["cells"]} == {"double"}
     assert sum(found["counts"].values()) == len(found["cells"])
     assert done.returncode == (1 if found["counts"]["failed"] else 0)
