@@ -1,8 +1,11 @@
 """A few records by hand: one of each verdict, with everything that evidence may carry."""
 
 import copy
+from functools import partial
 
+import chromium
 import pytest
+import shown
 
 CHECK = {"statement": "printed: a_k = -b", "holds": False, "method": "exact arithmetic"}
 SIDES = {"statement": "a_k = -b", "left": ["1", "2/3"], "right": ["1", "-2/3"]}
@@ -60,3 +63,44 @@ def record():
 def register(records):
     """The records of every claim, in the order in which they are proved."""
     return list(records.values())
+
+
+@pytest.fixture(scope="session")
+def launch():
+    """Launches a browser with some flags."""
+    executable = chromium.path()
+    from playwright.sync_api import sync_playwright
+
+    with sync_playwright() as driver:
+        yield partial(driver.chromium.launch, executable_path=executable, headless=True, timeout=chromium.PATIENCE)
+
+
+@pytest.fixture(scope="session")
+def tabs(launch):
+    """The tabs of the one browser, by their options; each is made when it is first asked for."""
+    browser, made = launch(args=shown.FLAGS), {}
+
+    def tab(**options):
+        key = str(sorted(options.items()))
+        if key not in made:
+            made[key] = shown.Shown(browser, **options)
+        return made[key]
+
+    yield tab
+    browser.close()
+
+
+@pytest.fixture
+def opened(tabs):
+    """Opens a page afresh in a window of some size; in the end it has said nothing and asked for nothing but itself."""
+    used = {}
+
+    def open_page(path, size=shown.DESK, **options):
+        page = used.setdefault(id(tabs(**options)), tabs(**options))
+        page.tab.set_viewport_size(size)
+        page.load(path)
+        return page
+
+    yield open_page
+    for page in used.values():
+        assert page.leave() == []

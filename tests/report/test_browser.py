@@ -1,60 +1,27 @@
 """The page in a real browser, from disk: what it shows is what the records say, on a desk and on a phone."""
 
-import chromium
 import pytest
+import shown
 
 from chapsym.report import page, records
 
-FLAGS = [
-    "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
-    "--disable-component-update", "--disable-sync",
-]  # fmt: skip
-SIZES = {"desk": (1280, 900), "phone": (390, 844)}
+SIZES = {"desk": shown.DESK, "phone": shown.PHONE}
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def written(register, tmp_path_factory):
     path = tmp_path_factory.mktemp("report") / "page.html"
     path.write_text(page.html(register, {"chapsym": "0.1.0"}), encoding="utf-8")
     return path
 
 
-@pytest.fixture(scope="module", params=SIZES)
-def opened(request, written, tmp_path_factory):
-    """The page in Chromium, with everything that the console and the network said."""
-    browser = chromium.path()
-    from playwright.sync_api import sync_playwright
-
-    width, height = SIZES[request.param]
-    with sync_playwright() as driver:
-        context = driver.chromium.launch_persistent_context(
-            tmp_path_factory.mktemp("profile"), executable_path=browser, headless=True, args=FLAGS,
-            viewport={"width": width, "height": height}, has_touch=request.param == "phone",
-            timeout=chromium.PATIENCE,
-        )  # fmt: skip
-        context.set_default_timeout(chromium.PATIENCE)
-        tab, said = context.pages[0], []
-        tab.on("console", lambda message: said.append(message.text))
-        tab.on("pageerror", lambda error: said.append(str(error)))
-        tab.on("request", lambda request: said.append(request.url))
-        tab.goto(written.as_uri())
-        yield tab, said
-        context.close()
-
-
-@pytest.fixture
-def tab(opened, written):
+@pytest.fixture(params=SIZES)
+def tab(request, written, opened):
     """The page, loaded afresh."""
-    tab, said = opened
-    said.clear()
-    tab.goto("about:blank")
-    said.clear()
-    tab.goto(written.as_uri())
-    yield tab
-    assert said == [written.as_uri()], "the page asks for nothing but itself, and says nothing on the console"
+    return opened(written, SIZES[request.param], has_touch=request.param == "phone").tab
 
 
-def shown(tab):
+def claims(tab):
     return tab.eval_on_selector_all("#claims .claim:not([hidden])", "found => found.map(x => x.dataset.id)")
 
 
@@ -94,26 +61,26 @@ def test_the_page_is_not_wider_than_the_window_even_unfolded(tab):
 def test_the_filter_shows_one_verdict(tab, register):
     corrected = [r["id"] for r in records.in_paper_order(register) if r["verdict"] == "corrected"]
     tab.locator(".segment.corrected").click()
-    assert shown(tab) == corrected
+    assert claims(tab) == corrected
     assert tab.locator("output.shown").inner_text() == f"{len(corrected)} of {len(register)}"
     assert tab.locator(".chips [aria-pressed=true]").get_attribute("data-verdict") == "corrected"
     tab.locator(".chips button").first.click()
-    assert len(shown(tab)) == len(register)
+    assert len(claims(tab)) == len(register)
 
 
 def test_the_search_finds_ids_and_text(tab, register):
     field = tab.locator(".tools input")
     field.fill("5.12-kappa")
-    assert "5.12-kappa" in shown(tab)
+    assert "5.12-kappa" in claims(tab)
     field.fill("the power AND the sign")
-    assert shown(tab) == ["5.16-weierstrass-w"]
+    assert claims(tab) == ["5.16-weierstrass-w"]
     field.fill("Gröbner")
-    assert 1 < len(shown(tab)) < len(register)
+    assert 1 < len(claims(tab)) < len(register)
     field.fill("no such words")
-    assert shown(tab) == []
+    assert claims(tab) == []
     tab.evaluate("location.hash = '#claim-5.4'")
     tab.wait_for_function("!document.getElementById('claim-5.4').hidden")
-    assert len(shown(tab)) == len(register)
+    assert len(claims(tab)) == len(register)
 
 
 def test_a_claim_of_the_graph_is_highlighted_and_its_neighbours_are_named(tab, register):

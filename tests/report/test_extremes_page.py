@@ -1,12 +1,12 @@
 """The page of the extremes: what it shows is what the JSON says, in a real browser, on a desk and on a phone."""
 
-import chromium
 import pytest
+import shown
 
 from chapsym.report import extremes
 
 RUNGS = ["single", "double", "quad", "Digits(50)", "Ball(200)"]
-SIZES = {"desk": (1280, 900), "phone": (390, 844)}
+SIZES = {"desk": shown.DESK, "phone": shown.PHONE}
 
 
 def cell(condition, rung, verdict, group="fold", ulps=1.0, digits=15.5, reason=""):
@@ -60,40 +60,25 @@ def test_what_a_cell_shows():
 
 @pytest.mark.parametrize("size", SIZES)
 @pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_in_a_browser(page, tmp_path, size, scheme):
-    executable = chromium.path()
-    from playwright.sync_api import sync_playwright
-
-    path, said = tmp_path / "page.html", []
+def test_in_a_browser(page, tmp_path, opened, size, scheme):
+    path = tmp_path / "page.html"
     path.write_text(page, encoding="utf-8")
-    width, height = SIZES[size]
-    with sync_playwright() as driver:
-        browser = driver.chromium.launch(
-            executable_path=executable, headless=True, args=["--no-sandbox", "--disable-gpu", "--disable-quic"],
-            timeout=chromium.PATIENCE,
-        )  # fmt: skip
-        tab = browser.new_page(viewport={"width": width, "height": height}, color_scheme=scheme)
-        tab.set_default_timeout(chromium.PATIENCE)
-        tab.on("console", lambda message: said.append(message.text))
-        tab.on("request", lambda request: said.append(request.url))
-        tab.goto(path.as_uri())
-        assert said == [path.as_uri()]
-        assert tab.evaluate("document.documentElement.scrollWidth <= innerWidth")
-        shown = tab.eval_on_selector_all("td[data-verdict]", "all => all.map(x => x.dataset.verdict)")
-        assert shown == [c["verdict"] for c in CELLS]
-        assert tab.locator("td.none").count() == 2  # and no columns where a group has none
-        outside = tab.evaluate(
-            """[...document.querySelectorAll('td, th, li')].filter(x => {
-                const box = x.getBoundingClientRect();
-                return box.width && (box.right > innerWidth + 1 || x.scrollWidth > box.width + 1);
-            }).map(x => x.outerHTML.slice(0, 99))"""
-        )
-        assert outside == []
-        # Text and ground differ enough to be read (WCAG AA), whatever the heat.
-        assert tab.evaluate(CONTRAST) == []
-        tab.locator("td.failed a").click()
-        assert tab.locator(".why").first.is_visible()
-        browser.close()
+    tab = opened(path, SIZES[size], color_scheme=scheme).tab
+    assert tab.evaluate("document.documentElement.scrollWidth <= innerWidth")
+    found = tab.eval_on_selector_all("td[data-verdict]", "all => all.map(x => x.dataset.verdict)")
+    assert found == [c["verdict"] for c in CELLS]
+    assert tab.locator("td.none").count() == 2  # and no columns where a group has none
+    outside = tab.evaluate(
+        """[...document.querySelectorAll('td, th, li')].filter(x => {
+            const box = x.getBoundingClientRect();
+            return box.width && (box.right > innerWidth + 1 || x.scrollWidth > box.width + 1);
+        }).map(x => x.outerHTML.slice(0, 99))"""
+    )
+    assert outside == []
+    # Text and ground differ enough to be read (WCAG AA), whatever the heat.
+    assert tab.evaluate(CONTRAST) == []
+    tab.locator("td.failed a").click()
+    assert tab.locator(".why").first.is_visible()
 
 
 CONTRAST = """[...document.querySelectorAll('td[data-verdict]')].filter(x => {

@@ -404,7 +404,7 @@ def test_titles_are_those_of_the_scene_as_written():
 
 def test_pyplot_is_not_touched():
     program = (
-        "import sys, results\nfrom chapsym.report import figures\n"
+        "import sys, results\nfrom chapsym.show import figures\n"
         "assert 'matplotlib' not in sys.modules\nfigures.draw(results.sweep(4), 'rotation')\n"
         "print('matplotlib.pyplot' in sys.modules)"
     )

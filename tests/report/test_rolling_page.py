@@ -1,66 +1,28 @@
 """The rolling ball in a real browser, from disk and offline: it moves, as it should, on a desk and on a phone."""
 
 import io
-from functools import partial
 
-import chromium
 import numpy as np
 import pytest
 from matplotlib import image
 from rolling_results import BALL, EVEN, rolled
+from shown import DESK, FLAGS, PHONE, Shown
 from waiting import until
 
 from chapsym.dynamics import Status, kernels
 from chapsym.show.rolling import write_page
 from chapsym.show.rolling.motion import TOO_FAR, motion
 
-QUIET = [
-    "--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update",
-    "--disable-sync",
-]  # fmt: skip
-#: WebGL without a graphics card.
-WEBGL = ["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
-DESK, PHONE = {"width": 1280, "height": 800}, {"width": 390, "height": 844}
+#: As wide as a desk, for the page, and small: the picture is drawn without a graphics card.
+SMALL = {"width": 800, "height": 500}
 SINGLE = float(np.finfo(np.float32).eps)
 
 
-@pytest.fixture(scope="module")
-def launch():
-    """Launches a browser with some flags."""
-    executable = chromium.path()
-    from playwright.sync_api import sync_playwright
+class Rolling:
+    """A page with its ball, which is at rest until it is told to roll."""
 
-    with sync_playwright() as driver:
-        yield partial(driver.chromium.launch, executable_path=executable, headless=True, timeout=chromium.PATIENCE)
-
-
-@pytest.fixture(scope="module")
-def browser(launch):
-    browser = launch(args=QUIET + WEBGL)
-    yield browser
-    browser.close()
-
-
-class Shown:
-    """A page that is open, offline, with everything that the console and the network said."""
-
-    def __init__(self, browser, path, size=DESK, **options):
-        options = {"reduced_motion": "reduce", "viewport": size} | options
-        self.context = browser.new_context(offline=True, **options)
-        self.tab, self.said, self.path = self.context.new_page(), [], path
-        self.tab.set_default_timeout(chromium.PATIENCE)
-        self.tab.on("console", lambda message: self.said.append(message.text))
-        self.tab.on("pageerror", lambda error: self.said.append(str(error)))
-        self.tab.on("request", lambda request: self.said.append(request.url))
-        self.tab.goto(path.as_uri())
-        self.drawn()
-
-    def drawn(self):
-        """Waits for two frames of the browser."""
-        self.tab.evaluate("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
-
-    def ask(self, text, *given):
-        return self.tab.evaluate(text, *given)
+    def __init__(self, shown):
+        self.tab, self.drawn, self.ask, self.said = shown.tab, shown.drawn, shown.ask, shown.said
 
     def until(self, text):
         """Waits until an expression is true; the page forbids the `eval` of playwright's own waiting."""
@@ -69,10 +31,6 @@ class Shown:
     def picture(self):
         self.drawn()
         return self.tab.locator("canvas").screenshot()
-
-    def foreign(self):
-        """What was asked for or said, other than the page itself and the data: URLs inside."""
-        return [text for text in self.said if text != self.path.as_uri() and not text.startswith("data:")]
 
 
 @pytest.fixture(scope="module")
@@ -90,22 +48,18 @@ def results(tmp_path_factory):
 
 
 @pytest.fixture
-def opened(browser, results):
-    """Opens a page; in the end it has said nothing and asked for nothing."""
-    open_pages = []
+def rolling(opened, results):
+    """Opens a page: one of the results, or a file."""
 
-    def open_page(name="one", size=DESK, **options):
-        open_pages.append(Shown(browser, results[name][0], size, **options))
-        return open_pages[-1]
+    def open_page(page="one", size=SMALL, **options):
+        path = results[page][0] if page in results else page
+        return Rolling(opened(path, size, **({"reduced_motion": "reduce"} | options)))
 
-    yield open_page
-    for page in open_pages:
-        assert page.foreign() == []
-        page.context.close()
+    return open_page
 
 
-def test_play_moves_the_ball(opened):
-    page = opened()
+def test_play_moves_the_ball(rolling):
+    page = rolling()
     assert page.ask("[chapsym.playing, chapsym.frame]") == [False, 0]
     before, place = page.picture(), page.ask("chapsym.position(chapsym.frame)")
     page.tab.get_by_role("button", name="Play").click()
@@ -122,8 +76,8 @@ def test_play_moves_the_ball(opened):
     assert clock == f"{page.ask('chapsym.motion.timeAt(chapsym.frame).toFixed(3)')} / 3.000 s"
 
 
-def test_it_plays_at_once_unless_motion_is_unwelcome_and_stops_at_the_end(opened):
-    page = opened(reduced_motion="no-preference")
+def test_it_plays_at_once_unless_motion_is_unwelcome_and_stops_at_the_end(rolling):
+    page = rolling(reduced_motion="no-preference")
     assert page.ask("chapsym.playing") is True
     page.ask("chapsym.seek(597)")
     page.until("!chapsym.playing")
@@ -132,8 +86,8 @@ def test_it_plays_at_once_unless_motion_is_unwelcome_and_stops_at_the_end(opened
     assert page.ask("chapsym.playing && chapsym.frame < 300") is True
 
 
-def test_what_is_drawn_is_what_was_computed(opened, results):
-    page, ball = opened(), motion(results["one"][1]).balls[0]
+def test_what_is_drawn_is_what_was_computed(rolling, results):
+    page, ball = rolling(), motion(results["one"][1]).balls[0]
     positions = page.ask("Array.from({length: 601}, (_, i) => chapsym.position(i))")
     np.testing.assert_array_equal(positions, ball.contact)
     quaternions = page.ask("Array.from({length: 601}, (_, i) => chapsym.quaternion(i))")
@@ -149,9 +103,9 @@ def test_what_is_drawn_is_what_was_computed(opened, results):
     np.testing.assert_allclose(drawn, asked, rtol=0, atol=1e-14)
 
 
-def test_the_ball_rolls_between_the_frames_and_does_not_slip(opened):
+def test_the_ball_rolls_between_the_frames_and_does_not_slip(rolling):
     """ẋ = ρ ω × e₃ sin φ/φ: the discrete ball goes ρ sin φ where it turns by φ (4.9)."""
-    page = opened()
+    page = rolling()
     at = [i + s for i in (0, 100, 377, 599) for s in (0.05, 0.5)]
     h = 0.4
     found = page.ask(f"{at}.map(i => [i, i + {h}].map(j => [chapsym.position(j), chapsym.quaternion(j)]))")
@@ -167,9 +121,9 @@ def test_the_ball_rolls_between_the_frames_and_does_not_slip(opened):
         assert np.hypot(*way) > 1000 * 0.11 * 8 * SINGLE
 
 
-def test_body_axes_are_where_the_pattern_has_them(opened):
+def test_body_axes_are_where_the_pattern_has_them(rolling):
     """On the sphere, in body axes: octants by the sign of xyz, and marks that are dark at the positive ends."""
-    page = opened()
+    page = rolling()
     shades = page.ask(
         """(() => {
           const mesh = chapsym.stage.balls[0].body.children[0], { position, uv } = mesh.geometry.attributes;
@@ -195,8 +149,8 @@ def test_body_axes_are_where_the_pattern_has_them(opened):
             assert set(shade[marks]) == {colour}
 
 
-def test_scrub_and_keys(opened):
-    page = opened()
+def test_scrub_and_keys(rolling):
+    page = rolling()
     slider = page.tab.get_by_role("slider", name="Time")
     slider.fill("1.5")
     assert page.ask("chapsym.frame") == pytest.approx(300)
@@ -231,8 +185,8 @@ def test_scrub_and_keys(opened):
     assert page.ask("chapsym.playing") is True
 
 
-def test_every_control_has_a_name_and_can_be_focused(opened):
-    page = opened("three")
+def test_every_control_has_a_name_and_can_be_focused(rolling):
+    page = rolling("three")
     names = page.ask(
         """[...document.querySelectorAll('button, input, summary')].filter(x => x.checkVisibility())
            .map(x => x.getAttribute('aria-label') || x.textContent.trim() || '')"""
@@ -246,8 +200,8 @@ def test_every_control_has_a_name_and_can_be_focused(opened):
     assert {"Play", "Time", "Slower", "Faster", "Orbit", "Top", "Whole trace", "Help", "Show ball 2"} <= reached
 
 
-def test_the_camera_follows_the_ball_or_stays(opened):
-    page = opened()
+def test_the_camera_follows_the_ball_or_stays(rolling):
+    page = rolling()
     where = "chapsym.stage.balls[0].group.position.toArray().slice(0, 2)"
     page.ask("chapsym.seek(500)")
     page.drawn()
@@ -268,8 +222,8 @@ def test_the_camera_follows_the_ball_or_stays(opened):
 
 
 @pytest.mark.parametrize("name", ["γ, the vertical", "ω, the angular velocity", "K, the momentum"])
-def test_arrows_are_shown_when_asked_for(opened, name):
-    page = opened()
+def test_arrows_are_shown_when_asked_for(rolling, name):
+    page = rolling()
     page.ask("chapsym.seek(200)")
     before = page.picture()
     button = page.tab.get_by_role("button", name=f"Arrow of {name}")
@@ -281,9 +235,9 @@ def test_arrows_are_shown_when_asked_for(opened, name):
     assert page.picture() == before
 
 
-def test_arrows_are_the_vectors_in_space(opened, results):
+def test_arrows_are_the_vectors_in_space(rolling, results):
     """γ stands upright, 𝒦 stays where it is, ω has its length; in body axes they all turn."""
-    page, ball = opened(), motion(results["one"][1]).balls[0]
+    page, ball = rolling(), motion(results["one"][1]).balls[0]
     found = page.ask(
         """(() => { const [ball] = chapsym.motion.balls, at = [0, 150.5, 600];
            return ['gamma', 'momentum', 'omega'].map(name => at.map(i => ball.inSpace(name, i).toArray())); })()"""
@@ -297,8 +251,8 @@ def test_arrows_are_the_vectors_in_space(opened, results):
     assert np.ptp(ball.vectors["momentum"], axis=0).max() > 0.1 * size
 
 
-def test_many_balls_are_followed_hidden_and_stop(opened):
-    page = opened("three")
+def test_many_balls_are_followed_hidden_and_stop(rolling):
+    page = rolling("three")
     assert page.tab.locator("h1").inner_text() == "Three starts"
     assert page.tab.locator(".plan").inner_text() == "model: full · 400 steps of 0.005 s · 3 balls"
     assert "ball 3: it stops after step 200: the small-rotation branch folds" in page.tab.locator(".notes").inner_text()
@@ -347,9 +301,9 @@ def boxes_apart(page):
 
 
 @pytest.mark.parametrize("name", ["one", "three"])
-def test_a_phone(opened, name):
+def test_a_phone(rolling, name):
     """At 390 px nothing overlaps; a finger presses play, and one that drags turns the view."""
-    page = opened(name, PHONE, has_touch=True, is_mobile=True, device_scale_factor=2)
+    page = rolling(name, PHONE, has_touch=True, is_mobile=True)
     buttons = boxes_apart(page)
     assert min(box["height"] for box in buttons) >= 44
     page.tab.get_by_role("button", name="Play").tap()
@@ -358,7 +312,7 @@ def test_a_phone(opened, name):
     assert page.ask("document.querySelector('.stage').getBoundingClientRect().bottom <= innerHeight")
     eye = "chapsym.stage.camera.position.toArray()"
     before = page.ask(eye)
-    fingers = page.context.new_cdp_session(page.tab)
+    fingers = page.tab.context.new_cdp_session(page.tab)
     for kind, points in [
         ("touchStart", [{"x": 150, "y": 250}]), ("touchMove", [{"x": 180, "y": 260}]),
         ("touchMove", [{"x": 230, "y": 270}]), ("touchEnd", []),
@@ -378,12 +332,12 @@ def test_a_phone(opened, name):
 
 
 @pytest.mark.parametrize("size", [DESK, {"width": 900, "height": 700}])
-def test_nothing_overlaps_on_a_desk(opened, size):
-    boxes_apart(opened("three", size))
+def test_nothing_overlaps_on_a_desk(rolling, size):
+    boxes_apart(rolling("three", size))
 
 
-def test_dark_and_light(opened):
-    page = opened(color_scheme="dark")
+def test_dark_and_light(rolling):
+    page = rolling(color_scheme="dark")
     dark = page.picture()
     background = "getComputedStyle(document.body).backgroundColor"
     assert page.ask(background) == "rgb(20, 23, 26)"
@@ -394,12 +348,12 @@ def test_dark_and_light(opened):
     assert pixels(dark)[corner].mean() < 0.4 < 0.8 < pixels(page.picture())[corner].mean()
 
 
-def test_far_away_nothing_jitters(browser, tmp_path):
+def test_far_away_nothing_jitters(rolling, tmp_path):
     """50 000 km from the origin floats are 4 m apart; the ball, its trace and the eye stay together to a hair."""
     far = rolled(900)
     far["contact"] += 5e7
     write_page(far, tmp_path / "far.html")
-    page = Shown(browser, tmp_path / "far.html")
+    page = rolling(tmp_path / "far.html")
     for frame in (0.5, 511.5, 513.25, 899.5):
         page.ask(f"chapsym.seek({frame})")
         page.drawn()
@@ -419,28 +373,24 @@ def test_far_away_nothing_jitters(browser, tmp_path):
         for placed, wanted, longest in pieces:
             assert placed == wanted
             assert longest < 5
-    assert page.foreign() == []
-    page.context.close()
 
 
-def test_a_ball_on_the_spot_has_no_way(browser, tmp_path):
+def test_a_ball_on_the_spot_has_no_way(rolling, tmp_path):
     write_page(rolled(50).drop_vars(["contact", "time"]), tmp_path / "spot.html")
-    page = Shown(browser, tmp_path / "spot.html")
+    page = rolling(tmp_path / "spot.html")
     assert page.tab.locator("[data-read=position], #ghost").count() == 0
     assert page.tab.locator("#speed").inner_text() == "2 steps/s"
     page.tab.keyboard.press("End")
     assert page.tab.locator("[data-read=time]").inner_text() == "step 50 of 50"
     assert page.ask("chapsym.position(0)") == page.ask("chapsym.position(50)") == [0, 0]
     assert page.ask("chapsym.quaternion(0)") != page.ask("chapsym.quaternion(50)")
-    assert page.foreign() == []
-    page.context.close()
 
 
-def test_the_ellipsoid_has_the_principal_axes(browser, tmp_path):
+def test_the_ellipsoid_has_the_principal_axes(rolling, tmp_path):
     """Its semi-axes are as 1/√I, along the principal axes, which the quaternion `axes` turns to those of the body."""
     turned = rolled(10).assign(axes=(("ball", "quaternion"), [[0.5, 0.5, -0.5, 0.5]]))
     write_page(turned, tmp_path / "axes.html")
-    page = Shown(browser, tmp_path / "axes.html")
+    page = rolling(tmp_path / "axes.html")
     before = page.picture()
     page.tab.get_by_role("button", name="Ellipsoid of inertia").click()
     assert page.picture() != before
@@ -454,29 +404,26 @@ def test_the_ellipsoid_has_the_principal_axes(browser, tmp_path):
     )
     wanted = kernels.rotate(np.full((3, 4), [0.5, 0.5, -0.5, 0.5]), np.diag(1 / np.sqrt(BALL.inertia)))
     np.testing.assert_allclose(axes / np.linalg.norm(axes), wanted / np.linalg.norm(wanted), rtol=0, atol=1e-12)
-    page.context.close()
 
 
-def test_frames_too_far_apart_are_shown_as_they_are(browser, tmp_path):
+def test_frames_too_far_apart_are_shown_as_they_are(rolling, tmp_path):
     write_page(rolled(3900, every=60, ball=EVEN).drop_vars("omega"), tmp_path / "coarse.html")
-    page = Shown(browser, tmp_path / "coarse.html")
+    page = rolling(tmp_path / "coarse.html")
     assert TOO_FAR in page.tab.locator(".notes").inner_text()
     assert page.ask("chapsym.quaternion(3.7)") == page.ask("chapsym.quaternion(3)")
     assert page.ask("chapsym.position(3.7)") != page.ask("chapsym.position(3)")
-    page.context.close()
     write_page(rolled(3900, every=60, ball=EVEN), tmp_path / "told.html")
-    page = Shown(browser, tmp_path / "told.html")
+    page = rolling(tmp_path / "told.html")
     assert page.tab.locator(".notes").count() == 0
     half = page.ask("[3, 3.5, 4].map(i => chapsym.quaternion(i))")
     first, second = (2 * np.arccos(min(1, abs(np.dot(a, b)))) for a, b in ((half[0], half[1]), (half[1], half[2])))
     assert first == pytest.approx(second, abs=1e-3)
     # Both halves of the same turn of more than π: 11.18 rad/s for 0.15 s.
     assert first == pytest.approx(np.linalg.norm([3, 4, 10]) * 0.15, rel=2e-3)
-    page.context.close()
 
 
-def test_lost_graphics_are_told_and_come_back(opened):
-    page = opened()
+def test_lost_graphics_are_told_and_come_back(rolling):
+    page = rolling()
     shown = page.picture()
     page.ask(
         """window.lost = document.querySelector('canvas').getContext('webgl2').getExtension('WEBGL_lose_context');
@@ -495,8 +442,9 @@ def test_lost_graphics_are_told_and_come_back(opened):
 
 
 def test_no_webgl_is_told(launch, results):
-    browser = launch(args=[*QUIET, "--disable-3d-apis"])
-    page = Shown(browser, results["one"][0])
+    browser = launch(args=[*FLAGS, "--disable-3d-apis"])
+    page = Shown(browser, reduced_motion="reduce", viewport=SMALL)
+    page.load(results["one"][0])
     alert = page.tab.get_by_role("alert")
     assert "which this browser does not offer" in alert.inner_text()
     assert page.tab.locator("[data-read=position]").inner_text() == "0.000, 0.000 m"

@@ -18,14 +18,15 @@ export function pattern() {
   const image = context.createImageData(WIDTH, HEIGHT);
   const digits = numerals(128);
   const soft = 1.5 * Math.PI / HEIGHT;
+  const turns = Array.from({ length: WIDTH }, (_, column) => (column + 0.5) / WIDTH * 2 * Math.PI);
+  const cosines = turns.map(Math.cos), sines = turns.map(Math.sin);
+  const shades = new Uint32Array(image.data.buffer);
   for (let row = 0, k = 0; row < HEIGHT; row++) {
-    const theta = (row + 0.5) / HEIGHT * Math.PI;
-    for (let column = 0; column < WIDTH; column++, k += 4) {
-      const phi = (column + 0.5) / WIDTH * 2 * Math.PI;
+    const theta = (row + 0.5) / HEIGHT * Math.PI, sine = Math.sin(theta), z = Math.cos(theta);
+    for (let column = 0; column < WIDTH; column++, k++) {
       // Where three's sphere has this pixel, its pole turned to z.
-      const point = [-Math.cos(phi) * Math.sin(theta), -Math.sin(phi) * Math.sin(theta), Math.cos(theta)];
-      const shade = shadeAt(point, digits, soft);
-      image.data.set([shade, shade, shade, 255], k);
+      const shade = Math.round(shadeAt(-cosines[column] * sine, -sines[column] * sine, z, digits, soft));
+      shades[k] = 0xff000000 | shade * 0x10101;
     }
   }
   context.putImageData(image, 0, 0);
@@ -35,20 +36,19 @@ export function pattern() {
   return texture;
 }
 
-function shadeAt(point, digits, soft) {
-  const size = point.map(Math.abs);
-  const a = size.indexOf(Math.max(...size));
-  const sign = Math.sign(point[a]);
-  const u = sign * point[(a + 1) % 3], v = point[(a + 2) % 3];
-  const away = Math.hypot(u, v) / MARK;
+// Plain numbers, no arrays: a million pixels are made while a reader waits.
+function shadeAt(x, y, z, digits, soft) {
+  const X = Math.abs(x), Y = Math.abs(y), Z = Math.abs(z), largest = Math.max(X, Y, Z);
+  const a = X === largest ? 0 : Y === largest ? 1 : 2;
+  const sign = Math.sign(a === 0 ? x : a === 1 ? y : z);
+  const u = sign * (a === 0 ? y : a === 1 ? z : x), v = a === 0 ? z : a === 1 ? x : y;
+  const away = Math.sqrt(u * u + v * v) / MARK;
   if (away < 1) {
     const digit = digits(a, u / MARK, v / MARK);
-    const rim = away > 0.88 ? 1 : 0;
-    const ink = Math.max(digit, rim);
-    return sign > 0 ? 30 + 225 * digit : 255 - 225 * ink;
+    return sign > 0 ? 30 + 225 * digit : 255 - 225 * Math.max(digit, away > 0.88 ? 1 : 0);
   }
-  const octant = point[0] * point[1] * point[2] > 0 ? 255 : 150;
-  const distance = Math.min(...size.map(Math.asin));
+  const octant = x * y * z > 0 ? 255 : 150;
+  const distance = Math.asin(Math.min(X, Y, Z));
   const line = Math.min(1, Math.max(0, (LINE + soft / 2 - distance) / soft));
   return octant + line * (45 - octant);
 }
