@@ -1,7 +1,9 @@
 """A few records by hand: one of each verdict, with everything that evidence may carry."""
 
 import copy
+import sys
 from functools import partial
+from subprocess import CompletedProcess
 
 import chromium
 import pytest
@@ -104,3 +106,17 @@ def opened(tabs):
     yield open_page
     for page in used.values():
         assert page.leave() == []
+
+
+@pytest.fixture
+def command(monkeypatch, capsys):
+    """Runs `chapsym` in this process; its exit status and what it wrote, as of a child, without a child's start."""
+    from chapsym.cli import main
+
+    def run(*arguments):
+        monkeypatch.setattr(sys, "argv", ["chapsym", *map(str, arguments)])
+        with pytest.raises(SystemExit) as ended:
+            main()
+        return CompletedProcess(sys.argv, ended.value.code, *capsys.readouterr())
+
+    return run

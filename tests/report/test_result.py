@@ -2,8 +2,7 @@
 
 import json
 import re
-import subprocess
-import sys
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -37,9 +36,10 @@ outputs = ["contact", "energy"]
 """
 
 
-def show(*arguments):
-    command = [sys.executable, "-m", "chapsym.cli", "show", *map(str, arguments)]
-    return subprocess.run(command, capture_output=True, text=True, check=False)
+@pytest.fixture
+def show(command):
+    """Runs `chapsym show`."""
+    return partial(command, "show")
 
 
 def test_a_scene_runs_from_a_dictionary_and_shows_itself():
@@ -132,7 +132,7 @@ def test_show_without_a_notebook_opens_a_folder(monkeypatch, capsys):
     assert str(folder) in capsys.readouterr().out
 
 
-def test_the_command_runs_a_scene_and_draws_it(tmp_path):
+def test_the_command_runs_a_scene_and_draws_it(tmp_path, show):
     scene = tmp_path / "ball.toml"
     scene.write_text(TOML)
     done = show(scene, "--format", "both")
@@ -143,7 +143,7 @@ def test_the_command_runs_a_scene_and_draws_it(tmp_path):
     assert "From a file" not in done.stderr
 
 
-def test_the_command_draws_a_result_with_its_page(tmp_path):
+def test_the_command_draws_a_result_with_its_page(tmp_path, show):
     chapsym.run_scene(SCENE).save(tmp_path / "a.nc")
     done = show(tmp_path / "a.nc", "-o", tmp_path / "pictures", "--json")
     told = json.loads(done.stdout)
@@ -153,7 +153,7 @@ def test_the_command_draws_a_result_with_its_page(tmp_path):
     assert all(Path(name).stat().st_size > 1000 for name in told["files"])
 
 
-def test_the_command_draws_what_is_named(tmp_path):
+def test_the_command_draws_what_is_named(tmp_path, show):
     results.folded().assign_attrs(chapsym_version="0").to_netcdf(tmp_path / "a.nc", engine="h5netcdf")
     done = show(tmp_path / "a.nc", "-o", tmp_path / "p", "--figures", "integrals,contact", "--ball", "fast")
     assert done.returncode == 0, done.stderr
@@ -174,7 +174,7 @@ def test_the_command_draws_what_is_named(tmp_path):
         (["no.toml"], "no.toml cannot be read"),
     ],
 )
-def test_mistakes_are_one_sentence(tmp_path, arguments, sentence):
+def test_mistakes_are_one_sentence(tmp_path, show, arguments, sentence):
     dataset = results.folded().assign_attrs(chapsym_version="0")
     dataset.to_netcdf(tmp_path / "a.nc", engine="h5netcdf")
     paths = [str(tmp_path / a) if a.endswith((".nc", ".txt", ".toml")) else a for a in arguments]
