@@ -16,7 +16,7 @@ from .drawing import reading
 if TYPE_CHECKING:
     from xarray import Dataset
 
-    from .drawing.picture import Picture
+    from .drawing.style import Picture
 
 #: Numbers beyond which the drift is not computed for a table, as it would take seconds.
 MOST = 10_000_000

@@ -332,6 +332,23 @@ def test_balls_whose_turn_has_not_come_are_left_out():
         figures.draw(dataset, "contact")
 
 
+def test_an_interrupted_sweep_shows_the_balls_that_have_run(tmp_path):
+    dataset = results.batch(100, 20, 1)
+    dataset["taken"][70:] = -1
+    for name in ("contact", "momentum", "gamma", "omega", "attitude", "energy", "integrals"):
+        dataset[name][70:] = np.nan
+    assert {"contact", "spheres", "spread", "omega"} <= {path.stem for path in figures.save_all(dataset, tmp_path)}
+    dataset["taken"][7:] = -1
+    assert len(lines(figures.draw(dataset, "contact").axes[0])) == 7
+    dataset["taken"][1:] = -1
+    dataset["taken"][0], dataset["taken"][99] = -1, 20
+    dataset["gamma"][99] = dataset["momentum"][99] = [0.0, 0.0, 1.0]
+    assert figures.draw(dataset, "spheres").axes
+    waiting = results.sweep(20)
+    waiting["taken"][5:], waiting["rotation_number"][5:] = -1, np.nan
+    assert figures.draw(waiting, "rotation").axes[0].get_title() == ""
+
+
 def test_what_stands_behind_the_last_step_of_a_ball_is_not_read():
     dataset = results.folded()
     dataset["contact"] = dataset["contact"].fillna(99.0)
@@ -400,6 +417,19 @@ def test_titles_are_those_of_the_scene_as_written():
     assert title.startswith("100 $ a ball_1 $ or")
     assert title.count("\n") == 1
     assert title.endswith("...")
+
+
+@pytest.mark.parametrize("name", ["$x^$", "$a$", r"\$ and $", "100 $", r"\frac{$"])
+def test_names_and_units_are_text_whatever_is_in_them(name, tmp_path):
+    dataset = results.folded().assign_coords(ball=[name, "b"])
+    dataset["integral"] = ["K.gamma", "K^$", name]
+    dataset["contact"].attrs["units"] = name
+    figures.save_all(dataset, tmp_path)
+    (shown, *_) = figures.draw(dataset, "contact").legends[0].get_texts()
+    assert shown._preprocess_math(shown.get_text()) == (name, False)
+    swept = results.sweep(5).rename({"start.momentum": name})
+    swept[name].attrs["units"] = name
+    figures.save_all(swept, tmp_path)
 
 
 def test_pyplot_is_not_touched():

@@ -7,18 +7,17 @@ import numpy as np
 from chapsym.dynamics.ball import Floats
 
 from . import reading, series
-from .style import COLOURS, FEW, at_least, in_power, legend, new, power
+from .style import COLOURS, FEW, Picture, at_least, in_power, legend, new, power
 
 if TYPE_CHECKING:
     from xarray import Dataset
 
-    from .picture import Picture
 
 #: A change below this part of the largest component is drawn flat.
 FLAT = 1e-3
 
 
-def draw(dataset: "Dataset", array: Floats, names: list[str], symbol: str, units: str) -> "Picture":
+def draw(dataset: "Dataset", array: Floats, names: list[str], symbol: str, units: str) -> Picture:
     """array (balls, frames, components): one panel with all components of one ball, else a panel for each."""
     t, label = reading.clock(dataset)
     factor, text = power(float(np.nanmax(np.abs(array), initial=0.0)))
@@ -27,7 +26,7 @@ def draw(dataset: "Dataset", array: Floats, names: list[str], symbol: str, units
     figure, axes = new(
         str(dataset.attrs.get("title", "")), 1 if alone else len(names), height=3.3 if alone else 1.9, sharex=True
     )
-    balls = reading.ball_names(dataset)
+    balls = reading.labels(dataset)
     for k, name in enumerate(names):
         axis = axes[0 if alone else k]
         if alone:

@@ -35,6 +35,24 @@ def _per_ball(dataset: "Dataset") -> bool:
     return "rotation_number" in dataset
 
 
+def begun(dataset: "Dataset") -> "Dataset":
+    """The result without the balls whose turn has not come; raises BadInput if no ball's has."""
+    there = last_frames(dataset) >= 0
+    if not there.any():
+        raise BadInput("no ball of this result has run yet: resume the run first")
+    return dataset if there.all() else dataset.isel(ball=there)
+
+
+def literal(text: str) -> str:
+    """Text that a figure shows as it is written: its dollars enclose no mathematics."""
+    return text.replace("$", r"\$")
+
+
+def labels(dataset: "Dataset") -> list[str]:
+    """The names of the balls for a figure."""
+    return [literal(name) for name in ball_names(dataset)]
+
+
 def ball_names(dataset: "Dataset") -> list[str]:
     """The names of the balls, or their indices."""
     if "ball" in dataset.coords:
@@ -76,8 +94,6 @@ def values(dataset: "Dataset", name: str) -> Floats:
     with np.errstate(over="ignore"):
         array = array.astype(np.float64)
     there = reached(dataset)
-    if not there.any():
-        raise BadInput("no ball of this result has run yet: resume the run first")
     bad = there & ~np.isfinite(array).reshape(*there.shape, -1).all(axis=-1)
     if bad.any():
         ball, frame = map(int, np.argwhere(bad)[0])

@@ -1,17 +1,21 @@
 """How the figures look, and their bytes: one style, colours that the colour-blind tell apart, no dates in files."""
 
+import io
 import re
+import textwrap
+import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import IO, TYPE_CHECKING, Any
 
 import numpy as np
+from matplotlib import style
+from matplotlib.figure import Figure
+
+from .reading import literal
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-
-    from .picture import Picture
 
 #: Okabe and Ito's colours.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#F0E442")
@@ -42,16 +46,12 @@ STYLE = {
 @contextmanager
 def styled() -> Iterator[None]:
     """matplotlib's defaults with this style, whatever the user has set; restored afterwards."""
-    from matplotlib import style
-
     with style.context(["default", STYLE]):
         yield
 
 
 def write(figure: "Figure", stream: IO[bytes], form: str) -> None:
     """The bytes of a figure, "svg" or "png": the same for the same data."""
-    import warnings
-
     with styled(), warnings.catch_warnings():
         # A name in a script that the font has not: drawn as boxes, of which matplotlib would tell five times.
         warnings.filterwarnings("ignore", message="Glyph .* missing from font")
@@ -59,18 +59,30 @@ def write(figure: "Figure", stream: IO[bytes], form: str) -> None:
         figure.savefig(stream, format=form, metadata=metadata)
 
 
-def empty(height: float) -> "Picture":
-    """A figure without axes, `height` inches high."""
-    from .picture import Picture
+class Picture(Figure):
+    """A `matplotlib.figure.Figure` with a display of its own."""
 
-    return Picture(figsize=(WIDTH, height), layout="constrained")
+    def svg(self) -> str:
+        """The figure as an SVG element, for a page of HTML: as wide as there is room for."""
+        stream = io.BytesIO()
+        write(self, stream, "svg")
+        text = stream.getvalue().decode()
+        return text[text.index("<svg") :].replace("<svg ", '<svg style="max-width: 100%; height: auto" ', 1)
+
+    def _repr_svg_(self) -> str:
+        return self.svg()
+
+
+def empty(height: float, width: float = WIDTH) -> Picture:
+    """A figure without axes, so many inches high and wide."""
+    return Picture(figsize=(width, height), layout="constrained")
 
 
 def new(
-    title: str, rows: int = 1, columns: int = 1, height: float = 3.4, **options: Any
+    title: str, rows: int = 1, columns: int = 1, height: float = 3.4, width: float = WIDTH, **options: Any
 ) -> "tuple[Picture, list[Axes]]":
     """An empty figure, `height` inches high for each row, titled, with its axes."""
-    figure = empty(height * rows + (0.35 if title else 0.0))
+    figure = empty(height * rows + (0.35 if title else 0.0), width)
     axes = figure.subplots(rows, columns, squeeze=False, **options)
     entitle(figure, title)
     return figure, list(axes.flat)
@@ -90,16 +102,12 @@ def legend(figure: "Figure", axes: "Sequence[Axes]") -> None:
         return
     lengths = [len(re.sub(r"[${}_]", "", re.sub(r"\\[a-z]+", "", label))) + 5 for label in found]
     rows = 1 if sum(lengths) <= LETTERS else -(-len(found) // max(1, LETTERS // max(lengths)))
-    shown = figure.legend(
+    figure.legend(
         list(found.values()), list(found), loc="outside lower center", ncols=-(-len(found) // rows), columnspacing=1.2
     )
-    for text in shown.get_texts():
-        text.set_parse_math(text.get_text().count("$") > 1)
 
 
 def _wrapped(text: str) -> str:
-    import textwrap
-
     lines = textwrap.wrap(" ".join(text.split()), 56)
     return "\n".join(lines if len(lines) < 3 else [lines[0], lines[1][:53] + " ..."])
 
@@ -114,7 +122,7 @@ def power(size: float) -> tuple[float, str]:
 
 def in_power(name: str, units: str, factor: str) -> str:
     """A label with its power of ten and unit: "x, 10⁻⁶ m"."""
-    unit = " ".join(filter(None, (factor, units)))
+    unit = " ".join(filter(None, (factor, literal(units))))
     return f"{name}, {unit}" if unit else name
 
 

@@ -13,7 +13,7 @@ from ..drawing import reading
 if TYPE_CHECKING:
     from xarray import Dataset
 
-    from ..drawing.picture import Picture
+    from ..drawing.style import Picture
 
 __all__ = ["FIGURES", "FORMATS", "about", "available", "draw", "save", "save_all"]
 
@@ -48,7 +48,7 @@ def draw(dataset: "Dataset", name: str, ball: str | int | None = None) -> "Pictu
     if reason is not None:
         raise BadInput(f"{name}: {reason}")
     with styled():
-        figure: Picture = _module(name).draw(chosen)
+        figure: Picture = _module(name).draw(reading.begun(chosen))
     return figure
 
 

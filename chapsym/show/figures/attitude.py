@@ -9,12 +9,11 @@ from chapsym.dynamics.ball import Floats
 
 from ..drawing import components, reading, series
 from ..drawing.sphere import View, draw_globe, draw_orbit
-from ..drawing.style import COLOURS, FEW, VERTICES, empty, entitle, legend
+from ..drawing.style import COLOURS, FEW, VERTICES, Picture, empty, entitle, legend
 
 if TYPE_CHECKING:
     from xarray import Dataset
 
-    from ..drawing.picture import Picture
 
 NEEDS = ("attitude",)
 ABOUT = "paths of the body axes in space, and the quaternion over time"
@@ -29,7 +28,7 @@ def missing(dataset: "Dataset") -> str | None:
     return "the attitude is drawn in three dimensions only" if "quaternion" not in dataset["attitude"].dims else None
 
 
-def draw(dataset: "Dataset") -> "Picture":
+def draw(dataset: "Dataset") -> Picture:
     """One ball: its axes on the sphere of space and its quaternion; several: their quaternions."""
     quaternions = continued(reading.values(dataset, "attitude"))
     names = [f"$q_{i}$" for i in range(4)]

@@ -36,7 +36,7 @@ def plot(axis: "Axes", dataset: "Dataset", changes: dict[str, Floats]) -> None:
         told = f"{name}: {_brief(float(np.nanmax(np.abs(change), initial=0.0)))}"
         if len(change) == 1 or (len(changes) == 1 and len(change) <= FEW):
             for i, one in enumerate(change):
-                each = told if len(change) == 1 else reading.ball_names(dataset)[i]
+                each = told if len(change) == 1 else reading.labels(dataset)[i]
                 series.line(axis, t, one / factor, colour if len(change) == 1 else COLOURS[i], each)
         else:
             series.fan(axis, t, change / factor, colour, told)

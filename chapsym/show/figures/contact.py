@@ -1,19 +1,19 @@
 """The trace of the contact point on the plane: of one ball, of several in colours, of thousands as a density."""
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from chapsym.dynamics.ball import Floats
 
-from ..drawing import reading
-from ..drawing.style import COLOURS, FEW, VERTICES, WIDTH, in_power, legend, new, power, scale
+from ..drawing import reading, traces
+from ..drawing.style import COLOURS, FEW, VERTICES, WIDTH, Picture, in_power, legend, new, power
+from .four import draw_pairs
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from xarray import Dataset
 
-    from ..drawing.picture import Picture
 
 NEEDS = ("contact",)
 ABOUT = "trace of the contact point on the plane"
@@ -34,12 +34,10 @@ def missing(dataset: "Dataset") -> str | None:
     return None if "contact" in dataset else 'no contact: add "contact" to run.outputs'
 
 
-def draw(dataset: "Dataset") -> "Picture":
+def draw(dataset: "Dataset") -> Picture:
     """The traces, in metres, with equal axes; in n dimensions a panel for each pair of coordinates."""
     trace = reading.values(dataset, "contact")
     if trace.shape[-1] > 2:
-        from .four import draw_pairs
-
         return draw_pairs(dataset, trace)
     factor, text = power(float(np.nanmax(np.abs(trace), initial=0.0)))
     trace = trace / factor
@@ -50,7 +48,7 @@ def draw(dataset: "Dataset") -> "Picture":
     )
     axis.set_aspect("equal", adjustable="datalim")
     if len(trace) <= LINES:
-        lines(axis, dataset, trace)
+        traces.lines(axis, dataset, trace)
     else:
         _density(axis, dataset, trace)
     axis.set(xlabel=in_power("x", "m", text), ylabel=in_power("y", "m", text))
@@ -95,55 +93,6 @@ def panel_height(trace: Floats) -> float:
     across, up = (float(x) for x in (high - low)[:2])
     inside = WIDTH - 0.9
     return float(np.clip(inside * up / across if across > 0.0 else HIGH, LOW, HIGH)) + 0.9
-
-
-def lines(axis: "Axes", dataset: "Dataset", trace: Floats, legend: bool = True) -> None:
-    """A line for each ball, with its start, its end, and arrows along it."""
-    last, names, stopped = reading.last_frames(dataset), reading.ball_names(dataset), reading.stopped(dataset)
-    few = len(trace) <= FEW
-    colours = list(COLOURS[: len(trace)]) if few else _by_parameter(axis, dataset, len(trace))
-    dense = trace.shape[0] * trace.shape[1] > VERTICES
-    for i, path in enumerate(trace):
-        path = path[: last[i] + 1]
-        if not len(path):
-            continue
-        label = names[i] if few and len(trace) > 1 and legend else None
-        axis.plot(*path.T, color=colours[i], linewidth=1.3 if few else 0.8, rasterized=dense, label=label, zorder=2)
-        if few:
-            _arrows(axis, path, colours[i], 4 if len(trace) == 1 else 2)
-        end = ("stopped", "X") if stopped[i] else ("end", "s")
-        ends: tuple[tuple[int, str, str, Any], ...] = ((0, "start", "o", "white"), (-1, *end, colours[i]))
-        for at, name, marker, face in ends:
-            axis.plot(
-                *path[at], marker, color=colours[i], markerfacecolor=face, markersize=7 if few else 3.5, zorder=4,
-                label=name if len(trace) == 1 and legend else None,
-            )  # fmt: skip
-    if len(trace) > 1 and legend and stopped.any():
-        axis.plot([], [], "X", color="0.3", markersize=7 if few else 4, label="stopped early")
-
-
-def _by_parameter(axis: "Axes", dataset: "Dataset", count: int) -> list[Any]:
-    """Colours by the first parameter of the sweep, or by the number of the ball."""
-    varied = reading.parameters(dataset)
-    if varied:
-        name, (data, units) = next(iter(varied.items()))
-        return [tuple(c) for c in scale(axis, data, reading.labelled(name, units))(data)]
-    number = np.arange(count, dtype=np.float64)
-    return [tuple(c) for c in scale(axis, number, "ball")(number)]
-
-
-def _arrows(axis: "Axes", path: Floats, colour: str, count: int) -> None:
-    """Heads of arrows at equal parts of the length of a path."""
-    along = np.concatenate([[0.0], np.cumsum(np.sqrt((np.diff(path, axis=0) ** 2).sum(axis=-1)))])
-    if along[-1] == 0.0:
-        return
-    for part in (np.arange(count) + 0.5) / count:
-        k = int(np.clip(np.searchsorted(along, part * along[-1]), 1, len(path) - 1))
-        axis.annotate(
-            "", xy=tuple(path[k]), xytext=tuple(path[k - 1]), zorder=3,
-            arrowprops={"arrowstyle": "-|>,head_width=0.28,head_length=0.55", "color": colour, "linewidth": 0,
-                        "shrinkA": 0, "shrinkB": 0},
-        )  # fmt: skip
 
 
 def _density(axis: "Axes", dataset: "Dataset", trace: Floats) -> None:

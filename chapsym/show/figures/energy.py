@@ -5,13 +5,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..drawing import reading
-from ..drawing.style import legend, new
+from ..drawing.style import Picture, legend, new
 from . import change
 
 if TYPE_CHECKING:
     from xarray import Dataset
 
-    from ..drawing.picture import Picture
 
 NEEDS = ("energy",)
 ABOUT = "kinetic energy over time, relative change"
@@ -22,7 +21,7 @@ def missing(dataset: "Dataset") -> str | None:
     return None if "energy" in dataset else 'no energy: add "energy" to run.outputs (and give run.time_step)'
 
 
-def draw(dataset: "Dataset") -> "Picture":
+def draw(dataset: "Dataset") -> Picture:
     """(E - E₀)/E₀; the map keeps the energy up to an oscillation, and for D = 0 to roundoff."""
     energy = reading.values(dataset, "energy")
     start = energy[:, 0]

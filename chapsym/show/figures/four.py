@@ -7,16 +7,14 @@ import numpy as np
 
 from chapsym.dynamics.ball import Floats
 
-from ..drawing import reading
+from ..drawing import reading, traces
 from ..drawing.invariant import unit
 from ..drawing.sphere import View, draw_globe, draw_orbit
-from ..drawing.style import COLOURS, FEW, VERTICES, empty, entitle, in_power, new, power
+from ..drawing.style import COLOURS, FEW, VERTICES, Picture, empty, entitle, in_power, new, power
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from xarray import Dataset
-
-    from ..drawing.picture import Picture
 
 
 def halves(momentum: Floats) -> tuple[Floats, Floats]:
@@ -29,7 +27,7 @@ def halves(momentum: Floats) -> tuple[Floats, Floats]:
     return first + last, first - last
 
 
-def draw(dataset: "Dataset") -> "Picture":
+def draw(dataset: "Dataset") -> Picture:
     """𝒦₊/|𝒦₊| and 𝒦₋/|𝒦₋| on their spheres, and γ in two planes."""
     shown: list[tuple[str, Floats]] = []
     if "momentum" in dataset:
@@ -61,7 +59,7 @@ def draw(dataset: "Dataset") -> "Picture":
 def _some(dataset: "Dataset", points: Floats) -> list[Floats]:
     """The first balls, each up to its last frame."""
     last = reading.last_frames(dataset)
-    return [one[: last[i] + 1] for i, one in enumerate(points[:FEW]) if last[i] >= 0]
+    return [one[: last[i] + 1] for i, one in enumerate(points[:FEW])]
 
 
 def _plane(axis: "Axes", dataset: "Dataset", gamma: Floats, a: int, b: int) -> None:
@@ -77,16 +75,16 @@ def _plane(axis: "Axes", dataset: "Dataset", gamma: Floats, a: int, b: int) -> N
     axis.set(xlim=(-1.1, 1.1), ylim=(-1.1, 1.1), xlabel=rf"$\gamma_{a + 1}$", ylabel=rf"$\gamma_{b + 1}$")
 
 
-def draw_pairs(dataset: "Dataset", trace: Floats) -> "Picture":
+def draw_pairs(dataset: "Dataset", trace: Floats) -> Picture:
     """The contact point in a hyperplane, (balls, frames, n - 1): a panel for each pair of the first three axes."""
-    from .contact import lines
-
     factor, text = power(float(np.nanmax(np.abs(trace), initial=0.0)))
     names = ["$x_1$", "$x_2$", "$x_3$"]
     figure, axes = new(str(dataset.attrs.get("title", "")), 2, 2, height=2.9)
     pairs = list(combinations(range(3), 2))
     for axis, (a, b) in zip(axes, pairs, strict=False):
-        lines(axis, dataset.isel(ball=slice(0, FEW)), trace[:FEW][..., [a, b]] / factor, legend=(a, b) == pairs[0])
+        traces.lines(
+            axis, dataset.isel(ball=slice(0, FEW)), trace[:FEW][..., [a, b]] / factor, legend=(a, b) == pairs[0]
+        )
         axis.set_aspect("equal", adjustable="datalim")
         axis.set(xlabel=in_power(names[a], "m", text), ylabel=in_power(names[b], "m", text))
     axes[3].set_axis_off()

@@ -1,5 +1,6 @@
 """The momentum integrals over time, as their relative changes."""
 
+import re
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -7,13 +8,12 @@ import numpy as np
 from chapsym.dynamics.ball import Floats
 
 from ..drawing import reading
-from ..drawing.style import legend, new
+from ..drawing.style import Picture, legend, new
 from . import change
 
 if TYPE_CHECKING:
     from xarray import Dataset
 
-    from ..drawing.picture import Picture
 
 NEEDS = ("integrals",)
 ABOUT = "momentum integrals over time, relative change"
@@ -29,7 +29,7 @@ def missing(dataset: "Dataset") -> str | None:
     return None if "integrals" in dataset else 'no integrals: add "integrals" to run.outputs'
 
 
-def draw(dataset: "Dataset") -> "Picture":
+def draw(dataset: "Dataset") -> Picture:
     """The map keeps the momentum integrals, so all that is seen is roundoff."""
     found = reading.values(dataset, "integrals")
     names = [str(name) for name in dataset["integral"].values] if "integral" in dataset.coords else []
@@ -52,7 +52,7 @@ def _symbol(name: str) -> str:
     told = (
         name.replace("gamma", r"\gamma").replace("K", r"\mathcal{K}").replace("tr ", r"\mathrm{tr}\,").replace(".", " ")
     )
-    return f"${told}$" if "K" in name else name
+    return f"${told}$" if re.fullmatch(r"(tr |gamma\.)?K\^\d+(\.gamma)?", name) else reading.literal(name)
 
 
 def sizes(start: Floats, names: list[str]) -> list[Floats]:

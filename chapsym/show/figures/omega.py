@@ -7,11 +7,11 @@ import numpy as np
 from chapsym.dynamics.ball import Floats
 
 from ..drawing import components, reading
+from ..drawing.style import Picture
 
 if TYPE_CHECKING:
     from xarray import Dataset
 
-    from ..drawing.picture import Picture
 
 NEEDS = ("omega",)
 ABOUT = "angular velocity ω over time, body axes"
@@ -22,7 +22,7 @@ def missing(dataset: "Dataset") -> str | None:
     return None if "omega" in dataset else 'no ω: add "omega" to run.outputs (and give run.time_step)'
 
 
-def draw(dataset: "Dataset") -> "Picture":
+def draw(dataset: "Dataset") -> Picture:
     """The components of ω; in n dimensions those of the skew matrix above the diagonal."""
     array, names = reading.values(dataset, "omega"), [r"$\omega_1$", r"$\omega_2$", r"$\omega_3$"]
     if array.ndim == 4:

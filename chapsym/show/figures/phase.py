@@ -10,13 +10,12 @@ from chapsym.dynamics.ball import Floats
 
 from ..drawing import reading, series
 from ..drawing.invariant import bodies_of
-from ..drawing.style import COLOURS, FEW, at_least, in_power, legend, new, power
+from ..drawing.style import COLOURS, FEW, Picture, at_least, in_power, legend, new, power
 from . import change
 
 if TYPE_CHECKING:
     from xarray import Dataset
 
-    from ..drawing.picture import Picture
 
 NEEDS = ("phase",)
 ABOUT = "elliptic phase u over time, and its increment a step"
@@ -29,7 +28,7 @@ def missing(dataset: "Dataset") -> str | None:
     return "an increment needs two frames" if dataset.sizes["frame"] < 2 else None
 
 
-def draw(dataset: "Dataset") -> "Picture":
+def draw(dataset: "Dataset") -> Picture:
     """u(t) above, without its jumps by a period; below its increment a step, constant for D = 0, else a function of u.
 
     Where the steps between two frames do not tell how often u went round, it is drawn with its jumps, and below is what
@@ -46,7 +45,7 @@ def draw(dataset: "Dataset") -> "Picture":
         factor, text = power(float(np.nanmax(np.abs(array), initial=0.0)))
         if len(u) <= FEW:
             for i, one in enumerate(array):
-                name = reading.ball_names(dataset)[i] if len(u) > 1 and axis is above else None
+                name = reading.labels(dataset)[i] if len(u) > 1 and axis is above else None
                 series.line(axis, when, one / factor, COLOURS[i], name)
         else:
             series.fan(axis, when, array / factor, COLOURS[0])

@@ -5,12 +5,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..drawing import reading
-from ..drawing.style import COLOURS, VERTICES, in_power, new, power, scale
+from ..drawing.style import COLOURS, VERTICES, Picture, in_power, new, power, scale
 
 if TYPE_CHECKING:
     from xarray import Dataset
 
-    from ..drawing.picture import Picture
 
 NEEDS = ("rotation_number",)
 ABOUT = "rotation number against the swept parameter"
@@ -23,7 +22,7 @@ def missing(dataset: "Dataset") -> str | None:
     return "one ball has one rotation number: sweep a parameter to see it change" if dataset.sizes["ball"] < 2 else None
 
 
-def draw(dataset: "Dataset") -> "Picture":
+def draw(dataset: "Dataset") -> Picture:
     """Points over the first parameter; a second one is the colour.  Without parameters, over the number of the ball."""
     found = reading.per_ball(dataset, "rotation_number")
     assert found is not None
@@ -41,7 +40,7 @@ def draw(dataset: "Dataset") -> "Picture":
         order = np.argsort(data, kind="stable")
         style = "-" if len(found) > 40 else "o-"
         axis.plot(data[order] / factor, found[order], style, color=COLOURS[0], markersize=4, rasterized=dense)
-    axis.set_xlabel(in_power(name, reading.readable(units), text), parse_math=False)
+    axis.set_xlabel(in_power(reading.literal(name), reading.readable(units), text))
     axis.set_ylabel("rotation number, turns a step")
     lost = int((~np.isfinite(found)).sum())
     if lost:

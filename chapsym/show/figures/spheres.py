@@ -10,13 +10,13 @@ from chapsym.dynamics.ball import Floats
 from ..drawing import reading
 from ..drawing.invariant import Body, bodies_of, curve_through, energy_range, is_vertical, unit
 from ..drawing.sphere import View, draw_curve, draw_globe, draw_orbit
-from ..drawing.style import COLOURS, FEW, MAP, VERTICES, legend, new
+from ..drawing.style import COLOURS, FEW, MAP, VERTICES, Picture, legend, new
+from . import four
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from xarray import Dataset
 
-    from ..drawing.picture import Picture
 
 NEEDS = ("gamma", "momentum")
 ABOUT = "γ and 𝒦/|𝒦| on their spheres, with the invariant curve"
@@ -37,12 +37,10 @@ def missing(dataset: "Dataset") -> str | None:
     return None
 
 
-def draw(dataset: "Dataset") -> "Picture":
+def draw(dataset: "Dataset") -> Picture:
     """One sphere for each of γ and 𝒦/|𝒦|; one alone where 𝒦 is vertical, and they are the same."""
     if "row" in dataset.dims or dataset.sizes.get("axis") == 4:
-        from .four import draw as draw_four
-
-        return draw_four(dataset)
+        return four.draw(dataset)
     found = {name: reading.values(dataset, name) for name in NEEDS if name in dataset}
     t, _ = reading.clock(dataset)
     if len(next(iter(found.values()))) > FEW:
@@ -79,14 +77,12 @@ def _panel(
     flat = points[np.isfinite(points).all(axis=-1)]
     view = View.of(flat)
     draw_globe(axis, view, ("1", "2", "3"))
-    last, names = reading.last_frames(dataset), reading.ball_names(dataset)
+    last, names = reading.last_frames(dataset), reading.labels(dataset)
     bodies = bodies_of(dataset)
     if len(points) == 1 and bodies and len(found) == 2 and not vertical and bodies[0].D > 0.0:
         _forbidden(axis, view, bodies[0], found, name == "gamma")
     for i, one in enumerate(points):
         orbit, colour = one[: last[i] + 1], COLOURS[i]
-        if not len(orbit):
-            continue
         if bodies and (vertical or (name == "momentum" and bodies[i].D == 0.0)):
             curve = curve_through(bodies[i], orbit, bodies[i].D if vertical else 0.0)
             if curve is not None:

@@ -7,13 +7,12 @@ import numpy as np
 from chapsym.dynamics.ball import Floats
 
 from ..drawing import reading, series
-from ..drawing.style import COLOURS, in_power, legend, new, power
+from ..drawing.style import COLOURS, Picture, in_power, legend, new, power
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from xarray import Dataset
 
-    from ..drawing.picture import Picture
 
 NEEDS = ("contact", "gamma")
 ABOUT = "distance of the balls from their mean over time"
@@ -34,7 +33,7 @@ def missing(dataset: "Dataset") -> str | None:
     return "a spread needs at least three balls that go on" if going < 3 else None
 
 
-def draw(dataset: "Dataset") -> "Picture":
+def draw(dataset: "Dataset") -> Picture:
     """Percentiles of the distance from the mean contact point (m), and of the angle of γ from its mean (degrees)."""
     shown = [name for name in NEEDS if name in dataset]
     figure, axes = new(str(dataset.attrs.get("title", "")), len(shown), height=2.8, sharex=True)
