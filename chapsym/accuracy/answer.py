@@ -32,8 +32,9 @@ class Accurate:
     """A run that meets its request.
 
     trajectory: at the times asked for, with order 12 for `extrapolate` and 0 for `exact_top`.
-    choice: rung, order and step.  estimate: a bound of the error, by comparison, at the worst of the times, in the
-    norm of the request.  attempts: all that was tried, the last of them the one that is delivered.
+    choice: rung, order and step.  estimate: of the error, at the worst of the times, in the norm of the request, by
+    comparison with longer steps: a bound where the shorter ones at least halve the error.
+    attempts: all that was tried, the last of them the one that is delivered.
     seconds: of the processor, for everything: the pilot, all attempts, their verification.
     """
 
@@ -60,7 +61,7 @@ class Accurate:
 
     @property
     def estimate(self) -> float:
-        """A bound of the error, by comparison."""
+        """Of the error, by comparison."""
         return self.attempts[-1].estimate
 
 

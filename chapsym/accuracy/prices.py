@@ -11,7 +11,7 @@ import math
 import os
 import platform
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sized
 from dataclasses import dataclass
 from pathlib import Path
 from statistics import median
@@ -26,7 +26,7 @@ from chapsym.dynamics import BadInput, Ball, StepNotTaken
 from chapsym.dynamics.levels.double import SHORT_RUN
 from chapsym.numbers import NAMED
 
-from .methods import EXACT, Method, methods, rung_label, take
+from .methods import EXACT, Method, methods, take
 from .request import Request
 
 #: Changes when the file does.
@@ -81,18 +81,31 @@ def calibrate(progress: Callable[[str], None] = lambda text: None) -> Prices:
     """Takes all prices, in seconds; a method or a length of step that this ball cannot take has none."""
     calls: dict[str, float] = {}
     steps: dict[str, list[tuple[float, float]]] = {}
-    for rung in RUNGS:
-        progress(f"pricing {rung_label(rung)}")
-        for with_body in (False, True):
-            request = sample("contact" if with_body else "state", 1.0)
-            found = {m: _by_length(request, m) for m in methods(request, rung) if m.order != EXACT}
-            steps |= {Prices._key(m, with_body): priced for m, priced in found.items() if priced}
-            shortest = _seconds(request, Method(rung, 2), 1, 1e-3)
-            calls[f"{rung_label(rung)}/{_body(with_body)}"] = shortest or 0.0
+    wanted = [
+        (request, method)
+        for rung in RUNGS
+        for request in (sample("state", 1.0), sample("contact", 1.0))
+        for method in methods(request, rung)
+        if method.order != EXACT
+    ]
+    started = time.monotonic()
+    for done, (request, method) in enumerate(wanted):
+        progress(f"pricing {method.label}, order {method.order}: {_forecast(time.monotonic() - started, done, wanted)}")
+        with_body = request.of == "contact"
+        if priced := _by_length(request, method):
+            steps[Prices._key(method, with_body)] = priced
+        if method.order == 2:
+            calls[f"{method.label}/{_body(with_body)}"] = _seconds(request, method, 1, 1e-3) or 0.0
     for body in ("state", "body"):  # the exact top runs the map itself
         if f"double/2/{body}" in steps:
             steps[f"double/{EXACT}/{body}"] = steps[f"double/2/{body}"]
     return Prices(calls, steps)
+
+
+def _forecast(passed: float, done: int, wanted: Sized) -> str:
+    """How much of the work is left, and how long that takes if it goes on like this."""
+    told = f"{len(wanted) - done} of {len(wanted)} left"
+    return f"{told}, about {passed / done * (len(wanted) - done):.0f} s" if done else told
 
 
 def _by_length(request: Request, method: Method) -> list[tuple[float, float]]:
@@ -150,7 +163,7 @@ def load_prices(progress: Callable[[str], None] = lambda text: None) -> Prices:
             return _checked(found["calls"], found["steps"])
     except (OSError, ValueError, KeyError, TypeError, AttributeError, OverflowError, RecursionError):
         pass
-    progress("taking this machine's prices, once: some seconds")
+    progress("taking this machine's prices, once")
     fresh = calibrate(progress)
     save(fresh, kept)
     return fresh

@@ -83,7 +83,7 @@ def _describe(found: dict[str, Any]) -> None:
     for orbit in found["orbits"]:
         axis = axes["ab".index(orbit["start"])]
         moved = f"{Decimal(orbit['displacement']):.2e}"
-        print(f"  half turns: {found['half_turns']}, and {moved} more, from gamma{axis} = 0")
+        print(f"  half turns: {found['half_turns']}, then {moved} (a sine times two lengths), from gamma{axis} = 0")
 
 
 @certify.command()

@@ -19,7 +19,7 @@ def extremes(
     groups: Annotated[
         list[str] | None, typer.Argument(metavar="[GROUP]...", help="Groups of conditions; all by default.")
     ] = None,
-    quick: Annotated[bool, typer.Option("--quick", help="Short runs and small batches: a minute or two.")] = False,
+    quick: Annotated[bool, typer.Option("--quick", help="Short runs and small batches.")] = False,
     output: Annotated[
         Path | None, typer.Option("-o", "--output", metavar="PAGE", help="A page, .html, that opens from disk.")
     ] = None,

@@ -18,7 +18,7 @@ STUDIES = ("rotation", "energy", "chaos")
 @app.command()
 def study(
     name: Annotated[str, typer.Argument(metavar="NAME", help=f"{', '.join(STUDIES)}.")],
-    quick: Annotated[bool, typer.Option("--quick", help="Fewer and coarser: a minute or two.")] = False,
+    quick: Annotated[bool, typer.Option("--quick", help="Fewer and coarser.")] = False,
     output: Annotated[
         Path | None,
         typer.Option("-o", "--output", metavar="DIR", help="A folder for the data and figures; one left goes on."),

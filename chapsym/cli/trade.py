@@ -3,6 +3,7 @@
 import math
 import re
 import sys
+from decimal import Decimal
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -43,7 +44,7 @@ def trade(
         str | None, typer.Option(metavar="G1,G2,G3", help="The unit vertical, upwards, in the body.")
     ] = None,
     limit: Annotated[float, typer.Option(metavar="S", help="Seconds of the processor that a run may take.")] = 600.0,
-    quick: Annotated[bool, typer.Option("--quick", help="Fewer and shorter runs: seconds.")] = False,
+    quick: Annotated[bool, typer.Option("--quick", help="Fewer and shorter runs.")] = False,
     output: Annotated[
         Path | None,
         typer.Option("-o", "--output", metavar="FILE", help="A figure; with --accuracy the run, .npz or .csv."),
@@ -160,13 +161,23 @@ def print_answer(answer: Any) -> None:
     request, choice = answer.request, answer.choice
     unit = "m" if request.of == "contact" else "relative"
     print(f"chosen    {choice.sentence()}")
-    print(f"verified  the {request.of} is off by {answer.estimate:.1e} ({unit}) at most; wanted {request.accuracy:g}")
+    off = f"the {request.of} is off by {answer.estimate:.1e} ({unit})"
+    print(f"compared  {off}, estimated by a run of longer steps; wanted {request.accuracy:g}")
     taken = answer.attempts[-1].seconds
     print(f"cost      expected {choice.seconds:.2g} s; taken {taken:.2g} s, in all {answer.seconds:.2g} s")
     for one in answer.attempts[:-1]:
         print(f"          tried before: {one.choice.sentence()}, off by {one.estimate:.1e}")
     for name, values in answer.final().items():
-        print(f"{name:9} " + "  ".join(map(str, values)))
+        print(f"{name:9} {_to_estimate(name, values, request.of, answer.estimate)}")
+
+
+def _to_estimate(name: str, values: list[Any], of: str, estimate: float) -> str:
+    """The components with the decimals that the estimate is about; six digits of what was not compared."""
+    if (name == "contact") != (of == "contact"):
+        return "  ".join(f"{float(x):.6g}" for x in values) + "  (not compared)"
+    size = max(abs(Decimal(x)) for x in values) if name == "angular_momentum" else Decimal(1)
+    error = Decimal(estimate) * size
+    return "  ".join(f"{Decimal(x):.{max(0, -error.adjusted())}f}" if error else str(x) for x in values)
 
 
 def say(text: str) -> None:

@@ -6,7 +6,7 @@ from typing import Any
 
 from markupsafe import Markup
 
-from .page import FOLDER, templates
+from .page import FOLDER, prose, templates
 
 #: verdict: its sign, which reads without colour, and what it says.
 VERDICTS = {
@@ -22,6 +22,7 @@ def html(matrix: Mapping[str, Any], versions: Mapping[str, str], machine: str, d
     """The whole page of the JSON object of `chapsym extremes`; the same input gives the same bytes."""
     found = templates()
     found.globals |= {"VERDICTS": VERDICTS, "shown": shown, "told": told, "heat": heat}
+    found.filters["prose"] = prose
     style = "".join((FOLDER / name).read_text(encoding="utf-8") for name in ("style.css", "extremes.css"))
     return found.get_template("extremes.html").render(
         style=Markup(style), matrix=matrix, groups=groups(matrix), versions=versions, machine=machine, date=date

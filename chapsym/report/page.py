@@ -160,15 +160,21 @@ def code(text: str) -> Markup:
 _FRACTION = re.compile(r"(\d+)/(\d+)")
 #: A hyphen that is a minus sign: not that of n-dimensional or of the claim 5.12-q0.
 _MINUS = re.compile(r"(?<![A-Za-z0-9])-(?=[ \dA-Za-zΑ-ω])|-(?=[(⟨¼½√])|(?<=\b[A-Za-z])-(?=[a-z]?\d)")
+#: An index, unless it stands in a number, 1.6e7, or in a word, float64.
 _INDEX = re.compile(
-    r"_(?:\{([^{}]*)\}|\(([^()]*)\)|([A-Za-z0-9]{1,3}|[α-ω]))|(?<=[A-Za-zΑ-ω𝒟ℰ])(?<!\d-[A-Za-z])(?<!\d-[A-Za-z]{2})(\d+)"
+    r"\d[\d.]*e\d+|(?<![A-Za-z])[A-Za-z]{3,}\d+|_(?:\{([^{}]*)\}|\(([^()]*)\)|([A-Za-z0-9]{1,3}|[α-ω]))|(?<=[A-Za-zΑ-ω𝒟ℰ])(?<!\d-[A-Za-z])(?<!\d-[A-Za-z]{2})(\d+)"
 )
 
 
 def prose(text: str) -> Markup:
     """Plain text with its indices lowered and true minus signs: R_(k+1), C1 - 2."""
     safe = _MINUS.sub("−", str(escape(text))).replace("≠", '<span class="unequal">≠</span>')
-    return Markup(_INDEX.sub(lambda found: f"<sub>{next(filter(None, found.groups())).replace('-', '−')}</sub>", safe))
+    return Markup(_INDEX.sub(_lowered, safe))
+
+
+def _lowered(found: re.Match[str]) -> str:
+    index = next(filter(None, found.groups()), None)
+    return found.group() if index is None else f"<sub>{index.replace('-', '−')}</sub>"
 
 
 def symbols_html(text: str) -> Markup:

@@ -48,6 +48,13 @@ def test_a_sentence_is_said_once_for_all_that_it_is_about():
     assert found[0]["about"] == [("one ulp beyond it", "single, double")]
 
 
+def test_indices_are_lowered():
+    matrix = MATRIX | {"groups": MATRIX["groups"] | {"fold": "The map G_h"}}
+    shown = extremes.html(matrix, {"chapsym": "0.1.0"}, "a machine")
+    assert shown.count("The map G<sub>h</sub>") == 2
+    assert "G_h" not in shown
+
+
 def test_what_a_cell_shows():
     assert extremes.shown(CELLS[0]) == "✓ 7.2"  # float32 has no more
     assert extremes.shown(CELLS[1]) == "✓ 15.5"

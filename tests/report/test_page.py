@@ -189,6 +189,7 @@ def test_plain_text_has_indices_and_true_minus_signs():
     assert page.prose("R_(k+1) = C1 - 2, m_{k-1}") == "R<sub>k+1</sub> = C<sub>1</sub> − 2, m<sub>k−1</sub>"
     assert page.prose("q₀²-1, (p-e3), 1-(D/2), k-1") == "q₀²−1, (p−e<sub>3</sub>), 1−(D/2), k−1"
     assert page.prose("n-dimensional <x> (5.12-q0), prop-1") == "n-dimensional &lt;x&gt; (5.12-q0), prop-1"
+    assert page.prose("1.6e7 steps of float64, D1 and e3") == "1.6e7 steps of float64, D<sub>1</sub> and e<sub>3</sub>"
     assert page.prose("Φ_ε, ε_j H₁") == "Φ<sub>ε</sub>, ε<sub>j</sub> H₁"
     assert page.code("`a_b` is **not** a_b") == "<code>a_b</code> is <b>not</b> a<sub>b</sub>"
 

@@ -199,3 +199,39 @@ def test_bad_input_gets_one_sentence(arguments, sentence):
     assert sentence in done.stderr.splitlines()[-1]
     assert "run." not in done.stderr
     assert done.stderr.count("\n") <= 2  # a fresh cache tells that it takes prices
+
+
+def test_an_estimate_is_told_as_one_with_the_digits_it_is_about(capsys):
+    from types import SimpleNamespace
+
+    from chapsym.cli.trade import print_answer
+
+    final = {"angular_momentum": [0.06395078874125487, 20.0], "contact": ["-249.56257074582925", 0.1]}
+    answer = SimpleNamespace(
+        request=SimpleNamespace(of="contact", accuracy=1e-8), choice=SimpleNamespace(sentence=str, seconds=1.0),
+        estimate=4.0e-9, attempts=[SimpleNamespace(seconds=1.0)], seconds=1.0, final=lambda: final,
+    )  # fmt: skip
+    print_answer(answer)
+    told = capsys.readouterr().out
+    assert "at most" not in told
+    assert "off by 4.0e-09 (m), estimated by a run of longer steps" in told
+    assert told.endswith("angular_momentum 0.0639508  20  (not compared)\ncontact   -249.562570746  0.100000000\n")
+    answer.request.of = "state"
+    print_answer(answer)
+    told = capsys.readouterr().out
+    assert told.endswith("angular_momentum 0.06395079  20.00000000\ncontact   -249.563  0.1  (not compared)\n")
+
+
+def test_prices_are_forecast_from_those_that_were_taken(monkeypatch):
+    from chapsym.accuracy import prices
+
+    clock = iter(range(100))
+    monkeypatch.setattr(prices, "time", type("clock", (), {"monotonic": lambda: next(clock)}))
+    monkeypatch.setattr(prices, "_by_length", lambda *_: [(0.1, 1e-6)])
+    monkeypatch.setattr(prices, "_seconds", lambda *_: 1e-6)
+    told = []
+    found = prices.calibrate(told.append)
+    assert told[0] == "pricing double, order 2: 17 of 17 left"
+    assert told[6].endswith("11 of 17 left, about 13 s")
+    assert sorted(found.calls) == ["double/body", "double/state", "quad/body", "quad/state"]
+    assert len(found.steps) == 17 + 2
