@@ -7,8 +7,7 @@
 Names are imported when they are first used: `import chapsym` alone loads neither NumPy nor SymPy.
 """
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from .dynamics import (
@@ -60,8 +59,6 @@ if TYPE_CHECKING:
         trajectory_n,
         trajectory_vertical,
     )
-
-if TYPE_CHECKING:
     from .show.result import Result, open_result, run_scene
 
 __version__ = "0.1.0"
@@ -75,18 +72,21 @@ __all__ = [
     "step_vertical", "substeps", "top_frames", "trajectory", "trajectory_n", "trajectory_vertical",
 ]  # fmt: skip
 
-
 #: Names that are not of `chapsym.dynamics`: where they are.
 _ELSEWHERE = dict.fromkeys(("Result", "open_result", "run_scene"), "chapsym.show.result")
 
 
-def __getattr__(name: str) -> Any:
-    if name not in __all__:
-        raise AttributeError(f"module 'chapsym' has no attribute {name!r}")
-    value = getattr(import_module(_ELSEWHERE.get(name, "chapsym.dynamics")), name)
-    globals()[name] = value
-    return value
+if not TYPE_CHECKING:  # a type checker, which reads the imports above, is to refuse any other name
+
+    def __getattr__(name):
+        from importlib import import_module
+
+        if name not in __all__:
+            raise AttributeError(f"module 'chapsym' has no attribute {name!r}")
+        value = getattr(import_module(_ELSEWHERE.get(name, "chapsym.dynamics")), name)
+        globals()[name] = value
+        return value
 
 
 def __dir__() -> list[str]:
-    return sorted([*globals(), *__all__])
+    return sorted(["__version__", *__all__])

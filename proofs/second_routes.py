@@ -189,10 +189,9 @@ def intertwining(n: int, sign: int = 1, swapped: bool = False) -> list[Identity]
 
 def vector_momentum(sign: int = 1, factor: int = 2, centre: int = 1) -> list[Identity]:
     """(5.2) from (4.13), with q₀² = 1/(1 + |u|²), q = q₀u and |γ| = 1; the arguments mutate what is printed."""
-    *u, a, b, J1, J2, J3, D = parameters("u1 u2 u3 a b J1 J2 J3 D")
-    turn, gamma, J, u = cayley(hat(u)), sphere(a, b), np.diag([J1, J2, J3]), array(u)
+    u1, u2, u3, a, b, J1, J2, J3, D = parameters("u1 u2 u3 a b J1 J2 J3 D")
+    turn, gamma, J, u = cayley(hat((u1, u2, u3))), sphere(a, b), np.diag([J1, J2, J3]), array((u1, u2, u3))
     square = 1 / (1 + u @ u)  # q₀²; what is of degree 2 in (q₀, q) is q₀² times its value at (1, u)
-    u1, u2, u3 = u
     printed_centre = 2 * array([
         (J2 + J3) * u1 + centre * (J2 - J3) * u2 * u3,
         (J1 + J3) * u2 + centre * (J3 - J1) * u1 * u3,
@@ -250,8 +249,8 @@ def vertical_step(unit_height: bool = False) -> VerticalStep:
 
     The states with q₀q₁q₂q₃ ≠ 0 are reached, which are dense among those with σ ≠ 0.
     """
-    *u, a, b, D, h = parameters("u1 u2 u3 a b D h")
-    h = 1 if unit_height else h
+    *u, a, b, D, height = parameters("u1 u2 u3 a b D h")
+    h: Any = 1 if unit_height else height
     turn, gamma = cayley(hat(u)), sphere(a, b)
     rolling = axial(momentum(turn, 0 * turn, gamma, D))
     spinning = array([axial(momentum(turn, np.diag(row), gamma, 0 * D)) for row in unit(3)]).T

@@ -98,28 +98,28 @@ def flow_of(J: Sequence[Fraction], D: Fraction, order: int, size: Fraction) -> F
 
     def field(state: Sequence[Any]) -> State:
         K, g = state[:3], state[3:]
-        w = angular_velocity(*K, *g, *tensor, contact)
+        w = angular_velocity(*(*K, *g, *tensor, contact))
         return [*cross(K, w), *cross(g, w)]
 
     def turning(state: Sequence[Any]) -> tuple[Any, ...]:
         """12ω₃."""
         K, g = state[:3], state[3:]
-        w = angular_velocity(*K, *g, *tensor, contact)
-        rate = angular_velocity(*torque(*w, *tensor), *g, *tensor, contact)
-        load = modified_load(*w, *rate, *g, *tensor, contact)
-        return modified_rotation(*w, *rate, *angular_velocity(*load, *g, *tensor, contact))
+        w = angular_velocity(*(*K, *g, *tensor, contact))
+        rate = angular_velocity(*(*torque(*w, *tensor), *g, *tensor, contact))
+        load = modified_load(*(*w, *rate, *g, *tensor, contact))
+        return modified_rotation(*w, *rate, *angular_velocity(*(*load, *g, *tensor, contact)))
 
     def densities(state: Sequence[Any]) -> State:
         K, g = state[:3], state[3:]
-        w = angular_velocity(*K, *g, *tensor, contact)
-        rate = angular_velocity(*torque(*w, *tensor), *g, *tensor, contact)
+        w = angular_velocity(*(*K, *g, *tensor, contact))
+        rate = angular_velocity(*(*torque(*w, *tensor), *g, *tensor, contact))
         turns = turning(state)
         weighted = [x * y for x, y in zip(g, whole, strict=True)]
         lift = contact * dot(weighted, cross(g, turns)) / (1 - contact * dot(weighted, g))
         for j in range(3):
             e = [int(i == j) for i in range(3)]
             lift = lift + derivative(turning, state, [*cross(K, e), *cross(g, e)])[j]
-        return [energy_rate(*w, *rate, *g, contact) / 4, lift / 12]
+        return [energy_rate(*(*w, *rate, *g, contact)) / 4, lift / 12]
 
     return Flow(field, densities, order, [*[exact(size)] * 3, *[arb(1)] * 3])
 
@@ -200,6 +200,6 @@ def told_apart(box: State, tensor: State, contact: Any, section: int, along: int
 
     def told(state: Sequence[Any]) -> list[Any]:
         K, g = state[:3], state[3:]
-        return [dot(g, g), dot(K, K), dot(K, g), energy(*state, *tensor, contact), state[section], state[along]]
+        return [dot(g, g), dot(K, K), dot(K, g), energy(*(*state, *tensor, contact)), state[section], state[along]]
 
     return [derivative(told, box, [int(i == j) for i in range(6)]) for j in range(6)]

@@ -91,7 +91,7 @@ class Map:
             K, g, turned, change = step * K, step * g, step * turned, step * change + omega
             dK, dg = step * dK - hat(entries(K)) * omega, step * dg - hat(entries(g)) * omega
             length = norm.sqrt()
-            quaternion = compose(*(x / length for x in (arb(1), *(-y for y in u))), *quaternion)
+            quaternion = compose(*(*(x / length for x in (arb(1), *(-y for y in u))), *quaternion))
             gibbs.append(u)
         return Passage(quaternion, turned, change, gibbs)
 
@@ -100,7 +100,7 @@ class Map:
         near = self._near([x.mid() for x in k], [x.mid() for x in g])
         if not upper(near) <= self.radius:
             raise NotProved("a step is not near its root")
-        residual = gibbs_residual(*near, *k, *g, *self.inertia, self.D)
+        residual = gibbs_residual(*(*near, *k, *g, *self.inertia, self.D))
         # G is monotone: the root is within |G|/m; and with ∂G on this box it is u - (∂G)⁻¹G(u).
         off = (upper(residual) / self.monotone).abs_upper()
         box = [x + arb(0, off) for x in near]
@@ -110,12 +110,12 @@ class Map:
     def _near(self, k: Vector, g: Vector) -> Vector:
         u: Vector = [arb(0)] * 3
         for _ in range(ROUNDS + ctx.prec.bit_length()):
-            det, *numerators = gibbs_newton(*u, *k, *g, *self.inertia, self.D)[:4]
+            det, *numerators = gibbs_newton(*(*u, *k, *g, *self.inertia, self.D))[:4]
             u = [(x / det).mid() for x in numerators]
         return u
 
     def _inverse(self, u: Vector, k: Vector, g: Vector) -> Any:
-        found = gibbs_newton(*u, *k, *g, *self.inertia, self.D)
+        found = gibbs_newton(*(*u, *k, *g, *self.inertia, self.D))
         det, cofactors = found[0], found[4:]
         if not det > 0:
             raise NotProved("the balls are too wide for a step")

@@ -94,7 +94,7 @@ class Reduced:
         u: Vector = (arb(0), arb(0), arb(0))
         enough = arb(2) ** -(ctx.prec // 2 + 4)
         for _ in range(MOST_CORRECTIONS):
-            det, *products = gibbs_newton(*u, *k, *g, *I, D)[:4]
+            det, *products = gibbs_newton(*(*u, *k, *g, *I, D))[:4]
             before, u = u, _middles(x / det for x in products)
             if upper([x - y for x, y in zip(u, before, strict=True)]) < enough:
                 return u

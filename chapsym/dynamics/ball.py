@@ -10,6 +10,8 @@ from numpy.typing import ArrayLike, NDArray
 from .errors import BadInput
 
 Floats = NDArray[np.float64]
+#: An array that is None unless it was asked for; whoever asked need not tell the type checker so, hence `Any`.
+Asked = Floats | Any
 
 #: Below this float64 loses digits.
 SMALLEST = np.finfo(np.float64).tiny

@@ -11,7 +11,7 @@ import numpy as np
 
 from chapsym.numbers import Ball as BallRung
 
-from .ball import Floats
+from .ball import Asked, Floats
 from .coefficients import COMPOSITIONS
 from .errors import BadInput, Status
 from .levels import high, ladder
@@ -41,12 +41,12 @@ class Certificate:
     trajectory: Trajectory
     momentum: np.ndarray
     gamma: np.ndarray
-    attitude: np.ndarray | None
-    contact: np.ndarray | None
+    attitude: Asked
+    contact: Asked
     momentum_error: Floats
     gamma_error: Floats
-    attitude_error: Floats | None
-    contact_error: Floats | None
+    attitude_error: Asked
+    contact_error: Asked
 
     def digits(self, name: str) -> np.ndarray:
         """The true values as decimal strings, each rounded to the digits that its ball proves: all are right.

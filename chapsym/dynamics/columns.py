@@ -133,7 +133,7 @@ class Chunk:
 
     def predicted(self) -> bool:
         """Every lane's rotation, by a Newton iterate from the extrapolation; whether all settled."""
-        newton_columns(*self.newton, self.pool)
+        newton_columns(*(*self.newton, self.pool))
         np.less_equal(self.checks[0], self.S[RADIUS], self.near)
         # The sum over the chunk first: where it is below the least bound of a lane, no lane need be looked at.
         if self.change.dot(self.change) <= self.enough and self.near.all():
@@ -149,7 +149,7 @@ class Chunk:
 
     def corrected(self) -> bool:
         """The same with the second correction where it is needed."""
-        second_columns(*self.second, self.pool)
+        second_columns(*(*self.second, self.pool))
         near, first, second, longer = self.checks
         np.less_equal(near, self.S[RADIUS], self.near)
         self.compare(first)
@@ -186,7 +186,7 @@ class Chunk:
 
     def turned(self) -> None:
         """Turns k and γ of every lane, with compensation, and carries the extrapolation on."""
-        turn_columns(*self.turn, self.pool)
+        turn_columns(*(*self.turn, self.pool))
         vectors, rest, change, there = self.flat
         np.subtract(change, rest, change)
         np.add(vectors, change, there)

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .ball import Ball, Floats, numbers
+from .ball import Asked, Ball, Floats, numbers
 from .errors import BadInput, Status, StepNotTaken
 from .levels.double import chosen, compiles
 from .loops import loop
@@ -42,7 +42,7 @@ class Extrapolated:
 
     angular_momentum: Floats
     gamma: Floats
-    attitude: Floats | None
+    attitude: Asked
     doubt: Floats
     status: np.ndarray
 

@@ -6,6 +6,7 @@ Every argument of length k in the kernel's table is an array (..., k), and D is 
 """
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -25,6 +26,7 @@ def _array(value: ArrayLike, name: str, trailing: int | None) -> np.ndarray:
 
 def kernel(name: str) -> Callable[..., Floats]:
     """The NumPy front of a kernel: arrays in the order of its groups, an array of its shape out."""
+    function: Any  # of as many numbers as its groups have
     function, groups, shape = TABLE[name]
 
     def front(*arrays: ArrayLike) -> Floats:

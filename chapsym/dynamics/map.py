@@ -1,6 +1,7 @@
 """The map: one step, and the unreachable momenta."""
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -38,7 +39,7 @@ class Step:
     status: np.ndarray
     reach: Floats
     precision: Rung = NAMED["double"]
-    low: "LowStep | None" = None
+    low: "LowStep | Any" = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -156,7 +157,7 @@ def largest_momentum(direction: Floats, g: Floats, J: Floats, D: float) -> float
     n /= np.sqrt(n @ n)
 
     def form(p: Floats) -> float:
-        return float(n @ np.array(momentum_kernel(*p, *g, *J, D)))
+        return float(n @ np.array(momentum_kernel(*(*p, *g, *J, D))))
 
     basis = np.eye(4)
     matrix = np.array([[(form(a + b) - form(a - b)) / 4 for b in basis] for a in basis])

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from chapsym.numbers import NAMED, Rung
 
 from . import kernels
-from .ball import SMALLEST, Ball, Floats, numbers
+from .ball import SMALLEST, Asked, Ball, Floats, numbers
 from .errors import BadInput, Status, StepNotTaken
 from .levels import ladder
 from .levels.double import Balls, Frames
@@ -31,8 +31,8 @@ class Low:
 
     momentum: Floats
     gamma: Floats
-    attitude: Floats | None
-    contact: Floats | None
+    attitude: Asked
+    contact: Asked
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,14 +55,14 @@ class Trajectory:
     index: np.ndarray
     momentum: Floats
     gamma: Floats
-    attitude: Floats | None
-    contact: Floats | None
+    attitude: Asked
+    contact: Asked
     taken: np.ndarray
     status: np.ndarray
     time_step: float | None = None
     order: int = 2
     precision: Rung = NAMED["double"]
-    low: "Low | None" = None
+    low: "Low | Any" = None
 
     @property
     def time(self) -> Floats:

@@ -20,8 +20,8 @@ VERTICAL_RATE = gamma.cross(omega)
 
 def equation(text: str, left, right, ring: Quotient = RING) -> Equation:
     """One scalar or vector equation."""
-    pair = [list(side) if isinstance(side, sp.MatrixBase) else [sp.sympify(side)] for side in (left, right)]
-    return Equation(text, *pair, ring)
+    left, right = (list(side) if isinstance(side, sp.MatrixBase) else [sp.sympify(side)] for side in (left, right))
+    return Equation(text, left, right, ring)
 
 
 def momentum() -> sp.Matrix:

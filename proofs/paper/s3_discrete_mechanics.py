@@ -181,9 +181,9 @@ def consistency(p: Proof) -> None:
         Equation("A∘Ψ = 0 in such coordinates is x2 = y2: the same leaf", [flat * step], [y2 - x2], plane),
         Fact("it contains (q, q) for q = (0, 1)", bool(flat.subs(point) == 0)),
     )
-    dimensions = [x.subs({size: 2, count: 1}) for x in (product, needed)]
+    left, right = (x.subs({size: 2, count: 1}) for x in (product, needed))
     point_of = {"Q": "R²", "A": "dx2", "N": "{x2 = 0}", "n, s": "2, 1"}
-    p.refute(point_of, "dim N×N (left), dim D (right)", *dimensions, dimensions[0] == dimensions[1])
+    p.refute(point_of, "dim N×N (left), dim D (right)", left, right, left == right)
     p.say("Ψ matters: with the leaves x1² + x2² = c and Ψ(q, q') = (q, (q' - q)/ε) the pair (1, 0), (1, 1) is in D_d:")
     tangent = (x1 * (y1 - x1) + x2 * (y2 - x2)) / step
     pair = {x1: 1, x2: 0, y1: 1, y2: 1, step: 1}

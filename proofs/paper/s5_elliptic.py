@@ -85,7 +85,7 @@ def parameterisation(p: Proof) -> None:
 def pair() -> tuple[list[sp.Expr], list[sp.Expr]]:
     """γ = γ(ū - δu) and γ~ = γ(ū + δu)."""
     before, after = (elliptic.added(MEAN, HALF, sign) for sign in (-1, 1))
-    return tuple([C1 * x.cn, C2 * x.sn, C3 * x.dn] for x in (before, after))
+    return [C1 * before.cn, C2 * before.sn, C3 * before.dn], [C1 * after.cn, C2 * after.sn, C3 * after.dn]
 
 
 @claim(

@@ -9,10 +9,18 @@ from chapsym.derive.quotient import Quotient
 from chapsym.derive.three import RING, D, K, gamma, q, q0
 from chapsym.prove import Equation, Fact, Proof, claim, main
 
+Momentum = tuple[int | str, int | str, int | str]
+
 #: The ball and the vertical of the examples, and 𝒦 with the number of real solutions, each counted below.
 BALL, VERTICAL = (1, 2, 4), ("6/7", "2/7", "3/7")
-WITHOUT_ROLLING = {0: (1, 1, 4), 1: (0, 0, 3), 2: (1, 1, 1), 3: (0, 0, 1), 4: ("1/2", "1/2", "1/2")}
-ROLLING = {
+WITHOUT_ROLLING: dict[int, Momentum] = {
+    0: (1, 1, 4),
+    1: (0, 0, 3),
+    2: (1, 1, 1),
+    3: (0, 0, 1),
+    4: ("1/2", "1/2", "1/2"),
+}
+ROLLING: dict[int, Momentum] = {
     **{0: (2, 4, 6), 2: (1, 2, 1), 3: (2, 0, 0), 4: (1, 1, 1), 5: (0, 0, 1), 6: (0, 1, 1)},
     8: ("-1/4", "-3/2", "1/2"),
 }
@@ -22,12 +30,12 @@ REAL = "Euler parameters that differ by a sign are one solution; q₀ ≥ 0, so 
 FINITE = "the solutions are finitely many, and J1, J2, J3 differ"
 
 
-def examples(contact: int, momenta: Iterable[tuple]) -> dict[tuple, solutions.Count]:
+def examples(contact: int, momenta: Iterable[Momentum]) -> dict[Momentum, solutions.Count]:
     """The exact counts for some momenta."""
     return {momentum: solutions.count(solutions.at(BALL, contact, VERTICAL, momentum)) for momentum in momenta}
 
 
-def show(p: Proof, contact: int, counts: dict[tuple, solutions.Count]) -> None:
+def show(p: Proof, contact: int, counts: dict[Momentum, solutions.Count]) -> None:
     """A line for each example."""
     for momentum, found in counts.items():
         shown = ", ".join(map(str, momentum))
@@ -36,7 +44,7 @@ def show(p: Proof, contact: int, counts: dict[tuple, solutions.Count]) -> None:
         )
 
 
-def all_counts() -> tuple[dict[tuple, solutions.Count], dict[tuple, solutions.Count]]:
+def all_counts() -> tuple[dict[Momentum, solutions.Count], dict[Momentum, solutions.Count]]:
     """The examples without and with rolling."""
     return examples(0, WITHOUT_ROLLING.values()), examples(STRONG, ROLLING.values())
 

@@ -120,7 +120,7 @@ def _mean(exact: ExactCurve, rotation: Floats) -> tuple[float, float]:
     there = [x + y for x, y in zip(moved, turn(arb(-1), *u, *moved), strict=True)]  # the inverse rotation
     angle = arb.atan2(_dot(d, _across(there, before)), _dot(before, there))
     if exact.curve.modulus > 0.0:
-        p0, p1, n0, n1 = precession_parts(*exact.moments, exact.level)
+        p0, p1, n0, n1 = precession_parts(*(*exact.moments, exact.level))
         n, factor = -p1 / p0, (n0 / p0 - n1 / p1) / exact.rate
         ends = [amplitude(exact.curve, exact.moments, v) for v in (d, after)]
         turned = ends[1] - ends[0]
@@ -137,7 +137,7 @@ def _gibbs_vector(exact: ExactCurve, u: list[Any]) -> list[Any]:
     inertia = [exact.tensor[(i + 1) % 3] + exact.tensor[(i + 2) % 3] for i in range(3)]
     half = [exact.height * x / 2 for x in exact.direction]
     for _ in range(MOST_CORRECTIONS):
-        p0, p1, p2, p3, *_ = gibbs_newton(*u, *half, *exact.direction, *inertia, exact.contact)
+        p0, p1, p2, p3, *_ = gibbs_newton(*(*u, *half, *exact.direction, *inertia, exact.contact))
         found = [(x / p0).mid() for x in (p1, p2, p3)]
         moved = max(abs(float(x - y)) for x, y in zip(found, u, strict=True))
         u = found

@@ -179,7 +179,7 @@ class ExactCurve:
         height = arb(size) if scaled is None else length * arb(2) ** scaled[1]
         squares = (direction[i] ** 2 / m for i, m in zip(curve.axes, moments, strict=True))
         level = sum(squares, arb(0))
-        k2, *G, mu = curve_increment(*moments, level)
+        k2, *G, mu = curve_increment(*(*moments, level))
         k2 = k2 if curve.modulus > 0.0 else arb(0)
         first = float(jacobi(np.asarray(abs(half)), curve.modulus, curve.complement)[0])
         s = _sine(k2, G, (1 - contact * level, contact * mu), abs(height), arb(first))

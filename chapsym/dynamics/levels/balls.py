@@ -162,11 +162,11 @@ def newton_enclosure(u: Numbers, slope: Any, k: Numbers, g: Numbers, I: Numbers,
 
     It is u - A⁻¹G(u) with A = ∂G/∂u at the middle between the two.  Raises TooWide where det A may be 0.
     """
-    r = gibbs_residual(*u, *k, *g, *I, D)
+    r = gibbs_residual(*(*u, *k, *g, *I, D))
     with ctx.workprec(matrix_bits):
         off = (upper(r) / slope).abs_upper()
         box = tuple(x + arb(0, off) for x in u)
-        det, _, _, _, c11, c12, c13, c21, c22, c23, c31, c32, c33 = gibbs_newton(*box, *k, *g, *I, D)
+        det, _, _, _, c11, c12, c13, c21, c22, c23, c31, c32, c33 = gibbs_newton(*(*box, *k, *g, *I, D))
         if not det > 0:
             raise TooWide
         r1, r2, r3 = r

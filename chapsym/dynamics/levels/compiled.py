@@ -45,7 +45,7 @@ SOURCES = (
     *(pairs, generated_quad, quad_step, quad_loop, quad_block),
 )
 #: The functions on the way of every step: a call would cost more than they do.
-INLINED = {
+INLINED: set[Callable[..., Any]] = {
     *(generated.gibbs_newton, generated.gibbs_second, generated.turn),
     *(gibbs.newton_round, gibbs.second_round, gibbs.settle, loop.three, loop.put),
     *(composed_loop.extrapolated, composed_loop.turned_with),

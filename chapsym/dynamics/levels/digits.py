@@ -90,7 +90,7 @@ class DigitsBall:
                 continue
             if self.a is not None:
                 self._follow(u)
-            moved = turns_fixed(*u, *self.k, *self.g, self.P)
+            moved = turns_fixed(*(*u, *self.k, *self.g, self.P))
             self.k, self.g = moved[:3], moved[3:]
 
     def _gibbs(self, k: Numbers, bound: float, past: list) -> Any:
@@ -114,7 +114,7 @@ class DigitsBall:
         length = self.number(math.isqrt(squared << P))
         p0 = (one << P) // length
         p = (p0, *((x * p0) >> P for x in u))
-        *a, x, y, _ = body_fixed(*(self.a or ()), *p, *self.g, P)
+        *a, x, y, _ = body_fixed(*(*(self.a or ()), *p, *self.g, P))
         self.a = tuple(a)
         self.x = [self.x[0] + x, self.x[1] + y]
 
@@ -131,7 +131,7 @@ class DigitsBall:
     def _turn_by(self, q: Numbers) -> None:
         fixed = self._into(q)
         if self.a is not None:
-            *a, x, y, _ = body_fixed(*self.a, *fixed, *self.g, self.P)
+            *a, x, y, _ = body_fixed(*(*self.a, *fixed, *self.g, self.P))
             self.a = tuple(a)
             self.x = [self.x[0] + x, self.x[1] + y]
         k, g = (transport(*q, *(self.out(x) for x in v)) for v in (self.k, self.g))

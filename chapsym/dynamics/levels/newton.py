@@ -183,7 +183,7 @@ def refined(rung: Rung, q: tuple, K: tuple, g: tuple, J: tuple, D: tuple) -> tup
         change = max(abs(x) for x in w)
         if change > NEAR:
             return None
-        q = normalised(rung, generated.compose(*q, 1, *w))
+        q = normalised(rung, generated.compose(*(*q, 1, *w)))
         if change <= settled * max(abs(x) for x in q[1:]):
             return q
     return None
@@ -210,7 +210,7 @@ def enclosed(rung: ArbBall, q: tuple, K: tuple, g: tuple, J: tuple, D: tuple) ->
         change = max(abs(x) for x in w)
         if not change < NEAR:
             return None
-        q = tuple(x.mid() for x in normalised(rung, generated.compose(*q, flint.arb(1), *w)))
+        q = tuple(x.mid() for x in normalised(rung, generated.compose(*(*q, flint.arb(1), *w))))
         if change <= max(abs(x) for x in q[1:]) * flint.arb(2) ** (-(rung.bits + rung.guard) // 2 - 2):
             break
     # F(w) = 𝒦(q ∘ (1, w)) - |q|²(1 + |w|²)𝒦 vanishes exactly at the root; q is a point that is nearly unit.
@@ -229,7 +229,7 @@ def enclosed(rung: ArbBall, q: tuple, K: tuple, g: tuple, J: tuple, D: tuple) ->
         if det > 0 or det < 0:
             image = tuple(-x for x in _apply(inverse_slope, value))
             if all(b.contains_interior(x) for b, x in zip(box, image, strict=True)):
-                return normalised(rung, generated.compose(*q, flint.arb(1), *image))
+                return normalised(rung, generated.compose(*(*q, flint.arb(1), *image)))
         radius = radius * 4
     return None
 

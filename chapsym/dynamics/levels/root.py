@@ -73,7 +73,7 @@ def float_root(guess: Vector, k: Vector, g: Vector, I: Vector, D: float, rounds:
     """A Gibbs vector by Newton's iteration in float64 from a guess, and (∂G/∂u)⁻¹ row by row."""
     u1, u2, u3 = guess
     for _ in range(rounds):
-        det, n1, n2, n3, *cofactors = gibbs_newton(u1, u2, u3, *k, *g, *I, D)
+        det, n1, n2, n3, *cofactors = gibbs_newton(*(u1, u2, u3, *k, *g, *I, D))
         scale = 1.0 / det
         w1, w2, w3 = n1 * scale, n2 * scale, n3 * scale
         change = max(abs(w1 - u1), abs(w2 - u2), abs(w3 - u3))
@@ -93,7 +93,7 @@ def chord(u: Vector, k: Vector, g: Vector, I: Vector, D: Any, inverse: Sequence[
     i11, i12, i13, i21, i22, i23, i31, i32, i33 = inverse
     before = 0
     for _ in range(MOST_ROUNDS):
-        r1, r2, r3 = residual_fixed(u1, u2, u3, *k, *g, *I, D, P)
+        r1, r2, r3 = residual_fixed(*(u1, u2, u3, *k, *g, *I, D, P))
         d1 = (i11 * r1 + i12 * r2 + i13 * r3) >> INVERSE_BITS
         d2 = (i21 * r1 + i22 * r2 + i23 * r3) >> INVERSE_BITS
         d3 = (i31 * r1 + i32 * r2 + i33 * r3) >> INVERSE_BITS
@@ -112,9 +112,9 @@ def chord(u: Vector, k: Vector, g: Vector, I: Vector, D: Any, inverse: Sequence[
 def newton(u: Vector, k: Vector, g: Vector, I: Vector, D: Any, P: int, half: int) -> Vector:
     """One correction of u with ∂G/∂u at `half` of the bits P."""
     cut = P - half
-    cofactors = cofactors_fixed(*(x >> cut for x in (*u, *k, *g, *I, D)), half)
+    cofactors = cofactors_fixed(*(*(x >> cut for x in (*u, *k, *g, *I, D)), half))
     det, c11, c12, c13, c21, c22, c23, c31, c32, c33 = cofactors
-    r1, r2, r3 = residual_fixed(*u, *k, *g, *I, D, P)
+    r1, r2, r3 = residual_fixed(*(*u, *k, *g, *I, D, P))
     # The residual is small: its integers have about P - half bits.
     d1 = (c11 * r1 + c21 * r2 + c31 * r3) // det
     d2 = (c12 * r1 + c22 * r2 + c32 * r3) // det

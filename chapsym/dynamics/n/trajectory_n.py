@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..ball import Floats, numbers
+from ..ball import Asked, Floats, numbers
 from ..errors import BadInput, Status, StepNotTaken
 from ..trajectories import _count
 from . import so_n
@@ -30,8 +30,8 @@ class TrajectoryN:
     index: np.ndarray
     momentum: Floats
     gamma: Floats
-    attitude: Floats | None
-    contact: Floats | None
+    attitude: Asked
+    contact: Asked
     taken: np.ndarray
     status: np.ndarray
 

@@ -167,19 +167,19 @@ class Marchers:
 
     def _tangent(self) -> Floats:
         """T, (n, 3, 3)."""
-        parts = tangent_jacobian(*self.q.T, *self.g.T, *self.J.T, self.D)
+        parts = tangent_jacobian(*(*self.q.T, *self.g.T, *self.J.T, self.D))
         return np.stack(np.broadcast_arrays(*parts), axis=-1).reshape(-1, 3, 3)
 
     def _hessian(self) -> Floats:
         """The second derivatives of each component, (n, 3, 6)."""
-        parts = tangent_hessian(*self.q.T, *self.g.T, *self.J.T, self.D)
+        parts = tangent_hessian(*(*self.q.T, *self.g.T, *self.J.T, self.D))
         return np.swapaxes(np.stack(np.broadcast_arrays(*parts), axis=-1).reshape(-1, 6, 3), 1, 2)
 
     def _gap(self, K: Floats) -> Floats:
-        return np.stack(residual(*self.q.T, *K.T, *self.g.T, *self.J.T, self.D), axis=-1)
+        return np.stack(residual(*(*self.q.T, *K.T, *self.g.T, *self.J.T, self.D)), axis=-1)
 
     def _turn(self, w: np.ndarray) -> None:
-        self.q = np.stack(compose(*self.q.T, 1.0, *w.T), axis=-1)
+        self.q = np.stack(compose(*(*self.q.T, 1.0, *w.T)), axis=-1)
         self.q /= np.linalg.norm(self.q, axis=1, keepdims=True)
 
 

@@ -150,7 +150,7 @@ def _polished(q: Floats, K: Floats, g: Floats, J: Floats, D: Floats) -> Floats:
         slope[~(np.abs(np.linalg.det(slope)) > 0)] = np.eye(3)
         gap = np.stack(residual(*q.T, *K.T, *state), axis=-1)
         w = -np.linalg.solve(slope, gap[..., np.newaxis])[..., 0]
-        q = np.stack(compose(*q.T, 1.0, *w.T), axis=-1)
+        q = np.stack(compose(*(*q.T, 1.0, *w.T)), axis=-1)
         q /= np.linalg.norm(q, axis=1, keepdims=True)
     return q
 

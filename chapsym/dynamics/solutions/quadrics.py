@@ -19,7 +19,7 @@ def momentum_forms(gamma: Sequence[Any], mass_tensor: Sequence[Any], D: Any) -> 
     """𝒦₁, 𝒦₂, 𝒦₃ as quadratic forms in (q0, q1, q2, q3), by polarisation."""
 
     def value(*indices: int) -> tuple[Any, ...]:
-        return momentum(*(int(v in indices) for v in range(4)), *gamma, *mass_tensor, D)
+        return momentum(*(*(int(v in indices) for v in range(4)), *gamma, *mass_tensor, D))
 
     single = [value(a) for a in range(4)]
     forms: list[Quadric] = [{}, {}, {}]

@@ -9,6 +9,7 @@ from collections.abc import Callable
 from importlib.resources import files
 from pathlib import Path
 from textwrap import dedent
+from typing import Any
 
 import numpy as np
 
@@ -18,7 +19,7 @@ from chapsym.dynamics.loops import gibbs
 from .harness import NotComparable, compiler
 
 FLAGS = ("-O3", "-march=native", "-shared", "-fPIC")
-KERNELS = (generated.gibbs_newton, generated.gibbs_second, generated.turn)
+KERNELS: tuple[Callable[..., Any], ...] = (generated.gibbs_newton, generated.gibbs_second, generated.turn)
 
 
 class NoCompiler(Exception):
@@ -42,7 +43,7 @@ def loop() -> Callable[[np.ndarray, np.ndarray, np.ndarray, float, int], tuple[n
     return run
 
 
-def in_c(kernel: Callable) -> str:
+def in_c(kernel: Callable[..., Any]) -> str:
     """A generated kernel in C, line by line: its sums, products and quotients are written alike in both languages."""
     tree = ast.parse(dedent(inspect.getsource(kernel))).body[0]
     assert isinstance(tree, ast.FunctionDef)

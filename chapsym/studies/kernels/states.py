@@ -81,7 +81,7 @@ def _near_fold(world: World, u: Sequence[float]) -> World:
 
     def determinant(half: float) -> float:
         q = replace(world, half=half).rotation
-        return float(np.linalg.det(np.reshape(tangent_jacobian(*q, *world.gamma, *world.J, world.D), (3, 3))))
+        return float(np.linalg.det(np.reshape(tangent_jacobian(*(*q, *world.gamma, *world.J, world.D)), (3, 3))))
 
     values = [determinant(x) for x in angles]
     at = next((i for i in range(1, len(angles)) if values[i] <= 0.0 < values[i - 1]), None)
@@ -142,7 +142,7 @@ def arguments(kernel: str, stratum: str, drawn: Sequence[float]) -> list[float]:
 
 
 def _momentum(world: World) -> Floats:
-    return np.array(momentum(*world.rotation, *world.gamma, *world.J, world.D))
+    return np.array(momentum(*(*world.rotation, *world.gamma, *world.J, world.D)))
 
 
 def _gibbs(world: World) -> Floats:
@@ -169,7 +169,7 @@ def _group(name: str, world: World, u: Sequence[float]) -> Any:
     free = world.size * world.tilt
     if name == "cofactors":
         half = _momentum(world) / (2 * world.rotation[0] ** 2 * (1 + _gibbs(world) @ _gibbs(world)))
-        return gibbs_newton(*_gibbs(world), *half, *world.gamma, *inertia, world.D)[4:]
+        return gibbs_newton(*(*_gibbs(world), *half, *world.gamma, *inertia, world.D))[4:]
     t, v = _vertical(world, u)
     table: dict[str, Callable[[], Any]] = {
         "rotation": lambda: world.rotation,

@@ -101,7 +101,7 @@ class Level:
         """G_h(γ); for a perturbed top then φ is turned on to φ + τ sin 2φ on the same level."""
         k = tuple(self.h * x / 2 for x in gamma)
         u = self._root(k, gamma)
-        moved: Any = tuple(middle(x + d) for x, d in zip(gamma, turn(1, *u, *gamma), strict=True))
+        moved: Any = tuple(middle(x + d) for x, d in zip(gamma, turn(*(1, *u, *gamma)), strict=True))
         return self._kicked(moved) if self.kick != 0 else moved
 
     def _kicked(self, gamma: Any) -> Vector:
@@ -114,7 +114,7 @@ class Level:
         u = tuple(map(arb, self._near([float(x) for x in k], [float(x) for x in gamma])))
         bits = FIRST_BITS
         while True:
-            p0, p1, p2, p3, *_ = gibbs_newton(*u, *k, *gamma, *self.I, self.D)
+            p0, p1, p2, p3, *_ = gibbs_newton(*(*u, *k, *gamma, *self.I, self.D))
             new = tuple(middle(p / p0) for p in (p1, p2, p3))
             off = max(abs(float(x - y)) for x, y in zip(new, u, strict=True))
             u, bits = new, 2 * bits

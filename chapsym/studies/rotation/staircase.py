@@ -53,7 +53,7 @@ class Levels:
         k = [self.h / 2 * x for x in g]
         u: Any = (0.0, 0.0, 0.0)
         for _ in range(ROUNDS):
-            p0, p1, p2, p3, *_ = gibbs_newton(*u, *k, *g, *self.I, self.D)
+            p0, p1, p2, p3, *_ = gibbs_newton(*(*u, *k, *g, *self.I, self.D))
             u = p1 / p0, p2 / p0, p3 / p0
         after = [x + d for x, d in zip(g, turn(1.0, *u, *g), strict=True)]
         a, b, _ = self.axes
