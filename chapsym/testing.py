@@ -94,7 +94,7 @@ def balls(draw: st.DrawFn, strata: Sequence[str] = BALLS) -> Ball:
     contact = draw(st.floats(0.0, 4.0))
     if draw(st.sampled_from(list(strata))) == "degenerate":
         contact = draw(st.sampled_from([0.0, contact, 1e2, 1e5]))
-    return Ball(draw(mass_tensors(strata)), contact)  # type: ignore[arg-type]
+    return Ball(draw(mass_tensors(strata)), contact)
 
 
 @st.composite

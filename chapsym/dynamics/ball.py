@@ -1,5 +1,7 @@
 """The ball: its mass tensor, its D = mρ², and the checks that a body can have them."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from numbers import Number
 from typing import Any, Self
@@ -71,7 +73,7 @@ def _brief(value: Any) -> str:
     return text if len(text) <= 60 else text[:57] + "..."
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, init=False)
 class Ball:
     """A ball, or an array of balls, that rolls without slipping; its centre of mass is its centre.
 
@@ -84,14 +86,12 @@ class Ball:
 
     mass_tensor: Floats
     D: Floats
-    radius: Floats | None = None
+    radius: Floats | None
 
-    def __post_init__(self) -> None:
-        tensor, contact = numbers(self.mass_tensor, "mass_tensor", 3), numbers(self.D, "D")
-        radius = None if self.radius is None else numbers(self.radius, "radius")
-        _broadcast(tensor, contact, radius)
-        object.__setattr__(self, "mass_tensor", tensor)
-        object.__setattr__(self, "D", contact)
+    def __init__(self, mass_tensor: ArrayLike, D: ArrayLike, radius: ArrayLike | None = None) -> None:
+        tensor, contact = numbers(mass_tensor, "mass_tensor", 3), numbers(D, "D")
+        rho = None if radius is None else numbers(radius, "radius")
+        _broadcast(tensor, contact, rho)
         if (tensor < 0).any():
             raise BadInput(
                 f"mass_tensor has the negative moment {tensor.min():g}; J = (∫x²dm, ∫y²dm, ∫z²dm) is never negative "
@@ -108,12 +108,9 @@ class Ball:
             raise BadInput("the ball has no inertia about one of its axes: at most two of J1, J2, J3 and D may vanish")
         if not (tensor > 0).any(axis=-1).all():
             raise BadInput("mass_tensor must not be (0, 0, 0): such a ball has no inertia about the vertical")
-        if radius is not None:
-            if not (radius > 0).all():
-                raise BadInput(f"radius must be positive, but it is {radius.min():g}")
-            radius.flags.writeable = False
-            object.__setattr__(self, "radius", radius)
-        tensor.flags.writeable = contact.flags.writeable = False
+        if rho is not None and not (rho > 0).all():
+            raise BadInput(f"radius must be positive, but it is {rho.min():g}")
+        keep(self, mass_tensor=tensor, D=contact, radius=rho)
 
     @classmethod
     def from_inertia(
@@ -121,7 +118,7 @@ class Ball:
         D: ArrayLike | None = None,
     ) -> Self:  # fmt: skip
         """A ball with the principal moments I1 = J2 + J3, ... (kg m²), and its mass (kg) and radius (m), or D."""
-        return cls(mass_tensor_of(inertia), contact_term(mass, radius, D), radius)  # type: ignore[arg-type]
+        return cls(mass_tensor_of(inertia), contact_term(mass, radius, D), radius)
 
     @classmethod
     def from_mass_tensor(
@@ -129,12 +126,20 @@ class Ball:
         D: ArrayLike | None = None,
     ) -> Self:  # fmt: skip
         """A ball with the mass tensor J = (J1, J2, J3) (kg m²), and its mass (kg) and radius (m), or D."""
-        return cls(mass_tensor, contact_term(mass, radius, D), radius)  # type: ignore[arg-type]
+        return cls(mass_tensor, contact_term(mass, radius, D), radius)
 
     @property
     def inertia(self) -> Floats:
         """The principal moments of inertia about the centre, (J2 + J3, J1 + J3, J1 + J2)."""
         return self.mass_tensor.sum(axis=-1, keepdims=True) - self.mass_tensor
+
+
+def keep(ball: Any, **parameters: Floats | None) -> None:
+    """Gives a new ball its parameters, which nobody changes any more."""
+    for name, values in parameters.items():
+        if values is not None:
+            values.flags.writeable = False
+        object.__setattr__(ball, name, values)
 
 
 def _broadcast(tensor: Floats, contact: Floats, radius: Floats | None) -> None:

@@ -6,6 +6,8 @@ h^(2c+1).  K and γ are then turned by *one* rotation: ⟨K,γ⟩, |K|² and |γ
 A step is no longer exactly self-adjoint, as compositions are, nor is the measure kept: both to the order h^(2c+1).
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction

@@ -1,5 +1,7 @@
 """The map: one step, and the unreachable momenta."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from typing import Any
 
@@ -39,7 +41,7 @@ class Step:
     status: np.ndarray
     reach: Floats
     precision: Rung = NAMED["double"]
-    low: "LowStep | Any" = None
+    low: LowStep | Any = None
 
 
 @dataclass(frozen=True, eq=False)

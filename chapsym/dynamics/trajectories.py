@@ -1,5 +1,7 @@
 """Trajectories: many steps of one ball or a batch, with attitude and contact point only when asked for."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from fractions import Fraction
@@ -62,7 +64,7 @@ class Trajectory:
     time_step: float | None = None
     order: int = 2
     precision: Rung = NAMED["double"]
-    low: "Low | Any" = None
+    low: Low | Any = None
 
     @property
     def time(self) -> Floats:

@@ -147,7 +147,7 @@ class Comparison:
 
 def compare(state: State, digits: int = 34) -> Comparison:
     """Takes the step in float64 and by the oracle."""
-    found = step(Ball(state.J, state.D), state.K, state.g)  # type: ignore[arg-type]
+    found = step(Ball(state.J, state.D), state.K, state.g)
     truth: OracleStep = Oracle([*state.J], state.D, [*state.g], digits).step([*state.K])
     q = found.rotation[1:]
     size, extent = np.abs(state.K).max() or 1.0, np.abs(q).max() or 1.0
@@ -206,7 +206,7 @@ class Drift:
 
 def drift(steps: int = 100_000) -> Drift:
     """⟨𝒦,γ⟩, ⟨𝒦,𝒦⟩ and ⟨γ,γ⟩ over a real trajectory: each step rounds, and roundings add up like √n."""
-    ball = Ball((0.1, 0.5, 1.6), 0.7)  # type: ignore[arg-type]
+    ball = Ball((0.1, 0.5, 1.6), 0.7)
     run = trajectory(ball, (0.03, -0.02, 0.035), (2 / 7, 3 / 7, 6 / 7), steps, every=max(1, steps // 1000))
     values = run.invariants()
     moved = np.abs(values - values[0]).max(axis=0) / np.abs(values[0])

@@ -1,5 +1,7 @@
 """The invariant curve of the reduced map in Jacobi's functions (5.7, 5.8), and the increment on it (5.15)."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from typing import Self
 

@@ -6,6 +6,8 @@ differ by a constant angle about 𝒦: a twist, put right on output.  A ball wit
 with the mass tensor J + D/2 (lemma `vertical-top`).
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 import numpy as np
@@ -95,13 +97,13 @@ def exact_top(ball: Ball, momentum: ArrayLike, gamma: ArrayLike) -> ExactTop:
         if np.abs(K - size * g).max() > VERTICAL * abs(size):
             raise BadInput("for D > 0 only a motion with vertical momentum is a top's: momentum must be along gamma")
     axis = g if contact > 0.0 else K / size
-    top = Ball(ball.mass_tensor + contact / 2, 0.0)  # type: ignore[arg-type]
+    top = Ball(ball.mass_tensor + contact / 2, 0.0)
     # In units in which the largest moment is about 1: products of three moments stay in range.
     exponent = int(np.frexp(top.inertia.max())[1])
     moments = np.ldexp(ball.inertia, -exponent)
     # 1 - Dl as a sum of positive terms.
     speed = float(np.ldexp(size, -exponent) / (axis * axis * moments / (moments + np.ldexp(contact, -exponent))).sum())
-    unit_top = Ball(np.ldexp(top.mass_tensor, -exponent), 0.0)  # type: ignore[arg-type]
+    unit_top = Ball(np.ldexp(top.mass_tensor, -exponent), 0.0)
     tau, twist = _fixed(unit_top, axis, speed) if _is_fixed(unit_top, axis) else _moving(unit_top, axis, speed)
     return ExactTop(top, np.ldexp(tau, exponent) * axis, twist, ball, size)
 

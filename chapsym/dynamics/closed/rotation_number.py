@@ -1,5 +1,7 @@
 """The rotation number of the reduced map G_h on its curve: turns a step, in the mean."""
 
+from __future__ import annotations
+
 import numpy as np
 from numpy.typing import ArrayLike
 

@@ -6,6 +6,8 @@ D = 0, for a vertical along it, and for one across it, which is rolling straight
 In space the contact point runs straight (lemma `straight`).
 """
 
+from __future__ import annotations
+
 import numpy as np
 from numpy.typing import ArrayLike
 

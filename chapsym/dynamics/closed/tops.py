@@ -1,5 +1,7 @@
 """Frames of discrete tops at once, for arrays of balls: 𝒦, γ and the attitude at any step numbers."""
 
+from __future__ import annotations
+
 import numpy as np
 from numpy.typing import ArrayLike
 

@@ -1,5 +1,7 @@
 """The reduced map G_h on the sphere: vertical momentum 𝒦 = hγ (Section 5), where the state is γ alone."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 import numpy as np

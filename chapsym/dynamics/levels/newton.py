@@ -102,7 +102,7 @@ def check_body(J: Sequence[Fraction], D: Fraction) -> None:
     if largest and not 1e-300 < largest < 1e300:
         scale = Fraction(2) ** -exponent_of(largest)
     # What is far smaller than the rest must not become 0: it is the difference between a body and none.
-    Ball([_at_least(x * scale) for x in J], _at_least(D * scale))  # type: ignore[arg-type]
+    Ball([_at_least(x * scale) for x in J], _at_least(D * scale))
 
 
 def _at_least(x: Fraction) -> float:
@@ -118,7 +118,7 @@ def _rounded(
         raise BadInput(
             "a component of the momentum is below the range of float64; ask for more with --digits or --ball"
         )
-    found = step(Ball(numbers[:3], numbers[3]), numbers[4:7], numbers[7:], precision=rung)  # type: ignore[arg-type]
+    found = step(Ball(numbers[:3], numbers[3]), numbers[4:7], numbers[7:], precision=rung)
     return PreciseStep(rung, *(tuple(map(float, x)) for x in (found.rotation, found.momentum, found.gamma)))
 
 

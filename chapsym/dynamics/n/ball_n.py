@@ -1,11 +1,13 @@
 """The ball in n dimensions, its states, and the checks of both."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..ball import Floats, numbers
+from ..ball import Floats, keep, numbers
 from ..errors import BadInput
 from ..map import UNIT_TOLERANCE
 from . import so_n
@@ -16,7 +18,7 @@ SKEW_TOLERANCE = 1e-12
 AGREEMENT = 1e-9
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, init=False)
 class BallN:
     """A ball in n ≥ 3 dimensions, or an array of such balls, that rolls without slipping on a hyperplane.
 
@@ -30,20 +32,20 @@ class BallN:
 
     mass_tensor: Floats
     D: Floats
-    radius: Floats | None = None
+    radius: Floats | None
 
-    def __post_init__(self) -> None:
-        tensor, contact = numbers(self.mass_tensor, "mass_tensor"), numbers(self.D, "D")
-        radius = None if self.radius is None else numbers(self.radius, "radius")
+    def __init__(self, mass_tensor: ArrayLike, D: ArrayLike, radius: ArrayLike | None = None) -> None:
+        tensor, contact = numbers(mass_tensor, "mass_tensor"), numbers(D, "D")
+        rho = None if radius is None else numbers(radius, "radius")
         if not tensor.ndim or tensor.shape[-1] < 3:
             raise BadInput(f"mass_tensor must have n >= 3 moments along its last axis, not the shape {tensor.shape}")
-        shapes = [tensor.shape[:-1], contact.shape, *([] if radius is None else [radius.shape])]
+        shapes = [tensor.shape[:-1], contact.shape, *([] if rho is None else [rho.shape])]
         _common(shapes, "mass_tensor, D and radius")
         for name, value in (("mass_tensor", tensor), ("D", contact)):
             if (value < 0).any():
                 raise BadInput(f"{name} must not be negative, but it is {value.min():g}")
-        if radius is not None and not (radius > 0).all():
-            raise BadInput(f"radius must be positive, but it is {radius.min():g}")
+        if rho is not None and not (rho > 0).all():
+            raise BadInput(f"radius must be positive, but it is {rho.min():g}")
         with np.errstate(over="ignore"):
             top = np.sort(tensor, axis=-1)[..., -2:].sum(axis=-1) + contact
         if not np.isfinite(top).all():
@@ -53,10 +55,7 @@ class BallN:
             raise BadInput(
                 "the ball has no inertia about some plane: one moment of mass_tensor may vanish, two if D > 0"
             )
-        for name, array in (("mass_tensor", tensor), ("D", contact), ("radius", radius)):
-            if array is not None:
-                array.flags.writeable = False
-                object.__setattr__(self, name, array)
+        keep(self, mass_tensor=tensor, D=contact, radius=rho)
 
     @property
     def n(self) -> int:

@@ -4,6 +4,8 @@ The state is 𝒦, skew, and γ, a unit vector.  A step finds the rotation Ω wi
 continued from the identity, and goes to Ωᵀ𝒦Ω and Ωᵀγ (4.11, 4.12).  For n = 3 it is `step`, in matrices.
 """
 
+from __future__ import annotations
+
 from collections.abc import Iterator
 from dataclasses import dataclass
 

@@ -1,5 +1,7 @@
 """Trajectories in n dimensions: many steps, with attitude and contact point only when asked for."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass, replace
 
 import numpy as np

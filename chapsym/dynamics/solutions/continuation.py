@@ -3,6 +3,8 @@
 Everything is done for all balls of a batch at once (`marching`).
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 import numpy as np

@@ -7,6 +7,8 @@ all real points need no such proof.  A ball that is not settled in this way, whi
 many complex solutions, is counted exactly (`precise_branches`): float64 numbers are rational numbers.
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from fractions import Fraction
 

@@ -72,7 +72,7 @@ def curve_through(body: Body, orbit: Floats, D: float) -> Floats | None:
     """
     principal = body.principal(orbit)
     try:
-        curve = Curve.through(Ball(body.mass_tensor, np.float64(D)), principal[0])  # type: ignore[arg-type]
+        curve = Curve.through(Ball(body.mass_tensor, np.float64(D)), principal[0])
         curve.argument(principal[-1])
     except BadInput:
         return None

@@ -65,7 +65,7 @@ def periods(dataset: "Dataset") -> Floats | None:
     found = np.full(len(gamma), np.nan)
     for i, (body, start) in enumerate(zip(bodies, gamma, strict=True)):
         with suppress(BadInput):  # a fixed point has no curve
-            found[i] = Curve.through(Ball(body.mass_tensor, np.float64(body.D)), body.principal(start)).period  # type: ignore[arg-type]
+            found[i] = Curve.through(Ball(body.mass_tensor, np.float64(body.D)), body.principal(start)).period
     return found
 
 

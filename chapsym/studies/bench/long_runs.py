@@ -76,7 +76,7 @@ def with_chapsym(
     K: np.ndarray, g: np.ndarray, J: np.ndarray, D: float, steps: int, every: int
 ) -> tuple[np.ndarray, np.ndarray]:
     """The states of the public trajectory, (frames, 3) each."""
-    run = chapsym.trajectory(chapsym.Ball(J, D), K, g, steps, every=every)  # type: ignore[arg-type]
+    run = chapsym.trajectory(chapsym.Ball(J, D), K, g, steps, every=every)
     return run.momentum, run.gamma
 
 

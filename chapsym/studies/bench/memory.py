@@ -50,7 +50,7 @@ def peak_of_this_process() -> int:
 
 def peak_of_a_trajectory(steps: int, every: int) -> int:
     """The peak of what a trajectory of one ball allocates, in bytes."""
-    ball = chapsym.Ball(MASS_TENSOR, D)  # type: ignore[arg-type]
+    ball = chapsym.Ball(MASS_TENSOR, D)
     momentum = 0.05 * np.asarray(MOMENTUM)
     chapsym.trajectory(ball, momentum, GAMMA, 10_000, every=1000)  # compiles, which allocates too
     tracemalloc.start()

@@ -37,7 +37,7 @@ class Pair:
 
 def _ball(J: tuple[float, float, float], D: float, balls: int = 1) -> chapsym.Ball:
     tensor = np.array(J) if balls == 1 else np.tile(J, (balls, 1)) * np.linspace(1, 2, balls)[:, np.newaxis]
-    return chapsym.Ball(tensor, D, radius=0.1)  # type: ignore[arg-type]
+    return chapsym.Ball(tensor, D, radius=0.1)
 
 
 def _index(steps: int, every: int) -> np.ndarray:

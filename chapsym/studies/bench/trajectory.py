@@ -26,7 +26,7 @@ Peer = Callable[[np.ndarray, np.ndarray, np.ndarray, float, int], tuple[np.ndarr
 
 def with_chapsym(K: np.ndarray, g: np.ndarray, J: np.ndarray, D: float, steps: int) -> tuple[np.ndarray, np.ndarray]:
     """The public trajectory, of which only the end is kept."""
-    end = chapsym.trajectory(chapsym.Ball(J, D), K, g, steps, every=max(steps, 1))  # type: ignore[arg-type]
+    end = chapsym.trajectory(chapsym.Ball(J, D), K, g, steps, every=max(steps, 1))
     return end.momentum[-1], end.gamma[-1]
 
 

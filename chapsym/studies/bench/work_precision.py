@@ -53,7 +53,7 @@ class Point:
 @cache
 def _ball() -> chapsym.Ball:
     """Made once, as heyoka.py's integrator is."""
-    return chapsym.Ball(MASS_TENSOR, D)  # type: ignore[arg-type]
+    return chapsym.Ball(MASS_TENSOR, D)
 
 
 def the_map(y: np.ndarray, end: float, steps: float, order: int = 2, balls: int = 1) -> np.ndarray:

@@ -26,7 +26,7 @@ Make = Callable[[np.ndarray], Any]
 
 
 #: The ball of most of them.
-BALL = Ball(states.J, states.D)  # type: ignore[arg-type]
+BALL = Ball(states.J, states.D)
 
 
 def run(level: Level, momentum: Any, gamma: Any, J: Any = states.J, D: Any = states.D) -> Trajectory:

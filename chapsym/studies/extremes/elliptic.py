@@ -45,7 +45,7 @@ def _inputs(state: State) -> tuple[Any, ...]:
 def the_curve(level: Level, state: State) -> Judged:
     """k, k', l, V and the amplitudes, each relative to itself."""
     try:
-        curve = Curve.through(Ball(state.J, state.D), state.g)  # type: ignore[arg-type]
+        curve = Curve.through(Ball(state.J, state.D), state.g)
     except BadInput as refusal:
         return refused(str(refusal), None)
     found = {
@@ -81,7 +81,7 @@ def _point(inputs: Sequence[Any], u: Any, curve: Curve) -> list[Any]:
 def the_points(level: Level, state: State) -> Judged:
     """γ(u), in ulps of 1, and `argument` of γ by its point."""
     try:
-        curve = Curve.through(Ball(state.J, state.D), state.g)  # type: ignore[arg-type]
+        curve = Curve.through(Ball(state.J, state.D), state.g)
     except BadInput as refusal:
         return refused(str(refusal), None)
     quarter = min(curve.period / 4, 40.0)
@@ -100,7 +100,7 @@ def the_points(level: Level, state: State) -> Judged:
 
 def the_increment(level: Level, state: State) -> Judged:
     """γ(u + 2δu) beside the oracle's step with the vertical momentum hγ, h = ⟨𝒦,γ⟩."""
-    ball = Ball(state.J, state.D)  # type: ignore[arg-type]
+    ball = Ball(state.J, state.D)
     height = float(np.dot(state.K, state.g))
     try:
         curve = Curve.through(ball, state.g)
@@ -122,7 +122,7 @@ def the_increment(level: Level, state: State) -> Judged:
 
 def the_exact_top(level: Level, state: State) -> Judged:
     """𝒦/|𝒦| after fifty steps of the exact top, beside the continuous curve; D = 0."""
-    ball = Ball(state.J, 0.0)  # type: ignore[arg-type]
+    ball = Ball(state.J, 0.0)
     axis = states.unit(state.g)
     try:
         top = exact_top(ball, states.scaled(axis, 0.05 * max(state.J)), axis)

@@ -14,7 +14,7 @@ DIGITS = 40
 @cache
 def fold_at(J: Vector, D: float, K: Vector, g: Vector) -> Any:
     """The t at which the small-rotation branch along t𝒦 folds, as an mpf; `chapsym.fold` gives where to start."""
-    near = fold(Ball(J, D), K, g)  # type: ignore[arg-type]
+    near = fold(Ball(J, D), K, g)
     oracle = Oracle(J, D, g, DIGITS)
     mp = oracle.mp
     start = [mp.mpf(float(x)) for x in near.rotation]

@@ -120,7 +120,7 @@ def judge(level: Level, state: StateN) -> Judged:
     E, after, gamma, kappa = truth(*state)
     matrix = np.array(skew(x).tolist(), dtype=float)
     try:
-        found = step_n(BallN(J, D), matrix, g)  # type: ignore[arg-type]
+        found = step_n(BallN(J, D), matrix, g)
     except (BadInput, StepNotTaken) as refusal:
         return refused(str(refusal), None)
     extent = float(max(abs(v) for v in E))

@@ -72,7 +72,7 @@ def ends(
 
 def ball_of(state: State) -> Ball:
     """The ball of a state."""
-    return Ball(state.J, state.D)  # type: ignore[arg-type]
+    return Ball(state.J, state.D)
 
 
 #: The states whose runs are judged.
@@ -156,7 +156,7 @@ def long_run(size: float) -> Callable[[Level, bool], Judged]:
 
     def judged(level: Level, quick: bool) -> Judged:
         steps = LENGTHS[level.name][0 if quick else 1]
-        ball = Ball((0.1, 0.5, 1.6), 0.7)  # type: ignore[arg-type]
+        ball = Ball((0.1, 0.5, 1.6), 0.7)
         momentum = states.scaled(states.unit((0.3, -0.2, 0.35)), size)
         run = trajectory(ball, momentum, states.G, steps, every=max(1, steps // 100), precision=level.rung)
         if int(run.taken) != steps:

@@ -23,7 +23,7 @@ Found = tuple[Any, Any, Any]
 
 def taken(level: Level, state: State) -> Found:
     """q, 𝒦 and γ after the step, in the numbers of the rung; raises BadInput and StepNotTaken."""
-    ball = Ball(state.J, state.D)  # type: ignore[arg-type]
+    ball = Ball(state.J, state.D)
     found = step(ball, state.K, state.g, precision=level.rung)
     q, momentum, gamma = found.rotation, found.momentum, found.gamma
     if found.low is None:
