@@ -69,7 +69,7 @@ def _written(write: Any, *arguments: Any) -> None:
 
 def _page(matrix: dict[str, Any]) -> str:
     from chapsym.report import extremes as page
-    from chapsym.studies.bench import harness
+    from chapsym.studies import harness
 
     machine = harness.machine()
     versions = {"chapsym": _chapsym_version(), **machine["versions"]}

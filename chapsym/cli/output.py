@@ -2,9 +2,12 @@
 
 import json
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from pathlib import Path
 from typing import Any, NoReturn
+
+FIGURES = (".svg", ".png", ".pdf")
 
 
 def fail(sentence: str, status: int) -> NoReturn:
@@ -19,6 +22,47 @@ def note(sentence: str) -> None:
 
 def print_json(value: Any) -> None:
     print(json.dumps(value, ensure_ascii=False, allow_nan=False))
+
+
+def say(text: str) -> None:
+    """Progress on standard error: one line that moves on a terminal; elsewhere only what is done once a machine."""
+    if sys.stderr.isatty():
+        print(f"\r\033[K{text}", end="", file=sys.stderr, flush=True)
+    elif ", once" in text:
+        print(f"chapsym: {text}", file=sys.stderr)
+
+
+def quiet() -> None:
+    """Takes the line of progress away."""
+    if sys.stderr.isatty():
+        print("\r\033[K", end="", file=sys.stderr, flush=True)
+
+
+def check_figure(output: Path, sections: Sequence[str], drawn: Sequence[str]) -> None:
+    """Fails, before anything is measured, where a figure of these sections cannot be drawn or written."""
+    from chapsym import files
+    from chapsym.studies.harness import installed
+
+    if output.suffix not in FIGURES:
+        fail(f"{str(output)!r}: a figure must end in {', '.join(FIGURES)}", 2)
+    if not set(sections) & set(drawn):
+        fail(f"only {', '.join(drawn[:-1])} and {drawn[-1]} have a figure", 2)
+    if reason := installed("matplotlib"):
+        fail(f"a figure needs matplotlib, and {reason}", 2)
+    try:
+        files.check_destination(output)
+    except files.CannotWrite as error:
+        fail(str(error), 2)
+
+
+def write_figure(output: Path, drawn: Any) -> None:
+    """Writes a figure, whole or not at all."""
+    from chapsym import files
+
+    try:
+        files.write_whole(output, lambda stream: drawn.savefig(stream, format=output.suffix[1:], dpi=120))
+    except files.CannotWrite as error:
+        fail(str(error), 2)
 
 
 @contextmanager

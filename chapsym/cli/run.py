@@ -192,7 +192,8 @@ def _run_accurately(scene: "Scene", destination: Path, as_json: bool) -> None:
     """A scene that asks for an accuracy: what was chosen is told with the result."""
     from chapsym import scene as scenes
 
-    from .trade import described, print_answer, quiet, say
+    from .output import quiet, say
+    from .trade import described, print_answer
 
     answer = scenes.run_accurately(scene, say)
     scenes.save(answer.trajectory, destination)

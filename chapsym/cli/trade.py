@@ -13,9 +13,7 @@ from chapsym.exact import rationals
 
 from .app import app
 from .options import Contact, Inertia, Json, Mass, MassTensor, Radius, ball_from
-from .output import fail, print_json
-
-FIGURES = (".svg", ".png", ".pdf")
+from .output import check_figure, fail, print_json, quiet, say, write_figure
 
 
 @app.command()
@@ -180,24 +178,9 @@ def _to_estimate(name: str, values: list[Any], of: str, estimate: float) -> str:
     return "  ".join(f"{Decimal(x):.{max(0, -error.adjusted())}f}" if error else str(x) for x in values)
 
 
-def say(text: str) -> None:
-    """Progress on standard error: one line that moves on a terminal; elsewhere only what is done once a machine."""
-    if sys.stderr.isatty():
-        print(f"\r\033[K{text}", end="", file=sys.stderr, flush=True)
-    elif "once" in text:
-        print(f"chapsym: {text}", file=sys.stderr)
-
-
-def quiet() -> None:
-    """Takes the line of progress away."""
-    if sys.stderr.isatty():
-        print("\r\033[K", end="", file=sys.stderr, flush=True)
-
-
 def _study(wanted: list[str], quick: bool, output: Path | None, as_json: bool) -> None:
-    from chapsym import files
     from chapsym.studies import trade as study
-    from chapsym.studies.bench import NotComparable
+    from chapsym.studies.harness import NotComparable
 
     sections = list(dict.fromkeys(wanted or study.DRAWN))
     for name in sections:
@@ -206,7 +189,7 @@ def _study(wanted: list[str], quick: bool, output: Path | None, as_json: bool) -
                 f"there is no section {name!r}; there are {', '.join(study.SECTIONS)} (a scene goes with --accuracy)", 2
             )
     if output is not None:
-        _check_figure(output, sections, study.DRAWN)
+        check_figure(output, sections, study.DRAWN)
     found: dict[str, Any] = {}
     for name in sections:
         try:
@@ -218,33 +201,13 @@ def _study(wanted: list[str], quick: bool, output: Path | None, as_json: bool) -
     if output is not None:
         from chapsym.studies.trade.figure import draw
 
-        drawn = draw({name: found[name] for name in study.DRAWN if name in found})
-        try:
-            files.write_whole(output, lambda stream: drawn.savefig(stream, format=output.suffix[1:], dpi=120))
-        except files.CannotWrite as error:
-            fail(str(error), 2)
+        write_figure(output, draw({name: found[name] for name in study.DRAWN if name in found}))
     if as_json:
         print_json(study.as_json(found, quick))
     else:
         print_tables(found, study.as_json({}, quick)["machine"])
     if missed := study.missed(found):
         fail(missed, 1)
-
-
-def _check_figure(output: Path, sections: list[str], drawn: tuple[str, ...]) -> None:
-    from chapsym import files
-    from chapsym.studies.bench.harness import installed
-
-    if output.suffix not in FIGURES:
-        fail(f"{str(output)!r}: a figure must end in {', '.join(FIGURES)}", 2)
-    if not set(sections) & set(drawn):
-        fail(f"only {', '.join(drawn)} have a figure", 2)
-    if reason := installed("matplotlib"):
-        fail(f"a figure needs matplotlib, and {reason}", 2)
-    try:
-        files.check_destination(output)
-    except files.CannotWrite as error:
-        fail(str(error), 2)
 
 
 def print_tables(found: dict[str, Any], machine: dict[str, Any]) -> None:

@@ -8,20 +8,11 @@ from functools import partial
 import numpy as np
 import pytest
 
+import benchmarks
 import chapsym
-from chapsym.studies import bench
-from chapsym.studies.bench import (
-    batch,
-    c_peer,
-    continuous,
-    figure,
-    first_call,
-    harness,
-    long_runs,
-    memory,
-    trajectory,
-    work_precision,
-)
+from benchmarks import batch, c_peer, continuous, figure, first_call, long_runs, memory, trajectory, work_precision
+from chapsym import cli
+from chapsym.studies import harness
 
 COMMAND = [sys.executable, "-m", "chapsym.cli", "bench"]
 
@@ -37,7 +28,7 @@ def without(monkeypatch, *packages):
 
 
 def result(name, **more):
-    return harness.Result(name, [{"name": "x", "value": 1.5}], **more)
+    return benchmarks.Result(name, [{"name": "x", "value": 1.5}], **more)
 
 
 def test_every_side_is_timed_once_a_round_and_another_begins_each():
@@ -99,14 +90,14 @@ def test_a_peer_that_is_a_little_wrong_is_seen(part):
         return ends
 
     sides = {trajectory.CHAPSYM: lambda: state, "wrong": wrong}
-    with pytest.raises(bench.NotComparable, match="wrong differs from chapsym by 2"):
+    with pytest.raises(benchmarks.NotComparable, match="wrong differs from chapsym by 2"):
         trajectory.agreement(sides, state[0], trajectory.AGREEMENT)
 
 
 def test_a_peer_that_ends_in_nan_is_seen():
     state = trajectory.MOMENTUM, trajectory.GAMMA
     sides = {trajectory.CHAPSYM: lambda: state, "wrong": lambda: (state[0] * np.nan, state[1])}
-    with pytest.raises(bench.NotComparable):
+    with pytest.raises(benchmarks.NotComparable):
         trajectory.agreement(sides, state[0], trajectory.AGREEMENT)
 
 
@@ -116,7 +107,7 @@ def test_a_peer_that_ends_in_nan_is_seen():
 def test_a_peer_that_does_not_converge_says_so(name):
     """No rotation has such a momentum, so no iteration may settle."""
     peer = trajectory.peers()[0][name][0]
-    with pytest.raises((bench.NotComparable, ValueError), match=r"converge|math domain"):
+    with pytest.raises((benchmarks.NotComparable, ValueError), match=r"converge|math domain"):
         peer(50 * trajectory.MOMENTUM, trajectory.GAMMA, trajectory.MASS_TENSOR, trajectory.D, 3)
 
 
@@ -164,7 +155,7 @@ def test_the_integrators_solve_the_continuous_ball(peer, control, bound, package
 @pytest.mark.filterwarnings("ignore")
 def test_an_integrator_that_gives_up_is_no_comparison():
     pytest.importorskip("scipy")
-    with pytest.raises(bench.NotComparable, match="LSODA fails at the tolerance 1e-16"):
+    with pytest.raises(benchmarks.NotComparable, match="LSODA fails at the tolerance 1e-16"):
         continuous.lsoda(work_precision.STATE, 2.0, 1e-16)
 
 
@@ -194,7 +185,7 @@ def test_references_that_disagree_are_refused(monkeypatch):
         return [x + density * 2e-15 for x in honest(y, end, density, columns)]
 
     monkeypatch.setattr(continuous, "reference", depends_on_its_step)
-    with pytest.raises(bench.NotComparable, match="differ by 2"):
+    with pytest.raises(benchmarks.NotComparable, match="differ by 2"):
         work_precision.reference()
 
 
@@ -261,13 +252,13 @@ def test_a_command_that_fails_is_not_timed(tmp_path):
         first_call.timed(("run", "absent.toml", "-o", "x.npz"), tmp_path)
 
 
-@pytest.mark.parametrize("section", bench.SECTIONS)
+@pytest.mark.parametrize("section", benchmarks.SECTIONS)
 def test_a_quick_look_runs_and_is_plain_data(section, monkeypatch):
     if section == "long":  # the rest is quick as it is
         monkeypatch.setattr(long_runs, "QUICK", (2000, 2))
     said = []
-    found = bench.run(section, True, said.append)
-    data = json.loads(json.dumps(bench.as_json({section: found}, True), allow_nan=False))
+    found = benchmarks.run(section, True, said.append)
+    data = json.loads(json.dumps(benchmarks.as_json({section: found}, True), allow_nan=False))
     assert set(data) == {"machine", "quick", "sections"}
     assert {"cpu", "cores", "compiler", "versions"} <= set(data["machine"])
     assert {"numpy", "numba"} <= set(data["machine"]["versions"])
@@ -281,15 +272,17 @@ def test_a_quick_look_runs_and_is_plain_data(section, monkeypatch):
 
 
 def test_what_is_reached():
-    assert bench.Reached("x", 2.0, 2.0, True).met
-    assert not bench.Reached("x", 1.9, 2.0, True).met
-    assert bench.Reached("x", 1.9, 2.0, False).met
-    assert not bench.Reached("x", 2.1, 2.0, False).met
+    assert benchmarks.Reached("x", 2.0, 2.0, True).met
+    assert not benchmarks.Reached("x", 1.9, 2.0, True).met
+    assert benchmarks.Reached("x", 1.9, 2.0, False).met
+    assert not benchmarks.Reached("x", 2.1, 2.0, False).met
 
 
 def test_the_figure_has_a_panel_for_each_group_of_curves():
     pytest.importorskip("matplotlib")
-    curves = [bench.Curve(panel, label, [1.0, 10.0], [1e-3, 0.0]) for panel in "pq" for label in ("chapsym", "other")]
+    curves = [
+        benchmarks.Curve(panel, label, [1.0, 10.0], [1e-3, 0.0]) for panel in "pq" for label in ("chapsym", "other")
+    ]
     drawn = figure.draw({"long": result("drifts", curves=curves), "memory": result("memory")})
     titles = [axis.get_title() for axis in drawn.get_axes() if axis.get_visible()]
     assert titles == ["p", "q"]
@@ -309,6 +302,20 @@ def test_what_cannot_be_measured_is_said_before_measuring(arguments, sentence, t
     assert (done.returncode, done.stdout) == (2, "")
     assert sentence in done.stderr
     assert done.stderr.count("\n") == 1
+
+
+def test_a_wheel_has_no_benchmarks_and_says_so(monkeypatch, tmp_path, capsys):
+    """As seen by the commands that run them; a folder beside the wheel that has the name is not taken for ours."""
+    (tmp_path / "benchmarks").mkdir()
+    monkeypatch.setattr(harness, "BENCHMARKS", tmp_path / "benchmarks")
+    for command, status in ((["bench", "trajectory"], 2), (["trade", "kernels", "--quick"], 1)):
+        monkeypatch.setattr(sys, "argv", ["chapsym", *command])
+        with pytest.raises(SystemExit) as ended:
+            cli.main()
+        assert ended.value.code == status
+        told = capsys.readouterr()
+        assert told.out == ""
+        assert told.err.endswith("the benchmarks are not in the wheel; run them from a checkout\n")
 
 
 def test_the_command_prints_json_or_a_table(tmp_path):

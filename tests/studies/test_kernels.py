@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 from kernel_values import INDEPENDENT, MP, normalised
 
+from benchmarks import kernels
+from benchmarks.kernels import errors, search, states, texts, timing
 from chapsym.generated import TABLE
-from chapsym.studies import kernels
-from chapsym.studies.kernels import errors, search, states, texts, timing
 
 POINTS = [np.random.default_rng([9, i]).uniform(size=states.DRAWN).tolist() for i in range(3)]
 #: Kernels that are what they say for a unit quaternion, or a unit γ, only; the test makes them unit to 60 digits.
@@ -184,6 +184,6 @@ def test_the_times_are_of_what_was_asked_for():
 
 
 def test_the_interface_loads_no_sympy_and_no_hypothesis():
-    program = "import sys, chapsym.studies.kernels; print({'sympy', 'hypothesis', 'numba'} & set(sys.modules))"
+    program = "import sys, benchmarks.kernels; print({'sympy', 'hypothesis', 'numba'} & set(sys.modules))"
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "set()"

@@ -6,7 +6,7 @@ All in half turns of a circle (π in the amplitude, 2K in u), with which the map
 from pathlib import Path
 from typing import Any
 
-from ..bench.harness import machine
+from ..harness import machine
 from ..units import Report, run_units
 from .figure import save_figures
 from .plan import units

@@ -13,7 +13,7 @@ from chapsym.accuracy.prices import sample
 from chapsym.dynamics import StepNotTaken
 from chapsym.numbers import NAMED, Digits, Rung
 
-from ..bench.harness import Contender, NotComparable, cores, interleaved
+from ..harness import Contender, NotComparable, cores, interleaved
 from .frontier import Frontier, Point, digits_of
 from .requests import true_error, truth
 

@@ -13,7 +13,7 @@ from chapsym.accuracy.prices import sample
 from chapsym.dynamics import Ball, StepNotTaken, extrapolate, kernels, trajectory
 from chapsym.numbers import Digits
 
-from ..bench.harness import Contender, cores, interleaved
+from ..harness import Contender, cores, interleaved
 from .balls import END, LONGEST, STAGE, choices, name_of
 from .frontier import Frontier, Point, digits_of
 from .requests import true_error, truth

@@ -9,7 +9,7 @@ import numpy as np
 from chapsym.dynamics import BallN, trajectory_n
 from chapsym.dynamics.ball import Floats
 
-from ..bench.harness import Contender, NotComparable, cores, interleaved
+from ..harness import Contender, NotComparable, cores, interleaved
 from .frontier import Frontier, Point, digits_of
 
 END = 2.0

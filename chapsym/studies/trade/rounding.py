@@ -12,7 +12,7 @@ from chapsym.accuracy.request import as_fractions
 from chapsym.dynamics import BadInput, Trajectory, trajectory
 from chapsym.numbers import NAMED, Ball, Digits, Rung
 
-from ..bench.harness import Contender, cores, interleaved
+from ..harness import Contender, cores, interleaved
 from .frontier import Frontier, Point, digits_of
 
 #: |ω|ε in radians.

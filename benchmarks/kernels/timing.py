@@ -7,7 +7,7 @@ from typing import Any
 import numba
 import numpy as np
 
-from chapsym.studies.bench.harness import Contender, interleaved
+from chapsym.studies.harness import Contender, interleaved
 
 from .states import DRAWN, arguments
 from .texts import Text, outputs

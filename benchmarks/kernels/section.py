@@ -4,12 +4,12 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from chapsym.studies import kernels
+from benchmarks import kernels
 
 
 @dataclass(frozen=True)
 class Kernels:
-    """The rows of `chapsym.studies.kernels`."""
+    """The rows of `benchmarks.kernels`."""
 
     rows: list[kernels.Row]
     title: str = "kernels: errors in ulps, and times"

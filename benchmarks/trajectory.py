@@ -7,9 +7,10 @@ from typing import Any
 import numpy as np
 
 import chapsym
+from chapsym.studies.harness import Contender, NotComparable, cores, interleaved
 
 from . import c_peer, scalar_peers
-from .harness import Contender, NotComparable, Reached, Result, cores, interleaved, ratio_columns
+from .results import Reached, Result, ratio_columns
 
 #: The ball of the measurements in the project's notes, and a generic state of it: 𝒦/ε and γ.
 MASS_TENSOR, D = np.array((0.1, 0.5, 1.6)), 0.7

@@ -11,8 +11,8 @@ import mpmath
 import numpy as np
 
 from chapsym import generated
+from chapsym.studies.harness import NotComparable
 
-from .harness import NotComparable
 from .trajectory import MASS_TENSOR, D
 
 Peer = Callable[[np.ndarray, float, float], np.ndarray]

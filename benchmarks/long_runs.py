@@ -10,8 +10,9 @@ from typing import Any
 import numpy as np
 
 import chapsym
+from chapsym.studies.harness import NotComparable
 
-from .harness import Curve, NotComparable, Reached, Result
+from .results import Curve, Reached, Result
 from .scalar_peers import jitted, newton_in_u, turned
 
 PLAIN, RENORMALISED, CHAPSYM = "plain update", "renormalised each step", "chapsym"

@@ -11,8 +11,7 @@ from typing import Any
 import numpy as np
 
 from chapsym import generated
-
-from .harness import NotComparable
+from chapsym.studies.harness import NotComparable
 
 #: A Newton correction below this, relative to the rotation, is the last one: the next would be its square.
 SETTLED = 1e-9

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .harness import Reached, Result
+from .results import Reached, Result
 
 STEP = ("step", "--mass-tensor", "1,2,4", "--D", "3", "--momentum", "1,-1/2,3/4", "--gamma", "2/7,3/7,6/7")
 SCENE = """

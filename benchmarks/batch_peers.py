@@ -7,7 +7,8 @@ from functools import cache
 
 import numpy as np
 
-from .harness import NotComparable
+from chapsym.studies.harness import NotComparable
+
 from .scalar_peers import MOST, SETTLED, newton_in_q, solved, turned
 
 #: The weights that extend six values of a polynomial of degree five, the newest first.

@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from .harness import Curve, Result
+from .results import Curve, Result
 
 AXES = {"work-precision": ("µs a ball", "relative error"), "long": ("steps", "relative change")}
 #: Chapsym's lines are drawn over the others and thicker.

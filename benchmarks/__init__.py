@@ -4,7 +4,9 @@ from collections.abc import Callable
 from importlib import import_module
 from typing import Any
 
-from .harness import Contender, Curve, NotComparable, Reached, Result, Timing, machine
+from chapsym.studies.harness import Contender, NotComparable, Timing, machine
+
+from .results import Curve, Reached, Result
 
 __all__ = ["SECTIONS", "Contender", "Curve", "NotComparable", "Reached", "Result", "Timing", "as_json", "run"]
 

@@ -9,9 +9,10 @@ import numpy as np
 
 import chapsym
 from chapsym.dynamics.levels import double
+from chapsym.studies.harness import Contender, available_cores, cores, interleaved
 
 from . import batch_peers
-from .harness import Contender, Reached, Result, available_cores, cores, interleaved, ratio_columns
+from .results import Reached, Result, ratio_columns
 from .trajectory import CHAPSYM, agreement
 
 EPSILON = 0.05

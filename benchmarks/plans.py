@@ -10,8 +10,9 @@ import numpy as np
 
 import chapsym
 from chapsym.dynamics import TopMotion
+from chapsym.studies.harness import Contender, NotComparable, cores, interleaved
 
-from .harness import Contender, NotComparable, Reached, Result, cores, interleaved, ratio_columns
+from .results import Reached, Result, ratio_columns
 
 FULL = "full model"
 MOMENTUM, GAMMA = np.array((6.0, -2.0, 3.0)) / 7, np.array((2.0, 3.0, 6.0)) / 7

@@ -15,8 +15,7 @@ import numpy as np
 
 from chapsym import generated
 from chapsym.dynamics.loops import gibbs
-
-from .harness import NotComparable, compiler
+from chapsym.studies.harness import NotComparable, compiler
 
 FLAGS = ("-O3", "-march=native", "-shared", "-fPIC")
 KERNELS: tuple[Callable[..., Any], ...] = (generated.gibbs_newton, generated.gibbs_second, generated.turn)

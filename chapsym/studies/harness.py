@@ -9,7 +9,8 @@ import subprocess
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from importlib import import_module
 from importlib.metadata import PackageNotFoundError, version
 from importlib.util import find_spec
 from pathlib import Path
@@ -19,6 +20,10 @@ import numpy as np
 
 #: The packages whose versions belong to a measurement.
 NAMED = ("chapsym", "numpy", "numba", "llvmlite", "scipy", "heyoka")
+
+
+#: Where the benchmarks lie, if this is a checkout: the wheel has none.
+BENCHMARKS = Path(__file__).parents[2] / "benchmarks"
 
 
 class NotComparable(ArithmeticError):
@@ -57,47 +62,6 @@ class Timing:
         return float(middle), float(lower), float(upper)
 
 
-@dataclass(frozen=True)
-class Result:
-    """What a section found.
-
-    rows: the table, dictionaries with the same keys; missing: the peers that could not run, and why;
-    reach: what the project set out to reach, `Reached`; curves: what the figure draws.
-    """
-
-    title: str
-    rows: list[dict[str, Any]]
-    missing: dict[str, str] = field(default_factory=dict)
-    reach: "list[Reached]" = field(default_factory=list)
-    curves: list["Curve"] = field(default_factory=list)
-    notes: list[str] = field(default_factory=list)
-
-
-@dataclass(frozen=True)
-class Reached:
-    """A figure to reach: `value` must be at least (or at most) `wanted`."""
-
-    what: str
-    value: float
-    wanted: float
-    at_least: bool
-
-    @property
-    def met(self) -> bool:
-        """Whether it was reached in this run."""
-        return self.value >= self.wanted if self.at_least else self.value <= self.wanted
-
-
-@dataclass(frozen=True)
-class Curve:
-    """A line of a log-log figure, in one of its panels."""
-
-    panel: str
-    label: str
-    x: list[float]
-    y: list[float]
-
-
 def interleaved(
     contenders: Sequence[Contender], rounds: int, on_round: Callable[[int], None] = lambda done: None
 ) -> dict[str, Timing]:
@@ -126,12 +90,6 @@ def _seconds(contender: Contender) -> float:
     finally:
         if collecting:
             gc.enable()
-
-
-def ratio_columns(timing: Timing, reference: Timing, label: str) -> dict[str, Any]:
-    """The columns of a table that compare a side with the reference."""
-    middle, lower, upper = timing.ratio_to(reference)
-    return {f"to {label}": middle, "quartiles": [lower, upper]}
 
 
 @contextmanager
@@ -174,6 +132,13 @@ def available_cores() -> int:
 def installed(package: str) -> str | None:
     """None if an optional peer can be imported, otherwise the sentence that says why not."""
     return None if find_spec(package) else f"{package} is not installed (pip install 'chapsym[bench]')"
+
+
+def benchmark(module: str) -> Any:
+    """A module of the benchmarks; raises ModuleNotFoundError, with a sentence, where they are not."""
+    if not (BENCHMARKS / "gibbs.c").is_file():
+        raise ModuleNotFoundError("the benchmarks are not in the wheel; run them from a checkout")
+    return import_module(f"benchmarks.{module}")
 
 
 def compiler() -> str | None:

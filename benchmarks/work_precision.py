@@ -10,9 +10,10 @@ import numpy as np
 
 import chapsym
 from chapsym import generated
+from chapsym.studies.harness import Contender, NotComparable, Timing, cores, installed, interleaved
 
 from . import continuous
-from .harness import Contender, Curve, NotComparable, Reached, Result, Timing, cores, installed, interleaved
+from .results import Curve, Reached, Result
 from .trajectory import GAMMA, MASS_TENSOR, MOMENTUM, D
 
 END = 100.0

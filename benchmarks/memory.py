@@ -9,7 +9,7 @@ import numpy as np
 
 import chapsym
 
-from .harness import Reached, Result
+from .results import Reached, Result
 from .trajectory import GAMMA, MASS_TENSOR, MOMENTUM, D
 
 #: A state that is kept: 𝒦 and γ, the number of its step, and one number more while that is made.
@@ -29,7 +29,7 @@ K, g = (v / np.linalg.norm(v, axis=-1, keepdims=True) for v in draw.normal(size=
 ball = chapsym.Ball(draw.uniform(0.3, 1.6, size=(balls, 3)), draw.uniform(0.0, 1.0, size=balls))
 end = chapsym.trajectory(ball, 0.05 * K, g, steps, every=steps)
 assert (end.taken == steps).all()
-from chapsym.studies.bench.memory import peak_of_this_process
+from benchmarks.memory import peak_of_this_process
 print(peak_of_this_process())
 """
 

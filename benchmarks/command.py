@@ -1,0 +1,72 @@
+"""What `chapsym bench` does: it measures, draws and prints the sections that are asked for."""
+
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import benchmarks
+from chapsym.cli.output import check_figure, fail, print_json, quiet, say, write_figure
+
+from . import figure
+
+
+def measure(sections: Sequence[str], quick: bool, output: Path | None, as_json: bool) -> None:
+    """Measures the sections, or all of them; fails with a sentence as every command does."""
+    wanted = list(dict.fromkeys(sections or benchmarks.SECTIONS))
+    for name in wanted:
+        if name not in benchmarks.SECTIONS:
+            fail(f"there is no section {name!r}; there are {', '.join(benchmarks.SECTIONS)}", 2)
+    if output is not None:
+        check_figure(output, wanted, list(figure.AXES))
+    results = {}
+    for name in wanted:
+        try:
+            results[name] = benchmarks.run(name, quick, say)
+        except benchmarks.NotComparable as error:
+            quiet()
+            fail(f"bench {name}: {error}", 1)
+    if output is not None:
+        write_figure(output, figure.draw(results))
+    quiet()
+    measured = benchmarks.as_json(results, quick)
+    if as_json:
+        print_json(measured)
+    else:
+        _print_all(measured)
+
+
+def _print_all(measured: dict[str, Any]) -> None:
+    from rich.console import Console
+    from rich.table import Table
+
+    console = Console(width=None if sys.stdout.isatty() else 140, markup=False, highlight=False)
+    for section in measured["sections"].values():
+        table = Table(title=section["title"], title_justify="left")
+        for name in section["rows"][0]:
+            table.add_column(name, justify="left" if name == "name" else "right")
+        for row in section["rows"]:
+            table.add_row(*map(_shown, row.values()))
+        console.print(table)
+        for one in section["reach"]:
+            sign, limit = ("reached" if one["met"] else "NOT reached"), ("at least" if one["at_least"] else "at most")
+            console.print(f"  {one['what']}: {one['value']:.3g} (wanted: {limit} {one['wanted']:.3g}): {sign}")
+        for name, reason in section["missing"].items():
+            console.print(f"  {name}: {reason}")
+        for note in section["notes"]:
+            console.print(f"  {note}")
+        console.print()
+    machine = measured["machine"]
+    versions = ", ".join(f"{name} {version}" for name, version in machine["versions"].items())
+    console.print(f"{machine['cpu']}; {machine['cores']} cores; {machine['system']}; C: {machine['compiler']}")
+    console.print(f"{machine['python']}; {versions}" + ("; quick" if measured["quick"] else ""))
+
+
+def _shown(value: Any) -> str:
+    if value is None:
+        return "-"
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, list):
+        return " to ".join(map(_shown, value))
+    return f"{value:.3g}" if isinstance(value, float) else str(value)
