@@ -26,7 +26,7 @@ ROOMS = {
     "accuracy": {"dynamics", "files", "generated", "numbers"},
     "scene": {"accuracy", "dynamics", "exact", "files", "generated", "numbers"},
     "studies": {"accuracy", "files", "generated", "numbers", "dynamics", "scene"},
-    "proofs": {"certificates", "checker", "derive", "prove"},
+    "proofs": {"certificates", "checker", "derive", "dynamics", "prove"},
     "report": {"files"},
     "show": {"dynamics", "files", "scene"},
     "testing": {"dynamics"},

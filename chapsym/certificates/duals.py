@@ -37,6 +37,9 @@ class Dual:
         quotient = self.value / other.value
         return Dual(quotient, (self.slope - quotient * other.slope) / other.value)
 
+    def __pow__(self, n: int) -> "Dual":
+        return Dual(self.value**n, n * self.value ** (n - 1) * self.slope if n else 0 * self.slope)
+
     def __rtruediv__(self, other: Any) -> "Dual":
         return _dual(other) / self
 

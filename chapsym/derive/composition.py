@@ -1,4 +1,4 @@
-"""The order conditions of compositions of a self-adjoint step, decided in a free algebra.
+"""The order conditions of compositions of a self-adjoint step, in a free algebra (lemma `composition-order`).
 
 A self-adjoint step of order 2 is Φ_ε = exp(εX₁ + ε³X₃ + ε⁵X₅ + ...) with operators Xᵢ that depend on the equation,
 and the flow is exp(εX₁).  So Φ_{c₁ε} ... Φ_{cₛε} has the order p for every equation exactly when the two
@@ -31,6 +31,28 @@ def words_through(order: int) -> list[Word]:
     return [word for weight in range(order + 1) for word in words(weight)]
 
 
+def lyndon(order: int) -> list[Word]:
+    """The words of odd weight below `order` that are smaller than all their proper ends."""
+    odd = (word for weight in range(1, order, 2) for word in words(weight))
+    return [word for word in odd if all(word < word[i:] for i in range(1, len(word)))]
+
+
+def brackets(weight: int) -> list[dict[Word, int]]:
+    """[a,[b,[..., z]]] for each word ab...z of a weight: they span the Lie elements of that weight."""
+
+    def bracket(word: Word) -> dict[Word, int]:
+        found = {word[-1:]: 1}
+        for letter in reversed(word[:-1]):
+            turned: dict[Word, int] = {}
+            for inner, factor in found.items():
+                for longer, sign in (((letter, *inner), 1), ((*inner, letter), -1)):
+                    turned[longer] = turned.get(longer, 0) + sign * factor
+            found = turned
+        return found
+
+    return [bracket(word) for word in words(weight)]
+
+
 def step_series(c: Any, order: int) -> Series:
     """exp(cX₁ + c³X₃ + ...): the word w of k letters has the coefficient c^|w|/k!."""
     return {word: c ** sum(word) / factorial(len(word)) for word in words_through(order)}
@@ -47,5 +69,5 @@ def defects(coefficients: Sequence[Any], order: int) -> Series:
     coefficients: c₁, ..., cₛ as any numbers that divide: Fraction (then this is exact), mpf or arb.
     """
     composed = reduce(product, (step_series(c, order) for c in coefficients))
-    flow = {word: coefficients[0] ** 0 / factorial(len(word)) * (sum(word) == len(word)) for word in composed}
+    flow = {word: coefficients[0] ** 0 / factorial(len(word)) * int(sum(word) == len(word)) for word in composed}
     return {word: composed[word] - flow[word] for word in composed if word}

@@ -1,8 +1,8 @@
 """Published coefficients of symmetric compositions of a self-adjoint step of order 2.
 
 The map is self-adjoint (the lemma `self-adjoint`), so Φ_{cₛε} ... Φ_{c₁ε} with c_{s+1-i} = c_i is, too, and has the
-order 4, 6 or 8 when the cᵢ satisfy the order conditions (`order_conditions`).  Each set is given with 40 digits that
-solve the conditions to that accuracy.  Suzuki's are algebraic numbers.  Those of Kahan and Li are published with 26
+order 4, 6 or 8 (the lemma `composition-order`).  Each set is given with the 40 digits of a solution of the order
+conditions.  Suzuki's are algebraic numbers.  Those of Kahan and Li are published with 26
 digits, and one parameter is free: c₁ is as published, and the others are Newton's from the published ones.
 """
 

@@ -1,0 +1,140 @@
+"""The order of the compositions of the map: 4, 6 and 8, from the order conditions in a free algebra."""
+
+from collections.abc import Sequence
+from fractions import Fraction
+from typing import Any
+
+import sympy as sp
+from flint import arb, arb_mat, ctx, fmpq, fmpq_mat
+
+from chapsym.certificates.duals import derivative
+from chapsym.derive import composition
+from chapsym.derive.composition import Word, defects
+from chapsym.derive.quotient import Quotient
+from chapsym.dynamics.coefficients import COMPOSITIONS
+from chapsym.prove import Equation, Fact, Proof, claim, main
+
+#: t = ∛4 and Suzuki's c = 1/(4 - t), as (4 - t)(16 + 4t + t²) = 64 - t³ = 60.
+t = sp.Symbol("t")
+ROOT = Quotient((t,), [t**3 - 4])
+SUZUKI = (16 + 4 * t + t**2) / 60
+#: How far the decimals may be from the solution: they have 40 digits.
+OFF = Fraction(1, 10**40)
+BITS = 400
+METHOD = "Arb balls, interval Newton"
+
+
+def palindrome(half: Sequence[Any]) -> list[Any]:
+    """c₁, ..., cₛ from c₁ up to the middle one."""
+    return [*half, *half[-2::-1]]
+
+
+def ball(x: Fraction) -> arb:
+    """A rational number enclosed."""
+    return arb(fmpq(x.numerator, x.denominator))
+
+
+def isolated(half: Sequence[Fraction], order: int) -> list[arb] | None:
+    """The one palindrome of this order with the c₁ of `half` whose other coefficients are within `OFF` of those there.
+
+    By the interval Newton operator; None where it does not prove that there is one, and one only.
+    """
+    first, rest = ball(half[0]), [ball(x) for x in half[1:]]
+    conditions = composition.lyndon(order)
+
+    def missed(free: Sequence[arb]) -> list[arb]:
+        found = defects(palindrome([first, *free]), order - 1)
+        return [found[word] for word in conditions]
+
+    box = [x + arb(0, 1) * ball(OFF) for x in rest]
+    columns = [derivative(missed, box, [arb(int(i == j)) for i in range(len(box))]) for j in range(len(box))]
+    try:
+        change = arb_mat(columns).transpose().solve(arb_mat([[x] for x in missed(rest)]))
+    except ZeroDivisionError:
+        return None
+    found = [x - change[i, 0] for i, x in enumerate(rest)]
+    return [first, *found] if all(b.contains_interior(x) for b, x in zip(box, found, strict=True)) else None
+
+
+def misses(half: Sequence[arb], order: int) -> bool:
+    """Whether some condition of the next weight fails, for every choice in the balls."""
+    found = defects(palindrome(half), order + 1)
+    return any(not found[word].contains(0) for word in composition.words(order + 1))
+
+
+def told_by(words: Sequence[Word], weight: int) -> bool:
+    """Whether a Lie element of a weight is 0 when its coefficients at these words are."""
+    elements, every = composition.brackets(weight), list(composition.words(weight))
+
+    def rank(of: Sequence[Word]) -> int:
+        return int(fmpq_mat([[fmpq(x.get(word, 0)) for word in of] for x in elements]).rank()) if of else 0
+
+    return rank(words) == rank(every)
+
+
+@claim(
+    "composition-order",
+    r"\Phi_{c_s\varepsilon}\circ\dots\circ\Phi_{c_1\varepsilon} \text{ has the order } 4, 6, 8"
+    r"\text{, and no more for every self-adjoint } \Phi",
+    uses=["self-adjoint", "small-branch"],
+)
+def order(p: Proof) -> None:
+    """The compositions have the orders that they are used for: Suzuki's exactly, Kahan and Li's with one solution near."""
+    p.say("Φ_ε is analytic in ε (small-branch) and 1 at ε = 0, so its series is that of exp(εX₁ + ε²X₂ + ...), and")
+    p.say("Φ_{-ε}Φ_ε = 1 (self-adjoint) leaves X₁, X₃, X₅, ...; the flow is exp(εX₁). Where composition and flow agree")
+    p.say("through the weight p in free letters X₁, X₃, ..., each weighing its index, the order is p for every such Φ;")
+    p.say("where they differ in the next, there is a Φ with no more. That the ball is one is measured, not proved.")
+    p.say("The logarithm of the composition is a Lie element (Baker, Campbell, Hausdorff); for a palindrome it is odd")
+    p.say("in ε, as each factor with -ε is the inverse of the one with ε:")
+    first, third = sp.Matrix([[0, 1], [0, 0]]), sp.Matrix([[0, 0], [1, 0]])
+    letters = {"X1": str(first.tolist()), "X3": str(third.tolist())}
+    p.witness("a self-adjoint Φ", letters, Fact("X₁X₃ ≠ X₃X₁ for these matrices", first * third != third * first))
+    c = sp.Symbol("c")
+    through = max(COMPOSITIONS)
+    there, back = (composition.step_series(x, through) for x in (c, -c))
+    product = composition.product(there, back)
+    unit = [sp.Integer(not word) for word in product]
+    p.lemma(Equation("Φ_{-cε}Φ_{cε} = 1 through the weight 8", list(product.values()), unit, Quotient((c,))))
+    p.say(
+        "A Lie element of odd weight is 0 when its coefficients at Lyndon's words are, those that are smaller than all"
+    )
+    p.say("their proper ends: so the first defect is at one of them, and they are the conditions.")
+    for weight in range(1, through, 2):
+        words = [word for word in composition.lyndon(through) if sum(word) == weight]
+        p.lemma(Fact(f"the Lyndon words {words} tell the Lie elements of the weight {weight}", told_by(words, weight)))
+    p.control(Fact("the words but the last tell those of the weight 7", told_by(words[:-1], 7)))
+    p.say("Order 4: c = 1/(4 - t) twice, 1 - 4c, c twice, with t = ∛4 (Suzuki):")
+    suzuki = palindrome([SUZUKI, SUZUKI, 1 - 4 * SUZUKI])
+    p.lemma(Equation("c(4 - t) = 1", [SUZUKI * (4 - t)], [sp.S.One], ROOT))
+    exact = defects(suzuki, 4)
+    p.printed(
+        Equation("order 4: every word through the weight 4", list(exact.values()), [sp.S.Zero] * len(exact), ROOT)
+    )
+    fifth = defects(suzuki, 5)[(5,)]
+    p.printed(Fact("not 5: Σc⁵ ≠ 0 in the field Q(∛4)", not ROOT.is_zero(fifth)))
+    p.control(Equation("order 5: Σc⁵ = 0", [fifth], [sp.S.Zero], ROOT))
+    decimals = COMPOSITIONS[4].exact
+    changes = [(4 - 1 / (decimals[0] + x)) ** 3 < 4 for x in (-OFF, OFF)]
+    p.lemma(Fact("the decimals of c are off by less than 10⁻⁴⁰: t³ - 4 changes its sign", changes == [True, False]))
+    middle = decimals[0] == decimals[1] and abs(decimals[2] - (1 - 4 * decimals[0])) < 4 * OFF
+    p.lemma(Fact("and the middle one is 1 - 4c of them, off by less than 4·10⁻⁴⁰", middle))
+    with ctx.workprec(BITS):
+        for wanted in (6, 8):
+            kahan_and_li(p, wanted)
+
+
+def kahan_and_li(p: Proof, order: int) -> None:
+    """One solution near the decimals, and what it misses."""
+    half = COMPOSITIONS[order].exact[: len(COMPOSITIONS[order].half)]
+    p.say(f"Order {order}: c₁ = {float(half[0])!r}..., one equation for each other coefficient (Kahan and Li):")
+    found = isolated(half, order)
+    text = f"order {order}: one solution with this c₁ within 10⁻⁴⁰ of the decimals"
+    p.printed(Fact(text, found is not None, METHOD))
+    if found is not None:
+        p.printed(Fact(f"not {order + 1}: a condition fails there", misses(found, order), METHOD))
+    changed = [*half[:-1], half[-1] + Fraction(1, 10**38)]
+    p.control(Fact(f"{text}, the 38th of the middle one changed", isolated(changed, order) is not None, METHOD))
+
+
+if __name__ == "__main__":
+    main(__file__)
