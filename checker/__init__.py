@@ -4,19 +4,20 @@
     verdict = check(read("proofs/certificates/….json"))
 
 To be read in this order: interval.py (arithmetic), linear.py (elimination, Newton's test), step.py (the map), then
-measure.py and orbit.py (what a certificate says and why it is proved), document.py (the form of a file).
+measure.py and orbit.py (what a certificate says and why it is proved); taylor.py (functions of the time), drift.py;
+document.py (the form of a file).
 """
 
 from dataclasses import dataclass
 from typing import Any
 
-from . import measure, orbit
+from . import drift, measure, orbit
 from .document import FORMAT, Unreadable, digest, read
 from .interval import Rejected
 
 __all__ = ["Rejected", "Unreadable", "Verdict", "check", "digest", "read", "statement"]
 
-KINDS = {"no-invariant-measure": measure, "periodic-orbit": orbit}
+KINDS = {"no-invariant-measure": measure, "periodic-orbit": orbit, "energy-drift": drift}
 
 
 @dataclass(frozen=True)

@@ -28,6 +28,10 @@ class Interval:
         """The least interval of these bits that contains lo ≤ x ≤ hi."""
         return cls((lo.numerator << bits) // lo.denominator, -((-hi.numerator << bits) // hi.denominator), bits)
 
+    def rescaled(self, bits: int) -> Interval:
+        """The least interval of these bits that contains this one."""
+        return Interval.enclosing(Fraction(self.lo, 2**self.bits), Fraction(self.hi, 2**self.bits), bits)
+
     def _of(self, other: Interval | int) -> Interval:
         """An integer as an interval, exactly; an interval as it is, if the scales agree."""
         if isinstance(other, int):
@@ -115,6 +119,10 @@ class Interval:
     def inside(self, other: Interval) -> bool:
         """Whether this interval lies in the interior of the other."""
         return other.lo < self.lo and self.hi < other.hi
+
+    def within(self, centre: Fraction, radius: Fraction) -> bool:
+        """Whether all x here have |x - centre| ≤ radius."""
+        return (centre - radius) * 2**self.bits <= self.lo and self.hi <= (centre + radius) * 2**self.bits
 
     def hull(self, other: Interval) -> Interval:
         """The least interval that contains both."""

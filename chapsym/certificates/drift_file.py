@@ -1,22 +1,16 @@
-"""The file of a certificate of energy drift: written, read, and proved anew."""
+"""The file of a certificate of energy drift."""
 
 import math
 from fractions import Fraction
 from typing import Any
 
-from flint import ctx
-
-from chapsym.dynamics import BadInput
 from chapsym.dynamics.levels.start import fraction
 
 from .balls import decade, shortest
-from .document import FORMAT, digest, sealed
-from .drift import NAMES, SYMMETRIES, Enclosures, Orbit, enclose, listed
-from .taylor import NotEnclosed, exact
+from .document import sealed
+from .drift import NAMES, SYMMETRIES, Enclosures, Orbit, listed
 
 KIND = "energy-drift"
-#: What a reader can wait for.
-LIMITS = {"bits": (64, 4096), "order": (8, 1024)}
 
 
 def document(orbit: Orbit, found: Enclosures, bits: int, order: int) -> dict[str, Any]:
@@ -47,55 +41,6 @@ def statement(orbit: Orbit) -> str:
         f"{'T' if periods(orbit) == 1 else '2T'}; "
         "the integrals over [0, T] of X3(H) and of the divergence of X3 are not 0."
     )
-
-
-def read(data: dict[str, Any]) -> Orbit:
-    """The orbit of a certificate; raises BadInput where it is none of this kind, or says what its numbers do not."""
-    try:
-        if (data["format"], data["kind"]) != (FORMAT, KIND) or digest(data) != data["digest"]:
-            raise BadInput(f"this is no certificate of the kind {KIND}, or its digest is not that of its text")
-        orbit = _orbit(data)
-        if (data["statement"], data["periods"]) != (statement(orbit), periods(orbit)):
-            raise BadInput("the statement, or the number of periods, is not the one that the numbers make")
-        for name, (least, most) in LIMITS.items():
-            if type(data[name]) is not int or not least <= data[name] <= most:
-                raise BadInput(f"{name} must be an integer from {least} to {most}")
-        _stated(data)
-        return orbit
-    except BadInput:
-        raise
-    except (KeyError, TypeError, ValueError, AttributeError, ZeroDivisionError, RecursionError) as error:
-        raise BadInput(f"the certificate lacks a field, or has another form: {error!r}") from None
-
-
-def _orbit(data: dict[str, Any]) -> Orbit:
-    ball, start = data["ball"], data["start"]
-    return Orbit(
-        tuple(map(Fraction, ball["J"])), Fraction(ball["D"]),
-        tuple(map(Fraction, start["momentum"])), tuple(map(Fraction, start["gamma"])),
-        NAMES.index(data["varied"]), Fraction(data["radius"]), tuple(data["symmetry"]), Fraction(data["time"]),
-        Fraction(data["window"]), NAMES.index(data["section"]), NAMES.index(data["along"]),
-    )  # fmt: skip
-
-
-def _stated(data: dict[str, Any]) -> list[tuple[Fraction, Fraction]]:
-    """The two misses and the two integrals, as (centre, radius)."""
-    below, above = data["misses"]
-    return [(Fraction(centre), Fraction(radius)) for centre, radius in (below, above, data["energy"], data["density"])]
-
-
-def verify(data: dict[str, Any], bits: int | None = None, order: int | None = None) -> Enclosures:
-    """Proves a certificate again, with 64 bits and 8 terms more unless they are given, and compares the enclosures.
-
-    Raises BadInput for what is no certificate, NotEnclosed where what is stated does not contain what is found.
-    """
-    orbit = read(data)
-    found = enclose(orbit, bits or data["bits"] + 64, order or data["order"] + 8)
-    for ours, (centre, radius) in zip((*found.misses, found.energy, found.density), _stated(data), strict=True):
-        with ctx.workprec(2 * data["bits"]):
-            if not abs(ours - exact(centre)) <= exact(radius):
-                raise NotEnclosed(f"{centre} ± {radius} is stated, and {ours} is found")
-    return found
 
 
 def _outward(x: Any) -> list[str]:

@@ -1,6 +1,5 @@
 """chapsym certify: certificates of what the paper left open, found, written and checked."""
 
-import json
 import sys
 import time
 from collections.abc import Callable, Iterator
@@ -92,26 +91,13 @@ def check(
 ) -> None:
     """Check certificates: exit status 0 accepted, 1 rejected, 2 unreadable.
 
-    The separate checker judges them, which shares no code with what found them; of the kind energy-drift, which it does
-    not know, the orbit is enclosed anew, with more bits and terms.
+    The separate checker judges them, which shares no code with what found them.
     """
     import subprocess
 
-    from .certify_drift import prove_again
-
-    drifts = [file for file in files if _kind(file) == "energy-drift"]
-    others = [str(file) for file in files if file not in drifts]
     # A process of its own, so that nothing loaded here has a part in it.
-    done = subprocess.run([sys.executable, "-m", "chapsym.checker", *others], check=False).returncode if others else 0
-    raise typer.Exit(max([done, *map(prove_again, drifts)]))
-
-
-def _kind(file: Path) -> object:
-    """The kind that a file says it has; None for what is no JSON object: the checker will say so."""
-    try:
-        return json.loads(file.read_text(encoding="utf-8")).get("kind")
-    except (OSError, ValueError, AttributeError, RecursionError):
-        return None
+    command = [sys.executable, "-m", "chapsym.checker", *map(str, files)]
+    raise typer.Exit(subprocess.run(command, check=False).returncode)
 
 
 def deliver(

@@ -1,16 +1,13 @@
 """chapsym certify energy-drift: what a closed orbit of the continuous ball proves of the energy."""
 
-import json
-import sys
 from collections.abc import Callable
-from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
 from chapsym.exact import rational, rationals
 
-from .certify import Output, certify, deliver, telling
+from .certify import Output, certify, deliver
 from .options import Contact, Inertia, Json, MassTensor, ball_from
 from .output import fail
 
@@ -50,24 +47,6 @@ def energy_drift(
     found = deliver(find, output, as_json)
     if not as_json:
         _describe(found)
-
-
-def prove_again(file: Path) -> int:
-    """Encloses the orbit of a certificate anew and prints what comes of it; 0 proved, 1 not proved."""
-    from chapsym.certificates.drift_file import verify
-    from chapsym.certificates.taylor import NotEnclosed
-    from chapsym.dynamics import BadInput
-
-    data = json.loads(file.read_text(encoding="utf-8"))
-    try:
-        with telling() as progress:
-            progress("the orbit is enclosed anew")
-            verify(data)
-    except (BadInput, NotEnclosed) as error:
-        print(f"{file}: rejected: {error}", file=sys.stderr)
-        return 1
-    print(f"{file}: accepted (energy-drift)\n  Proved anew: {data['statement']}")
-    return 0
 
 
 def _describe(found: dict[str, Any]) -> None:

@@ -14,12 +14,6 @@ from .output import fail, print_json
 from .prove import all_claims, judge_and_keep, kept_records, tally
 from .study import STUDIES
 
-#: How a certificate is judged.
-CHECKED = "accepted by the separate checker as this page was written"
-PROVED = (
-    "enclosed anew by the proof of 6-open, with the code that found it: the separate checker does not know its kind"
-)
-
 
 @app.command()
 def report(
@@ -79,7 +73,7 @@ def _open_questions(
         files.check_destination(output)
         found = _records_of(wanted, kept, kept_in)
         evidence = [one for name in STUDIES if (one := _evidence(name, folder)) is not None]
-        text = questions.html(found, _certificates(found), evidence, _versions())
+        text = questions.html(found, _certificates(), evidence, _versions())
         files.write_whole(output, lambda stream: stream.write(text.encode()))
     except files.CannotWrite as error:
         fail(str(error), 2)
@@ -120,22 +114,18 @@ def _evidence(name: str, folder: Path) -> Any:
         fail(f"{data} cannot be read as what chapsym study {name} -o writes: {type(error).__name__}: {error}", 2)
 
 
-def _certificates(found: list[dict[str, Any]]) -> list[Any]:
-    """Every certificate that the proofs rest on: checked now, or, of a kind that the checker lacks, by the proofs."""
+def _certificates() -> list[Any]:
+    """Every certificate that the proofs rest on, as the separate checker judges it now."""
     from chapsym import checker, proofs
     from chapsym.report.questions import Checked
 
-    proved = {one["digest"] for record in found for one in record["evidence"]["certificates"] if one["accepted"]}
     judged = []
     for path in sorted((Path(proofs.__path__[0]) / "certificates").glob("*.json")):
         data = checker.read(path)
         try:
-            judged.append(Checked(path.name, data, checker.check(data).numbers, CHECKED))
+            judged.append(Checked(path.name, data, checker.check(data).numbers))
         except checker.Rejected as error:
-            anew = data.get("kind") == "energy-drift" and data.get("digest") in proved
-            judged.append(
-                Checked(path.name, data, {}, PROVED) if anew else Checked(path.name, data, {}, "", str(error))
-            )
+            judged.append(Checked(path.name, data, {}, str(error)))
     return judged
 
 

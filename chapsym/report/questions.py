@@ -34,12 +34,11 @@ class Evidence:
 
 @dataclass(frozen=True)
 class Checked:
-    """A certificate file: its name and content, the numbers that are proved, and how; or why it was rejected."""
+    """A certificate file: its name and content, and the numbers that are proved; or why the checker rejects it."""
 
     name: str
     data: Mapping[str, Any]
     proved: Mapping[str, str]
-    how: str
     rejected: str = ""
 
 
@@ -93,8 +92,7 @@ def _shown(checked: Checked) -> dict[str, Any]:
     given = {**data.get("ball", {}), **{name: data[name] for name in GIVEN if name in data}, **checked.proved}
     rows = [(name.replace("_", " "), ", ".join(v) if isinstance(v, list) else v) for name, v in given.items()]
     return {
-        "name": checked.name, "statement": data.get("statement", ""), "rows": rows, "how": checked.how,
-        "rejected": checked.rejected,
+        "name": checked.name, "statement": data.get("statement", ""), "rows": rows, "rejected": checked.rejected,
     }  # fmt: skip
 
 

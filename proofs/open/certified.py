@@ -39,7 +39,7 @@ def present(p: Proof, found: Sequence[Path], kind: str) -> list[dict[str, Any]]:
             continue
         p.certificate(file.name, verdict.statement, data["digest"], accepted=verdict.kind == kind)
         accepted.append(data)
-    return sorted(accepted, key=lambda data: data["steps"])
+    return sorted(accepted, key=lambda data: data.get("steps", 0))
 
 
 def changed(text: str, data: dict[str, Any], place: Sequence[str | int], value: Any) -> Fact:

@@ -1,13 +1,7 @@
 """The open question of Section 6, settled: no integral of the map tends to the energy in C¹ as ε tends to 0, for balls with D > 0."""
 
-import json
-from pathlib import Path
-from typing import Any
-
 import sympy as sp
 
-from chapsym.certificates import drift_file
-from chapsym.certificates.taylor import NotEnclosed
 from chapsym.derive import modified, three
 from chapsym.derive.limits import omega
 from chapsym.proofs.map import gibbs, self_adjoint
@@ -16,7 +10,7 @@ from chapsym.proofs.map.modified import FREE
 from chapsym.proofs.open import certified, orbits
 from chapsym.prove import Equation, Fact, Proof, claim, judged, main
 
-FILES = tuple(sorted(Path(__file__).parents[1].joinpath("certificates").glob("energy-drift-*.json")))
+FILES = certified.files("energy-drift")
 ORBITS = certified.files("periodic-orbit")
 #: What the argument rests on, beside the paper's claims: proved anew with it.
 LEMMAS = {
@@ -126,7 +120,7 @@ def no_density(p: Proof) -> None:
 
 
 def certificates(p: Proof) -> None:
-    """Closed orbits with integrals that are not 0, proved anew."""
+    """Closed orbits with integrals that are not 0, as the separate checker judges them."""
     p.say(
         "The certificates: an orbit from the start, one component of K varied, back on a section up to S, a rotation by π;"
     )
@@ -137,18 +131,19 @@ def certificates(p: Proof) -> None:
         "   and these two tell states apart: so for a start between, S·x(T) = x. S is a symmetry (map-symmetries), so the"
     )
     p.say("   orbit is closed after 2T (or T), and the integrals over it are 2 (or 1) times those over [0, T].")
-    p.say("   They are proved anew here in Arb's balls, with other bits and terms; not by the independent checker.")
+    p.say("   The checker encloses these orbits and integrals in integers, with formulas and bounds of its own.")
     p.say(
         "   What they prove are strict inequalities between continuous functions of J and D: so it holds for all balls near."
     )
-    p.lemma(Fact("there is a certificate of the kind energy-drift", bool(FILES), "a look into the folder"))
-    for file in FILES:
-        data = json.loads(file.read_text(encoding="utf-8"))
-        p.certificate(file.name, data["statement"], data["digest"], accepted=proved(data))
-        p.witness(file.name, {"J": ", ".join(data["ball"]["J"]), "D": data["ball"]["D"], "X3(H)": data["energy"][0], "div X3": data["density"][0]},
-                  Fact("0 is in neither enclosure", all(abs(float(c)) > float(r) for c, r in (data["energy"], data["density"]))))  # fmt: skip
-    if FILES:
-        p.control(Fact("the first certificate with another time", proved(_changed(data)), METHOD))
+    accepted = certified.present(p, FILES, "energy-drift")
+    for data in accepted:
+        ball, enclosures = data["ball"], (data["energy"], data["density"])
+        point = {"J": ", ".join(ball["J"]), "D": ball["D"], "X3(H)": data["energy"][0], "div X3": data["density"][0]}
+        apart = all(abs(sp.Rational(centre)) > sp.Rational(radius) for centre, radius in enclosures)
+        p.witness(f"J = ({point['J']})", point, Fact("0 is in neither enclosure", apart))
+    if accepted:
+        early = str(sp.Rational(accepted[0]["time"]) / 8)
+        p.control(certified.changed("the first certificate with another time", accepted[0], ("time",), early))
 
 
 def fixed_step(p: Proof) -> None:
@@ -163,24 +158,6 @@ def fixed_step(p: Proof) -> None:
         size = accepted[0]["integrals"]["momentum.momentum"]
         wrong = ("integrals", "momentum.momentum"), f"{sp.Rational(size) + 1}"
         p.control(certified.changed(f"the orbit of {accepted[0]['steps']} steps at another |𝒦|", accepted[0], *wrong))
-
-
-METHOD = "Arb balls, validated Taylor integration: proved anew with other bits and terms"
-
-
-def proved(data: dict[str, Any]) -> bool:
-    """Whether the orbit is enclosed anew, with integrals that are within what is stated."""
-    try:
-        drift_file.verify(data)
-    except (drift_file.BadInput, NotEnclosed):
-        return False
-    return True
-
-
-def _changed(data: dict[str, Any]) -> dict[str, Any]:
-    """The same with a time at which the orbit is not back, sealed anew."""
-    wrong = {**data, "time": str(sp.Rational(data["time"]) / 8)}
-    return {**wrong, "digest": drift_file.digest(wrong)}
 
 
 @claim(

@@ -99,9 +99,9 @@ def test_nobody_reading_the_output_is_no_traceback(files):
 
 def test_a_certificate_of_another_kind_is_named(files, capsys):
     file = Path(files["text"])
-    file.write_text(json.dumps({"format": "chapsym-certificate/1", "kind": "energy-drift"}))
+    file.write_text(json.dumps({"format": "chapsym-certificate/1", "kind": "perpetual-motion"}))
     assert main([str(file)]) == 1
-    assert capsys.readouterr().err.endswith("and none of kind 'energy-drift'\n")
+    assert capsys.readouterr().err.endswith("and none of kind 'perpetual-motion'\n")
 
 
 def test_lists_in_lists_of_any_depth_are_refused_in_one_sentence(files, capsys):

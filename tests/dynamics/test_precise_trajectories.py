@@ -265,7 +265,9 @@ def test_what_is_certified_is_monotone_and_contains_the_root(state, direction):
     assert status == 0
     assert np.linalg.norm(q) / q0 <= radius * (1 + 1e-12)
     u = radius * direction
-    ahead, behind = (kernels.kernel("gibbs_residual")(u + s * np.eye(3), k, gamma, inertia, contact) for s in (0.5, -0.5))
+    ahead, behind = (
+        kernels.kernel("gibbs_residual")(u + s * np.eye(3), k, gamma, inertia, contact) for s in (0.5, -0.5)
+    )
     matrix = (ahead - behind).T  # G is quadratic: the central difference is exact
     assert np.linalg.eigvalsh((matrix + matrix.T) / 2)[0] >= slope - 1e-12 * (inertia.max() + contact)
 

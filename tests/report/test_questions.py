@@ -42,8 +42,8 @@ def test_links_lead_to_what_is_on_the_page(asked):
 
 def test_a_certificate_is_shown_as_it_is_judged(asked):
     data = checker.read(SIMPLEST)
-    good = questions.Checked("good.json", data, checker.check(data).numbers, "accepted")
-    bad = questions.Checked("bad.json", data, {}, "", "the digest is not that of the file")
+    good = questions.Checked("good.json", data, checker.check(data).numbers)
+    bad = questions.Checked("bad.json", data, {}, "the digest is not that of the file")
     text = questions.html(asked, [good, bad], [], VERSIONS)
     assert data["ball"]["level"] in text
     assert text.count("✗</span> bad.json") == text.count("✓</span> good.json") == 1

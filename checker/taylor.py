@@ -1,0 +1,149 @@
+"""Functions on 0 ≤ s ≤ 1 in integers, a polynomial each and how far the function may be from it; and derivatives.
+
+The one property that everything rests on: if the functions x, y are in X, Y, then x∘y is in X∘Y, ∘ = + - *, and 1/x in
+1/X.  As |s| ≤ 1, a polynomial is at most the sum of its |coefficients|: what is cut off or rounded is added to `off`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from fractions import Fraction
+from itertools import accumulate
+from math import ceil
+from operator import add, mul
+from typing import Any
+
+from .interval import Interval, Rejected
+
+
+class Model:
+    """The functions with |x(s) - Σ c_k s^k·2^-bits| ≤ off·2^-bits for 0 ≤ s ≤ 1; a sum of n of them has n terms."""
+
+    __slots__ = ("bits", "off", "size", "terms")
+
+    def __init__(self, terms: Sequence[int], off: int, bits: int):
+        self.terms, self.off, self.bits = terms, off, bits
+        self.size = sum(map(abs, terms))
+
+    @classmethod
+    def constant(cls, x: Fraction, bits: int) -> Model:
+        """A number, as a polynomial of one term."""
+        scaled = x * 2**bits
+        return cls([scaled.numerator // scaled.denominator], int(scaled.denominator > 1), bits)
+
+    @property
+    def most(self) -> int:
+        """A bound of |x(s)|·2^bits."""
+        return self.size + self.off
+
+    def _of(self, other: Model | int) -> Model:
+        return Model([other << self.bits], 0, self.bits) if isinstance(other, int) else other
+
+    def _padded(self, length: int) -> list[int]:
+        return [*self.terms, *[0] * (length - len(self.terms))]
+
+    def __neg__(self) -> Model:
+        return Model([-x for x in self.terms], self.off, self.bits)
+
+    def __add__(self, other: Model | int) -> Model:
+        other = self._of(other)
+        n = max(len(self.terms), len(other.terms))
+        return Model(list(map(add, self._padded(n), other._padded(n))), self.off + other.off, self.bits)
+
+    def __sub__(self, other: Model | int) -> Model:
+        return self + -self._of(other)
+
+    def __mul__(self, other: Model | int) -> Model:
+        other = self._of(other)
+        n = max(len(self.terms), len(other.terms))
+        if min(len(self.terms), len(other.terms)) == 1:
+            (one,), many = sorted((self.terms, other.terms), key=len)
+            products, cut = [one * x for x in many], 0
+        else:
+            a, back = self._padded(n), other._padded(n)[::-1]
+            products = [sum(map(mul, a[: k + 1], back[n - 1 - k :])) for k in range(n)]
+            # The terms beyond: |a_i| by the last i of the other's.
+            cut = sum(map(mul, map(abs, a[1:]), accumulate(map(abs, back))))
+        cut += self.off * other.most + self.size * other.off
+        return Model([x >> self.bits for x in products], n - (-cut >> self.bits), self.bits)
+
+    __radd__, __rmul__ = __add__, __mul__
+
+    def __rsub__(self, other: int) -> Model:
+        return -self + other
+
+    def __rtruediv__(self, other: int) -> Model:
+        """other/x = other·r/(1 - e) with any polynomial r and e = 1 - x·r: off from other·r by |r||e|/(1 - |e|)."""
+        if not self.terms[0]:
+            raise Rejected("a function that is divided by is not proved to differ from 0")
+        inverse = [(1 << 2 * self.bits) // self.terms[0]]
+        for k in range(1, len(self.terms)):
+            inverse.append(-sum(map(mul, self.terms[1 : k + 1], reversed(inverse))) // self.terms[0])
+        near = Model(inverse, 0, self.bits)
+        e, one = (1 - self * near).most, 1 << self.bits
+        if e >= one:
+            raise Rejected("a function that is divided by is not proved to differ from 0")
+        return Model(inverse, -(-near.size * e // (one - e)), self.bits) * other
+
+    def at(self, s: Interval) -> Interval:
+        """The values there, 0 ≤ s ≤ 1."""
+        found = s._of(0)
+        for x in reversed(self.terms):
+            found = found * s + Interval(x, x, self.bits)
+        return found.wider(self.off)
+
+    def integral(self) -> Model:
+        """The integrals from 0 to s."""
+        n = len(self.terms)
+        return Model([0, *(x // (k + 1) for k, x in enumerate(self.terms))], self.off + n, self.bits)
+
+    def coarser(self, terms: int, bits: int) -> Model:
+        """The same functions, with fewer terms and bits."""
+        less = self.bits - bits
+        cut = self.off + sum(map(abs, self.terms[terms:]))
+        return Model([x >> less for x in self.terms[:terms]], terms - (-cut >> less), bits)
+
+    def wider(self, units: Fraction) -> Model:
+        """All functions that are off from these by at most so many units of 2^-bits."""
+        return Model(self.terms, self.off + ceil(units), self.bits)
+
+
+class Dual:
+    """value + slope·δ with δ² = 0: numbers, or models, with their derivative along one direction."""
+
+    __slots__ = ("slope", "value")
+
+    def __init__(self, value: Any, slope: Any):
+        self.value, self.slope = value, slope
+
+    def _of(self, other: Any) -> Dual:
+        return other if isinstance(other, Dual) else Dual(other, 0)
+
+    def __neg__(self) -> Dual:
+        return Dual(-self.value, -self.slope)
+
+    def __add__(self, other: Any) -> Dual:
+        other = self._of(other)
+        return Dual(self.value + other.value, self.slope + other.slope)
+
+    def __sub__(self, other: Any) -> Dual:
+        return self + -self._of(other)
+
+    def __mul__(self, other: Any) -> Dual:
+        if not isinstance(other, Dual):
+            return Dual(self.value * other, self.slope * other)
+        return Dual(self.value * other.value, self.value * other.slope + self.slope * other.value)
+
+    __radd__, __rmul__ = __add__, __mul__
+
+    def __rsub__(self, other: Any) -> Dual:
+        return -self + other
+
+    def __rtruediv__(self, other: int) -> Dual:
+        one = 1 / self.value
+        return Dual(one * other, -(one * one * self.slope * other))
+
+
+def derivative(of: Callable[[Sequence[Any]], Sequence[Any]], at: Sequence[Any], along: Sequence[Any]) -> list[Any]:
+    """The derivative of a function of several numbers, along a direction."""
+    return [x.slope for x in of([Dual(x, y) for x, y in zip(at, along, strict=True)])]
