@@ -206,8 +206,9 @@ class Flow:
 
     def polynomials(self, start: Sequence[int]) -> list[list[int]]:
         """The start, and coefficients near those of the solution in the time: nothing rests on them."""
-        state, twice, one = [[x] for x in start], 2 * self.bits, 1 << self.bits
-        slow, D = [x.terms[0] for x in self.fine.slowness], self.fine.D.terms[0]
+        state = [[x] for x in start]
+        (D,), slow = self.fine.D.terms, [x.terms[0] for x in self.fine.slowness]
+        weights = [x.terms[0] for x in self.fine.carried(self.fine.slowness)]
         K, gamma = state[:3], state[3:]
         below: list[int] = []
         lift: list[int] = []
@@ -219,8 +220,9 @@ class Flow:
 
         for k in range(self.order - 1):
             squares, products = ([product(x, y) for x, y in zip(v, gamma, strict=True)] for v in (gamma, K))
-            below.append(one * (k == 0) - (D * dot(slow, squares) >> twice))
-            lift.append((D * dot(slow, products) // one - sum(map(mul, below[1:], reversed(lift)))) // below[0])
+            below.append(dot(weights, squares) >> self.bits)
+            force = D * dot(slow, products) >> self.bits
+            lift.append((force - sum(map(mul, below[1:], reversed(lift)))) // below[0])
             for spin, s, x, y in zip(w, slow, K, gamma, strict=True):
                 spin.append(s * (x[k] + product(y, lift)) >> self.bits)
             for v in (K, gamma):

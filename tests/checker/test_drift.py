@@ -115,13 +115,18 @@ def test_what_the_series_leaves_out_is_enclosed(flow, monkeypatch):
     assert not all(x.lo <= y.hi and y.lo <= x.hi for x, y in zip(run(flow(14), START, exact, end), truth, strict=True))
 
 
-def test_all_starts_of_a_box_are_enclosed(flow):
-    radius = Fraction(1, 10**9)
-    whole = run(flow(24), START, 6 * radius, Fraction(1))
-    for sign in (-1, 1):
-        moved = [x + sign * radius * (k % 2) for k, x in enumerate(START)]
-        point = run(flow(24), moved, Fraction(1, 10**20), Fraction(1))
+def test_all_starts_that_are_near_enough_are_enclosed(flow):
+    """As far off as they may be, in each component: the flow takes some further off than they were."""
+    radius, end = Fraction(1, 10**9), Fraction(2)
+    weights, truth = flow(8).weights, run(flow(24), START, Fraction(0), end)
+    whole, grown = run(flow(24), START, radius, end), 0.0
+    for j, weight in enumerate(weights):
+        moved = [x + radius * weight * (i == j) for i, x in enumerate(START)]
+        point = run(flow(24), moved, Fraction(0), end)
         assert all(x.lo < y.lo and y.hi < x.hi for x, y in zip(whole, point, strict=True))
+        off = [(y.lo - x.lo) / 2**BITS / float(w * radius) for x, y, w in zip(truth, point, weights, strict=True)]
+        grown = max(grown, *map(abs, off))
+    assert grown > 1
 
 
 def test_the_norm_bounds_the_growth_of_what_is_near(flow):
