@@ -31,7 +31,8 @@ def main(arguments: list[str] | None = None) -> int:
             print(f"{file}: accepted ({verdict.kind})\n  Proved: {verdict.statement}")
             print(*(f"  {name}: {value}" for name, value in verdict.numbers.items()), sep="\n")
     if options.json:
-        print(json.dumps({"certificates": found}, ensure_ascii=False, indent=1))
+        whole = (sys.stdout.encoding or "").lower().startswith("utf")  # otherwise with escapes
+        print(json.dumps({"certificates": found}, ensure_ascii=not whole, indent=1))
     return worst
 
 

@@ -252,6 +252,13 @@ def test_a_folder_that_cannot_be_written_loses_nothing(tmp_path):
     assert target.read_bytes() == b"precious"
 
 
+@pytest.mark.parametrize("arguments", [("prove", "--list", "--json"), ("scene", "schema")])
+def test_a_terminal_without_greek_gets_escapes(arguments):
+    done = chapsym(*arguments, env={**os.environ, "PYTHONIOENCODING": "ascii"})
+    assert (done.returncode, done.stderr) == (0, "")
+    assert not json.dumps(json.loads(done.stdout), ensure_ascii=False).isascii()
+
+
 def test_check_passes_in_its_budget():
     found = answer("check", "--states", "2", "--steps", "5000")
     assert found["kept"] is True

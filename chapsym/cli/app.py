@@ -1,5 +1,6 @@
 """The typer application, and the entry point."""
 
+import io
 import logging
 import os
 import sys
@@ -27,6 +28,9 @@ def main() -> NoReturn:
     """The entry point: turns every foreseen error into one sentence and an exit status."""
     if sys.stdout is None:  # closed by the caller
         sys.stdout = open(os.devnull, "w")  # noqa: SIM115
+    for stream in (sys.stdout, sys.stderr):  # for a terminal, or a pipe, without Greek
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="backslashreplace")
     logging.basicConfig(format="chapsym: %(message)s", stream=sys.stderr)
     logging.getLogger("chapsym").setLevel(logging.INFO)
     if len(sys.argv) == 1:

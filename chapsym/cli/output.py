@@ -21,7 +21,13 @@ def note(sentence: str) -> None:
 
 
 def print_json(value: Any) -> None:
-    print(json.dumps(value, ensure_ascii=False, allow_nan=False))
+    print(json_text(value))
+
+
+def json_text(value: Any, indent: int | None = None) -> str:
+    """JSON for standard output: with escapes where that shows no more than some letters."""
+    whole = (sys.stdout.encoding or "").lower().startswith("utf")
+    return json.dumps(value, ensure_ascii=not whole, allow_nan=False, indent=indent)
 
 
 def say(text: str) -> None:

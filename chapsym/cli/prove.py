@@ -1,6 +1,9 @@
 """chapsym prove: judge the printed claims; and what other commands need of the verdicts."""
 
+import itertools
 import sys
+from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -79,13 +82,21 @@ def judge_and_keep(
     from chapsym import files
     from chapsym.prove import records
 
-    kept = kept_records(kept_in)
+    kept, path = kept_records(kept_in), kept_in or records.default_path()
     arrived: list[dict[str, Any]] = []
+
+    def keep(record: dict[str, Any]) -> None:
+        arrived.append(record)
+        with suppress(OSError):  # which is said at the end
+            records.append(path, record)
+
+    with suppress(files.CannotWrite):
+        records.update(path, [], claims)  # with a last line that is whole
     try:
-        judged = judged_records("proving", wanted, jobs, arrived)
-    finally:  # an interrupt keeps what was finished
+        judged = judged_records("proving", wanted, jobs, keep)
+    finally:  # an interrupt keeps what was finished, and puts it in order
         try:
-            records.update(kept_in or records.default_path(), arrived, claims)
+            records.update(path, arrived, claims)
         except files.CannotWrite as error:
             print(f"chapsym: the verdicts are not kept: {error}", file=sys.stderr)
     for record in judged:
@@ -107,17 +118,17 @@ def kept_records(kept_in: Path | None) -> dict[str, dict[str, Any]]:
 
 
 def judged_records(
-    label: str, ids: list[str], jobs: int | None = None, done: list[dict[str, Any]] | None = None
+    label: str, ids: list[str], jobs: int | None = None, keep: Callable[[dict[str, Any]], None] = lambda record: None
 ) -> list[dict[str, Any]]:
-    """The records of claims, with a bar that moves as they arrive; `done` collects those that have."""
+    """The records of claims, with a bar that moves as they arrive; `keep` sees each of them."""
     from chapsym.prove import prove_all
 
-    done = [] if done is None else done
+    done = itertools.count(1)
     with progress_bar(label, len(ids)) as shown:
 
         def arrived(record: dict[str, Any]) -> None:
-            done.append(record)
-            shown(len(done))
+            keep(record)
+            shown(next(done))
 
         return prove_all(ids, jobs, arrived)
 

@@ -7,7 +7,7 @@ import typer
 
 from .app import app
 from .options import Json
-from .output import fail, print_json
+from .output import fail, json_text, print_json
 
 scenes = typer.Typer()
 app.add_typer(scenes, name="scene")
@@ -69,7 +69,9 @@ def schema(
     from chapsym import files
 
     if output is None:
-        print(_schema_text(), end="")
+        from chapsym.scene.schema import schema as described
+
+        print(json_text(described(), indent=1))
         return
     try:
         _write(output, _schema_text())

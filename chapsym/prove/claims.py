@@ -1,5 +1,7 @@
 """Claims: the rows of the register, each with its proof."""
 
+import ast
+import inspect
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -22,8 +24,8 @@ class Claim:
 
     @property
     def title(self) -> str:
-        """The first line of the proof's docstring."""
-        return (self.prove.__doc__ or "").strip().splitlines()[0]
+        """The first line of the proof's docstring, which an interpreter that optimizes drops: then from the source."""
+        return (self.prove.__doc__ or _docstring(self.prove)).strip().partition("\n")[0]
 
     def judge(self) -> "Judgement":
         """Runs the proof."""
@@ -31,6 +33,11 @@ class Claim:
         self.prove(proof)
         verdict = proof.verdict()
         return Judgement(self, verdict, proof, time.perf_counter() - start)
+
+
+def _docstring(function: Callable[..., object]) -> str:
+    (written,) = ast.parse(inspect.getsource(function)).body
+    return (isinstance(written, ast.FunctionDef) and ast.get_docstring(written)) or ""
 
 
 @dataclass(frozen=True)

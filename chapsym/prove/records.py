@@ -102,7 +102,7 @@ def _source(module: str) -> str:
 
 
 def read(path: Path) -> dict[str, dict[str, Any]]:
-    """The records of a file, by id; none if there is no file.
+    """The records of a file, by id; none if there is no file.  The end of a line that was not finished is left out.
 
     Raises BrokenRecords if it is not such a file, with the line that is not a record.
     """
@@ -113,7 +113,9 @@ def read(path: Path) -> dict[str, dict[str, Any]]:
         text = path.read_text(encoding="utf-8") if path.exists() else ""
     except UnicodeDecodeError as error:
         raise BrokenRecords(f"{path} is not a file of verdict records: it is no text ({error.reason})") from error
-    lines = text.removesuffix("\n").split("\n") if text else []
+    *lines, last = text.split("\n")
+    if last and (_parsed(last) or not lines):  # else the computer stopped as it was added
+        lines.append(last)
     for number, line in enumerate(lines, start=1):
         record = _parsed(line)
         if record is None:
@@ -154,6 +156,12 @@ def update(path: Path, records: Iterable[dict[str, Any]], claims: dict[str, Clai
     except OSError as error:
         raise files.CannotWrite(f"{path} cannot be written: {error.strerror or error}") from None
     files.write_whole(path, lambda stream: stream.writelines(line.encode() for line in lines))
+
+
+def append(path: Path, record: dict[str, Any]) -> None:
+    """Adds a record to a file that `update` has written; of two for a claim the last one counts."""
+    with path.open("ab") as stream:
+        stream.write((json.dumps(record, ensure_ascii=False) + "\n").encode())
 
 
 def stale(records: dict[str, dict[str, Any]], claims: dict[str, Claim]) -> list[str]:

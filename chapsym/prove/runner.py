@@ -3,7 +3,6 @@
 import importlib
 import multiprocessing
 import os
-import signal
 import sys
 import traceback
 from collections.abc import Callable, Iterable, Sequence
@@ -11,6 +10,8 @@ from concurrent.futures import ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
 from pathlib import Path
 from typing import Any
+
+from chapsym import workers
 
 from .claims import Claim, Judgement, register
 from .evidence import Proof, Verdict
@@ -97,8 +98,7 @@ def prove_all(
             on_result(records[id])
         return [records[id] for id in ids]
     # An interrupt is for this process; the workers end with the claim that they are at.
-    context = multiprocessing.get_context("spawn")
-    pool = ProcessPoolExecutor(jobs, context, initializer=signal.signal, initargs=(signal.SIGINT, signal.SIG_IGN))
+    pool = ProcessPoolExecutor(jobs, multiprocessing.get_context("spawn"), initializer=workers.begin)
     try:
         for future in as_completed([pool.submit(prove_one, id) for id in ids]):
             record = future.result()

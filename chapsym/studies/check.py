@@ -13,7 +13,6 @@ Norms of vectors are their largest components.
 
 import multiprocessing
 import os
-import signal
 from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from functools import partial
@@ -21,6 +20,7 @@ from typing import Any
 
 import numpy as np
 
+from chapsym import workers
 from chapsym.dynamics import Ball, kernels, trajectory
 from chapsym.dynamics.ball import Floats
 from chapsym.dynamics.loops.branch import small_rotation
@@ -181,7 +181,7 @@ def check(
     rows: dict[str, Row] = {}
     # Leaving the pool by an interrupt ends the workers at once; they do not see the interrupt themselves.
     context = multiprocessing.get_context("spawn")
-    with context.Pool(jobs, initializer=signal.signal, initargs=(signal.SIGINT, signal.SIG_IGN)) as pool:
+    with context.Pool(jobs, initializer=workers.begin) as pool:
         for row in pool.imap_unordered(partial(check_stratum, states=states, seed=seed), STRATA):
             rows[row.stratum] = row
             on_row(row)

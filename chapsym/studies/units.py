@@ -8,8 +8,6 @@ import hashlib
 import json
 import multiprocessing
 import os
-import signal
-import threading
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
@@ -21,7 +19,7 @@ from pathlib import Path
 from typing import Any
 
 import chapsym
-from chapsym import files
+from chapsym import files, workers
 from chapsym.dynamics import BadInput
 from chapsym.dynamics.levels.double import cores
 
@@ -149,7 +147,7 @@ def _local(units: list[Unit]) -> Iterator[tuple[Unit, Any]]:
         return
     # A child is not forked: numba's threads and Arb's precision are of a process.
     context = multiprocessing.get_context("spawn")
-    pool = ProcessPoolExecutor(abreast, context, initializer=_begin)
+    pool = ProcessPoolExecutor(abreast, context, initializer=workers.begin)
     try:
         flying = {pool.submit(compute, unit.function, unit.arguments): unit for unit in units}
         for future in as_completed(flying):
@@ -160,19 +158,6 @@ def _local(units: list[Unit]) -> Iterator[tuple[Unit, Any]]:
         for process in children:
             if process.is_alive():
                 process.terminate()
-
-
-def _begin() -> None:
-    """In a child: an interrupt is for the parent, and when that is killed, the child ends."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    threading.Thread(target=_outlived, daemon=True).start()
-
-
-def _outlived() -> None:
-    parent = multiprocessing.parent_process()
-    if parent is not None:
-        parent.join()
-        os._exit(1)
 
 
 def _checked(unit: Unit, result: Callable[[], Any]) -> Any:

@@ -11,6 +11,7 @@ import pytest
 from flint import arb, ctx
 from scipy.integrate import solve_ivp
 
+import chapsym.proofs
 from chapsym import checker
 from chapsym.certificates import drift, drift_file, duals, taylor
 from chapsym.certificates.taylor import NotEnclosed, exact

@@ -54,6 +54,11 @@ def test_an_inverse_contains_the_true_one(one):
     assert all(contains(inverse, 2 / value(a, s), s) for s in TIMES)
 
 
+def test_an_inverse_is_as_wide_as_that_of_the_smallest_number():
+    """1/6 ± 5 units: 1/(6 - 5) is in it."""
+    assert contains(1 / Model([6 * ONE], 5 * ONE, BITS), Fraction(1), 0)
+
+
 def test_a_function_with_a_root_is_not_divided_by():
     for terms in ([-ONE, 2 * ONE], [0, ONE], [ONE, -ONE]):
         with pytest.raises(Rejected, match="differ from 0"):

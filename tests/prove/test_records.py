@@ -2,6 +2,9 @@
 
 import json
 import os
+import subprocess
+import sys
+from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 from commands import chapsym, child
@@ -110,6 +113,66 @@ def test_an_interrupt_keeps_what_was_finished(tmp_path):
     done = child("prove", "prop-2", "4.3", "--records", path, env={**os.environ, "PYTHONPATH": str(tmp_path)})
     assert done.returncode == 130
     assert list(records.read(path)) == ["prop-2"]
+
+
+def test_what_was_judged_is_kept_when_the_command_is_killed(tmp_path):
+    (tmp_path / "sitecustomize.py").write_text(
+        "import os, chapsym.prove.runner as runner\n"
+        "honest = runner.judge\n"
+        "runner.judge = lambda claim: os.kill(os.getpid(), 9) if claim.id == '4.3' else honest(claim)\n"
+    )
+    path, env = tmp_path / "verdicts.jsonl", {**os.environ, "PYTHONPATH": str(tmp_path)}
+    records.update(path, [made("2.1")], load())
+    with path.open("a") as stream:
+        stream.write('{"id": "4.1", "verd')  # as another kill might have left it
+    assert child("prove", "prop-2", "4.3", "--jobs", "1", "--records", path, env=env).returncode == -9
+    assert list(records.read(path)) == ["2.1", "prop-2"]
+
+
+def test_workers_end_with_the_process_that_started_them(tmp_path):
+    """They hold the pipe open as long as they are there."""
+    (tmp_path / "sitecustomize.py").write_text(
+        "import os, time, chapsym.prove.runner as runner\n"
+        "runner.judge = lambda claim: os.write(1, b'.') and time.sleep(3600)\n"
+    )
+    command = [
+        sys.executable,
+        "-m",
+        "chapsym.cli",
+        "prove",
+        "prop-2",
+        "4.3",
+        "--jobs",
+        "2",
+        "--records",
+        tmp_path / "x",
+    ]
+    env = {**os.environ, "PYTHONPATH": str(tmp_path)}
+    with subprocess.Popen(command, stdout=subprocess.PIPE, env=env) as process:
+        assert process.stdout.read(2) == b".."
+        process.kill()
+        with ThreadPoolExecutor() as pool:
+            assert pool.submit(process.stdout.read).result(timeout=600) == b""
+
+
+def test_of_two_records_of_a_claim_the_last_one_counts(tmp_path):
+    path = tmp_path / "verdicts.jsonl"
+    records.update(path, [made("2.1"), made("prop-4")], load())
+    records.append(path, made("2.1", verdict="refuted"))
+    assert records.read(path)["2.1"]["verdict"] == "refuted"
+    records.update(path, [], load())
+    assert [json.loads(line)["verdict"] for line in path.read_text(encoding="utf-8").splitlines()] == [
+        "refuted",
+        "holds",
+    ]
+
+
+def test_an_interpreter_that_drops_docstrings_and_a_terminal_without_greek(tmp_path):
+    """The titles are docstrings, and have Greek letters."""
+    env = {**os.environ, "PYTHONOPTIMIZE": "2", "PYTHONIOENCODING": "ascii"}
+    done = child("prove", "2.1", "4.1", "--records", tmp_path / "x", env=env)
+    assert done.returncode == 0
+    assert all(ascii(load()[id].title)[1:-1] in done.stdout for id in ("2.1", "4.1"))
 
 
 def test_a_lost_process_leaves_its_claims_open(tmp_path):
