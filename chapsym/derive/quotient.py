@@ -7,9 +7,13 @@ is decided by division by a Gröbner basis, in exact arithmetic (python-flint be
 
 from collections.abc import Sequence
 from functools import cached_property
+from operator import add, ge, sub
+from typing import Any
 
 import sympy as sp
 from sympy.polys.rings import PolyElement, PolyRing
+
+Monomial = tuple[int, ...]
 
 
 class Quotient:
@@ -46,6 +50,31 @@ class Quotient:
             raise ZeroDivisionError(f"the denominator {denominator} is zero under the hypotheses")
         return not self._reduce(numerator)
 
+    @cached_property
+    def _rules(self) -> list[tuple[Monomial, list[tuple[Monomial, Any]]]]:
+        """The leading monomial of each polynomial of the basis, and the terms that take its place."""
+        leads = [g.leading_expv() for g in self._basis]
+        return [
+            (lead, [(monomial, -factor / g.LC) for monomial, factor in g.terms() if monomial != lead])
+            for lead, g in zip(leads, self._basis, strict=True)
+        ]
+
     def _reduce(self, expr: sp.Expr) -> PolyElement:
-        element = self._ring.from_expr(expr)
-        return element.rem(self._basis) if self._basis else element
+        """The normal form.  Terms are replaced in any order, as that by a Gröbner basis does not depend on it."""
+        zero = self._ring.domain.zero
+        pending = dict(self._ring.from_expr(expr))
+        settled: dict[Monomial, Any] = {}
+        while pending:
+            replaced: dict[Monomial, Any] = {}
+            for monomial, factor in pending.items():
+                found = next((rule for rule in self._rules if all(map(ge, monomial, rule[0]))), None)
+                if found is None:
+                    settled[monomial] = settled.get(monomial, zero) + factor
+                    continue
+                lead, terms = found
+                rest = tuple(map(sub, monomial, lead))
+                for other, times in terms:
+                    to = tuple(map(add, rest, other))
+                    replaced[to] = replaced.get(to, zero) + factor * times
+            pending = {monomial: factor for monomial, factor in replaced.items() if factor}
+        return self._ring.from_dict({monomial: factor for monomial, factor in settled.items() if factor})
