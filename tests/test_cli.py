@@ -254,7 +254,7 @@ def test_a_folder_that_cannot_be_written_loses_nothing(tmp_path):
 
 @pytest.mark.parametrize("arguments", [("prove", "--list", "--json"), ("scene", "schema")])
 def test_a_terminal_without_greek_gets_escapes(arguments):
-    done = chapsym(*arguments, env={**os.environ, "PYTHONIOENCODING": "ascii"})
+    done = child(*arguments, env={**os.environ, "PYTHONIOENCODING": "ascii"})
     assert (done.returncode, done.stderr) == (0, "")
     assert not json.dumps(json.loads(done.stdout), ensure_ascii=False).isascii()
 
