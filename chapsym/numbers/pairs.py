@@ -31,7 +31,12 @@ def quick_two_sum(a, b):
 
 
 def two_product(a, b):
-    """a·b exactly (Dekker's with Veltkamp's splitting)."""
+    """a·b exactly."""
+    return split_product(a, b)
+
+
+def split_product(a, b):
+    """a·b exactly (Dekker's with Veltkamp's splitting), compiled as it stands."""
     product = a * b
     t = SPLITTER * a
     a_high = t - (t - a)

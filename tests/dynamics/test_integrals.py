@@ -8,15 +8,16 @@ from hypothesis import strategies as st
 
 from chapsym import testing
 from chapsym.dynamics.loops import integrals, loop
+from chapsym.numbers import pairs
 
 NUMBERS = st.floats(-1e100, 1e100, allow_subnormal=False).filter(lambda x: x == 0 or abs(x) > 1e-100)
 
 
 @given(NUMBERS, NUMBERS)
 def test_products_and_sums_are_exact(a, b):
-    high, low = integrals.exact_product(a, b)
+    high, low = pairs.split_product(a, b)
     assert Fraction(high) + Fraction(low) == Fraction(a) * Fraction(b)
-    high, low = integrals.exact_sum(a, b)
+    high, low = pairs.two_sum(a, b)
     assert Fraction(high) + Fraction(low) == Fraction(a) + Fraction(b)
 
 

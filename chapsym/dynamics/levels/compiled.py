@@ -33,6 +33,7 @@ from ..loops import (
     quad_step,
     single_loop,
     single_step,
+    sums,
     vertical_loop,
 )
 from .code_cache import folder_for, keep
@@ -40,7 +41,7 @@ from .retyped import Family
 
 #: What the compiled code is made of.
 SOURCES = (
-    *(generated, branch, gibbs, integrals, loop, block, composed_loop, vertical_loop, long_step, lanes),
+    *(generated, branch, gibbs, integrals, sums, loop, block, composed_loop, vertical_loop, long_step, lanes),
     *(single_loop, single_step),
     *(pairs, generated_quad, quad_step, quad_loop, quad_block),
 )
@@ -48,8 +49,8 @@ SOURCES = (
 INLINED: set[Callable[..., Any]] = {
     *(generated.gibbs_newton, generated.gibbs_second, generated.turn),
     *(gibbs.newton_round, gibbs.second_round, gibbs.settle, loop.three, loop.put),
-    *(composed_loop.extrapolated, composed_loop.turned_with),
-    *(block.predicted, block.corrected, block.unsettled, block.turned, block.added, block.extrapolated),
+    *(sums.added, sums.turned, sums.filtered, composed_loop.extrapolated, composed_loop.turn_at),
+    *(block.predicted, block.corrected, block.unsettled, block.moved, block.turn_at, block.extrapolated),
     *(value for value in vars(pairs).values() if isinstance(value, FunctionType)),
     *(generated.gibbs_mixed, generated_quad.gibbs_residual_pairs, generated_quad.turn_pairs),
     *(quad_step.correction, quad_step.small),

@@ -13,6 +13,8 @@ from typing import Any
 from chapsym.generated import gibbs_newton
 from chapsym.generated.fixed import cofactors_fixed, residual_fixed
 
+from ..loops.sums import WEIGHTS
+
 #: A mantissa that float64's exponents can hold.
 FLOAT_BITS = 900
 #: Up to so many bits, corrections by the float64 Jacobian; beyond, Newton's, each with twice the bits of the last.
@@ -24,9 +26,6 @@ SHORT = 12
 MOST_ROUNDS = 100
 #: The bits after the point of an inverse from float64.
 INVERSE_BITS = 60
-
-#: The polynomial through the last 8 Gibbs vectors, newest first.
-WEIGHTS = (8.0, -28.0, 56.0, -70.0, 56.0, -28.0, 8.0, -1.0)
 
 Vector = tuple[Any, ...]
 

@@ -13,11 +13,12 @@ import numpy as np
 
 import chapsym.generated as generated
 import chapsym.generated.columns as generated_columns
+from chapsym.numbers import pairs
 
 from .. import columns
 from ..ball import Floats
 from ..errors import BadInput
-from ..loops import block, composed_loop, gibbs, integrals, loop, single_loop, single_step
+from ..loops import block, composed_loop, gibbs, integrals, loop, single_loop, single_step, sums
 from ..map import SMALL_BATCH
 from . import double
 from .double import Balls, Frames, Loops
@@ -36,8 +37,9 @@ def loops() -> Loops:
     family.kernels(generated)
     family.programs(generated_columns)
     rounds = family.loops(gibbs, LEFT=np.float32(2.0**-24), SMALLEST=np.float32(SLOWEST))
-    # Dekker's 2^12 + 1, and the square of an angle that float32 can tell from 0.
-    family.loops(integrals, SPLITTER=np.float32(4097.0), VERTICAL=np.float32(1e-4))
+    family.loops(pairs, SPLITTER=np.float32(4097.0))  # 2^12 + 1
+    family.loops(sums)
+    family.loops(integrals, VERTICAL=np.float32(1e-4))  # the square of an angle that float32 can tell from 0
     own = family.loops(single_loop)
     rounds.bound = own.checkable
     march = family.loops(loop, small_rotation=own.widened, follow_body=own.follow_body)

@@ -5,11 +5,10 @@ It does to each ball what `loop.march` does, with the same roundings; for numba 
 
 import numpy as np
 
-from chapsym.generated import turn
-
 from .gibbs import newton_round, second_round, settle
 from .integrals import PERIOD, restore
 from .loop import ENOUGH, RADIUS, ROWS, A, D, G, I, K, X, prepare, safe_rotation, three
+from .sums import filtered, turned
 
 #: Balls in a block: its rows stay in the first-level cache.
 LANES = 40
@@ -102,41 +101,34 @@ def mend(S, P, ok, step, taken, status, reach, balls):
         P[0, i], P[1, i], P[2, i], P[3, i], P[4, i], P[5, i], P[6, i] = 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
 
 
-def turned(S, P):
+def moved(S, P):
     """Turns k and γ of every lane, with compensation, and carries the extrapolation on."""
     for i in range(LANES):
         p0, p1, p2, p3, w1, w2, w3 = P[0, i], P[1, i], P[2, i], P[3, i], P[4, i], P[5, i], P[6, i]
-        z1, z2, z3 = turn(p0, p1, p2, p3, S[K, i], S[K + 1, i], S[K + 2, i])
-        added(S, K, X, i, z1)
-        added(S, K + 1, X + 1, i, z2)
-        added(S, K + 2, X + 2, i, z3)
-        z1, z2, z3 = turn(p0, p1, p2, p3, S[G, i], S[G + 1, i], S[G + 2, i])
-        added(S, G, X + 3, i, z1)
-        added(S, G + 1, X + 4, i, z2)
-        added(S, G + 2, X + 5, i, z3)
+        turn_at(p0, p1, p2, p3, S, K, X, i)
+        turn_at(p0, p1, p2, p3, S, G, X + 3, i)
         extrapolated(S, A, i, w1)
         extrapolated(S, A + 1, i, w2)
         extrapolated(S, A + 2, i, w3)
 
 
-def added(S, row, rest, i, z):
-    """Adds z to a row, and keeps what the rounding takes (Kahan)."""
-    z -= S[rest, i]
-    v = S[row, i] + z
-    S[rest, i] = (v - S[row, i]) - z
-    S[row, i] = v
+def turn_at(p0, p1, p2, p3, S, at, rest, i):
+    """Turns the vector in the rows from `at` on, with the rests of its sums in those from `rest` on, in a lane."""
+    v1, v2, v3, x1, x2, x3 = turned(
+        p0, p1, p2, p3, S[at, i], S[at + 1, i], S[at + 2, i], S[rest, i], S[rest + 1, i], S[rest + 2, i]
+    )
+    S[at, i], S[at + 1, i], S[at + 2, i] = v1, v2, v3
+    S[rest, i], S[rest + 1, i], S[rest + 2, i] = x1, x2, x3
 
 
 def extrapolated(S, row, i, w):
-    """The filter of `loop.march`, for one component."""
-    S[row, i] = S[row + 3, i] + 8.0 * w
-    S[row + 3, i] = S[row + 6, i] - 28.0 * w
-    S[row + 6, i] = S[row + 9, i] + 56.0 * w
-    S[row + 9, i] = S[row + 12, i] - 70.0 * w
-    S[row + 12, i] = S[row + 15, i] + 56.0 * w
-    S[row + 15, i] = S[row + 18, i] - 28.0 * w
-    S[row + 18, i] = S[row + 21, i] + 8.0 * w
-    S[row + 21, i] = -w
+    """The filter of one component in a lane."""
+    (
+        S[row, i], S[row + 3, i], S[row + 6, i], S[row + 9, i],
+        S[row + 12, i], S[row + 15, i], S[row + 18, i], S[row + 21, i],
+    ) = filtered(
+        S[row + 3, i], S[row + 6, i], S[row + 9, i], S[row + 12, i], S[row + 15, i], S[row + 18, i], S[row + 21, i], w
+    )  # fmt: skip
 
 
 def prepare_block(momentum, g, tensor, contact, state, scale):
@@ -172,7 +164,7 @@ def march_block(state, first, count, every, scale, momenta, verticals, taken, st
             if bad != 0:
                 mend(S, P, ok, step, taken, status, reach, balls)
                 hopeless = uncertified(S)
-            turned(S, P)
+            moved(S, P)
             step += 1
         if step % PERIOD == 0:
             for i in range(balls):

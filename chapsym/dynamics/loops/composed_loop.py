@@ -5,34 +5,25 @@ rotation from cᵢ𝒦 and then carries 𝒦 itself: 𝒦 and γ turn rigidly, w
 of the stage i is smooth from step to step, so each stage has an extrapolation of its own.
 """
 
-from chapsym.generated import turn
-
 from .gibbs import settle
 from .integrals import PERIOD, restore
 from .loop import ENOUGH, RADIUS, D, G, I, K, X, follow_body, prepare, put, safe_rotation, three
-
-#: The polynomial through the last 8 Gibbs vectors, as a filter.
-WEIGHTS = (8.0, -28.0, 56.0, -70.0, 56.0, -28.0, 8.0, -1.0)
+from .sums import filtered, turned
 
 
 def extrapolated(past, w1, w2, w3):
     """Takes the newest Gibbs vector of a stage into its filter (8, 3), the first row of which is the next guess."""
-    for j in range(7):
-        past[j, 0] = past[j + 1, 0] + WEIGHTS[j] * w1
-        past[j, 1] = past[j + 1, 1] + WEIGHTS[j] * w2
-        past[j, 2] = past[j + 1, 2] + WEIGHTS[j] * w3
-    past[7, 0], past[7, 1], past[7, 2] = WEIGHTS[7] * w1, WEIGHTS[7] * w2, WEIGHTS[7] * w3
+    for c, w in ((0, w1), (1, w2), (2, w3)):
+        (
+            past[0, c], past[1, c], past[2, c], past[3, c], past[4, c], past[5, c], past[6, c], past[7, c]
+        ) = filtered(past[1, c], past[2, c], past[3, c], past[4, c], past[5, c], past[6, c], past[7, c], w)  # fmt: skip
 
 
-def turned_with(p0, p1, p2, p3, state, at, rest):
-    """Turns the vector at state[at:] by the quaternion p in place, with the compensation of its sum at state[rest:]."""
-    v1, v2, v3 = three(state, at)
-    x1, x2, x3 = three(state, rest)
-    z1, z2, z3 = turn(p0, p1, p2, p3, v1, v2, v3)
-    z1, z2, z3 = z1 - x1, z2 - x2, z3 - x3
-    w1, w2, w3 = v1 + z1, v2 + z2, v3 + z3
-    put(state, rest, (w1 - v1) - z1, (w2 - v2) - z2, (w3 - v3) - z3)
-    put(state, at, w1, w2, w3)
+def turn_at(p0, p1, p2, p3, state, at, rest):
+    """Turns the vector at state[at:], with the rests of its sums at state[rest:], by the quaternion p in place."""
+    v1, v2, v3, x1, x2, x3 = turned(p0, p1, p2, p3, *three(state, at), *three(state, rest))  # type: ignore[call-arg]
+    put(state, at, v1, v2, v3)
+    put(state, rest, x1, x2, x3)
 
 
 def prepare_composed(momentum, g, tensor, contact, c, state, radius, enough):
@@ -67,8 +58,8 @@ def composed_step(state, c, radius, enough, past, with_body, attitude, contact, 
         extrapolated(past[i], w1, w2, w3)
         if with_body:
             follow_body(p0, p1, p2, p3, g1, g2, g3, attitude, contact, rho)
-        turned_with(p0, p1, p2, p3, state, K, X)
-        turned_with(p0, p1, p2, p3, state, G, X + 3)
+        turn_at(p0, p1, p2, p3, state, K, X)
+        turn_at(p0, p1, p2, p3, state, G, X + 3)
     return 0, 1.0
 
 

@@ -7,41 +7,23 @@ twice the digits; what the rounding of the rotation itself still adds up is take
 The correction goes into the compensation, not into 𝒦 and γ: renormalised and rounded vectors would lean to one side.
 """
 
+from chapsym.numbers.pairs import split_product, two_sum
+
 #: Steps between two restorations.
 PERIOD = 1024
 #: Where sin² of the angle of 𝒦 and γ is below this, ⟨𝒦,γ⟩ follows from |𝒦| and |γ|.
 VERTICAL = 1e-6
-SPLITTER = 134217729.0  # 2^27 + 1
-
-
-def exact_product(a, b):
-    """a·b as a sum of two floats, exactly (Dekker)."""
-    product = a * b
-    t = SPLITTER * a
-    a_high = t - (t - a)
-    a_low = a - a_high
-    t = SPLITTER * b
-    b_high = t - (t - b)
-    b_low = b - b_high
-    return product, ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low
-
-
-def exact_sum(a, b):
-    """a + b as a sum of two floats, exactly (Knuth)."""
-    total = a + b
-    part = total - a
-    return total, (a - (total - part)) + (b - part)
 
 
 def inner(a1, a2, a3, b1, b2, b3, high, low):
     """⟨a, b⟩ + high + low as (sum, rest), to about twice the working precision."""
-    x, x_low = exact_product(a1, b1)
-    y, y_low = exact_product(a2, b2)
-    z, z_low = exact_product(a3, b3)
-    total, e = exact_sum(x, y)
-    total, f = exact_sum(total, z)
-    total, g = exact_sum(total, high)
-    return exact_sum(total, (e + f) + (g + low) + ((x_low + y_low) + z_low))
+    x, x_low = split_product(a1, b1)
+    y, y_low = split_product(a2, b2)
+    z, z_low = split_product(a3, b3)
+    total, e = two_sum(x, y)
+    total, f = two_sum(total, z)
+    total, g = two_sum(total, high)
+    return two_sum(total, (e + f) + (g + low) + ((x_low + y_low) + z_low))
 
 
 def remember(state):

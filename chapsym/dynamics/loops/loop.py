@@ -2,11 +2,12 @@
 
 from math import frexp, ldexp, sqrt
 
-from chapsym.generated import centre_step, compose, rotate, transport, turn
+from chapsym.generated import centre_step, compose, rotate, transport
 
 from .branch import small_rotation
 from .gibbs import SMALLEST, certificate, search_safely, settle
 from .integrals import PERIOD, remember, restore
+from .sums import filtered, turned
 
 #: The numbers that describe a ball under way, and where each begins: k = 𝒦/2, γ, their compensations, the three
 #: integrals as pairs, 8 vectors for the extrapolation of u, J, I, D, radius² and enough (lemma small-branch).
@@ -140,27 +141,13 @@ def march(state, first, count, every, scale, momenta, verticals, with_body, atti
                 status, reach, p0, p1, p2, p3, w1, w2, w3 = safe_rotation(w1, w2, w3, state)
                 if status != 0:
                     break
-            # The polynomial through the last 8 Gibbs vectors as a filter: the weights 8, -28, 56, -70, 56, -28, 8, -1.
-            a1, a2, a3 = b1 + 8.0 * w1, b2 + 8.0 * w2, b3 + 8.0 * w3
-            b1, b2, b3 = c1 - 28.0 * w1, c2 - 28.0 * w2, c3 - 28.0 * w3
-            c1, c2, c3 = d1 + 56.0 * w1, d2 + 56.0 * w2, d3 + 56.0 * w3
-            d1, d2, d3 = e1 - 70.0 * w1, e2 - 70.0 * w2, e3 - 70.0 * w3
-            e1, e2, e3 = f1 + 56.0 * w1, f2 + 56.0 * w2, f3 + 56.0 * w3
-            f1, f2, f3 = h1 - 28.0 * w1, h2 - 28.0 * w2, h3 - 28.0 * w3
-            h1, h2, h3 = o1 + 8.0 * w1, o2 + 8.0 * w2, o3 + 8.0 * w3
-            o1, o2, o3 = -w1, -w2, -w3
+            a1, b1, c1, d1, e1, f1, h1, o1 = filtered(b1, c1, d1, e1, f1, h1, o1, w1)
+            a2, b2, c2, d2, e2, f2, h2, o2 = filtered(b2, c2, d2, e2, f2, h2, o2, w2)
+            a3, b3, c3, d3, e3, f3, h3, o3 = filtered(b3, c3, d3, e3, f3, h3, o3, w3)
             if with_body:
                 follow_body(p0, p1, p2, p3, g1, g2, g3, attitude, contact, rho)
-            z1, z2, z3 = turn(p0, p1, p2, p3, k1, k2, k3)
-            z1, z2, z3 = z1 - x1, z2 - x2, z3 - x3
-            w1, w2, w3 = k1 + z1, k2 + z2, k3 + z3
-            x1, x2, x3 = (w1 - k1) - z1, (w2 - k2) - z2, (w3 - k3) - z3
-            k1, k2, k3 = w1, w2, w3
-            z1, z2, z3 = turn(p0, p1, p2, p3, g1, g2, g3)
-            z1, z2, z3 = z1 - y1, z2 - y2, z3 - y3
-            w1, w2, w3 = g1 + z1, g2 + z2, g3 + z3
-            y1, y2, y3 = (w1 - g1) - z1, (w2 - g2) - z2, (w3 - g3) - z3
-            g1, g2, g3 = w1, w2, w3
+            k1, k2, k3, x1, x2, x3 = turned(p0, p1, p2, p3, k1, k2, k3, x1, x2, x3)
+            g1, g2, g3, y1, y2, y3 = turned(p0, p1, p2, p3, g1, g2, g3, y1, y2, y3)
             step += 1
         if status == 0 and step % PERIOD == 0:
             put(state, K, k1, k2, k3)

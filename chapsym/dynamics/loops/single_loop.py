@@ -8,6 +8,7 @@ from chapsym.generated import centre_step, compose, rotate
 
 from .branch import small_rotation
 from .gibbs import bound
+from .sums import added
 
 #: Below this the square of `enough` would leave the range of float32.
 LEAST_ENOUGH = 2.0**-62
@@ -37,11 +38,8 @@ def widened(K1, K2, K3, g1, g2, g3, J1, J2, J3, D):
 
 
 def add(array, at, rest, z):
-    """Adds z to array[at], and keeps in array[rest] what the rounding takes (Kahan)."""
-    z = z - array[rest]
-    total = array[at] + z
-    array[rest] = (total - array[at]) - z
-    array[at] = total
+    """Adds z to array[at], and keeps the rest of its sum in array[rest]."""
+    array[at], array[rest] = added(array[at], array[rest], z)
 
 
 def follow_body(p0, p1, p2, p3, g1, g2, g3, attitude, contact, radius):

@@ -7,10 +7,11 @@ For D > 0 the Gibbs vector is extrapolated and corrected, as in `gibbs`, but �
 Lemma `small-branch`: where `radius` > 0 a root with |q| < q₀ is that of the small-rotation branch.
 """
 
-from chapsym.generated import turn, vertical_level, vertical_rotation, vertical_square
+from chapsym.generated import vertical_level, vertical_rotation, vertical_square
 
 from .branch import small_rotation
 from .gibbs import search_safely, settle
+from .sums import filtered, turned
 
 #: A moment or h below this, for Λmax about 1, takes the safe way: products of three or four would underflow.
 SMALLEST = 2.0**-120
@@ -86,20 +87,10 @@ def march(g, J, I, D, h, radius, enough, first, count, every, verticals, q):
             if status != 0:
                 return step - first, status, reach
         if not closed:
-            # The polynomial through the last 8 Gibbs vectors, as in `loop.march`.
-            a1, a2, a3 = b1 + 8.0 * w1, b2 + 8.0 * w2, b3 + 8.0 * w3
-            b1, b2, b3 = c1 - 28.0 * w1, c2 - 28.0 * w2, c3 - 28.0 * w3
-            c1, c2, c3 = d1 + 56.0 * w1, d2 + 56.0 * w2, d3 + 56.0 * w3
-            d1, d2, d3 = e1 - 70.0 * w1, e2 - 70.0 * w2, e3 - 70.0 * w3
-            e1, e2, e3 = f1 + 56.0 * w1, f2 + 56.0 * w2, f3 + 56.0 * w3
-            f1, f2, f3 = h1 - 28.0 * w1, h2 - 28.0 * w2, h3 - 28.0 * w3
-            h1, h2, h3 = o1 + 8.0 * w1, o2 + 8.0 * w2, o3 + 8.0 * w3
-            o1, o2, o3 = -w1, -w2, -w3
-        z1, z2, z3 = turn(p0, p1, p2, p3, g1, g2, g3)
-        z1, z2, z3 = z1 - y1, z2 - y2, z3 - y3
-        x1, x2, x3 = g1 + z1, g2 + z2, g3 + z3
-        y1, y2, y3 = (x1 - g1) - z1, (x2 - g2) - z2, (x3 - g3) - z3
-        g1, g2, g3 = x1, x2, x3
+            a1, b1, c1, d1, e1, f1, h1, o1 = filtered(b1, c1, d1, e1, f1, h1, o1, w1)
+            a2, b2, c2, d2, e2, f2, h2, o2 = filtered(b2, c2, d2, e2, f2, h2, o2, w2)
+            a3, b3, c3, d3, e3, f3, h3, o3 = filtered(b3, c3, d3, e3, f3, h3, o3, w3)
+        g1, g2, g3, y1, y2, y3 = turned(p0, p1, p2, p3, g1, g2, g3, y1, y2, y3)
         if (step + 1) % every == 0:
             frame = (step + 1) // every
             verticals[frame, 0], verticals[frame, 1], verticals[frame, 2] = g1, g2, g3
