@@ -69,7 +69,7 @@ def schema(
     from chapsym import files
 
     if output is None:
-        from chapsym.scene.schema import schema as described
+        from chapsym.scene.read.schema import schema as described
 
         print(json_text(described(), indent=1))
         return
