@@ -302,7 +302,8 @@ class Orbit:
         start = [Interval.enclosing(x, y, self.bits) for x, y in zip(*ends, strict=True)]
         off = [Fraction(x.width + 1, 2 ** (self.bits + 1)) for x in start]  # from the middle
         error = sum((x / w for x, w in zip(off, self.flow.weights, strict=True)), Fraction(0))
-        now, state, totals = 0, [x.point().lo for x in start], [Interval(0, 0, self.bits // 2)] * 2
+        totals: Vector = [Interval(0, 0, self.bits // 2)] * 2
+        now, state = 0, [x.point().lo for x in start]
         while now < self.early:
             models, length, error = self.flow.step(state, error, self.early - now)
             state, now = [sum(x.terms) for x in models], now + length

@@ -1,17 +1,21 @@
 """Vectors and matrices of intervals, linear equations, Newton's test."""
 
 from collections.abc import Callable, Sequence
+from functools import reduce
+from operator import add
+from typing import TypeVar
 
 from .interval import Interval, Rejected
 
 Vector = Sequence[Interval]
+#: What a product of two vectors is made of: integers, or intervals.
+N = TypeVar("N", int, Interval)
 Matrix = Sequence[Vector]
 
 
-def dot(v: Vector, w: Vector) -> Interval:
+def dot(v: Sequence[N], w: Sequence[N]) -> N:
     """⟨v, w⟩."""
-    first, *rest = (x * y for x, y in zip(v, w, strict=True))
-    return sum(rest, first)
+    return reduce(add, (x * y for x, y in zip(v, w, strict=True)))
 
 
 def cross(v: Vector, w: Vector) -> Vector:

@@ -21,7 +21,7 @@ def extrapolated(past, w1, w2, w3):
 
 def turn_at(p0, p1, p2, p3, state, at, rest):
     """Turns the vector at state[at:], with the rests of its sums at state[rest:], by the quaternion p in place."""
-    v1, v2, v3, x1, x2, x3 = turned(p0, p1, p2, p3, *three(state, at), *three(state, rest))  # type: ignore[call-arg]
+    v1, v2, v3, x1, x2, x3 = turned(p0, p1, p2, p3, *three(state, at), *three(state, rest))
     put(state, at, v1, v2, v3)
     put(state, rest, x1, x2, x3)
 
