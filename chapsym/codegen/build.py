@@ -39,7 +39,7 @@ def folder() -> Path:
     spec = importlib.util.find_spec("chapsym.generated")
     if spec is None or not spec.submodule_search_locations:
         raise FileNotFoundError("the package chapsym.generated is not installed; reinstall chapsym")
-    return Path(next(iter(spec.submodule_search_locations)))
+    return Path(next(iter(spec.submodule_search_locations))).resolve()  # a checkout has a link there
 
 
 def is_checkout(place: Path) -> bool:

@@ -18,6 +18,9 @@ from .evidence import Proof, Verdict
 from .records import fingerprint
 
 
+PROOFS = "chapsym.proofs."
+
+
 class BrokenScript(ImportError):
     """A proof script cannot even be loaded: what it derives at import fails."""
 
@@ -33,7 +36,7 @@ def load(lemmas: bool = False) -> dict[str, Claim]:
         try:
             importlib.import_module(name)
         except (Exception, SystemExit) as error:
-            raise BrokenScript(f"the proof script {name} cannot be loaded: {type(error).__name__}: {error}") from error
+            raise BrokenScript(f"the proof script {name.removeprefix(PROOFS)} cannot be loaded: {type(error).__name__}: {error}") from error
     claims = register()
     listed = {*proofs.CLAIMS, *proofs.LEMMAS}
     if set(claims) != listed:
@@ -44,7 +47,7 @@ def load(lemmas: bool = False) -> dict[str, Claim]:
 
 def _scripts() -> list[str]:
     """The full names of the proof scripts."""
-    return [f"chapsym.proofs.{name}" for name in importlib.import_module("chapsym.proofs").SCRIPTS]
+    return [PROOFS + name for name in importlib.import_module("chapsym.proofs").SCRIPTS]
 
 
 def downstream(id: str, claims: dict[str, Claim]) -> list[str]:
