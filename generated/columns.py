@@ -2,8 +2,8 @@
 
 Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 From the kernels gibbs_newton, gibbs_second, turn.
-Proved by: gibbs, gibbs-newton, gibbs-rotation.  Operations: 394.
-Programs: sha256 a10a8eed5392c4e4200881fbea524d55c69a0628c24b2509ecb77981642b44d3.
+Proved by: gibbs, gibbs-newton, gibbs-rotation.  Operations: 410.
+Programs: sha256 11990a0e2a78dfd6d06fdca3f4566f60b0976c2da974f1b21e82e8dc90f529be.
 """
 
 from numpy import add, divide, multiply, negative, subtract
@@ -20,7 +20,8 @@ def newton_columns(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, p0, p1, p2
     gamma: g1, g2, g3
     inertia: I1, I2, I3
     D: D
-    Writes p0, p1, p2, p3, w1, w2, w3, near, d1, d2, d3: rows that overlap no other; pool: 21 more.
+    Writes p0, p1, p2, p3, w1, w2, w3, near, d1, d2, d3: rows that overlap no other, nor an input that is read later;
+    pool: 21 more.
     Operations: 136.
     """
     b_0, b_1, b_2, b_3, b_4, b_5, b_6, b_7, b_8, b_9, b_10, b_11, b_12, b_13, b_14, b_15, b_16, b_17, b_18, b_19, b_20, *_ = pool
@@ -170,7 +171,8 @@ def second_columns(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, p0, p1, p2
     gamma: g1, g2, g3
     inertia: I1, I2, I3
     D: D
-    Writes p0, p1, p2, p3, w1, w2, w3, near, first, r1, r2, r3, v1, v2, v3, second, longer: rows that overlap no other; pool: 21 more.
+    Writes p0, p1, p2, p3, w1, w2, w3, near, first, r1, r2, r3, v1, v2, v3, second, longer: rows that overlap no other, nor an input that is read later;
+    pool: 21 more.
     Operations: 196.
     """
     b_0, b_1, b_2, b_3, b_4, b_5, b_6, b_7, b_8, b_9, b_10, b_11, b_12, b_13, b_14, b_15, b_16, b_17, b_18, b_19, b_20, *_ = pool
@@ -309,67 +311,67 @@ def second_columns(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, p0, p1, p2
     subtract(w1, u1, b_6)
     subtract(w2, u2, b_13)
     subtract(w3, u3, b_19)
+    multiply(b_6, b_6, b_18)
+    multiply(b_13, b_13, b_17)
+    multiply(b_19, b_19, b_2)
+    add(b_17, b_2, b_0)
+    add(b_18, b_0, first)
     add(b_7, b_9, near)
-    multiply(b_6, b_6, b_9)
-    multiply(b_13, b_13, b_7)
-    multiply(b_19, b_19, b_18)
-    add(b_7, b_18, b_17)
-    add(b_9, b_17, first)
-    add(b_9, b_7, b_9)
-    add(b_18, b_9, b_9)
+    add(b_18, b_17, b_18)
+    add(b_2, b_18, b_2)
     multiply(I3, b_13, b_18)
     multiply(b_19, b_18, b_18)
-    multiply(k1, b_9, b_7)
-    subtract(b_18, b_7, b_7)
-    multiply(I2, b_13, b_18)
-    multiply(b_19, b_18, b_18)
-    subtract(b_7, b_18, b_7)
-    multiply(I1, b_6, b_18)
-    multiply(b_19, b_18, b_17)
-    multiply(k2, b_9, b_2)
-    subtract(b_17, b_2, b_2)
-    multiply(I3, b_6, b_17)
-    multiply(b_19, b_17, b_19)
-    subtract(b_2, b_19, b_2)
+    multiply(k1, b_2, b_17)
+    subtract(b_18, b_17, b_18)
+    multiply(I2, b_13, b_17)
+    multiply(b_19, b_17, b_17)
+    subtract(b_18, b_17, b_18)
+    multiply(I1, b_6, b_17)
+    multiply(b_19, b_17, b_9)
+    multiply(k2, b_2, b_7)
+    subtract(b_9, b_7, b_9)
+    multiply(I3, b_6, b_7)
+    multiply(b_19, b_7, b_7)
+    subtract(b_9, b_7, b_9)
     multiply(I2, b_6, b_6)
     multiply(b_13, b_6, b_6)
-    multiply(k3, b_9, b_9)
-    subtract(b_6, b_9, b_9)
-    multiply(b_13, b_18, b_18)
-    subtract(b_9, b_18, b_9)
-    multiply(b_1, b_7, b_1)
-    multiply(b_10, b_2, b_10)
+    multiply(k3, b_2, b_2)
+    subtract(b_6, b_2, b_6)
+    multiply(b_13, b_17, b_17)
+    subtract(b_6, b_17, b_6)
+    multiply(b_1, b_18, b_1)
+    multiply(b_10, b_9, b_10)
     add(b_1, b_10, b_10)
-    multiply(b_4, b_9, b_4)
+    multiply(b_4, b_6, b_4)
     add(b_10, b_4, b_4)
-    multiply(b_15, b_7, b_15)
-    multiply(b_16, b_2, b_16)
+    multiply(b_15, b_18, b_15)
+    multiply(b_16, b_9, b_16)
     add(b_15, b_16, b_16)
-    multiply(b_20, b_9, b_20)
+    multiply(b_20, b_6, b_20)
     add(b_16, b_20, b_20)
-    multiply(b_14, b_7, b_7)
-    multiply(b_5, b_2, b_5)
-    add(b_7, b_5, b_7)
-    multiply(b_3, b_9, b_9)
-    add(b_7, b_9, b_9)
+    multiply(b_14, b_18, b_18)
+    multiply(b_5, b_9, b_9)
+    add(b_18, b_9, b_9)
+    multiply(b_3, b_6, b_6)
+    add(b_9, b_6, b_9)
     subtract(p1, b_4, r1)
     subtract(p2, b_20, r2)
     subtract(p3, b_9, r3)
-    multiply(b_8, r1, v1)
-    multiply(b_8, r2, v2)
-    multiply(b_8, r3, v3)
     multiply(b_4, b_4, b_4)
     multiply(b_20, b_20, b_20)
     multiply(b_9, b_9, b_9)
     add(b_20, b_9, b_9)
     add(b_4, b_9, b_9)
-    multiply(b_8, b_8, b_8)
-    multiply(b_9, b_8, second)
-    multiply(v1, v1, b_9)
-    multiply(v2, v2, b_8)
+    multiply(b_8, b_8, b_4)
+    multiply(b_9, b_4, second)
+    multiply(b_8, r1, v1)
+    multiply(b_8, r2, v2)
+    multiply(b_8, r3, v3)
+    multiply(v1, v1, b_8)
+    multiply(v2, v2, b_9)
     multiply(v3, v3, b_4)
-    add(b_8, b_4, b_8)
-    add(b_9, b_8, longer)
+    add(b_9, b_4, b_9)
+    add(b_8, b_9, longer)
 
 
 def turn_columns(p0, p1, p2, p3, k1, k2, k3, g1, g2, g3, x1, x2, x3, y1, y2, y3, pool):
@@ -378,7 +380,8 @@ def turn_columns(p0, p1, p2, p3, k1, k2, k3, g1, g2, g3, x1, x2, x3, y1, y2, y3,
     quaternion: p0, p1, p2, p3
     half_momentum: k1, k2, k3
     gamma: g1, g2, g3
-    Writes x1, x2, x3, y1, y2, y3: rows that overlap no other; pool: 6 more.
+    Writes x1, x2, x3, y1, y2, y3: rows that overlap no other, nor an input that is read later;
+    pool: 6 more.
     Operations: 62.
     """
     b_0, b_1, b_2, b_3, b_4, b_5, *_ = pool
@@ -444,3 +447,42 @@ def turn_columns(p0, p1, p2, p3, k1, k2, k3, g1, g2, g3, x1, x2, x3, y1, y2, y3,
     multiply(p2, b_4, b_4)
     subtract(b_5, b_4, b_5)
     multiply(b_2, b_5, y3)
+
+
+def added_columns(total, rest, more, there, over, pool):
+    """A compensated sum: what is there with `more`, and what the roundings have added too much.
+
+    sum: total, rest, more
+    Writes there, over: rows that overlap no other, nor an input that is read later;
+    pool: 2 more.
+    Operations: 4.
+    """
+    b_0, b_1, *_ = pool
+    subtract(more, rest, b_0)
+    add(total, b_0, there)
+    subtract(there, total, b_1)
+    subtract(b_1, b_0, over)
+
+
+def filtered_columns(b, c, d, e, f, h, o, w, n1, n2, n3, n4, n5, n6, n7, n8, pool):
+    """The filter of the Gibbs vector after the newest, w.
+
+    filter: b, c, d, e, f, h, o
+    newest: w
+    Writes n1, n2, n3, n4, n5, n6, n7, n8: rows that overlap no other, nor an input that is read later;
+    pool: 4 more.
+    Operations: 12.
+    """
+    b_0, b_1, b_2, b_3, *_ = pool
+    multiply(w, 8, b_0)
+    add(b, b_0, n1)
+    multiply(w, 28, b_1)
+    subtract(c, b_1, n2)
+    multiply(w, 56, b_2)
+    add(d, b_2, n3)
+    multiply(w, 70, b_3)
+    subtract(e, b_3, n4)
+    add(f, b_2, n5)
+    subtract(h, b_1, n6)
+    add(o, b_0, n7)
+    negative(w, n8)

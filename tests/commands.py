@@ -9,7 +9,6 @@ from unittest import mock
 
 from chapsym.cli import main
 
-
 #: What the first run on a machine says, which a test may be or not.
 FIRST = "chapsym: compiling the map for this processor: some seconds, once\n"
 

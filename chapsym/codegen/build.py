@@ -11,7 +11,7 @@ from typing import Any
 
 import sympy as sp
 
-from . import columns, fixed, pairs, passes, printer
+from . import columns, fixed, ir, pairs, passes, printer
 from .kernels import KERNELS, Kernel
 from .programs import PAIR_PROGRAMS, PROGRAMS, Program
 from .values import (
@@ -141,7 +141,7 @@ def build() -> dict[str, str]:
 @cache
 def texts() -> dict[str, str]:
     """The functions of the kernels that programs call, by name."""
-    wanted = {name for program in ALL_PROGRAMS for name in columns.called(program)}
+    wanted = {name for program in ALL_PROGRAMS for name in ir.called(program)}
     return {kernel.name: code(kernel) for kernel in KERNELS if kernel.name in wanted}
 
 

@@ -1,17 +1,15 @@
 """Programs on fixed-point numbers: Python integers, of which 2^bits is one.
 
-The texts of the kernels that a program calls are put in the place of the calls, and an operation that two of them
-share is done once, as for columns.  A sum of products is added up exactly and shifted once; a quotient and a sum
+A sum of products is added up exactly and shifted once; a quotient and a sum
 of products are rounded down.
 """
 
-import ast
 import hashlib
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 
-from .columns import Texts, Values, called
+from .ir import Folded, Texts, called, claims_of, numbered
 from .kernels import ANY_QUATERNION, CONTACT, FIRST, GAMMA, GIBBS, HALF, INERTIA
 from .programs import Program
 
@@ -60,24 +58,15 @@ class _Text:
     """The assignments of a program, one for each value that is used twice or is a factor, a divisor or an output."""
 
     def __init__(self, program: Program, texts: Texts) -> None:
-        values = _Folded(texts)
-        known = {name: values.number("input", name) for name in program.inputs}
-        values.run(ast.parse(program.text).body, known)
-        self.nodes, outputs = values.nodes, [known[name] for name in program.outputs]
-        needed = set(outputs)
-        for number in reversed(range(len(self.nodes))):
-            if number in needed and not self._leaf(number):
-                needed.update(map(int, self.nodes[number][1:]))
-        self.uses = Counter(outputs)
-        for number in needed:
-            if not self._leaf(number):
+        values = Folded(texts)
+        outputs = numbered(program, values)
+        self.nodes, self.uses = values.nodes, Counter(outputs)
+        for number in values.needed(outputs):
+            if not values.leaf(number):
                 self.uses.update(map(int, self.nodes[number][1:]))
         self.names: dict[int, str] = {}
         self.lines: list[str] = []
         self.outputs = [self.name(number) for number in outputs]
-
-    def _leaf(self, number: int) -> bool:
-        return self.nodes[number][0] in ("input", "constant")
 
     def constant(self, number: int) -> int | None:
         """The integer that a value is, if it is one."""
@@ -125,18 +114,6 @@ class _Text:
         return first[0] + second[0], first[1] + second[1]
 
 
-class _Folded(Values):
-    """Values, with products by 1 left out."""
-
-    def number(self, *node: int | str) -> int:
-        """The number of an input, a constant or an operation; of the other factor of a product by 1."""
-        if node[0] == "multiply":
-            for factor, other in ((node[1], node[2]), (node[2], node[1])):
-                if self.nodes[int(factor)] == ("constant", 1):
-                    return int(other)
-        return super().number(*node)
-
-
 def _negated(terms: list[tuple[str, str]]) -> list[tuple[str, str]]:
     return [("-" if sign == "+" else "+", text) for sign, text in terms]
 
@@ -166,14 +143,13 @@ def code(program: Program, texts: Texts) -> str:
 
 def source(texts: Texts, claims: Mapping[str, Sequence[str]], programs: Sequence[Program] = PROGRAMS) -> str:
     """The text of the module with every program."""
-    kernels = sorted({name for program in programs for name in called(program)})
-    ids = sorted({id for name in kernels for id in claims[name]})
+    kernels, ids = claims_of(programs, claims)
     header = [
         '"""Parts of a step on fixed-point numbers: integers, of which 2^P is one.',
         "",
         "Written by `chapsym codegen`: do not edit; change the derivation and generate again.",
-        f"From the kernels {', '.join(kernels)}.",
-        f"Proved by: {', '.join(ids)}.",
+        f"From the kernels {kernels}.",
+        f"Proved by: {ids}.",
         '"""',
         "",
         "",

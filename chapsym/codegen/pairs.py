@@ -1,6 +1,6 @@
 """Kernels on double-double numbers: every operation of their text is one call of `chapsym.numbers.pairs`.
 
-The text of a program is numbered as for columns, so what two kernels share is done once.  Each value is a float64 or a
+Each value is a float64 or a
 pair of them, by its operands: a product of two floats is exact, a float beside a pair saves half the work.  Inside, the
 operations are the loose ones; what a program returns is normalised, and so is a divisor before the division, and where
 a program says so every sum.
@@ -12,7 +12,7 @@ from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from functools import cache
 
-from .columns import Texts, Values, called
+from .ir import Folded, Texts, called, claims_of, digest, numbered
 from .printer import NotStraightLine
 from .programs import PAIR_PROGRAMS, Program
 
@@ -25,19 +25,6 @@ COST = {
     "two_sum": 6, "two_product": 2, "loose_add": 8, "loose_subtract": 8, "loose_add_float": 7, "loose_multiply": 6,
     "loose_multiply_float": 4, "divide": 19,
 }  # fmt: skip
-
-
-class Folded(Values):
-    """The same without products by 1."""
-
-    def number(self, *node: int | str) -> int:
-        """The number of a value; that of the other factor for a product by 1."""
-        operation, *operands = node
-        if operation == "multiply":
-            for x, other in (operands, operands[::-1]):
-                if self.nodes[int(x)] == ("constant", 1):
-                    return int(other)
-        return super().number(*node)
 
 
 class Printer:
@@ -100,20 +87,13 @@ class Printer:
 def lowered(program: Program, texts: Texts) -> list[str]:
     """The lines of the function's body, up to its return."""
     values = Folded(texts)
-    known = {name: values.number("input", name) for name in program.inputs}
-    values.run(ast.parse(program.text).body, known)
-    outputs = [known[name] for name in program.outputs]
-    needed = set(outputs)
-    for number in reversed(range(len(values.nodes))):
-        operation, *operands = values.nodes[number]
-        if number in needed and operation not in ("input", "constant"):
-            needed |= set(map(int, operands))
+    outputs = numbered(program, values)
     names = dict[int, str]()
     constants = [str(x) for operation, *rest in values.nodes if operation == "constant" for x in rest]
     printer, count = Printer([*program.floats, *constants], program.normal), 0
-    for number in sorted(needed):
+    for number in values.needed(outputs):
         operation, *operands = values.nodes[number]
-        if operation in ("input", "constant"):
+        if values.leaf(number):
             names[number] = str(operands[0])
             continue
         names[number], count = f"t{count}", count + 1
@@ -155,18 +135,16 @@ def code(program: Program, texts: Texts) -> str:
 
 def source(texts: Texts, claims: Mapping[str, Sequence[str]]) -> str:
     """The text of the module with every program."""
-    kernels = sorted({name for program in PROGRAMS for name in called(program)})
-    ids = sorted({id for name in kernels for id in claims[name]})
-    digest = hashlib.sha256("\n".join(p.text for p in PROGRAMS).encode()).hexdigest()
+    kernels, ids = claims_of(PROGRAMS, claims)
     functions = [code(program, texts) for program in PROGRAMS]
     used = [name for name in COST if any(f" {name}(" in text for text in functions)]
     header = [
         '"""The parts of a step on double-double numbers; x and x_ are the halves of x.',
         "",
         "Written by `chapsym codegen`: do not edit; change the derivation and generate again.",
-        f"From the kernels {', '.join(kernels)}.",
-        f"Proved by: {', '.join(ids)}.",
-        f"Programs: sha256 {digest}.",
+        f"From the kernels {kernels}.",
+        f"Proved by: {ids}.",
+        f"Programs: sha256 {digest(PROGRAMS)}.",
         '"""',
         "",
         f"from chapsym.numbers.pairs import {', '.join(sorted(used))}",

@@ -1,10 +1,12 @@
 """What is generated for other numbers than scalars: rounds of a step, as straight-line programs that call kernels.
 
-Those on columns do what `dynamics.gibbs.newton_round`, `second_round` and the two turns of `dynamics.loop` do, in that
-order.  Those on pairs do in double-double what the loop in `dynamics.quad` needs.
+Those on columns take the rounds of the loops from their own text.  Those on pairs do in double-double what
+`quad_loop` needs.
 """
 
+import ast
 from dataclasses import dataclass
+from pathlib import Path
 
 from .kernels import (
     ANY_QUATERNION,
@@ -22,21 +24,51 @@ from .kernels import (
     sp,
 )
 
+#: The loops, of which rounds are taken as they stand.
+_LOOPS = Path(__file__).parents[1] / "dynamics" / "loops"
+
+
+class _Straight(ast.NodeTransformer):
+    """Makes a round a straight line: whole numbers as integers, and nothing of a choice that is not taken."""
+
+    def visit_FunctionDef(self, node: ast.FunctionDef) -> ast.AST:
+        optional = node.args.defaults
+        node.args.args, node.args.defaults = node.args.args[: len(node.args.args) - len(optional)], []
+        return self.generic_visit(node)
+
+    def visit_If(self, node: ast.If) -> list[ast.stmt]:
+        return node.orelse
+
+    def visit_Constant(self, node: ast.Constant) -> ast.Constant:
+        if isinstance(node.value, float) and node.value.is_integer():
+            return ast.copy_location(ast.Constant(int(node.value)), node)
+        return node
+
+
+def _round(file: str, name: str) -> str:
+    """A function of the loops, read and not imported: the loops themselves import what is generated."""
+    tree = ast.parse((_LOOPS / file).read_text(encoding="utf-8"))
+    function = next(node for node in tree.body if isinstance(node, ast.FunctionDef) and node.name == name)
+    return ast.unparse(_Straight().visit(function))
+
+
+#: What programs may call beside kernels.
+ROUNDS = {
+    name: _round(file, name)
+    for file, name in (
+        ("gibbs.py", "newton_round"), ("gibbs.py", "second_round"), ("sums.py", "added"), ("sums.py", "filtered"),
+    )
+}  # fmt: skip
+
 _NEWTON = """
-p0, p1, p2, p3, c11, c12, c13, c21, c22, c23, c31, c32, c33 = gibbs_newton(
+p0, p1, p2, p3, w1, w2, w3, first, d1, d2, d3, c11, c12, c13, c21, c22, c23, c31, c32, c33 = newton_round(
     u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D)
-s = 1 / p0
-w1, w2, w3 = p1 * s, p2 * s, p3 * s
-d1, d2, d3 = w1 - u1, w2 - u2, w3 - u3
 near = u1 * u1 + (u2 * u2 + u3 * u3)
 """
 
 _SECOND = """
-first = d1 * d1 + (d2 * d2 + d3 * d3)
-e1, e2, e3 = gibbs_second(d1, d2, d3, k1, k2, k3, c11, c12, c13, c21, c22, c23, c31, c32, c33, I1, I2, I3)
-r1, r2, r3 = p1 - e1, p2 - e2, p3 - e3
-v1, v2, v3 = r1 * s, r2 * s, r3 * s
-second = (e1 * e1 + (e2 * e2 + e3 * e3)) * (s * s)
+r1, r2, r3, v1, v2, v3, second = second_round(
+    p0, p1, p2, p3, k1, k2, k3, d1, d2, d3, c11, c12, c13, c21, c22, c23, c31, c32, c33, I1, I2, I3)
 longer = v1 * v1 + (v2 * v2 + v3 * v3)
 """
 
@@ -128,6 +160,20 @@ PROGRAMS: tuple[Program, ...] = (
         (ANY_QUATERNION, HALF, GAMMA),
         ("x1", "x2", "x3", "y1", "y2", "y3"),
         _TURNS,
+    ),
+    Program(
+        "added_columns",
+        "A compensated sum: what is there with `more`, and what the roundings have added too much.",
+        (("sum", sp.symbols("total rest more")),),
+        ("there", "over"),
+        "there, over = added(total, rest, more)",
+    ),
+    Program(
+        "filtered_columns",
+        "The filter of the Gibbs vector after the newest, w.",
+        (("filter", sp.symbols("b c d e f h o")), ("newest", sp.symbols("w,"))),
+        ("n1", "n2", "n3", "n4", "n5", "n6", "n7", "n8"),
+        "n1, n2, n3, n4, n5, n6, n7, n8 = filtered(b, c, d, e, f, h, o, w)",
     ),
 )
 

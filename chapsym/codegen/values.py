@@ -7,7 +7,7 @@ from functools import cache
 
 import sympy as sp
 
-from . import columns, fixed, pairs
+from . import columns, fixed, ir, pairs
 from .kernels import Kernel
 from .programs import Program
 
@@ -56,10 +56,10 @@ def _at(name: str) -> Fraction:
     return Fraction(int(value.p), int(value.q))
 
 
-def program_fingerprint(program: Program, texts: columns.Texts) -> list[str]:
+def program_fingerprint(program: Program, texts: ir.Texts) -> list[str]:
     """The values of a program at the rational point, by its own text and those of the kernels."""
-    kernels = {name: _function(name, texts[name]) for name in columns.called(program)}
-    return [decimal(value) for value in columns.values(program, kernels, _at)]
+    kernels = {name: _function(name, texts[name]) for name in ir.called(program)}
+    return [decimal(value) for value in ir.values(program, kernels, _at)]
 
 
 def columns_fingerprint(program: Program, text: str) -> list[str]:

@@ -9,13 +9,20 @@ from typing import Any
 import numpy as np
 from numpy.typing import DTypeLike
 
-from chapsym.generated.columns import POOL, newton_columns, second_columns, turn_columns
+from chapsym.generated.columns import (
+    POOL,
+    added_columns,
+    filtered_columns,
+    newton_columns,
+    second_columns,
+    turn_columns,
+)
 
 from .ball import Floats
 from .loops.block import PATIENCE
-from .loops.gibbs import MOST_ROUNDS, certificate, newton_round, second_round
-from .loops.integrals import PERIOD, VERTICAL, inner, remember
-from .loops.loop import ENOUGH, INTEGRALS, RADIUS, ROWS, SMALLEST, A, D, G, I, J, K, X, safe_rotation
+from .loops.gibbs import MOST_ROUNDS, newton_round, second_round
+from .loops.integrals import PERIOD, give, missing, remember, shares
+from .loops.loop import ENOUGH, INTEGRALS, RADIUS, ROWS, A, D, G, I, K, X, safe_rotation, scaled
 
 #: Balls in a chunk, at most: its rows, about a hundred, stay in the second-level cache.  Longer dot products than
 #: that of three such rows would be shared out to other cores by the BLAS, and wait for them.
@@ -24,8 +31,6 @@ LANES = 2560
 FEW = 4
 #: Doubles in a line of the cache: rows that begin on one are added and multiplied faster.
 LINE = 8
-#: Weights of the filter of `loop.march` that differ.
-WEIGHTS = tuple(np.array(weight) for weight in (8.0, 28.0, 56.0, 70.0))
 NINE = np.array(9.0)
 
 
@@ -85,7 +90,8 @@ class Chunk:
         self.turn = [*P[:4], *S[K : K + 6], *self.Z]
         self.flat = [x.reshape(-1) for x in (S[K : K + 6], S[X : X + 6], self.Z, self.pool[12:18])]
         self.filter = [S[A + i : A + i + 3].reshape(-1) for i in range(0, 24, 3)]
-        self.taps = [self.pool[i : i + 3].reshape(-1) for i in range(0, 12, 3)]
+        self.sixes = [self.pool[i : i + 6].reshape(-1) for i in (0, 6)]
+        self.threes = [self.pool[i : i + 3].reshape(-1) for i in range(0, 12, 3)]
         self.gibbs, self.change = P[4:].reshape(-1), self.d.reshape(-1)
 
     def states(self) -> Floats:
@@ -188,23 +194,9 @@ class Chunk:
         """Turns k and γ of every lane, with compensation, and carries the extrapolation on."""
         turn_columns(*(*self.turn, self.pool))
         vectors, rest, change, there = self.flat
-        np.subtract(change, rest, change)
-        np.add(vectors, change, there)
-        np.subtract(there, vectors, rest)
-        np.subtract(rest, change, rest)
-        np.add(vectors, change, vectors)
-        a, b, c, d, e, f, h, o = self.filter
-        by8, by28, by56, by70 = self.taps
-        for weight, tap in zip(WEIGHTS, self.taps, strict=True):
-            np.multiply(weight, self.gibbs, tap)
-        np.add(b, by8, a)
-        np.subtract(c, by28, b)
-        np.add(d, by56, c)
-        np.subtract(e, by70, d)
-        np.add(f, by56, e)
-        np.subtract(h, by28, f)
-        np.add(o, by8, h)
-        np.negative(self.gibbs, o)
+        added_columns(vectors, rest, change, there, rest, self.sixes)
+        np.copyto(vectors, there)
+        filtered_columns(*self.filter[1:], self.gibbs, *self.filter, self.threes)
 
 
 def search(guess: Floats, S: Floats, rotations: Floats) -> tuple[np.ndarray, Floats]:
@@ -244,37 +236,14 @@ def _squared(u: Any) -> Floats:
 
 def prepare_columns(momentum: Floats, g: Floats, tensor: Floats, contact: Floats, state: Floats, scale: Floats) -> None:
     """`loop.prepare` of every ball of a chunk: (n, 3), (n, 3), (n, 3), (n,) into state (ROWS, n) and scale (n,)."""
-    pairs = tensor[:, [1, 0, 0]] + tensor[:, [2, 2, 1]]
-    exponent = np.frexp(pairs.max(axis=1) + contact)[1]
-    largest = np.abs(momentum).max(axis=1)
-    tiny = (largest > 0.0) & (largest < np.ldexp(SMALLEST, exponent))
-    exponent = np.where(tiny, -1, exponent)
-    state[:] = 0.0
-    state[K : K + 3], state[G : G + 3] = np.ldexp(momentum.T, -exponent - 1), g.T
-    state[J : J + 3], state[D] = np.ldexp(tensor.T, -exponent), np.ldexp(contact, -exponent)
-    state[I : I + 3] = state[[J + 1, J, J]] + state[[J + 2, J + 2, J + 1]]
-    for lane, numbers in enumerate(state[[K, K + 1, K + 2, I, I + 1, I + 2, D]].T.tolist()):
-        state[[RADIUS, ENOUGH], lane] = certificate(*numbers)
-    state[RADIUS, tiny | (state[I : I + 3].min(axis=0) < SMALLEST)] = -1.0
+    one = np.empty(ROWS, state.dtype)
+    for lane, ball in enumerate(zip(momentum, g, tensor, contact, strict=True)):
+        scale[lane] = scaled(*ball, one)
+        state[:, lane] = one
     remember(state)
-    scale[:] = np.ldexp(1.0, exponent + 1)
 
 
 def restore(S: Floats) -> None:
     """`integrals.restore` on every lane."""
-    k1, k2, k3, g1, g2, g3, x1, x2, x3, y1, y2, y3 = S[K : X + 6]
-    one, one_low, h, h_low, n, n_low = S[INTEGRALS : INTEGRALS + 6]
-    unit, _ = inner(g1, g2, g3, -g1, -g2, -g3, one, one_low)
-    height, _ = inner(k1, k2, k3, -g1, -g2, -g3, h, h_low)
-    squared, _ = inner(k1, k2, k3, -k1, -k2, -k3, n, n_low)
-    unit = unit + 2.0 * (g1 * y1 + g2 * y2 + g3 * y3)
-    height = height + ((k1 * y1 + k2 * y2 + k3 * y3) + (g1 * x1 + g2 * x2 + g3 * x3))
-    squared = squared + 2.0 * (k1 * x1 + k2 * x2 + k3 * x3)
-    stretch = 0.5 * unit / one
-    height = height - stretch * h
-    sine = one - h * h / n
-    apart, moving = sine > VERTICAL, n > 0.0
-    along_gamma = np.where(apart, (height - 0.5 * squared * h / n) / sine, 0.0)
-    along_k = np.where(apart, (0.5 * squared - along_gamma * h) / n, 0.5 * squared / n)
-    S[X : X + 3] = np.where(moving, S[X : X + 3] - (along_k * S[K : K + 3] + along_gamma * S[G : G + 3]), S[X : X + 3])
-    S[X + 3 : X + 6] = np.where(moving, S[X + 3 : X + 6] - stretch * S[G : G + 3], S[X + 3 : X + 6])
+    lanes = zip(*missing(S), S[INTEGRALS], S[INTEGRALS + 2], S[INTEGRALS + 4], strict=True)
+    give(S, *np.array([shares(*lane) for lane in lanes]).T)

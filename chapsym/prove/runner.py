@@ -17,7 +17,6 @@ from .claims import Claim, Judgement, register
 from .evidence import Proof, Verdict
 from .records import fingerprint
 
-
 PROOFS = "chapsym.proofs."
 
 
@@ -36,7 +35,9 @@ def load(lemmas: bool = False) -> dict[str, Claim]:
         try:
             importlib.import_module(name)
         except (Exception, SystemExit) as error:
-            raise BrokenScript(f"the proof script {name.removeprefix(PROOFS)} cannot be loaded: {type(error).__name__}: {error}") from error
+            raise BrokenScript(
+                f"the proof script {name.removeprefix(PROOFS)} cannot be loaded: {type(error).__name__}: {error}"
+            ) from error
     claims = register()
     listed = {*proofs.CLAIMS, *proofs.LEMMAS}
     if set(claims) != listed:

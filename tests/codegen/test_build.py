@@ -7,6 +7,7 @@ import shutil
 import subprocess
 import sys
 from fractions import Fraction
+from pathlib import Path
 
 import flint
 import mpmath
@@ -32,6 +33,12 @@ def copy(tmp_path):
 
 def test_what_is_committed_is_what_is_derived():
     assert build.check(build.folder()) == []
+
+
+def test_a_checkout_is_told_from_a_copy(copy):
+    root = Path(build.__file__).parents[2]
+    assert build.is_checkout(build.folder()) == (root / "pyproject.toml").is_file()
+    assert not build.is_checkout(copy)
 
 
 @pytest.mark.parametrize("seed", ["0", "1", "4294967295"])

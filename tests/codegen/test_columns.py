@@ -12,8 +12,9 @@ from chapsym.codegen import build, columns
 from chapsym.codegen.kernels import CONTACT, GAMMA
 from chapsym.codegen.printer import NotStraightLine
 from chapsym.codegen.programs import PROGRAMS, Program
-from chapsym.dynamics.loops import gibbs, loop
+from chapsym.dynamics.loops import gibbs, sums
 from chapsym.generated import columns as generated
+from chapsym.generated import turn
 
 TEXTS = {"twice": "def twice(a):\n    '''2a, and a²'''\n    t = a * a\n    return 2 * a, t\n"}
 
@@ -104,8 +105,21 @@ def test_the_calls_have_the_bits_of_the_scalar_rounds():
         second = gibbs.second_round(p0, p1, p2, p3, *ball[3:6], d1, d2, d3, *cofactors, *ball[9:12])
         longer = second[3] * second[3] + (second[4] * second[4] + second[5] * second[5])
         assert twice[:, i].tolist() == [p0, p1, p2, p3, w1, w2, w3, near, first, *second, longer]
-        both = *loop.turn(p0, p1, p2, p3, *ball[3:6]), *loop.turn(p0, p1, p2, p3, *ball[6:9])
+        both = *turn(p0, p1, p2, p3, *ball[3:6]), *turn(p0, p1, p2, p3, *ball[6:9])
         assert turned[:, i].tolist() == list(both)
+
+
+def test_sums_and_filter_have_the_bits_of_the_loops_in_place():
+    """Each writes over what it has read: the sum over the rest, the filter over what it moves on."""
+    random = np.random.default_rng(4)
+    total, rest, more, there = random.normal(size=(4, 50))
+    filters, w = random.normal(size=(8, 50)), random.normal(size=50)
+    added = [sums.added(*ball) for ball in zip(total, rest, more, strict=True)]
+    moved = [sums.filtered(*ball[1:], x) for ball, x in zip(filters.T, w, strict=True)]
+    generated.added_columns(total, rest, more, there, rest, np.empty((2, 50)))
+    generated.filtered_columns(*filters[1:], w, *filters, np.empty((4, 50)))
+    assert ([there, rest] == np.array(added).T).all()
+    assert (filters == np.array(moved).T).all()
 
 
 def test_shared_values_are_computed_once_and_idle_ones_not():

@@ -251,3 +251,15 @@ def test_a_momentum_beyond_squares_stops_without_a_warning(monkeypatch, recwarn)
     run = chapsym.trajectory(chapsym.Ball((1, 2, 4), 3), [(1e200, 0, 0)] * 2, (2 / 7, 3 / 7, 6 / 7), 5)
     assert (run.status != chapsym.Status.TAKEN).all()
     assert not recwarn.list
+
+
+@pytest.mark.parametrize("precision", ["double", "quad"])
+@pytest.mark.parametrize(("moment", "momentum"), [(1e-200, 1e200), (1e-308, 1.7e308)])
+def test_a_momentum_beyond_every_range_beside_the_ball_has_no_rotation(moment, momentum, precision):
+    """One ball in plain Python, nine compiled or in columns: 𝒦/Λ is beyond float64."""
+    tensor = moment * np.array([1, 1, 1.1])
+    with pytest.raises(StepNotTaken, match="no rotation of this ball"):
+        chapsym.trajectory(Ball(tensor, 0), momentum * GAMMA, GAMMA, 5, precision=precision)
+    run = chapsym.trajectory(Ball([tensor] * 9, 0), [momentum * GAMMA] * 9, GAMMA, 300, precision=precision)
+    assert (run.status == Status.UNREACHABLE).all()
+    assert (run.taken == 0).all()

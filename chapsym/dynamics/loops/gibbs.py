@@ -23,6 +23,8 @@ INSIDE = 0.95
 MOST_ROUNDS = 12
 #: Below this, for Λmax about 1, the squares of |𝒦| or of a determinant leave the range of float64.
 SMALLEST = 2.0**-120
+#: A momentum that is 2^LARGEST times as large as Λmax has no rotation, and is not scaled: it would leave the range.
+LARGEST = 1000
 #: From this D/I_min on a ball is heavy: by a row u loses up to half of D/I_min in ulps, a twelfth in the median.
 HEAVY = 32.0
 

@@ -1,6 +1,7 @@
 """⟨γ,γ⟩, ⟨𝒦,γ⟩ and ⟨𝒦,𝒦⟩ to twice the working precision, and how they are restored without a bias.
 
-Plain scalar Python, so that the same functions run on floats and are compiled by numba.
+Plain scalar Python, so that the same functions run on floats and are compiled by numba; but for `shares`, on the rows
+of a batch as well.
 
 The map turns 𝒦 and γ by one rotation.  Each turn is added with a compensation (Kahan), so that the sums carry
 twice the digits; what the rounding of the rotation itself still adds up is taken back every `PERIOD` steps.
@@ -50,11 +51,8 @@ def shares(unit, height, squared, one, h, n):
     return stretch, 0.5 * squared / n, 0.0
 
 
-def restore(state):
-    """Corrects the compensations state[6:12] so that k and γ, with them, have the integrals in state[12:18] again.
-
-    γ is stretched; k gets the least multiples of k and γ, or of k alone where the two are nearly parallel.
-    """
+def missing(state):
+    """What k and γ, with their compensations state[6:12], are short of the integrals in state[12:18]."""
     k1, k2, k3, g1, g2, g3 = state[0], state[1], state[2], state[3], state[4], state[5]
     x1, x2, x3, y1, y2, y3 = state[6], state[7], state[8], state[9], state[10], state[11]
     unit, _ = inner(g1, g2, g3, -g1, -g2, -g3, state[12], state[13])
@@ -64,10 +62,22 @@ def restore(state):
     unit += 2.0 * (g1 * y1 + g2 * y2 + g3 * y3)
     height += (k1 * y1 + k2 * y2 + k3 * y3) + (g1 * x1 + g2 * x2 + g3 * x3)
     squared += 2.0 * (k1 * x1 + k2 * x2 + k3 * x3)
+    return unit, height, squared
+
+
+def give(state, stretch, along_k, along_gamma):
+    """Takes the `shares` out of the compensations."""
+    for i in range(3):
+        k, g = state[i], state[3 + i]
+        state[6 + i] = state[6 + i] - (along_k * k + along_gamma * g)
+        state[9 + i] = state[9 + i] - stretch * g
+
+
+def restore(state):
+    """Corrects the compensations state[6:12] so that k and γ, with them, have the integrals in state[12:18] again.
+
+    γ is stretched; k gets the least multiples of k and γ, or of k alone where the two are nearly parallel.
+    """
+    unit, height, squared = missing(state)
     stretch, along_k, along_gamma = shares(unit, height, squared, state[12], state[14], state[16])
-    state[6], state[7], state[8] = (
-        x1 - (along_k * k1 + along_gamma * g1),
-        x2 - (along_k * k2 + along_gamma * g2),
-        x3 - (along_k * k3 + along_gamma * g3),
-    )
-    state[9], state[10], state[11] = y1 - stretch * g1, y2 - stretch * g2, y3 - stretch * g3
+    give(state, stretch, along_k, along_gamma)

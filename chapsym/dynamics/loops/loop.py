@@ -5,7 +5,7 @@ from math import frexp, ldexp, sqrt
 from chapsym.generated import centre_step, compose, rotate, transport
 
 from .branch import small_rotation
-from .gibbs import SMALLEST, certificate, search_safely, settle
+from .gibbs import LARGEST, SMALLEST, certificate, search_safely, settle
 from .integrals import PERIOD, remember, restore
 from .sums import filtered, turned
 
@@ -45,17 +45,23 @@ def put(array, at, x, y, z):
 
 
 def prepare(momentum, g, tensor, contact, state):
-    """Writes the state of a ball at the start; returns `scale`, with 𝒦 = scale·k.
+    """Writes the state of a ball at the start; returns `scale`, with 𝒦 = scale·k."""
+    scale = scaled(momentum, g, tensor, contact, state)
+    remember(state)
+    return scale
+
+
+def scaled(momentum, g, tensor, contact, state):
+    """`prepare` but for the integrals.
 
     All is scaled by a power of two, exactly, so that the largest moment of inertia is about 1.
     """
     _, exponent = frexp(max(tensor[1] + tensor[2], tensor[0] + tensor[2], tensor[0] + tensor[1]) + contact)
     largest = max(abs(momentum[0]), abs(momentum[1]), abs(momentum[2]))
-    tiny = 0.0 < largest < ldexp(SMALLEST, exponent)
-    if tiny:
-        exponent = -1  # k = 𝒦: nothing of a subnormal momentum is lost
-    for c in range(ROWS):
-        state[c] = 0.0
+    tiny, huge = 0.0 < largest < ldexp(SMALLEST, exponent), frexp(largest)[1] - exponent > LARGEST
+    if tiny or huge:
+        exponent = -1 if tiny else 0  # k = 𝒦: nothing of a subnormal momentum is lost
+    state[:] = 0.0
     for c in range(3):
         state[K + c] = ldexp(momentum[c], -exponent - 1)
         state[G + c] = g[c]
@@ -65,9 +71,8 @@ def prepare(momentum, g, tensor, contact, state):
     k1, k2, k3 = three(state, K)
     I1, I2, I3 = three(state, I)
     state[RADIUS], state[ENOUGH] = certificate(k1, k2, k3, I1, I2, I3, state[D])
-    if tiny or min(I1, I2, I3) < SMALLEST:
+    if tiny or huge or min(I1, I2, I3) < SMALLEST:
         state[RADIUS] = -1.0  # products of three or four such numbers would underflow: every step takes the safe way
-    remember(state)
     return ldexp(1.0, exponent + 1)
 
 

@@ -1,0 +1,146 @@
+"""The intermediate form of a program: its operations, numbered, from which each backend writes its text.
+
+The texts of the functions that a program calls are put in the place of the calls, and an operation that two of them
+share is done once.
+"""
+
+import ast
+import hashlib
+from collections.abc import Callable, Mapping, Sequence
+from fractions import Fraction
+
+from .printer import NotStraightLine
+from .programs import ROUNDS, Program
+
+OPERATIONS = {ast.Add: "add", ast.Sub: "subtract", ast.Mult: "multiply", ast.Div: "divide"}
+COMMUTATIVE = ("add", "multiply")
+
+Texts = Mapping[str, str]
+#: An operation with the numbers of its operands; ("input", name) or ("constant", integer).
+Node = tuple[str, *tuple[int | str, ...]]
+
+
+class Values:
+    """The values of a program, numbered: the same operation on the same operands is the same value."""
+
+    def __init__(self, texts: Texts) -> None:
+        self.texts, self.nodes = {**texts, **ROUNDS}, list[Node]()
+        self._numbers: dict[Node, int] = {}
+
+    def number(self, *node: int | str) -> int:
+        """The number of an input, a constant or an operation."""
+        operation, *operands = node
+        if operation == "multiply" and ("constant", 2) in (self.nodes[int(x)] for x in operands):
+            other = next((x for x in operands if self.nodes[int(x)] != ("constant", 2)), operands[0])
+            operation, operands = "add", [other, other]  # the same value, and no constant to be read
+        if operation in COMMUTATIVE:
+            operands = sorted(operands, key=int)
+        key: Node = (str(operation), *operands)
+        if key not in self._numbers:
+            self._numbers[key] = len(self.nodes)
+            self.nodes.append(key)
+        return self._numbers[key]
+
+    def run(self, body: Sequence[ast.stmt], known: dict[str, int]) -> list[int]:
+        """Numbers what the statements compute from the names that are known, and adds theirs; what they return."""
+        for statement in body:
+            match statement:
+                case ast.Assign(targets=[ast.Name(id=name)], value=value):
+                    known[name] = self.value(value, known)
+                case ast.Assign(targets=[ast.Tuple(elts=names)], value=value):
+                    several = self.several(value, known)
+                    known.update(zip((n.id for n in names if isinstance(n, ast.Name)), several, strict=True))
+                case ast.Return(value=ast.expr() as value):
+                    return self.several(value, known)
+                case ast.Expr(value=ast.Constant(value=str())):  # a docstring
+                    continue
+                case _:
+                    raise NotStraightLine(f"a program may only assign and return, not {ast.unparse(statement)}")
+        return []
+
+    def several(self, expr: ast.expr, known: dict[str, int]) -> list[int]:
+        """The values of a tuple, or of the call of a kernel."""
+        if not isinstance(expr, ast.Call):
+            return [self.value(e, known) for e in (expr.elts if isinstance(expr, ast.Tuple) else [expr])]
+        name = ast.unparse(expr.func)
+        if name not in self.texts:
+            raise NotStraightLine(f"a program may call kernels, and {name} is none")
+        function = next(s for s in ast.parse(self.texts[name]).body if isinstance(s, ast.FunctionDef))
+        arguments = [self.value(a, known) for a in expr.args]
+        return self.run(function.body, dict(zip((a.arg for a in function.args.args), arguments, strict=True)))
+
+    def value(self, expr: ast.expr, known: dict[str, int]) -> int:
+        """The value of an expression."""
+        match expr:
+            case ast.Name(id=name) if name in known:
+                return known[name]
+            case ast.Constant(value=int() as number):
+                return self.number("constant", number)
+            case ast.UnaryOp(op=ast.USub(), operand=operand):
+                return self.number("negative", self.value(operand, known))
+            case ast.BinOp(left=left, op=op, right=right) if type(op) in OPERATIONS:
+                return self.number(OPERATIONS[type(op)], self.value(left, known), self.value(right, known))
+        raise NotStraightLine(f"{ast.unparse(expr)} is not a known name, an integer or + - * /")
+
+    def needed(self, outputs: Sequence[int]) -> list[int]:
+        """The operations that these values need, in order, and the inputs and constants."""
+        found = set(outputs)
+        for number in reversed(range(len(self.nodes))):
+            if number in found and not self.leaf(number):
+                found.update(map(int, self.nodes[number][1:]))
+        return sorted(found)
+
+    def leaf(self, number: int) -> bool:
+        """Whether a value is an input or a constant."""
+        return self.nodes[number][0] in ("input", "constant")
+
+
+class Folded(Values):
+    """Values, with products by 1 left out."""
+
+    def number(self, *node: int | str) -> int:
+        """The number of an input, a constant or an operation; of the other factor of a product by 1."""
+        if node[0] == "multiply":
+            for factor, other in ((node[1], node[2]), (node[2], node[1])):
+                if self.nodes[int(factor)] == ("constant", 1):
+                    return int(other)
+        return super().number(*node)
+
+
+def numbered(program: Program, values: Values) -> list[int]:
+    """Numbers what a program computes; returns the numbers of its outputs."""
+    known = {name: values.number("input", name) for name in program.inputs}
+    values.run(ast.parse(program.text).body, known)
+    return [known[name] for name in program.outputs]
+
+
+def called(program: Program) -> list[str]:
+    """The kernels that a program calls, or the rounds that it takes."""
+    direct = _calls(program.text)
+    within = (_calls(ROUNDS[name]) for name in direct & ROUNDS.keys())
+    return sorted((direct | set().union(*within)) - ROUNDS.keys())
+
+
+def _calls(text: str) -> set[str]:
+    return {ast.unparse(node.func) for node in ast.walk(ast.parse(text)) if isinstance(node, ast.Call)}
+
+
+def values(program: Program, kernels: Mapping[str, Callable], at: Callable[[str], Fraction]) -> list[Fraction]:
+    """What the outputs of a program should be, at the point that `at` gives: its own text, with functions given."""
+    scope: dict = {**kernels, **{name: at(name) for name in program.inputs}}
+    for text in (*ROUNDS.values(), program.text):
+        exec(compile(text, program.name, "exec"), scope)  # our own text, never a user's
+    return [scope[name] for name in program.outputs]
+
+
+def claims_of(programs: Sequence[Program], claims: Mapping[str, Sequence[str]]) -> tuple[str, str]:
+    """The kernels that programs call, and the claims that prove them, for the header of a module."""
+    kernels = sorted({name for program in programs for name in called(program)})
+    return ", ".join(kernels), ", ".join(sorted({id for name in kernels for id in claims[name]}))
+
+
+def digest(programs: Sequence[Program]) -> str:
+    """The hash of the texts of programs, and of the rounds that they take."""
+    rounds = sorted({name for program in programs for name in _calls(program.text) & ROUNDS.keys()})
+    texts = [*(p.text for p in programs), *(ROUNDS[name] for name in rounds)]
+    return hashlib.sha256("\n".join(texts).encode()).hexdigest()
