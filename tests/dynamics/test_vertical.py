@@ -7,9 +7,8 @@ from hypothesis import strategies as st
 
 import chapsym
 from chapsym import BadInput, Ball, Status, StepNotTaken, step_vertical, testing, trajectory_vertical
-from chapsym.dynamics.closed import vertical
 from chapsym.dynamics.levels import double
-from chapsym.dynamics.loops import vertical_loop
+from chapsym.dynamics.loops import loop
 
 ULP = 2.0**-52
 GAMMA = np.array([2 / 7, 3 / 7, 6 / 7])
@@ -44,7 +43,7 @@ def test_a_trajectory_is_that_of_the_full_map(ball, height):
 @pytest.mark.parametrize("ball", [TOP, BALL], ids=["D=0", "D=3"])
 def test_the_cheap_path_takes_the_steps_of_the_safe_one(ball, monkeypatch):
     cheap = trajectory_vertical(ball, 0.4, GAMMA, 50).gamma
-    monkeypatch.setattr(vertical.gibbs, "certificate", lambda *args: (-1.0, 0.0))
+    monkeypatch.setattr(loop, "certificate", lambda *args: (-1.0, 0.0))
     assert np.abs(trajectory_vertical(ball, 0.4, GAMMA, 50).gamma - cheap).max() <= 200 * ULP
 
 
@@ -53,7 +52,7 @@ def test_the_cheap_path_never_asks_the_safe_one(ball, monkeypatch):
     def refuse(*args):
         raise AssertionError("the safe path was taken")
 
-    monkeypatch.setattr(vertical_loop, "small_rotation", refuse)
+    monkeypatch.setattr(loop, "small_rotation", refuse)
     trajectory_vertical(ball, 0.4, GAMMA, 50)
 
 
@@ -63,8 +62,7 @@ def test_the_closed_form_needs_no_other_path(monkeypatch):
     def refuse(*args):
         raise AssertionError("another path was taken")
 
-    monkeypatch.setattr(vertical_loop, "safe_rotation", refuse)
-    monkeypatch.setattr(vertical_loop, "settle", refuse)
+    monkeypatch.setattr(double, "run", refuse)
     monkeypatch.setattr(double, "SHORT_RUN", 10**9)
     monkeypatch.setattr(double, "_ready", set())
     trajectory_vertical(TOP, 1.0, GAMMA, 20_000, every=20_000)

@@ -7,11 +7,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from chapsym.numbers import NAMED
+
 from ..ball import Ball, Floats, numbers
 from ..errors import BadInput, Status, StepNotTaken
-from ..levels.double import chosen
-from ..loops import gibbs, vertical_loop
-from ..map import Step, batch, explain, unit_vertical
+from ..levels import double, ladder
+from ..loops import loop, vertical_loop
+from ..map import Step, batch, unit_vertical
 from ..trajectories import _count
 
 
@@ -48,24 +50,17 @@ def step_vertical(ball: Ball, height: ArrayLike, gamma: ArrayLike) -> Step:
     height: h = ⟨𝒦,γ⟩ = εH in kg m², shape (...); gamma: unit verticals, (..., 3).  Both broadcast with the balls.
     The step has the momentum hγ.  Raises BadInput and StepNotTaken as `step` does; a batch reports `status`.
     """
-    shape, flat = _flat(ball, height, gamma)
-    g, J, D, h = flat
-    q, verticals = np.full((len(D), 4), np.nan), np.zeros((1, 3))
-    status, reach = np.zeros(len(D), dtype=np.int64), np.ones(len(D))
-    (march,) = chosen((vertical_loop.march,), len(D))
-    for i in range(len(D)):
-        _, status[i], reach[i] = march(*_scaled(g[i], J[i], D[i], h[i]), 0, 1, 2, verticals, q[i])
-    failed = status != Status.TAKEN
-    for i in map(int, np.flatnonzero(failed)):
-        status[i] = explain(status[i], h[i] * g[i], g[i], J[i], D[i])
-    if not shape and failed[0]:
-        raise StepNotTaken(Status(int(status[0])), float(reach[0]))
-    g[failed] = np.nan
-    q /= np.sqrt((q * q).sum(axis=-1, keepdims=True))
+    shape, given = _flat(ball, height, gamma)
+    frames = _taken(given, 1, 1, rotation=True)
+    h, q = given[3], frames.attitude[:, 1]
+    if not shape and frames.status[0] != Status.TAKEN:
+        raise StepNotTaken(Status(int(frames.status[0])), float(frames.reach[0]))
     q *= np.where(q[:, :1] < 0, -1.0, 1.0)
-    gamma_next = g.reshape(*shape, 3)
+    gamma_next = frames.gamma[:, 1].reshape(*shape, 3)
     momentum = h.reshape(shape)[..., np.newaxis] * gamma_next
-    return Step(q.reshape(*shape, 4), momentum, gamma_next, status.reshape(shape), reach.reshape(shape))
+    return Step(
+        q.reshape(*shape, 4), momentum, gamma_next, frames.status.reshape(shape), frames.reach.reshape(shape)
+    )  # fmt: skip
 
 
 def trajectory_vertical(
@@ -79,22 +74,12 @@ def trajectory_vertical(
     """
     steps, every = _count(steps, "steps", 0), _count(every, "every", 1)
     every = min(every, steps + 1)
-    shape, (g, J, D, h) = _flat(ball, height, gamma)
-    frames = steps // every + 1
-    try:
-        verticals = np.full((len(D), frames, 3), np.nan)
-    except (MemoryError, ValueError):
-        raise BadInput(f"{frames} frames of {len(D)} balls do not fit into memory; keep fewer with every=") from None
-    verticals[:, 0] = g
-    taken, status, reach = np.zeros(len(D), dtype=np.int64), np.zeros(len(D), dtype=np.int64), np.ones(len(D))
-    (march,), q = chosen((vertical_loop.march,), steps * len(D)), np.zeros(4)
-    for i in range(len(D)):
-        taken[i], status[i], reach[i] = march(*_scaled(g[i], J[i], D[i], h[i]), 0, steps, every, verticals[i], q)
-        if status[i] != Status.TAKEN:
-            status[i] = explain(status[i], h[i] * g[i], g[i], J[i], D[i])
+    shape, given = _flat(ball, height, gamma)
+    frames = _taken(given, steps, every)
+    taken, status, reach = frames.taken, frames.status, frames.reach
     result = VerticalTrajectory(
-        ball, h.reshape(shape), np.arange(frames) * every, verticals.reshape(*shape, frames, 3),
-        taken.reshape(shape), status.reshape(shape),
+        ball, given[3].reshape(shape), np.arange(steps // every + 1) * every,
+        frames.gamma.reshape(*shape, steps // every + 1, 3), taken.reshape(shape), status.reshape(shape),
     )  # fmt: skip
     if not shape and status[0] != Status.TAKEN:
         kept = result.index <= taken[0]
@@ -116,14 +101,41 @@ def _flat(ball: Ball, height: ArrayLike, gamma: ArrayLike) -> tuple[tuple[int, .
     return shape, [flat, J, D, np.broadcast_to(h, shape).reshape(-1).copy()]
 
 
-def _scaled(g: Floats, J: Floats, D: float, h: float) -> tuple[Floats, Floats, Floats, float, float, float, float]:
-    """γ, and J, D, h scaled by a power of two so that Λmax is about 1; and `gibbs.certificate`."""
-    exponent = int(np.frexp(J.sum() - J.min() + D)[1])
-    with np.errstate(over="ignore"):
-        tensor, contact, height = np.ldexp(J, -exponent), float(np.ldexp(D, -exponent)), float(np.ldexp(h, -exponent))
-    moments = np.array([tensor[1] + tensor[2], tensor[0] + tensor[2], tensor[0] + tensor[1]])
-    first, second, third = map(float, moments)
-    radius, enough = gibbs.certificate(0.5 * height, 0.0, 0.0, first, second, third, contact)
-    if 0.0 < abs(height) < vertical_loop.SMALLEST or moments.min() < vertical_loop.SMALLEST:
-        radius = -1.0  # products of three or four such numbers would underflow: every step takes the safe way
-    return g, tensor, moments, contact, height, radius, enough
+def _taken(given: list[Floats], steps: int, every: int, rotation: bool = False) -> double.Frames:
+    """`steps` steps of every ball: by the closed form where it holds, else by those of the full map.
+
+    rotation: of one step, the rotation as the attitude of frame 1.
+    """
+    g, J, D, h = given
+    rung, body = NAMED["double"], 2 * rotation
+    frames = ladder.frames_for(rung, len(D), steps // every + 1, body)
+    frames.gamma[:, 0] = g
+    others = [i for i in range(len(D)) if not _closed(g[i], J[i], float(D[i]), float(h[i]), steps, every, frames, i)]
+    if others:
+        full = ladder.frames_for(rung, len(others), steps // every + 1, body)
+        balls = double.Balls(h[others, np.newaxis] * g[others], g[others], J[others], D[others], np.zeros(len(others)))
+        full.momentum[:, 0], full.gamma[:, 0], full.attitude[:, :1] = balls.momentum, balls.gamma, [1.0, 0.0, 0.0, 0.0]
+        full.contact[:, :1] = 0.0
+        double.run(balls, steps, every, full, 2, 1, lambda done: None)
+        for name in ("gamma", "attitude", "taken", "status", "reach"):
+            getattr(frames, name)[others] = getattr(full, name)
+    return frames
+
+
+def _closed(g: Floats, J: Floats, D: float, h: float, steps: int, every: int, frames: double.Frames, i: int) -> bool:
+    """Whether the closed form takes every step of the ball i into its frames.
+
+    Lemma `small-branch`: where there is a radius, a root with |q| < q₀ is that of the small-rotation branch.
+    """
+    if D != 0.0:
+        return False
+    state, q = np.empty(loop.ROWS), np.zeros(4)
+    loop.scaled((h, 0.0, 0.0), g, J, D, state)
+    (march,) = double.chosen((vertical_loop.march,), steps * len(frames.taken))
+    k, inertia, radius = state[loop.K], state[loop.I : loop.D], state[loop.RADIUS]
+    if radius < 0.0 or not march(g, inertia, k, steps, every, frames.gamma[i], q):
+        return False
+    frames.taken[i] = steps
+    if frames.with_body:
+        frames.attitude[i, 1] = q / np.sqrt(q @ q)
+    return True
