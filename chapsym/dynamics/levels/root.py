@@ -10,9 +10,9 @@ from collections.abc import Callable, Sequence
 from math import ldexp
 from typing import Any
 
-from chapsym.generated import gibbs_newton
 from chapsym.generated.fixed import cofactors_fixed, residual_fixed
 
+from ..loops.gibbs import newton_round
 from ..loops.sums import WEIGHTS
 
 #: A mantissa that float64's exponents can hold.
@@ -72,13 +72,10 @@ def float_root(guess: Vector, k: Vector, g: Vector, I: Vector, D: float, rounds:
     """A Gibbs vector by Newton's iteration in float64 from a guess, and (∂G/∂u)⁻¹ row by row."""
     u1, u2, u3 = guess
     for _ in range(rounds):
-        det, n1, n2, n3, *cofactors = gibbs_newton(*(u1, u2, u3, *k, *g, *I, D))
-        scale = 1.0 / det
-        w1, w2, w3 = n1 * scale, n2 * scale, n3 * scale
-        change = max(abs(w1 - u1), abs(w2 - u2), abs(w3 - u3))
-        u1, u2, u3 = w1, w2, w3
-        if change <= 1e-7 * max(abs(u1), abs(u2), abs(u3)):
+        det, _, _, _, u1, u2, u3, _, d1, d2, d3, *cofactors = newton_round(*(u1, u2, u3, *k, *g, *I, D))
+        if max(abs(d1), abs(d2), abs(d3)) <= 1e-7 * max(abs(u1), abs(u2), abs(u3)):
             break
+    scale = 1.0 / det
     c11, c12, c13, c21, c22, c23, c31, c32, c33 = cofactors
     return (u1, u2, u3), [c * scale for c in (c11, c21, c31, c12, c22, c32, c13, c23, c33)]
 

@@ -1,13 +1,13 @@
 """Where a step on a high rung starts: the rotation that the continuation finds, in float64 or in mpmath's numbers.
 
 float64 says which branch it is wherever it can.  Where it fails, or might, by the range of its exponents or because D
-is large beside J, the same continuation, the very functions of `branch`, runs on numbers with enough digits.
+is large beside J, the same continuation, the text of `branch` read once more, runs on numbers with enough digits.
 """
 
 import math
 from collections.abc import Callable, Sequence
 from fractions import Fraction
-from types import FunctionType
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -15,6 +15,7 @@ import numpy as np
 from ..errors import Status, StepNotTaken
 from ..loops import branch
 from ..map import explain
+from .retyped import Family
 
 Exact = Sequence[Fraction]
 
@@ -91,15 +92,10 @@ def _on_numbers(K: Exact, g: Exact, J: Exact, D: Fraction, digits: int) -> tuple
 
 
 def on(context: Any) -> Callable[..., tuple]:
-    """`branch.small_rotation` in the numbers of an mpmath context: the same functions with its own limits."""
+    """`branch.small_rotation` in the numbers of an mpmath context, with its own limits."""
     unit = context.ldexp(1, -context.prec)
-    names: dict[str, Any] = {
-        **vars(branch), "frexp": context.frexp, "ldexp": context.ldexp, "sqrt": context.sqrt,
-        "UNIT_ROUNDOFF": unit, "SMALLEST": 0, "LEAST": -math.inf, "SINGULAR": unit * 8,
-    }  # fmt: skip
-    for name, value in vars(branch).items():
-        if isinstance(value, FunctionType) and value.__module__ == branch.__name__:
-            names[name] = FunctionType(value.__code__, names, name, value.__defaults__)
-    follow = names["small_rotation"]
-    follow.__defaults__ = (8 * unit,)  # a step that is shorter is a fold
-    return follow
+    text = Family("mpf", context.mpf).loops(
+        branch, frexp=context.frexp, ldexp=context.ldexp, sqrt=context.sqrt,
+        UNIT_ROUNDOFF=unit, SMALLEST=0, LEAST=-math.inf, SINGULAR=unit * 8,
+    )  # fmt: skip
+    return partial(text.small_rotation, shortest=8 * unit)  # a step that is shorter is a fold

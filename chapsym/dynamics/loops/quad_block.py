@@ -12,8 +12,8 @@ from .block import extrapolated
 from .branch import TAKEN
 from .gibbs import newton_round
 from .integrals import PERIOD
-from .quad_loop import ROWS, D, G, I, J, K, prepare_quad, restore_pairs, write
-from .quad_step import correction, small, solved
+from .quad_loop import ROWS, D, G, I, K, prepare_quad, restore_pairs, stage, write
+from .quad_step import correction, small
 
 #: Balls in a block: its rows stay in the first-level cache.
 LANES = 16
@@ -85,19 +85,16 @@ def corrected(S, P, ok):
 
 
 def mend(S, P, ok, step, taken, status, reach):
-    """The whole of `solved` for the lanes that did not settle; a ball that cannot go on rests from then on."""
+    """The only stage of `quad_loop` for the lanes that did not settle; a ball that cannot go on rests from then on."""
     for i in range(LANES):
         if ok[i] == 1:
             continue
         P[W, i], P[W + 1, i], P[W + 2, i], P[E, i], P[E + 1, i], P[E + 2, i] = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
         if i < len(status) and status[i] == TAKEN:
             s = S[:, i].copy()
-            status[i], reach[i], u1, u1_, u2, u2_, u3, u3_ = solved(
-                s[A], s[A + 1], s[A + 2], s[K], s[K + 1], s[K + 2], s[K + 3], s[K + 4], s[K + 5],
-                s[G], s[G + 1], s[G + 2], s[G + 3], s[G + 4], s[G + 5],
-                s[I], s[I + 1], s[I + 2], s[I + 3], s[I + 4], s[I + 5], s[J], s[J + 1], s[J + 2], s[D],
-                s[RADIUS], s[ENOUGH],
-            )  # fmt: skip
+            status[i], reach[i], u1, u1_, u2, u2_, u3, u3_ = stage(
+                s, 1.0, 0.0, s[RADIUS], s[ENOUGH], s[A:RADIUS].reshape((8, 3))
+            )
             if status[i] == TAKEN:
                 P[W, i], P[W + 1, i], P[W + 2, i], P[E, i], P[E + 1, i], P[E + 2, i] = u1, u2, u3, u1_, u2_, u3_
                 continue
