@@ -69,7 +69,7 @@ def pairs() -> list[Pair]:
     """Every reduction with the full model that it stands for."""
     K, up = EPSILON * MOMENTUM, EPSILON * GAMMA
     equal, many = _ball((1, 1, 1), 0.7), _ball((1, 1, 1), 0.7, BATCH)
-    top, round_top, ball = _ball((0.1, 0.5, 1.6), 0.0), _ball((0.5, 0.5, 1.6), 0.7), _ball((0.1, 0.5, 1.6), 0.7)
+    top, round_top = _ball((0.1, 0.5, 1.6), 0.0), _ball((0.5, 0.5, 1.6), 0.7)
     return [
         Pair("equal J: 𝒦, γ", partial(_steady, equal, K), partial(_full, equal, K)),
         Pair("equal J: with the contact point", partial(_steady, equal, K, contact=True),
@@ -80,7 +80,6 @@ def pairs() -> list[Pair]:
         Pair("top: 𝒦, γ, attitude at once", partial(_top, top, K, attitude=True),
              partial(_full, top, K, attitude=True)),
         Pair("two equal J, vertical 𝒦: at once", partial(_top, round_top, up), partial(_full, round_top, up)),
-        Pair("vertical 𝒦: step by step (G_h)", partial(_vertical, ball, EPSILON, GAMMA), partial(_full, ball, up)),
     ]  # fmt: skip
 
 

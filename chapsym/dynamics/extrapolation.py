@@ -121,15 +121,12 @@ def _scaled(K: Floats, J: Floats, D: float, h: float) -> tuple[Floats, float, in
 
     Returns (state, half, exponent): the state with J, I and D, half a long step in these units, and K's exponent.
     """
-    inertia = J[[1, 0, 0]] + J[[2, 2, 1]]
-    _, size = frexp(float(inertia.max()) + D)
+    state = np.empty(loop.ROWS)
+    _, size = frexp(loop.scaled((0.0, 0.0, 0.0), (0.0, 0.0, 1.0), J, D, state))
     _, exponent = frexp(float(np.abs(K).max()))
-    state = np.zeros(loop.ROWS)
-    state[loop.J : loop.J + 3], state[loop.D] = np.ldexp(J, -size), ldexp(D, -size)
-    state[loop.I : loop.I + 3] = state[[loop.J + 1, loop.J, loop.J]] + state[[loop.J + 2, loop.J + 2, loop.J + 1]]
     K[:] = np.ldexp(K, -exponent)
     mantissa, shift = frexp(0.5 * h)
-    return state, ldexp(mantissa, min(shift + exponent - size, LONGEST)), exponent
+    return state, ldexp(mantissa, min(shift + exponent - (size - 2), LONGEST)), exponent
 
 
 def _count(value: int, name: str, least: int, most: int, told: str) -> None:
