@@ -186,19 +186,3 @@ def increment(curve: Curve, height: ArrayLike, u: ArrayLike) -> Floats:
     if not half.ndim and not settled:
         raise BadInput("no increment was found on the small-rotation branch for this height; take a smaller one")
     return np.asarray(2.0 * half)
-
-
-def squared_sine(curve: Curve, height: ArrayLike, half: ArrayLike) -> Floats:
-    """sn²ū of the mean ū at which the half increment of G_h is δu, by (5.15) as corrected, which is linear in it.
-
-    A value outside [0, 1] says that no step on this curve has this increment.  Raises BadInput for D = 0, where the
-    increment does not tell ū, and on a curve with k = 0 or for δu = 0.
-    """
-    h, delta = numbers(height, "height"), numbers(half, "half")
-    sn, cn, dn = jacobi(delta, curve.modulus, curve.complement)
-    contact = float(curve.ball.D)
-    if contact == 0.0 or curve.modulus == 0.0 or (sn == 0.0).any():
-        raise BadInput("the increment does not tell the point: it needs D > 0, a curve with k > 0 and an increment")
-    w, lam, shape, _ = _parts(curve, sn, cn, dn)
-    scale = 2.0 * w * contact * lam / (2.0 * w - h * curve.rate * shape)
-    return np.asarray((1.0 - scale) / (curve.modulus**2 * sn * sn))

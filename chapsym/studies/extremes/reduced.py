@@ -18,8 +18,6 @@ from .runs import ball_of, chain, promised, starts
 from .steps import beside, refused
 from .truth import State, componentwise, truth, unit_gamma
 
-_AXIS_1 = (1.0, 0.0, 0.0)
-
 
 def _vertical(J: tuple[float, float, float], D: float, g: tuple[float, float, float], share: float) -> State:
     return states.part(J, D, g, g, share)
