@@ -106,8 +106,9 @@ def test_help_shows_an_example_of_each_command():
     assert listing.returncode == 0
     assert chapsym().stdout == listing.stdout
     for command in re.findall(r"^  (\w+)  ", listing.stdout, re.MULTILINE):
-        text = chapsym(command, "--help").stdout
+        text = chapsym(command, "-h").stdout
         assert f"Example: chapsym {command}" in text, command
+        assert not re.search("<[a-z]", text), f"chapsym {command} -h shows a type of Python's"
 
 
 def test_prove_some():

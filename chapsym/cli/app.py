@@ -4,7 +4,7 @@ import io
 import logging
 import os
 import sys
-from typing import Annotated, NoReturn
+from typing import Annotated, Any, NoReturn
 
 import typer
 from typer.exceptions import TyperException
@@ -18,6 +18,7 @@ app = typer.Typer(
     add_completion=False,
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
+    context_settings={"help_option_names": ["-h", "--help"]},
 )
 
 
@@ -36,7 +37,7 @@ def main() -> NoReturn:
     if len(sys.argv) == 1:
         sys.argv.append("--help")
     try:
-        status = typer.main.get_command(app).main(prog_name="chapsym", standalone_mode=False)
+        status = _plain(typer.main.get_command(app)).main(prog_name="chapsym", standalone_mode=False)
         sys.stdout.flush()
         if status == INTERRUPTED:
             fail("interrupted", INTERRUPTED)
@@ -58,6 +59,16 @@ def main() -> NoReturn:
     except OSError as error:
         _silence_output()
         fail(f"the output cannot be written: {error.strerror or error}", 2)
+
+
+def _plain(command: Any) -> Any:
+    """The same command, whose help shows an argument as it is called, without Python's name for its type."""
+    for argument in command.params:
+        if argument.param_type_name == "argument":
+            argument.display_type_rich = lambda ctx: None
+    for one in getattr(command, "commands", {}).values():
+        _plain(one)
+    return command
 
 
 def _abandon_output() -> NoReturn:

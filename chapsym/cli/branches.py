@@ -20,9 +20,11 @@ def branches(
     contact: Contact = None,
     mass: Mass = None,
     radius: Radius = None,
-    digits: Annotated[int | None, typer.Option(min=1, max=100_000, help="Significant digits.")] = None,
-    rung: Annotated[str | None, typer.Option(help="double: IEEE float64, the default.")] = None,
-    ball: Annotated[int | None, typer.Option(min=2, max=1_000_000, help="Bits of an Arb enclosure.")] = None,
+    digits: Annotated[int | None, typer.Option(metavar="N", min=1, max=100_000, help="Significant digits.")] = None,
+    rung: Annotated[str | None, typer.Option(metavar="NAME", help="double: IEEE float64, the default.")] = None,
+    ball: Annotated[
+        int | None, typer.Option(metavar="BITS", min=2, max=1_000_000, help="Bits of an Arb enclosure.")
+    ] = None,
     as_json: Json = False,
 ) -> None:
     """Find every rotation with the given momentum: all branches of the map, by angle, counted exactly.

@@ -12,9 +12,9 @@ from .output import fail, print_json, progress_bar
 
 @app.command()
 def check(
-    states: Annotated[int, typer.Option(min=1, help="States of each stratum.")] = 20,
-    steps: Annotated[int, typer.Option(min=1000, help="Steps of the trajectory.")] = 100_000,
-    seed: Annotated[int, typer.Option(min=0, help="Seed of the states.")] = 20071,
+    states: Annotated[int, typer.Option(metavar="N", min=1, help="States of each stratum.")] = 20,
+    steps: Annotated[int, typer.Option(metavar="N", min=1000, help="Steps of the trajectory.")] = 100_000,
+    seed: Annotated[int, typer.Option(metavar="N", min=0, help="Seed of the states.")] = 20071,
     as_json: Json = False,
 ) -> None:
     """Check the float64 map against an independent mpmath solution of the matrix equation (4.13).

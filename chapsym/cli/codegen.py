@@ -14,7 +14,8 @@ from .prove import all_claims, judged_records
 def codegen(
     check: Annotated[bool, typer.Option("--check", help="Compare with a fresh build; write nothing.")] = False,
     trust: Annotated[
-        list[str] | None, typer.Option(help="Accept the new value of a kernel (or 'all') as its fingerprint.")
+        list[str] | None,
+        typer.Option(metavar="KERNEL", help="Accept the new value of a kernel (or 'all') as its fingerprint."),
     ] = None,
     as_json: Json = False,
 ) -> None:

@@ -20,7 +20,9 @@ def prove(
     as_json: Json = False,
     listing: Annotated[bool, typer.Option("--list", help="List the claims that have a proof.")] = False,
     explain: Annotated[bool, typer.Option("--explain", help="Print the whole argument.")] = False,
-    jobs: Annotated[int | None, typer.Option(min=1, help="Processes; one for each core by default.")] = None,
+    jobs: Annotated[
+        int | None, typer.Option(metavar="N", min=1, help="Processes; one for each core by default.")
+    ] = None,
     kept_in: Records = None,
 ) -> None:
     """Judge the printed claims: run their proofs, side by side, and keep the verdicts.

@@ -20,9 +20,15 @@ def step(
     contact: Contact = None,
     mass: Mass = None,
     radius: Radius = None,
-    digits: Annotated[int | None, typer.Option(min=1, max=100_000, help="Significant digits, by mpmath.")] = None,
-    rung: Annotated[str | None, typer.Option(help="single, double (the default) or quad: 7, 16 or 31 digits.")] = None,
-    ball: Annotated[int | None, typer.Option(min=2, max=1_000_000, help="Bits of an Arb enclosure.")] = None,
+    digits: Annotated[
+        int | None, typer.Option(metavar="N", min=1, max=100_000, help="Significant digits, by mpmath.")
+    ] = None,
+    rung: Annotated[
+        str | None, typer.Option(metavar="NAME", help="single, double (the default) or quad: 7, 16 or 31 digits.")
+    ] = None,
+    ball: Annotated[
+        int | None, typer.Option(metavar="BITS", min=2, max=1_000_000, help="Bits of an Arb enclosure.")
+    ] = None,
     as_json: Json = False,
 ) -> None:
     """Take one step of the map, on the small-rotation branch.

@@ -30,7 +30,8 @@ def trade(
     ] = None,
     time: Annotated[float | None, typer.Option(metavar="T", help="Seconds to roll, with --accuracy.")] = None,
     of: Annotated[
-        str | None, typer.Option(help="contact (metres; the default with a radius) or state (relative).")
+        str | None,
+        typer.Option(metavar="WHAT", help="contact (metres; the default with a radius) or state (relative)."),
     ] = None,
     mass_tensor: MassTensor = None,
     inertia: Inertia = None,
