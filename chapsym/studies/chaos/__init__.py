@@ -6,8 +6,10 @@
 from pathlib import Path
 from typing import Any
 
+from ..energy.figure import write
 from ..energy.section import packed
 from ..units import Report, Unit, run_units
+from .figure import draw_section, draw_shares, share
 
 TITLE = "How much of the map is chaotic"
 #: What each figure shows, in the order in which they are shown.
@@ -78,16 +80,6 @@ def _units(quick: bool) -> list[tuple[str, Unit]]:
     return units
 
 
-def share(counted: int, chaotic: int) -> tuple[float, float, float]:
-    """The share of chaotic orbits with the ends of its 95% interval (Wilson)."""
-    if not counted:
-        return float("nan"), 0.0, 1.0
-    z, p = 1.96, chaotic / counted
-    middle = (p + z * z / (2 * counted)) / (1 + z * z / counted)
-    half = z * ((p * (1 - p) + z * z / (4 * counted)) / counted) ** 0.5 / (1 + z * z / counted)
-    return p, max(0.0, middle - half), min(1.0, middle + half)
-
-
 def sentences(found: dict[str, Any]) -> list[str]:
     """What was found, a line each."""
     told = []
@@ -118,7 +110,4 @@ def sentences(found: dict[str, Any]) -> list[str]:
 
 def save_figures(found: dict[str, Any], folder: Path) -> list[Path]:
     """chaos.svg, the shares, and section.svg, the pictures."""
-    from ..energy.figure import write
-    from .figure import draw_section, draw_shares
-
     return [write(draw_shares(found), folder / "chaos.svg"), write(draw_section(found), folder / "section.svg")]

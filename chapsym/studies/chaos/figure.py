@@ -6,9 +6,18 @@ import numpy as np
 
 from ..energy.continuous import Level
 from ..energy.section import state, unpacked
-from . import share
 
 COLOURS = ("#0072B2", "#009E73", "#D55E00", "#CC79A7")
+
+
+def share(counted: int, chaotic: int) -> tuple[float, float, float]:
+    """The share of chaotic orbits with the ends of its 95% interval (Wilson)."""
+    if not counted:
+        return float("nan"), 0.0, 1.0
+    z, p = 1.96, chaotic / counted
+    middle = (p + z * z / (2 * counted)) / (1 + z * z / counted)
+    half = z * ((p * (1 - p) + z * z / (4 * counted)) / counted) ** 0.5 / (1 + z * z / counted)
+    return p, max(0.0, middle - half), min(1.0, middle + half)
 
 
 def draw_shares(found: dict[str, Any]) -> Any:

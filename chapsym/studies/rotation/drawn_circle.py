@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from .figure import BLUE, COLOURS, GREY, RED, decimal, log10, named, panels, scaled
+from .drawing import BLUE, COLOURS, GREY, RED, decimal, log10, named, panels, scaled
 
 #: Points of a drawn displacement.
 DRAWN = 600

@@ -4,8 +4,8 @@ from typing import Any
 
 import numpy as np
 
+from .drawing import BLUE, COLOURS, GREEN, GREY, RED, decimal, log10, named, panels
 from .drawn_circle import continued
-from .figure import BLUE, COLOURS, GREEN, GREY, RED, decimal, log10, named, panels
 
 #: float64's roundings, beside 1.
 FLOAT64 = -15.95

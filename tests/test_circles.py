@@ -1,0 +1,60 @@
+"""No file of a room imports, lazily or not, one that comes to import it."""
+
+import ast
+from pathlib import Path
+
+import pytest
+
+import chapsym
+
+ROOT = Path(chapsym.__file__).parent
+#: Rooms that still have circles.
+LEFT = {"cli", "dynamics", "scene", "show"}
+ROOMS = sorted({path.name for path in ROOT.iterdir() if (path / "__init__.py").is_file()} - LEFT)
+
+
+def modules(folder, name):
+    """The files of a package by the names of their modules."""
+    found = {}
+    for path in folder.rglob("*.py"):
+        parts = [name, *path.relative_to(folder).with_suffix("").parts]
+        found[".".join(parts[:-1] if parts[-1] == "__init__" else parts)] = path
+    return found
+
+
+def imported(name, path, known):
+    """The modules that a file imports; `from . import x` imports x where that is one of them, else the package."""
+    package = name.split(".") if path.name == "__init__.py" else name.split(".")[:-1]
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            base = ".".join([*package[: len(package) - node.level + 1], *filter(None, [node.module])])
+            module = base if node.level else node.module
+            yield from (x if (x := f"{module}.{alias.name}") in known else module for alias in node.names)
+
+
+def circle(known):
+    """The modules that are left when those that import none of the others are taken away, again and again."""
+    left = {name: set(imported(name, path, known)) - {name} for name, path in known.items()}
+    while free := [name for name, needs in left.items() if not needs & left.keys()]:
+        for name in free:
+            del left[name]
+    return sorted(left)
+
+
+@pytest.mark.parametrize("room", ROOMS)
+def test_no_circle_in_a_room(room):
+    assert circle(modules(ROOT / room, f"chapsym.{room}")) == []
+
+
+def test_a_circle_is_seen(tmp_path):
+    """Of a package with a file that takes a name from it, and of two files, one of which is lazy."""
+    for text, wanted in (
+        (("from .a import x\n", "from . import y\n", ""), ["room", "room.a"]),
+        (("", "def f():\n    from . import b\n", "from .a import f\n"), ["room.a", "room.b"]),
+        (("from .a import x\n", "from . import b\n", "import room.c\n"), []),
+    ):
+        for name, content in zip(("__init__", "a", "b"), text, strict=True):
+            (tmp_path / f"{name}.py").write_text(content, encoding="utf-8")
+        assert circle(modules(tmp_path, "room")) == wanted
