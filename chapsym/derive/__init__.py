@@ -1,0 +1,23 @@
+"""The derivation in SymPy, each object from the one before it: the principle, the ball for every n, three dimensions.
+
+    >>> from chapsym import derive
+    >>> derive.momentum()  # 𝒦(q, γ) of (5.2), in the symbols q0, q1, ..., g1, ..., J1, ..., D
+
+What is exported is what the paper has a number for; the rest of each step lies in the module of its section.
+"""
+
+from .ball import momentum as momentum_n
+from .continuous import angular_velocity, energy
+from .continuous import momentum as angular_momentum
+from .gibbs import residual as gibbs_residual
+from .principle import discrete_constraint, lagrangian, momentum_balance
+from .quotient import Quotient
+from .three import momentum, rotation
+from .vertical import closed_rotation as vertical_rotation
+from .words import WordAlgebra, evaluate, matrix_symbols
+
+__all__ = [
+    "Quotient", "WordAlgebra", "angular_momentum", "angular_velocity", "discrete_constraint", "energy", "evaluate",
+    "gibbs_residual", "lagrangian", "matrix_symbols", "momentum", "momentum_balance", "momentum_n", "rotation",
+    "vertical_rotation",
+]  # fmt: skip
