@@ -2,7 +2,7 @@
 
 Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 From the kernels gibbs_newton, gibbs_second, turn.
-Proved by: gibbs, gibbs-newton, gibbs-rotation.  Operations: 410.
+Proved by: gibbs, gibbs-newton, gibbs-rotation.
 Programs: sha256 11990a0e2a78dfd6d06fdca3f4566f60b0976c2da974f1b21e82e8dc90f529be.
 """
 

@@ -3,6 +3,7 @@
 Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 From the kernels centre_step, compose, gibbs_newton, gibbs_residual, rotate, turn.
 Proved by: 2.1, 4.9, 5.1, gibbs, gibbs-newton, gibbs-rotation.
+Programs: sha256 a004d78e2f354a3e3f0da427f24f4e2adcbfbe363c32ba70aca054e38fc7865f.
 """
 
 

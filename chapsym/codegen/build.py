@@ -7,29 +7,19 @@ import os
 from collections.abc import Callable, Collection, Sequence
 from functools import cache
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 import sympy as sp
 
 from . import columns, fixed, ir, pairs, passes, printer
 from .kernels import KERNELS, Kernel
-from .programs import PAIR_PROGRAMS, PROGRAMS, Program
-from .values import (
-    columns_fingerprint,
-    fingerprint,
-    fixed_fingerprint,
-    program_fingerprint,
-    quad_fingerprint,
-    text_fingerprint,
-)
+from .programs import Program
+from .values import fingerprint, program_fingerprint, target_fingerprint, text_fingerprint
 
-#: The modules that are written from programs: (how, its programs, their values by the text).
-TARGETS: tuple[tuple[Any, Sequence[Program], Callable[[Program, str], list[str]]], ...] = (
-    (columns, PROGRAMS, columns_fingerprint),
-    (pairs, PAIR_PROGRAMS, quad_fingerprint),
-    (fixed, fixed.PROGRAMS, fixed_fingerprint),
-)
-ALL_PROGRAMS = (*PROGRAMS, *PAIR_PROGRAMS, *fixed.PROGRAMS)
+#: What is written from programs, each into a module of its own.
+TARGETS: tuple[ModuleType, ...] = (columns, pairs, fixed)
+ALL_PROGRAMS = tuple(program for target in TARGETS for program in target.PROGRAMS)
 MANIFEST, FINGERPRINTS = "manifest.json", "fingerprints.json"
 MEND = "chapsym codegen"
 
@@ -54,19 +44,13 @@ def code(kernel: Kernel, chosen: Collection[passes.Pass] = passes.PASSES) -> str
     how = printer.Style(products=passes.POWERS in chosen, balanced=passes.BALANCED in chosen)
     # Outputs are named o_... so that an output may share its name with an input (K, in `residual`).
     outputs = [f"o_{name}" for name in kernel.outputs]
-    lines = [
-        f"def {kernel.name}({arguments}):",
-        f'    """{kernel.summary}',
-        "",
-        *(f"    {name}: {', '.join(s.name for s in symbols)}" for name, symbols in kernel.groups),
-        f"    Returns {', '.join(kernel.outputs)}{_shape_note(kernel)}.",
-        '    """',
-    ]
-    lines += ["    # intermediate terms"] if terms else []
-    lines += [f"    {symbol} = {printer.text(expr, how)}" for symbol, expr in terms]
-    lines += ["    # outputs"]
-    lines += [f"    {name} = {printer.text(expr, how)}" for name, expr in zip(outputs, rest, strict=True)]
-    return "\n".join([*lines, f"    return {', '.join(outputs)}", ""])
+    body = ["# intermediate terms"] if terms else []
+    body += [f"{symbol} = {printer.text(expr, how)}" for symbol, expr in terms]
+    body += ["# outputs"]
+    body += [f"{name} = {printer.text(expr, how)}" for name, expr in zip(outputs, rest, strict=True)]
+    body += [f"return {', '.join(outputs)}"]
+    notes = [f"Returns {', '.join(kernel.outputs)}{_shape_note(kernel)}."]
+    return ir.function(kernel.name, kernel.summary, kernel.groups, arguments, notes, body)
 
 
 def source(kernel: Kernel) -> tuple[str, dict]:
@@ -132,8 +116,8 @@ def build() -> dict[str, str]:
         rows[kernel.name] = {**row, "text_sha256": hashlib.sha256(text.encode()).hexdigest()}
     files["__init__.py"] = package_source(KERNELS)
     table = {"sympy": sp.__version__, "kernels": rows}
-    for target, programs, values in TARGETS:
-        files[target.FILE], table[target.KEY] = target_source(target, programs, values)
+    for target in TARGETS:
+        files[target.FILE], table[target.KEY] = target_source(target)
     files[MANIFEST] = json.dumps(table, indent=1, ensure_ascii=False) + "\n"
     return files
 
@@ -145,13 +129,36 @@ def texts() -> dict[str, str]:
     return {kernel.name: code(kernel) for kernel in KERNELS if kernel.name in wanted}
 
 
-def target_source(target: Any, programs: Sequence[Program], values: Callable) -> tuple[str, dict]:
+def target_source(target: ModuleType) -> tuple[str, dict]:
     """A module that is written from programs and its rows of the manifest; raises as `build` does."""
-    text = target.source(texts(), {kernel.name: kernel.claims for kernel in KERNELS})
-    for program in programs:
-        if values(program, text) != program_fingerprint(program, texts()):
+    functions = [target.function(program, texts()) for program in target.PROGRAMS]
+    written, rows = [], {}
+    for p, made in zip(target.PROGRAMS, functions, strict=True):
+        written.append(ir.function(p.name, p.summary, p.groups, made.arguments, made.notes, made.body))
+        rows[p.name] = {
+            "kernels": ir.called(p),
+            "inputs": {name: [s.name for s in symbols] for name, symbols in p.groups},
+            "outputs": list(p.outputs),
+            **made.facts,
+            "text_sha256": hashlib.sha256(written[-1].encode()).hexdigest(),
+        }
+    kernels = sorted({name for program in target.PROGRAMS for name in ir.called(program)})
+    claims = sorted({id for kernel in KERNELS if kernel.name in kernels for id in kernel.claims})
+    header = [
+        f'"""{target.ABOUT}',
+        "",
+        "Written by `chapsym codegen`: do not edit; change the derivation and generate again.",
+        f"From the kernels {', '.join(kernels)}.",
+        f"Proved by: {', '.join(claims)}.",
+        f"Programs: sha256 {ir.digest(target.PROGRAMS)}.",
+        '"""',
+    ]
+    text = "\n\n".join(["\n".join(header), *filter(None, ["\n".join(target.preamble(functions))])])
+    text += "\n\n\n" + "\n\n".join(written)
+    for program in target.PROGRAMS:
+        if target_fingerprint(target, program, text) != program_fingerprint(program, texts()):
             raise ArithmeticError(f"the text of {program.name} does not compute the program")
-    return text, target.manifest(texts())
+    return text, rows
 
 
 @cache
@@ -196,9 +203,9 @@ def check(place: Path) -> list[str]:
 def _value_notes(name: str, text: str) -> list[str]:
     """Whether a changed text still computes the derived values: what is wrong with each of its functions."""
     notes = [_note(name, _same_kernel, k, text) for k in KERNELS if name == f"{k.name}.py"]
-    for target, programs, values in TARGETS:
+    for target in TARGETS:
         if name == target.FILE:
-            notes += [_note(f"{p.name} in {name}", _same_program, p, text, values) for p in programs]
+            notes += [_note(f"{p.name} in {name}", _same_program, target, p, text) for p in target.PROGRAMS]
     return [note for note in notes if note]
 
 
@@ -206,8 +213,8 @@ def _same_kernel(kernel: Kernel, text: str) -> bool:
     return text_fingerprint(kernel, text) == fingerprint(kernel)
 
 
-def _same_program(program: Program, text: str, values: Callable) -> bool:
-    return values(program, text) == program_fingerprint(program, texts())
+def _same_program(target: ModuleType, program: Program, text: str) -> bool:
+    return target_fingerprint(target, program, text) == program_fingerprint(program, texts())
 
 
 def _note(what: str, same: Callable[..., bool], *arguments: Any) -> str:

@@ -5,19 +5,19 @@ waits for.  So a few buffers stay in the cache, where a kernel on whole arrays m
 operations that are left are those of the scalar text, with the same operands: so are the roundings.
 """
 
-import hashlib
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 
 import numpy as np
 
-from .ir import OPERATIONS, Node, Texts, Values, called, claims_of, digest, numbered
+from .ir import OPERATIONS, Function, Node, Texts, Values, numbered
 from .printer import NotStraightLine
-from .programs import PROGRAMS, Program
+from .programs import COLUMN_PROGRAMS, Program
 
-FILE = "columns.py"
-#: Where the manifest has them.
-KEY = "columns"
+#: The module, its key in the manifest, and what it says of itself.
+FILE, KEY = "columns.py", "columns"
+ABOUT = "The rounds of a step on columns of balls: NumPy calls that write into a few buffers."
+PROGRAMS = COLUMN_PROGRAMS
 #: An operation, the names of its operands, and the name of what it writes.
 Instruction = tuple[str, tuple[str, ...], str]
 
@@ -62,64 +62,29 @@ def buffers(instructions: Sequence[Instruction]) -> int:
     return len({target for _, _, target in instructions if target.startswith("b_")})
 
 
-def code(program: Program, texts: Texts) -> str:
+def function(program: Program, texts: Texts) -> Function:
     """The function of a program: inputs, then the rows that it writes, then the pool of buffers."""
     instructions = lowered(program, texts)
     names = [f"b_{i}" for i in range(buffers(instructions))]
-    lines = [
-        f"def {program.name}({', '.join((*program.inputs, *program.outputs))}, pool):",
-        f'    """{program.summary}',
-        "",
-        *(f"    {name}: {', '.join(s.name for s in symbols)}" for name, symbols in program.groups),
-        f"    Writes {', '.join(program.outputs)}: rows that overlap no other, nor an input that is read later;",
-        f"    pool: {len(names)} more.",
-        f"    Operations: {len(instructions)}.",
-        '    """',
-        f"    {', '.join(names)}, *_ = pool",
-        *(f"    {operation}({', '.join((*operands, target))})" for operation, operands, target in instructions),
+    notes = [
+        f"Writes {', '.join(program.outputs)}: rows that overlap no other, nor an input that is read later;",
+        f"pool: {len(names)} more.",
+        f"Operations: {len(instructions)}.",
     ]
-    return "\n".join([*lines, ""])
+    calls = (f"{operation}({', '.join((*operands, target))})" for operation, operands, target in instructions)
+    body = [f"{', '.join(names)}, *_ = pool", *calls]
+    facts = {"operations": len(instructions), "buffers": len(names)}
+    return Function(f"{', '.join((*program.inputs, *program.outputs))}, pool", notes, body, facts)
 
 
-def source(texts: Texts, claims: Mapping[str, Sequence[str]], programs: Sequence[Program] = PROGRAMS) -> str:
-    """The text of the module with every program."""
-    kernels, ids = claims_of(programs, claims)
-    functions = [code(program, texts) for program in programs]
-    count = sum(len(lowered(program, texts)) for program in programs)
-    pool = max(buffers(lowered(program, texts)) for program in programs)
-    header = [
-        '"""The rounds of a step on columns of balls: NumPy calls that write into a few buffers.',
-        "",
-        "Written by `chapsym codegen`: do not edit; change the derivation and generate again.",
-        f"From the kernels {kernels}.",
-        f"Proved by: {ids}.  Operations: {count}.",
-        f"Programs: sha256 {digest(programs)}.",
-        '"""',
-        "",
+def preamble(functions: Sequence[Function]) -> list[str]:
+    """What the module has before the functions."""
+    return [
         f"from numpy import {', '.join(sorted({*OPERATIONS.values(), 'negative'}))}",
         "",
         "#: The rows that the pool must have.",
-        f"POOL = {pool}",
-        "",
-        "",
+        f"POOL = {max(function.facts['buffers'] for function in functions)}",
     ]
-    return "\n".join(header) + "\n" + "\n\n".join(functions)
-
-
-def manifest(texts: Texts, programs: Sequence[Program] = PROGRAMS) -> dict[str, dict]:
-    """The rows of the manifest."""
-    rows = {}
-    for program in programs:
-        instructions = lowered(program, texts)
-        rows[program.name] = {
-            "kernels": called(program),
-            "inputs": {name: [s.name for s in symbols] for name, symbols in program.groups},
-            "outputs": list(program.outputs),
-            "operations": len(instructions),
-            "buffers": buffers(instructions),
-            "text_sha256": hashlib.sha256(code(program, texts).encode()).hexdigest(),
-        }
-    return rows
 
 
 def text_values(program: Program, text: str, at: Callable[[str], Fraction]) -> list[Fraction]:

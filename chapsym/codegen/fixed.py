@@ -4,16 +4,17 @@ A sum of products is added up exactly and shifted once; a quotient and a sum
 of products are rounded down.
 """
 
-import hashlib
 from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 
-from .ir import Folded, Texts, called, claims_of, numbered
+from .ir import Folded, Function, Texts, numbered
 from .kernels import ANY_QUATERNION, CONTACT, FIRST, GAMMA, GIBBS, HALF, INERTIA
 from .programs import Program
 
+#: The module, its key in the manifest, and what it says of itself.
 FILE, KEY = "fixed.py", "fixed"
+ABOUT = "Parts of a step on fixed-point numbers: integers, of which 2^P is one."
 #: The precision at which the text is compared with the program, far beyond the digits that are compared.
 TRIED = 400
 
@@ -125,49 +126,16 @@ def _signed(terms: Sequence[tuple[str, str]]) -> str:
     return " + ".join(positive) + "".join(f" - {text}" for text in negative) if positive else "-" + " - ".join(negative)
 
 
-def code(program: Program, texts: Texts) -> str:
+def function(program: Program, texts: Texts) -> Function:
     """The function of a program: inputs, then the bits P after the binary point."""
     text = _Text(program, texts)
-    lines = [
-        f"def {program.name}({', '.join(program.inputs)}, P):",
-        f'    """{program.summary}',
-        "",
-        *(f"    {name}: {', '.join(s.name for s in symbols)}" for name, symbols in program.groups),
-        f"    Returns {', '.join(program.outputs)}.",
-        '    """',
-        *(f"    {line}" for line in text.lines),
-        f"    return {', '.join(text.outputs)}",
-    ]
-    return "\n".join([*lines, ""])
+    body = [*text.lines, f"return {', '.join(text.outputs)}"]
+    return Function(f"{', '.join(program.inputs)}, P", [f"Returns {', '.join(program.outputs)}."], body, {})
 
 
-def source(texts: Texts, claims: Mapping[str, Sequence[str]], programs: Sequence[Program] = PROGRAMS) -> str:
-    """The text of the module with every program."""
-    kernels, ids = claims_of(programs, claims)
-    header = [
-        '"""Parts of a step on fixed-point numbers: integers, of which 2^P is one.',
-        "",
-        "Written by `chapsym codegen`: do not edit; change the derivation and generate again.",
-        f"From the kernels {kernels}.",
-        f"Proved by: {ids}.",
-        '"""',
-        "",
-        "",
-    ]
-    return "\n".join(header) + "\n" + "\n\n".join(code(program, texts) for program in programs)
-
-
-def manifest(texts: Texts, programs: Sequence[Program] = PROGRAMS) -> dict[str, dict]:
-    """The rows of the manifest."""
-    return {
-        program.name: {
-            "kernels": called(program),
-            "inputs": {name: [s.name for s in symbols] for name, symbols in program.groups},
-            "outputs": list(program.outputs),
-            "text_sha256": hashlib.sha256(code(program, texts).encode()).hexdigest(),
-        }
-        for program in programs
-    }
+def preamble(functions: Sequence[Function]) -> list[str]:
+    """What the module has before the functions: nothing."""
+    return []
 
 
 def text_values(program: Program, text: str, at: Callable[[str], Fraction]) -> list[Fraction]:

@@ -7,8 +7,11 @@ share is done once.
 import ast
 import hashlib
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
+from typing import Any
 
+from .kernels import Group
 from .printer import NotStraightLine
 from .programs import ROUNDS, Program
 
@@ -133,10 +136,29 @@ def values(program: Program, kernels: Mapping[str, Callable], at: Callable[[str]
     return [scope[name] for name in program.outputs]
 
 
-def claims_of(programs: Sequence[Program], claims: Mapping[str, Sequence[str]]) -> tuple[str, str]:
-    """The kernels that programs call, and the claims that prove them, for the header of a module."""
-    kernels = sorted({name for program in programs for name in called(program)})
-    return ", ".join(kernels), ", ".join(sorted({id for name in kernels for id in claims[name]}))
+@dataclass(frozen=True)
+class Function:
+    """What a backend makes of a program: parameters, lines that say more than the groups, the body, and its facts."""
+
+    arguments: str
+    notes: Sequence[str]
+    body: Sequence[str]
+    facts: Mapping[str, Any]
+
+
+def function(
+    name: str, summary: str, groups: Sequence[Group], arguments: str, notes: Sequence[str], body: Sequence[str]
+) -> str:
+    """The text of a generated function."""
+    lines = [
+        f'"""{summary}',
+        "",
+        *(f"{group}: {', '.join(s.name for s in symbols)}" for group, symbols in groups),
+        *notes,
+        '"""',
+        *body,
+    ]
+    return "\n".join([f"def {name}({arguments}):", *(f"    {line}".rstrip() for line in lines), ""])
 
 
 def digest(programs: Sequence[Program]) -> str:

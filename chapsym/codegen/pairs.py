@@ -7,18 +7,17 @@ a program says so every sum.
 """
 
 import ast
-import hashlib
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 from functools import cache
 
-from .ir import Folded, Texts, called, claims_of, digest, numbered
+from .ir import Folded, Function, Texts, numbered
 from .printer import NotStraightLine
 from .programs import PAIR_PROGRAMS, Program
 
-FILE = "quad.py"
-#: Where the manifest has them.
-KEY = "pairs"
+#: The module, its key in the manifest, and what it says of itself.
+FILE, KEY = "quad.py", "pairs"
+ABOUT = "The parts of a step on double-double numbers; x and x_ are the halves of x."
 PROGRAMS = PAIR_PROGRAMS
 #: What a call costs, in float64 operations.
 COST = {
@@ -115,58 +114,20 @@ def arguments(program: Program) -> str:
     return ", ".join(name if name in program.floats else f"{name}, {name}_" for name in program.inputs)
 
 
-def code(program: Program, texts: Texts) -> str:
+def function(program: Program, texts: Texts) -> Function:
     """The function of a program."""
     lines = lowered(program, texts)
     kinds = f"  {', '.join(program.floats)}: float64; the others are pairs." if program.floats else ""
-    body = [
-        f"def {program.name}({arguments(program)}):",
-        f'    """{program.summary}',
-        "",
-        *(f"    {name}: {', '.join(s.name for s in symbols)}" for name, symbols in program.groups),
-        f"    Returns {', '.join(program.outputs)} as normalised pairs.{kinds}",
-        f"    Operations: {flops(lines)}.",
-        '    """',
-        *(f"    {line}" for line in lines),
-        f"    return {', '.join(f'o_{name}, o_{name}_' for name in program.outputs)}",
-    ]
-    return "\n".join([*body, ""])
+    notes = [f"Returns {', '.join(program.outputs)} as normalised pairs.{kinds}", f"Operations: {flops(lines)}."]
+    body = [*lines, f"return {', '.join(f'o_{name}, o_{name}_' for name in program.outputs)}"]
+    facts = {"floats": list(program.floats), "operations": flops(lines)}
+    return Function(arguments(program), notes, body, facts)
 
 
-def source(texts: Texts, claims: Mapping[str, Sequence[str]]) -> str:
-    """The text of the module with every program."""
-    kernels, ids = claims_of(PROGRAMS, claims)
-    functions = [code(program, texts) for program in PROGRAMS]
-    used = [name for name in COST if any(f" {name}(" in text for text in functions)]
-    header = [
-        '"""The parts of a step on double-double numbers; x and x_ are the halves of x.',
-        "",
-        "Written by `chapsym codegen`: do not edit; change the derivation and generate again.",
-        f"From the kernels {kernels}.",
-        f"Proved by: {ids}.",
-        f"Programs: sha256 {digest(PROGRAMS)}.",
-        '"""',
-        "",
-        f"from chapsym.numbers.pairs import {', '.join(sorted(used))}",
-        "",
-        "",
-    ]
-    return "\n".join(header) + "\n" + "\n\n".join(functions)
-
-
-def manifest(texts: Texts) -> dict[str, dict]:
-    """The rows of the manifest."""
-    rows = {}
-    for program in PROGRAMS:
-        rows[program.name] = {
-            "kernels": called(program),
-            "inputs": {name: [s.name for s in symbols] for name, symbols in program.groups},
-            "floats": list(program.floats),
-            "outputs": list(program.outputs),
-            "operations": flops(lowered(program, texts)),
-            "text_sha256": hashlib.sha256(code(program, texts).encode()).hexdigest(),
-        }
-    return rows
+def preamble(functions: Sequence[Function]) -> list[str]:
+    """What the module has before the functions."""
+    calls = {line.partition(" = ")[2].partition("(")[0] for function in functions for line in function.body}
+    return [f"from chapsym.numbers.pairs import {', '.join(sorted(calls & COST.keys()))}"]
 
 
 def _halves(value: Fraction) -> tuple[Fraction, Fraction]:

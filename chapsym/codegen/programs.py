@@ -139,7 +139,7 @@ class Program:
 _ROUND: tuple[Group, ...] = (GIBBS, HALF, GAMMA, INERTIA, CONTACT)
 _ITERATE = ("p0", "p1", "p2", "p3", "w1", "w2", "w3", "near")
 
-PROGRAMS: tuple[Program, ...] = (
+COLUMN_PROGRAMS: tuple[Program, ...] = (
     Program(
         "newton_columns",
         "A Newton iterate as a quaternion p and as a Gibbs vector w; |u|² and d = w - u.",

@@ -4,10 +4,11 @@ import hashlib
 from collections.abc import Callable, Sequence
 from fractions import Fraction
 from functools import cache
+from types import ModuleType
 
 import sympy as sp
 
-from . import columns, fixed, ir, pairs
+from . import ir
 from .kernels import Kernel
 from .programs import Program
 
@@ -62,16 +63,6 @@ def program_fingerprint(program: Program, texts: ir.Texts) -> list[str]:
     return [decimal(value) for value in ir.values(program, kernels, _at)]
 
 
-def columns_fingerprint(program: Program, text: str) -> list[str]:
-    """The same values from the NumPy calls, run on columns of fractions."""
-    return [decimal(value) for value in columns.text_values(program, text, _at)]
-
-
-def quad_fingerprint(program: Program, text: str) -> list[str]:
-    """The same values from the operations on pairs, run on pairs of fractions."""
-    return [decimal(value) for value in pairs.text_values(program, text, _at)]
-
-
-def fixed_fingerprint(program: Program, text: str) -> list[str]:
-    """The same values from the text on integers, which has far more digits than are compared."""
-    return [decimal(value) for value in fixed.text_values(program, text, _at)]
+def target_fingerprint(target: ModuleType, program: Program, text: str) -> list[str]:
+    """The same values from the text of a backend, run on its numbers: columns, pairs or integers of fractions."""
+    return [decimal(value) for value in target.text_values(program, text, _at)]

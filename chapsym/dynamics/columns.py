@@ -196,7 +196,7 @@ class Chunk:
         vectors, rest, change, there = self.flat
         added_columns(vectors, rest, change, there, rest, self.sixes)
         np.copyto(vectors, there)
-        filtered_columns(*self.filter[1:], self.gibbs, *self.filter, self.threes)
+        filtered_columns(*(*self.filter[1:], self.gibbs, *self.filter, self.threes))
 
 
 def search(guess: Floats, S: Floats, rotations: Floats) -> tuple[np.ndarray, Floats]:

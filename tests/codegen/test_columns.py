@@ -11,7 +11,7 @@ import pytest
 from chapsym.codegen import build, columns
 from chapsym.codegen.kernels import CONTACT, GAMMA
 from chapsym.codegen.printer import NotStraightLine
-from chapsym.codegen.programs import PROGRAMS, Program
+from chapsym.codegen.programs import Program
 from chapsym.dynamics.loops import gibbs, sums
 from chapsym.generated import columns as generated
 from chapsym.generated import turn
@@ -36,12 +36,12 @@ def text_of(name):
     return head + "\n\n\n" + next(f for f in functions if f.startswith(f"def {name}("))
 
 
-@pytest.mark.parametrize("program", PROGRAMS, ids=lambda p: p.name)
+@pytest.mark.parametrize("program", columns.PROGRAMS, ids=lambda p: p.name)
 def test_any_changed_operation_or_buffer_changes_the_value(program):
     """Every call in turn: another operation, and another place for what it writes."""
     text = text_of(program.name)
     trusted = build.stored_fingerprints(build.folder())[program.name]
-    assert build.columns_fingerprint(program, text) == trusted
+    assert build.target_fingerprint(columns, program, text) == trusted
     calls = list(re.finditer(r"^    (add|subtract|multiply|divide|negative)\(.*, (\w+)\)$", text, re.MULTILINE))
     assert (
         len(calls) == json.loads((build.folder() / build.MANIFEST).read_text())["columns"][program.name]["operations"]
@@ -50,10 +50,10 @@ def test_any_changed_operation_or_buffer_changes_the_value(program):
     for call in calls:
         if call[1] in other:
             changed = text[: call.start(1)] + other[call[1]] + text[call.end(1) :]
-            assert build.columns_fingerprint(program, changed) != trusted, call[0]
+            assert build.target_fingerprint(columns, program, changed) != trusted, call[0]
         lost = text[: call.start()] + "    pass" + text[call.end() :]
         with contextlib.suppress(TypeError, AttributeError):  # a buffer that nothing wrote is read
-            assert build.columns_fingerprint(program, lost) != trusted, call[0]
+            assert build.target_fingerprint(columns, program, lost) != trusted, call[0]
 
 
 def test_a_changed_line_is_named(copy):

@@ -42,7 +42,7 @@ def test_any_changed_operation_or_half_changes_the_value(program):
     """Every call in turn: another function, and each of its arguments another."""
     text = text_of(program.name)
     trusted = build.stored_fingerprints(build.folder())[program.name]
-    assert build.quad_fingerprint(program, text) == trusted
+    assert build.target_fingerprint(pairs, program, text) == trusted
     other = {"two_sum": "two_product", "two_product": "two_sum", "loose_add": "loose_subtract",
              "loose_subtract": "loose_add", "loose_multiply": "divide", "divide": "loose_multiply",
              "loose_add_float": "loose_multiply_float", "loose_multiply_float": "loose_add_float"}  # fmt: skip
@@ -50,13 +50,13 @@ def test_any_changed_operation_or_half_changes_the_value(program):
     assert len(calls) >= 35
     for call in calls:
         changed = text[: call.start(1)] + other[call[1]] + text[call.end(1) :]
-        assert build.quad_fingerprint(program, changed) != trusted, call[0]
+        assert build.target_fingerprint(pairs, program, changed) != trusted, call[0]
         for i, argument in enumerate(call[2].split(", ")):
             arguments = call[2].split(", ")
             arguments[i] = argument.rstrip("_") if argument.endswith("_") else f"3 * {argument}"
             changed = text[: call.start(2)] + ", ".join(arguments) + text[call.end(2) :]
             if argument != "0":
-                assert build.quad_fingerprint(program, changed) != trusted, (call[0], argument)
+                assert build.target_fingerprint(pairs, program, changed) != trusted, (call[0], argument)
 
 
 def test_a_changed_line_is_named(copy):

@@ -360,11 +360,11 @@ def test_the_guess_continues_polynomials_of_degree_7():
 
 def test_each_stage_has_the_certificate_of_its_own_momentum(monkeypatch):
     monkeypatch.setattr(double, "_ready", set())  # in plain Python
-    seen, honest = [], loop.settle
-    monkeypatch.setattr(loop, "settle", lambda *a: seen.append((*a[3:6], *a[-2:])) or honest(*a))
-    safe, searched = loop.safe_rotation, []
+    seen, honest = [], composed_loop.settle
+    monkeypatch.setattr(composed_loop, "settle", lambda *a: seen.append((*a[3:6], *a[-2:])) or honest(*a))
+    safe, searched = composed_loop.safe_rotation, []
     monkeypatch.setattr(
-        loop,
+        composed_loop,
         "safe_rotation",
         lambda *a: searched.append((*a[-1][:3], a[-1][loop.RADIUS], a[-1][loop.ENOUGH])) or safe(*a),
     )

@@ -48,7 +48,7 @@ SOURCES = (
 #: The functions on the way of every step: a call would cost more than they do.
 INLINED: set[Callable[..., Any]] = {
     *(generated.gibbs_newton, generated.gibbs_second, generated.turn),
-    *(gibbs.newton_round, gibbs.second_round, gibbs.settle, loop.three, loop.put, loop.rotation),
+    *(gibbs.newton_round, gibbs.second_round, gibbs.settle, loop.three, loop.put),
     *(sums.added, sums.turned, sums.filtered, composed_loop.extrapolated, composed_loop.turn_at),
     *(block.predicted, block.corrected, block.unsettled, block.moved, block.turn_at, block.extrapolated),
     *(value for value in vars(pairs).values() if isinstance(value, FunctionType)),

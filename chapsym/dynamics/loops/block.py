@@ -5,9 +5,9 @@ It does to each ball what `loop.march` does, with the same roundings; for numba 
 
 import numpy as np
 
-from .gibbs import newton_round, second_round
+from .gibbs import newton_round, second_round, settle
 from .integrals import PERIOD, restore
-from .loop import ENOUGH, RADIUS, ROWS, A, D, G, I, K, X, prepare, rotation, three
+from .loop import ENOUGH, RADIUS, ROWS, A, D, G, I, K, X, prepare, safe_rotation, three
 from .sums import filtered, turned
 
 #: Balls in a block: its rows stay in the first-level cache.
@@ -89,9 +89,10 @@ def mend(S, P, ok, step, taken, status, reach, balls):
             continue
         if i < balls and status[i] == 0:
             one = S[:, i].copy()
-            status[i], reach[i], p0, p1, p2, p3, w1, w2, w3 = rotation(
-                *three(one, A), *three(one, K), *three(one, G), *three(one, I), *three(one, D), one
+            _, _, _, _, _, u1, u2, u3 = settle(  # type: ignore[call-arg]
+                *three(one, A), *three(one, K), *three(one, G), *three(one, I), one[D], one[RADIUS], one[ENOUGH]
             )
+            status[i], reach[i], p0, p1, p2, p3, w1, w2, w3 = safe_rotation(u1, u2, u3, one)
             if status[i] == 0:
                 P[0, i], P[1, i], P[2, i], P[3, i], P[4, i], P[5, i], P[6, i] = p0, p1, p2, p3, w1, w2, w3
                 continue

@@ -5,8 +5,9 @@ rotation from cᵢ𝒦 and then carries 𝒦 itself: 𝒦 and γ turn rigidly, w
 of the stage i is smooth from step to step, so each stage has an extrapolation of its own.
 """
 
+from .gibbs import settle
 from .integrals import PERIOD, restore
-from .loop import ENOUGH, RADIUS, D, G, I, K, X, follow_body, prepare, put, rotation, three
+from .loop import ENOUGH, RADIUS, D, G, I, K, X, follow_body, prepare, put, safe_rotation, three
 from .sums import filtered, turned
 
 
@@ -43,13 +44,17 @@ def composed_step(state, c, radius, enough, past, with_body, attitude, contact, 
         k1, k2, k3 = three(state, K)
         g1, g2, g3 = three(state, G)
         I1, I2, I3 = three(state, I)
-        status, reach, p0, p1, p2, p3, w1, w2, w3 = rotation(
+        settled, p0, p1, p2, p3, w1, w2, w3 = settle(
             past[i, 0, 0], past[i, 0, 1], past[i, 0, 2], c[i] * k1, c[i] * k2, c[i] * k3, g1, g2, g3,
-            I1, I2, I3, state[D], radius[i], enough[i], state,
+            I1, I2, I3, state[D], radius[i], enough[i],
         )  # fmt: skip
-        if status != 0:
-            return status, reach
-        put(state, K, k1, k2, k3)
+        if not settled:
+            put(state, K, c[i] * k1, c[i] * k2, c[i] * k3)
+            state[RADIUS], state[ENOUGH] = radius[i], enough[i]
+            status, reach, p0, p1, p2, p3, w1, w2, w3 = safe_rotation(w1, w2, w3, state)
+            if status != 0:
+                return status, reach
+            put(state, K, k1, k2, k3)
         extrapolated(past[i], w1, w2, w3)
         if with_body:
             follow_body(p0, p1, p2, p3, g1, g2, g3, attitude, contact, rho)

@@ -8,8 +8,8 @@ from math import sqrt
 
 from chapsym.generated import angular_velocity, compose, turn
 
-from .gibbs import certificate
-from .loop import D, I, J, put, rotation, three
+from .gibbs import certificate, settle
+from .loop import ENOUGH, RADIUS, D, G, I, J, K, put, safe_rotation, three
 
 #: The first column: one step of the map as long as the whole gains little, and may not exist.
 FIRST = 2
@@ -23,16 +23,20 @@ def column(K0, g, half, n, state):
     k1, k2, k3 = half / n * K0[0], half / n * K0[1], half / n * K0[2]
     g1, g2, g3 = three(g, 0)
     I1, I2, I3 = three(state, I)
-    radius, enough = certificate(k1, k2, k3, I1, I2, I3, state[D])
+    state[RADIUS], state[ENOUGH] = certificate(k1, k2, k3, I1, I2, I3, state[D])
     u1, u2, u3 = angular_velocity(k1, k2, k3, g1, g2, g3, state[J], state[J + 1], state[J + 2], state[D])
     v1, v2, v3 = u1, u2, u3  # the Gibbs vector of the step before
     q0, q1, q2, q3 = 1.0, 0.0, 0.0, 0.0
     for _ in range(n):
-        status, reach, p0, p1, p2, p3, w1, w2, w3 = rotation(
-            u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, state[D], radius, enough, state
+        settled, p0, p1, p2, p3, w1, w2, w3 = settle(
+            u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, state[D], state[RADIUS], state[ENOUGH]
         )  # fmt: skip
-        if status != 0:
-            return status, reach, q0, q1, q2, q3
+        if not settled:
+            put(state, K, k1, k2, k3)
+            put(state, G, g1, g2, g3)
+            status, reach, p0, p1, p2, p3, w1, w2, w3 = safe_rotation(w1, w2, w3, state)
+            if status != 0:
+                return status, reach, q0, q1, q2, q3
         d1, d2, d3 = turn(p0, p1, p2, p3, k1, k2, k3)
         k1, k2, k3 = k1 + d1, k2 + d2, k3 + d3
         d1, d2, d3 = turn(p0, p1, p2, p3, g1, g2, g3)

@@ -97,22 +97,6 @@ def safe_rotation(u1, u2, u3, state):
     return status, reach, p0, p1, p2, p3, p1 / p0, p2 / p0, p3 / p0
 
 
-def rotation(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, contact, radius, enough, state):
-    """The rotation of a step from the guess u: by one round, or the safe way, for which the state gets k, γ and bounds.
-
-    Returns as `safe_rotation`.
-    """
-    settled, p0, p1, p2, p3, w1, w2, w3 = settle(
-        u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, contact, radius, enough
-    )  # fmt: skip
-    if settled:
-        return 0, 1.0, p0, p1, p2, p3, w1, w2, w3
-    put(state, K, k1, k2, k3)
-    put(state, G, g1, g2, g3)
-    state[RADIUS], state[ENOUGH] = radius, enough
-    return safe_rotation(w1, w2, w3, state)
-
-
 def follow_body(p0, p1, p2, p3, g1, g2, g3, attitude, contact, radius):
     """Moves the contact point and the attitude by the step with the quaternion p that begins at the vertical g."""
     length = sqrt((p0 * p0 + p1 * p1) + (p2 * p2 + p3 * p3))
@@ -153,11 +137,15 @@ def march(state, first, count, every, scale, momenta, verticals, with_body, atti
         # Up to the next frame, the next restoration, or the end.
         stop = min(last, step + every - step % every, step + PERIOD - step % PERIOD)
         while step < stop:
-            status, reach, p0, p1, p2, p3, w1, w2, w3 = rotation(
-                a1, a2, a3, k1, k2, k3, g1, g2, g3, I1, I2, I3, contact_term, radius, enough, state
+            settled, p0, p1, p2, p3, w1, w2, w3 = settle(
+                a1, a2, a3, k1, k2, k3, g1, g2, g3, I1, I2, I3, contact_term, radius, enough
             )  # fmt: skip
-            if status != 0:
-                break
+            if not settled:
+                put(state, K, k1, k2, k3)
+                put(state, G, g1, g2, g3)
+                status, reach, p0, p1, p2, p3, w1, w2, w3 = safe_rotation(w1, w2, w3, state)
+                if status != 0:
+                    break
             a1, b1, c1, d1, e1, f1, h1, o1 = filtered(b1, c1, d1, e1, f1, h1, o1, w1)
             a2, b2, c2, d2, e2, f2, h2, o2 = filtered(b2, c2, d2, e2, f2, h2, o2, w2)
             a3, b3, c3, d3, e3, f3, h3, o3 = filtered(b3, c3, d3, e3, f3, h3, o3, w3)
