@@ -35,18 +35,20 @@ def march(g, I, k, count, every, verticals, q):
     y1, y2, y3 = 0.0, 0.0, 0.0
     level = vertical_square(g1, g2, g3, I1, I2, I3)
     settled, v = level_root(level, k, level / (I1 * I2 * I3), I1, I2, I3)
+    if not settled:
+        return False
+    p0, p1, p2, p3 = 1.0, 0.0, 0.0, 0.0
     for step in range(1, count + 1):
-        if not settled:
-            return False
         p0, p1, p2, p3 = vertical_rotation(k, v * k * k, g1, g2, g3, I1, I2, I3)
         # The next v from the γ of now, so that nothing waits for it: the level is an integral.
         f, slope = vertical_level(k, v, vertical_square(g1, g2, g3, I1, I2, I3), I1, I2, I3)
         correction = f / slope
-        settled = p1 * p1 + p2 * p2 + p3 * p3 < p0 * p0 and abs(correction) <= ROUNDING * v
+        if not (p1 * p1 + p2 * p2 + p3 * p3 < p0 * p0 and abs(correction) <= ROUNDING * v):
+            return False
         v -= correction
         g1, g2, g3, y1, y2, y3 = turned(p0, p1, p2, p3, g1, g2, g3, y1, y2, y3)
-        q[0], q[1], q[2], q[3] = p0, p1, p2, p3
         if step % every == 0:
             frame = step // every
             verticals[frame, 0], verticals[frame, 1], verticals[frame, 2] = g1, g2, g3
-    return settled
+    q[0], q[1], q[2], q[3] = p0, p1, p2, p3
+    return True
