@@ -13,8 +13,8 @@ from chapsym.dynamics import kernels
 from chapsym.scene.members.members import Members, Parameter
 from chapsym.scene.plan import plan as plans
 from chapsym.scene.plan.plan import planned
+from chapsym.scene.read.task import Task
 from chapsym.scene.running import segments, sweep
-from chapsym.scene.running.task import Task
 
 BALLS, STEPS, EVERY = 20, 330, 10
 UNITS = 20

@@ -46,7 +46,7 @@ def trade(
     quick: Annotated[bool, typer.Option("--quick", help="Fewer and shorter runs.")] = False,
     output: Annotated[
         Path | None,
-        typer.Option("-o", "--output", metavar="FILE", help="A figure; with --accuracy the run, .npz or .csv."),
+        typer.Option("-o", "--output", metavar="FILE", help="A figure; with --accuracy the run, as of chapsym run."),
     ] = None,
     as_json: Json = False,
 ) -> None:
@@ -80,19 +80,28 @@ def _answer(
     """Chooses, runs, verifies, and says what was chosen."""
     from chapsym import scene as scenes
     from chapsym.dynamics import BadInput
-    from chapsym.scene.result.files import check_destination
+    from chapsym.scene.result import formats
+    from chapsym.scene.running import sweep
+    from chapsym.scene.running.source import plan_of
 
     _check_positive({"--accuracy": accuracy, "--time": time, "--limit": limit})
     if scene is None and time is None:
         fail("--accuracy needs --time, in seconds", 2)
     try:
         if output is not None:
-            check_destination(output)
+            formats.check_destination(output)
         wanted = scenes.load_for(scene, accuracy, time) if scene else _described(accuracy, time, told)
         changed = {"limit": limit, **({"of": told["--of"]} if "--of" in told else {})}
-        answer = scenes.run_accurately(wanted.with_run(**changed), say)
-        if output is not None:
-            scenes.save(answer.trajectory, output)
+        plan, answers = sweep.telling(plan_of(wanted.with_run(**changed)), say)
+        if len(plan.members) > 1:
+            fail(f"{scene} has {len(plan.members)} balls: chapsym run takes them, with accuracy under [run]", 2)
+        if output is not None and output.suffix == ".zarr":
+            sweep.run_to_store(plan, output)
+        else:
+            data = sweep.run_in_memory(plan)
+            if output is not None:
+                formats.save(data, output)
+        answer = answers[0]
     except BadInput as error:
         quiet()
         fail(_in_options(str(error), scene is None), 2)

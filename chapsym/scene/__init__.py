@@ -1,7 +1,6 @@
 """A scene file: what to roll, from where, for how long, and where to write it."""
 
-from .read.scene import Scene, SceneError, checked, load, load_for, run
-from .result.files import save
-from .running.accurate import run_accurately
+from .read.errors import SceneError
+from .read.scene import Scene, checked, load, load_for
 
-__all__ = ["Scene", "SceneError", "checked", "load", "load_for", "run", "run_accurately", "save"]
+__all__ = ["Scene", "SceneError", "checked", "load", "load_for"]

@@ -34,7 +34,7 @@ def opened(path: Path) -> "Dataset":
 
 
 def save(dataset: "Dataset", path: Path) -> None:
-    """Writes a result whole, to .zarr (a new one), .nc, .csv or .parquet; raises SceneError if the disk refuses."""
+    """Writes a result whole, as `formats.save`, or to a new .zarr; raises SceneError if the disk refuses."""
     from chapsym.scene.result import formats
 
     if path.suffix != ".zarr":

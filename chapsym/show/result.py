@@ -58,7 +58,7 @@ class Result:
         webbrowser.open(folder.as_uri())
 
     def save(self, path: str | Path) -> None:
-        """Writes the result to .zarr, .nc, .csv or .parquet, whole; raises SceneError if the disk refuses."""
+        """Writes the result to .zarr, .nc, .csv, .parquet or .npz, whole; raises SceneError if the disk refuses."""
         from .opening import save
 
         save(self.dataset, Path(path))

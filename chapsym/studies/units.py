@@ -4,22 +4,22 @@ A unit is a function of a module and its arguments, as plain data; its result is
 of a JSON Lines file, so that a killed study loses only the units that were in flight.
 """
 
+import ast
 import hashlib
 import json
-import multiprocessing
 import os
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from dataclasses import dataclass, field
-from functools import cache, partial
+from functools import cache
 from importlib import import_module
+from importlib.util import find_spec, resolve_name
 from pathlib import Path
 from typing import Any
 
 import chapsym
-from chapsym import files, workers
+from chapsym import jobs
 from chapsym.dynamics import BadInput
 from chapsym.dynamics.levels.double import cores
 
@@ -36,25 +36,60 @@ class Unit:
 
     @property
     def key(self) -> str:
-        """What its result depends on: the call, the version of chapsym, and the sources beside the function."""
-        made_by = [chapsym.__version__, _sources(self.function.partition(":")[0]), self.function]
+        """What its result depends on: the call, the version of chapsym, and the sources that it is made of."""
+        made_by = [chapsym.__version__, sources(self.function.partition(":")[0]), self.function]
         return json.dumps([*made_by, self.arguments], sort_keys=True, ensure_ascii=False)
 
 
 @cache
-def _sources(module: str) -> str:
-    """A hash of the folder that a module is in; empty for one that is in no file."""
-    file = getattr(import_module(module), "__file__", None)
-    if file is None:
+def sources(module: str) -> str:
+    """A hash of a module, of those of its package, and of all of chapsym that these import; empty without a file."""
+    spec = find_spec(module)
+    if spec is None or not spec.has_location:
         return ""
+    path = Path(str(spec.origin))
+    package = module if spec.submodule_search_locations else module.rpartition(".")[0]
+    waiting = {f"{package}.{one.stem}": one for one in path.parent.glob("*.py")} if package else {module: path}
+    files: dict[str, Path] = {}
+    while waiting:
+        name, path = waiting.popitem()
+        files[name] = path
+        imported = _files(_imported(ast.parse(path.read_bytes()), name.rpartition(".")[0]))
+        waiting |= {one: imported[one] for one in imported.keys() - files.keys()}
     digest = hashlib.sha256()
-    for path in sorted(Path(file).parent.glob("*.py")):
-        digest.update(path.name.encode() + b"\n" + path.read_bytes())
+    for name in sorted(files):
+        digest.update(name.encode() + b"\n" + files[name].read_bytes())
     return digest.hexdigest()[:16]
 
 
-def compute(function: str, arguments: dict[str, Any]) -> Any:
-    """The result of a unit."""
+def _imported(tree: ast.Module, package: str) -> set[str]:
+    """What a file of a package imports, at the top and inside functions, and the packages around that."""
+    found: set[str] = set()
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import):
+            found |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom):
+            base = resolve_name("." * node.level + (node.module or ""), package)
+            found |= {f"{base}.{alias.name}" for alias in node.names}
+    return {".".join(name.split(".")[:end]) for name in found for end in range(1, name.count(".") + 2)}
+
+
+def _files(names: set[str]) -> dict[str, Path]:
+    """Those of the names that are modules of chapsym, with their files; a package is its `__init__`."""
+    found = {}
+    for name in names:
+        path = Path(str(chapsym.__file__)).parents[1].joinpath(*name.split("."))
+        if name.partition(".")[0] == "chapsym" and path.with_suffix(".py").is_file():
+            found[name] = path.with_suffix(".py")
+        elif name.partition(".")[0] == "chapsym" and (path / "__init__.py").is_file():
+            found[f"{name}.__init__"] = path / "__init__.py"
+    return found
+
+
+def compute(function: str, arguments: dict[str, Any], key: str) -> Any:
+    """The result of a unit, of which `key` tells the sources: in another process these must be the same."""
+    if Unit(function, arguments).key != key:
+        raise BadInput(f"a worker has another chapsym ({chapsym.__version__}): give all the same")
     module, name = function.split(":")
     return getattr(import_module(module), name)(**arguments)
 
@@ -69,28 +104,58 @@ def run_units(
 
     path: a JSON Lines file that is made or gone on with; None keeps nothing.  The address of a Dask scheduler takes
     them to its workers, else all cores of this machine work.  report: called with the number of those done, and of all.
-    Raises BadInput if the file is not one of results, if a unit fails, and if the cluster is lost; what was done by
-    then is kept.
+    Raises BadInput if the file is not one of results, or if another process writes it; if a unit fails, and if the
+    cluster is lost; what was done by then is kept.
     """
-    done = _kept(path)
-    missing = {unit.key: unit for unit in units if unit.key not in done}
-    finished = sum(unit.key in done for unit in units)
-    report(finished, len(units))
-    arrivals = _local(list(missing.values())) if scheduler is None else _remote(list(missing.values()), scheduler)
-    with _lines(path) as keep:
-        for unit, result in arrivals:
-            done[unit.key] = result
-            keep({"key": unit.key, "result": result})
-            finished += 1
-            report(finished, len(units))
-    return [done[unit.key] for unit in units]
+    with _kept(path) as (done, keep):
+        keys = [unit.key for unit in units]
+        missing = {key: unit for key, unit in zip(keys, units, strict=True) if key not in done}
+
+        def tell() -> None:
+            report(sum(key in done for key in keys), len(units))
+
+        def chain(key: str, unit: Unit) -> jobs.Chain:
+            try:
+                done[key] = yield jobs.Call(compute, (unit.function, unit.arguments, key))
+            except (BrokenProcessPool, jobs.Lost):
+                raise BadInput(f"a process that computed {_name(unit)} was killed; the same command goes on") from None
+            except Exception as error:
+                raise BadInput(f"{_name(unit)}: {error}") from error
+            keep({"key": key, "result": done[key]})
+            tell()
+
+        tell()
+        if missing:
+            abreast = min(cores(), len(missing))
+            with jobs.processes(abreast) if scheduler is None else jobs.workers(scheduler) as crew:
+                jobs.run((chain(key, unit) for key, unit in missing.items()), crew)
+        return [done[key] for key in keys]
 
 
-def _kept(path: Path | None) -> dict[str, Any]:
-    """The results that a file has.  A last line without its end was cut off when its writer was killed."""
-    if path is None or not path.exists():
-        return {}
-    text = _text(path)
+@contextmanager
+def _kept(path: Path | None) -> Iterator[tuple[dict[str, Any], Callable[[dict[str, Any]], None]]]:
+    """The results that a file has, and what appends a record to it, flushed; it is locked meanwhile."""
+    if path is None:
+        yield {}, lambda record: None
+        return
+    with _written(lambda: path.open("a+", encoding="utf-8", newline="")) as stream:
+        jobs.claim(stream, str(path))
+        done = _read(stream, path)
+
+        def keep(record: dict[str, Any]) -> None:
+            line = json.dumps(record, ensure_ascii=False, allow_nan=False) + "\n"
+            _written(lambda: (stream.write(line), stream.flush()))
+
+        yield done, keep
+
+
+def _read(stream: Any, path: Path) -> dict[str, Any]:
+    """The results in an open file.  A last line without its end was cut off when its writer was killed, and goes."""
+    try:
+        stream.seek(0)
+        text = stream.read()
+    except (OSError, UnicodeDecodeError) as error:
+        raise BadInput(f"{path} cannot be read as results of a study: {error}") from None
     whole = text[: text.rfind("\n") + 1]
     found = {}
     for number, line in enumerate(whole.splitlines(), start=1):
@@ -102,104 +167,20 @@ def _kept(path: Path | None) -> dict[str, Any]:
                 f"line {number} of {path} is no result of a study; name another folder, or delete the file"
             ) from None
     if whole != text:
-        _written(lambda: files.write_whole(path, lambda stream: stream.write(whole.encode())))
+        _written(lambda: stream.truncate(len(whole.encode())))
     return found
-
-
-def _text(path: Path) -> str:
-    try:
-        return path.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        raise BadInput(f"{path} cannot be read as results of a study: {error}") from None
 
 
 def _written(write: Callable[[], Any]) -> Any:
     try:
         return write()
-    except files.CannotWrite as error:
-        raise BadInput(str(error)) from None
     except OSError as error:
         raise BadInput(f"{error.filename or 'the results'} cannot be written: {error.strerror or error}") from None
-
-
-@contextmanager
-def _lines(path: Path | None) -> Iterator[Callable[[dict[str, Any]], None]]:
-    """Yields what appends a record to a file, flushed; to nothing without one."""
-    if path is None:
-        yield lambda record: None
-        return
-    stream = _written(lambda: path.open("a", encoding="utf-8"))
-
-    def keep(record: dict[str, Any]) -> None:
-        line = json.dumps(record, ensure_ascii=False, allow_nan=False) + "\n"
-        _written(lambda: (stream.write(line), stream.flush()))
-
-    with stream:
-        yield keep
-
-
-def _local(units: list[Unit]) -> Iterator[tuple[Unit, Any]]:
-    """Results as they come, from one process for each core; in this one where there is one unit or one core."""
-    abreast = min(cores(), len(units))
-    if abreast <= 1:
-        for unit in units:
-            yield unit, _checked(unit, partial(compute, unit.function, unit.arguments))
-        return
-    # A child is not forked: numba's threads and Arb's precision are of a process.
-    context = multiprocessing.get_context("spawn")
-    pool = ProcessPoolExecutor(abreast, context, initializer=workers.begin)
-    try:
-        flying = {pool.submit(compute, unit.function, unit.arguments): unit for unit in units}
-        for future in as_completed(flying):
-            yield flying[future], _checked(flying[future], future.result)
-    finally:
-        children = list((pool._processes or {}).values())  # the pool forgets them at its shutdown
-        pool.shutdown(wait=False, cancel_futures=True)
-        for process in children:
-            if process.is_alive():
-                process.terminate()
-
-
-def _checked(unit: Unit, result: Callable[[], Any]) -> Any:
-    """The result, or a sentence about the unit that has none."""
-    try:
-        return result()
-    except BrokenProcessPool:
-        raise BadInput(f"a process that computed {_name(unit)} was killed; the same command goes on") from None
-    except Exception as error:
-        raise BadInput(f"{_name(unit)}: {error}") from error
 
 
 def _name(unit: Unit) -> str:
     told = ", ".join(f"{name} = {value}" for name, value in unit.arguments.items())
     return f"{unit.function.rpartition(':')[2]}({told})"
-
-
-def _remote(units: list[Unit], address: str) -> Iterator[tuple[Unit, Any]]:
-    """Results as they come, from the workers of a Dask scheduler."""
-    from distributed import as_completed as arriving
-
-    from chapsym.scene.running.cluster import connected
-
-    if not units:
-        return
-    with connected(address) as client:
-        if not client.nthreads():
-            raise BadInput(f"the Dask scheduler at {address} has no workers")
-        here = chapsym.__version__
-        for worker, there in client.run(_version).items():
-            if there != here:
-                raise BadInput(f"the worker {worker} has chapsym {there}, and {here} is here: give all the same")
-        flying = {client.submit(compute, unit.function, unit.arguments, pure=False): unit for unit in units}
-        try:
-            for future in arriving(flying):
-                yield flying[future], _checked(flying[future], future.result)
-        finally:
-            client.cancel(list(flying), force=True)
-
-
-def _version() -> str:
-    return str(chapsym.__version__)
 
 
 def folder(path: Path) -> Path:

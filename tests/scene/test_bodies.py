@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from chapsym import BadInput
 from chapsym.dynamics import kernels
-from chapsym.scene.members.bodies import PRESETS, check_inside, from_inertia_tensor, principal
+from chapsym.scene.read.bodies import PRESETS, check_inside, from_inertia_tensor, principal
 
 EPS = np.finfo(np.float64).eps
 

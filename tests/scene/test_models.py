@@ -14,7 +14,7 @@ from chapsym.scene.members.members import Members
 from chapsym.scene.plan.models import Rolling, Steady, Top, Vertical
 from chapsym.scene.plan.models import vertical as models_vertical
 from chapsym.scene.plan.plan import planned
-from chapsym.scene.running.task import Task
+from chapsym.scene.read.task import Task
 
 EPS = 2.0**-53
 COLUMNS = ("momentum", "gamma", "attitude", "contact")

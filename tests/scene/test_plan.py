@@ -10,13 +10,14 @@ import chapsym
 from chapsym.dynamics import Status, kernels
 from chapsym.dynamics.levels import double
 from chapsym.generated import TABLE
+from chapsym.scene.members.members import Members
 from chapsym.scene.plan import cost
 from chapsym.scene.plan import plan as plans
 from chapsym.scene.plan.models import MODELS, Rolling
-from chapsym.scene.plan.outputs import OUTPUTS, PER_BALL, columns_for
 from chapsym.scene.plan.plan import planned
-from chapsym.scene.running import segments
-from chapsym.scene.running.task import Task
+from chapsym.scene.read.outputs import OUTPUTS, K, Output, columns_for, timed
+from chapsym.scene.read.task import Task
+from chapsym.scene.running import segments, sweep
 
 STATE = ("momentum", "gamma", "attitude", "contact", "omega", "energy", "integrals")
 
@@ -110,12 +111,55 @@ def test_the_units_of_work_hold_each_ball_and_frame_once(members, monkeypatch):
 def test_models_name_kernels_that_there_are_and_columns_that_are_outputs(model):
     assert {kernel for of in model.kernels.values() for kernel in of} <= set(TABLE)
     assert set(model.kernels) <= model.columns
-    assert model.columns <= {column for output in OUTPUTS.values() for column in output.needs}
+    assert model.columns <= {name for name, output in OUTPUTS.items() if output.derive is None}
 
 
 def test_outputs_name_kernels_that_there_are():
     assert {kernel for output in OUTPUTS.values() for kernel in output.kernels} <= set(TABLE)
-    assert set(OUTPUTS) >= PER_BALL
+
+
+@pytest.mark.parametrize("name", OUTPUTS)
+def test_what_an_output_is_made_of_is_there(name):
+    one = OUTPUTS[name]
+    assert one.needs <= {*OUTPUTS, K}
+    assert one.with_D <= one.needs
+    assert bool(one.needs) == (one.derive is not None)
+    units = one.attrs(3, chosen=False)["units"]
+    assert timed(name) == any(part.startswith(("s", "J", "W")) for part in units.split())
+
+
+def test_an_output_is_added_by_one_record(members, monkeypatch):
+    """⟨ω,γ⟩, which models are not known to: its unit, its columns, and that it needs times, are of its record."""
+    spin = Output(
+        "spin ⟨ω,γ⟩", "rad s-1", needs=frozenset({"omega", "gamma"}),
+        derive=lambda J, D, given: (given["omega"] * given["gamma"]).sum(axis=-1),
+    )  # fmt: skip
+    monkeypatch.setitem(OUTPUTS, "spin", spin)
+    with pytest.raises(chapsym.BadInput, match=r"spin needs run\.time_step, in seconds"):
+        planned(members(), Task(("spin",), 5))
+    plan = planned(members(), Task(("spin", "omega", "gamma"), 20, 1, 0.01))
+    assert plan.needed == {"momentum", "gamma"}
+    assert "angular_velocity" in plan.kernels()
+    data = sweep.run_in_memory(plan)
+    assert data.spin.dims == ("ball", "frame")
+    assert data.spin.attrs == {"units": "rad s-1", "long_name": "spin ⟨ω,γ⟩"}
+    assert (data.spin.values == (data.omega.values * data.gamma.values).sum(axis=-1)).all()
+    assert "spin" in cost.full(plan).task.outputs
+    turned = replace(members(), axes=np.array([[0.5, 0.5, 0.5, 0.5]] * 3))
+    also = sweep.run_in_memory(planned(turned, Task(("spin",), 20, 1, 0.01)))
+    assert (also.spin.values == data.spin.values).all()
+    faster = members()
+    faster.momentum[0] *= 26.25
+    stopped = sweep.run_in_memory(planned(faster, Task(("spin",), 50, 5, 0.01))).spin.values
+    assert np.isnan(stopped[0, 8:]).all()
+    assert not np.isnan(stopped[1:]).any()
+
+
+def test_an_output_of_three_dimensions_is_refused_in_four(monkeypatch):
+    ball = chapsym.BallN(np.array([[1.0, 2.0, 3.0, 4.0]]), np.array([3.0]))
+    four = Members(("1",), ball, np.zeros((1, 4, 4)), np.array([[0.0, 0.0, 0.0, 1.0]]))
+    with pytest.raises(chapsym.BadInput, match="energy is known in three dimensions only"):
+        planned(four, Task(("energy",), 5, 1, 0.01))
 
 
 @pytest.mark.parametrize(

@@ -19,8 +19,9 @@ from waiting import GUARD, until
 
 from chapsym.dynamics import BadInput, Status
 from chapsym.scene import SceneError
+from chapsym.scene.result.group import is_store
 from chapsym.scene.running import segments, sweep
-from chapsym.scene.running.store import Store, is_store, marks, write_region
+from chapsym.scene.running.store import Store, marks, write_region
 from chapsym.scene.running.store.refusals import refusals
 from chapsym.scene.running.tally import Stopped
 
@@ -253,7 +254,7 @@ def test_the_second_writer_is_told_who_writes(whole, tmp_path):
     with child(path, 0, most=0) as running:
         until(lambda: is_store(path) and lock.exists() and lock.read_text(), running)
         for fresh in (False, True):
-            with pytest.raises(SceneError, match=f"is being written by process {running.pid} on "):
+            with pytest.raises(BadInput, match=f"is being written by process {running.pid} on "):
                 sweep.run_to_store(plan(), path, fresh=fresh)
     # It was killed, and now its lock is nobody's.
     assert sweep.run_to_store(plan(), path).complete
@@ -322,7 +323,8 @@ def test_the_state_of_a_unit_survives_the_disk(tmp_path):
     with Store.of(tmp_path / "run.zarr", wanted) as store:
         state = segments.begin(wanted, wanted.chunks[1])
         columns, after = segments.advance(wanted, wanted.chunks[1], state, wanted.segments[0])
-        store.keep(1, 0, columns, after)
+        store.write(1, 0, columns)
+        store.mark(1, 0, after)
         done, found = store.start(1)
         assert done == 1
         assert set(found) == set(after)

@@ -47,8 +47,46 @@ def test_what_another_code_computed_is_computed_again(tmp_path, monkeypatch):
     unit, path = Unit("made.source:one"), tmp_path / "u.jsonl"
     assert run_units([unit], path) == [1]
     (folder / "beside.py").write_text("")
-    units_module._sources.cache_clear()
+    units_module.sources.cache_clear()
     run_units([unit], path)
+    assert len(path.read_text().splitlines()) == 2
+
+
+def test_what_the_code_below_computed_is_computed_again(tmp_path, monkeypatch):
+    """The module imports a room, lazily, and that another one: a change in the latter is another source."""
+    (tmp_path / "kept.py").write_text("def one():\n    from chapsym.dynamics.closed import precession\n    return 1\n")
+    (tmp_path / "below.py").write_text("")
+    monkeypatch.syspath_prepend(tmp_path)
+    real, seen = units_module._files, set()
+
+    def files(names):
+        found = real(names)
+        seen.update(found)
+        return found | ({"chapsym.numbers.pairs": tmp_path / "below.py"} if "chapsym.numbers.pairs" in found else {})
+
+    monkeypatch.setattr(units_module, "_files", files)
+    before = Unit("kept:one").key
+    assert {"chapsym.dynamics.__init__", "chapsym.dynamics.levels.double", "chapsym.numbers.pairs"} <= seen
+    assert not any(name.split(".")[1] in ("cli", "proofs", "report") for name in seen)
+    (tmp_path / "below.py").write_text("# changed\n")
+    units_module.sources.cache_clear()
+    assert Unit("kept:one").key != before
+
+
+def test_another_process_must_have_the_same_sources(monkeypatch):
+    unit = units(1)[0]
+    assert units_module.compute(unit.function, unit.arguments, unit.key) == {"n": 0}
+    with pytest.raises(BadInput, match="a worker has another chapsym"):
+        units_module.compute(unit.function, unit.arguments, unit.key.replace("0.1.0", "0.0.9"))
+
+
+def test_two_studies_do_not_write_one_file(tmp_path):
+    path = tmp_path / "u.jsonl"
+    with units_module._kept(path) as (_, keep):
+        keep({"key": "a", "result": 1})
+        with pytest.raises(BadInput, match=r"u\.jsonl is being written by another process"):
+            run_units(units(1), path)
+    assert run_units(units(1), path) == [{"n": 0}]
     assert len(path.read_text().splitlines()) == 2
 
 

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -12,15 +12,13 @@ from chapsym.dynamics.trajectories import attitude_with
 
 from ..read.errors import SceneError, place
 from ..read.ranges import MOST_BALLS, Range, Sweep, ranges_in
+from ..read.scene import Scene
 from ..read.tables import BallTable, StartTable, units_of
 from .members import Members, Parameter
 from .starts import Given, members_of
 
-if TYPE_CHECKING:
-    from ..read.scene import Scene
 
-
-def expand(scene: "Scene") -> Members:
+def expand(scene: Scene) -> Members:
     """The balls of a scene with their starts, the product of all ranges, checked.
 
     A range of [start] goes for each ball that has no start of its own, and is drawn afresh for each.
@@ -42,7 +40,7 @@ def expand(scene: "Scene") -> Members:
     return _joined(parts)
 
 
-def bodies(scene: "Scene") -> list["Body"]:
+def bodies(scene: Scene) -> list["Body"]:
     """The tables of a scene, in its order, each with its start and its ranges."""
     return [Body(scene, i) for i in range(len(scene.ball))]
 
@@ -51,7 +49,7 @@ def bodies(scene: "Scene") -> list["Body"]:
 class Body:
     """One [ball] of a scene, and its start."""
 
-    scene: "Scene"
+    scene: Scene
     index: int
 
     @property

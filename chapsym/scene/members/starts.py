@@ -13,9 +13,9 @@ from chapsym.dynamics.n import so_n
 from chapsym.dynamics.n.ball_n import skew_matrices, unit_verticals
 from chapsym.dynamics.trajectories import attitude_with
 
+from ..read.bodies import PRESETS, check_inside, from_inertia_tensor, principal
 from ..read.ranges import Range, ranges_in
 from ..read.tables import BallTable, StartTable
-from .bodies import PRESETS, check_inside, from_inertia_tensor, principal
 from .members import Members
 
 #: What is this near to a unit vector was meant to be one, and is divided by its length.

@@ -3,10 +3,11 @@
 import numpy as np
 
 from chapsym.dynamics import kernels
+from chapsym.dynamics.ball import Floats
 
 from ..members.members import Members
-from ..running.task import Columns, Task
-from .outputs import OUTPUTS
+from ..read.outputs import OUTPUTS, K, columns_for
+from ..read.task import Columns, Task
 
 
 @np.errstate(over="ignore", invalid="ignore")  # the square of a momentum may be beyond float64
@@ -14,8 +15,7 @@ def asked_for(members: Members, task: Task, columns: Columns) -> Columns:
     """The outputs of a task from the columns of a model in principal axes; what was not asked for is left out."""
     found: Columns = {}
     for name in task.outputs:
-        derive = OUTPUTS[name].derive
-        found[name] = columns[name] if derive is None else _derived(name, members, task, columns)
+        found[name] = columns[name] if OUTPUTS[name].derive is None else _derived(name, members, task, columns)
         if f"{name}_low" in columns:
             found[f"{name}_low"] = columns[f"{name}_low"]
     return in_given_axes(members, found)
@@ -23,20 +23,36 @@ def asked_for(members: Members, task: Task, columns: Columns) -> Columns:
 
 def _derived(name: str, members: Members, task: Task, columns: Columns) -> np.ndarray:
     """A derived output; frames that a ball did not reach are NaN, on which no kernel is run."""
-    missing = np.isnan(columns["momentum"]).reshape(*columns["momentum"].shape[:2], -1).any(axis=-1)
+    columns = {key: columns[key] for key in columns_for((name,), top=False) if key in columns}
+    some = next(iter(columns.values()))
+    missing = np.isnan(some).reshape(*some.shape[:2], -1).any(axis=-1)
     if missing.any():
-        vertical = np.zeros(members.gamma.shape[-1])
-        vertical[-1] = 1.0
-        columns = dict(columns)
-        for key, instead in (("momentum", 0.0), ("gamma", vertical)):
-            if key in columns:
-                where = missing.reshape(*missing.shape, *[1] * (columns[key].ndim - 2))
-                columns[key] = np.where(where, instead, columns[key])
-    derive = OUTPUTS[name].derive
-    assert derive is not None
-    values = np.array(derive(members, task, columns), dtype=np.float64)
+        for key, values in columns.items():
+            where = missing.reshape(*missing.shape, *[1] * (values.ndim - 2))
+            columns[key] = np.where(where, _vertical(members) if key == "gamma" else 0.0, values)
+    values = np.array(_value(name, members, task, columns), dtype=np.float64)
     values[missing] = np.nan
     return values
+
+
+def _value(name: str, members: Members, task: Task, columns: Columns) -> Floats:
+    """A column, K, or what is derived of these; what enters with D alone may not be there, and be anything."""
+    if name == K:
+        return columns["momentum"] / task.scale
+    one = OUTPUTS[name]
+    if one.derive is None:
+        return columns[name]
+    given = {
+        part: np.broadcast_to(_vertical(members), (*columns["momentum"].shape[:2], members.dimension))
+        if part in one.with_D and part not in columns
+        else _value(part, members, task, columns)
+        for part in one.needs
+    }
+    return one.derive(members.ball.mass_tensor[:, np.newaxis], members.ball.D[:, np.newaxis], given)
+
+
+def _vertical(members: Members) -> Floats:
+    return np.eye(members.dimension)[-1]
 
 
 def in_given_axes(members: Members, columns: Columns) -> Columns:
@@ -49,9 +65,10 @@ def in_given_axes(members: Members, columns: Columns) -> Columns:
     for name in turned:
         missing = np.isnan(columns[name])  # frames that a ball did not reach, which the kernels refuse
         values = np.where(missing, 0.0, columns[name]) if missing.any() else columns[name]
-        if name == "attitude":
+        dims = OUTPUTS[name].dims
+        if dims == ("quaternion",):
             turned[name] = kernels.compose(values, np.broadcast_to(back, values.shape))
-        elif name in ("momentum", "gamma", "omega", "momentum_low", "gamma_low"):
+        elif dims == ("axis",):
             turned[name] = kernels.rotate(np.broadcast_to(axes, (*values.shape[:-1], 4)), values)
         if turned[name] is not columns[name]:
             turned[name][missing] = np.nan

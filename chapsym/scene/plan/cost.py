@@ -6,9 +6,9 @@ from dataclasses import dataclass, replace
 from chapsym.dynamics import Ball
 from chapsym.dynamics.levels.double import SHORT_RUN
 
+from ..read.outputs import OUTPUTS, columns_for, timed
 from .columns import asked_for
 from .models import General, Rolling
-from .outputs import OUTPUTS, PER_BALL, columns_for
 from .plan import Plan
 
 #: Balls of a pilot run at most; steps, or frames, of the first one; and how many seconds longer the last one takes, so
@@ -31,10 +31,15 @@ class Cost:
 def full(plan: Plan) -> Plan:
     """The plan of the same frames with the model that follows everything: every output that it can give."""
     model = Rolling() if isinstance(plan.members.ball, Ball) else General()
-    timed = plan.task.time_step is not None and plan.members.dimension == 3
-    left_out = {"phase"} | PER_BALL | (set() if plan.members.ball.radius is not None else {"contact"})
-    left_out |= set() if timed else {"omega", "energy"}
-    outputs = tuple(name for name in OUTPUTS if name not in left_out)
+    n, radius = plan.members.dimension, plan.members.ball.radius
+    outputs = tuple(
+        name
+        for name, one in OUTPUTS.items()
+        if columns_for((name,), False) <= model.columns
+        and (n == 3 or one.dims_n is not None)
+        and (radius is not None or not one.radius)
+        and (plan.task.timed or not timed(name))
+    )
     return replace(plan, model=model, task=replace(plan.task, outputs=outputs), needed=columns_for(outputs, False))
 
 

@@ -6,9 +6,9 @@ from typing import Any
 from chapsym.dynamics import BadInput, Ball
 
 from ..members.members import Members
-from ..running.task import Task
+from ..read.outputs import OUTPUTS, columns_for, kernels_for, timed
+from ..read.task import Task
 from .models import MODELS, Model
-from .outputs import OUTPUTS, PER_BALL, columns_for
 
 #: Balls of one unit of work: enough for the vector lanes and threads of a batch, little enough for its memory.
 CHUNK = 4096
@@ -43,7 +43,13 @@ class Plan:
     @property
     def numbers(self) -> int:
         """How many numbers are kept of one frame of one ball."""
-        return sum(width(self.members, name) for name in self.task.outputs if name not in PER_BALL)
+        outputs = (OUTPUTS[name] for name in self.task.outputs)
+        return sum(one.width(self.members.dimension) for one in outputs if not one.per_ball)
+
+    @property
+    def doubled(self) -> bool:
+        """Whether what is followed has second halves; they are kept in principal axes only."""
+        return self.task.doubled and self.members.axes is None
 
     @property
     def chunks(self) -> list[slice]:
@@ -64,12 +70,13 @@ class Plan:
     @property
     def bytes(self) -> int:
         """What the outputs take, uncompressed."""
-        return 8 * len(self.members) * (self.frames * self.numbers + len(PER_BALL & set(self.task.outputs)))
+        once = sum(OUTPUTS[name].per_ball for name in self.task.outputs)
+        return 8 * len(self.members) * (self.frames * self.numbers + once)
 
     def kernels(self) -> list[str]:
         """The generated kernels that run."""
         of_model = {kernel for column in self.needed for kernel in self.model.kernels.get(column, ())}
-        return sorted(of_model | {kernel for name in self.task.outputs for kernel in OUTPUTS[name].kernels})
+        return sorted(of_model | {kernel for name in self.task.outputs for kernel in kernels_for(name)})
 
     def describe(self) -> dict[str, Any]:
         """The plan as plain data."""
@@ -87,19 +94,6 @@ class Plan:
             "units": len(self.chunks) * len(self.segments),
             "refused": self.refused,
         }
-
-
-def width(members: Members, output: str) -> int:
-    """How many numbers an output has for one frame of one ball."""
-    n = members.dimension
-    vector = n * n if n > 3 else 3
-    sizes = {"axis": n, "quaternion": n * n if n > 3 else 4, "plane": n - 1, "integral": 3 if n == 3 else n}
-    if output in ("momentum", "omega"):
-        return vector
-    found = 1
-    for dim in OUTPUTS[output].dims:
-        found *= sizes[dim]
-    return found
 
 
 def planned(members: Members, task: Task) -> Plan:
@@ -145,16 +139,17 @@ def _check_outputs(members: Members, task: Task) -> None:
     unknown = [name for name in task.outputs if name not in OUTPUTS]
     if unknown:
         raise BadInput(f"{unknown[0]!r} is no output; choose of {', '.join(OUTPUTS)}")
-    if members.ball.radius is None and (
-        "contact" in task.outputs or (task.accuracy is not None and task.of == "contact")
-    ):
-        raise BadInput("the contact point needs the radius: give the ball its mass and radius")
-    timed = {"omega", "energy"} & set(task.outputs)
-    if timed and task.time_step is None and task.accuracy is None:
-        raise BadInput(f"{min(timed)} needs run.time_step, in seconds: 𝒦 = εK alone does not tell it")
+    of = (task.of,) if task.of in OUTPUTS else ()
+    on_plane = [OUTPUTS[name].long_name for name in (*task.outputs, *of) if OUTPUTS[name].radius]
+    if members.ball.radius is None and on_plane:
+        raise BadInput(f"the {on_plane[0]} needs the radius: give the ball its mass and radius")
+    untimed = [] if task.timed else sorted(name for name in task.outputs if timed(name))
+    if untimed:
+        raise BadInput(f"{untimed[0]} needs run.time_step, in seconds: 𝒦 = εK alone does not tell it")
     if members.axes is not None and task.precision == "quad":
         raise BadInput(
             "31 digits are kept in principal axes only: give the principal moments, and the start in their axes"
         )
-    if members.dimension > 3 and timed:
-        raise BadInput(f"{min(timed)} is known in three dimensions only")
+    unknown = sorted(name for name in task.outputs if OUTPUTS[name].dims_n is None)
+    if members.dimension > 3 and unknown:
+        raise BadInput(f"{unknown[0]} is known in three dimensions only")

@@ -4,7 +4,6 @@ import json
 import re
 import sys
 import tomllib
-from collections.abc import Callable
 from copy import deepcopy
 from pathlib import Path
 from typing import Annotated, Any, Self
@@ -12,13 +11,10 @@ from typing import Annotated, Any, Self
 import numpy as np
 from pydantic import BeforeValidator, Field, PrivateAttr, ValidationError, model_validator
 
-from chapsym.dynamics import Ball, Trajectory, trajectory
-
-from ..members.expand import expand
-from ..running.task import Task
-from .errors import At, SceneError, described, place
+from .errors import At, SceneError, described
 from .ranges import ranges_in
 from .tables import KEYS, BallTable, Line, RunTable, StartTable, SweepTable, Table
+from .task import Task
 from .units import TIME, number
 
 #: A longer text is no scene that anybody wrote.
@@ -191,7 +187,7 @@ def _text(path: Path) -> str:
 
 def _parsed(text: str, path: Path) -> dict[str, Any]:
     try:
-        return tomllib.loads(text, parse_float=_toml_float)
+        return tomllib.loads(text, parse_float=toml_float)
     except (ValueError, RecursionError) as error:  # tomllib: wrong syntax, huge integers, deep nesting
         told = str(error).splitlines()[0]
         found = re.search(r" \(at line (\d+), column (\d+)\)$", told)
@@ -199,7 +195,7 @@ def _parsed(text: str, path: Path) -> dict[str, Any]:
         raise SceneError(f"{where}: this is not TOML: {told[: found.start()] if found else told}") from None
 
 
-def _toml_float(text: str) -> Any:
+def toml_float(text: str) -> Any:
     """A float, or its text where float64 has not all digits: then `number` says so, with the key."""
     value = float(text)
     return text.replace("_", "") if abs(value) < sys.float_info.min else value
@@ -211,29 +207,3 @@ def _seconds(given: Any) -> float:
         return number(given, TIME)
     except ValueError:
         return 0.0
-
-
-def run(scene: Scene, progress: Callable[[int], None] = lambda steps_done: None) -> Trajectory:
-    """Runs a scene of one ball; raises BadInput, and StepNotTaken with the trajectory so far."""
-    if scene.run.accuracy is not None:
-        from ..running.accurate import run_accurately
-
-        return run_accurately(scene).trajectory
-    members, task = expand(scene), scene.task()
-    ball, attitude = single(members), members.attitude
-    return trajectory(
-        ball, members.momentum[0], members.gamma[0], task.steps, every=task.every, order=task.order,
-        attitude="attitude" in task.outputs if attitude is None else attitude[0], contact="contact" in task.outputs,
-        time_step=task.time_step, precision=task.precision, progress=progress,
-    )  # fmt: skip
-
-
-def single(members: Any) -> Ball:
-    """The ball of a scene that has one, in three dimensions and in the axes given; raises SceneError for others."""
-    if len(members) != 1 or members.dimension != 3 or members.axes is not None or members.place is not None:
-        raise SceneError("this run takes one ball in three dimensions, in principal axes, from the origin")
-    radius = members.ball.radius
-    return Ball(members.ball.mass_tensor[0], members.ball.D[0], None if radius is None else radius[0])
-
-
-__all__ = ["Scene", "SceneError", "checked", "expand", "load", "load_for", "place", "run", "single"]

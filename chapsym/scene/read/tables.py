@@ -4,9 +4,9 @@ from typing import Annotated, Any, Literal, Self, get_args
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
-from ..members.bodies import PRESETS
-from ..plan.outputs import OUTPUTS
+from .bodies import PRESETS
 from .errors import At
+from .outputs import OUTPUTS
 from .quantities import (
     Inertia,
     Length,

@@ -13,16 +13,16 @@ import numpy as np
 import chapsym
 from chapsym.dynamics import Status
 
-from ..plan.outputs import OUTPUTS, PER_BALL
 from ..plan.plan import Plan
+from ..read.outputs import OUTPUTS, labels
 
 if TYPE_CHECKING:
     from xarray import Dataset
 
+#: What the state says of each ball.
+OUTCOME = ("taken", "status", "error")
 #: `taken` and `status` of balls whose turn has not come.
 NOT_RUN = -1
-#: The outputs that have second halves on the rung "quad".
-DOUBLED = ("momentum", "gamma", "attitude", "contact")
 
 
 @dataclass(frozen=True)
@@ -42,11 +42,13 @@ class Variable:
 def layout(plan: Plan) -> dict[str, Variable]:
     """The variables of a result that come from its run, by name: what was asked for, then `taken` and `status`."""
     found: dict[str, Variable] = {}
+    n = plan.members.dimension
     for name in plan.task.outputs:
-        where = ("ball",) if name in PER_BALL else ("ball", "frame")
-        found[name] = Variable((*where, *_own_dims(plan, name)), _attrs(plan, name))
-        if plan.task.precision == "quad" and name in DOUBLED:
-            beyond = {"long_name": f"{OUTPUTS[name].long_name}: what it has beyond float64"}
+        one = OUTPUTS[name]
+        where = ("ball",) if one.per_ball else ("ball", "frame")
+        found[name] = Variable((*where, *one.dims_in(n)), one.attrs(n, plan.task.chosen))
+        if plan.doubled and one.derive is None:
+            beyond = {"long_name": f"{found[name].attrs['long_name']}: what it has beyond float64"}
             found[f"{name}_low"] = Variable(found[name].dims, {**found[name].attrs, **beyond})
     flags = {
         "flag_values": [NOT_RUN, *map(int, Status)],
@@ -62,8 +64,8 @@ def layout(plan: Plan) -> dict[str, Variable]:
 
 def sizes(plan: Plan) -> dict[str, int]:
     """The length of each dimension that a result may have."""
-    names = _labels(plan.members.dimension)
-    return {"ball": len(plan.members), "frame": plan.frames} | {dim: len(labels) for dim, labels in names.items()}
+    names = labels(plan.members.dimension)
+    return {"ball": len(plan.members), "frame": plan.frames} | {dim: len(of) for dim, of in names.items()}
 
 
 def build(plan: Plan, columns: Mapping[str, Any], state: Mapping[str, Any]) -> "Dataset":
@@ -75,18 +77,16 @@ def build(plan: Plan, columns: Mapping[str, Any], state: Mapping[str, Any]) -> "
     """
     import xarray
 
-    outcome = {"taken", "status", "error"}
     variables = {
-        name: (one.dims, (state if name in outcome else columns)[name], dict(one.attrs))
+        name: (one.dims, (state if name in OUTCOME else columns)[name], dict(one.attrs))
         for name, one in layout(plan).items()
     }
     variables |= _bodies(plan)
     used = {dim for dims, *_ in variables.values() for dim in dims}
-    labels = {
-        dim: np.array(names, dtype=object) for dim, names in _labels(plan.members.dimension).items() if dim in used
-    }
     coords: dict[Hashable, Any] = {"ball": np.array(plan.members.names, dtype=object)}
-    coords.update(labels)
+    for dim, names in labels(plan.members.dimension).items():
+        if dim in used:
+            coords[dim] = np.array(names, dtype=object)
     coords.update(_moments(plan))
     for key, parameter in plan.members.parameters.items():
         coords[key] = ("ball", parameter.values, {"units": parameter.units, "long_name": key})
@@ -122,42 +122,6 @@ def _bodies(plan: Plan) -> dict[str, Any]:
         turn = {"units": "1", "long_name": "principal axes to body axes, unit quaternion"}
         found["axes"] = (("ball", "quaternion"), members.axes, turn)
     return found
-
-
-def _own_dims(plan: Plan, name: str) -> tuple[str, ...]:
-    """The dimensions of an output beside ball and frame; skew matrices and rotations where quaternions do not serve."""
-    if plan.members.dimension > 3 and name in ("momentum", "omega", "attitude"):
-        return ("row", "column")
-    return OUTPUTS[name].dims
-
-
-def _attrs(plan: Plan, name: str) -> dict[str, str]:
-    """Units and a name; the momentum of a run whose steps were chosen is K itself."""
-    if name == "momentum" and plan.task.accuracy is not None:
-        return {"units": "kg m2 s-1", "long_name": "angular momentum K about the contact point, body axes"}
-    if name == "integrals":
-        units = ", ".join(_integrals(plan.members.dimension).values())
-        return {"units": units, "long_name": OUTPUTS[name].long_name}
-    return {"units": OUTPUTS[name].units, "long_name": OUTPUTS[name].long_name}
-
-
-def _labels(n: int) -> dict[str, list[str]]:
-    """The coordinates of the components in n dimensions."""
-    numbered = [str(i) for i in range(1, n + 1)]
-    plane = ["x", "y"] if n == 3 else numbered[:-1]
-    return {
-        "axis": numbered, "plane": plane, "quaternion": list("wxyz"), "integral": list(_integrals(n)),
-        "row": numbered, "column": numbered,
-    }  # fmt: skip
-
-
-def _integrals(n: int) -> dict[str, str]:
-    """The momentum integrals in the order of `invariants` and `invariants_n`, each with its units."""
-    if n == 3:
-        return {"K.gamma": "kg m2", "K.K": "kg2 m4", "gamma.gamma": "1"}
-    found = {f"tr K^{2 * j}": f"kg{2 * j} m{4 * j}" for j in range(1, n // 2 + 1)}
-    found |= {f"gamma.K^{2 * j}.gamma": f"kg{2 * j} m{4 * j}" for j in range(1, (n - 1) // 2 + 1)}
-    return found | {"gamma.gamma": "1"}
 
 
 def provenance(plan: Plan) -> dict[str, Any]:

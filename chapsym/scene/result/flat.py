@@ -1,4 +1,4 @@
-"""A Dataset as one table, a row for each ball and frame, and back: for CSV and Parquet."""
+"""A Dataset as one table, a row for each ball and frame, or as plain arrays, and back: for CSV, Parquet and NumPy."""
 
 from collections.abc import Iterator, Mapping
 from itertools import product
@@ -53,19 +53,39 @@ def batches(data: "Dataset", told: Mapping[str, Any]) -> Iterator[dict[str, np.n
 
 def assembled(columns: Mapping[str, np.ndarray], told: Mapping[str, Any], attrs: Mapping[str, Any]) -> "Dataset":
     """The Dataset of a table; raises KeyError, ValueError or TypeError if the table is not whole."""
+    arrays = {}
+    for name, one in told["variables"].items():
+        inner = [len(told["labels"][dim]) for dim in one["dims"] if dim in told["labels"]]
+        values = np.stack([columns[column] for column in one["columns"]], axis=-1)
+        values = values.reshape(told["balls"], told["frames"], *inner)
+        arrays[name] = values[:, 0] if "frame" not in one["dims"] else values if "ball" in one["dims"] else values[0]
+    return dataset(arrays, told, attrs)
+
+
+def arrays_of(data: "Dataset", told: Mapping[str, Any]) -> dict[str, np.ndarray]:
+    """The arrays of all variables; of one ball without the axis of the balls."""
+    whole = data.isel(ball=0) if told["balls"] == 1 else data
+    found = {name: whole[name].values for name in told["variables"]}
+    return {name: a.astype(str) if a.dtype.kind in "OT" else a for name, a in found.items()}
+
+
+def from_arrays(arrays: Mapping[str, np.ndarray], told: Mapping[str, Any], attrs: Mapping[str, Any]) -> "Dataset":
+    """The Dataset of `arrays_of`; raises KeyError, ValueError or TypeError if one is missing."""
+    found = {}
+    for name, one in told["variables"].items():
+        values = arrays[name].astype(object) if arrays[name].dtype.kind == "U" else arrays[name]
+        found[name] = np.expand_dims(values, 0) if told["balls"] == 1 and "ball" in one["dims"] else values
+    return dataset(found, told, attrs)
+
+
+def dataset(arrays: Mapping[str, np.ndarray], told: Mapping[str, Any], attrs: Mapping[str, Any]) -> "Dataset":
+    """The Dataset of these arrays and what `structure` tells."""
     import xarray
 
-    balls, frames, labels = told["balls"], told["frames"], told["labels"]
-    coords: dict[Any, Any] = {dim: np.array(names, dtype=object) for dim, names in labels.items()}
+    coords: dict[Any, Any] = {dim: np.array(names, dtype=object) for dim, names in told["labels"].items()}
     variables: dict[Any, Any] = {}
     for name, one in told["variables"].items():
-        inner = [len(labels[dim]) for dim in one["dims"] if dim in labels]
-        values = np.stack([columns[column] for column in one["columns"]], axis=-1).reshape(balls, frames, *inner)
-        if "frame" not in one["dims"]:
-            values = values[:, 0]
-        elif "ball" not in one["dims"]:
-            values = values[0]
-        (coords if one["coordinate"] else variables)[name] = (one["dims"], values, one["attrs"])
+        (coords if one["coordinate"] else variables)[name] = (one["dims"], arrays[name], one["attrs"])
     return xarray.Dataset(variables, coords, dict(attrs))
 
 

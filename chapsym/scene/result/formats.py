@@ -1,4 +1,4 @@
-"""Results in files: NetCDF, and for the small CSV and Parquet, each written whole; and how all are read back."""
+"""Results in files: NetCDF, and for the small CSV, Parquet and NumPy, each written whole; how all are read back."""
 
 import json
 from collections.abc import Callable
@@ -10,9 +10,10 @@ import numpy as np
 from chapsym import files
 
 from ..plan.plan import Plan
-from ..read.scene import SceneError
-from ..running import single
-from .flat import assembled, batches, plain, structure
+from ..read.errors import SceneError
+from . import old
+from .flat import arrays_of, assembled, batches, from_arrays, plain, structure
+from .group import check_ours
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -23,6 +24,17 @@ MOST_ROWS = 10**7
 SHARE = 0.25
 #: What may follow the dot of a result.
 SUFFIXES = (".zarr", ".nc", ".csv", ".parquet", ".npz")
+
+
+def check_destination(path: Path) -> None:
+    """Raises SceneError, before anything is computed, if a result cannot be written as `path` is named."""
+    if path.suffix not in SUFFIXES:
+        raise SceneError(f"{str(path)!r}: the output must end in {', '.join(SUFFIXES[:-1])} or {SUFFIXES[-1]}")
+    if path.suffix != ".zarr":
+        try:
+            files.check_destination(path)
+        except files.CannotWrite as error:
+            raise SceneError(str(error)) from None
 
 
 def check_size(plan: Plan, path: Path) -> None:
@@ -37,10 +49,11 @@ def check_size(plan: Plan, path: Path) -> None:
 
 
 def save(data: "Dataset", path: Path) -> None:
-    """Writes a result to .nc, .csv or .parquet, whole or not at all; raises SceneError if the disk refuses.
+    """Writes a result to .nc, .csv, .parquet or .npz, whole or not at all; raises SceneError if the disk refuses.
 
     Of a CSV or Parquet file each row is a ball and a frame; what is not in the rows stands in `# ` lines, or in the
-    metadata.  `pandas.read_csv(path, comment="#")` has the same bits (older pandas with float_precision="round_trip").
+    metadata.  A .npz has an array for each variable, of one ball without its axis, and the rest as JSON in "chapsym".
+    `pandas.read_csv(path, comment="#")` has the same bits (older pandas with float_precision="round_trip").
     """
     write = _WRITERS.get(path.suffix)
     if write is None:
@@ -63,6 +76,8 @@ def load(path: Path) -> "Dataset":
     read = _READERS.get(path.suffix)
     if read is None:
         raise SceneError(f"{str(path)!r} is no result: one ends in {', '.join(_READERS)}")
+    if path.is_fifo():
+        raise SceneError(f"{path} is a pipe, not a file with a result")
     try:
         path.stat()
         data = read(path)
@@ -134,8 +149,6 @@ def _write_csv(stream: IO[bytes], data: "Dataset") -> None:
 def _read_zarr(path: Path) -> "Dataset":
     import xarray
 
-    from ..running.store import check_ours
-
     check_ours(path)
     return xarray.open_zarr(path)
 
@@ -163,7 +176,7 @@ def _read_csv(path: Path) -> "Dataset":
     lines = 0
     with path.open(encoding="utf-8", newline="") as stream:
         if not stream.readline().startswith("# "):
-            return single.read_csv(path)
+            return old.dataset(old.joined(_columns(csv.read_csv(path))))
         stream.seek(0)
         while (line := stream.readline()).startswith("# "):
             key, _, value = line[2:].partition(": ")
@@ -179,14 +192,29 @@ def _read_csv(path: Path) -> "Dataset":
     return assembled(_columns(table), told, attrs)
 
 
+def _write_npz(stream: IO[bytes], data: "Dataset") -> None:
+    told = structure(data)
+    about = json.dumps({"structure": told, "attrs": plain(data.attrs)}, ensure_ascii=False)
+    np.savez(stream, **{"chapsym": np.array(about)} | arrays_of(data, told))  # type: ignore[arg-type]
+
+
+def _read_npz(path: Path) -> "Dataset":
+    with np.load(path, allow_pickle=False) as data:
+        arrays = {name: data[name] for name in data.files}
+    if "chapsym" not in arrays:
+        return old.dataset(arrays)
+    about = json.loads(str(arrays["chapsym"]))
+    return from_arrays(arrays, about["structure"], about["attrs"])
+
+
 def _columns(table: Any) -> dict[str, np.ndarray]:
     return {name: table[name].to_numpy() for name in table.column_names}
 
 
 _WRITERS: dict[str, Callable[[IO[bytes], Any], None]] = {
-    ".nc": _write_netcdf, ".csv": _write_csv, ".parquet": _write_parquet,
+    ".nc": _write_netcdf, ".csv": _write_csv, ".parquet": _write_parquet, ".npz": _write_npz,
 }  # fmt: skip
 _READERS: dict[str, Callable[[Path], Any]] = {
     ".zarr": _read_zarr, ".nc": _read_netcdf, ".csv": _read_csv, ".parquet": _read_parquet,
-    ".npz": single.read_npz,
+    ".npz": _read_npz,
 }  # fmt: skip

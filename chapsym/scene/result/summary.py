@@ -1,15 +1,18 @@
-"""What a scene says, for a reader: its balls with their moments and starts, its ranges, how long it runs."""
+"""For a reader: what a scene says, its balls, starts and ranges; and what its run came to."""
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from chapsym.dynamics import Ball, Status, step, step_n
+from chapsym.dynamics import Ball, Status, kernels, step, step_n
 
 from ..members.expand import bodies
 from ..members.members import Members
 from ..read.ranges import Range
 from ..read.scene import Scene
+
+if TYPE_CHECKING:
+    from xarray import Dataset
 
 #: Of more balls, this many are asked whether they can take the first step.
 TRIED = 20_000
@@ -97,3 +100,32 @@ def refusals(scene: Scene, members: Members) -> list[str]:
         balls = some.names[which[0]] + ("" if len(which) == 1 else f" and {len(which) - 1} more of {len(some)}")
         told.append(f"{balls} cannot take the first step: {Status(reason).sentence}")
     return told
+
+
+def last_state(data: "Dataset") -> dict[str, Any]:
+    """Of the result of one ball: its steps, its last state, and the drift of the momentum integrals.
+
+    The drift is the largest change of each, relative to the scale of the momentum, of the frames that were kept.
+    """
+    one = data.isel(ball=0)
+    taken = int(one["taken"])
+    reached = slice(0, None) if "step" not in one.coords else slice(0, int((one["step"].values <= taken).sum()))
+    kept = {name: one[name].values[reached] for name in ("momentum", "gamma", "contact") if name in one}
+    found: dict[str, Any] = {"steps": taken, "final": {name: values[-1].tolist() for name, values in kept.items()}}
+    if {"momentum", "gamma"} <= set(kept) and "row" not in one.dims and "error" not in one:
+        size = float(abs(kept["momentum"][0]).max()) or 1.0
+        invariants = kernels.invariants(kept["momentum"] / size, kept["gamma"])
+        found["drift"] = [float(x) for x in abs(invariants - invariants[0]).max(axis=0)]
+    return found
+
+
+def stopped(data: "Dataset") -> str:
+    """Why balls stopped early: of each reason how many, and the first of them."""
+    status, taken, names = data["status"].values, data["taken"].values, data["ball"].values
+    reasons = []
+    for reason in sorted(set(map(int, status)) - {-1, int(Status.TAKEN)}):
+        which = (status == reason).nonzero()[0]
+        first = f"{names[which[0]]} at step {taken[which[0]]}"
+        count = f"{len(which)} balls, the first {first}" if len(which) > 1 else first
+        reasons.append(f"{count}: {Status(reason).sentence}")
+    return "; ".join(reasons)

@@ -2,10 +2,18 @@
 
 from collections.abc import Callable
 
+from chapsym.dynamics import BadInput
+
 from ..plan.columns import asked_for
 from ..plan.models import State
 from ..plan.plan import Plan
-from .task import Columns
+from ..read.task import Columns
+from ..result.dataset import layout
+from .tally import Stopped
+
+
+class NoAnswer(Exception):
+    """A unit whose balls cannot be run; the others can."""
 
 
 def begin(plan: Plan, chunk: slice) -> State:
@@ -24,3 +32,22 @@ def advance(
     members = plan.members.of(chunk)
     columns, after = plan.model.advance(members, plan.task, plan.needed, state, segment, progress)
     return asked_for(members, plan.task, columns), after
+
+
+def computed(
+    plan: Plan, chunk: int, segment: int, state: State | None, progress: Callable[[int], None] = lambda steps: None
+) -> tuple[Columns, State]:
+    """The values of a unit and the state after it, from the one before (None: the start).
+
+    Raises NoAnswer where its balls have none.
+    """
+    try:
+        state = begin(plan, plan.chunks[chunk]) if state is None else state
+        columns, after = advance(plan, plan.chunks[chunk], state, plan.segments[segment], progress)
+    except Stopped:
+        raise
+    except (BadInput, ArithmeticError, MemoryError) as error:
+        raise NoAnswer(str(error) or type(error).__name__) from error
+    missing = set(layout(plan)) - set(columns) - set(after)
+    assert not missing, f"{plan.model.name} left out {missing}"
+    return columns, after

@@ -6,7 +6,8 @@ from dataclasses import replace
 
 from ..members.expand import expand
 from ..plan.plan import Plan, planned
-from ..read.scene import Scene, SceneError, _toml_float, checked
+from ..read.errors import SceneError
+from ..read.scene import Scene, checked, toml_float
 
 
 def plan_of(scene: Scene) -> Plan:
@@ -19,7 +20,7 @@ def plan_of(scene: Scene) -> Plan:
 def plan_from(text: str) -> Plan:
     """The plan of a scene from its text, `Plan.scene`: TOML, or JSON of a dict."""
     try:
-        data = json.loads(text) if text.lstrip().startswith("{") else tomllib.loads(text, parse_float=_toml_float)
+        data = json.loads(text) if text.lstrip().startswith("{") else tomllib.loads(text, parse_float=toml_float)
     except ValueError:
         raise SceneError("this plan has no scene that it could be made of again") from None
     return replace(plan_of(checked(data)), scene=text)

@@ -1,23 +1,27 @@
 """Runs a plan unit by unit: into memory, or into a store that can be gone on with; on all cores or on a cluster."""
 
-from collections.abc import Callable
-from concurrent.futures import FIRST_EXCEPTION, ThreadPoolExecutor, wait
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
+from chapsym import jobs
+from chapsym.accuracy import Accurate
 from chapsym.dynamics import BadInput
 from chapsym.dynamics.levels.double import cores
 
-from ..plan.models import State
+from ..plan.models import Chosen, State
 from ..plan.plan import Plan
-from ..read.scene import SceneError
-from ..result.dataset import layout, sizes
-from . import segments
-from .tally import Report, Stopped, Tally, silent
-from .task import Columns
+from ..read.errors import SceneError
+from ..read.task import Columns
+from ..result.dataset import OUTCOME, build, layout, provenance, sizes
+from .remote import unit
+from .segments import NoAnswer, computed
+from .source import plan_from
+from .store import Store
+from .tally import Report, Tally, silent
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -49,8 +53,11 @@ class Sink(Protocol):
     def start(self, chunk: int) -> tuple[int, State | None]:
         """How many segments of a chunk are done, and the state after them."""
 
-    def keep(self, chunk: int, segment: int, columns: Columns, state: State) -> None:
-        """Takes the values of a unit and the state after it."""
+    def write(self, chunk: int, segment: int, columns: Columns) -> None:
+        """Takes the values of a unit."""
+
+    def mark(self, chunk: int, segment: int, state: State) -> None:
+        """Takes the state after a unit whose values are there."""
 
 
 class Memory:
@@ -70,12 +77,16 @@ class Memory:
         """Nothing is there yet."""
         return 0, None
 
-    def keep(self, chunk: int, segment: int, columns: Columns, state: State) -> None:
-        """Copies a unit to its place."""
+    def write(self, chunk: int, segment: int, columns: Columns) -> None:
+        """Copies what there is of a unit to its place."""
         where = {"ball": self.plan.chunks[chunk], "frame": self.plan.segments[segment]}
         for name, one in self.variables.items():
-            place = tuple(where.get(dim, slice(None)) for dim in one.dims)
-            self.columns[name][place] = columns[name] if name in columns else state[name]
+            if name in columns:
+                self.columns[name][tuple(where.get(dim, slice(None)) for dim in one.dims)] = columns[name]
+
+    def mark(self, chunk: int, segment: int, state: State) -> None:
+        """Copies what the state says of each ball."""
+        self.write(chunk, segment, {name: state[name] for name in OUTCOME if name in state})
 
 
 def run_in_memory(plan: Plan, report: Report = silent) -> "Dataset":
@@ -83,10 +94,8 @@ def run_in_memory(plan: Plan, report: Report = silent) -> "Dataset":
 
     Balls that stopped early are NaN from there on, with their `status`.  Raises BadInput where a unit has no answer.
     """
-    from ..result.dataset import build
-
     memory = Memory(plan)
-    for why in locally(plan, memory, Tally(plan, report)).values():
+    for why in _locally(plan, memory, Tally(plan, report)).values():
         raise BadInput(why)
     return build(plan, memory.columns, memory.columns)
 
@@ -98,81 +107,84 @@ def run_to_store(
 
     scheduler: the address of a Dask scheduler whose workers see the same disk; without, all cores of this machine.
     fresh: discard what is there.  report: called with the `Progress`, some times a second.
-    Raises SceneError if the disk refuses, if the store is of another run or held by another process.
+    Raises BadInput if the disk refuses, if the store is of another run or held by another process, and if the cluster
+    or its last worker is lost; what was done by then is kept.
     """
-    from .store import Store
-
     with Store.of(path, plan, fresh) as store:
         tally = Tally(plan, report)
         if store.complete:
             return Outcome(_failed(store.path), nothing_to_do=True)
-        if scheduler is None:
-            lost = locally(plan, store, tally)
-        else:
-            from .cluster import on_cluster
-
-            lost = on_cluster(plan, store, tally, scheduler)
+        lost = _locally(plan, store, tally) if scheduler is None else _on_cluster(plan, store, tally, scheduler)
         if not lost:
             store.finish()
         return Outcome(tally.progress.failed, {(plan.chunks[i].start, plan.chunks[i].stop): lost[i] for i in lost})
 
 
-def locally(plan: Plan, sink: Sink, tally: Tally) -> dict[int, str]:
+def telling(plan: Plan, progress: Callable[[str], None]) -> tuple[Plan, list[Accurate]]:
+    """The same plan, and where its run here puts what was chosen for each ball, if it asks for an accuracy."""
+    answers: list[Accurate] = []
+    return (replace(plan, model=Chosen(answers.append, progress)) if plan.task.chosen else plan), answers
+
+
+#: A unit as a call: its chunk, its segment, and the state that the segment before it left.
+Unit = Callable[[int, int, State | None], jobs.Call]
+
+
+def _locally(plan: Plan, sink: Sink, tally: Tally) -> dict[int, str]:
     """Runs what is missing on all cores, some chunks abreast; returns why chunks have no answer."""
+
+    def here(chunk: int, segment: int, state: State | None) -> State:
+        columns, after = computed(plan, chunk, segment, state, tally.within(chunk, segment))
+        sink.write(chunk, segment, columns)
+        return after
+
     lost: dict[int, str] = {}
-
-    def chain(chunk: int) -> None:
-        if not tally.stopped:
-            try:
-                _run_chunk(plan, chunk, sink, tally)
-            except NoAnswer as error:
-                lost[chunk] = str(error)
-
     # The higher rungs set the precision of a whole process.
-    abreast = min(ABREAST, cores()) if plan.task.accuracy is None else 1
-    with ThreadPoolExecutor(abreast) as pool:
+    with jobs.threads(1 if plan.task.chosen else min(ABREAST, cores())) as crew:
         try:
-            running = [pool.submit(chain, chunk) for chunk in range(len(plan.chunks))]
-            done, _ = wait(running, return_when=FIRST_EXCEPTION)
-            for future in done:
-                future.result()
+            jobs.run(_chains(plan, sink, tally, lambda *which: jobs.Call(here, which), lost), crew)
         except BaseException:
             tally.stopped = True
-            pool.shutdown(wait=True, cancel_futures=True)
             raise
     return dict(sorted(lost.items()))
 
 
-class NoAnswer(Exception):
-    """A unit whose balls cannot be run; the others can."""
+def _on_cluster(plan: Plan, store: Store, tally: Tally, address: str) -> dict[int, str]:
+    """Runs what is missing on the workers of a scheduler; returns why chunks could not be run.
+
+    Raises SceneError for a plan that has no scene, if a worker has another chapsym, or if the disk refuses.
+    """
+    plan_from(plan.scene)
+    sent = plan.scene, provenance(plan), str(store.path)
+    lost: dict[int, str] = {}
+    with jobs.workers(address) as crew:
+        try:
+            jobs.run(_chains(plan, store, tally, lambda *which: jobs.Call(unit, (*sent, *which)), lost), crew)
+        except BadInput:
+            raise
+        except Exception as error:
+            raise SceneError(f"a worker of the cluster has not this chapsym: {type(error).__name__}: {error}") from None
+    return dict(sorted(lost.items()))
 
 
-def _run_chunk(plan: Plan, chunk: int, sink: Sink, tally: Tally) -> None:
-    """The segments of a chunk that are missing, one after the other."""
-    done, state = sink.start(chunk)
-    if state is None:
-        state = segments.begin(plan, plan.chunks[chunk])
-    else:
-        tally.kept(chunk, done, state)
-    for segment in range(done, len(plan.segments)):
-        columns, state = computed(plan, chunk, segment, state, tally.within(chunk, segment))
-        sink.keep(chunk, segment, columns, state)
-        tally.kept(chunk, segment + 1, state)
+def _chains(plan: Plan, sink: Sink, tally: Tally, unit: Unit, lost: dict[int, str]) -> Iterator[jobs.Chain]:
+    """For each chunk the segments that are missing, one after the other; `lost` gets why it could not be run."""
 
+    def chain(chunk: int) -> jobs.Chain:
+        done, state = sink.start(chunk)
+        if state is not None:
+            tally.kept(chunk, done, state)
+        for segment in range(done, len(plan.segments)):
+            try:
+                state = yield unit(chunk, segment, state)
+            except (NoAnswer, jobs.Lost) as error:
+                lost[chunk] = str(error)
+                return
+            assert state is not None
+            sink.mark(chunk, segment, state)
+            tally.kept(chunk, segment + 1, state)
 
-def computed(
-    plan: Plan, chunk: int, segment: int, state: State, progress: Callable[[int], None] = lambda steps: None
-) -> tuple[Columns, State]:
-    """The values of a unit and the state after it; raises NoAnswer where its balls have none."""
-    try:
-        columns, after = segments.advance(plan, plan.chunks[chunk], state, plan.segments[segment], progress)
-    except Stopped:
-        raise
-    except (BadInput, ArithmeticError, MemoryError) as error:
-        raise NoAnswer(str(error) or type(error).__name__) from error
-    missing = set(layout(plan)) - set(columns) - set(after)
-    assert not missing, f"{plan.model.name} left out {missing}"
-    return columns, after
+    return (chain(chunk) for chunk in range(len(plan.chunks)))
 
 
 def _failed(path: Path) -> int:

@@ -1,21 +1,33 @@
 """The continuous motion to an accuracy: rung, order and step are chosen for each ball, and the result is verified."""
 
+from collections.abc import Callable
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
 
-from chapsym.accuracy import accurate, foreseen
+from chapsym.accuracy import Accurate, accurate, foreseen
+from chapsym.accuracy.request import exact_values
 from chapsym.dynamics import Ball
 from chapsym.dynamics.n.ball_n import BallN
 
 from ...members.members import Members, one_ball
-from ...running.task import Columns, Task
+from ...read.task import Columns, Task
 from .model import Model, Progress, State
 from .rolling import Rolling
 
 
 class Chosen(Model):
-    """`chapsym.accuracy.accurate`, ball by ball."""
+    """`chapsym.accuracy.accurate`, ball by ball.
+
+    tell: called with each answer.  progress: with what it is about to do.
+    """
+
+    def __init__(
+        self, tell: Callable[[Accurate], object] = lambda answer: None,
+        progress: Callable[[str], None] = lambda text: None,
+    ) -> None:  # fmt: skip
+        self.tell, self.progress = tell, progress
 
     name = "chosen for the accuracy"
     about = "the cheapest rung, order and step that meet the accuracy, verified on the run"
@@ -41,7 +53,7 @@ class Chosen(Model):
         assert task.accuracy is not None
         assert task.time is not None
         runs = [self._one(members, i, task, needed) for i in range(len(members))]
-        columns = {name: np.stack([run[name] for run, _ in runs]) for name in sorted(needed)}
+        columns = {name: np.stack([run[name] for run, _ in runs]) for name in sorted(runs[0][0])}
         progress(task.steps * len(members))
         return columns, state | {"taken": state["taken"] + task.steps, "error": np.array([error for _, error in runs])}
 
@@ -63,11 +75,25 @@ class Chosen(Model):
     def _one(self, members: Members, i: int, task: Task, needed: frozenset[str]) -> tuple[Columns, float]:
         """The columns of one ball, and the bound of its error by comparison."""
         ball, start, options = self._request(members, i, task, needed)
-        answer = accurate(ball, *start, **options)
+        answer = accurate(ball, *start, **options, progress=self.progress)
+        self.tell(answer)
         run = answer.trajectory
         columns = {name: np.asarray(getattr(run, name), dtype=np.float64) for name in needed if name != "momentum"}
         if "momentum" in needed:
             columns["momentum"] = np.asarray(run.angular_momentum(), dtype=np.float64)
-        if "contact" in needed and members.place is not None:
+        if task.doubled and members.axes is None:
+            for name in sorted(needed):
+                columns |= _halves(name, exact_values(answer.request, run, name), members.place, i)
+        elif "contact" in needed and members.place is not None:
             columns["contact"] = columns["contact"] + members.place[i]
         return columns, answer.estimate
+
+
+def _halves(name: str, exact: np.ndarray, place: np.ndarray | None, i: int) -> Columns:
+    """Numbers beyond float64 as their nearest floats and what these leave."""
+    exact = np.vectorize(Fraction, otypes=[object])(exact)
+    if name == "contact" and place is not None:
+        exact = exact + np.vectorize(Fraction, otypes=[object])(place[i])
+    high = exact.astype(np.float64)
+    rest = exact - np.vectorize(Fraction, otypes=[object])(high)
+    return {name: high, f"{name}_low": rest.astype(np.float64)}

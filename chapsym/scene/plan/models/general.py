@@ -5,7 +5,7 @@ import numpy as np
 from chapsym.dynamics import BallN, TrajectoryN, trajectory_n
 
 from ...members.members import Members
-from ...running.task import Task
+from ...read.task import Task
 from .model import Progress, State
 from .stepwise import Stepwise
 

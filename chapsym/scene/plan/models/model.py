@@ -9,7 +9,7 @@ import numpy as np
 from chapsym.dynamics import Ball
 
 from ...members.members import Members
-from ...running.task import Columns, Task
+from ...read.task import Columns, Task
 
 #: What the next segment needs: arrays by name, each (balls, ...); `taken` and `status` are always there.
 State = dict[str, np.ndarray]
@@ -17,7 +17,7 @@ Progress = Callable[[int], None]
 
 
 class Model(ABC):
-    """A way to follow balls; without fields, so that its name says all.
+    """A way to follow balls; its name says all that the values depend on.
 
     name: as the plan tells it.  about: what it leaves out or knows, one clause.
     columns: what it can follow.  kernels: the generated ones in its loops, for each column that it follows.

@@ -6,7 +6,7 @@ from chapsym.dynamics import Ball, Trajectory, substeps, trajectory
 from chapsym.dynamics.trajectories import attitude_with
 
 from ...members.members import Members
-from ...running.task import Task
+from ...read.task import Task
 from .model import Progress, State
 from .stepwise import Stepwise
 

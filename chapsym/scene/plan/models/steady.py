@@ -5,7 +5,7 @@ import numpy as np
 from chapsym.dynamics import Ball, Status, is_steady, steady_frames
 
 from ...members.members import Members
-from ...running.task import Columns, Task
+from ...read.task import Columns, Task
 from .model import Model, Progress, State, beyond_a_reduction
 from .stepwise import FOLLOWED
 

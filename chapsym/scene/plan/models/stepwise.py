@@ -9,7 +9,7 @@ from chapsym.dynamics import Status
 from chapsym.numbers.pairs import add
 
 from ...members.members import Members
-from ...running.task import Columns, Task
+from ...read.task import Columns, Task
 from .model import Model, Progress, State
 
 FOLLOWED = ("momentum", "gamma", "attitude", "contact")

@@ -6,7 +6,7 @@ from chapsym.dynamics import BadInput, Ball, Status, StepNotTaken, TopMotion, is
 from chapsym.dynamics.closed.precession import Precession
 
 from ...members.members import Members, one_ball
-from ...running.task import Columns, Task
+from ...read.task import Columns, Task
 from .model import Model, Progress, State, beyond_a_reduction
 
 #: γ and the attitude lose up to 1/k' ulps: three digits at most.

@@ -5,7 +5,7 @@ import numpy as np
 from chapsym.dynamics import BadInput, Ball, Curve, Status, StepNotTaken, rotation_number, trajectory_vertical
 
 from ...members.members import Members, one_ball
-from ...running.task import Columns, Task
+from ...read.task import Columns, Task
 from .model import Model, Progress, State, beyond_a_reduction
 
 #: How far 𝒦 may be from hγ, relatively: 𝒦 was rounded, and its motion stays as near as that to the one with 𝒦 = hγ.

@@ -1,6 +1,6 @@
 """A result in Zarr that is written unit by unit: created whole, resumable, never mixed with another run."""
 
-from .identity import attributes, check_ours, check_same, difference, is_store
+from .identity import check_same, difference
 from .store import Store, write_region
 
-__all__ = ["Store", "attributes", "check_ours", "check_same", "difference", "is_store", "write_region"]
+__all__ = ["Store", "check_same", "difference", "write_region"]

@@ -6,33 +6,11 @@ from pathlib import Path
 from typing import Any
 
 from ...plan.plan import Plan
-from ...read.scene import SceneError
+from ...read.errors import SceneError
 from ...result.dataset import provenance
+from ...result.group import attributes
 
 ELSE = "choose another name, or replace it with --fresh"
-
-
-def attributes(path: Path) -> dict[str, Any]:
-    """The attributes of a Zarr group; raises SceneError if there are none to be read."""
-    try:
-        found = json.loads((path / "zarr.json").read_text(encoding="utf-8"))["attributes"]
-    except (OSError, ValueError, KeyError, TypeError):
-        raise SceneError(f"{path} is there, but it is no result of chapsym; choose another name") from None
-    return found if isinstance(found, dict) else {}
-
-
-def is_store(path: Path) -> bool:
-    """Whether `path` holds a result of chapsym in Zarr."""
-    try:
-        return "chapsym_version" in attributes(path)
-    except SceneError:
-        return False
-
-
-def check_ours(path: Path) -> None:
-    """Raises SceneError if `path` is anything but a result of chapsym, which nobody may overwrite."""
-    if not is_store(path):
-        raise SceneError(f"{path} is there, but it is no result of chapsym; choose another name")
 
 
 def check_same(path: Path, plan: Plan) -> None:
@@ -77,7 +55,9 @@ def first_difference(one: Any, other: Any, key: str = "") -> str | None:
 
 
 def _data(text: Any) -> Any:
-    """What a scene says, apart from its comments; its text, where it is neither TOML nor JSON."""
+    """What a scene says, apart from its comments; as it is, where it is neither TOML nor JSON."""
+    if not isinstance(text, str):
+        return text
     for read in (tomllib.loads, json.loads):
         try:
             return read(text)

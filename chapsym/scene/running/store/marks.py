@@ -8,7 +8,7 @@ import numpy as np
 from chapsym import files
 
 from ...plan.models import State
-from ...read.scene import SceneError
+from ...read.errors import SceneError
 
 #: The name of the count in a mark; the rest is the state.
 DONE = "segments_done"

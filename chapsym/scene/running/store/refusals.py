@@ -8,7 +8,7 @@ from pathlib import Path
 
 from chapsym.files import CannotWrite
 
-from ...read.scene import SceneError
+from ...read.errors import SceneError
 
 
 @contextmanager

@@ -10,26 +10,23 @@ from typing import Any, Self
 
 import numpy as np
 
-from chapsym import files
+from chapsym import files, jobs
 
 from ...plan.models import State
 from ...plan.plan import Plan
-from ...read.scene import SceneError
-from ...result.dataset import layout
-from ..task import Columns
+from ...read.errors import SceneError
+from ...read.task import Columns
+from ...result import group
+from ...result.dataset import OUTCOME, layout
 from . import creation, identity, marks
-from .lock import held
 from .refusals import refusals
-
-#: What the state says of each ball.
-OUTCOME = ("taken", "status", "error")
 
 
 class Store:
     """A Zarr group with the Dataset of a plan, and the marks of its units in a folder inside.
 
-    `Store.of` makes it or goes on with it; `start` says where a chunk goes on, `keep` writes a unit and then its mark,
-    `finish` says that all is there.  Every error of the disk is a SceneError, and loses nothing that was written.
+    `Store.of` makes it or goes on with it; `start` says where a chunk goes on, `write` writes a unit, `mark` says so,
+    `finish` that all is there.  Every error of the disk is a SceneError, and loses nothing that was written.
     """
 
     def __init__(self, path: Path, plan: Plan) -> None:
@@ -40,14 +37,14 @@ class Store:
     def of(cls, path: Path, plan: Plan, fresh: bool = False) -> Iterator[Self]:
         """The store of a plan, new or as it was left, locked unless it is complete; `fresh` discards what was there.
 
-        Raises SceneError if there is something else, or if another process is writing it.
+        Raises BadInput if there is something else, or if another process is writing it.
         """
         path = Path(os.path.realpath(path))
         check_place(path)
         with ExitStack() as stack:
             if path.exists() and not fresh:
                 identity.check_same(path, plan)
-                if identity.attributes(path).get("complete"):
+                if group.attributes(path).get("complete"):
                     yield cls(path, plan)
                     return
             elif path.exists():
@@ -62,7 +59,7 @@ class Store:
     @property
     def complete(self) -> bool:
         """Whether every unit is there."""
-        return bool(identity.attributes(self.path).get("complete"))
+        return bool(group.attributes(self.path).get("complete"))
 
     def start(self, chunk: int) -> tuple[int, State | None]:
         """How many segments of a chunk are done, and the state after them; 0 and None if none is."""
@@ -75,10 +72,9 @@ class Store:
             raise marks.damaged(self.path, chunk)
         return done, state
 
-    def keep(self, chunk: int, segment: int, columns: Columns, state: State) -> None:
-        """Writes a unit, then its mark with the state for the next segment."""
+    def write(self, chunk: int, segment: int, columns: Columns) -> None:
+        """Writes the values of a unit."""
         write_region(self.path, self.plan, chunk, segment, columns)
-        self.mark(chunk, segment, state)
 
     def mark(self, chunk: int, segment: int, state: State) -> None:
         """The mark of a unit whose region is written, after how its balls fared.
@@ -123,7 +119,7 @@ def check_place(path: Path) -> None:
     if not path.parent.is_dir():
         raise SceneError(f"{path}: the folder {path.parent} does not exist")
     if path.exists():
-        identity.check_ours(path)
+        group.check_ours(path)
     elif os.path.lexists(path) or not os.access(path.parent, os.W_OK):
         raise SceneError(f"{path} cannot be written: choose a name in a folder that is writable")
 
@@ -132,5 +128,5 @@ def check_place(path: Path) -> None:
 def _locked(path: Path) -> Iterator[None]:
     with refusals(path):
         marks.folder(path).mkdir(exist_ok=True)
-    with held(marks.folder(path) / "lock", str(path)):
+    with jobs.held(marks.folder(path) / "lock", str(path)):
         yield

@@ -5,6 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 
 Columns = dict[str, np.ndarray]
+#: An accuracy that float64 does not hold: the result has second halves, as on the rung "quad".
+BEYOND_FLOAT64 = 1e-15
 
 
 @dataclass(frozen=True)
@@ -34,6 +36,21 @@ class Task:
         return self.steps // self.every + 1
 
     @property
+    def chosen(self) -> bool:
+        """Whether the steps are to be chosen for an accuracy."""
+        return self.accuracy is not None
+
+    @property
+    def timed(self) -> bool:
+        """Whether the run has times, and so K = 𝒦/ε is known."""
+        return self.chosen or self.time_step is not None
+
+    @property
+    def doubled(self) -> bool:
+        """Whether what is followed has more digits than float64: second halves are kept, too."""
+        return self.precision == "quad" or (self.accuracy is not None and self.accuracy < BEYOND_FLOAT64)
+
+    @property
     def scale(self) -> float:
         """What divides the momentum to give K: ε, or 1 where the momentum is K itself."""
-        return 1.0 if self.accuracy is not None or self.time_step is None else self.time_step
+        return 1.0 if self.chosen or self.time_step is None else self.time_step

@@ -1,4 +1,4 @@
-"""One writer a store: a lock file that the system lets go when its process ends, however it ends."""
+"""One writer: a lock that the system lets go when its process ends, however it ends."""
 
 import json
 import os
@@ -6,8 +6,9 @@ import socket
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import IO
 
-from ...read.scene import SceneError
+from chapsym.dynamics import BadInput
 
 try:
     import fcntl
@@ -17,21 +18,13 @@ except ImportError:  # Windows: two writers are not told apart there
 
 @contextmanager
 def held(path: Path, what: str) -> Iterator[None]:
-    """Holds the lock file `path` of `what`; raises SceneError with the process that holds it, if another does."""
+    """Holds the lock file `path` of `what`; raises BadInput with the process that holds it, if another does."""
     try:
         stream = open(path, "a+", encoding="utf-8")  # noqa: SIM115
     except OSError as error:
-        raise SceneError(f"{what} cannot be written: {error.strerror or error}") from None
+        raise BadInput(f"{what} cannot be written: {error.strerror or error}") from None
     with stream:
-        try:
-            if fcntl is not None:
-                fcntl.flock(stream, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError:
-            raise SceneError(
-                f"{what} is being written by {_holder(path)}; wait for it, or choose another name"
-            ) from None
-        except OSError as error:
-            raise SceneError(f"{what} cannot be locked: {error.strerror or error}") from None
+        claim(stream, what, path)
         try:
             stream.truncate(0)
             stream.write(json.dumps({"pid": os.getpid(), "host": socket.gethostname()}))
@@ -39,6 +32,18 @@ def held(path: Path, what: str) -> Iterator[None]:
         except OSError:  # a full disk: the lock holds all the same, but names nobody
             stream.truncate(0)
         yield
+
+
+def claim(stream: IO[str], what: str, named: Path | None = None) -> None:
+    """Locks an open file until it is closed; raises BadInput if another process has, which the file `named` tells."""
+    try:
+        if fcntl is not None:
+            fcntl.flock(stream, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        holder = "another process" if named is None else _holder(named)
+        raise BadInput(f"{what} is being written by {holder}; wait for it, or choose another name") from None
+    except OSError as error:
+        raise BadInput(f"{what} cannot be locked: {error.strerror or error}") from None
 
 
 def _holder(path: Path) -> str:

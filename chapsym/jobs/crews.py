@@ -1,0 +1,89 @@
+"""Crews of this machine: this thread, some threads, or a process for each core."""
+
+import multiprocessing
+from collections.abc import Collection, Iterator
+from concurrent.futures import FIRST_COMPLETED, Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor, wait
+from contextlib import contextmanager
+from typing import Any
+
+from chapsym.workers import begin
+
+from .chains import Call, Crew
+
+#: What an interrupt has to wait for at most, in seconds.
+PATIENCE = 1.0
+
+
+class Here:
+    """This thread: each call is made when it is submitted."""
+
+    lost: tuple[type[BaseException], ...] = ()
+
+    def room(self) -> int:
+        """One after the other."""
+        return 1
+
+    def submit(self, call: Call) -> Future[Any]:
+        """Makes the call."""
+        future: Future[Any] = Future()
+        try:
+            future.set_result(call.function(*call.arguments))
+        except Exception as error:
+            future.set_exception(error)
+        return future
+
+    def landed(self, futures: Collection[Future[Any]]) -> Collection[Future[Any]]:
+        """All of them."""
+        return futures
+
+
+class Pool:
+    """An executor with so many workers; each finds a next call when it has made one."""
+
+    lost: tuple[type[BaseException], ...] = ()
+
+    def __init__(self, executor: Executor, workers: int) -> None:
+        self.executor, self.workers = executor, workers
+
+    def room(self) -> int:
+        """Two calls for each."""
+        return 2 * self.workers
+
+    def submit(self, call: Call) -> Future[Any]:
+        """A future of the executor."""
+        return self.executor.submit(call.function, *call.arguments)
+
+    def landed(self, futures: Collection[Future[Any]]) -> Collection[Future[Any]]:
+        """Waits for one of them."""
+        return wait(futures, PATIENCE, FIRST_COMPLETED).done
+
+
+@contextmanager
+def threads(count: int) -> Iterator[Crew]:
+    """So many threads; at the end, or after an error, those that run are waited for."""
+    if count <= 1:
+        yield Here()
+        return
+    with ThreadPoolExecutor(count) as executor:
+        try:
+            yield Pool(executor, count)
+        finally:
+            executor.shutdown(wait=True, cancel_futures=True)
+
+
+@contextmanager
+def processes(count: int) -> Iterator[Crew]:
+    """So many processes; at the end, or after an error, those that run are ended."""
+    if count <= 1:
+        yield Here()
+        return
+    # A child is not forked: numba's threads and Arb's precision are of a process.
+    executor = ProcessPoolExecutor(count, multiprocessing.get_context("spawn"), initializer=begin)
+    try:
+        yield Pool(executor, count)
+    finally:
+        children = list((executor._processes or {}).values())  # the pool forgets them at its shutdown
+        executor.shutdown(wait=False, cancel_futures=True)
+        for process in children:
+            if process.is_alive():
+                process.terminate()

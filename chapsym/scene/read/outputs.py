@@ -1,0 +1,136 @@
+"""What a scene can ask for: all that is known of an output, its unit, size and columns, in one record of `OUTPUTS`."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from math import prod
+
+from chapsym.dynamics import invariants_n, kernels
+from chapsym.dynamics.ball import Floats
+
+#: K = 𝒦/ε in kg m²/s.  An output sees ε through it alone, so that whatever is made of it needs a run with times.
+K = "angular_momentum"
+
+
+@dataclass(frozen=True)
+class Output:
+    """long_name, units (in n dimensions): as files tell them; `chosen` has both where the steps are chosen.
+
+    dims: beside ball and frame; dims_n: the same in more than three dimensions, None where it is not known there.
+    derive: its values from J, D and what it `needs`, other outputs or `K`; of these, `with_D` enter with D alone.
+    Without `derive` it is a column that models follow.  kernels: the generated ones that `derive` evaluates.
+    per_ball: one value a ball, not one a frame.  radius: whether the ball must have one.
+    """
+
+    long_name: str
+    units: str | Callable[[int], str]
+    dims: tuple[str, ...] = ()
+    dims_n: tuple[str, ...] | None = None
+    needs: frozenset[str] = frozenset()
+    with_D: frozenset[str] = frozenset()
+    derive: Callable[[Floats, Floats, Mapping[str, Floats]], Floats] | None = None
+    kernels: tuple[str, ...] = ()
+    per_ball: bool = False
+    radius: bool = False
+    chosen: tuple[str, str] | None = None
+
+    def dims_in(self, n: int) -> tuple[str, ...]:
+        """Its dimensions beside ball and frame in n dimensions."""
+        return self.dims if n == 3 or self.dims_n is None else self.dims_n
+
+    def width(self, n: int) -> int:
+        """How many numbers it has, of one frame of one ball in n dimensions."""
+        return prod(len(labels(n)[dim]) for dim in self.dims_in(n))
+
+    def attrs(self, n: int, chosen: bool) -> dict[str, str]:
+        """Its units and its name in a result; whether the steps were chosen for an accuracy."""
+        if chosen and self.chosen is not None:
+            return dict(zip(("long_name", "units"), self.chosen, strict=True))
+        return {"units": self.units if isinstance(self.units, str) else self.units(n), "long_name": self.long_name}
+
+
+def labels(n: int) -> dict[str, list[str]]:
+    """The names of the components along each dimension, in n dimensions; vectors count from 1, as in the paper."""
+    numbered = [str(i) for i in range(1, n + 1)]
+    plane = ["x", "y"] if n == 3 else numbered[:-1]
+    return {
+        "axis": numbered, "plane": plane, "quaternion": list("wxyz"), "integral": list(_integrals(n)),
+        "row": numbered, "column": numbered,
+    }  # fmt: skip
+
+
+def _integrals(n: int) -> dict[str, str]:
+    """The momentum integrals in the order of `invariants` and `invariants_n`, each with its units."""
+    if n == 3:
+        return {"K.gamma": "kg m2", "K.K": "kg2 m4", "gamma.gamma": "1"}
+    found = {f"tr K^{2 * j}": f"kg{2 * j} m{4 * j}" for j in range(1, n // 2 + 1)}
+    found |= {f"gamma.K^{2 * j}.gamma": f"kg{2 * j} m{4 * j}" for j in range(1, (n - 1) // 2 + 1)}
+    return found | {"gamma.gamma": "1"}
+
+
+def _omega(J: Floats, D: Floats, given: Mapping[str, Floats]) -> Floats:
+    """ω = Λ⁻¹(K + D⟨ω,γ⟩γ), in principal axes (2.4 solved)."""
+    return kernels.angular_velocity(given[K], given["gamma"], J, D)
+
+
+def _energy(J: Floats, D: Floats, given: Mapping[str, Floats]) -> Floats:
+    """½⟨K,ω⟩ in joules."""
+    return kernels.energy(given[K], given["gamma"], J, D)
+
+
+def _invariants(J: Floats, D: Floats, given: Mapping[str, Floats]) -> Floats:
+    """The momentum integrals, which the map keeps (Proposition 2)."""
+    of = kernels.invariants if J.shape[-1] == 3 else invariants_n
+    return of(given["momentum"], given["gamma"])
+
+
+_MATRIX = ("row", "column")
+_GAMMA = frozenset({"gamma"})
+
+OUTPUTS: dict[str, Output] = {
+    "momentum": Output(
+        "discrete momentum 𝒦, body axes", "kg m2", ("axis",), _MATRIX,
+        chosen=("angular momentum K about the contact point, body axes", "kg m2 s-1"),
+    ),
+    "gamma": Output("vertical γ, upwards, body axes", "1", ("axis",), ("axis",)),
+    "omega": Output(
+        "angular velocity ω, body axes", "rad s-1", ("axis",),
+        needs=_GAMMA | {K}, with_D=_GAMMA, derive=_omega, kernels=("angular_velocity",),
+    ),
+    "attitude": Output("attitude, body axes to space", "1", ("quaternion",), _MATRIX),
+    "contact": Output("contact point", "m", ("plane",), ("plane",), radius=True),
+    "energy": Output(
+        "kinetic energy", "J", needs=_GAMMA | {K}, with_D=_GAMMA, derive=_energy, kernels=("energy",)
+    ),
+    "integrals": Output(
+        "momentum integrals", lambda n: ", ".join(_integrals(n).values()), ("integral",), ("integral",),
+        needs=_GAMMA | {"momentum"}, derive=_invariants, kernels=("invariants",),
+    ),
+    "phase": Output("elliptic phase u", "1"),
+    "rotation_number": Output("turns around the invariant curve, a step", "1", per_ball=True),
+}  # fmt: skip
+
+
+def kernels_for(name: str) -> set[str]:
+    """The generated kernels that make an output of the columns."""
+    if name == K:
+        return set()
+    return set(OUTPUTS[name].kernels).union(*(kernels_for(part) for part in OUTPUTS[name].needs))
+
+
+def timed(name: str) -> bool:
+    """Whether an output needs a run with times: it is made of `K`."""
+    return name == K or any(timed(part) for part in OUTPUTS[name].needs)
+
+
+def columns_for(outputs: tuple[str, ...], top: bool) -> frozenset[str]:
+    """The columns that a model must follow for these outputs; a `top` (D = 0) leaves out what enters with D alone."""
+    found: set[str] = set()
+    for name in outputs:
+        if name == K:
+            found |= {"momentum"}
+        elif OUTPUTS[name].derive is None:
+            found |= {name}
+        else:
+            one = OUTPUTS[name]
+            found |= columns_for(tuple(one.needs - one.with_D if top else one.needs), top)
+    return frozenset(found)
