@@ -98,6 +98,8 @@ def _tell(plan: "Plan", destination: Path, outcome: Any, data: "Dataset", answer
         _print(plan, destination, outcome, one)
         if balls == len(answers) == 1:
             print_answer(answers[0])
+    if failed == balls == 1:
+        fail(f"{stopped(data)}; the {one['steps']} steps before it are in {destination}", 2)
     if failed == balls:
         fail(f"no ball got to the end: {stopped(data)}; the frames before are in {destination}", 2)
     if failed:

@@ -1,12 +1,17 @@
 """Scene files: what is read, and what is refused with its key."""
 
+from fractions import Fraction
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from chapsym import Trajectory, scene
+from chapsym import scene
+from chapsym.accuracy.request import as_fractions
 from chapsym.scene import SceneError
+from chapsym.scene.result import formats
+from chapsym.scene.running import sweep
+from chapsym.scene.running.source import plan_of
 
 GOOD = """
 [ball]
@@ -30,17 +35,21 @@ def write(tmp_path):
     return written
 
 
+def run(path):
+    return sweep.run_in_memory(plan_of(scene.load(path)))
+
+
 def test_a_scene_runs(write):
-    run = scene.run(scene.load(write(GOOD)))
-    assert isinstance(run, Trajectory)
-    assert run.gamma[0].tolist() == [2 / 7, 3 / 7, 6 / 7]
-    assert run.taken == 10
+    data = run(write(GOOD))
+    assert data.gamma.values[0, 0].tolist() == [2 / 7, 3 / 7, 6 / 7]
+    assert data.taken.values == 10
 
 
 def test_the_shipped_scene_runs():
-    run = scene.run(scene.load(Path(__file__).parents[2] / "docs" / "first.toml"))
-    assert run.contact.shape == (1001, 2)
-    energy = run.kinetic_energy()
+    shipped = scene.load(Path(__file__).parents[2] / "docs" / "first.toml")
+    data = sweep.run_in_memory(plan_of(shipped.with_run(outputs=["contact", "energy"])))
+    assert data.contact.shape == (1, 1001, 2)
+    energy = data.energy.values[0]
     assert np.ptp(energy) / energy[0] < 1e-3
 
 
@@ -88,17 +97,16 @@ def test_more_frames_than_memory_are_refused(write, line, sentence):
 
 
 def test_a_link_stays_a_link(write, tmp_path):
-    run = scene.run(scene.load(write(GOOD)))
     (tmp_path / "link.npz").symlink_to(tmp_path / "real.npz")
-    scene.save(run, tmp_path / "link.npz")
+    formats.save(run(write(GOOD)), tmp_path / "link.npz")
     assert (tmp_path / "link.npz").is_symlink()
     assert (tmp_path / "real.npz").is_file()
 
 
 def test_saving_is_whole_or_not_at_all(write, tmp_path, monkeypatch):
-    run = scene.run(scene.load(write(GOOD)))
+    data = run(write(GOOD))
     target = tmp_path / "run.npz"
-    scene.save(run, target)
+    formats.save(data, target)
     before = target.read_bytes()
 
     def full(*_, **__):
@@ -106,7 +114,7 @@ def test_saving_is_whole_or_not_at_all(write, tmp_path, monkeypatch):
 
     monkeypatch.setattr("numpy.savez", full)
     with pytest.raises(SceneError, match=r"run\.npz cannot be written: No space left on device"):
-        scene.save(run, target)
+        formats.save(data, target)
     assert target.read_bytes() == before
     assert sorted(p.name for p in tmp_path.iterdir()) == ["run.npz", "scene.toml"]
 
@@ -121,23 +129,29 @@ ACCURATE = (
 
 def test_a_scene_may_ask_for_an_accuracy(write, tmp_path):
     wanted = scene.load(write(ACCURATE))
-    answer = scene.run_accurately(wanted)
+    plan, answers = sweep.telling(plan_of(wanted), lambda text: None)
+    data = sweep.run_in_memory(plan)
+    (answer,) = answers
     assert answer.request.of == "contact"
-    assert answer.estimate <= 1e-7
-    run = scene.run(wanted)
-    assert run.time.tolist() == [0.0, 2.0, 4.0]
-    fine = scene.run_accurately(wanted.with_run(accuracy=1e-12))
-    np.testing.assert_allclose(run.contact, fine.trajectory.contact, atol=1.1e-7)
-    scene.save(run, tmp_path / "run.npz")
-    assert np.load(tmp_path / "run.npz")["time_s"].tolist() == [0.0, 2.0, 4.0]
+    assert data.error.values[0] == answer.estimate <= 1e-7
+    assert data.time.values.tolist() == [0.0, 2.0, 4.0]
+    fine = sweep.run_in_memory(plan_of(wanted.with_run(accuracy=1e-12)))
+    np.testing.assert_allclose(data.contact, fine.contact, atol=1.1e-7)
+    formats.save(data, tmp_path / "run.npz")
+    assert np.load(tmp_path / "run.npz")["time"].tolist() == [0.0, 2.0, 4.0]
 
 
 def test_more_digits_than_float64_has_are_written(write, tmp_path):
-    run = scene.run(scene.load(write(ACCURATE.replace("1e-7", "1e-19"))))
-    scene.save(run, tmp_path / "run.npz")
-    data = np.load(tmp_path / "run.npz")
-    assert abs(data["contact_m_low"][-1]).max() > 0
-    assert (data["contact_m_low"] == run.low.contact).all()
+    text = ACCURATE.replace("1e-7", "1e-19").replace("[run]", "position = [0.1, 0.2]\n[run]")
+    plan, answers = sweep.telling(plan_of(scene.load(write(text))), lambda text: None)
+    formats.save(sweep.run_in_memory(plan), tmp_path / "run.npz")
+    data, exact = np.load(tmp_path / "run.npz"), as_fractions(answers[0].trajectory, "contact")
+    assert abs(data["contact_low"][-1]).max() > 0
+    for place, axis in ((Fraction(0.1), 0), (Fraction(0.2), 1)):
+        high, low = (Fraction(float(data[name][-1, axis])) for name in ("contact", "contact_low"))
+        assert abs(high + low - place - exact[-1, axis]) < 1e-32
+        assert float(high + low) == high
+    assert abs(data["momentum_low"][-1]).max() > 0
 
 
 @pytest.mark.parametrize(

@@ -139,7 +139,7 @@ def test_the_command_chooses_runs_and_verifies(tmp_path):
     assert found["estimate"] <= found["accuracy"] == 1e-8
     assert found["of"] == "contact"
     assert set(found["choice"]) == {"precision", "order", "steps", "time_step"}
-    assert np.load(tmp_path / "run.npz")["contact_m"][-1].tolist() == found["final"]["contact"]
+    assert np.load(tmp_path / "run.npz")["contact"][-1].tolist() == found["final"]["contact"]
     same = json.loads(command("trade", "--accuracy", "1e-8", "--time", "5", "--json").stdout)
     np.testing.assert_allclose(same["final"]["contact"], found["final"]["contact"], atol=2e-8)
 

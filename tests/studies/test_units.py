@@ -62,7 +62,7 @@ def test_what_the_code_below_computed_is_computed_again(tmp_path, monkeypatch):
     def files(names):
         found = real(names)
         seen.update(found)
-        return found | ({"chapsym.numbers.pairs": tmp_path / "below.py"} if "chapsym.numbers.pairs" in found else {})
+        return found | {name: tmp_path / "below.py" for name in found if name == "chapsym.numbers.pairs"}
 
     monkeypatch.setattr(units_module, "_files", files)
     before = Unit("kept:one").key

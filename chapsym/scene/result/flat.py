@@ -66,7 +66,7 @@ def arrays_of(data: "Dataset", told: Mapping[str, Any]) -> dict[str, np.ndarray]
     """The arrays of all variables; of one ball without the axis of the balls."""
     whole = data.isel(ball=0) if told["balls"] == 1 else data
     found = {name: whole[name].values for name in told["variables"]}
-    return {name: a.astype(str) if a.dtype.kind in "OT" else a for name, a in found.items()}
+    return {name: np.array(a.tolist(), dtype=str) if a.dtype.kind in "OT" else a for name, a in found.items()}
 
 
 def from_arrays(arrays: Mapping[str, np.ndarray], told: Mapping[str, Any], attrs: Mapping[str, Any]) -> "Dataset":

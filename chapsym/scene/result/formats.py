@@ -1,6 +1,8 @@
 """Results in files: NetCDF, and for the small CSV, Parquet and NumPy, each written whole; how all are read back."""
 
 import json
+import zipfile
+import zlib
 from collections.abc import Callable
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any
@@ -18,6 +20,11 @@ from .group import check_ours
 if TYPE_CHECKING:
     from xarray import Dataset
 
+#: What readers raise of a file that is damaged, or made by somebody else.
+DAMAGED = (
+    ValueError, KeyError, TypeError, EOFError, AttributeError, IndexError, RecursionError, NotImplementedError,
+    zipfile.BadZipFile, zlib.error,
+)  # fmt: skip
 #: More rows make a CSV that nothing opens.
 MOST_ROWS = 10**7
 #: The share of this machine's memory that a result may take before it goes to Zarr.
@@ -86,7 +93,7 @@ def load(path: Path) -> "Dataset":
     except OSError as error:
         reason = error.strerror or str(error).splitlines()[0]
         raise SceneError(f"{path} cannot be read: {reason}") from None
-    except (ValueError, KeyError, TypeError, EOFError, AttributeError, IndexError) as error:
+    except DAMAGED as error:
         told = (str(error).splitlines() or [type(error).__name__])[0]
         raise SceneError(f"{path} is damaged, or no result of chapsym: {told}") from None
     for one in data.variables.values():
