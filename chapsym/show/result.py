@@ -162,6 +162,8 @@ def _drift(dataset: "Dataset") -> str:
     from .figures.change import relative
     from .figures.integrals import sizes
 
+    if not reading.reached(dataset).any():
+        return ""
     if "integrals" in dataset and "integral" in dataset.coords and dataset["integrals"].size < MOST:
         found, names = reading.values(dataset, "integrals"), [str(name) for name in dataset["integral"].values]
     elif {"momentum", "gamma"} <= set(dataset.data_vars) and "row" not in dataset.dims and dataset["gamma"].size < MOST:

@@ -19,11 +19,14 @@ from waiting import GUARD, until
 
 from chapsym.dynamics import BadInput, Status
 from chapsym.scene import SceneError
+from chapsym.scene.result import formats
 from chapsym.scene.result.group import is_store
 from chapsym.scene.running import segments, sweep
 from chapsym.scene.running.store import Store, marks, write_region
 from chapsym.scene.running.store.refusals import refusals
 from chapsym.scene.running.tally import Stopped
+from chapsym.show import figures
+from chapsym.show.result import Result
 
 CHILD = [sys.executable, str(Path(__file__).parents[1] / "small_units.py")]
 
@@ -184,6 +187,20 @@ def test_an_unfinished_store_says_what_is_not_there(tmp_path, monkeypatch):
     assert np.isnan(found.gamma.values[waiting]).all()
     assert (found.status.values[waiting] == -1).all()
     assert np.isfinite(found.gamma.values[~waiting][:, 0]).all()
+
+
+@pytest.mark.parametrize("units", [0, 3])
+def test_an_unfinished_store_is_shown_as_far_as_it_is(tmp_path, monkeypatch, units):
+    """Less than half of its balls have run: the density of many traces is of those that have."""
+    interrupted(tmp_path / "run.zarr", monkeypatch, units, plan(("contact", "integrals"), n=80))
+    found = formats.load(tmp_path / "run.zarr")
+    assert (found.taken.values != -1).sum() < 40
+    assert "80" in repr(Result(found))
+    if units:
+        assert len(figures.draw(found, "contact").axes) == 2
+    else:
+        with pytest.raises(BadInput, match="no ball of this result has run yet"):
+            figures.draw(found, "contact")
 
 
 @pytest.mark.parametrize(

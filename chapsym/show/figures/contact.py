@@ -108,7 +108,7 @@ def _density(axis: "Axes", dataset: "Dataset", trace: Floats) -> None:
     axis.figure.colorbar(shown, ax=axis, location="bottom", aspect=40, pad=0.02, fraction=0.06,
                          label=f"frames of {len(trace)} balls in a cell")  # fmt: skip
     going = np.asarray(np.isfinite(trace).all(axis=-1))
-    frames = np.flatnonzero(going.sum(axis=0) > len(trace) // 2)
+    frames = np.flatnonzero(going.sum(axis=0) > going[:, 0].sum() // 2)  # of those whose turn has come
     mean = np.array([trace[going[:, k], k].mean(axis=0) for k in frames])
     axis.plot(
         *mean.T, color="black", linewidth=1.0, label="mean of the balls", zorder=3, rasterized=len(mean) > VERTICES
