@@ -1,5 +1,6 @@
 """Scene files: what is read, and what is refused with its key."""
 
+import os
 from fractions import Fraction
 from pathlib import Path
 
@@ -71,6 +72,8 @@ def test_the_shipped_scene_runs():
         ("[ball]", "[ball", "is not TOML"),
         ("[ball]", "a = " + "[" * 20000 + "\n[ball]", "is not TOML"),
         ("[ball]", "a = " + "9" * 20000 + "\n[ball]", "is not TOML"),
+        ("[ball]", ".".join("a" * 50_000) + " = 1\n[ball]", "is no scene: its tables are nested too deeply"),
+        ("steps = 10", "steps." + ".".join("a" * 1500) + " = 10", "is no scene: its tables are nested too deeply"),
         ("D = 3", "D = 1" + "0" * 400, "line 4: ball.D is beyond the range of float64"),
         ("0.1", "1e-400", "start.momentum.1 is below 2.2e-308, where float64 loses its digits"),
         ("0.1", "1.234_567e-315", "start.momentum.1 is below 2.2e-308"),
@@ -94,6 +97,17 @@ def test_a_wrong_scene_names_the_key_and_what_would_be_right(write, old, new, se
 def test_more_frames_than_memory_are_refused(write, line, sentence):
     with pytest.raises(SceneError, match=sentence):
         scene.load(write(GOOD.replace("steps = 10", line)))
+
+
+def test_a_pipe_is_no_scene_and_is_not_waited_for_but_standard_input_may_be_one(tmp_path):
+    os.mkfifo(tmp_path / "scene.toml")
+    with pytest.raises(SceneError, match=r"scene\.toml is a pipe, not a file with a scene"):
+        scene.load(tmp_path / "scene.toml")
+    read, write = os.pipe()
+    os.write(write, GOOD.encode())
+    os.close(write)
+    assert scene.load(Path(f"/dev/fd/{read}")).run.steps == 10
+    os.close(read)
 
 
 def test_a_link_stays_a_link(write, tmp_path):

@@ -1,5 +1,6 @@
 """Results in Zarr: equal to those in memory, resumable after SIGKILL, one writer, never mixed."""
 
+import json
 import os
 import random
 import subprocess
@@ -248,6 +249,15 @@ def test_a_comment_or_another_output_is_no_other_scene(tmp_path, monkeypatch):
     path = tmp_path / "run.zarr"
     interrupted(path, monkeypatch, 3, plan(scene="[run]\na = 1\n"))
     assert sweep.run_to_store(plan(scene="# Now.\n[run]\na = 1\noutput = 'run.zarr'"), path).complete
+
+
+@pytest.mark.parametrize("found", [{"chapsym_version": "0"}, {"chapsym_version": 0, "scene": 5}, [1], None])
+def test_attributes_that_nobody_wrote_are_one_sentence(tmp_path, found):
+    path = tmp_path / "run.zarr"
+    path.mkdir()
+    (path / "zarr.json").write_text(json.dumps({"attributes": found}))
+    with pytest.raises(SceneError, match=r"holds another scene|is no result of chapsym"):
+        sweep.run_to_store(plan(), path)
 
 
 def test_fresh_replaces_a_result_of_chapsym_only(whole, tmp_path, monkeypatch):

@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from chapsym.scene.read import units
 from chapsym.scene.read.units import LENGTH, MASS, MOMENT, PURE, RATE, SPEED, TIME, number
 
 
@@ -48,6 +49,8 @@ def test_a_unit_is_converted_to_the_nearest_float(text, dimension, si):
         ("3 N m", MOMENT, "it is a moment of inertia, but '3 N m' measures something else; write kg m²"),
         ("3 Hz", RATE, "'3 Hz' does not say which angle"),  # to pint 1 Hz is 1 rad/s
         ("3 1/s", RATE, "'3 1/s' does not say which angle"),
+        ("2 kilos", MASS, "it is a mass, but '2 kilos' says no unit, only how many; write kilograms"),
+        ("3 kilos m2", MOMENT, "'3 kilos m2' says no unit, only how many"),
         ("3 foo", LENGTH, "'foo' in '3 foo' is not a known unit"),
         ("30 deg", PURE, "it has no unit, but '30 deg' has one"),
         ("abc", LENGTH, "'abc' is not a number"),
@@ -70,6 +73,20 @@ def test_what_is_no_such_quantity_is_refused(text, dimension, sentence):
     with pytest.raises(ValueError, match=re.escape(sentence)) as caught:
         number(text, dimension)
     assert "\n" not in str(caught.value)
+
+
+def test_without_pint_a_unit_is_told_to_need_it(monkeypatch):
+    units._registry.cache_clear()
+    monkeypatch.setitem(sys.modules, "pint", None)
+    try:
+        with pytest.raises(ValueError, match="it has a unit, and pint, which reads units, cannot be loaded"):
+            number("3 cm", LENGTH)
+    finally:
+        units._registry.cache_clear()
+
+
+def test_a_time_may_be_said_in_short():
+    assert number("5 millis", TIME) == 0.005
 
 
 @given(st.text(st.characters(codec="utf-8", max_codepoint=0x300), max_size=30), st.sampled_from(["", "3 ", "1e3 "]))

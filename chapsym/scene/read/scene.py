@@ -1,6 +1,7 @@
 """Scene files in TOML: the balls, how they start, how long they roll, and what is kept of it."""
 
 import json
+import os
 import re
 import sys
 import tomllib
@@ -19,6 +20,8 @@ from .units import TIME, number
 
 #: A longer text is no scene that anybody wrote.
 MOST_BYTES = 10_000_000
+#: Of one key: tomllib takes time that grows with the square.
+MOST_DOTS = 2000
 
 
 def _one_or_many(given: Any) -> Any:
@@ -152,11 +155,13 @@ def checked(data: dict[str, Any], name: str = "", text: str | None = None) -> Sc
     NumPy's arrays and numbers are taken as lists and numbers.
     name: of the file from which the data are; text: its text, if they are all of it, for the lines of errors.
     """
-    data = _plain(data)
     try:
+        data = _plain(data)
         scene = Scene.model_validate(data)
     except ValidationError as error:
         raise SceneError(described(error.errors(include_url=False), name, text, data, KEYS)) from None
+    except RecursionError:
+        raise SceneError(f"{name or 'this'} is no scene: its tables are nested too deeply") from None
     scene._name, scene._toml, scene._data = name, text, data
     return scene
 
@@ -172,6 +177,8 @@ def _plain(value: Any) -> Any:
 
 def _text(path: Path) -> str:
     try:
+        if Path(os.path.realpath(path)).is_fifo():  # which has a name: `<(...)` and /dev/stdin have none
+            raise SceneError(f"{path} is a pipe, not a file with a scene")
         with path.open("rb") as stream:
             content = stream.read(MOST_BYTES + 1)
         if len(content) > MOST_BYTES:
@@ -186,6 +193,8 @@ def _text(path: Path) -> str:
 
 
 def _parsed(text: str, path: Path) -> dict[str, Any]:
+    if any(key.count(".") > MOST_DOTS for key in re.findall(r"[\w.\-\"' \t]+", text)):
+        raise SceneError(f"{path} is no scene: its tables are nested too deeply")
     try:
         return tomllib.loads(text, parse_float=toml_float)
     except (ValueError, RecursionError) as error:  # tomllib: wrong syntax, huge integers, deep nesting

@@ -35,6 +35,8 @@ PURE = Dimension("a number without a unit", "1", "a number", "", ("0.5", "2/7"))
 KNOWN = (LENGTH, MASS, TIME, MOMENT, RATE, SPEED)
 
 _FORM = re.compile(r"\s*([+-]?[0-9./]+(?:[eE][+-]?[0-9]+)?)\s*(.*?)\s*", re.ASCII | re.DOTALL)
+#: What people say for a unit with it, and pint reads as seconds: kilos.
+_SHORT = re.compile(r"\b(?:kilo|mega|giga|milli|micro|nano|centi|deci|hecto)s?\b")
 #: No parentheses, and no numbers but exponents of one digit: nothing that is costly to work out.
 _UNIT = re.compile(r"(?:1\s*/)?(?:[^\W\d]|[\s°²³·*/^-]|[1-9](?!\d))+")
 
@@ -88,9 +90,11 @@ def _exact(text: str, dimension: Dimension) -> Fraction:
 
 @cache
 def _registry() -> Any:
-    """pint's units with exact factors; loaded when a scene first has a unit."""
-    import pint
-
+    """pint's units with exact factors; loaded when a scene first has a unit, raises ValueError if it cannot be."""
+    try:
+        import pint
+    except ImportError as error:
+        raise ValueError(f"it has a unit, and pint, which reads units, cannot be loaded: {error}") from None
     units: Any = pint.UnitRegistry(non_int_type=Fraction)
     units.define("@alias revolution = rev")
     return units
@@ -105,13 +109,16 @@ def _factor(unit: str, text: str, dimension: Dimension) -> Fraction:
     spelled = re.sub(r"([^\W\d])(-?[1-9])", r"\1^\2", unit)  # "kg m2" means kg m²
     if dimension is PURE:
         raise ValueError(f"it has no unit, but {shown!r} has one; {write}")
+    registry = _registry()
     try:
-        found = _registry().parse_units(spelled)
+        found = registry.parse_units(spelled)
         measures = _measures(found)
     except Exception:  # pint raises whatever its tokenizer meets: all of it means that this is no unit
         raise ValueError(f"it is {dimension.name}, but {unit!r} in {shown!r} is not a known unit; {write}") from None
-    if measures != _measures(_registry().parse_units(dimension.pint)):
-        names = [known.name for known in KNOWN if _measures(_registry().parse_units(known.pint)) == measures]
+    if measures != _measures(registry.parse_units(dimension.pint)):
+        if _SHORT.search(spelled):
+            raise ValueError(f"it is {dimension.name}, but {shown!r} says no unit, only how many; {write}")
+        names = [known.name for known in KNOWN if _measures(registry.parse_units(known.pint)) == measures]
         told = f"is {names[0]}" if names else "measures something else"
         raise ValueError(f"it is {dimension.name}, but {shown!r} {told}; {write}")
     if dimension is RATE and "radian" not in _roots(found):  # to pint an angle is a number, and 1 Hz would be 1 rad/s
