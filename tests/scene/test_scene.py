@@ -155,6 +155,13 @@ def test_a_scene_may_ask_for_an_accuracy(write, tmp_path):
     assert np.load(tmp_path / "run.npz")["time"].tolist() == [0.0, 2.0, 4.0]
 
 
+@pytest.mark.parametrize("given", ["1 um", "1e-6", "1/1000000"])
+def test_an_accuracy_of_the_contact_point_may_have_a_unit(write, given):
+    wanted = scene.load(write(ACCURATE.replace("accuracy = 1e-7", f"accuracy = '{given}'"))).task()
+    assert wanted.accuracy == 1e-6
+    assert type(wanted.accuracy) is float
+
+
 def test_more_digits_than_float64_has_are_written(write, tmp_path):
     text = ACCURATE.replace("1e-7", "1e-19").replace("[run]", "position = [0.1, 0.2]\n[run]")
     plan, answers = sweep.telling(plan_of(scene.load(write(text))), lambda text: None)
@@ -173,6 +180,9 @@ def test_more_digits_than_float64_has_are_written(write, tmp_path):
     [
         ("accuracy = 1e-7\n", "", "run.time needs run.time_step (or run.accuracy, which chooses the steps)"),
         ("accuracy = 1e-7", "accuracy = 0", "run.accuracy must be greater than 0"),
+        ("accuracy = 1e-7", "accuracy = '0 mm'", "run.accuracy must be greater than 0"),
+        ("accuracy = 1e-7", "accuracy = '1 kg'", "run.accuracy is a length, but '1 kg' is a mass"),
+        ("accuracy = 1e-7", "of = 'state'\naccuracy = '1 um'", "has a unit, but of the state it is relative"),
         ("time = 4.0\n", "", "run.accuracy needs run.time, in seconds"),
         ("time = 4.0", "time = 4.0\nsteps = 3", "run.accuracy chooses the steps: leave out run.steps"),
         ("time = 4.0", "time = 4.0\nevery = 1", "run.accuracy chooses the steps: leave out run.every"),

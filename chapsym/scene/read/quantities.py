@@ -6,7 +6,7 @@ from pydantic import BeforeValidator, Discriminator, Field, GetJsonSchemaHandler
 from pydantic_core import core_schema
 
 from .ranges import Value, value
-from .units import LENGTH, MASS, MOMENT, PURE, RATE, SPEED, TIME, Dimension, number
+from .units import LENGTH, MASS, MOMENT, PURE, RATE, SPEED, TIME, Dimension, has_unit, number
 
 
 class Quantity:
@@ -34,6 +34,23 @@ class Quantity:
         return {"quantity": self.dimension.units, "swept": self.swept, "positive": self.positive}
 
 
+class Metres(float):
+    """A number that was given with a unit of length."""
+
+
+class Accuracy(Quantity):
+    """A positive number, or a length: then it is `Metres`."""
+
+    def __init__(self) -> None:
+        super().__init__(LENGTH, swept=False, positive=True)
+
+    def read(self, given: Any) -> Value:
+        """The number; raises ValueError with what would be right."""
+        if has_unit(given):
+            return Metres(super().read(given))  # type: ignore[arg-type]
+        return Quantity(PURE, swept=False, positive=True).read(given)
+
+
 Length = Annotated[Value, Quantity(LENGTH)]
 Mass = Annotated[Value, Quantity(MASS)]
 Moment = Annotated[Value, Quantity(MOMENT)]
@@ -41,7 +58,6 @@ Rate = Annotated[Value, Quantity(RATE)]
 Speed = Annotated[Value, Quantity(SPEED)]
 Pure = Annotated[Value, Quantity(PURE)]
 Seconds = Annotated[float, Quantity(TIME, swept=False, positive=True)]
-Positive = Annotated[float, Quantity(PURE, swept=False, positive=True)]
 
 #: The tags of lists and matrices are no keys: errors leave them out.
 LIST, MATRIX = "(list)", "(matrix)"

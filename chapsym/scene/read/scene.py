@@ -73,10 +73,10 @@ class Scene(Table):
     def task(self) -> Task:
         """What is asked for, with the defaults filled in."""
         run, (steps, every) = self.run, self.run.counts()
-        of = run.of or ("contact" if "contact" in run.names() else "state")
         return Task(
-            run.names(), steps, every, run.time_step, run.order or 2, run.precision or "double", run.accuracy,
-            None if run.accuracy is None else run.time, of, 600.0 if run.limit is None else run.limit,
+            run.names(), steps, every, run.time_step, run.order or 2, run.precision or "double",
+            None if run.accuracy is None else float(run.accuracy),
+            None if run.accuracy is None else run.time, run.accurate_of(), 600.0 if run.limit is None else run.limit,
         )  # fmt: skip
 
     def with_run(self, **changed: Any) -> Self:

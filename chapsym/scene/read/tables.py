@@ -8,16 +8,17 @@ from .bodies import PRESETS
 from .errors import At
 from .outputs import OUTPUTS
 from .quantities import (
+    Accuracy,
     Inertia,
     Length,
     Lengths2,
     Lengths3,
     Mass,
+    Metres,
     Moment,
     MomentsN,
     Momentum,
     Omega,
-    Positive,
     PureN,
     Quantity,
     Quaternion,
@@ -35,6 +36,7 @@ Line = Annotated[str, Field(pattern=r"^[^\x00-\x1f\x7f-\x9f]*$")]
 MOST_STEPS, MOST_FRAMES = 2**53, 10**8
 #: A step in n dimensions solves n(n-1)/2 equations.
 MOST_DIMENSIONS = 32
+Accurate = Annotated[float, Accuracy()]
 Output = Literal[*OUTPUTS]  # type: ignore[valid-type]
 
 
@@ -153,7 +155,7 @@ class RunTable(Table):
     precision: Literal["single", "double", "quad"] | None = Field(
         None, description="Of the numbers: 7, 16 or 31 digits; double without."
     )
-    accuracy: Positive | None = Field(None, description="In the place of steps: of the contact point (m) or the state.")
+    accuracy: Accurate | None = Field(None, description="In the place of steps: of the contact point (m) or the state.")
     of: Literal["state", "contact"] | None = Field(None, description="What the accuracy is of.")
     limit: Seconds | None = Field(None, description="Of the processor, for a run to an accuracy; 600 s without.")
 
@@ -184,6 +186,9 @@ class RunTable(Table):
             raise At(f"run.accuracy chooses the steps: leave out run.{chosen[0]}", chosen[0])
         if self.time is None:
             raise At("run.accuracy needs run.time, in seconds", "accuracy")
+        if isinstance(self.accuracy, Metres) and self.accurate_of() == "state":
+            told = 'of the state it is relative; a length goes with of = "contact"'
+            raise At(f"run.accuracy has a unit, but {told}", "accuracy")
         if self.frames is not None and self.frames > MOST_FRAMES:
             raise At(f"run.frames is more than {MOST_FRAMES}", "frames")
 
@@ -219,6 +224,10 @@ class RunTable(Table):
     def counts(self) -> tuple[int, int]:
         """(steps, every); where the steps are chosen for an accuracy, (frames, 1)."""
         return self._counted() if self.accuracy is None else (self.frames or 1, 1)
+
+    def accurate_of(self) -> str:
+        """What the accuracy is of: the contact point where it is kept and nothing else is said."""
+        return self.of or ("contact" if "contact" in self.names() else "state")
 
     def names(self) -> tuple[str, ...]:
         """The outputs, each once, in the order of `OUTPUTS`."""

@@ -54,6 +54,12 @@ def number(value: Any, dimension: Dimension = PURE) -> float:
     return float(value)
 
 
+def has_unit(value: Any) -> bool:
+    """Whether something is a text of a number and more than that."""
+    parts = _FORM.fullmatch(value[:200]) if isinstance(value, str) else None
+    return parts is not None and bool(parts[2])
+
+
 def _or(dimension: Dimension) -> str:
     return f' or "{dimension.example[1]}"'
 
