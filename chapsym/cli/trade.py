@@ -91,7 +91,10 @@ def _answer(
         if output is not None:
             formats.check_destination(output)
         wanted = scenes.load_for(scene, accuracy, time) if scene else _described(accuracy, time, told)
-        changed = {"limit": limit, **({"of": told["--of"]} if "--of" in told else {})}
+        changed: dict[str, Any] = {"limit": limit, **({"of": told["--of"]} if "--of" in told else {})}
+        if changed.get("of") == "state":  # what is kept beside it is followed, and not to an accuracy of its own
+            kept = [name for name in wanted.run.names() if name != "contact"]
+            changed |= {"contact": None, "attitude": None, "outputs": kept or ["momentum", "gamma"]}
         plan, answers = sweep.telling(plan_of(wanted.with_run(**changed)), say)
         if len(plan.members) > 1:
             fail(f"{scene} has {len(plan.members)} balls: chapsym run takes them, with accuracy under [run]", 2)

@@ -5,6 +5,7 @@ import re
 import subprocess
 import sys
 
+import numpy as np
 import pytest
 
 from chapsym.scene.read.example import names
@@ -152,6 +153,50 @@ def test_a_run_of_which_no_ball_gets_to_the_end_fails(tmp_path):
         assert found.returncode == 2
         assert "no ball got to the end: 2 balls, the first slow at step 0: no rotation" in found.stderr
         assert (tmp_path / name).exists()
+
+
+def test_what_a_scene_names_as_its_output_stays_in_its_folder_or_this(tmp_path):
+    here, theirs, out = tmp_path / "here", tmp_path / "theirs", tmp_path / "out"
+    for folder in (here, theirs, out):
+        folder.mkdir()
+    (here / "link").symlink_to(out)
+    for name, allowed in (("run.npz", True), ("../theirs/run.npz", True), ("../out/run.npz", False),
+                          (out / "run.npz", False), ("link/run.npz", False)):  # fmt: skip
+        path = theirs / "scene.toml"
+        path.write_text(SCENE.replace("{ grid = [0.1, 50] }", "0.1") + f'output = "{name}"\n', encoding="utf-8")
+        found = chapsym("run", path, cwd=here)
+        assert (found.returncode == 0) == allowed, found.stderr
+        if not allowed:
+            assert found.stderr == (
+                f"chapsym: {path}: run.output = {str(name)!r} leaves this folder and that of the scene; "
+                f"if you mean it, say -o {name}\n"
+            )
+            assert chapsym("run", path, "-o", name, cwd=here).returncode == 0
+
+
+def test_one_ball_is_run_and_told_the_same_whatever_the_suffix(tmp_path):
+    """The steady ball takes no step: .npz and .csv once went another way."""
+    path = tmp_path / "s.toml"
+    path.write_text(
+        "[ball]\ninertia = [0.01, 0.01, 0.01]\nmass = 2\nradius = 0.1\n[start]\nomega = [1, 2, 3]\n"
+        "[run]\ntime_step = 0.01\nsteps = 1000000000\nevery = 500000000\ncontact = true\n"
+    )
+    told = set()
+    for suffix in (".npz", ".csv", ".zarr"):
+        found = json.loads(done("run", path, "-o", tmp_path / f"run{suffix}", "--json"))
+        assert found.pop("output") == str(tmp_path / f"run{suffix}")
+        assert found["model"] == "steady rotation"
+        assert (found["steps"], found["frames"], found["complete"]) == (10**9, 3, True)
+        assert set(found["final"]) == {"momentum", "gamma", "contact"}
+        assert len(found["drift"]) == 3
+        told.add(json.dumps(found))
+    assert len(told) == 1
+    with np.load(tmp_path / "run.npz") as data:
+        assert data["radius"] == 0.1
+        assert [name for name in data.files if name.startswith("momentum")] == ["momentum"]
+    assert done("run", path, "-o", tmp_path / "run.zarr").startswith(
+        f"1000000000 steps, 3 frames; {tmp_path / 'run.zarr'} was complete already\nrelative drift of "
+    )
 
 
 def _scene(tmp_path, *changes):
