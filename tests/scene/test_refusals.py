@@ -227,7 +227,6 @@ def test_an_interrupted_command_stops_and_goes_on(tmp_path):
 def test_the_command_refuses_what_cannot_be(tmp_path):
     scene = tmp_path / "long.toml"
     scene.write_text(LONG)
-    assert "a .npz holds one ball" in refused(chapsym("run", scene, "-o", tmp_path / "run.npz"))
     assert "needs a .zarr" in refused(chapsym("run", scene, "-o", tmp_path / "run.nc", "--scheduler", "tcp://x:1"))
     scene.write_text(LONG.replace("every = 20", "every = 1"))
     assert "a CSV of more than 10000000 is of no use" in refused(chapsym("run", scene, "-o", tmp_path / "run.csv"))
