@@ -9,7 +9,7 @@ import chapsym
 
 ROOT = Path(chapsym.__file__).parent
 #: Rooms that still have circles.
-LEFT = {"cli", "dynamics", "scene", "show"}
+LEFT = {"dynamics", "scene"}
 ROOMS = sorted({path.name for path in ROOT.iterdir() if (path / "__init__.py").is_file()} - LEFT)
 
 

@@ -10,7 +10,7 @@ from typing import Annotated, Any
 
 import typer
 
-from chapsym.exact import rational
+from chapsym.exact import rational, rationals
 
 from .app import app
 from .options import Contact, Inertia, Json, MassTensor, ball_from
@@ -29,6 +29,15 @@ certify = typer.Typer(
 app.add_typer(certify, name="certify")
 
 Output = Annotated[Path | None, typer.Option("-o", "--output", metavar="FILE", help="Write the certificate there.")]
+
+
+def _ball(mass_tensor: str | None, inertia: str | None, contact: str | None, default: str) -> tuple[Any, Any]:
+    """J and D as they are given; by default J = (1, 2, 4) with a D of the command."""
+    if mass_tensor is inertia is contact is None:
+        mass_tensor, contact = "1,2,4", default
+    if contact is None:
+        fail("D is missing: give --D", 2)
+    return ball_from(mass_tensor, inertia, contact, None, None)
 
 
 @certify.command("no-invariant-measure")
@@ -54,11 +63,7 @@ def no_invariant_measure(
 
     Example: chapsym certify no-invariant-measure --mass-tensor 1,2,4 --D 7 --steps 21 -o real-ball.json
     """
-    if mass_tensor is inertia is contact is None:
-        mass_tensor, contact = "1,2,4", "1"
-    if contact is None:
-        fail("D is missing: give --D", 2)
-    J, D = ball_from(mass_tensor, inertia, contact, None, None)
+    J, D = _ball(mass_tensor, inertia, contact, "1")
     h = rational(height, "--height")
     at, within = (None if x is None else rational(x, name) for x, name in ((level, "--level"), (radius, "--radius")))
     from chapsym.certificates import measure
@@ -70,12 +75,12 @@ def no_invariant_measure(
             progress=progress,
         )  # fmt: skip
 
-    found = deliver(find, output, as_json)
+    found = _deliver(find, output, as_json)
     if not as_json:
-        _describe(found)
+        _describe_measure(found)
 
 
-def _describe(found: dict[str, Any]) -> None:
+def _describe_measure(found: dict[str, Any]) -> None:
     ball, axes = found["ball"], found["axes"]
     print(f"J = ({', '.join(ball['J'])}), D = {ball['D']}, h = {ball['height']}, level {ball['level']}")
     print(f"and all within {found['radius']} of each of these: around axis {axes[2]} in {found['steps']} steps")
@@ -83,6 +88,95 @@ def _describe(found: dict[str, Any]) -> None:
         axis = axes["ab".index(orbit["start"])]
         moved = f"{Decimal(orbit['displacement']):.2e}"
         print(f"  half turns: {found['half_turns']}, then {moved} (a sine times two lengths), from gamma{axis} = 0")
+
+
+@certify.command("periodic-orbit")
+def periodic_orbit(
+    mass_tensor: MassTensor = None,
+    inertia: Inertia = None,
+    contact: Contact = None,
+    size: Annotated[str, typer.Option("--momentum-momentum", metavar="KK", help="Of K with itself.")] = "15/2",
+    height: Annotated[
+        str | None, typer.Option("--momentum-gamma", metavar="KG", help="Of K with gamma; found by default.")
+    ] = None,
+    steps: Annotated[int, typer.Option(metavar="Q", help="Steps after which the orbit is back.")] = 20,
+    attracting: Annotated[bool, typer.Option("--attracting", help="It must attract the orbits near it.")] = False,
+    digits: Annotated[int | None, typer.Option(metavar="N", help="Decimals; as many as needed by default.")] = None,
+    output: Output = None,
+    as_json: Json = False,
+) -> None:
+    """Certify a periodic orbit, K not parallel to gamma, that contracts volumes: no density near it is invariant.
+
+    On the level of |K| and of K with gamma it is isolated and no symmetry maps it to itself.  By default for the
+    ball with J = (1, 2, 4), D = 2.
+
+    Example: chapsym certify periodic-orbit --mass-tensor 1,2,4 --D 1 --steps 26 --attracting -o attracting.json
+    """
+    J, D = _ball(mass_tensor, inertia, contact, "2")
+    KK = rational(size, "--momentum-momentum")
+    Kg = None if height is None else rational(height, "--momentum-gamma")
+
+    def find(progress: Callable[[str], None]) -> dict[str, Any]:
+        from chapsym.certificates import orbit
+
+        return orbit.periodic_orbit(
+            (J[0], J[1], J[2]), D, KK, steps, height=Kg, digits=digits, attracting=attracting, progress=progress
+        )
+
+    found = _deliver(find, output, as_json)
+    if not as_json:
+        _describe_orbit(found)
+
+
+def _describe_orbit(found: dict[str, Any]) -> None:
+    ball, integrals = found["ball"], found["integrals"]
+    print(f"J = ({', '.join(ball['J'])}), D = {ball['D']}, <K, K> = {integrals['momentum.momentum']}, ", end="")
+    print(f"<K, gamma> = {integrals['momentum.gamma']}: back after {found['steps']} steps")
+    contraction, unit = Decimal(found["determinant"]) - 1, Decimal(found["unit_eigenvalue"])
+    print(f"  det DG^q - 1 = {contraction:.3e}, det(1 - DG^q) = {unit:.3e} on the level")
+    if "trace" in found:
+        print("  all eigenvalues are inside the unit circle: the orbit attracts")
+
+
+@certify.command("energy-drift")
+def energy_drift(
+    mass_tensor: MassTensor = None,
+    inertia: Inertia = None,
+    contact: Contact = None,
+    momentum: Annotated[str, typer.Option(metavar="K1,K2,K3", help="The start, near a closed orbit.")] = "1,2,3.42454",
+    gamma: Annotated[str, typer.Option(metavar="G1,G2,G3", help="The unit vertical, rational.")] = "3/7,6/7,2/7",
+    symmetry: Annotated[str, typer.Option(metavar="S1,S2,S3", help="Signs: how the orbit is back.")] = "-1,-1,1",
+    time: Annotated[str, typer.Option(metavar="T", help="When it is back.")] = "8.5478",
+    vary: Annotated[
+        int, typer.Option(metavar="N", min=1, max=3, help="The component of the momentum that is adjusted.")
+    ] = 3,
+    digits: Annotated[int, typer.Option(metavar="N", min=12, max=200, help="Its decimals.")] = 20,
+    output: Output = None,
+    as_json: Json = False,
+) -> None:
+    """Certify a closed orbit of the continuous ball on which the energy of the map drifts.
+
+    By default for the ball with J = (1, 2, 4), D = 1.  It takes about a minute.
+
+    Example: chapsym certify energy-drift -o drift.json
+    """
+    J, D = _ball(mass_tensor, inertia, contact, "1")
+    K, g = rationals(momentum, "--momentum", 3), rationals(gamma, "--gamma", 3)
+    signs, end = rationals(symmetry, "--symmetry", 3), rational(time, "--time")
+    from chapsym.certificates.drift_search import energy_drift as search
+
+    def find(progress: Callable[[str], None]) -> dict[str, Any]:
+        return search(J, D, K, g, tuple(map(int, signs)), end, vary - 1, digits=digits, progress=progress)
+
+    found = _deliver(find, output, as_json)
+    if not as_json:
+        _describe_drift(found)
+
+
+def _describe_drift(found: dict[str, Any]) -> None:
+    print(found["statement"])
+    for name, what in (("energy", "X3(H)"), ("density", "div X3")):
+        print(f"  integral of {what:7} {float(found[name][0]):.9e}, up to {float(found[name][1]):.0e}")
 
 
 @certify.command()
@@ -100,7 +194,7 @@ def check(
     raise typer.Exit(subprocess.run(command, check=False).returncode)
 
 
-def deliver(
+def _deliver(
     find: Callable[[Callable[[str], None]], dict[str, Any]],
     output: Path | None,
     as_json: bool,
@@ -113,7 +207,7 @@ def deliver(
     try:
         if output is not None:
             files.check_destination(output)
-        with telling() as progress:
+        with _telling() as progress:
             found = find(progress)
         if output is not None:
             write(output, found)
@@ -127,7 +221,7 @@ def deliver(
 
 
 @contextmanager
-def telling() -> Iterator[Callable[[str], None]]:
+def _telling() -> Iterator[Callable[[str], None]]:
     """Yields a function of a sentence: a line that changes on a terminal, elsewhere a line every few seconds."""
     from rich.console import Console
 
