@@ -21,7 +21,7 @@ def test_the_lemma_holds_with_its_evidence():
     evidence = prove_one(ID)["evidence"]
     assert evidence["problems"] == []
     assert verdict() == "holds"
-    assert len(evidence["controls"]) == 5
+    assert len(evidence["controls"]) == 4
     assert all(control["rejected"] for control in evidence["controls"])
 
 
