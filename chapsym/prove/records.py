@@ -4,10 +4,8 @@ A record is fresh while the proof script, the derivations that it imports, the r
 libraries that decide are those that it was made with.  A fresh record can be shown; a stale one is proved again.
 """
 
-import ast
 import hashlib
 import importlib.metadata
-import importlib.util
 import json
 from collections.abc import Iterable
 from functools import cache
@@ -16,7 +14,7 @@ from typing import Any
 
 import platformdirs
 
-from chapsym import files
+from chapsym import files, sources
 
 from .claims import Claim
 from .evidence import Verdict
@@ -39,10 +37,10 @@ def default_path() -> Path:
 
 def fingerprint(claim: Claim) -> str:
     """A hash of everything that the claim's verdict depends on: sources, files, and the versions of the libraries."""
-    sources = _of_module(claim.prove.__module__)
+    text = _of_module(claim.prove.__module__)
     if not claim.files:
-        return sources
-    digest = hashlib.sha256(sources.encode())
+        return text
+    digest = hashlib.sha256(text.encode())
     for file in claim.files:
         digest.update(file.name.encode() + b"\n" + (file.read_bytes() if file.is_file() else b"missing"))
     return digest.hexdigest()[:16]
@@ -50,55 +48,8 @@ def fingerprint(claim: Claim) -> str:
 
 @cache
 def _of_module(module: str) -> str:
-    digest = hashlib.sha256()
-    for library in LIBRARIES:
-        digest.update(f"{library} {importlib.metadata.version(library)}\n".encode())
-    for name in sorted(_closure(module)):
-        digest.update(name.encode() + b"\n" + _source(name).encode())
-    return digest.hexdigest()[:16]
-
-
-def _closure(module: str) -> set[str]:
-    """The module and all modules of chapsym that it imports, directly or through others."""
-    reached: set[str] = set()
-    pending = [module]
-    while pending:
-        name = pending.pop()
-        if name not in reached and name not in _BESIDES:
-            reached.add(name)
-            pending += _imports(name)
-    return reached
-
-
-@cache
-def _imports(module: str) -> tuple[str, ...]:
-    package = module if _is_package(module) else module.rpartition(".")[0]
-    found: set[str] = set()
-    for node in ast.walk(ast.parse(_source(module))):
-        if isinstance(node, ast.Import):
-            found |= {alias.name for alias in node.names}
-        elif isinstance(node, ast.ImportFrom):
-            base = importlib.util.resolve_name("." * node.level + (node.module or ""), package)
-            found |= {base} | {f"{base}.{alias.name}" for alias in node.names}
-    return tuple(name for name in found if name.startswith("chapsym.") and _file(name))
-
-
-@cache
-def _file(module: str) -> str | None:
-    """The source file of a module; None if the name is not one of a module."""
-    try:
-        spec = importlib.util.find_spec(module)
-    except (ModuleNotFoundError, AttributeError):
-        return None
-    return spec.origin if spec else None
-
-
-def _is_package(module: str) -> bool:
-    return Path(str(_file(module))).name == "__init__.py"
-
-
-def _source(module: str) -> str:
-    return Path(str(_file(module))).read_text(encoding="utf-8")
+    versions = "".join(f"{library} {importlib.metadata.version(library)}\n" for library in LIBRARIES)
+    return sources.fingerprint(module, _BESIDES, versions)
 
 
 def read(path: Path) -> dict[str, dict[str, Any]]:

@@ -4,8 +4,6 @@ A unit is a function of a module and its arguments, as plain data; its result is
 of a JSON Lines file, so that a killed study loses only the units that were in flight.
 """
 
-import ast
-import hashlib
 import json
 import os
 from collections.abc import Callable, Iterator, Sequence
@@ -14,12 +12,11 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import cache
 from importlib import import_module
-from importlib.util import find_spec, resolve_name
 from pathlib import Path
 from typing import Any
 
 import chapsym
-from chapsym import jobs
+from chapsym import jobs, sources
 from chapsym.dynamics import BadInput
 from chapsym.dynamics.levels.double import cores
 
@@ -37,53 +34,13 @@ class Unit:
     @property
     def key(self) -> str:
         """What its result depends on: the call, the version of chapsym, and the sources that it is made of."""
-        made_by = [chapsym.__version__, sources(self.function.partition(":")[0]), self.function]
+        made_by = [chapsym.__version__, _sources(self.function.partition(":")[0]), self.function]
         return json.dumps([*made_by, self.arguments], sort_keys=True, ensure_ascii=False)
 
 
 @cache
-def sources(module: str) -> str:
-    """A hash of a module, of those of its package, and of all of chapsym that these import; empty without a file."""
-    spec = find_spec(module)
-    if spec is None or not spec.has_location:
-        return ""
-    path = Path(str(spec.origin))
-    package = module if spec.submodule_search_locations else module.rpartition(".")[0]
-    waiting = {f"{package}.{one.stem}": one for one in path.parent.glob("*.py")} if package else {module: path}
-    files: dict[str, Path] = {}
-    while waiting:
-        name, path = waiting.popitem()
-        files[name] = path
-        imported = _files(_imported(ast.parse(path.read_bytes()), name.rpartition(".")[0]))
-        waiting |= {one: imported[one] for one in imported.keys() - files.keys()}
-    digest = hashlib.sha256()
-    for name in sorted(files):
-        digest.update(name.encode() + b"\n" + files[name].read_bytes())
-    return digest.hexdigest()[:16]
-
-
-def _imported(tree: ast.Module, package: str) -> set[str]:
-    """What a file of a package imports, at the top and inside functions, and the packages around that."""
-    found: set[str] = set()
-    for node in ast.walk(tree):
-        if isinstance(node, ast.Import):
-            found |= {alias.name for alias in node.names}
-        elif isinstance(node, ast.ImportFrom):
-            base = resolve_name("." * node.level + (node.module or ""), package)
-            found |= {f"{base}.{alias.name}" for alias in node.names}
-    return {".".join(name.split(".")[:end]) for name in found for end in range(1, name.count(".") + 2)}
-
-
-def _files(names: set[str]) -> dict[str, Path]:
-    """Those of the names that are modules of chapsym, with their files; a package is its `__init__`."""
-    found = {}
-    for name in names:
-        path = Path(str(chapsym.__file__)).parents[1].joinpath(*name.split("."))
-        if name.partition(".")[0] == "chapsym" and path.with_suffix(".py").is_file():
-            found[name] = path.with_suffix(".py")
-        elif name.partition(".")[0] == "chapsym" and (path / "__init__.py").is_file():
-            found[f"{name}.__init__"] = path / "__init__.py"
-    return found
+def _sources(module: str) -> str:
+    return sources.fingerprint(module)
 
 
 def compute(function: str, arguments: dict[str, Any], key: str) -> Any:

@@ -9,12 +9,12 @@ import mpmath
 import numpy as np
 import pytest
 
+from chapsym import sources
 from chapsym.derive import ball, three, vertical
 from chapsym.derive.ball import D, Gamma, Omega, OmegaT
 from chapsym.proofs import second_routes as again
 from chapsym.proofs.paper import s5_increment
 from chapsym.prove import load
-from chapsym.prove import records as records_of_claims
 from chapsym.prove.runner import judge, prove_one
 
 CLAIMS = ("prop-1", "remark-3", "5.2", "prop-3", "prop-4", "5.15")
@@ -38,7 +38,7 @@ def test_the_second_routes_import_no_derivation():
 
 
 def test_a_changed_second_route_makes_the_record_stale():
-    assert "chapsym.proofs.second_routes" in records_of_claims._closure("chapsym.proofs.paper.s5_vertical")
+    assert "chapsym.proofs.second_routes" in sources.closure("chapsym.proofs.paper.s5_vertical")
 
 
 def wrong_momentum(honest):

@@ -9,6 +9,7 @@ from concurrent.futures import ThreadPoolExecutor
 import pytest
 from commands import chapsym, child
 
+from chapsym import sources
 from chapsym.prove import load, records
 
 
@@ -16,7 +17,7 @@ from chapsym.prove import load, records
 def fresh_cache(monkeypatch):
     yield
     monkeypatch.undo()
-    for cached in (records._of_module, records._imports, records._file):
+    for cached in (records._of_module, sources.imports, sources.file):
         cached.cache_clear()
 
 
@@ -50,12 +51,12 @@ def test_a_changed_derivation_makes_stale_what_imports_it(monkeypatch, fresh_cac
     kept = {id: made(id) for id in ("2.1", "5.16", "prop-2")}
     claims = load()
     assert records.stale(kept, claims) == []
-    honest = records._source
+    honest = sources.source
 
     def changed(module):
         return honest(module) + ("# changed" if module == "chapsym.derive.elliptic" else "")
 
-    monkeypatch.setattr(records, "_source", changed)
+    monkeypatch.setattr(sources, "source", changed)
     records._of_module.cache_clear()
     assert records.stale(kept, claims) == ["5.16"]
 
@@ -68,7 +69,7 @@ def test_another_version_of_a_library_makes_every_record_stale(monkeypatch, fres
 
 
 def test_the_closure_of_a_script_is_what_it_can_reach():
-    reached = records._closure("chapsym.proofs.paper.s5_increment")
+    reached = sources.closure("chapsym.proofs.paper.s5_increment")
     assert {"chapsym.proofs.paper.s5_elliptic", "chapsym.derive.elliptic", "chapsym.prove.evidence"} <= reached
     assert not {name for name in reached if name.startswith(("chapsym.dynamics", "chapsym.cli"))}
 

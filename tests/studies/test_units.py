@@ -10,6 +10,7 @@ import distributed
 import pytest
 from waiting import GUARD, INTERRUPTIBLE, until
 
+from chapsym import sources
 from chapsym.dynamics import BadInput
 from chapsym.studies import units as units_module
 from chapsym.studies.units import Unit, folder, run_units
@@ -38,39 +39,27 @@ def test_what_is_kept_is_not_computed_again(tmp_path):
     assert len(path.read_text().splitlines()) == 6
 
 
-def test_what_another_code_computed_is_computed_again(tmp_path, monkeypatch):
-    folder = tmp_path / "made"
-    folder.mkdir()
-    (folder / "__init__.py").write_text("")
-    (folder / "source.py").write_text("def one():\n    return 1\n")
+@pytest.mark.parametrize("changed", ["kept", "chapsym.numbers.pairs"])
+def test_what_another_code_computed_is_computed_again(tmp_path, monkeypatch, changed):
+    """The module itself, or one that is imported by what it imports inside of its function."""
+    (tmp_path / "kept.py").write_text("def one():\n    from chapsym.dynamics import trajectory\n    return 1\n")
     monkeypatch.syspath_prepend(tmp_path)
-    unit, path = Unit("made.source:one"), tmp_path / "u.jsonl"
-    assert run_units([unit], path) == [1]
-    (folder / "beside.py").write_text("")
-    units_module.sources.cache_clear()
-    run_units([unit], path)
+    unit, path = Unit("kept:one"), tmp_path / "u.jsonl"
+    assert run_units([unit], path) == run_units([unit], path) == [1]
+    assert len(path.read_text().splitlines()) == 1
+    real = sources.source
+    with monkeypatch.context() as patched:
+        patched.setattr(sources, "source", lambda name: real(name) + "# changed\n" * (name == changed))
+        units_module._sources.cache_clear()
+        assert run_units([unit], path) == [1]
+    units_module._sources.cache_clear()
     assert len(path.read_text().splitlines()) == 2
 
 
-def test_what_the_code_below_computed_is_computed_again(tmp_path, monkeypatch):
-    """The module imports a room, lazily, and that another one: a change in the latter is another source."""
-    (tmp_path / "kept.py").write_text("def one():\n    from chapsym.dynamics.closed import precession\n    return 1\n")
-    (tmp_path / "below.py").write_text("")
-    monkeypatch.syspath_prepend(tmp_path)
-    real, seen = units_module._files, set()
-
-    def files(names):
-        found = real(names)
-        seen.update(found)
-        return found | {name: tmp_path / "below.py" for name in found if name == "chapsym.numbers.pairs"}
-
-    monkeypatch.setattr(units_module, "_files", files)
-    before = Unit("kept:one").key
-    assert {"chapsym.dynamics.__init__", "chapsym.dynamics.levels.double", "chapsym.numbers.pairs"} <= seen
-    assert not any(name.split(".")[1] in ("cli", "proofs", "report") for name in seen)
-    (tmp_path / "below.py").write_text("# changed\n")
-    units_module.sources.cache_clear()
-    assert Unit("kept:one").key != before
+def test_what_shows_a_result_is_no_part_of_it():
+    reached = sources.closure("chapsym.studies.rotation.circle")
+    assert {"chapsym.dynamics.levels.double", "chapsym.generated.gibbs_newton"} <= reached
+    assert not {name.split(".")[1] for name in reached} & {"show", "cli", "report", "proofs", "prove"}
 
 
 def test_another_process_must_have_the_same_sources(monkeypatch):

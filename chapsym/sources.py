@@ -1,0 +1,58 @@
+"""What a result is made of: the sources of a module and of all of chapsym that it imports, as a hash."""
+
+import ast
+import hashlib
+import importlib.util
+from collections.abc import Collection
+from functools import cache
+from pathlib import Path
+
+
+def fingerprint(module: str, besides: Collection[str] = (), more: str = "") -> str:
+    """A hash of the closure of a module, and of a text."""
+    digest = hashlib.sha256(more.encode())
+    for name in sorted(closure(module, besides)):
+        digest.update(name.encode() + b"\n" + source(name).encode())
+    return digest.hexdigest()[:16]
+
+
+def closure(module: str, besides: Collection[str] = ()) -> set[str]:
+    """The module and all modules of chapsym that it imports, directly or through others, but some."""
+    reached: set[str] = set()
+    pending = [module]
+    while pending:
+        name = pending.pop()
+        if name not in reached and name not in besides:
+            reached.add(name)
+            pending += imports(name)
+    return reached
+
+
+@cache
+def imports(module: str) -> tuple[str, ...]:
+    """The modules of chapsym that a module imports, at the top and inside functions."""
+    package = module if Path(str(file(module))).name == "__init__.py" else module.rpartition(".")[0]
+    found: set[str] = set()
+    for node in ast.walk(ast.parse(source(module))):
+        if isinstance(node, ast.Import):
+            found |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom):
+            base = importlib.util.resolve_name("." * node.level + (node.module or ""), package)
+            found |= {base} | {f"{base}.{alias.name}" for alias in node.names}
+    return tuple(name for name in found if name.startswith("chapsym.") and file(name))
+
+
+@cache
+def file(module: str) -> str | None:
+    """The source file of a module; None if the name is not one of a module, or of one without."""
+    try:
+        spec = importlib.util.find_spec(module)
+    except (ModuleNotFoundError, AttributeError):
+        return None
+    return spec.origin if spec and spec.has_location else None
+
+
+def source(module: str) -> str:
+    """The text of a module; empty without a file."""
+    path = file(module)
+    return "" if path is None else Path(path).read_text(encoding="utf-8")
