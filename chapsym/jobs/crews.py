@@ -1,40 +1,27 @@
 """Crews of this machine: this thread, some threads, or a process for each core."""
 
 import multiprocessing
-from collections.abc import Collection, Iterator
+from collections.abc import Callable, Collection, Iterator
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor, wait
 from contextlib import contextmanager
 from typing import Any
 
 from chapsym.workers import begin
 
-from .chains import Call, Crew
-
-#: What an interrupt has to wait for at most, in seconds.
-PATIENCE = 1.0
+from .chains import Call
 
 
-class Here:
+class Here(Executor):
     """This thread: each call is made when it is submitted."""
 
-    lost: tuple[type[BaseException], ...] = ()
-
-    def room(self) -> int:
-        """One after the other."""
-        return 1
-
-    def submit(self, call: Call) -> Future[Any]:
+    def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
         """Makes the call."""
         future: Future[Any] = Future()
         try:
-            future.set_result(call.function(*call.arguments))
+            future.set_result(fn(*args, **kwargs))
         except Exception as error:
             future.set_exception(error)
         return future
-
-    def landed(self, futures: Collection[Future[Any]]) -> Collection[Future[Any]]:
-        """All of them."""
-        return futures
 
 
 class Pool:
@@ -46,8 +33,8 @@ class Pool:
         self.executor, self.workers = executor, workers
 
     def room(self) -> int:
-        """Two calls for each."""
-        return 2 * self.workers
+        """Two calls for each; of this thread, one after the other."""
+        return 1 if isinstance(self.executor, Here) else 2 * self.workers
 
     def submit(self, call: Call) -> Future[Any]:
         """A future of the executor."""
@@ -55,16 +42,13 @@ class Pool:
 
     def landed(self, futures: Collection[Future[Any]]) -> Collection[Future[Any]]:
         """Waits for one of them."""
-        return wait(futures, PATIENCE, FIRST_COMPLETED).done
+        return wait(futures, return_when=FIRST_COMPLETED).done
 
 
 @contextmanager
-def threads(count: int) -> Iterator[Crew]:
+def threads(count: int) -> Iterator[Pool]:
     """So many threads; at the end, or after an error, those that run are waited for."""
-    if count <= 1:
-        yield Here()
-        return
-    with ThreadPoolExecutor(count) as executor:
+    with ThreadPoolExecutor(count) if count > 1 else Here() as executor:
         try:
             yield Pool(executor, count)
         finally:
@@ -72,10 +56,10 @@ def threads(count: int) -> Iterator[Crew]:
 
 
 @contextmanager
-def processes(count: int) -> Iterator[Crew]:
+def processes(count: int) -> Iterator[Pool]:
     """So many processes; at the end, or after an error, those that run are ended."""
     if count <= 1:
-        yield Here()
+        yield Pool(Here(), 1)
         return
     # A child is not forked: numba's threads and Arb's precision are of a process.
     executor = ProcessPoolExecutor(count, multiprocessing.get_context("spawn"), initializer=begin)

@@ -6,7 +6,7 @@ import pytest
 
 from chapsym import jobs
 from chapsym.jobs import chains
-from chapsym.jobs.crews import Here
+from chapsym.jobs.crews import Here, Pool
 
 
 class Gone(Exception):
@@ -30,7 +30,7 @@ class Paper:
             self.lose.remove(call.arguments)
             future.set_exception(Gone())
         else:
-            future = Here().submit(call)
+            future = Here().submit(call.function, *call.arguments)
         self.submitted.append(call.arguments)
         return future
 
@@ -96,7 +96,7 @@ def test_an_error_of_a_call_is_raised_in_its_chain_which_may_go_on():
     assert found == [7]
 
 
-@pytest.mark.parametrize("crew", [Paper(), Here()])
+@pytest.mark.parametrize("crew", [Paper(), Pool(Here(), 1)])
 def test_an_error_that_a_chain_lets_through_ends_the_run(crew):
     kept = {}
 
@@ -111,7 +111,7 @@ def test_threads_work_abreast_and_one_is_this_one():
     kept = {}
     for count in (1, 2):
         with jobs.threads(count) as crew:
-            assert isinstance(crew, Here) == (count == 1)
+            assert isinstance(crew.executor, Here) == (count == 1)
             jobs.run((chain(f"{name}{count}", kept) for name in "abc"), crew)
     assert set(kept.values()) == {111}
     assert len(kept) == 6
