@@ -7,7 +7,7 @@ import typer
 from .app import app
 from .options import Json
 from .output import fail, print_json
-from .prove import all_claims, judged_records
+from .prove import all_claims, kept_records, records_of
 
 
 @app.command()
@@ -63,13 +63,12 @@ def codegen(
 
 
 def _unproved(kernels: Any) -> list[str]:
-    """The claims that kernels name as their proof and that are not proved, one sentence each."""
+    """The claims that kernels name as their proof and that are not proved, one sentence each; fresh records count."""
     named = {id: kernel.name for kernel in kernels for id in kernel.claims}
     claims = all_claims(lemmas=True)
     missing = [
         f"{kernel} names the claim {id}, which no proof judges" for id, kernel in named.items() if id not in claims
     ]
-    wanted = [id for id in claims if id in named]
-    records = judged_records("proving what the kernels come from", wanted)
+    records = records_of({id: claim for id, claim in claims.items() if id in named}, kept_records(None))
     failed = [record["id"] for record in records if record["verdict"] == "open"]
     return missing + [f"{named[id]} comes from the claim {id}, which is not proved" for id in failed]

@@ -1,8 +1,6 @@
 """chapsym prove: judge the printed claims; and what other commands need of the verdicts."""
 
-import itertools
 import sys
-from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
 from typing import Annotated, Any
@@ -39,7 +37,7 @@ def prove(
     if listing:
         _list_claims(claims, as_json, kept_in)
         return
-    records = judge_and_keep(list(dict.fromkeys(ids or all_claims())), claims, jobs, kept_in)
+    records = judge_and_keep(list(dict.fromkeys(ids or all_claims())), jobs, kept_in)
     # The whole register is as it should be with the paper's open questions open; a claim that is named must be proved.
     failed = [record["id"] for record in records if record["verdict"] == "open"] if ids else unproved(records)
     if as_json:
@@ -77,25 +75,26 @@ def _list_claims(claims: dict[str, Any], as_json: bool, kept_in: Path | None) ->
         print(f"{len(old)} records are stale: their derivation has changed; chapsym prove judges them anew")
 
 
-def judge_and_keep(
-    wanted: list[str], claims: dict[str, Any], jobs: int | None, kept_in: Path | None
-) -> list[dict[str, Any]]:
+def judge_and_keep(wanted: list[str], jobs: int | None, kept_in: Path | None) -> list[dict[str, Any]]:
     """Proves the claims, keeps their records, and says where a verdict is another than it was."""
     from chapsym import files
-    from chapsym.prove import records
+    from chapsym.prove import prove_all, records
 
-    kept, path = kept_records(kept_in), kept_in or records.default_path()
+    claims, path = all_claims(lemmas=True), kept_in or records.default_path()
+    kept = kept_records(kept_in)
     arrived: list[dict[str, Any]] = []
 
     def keep(record: dict[str, Any]) -> None:
         arrived.append(record)
+        shown(len(arrived))
         with suppress(OSError):  # which is said at the end
             records.append(path, record)
 
     with suppress(files.CannotWrite):
         records.update(path, [], claims)  # with a last line that is whole
     try:
-        judged = judged_records("proving", wanted, jobs, keep)
+        with progress_bar("proving", len(wanted)) as shown:
+            judged = prove_all(wanted, jobs, keep)
     finally:  # an interrupt keeps what was finished, and puts it in order
         try:
             records.update(path, arrived, claims)
@@ -108,6 +107,24 @@ def judge_and_keep(
     return judged
 
 
+def records_of(
+    claims: dict[str, Any], kept: dict[str, dict[str, Any]], kept_in: Path | None = None
+) -> list[dict[str, Any]]:
+    """The record of every claim: the one that is kept while it is fresh and no failure, otherwise judged now."""
+    from chapsym.prove import records, unproved
+    from chapsym.prove.runner import downstream
+
+    stale = records.stale(kept, claims)
+    fresh = {id: record for id, record in kept.items() if id not in stale}
+    failed = unproved(fresh.values())
+    wanted = [id for id in claims if id not in fresh or id in failed]
+    if wanted:
+        kept = kept | {record["id"]: record for record in judge_and_keep(wanted, None, kept_in)}
+    for id in claims:  # what uses a claim is said by other scripts than its own
+        kept[id]["evidence"]["downstream"] = downstream(id, claims)
+    return [kept[id] for id in claims]
+
+
 def kept_records(kept_in: Path | None) -> dict[str, dict[str, Any]]:
     from chapsym.prove import records
 
@@ -117,22 +134,6 @@ def kept_records(kept_in: Path | None) -> dict[str, dict[str, Any]]:
         fail(str(error), 2)
     except OSError as error:
         fail(f"the records {error.filename} cannot be read: {error.strerror}", 2)
-
-
-def judged_records(
-    label: str, ids: list[str], jobs: int | None = None, keep: Callable[[dict[str, Any]], None] = lambda record: None
-) -> list[dict[str, Any]]:
-    """The records of claims, with a bar that moves as they arrive; `keep` sees each of them."""
-    from chapsym.prove import prove_all
-
-    done = itertools.count(1)
-    with progress_bar(label, len(ids)) as shown:
-
-        def arrived(record: dict[str, Any]) -> None:
-            keep(record)
-            shown(next(done))
-
-        return prove_all(ids, jobs, arrived)
 
 
 def all_claims(lemmas: bool = False) -> dict[str, Any]:

@@ -11,7 +11,7 @@ import chapsym
 from .app import app
 from .options import Json, Records
 from .output import fail, print_json
-from .prove import all_claims, judge_and_keep, kept_records, tally
+from .prove import all_claims, kept_records, records_of, tally
 from .study import STUDIES
 
 
@@ -71,7 +71,7 @@ def _open_questions(
     wanted = {id: everything[id] for id in _behind(list(questions.QUESTIONS), everything)}
     try:
         files.check_destination(output)
-        found = _records_of(wanted, kept, kept_in)
+        found = records_of(wanted, kept, kept_in)
         evidence = [one for name in STUDIES if (one := _evidence(name, folder)) is not None]
         text = questions.html(found, _certificates(), evidence, _versions())
         files.write_whole(output, lambda stream: stream.write(text.encode()))
@@ -131,23 +131,7 @@ def _certificates() -> list[Any]:
 
 def _register(kept: dict[str, dict[str, Any]], kept_in: Path | None) -> list[dict[str, Any]]:
     """The record of every claim of the paper."""
-    return _records_of(all_claims(), kept, kept_in)
-
-
-def _records_of(claims: dict[str, Any], kept: dict[str, dict[str, Any]], kept_in: Path | None) -> list[dict[str, Any]]:
-    """The record of every claim: the one that is kept while it is fresh and no failure, otherwise judged now."""
-    from chapsym.prove import records, unproved
-    from chapsym.prove.runner import downstream
-
-    stale = records.stale(kept, claims)
-    fresh = {id: record for id, record in kept.items() if id not in stale}
-    failed = unproved(fresh.values())
-    wanted = [id for id in claims if id not in fresh or id in failed]
-    if wanted:
-        kept = kept | {record["id"]: record for record in judge_and_keep(wanted, claims, None, kept_in)}
-    for id in claims:  # what uses a claim is said by other scripts than its own
-        kept[id]["evidence"]["downstream"] = downstream(id, claims)
-    return [kept[id] for id in claims]
+    return records_of(all_claims(), kept, kept_in)
 
 
 def _versions() -> dict[str, str]:

@@ -44,10 +44,15 @@ def eliminated(factor: sp.Expr, rotation: sp.Matrix) -> sp.Matrix:
     return (matrix[:3, :3] - side * corner.inv() * matrix[3:, :3]).applyfunc(sp.expand)
 
 
+def det(matrix: sp.Matrix) -> sp.Expr:
+    """Without divisions, so that nothing is simplified on the way."""
+    return matrix.det(method="berkowitz")
+
+
 def determinant(factor: sp.Expr, rotation: sp.Matrix) -> sp.Expr:
     """The determinant of the regularity matrix."""
     corner = regularity_matrix(factor, rotation)[3:, 3:]
-    return corner.det() * eliminated(factor, rotation).det(method="berkowitz")
+    return det(corner) * det(eliminated(factor, rotation))
 
 
 @claim(
@@ -69,8 +74,8 @@ def regularity(p: Proof) -> None:
     free = Quotient((*second, *columns, *rows))
     jacobian_is_printed = Equation(
         "det of the derivative = (-1)^s det of the matrix (n = 3, s = 2)",
-        [derivative.det()],
-        [(-1) ** count * printed.det()],
+        [det(derivative)],
+        [(-1) ** count * det(printed)],
         free,
     )
     p.say(
@@ -101,11 +106,11 @@ def regularity(p: Proof) -> None:
     lifted = D * (sp.eye(3) - gamma * gamma.T)
     p.say("The ball, n = 3, on the diagonal (Ω = 1), with 𝕃 as corrected (c = -1) and as printed (c = ½):")
     at_rest = determinant(true, TURN)
-    p.lemma(Equation("c = -1: det = det(I + D(1 - γγᵀ))", [at_rest], [(inertia + lifted).det()], BALL_RING))
-    p.lemma(Equation("which is det Λ · F > 0", [at_rest], [three.lam().det() * continuous.rolling_factor()], BALL_RING))
+    p.lemma(Equation("c = -1: det = det(I + D(1 - γγᵀ))", [at_rest], [det(inertia + lifted)], BALL_RING))
+    p.lemma(Equation("which is det Λ · F > 0", [at_rest], [det(three.lam()) * continuous.rolling_factor()], BALL_RING))
     p.lemma(
         Equation(
-            "c = ½: det = -det(½I - D(1 - γγᵀ))", [determinant(wrong, TURN)], [-(inertia / 2 - lifted).det()], BALL_RING
+            "c = ½: det = -det(½I - D(1 - γγᵀ))", [determinant(wrong, TURN)], [-det(inertia / 2 - lifted)], BALL_RING
         )
     )
     homogeneous = {J1: 1, J2: 1, J3: 1, m: 1, rho: 1, D: 1, **dict(zip(gamma, (0, 0, 1), strict=True))}
@@ -134,22 +139,22 @@ def regularity(p: Proof) -> None:
         gamma[0]: sp.Rational(2, 7),
         gamma[1]: sp.Rational(3, 7),
     }
-    signs = [_at_turn(jacobian, at, turn).det() for turn in turns.values()]
+    signs = [det(_at_turn(jacobian, at, turn)) for turn in turns.values()]
     p.show("det ∂𝒦/∂Ω at Ω ~ (3,1,1,-1) and (1,1,1,-1), J = (3,2,1), D = 1, γ = (2,3,6)/7", signs)
     p.lemma(Fact("it changes sign between these two turns", signs[0] * signs[1] < 0))
     p.witness("generic", {"J": "(1,1,1)", "m": "1", "ρ": "1", "γ": "e3", "Ω": "1"}, Fact("det > 0", regular > 0))
     p.control(
-        Equation("c = ½: det = det(I + D(1 - γγᵀ))", [determinant(wrong, TURN)], [(inertia + lifted).det()], BALL_RING)
+        Equation("c = ½: det = det(I + D(1 - γγᵀ))", [determinant(wrong, TURN)], [det(inertia + lifted)], BALL_RING)
     )
     p.control(
-        Equation("det of the derivative = -det of the matrix, for s = 2", [derivative.det()], [-printed.det()], free)
+        Equation("det of the derivative = -det of the matrix, for s = 2", [det(derivative)], [-det(printed)], free)
     )
 
 
 def _at_turn(matrix: sp.Matrix, ball: dict, turn: tuple[int, ...]) -> sp.Matrix:
     """A matrix of forms of degree 2 in the Euler parameters, at a turn given up to length."""
     raw = dict(zip((q0, *q), turn, strict=True))
-    return matrix.subs({**ball, **raw}, simultaneous=True) / sum(c**2 for c in turn)
+    return matrix.xreplace({x: sp.sympify(value) for x, value in {**ball, **raw}.items()}) / sum(c**2 for c in turn)
 
 
 if __name__ == "__main__":

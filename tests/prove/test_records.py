@@ -10,6 +10,7 @@ import pytest
 from commands import chapsym, child
 
 from chapsym import sources
+from chapsym.cli import prove as command
 from chapsym.prove import load, records
 
 
@@ -154,6 +155,15 @@ def test_workers_end_with_the_process_that_started_them(tmp_path):
         process.kill()
         with ThreadPoolExecutor() as pool:
             assert pool.submit(process.stdout.read).result(timeout=600) == b""
+
+
+def test_some_records_that_are_asked_for_leave_those_of_other_claims(tmp_path, monkeypatch):
+    path = tmp_path / "verdicts.jsonl"
+    records.update(path, [made("2.1"), made("prop-4")], load())
+    monkeypatch.setattr("chapsym.prove.prove_all", lambda ids, jobs, arrived: [arrived(x) or x for x in map(made, ids)])
+    asked = {id: load()[id] for id in ("4.3", "prop-4")}
+    assert [record["id"] for record in command.records_of(asked, records.read(path), path)] == ["4.3", "prop-4"]
+    assert list(records.read(path)) == ["2.1", "4.3", "prop-4"]
 
 
 def test_of_two_records_of_a_claim_the_last_one_counts(tmp_path):
