@@ -45,8 +45,8 @@ class Oracle:
 
     def momentum(self, X: Any) -> Any:
         """(4.13), first form; linear in X."""
-        rest = self.Gamma * X - X.T * self.Gamma
-        return X * self.shifted - self.shifted * X.T + self.D / 2 * rest
+        turned, rest = X * self.shifted, self.Gamma * X  # with their transposes, as the two factors are symmetric
+        return turned - turned.T + self.D / 2 * (rest - rest.T)
 
     def skew(self, v: Sequence[Any]) -> Any:
         """The matrix whose (32, 13, 21) entries are v."""
