@@ -65,47 +65,6 @@ def test_lower_rooms_never_import_higher_ones(room):
             assert parts[0] != "benchmarks", f"{path.name} imports {name}, which is not in the wheel"
 
 
-#: The rooms inside of chapsym.scene, each of which imports those before it only.
-OF_SCENE = ("read", "members", "plan", "result", "running")
-
-
-def modules(room):
-    """The files of a room by the names of their modules."""
-    found = {}
-    for path in files(room):
-        parts = path.relative_to(ROOT).with_suffix("").parts
-        found[".".join(["chapsym", *(parts[:-1] if parts[-1] == "__init__" else parts)])] = path
-    return found
-
-
-def imported_by(name, path, known):
-    """The modules of a room that a file imports, lazily, too; a package that it is in is none of them."""
-    for other in imports(path, ""):
-        while other and other not in known:
-            other = other.rpartition(".")[0]
-        if other and other != name and not name.startswith(f"{other}."):
-            yield other
-
-
-@pytest.mark.parametrize("room", ["scene", "jobs"])
-def test_no_circle_in_a_room(room):
-    known = modules(room)
-    left = {name: set(imported_by(name, path, known)) for name, path in known.items()}
-    while free := [name for name, needs in left.items() if not needs & left.keys()]:
-        for name in free:
-            del left[name]
-    assert not left, left
-
-
-def test_the_rooms_of_scene_stand_on_each_other():
-    known = modules("scene")
-    for name, path in known.items():
-        inside = name.split(".")[2:3]
-        if inside and inside[0] in OF_SCENE:
-            for other in imported_by(name, path, known):
-                assert OF_SCENE.index(other.split(".")[2]) <= OF_SCENE.index(inside[0]), f"{name} imports {other}"
-
-
 @pytest.mark.parametrize("room", sorted(set(ROOMS) - SYMPY_ROOMS))
 def test_what_runs_the_map_does_not_import_sympy(room):
     for path in files(room):

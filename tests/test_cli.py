@@ -157,7 +157,7 @@ def given(monkeypatch, verdicts):
 
     def give(**changes):
         known = {id: {**record, "verdict": changes.get(id, record["verdict"])} for id, record in verdicts.items()}
-        monkeypatch.setattr(codegen, "judged_records", lambda title, ids: [known[id] for id in ids])
+        monkeypatch.setattr(codegen, "records_of", lambda claims, kept: [known[id] for id in claims])
 
     return give
 
