@@ -158,7 +158,7 @@ def test_run_prints_the_choice_of_a_scene(tmp_path):
     done = command("run", str(tmp_path / "scene.toml"), "-o", str(tmp_path / "run.csv"))
     assert done.returncode == 0, done.stderr
     assert done.stdout.startswith(f"2 frames in {tmp_path / 'run.csv'}\nchosen    double, ")
-    assert "verified  the contact is off by " in done.stdout
+    assert "compared  the contact is off by " in done.stdout
 
 
 @pytest.mark.parametrize(
