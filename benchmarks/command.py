@@ -8,8 +8,6 @@ from typing import Any
 import benchmarks
 from chapsym.cli.output import check_figure, fail, print_json, quiet, say, write_figure
 
-from . import figure
-
 
 def measure(sections: Sequence[str], quick: bool, output: Path | None, as_json: bool) -> None:
     """Measures the sections, or all of them; fails with a sentence as every command does."""
@@ -18,7 +16,9 @@ def measure(sections: Sequence[str], quick: bool, output: Path | None, as_json: 
         if name not in benchmarks.SECTIONS:
             fail(f"there is no section {name!r}; there are {', '.join(benchmarks.SECTIONS)}", 2)
     if output is not None:
-        check_figure(output, wanted, list(figure.AXES))
+        from . import figure
+
+        check_figure(output, wanted, figure.AXES)
     results = {}
     for name in wanted:
         try:
@@ -27,7 +27,7 @@ def measure(sections: Sequence[str], quick: bool, output: Path | None, as_json: 
             quiet()
             fail(f"bench {name}: {error}", 1)
     if output is not None:
-        write_figure(output, figure.draw(results))
+        write_figure(figure.draw, results, output)
     quiet()
     measured = benchmarks.as_json(results, quick)
     if as_json:

@@ -2,6 +2,8 @@
 
 from typing import Any
 
+from chapsym.show.drawing.style import Picture, empty
+
 from .results import Curve, Result
 
 AXES = {"work-precision": ("µs a ball", "relative error"), "long": ("steps", "relative change")}
@@ -11,14 +13,12 @@ MARKERS = "osD^v<>Ph*X"
 PANEL = 4.2  # inches
 
 
-def draw(results: dict[str, Result]) -> Any:
-    """A matplotlib figure with a row of panels for each section that has curves; needs matplotlib."""
-    from matplotlib.figure import Figure
-
+def draw(results: dict[str, Result]) -> Picture:
+    """A figure with a row of panels for each section that has curves."""
     drawn = {name: panels(found) for name, found in results.items() if found.curves}
     columns = 3
     rows = {name: -(-len(found) // columns) for name, found in drawn.items()}
-    figure = Figure(figsize=(PANEL * columns, PANEL * sum(rows.values()) + 0.6 * len(rows)), layout="constrained")
+    figure = empty(PANEL * sum(rows.values()) + 0.6 * len(rows), PANEL * columns)
     parts = figure.subfigures(len(drawn), 1, height_ratios=list(rows.values()), squeeze=False)[:, 0]
     for part, (name, found) in zip(parts, drawn.items(), strict=True):
         part.suptitle(results[name].title)
@@ -28,7 +28,7 @@ def draw(results: dict[str, Result]) -> Any:
         for axis in axes[len(found) :]:
             axis.set_visible(False)
         handles, labels = part.axes[0].get_legend_handles_labels()
-        part.legend(handles, labels, loc="outside lower center", ncols=5, frameon=False)
+        part.legend(handles, labels, loc="outside lower center", ncols=5)
     return figure
 
 
@@ -58,7 +58,6 @@ def _panel(axis: Any, title: str, curves: list[Curve], section: str) -> None:
             [first, last], [start * first**0.5, start * last**0.5], "k:", linewidth=1, label="0.65·2⁻⁵³·√n", zorder=1
         )
     axis.set(xscale="log", yscale="log", title=title, xlabel=AXES[section][0], ylabel=AXES[section][1])
-    axis.grid(alpha=0.3)
 
 
 def _alone(curve: Curve) -> str:

@@ -28,7 +28,7 @@ ROOMS = {
     "accuracy": {"dynamics", "files", "generated", "numbers"},
     "jobs": {"dynamics", "workers"},
     "scene": {"accuracy", "dynamics", "exact", "files", "generated", "jobs", "numbers"},
-    "studies": {"accuracy", "files", "generated", "jobs", "numbers", "dynamics", "scene", "sources", "workers"},
+    "studies": {"accuracy", "files", "generated", "jobs", "numbers", "dynamics", "scene", "show", "sources", "workers"},
     "proofs": {"certificates", "checker", "derive", "dynamics", "prove"},
     "report": {"files"},
     "show": {"dynamics", "files", "scene"},

@@ -2,11 +2,12 @@
 
 import json
 import sys
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, NoReturn
 
+#: What a measured figure may be written as.
 FIGURES = (".svg", ".png", ".pdf")
 
 
@@ -44,29 +45,28 @@ def quiet() -> None:
         print("\r\033[K", end="", file=sys.stderr, flush=True)
 
 
-def check_figure(output: Path, sections: Sequence[str], drawn: Sequence[str]) -> None:
+def check_figure(output: Path, sections: Iterable[str], drawn: Iterable[str]) -> None:
     """Fails, before anything is measured, where a figure of these sections cannot be drawn or written."""
     from chapsym import files
-    from chapsym.studies.harness import installed
 
     if output.suffix not in FIGURES:
         fail(f"{str(output)!r}: a figure must end in {', '.join(FIGURES)}", 2)
     if not set(sections) & set(drawn):
-        fail(f"only {', '.join(drawn[:-1])} and {drawn[-1]} have a figure", 2)
-    if reason := installed("matplotlib"):
-        fail(f"a figure needs matplotlib, and {reason}", 2)
+        *some, last = drawn
+        fail(f"only {', '.join(some)} and {last} have a figure", 2)
     try:
         files.check_destination(output)
     except files.CannotWrite as error:
         fail(str(error), 2)
 
 
-def write_figure(output: Path, drawn: Any) -> None:
-    """Writes a figure, whole or not at all."""
+def write_figure(draw: Callable[[dict[str, Any]], Any], found: dict[str, Any], output: Path) -> None:
+    """Draws and writes a figure, whole or not at all."""
     from chapsym import files
+    from chapsym.studies.figures import save_figure
 
     try:
-        files.write_whole(output, lambda stream: drawn.savefig(stream, format=output.suffix[1:], dpi=120))
+        save_figure(draw, found, output)
     except files.CannotWrite as error:
         fail(str(error), 2)
 

@@ -214,7 +214,7 @@ def _study(wanted: list[str], quick: bool, output: Path | None, as_json: bool) -
     if output is not None:
         from chapsym.studies.trade.figure import draw
 
-        write_figure(output, draw({name: found[name] for name in study.DRAWN if name in found}))
+        write_figure(draw, {name: found[name] for name in study.DRAWN if name in found}, output)
     if as_json:
         print_json(study.as_json(found, quick))
     else:

@@ -9,6 +9,7 @@ from contextlib import contextmanager
 from typing import IO, TYPE_CHECKING, Any
 
 import numpy as np
+from cycler import cycler
 from matplotlib import style
 from matplotlib.figure import Figure
 
@@ -25,6 +26,8 @@ FEW = 6
 VERTICES = 16_000
 #: Inches: on a screen of 390 px the letters are still 10 px high.
 WIDTH = 5.6
+#: Inches of a figure for a desk, with two panels side by side.
+WIDE = 10.4
 MAP = "viridis"
 #: So many letters fit below a figure.
 LETTERS = 66
@@ -37,8 +40,8 @@ STYLE = {
     "lines.linewidth": 1.4, "figure.facecolor": "white", "axes.facecolor": "white", "savefig.facecolor": "white",
     "mathtext.fontset": "dejavusans", "axes.xmargin": 0.02, "text.color": "black", "axes.labelcolor": "black",
     "xtick.color": "black", "ytick.color": "black", "axes.edgecolor": "0.3", "svg.fonttype": "path",
-    "svg.hashsalt": "chapsym",
-    "savefig.dpi": 160, "figure.dpi": 100, "path.simplify": True, "text.usetex": False,
+    "svg.hashsalt": "chapsym", "axes.prop_cycle": cycler(color=COLOURS), "savefig.dpi": 160, "figure.dpi": 100,
+    "path.simplify": True, "text.usetex": False,
     "axes.unicode_minus": True, "figure.autolayout": False,
 }  # fmt: skip
 
@@ -51,12 +54,12 @@ def styled() -> Iterator[None]:
 
 
 def write(figure: "Figure", stream: IO[bytes], form: str) -> None:
-    """The bytes of a figure, "svg" or "png": the same for the same data."""
+    """The bytes of a figure, "svg", "png" or "pdf": the same for the same data."""
     with styled(), warnings.catch_warnings():
         # A name in a script that the font has not: drawn as boxes, of which matplotlib would tell five times.
         warnings.filterwarnings("ignore", message="Glyph .* missing from font")
-        metadata = {"Date": None, "Creator": None} if form == "svg" else {"Software": None}
-        figure.savefig(stream, format=form, metadata=metadata)
+        metadata = {"svg": ("Date", "Creator"), "png": ("Software",), "pdf": ("CreationDate", "Creator", "Producer")}
+        figure.savefig(stream, format=form, metadata=dict.fromkeys(metadata[form]))
 
 
 class Picture(Figure):

@@ -6,10 +6,9 @@
 from pathlib import Path
 from typing import Any
 
-from ..energy.figure import write
 from ..energy.section import packed
 from ..units import Report, Unit, run_units
-from .figure import draw_section, draw_shares, share
+from .figure import share
 
 TITLE = "How much of the map is chaotic"
 #: What each figure shows, in the order in which they are shown.
@@ -110,4 +109,7 @@ def sentences(found: dict[str, Any]) -> list[str]:
 
 def save_figures(found: dict[str, Any], folder: Path) -> list[Path]:
     """chaos.svg, the shares, and section.svg, the pictures."""
-    return [write(draw_shares(found), folder / "chaos.svg"), write(draw_section(found), folder / "section.svg")]
+    from .. import figures
+    from .figure import draw_section, draw_shares
+
+    return figures.save_figures({"chaos.svg": draw_shares, "section.svg": draw_section}, found, folder)

@@ -3,11 +3,14 @@
 from typing import Any
 
 import numpy as np
+from matplotlib import colormaps
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import Normalize
+
+from chapsym.show.drawing.style import COLOURS, WIDE, Picture, new
 
 from ..energy.continuous import Level
 from ..energy.section import state, unpacked
-
-COLOURS = ("#0072B2", "#009E73", "#D55E00", "#CC79A7")
 
 
 def share(counted: int, chaotic: int) -> tuple[float, float, float]:
@@ -20,12 +23,9 @@ def share(counted: int, chaotic: int) -> tuple[float, float, float]:
     return p, max(0.0, middle - half), min(1.0, middle + half)
 
 
-def draw_shares(found: dict[str, Any]) -> Any:
+def draw_shares(found: dict[str, Any]) -> Picture:
     """Two panels, by how the starts were drawn: shares with 95% intervals, one line a ball."""
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=(10.4, 4.4), layout="constrained")
-    axes = figure.subplots(1, 2, sharey=True)
+    figure, axes = new("", 1, 2, height=4.4, width=WIDE, sharey=True)
     balls = sorted({(tuple(s["mass_tensor"]), s["D"]) for s in found["samples"]}, key=lambda b: (b[1] == 0, b))
     for axis, near in zip(axes, (False, True), strict=True):
         for i, (J, D) in enumerate(balls):
@@ -44,24 +44,16 @@ def draw_shares(found: dict[str, Any]) -> Any:
         axis.set_xticks([0.2, 0.5, 1, 2, 3], ["0.2", "0.5", "1", "2", "3"])
         axis.set_xticks([], minor=True)
         axis.set_ylim(0, 1)
-        axis.set_title("starts near the unstable rotation" if near else "starts at random", fontsize=11)
-        axis.grid(alpha=0.25)
-        axis.spines[["top", "right"]].set_visible(False)
+        axis.set_title("starts near the unstable rotation" if near else "starts at random")
     axes[0].set_ylabel("share of chaotic orbits")
-    axes[0].legend(frameon=False, loc="upper left")
+    axes[0].legend(loc="upper left")
     return figure
 
 
-def draw_section(found: dict[str, Any]) -> Any:
+def draw_section(found: dict[str, Any]) -> Picture:
     """The section (ψ, θ) at the moderate ε, (ψ, H) around the layer; regular orbits in blue by their energy, chaotic
     ones by their exponent."""
-    from matplotlib import colormaps
-    from matplotlib.cm import ScalarMappable
-    from matplotlib.colors import Normalize
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=(10.4, 5.6), layout="constrained")
-    axes = figure.subplots(1, len(found["pictures"]), squeeze=False)[0]
+    figure, axes = new("", 1, len(found["pictures"]), height=5.6, width=WIDE)
     orbits = [orbit for one in found["pictures"] for orbit in one["found"]]
     most = max([orbit["exponent"] for orbit in orbits if orbit["chaotic"]], default=1.0)
     hot = Normalize(0.0, most)
@@ -81,13 +73,11 @@ def draw_section(found: dict[str, Any]) -> Any:
                 markeredgewidth=0, color=colour, rasterized=True,
             )  # fmt: skip
         J, D, _ = one["ball"]
-        axis.set_title(f"$J=({J[0]:g},{J[1]:g},{J[2]:g})$, $D={D:g}$, $\\varepsilon={one['epsilon']:g}$", fontsize=11)
+        axis.set_title(f"$J=({J[0]:g},{J[1]:g},{J[2]:g})$, $D={D:g}$, $\\varepsilon={one['epsilon']:g}$")
         axis.set(xlabel=r"$\psi/\pi$", xlim=(-1, 1), xticks=(-1, -0.5, 0, 0.5, 1))
-        axis.spines[["top", "right"]].set_visible(False)
         axis.set_ylabel(r"$\theta/\pi$" if zoom is None else r"$H/\langle H\rangle-1$")
     scale = ScalarMappable(Normalize(0.0, most), colormaps["autumn_r"])
-    figure.colorbar(scale, ax=list(axes), label="Lyapunov exponent a step (chaotic orbits)", shrink=0.8)
-    figure.set_dpi(200)
+    figure.colorbar(scale, ax=axes, label="Lyapunov exponent a step (chaotic orbits)", shrink=0.8)
     return figure
 
 

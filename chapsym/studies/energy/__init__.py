@@ -181,6 +181,7 @@ def sentences(found: dict[str, Any]) -> list[str]:
 
 def save_figures(found: dict[str, Any], folder: Path) -> list[Path]:
     """energy.svg and islands.svg."""
-    from .figure import draw_amplitudes, draw_islands, write
+    from .. import figures
+    from .figure import draw_amplitudes, draw_islands
 
-    return [write(draw_amplitudes(found), folder / "energy.svg"), write(draw_islands(found), folder / "islands.svg")]
+    return figures.save_figures({"energy.svg": draw_amplitudes, "islands.svg": draw_islands}, found, folder)

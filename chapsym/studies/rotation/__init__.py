@@ -8,7 +8,6 @@ from typing import Any
 
 from ..harness import machine
 from ..units import Report, run_units
-from .figure import save_figures
 from .plan import units
 from .words import sentences
 
@@ -40,6 +39,17 @@ def study(
     results = iter(run_units([unit for section in planned.values() for unit in section], path, scheduler, report))
     found: dict[str, Any] = {name: [next(results) for _ in section] for name, section in planned.items()}
     return assembled(found, quick)
+
+
+def save_figures(found: dict[str, Any], folder: Path) -> list[Path]:
+    """Those of `CAPTIONS`."""
+    from .. import figures
+    from .drawn_circle import displacement, numbers
+    from .drawn_plateaus import digits, staircase, widths
+
+    return figures.save_figures(
+        dict(zip(CAPTIONS, (staircase, displacement, widths, digits, numbers), strict=True)), found, folder
+    )
 
 
 def assembled(found: dict[str, Any], quick: bool) -> dict[str, Any]:

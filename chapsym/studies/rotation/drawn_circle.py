@@ -5,16 +5,20 @@ from typing import Any
 
 import numpy as np
 
-from .drawing import BLUE, COLOURS, GREY, RED, decimal, log10, named, panels, scaled
+from chapsym.show.drawing.style import COLOURS, WIDE, Picture, new
 
+from .told import decimal, log10, named, scaled
+
+BLUE, RED = COLOURS[:2]
+GREY = "0.45"
 #: Points of a drawn displacement.
 DRAWN = 600
 
 
-def displacement(found: dict[str, Any]) -> Any:
+def displacement(found: dict[str, Any]) -> Picture:
     """The displacement at a resonance: of the ball, of D = 0 at all digits, of a perturbed top; and the spectra."""
     ball, top, kicked = found["displacement"][:3]
-    figure, axes = panels(2, 2)
+    figure, axes = new("", 2, 2, height=3.7, width=WIDE)
     q, digits = ball["steps"], ball["digits"]
     for axis, case, colour in ((axes[0], ball, BLUE), (axes[2], kicked, RED)):
         power = _power(case)
@@ -47,9 +51,6 @@ def displacement(found: dict[str, Any]) -> Any:
     axes[3].legend(loc="upper right", ncols=3, handlelength=1.2, columnspacing=1)
     figure.suptitle(
         f"$(G^{{{q}}}u-u)/2K-1$ where {q} steps are one half turn, with {digits} digits",
-        fontsize=12.5,
-        x=0.01,
-        ha="left",
     )
     return figure
 
@@ -66,9 +67,9 @@ def _power(case: dict[str, Any]) -> int:
     return int(np.floor(max(log10(x) for x in case["values"])))
 
 
-def numbers(found: dict[str, Any]) -> Any:
+def numbers(found: dict[str, Any]) -> Picture:
     """How fast the weighted averages converge, and the rotation number over levels and heights."""
-    figure, axes = panels(2, 2, height=4.0)
+    figure, axes = new("", 2, 2, height=4.0, width=WIDE)
     for case, colour, marker in zip(found["convergence"], COLOURS, "os^", strict=False):
         axes[0].plot(
             case["steps"], [-log10(x) for x in case["errors"]], marker=marker, color=colour, markersize=4.5,
@@ -84,7 +85,7 @@ def numbers(found: dict[str, Any]) -> Any:
     contacts = list(dict.fromkeys(row["D"] for row in found["overview"]))
     top = max(float(cell) for row in found["overview"] for cell in row["row"] if cell)
     levels = np.arange(0, top + 0.02, 0.02)
-    drawn = None
+    drawn: Any = None
     for axis, D in zip(axes[1:], contacts, strict=True):
         rows = [row for row in found["overview"] if row["D"] == D]
         heights = [float(Fraction(row["height"])) for row in rows]

@@ -3,19 +3,24 @@
 from typing import Any
 
 import numpy as np
+from matplotlib.ticker import NullFormatter, ScalarFormatter
 
-from .drawing import BLUE, COLOURS, GREEN, GREY, RED, decimal, log10, named, panels
+from chapsym.show.drawing.style import COLOURS, WIDE, Picture, new
+
 from .drawn_circle import continued
+from .told import decimal, log10, named
 
+BLUE, RED, GREEN = COLOURS[:3]
+GREY = "0.45"
 #: float64's roundings, beside 1.
 FLOAT64 = -15.95
 #: The law is drawn for D to this.
 SMALL = 0.25
 
 
-def staircase(found: dict[str, Any]) -> Any:
+def staircase(found: dict[str, Any]) -> Picture:
     """ρ(l) of the ball and of the perturbed top; below, the widths of their plateaus on one logarithmic scale."""
-    figure, axes = panels(2, 2, sharex="col")
+    figure, axes = new("", 2, 2, height=3.7, width=WIDE, sharex="col")
     ball, top = found["staircase"]["ball"], found["staircase"]["top"]
     widths = [(x["half_turns"], x["steps"], log10(x["width"])) for x in found["farey"]]
     for axis, case, colour in ((axes[0], ball, BLUE), (axes[1], top, RED)):
@@ -97,9 +102,9 @@ def _stems(axis: Any, seen: list[tuple[int, int, float, float]], colour: str, la
             axis.annotate(f"{p}/{q}", (level, width), (0, 5), textcoords="offset points", ha="center", fontsize=8.5)
 
 
-def widths(found: dict[str, Any]) -> Any:
+def widths(found: dict[str, Any]) -> Picture:
     """Widths against q near one rotation number, with the law; against D; and what is measured beside the law."""
-    figure, axes = panels(2, 2)
+    figure, axes = new("", 2, 2, height=3.7, width=WIDE)
     _against_q(axes[0], found["fifth"])
     _against_D(axes[1], axes[3], found["small_D"])
     _one_half_turn(axes[2], found["turns"])
@@ -162,9 +167,9 @@ def _one_half_turn(axis: Any, found: list[dict[str, Any]]) -> None:
     axis.legend(loc="lower right", fontsize=8.5)
 
 
-def digits(found: dict[str, Any]) -> Any:
+def digits(found: dict[str, Any]) -> Picture:
     """The digits at which each plateau is first seen, and the time of a step at so many digits."""
-    figure, axes = panels(1, 2, height=4.2)
+    figure, axes = new("", 1, 2, height=4.2, width=WIDE)
     seen = [
         (-log10(x["displacement"][0]), x["needed"])
         for name in ("turns", "fifth", "small_D", "farey")
@@ -184,8 +189,6 @@ def digits(found: dict[str, Any]) -> Any:
     axes[1].set(
         xscale="log", yscale="log", xlabel="working digits", ylabel="µs a step", title="What a step costs in Arb",
     )  # fmt: skip
-    from matplotlib.ticker import NullFormatter, ScalarFormatter
-
     axes[1].set_xticks([x["digits"] for x in rows if x["digits"] in (15, 30, 60, 120, 240, 400, 1000)])
     axes[1].xaxis.set_major_formatter(ScalarFormatter())
     axes[1].xaxis.set_minor_formatter(NullFormatter())

@@ -3,7 +3,7 @@
 import math
 from typing import Any
 
-from .drawing import log10, named
+from .told import log10, named
 
 
 def sentences(found: dict[str, Any]) -> list[str]:

@@ -2,10 +2,16 @@
 
 from typing import Any
 
+from matplotlib.lines import Line2D
+from matplotlib.ticker import NullFormatter
+
+from chapsym.show.drawing import style
+from chapsym.show.drawing.style import Picture
+
 from .frontier import Frontier, Point
 
-#: Okabe and Ito's colours, which the colour-blind tell apart, one for each order; and a marker for each rung.
-COLOURS = {"2": "#0072B2", "4": "#E69F00", "6": "#009E73", "8": "#D55E00", "12": "#CC79A7"}
+#: A colour for each order, and a marker for each rung.
+COLOURS = {order: style.COLOURS[i] for order, i in (("2", 0), ("4", 4), ("6", 2), ("8", 1), ("12", 3))}
 MARKERS = {
     "single": "v", "double": "o", "quad": "s", "digits30": "D", "digits50": "^", "digits100": "P", "ball100": "*",
     "ball300": "X",
@@ -13,27 +19,22 @@ MARKERS = {
 PANEL = (5.6, 4.2)  # inches
 
 
-def draw(found: dict[str, Frontier]) -> Any:
-    """A matplotlib figure with a panel for each section; needs matplotlib."""
-    from matplotlib.figure import Figure
-
+def draw(found: dict[str, Frontier]) -> Picture:
+    """A figure with a panel for each section."""
     columns = min(2, len(found))
     rows = -(-len(found) // columns)
-    figure = Figure(figsize=(PANEL[0] * columns, PANEL[1] * rows + 0.9), layout="constrained")
-    axes = list(figure.subplots(rows, columns, squeeze=False).flat)
+    figure, axes = style.new("", rows, columns, height=PANEL[1] + 0.9 / rows, width=PANEL[0] * columns)
     rungs = list(dict.fromkeys(_rung(p) for one in found.values() for p in one.points))
     markers = {rung: MARKERS.get(rung, "h") for rung in rungs}
     for axis, one in zip(axes, found.values(), strict=False):
         _panel(axis, one, markers)
     for axis in axes[len(found) :]:
         axis.set_visible(False)
-    figure.legend(handles=_legend(found, markers), loc="outside lower center", ncols=6, frameon=False)
+    figure.legend(handles=_legend(found, markers), loc="outside lower center", ncols=6)
     return figure
 
 
 def _panel(axis: Any, one: Frontier, markers: dict[str, str]) -> None:
-    from matplotlib.ticker import NullFormatter
-
     best = one.best
     for point in one.points:
         on = point in best
@@ -45,12 +46,9 @@ def _panel(axis: Any, one: Frontier, markers: dict[str, str]) -> None:
     axis.step([p.digits for p in best], [p.per_time * 1e6 for p in best], where="pre", color="0.35", linewidth=1)
     axis.set(yscale="log", title=one.title, xlabel=_wrapped(one.question), ylabel="µs a unit of simulated time")
     axis.yaxis.set_minor_formatter(NullFormatter())
-    axis.grid(alpha=0.3)
 
 
 def _legend(found: dict[str, Frontier], markers: dict[str, str]) -> list[Any]:
-    from matplotlib.lines import Line2D
-
     orders = sorted({_order(p) for one in found.values() for p in one.points}, key=int)
     shown = [Line2D([], [], color=COLOURS[o], marker="o", linestyle="none", label=f"order {o}") for o in orders]
     shown += [Line2D([], [], color="0.3", marker=m, linestyle="none", label=rung) for rung, m in markers.items()]

@@ -1,20 +1,6 @@
-"""What the figures of the study share: colours, panels, and how its decimal numbers are read and told."""
+"""Numbers and names of the study as its figures and sentences tell them."""
 
 from typing import Any
-
-#: Okabe and Ito's colours, which the colour-blind tell apart.
-BLUE, RED, GREEN, PINK, ORANGE, SKY = "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"
-COLOURS = BLUE, RED, GREEN, PINK, ORANGE, SKY
-GREY = "0.45"
-
-
-def panels(rows: int, columns: int, width: float = 10.4, height: float = 3.7, **options: Any) -> tuple[Any, list[Any]]:
-    """A matplotlib figure with axes, so many inches wide and, for each row, high."""
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=(width, height * rows), layout="constrained")
-    figure.get_layout_engine().set(w_pad=0.08, h_pad=0.08)  # type: ignore[union-attr, call-arg]
-    return figure, list(figure.subplots(rows, columns, squeeze=False, **options).flat)
 
 
 def log10(text: str) -> float:
