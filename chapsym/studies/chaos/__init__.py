@@ -8,7 +8,7 @@ from typing import Any
 
 from ..energy.section import packed
 from ..units import Report, Unit, run_units
-from .figure import share
+from .orbits import share
 
 TITLE = "How much of the map is chaotic"
 #: What each figure shows, in the order in which they are shown.

@@ -11,16 +11,7 @@ from chapsym.show.drawing.style import COLOURS, WIDE, Picture, new
 
 from ..energy.continuous import Level
 from ..energy.section import state, unpacked
-
-
-def share(counted: int, chaotic: int) -> tuple[float, float, float]:
-    """The share of chaotic orbits with the ends of its 95% interval (Wilson)."""
-    if not counted:
-        return float("nan"), 0.0, 1.0
-    z, p = 1.96, chaotic / counted
-    middle = (p + z * z / (2 * counted)) / (1 + z * z / counted)
-    half = z * ((p * (1 - p) + z * z / (4 * counted)) / counted) ** 0.5 / (1 + z * z / counted)
-    return p, max(0.0, middle - half), min(1.0, middle + half)
+from .orbits import share
 
 
 def draw_shares(found: dict[str, Any]) -> Picture:

@@ -115,3 +115,13 @@ def slab(level: Level, K: Floats, g: Floats) -> Floats:
     rate_k, rate_v = np.cross(k, omega), np.cross(v, omega)
     time = (-k[:, 1] / rate_k[:, 1])[:, np.newaxis]
     return np.stack(coordinates(k + time * rate_k, v + time * rate_v))
+
+
+def share(counted: int, chaotic: int) -> tuple[float, float, float]:
+    """The share of chaotic orbits with the ends of its 95% interval (Wilson)."""
+    if not counted:
+        return float("nan"), 0.0, 1.0
+    z, p = 1.96, chaotic / counted
+    middle = (p + z * z / (2 * counted)) / (1 + z * z / counted)
+    half = z * ((p * (1 - p) + z * z / (4 * counted)) / counted) ** 0.5 / (1 + z * z / counted)
+    return p, max(0.0, middle - half), min(1.0, middle + half)
