@@ -1,12 +1,11 @@
 """What `chapsym bench` does: it measures, draws and prints the sections that are asked for."""
 
-import sys
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 import benchmarks
-from chapsym.cli.output import check_figure, fail, print_json, quiet, say, write_figure
+from chapsym.cli.output import check_figure, console_for, fail, print_json, print_table, quiet, say, write_figure
 
 
 def measure(sections: Sequence[str], quick: bool, output: Path | None, as_json: bool) -> None:
@@ -37,17 +36,9 @@ def measure(sections: Sequence[str], quick: bool, output: Path | None, as_json: 
 
 
 def _print_all(measured: dict[str, Any]) -> None:
-    from rich.console import Console
-    from rich.table import Table
-
-    console = Console(width=None if sys.stdout.isatty() else 140, markup=False, highlight=False)
+    console = console_for(140)
     for section in measured["sections"].values():
-        table = Table(title=section["title"], title_justify="left")
-        for name in section["rows"][0]:
-            table.add_column(name, justify="left" if name == "name" else "right")
-        for row in section["rows"]:
-            table.add_row(*map(_shown, row.values()))
-        console.print(table)
+        print_table(console, section["title"], section["rows"], _shown)
         for one in section["reach"]:
             sign, limit = ("reached" if one["met"] else "NOT reached"), ("at least" if one["at_least"] else "at most")
             console.print(f"  {one['what']}: {one['value']:.3g} (wanted: {limit} {one['wanted']:.3g}): {sign}")

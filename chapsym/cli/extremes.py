@@ -1,6 +1,5 @@
 """chapsym extremes: where each rung breaks."""
 
-import sys
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -8,7 +7,7 @@ import typer
 
 from .app import app
 from .options import Json
-from .output import fail, print_json, progress_bar
+from .output import console_for, fail, print_json, progress_bar
 
 #: How a verdict looks on a terminal; the signs read without colour.
 COLOURS = {"within": "green", "refused": "cyan", "failed": "bold red"}
@@ -83,13 +82,12 @@ def _chapsym_version() -> str:
 
 
 def _print_matrix(matrix: dict[str, Any]) -> None:
-    from rich.console import Console
     from rich.table import Table
     from rich.text import Text
 
     from chapsym.report import extremes as page
 
-    console = Console(width=None if sys.stdout.isatty() else 120, markup=False, highlight=False)
+    console = console_for(120)
     for group in page.groups(matrix):
         table = Table(title=f"{group['name']}: {group['title']}", title_justify="left")
         table.add_column("condition", min_width=46)

@@ -2,7 +2,7 @@
 
 import json
 import sys
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, NoReturn
@@ -85,3 +85,22 @@ def progress_bar(label: str, total: int) -> Iterator[Callable[..., None]]:
     with bar:
         task = bar.add_task(label, total=total)
         yield lambda done, of=None: bar.update(task, completed=done, total=of)
+
+
+def console_for(width: int) -> Any:
+    """Where tables go: as wide as the terminal, or elsewhere so wide."""
+    from rich.console import Console
+
+    return Console(width=None if sys.stdout.isatty() else width, markup=False, highlight=False)
+
+
+def print_table(console: Any, title: str, rows: Sequence[Mapping[str, Any]], shown: Callable[[Any], str]) -> None:
+    """A table of rows with the same names, words to the left."""
+    from rich.table import Table
+
+    table = Table(title=title, title_justify="left")
+    for name, value in rows[0].items() if rows else ():
+        table.add_column(name, justify="left" if isinstance(value, str) else "right")
+    for row in rows:
+        table.add_row(*map(shown, row.values()))
+    console.print(table)

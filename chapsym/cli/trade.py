@@ -2,7 +2,6 @@
 
 import math
 import re
-import sys
 from decimal import Decimal
 from pathlib import Path
 from typing import Annotated, Any
@@ -13,7 +12,7 @@ from chapsym.exact import rationals
 
 from .app import app
 from .options import Contact, Inertia, Json, Mass, MassTensor, Radius, ball_from
-from .output import check_figure, fail, print_json, quiet, say, write_figure
+from .output import check_figure, console_for, fail, print_json, print_table, quiet, say, write_figure
 
 
 @app.command()
@@ -225,18 +224,9 @@ def _study(wanted: list[str], quick: bool, output: Path | None, as_json: bool) -
 
 def print_tables(found: dict[str, Any], machine: dict[str, Any]) -> None:
     """Each section's table and the sentences under it."""
-    from rich.console import Console
-    from rich.table import Table
-
-    console = Console(width=None if sys.stdout.isatty() else 120, markup=False, highlight=False)
+    console = console_for(120)
     for section in found.values():
-        rows = section.table()
-        shown = Table(title=section.title, title_justify="left")
-        for name in rows[0] if rows else []:
-            shown.add_column(name, justify="left" if isinstance(rows[0][name], str) else "right")
-        for row in rows:
-            shown.add_row(*(f"{x:.3g}" if isinstance(x, float) else str(x) for x in row.values()))
-        console.print(shown)
+        print_table(console, section.title, section.table(), lambda x: f"{x:.3g}" if isinstance(x, float) else str(x))
         for sentence in section.sentences():
             console.print(f"  {sentence}")
         console.print()
