@@ -235,5 +235,6 @@ def test_three_js_is_unmodified_and_packaged():
         pytest.skip("an installed wheel has no pyproject.toml")
     told = tomllib.loads(project.read_text(encoding="utf-8"))["tool"]["setuptools"]
     packaged = {path for glob in told["package-data"]["chapsym.show.rolling"] for path in FOLDER.glob(glob)}
-    assert "chapsym.show.rolling" in told["packages"]
+    assert "chapsym.*" in told["packages"]["find"]["include"]
+    assert (FOLDER / "__init__.py").is_file()
     assert packaged == {path for path in FOLDER.rglob("*") if path.is_file() and not path.suffix.startswith(".py")}
