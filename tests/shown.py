@@ -1,11 +1,15 @@
-"""Pages as a browser shows them, offline: one browser for all tests of a process, one tab for each kind of window."""
+"""Pages as browsers show them, offline: in a process one browser of a kind, and one tab for each kind of window."""
 
 import chromium
 
-#: WebGL without a graphics card; what else a page has is painted without it: that takes less.
-FLAGS = [
+QUIET = [
     "--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update",
-    "--disable-sync", "--disable-accelerated-2d-canvas", "--disable-gpu-rasterization",
+    "--disable-sync",
+]  # fmt: skip
+#: A page of text is painted without graphics; WebGL without a graphics card takes three times as long for one.
+PLAIN = [*QUIET, "--disable-gpu"]
+WEBGL = [
+    *QUIET, "--disable-accelerated-2d-canvas", "--disable-gpu-rasterization",
     "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
 ]  # fmt: skip
 DESK, PHONE = {"width": 1280, "height": 900}, {"width": 390, "height": 844}

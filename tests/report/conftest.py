@@ -2,7 +2,7 @@
 
 import copy
 import sys
-from functools import partial
+from functools import cache, partial
 from subprocess import CompletedProcess
 
 import chromium
@@ -79,17 +79,9 @@ def launch():
 
 @pytest.fixture(scope="session")
 def tabs(launch):
-    """The tabs of the one browser, by their options; each is made when it is first asked for."""
-    browser, made = launch(args=shown.FLAGS), {}
-
-    def tab(**options):
-        key = str(sorted(options.items()))
-        if key not in made:
-            made[key] = shown.Shown(browser, **options)
-        return made[key]
-
-    yield tab
-    browser.close()
+    """The tabs of the two browsers, with and without WebGL, by their options; made when they are first asked for."""
+    browser = cache(lambda webgl: launch(args=shown.WEBGL if webgl else shown.PLAIN))
+    return cache(lambda webgl, **options: shown.Shown(browser(webgl), **options))
 
 
 @pytest.fixture
@@ -97,8 +89,9 @@ def opened(tabs):
     """Opens a page afresh in a window of some size; in the end it has said nothing and asked for nothing but itself."""
     used = {}
 
-    def open_page(path, size=shown.DESK, **options):
-        page = used.setdefault(id(tabs(**options)), tabs(**options))
+    def open_page(path, size=shown.DESK, webgl=False, **options):
+        page = tabs(webgl, **options)
+        used[id(page)] = page
         page.tab.set_viewport_size(size)
         page.load(path)
         return page

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from matplotlib import image
 from rolling_results import BALL, EVEN, rolled
-from shown import DESK, FLAGS, PHONE, Shown
+from shown import DESK, PHONE, WEBGL, Shown
 from waiting import until
 
 from chapsym.dynamics import Status, kernels
@@ -53,7 +53,7 @@ def rolling(opened, results):
 
     def open_page(page="one", size=SMALL, **options):
         path = results[page][0] if page in results else page
-        return Rolling(opened(path, size, **({"reduced_motion": "reduce"} | options)))
+        return Rolling(opened(path, size, webgl=True, **({"reduced_motion": "reduce"} | options)))
 
     return open_page
 
@@ -442,7 +442,7 @@ def test_lost_graphics_are_told_and_come_back(rolling):
 
 
 def test_no_webgl_is_told(launch, results):
-    browser = launch(args=[*FLAGS, "--disable-3d-apis"])
+    browser = launch(args=[*WEBGL, "--disable-3d-apis"])
     page = Shown(browser, reduced_motion="reduce", viewport=SMALL)
     page.load(results["one"][0])
     alert = page.tab.get_by_role("alert")
