@@ -238,12 +238,15 @@ def test_every_unit_is_plain_data_and_the_full_study_has_more():
 @pytest.fixture(scope="module")
 def small():
     """A study of one or two units a section, in this process."""
-    from chapsym.studies.units import compute
+    from chapsym.studies.units import Unit, compute
 
     planned = units(True)
     cut = {"fifth": 4, "turns": 2, "small_D": 3, "farey": 4}
     found = {
-        name: [compute(u.function, small_arguments(u)) for u in section[: cut.get(name)]]
+        name: [
+            compute(u.function, u.arguments, u.key)
+            for u in (Unit(x.function, small_arguments(x)) for x in section[: cut.get(name)])
+        ]
         for name, section in planned.items()
     }
     return rotation.assembled(found, True)
