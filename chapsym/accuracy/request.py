@@ -8,8 +8,7 @@ from typing import Any
 import numpy as np
 
 from chapsym.dynamics import BadInput, Ball, Trajectory
-from chapsym.dynamics.ball import Floats, numbers
-from chapsym.dynamics.map import batch, unit_vertical
+from chapsym.dynamics.ball import Floats, batch, numbers, unit_vertical
 from chapsym.dynamics.trajectories import attitude_with, initial_attitude
 from chapsym.numbers import Digits, Rung
 

@@ -39,13 +39,11 @@ def step(
     K, g = rationals(momentum, "--momentum", 3), rationals(gamma, "--gamma", 3)
     chosen = rung_from(digits, rung, ball)
     from chapsym.dynamics import BadInput, StepNotTaken
-    from chapsym.dynamics.levels.newton import precise_step
+    from chapsym.dynamics.map import exact_step
 
     try:
-        result = precise_step(J, D, K, g, chosen).write()
-    except BadInput as error:
-        fail(str(error), 2)
-    except StepNotTaken as error:
+        result = exact_step(J, D, K, g, chosen).write()
+    except (BadInput, StepNotTaken) as error:
         fail(str(error), 2)
     if as_json:
         print_json(result)

@@ -13,14 +13,15 @@ from .coefficients import substeps
 from .composition import compose_step
 from .errors import BadInput, Status, StepNotTaken
 from .extrapolation import Extrapolated, extrapolate
-from .map import Step, step
+from .map import step
 from .n.ball_n import BallN, axial, skew
 from .n.step_n import StepN, step_n
 from .n.trajectory_n import TrajectoryN, invariants_n, reverse_n, trajectory_n
+from .results import Step, Trajectory
 from .reversal import NotRetraced, retrace_error, reverse
 from .solutions.continuation import Fold, Followed, fold, follow, margin
 from .solutions.multivalued import Branches, branches
-from .trajectories import Trajectory, roll, trajectory
+from .trajectories import roll, trajectory
 
 __all__ = [
     "BadInput", "Ball", "BallN", "Branches", "Certificate", "Curve", "ExactTop", "Extrapolated", "Fold", "Followed",

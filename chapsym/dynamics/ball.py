@@ -17,6 +17,10 @@ Asked = Floats | Any
 
 #: Below this float64 loses digits.
 SMALLEST = np.finfo(np.float64).tiny
+#: How far |γ|² may be from 1: more than the rounding of 10⁶ steps, so that a run may go on from its end.
+UNIT_TOLERANCE = 1e-12
+#: The same for what is given in float32: it is divided by its length.
+SINGLE_TOLERANCE = 1e-6
 
 
 def numbers(value: ArrayLike, name: str, trailing: int | None = None) -> Floats:
@@ -100,8 +104,7 @@ class Ball:
         if (contact < 0).any():
             raise BadInput(f"D = m ρ² must not be negative, but it is {contact.min():g}")
         with np.errstate(over="ignore"):
-            pairs = np.stack([tensor[..., i] + tensor[..., j] for i, j in ((1, 2), (0, 2), (0, 1))], axis=-1)
-            moments = pairs + contact[..., np.newaxis]
+            moments = inertia_of(tensor) + contact[..., np.newaxis]
         if not np.isfinite(moments).all():
             raise BadInput("the moments of inertia J2 + J3 + D, ... are beyond the range of float64")
         if not (moments > 0).all():
@@ -131,7 +134,7 @@ class Ball:
     @property
     def inertia(self) -> Floats:
         """The principal moments of inertia about the centre, (J2 + J3, J1 + J3, J1 + J2)."""
-        return self.mass_tensor.sum(axis=-1, keepdims=True) - self.mass_tensor
+        return inertia_of(self.mass_tensor)
 
 
 def keep(ball: Any, **parameters: Floats | None) -> None:
@@ -152,18 +155,35 @@ def _broadcast(tensor: Floats, contact: Floats, radius: Floats | None) -> None:
         raise BadInput(f"the leading axes of mass_tensor, D and radius do not broadcast: {listed}") from None
 
 
+def inertia_of(tensor: Floats) -> Floats:
+    """(J2 + J3, J1 + J3, J1 + J2), (..., 3): sums, as J1 + J2 + J3 - J1 would lose what is small beside it."""
+    return np.stack([tensor[..., i] + tensor[..., j] for i, j in ((1, 2), (0, 2), (0, 1))], axis=-1)
+
+
 def mass_tensor_of(inertia: ArrayLike) -> Floats:
     """J from the principal moments of inertia; raises BadInput if no body has them."""
     moments = numbers(inertia, "inertia", 3)
+    if moments.shape == (3, 3) and (moments == moments.T).all() and (_rounded_tensor(moments) < 0).any():
+        raise BadInput(
+            "inertia takes principal moments, a row of three for each ball, not a 3 x 3 tensor: "
+            "they are its eigenvalues, numpy.linalg.eigvalsh(inertia)"
+        )
     if (moments < 0).any():
         raise BadInput(f"inertia has the negative principal moment {moments.min():g}")
-    tensor = (moments.sum(axis=-1, keepdims=True) - 2 * moments) / 2
-    rounding = 4 * np.finfo(np.float64).eps * moments.max(axis=-1, keepdims=True)
-    if (tensor < -rounding).any():
-        bad = moments.reshape(-1, 3)[np.argwhere((tensor < -rounding).reshape(-1, 3).any(axis=1))[0, 0]]
+    tensor = _rounded_tensor(moments)
+    if (tensor < 0).any():
+        bad = moments.reshape(-1, 3)[np.argwhere((tensor < 0).reshape(-1, 3).any(axis=1))[0, 0]]
         listed = ", ".join(f"{x:g}" for x in bad)
         raise BadInput(f"no body has the inertia ({listed}): each principal moment is at most the sum of the other two")
-    return np.maximum(tensor, 0.0)
+    return tensor
+
+
+def _rounded_tensor(moments: Floats) -> Floats:
+    """J from principal moments, where what is below 0 by a rounding is 0."""
+    with np.errstate(over="ignore"):
+        tensor = (moments / 2).sum(axis=-1, keepdims=True) - moments
+    rounding = 4 * np.finfo(np.float64).eps * np.abs(moments).max(axis=-1, keepdims=True)
+    return np.where(np.abs(tensor) <= rounding, np.maximum(tensor, 0.0), tensor)
 
 
 def contact_term(mass: ArrayLike | None, radius: ArrayLike | None, D: ArrayLike | None) -> ArrayLike:
@@ -177,8 +197,48 @@ def contact_term(mass: ArrayLike | None, radius: ArrayLike | None, D: ArrayLike 
     m, rho = numbers(mass, "mass"), numbers(radius, "radius")
     if not (m > 0).all() or not (rho > 0).all():
         raise BadInput("mass and radius must be positive")
+    try:
+        np.broadcast_shapes(m.shape, rho.shape)
+    except ValueError:
+        raise BadInput(f"the leading axes of mass and radius do not broadcast: {m.shape}, {rho.shape}") from None
     with np.errstate(over="ignore", under="ignore"):
         contact = m * rho * rho
     if (contact < SMALLEST).any():
         raise BadInput("D = m ρ² is below the range of float64, about 2.2e-308; take other units")
     return contact
+
+
+def in_single(value: ArrayLike) -> bool:
+    """Whether an array is of float32, in any byte order."""
+    return np.asarray(value).dtype.newbyteorder("=") == np.float32
+
+
+def unit_vertical(gamma: ArrayLike, tolerance: float = UNIT_TOLERANCE) -> Floats:
+    """γ as checked unit vectors, shape (..., 3); a float32 array, which cannot be so near to unit, as divided."""
+    array = numbers(gamma, "gamma", 3)
+    squared = (array * array).sum(axis=-1)
+    if in_single(gamma) and (np.abs(squared - 1) <= SINGLE_TOLERANCE).all():
+        return array / np.sqrt(squared)[..., np.newaxis]
+    off = np.abs(squared - 1)
+    if array.size and (off > tolerance).any():
+        worst = np.sqrt(squared.flat[int(off.argmax())])
+        right = "divide it by its length" if worst else "it is the vertical, upwards, in the axes of the body"
+        raise BadInput(f"gamma must be a unit vector, but its length is {worst:.17g}; {right}")
+    return array
+
+
+def batch(ball: Ball, *vectors: Floats) -> tuple[tuple[int, ...], list[Floats]]:
+    """The common leading shape of balls and vectors, and all of them as fresh flat arrays.
+
+    Returns (shape, [vector (n, 3) ..., mass_tensor (n, 3), D (n,)]).
+    """
+    if not isinstance(ball, Ball):
+        raise BadInput(f"ball must be a chapsym.Ball, not {type(ball).__name__}")
+    radius = () if ball.radius is None else ball.radius.shape
+    try:
+        shape = np.broadcast_shapes(ball.D.shape, ball.mass_tensor.shape[:-1], radius, *(v.shape[:-1] for v in vectors))
+    except ValueError:
+        shapes = ", ".join(str(s) for s in [ball.mass_tensor.shape, ball.D.shape, *(v.shape for v in vectors)])
+        raise BadInput(f"the leading axes of ball (mass_tensor, D) and vectors do not broadcast: {shapes}") from None
+    flat = [np.broadcast_to(v, (*shape, 3)).reshape(-1, 3).copy() for v in (*vectors, ball.mass_tensor)]
+    return shape, [*flat, np.broadcast_to(ball.D, shape).reshape(-1).copy()]

@@ -11,14 +11,13 @@ import numpy as np
 
 from chapsym.numbers import Ball as BallRung
 
-from .ball import Asked, Floats
+from .ball import Asked, Floats, batch
 from .coefficients import COMPOSITIONS
 from .errors import BadInput, Status
 from .levels import high, ladder
-from .levels.double import Balls
+from .levels.frames import Balls
 from .levels.start import fraction
-from .map import batch
-from .trajectories import Trajectory
+from .results import Trajectory
 
 #: What a certificate is about; `contact` in metres.
 NAMES = ("momentum", "gamma", "attitude", "contact")

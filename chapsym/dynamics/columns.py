@@ -20,9 +20,9 @@ from chapsym.generated.columns import (
 
 from .ball import Floats
 from .loops.block import PATIENCE
-from .loops.gibbs import LARGEST, MOST_ROUNDS, SMALLEST, certificate, newton_round, second_round
+from .loops.gibbs import MOST_ROUNDS, certificate, newton_round, second_round
 from .loops.integrals import PERIOD, give, missing, remember, shares
-from .loops.loop import ENOUGH, INTEGRALS, RADIUS, ROWS, A, D, G, I, J, K, X, safe_rotation
+from .loops.loop import ENOUGH, HIGHEST, INTEGRALS, RADIUS, ROWS, SMALLEST, A, D, G, I, J, K, X, safe_rotation
 
 #: Balls in a chunk, at most: its rows, about a hundred, stay in the second-level cache.  Longer dot products than
 #: that of three such rows would be shared out to other cores by the BLAS, and wait for them.
@@ -242,16 +242,16 @@ def prepare_columns(momentum: Floats, g: Floats, tensor: Floats, contact: Floats
     pairs = tensor[:, [1, 0, 0]] + tensor[:, [2, 2, 1]]
     exponent = np.frexp(pairs.max(axis=1) + contact)[1]
     largest = np.abs(momentum).max(axis=1)
+    exponent = np.maximum(np.minimum(exponent, HIGHEST), np.frexp(largest)[1] - HIGHEST)
     tiny = (largest > 0.0) & (largest < np.ldexp(SMALLEST, exponent))
-    huge = np.frexp(largest)[1] - exponent > LARGEST
-    exponent = np.where(tiny, -1, np.where(huge, 0, exponent))
+    exponent = np.where(tiny, np.maximum(-1, exponent - HIGHEST + 1), exponent)
     state[:] = 0.0
     state[K : K + 3], state[G : G + 3] = np.ldexp(momentum.T, -exponent - 1), g.T
     state[J : J + 3], state[D] = np.ldexp(tensor.T, -exponent), np.ldexp(contact, -exponent)
     state[I : I + 3] = state[[J + 1, J, J]] + state[[J + 2, J + 2, J + 1]]
     for lane, numbers in enumerate(state[[K, K + 1, K + 2, I, I + 1, I + 2, D]].T.tolist()):
         state[[RADIUS, ENOUGH], lane] = certificate(*numbers)
-    state[RADIUS, tiny | huge | (state[I : I + 3].min(axis=0) < SMALLEST)] = -1.0
+    state[RADIUS, tiny | (state[I : I + 3].min(axis=0) < SMALLEST)] = -1.0
     remember(state)
     scale[:] = np.ldexp(1.0, exponent + 1)
 

@@ -18,13 +18,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .ball import Asked, Ball, Floats, numbers
+from .ball import Asked, Ball, Floats, batch, numbers, unit_vertical
 from .errors import BadInput, Status, StepNotTaken
 from .levels.double import chosen, compiles
 from .loops import loop
 from .loops.lanes import MOST_COLUMNS, long_steps_in_lanes
 from .loops.long_step import FIRST, long_steps
-from .map import batch, unit_vertical
 from .trajectories import initial_attitude
 
 #: Longer steps than 2^LONGEST, in units where the momentum and the ball are about 1, have no rotation anyway.
@@ -56,6 +55,7 @@ def weights(columns: int) -> tuple[Fraction, ...]:
     return tuple(prod((Fraction(n * n, n * n - m * m) for m in every if m != n), start=Fraction(1)) for n in every)
 
 
+@np.errstate(all="ignore")  # as compiled: `status` tells
 def extrapolate(
     ball: Ball,
     angular_momentum: ArrayLike,

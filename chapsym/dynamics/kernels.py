@@ -42,7 +42,8 @@ def kernel(name: str) -> Callable[..., Floats]:
         except ValueError:
             shapes = ", ".join(f"{g} {np.shape(a)}" for a, (g, _) in zip(arrays, groups, strict=True))
             raise BadInput(f"the leading axes of the arguments of {name} do not broadcast: {shapes}") from None
-        result = function(*columns)
+        with np.errstate(over="ignore", under="ignore", invalid="ignore"):  # as in the compiled loops
+            result = function(*columns)
         if not shape:
             return np.broadcast_to(result, leading).copy()
         parts = [np.broadcast_to(part, leading) for part in result]

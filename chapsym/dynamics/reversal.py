@@ -15,7 +15,8 @@ from .ball import Ball, Floats
 from .composition import compose_step
 from .errors import BadInput
 from .map import step
-from .trajectories import Trajectory, trajectory
+from .results import Trajectory
+from .trajectories import trajectory
 
 #: Where the way back is this far from the way there, it is looked whether a step back took another branch.
 FAR = 1e-6

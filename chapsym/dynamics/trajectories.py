@@ -3,21 +3,31 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
-from fractions import Fraction
+from dataclasses import replace
 from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from chapsym.numbers import NAMED, Rung
+from chapsym.numbers import Rung
 
 from . import kernels
-from .ball import SMALLEST, Asked, Ball, Floats, numbers
+from .ball import (
+    SINGLE_TOLERANCE,
+    SMALLEST,
+    UNIT_TOLERANCE,
+    Ball,
+    Floats,
+    batch,
+    in_single,
+    numbers,
+    unit_vertical,
+)
 from .errors import BadInput, Status, StepNotTaken
+from .exactly import beyond_float64
 from .levels import ladder
-from .levels.double import Balls, Frames
-from .map import SINGLE_TOLERANCE, UNIT_TOLERANCE, batch, in_single, unit_vertical
+from .levels.frames import Balls, Frames
+from .results import Low, Trajectory
 
 #: Whoever asks for more steps than this, or for every so many, will not see the end of it.
 MOST_STEPS = 2**62
@@ -25,77 +35,6 @@ MOST_STEPS = 2**62
 AGREEMENT = 1e-9
 #: The same for an attitude that is given in float32, up to 10⁶ steps of it.
 SINGLE_AGREEMENT = 1e-4
-
-
-@dataclass(frozen=True, eq=False)
-class Low:
-    """The second halves of the double-double numbers of a trajectory, each at most half an ulp of the first."""
-
-    momentum: Floats
-    gamma: Floats
-    attitude: Asked
-    contact: Asked
-
-
-@dataclass(frozen=True, eq=False)
-class Trajectory:
-    """States of one ball, shape (frames, ...), or of a batch, shape (balls..., frames, ...).
-
-    index: the step number of each frame, (frames,).
-    momentum, gamma: 𝒦 (kg m²) and γ, (..., frames, 3).
-    attitude: unit quaternions, body to space, scalar first, (..., frames, 4), or None.
-    contact: the contact point on the plane in metres, from (0, 0), (..., frames, 2), or None.
-    taken: the number of steps that were taken, (...); frames after it are NaN.
-    status: why a ball stopped, a `Status`, (...).
-    time_step: ε in seconds, if the run has one.
-    order: of the composition that made the steps; 2 for the map itself, 0 for the continuous motion (`exact_top`).
-    precision: the rung of the numbers.  The arrays are float32 for Single, objects (mpf, arb) for Digits and Ball.
-    low: for Quad, what the numbers have beyond float64: `momentum` + `low.momentum` is 𝒦, and so on; else None.
-    """
-
-    ball: Ball
-    index: np.ndarray
-    momentum: Floats
-    gamma: Floats
-    attitude: Asked
-    contact: Asked
-    taken: np.ndarray
-    status: np.ndarray
-    time_step: float | None = None
-    order: int = 2
-    precision: Rung = NAMED["double"]
-    low: Low | Any = None
-
-    @property
-    def time(self) -> Floats:
-        """The time of each frame in seconds; raises BadInput if the run has no time step."""
-        return self.index * self._time_step()
-
-    def invariants(self) -> Floats:
-        """⟨𝒦,γ⟩, ⟨𝒦,𝒦⟩ and ⟨γ,γ⟩ of each frame, (..., frames, 3); on Quad in float64, of the first halves."""
-        with self.precision.precision():
-            return kernels.invariants(*self._finite(self.momentum, self.gamma))
-
-    def angular_momentum(self) -> Floats:
-        """K = 𝒦/ε in kg m²/s, (..., frames, 3)."""
-        with self.precision.precision():
-            return self.momentum / self._time_step()
-
-    def kinetic_energy(self) -> Floats:
-        """½⟨K, ω⟩ in joules for K = 𝒦/ε, (..., frames); the map keeps it up to an oscillation."""
-        tensor, contact = self.ball.mass_tensor[..., np.newaxis, :], self.ball.D[..., np.newaxis]
-        with self.precision.precision():
-            return kernels.energy(*self._finite(self.angular_momentum(), self.gamma), tensor, contact)
-
-    def _finite(self, *arrays: Floats) -> tuple[Floats, ...]:
-        if (self.taken < self.index[-1]).any():
-            raise BadInput("a ball of the batch stopped early; choose the frames up to `taken` first")
-        return arrays
-
-    def _time_step(self) -> float:
-        if self.time_step is None:
-            raise BadInput("this trajectory has no time step: it was given 𝒦 = εK; use `roll`, or divide by your ε")
-        return self.time_step
 
 
 def attitude_with(gamma: Floats) -> Floats:
@@ -185,7 +124,7 @@ def trajectory(
     frame = ladder.frames_for(rung, balls, frames, body_frames, isinstance(attitude, bool | np.bool_))
     with np.errstate(over="ignore"):  # a rung of a smaller range refuses what it cannot hold
         frame.momentum[:, 0], frame.gamma[:, 0] = K, g
-    rest = _beyond_float64(momentum, shape)
+    rest = beyond_float64(momentum, shape)
     if with_body:
         first = np.broadcast_to(initial_attitude(attitude, g.reshape(*shape, 3)), (*shape, 4))
         frame.attitude[:, 0], frame.contact[:, 0] = first.reshape(-1, 4), 0.0
@@ -218,15 +157,6 @@ def _up_to(whole: Trajectory, taken: int) -> Trajectory:
 
     low = None if whole.low is None else Low(**these(whole.low))
     return replace(whole, index=whole.index[kept], low=low, **these(whole))
-
-
-def _beyond_float64(momentum: ArrayLike, shape: tuple[int, ...]) -> Floats | None:
-    """What a momentum of Fractions has beyond float64, (n, 3); None if there is nothing."""
-    given = np.asarray(momentum)
-    if given.dtype != object or not all(isinstance(x, Fraction) for x in given.flat):
-        return None
-    rest = np.array([float(x - Fraction(float(x))) for x in given.flat]).reshape(given.shape)
-    return np.broadcast_to(rest, (*shape, 3)).reshape(-1, 3)
 
 
 def _count(value: int, name: str, least: int) -> int:
@@ -267,7 +197,10 @@ def roll(
     vertical = unit_vertical(gamma)
     spin = numbers(omega, "omega", 3)
     batch(ball, spin, vertical)  # so that a mistake is told in the names of this function
-    momentum = epsilon * kernels.contact_momentum(spin, vertical, ball.mass_tensor, ball.D)
+    with np.errstate(over="ignore", under="ignore"):
+        momentum = epsilon * kernels.contact_momentum(spin, vertical, ball.mass_tensor, ball.D)
+    if not np.isfinite(momentum).all():
+        raise BadInput("𝒦 = εK is beyond the range of float64, about 1.8e308; take a shorter time step or other units")
     if np.any((np.abs(momentum).max(axis=-1) < SMALLEST) & spin.any(axis=-1) & (ball.inertia > 0).all(axis=-1)):
         raise BadInput("𝒦 = εK is below the range of float64, about 2.2e-308; take a longer time step or other units")
     return trajectory(

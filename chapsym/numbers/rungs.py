@@ -56,11 +56,6 @@ class Rung(ABC):
         """The relative correction after which Newton's iteration is done: its square is below the digits asked for."""
         return Fraction(1, 10 ** (self.carried // 2 - 2))
 
-    @property
-    def smallest(self) -> Fraction:
-        """Numbers that are not 0 must be larger, or underflow takes digits from what is computed with them."""
-        return Fraction(0)
-
     def guarded(self, digits: int) -> "Rung":
         """The same rung with as many guard digits more, where it has any."""
         return self
@@ -82,7 +77,8 @@ class Single(Rung):
         return np.sqrt(value)
 
     def write(self, value: np.float32) -> float:
-        return float(value)
+        """The shortest decimal number that is this float32: as a float64 it would have digits that mean nothing."""
+        return float(str(np.float32(value)))
 
     @property
     def digits(self) -> int:
@@ -106,11 +102,6 @@ class Double(Rung):
     def digits(self) -> int:
         return 12
 
-    @property
-    def smallest(self) -> Fraction:
-        """What rounds to 0."""
-        return Fraction(1, 2**1075)
-
 
 @dataclass(frozen=True)
 class Quad(Rung):
@@ -128,21 +119,6 @@ class Quad(Rung):
     @property
     def digits(self) -> int:
         return 28
-
-    @property
-    def carried(self) -> int:
-        """106 bits."""
-        return 31
-
-    @property
-    def settled(self) -> Fraction:
-        """2^-53, whose square is the roundoff: there are no guard digits."""
-        return Fraction(1, 2**53)
-
-    @property
-    def smallest(self) -> Fraction:
-        """2^-900: the error of a product of two more is still a float64."""
-        return Fraction(1, 2**900)
 
 
 @dataclass(frozen=True)
@@ -241,4 +217,5 @@ def rung(precision: "str | Rung") -> Rung:
         return precision
     if isinstance(precision, str) and precision in NAMED:
         return NAMED[precision]
-    raise ValueError(f'precision must be "single", "double", "quad", Digits(n) or Ball(bits), not {precision!r}')
+    told = '"single", "double", "quad", or Digits(n) or Ball(bits) of chapsym.numbers'
+    raise ValueError(f"precision must be {told}, not {precision!r}")

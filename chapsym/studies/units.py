@@ -18,7 +18,7 @@ from typing import Any
 import chapsym
 from chapsym import jobs, sources
 from chapsym.dynamics import BadInput
-from chapsym.dynamics.levels.double import cores
+from chapsym.dynamics.levels.frames import cores
 
 #: Called with the units that are done and how many there are.
 Report = Callable[[int, int], None]

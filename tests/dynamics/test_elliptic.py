@@ -1,5 +1,6 @@
 """The invariant curve in Jacobi's functions, the increment on it, and the top that has no error of the step."""
 
+import warnings
 from itertools import permutations
 
 import mpmath
@@ -14,6 +15,7 @@ from chapsym import BadInput, Ball, Curve, exact_top, increment, step_vertical, 
 from chapsym.dynamics import kernels
 from chapsym.dynamics.closed import jacobi
 from chapsym.dynamics.closed.elliptic import height_of
+from chapsym.numbers import Digits
 
 ULP = 2.0**-52
 GAMMA = np.array([2 / 7, 3 / 7, 6 / 7])
@@ -224,3 +226,29 @@ def test_only_its_own_run_is_restored():
     top = exact_top(Ball((1, 2, 4), 0), (0.1, 0.2, 0.1), GAMMA)
     with pytest.raises(BadInput, match="no trajectory of the exact top"):
         top.restore(chapsym.trajectory(top.ball, 2 * top.momentum, GAMMA, 3))
+
+
+@pytest.mark.parametrize("size", [1e17, 1.46756e18])
+def test_a_needle_has_its_curve_and_its_increment(size):
+    """Its least moment of inertia was lost beside J₂, and with it the curve: NaN, or an error in a strange name."""
+    ball, g, h = Ball((0.480419, size, 1.744017), 6.48e-13), np.array([-0.2717, -0.5594, -0.7831]), -0.01546
+    g /= np.linalg.norm(g)
+    curve = Curve.through(ball, g)
+    u = curve.argument(g)
+    there = curve.point(u + increment(curve, h, u))
+    truth = chapsym.step(ball, h * g, g, precision=Digits(40))  # float64 cannot resolve the rotation
+    assert there == pytest.approx(truth.gamma.astype(float), abs=1e-12)
+
+
+def test_a_curve_beyond_float64_is_refused():
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        with pytest.raises(BadInput, match="too far apart"):
+            Curve.through(Ball((0.0555, 2.0, 3.68e261), 0.0), (0.6, 0, 0.8))
+
+
+def test_a_height_beyond_float64_has_no_increment():
+    curve = Curve.through(Ball((1.0, 2.0, 4.0), 3.0), np.array((2, 3, 6)) / 7)
+    found = increment(curve, np.array([0.1, 1e308]) * [1, 1.7], 0.0)
+    assert found[0] == increment(curve, 0.1, 0.0)
+    assert np.isnan(found[1])

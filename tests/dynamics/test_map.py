@@ -11,8 +11,9 @@ from hypothesis import strategies as st
 import chapsym
 from chapsym import BadInput, Ball, Status, StepNotTaken, testing
 from chapsym.dynamics import kernels
+from chapsym.dynamics.failure import largest_momentum
 from chapsym.dynamics.loops.branch import small_rotation, tangent
-from chapsym.dynamics.map import largest_momentum
+from chapsym.dynamics.loops.gibbs import HEAVY
 from chapsym.studies.check import State, compare
 
 BALL = Ball((1, 2, 4), 3)
@@ -49,8 +50,10 @@ def test_a_step_intertwines_its_momenta(state):
     expected = -kernels.momentum(back, step.gamma, ball.mass_tensor, ball.D)
     top = ball.mass_tensor.sum() + ball.D
     scale = np.abs(momentum).max() + top * np.abs(step.rotation[1:]).max()
+    # The determinant of a heavy ball costs q a few ulps more (`gibbs.HEAVY`), which Λmax makes as many of `scale`.
+    ulps = 64 if HEAVY * ball.inertia.min() < ball.D else 16
     # A subnormal component of q is off by up to 2^-1075, which moves 𝒦 by 2Λmax as much.
-    assert np.abs(step.momentum - expected).max() <= 16 * 2**-52 * scale + 2.0**-1070 + 4 * top * 2.0**-1074
+    assert np.abs(step.momentum - expected).max() <= ulps * 2**-52 * scale + 2.0**-1070 + 4 * top * 2.0**-1074
 
 
 @given(testing.states(fraction=(0.0, 0.3)))

@@ -224,9 +224,8 @@ def test_a_point_that_is_no_root_costs_digits_and_no_truth(monkeypatch):
 
 def test_fixed_point_roots_are_roots_at_any_precision():
     for bits in (60, 100, 319, 321, 700, 3000):
-        ball = digits.DigitsBall(
-            Digits(int(bits * 0.3)), 0.4 * DIRECTION, np.array(GAMMA), BALL.mass_tensor, 0.7, (F(1),), None, 0.0
-        )
+        state = (list(map(F, v)) for v in (0.4 * DIRECTION, np.array(GAMMA), BALL.mass_tensor))
+        ball = digits.DigitsBall(Digits(int(bits * 0.3)), *state, F(0.7), (F(1),), None, 0.0)
         u, _ = root.root((0.0, 0.0, 0.0), ball.k, ball.g, ball.I, ball.D, ball.floats, ball.P, int, ball.lost)
         left = root.residual_fixed(*u, *ball.k, *ball.g, *ball.I, ball.D, ball.P)
         assert max(map(abs, left)) < 64
@@ -255,7 +254,8 @@ def test_what_is_certified_is_monotone_and_contains_the_root(state, direction):
     ratio = (ball.mass_tensor.sum() + float(ball.D)) / np.sort(ball.inertia)[0]
     assume(ratio < 1e4)
     with flint.ctx.workprec(150):
-        under_way = balls.ArbBall(150, momentum, gamma, ball.mass_tensor, float(ball.D), (F(1),), None, 0.0)
+        given = (list(map(F, v)) for v in (momentum, gamma, ball.mass_tensor))
+        under_way = balls.ArbBall(150, *given, F(float(ball.D)), (F(1),), None, 0.0)
         bound = under_way.bounds[0]
         inertia, contact = np.array(list(map(float, under_way.I))), float(under_way.D)
         k = np.array(list(map(float, under_way.k)))

@@ -11,6 +11,7 @@ import chapsym
 from chapsym import BadInput, Ball, Status, StepNotTaken
 from chapsym.dynamics import kernels
 from chapsym.dynamics.levels import double, single
+from chapsym.dynamics.levels.frames import Balls
 from chapsym.dynamics.oracle import Oracle
 from chapsym.studies import check
 
@@ -27,9 +28,13 @@ def rounded(ball, momentum, gamma):
     return Ball(J, D, ball.radius), k, g / np.linalg.norm(g, axis=-1, keepdims=True)
 
 
+def step_all(momentum, gamma, tensor, contact):
+    return single.step_all(Balls(momentum, gamma, tensor, contact, np.ones(len(contact))))
+
+
 def step(state):
     parts = (state.K, state.g, state.J, state.D)
-    return [x[0] for x in single.step_all(*(np.asarray(x, float)[np.newaxis] for x in parts))]
+    return [x[0] for x in step_all(*(np.asarray(x, float)[np.newaxis] for x in parts))]
 
 
 @pytest.mark.parametrize("stratum", STRATA)
@@ -73,7 +78,7 @@ def test_a_slow_step_has_all_its_digits(size):
 def test_all_arrays_are_float32():
     run = chapsym.trajectory(BALL, K, G, 10, contact=True, precision="single")
     assert {x.dtype for x in (run.momentum, run.gamma, run.attitude, run.contact)} == {np.dtype(np.float32)}
-    q, k, g, _, _ = single.step_all(*(np.array([x]) for x in (K, G, BALL.mass_tensor)), np.array([0.7]))
+    q, k, g, _, _ = step_all(*(np.array([x]) for x in (K, G, BALL.mass_tensor)), np.array([0.7]))
     assert {x.dtype for x in (q, k, g)} == {np.dtype(np.float32)}
     assert (k[0] == run.momentum[1]).all()
     assert (g[0] == run.gamma[1]).all()
@@ -263,7 +268,7 @@ def test_statuses_are_those_of_float64():
         assert (here.value.status, here.value.index) == (there.value.status, there.value.index)
         assert here.value.reach == pytest.approx(there.value.reach, rel=1e-6)
     needle = [np.array([x], float) for x in ((0.1, 0, 0), (0, 0, 1), (0, 0, 1), 1)]
-    q, k, g, status, _ = single.step_all(*needle)
+    q, k, g, status, _ = step_all(*needle)
     exact = chapsym.step(Ball(needle[2], needle[3]), *needle[:2])
     assert status == exact.status == Status.NO_INERTIA
     assert np.isnan([*q[0], *k[0], *g[0]]).all()
@@ -271,9 +276,9 @@ def test_statuses_are_those_of_float64():
 
 def test_many_steps_at_once_are_single_steps():
     ball, k, g = mixture(100)
-    whole = single.step_all(k, g, ball.mass_tensor, ball.D)
+    whole = step_all(k, g, ball.mass_tensor, ball.D)
     for i in range(8):
-        one = single.step_all(k[i : i + 1], g[i : i + 1], ball.mass_tensor[i : i + 1], ball.D[i : i + 1])
+        one = step_all(k[i : i + 1], g[i : i + 1], ball.mass_tensor[i : i + 1], ball.D[i : i + 1])
         for a, b in zip(whole, one, strict=True):
             assert np.array_equal(a[i], b[0], equal_nan=True)
 

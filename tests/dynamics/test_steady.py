@@ -168,3 +168,9 @@ def test_a_rod_about_itself_has_no_inertia():
     with pytest.raises(StepNotTaken) as told:
         steady_frames(Ball((1, 0, 0), 3), (0.1, 0, 0), (1, 0, 0), [1])
     assert told.value.status is Status.NO_INERTIA
+
+
+@pytest.mark.parametrize("options", [{}, {"attitude": True}, {"contact": True}])
+def test_no_balls_have_no_frames(options):
+    none = np.zeros((0, 3))
+    assert steady_frames(Ball((1, 1, 1), 0, 0.5), none, none, [0, 5], **options).momentum.shape == (0, 2, 3)

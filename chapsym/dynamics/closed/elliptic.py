@@ -8,9 +8,8 @@ from typing import Self
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..ball import Ball, Floats, numbers
+from ..ball import Ball, Floats, numbers, unit_vertical
 from ..errors import BadInput
-from ..map import unit_vertical
 from .jacobi import argument, jacobi, quarter_period
 
 #: How near to the curve a γ must be whose argument is asked for; next to the separatrix roundings of a run lead 1/k'
@@ -52,6 +51,15 @@ class Curve:
         g = unit_vertical(gamma)
         if ball.D.shape or ball.mass_tensor.shape != (3,) or g.shape != (3,):
             raise BadInput("a curve is of one ball and one gamma, not of a batch")
+        with np.errstate(all="ignore"):  # what float64 cannot hold is refused
+            curve = cls._found(ball, g)
+        sizes = np.abs([*curve.amplitudes, curve.rate, curve.slack, curve.level])
+        if not (np.isfinite([*sizes, curve.modulus, curve.complement]).all() and sizes.all()):
+            raise BadInput("float64 cannot hold the curve through this gamma: the moments of inertia are too far apart")
+        return curve
+
+    @classmethod
+    def _found(cls, ball: Ball, g: Floats) -> Self:
         moments, tensor = ball.inertia + ball.D, ball.mass_tensor
         order = np.argsort(tensor, kind="stable")  # the largest moment first
         if not across(tensor, moments, g).any():
@@ -164,6 +172,7 @@ def height_of(curve: Curve, half: ArrayLike, mean: ArrayLike = 0.0) -> tuple[Flo
     return height, slope
 
 
+@np.errstate(all="ignore")  # what overflows is off the branch
 def increment(curve: Curve, height: ArrayLike, u: ArrayLike) -> Floats:
     """2δu of the step of G_h from γ(u), on the branch that starts at δu = 0 for h = 0: u ↦ u + 2δu; shape (...).
 
@@ -175,6 +184,7 @@ def increment(curve: Curve, height: ArrayLike, u: ArrayLike) -> Floats:
     half = np.asarray(curve.rate * h / (2.0 * curve.slack))
     settled, lost = np.zeros(half.shape, dtype=bool), np.zeros(half.shape, dtype=bool)
     for _ in range(MOST_CORRECTIONS):
+        half, lost = np.where(np.isfinite(half), half, 0.0), lost | ~np.isfinite(half)
         found, slope = height_of(curve, half, start + half)
         lost |= ~settled & ~(slope * curve.rate > 0.0)
         correction = np.divide(h - found, slope, out=np.zeros_like(half), where=~(settled | lost))

@@ -14,10 +14,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .. import kernels
-from ..ball import Ball, Floats, numbers
+from ..ball import Ball, Floats, numbers, unit_vertical
 from ..errors import BadInput, StepNotTaken
-from ..map import unit_vertical
-from ..trajectories import Trajectory
+from ..results import Trajectory
 from .elliptic import Curve, across, height_of
 from .vertical import step_vertical
 
@@ -102,7 +101,11 @@ def exact_top(ball: Ball, momentum: ArrayLike, gamma: ArrayLike) -> ExactTop:
     exponent = int(np.frexp(top.inertia.max())[1])
     moments = np.ldexp(ball.inertia, -exponent)
     # 1 - Dl as a sum of positive terms.
-    speed = float(np.ldexp(size, -exponent) / (axis * axis * moments / (moments + np.ldexp(contact, -exponent))).sum())
+    with np.errstate(all="ignore"):
+        free = moments / (moments + np.ldexp(contact, -exponent))
+        speed = float(np.ldexp(size, -exponent) / (axis * axis * free).sum())
+    if not np.isfinite(speed) or speed == 0.0:
+        raise BadInput("float64 cannot hold this top: its moments of inertia and its momentum are too far apart")
     unit_top = Ball(np.ldexp(top.mass_tensor, -exponent), 0.0)
     tau, twist = _fixed(unit_top, axis, speed) if _is_fixed(unit_top, axis) else _moving(unit_top, axis, speed)
     return ExactTop(top, np.ldexp(tau, exponent) * axis, twist, ball, size)

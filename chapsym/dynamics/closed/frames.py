@@ -5,7 +5,8 @@ from numpy.typing import ArrayLike
 
 from ..ball import Floats
 from ..errors import BadInput, Status, StepNotTaken
-from ..trajectories import MOST_STEPS, Trajectory, _up_to
+from ..results import Trajectory
+from ..trajectories import MOST_STEPS, _up_to
 
 
 def step_numbers(index: ArrayLike) -> np.ndarray:

@@ -15,10 +15,11 @@ from chapsym.generated.quad import steady_pairs
 from chapsym.numbers import pairs
 
 from .. import kernels
-from ..ball import Ball, Floats, numbers
+from ..ball import Ball, Floats, batch, numbers, unit_vertical
 from ..errors import BadInput, Status
-from ..map import batch, explain, unit_vertical
-from ..trajectories import Trajectory, initial_attitude
+from ..failure import explain
+from ..results import Trajectory
+from ..trajectories import initial_attitude
 from . import turns
 from .frames import finished, step_numbers
 
@@ -118,8 +119,8 @@ def steady_frames(
 
 def _rotation(K: Floats, g: Floats, moment: turns.Pair, D: Floats) -> tuple[Floats, turns.Pair, Floats]:
     """The axis of the steady rotation, (n, 3), half its angle in turns as a pair, and sin θ = |2w|, inf for I = 0."""
-    still, hollow = ~K.any(axis=-1), moment[0] == 0.0
     up, down = np.frexp(np.abs(K).max(axis=-1))[1], np.frexp(moment[0] + D)[1]
+    still, hollow = ~K.any(axis=-1), np.ldexp(moment[0], -down) == 0.0  # D may be that much larger, too
     with np.errstate(all="ignore"):
         k = np.ldexp(K, -up[:, np.newaxis])
         I, I_ = (np.where(hollow, one, np.ldexp(x, -down)) for x, one in zip(moment, (1.0, 0.0), strict=True))

@@ -15,9 +15,8 @@ from numpy.typing import ArrayLike
 from chapsym.generated import curve_increment
 from chapsym.numbers import Ball as ArbBall
 
-from ..ball import Ball, Floats, numbers
+from ..ball import Ball, Floats, inertia_of, numbers, unit_vertical
 from ..errors import BadInput
-from ..map import unit_vertical
 from . import turns
 from .elliptic import Curve, increment
 from .frames import step_numbers
@@ -131,8 +130,8 @@ class TopMotion:
 
 def moves(tensor: Floats, contact: Floats, direction: Floats) -> np.ndarray:
     """Whether a direction of 𝒦 moves in the body by more than SMALLEST_TURN, (...)."""
-    moments = tensor.sum(axis=-1, keepdims=True) - tensor + contact[..., np.newaxis]
-    with np.errstate(under="ignore"):
+    moments = inertia_of(tensor) + contact[..., np.newaxis]
+    with np.errstate(over="ignore", under="ignore", invalid="ignore"):  # what overflows moves
         spin = direction * (moments.max(axis=-1, keepdims=True) / moments)
         gaps = np.roll(tensor, -2, axis=-1) - np.roll(tensor, -1, axis=-1)
         b, c = np.roll(direction, -1, axis=-1), np.roll(spin, -2, axis=-1)

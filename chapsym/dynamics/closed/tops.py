@@ -6,10 +6,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .. import kernels
-from ..ball import Ball, Floats, numbers
+from ..ball import Ball, Floats, batch, numbers, unit_vertical
 from ..errors import BadInput, Status, StepNotTaken
-from ..map import batch, unit_vertical
-from ..trajectories import Trajectory, initial_attitude
+from ..results import Trajectory
+from ..trajectories import initial_attitude
 from .frames import finished, step_numbers
 from .precession import Precession
 from .top import TopMotion, moves

@@ -29,7 +29,7 @@ SPLIT = 2**32
 
 def each(function: Callable[..., tuple], *arrays: Floats) -> tuple[Floats, ...]:
     """A function of pairs on flat arrays; for a few entries one by one in Python's floats: the same bits, faster."""
-    if arrays[0].size > FEW:
+    if not 0 < arrays[0].size <= FEW:
         return function(*arrays)
     rows = [function(*row) for row in zip(*(a.tolist() for a in arrays), strict=True)]
     return tuple(np.array(column) for column in zip(*rows, strict=True))

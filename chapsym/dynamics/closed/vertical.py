@@ -9,11 +9,12 @@ from numpy.typing import ArrayLike
 
 from chapsym.numbers import NAMED
 
-from ..ball import Ball, Floats, numbers
+from ..ball import Ball, Floats, batch, numbers, unit_vertical
 from ..errors import BadInput, Status, StepNotTaken
 from ..levels import double, ladder
+from ..levels.frames import Balls, Frames
 from ..loops import loop, vertical_loop
-from ..map import Step, batch, unit_vertical
+from ..results import Step
 from ..trajectories import _count
 
 
@@ -44,6 +45,7 @@ class VerticalTrajectory:
         return np.asarray((self.gamma * self.gamma / inertia).sum(axis=-1))
 
 
+@np.errstate(over="ignore", under="ignore", invalid="ignore")  # as compiled: `status` tells
 def step_vertical(ball: Ball, height: ArrayLike, gamma: ArrayLike) -> Step:
     """One step of the reduced map G_h (5.6 as corrected): γ ↦ Ωᵀγ with 𝒦(q, γ) = hγ, on the small-rotation branch.
 
@@ -63,6 +65,7 @@ def step_vertical(ball: Ball, height: ArrayLike, gamma: ArrayLike) -> Step:
     )  # fmt: skip
 
 
+@np.errstate(over="ignore", under="ignore", invalid="ignore")
 def trajectory_vertical(
     ball: Ball, height: ArrayLike, gamma: ArrayLike, steps: int, *, every: int = 1
 ) -> VerticalTrajectory:
@@ -101,7 +104,7 @@ def _flat(ball: Ball, height: ArrayLike, gamma: ArrayLike) -> tuple[tuple[int, .
     return shape, [flat, J, D, np.broadcast_to(h, shape).reshape(-1).copy()]
 
 
-def _taken(given: list[Floats], steps: int, every: int, rotation: bool = False) -> double.Frames:
+def _taken(given: list[Floats], steps: int, every: int, rotation: bool = False) -> Frames:
     """`steps` steps of every ball: by the closed form where it holds, else by those of the full map.
 
     rotation: of one step, the rotation as the attitude of frame 1.
@@ -113,7 +116,7 @@ def _taken(given: list[Floats], steps: int, every: int, rotation: bool = False) 
     others = [i for i in range(len(D)) if not _closed(g[i], J[i], float(D[i]), float(h[i]), steps, every, frames, i)]
     if others:
         full = ladder.frames_for(rung, len(others), steps // every + 1, body)
-        balls = double.Balls(h[others, np.newaxis] * g[others], g[others], J[others], D[others], np.zeros(len(others)))
+        balls = Balls(h[others, np.newaxis] * g[others], g[others], J[others], D[others], np.zeros(len(others)))
         full.momentum[:, 0], full.gamma[:, 0], full.attitude[:, :1] = balls.momentum, balls.gamma, [1.0, 0.0, 0.0, 0.0]
         full.contact[:, :1] = 0.0
         double.run(balls, steps, every, full, 2, 1, lambda done: None)
@@ -122,7 +125,7 @@ def _taken(given: list[Floats], steps: int, every: int, rotation: bool = False) 
     return frames
 
 
-def _closed(g: Floats, J: Floats, D: float, h: float, steps: int, every: int, frames: double.Frames, i: int) -> bool:
+def _closed(g: Floats, J: Floats, D: float, h: float, steps: int, every: int, frames: Frames, i: int) -> bool:
     """Whether the closed form takes every step of the ball i into its frames.
 
     Lemma `small-branch`: where there is a radius, a root with |q| < q₀ is that of the small-rotation branch.

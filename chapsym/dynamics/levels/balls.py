@@ -4,7 +4,7 @@ Where lemma `small-branch` holds, and |𝒦| is an integral of the map so that i
 ball of Gibbs vectors, ⟨x, G(v + x) - G(v)⟩ ≥ m|x|², and the step has one root there.  So the root is within |G(u)|/m
 of any u: that is the proof of existence and uniqueness, for all 𝒦 and γ in their balls.  As ∂G/∂u is affine in u, the
 root is u - A⁻¹G(u) with A = ∂G/∂u at the middle between the two, which Cramer's rule encloses.  Elsewhere the branch
-is that which the float64 continuation finds, and the interval Newton test of `precise` encloses its root.
+is that which the float64 continuation finds, and the interval Newton test of `newton` encloses its root.
 """
 
 import math
@@ -17,10 +17,9 @@ from flint import arb, ctx, fmpq, fmpz
 from chapsym.generated import centre_step, compose, gibbs_newton, gibbs_residual, rotate, transport, turn
 from chapsym.numbers import Ball as BallRung
 
-from ..ball import Floats
 from .newton import enclosed
-from .root import NotSettled, condition_bits, extrapolated, root
-from .start import fraction, start
+from .root import NotSettled, extrapolated, root
+from .start import Exact, exponent_of, fraction, magnitude, start
 
 Numbers = tuple[Any, ...]
 
@@ -53,25 +52,23 @@ class ArbBall:
     """
 
     def __init__(
-        self, precision: int, K: Floats, g: Floats, J: Floats, D: float, stages: Sequence[Fraction],
+        self, precision: int, K: Exact, g: Exact, J: Exact, D: Fraction, stages: Sequence[Fraction],
         attitude: Sequence[float] | None, radius: float,
     ) -> None:  # fmt: skip
         self.precision = precision
-        tensor = [float(x) for x in J]
-        self.exponent = math.frexp(max(tensor[1] + tensor[2], tensor[0] + tensor[2], tensor[0] + tensor[1]) + D)[1]
+        self.exponent, self.lost = magnitude(J, D)
         scale = Fraction(2) ** -self.exponent
-        self.k: Numbers = tuple(exact(Fraction(x) * scale / 2) for x in K)
+        self.k: Numbers = tuple(exact(x * scale / 2) for x in K)
         self.g = unit(map(exact, g))
-        self.J = tuple(exact(Fraction(x) * scale) for x in tensor)
+        self.J = tuple(exact(x * scale) for x in J)
         self.I = (self.J[1] + self.J[2], self.J[0] + self.J[2], self.J[0] + self.J[1])
-        self.D = exact(Fraction(D) * scale)
+        self.D = exact(D * scale)
         self.a: Numbers = () if attitude is None else unit(map(exact, attitude) if attitude else least(*self.g))
         self.radius, self.x = exact(radius), (arb(0), arb(0))
-        self.size = math.frexp(max(map(abs, map(float, K))))[1] - self.exponent - 1
+        self.size = exponent_of(max(map(abs, K))) - self.exponent - 1
         self.number = int if precision < FMPZ_BITS else fmpz
         # Components of a small 𝒦 get as many bits as large ones have.
         self.P = precision - 8 + max(0, -self.size)
-        self.lost = condition_bits(tensor, D)
         self.one = arb(2) ** -self.P
         self.stages = [None if c == 1 else exact(c) for c in stages]
         self.bounds = [certified(2 * upper(self.k) * abs(exact(c)), self.I) for c in stages]

@@ -15,12 +15,11 @@ from chapsym.generated import transport
 from chapsym.generated.fixed import body_fixed, turns_fixed
 from chapsym.numbers import Digits
 
-from ..ball import Floats
 from ..errors import Status, StepNotTaken
 from ..loops.gibbs import certificate
 from .newton import refined
-from .root import NotSettled, condition_bits, extrapolated, root, to_float
-from .start import fraction, start
+from .root import NotSettled, extrapolated, root, to_float
+from .start import Exact, exponent_of, fraction, magnitude, start
 
 Numbers = tuple[Any, ...]
 
@@ -29,13 +28,11 @@ class DigitsBall:
     """A ball that takes steps at N digits; `stages` are the exact coefficients of the composition."""
 
     def __init__(
-        self, rung: Digits, K: Floats, g: Floats, J: Floats, D: float, stages: Sequence[Fraction],
+        self, rung: Digits, K: Exact, g: Exact, J: Exact, D: Fraction, stages: Sequence[Fraction],
         attitude: Sequence[float] | None, radius: float, steps: int = 1,
     ) -> None:  # fmt: skip
-        tensor = [float(x) for x in J]
-        self.exponent = math.frexp(max(tensor[1] + tensor[2], tensor[0] + tensor[2], tensor[0] + tensor[1]) + D)[1]
-        size = math.frexp(max(map(abs, K)))[1] - self.exponent
-        self.lost = condition_bits(tensor, D)
+        self.exponent, self.lost = magnitude(J, D)
+        size = exponent_of(max(map(abs, K))) - self.exponent
         small = max(0, -size) if any(K) else 0
         # Roundings of the state add up to the square of the number of steps, as its frequencies drift.
         more = 2 * math.ceil(math.log2(steps * len(stages) + 1)) + 2 * self.lost
@@ -44,14 +41,14 @@ class DigitsBall:
         self.P = P = self.context.prec + small + 8
         self.scale = Fraction(2) ** -self.exponent
 
-        def fixed(x: float, scale: Fraction = self.scale) -> Any:
-            exact = Fraction(x) * scale
+        def fixed(x: Fraction, scale: Fraction = self.scale) -> Any:
+            exact = x * scale
             return MPZ((exact.numerator << P) // exact.denominator)
 
         self.number = MPZ
         self.k = tuple(fixed(x, self.scale / 2) for x in K)
-        self.g = self._unit(list(map(Fraction, g)))
-        self.J, self.D = [fixed(x) for x in tensor], fixed(D)
+        self.g = self._unit(g)
+        self.J, self.D = [fixed(x) for x in J], fixed(D)
         self.I = (self.J[1] + self.J[2], self.J[0] + self.J[2], self.J[0] + self.J[1])
         self.a: Numbers | None = None
         if attitude is not None:

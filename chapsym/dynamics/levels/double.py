@@ -1,9 +1,7 @@
 """Runs many steps of one ball or of many: in plain Python, compiled, or compiled in blocks on every core."""
 
-import os
 import threading
 from collections.abc import Callable, Sequence
-from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass
 from functools import cache
 from importlib.util import find_spec
@@ -15,68 +13,21 @@ from .. import columns
 from ..ball import Floats
 from ..coefficients import substeps
 from ..errors import Status
-from ..loops import block, composed_loop, loop
-from ..map import explain
+from ..failure import explain
+from ..loops import block, composed_loop, loop, single_step
+from .frames import Balls, Count, Frames, cores, share
 
 #: Shorter runs than this many steps in all are taken in plain Python: compiling would take longer.
 SHORT_RUN = 2000
+#: Single steps of up to so many balls are taken in plain Python, too.
+SMALL_BATCH = 64
 #: Fewer balls than this do not fill a block.
 FEW = 8
 #: Steps of a ball, or of all balls of a block together, between two calls of `progress`: about ten milliseconds.
 CHUNK = 200_000
-#: The work of each thread comes in about so many parts, so that none is idle for long at the end.
-SHARES = 16
 #: The loops that are compiled and loaded already, and the lock of those that are being.
 _ready: set[Callable] = set()
 _loading = threading.Lock()
-
-
-@dataclass(frozen=True, eq=False)
-class Balls:
-    """The balls of a run: momentum 𝒦 and γ at the start, (n, 3); J, (n, 3); D and the radius, (n,).
-
-    rest: what 𝒦 has beyond float64, (n, 3), for the rungs that can hold it; None for nothing.
-    """
-
-    momentum: Floats
-    gamma: Floats
-    mass_tensor: Floats
-    D: Floats
-    radius: Floats
-    rest: Floats | None = None
-
-    def __len__(self) -> int:
-        return len(self.D)
-
-
-@dataclass(frozen=True, eq=False)
-class Frames:
-    """What a run fills: (n, frames, ...) arrays whose frame 0 is given, and how each ball ended, (n,).
-
-    attitude and contact have no frames unless `with_body`.  The arrays are of the numbers of the rung: float32,
-    float64, or objects; `low` has the second halves of double-double numbers.  least: the attitudes start as the least
-    rotations with R γ = e₃, which have more digits on other rungs than in frame 0.
-    """
-
-    momentum: np.ndarray
-    gamma: np.ndarray
-    attitude: np.ndarray
-    contact: np.ndarray
-    taken: np.ndarray
-    status: np.ndarray
-    reach: Floats
-    with_body: bool
-    low: "Frames | None" = None
-    least: bool = False
-
-    def part(self, i: int, kept: int) -> "Frames":
-        """The first frames of one ball, in the same memory."""
-        one = slice(i, i + 1)
-        momentum, gamma, attitude, contact = (
-            x[one, :kept] for x in (self.momentum, self.gamma, self.attitude, self.contact)
-        )
-        ends = self.taken[one], self.status[one], self.reach[one]
-        return Frames(momentum, gamma, attitude, contact, *ends, self.with_body)
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,7 +38,7 @@ class Loops:
     composed_loop: Any = composed_loop
     block: Any = block
     columns: Any = columns
-    step: Any = loop
+    step: Any = single_step
     number: Callable[[Any], Any] = float
     dtype: Any = np.float64
     #: How many numbers carry the attitude and the contact point from step to step.
@@ -96,20 +47,6 @@ class Loops:
 
 
 DOUBLE = Loops()
-
-
-class Count:
-    """Adds up the steps that the threads have taken, and tells them when to stop."""
-
-    def __init__(self, progress: Callable[[int], None]) -> None:
-        self._progress, self._lock, self._done = progress, threading.Lock(), 0
-        self.stopped = False
-
-    def add(self, steps: int) -> None:
-        """So many steps more."""
-        with self._lock:
-            self._done += steps
-            self._progress(self._done)
 
 
 def run(
@@ -146,6 +83,23 @@ def run(
     share(task, starts, workers, count)
 
 
+def step_all(balls: Balls, loops: Loops = DOUBLE) -> tuple[np.ndarray, ...]:
+    """The first step of a run of each ball: (q, 𝒦, γ, status, reach), (n, 4), (n, 3), (n, 3), (n,), (n,).
+
+    q: unit Euler parameters with q0 ≥ 0; q, 𝒦 and γ are NaN where the status is not TAKEN.
+    """
+    n = len(balls)
+    q, status, reach = np.full((n, 4), np.nan, loops.dtype), np.zeros(n, np.int64), np.ones(n)
+    K, g, J, D = balls.momentum.copy(), balls.gamma.copy(), balls.mass_tensor, balls.D
+    (take,) = chosen((loops.step.advance_all,), SHORT_RUN if n > SMALL_BATCH else 0)
+    with np.errstate(over="ignore", under="ignore", invalid="ignore"):
+        take(K, g, J, D, q, status, reach)
+    for i in np.flatnonzero(status):
+        status[i] = explained(status[i], K[i], g[i], J[i], D[i])
+    K[status != 0], g[status != 0] = np.nan, np.nan
+    return q, K, g, status, reach
+
+
 def chosen(functions: Sequence[Callable], work: int) -> list[Callable]:
     """The functions compiled, or as they are where compiling or loading them would take longer than `work` steps."""
     if not compiles(functions[0], work):
@@ -166,31 +120,6 @@ def compiles(function: Callable, work: int) -> bool:
 def has_numba() -> bool:
     """Whether loops can be compiled; without numba a batch runs in NumPy, by columns, and a ball in plain Python."""
     return find_spec("numba") is not None
-
-
-def cores() -> int:
-    """The cores that this process may use."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-
-
-def share(task: Callable[[int], None], starts: range, workers: int, count: Count) -> None:
-    """Runs the tasks in threads, some at a time for each; an interrupt stops each at its next chunk."""
-    several = max(1, len(starts) // (workers * SHARES))
-
-    def group(at: int) -> None:
-        for start in starts[at : at + several]:
-            if not count.stopped:
-                task(start)
-
-    with ThreadPoolExecutor(workers) as pool:
-        futures = [pool.submit(group, at) for at in range(0, len(starts), several)]
-        try:
-            for done in as_completed(futures):
-                done.result()
-        except BaseException:
-            count.stopped = True
-            pool.shutdown(wait=True, cancel_futures=True)
-            raise
 
 
 def _run_one(

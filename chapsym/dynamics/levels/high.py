@@ -11,7 +11,8 @@ from chapsym.numbers import Ball, Digits
 
 from ..coefficients import COMPOSITIONS
 from ..errors import BadInput, Status, StepNotTaken
-from .double import Balls, Frames
+from .frames import Balls, Frames
+from .start import magnitude
 
 #: Steps of a ball between two calls of `progress`.
 CHUNK = 200
@@ -19,6 +20,8 @@ CHUNK = 200
 LOOK = 16
 #: Times that more bits may not help before it is given up: a root that cannot be proved with some may be with more.
 MOST_STUCK = 4
+#: How often over a root may lose the bits that the conditioning costs.
+CONDITION = 3
 #: The most bits beyond those that are asked for.
 MOST_GUARD = 2**22
 
@@ -65,16 +68,16 @@ class _Way:
 
     @property
     def given(self) -> tuple[Any, ...]:
-        """𝒦, γ, J, D, the exact coefficients, the attitude (empty: the least rotation) and the radius."""
+        """𝒦, γ, J and D, exactly; the exact coefficients, the attitude (empty: the least rotation) and the radius."""
         b, i = self.balls, self.i
         attitude = None
         if self.frames.with_body:
             attitude = () if self.frames.least else tuple(map(Fraction, self.attitude))
         stages = COMPOSITIONS[self.order].exact
-        momentum = [Fraction(x) for x in b.momentum[i]]
+        momentum, gamma, tensor = (list(map(Fraction, x[i])) for x in (b.momentum, b.gamma, b.mass_tensor))
         if b.rest is not None:
             momentum = [x + Fraction(y) for x, y in zip(momentum, b.rest[i], strict=True)]
-        return momentum, b.gamma[i], b.mass_tensor[i], float(b.D[i]), stages, attitude, float(b.radius[i])
+        return momentum, gamma, tensor, Fraction(b.D[i]), stages, attitude, float(b.radius[i])
 
     def take(self, ball: Any, enough: Callable[[int], bool] = lambda step: True) -> None:
         """Takes the steps and writes the frames; stops early where `enough` says no."""
@@ -101,17 +104,18 @@ class _Way:
 def _run_ball(rung: Ball, way: _Way) -> None:
     """Repeats the run with more bits until `rung.bits` are left; raises BadInput where more do not help."""
     guard, before, stuck = rung.guard, (0, -math.inf), 0
+    _, lost = magnitude(*way.given[2:4])
     while guard <= MOST_GUARD:
         precision = rung.bits + guard
         step, left = _attempt(precision, way)
         if left >= rung.bits:
             return
-        stuck = stuck + 1 if (step, left) <= before else 0
+        stuck = stuck + 1 if (step, left) <= before and guard > CONDITION * lost else 0
         if stuck == MOST_STUCK:
             break
         # What a step has cost, and a little more, for all steps.
-        lost = (precision - left) / step if step else 0.0
-        guard, before = max(2 * guard, math.ceil(1.1 * lost * way.steps) + rung.guard), (step, left)
+        cost = (precision - left) / step if step else 0.0
+        guard, before = max(2 * guard, math.ceil(1.1 * cost * way.steps) + rung.guard), (step, left)
     raise BadInput(
         f"the balls grow too much: after step {step} of {way.steps}, {precision} bits leave less than {rung.bits};"
         " take fewer or shorter steps"

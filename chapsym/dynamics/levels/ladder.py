@@ -2,19 +2,20 @@
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
-from chapsym.numbers import NAMED, Ball, Digits, Quad, Rung, Single
+from chapsym.numbers import NAMED, Ball, Digits, Double, Quad, Rung, Single
 from chapsym.numbers import rung as named
 
-from ..ball import Floats
 from ..coefficients import substeps
 from ..errors import BadInput, Status, StepNotTaken
 from ..loops import quad_step
-from ..map import LowStep, Step
+from ..results import LowStep, Step
 from . import double, quad, single
-from .double import Balls, Frames
+from .frames import Balls, Frames
+from .start import exponent_of, fraction
 
 
 def rung_of(precision: str | Rung) -> Rung:
@@ -43,7 +44,7 @@ def run(
     rung: Rung, balls: Balls, steps: int, every: int, frames: Frames, order: int, threads: int,
     progress: Callable[[int], None],
 ) -> None:  # fmt: skip
-    """`engine.run` on a rung.  Frame 0 is given in float64; other rungs write it anew, γ divided by its length."""
+    """`double.run` on a rung.  Frame 0 is given in float64; other rungs write it anew, γ divided by its length."""
     substeps(order)  # raises BadInput for no order
     if isinstance(rung, Single):
         single.run(balls, steps, every, frames, order, threads, progress)
@@ -59,36 +60,62 @@ def run(
     double.run(balls, steps, every, frames, order, threads, progress)
 
 
-def step(rung: Rung, shape: tuple[int, ...], K: Floats, g: Floats, J: Floats, D: Floats) -> Step:
-    """`map.step` on a rung, for flat arrays of balls and the leading axes `shape` of the result.
+#: Bits that a small rotation gets beyond those that its size costs.
+FINER = 200
 
-    One step of a run, with an attitude that starts as the identity, and so ends as the rotation; float32 has its own.
+
+def step(rung: Rung, shape: tuple[int, ...], balls: Balls, order: int) -> Step:
+    """The first step of a run of each ball, with the leading axes `shape` of the result.
+
+    The rotation is the attitude of a run that starts as the identity; the map on floats takes a shorter way there.
     """
-    if isinstance(rung, Single):
-        q, moved, vertical, status, reach = single.step_all(K, g, J, D)
-        if not shape and status[0] != Status.TAKEN:
-            raise StepNotTaken(Status(int(status[0])), float(reach[0]))
-        q, moved, vertical = (x.reshape(*shape, x.shape[-1]) for x in (q, moved, vertical))
-        return Step(q, moved, vertical, status.reshape(shape), reach.reshape(shape), rung)
-    n = len(D)
-    beyond = np.array([quad_step.scales(*ball)[1] for ball in zip(K, J, D, strict=True)], dtype=np.int64)
-    frames = frames_for(rung, n, 2, 2)
-    frames.momentum[:, 0], frames.gamma[:, 0], frames.attitude[:, 0], frames.contact[:, 0] = K, g, [1.0, 0, 0, 0], 0.0
-    fine = rung
-    if isinstance(rung, Ball) and n:  # an attitude has its digits beside 1; a small rotation needs more
-        fine = replace(rung, bits=rung.bits + 200 + int(beyond.max()))
-    run(fine, Balls(K, g, J, D, np.zeros(n)), 1, 1, frames, 2, 1, lambda done: None)
+    low: LowStep | None = None
+    if order == 2 and isinstance(rung, Single | Double):
+        q, K, g, status, reach = (single if isinstance(rung, Single) else double).step_all(balls)
+    else:
+        frames = _after_one(rung, balls, order)
+        q, K, g, status, reach = *_vectors(frames), frames.status, frames.reach
+        low = None if frames.low is None else LowStep(*_shaped(shape, *_vectors(frames.low)))
+    if not shape and status[0] != Status.TAKEN:
+        raise StepNotTaken(Status(int(status[0])), float(reach[0]))
+    q, K, g = _shaped(shape, q, K, g)
+    return Step(q, K, g, status.reshape(shape), reach.reshape(shape), rung, low)
+
+
+def _after_one(rung: Rung, balls: Balls, order: int) -> Frames:
+    """The two frames of a run of one step, with attitudes that start as the identity and end as the rotation."""
+    frames = _two_frames(rung, balls, order)
+    if isinstance(rung, Ball):  # a run's attitude has its bits beside 1; a small rotation is to have them beside itself
+        lacking = max(map(partial(_lacking, rung.bits), frames.attitude[frames.status == 0, 1, 1:]), default=0)
+        if lacking:
+            frames.attitude[:] = _two_frames(replace(rung, bits=rung.bits + lacking), balls, order).attitude
     if frames.low is not None:  # where momenta are tiny, they were taken 2^beyond times as large
+        beyond = [quad_step.scales(*ball)[1] for ball in zip(balls.momentum, balls.mass_tensor, balls.D, strict=True)]
         for of in (frames, frames.low):
-            of.attitude[:, 1, 1:] = np.ldexp(of.attitude[:, 1, 1:], -beyond[:, np.newaxis])
-    if not shape and frames.status[0] != Status.TAKEN:
-        raise StepNotTaken(Status(int(frames.status[0])), float(frames.reach[0]))
-    low = frames.low
+            of.attitude[:, 1, 1:] = np.ldexp(of.attitude[:, 1, 1:], -np.array(beyond, np.int64)[:, np.newaxis])
+    return frames
 
-    def after(of: Frames) -> list[np.ndarray]:
-        return [x[:, 1].reshape(*shape, x.shape[-1]) for x in (of.attitude, of.momentum, of.gamma)]
 
-    rotation, momentum, gamma = after(frames)
-    rest = None if low is None else LowStep(*after(low))
-    status, reach = frames.status.reshape(shape), frames.reach.reshape(shape)
-    return Step(rotation, momentum, gamma, status, reach, rung, rest)
+def _two_frames(rung: Rung, balls: Balls, order: int) -> Frames:
+    frames = frames_for(rung, len(balls), 2, 2)
+    frames.momentum[:, 0], frames.gamma[:, 0] = balls.momentum, balls.gamma
+    frames.attitude[:, 0], frames.contact[:, 0] = [1.0, 0, 0, 0], 0.0
+    run(rung, balls, 1, 1, frames, order, 1, lambda done: None)
+    return frames
+
+
+def _lacking(bits: int, vector: np.ndarray) -> int:
+    """How many more bits beside 1 an enclosed vector needs to have `bits` beside itself."""
+    size = max(abs(x.mid()) for x in vector)
+    if not any(x.rad() > size * 2.0 ** (3 - bits) for x in vector):
+        return 0
+    return FINER - exponent_of(fraction(size))
+
+
+def _vectors(frames: Frames) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """The rotation, 𝒦 and γ of the last frame."""
+    return frames.attitude[:, 1], frames.momentum[:, 1], frames.gamma[:, 1]
+
+
+def _shaped(shape: tuple[int, ...], *vectors: np.ndarray) -> list[np.ndarray]:
+    return [x.reshape(*shape, x.shape[-1]) for x in vectors]

@@ -10,9 +10,10 @@ from chapsym.numbers import Pair
 from ..ball import Floats
 from ..coefficients import COMPOSITIONS, substeps
 from ..errors import Status
+from ..failure import explain
 from ..loops import quad_block, quad_loop
-from ..map import explain
-from .double import Balls, Count, Frames, chosen, cores, has_numba, share
+from .double import chosen, has_numba
+from .frames import Balls, Count, Frames, cores, share
 
 #: Shorter runs than this many steps in all are taken in plain Python: loading the compiled loops would take longer.
 SHORT_RUN = 500
@@ -25,7 +26,7 @@ CHUNK = 25_000
 def run(
     balls: Balls, steps: int, every: int, frames: Frames, order: int, threads: int, progress: Callable[[int], None]
 ) -> None:
-    """`engine.run` in double-double.  It writes frame 0 anew: γ and the attitude are divided by their lengths."""
+    """`double.run` in double-double.  It writes frame 0 anew: γ and the attitude are divided by their lengths."""
     low = frames.low
     assert low is not None
     stages = coefficients(order)

@@ -34,13 +34,6 @@ class NotSettled(ArithmeticError):
     """The corrections did not become small."""
 
 
-def condition_bits(J: Sequence[float], D: float) -> int:
-    """The bits that the smallest moment of inertia that is not 0 can cost beside the largest."""
-    moments = J[1] + J[2], J[0] + J[2], J[0] + J[1]
-    least = min(x for x in moments if x > 0)
-    return max(0, math.ceil(math.log2((max(moments) + D) / least)))
-
-
 def to_float(x: Any, P: int) -> float:
     """A fixed-point integer as a float; one that is too large, which no rotation has for its momentum, as 1e150."""
     shift = P - FLOAT_BITS

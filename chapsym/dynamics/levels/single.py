@@ -19,9 +19,9 @@ from .. import columns
 from ..ball import Floats
 from ..errors import BadInput
 from ..loops import block, composed_loop, gibbs, integrals, loop, single_loop, single_step, sums
-from ..map import SMALL_BATCH
 from . import double
-from .double import Balls, Frames, Loops
+from .double import Loops
+from .frames import Balls, Frames
 from .retyped import Family
 
 #: float32 has numbers from 2^-126 to 2^128; the scaled ones of a step need a little room.
@@ -36,7 +36,7 @@ def loops() -> Loops:
     family = Family("single", np.float32)
     family.kernels(generated)
     family.programs(generated_columns)
-    rounds = family.loops(gibbs, LEFT=np.float32(2.0**-24), SMALLEST=np.float32(SLOWEST))
+    rounds = family.loops(gibbs, LEFT=np.float32(2.0**-24), SMALLEST=np.float32(SLOWEST), LIGHTEST=np.float32(SLOWEST))
     family.loops(pairs, SPLITTER=np.float32(4097.0))  # 2^12 + 1
     family.loops(sums)
     family.loops(integrals, VERTICAL=np.float32(1e-4))  # the square of an angle that float32 can tell from 0
@@ -56,7 +56,7 @@ def loops() -> Loops:
 def run(
     balls: Balls, steps: int, every: int, frames: Frames, order: int, threads: int, progress: Callable[[int], None]
 ) -> None:
-    """`engine.run` in float32, from the float64 state in `balls`: rounded, γ and the attitude divided by their length.
+    """`double.run` in float32, from the float64 state in `balls`: rounded, γ and the attitude divided by their length.
 
     The contact point is summed in units of the radius.  A ball that turns by less than 2^-36 or so a step, where its
     checks would underflow, is as right, but takes each step by the continuation.  Raises BadInput for momenta,
@@ -65,7 +65,7 @@ def run(
     """
     in_single = rounded(balls)
     slow = balls.momentum.any(axis=1) & (np.abs(balls.momentum).max(axis=1) < SLOWEST * _largest_moment(balls))
-    if steps and slow.any():
+    if steps > 1 and slow.any():
         raise BadInput(
             f"the momentum {_worst(balls.momentum, slow)} turns the ball by less than 2^-48 a step, and in float32 it "
             'would stand still; take a longer time step, or precision="double"'
@@ -116,23 +116,6 @@ def _in_metres(traces: np.ndarray, radius: Floats) -> None:
         raise BadInput('the contact point leaves the range of float32, 3.4e38 metres; use precision="double"')
 
 
-def step_all(K: Floats, g: Floats, J: Floats, D: Floats) -> tuple[np.ndarray, ...]:
-    """One step of each ball of a batch in float32: (n, 3), (n, 3), (n, 3), (n,), float64, of which it makes float32.
-
-    Returns (q, 𝒦, γ, status, reach), of shapes (n, 4), (n, 3), (n, 3), (n,), (n,): unit Euler parameters with q0 ≥ 0,
-    and what they turn; NaN where the status is not TAKEN.  It is the first step of a trajectory, to the bit.
-    Raises BadInput for momenta and moments of inertia beyond the range of float32.
-    """
-    n = len(D)
-    balls = rounded(Balls(K, g, J, D, np.ones(n)))
-    moved, vertical, tensor, contact = balls.momentum.copy(), balls.gamma.copy(), balls.mass_tensor, balls.D
-    q, status, reach = np.full((n, 4), np.nan, np.float32), np.zeros(n, np.int64), np.ones(n)
-    take = loops().step.advance_all
-    if n > SMALL_BATCH:
-        take = double.chosen((take,), double.SHORT_RUN)[0]
-    with np.errstate(under="ignore"):
-        take(moved, vertical, tensor, contact, q, status, reach)
-    for i in np.flatnonzero(status):
-        status[i] = double.explained(status[i], moved[i], vertical[i], tensor[i], contact[i])
-    moved[status != 0], vertical[status != 0] = np.nan, np.nan
-    return q, moved, vertical, status, reach
+def step_all(balls: Balls) -> tuple[np.ndarray, ...]:
+    """`double.step_all` in float32, from the float64 state in `balls`; raises BadInput beyond the range of float32."""
+    return double.step_all(rounded(balls), loops())

@@ -13,14 +13,16 @@ from typing import Any
 import numpy as np
 
 from ..errors import Status, StepNotTaken
+from ..failure import explain
 from ..loops import branch
-from ..map import explain
 from .retyped import Family
 
 Exact = Sequence[Fraction]
 
 #: With a ratio of the moments of inertia above this, or a momentum below or above this, float64 is not asked.
 STIFF, TINY, HUGE = 1e8, 2.0**-900, 2.0**10
+#: Beside 1, float64 has smaller numbers, but not with all their bits.
+LEAST_EXPONENT = -1000
 #: The digits of the continuation beyond those that the ratio of the moments costs twice.
 DIGITS = 40
 
@@ -51,6 +53,18 @@ def start(K: Exact, g: Exact, J: Exact, D: Fraction) -> tuple[Fraction, ...]:
     k, g_unit, tensor = (np.array(x) for x in floats[:3])
     why = explain(int(status), k, g_unit, tensor, float(D)) if status else Status.UNREACHABLE
     raise StepNotTaken(why, float(reach * factor))
+
+
+def magnitude(J: Exact, D: Fraction) -> tuple[int, int]:
+    """An exponent with Λmax about 2^exponent, and the bits that the least moment of inertia that is not 0 can cost."""
+    shift = exponent_of(max(*J, D))
+    unit = Fraction(2) ** shift
+    a, b, c, contact = (float(x / unit) for x in (*J, D))
+    top = max(b + c, a + c, a + b) + contact
+    least = min(x for x in (J[1] + J[2], J[0] + J[2], J[0] + J[1]) if x > 0) / unit
+    within = exponent_of(least) > LEAST_EXPONENT
+    lost = math.ceil(math.log2(top / float(least))) if within else 3 - exponent_of(least)
+    return math.frexp(top)[1] + shift, max(0, lost)
 
 
 def fraction(x: Any) -> Fraction:

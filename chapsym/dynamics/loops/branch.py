@@ -32,6 +32,8 @@ UNIT_ROUNDOFF = 2.0**-53
 SMALLEST = 2.0**-1070
 #: A continuation step below this fraction of what is behind it is a fold.
 SHORTEST = 4e-16
+#: So is one below this fraction of what is behind it and of what is before it, for numbers with more digits.
+FAR = 1e-19
 #: A smaller momentum than 2^LEAST, where Λmax is below 1, is taken so large, and the rotation made as much smaller:
 #: what is not linear is below 2^(2 LEAST), and no product underflows.
 LEAST = -200
@@ -70,7 +72,7 @@ def small_rotation(K1, K2, K3, g1, g2, g3, J1, J2, J3, D, shortest=SHORTEST):
         length = 2.0 * CONTRACTION / (slope + sqrt(slope * slope + 8.0 * CONTRACTION))
         remaining = 1.0 - t
         step = remaining if speed * remaining <= length else length / speed
-        if step < shortest * t and step < remaining:
+        if step < remaining and step < max(shortest * t, FAR * min(t, remaining)):
             return FOLDED, t * end, q0, q1, q2, q3
         ahead = 1.0 if step == remaining else t + step
         p0, p1, p2, p3 = turned(q0, q1, q2, q3, step * d1, step * d2, step * d3)

@@ -12,7 +12,7 @@ For D ≫ I the sum over a row of A leaves det A, and with it u, roundings of D/
 certificate, and takes the safe way, with the determinant of lemma `stable-determinant`.
 """
 
-from math import sqrt
+from math import frexp, ldexp, sqrt
 
 from chapsym.generated import gibbs_newton, gibbs_newton_heavy, gibbs_second
 
@@ -23,8 +23,8 @@ INSIDE = 0.95
 MOST_ROUNDS = 12
 #: Below this, for Λmax about 1, the squares of |𝒦| or of a determinant leave the range of float64.
 SMALLEST = 2.0**-120
-#: A momentum that is 2^LARGEST times as large as Λmax has no rotation, and is not scaled: it would leave the range.
-LARGEST = 1000
+#: The same for a heavy ball, whose det is I D², and of which no power above the second is taken.
+LIGHTEST = 2.0**-300
 #: From this D/I_min on a ball is heavy: by a row u loses up to half of D/I_min in ulps, a twelfth in the median.
 HEAVY = 32.0
 
@@ -127,10 +127,17 @@ def search(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, radius, enough, he
 
 
 def search_safely(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, radius, enough):
-    """`search` by the certificate, and for a heavy ball by `bound`; nothing where it does not reach, or underflows."""
+    """`search` by the certificate, and for a heavy ball by `bound`; nothing where it does not reach, or underflows.
+
+    A heavy ball is scaled anew, as that with a tiny momentum is not, and products of its D would overflow.
+    """
     heavy = is_heavy(I1, I2, I3, D)
-    if heavy and min(I1, I2, I3) >= SMALLEST and max(abs(k1), abs(k2), abs(k3)) >= SMALLEST:
-        radius, enough = bound(k1, k2, k3, I1, I2, I3, D)
+    if heavy and max(abs(k1), abs(k2), abs(k3)) < min(I1, I2, I3):
+        _, size = frexp(max(I1, I2, I3) + D)
+        I1, I2, I3, D = ldexp(I1, -size), ldexp(I2, -size), ldexp(I3, -size), ldexp(D, -size)
+        k1, k2, k3 = ldexp(k1, -size), ldexp(k2, -size), ldexp(k3, -size)
+        if min(I1, I2, I3) >= LIGHTEST and max(abs(k1), abs(k2), abs(k3)) >= LIGHTEST:
+            radius, enough = bound(k1, k2, k3, I1, I2, I3, D)
     if not radius >= 0.0:
         return False, 1.0, 0.0, 0.0, 0.0, u1, u2, u3
     return search(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, radius, enough, heavy)

@@ -1,37 +1,20 @@
-"""The inner loops: one step, and many, of one ball.  Plain scalar Python that numba compiles."""
+"""The inner loop: many steps of one ball.  Plain scalar Python that numba compiles."""
 
 from math import frexp, ldexp, sqrt
 
-from chapsym.generated import centre_step, compose, rotate, transport
+from chapsym.generated import centre_step, compose, rotate
 
 from .branch import small_rotation
-from .gibbs import LARGEST, SMALLEST, certificate, search_safely, settle
+from .gibbs import SMALLEST, certificate, search_safely, settle
 from .integrals import PERIOD, remember, restore
 from .sums import filtered, turned
 
+#: The largest exponent by which a ball is scaled.
+HIGHEST = 1021
 #: The numbers that describe a ball under way, and where each begins: k = 𝒦/2, γ, their compensations, the three
 #: integrals as pairs, 8 vectors for the extrapolation of u, J, I, D, radius² and enough (lemma small-branch).
 K, G, X, INTEGRALS, A, J, I, D, RADIUS, ENOUGH = 0, 3, 6, 12, 18, 42, 45, 48, 49, 50
 ROWS = 51
-
-
-def advance(K, g, J, D, q):
-    """One step in place: writes the rotation into q and moves K, g (arrays of 3, 3 and 4).
-
-    Returns (status, reach); nothing is written unless the status is 0.
-    """
-    status, reach, q0, q1, q2, q3 = small_rotation(K[0], K[1], K[2], g[0], g[1], g[2], J[0], J[1], J[2], D)
-    if status == 0:
-        q[0], q[1], q[2], q[3] = q0, q1, q2, q3
-        K[0], K[1], K[2] = transport(q0, q1, q2, q3, K[0], K[1], K[2])
-        g[0], g[1], g[2] = transport(q0, q1, q2, q3, g[0], g[1], g[2])
-    return status, reach
-
-
-def advance_all(K, g, J, D, q, status, reach):
-    """One step of each ball of a batch, in place: arrays (n, 3), (n, 3), (n, 3), (n,), (n, 4), (n,), (n,)."""
-    for i in range(K.shape[0]):
-        status[i], reach[i] = advance(K[i], g[i], J[i], D[i], q[i])
 
 
 def three(array, at):
@@ -58,9 +41,11 @@ def scaled(momentum, g, tensor, contact, state):
     """
     _, exponent = frexp(max(tensor[1] + tensor[2], tensor[0] + tensor[2], tensor[0] + tensor[1]) + contact)
     largest = max(abs(momentum[0]), abs(momentum[1]), abs(momentum[2]))
-    tiny, huge = 0.0 < largest < ldexp(SMALLEST, exponent), frexp(largest)[1] - exponent > LARGEST
-    if tiny or huge:
-        exponent = -1 if tiny else 0  # k = 𝒦: nothing of a subnormal momentum is lost
+    _, size = frexp(largest)
+    exponent = max(min(exponent, HIGHEST), size - HIGHEST)  # neither `scale` nor k overflows
+    tiny = 0.0 < largest < ldexp(SMALLEST, exponent)
+    if tiny:
+        exponent = max(-1, exponent - HIGHEST + 1)  # k = 𝒦, where J allows: nothing of a subnormal momentum is lost
     state[:] = 0.0
     for c in range(3):
         state[K + c] = ldexp(momentum[c], -exponent - 1)
@@ -71,7 +56,7 @@ def scaled(momentum, g, tensor, contact, state):
     k1, k2, k3 = three(state, K)
     I1, I2, I3 = three(state, I)
     state[RADIUS], state[ENOUGH] = certificate(k1, k2, k3, I1, I2, I3, state[D])
-    if tiny or huge or min(I1, I2, I3) < SMALLEST:
+    if tiny or min(I1, I2, I3) < SMALLEST:
         state[RADIUS] = -1.0  # products of three or four such numbers would underflow: every step takes the safe way
     return ldexp(1.0, exponent + 1)
 

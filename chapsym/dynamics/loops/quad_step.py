@@ -16,7 +16,8 @@ from chapsym.generated.quad import gibbs_residual_pairs, moved_pairs, residual_p
 from chapsym.numbers.pairs import divide, loose_add, root, two_product, two_sum
 
 from .branch import FOLDED, NOT_CONVERGED, TAKEN, inverse, small_rotation
-from .gibbs import LARGEST, MOST_ROUNDS, certificate, newton_round
+from .gibbs import MOST_ROUNDS, certificate, newton_round
+from .loop import HIGHEST
 
 #: |e|² relative to |w|² from which the sum is corrected once more: 8 roundings of float64.
 SMALL = 2.0**-100
@@ -52,8 +53,7 @@ def scales(momentum, tensor, contact):
     _, exponent = frexp(max(tensor[1] + tensor[2], tensor[0] + tensor[2], tensor[0] + tensor[1]) + contact)
     largest = max(abs(momentum[0]), abs(momentum[1]), abs(momentum[2]))
     _, size = frexp(largest)
-    if size - exponent > LARGEST:
-        return -1, 0
+    exponent = max(exponent, size - HIGHEST)  # k does not overflow
     beyond = max(0, LEAST - (size - exponent)) if largest > 0.0 else 0
     return beyond - exponent - 1, beyond
 

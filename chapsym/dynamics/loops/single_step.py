@@ -1,4 +1,4 @@
-"""One step of each ball of a batch by the loops' own round.  Plain scalar Python, read in float32 (`single`)."""
+"""One step of each ball of a batch by the loops' own round.  Plain scalar Python that numba compiles."""
 
 from math import sqrt
 
@@ -10,12 +10,11 @@ from .gibbs import settle
 from .loop import ENOUGH, RADIUS, ROWS, D, G, I, K, prepare, put, safe_rotation, three
 
 
-def advance(momentum, g, tensor, contact, q):
+def advance(momentum, g, tensor, contact, state, q):
     """The first step of `loop.march`, in place: writes the rotation into q and moves momentum and g.
 
-    Returns (status, reach); nothing is written unless the status is 0.
+    state (ROWS) is overwritten.  Returns (status, reach); nothing else is written unless the status is 0.
     """
-    state = zeros(ROWS, momentum.dtype)
     scale = prepare(momentum, g, tensor, contact, state)
     k1, k2, k3 = three(state, K)
     g1, g2, g3 = three(state, G)
@@ -39,5 +38,6 @@ def advance(momentum, g, tensor, contact, q):
 
 def advance_all(K, g, J, D, q, status, reach):
     """One step of each ball, in place: arrays (n, 3), (n, 3), (n, 3), (n,), (n, 4), (n,), (n,)."""
+    state = zeros(ROWS, K.dtype)
     for i in range(K.shape[0]):
-        status[i], reach[i] = advance(K[i], g[i], J[i], D[i], q[i])
+        status[i], reach[i] = advance(K[i], g[i], J[i], D[i], state, q[i])

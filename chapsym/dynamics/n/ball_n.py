@@ -7,9 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..ball import Floats, keep, numbers
+from ..ball import UNIT_TOLERANCE, Floats, keep, numbers
 from ..errors import BadInput
-from ..map import UNIT_TOLERANCE
 from . import so_n
 
 #: How far 𝒦 + 𝒦ᵀ may be from 0, relative to 𝒦.

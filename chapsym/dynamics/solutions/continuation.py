@@ -10,9 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..ball import Ball, Floats, numbers
+from ..ball import Ball, Floats, batch, numbers, unit_vertical
 from ..errors import BadInput, Status
-from ..map import batch, unit_vertical
 from .marching import Marchers
 
 

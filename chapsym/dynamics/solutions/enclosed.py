@@ -2,7 +2,7 @@
 
 The rotations are the real common points of three quadrics (5.2).  Where these have finitely many complex points in
 common, `intersection` counts the real ones exactly and gives each as a rational function of an algebraic number,
-which is enclosed to any precision; each simple one must also pass the interval Newton test of `precise`.
+which is enclosed to any precision; each simple one must also pass the interval Newton test of `newton`.
 """
 
 import math
@@ -21,7 +21,8 @@ from chapsym.numbers import Digits, Rung
 
 from ..ball import Ball
 from ..errors import StepNotTaken
-from ..levels.newton import enclosed, in_float64, unit_exactly
+from ..exactly import in_float64, unit_exactly
+from ..levels.newton import enclosed
 from ..map import step
 from .intersection import Form, NotFinite, Points, common_points
 from .quadrics import Quadric, momentum_forms, quadrics
@@ -86,7 +87,7 @@ def precise_branches(
     digits of the rung only is taken as it is.  The set is complete unless the complex solutions are infinitely many
     for a reason that is not understood, or the real ones are.
 
-    Raises BadInput as `precise_step` does.
+    Raises BadInput as `exact_step` does.
     """
     unit_exactly(gamma, rung)
     J, (contact,), K, g = np.split(np.array(in_float64(mass_tensor, (D,), momentum, gamma)), [3, 4, 7])

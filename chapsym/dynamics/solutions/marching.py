@@ -13,10 +13,9 @@ from numpy.typing import ArrayLike
 
 from chapsym.generated import compose, residual, tangent_hessian, tangent_jacobian
 
-from ..ball import Floats, numbers
+from ..ball import UNIT_TOLERANCE, Floats, numbers
 from ..errors import BadInput, Status
 from ..loops.branch import CONTRACTION, ROUNDINGS, SETTLED, SINGULAR, SMALLEST, UNIT_ROUNDOFF
-from ..map import UNIT_TOLERANCE
 
 #: The march towards a fold ends where a step is below this fraction of the way: Newton does the rest.
 NEAR_FOLD = 1e-6

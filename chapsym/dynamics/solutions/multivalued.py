@@ -17,9 +17,9 @@ from numpy.typing import ArrayLike
 
 from chapsym.generated import compose, residual, tangent_jacobian
 
-from ..ball import Ball, Floats, numbers
+from ..ball import Ball, Floats, batch, numbers, unit_vertical
 from ..errors import Status
-from ..map import batch, step, unit_vertical
+from ..map import step
 from .candidates import Candidates, candidates
 from .quadrics import quadrics
 
@@ -61,6 +61,7 @@ class Branches:
     complete: np.ndarray
 
 
+@np.errstate(over="ignore", under="ignore", invalid="ignore")  # a root that overflows is none
 def branches(ball: Ball, momentum: ArrayLike, gamma: ArrayLike, *, settle: bool = True) -> Branches:
     """Every rotation Ω with 𝒦(q, γ) = 𝒦 (5.2): all branches of the map.
 

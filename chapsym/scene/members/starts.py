@@ -7,8 +7,7 @@ from typing import Any
 import numpy as np
 
 from chapsym.dynamics import BadInput, Ball, BallN, kernels
-from chapsym.dynamics.ball import SMALLEST, Floats, contact_term, mass_tensor_of, numbers
-from chapsym.dynamics.map import UNIT_TOLERANCE, unit_vertical
+from chapsym.dynamics.ball import SMALLEST, UNIT_TOLERANCE, Floats, contact_term, mass_tensor_of, numbers, unit_vertical
 from chapsym.dynamics.n import so_n
 from chapsym.dynamics.n.ball_n import skew_matrices, unit_verticals
 from chapsym.dynamics.trajectories import attitude_with

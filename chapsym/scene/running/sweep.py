@@ -10,7 +10,7 @@ import numpy as np
 from chapsym import jobs
 from chapsym.accuracy import Accurate
 from chapsym.dynamics import BadInput
-from chapsym.dynamics.levels.double import cores
+from chapsym.dynamics.levels.frames import cores
 
 from ..plan.models import Chosen, State
 from ..plan.plan import Plan

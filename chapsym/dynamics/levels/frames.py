@@ -1,0 +1,102 @@
+"""What a run is given, what it fills, and how its work is shared among threads."""
+
+import os
+import threading
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..ball import Floats
+
+#: The work of each thread comes in about so many parts, so that none is idle for long at the end.
+SHARES = 16
+
+
+@dataclass(frozen=True, eq=False)
+class Balls:
+    """The balls of a run: momentum 𝒦 and γ at the start, (n, 3); J, (n, 3); D and the radius, (n,).
+
+    Floats, or on Digits and Ball exact fractions of any size.
+    rest: what 𝒦 has beyond float64, (n, 3), for the rungs that can hold it; None for nothing.
+    """
+
+    momentum: Floats
+    gamma: Floats
+    mass_tensor: Floats
+    D: Floats
+    radius: Floats
+    rest: Floats | None = None
+
+    def __len__(self) -> int:
+        return len(self.D)
+
+
+@dataclass(frozen=True, eq=False)
+class Frames:
+    """What a run fills: (n, frames, ...) arrays whose frame 0 is given, and how each ball ended, (n,).
+
+    attitude and contact have no frames unless `with_body`.  The arrays are of the numbers of the rung: float32,
+    float64, or objects; `low` has the second halves of double-double numbers.  least: the attitudes start as the least
+    rotations with R γ = e₃, which have more digits on other rungs than in frame 0.
+    """
+
+    momentum: np.ndarray
+    gamma: np.ndarray
+    attitude: np.ndarray
+    contact: np.ndarray
+    taken: np.ndarray
+    status: np.ndarray
+    reach: Floats
+    with_body: bool
+    low: "Frames | None" = None
+    least: bool = False
+
+    def part(self, i: int, kept: int) -> "Frames":
+        """The first frames of one ball, in the same memory."""
+        one = slice(i, i + 1)
+        momentum, gamma, attitude, contact = (
+            x[one, :kept] for x in (self.momentum, self.gamma, self.attitude, self.contact)
+        )
+        ends = self.taken[one], self.status[one], self.reach[one]
+        return Frames(momentum, gamma, attitude, contact, *ends, self.with_body)
+
+
+class Count:
+    """Adds up the steps that the threads have taken, and tells them when to stop."""
+
+    def __init__(self, progress: Callable[[int], None]) -> None:
+        self._progress, self._lock, self._done = progress, threading.Lock(), 0
+        self.stopped = False
+
+    def add(self, steps: int) -> None:
+        """So many steps more."""
+        with self._lock:
+            self._done += steps
+            self._progress(self._done)
+
+
+def cores() -> int:
+    """The cores that this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+def share(task: Callable[[int], None], starts: range, workers: int, count: Count) -> None:
+    """Runs the tasks in threads, some at a time for each; an interrupt stops each at its next chunk."""
+    several = max(1, len(starts) // (workers * SHARES))
+
+    def group(at: int) -> None:
+        for start in starts[at : at + several]:
+            if not count.stopped:
+                task(start)
+
+    with ThreadPoolExecutor(workers) as pool:
+        futures = [pool.submit(group, at) for at in range(0, len(starts), several)]
+        try:
+            for done in as_completed(futures):
+                done.result()
+        except BaseException:
+            count.stopped = True
+            pool.shutdown(wait=True, cancel_futures=True)
+            raise

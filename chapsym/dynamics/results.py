@@ -1,0 +1,127 @@
+"""What steps and runs return: states of one ball or of a batch, in the numbers of a rung."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from chapsym.numbers import NAMED, Pair, Rung
+
+from . import kernels
+from .ball import Asked, Ball, Floats
+from .errors import BadInput
+
+
+@dataclass(frozen=True, eq=False)
+class LowStep:
+    """The second halves of the double-double numbers of a step, each at most half an ulp of the first."""
+
+    rotation: Floats
+    momentum: Floats
+    gamma: Floats
+
+
+@dataclass(frozen=True, eq=False)
+class Step:
+    """The outcome of one step, for one ball or a batch with the leading axes (...).
+
+    rotation: the Euler parameters (q0, q1, q2, q3) of the step in the body, q0 ≥ 0, shape (..., 4).
+    momentum, gamma: 𝒦 and γ after the step, shape (..., 3).
+    status: a `Status` for each ball, shape (...); where it is not TAKEN the numbers above are NaN.
+    reach: the fraction of the momentum that the small-rotation branch attains, shape (...).
+    precision: the rung of the numbers.  The arrays are float32 for Single, objects (mpf, arb) for Digits and Ball.
+    low: for Quad, what the numbers have beyond float64, as of `Trajectory`; else None.
+    """
+
+    rotation: Floats
+    momentum: Floats
+    gamma: Floats
+    status: np.ndarray
+    reach: Floats
+    precision: Rung = NAMED["double"]
+    low: LowStep | Any = None
+
+    def write(self) -> dict[str, Any]:
+        """q0, q, momentum and gamma of one ball after the step, as floats or decimal strings."""
+        q0, *q = self._written("rotation")
+        return {"q0": q0, "q": q, "momentum": self._written("momentum"), "gamma": self._written("gamma")}
+
+    def _written(self, name: str) -> list[Any]:
+        values = getattr(self, name)
+        if self.low is not None:
+            values = map(Pair, values, getattr(self.low, name))
+        with self.precision.precision():
+            return list(map(self.precision.write, values))
+
+
+@dataclass(frozen=True, eq=False)
+class Low:
+    """The second halves of the double-double numbers of a trajectory, each at most half an ulp of the first."""
+
+    momentum: Floats
+    gamma: Floats
+    attitude: Asked
+    contact: Asked
+
+
+@dataclass(frozen=True, eq=False)
+class Trajectory:
+    """States of one ball, shape (frames, ...), or of a batch, shape (balls..., frames, ...).
+
+    index: the step number of each frame, (frames,).
+    momentum, gamma: 𝒦 (kg m²) and γ, (..., frames, 3).
+    attitude: unit quaternions, body to space, scalar first, (..., frames, 4), or None.
+    contact: the contact point on the plane in metres, from (0, 0), (..., frames, 2), or None.
+    taken: the number of steps that were taken, (...); frames after it are NaN.
+    status: why a ball stopped, a `Status`, (...).
+    time_step: ε in seconds, if the run has one.
+    order: of the composition that made the steps; 2 for the map itself, 0 for the continuous motion (`exact_top`).
+    precision: the rung of the numbers.  The arrays are float32 for Single, objects (mpf, arb) for Digits and Ball.
+    low: for Quad, what the numbers have beyond float64: `momentum` + `low.momentum` is 𝒦, and so on; else None.
+    """
+
+    ball: Ball
+    index: np.ndarray
+    momentum: Floats
+    gamma: Floats
+    attitude: Asked
+    contact: Asked
+    taken: np.ndarray
+    status: np.ndarray
+    time_step: float | None = None
+    order: int = 2
+    precision: Rung = NAMED["double"]
+    low: Low | Any = None
+
+    @property
+    def time(self) -> Floats:
+        """The time of each frame in seconds; raises BadInput if the run has no time step."""
+        return self.index * self._time_step()
+
+    def invariants(self) -> Floats:
+        """⟨𝒦,γ⟩, ⟨𝒦,𝒦⟩ and ⟨γ,γ⟩ of each frame, (..., frames, 3); on Quad in float64, of the first halves."""
+        with self.precision.precision():
+            return kernels.invariants(*self._finite(self.momentum, self.gamma))
+
+    def angular_momentum(self) -> Floats:
+        """K = 𝒦/ε in kg m²/s, (..., frames, 3)."""
+        with self.precision.precision():
+            return self.momentum / self._time_step()
+
+    def kinetic_energy(self) -> Floats:
+        """½⟨K, ω⟩ in joules for K = 𝒦/ε, (..., frames); the map keeps it up to an oscillation."""
+        tensor, contact = self.ball.mass_tensor[..., np.newaxis, :], self.ball.D[..., np.newaxis]
+        with self.precision.precision():
+            return kernels.energy(*self._finite(self.angular_momentum(), self.gamma), tensor, contact)
+
+    def _finite(self, *arrays: Floats) -> tuple[Floats, ...]:
+        if (self.taken < self.index[-1]).any():
+            raise BadInput("a ball of the batch stopped early; choose the frames up to `taken` first")
+        return arrays
+
+    def _time_step(self) -> float:
+        if self.time_step is None:
+            raise BadInput("this trajectory has no time step: it was given 𝒦 = εK; use `roll`, or divide by your ε")
+        return self.time_step
