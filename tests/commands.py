@@ -13,9 +13,9 @@ from chapsym.cli import main
 FIRST = "chapsym: compiling the map for this processor: some seconds, once\n"
 
 
-def chapsym(*arguments):
-    """What the command writes and its exit status, as of a child."""
-    said, told = io.StringIO(), io.StringIO()
+def chapsym(*arguments, cwd="."):
+    """What the command writes and its exit status, as of a child that starts in the folder `cwd`."""
+    said, told = (io.TextIOWrapper(io.BytesIO(), encoding="utf-8") for _ in range(2))
     handlers, level = list(logging.root.handlers), logging.getLogger("chapsym").level
     logging.root.handlers.clear()  # so that the command takes its own, as in a new process
     try:
@@ -23,13 +23,19 @@ def chapsym(*arguments):
             mock.patch.object(sys, "argv", ["chapsym", *map(str, arguments)]),
             contextlib.redirect_stdout(said),
             contextlib.redirect_stderr(told),
+            contextlib.chdir(cwd),
         ):
             main()
     except SystemExit as ended:
-        return subprocess.CompletedProcess(arguments, ended.code, said.getvalue(), told.getvalue().replace(FIRST, ""))
+        return subprocess.CompletedProcess(arguments, ended.code, _text(said), _text(told).replace(FIRST, ""))
     finally:
         logging.root.handlers[:] = handlers
         logging.getLogger("chapsym").setLevel(level)
+
+
+def _text(stream):
+    stream.flush()
+    return stream.buffer.getvalue().decode()
 
 
 def child(*arguments, **options):

@@ -1,6 +1,7 @@
 """The README is true: its commands print what it shows, its Python runs, its tables match the register."""
 
 import doctest
+import json
 import os
 import re
 import shlex
@@ -29,13 +30,16 @@ def without_times(text):
 
 
 @pytest.mark.parametrize(("command", "output"), list(console_examples()), ids=lambda x: x[:40])
-def test_a_command_prints_what_the_readme_shows(command, output, tmp_path):
+def test_a_command_prints_what_the_readme_shows(command, output, tmp_path, verdicts):
     binary = Path(sys.executable).parent
     script = command.replace("chapsym ", f"{shlex.quote(sys.executable)} -m chapsym.cli ", 1)
     script = script.replace("python proofs", f"{shlex.quote(sys.executable)} proofs", 1)
     for name in ("first.npz", "page.html"):
         script = script.replace(name, str(tmp_path / name))
-    done = subprocess.run(["bash", "-c", script], capture_output=True, text=True, cwd=ROOT, check=False)
+    records = tmp_path / "verdicts.jsonl"  # those of this run, which the report takes as it would the user's own
+    records.write_text("".join(json.dumps(record) + "\n" for record in verdicts.values()), encoding="utf-8")
+    env = {**os.environ, "CHAPSYM_RECORDS": str(records)}
+    done = subprocess.run(["bash", "-c", script], capture_output=True, text=True, cwd=ROOT, env=env, check=False)
     assert done.returncode == 0, done.stderr + str(binary)
     shown = done.stdout.replace(f"{tmp_path}{os.sep}", "")
     # The drift is rounding: its digits may differ on another processor, its size may not.

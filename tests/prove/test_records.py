@@ -178,12 +178,19 @@ def test_of_two_records_of_a_claim_the_last_one_counts(tmp_path):
     ]
 
 
-def test_an_interpreter_that_drops_docstrings_and_a_terminal_without_greek(tmp_path):
-    """The titles are docstrings, and have Greek letters."""
-    env = {**os.environ, "PYTHONOPTIMIZE": "2", "PYTHONIOENCODING": "ascii"}
-    done = child("prove", "2.1", "4.1", "--records", tmp_path / "x", env=env)
+def test_an_interpreter_that_drops_docstrings_keeps_the_titles(monkeypatch):
+    """As with PYTHONOPTIMIZE=2, for which SymPy would be compiled anew here."""
+    claims = [load()[id] for id in ("2.1", "4.1")]
+    titles = [claim.title for claim in claims]
+    for claim in claims:
+        monkeypatch.setattr(claim.prove, "__doc__", None)
+    assert [claim.title for claim in claims] == titles
+
+
+def test_a_terminal_without_greek_gets_escapes(tmp_path):
+    done = child("prove", "4.1", "--records", tmp_path / "x", env={**os.environ, "PYTHONIOENCODING": "ascii"})
     assert done.returncode == 0
-    assert all(ascii(load()[id].title)[1:-1] in done.stdout for id in ("2.1", "4.1"))
+    assert ascii(load()["4.1"].title)[1:-1] in done.stdout
 
 
 def test_a_lost_process_leaves_its_claims_open(tmp_path):

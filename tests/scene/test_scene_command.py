@@ -2,23 +2,12 @@
 
 import json
 import re
-import subprocess
-import sys
 
 import numpy as np
 import pytest
+from commands import chapsym
 
 from chapsym.scene.read.example import names
-
-
-def chapsym(*arguments, **kwargs):
-    return subprocess.run(
-        [sys.executable, "-m", "chapsym.cli", *map(str, arguments)],
-        capture_output=True,
-        text=True,
-        check=False,
-        **kwargs,
-    )
 
 
 def done(*arguments):
