@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from chapsym.numbers import Digits, Double, Pair, Quad, Rung, Single
 
 from .ball import Ball, batch, numbers, unit_vertical
+from .errors import BadInput
 from .exactly import beyond_float64, check_body, in_float64, unit_exactly
 from .levels import ladder
 from .levels.frames import Balls
@@ -58,7 +59,11 @@ def exact_step(
     unit_exactly(gamma, rung)
     check_body(mass_tensor, D)
     if isinstance(rung, Single | Double | Quad):
-        tensor, vertical, (contact,), _ = (in_float64(x) for x in (mass_tensor, gamma, (D,), momentum))
+        tensor, vertical, (contact,), floats = (in_float64(x) for x in (mass_tensor, gamma, (D,), momentum))
+        if any(x != 0 and y == 0.0 for x, y in zip(momentum, floats, strict=True)):
+            raise BadInput(
+                "a component of the momentum is below the range of float64; ask for more with --digits or --ball"
+            )
         if not isinstance(rung, Quad) or [*tensor, *vertical, contact] == [*mass_tensor, *gamma, D]:
             return composed(Ball(tensor, contact), np.array(momentum, dtype=object), vertical, 2, rung)
         return _in_pairs(exact_step(mass_tensor, D, momentum, gamma, BEYOND_QUAD), rung)
