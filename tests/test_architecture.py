@@ -65,6 +65,17 @@ def test_lower_rooms_never_import_higher_ones(room):
             assert parts[0] != "benchmarks", f"{path.name} imports {name}, which is not in the wheel"
 
 
+def floor(room):
+    """One above the highest room that it may import."""
+    return 1 + max((floor(other) for other in ROOMS[room]), default=0)
+
+
+def test_the_readme_draws_the_floors_as_they_are():
+    floors = {height: sorted(room for room in ROOMS if floor(room) == height) for height in map(floor, ROOMS)}
+    drawn = "".join(f"    {height}  {', '.join(floors[height])}\n" for height in sorted(floors, reverse=True))
+    assert f"\n\n{drawn}\n" in (ROOT.parent / "README.md").read_text(encoding="utf-8")
+
+
 @pytest.mark.parametrize("room", sorted(set(ROOMS) - SYMPY_ROOMS))
 def test_what_runs_the_map_does_not_import_sympy(room):
     for path in files(room):
