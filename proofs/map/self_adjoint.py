@@ -10,7 +10,7 @@ from chapsym.derive import ball, principle, three
 from chapsym.derive.ball import ALGEBRA, D, Gamma, K, Omega, OmegaT, gamma
 from chapsym.derive.principle import R1, R, r, r1
 from chapsym.derive.words import WordAlgebra, matrix_symbols
-from chapsym.proofs import second_routes as again
+from chapsym.proofs import second_routes
 from chapsym.prove import Equation, Identity, Proof, claim, main
 
 
@@ -40,12 +40,15 @@ def in_free_parameters(n: int, sign: int = -1, last: int = 1) -> Identity:
     """𝒦(Ωᵀ, Ωᵀγ) = sign·Ωᵀ𝒦(Ω, γ)Ω from (4.13), Ω the Cayley transform of a free skew matrix; `last` mutates (4.13)."""
     count = n * (n - 1) // 2
     names = [f"a{i}" for i in range(count)] + [f"{kind}{i}" for kind in ("g", "J") for i in range(n)]
-    *free, contact = again.parameters(" ".join([*names, "D"]))
-    turn, vertical = again.cayley(again.skew(free[:count], n)), again.array(free[count : count + n])
-    tensor = again.np.diag(again.array(free[count + n :]))
-    there = again.momentum(turn, tensor, vertical, contact, last)
-    back = again.momentum(turn.T, tensor, turn.T @ vertical, contact, last)
-    return again.identity(f"n = {n}: 𝒦(Ωᵀ, Ωᵀγ) = -Ωᵀ𝒦(Ω, γ)Ω", back, sign * turn.T @ there @ turn)
+    *free, contact = second_routes.parameters(" ".join([*names, "D"]))
+    turn, vertical = (
+        second_routes.cayley(second_routes.skew(free[:count], n)),
+        second_routes.array(free[count : count + n]),
+    )
+    tensor = second_routes.np.diag(second_routes.array(free[count + n :]))
+    there = second_routes.momentum(turn, tensor, vertical, contact, last)
+    back = second_routes.momentum(turn.T, tensor, turn.T @ vertical, contact, last)
+    return second_routes.identity(f"n = {n}: 𝒦(Ωᵀ, Ωᵀγ) = -Ωᵀ𝒦(Ω, γ)Ω", back, sign * turn.T @ there @ turn)
 
 
 @claim(
@@ -102,8 +105,8 @@ def self_adjoint(p: Proof) -> None:
         in_free_parameters(3),
         in_free_parameters(4),
     )
-    p.control(again.mutated("n = 3: with +Ωᵀ𝒦Ω", in_free_parameters(3, sign=1)))
-    p.control(again.mutated("n = 3: with (4.13) mutated", in_free_parameters(3, last=-1)))
+    p.control(second_routes.mutated("n = 3: with +Ωᵀ𝒦Ω", in_free_parameters(3, sign=1)))
+    p.control(second_routes.mutated("n = 3: with (4.13) mutated", in_free_parameters(3, last=-1)))
 
 
 @claim(

@@ -7,7 +7,7 @@ import sympy as sp
 from chapsym.derive import elliptic
 from chapsym.derive.elliptic import HALF, L1, L2, L3, U, k2, l
 from chapsym.derive.quotient import Quotient
-from chapsym.proofs import second_routes as again
+from chapsym.proofs import second_routes
 from chapsym.proofs.open.chord import PAIR
 from chapsym.prove import Equation, Fact, Identity, Proof, claim, main
 from chapsym.prove.polynomials import Ratio, parameters
@@ -37,7 +37,7 @@ def product_of_poles(sign: int = 1) -> Identity:
 
     X, Y = parameters("X Y")
     right = (coth(X) + sign * coth(Y)) / sinh(X * Y)
-    return again.identity("1/(sinh x sinh y) = (coth x + coth y)/sinh(x+y)", 1 / (sinh(X) * sinh(Y)), right)
+    return second_routes.identity("1/(sinh x sinh y) = (coth x + coth y)/sinh(x+y)", 1 / (sinh(X) * sinh(Y)), right)
 
 
 def chords_of_a_polygon(most: int, weight: int = 2) -> bool:
@@ -63,7 +63,7 @@ def in_fourier_series(p: Proof) -> None:
         Fact("Σ_{r mod q} (2 - 2cos(2πpr/q)) = 2q, q = 2..12, p prime to q", chords_of_a_polygon(12),
              "division by the cyclotomic polynomial"),
     )  # fmt: skip
-    p.control(again.mutated("(coth x - coth y)/sinh(x+y)", product_of_poles(-1)))
+    p.control(second_routes.mutated("(coth x - coth y)/sinh(x+y)", product_of_poles(-1)))
     p.control(Fact("Σ_{r mod q} (1 - 2cos(2πpr/q)) = 2q", chords_of_a_polygon(12, 1)))
 
 
