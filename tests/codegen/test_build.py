@@ -41,8 +41,9 @@ def test_a_checkout_is_told_from_a_copy(copy):
     assert not build.is_checkout(copy)
 
 
-@pytest.mark.parametrize("seed", ["0", "1", "4294967295"])
+@pytest.mark.parametrize("seed", ["0", "4294967295"])
 def test_the_bytes_do_not_depend_on_the_hash_seed(seed):
+    """Two seeds; a third is that of this process, by the test above."""
     program = "import json, sys; from chapsym.codegen import build; json.dump(build.build(), sys.stdout)"
     done = subprocess.run(
         [sys.executable, "-c", program], env={**os.environ, "PYTHONHASHSEED": seed}, capture_output=True, check=True
