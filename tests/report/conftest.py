@@ -1,11 +1,10 @@
 """A few records by hand: one of each verdict, with everything that evidence may carry."""
 
 import copy
-import sys
 from functools import cache, partial
-from subprocess import CompletedProcess
 
 import chromium
+import commands
 import pytest
 import shown
 
@@ -102,14 +101,6 @@ def opened(tabs):
 
 
 @pytest.fixture
-def command(monkeypatch, capsys):
-    """Runs `chapsym` in this process; its exit status and what it wrote, as of a child, without a child's start."""
-    from chapsym.cli import main
-
-    def run(*arguments):
-        monkeypatch.setattr(sys, "argv", ["chapsym", *map(str, arguments)])
-        with pytest.raises(SystemExit) as ended:
-            main()
-        return CompletedProcess(sys.argv, ended.value.code, *capsys.readouterr())
-
-    return run
+def command():
+    """Runs `chapsym` in this process."""
+    return commands.chapsym

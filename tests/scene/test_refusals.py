@@ -13,6 +13,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from commands import child as chapsym
 from small_units import equal_to_the_bit, plan
 from waiting import INTERRUPTIBLE
 
@@ -36,16 +37,6 @@ time_step = 0.01
 steps = 240
 every = 20
 """
-
-
-def chapsym(*arguments, **kwargs):
-    return subprocess.run(
-        [sys.executable, "-m", "chapsym.cli", *map(str, arguments)],
-        capture_output=True,
-        text=True,
-        check=False,
-        **kwargs,
-    )
 
 
 def refused(done):
