@@ -15,7 +15,7 @@ settings.register_profile(
     "same", max_examples=EXAMPLES, derandomize=True, database=None, deadline=None, print_blob=True,
     suppress_health_check=[HealthCheck.too_slow],
 )  # fmt: skip
-LARGE = f"random seeds, {THOROUGH} times the examples of each property, every slow cell of the extremes"
+LARGE = f"random seeds, {THOROUGH} times the examples of each property, slow cells of the extremes, more processes"
 settings.register_profile("thorough", settings.get_profile("same"), max_examples=THOROUGH * EXAMPLES, derandomize=False)
 
 
