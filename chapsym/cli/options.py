@@ -19,8 +19,6 @@ Records = Annotated[
     typer.Option(
         "--records",
         metavar="FILE",
-        envvar="CHAPSYM_RECORDS",
-        show_envvar=False,
         help="The JSON Lines file of verdicts; in the user's cache by default.",
     ),
 ]

@@ -7,6 +7,7 @@ libraries that decide are those that it was made with.  A fresh record can be sh
 import hashlib
 import importlib.metadata
 import json
+import os
 from collections.abc import Iterable
 from functools import cache
 from pathlib import Path
@@ -31,8 +32,9 @@ class BrokenRecords(ValueError):
 
 
 def default_path() -> Path:
-    """Where the records are kept unless a file is named: the user's cache."""
-    return platformdirs.user_cache_path("chapsym") / "verdicts.jsonl"
+    """Where the records are kept unless a file is named: CHAPSYM_RECORDS, or else the user's cache."""
+    named = os.environ.get("CHAPSYM_RECORDS")
+    return Path(named) if named else platformdirs.user_cache_path("chapsym") / "verdicts.jsonl"
 
 
 def fingerprint(claim: Claim) -> str:
