@@ -89,10 +89,10 @@ def plus(honest):
     return lambda self, sign: honest(self, -sign)
 
 
-#: A slip, and claims whose second route takes that function: each claim meets several slips, each slip some claims.
+#: A slip, and claims whose second route takes that function; those after the first are judged by `--thorough`.
 SECOND_ROUTE = {
-    "the last sign of (4.13)": (again, "momentum", wrong_last, ("remark-3", "prop-3", "5.15")),
-    "a factor in (4.13)": (again, "momentum_by_centre", doubled, ("prop-1", "5.2")),
+    "the last sign of (4.13)": (again, "momentum", wrong_last, ("prop-3", "remark-3", "5.15")),
+    "a factor in (4.13)": (again, "momentum_by_centre", doubled, ("5.2", "prop-1")),
     "the constraint": (again, "centre_step", naive, ("prop-1",)),
     "the sign of the action": (again, "action", negated, ("prop-1",)),
     "half the action": (again, "action", doubled, ("prop-1",)),
@@ -106,10 +106,10 @@ SECOND_ROUTE = {
 
 
 @pytest.mark.parametrize("slip", SECOND_ROUTE)
-def test_a_slip_in_the_second_route_leaves_the_claim_open(monkeypatch, slip):
+def test_a_slip_in_the_second_route_leaves_the_claim_open(monkeypatch, slip, thorough):
     place, name, mutate, ids = SECOND_ROUTE[slip]
     monkeypatch.setattr(place, name, mutate(getattr(place, name)))
-    for id in ids:
+    for id in ids if thorough else ids[:1]:
         record = prove_one(id)
         assert record["verdict"] == "open", id
         assert any(word in problem for problem in record["evidence"]["problems"] for word in ("second route", "raised"))

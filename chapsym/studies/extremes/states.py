@@ -29,6 +29,7 @@ def unit(v: Iterable[float]) -> Vector:
     return scaled(array / np.sqrt(array @ array), 1.0)
 
 
+@cache
 def part(J: Vector, D: float, direction: Vector, g: Vector, share: float) -> State:
     """A momentum in this direction, a share of what the branch attains before it folds."""
     far = scaled(unit(direction), 100 * (sum(J) + D))
