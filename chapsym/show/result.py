@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from chapsym.dynamics import kernels
+from chapsym.scene.result.dataset import discretised
 
 from . import figures
 from .drawing import reading
@@ -141,6 +142,7 @@ def _rows(dataset: "Dataset") -> list[tuple[str, str]]:
         ("model", str(dataset.attrs.get("model", ""))),
         ("stored", ", ".join(stored)),
         ("drift", _drift(dataset)),
+        ("discretisation", _discretisation(dataset)),
         ("stopped", f"after {int(dataset['taken'].values[0])} steps" if len(names) == 1 and stopped else ""),
     ]
 
@@ -155,6 +157,11 @@ def _frames(dataset: "Dataset") -> str:
     last = int(reading.steps(dataset)[-1])
     steps = f", {last} steps" if "step" in dataset.coords else ""
     return f"{len(t)}{steps}" + (f", {t[-1]:.6g} s" if label == "time, s" else "")
+
+
+def _discretisation(dataset: "Dataset") -> str:
+    found = discretised(dataset)
+    return "" if found is None else found.sentence()
 
 
 def _drift(dataset: "Dataset") -> str:

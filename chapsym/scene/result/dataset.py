@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 import chapsym
-from chapsym.dynamics import Status
+from chapsym.accuracy.discretisation import Discretisation, discretisation, read
+from chapsym.dynamics import Ball, Status
 
 from ..plan.plan import Plan
 from ..read.outputs import OUTPUTS, labels
@@ -90,7 +91,23 @@ def build(plan: Plan, columns: Mapping[str, Any], state: Mapping[str, Any]) -> "
     coords.update(_moments(plan))
     for key, parameter in plan.members.parameters.items():
         coords[key] = ("ball", parameter.values, {"units": parameter.units, "long_name": key})
-    return xarray.Dataset(variables, coords, provenance(plan))
+    far = _discretisation(plan)
+    return xarray.Dataset(
+        variables, coords, provenance(plan) | ({} if far is None else {"discretisation": far.write()})
+    )
+
+
+def discretised(data: "Dataset") -> Discretisation | None:
+    """How far a result is from the motion of the ball, if it says so."""
+    return read(data.attrs.get("discretisation"))
+
+
+def _discretisation(plan: Plan) -> Discretisation | None:
+    """How far the map is from the motion of the ball, where it stands for that: its steps have a length in time."""
+    members, task = plan.members, plan.task
+    if task.chosen or task.time_step is None or not isinstance(members.ball, Ball):
+        return None
+    return discretisation(members.ball, members.momentum, members.gamma, task.time_step, task.steps, task.order)
 
 
 def _moments(plan: Plan) -> dict[Hashable, Any]:

@@ -8,6 +8,7 @@ import numpy as np
 
 from chapsym.dynamics import BadInput, Status, kernels
 from chapsym.dynamics.ball import Floats
+from chapsym.scene.result.dataset import discretised
 
 from . import turning
 
@@ -101,6 +102,9 @@ def motion(dataset: "Dataset", balls: Sequence[str | int] | None = None) -> Moti
         )
         rolling.notes.extend(_stopped(one, end == len(clock)))
         found.append(rolling)
+    far = discretised(dataset)
+    if far is not None:
+        notes.append(far.sentence())
     return Motion(clock[kept], "s" if timed else "steps", found, notes)
 
 
