@@ -72,6 +72,8 @@ class Chunk:
         self.checks, self.d, self.pool = (rows(n, width, state.dtype) for n in (4, 3, max(POOL, 18)))
         self.settled, self.near = np.ones(width, dtype=bool), np.ones(width, dtype=bool)
         self.S[:, : self.balls] = state
+        #: A lane as numbers of its own type: a float is float64's, and as fast as they come.
+        self.numbers = np.ndarray.tolist if state.dtype == np.float64 else list
         self.S[:, self.balls :] = state[:, :1]
         #: The states of the balls that rest: their lanes get a ball that stands still, and so do those to spare.
         self.resting: dict[int, Floats] = {}
@@ -178,8 +180,8 @@ class Chunk:
             found, P[:, lanes] = search(guess, S[:, lanes], P[:, lanes])
             self.settled[lanes[found]] = True
         for lane in np.flatnonzero(~self.settled).tolist():
-            ball = S[:, lane].tolist()
-            u1, u2, u3 = P[4:, lane].tolist() if self.near[lane] else ball[A : A + 3]
+            ball = self.numbers(S[:, lane])
+            u1, u2, u3 = self.numbers(P[4:, lane]) if self.near[lane] else ball[A : A + 3]
             status, reach, *rotation = safe_rotation(u1, u2, u3, ball)
             self.reach[lane] = reach
             if status == 0:
