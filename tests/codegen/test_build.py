@@ -3,7 +3,6 @@
 import json
 import os
 import re
-import shutil
 import subprocess
 import sys
 from fractions import Fraction
@@ -21,14 +20,6 @@ from chapsym.codegen import build, printer, values
 from chapsym.codegen.kernels import KERNELS
 
 x, y = sp.symbols("x y")
-
-
-@pytest.fixture
-def copy(tmp_path):
-    """A copy of what is committed."""
-    place = tmp_path / "generated"
-    shutil.copytree(build.folder(), place, ignore=shutil.ignore_patterns("__pycache__"))
-    return place
 
 
 def test_what_is_committed_is_what_is_derived():
@@ -71,14 +62,6 @@ def test_any_flipped_sign_changes_the_value(kernel):
         assert build.text_fingerprint(kernel, flipped) != trusted, flipped[at - 30 : at + 30]
 
 
-def test_a_changed_kernel_is_named_with_what_mends_it(copy):
-    path = copy / "momentum.py"
-    text = path.read_text(encoding="utf-8")
-    path.write_text(text.replace(" + ", " - ", 1).replace("# outputs", "# outputs ", 1), encoding="utf-8")
-    problems = build.check(copy)
-    assert "momentum.py is changed" in problems
-
-
 def test_a_reordered_text_is_changed_but_keeps_its_value(copy):
     path = copy / "compose.py"
     path.write_text(path.read_text(encoding="utf-8").replace("# outputs", "# results"), encoding="utf-8")
@@ -97,6 +80,8 @@ def test_missing_and_extra_files_are_named(copy):
     (copy / "rotate.py").unlink()
     (copy / "stray.py").write_text("", encoding="utf-8")
     assert build.check(copy) == ["rotate.py is missing", "stray.py is extra"]
+    build.generate(copy)
+    assert build.check(copy) == []
 
 
 def test_a_missing_fingerprint_fails_and_is_not_created(copy):
@@ -122,20 +107,6 @@ def test_a_changed_value_is_not_written_without_trust(copy):
     with pytest.raises(ValueError, match="momentum changed its value"):
         build.generate(copy)
     assert {p.name: p.read_bytes() for p in copy.iterdir()} == before
-
-
-def test_generate_removes_what_is_no_kernel(copy):
-    (copy / "old.py").write_text("", encoding="utf-8")
-    build.generate(copy)
-    assert not (copy / "old.py").exists()
-    assert build.check(copy) == []
-
-
-def test_kernels_are_straight_lines_of_integers_and_names():
-    for kernel in KERNELS:
-        text = (build.folder() / f"{kernel.name}.py").read_text(encoding="utf-8")
-        body = text[text.rindex('"""') + 3 :]
-        assert not re.search(r"\d\.\d|\*\*|import|sqrt|[^t_a-zA-Z]\d+ / \d", body), kernel.name
 
 
 def test_every_kernel_names_proved_claims(records, lemmas):

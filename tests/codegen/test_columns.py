@@ -3,43 +3,22 @@
 import contextlib
 import json
 import re
-import shutil
 
 import numpy as np
 import pytest
+from programs import TEXTS, program, text_of
 
 from chapsym.codegen import build, columns
-from chapsym.codegen.kernels import CONTACT, GAMMA
 from chapsym.codegen.printer import NotStraightLine
-from chapsym.codegen.programs import Program
 from chapsym.dynamics.loops import gibbs, sums
 from chapsym.generated import columns as generated
 from chapsym.generated import turn
-
-TEXTS = {"twice": "def twice(a):\n    '''2a, and a²'''\n    t = a * a\n    return 2 * a, t\n"}
-
-
-def program(text, outputs=("x",)):
-    return Program("tried", "Tried.", (CONTACT, GAMMA), outputs, text)
-
-
-@pytest.fixture
-def copy(tmp_path):
-    place = tmp_path / "generated"
-    shutil.copytree(build.folder(), place, ignore=shutil.ignore_patterns("__pycache__"))
-    return place
-
-
-def text_of(name):
-    """The head of the generated module and one of its functions."""
-    head, *functions = re.split(r"\n\n\n(?=def )", (build.folder() / columns.FILE).read_text(encoding="utf-8"))
-    return head + "\n\n\n" + next(f for f in functions if f.startswith(f"def {name}("))
 
 
 @pytest.mark.parametrize("program", columns.PROGRAMS, ids=lambda p: p.name)
 def test_any_changed_operation_or_buffer_changes_the_value(program):
     """Every call in turn: another operation, and another place for what it writes."""
-    text = text_of(program.name)
+    text = text_of(columns, program.name)
     trusted = build.stored_fingerprints(build.folder())[program.name]
     assert build.target_fingerprint(columns, program, text) == trusted
     calls = list(re.finditer(r"^    (add|subtract|multiply|divide|negative)\(.*, (\w+)\)$", text, re.MULTILINE))

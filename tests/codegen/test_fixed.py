@@ -4,6 +4,7 @@ import re
 from fractions import Fraction as F
 
 import pytest
+from programs import text_of
 
 from chapsym import generated as kernels
 from chapsym.codegen import build, fixed
@@ -12,14 +13,9 @@ from chapsym.generated import fixed as generated
 BITS = 200
 
 
-def functions():
-    text = (build.folder() / fixed.FILE).read_text(encoding="utf-8")
-    return {re.match(r"def (\w+)", part)[1]: part for part in re.split(r"\n\n\n(?=def )", text)[1:]}
-
-
 @pytest.mark.parametrize("program", fixed.PROGRAMS, ids=lambda p: p.name)
 def test_any_changed_operation_changes_the_value(program):
-    text = functions()[program.name]
+    text = text_of(fixed, program.name)
     trusted = build.stored_fingerprints(build.folder())[program.name]
     assert build.target_fingerprint(fixed, program, text) == trusted
     lines = text[text.rindex('"""') :]

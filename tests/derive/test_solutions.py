@@ -17,11 +17,6 @@ def test_no_momentum_leaves_the_identity_and_three_half_turns():
     assert found[:3] == (4, 8, 8)
 
 
-def test_a_double_solution_counts_twice():
-    found = solutions.count(solutions.at((1, 2, 4), 0, GAMMA, (0, 0, 3)))
-    assert (found.real, found.distinct, solutions.multiplicity(found)) == (1, 7, 2)
-
-
 def test_a_homogeneous_ball_has_a_curve_of_complex_solutions():
     with pytest.raises(solutions.NotFinite, match="infinitely many"):
         solutions.count(solutions.at((1, 1, 1), 0, GAMMA, (0, 0, 1)))
@@ -40,13 +35,6 @@ def test_the_momentum_of_a_rotation_has_that_rotation(u, contact):
     equations = solutions.at((1, 2, 4), contact, before[1], before[0])
     assert all(e.subs(dict(zip((q0, *q), turn, strict=True))) == 0 for e in equations)
     assert solutions.have_common_point([*equations, *(c * q0 - 4 * x for c, x in zip(u, q, strict=True))])
-
-
-def test_one_rotation_is_never_alone():
-    for contact in (0, 1, 30):
-        momentum, vertical = solutions.after((1, 2, 4), contact, GAMMA, (8, 1, -2, 1))
-        found = solutions.count(solutions.at((1, 2, 4), contact, vertical, momentum))
-        assert solutions.multiplicity(found) % 2 == 0
 
 
 def test_common_points_are_found():
