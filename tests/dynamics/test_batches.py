@@ -1,18 +1,19 @@
-"""Batches: blocks and threads take the same steps as one ball alone, to the bit."""
+"""Batches: blocks and threads take the same steps as one ball alone, to the bit; so does the compiled code."""
 
 import numpy as np
 import pytest
 
 import chapsym
-from chapsym import Ball, Status
+from chapsym import BadInput, Ball, Status, StepNotTaken
 from chapsym.dynamics.levels import double
 from chapsym.dynamics.loops import block, gibbs, loop
 
+RUNGS = ["single", "double", "quad"]
 RNG = np.random.default_rng(4)
 
 
-def balls(n):
-    """n balls at random, some of each kind: D = 0, at rest, beyond the certificate, folding, subnormal."""
+def balls(n, tiny=1e-310, heavy=1e14):
+    """Balls at random, some of each kind: D = 0, at rest, beyond the certificate, folding, tiny, heavy."""
     J, D = RNG.uniform(0.1, 2.0, (n, 3)), RNG.uniform(0.0, 2.0, n)
     K, g = RNG.normal(size=(n, 3)), RNG.normal(size=(n, 3))
     K *= 0.3 * J.min(axis=1, keepdims=True) * RNG.uniform(0, 1, (n, 1)) / np.linalg.norm(K, axis=1, keepdims=True)
@@ -21,47 +22,86 @@ def balls(n):
     D[0], K[1] = 0.0, 0.0
     J[2], D[2], K[2], g[2] = (1, 2, 4), 3.0, (4.32, -2.16, 3.24), np.array([2, 3, 6]) / 7  # folds at its fourth step
     J[3], D[3], K[3] = (1, 2, 4), 3.0, (3.1, 0.2, 0.1)  # beyond the certificate
-    K[4] = (1e-310, 2e-309, 0)
+    K[4] = (tiny, 20 * tiny, 0)
+    D[5:8], K[8] = (1e2, 1e6, heavy), 1e4 * K[8]  # and more than any rotation has
     return Ball(J, D), K, g
 
 
-@pytest.mark.parametrize("n", [9, block.LANES, 150])
-def test_a_batch_is_its_balls_to_the_bit(n):
-    ball, K, g = balls(n)
-    run = chapsym.trajectory(ball, K, g, 2100, every=7)
-    for i in [*range(8), n - 1]:
-        one = Ball(ball.mass_tensor[i], ball.D[i])
-        if i == 2:
-            assert run.status[i] == Status.FOLDED
-            assert run.taken[i] == 3
-            assert np.isnan(run.momentum[i, 1:]).all()
-            continue
-        alone = chapsym.trajectory(one, K[i], g[i], 2100, every=7)
-        assert run.status[i] == 0
-        assert run.taken[i] == 2100
-        assert (alone.momentum == run.momentum[i]).all()
-        assert (alone.gamma == run.gamma[i]).all()
-
-
-def long_steps(n, sizes=(0.25, 0.3, 0.4, 0.45)):
+def long_steps(n):
     """n balls whose steps need more than one round, up to a little below the bound of the certificate."""
     random = np.random.default_rng(9)
     K, g = random.normal(size=(n, 3)), random.normal(size=(n, 3))
-    K *= random.choice(sizes, (n, 1)) / np.linalg.norm(K, axis=1, keepdims=True)
+    K *= random.choice([0.25, 0.3, 0.4, 0.45], (n, 1)) / np.linalg.norm(K, axis=1, keepdims=True)
+    if n > block.LANES:
+        K[3] *= 0.7 / np.linalg.norm(K[3])
     return Ball((0.1, 0.5, 1.6), 0.7), K, g / np.linalg.norm(g, axis=1, keepdims=True)
 
 
-@pytest.mark.parametrize("precision", ["double", "single"])
-def test_a_batch_of_long_steps_is_its_balls_to_the_bit(precision):
-    """One of them cannot be certified: it neither stops the rounds of the others nor is settled by them."""
-    ball, K, g = long_steps(2 * block.LANES + 5)
-    K[3] *= 0.7 / np.linalg.norm(K[3])
-    run = chapsym.trajectory(ball, K, g, 100, precision=precision)
-    for i in range(0, len(K), 3):
-        alone = chapsym.trajectory(ball, K[i], g[i], 100, precision=precision)
-        assert run.taken[i] == len(alone.momentum) - 1 == 100
-        assert (alone.momentum == run.momentum[i]).all()
-        assert (alone.gamma == run.gamma[i]).all()
+def floats_of(run):
+    """All arrays of a run; of pairs both halves."""
+    halves = [run] if run.low is None else [run, run.low]
+    found = (getattr(half, name) for half in halves for name in ("momentum", "gamma", "attitude", "contact"))
+    return [array for array in found if array is not None]
+
+
+def alone(*arguments, **options):
+    """A run of one ball up to its end, why it ended there and after how many steps."""
+    try:
+        run = chapsym.trajectory(*arguments, **options)
+    except StepNotTaken as stopped:
+        return stopped.trajectory, stopped.status, stopped.index
+    return run, Status.TAKEN, run.taken
+
+
+@pytest.mark.parametrize(
+    ("precision", "made", "n", "numba"),
+    [(p, balls, n, True) for p in RUNGS for n in (9, block.LANES, 150)]
+    + [("single", balls, n, False) for n in (9, 150)]
+    + [("double", balls, 40, False)]
+    + [(p, long_steps, 2 * block.LANES + 5, True) for p in RUNGS],
+)
+def test_a_batch_is_its_balls_to_the_bit(precision, made, n, numba, monkeypatch):
+    """One of the long steps cannot be certified: it neither stops the rounds of the others nor is settled by them."""
+    ball, K, g = made(n, 1e-12, 1e8) if precision == "single" and made is balls else made(n)
+    options = {"every": 7, "precision": precision}
+    with monkeypatch.context() as patch:
+        if not numba:
+            patch.setattr(double, "has_numba", lambda: False)
+        run = chapsym.trajectory(ball, K, g, 2100, **options)
+    J, D = np.broadcast_to(ball.mass_tensor, (n, 3)), np.broadcast_to(ball.D, n)
+    for i in [*range(9), *range(9, n, 31), n - 1]:
+        one, *end = alone(Ball(J[i], D[i]), K[i], g[i], 2100, **options)
+        assert [run.status[i], run.taken[i]] == end
+        for all_, few in zip(floats_of(run), floats_of(one), strict=True):
+            assert np.array_equal(all_[i, : len(few)], few)
+            assert np.isnan(all_[i, len(few) :]).all()
+    assert made is not balls or run.status[[2, 8]].tolist() == [Status.FOLDED, Status.UNREACHABLE]
+
+
+@pytest.mark.parametrize("precision", RUNGS)
+@pytest.mark.parametrize("options", [{}, {"order": 4}, {"contact": True}, {"order": 8, "contact": True}])
+def test_plain_is_compiled_to_the_bit(precision, options, monkeypatch):
+    ball, state = Ball((0.1, 0.5, 1.6), 0.7, radius=0.1), ((0.03, -0.02, 0.035), np.array([2, 3, 6]) / 7)
+    with monkeypatch.context() as patch:
+        patch.setattr(double, "has_numba", lambda: False)
+        steps = 120 if precision == "quad" and options else 1100
+        plain = chapsym.trajectory(ball, *state, steps, precision=precision, **options)
+    run = chapsym.trajectory(ball, *state, 2200, precision=precision, **options)
+    for few, many in zip(floats_of(plain), floats_of(run), strict=True):
+        assert np.array_equal(few, many[: len(few)])
+
+
+@pytest.mark.parametrize("precision", RUNGS)
+def test_no_balls_and_no_axes(precision):
+    none = chapsym.trajectory(Ball((1, 2, 4), 3), np.zeros((0, 3)), np.zeros((0, 3)), 5, precision=precision)
+    assert {x.shape for x in floats_of(none)} == {(0, 6, 3)}
+    ball, K = Ball((1, 2, 4), np.array(3.0)), (0.03, -0.02, 0.035)
+    run = chapsym.trajectory(ball, K, np.float32((0, 0, 1)), np.int64(5), precision=precision)
+    assert run.momentum.shape == (6, 3)
+    assert chapsym.trajectory(ball, K, (0, 0, 1), 0, attitude=True, precision=precision).momentum.shape == (1, 3)
+    assert (chapsym.trajectory(ball, (0, 0, 0), (0, 0, 1), 5, precision=precision).momentum == 0).all()
+    with pytest.raises(BadInput, match="3 components"):
+        chapsym.trajectory(ball, np.float32(1.0), (0, 0, 1), 5, precision=precision)
 
 
 def block_of(n):
@@ -121,25 +161,13 @@ def test_a_block_of_long_steps_mends_no_lane(monkeypatch):
     assert few == []
 
 
-def test_without_numba_a_batch_takes_the_same_steps(monkeypatch):
-    ball, K, g = balls(40)
-    run = chapsym.trajectory(ball, K, g, 200, every=10)
-    monkeypatch.setattr(double, "has_numba", lambda: False)
-    plain = chapsym.trajectory(ball, K, g, 200, every=10)
-    assert np.array_equal(run.momentum, plain.momentum, equal_nan=True)
-    assert np.array_equal(run.gamma, plain.gamma, equal_nan=True)
-    for name in ("taken", "status"):
-        assert (getattr(run, name) == getattr(plain, name)).all()
-
-
-def test_threads_change_nothing():
+@pytest.mark.parametrize("precision", ["double", "quad"])
+@pytest.mark.parametrize("options", [{}, {"attitude": True}])
+def test_threads_change_nothing(precision, options):
     ball, K, g = balls(300)
-    one, two = (chapsym.trajectory(ball, K, g, 100, threads=n) for n in (1, 2))
-    assert np.array_equal(one.momentum, two.momentum, equal_nan=True)
-    assert (one.taken == two.taken).all()
-    assert (one.status == two.status).all()
-    one, two = (chapsym.trajectory(ball, K, g, 20, attitude=True, threads=n) for n in (1, 2))
-    assert np.array_equal(one.attitude, two.attitude, equal_nan=True)
+    one, two = (chapsym.trajectory(ball, K, g, 20, threads=n, precision=precision, **options) for n in (1, 2))
+    for a, b in zip([*floats_of(one), one.taken, one.status], [*floats_of(two), two.taken, two.status], strict=True):
+        assert np.array_equal(a, b, equal_nan=True)
 
 
 def test_chunks_change_nothing(monkeypatch):

@@ -12,7 +12,7 @@ from small_branch import certified, prepared
 from chapsym import testing
 from chapsym.dynamics.loops import gibbs, loop
 from chapsym.dynamics.loops.branch import small_rotation
-from chapsym.generated import gibbs_newton, gibbs_second, turn
+from chapsym.generated import gibbs_newton
 
 J = (0.1, 0.5, 1.6)
 I = (2.1, 1.7, 0.6)
@@ -99,46 +99,6 @@ def test_the_bound_on_what_a_correction_leaves_is_one(state):
         after = np.array(n) / det
         d = after - guess
         assert np.linalg.norm(after - root) <= (d @ d) * gibbs.LEFT * size / enough * (1 + 1e-9) + 1e-12 * size
-
-
-def test_the_second_correction_is_that_of_the_lemma():
-    """G(u + d + e) is smaller than G(u + d) by a factor of |d|, in Fractions."""
-    exact = [Fraction(x).limit_denominator(100) for x in (0.1, -0.05, 0.02, 0.15, -0.1, 0.1)]
-    u, k = exact[:3], exact[3:]
-    g, inertia = [Fraction(x, 7) for x in (2, 3, 6)], [Fraction(x, 10) for x in (21, 17, 6)]
-    det, *rest = gibbs_newton(*u, *k, *g, *inertia, Fraction(7, 10))
-    n, cofactors = rest[:3], rest[3:]
-    d = [x / det - y for x, y in zip(n, u, strict=True)]
-    e = gibbs_second(*d, *k, *cofactors, *inertia)
-    before = distance([x / det for x in n], k, g, inertia)
-    after = distance([(x - y) / det for x, y in zip(n, e, strict=True)], k, g, inertia)
-    assert 0 < after < before * 3 * max(map(abs, d))
-
-
-def distance(u, k, g, inertia):
-    """|G(u)| by the vector formula."""
-    contact = Fraction(7, 10)
-    along = sum(x * y for x, y in zip(u, g, strict=True))
-    swirl = cross(u, [i * x for i, x in zip(inertia, u, strict=True)])
-    norm = 1 + sum(x * x for x in u)
-    rows = [
-        (i + contact) * x - contact * along * y + s - norm * z
-        for i, x, y, s, z in zip(inertia, u, g, swirl, k, strict=True)
-    ]
-    return max(map(abs, rows))
-
-
-def cross(a, b):
-    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-
-
-def test_turn_is_the_same_for_a_quaternion_of_any_length():
-    p, v = [Fraction(x, 3) for x in (5, 1, -2, 1)], [Fraction(x) for x in (1, -2, 4)]
-    once = turn(*p, *v)
-    assert once == turn(*(7 * x for x in p), *v)
-    moved = [x + y for x, y in zip(v, once, strict=True)]
-    assert sum(x * x for x in moved) == sum(x * x for x in v)
-    assert moved != v
 
 
 def test_what_would_underflow_takes_the_safe_way():

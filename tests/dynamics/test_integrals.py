@@ -8,17 +8,6 @@ from hypothesis import strategies as st
 
 from chapsym import testing
 from chapsym.dynamics.loops import integrals, loop
-from chapsym.numbers import pairs
-
-NUMBERS = st.floats(-1e100, 1e100, allow_subnormal=False).filter(lambda x: x == 0 or abs(x) > 1e-100)
-
-
-@given(NUMBERS, NUMBERS)
-def test_products_and_sums_are_exact(a, b):
-    high, low = pairs.split_product(a, b)
-    assert Fraction(high) + Fraction(low) == Fraction(a) * Fraction(b)
-    high, low = pairs.two_sum(a, b)
-    assert Fraction(high) + Fraction(low) == Fraction(a) + Fraction(b)
 
 
 def exact(state):
@@ -52,11 +41,3 @@ def test_the_integrals_come_back(state, off):
     for found, wanted, scale, more in zip(exact(array), kept(array), scales, [0.0, left, 0.0], strict=True):
         # The corrections are rounded to 53 bits of 1e2 units, and divided by sin² of the angle of 𝒦 and γ.
         assert abs(float(found - wanted)) <= (1e-24 / integrals.VERTICAL + more) * scale
-
-
-def test_rest_has_nothing_to_restore():
-    array = np.zeros(loop.ROWS)
-    loop.prepare((0.0, 0.0, 0.0), (0.0, 0.0, 1.0), (1.0, 2.0, 3.0), 1.0, array)
-    before = array.copy()
-    integrals.restore(array)
-    assert (array == before).all()

@@ -10,7 +10,7 @@ import pytest
 import chapsym
 from chapsym import BadInput, Ball, Status, StepNotTaken
 from chapsym.dynamics import kernels
-from chapsym.dynamics.levels import double, single
+from chapsym.dynamics.levels import single
 from chapsym.dynamics.levels.frames import Balls
 from chapsym.dynamics.oracle import Oracle
 from chapsym.studies import check
@@ -143,52 +143,6 @@ def test_products_are_split_exactly():
     assert (rest != 0).any()
 
 
-@pytest.mark.parametrize("options", [{}, {"order": 4}, {"contact": True}, {"order": 8, "contact": True}])
-def test_plain_is_compiled_to_the_bit(options, monkeypatch):
-    plain = {}
-    with monkeypatch.context() as patch:
-        patch.setattr(double, "has_numba", lambda: False)
-        plain = chapsym.trajectory(BALL, K, G, 1100, every=50, precision="single", **options)
-    run = chapsym.trajectory(BALL, K, G, 2200, every=50, precision="single", **options)
-    for name in ("momentum", "gamma", "attitude", "contact"):
-        a, b = getattr(plain, name), getattr(run, name)
-        assert a is b is None or (a == b[: len(a)]).all()
-
-
-def mixture(n):
-    """Balls at random, among them one at rest, one that folds at its fourth step, one beyond the certificate."""
-    rng = np.random.default_rng(9)
-    J, D = rng.uniform(0.1, 2.0, (n, 3)), rng.uniform(0.0, 2.0, n)
-    k, g = rng.normal(size=(n, 3)), rng.normal(size=(n, 3))
-    k *= 0.3 * J.min(axis=1, keepdims=True) * rng.uniform(0, 1, (n, 1)) / np.linalg.norm(k, axis=1, keepdims=True)
-    g /= np.linalg.norm(g, axis=1, keepdims=True)
-    D[0], k[1], k[4] = 0.0, 0.0, (1e-12, 2e-13, 0)
-    J[2], D[2], k[2], g[2] = (1, 2, 4), 3.0, (4.32, -2.16, 3.24), np.array([2, 3, 6]) / 7
-    J[3], D[3], k[3] = (1, 2, 4), 3.0, (3.1, 0.2, 0.1)
-    return Ball(J, D), k, g / np.linalg.norm(g, axis=1, keepdims=True)
-
-
-@pytest.mark.parametrize("numba", [True, False])
-@pytest.mark.parametrize("n", [9, 170])
-def test_a_batch_is_its_balls_to_the_bit(n, numba, monkeypatch):
-    ball, k, g = mixture(n)
-    if not numba:
-        monkeypatch.setattr(double, "has_numba", lambda: False)
-    run = chapsym.trajectory(ball, k, g, 1100, every=11, precision="single")
-    assert run.momentum.dtype == np.float32
-    monkeypatch.undo()
-    for i in [*range(6), n - 1]:
-        one = Ball(ball.mass_tensor[i], ball.D[i])
-        if i == 2:
-            assert (run.status[i], run.taken[i]) == (Status.FOLDED, 3)
-            assert np.isnan(run.momentum[i, 1:]).all()
-            continue
-        alone = chapsym.trajectory(one, k[i], g[i], 1100, every=11, precision="single")
-        assert run.status[i] == 0
-        assert (alone.momentum == run.momentum[i]).all()
-        assert (alone.gamma == run.gamma[i]).all()
-
-
 @pytest.mark.parametrize("order", [2, 4, 6, 8])
 def test_a_run_is_that_of_float64_from_the_rounded_state(order):
     """Each step errs by an ulp of its rotation, and they add up like √n: 100 steps by 5 ulps, at κ up to 10."""
@@ -274,15 +228,6 @@ def test_statuses_are_those_of_float64():
     assert np.isnan([*q[0], *k[0], *g[0]]).all()
 
 
-def test_many_steps_at_once_are_single_steps():
-    ball, k, g = mixture(100)
-    whole = step_all(k, g, ball.mass_tensor, ball.D)
-    for i in range(8):
-        one = step_all(k[i : i + 1], g[i : i + 1], ball.mass_tensor[i : i + 1], ball.D[i : i + 1])
-        for a, b in zip(whole, one, strict=True):
-            assert np.array_equal(a[i], b[0], equal_nan=True)
-
-
 def test_a_run_goes_on_from_its_end_and_back():
     run = chapsym.trajectory(BALL, K, G, 300, contact=True, precision="single")
     on = chapsym.trajectory(BALL, run.momentum[-1], run.gamma[-1], 5, attitude=run.attitude[-1], precision="single")
@@ -321,15 +266,3 @@ def test_arrays_of_every_kind_are_taken(precision, kind):
     assert np.abs(run.gamma - plain.gamma).max() <= near
     step = chapsym.step(Ball(*given[:2]), *given[2:])
     assert np.abs(step.gamma - plain.gamma[:, 1]).max() <= 4 * ULP
-
-
-@pytest.mark.parametrize("precision", ["single", "double"])
-def test_no_balls_and_no_axes(precision):
-    none = chapsym.trajectory(Ball((1, 2, 4), 3), np.zeros((0, 3)), np.zeros((0, 3)), 5, precision=precision)
-    assert none.momentum.shape == (0, 6, 3)
-    run = chapsym.trajectory(Ball((1, 2, 4), np.array(3.0)), K, np.float32((0, 0, 1)), np.int64(5), precision=precision)
-    assert run.momentum.shape == (6, 3)
-    assert chapsym.trajectory(BALL, K, G, 0, precision=precision).momentum.shape == (1, 3)
-    assert (chapsym.trajectory(BALL, (0, 0, 0), G, 5, precision=precision).momentum == 0).all()
-    with pytest.raises(BadInput, match="3 components"):
-        chapsym.trajectory(BALL, np.float32(1.0), G, 5, precision=precision)
