@@ -2,7 +2,6 @@
 
 from fractions import Fraction
 
-import mpmath
 import numpy as np
 import pytest
 
@@ -11,6 +10,7 @@ from chapsym.dynamics import extrapolation, kernels
 from chapsym.dynamics.levels import double
 from chapsym.dynamics.loops import guess, lanes
 from chapsym.dynamics.trajectories import initial_attitude
+from chapsym.studies.trade.reference import continuous
 
 BALL = chapsym.Ball((0.1, 0.5, 1.6), 0.7)
 K = np.array([1, -0.5, 0.75]) / np.sqrt(1 + 0.25 + 0.5625)
@@ -18,26 +18,17 @@ GAMMA = np.array([2, 3, 6]) / 7
 UNIT_ROUNDOFF = 2.0**-53
 
 
-def continuous(time):
-    """(2.12), (2.13) by mpmath's Taylor series at 25 digits: nothing of the map in it."""
-    with mpmath.workdps(25):
-        J, D = [mpmath.mpf(float(x)) for x in BALL.mass_tensor], mpmath.mpf(float(BALL.D))
-        L = mpmath.diag([J[1] + J[2] + D, J[0] + J[2] + D, J[0] + J[1] + D])
-
-        def cross(a, b):
-            return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-
-        def field(_, y):
-            g = mpmath.matrix(y[3:])
-            omega = mpmath.lu_solve(L - D * g * g.T, mpmath.matrix(y[:3]))
-            return cross(y[:3], omega) + cross(y[3:], omega)
-
-        return np.array(mpmath.odefun(field, 0, [*K, *GAMMA])(time), dtype=float)
-
-
 @pytest.fixture(scope="module")
 def at_two():
-    return continuous(2)
+    """K and γ after 2 s, by a Taylor series: nothing of the map in it."""
+    return continuous(BALL, K, GAMMA, None, [Fraction(2)], 25)[0, :6].astype(float)
+
+
+@pytest.fixture(params=[0, 10**9], ids=["lanes", "plain"])
+def short_run(request, monkeypatch):
+    """Shorter runs than this are in plain Python, whatever another test has loaded: all are compiled, or none."""
+    monkeypatch.setattr(double, "SHORT_RUN", request.param)
+    monkeypatch.setattr(double, "_ready", set())
 
 
 def error(reference, *args, **kwargs):
@@ -138,15 +129,13 @@ def test_lanes_do_not_need_the_safe_way(monkeypatch, time_step, rounds):
     assert not calls
 
 
-@pytest.mark.parametrize("short_run", [0, 10**9])
+@pytest.mark.usefixtures("short_run")
 @pytest.mark.parametrize("thin", [1.0, 1e-6, 1e-12])
-def test_a_top_that_turns_about_its_axis(monkeypatch, short_run, thin):
+def test_a_top_that_turns_about_its_axis(thin):
     """D = 0 and K along the axis: γ turns about it with ω = K3/I3, as thin as the body may be.
 
     50 steps with a few roundings each, times Σ|w| = 54.
     """
-    monkeypatch.setattr(double, "SHORT_RUN", short_run)
-    monkeypatch.setattr(double, "_ready", set())
     top = chapsym.Ball((thin, thin, 1.0), 0.0)
     end = chapsym.extrapolate(top, (0, 0, thin), GAMMA, 0.5, 50)
     angle = -0.5 * 0.5 * 50
@@ -156,19 +145,16 @@ def test_a_top_that_turns_about_its_axis(monkeypatch, short_run, thin):
     assert (end.angular_momentum == (0, 0, thin)).all()
 
 
-def test_a_body_too_thin_for_float64_is_refused(monkeypatch):
-    monkeypatch.setattr(double, "SHORT_RUN", 0)
-    monkeypatch.setattr(double, "_ready", set())
+@pytest.mark.usefixtures("short_run")
+def test_a_body_too_thin_for_float64_is_refused():
     with pytest.raises(chapsym.StepNotTaken) as caught:
         chapsym.extrapolate(chapsym.Ball((1e-200, 1e-200, 1.0), 0.0), (0, 0, 1e-200), GAMMA, 0.5, 50)
     assert caught.value.status is chapsym.Status.NO_INERTIA
 
 
-@pytest.mark.parametrize("short_run", [0, 10**9])
+@pytest.mark.usefixtures("short_run")
 @pytest.mark.parametrize(("mass", "time"), [(1.0, 1.0), (2.0**-200, 1.0), (2.0**300, 2.0**200), (1.0, 2.0**-400)])
-def test_units_do_not_matter(monkeypatch, short_run, mass, time):
-    monkeypatch.setattr(double, "SHORT_RUN", short_run)
-    monkeypatch.setattr(double, "_ready", set())
+def test_units_do_not_matter(mass, time):
     known = chapsym.extrapolate(BALL, K, GAMMA, 0.5, 5)
     ball = chapsym.Ball(BALL.mass_tensor * mass, BALL.D * mass)
     end = chapsym.extrapolate(ball, K * (mass / time), GAMMA, 0.5 * time, 5)
@@ -176,10 +162,8 @@ def test_units_do_not_matter(monkeypatch, short_run, mass, time):
     assert (end.gamma == known.gamma).all()
 
 
-@pytest.mark.parametrize("short_run", [0, 10**9])
-def test_where_nothing_moves(monkeypatch, short_run):
-    monkeypatch.setattr(double, "SHORT_RUN", short_run)
-    monkeypatch.setattr(double, "_ready", set())
+@pytest.mark.usefixtures("short_run")
+def test_where_nothing_moves():
     for momentum, time_step, steps in ((0 * K, 0.5, 9), (K, 0.0, 9), (K, 0.5, 0), (1e-310 * K, 0.5, 9)):
         end = chapsym.extrapolate(BALL, momentum, GAMMA, time_step, steps)
         assert (end.angular_momentum == momentum).all()
@@ -201,10 +185,8 @@ def test_the_attitude_turns_with_gamma_and_the_momentum_stays_in_space():
     assert chapsym.extrapolate(BALL, K, GAMMA, 0.5, 1).attitude is None
 
 
-@pytest.mark.parametrize("short_run", [0, 10**9])
-def test_a_step_beyond_the_fold_raises_for_one_and_is_told_for_a_batch(monkeypatch, short_run):
-    monkeypatch.setattr(double, "SHORT_RUN", short_run)
-    monkeypatch.setattr(double, "_ready", set())
+@pytest.mark.usefixtures("short_run")
+def test_a_step_beyond_the_fold_raises_for_one_and_is_told_for_a_batch():
     with pytest.raises(chapsym.StepNotTaken) as caught:
         chapsym.extrapolate(BALL, 100 * K, GAMMA, 1.0, 3)
     assert caught.value.index == 0
