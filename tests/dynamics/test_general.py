@@ -48,26 +48,6 @@ def test_in_three_dimensions_it_is_the_same_map(state):
 
 
 @pytest.mark.parametrize("n", SIZES)
-def test_a_step_goes_back(n):
-    """The map is reversible: from (-𝒦, γ) after the step Ωᵀ leads to (-𝒦, γ) before it."""
-
-    @given(states(n, fraction=(0.0, 0.3)))
-    @examples(20 if n < 8 else 6)
-    def back(state):
-        K, gamma, J, D = state
-        ball = BallN(J, D)
-        there = step_n(ball, K, gamma)
-        again = step_n(ball, -there.momentum, there.gamma)
-        kappa = condition(offset(state), state)
-        tolerance = 32 * UNIT_ROUNDOFF * (1 + np.abs(there.rotation - np.eye(n)).max() * kappa)
-        assert np.abs(again.rotation - there.rotation.T).max() <= tolerance
-        assert np.abs(again.gamma - gamma).max() <= tolerance
-        assert np.abs(again.momentum + K).max() <= tolerance * np.abs(K).max()
-
-    back()
-
-
-@pytest.mark.parametrize("n", SIZES)
 def test_equal_moments_and_no_contact_give_sines(n):
     """For J = 1, D = 0 a rotation by θ in a plane has the momentum 2 sin θ: the branch folds at 90°."""
     plane = so_n.from_coordinates(np.eye(n * (n - 1) // 2)[1], n)
@@ -159,13 +139,6 @@ def test_layout_and_emptiness_do_not_matter():
         assert (step_n(BallN(J4, 3), view, G4[::-1].copy()[::-1]).momentum == expected).all()
     empty = step_n(BallN(J4, 3), np.zeros((2, 0, 4, 4)), G4)
     assert (empty.momentum.shape, empty.gamma.shape, empty.status.shape) == ((2, 0, 4, 4), (2, 0, 4), (2, 0))
-
-
-def test_what_was_given_is_not_changed():
-    K, gamma = K4 * 0.1, G4.copy()
-    step_n(BallN(J4, 3), K, gamma)
-    assert (K == K4 * 0.1).all()
-    assert (gamma == G4).all()
 
 
 def test_a_momentum_that_is_skew_up_to_rounding_is_made_so():

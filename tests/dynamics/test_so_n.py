@@ -69,18 +69,6 @@ def test_the_jacobian_is_the_derived_momentum_along_every_plane(n):
     exactly()
 
 
-def test_the_momentum_vanishes_at_the_identity_for_every_n():
-    assert derived.ALGEBRA.is_zero(derived.momentum().subs({derived.Omega: 1, derived.OmegaT: 1}))
-
-
-def test_rational_points_agree_too():
-    """Not only whole numbers: the same function on exact fractions."""
-    n = 4
-    X = np.array([[Fraction(i * j + 1, 3 + i) for j in range(n)] for i in range(n)])
-    gamma, J, D = np.array([Fraction(1, k + 2) for k in range(n)]), np.array([Fraction(k, 7) for k in range(n)]), 5
-    assert (so_n.momentum(X, gamma, J, np.array(Fraction(D))) == words(X, gamma, J, D)).all()
-
-
 @pytest.mark.parametrize("n", [3, 4, 5])
 def test_half_a_twist_is_the_step_of_the_centre(n):
     """Δr/ρ = R twist/2 satisfies the discrete constraint (4.9), whose γ points down."""

@@ -4,10 +4,8 @@ import numpy as np
 import pytest
 from balls_n import SIZES, UNIT_ROUNDOFF, batch
 
-import chapsym
 from chapsym import (
     BadInput,
-    Ball,
     BallN,
     Status,
     StepNotTaken,
@@ -18,7 +16,6 @@ from chapsym import (
     step_n,
     trajectory_n,
 )  # fmt: skip
-from chapsym.dynamics import kernels
 from chapsym.dynamics.n import so_n
 
 
@@ -57,12 +54,6 @@ def test_the_invariants_are_those_of_the_matrix(n):
     assert values[-1] == pytest.approx(1)
 
 
-def test_in_three_dimensions_the_invariants_are_the_vectors_ones():
-    _, K, gamma = batch(3, 4, 1.0)
-    h, square, unit = np.moveaxis(kernels.invariants(axial(K), gamma), -1, 0)
-    assert np.allclose(invariants_n(K, gamma), np.stack([-2 * square, h * h - square, unit], axis=-1), atol=1e-14)
-
-
 def growth(ball, K, gamma, steps):
     """How much a change of 1e-7 of 𝒦 grows, relative to 𝒦, at the worst."""
     n = ball.n
@@ -89,60 +80,6 @@ def test_the_way_back_leads_to_the_start(n):
     assert length > 0.3
     assert np.abs(back.contact[:, ::-1] - run.contact).max() <= budget * length
     assert back.index.tolist() == run.index.tolist()
-
-
-def test_in_three_dimensions_it_is_the_same_trajectory():
-    steps = 200
-    ball, K, gamma = batch(3, 5, 0.1)
-    special = chapsym.trajectory(
-        Ball(ball.mass_tensor, ball.D, ball.radius), axial(K), gamma, steps, every=50, contact=True
-    )  # fmt: skip
-    general = trajectory_n(ball, K, gamma, steps, every=50, contact=True)
-    budget = 4 * UNIT_ROUNDOFF * 2 * steps * growth(ball, K, gamma, steps)
-    assert np.abs(axial(general.momentum) - special.momentum).max() <= budget * np.abs(K).max()
-    assert np.abs(general.gamma - special.gamma).max() <= budget
-    assert np.abs(general.attitude - kernels.rotation(special.attitude)).max() <= budget
-    assert np.abs(general.contact - special.contact).max() <= budget * np.abs(special.contact).max()
-
-
-def continuous(J, D, K, gamma, time, steps):
-    """(2.12), (2.13) by Runge's and Kutta's fourth order: K' = [K, ω], γ' = -ωγ."""
-    n = len(J)
-    basis = so_n.from_coordinates(np.eye(n * (n - 1) // 2), n)
-
-    def rate(K, gamma):
-        Gamma = np.outer(gamma, gamma)
-        images = [np.diag(J) @ b + b @ np.diag(J) + D * (Gamma @ b + b @ Gamma) for b in basis]
-        matrix = np.stack([so_n.coordinates(image) for image in images], axis=-1)
-        omega = so_n.from_coordinates(np.linalg.solve(matrix, so_n.coordinates(K)), n)
-        return K @ omega - omega @ K, -omega @ gamma
-
-    h = time / steps
-    for _ in range(steps):
-        a = rate(K, gamma)
-        b = rate(K + h / 2 * a[0], gamma + h / 2 * a[1])
-        c = rate(K + h / 2 * b[0], gamma + h / 2 * b[1])
-        d = rate(K + h * c[0], gamma + h * c[1])
-        K, gamma = (x + h / 6 * (p + 2 * q + 2 * r + s) for x, p, q, r, s in zip((K, gamma), a, b, c, d, strict=True))
-    return K, gamma
-
-
-@pytest.mark.parametrize("n", [4, 5])
-def test_the_map_tends_to_the_continuous_ball_with_order_2(n):
-    J, D = np.linspace(0.5, 1.5, n), 0.7
-    _, K, gamma = (x[0] if isinstance(x, np.ndarray) else x for x in batch(n, 1, 1.0))
-    expected, coarse = (continuous(J, D, K, gamma, 1.0, steps) for steps in (800, 400))
-    truth = max(np.abs(x - y).max() for x, y in zip(expected, coarse, strict=True)) / 15
-    errors = []
-    for steps in (8, 16, 32, 64, 128):
-        run = trajectory_n(BallN(J, D), K / steps, gamma, steps, every=steps)
-        errors.append(
-            max(np.abs(run.momentum[-1] * steps - expected[0]).max(), np.abs(run.gamma[-1] - expected[1]).max())
-        )
-    assert truth < 1e-4 * errors[-1]
-    orders = np.log2(np.array(errors[:-1]) / errors[1:])
-    assert np.abs(orders - 2).max() < 0.05
-    assert abs(orders[-1] - 2) < 0.002
 
 
 def test_only_the_frames_that_are_kept_are_allocated():
