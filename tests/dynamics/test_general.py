@@ -133,6 +133,7 @@ def test_a_batch_longer_than_a_block_is_the_balls_one_by_one():
 
 def test_layout_and_emptiness_do_not_matter():
     K = np.stack([0.1 * K4, 0.2 * K4, 0.3 * K4])
+    K.flags.writeable = False  # what was given is not changed
     views = np.asfortranarray(K), np.repeat(K, 2, axis=0)[::2], np.flip(np.flip(K, 0).copy(), 0)
     expected = step_n(BallN(J4, 3), K, G4).momentum
     for view in views:
