@@ -189,11 +189,12 @@ def taylor(moments, K, attitude, time, steps, order=28):
     return states
 
 
-@pytest.mark.parametrize(("D", "epsilon"), [(0.0, 0.5), (3.0, 0.5), (0.0, 2.0), (3.0, 2.0)])
-def test_the_exact_top_has_no_error_of_the_step(D, epsilon):
+@pytest.mark.parametrize(("D", "side"), [(0.0, 1), (3.0, 1), (3.0, -1)])
+@pytest.mark.parametrize("epsilon", [0.5, 2.0])
+def test_the_exact_top_has_no_error_of_the_step(D, side, epsilon):
     """Up to t = 100: 𝒦, attitude and γ within n^(3/2) ulps of the continuous ball; the map itself is off by 1e-2."""
     ball, steps = Ball((1, 2, 4), D), round(100 / epsilon)
-    K = GAMMA if D else np.array([1.0, -0.5, 0.75])
+    K = side * GAMMA if D else np.array([1.0, -0.5, 0.75])
     moments = ball.inertia + D
     speed = 1 / (1 - D * (GAMMA**2 / moments).sum()) if D else 1.0  # K = HΓ turns as the top with H/(1 - Dl)
     top = exact_top(ball, epsilon * K, GAMMA)
@@ -220,12 +221,6 @@ def test_a_rotation_about_a_principal_axis_is_exact():
     run = top.restore(trajectory(top.ball, top.momentum, axis, 10, attitude=True))
     angle = 10 * 2.0 / (1 + 2)  # I3 = J1 + J2: without rolling about the vertical
     assert np.abs(run.attitude[-1] - [np.cos(angle / 2), 0, 0, np.sin(angle / 2)]).max() <= 32 * ULP
-
-
-def test_only_its_own_run_is_restored():
-    top = exact_top(Ball((1, 2, 4), 0), (0.1, 0.2, 0.1), GAMMA)
-    with pytest.raises(BadInput, match="no trajectory of the exact top"):
-        top.restore(chapsym.trajectory(top.ball, 2 * top.momentum, GAMMA, 3))
 
 
 @pytest.mark.parametrize("size", [1e17, 1.46756e18])

@@ -84,14 +84,6 @@ def test_what_comes_back_is_a_motion_with_the_opposite_momentum(order):
     assert back.kinetic_energy()[::-1] == pytest.approx(run.kinetic_energy(), rel=1e-11)
 
 
-@pytest.mark.parametrize("order", [2, 8])
-def test_twice_reversed_is_the_run(order):
-    run = rolled(order, contact=True)
-    twice = chapsym.reverse(chapsym.reverse(run))
-    for name in ("momentum", "gamma", "attitude", "contact"):
-        assert getattr(twice, name) == pytest.approx(getattr(run, name), abs=1e-12)
-
-
 def test_it_starts_from_the_last_frame_that_is_there():
     run = rolled(2, steps=103, every=10)
     back = chapsym.reverse(run)
