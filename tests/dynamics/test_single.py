@@ -11,7 +11,6 @@ import chapsym
 from chapsym import BadInput, Ball, Status, StepNotTaken
 from chapsym.dynamics import kernels
 from chapsym.dynamics.levels import single
-from chapsym.dynamics.levels.frames import Balls
 from chapsym.dynamics.oracle import Oracle
 from chapsym.studies import check
 
@@ -28,60 +27,45 @@ def rounded(ball, momentum, gamma):
     return Ball(J, D, ball.radius), k, g / np.linalg.norm(g, axis=-1, keepdims=True)
 
 
-def step_all(momentum, gamma, tensor, contact):
-    return single.step_all(Balls(momentum, gamma, tensor, contact, np.ones(len(contact))))
-
-
-def step(state):
-    parts = (state.K, state.g, state.J, state.D)
-    return [x[0] for x in step_all(*(np.asarray(x, float)[np.newaxis] for x in parts))]
-
-
 @pytest.mark.parametrize("stratum", STRATA)
 def test_a_step_keeps_the_promise_of_the_check(stratum):
     """The state is rounded first; the oracle then steps from float32's own numbers."""
     rng = np.random.default_rng(32)
     for _ in range(8):
         state = check.STRATA[stratum](rng)
-        J, D, k, g = (np.asarray(x, np.float32).astype(float) for x in (state.J, state.D, state.K, state.g))
-        g = single.unit(g).astype(float)
-        q, after, vertical, status, _ = step(check.State(J, D, k, g))
-        wide = chapsym.step(Ball(J[np.newaxis], D), k, g / np.linalg.norm(g))
-        assert status == wide.status[0]
-        if status:  # the rounding took the state over the fold
+        ball, k, g = rounded(Ball(state.J, state.D), state.K, state.g)
+        found = chapsym.step(Ball(state.J, state.D), [state.K], state.g, precision="single")
+        wide = chapsym.step(ball, [k], g)
+        assert found.status == wide.status
+        if found.status[0]:  # the rounding took the state over the fold
             assert "before the fold" in stratum
             continue
-        truth = Oracle([*J], float(D), [*(g / np.linalg.norm(g))], 34).step([*k])
-        size, extent = np.abs(k).max(), np.abs(q[1:].astype(float)).max()
-        jacobian = kernels.tangent_jacobian(q.astype(float) / np.linalg.norm(q.astype(float)), g, J, D)
-        top = (J.sum() - J).max() + D
-        kappa = np.linalg.norm(np.linalg.inv(jacobian), 2) * (size / extent + 2 * top)
+        truth = Oracle([*ball.mass_tensor], float(ball.D), [*g], 34).step([*k])
+        q = wide.rotation[0]
+        size, extent = np.abs(k).max(), np.abs(q[1:]).max()
+        inverse = np.linalg.inv(kernels.tangent_jacobian(q, g, ball.mass_tensor, ball.D))
+        kappa = np.linalg.norm(inverse, 2) * (size / extent + 2 * (ball.inertia.max() + ball.D))
 
         def ulps(values, exact, scale):
-            return max(abs(float(e) - float(v)) / scale for v, e in zip(values, exact, strict=True)) / ULP
+            return max(abs(float(e) - float(v)) / scale for v, e in zip(values[0], exact, strict=True)) / ULP
 
-        assert ulps(q[1:], truth.q, extent) <= check.BUDGET * kappa
-        assert ulps(after, truth.momentum, size) <= check.BUDGET * (1 + extent * kappa)
-        assert ulps(vertical, truth.gamma, 1.0) <= check.BUDGET * (1 + extent * kappa)
+        assert ulps(found.rotation[:, 1:], truth.q, extent) <= check.BUDGET * kappa
+        assert ulps(found.momentum, truth.momentum, size) <= check.BUDGET * (1 + extent * kappa)
+        assert ulps(found.gamma, truth.gamma, 1.0) <= check.BUDGET * (1 + extent * kappa)
 
 
 @pytest.mark.parametrize("size", [1e-3, 1e-7, 1e-11, 1e-20, 1e-29])
 def test_a_slow_step_has_all_its_digits(size):
-    state = check.State(BALL.mass_tensor, 0.7, np.array(K) * size, np.array(G))
-    ball, k, g = rounded(BALL, state.K, G)
-    q, _, _, status, _ = step(state)
-    exact = chapsym.step(ball, k, g).rotation
-    assert status == 0
-    assert np.abs(q[1:] / exact[1:] - 1).max() <= 4 * ULP
+    _, k, g = rounded(BALL, np.array(K) * size, G)
+    found, exact = (chapsym.step(BALL, k, g, precision=p).rotation[1:] for p in ("single", "double"))
+    assert np.abs(found / exact - 1).max() <= 4 * ULP
 
 
 def test_all_arrays_are_float32():
     run = chapsym.trajectory(BALL, K, G, 10, contact=True, precision="single")
     assert {x.dtype for x in (run.momentum, run.gamma, run.attitude, run.contact)} == {np.dtype(np.float32)}
-    q, k, g, _, _ = step_all(*(np.array([x]) for x in (K, G, BALL.mass_tensor)), np.array([0.7]))
-    assert {x.dtype for x in (q, k, g)} == {np.dtype(np.float32)}
-    assert (k[0] == run.momentum[1]).all()
-    assert (g[0] == run.gamma[1]).all()
+    step = chapsym.step(BALL, K, G, precision="single")
+    assert {x.dtype for x in (step.rotation, step.momentum, step.gamma)} == {np.dtype(np.float32)}
 
 
 def arithmetic(march, *arguments):
@@ -221,11 +205,10 @@ def test_statuses_are_those_of_float64():
             chapsym.trajectory(ball, k, G, 10, precision="single")
         assert (here.value.status, here.value.index) == (there.value.status, there.value.index)
         assert here.value.reach == pytest.approx(there.value.reach, rel=1e-6)
-    needle = [np.array([x], float) for x in ((0.1, 0, 0), (0, 0, 1), (0, 0, 1), 1)]
-    q, k, g, status, _ = step_all(*needle)
-    exact = chapsym.step(Ball(needle[2], needle[3]), *needle[:2])
-    assert status == exact.status == Status.NO_INERTIA
-    assert np.isnan([*q[0], *k[0], *g[0]]).all()
+    for precision in ("single", "double"):
+        needle = chapsym.step(Ball((0, 0, 1), 1), [(0.1, 0, 0)], (0, 0, 1), precision=precision)
+        assert needle.status == Status.NO_INERTIA
+        assert np.isnan([*needle.rotation[0], *needle.momentum[0], *needle.gamma[0]]).all()
 
 
 def test_a_run_goes_on_from_its_end_and_back():

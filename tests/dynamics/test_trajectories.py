@@ -90,13 +90,6 @@ def test_a_fold_stops_one_ball_with_the_step_and_the_trajectory_before_it():
     assert (again.momentum == error.trajectory.momentum).all()
 
 
-def test_a_fold_in_a_later_chunk_has_its_own_index(monkeypatch):
-    monkeypatch.setattr("chapsym.dynamics.levels.double.CHUNK", 2)
-    with pytest.raises(StepNotTaken) as caught:
-        chapsym.trajectory(BALL, FOLDING, GAMMA, 100)
-    assert caught.value.index == 3
-
-
 @pytest.mark.parametrize("extra", [1, 2000])
 def test_a_batch_reports_which_ball_stopped_where(extra):
     run = chapsym.trajectory(BALL, np.stack([K, FOLDING]), GAMMA, extra + 10, contact=True)
@@ -118,13 +111,6 @@ def test_the_least_attitude_turns_gamma_up(gamma):
     quaternion = attitude_with(gamma)
     assert abs(quaternion @ quaternion - 1) < 4e-16
     assert np.abs(kernels.rotate(quaternion, gamma) - [0, 0, 1]).max() < 4e-16
-
-
-def test_an_attitude_may_be_given():
-    given_attitude = np.array([0.5, 0.5, 0.5, 0.5])
-    gamma = kernels.transport(given_attitude, [0.0, 0.0, 1.0])
-    run = chapsym.trajectory(BALL, K, gamma, 2, attitude=given_attitude)
-    assert (run.attitude[0] == given_attitude).all()
 
 
 @pytest.mark.parametrize(
@@ -150,11 +136,6 @@ def test_a_run_without_an_answer_is_refused(kwargs, sentence):
         chapsym.trajectory(**{"ball": BALL, "momentum": K, "gamma": GAMMA, "steps": 5, **kwargs})
 
 
-@pytest.mark.parametrize("steps", [5, 3000])
-def test_a_huge_every_keeps_the_start(steps):
-    assert chapsym.trajectory(BALL, K, GAMMA, steps, every=10**30).index.tolist() == [0]
-
-
 def test_a_step_that_was_not_taken_can_be_pickled():
     error = StepNotTaken(Status.FOLDED, 0.5, 3)
     again = pickle.loads(pickle.dumps(error))  # as a process pool does with an error of ours
@@ -164,8 +145,6 @@ def test_a_step_that_was_not_taken_can_be_pickled():
 def test_times_need_a_time_step():
     with pytest.raises(BadInput, match="no time step"):
         _ = chapsym.trajectory(BALL, K, GAMMA, 1).time
-    with pytest.raises(BadInput, match="time_step must be one positive number"):
-        chapsym.roll(BALL, (0, 1, 0), 0.0, 1)
 
 
 def test_progress_is_told():
