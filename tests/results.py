@@ -4,53 +4,36 @@ import numpy as np
 import xarray as xr
 
 import chapsym
-from chapsym.dynamics import kernels
+from chapsym.scene.members.members import Members, Parameter
+from chapsym.scene.plan.columns import asked_for
+from chapsym.scene.plan.models.stepwise import FOLLOWED
+from chapsym.scene.plan.plan import planned
+from chapsym.scene.read.task import Task
+from chapsym.scene.result.dataset import build
 
 BOWLING = chapsym.Ball.from_inertia((0.0300, 0.0312, 0.0318), mass=7.0, radius=0.1085)
 UNEVEN = chapsym.Ball.from_inertia((0.006, 0.007, 0.009), mass=2.0, radius=0.1)
 VERTICAL = chapsym.Ball((0.1, 0.5, 1.6), 0.7)
-DIMS = {
-    "momentum": ("axis",), "gamma": ("axis",), "omega": ("axis",), "attitude": ("quaternion",), "contact": ("plane",),
-    "energy": (), "integrals": ("integral",),
-}  # fmt: skip
-UNITS = {"momentum": "kg m2", "gamma": "1", "omega": "rad s-1", "attitude": "1", "contact": "m", "energy": "J"}
-COORDS = {
-    "axis": ["1", "2", "3"], "plane": ["x", "y"], "quaternion": list("wxyz"),
-    "integral": ["K.gamma", "K.K", "gamma.gamma"],
-}  # fmt: skip
 
 
 def of(run, outputs, title="A ball", parameters=None, names=None):
-    """The Dataset of a trajectory, of one ball or a batch, with the outputs that are named."""
-    batch = run.momentum.ndim == 3
-    lift = (lambda a: a) if batch else (lambda a: np.asarray(a)[np.newaxis])
-    J = np.broadcast_to(run.ball.mass_tensor, (*lift(run.taken).shape, 3))
-    D = np.broadcast_to(run.ball.D, lift(run.taken).shape)
-    K, g = lift(run.momentum), lift(run.gamma)
-    found = {"momentum": K, "gamma": g, "attitude": run.attitude, "contact": run.contact}
-    found = {name: lift(a) if name in ("attitude", "contact") and a is not None else a for name, a in found.items()}
-    there = np.isfinite(K).all(axis=-1)[..., np.newaxis]
-    safe_K, safe_g = np.where(there, K, 0.0), np.where(there, g, [0.0, 0.0, 1.0])
-    nan = np.where(there, 0.0, np.nan)
-    found["integrals"] = kernels.invariants(safe_K, safe_g) + nan
-    if run.time_step is not None:
-        arguments = safe_K / run.time_step, safe_g, J[:, np.newaxis], D[:, np.newaxis]
-        found["energy"] = kernels.energy(*arguments) + nan[..., 0]
-        found["omega"] = kernels.angular_velocity(*arguments) + nan
-    data = {
-        name: (("ball", "frame", *DIMS[name]), found[name], {"units": UNITS.get(name, "")}) for name in outputs
-    }  # fmt: skip
-    data |= {
-        "taken": ("ball", lift(run.taken)), "status": ("ball", lift(run.status)),
-        "mass_tensor": (("ball", "axis"), J, {"units": "kg m2"}), "D": ("ball", D, {"units": "kg m2"}),
-    }  # fmt: skip
-    used = {dim for dims, *_ in data.values() for dim in ((dims,) if isinstance(dims, str) else dims)}
-    coords = {dim: labels for dim, labels in COORDS.items() if dim in used}
-    coords |= {"ball": list(names or map(str, range(len(D)))), "step": ("frame", run.index)}
-    if run.time_step is not None:
-        coords["time"] = ("frame", run.time, {"units": "s"})
-    coords |= {name: ("ball", values, {"units": units}) for name, (values, units) in (parameters or {}).items()}
-    return xr.Dataset(data, coords, {"title": title})
+    """The Dataset that `chapsym run` makes of a trajectory, of one ball or a batch, with the outputs that are named."""
+    columns = {name: getattr(run, name) for name in FOLLOWED if getattr(run, name) is not None}
+    state = {"taken": np.atleast_1d(run.taken), "status": np.atleast_1d(run.status)}
+    count = len(state["status"])
+    if not np.ndim(run.status):
+        columns = {name: values[np.newaxis] for name, values in columns.items()}
+    ball, index = run.ball, run.index
+    radius = None if ball.radius is None else np.broadcast_to(ball.radius, count)
+    tensor = np.broadcast_to(ball.mass_tensor, (count, ball.mass_tensor.shape[-1]))
+    members = Members(
+        tuple(names or map(str, range(count))), type(ball)(tensor, np.broadcast_to(ball.D, count), radius),
+        columns["momentum"][:, 0], columns["gamma"][:, 0], parameters=parameters or {},
+    )  # fmt: skip
+    every = int(index[1]) if len(index) > 1 else 1
+    task = Task(tuple(outputs), int(index[-1]), every, getattr(run, "time_step", None))
+    data = build(planned(members, task), asked_for(members, task, columns), state)
+    return data.assign_attrs(title=title)
 
 
 ALL = ("momentum", "gamma", "omega", "attitude", "contact", "energy", "integrals")
@@ -88,7 +71,7 @@ def batch(balls=400, steps=1500, every=5, seed=1, width=0.05):
     run = chapsym.roll(
         UNEVEN, omega, 0.01, steps, gamma=(2 / 7, 3 / 7, 6 / 7), every=every, contact=True
     )  # fmt: skip
-    return of(run, ALL, f"{balls} nearby starts", {"start.omega.1": (omega[:, 0], "rad s-1")})
+    return of(run, ALL, f"{balls} nearby starts", {"start.omega.1": Parameter(omega[:, 0], "rad s-1")})
 
 
 def top(steps=300, every=1):
@@ -105,21 +88,7 @@ def four(steps=1500):
     momentum = np.zeros((4, 4))
     momentum[1, 0], momentum[3, 2], momentum[2, 0] = 0.3, -0.2, 0.1
     run = chapsym.trajectory_n(ball, momentum - momentum.T, (0.1, 0.1, 0.7, 0.7), steps, contact=True)
-    labels = ["1", "2", "3", "4"]
-    return xr.Dataset(
-        {
-            "momentum": (("ball", "frame", "row", "column"), run.momentum[np.newaxis], {"units": "kg m2"}),
-            "gamma": (("ball", "frame", "axis"), run.gamma[np.newaxis]),
-            "attitude": (("ball", "frame", "row", "column"), run.attitude[np.newaxis]),
-            "contact": (("ball", "frame", "plane"), run.contact[np.newaxis], {"units": "m"}),
-            "integrals": (("ball", "frame", "integral"), run.invariants()[np.newaxis]),
-            "mass_tensor": (("ball", "axis"), ball.mass_tensor[np.newaxis]), "D": ("ball", [3.0]),
-            "taken": ("ball", [int(run.taken)]), "status": ("ball", [0]),
-        },
-        {"ball": ["0"], "row": labels, "column": labels, "axis": labels, "plane": labels[:3],
-         "integral": ["tr K^2", "tr K^4", "gamma.K^2.gamma", "gamma.gamma"], "step": ("frame", run.index)},
-        {"title": "A ball in four dimensions"},
-    )  # fmt: skip
+    return of(run, ("momentum", "gamma", "attitude", "contact", "integrals"), "A ball in four dimensions")
 
 
 def folded():
