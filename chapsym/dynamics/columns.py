@@ -38,21 +38,16 @@ def march_columns(
     state: Floats, first: int, count: int, every: int, scale: Floats, momenta: Floats, verticals: Floats,
     taken: np.ndarray, status: np.ndarray, reach: Floats,
 ) -> None:  # fmt: skip
-    """`count` steps of a batch from the step `first` on, without numba: what `block.march_block` does, for any width.
+    """`count` steps of a batch from the step `first` on, without numba: what `block.march_block` does, for a chunk.
 
-    state: (ROWS, n), the rows of `loop`; it moves.  Balls are its first len(status) columns, the others stay.
+    state: (ROWS, balls), the rows of `loop`; it moves.
     scale, taken, status, reach: one for each ball, (balls,), with 𝒦 = scale·k; a ball whose status is not 0 rests.
     momenta, verticals: (balls, frames, 3); the frame i gets the state after i·every steps.
     """
-    balls = len(status)
-    chunks = -(-balls // LANES)
-    width = -(-balls // max(chunks, 1))
     with np.errstate(all="ignore"):  # what a lane without a certificate computes is thrown away
-        for at in range(0, balls, max(width, 1)):
-            mine = slice(at, min(at + width, balls))
-            chunk = Chunk(state[:, mine], taken[mine], status[mine], reach[mine])
-            chunk.march(first, count, every, scale[mine], momenta[mine], verticals[mine])
-            state[:, mine] = chunk.states()
+        chunk = Chunk(state, taken, status, reach)
+        chunk.march(first, count, every, scale, momenta, verticals)
+        state[:] = chunk.states()
 
 
 def rows(count: int, width: int, dtype: DTypeLike = np.float64) -> Floats:
