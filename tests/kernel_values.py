@@ -96,12 +96,7 @@ def gibbs_parts(u, k, g, I, D):
 
 
 def cofactors(A):
-    return [(-1) ** (i + j) * _minor(A, i, j) for i in range(3) for j in range(3)]
-
-
-def _minor(A, i, j):
-    r, c = [x for x in range(3) if x != i], [x for x in range(3) if x != j]
-    return A[r[0], c[0]] * A[r[1], c[1]] - A[r[0], c[1]] * A[r[1], c[0]]
+    return list(MP.det(A) * (A**-1).T)
 
 
 def newton(a):

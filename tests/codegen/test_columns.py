@@ -49,22 +49,6 @@ def test_a_changed_line_is_named(copy):
     assert build.check(copy) == ["columns.py is missing"]
 
 
-def test_a_program_needs_a_trusted_fingerprint(copy):
-    path = copy / build.FINGERPRINTS
-    values = json.loads(path.read_text())
-    values["turn_columns"][0], _ = "1.0", values.pop("second_columns")
-    path.write_text(json.dumps(values))
-    problems = [
-        "second_columns has no trusted fingerprint; after review: chapsym codegen --trust second_columns",
-        "turn_columns changed its value; if that is meant: chapsym codegen --trust turn_columns",
-    ]
-    assert build.check(copy) == problems
-    with pytest.raises(ValueError, match="second_columns has no trusted fingerprint"):
-        build.generate(copy)
-    build.generate(copy, ["second_columns", "turn_columns"])
-    assert build.check(copy) == []
-
-
 def test_the_calls_have_the_bits_of_the_scalar_rounds():
     random = np.random.default_rng(3)
     lanes = 50

@@ -63,14 +63,6 @@ def test_a_ball_at_rest_stays_at_rest(scale):
     assert (step.gamma == GAMMA).all()
 
 
-@pytest.mark.parametrize("size", [1e-300, 1e-150, 1e-12, 1e-3])
-def test_a_tiny_momentum_keeps_its_digits(size):
-    """q tends to half of ω = B⁻¹𝒦, relative to its own size."""
-    step = chapsym.step(BALL, K * size, GAMMA)
-    omega = kernels.angular_velocity(K * size, GAMMA, BALL.mass_tensor, BALL.D)
-    assert np.allclose(step.rotation[1:], omega / 2, rtol=max(4e-16 * 8, 3 * size), atol=0)
-
-
 def test_a_homogeneous_top_folds_at_ninety_degrees():
     """|𝒦| = Λ sin θ on the branch: it ends at θ = 90°, where |𝒦| = Λ is the most that any rotation has."""
     top = Ball((1, 1, 1), 0)
@@ -209,20 +201,17 @@ def test_the_fold_is_the_same_from_however_far_it_is_asked_for(factor):
     assert reach * factor == pytest.approx(4.16172919670e-07, rel=1e-10)
 
 
-@pytest.mark.parametrize("size", [1e3, 1e160, 1e200, 1e300])
-def test_a_huge_momentum_is_unreachable(size):
+@pytest.mark.parametrize(
+    ("ball", "size"),
+    [(BALL, size) for size in (1e3, 1e160, 1e200, 1e300)]
+    + [(Ball((1e-300,) * 3, 0), 1e20), (Ball((5e-324,) * 3, 0), 1e308), (Ball((1, 2, 2), 1e3), 1e6)],
+)
+def test_a_momentum_beyond_the_range_of_its_ball_is_unreachable(ball, size):
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         with pytest.raises(StepNotTaken) as caught:
-            chapsym.step(BALL, (size, -size, size), GAMMA)
-    assert caught.value.status is Status.UNREACHABLE
-
-
-def test_a_momentum_beyond_the_range_of_its_ball_is_unreachable():
-    for ball, size in [(Ball((1e-300,) * 3, 0), 1e20), (Ball((5e-324,) * 3, 0), 1e308), (Ball((1, 2, 2), 1e3), 1e6)]:
-        with pytest.raises(StepNotTaken) as caught:
             chapsym.step(ball, (-size / 2, -size, -size / 2), GAMMA)
-        assert caught.value.status is Status.UNREACHABLE
+    assert caught.value.status is Status.UNREACHABLE
 
 
 def test_a_rod_on_its_end_has_no_inertia():

@@ -93,14 +93,6 @@ def test_it_starts_from_the_last_frame_that_is_there():
     assert back.contact is None
 
 
-def test_a_batch_comes_back():
-    run = rolled(2, momentum=np.outer([0.05, 0.1, 0.2], K), attitude=True)
-    back = chapsym.reverse(run)
-    assert back.momentum[:, -1] == pytest.approx(-run.momentum[:, 0], abs=1e-12)
-    assert chapsym.retrace_error(run, back).shape == (3, 201)
-    assert (chapsym.retrace_error(run, back)[:, 0] < 1e-12).all()
-
-
 @given(testing.states(strata=("generic",), fraction=(0.05, 0.6)))
 @examples(25)
 def test_every_ball_comes_back(state):

@@ -5,6 +5,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 import sympy as sp
+from balls_n import SIZES, UNIT_ROUNDOFF
 from budget import examples
 from hypothesis import given
 from hypothesis import strategies as st
@@ -15,9 +16,6 @@ from chapsym.derive import principle as space
 from chapsym.derive.words import evaluate
 from chapsym.dynamics import kernels
 from chapsym.dynamics.n import so_n
-
-UNIT_ROUNDOFF = 2.0**-53
-SIZES = [3, 4, 5, 8]
 
 
 @st.composite

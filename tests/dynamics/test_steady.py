@@ -72,13 +72,11 @@ def test_every_frame_is_that_of_the_map(state, every):
     ],
 )
 def test_a_million_steps_on_nothing_has_added_up(J, D, momentum, gamma):
-    """The same budget at k = 10⁶; the float64 run itself is off by more."""
+    """The same budget at k = 10⁶."""
     ball = Ball(J, D, radius=0.3)
     run = trajectory(ball, momentum, gamma, 10**6, every=250_000, contact=True, precision="quad")
     found = steady_frames(ball, momentum, gamma, run.index, contact=True)
     assert far_from(run, found) <= BUDGET
-    full = trajectory(ball, momentum, gamma, 10**6, every=250_000, contact=True)
-    assert np.abs(full.gamma - found.gamma).max() <= 1e6 * 4 * ULP  # some roundings a step, all to one side
 
 
 def test_from_the_middle_axis_no_rounding_leads_away():
