@@ -1,6 +1,8 @@
 """The ball in three dimensions (Section 5): rotations by Euler parameters and the vector 𝒦(q, γ)."""
 
+from collections.abc import Iterable
 from functools import cache
+from typing import Any
 
 import sympy as sp
 
@@ -100,6 +102,18 @@ SLIP = sp.Matrix(sp.symbols("c1:4"))
 DRAG = sp.Matrix(sp.symbols("f1:4"))
 
 Steps = list[tuple[sp.Matrix, sp.Matrix]]
+
+
+def placed(*pairs: tuple[Iterable[sp.Symbol], Iterable[Any]]) -> dict[sp.Symbol, Any]:
+    """What stands in the place of the entries of each vector of symbols."""
+    return {symbol: value for symbols, values in pairs for symbol, value in zip(symbols, values, strict=True)}
+
+
+def unrolled(steps: Steps, value: sp.Matrix) -> sp.Matrix:
+    """What steps compute, in their inputs alone."""
+    for names, expressions in reversed(steps):
+        value = value.subs(placed((names, expressions)), simultaneous=True)
+    return value
 
 
 def carried_steps(x: sp.Matrix) -> tuple[Steps, sp.Matrix]:

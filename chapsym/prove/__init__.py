@@ -4,7 +4,7 @@ from .claims import Claim, Judgement, claim, judged
 from .evidence import Proof, Verdict
 from .polynomials import Identity
 from .runner import BrokenScript, load, main, prove_all, unproved
-from .statements import Equation, Fact, Point, rational_point
+from .statements import Equation, Fact, Point, equations, rational_point
 
 __all__ = [
     "BrokenScript",
@@ -17,6 +17,7 @@ __all__ = [
     "Proof",
     "Verdict",
     "claim",
+    "equations",
     "judged",
     "load",
     "main",

@@ -52,9 +52,9 @@ class Proof:
     _printed: list[tuple[Statement, bool]] = field(default_factory=list)
     _corrected: list[tuple[Statement, bool]] = field(default_factory=list)
 
-    def say(self, text: str) -> None:
-        """A line of the derivation."""
-        self.lines.append(text)
+    def say(self, *texts: str) -> None:
+        """Lines of the derivation."""
+        self.lines += texts
 
     def show(self, name: str, value: Any) -> None:
         """A line of the derivation that shows an expression that was just derived."""
@@ -62,14 +62,13 @@ class Proof:
             value = "[" + ",  ".join(str(entry) for entry in value) + "]"
         self.lines.append(f"    {name} = {value}")
 
-    def assume(self, text: str) -> None:
-        """A hypothesis under which the claim is judged."""
-        self.hypotheses.append(text)
+    def assume(self, *texts: str) -> None:
+        """Hypotheses under which the claim is judged."""
+        self.hypotheses += texts
 
-    def lemma(self, statement: Statement) -> None:
-        """A statement that must hold for the proof to stand."""
-        if not self._decide(statement):
-            self.problems.append(f"lemma fails: {statement.text}")
+    def lemma(self, *statements: Statement) -> None:
+        """What must hold for the proof to stand."""
+        self.problems += [f"lemma fails: {s.text}" for s in statements if not self._decide(s)]
 
     def route(self, name: str, *statements: Statement) -> None:
         """A second, independent proof of what was stated; it must agree."""
@@ -120,13 +119,14 @@ class Proof:
         sides = {"statement": statement, "left": [str(found)], "right": [str(claimed)]}
         self.counterexamples.append({"point": dict(values), "printed": [sides], "corrected": []})
 
-    def control(self, statement: Statement) -> None:
-        """A mutated statement, which the same machinery must reject."""
-        rejected = not statement.holds()
-        self.controls.append({"statement": statement.text, "rejected": rejected})
-        self.lines.append(f"  control: {statement.text}: {'rejected, as it must be' if rejected else 'ACCEPTED'}")
-        if not rejected:
-            self.problems.append(f"control accepted: {statement.text}")
+    def control(self, *statements: Statement) -> None:
+        """Mutated statements, which the same machinery must reject."""
+        for statement in statements:
+            rejected = not statement.holds()
+            self.controls.append({"statement": statement.text, "rejected": rejected})
+            self.lines.append(f"  control: {statement.text}: {'rejected, as it must be' if rejected else 'ACCEPTED'}")
+            if not rejected:
+                self.problems.append(f"control accepted: {statement.text}")
 
     def witness(self, name: str, values: Mapping[str, str], *statements: Statement) -> None:
         """An exact point at which the hypotheses hold and the statements, evaluated, are true."""

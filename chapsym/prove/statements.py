@@ -1,6 +1,6 @@
 """Statements that exact arithmetic decides, and the exact points at which they are looked at."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
 
@@ -18,14 +18,16 @@ class Algebra(Protocol):
 
 @dataclass(frozen=True)
 class Equation:
-    """left = right, entry by entry, in an algebra that decides it exactly."""
+    """left = right, entry by entry, exactly, in an algebra; a side is an expression, a matrix or a list of entries."""
 
     text: str
-    left: Sequence[Any]
-    right: Sequence[Any]
+    left: Any
+    right: Any
     algebra: Algebra
 
     def __post_init__(self) -> None:
+        for side in ("left", "right"):
+            object.__setattr__(self, side, _entries(getattr(self, side)))
         if len(self.left) != len(self.right) or not self.left:
             raise ValueError(f"the two sides of «{self.text}» have {len(self.left)} and {len(self.right)} entries")
 
@@ -42,6 +44,21 @@ class Equation:
         """Both sides at a point, as exact rationals; raises if a value is not rational."""
         pairs = [_same_shape(evaluate(a), evaluate(b)) for a, b in zip(self.left, self.right, strict=True)]
         return [_exact(a) for a, _ in pairs], [_exact(b) for _, b in pairs]
+
+
+def equations(usual: Algebra) -> Callable[..., Equation]:
+    """Makes equations in one algebra, where no other is named."""
+
+    def equation(text: str, left: Any, right: Any, algebra: Algebra = usual) -> Equation:
+        return Equation(text, left, right, algebra)
+
+    return equation
+
+
+def _entries(side: Any) -> list[Any]:
+    """A side as the list of its entries."""
+    entries = side if isinstance(side, sp.MatrixBase | Iterable) else [side]
+    return [sp.Integer(entry) if isinstance(entry, int) else entry for entry in entries]
 
 
 @dataclass(frozen=True)

@@ -5,8 +5,8 @@ import sympy as sp
 from chapsym.derive import gibbs, three
 from chapsym.derive.gibbs import BY_INERTIA, I1, I2, I3, INERTIA, d, k, u, v
 from chapsym.derive.quotient import Quotient
-from chapsym.derive.three import D, gamma, q, q0
-from chapsym.prove import Equation, Fact, Proof, claim, main
+from chapsym.derive.three import D, gamma, placed, q, q0
+from chapsym.prove import Equation, Fact, Proof, claim, equations, main
 
 #: Free symbols: nothing is tied, |γ| = 1 is not used.
 FREE = Quotient((*u, *k, *d, *v, *gamma, I1, I2, I3, D), [])
@@ -20,17 +20,12 @@ def momentum_of(point: dict[sp.Symbol, sp.Expr]) -> sp.Matrix:
     return sp.Matrix(three.momentum()).subs(BY_INERTIA, simultaneous=True).subs(point, simultaneous=True)
 
 
-def equal(text: str, left: sp.Matrix, right: sp.Matrix, algebra: Quotient = FREE) -> Equation:
-    """An equation of vectors or matrices, entry by entry."""
-    return Equation(text, list(left), list(right), algebra)
+equal = equations(FREE)
 
 
 def staged(names: sp.Matrix) -> sp.Matrix:
     """What the steps of the kernel compute under these names, in the inputs alone."""
-    values: dict[sp.Symbol, sp.Expr] = {}
-    for symbols, expressions in gibbs.newton_steps()[0][:-1]:  # up to ∂G/∂u: without the cofactors
-        values |= {s: sp.expand(e.xreplace(values)) for s, e in zip(symbols, expressions, strict=True)}
-    return names.xreplace(values)
+    return three.unrolled(gibbs.newton_steps()[0], names).applyfunc(sp.expand)
 
 
 @claim("gibbs", r"B(\gamma)u + u\times Iu = \tfrac12(1+|u|^2)\mathcal K, \quad u = q/q_0", uses=("5.2",))
@@ -40,8 +35,8 @@ def gibbs_form(p: Proof) -> None:
     p.say("𝒦(q, γ) is homogeneous of degree 2 in (q₀, q), and q₀² = 1/(1 + |u|²); with k = 𝒦/2:")
     scale = sp.Symbol("r")
     ring = Quotient((scale, *u, *gamma, I1, I2, I3, D), [])
-    scaled = momentum_of(dict(zip((q0, *q), (scale, *(scale * u)), strict=True)))
-    at_u = momentum_of({q0: sp.S.One, **dict(zip(q, u, strict=True))})
+    scaled = momentum_of(placed(((q0, *q), (scale, *(scale * u)))))
+    at_u = momentum_of(placed(((q0, *q), (1, *u))))
     p.lemma(equal("𝒦(ru) = r²𝒦(u) for (q₀, q) = r(1, u)", scaled, scale**2 * at_u, ring))
     residual = sp.Matrix(gibbs.residual())
     p.show("G(u)", residual)
@@ -64,7 +59,7 @@ def gibbs_form(p: Proof) -> None:
 def newton_leaves(p: Proof) -> None:
     """The next Newton iterate without the residual, and what it leaves: a second correction needs no evaluation."""
     residual, jacobian = sp.Matrix(gibbs.residual()), gibbs.jacobian()
-    after = residual.subs(dict(zip(u, u + d, strict=True)), simultaneous=True)
+    after = residual.subs(placed((u, u + d)), simultaneous=True)
     p.printed(
         equal("∂G(u)u - G(u) = u × Iu + (1 - |u|²)k", jacobian * u - residual, gibbs.newton_target()),
         equal("G(u + d) = G(u) + ∂G(u)d + d × Id - |d|²k", after, residual + jacobian * d + gibbs.bilinear(d)),
@@ -92,14 +87,13 @@ def gibbs_rotation(proof: Proof) -> None:
     """The rotation of a quaternion of any length is rational: Ωᵀv from two vector products."""
     p0, p = gibbs.p0, gibbs.p
     proof.assume("(p₀, p) ≠ 0; the Gibbs vector is p/p₀")
-    rotation = sp.Matrix(three.rotation()).subs(dict(zip((q0, *q), (p0, *p), strict=True)), simultaneous=True)
+    rotation = sp.Matrix(three.rotation()).subs(placed(((q0, *q), (p0, *p))), simultaneous=True)
     norm, once = p0**2 + p.dot(p), p.cross(v)
     proof.say("Ω of (5.1) is homogeneous of degree 2, and (p₀² + |p|²)Ω for any (p₀, p):")
     proof.printed(equal("|(p₀, p)|²(Ωᵀv - v) = 2(p × (p × v) - p₀ p × v)", rotation.T * v - norm * v,
                         2 * (p.cross(once) - p0 * once), ANY))  # fmt: skip
     steps, value = gibbs.turn_steps()
-    for names, expressions in reversed(steps):
-        value = value.subs(dict(zip(names, expressions, strict=True)), simultaneous=True)
+    value = three.unrolled(steps, value)
     proof.lemma(equal("the steps of the kernel compute this", (value * norm).applyfunc(sp.cancel),
                       2 * (p.cross(once) - p0 * once), ANY))  # fmt: skip
     proof.control(equal("the same with + p₀ p × v", rotation.T * v - norm * v, 2 * (p.cross(once) + p0 * once), ANY))
@@ -118,8 +112,7 @@ def small_branch(p: Proof) -> None:
     B, jacobian = sp.Matrix(gibbs.contact_inertia()), gibbs.jacobian()
     inertial = (u.T * INERTIA * u)[0]
     residual = sp.Matrix(gibbs.residual())
-    along = Equation("⟨u, G(u)⟩ = ⟨u, Bu⟩ - (1 + |u|²)⟨k, u⟩", [u.dot(residual)],
-                     [(u.T * B * u)[0] - NORM * k.dot(u)], FREE)  # fmt: skip
+    along = equal("⟨u, G(u)⟩ = ⟨u, Bu⟩ - (1 + |u|²)⟨k, u⟩", u.dot(residual), (u.T * B * u)[0] - NORM * k.dot(u))
     p.printed(along)
     above = Equation("⟨x, Bx⟩ = ⟨x, Ix⟩ + D|γ × x|² at x = u", [(u.T * B * u)[0]],
                      [inertial + D * gamma.cross(u).dot(gamma.cross(u))], FREE)  # fmt: skip
@@ -143,7 +136,7 @@ def small_branch(p: Proof) -> None:
     shifted = Quotient((*d, I1, I2, I3, c), [])
     p.lemma(equal("d × Id = d × (I - c)d", d.cross(INERTIA * d), d.cross((INERTIA - c * sp.eye(3)) * d), shifted))
     p.lemma(_sharp())
-    p.control(Equation("⟨u, G(u)⟩ = ⟨u, Bu⟩ - ⟨k, u⟩", [u.dot(residual)], [(u.T * B * u)[0] - k.dot(u)], FREE))
+    p.control(equal("⟨u, G(u)⟩ = ⟨u, Bu⟩ - ⟨k, u⟩", u.dot(residual), (u.T * B * u)[0] - k.dot(u)))
     p.control(Equation("⟨d, ∂G d⟩ without the vector product", [(d.T * jacobian * d)[0]],
                        [(d.T * B * d)[0] - 2 * d.dot(k) * u.dot(d)], FREE))  # fmt: skip
 

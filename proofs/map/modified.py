@@ -8,9 +8,10 @@ from chapsym.derive import continuous, gibbs, modified, three
 from chapsym.derive.limits import omega
 from chapsym.derive.modified import INERTIA, carried, rate, second, share
 from chapsym.derive.quotient import Quotient
-from chapsym.derive.three import J1, J2, J3, D, K, gamma
+from chapsym.derive.three import J1, J2, J3, D, K, gamma, placed
 from chapsym.proofs import second_routes
-from chapsym.prove import Equation, Fact, Proof, claim, main
+from chapsym.proofs.map.symmetries import HALF_TURNS, MIRRORS, turned
+from chapsym.prove import Equation, Fact, Proof, claim, equations, main
 
 X = sp.Matrix(sp.symbols("v1:4"))
 MOVING = gamma.cross(omega)
@@ -25,9 +26,7 @@ def on_rate() -> Quotient:
     return Quotient((*rate, *gamma, *omega, J1, J2, J3, D), relations)
 
 
-def equal(text: str, left: sp.Matrix, right: sp.Matrix, algebra: Quotient = FREE) -> Equation:
-    """An equation of vectors, entry by entry."""
-    return Equation(text, list(left), list(right), algebra)
+equal = equations(FREE)
 
 
 def inertia_along(direction: sp.Matrix, x: sp.Matrix) -> sp.Matrix:
@@ -137,18 +136,11 @@ def in_free_parameters(numerator: int = 1) -> list[second_routes.Identity]:
 
 def _witness() -> tuple[dict[sp.Symbol, sp.Rational], dict[str, str]]:
     """A ball with D = 3 under way, ω', ω'' and `share` solved for: exact rational numbers."""
-    names = {
-        **dict(zip(omega, (1, -1, 2), strict=True)),
-        **dict(zip(gamma, (2, 3, 6), strict=True)),
-        J1: 1,
-        J2: 2,
-        J3: 4,
-        D: 3,
-    }
+    names = placed((omega, (1, -1, 2)), (gamma, (2, 3, 6)), ((J1, J2, J3, D), (1, 2, 4, 3)))
     point = {k: sp.Rational(v, 7 if k in list(gamma) else 1) for k, v in names.items()}
     B = sp.Matrix(three.contact_inertia()).xreplace(point)
     for symbols, right in ((rate, modified.torque()), (second, second_torque()), (share, modified.load())):
-        point |= dict(zip(symbols, B.LUsolve(right.xreplace(point)), strict=True))
+        point |= placed((symbols, B.LUsolve(right.xreplace(point))))
     return point, {str(k): str(v) for k, v in point.items()}
 
 
@@ -163,28 +155,24 @@ def modified_energy(p: Proof) -> None:
     p.assume("as in modified-field")
     w = X
     p.say("H = ½⟨ω,Bω⟩ with K = Bω.  Along γ̇ = γ × w, K̇ = K × w, for any w, Ḣ = ⟨ω,K̇⟩ - ½⟨ω,Ḃω⟩:")
-    on_momentum = continuous.energy().subs(dict(zip(K, carried(omega), strict=True)), simultaneous=True)
+    on_momentum = continuous.energy().subs(placed((K, carried(omega))), simultaneous=True)
     ring = Quotient((*omega, *three.RING.symbols), three.RING.relations)
-    p.lemma(Equation("(2.5) at K = Bω is ½⟨ω,Bω⟩", [on_momentum], [omega.dot(carried(omega)) / 2], ring))
+    p.lemma(Equation("(2.5) at K = Bω is ½⟨ω,Bω⟩", on_momentum, omega.dot(carried(omega)) / 2, ring))
     slope = omega.dot(carried(omega).cross(w)) - omega.dot(inertia_along(gamma.cross(w), omega)) / 2
-    p.printed(
-        Equation("Ḣ = ⟨w, ω × Iω⟩ = -⟨w,Bω'⟩ for the field of w", [slope], [w.dot(omega.cross(INERTIA * omega))], FREE)
-    )
+    p.printed(equal("Ḣ = ⟨w, ω × Iω⟩ = -⟨w,Bω'⟩ for the field of w", slope, w.dot(omega.cross(INERTIA * omega))))
     p.say("For w = ω this is 0.  For w = ω₃, as ⟨ω,Bω'⟩ = 0 and ⟨B⁻¹load,Bω'⟩ = ⟨load,ω'⟩:")
     known = 2 * omega.dot(omega) * omega - omega.cross(rate)
     twelvefold = -known.dot(carried(rate)) + modified.load().dot(rate)
     found = modified.energy_rate()
     p.show("X₃(H)", found)
-    p.printed(Equation("-12⟨ω₃,Bω'⟩ = 3D⟨γ,ω'⟩⟨γ̇,ω'⟩", [twelvefold], [12 * found], on_rate()))
+    p.printed(Equation("-12⟨ω₃,Bω'⟩ = 3D⟨γ,ω'⟩⟨γ̇,ω'⟩", twelvefold, 12 * found, on_rate()))
     p.say(
         "It is 0 for D = 0, where the map keeps H (energy-without-rolling), and for vertical momentum, where ⟨γ,ω⟩ is a"
     )
     p.say("function of integrals (6-vertical-energy) and ⟨γ,ω'⟩ = d/dt⟨γ,ω⟩, as ⟨γ̇,ω⟩ = 0.")
-    p.control(
-        Equation("X₃(H) = (D/4)⟨γ,ω⟩⟨γ̇,ω'⟩", [twelvefold], [3 * D * gamma.dot(omega) * MOVING.dot(rate)], on_rate())
-    )
-    p.control(Equation("X₃(H) with D/3", [twelvefold], [16 * found], on_rate()))
-    p.control(Equation("X₃(H) with -D/4", [twelvefold], [-12 * found], on_rate()))
+    p.control(Equation("X₃(H) = (D/4)⟨γ,ω⟩⟨γ̇,ω'⟩", twelvefold, 3 * D * gamma.dot(omega) * MOVING.dot(rate), on_rate()))
+    p.control(Equation("X₃(H) with D/3", twelvefold, 16 * found, on_rate()))
+    p.control(Equation("X₃(H) with -D/4", twelvefold, -12 * found, on_rate()))
     p.route("u and ω after the step solved for in powers of ε, in free parameters", *in_free_parameters())
     p.control(*(second_routes.mutated("with D/2", x) for x in in_free_parameters(2)))
     point, values = _witness()
@@ -206,10 +194,9 @@ def without_rolling(p: Proof) -> None:
     start, moved = INERTIA * u + u.cross(INERTIA * u), INERTIA * u - u.cross(INERTIA * u)
     ring = Quotient((*u, J1, J2, J3), [])
     p.say("The step has ½(1 + |u|²)𝒦 = Iu + u × Iu, and carries it by Ωᵀx = x + 2(u × (u × x) - u × x)/(1 + |u|²):")
-    once = u.cross(start)
-    p.printed(equal("½(1 + |u|²)Ωᵀ𝒦 = Iu - u × Iu", norm * start + 2 * (u.cross(once) - once), norm * moved, ring))
+    p.printed(equal("½(1 + |u|²)Ωᵀ𝒦 = Iu - u × Iu", turned(start), norm * moved, ring))
     energies = [(INERTIA.inv() * x).dot(x) for x in (start, moved)]
-    p.printed(Equation("⟨Ωᵀ𝒦, I⁻¹Ωᵀ𝒦⟩ = ⟨𝒦, I⁻¹𝒦⟩", [energies[1]], [energies[0]], ring))
+    p.printed(Equation("⟨Ωᵀ𝒦, I⁻¹Ωᵀ𝒦⟩ = ⟨𝒦, I⁻¹𝒦⟩", energies[1], energies[0], ring))
     p.say("The difference is 4⟨Iu, I⁻¹(u × Iu)⟩ = 4⟨u, u × Iu⟩ = 0.")
     p.control(Equation("⟨Ωᵀ𝒦, I⁻²Ωᵀ𝒦⟩ = ⟨𝒦, I⁻²𝒦⟩", [(INERTIA.inv() * moved).dot(INERTIA.inv() * moved)],
                        [(INERTIA.inv() * start).dot(INERTIA.inv() * start)], ring))  # fmt: skip
@@ -239,15 +226,13 @@ def modified_measure(p: Proof) -> None:
     change = sum(w[j] * _along(weight, fields[j]) for j in range(3))
     lift = D * (continuous.inverse_inertia() * gamma).dot(gamma.cross(w))
     free = Quotient((*w, *ring.symbols), ring.relations)
-    p.printed(Equation("-½X_w(τ) = D⟨Λ⁻¹γ, γ × w⟩", [-change / 2], [lift], free))
-    lifted = lift.subs(dict(zip(w, spin, strict=True)), simultaneous=True)
+    p.printed(Equation("-½X_w(τ) = D⟨Λ⁻¹γ, γ × w⟩", -change / 2, lift, free))
+    lifted = lift.subs(placed((w, spin)), simultaneous=True)
     p.printed(
-        Equation(
-            "div_μ X₁ = 0: μ is the invariant density of the continuous ball", [divergence], [-lifted / weight], ring
-        )
+        Equation("div_μ X₁ = 0: μ is the invariant density of the continuous ball", divergence, -lifted / weight, ring)
     )
-    p.control(Equation("the density 1 is invariant", [divergence], [sp.S.Zero], ring))
-    p.control(Equation("the density 1/τ is invariant", [divergence], [-2 * lifted / weight], ring))
+    p.control(Equation("the density 1 is invariant", divergence, 0, ring))
+    p.control(Equation("the density 1/τ is invariant", divergence, -2 * lifted / weight, ring))
 
 
 def _along(expr: sp.Expr, field: tuple[sp.Matrix, sp.Matrix]) -> sp.Expr:
@@ -267,68 +252,34 @@ def symmetries(p: Proof) -> None:
     u, k = gibbs.u, gibbs.k
     residual = sp.Matrix(gibbs.residual())
     ring = Quotient((*u, *k, *gibbs.v, *gamma, *gibbs.INERTIA.diagonal(), D), [])
-    turned = [sp.diag(1, -1, -1), sp.diag(-1, 1, -1), sp.diag(-1, -1, 1)]
     p.say(
         "G(u; 𝒦, γ) = Bu + u × Iu - (1 + |u|²)𝒦/2, and u carries a vector v by v + 2(u × (u × v) - u × v)/(1 + |u|²)."
     )
-    p.printed(
-        equal("G(u; 𝒦, -γ) = G(u; 𝒦, γ)", residual.xreplace(dict(zip(gamma, -gamma, strict=True))), residual, ring)
-    )
-    for S in turned:
-        there = {
-            **dict(zip(u, S * u, strict=True)),
-            **dict(zip(k, S * k, strict=True)),
-            **dict(zip(gamma, S * gamma, strict=True)),
-        }
+    p.printed(equal("G(u; 𝒦, -γ) = G(u; 𝒦, γ)", residual.xreplace(placed((gamma, -gamma))), residual, ring))
+    for S in HALF_TURNS.values():
+        there = placed((u, S * u), (k, S * k), (gamma, S * gamma))
         name = f"S = diag({', '.join(map(str, S.diagonal()))})"
         p.printed(equal(f"{name}: G(Su; S𝒦, Sγ) = SG(u; 𝒦, γ)", residual.xreplace(there), S * residual, ring))
-        p.printed(
-            equal(
-                f"{name}: Su carries Sv to where S takes what u makes of v",
-                _carried(S * u, S * gibbs.v),
-                S * _carried(u, gibbs.v),
-                ring,
-            )
-        )
+        text = f"{name}: Su carries Sv to where S takes what u makes of v"
+        p.printed(equal(text, turned(S * gibbs.v, S * u), S * turned(gibbs.v), ring))
     p.say("(𝒦, γ) ↦ (-𝒦, γ) reverses the map by the lemma reversible; so do its products with these.")
     p.say(
         "For X₃(H): under γ ↦ -γ both ω and ω' are as before; under S they are Sω, Sω'; under K ↦ -K they are -ω, ω':"
     )
-    rate_, odd = modified.energy_rate(), dict(zip(omega, -omega, strict=True))
-    p.printed(Equation("X₃(H) at (K, -γ)", [rate_.xreplace(dict(zip(gamma, -gamma, strict=True)))], [rate_], FREE))
-    for S in turned:
-        there = {
-            **dict(zip(omega, S * omega, strict=True)),
-            **dict(zip(rate, S * rate, strict=True)),
-            **dict(zip(gamma, S * gamma, strict=True)),
-        }
-        p.printed(Equation("X₃(H) at (SK, Sγ)", [rate_.xreplace(there)], [rate_], FREE))
-    p.printed(Equation("X₃(H) at (-K, γ) is -X₃(H)", [rate_.xreplace(odd)], [-rate_], FREE))
+    rate_, odd = modified.energy_rate(), placed((omega, -omega))
+    p.printed(equal("X₃(H) at (K, -γ)", rate_.xreplace(placed((gamma, -gamma))), rate_))
+    for S in HALF_TURNS.values():
+        there = placed((omega, S * omega), (rate, S * rate), (gamma, S * gamma))
+        p.printed(equal("X₃(H) at (SK, Sγ)", rate_.xreplace(there), rate_))
+    p.printed(equal("X₃(H) at (-K, γ) is -X₃(H)", rate_.xreplace(odd), -rate_))
     p.say(
         "So its integral over a closed orbit that a reversal takes to itself is 0: an orbit that proves anything is asymmetric."
     )
-    mirror = sp.diag(-1, 1, 1)
-    there = {
-        **dict(zip(u, mirror * u, strict=True)),
-        **dict(zip(k, mirror * k, strict=True)),
-        **dict(zip(gamma, mirror * gamma, strict=True)),
-    }
+    mirror = MIRRORS["σ1"]
+    there = placed((u, mirror * u), (k, mirror * k), (gamma, mirror * gamma))
     p.control(equal("a reflection is a symmetry", residual.xreplace(there), mirror * residual, ring))
-    p.control(
-        equal(
-            "𝒦 ↦ -𝒦, u ↦ -u is a symmetry",
-            residual.xreplace({**dict(zip(u, -u, strict=True)), **dict(zip(k, -k, strict=True))}),
-            -residual,
-            ring,
-        )
-    )
-    p.control(Equation("X₃(H) at (-K, γ) is X₃(H)", [rate_.xreplace(odd)], [rate_], FREE))
-
-
-def _carried(u: sp.Matrix, v: sp.Matrix) -> sp.Matrix:
-    """(1 + |u|²)Ωᵀv."""
-    once = u.cross(v)
-    return (1 + u.dot(u)) * v + 2 * (u.cross(once) - once)
+    p.control(equal("𝒦 ↦ -𝒦, u ↦ -u is a symmetry", residual.xreplace(placed((u, -u), (k, -k))), -residual, ring))
+    p.control(equal("X₃(H) at (-K, γ) is X₃(H)", rate_.xreplace(odd), rate_))
 
 
 if __name__ == "__main__":

@@ -94,7 +94,7 @@ def order(p: Proof) -> None:
     there, back = (composition.step_series(x, through) for x in (c, -c))
     product = composition.product(there, back)
     unit = [sp.Integer(not word) for word in product]
-    p.lemma(Equation("Φ_{-cε}Φ_{cε} = 1 through the weight 8", list(product.values()), unit, Quotient((c,))))
+    p.lemma(Equation("Φ_{-cε}Φ_{cε} = 1 through the weight 8", product.values(), unit, Quotient((c,))))
     p.say(
         "A Lie element of odd weight is 0 when its coefficients at Lyndon's words are, those that are smaller than all"
     )
@@ -105,14 +105,12 @@ def order(p: Proof) -> None:
     p.control(Fact("the words but the last tell those of the weight 7", told_by(words[:-1], 7)))
     p.say("Order 4: c = 1/(4 - t) twice, 1 - 4c, c twice, with t = ∛4 (Suzuki):")
     suzuki = palindrome([SUZUKI, SUZUKI, 1 - 4 * SUZUKI])
-    p.lemma(Equation("c(4 - t) = 1", [SUZUKI * (4 - t)], [sp.S.One], ROOT))
+    p.lemma(Equation("c(4 - t) = 1", SUZUKI * (4 - t), 1, ROOT))
     exact = defects(suzuki, 4)
-    p.printed(
-        Equation("order 4: every word through the weight 4", list(exact.values()), [sp.S.Zero] * len(exact), ROOT)
-    )
+    p.printed(Equation("order 4: every word through the weight 4", exact.values(), [sp.S.Zero] * len(exact), ROOT))
     fifth = defects(suzuki, 5)[(5,)]
     p.printed(Fact("not 5: Σc⁵ ≠ 0 in the field Q(∛4)", not ROOT.is_zero(fifth)))
-    p.control(Equation("order 5: Σc⁵ = 0", [fifth], [sp.S.Zero], ROOT))
+    p.control(Equation("order 5: Σc⁵ = 0", fifth, 0, ROOT))
     decimals = COMPOSITIONS[4].exact
     changes = [(4 - 1 / (decimals[0] + x)) ** 3 < 4 for x in (-OFF, OFF)]
     p.lemma(Fact("the decimals of c are off by less than 10⁻⁴⁰: t³ - 4 changes its sign", changes == [True, False]))

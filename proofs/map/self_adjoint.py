@@ -11,12 +11,9 @@ from chapsym.derive.ball import ALGEBRA, D, Gamma, K, Omega, OmegaT, gamma
 from chapsym.derive.principle import R1, R, r, r1
 from chapsym.derive.words import WordAlgebra, matrix_symbols
 from chapsym.proofs import second_routes
-from chapsym.prove import Equation, Identity, Proof, claim, main
+from chapsym.prove import Equation, Identity, Proof, claim, equations, main
 
-
-def equation(text: str, left: sp.Expr, right: sp.Expr, algebra: WordAlgebra = ALGEBRA) -> Equation:
-    """One matrix equation between words."""
-    return Equation(text, [left], [right], algebra)
+equation = equations(ALGEBRA)
 
 
 def with_ends_swapped(expr: sp.Expr, vertical: sp.Expr = OmegaT * Gamma * Omega) -> sp.Expr:
@@ -90,16 +87,14 @@ def self_adjoint(p: Proof) -> None:
     p.say("rotation back where Ω is the one there.  Beyond its bound, just before a fold, it need not be.")
     p.say("For n = 3 in Euler parameters, where Ωᵀ has -q:")
     carried = three.transported(sp.Matrix(three.momentum()))
-    p.printed(
-        Equation("𝒦⃗(q₀, -q, Ωᵀγ) = -Ωᵀ𝒦⃗(q₀, q, γ), n = 3", list(vector_with_ends_swapped()), list(-carried), three.RING)
-    )
+    p.printed(Equation("𝒦⃗(q₀, -q, Ωᵀγ) = -Ωᵀ𝒦⃗(q₀, q, γ), n = 3", vector_with_ends_swapped(), -carried, three.RING))
     p.control(equation("𝒦(Ωᵀ, Γ_+) = +Ωᵀ𝒦(Ω, Γ)Ω", with_ends_swapped(momentum), ball.carried(momentum)))
     p.control(
         equation("the same with Γ in the place of Γ_+", with_ends_swapped(momentum, Gamma), -ball.carried(momentum))
     )
     lopsided = lopsided_momentum()
     p.control(equation("the same for ΩJ - JΩᵀ + D(ΩΓ - ΓΩᵀ)", with_ends_swapped(lopsided), -ball.carried(lopsided)))
-    p.control(Equation("n = 3, with +Ωᵀ𝒦⃗", list(vector_with_ends_swapped()), list(carried), three.RING))
+    p.control(Equation("n = 3, with +Ωᵀ𝒦⃗", vector_with_ends_swapped(), carried, three.RING))
     p.route(
         "from (4.13) as printed, Ω the Cayley transform of a free skew matrix, n = 3 and n = 4",
         in_free_parameters(3),
@@ -151,7 +146,7 @@ def composed_integrals(p: Proof) -> None:
 
     p.say("The stage with c finds Ω from 𝒦(Ω, γ) = cεK and carries K itself: K ↦ ΩᵀKΩ, Γ ↦ ΩᵀΓΩ. Two stages, Ω and S:")
     p.printed(
-        equation("(ΩS)ᵀ(ΩS) = 1: two turns are one", carried(sp.S.One), sp.S.One, algebra),
+        equation("(ΩS)ᵀ(ΩS) = 1: two turns are one", carried(sp.S.One), 1, algebra),
         equation("(SᵀΩᵀXΩS)(SᵀΩᵀYΩS) = SᵀΩᵀXYΩS", carried(X) * carried(Y), carried(X * Y), algebra),
         equation("tr SᵀΩᵀXΩS = tr X", algebra.trace(carried(X)), algebra.trace(X), algebra),
     )

@@ -8,8 +8,8 @@ from chapsym.derive.gibbs import d as x
 from chapsym.derive.gibbs import v as e
 from chapsym.derive.limits import omega
 from chapsym.derive.quotient import Quotient
-from chapsym.derive.three import D, K, gamma, q, q0
-from chapsym.prove import Equation, Fact, Proof, claim, main
+from chapsym.derive.three import D, K, gamma, placed, q, q0, unrolled
+from chapsym.prove import Equation, Fact, Proof, claim, equations, main
 
 #: Any 3×3 matrix.
 M = sp.Matrix(3, 3, sp.symbols("m1:4(1:4)"))
@@ -20,26 +20,15 @@ UNTIED = Quotient((*K, *gamma, I1, I2, I3, D), [])
 UNIT = Quotient((*K, *gamma, I1, I2, I3, D), [three.UNIT_VERTICAL])
 
 
-def equal(text: str, left: sp.Matrix, right: sp.Matrix, algebra: Quotient = FREE) -> Equation:
-    """An equation of vectors or matrices, entry by entry."""
-    return Equation(text, list(left), list(right), algebra)
+equal = equations(FREE)
 
 
-def scalar(text: str, left: sp.Expr, right: sp.Expr, algebra: Quotient = FREE) -> Equation:
-    """One equation."""
-    return Equation(text, [left], [right], algebra)
+scalar = equations(FREE)
 
 
 def inertial(value: sp.Matrix) -> sp.Matrix:
     """The same with the moments of inertia."""
     return sp.Matrix(value).subs(BY_INERTIA, simultaneous=True)
-
-
-def staged(steps: three.Steps, value: sp.Matrix) -> sp.Matrix:
-    """What the steps of a kernel compute, in its inputs alone."""
-    for names, expressions in reversed(steps):
-        value = value.subs(dict(zip(names, expressions, strict=True)), simultaneous=True)
-    return value
 
 
 @claim(
@@ -60,12 +49,12 @@ def stable_momentum(p: Proof) -> None:
     rounded = B + sp.Matrix(3, 3, lambda i, j: D * e[0] if (i, j) == (0, 0) else 0)
     steps, value = three.momentum_steps()
     p.lemma(
-        equal("the steps of `momentum` compute 𝒦(q, γ)", inertial(staged(steps, value)), inertial(three.momentum()))
+        equal("the steps of `momentum` compute 𝒦(q, γ)", inertial(unrolled(steps, value)), inertial(three.momentum()))
     )
     steps, value = three.residual_steps()
-    p.lemma(equal("those of `residual` 𝒦(q, γ) - 𝒦", inertial(staged(steps, value)), inertial(three.momentum()) - K))
+    p.lemma(equal("those of `residual` 𝒦(q, γ) - 𝒦", inertial(unrolled(steps, value)), inertial(three.momentum()) - K))
     steps, value = continuous.momentum_steps()
-    p.lemma(equal("those of `contact_momentum` B(γ)ω", inertial(staged(steps, value)), B * omega))
+    p.lemma(equal("those of `contact_momentum` B(γ)ω", inertial(unrolled(steps, value)), B * omega))
     p.control(scalar("⟨γ, (B + D e e₁e₁ᵀ)x⟩ = ⟨γ, Ix⟩", gamma.dot(rounded * x), gamma.dot(INERTIA * x)))
     p.control(equal("B(γ)x = Ix + γ × D(γ × x)", B * x, INERTIA * x + gamma.cross(D * gamma.cross(x))))
 
@@ -86,7 +75,7 @@ def stable_determinant(p: Proof) -> None:
         equal("γᵀA = γᵀM", gamma.T * A, gamma.T * M), scalar("|γ|² det A = ⟨Mᵀγ, adj(A)γ⟩", NORM * A.det(), value)
     )
     p.say("adj(A) has D² at most, and M none.  In the sum over a row of A the terms have D³, which cancels:")
-    along = {gamma[0]: 2, gamma[1]: 3, gamma[2]: 6} | dict(zip(M, sp.eye(3), strict=True))
+    along = {gamma[0]: 2, gamma[1]: 3, gamma[2]: 6} | placed((M, sp.eye(3)))
     terms = [sp.expand((A[0, j] * adjugate[j, 0]).subs(along)).coeff(D, 3) for j in range(3)]
     p.lemma(Fact("the coefficients of D³ in a row, at γ = (2, 3, 6), are not 0, but their sum is",
                  all(terms) and sum(terms) == 0))  # fmt: skip
@@ -96,7 +85,7 @@ def stable_determinant(p: Proof) -> None:
     p.lemma(equal("B(γ) = I + D(|γ|² - γγᵀ)", B, INERTIA + D * rolling))
     steps, (determinant, *rest) = gibbs.newton_heavy_steps()
     last = [(names, values) for names, values in steps if names in (gibbs.Y, gibbs.Z)]
-    p.lemma(scalar("the kernel divides ⟨Mᵀγ, Cᵀγ⟩ by |γ|²", sp.cancel(staged(last, sp.Matrix([determinant]))[0] * NORM),
+    p.lemma(scalar("the kernel divides ⟨Mᵀγ, Cᵀγ⟩ by |γ|²", sp.cancel(unrolled(last, sp.Matrix([determinant]))[0] * NORM),
                    (gamma.T * gibbs.M * gibbs.C.T * gamma)[0],
                    Quotient((*gibbs.M, *gibbs.C, *gamma), [])))  # fmt: skip
     p.lemma(Fact("and the rest is that of `gibbs_newton`", rest == gibbs.newton_steps()[1][1:]))
@@ -133,12 +122,10 @@ def stable_inverse(p: Proof) -> None:
     p.lemma(equal("on |γ| = 1: B(γ) = Λ - Dγγᵀ", B, Lam - D * gamma * gamma.T, UNIT))
     p.lemma(scalar("det B = F det Λ there", B.det(), f, UNIT))
     p.say(
-        "F is a sum of positive terms; an entry i ≠ j is the product of D γᵢγⱼ and 1/(ΛᵢΛⱼF), one on the diagonal a sum"
+        "F is a sum of positive terms; an entry i ≠ j is the product of D γᵢγⱼ and 1/(ΛᵢΛⱼF), one on the diagonal a sum",
+        "of two positive terms.  So every entry has its digits, and ω has an error of a few roundings of |B⁻¹||K|: what",
+        "a rounding of K does itself.  That is the condition of ω: |B⁻¹||K|/|ω|, up to Λmax/I_min for K across γ.",
     )
-    p.say(
-        "of two positive terms.  So every entry has its digits, and ω has an error of a few roundings of |B⁻¹||K|: what"
-    )
-    p.say("a rounding of K does itself.  That is the condition of ω: |B⁻¹||K|/|ω|, up to Λmax/I_min for K across γ.")
     p.lemma(Fact("F det Λ is a polynomial in γ², I, D without a minus sign", _positive(f)))
     p.lemma(Fact("so is each entry of F (det Λ)² B⁻¹, but for the factor γᵢγⱼ", all(
         _positive(inverse[i, j] if i == j else sp.cancel(inverse[i, j] / (gamma[i] * gamma[j])))

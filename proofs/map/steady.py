@@ -6,11 +6,13 @@ from chapsym.derive import gibbs, steady, three
 from chapsym.derive.gibbs import D, gamma, k
 from chapsym.derive.quotient import Quotient
 from chapsym.derive.steady import moment
-from chapsym.prove import Equation, Proof, claim, main
+from chapsym.derive.three import placed
+from chapsym.prove import Equation, Proof, claim, equations, main
 
 #: The axis, the factor of it that is the Gibbs vector, and p₀ of the rotation about it with the quaternion (p₀, c w).
 w = sp.Matrix(sp.symbols("w1:4"))
 J = (three.J1, three.J2, three.J3)
+MOMENTS = (J[1] + J[2], J[0] + J[2], J[0] + J[1])
 n, p0, c = sp.symbols("stretch p0 c")
 #: An eigenvector of I is what w × Iw = 0 makes of w: here it is w itself, with the moment `moment`.
 FREE = Quotient((n, p0, c, *w, *k, *gamma, moment, D), [])
@@ -25,13 +27,11 @@ def carried(x: sp.Matrix) -> sp.Matrix:
 def turned(x: sp.Matrix) -> sp.Matrix:
     """(p₀² + |p|²)Ωᵀx for the quaternion p = (p₀, c w), without its denominator."""
     change = sp.Matrix(gibbs.turn())
-    values = {gibbs.p0: p0, **dict(zip(gibbs.p, c * w, strict=True)), **dict(zip(gibbs.v, x, strict=True))}
+    values = placed(((gibbs.p0, *gibbs.p), (p0, *(c * w))), (gibbs.v, x))
     return (SIZE * (x + change.subs(values, simultaneous=True))).applyfunc(sp.cancel)
 
 
-def equal(text: str, left: sp.Matrix, right: sp.Matrix, algebra: Quotient = FREE) -> Equation:
-    """An equation of vectors, entry by entry."""
-    return Equation(text, list(left), list(right), algebra)
+equal = equations(FREE)
 
 
 @claim(
@@ -44,7 +44,7 @@ def steady_rotation(p: Proof) -> None:
     """Where w = B(γ)⁻¹𝒦/2 is along a principal axis, or the moments are equal, every step is the same rotation."""
     p.assume("w × Iw = 0, that is Iw = λw (any w where the moments are equal); q₀ ≠ 0")
     p.say("With u = nw and k = B(γ)w, B(γ)u + u × Iu - (1 + |u|²)k = (n - 1 - n²|w|²)B(γ)w:")
-    values = {**dict(zip(gibbs.u, n * w, strict=True)), **dict(zip(k, carried(w), strict=True))}
+    values = placed((gibbs.u, n * w), (k, carried(w)))
     same = dict.fromkeys((gibbs.I1, gibbs.I2, gibbs.I3), moment)
     residual = sp.Matrix(gibbs.residual()).subs(values, simultaneous=True).subs(same, simultaneous=True)
     p.printed(equal("G(nw) = (n - 1 - n²|w|²)B(γ)w", residual, (n - 1 - n**2 * w.dot(w)) * carried(w)))
@@ -54,7 +54,7 @@ def steady_rotation(p: Proof) -> None:
     p.lemma(equal("the same for w along e₁ and any I₂, I₃", first,
                   ((n - 1 - n**2 * w.dot(w)) * carried(w)).subs(along), ring))  # fmt: skip
     p.say("A rotation about w leaves w, and B(γ)w = λw + D(|γ|²w - ⟨γ,w⟩γ) turns as k does: the next w is this one.")
-    after = dict(zip(gamma, turned(gamma) / SIZE, strict=True))
+    after = placed((gamma, turned(gamma) / SIZE))
     moved = (SIZE * carried(w).subs(after, simultaneous=True)).applyfunc(sp.cancel)
     p.printed(
         equal("Ωᵀw = w", turned(w), SIZE * w),
@@ -77,33 +77,33 @@ def steady_branch(p: Proof) -> None:
     """With equal moments the small branch folds at a quarter turn, 2|w| = 1, and nowhere before."""
     p.assume("n = 1 + n²|w|², n ≠ 0")
     same = dict.fromkeys((gibbs.I1, gibbs.I2, gibbs.I3), moment)
-    values = {**dict(zip(gibbs.u, n * w, strict=True)), **dict(zip(k, carried(w), strict=True)), **same}
+    values = placed((gibbs.u, n * w), (k, carried(w))) | same
     determinant = gibbs.jacobian().subs(values, simultaneous=True).det(method="berkowitz")
     B = sp.Matrix(gibbs.contact_inertia()).subs(same, simultaneous=True).det(method="berkowitz")
     ring = Quotient((*w, n, *k, *gamma, moment, D), [n - 1 - n**2 * w.dot(w)])
 
     def scaled(text: str, factor: sp.Expr) -> Equation:
-        return Equation(text, [sp.expand(n * determinant)], [sp.expand(factor * B)], ring)
+        return Equation(text, sp.expand(n * determinant), sp.expand(factor * B), ring)
 
     p.printed(scaled("n det ∂G/∂u = (2 - n) det B(γ)", 2 - n))
     p.say("n is 1 at |w| = 0 and grows with |w| up to 2, where 1 - 4|w|² = 0 and |u|² = n - 1 = 1: θ = 90°.")
     u = n * w
-    p.lemma(Equation("sin²θ = 4|u|²/(1 + |u|²)² = 4|w|²", [4 * u.dot(u)], [4 * w.dot(w) * (1 + u.dot(u)) ** 2], ring))
-    p.lemma(Equation("(2 - n)² = n²(1 - 4|w|²)", [(2 - n) ** 2], [n**2 * (1 - 4 * w.dot(w))], ring))
+    p.lemma(Equation("sin²θ = 4|u|²/(1 + |u|²)² = 4|w|²", 4 * u.dot(u), 4 * w.dot(w) * (1 + u.dot(u)) ** 2, ring))
+    p.lemma(Equation("(2 - n)² = n²(1 - 4|w|²)", (2 - n) ** 2, n**2 * (1 - 4 * w.dot(w)), ring))
     point = {"w1": "2/5", "w2": "0", "w3": "0", "stretch": "5/4", "moment": "6", "D": "3"}
     point |= {"g1": "2/7", "g2": "3/7", "g3": "6/7", "k1": "0", "k2": "0", "k3": "0"}
     values = {sp.Symbol(name): sp.Rational(value) for name, value in point.items()}
     left, right = (x.subs(values) for x in (n * determinant, (2 - n) * B))
-    p.witness("sin θ = 4/5", point, Equation("n det ∂G/∂u = (2 - n) det B(γ)", [left], [right], ring))
+    p.witness("sin θ = 4/5", point, Equation("n det ∂G/∂u = (2 - n) det B(γ)", left, right, ring))
     p.control(scaled("n det ∂G/∂u = (2 + n) det B(γ)", 2 + n))
 
 
-def along_first(values: dict[sp.Symbol, sp.Expr]) -> sp.Matrix:
-    """∂G/∂u at u = nw for w along e₁ and γ along it, with the moments of a body with the mass tensor J."""
-    mass = dict(zip((gibbs.I1, gibbs.I2, gibbs.I3), (J[1] + J[2], J[0] + J[2], J[0] + J[1]), strict=True))
-    axis = {w[1]: 0, w[2]: 0, gamma[1]: 0, gamma[2]: 0}
+def determinant_along_first(*across: sp.Symbol) -> sp.Expr:
+    """det ∂G/∂u at u = nw for w along e₁ and a γ without the components `across`, with the moments of the body of J."""
+    mass, first = placed(((gibbs.I1, gibbs.I2, gibbs.I3), MOMENTS)), dict.fromkeys((w[1], w[2], *across), 0)
+    values = placed((gibbs.u, n * w), (k, carried(w)))
     jacobian = gibbs.jacobian().subs(values, simultaneous=True).subs(mass, simultaneous=True)
-    return jacobian.subs({moment: J[1] + J[2], **axis}, simultaneous=True)
+    return jacobian.subs({moment: MOMENTS[0], **first}, simultaneous=True).det(method="berkowitz")
 
 
 @claim(
@@ -116,16 +116,14 @@ def along_first(values: dict[sp.Symbol, sp.Expr]) -> sp.Matrix:
 def steady_axis(p: Proof) -> None:
     """About a principal axis the small branch folds at a quarter turn, too: no other branch crosses it before."""
     p.assume("n = 1 + n²|w|²; γ = ±e₁ or D = 0: the second is the first with D = 0")
-    u = n * w
-    values = {**dict(zip(gibbs.u, u, strict=True)), **dict(zip(k, carried(w), strict=True))}
     ring = Quotient((w[0], n, *J, gamma[0], D), [n - 1 - n**2 * w[0] ** 2, gamma[0] ** 2 - 1])
-    determinant = along_first(values).det(method="berkowitz")
-    first, second, third = J[1] + J[2], J[0] + J[2], J[0] + J[1]
+    determinant = determinant_along_first(gamma[1], gamma[2])
+    first, second, third = MOMENTS
     crossed = (J[0] - J[1]) * (J[2] - J[0])
 
     def factored(text: str, sign: int) -> Equation:
         across = (second + D) * (third + D) - sign * crossed * n**2 * w[0] ** 2
-        return Equation(text, [sp.expand(n * determinant)], [sp.expand((2 - n) * first * across)], ring)
+        return Equation(text, sp.expand(n * determinant), sp.expand((2 - n) * first * across), ring)
 
     p.printed(factored("n det ∂G/∂u = (2 - n)I₁(Λ₂Λ₃ - (J₁-J₂)(J₃-J₁)|u|²)", 1))
     p.printed(Equation("I₂I₃ - (J₁-J₂)(J₃-J₁) = 2(J₁² + J₂J₃)", [second * third - crossed], [2 * (J[0]**2 + J[1] * J[2])],
@@ -144,20 +142,16 @@ def steady_roll(p: Proof) -> None:
     """Rolling straight about a principal axis the branch folds at a quarter turn, if I₂ and I₃ are not too different."""
     p.assume("n = 1 + n²|w|², |γ| = 1; √2|I₂ - I₃| ≤ I₂ + I₃ for the conclusion")
     u = n * w
-    values = {**dict(zip(gibbs.u, u, strict=True)), **dict(zip(k, carried(w), strict=True))}
-    mass = dict(zip((gibbs.I1, gibbs.I2, gibbs.I3), (J[1] + J[2], J[0] + J[2], J[0] + J[1]), strict=True))
-    jacobian = gibbs.jacobian().subs(values, simultaneous=True).subs(mass, simultaneous=True)
-    jacobian = jacobian.subs({moment: J[1] + J[2], w[1]: 0, w[2]: 0, gamma[0]: 0}, simultaneous=True)
     unit = gamma[1] ** 2 + gamma[2] ** 2 - 1
     ring = Quotient((w[0], n, *J, gamma[1], gamma[2], D), [n - 1 - n**2 * w[0] ** 2, unit])
-    determinant = jacobian.det(method="berkowitz")
-    first, second, third = J[1] + J[2], J[0] + J[2], J[0] + J[1]
+    determinant = determinant_along_first(gamma[0])
+    first, second, third = MOMENTS
     turn = gamma[1] ** 2 - gamma[2] ** 2 + 2 * u[0] * gamma[1] * gamma[2]
 
     def factored(text: str, sign: int) -> Equation:
         across = second * third - (J[0] - J[1]) * (J[2] - J[0]) * u[0] ** 2
         across += D * (second + third + sign * (second - third) * turn) / 2
-        return Equation(text, [sp.expand(n * determinant)], [sp.expand((2 - n) * (first + D) * across)], ring)
+        return Equation(text, sp.expand(n * determinant), sp.expand((2 - n) * (first + D) * across), ring)
 
     p.printed(factored("n det ∂G/∂u = (2 - n)(I₁ + D)(I₂I₃ - ... + D/2(I₂ + I₃ + (I₂ - I₃)c))", 1))
     p.say(
@@ -193,9 +187,7 @@ def isotropic_spin(p: Proof) -> None:
 
     p.printed(inverse("|γ|²(B(γ/|γ|)w - k) = 0", direction - square * k))
     steps, value = steady.spin_steps()
-    for names, expressions in reversed(steps):
-        value = value.subs(dict(zip(names, expressions, strict=True)), simultaneous=True)
-    p.lemma(inverse("the steps of the kernel compute w", value - found))
+    p.lemma(inverse("the steps of the kernel compute w", three.unrolled(steps, value) - found))
     wrong = found.subs(D, -D)
     p.control(inverse("with D of the other sign", square * moment * wrong + D * (square * wrong - gamma.dot(wrong) * gamma)
                       - square * k))  # fmt: skip
@@ -213,7 +205,7 @@ def straight_line(proof: Proof) -> None:
     proof.say("R_{k+1} s(p, γ_{k+1}) = R_k Ω s(p, Ωᵀγ_k) for the steps Δr = ρ R_k s(p, γ_k) of the contact point.")
     step, rotation = sp.Matrix(three.centre_step()), sp.Matrix(three.rotation())
     ring = Quotient((q0, *q, *gamma), [three.UNIT_QUATERNION])
-    later = step.subs(dict(zip(gamma, rotation.T * gamma, strict=True)), simultaneous=True)
+    later = step.subs(placed((gamma, rotation.T * gamma)), simultaneous=True)
     proof.printed(equal("Ω s(p, Ωᵀγ) = s(p, γ)", (rotation * later).applyfunc(sp.expand), step, ring))
     proof.control(equal("s(p, Ωᵀγ) = s(p, γ)", later.applyfunc(sp.expand), step, ring))
 

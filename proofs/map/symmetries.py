@@ -4,7 +4,7 @@ import sympy as sp
 
 from chapsym.derive import gibbs
 from chapsym.derive.gibbs import k, u
-from chapsym.derive.three import gamma
+from chapsym.derive.three import gamma, placed
 from chapsym.proofs.map.gibbs import NORM, equal
 from chapsym.prove import Equation, Proof, claim, main
 
@@ -20,8 +20,7 @@ def turned(x: sp.Matrix, axis: sp.Matrix = u) -> sp.Matrix:
 
 def residual(to_u: sp.Matrix, to_gamma: sp.Matrix, to_k: sp.Matrix) -> sp.Matrix:
     """G at other places: (u, γ, k) each replaced."""
-    places = [*zip(u, to_u, strict=True), *zip(gamma, to_gamma, strict=True), *zip(k, to_k, strict=True)]
-    return sp.Matrix(gibbs.residual()).subs(dict(places), simultaneous=True)
+    return sp.Matrix(gibbs.residual()).subs(placed((u, to_u), (gamma, to_gamma), (k, to_k)), simultaneous=True)
 
 
 def carried(name: str, on_u: sp.Matrix, on_gamma: sp.Matrix, on_k: sp.Matrix) -> list[Equation]:

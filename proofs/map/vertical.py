@@ -31,7 +31,7 @@ def closed_momentum(text: str, sign: int = 1) -> Equation:
     scalar, vector = rotation()
     along = gamma.dot(vector)
     right = (2 * t * (scalar**2 + vector.dot(vector)) - 2 * D * scalar * along) * gamma
-    return Equation(text, list(momentum_of_it()), list(right + sign * 2 * (scalar * e - t * along) * vector), RING)
+    return Equation(text, momentum_of_it(), right + sign * 2 * (scalar * e - t * along) * vector, RING)
 
 
 @claim(
@@ -54,13 +54,13 @@ def closed_rotation(p: Proof) -> None:
                  list((1 + q.dot(q)) * gamma), free)
     )  # fmt: skip
     matrix = sp.Matrix(vertical.closed_matrix())
-    p.printed(Equation("M q = tγ q₀", list(matrix * vector), list(t * scalar * gamma), CLOSED))
+    p.printed(Equation("M q = tγ q₀", matrix * vector, t * scalar * gamma, CLOSED))
     p.say("And for every t, e, with nothing solved yet:")
     p.printed(closed_momentum("𝒦 = (2t(q₀²+|q|²) - 2Dq₀⟨γ,q⟩)γ + 2(q₀e - t⟨γ,q⟩)q"))
     p.say("Where q is not along γ both scalars must vanish for 𝒦 = h(q₀²+|q|²)γ; where they do, it holds.")
     p.control(closed_momentum("the same with -2(q₀e - t⟨γ,q⟩)q", -1))
     wrong = (LAMBDA - e * sp.eye(3) + t * three.hat(gamma)) * vector
-    p.control(Equation("M q = tγ q₀ with M = Λ - e + t γ×", list(wrong), list(t * scalar * gamma), CLOSED))
+    p.control(Equation("M q = tγ q₀ with M = Λ - e + t γ×", wrong, t * scalar * gamma, CLOSED))
 
 
 @claim(
@@ -78,7 +78,7 @@ def level_equation(p: Proof) -> None:
 
     def factored(text: str, shift: sp.Expr) -> Equation:
         residual = vertical.level_residual().subs(level, vertical.weighted_square()) + shift
-        return Equation(text, [balance], [t**2 * residual], ring)
+        return Equation(text, balance, t**2 * residual, ring)
 
     p.printed(factored("q₀e - t⟨γ,q⟩ = t²(v det(Λ-e) + e tr Λ - 2e² - det(Λ)l - t²)", sp.S.Zero))
     p.say("So with D = 0, where t = h/2, the pair (t, e) is constant on an orbit and the map is rational in γ.")
@@ -106,17 +106,17 @@ def rolling_as_a_top(p: Proof) -> None:
     omega = sp.Matrix(continuous.angular_velocity()).subs(values, simultaneous=True)
 
     def spin(text: str, contact: sp.Expr) -> Equation:
-        return Equation(text, list(omega * (1 - contact * form)), list(scale * lam.inv() * gamma), ring)
+        return Equation(text, omega * (1 - contact * form), scale * lam.inv() * gamma, ring)
 
     p.printed(spin("(1 - Dl)ω = HΛ⁻¹γ", D))
     motion = gamma.cross(lam.inv() * gamma)
-    p.printed(Equation("d/dt ⟨γ,Λ⁻¹γ⟩ = 0 along γ' ∝ γ×Λ⁻¹γ", [gamma.dot(lam.inv() * motion)], [sp.S.Zero], ring))
+    p.printed(Equation("d/dt ⟨γ,Λ⁻¹γ⟩ = 0 along γ' ∝ γ×Λ⁻¹γ", gamma.dot(lam.inv() * motion), 0, ring))
     p.say("The top with the mass tensor J + D/2 and D = 0 has the same Λ: its motion is this one, and the discrete")
     p.say("top of (4.14) moves on the same curves by a constant increment (5.15-euler): only its rate is to be set.")
     shifted = lam.subs({J1: J1 + D / 2, J2: J2 + D / 2, J3: J3 + D / 2, D: 0}, simultaneous=True)
-    p.lemma(Equation("Λ of J + D/2 and D = 0", list(shifted), list(lam), ring))
+    p.lemma(Equation("Λ of J + D/2 and D = 0", shifted, lam, ring))
     p.control(spin("(1 - 2Dl)ω = HΛ⁻¹γ", 2 * D))
-    p.control(Equation("⟨γ,Λγ⟩ is constant, too", [gamma.dot(lam * motion)], [sp.S.Zero], ring))
+    p.control(Equation("⟨γ,Λγ⟩ is constant, too", gamma.dot(lam * motion), 0, ring))
 
 
 @claim(
@@ -141,7 +141,7 @@ def commuting_tops(p: Proof) -> None:
     p.say("    u' = -(1 + uuᵀ)Λ⁻¹(u×Λu)/(1 + |u|²)")
 
     def carried(text: str, velocity: sp.Matrix) -> Equation:
-        return Equation(text, list(before.jacobian(u) * velocity), list(before.cross(rates[0])), ring)
+        return Equation(text, before.jacobian(u) * velocity, before.cross(rates[0]), ring)
 
     p.printed(carried("(∂γ/∂u)u' = γ×Λ⁻¹γ", motion))
     p.say("R~ = RΩ follows the continuous top, R~' = R~[ω~], when (1, u)' = ½((1, u)∘ω~ - ω∘(1, u)) up to its length:")
@@ -150,16 +150,14 @@ def commuting_tops(p: Proof) -> None:
         one = sp.Matrix([1, *u])
         left, right = (sp.Matrix([0, *x]) for x in (first, last))
         scalar, *vector = three.quaternion_product(one, right) - three.quaternion_product(left, one)
-        return Equation(text, list(motion), list((sp.Matrix(vector) - scalar * u) / 2), ring)
+        return Equation(text, motion, (sp.Matrix(vector) - scalar * u) / 2, ring)
 
     p.printed(followed("u' = ½(vector - scalar·u) of (1, u)∘ω~ - ω∘(1, u)", *rates))
     p.say(
-        "So one step takes a motion of the continuous top to a motion of it.  On a curve of γ both are translations of u"
+        "So one step takes a motion of the continuous top to a motion of it.  On a curve of γ both are translations of u",
+        "(5.7); when the increments are equal, R~ and the continuous R one increment later differ by a rotation about",
+        "the fixed 𝒦, and it is the same along the motion: both follow the same ω.",
     )
-    p.say(
-        "(5.7); when the increments are equal, R~ and the continuous R one increment later differ by a rotation about"
-    )
-    p.say("the fixed 𝒦, and it is the same along the motion: both follow the same ω.")
     p.control(carried("the same with u' without uuᵀ", -LAMBDA.inv() * crossed / norm))
     p.control(followed("the same with ω and ω~ exchanged", *rates[::-1]))
 
@@ -182,15 +180,13 @@ def precession(p: Proof) -> None:
     weighted = b.dot(LAMBDA.inv() * b)
 
     def turning(text: str, value: sp.Expr) -> Equation:
-        return Equation(text, [gamma.cross(b).dot(rate)], [value], ring)
+        return Equation(text, gamma.cross(b).dot(rate), value, ring)
 
     form = gamma.dot(spin)
     p.printed(
         turning("⟨γ×b, b' + ω×b⟩ = ⟨b,Λ⁻¹b⟩", weighted),
-        Equation(
-            "det(Λ)⟨b,Λ⁻¹b⟩ = ⟨γ,Λγ⟩l - 1", [LAMBDA.det() * weighted], [gamma.dot(LAMBDA * gamma) * form - 1], ring
-        ),
-        Equation("|b|² = ⟨γ,Λ⁻²γ⟩ - l²", [b.dot(b)], [spin.dot(spin) - form**2], ring),
+        Equation("det(Λ)⟨b,Λ⁻¹b⟩ = ⟨γ,Λγ⟩l - 1", LAMBDA.det() * weighted, gamma.dot(LAMBDA * gamma) * form - 1, ring),
+        Equation("|b|² = ⟨γ,Λ⁻²γ⟩ - l²", b.dot(b), spin.dot(spin) - form**2, ring),
     )
     p.control(turning("⟨γ×b, b' + ω×b⟩ = ⟨b,Λb⟩", b.dot(LAMBDA * b)))
 

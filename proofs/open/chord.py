@@ -19,7 +19,7 @@ def addition(sign: int = 1) -> Equation:
     whole = elliptic.added(U, HALF, 1)
     right = elliptic.derivative(-sign * k2 * U.sn * HALF.sn * whole.sn, U)
     mark = "-" if sign > 0 else "+"
-    return Equation(f"dn²(u+v) - dn²u = d/du ({mark}k² sn u sn v sn(u+v))", [whole.dn**2 - U.dn**2], [right], PAIR)
+    return Equation(f"dn²(u+v) - dn²u = d/du ({mark}k² sn u sn v sn(u+v))", whole.dn**2 - U.dn**2, right, PAIR)
 
 
 def chord_of_zeta() -> sp.Expr:
@@ -56,8 +56,8 @@ def chord(p: Proof) -> None:
     p.say("With (ū, a) and with (ū, -a), and the difference of both, as Z is odd: Z(ū+a) - Z(ū-a) = 2Z(a) - k² sn ū sn")
     p.say("a (sn(ū+a) + sn(ū-a)), that is 2Z(a) + (2w/y)(1 - 1/𝒟):")
     shape = 2 * RATIO * (1 - 1 / elliptic.denominator())
-    p.printed(Equation("-k² sn ū sn a (sn(ū+a) + sn(ū-a)) = (2w/y)(1 - 1/𝒟)", [chord_of_zeta()], [shape], TWO))
-    p.lemma(Equation("w/y = cn dn/sn", [SMALL_W / Y], [RATIO], TWO))
+    p.printed(Equation("-k² sn ū sn a (sn(ū+a) + sn(ū-a)) = (2w/y)(1 - 1/𝒟)", chord_of_zeta(), shape, TWO))
+    p.lemma(Equation("w/y = cn dn/sn", SMALL_W / Y, RATIO, TWO))
     p.say("With Ψ = 2Z + 2w/y that is Ψ(a) - Z(u~) + Z(u) = 2w/(y𝒟). And (5.15), T = 0, says 1/𝒟 = (1 - G/(2Vw))/(Dλ):")
     M, whole = (2 * w - G / V) / (y * level), V * y * level * SCALE
     p.printed(
@@ -82,19 +82,19 @@ def chord(p: Proof) -> None:
     )  # fmt: skip
     p.say("So u~ - u = 2a = const - 2DA'z + D²(const + const·z + A''z²) + O(D³), the constants those of the curve.")
     p.lemma(
-        Equation("the coefficient of D²z² in 2a is A''", [sp.expand(2 * a).coeff(D, 2).coeff(z, 2)], [A2], SECOND_ORDER)
+        Equation("the coefficient of D²z² in 2a is A''", sp.expand(2 * a).coeff(D, 2).coeff(z, 2), A2, SECOND_ORDER)
     )
     p.say("z is a difference along the orbit: with v = u + 2DA'(0)Z(u) the map is v~ = v + const + O(D²), a rotation")
     p.say("on every curve, resonant or not.  What tells it from one is of the order D², and the sum of z² along an")
     p.say("orbit.")
     p.control(addition(-1))
-    wrong = Equation("the same with 1/𝒟 - 1", [chord_of_zeta()], [-shape], TWO)
+    wrong = Equation("the same with 1/𝒟 - 1", chord_of_zeta(), -shape, TWO)
     p.control(wrong)
     p.control(
         part("M with G/(2V)", (2 * w - G / (2 * V)) / (y * level) - 2 * D * w / (y * SCALE), -true_relation() / whole)
     )
     b = half_increment(A2)
-    p.control(Equation("a with A'' for ½A''", [A1 * coordinate(b) + A2 / 2 * coordinate(b) ** 2], [b], SECOND_ORDER))
+    p.control(Equation("a with A'' for ½A''", A1 * coordinate(b) + A2 / 2 * coordinate(b) ** 2, b, SECOND_ORDER))
 
 
 if __name__ == "__main__":

@@ -4,6 +4,7 @@ import sympy as sp
 
 from chapsym.derive import modified, three
 from chapsym.derive.limits import omega
+from chapsym.derive.three import placed
 from chapsym.proofs.map import gibbs, self_adjoint
 from chapsym.proofs.map import modified as map_modified
 from chapsym.proofs.map.modified import FREE
@@ -41,30 +42,16 @@ def scaling(p: Proof) -> None:
     """Step 1: the closed orbits come in families, one for every length of K."""
     s = sp.Symbol("t")
     ring = type(FREE)((s, *FREE.symbols), [])
-    scaled = dict(zip(omega, s * omega, strict=True))
-    rates = dict(zip(modified.rate, s**2 * modified.rate, strict=True))
+    scaled = placed((omega, s * omega), (modified.rate, s**2 * modified.rate))
+    torque, rate = modified.torque(), modified.energy_rate()
     p.say(
         "1. Every length of K.  ω(λK, γ) = λω(K, γ), so (K, γ) ↦ (λK, γ) takes solutions of the continuous ball to such,"
     )
     p.say("   λ times as fast; and Φ_ε(λK, γ) is λ times Φ_{λε}(K, γ), for both depend on 𝒦 = λεK.")
-    p.lemma(
-        Equation(
-            "B(γ)ω' = Iω × ω has the degree 2 in ω",
-            list(modified.torque().xreplace(scaled)),
-            list(s**2 * modified.torque()),
-            ring,
-        )
-    )
-    p.lemma(Equation("X₃(H) has the degree 5 in ω: its integral over the orbit scales with λ⁴ > 0",
-                     [modified.energy_rate().xreplace({**scaled, **rates})], [s**5 * modified.energy_rate()], ring))  # fmt: skip
-    p.control(
-        Equation(
-            "X₃(H) has the degree 4",
-            [modified.energy_rate().xreplace({**scaled, **rates})],
-            [s**4 * modified.energy_rate()],
-            ring,
-        )
-    )
+    p.lemma(Equation("B(γ)ω' = Iω × ω has the degree 2 in ω", torque.xreplace(scaled), s**2 * torque, ring))
+    text = "X₃(H) has the degree 5 in ω: its integral over the orbit scales with λ⁴ > 0"
+    p.lemma(Equation(text, rate.xreplace(scaled), s**5 * rate, ring))
+    p.control(Equation("X₃(H) has the degree 4", rate.xreplace(scaled), s**4 * rate, ring))
     p.say(
         "   Let T be the period of the orbit of x. For ε < T take n = ⌊T/ε⌋ steps and λ = T/(nε), so 1 ≤ λ < 1 + ε/(T - ε):"
     )
@@ -75,65 +62,39 @@ def no_integral(p: Proof) -> None:
     """Steps 2 to 4: the theorem on the energy."""
     scaling(p)
     p.say(
-        "2. One step.  On a compact neighbourhood V of the orbit, with V in U, by modified-field and modified-energy,"
+        "2. One step.  On a compact neighbourhood V of the orbit, with V in U, by modified-field and modified-energy,",
+        "   Φ_ε = φ_ε + O(ε³) and H∘Φ_ε = H + ε³X₃(H) + O(ε⁴), φ the flow of the continuous ball; uniformly, since u is",
+        "   analytic in ε, K, γ. |K|², ⟨K,γ⟩ are integrals of the map, so f∘Φ_ε = f + ε³f_H X₃(H) + O(ε⁴), f = f(H, ..).",
+        "3. One period.  By Gronwall's lemma Φ_ε^i(x_ε) = φ_{iε}(x_ε) + O(ε²) for i ≤ n; the orbit stays in V. At i = n,",
+        "   |Φ_ε^n(x_ε) - x_ε| ≤ Cε².  And summing 2., f(Φ_ε^n(x_ε)) - f(x_ε) = ε²f_H ∮X₃(H)dt + o(ε²), as the sum is a",
+        "   Riemann sum, and f_H is constant on the orbit: it depends on integrals of the continuous ball.",
+        "4. The contradiction.  If F∘Φ_ε = F and r = F - f, then f(Φ_ε^n(x_ε)) - f(x_ε) = r(x_ε) - r(Φ_ε^n(x_ε)), which is",
+        "   at most sup|dr|·2Cε², while the left side is at least ½|f_H ∮X₃(H)dt|ε² for small ε. So sup|dr| over U is at",
+        "   least |f_H ∮X₃(H)dt|/(4C) for all small ε, and does not tend to 0.  (A short arc of V joins the two points.)",
+        "   And if r = εH₁ + ε²H₂ + o(ε²) uniformly, H₁ of class C¹, H₂ continuous, the right side is O(ε³) + o(ε²): too little.",
+        "   An analytic F = H + O(|𝒦|³) at 𝒦 = εK, over ε², is H + O(ε) in C¹: so it is no integral.",
     )
-    p.say(
-        "   Φ_ε = φ_ε + O(ε³) and H∘Φ_ε = H + ε³X₃(H) + O(ε⁴), φ the flow of the continuous ball; uniformly, since u is"
-    )
-    p.say(
-        "   analytic in ε, K, γ. |K|², ⟨K,γ⟩ are integrals of the map, so f∘Φ_ε = f + ε³f_H X₃(H) + O(ε⁴), f = f(H, ..)."
-    )
-    p.say(
-        "3. One period.  By Gronwall's lemma Φ_ε^i(x_ε) = φ_{iε}(x_ε) + O(ε²) for i ≤ n; the orbit stays in V. At i = n,"
-    )
-    p.say(
-        "   |Φ_ε^n(x_ε) - x_ε| ≤ Cε².  And summing 2., f(Φ_ε^n(x_ε)) - f(x_ε) = ε²f_H ∮X₃(H)dt + o(ε²), as the sum is a"
-    )
-    p.say("   Riemann sum, and f_H is constant on the orbit: it depends on integrals of the continuous ball.")
-    p.say(
-        "4. The contradiction.  If F∘Φ_ε = F and r = F - f, then f(Φ_ε^n(x_ε)) - f(x_ε) = r(x_ε) - r(Φ_ε^n(x_ε)), which is"
-    )
-    p.say(
-        "   at most sup|dr|·2Cε², while the left side is at least ½|f_H ∮X₃(H)dt|ε² for small ε. So sup|dr| over U is at"
-    )
-    p.say(
-        "   least |f_H ∮X₃(H)dt|/(4C) for all small ε, and does not tend to 0.  (A short arc of V joins the two points.)"
-    )
-    p.say(
-        "   And if r = εH₁ + ε²H₂ + o(ε²) uniformly, H₁ of class C¹, H₂ continuous, the right side is O(ε³) + o(ε²): too little."
-    )
-    p.say("   An analytic F = H + O(|𝒦|³) at 𝒦 = εK, over ε², is H + O(ε) in C¹: so it is no integral.")
 
 
 def no_density(p: Proof) -> None:
     """The theorem on densities."""
     p.say(
-        "Densities.  On R³ × S² with dK dγ the continuous ball keeps μ = τ^(-1/2) (modified-measure). By modified-field, in"
+        "Densities.  On R³ × S² with dK dγ the continuous ball keeps μ = τ^(-1/2) (modified-measure). By modified-field, in",
+        "   C¹ as it is analytic, log(det DΦ_ε · μ∘Φ_ε/μ) = ε³div_μ X₃ + O(ε⁴).  If ϱ∘Φ_ε · det DΦ_ε = ϱ with ϱ = g μ exp(r),",
+        "   g = g(|K|², ⟨K,γ⟩), the sum over one period is r(x_ε) - r(Φ_ε^n(x_ε)) = ε²∮div_μ X₃ dt + o(ε²): as in 4., |dr| does",
+        "   not tend to 0.  div_μ X₃ has the degree 3 in ω, so that 1. holds for it.",
     )
-    p.say(
-        "   C¹ as it is analytic, log(det DΦ_ε · μ∘Φ_ε/μ) = ε³div_μ X₃ + O(ε⁴).  If ϱ∘Φ_ε · det DΦ_ε = ϱ with ϱ = g μ exp(r),"
-    )
-    p.say(
-        "   g = g(|K|², ⟨K,γ⟩), the sum over one period is r(x_ε) - r(Φ_ε^n(x_ε)) = ε²∮div_μ X₃ dt + o(ε²): as in 4., |dr| does"
-    )
-    p.say("   not tend to 0.  div_μ X₃ has the degree 3 in ω, so that 1. holds for it.")
 
 
 def certificates(p: Proof) -> None:
     """Closed orbits with integrals that are not 0, as the separate checker judges them."""
     p.say(
-        "The certificates: an orbit from the start, one component of K varied, back on a section up to S, a rotation by π;"
-    )
-    p.say(
-        "   what it misses in one more component has opposite signs at the two ends of the starts, and |γ|, |K|, ⟨K,γ⟩, H"
-    )
-    p.say(
-        "   and these two tell states apart: so for a start between, S·x(T) = x. S is a symmetry (map-symmetries), so the"
-    )
-    p.say("   orbit is closed after 2T (or T), and the integrals over it are 2 (or 1) times those over [0, T].")
-    p.say("   The checker encloses these orbits and integrals in integers, with formulas and bounds of its own.")
-    p.say(
-        "   What they prove are strict inequalities between continuous functions of J and D: so it holds for all balls near."
+        "The certificates: an orbit from the start, one component of K varied, back on a section up to S, a rotation by π;",
+        "   what it misses in one more component has opposite signs at the two ends of the starts, and |γ|, |K|, ⟨K,γ⟩, H",
+        "   and these two tell states apart: so for a start between, S·x(T) = x. S is a symmetry (map-symmetries), so the",
+        "   orbit is closed after 2T (or T), and the integrals over it are 2 (or 1) times those over [0, T].",
+        "   The checker encloses these orbits and integrals in integers, with formulas and bounds of its own.",
+        "   What they prove are strict inequalities between continuous functions of J and D: so it holds for all balls near.",
     )
     accepted = certified.present(p, FILES, "energy-drift")
     for data in accepted:
@@ -180,15 +141,13 @@ def energy_question(p: Proof) -> None:
     no_density(p)
     certificates(p)
     fixed_step(p)
-    odd = dict(zip(omega, -omega, strict=True))
+    odd = placed((omega, -omega))
     p.say(
         "On an orbit that a reversal of the map takes to itself both integrals are 0: the certificates' orbits are none."
     )
-    p.lemma(
-        Equation("X₃(H) is odd under K ↦ -K", [modified.energy_rate().xreplace(odd)], [-modified.energy_rate()], FREE)
-    )
-    p.control(Equation("X₃(H) is 0 for every D", [modified.energy_rate()], [sp.S.Zero], FREE))
-    p.lemma(Equation("X₃(H) is 0 for D = 0", [modified.energy_rate().subs(three.D, 0)], [sp.S.Zero], FREE))
+    p.lemma(Equation("X₃(H) is odd under K ↦ -K", modified.energy_rate().xreplace(odd), -modified.energy_rate(), FREE))
+    p.control(Equation("X₃(H) is 0 for every D", modified.energy_rate(), 0, FREE))
+    p.lemma(Equation("X₃(H) is 0 for D = 0", modified.energy_rate().subs(three.D, 0), 0, FREE))
     p.settle(ANSWER)
     p.measure(*MEASURED)
     p.conjecture(

@@ -29,7 +29,7 @@ def rate_increases(contact: sp.Expr = D) -> Equation:
     square = (L2 - L3) * (L1 * l - 1) / (L1 * L2 * L3) / (1 - D * l) ** 2
     right = L1 / (2 * (L1 * l - 1)) + contact / (1 - D * l)
     text = "r'/r = Λ1/(2(Λ1l - 1)) + D/(1 - Dl), r² = V²/(1 - Dl)²"
-    return Equation(text, [sp.diff(square, l) / square / 2], [right], Quotient((L1, L2, L3, l, D)))
+    return Equation(text, sp.diff(square, l) / square / 2, right, Quotient((L1, L2, L3, l, D)))
 
 
 @claim(
@@ -48,10 +48,7 @@ def almost_every(p: Proof) -> None:
     p.say("modulo h²")
     p.printed(
         Equation(
-            "(hG𝒟 - 2Vw(𝒟 - Dλ))/h at a = hb is V² - 2Vb(1 - Dl)",
-            [slow_relation()],
-            [V**2 - 2 * V * b * (1 - D * l)],
-            SLOW,
+            "(hG𝒟 - 2Vw(𝒟 - Dλ))/h at a = hb is V² - 2Vb(1 - Dl)", slow_relation(), V**2 - 2 * V * b * (1 - D * l), SLOW
         )
     )
     p.say("so 2a = hr + O(h²) with r = V/(1 - Dl), V > 0 by the choice of u, 1 - Dl > 0 (5.9-circle); and r increases")
@@ -74,7 +71,7 @@ def almost_every(p: Proof) -> None:
         Equation("at 1/Λ2 is k² = 1, at 1/Λ3 is k² = 0", [elliptic.squared_modulus().subs(l, 1 / e) for e in (L2, L3)], [1, 0],
                  Quotient((L1, L2, L3)))
     )  # fmt: skip
-    p.control(Equation("the same with 1 + Dl", [slow_relation()], [V**2 - 2 * V * b * (1 + D * l)], SLOW))
+    p.control(Equation("the same with 1 + Dl", slow_relation(), V**2 - 2 * V * b * (1 + D * l), SLOW))
     p.control(replace(rate_increases(contact=-D), text="r'/r with - D/(1 - Dl)"))
 
 

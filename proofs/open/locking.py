@@ -21,7 +21,7 @@ def projected(last: sp.Expr = 1 / L3) -> Equation:
     """The level in the plane of two axes: an ellipse about 0."""
     a, b, _ = gamma
     form = a**2 * (1 / L1 - last) + b**2 * (1 / L2 - last)
-    return Equation("γ_a²(1/Λ_a - 1/Λ_c) + γ_b²(1/Λ_b - 1/Λ_c) = l - 1/Λ_c", [form], [l - 1 / L3], ON_LEVEL)
+    return Equation("γ_a²(1/Λ_a - 1/Λ_c) + γ_b²(1/Λ_b - 1/Λ_c) = l - 1/Λ_c", form, l - 1 / L3, ON_LEVEL)
 
 
 def area(factor: int = 1) -> Equation:
@@ -41,14 +41,14 @@ def displacement(sign: int = 1) -> Equation:
     r, r0, c, s, c0, s0 = sp.symbols("r r0 c s c0 s0")
     plane = Quotient((r, r0, c, s, c0, s0))
     turned = -(r0 * c0 * r * s - r0 * s0 * r * c)
-    return Equation("-(γ_a⁰γ_b - γ_b⁰γ_a) = r⁰r sin(ψ - ψ⁰ - π)", [turned], [sign * r0 * r * (c * s0 - s * c0)], plane)
+    return Equation("-(γ_a⁰γ_b - γ_b⁰γ_a) = r⁰r sin(ψ - ψ⁰ - π)", turned, sign * r0 * r * (c * s0 - s * c0), plane)
 
 
 def infinite_density(power: int = -1) -> Equation:
     """μ(f(x))f'(x) = μ(x) for f(x) = x/2, which fixes 0, and μ a power of x."""
     x = sp.Symbol("x")
     mu = x**power
-    return Equation(f"μ(x/2)/2 = μ(x) for μ = x^{power}", [mu.subs(x, x / 2) / 2], [mu], Quotient((x,)))
+    return Equation(f"μ(x/2)/2 = μ(x) for μ = x^{power}", mu.subs(x, x / 2) / 2, mu, Quotient((x,)))
 
 
 @claim(
@@ -59,12 +59,10 @@ def infinite_density(power: int = -1) -> Equation:
 )
 def locked_circle(p: Proof) -> None:
     """Displacements of both signs leave a circle no invariant density, and an interval of such levels none to the sphere."""
-    p.assume("J_i + J_j > 0, D ≥ 0; |h| below the bound of small-branch, G_h on the small branch")
     p.assume(
-        f"{REGULAR}; c is the axis with 1/Λ_c at the end of the 1/Λ's on the side of l, (a, b) the others; γ_c > 0"
-    )
-    p.assume(
-        "an invariant measure is a Borel measure ν ≥ 0 with ν(G_h⁻¹E) = ν(E), finite on the circle (on the sphere)"
+        "J_i + J_j > 0, D ≥ 0; |h| below the bound of small-branch, G_h on the small branch",
+        f"{REGULAR}; c is the axis with 1/Λ_c at the end of the 1/Λ's on the side of l, (a, b) the others; γ_c > 0",
+        "an invariant measure is a Borel measure ν ≥ 0 with ν(G_h⁻¹E) = ν(E), finite on the circle (on the sphere)",
     )
     p.say("1. The circle. By small-branch the root is unique, regular and so analytic in (γ, h): G_h is an analytic")
     p.say("map of the sphere, and G_{-h} its inverse (self-adjoint). It keeps l (prop-3), and the path G_{th}, 0 ≤ t ≤")

@@ -6,14 +6,15 @@ from sympy.polys.matrices import DomainMatrix
 from chapsym.derive import gibbs
 from chapsym.derive.gibbs import I1, I2, I3, D, d, k, u
 from chapsym.derive.quotient import Quotient
-from chapsym.derive.three import gamma
+from chapsym.derive.three import gamma, placed
 from chapsym.proofs.map.gibbs import FREE, equal
-from chapsym.prove import Equation, Fact, Proof, claim, main
+from chapsym.prove import Equation, Fact, Proof, claim, equations, main
 
 #: Of a steady rotation about e₃ by the angle θ: u = (0, 0, t), t = tan(θ/2), γ = (x, y, c).
 t = sp.Symbol("t")
 x, y, c = gamma
 STEADY = Quotient((t, x, y, c, I1, I2, I3, D), [x**2 + y**2 + c**2 - 1])
+equation = equations(STEADY)
 #: The example: a turn by 45° a step, in Q(√2).
 ROOT = sp.sqrt(2)
 EXAMPLE = {I1: sp.Integer(6), I2: sp.Integer(5), I3: sp.Integer(3), D: sp.Integer(1), t: ROOT - 1, c: ROOT / 2}
@@ -28,8 +29,7 @@ def turn(v: sp.Matrix) -> sp.Matrix:
 
 def at(expr: sp.Matrix, u_: sp.Matrix, gamma_: sp.Matrix, k_: sp.Matrix) -> sp.Matrix:
     """An expression of u, γ and k at other places."""
-    places = [*zip(u, u_, strict=True), *zip(gamma, gamma_, strict=True), *zip(k, k_, strict=True)]
-    return sp.Matrix(expr).subs(dict(places), simultaneous=True)
+    return sp.Matrix(expr).subs(placed((u, u_), (gamma, gamma_), (k, k_)), simultaneous=True)
 
 
 def half_momentum(u_: sp.Matrix, gamma_: sp.Matrix) -> sp.Matrix:
@@ -62,25 +62,21 @@ def turning(v: sp.Matrix) -> sp.Matrix:
 def step_determinant(p: Proof) -> None:
     """How a step changes volumes: the quotient of two Jacobians, that of the step back and that of the step."""
     p.assume("𝒦 and γ not parallel, ∂G/∂u regular (below the bound of small-branch it is)")
-    p.say("M: |γ| = 1, |𝒦| and ⟨𝒦, γ⟩ fixed. It is the set of all (R𝒦, Rγ), R in SO(3), with the tangent vectors")
     p.say(
-        "(w × 𝒦, w × γ); DΦ on M is w ↦ Sw in these coordinates. The volume of SO(3) that is invariant under rotations"
+        "M: |γ| = 1, |𝒦| and ⟨𝒦, γ⟩ fixed. It is the set of all (R𝒦, Rγ), R in SO(3), with the tangent vectors",
+        "(w × 𝒦, w × γ); DΦ on M is w ↦ Sw in these coordinates. The volume of SO(3) that is invariant under rotations",
+        "makes one of M; d³𝒦 dσ(γ) on the phase space is it times a function of |𝒦| and ⟨𝒦, γ⟩, as it is invariant, too.",
+        "So all dets on M, on the 5-dimensional phase space and (at a fixed point) in R⁶ are one.  With T = Ωᵀ:",
     )
-    p.say(
-        "makes one of M; d³𝒦 dσ(γ) on the phase space is it times a function of |𝒦| and ⟨𝒦, γ⟩, as it is invariant, too."
-    )
-    p.say("So all dets on M, on the 5-dimensional phase space and (at a fixed point) in R⁶ are one.  With T = Ωᵀ:")
     turned = turn(u)
     p.lemma(equal("self-adjoint in u: G(-u; Tγ, -Tk) = -TG(u; γ, k), for all u, γ, k",
                   at(gibbs.residual(), -u, turned * gamma, -turned * k), -turned * sp.Matrix(gibbs.residual())))  # fmt: skip
     change = sum((turned.diff(a) * b for a, b in zip(u, d, strict=True)), sp.zeros(3, 3))
     p.lemma(equal("dT = [E du]×T, E = 2([u]× - 1)/(1 + |u|²)", change, (turning(u) * d).hat() * turned))
-    p.say("𝒜 = ∂G/∂u, 𝒢w its change by γ ↦ w × γ, k ↦ w × k: du = -𝒜⁻¹𝒢w, and S = T - E𝒜⁻¹𝒢; 𝒜~ and 𝒢~ are those at")
     p.say(
-        "(-u; Tγ, -Tk).  Where G = 0 the first lemma, differentiated by turns of the start and by u, says 𝒢~T = -T𝒢 and"
-    )
-    p.say(
-        "𝒢~E - 𝒜~ = -T𝒜, that is T⁻¹𝒜~ = 𝒜 - 𝒢T⁻¹E.  So det S = det(1 - 𝒢T⁻¹E𝒜⁻¹) = det 𝒜~/det 𝒜.  For one u, all γ, D:"
+        "𝒜 = ∂G/∂u, 𝒢w its change by γ ↦ w × γ, k ↦ w × k: du = -𝒜⁻¹𝒢w, and S = T - E𝒜⁻¹𝒢; 𝒜~ and 𝒢~ are those at",
+        "(-u; Tγ, -Tk).  Where G = 0 the first lemma, differentiated by turns of the start and by u, says 𝒢~T = -T𝒢 and",
+        "𝒢~E - 𝒜~ = -T𝒜, that is T⁻¹𝒜~ = 𝒜 - 𝒢T⁻¹E.  So det S = det(1 - 𝒢T⁻¹E𝒜⁻¹) = det 𝒜~/det 𝒜.  For one u, all γ, D:",
     )
     point = sp.Matrix([sp.Rational(1, 3), sp.Rational(-1, 4), sp.Rational(1, 5)])
     ball, free = {I1: 6, I2: 5, I3: 3}, Quotient((*gamma, D), [])
@@ -95,7 +91,7 @@ def step_determinant(p: Proof) -> None:
     without = {D: sp.S.Zero}
     p.printed(Equation("det 𝒜~ = det 𝒜 for D = 0", [_determinant(slope(-u, gamma).subs(without))],
                      [_determinant(slope(u, gamma).subs(without))], FREE))  # fmt: skip
-    numbers = {**dict(zip(gamma, sp.Matrix([2, 3, 6]) / 7, strict=True)), D: 2, **ball}
+    numbers = placed((gamma, sp.Matrix([2, 3, 6]) / 7)) | {D: 2, **ball}
     S = turn(point) - turning(point) * here.subs(numbers).inv() * by_turns(point, gamma).subs(numbers)
     quotient = _determinant(there.subs(numbers)) / _determinant(here.subs(numbers))
     p.lemma(Fact("det S by its definition is this quotient, at γ = (2, 3, 6)/7, D = 2", S.det() == quotient))
@@ -133,10 +129,8 @@ def steady_circles(p: Proof) -> None:
     """Circles of periodic states on which volumes are not preserved, for every ball with D > 0: in closed form."""
     p.assume("|𝒦| below the bound of small-branch, |u| < 1")
     p.say(
-        "Where u = te₃, each step turns the ball by θ = 2 arctan t about e₃ (steady), whatever γ is.  Of γ = (x, y, c) only"
-    )
-    p.say(
-        "x + iy = re^{iφ} changes, by e^{-iθ}: a circle of states on one level M, all back after 2m steps where mθ = pπ."
+        "Where u = te₃, each step turns the ball by θ = 2 arctan t about e₃ (steady), whatever γ is.  Of γ = (x, y, c) only",
+        "x + iy = re^{iφ} changes, by e^{-iθ}: a circle of states on one level M, all back after 2m steps where mθ = pπ.",
     )
     axis, vertical = sp.Matrix([0, 0, t]), sp.Matrix([x, y, c])
     turned = turn(axis)
@@ -155,34 +149,20 @@ def steady_circles(p: Proof) -> None:
     x1, y1, _ = turned * vertical
     cosine, sine = (1 - t**2) / (1 + t**2), 2 * t / (1 + t**2)
     half = cosine * around(x, y, t) + sine * (2 * x * y - t * (x**2 - y**2))
-    p.printed(
-        Equation("Re((1 + it)(x + iy)²e^{-2iθ}) = Re(e^{-iθ}(1 - it)(x + iy)²)", [around(x1, y1, -t)], [half], STEADY)
-    )
+    p.printed(equation("Re((1 + it)(x + iy)²e^{-2iθ}) = Re(e^{-iθ}(1 - it)(x + iy)²)", around(x1, y1, -t), half))
     p.say(
-        "so det DΦ at φ is f(φ - ½θ)/f(φ): the place half a step ahead.  f/P is (1 + z² + 2z cos ψ)/(1 + z²), ψ = 2φ - θ/2,"
+        "so det DΦ at φ is f(φ - ½θ)/f(φ): the place half a step ahead.  f/P is (1 + z² + 2z cos ψ)/(1 + z²), ψ = 2φ - θ/2,",
+        "0 < |z| < 1.  In m steps ψ takes m places that are 2π/m apart, as p and m may be taken coprime; with ω^m = 1",
+        "Π(1 + z² + 2z cos(ψ + 2πj/m)) = |Π(1 + z e^{iψ}ω^j)|² = |1 - (-z)^m e^{imψ}|² = 1 + z^{2m} - 2(-z)^m cos mψ,",
+        "and half a step ahead mψ is less by mθ = pπ: its cosine has the other sign.  So the determinant of m steps (and of",
+        "2m, its square) is other than 1 but where cos mψ = 0.  A continuous positive density ϱ of an invariant measure,",
+        "on M or on the phase space, would have ϱ(Φ^{2m}x) det DΦ^{2m} = ϱ(x), with Φ^{2m}x = x: there is none near such a",
+        "circle on M.  In the phase space there is none near any steady circle with γ ∦ e₃, as such angles θ are dense.",
+        "(For p even the determinant is 1: there the places half a step ahead are places of the orbit.)",
     )
-    p.say(
-        "0 < |z| < 1.  In m steps ψ takes m places that are 2π/m apart, as p and m may be taken coprime; with ω^m = 1"
-    )
-    p.say(
-        "Π(1 + z² + 2z cos(ψ + 2πj/m)) = |Π(1 + z e^{iψ}ω^j)|² = |1 - (-z)^m e^{imψ}|² = 1 + z^{2m} - 2(-z)^m cos mψ,"
-    )
-    p.say(
-        "and half a step ahead mψ is less by mθ = pπ: its cosine has the other sign.  So the determinant of m steps (and of"
-    )
-    p.say(
-        "2m, its square) is other than 1 but where cos mψ = 0.  A continuous positive density ϱ of an invariant measure,"
-    )
-    p.say(
-        "on M or on the phase space, would have ϱ(Φ^{2m}x) det DΦ^{2m} = ϱ(x), with Φ^{2m}x = x: there is none near such a"
-    )
-    p.say(
-        "circle on M.  In the phase space there is none near any steady circle with γ ∦ e₃, as such angles θ are dense."
-    )
-    p.say("(For p even the determinant is 1: there the places half a step ahead are places of the orbit.)")
     _example(p)
     p.control(steady("the same without Q", sp.S.Zero))
-    p.control(Equation("det DΦ = 1", [around(x1, y1, -t)], [around(x, y, t)], STEADY))
+    p.control(equation("det DΦ = 1", around(x1, y1, -t), around(x, y, t)))
 
 
 def _example(p: Proof) -> None:
@@ -243,34 +223,22 @@ def _by_formula(field: sp.Domain) -> object:
 )
 def periodic_orbits(p: Proof) -> None:
     """What one periodic orbit excludes, on its level and on all levels and for all balls near by."""
-    p.say("ϱ(Φ^q x) det DΦ^q = ϱ(x) at Φ^q(x) = x, ϱ(x) > 0, gives det W = 1; so it is for M and for the phase space.")
     p.say(
-        "F∘Φ^q = F, F of class C¹ near the orbit: dF W = dF on T_xM, so dF = 0 there if 1 is no eigenvalue of W.  As then"
-    )
-    p.say(
-        "Φ^q(x) - x has a regular derivative on M, the implicit function theorem gives such an orbit, with det W ≠ 1 and"
-    )
-    p.say(
-        "det(1 - W) ≠ 0, for all |𝒦|², ⟨𝒦, γ⟩, J and D near by: an open set of the phase space is met.  In it a C¹ integral F"
-    )
-    p.say(
-        "has dF = f d|𝒦|² + g d⟨𝒦, γ⟩ along a surface of such points, so no third integral is independent of these there."
-    )
-    p.say(
-        "If all eigenvalues of W are inside the unit circle, x attracts a neighbourhood on M: every continuous integral is"
-    )
-    p.say("constant on M there, and every finite invariant measure on that neighbourhood is carried by the orbit.")
-    p.say(
-        "A reversor ϱ_R(𝒦, γ) = -R(𝒦, γ), R = 1 or the rotation by π about a principal axis, keeps M.  If it maps the orbit"
-    )
-    p.say(
-        "to itself, W is similar to W⁻¹: det W = 1 (it is positive), and, as M has an odd dimension, 1 is an eigenvalue:"
+        "ϱ(Φ^q x) det DΦ^q = ϱ(x) at Φ^q(x) = x, ϱ(x) > 0, gives det W = 1; so it is for M and for the phase space.",
+        "F∘Φ^q = F, F of class C¹ near the orbit: dF W = dF on T_xM, so dF = 0 there if 1 is no eigenvalue of W.  As then",
+        "Φ^q(x) - x has a regular derivative on M, the implicit function theorem gives such an orbit, with det W ≠ 1 and",
+        "det(1 - W) ≠ 0, for all |𝒦|², ⟨𝒦, γ⟩, J and D near by: an open set of the phase space is met.  In it a C¹ integral F",
+        "has dF = f d|𝒦|² + g d⟨𝒦, γ⟩ along a surface of such points, so no third integral is independent of these there.",
+        "If all eigenvalues of W are inside the unit circle, x attracts a neighbourhood on M: every continuous integral is",
+        "constant on M there, and every finite invariant measure on that neighbourhood is carried by the orbit.",
+        "A reversor ϱ_R(𝒦, γ) = -R(𝒦, γ), R = 1 or the rotation by π about a principal axis, keeps M.  If it maps the orbit",
+        "to itself, W is similar to W⁻¹: det W = 1 (it is positive), and, as M has an odd dimension, 1 is an eigenvalue:",
     )
     a, b = sp.symbols("a1 a2")
     ring = Quotient((a, b), [])
 
     def unit(text: str, second: sp.Expr) -> Equation:
-        return Equation(text, [1 - a + second - 1], [sp.S.Zero], ring)
+        return Equation(text, 1 - a + second - 1, 0, ring)
 
     p.printed(unit("χ(1) = 1 - tr W + tr W⁻¹ - 1 = 0 where tr W⁻¹ = tr W", a))
     p.say(

@@ -23,7 +23,7 @@ def square(pole: sp.Expr = POLE, sign: int = -1) -> Equation:
     marks = "-" if pole == POLE else "+", "-" if sign < 0 else "+"
     left, right = "(-k² sn u sn v sn(u+v) {} cn dn/sn(v))²", "cn² dn²/sn²(v) + 1 + dn²v {} (dn²u + dn²(u+v))"
     text = f"{left.format(marks[0])} = {right.format(marks[1])}"
-    return Equation(text, [(SPREAD - pole) ** 2], [POLE**2 + 1 + HALF.dn**2 + sign * ends], PAIR)
+    return Equation(text, (SPREAD - pole) ** 2, POLE**2 + 1 + HALF.dn**2 + sign * ends, PAIR)
 
 
 def product_of_poles(sign: int = 1) -> Identity:
@@ -93,10 +93,7 @@ def resonance(p: Proof) -> None:
     inverse = Quotient((M1, M2))
     p.lemma(
         Equation(
-            "A(M(a)) = a twice differentiated, at A' = 1/M', A'' = -M''/M'³",
-            [-M2 / M1**3 * M1**2 + M2 / M1],
-            [sp.S.Zero],
-            inverse,
+            "A(M(a)) = a twice differentiated, at A' = 1/M', A'' = -M''/M'³", -M2 / M1**3 * M1**2 + M2 / M1, 0, inverse
         )
     )
     p.say("f(u) = Σ_j dn²(u + 2Kj/q) has the periods 2K/q, 2iK' and in a cell one pole, double, at iK', as dn² has in")
@@ -143,8 +140,8 @@ def plateaus(p: Proof) -> None:
     above, below, ring = slow_parts()
     b, V = sp.symbols("b V")
     p.printed(
-        Equation("(2w - hG/V)/h = 2b - V", [above], [2 * b - V], ring),
-        Equation("yλ/h² = b²l", [below], [b**2 * l], ring),
+        Equation("(2w - hG/V)/h = 2b - V", above, 2 * b - V, ring),
+        Equation("yλ/h² = b²l", below, b**2 * l, ring),
     )
     P = (2 * b - V) / (b**2 * l)
     plain = Quotient((b, V, l))
@@ -152,11 +149,9 @@ def plateaus(p: Proof) -> None:
     p.say("So hM(hb) = (2b - V)/(b²l) + O(h²), with its derivatives, for b in a compact set of b > 0; at the zero b =")
     p.say("V/2")
     p.printed(
-        Equation("the first derivative is 8/(lV²)", [sp.diff(P, b).subs(at)], [8 / (l * V**2)], plain),
-        Equation("the second is -64/(lV³)", [sp.diff(P, b, 2).subs(at)], [-64 / (l * V**3)], plain),
-        Equation(
-            "A''(0) = h³l²V³/8 to leading order", [64 / (l * V**3) / (8 / (l * V**2)) ** 3], [l**2 * V**3 / 8], plain
-        ),
+        Equation("the first derivative is 8/(lV²)", sp.diff(P, b).subs(at), 8 / (l * V**2), plain),
+        Equation("the second is -64/(lV³)", sp.diff(P, b, 2).subs(at), -64 / (l * V**3), plain),
+        Equation("A''(0) = h³l²V³/8 to leading order", 64 / (l * V**3) / (8 / (l * V**2)) ** 3, l**2 * V**3 / 8, plain),
     )
     p.say("so M' > 0, M'' < 0, A'' > 0; 2a₀ → 0 with h is the increment of the small branch (5.9-circle), V > 0 by the")
     p.say("choice of u. ω = a₀/K = hV/(2K) + O(h³), with its derivative by l, on a compact interval of 1/Λ2 < l <")
@@ -165,17 +160,17 @@ def plateaus(p: Proof) -> None:
     rate, slope = sp.diff((L2 - L3) * (L1 * l - 1) / (L1 * L2 * L3), l), sp.diff(elliptic.squared_modulus(), l)
     falling = -(L1 - L2) * (L1 - L3) / ((L2 - L3) * (L1 * l - 1) ** 2)
     p.printed(
-        Equation("dV²/dl = (Λ2 - Λ3)/(Λ2Λ3) > 0", [rate], [(L2 - L3) / (L2 * L3)], level),
-        Equation("dk²/dl = -(Λ1-Λ2)(Λ1-Λ3)/((Λ2-Λ3)(Λ1l-1)²) < 0", [slope], [falling], level),
+        Equation("dV²/dl = (Λ2 - Λ3)/(Λ2Λ3) > 0", rate, (L2 - L3) / (L2 * L3), level),
+        Equation("dk²/dl = -(Λ1-Λ2)(Λ1-Λ3)/((Λ2-Λ3)(Λ1l-1)²) < 0", slope, falling, level),
     )
     p.say("and K increases with k. So ω' > 0 for h small, ω takes an interval of values, with rational ones p/q among")
     p.say("them, and 1. applies to each of these: h₀ and the interval of l are chosen first, then h, then p/q, then")
     p.say("D₀.")
     p.witness("a level", {"Λ": "(6, 5, 2)", "l": "3/10", "V²": "1/25", "k²": "1/6"},
               Fact("V² > 0 and 0 < k² < 1", all(0 < x < 1 for x in at_a_level())))  # fmt: skip
-    p.control(Equation("(2w - hG/V)/h = b - V", [above], [b - V], ring))
-    p.control(Equation("dk²/dl > 0", [slope], [-falling], level))
-    p.control(Equation("A'' = +M''/M'³", [-64 / (l * V**3) / (8 / (l * V**2)) ** 3], [l**2 * V**3 / 8], plain))
+    p.control(Equation("(2w - hG/V)/h = b - V", above, b - V, ring))
+    p.control(Equation("dk²/dl > 0", slope, -falling, level))
+    p.control(Equation("A'' = +M''/M'³", -64 / (l * V**3) / (8 / (l * V**2)) ** 3, l**2 * V**3 / 8, plain))
 
 
 def at_a_level() -> list[sp.Expr]:

@@ -210,7 +210,7 @@ def top_integrals(p: Proof) -> None:
         r"\langle\omega,\Lambda\omega\rangle = \frac{(h^2+Dl)\,l}{h^2}",
         equation("⟨ω,Λω⟩ = (h²+Dl)l/h²", spin.dot(body), (height**2 + D * power) * power / height**2, VERTICAL),
     )
-    hypothesis = Equation("|γ| = 1", [gamma.dot(gamma)], [sp.S.One], VERTICAL)
+    hypothesis = Equation("|γ| = 1", gamma.dot(gamma), 1, VERTICAL)
     point = rational_point({**BALL, **UNIT, s: 1}, [hypothesis])
     shown = {name: value for name, value in point.values.items() if name != "s"} | {"Λω": "γ"}
     p.counterexample(replace(point, values=shown))

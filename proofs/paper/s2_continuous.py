@@ -7,7 +7,9 @@ from chapsym.derive.continuous import RING, inverse_inertia
 from chapsym.derive.limits import omega
 from chapsym.derive.quotient import Quotient
 from chapsym.derive.three import J1, J2, J3, D, K, gamma
-from chapsym.prove import Equation, Proof, claim, main, rational_point
+from chapsym.prove import Equation, Proof, claim, equations, main, rational_point
+
+equation = equations(RING)
 
 #: A ball, a unit vertical and an angular velocity for the counterexamples.
 BALL = {J1: 1, J2: 2, J3: 4, D: 3}
@@ -17,7 +19,7 @@ SPIN = dict(zip(omega, (1, -1, 2), strict=True))
 
 def unit_vertical() -> Equation:
     """|γ|² = 1."""
-    return Equation("|γ|² = 1", [gamma.dot(gamma)], [sp.S.One], RING)
+    return equation("|γ|² = 1", gamma.dot(gamma), 1)
 
 
 @claim("2.1", r"v + \rho\,\omega\times\gamma = 0 \text{ with the vertical unit vector directed upwards}")
@@ -30,18 +32,18 @@ def rolling_condition(p: Proof) -> None:
     p.say("The velocity of the material point at P is v + ω × (P - C), and rolling says that it vanishes.")
     slip = v + omega.cross(-rho * gamma)
     p.show("velocity of P", slip.T.tolist()[0])
-    p.printed(Equation("v + ρ ω×γ = the velocity of P", list(v + rho * omega.cross(gamma)), list(slip), ring))
+    p.printed(Equation("v + ρ ω×γ = the velocity of P", v + rho * omega.cross(gamma), slip, ring))
     p.corrected(
         r"v - \rho\,\omega\times\gamma = 0 \text{ (or } \gamma \text{ directed downwards, from } C \text{ to } P)",
-        Equation("v - ρ ω×γ = the velocity of P", list(v - rho * omega.cross(gamma)), list(slip), ring),
+        Equation("v - ρ ω×γ = the velocity of P", v - rho * omega.cross(gamma), slip, ring),
     )
     down = v + rho * omega.cross(gamma) - (v + omega.cross(rho * gamma))
-    p.lemma(Equation("with γ downwards, P = C + ργ, the printed form is right", list(down), [0, 0, 0], ring))
+    p.lemma(Equation("with γ downwards, P = C + ργ, the printed form is right", down, [0, 0, 0], ring))
     p.say("Example: γ = e₃ up, ω = e₂: the ball moves along +e₁ with speed ρ, as anyone can see on a table.")
     point = {**dict(zip(v, (1, 0, 0), strict=True)), rho: 1}
     point |= {**dict(zip(omega, (0, 1, 0), strict=True)), **dict(zip(gamma, (0, 0, 1), strict=True))}
     p.counterexample(rational_point(point))
-    p.control(Equation("v - ρ γ×ω = the velocity of P", list(v - rho * gamma.cross(omega)), list(slip), ring))
+    p.control(Equation("v - ρ γ×ω = the velocity of P", v - rho * gamma.cross(omega), slip, ring))
 
 
 @claim("2.2-F", r"F = \langle J\gamma,\Lambda^{-1}\gamma\rangle \equiv 1 - D\langle\gamma,\Lambda^{-1}\gamma\rangle")
@@ -51,11 +53,11 @@ def rolling_factor(p: Proof) -> None:
     inverse = inverse_inertia()
     printed = (three.lam() - D * sp.eye(3)) * gamma
     second = 1 - D * gamma.dot(inverse * gamma)
-    p.printed(Equation("⟨Iγ, Λ⁻¹γ⟩ = 1 - D⟨γ, Λ⁻¹γ⟩", [printed.dot(inverse * gamma)], [second], RING))
+    p.printed(equation("⟨Iγ, Λ⁻¹γ⟩ = 1 - D⟨γ, Λ⁻¹γ⟩", printed.dot(inverse * gamma), second))
     free = Quotient(RING.symbols)
-    p.control(Equation("the same without |γ| = 1", [printed.dot(inverse * gamma)], [second], free))
-    p.control(Equation("F = 1 + D⟨γ, Λ⁻¹γ⟩", [printed.dot(inverse * gamma)], [2 - second], RING))
-    p.control(Equation("J the mass tensor: ⟨Jγ, Λ⁻¹γ⟩ = F", [(three.J * gamma).dot(inverse * gamma)], [second], RING))
+    p.control(Equation("the same without |γ| = 1", printed.dot(inverse * gamma), second, free))
+    p.control(equation("F = 1 + D⟨γ, Λ⁻¹γ⟩", printed.dot(inverse * gamma), 2 - second))
+    p.control(equation("J the mass tensor: ⟨Jγ, Λ⁻¹γ⟩ = F", (three.J * gamma).dot(inverse * gamma), second))
 
 
 def on_motion(expr: sp.Expr) -> sp.Expr:
@@ -76,7 +78,7 @@ def inverse_momentum(p: Proof) -> None:
     left = list(three.lam() * omega)
 
     def inverse(text: str, sign: int) -> Equation:
-        return Equation(text, left, list((K + sign * lift).applyfunc(on_motion)), RING)
+        return equation(text, left, (K + sign * lift).applyfunc(on_motion))
 
     p.printed(inverse("Λω = K - (D/F)⟨γ, Λ⁻¹K⟩γ", -1))
     p.corrected(
@@ -105,19 +107,19 @@ def energy_integral(p: Proof) -> None:
     quadratic = K.dot(inverse_inertia() * K)
     lifted = D / continuous.rolling_factor() * gamma.dot(inverse_inertia() * K) ** 2
     left = [K.dot(sp.Matrix(continuous.angular_velocity()))]
-    p.printed(Equation("⟨K,ω⟩ = ⟨K,Λ⁻¹K⟩ - (D/F)⟨γ,Λ⁻¹K⟩²", left, [quadratic - lifted], RING))
+    p.printed(equation("⟨K,ω⟩ = ⟨K,Λ⁻¹K⟩ - (D/F)⟨γ,Λ⁻¹K⟩²", left, quadratic - lifted))
     p.corrected(
         r"\langle K,\omega\rangle = \langle K,\Lambda^{-1}K\rangle + \frac DF\langle\gamma,\Lambda^{-1}K\rangle^2",
-        Equation("⟨K,ω⟩ = ⟨K,Λ⁻¹K⟩ + (D/F)⟨γ,Λ⁻¹K⟩²", left, [quadratic + lifted], RING),
+        equation("⟨K,ω⟩ = ⟨K,Λ⁻¹K⟩ + (D/F)⟨γ,Λ⁻¹K⟩²", left, quadratic + lifted),
     )
     momentum = dict(zip(K, (1, "-1/2", "3/4"), strict=True))
     p.counterexample(rational_point({**BALL, **UNIT, **momentum}, [unit_vertical()]))
-    p.lemma(Equation("the derived energy is ½⟨K,ω⟩", [2 * continuous.energy()], left, RING))
+    p.lemma(equation("the derived energy is ½⟨K,ω⟩", 2 * continuous.energy(), left))
     p.say("The kinetic energy is half of ⟨K,ω⟩: ½m|v|² + ½⟨Iω,ω⟩ with |v| = ρ|ω×γ|.")
     in_motion = sp.Matrix(continuous.momentum()).dot(omega)
-    p.lemma(Equation("½⟨K,ω⟩ = ½m|v|² + ½⟨Iω,ω⟩", [in_motion / 2], [continuous.lagrangian_energy()], RING))
-    p.control(Equation("⟨K,ω⟩ = ½m|v|² + ½⟨Iω,ω⟩", [in_motion], [continuous.lagrangian_energy()], RING))
-    p.control(Equation("⟨K,ω⟩ with F = 1", left, [quadratic + lifted * continuous.rolling_factor()], RING))
+    p.lemma(equation("½⟨K,ω⟩ = ½m|v|² + ½⟨Iω,ω⟩", in_motion / 2, continuous.lagrangian_energy()))
+    p.control(equation("⟨K,ω⟩ = ½m|v|² + ½⟨Iω,ω⟩", in_motion, continuous.lagrangian_energy()))
+    p.control(equation("⟨K,ω⟩ with F = 1", left, quadratic + lifted * continuous.rolling_factor()))
 
 
 if __name__ == "__main__":

@@ -6,14 +6,12 @@ from chapsym.derive import motion
 from chapsym.derive.motion import ALGEBRA, D, Gamma, J, K, alpha, commutator, gamma, m, omega, rate, rho
 from chapsym.derive.three import hat
 from chapsym.derive.words import evaluate
-from chapsym.prove import Equation, Point, Proof, claim, main
+from chapsym.prove import Equation, Point, Proof, claim, equations, main
 
 DOWNWARDS = "γ is directed from the centre to the plane (2.9 as corrected)"
 
 
-def equation(text: str, left: sp.Expr, right: sp.Expr) -> Equation:
-    """One matrix equation between words."""
-    return Equation(text, [left], [right], ALGEBRA)
+equation = equations(ALGEBRA)
 
 
 def motion_point() -> Point:
@@ -23,7 +21,7 @@ def motion_point() -> Point:
     values = {alpha: gain, omega: spin, J: sp.diag(1, 2, 4), gamma: down, motion.gammaT: down.T}
     values |= {Gamma: down * down.T, m: sp.S.One, rho: sp.S.One, D: sp.S.One}
     shown = {"ω": "(1, 1, 1)", "ω̇": "(2/7, -1/2, 1/3)", "J": "diag(1, 2, 4)", "γ": "e3", "m": "1", "ρ": "1", "D": "1"}
-    return Point(shown, lambda expr: evaluate(expr, values), [equation("the principle", eliminated(), sp.S.Zero)])
+    return Point(shown, lambda expr: evaluate(expr, values), [equation("the principle", eliminated(), 0)])
 
 
 @claim(
@@ -77,7 +75,7 @@ def equations_of_motion(p: Proof) -> None:
         equation(
             "Ṁ + [ω,M] - ρF∧γ, F = m(v̇ + ωv), is the principle", balance - rho * ALGEBRA.wedge(force, gamma), principle
         ),
-        equation("γ̇ + ωγ = 0 for γ = R⁻¹γ⃗", rate(gamma) + omega * gamma, sp.S.Zero),
+        equation("γ̇ + ωγ = 0 for γ = R⁻¹γ⃗", rate(gamma) + omega * gamma, 0),
     )
     p.control(equation("with +ρF∧γ on the left", balance + rho * ALGEBRA.wedge(force, gamma), principle))
     p.control(
@@ -116,7 +114,7 @@ def eliminated_force(p: Proof) -> None:
     momentum = J * omega + omega * J
     balance = rate(momentum) + commutator(omega, momentum)
     lifted = D * (alpha * Gamma + Gamma * alpha)
-    p.lemma(equation("Γ̇ + [ω,Γ] = 0", rate(Gamma) + commutator(omega, Gamma), sp.S.Zero))
+    p.lemma(equation("Γ̇ + [ω,Γ] = 0", rate(Gamma) + commutator(omega, Gamma), 0))
     p.printed(equation("Ṁ + [ω,M] - D(ω̇Γ + Γω̇) is what vanishes in a motion", balance - lifted, eliminated()))
     p.corrected(
         r"\dot M + [\omega, M] = -D(\dot\omega\Gamma + \Gamma\dot\omega)",
@@ -133,7 +131,7 @@ def conservation(p: Proof) -> None:
     p.show("K", momentum)
     p.printed(
         equation("K̇ + [ω,K] is the principle", rate(momentum) + commutator(omega, momentum), eliminated()),
-        equation("Γ̇ + [ω,Γ] = 0", rate(Gamma) + commutator(omega, Gamma), sp.S.Zero),
+        equation("Γ̇ + [ω,Γ] = 0", rate(Gamma) + commutator(omega, Gamma), 0),
     )
     p.control(equation("K̇ - [ω,K] is the principle", rate(momentum) - commutator(omega, momentum), eliminated()))
     wrong = J * omega + omega * J - D * (Gamma * omega + omega * Gamma)
@@ -149,19 +147,19 @@ def trace_integrals(p: Proof) -> None:
     p.say("By (2.12) the rate of K and of Γ is -[ω, ·], and the commutator is a derivation:")
     product = Equation(
         "[ω,X]Y + X[ω,Y] = [ω,XY]",
-        [commutator(omega, X) * Y + X * commutator(omega, Y)],
-        [commutator(omega, X * Y)],
+        commutator(omega, X) * Y + X * commutator(omega, Y),
+        commutator(omega, X * Y),
         algebra,
     )
     p.lemma(product)
-    p.lemma(Equation("tr [ω,X] = 0", [algebra.trace(commutator(omega, X))], [sp.S.Zero], algebra))
+    p.lemma(Equation("tr [ω,X] = 0", algebra.trace(commutator(omega, X)), 0, algebra))
     p.say("so that d/dt tr(K^sΓ^l) = -tr[ω, K^sΓ^l] = 0 for all s, l. The first of them, by Leibniz' rule:")
     for s, l in [(2, 0), (2, 1), (2, 2), (4, 1)]:
-        p.printed(equation(f"d/dt tr K^{s}Γ^{l} = 0", ALGEBRA.trace(rate(K**s * Gamma**l, rates)), sp.S.Zero))
-    p.printed(equation("d/dt tr Γ = 0", ALGEBRA.trace(rate(Gamma, rates)), sp.S.Zero))
-    p.control(equation("d/dt tr K²J = 0", ALGEBRA.trace(rate(K * K * J, rates)), sp.S.Zero))
+        p.printed(equation(f"d/dt tr K^{s}Γ^{l} = 0", ALGEBRA.trace(rate(K**s * Gamma**l, rates)), 0))
+    p.printed(equation("d/dt tr Γ = 0", ALGEBRA.trace(rate(Gamma, rates)), 0))
+    p.control(equation("d/dt tr K²J = 0", ALGEBRA.trace(rate(K * K * J, rates)), 0))
     opposite = {**rates, K: commutator(omega, K)}
-    p.control(equation("d/dt tr K²Γ = 0 with K̇ = +[ω,K]", ALGEBRA.trace(rate(K * K * Gamma, opposite)), sp.S.Zero))
+    p.control(equation("d/dt tr K²Γ = 0 with K̇ = +[ω,K]", ALGEBRA.trace(rate(K * K * Gamma, opposite)), 0))
 
 
 @claim("2.15", r"H = -\tfrac14\mathrm{tr}(\omega\,\mathcal A\omega) \text{ is an integral}", ["2.12"])

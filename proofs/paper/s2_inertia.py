@@ -10,14 +10,12 @@ from chapsym.derive.motion import ALGEBRA, D, Gamma, J, K, commutator, eta, gamm
 from chapsym.derive.quotient import Quotient
 from chapsym.derive.three import hat
 from chapsym.derive.words import evaluate
-from chapsym.prove import Equation, Fact, Proof, claim, main, rational_point
+from chapsym.prove import Equation, Fact, Proof, claim, equations, main, rational_point
 
 POSITIVE = "J_i + J_j > 0 for i ≠ j, D ≥ 0"
 
 
-def equation(text: str, left: sp.Expr, right: sp.Expr) -> Equation:
-    """One matrix equation, or one of trace normal forms, between words."""
-    return Equation(text, [left], [right], ALGEBRA)
+equation = equations(ALGEBRA)
 
 
 def applied(x: sp.Expr) -> sp.Expr:
@@ -47,7 +45,7 @@ def inertia_operator(p: Proof) -> None:
     ring = Quotient((*entries.values(), *mass))
     squares = sum((mass[i] + mass[j]) * x**2 for (i, j), x in entries.items())
     central = -(matrix * (sp.diag(*mass) * matrix + matrix * sp.diag(*mass))).trace() / 2
-    p.lemma(Equation("-½ tr(ω(Jω + ωJ)) = Σ_{i<j} (J_i + J_j) ω_ij²", [central], [squares], ring))
+    p.lemma(Equation("-½ tr(ω(Jω + ωJ)) = Σ_{i<j} (J_i + J_j) ω_ij²", central, squares, ring))
     form = -ALGEBRA.trace(omega * J * omega) + D * ALGEBRA.trace(gammaT * ALGEBRA.transpose(omega) * omega * gamma)
     kernel, values = sp.Matrix([[0, 0, 0], [0, 0, -1], [0, 1, 0]]), {J: sp.diag(1, 0, 0), Gamma: sp.diag(1, 0, 0)}
     image = evaluate(applied(omega), {**values, D: sp.S.One, omega: kernel})
@@ -66,7 +64,7 @@ def inertia_operator(p: Proof) -> None:
     p.say("J ≥ 0 alone is not enough: all mass on a line through the centre does not resist a turn about it.")
     p.control(equation("⟨ω,𝒜ω⟩ = -tr(ωJω) - D|ωγ|²", pairing(omega, applied(omega)), form.subs(D, -D)))
     wrong = sum(mass[i] * x**2 for (i, _), x in entries.items())
-    p.control(Equation("-½ tr(ω(Jω + ωJ)) = Σ_{i<j} J_i ω_ij²", [central], [wrong], ring))
+    p.control(Equation("-½ tr(ω(Jω + ωJ)) = Σ_{i<j} J_i ω_ij²", central, wrong, ring))
 
 
 @claim("2.15-measure", r"\mu = \sqrt{\det\mathcal A} \text{ is the density of an invariant measure } \mu\,d\omega\wedge d\gamma",
@@ -79,8 +77,8 @@ def invariant_measure(p: Proof) -> None:
     p.say("quadratic form ⟨X,TX⟩, X in so(n); S is 1 or 𝒜⁻¹.  The parts of the divergence, as such forms:")
     X = eta
     p.lemma(equation("𝒜 is symmetric: ⟨X,𝒜K⟩ = ⟨𝒜X,K⟩", pairing(X, applied(K)), pairing(applied(X), K)))
-    p.lemma(equation("∂K̇/∂K at fixed ω: ⟨X,[X,ω]⟩ = 0", pairing(X, commutator(X, omega)), sp.S.Zero))
-    p.lemma(equation("∂K̇/∂K through ω = 𝒜⁻¹K: ⟨X,[K,X]⟩ = 0", pairing(X, commutator(K, X)), sp.S.Zero))
+    p.lemma(equation("∂K̇/∂K at fixed ω: ⟨X,[X,ω]⟩ = 0", pairing(X, commutator(X, omega)), 0))
+    p.lemma(equation("∂K̇/∂K through ω = 𝒜⁻¹K: ⟨X,[K,X]⟩ = 0", pairing(X, commutator(K, X)), 0))
     p.say("∂γ̇/∂γ: -tr ω = 0, and -Σ e_iᵀ(∂_i ω)γ with ∂_i ω = -𝒜⁻¹ D{e_iγᵀ + γe_iᵀ, ω}: as e_iᵀYγ = ⟨Y, e_i∧γ⟩ and")
     p.say("Σ e_i (e_iᵀXγ) = Xγ, its form is D⟨{XΓ - ΓX, ω}, X⟩.  For ½𝒜̇ it is ½D⟨X, {Γ̇, X}⟩.")
     vertical = X * Gamma - Gamma * X
@@ -159,39 +157,37 @@ def isomorphism(p: Proof) -> None:
         turn, tensor = sign * hat(spin), sign * hat(three.K)
         swept = -(turn * tensor - tensor * turn)
         return [
-            Equation(f"{name}: K̇ = -[ω,K] is K̇ = K×ω", list(swept), list(sign * hat(three.K.cross(spin))), ring),
-            Equation(f"{name}: γ̇ = -ωγ is γ̇ = γ×ω", list(-turn * three.gamma), list(three.gamma.cross(spin)), ring),
+            Equation(f"{name}: K̇ = -[ω,K] is K̇ = K×ω", swept, sign * hat(three.K.cross(spin)), ring),
+            Equation(f"{name}: γ̇ = -ωγ is γ̇ = γ×ω", -turn * three.gamma, three.gamma.cross(spin), ring),
         ]
 
     momentum = sp.Matrix(continuous.momentum())
     values = {motion.J: three.J, motion.Gamma: vertical, motion.D: three.D, motion.omega: hat(spin)}
     energy = -(hat(spin) * evaluate(motion.contact_momentum(), values)).trace() / 4
     p.printed(*carried("ω_ij = ε_ijk ω_k", -1))
-    p.printed(Equation("H of (2.15) is l of (2.4)", [energy], [momentum.dot(spin)], ring))
+    p.printed(Equation("H of (2.15) is l of (2.4)", energy, momentum.dot(spin), ring))
     p.corrected(
         r"\omega_{ij} = -\varepsilon_{ijk}\omega_k,\ \mathbf K_{ij} = -\varepsilon_{ijk}K_k,\ H = \tfrac12l",
         *carried("ω_ij = -ε_ijk ω_k", +1),
-        Equation("H of (2.15) is ½ l", [energy], [momentum.dot(spin) / 2], ring),
+        Equation("H of (2.15) is ½ l", energy, momentum.dot(spin) / 2, ring),
     )
     tensor = hat(three.K)
     height = three.K.dot(three.gamma)
     p.say("The integrals and the measure are even in the sign of the identification:")
-    p.lemma(Equation("tr K² = -2⟨K,K⟩", [(tensor**2).trace()], [-2 * three.K.dot(three.K)], ring))
-    p.lemma(
-        Equation("tr K²Γ = ⟨K,γ⟩² - ⟨K,K⟩", [(tensor**2 * vertical).trace()], [height**2 - three.K.dot(three.K)], ring)
-    )
+    p.lemma(Equation("tr K² = -2⟨K,K⟩", (tensor**2).trace(), -2 * three.K.dot(three.K), ring))
+    p.lemma(Equation("tr K²Γ = ⟨K,γ⟩² - ⟨K,K⟩", (tensor**2 * vertical).trace(), height**2 - three.K.dot(three.K), ring))
     determinant = sp.Matrix(three.contact_inertia()).det()
     density = three.lam().det() * continuous.rolling_factor()
-    p.lemma(Equation("det 𝒜 = det Λ · F: the density of (2.6) but for a constant", [determinant], [density], ring))
+    p.lemma(Equation("det 𝒜 = det Λ · F: the density of (2.6) but for a constant", determinant, density, ring))
     point = dict(zip((*spin, *three.gamma, *three.K), (1, 0, 1, 1, 0, 0, 6, 0, 4), strict=True))
     point |= {three.J1: 1, three.J2: 2, three.J3: 4, three.D: 1}
-    unit = Equation("|γ| = 1", [three.gamma.dot(three.gamma)], [sp.S.One], ring)
-    state = Equation("K = Λω - D⟨ω,γ⟩γ", list(three.K), list(momentum), ring)
+    unit = Equation("|γ| = 1", three.gamma.dot(three.gamma), 1, ring)
+    state = Equation("K = Λω - D⟨ω,γ⟩γ", three.K, momentum, ring)
     p.counterexample(rational_point(point, [unit, state]))
     p.control(
-        Equation("tr K²Γ = ⟨K,γ⟩² + ⟨K,K⟩", [(tensor**2 * vertical).trace()], [height**2 + three.K.dot(three.K)], ring)
+        Equation("tr K²Γ = ⟨K,γ⟩² + ⟨K,K⟩", (tensor**2 * vertical).trace(), height**2 + three.K.dot(three.K), ring)
     )
-    p.control(Equation("det 𝒜 = det Λ", [determinant], [three.lam().det()], ring))
+    p.control(Equation("det 𝒜 = det Λ", determinant, three.lam().det(), ring))
 
 
 if __name__ == "__main__":

@@ -32,12 +32,12 @@ def energy(p: Proof) -> None:
     slots = sorted(sp.expand(total).atoms(sp.Derivative) | sp.expand(power).atoms(sp.Derivative), key=str)
     plain = dict(zip(slots, sp.symbols(f"d1:{len(slots) + 1}"), strict=True))
     free = Quotient((*plain.values(), *velocity, *acceleration))
-    p.lemma(Equation("dE/dt = ⟨d/dt ∂L/∂q̇ - ∂L/∂q, q̇⟩", [total.xreplace(plain)], [power.xreplace(plain)], free))
+    p.lemma(Equation("dE/dt = ⟨d/dt ∂L/∂q̇ - ∂L/∂q, q̇⟩", total.xreplace(plain), power.xreplace(plain), free))
     p.say("(3.3) puts Σ λ_j A^j in the place of the bracket:")
     work = (sp.Matrix([multiplier]) * forms * sp.Matrix(velocity))[0]
     on_constraint = list(forms * sp.Matrix(velocity))
     ring = Quotient((*forms, *velocity, *multiplier), on_constraint)
-    p.printed(Equation("dE/dt = Σ λ_j ⟨A^j, q̇⟩ = 0 on the constraint", [work], [sp.S.Zero], ring))
+    p.printed(Equation("dE/dt = Σ λ_j ⟨A^j, q̇⟩ = 0 on the constraint", work, 0, ring))
     point = {"A": "(1,-1,0,0), (0,0,1,-1)", "q̇": "(2,2,3,3)", "λ": "(5,7)"}
     values = dict(zip((*forms, *velocity, *multiplier), (1, -1, 0, 0, 0, 0, 1, -1, 2, 2, 3, 3, 5, 7), strict=True))
     p.witness(
@@ -46,9 +46,9 @@ def energy(p: Proof) -> None:
         Fact("dE/dt = 0 there", work.subs(values) == 0 and not any(e.subs(values) for e in on_constraint)),
     )
     p.witness("λ = 0: no constraint force", {"λ": "0"}, Fact("dE/dt = 0", work.subs(dict.fromkeys(multiplier, 0)) == 0))
-    p.control(Equation("the same off the constraint: (3.3) alone", [work], [sp.S.Zero], Quotient(ring.symbols)))
+    p.control(Equation("the same off the constraint: (3.3) alone", work, 0, Quotient(ring.symbols)))
     affine = Quotient((*ring.symbols, sp.Symbol("b")), [on_constraint[0] - sp.Symbol("b"), on_constraint[1]])
-    p.control(Equation("the same for ⟨A^1, q̇⟩ = b, not homogeneous", [work], [sp.S.Zero], affine))
+    p.control(Equation("the same for ⟨A^1, q̇⟩ = b, not homogeneous", work, 0, affine))
 
 
 # Section 3 for one degree of freedom is enough to see which terms a sum has: 𝕃 = a x² + b x y + c y².
@@ -94,11 +94,11 @@ def discrete_principle(p: Proof) -> None:
     symbols = (*PATH, *CHANGE, *QUADRATIC)
     last_fixed, both_fixed = Quotient(symbols, end), Quotient(symbols, [*end, CHANGE[0]])
     p.printed(
-        Equation("δS = the printed sum, for every δq_k, δq_N = 0", [first_variation()], [discrete_sum(0)], last_fixed)
+        Equation("δS = the printed sum, for every δq_k, δq_N = 0", first_variation(), discrete_sum(0), last_fixed)
     )
     p.corrected(
         r"\sum_{k=1}^{N-1}(D_1\mathbb L(q_k,q_{k+1})+D_2\mathbb L(q_{k-1},q_k))\,\delta q_k = 0,\ \delta q_0 = \delta q_N = 0,\ \delta q_k\in\mathcal D_{q_k},\ (q_k,q_{k+1})\in\mathcal D_d",
-        Equation("δS = Σ_{k=1}^{N-1}, for δq_0 = δq_N = 0", [first_variation()], [discrete_sum(1)], both_fixed),
+        Equation("δS = Σ_{k=1}^{N-1}, for δq_0 = δq_N = 0", first_variation(), discrete_sum(1), both_fixed),
     )
     p.say(
         "With δq_0 = 0 the printed sum says the same, but then its first term is void; the paper does not fix the ends."
@@ -106,17 +106,15 @@ def discrete_principle(p: Proof) -> None:
     p.say("For a path that begins at q_{-1}, with both ends fixed, the printed range would be right:")
     longer = first_variation() + sp.diff(step_action(PATH[0], PATH[1]), PATH[1]) * CHANGE[0]
     p.lemma(
-        Equation(
-            "δ Σ_{k=-1}^{N-1} 𝕃 = the printed sum, for δq_{-1} = δq_N = 0", [longer], [discrete_sum(0)], last_fixed
-        )
+        Equation("δ Σ_{k=-1}^{N-1} 𝕃 = the printed sum, for δq_{-1} = δq_N = 0", longer, discrete_sum(0), last_fixed)
     )
     values = dict(zip((*PATH, *CHANGE, *QUADRATIC), (5, 0, 1, 3, 4, 1, 0, 0, 0, "1/2", -1, "1/2"), strict=True))
     exact = {k: sp.Rational(v) for k, v in values.items()}
     left, right = first_variation().subs(exact), discrete_sum(0).subs(exact)
     shown = {"𝕃": "(y - x)²/2", "q_{-1}, ..., q_3": "5, 0, 1, 3, 4", "δq": "1, 0, 0, 0"}
     p.refute(shown, "δ Σ_{k=0}^{N-1} 𝕃(q_k, q_{k+1}), N = 3, is the printed sum", left, right, left == right)
-    p.control(Equation("δS = Σ_{k=2}^{N-1}", [first_variation()], [discrete_sum(2)], both_fixed))
-    p.control(Equation("δS = Σ_{k=1}^{N-1} with free ends", [first_variation()], [discrete_sum(1)], Quotient(symbols)))
+    p.control(Equation("δS = Σ_{k=2}^{N-1}", first_variation(), discrete_sum(2), both_fixed))
+    p.control(Equation("δS = Σ_{k=1}^{N-1} with free ends", first_variation(), discrete_sum(1), Quotient(symbols)))
 
 
 @claim(
@@ -136,22 +134,22 @@ def discrete_equations(p: Proof) -> None:
     forms = sp.Matrix.hstack(sp.eye(bound), B)
     displacement = sp.Matrix([*(-B * t), *t])
     ring = Quotient((*B, *t, *e))
-    p.lemma(Equation("every such δq is in the distribution", list(forms * displacement), [sp.S.Zero] * bound, ring))
+    p.lemma(Equation("every such δq is in the distribution", forms * displacement, [sp.S.Zero] * bound, ring))
     p.say("⟨e, δq⟩ = 0 for every t says that these vanish:")
     conditions = [sp.expand((e.T * displacement)[0]).coeff(x) for x in t]
     on_principle = Quotient(ring.symbols, conditions)
     combination = forms.T * sp.Matrix(e[:bound])
-    p.printed(Equation("e = Σ λ_j A_j with λ = the first s entries of e", list(e), list(combination), on_principle))
+    p.printed(Equation("e = Σ λ_j A_j with λ = the first s entries of e", e, combination, on_principle))
     p.say("and the other way round, a combination of the forms annihilates every δq:")
-    p.lemma(Equation("⟨Σ λ_j A_j, δq⟩ = 0", [(combination.T * displacement)[0]], [sp.S.Zero], ring))
+    p.lemma(Equation("⟨Σ λ_j A_j, δq⟩ = 0", (combination.T * displacement)[0], 0, ring))
     values = dict(zip((*B, *t), (1, 2, 0, -1, 1, 3, 1, 1, 2), strict=True))
     exact = combination.subs({**values, e[0]: 2, e[1]: 5})
     work = (exact.T * displacement.subs(values))[0]
     p.witness(
         "generic", {"B": "(1,2,0), (-1,1,3)", "t": "(1,1,2)", "λ": "(2,5)"}, Fact("⟨Σ λ_j A_j, δq⟩ = 0", work == 0)
     )
-    p.control(Equation("e is the multiple of one form", list(e), list(e[0] * forms[0, :]), on_principle))
-    p.control(Equation("the same without the principle", list(e), list(combination), ring))
+    p.control(Equation("e is the multiple of one form", e, e[0] * forms[0, :], on_principle))
+    p.control(Equation("the same without the principle", e, combination, ring))
 
 
 @claim(
@@ -166,7 +164,7 @@ def consistency(p: Proof) -> None:
     ring = Quotient((size, count))
     needed = 2 * size - count
     product = 2 * (size - count)
-    p.printed(Equation("dim N×N = dim D", [product], [needed], ring))
+    p.printed(Equation("dim N×N = dim D", product, needed, ring))
     x1, x2, y1, y2, step = sp.symbols("x1 x2 y1 y2 epsilon")
     p.say("Q = R², A = dx2, the leaf N = {x2 = 0}: (q, q) with q = (0, 1) must be in D_d, and is not in N×N.")
     point = {x1: 0, x2: 1, y1: 0, y2: 1}
@@ -177,8 +175,8 @@ def consistency(p: Proof) -> None:
     p.corrected(
         r"\mathcal D_d = \bigcup_c\mathcal N_c\times\mathcal N_c \text{ over all leaves, locally, if } \Psi "
         r"\text{ is taken in coordinates that straighten them}",
-        Equation("its dimension: s parameters of leaves and two points", [count + 2 * (size - count)], [needed], ring),
-        Equation("A∘Ψ = 0 in such coordinates is x2 = y2: the same leaf", [flat * step], [y2 - x2], plane),
+        Equation("its dimension: s parameters of leaves and two points", count + 2 * (size - count), needed, ring),
+        Equation("A∘Ψ = 0 in such coordinates is x2 = y2: the same leaf", flat * step, y2 - x2, plane),
         Fact("it contains (q, q) for q = (0, 1)", bool(flat.subs(point) == 0)),
     )
     left, right = (x.subs({size: 2, count: 1}) for x in (product, needed))
@@ -194,10 +192,7 @@ def consistency(p: Proof) -> None:
     )
     p.control(
         Equation(
-            "A∘Ψ = 0 is the same leaf, for circles and that Ψ",
-            [tangent * step * 2],
-            [y1**2 + y2**2 - x1**2 - x2**2],
-            plane,
+            "A∘Ψ = 0 is the same leaf, for circles and that Ψ", tangent * step * 2, y1**2 + y2**2 - x1**2 - x2**2, plane
         )
     )
 

@@ -4,11 +4,12 @@ import sympy as sp
 
 from chapsym.derive import continuous, principle, three
 from chapsym.derive.quotient import Quotient
-from chapsym.derive.three import J1, J2, J3, RING, D, gamma, hat, q, q0
-from chapsym.prove import Equation, Fact, Proof, claim, main
+from chapsym.derive.three import J1, J2, J3, RING, D, gamma, hat, placed, q, q0
+from chapsym.prove import Equation, Fact, Proof, claim, equations, main
 
 m, rho = sp.symbols("m rho")
 BALL_RING = Quotient((m, rho, *RING.symbols), [*RING.relations, D - m * rho**2])
+equation = equations(BALL_RING)
 TURN = sp.eye(3)  # R_k = 1: the principle does not see the attitude
 AXES = [hat(e) for e in sp.eye(3).columnspace()]
 
@@ -74,27 +75,21 @@ def regularity(p: Proof) -> None:
     free = Quotient((*second, *columns, *rows))
     jacobian_is_printed = Equation(
         "det of the derivative = (-1)^s det of the matrix (n = 3, s = 2)",
-        [det(derivative)],
-        [(-1) ** count * det(printed)],
+        det(derivative),
+        (-1) ** count * det(printed),
         free,
     )
     p.say(
-        "Where a successor exists and the matrix is invertible, it is a function of (q_{k-1}, q_k) nearby, by the theorem on"
-    )
-    p.say(
-        "implicit functions.  That there is one does not follow: 𝕃 = ½ln(1 + u²) + 2x, u = y - x, without constraints, has"
-    )
-    p.say(
-        "D1D2𝕃 = -(1 - u²)/(1 + u²)² ≠ 0 for |u| < 1, and asks for w(u_k) = w(u_{k-1}) + 2 with w = u/(1 + u²), |w| ≤ ½."
+        "Where a successor exists and the matrix is invertible, it is a function of (q_{k-1}, q_k) nearby, by the theorem on",
+        "implicit functions.  That there is one does not follow: 𝕃 = ½ln(1 + u²) + 2x, u = y - x, without constraints, has",
+        "D1D2𝕃 = -(1 - u²)/(1 + u²)² ≠ 0 for |u| < 1, and asks for w(u_k) = w(u_{k-1}) + 2 with w = u/(1 + u²), |w| ≤ ½.",
     )
     step, bound = sp.symbols("u w")
     slope, line = step / (1 + step**2), Quotient((step, bound))
     second_derivative = -sp.diff(slope, step)
-    p.lemma(Equation("D1D2𝕃 = -(1-u²)/(1+u²)²", [second_derivative], [-(1 - step**2) / (1 + step**2) ** 2], line))
+    p.lemma(Equation("D1D2𝕃 = -(1-u²)/(1+u²)²", second_derivative, -(1 - step**2) / (1 + step**2) ** 2, line))
     p.lemma(
-        Equation(
-            "½ - w = (1-u)²/(2(1+u²)) ≥ 0", [sp.Rational(1, 2) - slope], [(1 - step) ** 2 / (2 * (1 + step**2))], line
-        )
+        Equation("½ - w = (1-u)²/(2(1+u²)) ≥ 0", sp.Rational(1, 2) - slope, (1 - step) ** 2 / (2 * (1 + step**2)), line)
     )
     discriminant = sp.discriminant(2 * (1 + step**2) - step, step)
     p.printed(Fact("u_{k-1} = 0 has a successor: 2(1 + u²) = u has a real root", bool(discriminant >= 0)))
@@ -106,21 +101,13 @@ def regularity(p: Proof) -> None:
     lifted = D * (sp.eye(3) - gamma * gamma.T)
     p.say("The ball, n = 3, on the diagonal (Ω = 1), with 𝕃 as corrected (c = -1) and as printed (c = ½):")
     at_rest = determinant(true, TURN)
-    p.lemma(Equation("c = -1: det = det(I + D(1 - γγᵀ))", [at_rest], [det(inertia + lifted)], BALL_RING))
-    p.lemma(Equation("which is det Λ · F > 0", [at_rest], [det(three.lam()) * continuous.rolling_factor()], BALL_RING))
-    p.lemma(
-        Equation(
-            "c = ½: det = -det(½I - D(1 - γγᵀ))", [determinant(wrong, TURN)], [-det(inertia / 2 - lifted)], BALL_RING
-        )
-    )
-    homogeneous = {J1: 1, J2: 1, J3: 1, m: 1, rho: 1, D: 1, **dict(zip(gamma, (0, 0, 1), strict=True))}
+    p.lemma(equation("c = -1: det = det(I + D(1 - γγᵀ))", at_rest, det(inertia + lifted)))
+    p.lemma(equation("which is det Λ · F > 0", at_rest, det(three.lam()) * continuous.rolling_factor()))
+    p.lemma(equation("c = ½: det = -det(½I - D(1 - γγᵀ))", determinant(wrong, TURN), -det(inertia / 2 - lifted)))
+    homogeneous = {J1: 1, J2: 1, J3: 1, m: 1, rho: 1, D: 1, **placed((gamma, (0, 0, 1)))}
     singular, regular = (determinant(c, TURN).subs(homogeneous) for c in (wrong, true))
-    p.lemma(
-        Fact(
-            f"J = (1,1,1), m = ρ = 1, γ = e3: det = {singular} as printed, {regular} as corrected",
-            singular == 0 < regular,
-        )
-    )
+    text = f"J = (1,1,1), m = ρ = 1, γ = e3: det = {singular} as printed, {regular} as corrected"
+    p.lemma(Fact(text, singular == 0 < regular))
     p.say(
         "So with the printed Lagrangian the criterion fails at rest for some balls; with the true one it holds for every ball."
     )
@@ -128,33 +115,21 @@ def regularity(p: Proof) -> None:
     jacobian = sp.Matrix(three.tangent_jacobian()) / 2
     p.say("Away from the diagonal the determinant is that of ∂𝒦/∂Ω: regular exactly where 𝒦(q, γ) has no fold:")
     left = list(eliminated(true, rotation))
-    p.lemma(Equation("c = -1: the matrix with r and λ eliminated is -∂𝒦/∂Ω", left, list(-jacobian), BALL_RING))
+    p.lemma(equation("c = -1: the matrix with r and λ eliminated is -∂𝒦/∂Ω", left, -jacobian))
     turns = {"(3, 1, 1, -1)": (3, 1, 1, -1), "(1, 1, 1, -1)": (1, 1, 1, -1)}
-    at = {
-        **homogeneous,
-        J1: 3,
-        J2: 2,
-        J3: 1,
-        gamma[2]: sp.Rational(6, 7),
-        gamma[0]: sp.Rational(2, 7),
-        gamma[1]: sp.Rational(3, 7),
-    }
+    at = homogeneous | placed(((J1, J2, J3), (3, 2, 1)), (gamma, sp.Matrix([2, 3, 6]) / 7))
     signs = [det(_at_turn(jacobian, at, turn)) for turn in turns.values()]
     p.show("det ∂𝒦/∂Ω at Ω ~ (3,1,1,-1) and (1,1,1,-1), J = (3,2,1), D = 1, γ = (2,3,6)/7", signs)
     p.lemma(Fact("it changes sign between these two turns", signs[0] * signs[1] < 0))
     p.witness("generic", {"J": "(1,1,1)", "m": "1", "ρ": "1", "γ": "e3", "Ω": "1"}, Fact("det > 0", regular > 0))
-    p.control(
-        Equation("c = ½: det = det(I + D(1 - γγᵀ))", [determinant(wrong, TURN)], [det(inertia + lifted)], BALL_RING)
-    )
-    p.control(
-        Equation("det of the derivative = -det of the matrix, for s = 2", [det(derivative)], [-det(printed)], free)
-    )
+    p.control(equation("c = ½: det = det(I + D(1 - γγᵀ))", determinant(wrong, TURN), det(inertia + lifted)))
+    p.control(Equation("det of the derivative = -det of the matrix, for s = 2", det(derivative), -det(printed), free))
 
 
 def _at_turn(matrix: sp.Matrix, ball: dict, turn: tuple[int, ...]) -> sp.Matrix:
     """A matrix of forms of degree 2 in the Euler parameters, at a turn given up to length."""
-    raw = dict(zip((q0, *q), turn, strict=True))
-    return matrix.xreplace({x: sp.sympify(value) for x, value in {**ball, **raw}.items()}) / sum(c**2 for c in turn)
+    values = ball | placed(((q0, *q), turn))
+    return matrix.xreplace({x: sp.sympify(value) for x, value in values.items()}) / sum(c**2 for c in turn)
 
 
 if __name__ == "__main__":

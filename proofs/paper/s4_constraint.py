@@ -39,14 +39,14 @@ def chosen_constraint(p: Proof) -> None:
     p.printed(
         equation("γᵀ Δr_k = 0", vertical, sp.S.Zero),
         equation("(4.9) at R_{k+1} = R_k, r_{k+1} = r_k", diagonal, sp.S.Zero),
-        Equation("(4.9)/ε → the rotational part of (4.2), ρ ω̄ γ", [limit.limit], [continuous], both),
+        Equation("(4.9)/ε → the rotational part of (4.2), ρ ω̄ γ", limit.limit, continuous, both),
     )
     p.lemma(Fact(f"the remainder has the exact order 2, here {limit.order}", limit.order == 2))
-    p.lemma(Equation("its leading term is (ρ/6) ω̄³γ", [limit.leading], [rho * limits.omega_space**3 * gamma / 6], both))
+    p.lemma(Equation("its leading term is (ρ/6) ω̄³γ", limit.leading, rho * limits.omega_space**3 * gamma / 6, both))
     naive = rho * R1 * RT * gamma
     p.control(equation("the naive constraint is horizontal", ALGEBRA.trace(naive * gammaT), sp.S.Zero))
     p.control(equation("the naive constraint admits (q, q)", naive.subs({R1: R, R1T: RT}), sp.S.Zero))
-    p.control(Equation("(4.9)/ε → ρ ω̄ᵀγ", [limit.limit], [-rho * limits.omega_space * gamma], both))
+    p.control(Equation("(4.9)/ε → ρ ω̄ᵀγ", limit.limit, -rho * limits.omega_space * gamma, both))
 
 
 @claim(
@@ -78,16 +78,16 @@ def rotation_limit(p: Proof) -> None:
     zeroth, first = expansion.coeff(limits.eps, 0), expansion.coeff(limits.eps, 1)
     p.say("As a statement about the limit: Ω̄ = 1 + (first order) + O(ε²), where the first order is εω, not ω.")
     e = sp.Symbol("e")  # the value of ε, a parameter of the words
-    p.printed(Equation("the part of Ω̄ up to order 1 = 1 + ω", [zeroth + e * first], [1 + spin], algebra))
+    p.printed(Equation("the part of Ω̄ up to order 1 = 1 + ω", zeroth + e * first, 1 + spin, algebra))
     p.corrected(
         r"\bar\Omega_k \mapsto \mathbf I + \varepsilon\omega",
-        Equation("the part of Ω̄ up to order 1 = 1 + εω", [zeroth + e * first], [1 + e * spin], algebra),
+        Equation("the part of Ω̄ up to order 1 = 1 + εω", zeroth + e * first, 1 + e * spin, algebra),
     )
     turn = sp.Matrix([[0, 0, 0], [0, 0, -1], [0, 1, 0]])
     values = {spin: turn, e: sp.Rational(1, 2)}
     shown = {"ω": str(turn.tolist()), "ε": "1/2"}
     p.counterexample(Point(shown, lambda expr: evaluate(expr, values)))
-    p.control(Equation("up to order 1 it is 1 - εω", [zeroth + e * first], [1 - e * spin], algebra))
+    p.control(Equation("up to order 1 it is 1 - εω", zeroth + e * first, 1 - e * spin, algebra))
 
 
 @claim(

@@ -6,7 +6,9 @@ from chapsym.derive import ball, three
 from chapsym.derive.ball import ALGEBRA, D, Gamma, J, Omega, OmegaT
 from chapsym.derive.words import evaluate
 from chapsym.proofs import second_routes
-from chapsym.prove import Equation, Proof, claim, main
+from chapsym.prove import Equation, Proof, claim, equations, main
+
+equation = equations(ALGEBRA)
 
 
 def printed_relations(sign: int = 1) -> tuple[sp.Expr, sp.Expr]:
@@ -39,8 +41,8 @@ def intertwining(p: Proof) -> None:
     p.show("right side for 𝒦_{k-1}", ALGEBRA.normal(before))
     p.show("right side for 𝒦_k", ALGEBRA.normal(after))
     p.printed(
-        Equation("the relation for 𝒦_{k-1}, every n", [before], [momentum], ALGEBRA),
-        Equation("the relation for 𝒦_k, every n", [after], [ball.carried(momentum)], ALGEBRA),
+        equation("the relation for 𝒦_{k-1}, every n", before, momentum),
+        equation("the relation for 𝒦_k, every n", after, ball.carried(momentum)),
     )
     p.say("For n = 3 the same with the matrix of Euler parameters, modulo |q|² + q₀² = 1:")
     p.printed(Equation("the relation for 𝒦_{k-1}, n = 3, nine entries", entries(before), entries(momentum), three.RING))
@@ -50,8 +52,8 @@ def intertwining(p: Proof) -> None:
         )
     )
     wrong_before, wrong_after = printed_relations(sign=-1)
-    p.control(Equation("the relation for 𝒦_{k-1} with Γ_{k-1} - Γ_k", [wrong_before], [momentum], ALGEBRA))
-    p.control(Equation("the relation for 𝒦_k with Γ_{k-1} - Γ_k", [wrong_after], [ball.carried(momentum)], ALGEBRA))
+    p.control(equation("the relation for 𝒦_{k-1} with Γ_{k-1} - Γ_k", wrong_before, momentum))
+    p.control(equation("the relation for 𝒦_k with Γ_{k-1} - Γ_k", wrong_after, ball.carried(momentum)))
     p.control(Equation("the two relations exchanged, n = 3", entries(after), entries(momentum), three.RING))
     p.route(
         "from (4.13) as printed, Ω the Cayley transform of a free skew matrix, n = 3 and n = 4",

@@ -4,12 +4,9 @@ import sympy as sp
 
 from chapsym.derive import ball, limits
 from chapsym.derive.ball import ALGEBRA, D, Gamma, J, K, omega
-from chapsym.prove import Equation, Fact, Proof, claim, main
+from chapsym.prove import Fact, Proof, claim, equations, main
 
-
-def equation(text: str, left: sp.Expr, right: sp.Expr) -> Equation:
-    """One matrix equation between words."""
-    return Equation(text, [left], [right], ALGEBRA)
+equation = equations(ALGEBRA)
 
 
 def commutator(a: sp.Expr, b: sp.Expr) -> sp.Expr:
@@ -71,15 +68,13 @@ def momentum_limit(p: Proof) -> None:
     p.control(
         equation(
             "𝒦/ε → Jω + ωJ - D(Γω + ωΓ)", momentum.limit, J * omega + omega * J - D * (Gamma * omega + omega * Gamma)
-        )
-    )
-    p.control(
+        ),
         equation(
             "𝒦/ε → the same with D/2", momentum.limit, J * omega + omega * J + D / 2 * (Gamma * omega + omega * Gamma)
-        )
+        ),
+        equation("𝒦̇ = +[ω, 𝒦]", limits.transport(K).limit, commutator(omega, K)),
+        equation("the leading remainder is 0", ball.ALGEBRA.normal(momentum.leading), 0),
     )
-    p.control(equation("𝒦̇ = +[ω, 𝒦]", limits.transport(K).limit, commutator(omega, K)))
-    p.control(equation("the leading remainder is 0", ball.ALGEBRA.normal(momentum.leading), sp.S.Zero))
 
 
 if __name__ == "__main__":

@@ -6,12 +6,9 @@ from chapsym.derive import ball
 from chapsym.derive.ball import ALGEBRA, D, Gamma, J, K, Omega, OmegaT
 from chapsym.derive.words import WordAlgebra, evaluate, matrix_symbols
 from chapsym.proofs import second_routes
-from chapsym.prove import Equation, Fact, Proof, claim, main
+from chapsym.prove import Equation, Fact, Proof, claim, equations, main
 
-
-def equation(text: str, left: sp.Expr, right: sp.Expr, algebra: WordAlgebra = ALGEBRA) -> Equation:
-    """One matrix equation between words."""
-    return Equation(text, [left], [right], algebra)
+equation = equations(ALGEBRA)
 
 
 def printed_forms() -> tuple[sp.Expr, sp.Expr]:
@@ -154,7 +151,7 @@ def trace_integrals(p: Proof) -> None:
     p.lemma(
         equation("carrying is multiplicative: (ΩᵀXΩ)(ΩᵀYΩ) = ΩᵀXYΩ", carried(X) * carried(Y), carried(X * Y), algebra)
     )
-    p.lemma(equation("it fixes the identity", carried(sp.S.One), sp.S.One, algebra))
+    p.lemma(equation("it fixes the identity", carried(sp.S.One), 1, algebra))
     p.say("By induction (𝒦_k)^s(Γ_k)^l = Ωᵀ(𝒦_{k-1})^s(Γ_{k-1})^lΩ for all s, l; and the trace does not see Ω:")
     trace_free = equation("tr ΩᵀXΩ = tr X", algebra.trace(carried(X)), algebra.trace(X), algebra)
     p.lemma(trace_free)
@@ -163,7 +160,7 @@ def trace_integrals(p: Proof) -> None:
         p.printed(equation(f"tr 𝒦^{s}Γ^{l}", algebra.trace(word), algebra.trace(K**s * Gamma**l), algebra))
     p.printed(equation("tr Γ", algebra.trace(carried(Gamma)), algebra.trace(Gamma), algebra))
     p.say("tr Γ = |γ|² = 1 by the choice of γ. Odd s give 0, as 𝒦 is skew and Γ symmetric, for l = 0:")
-    p.lemma(equation("tr 𝒦³ = 0", algebra.trace(K**3), sp.S.Zero, algebra))
+    p.lemma(equation("tr 𝒦³ = 0", algebra.trace(K**3), 0, algebra))
     p.control(
         equation("tr 𝒦²Γ with Γ_k = ΩΓΩᵀ", algebra.trace(carried(K) ** 2 * Omega * Gamma * OmegaT),
                  algebra.trace(K**2 * Gamma), algebra)

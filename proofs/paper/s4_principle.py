@@ -5,15 +5,13 @@ import sympy as sp
 from chapsym.derive import principle
 from chapsym.derive.principle import ALGEBRA, R0, R0T, R1, R1T, RT, J, Lam, R, f, fT, gamma, gammaT, m, rho
 from chapsym.derive.words import WordAlgebra, evaluate, matrix_symbols
-from chapsym.prove import Equation, Point, Proof, claim, main
+from chapsym.prove import Equation, Point, Proof, claim, equations, main
 
 CORRECTED = principle.kinetic_factor()
 PRINTED = sp.Rational(1, 2)
 
 
-def equation(text: str, left: sp.Expr, right: sp.Expr) -> Equation:
-    """One matrix equation between words."""
-    return Equation(text, [left], [right], ALGEBRA)
+equation = equations(ALGEBRA)
 
 
 def path_point(values: dict, *hypotheses: Equation) -> Point:
@@ -25,7 +23,7 @@ def path_point(values: dict, *hypotheses: Equation) -> Point:
     for symbol, value in values.items():
         if isinstance(value, sp.MatrixBase) and symbol in ALGEBRA.transposes:
             full[ALGEBRA.transposes[symbol]] = value.T
-    orthogonal = [equation(f"{a}·{a}ᵀ = 1", a * ALGEBRA.transposes[a], sp.S.One) for a in (R0, R, R1) if a in values]
+    orthogonal = [equation(f"{a}·{a}ᵀ = 1", a * ALGEBRA.transposes[a], 1) for a in (R0, R, R1) if a in values]
     shown = {str(k): str(v.tolist() if isinstance(v, sp.MatrixBase) else v) for k, v in values.items()}
     return Point(shown, lambda expr: evaluate(expr, full), (*orthogonal, *hypotheses))
 
@@ -78,8 +76,8 @@ def discrete_lagrangian(p: Proof) -> None:
                 m: sp.Rational(5, 2),
                 rho: sp.S.One,
             },
-            equation("the printed principle, S(1/2) = 0", principle.momentum_balance(PRINTED), sp.S.Zero),
-            equation("(4.9)", principle.discrete_constraint(R, R1, principle.r, principle.r1), sp.S.Zero),
+            equation("the printed principle, S(1/2) = 0", principle.momentum_balance(PRINTED), 0),
+            equation("(4.9)", principle.discrete_constraint(R, R1, principle.r, principle.r1), 0),
         )
     )
     for factor, why in [(sp.S.One, "the sign alone"), (-PRINTED, "the factor alone")]:
@@ -200,9 +198,9 @@ def rolling_in_space(p: Proof) -> None:
     algebra = WordAlgebra({**ALGEBRA.transposes, spin: -spin}, ALGEBRA.rules)
     fixed = principle.rolling_constraint(R * velocity, R * spin).subs(gamma, R * vertical)
     body = velocity + rho * spin * vertical
-    p.printed(Equation("ṙ + ρṘRᵀγ⃗ = R(v + ρωγ)", [fixed], [R * body], algebra))
+    p.printed(Equation("ṙ + ρṘRᵀγ⃗ = R(v + ρωγ)", fixed, R * body, algebra))
     wrong = velocity - rho * spin * vertical
-    p.control(Equation("ṙ + ρṘRᵀγ⃗ = R(v - ρωγ)", [fixed], [R * wrong], algebra))
+    p.control(Equation("ṙ + ρṘRᵀγ⃗ = R(v - ρωγ)", fixed, R * wrong, algebra))
 
 
 @claim(
@@ -251,7 +249,7 @@ def balance_in_body(p: Proof) -> None:
     turn = sp.Matrix([[1, 0, 0], [0, "3/5", "-4/5"], [0, "4/5", "3/5"]])
     values = {R0: turn, R: turn, R1: turn * turn, J: sp.diag(1, 2, 3), gamma: sp.Matrix([0, 0, 1])}
     values |= {principle.r0: sp.zeros(3, 1), principle.r: sp.zeros(3, 1), principle.r1: sp.Matrix([0, -4, 0])}
-    solved = equation("(4.6)", principle.momentum_balance(CORRECTED), sp.S.Zero)
+    solved = equation("(4.6)", principle.momentum_balance(CORRECTED), 0)
     p.counterexample(path_point({**values, m: sp.S.One, rho: sp.S.One}, solved))
     p.control(carried("with -R_kᵀγ fᵀR_k", -gamma))
 

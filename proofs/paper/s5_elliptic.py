@@ -4,10 +4,11 @@ import sympy as sp
 
 from chapsym.derive import elliptic
 from chapsym.derive.elliptic import HALF, L1, L2, L3, LAMBDA, MEAN, U, k2, l
-from chapsym.prove import Equation, Proof, claim, main, rational_point
+from chapsym.prove import Equation, Proof, claim, equations, main, rational_point
 
 C1, C2, C3, V = sp.symbols("C1 C2 C3 V")
 ON_CURVE = elliptic.ring(U)
+equation = equations(ON_CURVE)
 TWO = elliptic.ring(MEAN, HALF, amplitudes=(C1, C2, C3, V))
 
 #: Λ = (4, 2, 1), l = 5/8 lies between 1/2 and 1.
@@ -37,14 +38,14 @@ def amplitudes(p: Proof) -> None:
     derived = elliptic.squared_amplitudes()
     for name, square in zip(("C1²", "C2²", "C3²"), derived, strict=True):
         p.show(name, square)
-    p.printed(Equation("the printed squares", printed_squares(), list(derived), ON_CURVE))
+    p.printed(equation("the printed squares", printed_squares(), derived))
     p.corrected(
         r"C_3 = \sqrt{\tfrac{\Lambda_3(\Lambda_1l-1)}{\Lambda_1-\Lambda_3}}",
-        Equation("the squares with Λ1 l - 1 in C3", printed_squares(-1), list(derived), ON_CURVE),
+        equation("the squares with Λ1 l - 1 in C3", printed_squares(-1), derived),
     )
     p.counterexample(rational_point(BALL))
     swapped = [printed_squares(-1)[i] for i in (1, 0, 2)]
-    p.control(Equation("the squares with C1, C2 exchanged", swapped, list(derived), ON_CURVE))
+    p.control(equation("the squares with C1, C2 exchanged", swapped, derived))
 
 
 @claim(
@@ -55,11 +56,11 @@ def amplitudes(p: Proof) -> None:
 def modulus(p: Proof) -> None:
     """The modulus."""
     printed = (L1 - L2) * (1 - L3 * l) / ((L2 - L3) * (L1 * l - 1))
-    p.printed(Equation("k² as printed", [printed], [elliptic.squared_modulus()], ON_CURVE))
+    p.printed(equation("k² as printed", printed, elliptic.squared_modulus()))
     p.say("0 < k² < 1 where the paper works: 1 - k² has the sign of Λ2 l - 1.")
     complement = (L1 - L3) * (L2 * l - 1) / ((L2 - L3) * (L1 * l - 1))
-    p.lemma(Equation("1 - k² = (Λ1-Λ3)(Λ2 l-1)/((Λ2-Λ3)(Λ1 l-1))", [1 - printed], [complement], ON_CURVE))
-    p.control(Equation("1/k² in its place", [1 / printed], [elliptic.squared_modulus()], ON_CURVE))
+    p.lemma(equation("1 - k² = (Λ1-Λ3)(Λ2 l-1)/((Λ2-Λ3)(Λ1 l-1))", 1 - printed, complement))
+    p.control(equation("1/k² in its place", 1 / printed, elliptic.squared_modulus()))
 
 
 @claim(
@@ -75,11 +76,11 @@ def parameterisation(p: Proof) -> None:
     replaced = [sp.sympify(s).subs(U.dn**2, 1 - modulus * U.sn**2).subs(U.cn**2, 1 - U.sn**2) for s in squares]
     inverse = [s / lam for s, lam in zip(replaced, LAMBDA, strict=True)]
     p.printed(
-        Equation("|γ|² = 1", [sum(replaced)], [sp.S.One], ON_CURVE),
-        Equation("⟨γ,Λ⁻¹γ⟩ = l", [sum(inverse)], [l], ON_CURVE),
+        equation("|γ|² = 1", sum(replaced), 1),
+        equation("⟨γ,Λ⁻¹γ⟩ = l", sum(inverse), l),
     )
     wrong = [replaced[0], replaced[1], -replaced[2]]
-    p.control(Equation("|γ|² = 1 with the printed C3", [sum(wrong)], [sp.S.One], ON_CURVE))
+    p.control(equation("|γ|² = 1 with the printed C3", sum(wrong), 1))
 
 
 def pair() -> tuple[list[sp.Expr], list[sp.Expr]]:
@@ -100,15 +101,12 @@ def sums_and_differences(p: Proof) -> None:
     product = MEAN.sn * MEAN.dn * HALF.sn * HALF.dn
     p.lemma(
         Equation(
-            "γ~1 + γ1 = (2C1/𝒟) cn ū cn δu",
-            [after[0] + now[0]],
-            [2 * C1 / elliptic.denominator() * MEAN.cn * HALF.cn],
-            TWO,
+            "γ~1 + γ1 = (2C1/𝒟) cn ū cn δu", after[0] + now[0], 2 * C1 / elliptic.denominator() * MEAN.cn * HALF.cn, TWO
         )
     )
 
     def difference(text: str, sign: int) -> Equation:
-        return Equation(text, [after[0] - now[0]], [sign * 2 * C1 / elliptic.denominator() * product], TWO)
+        return Equation(text, after[0] - now[0], sign * 2 * C1 / elliptic.denominator() * product, TWO)
 
     p.printed(difference("γ~1 - γ1 = (2C1/𝒟) sn ū dn ū sn δu dn δu", 1))
     p.corrected(
@@ -147,15 +145,15 @@ def increment_and_kappa(p: Proof) -> None:
     for i, factor in enumerate(factors):
         p.say(f"Component {i + 1} of (5.10) at ϰ = 2𝒟 sn δu/(V cn δu dn δu) with V = {factor}:")
         right = elliptic.denominator() / (2 * factor * ratio) * product[i]
-        p.printed(Equation(f"component {i + 1} of γ~ - γ = (ϰ/4)s×Λ⁻¹s", [after[i] - now[i]], [right], TWO))
+        p.printed(Equation(f"component {i + 1} of γ~ - γ = (ϰ/4)s×Λ⁻¹s", after[i] - now[i], right, TWO))
     free = elliptic.ring()
     modulus = elliptic.squared_modulus()
     for i, factor in enumerate(factors):
         squared = sp.expand(factor**2).subs({c**2: value for c, value in squares.items()}).subs(k2, modulus)
-        p.printed(Equation(f"the square of the V of component {i + 1} is V² as printed", [squared], [printed], free))
+        p.printed(Equation(f"the square of the V of component {i + 1} is V² as printed", squared, printed, free))
     wrong = elliptic.denominator() / (2 * -factors[0] * ratio) * product[0]
-    p.control(Equation("component 1 with -V", [after[0] - now[0]], [wrong], TWO))
-    p.control(Equation("V² with Λ1 - Λ3", [printed * (L1 - L3) / (L2 - L3)], [printed], free))
+    p.control(Equation("component 1 with -V", after[0] - now[0], wrong, TWO))
+    p.control(Equation("V² with Λ1 - Λ3", printed * (L1 - L3) / (L2 - L3), printed, free))
 
 
 if __name__ == "__main__":

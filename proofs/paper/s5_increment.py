@@ -9,7 +9,7 @@ from chapsym.derive.elliptic import HALF, L1, L2, L3, LAMBDA, MEAN, U, k2, l
 from chapsym.derive.quotient import Quotient
 from chapsym.proofs import second_routes
 from chapsym.proofs.paper.s5_elliptic import TWO, V
-from chapsym.prove import Equation, Point, Proof, claim, main, rational_point
+from chapsym.prove import Equation, Point, Proof, claim, equations, main, rational_point
 
 
 def on_curve(expr: sp.Expr) -> sp.Expr:
@@ -19,7 +19,7 @@ def on_curve(expr: sp.Expr) -> sp.Expr:
 
 def curve_equation(text: str, left: sp.Expr, right: sp.Expr) -> Equation:
     """An equation in sn, cn, dn of ū and δu, with l in terms of k²."""
-    return Equation(text, [on_curve(left)], [on_curve(right)], TWO)
+    return Equation(text, on_curve(left), on_curve(right), TWO)
 
 
 #: Everything below has h = 1 (5.12-scaling), and y = sn²δu, w = sn cn dn of δu.
@@ -163,9 +163,7 @@ SCALE, G, y, e, w, level = sp.symbols("Dscr G y e w lam")
 PARTS = Quotient((SCALE, G, V, D, y, e, w, level), [w**2 - y * e])
 
 
-def part(text: str, left: sp.Expr, right: sp.Expr) -> Equation:
-    """An equation between the parts."""
-    return Equation(text, [left], [right], PARTS)
+part = equations(PARTS)
 
 
 def true_relation(contact: sp.Expr = D, root: sp.Expr = V) -> sp.Expr:
@@ -301,22 +299,23 @@ def denominator_of_u(p: Proof) -> None:
     below = (1 - k2 * x * y) ** 2
     printed = k2 * x * y * (2 - (k2 + 1) * y - k2 * y**2) + 2 * k2 * y * SMALL_W * big + k2 * y**2 * (1 - k2 * x) - 1
     true = 1 - k2 * x * y * (3 - 2 * (k2 + 1) * y + k2 * y**2) - 2 * k2 * y * SMALL_W * big - k2 * y**2
-    p.printed(Equation("𝒟 as printed", [printed / below], [derived], ring))
+    p.printed(Equation("𝒟 as printed", printed / below, derived, ring))
     p.corrected(
         r"\mathcal D = \tfrac1{[1-k^2\mathrm{sn}^2u\,\mathrm{sn}^2\delta u]^2}(1-k^2\mathrm{sn}^2u\,\mathrm{sn}^2\delta u"
         r"(3-2(k^2+1)\mathrm{sn}^2\delta u+k^2\mathrm{sn}^4\delta u)-2k^2\mathrm{sn}^2\delta u\,w(\delta u)W(u)"
         r"-k^2\mathrm{sn}^4\delta u)",
-        Equation("𝒟 with the corrected bracket", [true / below], [derived], ring),
+        Equation("𝒟 with the corrected bracket", true / below, derived, ring),
     )
     values = {k2: "9/16", U.sn: "4/5", U.cn: "3/5", U.dn: "4/5", HALF.sn: "4/5", HALF.cn: "3/5", HALF.dn: "4/5"}
     relations = Equation("the relations", U.relations() + HALF.relations(), [sp.S.Zero] * 4, ring)
     p.counterexample(rational_point(values, [relations]))
-    p.control(Equation("the printed bracket with its sign changed", [-printed / below], [derived], ring))
+    p.control(Equation("the printed bracket with its sign changed", -printed / below, derived, ring))
 
 
 P, Q = sp.symbols("p q")
 E1, E2, E3 = (2 - k2) / 3, (2 * k2 - 1) / 3, -(1 + k2) / 3
 WEIERSTRASS = Quotient((P, Q, k2), [sp.expand(Q**2 - 4 * (P - E1) * (P - E2) * (P - E3))])
+equation = equations(WEIERSTRASS)
 
 
 @claim(
@@ -328,14 +327,14 @@ def weierstrass_form(p: Proof) -> None:
     """Jacobi's functions by Weierstrass' ones, with e1 - e3 = 1."""
     square, cosine, delta = 1 / (P - E3), (P - E1) / (P - E3), (P - E2) / (P - E3)
     p.printed(
-        Equation("e1 + e2 + e3 = 0", [E1 + E2 + E3], [sp.S.Zero], WEIERSTRASS),
-        Equation("cn² = 1 - sn²", [cosine], [1 - square], WEIERSTRASS),
-        Equation("dn² = 1 - k² sn²", [delta], [1 - k2 * square], WEIERSTRASS),
+        equation("e1 + e2 + e3 = 0", E1 + E2 + E3, 0),
+        equation("cn² = 1 - sn²", cosine, 1 - square),
+        equation("dn² = 1 - k² sn²", delta, 1 - k2 * square),
     )
     p.say("and d/du sn² = 2 sn cn dn agrees with dp/du = q: (2 sn cn dn)² = (dsn²/dp)² q².")
     rate = sp.diff(square, P)
-    p.printed(Equation("4 sn² cn² dn² = (d sn²/dp)² q²", [4 * square * cosine * delta], [rate**2 * Q**2], WEIERSTRASS))
-    p.control(Equation("dn² = 1 - sn²", [delta], [1 - square], WEIERSTRASS))
+    p.printed(equation("4 sn² cn² dn² = (d sn²/dp)² q²", 4 * square * cosine * delta, rate**2 * Q**2))
+    p.control(equation("dn² = 1 - sn²", delta, 1 - square))
 
 
 @claim("5.16-weierstrass-w", r"w(\delta u) = \tfrac12\tfrac q{(p-e_3)^3}", uses=["5.16-weierstrass-e"])
@@ -343,17 +342,17 @@ def weierstrass_w(p: Proof) -> None:
     """w = sn cn dn: the power and the sign are wrong."""
     p.say("w = ½ d(sn²)/du = ½ (d sn²/dp) q, with sn² = 1/(p - e3) and q = dp/du:")
     derived = sp.diff(1 / (P - E3), P) * Q / 2
-    p.printed(Equation("w = ½q/(p-e3)³", [Q / (2 * (P - E3) ** 3)], [derived], WEIERSTRASS))
+    p.printed(equation("w = ½q/(p-e3)³", Q / (2 * (P - E3) ** 3), derived))
     p.corrected(
         r"w(\delta u) = -\tfrac12\tfrac q{(p-e_3)^2}",
-        Equation("w = -½q/(p-e3)²", [-Q / (2 * (P - E3) ** 2)], [derived], WEIERSTRASS),
+        equation("w = -½q/(p-e3)²", -Q / (2 * (P - E3) ** 2), derived),
     )
-    p.lemma(Equation("w² = sn² cn² dn²", [derived**2], [(P - E1) * (P - E2) / (P - E3) ** 3], WEIERSTRASS))
+    p.lemma(equation("w² = sn² cn² dn²", derived**2, (P - E1) * (P - E2) / (P - E3) ** 3))
     p.say("k² = 9/16, sn = 4/5, cn = 3/5, dn = 4/5: p = e3 + 25/16, q = -2 cn dn/sn³, w = 48/125.")
     values = {k2: "9/16", P: sp.Rational(25, 16) - sp.Rational(25, 48), Q: sp.Rational(-2 * 12 * 125, 25 * 64)}
-    curve = Equation("q² = 4(p-e1)(p-e2)(p-e3)", [Q**2], [4 * (P - E1) * (P - E2) * (P - E3)], WEIERSTRASS)
+    curve = equation("q² = 4(p-e1)(p-e2)(p-e3)", Q**2, 4 * (P - E1) * (P - E2) * (P - E3))
     p.counterexample(rational_point(values, [curve]))
-    p.control(Equation("w = ½q/(p-e3)²", [Q / (2 * (P - E3) ** 2)], [derived], WEIERSTRASS))
+    p.control(equation("w = ½q/(p-e3)²", Q / (2 * (P - E3) ** 2), derived))
 
 
 @claim(
@@ -373,23 +372,20 @@ def increment_integral(p: Proof) -> None:
     slope = sp.diff(value, HALF.sn) * HALF.cn * HALF.dn
     p.show("p'", slope)
     quartic = sp.prod(value - root for root in (E1, E2, E3))
-    p.printed(Equation("(dp/dδu)² = 4(p-e1)(p-e2)(p-e3): dδu = dp/(2√...)", [slope**2], [4 * quartic], ring))
-    p.lemma(Equation("p → ∞ as δu → 0: 1/(p - e3) = sn²δu", [1 / (value - E3)], [HALF.sn**2], ring))
+    p.printed(Equation("(dp/dδu)² = 4(p-e1)(p-e2)(p-e3): dδu = dp/(2√...)", slope**2, 4 * quartic, ring))
+    p.lemma(Equation("p → ∞ as δu → 0: 1/(p - e3) = sn²δu", 1 / (value - E3), HALF.sn**2, ring))
     p.lemma(
         Equation(
             "p' = -2 cn dn/sn³: with the positive root the integral is -δu",
-            [slope],
-            [-2 * HALF.cn * HALF.dn / HALF.sn**3],
+            slope,
+            -2 * HALF.cn * HALF.dn / HALF.sn**3,
             ring,
         )
     )
-    p.control(Equation("(dp/dδu)² = (p-e1)(p-e2)(p-e3)", [slope**2], [quartic], ring))
+    p.control(Equation("(dp/dδu)² = (p-e1)(p-e2)(p-e3)", slope**2, quartic, ring))
     p.control(
         Equation(
-            "the same with e2 for e3 in p",
-            [slope**2],
-            [4 * sp.prod(value - E3 + E2 - root for root in (E1, E2, E3))],
-            ring,
+            "the same with e2 for e3 in p", slope**2, 4 * sp.prod(value - E3 + E2 - root for root in (E1, E2, E3)), ring
         )
     )
 

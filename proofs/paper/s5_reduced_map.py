@@ -9,7 +9,9 @@ from chapsym.derive.three import RING, D, gamma, q, q0
 from chapsym.derive.vertical import sigma
 from chapsym.proofs.paper.s5_increment import PARTS, SCALE, G, V, level, part, step_point, true_relation, w, y
 from chapsym.proofs.paper.s5_vertical import SMALL
-from chapsym.prove import Equation, Fact, Proof, claim, main
+from chapsym.prove import Equation, Fact, Proof, claim, equations, main
+
+equation = equations(RING)
 
 REGULAR = "Λ1, Λ2, Λ3 are different, and l is none of 1/Λ1, 1/Λ2, 1/Λ3"
 
@@ -35,14 +37,14 @@ def invariant_curve(p: Proof) -> None:
         "On the curve the squares γ_i² lie on a line; z on it is chosen so that γ_i² = 0 at z = 1/Λ_i and ∞ at z = l:"
     )
     p.show("γ₁²", squares[0])
-    p.lemma(Equation("|γ|² = 1 for every z", [sum(squares)], [sp.S.One], ring))
-    p.lemma(Equation("⟨γ,Λ⁻¹γ⟩ = l for every z", [sum(s * a for s, a in zip(squares, roots, strict=True))], [l], ring))
+    p.lemma(Equation("|γ|² = 1 for every z", sum(squares), 1, ring))
+    p.lemma(Equation("⟨γ,Λ⁻¹γ⟩ = l for every z", sum(s * a for s, a in zip(squares, roots, strict=True)), l, ring))
     gaps = (roots[0] - roots[1]) * (roots[1] - roots[2]) * (roots[2] - roots[0])
     scale = gaps / sp.prod(l - a for a in roots)
     p.say("w = γ₁γ₂γ₃ (z - l)² Π_{i<j}(1/Λ_i - 1/Λ_j)/Π(l - 1/Λ_i) is real where γ is, and")
     quartic = -sp.prod(z - a for a in roots) * (z - l)
     whole = sp.prod(squares) * (z - l) ** 4 * scale**2
-    p.printed(Equation("w² = -(z-1/Λ1)(z-1/Λ2)(z-1/Λ3)(z-l)", [whole], [quartic], ring))
+    p.printed(Equation("w² = -(z-1/Λ1)(z-1/Λ2)(z-1/Λ3)(z-l)", whole, quartic, ring))
     p.say(
         "A point (z, w) fixes γ_i² and γ₁γ₂γ₃: four γ, from one by changing two of the four signs of (1, γ₁, γ₂, γ₃) in P³."
     )
@@ -59,7 +61,7 @@ def invariant_curve(p: Proof) -> None:
     p.say("So every fibre has four points.  The modulus of (5.8) is a cross-ratio of the four roots:")
     first, second, third = roots
     ratio = (first - second) * (l - third) / ((first - l) * (second - third))
-    p.lemma(Equation("k² is the cross-ratio of 1/Λ1, 1/Λ2, l, 1/Λ3", [ratio], [elliptic.squared_modulus()], ring))
+    p.lemma(Equation("k² is the cross-ratio of 1/Λ1, 1/Λ2, l, 1/Λ3", ratio, elliptic.squared_modulus(), ring))
     point = {L1: 4, L2: 2, L3: 1, l: sp.Rational(5, 8), z: sp.Rational(3, 8)}
     at = [s.subs(point) for s in squares]
     p.witness(
@@ -68,8 +70,8 @@ def invariant_curve(p: Proof) -> None:
         Fact("they add up to 1", sum(at) == 1),
         Fact("and are positive: a real point", min(at) > 0),
     )
-    p.control(Equation("w² = +(z-1/Λ1)(z-1/Λ2)(z-1/Λ3)(z-l)", [whole], [-quartic], ring))
-    p.control(Equation("⟨γ,Λγ⟩ = l", [sum(s * lam for s, lam in zip(squares, LAMBDA, strict=True))], [l], ring))
+    p.control(Equation("w² = +(z-1/Λ1)(z-1/Λ2)(z-1/Λ3)(z-l)", whole, -quartic, ring))
+    p.control(Equation("⟨γ,Λγ⟩ = l", sum(s * lam for s, lam in zip(squares, LAMBDA, strict=True)), l, ring))
     p.control(
         Fact(
             "no two of γ₁², γ₂² vanish at one z when Λ1 = Λ2", not sp.solve([(z - first), (z - second).subs(L2, L1)], z)
@@ -103,12 +105,9 @@ def one_dimensional_map(p: Proof) -> None:
     same = [relation_at(x1), relation_at(x2)]
     p.printed(
         Equation(
-            "T(x1) - T(x2) = -k²y(G - 2Vw)(x1 - x2)",
-            [same[0] - same[1]],
-            [-k2 * y * (G - 2 * V * w) * (x1 - x2)],
-            SPREAD,
+            "T(x1) - T(x2) = -k²y(G - 2Vw)(x1 - x2)", same[0] - same[1], -k2 * y * (G - 2 * V * w) * (x1 - x2), SPREAD
         ),
-        Equation("T = 2VwDλ where G = 2Vw", [relation_at(x1).subs(G, 2 * V * w)], [2 * V * w * D * level], SPREAD),
+        Equation("T = 2VwDλ where G = 2Vw", relation_at(x1).subs(G, 2 * V * w), 2 * V * w * D * level, SPREAD),
     )
     p.say("So x1 ≠ x2 would make G = 2Vw and then 2VwDλ = 0, which is excluded when D ≠ 0: Δu is not constant.")
     state = step_point()
@@ -122,7 +121,7 @@ def one_dimensional_map(p: Proof) -> None:
         Fact("T = 0, 2VwDλ ≠ 0 and G ≠ 2Vw", there["T"] == 0 != there["2VwDλ"] and there["G - 2Vw"] != 0),
     )  # fmt: skip
     p.control(part("T does not depend on 𝒟, so on ū", sp.diff(true_relation(), SCALE), 0 * w))
-    p.control(Equation("T(x1) = T(x2)", [same[0]], [same[1]], SPREAD))
+    p.control(Equation("T(x1) = T(x2)", same[0], same[1], SPREAD))
 
 
 @claim(
@@ -178,12 +177,10 @@ def structure(p: Proof) -> None:
 def invariant_density(p: Proof) -> None:
     """A constant increment in some parameter, an invariant density on the curves, and one on the sphere are the same."""
     p.assume(
-        "regular levels l, where u is a coordinate; a branch of the map that is a diffeomorphism of each; densities positive and smooth"
-    )
-    p.assume("Δs is constant on a curve; it may depend on l. f and μ are smooth and positive in u and in l together")
-    p.assume(
+        "regular levels l, where u is a coordinate; a branch of the map that is a diffeomorphism of each; densities positive and smooth",
+        "Δs is constant on a curve; it may depend on l. f and μ are smooth and positive in u and in l together",
         "s is a coordinate of the circle, as u is: f(s + S) = f(s) + the period of u. On the line alone there is an f for "
-        "every step without a fixed point: any increasing one from [0, Δs] to [u, u~], continued by the step"
+        "every step without a fixed point: any increasing one from [0, Δs] to [u, u~], continued by the step",
     )
     s, shift = sp.symbols("s c")
     f, mu = sp.Function("f"), sp.Function("mu")
@@ -193,18 +190,18 @@ def invariant_density(p: Proof) -> None:
     now, after = sp.symbols("mu1 mu2")
     plain = {mu(f(s)): now, mu(f(s + shift)): after}
     densities = Quotient((now, after))
-    p.printed(Equation("du~/du = μ(u)/μ(u~)", [slope.subs(slopes).subs(plain)], [now / after], densities))
+    p.printed(Equation("du~/du = μ(u)/μ(u~)", slope.subs(slopes).subs(plain), now / after, densities))
     p.say("The other way round s = ∫μ du: ds~ = μ(u~)du~ = μ(u)du = ds, so s~ - s is constant on the curve.")
     p.say("μ = 1/f' has the period of u exactly when f(s + S) = f(s) + that period, with S = ∫μ du over the circle.")
-    p.lemma(Equation("μ(u~) du~/du = μ(u) for that slope", [after * (now / after)], [now], densities))
+    p.lemma(Equation("μ(u~) du~/du = μ(u) for that slope", after * (now / after), now, densities))
     p.say("On the sphere: (l, u) ↦ (l, u~) has the Jacobian ∂u~/∂u.  The area is a function of l times dl du:")
     a, b, c = elliptic.squared_amplitudes()
     ring = elliptic.ring(U)
     p.say("γ = (C1 cn, C2 sn, C3 dn): γ_u = c γ×Λ⁻¹γ, with one c for all three components and every u, as")
-    p.lemma(Equation("C1²(1/Λ1 - 1/Λ3) = -C2²(1/Λ3 - 1/Λ2)", [a * (1 / L1 - 1 / L3)], [-b * (1 / L3 - 1 / L2)], ring))
+    p.lemma(Equation("C1²(1/Λ1 - 1/Λ3) = -C2²(1/Λ3 - 1/Λ2)", a * (1 / L1 - 1 / L3), -b * (1 / L3 - 1 / L2), ring))
     modulus = elliptic.squared_modulus()
     third = c * modulus * (1 / L3 - 1 / L1)
-    p.lemma(Equation("k²C3²(1/Λ3 - 1/Λ1) = C2²(1/Λ2 - 1/Λ1)", [third], [b * (1 / L2 - 1 / L1)], ring))
+    p.lemma(Equation("k²C3²(1/Λ3 - 1/Λ1) = C2²(1/Λ2 - 1/Λ1)", third, b * (1 / L2 - 1 / L1), ring))
     change, factor = sp.Matrix(sp.symbols("b1:4")), sp.Symbol("c")
     level_of = gamma.dot(sp.diag(*[1 / lam for lam in LAMBDA]) * gamma)
     moved = change.dot(sp.diag(*[1 / lam for lam in LAMBDA]) * gamma)
@@ -214,7 +211,7 @@ def invariant_density(p: Proof) -> None:
     )
     direction = factor * gamma.cross(sp.diag(*[1 / lam for lam in LAMBDA]) * gamma)
     area = gamma.dot(direction.cross(change))
-    p.printed(Equation("⟨γ, γ_u×γ_l⟩ = -c/2, for |γ| = 1, ⟨γ,γ_l⟩ = 0, ⟨Λ⁻¹γ,γ_l⟩ = ½", [area], [-factor / 2], sphere))
+    p.printed(Equation("⟨γ, γ_u×γ_l⟩ = -c/2, for |γ| = 1, ⟨γ,γ_l⟩ = 0, ⟨Λ⁻¹γ,γ_l⟩ = ½", area, -factor / 2, sphere))
     p.say("So m dA = m c(l)/2 dl du up to sign is preserved exactly when m(γ(l,u)) is a density μ on every curve.")
     at = dict(zip((*gamma, *LAMBDA), (sp.Rational(2, 3), sp.Rational(1, 3), sp.Rational(2, 3), 6, 5, 2), strict=True))
     p.witness(
@@ -222,12 +219,12 @@ def invariant_density(p: Proof) -> None:
         {"γ": "(2, 1, 2)/3", "Λ": "(6, 5, 2)"},
         Fact("l is regular", level_of.subs(at) not in (sp.Rational(1, n) for n in (6, 5, 2))),
     )
-    p.control(Equation("du~/du = μ(u~)/μ(u)", [slope.subs(slopes).subs(plain)], [after / now], densities))
+    p.control(Equation("du~/du = μ(u~)/μ(u)", slope.subs(slopes).subs(plain), after / now, densities))
     p.control(
         Equation(
             "⟨γ, γ_u×γ_l⟩ = -c/2 without ⟨Λ⁻¹γ,γ_l⟩ = ½",
-            [area],
-            [-factor / 2],
+            area,
+            -factor / 2,
             Quotient(sphere.symbols, sphere.relations[:2]),
         )
     )
@@ -256,9 +253,9 @@ def circle(p: Proof) -> None:
                    "real roots of the eliminant over Q, and Hermite's form"))  # fmt: skip
     p.under(
         "|h| small enough, on the small branch",
-        Equation("∂𝒦/∂q = 2B(γ) at q = 0", list(jacobian), list(2 * inertia), RING),
-        Equation("det B = det Λ · F", [inertia.det()], [three.lam().det() * factor], RING),
-        Equation("F = 1 - D⟨γ,Λ⁻¹γ⟩", [factor], [1 - D * level_of], RING),
+        equation("∂𝒦/∂q = 2B(γ) at q = 0", jacobian, 2 * inertia),
+        equation("det B = det Λ · F", inertia.det(), three.lam().det() * factor),
+        equation("F = 1 - D⟨γ,Λ⁻¹γ⟩", factor, 1 - D * level_of),
         Fact("the same γ with h = 1/10 has 4 real solutions", some.real == 4),
     )
     p.say(
@@ -272,7 +269,7 @@ def circle(p: Proof) -> None:
         "at least 1",
         none.real >= 1,
     )
-    p.control(Equation("det B = det Λ", [inertia.det()], [three.lam().det()], RING))
+    p.control(equation("det B = det Λ", inertia.det(), three.lam().det()))
     p.control(Fact("γ has an image at every h: 40 as well as 1/10", none.real == some.real))
 
 

@@ -8,7 +8,9 @@ from chapsym.derive.quotient import Quotient
 from chapsym.derive.three import J1, J2, J3, RING, D, K, axial, gamma, hat, q, q0, q1, q2, q3
 from chapsym.derive.words import evaluate
 from chapsym.proofs import second_routes
-from chapsym.prove import Equation, Fact, Proof, claim, main, rational_point
+from chapsym.prove import Equation, Fact, Proof, claim, equations, main, rational_point
+
+equation = equations(RING)
 
 #: Unit Euler parameters in general position.
 UNIT = dict(zip((q0, *q), map(sp.Rational, ("4/5", "2/5", "1/5", "2/5")), strict=True))
@@ -16,7 +18,7 @@ UNIT = dict(zip((q0, *q), map(sp.Rational, ("4/5", "2/5", "1/5", "2/5")), strict
 
 def unit_quaternion() -> Equation:
     """|q|² + q₀² = 1."""
-    return Equation("|q|² + q₀² = 1", [q0**2 + q.dot(q)], [sp.S.One], RING)
+    return equation("|q|² + q₀² = 1", q0**2 + q.dot(q), 1)
 
 
 def printed_rotation() -> sp.Matrix:
@@ -40,25 +42,25 @@ def rotation_matrix(p: Proof) -> None:
     rotation = sp.Matrix(three.rotation())
     for row in range(3):
         p.show(f"row {row + 1}", rotation[row, :])
-    p.lemma(Equation("ΩᵀΩ = 1", list(rotation.T * rotation), list(sp.eye(3)), RING))
-    p.lemma(Equation("det Ω = 1", [rotation.det()], [sp.S.One], RING))
-    p.lemma(Equation("Ωq = q: the axis", list(rotation * q), list(q), RING))
-    p.lemma(Equation("tr Ω = 4q₀² - 1 = 1 + 2cos θ with q₀ = cos(θ/2)", [rotation.trace()], [4 * q0**2 - 1], RING))
-    p.lemma(Equation("Ω - Ωᵀ = 4q₀ q×: right-handed about q", list(rotation - rotation.T), list(4 * q0 * hat(q)), RING))
+    p.lemma(equation("ΩᵀΩ = 1", rotation.T * rotation, sp.eye(3)))
+    p.lemma(equation("det Ω = 1", rotation.det(), 1))
+    p.lemma(equation("Ωq = q: the axis", rotation * q, q))
+    p.lemma(equation("tr Ω = 4q₀² - 1 = 1 + 2cos θ with q₀ = cos(θ/2)", rotation.trace(), 4 * q0**2 - 1))
+    p.lemma(equation("Ω - Ωᵀ = 4q₀ q×: right-handed about q", rotation - rotation.T, 4 * q0 * hat(q)))
     printed = printed_rotation()
-    p.printed(Equation("(5.1), nine entries", list(printed), list(rotation), RING))
+    p.printed(equation("(5.1), nine entries", printed, rotation))
     corrected = printed.copy()
     corrected[2, 1] = 2 * (q2 * q3 + q0 * q1)
     p.corrected(
         r"\Omega_{32} = 2(q_2q_3 + q_0q_1)",
-        Equation("(5.1) with the entry (3,2) mended, nine entries", list(corrected), list(rotation), RING),
+        equation("(5.1) with the entry (3,2) mended, nine entries", corrected, rotation),
     )
     p.counterexample(rational_point(UNIT, [unit_quaternion()]))
-    p.control(Equation("the printed matrix is orthogonal", list(printed.T * printed), list(sp.eye(3)), RING))
-    p.control(Equation("the mended matrix is that of -q", list(corrected.T), list(rotation), RING))
+    p.control(equation("the printed matrix is orthogonal", printed.T * printed, sp.eye(3)))
+    p.control(equation("the mended matrix is that of -q", corrected.T, rotation))
     mutated = corrected.copy()
     mutated[0, 1] = 2 * (q1 * q2 + q3 * q0)
-    p.control(Equation("the mended matrix with one more sign flipped", list(mutated), list(rotation), RING))
+    p.control(equation("the mended matrix with one more sign flipped", mutated, rotation))
 
 
 @claim(
@@ -77,7 +79,7 @@ def axis_and_angle(p: Proof) -> None:
     def rodrigues(sign: int) -> sp.Matrix:
         return (q0**2 - q.dot(q)) * sp.eye(3) + sign * 2 * q0 * hat(q) + 2 * q * q.T
 
-    p.printed(Equation("Ω = (q₀²-|q|²) + 2q₀ q× + 2qqᵀ, nine entries", list(rotation), list(rodrigues(1)), RING))
+    p.printed(equation("Ω = (q₀²-|q|²) + 2q₀ q× + 2qqᵀ, nine entries", rotation, rodrigues(1)))
     p.say("As (q₀, q) and (-q₀, -q) give the same Ω, q₀ ≥ 0 can be had; but tr Ω = 4q₀² - 1 is -1 only for q₀ = 0.")
     half_turn = sp.diag(1, -1, -1)
     square = (half_turn.trace() + 1) / sp.Integer(4)
@@ -87,11 +89,11 @@ def axis_and_angle(p: Proof) -> None:
     p.under(
         "Ω is no rotation by π; with those, q₀ ≥ 0 and (0, q) ~ (0, -q)",
         Fact("q₀ = 0, q = e₁ gives diag(1,-1,-1)", of_axis == half_turn),
-        Equation("(-q₀, -q) gives the same Ω", list(rotation.subs(minus, simultaneous=True)), list(rotation), RING),
-        Equation("4q₀² = 1 + tr Ω", [4 * q0**2], [1 + rotation.trace()], RING),
+        equation("(-q₀, -q) gives the same Ω", rotation.subs(minus, simultaneous=True), rotation),
+        equation("4q₀² = 1 + tr Ω", 4 * q0**2, 1 + rotation.trace()),
     )
     p.refute({"Ω": "diag(1, -1, -1)"}, "q₀² = (1 + tr Ω)/4", square, "positive", bool(square > 0))
-    p.control(Equation("the same by the angle -θ", list(rotation), list(rodrigues(-1)), RING))
+    p.control(equation("the same by the angle -θ", rotation, rodrigues(-1)))
 
 
 def printed_centre_momentum() -> sp.Matrix:
@@ -128,29 +130,22 @@ def vector_momentum(p: Proof) -> None:
     )
     p.show("𝒦", sp.Matrix(three.momentum()))
     p.printed(
-        Equation("M⃗ as printed", list(printed_centre_momentum()), list(centre), RING),
-        Equation("𝒦⃗ as printed", list(printed_momentum()), list(axial(three.momentum_matrix())), RING),
+        equation("M⃗ as printed", printed_centre_momentum(), centre),
+        equation("𝒦⃗ as printed", printed_momentum(), axial(three.momentum_matrix())),
     )
-    p.lemma(
-        Equation(
-            "the collected form, which the kernels use",
-            list(three.momentum()),
-            list(axial(three.momentum_matrix())),
-            RING,
-        )
-    )
+    p.lemma(equation("the collected form, which the kernels use", three.momentum(), axial(three.momentum_matrix())))
     p.say("In vectors: 𝒦⃗ = 2q₀Λq + 2 q×Λq - 2Dq₀⟨γ,q⟩γ with Λ = diag(J₂+J₃+D, ...).")
     lam = three.lam()
     second = 2 * (q0 * lam * q + q.cross(lam * q) - D * q0 * gamma.dot(q) * gamma)
-    p.lemma(Equation("𝒦⃗ = 2(q₀Λq + q×Λq - Dq₀⟨γ,q⟩γ)", list(second), list(three.momentum()), RING))
+    p.lemma(equation("𝒦⃗ = 2(q₀Λq + q×Λq - Dq₀⟨γ,q⟩γ)", second, three.momentum()))
     for text, mutated in [
         ("𝒦⃗ with + ⟨γ,q⟩γ", printed_momentum(sign=-1)),
         ("𝒦⃗ with D in the place of 2D", printed_momentum(factor=1)),
         ("𝒦⃗ at -q₀", printed_momentum().subs(q0, -q0)),
     ]:
-        p.control(Equation(text, list(mutated), list(three.momentum()), RING))
+        p.control(equation(text, mutated, three.momentum()))
     free = Quotient(RING.symbols, [three.UNIT_QUATERNION])
-    p.control(Equation("𝒦⃗ as printed, without |γ| = 1", list(printed_momentum()), list(three.momentum()), free))
+    p.control(Equation("𝒦⃗ as printed, without |γ| = 1", printed_momentum(), three.momentum(), free))
     p.route(
         "from (4.13) as printed, Ω the Cayley transform of u×, q = q₀u with u free (no turn by π), γ on the unit sphere",
         *second_routes.vector_momentum(),
@@ -169,17 +164,15 @@ def parameter_expansion(p: Proof) -> None:
     """The Euler parameters of a small rotation."""
     vector, scalar = limits.vector_parameters()
     p.printed(
-        Equation("q/ε → ω/2", list(vector.limit), list(omega / 2), limits.RING),
-        Equation("q₀ → 1", list(scalar.limit), [sp.S.One], limits.RING),
+        Equation("q/ε → ω/2", vector.limit, omega / 2, limits.RING),
+        Equation("q₀ → 1", scalar.limit, 1, limits.RING),
     )
     p.lemma(Fact(f"q - εω/2 has the exact order 3, here {vector.order + 1}", vector.order + 1 == 3))
     p.lemma(Fact(f"q₀ - 1 has the exact order 2, here {scalar.order}", scalar.order == 2))
     square = omega.dot(omega)
-    p.lemma(
-        Equation("the leading term of q is -|ω|²ω/48", list(vector.leading), list(-square / 48 * omega), limits.RING)
-    )
-    p.lemma(Equation("the leading term of q₀ is -|ω|²/8", list(scalar.leading), [-square / 8], limits.RING))
-    p.control(Equation("q/ε → ω", list(vector.limit), list(omega), limits.RING))
+    p.lemma(Equation("the leading term of q is -|ω|²ω/48", vector.leading, -square / 48 * omega, limits.RING))
+    p.lemma(Equation("the leading term of q₀ is -|ω|²/8", scalar.leading, -square / 8, limits.RING))
+    p.control(Equation("q/ε → ω", vector.limit, omega, limits.RING))
 
 
 @claim(
@@ -196,19 +189,13 @@ def vector_limit(p: Proof) -> None:
     p.show(f"leading remainder, order {limit.order}", limit.leading)
     lam = sp.diag(J2 + J3 + D, J1 + J3 + D, J1 + J2 + D)
     printed = lam * omega - D * gamma.dot(omega) * gamma
-    p.printed(Equation("𝒦⃗/ε → Λω - D⟨γ,ω⟩γ", list(limit.limit), list(printed), limits.RING))
+    p.printed(Equation("𝒦⃗/ε → Λω - D⟨γ,ω⟩γ", limit.limit, printed, limits.RING))
     p.lemma(Fact(f"the remainder has the exact order 1, here {limit.order}", limit.order == 1))
-    p.lemma(
-        Equation("its leading term is ½ ω×Λω", list(limit.leading), list(omega.cross(lam * omega) / 2), limits.RING)
-    )
-    p.control(
-        Equation("𝒦⃗/ε → Λω + D⟨γ,ω⟩γ", list(limit.limit), list(lam * omega + D * gamma.dot(omega) * gamma), limits.RING)
-    )
+    p.lemma(Equation("its leading term is ½ ω×Λω", limit.leading, omega.cross(lam * omega) / 2, limits.RING))
+    p.control(Equation("𝒦⃗/ε → Λω + D⟨γ,ω⟩γ", limit.limit, lam * omega + D * gamma.dot(omega) * gamma, limits.RING))
     mass = sp.diag(J1 + D, J2 + D, J3 + D)
     p.control(
-        Equation(
-            "the same with Λ = J + D", list(limit.limit), list(mass * omega - D * gamma.dot(omega) * gamma), limits.RING
-        )
+        Equation("the same with Λ = J + D", limit.limit, mass * omega - D * gamma.dot(omega) * gamma, limits.RING)
     )
 
 
@@ -223,19 +210,15 @@ def vector_form(p: Proof) -> None:
     rotation = sp.Matrix(three.rotation())
     p.say("The axial vector of Ωᵀ𝒦Ω, for a skew 𝒦 with the free vector (K₁,K₂,K₃):")
     moved = axial(rotation.T * hat(K) * rotation)
-    p.printed(Equation("the axial vector of Ωᵀ𝒦Ω = Ωᵀ𝒦⃗", list(moved), list(rotation.T * K), ring))
+    p.printed(Equation("the axial vector of Ωᵀ𝒦Ω = Ωᵀ𝒦⃗", moved, rotation.T * K, ring))
     p.say("γ_k = Ωᵀγ_{k-1} is (4.11).")
     limit = limits.vector_transport()
     p.show(f"(Ωᵀ𝒦⃗ - 𝒦⃗)/ε, leading remainder of order {limit.order}", limit.leading)
-    p.lemma(Equation("(Ωᵀ𝒦⃗ - 𝒦⃗)/ε → 𝒦⃗×ω", list(limit.limit), list(K.cross(omega)), limits.RING))
-    p.lemma(
-        Equation(
-            "its leading remainder is ½(𝒦⃗×ω)×ω", list(limit.leading), list(K.cross(omega).cross(omega) / 2), limits.RING
-        )
-    )
+    p.lemma(Equation("(Ωᵀ𝒦⃗ - 𝒦⃗)/ε → 𝒦⃗×ω", limit.limit, K.cross(omega), limits.RING))
+    p.lemma(Equation("its leading remainder is ½(𝒦⃗×ω)×ω", limit.leading, K.cross(omega).cross(omega) / 2, limits.RING))
     p.lemma(Fact(f"that remainder has the exact order 1, here {limit.order}", limit.order == 1))
-    p.control(Equation("the axial vector of Ωᵀ𝒦Ω = Ω𝒦⃗", list(moved), list(rotation * K), ring))
-    p.control(Equation("𝒦̇ = ω×𝒦", list(limit.limit), list(omega.cross(K)), limits.RING))
+    p.control(Equation("the axial vector of Ωᵀ𝒦Ω = Ω𝒦⃗", moved, rotation * K, ring))
+    p.control(Equation("𝒦̇ = ω×𝒦", limit.limit, omega.cross(K), limits.RING))
 
 
 @claim(
@@ -249,9 +232,9 @@ def vector_integrals(p: Proof) -> None:
     rotation = sp.Matrix(three.rotation())
     moved, vertical = rotation.T * K, rotation.T * gamma
     p.printed(
-        Equation("⟨Ωᵀ𝒦, Ωᵀγ⟩ = ⟨𝒦, γ⟩", [moved.dot(vertical)], [K.dot(gamma)], ring),
-        Equation("⟨Ωᵀ𝒦, Ωᵀ𝒦⟩ = ⟨𝒦, 𝒦⟩", [moved.dot(moved)], [K.dot(K)], ring),
-        Equation("|Ωᵀγ| = |γ|", [vertical.dot(vertical)], [sp.S.One], ring),
+        Equation("⟨Ωᵀ𝒦, Ωᵀγ⟩ = ⟨𝒦, γ⟩", moved.dot(vertical), K.dot(gamma), ring),
+        Equation("⟨Ωᵀ𝒦, Ωᵀ𝒦⟩ = ⟨𝒦, 𝒦⟩", moved.dot(moved), K.dot(K), ring),
+        Equation("|Ωᵀγ| = |γ|", vertical.dot(vertical), 1, ring),
     )
     p.say("Only ΩᵀΩ = 1 is used: the branch of Ω does not matter.")
     gradients = sp.Matrix([K.dot(gamma), K.dot(K), gamma.dot(gamma)]).jacobian(sp.Matrix([*K, *gamma]))
@@ -264,7 +247,7 @@ def vector_integrals(p: Proof) -> None:
     )
     along = dict(zip(K, (2 * g for g in gamma), strict=True))
     p.lemma(Fact("a degenerate case: for 𝒦 parallel to γ the rank is 2", gradients.subs(along).subs(at).rank() == 2))
-    p.control(Equation("⟨Ωᵀ𝒦, Ωγ⟩ = ⟨𝒦, γ⟩", [moved.dot(rotation * gamma)], [K.dot(gamma)], ring))
+    p.control(Equation("⟨Ωᵀ𝒦, Ωγ⟩ = ⟨𝒦, γ⟩", moved.dot(rotation * gamma), K.dot(gamma), ring))
 
 
 def rotation_of(parameters: tuple) -> sp.Matrix:

@@ -6,7 +6,7 @@ import sympy as sp
 
 from chapsym.derive import solutions, three
 from chapsym.derive.quotient import Quotient
-from chapsym.derive.three import RING, D, K, gamma, q, q0
+from chapsym.derive.three import RING, D, K, gamma, placed, q, q0
 from chapsym.prove import Equation, Fact, Proof, claim, main
 
 Momentum = tuple[int | str, int | str, int | str]
@@ -86,8 +86,8 @@ def upper_bound(p: Proof) -> None:
     p.corrected(
         r"\text{at most 8 real solutions, and at most 4 if } D = 0",
         Equation("the three equations are homogeneous of degree 2", grown, [scale**2 * e for e in quadrics], ring),
-        Equation("D = 0: 2(q₀Λq + q×Λq) = 0 at those points", list(flat), [sp.S.Zero] * 3, points),
-        Equation("and q₀² + |q|² = 0", [isotropic[0] ** 2 + spin.dot(spin)], [sp.S.Zero], points),
+        Equation("D = 0: 2(q₀Λq + q×Λq) = 0 at those points", flat, [sp.S.Zero] * 3, points),
+        Equation("and q₀² + |q|² = 0", isotropic[0] ** 2 + spin.dot(spin), 0, points),
         Fact("the examples reach these bounds and no more", most == 8 and max(c.real for c in free.values()) == 4),
     )
     worst = ROLLING[8]
@@ -120,7 +120,7 @@ def upper_bound(p: Proof) -> None:
     p.control(
         Equation(
             "the isotropic points with +q₀",
-            list(2 * (-isotropic[0] * lam * spin + spin.cross(lam * spin))),
+            2 * (-isotropic[0] * lam * spin + spin.cross(lam * spin)),
             [sp.S.Zero] * 3,
             points,
         )
@@ -200,27 +200,21 @@ def small_solution(p: Proof) -> None:
 
     mean, apart = (u + v) / 2, u - v
     p.say("(5.2) is 2(Bu + u×Λu) = 𝒦(1 + |u|²), B = Λ - Dγγᵀ. For two solutions u, v with s = (u+v)/2, d = u - v:")
-    in_parameters = balance(u).subs(dict(zip(u, q / q0, strict=True)), simultaneous=True)
+    in_parameters = balance(u).subs(placed((u, q / q0)), simultaneous=True)
     state = Quotient((*K, *RING.symbols), RING.relations)
-    p.lemma(Equation("that is (5.2)", list(in_parameters * q0**2), list(sp.Matrix(three.momentum()) - K), state))
+    p.lemma(Equation("that is (5.2)", in_parameters * q0**2, sp.Matrix(three.momentum()) - K, state))
     linear = inertia * apart + mean.cross(lam * apart) + apart.cross(lam * mean) - K * mean.dot(apart)
-    p.printed(
-        Equation(
-            "the difference is 2(Bd + s×Λd + d×Λs - 𝒦⟨s,d⟩)", list(balance(u) - balance(v)), list(2 * linear), ring
-        )
-    )
+    p.printed(Equation("the difference is 2(Bd + s×Λd + d×Λs - 𝒦⟨s,d⟩)", balance(u) - balance(v), 2 * linear, ring))
     central = lam - D * sp.eye(3)
     form = apart.dot(inertia * apart) - apart.dot(central * apart)
-    p.lemma(Equation("⟨d,Bd⟩ = ⟨d,Id⟩ + D|γ×d|²", [form], [D * gamma.cross(apart).dot(gamma.cross(apart))], ring))
-    p.say("So |Bd| ≥ Imin|d|, while |s×Λd + d×Λs| ≤ 2Λmax|s||d| and |𝒦| ≤ (5/2)Λmax: Imin|d| ≤ (9/2)Λmax|s||d|.")
-    p.say("Two different u, v with |u|, |v| ≤ r have |s| < r, a contradiction: two small solutions are one.")
+    p.lemma(Equation("⟨d,Bd⟩ = ⟨d,Id⟩ + D|γ×d|²", form, D * gamma.cross(apart).dot(gamma.cross(apart)), ring))
     p.say(
-        "There is one: u ↦ B⁻¹(½𝒦(1+|u|²) - u×Λu) maps |u| ≤ r into itself and contracts there, as |B⁻¹| ≤ 1/Imin and,"
+        "So |Bd| ≥ Imin|d|, while |s×Λd + d×Λs| ≤ 2Λmax|s||d| and |𝒦| ≤ (5/2)Λmax: Imin|d| ≤ (9/2)Λmax|s||d|.",
+        "Two different u, v with |u|, |v| ≤ r have |s| < r, a contradiction: two small solutions are one.",
+        "There is one: u ↦ B⁻¹(½𝒦(1+|u|²) - u×Λu) maps |u| ≤ r into itself and contracts there, as |B⁻¹| ≤ 1/Imin and,",
+        "with ρ = Imin/Λmax ≤ 1, |𝒦| ≤ ρ²Λmax/4, r = 2ρ/9, its values are below (ρ/8)(1+r²) + r²/ρ and its slope below",
+        "(|𝒦|r + 2Λmax r)/Imin ≤ (2/9)(ρ²/4 + 2); both are largest, against r = 2ρ/9 and 1, at ρ = 1:",
     )
-    p.say(
-        "with ρ = Imin/Λmax ≤ 1, |𝒦| ≤ ρ²Λmax/4, r = 2ρ/9, its values are below (ρ/8)(1+r²) + r²/ρ and its slope below"
-    )
-    p.say("(|𝒦|r + 2Λmax r)/Imin ≤ (2/9)(ρ²/4 + 2); both are largest, against r = 2ρ/9 and 1, at ρ = 1:")
     radius = sp.Rational(2, 9)
     p.printed(
         Fact("(1/8)(1+r²) + r² < r at r = 2/9", sp.Rational(1, 8) * (1 + radius**2) + radius**2 < radius),
@@ -228,35 +222,22 @@ def small_solution(p: Proof) -> None:
     )
     bound = sp.Rational(2 * 3, 9 * (6 + 3))
     tiny = sp.Matrix([1, -1, 1]) / 40
-    values = dict(zip((*u, *K), (*tiny, 0, 0, 0), strict=True))
-    values |= dict(
-        zip(
-            (three.J1, three.J2, three.J3, D, *gamma),
-            (1, 2, 4, 3, *map(sp.Rational, ("2/7", "3/7", "6/7"))),
-            strict=True,
-        )
-    )
+    values = placed((u, tiny), (K, (0, 0, 0)), (gamma, sp.Matrix([2, 3, 6]) / 7))
+    values |= placed(((three.J1, three.J2, three.J3, D), (1, 2, 4, 3)))
     reached = balance(u).subs(values) / (1 + tiny.dot(tiny))
     p.witness(
         "generic",
         {"J": "(1, 2, 4)", "D": "3", "γ": "(2/7, 3/7, 6/7)", "u": "(1, -1, 1)/40", "𝒦": str(list(reached))},
         Fact("|u| is below the bound", tiny.dot(tiny) < bound**2),
-        Fact("u solves (5.2)", balance(u).subs({**values, **dict(zip(K, reached, strict=True))}).is_zero_matrix),
+        Fact("u solves (5.2)", balance(u).subs(values | placed((K, reached))).is_zero_matrix),
     )
     p.control(
-        Equation(
-            "the same with d×Λs dropped",
-            list(balance(u) - balance(v)),
-            list(2 * (linear - apart.cross(lam * mean))),
-            ring,
-        )
-    )
-    p.control(Equation("⟨d,Bd⟩ = ⟨d,Id⟩", [form], [sp.S.Zero], ring))
-    p.control(
+        Equation("the same with d×Λs dropped", balance(u) - balance(v), 2 * (linear - apart.cross(lam * mean)), ring),
+        Equation("⟨d,Bd⟩ = ⟨d,Id⟩", form, 0, ring),
         Fact(
             "the ball r = 2/9 is mapped into itself when |𝒦| ≤ Λmax",
             sp.Rational(1, 2) * (1 + radius**2) + radius**2 < radius,
-        )
+        ),
     )
 
 

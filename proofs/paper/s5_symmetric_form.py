@@ -10,7 +10,9 @@ from chapsym.derive.three import J1, J2, J3, D, q, q0
 from chapsym.derive.vertical import RING, sigma
 from chapsym.proofs import second_routes
 from chapsym.proofs.paper.s5_vertical import LARGE, NOT_ZERO, SMALL, vertical_point
-from chapsym.prove import Equation, Fact, Proof, claim, main
+from chapsym.prove import Equation, Fact, Proof, claim, equations, main
+
+equation = equations(RING)
 
 
 @cache
@@ -41,17 +43,17 @@ def second_form() -> sp.Expr:
 
 def square_of_root(text: str, factor: sp.Expr) -> Equation:
     """(2q₀² - 1)² = 1 - factor·⟨γ+γ~, Λ⁻²(γ+γ~)⟩: what a formula for the root says."""
-    return Equation(text, [(2 * q0**2 - 1) ** 2], [1 - factor * second_form()], RING)
+    return equation(text, (2 * q0**2 - 1) ** 2, 1 - factor * second_form())
 
 
 def closed_sigma(text: str, factor: sp.Expr) -> Equation:
     """σ = h/(1 - factor·⟨γ+γ~, Λ⁻¹(γ+γ~)⟩), multiplied out."""
-    return Equation(text, [sigma * (1 - factor * first_form())], [vertical.height()], RING)
+    return equation(text, sigma * (1 - factor * first_form()), vertical.height())
 
 
 def symmetric(text: str, factor: sp.Expr) -> Equation:
     """γ~ - γ = factor·(γ+γ~) × Λ⁻¹(γ+γ~)."""
-    return Equation(text, list(difference()), list(factor * total().cross(inverse() * total())), RING)
+    return equation(text, difference(), factor * total().cross(inverse() * total()))
 
 
 @claim(
@@ -63,10 +65,10 @@ def sum_and_difference(p: Proof) -> None:
     """Sum and difference of consecutive verticals."""
     p.assume(NOT_ZERO)
     p.printed(
-        Equation("γ~ + γ = (4q₀/σ)Λq", list(total()), list(4 * q0 / sigma * vertical.lam() * q), RING),
-        Equation("γ~ - γ = (4/σ)Λq×q", list(difference()), list(4 / sigma * (vertical.lam() * q).cross(q)), RING),
+        equation("γ~ + γ = (4q₀/σ)Λq", total(), 4 * q0 / sigma * vertical.lam() * q),
+        equation("γ~ - γ = (4/σ)Λq×q", difference(), 4 / sigma * (vertical.lam() * q).cross(q)),
     )
-    p.control(Equation("γ~ - γ = (4/σ)q×Λq", list(difference()), list(4 / sigma * q.cross(vertical.lam() * q)), RING))
+    p.control(equation("γ~ - γ = (4/σ)q×Λq", difference(), 4 / sigma * q.cross(vertical.lam() * q)))
 
 
 @claim(
@@ -124,16 +126,14 @@ def sigma_equation(p: Proof) -> None:
     """The equation that σ solves has the missing factor 2; the relation that closes it holds."""
     p.assume(NOT_ZERO)
     lifted = D * sigma / 4 * vertical.gamma_now().dot(inverse() * total())
-    p.lemma(
-        Equation("⟨γ, Λ⁻¹s⟩ = ½⟨s, Λ⁻¹s⟩", [vertical.gamma_now().dot(inverse() * total())], [first_form() / 2], RING)
-    )
-    p.printed(Equation("σ = h + D⟨γ, (σ/4)Λ⁻¹s⟩, s = γ~ + γ", [sigma], [vertical.height() + lifted], RING))
+    p.lemma(equation("⟨γ, Λ⁻¹s⟩ = ½⟨s, Λ⁻¹s⟩", vertical.gamma_now().dot(inverse() * total()), first_form() / 2))
+    p.printed(equation("σ = h + D⟨γ, (σ/4)Λ⁻¹s⟩, s = γ~ + γ", sigma, vertical.height() + lifted))
     p.corrected(
         r"\sigma = h+2D\langle\gamma,\tfrac\sigma4\Lambda^{-1}(\tilde\gamma+\gamma)\rangle",
-        Equation("σ = h + 2D⟨γ, (σ/4)Λ⁻¹s⟩, s = γ~ + γ", [sigma], [vertical.height() + 2 * lifted], RING),
+        equation("σ = h + 2D⟨γ, (σ/4)Λ⁻¹s⟩, s = γ~ + γ", sigma, vertical.height() + 2 * lifted),
     )
     p.counterexample(vertical_point(SMALL))
-    p.control(Equation("σ = h - 2D⟨γ, (σ/4)Λ⁻¹s⟩, s = γ~ + γ", [sigma], [vertical.height() - 2 * lifted], RING))
+    p.control(equation("σ = h - 2D⟨γ, (σ/4)Λ⁻¹s⟩, s = γ~ + γ", sigma, vertical.height() - 2 * lifted))
 
 
 @claim(
@@ -227,18 +227,18 @@ def rescaling(p: Proof) -> None:
     p.say("J, D, σ ↦ J/s, D/s, σ/s, with the same q: γ and γ~ stay, h becomes h/s, so that s = h gives 1.")
     now, after, lam = vertical.gamma_now(), vertical.gamma_next(), vertical.lam()
     p.printed(
-        Equation("Λ becomes Λ/s", list(lam.applyfunc(rescaled)), list(lam / scale), ring),
-        Equation("γ stays", list(now.applyfunc(rescaled)), list(now), ring),
-        Equation("γ~ stays", list(after.applyfunc(rescaled)), list(after), ring),
-        Equation("h becomes h/s", [rescaled(vertical.height())], [vertical.height() / scale], ring),
+        Equation("Λ becomes Λ/s", lam.applyfunc(rescaled), lam / scale, ring),
+        Equation("γ stays", now.applyfunc(rescaled), now, ring),
+        Equation("γ~ stays", after.applyfunc(rescaled), after, ring),
+        Equation("h becomes h/s", rescaled(vertical.height()), vertical.height() / scale, ring),
     )
     root = sigma**2 / 4 * second_form()
-    p.lemma(Equation("in (5.10) ϰΛ⁻¹ stays", [rescaled(sigma / q0**2 / lam[0, 0])], [sigma / q0**2 / lam[0, 0]], ring))
-    p.lemma(Equation("and under its root (σ²/4)⟨s,Λ⁻²s⟩", [rescaled(root)], [root], ring))
+    p.lemma(Equation("in (5.10) ϰΛ⁻¹ stays", rescaled(sigma / q0**2 / lam[0, 0]), sigma / q0**2 / lam[0, 0], ring))
+    p.lemma(Equation("and under its root (σ²/4)⟨s,Λ⁻²s⟩", rescaled(root), root, ring))
     printed = second_form() / 4
     p.say("With the printed root, without σ², the scaling would not be one: that is the control.")
-    p.control(Equation("¼⟨s,Λ⁻²s⟩ stays", [rescaled(printed)], [printed], ring))
-    p.control(Equation("h stays", [rescaled(vertical.height())], [vertical.height()], ring))
+    p.control(Equation("¼⟨s,Λ⁻²s⟩ stays", rescaled(printed), printed, ring))
+    p.control(Equation("h stays", rescaled(vertical.height()), vertical.height(), ring))
 
 
 def _converse(p: Proof) -> None:
@@ -251,16 +251,14 @@ def _converse(p: Proof) -> None:
     vector = sigma / (4 * q0) * inverse() * s
     left = 2 * (q0 * vertical.lam() * vector + vector.cross(vertical.lam() * vector))
     right = 2 * (q0 * vertical.lam() * vector - vector.cross(vertical.lam() * vector))
-    p.lemma(Equation("the left side of (5.4) at that q is σγ", list(left), list(sigma * (s - d) / 2), free))
-    p.lemma(Equation("and σΩᵀγ = 2(q₀Λq - q×Λq) is σγ~", list(right), list(sigma * (s + d) / 2), free))
-    p.lemma(Equation("|γ~| = |γ|: ⟨s, d⟩ = 0", [s.dot(d)], [sp.S.Zero], free))
+    p.lemma(Equation("the left side of (5.4) at that q is σγ", left, sigma * (s - d) / 2, free))
+    p.lemma(Equation("and σΩᵀγ = 2(q₀Λq - q×Λq) is σγ~", right, sigma * (s + d) / 2, free))
+    p.lemma(Equation("|γ~| = |γ|: ⟨s, d⟩ = 0", s.dot(d), 0, free))
     lifted = 2 * D * q0 * ((s - d) / 2).dot(vector)
     p.lemma(
-        Equation(
-            "2Dq₀⟨γ,q⟩ = (D/4)σ⟨s, Λ⁻¹s⟩, the formula for σ", [lifted], [D / 4 * sigma * s.dot(inverse() * s)], free
-        )
+        Equation("2Dq₀⟨γ,q⟩ = (D/4)σ⟨s, Λ⁻¹s⟩, the formula for σ", lifted, D / 4 * sigma * s.dot(inverse() * s), free)
     )
-    p.control(Equation("the same with D/8", [lifted], [D / 8 * sigma * s.dot(inverse() * s)], free))
+    p.control(Equation("the same with D/8", lifted, D / 8 * sigma * s.dot(inverse() * s), free))
 
 
 if __name__ == "__main__":

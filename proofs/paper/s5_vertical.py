@@ -9,7 +9,9 @@ from chapsym.derive.quotient import Quotient
 from chapsym.derive.three import J1, J2, J3, D, gamma, q, q0, q1, q2, q3
 from chapsym.derive.vertical import RING, h, sigma
 from chapsym.proofs import second_routes
-from chapsym.prove import Equation, Point, Proof, claim, main, rational_point
+from chapsym.prove import Equation, Point, Proof, claim, equations, main, rational_point
+
+equation = equations(RING)
 
 #: 𝒦 = hγ at two rational states, found by search: the rotation angle is below and above 90°.
 SMALL = {q0: "4/5", q1: "2/5", q2: "1/5", q3: "2/5", J1: 1, J2: 2, J3: 4, D: 1, sigma: "28/5"}
@@ -23,8 +25,8 @@ NOT_ZERO = "σ ≠ 0, which h ≠ 0 implies for a real q: σ = 0 makes the left 
 def vertical_state() -> list[Equation]:
     """What makes (q, σ) a state with 𝒦 = hγ: unit Euler parameters, and |γ| = 1 for γ = left/σ."""
     return [
-        Equation("|q|² + q₀² = 1", [q0**2 + q.dot(q)], [sp.S.One], RING),
-        Equation("|γ| = 1", [vertical.gamma_now().dot(vertical.gamma_now())], [sp.S.One], RING),
+        equation("|q|² + q₀² = 1", q0**2 + q.dot(q), 1),
+        equation("|γ| = 1", vertical.gamma_now().dot(vertical.gamma_now()), 1),
     ]
 
 
@@ -59,12 +61,12 @@ def vertical_relation(p: Proof) -> None:
     p.assume("|γ| = 1, |q|² + q₀² = 1; the equations are judged modulo 𝒦 - hγ = 0")
     ring = Quotient((h, *three.RING.symbols), three.RING.relations)
     left = 2 * printed_vector(+1)
-    p.lemma(Equation("the left side: 𝒦 of a ball with Ĵ and D = 0", list(left), list(vertical.left_side()), ring))
+    p.lemma(Equation("the left side: 𝒦 of a ball with Ĵ and D = 0", left, vertical.left_side(), ring))
     p.show("left side - 𝒦 = γ times", vertical.excess())
     balance = sp.Matrix(three.momentum()) - h * gamma
 
     def relation(text: str, factor: int) -> Equation:
-        return Equation(text, list(left), list((h + factor * D * q0 * gamma.dot(q)) * gamma + balance), ring)
+        return Equation(text, left, (h + factor * D * q0 * gamma.dot(q)) * gamma + balance, ring)
 
     p.printed(relation("left side = [h + D q₀⟨γ,q⟩]γ", 1))
     p.corrected(
@@ -77,9 +79,9 @@ def vertical_relation(p: Proof) -> None:
     p.say(f"At the counterexample 𝒦 = hγ exactly, with h = {height}, γ = {list(now)}.")
     point = {**{k: v for k, v in SMALL.items() if k != sigma}, **dict(zip(gamma, now, strict=True)), h: height}
     hypotheses = [
-        Equation("|γ| = 1", [gamma.dot(gamma)], [sp.S.One], ring),
-        Equation("|q|² + q₀² = 1", [q0**2 + q.dot(q)], [sp.S.One], ring),
-        Equation("𝒦 = hγ", list(three.momentum()), list(h * gamma), ring),
+        Equation("|γ| = 1", gamma.dot(gamma), 1, ring),
+        Equation("|q|² + q₀² = 1", q0**2 + q.dot(q), 1, ring),
+        Equation("𝒦 = hγ", three.momentum(), h * gamma, ring),
     ]
     p.counterexample(rational_point(point, hypotheses))
     p.control(relation("left side = [h - 2D q₀⟨γ,q⟩]γ", -2))
@@ -94,7 +96,7 @@ def sigma_definition(p: Proof) -> None:
     now, height = vertical.gamma_now(), vertical.height()
 
     def formula(text: str, factor: int) -> Equation:
-        return Equation(text, [sigma], [height + factor * D * q0 * now.dot(q)], RING)
+        return equation(text, sigma, height + factor * D * q0 * now.dot(q))
 
     p.printed(formula("σ = h + D⟨γ, q₀q⟩", 1))
     p.corrected(r"\sigma_k = h + 2D\langle\gamma_k, q_0\mathbf q\rangle", formula("σ = h + 2D⟨γ, q₀q⟩", 2))
@@ -113,16 +115,16 @@ def consecutive_verticals(p: Proof) -> None:
     p.assume(NOT_ZERO)
     now = vertical.gamma_now()
     turned = sp.Matrix(three.rotation()).T * now
-    p.lemma(Equation("γ_k as printed", list(2 / sigma * printed_vector(+1)), list(now), RING))
+    p.lemma(equation("γ_k as printed", 2 / sigma * printed_vector(+1), now))
     second = list(2 / sigma * printed_vector(-1))
-    p.lemma(Equation("the vector for γ_{k+1} is the derived Ωᵀγ_k", second, list(vertical.gamma_next()), RING))
-    p.printed(Equation("-Ωᵀγ_k = (2/σ)(... - ...)", list(-turned), second, RING))
+    p.lemma(equation("the vector for γ_{k+1} is the derived Ωᵀγ_k", second, vertical.gamma_next()))
+    p.printed(equation("-Ωᵀγ_k = (2/σ)(... - ...)", -turned, second))
     p.corrected(
         r"\gamma_{k+1} = \Omega_k^T\gamma_k \equiv \tfrac2{\sigma_k}(\dots-\dots)^T",
-        Equation("Ωᵀγ_k = (2/σ)(... - ...)", list(turned), second, RING),
+        equation("Ωᵀγ_k = (2/σ)(... - ...)", turned, second),
     )
     p.counterexample(vertical_point(SMALL))
-    p.control(Equation("Ωγ_k = (2/σ)(... - ...)", list(sp.Matrix(three.rotation()) * now), second, RING))
+    p.control(equation("Ωγ_k = (2/σ)(... - ...)", sp.Matrix(three.rotation()) * now, second))
 
 
 @claim(
@@ -136,15 +138,13 @@ def quadratic_integral(p: Proof) -> None:
     inverse = vertical.lam().inv()
     now, after = vertical.gamma_now(), vertical.gamma_next()
     p.say("σ ≠ 0: both verticals are functions of q, σ on |q|² + q₀² = 1, |γ| = 1; no branch is chosen.")
-    p.printed(
-        Equation("⟨γ_k, Λ⁻¹γ_k⟩ = ⟨γ_{k+1}, Λ⁻¹γ_{k+1}⟩", [now.dot(inverse * now)], [after.dot(inverse * after)], RING)
-    )
+    p.printed(equation("⟨γ_k, Λ⁻¹γ_k⟩ = ⟨γ_{k+1}, Λ⁻¹γ_{k+1}⟩", now.dot(inverse * now), after.dot(inverse * after)))
     p.say("σ = 0 (only for h = 0): ⟨q, left⟩ = 2q₀⟨q,Λq⟩ = 0, so q = 0 (Ω = 1) or q₀ = 0 and then q×Λq = 0.")
     lam, left = vertical.lam(), sp.Matrix(vertical.left_side())
-    p.lemma(Equation("⟨q, left⟩ = 2q₀⟨q, Λq⟩", [q.dot(left)], [2 * q0 * q.dot(lam * q)], RING))
+    p.lemma(equation("⟨q, left⟩ = 2q₀⟨q, Λq⟩", q.dot(left), 2 * q0 * q.dot(lam * q)))
     rotation = sp.Matrix(three.rotation())
     half_turn, crossed = rotation.subs(q0, 0), q.cross(lam * q)
-    p.lemma(Equation("left at q₀ = 0 is 2 q×Λq", list(left.subs(q0, 0)), list(2 * crossed), RING))
+    p.lemma(equation("left at q₀ = 0 is 2 q×Λq", left.subs(q0, 0), 2 * crossed))
     commutator = half_turn.T * lam - lam * half_turn.T
     p.lemma(
         Equation(
@@ -152,12 +152,10 @@ def quadratic_integral(p: Proof) -> None:
             [commutator[1, 2], commutator[2, 0], commutator[0, 1]], list(2 * crossed), RING,
         )
     )  # fmt: skip
-    p.control(Equation("⟨γ, γ_next⟩ = 1", [now.dot(after)], [sp.S.One], RING))
-    p.control(Equation("⟨γ, Λγ⟩ is an integral", [now.dot(lam * now)], [after.dot(lam * after)], RING))
+    p.control(equation("⟨γ, γ_next⟩ = 1", now.dot(after), 1))
+    p.control(equation("⟨γ, Λγ⟩ is an integral", now.dot(lam * now), after.dot(lam * after)))
     wrong = vertical.gamma_now().subs(q0, 2 * q0)
-    p.control(
-        Equation("the integral with 2q₀ in γ_k", [wrong.dot(inverse * wrong)], [after.dot(inverse * after)], RING)
-    )
+    p.control(equation("the integral with 2q₀ in γ_k", wrong.dot(inverse * wrong), after.dot(inverse * after)))
     p.route(
         "Ω, |γ| = 1, D and h are free and 𝒦 = hγ with (4.13), linear in J, is solved for the ball (q₀q₁q₂q₃ ≠ 0)",
         *second_routes.quadratic_integral(),

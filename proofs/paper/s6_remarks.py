@@ -24,23 +24,21 @@ def vertical_energy(p: Proof) -> None:
     ring = Quotient((h, *three.RING.symbols), three.RING.relations)
     energy = 2 * continuous.energy().subs(on_vertical, simultaneous=True)
     quadratic = K.dot(continuous.inverse_inertia() * K).subs(on_vertical, simultaneous=True)
-    p.printed(Equation("𝒦 = hγ: ⟨𝒦,ω⟩ = h²l/(1 - Dl), l = ⟨γ,Λ⁻¹γ⟩", [energy], [h**2 * form / (1 - D * form)], ring))
+    p.printed(Equation("𝒦 = hγ: ⟨𝒦,ω⟩ = h²l/(1 - Dl), l = ⟨γ,Λ⁻¹γ⟩", energy, h**2 * form / (1 - D * form), ring))
     p.lemma(
         Equation(
             "(2.5) as printed: h²l(1 - 2Dl)/(1 - Dl)",
-            [2 * quadratic - energy],
-            [h**2 * form * (1 - 2 * D * form) / (1 - D * form)],
+            2 * quadratic - energy,
+            h**2 * form * (1 - 2 * D * form) / (1 - D * form),
             ring,
         )
     )
     inverse = vertical.lam().inv()
     now, after = (x.dot(inverse * x) for x in (vertical.gamma_now(), vertical.gamma_next()))
-    p.printed(Equation("l at γ~ is l at γ, for every branch: so is h²l/(1 - Dl)", [after], [now], RING))
-    p.control(Equation("𝒦 = hγ: ⟨𝒦,ω⟩ = h²l", [energy], [h**2 * form], ring))
+    p.printed(Equation("l at γ~ is l at γ, for every branch: so is h²l/(1 - Dl)", after, now, RING))
+    p.control(Equation("𝒦 = hγ: ⟨𝒦,ω⟩ = h²l", energy, h**2 * form, ring))
     wrong = vertical.gamma_next().dot(vertical.lam() * vertical.gamma_next())
-    p.control(
-        Equation("⟨γ,Λγ⟩ is kept", [wrong], [vertical.gamma_now().dot(vertical.lam() * vertical.gamma_now())], RING)
-    )
+    p.control(Equation("⟨γ,Λγ⟩ is kept", wrong, vertical.gamma_now().dot(vertical.lam() * vertical.gamma_now()), RING))
 
 
 @claim(
@@ -68,15 +66,15 @@ def left_right(p: Proof) -> None:
 
     for name, factor in (("as corrected", principle.kinetic_factor()), ("as printed", sp.Rational(1, 2))):
         here = algebra.trace(principle.lagrangian(factor, R, R1, r, r1))
-        p.printed(Equation(f"𝕃 {name} is left-invariant", [lagrangian(left, factor)], [here], algebra))
-        p.control(Equation(f"𝕃 {name} is right-invariant", [lagrangian(right, factor)], [here], algebra))
+        p.printed(Equation(f"𝕃 {name} is left-invariant", lagrangian(left, factor), here, algebra))
+        p.control(Equation(f"𝕃 {name} is right-invariant", lagrangian(right, factor), here, algebra))
     start = principle.discrete_constraint(R, R1, r, r1)
-    p.printed(Equation("(4.9) is right-invariant", [constraint(right)], [start], algebra))
+    p.printed(Equation("(4.9) is right-invariant", constraint(right), start, algebra))
     p.say("The forms of the distribution, δr + ρ δR Rᵀγ, are right-invariant, too: δR Rᵀ does not see R ↦ RS.")
     turn, shift = matrix_symbols("dR dr")
     form = principle.rolling_constraint(shift, turn)
-    p.lemma(Equation("δr + ρ δR Rᵀγ is right-invariant", [form.xreplace({**right, turn: turn * S})], [form], algebra))
-    p.control(Equation("(4.9) is left-invariant", [constraint(left)], [start], algebra))
+    p.lemma(Equation("δr + ρ δR Rᵀγ is right-invariant", form.xreplace({**right, turn: turn * S}), form, algebra))
+    p.control(Equation("(4.9) is left-invariant", constraint(left), start, algebra))
 
 
 if __name__ == "__main__":
