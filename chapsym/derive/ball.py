@@ -23,10 +23,10 @@ ALGEBRA = WordAlgebra(
 )
 
 
-def centre_momentum(Om: sp.Expr = Omega) -> sp.Expr:
+def centre_momentum() -> sp.Expr:
     """M_k = Ω_k J - J Ω_kᵀ: the spatial momentum carried to the body frame at the time k."""
     carried = space.RT * space.spatial_momentum(space.R, space.R1) * space.R
-    return _in_step_symbols(carried, at_start=True).subs(Omega, Om)
+    return _in_step_symbols(carried, at_start=True)
 
 
 @cache

@@ -34,9 +34,9 @@ class Remainder(NamedTuple):
     leading: sp.Expr
 
 
-def exponential(generator: sp.Expr, terms: int = CARRIED + 2) -> sp.Expr:
-    """exp(ε·generator) up to ε^(terms-1), for a word or a matrix."""
-    return sp.Add(*(eps**k * generator**k / sp.factorial(k) for k in range(terms)))
+def exponential(generator: sp.Expr) -> sp.Expr:
+    """exp(ε·generator) up to one order more than is carried, for a word or a matrix."""
+    return sp.Add(*(eps**k * generator**k / sp.factorial(k) for k in range(CARRIED + 2)))
 
 
 def expand_words(expr: sp.Expr, algebra: WordAlgebra) -> Remainder:
@@ -110,17 +110,15 @@ def vector_parameters() -> tuple[Remainder, Remainder]:
 
 def vector_momentum() -> Remainder:
     """𝒦(q, γ)/ε for n = 3."""
-    scalar, vector = euler_parameters()
-    moved = sp.Matrix(three.momentum()).subs(
-        {three.q0: scalar, **dict(zip(three.q, vector, strict=True))}, simultaneous=True
-    )
-    return expand_vector((moved / eps).applyfunc(sp.expand))
+    return expand_vector((_with_step(three.momentum()) / eps).applyfunc(sp.expand))
 
 
 def vector_transport() -> Remainder:
     """(Ωᵀ x - x)/ε for n = 3 and a vector x (𝒦 or γ); the limit is x × ω."""
+    return expand_vector(((_with_step(three.rotation()).T * three.K - three.K) / eps).applyfunc(sp.expand))
+
+
+def _with_step(matrix: sp.ImmutableMatrix) -> sp.Matrix:
+    """With the Euler parameters of the step."""
     scalar, vector = euler_parameters()
-    omega_matrix = sp.Matrix(three.rotation()).subs(
-        {three.q0: scalar, **dict(zip(three.q, vector, strict=True))}, simultaneous=True
-    )
-    return expand_vector(((omega_matrix.T * three.K - three.K) / eps).applyfunc(sp.expand))
+    return sp.Matrix(matrix).subs(three.placed(((three.q0, *three.q), (scalar, *vector))), simultaneous=True)
