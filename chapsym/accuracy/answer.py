@@ -14,10 +14,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from chapsym.dynamics import BadInput, Ball, StepNotTaken, Trajectory
+from chapsym.dynamics.results import some_frames
 from chapsym.numbers import Digits, Double, Single
 
 from .choice import Choice
-from .methods import COMPOSED, EXACT, checks, thinned
+from .methods import COMPOSED, EXACT, checks
 from .pilot import pilot, surveyed
 from .prices import Prices, load_prices
 from .request import Request, exact_values
@@ -100,7 +101,7 @@ def accurate(
         progress(choice.sentence())
         run = search.attempt(choice)
         if run is not None:
-            kept = thinned(run, checks(request, choice.method) // request.frames)
+            kept = some_frames(run, slice(None, None, checks(request, choice.method) // request.frames))
             return Accurate(kept, request, search.attempts, clock.thread_time() - started)
     best = min(one.estimate for one in search.attempts)
     raise BadInput(f"no run was verified to {accuracy:g} in {MOST_ATTEMPTS} attempts; the best differed by {best:.2g}")

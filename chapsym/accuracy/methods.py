@@ -1,6 +1,6 @@
 """The ways to take a ball to the end: a rung of the precision ladder and an order, each by one call of dynamics."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
@@ -140,22 +140,4 @@ def _extrapolated(request: Request, step: float, every: int, frames: int, body: 
     return Trajectory(
         request.ball, np.arange(frames + 1) * every, np.array(K) * step, np.array(g), attitude, None,
         np.array(frames * every), np.array(int(Status.TAKEN)), step, EXTRAPOLATED,
-    )  # fmt: skip
-
-
-def thinned(run: Trajectory, every: int) -> Trajectory:
-    """Every so many of the frames."""
-
-    def kept(array: Any) -> Any:
-        return None if array is None else array[::every]
-
-    low = run.low
-    if low is not None:
-        low = replace(
-            low, momentum=low.momentum[::every], gamma=low.gamma[::every], attitude=kept(low.attitude),
-            contact=kept(low.contact),
-        )  # fmt: skip
-    return replace(
-        run, index=run.index[::every], momentum=run.momentum[::every], gamma=run.gamma[::every],
-        attitude=kept(run.attitude), contact=kept(run.contact), low=low,
     )  # fmt: skip

@@ -9,6 +9,7 @@ import numpy as np
 
 from chapsym.dynamics import BadInput, Ball, Trajectory
 from chapsym.dynamics.ball import Floats, batch, numbers, unit_vertical
+from chapsym.dynamics.certified import exactly
 from chapsym.dynamics.trajectories import attitude_with, initial_attitude
 from chapsym.numbers import Digits, Rung
 
@@ -147,24 +148,5 @@ def exact_values(request: Request, run: Trajectory, name: str) -> np.ndarray:
     high = getattr(run, name)
     if run.low is None and high.dtype != object:
         return np.asarray(high.astype(float) / (run.time_step if name == "momentum" else 1.0))
-    whole = as_fractions(run, name)
+    whole = exactly(run, name)
     return np.asarray(whole * (int(run.index[-1]) / Fraction(request.time)) if name == "momentum" else whole)
-
-
-def as_fractions(run: Trajectory, name: str) -> np.ndarray:
-    """An array of a run, exactly; of balls their middles."""
-    exactly = np.vectorize(_fraction, otypes=[object])
-    whole = exactly(getattr(run, name))
-    return np.asarray(whole if run.low is None else whole + exactly(getattr(run.low, name)))
-
-
-def _fraction(value: Any) -> Fraction:
-    if isinstance(value, float | np.floating):
-        return Fraction(float(value))
-    if hasattr(value, "mid"):  # a ball of Arb
-        value = value.mid()
-        mantissa, exponent = value.man_exp()
-    else:  # an mpf, whose mantissa has no sign
-        mantissa, exponent = value.man_exp
-        mantissa = -mantissa if value < 0 else mantissa
-    return Fraction(int(mantissa)) * Fraction(2) ** int(exponent)

@@ -90,7 +90,7 @@ def certify(
         raise BadInput(f"certify takes orders {', '.join(map(str, COMPOSITIONS))}: this is no orbit of the map")
     if isinstance(bits, bool) or not isinstance(bits, int | np.integer) or bits < 2:
         raise BadInput(f"bits must be a whole number from 2 on, not {bits!r}")
-    given = {name: exactly(trajectory, name) for name in NAMES}
+    given = {name: None if getattr(trajectory, name) is None else exactly(trajectory, name) for name in NAMES}
     enclosed = _orbit(trajectory, given, int(bits), progress)
     errors = {
         name: None if array is None else _errors(array, given[name], int(bits)) for name, array in enclosed.items()
@@ -98,11 +98,9 @@ def certify(
     return Certificate(trajectory, *enclosed.values(), *errors.values())  # type: ignore[arg-type]
 
 
-def exactly(trajectory: Trajectory, name: str) -> np.ndarray | None:
-    """An array of a trajectory as exact fractions, None where there are no numbers; None if it has no such array."""
+def exactly(trajectory: Trajectory, name: str) -> np.ndarray:
+    """An array of a trajectory as exact fractions, of balls their middles; None where there are no numbers."""
     array = getattr(trajectory, name)
-    if array is None:
-        return None
     rest = None if trajectory.low is None else getattr(trajectory.low, name)
     lows = [0.0] * array.size if rest is None else rest.flat
     values = [None if x != x else fraction(x) + fraction(y) for x, y in zip(array.flat, lows, strict=True)]

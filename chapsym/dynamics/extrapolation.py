@@ -24,7 +24,7 @@ from .levels.double import chosen, compiles
 from .loops import loop
 from .loops.lanes import MOST_COLUMNS, long_steps_in_lanes
 from .loops.long_step import FIRST, long_steps
-from .trajectories import initial_attitude
+from .trajectories import _count, initial_attitude
 
 #: Longer steps than 2^LONGEST, in units where the momentum and the ball are about 1, have no rotation anyway.
 LONGEST = 100
@@ -78,8 +78,7 @@ def extrapolate(
     One ball raises StepNotTaken where the map has no step of length time_step/n; a batch reports `status`.
     Raises BadInput as `step` does, for a time_step that is not one finite number, and for counts out of range.
     """
-    _count(steps, "steps", 0, 2**62, "from 0 on")
-    _count(columns, "columns", 2, MOST_COLUMNS, f"from 2 to {MOST_COLUMNS}")
+    steps, columns = _count(steps, "steps", 0), _count(columns, "columns", 2, MOST_COLUMNS)
     h = numbers(time_step, "time_step")
     if h.ndim:
         raise BadInput(f"time_step must be one number of seconds, not {time_step!r}")
@@ -92,7 +91,7 @@ def extrapolate(
     doubt, status = np.zeros(len(D)), np.zeros(len(D), dtype=np.int64)
     for i in range(len(D)):
         state, half, exponent = _scaled(K[i], J[i], float(D[i]), float(h))
-        taken, status[i], reach, doubt[i] = march(K[i], g[i], attitudes[i], half, state, int(steps))
+        taken, status[i], reach, doubt[i] = march(K[i], g[i], attitudes[i], half, state, steps)
         K[i] = np.ldexp(K[i], exponent)
         if status[i] != Status.TAKEN:
             if not shape:
@@ -127,8 +126,3 @@ def _scaled(K: Floats, J: Floats, D: float, h: float) -> tuple[Floats, float, in
     K[:] = np.ldexp(K, -exponent)
     mantissa, shift = frexp(0.5 * h)
     return state, ldexp(mantissa, min(shift + exponent - (size - 2), LONGEST)), exponent
-
-
-def _count(value: int, name: str, least: int, most: int, told: str) -> None:
-    if isinstance(value, bool) or not isinstance(value, int | np.integer) or not least <= value <= most:
-        raise BadInput(f"{name} must be a whole number {told}, not {value!r}")

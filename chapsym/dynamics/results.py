@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, replace
 from typing import Any
 
 import numpy as np
@@ -54,6 +54,18 @@ class Step:
             values = map(Pair, values, getattr(self.low, name))
         with self.precision.precision():
             return list(map(self.precision.write, values))
+
+
+#: What a run keeps of each frame.
+FRAMES = ("index", "momentum", "gamma", "attitude", "contact")
+
+
+def some_frames(run: Any, which: np.ndarray | slice) -> Any:
+    """Some of the frames of one ball: a run of any kind, or what it has beyond float64."""
+    names = {field.name for field in fields(run)}.intersection(FRAMES)
+    kept = {name: array[which] for name in names if (array := getattr(run, name)) is not None}
+    low = getattr(run, "low", None)
+    return replace(run, **kept) if low is None else replace(run, low=some_frames(low, which), **kept)
 
 
 @dataclass(frozen=True, eq=False)

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -27,7 +26,7 @@ from .errors import BadInput, Status, StepNotTaken
 from .exactly import beyond_float64
 from .levels import ladder
 from .levels.frames import Balls, Frames
-from .results import Low, Trajectory
+from .results import Low, Trajectory, some_frames
 
 #: Whoever asks for more steps than this, or for every so many, will not see the end of it.
 MOST_STEPS = 2**62
@@ -143,25 +142,16 @@ def trajectory(
     )  # fmt: skip
     taken, status, reach = frame.taken, frame.status, frame.reach
     if not shape and status[0] != Status.TAKEN:
-        raise StepNotTaken(Status(int(status[0])), float(reach[0]), int(taken[0]), _up_to(result, int(taken[0])))
+        before = some_frames(result, result.index <= taken[0])
+        raise StepNotTaken(Status(int(status[0])), float(reach[0]), int(taken[0]), before)
     return result
 
 
-def _up_to(whole: Trajectory, taken: int) -> Trajectory:
-    """The frames of one ball that exist."""
-    kept = whole.index <= taken
-
-    def these(of: Trajectory | Low) -> dict[str, Any]:
-        arrays = {name: getattr(of, name) for name in ("momentum", "gamma", "attitude", "contact")}
-        return {name: array if array is None else array[kept] for name, array in arrays.items()}
-
-    low = None if whole.low is None else Low(**these(whole.low))
-    return replace(whole, index=whole.index[kept], low=low, **these(whole))
-
-
-def _count(value: int, name: str, least: int) -> int:
-    if isinstance(value, bool) or not isinstance(value, int | np.integer) or value < least:
-        raise BadInput(f"{name} must be a whole number from {least} on, not {value!r}")
+def _count(value: int, name: str, least: int, most: int | None = None) -> int:
+    number = isinstance(value, int | np.integer) and not isinstance(value, bool)
+    if not number or value < least or (most is not None and value > most):
+        told = "on" if most is None else f"to {most}"
+        raise BadInput(f"{name} must be a whole number from {least} {told}, not {value!r}")
     return min(int(value), MOST_STEPS)
 
 

@@ -14,9 +14,10 @@ import chapsym.numbers
 from chapsym.accuracy import Method, Prices, Request, accurate, choices, distance, take
 from chapsym.accuracy import prices as pricing
 from chapsym.accuracy.pilot import Law, pilot, surveyed
-from chapsym.accuracy.request import as_fractions, exact_values
+from chapsym.accuracy.request import exact_values
 from chapsym.accuracy.search import Search
 from chapsym.dynamics import BadInput, kernels
+from chapsym.dynamics.certified import exactly
 from chapsym.numbers import NAMED
 from chapsym.studies.trade.reference import continuous
 from chapsym.studies.trade.requests import true_error, truth
@@ -311,6 +312,6 @@ def test_choices_are_sorted_and_leave_out_what_is_barred():
 def test_numbers_of_every_rung_are_read_exactly_with_their_signs():
     for precision in (chapsym.numbers.Digits(30), chapsym.numbers.Ball(100), "quad", "double", "single"):
         run = chapsym.trajectory(BALL, -0.01 * K, GAMMA, 2, precision=precision)
-        exact = as_fractions(run, "momentum").astype(float)
+        exact = exactly(run, "momentum").astype(float)
         np.testing.assert_allclose(exact, run.momentum.astype(float), rtol=1e-15)
         assert (exact[0] * K <= 0).all()

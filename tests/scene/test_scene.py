@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from chapsym import scene
-from chapsym.accuracy.request import as_fractions
+from chapsym.dynamics.certified import exactly
 from chapsym.scene import SceneError
 from chapsym.scene.result import formats
 from chapsym.scene.running import sweep
@@ -166,7 +166,7 @@ def test_more_digits_than_float64_has_are_written(write, tmp_path):
     text = ACCURATE.replace("1e-7", "1e-19").replace("[run]", "position = [0.1, 0.2]\n[run]")
     plan, answers = sweep.telling(plan_of(scene.load(write(text))), lambda text: None)
     formats.save(sweep.run_in_memory(plan), tmp_path / "run.npz")
-    data, exact = np.load(tmp_path / "run.npz"), as_fractions(answers[0].trajectory, "contact")
+    data, exact = np.load(tmp_path / "run.npz"), exactly(answers[0].trajectory, "contact")
     assert abs(data["contact_low"][-1]).max() > 0
     for place, axis in ((Fraction(0.1), 0), (Fraction(0.2), 1)):
         high, low = (Fraction(float(data[name][-1, axis])) for name in ("contact", "contact_low"))

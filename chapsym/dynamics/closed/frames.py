@@ -5,8 +5,8 @@ from numpy.typing import ArrayLike
 
 from ..ball import Floats
 from ..errors import BadInput, Status, StepNotTaken
-from ..results import Trajectory
-from ..trajectories import MOST_STEPS, _up_to
+from ..results import Trajectory, some_frames
+from ..trajectories import MOST_STEPS
 
 
 def step_numbers(index: ArrayLike) -> np.ndarray:
@@ -23,4 +23,4 @@ def finished(run: Trajectory, reach: Floats) -> Trajectory:
     """The run; for one ball that could not take its step StepNotTaken with `reach` and what there is."""
     if run.status.shape or run.status == Status.TAKEN:
         return run
-    raise StepNotTaken(Status(int(run.status)), float(reach.flat[0]), 0, _up_to(run, 0))
+    raise StepNotTaken(Status(int(run.status)), float(reach.flat[0]), 0, some_frames(run, run.index <= 0))

@@ -14,7 +14,7 @@ from ..errors import BadInput, Status, StepNotTaken
 from ..levels import double, ladder
 from ..levels.frames import Balls, Frames
 from ..loops import loop, vertical_loop
-from ..results import Step
+from ..results import Step, some_frames
 from ..trajectories import _count
 
 
@@ -85,10 +85,7 @@ def trajectory_vertical(
         frames.gamma.reshape(*shape, steps // every + 1, 3), taken.reshape(shape), status.reshape(shape),
     )  # fmt: skip
     if not shape and status[0] != Status.TAKEN:
-        kept = result.index <= taken[0]
-        before = VerticalTrajectory(
-            ball, result.height, result.index[kept], result.gamma[kept], result.taken, result.status
-        )
+        before = some_frames(result, result.index <= taken[0])
         raise StepNotTaken(Status(int(status[0])), float(reach[0]), int(taken[0]), before)
     return result
 

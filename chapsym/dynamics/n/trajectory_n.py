@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 
 from ..ball import Asked, Floats, numbers
 from ..errors import BadInput, Status, StepNotTaken
+from ..results import some_frames
 from ..trajectories import _count
 from . import so_n
 from .ball_n import BallN, flat_states, initial_attitudes, skew_matrices
@@ -95,7 +96,7 @@ def trajectory_n(
         shaped.get("contact"), taken.reshape(shape), status.reshape(shape),
     )  # fmt: skip
     if not shape and status[0] != Status.TAKEN:
-        before = _frames(result, slice(None, int(taken[0]) // every + 1))
+        before = some_frames(result, result.index <= taken[0])
         raise StepNotTaken(Status(int(status[0])), float(reach[0]), int(taken[0]), before)
     return result
 
@@ -174,12 +175,3 @@ def invariants_n(momentum: ArrayLike, gamma: ArrayLike) -> Floats:
         traces.append(np.trace(power, axis1=-2, axis2=-1))
         weights += [(g.mT @ moved)[..., 0, 0]] if j <= (n - 1) // 2 else []
     return np.stack(np.broadcast_arrays(*traces, *weights, (g.mT @ g)[..., 0, 0]), axis=-1)
-
-
-def _frames(whole: TrajectoryN, kept: slice) -> TrajectoryN:
-    """Those frames of one ball."""
-    return replace(
-        whole, index=whole.index[kept], momentum=whole.momentum[kept], gamma=whole.gamma[kept],
-        attitude=None if whole.attitude is None else whole.attitude[kept],
-        contact=None if whole.contact is None else whole.contact[kept],
-    )  # fmt: skip

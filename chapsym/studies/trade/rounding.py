@@ -8,8 +8,8 @@ import numpy as np
 
 from chapsym.accuracy.methods import rung_label
 from chapsym.accuracy.prices import sample
-from chapsym.accuracy.request import as_fractions
 from chapsym.dynamics import BadInput, Trajectory, trajectory
+from chapsym.dynamics.certified import exactly
 from chapsym.numbers import NAMED, Ball, Digits, Rung
 
 from ..harness import Contender, cores, interleaved
@@ -52,7 +52,7 @@ def measure(quick: bool, say: Callable[[str], None]) -> Frontier:
 
 def ends(run: Trajectory) -> np.ndarray:
     """𝒦 and γ of the last frame, six Fractions (the middles of balls)."""
-    return np.concatenate([as_fractions(run, name)[-1] for name in ("momentum", "gamma")])
+    return np.concatenate([exactly(run, name)[-1] for name in ("momentum", "gamma")])
 
 
 def _apart(a: np.ndarray, b: np.ndarray) -> float:
