@@ -40,17 +40,24 @@ BODY: tuple[Group, ...] = (GAMMA, MASS_TENSOR, CONTACT)
 
 @dataclass(frozen=True)
 class Kernel:
-    """A function to be generated: flat inputs in groups, flat outputs with a shape."""
+    """A function to be generated: flat inputs in groups, flat outputs, which are a vector or a matrix, row by row."""
 
     name: str
     summary: str
     claims: tuple[str, ...]
     groups: tuple[Group, ...]
-    shape: tuple[int, ...]
     outputs: tuple[str, ...]
     build: Callable[[], Sequence[sp.Expr]]
     #: The same value in steps: named intermediate expressions, and the outputs by those names.
     factored: Callable[[], tuple[Steps, Sequence[sp.Expr]]] | None = None
+    rows_of_three: bool = False
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Of the result; one output is a number."""
+        if self.rows_of_three:
+            return len(self.outputs) // 3, 3
+        return (len(self.outputs),) if len(self.outputs) > 1 else ()
 
     @cached_property
     def expressions(self) -> tuple[sp.Expr, ...]:
@@ -86,7 +93,6 @@ KERNELS: tuple[Kernel, ...] = (
         "The discrete momentum 𝒦(q, γ) about the contact point (5.2); homogeneous of degree 2 in (q0, q).",
         ("prop-1", "5.2", "stable-momentum"),
         (QUATERNION, *BODY),
-        (3,),
         _vector("K"),
         three.momentum,
         three.momentum_steps,
@@ -96,34 +102,33 @@ KERNELS: tuple[Kernel, ...] = (
         "∂𝒦/∂q in the chart q0 = sqrt(1 - |q|²), row by row; it divides by q0.",
         ("5.2",),
         (QUATERNION, *BODY),
-        (3, 3),
         _matrix("dK"),
         three.momentum_jacobian,
+        rows_of_three=True,
     ),
     Kernel(
         "tangent_jacobian",
         "The derivative of 𝒦 along q ∘ (0, w), w ∈ R³, row by row; regular at every rotation.",
         ("5.2",),
         (QUATERNION, *BODY),
-        (3, 3),
         _matrix("dK"),
         three.tangent_jacobian,
+        rows_of_three=True,
     ),
     Kernel(
         "tangent_hessian",
         "The constant second derivative of 𝒦(q ∘ (1, w)) in w: the vectors for 11, 22, 33, 23, 13, 12.",
         ("5.2",),
         (QUATERNION, *BODY),
-        (6, 3),
         tuple(f"ddK{pair}_{row}" for pair in ("11", "22", "33", "23", "13", "12") for row in (1, 2, 3)),
         three.tangent_hessian,
+        rows_of_three=True,
     ),
     Kernel(
         "residual",
         "𝒦(q, γ) - 𝒦, which the rotation of the next step makes zero (5.2).",
         ("5.2", "stable-momentum"),
         (QUATERNION, MOMENTUM, *BODY),
-        (3,),
         _vector("r"),
         lambda: sp.Matrix(three.momentum()) - K,
         three.residual_steps,
@@ -133,16 +138,15 @@ KERNELS: tuple[Kernel, ...] = (
         "The matrix Ω of unit Euler parameters, row by row (5.1 as corrected).",
         ("5.1",),
         (QUATERNION,),
-        (3, 3),
         _matrix("R"),
         three.rotation,
+        rows_of_three=True,
     ),
     Kernel(
         "rotate",
         "Ωv for unit Euler parameters: from the frame of the body after the rotation to the one before.",
         ("5.1",),
         (QUATERNION, VECTOR),
-        (3,),
         _vector("x"),
         lambda: three.rotated(_column(VECTOR[1])),
     ),
@@ -151,7 +155,6 @@ KERNELS: tuple[Kernel, ...] = (
         "Ωᵀv for unit Euler parameters: what a vector fixed in space becomes in the body (5.3).",
         ("5.3",),
         (QUATERNION, VECTOR),
-        (3,),
         _vector("x"),
         lambda: three.transported(_column(VECTOR[1])),
     ),
@@ -160,7 +163,6 @@ KERNELS: tuple[Kernel, ...] = (
         "Hamilton's product of two quaternions, scalar first: R_{k+1} = R_k Ω_k for attitudes.",
         ("5.1",),
         (FIRST, SECOND),
-        (4,),
         ("c0", "c1", "c2", "c3"),
         lambda: three.quaternion_product(_column(FIRST[1]), _column(SECOND[1])),
     ),
@@ -169,7 +171,6 @@ KERNELS: tuple[Kernel, ...] = (
         "Δr/ρ of one step in the body frame before it, γ upwards (4.9 with 2.1 as corrected).",
         ("2.1", "4.9"),
         (QUATERNION, GAMMA),
-        (3,),
         _vector("s"),
         three.centre_step,
     ),
@@ -178,7 +179,6 @@ KERNELS: tuple[Kernel, ...] = (
         "⟨𝒦,γ⟩ (the paper's h), ⟨𝒦,𝒦⟩ (its n) and ⟨γ,γ⟩, which every branch of the map preserves.",
         ("prop-2", "5.3"),
         (MOMENTUM, GAMMA),
-        (3,),
         ("h", "n", "unit"),
         lambda: [K.dot(gamma), K.dot(K), gamma.dot(gamma)],
     ),
@@ -187,7 +187,6 @@ KERNELS: tuple[Kernel, ...] = (
         "The kinetic energy ½⟨K, ω⟩ of the continuous ball with the momentum K (2.5 as corrected).",
         ("2.5", "stable-inverse"),
         (MOMENTUM, *BODY),
-        (),
         ("T",),
         lambda: [continuous.energy()],
     ),
@@ -196,7 +195,6 @@ KERNELS: tuple[Kernel, ...] = (
         "K = Λω - D⟨ω,γ⟩γ, the momentum of the continuous ball about the contact point.",
         ("4.13-limit", "5.2-limit", "stable-momentum"),
         (OMEGA, *BODY),
-        (3,),
         _vector("K"),
         continuous.momentum,
         continuous.momentum_steps,
@@ -206,7 +204,6 @@ KERNELS: tuple[Kernel, ...] = (
         "ω(K, γ) of the continuous ball (the unnumbered inverse before 2.5, as corrected).",
         ("2.5-inverse", "stable-inverse"),
         (MOMENTUM, *BODY),
-        (3,),
         _vector("w"),
         continuous.angular_velocity,
     ),
@@ -215,7 +212,6 @@ KERNELS: tuple[Kernel, ...] = (
         "The next Newton iterate of the Gibbs vector, N/det, as a quaternion (det, N); and the cofactors of ∂G/∂u.",
         ("gibbs", "gibbs-newton"),
         (GIBBS, HALF, GAMMA, INERTIA, CONTACT),
-        (13,),
         ("det", *_vector("N"), *_matrix("C")),
         gibbs.newton,
         gibbs.newton_steps,
@@ -225,7 +221,6 @@ KERNELS: tuple[Kernel, ...] = (
         "What `gibbs_newton` computes, with a determinant in which nothing cancels for D ≫ I.",
         ("gibbs", "gibbs-newton", "stable-determinant"),
         (GIBBS, HALF, GAMMA, INERTIA, CONTACT),
-        (13,),
         ("det", *_vector("N"), *_matrix("C")),
         gibbs.newton,
         gibbs.newton_heavy_steps,
@@ -235,7 +230,6 @@ KERNELS: tuple[Kernel, ...] = (
         "What N loses by a second correction after a Newton correction d, with the same cofactors.",
         ("gibbs-newton",),
         (CORRECTION, HALF, COFACTORS, INERTIA),
-        (3,),
         _vector("e"),
         gibbs.second,
         gibbs.second_steps,
@@ -245,7 +239,6 @@ KERNELS: tuple[Kernel, ...] = (
         "What N loses when a correction e follows a correction d with the cofactors from before d.",
         ("gibbs-newton",),
         (CORRECTION, NEXT, HALF, COFACTORS, INERTIA),
-        (3,),
         _vector("x"),
         gibbs.mixed,
         gibbs.mixed_steps,
@@ -255,7 +248,6 @@ KERNELS: tuple[Kernel, ...] = (
         "G(u) = B(γ)u + u × Iu - (1 + |u|²)k, which the Gibbs vector of the next step makes zero.",
         ("gibbs",),
         (GIBBS, HALF, GAMMA, INERTIA, CONTACT),
-        (3,),
         _vector("r"),
         gibbs.residual,
         gibbs.residual_steps,
@@ -265,7 +257,6 @@ KERNELS: tuple[Kernel, ...] = (
         "Ωᵀv - v for the rotation of a quaternion that need not be unit (5.3).",
         ("gibbs-rotation",),
         (ANY_QUATERNION, VECTOR),
-        (3,),
         _vector("x"),
         gibbs.turn,
         gibbs.turn_steps,
@@ -275,7 +266,6 @@ KERNELS: tuple[Kernel, ...] = (
         "⟨γ, adj(Λ)γ⟩ = det(Λ)⟨γ, Λ⁻¹γ⟩, the integral of the reduced map G_h without its denominators.",
         ("prop-3",),
         (GAMMA, LAMBDA),
-        (),
         ("level",),
         lambda: [vertical.weighted_square()],
     ),
@@ -284,7 +274,6 @@ KERNELS: tuple[Kernel, ...] = (
         "The scalar equation of the level, zero for the step 𝒦 = hγ, and its derivative in v.",
         ("vertical-level",),
         (("scalars", (vertical.t, vertical.v)), ("level", (vertical.level,)), LAMBDA),
-        (2,),
         ("f", "fv"),
         vertical.level_newton,
         vertical.level_steps,
@@ -294,7 +283,6 @@ KERNELS: tuple[Kernel, ...] = (
         "The rotation of the step 𝒦 = hγ up to a factor, (q0, q) ∝ (det M, t adj(M)γ), M = Λ - e - t γ×.",
         ("vertical-rotation",),
         (("sigma", (vertical.t, vertical.e)), GAMMA, LAMBDA),
-        (4,),
         ("p0", "p1", "p2", "p3"),
         vertical.closed_rotation,
     ),
@@ -303,7 +291,6 @@ KERNELS: tuple[Kernel, ...] = (
         "w = B(γ/|γ|)⁻¹k for three equal moments: 2w is sin θ times the axis of the steady rotation.",
         ("isotropic-spin", "steady", "steady-branch", "steady-axis", "steady-roll"),
         (HALF, GAMMA, MOMENT, CONTACT),
-        (3,),
         _vector("w"),
         steady.spin,
         steady.spin_steps,
@@ -313,7 +300,6 @@ KERNELS: tuple[Kernel, ...] = (
         "k², G = G0 + G1 sn² + G2 sn⁴ and μ of a curve: hG𝒟 = 2Vw(𝒟 - D(l - μ sn²)), V² = G0, at the half increment.",
         ("5.8", "5.8-modulus", "5.14-G", "5.15"),
         (ORDERED, SQUARE),
-        (5,),
         ("k2", "G0", "G1", "G2", "mu"),
         elliptic.increment_parts,
     ),
@@ -322,7 +308,6 @@ KERNELS: tuple[Kernel, ...] = (
         "|b|² = P0 + P1 sn² and ⟨b,Λ⁻¹b⟩ = N0 + N1 sn² on a curve, b = γ × Λ⁻¹γ: Rb turns about γ by their quotient.",
         ("5.8", "5.8-modulus", "top-precession"),
         (ORDERED, SQUARE),
-        (4,),
         ("P0", "P1", "N0", "N1"),
         elliptic.precession_parts,
     ),
@@ -331,7 +316,6 @@ KERNELS: tuple[Kernel, ...] = (
         "B(γ)ω' = Iω × ω, ω' the rate of ω of the continuous ball.",
         ("modified-field",),
         (OMEGA, MASS_TENSOR),
-        (3,),
         _vector("x"),
         modified.torque,
     ),
@@ -340,7 +324,6 @@ KERNELS: tuple[Kernel, ...] = (
         "The load of the modified equations: 12ω₃ = 2|ω|²ω - ω × ω' - B(γ)⁻¹load, ω' the rate.",
         ("modified-field",),
         (OMEGA, RATE, *BODY),
-        (3,),
         _vector("x"),
         modified.load,
     ),
@@ -349,7 +332,6 @@ KERNELS: tuple[Kernel, ...] = (
         "12ω₃: the step of size ε is that of the continuous ball with ω + ε²ω₃, up to ε⁴; share = B(γ)⁻¹load.",
         ("modified-field",),
         (OMEGA, RATE, SHARE),
-        (3,),
         _vector("x"),
         modified.correction,
     ),
@@ -358,7 +340,6 @@ KERNELS: tuple[Kernel, ...] = (
         "4X₃(H) = D⟨γ,ω'⟩⟨γ × ω,ω'⟩: in a step of size ε the energy changes by ε³X₃(H), up to ε⁴.",
         ("modified-energy",),
         (OMEGA, RATE, GAMMA, CONTACT),
-        (),
         ("rate",),
         lambda: [4 * modified.energy_rate()],
     ),

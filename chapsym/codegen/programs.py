@@ -72,49 +72,6 @@ r1, r2, r3, v1, v2, v3, second = second_round(
 longer = v1 * v1 + (v2 * v2 + v3 * v3)
 """
 
-_TURNS = """
-x1, x2, x3 = turn(p0, p1, p2, p3, k1, k2, k3)
-y1, y2, y3 = turn(p0, p1, p2, p3, g1, g2, g3)
-"""
-
-
-_RESIDUAL = """
-r1, r2, r3 = gibbs_residual(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D)
-"""
-
-_MISSED = """
-r1, r2, r3 = residual(q0, q1, q2, q3, K1, K2, K3, g1, g2, g3, J1, J2, J3, D)
-"""
-
-_MOVED = """
-c0, c1, c2, c3 = compose(q0, q1, q2, q3, 1, w1, w2, w3)
-t = (3 - ((c0 * c0 + c1 * c1) + (c2 * c2 + c3 * c3))) / 2
-b0, b1, b2, b3 = c0 * t, c1 * t, c2 * t, c3 * t
-"""
-
-_TURNED = """
-x1, x2, x3 = turn(1, u1, u2, u3, k1, k2, k3)
-y1, y2, y3 = turn(1, u1, u2, u3, g1, g2, g3)
-l1, l2, l3 = k1 + x1, k2 + x2, k3 + x3
-h1, h2, h3 = g1 + y1, g2 + y2, g3 + y3
-"""
-
-_ROLLED = """
-q1, q2, q3 = q0 * u1, q0 * u2, q0 * u3
-s1, s2, s3 = centre_step(q0, q1, q2, q3, g1, g2, g3)
-x1, x2, x3 = rotate(a0, a1, a2, a3, s1, s2, s3)
-n1, n2 = z1 + rho * x1, z2 + rho * x2
-c0, c1, c2, c3 = compose(a0, a1, a2, a3, q0, q1, q2, q3)
-t = (3 - ((c0 * c0 + c1 * c1) + (c2 * c2 + c3 * c3))) / 2
-b0, b1, b2, b3 = c0 * t, c1 * t, c2 * t, c3 * t
-"""
-
-
-_STEADY = """
-w1, w2, w3 = isotropic_spin(k1, k2, k3, g1, g2, g3, moment, D)
-square = w1 * w1 + w2 * w2 + w3 * w3
-"""
-
 
 @dataclass(frozen=True)
 class Program:
@@ -159,7 +116,10 @@ COLUMN_PROGRAMS: tuple[Program, ...] = (
         "Ωᵀk - k and Ωᵀγ - γ for the rotation of a quaternion that need not be unit.",
         (ANY_QUATERNION, HALF, GAMMA),
         ("x1", "x2", "x3", "y1", "y2", "y3"),
-        _TURNS,
+        """
+x1, x2, x3 = turn(p0, p1, p2, p3, k1, k2, k3)
+y1, y2, y3 = turn(p0, p1, p2, p3, g1, g2, g3)
+""",
     ),
     Program(
         "added_columns",
@@ -183,7 +143,9 @@ PAIR_PROGRAMS: tuple[Program, ...] = (
         "G(u) = B(γ)u + u × Iu - (1 + |u|²)k at a float64 u; what is small of it has the error of its terms.",
         _ROUND,
         ("r1", "r2", "r3"),
-        _RESIDUAL,
+        """
+r1, r2, r3 = gibbs_residual(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D)
+""",
         ("u1", "u2", "u3", "D"),
     ),
     Program(
@@ -191,7 +153,9 @@ PAIR_PROGRAMS: tuple[Program, ...] = (
         "𝒦(q, γ) - 𝒦 (5.2) at Euler parameters of length 1.",
         (QUATERNION, MOMENTUM, *BODY),
         ("r1", "r2", "r3"),
-        _MISSED,
+        """
+r1, r2, r3 = residual(q0, q1, q2, q3, K1, K2, K3, g1, g2, g3, J1, J2, J3, D)
+""",
         ("J1", "J2", "J3", "D"),
         normal=True,
     ),
@@ -200,7 +164,11 @@ PAIR_PROGRAMS: tuple[Program, ...] = (
         "q ∘ (1, w), divided by its length where w is small.",
         (QUATERNION, ("correction", sp.symbols("w1:4"))),
         ("b0", "b1", "b2", "b3"),
-        _MOVED,
+        """
+c0, c1, c2, c3 = compose(q0, q1, q2, q3, 1, w1, w2, w3)
+t = (3 - ((c0 * c0 + c1 * c1) + (c2 * c2 + c3 * c3))) / 2
+b0, b1, b2, b3 = c0 * t, c1 * t, c2 * t, c3 * t
+""",
         ("w1", "w2", "w3"),
     ),
     Program(
@@ -208,7 +176,12 @@ PAIR_PROGRAMS: tuple[Program, ...] = (
         "Ωᵀk and Ωᵀγ for the rotation with the Gibbs vector u.",
         (GIBBS, HALF, GAMMA),
         ("l1", "l2", "l3", "h1", "h2", "h3"),
-        _TURNED,
+        """
+x1, x2, x3 = turn(1, u1, u2, u3, k1, k2, k3)
+y1, y2, y3 = turn(1, u1, u2, u3, g1, g2, g3)
+l1, l2, l3 = k1 + x1, k2 + x2, k3 + x3
+h1, h2, h3 = g1 + y1, g2 + y2, g3 + y3
+""",
     ),
     Program(
         "roll_pairs",
@@ -222,7 +195,15 @@ PAIR_PROGRAMS: tuple[Program, ...] = (
             ("radius", sp.symbols("rho,")),
         ),
         ("b0", "b1", "b2", "b3", "n1", "n2"),
-        _ROLLED,
+        """
+q1, q2, q3 = q0 * u1, q0 * u2, q0 * u3
+s1, s2, s3 = centre_step(q0, q1, q2, q3, g1, g2, g3)
+x1, x2, x3 = rotate(a0, a1, a2, a3, s1, s2, s3)
+n1, n2 = z1 + rho * x1, z2 + rho * x2
+c0, c1, c2, c3 = compose(a0, a1, a2, a3, q0, q1, q2, q3)
+t = (3 - ((c0 * c0 + c1 * c1) + (c2 * c2 + c3 * c3))) / 2
+b0, b1, b2, b3 = c0 * t, c1 * t, c2 * t, c3 * t
+""",
         ("rho",),
     ),
     Program(
@@ -230,7 +211,10 @@ PAIR_PROGRAMS: tuple[Program, ...] = (
         "w = B(γ/|γ|)⁻¹k for three equal moments, and |w|².",
         (HALF, GAMMA, MOMENT, CONTACT),
         ("w1", "w2", "w3", "square"),
-        _STEADY,
+        """
+w1, w2, w3 = isotropic_spin(k1, k2, k3, g1, g2, g3, moment, D)
+square = w1 * w1 + w2 * w2 + w3 * w3
+""",
         ("k1", "k2", "k3", "g1", "g2", "g3", "D"),
     ),
 )
