@@ -117,25 +117,26 @@ def _write_netcdf(stream: IO[bytes], data: "Dataset") -> None:
     stream.write(whole.to_netcdf(engine="h5netcdf"))
 
 
-def _arrow(columns: dict[str, np.ndarray]) -> Any:
+def _write_rows(data: "Dataset", told: dict[str, Any], begin: Callable[[Any], Any], about: Any = None) -> None:
+    """Writes the table with the writer that `begin` makes for its schema, some balls after the others."""
     import pyarrow
 
-    texts = {name: values.tolist() for name, values in columns.items() if values.dtype.kind in "OUT"}
-    return pyarrow.table({**columns, **texts})
+    writer = None
+    for columns in batches(data, told):
+        texts = {name: values.tolist() for name, values in columns.items() if values.dtype.kind in "OUT"}
+        table = pyarrow.table({**columns, **texts}).replace_schema_metadata(about)
+        writer = writer or begin(table.schema)
+        writer.write_table(table)
+    if writer is not None:
+        writer.close()
 
 
 def _write_parquet(stream: IO[bytes], data: "Dataset") -> None:
     from pyarrow import parquet
 
     told = structure(data)
-    writer = None
     about = {"chapsym": json.dumps({"structure": told, "attrs": plain(data.attrs)}, ensure_ascii=False)}
-    for columns in batches(data, told):
-        table = _arrow(columns).replace_schema_metadata(about)
-        writer = writer or parquet.ParquetWriter(stream, table.schema, compression="zstd")
-        writer.write_table(table)
-    if writer is not None:
-        writer.close()
+    _write_rows(data, told, lambda schema: parquet.ParquetWriter(stream, schema, compression="zstd"), about)
 
 
 def _write_csv(stream: IO[bytes], data: "Dataset") -> None:
@@ -144,13 +145,8 @@ def _write_csv(stream: IO[bytes], data: "Dataset") -> None:
     told = structure(data)
     for key, value in (plain(data.attrs) | {"structure": told}).items():
         stream.write(f"# {key}: {json.dumps(value, ensure_ascii=False)}\n".encode())
-    writer = None
-    for columns in batches(data, told):
-        table = _arrow(columns)
-        writer = writer or csv.CSVWriter(stream, table.schema, write_options=csv.WriteOptions(quoting_style="needed"))
-        writer.write_table(table)
-    if writer is not None:
-        writer.close()
+    options = csv.WriteOptions(quoting_style="needed")
+    _write_rows(data, told, lambda schema: csv.CSVWriter(stream, schema, write_options=options))
 
 
 def _read_zarr(path: Path) -> "Dataset":
