@@ -93,8 +93,7 @@ def accurate(
     """
     started = clock.thread_time()
     request = Request(ball, angular_momentum, gamma, time, accuracy, of, frames, attitude)  # type: ignore[arg-type]
-    _positive_limit(limit)
-    search = _search(request, prices or load_prices(progress), progress)
+    search = _search(request, limit, prices, progress)
     request = search.request
     for _ in range(MOST_ATTEMPTS):
         choice = search.choose(limit - (clock.thread_time() - started), limit)
@@ -123,12 +122,15 @@ def foreseen(
 ) -> Choice:
     """What `accurate` would try first, by a pilot run alone; arguments and errors as there."""
     request = Request(ball, angular_momentum, gamma, time, accuracy, of, frames, attitude)  # type: ignore[arg-type]
-    _positive_limit(limit)
-    return _search(request, prices or load_prices(progress), progress).choose(limit, limit)
+    return _search(request, limit, prices, progress).choose(limit, limit)
 
 
-def _search(request: Request, prices: Prices, progress: Callable[[str], None]) -> Search:
+def _search(request: Request, limit: Any, prices: Prices | None, progress: Callable[[str], None]) -> Search:
     """The choices that a survey and a pilot run leave."""
+    number = isinstance(limit, int | float | np.integer | np.floating) and not isinstance(limit, bool)
+    if not number or not limit > 0:
+        raise BadInput(f"limit must be a positive number of seconds, not {limit!r}")
+    prices = prices or load_prices(progress)
     progress("a pilot run")
     try:
         request = surveyed(request)
@@ -137,9 +139,3 @@ def _search(request: Request, prices: Prices, progress: Callable[[str], None]) -
     except StepNotTaken as error:
         raise BadInput(f"the ball cannot be followed at all: {error.status.sentence}") from None
     return search
-
-
-def _positive_limit(limit: Any) -> None:
-    number = isinstance(limit, int | float | np.integer | np.floating) and not isinstance(limit, bool)
-    if not number or not limit > 0:
-        raise BadInput(f"limit must be a positive number of seconds, not {limit!r}")
