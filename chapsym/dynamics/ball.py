@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from numbers import Number
 from typing import Any, Self
@@ -95,7 +96,8 @@ class Ball:
     def __init__(self, mass_tensor: ArrayLike, D: ArrayLike, radius: ArrayLike | None = None) -> None:
         tensor, contact = numbers(mass_tensor, "mass_tensor", 3), numbers(D, "D")
         rho = None if radius is None else numbers(radius, "radius")
-        _broadcast(tensor, contact, rho)
+        shapes = [tensor.shape[:-1], contact.shape, *([] if rho is None else [rho.shape])]
+        common_shape(shapes, "mass_tensor, D and radius")
         if (tensor < 0).any():
             raise BadInput(
                 f"mass_tensor has the negative moment {tensor.min():g}; J = (∫x²dm, ∫y²dm, ∫z²dm) is never negative "
@@ -145,14 +147,13 @@ def keep(ball: Any, **parameters: Floats | None) -> None:
         object.__setattr__(ball, name, values)
 
 
-def _broadcast(tensor: Floats, contact: Floats, radius: Floats | None) -> None:
-    """Raises BadInput unless the leading axes of the parameters go together."""
-    shapes = [tensor.shape[:-1], contact.shape, *([] if radius is None else [radius.shape])]
+def common_shape(shapes: Sequence[tuple[int, ...]], names: str) -> tuple[int, ...]:
+    """What leading axes broadcast to; raises BadInput if they do not."""
     try:
-        np.broadcast_shapes(*shapes)
+        return np.broadcast_shapes(*shapes)
     except ValueError:
         listed = ", ".join(map(str, shapes))
-        raise BadInput(f"the leading axes of mass_tensor, D and radius do not broadcast: {listed}") from None
+        raise BadInput(f"the leading axes of {names} do not broadcast: {listed}") from None
 
 
 def inertia_of(tensor: Floats) -> Floats:
@@ -197,10 +198,7 @@ def contact_term(mass: ArrayLike | None, radius: ArrayLike | None, D: ArrayLike 
     m, rho = numbers(mass, "mass"), numbers(radius, "radius")
     if not (m > 0).all() or not (rho > 0).all():
         raise BadInput("mass and radius must be positive")
-    try:
-        np.broadcast_shapes(m.shape, rho.shape)
-    except ValueError:
-        raise BadInput(f"the leading axes of mass and radius do not broadcast: {m.shape}, {rho.shape}") from None
+    common_shape([m.shape, rho.shape], "mass and radius")
     with np.errstate(over="ignore", under="ignore"):
         contact = m * rho * rho
     if (contact < SMALLEST).any():
@@ -213,14 +211,14 @@ def in_single(value: ArrayLike) -> bool:
     return np.asarray(value).dtype.newbyteorder("=") == np.float32
 
 
-def unit_vertical(gamma: ArrayLike, tolerance: float = UNIT_TOLERANCE) -> Floats:
+def unit_vertical(gamma: ArrayLike) -> Floats:
     """γ as checked unit vectors, shape (..., 3); a float32 array, which cannot be so near to unit, as divided."""
     array = numbers(gamma, "gamma", 3)
     squared = (array * array).sum(axis=-1)
     if in_single(gamma) and (np.abs(squared - 1) <= SINGLE_TOLERANCE).all():
         return array / np.sqrt(squared)[..., np.newaxis]
     off = np.abs(squared - 1)
-    if array.size and (off > tolerance).any():
+    if array.size and (off > UNIT_TOLERANCE).any():
         worst = np.sqrt(squared.flat[int(off.argmax())])
         right = "divide it by its length" if worst else "it is the vertical, upwards, in the axes of the body"
         raise BadInput(f"gamma must be a unit vector, but its length is {worst:.17g}; {right}")

@@ -18,6 +18,7 @@ from .levels import high, ladder
 from .levels.frames import Balls
 from .levels.start import fraction
 from .results import Trajectory
+from .trajectories import _count
 
 #: What a certificate is about; `contact` in metres.
 NAMES = ("momentum", "gamma", "attitude", "contact")
@@ -88,12 +89,11 @@ def certify(
         raise BadInput(f"certify takes what `trajectory` and `roll` return, not {type(trajectory).__name__}")
     if trajectory.order not in COMPOSITIONS:
         raise BadInput(f"certify takes orders {', '.join(map(str, COMPOSITIONS))}: this is no orbit of the map")
-    if isinstance(bits, bool) or not isinstance(bits, int | np.integer) or bits < 2:
-        raise BadInput(f"bits must be a whole number from 2 on, not {bits!r}")
+    bits = _count(bits, "bits", 2)
     given = {name: None if getattr(trajectory, name) is None else exactly(trajectory, name) for name in NAMES}
-    enclosed = _orbit(trajectory, given, int(bits), progress)
+    enclosed = _orbit(trajectory, given, bits, progress)
     errors = {
-        name: None if array is None else _errors(array, given[name], int(bits)) for name, array in enclosed.items()
+        name: None if array is None else _errors(array, given[name], bits) for name, array in enclosed.items()
     }
     return Certificate(trajectory, *enclosed.values(), *errors.values())  # type: ignore[arg-type]
 

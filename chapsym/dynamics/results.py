@@ -11,7 +11,7 @@ from chapsym.numbers import NAMED, Pair, Rung
 
 from . import kernels
 from .ball import Asked, Ball, Floats
-from .errors import BadInput
+from .errors import BadInput, Status, StepNotTaken
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,6 +66,14 @@ def some_frames(run: Any, which: np.ndarray | slice) -> Any:
     kept = {name: array[which] for name in names if (array := getattr(run, name)) is not None}
     low = getattr(run, "low", None)
     return replace(run, **kept) if low is None else replace(run, low=some_frames(low, which), **kept)
+
+
+def finished(run: Any, reach: Floats) -> Any:
+    """A run of any kind; of one ball that stopped, StepNotTaken with `reach` and the frames before."""
+    if run.status.shape or run.status == Status.TAKEN:
+        return run
+    taken = int(run.taken)
+    raise StepNotTaken(Status(int(run.status)), float(reach.flat[0]), taken, some_frames(run, run.index <= taken))
 
 
 @dataclass(frozen=True, eq=False)

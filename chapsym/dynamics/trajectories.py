@@ -22,11 +22,11 @@ from .ball import (
     numbers,
     unit_vertical,
 )
-from .errors import BadInput, Status, StepNotTaken
+from .errors import BadInput
 from .exactly import beyond_float64
 from .levels import ladder
 from .levels.frames import Balls, Frames
-from .results import Low, Trajectory, some_frames
+from .results import Low, Trajectory, finished
 
 #: Whoever asks for more steps than this, or for every so many, will not see the end of it.
 MOST_STEPS = 2**62
@@ -140,11 +140,7 @@ def trajectory(
         ball, np.arange(frames) * every, *bodies(frame), frame.taken.reshape(shape), frame.status.reshape(shape),
         time_step, order, rung, None if frame.low is None else Low(*bodies(frame.low)),
     )  # fmt: skip
-    taken, status, reach = frame.taken, frame.status, frame.reach
-    if not shape and status[0] != Status.TAKEN:
-        before = some_frames(result, result.index <= taken[0])
-        raise StepNotTaken(Status(int(status[0])), float(reach[0]), int(taken[0]), before)
-    return result
+    return finished(result, frame.reach)
 
 
 def _count(value: int, name: str, least: int, most: int | None = None) -> int:

@@ -1,11 +1,9 @@
-"""What the models that know every state at once share: the step numbers that are asked for, and their trajectory."""
+"""What the models that know every state at once share: the step numbers that are asked for."""
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..ball import Floats
-from ..errors import BadInput, Status, StepNotTaken
-from ..results import Trajectory, some_frames
+from ..errors import BadInput
 from ..trajectories import MOST_STEPS
 
 
@@ -17,10 +15,3 @@ def step_numbers(index: ArrayLike) -> np.ndarray:
     if int(given[0]) < 0 or int(given.max()) > MOST_STEPS or (given[1:] <= given[:-1]).any():
         raise BadInput("index must ascend from 0 or a later step, to 2^62 at most")
     return given.astype(np.int64)
-
-
-def finished(run: Trajectory, reach: Floats) -> Trajectory:
-    """The run; for one ball that could not take its step StepNotTaken with `reach` and what there is."""
-    if run.status.shape or run.status == Status.TAKEN:
-        return run
-    raise StepNotTaken(Status(int(run.status)), float(reach.flat[0]), 0, some_frames(run, run.index <= 0))

@@ -18,10 +18,10 @@ from .. import kernels
 from ..ball import Ball, Floats, batch, numbers, unit_vertical
 from ..errors import BadInput, Status
 from ..failure import explain
-from ..results import Trajectory
+from ..results import Trajectory, finished
 from ..trajectories import initial_attitude
 from . import turns
-from .frames import finished, step_numbers
+from .frames import step_numbers
 
 #: A step by more than a quarter turn is beyond the fold (lemmas `steady-branch`, `steady-axis`, `steady-roll`).
 QUARTER = 1.0

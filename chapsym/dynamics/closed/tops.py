@@ -8,9 +8,9 @@ from numpy.typing import ArrayLike
 from .. import kernels
 from ..ball import Ball, Floats, batch, numbers, unit_vertical
 from ..errors import BadInput, Status, StepNotTaken
-from ..results import Trajectory
+from ..results import Trajectory, finished
 from ..trajectories import initial_attitude
-from .frames import finished, step_numbers
+from .frames import step_numbers
 from .precession import Precession
 from .top import TopMotion, moves
 
@@ -75,7 +75,7 @@ def top_frames(
     later = numbered > 0
     for i in range(balls):
         try:
-            motion = _motion(Ball(J[i], D[i]), K[i], g[i])
+            motion = motion_of(Ball(J[i], D[i]), K[i], g[i])
         except StepNotTaken as stopped:
             status[i], reach[i] = stopped.status, stopped.reach
             continue
@@ -99,7 +99,8 @@ def top_frames(
     )  # fmt: skip
 
 
-def _motion(ball: Ball, K: Floats, g: Floats) -> TopMotion:
+def motion_of(ball: Ball, K: Floats, g: Floats) -> TopMotion:
+    """The motion of one ball that `is_top`; raises as `TopMotion` does."""
     if float(ball.D) == 0.0:
         return TopMotion.free(ball, K)
     return TopMotion.vertical(ball, float(K @ g) / float(np.sqrt(g @ g)), g)

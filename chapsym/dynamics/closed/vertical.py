@@ -14,7 +14,7 @@ from ..errors import BadInput, Status, StepNotTaken
 from ..levels import double, ladder
 from ..levels.frames import Balls, Frames
 from ..loops import loop, vertical_loop
-from ..results import Step, some_frames
+from ..results import Step, finished
 from ..trajectories import _count
 
 
@@ -79,15 +79,11 @@ def trajectory_vertical(
     every = min(every, steps + 1)
     shape, given = _flat(ball, height, gamma)
     frames = _taken(given, steps, every)
-    taken, status, reach = frames.taken, frames.status, frames.reach
     result = VerticalTrajectory(
         ball, given[3].reshape(shape), np.arange(steps // every + 1) * every,
-        frames.gamma.reshape(*shape, steps // every + 1, 3), taken.reshape(shape), status.reshape(shape),
+        frames.gamma.reshape(*shape, steps // every + 1, 3), frames.taken.reshape(shape), frames.status.reshape(shape),
     )  # fmt: skip
-    if not shape and status[0] != Status.TAKEN:
-        before = some_frames(result, result.index <= taken[0])
-        raise StepNotTaken(Status(int(status[0])), float(reach[0]), int(taken[0]), before)
-    return result
+    return finished(result, frames.reach)
 
 
 def _flat(ball: Ball, height: ArrayLike, gamma: ArrayLike) -> tuple[tuple[int, ...], list[Floats]]:

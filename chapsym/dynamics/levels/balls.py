@@ -19,7 +19,7 @@ from chapsym.numbers import Ball as BallRung
 
 from .newton import enclosed
 from .root import NotSettled, extrapolated, root
-from .start import Exact, exponent_of, fraction, magnitude, start
+from .start import Exact, exponent_of, least, magnitude, start_near
 
 Numbers = tuple[Any, ...]
 
@@ -121,7 +121,7 @@ class ArbBall:
     def _rotation(self, k: Numbers) -> Numbers:
         """The rotation where the lemma does not hold, enclosed."""
         K, g, J, D = tuple(2 * x for x in k), self.g, self.J, (self.D,)
-        near = tuple(map(exact, start(_exactly(K), _exactly(g), _exactly(J), fraction(self.D))))
+        near = tuple(map(exact, start_near(K, g, J, self.D)))
         q = enclosed(BallRung(self.precision, 0), near, K, g, J, D)
         if q is None:
             raise TooWide
@@ -186,14 +186,6 @@ def unit(v: Iterable[Any]) -> Numbers:
     return tuple(x / length for x in balls)
 
 
-def least(x: Any, y: Any, z: Any) -> Numbers:
-    """The quaternion, of any length, of the least rotation that turns (x, y, z) up: as `attitude_with`."""
-    flat = x * x + y * y
-    if flat == 0 and z < 0:
-        return arb(0), arb(1), arb(0), arb(0)
-    return (1 + z if z > 0 else flat / (1 - z)), y, -x, arb(0)
-
-
 def certified(size: Any, inertia: Numbers) -> tuple[Any, Any] | None:
     """(radius, m) by lemma `small-branch` for |𝒦| ≤ size, both exact; None where |𝒦| is beyond its bound.
 
@@ -213,7 +205,3 @@ def certified(size: Any, inertia: Numbers) -> tuple[Any, Any] | None:
     radius = (radius if radius < 1 else arb(1)).abs_upper()
     m = (least - radius * slope).abs_lower()
     return (radius, m) if least - radius * slope > 0 else None
-
-
-def _exactly(v: Numbers) -> list[Fraction]:
-    return list(map(fraction, v))

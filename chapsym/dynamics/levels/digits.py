@@ -19,7 +19,7 @@ from ..errors import Status, StepNotTaken
 from ..loops.gibbs import certificate
 from .newton import refined
 from .root import NotSettled, extrapolated, root, to_float
-from .start import Exact, exponent_of, fraction, magnitude, start
+from .start import Exact, exponent_of, least, magnitude, start_near
 
 Numbers = tuple[Any, ...]
 
@@ -52,7 +52,8 @@ class DigitsBall:
         self.I = (self.J[1] + self.J[2], self.J[0] + self.J[2], self.J[0] + self.J[1])
         self.a: Numbers | None = None
         if attitude is not None:
-            self.a = self._unit(list(map(Fraction, attitude)) if attitude else self._least())
+            up = (Fraction(int(v), 1 << P) for v in self.g)
+            self.a = self._unit(list(map(Fraction, attitude)) if attitude else least(*up))
         self.radius, self.x = radius, [MPZ(0), MPZ(0)]
         self.stages = [None if c == 1 else MPZ((c.numerator << P) // c.denominator) for c in stages]
         floats = [[to_float(x, P) for x in v] for v in (self.k, self.I, (self.D,))]
@@ -67,14 +68,6 @@ class DigitsBall:
         # Twice the bits under the root, so that its error is far below those that are kept.
         length = math.isqrt((squared.numerator << 4 * self.P) // squared.denominator)
         return tuple(self.number((x.numerator << 3 * self.P) // (x.denominator * length)) for x in v)
-
-    def _least(self) -> list[Fraction]:
-        """The quaternion, of any length, of the least rotation that turns γ up: as `attitude_with`."""
-        x, y, z = (Fraction(int(v), 1 << self.P) for v in self.g)
-        flat = x * x + y * y
-        if flat == 0 and z < 0:
-            return [Fraction(0), Fraction(1), Fraction(0), Fraction(0)]
-        return [1 + z if z > 0 else flat / (1 - z), y, -x, Fraction(0)]
 
     def step(self) -> None:
         """Takes one step; raises StepNotTaken, the ball then being where the step began or at a stage of it."""
@@ -118,8 +111,7 @@ class DigitsBall:
     def _rotation(self, k: Numbers) -> Numbers:
         """The rotation of a step by the float64 continuation, refined: where the lemma does not hold."""
         K, g, J, D = (tuple(self.out(x) for x in v) for v in ([2 * x for x in k], self.g, self.J, (self.D,)))
-        found = start(_exactly(K), _exactly(g), _exactly(J), fraction(D[0]))
-        near = tuple(self.rung.number(x) for x in found)
+        near = tuple(map(self.rung.number, start_near(K, g, J, D[0])))
         q = refined(self.rung, near, K, g, J, D)
         if q is None:
             raise StepNotTaken(Status.NOT_CONVERGED, 1.0)
@@ -150,7 +142,3 @@ class DigitsBall:
     def out(self, x: Any) -> Any:
         """A fixed-point integer as an mpf with all its bits."""
         return self.context.make_mpf(from_man_exp(x, -self.P))
-
-
-def _exactly(v: Numbers) -> list[Fraction]:
-    return list(map(fraction, v))

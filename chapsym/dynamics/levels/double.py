@@ -75,12 +75,7 @@ def run(
             else:
                 _run_one(balls, start, steps, every, frames, loops, stages, work, count)
 
-    workers = min(threads or cores(), len(starts)) if work >= SHORT_RUN else 1
-    if workers == 1:
-        for start in starts:
-            task(start)
-        return
-    share(task, starts, workers, count)
+    share(task, starts, min(threads or cores(), len(starts)) if work >= SHORT_RUN else 1, count)
 
 
 def step_all(balls: Balls, loops: Loops = DOUBLE) -> tuple[np.ndarray, ...]:

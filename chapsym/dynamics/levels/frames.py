@@ -84,6 +84,10 @@ def cores() -> int:
 
 def share(task: Callable[[int], None], starts: range, workers: int, count: Count) -> None:
     """Runs the tasks in threads, some at a time for each; an interrupt stops each at its next chunk."""
+    if workers == 1:
+        for start in starts:
+            task(start)
+        return
     several = max(1, len(starts) // (workers * SHARES))
 
     def group(at: int) -> None:

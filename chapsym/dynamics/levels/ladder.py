@@ -46,18 +46,13 @@ def run(
 ) -> None:  # fmt: skip
     """`double.run` on a rung.  Frame 0 is given in float64; other rungs write it anew, γ divided by its length."""
     substeps(order)  # raises BadInput for no order
-    if isinstance(rung, Single):
-        single.run(balls, steps, every, frames, order, threads, progress)
-        return
-    if isinstance(rung, Quad):
-        quad.run(balls, steps, every, frames, order, threads, progress)
-        return
     if isinstance(rung, Digits | Ball):
         from . import high
 
         high.run(rung, balls, steps, every, frames, order, progress)
         return
-    double.run(balls, steps, every, frames, order, threads, progress)
+    level = single if isinstance(rung, Single) else quad if isinstance(rung, Quad) else double
+    level.run(balls, steps, every, frames, order, threads, progress)
 
 
 #: Bits that a small rotation gets beyond those that its size costs.

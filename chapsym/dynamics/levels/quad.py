@@ -41,19 +41,14 @@ def run(
         work * 4,
     )  # fmt: skip
 
+    @np.errstate(all="ignore")  # what no rotation has overflows, and is refused
     def task(start: int) -> None:
         if in_blocks:
             _run_block(loops, balls, slice(start, min(n, start + width)), steps, every, frames, low, stages, count)
         else:
             _run_one(loops, balls, start, steps, every, frames, low, stages, count)
 
-    workers = min(threads or cores(), len(starts)) if work >= SHORT_RUN else 1
-    if workers > 1:
-        share(task, starts, workers, count)
-    else:
-        with np.errstate(all="ignore"):  # what no rotation has overflows, and is refused
-            for start in starts:
-                task(start)
+    share(task, starts, min(threads or cores(), len(starts)) if work >= SHORT_RUN else 1, count)
 
 
 def coefficients(order: int) -> Floats:

@@ -27,6 +27,12 @@ LEAST_EXPONENT = -1000
 DIGITS = 40
 
 
+def start_near(K: Any, g: Any, J: Any, D: Any) -> tuple[Fraction, ...]:
+    """`start` from numbers of any rung."""
+    k, vertical, tensor = (list(map(fraction, v)) for v in (K, g, J))
+    return start(k, vertical, tensor, fraction(D))
+
+
 def start(K: Exact, g: Exact, J: Exact, D: Fraction) -> tuple[Fraction, ...]:
     """The rotation of the small-rotation branch, to 16 digits or a few more than the conditioning costs.
 
@@ -76,6 +82,15 @@ def fraction(x: Any) -> Fraction:
         sign, man, exp, _ = x._mpf_
         return (-1) ** sign * Fraction(int(man)) * Fraction(2) ** exp
     return Fraction(float(x))
+
+
+def least(x: Any, y: Any, z: Any) -> tuple[Any, Any, Any, Any]:
+    """The quaternion, of any length, of the least rotation that turns (x, y, z) up: as `attitude_with`."""
+    flat = x * x + y * y
+    zero = 0 * flat
+    if flat == 0 and z < 0:
+        return zero, 1 + zero, zero, zero
+    return (1 + z if z > 0 else flat / (1 - z)), y, -x, zero
 
 
 def _log10(x: Fraction) -> float:

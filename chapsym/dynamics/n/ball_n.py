@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..ball import UNIT_TOLERANCE, Floats, keep, numbers
+from ..ball import UNIT_TOLERANCE, Floats, common_shape, keep, numbers
 from ..errors import BadInput
 from . import so_n
 
@@ -39,7 +39,7 @@ class BallN:
         if not tensor.ndim or tensor.shape[-1] < 3:
             raise BadInput(f"mass_tensor must have n >= 3 moments along its last axis, not the shape {tensor.shape}")
         shapes = [tensor.shape[:-1], contact.shape, *([] if rho is None else [rho.shape])]
-        _common(shapes, "mass_tensor, D and radius")
+        common_shape(shapes, "mass_tensor, D and radius")
         for name, value in (("mass_tensor", tensor), ("D", contact)):
             if (value < 0).any():
                 raise BadInput(f"{name} must not be negative, but it is {value.min():g}")
@@ -104,7 +104,7 @@ def flat_states(ball: BallN, momentum: ArrayLike, gamma: ArrayLike) -> tuple[tup
     K, g = skew_matrices(momentum, ball.n), unit_verticals(gamma, ball.n)
     radius = () if ball.radius is None else ball.radius.shape
     leading = [ball.mass_tensor.shape[:-1], ball.D.shape, radius, K.shape[:-2], g.shape[:-1]]
-    shape = _common(leading, "ball (mass_tensor, D, radius), momentum and gamma")
+    shape = common_shape(leading, "ball (mass_tensor, D, radius), momentum and gamma")
     wide = ((K, K.shape[-2:]), (g, g.shape[-1:]), (ball.mass_tensor, g.shape[-1:]), (ball.D, ()))
     count = int(np.prod(shape, dtype=np.int64))
     return shape, tuple(np.broadcast_to(x, (*shape, *own)).reshape(count, *own) for x, own in wide)
@@ -145,11 +145,3 @@ def initial_attitudes(attitude: bool | ArrayLike, gamma: Floats, shape: tuple[in
     if (np.abs((R @ gamma[..., np.newaxis])[..., 0] - np.eye(n)[-1]) > AGREEMENT).any():
         raise BadInput("attitude and gamma disagree: the attitude must turn gamma to (0, ..., 0, 1)")
     return R
-
-
-def _common(shapes: list[tuple[int, ...]], names: str) -> tuple[int, ...]:
-    try:
-        return np.broadcast_shapes(*shapes)
-    except ValueError:
-        listed = ", ".join(map(str, shapes))
-        raise BadInput(f"the leading axes of {names} do not broadcast: {listed}") from None

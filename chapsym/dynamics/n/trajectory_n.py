@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..ball import Asked, Floats, numbers
-from ..errors import BadInput, Status, StepNotTaken
-from ..results import some_frames
+from ..errors import BadInput, Status
+from ..results import finished
 from ..trajectories import _count
 from . import so_n
 from .ball_n import BallN, flat_states, initial_attitudes, skew_matrices
@@ -95,10 +95,7 @@ def trajectory_n(
         ball, np.arange(count) * every, shaped["momentum"], shaped["gamma"], shaped.get("attitude"),
         shaped.get("contact"), taken.reshape(shape), status.reshape(shape),
     )  # fmt: skip
-    if not shape and status[0] != Status.TAKEN:
-        before = some_frames(result, result.index <= taken[0])
-        raise StepNotTaken(Status(int(status[0])), float(reach[0]), int(taken[0]), before)
-    return result
+    return finished(result, reach)
 
 
 def _march(

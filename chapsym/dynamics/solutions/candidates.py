@@ -133,11 +133,6 @@ def _tables() -> _Tables:
     def monomials(degree: int) -> list[tuple[int, ...]]:
         return list(itertools.combinations_with_replacement(range(4), degree))
 
-    # In the norm that rotations of R⁴ keep, a monomial of exponents e counts √(e!/d!).
-    def weight(m: tuple[int, ...]) -> float:
-        counts = [m.count(v) for v in range(4)]
-        return float(np.sqrt(np.prod([_factorial(c) for c in counts])))
-
     place = {m: i for i, m in enumerate(monomials(4))}
     pairs = monomials(2)
     rows = [(i, m) for i in range(3) for m in pairs]
@@ -151,7 +146,3 @@ def _tables() -> _Tables:
         block, [a for a, _ in pairs], [b for _, b in pairs], np.array([1.0 if a == b else 2.0 for a, b in pairs]),
         column, shifted, mixed, plane, separating,
     )  # fmt: skip
-
-
-def _factorial(n: int) -> int:
-    return 1 if n < 2 else n * _factorial(n - 1)

@@ -3,6 +3,7 @@
 import numpy as np
 
 from chapsym.dynamics import BadInput, Ball, Status, StepNotTaken, TopMotion, is_top, top_frames
+from chapsym.dynamics.closed import tops
 from chapsym.dynamics.closed.precession import Precession
 
 from ...members.members import Members, one_ball
@@ -83,11 +84,8 @@ def _turned(members: Members, needed: frozenset[str]) -> bool:
 
 
 def motion_of(members: Members, i: int) -> TopMotion:
-    """The motion of one ball; raises as `TopMotion` does."""
-    ball, K, g = one_ball(members, i), members.momentum[i], members.gamma[i]
-    if float(ball.D) == 0.0:
-        return TopMotion.free(ball, K)
-    return TopMotion.vertical(ball, float(K @ g) / float(np.sqrt(g @ g)), g)
+    """`tops.motion_of` of one ball."""
+    return tops.motion_of(one_ball(members, i), members.momentum[i], members.gamma[i])
 
 
 def _phases(members: Members, needed: frozenset[str], index: np.ndarray, status: np.ndarray) -> Columns:
