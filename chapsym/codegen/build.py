@@ -14,7 +14,6 @@ import sympy as sp
 
 from . import columns, fixed, ir, pairs, passes, printer
 from .kernels import KERNELS, Kernel
-from .programs import Program
 from .values import fingerprint, program_fingerprint, target_fingerprint, text_fingerprint
 
 #: What is written from programs, each into a module of its own.
@@ -49,7 +48,8 @@ def code(kernel: Kernel, chosen: Collection[passes.Pass] = passes.PASSES) -> str
     body += ["# outputs"]
     body += [f"{name} = {printer.text(expr, how)}" for name, expr in zip(outputs, rest, strict=True)]
     body += [f"return {', '.join(outputs)}"]
-    notes = [f"Returns {', '.join(kernel.outputs)}{_shape_note(kernel)}."]
+    matrix = f", the {'×'.join(map(str, kernel.shape))} matrix row by row" if len(kernel.shape) > 1 else ""
+    notes = [f"Returns {', '.join(kernel.outputs)}{matrix}."]
     return ir.function(kernel.name, kernel.summary, kernel.groups, arguments, notes, body)
 
 
@@ -77,10 +77,6 @@ def source(kernel: Kernel) -> tuple[str, dict]:
         "expression_sha256": digest,
     }
     return "\n".join(header) + "\n" + code(kernel), row
-
-
-def _shape_note(kernel: Kernel) -> str:
-    return "" if len(kernel.shape) < 2 else f", the {'×'.join(map(str, kernel.shape))} matrix row by row"
 
 
 def package_source(kernels: Sequence[Kernel]) -> str:
@@ -202,24 +198,19 @@ def check(place: Path) -> list[str]:
 
 def _value_notes(name: str, text: str) -> list[str]:
     """Whether a changed text still computes the derived values: what is wrong with each of its functions."""
-    notes = [_note(name, _same_kernel, k, text) for k in KERNELS if name == f"{k.name}.py"]
+    notes = [_note(name, fingerprint(k), text_fingerprint, k, text) for k in KERNELS if name == f"{k.name}.py"]
     for target in TARGETS:
         if name == target.FILE:
-            notes += [_note(f"{p.name} in {name}", _same_program, target, p, text) for p in target.PROGRAMS]
+            notes += [
+                _note(f"{p.name} in {name}", program_fingerprint(p, texts()), target_fingerprint, target, p, text)
+                for p in target.PROGRAMS
+            ]
     return [note for note in notes if note]
 
 
-def _same_kernel(kernel: Kernel, text: str) -> bool:
-    return text_fingerprint(kernel, text) == fingerprint(kernel)
-
-
-def _same_program(target: ModuleType, program: Program, text: str) -> bool:
-    return target_fingerprint(target, program, text) == program_fingerprint(program, texts())
-
-
-def _note(what: str, same: Callable[..., bool], *arguments: Any) -> str:
+def _note(what: str, derived: list[str], run: Callable[..., list[str]], *arguments: Any) -> str:
     try:
-        return "" if same(*arguments) else f"{what} computes another value than the derivation"
+        return "" if run(*arguments) == derived else f"{what} computes another value than the derivation"
     except Exception as error:
         return f"{what} does not run: {error}"
 

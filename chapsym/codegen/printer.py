@@ -67,7 +67,9 @@ def _product(expr: sp.Expr, how: Style) -> str:
         base, power = factor.as_base_exp()
         if not power.is_Integer:
             raise NotStraightLine(f"{factor} is not an integer power; give the root as an input")
-        (above if power > 0 else below).extend(_copies(_factor(base, how), abs(int(power)), how))
+        text, times = _factor(base, how), abs(int(power))
+        copies = [text] * times if how.products or times == 1 else [f"{text}**{times}"]
+        (above if power > 0 else below).extend(copies)
     if not factors and coefficient.q != 1:
         raise NotStraightLine(f"the number {coefficient} would be rounded; multiply something by it instead")
     numerator = abs(coefficient.p)
@@ -80,10 +82,6 @@ def _product(expr: sp.Expr, how: Style) -> str:
     if not below:
         return product
     return f"{product} / {below[0]}" if len(below) == 1 else f"{product} / ({' * '.join(below)})"
-
-
-def _copies(factor: str, power: int, how: Style) -> list[str]:
-    return [factor] * power if how.products or power == 1 else [f"{factor}**{power}"]
 
 
 def _factor(expr: sp.Expr, how: Style) -> str:

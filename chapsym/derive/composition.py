@@ -26,11 +26,6 @@ def words(weight: int) -> Iterator[Word]:
             yield (letter, *rest)
 
 
-def words_through(order: int) -> list[Word]:
-    """The words that weigh at most `order`, the empty one first."""
-    return [word for weight in range(order + 1) for word in words(weight)]
-
-
 def lyndon(order: int) -> list[Word]:
     """The words of odd weight below `order` that are smaller than all their proper ends."""
     odd = (word for weight in range(1, order, 2) for word in words(weight))
@@ -55,7 +50,8 @@ def brackets(weight: int) -> list[dict[Word, int]]:
 
 def step_series(c: Any, order: int) -> Series:
     """exp(cX₁ + c³X₃ + ...): the word w of k letters has the coefficient c^|w|/k!."""
-    return {word: c ** sum(word) / factorial(len(word)) for word in words_through(order)}
+    through = (word for weight in range(order + 1) for word in words(weight))
+    return {word: c ** sum(word) / factorial(len(word)) for word in through}
 
 
 def product(left: Series, right: Series) -> Series:

@@ -92,9 +92,7 @@ def certify(
     bits = _count(bits, "bits", 2)
     given = {name: None if getattr(trajectory, name) is None else exactly(trajectory, name) for name in NAMES}
     enclosed = _orbit(trajectory, given, bits, progress)
-    errors = {
-        name: None if array is None else _errors(array, given[name], bits) for name, array in enclosed.items()
-    }
+    errors = {name: None if array is None else _errors(array, given[name], bits) for name, array in enclosed.items()}
     return Certificate(trajectory, *enclosed.values(), *errors.values())  # type: ignore[arg-type]
 
 
@@ -170,7 +168,8 @@ def proved_digits(x: Any) -> str:
     low, high = middle - radius, middle + radius
     if low <= 0 <= high:
         return "0" if radius == 0 else f"0E{_decade(max(-low, high)) + 1}"
-    least = _decade(radius) if radius else _exact_places(middle)
+    # Without a radius: the place of the last digit of a dyadic fraction, which has finitely many.
+    least = _decade(radius) if radius else -(middle.denominator.bit_length() - 1)
     # At a tie the two ends differ for some digits more.
     for place in range(least, _decade(middle) + 2):
         unit = Fraction(10) ** place
@@ -187,8 +186,3 @@ def _decade(x: Fraction) -> int:
     while Fraction(10) ** (guess + 1) <= x:
         guess += 1
     return guess
-
-
-def _exact_places(x: Fraction) -> int:
-    """The place of the last digit of a dyadic fraction, which has finitely many."""
-    return -(x.denominator.bit_length() - 1)

@@ -107,12 +107,9 @@ def exact_top(ball: Ball, momentum: ArrayLike, gamma: ArrayLike) -> ExactTop:
     if not np.isfinite(speed) or speed == 0.0:
         raise BadInput("float64 cannot hold this top: its moments of inertia and its momentum are too far apart")
     unit_top = Ball(np.ldexp(top.mass_tensor, -exponent), 0.0)
-    tau, twist = _fixed(unit_top, axis, speed) if _is_fixed(unit_top, axis) else _moving(unit_top, axis, speed)
+    fixed = not across(unit_top.mass_tensor, unit_top.inertia, axis).any()
+    tau, twist = (_fixed if fixed else _moving)(unit_top, axis, speed)
     return ExactTop(top, np.ldexp(tau, exponent) * axis, twist, ball, size)
-
-
-def _is_fixed(top: Ball, axis: Floats) -> bool:
-    return not across(top.mass_tensor, top.inertia, axis).any()
 
 
 def _fixed(top: Ball, axis: Floats, speed: float) -> tuple[float, float]:

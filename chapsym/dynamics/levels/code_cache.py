@@ -36,9 +36,10 @@ CHECKSUM = 32
 
 def folder_for(name: str) -> Path:
     """The folder of this name under the user's cache, or under the temporary folder; else one for this process only."""
-    for home, own in ((_user_cache, "chapsym"), (_temporary, f"chapsym-{_user()}")):
+    user = os.getuid() if hasattr(os, "getuid") else "cache"
+    for home, own in ((_user_cache, "chapsym"), (tempfile.gettempdir, f"chapsym-{user}")):
         with suppress(OSError, RuntimeError):  # it cannot be written, or there is no home
-            base = home() / own
+            base = Path(home()) / own
             if _closed(base) and _closed(base / name):
                 with tempfile.TemporaryFile(dir=base / name):
                     return base / name
@@ -49,14 +50,6 @@ def _user_cache() -> Path:
     home = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
     home.mkdir(parents=True, exist_ok=True)
     return home
-
-
-def _temporary() -> Path:
-    return Path(tempfile.gettempdir())
-
-
-def _user() -> int | str:
-    return os.getuid() if hasattr(os, "getuid") else "cache"
 
 
 def _closed(folder: Path) -> bool:

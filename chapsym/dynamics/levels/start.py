@@ -53,7 +53,7 @@ def start(K: Exact, g: Exact, J: Exact, D: Fraction) -> tuple[Fraction, ...]:
         status, reach, *q = branch.small_rotation(*floats[0], *floats[1], *floats[2], *floats[3])
         if status == Status.TAKEN:
             return tuple(map(Fraction, q))
-    status, reach, q = _on_numbers(K, g, J, D, math.ceil(2 * (_log10(1 / least) + 1)) + DIGITS)
+    status, reach, q = _on_numbers(K, g, J, D, math.ceil(2 * (exponent_of(1 / least) * math.log10(2) + 1)) + DIGITS)
     if status == Status.TAKEN and factor == 1:
         return tuple(q)
     k, g_unit, tensor = (np.array(x) for x in floats[:3])
@@ -91,10 +91,6 @@ def least(x: Any, y: Any, z: Any) -> tuple[Any, Any, Any, Any]:
     if flat == 0 and z < 0:
         return zero, 1 + zero, zero, zero
     return (1 + z if z > 0 else flat / (1 - z)), y, -x, zero
-
-
-def _log10(x: Fraction) -> float:
-    return exponent_of(x) * math.log10(2)
 
 
 def exponent_of(x: Fraction) -> int:
