@@ -167,12 +167,17 @@ def conservation(n: int, any_axes: bool, last: int = 1, naive: bool = False) -> 
     ]  # fmt: skip
 
 
-def intertwining(n: int, sign: int = 1, swapped: bool = False) -> list[Identity]:
-    """Remark 3; `sign` is that of Γ_k in the mean, and `swapped` exchanges the two momenta."""
+def free_step(n: int) -> tuple[Array, Array, Array, Ratio]:
+    """A turn, a vertical of any length, a diagonal J, and D, all free."""
     count = n * (n - 1) // 2
     names = [f"a{i}" for i in range(count)] + [f"{kind}{i}" for kind in ("g", "J") for i in range(n)]
     *free, D = parameters(" ".join([*names, "D"]))
-    turn, vertical, J = cayley(skew(free[:count], n)), array(free[count : count + n]), np.diag(array(free[count + n :]))
+    return cayley(skew(free[:count], n)), array(free[count : count + n]), np.diag(array(free[count + n :])), D
+
+
+def intertwining(n: int, sign: int = 1, swapped: bool = False) -> list[Identity]:
+    """Remark 3; `sign` is that of Γ_k in the mean, and `swapped` exchanges the two momenta."""
+    turn, vertical, J, D = free_step(n)
     before = momentum(turn, J, vertical, D)
     pair = [before, turn.T @ before @ turn]
     following = turn.T @ vertical

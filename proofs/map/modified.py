@@ -2,6 +2,7 @@
 
 from functools import cache
 
+import numpy as np
 import sympy as sp
 
 from chapsym.derive import continuous, gibbs, modified, three
@@ -9,8 +10,8 @@ from chapsym.derive.limits import omega
 from chapsym.derive.modified import INERTIA, carried, rate, second, share
 from chapsym.derive.quotient import Quotient
 from chapsym.derive.three import J1, J2, J3, D, K, gamma, placed
-from chapsym.proofs import second_routes
 from chapsym.proofs.map.symmetries import HALF_TURNS, MIRRORS, turned
+from chapsym.proofs.second_routes import Array, Identity, array, identity, inverse, mutated, parameters, unit
 from chapsym.prove import Equation, Fact, Proof, claim, equations, main
 
 X = sp.Matrix(sp.symbols("v1:4"))
@@ -90,33 +91,26 @@ def _controls(p: Proof, two: sp.Matrix, third: sp.Matrix) -> None:
                     2 * (carried(second) - second_torque()) - lighter))  # fmt: skip
 
 
-def in_free_parameters(numerator: int = 1) -> list[second_routes.Identity]:
+def in_free_parameters(numerator: int = 1) -> list[Identity]:
     """H after the step, in powers of ε, by solving for u and ω afresh: the ball, ω and γ, of any length, are free.
 
     `numerator`: that of the factor of D⟨γ,ω'⟩⟨γ̇,ω'⟩/4.
     """
-    w1, w2, w3, g1, g2, g3, *moments, contact = second_routes.parameters("w1 w2 w3 g1 g2 g3 I1 I2 I3 D")
-    spin, vertical, inertia = (
-        second_routes.array([w1, w2, w3]),
-        second_routes.array([g1, g2, g3]),
-        second_routes.array(moments),
-    )
-    square, cross = vertical @ vertical, second_routes.np.cross
+    w1, w2, w3, g1, g2, g3, *moments, contact = parameters("w1 w2 w3 g1 g2 g3 I1 I2 I3 D")
+    spin, vertical, inertia = array([w1, w2, w3]), array([g1, g2, g3]), array(moments)
+    square, cross = vertical @ vertical, np.cross
 
-    def rolled(now: second_routes.Array, then: second_routes.Array, x: second_routes.Array) -> second_routes.Array:
+    def rolled(now: Array, then: Array, x: Array) -> Array:
         """Dγγᵀx, bilinear in γ."""
         return contact * (then @ x) * now
 
-    solve = second_routes.inverse(
-        second_routes.np.diag(inertia)
-        + contact * (square * second_routes.unit(3) - second_routes.np.outer(vertical, vertical))
-    )
+    solve = inverse(np.diag(inertia) + contact * (square * unit(3) - np.outer(vertical, vertical)))
     momentum = inertia * spin + contact * square * spin - rolled(vertical, vertical, spin)
     u = [0 * spin, spin / 2]
     u.append(-solve @ cross(u[1], inertia * u[1]))
     u.append(solve @ ((u[1] @ u[1]) * momentum / 2 - cross(u[1], inertia * u[2]) - cross(u[2], inertia * u[1])))
 
-    def stepped(x: second_routes.Array) -> list[second_routes.Array]:
+    def stepped(x: Array) -> list[Array]:
         """Ωᵀx, the coefficients up to ε³."""
         once = [-cross(v, x) + sum(cross(u[j], cross(u[i - j], x)) for j in range(i + 1)) for i, v in enumerate(u)]
         return [x, 2 * once[1], 2 * once[2], 2 * (once[3] - (u[1] @ u[1]) * once[1])]
@@ -131,7 +125,7 @@ def in_free_parameters(numerator: int = 1) -> list[second_routes.Identity]:
     energy = [sum(K[j] @ y[n - j] for j in range(n + 1)) / 2 for n in range(4)]
     speed = solve @ cross(inertia * spin, spin)
     found = contact * (vertical @ speed) * (cross(vertical, spin) @ speed) * numerator / 4
-    return [second_routes.identity("H after the step is H + ε³(D/4)⟨γ,ω'⟩⟨γ̇,ω'⟩ + O(ε⁴)", energy[1:], [0, 0, found])]
+    return [identity("H after the step is H + ε³(D/4)⟨γ,ω'⟩⟨γ̇,ω'⟩ + O(ε⁴)", energy[1:], [0, 0, found])]
 
 
 def _witness() -> tuple[dict[sp.Symbol, sp.Rational], dict[str, str]]:
@@ -174,7 +168,7 @@ def modified_energy(p: Proof) -> None:
     p.control(Equation("X₃(H) with D/3", twelvefold, 16 * found, on_rate()))
     p.control(Equation("X₃(H) with -D/4", twelvefold, -12 * found, on_rate()))
     p.route("u and ω after the step solved for in powers of ε, in free parameters", *in_free_parameters())
-    p.control(*(second_routes.mutated("with D/2", x) for x in in_free_parameters(2)))
+    p.control(*(mutated("with D/2", x) for x in in_free_parameters(2)))
     point, values = _witness()
     p.witness(
         "under way", values, Fact("X₃(H) is not 0", twelvefold.xreplace(point) == 12 * found.xreplace(point) != 0)

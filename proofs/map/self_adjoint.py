@@ -21,11 +21,6 @@ def with_ends_swapped(expr: sp.Expr, vertical: sp.Expr = OmegaT * Gamma * Omega)
     return ALGEBRA.normal(expr.xreplace({Omega: OmegaT, OmegaT: Omega, Gamma: vertical}))
 
 
-def lopsided_momentum() -> sp.Expr:
-    """A mutation of (4.13): the contact term with Γ at the start alone, in the place of the mean of both ends."""
-    return ball.centre_momentum() + D * (Omega * Gamma - Gamma * OmegaT)
-
-
 def vector_with_ends_swapped() -> sp.Matrix:
     """𝒦(q₀, -q, Ωᵀγ) for n = 3."""
     back = {three.q1: -three.q1, three.q2: -three.q2, three.q3: -three.q3}
@@ -35,14 +30,7 @@ def vector_with_ends_swapped() -> sp.Matrix:
 
 def in_free_parameters(n: int, sign: int = -1, last: int = 1) -> Identity:
     """𝒦(Ωᵀ, Ωᵀγ) = sign·Ωᵀ𝒦(Ω, γ)Ω from (4.13), Ω the Cayley transform of a free skew matrix; `last` mutates (4.13)."""
-    count = n * (n - 1) // 2
-    names = [f"a{i}" for i in range(count)] + [f"{kind}{i}" for kind in ("g", "J") for i in range(n)]
-    *free, contact = second_routes.parameters(" ".join([*names, "D"]))
-    turn, vertical = (
-        second_routes.cayley(second_routes.skew(free[:count], n)),
-        second_routes.array(free[count : count + n]),
-    )
-    tensor = second_routes.np.diag(second_routes.array(free[count + n :]))
+    turn, vertical, tensor, contact = second_routes.free_step(n)
     there = second_routes.momentum(turn, tensor, vertical, contact, last)
     back = second_routes.momentum(turn.T, tensor, turn.T @ vertical, contact, last)
     return second_routes.identity(f"n = {n}: 𝒦(Ωᵀ, Ωᵀγ) = -Ωᵀ𝒦(Ω, γ)Ω", back, sign * turn.T @ there @ turn)
@@ -65,12 +53,8 @@ def self_adjoint(p: Proof) -> None:
     factor, both = principle.kinetic_factor(), principle.ALGEBRA
     forth, back = (both.trace(sp.expand(principle.lagrangian(factor, *x))) for x in ((R, R1, r, r1), (R1, R, r1, r)))
     p.lemma(equation("𝕃 with its ends exchanged is 𝕃", back, forth, both))
-    constraint = principle.discrete_constraint(R, R1, r, r1)
-    p.lemma(
-        equation(
-            "(4.9) with its ends exchanged is -(4.9)", principle.discrete_constraint(R1, R, r1, r), -constraint, both
-        )
-    )
+    forth, back = (principle.discrete_constraint(*x) for x in ((R, R1, r, r1), (R1, R, r1, r)))
+    p.lemma(equation("(4.9) with its ends exchanged is -(4.9)", back, -forth, both))
     p.say("Nor does 𝒦, up to its sign and to the frame; the step back has Ωᵀ and starts at Γ_+ = ΩᵀΓΩ:")
     momentum = ball.momentum()
     p.show("𝒦(Ω, Γ)", momentum)
@@ -92,7 +76,8 @@ def self_adjoint(p: Proof) -> None:
     p.control(
         equation("the same with Γ in the place of Γ_+", with_ends_swapped(momentum, Gamma), -ball.carried(momentum))
     )
-    lopsided = lopsided_momentum()
+    # (4.13) mutated: the contact term with Γ at the start alone, in the place of the mean of both ends.
+    lopsided = ball.centre_momentum() + D * (Omega * Gamma - Gamma * OmegaT)
     p.control(equation("the same for ΩJ - JΩᵀ + D(ΩΓ - ΓΩᵀ)", with_ends_swapped(lopsided), -ball.carried(lopsided)))
     p.control(Equation("n = 3, with +Ωᵀ𝒦⃗", vector_with_ends_swapped(), carried, three.RING))
     p.route(
@@ -135,10 +120,9 @@ def reversible(p: Proof) -> None:
 def composed_integrals(p: Proof) -> None:
     """A composition keeps the trace integrals whatever its coefficients, for every n."""
     X, XT, Y, YT, S, ST = matrix_symbols("X X^T Y Y^T S S^T")
-    algebra = WordAlgebra(
-        {**ALGEBRA.transposes, X: XT, XT: X, Y: YT, YT: Y, S: ST, ST: S},
-        {**ALGEBRA.rules, (S, ST): 1, (ST, S): 1},
-    )
+    transposes = {X: XT, XT: X, Y: YT, YT: Y, S: ST, ST: S}
+    algebra = WordAlgebra(ALGEBRA.transposes | transposes, {**ALGEBRA.rules, (S, ST): 1, (ST, S): 1})
+    equation, trace = equations(algebra), algebra.trace
 
     def carried(expr: sp.Expr) -> sp.Expr:
         """By two stages, with the rotations Ω and S."""
@@ -146,21 +130,17 @@ def composed_integrals(p: Proof) -> None:
 
     p.say("The stage with c finds Ω from 𝒦(Ω, γ) = cεK and carries K itself: K ↦ ΩᵀKΩ, Γ ↦ ΩᵀΓΩ. Two stages, Ω and S:")
     p.printed(
-        equation("(ΩS)ᵀ(ΩS) = 1: two turns are one", carried(sp.S.One), 1, algebra),
-        equation("(SᵀΩᵀXΩS)(SᵀΩᵀYΩS) = SᵀΩᵀXYΩS", carried(X) * carried(Y), carried(X * Y), algebra),
-        equation("tr SᵀΩᵀXΩS = tr X", algebra.trace(carried(X)), algebra.trace(X), algebra),
+        equation("(ΩS)ᵀ(ΩS) = 1: two turns are one", carried(sp.S.One), 1),
+        equation("(SᵀΩᵀXΩS)(SᵀΩᵀYΩS) = SᵀΩᵀXYΩS", carried(X) * carried(Y), carried(X * Y)),
+        equation("tr SᵀΩᵀXΩS = tr X", trace(carried(X)), trace(X)),
     )
     p.say("By induction every trace of words in K and Γ is kept, over any number of stages; among them")
     for s, l in [(2, 0), (2, 1), (4, 0), (4, 1)]:
         word = carried(K) ** s * carried(Gamma) ** l
-        p.printed(equation(f"tr K^{s}Γ^{l}", algebra.trace(word), algebra.trace(K**s * Gamma**l), algebra))
+        p.printed(equation(f"tr K^{s}Γ^{l}", trace(word), trace(K**s * Gamma**l)))
     stray = carried(K) ** 2 * OmegaT * Gamma * Omega
-    p.control(
-        equation(
-            "tr K²Γ with K after two stages and Γ after one", algebra.trace(stray), algebra.trace(K**2 * Gamma), algebra
-        )
-    )
-    p.control(equation("tr SᵀΩXΩS = tr X", algebra.trace(ST * Omega * X * Omega * S), algebra.trace(X), algebra))
+    p.control(equation("tr K²Γ with K after two stages and Γ after one", trace(stray), trace(K**2 * Gamma)))
+    p.control(equation("tr SᵀΩXΩS = tr X", trace(ST * Omega * X * Omega * S), trace(X)))
 
 
 if __name__ == "__main__":

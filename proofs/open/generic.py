@@ -46,11 +46,8 @@ def almost_every(p: Proof) -> None:
     p.say("Let l = (1-t)/Λ2 + t/Λ3 with t in a fixed interval [t₁, t₂] inside (0, 1), so that k stays away from 0 and")
     p.say("1. G_h is analytic in u, l, D, h (small-branch), for h = 0 the identity, so u~ = u + hr + h²e(u, l, D, h):")
     p.say("modulo h²")
-    p.printed(
-        Equation(
-            "(hG𝒟 - 2Vw(𝒟 - Dλ))/h at a = hb is V² - 2Vb(1 - Dl)", slow_relation(), V**2 - 2 * V * b * (1 - D * l), SLOW
-        )
-    )
+    slow = V**2 - 2 * V * b * (1 - D * l)
+    p.printed(Equation("(hG𝒟 - 2Vw(𝒟 - Dλ))/h at a = hb is V² - 2Vb(1 - Dl)", slow_relation(), slow, SLOW))
     p.say("so 2a = hr + O(h²) with r = V/(1 - Dl), V > 0 by the choice of u, 1 - Dl > 0 (5.9-circle); and r increases")
     p.say("with l:")
     p.printed(rate_increases())

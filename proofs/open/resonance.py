@@ -91,11 +91,8 @@ def resonance(p: Proof) -> None:
     p.say("2Σdn².")
     M1, M2 = sp.symbols("M1 M2")
     inverse = Quotient((M1, M2))
-    p.lemma(
-        Equation(
-            "A(M(a)) = a twice differentiated, at A' = 1/M', A'' = -M''/M'³", -M2 / M1**3 * M1**2 + M2 / M1, 0, inverse
-        )
-    )
+    twice = -M2 / M1**3 * M1**2 + M2 / M1
+    p.lemma(Equation("A(M(a)) = a twice differentiated, at A' = 1/M', A'' = -M''/M'³", twice, 0, inverse))
     p.say("f(u) = Σ_j dn²(u + 2Kj/q) has the periods 2K/q, 2iK' and in a cell one pole, double, at iK', as dn² has in")
     p.say("its own and the q shifts of iK' differ: f is not constant. f' has order 3, so its zeros are those that it")
     p.say("must have, as it is odd: 0, K/q, K/q + iK'. On the real axis f is strictly monotone between 0 and K/q, mod")

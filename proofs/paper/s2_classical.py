@@ -81,11 +81,8 @@ def closed_system(p: Proof) -> None:
     p.printed(equation("K̇ = K×ω", rate, momentum().cross(omega)))
     p.lemma(equation("det B(γ) = det Λ · F", momentum().jacobian(omega).det(), three.lam().det() * rolling_factor()))
     wrong = dict(zip(alpha, inverse_inertia() * (three.lam() * omega).cross(omega), strict=True))
-    p.control(
-        equation(
-            "K̇ = K×ω without the last term", momentum_rate().subs(wrong, simultaneous=True), momentum().cross(omega)
-        )
-    )
+    rate = momentum_rate().subs(wrong, simultaneous=True)
+    p.control(equation("K̇ = K×ω without the last term", rate, momentum().cross(omega)))
 
 
 @claim(

@@ -71,18 +71,13 @@ def equations_of_motion(p: Proof) -> None:
     momentum = J * omega + omega * J
     balance = rate(momentum) + commutator(omega, momentum)
     force = motion.inertial_force()
+    moment = rho * ALGEBRA.wedge(force, gamma)
     p.printed(
-        equation(
-            "Ṁ + [ω,M] - ρF∧γ, F = m(v̇ + ωv), is the principle", balance - rho * ALGEBRA.wedge(force, gamma), principle
-        ),
+        equation("Ṁ + [ω,M] - ρF∧γ, F = m(v̇ + ωv), is the principle", balance - moment, principle),
         equation("γ̇ + ωγ = 0 for γ = R⁻¹γ⃗", rate(gamma) + omega * gamma, 0),
     )
-    p.control(equation("with +ρF∧γ on the left", balance + rho * ALGEBRA.wedge(force, gamma), principle))
-    p.control(
-        equation(
-            "with [M,ω]", rate(momentum) - commutator(omega, momentum) - rho * ALGEBRA.wedge(force, gamma), principle
-        )
-    )
+    p.control(equation("with +ρF∧γ on the left", balance + moment, principle))
+    p.control(equation("with [M,ω]", rate(momentum) - commutator(omega, momentum) - moment, principle))
 
 
 @claim("2.11-force", r"F = m\rho\,\dot\omega\gamma", ["2.11"])
@@ -145,13 +140,8 @@ def trace_integrals(p: Proof) -> None:
     X, Y = sp.symbols("X Y", commutative=False)
     algebra = type(ALGEBRA)({**ALGEBRA.transposes, X: X, Y: Y}, ALGEBRA.rules)
     p.say("By (2.12) the rate of K and of Γ is -[ω, ·], and the commutator is a derivation:")
-    product = Equation(
-        "[ω,X]Y + X[ω,Y] = [ω,XY]",
-        commutator(omega, X) * Y + X * commutator(omega, Y),
-        commutator(omega, X * Y),
-        algebra,
-    )
-    p.lemma(product)
+    by_parts = commutator(omega, X) * Y + X * commutator(omega, Y)
+    p.lemma(Equation("[ω,X]Y + X[ω,Y] = [ω,XY]", by_parts, commutator(omega, X * Y), algebra))
     p.lemma(Equation("tr [ω,X] = 0", algebra.trace(commutator(omega, X)), 0, algebra))
     p.say("so that d/dt tr(K^sΓ^l) = -tr[ω, K^sΓ^l] = 0 for all s, l. The first of them, by Leibniz' rule:")
     for s, l in [(2, 0), (2, 1), (2, 2), (4, 1)]:

@@ -82,11 +82,8 @@ def invariant_measure(p: Proof) -> None:
     p.say("∂γ̇/∂γ: -tr ω = 0, and -Σ e_iᵀ(∂_i ω)γ with ∂_i ω = -𝒜⁻¹ D{e_iγᵀ + γe_iᵀ, ω}: as e_iᵀYγ = ⟨Y, e_i∧γ⟩ and")
     p.say("Σ e_i (e_iᵀXγ) = Xγ, its form is D⟨{XΓ - ΓX, ω}, X⟩.  For ½𝒜̇ it is ½D⟨X, {Γ̇, X}⟩.")
     vertical = X * Gamma - Gamma * X
-    p.lemma(
-        equation(
-            "⟨Y, vγᵀ - γvᵀ⟩ = vᵀYγ", pairing(X, ALGEBRA.wedge(motion.v, gamma)), ALGEBRA.trace(motion.vT * X * gamma)
-        )
-    )
+    paired = pairing(X, ALGEBRA.wedge(motion.v, gamma))
+    p.lemma(equation("⟨Y, vγᵀ - γvᵀ⟩ = vᵀYγ", paired, ALGEBRA.trace(motion.vT * X * gamma)))
     divergence = D * pairing(vertical * omega + omega * vertical, X)
     moved = rate(Gamma)
 

@@ -40,11 +40,8 @@ def energy(p: Proof) -> None:
     p.printed(Equation("dE/dt = Σ λ_j ⟨A^j, q̇⟩ = 0 on the constraint", work, 0, ring))
     point = {"A": "(1,-1,0,0), (0,0,1,-1)", "q̇": "(2,2,3,3)", "λ": "(5,7)"}
     values = dict(zip((*forms, *velocity, *multiplier), (1, -1, 0, 0, 0, 0, 1, -1, 2, 2, 3, 3, 5, 7), strict=True))
-    p.witness(
-        "generic",
-        point,
-        Fact("dE/dt = 0 there", work.subs(values) == 0 and not any(e.subs(values) for e in on_constraint)),
-    )
+    kept = work.subs(values) == 0 and not any(e.subs(values) for e in on_constraint)
+    p.witness("generic", point, Fact("dE/dt = 0 there", kept))
     p.witness("λ = 0: no constraint force", {"λ": "0"}, Fact("dE/dt = 0", work.subs(dict.fromkeys(multiplier, 0)) == 0))
     p.control(Equation("the same off the constraint: (3.3) alone", work, 0, Quotient(ring.symbols)))
     affine = Quotient((*ring.symbols, sp.Symbol("b")), [on_constraint[0] - sp.Symbol("b"), on_constraint[1]])
@@ -190,11 +187,8 @@ def consistency(p: Proof) -> None:
     p.witness(
         "generic", {"q": "(0, 1)", "q'": "(5, 1)", "A": "dx2"}, Fact("A∘Ψ = 0", flat.subs({x2: 1, y2: 1, step: 1}) == 0)
     )
-    p.control(
-        Equation(
-            "A∘Ψ = 0 is the same leaf, for circles and that Ψ", tangent * step * 2, y1**2 + y2**2 - x1**2 - x2**2, plane
-        )
-    )
+    apart = y1**2 + y2**2 - x1**2 - x2**2
+    p.control(Equation("A∘Ψ = 0 is the same leaf, for circles and that Ψ", tangent * step * 2, apart, plane))
 
 
 if __name__ == "__main__":

@@ -46,32 +46,20 @@ def momentum_limit(p: Proof) -> None:
     p.assume("Ω_k = exp(ε ω) with ω skew: Ω = 1 + εω + O(ε²)")
     momentum = limits.momentum()
     show(p, "𝒦/ε", momentum)
-    p.printed(
-        equation(
-            "𝒦/ε → Jω + ωJ + D(Γω + ωΓ)", momentum.limit, J * omega + omega * J + D * (Gamma * omega + omega * Gamma)
-        )
-    )
+    centre, contact = J * omega + omega * J, D * (Gamma * omega + omega * Gamma)
+    p.printed(equation("𝒦/ε → Jω + ωJ + D(Γω + ωΓ)", momentum.limit, centre + contact))
     p.lemma(Fact(f"the remainder of 𝒦/ε has the exact order 1, here {momentum.order}", momentum.order == 1))
     p.lemma(equation("its leading term is ½[ω², J], without D", momentum.leading, commutator(omega**2, J) / 2))
     for name, tensor in [("𝒦", K), ("Γ", Gamma)]:
         moved = limits.transport(tensor)
         show(p, f"(Ωᵀ{name}Ω - {name})/ε", moved)
-        p.printed(equation(f"(Ωᵀ{name}Ω - {name})/ε → -[ω, {name}]", moved.limit, -commutator(omega, tensor)))
+        turned = commutator(omega, tensor)
+        p.printed(equation(f"(Ωᵀ{name}Ω - {name})/ε → -[ω, {name}]", moved.limit, -turned))
         p.lemma(Fact(f"its remainder has the exact order 1, here {moved.order}", moved.order == 1))
-        p.lemma(
-            equation(
-                f"its leading term is ½[ω, [ω, {name}]]",
-                moved.leading,
-                commutator(omega, commutator(omega, tensor)) / 2,
-            )
-        )
+        p.lemma(equation(f"its leading term is ½[ω, [ω, {name}]]", moved.leading, commutator(omega, turned) / 2))
     p.control(
-        equation(
-            "𝒦/ε → Jω + ωJ - D(Γω + ωΓ)", momentum.limit, J * omega + omega * J - D * (Gamma * omega + omega * Gamma)
-        ),
-        equation(
-            "𝒦/ε → the same with D/2", momentum.limit, J * omega + omega * J + D / 2 * (Gamma * omega + omega * Gamma)
-        ),
+        equation("𝒦/ε → Jω + ωJ - D(Γω + ωΓ)", momentum.limit, centre - contact),
+        equation("𝒦/ε → the same with D/2", momentum.limit, centre + contact / 2),
         equation("𝒦̇ = +[ω, 𝒦]", limits.transport(K).limit, commutator(omega, K)),
         equation("the leading remainder is 0", ball.ALGEBRA.normal(momentum.leading), 0),
     )

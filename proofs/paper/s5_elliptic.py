@@ -99,14 +99,11 @@ def sums_and_differences(p: Proof) -> None:
     """Sums and differences by the addition formulas: the sign of the first difference is misprinted."""
     now, after = pair()
     product = MEAN.sn * MEAN.dn * HALF.sn * HALF.dn
-    p.lemma(
-        Equation(
-            "γ~1 + γ1 = (2C1/𝒟) cn ū cn δu", after[0] + now[0], 2 * C1 / elliptic.denominator() * MEAN.cn * HALF.cn, TWO
-        )
-    )
+    size = 2 * C1 / elliptic.denominator()
+    p.lemma(Equation("γ~1 + γ1 = (2C1/𝒟) cn ū cn δu", after[0] + now[0], size * MEAN.cn * HALF.cn, TWO))
 
     def difference(text: str, sign: int) -> Equation:
-        return Equation(text, after[0] - now[0], sign * 2 * C1 / elliptic.denominator() * product, TWO)
+        return Equation(text, after[0] - now[0], sign * size * product, TWO)
 
     p.printed(difference("γ~1 - γ1 = (2C1/𝒟) sn ū dn ū sn δu dn δu", 1))
     p.corrected(

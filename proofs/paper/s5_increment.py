@@ -374,20 +374,11 @@ def increment_integral(p: Proof) -> None:
     quartic = sp.prod(value - root for root in (E1, E2, E3))
     p.printed(Equation("(dp/dδu)² = 4(p-e1)(p-e2)(p-e3): dδu = dp/(2√...)", slope**2, 4 * quartic, ring))
     p.lemma(Equation("p → ∞ as δu → 0: 1/(p - e3) = sn²δu", 1 / (value - E3), HALF.sn**2, ring))
-    p.lemma(
-        Equation(
-            "p' = -2 cn dn/sn³: with the positive root the integral is -δu",
-            slope,
-            -2 * HALF.cn * HALF.dn / HALF.sn**3,
-            ring,
-        )
-    )
+    falling = -2 * HALF.cn * HALF.dn / HALF.sn**3
+    p.lemma(Equation("p' = -2 cn dn/sn³: with the positive root the integral is -δu", slope, falling, ring))
     p.control(Equation("(dp/dδu)² = (p-e1)(p-e2)(p-e3)", slope**2, quartic, ring))
-    p.control(
-        Equation(
-            "the same with e2 for e3 in p", slope**2, 4 * sp.prod(value - E3 + E2 - root for root in (E1, E2, E3)), ring
-        )
-    )
+    other = 4 * sp.prod(value - E3 + E2 - root for root in (E1, E2, E3))
+    p.control(Equation("the same with e2 for e3 in p", slope**2, other, ring))
 
 
 if __name__ == "__main__":

@@ -72,11 +72,8 @@ def invariant_curve(p: Proof) -> None:
     )
     p.control(Equation("w² = +(z-1/Λ1)(z-1/Λ2)(z-1/Λ3)(z-l)", whole, -quartic, ring))
     p.control(Equation("⟨γ,Λγ⟩ = l", sum(s * lam for s, lam in zip(squares, LAMBDA, strict=True)), l, ring))
-    p.control(
-        Fact(
-            "no two of γ₁², γ₂² vanish at one z when Λ1 = Λ2", not sp.solve([(z - first), (z - second).subs(L2, L1)], z)
-        )
-    )
+    together = sp.solve([(z - first), (z - second).subs(L2, L1)], z)
+    p.control(Fact("no two of γ₁², γ₂² vanish at one z when Λ1 = Λ2", not together))
 
 
 # Two verticals on one curve with the same increment: T is linear in x = sn²ū, as 𝒟 = 1 - k² x y.
@@ -159,12 +156,8 @@ def structure(p: Proof) -> None:
     p.witness("generic", shown, Fact("|γ~| = 1", there.dot(there) == 1))
     flat = {**state, D: sp.S.Zero}
     p.witness("D = 0", {"σ": "h"}, Fact("σ = h", vertical.height().subs(flat, simultaneous=True) == state[sigma]))
-    own = solutions.at((1, 2, 4), 1, list(here), list(height * here))
-    p.control(
-        Fact(
-            "the same for the step's own solutions", not solutions.have_common_point([*own, keeps(here, state[sigma])])
-        )
-    )
+    own = [*solutions.at((1, 2, 4), 1, list(here), list(height * here)), keeps(here, state[sigma])]
+    p.control(Fact("the same for the step's own solutions", not solutions.have_common_point(own)))
     p.control(part("T = 𝒟(G - 2Vw) for every D", true_relation(), SCALE * (G - 2 * V * w)))
 
 
@@ -220,14 +213,8 @@ def invariant_density(p: Proof) -> None:
         Fact("l is regular", level_of.subs(at) not in (sp.Rational(1, n) for n in (6, 5, 2))),
     )
     p.control(Equation("du~/du = μ(u~)/μ(u)", slope.subs(slopes).subs(plain), after / now, densities))
-    p.control(
-        Equation(
-            "⟨γ, γ_u×γ_l⟩ = -c/2 without ⟨Λ⁻¹γ,γ_l⟩ = ½",
-            area,
-            -factor / 2,
-            Quotient(sphere.symbols, sphere.relations[:2]),
-        )
-    )
+    without = Quotient(sphere.symbols, sphere.relations[:2])
+    p.control(Equation("⟨γ, γ_u×γ_l⟩ = -c/2 without ⟨Λ⁻¹γ,γ_l⟩ = ½", area, -factor / 2, without))
 
 
 @claim(

@@ -16,11 +16,6 @@ equation = equations(RING)
 UNIT = dict(zip((q0, *q), map(sp.Rational, ("4/5", "2/5", "1/5", "2/5")), strict=True))
 
 
-def unit_quaternion() -> Equation:
-    """|q|² + q₀² = 1."""
-    return equation("|q|² + q₀² = 1", q0**2 + q.dot(q), 1)
-
-
 def printed_rotation() -> sp.Matrix:
     """(5.1) as printed."""
     return sp.Matrix(
@@ -55,7 +50,7 @@ def rotation_matrix(p: Proof) -> None:
         r"\Omega_{32} = 2(q_2q_3 + q_0q_1)",
         equation("(5.1) with the entry (3,2) mended, nine entries", corrected, rotation),
     )
-    p.counterexample(rational_point(UNIT, [unit_quaternion()]))
+    p.counterexample(rational_point(UNIT, [equation("|q|² + q₀² = 1", q0**2 + q.dot(q), 1)]))
     p.control(equation("the printed matrix is orthogonal", printed.T * printed, sp.eye(3)))
     p.control(equation("the mended matrix is that of -q", corrected.T, rotation))
     mutated = corrected.copy()

@@ -117,14 +117,8 @@ def upper_bound(p: Proof) -> None:
         Fact("at most 4", solutions.count(solutions.at(BALL, 0, VERTICAL, worst)).real <= 4),
     )
     p.control(Fact("no example has more than 6", most <= 6))
-    p.control(
-        Equation(
-            "the isotropic points with +q₀",
-            2 * (-isotropic[0] * lam * spin + spin.cross(lam * spin)),
-            [sp.S.Zero] * 3,
-            points,
-        )
-    )
+    wrong = 2 * (-isotropic[0] * lam * spin + spin.cross(lam * spin))
+    p.control(Equation("the isotropic points with +q₀", wrong, [sp.S.Zero] * 3, points))
 
 
 @claim(
@@ -172,11 +166,8 @@ def lower_bound(p: Proof) -> None:
     )
     rest = solutions.count(solutions.at(BALL, STRONG, VERTICAL, (0, 0, 0)))
     p.lemma(Fact("4 real solutions at 𝒦 = 0", rest.real == 4))
-    p.lemma(
-        Fact(
-            "the one solution of 𝒦 = (0, 0, 3), D = 0, is double", solutions.multiplicity(free[WITHOUT_ROLLING[1]]) == 2
-        )
-    )
+    double = solutions.multiplicity(free[WITHOUT_ROLLING[1]]) == 2
+    p.lemma(Fact("the one solution of 𝒦 = (0, 0, 3), D = 0, is double", double))
     p.witness(
         "2 solutions", state | {"D": "0", "𝒦": "(1, 1, 1)"}, Fact("two solutions", free[WITHOUT_ROLLING[2]].real == 2)
     )
