@@ -23,6 +23,7 @@ from ..ball import Ball
 from ..errors import StepNotTaken
 from ..exactly import in_float64, unit_exactly
 from ..levels.newton import enclosed
+from ..levels.start import fraction
 from ..map import step
 from .intersection import Form, NotFinite, Points, common_points
 from .quadrics import Quadric, momentum_forms, quadrics
@@ -244,5 +245,4 @@ def _number(rung: Rung, value: arb) -> Any:
     """An Arb ball for JSON: the ball itself, or its midpoint, which is nearer than the digits that are written."""
     if isinstance(rung, ArbBall):
         return rung.write(value)
-    mantissa, exponent = value.mid().man_exp()
-    return rung.write(rung.number(Fraction(int(mantissa)) * Fraction(2) ** int(exponent)))
+    return rung.write(rung.number(fraction(value)))

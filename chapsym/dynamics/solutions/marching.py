@@ -67,14 +67,14 @@ class Marchers:
 
     def regular(self) -> np.ndarray:
         """Whether the tangent Jacobian is regular."""
-        return np.abs(np.linalg.det(self._tangent())) > SINGULAR
+        return np.abs(np.linalg.det(self.tangent())) > SINGULAR
 
     def march(self, A: Floats, B: Floats) -> tuple[Floats, np.ndarray]:
         """From A to B; returns the fraction t of the way and a status for each."""
         A, E = self._scaled(A), self._scaled(B) - self._scaled(A)
         n = len(self.D)
         t, status = np.zeros(n), np.full(n, Status.NOT_CONVERGED, dtype=np.int64)
-        side = np.sign(np.linalg.det(self._tangent())) if n else t
+        side = np.sign(np.linalg.det(self.tangent())) if n else t
         on = np.arange(n)
         for _ in range(MOST_STEPS):
             if not len(on):
@@ -100,8 +100,8 @@ class Marchers:
         The test holds in every norm: with T = U S Vᵀ this is that of z in w = V S^(-1/2) z, in which a singular
         direction does not carry its small divisor over to the others.
         """
-        T = self._tangent()
-        U, S, V = np.linalg.svd(_regular(T))
+        T = self.tangent()
+        U, S, V = np.linalg.svd(nonsingular(T))
         root = np.sqrt(S)[:, :, np.newaxis]
         left, right = np.swapaxes(U, 1, 2) / root, V / root  # z to T⁻¹ and w, in rows
         speed = np.linalg.norm(left @ E[..., np.newaxis], axis=(1, 2))
@@ -117,10 +117,10 @@ class Marchers:
         """Newton's iteration at the (scaled) momentum K, in place; returns which balls settled."""
         settled = np.zeros(len(self.D), dtype=bool)
         for _ in range(MOST_CORRECTIONS):
-            inverse = np.linalg.inv(_regular(self._tangent()))
-            w = -np.einsum("nij,nj->ni", inverse, self._gap(K))
+            inverse = np.linalg.inv(nonsingular(self.tangent()))
+            w = -np.einsum("nij,nj->ni", inverse, self.gap(K))
             w[settled] = 0.0
-            self._turn(w)
+            self.turn(w)
             extent = np.abs(self.q[:, 1:]).max(axis=1)
             # Without momentum the small rotation is none: no digits of a rounding are asked for.
             still = ~K.any(axis=1) & (extent < AT_THE_ROOT)
@@ -139,9 +139,9 @@ class Marchers:
         start, first, settled = t.copy(), self.q.copy(), np.zeros(len(t), dtype=bool)
         for _ in range(MOST_EXTENDED):
             matrix, value = self._extended(A + t[:, np.newaxis] * E, E)
-            move = -np.linalg.solve(_regular(matrix), value[..., np.newaxis])[..., 0]
+            move = -np.linalg.solve(nonsingular(matrix), value[..., np.newaxis])[..., 0]
             move[settled] = 0.0
-            self._turn(move[:, :3])
+            self.turn(move[:, :3])
             t = t + move[:, 3]
             settled |= (np.abs(move[:, :3]).max(axis=1) < CLOSE) & (np.abs(move[:, 3]) <= CLOSE * np.abs(t))
             if settled.all():
@@ -151,7 +151,7 @@ class Marchers:
 
     def _extended(self, K: Floats, E: Floats) -> tuple[Floats, Floats]:
         """The derivative of (F, det F') in (w, t) at w = 0, (n, 4, 4), and its value, (n, 4)."""
-        T = self._tangent()
+        T = self.tangent()
         cofactors = np.cross(T[:, [1, 2, 0]], T[:, [2, 0, 1]])
         det = (cofactors[:, 0] * T[:, 0]).sum(axis=1)
         # F'(w) = T + H w - 2𝒦wᵀ, and the derivative of det F' is ⟨cofactors, F''⟩.
@@ -159,12 +159,12 @@ class Marchers:
         matrix = np.zeros((len(K), 4, 4))
         matrix[:, :3, :3], matrix[:, :3, 3] = T, -E
         matrix[:, 3, :3] = bent - 2 * np.einsum("nik,ni->nk", cofactors, K)
-        return matrix, np.concatenate([self._gap(K), det[:, np.newaxis]], axis=1)
+        return matrix, np.concatenate([self.gap(K), det[:, np.newaxis]], axis=1)
 
     def _scaled(self, K: Floats) -> Floats:
         return np.ldexp(K, -self.exponent[:, np.newaxis])
 
-    def _tangent(self) -> Floats:
+    def tangent(self) -> Floats:
         """T, (n, 3, 3)."""
         parts = tangent_jacobian(*(*self.q.T, *self.g.T, *self.J.T, self.D))
         return np.stack(np.broadcast_arrays(*parts), axis=-1).reshape(-1, 3, 3)
@@ -174,15 +174,17 @@ class Marchers:
         parts = tangent_hessian(*(*self.q.T, *self.g.T, *self.J.T, self.D))
         return np.swapaxes(np.stack(np.broadcast_arrays(*parts), axis=-1).reshape(-1, 6, 3), 1, 2)
 
-    def _gap(self, K: Floats) -> Floats:
+    def gap(self, K: Floats) -> Floats:
+        """𝒦(q, γ) - 𝒦, (n, 3)."""
         return np.stack(residual(*(*self.q.T, *K.T, *self.g.T, *self.J.T, self.D)), axis=-1)
 
-    def _turn(self, w: np.ndarray) -> None:
+    def turn(self, w: np.ndarray) -> None:
+        """q ∘ (1, w), divided by its length."""
         self.q = np.stack(compose(*(*self.q.T, 1.0, *w.T)), axis=-1)
         self.q /= np.linalg.norm(self.q, axis=1, keepdims=True)
 
 
-def _regular(matrices: Floats) -> Floats:
+def nonsingular(matrices: Floats) -> Floats:
     """The same matrices, with the identity for one that is singular."""
     singular = ~(np.abs(np.linalg.det(matrices)) > 0)
     return np.where(singular[:, np.newaxis, np.newaxis], np.eye(matrices.shape[-1]), matrices)

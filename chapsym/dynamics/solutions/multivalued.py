@@ -15,12 +15,11 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import ArrayLike
 
-from chapsym.generated import compose, residual, tangent_jacobian
-
 from ..ball import Ball, Floats, batch, numbers, unit_vertical
 from ..errors import Status
 from ..map import step
 from .candidates import Candidates, candidates
+from .marching import Marchers, nonsingular
 from .quadrics import quadrics
 
 #: Most rotations that can have one momentum: the Bézout number of three quadrics.
@@ -146,16 +145,10 @@ def _classified(eight: Candidates) -> tuple[np.ndarray, np.ndarray]:
 
 def _polished(q: Floats, K: Floats, g: Floats, J: Floats, D: Floats) -> Floats:
     """Newton's iteration with the kernels, on rotations (m, 4)."""
-    state = (*g.T, *J.T, D)
-    q = q / np.linalg.norm(q, axis=1, keepdims=True)
+    balls = Marchers(q / np.linalg.norm(q, axis=1, keepdims=True), g, J, D, np.zeros(len(D), dtype=np.int64))
     for _ in range(POLISHINGS):
-        slope = np.stack(np.broadcast_arrays(*tangent_jacobian(*q.T, *state)), axis=-1).reshape(-1, 3, 3)
-        slope[~(np.abs(np.linalg.det(slope)) > 0)] = np.eye(3)
-        gap = np.stack(residual(*q.T, *K.T, *state), axis=-1)
-        w = -np.linalg.solve(slope, gap[..., np.newaxis])[..., 0]
-        q = np.stack(compose(*(*q.T, 1.0, *w.T)), axis=-1)
-        q /= np.linalg.norm(q, axis=1, keepdims=True)
-    return q
+        balls.turn(-np.linalg.solve(nonsingular(balls.tangent()), balls.gap(K)[..., np.newaxis])[..., 0])
+    return balls.q
 
 
 def _signed(q: Floats) -> Floats:
