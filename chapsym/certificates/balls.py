@@ -1,16 +1,48 @@
-"""The numbers of a certificate: exact rationals, Arb's balls, and decimals to which every number of a ball rounds."""
+"""The numbers of a certificate: exact rationals, Arb's balls and vectors of them, and decimals to which they round."""
 
+import itertools
+from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from typing import Any
 
-from flint import arb
+from flint import arb, ctx
 
-from chapsym.dynamics.levels.balls import exact
+from chapsym.dynamics.levels.balls import exact, upper
 from chapsym.dynamics.levels.start import fraction
+from chapsym.generated import gibbs_newton
+
+MOST_CORRECTIONS = 64
 
 
 class NotProved(ArithmeticError):
     """The balls are too wide for what the proof needs."""
+
+
+def dot(a: Sequence[Any], b: Sequence[Any]) -> Any:
+    """⟨a, b⟩ in three dimensions."""
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+def cross(a: Sequence[Any], b: Sequence[Any]) -> list[Any]:
+    """a × b."""
+    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+
+
+def near_root(k: Sequence[Any], g: Sequence[Any], I: Sequence[Any], D: Any) -> tuple[Any, ...]:
+    """The Gibbs vector with k = 𝒦/2 and γ by Newton's iteration from 0, in the middle of all balls; no proof."""
+    given = *_middles(k), *_middles(g), *_middles(I), D.mid()
+    u: tuple[Any, ...] = (arb(0), arb(0), arb(0))
+    enough = arb(2) ** -(ctx.prec // 2 + 4)
+    for _ in range(MOST_CORRECTIONS):
+        det, *products = gibbs_newton(*(*u, *given))[:4]
+        before, u = u, _middles(x / det for x in products)
+        if upper([x - y for x, y in zip(u, before, strict=True)]) < enough:
+            return u
+    raise NotProved("Newton's iteration did not settle")
+
+
+def _middles(v: Iterable[Any]) -> tuple[Any, ...]:
+    return tuple(x.mid() for x in v)
 
 
 def ball(centre: Fraction, radius: Fraction = Fraction(0)) -> Any:
@@ -40,6 +72,13 @@ def decimals(x: Fraction) -> int | None:
     """How many decimals a number has; None for infinitely many."""
     most = x.denominator.bit_length()
     return next((n for n in range(most + 1) if 10**n % x.denominator == 0), None)
+
+
+def simplest(low: Fraction, high: Fraction) -> Fraction:
+    """The number with the fewest decimals in the middle half of an interval, nearest to its middle."""
+    middle, off = (low + high) / 2, (high - low) / 4
+    candidates = (Fraction(round(middle * 10**digits), 10**digits) for digits in itertools.count())
+    return next(x for x in candidates if abs(x - middle) <= off)
 
 
 def shortest(x: Fraction) -> str:

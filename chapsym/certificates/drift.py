@@ -21,10 +21,12 @@ from typing import Any
 from flint import arb, arb_mat, ctx
 
 from chapsym.dynamics import BadInput
+from chapsym.dynamics.levels.balls import exact
 from chapsym.generated import angular_velocity, energy, energy_rate, modified_load, modified_rotation, torque
 
+from .balls import cross, dot
 from .duals import derivative
-from .taylor import LONGEST, Flow, NotEnclosed, Piece, exact
+from .taylor import LONGEST, Flow, NotEnclosed, Piece
 
 State = list[Any]
 
@@ -178,16 +180,6 @@ def _distinguish(orbit: Orbit, start: State, found: State) -> None:
     columns = told_apart(box, [exact(x) for x in orbit.J], exact(orbit.D), orbit.section, orbit.along)
     if not arb_mat(columns).det() != 0:
         raise NotEnclosed("the integrals and the two components do not tell states apart: choose other components")
-
-
-def dot(a: Sequence[Any], b: Sequence[Any]) -> Any:
-    """⟨a, b⟩."""
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-
-
-def cross(a: Sequence[Any], b: Sequence[Any]) -> list[Any]:
-    """a × b."""
-    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 
 
 def listed(values: Sequence[Any]) -> str:

@@ -9,11 +9,12 @@ from typing import Any
 from flint import arb, arb_mat, ctx
 
 from chapsym.dynamics import BadInput
+from chapsym.dynamics.levels.balls import exact
 from chapsym.dynamics.levels.start import fraction
 
 from .drift import Orbit, enclose, flow_of, told_apart
 from .drift_file import document, rounded
-from .taylor import LONGEST, Flow, NotEnclosed, exact
+from .taylor import LONGEST, Flow, NotEnclosed
 
 
 def energy_drift(

@@ -21,7 +21,8 @@ from chapsym.dynamics.levels.balls import exact
 from chapsym.dynamics.levels.start import fraction
 from chapsym.dynamics.map import step
 
-from .passage import Level, Map, Vector, columns, cross, dot
+from .balls import cross, dot
+from .passage import Level, Map, Vector, columns
 
 #: Starts along each of the two angles of 𝒦 and γ, Newton's iterations, their longest and what is settled.
 GRID, ROUNDS, LONGEST, SETTLED = (8, 16), 24, 0.2, 1e-11
@@ -162,15 +163,11 @@ def solved(level: Level, steps: int, member: Member, rounds: int) -> tuple[Vecto
     at = Map.of(level)
     K, g = on_level(level, member.momentum, member.gamma)
     for _ in range(rounds):
-        now = at.passage(*_middles(K, g), steps)
+        now = at.passage([x.mid() for x in K], [x.mid() for x in g], steps)
         w = [-x for x in _solution(columns(now.slope(), 3), now.error())]
         K, g = ([(x + y).mid() for x, y in zip(v, cross(w, v), strict=True)] for v in (K, g))
         K, g = on_level(level, K, g)
     return K, g
-
-
-def _middles(K: Vector, g: Vector) -> tuple[Vector, Vector]:
-    return [x.mid() for x in K], [x.mid() for x in g]
 
 
 def _solution(matrix: Any, right: Any) -> list[Any]:
@@ -192,16 +189,6 @@ def extent(family: list[Member]) -> tuple[Fraction, Fraction]:
     """The least and the largest ⟨𝒦, γ⟩ of the members."""
     heights = [fraction(x.height) for x in family]
     return min(heights), max(heights)
-
-
-def middle(family: list[Member]) -> Fraction:
-    """The shortest decimal in the middle half of the ⟨𝒦, γ⟩ of the members."""
-    low, high = extent(family)
-    digits, height = 0, Fraction(round((low + high) / 2))
-    while abs(height - (low + high) / 2) > (high - low) / 4:
-        digits += 1
-        height = Fraction(round((low + high) / 2 * 10**digits), 10**digits)
-    return height
 
 
 def near(level: Level, steps: int, family: list[Member]) -> Member:

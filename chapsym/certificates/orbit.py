@@ -21,7 +21,7 @@ from chapsym.dynamics.levels.balls import upper
 from chapsym.dynamics.levels.start import fraction
 
 from . import families
-from .balls import NotProved, rounded, shortest
+from .balls import NotProved, rounded, shortest, simplest
 from .document import sealed
 from .families import Member
 from .passage import Level, Map, Passage, Vector, column, columns, entries, identity
@@ -98,7 +98,7 @@ def _found(
             inside = height is None or low < height < high
             if not inside or high - low < max(Fraction(1, 2**RESOLVED), best[0] if best else Fraction(0)):
                 continue
-            at = replace(level, height=families.middle(family) if height is None else height)
+            at = replace(level, height=simplest(low, high) if height is None else height)
             member = families.near(at, steps, family)
             W = Map.of(level).passage(member.momentum, member.gamma, steps).derivative()
             if W.det() > 1:

@@ -10,17 +10,15 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from flint import arb, arb_mat, ctx
+from flint import arb, arb_mat
 
 from chapsym.dynamics.errors import BadInput
 from chapsym.dynamics.levels.balls import certified, exact, upper
 from chapsym.generated import compose, gibbs_newton, gibbs_residual
 
-from .balls import NotProved
+from .balls import NotProved, cross, dot, near_root
 
 Vector = Sequence[Any]
-#: Newton's iterations from u = 0, which double the bits.
-ROUNDS = 8
 
 
 @dataclass(frozen=True)
@@ -97,7 +95,7 @@ class Map:
 
     def root(self, k: Vector, g: Vector) -> tuple[Vector, Any]:
         """The root |u| < 1 of G for all k and γ in their balls, by lemma `small-branch`, and (∂G/∂u)⁻¹ there."""
-        near = self._near([x.mid() for x in k], [x.mid() for x in g])
+        near = near_root(k, g, self.inertia, self.D)
         if not upper(near) <= self.radius:
             raise NotProved("a step is not near its root")
         residual = gibbs_residual(*(*near, *k, *g, *self.inertia, self.D))
@@ -106,13 +104,6 @@ class Map:
         box = [x + arb(0, off) for x in near]
         u = entries(column(near) - self._inverse(box, k, g) * column(residual))
         return u, self._inverse(u, k, g)
-
-    def _near(self, k: Vector, g: Vector) -> Vector:
-        u: Vector = [arb(0)] * 3
-        for _ in range(ROUNDS + ctx.prec.bit_length()):
-            det, *numerators = gibbs_newton(*(*u, *k, *g, *self.inertia, self.D))[:4]
-            u = [(x / det).mid() for x in numerators]
-        return u
 
     def _inverse(self, u: Vector, k: Vector, g: Vector) -> Any:
         found = gibbs_newton(*(*u, *k, *g, *self.inertia, self.D))
@@ -154,13 +145,3 @@ def identity() -> Any:
 def hat(v: Vector) -> Any:
     """[v]×, the matrix of the vector product."""
     return arb_mat([[0, -v[2], v[1]], [v[2], 0, -v[0]], [-v[1], v[0], 0]])
-
-
-def cross(v: Vector, w: Vector) -> list[Any]:
-    """v × w."""
-    return entries(hat(v) * column(w))
-
-
-def dot(v: Vector, w: Vector) -> Any:
-    """⟨v, w⟩."""
-    return sum((x * y for x, y in zip(v, w, strict=True)), arb(0))

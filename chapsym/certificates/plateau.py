@@ -137,15 +137,5 @@ def _quarter(k2: Fraction) -> Any:
     return acb(ball(k2)).elliptic_k().real
 
 
-def simplest(low: Fraction, high: Fraction) -> Fraction:
-    """The number with the fewest decimals between two, nearest to their middle."""
-    digits, middle = 0, (low + high) / 2
-    while True:
-        found = Fraction(round(middle * 10**digits), 10**digits)
-        if low <= found <= high:
-            return found
-        digits += 1
-
-
 def _logistic(i: int) -> float:
     return 1.0 / (1.0 + math.exp(REACH * (1.0 - 2.0 * i / (LEVELS - 1))))

@@ -9,18 +9,16 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from flint import arb, ctx
+from flint import arb
 
 from chapsym.dynamics.errors import BadInput
 from chapsym.dynamics.levels.balls import MATRIX_BITS, certified, newton_enclosure, upper
-from chapsym.generated import gibbs_newton, turn
+from chapsym.generated import turn
 
-from .balls import NotProved, ball
+from .balls import NotProved, ball, near_root
 
 Vector = tuple[Any, ...]
 Axes = tuple[int, int, int]
-
-MOST_CORRECTIONS = 64
 
 
 @dataclass(frozen=True)
@@ -90,15 +88,7 @@ class Reduced:
 
     def root(self, gamma: Vector) -> Vector:
         """The Gibbs vector of the step from the middle of γ, for the middle parameters: to rounding, no proof."""
-        k, g, I, D = _middles(self._momentum(gamma)), _middles(gamma), _middles(self.I), self.D.mid()
-        u: Vector = (arb(0), arb(0), arb(0))
-        enough = arb(2) ** -(ctx.prec // 2 + 4)
-        for _ in range(MOST_CORRECTIONS):
-            det, *products = gibbs_newton(*(*u, *k, *g, *I, D))[:4]
-            before, u = u, _middles(x / det for x in products)
-            if upper([x - y for x, y in zip(u, before, strict=True)]) < enough:
-                return u
-        raise NotProved("Newton's iteration did not settle")
+        return near_root(self._momentum(gamma), gamma, self.I, self.D)
 
     def image(self, u: Vector, gamma: Vector) -> tuple[Vector, Vector]:
         """Encloses the Gibbs vectors and G_h of all γ in a box, for all parameters; u: a point near these vectors.
@@ -124,7 +114,3 @@ def angle(x: Vector, y: Vector, axes: Axes) -> Any:
     """The angle from x to y in the plane of (a, b), in (-π, π)."""
     a, b, _ = axes
     return arb.atan2(cross(x, y, axes), x[a] * y[a] + x[b] * y[b])
-
-
-def _middles(v: Any) -> Vector:
-    return tuple(x.mid() for x in v)

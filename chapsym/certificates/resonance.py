@@ -10,6 +10,7 @@ from flint import ctx
 from chapsym.dynamics.errors import BadInput
 
 from . import plateau
+from .balls import simplest
 from .reduced import Axes, Reduced, Top
 
 #: The precision beyond the digits: for what a step may widen the balls, and to decide how numbers round.
@@ -96,7 +97,7 @@ def _middle(
             reduced = Reduced(top)
             low, high = sorted(plateau.end_of_plateau(reduced, near, axes, zero, steps, bits) for zero in "ab")
         if high - low > plateau.unit_in_last_place(low, bits - RESOLVED_BITS):
-            return plateau.simplest(low + (high - low) / 4, high - (high - low) / 4)
+            return simplest(low, high)
         bits *= 2
     raise BadInput(
         f"the displacement after {steps} steps is not told from 0 with {MOST_DIGITS} digits; take fewer, or a larger D"

@@ -19,6 +19,8 @@ from typing import Any, NamedTuple
 
 from flint import acb, acb_poly, arb, arb_poly, arb_series, ctx
 
+from chapsym.dynamics.levels.balls import exact
+
 from .duals import derivative
 
 State = list[Any]
@@ -178,11 +180,6 @@ class Flow(NamedTuple):
         ]
         rows = [sum((abs(x) for x in row), arb(0)) for row in zip(*columns, strict=True)]
         return _largest(x / w for x, w in zip(rows, self.weights, strict=True))
-
-
-def exact(x: Fraction) -> Any:
-    """A fraction as a ball."""
-    return arb(x.numerator) / x.denominator
 
 
 def _largest(values: Any) -> Any:
