@@ -1,7 +1,7 @@
-"""An independent oracle: the matrix equation (4.13), solved for Ω in mpmath.
+"""An independent oracle: the matrix equation (4.13), solved for Ω in mpmath, in three dimensions or n.
 
 It shares no formula with the generated kernels: no Euler parameters, no vectors, no derived
-expressions; only (4.13) as the paper prints it, in 3×3 matrices, and (4.12) for the step.
+expressions; only (4.13) as the paper prints it, in matrices, and (4.12) for the step.
 """
 
 from collections.abc import Sequence
@@ -18,7 +18,7 @@ class OracleFailed(ArithmeticError):
 
 @dataclass(frozen=True)
 class OracleStep:
-    """Ω of one step, and 𝒦 and γ after it (mpmath matrices; vectors are lists)."""
+    """Ω of one step, and 𝒦 and γ after it (mpmath matrices; vectors are lists); q0 and q in three dimensions only."""
 
     rotation: Any
     momentum: list[Any]
@@ -33,6 +33,10 @@ class Oracle:
     def __init__(self, mass_tensor: Sequence[Any], D: Any, gamma: Sequence[Any], digits: int = 40) -> None:
         self.digits = digits
         self._given = [*mass_tensor], D, [*gamma]
+        self.n = len(self._given[0])
+        #: Where the components of a skew matrix are: those of a vector, or in n dimensions those below the diagonal.
+        below = [(i, j) for i in range(self.n) for j in range(i)]
+        self.places = [(2, 1), (0, 2), (1, 0)] if self.n == 3 else below
         self._set_precision(digits + 10)
 
     def _set_precision(self, dps: int) -> None:
@@ -49,8 +53,21 @@ class Oracle:
         return turned - turned.T + self.D / 2 * (rest - rest.T)
 
     def skew(self, v: Sequence[Any]) -> Any:
-        """The matrix whose (32, 13, 21) entries are v."""
-        return self.mp.matrix([[0, -v[2], v[1]], [v[2], 0, -v[0]], [-v[1], v[0], 0]])
+        """The skew matrix with these components."""
+        matrix = self.mp.matrix(self.n, self.n)
+        for (i, j), x in zip(self.places, v, strict=True):
+            matrix[i, j], matrix[j, i] = x, -x
+        return matrix
+
+    def components(self, a: Any) -> list[Any]:
+        """The components of a skew matrix."""
+        return [a[place] for place in self.places]
+
+    def tangent(self, rotation: Any) -> Any:
+        """The derivative of 𝒦 by ξ at Ω·exp(ξ), (m, m)."""
+        unit = self.mp.eye(len(self.places))
+        moved = [self.components(self.momentum(rotation * self.skew(unit[i, :]))) for i in range(unit.rows)]
+        return self.mp.matrix(moved).T
 
     def step(self, momentum: Sequence[Any]) -> OracleStep:
         """The step from 𝒦; raises OracleFailed at a fold.
@@ -62,16 +79,19 @@ class Oracle:
         self._set_precision(self.digits + 10 + small)
         mp = self.mp
         target = self.skew([mp.mpf(x) for x in momentum])
-        rotation = self._continued(target) if size else mp.eye(3)
+        rotation = self._continued(target) if size else mp.eye(self.n)
         after = rotation.T * target * rotation
         vertical = rotation.T * self.gamma
-        q0 = mp.sqrt(1 + rotation[0, 0] + rotation[1, 1] + rotation[2, 2]) / 2
-        q = [x / (4 * q0) for x in _axial(rotation - rotation.T)]
-        return OracleStep(rotation, _axial(after), list(vertical), q0, q)
+        q0, q = self._quaternion(rotation) if self.n == 3 else (None, [])
+        return OracleStep(rotation, self.components(after), list(vertical), q0, q)
+
+    def _quaternion(self, rotation: Any) -> tuple[Any, list[Any]]:
+        q0 = self.mp.sqrt(1 + rotation[0, 0] + rotation[1, 1] + rotation[2, 2]) / 2
+        return q0, [x / (4 * q0) for x in self.components(rotation - rotation.T)]
 
     def _continued(self, target: Any) -> Any:
         mp = self.mp
-        rotation, t, dt = mp.eye(3), mp.mpf(0), mp.mpf(1)
+        rotation, t, dt = mp.eye(self.n), mp.mpf(0), mp.mpf(1)
         while t < 1:
             trial = min(mp.mpf(1), t + dt)
             # On the way a root is good enough to start from; the last one gets all digits.
@@ -86,28 +106,25 @@ class Oracle:
         return rotation
 
     def _newton(self, rotation: Any, target: Any, enough: Any) -> Any:
-        """Newton in so(3), Ω becoming Ω·Cayley(ξ), down to a correction `enough`.
+        """Newton in so(n), Ω becoming Ω·Cayley(ξ), down to a correction `enough`.
 
         None unless the first correction is at most 0.2 (radians) and each is below 3/4 of the one before:
         a longer step might leave the branch.
         """
         mp = self.mp
-        basis = [self.skew([1, 0, 0]), self.skew([0, 1, 0]), self.skew([0, 0, 1])]
-        largest = mp.mpf("0.2")
+        one, largest = mp.eye(self.n), mp.mpf("0.2")
         for _ in range(40):
-            columns = [_axial(self.momentum(rotation * e)) for e in basis]
-            matrix = mp.matrix([[columns[j][i] for j in range(3)] for i in range(3)])
-            gap = _axial(target - self.momentum(rotation))
+            gap = self.components(target - self.momentum(rotation))
             try:
-                xi = mp.lu_solve(matrix, mp.matrix(gap))
+                xi = mp.lu_solve(self.tangent(rotation), mp.matrix(gap))
             except ZeroDivisionError:
                 return None
             size = mp.norm(xi)
             if size > largest:
                 return None
             half = self.skew(list(xi / 2))
-            rotation = rotation * (mp.inverse(mp.eye(3) - half) * (mp.eye(3) + half))
-            if size <= enough * mp.norm(rotation - mp.eye(3)):
+            rotation = rotation * (mp.inverse(one - half) * (one + half))
+            if size <= enough * mp.norm(rotation - one):
                 return rotation
             largest = 3 * size / 4
         return None
@@ -119,7 +136,3 @@ def _context(dps: int) -> Any:
     context = mpmath.MPContext()
     context.dps = dps
     return context
-
-
-def _axial(a: Any) -> list[Any]:
-    return [a[2, 1], a[0, 2], a[1, 0]]

@@ -189,11 +189,13 @@ def test_next_to_the_fold_is_one_number_away(side):
 
 def test_the_oracle_in_four_dimensions_solves_its_equation():
     E, after, gamma, _ = n_dim.truth(n_dim.K, n_dim.G, n_dim.J, n_dim.D)
-    R = E + mp.eye(4)
-    found = n_dim.momentum(R, mp.matrix(n_dim.G), mp.diag([*n_dim.J]), mp.mpf(n_dim.D))
-    assert mp.norm(found - n_dim.skew(n_dim.K)) < mp.mpf(10) ** -38
+    R, J = mp.eye(4) + mp.matrix([E[4 * i : 4 * i + 4] for i in range(4)]), mp.diag([*n_dim.J])
+    Gamma = mp.matrix(n_dim.G) * mp.matrix(n_dim.G).T
+    K = mp.matrix(Oracle(n_dim.J, n_dim.D, n_dim.G).skew(n_dim.K).tolist())
+    found = R * J - J * R.T + n_dim.D / 2 * (R * Gamma - Gamma * R.T + Gamma * R - R.T * Gamma)
+    assert mp.norm(found - K) < mp.mpf(10) ** -38
     assert mp.norm(R.T * R - mp.eye(4)) < mp.mpf(10) ** -38
-    assert mp.norm(after - R.T * n_dim.skew(n_dim.K) * R) < mp.mpf(10) ** -38
+    assert mp.norm(mp.matrix(after) - mp.matrix(list(R.T * K * R))) < mp.mpf(10) ** -38
     assert abs(mp.norm(gamma) - 1) < 1e-15
 
 

@@ -118,12 +118,11 @@ def _one(level: Level, vector: Compared, condition: float | None) -> Judged:
     spacing = level.spacing(size)
     ulps = float(error / spacing) if spacing else 0.0 if error == 0 else float("inf")
     digits = float(-mp.log10(error / size)) if error and size else None
+    told = ""
     if any(r and a > r + KNOWN * size for a, r in zip(away, radii, strict=True)):
-        return Judged(FAILED, ulps, vector.promised, digits, condition, f"the ball of {vector.name} excludes the truth")
-    if ulps > vector.promised:
+        told = f"the ball of {vector.name} excludes the truth"
+    elif ulps > vector.promised:
         told = f"{vector.name} is wrong by {ulps:.3g} ulps; {vector.promised:.3g} are promised"
-        return Judged(FAILED, ulps, vector.promised, digits, condition, told)
-    if error > number(NO_DIGIT) * size and error > spacing:
+    elif error > number(NO_DIGIT) * size and error > spacing:
         told = f"no digit of {vector.name} is right, as {vector.promised:.3g} ulps are all that is promised"
-        return Judged(FAILED, ulps, vector.promised, digits, condition, told)
-    return Judged(WITHIN, ulps, vector.promised, digits, condition)
+    return Judged(FAILED if told else WITHIN, ulps, vector.promised, digits, condition, told)

@@ -6,7 +6,7 @@ from typing import Any
 from chapsym.dynamics import Ball, fold
 from chapsym.dynamics.oracle import Oracle
 
-from .truth import Vector, rotation_matrix, tangent
+from .truth import Vector, rotation_matrix
 
 DIGITS = 40
 
@@ -26,8 +26,8 @@ def fold_at(J: Vector, D: float, K: Vector, g: Vector) -> Any:
         norm = sum(x * x for x in full)
         turned = rotation_matrix(mp, full) / norm
         moved = oracle.momentum(turned)
-        gap = [x - t * k for x, k in zip((moved[2, 1], moved[0, 2], moved[1, 0]), map(mp.mpf, K), strict=True)]
-        return [*gap, mp.det(tangent(oracle, turned))]
+        gap = [x - t * k for x, k in zip(oracle.components(moved), map(mp.mpf, K), strict=True)]
+        return [*gap, 8 * mp.det(oracle.tangent(turned))]
 
     first = [*start[:largest], *start[largest + 1 :], mp.mpf(float(near.reach))]
     return mp.findroot(equations, first, tol=mp.mpf(10) ** (-2 * DIGITS + 20))[3]

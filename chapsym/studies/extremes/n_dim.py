@@ -1,92 +1,37 @@
-"""The step in n = 4 dimensions, beside (4.13) in mpmath: the oracle's iteration in so(n), for matrices of any size."""
+"""The step in n = 4 dimensions, beside the oracle's."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from functools import cache
 from typing import Any
 
 import numpy as np
 
 from chapsym.dynamics import BadInput, BallN, StepNotTaken, step_n
+from chapsym.dynamics.oracle import Oracle
 
 from .cells import BUDGET, Compared, Judged, compared, worst
 from .levels import Level, mp
 from .steps import refused
+from .truth import DIGITS
 
 #: 𝒦 below the diagonal, row by row, of a generic state; γ, J and D with it.
 K, G, J, D = (0.3, -0.2, 0.5, 0.1, 0.4, -0.25), (0.1, 0.1, 0.7, 0.7), (1.0, 2.0, 0.5, 3.0), 3.0
-#: The oracle's steps along t𝒦, halved where Newton's iteration does not contract, down to this.
-SHORTEST = mp.mpf(10) ** -8
-SETTLED = mp.mpf(10) ** -20  # Newton squares it
-
-
-def skew(x: Sequence[Any]) -> Any:
-    """The skew matrix with these entries below its diagonal."""
-    matrix, entries = mp.matrix(4, 4), iter(x)
-    for i in range(4):
-        for j in range(i):
-            matrix[i, j] = mp.mpf(next(entries))
-            matrix[j, i] = -matrix[i, j]
-    return matrix
-
-
-def below(matrix: Any) -> list[Any]:
-    """The entries below the diagonal."""
-    return [matrix[i, j] for i in range(4) for j in range(i)]
-
-
-def momentum(X: Any, g: Any, tensor: Any, contact: Any) -> Any:
-    """(4.13): XJ - JXᵀ + D/2 (XΓ - ΓXᵀ + ΓX - XᵀΓ)."""
-    Gamma = g * g.T
-    return X * tensor - tensor * X.T + contact / 2 * (X * Gamma - Gamma * X.T + Gamma * X - X.T * Gamma)
 
 
 @cache
 def truth(x: tuple[float, ...], g: tuple[float, ...], J: tuple[float, ...], D: float) -> tuple[Any, Any, Any, float]:
     """Ω - 1, 𝒦 and γ after the step, and κ = 1 + |T⁻¹|(|𝒦| + 2 I_max |Ω - 1|)/|Ω - 1|; ArithmeticError at a fold."""
-    size = max(map(abs, x))
-    with mp.workdps(mp.dps + (max(0, -int(np.log10(size))) if size else 0)):  # Ω - 1 is as small as 𝒦
-        return _truth(x, g, J, D, size)
-
-
-def _truth(
-    x: tuple[float, ...], g: tuple[float, ...], J: tuple[float, ...], D: float, size: float
-) -> tuple[Any, Any, Any, float]:
-    gamma, tensor, contact, target = mp.matrix(g), mp.diag([mp.mpf(v) for v in J]), mp.mpf(D), skew(x)
-    basis = [skew([int(i == j) for j in range(6)]) for i in range(6)]
-    R, t, dt = mp.eye(4), mp.zero, mp.one
-    while t < 1:
-        trial = min(mp.one, t + dt)
-        moved = _newton(R, trial * target, gamma, tensor, contact, basis)
-        if moved is None:
-            dt /= 2
-            if dt < SHORTEST:
-                raise ArithmeticError("the branch folds")
-        else:
-            R, t = moved, trial
-    jacobian = mp.matrix([below(momentum(R * e, gamma, tensor, contact)) for e in basis]).T
+    oracle = Oracle(J, D, g, DIGITS)
+    step = oracle.step(x)
+    one = oracle.mp.eye(4)
+    E, after = step.rotation - one, oracle.skew(step.momentum)
     top = sum(sorted(J)[-2:])
-    stretch = float(np.linalg.norm(np.array(((jacobian / top) ** -1).tolist(), dtype=float), 2))
-    E = R - mp.eye(4)
-    extent = max(abs(v) for v in E)
-    kappa = 1 + stretch * (float(mp.mpf(size) / (extent * top)) if size else 0.0) + 2 * stretch
-    return E, R.T * target * R, R.T * gamma, kappa
-
-
-def _newton(R: Any, target: Any, g: Any, tensor: Any, contact: Any, basis: list[Any]) -> Any:
-    """Newton's iteration, Ω becoming Ω·Cayley(ξ); None if it does not contract from 0.2 radians on."""
-    largest = mp.mpf("0.2")
-    for _ in range(40):
-        jacobian = mp.matrix([below(momentum(R * e, g, tensor, contact)) for e in basis]).T
-        xi = mp.lu_solve(jacobian, mp.matrix(below(target - momentum(R, g, tensor, contact))))
-        size = mp.norm(xi)
-        if size > largest:
-            return None
-        half = skew([v / 2 for v in xi])
-        R = R * (mp.inverse(mp.eye(4) - half) * (mp.eye(4) + half))
-        if size <= SETTLED * mp.norm(R - mp.eye(4)):
-            return R
-        largest = 3 * size / 4
-    return None
+    tangent = oracle.tangent(step.rotation) / top  # so that its inverse is a float
+    stretch = float(np.linalg.norm(np.array((tangent**-1).tolist(), dtype=float), 2))
+    size, extent = max(map(abs, x)), max(abs(v) for v in E)
+    kappa = 1 + stretch * (float(mp.mpf(size) / (mp.convert(extent) * top)) if size else 0.0) + 2 * stretch
+    E, after, gamma = ([mp.convert(v) for v in found] for found in (E, after, step.gamma))
+    return E, after, gamma, kappa
 
 
 #: A state: the entries of 𝒦, γ, J and D.
@@ -118,7 +63,7 @@ def judge(level: Level, state: StateN) -> Judged:
     """One step in four dimensions: Ω - 1 within 4κ ulps, 𝒦 and γ within 4(1 + |Ω - 1|κ)."""
     x, g, J, D = state
     E, after, gamma, kappa = truth(*state)
-    matrix = np.array(skew(x).tolist(), dtype=float)
+    matrix = np.array(Oracle(J, D, g).skew(x).tolist(), dtype=float)
     try:
         found = step_n(BallN(J, D), matrix, g)
     except (BadInput, StepNotTaken) as refusal:

@@ -47,7 +47,7 @@ def turned(J: Vector, D: float, g: Vector, axis: Vector, q0: float) -> State:
     oracle = Oracle(J, D, g, 40)
     sine = oracle.mp.sqrt(1 - oracle.mp.mpf(q0) ** 2)
     moved = oracle.momentum(rotation_matrix(oracle.mp, [q0, *(sine * x for x in unit(axis))]))
-    return State(J, D, (float(moved[2, 1]), float(moved[0, 2]), float(moved[1, 0])), g)
+    return State(J, D, scaled(map(float, oracle.components(moved)), 1.0), g)
 
 
 @cache

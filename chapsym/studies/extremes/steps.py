@@ -97,9 +97,8 @@ def refused(sentence: str, exact: Truth | None) -> Judged:
 
 def _lie(status: Status, level: Level, state: State, exact: Truth | None) -> str:
     """What is not true of a refusal, or nothing."""
-    if exact is not None and status in (Status.FOLDED, Status.UNREACHABLE) and not blurred(level, state):
-        return f'says "{status.sentence}", but the oracle reaches it'
-    if exact is not None and status is Status.NO_INERTIA:
+    out_of_reach = status in (Status.FOLDED, Status.UNREACHABLE) and not blurred(level, state)
+    if exact is not None and (out_of_reach or status is Status.NO_INERTIA):
         return f'says "{status.sentence}", but the oracle reaches it'
     if exact is not None and status is Status.NOT_CONVERGED and exact.condition * level.unit < RESOLVED:
         return f'says "{status.sentence}", but κ is only {exact.condition:.3g}'

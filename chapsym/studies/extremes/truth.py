@@ -77,19 +77,10 @@ def unit_gamma(g: Vector) -> list[Any]:
     return [x / length for x in exact]
 
 
-def tangent(oracle: Oracle, rotation: Any) -> Any:
-    """T: how 𝒦 moves with w where q becomes q ∘ (1, w), a rotation by 2w."""
-    columns = []
-    for e in ([1, 0, 0], [0, 1, 0], [0, 0, 1]):
-        moved = oracle.momentum(rotation * oracle.skew(e))
-        columns.append([2 * moved[2, 1], 2 * moved[0, 2], 2 * moved[1, 0]])
-    return oracle.mp.matrix(columns).T
-
-
 def condition(state: State, oracle: Oracle, rotation: Any, q: list[Any]) -> float:
     """κ of the state at its rotation."""
     largest = sum(state.J) - min(state.J)
-    scaled_tangent = tangent(oracle, rotation) / largest  # so that its inverse is a float
+    scaled_tangent = oracle.tangent(rotation) * 2 / largest  # T, so that its inverse is a float
     stretch = np.linalg.norm(np.array((scaled_tangent**-1).tolist(), dtype=float), 2)
     size, extent = max(abs(mp.mpf(x)) for x in state.K), max(map(abs, q))
     return 1.0 + float(stretch * float(size / (extent * largest) if extent else 0) + 2 * stretch)
@@ -119,8 +110,8 @@ def reachable(state: State) -> bool:
     length = mp.sqrt(sum(x * x for x in K))
 
     def along(p: Any) -> Any:
-        moved = oracle.momentum(rotation_matrix(oracle.mp, p))
-        return sum(k * x for k, x in zip(K, (moved[2, 1], moved[0, 2], moved[1, 0]), strict=True)) / length
+        moved = oracle.components(oracle.momentum(rotation_matrix(oracle.mp, p)))
+        return sum(k * x for k, x in zip(K, moved, strict=True)) / length
 
     basis = [[int(i == j) for j in range(4)] for i in range(4)]
     form = mp.matrix(4, 4)
