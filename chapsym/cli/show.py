@@ -1,13 +1,13 @@
 """chapsym show: the pictures of a result, and the page on which it rolls."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from .app import app
 from .options import Json
-from .output import fail, print_json
+from .output import fail, print_json, progress_bar
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -34,16 +34,10 @@ def show(
 
     Example: chapsym show docs/first.toml -o pictures
     """
-    from chapsym import files
-    from chapsym.dynamics import BadInput
-
     if form not in FORMATS:
         fail(f"--format {form}: give svg, png or both", 2)
     folder = output or result.with_name(f"{result.name.removesuffix(result.suffix)}-figures")
-    try:
-        written, missing = _pictures(result, folder, FORMATS[form], ball, names, page)
-    except (BadInput, files.CannotWrite) as error:
-        fail(str(error), 2)
+    written, missing = _pictures(result, folder, FORMATS[form], ball, names, page)
     if as_json:
         print_json({"folder": str(folder), "files": [str(path) for path in written], "missing": missing})
     else:
@@ -89,32 +83,18 @@ def _named(names: str, known: list[str]) -> list[str]:
 
 def _opened(result: Path, folder: Path) -> "Dataset":
     """The result; a scene is run in memory, once the folder is known to take pictures."""
+    from chapsym import files
+    from chapsym.scene import load
+    from chapsym.scene.result import formats
     from chapsym.show import opening
 
     if result.suffix != ".toml":
-        return opening.opened(result)
-    from chapsym import files
-    from chapsym.scene import load
-
+        return formats.load(result)
     scene = load(result)
     if folder.exists():
         files.check_destination(folder / "page.html")
-    with _progress() as shown:
-        return opening.run(scene, shown)
-
-
-def _progress() -> Any:
-    """A bar for the run of a scene."""
-    from contextlib import contextmanager
-
-    from .output import progress_bar
-
-    @contextmanager
-    def bar() -> Any:
-        with progress_bar("rolling", 1000) as shown:
-            yield lambda progress: shown(round(1000 * progress.steps / max(progress.of, 1)))
-
-    return bar()
+    with progress_bar("rolling", 1000) as shown:
+        return opening.run(scene, lambda progress: shown(round(1000 * progress.steps / max(progress.of, 1))))
 
 
 def _page(dataset: "Dataset", path: Path, must: bool) -> str | None:

@@ -26,13 +26,6 @@ def run(scene: "str | Path | Mapping[str, Any] | Scene", progress: Callable[[Any
     return run_in_memory(plan) if progress is None else run_in_memory(plan, progress)
 
 
-def opened(path: Path) -> "Dataset":
-    """The result in a file; raises SceneError for what is not there, or is no result."""
-    from chapsym.scene.result.formats import load as read
-
-    return read(path)
-
-
 def save(dataset: "Dataset", path: Path) -> None:
     """Writes a result whole, as `formats.save`, or to a new .zarr; raises SceneError if the disk refuses."""
     from chapsym.scene.result import formats

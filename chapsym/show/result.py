@@ -111,9 +111,9 @@ def open_result(path: str | Path) -> Result:
 
     Raises SceneError for a file that is not there, or is no result.
     """
-    from .opening import opened
+    from chapsym.scene.result import formats
 
-    return Result(opened(Path(path)))
+    return Result(formats.load(Path(path)))
 
 
 def in_notebook() -> bool:

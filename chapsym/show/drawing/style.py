@@ -137,7 +137,7 @@ def at_least(axis: "Axes", span: float) -> None:
         axis.set_ylim(middle - span / 2, middle + span / 2)
 
 
-def scale(axis: "Axes", data: np.ndarray, label: str, cax: Any = None) -> Any:
+def scale(axis: "Axes", data: np.ndarray, label: str) -> Any:
     """A colour bar for values of the balls; returns what turns a value into its colour."""
     from matplotlib.cm import ScalarMappable
     from matplotlib.colors import Normalize

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     from ..drawing.style import Picture
 
-__all__ = ["FIGURES", "FORMATS", "about", "available", "draw", "save", "save_all"]
+__all__ = ["FIGURES", "FORMATS", "available", "draw", "save", "save_all"]
 
 #: The modules, which are the names of the figures, the most telling first.
 FIGURES = ("contact", "spheres", "spread", "rotation", "phase", "omega", "attitude", "energy", "integrals")
@@ -25,12 +25,7 @@ FORMATS = ("svg", "png")
 def available(dataset: "Dataset") -> dict[str, str | None]:
     """Every figure by name: None where it can be drawn, else why not, in a sentence."""
     whole = reading.with_balls(dataset)
-    return {name: _module(name).missing(whole) for name in FIGURES}
-
-
-def about(name: str) -> str:
-    """What a figure shows, in a few words."""
-    return str(_module(name).ABOUT)
+    return {name: _missing(whole, name) for name in FIGURES}
 
 
 def draw(dataset: "Dataset", name: str, ball: str | int | None = None) -> "Picture":
@@ -44,7 +39,7 @@ def draw(dataset: "Dataset", name: str, ball: str | int | None = None) -> "Pictu
     if name not in FIGURES:
         raise BadInput(f"there is no figure {name!r}; choose of {', '.join(FIGURES)}")
     chosen = reading.with_balls(dataset, ball)
-    reason = _module(name).missing(chosen)
+    reason = _missing(chosen, name)
     if reason is not None:
         raise BadInput(f"{name}: {reason}")
     with styled():
@@ -63,26 +58,33 @@ def save(figure: "Picture", path: Path) -> None:
 
 
 def save_all(
-    dataset: "Dataset", folder: Path, formats: Sequence[str] = ("svg",), *, names: Sequence[str] | None = None,
-    ball: str | int | None = None,
-) -> list[Path]:  # fmt: skip
+    dataset: "Dataset", folder: Path, formats: Sequence[str] = ("svg",), *, names: Sequence[str] | None = None
+) -> list[Path]:
     """Draws all figures that can be drawn, or those that are named, into a folder, which is made; the files written.
 
     Raises BadInput as `draw` does, and CannotWrite if the disk refuses.
     """
-    chosen = reading.with_balls(dataset, ball)
-    wanted = [name for name, reason in available(chosen).items() if reason is None] if names is None else names
+    wanted = [name for name, reason in available(dataset).items() if reason is None] if names is None else names
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise files.CannotWrite(f"{folder} cannot be made: {error.strerror or error}") from None
     written = []
     for name in wanted:
-        figure = draw(chosen, name)
+        figure = draw(dataset, name)
         for form in formats:
             written.append(folder / f"{name}.{form}")
             save(figure, written[-1])
     return written
+
+
+def _missing(dataset: "Dataset", name: str) -> str | None:
+    """Why a figure cannot be drawn: as its module says, or as the variable of this name is not there."""
+    module = _module(name)
+    if hasattr(module, "missing"):
+        reason: str | None = module.missing(dataset)
+        return reason
+    return None if name in dataset else str(module.ABSENT)
 
 
 def _module(name: str) -> Any:

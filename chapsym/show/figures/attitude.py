@@ -15,8 +15,6 @@ if TYPE_CHECKING:
     from xarray import Dataset
 
 
-NEEDS = ("attitude",)
-ABOUT = "paths of the body axes in space, and the quaternion over time"
 #: From where the sphere of space is seen.
 EYE = np.array([0.8, -0.5, 0.5])
 

@@ -15,8 +15,7 @@ if TYPE_CHECKING:
     from xarray import Dataset
 
 
-NEEDS = ("contact",)
-ABOUT = "trace of the contact point on the plane"
+ABSENT = 'no contact: add "contact" to run.outputs'
 #: More balls than this are a density; fewer have a line each.
 LINES = 60
 #: Inches of the trace's panel, from flat to tall.
@@ -27,11 +26,6 @@ MOMENTS = (0.25, 0.5, 0.75, 1.0)
 SHARES = (50, 90)
 #: Traces that stay this near to their chord (of its length) are shown a second time, enlarged across it.
 STRAIGHT = 0.08
-
-
-def missing(dataset: "Dataset") -> str | None:
-    """Why this figure cannot be drawn, in a sentence; None if it can."""
-    return None if "contact" in dataset else 'no contact: add "contact" to run.outputs'
 
 
 def draw(dataset: "Dataset") -> Picture:

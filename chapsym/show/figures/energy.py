@@ -12,13 +12,7 @@ if TYPE_CHECKING:
     from xarray import Dataset
 
 
-NEEDS = ("energy",)
-ABOUT = "kinetic energy over time, relative change"
-
-
-def missing(dataset: "Dataset") -> str | None:
-    """Why this figure cannot be drawn, in a sentence; None if it can."""
-    return None if "energy" in dataset else 'no energy: add "energy" to run.outputs (and give run.time_step)'
+ABSENT = 'no energy: add "energy" to run.outputs (and give run.time_step)'
 
 
 def draw(dataset: "Dataset") -> Picture:

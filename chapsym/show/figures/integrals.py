@@ -15,18 +15,12 @@ if TYPE_CHECKING:
     from xarray import Dataset
 
 
-NEEDS = ("integrals",)
-ABOUT = "momentum integrals over time, relative change"
+ABSENT = 'no integrals: add "integrals" to run.outputs'
 SYMBOLS = {
     "K.gamma": r"$\langle\mathcal{K},\gamma\rangle$",
     "K.K": r"$\langle\mathcal{K},\mathcal{K}\rangle$",
     "gamma.gamma": r"$\langle\gamma,\gamma\rangle$",
 }
-
-
-def missing(dataset: "Dataset") -> str | None:
-    """Why this figure cannot be drawn, in a sentence; None if it can."""
-    return None if "integrals" in dataset else 'no integrals: add "integrals" to run.outputs'
 
 
 def draw(dataset: "Dataset") -> Picture:

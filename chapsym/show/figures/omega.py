@@ -13,13 +13,7 @@ if TYPE_CHECKING:
     from xarray import Dataset
 
 
-NEEDS = ("omega",)
-ABOUT = "angular velocity ω over time, body axes"
-
-
-def missing(dataset: "Dataset") -> str | None:
-    """Why this figure cannot be drawn, in a sentence; None if it can."""
-    return None if "omega" in dataset else 'no ω: add "omega" to run.outputs (and give run.time_step)'
+ABSENT = 'no ω: add "omega" to run.outputs (and give run.time_step)'
 
 
 def draw(dataset: "Dataset") -> Picture:

@@ -17,10 +17,6 @@ if TYPE_CHECKING:
     from xarray import Dataset
 
 
-NEEDS = ("phase",)
-ABOUT = "elliptic phase u over time, and its increment a step"
-
-
 def missing(dataset: "Dataset") -> str | None:
     """Why this figure cannot be drawn, in a sentence; None if it can."""
     if "phase" not in dataset:

@@ -11,10 +11,6 @@ if TYPE_CHECKING:
     from xarray import Dataset
 
 
-NEEDS = ("rotation_number",)
-ABOUT = "rotation number against the swept parameter"
-
-
 def missing(dataset: "Dataset") -> str | None:
     """Why this figure cannot be drawn, in a sentence; None if it can."""
     if "rotation_number" not in dataset:

@@ -19,7 +19,6 @@ if TYPE_CHECKING:
 
 
 NEEDS = ("gamma", "momentum")
-ABOUT = "γ and 𝒦/|𝒦| on their spheres, with the invariant curve"
 TITLES = {"gamma": r"$\gamma$", "momentum": r"$\mathcal{K}/|\mathcal{K}|$"}
 #: Pixels of the region that the integrals forbid, and points of a cloud of many balls.
 PIXELS, CLOUD = 240, 80_000

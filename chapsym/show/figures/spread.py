@@ -15,7 +15,6 @@ if TYPE_CHECKING:
 
 
 NEEDS = ("contact", "gamma")
-ABOUT = "distance of the balls from their mean over time"
 #: A spread that grows more than this after a tenth of the run is drawn in logarithms.
 LOGARITHMIC = 30.0
 #: Distances below this part of the largest are roundoff.
