@@ -5,7 +5,9 @@ a space after it ends a piece.  So long formulas wrap on a phone, and only a sin
 """
 
 import re
+import unicodedata
 import xml.etree.ElementTree as ET
+from contextlib import suppress
 from functools import cache
 from itertools import pairwise
 from typing import NamedTuple
@@ -25,22 +27,11 @@ _OPERATORS = set("⟨⟩±∓")  # the library takes them for letters
 _CLOSING = set(")]}⟩|…")
 _BRACKETS = set("()[]{}⟨⟩|")
 
-#: Where the mathematical alphabets start in Unicode: capital A, small a; browsers know no other way to them.
+#: The mathematical alphabets by their names in Unicode; browsers know no other way to them.
 _ALPHABETS = {
-    "bold": (0x1D400, 0x1D41A),
-    "bold-italic": (0x1D468, 0x1D482),
-    "script": (0x1D49C, 0x1D4B6),
-    "fraktur": (0x1D504, 0x1D51E),
-    "double-struck": (0x1D538, 0x1D552),
-}
-#: Bold and bold italic have Greek letters, too: capital Alpha, small alpha.
-_GREEK = {"bold": (0x1D6A8, 0x1D6C2), "bold-italic": (0x1D71C, 0x1D736)}
-#: Letters that Unicode had before it had the alphabets.
-_HOLES = {
-    **dict(zip(("script " + x for x in "BEFHILMRego"), "ℬℰℱℋℐℒℳℛℯℊℴ", strict=True)),
-    **dict(zip(("fraktur " + x for x in "CHIRZ"), "ℭℌℑℜℨ", strict=True)),
-    **dict(zip(("double-struck " + x for x in "CHNPQRZ"), "ℂℍℕℙℚℝℤ", strict=True)),
-}
+    "bold": "BOLD", "bold-italic": "BOLD ITALIC", "script": "SCRIPT", "fraktur": "FRAKTUR",
+    "double-struck": "DOUBLE-STRUCK",
+}  # fmt: skip
 
 
 class NotConverted(ValueError):
@@ -191,14 +182,12 @@ def _join_names(element: ET.Element) -> None:
 
 
 def _letter(variant: str, letter: str) -> str:
-    if f"{variant} {letter}" in _HOLES:
-        return _HOLES[f"{variant} {letter}"]
-    if letter.isascii() and letter.isalpha():
-        start = _ALPHABETS[variant][letter.islower()]
-        return chr(start + ord(letter.lower()) - ord("a"))
-    if variant in _GREEK and "Α" <= letter <= "ω":
-        start = _GREEK[variant][letter.islower()]
-        return chr(start + ord(letter) - ord("α" if letter.islower() else "Α"))
+    """A letter of an alphabet; some, like ℝ, Unicode had before it had the alphabets."""
+    plain = re.sub(r"LATIN |GREEK | LETTER", "", unicodedata.name(letter, "")) if letter.isalpha() else ""
+    styled = f"{_ALPHABETS[variant]} {plain}"
+    for name in (f"MATHEMATICAL {styled}", styled.replace("FRAKTUR", "BLACK-LETTER")):
+        with suppress(KeyError):
+            return unicodedata.lookup(name)
     return letter
 
 

@@ -4,6 +4,7 @@ import ast
 import re
 import unicodedata
 from collections.abc import Sequence
+from itertools import takewhile
 from typing import Any
 
 #: The names of symbols in the points of the proofs, as the paper writes them.
@@ -192,7 +193,7 @@ def _token(text: str, start: int) -> tuple[int, str]:
     """How many characters the next piece takes, and the piece."""
     here = text[start:]
     for table, mark in ((_SUPERSCRIPTS, "^"), (_SUBSCRIPTS, "_")):
-        run = "".join(table[x] for x in _leading(here, table))
+        run = "".join(table[x] for x in takewhile(table.__contains__, here))
         if run:
             return len(run), f"{mark}{{{run}}}"
     name = re.match(r"[A-Za-z]+", here)
@@ -205,23 +206,13 @@ def _token(text: str, start: int) -> tuple[int, str]:
         inner = next(x for x in index.groups()[1:] if x is not None)
         several = re.fullmatch(r"[a-z]{2,3}", inner)  # i, j, k and no word
         return index.end(), f"{index.group(1)}{{{inner if several else _formula(inner)}}}"
-    accent = here[1:2]
-    if accent in _ACCENTS and here[0].isalpha():
-        more, digits = 2, re.match(r"\d+", here[2:])
-        subscript = f"_{{{digits.group()}}}" if digits else ""
-        more += len(digits.group()) if digits else 0
-        return more, f"\\{_ACCENTS[accent]}{{{_character(here[0])}}}{subscript}"
-    digits = re.match(r"\d+", here[1:])
-    if digits and (here[0].isalpha() or here[0] in "𝒟𝒦"):
-        return 1 + digits.end(), f"{_character(here[0])}_{{{digits.group()}}}"
-    return 1, _character(here[0])
-
-
-def _leading(text: str, table: dict[str, str]) -> str:
-    for count, character in enumerate(text):
-        if character not in table:
-            return text[:count]
-    return text
+    base, taken = _character(here[0]), 1
+    if here[0].isalpha() and here[1:2] in _ACCENTS:
+        base, taken = f"\\{_ACCENTS[here[1]]}{{{base}}}", 2
+    digits = re.match(r"\d+", here[taken:])
+    if digits and here[0].isalpha():
+        return taken + digits.end(), f"{base}_{{{digits.group()}}}"
+    return taken, base
 
 
 def _character(x: str) -> str:

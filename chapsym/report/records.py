@@ -4,6 +4,7 @@ Evidence that a record does not carry is absent, not an error.
 """
 
 import re
+from collections import Counter
 from collections.abc import Iterable, Sequence
 from typing import Any, NamedTuple
 
@@ -90,11 +91,8 @@ def label(id: str) -> str:
 
 def counts(records: Iterable[Record]) -> dict[str, int]:
     """How many claims have each verdict, in the order of VERDICTS; verdicts that nothing has are left out."""
-    found: dict[str, int] = {}
-    for record in records:
-        found[record["verdict"]] = found.get(record["verdict"], 0) + 1
-    known = {verdict: found.pop(verdict) for verdict in VERDICTS if verdict in found}
-    return known | found
+    found = Counter(record["verdict"] for record in records)
+    return {verdict: found[verdict] for verdict in [*VERDICTS, *found] if verdict in found}
 
 
 def errors(records: Iterable[Record]) -> list[Record]:
@@ -104,10 +102,8 @@ def errors(records: Iterable[Record]) -> list[Record]:
 
 def truth(record: Record) -> tuple[str, str]:
     """What is true in the place of a printed error, as LaTeX, and in prose the condition or the whole truth."""
-    evidence = record["evidence"]
-    if record["verdict"] == "refuted":
-        return record.get("corrected") or "", evidence.get("true_statement") or ""
-    return record.get("corrected") or "", evidence.get("condition") or ""
+    name = "true_statement" if record["verdict"] == "refuted" else "condition"
+    return record.get("corrected") or "", record["evidence"].get(name) or ""
 
 
 def unproved(records: Iterable[Record]) -> list[str]:
