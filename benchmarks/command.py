@@ -5,7 +5,8 @@ from pathlib import Path
 from typing import Any
 
 import benchmarks
-from chapsym.cli.output import check_figure, console_for, fail, print_json, print_table, quiet, say, write_figure
+from chapsym.cli.output import check_figure, console_for, fail, print_json, print_table, quiet, say
+from chapsym.studies.figures import save_figure
 
 
 def measure(sections: Sequence[str], quick: bool, output: Path | None, as_json: bool) -> None:
@@ -26,7 +27,7 @@ def measure(sections: Sequence[str], quick: bool, output: Path | None, as_json: 
             quiet()
             fail(f"bench {name}: {error}", 1)
     if output is not None:
-        write_figure(figure.draw, results, output)
+        save_figure(figure.draw, results, output)
     quiet()
     measured = benchmarks.as_json(results, quick)
     if as_json:

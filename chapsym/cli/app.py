@@ -12,7 +12,7 @@ from typer.exceptions import TyperException
 import chapsym
 from chapsym.exact import NotANumber
 
-from .output import fail
+from .output import fail, quiet
 
 app = typer.Typer(
     add_completion=False,
@@ -48,8 +48,6 @@ def main() -> NoReturn:
         raise
     except TyperException as error:
         fail(f"{error.format_message()} (see chapsym --help)", 2)
-    except NotANumber as error:
-        fail(str(error), 2)
     except (KeyboardInterrupt, typer.Abort) as stop:
         if isinstance(stop.__cause__, EOFError):  # typer takes one for the end of an answer, and we ask nothing
             raise stop.__cause__ from None
@@ -59,6 +57,17 @@ def main() -> NoReturn:
     except OSError as error:
         _silence_output()
         fail(f"the output cannot be written: {error.strerror or error}", 2)
+    except _foreseen() as error:
+        quiet()
+        fail(str(error), 2)
+
+
+def _foreseen() -> tuple[type[Exception], ...]:
+    """The errors whose sentence is for the user; looked up only where there is an error, as --help needs no room."""
+    from chapsym.dynamics import BadInput, StepNotTaken
+    from chapsym.files import CannotWrite
+
+    return NotANumber, BadInput, StepNotTaken, CannotWrite
 
 
 def _plain(command: Any) -> Any:

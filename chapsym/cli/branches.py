@@ -8,7 +8,7 @@ from chapsym.exact import rationals
 
 from .app import app
 from .options import Contact, Inertia, Json, Mass, MassTensor, Radius, ball_from, rung_from
-from .output import fail, print_json
+from .output import print_json
 
 
 @app.command()
@@ -34,13 +34,9 @@ def branches(
     J, D = ball_from(mass_tensor, inertia, contact, mass, radius)
     K, g = rationals(momentum, "--momentum", 3), rationals(gamma, "--gamma", 3)
     chosen = rung_from(digits, rung, ball, ("double",))
-    from chapsym.dynamics import BadInput
     from chapsym.dynamics.solutions.enclosed import precise_branches
 
-    try:
-        found = precise_branches(J, D, K, g, chosen).write()
-    except BadInput as error:
-        fail(str(error), 2)
+    found = precise_branches(J, D, K, g, chosen).write()
     if as_json:
         print_json(found)
         return

@@ -1,7 +1,6 @@
 """chapsym certify: certificates of what the paper left open, found, written and checked."""
 
 import sys
-import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from decimal import Decimal
@@ -14,10 +13,7 @@ from chapsym.exact import rational, rationals
 
 from .app import app
 from .options import Contact, Inertia, Json, MassTensor, ball_from
-from .output import fail, note, print_json
-
-#: Seconds between two lines of progress where standard error is no terminal.
-PAUSE = 5.0
+from .output import fail, now_and_then, print_json
 
 certify = typer.Typer(
     help="""Find and check certificates of what the paper left open.
@@ -202,17 +198,13 @@ def _deliver(
     """Finds a certificate with its progress on standard error, and writes it; one sentence where there is none."""
     from chapsym import files
     from chapsym.certificates.document import write
-    from chapsym.dynamics import BadInput
 
-    try:
-        if output is not None:
-            files.check_destination(output)
-        with _telling() as progress:
-            found = find(progress)
-        if output is not None:
-            write(output, found)
-    except (BadInput, files.CannotWrite) as error:
-        fail(str(error), 2)
+    if output is not None:
+        files.check_destination(output)
+    with _telling() as progress:
+        found = find(progress)
+    if output is not None:
+        write(output, found)
     if as_json:
         print_json(found)
     elif output is not None:
@@ -230,12 +222,4 @@ def _telling() -> Iterator[Callable[[str], None]]:
         with console.status("") as status:
             yield status.update
         return
-    last = time.monotonic()
-
-    def tell(sentence: str) -> None:
-        nonlocal last
-        if time.monotonic() - last >= PAUSE:
-            last = time.monotonic()
-            note(sentence)
-
-    yield tell
+    yield now_and_then()

@@ -40,13 +40,13 @@ def extremes(
     if output is not None:
         if output.suffix != ".html":
             fail(f"{str(output)!r}: the page must end in .html", 2)
-        _written(files.check_destination, output)
+        files.check_destination(output)
     with progress_bar("judging", study.rows(wanted)) as shown:
         cells = study.extremes(quick, groups=wanted, on_row=shown)
     matrix = study.as_json(cells, quick)
     if output is not None:
         text = _page(matrix)
-        _written(files.write_whole, output, lambda stream: stream.write(text.encode()))
+        files.write_whole(output, lambda stream: stream.write(text.encode()))
     if as_json:
         print_json(matrix)
     else:
@@ -57,28 +57,12 @@ def extremes(
         fail(f"{failed} of {len(cells)} cells failed", 1)
 
 
-def _written(write: Any, *arguments: Any) -> None:
-    from chapsym import files
-
-    try:
-        write(*arguments)
-    except files.CannotWrite as error:
-        fail(str(error), 2)
-
-
 def _page(matrix: dict[str, Any]) -> str:
     from chapsym.report import extremes as page
     from chapsym.studies import harness
 
     machine = harness.machine()
-    versions = {"chapsym": _chapsym_version(), **machine["versions"]}
-    return page.html(matrix, versions, f"{machine['cpu']}, {machine['cores']} cores, {machine['python']}")
-
-
-def _chapsym_version() -> str:
-    import chapsym
-
-    return chapsym.__version__
+    return page.html(matrix, machine["versions"], f"{machine['cpu']}, {machine['cores']} cores, {machine['python']}")
 
 
 def _print_matrix(matrix: dict[str, Any]) -> None:

@@ -1,13 +1,11 @@
 """How a long run is followed: a bar on a terminal, elsewhere a line now and then."""
 
-import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
 
-#: Seconds between two lines.
-PAUSE = 5.0
+from .output import now_and_then
 
 
 @contextmanager
@@ -17,7 +15,7 @@ def following(as_json: bool) -> Iterator[Callable[[Any], None]]:
 
     console = Console(stderr=True)
     if as_json or not console.is_terminal:
-        yield Lines()
+        yield _lines()
         return
     from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
 
@@ -28,24 +26,20 @@ def following(as_json: bool) -> Iterator[Callable[[Any], None]]:
         yield lambda at: bar.update(task, total=at.of, completed=at.steps, balls=_balls(at))
 
 
-class Lines:
+def _lines() -> Callable[[Any], None]:
     """A line every few seconds, with the time that is left at the speed so far."""
+    tell, first = now_and_then(), None
 
-    def __init__(self) -> None:
-        self.first: tuple[float, int] | None = None
-        self.last = time.monotonic()
-
-    def __call__(self, at: Any) -> None:
+    def report(at: Any) -> None:
+        nonlocal first
         now = time.monotonic()
-        if self.first is None:
-            self.first = (now, at.steps)  # of a run that goes on, some are done already
-        if now - self.last < PAUSE:
-            return
-        self.last = now
-        started, before = self.first
+        first = first or (now, at.steps)  # of a run that goes on, some are done already
+        started, before = first
         speed = (at.steps - before) / (now - started) if now > started else 0.0
         left = f", about {_seconds((at.of - at.steps) / speed)} left" if speed > 0 else ""
-        print(f"chapsym: {at.steps / max(at.of, 1):.0%}, {_balls(at)}{left}", file=sys.stderr, flush=True)
+        tell(f"{at.steps / max(at.of, 1):.0%}, {_balls(at)}{left}")
+
+    return report
 
 
 def _balls(at: Any) -> str:

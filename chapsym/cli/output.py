@@ -2,6 +2,7 @@
 
 import json
 import sys
+import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -9,16 +10,31 @@ from typing import Any, NoReturn
 
 #: What a measured figure may be written as.
 FIGURES = (".svg", ".png", ".pdf")
+#: Seconds between two lines of progress where standard error is no terminal.
+PAUSE = 5.0
 
 
 def fail(sentence: str, status: int) -> NoReturn:
-    print(f"chapsym: {sentence}", file=sys.stderr)
+    note(sentence)
     sys.exit(status)
 
 
 def note(sentence: str) -> None:
     """One sentence on standard error, and no failure."""
     print(f"chapsym: {sentence}", file=sys.stderr)
+
+
+def now_and_then() -> Callable[[str], None]:
+    """Takes sentences, and notes one of them every few seconds."""
+    last = time.monotonic()
+
+    def tell(sentence: str) -> None:
+        nonlocal last
+        if time.monotonic() - last >= PAUSE:
+            last = time.monotonic()
+            note(sentence)
+
+    return tell
 
 
 def print_json(value: Any) -> None:
@@ -36,7 +52,7 @@ def say(text: str) -> None:
     if sys.stderr.isatty():
         print(f"\r\033[K{text}", end="", file=sys.stderr, flush=True)
     elif ", once" in text:
-        print(f"chapsym: {text}", file=sys.stderr)
+        note(text)
 
 
 def quiet() -> None:
@@ -54,21 +70,7 @@ def check_figure(output: Path, sections: Iterable[str], drawn: Iterable[str]) ->
     if not set(sections) & set(drawn):
         *some, last = drawn
         fail(f"only {', '.join(some)} and {last} have a figure", 2)
-    try:
-        files.check_destination(output)
-    except files.CannotWrite as error:
-        fail(str(error), 2)
-
-
-def write_figure(draw: Callable[[dict[str, Any]], Any], found: dict[str, Any], output: Path) -> None:
-    """Draws and writes a figure, whole or not at all."""
-    from chapsym import files
-    from chapsym.studies.figures import save_figure
-
-    try:
-        save_figure(draw, found, output)
-    except files.CannotWrite as error:
-        fail(str(error), 2)
+    files.check_destination(output)
 
 
 @contextmanager

@@ -1,6 +1,6 @@
 """chapsym prove: judge the printed claims; and what other commands need of the verdicts."""
 
-import sys
+from collections import Counter
 from contextlib import suppress
 from pathlib import Path
 from typing import Annotated, Any
@@ -9,7 +9,7 @@ import typer
 
 from .app import app
 from .options import Json, Records
-from .output import fail, print_json, progress_bar
+from .output import fail, note, print_json, progress_bar
 
 
 @app.command()
@@ -99,11 +99,11 @@ def judge_and_keep(wanted: list[str], jobs: int | None, kept_in: Path | None) ->
         try:
             records.update(path, arrived, claims)
         except files.CannotWrite as error:
-            print(f"chapsym: the verdicts are not kept: {error}", file=sys.stderr)
+            note(f"the verdicts are not kept: {error}")
     for record in judged:
         before = kept.get(record["id"], record)["verdict"]
         if before != record["verdict"]:
-            print(f"chapsym: {record['id']} was {before}, and is {record['verdict']} now", file=sys.stderr)
+            note(f"{record['id']} was {before}, and is {record['verdict']} now")
     return judged
 
 
@@ -147,7 +147,5 @@ def all_claims(lemmas: bool = False) -> dict[str, Any]:
 
 
 def tally(records: list[dict[str, Any]]) -> str:
-    counts: dict[str, int] = {}
-    for record in records:
-        counts[record["verdict"]] = counts.get(record["verdict"], 0) + 1
+    counts = Counter(record["verdict"] for record in records)
     return f"{len(records)} claims: " + ", ".join(f"{n} {verdict}" for verdict, n in sorted(counts.items()))

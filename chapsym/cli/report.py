@@ -40,13 +40,10 @@ def report(
     if studies is not None:
         _open_questions(output, studies, {} if fresh else kept_records(kept_in), kept_in, as_json)
         return
-    try:
-        files.check_destination(output)
-        found = _register({} if fresh else kept_records(kept_in), kept_in)
-        text = reports.WRITERS[output.suffix](found, _versions())
-        files.write_whole(output, lambda stream: stream.write(text.encode()))
-    except files.CannotWrite as error:
-        fail(str(error), 2)
+    files.check_destination(output)
+    found = records_of(all_claims(), {} if fresh else kept_records(kept_in), kept_in)
+    text = reports.WRITERS[output.suffix](found, _versions())
+    files.write_whole(output, lambda stream: stream.write(text.encode()))
     if as_json:
         print_json({"file": str(output), "counts": reports.counts(found), "claims": len(found)})
     else:
@@ -69,14 +66,11 @@ def _open_questions(
         fail(f"there is no folder {folder}; chapsym study NAME -o {folder} makes it", 2)
     everything = all_claims(lemmas=True)
     wanted = {id: everything[id] for id in _behind(list(questions.QUESTIONS), everything)}
-    try:
-        files.check_destination(output)
-        found = records_of(wanted, kept, kept_in)
-        evidence = [one for name in STUDIES if (one := _evidence(name, folder)) is not None]
-        text = questions.html(found, _certificates(), evidence, _versions())
-        files.write_whole(output, lambda stream: stream.write(text.encode()))
-    except files.CannotWrite as error:
-        fail(str(error), 2)
+    files.check_destination(output)
+    found = records_of(wanted, kept, kept_in)
+    evidence = [one for name in STUDIES if (one := _evidence(name, folder)) is not None]
+    text = questions.html(found, _certificates(), evidence, _versions())
+    files.write_whole(output, lambda stream: stream.write(text.encode()))
     verdicts = {record["id"]: record["verdict"] for record in found if record["id"] in questions.QUESTIONS}
     if as_json:
         print_json({"file": str(output), "verdicts": verdicts, "studies": [one.name for one in evidence]})
@@ -127,11 +121,6 @@ def _certificates() -> list[Any]:
         except checker.Rejected as error:
             judged.append(Checked(path.name, data, {}, str(error)))
     return judged
-
-
-def _register(kept: dict[str, dict[str, Any]], kept_in: Path | None) -> list[dict[str, Any]]:
-    """The record of every claim of the paper."""
-    return records_of(all_claims(), kept, kept_in)
 
 
 def _versions() -> dict[str, str]:

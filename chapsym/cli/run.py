@@ -35,7 +35,6 @@ def run(
 
     Example: chapsym run docs/first.toml -o first.npz
     """
-    from chapsym.dynamics import BadInput
     from chapsym.scene import load
     from chapsym.scene.result import formats
     from chapsym.scene.running import sweep
@@ -64,9 +63,6 @@ def run(
     except KeyboardInterrupt:
         kept = "the same command goes on from there" if destination.suffix == ".zarr" else "nothing was written"
         fail(f"interrupted; {kept}", INTERRUPTED)
-    except BadInput as error:
-        quiet()
-        fail(str(error), 2)
     _tell(plan, destination, outcome, data, answers, as_json)
 
 

@@ -36,25 +36,17 @@ def new(
 
     Example: chapsym scene new my-ball.toml --example robot
     """
-    from chapsym import files
-    from chapsym.dynamics import BadInput
     from chapsym.scene.read import example as examples
 
-    try:
-        text = examples.example(example)
-    except BadInput as error:
-        fail(str(error), 2)
+    text = examples.example(example)
     if file.suffix != ".toml":
         fail(f"{str(file)!r}: a scene must end in .toml", 2)
     if (file.exists() or file.is_symlink()) and not force:
         fail(f"{file} is there already: choose another name, or --force to replace it", 2)
     beside = file.parent / examples.FILE
-    try:
-        _write(file, (examples.SCHEMA_LINE if schema else "") + text)
-        if schema:
-            _write(beside, _schema_text())
-    except files.CannotWrite as error:
-        fail(str(error), 2)
+    _write(file, (examples.SCHEMA_LINE if schema else "") + text)
+    if schema:
+        _write(beside, _schema_text())
     print(f"wrote {file}" + (f", and {beside} for editors" if schema else ""))
 
 
@@ -66,17 +58,12 @@ def schema(
 
     Example: chapsym scene schema -o chapsym-scene.schema.json
     """
-    from chapsym import files
-
     if output is None:
         from chapsym.scene.read.schema import schema as described
 
         print(json_text(described(), indent=1))
         return
-    try:
-        _write(output, _schema_text())
-    except files.CannotWrite as error:
-        fail(str(error), 2)
+    _write(output, _schema_text())
     print(f"wrote {output}")
 
 

@@ -8,7 +8,7 @@ from chapsym.exact import rationals
 
 from .app import app
 from .options import Contact, Inertia, Json, Mass, MassTensor, Radius, ball_from, rung_from
-from .output import fail, print_json
+from .output import print_json
 
 
 @app.command()
@@ -38,13 +38,9 @@ def step(
     J, D = ball_from(mass_tensor, inertia, contact, mass, radius)
     K, g = rationals(momentum, "--momentum", 3), rationals(gamma, "--gamma", 3)
     chosen = rung_from(digits, rung, ball)
-    from chapsym.dynamics import BadInput, StepNotTaken
     from chapsym.dynamics.map import exact_step
 
-    try:
-        result = exact_step(J, D, K, g, chosen).write()
-    except (BadInput, StepNotTaken) as error:
-        fail(str(error), 2)
+    result = exact_step(J, D, K, g, chosen).write()
     if as_json:
         print_json(result)
         return

@@ -36,20 +36,16 @@ def study(
     """
     from importlib import import_module
 
-    from chapsym.dynamics import BadInput
     from chapsym.studies import units
 
     if name not in STUDIES:
         fail(f"there is no study {name!r}; there are {', '.join(STUDIES)}", 2)
     module = import_module(f"chapsym.studies.{name}")
-    try:
-        folder = None if output is None else units.folder(output)
-        kept = None if folder is None else folder / f"{name}.jsonl"
-        with progress_bar(name, 0) as shown:
-            found = module.study(quick, kept, scheduler, shown)
-        written = [] if folder is None else _write(module, name, found, folder)
-    except BadInput as error:
-        fail(str(error), 2)
+    folder = None if output is None else units.folder(output)
+    kept = None if folder is None else folder / f"{name}.jsonl"
+    with progress_bar(name, 0) as shown:
+        found = module.study(quick, kept, scheduler, shown)
+    written = [] if folder is None else _write(module, name, found, folder)
     if as_json:
         print_json(found)
         return
@@ -62,12 +58,8 @@ def study(
 def _write(module: Any, name: str, found: dict[str, Any], folder: Path) -> list[Path]:
     """The data as JSON and the figures, each whole."""
     from chapsym import files
-    from chapsym.dynamics import BadInput
 
-    try:
-        data = folder / f"{name}.json"
-        text = json.dumps(found, ensure_ascii=False, allow_nan=False, indent=1) + "\n"
-        files.write_whole(data, lambda stream: stream.write(text.encode()))
-    except files.CannotWrite as error:
-        raise BadInput(str(error)) from None
+    data = folder / f"{name}.json"
+    text = json.dumps(found, ensure_ascii=False, allow_nan=False, indent=1) + "\n"
+    files.write_whole(data, lambda stream: stream.write(text.encode()))
     return [data, *module.save_figures(found, folder)]

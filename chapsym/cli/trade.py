@@ -12,7 +12,7 @@ from chapsym.exact import rationals
 
 from .app import app
 from .options import Contact, Inertia, Json, Mass, MassTensor, Radius, ball_from
-from .output import check_figure, console_for, fail, print_json, print_table, quiet, say, write_figure
+from .output import check_figure, console_for, fail, print_json, print_table, quiet, say
 
 
 @app.command()
@@ -211,9 +211,10 @@ def _study(wanted: list[str], quick: bool, output: Path | None, as_json: bool) -
             fail(f"trade {name}: {error}", 1)
     quiet()
     if output is not None:
+        from chapsym.studies.figures import save_figure
         from chapsym.studies.trade.figure import draw
 
-        write_figure(draw, {name: found[name] for name in study.DRAWN if name in found}, output)
+        save_figure(draw, {name: found[name] for name in study.DRAWN if name in found}, output)
     if as_json:
         print_json(study.as_json(found, quick))
     else:
