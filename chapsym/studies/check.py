@@ -81,39 +81,15 @@ def _reach(K: Floats, g: Floats, J: Floats, D: float) -> float:
     return float(small_rotation(*[*K, *g, *J, D])[1])
 
 
-def _generic(rng: np.random.Generator) -> State:
-    return _at_reach(rng, *_ball(rng), _unit(rng), rng.uniform(0.01, 0.7))
-
-
-def _tiny(rng: np.random.Generator) -> State:
-    return State(*_ball(rng), _unit(rng) * 10 ** rng.uniform(-300, -8), _unit(rng))
-
-
-def _large(rng: np.random.Generator) -> State:
-    return _at_reach(rng, *_ball(rng), _unit(rng), rng.uniform(0.9, 0.999))
-
-
-def _near_fold(rng: np.random.Generator) -> State:
-    return _at_reach(rng, *_ball(rng), _unit(rng), 1 - 10 ** rng.uniform(-9, -4))
-
-
-def _top(rng: np.random.Generator) -> State:
-    return _at_reach(rng, _ball(rng)[0], 0.0, _unit(rng), rng.uniform(0.01, 0.7))
-
-
-def _heavy(rng: np.random.Generator) -> State:
-    return _at_reach(rng, _ball(rng)[0], float(10 ** rng.uniform(3, 6)), _unit(rng), rng.uniform(0.01, 0.7))
+def _flat(rng: np.random.Generator) -> State:
+    J, D = _ball(rng)
+    J[rng.integers(3)] = 0.0
+    return _at_reach(rng, J, D, _unit(rng), rng.uniform(0.01, 0.7))
 
 
 def _nearly_equal(rng: np.random.Generator) -> State:
     J, D = _ball(rng)
     return _at_reach(rng, J[0] * (1 + 1e-12 * rng.normal(size=3)), D, _unit(rng), rng.uniform(0.01, 0.7))
-
-
-def _flat(rng: np.random.Generator) -> State:
-    J, D = _ball(rng)
-    J[rng.integers(3)] = 0.0
-    return _at_reach(rng, J, D, _unit(rng), rng.uniform(0.01, 0.7))
 
 
 def _vertical(rng: np.random.Generator) -> State:
@@ -124,12 +100,18 @@ def _vertical(rng: np.random.Generator) -> State:
 
 
 STRATA: dict[str, Callable[[np.random.Generator], State]] = {
-    "generic": _generic,
-    "tiny momentum, 1e-300 to 1e-8": _tiny,
-    "rotation at 0.9 to 0.999 of the fold": _large,
-    "1e-9 to 1e-4 before the fold": _near_fold,
-    "D = 0": _top,
-    "D = 1e3 to 1e6": _heavy,
+    "generic": lambda rng: _at_reach(rng, *_ball(rng), _unit(rng), rng.uniform(0.01, 0.7)),
+    "tiny momentum, 1e-300 to 1e-8": lambda rng: State(
+        *_ball(rng), _unit(rng) * 10 ** rng.uniform(-300, -8), _unit(rng)
+    ),
+    "rotation at 0.9 to 0.999 of the fold": lambda rng: _at_reach(
+        rng, *_ball(rng), _unit(rng), rng.uniform(0.9, 0.999)
+    ),
+    "1e-9 to 1e-4 before the fold": lambda rng: _at_reach(rng, *_ball(rng), _unit(rng), 1 - 10 ** rng.uniform(-9, -4)),
+    "D = 0": lambda rng: _at_reach(rng, _ball(rng)[0], 0.0, _unit(rng), rng.uniform(0.01, 0.7)),
+    "D = 1e3 to 1e6": lambda rng: _at_reach(
+        rng, _ball(rng)[0], float(10 ** rng.uniform(3, 6)), _unit(rng), rng.uniform(0.01, 0.7)
+    ),
     "J equal to 1e-12": _nearly_equal,
     "flat body, one J = 0": _flat,
     "vertical momentum": _vertical,

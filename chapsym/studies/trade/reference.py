@@ -2,12 +2,12 @@
 
 K' = K × ω, γ' = γ × ω, a' = a × ω and b' = b × ω, where a and b are the first two axes of space seen from the body;
 the ball rolls, so the contact point moves with ρ R(ω × γ), whose components are -ρ⟨a, γ'⟩ and -ρ⟨b, γ'⟩.
-It shares nothing with the map.  The radii of the balls are dropped after each step: digits are checked by another run.
+It shares no formula of motion with the map.  The radii of the balls are dropped after each step: digits are checked by
+another run.
 """
 
 from collections.abc import Sequence
 from fractions import Fraction
-from itertools import repeat
 from operator import mul
 from typing import Any
 
@@ -16,6 +16,8 @@ import numpy as np
 
 from chapsym.dynamics import Ball
 from chapsym.dynamics.ball import Floats
+from chapsym.dynamics.levels.balls import exact, least, unit
+from chapsym.dynamics.levels.start import fraction
 
 #: Digits carried beyond those that are asked for; and terms of the series for each digit, the best of what was tried.
 GUARD = 10
@@ -36,11 +38,11 @@ def continuous(
     """
     bits = int((digits + GUARD) * 3.33) + 8
     with flint.ctx.workprec(bits):
-        J, D = [_number(x) for x in ball.mass_tensor], _number(ball.D)
-        radius = _number(0.0 if ball.radius is None else ball.radius)
-        K, g = [_number(x) for x in angular_momentum], _unit([_number(x) for x in gamma])
-        first = _least(*g) if attitude is None else [_number(x) for x in attitude]
-        state = [*K, *g, *_axes(_unit(first)), flint.arb(0), flint.arb(0)]
+        J, D = [exact(float(x)) for x in ball.mass_tensor], exact(float(ball.D))
+        radius = exact(0.0 if ball.radius is None else float(ball.radius))
+        K, g = [exact(float(x)) for x in angular_momentum], unit(exact(float(x)) for x in gamma)
+        first = least(*g) if attitude is None else [exact(float(x)) for x in attitude]
+        state = [*K, *g, *_axes(unit(first)), flint.arb(0), flint.arb(0)]
         inverse, terms = [1 / (sum(J) - x + D) for x in J], max(8, int(TERMS_PER_DIGIT * digits))
         # K may be of any size, and the error of a step is that of its last terms, relative to the state.
         sizes = [max(abs(x) for x in K)] * 3 + [flint.arb(1)] * 9
@@ -49,10 +51,10 @@ def continuous(
             while now < time:
                 series = _taylor(state, inverse, D, radius, terms)
                 step = min(time - now, _length(series, sizes, digits + 3, terms))
-                h = _number(step)
+                h = exact(step)
                 state = [_value(one, h).mid() for one in series]
                 now += step
-            rows.append([_fraction(x) for x in (*state[:6], *state[12:])])
+            rows.append([fraction(x) for x in (*state[:6], *state[12:])])
     return np.array(rows, dtype=object)
 
 
@@ -117,26 +119,3 @@ def _axes(q: Sequence[Any]) -> list[Any]:
     s, x, y, z = q
     first = [s * s + x * x - y * y - z * z, 2 * (x * y - s * z), 2 * (x * z + s * y)]
     return [*first, 2 * (x * y + s * z), s * s - x * x + y * y - z * z, 2 * (y * z - s * x)]
-
-
-def _least(x: Any, y: Any, z: Any) -> list[Any]:
-    """A quaternion of the least rotation that turns a unit vector up; from upside down about e₁."""
-    across = x * x + y * y
-    if across == 0 and z < 0:
-        return [flint.arb(0), flint.arb(1), flint.arb(0), flint.arb(0)]
-    return [1 + z if z > 0 else across / (1 - z), y, -x, flint.arb(0)]
-
-
-def _unit(v: Sequence[Any]) -> list[Any]:
-    length = sum(map(mul, v, v), flint.arb(0)).sqrt()
-    return [x / y for x, y in zip(v, repeat(length))]
-
-
-def _number(value: Any) -> Any:
-    exact = Fraction(value) if isinstance(value, Fraction) else Fraction(float(value))
-    return flint.arb(flint.fmpq(exact.numerator, exact.denominator))
-
-
-def _fraction(value: Any) -> Fraction:
-    mantissa, exponent = value.mid().man_exp()
-    return Fraction(int(mantissa)) * Fraction(2) ** int(exponent)
