@@ -4,6 +4,7 @@ import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from decimal import Decimal
+from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -65,15 +66,11 @@ def no_invariant_measure(
     from chapsym.certificates import measure
     from chapsym.certificates.reduced import Top
 
-    def find(progress: Callable[[str], None]) -> dict[str, Any]:
-        return measure.no_invariant_measure(
-            Top((J[0], J[1], J[2]), D, h), steps=steps, half_turns=turns, level=at, digits=digits, radius=within,
-            progress=progress,
-        )  # fmt: skip
-
-    found = _deliver(find, output, as_json)
-    if not as_json:
-        _describe_measure(found)
+    find = partial(
+        measure.no_invariant_measure, Top((J[0], J[1], J[2]), D, h), steps=steps, half_turns=turns, level=at,
+        digits=digits, radius=within,
+    )  # fmt: skip
+    _deliver(find, _describe_measure, output, as_json)
 
 
 def _describe_measure(found: dict[str, Any]) -> None:
@@ -111,17 +108,10 @@ def periodic_orbit(
     J, D = _ball(mass_tensor, inertia, contact, "2")
     KK = rational(size, "--momentum-momentum")
     Kg = None if height is None else rational(height, "--momentum-gamma")
+    from chapsym.certificates import orbit
 
-    def find(progress: Callable[[str], None]) -> dict[str, Any]:
-        from chapsym.certificates import orbit
-
-        return orbit.periodic_orbit(
-            (J[0], J[1], J[2]), D, KK, steps, height=Kg, digits=digits, attracting=attracting, progress=progress
-        )
-
-    found = _deliver(find, output, as_json)
-    if not as_json:
-        _describe_orbit(found)
+    find = partial(orbit.periodic_orbit, (J[0], J[1], J[2]), D, KK, steps, Kg, digits, attracting)
+    _deliver(find, _describe_orbit, output, as_json)
 
 
 def _describe_orbit(found: dict[str, Any]) -> None:
@@ -161,12 +151,8 @@ def energy_drift(
     signs, end = rationals(symmetry, "--symmetry", 3), rational(time, "--time")
     from chapsym.certificates.drift_search import energy_drift as search
 
-    def find(progress: Callable[[str], None]) -> dict[str, Any]:
-        return search(J, D, K, g, tuple(map(int, signs)), end, vary - 1, digits=digits, progress=progress)
-
-    found = _deliver(find, output, as_json)
-    if not as_json:
-        _describe_drift(found)
+    find = partial(search, J, D, K, g, tuple(map(int, signs)), end, vary - 1, digits=digits)
+    _deliver(find, _describe_drift, output, as_json)
 
 
 def _describe_drift(found: dict[str, Any]) -> None:
@@ -191,25 +177,24 @@ def check(
 
 
 def _deliver(
-    find: Callable[[Callable[[str], None]], dict[str, Any]],
-    output: Path | None,
-    as_json: bool,
-) -> dict[str, Any]:
-    """Finds a certificate with its progress on standard error, and writes it; one sentence where there is none."""
+    find: Callable[..., dict[str, Any]], describe: Callable[[dict[str, Any]], None], output: Path | None, as_json: bool
+) -> None:
+    """Finds a certificate with its progress on standard error, writes it, and says what it is."""
     from chapsym import files
     from chapsym.certificates.document import write
 
     if output is not None:
         files.check_destination(output)
     with _telling() as progress:
-        found = find(progress)
+        found = find(progress=progress)
     if output is not None:
         write(output, found)
     if as_json:
         print_json(found)
-    elif output is not None:
+        return
+    if output is not None:
         print(f"wrote {output}; check it by chapsym certify check {output}")
-    return found
+    describe(found)
 
 
 @contextmanager

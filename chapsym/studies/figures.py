@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Any
 
 from chapsym import files
+from chapsym.dynamics import BadInput
 from chapsym.show.drawing.style import Picture, styled, write
 
 #: Draws what a study found.
@@ -19,7 +20,10 @@ def save_figure(draw: Draw, found: dict[str, Any], path: Path) -> None:
 
 
 def save_figures(draw: Mapping[str, Draw], found: dict[str, Any], folder: Path) -> list[Path]:
-    """The figures of a study by the names of their files; raises CannotWrite where the folder cannot be written to."""
-    for name, one in draw.items():
-        save_figure(one, found, folder / name)
+    """The figures of a study by the names of their files; raises BadInput where the folder cannot be written to."""
+    try:
+        for name, one in draw.items():
+            save_figure(one, found, folder / name)
+    except files.CannotWrite as error:
+        raise BadInput(str(error)) from None
     return [folder / name for name in draw]

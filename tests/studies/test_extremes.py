@@ -208,9 +208,9 @@ def unstable_velocity(K, g, J, D):
 
 def test_the_printed_form_of_the_velocity_fails_where_it_cancels(monkeypatch):
     monkeypatch.setattr(kernels, "angular_velocity", unstable_velocity)
-    assert derived.of("ω", "D = 3")(DOUBLE, True).verdict == "within"
+    assert derived.of("ω", "D = 3", DOUBLE, True).verdict == "within"
     for condition in ("D = 1e6", "D = 1e12"):
-        assert derived.of("ω", condition)(DOUBLE, True).verdict == "failed"
+        assert derived.of("ω", condition, DOUBLE, True).verdict == "failed"
 
 
 def test_a_step_by_the_printed_form_fails_where_it_cancels(monkeypatch):
@@ -252,26 +252,26 @@ def test_a_fold_that_is_a_little_off_fails(monkeypatch):
     monkeypatch.setattr(
         reduced, "fold", lambda *given: dataclasses.replace((f := honest(*given)), reach=f.reach * (1 + 1e-13))
     )
-    assert reduced.fold_search("generic")(DOUBLE, True).verdict == "failed"
+    assert reduced.fold_search("generic", DOUBLE, True).verdict == "failed"
 
 
 def test_a_refused_input_that_is_taken_fails():
     from chapsym.studies.extremes import arrays
 
-    assert arrays.refusals(lambda level: None)(DOUBLE, True).verdict == "failed"
+    assert arrays.refusals([lambda level: None], DOUBLE, True).verdict == "failed"
 
     def refuses(level):
         raise BadInput("momentum must be finite, but it is nan")
 
-    assert arrays.refusals(refuses)(DOUBLE, True).verdict == "refused"
-    assert arrays.refusals(refuses, lambda level: None)(DOUBLE, True).verdict == "failed"
+    assert arrays.refusals([refuses], DOUBLE, True).verdict == "refused"
+    assert arrays.refusals([refuses, lambda level: None], DOUBLE, True).verdict == "failed"
 
 
 def test_other_bits_and_a_changed_array_fail():
     from chapsym.studies.extremes import arrays
 
-    assert arrays.same(lambda x: x * (1 + 2.0**-51))(DOUBLE, True).verdict == "failed"
-    assert arrays.same(lambda x: x.copy())(DOUBLE, True).verdict == "within"
+    assert arrays.same(lambda x: x * (1 + 2.0**-51), DOUBLE, True).verdict == "failed"
+    assert arrays.same(lambda x: x.copy(), DOUBLE, True).verdict == "within"
 
 
 def test_json_says_what_the_cells_say():

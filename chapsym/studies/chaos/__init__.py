@@ -3,6 +3,7 @@
 ε = |𝒦|/I_min is about the angle of a step, in radians; to ε = 1 lemma `small-branch` can reach.
 """
 
+from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -61,22 +62,18 @@ def study(
 def _units(quick: bool) -> list[tuple[str, Unit]]:
     orbits, steps = (64, 4_000) if quick else (ORBITS, STEPS)
     epsilons = (0.3, 0.9, 2.0) if quick else EPSILONS
-    units = []
 
-    def add(group: str, J: Any, D: float, epsilon: float, near: bool, length: int) -> None:
+    def sample(J: Any, D: float, epsilon: float, near: bool, length: int) -> Unit:
         arguments = {"mass_tensor": list(J), "D": D, "epsilon": epsilon, "near": near, "orbits": orbits}
-        units.append((group, Unit(HERE + "sample", {**arguments, "steps": length, "seed": SEED})))
+        return Unit(HERE + "sample", {**arguments, "steps": length, "seed": SEED})
 
-    for J, D in BALLS[:3] if quick else BALLS:
-        for near in (False, True):
-            for epsilon in epsilons:
-                add("samples", J, D, epsilon, near, steps)
-    for length in LENGTHS[: 2 if quick else 3]:
-        add("lengths", *VARIED, True, length)
+    cases = product(BALLS[:3] if quick else BALLS, (False, True), epsilons)
     size = {"orbits": 30, "steps": 15_000, "points": 60} if quick else {"orbits": 56, "steps": 60_000, "points": 140}
-    for shown in PICTURES:
-        units.append(("pictures", Unit(HERE + "picture", {**shown, **size})))
-    return units
+    return [
+        *(("samples", sample(J, D, epsilon, near, steps)) for (J, D), near, epsilon in cases),
+        *(("lengths", sample(*VARIED, True, length)) for length in LENGTHS[: 2 if quick else 3]),
+        *(("pictures", Unit(HERE + "picture", {**shown, **size})) for shown in PICTURES),
+    ]
 
 
 def sentences(found: dict[str, Any]) -> list[str]:

@@ -41,7 +41,6 @@ class Resonance:
     level: Level
     returns: int
     theta: float
-    psi: float
     period: float
     energy: float
     loop: Floats
@@ -164,7 +163,7 @@ def profile(level: Level, psi: float, q: int, theta: float, period: float) -> Re
     middle = int(np.argmax(np.cumsum(loop) / beta))
     steepest = int(np.argmax(np.abs(loop)))
     start, centre = starts[:, steepest], starts[:, middle]
-    return Resonance(level, q, theta, psi, period, energy, loop, beta, start, centre, float(periods[steepest]))
+    return Resonance(level, q, theta, period, energy, loop, beta, start, centre, float(periods[steepest]))
 
 
 def closing(level: Level, K: Floats, g: Floats, period: float) -> Floats:

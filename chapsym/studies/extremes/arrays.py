@@ -50,20 +50,16 @@ def bits(found: Trajectory) -> list[Any]:
     return parts
 
 
-def same(make: Make) -> Callable[[Level, bool], Judged]:
+def same(make: Make, level: Level, quick: bool) -> Judged:
     """The same bits from arrays that are made otherwise, for one state and for a batch."""
-
-    def judged(level: Level, quick: bool) -> Judged:
-        for plain in (ONE, MANY):
-            made = [make(x) for x in plain]
-            before = [np.array(x, copy=True) for x in made]
-            if bits(run(level, *made)) != bits(run(level, *plain)):
-                return Judged(FAILED, reason="other numbers than from plain arrays")
-            if any((np.asarray(x) != y).any() for x, y in zip(made, before, strict=True)):
-                return Judged(FAILED, reason="the arrays that were given are changed")
-        return Judged(WITHIN, 0.0, 0.0)
-
-    return judged
+    for plain in (ONE, MANY):
+        made = [make(x) for x in plain]
+        before = [np.array(x, copy=True) for x in made]
+        if bits(run(level, *made)) != bits(run(level, *plain)):
+            return Judged(FAILED, reason="other numbers than from plain arrays")
+        if any((np.asarray(x) != y).any() for x, y in zip(made, before, strict=True)):
+            return Judged(FAILED, reason="the arrays that were given are changed")
+    return Judged(WITHIN, 0.0, 0.0)
 
 
 def strided(x: np.ndarray) -> np.ndarray:
@@ -103,17 +99,17 @@ SAME: dict[str, Make] = {
 }
 
 
-def refusals(*attempts: Callable[[Level], object]) -> Callable[[Level, bool], Judged]:
+def refusals(attempts: Sequence[Callable[[Level], object]], level: Level, quick: bool) -> Judged:
     """Every attempt must be refused with a sentence."""
 
-    def one(level: Level, attempt: Callable[[Level], object]) -> Judged:
+    def one(attempt: Callable[[Level], object]) -> Judged:
         try:
             attempt(level)
         except (BadInput, StepNotTaken) as refusal:
             return Judged(REFUSED, reason=str(refusal))
         return Judged(FAILED, reason="it is taken without a word")
 
-    return lambda level, quick: worst([one(level, attempt) for attempt in attempts])
+    return worst([one(attempt) for attempt in attempts])
 
 
 def _with(value: Any) -> Sequence[Callable[[Level], object]]:

@@ -91,6 +91,6 @@ CONDITIONS: dict[str, list[State]] = {
 }
 
 
-def of(quantity: str, condition: str) -> Callable[[Level, bool], Judged]:
-    """What judges the worst of the states of a condition."""
-    return lambda level, quick: worst([judge(quantity, level, state) for state in CONDITIONS[condition]])
+def of(quantity: str, condition: str, level: Level, quick: bool) -> Judged:
+    """The worst of the states of a condition."""
+    return worst([judge(quantity, level, state) for state in CONDITIONS[condition]])

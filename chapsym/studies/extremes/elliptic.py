@@ -192,11 +192,7 @@ QUANTITIES: dict[str, Callable[[Level, State], Judged]] = {
 }  # fmt: skip
 
 
-def of(quantity: str, condition: str) -> Callable[[Level, bool], Judged]:
-    """What judges the worst of the states of a condition."""
-
-    def judged(level: Level, quick: bool) -> Judged:
-        with mp.workdps(480 if "150" in condition else 140):  # there 1 - Λ_c l is 1e-300
-            return worst([QUANTITIES[quantity](level, state) for state in CONDITIONS[condition]])
-
-    return judged
+def of(quantity: str, condition: str, level: Level, quick: bool) -> Judged:
+    """The worst of the states of a condition."""
+    with mp.workdps(480 if "150" in condition else 140):  # there 1 - Λ_c l is 1e-300
+        return worst([QUANTITIES[quantity](level, state) for state in CONDITIONS[condition]])

@@ -42,36 +42,36 @@ _BATCHED = ("single", "double", "quad")
 def _conditions() -> list[Condition]:
     """All rows, in the order of the groups."""
     rows = [
-        Condition(name, group, steps.of(those), NAMES)
+        Condition(name, group, partial(steps.of, those), NAMES)
         for group, named in states.CONDITIONS.items()
         for name, those in named.items()
     ]
     starts = runs.starts()
-    rows += [Condition(name, "runs", runs.ten_steps(name), NAMES) for name in starts]
-    rows += [Condition(name, "batch", runs.ten_steps(name, runs.BATCH), _BATCHED) for name in starts]
-    rows += [Condition(name, "order", runs.composed(name), NAMES) for name in starts]
-    rows += [Condition(name, "reverse", runs.way_back(name), _DOUBLE) for name in starts]
-    rows += [Condition(f"ε = {size:g}", "long", runs.long_run(size), NAMES) for size in (1e-3, 0.05, 0.4)]
-    rows += [Condition(name, "extrapolate", reduced.extrapolated(name), _DOUBLE) for name in reduced.LONG]
+    rows += [Condition(name, "runs", partial(runs.ten_steps, name), NAMES) for name in starts]
+    rows += [Condition(name, "batch", partial(runs.ten_steps, name, balls=runs.BATCH), _BATCHED) for name in starts]
+    rows += [Condition(name, "order", partial(runs.composed, name), NAMES) for name in starts]
+    rows += [Condition(name, "reverse", partial(runs.way_back, name), _DOUBLE) for name in starts]
+    rows += [Condition(f"ε = {size:g}", "long", partial(runs.long_run, size), NAMES) for size in (1e-3, 0.05, 0.4)]
+    rows += [Condition(name, "extrapolate", partial(reduced.extrapolated, name), _DOUBLE) for name in reduced.LONG]
     rows += [
-        Condition(f"{quantity}: {name}", "derived", derived.of(quantity, name), _DOUBLE)
+        Condition(f"{quantity}: {name}", "derived", partial(derived.of, quantity, name), _DOUBLE)
         for quantity in derived.QUANTITIES
         for name in derived.CONDITIONS
     ]
-    rows += [Condition(name, "fold search", reduced.fold_search(name), _DOUBLE) for name in reduced.FOLDS]
-    rows += [Condition(name, "vertical", reduced.vertical(name), _DOUBLE) for name in reduced.VERTICAL]
+    rows += [Condition(name, "fold search", partial(reduced.fold_search, name), _DOUBLE) for name in reduced.FOLDS]
+    rows += [Condition(name, "vertical", partial(reduced.vertical, name), _DOUBLE) for name in reduced.VERTICAL]
     rows += [
-        Condition(f"{quantity}: {name}", "elliptic", elliptic.of(quantity, name), _DOUBLE)
+        Condition(f"{quantity}: {name}", "elliptic", partial(elliptic.of, quantity, name), _DOUBLE)
         for quantity in elliptic.QUANTITIES
         for name in elliptic.CONDITIONS
         if not (quantity != "increment" and name == "increments 1e-12")
     ]
-    rows += [Condition(name, "n = 4", n_dim.of(name), _DOUBLE) for name in n_dim.CONDITIONS]
-    rows += [Condition(name, "arrays", arrays.same(make), NAMES) for name, make in arrays.SAME.items()]
+    rows += [Condition(name, "n = 4", partial(n_dim.of, name), _DOUBLE) for name in n_dim.CONDITIONS]
+    rows += [Condition(name, "arrays", partial(arrays.same, make), NAMES) for name, make in arrays.SAME.items()]
     rows += [Condition("float32", "arrays", arrays.float32, NAMES), Condition("empty", "arrays", arrays.empty, NAMES)]
     rows += [Condition("huge batch", "arrays", arrays.huge, NAMES)]
     return rows + [
-        Condition(name, "input", arrays.refusals(*those), NAMES) for name, those in arrays.REFUSED_INPUT.items()
+        Condition(name, "input", partial(arrays.refusals, those), NAMES) for name, those in arrays.REFUSED_INPUT.items()
     ]
 
 

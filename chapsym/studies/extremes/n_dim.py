@@ -1,6 +1,5 @@
 """The step in n = 4 dimensions, beside the oracle's."""
 
-from collections.abc import Callable
 from functools import cache
 from typing import Any
 
@@ -78,6 +77,6 @@ def judge(level: Level, state: StateN) -> Judged:
     return compared(level, vectors, kappa)
 
 
-def of(condition: str) -> Callable[[Level, bool], Judged]:
-    """What judges the worst of the states of a condition."""
-    return lambda level, quick: worst([judge(level, state) for state in CONDITIONS[condition]])
+def of(condition: str, level: Level, quick: bool) -> Judged:
+    """The worst of the states of a condition."""
+    return worst([judge(level, state) for state in CONDITIONS[condition]])

@@ -39,10 +39,10 @@ VERTICAL: dict[str, Callable[[], list[State]]] = {
 }
 
 
-def vertical(condition: str) -> Callable[[Level, bool], Judged]:
+def vertical(condition: str, level: Level, quick: bool) -> Judged:
     """One step of `step_vertical`, judged as one of `step`."""
 
-    def one(level: Level, state: State) -> Judged:
+    def one(state: State) -> Judged:
         height = float(np.dot(state.K, state.g))
         exact = truth(State(state.J, state.D, tuple(mp.mpf(height) * x for x in unit_gamma(state.g)), state.g))
         try:
@@ -53,7 +53,7 @@ def vertical(condition: str) -> Callable[[Level, bool], Judged]:
             return Judged(FAILED, reason="a rotation is given where the branch has folded: there is none")
         return beside(level, (found.rotation[1:], found.momentum, found.gamma), exact)
 
-    return lambda level, quick: worst([one(level, state) for state in VERTICAL[condition]()])
+    return worst([one(state) for state in VERTICAL[condition]()])
 
 
 #: Balls and directions whose folds are searched for, and how much larger the momentum is that is given.
@@ -72,27 +72,23 @@ FOLDS: dict[str, tuple[State, float]] = {
 DIFFERENCE = mp.mpf(10) ** -15
 
 
-def fold_search(condition: str) -> Callable[[Level, bool], Judged]:
+def fold_search(condition: str, level: Level, quick: bool) -> Judged:
     """`fold`: the t at which the branch along t𝒦 folds."""
+    state, size = FOLDS[condition]
+    found = fold(ball_of(state), states.scaled(state.K, size), state.g)
+    if not np.isfinite(found.reach):
+        return Judged(FAILED, reason="the reach is NaN, and nothing says why")
 
-    def judged(level: Level, quick: bool) -> Judged:
-        state, size = FOLDS[condition]
-        found = fold(ball_of(state), states.scaled(state.K, size), state.g)
-        if not np.isfinite(found.reach):
-            return Judged(FAILED, reason="the reach is NaN, and nothing says why")
+    def at(x: Sequence[Any]) -> list[Any]:
+        return [mp.make_mpf(fold_at(tuple(x[6:9]), x[9], tuple(x[:3]), tuple(x[3:6]))._mpf_)]
 
-        def at(x: Sequence[Any]) -> list[Any]:
-            return [mp.make_mpf(fold_at(tuple(x[6:9]), x[9], tuple(x[:3]), tuple(x[3:6]))._mpf_)]
-
-        exact, kappa = componentwise(at, (*state.K, *state.g, *state.J, state.D), DIFFERENCE)
-        told = compared(
-            level, [Compared("the reach", [number(found.reach) * mp.mpf(size)], exact, BUDGET * (1 + kappa))], kappa
-        )
-        if told.verdict == FAILED and not found.settled:
-            return refused("Newton settles on no simple fold: `settled` is False, and the reach a lower bound", None)
-        return told
-
-    return judged
+    exact, kappa = componentwise(at, (*state.K, *state.g, *state.J, state.D), DIFFERENCE)
+    told = compared(
+        level, [Compared("the reach", [number(found.reach) * mp.mpf(size)], exact, BUDGET * (1 + kappa))], kappa
+    )
+    if told.verdict == FAILED and not found.settled:
+        return refused("Newton settles on no simple fold: `settled` is False, and the reach a lower bound", None)
+    return told
 
 
 #: Long steps, in units of half the reach of their state.
@@ -135,20 +131,16 @@ def _turned(q: Sequence[Any], v: Sequence[Any]) -> list[Any]:
     return _compose(_compose(q, [mp.zero, *map(mp.mpf, v)]), opposite)[1:]
 
 
-def extrapolated(start: str) -> Callable[[Level, bool], Judged]:
+def extrapolated(start: str, level: Level, quick: bool) -> Judged:
     """One long step of `extrapolate`."""
-
-    def judged(level: Level, quick: bool) -> Judged:
-        columns = 3 if quick else 6
-        state, K, g, ulps, kappa = long_step(start, columns)
-        try:
-            found = extrapolate(ball_of(state), state.K, state.g, 1.0, 1, columns=columns)
-        except (BadInput, StepNotTaken) as refusal:
-            return refused(str(refusal), None)
-        vectors = [
-            Compared("the momentum", found.angular_momentum, K, ulps),
-            Compared("gamma", found.gamma, g, ulps, 1),
-        ]
-        return compared(level, vectors, kappa)
-
-    return judged
+    columns = 3 if quick else 6
+    state, K, g, ulps, kappa = long_step(start, columns)
+    try:
+        found = extrapolate(ball_of(state), state.K, state.g, 1.0, 1, columns=columns)
+    except (BadInput, StepNotTaken) as refusal:
+        return refused(str(refusal), None)
+    vectors = [
+        Compared("the momentum", found.angular_momentum, K, ulps),
+        Compared("gamma", found.gamma, g, ulps, 1),
+    ]
+    return compared(level, vectors, kappa)

@@ -91,52 +91,40 @@ def starts() -> dict[str, State]:
     }
 
 
-def ten_steps(start: str, balls: int = 0) -> Callable[[Level, bool], Judged]:
+def ten_steps(start: str, level: Level, quick: bool, balls: int = 0) -> Judged:
     """Ten steps of `trajectory`, of one ball or of as many that are equal."""
+    state = starts()[start]
+    momentum = np.tile(state.K, (balls, 1)) if balls else state.K
 
-    def judged(level: Level, quick: bool) -> Judged:
-        state = starts()[start]
-        momentum = np.tile(state.K, (balls, 1)) if balls else state.K
+    def run() -> tuple[Sequence[Any], Sequence[Any]]:
+        return last_frame(trajectory(ball_of(state), momentum, state.g, STEPS, every=STEPS, precision=level.rung))
 
-        def run() -> tuple[Sequence[Any], Sequence[Any]]:
-            return last_frame(trajectory(ball_of(state), momentum, state.g, STEPS, every=STEPS, precision=level.rung))
-
-        return ends(level, state, (mp.one,) * STEPS, run)
-
-    return judged
+    return ends(level, state, (mp.one,) * STEPS, run)
 
 
-def composed(start: str) -> Callable[[Level, bool], Judged]:
+def composed(start: str, level: Level, quick: bool) -> Judged:
     """A step of order 8, 4 when quick, beside the oracle's composition with the same decimal coefficients."""
-
-    def judged(level: Level, quick: bool) -> Judged:
-        order = 4 if quick else 8
-        state = starts()[start]
-        if start == "at 0.8 of the fold":  # of that of the longest stage
-            longest = max(abs(c) for c in COMPOSITIONS[order].exact)
-            state = states.part(states.J, states.D, states.K, states.G, float(0.9 / longest))
-        stages = tuple(number(c) for c in COMPOSITIONS[order].exact)
-        return ends(
-            level, state, stages,
-            lambda: last_frame(trajectory(ball_of(state), state.K, state.g, 1, order=order, precision=level.rung)),
-        )  # fmt: skip
-
-    return judged
+    order = 4 if quick else 8
+    state = starts()[start]
+    if start == "at 0.8 of the fold":  # of that of the longest stage
+        longest = max(abs(c) for c in COMPOSITIONS[order].exact)
+        state = states.part(states.J, states.D, states.K, states.G, float(0.9 / longest))
+    stages = tuple(number(c) for c in COMPOSITIONS[order].exact)
+    return ends(
+        level, state, stages,
+        lambda: last_frame(trajectory(ball_of(state), state.K, state.g, 1, order=order, precision=level.rung)),
+    )  # fmt: skip
 
 
-def way_back(start: str) -> Callable[[Level, bool], Judged]:
+def way_back(start: str, level: Level, quick: bool) -> Judged:
     """Ten steps and `reverse`: the start again, with the momentum reversed."""
-
-    def judged(level: Level, quick: bool) -> Judged:
-        state, stages = starts()[start], (mp.one,) * STEPS
-        there = trajectory(ball_of(state), state.K, state.g, STEPS, precision=level.rung)
-        momentum, gamma = last_frame(reverse(there))
-        ulps = 2 * promised(state, stages)
-        first = [[number(x) for x in v] for v in (-there.momentum[0], there.gamma[0])]
-        vectors = [Compared("the momentum", momentum, first[0], ulps), Compared("gamma", gamma, first[1], ulps, 1)]
-        return compared(level, vectors, max(step.condition for step in chain(state, stages)))
-
-    return judged
+    state, stages = starts()[start], (mp.one,) * STEPS
+    there = trajectory(ball_of(state), state.K, state.g, STEPS, precision=level.rung)
+    momentum, gamma = last_frame(reverse(there))
+    ulps = 2 * promised(state, stages)
+    first = [[number(x) for x in v] for v in (-there.momentum[0], there.gamma[0])]
+    vectors = [Compared("the momentum", momentum, first[0], ulps), Compared("gamma", gamma, first[1], ulps, 1)]
+    return compared(level, vectors, max(step.condition for step in chain(state, stages)))
 
 
 #: Steps of the long runs, quick and full.
@@ -151,26 +139,22 @@ RESTORED = 1024
 COMPENSATED = ("single", "double")
 
 
-def long_run(size: float) -> Callable[[Level, bool], Judged]:
+def long_run(size: float, level: Level, quick: bool) -> Judged:
     """How far the integrals move in a long run at ε = |𝒦|: in ulps of the rung."""
-
-    def judged(level: Level, quick: bool) -> Judged:
-        steps = LENGTHS[level.name][0 if quick else 1]
-        ball = Ball((0.1, 0.5, 1.6), 0.7)
-        momentum = states.scaled(states.unit((0.3, -0.2, 0.35)), size)
-        run = trajectory(ball, momentum, states.G, steps, every=max(1, steps // 100), precision=level.rung)
-        if int(run.taken) != steps:
-            return Judged(FAILED, reason=f"{run.taken} of {steps} steps were taken")
-        rounded = angle(ball, momentum) if level.name in COMPENSATED else 1.0
-        drift = BUDGET * (1 + rounded * RESTORED**0.5 / 2)
-        first, moved = integrals(run, 0), []
-        for frame in range(1, len(run.index)):
-            now = integrals(run, frame)
-            moved += [compared(level, [Compared(f"an integral after {run.index[frame]} steps", [b], [a], drift)])
-                      for a, b in zip(first, now, strict=True)]  # fmt: skip
-        return worst(moved)
-
-    return judged
+    steps = LENGTHS[level.name][0 if quick else 1]
+    ball = Ball((0.1, 0.5, 1.6), 0.7)
+    momentum = states.scaled(states.unit((0.3, -0.2, 0.35)), size)
+    run = trajectory(ball, momentum, states.G, steps, every=max(1, steps // 100), precision=level.rung)
+    if int(run.taken) != steps:
+        return Judged(FAILED, reason=f"{run.taken} of {steps} steps were taken")
+    rounded = angle(ball, momentum) if level.name in COMPENSATED else 1.0
+    drift = BUDGET * (1 + rounded * RESTORED**0.5 / 2)
+    first, moved = integrals(run, 0), []
+    for frame in range(1, len(run.index)):
+        now = integrals(run, frame)
+        moved += [compared(level, [Compared(f"an integral after {run.index[frame]} steps", [b], [a], drift)])
+                  for a, b in zip(first, now, strict=True)]  # fmt: skip
+    return worst(moved)
 
 
 def angle(ball: Ball, momentum: Vector) -> float:

@@ -119,10 +119,6 @@ def mirrored(state: State) -> State:
     return replace(state, K=scaled(state.K, shrink), from_fold=-state.from_fold)
 
 
-def of(states: Callable[[Level], Sequence[State]]) -> Callable[[Level, bool], Judged]:
-    """What judges the worst of some states."""
-
-    def judged(level: Level, quick: bool) -> Judged:
-        return worst([judge(level, state) for state in states(level)])
-
-    return judged
+def of(states: Callable[[Level], Sequence[State]], level: Level, quick: bool) -> Judged:
+    """The worst of some states."""
+    return worst([judge(level, state) for state in states(level)])

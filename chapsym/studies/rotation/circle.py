@@ -8,7 +8,7 @@ commutes with the map's symmetries.
 from collections.abc import Sequence
 from fractions import Fraction
 from math import pi
-from typing import Any, Self
+from typing import Any
 
 from flint import acb, arb, ctx, fmpq
 
@@ -78,11 +78,6 @@ class Level:
         self._J: Any = [float(x) for x in J]
         h = float(self.h)
         self._bound = bound(h / 2, 0.0, 0.0, *self._floats)
-
-    def at(self, **changed: Any) -> Self:
-        """The same with another level or height."""
-        given = {"tensor": self.tensor, "D": self.D, "height": self.h, "level": self.l, "kick": self.kick}
-        return type(self)(**{**given, **changed})
 
     def point(self, phase: Any) -> Vector:
         """γ at a phase."""

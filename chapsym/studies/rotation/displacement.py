@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from typing import Any
 
-from flint import arb, ctx
+from flint import arb, ctx, fmpq
 
 from .circle import Level, middle, number
 from .plateau import resonance, solved, symmetric_starts, text
@@ -42,8 +42,8 @@ def starts(level: Level, samples: int) -> list[Any]:
 def spectrum(values: Sequence[Any]) -> list[tuple[Any, Any]]:
     """(c_j, s_j), j = 0, ..., n/2 of Σ c_j cos 2πji/n + s_j sin 2πji/n."""
     n = len(values)
-    cosine = [middle(x) for x in (arb.cos_pi_fmpq(fraction(2 * i, n)) for i in range(n))]
-    sine = [middle(x) for x in (arb.sin_pi_fmpq(fraction(2 * i, n)) for i in range(n))]
+    cosine = [middle(x) for x in (arb.cos_pi_fmpq(fmpq(2 * i, n)) for i in range(n))]
+    sine = [middle(x) for x in (arb.sin_pi_fmpq(fmpq(2 * i, n)) for i in range(n))]
     found = []
     for j in range(n // 2 + 1):
         size = arb(1) / n if j in (0, n // 2) else arb(2) / n
@@ -51,13 +51,6 @@ def spectrum(values: Sequence[Any]) -> list[tuple[Any, Any]]:
         s = sum(x * sine[i * j % n] for i, x in enumerate(values))
         found.append((middle(c * size), middle(s * size)))
     return found
-
-
-def fraction(p: int, q: int) -> Any:
-    """p/q of flint."""
-    from flint import fmpq
-
-    return fmpq(p, q)
 
 
 def displacement(

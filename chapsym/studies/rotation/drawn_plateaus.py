@@ -1,5 +1,6 @@
 """Figures of the plateaus: the staircase, their widths with the law, and the digits that they need."""
 
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
@@ -127,8 +128,6 @@ def _against_q(axis: Any, found: list[dict[str, Any]]) -> None:
 
 
 def _against_D(axis: Any, below: Any, found: list[dict[str, Any]]) -> None:
-    from fractions import Fraction
-
     for q, colour, marker in zip(sorted({x["steps"] for x in found}), COLOURS, "osD^", strict=False):
         rows = sorted((x for x in found if x["steps"] == q), key=lambda x: Fraction(x["D"]))
         D = [float(Fraction(x["D"])) for x in rows]

@@ -1,20 +1,18 @@
 """Numbers and names of the study as its figures and sentences tell them."""
 
+from decimal import Decimal
+from fractions import Fraction
 from typing import Any
 
 
 def log10(text: str) -> float:
     """The decimal logarithm of |x|, which may be below the range of float64; -inf for 0."""
-    from decimal import Decimal
-
     x = abs(Decimal(text))
     return float(x.log10()) if x else float("-inf")
 
 
 def scaled(texts: list[str], power: int) -> list[float]:
     """Decimal numbers in units of 10^power."""
-    from decimal import Decimal
-
     return [float(Decimal(x).scaleb(-power)) for x in texts]
 
 
@@ -26,6 +24,4 @@ def named(case: dict[str, Any], *names: str) -> str:
 
 def decimal(text: str) -> str:
     """ "9/20" as "0.45"."""
-    from fractions import Fraction
-
     return f"{float(Fraction(text)):g}"

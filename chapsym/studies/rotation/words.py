@@ -1,6 +1,7 @@
 """What the study found, in sentences: measured, not proved."""
 
 import math
+from fractions import Fraction
 from typing import Any
 
 from .told import log10, named
@@ -61,8 +62,6 @@ def _above(needed: list[int]) -> int:
 
 
 def _law(found: dict[str, Any]) -> list[str]:
-    from fractions import Fraction
-
     rows = found["small_D"]
     least = min((x["D"] for x in rows), key=Fraction)
     told = ", ".join(f"{x['ratio']:.6f} (q = {x['steps']})" for x in rows if x["D"] == least)

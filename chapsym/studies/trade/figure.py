@@ -1,5 +1,6 @@
 """The figure: for each section, digits against the time of a simulated second; the frontier drawn through."""
 
+import textwrap
 from typing import Any
 
 from matplotlib.lines import Line2D
@@ -64,6 +65,4 @@ def _order(point: Point) -> str:
 
 
 def _wrapped(text: str) -> str:
-    import textwrap
-
     return "\n".join(textwrap.wrap(text.replace("𝒦", "K"), 56))

@@ -214,9 +214,10 @@ class Outcomes:
 
     def as_json(self) -> dict[str, Any]:
         """The table and the hits as plain data."""
-        rows = [{k: v if v == v and abs(v) < 1e300 else None for k, v in _numbers(row).items()} | {
-            k: v for k, v in row.items() if isinstance(v, str)
-        } for row in self.table()]  # fmt: skip
+        rows = [
+            {k: v if isinstance(v, str) or abs(v) < 1e300 else None for k, v in sorted(row.items(), key=_is_text)}
+            for row in self.table()
+        ]
         return {
             "title": self.title,
             "hits": self.hits,
@@ -226,8 +227,8 @@ class Outcomes:
         }
 
 
-def _numbers(row: dict[str, Any]) -> dict[str, float]:
-    return {name: value for name, value in row.items() if not isinstance(value, str)}
+def _is_text(item: tuple[str, Any]) -> bool:
+    return isinstance(item[1], str)
 
 
 def measure(quick: bool, say: Callable[[str], None] = lambda text: None, seed: int = SEED, count: int = 0) -> Outcomes:
