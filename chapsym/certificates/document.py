@@ -5,6 +5,7 @@ import json
 from pathlib import Path
 from typing import Any
 
+from chapsym import checker
 from chapsym.files import write_whole
 
 FORMAT = "chapsym-certificate/1"
@@ -14,6 +15,11 @@ def sealed(kind: str, statement: str, **fields: Any) -> dict[str, Any]:
     """The object of a certificate, with its format, kind, statement and digest."""
     document = {"format": FORMAT, "kind": kind, "statement": statement, **fields}
     return {**document, "digest": digest(document)}
+
+
+def stated(kind: str, **fields: Any) -> dict[str, Any]:
+    """The object of a certificate, with the statement that its numbers make, and sealed."""
+    return sealed(kind, checker.statement({"kind": kind, **fields}), **fields)
 
 
 def digest(document: dict[str, Any]) -> str:

@@ -64,8 +64,6 @@ class Orbit:
             raise BadInput(
                 "a component of the momentum is varied; the radius, the window and the time are not negative"
             )
-        if len(self.J) != 3 or len(self.momentum) != 3 or len(self.gamma) != 3:
-            raise BadInput("J, the momentum and gamma have three components each")
         if tuple(self.signs) not in SYMMETRIES:
             raise BadInput(f"the signs must be one of {', '.join(map(listed, SYMMETRIES))}, not {listed(self.signs)}")
 

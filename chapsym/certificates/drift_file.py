@@ -7,40 +7,25 @@ from typing import Any
 from chapsym.dynamics.levels.start import fraction
 
 from .balls import decade, shortest
-from .document import sealed
-from .drift import NAMES, SYMMETRIES, Enclosures, Orbit, listed
+from .document import stated
+from .drift import NAMES, SYMMETRIES, Enclosures, Orbit
 
 KIND = "energy-drift"
 
 
 def document(orbit: Orbit, found: Enclosures, bits: int, order: int) -> dict[str, Any]:
     """The certificate as it is written; numbers are strings, exact rationals or decimals."""
-    return sealed(
-        KIND, statement(orbit),
+    return stated(
+        KIND,
         ball={"J": [str(x) for x in orbit.J], "D": str(orbit.D)},
         start={"momentum": [shortest(x) for x in orbit.momentum], "gamma": [str(x) for x in orbit.gamma]},
         varied=NAMES[orbit.varied], radius=shortest(orbit.radius),
-        symmetry=list(orbit.signs), periods=periods(orbit), time=shortest(orbit.time), window=shortest(orbit.window),
+        symmetry=list(orbit.signs), periods=1 if tuple(orbit.signs) == SYMMETRIES[0] else 2,
+        time=shortest(orbit.time), window=shortest(orbit.window),
         section=NAMES[orbit.section], along=NAMES[orbit.along], bits=bits, order=order,
         misses=[_outward(x) for x in found.misses],
         energy=_outward(found.energy), density=_outward(found.density),
     )  # fmt: skip
-
-
-def periods(orbit: Orbit) -> int:
-    """After how many T the orbit is closed."""
-    return 1 if tuple(orbit.signs) == SYMMETRIES[0] else 2
-
-
-def statement(orbit: Orbit) -> str:
-    """What is proved, with the numbers of the orbit."""
-    J, momentum = listed(orbit.J), ", ".join(map(shortest, orbit.momentum))
-    return (
-        f"The continuous ball with J = {J}, D = {orbit.D} has a closed orbit through gamma = {listed(orbit.gamma)}, "
-        f"K = ({momentum}), K{orbit.varied + 1} up to {shortest(orbit.radius)}, of the period "
-        f"{'T' if periods(orbit) == 1 else '2T'}; "
-        "the integrals over [0, T] of X3(H) and of the divergence of X3 are not 0."
-    )
 
 
 def _outward(x: Any) -> list[str]:

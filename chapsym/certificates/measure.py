@@ -16,15 +16,16 @@ from typing import Any
 from flint import arb, ctx
 
 from chapsym import checker
+from chapsym.checker.document import MOST_DIGITS, MOST_STEPS
 from chapsym.dynamics.errors import BadInput
 from chapsym.dynamics.levels.balls import TooWide
 from chapsym.dynamics.levels.start import fraction
 
 from . import resonance
 from .balls import NotProved, ball, decade, decimals, rounded, shortest
-from .document import sealed
+from .document import stated
 from .reduced import Reduced, Top, Vector, angle, cross
-from .resonance import MOST_DIGITS, MOST_STEPS, Resonance, spare_bits
+from .resonance import Resonance, spare_bits
 
 KIND = "no-invariant-measure"
 #: Significant digits that the smaller displacement has at least, and how many more are tried where a number happens to
@@ -211,20 +212,11 @@ def direction(turned: list[tuple[Any, Any]], half_turns: int) -> int:
 def _document(top: Top, at: Resonance, radius: Fraction, orbits: list[Orbit], digits: int) -> dict[str, Any]:
     if orbits[0].sign() * orbits[1].sign() >= 0:
         raise NotProved("the signs of the displacements are not proved")
-    J, axes = [str(x) for x in top.J], [i + 1 for i in at.axes]
-    level, within = shortest(at.level), shortest(radius)
-    statement = (
-        f"For every ball with J = ({', '.join(J)}), D = {top.D} and momentum {top.height} γ: on the circle "
-        f"⟨γ, Λ⁻¹γ⟩ = {level}, γ_{axes[2]} > 0, every number within {within}, some points are back after "
-        f"{at.steps} steps and {resonance.turns(at.half_turns)}, others are not, and so the map leaves no finite "
-        f"measure invariant that is positive on every arc."
-    )
-    return sealed(
+    return stated(
         KIND,
-        statement,
-        ball={"J": J, "D": str(top.D), "height": str(top.height), "level": level},
-        radius=within,
-        axes=axes,
+        ball={"J": [str(x) for x in top.J], "D": str(top.D), "height": str(top.height), "level": shortest(at.level)},
+        radius=shortest(radius),
+        axes=[i + 1 for i in at.axes],
         steps=at.steps,
         half_turns=at.half_turns,
         digits=digits,

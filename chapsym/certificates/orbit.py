@@ -16,22 +16,22 @@ from typing import Any
 from flint import arb, ctx
 
 from chapsym import checker
+from chapsym.checker.document import MOST_DIGITS, MOST_STEPS
 from chapsym.dynamics.errors import BadInput
 from chapsym.dynamics.levels.balls import upper
 from chapsym.dynamics.levels.start import fraction
 
 from . import families
 from .balls import NotProved, rounded, shortest, simplest
-from .document import sealed
+from .document import stated
 from .families import Member
 from .passage import Level, Map, Passage, Vector, column, columns, entries, identity
 
 KIND = "periodic-orbit"
 #: Bits with which families are followed; ⟨𝒦, γ⟩ must vary by more than 2^-RESOLVED along one.
 SEARCH_BITS, RESOLVED = 256, 160
-#: Decimals beyond those of det(1 - DG^q), at least; by default, with one a step, by which a checker's boxes may grow;
-#: the most decimals and steps that the checker takes.
-SIGNIFICANT, SPARE_DIGITS, MOST_DIGITS, MOST_STEPS = 3, 20, 2_000, 1_000
+#: Decimals beyond those of det(1 - DG^q), at least; by default, with one a step, by which a checker's boxes may grow.
+SIGNIFICANT, SPARE_DIGITS = 3, 20
 
 
 def periodic_orbit(
@@ -171,21 +171,11 @@ def _document(
     W = passage.derivative()
     if attracting and not attracts(W):
         raise NotProved("an eigenvalue may be outside of the unit circle")
-    J, D, size, height = [str(x) for x in level.J], str(level.D), str(level.size), shortest(level.height)
-    statement = (
-        f"For the ball with J = ({', '.join(J)}), D = {D}: with ⟨𝒦, 𝒦⟩ = {size}, ⟨𝒦, γ⟩ = {height} a point is back "
-        f"after {steps} steps, and the derivative of these steps on the level of the integrals there has a determinant "
-        f"other than 1 and no eigenvalue 1."
-    )
-    more = {}
-    if attracting:
-        statement += (
-            " All its eigenvalues are inside the unit circle: the orbit attracts what starts near it on the level."
-        )
-        more["trace"] = rounded(W[0, 0] + W[1, 1] + W[2, 2], digits)
+    more = {"trace": rounded(W[0, 0] + W[1, 1] + W[2, 2], digits)} if attracting else {}
     texts = [rounded(x, digits) for x in start]
-    return sealed(
-        KIND, statement, ball={"J": J, "D": D}, integrals={"momentum.momentum": size, "momentum.gamma": height},
+    return stated(
+        KIND, ball={"J": [str(x) for x in level.J], "D": str(level.D)},
+        integrals={"momentum.momentum": str(level.size), "momentum.gamma": shortest(level.height)},
         steps=steps, digits=digits, start={"momentum": texts[:3], "gamma": texts[3:]},
         orbit=[{"u": [rounded(x, digits) for x in u]} for u in passage.gibbs],
         determinant=rounded(det, digits), unit_eigenvalue=rounded(unit, digits), **more,

@@ -7,6 +7,7 @@ from fractions import Fraction
 
 from flint import ctx
 
+from chapsym.checker.document import MOST_DIGITS
 from chapsym.dynamics.errors import BadInput
 
 from . import plateau
@@ -17,8 +18,6 @@ from .reduced import Axes, Reduced, Top
 STEP_BITS, SPARE_BITS = 4, 64
 #: A plateau is resolved when it is 2^RESOLVED_BITS units in the last place wide.
 RESOLVED_BITS = 40
-#: The most that the checker takes.
-MOST_DIGITS, MOST_STEPS = 2000, 1000
 
 
 @dataclass(frozen=True)

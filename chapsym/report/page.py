@@ -5,6 +5,7 @@ A section that cannot be rendered shows its own error in its place, and the rest
 
 import re
 from collections.abc import Callable, Mapping, Sequence
+from functools import cached_property
 from itertools import groupby
 from pathlib import Path
 from typing import Any
@@ -66,6 +67,16 @@ class _Page:
             "plain": notation.plain,
         }
 
+    @cached_property
+    def uses(self) -> dict[str, list[str]]:
+        """What each claim uses."""
+        return reading.uses(self.records)
+
+    @cached_property
+    def users(self) -> dict[str, list[str]]:
+        """What uses each claim."""
+        return reading.users(self.records)
+
     def render(self, template: str, **context: Any) -> Markup:
         """A template of the room's folder, filled in."""
         return Markup(self._templates.get_template(template).render(**context))
@@ -112,20 +123,19 @@ def _titles(records: Sequence[Record]) -> dict[str, str]:
 
 def claims(page: _Page) -> Markup:
     """Every claim with all its evidence, by section of the paper."""
-    uses, users = reading.uses(page.records), reading.users(page.records)
-
-    def one(record: Record) -> Markup:
-        return page.section(
-            f"claim-{record['id']}",
-            f"Claim {record['id']}",
-            lambda page: page.render(
-                "claim.html", record=record, evidence=record["evidence"], uses=uses[record["id"]],
-                users=users[record["id"]],
-            ),
-        )  # fmt: skip
-
-    found = [(section, [one(record) for record in section.records]) for section in reading.sections(page.records)]
+    found = [(section, [claim(page, one) for one in section.records]) for section in reading.sections(page.records)]
     return page.render("claims.html", sections=found, counts=reading.counts(page.records), total=len(page.records))
+
+
+def claim(page: _Page, record: Record) -> Markup:
+    """A claim with all its evidence; links only to what is on the page."""
+    id = record["id"]
+    return page.section(
+        f"claim-{id}", f"Claim {id}",
+        lambda page: page.render(
+            "claim.html", record=record, evidence=record["evidence"], uses=page.uses[id], users=page.users[id]
+        ),
+    )  # fmt: skip
 
 
 def symbol_table(page: _Page) -> Markup:

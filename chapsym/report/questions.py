@@ -8,7 +8,6 @@ from typing import Any
 from markupsafe import Markup
 
 from . import page
-from . import records as reading
 from .page import FOLDER
 from .records import Record
 
@@ -59,31 +58,17 @@ def html(
         certificates=list(map(_shown, certificates)),
         evidence=[{"title": e.title, "name": e.name, "sentences": e.sentences, "figures": list(map(_figure, e.figures))}
                   for e in evidence],
-        lemmas=[_claim(found, record) for record in records if record["id"] not in QUESTIONS], versions=versions,
+        lemmas=[page.claim(found, record) for record in records if record["id"] not in QUESTIONS], versions=versions,
     )  # fmt: skip
 
 
 def _questions(found: Any) -> list[dict[str, Any]]:
     by_id = {record["id"]: record for record in found.records}
     return [
-        {"id": id, "question": question, "record": by_id[id], "shown": _claim(found, by_id[id])}
+        {"id": id, "question": question, "record": by_id[id], "shown": page.claim(found, by_id[id])}
         for id, question in QUESTIONS.items()
         if id in by_id
     ]
-
-
-def _claim(found: Any, record: Record) -> Markup:
-    """A claim with all its evidence; links only to what is on the page."""
-    here = {one["id"] for one in found.records}
-    uses, users = reading.uses(found.records), reading.users(found.records)
-    return found.section(
-        f"claim-{record['id']}", record["id"],
-        lambda whole: whole.render(
-            "claim.html", record=record, evidence=record["evidence"],
-            uses=[id for id in uses[record["id"]] if id in here],
-            users=[id for id in users[record["id"]] if id in here],
-        ),
-    )  # fmt: skip
 
 
 def _shown(checked: Checked) -> dict[str, Any]:
