@@ -5,19 +5,18 @@ import tempfile
 import warnings
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+from xarray import Dataset
 
 from chapsym.scene import Scene, SceneError, checked, load
+from chapsym.scene.result import formats
+from chapsym.scene.running.source import plan_of
+from chapsym.scene.running.sweep import run_in_memory
 
-if TYPE_CHECKING:
-    from xarray import Dataset
 
-
-def run(scene: "str | Path | Mapping[str, Any] | Scene", progress: Callable[[Any], None] | None = None) -> "Dataset":
+def run(scene: "str | Path | Mapping[str, Any] | Scene", progress: Callable[[Any], None] | None = None) -> Dataset:
     """Runs a scene, a file or its tables, in memory on all cores; raises SceneError, and BadInput as the plan does."""
-    from chapsym.scene.running.source import plan_of
-    from chapsym.scene.running.sweep import run_in_memory
-
     if isinstance(scene, Mapping):
         scene = checked(dict(scene))
     elif not isinstance(scene, Scene):
@@ -26,10 +25,8 @@ def run(scene: "str | Path | Mapping[str, Any] | Scene", progress: Callable[[Any
     return run_in_memory(plan) if progress is None else run_in_memory(plan, progress)
 
 
-def save(dataset: "Dataset", path: Path) -> None:
+def save(dataset: Dataset, path: Path) -> None:
     """Writes a result whole, as `formats.save`, or to a new .zarr; raises SceneError if the disk refuses."""
-    from chapsym.scene.result import formats
-
     if path.suffix != ".zarr":
         formats.save(dataset, path)
         return

@@ -1,5 +1,8 @@
 """A result in Python and in notebooks: a Dataset that shows itself as a short table and its most telling figure."""
 
+import sys
+import tempfile
+import webbrowser
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from html import escape
@@ -9,9 +12,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from chapsym.dynamics import kernels
+from chapsym.scene.result import formats
 from chapsym.scene.result.dataset import discretised
 
-from . import figures
+from . import figures, opening
 from .drawing import reading
 
 if TYPE_CHECKING:
@@ -50,9 +54,6 @@ class Result:
             for name in wanted:
                 display(figures.draw(one, name))
             return
-        import tempfile
-        import webbrowser
-
         folder = Path(tempfile.mkdtemp(prefix="chapsym-"))
         written = figures.save_all(one, folder, names=wanted)
         print(f"{len(written)} figures in {folder}")
@@ -60,9 +61,7 @@ class Result:
 
     def save(self, path: str | Path) -> None:
         """Writes the result to .zarr, .nc, .csv, .parquet or .npz, whole; raises SceneError if the disk refuses."""
-        from .opening import save
-
-        save(self.dataset, Path(path))
+        opening.save(self.dataset, Path(path))
 
     def page(self, path: str | Path, ball: str | int | None = None) -> None:
         """Writes the page on which the ball rolls, one HTML file that needs no network; it needs the attitude."""
@@ -101,9 +100,7 @@ def run_scene(scene: "str | Path | Mapping[str, Any]", progress: Callable[[Any],
     Raises SceneError for a scene that cannot be run as it is written.  A ball that meets a fold stops there: `status`
     and `taken` in the result say so.
     """
-    from .opening import run
-
-    return Result(run(scene, progress))
+    return Result(opening.run(scene, progress))
 
 
 def open_result(path: str | Path) -> Result:
@@ -111,15 +108,11 @@ def open_result(path: str | Path) -> Result:
 
     Raises SceneError for a file that is not there, or is no result.
     """
-    from chapsym.scene.result import formats
-
     return Result(formats.load(Path(path)))
 
 
 def in_notebook() -> bool:
     """Whether this runs in a notebook's kernel."""
-    import sys
-
     if "IPython" not in sys.modules:
         return False
     shell = sys.modules["IPython"].get_ipython()

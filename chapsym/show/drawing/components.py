@@ -1,23 +1,18 @@
 """Vectors over time, a panel for each component or all in one: lines for a few balls, bands for many."""
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+from xarray import Dataset
 
 from chapsym.dynamics.ball import Floats
 
 from . import reading, series
 from .style import COLOURS, FEW, Picture, at_least, in_power, legend, new, power
 
-if TYPE_CHECKING:
-    from xarray import Dataset
-
-
 #: A change below this part of the largest component is drawn flat.
 FLAT = 1e-3
 
 
-def draw(dataset: "Dataset", array: Floats, names: list[str], symbol: str, units: str) -> Picture:
+def draw(dataset: Dataset, array: Floats, names: list[str], symbol: str, units: str) -> Picture:
     """array (balls, frames, components): one panel with all components of one ball, else a panel for each."""
     t, label = reading.clock(dataset)
     factor, text = power(float(np.nanmax(np.abs(array), initial=0.0)))

@@ -1,17 +1,14 @@
 """Where a ball may be on the spheres of γ and 𝒦/|𝒦|: its invariant curve, or the region that the integrals leave it."""
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
+from xarray import Dataset
 
 from chapsym.dynamics import BadInput, Ball, Curve, kernels
 from chapsym.dynamics.ball import Floats
 
 from . import reading
-
-if TYPE_CHECKING:
-    from xarray import Dataset
 
 #: 𝒦 is vertical up to this, relatively; and how far an orbit may be from a curve that is drawn for it.
 VERTICAL = 1e-9
@@ -43,7 +40,7 @@ class Body:
         return kernels.rotate(np.broadcast_to(self.axes, (*vectors.shape[:-1], 4)), vectors)
 
 
-def bodies_of(dataset: "Dataset") -> list[Body]:
+def bodies_of(dataset: Dataset) -> list[Body]:
     """The body of each ball of a result; none where the result does not know J and D."""
     J, D = reading.per_ball(dataset, "mass_tensor"), reading.per_ball(dataset, "D")
     if J is None or D is None:

@@ -1,13 +1,9 @@
 """Values over time: lines for a few balls, bands of percentiles for many; nothing is lost by thinning out."""
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+from matplotlib.axes import Axes
 
 from chapsym.dynamics.ball import Floats
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 #: A line has at most so many vertices; of more frames the range in each of as many intervals is drawn.
 MOST = 1500
@@ -15,7 +11,7 @@ MOST = 1500
 INSTANTS = 600
 
 
-def line(axis: "Axes", t: Floats, y: Floats, colour: str, label: str | None = None, **options: object) -> None:
+def line(axis: Axes, t: Floats, y: Floats, colour: str, label: str | None = None, **options: object) -> None:
     """One series, t and y (frames,): a line, or where that were too dense the range of y in each interval of t."""
     if len(t) <= 2 * MOST:
         alone = {"marker": "o", "markersize": 5} if np.count_nonzero(np.isfinite(y)) == 1 else {}
@@ -43,7 +39,7 @@ def percentiles(y: Floats, wanted: tuple[float, ...]) -> Floats:
     return found
 
 
-def fan(axis: "Axes", t: Floats, y: Floats, colour: str, label: str | None = None) -> None:
+def fan(axis: Axes, t: Floats, y: Floats, colour: str, label: str | None = None) -> None:
     """Many balls, y (balls, frames): the median, and bands that hold 50 and 90 % and all of them."""
     some = instants(len(t))
     low, five, quarter, half, three, most, high = percentiles(y[:, some], (0, 5, 25, 50, 75, 95, 100))

@@ -1,16 +1,15 @@
 """A unit sphere on paper: seen from far away, what is behind it drawn fainter."""
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Self
+from typing import Self
 
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.patheffects import withStroke
 
 from chapsym.dynamics.ball import Floats
 
 from .style import VERTICES
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 #: How much fainter what is behind the sphere is.
 BEHIND = 0.28
@@ -60,10 +59,8 @@ class View:
         return points @ self.right, points @ self.up, points @ self.towards
 
 
-def draw_globe(axis: "Axes", view: View, names: tuple[str, str, str]) -> None:
+def draw_globe(axis: Axes, view: View, names: tuple[str, str, str]) -> None:
     """The outline, circles every 30°, and the ends of the three axes."""
-    from matplotlib.patheffects import withStroke
-
     axis.set_aspect("equal")
     axis.set_axis_off()
     axis.set(xlim=(-1.22, 1.22), ylim=(-1.22, 1.22))
@@ -99,7 +96,7 @@ def _graticule(turn: Floats) -> list[Floats]:
 
 
 def _halves(
-    axis: "Axes", view: View, points: Floats, colour: str, width: float, *, zorder: float, **options: object
+    axis: Axes, view: View, points: Floats, colour: str, width: float, *, zorder: float, **options: object
 ) -> None:
     """A curve, (m, 3): in front of the sphere, and fainter behind it."""
     x, y, depth = view.project(points)
@@ -113,13 +110,13 @@ def _halves(
             )  # fmt: skip
 
 
-def draw_curve(axis: "Axes", view: View, points: Floats, label: str) -> None:
+def draw_curve(axis: Axes, view: View, points: Floats, label: str) -> None:
     """A curve on which an orbit runs, (m, 3): broad, so that it is seen below the orbit."""
     _halves(axis, view, points, CURVE, 4.5, zorder=2)
     axis.plot([], [], color=CURVE, linewidth=4.5, label=label)
 
 
-def draw_orbit(axis: "Axes", view: View, points: Floats, colour: str, *, most: int = VERTICES) -> None:
+def draw_orbit(axis: Axes, view: View, points: Floats, colour: str, *, most: int = VERTICES) -> None:
     """An orbit, (frames, 3): a line where neighbours are near, else points; its start a ring, its end a square."""
     chosen = points if len(points) <= 20 * most else points[np.linspace(0, len(points) - 1, 20 * most).astype(int)]
     dense = len(chosen) > most

@@ -6,17 +6,17 @@ import textwrap
 import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from typing import IO, TYPE_CHECKING, Any
+from typing import IO, Any
 
 import numpy as np
 from cycler import cycler
 from matplotlib import style
+from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 
 from .reading import literal
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 #: Okabe and Ito's colours.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#F0E442")
@@ -53,7 +53,7 @@ def styled() -> Iterator[None]:
         yield
 
 
-def write(figure: "Figure", stream: IO[bytes], form: str) -> None:
+def write(figure: Figure, stream: IO[bytes], form: str) -> None:
     """The bytes of a figure, "svg", "png" or "pdf": the same for the same data."""
     with styled(), warnings.catch_warnings():
         # A name in a script that the font has not: drawn as boxes, of which matplotlib would tell five times.
@@ -83,7 +83,7 @@ def empty(height: float, width: float = WIDTH) -> Picture:
 
 def new(
     title: str, rows: int = 1, columns: int = 1, height: float = 3.4, width: float = WIDTH, **options: Any
-) -> "tuple[Picture, list[Axes]]":
+) -> tuple[Picture, list[Axes]]:
     """An empty figure, `height` inches high for each row, titled, with its axes."""
     figure = empty(height * rows + (0.35 if title else 0.0), width)
     axes = figure.subplots(rows, columns, squeeze=False, **options)
@@ -91,14 +91,14 @@ def new(
     return figure, list(axes.flat)
 
 
-def entitle(figure: "Figure", title: str) -> None:
+def entitle(figure: Figure, title: str) -> None:
     """The title of a scene above a figure: as it is written, in two lines at most."""
     if title:
         figure.suptitle(_wrapped(title), parse_math=False)
     figure.get_layout_engine().set(w_pad=0.06, h_pad=0.07)  # type: ignore[union-attr, call-arg]
 
 
-def legend(figure: "Figure", axes: "Sequence[Axes]") -> None:
+def legend(figure: Figure, axes: Sequence[Axes]) -> None:
     """One legend below the figure, each name once, in as many columns as fit."""
     found = {label: handle for axis in axes for handle, label in zip(*axis.get_legend_handles_labels(), strict=True)}
     if not found:
@@ -129,7 +129,7 @@ def in_power(name: str, units: str, factor: str) -> str:
     return f"{name}, {unit}" if unit else name
 
 
-def at_least(axis: "Axes", span: float) -> None:
+def at_least(axis: Axes, span: float) -> None:
     """Widens the range of y to `span`, about its middle: what is smaller than that is flat."""
     low, high = axis.get_ylim()
     if high - low < span:
@@ -137,11 +137,8 @@ def at_least(axis: "Axes", span: float) -> None:
         axis.set_ylim(middle - span / 2, middle + span / 2)
 
 
-def scale(axis: "Axes", data: np.ndarray, label: str) -> Any:
+def scale(axis: Axes, data: np.ndarray, label: str) -> Any:
     """A colour bar for values of the balls; returns what turns a value into its colour."""
-    from matplotlib.cm import ScalarMappable
-    from matplotlib.colors import Normalize
-
     finite = data[np.isfinite(data)]
     low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)
     mapped = ScalarMappable(Normalize(low, high if high > low else low + 1.0), MAP)

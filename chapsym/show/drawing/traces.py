@@ -1,20 +1,18 @@
 """Paths on the plane: a line for each ball, with its ends and the way it went."""
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
+from xarray import Dataset
 
 from chapsym.dynamics.ball import Floats
 
 from . import reading
 from .style import COLOURS, FEW, VERTICES, scale
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from xarray import Dataset
 
-
-def lines(axis: "Axes", dataset: "Dataset", trace: Floats, legend: bool = True) -> None:
+def lines(axis: Axes, dataset: Dataset, trace: Floats, legend: bool = True) -> None:
     """A line for each ball, with its start, its end, and arrows along it."""
     last, names, stopped = reading.last_frames(dataset), reading.labels(dataset), reading.stopped(dataset)
     few = len(trace) <= FEW
@@ -37,7 +35,7 @@ def lines(axis: "Axes", dataset: "Dataset", trace: Floats, legend: bool = True) 
         axis.plot([], [], "X", color="0.3", markersize=7 if few else 4, label="stopped early")
 
 
-def _by_parameter(axis: "Axes", dataset: "Dataset", count: int) -> list[Any]:
+def _by_parameter(axis: Axes, dataset: Dataset, count: int) -> list[Any]:
     """Colours by the first parameter of the sweep, or by the number of the ball."""
     varied = reading.parameters(dataset)
     if varied:
@@ -47,7 +45,7 @@ def _by_parameter(axis: "Axes", dataset: "Dataset", count: int) -> list[Any]:
     return [tuple(c) for c in scale(axis, number, "ball")(number)]
 
 
-def _arrows(axis: "Axes", path: Floats, colour: str, count: int) -> None:
+def _arrows(axis: Axes, path: Floats, colour: str, count: int) -> None:
     """Heads of arrows at equal parts of the length of a path."""
     along = np.concatenate([[0.0], np.cumsum(np.sqrt((np.diff(path, axis=0) ** 2).sum(axis=-1)))])
     if along[-1] == 0.0:

@@ -1,8 +1,7 @@
 """The attitude: the paths of the body axes on the sphere of space, and the quaternion over time."""
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+from xarray import Dataset
 
 from chapsym.dynamics import kernels
 from chapsym.dynamics.ball import Floats
@@ -11,22 +10,18 @@ from ..drawing import components, reading, series
 from ..drawing.sphere import View, draw_globe, draw_orbit
 from ..drawing.style import COLOURS, FEW, VERTICES, Picture, empty, entitle, legend
 
-if TYPE_CHECKING:
-    from xarray import Dataset
-
-
 #: From where the sphere of space is seen.
 EYE = np.array([0.8, -0.5, 0.5])
 
 
-def missing(dataset: "Dataset") -> str | None:
+def missing(dataset: Dataset) -> str | None:
     """Why this figure cannot be drawn, in a sentence; None if it can."""
     if "attitude" not in dataset:
         return 'no attitude: add "attitude" to run.outputs'
     return "the attitude is drawn in three dimensions only" if "quaternion" not in dataset["attitude"].dims else None
 
 
-def draw(dataset: "Dataset") -> Picture:
+def draw(dataset: Dataset) -> Picture:
     """One ball: its axes on the sphere of space and its quaternion; several: their quaternions."""
     quaternions = continued(reading.values(dataset, "attitude"))
     names = [f"$q_{i}$" for i in range(4)]

@@ -1,17 +1,13 @@
 """How far what should stay has moved, relatively: in units in which roundoff looks like roundoff."""
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+from matplotlib.axes import Axes
+from xarray import Dataset
 
 from chapsym.dynamics.ball import Floats
 
 from ..drawing import reading, series
 from ..drawing.style import COLOURS, FEW, power
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from xarray import Dataset
 
 #: The least range of an axis, in ulps of the value: a wobble of the last digit looks like one.
 ULPS = 20
@@ -24,7 +20,7 @@ def relative(quantity: Floats, size: Floats) -> Floats:
     return np.asarray((quantity - quantity[:, :1]) / divisor)
 
 
-def plot(axis: "Axes", dataset: "Dataset", changes: dict[str, Floats]) -> None:
+def plot(axis: Axes, dataset: Dataset, changes: dict[str, Floats]) -> None:
     """Each change (balls, frames): lines for one ball, or a few if it is one change; bands for more.
 
     The axis spans 20 ulps at least.

@@ -1,19 +1,15 @@
 """The trace of the contact point on the plane: of one ball, of several in colours, of thousands as a density."""
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.colors import LogNorm
+from xarray import Dataset
 
 from chapsym.dynamics.ball import Floats
 
 from ..drawing import reading, traces
 from ..drawing.style import COLOURS, FEW, VERTICES, WIDTH, Picture, in_power, legend, new, power
 from .four import draw_pairs
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from xarray import Dataset
-
 
 ABSENT = 'no contact: add "contact" to run.outputs'
 #: More balls than this are a density; fewer have a line each.
@@ -28,7 +24,7 @@ SHARES = (50, 90)
 STRAIGHT = 0.08
 
 
-def draw(dataset: "Dataset") -> Picture:
+def draw(dataset: Dataset) -> Picture:
     """The traces, in metres, with equal axes; in n dimensions a panel for each pair of coordinates."""
     trace = reading.values(dataset, "contact")
     if trace.shape[-1] > 2:
@@ -72,7 +68,7 @@ def sideways(trace: Floats, last: np.ndarray) -> list[tuple[Floats, Floats]]:
     return found if any(np.abs(off).max() > 1e-12 * np.abs(along).max() for along, off in found) else []
 
 
-def _aside(panel: "Axes", aside: list[tuple[Floats, Floats]], label: str, factor: float) -> None:
+def _aside(panel: Axes, aside: list[tuple[Floats, Floats]], label: str, factor: float) -> None:
     """The same traces with the direction across the way enlarged."""
     size = max(float(np.abs(off).max()) for _, off in aside)
     unit, text = power(factor * size)
@@ -89,10 +85,8 @@ def panel_height(trace: Floats) -> float:
     return float(np.clip(inside * up / across if across > 0.0 else HIGH, LOW, HIGH)) + 0.9
 
 
-def _density(axis: "Axes", dataset: "Dataset", trace: Floats) -> None:
+def _density(axis: Axes, dataset: Dataset, trace: Floats) -> None:
     """How often each place was visited, the mean path, and ellipses that hold 50 and 90 % of the balls."""
-    from matplotlib.colors import LogNorm
-
     count, edges = _visits(trace)
     shown = axis.imshow(
         np.ma.masked_equal(count.T, 0), extent=(*edges[0], *edges[1]), origin="lower", cmap="viridis_r",

@@ -1,21 +1,16 @@
 """The kinetic energy over time, as its relative change."""
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+from xarray import Dataset
 
 from ..drawing import reading
 from ..drawing.style import Picture, legend, new
 from . import change
 
-if TYPE_CHECKING:
-    from xarray import Dataset
-
-
 ABSENT = 'no energy: add "energy" to run.outputs (and give run.time_step)'
 
 
-def draw(dataset: "Dataset") -> Picture:
+def draw(dataset: Dataset) -> Picture:
     """(E - E₀)/E₀; the map keeps the energy up to an oscillation, and for D = 0 to roundoff."""
     energy = reading.values(dataset, "energy")
     start = energy[:, 0]

@@ -1,9 +1,10 @@
 """Four dimensions on paper: so(4) = so(3) + so(3) has two spheres, S³ and the hyperplane are seen in pairs of axes."""
 
 from itertools import combinations
-from typing import TYPE_CHECKING
 
 import numpy as np
+from matplotlib.axes import Axes
+from xarray import Dataset
 
 from chapsym.dynamics.ball import Floats
 
@@ -11,10 +12,6 @@ from ..drawing import reading, traces
 from ..drawing.invariant import unit
 from ..drawing.sphere import View, draw_globe, draw_orbit
 from ..drawing.style import COLOURS, FEW, VERTICES, Picture, empty, entitle, in_power, new, power
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from xarray import Dataset
 
 
 def halves(momentum: Floats) -> tuple[Floats, Floats]:
@@ -27,7 +24,7 @@ def halves(momentum: Floats) -> tuple[Floats, Floats]:
     return first + last, first - last
 
 
-def draw(dataset: "Dataset") -> Picture:
+def draw(dataset: Dataset) -> Picture:
     """𝒦₊/|𝒦₊| and 𝒦₋/|𝒦₋| on their spheres, and γ in two planes."""
     shown: list[tuple[str, Floats]] = []
     if "momentum" in dataset:
@@ -56,13 +53,13 @@ def draw(dataset: "Dataset") -> Picture:
     return figure
 
 
-def _some(dataset: "Dataset", points: Floats) -> list[Floats]:
+def _some(dataset: Dataset, points: Floats) -> list[Floats]:
     """The first balls, each up to its last frame."""
     last = reading.last_frames(dataset)
     return [one[: last[i] + 1] for i, one in enumerate(points[:FEW])]
 
 
-def _plane(axis: "Axes", dataset: "Dataset", gamma: Floats, a: int, b: int) -> None:
+def _plane(axis: Axes, dataset: Dataset, gamma: Floats, a: int, b: int) -> None:
     turn = np.linspace(0.0, 2.0 * np.pi, 181)
     axis.plot(np.cos(turn), np.sin(turn), color="0.6", linewidth=0.9)
     for i, orbit in enumerate(_some(dataset, gamma)):
@@ -75,7 +72,7 @@ def _plane(axis: "Axes", dataset: "Dataset", gamma: Floats, a: int, b: int) -> N
     axis.set(xlim=(-1.1, 1.1), ylim=(-1.1, 1.1), xlabel=rf"$\gamma_{a + 1}$", ylabel=rf"$\gamma_{b + 1}$")
 
 
-def draw_pairs(dataset: "Dataset", trace: Floats) -> Picture:
+def draw_pairs(dataset: Dataset, trace: Floats) -> Picture:
     """The contact point in a hyperplane, (balls, frames, n - 1): a panel for each pair of the first three axes."""
     factor, text = power(float(np.nanmax(np.abs(trace), initial=0.0)))
     names = ["$x_1$", "$x_2$", "$x_3$"]

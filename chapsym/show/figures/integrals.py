@@ -1,19 +1,15 @@
 """The momentum integrals over time, as their relative changes."""
 
 import re
-from typing import TYPE_CHECKING
 
 import numpy as np
+from xarray import Dataset
 
 from chapsym.dynamics.ball import Floats
 
 from ..drawing import reading
 from ..drawing.style import Picture, legend, new
 from . import change
-
-if TYPE_CHECKING:
-    from xarray import Dataset
-
 
 ABSENT = 'no integrals: add "integrals" to run.outputs'
 SYMBOLS = {
@@ -23,7 +19,7 @@ SYMBOLS = {
 }
 
 
-def draw(dataset: "Dataset") -> Picture:
+def draw(dataset: Dataset) -> Picture:
     """The map keeps the momentum integrals, so all that is seen is roundoff."""
     found = reading.values(dataset, "integrals")
     names = [str(name) for name in dataset["integral"].values] if "integral" in dataset.coords else []

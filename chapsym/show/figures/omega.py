@@ -1,22 +1,17 @@
 """The angular velocity over time."""
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+from xarray import Dataset
 
 from chapsym.dynamics.ball import Floats
 
 from ..drawing import components, reading
 from ..drawing.style import Picture
 
-if TYPE_CHECKING:
-    from xarray import Dataset
-
-
 ABSENT = 'no ω: add "omega" to run.outputs (and give run.time_step)'
 
 
-def draw(dataset: "Dataset") -> Picture:
+def draw(dataset: Dataset) -> Picture:
     """The components of ω; in n dimensions those of the skew matrix above the diagonal."""
     array, names = reading.values(dataset, "omega"), [r"$\omega_1$", r"$\omega_2$", r"$\omega_3$"]
     if array.ndim == 4:

@@ -1,9 +1,9 @@
 """The elliptic phase u of a ball with vertical momentum, and its increments."""
 
 from contextlib import suppress
-from typing import TYPE_CHECKING
 
 import numpy as np
+from xarray import Dataset
 
 from chapsym.dynamics import BadInput, Ball, Curve
 from chapsym.dynamics.ball import Floats
@@ -13,18 +13,15 @@ from ..drawing.invariant import bodies_of
 from ..drawing.style import COLOURS, FEW, Picture, at_least, in_power, legend, new, power
 from . import change
 
-if TYPE_CHECKING:
-    from xarray import Dataset
 
-
-def missing(dataset: "Dataset") -> str | None:
+def missing(dataset: Dataset) -> str | None:
     """Why this figure cannot be drawn, in a sentence; None if it can."""
     if "phase" not in dataset:
         return 'no phase: add "phase" to run.outputs (for vertical momentum)'
     return "an increment needs two frames" if dataset.sizes["frame"] < 2 else None
 
 
-def draw(dataset: "Dataset") -> Picture:
+def draw(dataset: Dataset) -> Picture:
     """u(t) above, without its jumps by a period; below its increment a step, constant for D = 0, else a function of u.
 
     Where the steps between two frames do not tell how often u went round, it is drawn with its jumps, and below is what
@@ -52,7 +49,7 @@ def draw(dataset: "Dataset") -> Picture:
     return figure
 
 
-def periods(dataset: "Dataset") -> Floats | None:
+def periods(dataset: Dataset) -> Floats | None:
     """4K(k) of the curve of each ball, (balls,), from J, D and γ at the start; None if the result does not tell."""
     bodies = bodies_of(dataset)
     if not bodies or "gamma" not in dataset:

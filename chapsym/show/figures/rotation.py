@@ -1,24 +1,20 @@
 """The rotation number of the balls of a sweep against what was varied."""
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+from xarray import Dataset
 
 from ..drawing import reading
 from ..drawing.style import COLOURS, VERTICES, Picture, in_power, new, power, scale
 
-if TYPE_CHECKING:
-    from xarray import Dataset
 
-
-def missing(dataset: "Dataset") -> str | None:
+def missing(dataset: Dataset) -> str | None:
     """Why this figure cannot be drawn, in a sentence; None if it can."""
     if "rotation_number" not in dataset:
         return 'no rotation number: add "rotation_number" to run.outputs'
     return "one ball has one rotation number: sweep a parameter to see it change" if dataset.sizes["ball"] < 2 else None
 
 
-def draw(dataset: "Dataset") -> Picture:
+def draw(dataset: Dataset) -> Picture:
     """Points over the first parameter; a second one is the colour.  Without parameters, over the number of the ball."""
     found = reading.per_ball(dataset, "rotation_number")
     assert found is not None

@@ -1,8 +1,12 @@
 """γ and 𝒦/|𝒦| on their spheres, with the invariant curve, or what the integrals forbid."""
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import Normalize
+from xarray import Dataset
 
 from chapsym.dynamics import kernels
 from chapsym.dynamics.ball import Floats
@@ -13,11 +17,6 @@ from ..drawing.sphere import View, draw_curve, draw_globe, draw_orbit
 from ..drawing.style import COLOURS, FEW, MAP, VERTICES, Picture, legend, new
 from . import four
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from xarray import Dataset
-
-
 NEEDS = ("gamma", "momentum")
 TITLES = {"gamma": r"$\gamma$", "momentum": r"$\mathcal{K}/|\mathcal{K}|$"}
 #: Pixels of the region that the integrals forbid, and points of a cloud of many balls.
@@ -26,7 +25,7 @@ PIXELS, CLOUD = 240, 80_000
 MOMENTS = 400
 
 
-def missing(dataset: "Dataset") -> str | None:
+def missing(dataset: Dataset) -> str | None:
     """Why this figure cannot be drawn, in a sentence; None if it can."""
     there = [name for name in NEEDS if name in dataset]
     if not there:
@@ -36,7 +35,7 @@ def missing(dataset: "Dataset") -> str | None:
     return None
 
 
-def draw(dataset: "Dataset") -> Picture:
+def draw(dataset: Dataset) -> Picture:
     """One sphere for each of γ and 𝒦/|𝒦|; one alone where 𝒦 is vertical, and they are the same."""
     if "row" in dataset.dims or dataset.sizes.get("axis") == 4:
         return four.draw(dataset)
@@ -70,9 +69,7 @@ def _all_vertical(found: dict[str, Floats]) -> bool:
     return is_vertical(found["momentum"][there], found["gamma"][there])
 
 
-def _panel(
-    axis: "Axes", dataset: "Dataset", name: str, points: Floats, found: dict[str, Floats], vertical: bool
-) -> None:
+def _panel(axis: Axes, dataset: Dataset, name: str, points: Floats, found: dict[str, Floats], vertical: bool) -> None:
     flat = points[np.isfinite(points).all(axis=-1)]
     view = View.of(flat)
     draw_globe(axis, view, ("1", "2", "3"))
@@ -94,7 +91,7 @@ def _panel(
         axis.plot([], [], "s", color=COLOURS[0], label="end")
 
 
-def _forbidden(axis: "Axes", view: View, body: Body, found: dict[str, Floats], of_gamma: bool) -> None:
+def _forbidden(axis: Axes, view: View, body: Body, found: dict[str, Floats], of_gamma: bool) -> None:
     """Greys out where |𝒦|, ⟨𝒦,γ⟩ and the energies of this run do not let the vector be."""
     there = np.isfinite(found["gamma"]).all(axis=-1)
     m, gamma = unit(body.principal(found["momentum"][there])), body.principal(found["gamma"][there])
@@ -125,7 +122,7 @@ def _chosen(balls: int, frames: int) -> tuple[np.ndarray, np.ndarray]:
     return some, instants
 
 
-def _cloud(axis: "Axes", t: Floats, points: Floats) -> None:
+def _cloud(axis: Axes, t: Floats, points: Floats) -> None:
     """Many balls: points in the colour of their time, rasterised."""
     when = np.broadcast_to(t, points.shape[:2])
     there = np.isfinite(points).all(axis=-1)
@@ -140,10 +137,7 @@ def _cloud(axis: "Axes", t: Floats, points: Floats) -> None:
         )  # fmt: skip
 
 
-def _times(figure: "Picture", axes: "list[Axes]", dataset: "Dataset") -> None:
-    from matplotlib.cm import ScalarMappable
-    from matplotlib.colors import Normalize
-
+def _times(figure: Picture, axes: list[Axes], dataset: Dataset) -> None:
     t, label = reading.clock(dataset)
     mapped = ScalarMappable(Normalize(t[0], t[-1] if t[-1] > t[0] else t[0] + 1.0), MAP)
     figure.colorbar(mapped, ax=axes, location="bottom", aspect=40, pad=0.02, fraction=0.06, label=label)

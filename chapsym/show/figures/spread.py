@@ -1,18 +1,13 @@
 """How far the balls of a batch are from each other, over time."""
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+from matplotlib.axes import Axes
+from xarray import Dataset
 
 from chapsym.dynamics.ball import Floats
 
 from ..drawing import reading, series
 from ..drawing.style import COLOURS, Picture, in_power, legend, new, power
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from xarray import Dataset
-
 
 NEEDS = ("contact", "gamma")
 #: A spread that grows more than this after a tenth of the run is drawn in logarithms.
@@ -22,7 +17,7 @@ ROUNDOFF = 1e-12
 WANTED = ((5, 95, 0.18, "5 to 95 %"), (25, 75, 0.3, "25 to 75 %"))
 
 
-def missing(dataset: "Dataset") -> str | None:
+def missing(dataset: Dataset) -> str | None:
     """Why this figure cannot be drawn, in a sentence; None if it can."""
     if dataset.sizes.get("ball", 1) < 3:
         return "a spread needs at least three balls"
@@ -32,7 +27,7 @@ def missing(dataset: "Dataset") -> str | None:
     return "a spread needs at least three balls that go on" if going < 3 else None
 
 
-def draw(dataset: "Dataset") -> Picture:
+def draw(dataset: Dataset) -> Picture:
     """Percentiles of the distance from the mean contact point (m), and of the angle of γ from its mean (degrees)."""
     shown = [name for name in NEEDS if name in dataset]
     figure, axes = new(str(dataset.attrs.get("title", "")), len(shown), height=2.8, sharex=True)
@@ -47,7 +42,7 @@ def draw(dataset: "Dataset") -> Picture:
     return figure
 
 
-def _panel(axis: "Axes", t: Floats, far: Floats, colour: str, told: str, unit: str) -> None:
+def _panel(axis: Axes, t: Floats, far: Floats, colour: str, told: str, unit: str) -> None:
     wanted = sorted({p for low, high, *_ in WANTED for p in (low, high)} | {50})
     found = dict(zip(wanted, series.percentiles(far, tuple(wanted)), strict=True))
     half = found[50]

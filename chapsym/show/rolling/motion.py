@@ -2,18 +2,16 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from xarray import Dataset
 
 from chapsym.dynamics import BadInput, Status, kernels
 from chapsym.dynamics.ball import Floats
 from chapsym.scene.result.dataset import discretised
 
 from . import turning
-
-if TYPE_CHECKING:
-    from xarray import Dataset
 
 #: So many balls are told apart by their colours.
 MOST_BALLS = 20
@@ -62,7 +60,7 @@ class Motion:
     notes: list[str]
 
 
-def motion(dataset: "Dataset", balls: Sequence[str | int] | None = None) -> Motion:
+def motion(dataset: Dataset, balls: Sequence[str | int] | None = None) -> Motion:
     """The motion of the chosen balls, by name or index, or of the first twenty; thinned to a few thousand frames.
 
     Raises ReportError if the result has no attitude, no radius or more than three dimensions, with what to add.
@@ -108,7 +106,7 @@ def motion(dataset: "Dataset", balls: Sequence[str | int] | None = None) -> Moti
     return Motion(clock[kept], "s" if timed else "steps", found, notes)
 
 
-def _check_drawable(dataset: "Dataset") -> None:
+def _check_drawable(dataset: Dataset) -> None:
     if "row" in dataset.dims or dataset.sizes.get("axis", 3) != 3 or dataset.sizes.get("plane", 2) != 2:
         raise ReportError("a ball in more than three dimensions cannot be drawn as a rolling ball")
     if "attitude" not in dataset:
@@ -116,7 +114,7 @@ def _check_drawable(dataset: "Dataset") -> None:
         raise ReportError(f'the result has no attitude: add "attitude" to run.outputs{more}')
 
 
-def _chosen(dataset: "Dataset", balls: Sequence[str | int] | None) -> tuple[list[int], list[str]]:
+def _chosen(dataset: Dataset, balls: Sequence[str | int] | None) -> tuple[list[int], list[str]]:
     """The indices of the balls to show, and what to say of the others."""
     names = _names(dataset)
     if balls is None:
@@ -138,13 +136,13 @@ def _index(names: list[str], ball: str | int) -> int:
     raise ReportError(f"the result has no ball {ball!r}; it has {len(names)}: {listed}")
 
 
-def _names(dataset: "Dataset") -> list[str]:
+def _names(dataset: Dataset) -> list[str]:
     if "ball" in dataset.coords:
         return [str(name) for name in np.atleast_1d(dataset["ball"].values)]
     return [f"ball {i + 1}" for i in range(dataset.sizes["ball"])]
 
 
-def _numbers(dataset: "Dataset", name: str) -> Floats:
+def _numbers(dataset: Dataset, name: str) -> Floats:
     """A variable as float64 with the ball first and the frame second, of decimal strings too."""
     array = dataset[name]
     first = [dim for dim in ("ball", "frame") if dim in array.dims]
@@ -171,7 +169,7 @@ def _kept(frames: int, balls: int, ends: list[int]) -> np.ndarray:
 
 
 def _rolling(
-    one: "Dataset", name: str, attitude: Floats, contact: Floats, spot: Floats | None, radius: float, kept: np.ndarray
+    one: Dataset, name: str, attitude: Floats, contact: Floats, spot: Floats | None, radius: float, kept: np.ndarray
 ) -> Rolling:
     """One ball at the kept frames."""
     attitude = attitude / np.sqrt((attitude**2).sum(axis=1, keepdims=True))
@@ -191,7 +189,7 @@ def _rolling(
     )  # fmt: skip
 
 
-def _stopped(one: "Dataset", whole: bool) -> list[str]:
+def _stopped(one: Dataset, whole: bool) -> list[str]:
     """Why the ball stopped, if it did."""
     status = int(one["status"]) if "status" in one else 0
     if status == Status.TAKEN:
@@ -201,7 +199,7 @@ def _stopped(one: "Dataset", whole: bool) -> list[str]:
     return [f"it stops{after}: {Status(status).sentence if known else f'status {status}'}"]
 
 
-def _inertia(one: "Dataset") -> Floats | None:
+def _inertia(one: Dataset) -> Floats | None:
     """(J2 + J3, J1 + J3, J1 + J2), the principal moments."""
     if "mass_tensor" not in one:
         return None

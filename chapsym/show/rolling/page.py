@@ -4,18 +4,16 @@ import base64
 import json
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
+from xarray import Dataset
 
 from chapsym import files
 
 from .motion import Motion, ReportError, Rolling, motion
-
-if TYPE_CHECKING:
-    from xarray import Dataset
 
 FOLDER = Path(__file__).parent
 #: What a script imports: its file.  three.js imports its core by a relative path, which no data: URL has.
@@ -31,7 +29,7 @@ MODULES = {
 CORE = '"./three.core.min.js"'
 
 
-def write_page(dataset: "Dataset", path: str | Path, *, balls: Sequence[str | int] | None = None) -> None:
+def write_page(dataset: Dataset, path: str | Path, *, balls: Sequence[str | int] | None = None) -> None:
     """Writes a result as an interactive page: the balls rolling in 3D, in one HTML file that needs no network.
 
     dataset: with attitude, radius and, to see them roll, contact.  balls: names or indices, at most 20; the first by
@@ -44,7 +42,7 @@ def write_page(dataset: "Dataset", path: str | Path, *, balls: Sequence[str | in
         raise ReportError(str(error)) from None
 
 
-def html(dataset: "Dataset", *, balls: Sequence[str | int] | None = None) -> str:
+def html(dataset: Dataset, *, balls: Sequence[str | int] | None = None) -> str:
     """The text of the page; the same result gives the same bytes.  Raises ReportError as `write_page` does."""
     found = motion(dataset, balls)
     templates = Environment(
@@ -70,7 +68,7 @@ def html(dataset: "Dataset", *, balls: Sequence[str | int] | None = None) -> str
     )
 
 
-def _plan_line(dataset: "Dataset", found: Motion) -> str:
+def _plan_line(dataset: Dataset, found: Motion) -> str:
     """The model, the steps or frames, and the time."""
     parts = [f"model: {dataset.attrs['model']}"] if dataset.attrs.get("model") else []
     span = found.clock[-1]
