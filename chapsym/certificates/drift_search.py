@@ -1,6 +1,7 @@
-"""The search for a closed orbit of the continuous ball near a start, for a certificate of its energy drift."""
+"""The search for a closed orbit of the continuous ball near a start, and the certificate of its energy drift."""
 
 import itertools
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from fractions import Fraction
@@ -12,9 +13,12 @@ from chapsym.dynamics import BadInput
 from chapsym.dynamics.levels.balls import exact
 from chapsym.dynamics.levels.start import fraction
 
-from .drift import Orbit, enclose, flow_of, told_apart
-from .drift_file import document, rounded
+from .balls import decade, shortest
+from .document import stated
+from .drift import NAMES, SYMMETRIES, Enclosures, Orbit, enclose, flow_of, told_apart
 from .taylor import LONGEST, Flow, NotEnclosed
+
+KIND = "energy-drift"
 
 
 def energy_drift(
@@ -88,3 +92,31 @@ def _missed(orbit: Orbit, flow: Flow) -> tuple[Fraction, Fraction]:
         late = arb((late - missed / (flow.field(state[:6])[orbit.section] * sign)).mid())
     miss = piece.at(late)[orbit.along] * orbit.signs[orbit.along % 3] - start[orbit.along]
     return fraction(miss), fraction(late)
+
+
+def document(orbit: Orbit, found: Enclosures, bits: int, order: int) -> dict[str, Any]:
+    """The certificate as it is written; numbers are strings, exact rationals or decimals."""
+    return stated(
+        KIND,
+        ball={"J": [str(x) for x in orbit.J], "D": str(orbit.D)},
+        start={"momentum": [shortest(x) for x in orbit.momentum], "gamma": [str(x) for x in orbit.gamma]},
+        varied=NAMES[orbit.varied], radius=shortest(orbit.radius),
+        symmetry=list(orbit.signs), periods=1 if tuple(orbit.signs) == SYMMETRIES[0] else 2,
+        time=shortest(orbit.time), window=shortest(orbit.window),
+        section=NAMES[orbit.section], along=NAMES[orbit.along], bits=bits, order=order,
+        misses=[_outward(x) for x in found.misses],
+        energy=_outward(found.energy), density=_outward(found.density),
+    )  # fmt: skip
+
+
+def _outward(x: Any) -> list[str]:
+    """A ball [centre, radius] in decimals, which contains it; twice as wide, for what other bits and terms find."""
+    middle, radius = fraction(x.mid()), 2 * fraction(x.rad())
+    digits = max(2 - decade(radius), 0) if radius else 60
+    centre = rounded(middle, digits)
+    return [shortest(centre), shortest(Fraction(math.ceil((radius + abs(middle - centre)) * 10**digits), 10**digits))]
+
+
+def rounded(x: Fraction, digits: int) -> Fraction:
+    """To so many decimals."""
+    return round(x * 10**digits) / Fraction(10**digits)

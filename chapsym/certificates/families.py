@@ -164,14 +164,11 @@ def solved(level: Level, steps: int, member: Member, rounds: int) -> tuple[Vecto
     K, g = on_level(level, member.momentum, member.gamma)
     for _ in range(rounds):
         now = at.passage([x.mid() for x in K], [x.mid() for x in g], steps)
-        w = [-x for x in _solution(columns(now.slope(), 3), now.error())]
+        found = columns(now.slope(), 3).mid().solve(now.error())
+        w = [-found[i, 0].mid() for i in range(3)]
         K, g = ([(x + y).mid() for x, y in zip(v, cross(w, v), strict=True)] for v in (K, g))
         K, g = on_level(level, K, g)
     return K, g
-
-
-def _solution(matrix: Any, right: Any) -> list[Any]:
-    return [matrix.mid().solve(right)[i, 0].mid() for i in range(3)]
 
 
 def on_level(level: Level, momentum: Vector, gamma: Vector) -> tuple[Vector, Vector]:

@@ -34,17 +34,12 @@ class Staircase:
     levels: list[Fraction]
     turns: list[list[float]]
 
-    def fastest(self) -> float:
-        """The most half turns a step, in the mean."""
-        return max(turns[-1] / len(turns) for turns in self.turns)
-
     def between(self, steps: int, half_turns: int) -> tuple[Fraction, Fraction] | None:
         """Two levels with fewer and with more half turns in so many steps."""
         found = [turns[steps - 1] for turns in self.turns]
-        for i in range(len(found) - 1):
-            if (found[i] < half_turns) != (found[i + 1] < half_turns):
-                low, high = (i, i + 1) if found[i] < half_turns else (i + 1, i)
-                return self.levels[low], self.levels[high]
+        for (x, a), (y, b) in pairwise(zip(found, self.levels, strict=True)):
+            if (x < half_turns) != (y < half_turns):
+                return (a, b) if x < half_turns else (b, a)
         return None
 
 
@@ -54,7 +49,8 @@ def staircases(top: Top, steps: int, progress: Callable[[str], None]) -> list[St
     for axes in top.sides():
         _, b, c = axes
         inner, outer = 1 / top.moments[b], 1 / top.moments[c]
-        levels = [inner + (outer - inner) * Fraction(_logistic(i)) for i in range(LEVELS)]
+        shares = [1.0 / (1.0 + math.exp(REACH * (1.0 - 2.0 * i / (LEVELS - 1)))) for i in range(LEVELS)]
+        levels = [inner + (outer - inner) * Fraction(x) for x in shares]
         turns = []
         for number, level in enumerate(levels):
             progress(f"looking for the level: circle {number + 1} of {LEVELS} around axis {c + 1}")
@@ -135,7 +131,3 @@ def nome_power(top: Top, level: Fraction, axes: Axes, steps: int) -> float:
 
 def _quarter(k2: Fraction) -> Any:
     return acb(ball(k2)).elliptic_k().real
-
-
-def _logistic(i: int) -> float:
-    return 1.0 / (1.0 + math.exp(REACH * (1.0 - 2.0 * i / (LEVELS - 1))))

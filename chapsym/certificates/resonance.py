@@ -60,7 +60,7 @@ def _circle(
 def _why(sides: list[plateau.Staircase], steps: int | None, half_turns: int) -> str:
     """Why no circle was found."""
     wanted = f"{turns(half_turns)} in {steps or f'an odd number up to {plateau.LOOK_STEPS}'} steps"
-    most = max(side.fastest() for side in sides)
+    most = max(counted[-1] / len(counted) for side in sides for counted in side.turns)
     if half_turns < most * (steps or plateau.LOOK_STEPS):
         return f"circles with {wanted} are too near the separatrix; take another number of steps"
     return f"no circle has {wanted}: at this height there are at most about {most:.2g} half turns a step"

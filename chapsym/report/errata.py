@@ -1,7 +1,6 @@
 """The list of errata, short enough to cite: Markdown, and LaTeX that compiles by itself."""
 
 from collections.abc import Sequence
-from typing import Any
 
 from . import notation
 from .records import Record, errors, label, truth
@@ -50,19 +49,11 @@ def _markdown_entry(record: Record) -> list[str]:
     if prose:
         lines.append(f"- {'Condition' if record['verdict'] == 'conditional' else 'True'}: {prose}")
     for example in record["evidence"].get("counterexamples", []):
-        point = ", ".join(f"{symbol} = {notation.plain(value)}" for symbol, value in _point(example))
+        point = ", ".join(f"{symbol} = {notation.plain(value)}" for symbol, value in notation.point(example["point"]))
         for sides in example["printed"]:
-            left, right = (_plain_side(side) for side in notation.sides(sides, compact=True))
+            left, right = (", ".join(map(notation.in_line, x)) for x in notation.sides(sides, compact=True))
             lines.append(f"- At `{point}`: `{sides['statement']}`; but `{left} ≠ {right}`")
     return [*lines, f"- Proof: `{reproduce(record['id'])}`", ""]
-
-
-def _point(example: dict[str, Any]) -> list[tuple[str, str]]:
-    return notation.point(example["point"])
-
-
-def _plain_side(side: list[str | notation.Matrix]) -> str:
-    return ", ".join(notation.in_line(x) for x in side)
 
 
 _PREAMBLE = r"""\documentclass[11pt]{article}
@@ -103,10 +94,12 @@ def _latex_entry(record: Record) -> list[str]:
         lines += [rf"\textit{{{name}:}} {notation.latex(prose)}", ""]
     for example in record["evidence"].get("counterexamples", []):
         point = ", ".join(
-            f"${notation.symbol_latex(symbol)} = {notation.value_latex(value)}$" for symbol, value in _point(example)
+            f"${notation.symbol_latex(symbol)} = {notation.value_latex(value)}$"
+            for symbol, value in notation.point(example["point"])
         )
         for sides in example["printed"]:
-            left, right = (_latex_side(side) for side in notation.sides(sides, compact=True))
+            both = notation.sides(sides, compact=True)
+            left, right = (r",\allowbreak ".join(map(notation.shown_latex, x)) for x in both)
             statement = notation.latex(sides["statement"])
             lines += [rf"\textit{{At}} {point}: {statement}; but ${left}\neq {right}$", ""]
     return [*lines, rf"\textit{{Proof:}} \texttt{{{reproduce(record['id']).replace('--', '-{}-')}}}", ""]
@@ -114,7 +107,3 @@ def _latex_entry(record: Record) -> list[str]:
 
 def _row(name: str, formula: str) -> list[str]:
     return [rf"\textit{{{name}:}} $\displaystyle {formula}$", ""]
-
-
-def _latex_side(side: list[str | notation.Matrix]) -> str:
-    return r",\allowbreak ".join(notation.shown_latex(x) for x in side)

@@ -114,11 +114,8 @@ def open_questions(page: _Page) -> Markup:
 
 def dependencies(page: _Page) -> Markup:
     """The graph of what uses what."""
-    return page.render("graph.html", graph=graph.svg(page.records), titles=_titles(page.records))
-
-
-def _titles(records: Sequence[Record]) -> dict[str, str]:
-    return {record["id"]: record["evidence"]["title"] for record in records}
+    titles = {record["id"]: record["evidence"]["title"] for record in page.records}
+    return page.render("graph.html", graph=graph.svg(page.records), titles=titles)
 
 
 def claims(page: _Page) -> Markup:

@@ -13,7 +13,7 @@ from scipy.integrate import solve_ivp
 
 import chapsym.proofs
 from chapsym import checker
-from chapsym.certificates import drift, drift_file, duals, taylor
+from chapsym.certificates import drift, drift_search, duals, taylor
 from chapsym.certificates.taylor import NotEnclosed, exact
 from chapsym.dynamics import BadInput
 
@@ -167,7 +167,7 @@ def test_a_file_is_written_as_the_checker_reads_it(path):
         exact(Fraction(c)) + arb(0, exact(Fraction(r)) / 2)
         for c, r in (*data["misses"], data["energy"], data["density"])
     ]
-    written = drift_file.document(
+    written = drift_search.document(
         orbit, drift.Enclosures((balls[0], balls[1]), *balls[2:]), data["bits"], data["order"]
     )
     checker.KINDS["energy-drift"].check_form(written)

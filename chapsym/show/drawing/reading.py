@@ -16,7 +16,7 @@ def with_balls(dataset: "Dataset", ball: str | int | None = None) -> "Dataset":
 
     ball: a name, or an index.  Raises BadInput for a ball that is not there, and for a result without frames.
     """
-    if "frame" not in dataset.dims and not _per_ball(dataset):
+    if "frame" not in dataset.dims and "rotation_number" not in dataset:
         raise BadInput('this is no result of chapsym: it has no dimension "frame"')
     if "ball" not in dataset.dims:
         dataset = dataset.expand_dims("ball")
@@ -29,10 +29,6 @@ def with_balls(dataset: "Dataset", ball: str | int | None = None) -> "Dataset":
         return dataset.isel(ball=[ball])
     listed = ", ".join(names[:5]) + (f", ... ({len(names)} in all)" if len(names) > 5 else "")
     raise BadInput(f"the result has no ball {ball!r}; it has {listed}")
-
-
-def _per_ball(dataset: "Dataset") -> bool:
-    return "rotation_number" in dataset
 
 
 def begun(dataset: "Dataset") -> "Dataset":

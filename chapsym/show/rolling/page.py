@@ -45,6 +45,7 @@ def write_page(dataset: Dataset, path: str | Path, *, balls: Sequence[str | int]
 def html(dataset: Dataset, *, balls: Sequence[str | int] | None = None) -> str:
     """The text of the page; the same result gives the same bytes.  Raises ReportError as `write_page` does."""
     found = motion(dataset, balls)
+    data = {"clock": _base64(found.clock, "<f8"), "unit": found.unit, "balls": list(map(_ball, found.balls))}
     templates = Environment(
         loader=FileSystemLoader(FOLDER),
         autoescape=True,
@@ -63,7 +64,7 @@ def html(dataset: Dataset, *, balls: Sequence[str | int] | None = None) -> str:
         style=Markup(_text("page.css")),
         script=Markup(_text("page.js")),
         modules=Markup(_json({"imports": {name: _module(file) for name, file in MODULES.items()}})),
-        data=Markup(_json(_data(found))),
+        data=Markup(_json(data)),
         licence=Markup(_text("three/LICENSE").replace("--", "—")),
     )
 
@@ -87,10 +88,6 @@ def _notes(found: Motion) -> list[str]:
     common = [note for note in dict.fromkeys(told) if told.count(note) == len(found.balls)]
     single = [f"{ball.name}: {note}" for ball in found.balls for note in ball.notes if note not in common]
     return [*found.notes, *common, *single]
-
-
-def _data(found: Motion) -> dict[str, Any]:
-    return {"clock": _base64(found.clock, "<f8"), "unit": found.unit, "balls": [_ball(ball) for ball in found.balls]}
 
 
 def _ball(ball: Rolling) -> dict[str, Any]:

@@ -21,7 +21,7 @@ def displacement(found: dict[str, Any]) -> Picture:
     figure, axes = new("", 2, 2, height=3.7, width=WIDE)
     q, digits = ball["steps"], ball["digits"]
     for axis, case, colour in ((axes[0], ball, BLUE), (axes[2], kicked, RED)):
-        power = _power(case)
+        power = power_of(case)
         x, y = continued(case, power)
         axis.plot(x, y, color=colour)
         n = len(case["values"])
@@ -63,7 +63,8 @@ def continued(case: dict[str, Any], power: int) -> tuple[Any, Any]:
     return x, np.cos(angle) @ cosines + np.sin(angle) @ sines
 
 
-def _power(case: dict[str, Any]) -> int:
+def power_of(case: dict[str, Any]) -> int:
+    """The power of ten of the largest displacement."""
     return int(np.floor(max(log10(x) for x in case["values"])))
 
 

@@ -8,7 +8,7 @@ from matplotlib.ticker import NullFormatter, ScalarFormatter
 
 from chapsym.show.drawing.style import COLOURS, WIDE, Picture, new
 
-from .drawn_circle import continued
+from .drawn_circle import continued, power_of
 from .told import decimal, log10, named
 
 BLUE, RED, GREEN = COLOURS[:3]
@@ -40,18 +40,15 @@ def staircase(found: dict[str, Any]) -> Picture:
         axes[2], [(p, q, float(x["level"]), w) for (p, q, w), x in zip(widths, found["farey"], strict=True)], BLUE, 10
     )
     _stems(axes[3], seen, RED, 5)
+    floor = 10.0 * np.ceil(-min(w for *_, w in widths) / 10 + 0.2)
     for axis in axes[2:]:
         axis.axhline(FLOAT64, color="0.35", linestyle=":", linewidth=1.3)
-        axis.set(ylim=(-_floor(widths), 1), xlabel="level l", ylabel="$\\log_{10}$ width of the plateau in l")
+        axis.set(ylim=(-floor, 1), xlabel="level l", ylabel="$\\log_{10}$ width of the plateau in l")
     axes[2].text(
         0.99, FLOAT64 + 0.8, "float64 is blind below", transform=axes[2].get_yaxis_transform(), ha="right", color="0.3",
         fontsize=9.5,
     )  # fmt: skip
     return figure
-
-
-def _floor(widths: list[tuple[int, int, float]]) -> float:
-    return 10.0 * np.ceil(-min(w for *_, w in widths) / 10 + 0.2)
 
 
 def _steps(axis: Any, top: dict[str, Any]) -> None:
@@ -76,7 +73,7 @@ def _inset(axis: Any, found: dict[str, Any]) -> None:
     """The plateau at 1/8, magnified until it is seen: G⁸ is next to the identity there, the time of a flow."""
     case = next(x for x in found["displacement"] if x["steps"] == 8)
     slope = next(float(x["slope"]) for x in found["farey"] if (x["half_turns"], x["steps"]) == (1, 8))
-    power = int(np.floor(max(log10(x) for x in case["values"])))
+    power = power_of(case)
     _, d = continued(case, power)
     d = d[:-1]
     size = 3 * (d.max() - d.min())

@@ -43,10 +43,11 @@ def _plateaus(found: dict[str, Any]) -> list[str]:
     rows = [x for name in ("turns", "fifth", "small_D", "farey") for x in found[name]]
     widths = [log10(x["width"]) for x in rows]
     needed = [x["needed"] for x in rows]
+    above = min((n for n in needed if n > 15), default=16)
     return [
         f"plateaus that were measured: {len(rows)}, each of positive width, in l from {power(min(widths))} to "
         f"{power(max(widths))}",
-        f"seen with float64's 53 bits: {sum(n <= 15 for n in needed)} of them; the others need {_above(needed)} to "
+        f"seen with float64's 53 bits: {sum(n <= 15 for n in needed)} of them; the others need {above} to "
         f"{max(needed)} digits",
     ]
 
@@ -55,10 +56,6 @@ def power(exponent: float) -> str:
     """10 to this power, with two digits: 1.3e-28."""
     whole = math.floor(exponent)
     return f"{10 ** (exponent - whole):.1f}e{whole}"
-
-
-def _above(needed: list[int]) -> int:
-    return min((n for n in needed if n > 15), default=16)
 
 
 def _law(found: dict[str, Any]) -> list[str]:
