@@ -1,0 +1,83 @@
+"""chapsym's own lemmas: their verdicts and evidence, and what a slip in a derivation does to those that rest on it."""
+
+import pytest
+import sympy as sp
+
+from chapsym.derive import ball, continuous, gibbs, modified, steady, three
+from chapsym.proofs import LEMMAS
+from chapsym.prove import load
+from chapsym.prove.runner import judge
+
+#: How many controls a lemma has, where it is another number than two or more.
+CONTROLS = {"composition-order": 4, "steady": 3} | dict.fromkeys(
+    ("gibbs-rotation", "top-precession", "steady-branch", "steady-axis", "steady-roll", "isotropic-spin", "straight",
+     "periodic-orbits"), 1,
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("id", LEMMAS)
+def test_a_lemma_holds_with_its_evidence(lemmas, id):
+    evidence = lemmas[id]["evidence"]
+    assert lemmas[id]["verdict"] == "holds", evidence["problems"]
+    assert evidence["problems"] == []
+    assert evidence["witnesses"]
+    assert len(evidence["controls"]) >= CONTROLS.get(id, 2)
+    assert all(control["rejected"] for control in evidence["controls"])
+
+
+def test_lemmas_are_no_claims_of_the_paper():
+    assert set(LEMMAS) <= set(load(lemmas=True))
+    assert not set(LEMMAS) & set(load())
+
+
+def flipped(right):
+    return sp.ImmutableMatrix(sp.Matrix(right).subs(gibbs.u[0], -gibbs.u[0]))
+
+
+def doubled(right):
+    return sp.Matrix(right).subs(three.D, 2 * three.D)
+
+
+def lopsided(heavy):
+    """Of the determinant of a heavy ball, Y = Mγ."""
+    return [(names, gibbs.M * three.gamma if names is gibbs.Y else values) for names, values in heavy[0]], heavy[1]
+
+
+#: A slip: in which functions, what it makes of what they give, and the lemmas that must see it.
+SLIPS = {
+    "half the load": (modified, ["load"], lambda right: right.subs(three.D, three.D / 2), ["modified-field"]),
+    "the correction": (modified, ["correction"], lambda right: right + modified.omega, ["modified-field"]),
+    "a factor of the energy": (modified, ["energy_rate"], lambda right: right * 4 / 3, ["modified-energy"]),
+    "a vector product": (
+        three, ["carried_steps"], lambda right: (right[0], right[1] + three.DRAG), ["stable-momentum"]
+    ),
+    "the determinant": (gibbs, ["newton_heavy_steps"], lopsided, ["stable-determinant"]),
+    "twice D": (continuous, ["angular_velocity"], doubled, ["stable-inverse", "isotropic-spin"]),
+    "the residual": (
+        gibbs, ["residual", "jacobian"], flipped, ["steady", "steady-branch", "steady-axis", "steady-roll"],
+    ),
+    "a factor in the kernel": (steady, ["spin_steps"], lambda right: (right[0], 2 * right[1]), ["isotropic-spin"]),
+    "the contact point": (three, ["centre_step"], lambda right: sp.diag(1, 1, -1) * right, ["straight"]),
+    "the contact term": (
+        ball, ["momentum"], lambda right: right + ball.D * (ball.Omega * ball.Gamma - ball.Gamma * ball.OmegaT),
+        ["self-adjoint", "reversible"],
+    ),
+}  # fmt: skip
+
+
+@pytest.fixture
+def _spin():
+    steady.spin.cache_clear()
+    yield
+    steady.spin.cache_clear()
+
+
+@pytest.mark.usefixtures("_spin")
+@pytest.mark.parametrize("slip", SLIPS)
+def test_a_slip_in_a_derivation_is_seen(monkeypatch, slip):
+    place, names, wrong, ids = SLIPS[slip]
+    for name in names:
+        honest = getattr(place, name)
+        monkeypatch.setattr(place, name, lambda *given, honest=honest: wrong(honest(*given)))
+    for id in ids:
+        assert judge(load(lemmas=True)[id]).verdict.value != "holds", id
