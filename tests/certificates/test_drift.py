@@ -9,6 +9,7 @@ import mpmath
 import numpy as np
 import pytest
 from flint import arb, ctx
+from modified_floats import Modified
 from scipy.integrate import solve_ivp
 
 import chapsym.proofs
@@ -42,48 +43,11 @@ def orbit_of(data):
     )  # fmt: skip
 
 
-def plain(tensor, contact):
-    """ω, ω', ω₃ and the two densities by linear algebra and differences: nothing of chapsym."""
-    inertia = sum(tensor) - np.array(tensor, float)
-
-    def solved(x, g):
-        return np.linalg.solve(np.diag(inertia + contact) - contact * np.outer(g, g), x)
-
-    def correction(K, g):
-        w = solved(K, g)
-        a = solved(np.cross(inertia * w, w), g)
-        turning = np.cross(g, w)
-        second = solved(
-            np.cross(inertia * a, w) + np.cross(inertia * w, a)
-            + contact * (turning * (g @ a) + g * (turning @ a)), g
-        )  # fmt: skip
-        pull = solved(contact * (turning * (g @ a) + g * (turning @ a)), g)
-        return w @ w * w / 6 + second / 12 - np.cross(w, a) / 12 - pull / 4
-
-    def densities(K, g, step=1e-4):
-        w, w3 = solved(K, g), correction(K, g)
-        divergence = 0.0
-        for j, e in enumerate(np.eye(3)):
-            ends = [correction(K + s * step * np.cross(K, e), g + s * step * np.cross(g, e))[j] for s in (-1, 1)]
-            divergence += (ends[1] - ends[0]) / (2 * step)
-        z = g / (inertia + contact)
-        lift = contact * z @ np.cross(g, w3) / (1 - contact * g @ z)
-        return w3 @ np.cross(w, inertia * w), divergence + lift
-
-    def rates(_, y):
-        K, g = y[:3], y[3:6]
-        w = solved(K, g)
-        return [*np.cross(K, w), *np.cross(g, w), *densities(K, g)]
-
-    return rates
-
-
 def test_the_densities_are_those_of_the_modified_equations():
     found = drift.flow_of(J, D, 8, Fraction(3)).densities([exact(x) for x in START])
-    wanted = plain((1, 2, 4), 1.0)(0, np.array(START, float))[6:]
-    np.testing.assert_allclose(
-        [float(x) for x in found], wanted, rtol=0, atol=2e-8
-    )  # differences with 1e-4: about 1e-8
+    state = np.array(START, float)
+    wanted = Modified((1, 2, 4), 1.0).densities(state[:3], state[3:])  # differences with 1e-4: about 1e-8
+    np.testing.assert_allclose([float(x) for x in found], wanted, rtol=0, atol=2e-8)
 
 
 def test_the_flow_is_that_of_mpmath():
@@ -138,7 +102,7 @@ def test_the_stated_integrals_are_those_of_another_integrator(path):
     data = certificate(path)
     orbit = orbit_of(data)
     start = [float(x) for x in (*orbit.momentum, *orbit.gamma)]
-    rates = plain([float(x) for x in orbit.J], float(orbit.D))
+    rates = Modified(orbit.J, orbit.D).rates
     end = solve_ivp(rates, (0, float(orbit.time)), [*start, 0, 0], method="DOP853", rtol=1e-9, atol=1e-10).y[:, -1]
     np.testing.assert_allclose(end[:6] * np.tile(orbit.signs, 2), start, rtol=0, atol=1e-5)
     stated = [float(data["energy"][0]), float(data["density"][0])]
