@@ -1,11 +1,13 @@
-"""Members to plan and to roll."""
+"""Members to plan and to roll, and a run of many small units."""
 
 import numpy as np
 import pytest
+from small_units import plan
 
 import chapsym
 from chapsym.dynamics import kernels
 from chapsym.scene.members.members import Members
+from chapsym.scene.running import sweep
 
 TIME_STEP = 0.01
 
@@ -28,3 +30,14 @@ def members():
         )
 
     return make
+
+
+@pytest.fixture(scope="session")
+def whole():
+    """The result of small units, computed in memory at once."""
+    return sweep.run_in_memory(plan())
+
+
+@pytest.fixture
+def path(tmp_path):
+    return tmp_path / "run.zarr"

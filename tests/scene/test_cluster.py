@@ -16,6 +16,7 @@ from pathlib import Path
 
 import pytest
 from distributed import LocalCluster
+from first import BALL
 from small_units import equal_to_the_bit
 from waiting import GUARD
 
@@ -29,16 +30,7 @@ from chapsym.scene.running import remote, sweep
 from chapsym.scene.running.source import plan_from
 
 PRELOAD = str(Path(__file__).parents[1] / "slow_small_units.py")
-SCENE = """
-[ball]
-inertia = [0.006, 0.007, 0.009]
-mass = 2.0
-radius = 0.1
-[start]
-omega = [{ linspace = [3.0, 200.0, 25] }, -2.0, 1.0]
-gamma = ["2/7", "3/7", "6/7"]
-[run]
-time_step = 0.01
+SCENE = f"""{BALL.replace("[3.0,", "[{ linspace = [3.0, 200.0, 25] },")}time_step = 0.01
 steps = 200
 every = 10
 outputs = ["momentum", "contact", "energy"]
@@ -81,19 +73,18 @@ def two():
         yield running.scheduler_address
 
 
-def test_two_workers_have_the_bits_of_one_machine(local, two, tmp_path):
+def test_two_workers_have_the_bits_of_one_machine(local, two, path):
     seen = []
-    outcome = sweep.run_to_store(plan_from(SCENE), tmp_path / "run.zarr", two, report=seen.append)
+    outcome = sweep.run_to_store(plan_from(SCENE), path, two, report=seen.append)
     assert outcome.complete
-    equal_to_the_bit(formats.load(tmp_path / "run.zarr").load(), local)
+    equal_to_the_bit(formats.load(path).load(), local)
     assert outcome.failed == (local.status.values != 0).sum() > 0
     assert seen[-1].balls == 25
     assert seen[-1].steps == seen[-1].of
     assert [p.steps for p in seen] == sorted(p.steps for p in seen)
 
 
-def test_a_run_goes_on_from_a_cluster_to_one_machine(local, two, tmp_path):
-    path = tmp_path / "run.zarr"
+def test_a_run_goes_on_from_a_cluster_to_one_machine(local, two, path):
 
     def end(progress):
         if progress.balls >= 8:
@@ -108,7 +99,7 @@ def test_a_run_goes_on_from_a_cluster_to_one_machine(local, two, tmp_path):
     equal_to_the_bit(formats.load(path).load(), local)
 
 
-def test_balls_without_an_answer_are_listed_and_the_others_go_on(local, two, tmp_path, monkeypatch):
+def test_balls_without_an_answer_are_listed_and_the_others_go_on(local, two, path, monkeypatch):
     real = remote.computed
 
     def computed(plan, chunk, *rest):
@@ -118,20 +109,20 @@ def test_balls_without_an_answer_are_listed_and_the_others_go_on(local, two, tmp
 
     with monkeypatch.context() as patched:
         patched.setattr(remote, "computed", computed)
-        outcome = sweep.run_to_store(plan_from(SCENE), tmp_path / "run.zarr", two)
+        outcome = sweep.run_to_store(plan_from(SCENE), path, two)
     assert outcome.lost == {(12, 16): "RuntimeError on a worker: nobody foresaw this"}
     assert not outcome.complete
-    assert sweep.run_to_store(plan_from(SCENE), tmp_path / "run.zarr").complete
-    equal_to_the_bit(formats.load(tmp_path / "run.zarr").load(), local)
+    assert sweep.run_to_store(plan_from(SCENE), path).complete
+    equal_to_the_bit(formats.load(path).load(), local)
 
 
-def test_workers_with_another_chapsym_are_one_sentence(two, tmp_path, monkeypatch):
+def test_workers_with_another_chapsym_are_one_sentence(two, path, monkeypatch):
     real = remote.provenance
     monkeypatch.setattr(remote, "provenance", lambda plan: real(plan) | {"chapsym_version": "0.0.9"})
     with pytest.raises(SceneError, match="is of another version of chapsym") as told:
-        sweep.run_to_store(plan_from(SCENE), tmp_path / "run.zarr", two)
+        sweep.run_to_store(plan_from(SCENE), path, two)
     assert "\n" not in str(told.value)
-    assert (formats.load(tmp_path / "run.zarr").taken.values == -1).all()
+    assert (formats.load(path).taken.values == -1).all()
 
 
 @pytest.mark.parametrize(
@@ -141,16 +132,16 @@ def test_workers_with_another_chapsym_are_one_sentence(two, tmp_path, monkeypatc
         ("nonsense://x", "is no address of a Dask"),
     ],
 )
-def test_a_scheduler_that_is_not_there_is_one_sentence(tmp_path, monkeypatch, address, told):
+def test_a_scheduler_that_is_not_there_is_one_sentence(path, monkeypatch, address, told):
     monkeypatch.setattr(cluster, "REACHED", 1.0)
     with pytest.raises(BadInput, match=told):
-        sweep.run_to_store(plan_from(SCENE), tmp_path / "run.zarr", address)
+        sweep.run_to_store(plan_from(SCENE), path, address)
 
 
-def test_a_scheduler_without_workers_is_one_sentence(tmp_path, monkeypatch):
+def test_a_scheduler_without_workers_is_one_sentence(path, monkeypatch):
     monkeypatch.setattr(cluster, "ABANDONED", 1.0)
     with workers(0) as running, pytest.raises(BadInput, match="has had no workers for"):
-        sweep.run_to_store(plan_from(SCENE), tmp_path / "run.zarr", running.scheduler_address)
+        sweep.run_to_store(plan_from(SCENE), path, running.scheduler_address)
 
 
 @contextmanager
@@ -168,7 +159,7 @@ def process(*arguments):
         running.wait()
 
 
-def test_workers_that_die_and_a_scheduler_that_ends(local, tmp_path, caplog, monkeypatch):
+def test_workers_that_die_and_a_scheduler_that_ends(local, tmp_path, caplog, monkeypatch, path):
     """Two workers die of one chunk each time, and of another once; then the scheduler is killed, too."""
     for name in ("distributed", "distributed.client"):
         monkeypatch.setattr(logging.getLogger(name), "handlers", [caplog.handler])
@@ -194,10 +185,10 @@ def test_workers_that_die_and_a_scheduler_that_ends(local, tmp_path, caplog, mon
         worker = ["distributed.cli.dask_worker", address, "--nanny", "--nthreads", "1", "--no-dashboard"]
         preload = ["--preload", str(tmp_path / "deadly.py")]
         with process(*worker, *preload), process(*worker, *preload):
-            outcome = sweep.run_to_store(plan_from(SCENE), tmp_path / "run.zarr", address)
+            outcome = sweep.run_to_store(plan_from(SCENE), path, address)
             assert outcome.lost == {(12, 16): "its worker was lost, 3 times"}
             assert (tmp_path / "died").exists()
-            found = formats.load(tmp_path / "run.zarr").load()
+            found = formats.load(path).load()
             assert found.attrs["complete"] is False
             assert (found.taken.values == -1).tolist() == [12 <= i < 16 for i in range(25)]
 

@@ -9,34 +9,22 @@ import signal
 import subprocess
 import sys
 from contextlib import contextmanager
-from pathlib import Path
+from itertools import count
 
 import numpy as np
 import pytest
 from commands import child as chapsym
+from first import BALL, FIRST
 from small_units import equal_to_the_bit, plan
 from waiting import INTERRUPTIBLE
+from zarr.storage import _local
 
 from chapsym.scene import SceneError
 from chapsym.scene.result import formats
 from chapsym.scene.running import sweep
-from chapsym.scene.running.store import marks
 
-DOCS = Path(__file__).parents[2] / "docs"
 #: Eleven units of work.
-LONG = """
-[ball]
-inertia = [0.006, 0.007, 0.009]
-mass = 2.0
-radius = 0.1
-[start]
-omega = [{ linspace = [3.0, 4.0, 45_000] }, -2.0, 1.0]
-gamma = ["2/7", "3/7", "6/7"]
-[run]
-time_step = 0.01
-steps = 240
-every = 20
-"""
+LONG = BALL.replace("[3.0,", "[{ linspace = [3.0, 4.0, 45_000] },") + "time_step = 0.01\nsteps = 240\nevery = 20\n"
 
 
 def refused(done):
@@ -58,11 +46,6 @@ def mounted(folder, *options):
         yield
     finally:
         subprocess.run(["umount", str(folder)], check=True)
-
-
-@pytest.fixture(scope="module")
-def whole():
-    return sweep.run_in_memory(plan())
 
 
 def small_disk(folder, size):
@@ -102,40 +85,21 @@ def test_a_full_disk_leaves_the_file_that_was_there(whole, tmp_path, suffix):
         assert os.listdir(disk) == [path.name]
 
 
-def test_every_write_that_fails_is_one_sentence_and_is_mended_by_room(whole, tmp_path, monkeypatch):
-    """The disk is full at the n-th write of a file, whatever file it is."""
-    from zarr.storage import _local
-
-    real = _local._atomic_write
-    for failing in (0, 1, 2, 30, 55, 80, 150):
-        path = tmp_path / f"run{failing}.zarr"
-        writes = iter(range(10**6))
-
-        def full(*args, writes=writes, failing=failing, **kwargs):
-            if next(writes) == failing:
-                raise OSError(errno.ENOSPC, "No space left on device")
-            return real(*args, **kwargs)
-
-        with monkeypatch.context() as patched:
-            patched.setattr(_local, "_atomic_write", full)
-            with pytest.raises(SceneError, match="No space left on device; what was written stays: make room"):
-                sweep.run_to_store(plan(), path)
-        assert sweep.run_to_store(plan(), path).complete
-        equal_to_the_bit(formats.load(path).load(), whole)
-
-
-def test_a_mark_that_cannot_be_written_is_one_sentence(whole, tmp_path, monkeypatch):
-    path = tmp_path / "run.zarr"
-    calls = iter(range(100))
-    real = np.savez
+@pytest.mark.parametrize(
+    ("place", "name", "at"),
+    [*((_local, "_atomic_write", n) for n in (0, 1, 2, 30, 55, 80, 150)), (np, "savez", 6)],
+)
+def test_every_write_that_fails_is_one_sentence_and_is_mended_by_room(whole, path, monkeypatch, place, name, at):
+    """The disk is full at the n-th write of a file of Zarr, and at that of a mark."""
+    writes, real = count(), getattr(place, name)
 
     def full(*args, **kwargs):
-        if next(calls) == 6:
+        if next(writes) == at:
             raise OSError(errno.ENOSPC, "No space left on device")
         return real(*args, **kwargs)
 
     with monkeypatch.context() as patched:
-        patched.setattr(marks.np, "savez", full)
+        patched.setattr(place, name, full)
         with pytest.raises(SceneError, match="No space left on device; what was written stays: make room"):
             sweep.run_to_store(plan(), path)
     assert sweep.run_to_store(plan(), path).complete
@@ -149,7 +113,7 @@ def test_a_read_only_disk_is_one_sentence(tmp_path):
         sweep.run_to_store(plan(), done)
         subprocess.run(["mount", "-o", "remount,ro", str(disk)], check=True)
         for name in ("run.zarr", "run.nc", "run.parquet", "run.csv", "run.npz"):
-            told = refused(chapsym("run", DOCS / "first.toml", "-o", disk / name))
+            told = refused(chapsym("run", FIRST, "-o", disk / name))
             assert re.search(rf"{name} cannot be written", told)
         assert sweep.run_to_store(plan(), done).nothing_to_do
         with pytest.raises(SceneError, match="Read-only file system"):
@@ -163,9 +127,9 @@ def test_a_limit_of_the_file_size_is_one_sentence(tmp_path):
         resource.setrlimit(resource.RLIMIT_FSIZE, (20_000, 20_000))
 
     for suffix in (".nc", ".parquet", ".zarr", ".csv"):
-        told = refused(chapsym("run", DOCS / "first.toml", "-o", tmp_path / f"run{suffix}", preexec_fn=limit))
+        told = refused(chapsym("run", FIRST, "-o", tmp_path / f"run{suffix}", preexec_fn=limit))
         assert "File too large" in told
-    assert chapsym("run", DOCS / "first.toml", "-o", tmp_path / "run.zarr").returncode == 0
+    assert chapsym("run", FIRST, "-o", tmp_path / "run.zarr").returncode == 0
     assert [p.name for p in tmp_path.iterdir()] == ["run.zarr"]
 
 
@@ -192,8 +156,8 @@ main()
 """
 
 
-def test_an_interrupted_command_stops_and_goes_on(tmp_path):
-    scene, path = tmp_path / "long.toml", tmp_path / "run.zarr"
+def test_an_interrupted_command_stops_and_goes_on(tmp_path, path):
+    scene = tmp_path / "long.toml"
     scene.write_text(LONG)
     done = subprocess.run(
         [sys.executable, "-c", INTERRUPTED, "run", str(scene), "-o", str(path)],
