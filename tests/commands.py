@@ -2,7 +2,9 @@
 
 import contextlib
 import io
+import json
 import logging
+import os
 import subprocess
 import sys
 from unittest import mock
@@ -42,3 +44,25 @@ def child(*arguments, **options):
     """The same in a process of its own."""
     arguments = [sys.executable, "-m", "chapsym.cli", *map(str, arguments)]
     return subprocess.run(arguments, capture_output=True, text=True, check=False, **options)
+
+
+def answer(*arguments):
+    """What the command answers in JSON, with nothing beside it."""
+    done = chapsym(*arguments, "--json")
+    assert (done.returncode, done.stderr) == (0, ""), done.stderr
+    return json.loads(done.stdout)
+
+
+def refused(*arguments, run=chapsym, status=2, **options):
+    """The one sentence of an error."""
+    done = run(*arguments, **options)
+    assert (done.returncode, done.stdout) == (status, ""), done.stdout + done.stderr
+    assert done.stderr.startswith("chapsym: ")
+    assert done.stderr.count("\n") == 1, done.stderr
+    return done.stderr.removeprefix("chapsym: ").rstrip()
+
+
+def changed(folder, *lines):
+    """The environment of a child that runs these lines before anything else, and has no records yet."""
+    (folder / "sitecustomize.py").write_text("\n".join(lines))
+    return {**os.environ, "PYTHONPATH": str(folder), "CHAPSYM_RECORDS": str(folder / "none.jsonl")}

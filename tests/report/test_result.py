@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import results
+from commands import refused
 from first import BALL
 
 import chapsym
@@ -96,12 +97,8 @@ def test_what_cannot_be_saved_or_opened_is_one_sentence(tmp_path):
         result.save(tmp_path / "a.zarr")
     with pytest.raises(SceneError, match="cannot be written"):
         result.save(tmp_path / "no" / "a.zarr")
-    for name in ("nothing.nc", "nothing.zarr", "nothing.csv"):
-        with pytest.raises(SceneError, match=name):
-            chapsym.open_result(tmp_path / name)
-    (tmp_path / "text.nc").write_text("no HDF5")
-    with pytest.raises(SceneError, match=r"text\.nc"):
-        chapsym.open_result(tmp_path / "text.nc")
+    with pytest.raises(SceneError, match=r"nothing\.nc cannot be read"):
+        chapsym.open_result(tmp_path / "nothing.nc")
     with pytest.raises(SceneError, match="inertia"):
         chapsym.run_scene(SCENE | {"ball": {"inertia": [1, 1, 9], "mass": 1, "radius": 1}})
 
@@ -162,12 +159,8 @@ def test_the_command_draws_what_is_named(tmp_path, show):
         (["no.toml"], "no.toml cannot be read"),
     ],
 )
-def test_mistakes_are_one_sentence(tmp_path, show, arguments, sentence):
+def test_mistakes_are_one_sentence(tmp_path, arguments, sentence):
     dataset = results.folded().assign_attrs(chapsym_version="0")
     dataset.to_netcdf(tmp_path / "a.nc", engine="h5netcdf")
     paths = [str(tmp_path / a) if a.endswith((".nc", ".txt", ".toml")) else a for a in arguments]
-    done = show(*paths, *([] if "-o" in paths else ["-o", tmp_path / "p"]))
-    assert done.returncode == 2
-    assert sentence in done.stderr
-    assert done.stderr.startswith("chapsym: ")
-    assert done.stderr.count("\n") == 1
+    assert sentence in refused("show", *paths, *([] if "-o" in paths else ["-o", tmp_path / "p"]))

@@ -5,7 +5,7 @@ import re
 
 import numpy as np
 import pytest
-from commands import chapsym
+from commands import answer, chapsym, refused
 
 from chapsym.scene.read.example import names
 
@@ -14,15 +14,6 @@ def done(*arguments):
     found = chapsym(*arguments)
     assert found.returncode == 0, found.stderr
     return found.stdout
-
-
-def refused(*arguments):
-    found = chapsym(*arguments)
-    assert found.returncode == 2, found.stdout + found.stderr
-    assert found.stdout == ""
-    assert found.stderr.count("\n") == 1
-    assert "Traceback" not in found.stderr
-    return found.stderr.removeprefix("chapsym: ").rstrip()
 
 
 def test_a_new_scene_has_comments_and_the_schema_for_editors_and_can_be_checked(tmp_path):
@@ -86,7 +77,7 @@ def test_check_tells_ranges_the_plan_and_balls_that_cannot_start(tmp_path):
     assert re.search(r"^start\.momentum\.1 +2 values: 0\.1, 50 kg m2$", shown, re.MULTILINE)
     assert "ball 1 (of 2): J = (1, 2, 4)" in shown
     assert "ball 2 cannot take the first step: no rotation of this ball has this momentum" in shown
-    found = json.loads(done("scene", "check", path, "--json"))
+    found = answer("scene", "check", path)
     assert (found["balls"], found["steps"], found["outputs"]) == (2, 10, ["momentum", "gamma"])
     assert len(found["warnings"]) == 1
 
@@ -172,7 +163,7 @@ def test_one_ball_is_run_and_told_the_same_whatever_the_suffix(tmp_path):
     )
     told = set()
     for suffix in (".npz", ".csv", ".zarr"):
-        found = json.loads(done("run", path, "-o", tmp_path / f"run{suffix}", "--json"))
+        found = answer("run", path, "-o", tmp_path / f"run{suffix}")
         assert found.pop("output") == str(tmp_path / f"run{suffix}")
         assert found["model"] == "steady rotation"
         assert (found["steps"], found["frames"], found["complete"]) == (10**9, 3, True)
