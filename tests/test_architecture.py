@@ -6,6 +6,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from imported import imported, modules
 
 import chapsym
 
@@ -37,32 +38,28 @@ ROOMS = {
 SYMPY_ROOMS = {"derive", "prove", "codegen", "proofs"}
 
 
+KNOWN = modules(ROOT, "chapsym")
+for room in ROOMS:  # links, too
+    KNOWN |= modules(ROOT / room, f"chapsym.{room}")
+
+
 def files(room):
-    folder = ROOT / room
-    return sorted(folder.rglob("*.py")) if folder.is_dir() else [folder.with_suffix(".py")]
+    """The files of a room by the names of their modules."""
+    return {name: path for name, path in KNOWN.items() if name.split(".")[1:2] == [room]}
 
 
-def imports(path):
-    """Absolute names of what a file imports, at the top and inside functions."""
-    package = ["chapsym", *path.parent.relative_to(ROOT).parts]
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-        if isinstance(node, ast.Import):
-            yield from (alias.name for alias in node.names)
-        elif isinstance(node, ast.ImportFrom):
-            base = ".".join(package[: len(package) - node.level + 1] if node.level else [])
-            module = ".".join(x for x in (base, node.module) if x)
-            yield module
-            yield from (f"{module}.{alias.name}" for alias in node.names)
+def imports(room):
+    """(file, module that it imports), at the top and inside functions."""
+    return [(path, other) for name, path in files(room).items() for other in imported(name, path, KNOWN)]
 
 
 @pytest.mark.parametrize("room", ROOMS)
 def test_lower_rooms_never_import_higher_ones(room):
-    for path in files(room):
-        for name in imports(path):
-            parts = name.split(".")
-            if parts[0] == "chapsym" and len(parts) > 1 and parts[1] in ROOMS and parts[1] != room:
-                assert parts[1] in ROOMS[room], f"{path.name} imports {name}"
-            assert parts[0] != "benchmarks", f"{path.name} imports {name}, which is not in the wheel"
+    for path, name in imports(room):
+        parts = name.split(".")
+        if parts[0] == "chapsym" and len(parts) > 1 and parts[1] in ROOMS and parts[1] != room:
+            assert parts[1] in ROOMS[room], f"{path.name} imports {name}"
+        assert parts[0] != "benchmarks", f"{path.name} imports {name}, which is not in the wheel"
 
 
 def floor(room):
@@ -78,8 +75,7 @@ def test_the_readme_draws_the_floors_as_they_are():
 
 @pytest.mark.parametrize("room", sorted(set(ROOMS) - SYMPY_ROOMS))
 def test_what_runs_the_map_does_not_import_sympy(room):
-    for path in files(room):
-        assert not any(name.split(".")[0] == "sympy" for name in imports(path)), path
+    assert not [path for path, name in imports(room) if name.split(".")[0] == "sympy"]
 
 
 def test_every_room_is_listed():
@@ -88,11 +84,8 @@ def test_every_room_is_listed():
 
 
 def test_the_checker_of_certificates_uses_the_standard_library_and_itself():
-    for path in files("checker"):
-        for name in imports(path):
-            assert name.split(".")[0] in sys.stdlib_module_names or name.startswith("chapsym.checker"), (
-                f"{path}: {name}"
-            )
+    for path, name in imports("checker"):
+        assert name.split(".")[0] in sys.stdlib_module_names or name.startswith("chapsym.checker"), f"{path}: {name}"
 
 
 def loaded_by(program):
@@ -132,7 +125,7 @@ def documented(body):
 def test_every_public_function_has_a_docstring():
     missing = []
     for room in sorted(set(ROOMS) - {"generated"}):
-        for path in files(room):
+        for path in files(room).values():
             for node in documented(ast.parse(path.read_text(encoding="utf-8")).body):
                 inherited = path.name == "rungs.py" and node.name in ("number", "sqrt", "write", "digits", "precision")
                 if not (ast.get_docstring(node) or inherited):

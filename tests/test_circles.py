@@ -1,9 +1,9 @@
 """No file of a room imports, lazily or not, one that comes to import it."""
 
-import ast
 from pathlib import Path
 
 import pytest
+from imported import imported, modules
 
 import chapsym
 
@@ -11,27 +11,6 @@ ROOT = Path(chapsym.__file__).parent
 #: The rooms inside of chapsym.scene, each of which imports those before it only.
 OF_SCENE = ("read", "members", "plan", "result", "running")
 ROOMS = sorted({path.name for path in ROOT.iterdir() if (path / "__init__.py").is_file()})
-
-
-def modules(folder, name):
-    """The files of a package by the names of their modules."""
-    found = {}
-    for path in folder.rglob("*.py"):
-        parts = [name, *path.relative_to(folder).with_suffix("").parts]
-        found[".".join(parts[:-1] if parts[-1] == "__init__" else parts)] = path
-    return found
-
-
-def imported(name, path, known):
-    """The modules that a file imports; `from . import x` imports x where that is one of them, else the package."""
-    package = name.split(".") if path.name == "__init__.py" else name.split(".")[:-1]
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-        if isinstance(node, ast.Import):
-            yield from (alias.name for alias in node.names)
-        elif isinstance(node, ast.ImportFrom):
-            base = ".".join([*package[: len(package) - node.level + 1], *filter(None, [node.module])])
-            module = base if node.level else node.module
-            yield from (x if (x := f"{module}.{alias.name}") in known else module for alias in node.names)
 
 
 def circle(known):

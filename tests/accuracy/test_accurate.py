@@ -262,17 +262,8 @@ def test_prices_are_kept_whole_and_taken_anew_if_they_are_broken(tmp_path, monke
     less = {k: v for k, v in steps.items() if k != key}
     inside = [([], steps), ({}, steps), (calls, []), (calls, {}), (calls, less), (calls | {"double/body": -1.0}, steps)]
     inside += [(calls | {"quad/body": value}, steps) for value in (np.nan, np.inf, "1", None, True, 10**400)]
-    wrong = (
-        [],
-        [[0.1, -1.0]],
-        [[0.1, np.nan]],
-        [[0.1, "1"]],
-        [[0.1, 0.0]],
-        [[0.0, 1.0]],
-        [[0.2, 1.0], [0.1, 1.0]],
-        3,
-        {},
-    )
+    wrong = [[[0.1, price]] for price in (-1.0, np.nan, "1", 0.0)]
+    wrong += [[], [[0.0, 1.0]], [[0.2, 1.0], [0.1, 1.0]], 3, {}]
     inside += [(calls, steps | {key: points}) for points in wrong]
     for count, (some, others) in enumerate(inside):
         text = json.dumps({"version": pricing.VERSION, "calls": some, "steps": others})

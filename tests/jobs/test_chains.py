@@ -50,37 +50,27 @@ def chain(name, kept, length=3):
     kept[name] = total
 
 
-def test_each_call_gets_what_the_one_before_gave_and_so_many_are_abreast():
-    kept, crew = {}, Paper(room=2)
-    jobs.run((chain(name, kept) for name in "abcde"), crew)
-    assert kept == dict.fromkeys("abcde", 111)
-    assert crew.most == 2
+AGAIN = ("a", 1, 1)
 
 
-def test_a_chain_without_calls_leaves_its_room_to_others():
-    kept, crew = {}, Paper(room=1)
-    jobs.run([chain("a", kept, 0), chain("b", kept, 0), chain("c", kept)], crew)
-    assert kept == {"a": 0, "b": 0, "c": 111}
-
-
-def test_a_crew_without_room_is_given_one_call_and_asked_again():
-    kept, crew = {}, Paper(room=0)
-    jobs.run([chain("a", kept), chain("b", kept)], crew)
-    assert kept == {"a": 111, "b": 111}
-    assert crew.most == 1
-
-
-def test_a_call_whose_worker_is_lost_is_made_again():
-    kept, crew = {}, Paper(lose=[("a", 1, 1)] * (chains.TRIES - 1))
-    jobs.run([chain("a", kept), chain("b", kept)], crew)
-    assert kept == {"a": 111, "b": 111}
-    assert crew.submitted.count(("a", 1, 1)) == chains.TRIES
-
-
-def test_a_call_that_is_lost_each_time_ends_its_chain_only():
-    kept, crew = {}, Paper(lose=[("a", 1, 1)] * chains.TRIES)
-    jobs.run([chain("a", kept), chain("b", kept)], crew)
-    assert kept == {"a": "its worker was lost, 3 times", "b": 111}
+@pytest.mark.parametrize(
+    ("crew", "lengths", "kept", "most"),
+    [
+        (Paper(room=2), dict.fromkeys("abcde", 3), dict.fromkeys("abcde", 111), 2),
+        (Paper(room=1), {"a": 0, "b": 0, "c": 3}, {"a": 0, "b": 0, "c": 111}, 1),
+        (Paper(room=0), {"a": 3, "b": 3}, {"a": 111, "b": 111}, 1),
+        (Paper(lose=[AGAIN] * (chains.TRIES - 1)), {"a": 3, "b": 3}, {"a": 111, "b": 111}, 2),
+        (Paper(lose=[AGAIN] * chains.TRIES), {"a": 3, "b": 3}, {"a": "its worker was lost, 3 times", "b": 111}, 2),
+    ],
+    ids=["abreast", "without calls", "without room", "lost and made again", "lost each time"],
+)
+def test_each_call_gets_what_the_one_before_gave_and_so_many_are_abreast(crew, lengths, kept, most):
+    """A chain without calls leaves its room, a crew without room gets one call, a chain ends that is lost each time."""
+    found, lost = {}, len(crew.lose)
+    jobs.run((chain(name, found, length) for name, length in lengths.items()), crew)
+    assert found == kept
+    assert crew.most == most
+    assert not lost or crew.submitted.count(AGAIN) == min(lost + 1, chains.TRIES)
 
 
 def test_an_error_of_a_call_is_raised_in_its_chain_which_may_go_on():

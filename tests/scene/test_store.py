@@ -19,13 +19,11 @@ from waiting import GUARD, until
 
 from chapsym.dynamics import BadInput, Status
 from chapsym.scene import SceneError
-from chapsym.scene.result import dataset, formats
+from chapsym.scene.result import dataset
 from chapsym.scene.result.group import is_store
 from chapsym.scene.running import segments, sweep
 from chapsym.scene.running.store import Store, creation, marks, write_region
 from chapsym.scene.running.tally import Stopped
-from chapsym.show import figures
-from chapsym.show.result import Result
 
 CHILD = [sys.executable, str(Path(__file__).parents[1] / "small_units.py")]
 
@@ -165,20 +163,6 @@ def interrupted(path, monkeypatch, after, wanted=None):
         patched.setattr(segments, "advance", advance)
         with pytest.raises(KeyboardInterrupt):
             sweep.run_to_store(wanted or plan(), path)
-
-
-@pytest.mark.parametrize("units", [0, 3])
-def test_an_unfinished_store_is_shown_as_far_as_it_is(path, monkeypatch, units):
-    """Less than half of its balls have run: the density of many traces is of those that have."""
-    interrupted(path, monkeypatch, units, plan(("contact", "integrals"), n=80))
-    found = formats.load(path)
-    assert (found.taken.values != -1).sum() < 40
-    assert "80" in repr(Result(found))
-    if units:
-        assert len(figures.draw(found, "contact").axes) == 2
-    else:
-        with pytest.raises(BadInput, match="no ball of this result has run yet"):
-            figures.draw(found, "contact")
 
 
 @pytest.mark.parametrize(

@@ -2,6 +2,7 @@
 
 import json
 import warnings
+from dataclasses import replace
 from pathlib import Path
 
 import flint
@@ -12,7 +13,7 @@ import pytest
 from chapsym.dynamics import BadInput, Status, StepNotTaken, kernels
 from chapsym.dynamics.oracle import Oracle, OracleFailed
 from chapsym.studies import check
-from chapsym.studies.extremes import cells, derived, elliptic, matrix, n_dim, reduced, states, steps
+from chapsym.studies.extremes import arrays, cells, derived, elliptic, matrix, n_dim, reduced, states, steps
 from chapsym.studies.extremes.folds import fold_at
 from chapsym.studies.extremes.levels import LEVELS, NAMES, level, mp, number
 from chapsym.studies.extremes.truth import State, truth
@@ -22,7 +23,7 @@ PINS = json.loads((Path(__file__).parent / "extremes.json").read_text(encoding="
 LETTERS = {"within": "w", "refused": "r", "failed": "f"}
 TOGETHER = [group for group in matrix.GROUPS if group not in matrix.SHARED]
 GENERIC = State(states.J, states.D, states.K, states.G)
-DOUBLE = level("double")
+DOUBLE, HEAVIEST = level("double"), "D = 1e15, momentum horizontal"
 
 
 def verdicts(found):
@@ -55,10 +56,6 @@ def judged(function):
     return cells.cell(cells.Condition("name", "group", lambda level, quick: function(), NAMES), DOUBLE, True)
 
 
-def moved(vector, by):
-    return [x + by for x in vector]
-
-
 @pytest.mark.parametrize("part", [0, 1, 2])
 def test_a_step_that_is_a_little_wrong_fails(monkeypatch, part):
     honest = steps.taken
@@ -66,7 +63,7 @@ def test_a_step_that_is_a_little_wrong_fails(monkeypatch, part):
 
     def wrong(level, state):
         found = list(honest(level, state))
-        found[part] = moved(found[part], 1e-13)
+        found[part] = [x + 1e-13 for x in found[part]]
         return found
 
     monkeypatch.setattr(steps, "taken", wrong)
@@ -89,43 +86,31 @@ def test_a_ball_that_excludes_the_truth_fails_though_it_is_near(monkeypatch):
 
 
 @pytest.mark.parametrize(
-    ("status", "verdict"), [(Status.FOLDED, "failed"), (Status.UNREACHABLE, "failed"), (Status.NO_INERTIA, "failed"),
-                            (Status.NOT_CONVERGED, "failed")],
-)  # fmt: skip
-def test_a_refusal_that_is_not_true_fails(monkeypatch, status, verdict):
-    def refuses(level, state):
-        raise StepNotTaken(status, 0.5)
-
-    monkeypatch.setattr(steps, "taken", refuses)
-    assert steps.judge(DOUBLE, GENERIC).verdict == verdict
-
-
-def test_what_float64_cannot_resolve_may_be_refused(monkeypatch):
-    def refuses(level, state):
-        raise StepNotTaken(Status.NOT_CONVERGED, 1.0)
-
-    heavy = states.CONDITIONS["D"]["D = 1e15, momentum horizontal"](DOUBLE)[0]
-    monkeypatch.setattr(steps, "taken", refuses)
-    assert steps.judge(DOUBLE, heavy).verdict == "refused"
-
-
-def test_a_momentum_that_other_rotations_have_is_not_out_of_reach(monkeypatch):
-    beyond = states.beside_fold(-1e-8)
-    assert steps.judge(DOUBLE, beyond).verdict == "refused"
+    ("status", "reach", "state", "verdict"),
+    [
+        *((status, 0.5, lambda: GENERIC, "failed") for status in (Status.FOLDED, Status.UNREACHABLE)),
+        *((status, 0.5, lambda: GENERIC, "failed") for status in (Status.NO_INERTIA, Status.NOT_CONVERGED)),
+        (Status.NOT_CONVERGED, 1.0, lambda: states.CONDITIONS["D"][HEAVIEST](DOUBLE)[0], "refused"),
+        (Status.UNREACHABLE, 0.5, lambda: states.beside_fold(-1e-8), "failed"),
+    ],
+)
+def test_a_refusal_that_is_not_true_fails(monkeypatch, status, reach, state, verdict):
+    """What float64 cannot resolve may be refused; a momentum that other rotations have is not out of reach."""
 
     def refuses(level, state):
-        raise StepNotTaken(Status.UNREACHABLE, 0.5)
+        raise StepNotTaken(status, reach)
 
     monkeypatch.setattr(steps, "taken", refuses)
-    assert steps.judge(DOUBLE, beyond).verdict == "failed"
+    assert steps.judge(DOUBLE, state()).verdict == verdict
 
 
 def test_a_rotation_beyond_the_fold_fails(monkeypatch):
-    before = states.beside_fold(1e-8)
+    before, beyond = states.beside_fold(1e-8), states.beside_fold(-1e-8)
+    assert steps.judge(DOUBLE, beyond).verdict == "refused"
     found = steps.taken(DOUBLE, before)
     monkeypatch.setattr(steps, "taken", lambda level, state: found)
     assert steps.judge(DOUBLE, before).verdict == "within"
-    assert steps.judge(DOUBLE, states.beside_fold(-1e-8)).verdict == "failed"
+    assert steps.judge(DOUBLE, beyond).verdict == "failed"
 
 
 def test_a_refusal_without_a_sentence_an_error_a_warning_and_a_nan_fail():
@@ -144,9 +129,8 @@ def test_a_refusal_without_a_sentence_an_error_a_warning_and_a_nan_fail():
 
 
 def test_a_promise_of_no_digit_is_none():
-    compared = cells.compared(DOUBLE, [cells.Compared("x", [1.5], [mp.mpf(1)], 1e20)])
-    assert compared.verdict == "failed"
-    assert cells.compared(DOUBLE, [cells.Compared("x", [1.05], [mp.mpf(1)], 1e20)]).verdict == "within"
+    for x, verdict in ((1.5, "failed"), (1.05, "within")):
+        assert cells.compared(DOUBLE, [cells.Compared("x", [x], [mp.mpf(1)], 1e20)]).verdict == verdict
 
 
 def test_the_worst_counts():
@@ -246,18 +230,12 @@ def test_an_amplitude_by_a_difference_that_cancels_fails(monkeypatch):
 
 
 def test_a_fold_that_is_a_little_off_fails(monkeypatch):
-    import dataclasses
-
     honest = reduced.fold
-    monkeypatch.setattr(
-        reduced, "fold", lambda *given: dataclasses.replace((f := honest(*given)), reach=f.reach * (1 + 1e-13))
-    )
+    monkeypatch.setattr(reduced, "fold", lambda *given: replace((f := honest(*given)), reach=f.reach * (1 + 1e-13)))
     assert reduced.fold_search("generic", DOUBLE, True).verdict == "failed"
 
 
 def test_a_refused_input_that_is_taken_fails():
-    from chapsym.studies.extremes import arrays
-
     assert arrays.refusals([lambda level: None], DOUBLE, True).verdict == "failed"
 
     def refuses(level):
@@ -268,8 +246,6 @@ def test_a_refused_input_that_is_taken_fails():
 
 
 def test_other_bits_and_a_changed_array_fail():
-    from chapsym.studies.extremes import arrays
-
     assert arrays.same(lambda x: x * (1 + 2.0**-51), DOUBLE, True).verdict == "failed"
     assert arrays.same(lambda x: x.copy(), DOUBLE, True).verdict == "within"
 

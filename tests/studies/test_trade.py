@@ -1,28 +1,34 @@
 """The trade of speed against accuracy: frontiers, references, the command."""
 
 import json
+from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
-from pathlib import Path
+from types import SimpleNamespace
 
 import mpmath
 import numpy as np
 import pytest
+from commands import answer
 from commands import chapsym as command
+from first import BALL, FIRST
 from reference import cross
 
 import chapsym
-from chapsym.accuracy import Method, take
+from chapsym.accuracy import Method, prices, take
 from chapsym.accuracy.prices import sample
+from chapsym.cli.trade import print_answer
 from chapsym.dynamics.trajectories import attitude_with
 from chapsym.numbers import NAMED
 from chapsym.studies import trade
 from chapsym.studies.trade import balls, four
+from chapsym.studies.trade.figure import draw
 from chapsym.studies.trade.frontier import Frontier, Point, digits_of
 from chapsym.studies.trade.reference import continuous
 from chapsym.studies.trade.requests import Outcomes, measure, true_error, truth
 
-FIRST = str(Path(__file__).parents[2] / "docs" / "first.toml")
+#: An accuracy and a time; of an option that is given twice the last counts.
+ASKED = ["--accuracy", "1e-6", "--time", "3"]
 POINTS = [
     Point("a, order 2", 0.1, 1.0, 10.0, 3.0),
     Point("a, order 2", 0.05, 1.0, 20.0, 4.0),
@@ -49,9 +55,7 @@ def test_equal_points_do_not_dominate_each_other():
 
 
 def test_digits():
-    assert digits_of(1e-5, 30) == pytest.approx(5)
-    assert digits_of(0.0, 30) == 30
-    assert digits_of(2.0, 30) == 0
+    assert [digits_of(x, 30) for x in (1e-5, 0.0, 2.0)] == pytest.approx([5, 30, 0])
 
 
 def by_mpmath(ball, momentum, gamma, time):
@@ -101,8 +105,6 @@ def test_random_requests_are_met():
 
 
 def test_a_request_that_is_not_met_is_told():
-    from dataclasses import replace
-
     one = measure(quick=True, count=1).outcomes[0]
     assert one.hit
     found = Outcomes([one, replace(one, error=2 * one.request.accuracy)])
@@ -121,8 +123,6 @@ def test_a_section_is_measured(section):
 
 
 def test_two_references_that_differ_are_told(monkeypatch):
-    from dataclasses import replace
-
     request = replace(sample("contact", 2.0), accuracy=1e-20)
     monkeypatch.setattr(balls, "truth", lambda request, digits: truth(request, digits) + Fraction(1, 10**9))
     with pytest.raises(trade.NotComparable, match="two solutions of the continuous ball differ by"):
@@ -135,9 +135,6 @@ def test_the_reference_of_n_4_is_checked(monkeypatch):
 
 
 def test_a_figure_is_drawn(tmp_path):
-    pytest.importorskip("matplotlib")
-    from chapsym.studies.trade.figure import draw
-
     drawn = draw({"contact": Frontier("t", "q of 𝒦", POINTS), "n4": Frontier("u", "q", POINTS[:2])})
     drawn.savefig(tmp_path / "figure.svg")
     text = (tmp_path / "figure.svg").read_text()
@@ -147,29 +144,25 @@ def test_a_figure_is_drawn(tmp_path):
 
 
 def test_the_command_chooses_runs_and_verifies(tmp_path):
-    done = command("trade", "--accuracy", "1e-8", "--time", "5", FIRST, "-o", str(tmp_path / "run.npz"), "--json")
-    assert done.returncode == 0, done.stderr
-    found = json.loads(done.stdout)
+    found = answer("trade", "--accuracy", "1e-8", "--time", "5", FIRST, "-o", tmp_path / "run.npz")
     assert found["estimate"] <= found["accuracy"] == 1e-8
     assert found["of"] == "contact"
     assert set(found["choice"]) == {"precision", "order", "steps", "time_step"}
     assert np.load(tmp_path / "run.npz")["contact"][-1].tolist() == found["final"]["contact"]
-    same = json.loads(command("trade", "--accuracy", "1e-8", "--time", "5", "--json").stdout)
+    same = answer("trade", "--accuracy", "1e-8", "--time", "5")
     np.testing.assert_allclose(same["final"]["contact"], found["final"]["contact"], atol=2e-8)
 
 
 def test_digits_that_no_float_holds_are_strings():
-    done = command("trade", "--accuracy", "1e-18", "--time", "2", "--of", "state", "--json")
-    found = json.loads(done.stdout)
+    found = answer("trade", "--accuracy", "1e-18", "--time", "2", "--of", "state")
     assert found["choice"]["precision"] == "quad"
     assert all(isinstance(x, str) and len(x) > 20 for x in found["final"]["gamma"])
 
 
 def test_run_prints_the_choice_of_a_scene(tmp_path):
-    text = Path(FIRST).read_text(encoding="utf-8")
-    text = text.replace("time_step = 0.01", "accuracy = 1e-6").replace("steps = 1000", "time = 3.0")
-    (tmp_path / "scene.toml").write_text(text, encoding="utf-8")
-    done = command("run", str(tmp_path / "scene.toml"), "-o", str(tmp_path / "run.csv"))
+    scene = f"{BALL}accuracy = 1e-6\ntime = 3.0\ncontact = true\n"
+    (tmp_path / "scene.toml").write_text(scene, encoding="utf-8")
+    done = command("run", tmp_path / "scene.toml", "-o", tmp_path / "run.csv")
     assert done.returncode == 0, done.stderr
     assert done.stdout.startswith(f"2 frames in {tmp_path / 'run.csv'}\nchosen    double, ")
     assert "compared  the contact is off by " in done.stdout
@@ -182,25 +175,22 @@ def test_run_prints_the_choice_of_a_scene(tmp_path):
         (["--time", "3"], "--time goes with --accuracy"),
         (["--omega", "1,2,3"], "--omega goes with --accuracy"),
         (["--accuracy", "1e-6"], "--accuracy needs --time, in seconds"),
-        (["--accuracy", "-1", "--time", "3"], "--accuracy must be a positive number, not -1"),
-        (["--accuracy", "nan", "--time", "3"], "--accuracy must be a positive number, not nan"),
-        (["--accuracy", "1e-50", "--time", "3"], "accuracy must be at least 1e-30"),
-        (["--accuracy", "1e-6", "--time", "1e12", "--limit", "1"], "but the limit is 1 s"),
-        (["--accuracy", "1e-6", "--time", "3", FIRST, FIRST], "one scene at most"),
-        (["--accuracy", "1e-6", "--time", "3", FIRST, "--D", "3"], "leave out --D"),
-        (["--accuracy", "1e-6", "--time", "3", "--of", "all"], "--of must be 'state' or 'contact'"),
-        (["--accuracy", "1e-6", "--time", "3", "--omega", "1,2"], "--omega"),
-        (["--accuracy", "1e-6", "--time", "3", "-o", "run.txt"], "the output must end in"),
-        (["--accuracy", "1e-6", "--time", "3", "missing.toml"], "cannot be read"),
-        (["--accuracy", "1e-6", "--time", "0"], "--time must be a positive number, not 0"),
-        (["--accuracy", "1e-6", "--time", "3", "--limit", "0"], "--limit must be a positive number, not 0"),
-        (["--accuracy", "1e-6", "--time", "3", "--omega", "1e400,1,1"], "--omega is beyond the range of float64"),
-        (["--accuracy", "1e-6", "--time", "3", "--omega", "1e-400,1,1"], "--omega is below 2.2e-308"),
-        (
-            ["--accuracy", "1e-6", "--time", "3", "--inertia", "1e308,1e308,1e308", "--D", "1", "--of", "state"],
-            "beyond",
-        ),
-        (["--accuracy", "1e-6", "--time", "3", "--omega", "1e160,1,1"], "it takes too many steps"),
+        ([*ASKED, "--accuracy", "-1"], "--accuracy must be a positive number, not -1"),
+        ([*ASKED, "--accuracy", "nan"], "--accuracy must be a positive number, not nan"),
+        ([*ASKED, "--accuracy", "1e-50"], "accuracy must be at least 1e-30"),
+        ([*ASKED, "--time", "1e12", "--limit", "1"], "but the limit is 1 s"),
+        ([*ASKED, FIRST, FIRST], "one scene at most"),
+        ([*ASKED, FIRST, "--D", "3"], "leave out --D"),
+        ([*ASKED, "--of", "all"], "--of must be 'state' or 'contact'"),
+        ([*ASKED, "--omega", "1,2"], "--omega"),
+        ([*ASKED, "-o", "run.txt"], "the output must end in"),
+        ([*ASKED, "missing.toml"], "cannot be read"),
+        ([*ASKED, "--time", "0"], "--time must be a positive number, not 0"),
+        ([*ASKED, "--limit", "0"], "--limit must be a positive number, not 0"),
+        ([*ASKED, "--omega", "1e400,1,1"], "--omega is beyond the range of float64"),
+        ([*ASKED, "--omega", "1e-400,1,1"], "--omega is below 2.2e-308"),
+        ([*ASKED, "--inertia", "1e308,1e308,1e308", "--D", "1", "--of", "state"], "beyond"),
+        ([*ASKED, "--omega", "1e160,1,1"], "it takes too many steps"),
         (["contact", "-o", "figure.txt"], "a figure must end in"),
         (["requests", "-o", "figure.svg"], "have a figure"),
         (["contact", "-o", "/nowhere/figure.svg"], "does not exist"),
@@ -216,10 +206,6 @@ def test_bad_input_gets_one_sentence(arguments, sentence):
 
 
 def test_an_estimate_is_told_as_one_with_the_digits_it_is_about(capsys):
-    from types import SimpleNamespace
-
-    from chapsym.cli.trade import print_answer
-
     final = {"angular_momentum": [0.06395078874125487, 20.0], "contact": ["-249.56257074582925", 0.1]}
     answer = SimpleNamespace(
         request=SimpleNamespace(of="contact", accuracy=1e-8), choice=SimpleNamespace(sentence=str, seconds=1.0),
@@ -237,8 +223,6 @@ def test_an_estimate_is_told_as_one_with_the_digits_it_is_about(capsys):
 
 
 def test_prices_are_forecast_from_those_that_were_taken(monkeypatch):
-    from chapsym.accuracy import prices
-
     clock = iter(range(100))
     monkeypatch.setattr(prices, "time", type("clock", (), {"monotonic": lambda: next(clock)}))
     monkeypatch.setattr(prices, "_by_length", lambda *_: [(0.1, 1e-6)])

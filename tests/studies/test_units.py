@@ -1,7 +1,6 @@
 """Units of a study: kept as they are done, gone on with after a kill, the same on a cluster."""
 
 import json
-import os
 import signal
 import subprocess
 import sys
@@ -104,26 +103,8 @@ def test_a_unit_that_fails_is_named_and_the_others_are_kept(tmp_path):
     assert run_units(units(1), path) == [{"n": 0}]
 
 
-def test_a_killed_run_goes_on(tmp_path):
-    path = tmp_path / "u.jsonl"
-    program = (
-        "from chapsym.studies.units import Unit, run_units\nfrom pathlib import Path\nimport sys\n"
-        "if __name__ == '__main__':\n"
-        "    run_units([Unit('builtins:dict', {'n': 0}),"
-        f" Unit('subprocess:run', {{'args': ['sleep', '{GUARD}']}})], Path(sys.argv[1]))\n"
-    )
-    script = tmp_path / "run.py"
-    script.write_text(program)
-    process = subprocess.Popen([sys.executable, str(script), str(path)], start_new_session=True)
-    until(lambda: path.exists() and path.read_text().endswith("\n"), process)
-    os.killpg(process.pid, signal.SIGKILL)
-    process.wait()
-    assert [json.loads(line)["result"] for line in path.read_text().splitlines()] == [{"n": 0}]
-    assert run_units(units(1), path) == [{"n": 0}]
-
-
 @pytest.mark.parametrize("sent", [signal.SIGINT, signal.SIGKILL])
-def test_no_process_is_left_of_a_study_that_was_ended(tmp_path, sent):
+def test_a_study_that_was_ended_goes_on_and_leaves_no_process(tmp_path, sent):
     """An interrupt does not wait for the units in flight, and of a parent that is killed no child lives on."""
     path, script = tmp_path / "u.jsonl", tmp_path / "run.py"
     script.write_text(
@@ -137,6 +118,10 @@ def test_no_process_is_left_of_a_study_that_was_ended(tmp_path, sent):
     until(lambda: path.exists() and path.read_text().endswith("\n"), process)
     process.send_signal(sent)
     process.communicate(timeout=GUARD)  # the pipe is closed when the last of them has ended
+    kept = path.read_text()
+    assert [json.loads(line)["result"] for line in kept.splitlines()] == [{}]
+    assert run_units([Unit("builtins:dict", {})], path) == [{}]
+    assert path.read_text() == kept
 
 
 def test_the_same_on_a_cluster(tmp_path):
@@ -146,11 +131,6 @@ def test_the_same_on_a_cluster(tmp_path):
     ) as cluster:
         found = run_units(units(), path, scheduler=cluster.scheduler_address)
     assert found == run_units(units(), path) == [{"n": i} for i in range(4)]
-
-
-def test_no_scheduler_is_said(tmp_path):
-    with pytest.raises(BadInput, match="Dask scheduler"):
-        run_units(units(), None, scheduler="inproc://nobody")
 
 
 def test_what_is_no_address_is_said_before_a_client_is_made(monkeypatch):
