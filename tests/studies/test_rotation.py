@@ -32,6 +32,12 @@ def sixty():
         yield 10.0**-57  # a thousand roundings of numbers of order 1
 
 
+@pytest.fixture
+def hundred():
+    with ctx.workdps(110):
+        yield
+
+
 @pytest.mark.parametrize("case", LEVELS)
 def test_the_sphere_and_the_relation_are_displaced_alike(case, sixty):
     level = Level(*case)
@@ -128,6 +134,21 @@ def test_the_law_is_met_as_D_goes_to_0():
     assert off[2] == pytest.approx(0.0013, abs=2e-4)
     assert off[0] / off[1] == pytest.approx(4, rel=0.03)
     assert off[1] / off[2] == pytest.approx(4, rel=0.01)
+
+
+@pytest.mark.usefixtures("hundred")
+@pytest.mark.parametrize("D", ["0", "1/2", "2"])
+def test_for_small_heights_the_increment_is_that_of_the_flow_of_lemma_almost_every(D):
+    """hV/(1 - Dl) at first order, and A'' is h³l²V³/8; of Λ = (6, 5, 3)."""
+    level = Level([x - Fraction(D) / 2 for x in (1, 2, 4)], D, "1e-9", "1/4")
+    relation = Relation(level)
+    rate = relation.V * level.h / (1 - level.D * level.l)
+    for phase in map(number, ("0", "1", "5/2")):
+        assert abs((level.argument(level.lift(phase, 1)) - level.argument(phase)) / rate - 1) < 1e-15
+    a, e = relation.V * level.h / 2, arb("1e-30")  # where M is 0
+    before, at, after = (relation.momentum(a + x) for x in (-e, arb(0), e))
+    bend = -((after - 2 * at + before) / e**2) / ((after - before) / (2 * e)) ** 3
+    assert abs(bend / (level.h**3 * level.l**2 * relation.V**3 / 8) - 1) < 1e-9
 
 
 def test_the_width_in_the_height_is_that_in_the_level_by_the_slopes():
