@@ -108,7 +108,7 @@ def test_every_place_of_one_decimal_counts(right):
      # By their parity only half turns enter the displacement: 3 in place of 1 must fail by the count.
      (("half_turns",), 3, "about 3 half turns"),
      # The bits are chosen from the size of the parameters: all are 0.
-     (("ball",), {"J": ["0"] * 3, "D": "0", "height": "0", "level": "0"}, "")],
+     (("ball",), {"J": ["0"] * 3, "D": "0", "height": "0", "level": "0"}, "D and the moments")],
 )  # fmt: skip
 def test_each_hypothesis_is_proved_from_the_numbers(right, path, value, sentence):
     with pytest.raises(Rejected, match=sentence):

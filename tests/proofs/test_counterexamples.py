@@ -154,11 +154,6 @@ def test_5_12_sigma(records, below):
     agree(records, "5.12-sigma", (v.sigma, v.h + lifted), (v.sigma, v.h + 2 * lifted))
 
 
-def test_prop_3_at_both_states(state):
-    v, _ = state
-    assert v.gamma @ (v.gamma / v.lam) == v.next @ (v.next / v.lam)
-
-
 GAMMA, J, D = vector(2, 3, 6) / 7, vector(1, 2, 4), F(3)
 LAM = J.sum() - J + D
 FACTOR = 1 - D * GAMMA @ (GAMMA / LAM)

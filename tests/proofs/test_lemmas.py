@@ -1,10 +1,14 @@
 """chapsym's own lemmas: their verdicts and evidence, and what a slip in a derivation does to those that rest on it."""
 
+from dataclasses import replace
+from fractions import Fraction
+
 import pytest
 import sympy as sp
 
-from chapsym.derive import ball, continuous, gibbs, modified, steady, three
+from chapsym.derive import ball, composition, continuous, gibbs, modified, steady, three
 from chapsym.proofs import LEMMAS
+from chapsym.proofs.map import order
 from chapsym.prove import load
 from chapsym.prove.runner import judge
 
@@ -65,6 +69,10 @@ SLIPS = {
 }  # fmt: skip
 
 
+def verdict(id):
+    return judge(load(lemmas=True)[id]).verdict.value
+
+
 @pytest.fixture
 def _spin():
     steady.spin.cache_clear()
@@ -80,4 +88,39 @@ def test_a_slip_in_a_derivation_is_seen(monkeypatch, slip):
         honest = getattr(place, name)
         monkeypatch.setattr(place, name, lambda *given, honest=honest: wrong(honest(*given)))
     for id in ids:
-        assert judge(load(lemmas=True)[id]).verdict.value != "holds", id
+        assert verdict(id) != "holds", id
+
+
+@pytest.mark.parametrize(("wanted", "place", "digit"), [(4, 0, 39), (4, 2, 38), (6, 1, 38), (8, 0, 30), (8, 8, 38)])
+def test_a_wrong_digit_is_seen(wanted, place, digit, monkeypatch):
+    one = order.COMPOSITIONS[wanted]
+    half = [*one.half]
+    half[place] = half[place][: digit - 42] + str((int(half[place][digit - 42]) + 5) % 10) + half[place][digit - 41 :]
+    monkeypatch.setitem(order.COMPOSITIONS, wanted, replace(one, half=tuple(half)))
+    assert verdict("composition-order") != "holds"
+
+
+def test_a_composition_of_too_low_an_order_is_seen(monkeypatch):
+    """Kahan and Li's of order 6 in the place of that of order 8."""
+    monkeypatch.setitem(order.COMPOSITIONS, 8, replace(order.COMPOSITIONS[6], order=8))
+    assert verdict("composition-order") != "holds"
+
+
+def test_a_condition_that_is_left_out_is_seen(monkeypatch):
+    honest = composition.lyndon
+    monkeypatch.setattr(composition, "lyndon", lambda order: honest(order)[:-1])
+    assert verdict("composition-order") != "holds"
+
+
+def test_the_brackets_are_lie_elements():
+    """[1, 3] = 13 - 31, and [1, [1, 3]] = 113 - 2·131 + 311; their coefficients on a shuffle add up to 0."""
+    assert {(1, 3): 1, (3, 1): -1} in composition.brackets(4)
+    assert {(1, 1, 3): 1, (1, 3, 1): -2, (3, 1, 1): 1} in composition.brackets(5)
+
+
+def test_an_interval_that_holds_no_solution_is_refused():
+    half = order.COMPOSITIONS[6].exact[:5]
+    with order.ctx.workprec(order.BITS):
+        assert order.isolated(half, 6) is not None
+        assert order.isolated([*half[:4], half[4] + 3 * order.OFF], 6) is None
+        assert order.isolated([Fraction(1, 5)] * 5, 6) is None

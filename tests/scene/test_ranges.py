@@ -1,5 +1,6 @@
 """Ranges: products in order, draws that depend on the seed and their key alone, and a million balls in seconds."""
 
+import re
 import tracemalloc
 
 import numpy as np
@@ -62,13 +63,10 @@ def test_draws_are_told_by_the_seed_and_by_their_own_key():
 def test_the_draws_of_today_are_those_of_tomorrow():
     """NumPy keeps the bits of PCG64, but may change what a Generator makes of them: here it would show."""
     found = values(checked(({"random": [0, 1]}, {"normal": [0, 1]}, 0), {"samples": 2, "seed": 3}))
-    assert found == PINNED
-
-
-PINNED = {
-    "start.omega.1": [0.512666372902691, 0.5203620745241612],
-    "start.omega.2": [-1.6259734135820363, -0.11966005365509731],
-}
+    assert found == {
+        "start.omega.1": [0.512666372902691, 0.5203620745241612],
+        "start.omega.2": [-1.6259734135820363, -0.11966005365509731],
+    }
 
 
 def test_draws_have_the_distribution_that_was_asked_for():
@@ -102,9 +100,8 @@ def test_draws_have_the_distribution_that_was_asked_for():
     ],
 )
 def test_a_wrong_range_is_refused(given, sentence):
-    with pytest.raises(SceneError) as caught:
+    with pytest.raises(SceneError, match=re.escape(sentence)):
         checked((given, 0, 0))
-    assert sentence in str(caught.value)
 
 
 def test_a_range_in_the_place_of_a_list_is_refused():

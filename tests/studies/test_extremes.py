@@ -9,10 +9,12 @@ import flint
 import mpmath
 import numpy as np
 import pytest
+from commands import chapsym, refused
 
 from chapsym.dynamics import BadInput, Status, StepNotTaken, kernels
 from chapsym.dynamics.oracle import Oracle, OracleFailed
 from chapsym.studies import check
+from chapsym.studies import extremes as study
 from chapsym.studies.extremes import arrays, cells, derived, elliptic, matrix, n_dim, reduced, states, steps
 from chapsym.studies.extremes.folds import fold_at
 from chapsym.studies.extremes.levels import LEVELS, NAMES, level, mp, number
@@ -258,3 +260,33 @@ def test_json_says_what_the_cells_say():
     first = written["cells"][0]
     assert set(first) >= {"condition", "rung", "verdict", "ulps", "digits", "condition_number", "reason"}
     json.dumps(written, allow_nan=False)
+
+
+def test_a_group_as_json_and_as_a_page(tmp_path):
+    page = tmp_path / "page.html"
+    done = chapsym("extremes", "--quick", "derived", "extrapolate", "-o", str(page), "--json")
+    found = json.loads(done.stdout)
+    assert [*found["groups"]] == ["extrapolate", "derived"]
+    assert {cell["rung"] for cell in found["cells"]} == {"double"}
+    assert sum(found["counts"].values()) == len(found["cells"])
+    assert done.returncode == (1 if found["counts"]["failed"] else 0)
+    text = page.read_text(encoding="utf-8")
+    assert text.count("data-verdict=") == len(found["cells"])
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [(["nonsense"], "there is no group 'nonsense'"), (["-o", "page.txt"], "must end in .html"),
+     (["-o", "/nowhere/page.html"], "does not exist")],
+)  # fmt: skip
+def test_what_is_wrong_is_said_before_anything_is_computed(arguments, sentence):
+    assert sentence in refused("extremes", *arguments)
+
+
+@pytest.mark.parametrize(("verdict", "told"), [("within", "✓ 15.0"), ("failed", "✗ a condition (double)")])
+def test_the_exit_status_is_1_if_a_cell_failed(monkeypatch, verdict, told):
+    cell = study.Cell("a condition", "fold", "double", verdict, 3.0, 4.0, 15.0, 1.0, "off" * (verdict == "failed"))
+    monkeypatch.setattr(study, "extremes", lambda *_, **__: [cell])
+    done = chapsym("extremes", "--quick")
+    assert bool(done.returncode) == (verdict == "failed")
+    assert told in " ".join(done.stdout.split())
