@@ -83,6 +83,7 @@ def test_wrong_input_is_one_sentence_and_status_2(arguments, sentence):
 
 
 def test_help_shows_an_example_of_each_command():
+    assert chapsym("--version").stdout == "chapsym 0.1.0\n"
     listing = chapsym("--help")
     assert listing.returncode == 0
     assert chapsym().stdout == listing.stdout
@@ -209,10 +210,6 @@ def test_an_interrupt_is_told_and_ends_the_command(command):
         _, told = running.communicate()
     assert running.returncode == 130
     assert told.strip().splitlines()[-1] == "chapsym: interrupted"
-
-
-def test_the_version_is_told():
-    assert chapsym("--version").stdout == "chapsym 0.1.0\n"
 
 
 def test_run_writes_a_trajectory(tmp_path):

@@ -84,13 +84,10 @@ def test_a_broken_file_is_named_with_its_line(path):
     assert path.read_text(encoding="utf-8").startswith(first)
 
 
-def test_a_binary_file_is_no_file_of_records(path):
+def test_a_binary_file_or_a_pipe_is_no_file_of_records(path, tmp_path):
     path.write_bytes(b"\xc1\xff\n")
     with pytest.raises(records.BrokenRecords, match=r"verdicts\.jsonl is not a file of verdict records"):
         records.read(path)
-
-
-def test_a_pipe_is_not_read(tmp_path):
     os.mkfifo(tmp_path / "pipe")
     with pytest.raises(records.BrokenRecords, match="a device or a pipe"):
         records.read(tmp_path / "pipe")

@@ -34,7 +34,8 @@ RECORDS = [
          controls=[{"statement": "a = 3b", "rejected": True}], uses=["2.1"], downstream=["prop-3", "5.7"],
          derivation=["γ is <b>not</b> bold", "  ✗ printed: a = b"], hypotheses=["h ≠ 0"],
          witnesses=[{"name": "equal J", "point": {"J1": "1", "J2": "1", "J3": "1"}, "statements": 3}],
-         routes=[{"name": "mpmath", "statements": ["a = b at 50 digits"], "holds": True}]),
+         routes=[{"name": "mpmath", "statements": ["a = b at 50 digits"], "holds": True}])
+    | {"fingerprint": "0123456789abcdef"},
     make("2.1", "holds", r"v = \rho\,\omega\times\gamma"),
     make("prop-3", "conditional", r"\langle\gamma\rangle", r"\langle\gamma\rangle", condition="q is real",
          counterexamples=[EXAMPLE], uses=["5.4"]),

@@ -34,9 +34,6 @@ def test_every_kind_of_error_says_what_is_true(handmade):
     assert (
         "- At `J = (1, 2, 4), γ = (0, 0, 1), sn δu = 3/5, sn u = 4/5`: `a_k = -b`; but `(1, 2/3) ≠ (1, -2/3)`" in text
     )
-
-
-def test_latex_has_the_condition_and_the_true_statement(handmade):
     text = errata.latex(handmade, "1")
     assert r"\textit{Condition:} $q$ is real" in text
     assert r"\textit{True:} a is at most $b$" in text

@@ -129,7 +129,7 @@ def test_a_ball_that_stopped_ends_where_it_stopped_and_says_so():
     assert np.isfinite(lines(alone.axes[0])[0].get_xydata()).all()
 
 
-def test_a_change_at_roundoff_is_drawn_in_a_range_of_twenty_ulps():
+def test_a_change_at_roundoff_is_drawn_in_a_range_of_twenty_ulps_and_a_real_drift_is_seen():
     dataset = results.uneven(300)
     axis = figures.draw(dataset, "integrals").axes[0]
     assert axis.get_ylim() == pytest.approx((-2.22, 2.22), rel=1e-3)
@@ -139,10 +139,6 @@ def test_a_change_at_roundoff_is_drawn_in_a_range_of_twenty_ulps():
     sizes = [np.sqrt(found[0, 1] * found[0, 2]), found[0, 1], found[0, 2]]
     for i, line in enumerate(drawn):
         assert line.get_ydata() * 1e-15 == pytest.approx((found[:, i] - found[0, i]) / sizes[i], abs=1e-30)
-
-
-def test_a_real_drift_of_an_integral_is_seen():
-    dataset = results.uneven(300)
     dataset["integrals"] = dataset["integrals"] * (1 + 1e-7 * np.linspace(0, 1, 301)[:, np.newaxis])
     figure = figures.draw(dataset, "integrals")
     assert figure.axes[0].get_ylabel() == "relative change, 10⁻⁹"
@@ -246,15 +242,11 @@ def test_the_rotation_number_is_drawn_over_what_was_varied():
     assert "sweep" in figures.available(dataset.isel(ball=[0]))["rotation"]
 
 
-def test_two_swept_parameters_are_an_axis_and_a_colour():
+def test_two_swept_parameters_are_an_axis_and_a_colour_and_what_is_missing_is_counted():
     dataset = results.sweep(10).assign_coords({"ball.mass": ("ball", np.arange(10.0), {"units": "kg"})})
     axis, bar = figures.draw(dataset, "rotation").axes
     assert (axis.get_xlabel(), bar.get_xlabel()) == ("start.momentum, kg m²", "ball.mass, kg")
     assert axis.collections[0].get_offsets()[:, 1].data == pytest.approx(dataset["rotation_number"].values)
-
-
-def test_a_rotation_number_that_is_missing_is_counted():
-    dataset = results.sweep(10)
     dataset["rotation_number"][3] = np.nan
     assert "1 of 10" in figures.draw(dataset, "rotation").axes[0].get_title()
 

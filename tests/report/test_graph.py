@@ -18,6 +18,7 @@ def test_every_claim_is_a_link_and_every_use_an_arc(register):
     used = {(source, target) for target, those in records.uses(register).items() for source in those}
     assert {(arc.get("data-from"), arc.get("data-to")) for arc in arcs} == used
     assert len(arcs) == len(used)
+    assert "0 claims and 0 uses" in graph.svg([])
 
 
 def test_an_arc_has_the_verdict_of_its_source(handmade):
@@ -43,7 +44,3 @@ def test_nothing_is_outside_the_picture(register):
         assert max(y0, y3) < height
     for node in tree.findall("a/text"):
         assert float(node.get("x")) + 7.9 * len(node.text) < x0, node.text
-
-
-def test_a_graph_of_nothing_is_empty():
-    assert "0 claims and 0 uses" in graph.svg([])

@@ -5,21 +5,20 @@ import pytest
 from chapsym.report import notation
 
 
-def test_components_of_a_point_are_gathered():
-    values = {"J1": "1", "J2": "2", "J3": "4", "D": "3", "w1": "1", "w2": "0", "w3": "-1", "q0": "4/5", "g1": "2"}
-    assert notation.point(values) == [
-        ("J", "(1, 2, 4)"), ("D", "3"), ("ω", "(1, 0, -1)"), ("q0", "4/5"), ("g1", "2"),
-    ]  # fmt: skip
-
-
-def test_a_transpose_beside_its_vector_says_nothing_new():
-    assert notation.point({"gamma": "1", "gamma^T": "1", "Gamma": "1"}) == [("γ", "1"), ("Γ", "1")]
-
-
-def test_short_names_have_their_meaning_by_their_neighbours():
-    assert notation.point({"s": "1"}) == [("s", "1")]
-    assert notation.point({"s": "4/5", "sh": "3/5", "k2": "1/2"}) == [("sn u", "4/5"), ("sn δu", "3/5"), ("k²", "1/2")]
-    assert notation.point({"Dscr": "1", "y": "2"}) == [("𝒟", "1"), ("sn²δu", "2")]
+@pytest.mark.parametrize(
+    ("values", "shown"),
+    [
+        ({"J1": "1", "J2": "2", "J3": "4", "D": "3", "w1": "1", "w2": "0", "w3": "-1", "q0": "4/5", "g1": "2"},
+         [("J", "(1, 2, 4)"), ("D", "3"), ("ω", "(1, 0, -1)"), ("q0", "4/5"), ("g1", "2")]),
+        # A transpose beside its vector says nothing new; short names have their meaning by their neighbours.
+        ({"gamma": "1", "gamma^T": "1", "Gamma": "1"}, [("γ", "1"), ("Γ", "1")]),
+        ({"s": "1"}, [("s", "1")]),
+        ({"s": "4/5", "sh": "3/5", "k2": "1/2"}, [("sn u", "4/5"), ("sn δu", "3/5"), ("k²", "1/2")]),
+        ({"Dscr": "1", "y": "2"}, [("𝒟", "1"), ("sn²δu", "2")]),
+    ],
+)  # fmt: skip
+def test_components_of_a_point_are_gathered(values, shown):
+    assert notation.point(values) == shown
 
 
 @pytest.mark.parametrize(
@@ -36,7 +35,10 @@ def test_short_names_have_their_meaning_by_their_neighbours():
     ],
 )
 def test_values_are_text_vectors_or_matrices(text, shown):
+    """A matrix is small in LaTeX."""
     assert notation.value(text) == shown
+    if isinstance(shown, list):
+        assert notation.value_latex(text) == r"\left(\begin{smallmatrix}0&1/2\\-1&0\end{smallmatrix}\right)"
 
 
 def test_compact_sides_keep_what_differs():
@@ -84,9 +86,3 @@ def test_everything_that_the_register_says_has_ascii_latex(register):
                 for latex in (notation.symbol_latex(symbol), notation.value_latex(value)):
                     assert latex.isascii(), (record["id"], symbol, latex)
                     assert "U+" not in latex
-
-
-def test_a_matrix_is_small_in_latex():
-    assert (
-        notation.value_latex("[[0, -1/2], [1, 0]]") == r"\left(\begin{smallmatrix}0&-1/2\\1&0\end{smallmatrix}\right)"
-    )

@@ -27,17 +27,13 @@ def asked(record):
     ]
 
 
-def test_answers_and_lemmas_are_there_and_escaped(asked):
+def test_answers_and_lemmas_are_there_and_escaped_and_links_lead_to_them(asked):
     text = questions.html(asked, [], [], VERSIONS)
     assert "No, &lt;b&gt;never&lt;/b&gt;." in text
     assert all(text.count(f'id="claim-{record["id"]}"') == 1 for record in asked)
     assert "No certificate was given" in text
-
-
-def test_links_lead_to_what_is_on_the_page(asked):
-    text = questions.html(asked, [], [], VERSIONS)
-    anchors = set(re.findall(r'id="([^"]+)"', text))
-    assert set(re.findall(r'href="#([^"]+)"', text)) <= anchors
+    assert set(re.findall(r'href="#([^"]+)"', text)) <= set(re.findall(r'id="([^"]+)"', text))
+    assert text == questions.html(copy.deepcopy(asked), [], [], VERSIONS)
 
 
 def test_a_certificate_is_shown_as_it_is_judged(asked):
@@ -55,10 +51,6 @@ def test_figures_are_inside_the_page(asked):
     text = questions.html(asked, [], [evidence], VERSIONS)
     assert 'src="data:image/svg+xml;base64,PHN2Zy8+" alt="A staircase"' in text
     assert "it locks" in text
-
-
-def test_the_same_input_gives_the_same_bytes(asked):
-    assert questions.html(asked, [], [], VERSIONS) == questions.html(copy.deepcopy(asked), [], [], VERSIONS)
 
 
 @pytest.mark.parametrize("name", command.STUDIES)

@@ -47,11 +47,8 @@ def test_counts_are_in_the_order_of_the_verdicts(handmade, record):
     assert reading.counts([record("1", "novel")]) == {"novel": 1}
 
 
-def test_errors_are_the_claims_that_are_false_as_printed(handmade):
+def test_errors_are_the_claims_that_are_false_as_printed_and_have_a_truth(handmade):
     assert ids(reading.errors(handmade)) == ["5.4", "prop-3", "5.7"]
-
-
-def test_the_truth_of_each_kind_of_error(handmade):
     corrected, conditional, refuted = reading.errors(handmade)
     assert reading.truth(corrected) == (r"a = \tfrac14 b", "")
     assert reading.truth(conditional) == (r"\langle\gamma\rangle", "q is real")

@@ -75,18 +75,11 @@ def test_frames_too_far_apart_are_told_where_nothing_tells_the_turns():
     assert not one(next_ones).notes
 
 
-def test_a_whole_turn_that_the_attitude_hides_is_seen_in_the_way():
-    seen = rolled(3900, every=5).drop_vars("omega")
-    ball = one(seen)
-    assert ball.turn is not None
-    hidden = seen.assign(contact=seen["contact"] * 20)
-    assert one(hidden).notes == [TOO_FAR]
-
-
-def test_a_wrong_omega_does_not_pass_for_a_known_turn():
-    wrong = rolled(3900, every=60)
-    wrong["omega"] *= -0.31
-    assert one(wrong).notes == [TOO_FAR]
+def test_a_whole_turn_that_the_attitude_hides_is_seen_in_the_way_and_a_wrong_omega_does_not_pass():
+    seen, wrong = rolled(3900, every=5).drop_vars("omega"), rolled(3900, every=60)
+    assert one(seen).turn is not None
+    assert one(seen.assign(contact=seen["contact"] * 20)).notes == [TOO_FAR]
+    assert one(wrong.assign(omega=wrong["omega"] * -0.31)).notes == [TOO_FAR]
 
 
 def test_a_quaternion_and_its_negative_are_the_same_attitude():

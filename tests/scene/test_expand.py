@@ -224,13 +224,10 @@ def test_what_cannot_be_is_refused_with_the_name_of_the_ball(ball, start, senten
     assert str(caught.value).startswith(sentence)
 
 
-def test_two_balls_of_one_name_are_refused_where_a_sweep_makes_it():
+def test_balls_of_one_name_by_a_sweep_or_of_different_dimensions_and_radii_are_refused():
     swept = BALL | {"name": "a", "mass": {"grid": [2, 3]}}
     with pytest.raises(SceneError, match="two balls have the name 'a 2'"):
         members({"omega": [1, 2, 3]}, [swept, BALL | {"name": "a 2"}])
-
-
-def test_balls_of_different_dimensions_and_radii_are_refused():
     four = {"mass_tensor": [1, 2, 3, 4], "D": 3, "start": {"momentum": np.zeros((4, 4)).tolist()}}
     with pytest.raises(SceneError, match="the balls of a scene roll in one space"):
         members({"omega": [1, 2, 3]}, [BALL, four])

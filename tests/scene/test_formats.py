@@ -98,13 +98,14 @@ def test_a_damaged_file_is_one_sentence(result, tmp_path, suffix, damage):
     assert "\n" not in str(caught.value)
 
 
-@pytest.mark.parametrize("suffix", [*FILES, ".zarr"])
-def test_a_file_that_is_not_there(tmp_path, suffix):
-    with pytest.raises(SceneError, match=r"run\.\w+ cannot be read: No such file"):
-        formats.load(tmp_path / f"run{suffix}")
-
-
-def test_a_name_that_is_no_result(tmp_path, result):
+def test_what_is_no_result_is_not_read(tmp_path, result):
+    """A pipe is not waited for."""
+    for suffix in (*FILES, ".zarr"):
+        with pytest.raises(SceneError, match=r"run\.\w+ cannot be read: No such file"):
+            formats.load(tmp_path / f"run{suffix}")
+    os.mkfifo(tmp_path / "run.nc")
+    with pytest.raises(SceneError, match="is a pipe, not a file with a result"):
+        formats.load(tmp_path / "run.nc")
     with pytest.raises(SceneError, match="is no result: one ends in"):
         formats.load(tmp_path / "run.txt")
     with pytest.raises(SceneError, match="a result is written to"):
@@ -149,14 +150,6 @@ def test_a_npz_of_one_ball_is_plain_arrays_of_frames(tmp_path):
         assert found["momentum"].shape == (5, 3)
         assert found["time"].tolist() == data.time.values.tolist()
         assert found["radius"] == 0.5
-
-
-@pytest.mark.parametrize("suffix", FILES)
-def test_a_pipe_is_no_result_and_is_not_waited_for(tmp_path, suffix):
-    path = tmp_path / f"run{suffix}"
-    os.mkfifo(path)
-    with pytest.raises(SceneError, match="is a pipe, not a file with a result"):
-        formats.load(path)
 
 
 KINDS = {

@@ -131,11 +131,15 @@ def test_a_top_needs_no_gamma_for_its_energy(tops):
     assert np.abs(full["omega"] - columns["omega"]).max() <= 8 * EPS * np.abs(full["omega"]).max()
 
 
-def test_the_cheaper_of_two_models_is_taken(tops):
+def test_the_cheaper_of_two_models_is_taken_and_the_balls_of_a_dearer_one_are_not_looked_at(tops, monkeypatch):
     few = planned(tops, Task(("momentum",), 1000))
     assert few.model.name == Rolling.name
     assert few.refused[Top.name].startswith("it would cost ")
     assert planned(tops, Task(("momentum",), 10**7, 10**5)).model.name == Top.name
+    monkeypatch.setattr("chapsym.scene.plan.models.top.motion_of", None)
+    plan = planned(tops, Task(("momentum",), 10))
+    assert plan.model.name == Rolling.name
+    assert "times as much" in plan.refused[Top.name]
 
 
 def test_the_phase_of_a_top_is_that_of_its_curve(tops):
@@ -163,15 +167,12 @@ def test_a_phase_is_refused_where_there_is_no_curve(vertical):
         planned(replace(vertical, gamma=along, momentum=0.5 * along), Task(("phase",), 10))
 
 
-def test_the_rotation_number_without_D_is_the_increment():
+def test_the_rotation_number_without_D_is_the_increment_and_with_D_that_of_any_point():
     ball, gamma = chapsym.Ball((1, 2, 4), 0), np.array([2, 3, 6]) / 7
     curve = chapsym.Curve.through(ball, gamma)
     for h in (0.5, -0.02, 2.0):
         turn = float(chapsym.increment(curve, h, 0.0)) / curve.period
         assert chapsym.rotation_number(ball, h, gamma) == pytest.approx(turn, rel=1e-13)
-
-
-def test_the_rotation_number_is_that_of_any_point_of_the_curve():
     ball, gamma = chapsym.Ball((1, 2, 4), 7), np.array([2, 3, 6]) / 7
     curve = chapsym.Curve.through(ball, gamma)
     found = [chapsym.rotation_number(ball, 2.0, curve.point(u)) for u in (0.0, 0.3, 1.7)]
@@ -187,13 +188,6 @@ def test_a_top_without_an_attitude_at_once_takes_its_steps(tops, monkeypatch):
     assert plan.model.name == Rolling.name
     assert "too near to the separatrix" in plan.refused[Top.name]
     assert planned(tops, replace(task, outputs=("momentum",))).model.name == Top.name
-
-
-def test_the_balls_of_a_model_that_is_dearer_are_not_looked_at_one_by_one(tops, monkeypatch):
-    monkeypatch.setattr("chapsym.scene.plan.models.top.motion_of", None)
-    plan = planned(tops, Task(("momentum",), 10))
-    assert plan.model.name == Rolling.name
-    assert "times as much" in plan.refused[Top.name]
 
 
 def test_a_ball_beyond_its_fold_has_no_rotation_number_and_the_others_theirs(vertical):

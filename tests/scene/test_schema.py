@@ -32,14 +32,12 @@ def test_the_examples_are_those_of_the_docs():
     assert names() == sorted(path.stem for path in (DOCS / "scenes").glob("*.toml"))
 
 
-@pytest.mark.parametrize("text", [FIRST, *map(example, names())], ids=["first", *names()])
-def test_every_example_fits(text):
-    jsonschema.validate(tomllib.loads(text), SCHEMA, jsonschema.Draft202012Validator)
+EXAMPLES = {"first": tomllib.loads(FIRST), **{name: tomllib.loads(example(name)) for name in names()}}
 
 
-@pytest.mark.parametrize("name", sorted(DATA))
-def test_every_kind_of_key_fits(name):
-    jsonschema.validate(DATA[name], SCHEMA, jsonschema.Draft202012Validator)
+@pytest.mark.parametrize("data", [*EXAMPLES.values(), *DATA.values()], ids=[*EXAMPLES, *DATA])
+def test_every_example_and_every_kind_of_key_fits(data):
+    jsonschema.validate(data, SCHEMA, jsonschema.Draft202012Validator)
 
 
 BALL, START, RUN = DATA["small"]["ball"], DATA["small"]["start"], DATA["small"]["run"]

@@ -29,6 +29,7 @@ from chapsym.scene.read.units import LENGTH, MASS, MOMENT, PURE, RATE, SPEED, TI
         ("3 m s-1", SPEED, 3.0),
         ("10 ms", TIME, 0.01),
         ("2 min", TIME, 120.0),
+        ("5 millis", TIME, 0.005),
         ("30 rpm", RATE, math.pi),
         ("1.5 rev/s", RATE, 3 * math.pi),
         ("180 deg/s", RATE, math.pi),
@@ -83,10 +84,6 @@ def test_without_pint_a_unit_is_told_to_need_it(monkeypatch):
             number("3 cm", LENGTH)
     finally:
         units._registry.cache_clear()
-
-
-def test_a_time_may_be_said_in_short():
-    assert number("5 millis", TIME) == 0.005
 
 
 @given(st.text(st.characters(codec="utf-8", max_codepoint=0x300), max_size=30), st.sampled_from(["", "3 ", "1e3 "]))

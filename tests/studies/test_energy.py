@@ -34,14 +34,10 @@ def test_energy_rate_is_the_odd_part_of_the_change_by_a_step():
     assert (4 * odd[1] - odd[0]) / 3 == pytest.approx(LEVEL.energy_rate(K, g), abs=1e-10)
 
 
-def test_energy_rate_is_odd_under_the_reversor():
+def test_energy_rate_is_odd_under_the_reversor_and_vanishes_without_contact():
     K, g = state(LEVEL, 0.7, 1.3)
     half_turn = np.array([-1.0, 1.0, -1.0])
     assert LEVEL.energy_rate(-half_turn * K, -half_turn * g) == pytest.approx(-LEVEL.energy_rate(K, g), rel=1e-12)
-
-
-def test_energy_rate_vanishes_without_contact():
-    """Of D = 0 the map keeps H itself."""
     level = Level((1.0, 2.0, 4.0), 0.0, 0.3)
     K, g = state(level, 0.7, 1.3)
     assert abs(level.energy_rate(K, g)) < 1e-16

@@ -152,7 +152,9 @@ def test_for_small_heights_the_increment_is_that_of_the_flow_of_lemma_almost_eve
 
 
 def test_the_width_in_the_height_is_that_in_the_level_by_the_slopes():
+    before = ctx.prec
     found = plateau.plateau(*LAMINA, 9, 1, in_height=True)
+    assert ctx.prec == before
     with ctx.workdps(50):
         here = number(found["level"])
         e = arb("1e-12")
@@ -239,12 +241,6 @@ def test_what_is_no_level_or_step_is_said(arguments, sentence):
 def test_a_resonance_that_is_not_there_is_said():
     with pytest.raises(BadInput, match="no level has the rotation number 1/3 half turns"):
         plateau.plateau(*BALL, 3, 1)
-
-
-def test_the_working_digits_are_put_back():
-    before = ctx.prec
-    plateau.plateau(*LAMINA, 9, 1)
-    assert ctx.prec == before
 
 
 def test_every_unit_is_plain_data_and_the_full_study_has_more():

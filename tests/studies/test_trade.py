@@ -37,7 +37,7 @@ POINTS = [
 ]
 
 
-def test_the_frontier_and_what_is_dominated():
+def test_the_frontier_and_what_is_dominated_and_equal_points_are_not():
     found = Frontier("t", "q", POINTS)
     assert [(p.name, p.digits) for p in found.best] == [("a, order 2", 3.0), ("b, order 4", 8.0)]
     assert found.dominated == {"c, order 6": "b, order 4"}
@@ -47,9 +47,6 @@ def test_the_frontier_and_what_is_dominated():
     plain = found.as_json()
     assert [p["frontier"] for p in plain["points"]] == [True, False, True, False]
     json.dumps(plain, allow_nan=False)
-
-
-def test_equal_points_do_not_dominate_each_other():
     twins = [Point("a, order 2", 0.1, 1.0, 1.0, 3.0), Point("b, order 4", 0.1, 1.0, 1.0, 3.0)]
     assert Frontier("t", "q", twins).dominated == {}
 
