@@ -82,7 +82,7 @@ def test_the_margin_says_whether_the_step_is_taken(state):
 
 
 def test_another_branch_folds_too():
-    ball, K, gamma = seeded(30, 50.0)
+    ball, K, gamma = seeded(10, 50.0)
     found = branches(ball, 0.2 * K, gamma)
     which = np.flatnonzero(found.count >= 4)
     assert len(which) > 5
