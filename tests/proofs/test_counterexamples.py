@@ -93,11 +93,6 @@ def state(request):
     return Vertical(*STATES[request.param]), request.param
 
 
-@pytest.fixture
-def below():
-    return Vertical(*STATES[0])
-
-
 def test_5_1_the_entry_32(records):
     q0, q1, q2, q3 = UNIT
     truth = rotation(*UNIT)
@@ -108,19 +103,13 @@ def test_5_1_the_entry_32(records):
     agree(records, "5.1", (printed.ravel(), truth.ravel()))
 
 
-def test_5_4_the_missing_factor(records, below):
-    v = below
+def test_5_4_5_6_and_5_12_the_missing_factor_and_the_sign_of_the_rotation(records):
+    v = Vertical(*STATES[0])
     assert (v.left == (v.h + 2 * v.lifted) * v.gamma).all()
     agree(records, "5.4", (v.left, (v.h + v.lifted) * v.gamma), (v.left, v.left))
-
-
-def test_5_6_sigma(records, below):
-    v = below
     agree(records, "5.6-sigma", (v.sigma, v.h + v.lifted), (v.sigma, v.h + 2 * v.lifted))
-
-
-def test_5_6_the_sign_of_the_rotation(records, below):
-    v = below
+    lifted = v.D * v.sigma / 4 * (v.gamma @ v.s_over_lam)
+    agree(records, "5.12-sigma", (v.sigma, v.h + lifted), (v.sigma, v.h + 2 * lifted))
     J1, J2, J3 = v.J + v.D / 2
     q0, (q1, q2, q3) = v.q0, v.q
     second = 2 / v.sigma * vector(
@@ -146,12 +135,6 @@ def test_5_11_and_prop_4(records, state):
     product = np.cross(v.s, v.s_over_lam)
     assert product.any()
     assert (v.next - v.gamma == v.sigma / (1 + cosine) / 2 * product).all()
-
-
-def test_5_12_sigma(records, below):
-    v = below
-    lifted = v.D * v.sigma / 4 * (v.gamma @ v.s_over_lam)
-    agree(records, "5.12-sigma", (v.sigma, v.h + lifted), (v.sigma, v.h + 2 * lifted))
 
 
 GAMMA, J, D = vector(2, 3, 6) / 7, vector(1, 2, 4), F(3)
@@ -307,18 +290,13 @@ class Increment:
         self.D = (2 * self.V * self.w - self.G) * self.scale / (2 * self.V * self.w * self.lower)
 
 
-def test_5_14_G(records):
+def test_5_14_G_and_alpha(records):
     """At ū = 0, s/2 = (C1 cn, 0, C3 dn): Π2 by hand, and G from Π2 𝒟² = G𝒟/sn² - V² cn² dn²/sn²."""
     t = Increment(F(0))
-    a, b, c = t.abc
+    (a, b, c), (L1, L2, L3) = t.abc, t.lam
     second = a * t.c2 + c * t.d2
     assert (second + t.V**2 * t.c2 * t.d2 / t.y) * t.y == t.G
     agree(records, "5.14-G", (a / t.k2 * t.c2 - b * t.c2 * t.d2 + c * t.d2, t.G))
-
-
-def test_5_14_alpha(records):
-    t = Increment(F(0))
-    L1, L2, L3 = t.lam
     below = (L2 - L3) * (L1 * t.l - 1)
     true = (2 * L1 * L3 * t.l - (L1 + L3 - L2)) / below
     beta = L1 * L3 / (L2 - L3) ** 2 * (1 - L3 * t.l) / (L1 * t.l - 1)

@@ -66,11 +66,6 @@ def test_plain_readers_have_the_same_numbers(result, tmp_path):
         xarray.testing.assert_equal(found.load(), wanted)
 
 
-def test_many_rows_go_in_batches(tmp_path, monkeypatch, result):
-    monkeypatch.setattr("chapsym.scene.result.flat.ROWS", 100)
-    check_formats(result, tmp_path, (".csv", ".parquet"))
-
-
 def test_what_is_too_large_is_told_before_it_is_run(tmp_path, monkeypatch):
     wanted = plan(("momentum",))
     monkeypatch.setattr(formats, "MOST_ROWS", 20 * 34 - 1)
@@ -186,9 +181,11 @@ def test_every_kind_of_run_comes_back_from_every_format(tmp_path, kind):
         assert np.isfinite(data.phase.values).all()
 
 
-def test_numbers_that_look_like_others_keep_their_type(result, tmp_path):
+def test_numbers_that_look_like_others_keep_their_type_in_batches_too(result, tmp_path, monkeypatch):
     """Names that are numbers, floats that are whole, and a column of -0.0, which as integers would lose its sign."""
     data = result.copy(deep=True).assign_coords(ball=np.array([f"0{i}" for i in range(20)], dtype=object))
     data["energy"][:] = -0.0
     data["omega"][:] = 7.0
     check_formats(data, tmp_path)
+    monkeypatch.setattr("chapsym.scene.result.flat.ROWS", 100)
+    check_formats(data, tmp_path, (".csv", ".parquet"))

@@ -71,7 +71,7 @@ def test_the_dataset_keeps_the_contract(whole):
             assert (gone == after[:, np.newaxis]).all(), name
 
 
-def test_a_store_has_the_bits_of_the_run_in_memory(whole, tmp_path, path):
+def test_a_store_has_the_bits_of_the_run_in_memory_and_is_left_alone(whole, tmp_path, path, monkeypatch):
     outcome = sweep.run_to_store(plan(), path)
     assert outcome.complete
     assert not outcome.nothing_to_do
@@ -81,15 +81,11 @@ def test_a_store_has_the_bits_of_the_run_in_memory(whole, tmp_path, path):
     assert found.attrs["complete"] is True
     assert [p.name for p in tmp_path.iterdir()] == ["run.zarr"]
     assert not marks.folder(path).exists()
-
-
-def test_a_finished_store_is_left_alone(path, monkeypatch):
-    first = sweep.run_to_store(plan(), path)
     before = {p: p.stat().st_mtime_ns for p in path.rglob("*")}
     monkeypatch.setattr(segments, "advance", None)
     again = sweep.run_to_store(plan(), path)
     assert again.nothing_to_do
-    assert again.failed == first.failed
+    assert again.failed == outcome.failed
     assert {p: p.stat().st_mtime_ns for p in path.rglob("*")} == before
 
 
@@ -199,9 +195,13 @@ def test_versions_kernels_and_starts_are_not_mixed(path, monkeypatch):
         sweep.run_to_store(plan(), path)
 
 
-def test_a_comment_or_another_output_is_no_other_scene(path, monkeypatch):
+def test_a_comment_or_another_output_is_no_other_scene_and_what_is_half_written_goes(path, monkeypatch):
     interrupted(path, monkeypatch, 3, plan(scene="[run]\na = 1\n"))
+    left = path / "momentum" / "c" / "0" / "0.5a.partial"
+    left.parent.mkdir(parents=True, exist_ok=True)
+    left.write_bytes(b"half")
     assert sweep.run_to_store(plan(scene="# Now.\n[run]\na = 1\noutput = 'run.zarr'"), path).complete
+    assert not list(path.rglob("*.partial"))
 
 
 @pytest.mark.parametrize("found", [{"chapsym_version": "0"}, {"chapsym_version": 0, "scene": 5}, [1], None])
@@ -284,15 +284,6 @@ def test_a_store_that_is_deleted_under_a_unit_leaves_no_debris(tmp_path, path, m
         with pytest.raises(SceneError, match="was deleted or moved while it was written"):
             write_region(path, wanted, 0, 0, columns)
     assert not path.exists()
-
-
-def test_what_a_killed_process_left_half_written_goes(path, monkeypatch):
-    interrupted(path, monkeypatch, 7)
-    left = path / "momentum" / "c" / "0" / "0.5a.partial"
-    left.parent.mkdir(parents=True, exist_ok=True)
-    left.write_bytes(b"half")
-    assert sweep.run_to_store(plan(), path).complete
-    assert not list(path.rglob("*.partial"))
 
 
 def test_units_that_run_stop_when_another_ends_the_run(path, monkeypatch):
