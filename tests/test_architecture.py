@@ -93,12 +93,9 @@ def loaded_by(program):
     return set(subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.split())
 
 
-def test_import_chapsym_is_light():
+def test_import_chapsym_is_light_and_running_the_map_loads_no_sympy_and_no_high_rung():
     """The limit is 0.15 s; what could break it is a heavy import, so those are what is tested."""
     assert not {"numpy", "sympy", "numba", "mpmath", "flint", "typer", "rich", "pydantic"} & loaded_by("import chapsym")
-
-
-def test_running_the_map_loads_no_sympy_and_no_high_rung():
     program = (
         "import chapsym; ball = chapsym.Ball((1, 2, 4), 3)\n"
         "chapsym.trajectory(ball, (.1, 0, 0), (0, 0, 1), 5)\nimport chapsym.scene"

@@ -30,10 +30,7 @@ def test_any_other_text_is_refused_in_one_sentence(text):
         assert str(error).startswith("x: ")  # noqa: PT017
 
 
-def test_the_count_is_checked():
+def test_the_count_is_checked_and_the_mass_tensor_is_exact():
     with pytest.raises(NotANumber, match="--gamma takes 3 numbers"):
         rationals("1,2", "--gamma", 3)
-
-
-def test_mass_tensor_from_inertia_is_exact():
     assert mass_tensor_from((Fraction(6), Fraction(5), Fraction(3))) == (1, 2, 4)

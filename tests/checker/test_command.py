@@ -64,11 +64,15 @@ def test_what_is_no_json_object_is_unreadable_in_one_sentence(tmp_path, content,
     assert len(capsys.readouterr().err.splitlines()) == 1
 
 
-def test_a_name_that_stands_twice_is_rejected(tmp_path, files, capsys):
+def test_a_name_that_stands_twice_and_another_kind_are_rejected(tmp_path, files, capsys):
     text = Path(files["right"]).read_text()
     (tmp_path / "twice.json").write_text(text.replace('"steps": 9,', '"steps": 9, "steps": 9,'))
     assert main([str(tmp_path / "twice.json")]) == 1
     assert "twice" in capsys.readouterr().err
+    file = Path(files["text"])
+    file.write_text(json.dumps({"format": "chapsym-certificate/1", "kind": "perpetual-motion"}))
+    assert main([str(file)]) == 1
+    assert capsys.readouterr().err.endswith("and none of kind 'perpetual-motion'\n")
 
 
 @pytest.mark.parametrize("how", [["-m", "chapsym.checker"], ["-I", "-S", str(FOLDER)]])
@@ -95,13 +99,6 @@ def test_nobody_reading_the_output_is_no_traceback(files):
     run = subprocess.run(command, stdout=write, stderr=subprocess.PIPE, text=True)
     os.close(write)
     assert (run.returncode, run.stderr) == (141, "")
-
-
-def test_a_certificate_of_another_kind_is_named(files, capsys):
-    file = Path(files["text"])
-    file.write_text(json.dumps({"format": "chapsym-certificate/1", "kind": "perpetual-motion"}))
-    assert main([str(file)]) == 1
-    assert capsys.readouterr().err.endswith("and none of kind 'perpetual-motion'\n")
 
 
 def test_lists_in_lists_of_any_depth_are_refused_in_one_sentence(files, capsys):

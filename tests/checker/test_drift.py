@@ -130,9 +130,12 @@ def test_the_norm_bounds_the_growth_of_what_is_near(flow):
     assert np.linalg.eigvalsh(symmetric).max() <= rows.max() + 1e-9
 
 
-def test_starts_too_far_from_each_other_are_refused(flow):
+def test_starts_too_far_apart_and_more_steps_than_a_reader_can_wait_for_are_refused(flow, right, monkeypatch):
     with pytest.raises(Rejected, match="too far apart"):
         run(flow(16), START, Fraction(1, 1000), Fraction(1))
+    monkeypatch.setattr(drift, "MOST_STEPS", 3)
+    with pytest.raises(Rejected, match="more than 3 steps"):
+        check(right)
 
 
 @pytest.mark.parametrize(
@@ -202,9 +205,3 @@ def test_what_is_found_must_prove_the_statement(right, known):
 @pytest.mark.parametrize("bad", [None, 3, "x", [], {}, [[]], "-1", True])
 def test_any_shape_is_refused_with_a_sentence(right, name, bad):
     assert refused(resealed(right | {name: bad}))
-
-
-def test_more_steps_than_a_reader_can_wait_for_are_refused(right, monkeypatch):
-    monkeypatch.setattr(drift, "MOST_STEPS", 3)
-    with pytest.raises(Rejected, match="more than 3 steps"):
-        check(right)

@@ -319,18 +319,16 @@ def test_5_14_and_5_15(records):
     agree(records, "5.15", (printed, 0))
 
 
-def test_5_16(records):
-    """k² = 9/16, sn u = sn δu = 4/5, cn = 3/5, dn = 4/5: sn(u + δu) by the addition formula."""
+def test_5_16_and_its_form_of_weierstrass(records):
+    """k² = 9/16, sn u = sn δu = 4/5, cn = 3/5, dn = 4/5: sn(u + δu) by the addition formula.
+
+    p - e3 = 1/sn², q = -2 cn dn/sn³.
+    """
     k2, s, c, d = F(9, 16), F(4, 5), F(3, 5), F(4, 5)
     x = s * s
     added = 2 * s * c * d / (1 - k2 * x * x)
     bracket = k2 * x * x * (2 - (k2 + 1) * x - k2 * x**2) + 2 * k2 * x * (s * c * d) ** 2 + k2 * x**2 * (1 - k2 * x) - 1
     agree(records, "5.16", (bracket / (1 - k2 * x * x) ** 2, 1 - k2 * added**2 * x))
-
-
-def test_5_16_weierstrass(records):
-    """sn = 4/5, cn = 3/5, dn = 4/5, k² = 9/16: p - e3 = 1/sn², q = -2 cn dn/sn³."""
-    s, c, d = F(4, 5), F(3, 5), F(4, 5)
     q, gap = -2 * c * d / s**3, 1 / s**2
     assert s * c * d == -q / (2 * gap**2)
     agree(records, "5.16-weierstrass-w", (q / (2 * gap**3), s * c * d))
@@ -358,25 +356,15 @@ def test_2_15_so3(records):
     assert energy == K @ omega / 2
 
 
-def test_3_4_the_first_term_of_the_principle(records):
-    """𝕃 = (y-x)²/2, q = 5, 0, 1, 3, 4, δq₀ = 1: the action has no q_{-1}."""
-    before, first, second = 5, 0, 1
+def test_counts_and_single_numbers(records):
+    before, first, second = 5, 0, 1  # 𝕃 = (y-x)²/2, q = 5, 0, 1, 3, 4, δq₀ = 1: the action has no q_{-1}
     agree(records, "3.4-principle", (-(second - first), -(second - first) + (first - before)))
-
-
-def test_remark_1_dimensions(records):
-    """n = 2, s = 1: N×N has the dimension 2(n-s), the distribution 2n-s."""
+    # n = 2, s = 1: N×N has the dimension 2(n-s), the distribution 2n-s.
     agree(records, "remark-1", (2 * (2 - 1), 2 * 2 - 1))
-
-
-def test_5_1_angle_a_rotation_by_pi(records):
-    """diag(1,-1,-1) has 4q₀² = 1 + tr = 0, and is the rotation of (0, e1)."""
+    # diag(1,-1,-1) has 4q₀² = 1 + tr = 0, and is the rotation of (0, e1).
     assert (rotation(F(0), *E1) == diagonal(1, -1, -1)).all()
     assert records["5.1-angle"]["evidence"]["counterexamples"][0]["printed"][0]["left"] == ["0"]
-
-
-def test_remark_2_a_regular_system_without_a_successor(records):
-    """2(1 + u²) = u has the discriminant 1 - 16 < 0."""
+    # 2(1 + u²) = u has the discriminant 1 - 16 < 0: a regular system without a successor.
     assert records["remark-2"]["evidence"]["counterexamples"][0]["printed"][0]["left"] == [str(1 - 4 * 2 * 2)]
 
 

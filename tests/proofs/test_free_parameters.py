@@ -30,14 +30,11 @@ def test_the_claim_has_a_second_route_and_controls_of_it(records, id):
     assert methods == {"python-flint polynomials, rational parameterisation"}
 
 
-def test_the_second_routes_import_no_derivation():
+def test_the_second_routes_import_no_derivation_and_make_a_record_stale():
     tree = ast.parse(Path(again.__file__).read_text(encoding="utf-8"))
     names = [a.name for node in ast.walk(tree) if isinstance(node, ast.Import) for a in node.names]
     names += [str(node.module) for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)]
     assert not [name for name in names if "derive" in name or "sympy" in name or "proofs" in name]
-
-
-def test_a_changed_second_route_makes_the_record_stale():
     assert "chapsym.proofs.second_routes" in sources.closure("chapsym.proofs.paper.s5_vertical")
 
 

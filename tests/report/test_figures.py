@@ -144,6 +144,8 @@ def test_a_change_at_roundoff_is_drawn_in_a_range_of_twenty_ulps_and_a_real_drif
     assert figure.axes[0].get_ylabel() == "relative change, 10⁻⁹"
     assert figure.axes[0].get_ylim()[1] > 100
     assert [text[-6:] for text in texts(figure)[1:]] == ["1.0e-7", "1.0e-7"]
+    x = np.array([[2.0, 2.5], [0.0, 0.25]])
+    assert (change.relative(x, np.array([2.0, 0.0])) == [[0.0, 0.25], [0.0, 0.25]]).all()
 
 
 def test_the_energy_is_drawn_as_its_relative_change():
@@ -183,7 +185,7 @@ def test_thinning_out_loses_no_spike():
     assert len(drawn) < 4000
 
 
-def test_the_phase_and_its_increments():
+def test_the_phase_and_its_increments_where_a_constant_looks_constant():
     dataset = results.vertical(100)
     above, below = figures.draw(dataset, "phase").axes
     u = dataset["phase"].values[0]
@@ -193,6 +195,11 @@ def test_the_phase_and_its_increments():
     thinned = dataset.isel(frame=slice(None, None, 4))
     each = lines(figures.draw(thinned, "phase").axes[1])[0].get_ydata()
     assert each == pytest.approx(np.diff(u)[:100].reshape(25, 4).mean(axis=1), rel=1e-13)
+    dataset = results.vertical(50)
+    dataset["phase"] = ("ball", "frame"), (0.1 * np.arange(51) + 40.0)[np.newaxis]
+    _, below = figures.draw(dataset, "phase").axes
+    low, high = below.get_ylim()
+    assert high - low == pytest.approx(1e-4)
 
 
 @pytest.mark.parametrize("every", [1, 5, 60])
@@ -223,14 +230,6 @@ def test_a_phase_whose_period_is_not_known_keeps_its_jumps_but_not_as_increments
     assert np.isnan(lines(above)[0].get_ydata()).sum() == np.isnan(each).sum()
 
 
-def test_an_increment_that_is_constant_looks_constant():
-    dataset = results.vertical(50)
-    dataset["phase"] = ("ball", "frame"), (0.1 * np.arange(51) + 40.0)[np.newaxis]
-    _, below = figures.draw(dataset, "phase").axes
-    low, high = below.get_ylim()
-    assert high - low == pytest.approx(1e-4)
-
-
 def test_the_rotation_number_is_drawn_over_what_was_varied():
     dataset = results.sweep(12).isel(ball=[5, 2, 9, 0, 11])
     axis = figures.draw(dataset, "rotation").axes[0]
@@ -251,7 +250,7 @@ def test_two_swept_parameters_are_an_axis_and_a_colour_and_what_is_missing_is_co
     assert "1 of 10" in figures.draw(dataset, "rotation").axes[0].get_title()
 
 
-def test_the_spread_is_the_distance_from_the_mean():
+def test_the_spread_is_the_distance_from_the_mean_in_logarithms_if_it_grows_exponentially():
     dataset = results.batch(50, 100, 1)
     above, below = figures.draw(dataset, "spread").axes
     contact, gamma = dataset["contact"].values, dataset["gamma"].values
@@ -262,10 +261,6 @@ def test_the_spread_is_the_distance_from_the_mean():
     angle = np.rad2deg(np.arccos(np.clip((gamma * mean).sum(axis=-1), -1, 1)))
     assert lines(below)[0].get_ydata() == pytest.approx(np.median(angle, axis=0), abs=1e-5)
     assert above.get_yscale() == "linear"
-
-
-def test_a_spread_that_grows_exponentially_is_drawn_in_logarithms():
-    dataset = results.batch(50, 100, 1)[["contact", "taken", "status"]]
     away = np.random.default_rng(1).standard_normal((50, 1, 2)) * np.exp(np.linspace(-20, 0, 101))[:, np.newaxis]
     dataset["contact"] = ("ball", "frame", "plane"), away
     assert figures.draw(dataset, "spread").axes[0].get_yscale() == "log"
@@ -288,7 +283,7 @@ def test_one_output_is_one_figure(output):
     assert [name for name, reason in found.items() if reason is None] == [output]
 
 
-def test_wrong_names_are_told_with_the_right_ones():
+def test_a_figure_and_a_ball_are_chosen_by_name_or_index():
     dataset = results.folded()
     with pytest.raises(BadInput, match="no figure 'trace'; choose of contact, spheres"):
         figures.draw(dataset, "trace")
@@ -296,10 +291,6 @@ def test_wrong_names_are_told_with_the_right_ones():
         figures.draw(dataset, "contact", "third")
     with pytest.raises(BadInput, match="no result"):
         figures.available(dataset[["D"]])
-
-
-def test_one_ball_of_several_by_name_or_index():
-    dataset = results.folded()
     for ball in ("slow", 0, -2):
         (line,) = lines(figures.draw(dataset, "contact", ball).axes[0])
         assert (line.get_xdata() == dataset["contact"].values[0, :, 0]).all()
@@ -315,7 +306,7 @@ def test_a_frame_that_was_reached_and_is_not_finite_is_an_error(name):
         figures.draw(dataset, name)
 
 
-def test_balls_whose_turn_has_not_come_are_left_out():
+def test_balls_whose_turn_has_not_come_and_what_stands_behind_the_last_step_are_left_out():
     dataset = results.folded()
     dataset["taken"][1] = -1
     dataset["contact"][1] = np.nan
@@ -323,6 +314,11 @@ def test_balls_whose_turn_has_not_come_are_left_out():
     dataset["taken"][0] = -1
     with pytest.raises(BadInput, match="no ball of this result has run yet"):
         figures.draw(dataset, "contact")
+    dataset = results.folded()
+    dataset["contact"] = dataset["contact"].fillna(99.0)
+    read = reading.values(dataset, "contact")
+    assert np.isnan(read[1, int(dataset["taken"][1]) + 1 :]).all()
+    assert np.isfinite(read[0]).all()
 
 
 def test_an_interrupted_sweep_shows_the_balls_that_have_run():
@@ -344,14 +340,6 @@ def test_an_interrupted_sweep_shows_the_balls_that_have_run():
     waiting = results.sweep(20)
     waiting["taken"][5:], waiting["rotation_number"][5:] = -1, np.nan
     assert figures.draw(waiting, "rotation").axes[0].get_title() == ""
-
-
-def test_what_stands_behind_the_last_step_of_a_ball_is_not_read():
-    dataset = results.folded()
-    dataset["contact"] = dataset["contact"].fillna(99.0)
-    read = reading.values(dataset, "contact")
-    assert np.isnan(read[1, int(dataset["taken"][1]) + 1 :]).all()
-    assert np.isfinite(read[0]).all()
 
 
 def test_decimal_strings_are_drawn_as_the_numbers_they_are():
@@ -434,11 +422,6 @@ def test_pyplot_is_not_touched():
     folder = Path(results.__file__).parent
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True, cwd=folder)
     assert done.stdout.split() == ["False"]
-
-
-def test_changes_are_relative_to_what_they_are_compared_with():
-    x = np.array([[2.0, 2.5], [0.0, 0.25]])
-    assert (change.relative(x, np.array([2.0, 0.0])) == [[0.0, 0.25], [0.0, 0.25]]).all()
 
 
 @pytest.mark.filterwarnings("error")

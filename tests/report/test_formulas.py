@@ -60,10 +60,12 @@ def test_what_the_paper_needs_is_rendered(latex, expected):
     assert shape(latex) == expected
 
 
-def test_prose_inside_a_formula_is_prose_of_the_page():
+def test_prose_inside_a_formula_is_prose_of_the_page_and_escaped():
     html = formulas.html(r"K = h\gamma \text{ with } h \text{ constant}")
     assert '<span class="prose"> with </span>' in html
     assert "mtext" not in html
+    assert "<b>" not in formulas.html(r"\text{<b>bold</b>} x")
+    ET.fromstring(formulas.mathml("x < y"))
 
 
 def test_a_line_may_break_behind_a_comma_but_not_in_braces():
@@ -92,8 +94,3 @@ def test_what_does_not_convert_shows_its_source_and_says_so(latex, reason):
     assert reason in html.unescape()
     assert latex in html.unescape()
     assert "<script" not in html
-
-
-def test_text_of_a_formula_is_escaped():
-    assert "<b>" not in formulas.html(r"\text{<b>bold</b>} x")
-    ET.fromstring(formulas.mathml("x < y"))

@@ -21,14 +21,11 @@ def test_every_claim_is_a_link_and_every_use_an_arc(register):
     assert "0 claims and 0 uses" in graph.svg([])
 
 
-def test_an_arc_has_the_verdict_of_its_source(handmade):
+def test_an_arc_has_the_verdict_of_its_source_and_against_the_order_of_the_paper_a_mark(handmade, record):
     _, _, arcs = parts(handmade)
     classes = {(arc.get("data-from"), arc.get("data-to")): arc.get("class").split() for arc in arcs}
     assert classes["2.1", "5.4"] == ["arc", "holds"]
     assert classes["5.4", "5.7"] == ["arc", "corrected"]
-
-
-def test_an_arc_against_the_order_of_the_paper_is_marked(record):
     _, _, arcs = parts([record("2.3", "holds", uses=["2.12"]), record("2.12", "holds")])
     assert arcs[0].get("class").split() == ["arc", "holds", "upwards"]
 

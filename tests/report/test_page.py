@@ -128,25 +128,15 @@ def test_everything_that_evidence_may_carry_is_shown(handmade):
     assert "There is no such measure." in opened.partition("Open in the paper, settled here")[2]
 
 
-def test_an_open_claim_that_the_paper_states_is_told_at_the_top(handmade, record):
+def test_an_open_claim_is_told_at_the_top_and_a_control_that_was_accepted_is_not_called_rejected(handmade, record):
     text = page.html([*handmade, record("4.1", "open", problems=["the proof has no negative control"])], VERSIONS)
     assert re.search(r'class="failure">Not proved: <a href="#claim-4.1">4.1</a>', text)
     assert "the proof has no negative control" in article(text, "4.1")
     assert "The paper states this; it is not proved here." in text
-
-
-def test_a_control_that_was_accepted_is_not_called_rejected(record):
     controls = [{"statement": "a", "rejected": False}]
     text = article(page.html([record("2.1", "open", controls=controls)], VERSIONS), "2.1")
     assert "ACCEPTED" in text
     assert "1 control rejected" not in text
-
-
-def test_evidence_that_is_absent_is_no_error():
-    bare = {"id": "2.1", "verdict": "holds", "printed": "x", "evidence": {"title": "It holds."}}
-    text = page.html([bare], VERSIONS)
-    assert 'class="failure"' not in text
-    assert "It holds." in article(text, "2.1")
 
 
 @pytest.mark.parametrize("name", list(page.SECTIONS))
@@ -166,35 +156,41 @@ def test_a_broken_section_tells_its_error_and_the_rest_stays(name, handmade, mon
         assert re.search(section, text, re.DOTALL).group() == re.search(section, whole, re.DOTALL).group()
 
 
-def test_a_broken_claim_tells_its_error_and_the_others_stay(handmade):
+def test_a_broken_claim_tells_its_error_and_absent_evidence_is_none(handmade):
     handmade[1]["evidence"]["checks"] = [{"text": "no such key"}]
     text = page.html(handmade, VERSIONS)
     assert '<div class="failure" id="claim-2.1" role="alert">' in text
     assert "Claim 2.1 could not be written." in text
     assert text.count('class="failure"') == 1
     assert "0.25 s" in article(text, "5.4")
+    bare = {"id": "2.1", "verdict": "holds", "printed": "x", "evidence": {"title": "It holds."}}
+    text = page.html([bare], VERSIONS)
+    assert 'class="failure"' not in text
+    assert "It holds." in article(text, "2.1")
 
 
-def test_plain_text_has_indices_and_true_minus_signs():
+def test_plain_text_has_indices_and_true_minus_signs_and_a_matrix_is_a_formula():
     assert page.prose("R_(k+1) = C1 - 2, m_{k-1}") == "R<sub>k+1</sub> = C<sub>1</sub> − 2, m<sub>k−1</sub>"
     assert page.prose("q₀²-1, (p-e3), 1-(D/2), k-1") == "q₀²−1, (p−e<sub>3</sub>), 1−(D/2), k−1"
     assert page.prose("n-dimensional <x> (5.12-q0), prop-1") == "n-dimensional &lt;x&gt; (5.12-q0), prop-1"
     assert page.prose("1.6e7 steps of float64, D1 and e3") == "1.6e7 steps of float64, D<sub>1</sub> and e<sub>3</sub>"
     assert page.prose("Φ_ε, ε_j H₁") == "Φ<sub>ε</sub>, ε<sub>j</sub> H₁"
     assert page.code("`a_b` is **not** a_b") == "<code>a_b</code> is <b>not</b> a<sub>b</sub>"
-
-
-def test_a_matrix_is_a_formula():
     shown = page.value("[[0, -1/2], [1, 0]]")
     assert "<mtable>" in shown
     assert "<mfrac><mrow><mn>1</mn></mrow><mrow><mn>2</mn></mrow></mfrac>" in shown
 
 
-def test_each_verdict_has_a_colour_and_a_meaning():
+def test_each_verdict_has_colours_that_can_be_read_in_light_and_in_dark():
     style = (page.FOLDER / "style.css").read_text(encoding="utf-8")
     for verdict in records.VERDICTS:
         assert f".{verdict} {{ --v: var(--{verdict}); }}" in style
         assert style.count(f"--{verdict}: #") == 2, "one for light, one for dark"
+    for root in re.findall(r":root \{(.*?)\}", style, re.DOTALL)[:2]:
+        colours = dict(re.findall(r"--([a-z]+): (#[0-9a-f]{6});", root))
+        for name in ("ink", "muted", "link", *records.VERDICTS):
+            for background in ("paper", "raised"):
+                assert contrast(colours[name], colours[background]) >= 4.5, (name, background)
 
 
 def contrast(a, b):
@@ -207,15 +203,6 @@ def contrast(a, b):
 
     lighter, darker = sorted((light(a), light(b)), reverse=True)
     return (lighter + 0.05) / (darker + 0.05)
-
-
-def test_colours_can_be_read_in_light_and_in_dark():
-    style = (page.FOLDER / "style.css").read_text(encoding="utf-8")
-    for root in re.findall(r":root \{(.*?)\}", style, re.DOTALL)[:2]:
-        colours = dict(re.findall(r"--([a-z]+): (#[0-9a-f]{6});", root))
-        for name in ("ink", "muted", "link", *records.VERDICTS):
-            for background in ("paper", "raised"):
-                assert contrast(colours[name], colours[background]) >= 4.5, (name, background)
 
 
 def test_page_tests_that_are_not_run_are_counted_in_one_line(monkeypatch):

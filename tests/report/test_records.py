@@ -9,11 +9,8 @@ def ids(records):
     return [record["id"] for record in records]
 
 
-def test_records_come_in_the_order_of_the_paper(handmade):
+def test_records_come_in_the_order_of_the_paper_and_what_names_no_equation_behind_the_one_before_it(handmade, record):
     assert ids(reading.in_paper_order(handmade)) == ["2.1", "3.1", "3.5", "5.4", "prop-3", "5.7", "5.9", "6.lr"]
-
-
-def test_what_names_no_equation_stays_behind_the_one_before_it(record):
     found = [record("5.4", "holds"), record("abstract", "holds"), record("2.1", "holds"), record("intro", "holds")]
     assert ids(reading.in_paper_order(found)) == ["2.1", "intro", "5.4", "abstract"]
 
@@ -61,11 +58,8 @@ def test_only_what_the_paper_states_must_be_proved(handmade, record):
     assert reading.unproved([*handmade, *failed]) == ["4.1", "4.2"]
 
 
-def test_uses_and_users_are_each_others_inverse(register):
+def test_uses_and_users_are_each_others_inverse_without_claims_that_are_not_there(register, record):
     uses, users = reading.uses(register), reading.users(register)
     assert {(a, b) for a in uses for b in uses[a]} == {(a, b) for b in users for a in users[b]}
     assert "5.4" in uses["prop-3"]
-
-
-def test_a_claim_that_is_not_there_is_not_linked(record):
     assert reading.uses([record("5.4", "holds", uses=["5.2"])]) == {"5.4": []}

@@ -43,15 +43,12 @@ def test_a_scene_runs_from_a_dictionary_and_shows_itself():
     assert re.search(r"drift +\d\.\de-1[56] at most", text)
 
 
-def test_figures_of_a_result_are_told_and_drawn_by_name():
+def test_figures_and_the_table_tell_what_there_is_sweeps_and_balls_that_stopped():
     result = Result(results.folded())
     assert result.figures()["omega"] == 'no ω: add "omega" to run.outputs (and give run.time_step)'
     assert len(result.figure("contact", ball="slow").axes[0].lines) == 3
     with pytest.raises(BadInput, match="no ball 'x'"):
         result.figure("contact", ball="x")
-
-
-def test_the_table_tells_sweeps_and_balls_that_stopped():
     told = dict(Result(results.folded()).rows())
     assert told["balls"] == "2, 1 of them stopped early"
     assert dict(Result(results.folded().isel(ball=[1])).rows())["stopped"].startswith("after ")
@@ -94,18 +91,15 @@ def test_what_cannot_be_saved_or_opened_is_one_sentence(tmp_path):
         chapsym.run_scene(SCENE | {"ball": {"inertia": [1, 1, 9], "mass": 1, "radius": 1}})
 
 
-def test_the_page_is_written(tmp_path):
-    chapsym.run_scene(SCENE).page(tmp_path / "page.html")
-    assert "<html" in (tmp_path / "page.html").read_text(encoding="utf-8")
-
-
-def test_show_without_a_notebook_opens_a_folder(monkeypatch, capsys):
+def test_show_without_a_notebook_opens_a_folder_and_the_page_is_written(monkeypatch, capsys, tmp_path):
     opened = []
     monkeypatch.setattr("webbrowser.open", opened.append)
     Result(results.sweep(5)).show()
     folder = Path(opened[0].removeprefix("file://"))
     assert [path.name for path in folder.iterdir()] == ["rotation.svg"]
     assert str(folder) in capsys.readouterr().out
+    chapsym.run_scene(SCENE).page(tmp_path / "page.html")
+    assert "<html" in (tmp_path / "page.html").read_text(encoding="utf-8")
 
 
 def test_the_command_runs_a_scene_and_draws_it(tmp_path, show):

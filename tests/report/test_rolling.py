@@ -24,7 +24,7 @@ def one(dataset, **options):
     return motion(dataset, **options).balls[0]
 
 
-def test_the_contact_point_goes_as_far_as_the_ball_turns():
+def test_the_contact_point_goes_as_far_as_the_ball_turns_and_gamma_upwards():
     """(4.9): Δr = ρ sin φ n × e₃ for the turn φ n of a step, in space, right-handed, z up."""
     ball = one(rolled())
     angle = np.linalg.norm(ball.turn, axis=1, keepdims=True)
@@ -34,10 +34,6 @@ def test_the_contact_point_goes_as_far_as_the_ball_turns():
     np.testing.assert_allclose(np.diff(ball.contact, axis=0), way[:, :2], rtol=0, atol=budget)
     assert np.abs(way[:, 2]).max() <= budget
     assert np.hypot(*ball.contact[-1]) > 10 * ball.radius
-
-
-def test_the_attitude_turns_gamma_upwards():
-    ball = one(rolled())
     np.testing.assert_allclose(
         kernels.rotate(ball.attitude, ball.vectors["gamma"]), np.tile(UP, (601, 1)), atol=600 * EPS
     )
@@ -73,6 +69,11 @@ def test_frames_too_far_apart_are_told_where_nothing_tells_the_turns():
     # A step of the map turns by less than half a turn: nothing is hidden between next steps, however coarse.
     next_ones = without.assign_coords(step=without["step"] // 60)
     assert not one(next_ones).notes
+    # A run to an accuracy has times but no steps: between two of its frames there may be any number of them.
+    chosen = rolled(3900, every=60).drop_vars("step")
+    assert one(chosen).turn is not None
+    assert one(chosen.drop_vars("omega")).notes == [TOO_FAR]
+    assert "model: full · 66 frames in 19.5 s" in html(chosen)
 
 
 def test_a_whole_turn_that_the_attitude_hides_is_seen_in_the_way_and_a_wrong_omega_does_not_pass():
@@ -194,14 +195,6 @@ def test_decimal_strings_and_steps_without_time_are_read():
     found = motion(digits.drop_vars("time"))
     assert found.unit == "steps"
     np.testing.assert_array_equal(found.balls[0].contact, one(dataset).contact)
-
-
-def test_frames_of_steps_that_were_chosen_are_not_taken_for_next_ones():
-    """A run to an accuracy has times but no steps: between two of its frames there may be any number of them."""
-    chosen = rolled(3900, every=60).drop_vars("step")
-    assert one(chosen).turn is not None
-    assert one(chosen.drop_vars("omega")).notes == [TOO_FAR]
-    assert "model: full · 66 frames in 19.5 s" in html(chosen)
 
 
 def test_the_page_is_whole_and_asks_for_nothing(tmp_path):

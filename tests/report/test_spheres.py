@@ -53,16 +53,13 @@ def test_the_polhode_is_that_of_the_momentum_of_a_top():
     assert "invariant curve" in labels[1]
 
 
-def test_a_vertical_momentum_has_one_sphere_with_its_curve():
+def test_a_vertical_momentum_has_one_sphere_with_its_curve_in_the_axes_that_were_given():
     figure = figures.draw(results.vertical(100), "spheres")
     (axis,) = figure.axes
     assert axis.get_title() == r"$\gamma$, and $\mathcal{K} = h\gamma$"
     assert "invariant curve" in axis.get_legend_handles_labels()[1]
     upwards = results.vertical(100, height=-0.3)
     assert len(figures.draw(upwards, "spheres").axes) == 1
-
-
-def test_axes_that_were_given_are_used():
     dataset = results.vertical(100)
     for name in ("gamma", "momentum"):
         dataset[name] = dataset[name].dims, Body(J, D, AXES).given(dataset[name].values)

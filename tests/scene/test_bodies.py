@@ -140,7 +140,7 @@ def test_principal_axes_give_the_tensor_back(J, turn):
     np.testing.assert_allclose(np.sort(found[0]), np.sort(J), atol=64 * EPS * max(J))
 
 
-def test_a_small_turn_of_the_body_is_a_small_turn_of_the_axes():
+def test_a_small_turn_of_the_body_is_a_small_turn_of_the_axes_and_a_diagonal_tensor_keeps_them():
     """In the given order, with the given signs: not that in which the moments grow."""
     J = np.array([3.0, 1.0, 2.0])
     q = np.array([1, 0.01, -0.02, 0.015])
@@ -149,9 +149,6 @@ def test_a_small_turn_of_the_body_is_a_small_turn_of_the_axes():
     found, axes = principal(((basis * J) @ basis.T)[None])
     np.testing.assert_allclose(found[0], J, atol=16 * EPS)
     np.testing.assert_allclose(axes[0], q, atol=16 * EPS)
-
-
-def test_a_diagonal_tensor_keeps_its_axes_beside_one_that_is_turned():
     turned = np.array([[2.0, 0.1, 0], [0.1, 1, 0], [0, 0, 3]])
     found, axes = principal(np.stack([np.diag([3.0, 1.0, 2.0]), turned]))
     assert found[0].tolist() == [3.0, 1.0, 2.0]

@@ -153,15 +153,12 @@ def test_the_phase_of_a_top_is_that_of_its_curve(tops):
         assert columns["rotation_number"][i] == pytest.approx(turns, rel=1e-12)
 
 
-def test_a_momentum_beside_the_vertical_is_not_vertical(vertical):
+def test_a_phase_is_refused_where_there_is_no_curve_and_beside_the_vertical(vertical):
     beside = vertical.momentum.copy()
     beside[1, 0] += 1e-14
     with pytest.raises(chapsym.BadInput, match="momentum of b is not along γ"):
         planned(replace(vertical, momentum=beside), Task(("phase",), 10))
     assert planned(replace(vertical, momentum=beside), Task(("gamma",), 10)).model.name == Rolling.name
-
-
-def test_a_phase_is_refused_where_there_is_no_curve(vertical):
     along = np.tile([0.0, 0.0, 1.0], (3, 1))
     with pytest.raises(chapsym.BadInput, match="the map fixes this gamma"):
         planned(replace(vertical, gamma=along, momentum=0.5 * along), Task(("phase",), 10))

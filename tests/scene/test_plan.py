@@ -196,15 +196,11 @@ def test_an_accuracy_is_met_by_what_is_chosen_for_each_ball(members):
         assert np.abs(columns["momentum"] - fine.momentum / 2e-4).max() < 1e-7
 
 
-def test_a_cost_is_that_of_the_compiled_loops(members, monkeypatch):
+def test_a_cost_is_that_of_the_compiled_loops_without_what_a_run_takes_at_once(members, monkeypatch):
     monkeypatch.setattr(double, "_ready", set())
     monkeypatch.setattr(cost, "ENOUGH", 0.002)
     plan = planned(members(1), Task(("contact",), 10**6, 10**5))
     assert cost.predicted(plan).seconds < 2.0  # plain Python takes ten
-
-
-def test_what_a_run_takes_at_once_is_no_price_of_a_step(members, monkeypatch):
-    """A rotation number takes long before the first step, and never twice the same."""
     monkeypatch.setattr(cost, "_pilot", lambda plan, chunk, part: 0.025 + 25e-9 * part + 0.002 * (part == 64))
     plan = planned(members(1), Task(("momentum",), 1_000_000))
     assert 0.04 < cost.predicted(plan).seconds < 0.06

@@ -28,7 +28,7 @@ def test_a_new_scene_has_comments_and_the_schema_for_editors_and_can_be_checked(
     assert "J = (0.0019, 0.0019, 0.0002)" in shown
 
 
-def test_new_replaces_nothing_without_force(tmp_path):
+def test_new_replaces_nothing_without_force_and_refuses_what_it_cannot_write(tmp_path):
     path = tmp_path / "ball.toml"
     path.write_text("mine")
     assert refused("scene", "new", path) == f"{path} is there already: choose another name, or --force to replace it"
@@ -36,24 +36,17 @@ def test_new_replaces_nothing_without_force(tmp_path):
     assert [one.name for one in tmp_path.iterdir()] == ["ball.toml"]
     done("scene", "new", path, "--force", "--no-schema")
     assert path.read_text(encoding="utf-8").startswith("# Numbers are SI;")
-    assert [one.name for one in tmp_path.iterdir()] == ["ball.toml"]
-
-
-def test_new_refuses_what_it_cannot_write(tmp_path):
     assert refused("scene", "new", tmp_path / "a.toml", "--example", "bowlin").endswith("did you mean bowling?")
     assert refused("scene", "new", tmp_path / "a.json").endswith("a scene must end in .toml")
     assert "does not exist" in refused("scene", "new", tmp_path / "no" / "a.toml")
-    assert list(tmp_path.iterdir()) == []
+    assert [one.name for one in tmp_path.iterdir()] == ["ball.toml"]
 
 
-def test_the_help_names_the_examples():
+def test_the_help_names_the_examples_and_the_schema_is_json(tmp_path):
     listed = re.search(r"Which: (.*?)\.", " ".join(done("scene", "new", "--help").split()))[1]
     assert sorted(listed.replace(" or ", ", ").split(", ")) == names()
     for command in ("new", "check", "schema"):
         assert command in done("scene")
-
-
-def test_schema_is_json(tmp_path):
     printed = done("scene", "schema")
     done("scene", "schema", "-o", tmp_path / "s.json")
     assert (tmp_path / "s.json").read_text(encoding="utf-8") == printed
@@ -114,7 +107,7 @@ steps = 5
 """
 
 
-def test_a_ball_that_stops_early_is_told_with_its_reason(tmp_path):
+def test_a_ball_that_stops_early_is_told_with_its_reason_and_a_run_of_such_balls_fails(tmp_path):
     (tmp_path / "scene.toml").write_text(UNREACHABLE, encoding="utf-8")
     found = chapsym("run", "scene.toml", "-o", "out.nc", cwd=tmp_path)
     assert found.returncode == 0
@@ -123,9 +116,6 @@ def test_a_ball_that_stops_early_is_told_with_its_reason(tmp_path):
         "chapsym: stopped early: fast at step 0: no rotation of this ball has this momentum at this gamma; "
         "take a shorter time step\n"
     )
-
-
-def test_a_run_of_which_no_ball_gets_to_the_end_fails(tmp_path):
     text = UNREACHABLE.replace("[0.01, 0.0, 0.02]", "[10.0, 0.0, 20.0]")
     (tmp_path / "scene.toml").write_text(text, encoding="utf-8")
     for name in ("out.nc", "out.zarr"):
@@ -182,12 +172,9 @@ def test_one_ball_is_run_and_told_the_same_whatever_the_suffix(tmp_path):
 ACCURATE = "[ball]\ninertia = [0.006, 0.0071, 0.0089]\nD = 0.02\n[start]\nomega = [1, 2, 3]\n[run]\ntime = 1\n"
 
 
-def test_an_accuracy_that_cannot_be_had_is_one_sentence(tmp_path):
+def test_an_accuracy_that_cannot_be_had_or_needs_the_radius_is_one_sentence_before_anything_runs(tmp_path):
     (tmp_path / "ball.toml").write_text(f"{ACCURATE}accuracy = 1e-30\n")
     assert "an accuracy of 1e-30 after 1 s cannot be had" in refused("scene", "check", tmp_path / "ball.toml")
-
-
-def test_an_accuracy_of_the_contact_needs_the_radius_before_anything_runs(tmp_path):
     (tmp_path / "ball.toml").write_text(f'{ACCURATE}accuracy = 1e-8\nof = "contact"\n')
     told = refused("run", tmp_path / "ball.toml", "-o", tmp_path / "out.zarr")
     assert told == "the contact point needs the radius: give the ball its mass and radius"

@@ -1,12 +1,21 @@
-"""What goes with what under [run], [ball] and [start], and the sentence for what does not."""
+"""Scene files: what goes with what under [run], [ball] and [start], and the sentence for what does not."""
 
+import os
 import re
+from fractions import Fraction
+from pathlib import Path
 
+import numpy as np
 import pytest
+from first import BALL
 
 from chapsym import scene
+from chapsym.dynamics.certified import exactly
 from chapsym.scene import SceneError, checked
 from chapsym.scene.members.expand import expand
+from chapsym.scene.result import formats
+from chapsym.scene.running import sweep
+from chapsym.scene.running.source import plan_of
 
 DATA = {
     "ball": {"inertia": [0.006, 0.007, 0.009], "mass": 2.0, "radius": 0.1},
@@ -26,6 +35,16 @@ def with_run(**run):
 
 def refused(sentence):
     return pytest.raises(SceneError, match=re.escape(sentence))
+
+
+@pytest.fixture
+def write(tmp_path):
+    def written(text):
+        path = tmp_path / "scene.toml"
+        path.write_text(text, encoding="utf-8")
+        return path
+
+    return written
 
 
 #: The accuracy after a time, which chooses the steps.
@@ -101,11 +120,13 @@ def test_a_wrong_run_is_refused(run, sentence):
         with_run(**run)
 
 
-def test_a_title_is_one_line_and_a_seed_has_64_bits():
+def test_a_title_is_one_line_a_seed_has_64_bits_and_dimensions_are_few():
     with refused("title must be one line of text"):
         checked(DATA | {"title": "a\0b"})
     with refused("seed must be at most 9223372036854775807"):
         checked(DATA | {"sweep": {"seed": 2**63}})
+    with refused("ball.mass_tensor has 33 numbers, and 32 dimensions are the most"):
+        checked(DATA | {"ball": {"mass_tensor": [1.0] * 33, "D": 1}})
 
 
 @pytest.mark.filterwarnings("error")
@@ -191,11 +212,8 @@ def test_two_balls_of_one_name_and_wrong_keys_in_the_second_are_told():
         checked(DATA | {"ball": [DATA["ball"], DATA["ball"] | {"mas": 1}]})
 
 
-def test_many_problems_are_told_with_their_lines_and_not_without_end(tmp_path):
-    path = tmp_path / "s.toml"
-    path.write_text(
-        '[ball]\nmas = 1\n[start]\nomga = 3\n[run]\nsteps = "x"\n' + "".join(f"k{i} = 1\n" for i in range(9))
-    )
+def test_many_problems_are_told_with_their_lines_and_not_without_end(write):
+    path = write('[ball]\nmas = 1\n[start]\nomga = 3\n[run]\nsteps = "x"\n' + "".join(f"k{i} = 1\n" for i in range(9)))
     with pytest.raises(SceneError) as caught:
         scene.load(path)
     told = str(caught.value)
@@ -204,9 +222,8 @@ def test_many_problems_are_told_with_their_lines_and_not_without_end(tmp_path):
     assert "line 6: run.steps must be a whole number" in told
 
 
-def test_a_refusal_of_a_ball_tells_its_line(tmp_path):
-    path = tmp_path / "s.toml"
-    path.write_text(
+def test_a_refusal_of_a_ball_tells_its_line(write):
+    path = write(
         "[[ball]]\npreset = 'shell'\nmass = 1\nradius = 1\n\n[[ball]]\npreset = 'shell'\nmass = 1\nradius = -1\n"
         "[start]\nomega = [1, 2, 3]\n[run]\ntime_step = 1\nsteps = 1\n"
     )
@@ -229,9 +246,8 @@ def test_a_scene_knows_its_source_and_a_changed_one_is_checked(tmp_path):
         first.with_run(stps=3)
 
 
-def test_a_file_that_is_no_scene_is_one_sentence(tmp_path):
-    path = tmp_path / "s.toml"
-    path.write_text("[ball]\nmass = \n")
+def test_a_file_that_is_no_scene_is_one_sentence(write, tmp_path):
+    path = write("[ball]\nmass = \n")
     with refused(f"{path}, line 2, column 8: this is not TOML: Invalid value"):
         scene.load(path)
     for wrong, sentence in [(tmp_path, "Is a directory"), (tmp_path / "no", "No such file"), (tmp_path / "\0", "null")]:
@@ -242,6 +258,85 @@ def test_a_file_that_is_no_scene_is_one_sentence(tmp_path):
         scene.load(path)
 
 
-def test_dimensions_that_nobody_waits_for_are_refused():
-    with refused("ball.mass_tensor has 33 numbers, and 32 dimensions are the most"):
-        checked(DATA | {"ball": {"mass_tensor": [1.0] * 33, "D": 1}})
+GOOD = """
+[ball]
+mass_tensor = [1, 2, "4"]
+D = 3
+[start]
+momentum = [0.1, "-1/20", 0.075]
+gamma = ["2/7", "3/7", "6/7"]
+[run]
+steps = 10
+"""
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "sentence"),
+    [
+        ("steps = 10", "steps = 10\nstep = 1", "line 10: run.step is not a key of [run]; did you mean steps?"),
+        ('"2/7"', '"2/0"', "line 7: start.gamma.1: '2/0' divides by zero"),
+        ("0.1", "nan", "line 6: start.momentum.1 must be finite"),
+        ("[ball]", "[ball", "is not TOML"),
+        ("[ball]", "a = " + "[" * 20000 + "\n[ball]", "is not TOML"),
+        ("[ball]", "a = " + "9" * 20000 + "\n[ball]", "is not TOML"),
+        ("[ball]", ".".join("a" * 50_000) + " = 1\n[ball]", "is no scene: its tables are nested too deeply"),
+        ("steps = 10", "steps." + ".".join("a" * 1500) + " = 10", "is no scene: its tables are nested too deeply"),
+        ("D = 3", "D = 1" + "0" * 400, "line 4: ball.D is beyond the range of float64"),
+        ("0.1", "1e-400", "start.momentum.1 is below 2.2e-308, where float64 loses its digits"),
+        ("0.1", "1.234_567e-315", "start.momentum.1 is below 2.2e-308"),
+        ("0.1", '"1e-315"', "start.momentum.1"),
+    ],
+)
+def test_a_wrong_scene_names_the_key_and_what_would_be_right(write, old, new, sentence):
+    with pytest.raises(SceneError, match=re.escape(sentence)) as caught:
+        scene.load(write(GOOD.replace(old, new, 1)))
+    assert "\n" not in str(caught.value)
+
+
+def test_a_pipe_is_no_scene_and_is_not_waited_for_but_standard_input_may_be_one(tmp_path):
+    os.mkfifo(tmp_path / "scene.toml")
+    with pytest.raises(SceneError, match=r"scene\.toml is a pipe, not a file with a scene"):
+        scene.load(tmp_path / "scene.toml")
+    read, write = os.pipe()
+    os.write(write, GOOD.encode())
+    os.close(write)
+    assert scene.load(Path(f"/dev/fd/{read}")).run.steps == 10
+    os.close(read)
+
+
+#: A text that asks for an accuracy.
+ASKED = f"{BALL}accuracy = 1e-7\ntime = 4.0\nframes = 2\ncontact = true\n"
+
+
+def test_a_scene_may_ask_for_an_accuracy(write, tmp_path):
+    wanted = scene.load(write(ASKED))
+    plan, answers = sweep.telling(plan_of(wanted), lambda text: None)
+    data = sweep.run_in_memory(plan)
+    (answer,) = answers
+    assert answer.request.of == "contact"
+    assert data.error.values[0] == answer.estimate <= 1e-7
+    assert data.time.values.tolist() == [0.0, 2.0, 4.0]
+    fine = sweep.run_in_memory(plan_of(wanted.with_run(accuracy=1e-12)))
+    np.testing.assert_allclose(data.contact, fine.contact, atol=1.1e-7)
+    formats.save(data, tmp_path / "run.npz")
+    assert np.load(tmp_path / "run.npz")["time"].tolist() == [0.0, 2.0, 4.0]
+
+
+@pytest.mark.parametrize("given", ["1 um", "1e-6", "1/1000000"])
+def test_an_accuracy_of_the_contact_point_may_have_a_unit(write, given):
+    wanted = scene.load(write(ASKED.replace("accuracy = 1e-7", f"accuracy = '{given}'"))).task()
+    assert wanted.accuracy == 1e-6
+    assert type(wanted.accuracy) is float
+
+
+def test_more_digits_than_float64_has_are_written(write, tmp_path):
+    text = ASKED.replace("1e-7", "1e-19").replace("[run]", "position = [0.1, 0.2]\n[run]")
+    plan, answers = sweep.telling(plan_of(scene.load(write(text))), lambda text: None)
+    formats.save(sweep.run_in_memory(plan), tmp_path / "run.npz")
+    data, exact = np.load(tmp_path / "run.npz"), exactly(answers[0].trajectory, "contact")
+    assert abs(data["contact_low"][-1]).max() > 0
+    for place, axis in ((Fraction(0.1), 0), (Fraction(0.2), 1)):
+        high, low = (Fraction(float(data[name][-1, axis])) for name in ("contact", "contact_low"))
+        assert abs(high + low - place - exact[-1, axis]) < 1e-32
+        assert float(high + low) == high
+    assert abs(data["momentum_low"][-1]).max() > 0
