@@ -1,9 +1,9 @@
 """What a user's editor and type checker see of chapsym: the names that there are, with their types."""
 
 import inspect
+import re
 import sys
 
-import pytest
 from mypy import api
 
 import chapsym
@@ -19,39 +19,23 @@ WRONG = ("chapsym.no_such", "run.no_such", "chapsym.Ball((1, 2, 4), D=None)", "i
 HEAVY = "chapsym.scene.*,chapsym.show.*,flint.*,mpmath.*,numba.*"
 
 
-@pytest.fixture(scope="module")
-def told(tmp_path_factory):
-    """What mypy, as it is without our settings, says of a script that is right and of one that is wrong in four lines.
-
-    The scripts lie outside, and find chapsym as it is installed.
-    """
-    folder = tmp_path_factory.mktemp("user")
-    (folder / "right.py").write_text(START + RIGHT, encoding="utf-8")
-    (folder / "wrong.py").write_text(START + "\n".join(WRONG) + "\n", encoding="utf-8")
-    (folder / "mypy.ini").write_text(f"[mypy]\nstrict = True\n[mypy-{HEAVY}]\nfollow_imports = skip\n", "utf-8")
-    options = ["--config-file", folder / "mypy.ini", "--cache-dir", folder / "cache", "--python-executable"]
-    told, errors, _ = api.run(
-        [*map(str, options), sys.executable, *(str(folder / x) for x in ("right.py", "wrong.py"))]
-    )
+def test_a_script_that_is_right_is_right_to_mypy_and_what_chapsym_does_not_have_is_an_error(tmp_path):
+    """To mypy as it is without our settings; the scripts lie outside, and find chapsym as it is installed."""
+    (tmp_path / "right.py").write_text(START + RIGHT, encoding="utf-8")
+    (tmp_path / "wrong.py").write_text(START + "\n".join(WRONG) + "\n", encoding="utf-8")
+    (tmp_path / "mypy.ini").write_text(f"[mypy]\nstrict = True\n[mypy-{HEAVY}]\nfollow_imports = skip\n", "utf-8")
+    options = ["--config-file", tmp_path / "mypy.ini", "--cache-dir", tmp_path / "cache", "--python-executable"]
+    scripts = [tmp_path / "right.py", tmp_path / "wrong.py"]
+    told, errors, _ = api.run([*map(str, [*options, sys.executable, *scripts])])
     assert not errors, errors
-    return [line.replace(str(folder), "") for line in told.splitlines()]
-
-
-def test_a_script_that_is_right_is_right_to_mypy(told):
-    assert not [line for line in told if "right.py" in line], told
-
-
-def test_what_chapsym_does_not_have_is_an_error_to_mypy(told):
-    found = {int(line.split(":")[1]) for line in told if "wrong.py" in line and ": error:" in line}
+    assert "right.py" not in told, told
+    found = {int(number) for number in re.findall(r"wrong\.py:(\d+): error:", told)}
     assert found == {4, 5, 6, 7}, told
 
 
-def test_the_names_of_chapsym_are_its_public_ones():
-    assert dir(chapsym) == sorted(["__version__", *chapsym.__all__])
-
-
-def test_help_begins_with_signatures_that_can_be_read():
+def test_the_names_of_chapsym_are_its_public_ones_with_signatures_that_can_be_read():
     """Not with ten lines of what NumPy can make an array of."""
     functions = [x for x in (getattr(chapsym, name) for name in dir(chapsym)) if inspect.isfunction(x)]
     assert len(functions) > 20
     assert not [f.__name__ for f in functions if "Supports" in str(inspect.signature(f))]
+    assert dir(chapsym) == sorted(["__version__", *chapsym.__all__])

@@ -129,28 +129,21 @@ def test_the_estimate_holds_where_errors_do_not_fall_evenly():
         assert true_error(answer.request, answer.trajectory, exact) <= answer.estimate <= answer.request.accuracy
 
 
-def test_the_exact_top_is_chosen_where_it_costs_least():
+def test_the_exact_top_is_chosen_where_it_costs_least_and_a_ball_at_rest_stays():
     answer = accurate(chapsym.Ball((1, 2, 4), 0.0), (3.0, -1.0, 2.0), GAMMA, 500.0, 1e-9, prices=PRICES)
     assert answer.choice.method.order == 0
     assert error_of(answer) <= answer.estimate <= 1e-9
-
-
-def test_a_ball_at_rest_stays():
     answer = accurate(BALL, (0, 0, 0), GAMMA, 5.0, 1e-6, prices=PRICES)
     np.testing.assert_array_equal(answer.trajectory.gamma[-1], GAMMA)
 
 
-def test_exact_momenta_reach_the_higher_rungs():
+def test_exact_momenta_reach_the_higher_rungs_and_distance_sees_what_float64_does_not():
     """εK rounded to float64 would be off by 1e-16; steps enough that the integrals are restored on the way."""
     request = surveyed(Request(BALL, K, GAMMA, 5.0, 1e-20, "state"))
     run = take(request, Method(NAMED["quad"], 8), 3200, 1)
     assert true_error(request, run, truth_of_the_ball(5.0)) < 1e-19
     assert run.momentum.dtype == float
     assert abs(run.low.momentum[0]).max() > 0
-
-
-def test_distance_sees_what_float64_does_not():
-    request = surveyed(Request(BALL, K, GAMMA, 5.0, 1e-20, "state"))
     run = take(request, Method(NAMED["quad"], 2), 160, 16)
     moved = replace(run, low=replace(run.low, gamma=run.low.gamma + 1e-25))
     np.testing.assert_allclose(distance(request, run, moved), np.sqrt(3) * 1e-25, rtol=1e-6)

@@ -30,12 +30,15 @@ def test_every_number_of_a_ball_rounds_to_its_decimals(centre, radius, digits):
     assert not text.startswith("-") or Fraction(text) != 0
 
 
-def test_a_ball_across_a_tie_is_refused():
+def test_a_ball_across_a_tie_is_refused_and_texts_are_the_shortest():
     with ctx.workprec(60):
         tie = ball(Fraction(15, 100), Fraction(1, 10**9))
         with pytest.raises(NotProved):
             rounded(tie, 1)
         assert rounded(tie, 2) == "0.15"
+    texts = ["12/5", "1/3", "1e-40", "0.25", "-3", "0", "1"]
+    assert [shortest(Fraction(x)) for x in texts] == ["2.4", "1/3", "1e-40", "0.25", "-3", "0", "1"]
+    assert decimals(Fraction(1, 3)) is None
 
 
 @given(st.integers(-(10**9), 10**9), st.integers(0, 12))
@@ -49,12 +52,6 @@ def test_decimals_are_exact(scaled, digits):
 @given(fractions.filter(lambda x: x > 0))
 def test_decade(x):
     assert Fraction(10) ** decade(x) <= x < Fraction(10) ** (decade(x) + 1)
-
-
-def test_texts():
-    texts = ["12/5", "1/3", "1e-40", "0.25", "-3", "0", "1"]
-    assert [shortest(Fraction(x)) for x in texts] == ["2.4", "1/3", "1e-40", "0.25", "-3", "0", "1"]
-    assert decimals(Fraction(1, 3)) is None
 
 
 def test_the_digest_is_of_everything_but_itself():

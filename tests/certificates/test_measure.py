@@ -199,11 +199,12 @@ def test_a_displacement_that_is_too_small_is_not_looked_for_forever(monkeypatch)
         no_invariant_measure(top(D="1e-90"), steps=9)
 
 
-def test_the_command_writes_what_it_prints(tmp_path):
+def test_the_command_writes_what_it_prints_or_refuses_with_one_sentence(tmp_path):
     file = tmp_path / "found.json"
     found = answer("certify", "no-invariant-measure", "-o", file)
     assert found == json.loads(file.read_text(encoding="utf-8")) == committed("measure-simplest")
     assert file.read_text(encoding="utf-8") == document.text(committed("measure-simplest"))
+    assert refused("certify", "no-invariant-measure", "--mass-tensor", "1,2,4", "--D", "0").startswith("for D = 0")
 
 
 def test_the_command_has_the_checker_judge(tmp_path):
@@ -219,10 +220,6 @@ def test_the_command_has_the_checker_judge(tmp_path):
     assert done.returncode == 1
     assert "rejected" in done.stderr
     assert chapsym("certify", "check", str(tmp_path / "nowhere.json")).returncode == 2
-
-
-def test_the_command_refuses_with_one_sentence():
-    assert refused("certify", "no-invariant-measure", "--mass-tensor", "1,2,4", "--D", "0").startswith("for D = 0")
 
 
 def orbits():

@@ -70,20 +70,14 @@ def test_a_committed_certificate_is_proved_anew_and_accepted(name):
     assert checker.check(data).kind == orbit.KIND
 
 
-def test_a_moved_start_is_refused():
+def test_a_moved_start_and_a_level_off_the_family_are_refused():
     data = committed(COMMITTED[0])
-    level = level_of(data)
-    moved = member_of(data, Fraction(1, 10**6))
+    level, steps, moved = level_of(data), data["steps"], member_of(data, Fraction(1, 10**6))
     with pytest.raises(NotProved):
-        orbit.proved(level, *families.on_level(level, moved.momentum, moved.gamma), data["steps"])
-
-
-def test_a_level_off_the_family_is_refused():
-    data = committed(COMMITTED[0])
-    level = level_of(data)
+        orbit.proved(level, *families.on_level(level, moved.momentum, moved.gamma), steps)
     off = Level(level.J, level.D, level.size, level.height + Fraction(1, 10**8))  # ten times the width of the family
     with pytest.raises(NotProved):
-        orbit.proved(off, *families.solved(off, data["steps"], member_of(data), 8), data["steps"])
+        orbit.proved(off, *families.solved(off, steps, member_of(data), 8), steps)
 
 
 def test_a_symmetric_orbit_keeps_the_volume_and_proves_nothing(symmetric):
@@ -119,6 +113,7 @@ def test_the_slope_is_a_difference_quotient():
     level = Level(NEAR.J, NEAR.D, Fraction(15, 2), Fraction(5, 2))
     momentum, gamma = ([x.mid() for x in v] for v in started(level))
     there, h = Map.of(level), arb(2) ** -80
+    assert columns(arb_mat([[1, 2], [3, 4]]), 1) == arb_mat([[1], [3]])
     slope = there.passage(momentum, gamma, 4).slope()
     for j in range(4):
         by = [h if i == j else arb(0) for i in range(4)]
@@ -183,7 +178,3 @@ def test_what_has_no_certificate_is_refused(change, sentence):
     given |= {"J": tuple(map(Fraction, given["J"])), "D": Fraction(given["D"]), "size": Fraction(given["size"])}
     with pytest.raises(BadInput, match=sentence):
         orbit.periodic_orbit(**given)
-
-
-def test_columns_takes_the_first():
-    assert columns(arb_mat([[1, 2], [3, 4]]), 1) == arb_mat([[1], [3]])

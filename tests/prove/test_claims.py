@@ -157,9 +157,6 @@ def test_degenerate_cases_are_looked_at_where_they_are_allowed():
     proof.control(FALSE)
     assert proof.verdict() is Verdict.HOLDS
     assert [seen["name"] for seen in proof.witnesses] == ["generic", "equal J", "D = 0", "q = 0"]
-
-
-def test_the_checks_say_what_was_decided():
     proof = Proof()
     proof.printed(TRUE)
     proof.lemma(TRUE)
@@ -182,16 +179,13 @@ def test_an_open_question_of_the_paper_is_no_failed_proof():
     assert "tried: this was tried" in explain(records[0])
 
 
-def test_irrational_counterexamples_are_refused():
-    with pytest.raises(ArithmeticError, match="not a rational number"):
-        equation(sp.sqrt(2) * x, x).at(ON_CIRCLE.evaluate)
-
-
-def test_sides_of_different_length_are_refused():
+def test_sides_of_different_length_and_irrational_counterexamples_are_refused():
     with pytest.raises(ValueError, match="2 and 1 entries"):
         Equation("e", [x, y], [x], CIRCLE)
     with pytest.raises(ValueError, match="0 and 0 entries"):
         Equation("e", [], [], CIRCLE)
+    with pytest.raises(ArithmeticError, match="not a rational number"):
+        equation(sp.sqrt(2) * x, x).at(ON_CIRCLE.evaluate)
 
 
 def test_a_zero_matrix_may_be_written_as_the_number_0():

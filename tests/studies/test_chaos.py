@@ -86,13 +86,10 @@ def test_chaos_is_found_and_none_without_contact():
     assert calm["regular"]["growth"][2] < LIMIT
 
 
-def test_a_fold_is_counted_and_not_told_regular():
+def test_a_fold_is_counted_and_not_told_regular_and_heavy_balls_are_refused():
     found = sample([0, 1, 3], 1.0, 3.0, False, 32, 500, 7)
     assert found["folded"] > 0
     assert found["counted"] + found["folded"] == 32
-
-
-def test_heavy_balls_are_refused():
     with pytest.raises(ValueError, match="32 I_min"):
         follow_orbits(chapsym.Ball((1, 2, 4), 100.0), *starts(1, False, 1), 10)
 

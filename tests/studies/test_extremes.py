@@ -130,18 +130,13 @@ def test_a_refusal_without_a_sentence_an_error_a_warning_and_a_nan_fail():
     assert judged(lambda: nothing).verdict == "failed"
 
 
-def test_a_promise_of_no_digit_is_none():
-    for x, verdict in ((1.5, "failed"), (1.05, "within")):
-        assert cells.compared(DOUBLE, [cells.Compared("x", [x], [mp.mpf(1)], 1e20)]).verdict == verdict
-
-
 def test_the_worst_counts():
     good, near, bad = cells.Judged("within", 1, 4), cells.Judged("within", 3, 4), cells.Judged("refused")
     assert cells.worst([good, near]) is near
     assert cells.worst([near, bad, good]) is bad
 
 
-def test_ulps_are_those_of_the_rung():
+def test_ulps_are_those_of_the_rung_and_a_promise_of_no_digit_is_none():
     one = [mp.mpf(1)]
     for rung, step in zip(LEVELS[:3], (2.0**-23, 2.0**-52, 2.0**-104), strict=True):
         found = cells.compared(rung, [cells.Compared("x", [one[0] + 3 * mp.mpf(step)], one, 4)])
@@ -149,6 +144,8 @@ def test_ulps_are_those_of_the_rung():
         assert found.verdict == "within"
     tiny = cells.compared(DOUBLE, [cells.Compared("x", [1e-320], [mp.mpf(float("1e-320")) * 1.0001], 4)])
     assert tiny.ulps < 1  # below the normal numbers an ulp is the least number
+    for x, verdict in ((1.5, "failed"), (1.05, "within")):
+        assert cells.compared(DOUBLE, [cells.Compared("x", [x], [mp.mpf(1)], 1e20)]).verdict == verdict
 
 
 def test_kappa_is_that_of_check():

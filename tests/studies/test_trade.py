@@ -49,9 +49,6 @@ def test_the_frontier_and_what_is_dominated_and_equal_points_are_not():
     json.dumps(plain, allow_nan=False)
     twins = [Point("a, order 2", 0.1, 1.0, 1.0, 3.0), Point("b, order 4", 0.1, 1.0, 1.0, 3.0)]
     assert Frontier("t", "q", twins).dominated == {}
-
-
-def test_digits():
     assert [digits_of(x, 30) for x in (1e-5, 0.0, 2.0)] == pytest.approx([5, 30, 0])
 
 
