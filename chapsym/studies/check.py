@@ -11,18 +11,16 @@ and it is: q within `BUDGET`·κ ulps, 𝒦 and γ after the step within `BUDGET
 Norms of vectors are their largest components.
 """
 
-import multiprocessing
-import os
 from collections.abc import Callable
 from dataclasses import asdict, dataclass
-from functools import partial
 from typing import Any
 
 import numpy as np
 
-from chapsym import workers
+from chapsym import jobs
 from chapsym.dynamics import Ball, kernels, trajectory
 from chapsym.dynamics.ball import Floats
+from chapsym.dynamics.levels.frames import cores
 from chapsym.dynamics.loops.branch import small_rotation
 from chapsym.dynamics.map import step
 from chapsym.dynamics.oracle import Oracle, OracleStep
@@ -155,18 +153,16 @@ def check_stratum(name: str, states: int, seed: int) -> Row:
     return Row(name, states, rotation, momentum, gamma, max(c.condition for c in compared), share)
 
 
-def check(
-    states: int = 20, seed: int = 20071, jobs: int | None = None, on_row: Callable[[Row], None] = lambda row: None
-) -> list[Row]:
+def check(states: int = 20, seed: int = 20071, on_row: Callable[[Row], None] = lambda row: None) -> list[Row]:
     """One row for each stratum, side by side on the cores; `on_row` sees each as it is done."""
-    jobs = jobs or os.cpu_count() or 1
     rows: dict[str, Row] = {}
-    # Leaving the pool by an interrupt ends the workers at once; they do not see the interrupt themselves.
-    context = multiprocessing.get_context("spawn")
-    with context.Pool(jobs, initializer=workers.begin) as pool:
-        for row in pool.imap_unordered(partial(check_stratum, states=states, seed=seed), STRATA):
-            rows[row.stratum] = row
-            on_row(row)
+
+    def chain(name: str) -> jobs.Chain:
+        rows[name] = yield jobs.Call(check_stratum, (name, states, seed))
+        on_row(rows[name])
+
+    with jobs.processes(cores()) as crew:
+        jobs.run(map(chain, STRATA), crew)
     return [rows[name] for name in STRATA]
 
 

@@ -1,11 +1,11 @@
 """The rows of the matrix, and the whole of it, computed side by side on the cores."""
 
-import multiprocessing
-import os
-import signal
 from collections.abc import Callable, Sequence
 from functools import partial
 from typing import Any
+
+from chapsym import jobs
+from chapsym.dynamics.levels.frames import cores
 
 from . import arrays, derived, elliptic, n_dim, reduced, runs, states, steps
 from .cells import BUDGET, ORDER, Cell, Condition, cell
@@ -85,12 +85,11 @@ def row(index: int, rungs: Sequence[str], quick: bool) -> list[Cell]:
 
 
 def extremes(
-    quick: bool = False, rungs: Sequence[str] = NAMES, groups: Sequence[str] | None = None, jobs: int | None = None,
-    on_row: Callable[[int], None] = lambda done: None,
-) -> list[Cell]:  # fmt: skip
+    quick: bool = False, groups: Sequence[str] | None = None, on_row: Callable[[int], None] = lambda done: None
+) -> list[Cell]:
     """All cells, row by row; `on_row` is told how many rows are done.
 
-    quick: shorter runs and smaller batches; rungs, groups: which columns and which rows, all by default.
+    quick: shorter runs and smaller batches; groups: which rows, all by default.
     """
     wanted = [i for i, condition in enumerate(CONDITIONS) if groups is None or condition.group in groups]
     tasks: dict[Any, list[int]] = {}  # rows with the same reference together: it is computed once
@@ -98,17 +97,18 @@ def extremes(
         shares = CONDITIONS[i].group in SHARED
         tasks.setdefault(CONDITIONS[i].name if shares else i, []).append(i)
     found: dict[int, list[Cell]] = {}
-    # As in `check`: leaving the pool by an interrupt ends the workers at once; they do not see it themselves.
-    context = multiprocessing.get_context("spawn")
-    with context.Pool(jobs or os.cpu_count() or 1, signal.signal, (signal.SIGINT, signal.SIG_IGN)) as pool:
-        for some in pool.imap_unordered(partial(_some, rungs=rungs, quick=quick), tasks.values()):
-            found |= some
-            on_row(len(found))
+
+    def chain(those: list[int]) -> jobs.Chain:
+        found.update((yield jobs.Call(_some, (those, quick))))
+        on_row(len(found))
+
+    with jobs.processes(cores()) as crew:
+        jobs.run(map(chain, tasks.values()), crew)
     return [one for index in wanted for one in found[index]]
 
 
-def _some(indices: Sequence[int], rungs: Sequence[str], quick: bool) -> dict[int, list[Cell]]:
-    return {index: row(index, rungs, quick) for index in indices}
+def _some(indices: Sequence[int], quick: bool) -> dict[int, list[Cell]]:
+    return {index: row(index, NAMES, quick) for index in indices}
 
 
 def rows(groups: Sequence[str] | None = None) -> int:
