@@ -1,6 +1,6 @@
 """The list of errata, short enough to cite: Markdown, and LaTeX that compiles by itself."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from . import notation
 from .records import Record, errors, label, truth
@@ -26,18 +26,20 @@ def reproduce(id: str) -> str:
 
 def markdown(records: Sequence[Record], version: str) -> str:
     """The errata as Markdown, with formulas in dollars."""
-    found = errors(records)
-    head = [
-        "# Errata",
+    entries = [line for record in errors(records) for line in _markdown_entry(record)]
+    return "\n".join(["# Errata", "", *_introduction(records, version, str), *entries])
+
+
+def _introduction(records: Sequence[Record], version: str, written: Callable[[str], str]) -> list[str]:
+    """What stands above the entries, a blank line after each paragraph."""
+    return [
+        f"To {written(PAPER)}.",
         "",
-        f"To {PAPER}.",
+        f"{len(errors(records))} of {len(records)} judged claims are not true as printed. {written(NOTE)}",
         "",
-        f"{len(found)} of {len(records)} judged claims are not true as printed. {NOTE}",
-        "",
-        f"Cite as: {cite(version)}. Each entry names the command that proves it again.",
+        f"Cite as: {written(cite(version))}. Each entry names the command that proves it again.",
         "",
     ]
-    return "\n".join(head + [line for record in found for line in _markdown_entry(record)])
 
 
 def _markdown_entry(record: Record) -> list[str]:
@@ -68,17 +70,8 @@ _PREAMBLE = r"""\documentclass[11pt]{article}
 
 def latex(records: Sequence[Record], version: str) -> str:
     """The errata as one LaTeX document in ASCII, for any engine, with amsmath and amssymb."""
-    found = errors(records)
-    head = [
-        r"\section*{Errata}",
-        f"To {notation.latex(PAPER)}.",
-        "",
-        f"{len(found)} of {len(records)} judged claims are not true as printed. {notation.latex(NOTE)}",
-        "",
-        f"Cite as: {notation.latex(cite(version))}. Each entry names the command that proves it again.",
-        "",
-    ]
-    entries = [line for record in found for line in _latex_entry(record)]
+    head = [r"\section*{Errata}", *_introduction(records, version, notation.latex)]
+    entries = [line for record in errors(records) for line in _latex_entry(record)]
     return _PREAMBLE + "\n".join([*head, *entries, r"\end{document}", ""])
 
 

@@ -1,10 +1,9 @@
 """Results in memory from scenes, and to and from files."""
 
-import shutil
-import tempfile
 import warnings
 from collections.abc import Callable, Mapping
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 from xarray import Dataset
@@ -32,15 +31,15 @@ def save(dataset: Dataset, path: Path) -> None:
         return
     if path.exists():
         raise SceneError(f"{path} is there already; remove it, or choose another name")
-    temporary = None
     try:
-        temporary = Path(tempfile.mkdtemp(dir=path.parent, prefix=f".{path.name}."))
-        with warnings.catch_warnings():  # as the store of a run: other readers may not know its one file of metadata
+        with (
+            TemporaryDirectory(dir=path.parent, prefix=f".{path.name}.", ignore_cleanup_errors=True) as temporary,
+            warnings.catch_warnings(),
+        ):
+            # As the store of a run: other readers may not know its one file of metadata.
             warnings.filterwarnings("ignore", message="Consolidated metadata")
-            dataset.assign_attrs(complete=True).to_zarr(temporary / "whole", consolidated=True, zarr_format=3)
-        (temporary / "whole").rename(path)
+            whole = Path(temporary) / "whole"
+            dataset.assign_attrs(complete=True).to_zarr(whole, consolidated=True, zarr_format=3)
+            whole.rename(path)
     except OSError as error:
         raise SceneError(f"{path} cannot be written: {error.strerror or error}") from None
-    finally:
-        if temporary is not None:
-            shutil.rmtree(temporary, ignore_errors=True)

@@ -38,9 +38,7 @@ class Unit:
         return json.dumps([*made_by, self.arguments], sort_keys=True, ensure_ascii=False)
 
 
-@cache
-def _sources(module: str) -> str:
-    return sources.fingerprint(module)
+_sources = cache(sources.fingerprint)
 
 
 def compute(function: str, arguments: dict[str, Any], key: str) -> Any:

@@ -66,13 +66,10 @@ def levels(tensor: Sequence[Any], D: Any, outer: bool) -> tuple[Any, Any]:
     return (inverse[1], inverse[2]) if outer else (inverse[0], inverse[1])
 
 
-def bracket(tensor: Sequence[Any], D: Any, height: Any, steps: int, turns: int, outer: bool, kick: Any = 0) -> Any:
-    """Two levels near each other between which the rotation number passes p/q, found at few digits."""
-
-    def off(l: Any) -> Any:
-        return Level(tensor, D, height, l, kick).displacement(0, steps, turns)
-
-    low, high = levels(tensor, D, outer)
+def bracket(off: Callable[[Any], Any], low: Any, high: Any, outer: bool) -> Any:
+    """Two levels near each other between which the rotation number passes p/q, found at few digits; None if there are
+    none.
+    """
     before = None
     for i in range(1, SEARCHED):
         l = low + (high - low) * i * i / SEARCHED**2 if outer else high - (high - low) * i * i / SEARCHED**2
@@ -84,7 +81,7 @@ def bracket(tensor: Sequence[Any], D: Any, height: Any, steps: int, turns: int, 
         if before is not None and (before[1] > 0) != (here > 0):
             return _closer(off, *before, l)
         before = l, here
-    raise BadInput(f"no level has the rotation number {turns}/{steps} half turns")
+    return None
 
 
 def _closer(off: Callable[[Any], Any], a: Any, at_a: Any, b: Any) -> tuple[Any, Any]:
@@ -100,11 +97,13 @@ def resonance(
 ) -> tuple[Any, Any, int]:
     """(l, width by the law, digits to work with) near a resonance, at few digits."""
     with ctx.workdps(COARSE):
-        ends = bracket(tensor, D, height, steps, turns, outer, kick)
 
         def off(l: Any) -> Any:
             return Level(tensor, D, height, l, kick).displacement(0, steps, turns)
 
+        ends = bracket(off, *levels(tensor, D, outer), outer)
+        if ends is None:
+            raise BadInput(f"no level has the rotation number {turns}/{steps} half turns")
         l = solved(off, *ends)
         slope = (off(ends[1]) - off(ends[0])) / (ends[1] - ends[0])
     if number(D) == 0:
