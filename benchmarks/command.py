@@ -6,7 +6,6 @@ from typing import Any
 
 import benchmarks
 from chapsym.cli.output import check_figure, console_for, fail, print_json, print_table, quiet, say
-from chapsym.studies.figures import save_figure
 
 
 def measure(sections: Sequence[str], quick: bool, output: Path | None, as_json: bool) -> None:
@@ -27,6 +26,8 @@ def measure(sections: Sequence[str], quick: bool, output: Path | None, as_json: 
             quiet()
             fail(f"bench {name}: {error}", 1)
     if output is not None:
+        from chapsym.studies.figures import save_figure
+
         save_figure(figure.draw, results, output)
     quiet()
     measured = benchmarks.as_json(results, quick)

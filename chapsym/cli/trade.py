@@ -83,7 +83,9 @@ def _answer(
     from chapsym.scene.running import sweep
     from chapsym.scene.running.source import plan_of
 
-    _check_positive({"--accuracy": accuracy, "--time": time, "--limit": limit})
+    for name, value in (("--accuracy", accuracy), ("--time", time), ("--limit", limit)):
+        if value is not None and not 0 < value < math.inf:
+            fail(f"{name} must be a positive number, not {value:g}", 2)
     if scene is None and time is None:
         fail("--accuracy needs --time, in seconds", 2)
     try:
@@ -112,12 +114,6 @@ def _answer(
         print_json(described(answer))
     else:
         print_answer(answer)
-
-
-def _check_positive(given: dict[str, float | None]) -> None:
-    for name, value in given.items():
-        if value is not None and not 0 < value < math.inf:
-            fail(f"{name} must be a positive number, not {value:g}", 2)
 
 
 def _in_options(sentence: str, all_of_it: bool) -> str:
