@@ -78,15 +78,11 @@ def sections(records: Iterable[Record]) -> list[Section]:
 
 def label(id: str) -> str:
     """The name of a claim for a reader: (5.12), q0 or Proposition 4."""
-    statement = re.fullmatch(r"(prop|remark)-(\d+)(?:-(.+))?", id)
-    if statement:
-        kind, number, part = statement.groups()
-        return f"{_NAMES[kind]} {number}" + (f", {part}" if part else "")
-    equation = re.fullmatch(r"(\d+\.\d+)(?:-(.+))?", id)
-    if equation:
-        number, part = equation.groups()
-        return f"({number})" + (f", {part}" if part else "")
-    return id
+    found = re.fullmatch(r"(?:(prop|remark)-(\d+)|(\d+\.\d+))(?:-(.+))?", id)
+    if found is None:
+        return id
+    kind, number, equation, part = found.groups()
+    return (f"({equation})" if equation else f"{_NAMES[kind]} {number}") + (f", {part}" if part else "")
 
 
 def counts(records: Iterable[Record]) -> dict[str, int]:
