@@ -10,12 +10,13 @@ from typing import Any
 import chapsym
 
 from ..plan.models import State
-from ..plan.plan import Plan
 from ..read.errors import SceneError
 from ..result.dataset import provenance
 from .segments import NoAnswer, computed
 from .source import plan_from
 from .store import check_same, difference, write_region
+
+_plan = lru_cache(maxsize=4)(plan_from)
 
 
 def unit(text: str, about: dict[str, Any], path: str, chunk: int, segment: int, state: State | None) -> State:
@@ -42,8 +43,3 @@ def _unit(text: str, about: dict[str, Any], path: Path, chunk: int, segment: int
     check_same(path, plan)  # this worker may be late, and the store by now another's
     write_region(path, plan, chunk, segment, columns)
     return after
-
-
-@lru_cache(maxsize=4)
-def _plan(text: str) -> Plan:
-    return plan_from(text)

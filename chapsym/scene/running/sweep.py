@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -47,21 +47,8 @@ class Outcome:
         return not self.lost
 
 
-class Sink(Protocol):
-    """Where units go."""
-
-    def start(self, chunk: int) -> tuple[int, State | None]:
-        """How many segments of a chunk are done, and the state after them."""
-
-    def write(self, chunk: int, segment: int, columns: Columns) -> None:
-        """Takes the values of a unit."""
-
-    def mark(self, chunk: int, segment: int, state: State) -> None:
-        """Takes the state after a unit whose values are there."""
-
-
 class Memory:
-    """Keeps the columns of all balls and frames."""
+    """Keeps the columns of all balls and frames; units go here or into a `Store`."""
 
     def __init__(self, plan: Plan) -> None:
         self.plan, length = plan, sizes(plan)
@@ -130,7 +117,7 @@ def telling(plan: Plan, progress: Callable[[str], None]) -> tuple[Plan, list[Acc
 Unit = Callable[[int, int, State | None], jobs.Call]
 
 
-def _locally(plan: Plan, sink: Sink, tally: Tally) -> dict[int, str]:
+def _locally(plan: Plan, sink: Memory | Store, tally: Tally) -> dict[int, str]:
     """Runs what is missing on all cores, some chunks abreast; returns why chunks have no answer."""
 
     def here(chunk: int, segment: int, state: State | None) -> State:
@@ -167,7 +154,7 @@ def _on_cluster(plan: Plan, store: Store, tally: Tally, address: str) -> dict[in
     return dict(sorted(lost.items()))
 
 
-def _chains(plan: Plan, sink: Sink, tally: Tally, unit: Unit, lost: dict[int, str]) -> Iterator[jobs.Chain]:
+def _chains(plan: Plan, sink: Memory | Store, tally: Tally, unit: Unit, lost: dict[int, str]) -> Iterator[jobs.Chain]:
     """For each chunk the segments that are missing, one after the other; `lost` gets why it could not be run."""
 
     def chain(chunk: int) -> jobs.Chain:

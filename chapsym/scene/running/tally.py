@@ -37,11 +37,6 @@ def silent(progress: Progress) -> None:
     """Reports nothing."""
 
 
-def failed_balls(state: State) -> int:
-    """How many balls stopped before the last step."""
-    return int(np.count_nonzero(state["status"] != Status.TAKEN))
-
-
 class Tally:
     """Adds up the work of units that run side by side."""
 
@@ -60,7 +55,8 @@ class Tally:
     def kept(self, chunk: int, segments: int, state: State) -> None:
         """So many segments of a chunk are done."""
         with self._lock:
-            self._done[chunk], self._failed[chunk] = self.work(chunk, segments), failed_balls(state)
+            self._done[chunk] = self.work(chunk, segments)
+            self._failed[chunk] = int(np.count_nonzero(state["status"] != Status.TAKEN))
             balls = self.plan.chunks[chunk]
             self._finished += (balls.stop - balls.start) * (segments == len(self.plan.segments))
         self._tell(now=True)

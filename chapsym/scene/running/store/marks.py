@@ -38,14 +38,8 @@ def read(store: Path, chunk: int) -> tuple[int, State] | None:
         return int(state.pop(DONE)), state
     except FileNotFoundError:
         return None
-    except (
-        OSError,
-        ValueError,
-        KeyError,
-        TypeError,
-        EOFError,
-        zipfile.BadZipFile,
-    ):  # of NumPy and of zip, by what is cut
+    # Of NumPy and of zip, by what is cut.
+    except (OSError, ValueError, KeyError, TypeError, EOFError, zipfile.BadZipFile):
         raise damaged(store, chunk) from None
 
 
