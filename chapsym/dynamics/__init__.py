@@ -10,10 +10,9 @@ from .closed.top import TopMotion
 from .closed.tops import is_top, top_frames
 from .closed.vertical import VerticalTrajectory, step_vertical, trajectory_vertical
 from .coefficients import substeps
-from .composition import compose_step
 from .errors import BadInput, Status, StepNotTaken
 from .extrapolation import Extrapolated, extrapolate
-from .map import step
+from .map import compose_step, step
 from .n.ball_n import BallN, axial, skew
 from .n.step_n import StepN, step_n
 from .n.trajectory_n import TrajectoryN, invariants_n, reverse_n, trajectory_n

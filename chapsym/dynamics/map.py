@@ -1,4 +1,4 @@
-"""The map: one step, of floats and of exact numbers."""
+"""The map and its symmetric compositions: one step, of floats and of exact numbers."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import ArrayLike
 
-from chapsym.numbers import Digits, Double, Pair, Quad, Rung, Single
+from chapsym.numbers import NAMED, Digits, Double, Pair, Quad, Rung, Single
 
 from .ball import Ball, batch, numbers, unit_vertical
 from .errors import BadInput
@@ -37,6 +37,16 @@ def step(ball: Ball, momentum: ArrayLike, gamma: ArrayLike, *, precision: str | 
     Raises BadInput for shapes, NaN, infinities, and a gamma that is not unit.
     """
     return composed(ball, momentum, gamma, 2, ladder.rung_of(precision))
+
+
+def compose_step(ball: Ball, momentum: ArrayLike, gamma: ArrayLike, order: int) -> Step:
+    """One step of the composition of order 2, 4, 6 or 8; arguments, result and errors as for `step`.
+
+    All momentum integrals stay exact: every stage turns 𝒦 and γ by one rotation (lemma `momentum-integrals-composed`).
+    `rotation` is the product of the rotations of the stages; where a stage is not taken, `reach` is the fraction of
+    its momentum that the small-rotation branch attains.
+    """
+    return composed(ball, momentum, gamma, order, NAMED["double"])
 
 
 def composed(ball: Ball, momentum: ArrayLike, gamma: ArrayLike, order: int, rung: Rung) -> Step:

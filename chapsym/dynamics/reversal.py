@@ -12,9 +12,8 @@ from chapsym.numbers import Ball as BallRung
 from chapsym.numbers import Digits, Quad
 
 from .ball import Ball, Floats
-from .composition import compose_step
 from .errors import BadInput
-from .map import step
+from .map import compose_step, step
 from .results import Trajectory
 from .trajectories import trajectory
 

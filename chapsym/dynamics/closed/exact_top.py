@@ -78,13 +78,7 @@ def exact_top(ball: Ball, momentum: ArrayLike, gamma: ArrayLike) -> ExactTop:
     Raises BadInput for a batch, for D > 0 with a momentum that is not vertical, and for a step beyond the fold.
     """
     K, g = numbers(momentum, "momentum", 3), unit_vertical(gamma)
-    if (
-        not isinstance(ball, Ball)
-        or ball.D.shape
-        or ball.mass_tensor.shape != (3,)
-        or K.shape != (3,)
-        or g.shape != (3,)
-    ):
+    if not isinstance(ball, Ball) or (ball.D.shape, ball.mass_tensor.shape, K.shape, g.shape) != ((), (3,), (3,), (3,)):
         raise BadInput("an exact top is made for one ball, one momentum and one gamma")
     largest = float(np.abs(K).max())
     if largest == 0.0:

@@ -19,9 +19,8 @@ from ..ball import Ball, Floats, batch, numbers, unit_vertical
 from ..errors import BadInput, Status
 from ..failure import explain
 from ..results import Trajectory, finished
-from ..trajectories import initial_attitude
+from ..trajectories import initial_attitude, step_numbers
 from . import turns
-from .frames import step_numbers
 
 #: A step by more than a quarter turn is beyond the fold (lemmas `steady-branch`, `steady-axis`, `steady-roll`).
 QUARTER = 1.0

@@ -17,9 +17,9 @@ from chapsym.numbers import Ball as ArbBall
 
 from ..ball import Ball, Floats, inertia_of, numbers, unit_vertical
 from ..errors import BadInput
+from ..trajectories import step_numbers
 from . import turns
 from .elliptic import Curve, increment
-from .frames import step_numbers
 from .jacobi import jacobi
 from .vertical import step_vertical
 

@@ -9,8 +9,7 @@ from .. import kernels
 from ..ball import Ball, Floats, batch, numbers, unit_vertical
 from ..errors import BadInput, Status, StepNotTaken
 from ..results import Trajectory, finished
-from ..trajectories import initial_attitude
-from .frames import step_numbers
+from ..trajectories import initial_attitude, step_numbers
 from .precession import Precession
 from .top import TopMotion, moves
 

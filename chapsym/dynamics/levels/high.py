@@ -37,7 +37,8 @@ def run(
     done, bits = 0, rung.bits if isinstance(rung, Ball) else rung.context.prec
     for i in range(len(balls)):
         first = frames.attitude[i, 0].copy() if frames.with_body else None
-        way = _Way(balls, i, steps, every, frames, order, bits, partial(_from, done, progress), first)
+        so_far = partial(lambda before, step: progress(before + step), done)
+        way = _Way(balls, i, steps, every, frames, order, bits, so_far, first)
         if isinstance(rung, Ball):
             _run_ball(rung, way)
         else:
@@ -46,10 +47,6 @@ def run(
             K, g, J, D, stages, attitude, radius = way.given
             way.take(DigitsBall(rung, K, g, J, D, stages, attitude, radius, steps))
         done += int(frames.taken[i])
-
-
-def _from(before: int, progress: Callable[[int], None], steps: int) -> None:
-    progress(before + steps)
 
 
 @dataclass(frozen=True, eq=False)

@@ -76,11 +76,6 @@ def least_rotation(x: Pair, y: Pair, z: Pair) -> list[Pair]:
     return [p0 / length, y / length, -x / length, Pair(0.0)] if length > 0 else list(map(Pair, (0.0, 1.0, 0.0, 0.0)))
 
 
-def halves(numbers: list[Pair]) -> tuple[Floats, Floats]:
-    """The high and the low halves of pairs, one array each."""
-    return np.array([x.high for x in numbers]), np.array([x.low for x in numbers])
-
-
 def _add(rest: Floats, state: Floats, shift: int) -> None:
     """Gives the start what 𝒦 has beyond float64, and its integrals, to which it is restored."""
     state[1:6:2] = np.ldexp(rest, shift)
@@ -95,7 +90,7 @@ def _begin(frames: Frames, low: Frames, i: int, state: Floats, rest: Floats | No
     if frames.with_body:
         g = map(Pair, frames.gamma[i, 0], low.gamma[i, 0])
         first = least_rotation(*g) if frames.least else normalised(frames.attitude[i, 0])
-        attitude[:, 0], attitude[:, 1] = halves(first)
+        attitude[:] = [x.halves() for x in first]
         frames.attitude[i, 0], low.attitude[i, 0] = attitude.T
         low.contact[i, 0] = 0.0
     return attitude.reshape(-1), contact

@@ -8,6 +8,7 @@ Newton-Kantorovich test says what each is: an isolated root, or not proved to be
 import itertools
 from dataclasses import dataclass
 from functools import cache
+from types import SimpleNamespace
 
 import numpy as np
 
@@ -111,24 +112,12 @@ def _smallest(r: Floats) -> Floats:
     return np.abs(np.diagonal(r, axis1=1, axis2=2)).min(axis=1)
 
 
-@dataclass(frozen=True)
-class _Tables:
-    """Indices of the Macaulay matrix, and the constants in general position."""
-
-    block: list
-    first: list
-    second: list
-    weight: Floats
-    column: list
-    shifted: np.ndarray
-    mixed: Floats
-    plane: Floats
-    separating: Floats
-
-
 @cache
-def _tables() -> _Tables:
-    """The monomials of degree 4 in columns; each form times the monomials of degree 2 in rows."""
+def _tables() -> SimpleNamespace:
+    """Indices of the Macaulay matrix, and the constants in general position.
+
+    The monomials of degree 4 in columns; each form times the monomials of degree 2 in rows.
+    """
 
     def monomials(degree: int) -> list[tuple[int, ...]]:
         return list(itertools.combinations_with_replacement(range(4), degree))
@@ -142,7 +131,8 @@ def _tables() -> _Tables:
     rng = np.random.default_rng(5)
     mixed = np.linalg.qr(rng.normal(size=(30, 27)))[0].T
     plane, separating = np.linalg.qr(rng.normal(size=(4, 2)))[0].T
-    return _Tables(
-        block, [a for a, _ in pairs], [b for _, b in pairs], np.array([1.0 if a == b else 2.0 for a, b in pairs]),
-        column, shifted, mixed, plane, separating,
+    return SimpleNamespace(
+        block=block, first=[a for a, _ in pairs], second=[b for _, b in pairs],
+        weight=np.array([1.0 if a == b else 2.0 for a, b in pairs]),
+        column=column, shifted=shifted, mixed=mixed, plane=plane, separating=separating,
     )  # fmt: skip
