@@ -11,6 +11,13 @@ from typing import Any
 from .evidence import Proof, Verdict
 from .statements import Fact
 
+#: What a record says beside the verdict, in this order: what a `Proof` collects, and what is known of its claim.
+EVIDENCE = (
+    "title", "hypotheses", "condition", "reason", "open_in_paper", "tried", "answer", "certificates", "measured",
+    "conjectures", "derivation", "checks", "controls", "routes", "witnesses", "counterexamples", "uses", "downstream",
+    "problems",
+)  # fmt: skip
+
 
 @dataclass(frozen=True)
 class Claim:
@@ -56,32 +63,16 @@ class Judgement:
 
     def record(self, downstream: Sequence[str] = ()) -> dict[str, Any]:
         """The claim's row of the register, as the command's contract has it."""
+        known = vars(self.proof) | {
+            "title": self.claim.title, "open_in_paper": self.open_in_paper, "derivation": self.proof.lines,
+            "uses": list(self.claim.uses), "downstream": list(downstream),
+        }  # fmt: skip
         return {
             "id": self.claim.id,
             "verdict": str(self.verdict),
             "printed": self.claim.printed,
             "corrected": self.proof.corrected_text,
-            "evidence": {
-                "title": self.claim.title,
-                "hypotheses": self.proof.hypotheses,
-                "condition": self.proof.condition,
-                "reason": self.proof.reason,
-                "open_in_paper": self.open_in_paper,
-                "tried": self.proof.tried,
-                "answer": self.proof.answer,
-                "certificates": self.proof.certificates,
-                "measured": self.proof.measured,
-                "conjectures": self.proof.conjectures,
-                "derivation": self.proof.lines,
-                "checks": self.proof.checks,
-                "controls": self.proof.controls,
-                "routes": self.proof.routes,
-                "witnesses": self.proof.witnesses,
-                "counterexamples": self.proof.counterexamples,
-                "uses": list(self.claim.uses),
-                "downstream": list(downstream),
-                "problems": self.proof.problems,
-            },
+            "evidence": {name: known[name] for name in EVIDENCE},
             "seconds": round(self.seconds, 3),
         }
 

@@ -65,16 +65,15 @@ def downstream(id: str, claims: dict[str, Claim]) -> list[str]:
 
 def prove_one(id: str) -> dict[str, Any]:
     """Judges one claim and returns its record; a proof that raises is an open claim with the reason."""
-    claims = load(lemmas=True)
-    record = judge(claims[id]).record(_used_by(id, claims))
-    record["evidence"]["fingerprint"] = fingerprint(claims[id])
+    return _record(judge(load(lemmas=True)[id]))
+
+
+def _record(judgement: Judgement) -> dict[str, Any]:
+    """With what is downstream of a claim of the paper in the paper, and of a lemma anywhere."""
+    id, paper = judgement.claim.id, load()
+    record = judgement.record(downstream(id, paper if id in paper else load(lemmas=True)))
+    record["evidence"]["fingerprint"] = fingerprint(judgement.claim)
     return record
-
-
-def _used_by(id: str, claims: dict[str, Claim]) -> list[str]:
-    """What is downstream of a claim of the paper in the paper, and of a lemma anywhere."""
-    paper = load()
-    return downstream(id, paper if id in paper else claims)
 
 
 def judge(claim: Claim) -> Judgement:
@@ -84,7 +83,11 @@ def judge(claim: Claim) -> Judgement:
     except (Exception, SystemExit) as error:  # a proof that leaves is no proof
         place = traceback.extract_tb(error.__traceback__)[-1]
         reason = f"the proof raised {type(error).__name__}: {error} ({Path(place.filename).name}:{place.lineno})"
-        return Judgement(claim, Verdict.OPEN, Proof(problems=[reason]), 0.0)
+        return _open(claim, reason)
+
+
+def _open(claim: Claim, reason: str) -> Judgement:
+    return Judgement(claim, Verdict.OPEN, Proof(problems=[reason]), 0.0)
 
 
 def prove_all(
@@ -111,20 +114,13 @@ def prove_all(
     except BrokenProcessPool:
         for id in ids:
             if id not in records:
-                records[id] = _abandoned(id)
+                # A claim that was not judged because a process was lost.
+                reason = "not judged: a process that ran proofs ended, perhaps for lack of memory; try --jobs 1"
+                records[id] = _record(_open(load(lemmas=True)[id], reason))
                 on_result(records[id])
     finally:
         pool.shutdown(cancel_futures=True)
     return [records[id] for id in ids]
-
-
-def _abandoned(id: str) -> dict[str, Any]:
-    """The open record of a claim that was not judged because a process was lost."""
-    claims = load(lemmas=True)
-    reason = "not judged: a process that ran proofs ended, perhaps for lack of memory; try --jobs 1"
-    record = Judgement(claims[id], Verdict.OPEN, Proof(problems=[reason]), 0.0).record(_used_by(id, claims))
-    record["evidence"]["fingerprint"] = fingerprint(claims[id])
-    return record
 
 
 def explain(record: dict[str, Any]) -> str:
