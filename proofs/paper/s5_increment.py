@@ -207,13 +207,8 @@ def before_squaring(p: Proof) -> None:
     p.assume("h = 1 (5.12-scaling); sn δu, 𝒟 and 1 - DΠ1 do not vanish; d is D, the only thing (5.11) can make it")
     half = 1 - D / 2 * level / SCALE
     p.say("With 1/σ = 1 - DΠ1 (5.11) and 2𝒟/ϰ = V cn dn/sn =: W, prop-4 reads ±√(1 - σ²Π2) = σW/𝒟 - 1. Squared:")
-    p.printed(
-        part(
-            "(1-(D/2)Π1)²(𝒟² - Π2𝒟²) = (V cn dn/sn δu - 𝒟(1-(D/2)Π1))²",
-            half**2 * (SCALE**2 - SECOND),
-            (W - SCALE * half) ** 2,
-        )
-    )
+    squared = half**2 * (SCALE**2 - SECOND)
+    p.printed(part("(1-(D/2)Π1)²(𝒟² - Π2𝒟²) = (V cn dn/sn δu - 𝒟(1-(D/2)Π1))²", squared, (W - SCALE * half) ** 2))
     p.corrected(
         r"\pm\sqrt{(1-D\Pi_1)^2\mathcal D^2-\Pi_2\mathcal D^2} = V\tfrac{\mathrm{cn}\delta u\,\mathrm{dn}\delta u}"
         r"{\mathrm{sn}\delta u} - \mathcal D(1-D\Pi_1)",

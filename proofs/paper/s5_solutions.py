@@ -111,11 +111,8 @@ def upper_bound(p: Proof) -> None:
     other = solutions.count(solutions.at(BALL, 100, (0, "3/5", "4/5"), (-2, 0, 0)))
     p.lemma(Fact("D = 100, γ = (0, 3/5, 4/5), 𝒦 = (-2, 0, 0): 7 real solutions, one double", other[:3] == (7, 7, 8)))
     p.witness("8 solutions", state, Fact("8 real solutions", rolling[worst].real == 8))
-    p.witness(
-        "D = 0",
-        {**state, "D": "0"},
-        Fact("at most 4", solutions.count(solutions.at(BALL, 0, VERTICAL, worst)).real <= 4),
-    )
+    flat = solutions.count(solutions.at(BALL, 0, VERTICAL, worst))
+    p.witness("D = 0", {**state, "D": "0"}, Fact("at most 4", flat.real <= 4))
     p.control(Fact("no example has more than 6", most <= 6))
     wrong = 2 * (-isotropic[0] * lam * spin + spin.cross(lam * spin))
     p.control(Equation("the isotropic points with +q₀", wrong, [sp.S.Zero] * 3, points))
