@@ -156,12 +156,15 @@ def test_an_interrupted_command_stops_and_goes_on(tmp_path, path):
     assert done.returncode == 130, done.stderr
     assert done.stderr.splitlines()[-1] == "chapsym: interrupted; the same command goes on from there"
     assert list(path.glob(".chapsym/chunk-*"))
-    assert answer("run", scene, "-o", path) == {
+    found = answer("run", scene, "-o", path)
+    assert found.pop("discretisation")["balls"] == 8
+    assert found == {
         "output": str(path), "balls": 45_000, "frames": 13, "steps": 240, "model": "reduced map",
         "failed": 0, "complete": True, "lost": [],
     }  # fmt: skip
     again = chapsym("run", scene, "-o", path)
-    assert again.stdout == f"45000 balls, 13 frames, reduced map; {path} was complete already\n"
+    told = f"45000 balls, 13 frames, reduced map; {path} was complete already\ndiscretisation: about "
+    assert again.stdout.startswith(told)
     scene.write_text(LONG.replace("4.0, 45_000", "5.0, 45_000"))
     assert "holds another scene (start.omega differs)" in refused("run", scene, "-o", path)
 

@@ -9,7 +9,6 @@ from xarray import Dataset
 
 from chapsym.dynamics import BadInput, Status, kernels
 from chapsym.dynamics.ball import Floats
-from chapsym.scene.result.dataset import discretised
 
 from . import turning
 
@@ -100,9 +99,6 @@ def motion(dataset: Dataset, balls: Sequence[str | int] | None = None) -> Motion
         )
         rolling.notes.extend(_stopped(one, end == len(clock)))
         found.append(rolling)
-    far = discretised(dataset)
-    if far is not None:
-        notes.append(far.sentence())
     return Motion(clock[kept], "s" if timed else "steps", found, notes)
 
 

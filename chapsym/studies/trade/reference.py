@@ -40,8 +40,8 @@ def continuous(
     with flint.ctx.workprec(bits):
         J, D = [exact(float(x)) for x in ball.mass_tensor], exact(float(ball.D))
         radius = exact(0.0 if ball.radius is None else float(ball.radius))
-        K, g = [exact(float(x)) for x in angular_momentum], unit(exact(float(x)) for x in gamma)
-        first = least(*g) if attitude is None else [exact(float(x)) for x in attitude]
+        K, g = [exact(x) for x in angular_momentum], unit(exact(x) for x in gamma)
+        first = least(*g) if attitude is None else [exact(x) for x in attitude]
         state = [*K, *g, *_axes(unit(first)), flint.arb(0), flint.arb(0)]
         inverse, terms = [1 / (sum(J) - x + D) for x in J], max(8, int(TERMS_PER_DIGIT * digits))
         # K may be of any size, and the error of a step is that of its last terms, relative to the state.
