@@ -11,8 +11,8 @@ from chapsym.dynamics import BadInput
 
 from .chains import Call
 
-#: Seconds to wait for a scheduler, and for a worker where none is left.
-REACHED, ABANDONED = 10.0, 60.0
+#: Seconds to wait for a scheduler, for its answers, and for a worker where none is left.
+REACHED, ANSWERED, ABANDONED = 10.0, 60.0, 60.0
 
 
 @contextmanager
@@ -26,7 +26,8 @@ def workers(address: str) -> Iterator["Workers"]:
         try:
             yield crew
         finally:
-            client.cancel(list(crew.flying), force=True)
+            if crew.flying:
+                client.cancel(list(crew.flying), force=True)
 
 
 class Workers:
@@ -43,8 +44,9 @@ class Workers:
     def room(self) -> int:
         """Two calls for each thread of the workers."""
         try:
-            threads = sum(self.client.nthreads().values())
+            threads = sum(self.client.nthreads(callback_timeout=ANSWERED).values())
         except (OSError, TimeoutError, ValueError, RuntimeError):
+            self.flying.clear()  # there is nobody who could cancel them
             told = "is lost; the same command goes on from what is written"
             raise BadInput(f"the Dask scheduler at {self.address} {told}") from None
         now = time.monotonic()

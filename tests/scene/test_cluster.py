@@ -144,6 +144,22 @@ def test_a_scheduler_without_workers_is_one_sentence(path, monkeypatch):
         sweep.run_to_store(plan_from(SCENE), path, running.scheduler_address)
 
 
+class Stopped:
+    """A client whose scheduler neither answers nor ends."""
+
+    def nthreads(self, callback_timeout=None):
+        assert callback_timeout is not None, "this waits for ever"
+        raise TimeoutError
+
+
+def test_a_scheduler_that_answers_no_more_is_lost_and_is_not_asked_to_cancel():
+    crew = cluster.Workers(Stopped(), "tcp://nowhere")
+    crew.flying.add("a call")
+    with pytest.raises(BadInput, match="the Dask scheduler at tcp://nowhere is lost; the same command goes on"):
+        crew.room()
+    assert not crew.flying
+
+
 @contextmanager
 def process(*arguments):
     """A process that is killed in the end, with all that it started."""
