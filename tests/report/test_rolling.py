@@ -83,6 +83,21 @@ def test_a_whole_turn_that_the_attitude_hides_is_seen_in_the_way_and_a_wrong_ome
     assert one(wrong.assign(omega=wrong["omega"] * -0.31)).notes == [TOO_FAR]
 
 
+@pytest.mark.parametrize(("steps", "known"), [(1, True), (2, False)])
+def test_one_step_tells_a_turn_beyond_a_quarter_and_two_do_not(steps, known):
+    half = 0.3 * np.pi
+    q = np.array([[1.0, 0.0, 0.0, 0.0], [np.cos(half), np.sin(half), 0.0, 0.0]])
+    turns, found = turning.between(q, None, np.array([steps]), None, None)
+    assert turns == pytest.approx(np.array([[2 * half, 0.0, 0.0]]))
+    assert found.tolist() == [known]
+
+
+def test_a_ball_at_rest_does_not_turn():
+    with np.errstate(all="raise"):
+        found, near = turning.nearest(np.zeros((1, 3)), np.zeros((1, 3)))
+    assert (found.tolist(), near.tolist()) == ([[0.0] * 3], [True])
+
+
 def test_a_quaternion_and_its_negative_are_the_same_attitude():
     dataset = rolled(50, every=5).drop_vars("omega")
     flipped = dataset.assign(attitude=dataset["attitude"] * np.array([1, -1] * 5 + [1])[:, np.newaxis])
