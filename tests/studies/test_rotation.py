@@ -2,6 +2,7 @@
 
 import json
 from fractions import Fraction
+from math import gcd
 
 import numpy as np
 import pytest
@@ -288,3 +289,11 @@ def test_the_sentences_say_what_locks(small):
     assert any("D = 1, h = 12/5, 1/9 half turns, 60 digits: the displacement reaches 1.4e-28" in x for x in told)
     assert any("kicked by 1/100 sin 2φ: the displacement reaches 1.4e-17: it locks" in x for x in told)
     assert any("plateaus that were measured: 13, each of positive width" in x for x in told)
+
+
+@pytest.mark.parametrize("quick", [True, False])
+def test_the_fractions_next_to_a_fifth_are_in_lowest_terms(quick):
+    """Half turns in so many steps: each as near to 1/5 as any other fraction with its denominator."""
+    planned = [(unit.arguments["turns"], unit.arguments["steps"]) for unit in units(quick)["fifth"]]
+    assert {(1, 5), (1, 6), (2, 9), (3, 14)} <= set(planned)
+    assert all(gcd(p, q) == 1 and abs(5 * p - q) <= 1 for p, q in planned)
