@@ -1,46 +1,51 @@
-"""How far a run of the map is from the motion of the ball: by a pilot of both, the motion by a composition of order 8.
+"""How far a run of the map is from the motion of the ball: by a pilot of it with these steps and with halves of them.
 
-The integrals of the map, which it keeps whatever the step, do not tell that.
+The integrals of the map, which it keeps whatever the step, do not tell that.  The error of an order p falls by 2^p
+where the step is halved, so the motion is 2^p/(2^p - 1) times as far as the finer run is (Richardson).
 """
 
 import json
+import math
 from dataclasses import asdict, dataclass
+from typing import Any
 
 import numpy as np
 
-from chapsym.dynamics import Ball, Trajectory, kernels, substeps, trajectory
+from chapsym.dynamics import Ball, Status, Trajectory, kernels, substeps, trajectory
 from chapsym.dynamics.ball import Floats
+from chapsym.dynamics.levels.double import SHORT_RUN, has_numba
 
-#: Steps of the map of a pilot, all balls together: some hundredths of a second.
-MOST = 2**17
-#: Of more balls so many are followed.
+#: Stages of the map that the finer run of a pilot takes, all balls together, where its loops are compiled for the run
+#: itself; elsewhere it takes fewer than would have them compiled.
+MOST = 2**16
+#: Of more balls so many are followed: enough for the lanes in which the run itself may be.
 BALLS = 8
-#: The order of the motion.
-HIGH = 8
 
 
 @dataclass(frozen=True)
 class Discretisation:
     """The largest distances of a run from the motion of the ball, at all steps up to `time`; estimates.
 
-    time: in s; the run's end, or sooner, if a pilot of the whole run were long.
-    gamma: |Δγ|.  omega: |Δω| in rad/s.  attitude: the angle between the two, in degrees.  contact: in m, or None for a
-    ball without a radius.  balls: how many were followed, the first and the last among them.
+    time, end: in s; the pilot and the run end there.  gamma: |Δγ|.  omega: |Δω| in rad/s, None beyond float64.
+    attitude: the angle between the two in degrees; contact: in m; None where the run does not follow them.
+    balls: how many were followed, those that stop left out.
     """
 
     time: float
+    end: float
     gamma: float
-    omega: float
-    attitude: float
+    omega: float | None
+    attitude: float | None
     contact: float | None
     balls: int
 
     def sentence(self) -> str:
         """For a reader."""
-        far = [f"{self.gamma:.2g} in gamma", f"{self.omega:.2g} rad/s in omega", f"{self.attitude:.2g} degrees"]
-        far += [] if self.contact is None else [f"{self.contact:.2g} m on the plane"]
-        balls = f", of {self.balls} balls" if self.balls > 1 else ""
-        return f"about {', '.join(far)} off the motion of the ball, up to {self.time:.6g} s{balls}"
+        units = {"gamma": "in gamma", "omega": "rad/s in omega", "attitude": "degrees", "contact": "m on the plane"}
+        far = [f"{x:.2g} {unit}" for name, unit in units.items() if (x := getattr(self, name)) is not None]
+        whole = f" of {self.end:.6g} s" if self.time < self.end else " s"
+        balls = f", the largest of {self.balls} balls" if self.balls > 1 else ""
+        return f"about {', '.join(far)} off the motion of the ball, up to {self.time:.6g}{whole}{balls}"
 
     def write(self) -> str:
         """As JSON, for a file."""
@@ -51,64 +56,66 @@ def read(text: object) -> Discretisation | None:
     """What `write` gave; None for anything else."""
     try:
         found = Discretisation(**json.loads(text))  # type: ignore[arg-type]
-        found.sentence()
-    except (TypeError, ValueError, RecursionError):
+        numbers = [float(x) for x in vars(found).values() if x is not None]
+    except (TypeError, ValueError, OverflowError, RecursionError):
         return None
-    return found
+    return found if all(math.isfinite(x) and x >= 0 for x in numbers) else None
 
 
 def discretisation(
-    ball: Ball, momentum: Floats, gamma: Floats, time_step: float, steps: int, order: int = 2
-) -> Discretisation | None:
+    ball: Ball, momentum: Floats, gamma: Floats, time_step: float, steps: int, order: int = 2,
+    precision: str = "double", attitude: bool = True, contact: bool = True,
+) -> Discretisation | None:  # fmt: skip
     """The estimate for balls (n,) from 𝒦 = εK (n, 3), γ (n, 3) in `steps` steps of `time_step` seconds.
 
-    None where there are no steps, or a ball stops, with these steps or with those of the motion.
+    order, precision, attitude, contact: of the run.
+    None where there are no steps, or no ball gets to the end of the pilot.
     """
+    work = steps * len(gamma) * len(substeps(order))
     some = np.unique(np.linspace(0, len(gamma) - 1, BALLS).astype(int))
-    finer = 2 if order == HIGH else 1
-    work = len(some) * (len(substeps(order)) + finer * len(substeps(HIGH)))
-    steps = min(steps, max(MOST // work, 1))
+    most = MOST if has_numba() and work >= SHORT_RUN else SHORT_RUN - 1
+    pilot = min(steps, max(most // (2 * len(some) * len(substeps(order))), 1))
     if not steps:
         return None
-    radius = None if ball.radius is None else ball.radius[some]
-    few = Ball(ball.mass_tensor[some], ball.D[some], radius)
+    few = Ball(ball.mass_tensor[some], ball.D[some], None if ball.radius is None else ball.radius[some])
 
-    def run(order: int, finer: int) -> Trajectory:
+    def run(finer: int, precision: str) -> Trajectory:
         return trajectory(
-            few, momentum[some] / finer, gamma[some], finer * steps, order=order, every=finer,
-            attitude=True, contact=radius is not None, time_step=time_step / finer,
+            few, momentum[some] / finer, gamma[some], finer * pilot, order=order, every=finer, attitude=attitude,
+            contact=contact, time_step=time_step / finer, precision=precision,
         )  # fmt: skip
 
-    found, motion = run(order, 1), run(HIGH, finer)
-    if found.status.any() or motion.status.any():
+    # Two runs in float32 would have its rounding of the ball and of the start in common.
+    coarse, fine = run(1, precision), run(2, "double" if precision == "single" else precision)
+    there = (coarse.status == Status.TAKEN) & (fine.status == Status.TAKEN)
+    if not there.any():
         return None
-    return _apart(found, motion)
+    far = _apart(coarse, fine, there, 2.0**order / (2.0**order - 1))
+    numbers = [x for x in far.values() if x is not None]
+    if not np.isfinite(numbers).all():
+        return None
+    return Discretisation(pilot * time_step, steps * time_step, **far, balls=int(there.sum()))
 
 
 @np.errstate(all="ignore")  # a ball beyond the range of float64 has no finite distance, and none is told
-def _apart(found: Trajectory, motion: Trajectory) -> Discretisation | None:
-    a, b = found.attitude, motion.attitude
-    assert a is not None
-    assert b is not None
-    chord = np.minimum(_lengths(a - b), _lengths(a + b)).max()
-    turned = float(np.degrees(4 * np.arcsin(min(chord / 2, 1.0))))
-    gamma, omega = _largest(found.gamma - motion.gamma), _largest(_omega(found) - _omega(motion))
-    plane = None if found.contact is None else _largest(found.contact - motion.contact)
-    if not np.isfinite([gamma, omega, turned, plane or 0.0]).all():
-        return None
-    return Discretisation(float(found.time[-1]), gamma, omega, turned, plane, len(found.gamma))
+def _apart(coarse: Trajectory, fine: Trajectory, there: np.ndarray, factor: float) -> dict[str, Any]:
+    """The distances of two runs, times a factor."""
 
+    def distance(name: str, sign: float = 1.0) -> Floats | None:
+        if getattr(coarse, name) is None:
+            return None
+        parts = (coarse, fine) if coarse.low is None else (coarse, fine, coarse.low, fine.low)
+        a, b, *low = (np.asarray(getattr(part, name), dtype=float)[there] for part in parts)
+        return np.asarray(np.linalg.norm(a - sign * b + (low[0] - sign * low[1] if low else 0.0), axis=-1))
 
-def _lengths(v: Floats) -> Floats:
-    return np.asarray(np.linalg.norm(v, axis=-1))
+    def omega(run: Trajectory) -> Floats:
+        K, gamma = (np.asarray(x, dtype=float)[there] for x in (run.angular_momentum(), run.gamma))
+        return kernels.angular_velocity(
+            K, gamma, run.ball.mass_tensor[there, np.newaxis], run.ball.D[there, np.newaxis]
+        )
 
-
-def _largest(v: Floats) -> float:
-    return float(_lengths(v).max())
-
-
-def _omega(run: Trajectory) -> Floats:
-    ball = run.ball
-    return kernels.angular_velocity(
-        run.angular_momentum(), run.gamma, ball.mass_tensor[:, np.newaxis], ball.D[:, np.newaxis]
-    )
+    same, other = distance("attitude"), distance("attitude", -1.0)
+    turned = None if same is None or other is None else np.degrees(4 * np.arcsin(np.minimum(same, other) / 2))
+    spun = None if coarse.low is not None else np.linalg.norm(omega(coarse) - omega(fine), axis=-1)
+    far = {"gamma": distance("gamma"), "omega": spun, "attitude": turned, "contact": distance("contact")}
+    return {name: None if x is None else factor * float(x.max()) for name, x in far.items()}

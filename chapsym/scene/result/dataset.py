@@ -105,9 +105,12 @@ def discretised(data: "Dataset") -> Discretisation | None:
 def _discretisation(plan: Plan) -> Discretisation | None:
     """How far the map is from the motion of the ball, where it stands for that: its steps have a length in time."""
     members, task = plan.members, plan.task
-    if task.chosen or task.time_step is None or not isinstance(members.ball, Ball):
+    if task.time_step is None or not isinstance(members.ball, Ball):
         return None
-    return discretisation(members.ball, members.momentum, members.gamma, task.time_step, task.steps, task.order)
+    return discretisation(
+        members.ball, members.momentum, members.gamma, task.time_step, task.steps, task.order, task.precision,
+        attitude=bool(plan.needed & {"attitude", "contact"}), contact="contact" in plan.needed,
+    )  # fmt: skip
 
 
 def _moments(plan: Plan) -> dict[Hashable, Any]:
