@@ -3,9 +3,11 @@
 import multiprocessing
 from collections.abc import Callable, Collection, Iterator
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor, wait
+from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from typing import Any
 
+from chapsym.dynamics import BadInput
 from chapsym.workers import begin
 
 from .chains import Call
@@ -57,7 +59,10 @@ def threads(count: int) -> Iterator[Pool]:
 
 @contextmanager
 def processes(count: int) -> Iterator[Pool]:
-    """So many processes; at the end, or after an error, those that run are ended."""
+    """So many processes; at the end, or after an error, those that run are ended.
+
+    Raises BadInput if one was ended from outside and the chain of its call did not take that.
+    """
     if count <= 1:
         yield Pool(Here(), 1)
         return
@@ -65,6 +70,8 @@ def processes(count: int) -> Iterator[Pool]:
     executor = ProcessPoolExecutor(count, multiprocessing.get_context("spawn"), initializer=begin)
     try:
         yield Pool(executor, count)
+    except BrokenProcessPool:  # unless its chain lets others go on
+        raise BadInput("a process of this run was ended, perhaps for lack of memory; begin again") from None
     finally:
         children = list((executor._processes or {}).values())  # the pool forgets them at its shutdown
         executor.shutdown(wait=False, cancel_futures=True)

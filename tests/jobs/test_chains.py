@@ -1,10 +1,12 @@
 """Chains of calls: in order, abreast, tried again where a worker is lost, and ended by what they let through."""
 
+import os
 from concurrent.futures import Future
 
 import pytest
 
 from chapsym import jobs
+from chapsym.dynamics import BadInput
 from chapsym.jobs import chains
 from chapsym.jobs.crews import Here, Pool
 
@@ -105,3 +107,11 @@ def test_threads_work_abreast_and_one_is_this_one():
             jobs.run((chain(f"{name}{count}", kept) for name in "abc"), crew)
     assert set(kept.values()) == {111}
     assert len(kept) == 6
+
+
+def test_a_process_that_is_killed_ends_the_run_in_a_sentence():
+    def one():
+        yield jobs.Call(os._exit, (1,))
+
+    with pytest.raises(BadInput, match="a process of this run was ended"), jobs.processes(2) as crew:
+        jobs.run([one()], crew)
