@@ -32,12 +32,11 @@ def test_a_checkout_is_told_from_a_copy(copy):
     assert not build.is_checkout(copy)
 
 
-@pytest.mark.parametrize("seed", ["0", "4294967295"])
-def test_the_bytes_do_not_depend_on_the_hash_seed(seed):
-    """Two seeds; a third is that of this process, by the test above."""
+def test_the_bytes_do_not_depend_on_the_hash_seed():
+    """One seed; another, drawn by Python, is that of this process, by the test above."""
     program = "import json, sys; from chapsym.codegen import build; json.dump(build.build(), sys.stdout)"
     done = subprocess.run(
-        [sys.executable, "-c", program], env={**os.environ, "PYTHONHASHSEED": seed}, capture_output=True, check=True
+        [sys.executable, "-c", program], env={**os.environ, "PYTHONHASHSEED": "0"}, capture_output=True, check=True
     )
     place = build.folder()
     for name, text in json.loads(done.stdout).items():

@@ -92,7 +92,6 @@ SECOND_ROUTE = {
     "a factor in (4.13)": (again, "momentum_by_centre", doubled, ("5.2", "prop-1")),
     "the constraint": (again, "centre_step", naive, ("prop-1",)),
     "the sign of the action": (again, "action", negated, ("prop-1",)),
-    "half the action": (again, "action", doubled, ("prop-1",)),
     "no rotation": (again, "cayley", doubled, ("remark-3", "prop-4")),
     "off the sphere": (again, "sphere", doubled, ("5.2", "5.15")),
     "no hat": (again, "hat", negated, ("5.2",)),
