@@ -15,7 +15,10 @@ settings.register_profile(
     "same", max_examples=EXAMPLES, derandomize=True, database=None, deadline=None, print_blob=True,
     suppress_health_check=[HealthCheck.too_slow],
 )  # fmt: skip
-LARGE = f"random seeds, {THOROUGH} times the examples of each property, slow cells of the extremes, more processes"
+LARGE = (
+    f"random seeds, {THOROUGH} times the examples of each property, slow cells of the extremes, slips judged by more "
+    "claims, more processes"
+)
 settings.register_profile("thorough", settings.get_profile("same"), max_examples=THOROUGH * EXAMPLES, derandomize=False)
 
 
