@@ -13,7 +13,7 @@ import numpy as np
 
 from chapsym.dynamics import Ball, Status, Trajectory, kernels, substeps, trajectory
 from chapsym.dynamics.ball import Floats
-from chapsym.dynamics.levels.double import SHORT_RUN, has_numba
+from chapsym.dynamics.levels import double, quad
 
 #: Stages of the map that the finer run of a pilot takes, all balls together, where its loops are compiled for the run
 #: itself; elsewhere it takes fewer than would have them compiled.
@@ -73,7 +73,9 @@ def discretisation(
     """
     work = steps * len(gamma) * len(substeps(order))
     some = np.unique(np.linspace(0, len(gamma) - 1, BALLS).astype(int))
-    most = MOST if has_numba() and work >= SHORT_RUN else SHORT_RUN - 1
+    short = quad.SHORT_RUN if precision == "quad" else double.SHORT_RUN
+    # The finer run of one in float32 is in float64, whose loops that run does not have compiled.
+    most = MOST if double.has_numba() and work >= short and precision != "single" else short - 1
     pilot = min(steps, max(most // (2 * len(some) * len(substeps(order))), 1))
     if not steps:
         return None

@@ -10,7 +10,7 @@ import numpy as np
 from chapsym.dynamics import BadInput, Ball, Trajectory
 from chapsym.dynamics.ball import Floats, batch, numbers, unit_vertical
 from chapsym.dynamics.certified import exactly
-from chapsym.dynamics.trajectories import _count, attitude_with, initial_attitude
+from chapsym.dynamics.trajectories import attitude_with, initial_attitude, whole_number
 from chapsym.numbers import Digits, Rung
 
 #: What the accuracy may be of.
@@ -57,7 +57,7 @@ class Request:
             raise BadInput(f'of must be "state" or "contact", not {self.of!r}')
         if self.of == "contact" and self.ball.radius is None:
             raise BadInput("the contact point needs the radius: give the ball its mass and radius")
-        object.__setattr__(self, "frames", _count(self.frames, "frames", 1))
+        object.__setattr__(self, "frames", whole_number(self.frames, "frames", 1))
         if self.accuracy < FINEST:
             raise BadInput(f"accuracy must be at least {FINEST:g}: the compositions' coefficients have 40 digits")
         if not isinstance(self.attitude, bool | np.bool_):

@@ -18,7 +18,7 @@ from .levels import high, ladder
 from .levels.frames import Balls
 from .levels.start import fraction
 from .results import Trajectory
-from .trajectories import _count
+from .trajectories import whole_number
 
 #: What a certificate is about; `contact` in metres.
 NAMES = ("momentum", "gamma", "attitude", "contact")
@@ -89,7 +89,7 @@ def certify(
         raise BadInput(f"certify takes what `trajectory` and `roll` return, not {type(trajectory).__name__}")
     if trajectory.order not in COMPOSITIONS:
         raise BadInput(f"certify takes orders {', '.join(map(str, COMPOSITIONS))}: this is no orbit of the map")
-    bits = _count(bits, "bits", 2)
+    bits = whole_number(bits, "bits", 2)
     given = {name: None if getattr(trajectory, name) is None else exactly(trajectory, name) for name in NAMES}
     enclosed = _orbit(trajectory, given, bits, progress)
     errors = {name: None if array is None else _errors(array, given[name], bits) for name, array in enclosed.items()}

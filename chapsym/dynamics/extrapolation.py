@@ -24,7 +24,7 @@ from .levels.double import chosen, compiles
 from .loops import loop
 from .loops.lanes import MOST_COLUMNS, long_steps_in_lanes
 from .loops.long_step import FIRST, long_steps
-from .trajectories import _count, initial_attitude
+from .trajectories import initial_attitude, whole_number
 
 #: Longer steps than 2^LONGEST, in units where the momentum and the ball are about 1, have no rotation anyway.
 LONGEST = 100
@@ -78,7 +78,7 @@ def extrapolate(
     One ball raises StepNotTaken where the map has no step of length time_step/n; a batch reports `status`.
     Raises BadInput as `step` does, for a time_step that is not one finite number, and for counts out of range.
     """
-    steps, columns = _count(steps, "steps", 0), _count(columns, "columns", 2, MOST_COLUMNS)
+    steps, columns = whole_number(steps, "steps", 0), whole_number(columns, "columns", 2, MOST_COLUMNS)
     h = numbers(time_step, "time_step")
     if h.ndim:
         raise BadInput(f"time_step must be one number of seconds, not {time_step!r}")

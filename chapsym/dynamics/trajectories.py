@@ -109,7 +109,11 @@ def trajectory(
     In a batch the others go on, and `status` and `taken` say which stopped, where.
     Raises BadInput as `step` does, and for counts that are not positive integers.
     """
-    steps, every, threads = _count(steps, "steps", 0), _count(every, "every", 1), _count(threads, "threads", 0)
+    steps, every, threads = (
+        whole_number(steps, "steps", 0),
+        whole_number(every, "every", 1),
+        whole_number(threads, "threads", 0),
+    )
     every = min(every, steps + 1)
     time_step = None if time_step is None else _seconds(time_step)
     rung = ladder.rung_of(precision)
@@ -143,7 +147,8 @@ def trajectory(
     return finished(result, frame.reach)
 
 
-def _count(value: int, name: str, least: int, most: int | None = None) -> int:
+def whole_number(value: int, name: str, least: int, most: int | None = None) -> int:
+    """A count from `least` to `most`, or without it 2^62 for all that is larger; raises BadInput for anything else."""
     number = isinstance(value, int | np.integer) and not isinstance(value, bool)
     if not number or value < least or (most is not None and value > most):
         told = "on" if most is None else f"to {most}"

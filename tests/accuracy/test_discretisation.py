@@ -11,7 +11,7 @@ from scipy.integrate import solve_ivp
 import chapsym
 from chapsym.accuracy.discretisation import MOST, Discretisation, discretisation, read
 from chapsym.dynamics import Status, kernels
-from chapsym.dynamics.levels import double
+from chapsym.dynamics.levels import double, quad
 
 BALLS = chapsym.Ball.from_inertia(((0.006, 0.007, 0.009), (0.03, 0.0312, 0.0318)), mass=(2.0, 7.0), radius=(0.1, 0.11))
 OMEGA = np.array([[14.0, -6.0, 3.0], [2.0, 60.0, 5.0]])
@@ -120,16 +120,18 @@ def test_of_a_long_run_its_beginning_is_followed_and_that_is_said():
     assert found.sentence().endswith(f"up to {found.time:.6g} of 4e+09 s")
 
 
-@pytest.mark.parametrize("steps", [1, 500, 999, 1999])
-def test_a_run_that_is_not_compiled_has_a_pilot_that_is_not(monkeypatch, steps):
-    monkeypatch.setattr(double, "chosen", lambda functions, work: assert_short(functions, work))
-    found = estimated_of(steps)
-    assert found.time == pytest.approx(STEP * min(steps, 999))
-
-
-def assert_short(functions, work):
-    assert work < double.SHORT_RUN
-    return functions
+@pytest.mark.parametrize(
+    ("precision", "steps", "most"),
+    [("double", 1, 1), ("double", 500, 500), ("double", 1999, 999), ("single", 1999, 999), ("single", 9999, 999),
+     ("quad", 499, 249)],
+)  # fmt: skip
+def test_a_run_that_is_not_compiled_has_a_pilot_that_is_not(monkeypatch, precision, steps, most):
+    seen = []
+    for rung in (double, quad):
+        monkeypatch.setattr(rung, "chosen", lambda functions, work: seen.append(work) or functions)
+    found = discretisation(one(0), STEP * K[[0]], GAMMA[[0]], STEP, steps, precision=precision)
+    assert found.time == pytest.approx(STEP * most)
+    assert 0 < max(seen) < double.SHORT_RUN
 
 
 def test_balls_that_stop_are_left_out_and_without_one_there_is_none():

@@ -15,7 +15,7 @@ from ..levels import double, ladder
 from ..levels.frames import Balls, Frames
 from ..loops import loop, vertical_loop
 from ..results import Step, finished
-from ..trajectories import _count
+from ..trajectories import whole_number
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,7 +75,7 @@ def trajectory_vertical(
     One ball that cannot take a step raises StepNotTaken with `index` and the `trajectory` before it; in a batch
     the others go on, and frames after the stop are NaN.  Raises BadInput as `trajectory` does.
     """
-    steps, every = _count(steps, "steps", 0), _count(every, "every", 1)
+    steps, every = whole_number(steps, "steps", 0), whole_number(every, "every", 1)
     every = min(every, steps + 1)
     shape, given = _flat(ball, height, gamma)
     frames = _taken(given, steps, every)

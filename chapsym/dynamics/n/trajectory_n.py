@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from ..ball import Asked, Floats, numbers
 from ..errors import BadInput, Status
 from ..results import finished
-from ..trajectories import _count
+from ..trajectories import whole_number
 from . import so_n
 from .ball_n import BallN, flat_states, initial_attitudes, skew_matrices
 from .branch_n import small_rotation
@@ -65,7 +65,7 @@ def trajectory_n(
     In a batch the others go on, and `status` and `taken` say which stopped, where.
     Raises BadInput as `step_n` does, and for counts that are not whole numbers.
     """
-    steps, every = _count(steps, "steps", 0), _count(every, "every", 1)
+    steps, every = whole_number(steps, "steps", 0), whole_number(every, "every", 1)
     every = min(every, steps + 1)
     shape, (K, g, J, D) = flat_states(ball, momentum, gamma)
     if contact and ball.radius is None:
