@@ -1,0 +1,334 @@
+"""The continuous motion of balls at equal times, to an accuracy: order and steps by a law, the result verified.
+
+The error of an order p after t seconds is about c (|ω|h)^p (1 + |ω|t), with nearly the same c for every ball that is
+not near a separatrix.  So the first guess needs no pilot.  A run is then compared with one of fewer steps, and by
+Richardson's rule its own error is their difference / (r^p - 1), where r is the ratio of the steps; it is taken
+`SAFETY` times as large.  A run that fails teaches the law, and is taken again with more steps.
+
+Of many alike balls a sample is verified so.  The others are compared with a cheap run of order 4, whose error tells,
+by the ratio of the two in the sample, that of each: a ball for which it tells too much is verified like the sample.
+"""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from chapsym.dynamics import BadInput, Ball, Status, Trajectory, kernels, substeps, trajectory
+from chapsym.dynamics.ball import Asked, Floats
+
+#: The accuracy where none is asked for: nobody sees or measures an error of that size.
+DEFAULT = 1e-6
+#: What double precision can be asked for; rounding may take this part of an accuracy.
+FINEST, ROUNDING = 1e-12, 0.5
+#: c of each order, measured on balls of all shapes; and the part of the accuracy that the law is to give.
+LAW, MARGIN = {2: 0.16, 4: 4.8e-3, 6: 1.9e-3, 8: 1.5e-5}, 0.1
+#: How many times as large as Richardson's rule says an error is taken to be, and by which ratio steps are compared.
+SAFETY, RATIO = 4.0, 1.5
+#: A run is tried so often, with so many times the steps at most.
+MOST_ATTEMPTS, MOST_FINER = 12, 4.0
+#: Balls whose steps differ by less than this ratio run abreast.
+ALIKE = 1.3
+#: So many balls are verified one by one; of more a sample of so many, the quickest and the slowest with it.
+ALL, SAMPLE = 48, 16
+#: The cheap run of the others: its order, its steps in radians, and the times at which it is compared.
+CHEAP, LENGTH, CHECKS = 4, 0.55, 64
+
+
+@dataclass(frozen=True)
+class Method:
+    """An order, and its steps between two frames."""
+
+    order: int
+    steps: int
+
+    @property
+    def stages(self) -> int:
+        """Steps of the map between two frames."""
+        return len(substeps(self.order)) * self.steps
+
+
+@dataclass(frozen=True, eq=False)
+class Motion:
+    """n balls at frames + 1 equal times.
+
+    angular_momentum: K in kg m²/s, (n, frames + 1, 3).  gamma: (n, frames + 1, 3).  attitude: (n, frames + 1, 4), or
+    None.  contact: in m, from (0, 0), (n, frames + 1, 2), or None.
+    reached: the last frame of each ball, (n,); later ones are NaN.  status: why it stopped, a `Status`, (n,).
+    error: an estimate of each ball's largest error at any frame, (n,), in the norm of `apart`; of the contact point
+    alone in m, if it was asked for so.
+    order, steps: of each ball, (n,), the latter between two frames.
+    """
+
+    angular_momentum: Floats
+    gamma: Floats
+    attitude: Asked
+    contact: Asked
+    reached: np.ndarray
+    status: np.ndarray
+    error: Floats
+    order: np.ndarray
+    steps: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
+class Problem:
+    """What is asked for: n balls from K and γ, `frames` times `interval` seconds apart, to an accuracy.
+
+    attitude: (n, 4) or None, where it is not followed.  contact: whether it is.
+    metres: whether the accuracy is of the contact point, in metres, and of nothing else.
+    """
+
+    ball: Ball
+    K: Floats
+    gamma: Floats
+    interval: float
+    frames: int
+    accuracy: float
+    attitude: Asked
+    contact: bool
+    metres: bool = False
+    threads: int = 0
+
+    def __len__(self) -> int:
+        return len(self.K)
+
+    def of(self, some: np.ndarray) -> "Problem":
+        """Some of the balls."""
+        ball = self.ball
+        few = Ball(ball.mass_tensor[some], ball.D[some], None if ball.radius is None else ball.radius[some])
+        attitude = None if self.attitude is None else self.attitude[some]
+        return Problem(
+            few, self.K[some], self.gamma[some], self.interval, self.frames, self.accuracy, attitude, self.contact,
+            self.metres, self.threads,
+        )  # fmt: skip
+
+    @property
+    def end(self) -> float:
+        """The time of the last frame, in s."""
+        return self.frames * self.interval
+
+    def rate(self) -> Floats:
+        """|ω| at the start in rad/s, (n,)."""
+        return np.asarray(np.linalg.norm(_omega(self, self.K, self.gamma), axis=-1))
+
+    def take(self, method: Method, stride: int = 1, progress: Callable[[int], None] = lambda done: None) -> Trajectory:
+        """The balls at every `stride`-th frame, in `method.steps` steps from one to the next."""
+        frames = self.frames // stride
+        step = stride * self.interval / method.steps
+        return trajectory(
+            self.ball, step * self.K, self.gamma, method.steps * frames, order=method.order, every=method.steps,
+            attitude=False if self.attitude is None else self.attitude, contact=self.contact, time_step=step,
+            threads=self.threads, progress=progress,
+        )  # fmt: skip
+
+
+def moved(problem: Problem, progress: Callable[[float], None] = lambda done: None) -> Motion:
+    """The motion to the accuracy, verified; `progress` is called with the balls that are done, parts of them counted.
+
+    Raises BadInput where rounding alone is more than the accuracy.
+    """
+    n, kept = len(problem), problem.frames + 1
+    _check(problem)
+    found = Motion(
+        np.full((n, kept, 3), np.nan), np.full((n, kept, 3), np.nan),
+        None if problem.attitude is None else np.full((n, kept, 4), np.nan),
+        np.full((n, kept, 2), np.nan) if problem.contact else None,
+        np.zeros(n, dtype=np.int64), np.zeros(n, dtype=np.int64), np.zeros(n),
+        np.zeros(n, dtype=np.int64), np.zeros(n, dtype=np.int64),
+    )  # fmt: skip
+    done = 0
+    for group in _alike(problem):
+        _follow(problem, group, found, lambda part, base=done: progress(base + part))  # type: ignore[misc]
+        done += len(group)
+        progress(done)
+    return found
+
+
+def _check(problem: Problem) -> None:
+    """Raises BadInput for an accuracy that double precision cannot have."""
+    floor = _rounding(problem)
+    worst = int(np.argmax(floor)) if len(floor) else 0
+    if len(floor) and floor[worst] > ROUNDING * problem.accuracy:
+        raise BadInput(
+            f"an accuracy of {problem.accuracy:g} after {problem.end:g} s cannot be had in double precision: rounding "
+            f"alone may leave {floor[worst]:.1g}; ask for {2.1 * floor[worst]:.1g}, or for less time"
+        )
+
+
+def _rounding(problem: Problem) -> Floats:
+    """What rounding may leave of each ball: that of its parameters, which turns with it, and that of the stages."""
+    with np.errstate(all="ignore"):
+        turned = problem.rate() * problem.end
+        moments = problem.ball.inertia + problem.ball.D[:, np.newaxis]
+        condition = np.sqrt(moments.max(axis=-1) / moments.min(axis=-1))
+        unit = problem.ball.radius if problem.metres else 1.0
+        walked = np.sqrt(1.0 + 40 * turned)  # the roundings of some forty stages a radian
+        return np.asarray(2.0**-53 * (1 + turned) * (2 * condition + walked) * unit)
+
+
+def _omega(problem: Problem, K: Floats, gamma: Floats) -> Floats:
+    tensor, D = problem.ball.mass_tensor, problem.ball.D
+    if K.ndim == 3:
+        tensor, D = tensor[:, np.newaxis], D[:, np.newaxis]
+    return kernels.angular_velocity(K, gamma, tensor, D)
+
+
+def _first(problem: Problem, order: int, factor: float = 1.0) -> Floats:
+    """The steps between two frames by the law, times `factor`, of each ball; not rounded."""
+    rate = problem.rate()
+    unit = problem.ball.radius if problem.metres else 1.0
+    allowed = MARGIN * problem.accuracy / (factor * LAW[order] * (1 + rate * problem.end) * unit)
+    return np.asarray(rate * problem.interval / allowed ** (1 / order))
+
+
+def _cheapest(problem: Problem, factor: float = 1.0) -> Method:
+    """The order of the fewest stages that is expected to do for all balls."""
+    found = [Method(p, _whole(problem, float(_first(problem, p, factor).max()))) for p in LAW]
+    return min(found, key=lambda method: method.stages)
+
+
+def _whole(problem: Problem, steps: float) -> int:
+    """Whole steps between two frames: with one frame only enough that there can be fewer of them."""
+    return max(math.ceil(steps), 1 if problem.frames > 1 else 2)
+
+
+def _alike(problem: Problem) -> list[np.ndarray]:
+    """Balls that take about as many steps, in groups: the indices of each."""
+    steps = np.maximum(_first(problem, 8), 1.0)
+    level = np.ceil(np.log(steps) / math.log(ALIKE))
+    return [np.flatnonzero(level == one) for one in np.unique(level)]
+
+
+def _follow(problem: Problem, group: np.ndarray, found: Motion, progress: Callable[[float], None]) -> None:
+    """Puts the motion of alike balls where it belongs."""
+    if len(group) <= ALL:
+        _settle(problem, group, found, None, progress)
+        return
+    order = group[np.argsort(problem.rate()[group], kind="stable")]
+    picked = np.unique(np.linspace(0, len(order) - 1, SAMPLE).astype(int))
+    sample, others = order[picked], np.delete(order, picked)
+    _settle(problem, sample, found, None, lambda part: None)
+    method = max((Method(int(found.order[i]), int(found.steps[i])) for i in sample), key=lambda one: one.stages)
+    rest = problem.of(others)
+    run = rest.take(method, progress=lambda steps: progress(steps / (method.steps * problem.frames)))
+    told = _by_sample(problem, sample, others, found, rest, run)
+    _put(found, others, run, method, told)
+    doubtful = others[~(told <= problem.accuracy) & (run.status == Status.TAKEN)]
+    stopped = others[run.status != Status.TAKEN]
+    for some in (doubtful, stopped):
+        if len(some):
+            _settle(problem, some, found, Method(method.order, math.ceil(ALIKE * method.steps)), lambda part: None)
+
+
+def _by_sample(
+    problem: Problem, sample: np.ndarray, others: np.ndarray, found: Motion, rest: Problem, run: Trajectory
+) -> Floats:
+    """The errors of the others, from the differences of all from a cheap run and the errors of the sample."""
+    angle = float(problem.rate()[others].max()) * problem.interval
+    stride = min(max(math.ceil(0.5 * LENGTH / angle) if angle else 1, -(-problem.frames // CHECKS)), problem.frames)
+    cheap = Method(CHEAP, max(math.ceil(stride * angle / LENGTH), 1))
+    few = problem.of(sample)
+    whole = problem.frames / (problem.frames // stride * stride)
+    seen = [
+        apart(one, states, one.take(cheap, stride), stride).max(axis=-1) * whole
+        for one, states in ((few, _states(found, sample)), (rest, run))
+    ]
+    with np.errstate(all="ignore"):
+        ratio = float(np.nanmax(np.where(seen[0] > 0, found.error[sample] / seen[0], 0.0)))
+        return np.asarray(seen[1] * ratio)
+
+
+def _settle(
+    problem: Problem, some: np.ndarray, found: Motion, first: Method | None, progress: Callable[[float], None]
+) -> None:
+    """Runs some balls until each is verified, with more steps those that are not; puts each where it belongs."""
+    factor, method, left = 1.0, first, some
+    tried: dict[int, int] = {}
+    for attempt in range(MOST_ATTEMPTS):
+        part = problem.of(left)
+        method = method or _cheapest(part, factor)
+        run = part.take(method, progress=lambda steps, one=method: progress(steps / (one.steps * problem.frames)))
+        error = _verified(part, method, run)
+        good = error <= problem.accuracy
+        last = attempt + 1 == MOST_ATTEMPTS
+        # A ball that stops with every step is one that cannot be followed.
+        lost = (run.status != Status.TAKEN) & (last | (method.steps >= 16 * tried.setdefault(0, method.steps)))
+        there = good | lost | last
+        _put(found, left[there], _some(run, there), method, np.where(lost, np.nan, error)[there])
+        if there.all():
+            return
+        left, worst = left[~there], float(error[~there].max())
+        more = (worst / (2 * MARGIN * problem.accuracy)) ** (1 / method.order) if worst < math.inf else MOST_FINER
+        method = Method(method.order, max(math.ceil(min(more, MOST_FINER) * method.steps), method.steps + 1))
+
+
+def _verified(problem: Problem, method: Method, run: Trajectory) -> Floats:
+    """The error of each ball by a run of fewer steps, with what rounding may leave; infinite if one has stopped."""
+    if not problem.frames:
+        return np.zeros(len(problem))
+    stride = 2 if method.steps == 1 else 1
+    fewer = 1 if method.steps <= 2 else round(method.steps / RATIO)
+    ratio = stride * method.steps / fewer
+    off = apart(problem, run, problem.take(Method(method.order, fewer), stride), stride).max(axis=-1)
+    share = min(SAFETY / (ratio**method.order - 1), 1.0) * problem.frames / (problem.frames // stride * stride)
+    return np.asarray(np.where(np.isnan(off), np.inf, off) * share + _rounding(problem))
+
+
+@np.errstate(all="ignore")  # frames that were not reached are NaN
+def apart(problem: Problem, run: Trajectory | Motion, other: Trajectory, stride: int = 1) -> Floats:
+    """How far two runs are apart at each common frame, (n, frames): other has every `stride`-th frame of run.
+
+    The largest of |ΔK|/|K|, |Δγ|, |Δω| over the largest |ω| of the ball, the angle between the attitudes in radians,
+    and the distance of the contact points in radii; or, if the accuracy is in metres, that distance in metres.
+    """
+
+    def length(a: Floats) -> Floats:
+        return np.asarray(np.sqrt((a * a).sum(axis=-1)))
+
+    radius = 1.0 if problem.ball.radius is None else problem.ball.radius[:, np.newaxis]
+    if problem.metres:
+        return length(run.contact[:, ::stride] - other.contact)
+    mine = run.angular_momentum if isinstance(run, Motion) else run.angular_momentum()
+    K, L = mine[:, ::stride], other.angular_momentum()
+    gamma = run.gamma[:, ::stride]
+    omega = _omega(problem, K, gamma)
+    size, quickest = length(problem.K)[:, np.newaxis], np.nanmax(length(omega), axis=-1, keepdims=True)
+    found = [length(gamma - other.gamma)]
+    found += [_over(length(K - L), size), _over(length(omega - _omega(problem, L, other.gamma)), quickest)]
+    if problem.attitude is not None:
+        q, p = run.attitude[:, ::stride], other.attitude
+        found.append(4 * np.arcsin(np.minimum(np.minimum(length(q - p), length(q + p)) / 2, 1.0)))
+    if problem.contact:
+        found.append(length(run.contact[:, ::stride] - other.contact) / radius)
+    return np.asarray(np.max(found, axis=0))
+
+
+def _over(a: Floats, size: Floats) -> Floats:
+    """a / size; of a ball at rest a itself, which is 0."""
+    return np.asarray(a / np.where(size > 0, size, 1.0))
+
+
+def _some(run: Trajectory, which: np.ndarray) -> Trajectory:
+    """Some balls of a run, for `_put`."""
+    from dataclasses import replace
+
+    arrays = {name: getattr(run, name) for name in ("momentum", "gamma", "attitude", "contact", "taken", "status")}
+    return replace(run, **{name: None if array is None else array[which] for name, array in arrays.items()})
+
+
+def _states(found: Motion, some: np.ndarray) -> Motion:
+    """Some balls of a motion."""
+    return Motion(*(None if array is None else array[some] for array in vars(found).values()))
+
+
+def _put(found: Motion, where: np.ndarray, run: Trajectory, method: Method, error: Floats) -> None:
+    """Copies a run to its place."""
+    found.angular_momentum[where], found.gamma[where] = run.angular_momentum(), run.gamma
+    if found.attitude is not None:
+        found.attitude[where] = run.attitude
+    if found.contact is not None:
+        found.contact[where] = run.contact
+    found.reached[where], found.status[where] = run.taken // method.steps, run.status
+    found.error[where], found.order[where], found.steps[where] = error, method.order, method.steps
