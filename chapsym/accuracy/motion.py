@@ -11,7 +11,7 @@ by the ratio of the two in the sample, that of each: a ball for which it tells t
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -26,14 +26,18 @@ FINEST, ROUNDING = 1e-12, 0.5
 LAW, MARGIN = {2: 0.16, 4: 4.8e-3, 6: 1.9e-3, 8: 1.5e-5}, 0.1
 #: How many times as large as Richardson's rule says an error is taken to be, and by which ratio steps are compared.
 SAFETY, RATIO = 4.0, 1.5
-#: A run is tried so often, with so many times the steps at most.
-MOST_ATTEMPTS, MOST_FINER = 12, 4.0
+#: A run that fails is tried again with so many times the steps at most, and three times so; or with so many where a
+#: step could not be taken, so that nothing is known.
+MOST_FINER, UNKNOWN = 4.0, 1.5
 #: Balls whose steps differ by less than this ratio run abreast.
 ALIKE = 1.3
 #: So many balls are verified one by one; of more a sample of so many, the quickest and the slowest with it.
 ALL, SAMPLE = 48, 16
 #: The cheap run of the others: its order, its steps in radians, and the times at which it is compared.
 CHEAP, LENGTH, CHECKS = 4, 0.55, 64
+#: Seconds of a stage, with the attitude and the contact point.
+STAGE = 4e-8
+_UP = np.array([0.0, 0.0, 1.0])
 
 
 @dataclass(frozen=True)
@@ -123,6 +127,11 @@ class Problem:
             threads=self.threads, progress=progress,
         )  # fmt: skip
 
+    def seconds(self) -> float:
+        """Nominal, of one core, with all that is compared."""
+        stages = max(_cheapest(self).stages, 1) * self.frames * len(self)
+        return 1e-3 + stages * STAGE * (1 + 1 / RATIO if len(self) <= ALL else RATIO)
+
 
 def moved(problem: Problem, progress: Callable[[float], None] = lambda done: None) -> Motion:
     """The motion to the accuracy, verified; `progress` is called with the balls that are done, parts of them counted.
@@ -169,23 +178,32 @@ def _rounding(problem: Problem) -> Floats:
 
 
 def _omega(problem: Problem, K: Floats, gamma: Floats) -> Floats:
+    """ω of (n, 3) or (n, frames, 3); NaN where K is."""
     tensor, D = problem.ball.mass_tensor, problem.ball.D
     if K.ndim == 3:
         tensor, D = tensor[:, np.newaxis], D[:, np.newaxis]
-    return kernels.angular_velocity(K, gamma, tensor, D)
+    missing = np.isnan(K)
+    if not missing.any():
+        return kernels.angular_velocity(K, gamma, tensor, D)
+    omega = kernels.angular_velocity(np.where(missing, 0.0, K), np.where(missing, _UP, gamma), tensor, D)
+    return np.where(missing, np.nan, omega)
 
 
-def _first(problem: Problem, order: int, factor: float = 1.0) -> Floats:
-    """The steps between two frames by the law, times `factor`, of each ball; not rounded."""
+def _error(problem: Problem, order: int, step: float) -> Floats:
+    """The error by the law, of each ball."""
     rate = problem.rate()
     unit = problem.ball.radius if problem.metres else 1.0
-    allowed = MARGIN * problem.accuracy / (factor * LAW[order] * (1 + rate * problem.end) * unit)
-    return np.asarray(rate * problem.interval / allowed ** (1 / order))
+    return np.asarray(LAW[order] * (rate * step) ** order * (1 + rate * problem.end) * unit)
 
 
-def _cheapest(problem: Problem, factor: float = 1.0) -> Method:
+def _first(problem: Problem, order: int) -> Floats:
+    """The steps between two frames by the law, of each ball; not rounded."""
+    return np.asarray((_error(problem, order, problem.interval) / (MARGIN * problem.accuracy)) ** (1 / order))
+
+
+def _cheapest(problem: Problem) -> Method:
     """The order of the fewest stages that is expected to do for all balls."""
-    found = [Method(p, _whole(problem, float(_first(problem, p, factor).max()))) for p in LAW]
+    found = [Method(p, _whole(problem, float(_first(problem, p).max()))) for p in LAW]
     return min(found, key=lambda method: method.stages)
 
 
@@ -243,37 +261,42 @@ def _by_sample(
 def _settle(
     problem: Problem, some: np.ndarray, found: Motion, first: Method | None, progress: Callable[[float], None]
 ) -> None:
-    """Runs some balls until each is verified, with more steps those that are not; puts each where it belongs."""
-    factor, method, left = 1.0, first, some
-    tried: dict[int, int] = {}
-    for attempt in range(MOST_ATTEMPTS):
+    """Runs some balls until each is verified, with more steps those that are not; puts each where it belongs.
+
+    A ball that more steps do not help keeps the error that it has: rounding alone is larger than the accuracy.
+    """
+    method, left = first or _cheapest(problem.of(some)), some
+    most = MOST_FINER**3 * method.steps
+    while len(left):
         part = problem.of(left)
-        method = method or _cheapest(part, factor)
-        run = part.take(method, progress=lambda steps, one=method: progress(steps / (one.steps * problem.frames)))
-        error = _verified(part, method, run)
-        good = error <= problem.accuracy
-        last = attempt + 1 == MOST_ATTEMPTS
-        # A ball that stops with every step is one that cannot be followed.
-        lost = (run.status != Status.TAKEN) & (last | (method.steps >= 16 * tried.setdefault(0, method.steps)))
-        there = good | lost | last
-        _put(found, left[there], _some(run, there), method, np.where(lost, np.nan, error)[there])
-        if there.all():
-            return
-        left, worst = left[~there], float(error[~there].max())
-        more = (worst / (2 * MARGIN * problem.accuracy)) ** (1 / method.order) if worst < math.inf else MOST_FINER
+        run = part.take(method, progress=lambda steps, one=method: progress(steps / (one.steps * problem.frames)))  # type: ignore[misc]
+        stepped, rounded = _verified(part, method, run)
+        error = stepped + rounded
+        there = (error <= problem.accuracy) | (stepped <= ROUNDING * problem.accuracy) | (method.steps >= most)
+        told = np.where(run.status == Status.TAKEN, error, np.nan)
+        _put(found, left[there], _some(run, there), method, told[there])
+        left, worst = left[~there], float(error[~there].max(initial=0.0))
+        more = (worst / (2 * MARGIN * problem.accuracy)) ** (1 / method.order) if worst < math.inf else UNKNOWN
         method = Method(method.order, max(math.ceil(min(more, MOST_FINER) * method.steps), method.steps + 1))
 
 
-def _verified(problem: Problem, method: Method, run: Trajectory) -> Floats:
-    """The error of each ball by a run of fewer steps, with what rounding may leave; infinite if one has stopped."""
+@np.errstate(all="ignore")  # the law may give 0
+def _verified(problem: Problem, method: Method, run: Trajectory) -> tuple[Floats, Floats]:
+    """The errors of each ball of the steps, by a run of fewer steps, infinite if one has stopped; and of rounding.
+
+    Where a ball is as much more sensitive than the law says, so it is to rounding; but that the two runs differ in.
+    """
+    floor = _rounding(problem)
     if not problem.frames:
-        return np.zeros(len(problem))
+        return 0 * floor, floor
     stride = 2 if method.steps == 1 else 1
     fewer = 1 if method.steps <= 2 else round(method.steps / RATIO)
     ratio = stride * method.steps / fewer
     off = apart(problem, run, problem.take(Method(method.order, fewer), stride), stride).max(axis=-1)
-    share = min(SAFETY / (ratio**method.order - 1), 1.0) * problem.frames / (problem.frames // stride * stride)
-    return np.asarray(np.where(np.isnan(off), np.inf, off) * share + _rounding(problem))
+    off = np.where(np.isnan(off), np.inf, off) * problem.frames / (problem.frames // stride * stride)
+    expected = _error(problem, method.order, stride * problem.interval / fewer)
+    rounded = floor + np.fmin(floor * np.maximum(off / expected, 1.0), off)
+    return off * min(SAFETY / (ratio**method.order - 1), 1.0), rounded
 
 
 @np.errstate(all="ignore")  # frames that were not reached are NaN
@@ -312,8 +335,6 @@ def _over(a: Floats, size: Floats) -> Floats:
 
 def _some(run: Trajectory, which: np.ndarray) -> Trajectory:
     """Some balls of a run, for `_put`."""
-    from dataclasses import replace
-
     arrays = {name: getattr(run, name) for name in ("momentum", "gamma", "attitude", "contact", "taken", "status")}
     return replace(run, **{name: None if array is None else array[which] for name, array in arrays.items()})
 

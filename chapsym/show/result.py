@@ -140,7 +140,7 @@ def _rows(dataset: "Dataset") -> list[tuple[str, str]]:
     ]
 
 
-_ASIDE = {"taken", "status", "mass_tensor", "D", "radius", "axes", "error"}
+_ASIDE = {"taken", "status", "mass_tensor", "D", "radius", "axes", "error", "order", "substeps"}
 
 
 def _frames(dataset: "Dataset") -> str:

@@ -8,12 +8,14 @@ from chapsym.dynamics import BadInput, Ball
 from ..members.members import Members
 from ..read.outputs import OUTPUTS, columns_for, kernels_for, timed
 from ..read.task import Task
-from .models import MODELS, Model
+from .models import MODELS, Chosen, Model
 
 #: Balls of one unit of work: enough for the vector lanes and threads of a batch, little enough for its memory.
 CHUNK = 4096
 #: Numbers kept by one unit, 32 MB.
 UNIT_NUMBERS = 2**22
+#: The same of a model that runs all frames at once.
+WHOLE_NUMBERS = 2**24
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,7 +56,9 @@ class Plan:
     @property
     def chunks(self) -> list[slice]:
         """The balls of each unit."""
-        size = 1 if self.task.accuracy is not None else CHUNK
+        size = 1 if isinstance(self.model, Chosen) else CHUNK
+        if self.model.whole and size > 1:
+            size = max(1, min(CHUNK, WHOLE_NUMBERS // (self.frames * max(self.numbers, 1))))
         return [slice(i, min(i + size, len(self.members))) for i in range(0, len(self.members), size)]
 
     @property

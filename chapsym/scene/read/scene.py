@@ -12,6 +12,8 @@ from typing import Annotated, Any, Self
 import numpy as np
 from pydantic import BeforeValidator, Field, PrivateAttr, ValidationError, model_validator
 
+from chapsym.accuracy.motion import DEFAULT
+
 from .errors import At, SceneError, described
 from .ranges import ranges_in
 from .tables import KEYS, BallTable, Line, RunTable, StartTable, SweepTable, Table
@@ -73,11 +75,26 @@ class Scene(Table):
     def task(self) -> Task:
         """What is asked for, with the defaults filled in."""
         run, (steps, every) = self.run, self.run.counts()
+        searched = run.accuracy is not None
         return Task(
             run.names(), steps, every, run.time_step, run.order or 2, run.precision or "double",
-            None if run.accuracy is None else float(run.accuracy),
-            None if run.accuracy is None else run.time, run.accurate_of(), 600.0 if run.limit is None else run.limit,
+            None if self.maps else float(run.accuracy or DEFAULT), None if self.maps or run.time_step else run.time,
+            run.accurate_of() if searched else "state", 600.0 if run.limit is None else run.limit, searched,
         )  # fmt: skip
+
+    @property
+    def maps(self) -> bool:
+        """Whether the map is meant: by run.map, order or precision, an output of it, a start in 𝒦, or n > 3.
+
+        Else it is the continuous motion of the ball.
+        """
+        run = self.run
+        if run.accuracy is not None:
+            return False
+        starts = [ball.start or self.start for ball in self.ball]
+        of_one_step = any(start and start.given("momentum", "vertical_momentum") for start in starts)
+        n = max(len(ball.mass_tensor or ()) for ball in self.ball)
+        return run.of_the_map() is not None or of_one_step or n > 3
 
     def with_run(self, **changed: Any) -> Self:
         """The same scene with other values under [run], checked as if they stood there; None takes one away."""
@@ -111,8 +128,10 @@ class Scene(Table):
         if run.accuracy is not None and of_one_step:
             told = "run.accuracy needs start.omega, in rad/s: it is a motion in time that is approximated"
             raise At(told, *path, motion)
-        if run.accuracy is None and run.time_step is None and not of_one_step:
-            raise At(f"start.{motion} needs run.time_step, in seconds", *path, motion)
+        if run.time_step is None and run.time is None and not of_one_step:
+            raise At(f"start.{motion} needs run.time_step, in seconds, or run.time", *path, motion)
+        if run.time_step is None and run.time is not None and self.maps:
+            raise At("run.time needs run.time_step: the map has steps of one length", "run", "time")
         if start.velocity is not None and ball.radius is None:
             raise At("start.velocity needs ball.radius: the ball rolls without slipping", *path, "velocity")
         if "contact" in run.names() and ball.radius is None:

@@ -37,6 +37,8 @@ MOST_STEPS, MOST_FRAMES = 2**53, 10**8
 #: A step in n dimensions solves n(n-1)/2 equations.
 MOST_DIMENSIONS = 32
 Accurate = Annotated[float, Accuracy()]
+#: What the map has and the continuous motion has not.
+OF_THE_MAP = frozenset({"phase", "rotation_number"})
 Output = Literal[*OUTPUTS]  # type: ignore[valid-type]
 
 
@@ -155,7 +157,8 @@ class RunTable(Table):
     precision: Literal["single", "double", "quad"] | None = Field(
         None, description="Of the numbers: 7, 16 or 31 digits; double without."
     )
-    accuracy: Accurate | None = Field(None, description="In the place of steps: of the contact point (m) or the state.")
+    map: Switch = Field(False, description="Whether the map is meant where a motion in time is given; else the ball.")
+    accuracy: Accurate | None = Field(None, description="Of the motion: of the contact point (m) or the state.")
     of: Literal["state", "contact"] | None = Field(None, description="What the accuracy is of.")
     limit: Seconds | None = Field(None, description="Of the processor, for a run to an accuracy; 600 s without.")
 
@@ -167,30 +170,37 @@ class RunTable(Table):
             raise At(f"run.outputs is empty: choose of {', '.join(OUTPUTS)}", "outputs")
         if self.accuracy is not None:
             self._check_accuracy()
-            return self
+        elif told := self.given("limit", "of"):
+            raise At(f"run.{told[0]} goes with run.accuracy", told[0])
         if self.every is not None and self.frames is not None:
             raise At("run: give either every or frames", "frames")
-        if told := self.given("limit", "of"):
-            raise At(f"run.{told[0]} goes with run.accuracy", told[0])
         if self.steps is None and self.time is None:
-            raise At("run.steps is missing (or give run.time with run.time_step, or run.accuracy and run.time)")
+            raise At("run.steps is missing (or give run.time)")
         if self.steps is not None and self.time is not None:
             raise At("run: give either steps or time", "time")
-        if self.time is not None and self.time_step is None:
-            raise At("run.time needs run.time_step (or run.accuracy, which chooses the steps)", "time")
-        self._counted()
+        if self.time_step is None and self.time is not None:
+            if self.every is not None:
+                raise At("run.every needs run.time_step: without, give run.frames", "every")
+            if self.frames is not None and self.frames > MOST_FRAMES:
+                raise At(f"run.frames is more than {MOST_FRAMES}", "frames")
+        self.counts()
         return self
 
+    def of_the_map(self) -> str | None:
+        """The key by which the map is meant, if there is one."""
+        if self.map:
+            return "map"
+        told = self.given("order", "precision")
+        return told[0] if told else "outputs" if set(self.names()) & OF_THE_MAP else None
+
     def _check_accuracy(self) -> None:
-        if chosen := self.given("steps", "every", "time_step", "order", "precision"):
-            raise At(f"run.accuracy chooses the steps: leave out run.{chosen[0]}", chosen[0])
-        if self.time is None:
+        if (key := self.of_the_map()) is not None:
+            raise At(f"run.accuracy is of the motion, and run.{key} of the map: leave out one of them", key)
+        if self.time is None and self.time_step is None:
             raise At("run.accuracy needs run.time, in seconds", "accuracy")
         if isinstance(self.accuracy, Metres) and self.accurate_of() == "state":
             told = 'of the state it is relative; a length goes with of = "contact"'
             raise At(f"run.accuracy has a unit, but {told}", "accuracy")
-        if self.frames is not None and self.frames > MOST_FRAMES:
-            raise At(f"run.frames is more than {MOST_FRAMES}", "frames")
 
     def _counted(self) -> tuple[int, int]:
         """The steps, and how many between two frames; raises where they are not whole."""
@@ -222,8 +232,8 @@ class RunTable(Table):
         return steps, max(steps // self.frames, 1)
 
     def counts(self) -> tuple[int, int]:
-        """(steps, every); where the steps are chosen for an accuracy, (frames, 1)."""
-        return self._counted() if self.accuracy is None else (self.frames or 1, 1)
+        """(steps, every); of a time without time_step (frames, 1)."""
+        return (self.frames or 1, 1) if self.time_step is None and self.time is not None else self._counted()
 
     def accurate_of(self) -> str:
         """What the accuracy is of: the contact point where it is kept and nothing else is said."""

@@ -15,8 +15,9 @@ class Task:
 
     steps, every: of the map, the latter between two frames.  time_step: ε in s, or None in the paper's units.
     order: of the composition.  precision: "single", "double" or "quad".
-    Or, where the steps are to be chosen: accuracy of the continuous motion after `time` s, at `frames` equal times, in
-    the norm `of` ("state" or "contact"), within `limit` s of the processor.
+    Or, of the continuous motion, an accuracy at these frames, in the norm `of` ("state" or "contact"), within `limit` s
+    of the processor.  Without a time_step the frames are at `steps` equal parts of `time` s.
+    searched: whether the scene asks for that accuracy itself, so that all rungs may serve.
     """
 
     outputs: tuple[str, ...]
@@ -29,6 +30,7 @@ class Task:
     time: float | None = None
     of: str = "state"
     limit: float = 600.0
+    searched: bool = False
 
     @property
     def frames(self) -> int:
@@ -37,8 +39,16 @@ class Task:
 
     @property
     def chosen(self) -> bool:
-        """Whether the steps are to be chosen for an accuracy."""
-        return self.accuracy is not None
+        """Whether there is no ε: momenta are K itself, and frames have times only."""
+        return self.accuracy is not None and self.time_step is None
+
+    @property
+    def interval(self) -> float:
+        """Seconds between two frames of a run that has times."""
+        if self.time_step is not None:
+            return self.every * self.time_step
+        assert self.time is not None
+        return self.time / max(self.steps, 1)
 
     @property
     def timed(self) -> bool:

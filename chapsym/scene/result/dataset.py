@@ -14,6 +14,7 @@ import chapsym
 from chapsym.accuracy.discretisation import Discretisation, discretisation, read
 from chapsym.dynamics import Ball, Status
 
+from ..plan.models import Moving
 from ..plan.plan import Plan
 from ..read.outputs import OUTPUTS, labels
 
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
     from xarray import Dataset
 
 #: What the state says of each ball.
-OUTCOME = ("taken", "status", "error")
+OUTCOME = ("taken", "status", "error", "order", "substeps")
 #: `taken` and `status` of balls whose turn has not come.
 NOT_RUN = -1
 
@@ -58,8 +59,16 @@ def layout(plan: Plan) -> dict[str, Variable]:
     found["taken"] = Variable(("ball",), {"units": "1", "long_name": "steps taken"}, np.int64)
     found["status"] = Variable(("ball",), {"long_name": "why the ball stopped", **flags}, np.int64)
     if plan.task.accuracy is not None:
-        error = {"units": "m" if plan.task.of == "contact" else "1", "long_name": "bound of the error, by comparison"}
+        error = {
+            "units": "m" if plan.task.of == "contact" else "1",
+            "long_name": "estimate of the error, by comparison",
+        }
         found["error"] = Variable(("ball",), error)
+        if isinstance(plan.model, Moving):
+            order = {"units": "1", "long_name": "order of the composition"}
+            found["order"] = Variable(("ball",), order, np.int64)
+            steps = {"units": "1", "long_name": "its steps between two frames"}
+            found["substeps"] = Variable(("ball",), steps, np.int64)
     return found
 
 
@@ -105,7 +114,7 @@ def discretised(data: "Dataset") -> Discretisation | None:
 def _discretisation(plan: Plan) -> Discretisation | None:
     """How far the map is from the motion of the ball, where it stands for that: its steps have a length in time."""
     members, task = plan.members, plan.task
-    if task.time_step is None or not isinstance(members.ball, Ball):
+    if task.time_step is None or task.accuracy is not None or not isinstance(members.ball, Ball):
         return None
     return discretisation(
         members.ball, members.momentum, members.gamma, task.time_step, task.steps, task.order, task.precision,
@@ -119,8 +128,8 @@ def _moments(plan: Plan) -> dict[Hashable, Any]:
     step = np.arange(plan.frames, dtype=np.int64) * task.every
     found: dict[Hashable, Any] = {"step": ("frame", step, {"units": "1", "long_name": "step of the map"})}
     seconds = {"units": "s", "long_name": "time"}
-    if task.accuracy is not None and task.time is not None:
-        del found["step"]  # they were chosen for each ball
+    if task.chosen and task.time is not None:
+        del found["step"]
         found["time"] = ("frame", np.arange(plan.frames) * task.time / max(plan.frames - 1, 1), seconds)
     elif task.time_step is not None:
         found["time"] = ("frame", step * task.time_step, seconds)

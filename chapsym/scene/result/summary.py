@@ -50,8 +50,7 @@ def _ball(members: Members, i: int) -> str:
 
 
 def _start(scene: Scene, members: Members, i: int) -> str:
-    what = "K" if scene.run.accuracy is not None else "𝒦"
-    unit = "kg m²/s" if scene.run.accuracy is not None else "kg m²"
+    what, unit = ("K", "kg m²/s") if scene.task().chosen else ("𝒦", "kg m²")
     momentum = members.momentum[i]
     with np.errstate(over="ignore"):
         size = np.sqrt((momentum * momentum).sum() / (1 if momentum.ndim == 1 else 2))
@@ -75,7 +74,8 @@ def _range(one: Range, units: str) -> str:
 def _run(scene: Scene) -> str:
     task = scene.task()
     if task.accuracy is not None:
-        return f"{task.time:.6g} s to {task.accuracy:.3g} of the {task.of}; {task.frames} frames"
+        end = task.interval * (task.frames - 1)
+        return f"the motion of the ball for {end:.6g} s, to {task.accuracy:.3g} of the {task.of}; {task.frames} frames"
     time = "" if task.time_step is None else f" of {task.time_step:.6g} s: {task.steps * task.time_step:.6g} s"
     order = "" if task.order == 2 else f", order {task.order}"
     precision = "" if task.precision == "double" else f", precision {task.precision}"
@@ -89,7 +89,7 @@ def _vector(values: Any) -> str:
 
 def refusals(scene: Scene, members: Members) -> list[str]:
     """Which of the balls cannot take the first step, and why: a sentence for each reason."""
-    if scene.run.accuracy is not None or not scene.task().steps:
+    if not scene.maps or not scene.task().steps:
         return []
     some = members.of(slice(0, TRIED))
     take: Any = step if isinstance(some.ball, Ball) else step_n

@@ -110,7 +110,7 @@ def run_to_store(
 def telling(plan: Plan, progress: Callable[[str], None]) -> tuple[Plan, list[Accurate]]:
     """The same plan, and where its run here puts what was chosen for each ball, if it asks for an accuracy."""
     answers: list[Accurate] = []
-    return (replace(plan, model=Chosen(answers.append, progress)) if plan.task.chosen else plan), answers
+    return (replace(plan, model=Chosen(answers.append, progress)) if isinstance(plan.model, Chosen) else plan), answers
 
 
 #: A unit as a call: its chunk, its segment, and the state that the segment before it left.
@@ -127,7 +127,7 @@ def _locally(plan: Plan, sink: Memory | Store, tally: Tally) -> dict[int, str]:
 
     lost: dict[int, str] = {}
     # The higher rungs set the precision of a whole process.
-    with jobs.threads(1 if plan.task.chosen else min(ABREAST, cores())) as crew:
+    with jobs.threads(1 if isinstance(plan.model, Chosen) else min(ABREAST, cores())) as crew:
         try:
             jobs.run(_chains(plan, sink, tally, lambda *which: jobs.Call(here, which), lost), crew)
         except BaseException:

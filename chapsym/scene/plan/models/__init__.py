@@ -3,12 +3,13 @@
 from .chosen import Chosen
 from .general import General
 from .model import Model, State
+from .moving import Moving
 from .rolling import Rolling
 from .steady import Steady
 from .top import Top
 from .vertical import Vertical
 
 #: Of those that do not refuse, the cheapest is taken; of two of one price the first.
-MODELS: tuple[Model, ...] = (Chosen(), General(), Steady(), Top(), Vertical(), Rolling())
+MODELS: tuple[Model, ...] = (Chosen(), Moving(), General(), Steady(), Top(), Vertical(), Rolling())
 
-__all__ = ["MODELS", "Chosen", "General", "Model", "Rolling", "State", "Steady", "Top", "Vertical"]
+__all__ = ["MODELS", "Chosen", "General", "Model", "Moving", "Rolling", "State", "Steady", "Top", "Vertical"]

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from chapsym.accuracy import Accurate, accurate, foreseen
+from chapsym.accuracy.motion import FINEST
 from chapsym.accuracy.request import exact_values
 from chapsym.dynamics import Ball
 from chapsym.dynamics.n.ball_n import BallN
@@ -37,8 +38,12 @@ class Chosen(Model):
 
     def refuses(self, members: Members, task: Task, needed: frozenset[str]) -> str | None:
         """Runs of given steps, and more than three dimensions."""
-        if task.accuracy is None:
-            return "the steps are given"
+        if task.accuracy is None or not task.searched:
+            return "no accuracy is asked for"
+        if not task.chosen:
+            return "it takes a time and frames, without time_step"
+        if len(members) > 1 and task.accuracy >= FINEST:
+            return "it follows each ball for itself"
         if isinstance(members.ball, BallN):
             return "an accuracy can be asked for in three dimensions only"
         if "contact" in needed and task.of != "contact":

@@ -75,7 +75,7 @@ def beyond_a_reduction(members: Members, task: Task) -> str | None:
     if not isinstance(members.ball, Ball):
         return "it is for balls in three dimensions"
     if task.accuracy is not None:
-        return "it is of the map, and an accuracy is one of the continuous motion"
+        return "it is of the map, and the motion of the ball is asked for"
     if task.order != 2 or task.precision != "double":
         return "it has order 2 and float64 only"
     return None

@@ -28,7 +28,7 @@ class Rolling(Stepwise):
     def refuses(self, members: Members, task: Task, needed: frozenset[str]) -> str | None:
         """Balls in more dimensions, and steps that are to be chosen."""
         if task.accuracy is not None:
-            return "the steps are to be chosen"
+            return "the motion of the ball is asked for; map = true takes the map as it is"
         return None if isinstance(members.ball, Ball) else f"the ball is one in {members.dimension} dimensions"
 
     def price(self, members: Members, task: Task, needed: frozenset[str]) -> float:
