@@ -10,6 +10,7 @@ Names are imported when they are first used: `import chapsym` alone loads neithe
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from .accuracy import accurate, roll
     from .dynamics import (
         BadInput,
         Ball,
@@ -46,7 +47,6 @@ if TYPE_CHECKING:
         retrace_error,
         reverse,
         reverse_n,
-        roll,
         rotation_number,
         skew,
         steady_frames,
@@ -66,14 +66,15 @@ __version__ = "0.1.0"
 __all__ = [
     "BadInput", "Ball", "BallN", "Branches", "Certificate", "Curve", "ExactTop", "Extrapolated", "Fold", "Followed",
     "NotRetraced", "Result", "Status", "Step", "StepN", "StepNotTaken", "TopMotion", "Trajectory", "TrajectoryN",
-    "VerticalTrajectory", "axial", "branches", "certify", "compose_step", "exact_top", "extrapolate", "fold",
-    "follow", "increment", "invariants_n", "is_steady", "is_top", "margin", "open_result", "retrace_error",
+    "VerticalTrajectory", "accurate", "axial", "branches", "certify", "compose_step", "exact_top", "extrapolate",
+    "fold", "follow", "increment", "invariants_n", "is_steady", "is_top", "margin", "open_result", "retrace_error",
     "reverse", "reverse_n", "roll", "rotation_number", "run_scene", "skew", "steady_frames", "step", "step_n",
     "step_vertical", "substeps", "top_frames", "trajectory", "trajectory_n", "trajectory_vertical",
 ]  # fmt: skip
 
 #: Names that are not of `chapsym.dynamics`: where they are.
 _ELSEWHERE = dict.fromkeys(("Result", "open_result", "run_scene"), "chapsym.show.result")
+_ELSEWHERE |= dict.fromkeys(("accurate", "roll"), "chapsym.accuracy")
 
 
 if not TYPE_CHECKING:  # a type checker, which reads the imports above, is to refuse any other name

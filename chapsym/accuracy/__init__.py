@@ -5,9 +5,10 @@ from .choice import Choice, choices
 from .methods import Method, methods, take
 from .prices import Prices, load_prices
 from .request import Request, distance
+from .rolled import roll
 from .search import Attempt
 
 __all__ = [
     "Accurate", "Attempt", "Choice", "Method", "Prices", "Request", "accurate", "choices", "distance", "foreseen",
-    "load_prices", "methods", "take",
+    "load_prices", "methods", "roll", "take",
 ]  # fmt: skip

@@ -12,11 +12,13 @@ by the ratio of the two in the sample, that of each: a ball for which it tells t
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
 from chapsym.dynamics import BadInput, Ball, Status, Trajectory, kernels, substeps, trajectory
 from chapsym.dynamics.ball import Asked, Floats
+from chapsym.dynamics.results import FRAMES
 
 #: The accuracy where none is asked for: nobody sees or measures an error of that size.
 DEFAULT = 1e-6
@@ -113,6 +115,11 @@ class Problem:
         """The time of the last frame, in s."""
         return self.frames * self.interval
 
+    @property
+    def unit(self) -> Any:
+        """What a relative error comes to in the norm: 1, or the radius in m."""
+        return self.ball.radius if self.metres else 1.0
+
     def rate(self) -> Floats:
         """|ω| at the start in rad/s, (n,)."""
         return np.asarray(np.linalg.norm(_omega(self, self.K, self.gamma), axis=-1))
@@ -172,9 +179,8 @@ def _rounding(problem: Problem) -> Floats:
         turned = problem.rate() * problem.end
         moments = problem.ball.inertia + problem.ball.D[:, np.newaxis]
         condition = np.sqrt(moments.max(axis=-1) / moments.min(axis=-1))
-        unit = problem.ball.radius if problem.metres else 1.0
         walked = np.sqrt(1.0 + 40 * turned)  # the roundings of some forty stages a radian
-        return np.asarray(2.0**-53 * (1 + turned) * (2 * condition + walked) * unit)
+        return np.asarray(2.0**-53 * (1 + turned) * (2 * condition + walked) * problem.unit)
 
 
 def _omega(problem: Problem, K: Floats, gamma: Floats) -> Floats:
@@ -192,8 +198,7 @@ def _omega(problem: Problem, K: Floats, gamma: Floats) -> Floats:
 def _error(problem: Problem, order: int, step: float) -> Floats:
     """The error by the law, of each ball."""
     rate = problem.rate()
-    unit = problem.ball.radius if problem.metres else 1.0
-    return np.asarray(LAW[order] * (rate * step) ** order * (1 + rate * problem.end) * unit)
+    return np.asarray(LAW[order] * (rate * step) ** order * (1 + rate * problem.end) * problem.unit)
 
 
 def _first(problem: Problem, order: int) -> Floats:
@@ -335,13 +340,15 @@ def _over(a: Floats, size: Floats) -> Floats:
 
 def _some(run: Trajectory, which: np.ndarray) -> Trajectory:
     """Some balls of a run, for `_put`."""
-    arrays = {name: getattr(run, name) for name in ("momentum", "gamma", "attitude", "contact", "taken", "status")}
-    return replace(run, **{name: None if array is None else array[which] for name, array in arrays.items()})
+    arrays: dict[str, Any] = {name: getattr(run, name) for name in (*FRAMES, "taken", "status") if name != "index"}
+    arrays = {name: None if array is None else array[which] for name, array in arrays.items()}
+    return replace(run, **arrays)
 
 
 def _states(found: Motion, some: np.ndarray) -> Motion:
     """Some balls of a motion."""
-    return Motion(*(None if array is None else array[some] for array in vars(found).values()))
+    arrays: dict[str, Any] = {name: None if array is None else array[some] for name, array in vars(found).items()}
+    return Motion(**arrays)
 
 
 def _put(found: Motion, where: np.ndarray, run: Trajectory, method: Method, error: Floats) -> None:

@@ -1,7 +1,6 @@
 """chapsym run: roll a scene."""
 
 import os
-from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -80,24 +79,22 @@ def _named(scene: Path, name: str | None) -> Path:
 
 def _tell(plan: "Plan", destination: Path, outcome: Any, data: "Dataset", answers: list[Any], as_json: bool) -> None:
     """What was run and where it is; units that were not run are an error, balls that stopped early are none."""
-    from chapsym.scene.result.dataset import discretised
+    from chapsym.scene.result.far import far, sentence
     from chapsym.scene.result.summary import last_state, stopped
 
     from .trade import described, print_answer
 
     balls, failed = len(plan.members), outcome.failed
     one = last_state(data) if balls == 1 and not outcome.lost else {}
-    far = discretised(data)
     if as_json:
-        one |= {} if far is None else {"discretisation": asdict(far)}
         lost = [{"balls": list(which), "reason": why} for which, why in outcome.lost.items()]
         run = {"balls": balls, "frames": plan.frames, "steps": plan.task.steps, "model": plan.model.name}
         found = {"output": str(destination), **run, "failed": failed, "complete": outcome.complete, "lost": lost}
-        print_json(found | one | (described(answers[0]) if balls == len(answers) == 1 else {}))
+        print_json(found | one | far(data) | (described(answers[0]) if balls == len(answers) == 1 else {}))
     else:
         _print(plan, destination, outcome, one)
-        if far is not None:
-            print(f"discretisation: {far.sentence()}")
+        if (away := sentence(data)) is not None:
+            print(": ".join(away))
         if balls == len(answers) == 1:
             print_answer(answers[0])
     if failed == balls == 1:
@@ -120,11 +117,11 @@ def _print(plan: "Plan", destination: Path, outcome: Any, one: dict[str, Any]) -
     about = f"{len(plan.members)} ball{'s' if len(plan.members) > 1 else ''}, {plan.frames} frames, {plan.model.name}"
     comma = ","
     if one:
-        steps = "" if plan.task.chosen else f"{one['steps']} steps, "
+        steps = "" if plan.task.accuracy is not None else f"{one['steps']} steps, "
         about, comma = f"{steps}{plan.frames} frames", ""
     about += f"; {outcome.failed} stopped early" if outcome.failed else ""
     print(
         f"{about}; {destination} was complete already" if outcome.nothing_to_do else f"{about}{comma} in {destination}"
     )
-    if "drift" in one:
+    if "drift" in one and plan.task.accuracy is None:
         print("relative drift of <K,gamma>, <K,K>, <gamma,gamma>: " + ", ".join(f"{x:.1e}" for x in one["drift"]))

@@ -97,9 +97,11 @@ class Trajectory:
     taken: the number of steps that were taken, (...); frames after it are NaN.
     status: why a ball stopped, a `Status`, (...).
     time_step: ε in seconds, if the run has one.
-    order: of the composition that made the steps; 2 for the map itself, 0 for the continuous motion (`exact_top`).
+    order: of the composition that made the steps; 2 for the map itself, 0 for the continuous motion (`roll`,
+    `exact_top`), of which `index` counts time steps.
     precision: the rung of the numbers.  The arrays are float32 for Single, objects (mpf, arb) for Digits and Ball.
     low: for Quad, what the numbers have beyond float64: `momentum` + `low.momentum` is 𝒦, and so on; else None.
+    error: of `roll`, an estimate of the largest error at any frame, (...); else None.
     """
 
     ball: Ball
@@ -114,6 +116,7 @@ class Trajectory:
     order: int = 2
     precision: Rung = NAMED["double"]
     low: Low | Any = None
+    error: Asked = None
 
     @property
     def time(self) -> Floats:
@@ -129,6 +132,18 @@ class Trajectory:
         """K = 𝒦/ε in kg m²/s, (..., frames, 3)."""
         with self.precision.precision():
             return self.momentum / self._time_step()
+
+    @property
+    def omega(self) -> Floats:
+        """ω in rad/s for K = 𝒦/ε, in body axes, (..., frames, 3); raises BadInput if the run has no time step."""
+        tensor, contact = self.ball.mass_tensor[..., np.newaxis, :], self.ball.D[..., np.newaxis]
+        with self.precision.precision():
+            return kernels.angular_velocity(*self._finite(self.angular_momentum(), self.gamma), tensor, contact)
+
+    @property
+    def energy(self) -> Floats:
+        """`kinetic_energy()`."""
+        return self.kinetic_energy()
 
     def kinetic_energy(self) -> Floats:
         """½⟨K, ω⟩ in joules for K = 𝒦/ε, (..., frames); the map keeps it up to an oscillation."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -13,7 +12,6 @@ from chapsym.numbers import Rung
 from . import kernels
 from .ball import (
     SINGLE_TOLERANCE,
-    SMALLEST,
     UNIT_TOLERANCE,
     Ball,
     Floats,
@@ -115,7 +113,7 @@ def trajectory(
         whole_number(threads, "threads", 0),
     )
     every = min(every, steps + 1)
-    time_step = None if time_step is None else _seconds(time_step)
+    time_step = None if time_step is None else seconds(time_step)
     rung = ladder.rung_of(precision)
     shape, (K, g, J, D) = batch(ball, numbers(momentum, "momentum", 3), unit_vertical(gamma))
     with_body = contact or not (isinstance(attitude, bool | np.bool_) and not attitude)
@@ -166,45 +164,9 @@ def step_numbers(index: ArrayLike) -> np.ndarray:
     return given.astype(np.int64)
 
 
-def _seconds(value: ArrayLike) -> float:
+def seconds(value: ArrayLike) -> float:
+    """A time step in seconds; raises BadInput for what is not one positive number."""
     epsilon = numbers(value, "time_step")
     if epsilon.ndim or not epsilon > 0:
         raise BadInput(f"time_step must be one positive number of seconds, not {value!r}")
     return float(epsilon)
-
-
-def roll(
-    ball: Ball,
-    omega: ArrayLike,
-    time_step: float,
-    steps: int,
-    *,
-    gamma: ArrayLike = (0.0, 0.0, 1.0),
-    order: int = 2,
-    every: int = 1,
-    attitude: bool | Literal[True] | ArrayLike = False,
-    contact: bool = False,
-    precision: str | Rung = "double",
-    threads: int = 0,
-    progress: Callable[[int], None] = lambda steps_done: None,
-) -> Trajectory:
-    """Rolls a ball in SI units: the trajectory of 𝒦 = ε K with K = Λω - D⟨ω,γ⟩γ.
-
-    omega: the angular velocity in the frame of the body, rad/s, shape (..., 3).
-    time_step: ε in seconds.  The rest as for `trajectory`; the result has times, energies and, when
-    asked for, the contact point in metres.
-    """
-    epsilon = _seconds(time_step)
-    vertical = unit_vertical(gamma)
-    spin = numbers(omega, "omega", 3)
-    batch(ball, spin, vertical)  # so that a mistake is told in the names of this function
-    with np.errstate(over="ignore", under="ignore"):
-        momentum = epsilon * kernels.contact_momentum(spin, vertical, ball.mass_tensor, ball.D)
-    if not np.isfinite(momentum).all():
-        raise BadInput("𝒦 = εK is beyond the range of float64, about 1.8e308; take a shorter time step or other units")
-    if np.any((np.abs(momentum).max(axis=-1) < SMALLEST) & spin.any(axis=-1) & (ball.inertia > 0).all(axis=-1)):
-        raise BadInput("𝒦 = εK is below the range of float64, about 2.2e-308; take a longer time step or other units")
-    return trajectory(
-        ball, momentum, vertical, steps, order=order, every=every, attitude=attitude, contact=contact,
-        time_step=epsilon, precision=precision, threads=threads, progress=progress,
-    )  # fmt: skip

@@ -13,7 +13,7 @@ import numpy as np
 
 from chapsym.dynamics import kernels
 from chapsym.scene.result import formats
-from chapsym.scene.result.dataset import discretised
+from chapsym.scene.result.far import sentence
 
 from . import figures, opening
 from .drawing import reading
@@ -135,7 +135,7 @@ def _rows(dataset: "Dataset") -> list[tuple[str, str]]:
         ("model", str(dataset.attrs.get("model", ""))),
         ("stored", ", ".join(stored)),
         ("drift", _drift(dataset)),
-        ("discretisation", _discretisation(dataset)),
+        sentence(dataset) or ("", ""),
         ("stopped", f"after {int(dataset['taken'].values[0])} steps" if len(names) == 1 and stopped else ""),
     ]
 
@@ -150,11 +150,6 @@ def _frames(dataset: "Dataset") -> str:
     last = int(reading.steps(dataset)[-1])
     steps = f", {last} steps" if "step" in dataset.coords else ""
     return f"{len(t)}{steps}" + (f", {t[-1]:.6g} s" if label == "time, s" else "")
-
-
-def _discretisation(dataset: "Dataset") -> str:
-    found = discretised(dataset)
-    return "" if found is None else found.sentence()
 
 
 def _drift(dataset: "Dataset") -> str:

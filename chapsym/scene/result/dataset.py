@@ -11,12 +11,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 import chapsym
-from chapsym.accuracy.discretisation import Discretisation, discretisation, read
-from chapsym.dynamics import Ball, Status
+from chapsym.dynamics import Status
 
 from ..plan.models import Moving
 from ..plan.plan import Plan
 from ..read.outputs import OUTPUTS, labels
+from .far import attributes
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -100,26 +100,7 @@ def build(plan: Plan, columns: Mapping[str, Any], state: Mapping[str, Any]) -> "
     coords.update(_moments(plan))
     for key, parameter in plan.members.parameters.items():
         coords[key] = ("ball", parameter.values, {"units": parameter.units, "long_name": key})
-    far = _discretisation(plan)
-    return xarray.Dataset(
-        variables, coords, provenance(plan) | ({} if far is None else {"discretisation": far.write()})
-    )
-
-
-def discretised(data: "Dataset") -> Discretisation | None:
-    """How far a result is from the motion of the ball, if it says so."""
-    return read(data.attrs.get("discretisation"))
-
-
-def _discretisation(plan: Plan) -> Discretisation | None:
-    """How far the map is from the motion of the ball, where it stands for that: its steps have a length in time."""
-    members, task = plan.members, plan.task
-    if task.time_step is None or task.accuracy is not None or not isinstance(members.ball, Ball):
-        return None
-    return discretisation(
-        members.ball, members.momentum, members.gamma, task.time_step, task.steps, task.order, task.precision,
-        attitude=bool(plan.needed & {"attitude", "contact"}), contact="contact" in plan.needed,
-    )  # fmt: skip
+    return xarray.Dataset(variables, coords, provenance(plan) | attributes(plan))
 
 
 def _moments(plan: Plan) -> dict[Hashable, Any]:

@@ -112,7 +112,7 @@ def last_state(data: "Dataset") -> dict[str, Any]:
     reached = slice(0, None) if "step" not in one.coords else slice(0, int((one["step"].values <= taken).sum()))
     kept = {name: one[name].values[reached] for name in ("momentum", "gamma", "contact") if name in one}
     found: dict[str, Any] = {"steps": taken, "final": {name: values[-1].tolist() for name, values in kept.items()}}
-    if {"momentum", "gamma"} <= set(kept) and "row" not in one.dims and "error" not in one:
+    if {"momentum", "gamma"} <= set(kept) and "row" not in one.dims and "step" in one.coords:
         size = float(abs(kept["momentum"][0]).max()) or 1.0
         invariants = kernels.invariants(kept["momentum"] / size, kept["gamma"])
         found["drift"] = [float(x) for x in abs(invariants - invariants[0]).max(axis=0)]

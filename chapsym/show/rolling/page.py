@@ -12,7 +12,7 @@ from markupsafe import Markup
 from xarray import Dataset
 
 from chapsym import files
-from chapsym.scene.result.dataset import discretised
+from chapsym.scene.result.far import sentence
 
 from .motion import Motion, ReportError, Rolling, motion
 
@@ -58,7 +58,7 @@ def html(dataset: Dataset, *, balls: Sequence[str | int] | None = None) -> str:
         title=str(dataset.attrs.get("title") or "A rolling ball"),
         plan=_plan_line(dataset, found),
         notes=_notes(found),
-        far=discretised(dataset),
+        far=sentence(dataset),
         balls=found.balls,
         rolls="contact" in dataset,
         vectors=[name for name in ("gamma", "omega", "momentum") if any(name in ball.vectors for ball in found.balls)],

@@ -1,0 +1,153 @@
+"""A ball in SI units: its motion, or the map in its place."""
+
+from collections.abc import Callable
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from chapsym.dynamics import BadInput, Ball, Trajectory, kernels, trajectory
+from chapsym.dynamics.ball import SMALLEST, Floats, batch, numbers, unit_vertical
+from chapsym.dynamics.results import finished
+from chapsym.dynamics.trajectories import attitude_with, initial_attitude, seconds, whole_number
+from chapsym.numbers import Rung
+
+from .motion import DEFAULT, FINEST, Problem, moved
+
+
+def roll(
+    ball: Ball,
+    omega: ArrayLike,
+    time_step: float,
+    steps: int,
+    *,
+    gamma: ArrayLike | None = None,
+    axes: Literal["body", "space"] = "body",
+    every: int = 1,
+    attitude: bool | ArrayLike = False,
+    contact: bool = False,
+    position: ArrayLike = (0.0, 0.0),
+    accuracy: float | None = None,
+    order: int | None = None,
+    precision: str | Rung | None = None,
+    map: bool = False,
+    threads: int = 0,
+    progress: Callable[[int], None] = lambda steps_done: None,
+) -> Trajectory:
+    """Rolls a ball without slipping (2.3), and keeps its state every `every` times `time_step` seconds.
+
+    omega: the angular velocity at the start in rad/s, shape (..., 3), in body axes, or in those of space.
+    time_step, steps: when the states are kept, and how long; the steps in between are chosen.
+    gamma: the unit vertical, upwards, in body axes, (..., 3); without, that of the attitude, or (0, 0, 1).
+    attitude: True (from the least rotation with R γ = e₃) or unit quaternions, body to space, (..., 4), to be followed.
+    contact: whether to trace the contact point; it needs `ball.radius`, and implies the attitude.
+    position: the contact point at the start in m, (..., 2).
+    accuracy: of γ, of K, ω and the contact point relative to |K|, the largest |ω| and the radius, and of the attitude
+    in radians, at every frame; 1e-6 without.  `error` of the result is an estimate of what was reached, by comparison
+    with a run of fewer steps.
+    order, precision, map: any of them takes the map in steps of `time_step` in the place of the motion, as `trajectory`
+    does, with 𝒦 = ε(Λω - D⟨ω,γ⟩γ).  threads, progress: as of `trajectory`.
+
+    One ball that cannot be followed raises StepNotTaken; in a batch the others go on, and `status` tells.
+    Raises BadInput for what no ball or run can have, and for an accuracy that double precision has not.
+    """
+    epsilon = seconds(time_step)
+    steps, every = whole_number(steps, "steps", 0), whole_number(every, "every", 1)
+    spin, vertical, turned = _start(ball, omega, gamma, attitude, axes)
+    K = _momentum(ball, spin, vertical, epsilon)
+    start = np.zeros(2) if not contact and np.shape(position) == (2,) else numbers(position, "position", 2)
+    by_map = map or order is not None or precision is not None
+    if by_map and accuracy is not None:
+        raise BadInput("accuracy is of the motion of the ball; leave out order, precision and map")
+    if by_map:
+        run = trajectory(
+            ball, epsilon * K, vertical, steps, order=order or 2, every=every, attitude=turned, contact=contact,
+            time_step=epsilon, precision=precision or "double", threads=threads, progress=progress,
+        )  # fmt: skip
+    else:
+        wanted = _accuracy(accuracy)
+        run = _motion(ball, K, vertical, epsilon, steps, every, turned, contact, wanted, threads, progress)
+    if contact and start.any():
+        run.contact[...] += start[..., np.newaxis, :]
+    return run
+
+
+def _start(
+    ball: Ball, omega: ArrayLike, gamma: ArrayLike | None, attitude: bool | ArrayLike, axes: str
+) -> tuple[Floats, Floats, bool | Floats]:
+    """ω and γ in body axes, and the attitude that is to be followed."""
+    spin = numbers(omega, "omega", 3)
+    turned: bool | Floats = bool(attitude) if isinstance(attitude, bool | np.bool_) else np.asarray(attitude)
+    if gamma is not None or isinstance(attitude, bool | np.bool_):
+        vertical = unit_vertical((0.0, 0.0, 1.0) if gamma is None else gamma)
+    else:
+        given = numbers(attitude, "attitude", 4)
+        length = np.sqrt((given * given).sum(axis=-1, keepdims=True))
+        if not (length > 0).all():
+            raise BadInput("attitude must be unit quaternions (scalar first)")
+        vertical = kernels.rotate(given / length * _INVERSE, _UP)
+    batch(ball, spin, vertical)  # so that a mistake is told in the names of this function
+    if not isinstance(turned, bool):
+        turned = initial_attitude(turned, vertical)
+    if axes not in ("body", "space"):
+        raise BadInput(f'axes must be "body" or "space", not {axes!r}')
+    if axes == "space":
+        to_space = attitude_with(vertical) if isinstance(turned, bool) else turned
+        spin = kernels.rotate(np.asarray(to_space) * _INVERSE, spin)
+    return spin, vertical, turned
+
+
+#: A unit quaternion times this turns the other way; and the vertical in space.
+_INVERSE, _UP = np.array([1.0, -1.0, -1.0, -1.0]), np.array([0.0, 0.0, 1.0])
+
+
+def _momentum(ball: Ball, omega: Floats, gamma: Floats, epsilon: float) -> Floats:
+    """K = Λω - D⟨ω,γ⟩γ; raises BadInput where float64 loses digits of K or 𝒦 = εK."""
+    with np.errstate(over="ignore", under="ignore"):
+        K = kernels.contact_momentum(omega, gamma, ball.mass_tensor, ball.D)
+        momentum = epsilon * K
+    if not np.isfinite(momentum).all():
+        raise BadInput("𝒦 = εK is beyond the range of float64, about 1.8e308; take a shorter time step or other units")
+    if np.any((np.abs(momentum).max(axis=-1) < SMALLEST) & omega.any(axis=-1) & (ball.inertia > 0).all(axis=-1)):
+        raise BadInput("𝒦 = εK is below the range of float64, about 2.2e-308; take a longer time step or other units")
+    return K
+
+
+def _accuracy(given: float | None) -> float:
+    found = numbers(DEFAULT if given is None else given, "accuracy")
+    if found.ndim or not found >= FINEST:
+        raise BadInput(
+            f"accuracy must be one number from {FINEST:g} on, not {given!r}; `accurate` has more digits than float64"
+        )
+    return float(found)
+
+
+def _motion(
+    ball: Ball, K: Floats, gamma: Floats, epsilon: float, steps: int, every: int, attitude: bool | Floats,
+    contact: bool, accuracy: float, threads: int, progress: Callable[[int], None],
+) -> Trajectory:  # fmt: skip
+    """The continuous motion as a trajectory of order 0."""
+    shape, (flat, g, J, D) = batch(ball, K, gamma)
+    every = min(every, steps + 1)
+    if contact and ball.radius is None:
+        raise BadInput("the contact point needs the radius: give the ball its radius")
+    radius = None if ball.radius is None else np.broadcast_to(ball.radius, shape).reshape(-1)
+    if isinstance(attitude, bool):
+        turned = attitude_with(g) if contact or attitude else None
+    else:
+        turned = np.broadcast_to(attitude, (*shape, 4)).reshape(-1, 4)
+    problem = Problem(
+        Ball(J, D, radius), flat, g, every * epsilon, steps // every, accuracy, turned, contact, threads=threads
+    )
+    found = moved(problem, lambda balls: progress(int(balls * steps)))
+
+    def shaped(array: np.ndarray | None) -> Any:
+        return None if array is None else array.reshape((*shape, *array.shape[1:]))
+
+    run = Trajectory(
+        ball, np.arange(problem.frames + 1) * every, shaped(found.angular_momentum * epsilon), shaped(found.gamma),
+        shaped(found.attitude), shaped(found.contact),
+        shaped(np.where(found.reached == problem.frames, steps, found.reached * every)), shaped(found.status),
+        epsilon, 0, error=shaped(found.error),
+    )  # fmt: skip
+    return finished(run, np.full(1, np.nan))
