@@ -41,7 +41,7 @@ ALL = ("momentum", "gamma", "omega", "attitude", "contact", "energy", "integrals
 
 def bowling(steps=2000, every=1, **options):
     """A bowling ball, two seconds of it."""
-    run = chapsym.roll(BOWLING, (2.0, 30.0, 5.0), 1e-3, steps, every=every, contact=True)
+    run = chapsym.roll(BOWLING, (2.0, 30.0, 5.0), 1e-3, steps, every=every, contact=True, map=True)
     return of(
         run, options.pop("outputs", ALL), options.pop("title", "A bowling ball with an off-centre core"), **options
     )
@@ -49,7 +49,7 @@ def bowling(steps=2000, every=1, **options):
 
 def uneven(steps=1000):
     """The ball of docs/first.toml."""
-    run = chapsym.roll(UNEVEN, (3.0, -2.0, 1.0), 0.01, steps, gamma=(2 / 7, 3 / 7, 6 / 7), contact=True)
+    run = chapsym.roll(UNEVEN, (3.0, -2.0, 1.0), 0.01, steps, gamma=(2 / 7, 3 / 7, 6 / 7), contact=True, map=True)
     return of(run, ALL, "An uneven ball of 2 kg, rolled for ten seconds")
 
 
@@ -69,7 +69,7 @@ def batch(balls=400, steps=1500, every=5, seed=1, width=0.05):
     rng = np.random.default_rng(seed)
     omega = np.array([3.0, -2.0, 1.0]) + width * rng.standard_normal((balls, 3))
     run = chapsym.roll(
-        UNEVEN, omega, 0.01, steps, gamma=(2 / 7, 3 / 7, 6 / 7), every=every, contact=True
+        UNEVEN, omega, 0.01, steps, gamma=(2 / 7, 3 / 7, 6 / 7), every=every, contact=True, map=True
     )  # fmt: skip
     return of(run, ALL, f"{balls} nearby starts", {"start.omega.1": Parameter(omega[:, 0], "rad s-1")})
 
@@ -87,14 +87,14 @@ def four(steps=1500):
     ball = chapsym.BallN(mass_tensor=(1, 2, 0.5, 3), D=3, radius=0.1)
     momentum = np.zeros((4, 4))
     momentum[1, 0], momentum[3, 2], momentum[2, 0] = 0.3, -0.2, 0.1
-    run = chapsym.trajectory_n(ball, momentum - momentum.T, (0.1, 0.1, 0.7, 0.7), steps, contact=True)
+    run = chapsym.trajectory_n(ball, momentum - momentum.T, (0.1, 0.1, 0.7, 0.7), steps, contact=True, map=True)
     return of(run, ("momentum", "gamma", "attitude", "contact", "integrals"), "A ball in four dimensions")
 
 
 def folded():
     """Two balls, the second of which meets a fold after 50 steps."""
     ball, gamma = chapsym.Ball((0.1, 0.5, 1.6), 0.7, 0.1), (2 / 7, 3 / 7, 6 / 7)
-    run = chapsym.trajectory(ball, [(0.5, 0.3, 0.2), (1.44, 0.96, 0.3)], gamma, 300, contact=True)
+    run = chapsym.trajectory(ball, [(0.5, 0.3, 0.2), (1.44, 0.96, 0.3)], gamma, 300, contact=True, map=True)
     return of(run, ("momentum", "gamma", "contact", "integrals"), "One ball stops", names=["slow", "fast"])
 
 

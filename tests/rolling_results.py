@@ -15,6 +15,6 @@ ALL = ("momentum", "gamma", "omega", "attitude", "contact")
 def rolled(steps=600, time_step=0.005, omega=(3.0, 4.0, 10.0), ball=BALL, every=1, variables=ALL, names=None, **attrs):
     """One ball, or as many as omega has rows, rolled for `steps` steps: the Dataset, with what was asked for."""
     gamma = np.broadcast_to([0.0, 0.0, 1.0], np.shape(omega))
-    run = chapsym.roll(ball, omega, time_step, steps, gamma=gamma, every=every, attitude=True, contact=True)
+    run = chapsym.roll(ball, omega, time_step, steps, gamma=gamma, every=every, attitude=True, contact=True, map=True)
     names = names or [f"ball {i + 1}" for i in range(np.size(run.taken))]
     return results.of(run, variables, "A rolling ball", names=names).assign_attrs({"model": "full"} | attrs)

@@ -5,6 +5,8 @@ rounding is expected to leave are together within the accuracy, at every time at
 error is within the accuracy if the shorter steps at least halve it.
 """
 
+from __future__ import annotations
+
 import time as clock
 from collections.abc import Callable
 from dataclasses import dataclass

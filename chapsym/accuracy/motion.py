@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from chapsym.dynamics import BadInput, Ball, Status, Trajectory, kernels, substeps, trajectory
+from chapsym.dynamics import BadInput, Ball, Status, Trajectory, is_steady, kernels, substeps, trajectory
 from chapsym.dynamics.ball import Asked, Floats
 from chapsym.dynamics.results import FRAMES
 
@@ -64,7 +64,7 @@ class Motion:
     reached: the last frame of each ball, (n,); later ones are NaN.  status: why it stopped, a `Status`, (n,).
     error: an estimate of each ball's largest error at any frame, (n,), in the norm of `apart`; of the contact point
     alone in m, if it was asked for so.
-    order, steps: of each ball, (n,), the latter between two frames.
+    order, steps: of each ball, (n,), the latter between two frames; 0 of a steady rotation, which needs none.
     """
 
     angular_momentum: Floats
@@ -146,7 +146,6 @@ def moved(problem: Problem, progress: Callable[[float], None] = lambda done: Non
     Raises BadInput where rounding alone is more than the accuracy.
     """
     n, kept = len(problem), problem.frames + 1
-    _check(problem)
     found = Motion(
         np.full((n, kept, 3), np.nan), np.full((n, kept, 3), np.nan),
         None if problem.attitude is None else np.full((n, kept, 4), np.nan),
@@ -154,32 +153,58 @@ def moved(problem: Problem, progress: Callable[[float], None] = lambda done: Non
         np.zeros(n, dtype=np.int64), np.zeros(n, dtype=np.int64), np.zeros(n),
         np.zeros(n, dtype=np.int64), np.zeros(n, dtype=np.int64),
     )  # fmt: skip
-    done = 0
-    for group in _alike(problem):
+    steady = _check(problem)
+    _spin(problem, np.flatnonzero(steady), found)
+    done = int(steady.sum())
+    for group in _alike(problem, np.flatnonzero(~steady)):
         _follow(problem, group, found, lambda part, base=done: progress(base + part))  # type: ignore[misc]
         done += len(group)
         progress(done)
     return found
 
 
-def _check(problem: Problem) -> None:
-    """Raises BadInput for an accuracy that double precision cannot have."""
-    floor = _rounding(problem)
+@np.errstate(all="ignore")  # of a ball at rest the axis is 0/0
+def _spin(problem: Problem, some: np.ndarray, found: Motion) -> None:
+    """Balls that rotate steadily, at once: about an axis that is fixed in body and space, along a straight line."""
+    few = problem.of(some)
+    omega, time = _omega(few, few.K, few.gamma), np.arange(problem.frames + 1) * problem.interval
+    rate = few.rate()[:, np.newaxis]
+    axis, half = np.where(rate > 0, omega / rate, 0.0)[:, np.newaxis], rate * time / 2
+    turned = np.concatenate([np.cos(half)[..., np.newaxis], np.sin(half)[..., np.newaxis] * axis], axis=-1)
+    back = turned * [1.0, -1.0, -1.0, -1.0]
+    found.angular_momentum[some], found.gamma[some] = (
+        kernels.rotate(back, np.broadcast_to(v[:, np.newaxis], (*half.shape, 3))) for v in (few.K, few.gamma)
+    )
+    if found.attitude is not None:
+        first = np.broadcast_to(few.attitude[:, np.newaxis], turned.shape)
+        found.attitude[some] = kernels.compose(first, turned)
+    if found.contact is not None:
+        assert few.ball.radius is not None
+        centre = kernels.rotate(few.attitude, np.cross(omega, few.gamma))[:, :2] * few.ball.radius[:, np.newaxis]
+        found.contact[some] = centre[:, np.newaxis] * time[:, np.newaxis]
+    found.reached[some], found.error[some] = problem.frames, _rounding(few, walks=False)
+
+
+def _check(problem: Problem) -> np.ndarray:
+    """Which balls rotate steadily; raises BadInput for an accuracy that double precision cannot have."""
+    steady = is_steady(problem.ball, problem.K, problem.gamma)
+    floor = np.where(steady, _rounding(problem, walks=False), _rounding(problem))
     worst = int(np.argmax(floor)) if len(floor) else 0
     if len(floor) and floor[worst] > ROUNDING * problem.accuracy:
         raise BadInput(
             f"an accuracy of {problem.accuracy:g} after {problem.end:g} s cannot be had in double precision: rounding "
             f"alone may leave {floor[worst]:.1g}; ask for {2.1 * floor[worst]:.1g}, or for less time"
         )
+    return steady
 
 
-def _rounding(problem: Problem) -> Floats:
+def _rounding(problem: Problem, walks: bool = True) -> Floats:
     """What rounding may leave of each ball: that of its parameters, which turns with it, and that of the stages."""
     with np.errstate(all="ignore"):
         turned = problem.rate() * problem.end
         moments = problem.ball.inertia + problem.ball.D[:, np.newaxis]
         condition = np.sqrt(moments.max(axis=-1) / moments.min(axis=-1))
-        walked = np.sqrt(1.0 + 40 * turned)  # the roundings of some forty stages a radian
+        walked = np.sqrt(1.0 + 40 * turned) if walks else 1.0  # the roundings of some forty stages a radian
         return np.asarray(2.0**-53 * (1 + turned) * (2 * condition + walked) * problem.unit)
 
 
@@ -217,11 +242,11 @@ def _whole(problem: Problem, steps: float) -> int:
     return max(math.ceil(steps), 1 if problem.frames > 1 else 2)
 
 
-def _alike(problem: Problem) -> list[np.ndarray]:
-    """Balls that take about as many steps, in groups: the indices of each."""
-    steps = np.maximum(_first(problem, 8), 1.0)
+def _alike(problem: Problem, some: np.ndarray) -> list[np.ndarray]:
+    """Some balls in groups of those that take about as many steps: the indices of each."""
+    steps = np.maximum(_first(problem, 8)[some], 1.0)
     level = np.ceil(np.log(steps) / math.log(ALIKE))
-    return [np.flatnonzero(level == one) for one in np.unique(level)]
+    return [some[level == one] for one in np.unique(level)]
 
 
 def _follow(problem: Problem, group: np.ndarray, found: Motion, progress: Callable[[float], None]) -> None:

@@ -1,5 +1,7 @@
 """A ball in SI units: its motion, or the map in its place."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from typing import Any, Literal
 

@@ -42,7 +42,7 @@ def motion(i, times):
         spin = np.array([-(q[1:] @ w), *(q[0] * w + np.cross(q[1:], w))]) / 2
         return np.concatenate([np.cross(momentum, w), np.cross(g, w), spin, turned[:2]])
 
-    run = chapsym.roll(one(i), OMEGA[[i]], STEP, STEPS, gamma=GAMMA[[i]], attitude=True, contact=True)
+    run = chapsym.roll(one(i), OMEGA[[i]], STEP, STEPS, gamma=GAMMA[[i]], attitude=True, contact=True, map=True)
     start = np.concatenate([K[i], GAMMA[i], run.attitude[0, 0], [0.0, 0.0]])
     return run, solve_ivp(rate, (0.0, times[-1]), start, "DOP853", times, rtol=1e-12, atol=1e-13).y.T
 
@@ -174,7 +174,7 @@ outputs = ["attitude", "contact"]
 
 @pytest.mark.parametrize(
     ("run", "options"),
-    [("time_step = 0.004\nsteps = 250", {}), ("time_step = 0.004\nsteps = 250\norder = 4", {"order": 4}),
+    [("time_step = 0.004\nsteps = 250\nmap = true", {}), ("time_step = 0.004\nsteps = 250\norder = 4", {"order": 4}),
      ('time_step = 0.004\nsteps = 250\norder = 8\nprecision = "single"', {"order": 8, "precision": "single"}),
      ("accuracy = 1e-3\ntime = 1.0", None)],
 )  # fmt: skip

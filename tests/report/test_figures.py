@@ -453,5 +453,5 @@ def test_a_spread_needs_three_balls_that_go_on():
     J = np.repeat(np.atleast_2d(results.UNEVEN.mass_tensor), 5, axis=0)
     balls = chapsym.Ball(J, np.repeat(results.UNEVEN.D, 5), np.repeat(results.UNEVEN.radius, 5))
     omega = np.array([[10.0, -2.0, 1.0]] * 2 + [[3000.0, -2.0, 1.0]] * 3)
-    two = results.of(chapsym.roll(balls, omega, time_step=0.01, steps=5, contact=True), ["contact", "gamma"])
+    two = results.of(chapsym.roll(balls, omega, time_step=0.01, steps=5, contact=True, map=True), ["contact", "gamma"])
     assert figures.available(two)["spread"] == "a spread needs at least three balls that go on"

@@ -34,6 +34,7 @@ SCENE = f"""{BALL.replace("[3.0,", "[{ linspace = [3.0, 200.0, 25] },")}time_ste
 steps = 200
 every = 10
 outputs = ["momentum", "contact", "energy"]
+map = true
 """
 
 

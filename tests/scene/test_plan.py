@@ -13,7 +13,7 @@ from chapsym.generated import TABLE
 from chapsym.scene.members.members import Members
 from chapsym.scene.plan import cost
 from chapsym.scene.plan import plan as plans
-from chapsym.scene.plan.models import MODELS, Rolling
+from chapsym.scene.plan.models import MODELS, Chosen, Rolling
 from chapsym.scene.plan.plan import planned
 from chapsym.scene.read.outputs import OUTPUTS, K, Output, columns_for, timed
 from chapsym.scene.read.task import Task
@@ -176,10 +176,10 @@ def test_what_cannot_be_had_is_told(members, outputs, sentence):
 def test_an_accuracy_is_met_by_what_is_chosen_for_each_ball(members):
     some = members(2)
     some = replace(some, momentum=some.momentum / 0.01, place=np.array([[1.0, 0.0]] * 2))
-    task = Task(("contact", "momentum"), 4, accuracy=1e-7, time=2.0, of="contact")
-    plan = planned(some, task)
-    assert plan.model.name == "chosen for the accuracy"
-    assert plan.chunks == [slice(0, 1), slice(1, 2)]
+    task = Task(("contact", "momentum"), 4, accuracy=1e-7, time=2.0, of="contact", searched=True)
+    assert planned(some, task).model.name == "motion of the ball"
+    assert planned(some, replace(task, accuracy=1e-14)).chunks == [slice(0, 1), slice(1, 2)]
+    plan = replace(planned(some, task), model=Chosen())
     for chunk in plan.chunks:
         (segment,) = plan.segments
         columns, state = segments.advance(plan, chunk, segments.begin(plan, chunk), segment)

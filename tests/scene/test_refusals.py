@@ -23,7 +23,10 @@ from chapsym.scene.result import formats
 from chapsym.scene.running import sweep
 
 #: Eleven units of work.
-LONG = BALL.replace("[3.0,", "[{ linspace = [3.0, 4.0, 45_000] },") + "time_step = 0.01\nsteps = 240\nevery = 20\n"
+LONG = (
+    BALL.replace("[3.0,", "[{ linspace = [3.0, 4.0, 45_000] },")
+    + "time_step = 0.01\nsteps = 240\nevery = 20\nmap = true\n"
+)
 
 
 @contextmanager

@@ -149,7 +149,7 @@ def test_one_ball_is_run_and_told_the_same_whatever_the_suffix(tmp_path):
     path = tmp_path / "s.toml"
     path.write_text(
         "[ball]\ninertia = [0.01, 0.01, 0.01]\nmass = 2\nradius = 0.1\n[start]\nomega = [1, 2, 3]\n"
-        "[run]\ntime_step = 0.01\nsteps = 1000000000\nevery = 500000000\ncontact = true\n"
+        "[run]\ntime_step = 0.01\nsteps = 1000000000\nevery = 500000000\ncontact = true\nmap = true\n"
     )
     told = set()
     for suffix in (".npz", ".csv", ".zarr"):

@@ -35,7 +35,7 @@ def far(data: "Dataset") -> dict[str, Any]:
         return {"discretisation": asdict(map_)}
     if not {"error", "order", "substeps"} <= set(data.data_vars) or "accuracy" not in data.attrs:
         return {}
-    error, ran = np.asarray(data["error"].values, dtype=float), data["order"].values > 0
+    error, ran = np.asarray(data["error"].values, dtype=float), data["order"].values >= 0
     error = error[ran & np.isfinite(error)]
     if not error.size:
         return {}
@@ -63,7 +63,10 @@ def sentence(data: "Dataset") -> tuple[str, str] | None:
     more = f"; {found['worse']} of them are not within it" if found["worse"] and balls > 1 else ""
     asked = f"{'not the ' if found['worse'] and balls == 1 else ''}{found['accuracy']:g} asked for{more}"
     order, steps = (_span(*found[name]) for name in _CHOSEN)
-    return "motion", f"{about} ({asked}): order {order}, {steps} step{'s' if steps != '1' else ''} from frame to frame"
+    how = f"order {order}, {steps} step{'s' if steps != '1' else ''} from frame to frame" if order != "0" else (
+        "a steady rotation, in closed form"
+    )  # fmt: skip
+    return "motion", f"{about} ({asked}): {how}"
 
 
 def _span(least: int, most: int) -> str:
