@@ -87,14 +87,14 @@ def four(steps=1500):
     ball = chapsym.BallN(mass_tensor=(1, 2, 0.5, 3), D=3, radius=0.1)
     momentum = np.zeros((4, 4))
     momentum[1, 0], momentum[3, 2], momentum[2, 0] = 0.3, -0.2, 0.1
-    run = chapsym.trajectory_n(ball, momentum - momentum.T, (0.1, 0.1, 0.7, 0.7), steps, contact=True, map=True)
+    run = chapsym.trajectory_n(ball, momentum - momentum.T, (0.1, 0.1, 0.7, 0.7), steps, contact=True)
     return of(run, ("momentum", "gamma", "attitude", "contact", "integrals"), "A ball in four dimensions")
 
 
 def folded():
     """Two balls, the second of which meets a fold after 50 steps."""
     ball, gamma = chapsym.Ball((0.1, 0.5, 1.6), 0.7, 0.1), (2 / 7, 3 / 7, 6 / 7)
-    run = chapsym.trajectory(ball, [(0.5, 0.3, 0.2), (1.44, 0.96, 0.3)], gamma, 300, contact=True, map=True)
+    run = chapsym.trajectory(ball, [(0.5, 0.3, 0.2), (1.44, 0.96, 0.3)], gamma, 300, contact=True)
     return of(run, ("momentum", "gamma", "contact", "integrals"), "One ball stops", names=["slow", "fast"])
 
 
