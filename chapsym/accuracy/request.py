@@ -8,9 +8,10 @@ from typing import Any
 import numpy as np
 
 from chapsym.dynamics import BadInput, Ball, Trajectory
+from chapsym.dynamics.attitudes import attitude_with, initial_attitude
 from chapsym.dynamics.ball import Floats, batch, numbers, unit_vertical
 from chapsym.dynamics.certified import exactly
-from chapsym.dynamics.trajectories import attitude_with, initial_attitude, whole_number
+from chapsym.dynamics.trajectories import whole_number
 from chapsym.numbers import Digits, Rung
 
 #: What the accuracy may be of.

@@ -9,9 +9,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from chapsym.dynamics import BadInput, Ball, Trajectory, kernels, trajectory
+from chapsym.dynamics.attitudes import attitude_with, initial_attitude
+from chapsym.dynamics.axes import in_given_axes
 from chapsym.dynamics.ball import SMALLEST, Floats, batch, numbers, unit_vertical
 from chapsym.dynamics.results import finished
-from chapsym.dynamics.trajectories import attitude_with, initial_attitude, seconds, whole_number
+from chapsym.dynamics.trajectories import seconds, whole_number
 from chapsym.numbers import Rung
 
 from .motion import DEFAULT, FINEST, Problem, moved
@@ -38,7 +40,8 @@ def roll(
 ) -> Trajectory:
     """Rolls a ball without slipping (2.3), and keeps its state every `every` times `time_step` seconds.
 
-    omega: the angular velocity at the start in rad/s, shape (..., 3), in body axes, or in those of space.
+    omega: the angular velocity at the start in rad/s, shape (..., 3), in body axes (those of the inertia tensor), or in
+    those of space.
     time_step, steps: when the states are kept, and how long; the steps in between are chosen.
     gamma: the unit vertical, upwards, in body axes, (..., 3); without, that of the attitude, or (0, 0, 1).
     attitude: True (from the least rotation with R γ = e₃) or unit quaternions, body to space, (..., 4), to be followed.
@@ -53,25 +56,23 @@ def roll(
     One ball that cannot be followed raises StepNotTaken; in a batch the others go on, and `status` tells.
     Raises BadInput for what no ball or run can have, and for an accuracy that double precision has not.
     """
-    epsilon = seconds(time_step)
-    steps, every = whole_number(steps, "steps", 0), whole_number(every, "every", 1)
     spin, vertical, turned = _start(ball, omega, gamma, attitude, axes)
-    K = _momentum(ball, spin, vertical, epsilon)
-    start = np.zeros(2) if not contact and np.shape(position) == (2,) else numbers(position, "position", 2)
+    place = np.zeros(2) if not contact and np.shape(position) == (2,) else numbers(position, "position", 2)
     by_map = map or order is not None or precision is not None
     if by_map and accuracy is not None:
         raise BadInput("accuracy is of the motion of the ball; leave out order, precision and map")
-    if by_map:
-        run = trajectory(
-            ball, epsilon * K, vertical, steps, order=order or 2, every=every, attitude=turned, contact=contact,
-            time_step=epsilon, precision=precision or "double", threads=threads, progress=progress,
-        )  # fmt: skip
-    else:
-        wanted = _accuracy(accuracy)
-        run = _motion(ball, K, vertical, epsilon, steps, every, turned, contact, wanted, threads, progress)
-    if contact and start.any():
-        run.contact[...] += start[..., np.newaxis, :]
+    run = _rolled(
+        ball, spin, vertical, turned, contact, "double" if precision is None else precision, seconds(time_step),
+        whole_number(steps, "steps", 0), every=whole_number(every, "every", 1), order=order or 2,
+        accuracy=None if by_map else _accuracy(accuracy), threads=threads, progress=progress,
+    )  # fmt: skip
+    if contact and place.any():
+        run.contact[...] += place[..., np.newaxis, :]
     return run
+
+
+#: A unit quaternion times this turns the other way; and the vertical in space.
+_INVERSE, _UP = np.array([1.0, -1.0, -1.0, -1.0]), np.array([0.0, 0.0, 1.0])
 
 
 def _start(
@@ -79,28 +80,41 @@ def _start(
 ) -> tuple[Floats, Floats, bool | Floats]:
     """ω and γ in body axes, and the attitude that is to be followed."""
     spin = numbers(omega, "omega", 3)
-    turned: bool | Floats = bool(attitude) if isinstance(attitude, bool | np.bool_) else np.asarray(attitude)
-    if gamma is not None or isinstance(attitude, bool | np.bool_):
+    turned: bool | Floats = (
+        bool(attitude) if isinstance(attitude, bool | np.bool_) else numbers(attitude, "attitude", 4)
+    )
+    if gamma is not None or isinstance(turned, bool):
         vertical = unit_vertical((0.0, 0.0, 1.0) if gamma is None else gamma)
     else:
-        given = numbers(attitude, "attitude", 4)
-        length = np.sqrt((given * given).sum(axis=-1, keepdims=True))
+        length = np.sqrt((turned * turned).sum(axis=-1, keepdims=True))
         if not (length > 0).all():
-            raise BadInput("attitude must be unit quaternions (scalar first)")
-        vertical = kernels.rotate(given / length * _INVERSE, _UP)
-    batch(ball, spin, vertical)  # so that a mistake is told in the names of this function
+            raise BadInput("attitude must be unit quaternions (scalar first); divide by the length")
+        vertical = kernels.rotate(turned / length * _INVERSE, _UP)
+    batch(ball.principal, spin, vertical)  # so that a mistake is told in the names of this function
     if not isinstance(turned, bool):
         turned = initial_attitude(turned, vertical)
     if axes not in ("body", "space"):
         raise BadInput(f'axes must be "body" or "space", not {axes!r}')
     if axes == "space":
         to_space = attitude_with(vertical) if isinstance(turned, bool) else turned
-        spin = kernels.rotate(np.asarray(to_space) * _INVERSE, spin)
+        spin = kernels.rotate(to_space * _INVERSE, spin)
     return spin, vertical, turned
 
 
-#: A unit quaternion times this turns the other way; and the vertical in space.
-_INVERSE, _UP = np.array([1.0, -1.0, -1.0, -1.0]), np.array([0.0, 0.0, 1.0])
+@in_given_axes
+def _rolled(
+    ball: Ball, omega: Floats, gamma: Floats, attitude: bool | Floats, contact: bool, precision: str | Rung,
+    epsilon: float, steps: int, *, every: int, order: int, accuracy: float | None, threads: int,
+    progress: Callable[[int], None],
+) -> Trajectory:  # fmt: skip
+    """The map, or to an accuracy the motion, in principal axes."""
+    K = _momentum(ball, omega, gamma, epsilon)
+    if accuracy is not None:
+        return _motion(ball, K, gamma, epsilon, steps, every, attitude, contact, accuracy, threads, progress)
+    return trajectory(
+        ball, epsilon * K, gamma, steps, order=order, every=every, attitude=attitude, contact=contact,
+        time_step=epsilon, precision=precision, threads=threads, progress=progress,
+    )  # fmt: skip
 
 
 def _momentum(ball: Ball, omega: Floats, gamma: Floats, epsilon: float) -> Floats:

@@ -14,6 +14,9 @@ from .output import fail
 if TYPE_CHECKING:
     from chapsym.numbers import Rung
 
+#: By how much, relatively, a symmetric tensor may differ from its transpose, as in scenes.
+ASYMMETRY = Fraction(1, 10**12)
+
 Records = Annotated[
     Path | None,
     typer.Option(
@@ -30,7 +33,10 @@ Json = Annotated[bool, typer.Option("--json", help="Print one JSON object on sta
 MassTensor = Annotated[str | None, typer.Option("--mass-tensor", metavar="J1,J2,J3", help="J of Sections 4 and 5.")]
 
 
-Inertia = Annotated[str | None, typer.Option(metavar="I1,I2,I3", help="Principal moments instead, I1 = J2 + J3.")]
+Inertia = Annotated[
+    str | None,
+    typer.Option(metavar="I1,I2,I3", help="Or principal moments, I1 = J2 + J3; or a tensor: I11,I12,I13;I21,...;I33."),
+]
 
 
 Contact = Annotated[str | None, typer.Option("--D", metavar="D", help="D = m rho^2.")]
@@ -45,26 +51,55 @@ Radius = Annotated[str | None, typer.Option(metavar="RHO", help="Radius.")]
 def ball_from(
     mass_tensor: str | None, inertia: str | None, contact: str | None, mass: str | None, radius: str | None
 ) -> tuple[tuple[Fraction, ...], Fraction]:
-    """J and D from the options, exactly."""
+    """J and D from the options, exactly; ends the command where these are in other axes than the principal ones."""
     if (mass_tensor is None) == (inertia is None):
         fail("give either --mass-tensor J1,J2,J3 or --inertia I1,I2,I3", 2)
     if mass_tensor is not None:
         J = rationals(mass_tensor, "--mass-tensor", 3)
     else:
-        moments = rationals(str(inertia), "--inertia", 3)
-        J = mass_tensor_from(moments)
+        if tensor_from(inertia) is not None:
+            told = "give its principal moments, --inertia I1,I2,I3, and all vectors in their axes"
+            fail(f"--inertia is a tensor that is not diagonal, and this command takes principal axes only: {told}", 2)
+        given = _inertia(str(inertia))
+        J = mass_tensor_from(given if len(given) == 3 else given[::4])
         if min(J) < 0:
             fail(f"no body has the inertia {inertia}: each principal moment is at most the sum of the other two", 2)
+    return J, contact_from(contact, mass, radius)
+
+
+def tensor_from(inertia: str | None) -> list[list[Fraction]] | None:
+    """The rows of an inertia tensor that is not diagonal; None for all else, which `ball_from` takes."""
+    I = () if inertia is None else _inertia(inertia)
+    if len(I) < 9 or not any(x for i, x in enumerate(I) if i % 4):
+        return None
+    for i, j in ((0, 1), (0, 2), (1, 2)):
+        if abs(I[3 * i + j] - I[3 * j + i]) > ASYMMETRY * max(map(abs, I)):
+            told = f"I{i + 1}{j + 1} = {float(I[3 * i + j]):g} and I{j + 1}{i + 1} = {float(I[3 * j + i]):g}"
+            fail(f"--inertia must be a symmetric tensor, not one with {told}", 2)
+    return [list(I[k : k + 3]) for k in (0, 3, 6)]
+
+
+def _inertia(text: str) -> tuple[Fraction, ...]:
+    """Three principal moments, or the nine components of a tensor, row by row."""
+    flat = text.replace(";", ",")
+    count = flat.count(",") + 1
+    if count not in (3, 9):
+        fail(f"--inertia takes 3 principal moments, or the 9 components of a tensor; {text!r} has {count} numbers", 2)
+    return rationals(flat, "--inertia", count)
+
+
+def contact_from(contact: str | None, mass: str | None, radius: str | None) -> Fraction:
+    """D from the options, exactly."""
     if contact is not None and (mass is not None or radius is not None):
         fail("give either --D, or --mass and --radius", 2)
     if contact is not None:
-        return J, rational(contact, "--D")
+        return rational(contact, "--D")
     if mass is None or radius is None:
         fail("D is missing: give --D, or --mass and --radius", 2)
     m, rho = rational(mass, "--mass"), rational(radius, "--radius")
     if m <= 0 or rho <= 0:
         fail("--mass and --radius must be positive", 2)
-    return J, m * rho * rho
+    return m * rho * rho
 
 
 def rung_from(

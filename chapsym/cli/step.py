@@ -7,7 +7,7 @@ import typer
 from chapsym.exact import rationals
 
 from .app import app
-from .options import Contact, Inertia, Json, Mass, MassTensor, Radius, ball_from, rung_from
+from .options import Contact, Inertia, Json, Mass, MassTensor, Radius, ball_from, contact_from, rung_from, tensor_from
 from .output import print_json
 
 
@@ -33,14 +33,19 @@ def step(
 ) -> None:
     """Take one step of the map, on the small-rotation branch.
 
+    Momentum and gamma are in the axes of the inertia tensor, where one is given.
+
     Example: chapsym step --mass-tensor 1,2,4 --D 3 --momentum 1,-1/2,3/4 --gamma 2/7,3/7,6/7 --digits 50 --json
     """
-    J, D = ball_from(mass_tensor, inertia, contact, mass, radius)
     K, g = rationals(momentum, "--momentum", 3), rationals(gamma, "--gamma", 3)
-    chosen = rung_from(digits, rung, ball)
-    from chapsym.dynamics.map import exact_step
+    chosen, tensor = rung_from(digits, rung, ball), tensor_from(inertia)
+    from chapsym.dynamics import Ball, map
 
-    result = exact_step(J, D, K, g, chosen).write()
+    if tensor is None or mass_tensor is not None:
+        taken = map.exact_step(*ball_from(mass_tensor, inertia, contact, mass, radius), K, g, chosen)
+    else:
+        taken = map.step(Ball.from_inertia(tensor, D=contact_from(contact, mass, radius)), K, g, precision=chosen)
+    result = taken.write()
     if as_json:
         print_json(result)
         return

@@ -11,7 +11,7 @@ import typer
 from chapsym.exact import rationals
 
 from .app import app
-from .options import Contact, Inertia, Json, Mass, MassTensor, Radius, ball_from
+from .options import Contact, Inertia, Json, Mass, MassTensor, Radius, ball_from, contact_from, tensor_from
 from .output import check_figure, console_for, fail, print_json, print_table, quiet, say
 
 
@@ -111,9 +111,9 @@ def _answer(
         fail(_in_options(str(error), scene is None), 2)
     quiet()
     if as_json:
-        print_json(described(answer))
+        print_json(described(answer, plan.members.axes))
     else:
-        print_answer(answer)
+        print_answer(answer, plan.members.axes)
 
 
 def _in_options(sentence: str, all_of_it: bool) -> str:
@@ -131,8 +131,13 @@ def _described(accuracy: float, time: float | None, told: dict[str, str]) -> Any
     start: dict[str, Any] = {}
     ball: dict[str, Any] = {"inertia": (0.006, 0.007, 0.009), "mass": 2.0, "radius": 0.1}
     if set(told) & {"--mass-tensor", "--inertia", "--D", "--mass", "--radius"}:
-        J, D = ball_from(*(told.get(f"--{name}") for name in ("mass-tensor", "inertia", "D", "mass", "radius")))
-        ball = {"mass_tensor": list(map(str, J)), "D": str(D)}
+        options = [told.get(f"--{name}") for name in ("mass-tensor", "inertia", "D", "mass", "radius")]
+        tensor = tensor_from(options[1])
+        if tensor is None or options[0] is not None:
+            J, D = ball_from(*options)
+            ball = {"mass_tensor": list(map(str, J)), "D": str(D)}
+        else:
+            ball = {"inertia": [list(map(str, row)) for row in tensor], "D": str(contact_from(*options[2:]))}
         if "--radius" in told:
             ball["radius"] = str(rationals(told["--radius"], "--radius", 1)[0])
     start["omega"] = list(map(str, rationals(told.get("--omega", "3,-2,1"), "--omega", 3)))
@@ -141,8 +146,21 @@ def _described(accuracy: float, time: float | None, told: dict[str, str]) -> Any
     return scenes.checked({"ball": ball, "start": start, "run": {k: v for k, v in run.items() if v is not None}})
 
 
-def described(answer: Any) -> dict[str, Any]:
-    """The answer as plain data."""
+def _final(answer: Any, axes: Any) -> dict[str, list[Any]]:
+    """K, γ and the contact point at the end, turned from principal axes."""
+    found: dict[str, list[Any]] = answer.final()
+    if axes is not None:
+        import numpy as np
+
+        from chapsym.dynamics.principal_axes import from_principal
+
+        for name in {"angular_momentum", "gamma"} & found.keys():
+            found[name] = from_principal(axes[0], np.array(found[name], dtype=np.float64)).tolist()
+    return found
+
+
+def described(answer: Any, axes: Any = None) -> dict[str, Any]:
+    """The answer as plain data, in the axes (1, 4) in which the ball is given; None where these are principal."""
     request, choice = answer.request, answer.choice
     return {
         "accuracy": request.accuracy, "time": request.time, "of": request.of, "choice": _choice(choice),
@@ -151,7 +169,7 @@ def described(answer: Any) -> dict[str, Any]:
             _choice(a.choice) | {"estimate": a.estimate if a.estimate < 1e300 else None, "seconds": a.seconds}
             for a in answer.attempts
         ],
-        "final": answer.final(),
+        "final": _final(answer, axes),
     }  # fmt: skip
 
 
@@ -162,8 +180,8 @@ def _choice(choice: Any) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def print_answer(answer: Any) -> None:
-    """The answer for a reader."""
+def print_answer(answer: Any, axes: Any = None) -> None:
+    """The answer for a reader, as of `described`."""
     request, choice = answer.request, answer.choice
     unit = "m" if request.of == "contact" else "relative"
     print(f"chosen    {choice.sentence()}")
@@ -173,7 +191,7 @@ def print_answer(answer: Any) -> None:
     print(f"cost      expected {choice.seconds:.2g} s; taken {taken:.2g} s, in all {answer.seconds:.2g} s")
     for one in answer.attempts[:-1]:
         print(f"          tried before: {one.choice.sentence()}, off by {one.estimate:.1e}")
-    for name, values in answer.final().items():
+    for name, values in _final(answer, axes).items():
         print(f"{name:9} {_to_estimate(name, values, request.of, answer.estimate)}")
 
 

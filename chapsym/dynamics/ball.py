@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from numbers import Number
 from typing import Any, Self
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from . import principal_axes
 from .errors import BadInput
+from .principal_axes import Floats
 
-Floats = NDArray[np.float64]
 #: An array that is None unless it was asked for; whoever asked need not tell the type checker so, hence `Any`.
 Asked = Floats | Any
 
@@ -85,6 +87,8 @@ class Ball:
     mass_tensor: J = (J1, J2, J3) of Sections 4 and 5, ∫ xᵢ² dm, shape (..., 3), in kg m².
     D: m ρ² in kg m², shape (...); D = 0 is the Euler top.
     radius: ρ in m; needed for the trace of the contact point only.
+    axes: unit quaternions, (..., 4), that turn the principal axes of the body, in which J is, to the axes in which
+    vectors and attitudes are given and returned (`from_inertia` finds them); None where these are the same.
 
     Raises BadInput for a mass moment below 0, a D below 0, or a momentum operator that is singular.
     """
@@ -92,12 +96,18 @@ class Ball:
     mass_tensor: Floats
     D: Floats
     radius: Floats | None
+    axes: Floats | None
 
-    def __init__(self, mass_tensor: ArrayLike, D: ArrayLike, radius: ArrayLike | None = None) -> None:
+    def __init__(
+        self, mass_tensor: ArrayLike, D: ArrayLike, radius: ArrayLike | None = None, axes: ArrayLike | None = None
+    ) -> None:
         tensor, contact = numbers(mass_tensor, "mass_tensor", 3), numbers(D, "D")
         rho = None if radius is None else numbers(radius, "radius")
         shapes = [tensor.shape[:-1], contact.shape, *([] if rho is None else [rho.shape])]
         common_shape(shapes, "mass_tensor, D and radius")
+        turn = None
+        if axes is not None:
+            tensor, turn = _with_axes(tensor, axes)
         if (tensor < 0).any():
             raise BadInput(
                 f"mass_tensor has the negative moment {tensor.min():g}; J = (∫x²dm, ∫y²dm, ∫z²dm) is never negative "
@@ -115,15 +125,32 @@ class Ball:
             raise BadInput("mass_tensor must not be (0, 0, 0): such a ball has no inertia about the vertical")
         if rho is not None and not (rho > 0).all():
             raise BadInput(f"radius must be positive, but it is {rho.min():g}")
-        keep(self, mass_tensor=tensor, D=contact, radius=rho)
+        keep(self, mass_tensor=tensor, D=contact, radius=rho, axes=turn)
 
     @classmethod
     def from_inertia(
         cls, inertia: ArrayLike, *, mass: ArrayLike | None = None, radius: ArrayLike | None = None,
-        D: ArrayLike | None = None,
+        D: ArrayLike | None = None, batch: bool = False,
     ) -> Self:  # fmt: skip
-        """A ball with the principal moments I1 = J2 + J3, ... (kg m²), and its mass (kg) and radius (m), or D."""
-        return cls(mass_tensor_of(inertia), contact_term(mass, radius, D), radius)
+        """A ball with an inertia tensor or principal moments (kg m²), and its mass (kg) and radius (m), or D.
+
+        inertia: a symmetric tensor (3, 3), or one for each ball, (..., 3, 3): it is diagonalised, its `axes` are kept,
+        and all vectors and attitudes, given or returned, are in the axes in which it is given.  Or principal moments
+        I1 = J2 + J3, ..., (3,), or a row for each ball, (..., 3), where that is not symmetric and 3 x 3.
+        batch: whether inertia is rows of principal moments, also where it is symmetric and 3 x 3.
+
+        Raises BadInput for an inertia that no body has, and as `Ball`.
+        """
+        contact, given = contact_term(mass, radius, D), numbers(inertia, "inertia")
+        if batch or not principal_axes.is_tensor(given):
+            return cls(mass_tensor_of(given), contact, radius)
+        try:
+            tensor, axes = principal_axes.principal(principal_axes.from_inertia_tensor(given))
+        except BadInput as error:
+            if (given < 0).any() or (_rounded_tensor(given) < 0).any():
+                raise
+            raise BadInput(f"{error}; if each row is the principal moments of a ball, say batch=True") from None
+        return cls(tensor, contact, radius, axes)
 
     @classmethod
     def from_mass_tensor(
@@ -137,6 +164,53 @@ class Ball:
     def inertia(self) -> Floats:
         """The principal moments of inertia about the centre, (J2 + J3, J1 + J3, J1 + J2)."""
         return inertia_of(self.mass_tensor)
+
+    @cached_property
+    def principal(self) -> Ball:
+        """The same ball in its principal axes, for what takes no other: give it vectors turned by `to_principal`."""
+        return self if self.axes is None else Ball(self.mass_tensor, self.D, self.radius)
+
+    def to_principal(self, vectors: ArrayLike, *, frames: bool = False) -> Floats:
+        """Vectors (momentum, omega, gamma) in principal axes from those in the axes of the user, (..., 3).
+
+        frames: whether there is an axis of frames before the last, (balls..., frames, 3).
+        """
+        return self._turned(principal_axes.to_principal, vectors, frames)
+
+    def from_principal(self, vectors: ArrayLike, *, frames: bool = False) -> Floats:
+        """Vectors in the axes of the user from those in principal axes; the way back of `to_principal`."""
+        return self._turned(principal_axes.from_principal, vectors, frames)
+
+    def _turned(self, turn: Callable[[Floats, Floats], Floats], vectors: ArrayLike, frames: bool) -> Floats:
+        array, axes = np.asarray(vectors), self.axes
+        if axes is None:
+            return array
+        axes = axes[..., np.newaxis, :] if frames else axes
+        if array.dtype.kind not in "iuf" or array.shape[-1:] != (3,):
+            raise BadInput(f"vectors must be real numbers of the shape (..., 3), not {_brief(vectors)}")
+        common_shape([axes.shape[:-1], array.shape[:-1]], "the axes of the ball and the vectors")
+        return turn(axes, array)
+
+
+def in_principal_axes(ball: Ball) -> Ball:
+    """The ball; raises BadInput for what is none, and for one with axes, whose vectors are in other axes."""
+    if not isinstance(ball, Ball):
+        raise BadInput(f"ball must be a chapsym.Ball, not {type(ball).__name__}")
+    if ball.axes is not None:
+        raise BadInput(
+            "this ball has an inertia tensor with axes of its own, and this function takes principal axes only: "
+            "give it ball.principal, vectors as ball.to_principal(vector), and turn its vectors by ball.from_principal"
+        )
+    return ball
+
+
+def _with_axes(tensor: Floats, axes: ArrayLike) -> tuple[Floats, Floats]:
+    """As many mass tensors as axes, which are checked."""
+    turn = numbers(axes, "axes", 4)
+    if (np.abs((turn * turn).sum(axis=-1) - 1) > UNIT_TOLERANCE).any():
+        raise BadInput("axes must be unit quaternions (scalar first); divide by the length")
+    shape = common_shape([tensor.shape[:-1], turn.shape[:-1]], "mass_tensor and axes")
+    return np.broadcast_to(tensor, (*shape, 3)), np.broadcast_to(turn, (*shape, 4))
 
 
 def keep(ball: Any, **parameters: Floats | None) -> None:
@@ -164,19 +238,18 @@ def inertia_of(tensor: Floats) -> Floats:
 def mass_tensor_of(inertia: ArrayLike) -> Floats:
     """J from the principal moments of inertia; raises BadInput if no body has them."""
     moments = numbers(inertia, "inertia", 3)
-    if moments.shape == (3, 3) and (moments == moments.T).all() and (_rounded_tensor(moments) < 0).any():
-        raise BadInput(
-            "inertia takes principal moments, a row of three for each ball, not a 3 x 3 tensor: "
-            "they are its eigenvalues, numpy.linalg.eigvalsh(inertia)"
-        )
-    if (moments < 0).any():
-        raise BadInput(f"inertia has the negative principal moment {moments.min():g}")
     tensor = _rounded_tensor(moments)
-    if (tensor < 0).any():
-        bad = moments.reshape(-1, 3)[np.argwhere((tensor < 0).reshape(-1, 3).any(axis=1))[0, 0]]
-        listed = ", ".join(f"{x:g}" for x in bad)
-        raise BadInput(f"no body has the inertia ({listed}): each principal moment is at most the sum of the other two")
-    return tensor
+    bad = ((moments < 0) | (tensor < 0)).any(axis=-1)
+    if not bad.any():
+        return tensor
+    if (moments < 0).any():
+        error = BadInput(f"inertia has the negative principal moment {moments.min():g}")
+    else:
+        error = principal_axes.no_body(moments[bad][0])
+    if moments.shape[-2:] != (3, 3) or principal_axes.is_tensor(moments):
+        raise error
+    off = np.abs(moments - moments.mT).max()
+    raise BadInput(f"{error}; if it is a tensor, it must be symmetric, but it differs from its transpose by {off:.3g}")
 
 
 def _rounded_tensor(moments: Floats) -> Floats:
@@ -228,10 +301,9 @@ def unit_vertical(gamma: ArrayLike) -> Floats:
 def batch(ball: Ball, *vectors: Floats) -> tuple[tuple[int, ...], list[Floats]]:
     """The common leading shape of balls and vectors, and all of them as fresh flat arrays.
 
-    Returns (shape, [vector (n, 3) ..., mass_tensor (n, 3), D (n,)]).
+    Returns (shape, [vector (n, 3) ..., mass_tensor (n, 3), D (n,)]); raises BadInput for a ball that has axes.
     """
-    if not isinstance(ball, Ball):
-        raise BadInput(f"ball must be a chapsym.Ball, not {type(ball).__name__}")
+    in_principal_axes(ball)
     radius = () if ball.radius is None else ball.radius.shape
     try:
         shape = np.broadcast_shapes(ball.D.shape, ball.mass_tensor.shape[:-1], radius, *(v.shape[:-1] for v in vectors))

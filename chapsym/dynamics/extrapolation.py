@@ -18,13 +18,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from .attitudes import initial_attitude
+from .axes import in_given_axes
 from .ball import Asked, Ball, Floats, batch, numbers, unit_vertical
 from .errors import BadInput, Status, StepNotTaken
 from .levels.double import chosen, compiles
 from .loops import loop
 from .loops.lanes import MOST_COLUMNS, long_steps_in_lanes
 from .loops.long_step import FIRST, long_steps
-from .trajectories import initial_attitude, whole_number
+from .trajectories import whole_number
 
 #: Longer steps than 2^LONGEST, in units where the momentum and the ball are about 1, have no rotation anyway.
 LONGEST = 100
@@ -55,6 +57,7 @@ def weights(columns: int) -> tuple[Fraction, ...]:
     return tuple(prod((Fraction(n * n, n * n - m * m) for m in every if m != n), start=Fraction(1)) for n in every)
 
 
+@in_given_axes
 @np.errstate(all="ignore")  # as compiled: `status` tells
 def extrapolate(
     ball: Ball,

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from chapsym.numbers import NAMED, Digits, Double, Pair, Quad, Rung, Single
 
+from .axes import in_given_axes
 from .ball import Ball, batch, numbers, unit_vertical
 from .errors import BadInput
 from .exactly import beyond_float64, check_body, in_float64, unit_exactly
@@ -22,6 +23,7 @@ from .results import LowStep, Step
 BEYOND_QUAD = Digits(40)
 
 
+@in_given_axes
 def step(ball: Ball, momentum: ArrayLike, gamma: ArrayLike, *, precision: str | Rung = "double") -> Step:
     """One step of the map (5.3) on the small-rotation branch: the first step of `trajectory`, to the bit.
 
@@ -29,7 +31,8 @@ def step(ball: Ball, momentum: ArrayLike, gamma: ArrayLike, *, precision: str | 
     𝒦 and γ to Ωᵀ𝒦 and Ωᵀγ.
 
     momentum: 𝒦 = ε K of the paper, in kg m², shape (..., 3); gamma: unit verticals upwards, (..., 3).
-    Both broadcast with each other and with the balls.
+    Both broadcast with each other and with the balls.  Of a ball with axes they, and what is
+    returned, are in these.
     precision: "single", "double", "quad" (31 digits), `Digits(n)` (mpmath) or `Ball(bits)` (Arb, rigorous).  The floats
     that are given are taken as exact on every rung, but γ is divided by its length on all but "double".
 
@@ -39,6 +42,7 @@ def step(ball: Ball, momentum: ArrayLike, gamma: ArrayLike, *, precision: str | 
     return composed(ball, momentum, gamma, 2, ladder.rung_of(precision))
 
 
+@in_given_axes
 def compose_step(ball: Ball, momentum: ArrayLike, gamma: ArrayLike, order: int) -> Step:
     """One step of the composition of order 2, 4, 6 or 8; arguments, result and errors as for `step`.
 

@@ -136,9 +136,9 @@ class Trajectory:
     @property
     def omega(self) -> Floats:
         """ω in rad/s for K = 𝒦/ε, in body axes, (..., frames, 3); raises BadInput if the run has no time step."""
-        tensor, contact = self.ball.mass_tensor[..., np.newaxis, :], self.ball.D[..., np.newaxis]
         with self.precision.precision():
-            return kernels.angular_velocity(*self._finite(self.angular_momentum(), self.gamma), tensor, contact)
+            omega = kernels.angular_velocity(*self._principal())
+            return omega if self.ball.axes is None else self.ball.from_principal(omega, frames=True)
 
     @property
     def energy(self) -> Floats:
@@ -147,9 +147,15 @@ class Trajectory:
 
     def kinetic_energy(self) -> Floats:
         """½⟨K, ω⟩ in joules for K = 𝒦/ε, (..., frames); the map keeps it up to an oscillation."""
-        tensor, contact = self.ball.mass_tensor[..., np.newaxis, :], self.ball.D[..., np.newaxis]
         with self.precision.precision():
-            return kernels.energy(*self._finite(self.angular_momentum(), self.gamma), tensor, contact)
+            return kernels.energy(*self._principal())
+
+    def _principal(self) -> tuple[Floats, Floats, Floats, Floats]:
+        """K, γ, J and D of every frame, in principal axes."""
+        K, gamma = self._finite(self.angular_momentum(), self.gamma)
+        if self.ball.axes is not None:
+            K, gamma = self.ball.to_principal(K, frames=True), self.ball.to_principal(gamma, frames=True)
+        return K, gamma, self.ball.mass_tensor[..., np.newaxis, :], self.ball.D[..., np.newaxis]
 
     def _finite(self, *arrays: Floats) -> tuple[Floats, ...]:
         if (self.taken < self.index[-1]).any():

@@ -119,7 +119,8 @@ def _last_not_undone(run: Trajectory, which: tuple[int, ...], frame: int) -> int
     """The last step between a frame and the next one after which the step back does not return; None if all do."""
     leading = run.momentum.shape[:-2]
     tensor = np.broadcast_to(run.ball.mass_tensor, (*leading, 3))[which]
-    ball = Ball(tensor, np.broadcast_to(run.ball.D, leading)[which])
+    axes = None if run.ball.axes is None else np.broadcast_to(run.ball.axes, (*leading, 4))[which]
+    ball = Ball(tensor, np.broadcast_to(run.ball.D, leading)[which], axes=axes)
     between = _frames(run)[1]
     there = trajectory(ball, run.momentum[which][frame], run.gamma[which][frame], between, order=run.order)
     ends = ball, -there.momentum[1:], there.gamma[1:]

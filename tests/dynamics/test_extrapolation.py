@@ -7,9 +7,9 @@ import pytest
 
 import chapsym
 from chapsym.dynamics import extrapolation, kernels
+from chapsym.dynamics.attitudes import initial_attitude
 from chapsym.dynamics.levels import double
 from chapsym.dynamics.loops import guess, lanes
-from chapsym.dynamics.trajectories import initial_attitude
 from chapsym.studies.trade.reference import continuous
 
 BALL = chapsym.Ball((0.1, 0.5, 1.6), 0.7)

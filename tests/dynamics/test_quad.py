@@ -9,13 +9,13 @@ import pytest
 import chapsym
 from chapsym import generated
 from chapsym.dynamics import kernels
+from chapsym.dynamics.attitudes import attitude_with
 from chapsym.dynamics.errors import BadInput, StepNotTaken
 from chapsym.dynamics.levels import quad
 from chapsym.dynamics.loops import quad_loop, quad_step
 from chapsym.dynamics.loops.branch import small_rotation
 from chapsym.dynamics.map import exact_step, step
 from chapsym.dynamics.oracle import Oracle
-from chapsym.dynamics.trajectories import attitude_with
 from chapsym.numbers import Digits, Pair, Quad, pairs
 from chapsym.studies import check
 

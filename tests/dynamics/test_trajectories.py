@@ -8,9 +8,9 @@ import pytest
 import chapsym
 from chapsym import BadInput, Ball, Status, StepNotTaken
 from chapsym.dynamics import kernels
+from chapsym.dynamics.attitudes import attitude_with
 from chapsym.dynamics.levels import double
 from chapsym.dynamics.oracle import Oracle
-from chapsym.dynamics.trajectories import attitude_with
 
 BALL = Ball((1, 2, 4), 3, radius=0.5)
 GAMMA = np.array([2, 3, 6]) / 7

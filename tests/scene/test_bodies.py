@@ -7,7 +7,8 @@ from hypothesis import strategies as st
 
 from chapsym import BadInput
 from chapsym.dynamics import kernels
-from chapsym.scene.read.bodies import PRESETS, check_inside, from_inertia_tensor, principal
+from chapsym.dynamics.principal_axes import from_inertia_tensor, principal
+from chapsym.scene.read.bodies import PRESETS, check_inside
 
 EPS = np.finfo(np.float64).eps
 

@@ -7,7 +7,7 @@ import pytest
 
 from chapsym import Ball, axial, roll, skew, trajectory
 from chapsym.dynamics import kernels
-from chapsym.dynamics.trajectories import attitude_with
+from chapsym.dynamics.attitudes import attitude_with
 from chapsym.scene import SceneError, checked
 from chapsym.scene.members.expand import expand
 

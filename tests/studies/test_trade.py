@@ -18,7 +18,7 @@ import chapsym
 from chapsym.accuracy import Method, prices, take
 from chapsym.accuracy.prices import sample
 from chapsym.cli.trade import print_answer
-from chapsym.dynamics.trajectories import attitude_with
+from chapsym.dynamics.attitudes import attitude_with
 from chapsym.numbers import NAMED
 from chapsym.studies import trade
 from chapsym.studies.trade import balls, four

@@ -8,7 +8,7 @@ from typing import Self
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..ball import Ball, Floats, numbers, unit_vertical
+from ..ball import Ball, Floats, in_principal_axes, numbers, unit_vertical
 from ..errors import BadInput
 from .jacobi import argument, jacobi, quarter_period
 
@@ -46,8 +46,7 @@ class Curve:
     @classmethod
     def through(cls, ball: Ball, gamma: ArrayLike) -> Self:
         """The curve through a unit γ, (3,); raises BadInput where the map fixes γ, and for a batch of balls."""
-        if not isinstance(ball, Ball):
-            raise BadInput(f"ball must be a chapsym.Ball, not {type(ball).__name__}")
+        in_principal_axes(ball)
         g = unit_vertical(gamma)
         if ball.D.shape or ball.mass_tensor.shape != (3,) or g.shape != (3,):
             raise BadInput("a curve is of one ball and one gamma, not of a batch")

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .. import kernels
-from ..ball import Ball, Floats, numbers, unit_vertical
+from ..ball import Ball, Floats, in_principal_axes, numbers, unit_vertical
 from ..errors import BadInput, StepNotTaken
 from ..results import Trajectory
 from .elliptic import Curve, across, height_of
@@ -78,7 +78,7 @@ def exact_top(ball: Ball, momentum: ArrayLike, gamma: ArrayLike) -> ExactTop:
     Raises BadInput for a batch, for D > 0 with a momentum that is not vertical, and for a step beyond the fold.
     """
     K, g = numbers(momentum, "momentum", 3), unit_vertical(gamma)
-    if not isinstance(ball, Ball) or (ball.D.shape, ball.mass_tensor.shape, K.shape, g.shape) != ((), (3,), (3,), (3,)):
+    if (in_principal_axes(ball).D.shape, ball.mass_tensor.shape, K.shape, g.shape) != ((), (3,), (3,), (3,)):
         raise BadInput("an exact top is made for one ball, one momentum and one gamma")
     largest = float(np.abs(K).max())
     if largest == 0.0:

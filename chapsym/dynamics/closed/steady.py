@@ -15,11 +15,12 @@ from chapsym.generated.quad import steady_pairs
 from chapsym.numbers import pairs
 
 from .. import kernels
+from ..attitudes import initial_attitude
 from ..ball import Ball, Floats, batch, numbers, unit_vertical
 from ..errors import BadInput, Status
 from ..failure import explain
 from ..results import Trajectory, finished
-from ..trajectories import initial_attitude, step_numbers
+from ..trajectories import step_numbers
 from . import turns
 
 #: A step by more than a quarter turn is beyond the fold (lemmas `steady-branch`, `steady-axis`, `steady-roll`).

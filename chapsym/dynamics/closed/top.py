@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 from chapsym.generated import curve_increment
 from chapsym.numbers import Ball as ArbBall
 
-from ..ball import Ball, Floats, inertia_of, numbers, unit_vertical
+from ..ball import Ball, Floats, in_principal_axes, inertia_of, numbers, unit_vertical
 from ..errors import BadInput
 from ..trajectories import step_numbers
 from . import turns
@@ -140,7 +140,7 @@ def moves(tensor: Floats, contact: Floats, direction: Floats) -> np.ndarray:
 
 
 def _one(ball: Ball, vector: Floats) -> None:
-    if not isinstance(ball, Ball) or ball.D.shape or ball.mass_tensor.shape != (3,) or vector.shape != (3,):
+    if in_principal_axes(ball).D.shape or ball.mass_tensor.shape != (3,) or vector.shape != (3,):
         raise BadInput("this motion is of one ball, one momentum and one gamma, not of a batch")
 
 

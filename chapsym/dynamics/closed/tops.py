@@ -6,10 +6,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .. import kernels
+from ..attitudes import initial_attitude
 from ..ball import Ball, Floats, batch, numbers, unit_vertical
 from ..errors import BadInput, Status, StepNotTaken
 from ..results import Trajectory, finished
-from ..trajectories import initial_attitude, step_numbers
+from ..trajectories import step_numbers
 from .precession import Precession
 from .top import TopMotion, moves
 

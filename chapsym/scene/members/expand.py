@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 
 from chapsym.dynamics import BadInput
+from chapsym.dynamics.attitudes import attitude_with
 from chapsym.dynamics.ball import Floats
-from chapsym.dynamics.trajectories import attitude_with
 
 from ..read.errors import SceneError, place
 from ..read.ranges import MOST_BALLS, Range, Sweep, ranges_in

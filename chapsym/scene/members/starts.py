@@ -7,12 +7,19 @@ from typing import Any
 import numpy as np
 
 from chapsym.dynamics import BadInput, Ball, BallN, kernels
+from chapsym.dynamics.attitudes import attitude_with
 from chapsym.dynamics.ball import SMALLEST, UNIT_TOLERANCE, Floats, contact_term, mass_tensor_of, numbers, unit_vertical
 from chapsym.dynamics.n import so_n
 from chapsym.dynamics.n.ball_n import skew_matrices, unit_verticals
-from chapsym.dynamics.trajectories import attitude_with
+from chapsym.dynamics.principal_axes import (
+    attitude_to_principal,
+    from_inertia_tensor,
+    inverse,
+    principal,
+    to_principal,
+)
 
-from ..read.bodies import PRESETS, check_inside, from_inertia_tensor, principal
+from ..read.bodies import PRESETS, check_inside
 from ..read.ranges import Range, ranges_in
 from ..read.tables import BallTable, StartTable
 from .members import Members
@@ -58,8 +65,8 @@ def members_of(ball: BallTable, start: StartTable, given: Given, scale: float, n
         body, axes = _ball(ball, given)
         gamma, attitude, motion, of_momentum = _start(start, given, body)
         if axes is not None:
-            attitude = kernels.compose(attitude_with(gamma) if attitude is None else attitude, axes)
-            gamma, motion = (kernels.rotate(_inverse(axes), vector) for vector in (gamma, motion))
+            attitude = attitude_to_principal(axes, attitude_with(gamma) if attitude is None else attitude)
+            gamma, motion = (to_principal(axes, vector) for vector in (gamma, motion))
         gamma = unit_vertical(gamma)
         momentum = motion if of_momentum else _momentum_of(motion, gamma, body, scale)
         if start.vertical_momentum is not None:
@@ -86,8 +93,6 @@ def _ball(table: BallTable, given: Given) -> tuple[Ball, Floats | None]:
         tensor = mass_tensor_of(inertia) if inertia.ndim == 2 else from_inertia_tensor(inertia)
     if tensor.ndim == 3:
         tensor, axes = principal(numbers(tensor, "inertia"))
-        if (tensor < 0).any():
-            mass_tensor_of(tensor.sum(axis=-1, keepdims=True) - tensor)  # says that no body has it
     if "mass" in told:
         check_inside(tensor, told["mass"], told["radius"])
     return Ball(tensor, contact, told.get("radius")), axes
@@ -102,21 +107,21 @@ def _start(start: StartTable, given: Given, ball: Ball) -> tuple[Floats, Floats 
         if (np.abs(length - 1) > UNIT_TOLERANCE).any():
             raise BadInput(f"attitude must be a unit quaternion (scalar first), but its length is {length.max():.9g}")
         attitude = attitude / length
-        gamma = kernels.rotate(_inverse(attitude), np.array([0.0, 0.0, 1.0]))
+        gamma = kernels.rotate(inverse(attitude), np.array([0.0, 0.0, 1.0]))
     else:
         gamma = given.unit(start.gamma or (0.0, 0.0, 1.0), "start.gamma")
     body_to_space = attitude if attitude is not None else attitude_with(unit_vertical(gamma))
     if start.vertical_momentum is not None:
         return gamma, attitude, gamma, True
     if start.velocity is not None:
-        motion = kernels.rotate(_inverse(body_to_space), _rolling(start, given, ball))
+        motion = kernels.rotate(inverse(body_to_space), _rolling(start, given, ball))
         return gamma, attitude, motion, False
     key = "omega" if start.momentum is None else "momentum"
     motion = given.array(getattr(start, key), f"start.{key}")
     if motion.shape[-1] != 3 or motion.ndim != 2:
         raise BadInput(f"start.{key} must be three numbers for a ball in three dimensions")
     if start.axes == "space":
-        motion = kernels.rotate(_inverse(body_to_space), motion)
+        motion = kernels.rotate(inverse(body_to_space), motion)
     return gamma, attitude, motion, key == "momentum"
 
 
@@ -170,7 +175,3 @@ def _position(start: StartTable, given: Given, count: int) -> Floats | None:
     if len(start.position) != count:
         raise BadInput(f"start.position must have {count} numbers")
     return given.array(start.position, "start.position")
-
-
-def _inverse(quaternion: Floats) -> Floats:
-    return quaternion * [1.0, -1.0, -1.0, -1.0]

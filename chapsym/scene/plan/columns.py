@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from chapsym.dynamics import kernels
 from chapsym.dynamics.ball import Floats
+from chapsym.dynamics.principal_axes import attitude_from_principal, from_principal
 
 from ..members.members import Members
 from ..read.outputs import OUTPUTS, K, columns_for
@@ -60,16 +60,8 @@ def in_given_axes(members: Members, columns: Columns) -> Columns:
     if members.axes is None:
         return columns
     axes = members.axes[:, np.newaxis]
-    back = axes * [1.0, -1.0, -1.0, -1.0]
-    turned = dict(columns)
-    for name in turned:
-        missing = np.isnan(columns[name])  # frames that a ball did not reach, which the kernels refuse
-        values = np.where(missing, 0.0, columns[name]) if missing.any() else columns[name]
-        dims = OUTPUTS[name].dims
-        if dims == ("quaternion",):
-            turned[name] = kernels.compose(values, np.broadcast_to(back, values.shape))
-        elif dims == ("axis",):
-            turned[name] = kernels.rotate(np.broadcast_to(axes, (*values.shape[:-1], 4)), values)
-        if turned[name] is not columns[name]:
-            turned[name][missing] = np.nan
-    return turned
+    back = {("axis",): from_principal, ("quaternion",): attitude_from_principal}
+    return {
+        name: back[dims](axes, values) if (dims := OUTPUTS[name].dims) in back else values
+        for name, values in columns.items()
+    }

@@ -7,6 +7,7 @@ from xarray import Dataset
 
 from chapsym.dynamics import BadInput, Ball, Curve, kernels
 from chapsym.dynamics.ball import Floats
+from chapsym.dynamics.principal_axes import from_principal, to_principal
 
 from . import reading
 
@@ -31,13 +32,13 @@ class Body:
         """Vectors (..., 3) in principal axes, from those of the result."""
         if self.axes is None:
             return vectors
-        return kernels.rotate(np.broadcast_to(self.axes * [1.0, -1.0, -1.0, -1.0], (*vectors.shape[:-1], 4)), vectors)
+        return to_principal(self.axes, vectors)
 
     def given(self, vectors: Floats) -> Floats:
         """Vectors (..., 3) in the axes of the result, from principal ones."""
         if self.axes is None:
             return vectors
-        return kernels.rotate(np.broadcast_to(self.axes, (*vectors.shape[:-1], 4)), vectors)
+        return from_principal(self.axes, vectors)
 
 
 def bodies_of(dataset: Dataset) -> list[Body]:

@@ -4,7 +4,7 @@ import numpy as np
 
 from chapsym.accuracy.motion import FINEST, Problem, moved
 from chapsym.dynamics import Ball
-from chapsym.dynamics.trajectories import attitude_with
+from chapsym.dynamics.attitudes import attitude_with
 
 from ...members.members import Members
 from ...read.task import Columns, Task

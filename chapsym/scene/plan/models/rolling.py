@@ -3,7 +3,7 @@
 import numpy as np
 
 from chapsym.dynamics import Ball, Trajectory, substeps, trajectory
-from chapsym.dynamics.trajectories import attitude_with
+from chapsym.dynamics.attitudes import attitude_with
 
 from ...members.members import Members
 from ...read.task import Task

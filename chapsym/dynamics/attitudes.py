@@ -1,0 +1,51 @@
+"""The attitude that a ball starts from."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from . import kernels
+from .ball import SINGLE_TOLERANCE, UNIT_TOLERANCE, Floats, in_single, numbers
+from .errors import BadInput
+
+#: How far R γ may be from e₃ for an attitude that is given with its γ.
+AGREEMENT = 1e-9
+#: The same for an attitude that is given in float32, up to 10⁶ steps of it.
+SINGLE_AGREEMENT = 1e-4
+
+
+def attitude_with(gamma: Floats) -> Floats:
+    """The attitude of the least rotation for which γ is vertical, R γ = e₃, shape (..., 4)."""
+    x, y, z = gamma[..., 0], gamma[..., 1], gamma[..., 2]
+    zero = np.zeros_like(z)
+    # Components that are so small that their squares vanish are nothing beside a half turn.
+    x, y = (np.where(np.abs(v) < 1e-150, 0.0, v) for v in (x, y))
+    upper = np.stack([1 + z, y, -x, zero], axis=-1)
+    # Upside down, the axis of the half turn is free: take e₁.  1 + z cancels there, so use x² + y² = (1-z)(1+z).
+    rounded = np.stack([(x * x + y * y) / (1 - np.where(z < 0, z, 0)), y, -x, zero], axis=-1)
+    quaternion = np.where((z < 0)[..., np.newaxis], rounded, upper)
+    length = np.sqrt((quaternion * quaternion).sum(axis=-1, keepdims=True))
+    down = length[..., 0] == 0
+    quaternion[down], length[down] = [0.0, 1.0, 0.0, 0.0], 1.0
+    return quaternion / length
+
+
+def initial_attitude(attitude: bool | ArrayLike, gamma: Floats) -> Floats:
+    """The attitude to start from: the one that was given, checked against γ, or the least rotation."""
+    if isinstance(attitude, bool | np.bool_):
+        return attitude_with(gamma)
+    given = numbers(attitude, "attitude", 4)
+    try:
+        np.broadcast_to(given, (*gamma.shape[:-1], 4))
+    except ValueError:
+        told = f"attitude has the leading axes {given.shape[:-1]}, the states have {gamma.shape[:-1]}"
+        raise BadInput(told) from None
+    single = in_single(attitude)
+    squared = (given * given).sum(axis=-1)
+    if (np.abs(squared - 1) > (SINGLE_TOLERANCE if single else UNIT_TOLERANCE)).any():
+        raise BadInput("attitude must be unit quaternions (scalar first); divide by the length")
+    vertical = kernels.rotate(given, gamma)
+    if (np.abs(vertical - [0.0, 0.0, 1.0]) > (SINGLE_AGREEMENT if single else AGREEMENT)).any():
+        raise BadInput("attitude and gamma disagree: the attitude must turn gamma to (0, 0, 1)")
+    return given / np.sqrt(squared)[..., np.newaxis] if single else given

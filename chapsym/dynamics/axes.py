@@ -1,0 +1,95 @@
+"""Functions of a ball in principal axes, made to take a ball with axes of its own, in whose axes they answer."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import fields, replace
+from functools import wraps
+from inspect import signature
+from typing import Any, ParamSpec, TypeVar
+
+import numpy as np
+
+from chapsym.numbers import Double, Single
+
+from . import principal_axes
+from .attitudes import initial_attitude
+from .ball import Ball, batch, numbers, unit_vertical
+from .errors import BadInput, StepNotTaken
+from .levels import ladder
+
+#: The vectors of arguments and of results, by their names.
+VECTORS = ("momentum", "angular_momentum", "omega", "gamma")
+
+P = ParamSpec("P")
+R = TypeVar("R")
+
+
+def in_given_axes(function: Callable[P, R]) -> Callable[P, R]:
+    """`function` for balls with axes, too: it is given ball.principal, and what goes in and comes out is turned.
+
+    function: of a `ball`, then vectors in the body named as in VECTORS, `gamma` among them, and perhaps an `attitude`,
+    `contact` and `precision`.  It returns a dataclass with such vectors, an `attitude`, a `rotation` or a `ball`.
+    A ball without axes goes to it as it is.  Raises BadInput for a precision beyond float64, in which axes are.
+    """
+
+    @wraps(function)
+    def taken(*args: P.args, **kwargs: P.kwargs) -> R:
+        ball: Any = args[0] if args else kwargs.get("ball")
+        if getattr(ball, "axes", None) is None or not isinstance(ball, Ball):
+            return function(*args, **kwargs)
+        call = signature(function).bind(*args, **kwargs)
+        call.apply_defaults()
+        call.arguments.update(_principal_arguments(ball, call.arguments))
+        try:
+            return _in_axes_of(ball, function(*call.args, **call.kwargs))
+        except StepNotTaken as error:
+            if error.trajectory is None:
+                raise
+            frames = _in_axes_of(ball, error.trajectory)
+            raise StepNotTaken(error.status, error.reach, error.index, frames) from None
+
+    return taken
+
+
+def _principal_arguments(ball: Ball, given: dict[str, Any]) -> dict[str, Any]:
+    """The arguments that are others in principal axes."""
+    if not isinstance(ladder.rung_of(given.get("precision", "double")), Single | Double):
+        raise BadInput(
+            "more digits than float64 has are kept in principal axes only: give the principal moments, and all vectors "
+            "in their axes"
+        )
+    assert ball.axes is not None
+    vectors = {
+        name: unit_vertical(given[name]) if name == "gamma" else numbers(given[name], name, 3)
+        for name in VECTORS
+        if name in given
+    }
+    shape, flat = batch(ball.principal, *vectors.values())
+    vectors = {name: array.reshape(*shape, 3) for name, array in zip(vectors, flat, strict=False)}
+    found: dict[str, Any] = {name: ball.to_principal(vector) for name, vector in vectors.items()}
+    attitude = given.get("attitude", False)
+    if not isinstance(attitude, bool | np.bool_) or attitude or given.get("contact"):
+        start = initial_attitude(attitude, vectors["gamma"])
+        found["attitude"] = principal_axes.attitude_to_principal(ball.axes, start)
+    return {"ball": ball.principal, **found}
+
+
+def _in_axes_of(ball: Ball, found: Any) -> Any:
+    """A result in principal axes, in those of the ball."""
+    frames = hasattr(found, "index")
+    assert ball.axes is not None
+    axes = ball.axes[..., np.newaxis, :] if frames else ball.axes
+    turned: dict[str, Any] = {}
+    for field in fields(found):
+        value = getattr(found, field.name)
+        if field.name == "ball":
+            turned["ball"] = ball
+        elif field.name in VECTORS:
+            turned[field.name] = ball.from_principal(value, frames=frames).astype(value.dtype, copy=False)
+        elif field.name == "attitude" and value is not None:
+            turned["attitude"] = principal_axes.attitude_from_principal(axes, value).astype(value.dtype, copy=False)
+        elif field.name == "rotation":
+            vector = ball.from_principal(value[..., 1:]).astype(value.dtype, copy=False)
+            turned["rotation"] = np.concatenate([value[..., :1], vector], axis=-1)
+    return replace(found, **turned)

@@ -1,0 +1,137 @@
+"""The principal axes of a tensor, and vectors and attitudes in them; `axes` are unit quaternions to the given axes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from chapsym.generated import compose, rotate
+
+from .errors import BadInput
+
+Floats = NDArray[np.float64]
+
+#: By how much, relatively, a symmetric tensor may differ from its transpose.
+ASYMMETRY = 1e-12
+
+
+def asymmetry(tensor: Floats) -> Floats:
+    """The largest difference between a tensor and its transpose, (...), in its largest component."""
+    off, size = np.abs(tensor / 2 - tensor.mT / 2).max(axis=(-2, -1)), np.abs(tensor).max(axis=(-2, -1))
+    return np.divide(2 * off, size, out=np.zeros_like(off), where=size > 0)
+
+
+def is_tensor(array: Floats) -> bool:
+    """Whether an array (..., 3, 3) is of symmetric tensors, to rounding."""
+    return array.shape[-2:] == (3, 3) and bool((asymmetry(array) <= ASYMMETRY).all())
+
+
+def from_inertia_tensor(inertia: Floats) -> Floats:
+    """∫xxᵀdm = ½ tr(I) - I, (..., 3, 3); raises BadInput if I is not symmetric to rounding."""
+    if not is_tensor(inertia):
+        off = np.abs(inertia - inertia.mT).max()
+        raise BadInput(f"inertia must be symmetric, but it differs from its transpose by {off:.3g} kg m²")
+    even = inertia / 2 + inertia.mT / 2
+    with np.errstate(over="ignore"):
+        tensor = np.trace(even / 2, axis1=-2, axis2=-1)[..., np.newaxis, np.newaxis] * np.eye(3) - even
+    if not np.isfinite(tensor).all():
+        raise BadInput("inertia is beyond the range of float64, about 1.8e308")
+    return tensor
+
+
+def principal(tensor: Floats) -> tuple[Floats, Floats | None]:
+    """The principal moments of ∫xxᵀdm, (..., 3), and unit quaternions (..., 4) that turn principal to given axes.
+
+    The axes are right-handed, in the order and with the signs that are nearest to the given axes; None where the tensor
+    is diagonal.  Moments that are negative by rounding are 0.  Raises BadInput where one is negative by more.
+    """
+    diagonal = np.diagonal(tensor, axis1=-2, axis2=-1)
+    off = np.abs(tensor - diagonal[..., np.newaxis] * np.eye(3)).max(axis=(-2, -1)) > 0
+    if not off.any():
+        return _of_a_body(diagonal), None
+    moments, axes = np.linalg.eigh(tensor)
+    orders = np.array([[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]])
+    nearness = np.abs(axes[..., np.arange(3), orders]).sum(axis=-1)  # of each order: Σ |Qᵢ,order(i)|
+    order = orders[nearness.argmax(axis=-1)]
+    moments, axes = np.take_along_axis(moments, order, -1), np.take_along_axis(axes, order[..., np.newaxis, :], -1)
+    along = np.diagonal(axes, axis1=-2, axis2=-1)
+    axes = axes * np.where(along < 0, -1.0, 1.0)[..., np.newaxis, :]
+    weakest = np.arange(3) == np.abs(along).argmin(axis=-1)[..., np.newaxis]
+    mirrored = (np.linalg.det(axes) < 0)[..., np.newaxis]
+    axes = axes * np.where(weakest & mirrored, -1.0, 1.0)[..., np.newaxis, :]
+    moments = np.where(off[..., np.newaxis], moments, diagonal)
+    axes = np.where(off[..., np.newaxis, np.newaxis], axes, np.eye(3))
+    return _of_a_body(moments), quaternions(axes)
+
+
+def _of_a_body(moments: Floats) -> Floats:
+    """Principal moments of ∫xxᵀdm, with 0 for what is negative by rounding; raises BadInput where it is by more."""
+    largest = np.abs(moments).max(axis=-1, keepdims=True)
+    rounding = 16 * np.finfo(np.float64).eps * largest
+    bad = (moments <= -rounding).any(axis=-1) & (moments < 0).any(axis=-1)
+    if bad.any():
+        found = moments[bad][0].sum() - moments[bad][0]
+        raise no_body(np.where(np.abs(found) <= rounding[bad][0], 0.0, found))
+    return np.maximum(moments, 0.0)
+
+
+def no_body(inertia: Floats) -> BadInput:
+    """What is said of principal moments of inertia, (3,), that no body has."""
+    listed = ", ".join(f"{x:g}" for x in inertia)
+    return BadInput(f"no body has the inertia ({listed}): each principal moment is at most the sum of the other two")
+
+
+def quaternions(rotations: Floats) -> Floats:
+    """Unit quaternions, scalar first, (..., 4), of rotation matrices (..., 3, 3).
+
+    4qqᵀ is linear in the matrix; its row with the largest diagonal is q, but for the length.
+    """
+    r = np.moveaxis(rotations, (-2, -1), (0, 1))
+    x, y, z = r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1]
+    xy, xz, yz = r[0, 1] + r[1, 0], r[0, 2] + r[2, 0], r[1, 2] + r[2, 1]
+    rows = np.array(
+        [
+            [1 + r[0, 0] + r[1, 1] + r[2, 2], x, y, z],
+            [x, 1 + r[0, 0] - r[1, 1] - r[2, 2], xy, xz],
+            [y, xy, 1 - r[0, 0] + r[1, 1] - r[2, 2], yz],
+            [z, xz, yz, 1 - r[0, 0] - r[1, 1] + r[2, 2]],
+        ]
+    )
+    rows = np.moveaxis(rows, (0, 1), (-2, -1))
+    best = np.diagonal(rows, axis1=-2, axis2=-1).argmax(axis=-1)
+    chosen = np.take_along_axis(rows, best[..., np.newaxis, np.newaxis], -2)[..., 0, :]
+    return chosen / np.sqrt((chosen * chosen).sum(axis=-1, keepdims=True))
+
+
+def inverse(quaternion: Floats) -> Floats:
+    """The rotation back, of unit quaternions (..., 4)."""
+    return quaternion * [1.0, -1.0, -1.0, -1.0]
+
+
+def to_principal(axes: Floats, vectors: Floats) -> Floats:
+    """Vectors in principal axes, (..., 3), from those in the given axes; NaN stays NaN."""
+    return _on_arrays(rotate, inverse(axes), vectors)
+
+
+def from_principal(axes: Floats, vectors: Floats) -> Floats:
+    """Vectors in the given axes, (..., 3), from those in principal axes; NaN stays NaN."""
+    return _on_arrays(rotate, axes, vectors)
+
+
+def attitude_to_principal(axes: Floats, attitude: Floats) -> Floats:
+    """Attitudes of the principal axes, (..., 4), from those of the given axes."""
+    return _on_arrays(compose, attitude, axes)
+
+
+def attitude_from_principal(axes: Floats, attitude: Floats) -> Floats:
+    """Attitudes of the given axes, (..., 4), from those of the principal axes; NaN stays NaN."""
+    return _on_arrays(compose, attitude, inverse(axes))
+
+
+def _on_arrays(kernel: Callable[..., tuple[Floats, ...]], first: Floats, second: Floats) -> Floats:
+    """A kernel of two groups on arrays (..., k) that broadcast, without the checks of `kernels`: frames may be NaN."""
+    with np.errstate(over="ignore", under="ignore", invalid="ignore"):
+        parts = kernel(*np.moveaxis(first, -1, 0), *np.moveaxis(second, -1, 0))
+    return np.stack(parts, axis=-1)
