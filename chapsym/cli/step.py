@@ -39,12 +39,16 @@ def step(
     """
     K, g = rationals(momentum, "--momentum", 3), rationals(gamma, "--gamma", 3)
     chosen, tensor = rung_from(digits, rung, ball), tensor_from(inertia)
-    from chapsym.dynamics import Ball, map
+    import numpy as np
+
+    from chapsym import dynamics
+    from chapsym.dynamics.map import exact_step
 
     if tensor is None or mass_tensor is not None:
-        taken = map.exact_step(*ball_from(mass_tensor, inertia, contact, mass, radius), K, g, chosen)
+        taken = exact_step(*ball_from(mass_tensor, inertia, contact, mass, radius), K, g, chosen)
     else:
-        taken = map.step(Ball.from_inertia(tensor, D=contact_from(contact, mass, radius)), K, g, precision=chosen)
+        body = dynamics.Ball.from_inertia(np.array(tensor), D=np.array(contact_from(contact, mass, radius)))
+        taken = dynamics.step(body, np.array(K), np.array(g), precision=chosen)
     result = taken.write()
     if as_json:
         print_json(result)

@@ -67,10 +67,6 @@ def _shape(given: Any) -> str:
     return MATRIX if isinstance(given, list | tuple) and given and isinstance(given[0], list | tuple) else LIST
 
 
-def _vector_or_matrix(vector: Any, matrix: Any) -> Any:
-    return Annotated[Annotated[vector, Tag(LIST)] | Annotated[matrix, Tag(MATRIX)], Discriminator(_shape)]
-
-
 def _listed(given: Any) -> Any:
     """A list as it is; a range in the place of a whole list is a frequent slip."""
     if isinstance(given, dict):
@@ -82,12 +78,19 @@ Vector = BeforeValidator(_listed)
 Moments3 = Annotated[tuple[Moment, Moment, Moment], Vector]
 MomentsN = Annotated[tuple[Moment, ...], Field(min_length=3), Vector]
 PureN = Annotated[tuple[Pure, ...], Field(min_length=3), Vector]
-Inertia = _vector_or_matrix(Moments3, tuple[Moments3, Moments3, Moments3])
-Momentum = _vector_or_matrix(Moments3, Annotated[tuple[MomentsN, ...], Field(min_length=4)])
+Inertia = Annotated[
+    Annotated[Moments3, Tag(LIST)] | Annotated[tuple[Moments3, Moments3, Moments3], Tag(MATRIX)], Discriminator(_shape)
+]
+Momentum = Annotated[
+    Annotated[Moments3, Tag(LIST)] | Annotated[tuple[MomentsN, ...], Field(min_length=4), Tag(MATRIX)],
+    Discriminator(_shape),
+]
 RatesN = Annotated[tuple[Rate, ...], Field(min_length=3), Vector]
-Omega = _vector_or_matrix(
-    Annotated[tuple[Rate, Rate, Rate], Vector], Annotated[tuple[RatesN, ...], Field(min_length=4)]
-)
+Omega = Annotated[
+    Annotated[tuple[Rate, Rate, Rate], Vector, Tag(LIST)]
+    | Annotated[tuple[RatesN, ...], Field(min_length=4), Tag(MATRIX)],
+    Discriminator(_shape),
+]
 Lengths3 = Annotated[tuple[Length, Length, Length], Vector]
 Lengths2 = Annotated[tuple[Length, ...], Field(min_length=2), Vector]
 Speeds2 = Annotated[tuple[Speed, Speed], Vector]
