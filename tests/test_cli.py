@@ -14,6 +14,7 @@ from commands import answer, changed, chapsym, child, refused
 from first import FIRST
 from waiting import GUARD, INTERRUPTIBLE
 
+from chapsym import dynamics
 from chapsym.cli import codegen
 from chapsym.codegen import build
 
@@ -37,6 +38,19 @@ def test_inertia_mass_and_radius_are_other_ways_to_say_the_ball_and_a_negative_n
     assert answer(*STEP[:5], "--momentum", "-1,1/2,3/4", "--gamma", "2/7,3/7,-6/7")["q0"] < 1
 
 
+TENSOR = "6,1/2,-0.3;1/2,5,0.2;-0.3,0.2,7/2"
+
+
+def test_an_inertia_tensor_has_nine_numbers_and_the_step_is_in_its_axes():
+    assert answer("step", "--inertia", "6,0,0;0,5,0;0,0,3", *STEP[3:], "--digits", "40") == answer(
+        *STEP, "--digits", "40"
+    )
+    ball = dynamics.Ball.from_inertia([[6, 0.5, -0.3], [0.5, 5, 0.2], [-0.3, 0.2, 3.5]], D=3)
+    step = dynamics.step(ball, (1, -0.5, 0.75), (2 / 7, 3 / 7, 6 / 7))
+    for text in (TENSOR, TENSOR.replace(";", ",")):
+        assert answer("step", "--inertia", text, *STEP[3:]) == step.write()
+
+
 @pytest.mark.parametrize(
     ("arguments", "sentence"),
     [
@@ -58,6 +72,14 @@ def test_inertia_mass_and_radius_are_other_ways_to_say_the_ball_and_a_negative_n
         ([*STEP, "--digits", "0"], "--digits"),
         ([*STEP, "--rung", "half"], "--rung half: give single, double or quad, or for any number of digits"),
         (["step", "--inertia", "1,1,3", *STEP[3:]], "no body has the inertia 1,1,3"),
+        (["step", "--inertia", "1,.1,0;.1,1,0;0,0,3", *STEP[3:]], "no body has the inertia (1.1, 0.9, 3)"),
+        (["step", "--inertia", "6,1,0;2,5,0;0,0,3", *STEP[3:]], "a symmetric tensor, not one with I12 = 1 and I21 = 2"),
+        (["step", "--inertia", "6,1,0;1,5", *STEP[3:]], "3 principal moments, or the 9 components of a tensor; '6,1"),
+        (["step", "--inertia", TENSOR, *STEP[3:], "--digits", "20"], "kept in principal axes only: give the principal"),
+        (
+            ["branches", "--inertia", TENSOR, *STEP[3:]],
+            "this command takes principal axes only: give its principal",
+        ),
         (["prove", "9.9"], "no proof judges the claim '9.9'"),
         (["run", "missing.toml", "-o", "x.npz"], "missing.toml cannot be read: No such file or directory"),
         (["run", FIRST], "names no output: add -o OUT.npz"),

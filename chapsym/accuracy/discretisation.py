@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from chapsym.dynamics import Ball, Status, Trajectory, kernels, substeps, trajectory
-from chapsym.dynamics.ball import Floats
+from chapsym.dynamics.ball import Floats, in_principal_axes
 from chapsym.dynamics.levels import double, quad
 
 #: Stages of the map that the finer run of a pilot takes, all balls together, where its loops are compiled for the run
@@ -79,6 +79,7 @@ def discretisation(
     pilot = min(steps, max(most // (2 * len(some) * len(substeps(order))), 1))
     if not steps:
         return None
+    in_principal_axes(ball)
     few = Ball(ball.mass_tensor[some], ball.D[some], None if ball.radius is None else ball.radius[some])
 
     def run(finer: int, precision: str) -> Trajectory:

@@ -157,7 +157,10 @@ class Ball:
         cls, mass_tensor: ArrayLike, *, mass: ArrayLike | None = None, radius: ArrayLike | None = None,
         D: ArrayLike | None = None,
     ) -> Self:  # fmt: skip
-        """A ball with the mass tensor J = (J1, J2, J3) (kg m²), and its mass (kg) and radius (m), or D."""
+        """A ball with the mass tensor J = (J1, J2, J3) (kg m²), and its mass (kg) and radius (m), or D.
+
+        J is in principal axes, a row for each ball, (..., 3); a tensor that is not diagonal goes with `from_inertia`.
+        """
         return cls(mass_tensor, contact_term(mass, radius, D), radius)
 
     @property

@@ -34,7 +34,7 @@ def from_inertia_tensor(inertia: Floats) -> Floats:
         off = np.abs(inertia - inertia.mT).max()
         raise BadInput(f"inertia must be symmetric, but it differs from its transpose by {off:.3g} kg m²")
     even = inertia / 2 + inertia.mT / 2
-    with np.errstate(over="ignore"):
+    with np.errstate(over="ignore", invalid="ignore"):
         tensor = np.trace(even / 2, axis1=-2, axis2=-1)[..., np.newaxis, np.newaxis] * np.eye(3) - even
     if not np.isfinite(tensor).all():
         raise BadInput("inertia is beyond the range of float64, about 1.8e308")

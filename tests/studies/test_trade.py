@@ -147,6 +147,19 @@ def test_the_command_chooses_runs_and_verifies(tmp_path):
     np.testing.assert_allclose(same["final"]["contact"], found["final"]["contact"], atol=2e-8)
 
 
+def test_the_end_is_told_in_the_axes_of_an_inertia_tensor(tmp_path):
+    tensor = ["--inertia", "0.0301,0.001,-0.0004;0.001,0.0312,0.0007;-0.0004,0.0007,0.0318", "--mass", "7"]
+    asked = ["--accuracy", "1e-8", "--time", "1", *tensor, "--radius", "0.1", "-o", tmp_path / "a.npz", "--json"]
+    found, data = json.loads(command("trade", *asked).stdout), np.load(tmp_path / "a.npz")
+    np.testing.assert_allclose(found["final"]["angular_momentum"], data["momentum"][-1], rtol=1e-14)
+    np.testing.assert_allclose(found["final"]["gamma"], data["gamma"][-1], rtol=1e-14)
+    body = "[ball]\ninertia = [[2, 0.1, 0], [0.1, 3, 0], [0, 0, 4]]\nD = 1\n[start]\nomega = [1, 2, 3]\n"
+    (tmp_path / "b.toml").write_text(f"{body}[run]\naccuracy = 1e-6\ntime = 1\n", encoding="utf-8")
+    told = command("run", tmp_path / "b.toml", "-o", tmp_path / "b.npz", "--json").stdout
+    found, data = json.loads(told), np.load(tmp_path / "b.npz")
+    np.testing.assert_allclose(found["final"]["gamma"], data["gamma"][-1], rtol=1e-14)
+
+
 def test_digits_that_no_float_holds_are_strings():
     found = answer("trade", "--accuracy", "1e-18", "--time", "2", "--of", "state")
     assert found["choice"]["precision"] == "quad"
