@@ -33,12 +33,14 @@ def in_given_axes(function: Callable[P, R]) -> Callable[P, R]:
     A ball without axes goes to it as it is.  Raises BadInput for a precision beyond float64, in which axes are.
     """
 
+    parameters = signature(function)
+
     @wraps(function)
     def taken(*args: P.args, **kwargs: P.kwargs) -> R:
         ball: Any = args[0] if args else kwargs.get("ball")
         if getattr(ball, "axes", None) is None or not isinstance(ball, Ball):
             return function(*args, **kwargs)
-        call = signature(function).bind(*args, **kwargs)
+        call = parameters.bind(*args, **kwargs)
         call.apply_defaults()
         call.arguments.update(_principal_arguments(ball, call.arguments))
         try:

@@ -133,5 +133,5 @@ def attitude_from_principal(axes: Floats, attitude: Floats) -> Floats:
 def _on_arrays(kernel: Callable[..., tuple[Floats, ...]], first: Floats, second: Floats) -> Floats:
     """A kernel of two groups on arrays (..., k) that broadcast, without the checks of `kernels`: frames may be NaN."""
     with np.errstate(over="ignore", under="ignore", invalid="ignore"):
-        parts = kernel(*np.moveaxis(first, -1, 0), *np.moveaxis(second, -1, 0))
+        parts = kernel(*(array[..., i] for array in (first, second) for i in range(array.shape[-1])))
     return np.stack(parts, axis=-1)
