@@ -1,0 +1,298 @@
+"""Scenes with physical starts, drawn from a seed: every way to say a body and a start, slow and fast, dense and sparse.
+
+`scene(n)` is the n-th, a dict of tables, and `toml` its text: the same on every machine.
+"""
+
+import math
+from random import Random
+
+from motion_reference import si
+
+#: How many there are.
+COUNT = 40
+#: Radians in which a ball near the separatrix has left it.
+LONG = 100.0
+FOLLOWED = ["omega", "gamma", "attitude", "contact"]
+
+
+def scene(n):
+    """The n-th scene; bodies, starts and lengths go round at different paces, the rest is drawn."""
+    r = Random(f"scene {n}")
+    if n % 8 == 7:
+        return several(r, n)
+    ball = body(r, n)
+    start, swept = (start_of(n)(r, ball), {}) if n % 8 != 3 else sweep(r, n // 8)
+    found = {"title": f"Random scene {n}", "ball": ball, "start": start}
+    if swept:
+        found["sweep"] = swept
+    if r.random() < 0.4:
+        start["position"] = [number(r, -2, 2), "25 cm"] if r.random() < 0.5 else [number(r, -2, 2), number(r, -2, 2)]
+    return found | {"run": run(r, n, rate(start, ball), LONG if start_of(n) is near_an_axis else 0.0)}
+
+
+def several(r, n):
+    """Two or three balls, each with its own start or that of all, and one of them swept."""
+    balls = []
+    for i in range(2 + n // 8 % 2):
+        ball = body(r, n + 3 * i) | {"name": "abc"[i] * 3}
+        if i:
+            ball["start"] = start_of(n + 2 * i)(r, ball) | {"position": [number(r, -1, 1), f"{10 * i} cm"]}
+        balls.append(ball)
+    start = vary(r, omega(r), ["linspace"], 3)
+    return {"title": f"Random scene {n}", "ball": balls, "start": start, "run": run(r, n, rate(start, balls[0]))}
+
+
+def number(r, low, high):
+    """A number of five digits."""
+    return float(f"{r.uniform(low, high):.5g}")
+
+
+def direction(r):
+    """A unit vector, not near to (0, 0, -1), where the least rotation to the vertical turns with every rounding."""
+    z, angle = r.uniform(-0.9, 1.0), r.uniform(0, 2 * math.pi)
+    return [math.sqrt(1 - z * z) * math.cos(angle), math.sqrt(1 - z * z) * math.sin(angle), z]
+
+
+def quaternion(r):
+    """A unit quaternion, evenly on the sphere."""
+    q = [r.gauss(0, 1) for _ in range(4)]
+    return [x / math.hypot(*q) for x in q]
+
+
+def sized(r):
+    """Mass in kg and radius in m, as they are and as texts."""
+    mass, radius = number(r, 0.2, 8.0), number(r, 0.03, 0.3)
+    pounds, millimetres = number(r, 1, 18), number(r, 40, 200)
+    if r.random() < 0.5:
+        return {"mass": mass, "radius": radius}, mass, radius
+    return {"mass": f"{pounds} lb", "radius": f"{millimetres} mm"}, 0.45359237 * pounds, millimetres / 1000
+
+
+def moments(r, mass, radius, strongly):
+    """(∫x²dm, ∫y²dm, ∫z²dm) within the ball: nearly alike, or of three sizes."""
+    shares = (
+        [1.0, r.uniform(0.01, 0.3), r.uniform(0.0, 0.01)] if strongly else [1.0, r.uniform(0.7, 1), r.uniform(0.7, 1)]
+    )
+    r.shuffle(shares)
+    whole = r.uniform(0.3, 0.95) * mass * radius**2 / sum(shares)
+    return [whole * share for share in shares]
+
+
+def principal(r, strongly):
+    told, mass, radius = sized(r)
+    x, y, z = moments(r, mass, radius, strongly)
+    return {"inertia": [float(f"{a:.6g}") for a in (y + z, x + z, x + y)], **told}
+
+
+def pseudo(r, strongly):
+    told, mass, radius = sized(r)
+    return {"mass_tensor": [float(f"{a:.6g}") for a in moments(r, mass, radius, strongly)], **told}
+
+
+def with_units(r):
+    """Moments in kg cm², one of them a fraction."""
+    return {
+        "inertia": [f"{number(r, 50, 60)} kg cm^2", "131/2 kg cm^2", "0.0081"],
+        "mass": "2500 g",
+        "radius": "9.5 cm",
+    }
+
+
+def tensor(r, strongly):
+    """A full tensor of inertia, symmetric to the last bit."""
+    told, mass, radius = sized(r)
+    J, (w, x, y, z) = moments(r, mass, radius, strongly), quaternion(r)
+    Q = [
+        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+    ]
+    second = [[sum(Q[i][k] * J[k] * Q[j][k] for k in range(3)) for j in range(3)] for i in range(3)]
+    told["inertia"] = [
+        [float(f"{(sum(J) if i == j else 0.0) - second[min(i, j)][max(i, j)]:.9g}") for j in range(3)] for i in range(3)
+    ]
+    return told
+
+
+def top(r):
+    """A ball that floats, D = 0, beside a contact term of its own."""
+    return {"mass_tensor": [number(r, 0.5, 2) for _ in range(3)], "D": r.choice([0.0, number(r, 1, 9)]), "radius": 0.5}
+
+
+def homogeneous(r):
+    return {"preset": "homogeneous", **sized(r)[0]}
+
+
+def shell(r):
+    thick = {"thickness": f"{number(r, 1, 20)} mm"} if r.random() < 0.5 else {}
+    return {"preset": "shell", **sized(r)[0], **thick}
+
+
+def dumbbell(r):
+    told, mass, radius = sized(r)
+    inside = {"point_mass": number(r, 0.1, 0.45) * mass, "separation": number(r, 0.5, 1.6) * radius}
+    return {"preset": "dumbbell", **told, **inside, "thickness": 0.1 * radius}
+
+
+def bowling(r):
+    block = {"block_mass": number(r, 0.2, 1.0), "block_size": ["6 cm", 0.04, f"{number(r, 20, 80)} mm"]}
+    offset = [number(r, 0.005, 0.02), number(r, -0.02, 0.02), number(r, 0.01, 0.035)]
+    return {"preset": "bowling", "mass": "15 lb", "radius": "108.5 mm", **block, "block_offset": offset}
+
+
+BODIES = [
+    lambda r: principal(r, False), lambda r: tensor(r, True), lambda r: pseudo(r, True), bowling, with_units,
+    lambda r: tensor(r, False), dumbbell, top, lambda r: principal(r, True), shell, homogeneous,
+]  # fmt: skip
+
+
+def body(r, n):
+    return BODIES[n % len(BODIES)](r)
+
+
+def omega(r, ball=None):
+    """ω in the body, and γ or nothing."""
+    found = {"omega": [number(r, -15, 15) for _ in range(3)]}
+    return found | ({"gamma": direction(r)} if r.random() < 0.8 else {})
+
+
+def in_space(r, ball=None):
+    return {"omega": [number(r, -12, 12) for _ in range(3)], "axes": "space", "attitude": quaternion(r)}
+
+
+def in_space_of_gamma(r, ball=None):
+    return {"omega": [number(r, -12, 12) for _ in range(3)], "axes": "space", "gamma": ["2/7", "-3/7", "6/7"]}
+
+
+def velocity(r, ball=None):
+    found = {"velocity": [number(r, -1.5, 1.5), f"{number(r, 1, 6)} km/h"], "attitude": quaternion(r)}
+    return found | ({"spin": f"{number(r, -150, 150)} rpm"} if r.random() < 0.8 else {})
+
+
+def velocity_of_gamma(r, ball=None):
+    return {"velocity": [f"{number(r, 10, 90)} cm/s", 0.0], "spin": number(r, -20, 20), "gamma": direction(r)}
+
+
+def in_units(r, ball=None):
+    return {
+        "omega": [f"{number(r, 30, 90)} rpm", f"{number(r, -400, 400)} deg/s", number(r, -9, 9)],
+        "gamma": direction(r),
+    }
+
+
+def near_an_axis(r, ball):
+    """Nearly a rotation about the axis of the middle moment, with γ on it: it leaves this near the separatrix."""
+    off = 10.0 ** -r.randint(2, 5)
+    known = ball.get("mass_tensor") or ball.get("inertia") or []
+    axis = sorted(range(3), key=known.__getitem__)[1] if known and isinstance(known[0], float) else r.randrange(3)
+    tilt = [off * r.uniform(-1, 1) if i != axis else 1.0 for i in range(3)]
+    spin = [off * r.uniform(-9, 9) if i != axis else number(r, 6, 12) for i in range(3)]
+    return {"omega": spin, "gamma": [x / math.hypot(*tilt) for x in tilt]}
+
+
+def fast(r, ball=None):
+    """Some thousand turns a minute."""
+    return {"omega": [number(r, -300, 300), f"{number(r, 500, 3000)} rpm", number(r, -300, 300)], "gamma": direction(r)}
+
+
+def slow(r, ball=None):
+    """Of a ball that hardly turns, and rests about two of its axes."""
+    return {"omega": [0.0, number(r, -0.2, 0.2), 0.0], "gamma": direction(r)}
+
+
+STARTS = [
+    omega, velocity, near_an_axis, in_space, in_units, velocity_of_gamma, near_an_axis, in_space_of_gamma, slow, fast,
+]  # fmt: skip
+
+
+def start_of(n):
+    return STARTS[n % len(STARTS)]
+
+
+def vary(r, start, kinds, count):
+    """The same start with ranges in it."""
+    where = r.sample(range(3), len(kinds))
+    for kind, i in zip(kinds, where, strict=True):
+        middle = start["omega"][i]
+        start["omega"][i] = {
+            "linspace": {"linspace": [middle, middle + 1.0, count]},
+            "grid": {"grid": [middle, f"{number(r, 10, 90)} rpm"]},
+            "random": {"random": [middle - 0.5, middle + 0.5]},
+            "normal": {"normal": [middle, 0.25]},
+        }[kind]
+    return start
+
+
+def sweep(r, which):
+    """A start that is swept, and [sweep]: products and draws, of ω, of γ and of an attitude."""
+    drawn = {"samples": r.randint(3, 12), "seed": r.randint(0, 2**31)}
+    if which == 0:
+        return vary(r, omega(r), ["linspace", "grid"], 6), {}
+    if which == 1:
+        return vary(r, in_space(r), ["random", "normal", "linspace"], 3), drawn
+    if which == 2:
+        start = omega(r)
+        start["gamma"] = [{"normal": [x, 0.1]} for x in direction(r)]
+        return start, drawn
+    if which == 3:
+        q = quaternion(r)
+        q[2] = {"random": [-0.5, 0.5]}
+        return {
+            "velocity": [{"grid": [0.2, "1 km/h"]}, 0.3],
+            "spin": {"normal": ["60 rpm", "6 rpm"]},
+            "attitude": q,
+        }, drawn
+    return vary(r, omega(r), ["random"], 0), drawn | {"samples": 100}
+
+
+def rate(start, ball):
+    """About how fast the ball turns, in rad/s, so that its steps can be as long as they are."""
+    if "omega" in start:
+        return max(0.1, math.hypot(*(about(x) for x in start["omega"])))
+    radius = about(ball["radius"])
+    return math.hypot(*(about(x) / radius for x in start["velocity"]), about(start.get("spin", 0.0)))
+
+
+def about(value):
+    """A number, or the first of a range."""
+    return si(next(iter(value.values()))[0]) if isinstance(value, dict) else si(value)
+
+
+def run(r, n, rate, least=0.0):
+    """[run]: dense and sparse frames, in every way to say them; of 0.7 to 250 radians, and at least so many."""
+    turned = max([20.0, 3.0, 80.0, 0.7, 40.0, 250.0, 10.0][n % 7], least)
+    kind = n // 3 % 5
+    length = r.choice([0.004, 0.02, 0.1])
+    step = float(f"{(max(length, turned / 2000) if kind == 0 else length) / rate:.2g}")
+    steps = max(round(turned / rate / step), 12)
+    told = {"time_step": step if r.random() < 0.5 else f"{1000 * step:.6g} ms"}
+    if kind == 0:
+        told |= {"steps": steps}
+    elif kind == 1:
+        told |= {"steps": steps, "every": r.randint(2, 9)}
+    else:
+        frames = {2: r.randint(2, 9), 3: r.randint(100, 400), 4: 1}[kind]
+        every = -(-steps // frames)
+        told |= {"time": float(f"{frames * every * step:.12g}"), "frames": frames}
+    return told | {"outputs": list(FOLLOWED)}
+
+
+def toml(found):
+    """The text of a scene."""
+    lines = [f"{key} = {value(one)}" for key, one in found.items() if not isinstance(one, dict) and key != "ball"]
+    balls = found["ball"] if isinstance(found["ball"], list) else [found["ball"]]
+    head = "[[ball]]" if isinstance(found["ball"], list) else "[ball]"
+    tables = [(head, ball) for ball in balls]
+    tables += [(f"[{key}]", one) for key, one in found.items() if isinstance(one, dict) and key != "ball"]
+    for head, table in tables:
+        lines += ["", head, *(f"{key} = {value(one)}" for key, one in table.items())]
+    return "\n".join(lines) + "\n"
+
+
+def value(one):
+    """A value as TOML writes it."""
+    if isinstance(one, dict):
+        return "{ " + ", ".join(f"{key} = {value(part)}" for key, part in one.items()) + " }"
+    if isinstance(one, list):
+        return "[" + ", ".join(map(value, one)) + "]"
+    return f'"{one}"' if isinstance(one, str) else repr(one)
