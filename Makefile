@@ -26,7 +26,7 @@ verify: $(VENV)/.installed
 test: $(VENV)/.installed
 	$(BIN)/python -m pytest -n auto
 
-# Random seeds, ten times the examples of each property, the slow cells of the extremes, slips judged by more claims, more processes.
+# Random seeds, ten times the examples of each property, the slow cells of the extremes, slips judged by more claims, more processes, more scenes.
 thorough: $(VENV)/.installed
 	$(BIN)/python -m pytest -n auto --thorough
 
