@@ -105,14 +105,12 @@ def test_a_momentum_of_one_step_stays_the_map(name):
     np.testing.assert_allclose(result["gamma"], found.gamma, atol=1e-11)
 
 
-@pytest.mark.xfail(reason="the default is the map, until it is the motion", strict=True)
 @pytest.mark.parametrize("name", QUICK)
 def test_a_scene_gives_the_motion(name):
     row = judge(name)
     assert row.worst <= DEFAULT, f"\n{motion_judge.HEAD}\n{row.line()}"
 
 
-@pytest.mark.xfail(reason="the default is the map, until it is the motion", strict=True)
 def test_every_scene_gives_the_motion(thorough):
     if not thorough:
         pytest.skip("some do; make thorough takes all")
