@@ -20,6 +20,8 @@ from chapsym.dynamics import BadInput, Ball, Status, Trajectory, is_steady, kern
 from chapsym.dynamics.ball import Asked, Floats
 from chapsym.dynamics.results import FRAMES
 
+#: What an accuracy may be of.
+PARTS = frozenset({"momentum", "gamma", "omega", "energy", "attitude", "contact"})
 #: The accuracy where none is asked for: nobody sees or measures an error of that size.
 DEFAULT = 1e-6
 #: What double precision can be asked for; rounding may take this part of an accuracy.
@@ -28,9 +30,8 @@ FINEST, ROUNDING = 1e-12, 0.5
 LAW, MARGIN = {2: 0.16, 4: 4.8e-3, 6: 1.9e-3, 8: 1.5e-5}, 0.1
 #: How many times as large as Richardson's rule says an error is taken to be, and by which ratio steps are compared.
 SAFETY, RATIO = 4.0, 1.5
-#: A run that fails is tried again with so many times the steps at most, and three times so; or with so many where a
-#: step could not be taken, so that nothing is known.
-MOST_FINER, UNKNOWN = 4.0, 1.5
+#: Runs that are tried, and how many times the steps of one, at least and at most, the next of the same order has.
+ATTEMPTS, LEAST_FINER, MOST_FINER = 8, 1.2, 4.0
 #: Balls whose steps differ by less than this ratio run abreast.
 ALIKE = 1.3
 #: So many balls are verified one by one; of more a sample of so many, the quickest and the slowest with it.
@@ -86,6 +87,7 @@ class Problem:
 
     attitude: (n, 4) or None, where it is not followed.  contact: whether it is.
     metres: whether the accuracy is of the contact point, in metres, and of nothing else.
+    parts: what the accuracy is of, where it is not in metres.
     """
 
     ball: Ball
@@ -97,6 +99,7 @@ class Problem:
     attitude: Asked
     contact: bool
     metres: bool = False
+    parts: frozenset[str] = PARTS
     threads: int = 0
 
     def __len__(self) -> int:
@@ -109,7 +112,7 @@ class Problem:
         attitude = None if self.attitude is None else self.attitude[some]
         return Problem(
             few, self.K[some], self.gamma[some], self.interval, self.frames, self.accuracy, attitude, self.contact,
-            self.metres, self.threads,
+            self.metres, self.parts, self.threads,
         )  # fmt: skip
 
     @property
@@ -228,14 +231,15 @@ def _error(problem: Problem, order: int, step: float) -> Floats:
     return np.asarray(LAW[order] * (rate * step) ** order * (1 + rate * problem.end) * problem.unit)
 
 
-def _first(problem: Problem, order: int) -> Floats:
-    """The steps between two frames by the law, of each ball; not rounded."""
-    return np.asarray((_error(problem, order, problem.interval) / (MARGIN * problem.accuracy)) ** (1 / order))
+def _first(problem: Problem, order: int, factor: float = 1.0) -> Floats:
+    """The steps between two frames by the law, times `factor`, of each ball; not rounded."""
+    expected = factor * _error(problem, order, problem.interval)
+    return np.asarray((expected / (MARGIN * problem.accuracy)) ** (1 / order))
 
 
-def _cheapest(problem: Problem) -> Method:
+def _cheapest(problem: Problem, factor: float = 1.0) -> Method:
     """The order of the fewest stages that is expected to do for all balls."""
-    found = [Method(p, _whole(problem, float(_first(problem, p).max()))) for p in LAW]
+    found = [Method(p, _whole(problem, float(_first(problem, p, factor).max()))) for p in LAW]
     return min(found, key=lambda method: method.stages)
 
 
@@ -260,7 +264,9 @@ def _follow(problem: Problem, group: np.ndarray, found: Motion, progress: Callab
     picked = np.unique(np.linspace(0, len(order) - 1, SAMPLE).astype(int))
     sample, others = order[picked], np.delete(order, picked)
     _settle(problem, sample, found, None, lambda part: None)
-    method = max((Method(int(found.order[i]), int(found.steps[i])) for i in sample), key=lambda one: one.stages)
+    if (fewer := _fewer(problem, sample, found)) is not None:
+        _settle(problem, sample, found, fewer, lambda part: None)
+    method = _worst(sample, found)
     rest = problem.of(others)
     run = rest.take(method, progress=lambda steps: progress(steps / (method.steps * problem.frames)))
     told = _by_sample(problem, sample, others, found, rest, run)
@@ -270,6 +276,19 @@ def _follow(problem: Problem, group: np.ndarray, found: Motion, progress: Callab
     for some in (doubtful, stopped):
         if len(some):
             _settle(problem, some, found, Method(method.order, math.ceil(ALIKE * method.steps)), lambda part: None)
+
+
+def _worst(sample: np.ndarray, found: Motion) -> Method:
+    """The method of the ball that needs most."""
+    return max((Method(int(found.order[i]), int(found.steps[i])) for i in sample), key=lambda one: one.stages)
+
+
+def _fewer(problem: Problem, sample: np.ndarray, found: Motion) -> Method | None:
+    """Fewer steps of the same order that will do by what the sample showed; None if there are none."""
+    method, error = _worst(sample, found), float(np.nanmax(found.error[sample], initial=0.0))
+    allowed = SAFETY * MARGIN * problem.accuracy
+    steps = _whole(problem, method.steps * (error / allowed) ** (1 / method.order))
+    return Method(method.order, steps) if steps < method.steps else None
 
 
 def _by_sample(
@@ -297,19 +316,38 @@ def _settle(
 
     A ball that more steps do not help keeps the error that it has: rounding alone is larger than the accuracy.
     """
-    method, left = first or _cheapest(problem.of(some)), some
-    most = MOST_FINER**3 * method.steps
-    while len(left):
+    method, left, factor = first or _cheapest(problem.of(some)), some, 1.0
+    for attempt in range(ATTEMPTS):
         part = problem.of(left)
         run = part.take(method, progress=lambda steps, one=method: progress(OWN * steps / (one.steps * problem.frames)))  # type: ignore[misc]
         stepped, rounded = _verified(part, method, run)
         error = stepped + rounded
-        there = (error <= problem.accuracy) | (stepped <= ROUNDING * problem.accuracy) | (method.steps >= most)
+        there = (error <= problem.accuracy) | (stepped <= ROUNDING * problem.accuracy) | (rounded > problem.accuracy)
+        there |= attempt + 1 == ATTEMPTS
         told = np.where(run.status == Status.TAKEN, error, np.nan)
         _put(found, left[there], _some(run, there), method, told[there])
-        left, worst = left[~there], float(error[~there].max(initial=0.0))
-        more = (worst / (2 * MARGIN * problem.accuracy)) ** (1 / method.order) if worst < math.inf else UNKNOWN
-        method = Method(method.order, max(math.ceil(min(more, MOST_FINER) * method.steps), method.steps + 1))
+        if there.all():
+            return
+        left, part = left[~there], problem.of(left[~there])
+        if np.isfinite(stepped[~there]).all():
+            factor = max(factor, _learnt(part, method, stepped[~there]))
+            method = _more(method, _cheapest(part, factor))
+        else:  # a ball that stopped tells nothing
+            method = Method(method.order, 2 * method.steps)
+
+
+def _learnt(problem: Problem, method: Method, error: Floats) -> float:
+    """How many times as large as the law says the errors are."""
+    expected = _error(problem, method.order, problem.interval / method.steps)
+    return float((error / (SAFETY * expected)).max(initial=1.0))
+
+
+def _more(method: Method, wanted: Method) -> Method:
+    """What to try next: of the same order neither hardly more steps nor very many more."""
+    if wanted.order != method.order:
+        return wanted
+    least, most = math.ceil(LEAST_FINER * method.steps), math.ceil(MOST_FINER * method.steps)
+    return Method(method.order, min(max(wanted.steps, least), most))
 
 
 @np.errstate(all="ignore")  # the law may give 0
@@ -327,7 +365,7 @@ def _verified(problem: Problem, method: Method, run: Trajectory) -> tuple[Floats
     off = apart(problem, run, problem.take(Method(method.order, fewer), stride), stride).max(axis=-1)
     off = np.where(np.isnan(off), np.inf, off) * problem.frames / (problem.frames // stride * stride)
     expected = _error(problem, method.order, stride * problem.interval / fewer)
-    rounded = floor + np.fmin(floor * np.maximum(off / expected, 1.0), off)
+    rounded = floor + np.where(np.isinf(off), 0.0, np.fmin(floor * np.maximum(off / expected, 1.0), off))
     return off * min(SAFETY / (ratio**method.order - 1), 1.0), rounded
 
 
@@ -335,8 +373,9 @@ def _verified(problem: Problem, method: Method, run: Trajectory) -> tuple[Floats
 def apart(problem: Problem, run: Trajectory | Motion, other: Trajectory, stride: int = 1) -> Floats:
     """How far two runs are apart at each common frame, (n, frames): other has every `stride`-th frame of run.
 
-    The largest of |ΔK|/|K|, |Δγ|, |Δω| over the largest |ω| of the ball, the angle between the attitudes in radians,
-    and the distance of the contact points in radii; or, if the accuracy is in metres, that distance in metres.
+    The largest of the parts that are asked for: |ΔK|/|K|, |Δγ|, |Δω| over the largest |ω| of the ball, the difference
+    of the energies over that at the start, the angle between the attitudes in radians, and the distance of the contact
+    points in radii; or, if the accuracy is in metres, that distance in metres.
     """
 
     def length(a: Floats) -> Floats:
@@ -346,16 +385,23 @@ def apart(problem: Problem, run: Trajectory | Motion, other: Trajectory, stride:
     if problem.metres:
         return length(run.contact[:, ::stride] - other.contact)
     mine = run.angular_momentum if isinstance(run, Motion) else run.angular_momentum()
-    K, L = mine[:, ::stride], other.angular_momentum()
-    gamma = run.gamma[:, ::stride]
-    omega = _omega(problem, K, gamma)
-    size, quickest = length(problem.K)[:, np.newaxis], np.nanmax(length(omega), axis=-1, keepdims=True)
-    found = [length(gamma - other.gamma)]
-    found += [_over(length(K - L), size), _over(length(omega - _omega(problem, L, other.gamma)), quickest)]
-    if problem.attitude is not None:
+    K, L, gamma = mine[:, ::stride], other.angular_momentum(), run.gamma[:, ::stride]
+    found, parts = [np.zeros(gamma.shape[:2])], problem.parts
+    if "gamma" in parts:
+        found.append(length(gamma - other.gamma))
+    if "momentum" in parts:
+        found.append(_over(length(K - L), length(problem.K)[:, np.newaxis]))
+    if "omega" in parts or "energy" in parts:
+        omega, there = _omega(problem, K, gamma), _omega(problem, L, other.gamma)
+        energy, other_energy = (K * omega).sum(axis=-1), (L * there).sum(axis=-1)
+        if "omega" in parts:
+            found.append(_over(length(omega - there), np.nanmax(length(omega), axis=-1, keepdims=True)))
+        if "energy" in parts:
+            found.append(_over(abs(energy - other_energy), energy[:, :1]))
+    if "attitude" in parts and problem.attitude is not None:
         q, p = run.attitude[:, ::stride], other.attitude
         found.append(4 * np.arcsin(np.minimum(np.minimum(length(q - p), length(q + p)) / 2, 1.0)))
-    if problem.contact:
+    if "contact" in parts and problem.contact:
         found.append(length(run.contact[:, ::stride] - other.contact) / radius)
     return np.asarray(np.max(found, axis=0))
 

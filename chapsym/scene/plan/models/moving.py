@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from chapsym.accuracy.motion import FINEST, Problem, moved
+from chapsym.accuracy.motion import FINEST, PARTS, Problem, moved
 from chapsym.dynamics import Ball
 from chapsym.dynamics.attitudes import attitude_with
 
@@ -66,5 +66,11 @@ class Moving(Model):
             attitude = attitude_with(members.gamma) if members.attitude is None else members.attitude
         return Problem(
             members.ball, members.momentum / task.scale, members.gamma, task.interval, task.frames - 1, task.accuracy,
-            attitude, "contact" in needed, metres=task.of == "contact" and "contact" in needed,
+            attitude, "contact" in needed, task.of == "contact" and "contact" in needed, _parts(task.outputs),
         )  # fmt: skip
+
+
+def _parts(outputs: tuple[str, ...]) -> frozenset[str]:
+    """What of the motion is kept, and so has the accuracy."""
+    made = {"momentum", "gamma"} if any(name not in PARTS for name in outputs) else set()
+    return PARTS & (made | set(outputs))
