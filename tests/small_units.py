@@ -2,6 +2,7 @@
 
 import sys
 import time
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 
@@ -53,6 +54,22 @@ def plan(outputs=OUTPUTS, scene="", steps=STEPS, seed=7, n=BALLS):
     return replace(
         SmallUnits(whole.members, whole.task, whole.model, whole.needed, whole.refused), scene=scene, seed=seed
     )
+
+
+def interrupted(path, monkeypatch, after, wanted=None):
+    """A store of which `after` units are written."""
+    done = iter(range(after))
+    real = segments.advance
+
+    def advance(*args):
+        if next(done, None) is None:
+            raise KeyboardInterrupt
+        return real(*args)
+
+    with monkeypatch.context() as patched:
+        patched.setattr(segments, "advance", advance)
+        with suppress(KeyboardInterrupt):
+            sweep.run_to_store(wanted or plan(), path)
 
 
 def equal_to_the_bit(one, other):

@@ -36,11 +36,15 @@ def show(
     """
     if form not in FORMATS:
         fail(f"--format {form}: give svg, png or both", 2)
-    folder = output or result.with_name(f"{result.name.removesuffix(result.suffix)}-figures")
-    written, missing = _pictures(result, folder, FORMATS[form], ball, names, page)
+    # One for each result: a.csv and a.parquet are two.  A scene is known by its stem.
+    folder = output or result.with_name(f"{result.name.removesuffix('.toml')}-figures")
+    written, missing, so_far = _pictures(result, folder, FORMATS[form], ball, names, page)
     if as_json:
-        print_json({"folder": str(folder), "files": [str(path) for path in written], "missing": missing})
+        files = [str(path) for path in written]
+        print_json({"folder": str(folder), "files": files, "missing": missing, "unfinished": so_far})
     else:
+        if so_far is not None:
+            print(f"{result} is unfinished: {so_far}")
         for path in written:
             print(path)
         for name, reason in missing.items():
@@ -54,12 +58,13 @@ def show(
 
 def _pictures(
     result: Path, folder: Path, formats: tuple[str, ...], ball: str | None, names: str | None, page: bool | None
-) -> tuple[list[Path], dict[str, str]]:
-    """Writes what was asked for; the files, and why each figure that is missing is."""
+) -> tuple[list[Path], dict[str, str], str | None]:
+    """Writes what was asked for; the files, why each figure that is missing is, and how much of the run there is."""
     from chapsym.show import figures
     from chapsym.show.drawing import reading
 
     dataset = reading.with_balls(_opened(result, folder), ball)
+    reading.begun(dataset)
     reasons = figures.available(dataset)
     wanted = _named(names, list(reasons)) if names else [name for name, reason in reasons.items() if reason is None]
     written = figures.save_all(dataset, folder, formats, names=wanted)
@@ -70,7 +75,7 @@ def _pictures(
             written.append(folder / "page.html")
         else:
             missing["page"] = reason
-    return written, missing
+    return written, missing, reading.unfinished(dataset)
 
 
 def _named(names: str, known: list[str]) -> list[str]:

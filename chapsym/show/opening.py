@@ -39,7 +39,7 @@ def save(dataset: Dataset, path: Path) -> None:
             # As the store of a run: other readers may not know its one file of metadata.
             warnings.filterwarnings("ignore", message="Consolidated metadata")
             whole = Path(temporary) / "whole"
-            dataset.assign_attrs(complete=True).to_zarr(whole, consolidated=True, zarr_format=3)
+            dataset.assign_attrs({"complete": True} | dataset.attrs).to_zarr(whole, consolidated=True, zarr_format=3)
             whole.rename(path)
     except OSError as error:
         raise SceneError(f"{path} cannot be written: {error.strerror or error}") from None

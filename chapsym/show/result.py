@@ -88,7 +88,8 @@ class Result:
         title = escape(str(self.dataset.attrs.get("title") or ""))
         cell = 'style="text-align: left; padding: 0.1em 1em 0.1em 0"'
         rows = "".join(f"<tr><th {cell}>{escape(k)}</th><td {cell}>{escape(v)}</td></tr>" for k, v in self.rows())
-        drawable = None in self.figures().values()
+        begun = (reading.last_frames(reading.with_balls(self.dataset)) >= 0).any()
+        drawable = begun and None in self.figures().values()
         picture = self.figure().svg() if drawable else ""
         caption = f"<caption {cell}>{title}</caption>" if title else ""
         return f"<table>{caption}<tbody>{rows}</tbody></table>{picture}"
@@ -132,6 +133,7 @@ def _rows(dataset: "Dataset") -> list[tuple[str, str]]:
         ("ball" if len(names) == 1 else "balls", "" if balls == "ball" else balls),
         ("varied", varied),
         ("frames", _frames(dataset)),
+        ("unfinished", reading.unfinished(dataset) or ""),
         ("model", str(dataset.attrs.get("model", ""))),
         ("stored", ", ".join(stored)),
         ("drift", _drift(dataset)),

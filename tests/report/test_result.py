@@ -8,8 +8,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 import results
+import small_units
 from commands import refused
-from first import BALL
+from first import BALL, FIRST
 
 import chapsym
 from chapsym.dynamics import BadInput
@@ -121,6 +122,41 @@ def test_the_command_draws_a_result_with_its_page(tmp_path, show):
     assert [Path(name).name for name in told["files"]] == names
     assert set(told["missing"]) == {"spheres", "spread", "rotation", "phase", "omega"}
     assert all(Path(name).stat().st_size > 1000 for name in told["files"])
+
+
+def test_half_a_run_is_drawn_and_says_how_much_there_is(tmp_path, monkeypatch, show):
+    """Balls that have not begun are not counted as stopped; what is saved of it stays half a run."""
+    small_units.interrupted(tmp_path / "half.zarr", monkeypatch, 9)
+    done = show(tmp_path / "half.zarr", "-o", tmp_path / "p", "--figures", "contact", "--page")
+    assert done.returncode == 0, done.stderr
+    told = re.search(r"half\.zarr is unfinished: (\d+ % of the run, \d+ of 20 balls to their ends)\n", done.stdout)[1]
+    assert 0 < int(told.split()[0]) < 50
+    assert f"the run is not finished: {told} can be shown" in (tmp_path / "p" / "page.html").read_text(encoding="utf-8")
+    half = chapsym.open_result(tmp_path / "half.zarr")
+    assert dict(half.rows())["unfinished"] == told
+    assert half.figure("contact").get_suptitle().startswith(told)
+    stopped = int((half.dataset.status.values > 0).sum())
+    assert dict(half.rows())["balls"] == "20" + (f", {stopped} of them stopped early" if stopped else "")
+    for suffix in (".zarr", ".nc", ".npz"):
+        half.save(tmp_path / f"saved{suffix}")
+        assert dict(chapsym.open_result(tmp_path / f"saved{suffix}").rows())["unfinished"] == told
+
+
+def test_a_run_of_which_no_ball_has_begun_is_shown_as_a_table_only(tmp_path, monkeypatch):
+    small_units.interrupted(tmp_path / "none.zarr", monkeypatch, 0)
+    assert "no ball of this result has run yet" in refused("show", tmp_path / "none.zarr", "-o", tmp_path / "p")
+    assert "<svg" not in chapsym.open_result(tmp_path / "none.zarr")._repr_html_()
+
+
+def test_each_result_has_a_folder_of_its_own_and_the_first_scene_its_page(tmp_path, command, show):
+    for suffix in ("npz", "csv"):
+        assert command("run", FIRST, "-o", tmp_path / f"first.{suffix}").returncode == 0
+    folders = [
+        Path(json.loads(show(tmp_path / f"first.{end}", "--json", "--figures", "contact", "--page").stdout)["folder"])
+        for end in ("npz", "csv")
+    ]
+    assert len(set(folders)) == 2
+    assert all((folder / "page.html").exists() for folder in folders)
 
 
 def test_the_command_draws_what_is_named(tmp_path, show):

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 import xarray
 import zarr
-from small_units import EVERY, OUTPUTS, STEPS, UNITS, equal_to_the_bit, plan
+from small_units import EVERY, OUTPUTS, STEPS, UNITS, equal_to_the_bit, interrupted, plan
 from waiting import GUARD, until
 
 from chapsym.dynamics import BadInput, Status
@@ -143,22 +143,6 @@ def test_every_moment_of_the_creation_may_be_the_last(whole, tmp_path, monkeypat
     sweep.run_to_store(plan(), path)
     assert [p.name for p in tmp_path.iterdir()] == ["run.zarr"]
     equal_to_the_bit(opened(path), whole)
-
-
-def interrupted(path, monkeypatch, after, wanted=None):
-    """A store of which `after` units are written."""
-    done = iter(range(after))
-    real = segments.advance
-
-    def advance(*args):
-        if next(done, None) is None:
-            raise KeyboardInterrupt
-        return real(*args)
-
-    with monkeypatch.context() as patched:
-        patched.setattr(segments, "advance", advance)
-        with pytest.raises(KeyboardInterrupt):
-            sweep.run_to_store(wanted or plan(), path)
 
 
 @pytest.mark.parametrize(

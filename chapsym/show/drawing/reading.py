@@ -6,6 +6,7 @@ import numpy as np
 
 from chapsym.dynamics import BadInput, Status
 from chapsym.dynamics.ball import Floats
+from chapsym.scene.result.dataset import NOT_RUN
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -37,6 +38,17 @@ def begun(dataset: "Dataset") -> "Dataset":
     if not there.any():
         raise BadInput("no ball of this result has run yet: resume the run first")
     return dataset if there.all() else dataset.isel(ball=there)
+
+
+def unfinished(dataset: "Dataset") -> str | None:
+    """How much there is of a run that was interrupted, such as "40 % of the run"; None where it came to its end."""
+    if dataset.attrs.get("complete", True) or "frame" not in dataset.dims:
+        return None
+    there, ended = reached(dataset), stopped(dataset)
+    ended = ended | there.all(axis=1)
+    share = int(100 * np.where(ended[:, np.newaxis], True, there).mean())
+    balls = f", {ended.sum()} of {len(ended)} balls to their ends" if len(ended) > 1 else ""
+    return None if ended.all() else f"{share} % of the run{balls}"
 
 
 def literal(text: str) -> str:
@@ -116,7 +128,7 @@ def stopped(dataset: "Dataset") -> np.ndarray:
     """Which balls stopped early, (balls,)."""
     if "status" not in dataset:
         return np.zeros(dataset.sizes["ball"], dtype=bool)
-    return np.asarray(np.atleast_1d(dataset["status"].values) != int(Status.TAKEN))
+    return ~np.isin(np.atleast_1d(dataset["status"].values), (int(Status.TAKEN), NOT_RUN))
 
 
 def last_frames(dataset: "Dataset") -> np.ndarray:

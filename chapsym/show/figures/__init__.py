@@ -39,6 +39,9 @@ def draw(dataset: "Dataset", name: str, ball: str | int | None = None) -> "Pictu
     if name not in FIGURES:
         raise BadInput(f"there is no figure {name!r}; choose of {', '.join(FIGURES)}")
     chosen = reading.with_balls(dataset, ball)
+    so_far = reading.unfinished(chosen)
+    if so_far is not None:
+        chosen = chosen.assign_attrs(title=f"{so_far}: {chosen.attrs.get('title') or 'a result'}")
     reason = _missing(chosen, name)
     if reason is not None:
         raise BadInput(f"{name}: {reason}")

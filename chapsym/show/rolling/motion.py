@@ -10,6 +10,7 @@ from xarray import Dataset
 from chapsym.dynamics import BadInput, Status, kernels
 from chapsym.dynamics.ball import Floats
 
+from ..drawing import reading
 from . import turning
 
 #: So many balls are told apart by their colours.
@@ -66,7 +67,11 @@ def motion(dataset: Dataset, balls: Sequence[str | int] | None = None) -> Motion
     """
     dataset = dataset if "ball" in dataset.dims else dataset.expand_dims("ball")
     _check_drawable(dataset)
+    so_far = reading.unfinished(dataset)
+    dataset = dataset if so_far is None or balls is not None else reading.begun(dataset)
     chosen, notes = _chosen(dataset, balls)
+    if so_far is not None:
+        notes.append(f"the run is not finished: {so_far} can be shown")
     part = dataset.isel(ball=chosen)
     radius = _numbers(part, "radius") if "radius" in part else np.full(len(chosen), np.nan)
     names = _names(dataset)
@@ -97,7 +102,7 @@ def motion(dataset: Dataset, balls: Sequence[str | int] | None = None) -> Motion
         rolling = _rolling(
             one, names[ball], attitude[i, :end], contact[i, :end], spot, float(radius[i]), kept[kept < end]
         )
-        rolling.notes.extend(_stopped(one, end == len(clock)))
+        rolling.notes.extend(_stopped(one, end == len(clock) or so_far is not None))
         found.append(rolling)
     return Motion(clock[kept], "s" if timed else "steps", found, notes)
 
