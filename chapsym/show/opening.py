@@ -39,6 +39,10 @@ def save(dataset: Dataset, path: Path) -> None:
             # As the store of a run: other readers may not know its one file of metadata.
             warnings.filterwarnings("ignore", message="Consolidated metadata")
             whole = Path(temporary) / "whole"
+            # Of a part of another .zarr the chunks do not fit those of its files.
+            dataset = dataset.drop_encoding().unify_chunks()
+            if dataset.chunks:
+                dataset = dataset.chunk({dim: max(lengths) for dim, lengths in dataset.chunks.items()})
             dataset.assign_attrs({"complete": True} | dataset.attrs).to_zarr(whole, consolidated=True, zarr_format=3)
             whole.rename(path)
     except OSError as error:

@@ -29,7 +29,10 @@ MOST = 10_000_000
 
 @dataclass(frozen=True, eq=False)
 class Result:
-    """The result of a scene: `dataset`, an xarray.Dataset with dimensions `ball` and `frame`, and its pictures."""
+    """The result of a scene: `dataset`, an xarray.Dataset with dimensions `ball` and `frame`, and its pictures.
+
+    Frames are found by their time: `result.dataset.sel(time=5.0, method="nearest")`.
+    """
 
     dataset: "Dataset"
 

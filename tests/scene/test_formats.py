@@ -14,6 +14,7 @@ from chapsym.scene import SceneError, load
 from chapsym.scene.result import formats
 from chapsym.scene.running import sweep
 from chapsym.scene.running.source import plan_from, plan_of
+from chapsym.show import opening
 
 FILES = [".nc", ".csv", ".parquet", ".npz"]
 
@@ -145,6 +146,31 @@ def test_a_npz_of_one_ball_is_plain_arrays_of_frames(tmp_path):
         assert found["momentum"].shape == (5, 3)
         assert found["time"].tolist() == data.time.values.tolist()
         assert found["radius"] == 0.5
+
+
+@pytest.mark.parametrize("suffix", [*FILES, ".zarr", None])
+def test_a_frame_is_found_by_its_time_in_memory_and_from_every_format(tmp_path, suffix):
+    """And what was chosen by time can be saved."""
+    wanted = plan(("momentum",), n=4)
+    if suffix is None:
+        found = sweep.run_in_memory(wanted)
+    elif suffix == ".zarr":
+        sweep.run_to_store(wanted, tmp_path / "run.zarr")
+        found = formats.load(tmp_path / "run.zarr")
+    else:
+        formats.save(sweep.run_in_memory(wanted), tmp_path / f"run{suffix}")
+        found = formats.load(tmp_path / f"run{suffix}")
+    assert found.sel(time=1.04, method="nearest").step == 100
+    part = found.sel(time=slice(0.95, 1.95))
+    assert part.step.values.tolist() == list(range(100, 200, 10))
+    opening.save(part, tmp_path / f"part{suffix or '.nc'}")
+    equal_to_the_bit(formats.load(tmp_path / f"part{suffix or '.nc'}").load(), part.load())
+
+
+def test_without_times_a_frame_is_found_by_its_step():
+    data = sweep.run_in_memory(plan_of(load(OLD / "scene.toml").with_run(time_step=None)))
+    assert data.sel(step=5, method="nearest").step in (4, 6)
+    assert "time" not in data.coords
 
 
 KINDS = {

@@ -100,7 +100,16 @@ def build(plan: Plan, columns: Mapping[str, Any], state: Mapping[str, Any]) -> "
     coords.update(_moments(plan))
     for key, parameter in plan.members.parameters.items():
         coords[key] = ("ball", parameter.values, {"units": parameter.units, "long_name": key})
-    return xarray.Dataset(variables, coords, provenance(plan) | attributes(plan))
+    return with_clock(xarray.Dataset(variables, coords, provenance(plan) | attributes(plan)))
+
+
+def with_clock(data: "Dataset") -> "Dataset":
+    """A result whose frames are found by their `time`, or where there is none by their `step`.
+
+    `data.sel(time=5.0, method="nearest")` is the frame next to 5 s, `data.sel(time=slice(1, 2))` are those between.
+    """
+    name = next((name for name in ("time", "step") if name in data.coords and data[name].dims == ("frame",)), None)
+    return data if name is None or name in data.xindexes else data.set_xindex(name)
 
 
 def _moments(plan: Plan) -> dict[Hashable, Any]:

@@ -14,6 +14,7 @@ from chapsym import files
 from ..plan.plan import Plan
 from ..read.errors import SceneError
 from . import old
+from .dataset import with_clock
 from .flat import arrays_of, assembled, batches, from_arrays, plain, structure
 from .group import check_ours
 
@@ -76,8 +77,9 @@ def save(data: "Dataset", path: Path) -> None:
 
 
 def load(path: Path) -> "Dataset":
-    """A result as `chapsym run` wrote it, whatever its format; from Zarr its values are read when they are needed.
+    """A result as `chapsym run` wrote it, whatever its format, its frames found by `time`, as those of a run in memory.
 
+    From Zarr its values are read when they are needed.
     Raises SceneError if there is no such result.
     """
     read = _READERS.get(path.suffix)
@@ -87,7 +89,7 @@ def load(path: Path) -> "Dataset":
         raise SceneError(f"{path} is a pipe, not a file with a result")
     try:
         path.stat()
-        data = read(path)
+        data = with_clock(read(path))
     except SceneError:
         raise
     except OSError as error:
