@@ -14,6 +14,7 @@ import numpy as np
 from chapsym.dynamics import kernels
 from chapsym.scene.result import formats
 from chapsym.scene.result.far import sentence
+from chapsym.scene.result.grid import grid
 
 from . import figures, opening
 from .drawing import reading
@@ -71,6 +72,13 @@ class Result:
         from .rolling import write_page
 
         write_page(self.dataset, path, balls=None if ball is None else [ball])
+
+    def grid(self) -> "Dataset":
+        """The dataset of a sweep with a dimension for each range in the place of `ball`, and `sample` for the draws.
+
+        `grid()["energy"].sel({"start.omega.1": 3.0}, method="nearest")`; raises SceneError for a part of a sweep.
+        """
+        return grid(self.dataset)
 
     def rows(self) -> list[tuple[str, str]]:
         """The short table: what was rolled, for how long, what was stored, and how far the integrals drifted."""

@@ -71,6 +71,12 @@ class Body:
             return self.ball.name
         return "ball" if len(self.scene.ball) == 1 else f"ball {self.index + 1}"
 
+    @property
+    def names(self) -> tuple[str, ...]:
+        """What each of its balls is called: those of a sweep are numbered."""
+        sweep = self.sweep()
+        return tuple(f"{self.name} {i}" for i in range(1, len(sweep) + 1)) if sweep.ranges else (self.name,)
+
     def sweep(self) -> Sweep:
         """Its ranges, those of the ball first."""
         found: dict[str, Range] = {}
@@ -89,8 +95,7 @@ class Body:
     def members(self) -> Members:
         """Its members; raises SceneError with the name of the first that cannot be."""
         sweep = self.sweep()
-        values, count = sweep.values(), len(sweep)
-        names = (self.name,) if not values else tuple(f"{self.name} {i}" for i in range(1, count + 1))
+        values, count, names = sweep.values(), len(sweep), self.names
         parameters = {key: Parameter(array, units_of(key)) for key, array in values.items()}
 
         def made(chosen: slice) -> Members:

@@ -185,6 +185,15 @@ def checked(data: dict[str, Any], name: str = "", text: str | None = None) -> Sc
     return scene
 
 
+def from_source(text: str) -> Scene:
+    """The scene of a text, `Scene.source`, TOML or JSON; raises SceneError where it is none."""
+    try:
+        data = json.loads(text) if text.lstrip().startswith("{") else tomllib.loads(text, parse_float=toml_float)
+    except (ValueError, RecursionError):
+        raise SceneError("this plan has no scene that it could be made of again") from None
+    return checked(data)
+
+
 def _plain(value: Any) -> Any:
     """Without NumPy's types."""
     if isinstance(value, dict):

@@ -1,13 +1,10 @@
 """From a scene, or its text, to the plan of its run: what a worker of a cluster is sent is the text."""
 
-import json
-import tomllib
 from dataclasses import replace
 
 from ..members.expand import expand
 from ..plan.plan import Plan, planned
-from ..read.errors import SceneError
-from ..read.scene import Scene, checked, toml_float
+from ..read.scene import Scene, from_source
 
 
 def plan_of(scene: Scene) -> Plan:
@@ -19,8 +16,4 @@ def plan_of(scene: Scene) -> Plan:
 
 def plan_from(text: str) -> Plan:
     """The plan of a scene from its text, `Plan.scene`: TOML, or JSON of a dict."""
-    try:
-        data = json.loads(text) if text.lstrip().startswith("{") else tomllib.loads(text, parse_float=toml_float)
-    except ValueError:
-        raise SceneError("this plan has no scene that it could be made of again") from None
-    return replace(plan_of(checked(data)), scene=text)
+    return replace(plan_of(from_source(text)), scene=text)
