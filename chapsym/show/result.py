@@ -167,13 +167,13 @@ def _frames(dataset: "Dataset") -> str:
 
 def _drift(dataset: "Dataset") -> str:
     """The largest relative change of the momentum integrals, from what is stored."""
+    from .figures import integrals
     from .figures.change import relative
-    from .figures.integrals import sizes
 
     if not reading.reached(dataset).any():
         return ""
-    if "integrals" in dataset and "integral" in dataset.coords and dataset["integrals"].size < MOST:
-        found, names = reading.values(dataset, "integrals"), [str(name) for name in dataset["integral"].values]
+    if integrals.missing(dataset) is None and dataset.sizes["ball"] * dataset.sizes["frame"] < MOST:
+        found, names = integrals.stored(dataset)
     elif {"momentum", "gamma"} <= set(dataset.data_vars) and "row" not in dataset.dims and dataset["gamma"].size < MOST:
         momentum, gamma = reading.values(dataset, "momentum"), reading.values(dataset, "gamma")
         there = np.isfinite(gamma).all(axis=-1, keepdims=True)
@@ -182,6 +182,6 @@ def _drift(dataset: "Dataset") -> str:
         found, names = np.where(there, found, np.nan), ["K.gamma", "K.K", "gamma.gamma"]
     else:
         return ""
-    changes = [relative(found[..., i], size) for i, size in enumerate(sizes(found[:, 0], names))]
+    changes = [relative(found[..., i], size) for i, size in enumerate(integrals.sizes(found[:, 0], names))]
     largest = max(float(np.nanmax(np.abs(change), initial=0.0)) for change in changes)
     return f"{largest:.1e} at most, of the momentum integrals, relatively"

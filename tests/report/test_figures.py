@@ -15,7 +15,7 @@ from chapsym import files
 from chapsym.dynamics import BadInput
 from chapsym.show import figures
 from chapsym.show.drawing import reading, series
-from chapsym.show.figures import change, phase
+from chapsym.show.figures import change, integrals, phase
 from chapsym.show.result import Result
 
 GAMMA = (0.48, 0.6, 0.64)
@@ -295,6 +295,19 @@ def test_a_figure_and_a_ball_are_chosen_by_name_or_index():
         (line,) = lines(figures.draw(dataset, "contact", ball).axes[0])
         assert (line.get_xdata() == dataset["contact"].values[0, :, 0]).all()
     assert figures.draw(dataset.isel(ball=0), "contact").axes
+
+
+def test_integrals_that_are_variables_of_their_own_are_drawn_as_those_in_one():
+    dataset = results.uneven(200)
+    apart = dataset.drop_vars("integrals")
+    assert 'add "vertical_momentum" and "momentum_squared"' in figures.available(apart)["integrals"]
+    for i, name in enumerate(integrals.OF_ONE):
+        apart[name] = dataset["integrals"][..., i].drop_vars("integral")
+    one, same = (figures.draw(data, "integrals").axes[0] for data in (apart, dataset))
+    for here, there in zip(one.lines, same.lines, strict=True):
+        assert np.array_equal(here.get_ydata(), there.get_ydata())
+        assert here.get_label() == there.get_label()
+    assert dict(Result(apart).rows())["drift"] == dict(Result(dataset).rows())["drift"]
 
 
 @pytest.mark.parametrize("name", ["contact", "omega", "energy", "integrals", "attitude", "spheres"])

@@ -87,6 +87,21 @@ def test_outputs_are_in_the_axes_that_were_given(members):
     assert np.abs(in_space - kernels.rotate(plain["attitude"], plain["omega"])).max() < 1e-14
 
 
+ONE_EACH = ("vertical_momentum", "momentum_squared", "gamma_squared")
+
+
+def test_each_integral_is_a_variable_with_a_unit_of_its_own(members):
+    """Of 𝒦 where the map is stepped, of K where the steps are chosen."""
+    plan = planned(members(), Task((*ONE_EACH, "integrals"), 20, 1, 0.01))
+    columns, _ = rolled(plan)
+    assert plan.numbers == 6
+    for i, name in enumerate(ONE_EACH):
+        assert (columns[name] == columns["integrals"][..., i]).all()
+    assert [OUTPUTS[name].attrs(3, False)["units"] for name in ONE_EACH] == ["kg m2", "kg2 m4", "1"]
+    assert [OUTPUTS[name].attrs(3, True)["units"] for name in ONE_EACH] == ["kg m2 s-1", "kg2 m4 s-2", "1"]
+    assert OUTPUTS["integrals"].attrs(3, True)["units"] == "kg m2 s-1, kg2 m4 s-2, 1"
+
+
 def test_the_contact_point_starts_where_the_ball_was_put(members):
     some = members()
     place = np.array([[1.0, 2.0]] * 3)

@@ -83,8 +83,14 @@ def _invariants(J: Floats, D: Floats, given: Mapping[str, Floats]) -> Floats:
     return of(given["momentum"], given["gamma"])
 
 
+def _one_invariant(i: int) -> Callable[[Floats, Floats, Mapping[str, Floats]], Floats]:
+    """One of the three momentum integrals of a ball in three dimensions."""
+    return lambda J, D, given: _invariants(J, D, given)[..., i]
+
+
 _MATRIX = ("row", "column")
 _GAMMA = frozenset({"gamma"})
+_STATE = _GAMMA | {"momentum"}
 
 OUTPUTS: dict[str, Output] = {
     "momentum": Output(
@@ -103,7 +109,19 @@ OUTPUTS: dict[str, Output] = {
     ),
     "integrals": Output(
         "momentum integrals", lambda n: ", ".join(_integrals(n).values()), ("integral",), ("integral",),
-        needs=_GAMMA | {"momentum"}, derive=_invariants, kernels=("invariants",),
+        needs=_STATE, derive=_invariants, kernels=("invariants",),
+        chosen=("momentum integrals", "kg m2 s-1, kg2 m4 s-2, 1"),
+    ),
+    "vertical_momentum": Output(
+        "vertical momentum ⟨𝒦,γ⟩", "kg m2", needs=_STATE, derive=_one_invariant(0), kernels=("invariants",),
+        chosen=("vertical angular momentum ⟨K,γ⟩", "kg m2 s-1"),
+    ),
+    "momentum_squared": Output(
+        "momentum squared ⟨𝒦,𝒦⟩", "kg2 m4", needs=_STATE, derive=_one_invariant(1), kernels=("invariants",),
+        chosen=("angular momentum squared ⟨K,K⟩", "kg2 m4 s-2"),
+    ),
+    "gamma_squared": Output(
+        "vertical squared ⟨γ,γ⟩", "1", needs=_STATE, derive=_one_invariant(2), kernels=("invariants",)
     ),
     "phase": Output("elliptic phase u", "1"),
     "rotation_number": Output("turns around the invariant curve, a step", "1", per_ball=True),

@@ -11,7 +11,8 @@ from ..drawing import reading
 from ..drawing.style import Picture, legend, new
 from . import change
 
-ABSENT = 'no integrals: add "integrals" to run.outputs'
+#: The outputs of one integral each, with the names that they have in "integrals", which holds all of them.
+OF_ONE = {"vertical_momentum": "K.gamma", "momentum_squared": "K.K", "gamma_squared": "gamma.gamma"}
 SYMBOLS = {
     "K.gamma": r"$\langle\mathcal{K},\gamma\rangle$",
     "K.K": r"$\langle\mathcal{K},\mathcal{K}\rangle$",
@@ -19,11 +20,27 @@ SYMBOLS = {
 }
 
 
+def missing(dataset: Dataset) -> str | None:
+    """Why this figure cannot be drawn, in a sentence; None if it can."""
+    if "integrals" in dataset or any(name in dataset for name in OF_ONE):
+        return None
+    wanted = '"vertical_momentum" and "momentum_squared"' if dataset.sizes.get("axis", 3) == 3 else '"integrals"'
+    return f"no integrals: add {wanted} to run.outputs"
+
+
+def stored(dataset: Dataset) -> tuple[Floats, list[str]]:
+    """The integrals of a result that has some, (balls, frames, integrals), and their names."""
+    if "integrals" not in dataset:
+        some = [name for name in OF_ONE if name in dataset]
+        return np.stack([reading.values(dataset, name) for name in some], axis=-1), [OF_ONE[name] for name in some]
+    found = reading.values(dataset, "integrals")
+    names = dataset["integral"].values if "integral" in dataset.coords else range(1, found.shape[-1] + 1)
+    return found, [str(name) for name in names]
+
+
 def draw(dataset: Dataset) -> Picture:
     """The map keeps the momentum integrals, so all that is seen is roundoff."""
-    found = reading.values(dataset, "integrals")
-    names = [str(name) for name in dataset["integral"].values] if "integral" in dataset.coords else []
-    names = names or [str(i + 1) for i in range(found.shape[-1])]
+    found, names = stored(dataset)
     figure, (axis,) = new(str(dataset.attrs.get("title", "")), height=3.6)
     changes = {
         _symbol(name): change.relative(found[..., i], size)
