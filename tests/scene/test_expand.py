@@ -138,6 +138,37 @@ def test_the_attitude_is_of_the_given_axes_whatever_the_principal_are():
     np.testing.assert_allclose(given[0], attitude_with(np.array(GAMMA)), atol=4 * EPS)
 
 
+def test_a_quaternion_may_have_its_scalar_last_and_roll_pitch_and_yaw_are_about_the_fixed_axes_in_this_order():
+    """Checked by what it does to vectors, each rotation typed as a matrix."""
+    last = members({"omega": [1, 2, 3], "quaternion_xyzw": np.roll(TURN, -1).tolist()})
+    first = members({"omega": [1, 2, 3], "attitude": TURN.tolist()})
+    assert (last.attitude == first.attitude).all()
+    assert (last.momentum == first.momentum).all()
+    roll_, pitch, yaw = 0.3, -0.5, 2.0
+    c, s = np.cos, np.sin
+    about_x = np.array([[1, 0, 0], [0, c(roll_), -s(roll_)], [0, s(roll_), c(roll_)]])
+    about_y = np.array([[c(pitch), 0, s(pitch)], [0, 1, 0], [-s(pitch), 0, c(pitch)]])
+    about_z = np.array([[c(yaw), -s(yaw), 0], [s(yaw), c(yaw), 0], [0, 0, 1]])
+    found = members({"omega": [1, 2, 3], "axes": "space", "rpy": [f"{float(np.rad2deg(roll_))} deg", pitch, yaw]})
+    R = about_z @ about_y @ about_x
+    np.testing.assert_allclose(matrix(found.attitude[0]), R, atol=4 * EPS)
+    np.testing.assert_allclose(found.gamma[0], R.T @ [0, 0, 1], atol=4 * EPS)
+
+
+def test_an_angle_may_be_swept_and_what_is_no_unit_quaternion_is_told_as_it_is_written():
+    found = members({"omega": [1, 2, 3], "rpy": [0, {"linspace": [0, "90 deg", 3]}, 0]})
+    assert found.parameters["start.rpy.2"].units == "rad"
+    assert found.parameters["start.rpy.2"].values.tolist() == pytest.approx([0, np.pi / 4, np.pi / 2])
+    assert found.gamma[2] == pytest.approx([-1, 0, 0], abs=2 * EPS)
+    drawn = members({"omega": [1, 2, 3], "quaternion_xyzw": [0, {"random": [0, 1]}, 0, 1]}, sweep={"samples": 3})
+    assert np.linalg.norm(drawn.attitude, axis=-1) == pytest.approx(1)
+    with pytest.raises(SceneError, match=r"quaternion_xyzw must be a unit quaternion \(scalar last\)"):
+        members({"omega": [1, 2, 3], "quaternion_xyzw": [1, 1, 0, 0]})
+    four = {"mass_tensor": [1, 2, 0.5, 3], "D": 7}
+    with pytest.raises(SceneError, match=r"start\.rpy is for three dimensions"):
+        members({"momentum": (0 * np.eye(4)).tolist(), "rpy": [0, 0, 1]}, four, {"steps": 1})
+
+
 def test_several_balls_have_their_own_starts_or_the_common_one():
     balls = [
         BALL | {"name": "first"},

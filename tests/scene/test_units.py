@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from chapsym.scene.read import units
-from chapsym.scene.read.units import LENGTH, MASS, MOMENT, PURE, RATE, SPEED, TIME, number
+from chapsym.scene.read.units import ANGLE, LENGTH, MASS, MOMENT, PURE, RATE, SPEED, TIME, number
 
 
 @pytest.mark.parametrize(
@@ -28,6 +28,8 @@ from chapsym.scene.read.units import LENGTH, MASS, MOMENT, PURE, RATE, SPEED, TI
         ("29 km/h", SPEED, 29 / 3.6),
         ("3 m s-1", SPEED, 3.0),
         ("10 ms", TIME, 0.01),
+        ("180 deg", ANGLE, math.pi),
+        ("1/4 rev", ANGLE, math.pi / 2),
         ("2 min", TIME, 120.0),
         ("5 millis", TIME, 0.005),
         ("30 rpm", RATE, math.pi),
@@ -64,6 +66,11 @@ def test_a_unit_is_converted_to_the_nearest_float(text, dimension, si):
         ("3 __import__('os')", LENGTH, "is not a number with a unit"),
         ("3 degC", LENGTH, "measures something else"),
         ("3 dB", LENGTH, "it is a length"),
+        ("3 dB", ANGLE, "'3 dB' does not say which angle"),
+        ("30 deg", LENGTH, "'30 deg' is an angle"),
+        ("5 percent", LENGTH, "'5 percent' measures something else"),
+        ("5 percent", ANGLE, "'5 percent' does not say which angle; write '30 deg' or '0.5 rad'"),
+        ("1 Hz", ANGLE, "'1 Hz' measures something else"),
         (True, LENGTH, "it must be a number"),
         (None, LENGTH, "it must be a number"),
         (10**400, LENGTH, "it is beyond the range of float64"),

@@ -21,7 +21,7 @@ from chapsym.dynamics.principal_axes import (
 
 from ..read.bodies import PRESETS, check_inside
 from ..read.ranges import Range, ranges_in
-from ..read.tables import BallTable, StartTable
+from ..read.tables import ATTITUDES, BallTable, StartTable
 from .members import Members
 
 #: What is this near to a unit vector was meant to be one, and is divided by its length.
@@ -100,13 +100,8 @@ def _ball(table: BallTable, given: Given) -> tuple[Ball, Floats | None]:
 
 def _start(start: StartTable, given: Given, ball: Ball) -> tuple[Floats, Floats | None, Floats, bool]:
     """γ, the attitude if it is given, 𝒦 (or its direction) or ω, in the axes of the table, and whether it is 𝒦."""
-    attitude = None
-    if start.attitude is not None:
-        attitude = given.unit(start.attitude, "start.attitude")
-        length = np.sqrt((attitude * attitude).sum(axis=-1, keepdims=True))
-        if (np.abs(length - 1) > UNIT_TOLERANCE).any():
-            raise BadInput(f"attitude must be a unit quaternion (scalar first), but its length is {length.max():.9g}")
-        attitude = attitude / length
+    attitude = _attitude(start, given)
+    if attitude is not None:
         gamma = kernels.rotate(inverse(attitude), np.array([0.0, 0.0, 1.0]))
     else:
         gamma = given.unit(start.gamma or (0.0, 0.0, 1.0), "start.gamma")
@@ -123,6 +118,28 @@ def _start(start: StartTable, given: Given, ball: Ball) -> tuple[Floats, Floats 
     if start.axes == "space":
         motion = kernels.rotate(inverse(body_to_space), motion)
     return gamma, attitude, motion, key == "momentum"
+
+
+def _attitude(start: StartTable, given: Given) -> Floats | None:
+    """The unit quaternions from the body to space, (count, 4), scalar first; None where the start does not say them."""
+    if start.rpy is not None:
+        roll, pitch, yaw = given.array(start.rpy, "start.rpy").T
+        return kernels.compose(_turn(yaw, 2), kernels.compose(_turn(pitch, 1), _turn(roll, 0)))
+    key, scalar = ("attitude", "first") if start.quaternion_xyzw is None else ("quaternion_xyzw", "last")
+    if getattr(start, key) is None:
+        return None
+    attitude = given.unit(getattr(start, key), f"start.{key}")
+    length = np.sqrt((attitude * attitude).sum(axis=-1, keepdims=True))
+    if (np.abs(length - 1) > UNIT_TOLERANCE).any():
+        raise BadInput(f"{key} must be a unit quaternion (scalar {scalar}), but its length is {length.max():.9g}")
+    return (attitude if scalar == "first" else np.roll(attitude, 1, axis=-1)) / length
+
+
+def _turn(angle: Floats, axis: int) -> Floats:
+    """The unit quaternions (count, 4) of rotations by angles (count,) in radians about one axis."""
+    found = np.zeros((len(angle), 4))
+    found[:, 0], found[:, 1 + axis] = np.cos(angle / 2), np.sin(angle / 2)
+    return found
 
 
 def _rolling(start: StartTable, given: Given, ball: Ball) -> Floats:
@@ -149,7 +166,7 @@ def _momentum_of(omega: Floats, gamma: Floats, ball: Ball, scale: float) -> Floa
 def _members_n(ball: BallTable, start: StartTable, given: Given, scale: float, names: tuple[str, ...]) -> Members:
     """The members of a ball in more than three dimensions; 𝒦 of ω is that of E = εω in (4.13), as it is linear."""
     n = len(ball.mass_tensor or ())
-    for key in ("velocity", "vertical_momentum", "attitude"):
+    for key in ("velocity", "vertical_momentum", *ATTITUDES):
         if getattr(start, key) is not None:
             raise BadInput(f"start.{key} is for three dimensions; give omega or momentum, a skew matrix, and gamma")
     if start.axes == "space":

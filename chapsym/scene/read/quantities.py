@@ -6,7 +6,7 @@ from pydantic import BeforeValidator, Discriminator, Field, GetJsonSchemaHandler
 from pydantic_core import core_schema
 
 from .ranges import Value, value
-from .units import LENGTH, MASS, MOMENT, PURE, RATE, SPEED, TIME, Dimension, has_unit, number
+from .units import ANGLE, LENGTH, MASS, MOMENT, PURE, RATE, SPEED, TIME, Dimension, has_unit, number
 
 
 class Quantity:
@@ -55,6 +55,7 @@ Length = Annotated[Value, Quantity(LENGTH)]
 Mass = Annotated[Value, Quantity(MASS)]
 Moment = Annotated[Value, Quantity(MOMENT)]
 Rate = Annotated[Value, Quantity(RATE)]
+Angle = Annotated[Value, Quantity(ANGLE)]
 Speed = Annotated[Value, Quantity(SPEED)]
 Pure = Annotated[Value, Quantity(PURE)]
 Seconds = Annotated[float, Quantity(TIME, swept=False, positive=True)]
@@ -94,4 +95,5 @@ Omega = Annotated[
 Lengths3 = Annotated[tuple[Length, Length, Length], Vector]
 Lengths2 = Annotated[tuple[Length, ...], Field(min_length=2), Vector]
 Speeds2 = Annotated[tuple[Speed, Speed], Vector]
+Angles3 = Annotated[tuple[Angle, Angle, Angle], Vector]
 Quaternion = Annotated[tuple[Pure, Pure, Pure, Pure], Vector]

@@ -9,6 +9,7 @@ from .errors import At
 from .outputs import OUTPUTS
 from .quantities import (
     Accuracy,
+    Angles3,
     Inertia,
     Length,
     Lengths2,
@@ -42,6 +43,10 @@ OF_THE_MAP = frozenset({"phase", "rotation_number"})
 Output = Literal[*OUTPUTS]  # type: ignore[valid-type]
 
 
+#: The keys of [start] that say how the body is turned.
+ATTITUDES = ("attitude", "quaternion_xyzw", "rpy")
+
+
 class Table(BaseModel):
     """A table: keys that are not in it are refused."""
 
@@ -58,7 +63,7 @@ def _one_of(told: list[str], table: str, names: str) -> None:
 
 
 class StartTable(Table):
-    """The motion (momentum, omega, or velocity and spin) and the orientation (gamma, or attitude)."""
+    """The motion (momentum, omega, or velocity and spin) and the orientation: gamma, or one of `ATTITUDES`."""
 
     momentum: Momentum | None = Field(None, description="𝒦 = εK of one step; in n > 3 dimensions a skew matrix.")
     omega: Omega | None = Field(None, description="Angular velocity; in n > 3 dimensions a skew matrix.")
@@ -70,6 +75,13 @@ class StartTable(Table):
         None, description="The vertical, upwards, in body axes, a unit vector; 0, 0, 1 without."
     )
     attitude: Quaternion | None = Field(None, description="Unit quaternion, scalar first, from body to space axes.")
+    quaternion_xyzw: Quaternion | None = Field(None, description="The same with the scalar last, as in ROS and SciPy.")
+    rpy: Angles3 | None = Field(
+        None,
+        description="Roll, pitch, yaw, in the place of attitude: the body is turned about the fixed x, then y, then z "
+        "axes of space (extrinsic xyz; the same as about its own z, y', x'', intrinsic), so that the rotation from "
+        "body to space is Rz(yaw) Ry(pitch) Rx(roll), as in URDF.",
+    )
     position: Lengths2 | None = Field(None, description="The contact point at the start; 0, 0 without.")
 
     @model_validator(mode="after")
@@ -80,8 +92,9 @@ class StartTable(Table):
             raise At("start.spin goes with start.velocity; omega holds the spin, too", "spin")
         if self.momentum is None and self.omega is None and "axes" in self.model_fields_set:
             raise At("start.axes goes with start.omega or start.momentum", "axes")
-        if self.gamma is not None and self.attitude is not None:
-            raise At("start: give either gamma or attitude, which turns gamma to (0, 0, 1)", "attitude")
+        if len(told := self.given("gamma", *ATTITUDES)) > 1:
+            names = "gamma or attitude, which turns gamma to (0, 0, 1) (or quaternion_xyzw, or rpy)"
+            raise At(f"start: give either {names}, not {' and '.join(told)}", told[1])
         return self
 
 

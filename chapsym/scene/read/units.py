@@ -30,9 +30,12 @@ MASS = Dimension("a mass", "kg", "kilograms", "kg", ("7.26", "16 lb"))
 TIME = Dimension("a time", "s", "seconds", "s", ("0.01", "10 ms"))
 MOMENT = Dimension("a moment of inertia", "kg m2", "kg m²", "kg*m**2", ("0.032", "320 kg cm^2"))
 RATE = Dimension("an angular velocity", "rad s-1", "radians per second", "rad/s", ("3.14", "30 rpm"))
+ANGLE = Dimension("an angle", "rad", "radians", "rad", ("0.5", "30 deg"))
 SPEED = Dimension("a velocity", "m s-1", "metres per second", "m/s", ("8.0", "29 km/h"))
 PURE = Dimension("a number without a unit", "1", "a number", "", ("0.5", "2/7"))
-KNOWN = (LENGTH, MASS, TIME, MOMENT, RATE, SPEED)
+KNOWN = (LENGTH, MASS, TIME, MOMENT, RATE, ANGLE, SPEED)
+#: Those that must say which angle: to pint an angle is a number, and 1 Hz would be 1 rad/s.
+ANGULAR = {RATE: "'30 rpm' or '3 rad/s'", ANGLE: "'30 deg' or '0.5 rad'"}
 
 _FORM = re.compile(r"\s*([+-]?[0-9./]+(?:[eE][+-]?[0-9]+)?)\s*(.*?)\s*", re.ASCII | re.DOTALL)
 #: What people say for a unit with it, and pint reads as seconds: kilos.
@@ -124,12 +127,20 @@ def _factor(unit: str, text: str, dimension: Dimension) -> Fraction:
     if measures != _measures(registry.parse_units(dimension.pint)):
         if _SHORT.search(spelled):
             raise ValueError(f"it is {dimension.name}, but {shown!r} says no unit, only how many; {write}")
-        names = [known.name for known in KNOWN if _measures(registry.parse_units(known.pint)) == measures]
+        names = [known.name for known in KNOWN if _is(known, found)]
         told = f"is {names[0]}" if names else "measures something else"
         raise ValueError(f"it is {dimension.name}, but {shown!r} {told}; {write}")
-    if dimension is RATE and "radian" not in _roots(found):  # to pint an angle is a number, and 1 Hz would be 1 rad/s
-        raise ValueError(f"it is {dimension.name}, but {shown!r} does not say which angle; write '30 rpm' or '3 rad/s'")
+    if not _is(dimension, found):
+        told = f"does not say which angle; write {ANGULAR[dimension]}"
+        raise ValueError(f"it is {dimension.name}, but {shown!r} {told}")
     return Fraction(_registry().Quantity(Fraction(1), found).to_base_units().magnitude)
+
+
+def _is(dimension: Dimension, unit: Any) -> bool:
+    """Whether a unit measures that; an angle, or its rate, in turns, degrees or radians to the power of one."""
+    if _measures(unit) != _measures(_registry().parse_units(dimension.pint)):
+        return False
+    return dimension not in ANGULAR or _roots(unit).get("radian") == 1
 
 
 def _measures(unit: Any) -> dict[str, Fraction]:
@@ -137,6 +148,7 @@ def _measures(unit: Any) -> dict[str, Fraction]:
     return {str(name): power for name, power in unit.dimensionality.items() if power}
 
 
-def _roots(unit: Any) -> set[str]:
-    """The names of the base units."""
-    return {str(name) for name in dict(_registry().Quantity(Fraction(1), unit).to_root_units().unit_items())}
+def _roots(unit: Any) -> dict[str, Any]:
+    """The base units and their powers."""
+    _, roots = _registry().get_root_units(unit)
+    return {str(name): power for name, power in _registry().Quantity(1, roots).unit_items()}
