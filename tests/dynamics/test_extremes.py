@@ -19,6 +19,10 @@ CALLS = {
     "step_vertical": lambda ball, K, g: chapsym.step_vertical(ball, K[0], g),
     "branches": chapsym.branches,
     "curve": lambda ball, K, g: chapsym.increment(chapsym.Curve.through(ball, g), K[0], 0.3),
+    "follow": lambda ball, K, g: chapsym.follow(ball, [0 * K, K, K / 3], g),
+    "fold": chapsym.fold,
+    "is_steady": chapsym.is_steady,
+    "single": lambda ball, K, g: chapsym.step(ball, K, g, precision="single"),
     "extrapolate": lambda ball, K, g: chapsym.extrapolate(ball, K, g, 0.01, 1),
 }
 
@@ -40,10 +44,24 @@ def states(count):
             pass
 
 
+#: Those of a search that warned, or ended in another error.
+FOUND = [
+    (Ball((3.9e307, 4e307, 6.4e307), 6.6), (6.5e-308, 2.2e-307, -9.6e-307), (0.1, 0.99, 0.0)),
+    (Ball((8.5e307, 8.4e307, 8.4e307), 0.5), (1.7e-100, -1.3e-99, -5.4e-100), (-0.17, 0.0, -0.98)),
+    (Ball((2.8e-307, 7.3e-307, 9e-308), 0.18), (3.2e300, -1e100, -1.1e100), (1.0, 0.0, 0.0)),
+    (Ball((5.8e-200, 5.4e-200, 3.3e-200), 4.9), (-2.8, -7.1, 0.97), (0.0, 3.8e-100, -1.0)),
+    (Ball((6.8e-300, 5.2e-300, 7.7e-300), 7.6e-200), (-3.1e307, 3.6e107, 5.8e206), (-1.0, 0.0, 1.9e-101)),
+    (Ball((7.4e202, 5.0, 7.2), 0.0), (4e-307, -9e-309, 9.7e-308), (2.4e-100, 0.0, 1.0)),
+    (Ball((8.5e307, 8.4e307, 8.4e307), 0.5), (1e307, 2e307, 3e307), (-0.17, 0.0, -0.98)),
+]
+
+
 @pytest.mark.parametrize("name", CALLS)
 def test_no_warning_and_no_other_error(name):
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        for state in states(4 if name == "branches" else 12):
+        # What `branches` counts exactly takes seconds.
+        for ball, K, g in [*states(12), *FOUND] if name != "branches" else [*states(4), FOUND[-1]]:
+            state = ball, np.array(K), np.array(g) / np.linalg.norm(g)
             with suppress(BadInput, StepNotTaken):
                 CALLS[name](*state)

@@ -114,6 +114,7 @@ def _fixed(top: Ball, axis: Floats, speed: float) -> tuple[float, float]:
     return float(np.sin(speed * level) / level), 0.0
 
 
+@np.errstate(over="ignore", invalid="ignore")  # what overflows is beyond the branch
 def _moving(top: Ball, axis: Floats, speed: float) -> tuple[float, float]:
     """The momentum of the top with the increment of the continuous motion, and the twist that is left."""
     curve = Curve.through(top, axis)
@@ -125,7 +126,7 @@ def _moving(top: Ball, axis: Floats, speed: float) -> tuple[float, float]:
         step = step_vertical(top, tau, axis)
     except StepNotTaken:
         step = None
-    if step is None or not slope * curve.rate > 0.0 or np.abs(step.gamma - ahead).max() > AGREEMENT:
+    if step is None or not slope * curve.rate > 0.0 or not np.abs(step.gamma - ahead).max() <= AGREEMENT:
         raise BadInput("the continuous motion of this step is beyond the branch of the top; take a shorter time step")
     before, there = (across(top.mass_tensor, top.inertia, v) for v in (axis, step.gamma))
     after = kernels.rotate(step.rotation, there)

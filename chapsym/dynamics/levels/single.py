@@ -99,6 +99,7 @@ def unit(vectors: Floats) -> np.ndarray:
     return (wide / np.linalg.norm(wide, axis=-1, keepdims=True)).astype(np.float32)
 
 
+@np.errstate(over="ignore")  # which is refused
 def _largest_moment(balls: Balls) -> Floats:
     J = balls.mass_tensor
     return np.asarray((J.sum(axis=1, keepdims=True) - J).max(axis=1) + balls.D)

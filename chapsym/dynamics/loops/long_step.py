@@ -8,6 +8,7 @@ from math import sqrt
 
 from chapsym.generated import angular_velocity, compose, turn
 
+from .branch import NOT_CONVERGED
 from .gibbs import certificate, settle
 from .loop import ENOUGH, RADIUS, D, G, I, J, K, put, safe_rotation, three
 
@@ -37,11 +38,14 @@ def column(K0, g, half, n, state):
             status, reach, p0, p1, p2, p3, w1, w2, w3 = safe_rotation(w1, w2, w3, state)
             if status != 0:
                 return status, reach, q0, q1, q2, q3
+        square = (p0 * p0 + p1 * p1) + (p2 * p2 + p3 * p3)
+        if not square > 0.0:
+            return NOT_CONVERGED, 0.0, q0, q1, q2, q3
         d1, d2, d3 = turn(p0, p1, p2, p3, k1, k2, k3)
         k1, k2, k3 = k1 + d1, k2 + d2, k3 + d3
         d1, d2, d3 = turn(p0, p1, p2, p3, g1, g2, g3)
         g1, g2, g3 = g1 + d1, g2 + d2, g3 + d3
-        scale = 1.0 / sqrt((p0 * p0 + p1 * p1) + (p2 * p2 + p3 * p3))
+        scale = 1.0 / sqrt(square)
         q0, q1, q2, q3 = compose(q0, q1, q2, q3, p0 * scale, p1 * scale, p2 * scale, p3 * scale)
         u1, u2, u3 = 2.0 * w1 - v1, 2.0 * w2 - v2, 2.0 * w3 - v3
         v1, v2, v3 = w1, w2, w3

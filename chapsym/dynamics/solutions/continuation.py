@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from ..ball import Ball, Floats, batch, numbers, unit_vertical
 from ..errors import BadInput, Status
-from .marching import Marchers
+from .marching import Marchers, largest_moment
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,6 +46,7 @@ class Followed:
     fold: Fold
 
 
+@np.errstate(all="ignore")  # what overflows settles nowhere: `status` tells
 def follow(ball: Ball, path: ArrayLike, gamma: ArrayLike, rotation: ArrayLike = (1.0, 0.0, 0.0, 0.0)) -> Followed:
     """Follows the rotation with the first momentum of the path along straight lines from each to the next.
 
@@ -100,7 +101,10 @@ def fold(ball: Ball, momentum: ArrayLike, gamma: ArrayLike, rotation: ArrayLike 
         raise BadInput("momentum must not be 0: a branch folds along t times the momentum")
     # |𝒦| ≤ 2Λmax, and no component is larger: at 4Λmax every branch has folded.
     start = np.full(len(D), 0.0 if rotation is None else 1.0)
-    end = np.maximum(4 * (J.sum(axis=1) - J.min(axis=1) + D), 2 * start * size)
+    with np.errstate(over="ignore"):
+        end = np.maximum(4 * largest_moment(J, D), 2 * start * size)
+    if not np.isfinite(end).all():
+        raise BadInput("the ball or its momentum is too near to the range of float64 for a fold; take other units")
     path = np.stack([start[:, np.newaxis] * flat, end[:, np.newaxis] * (flat / size[:, np.newaxis])], axis=1)
     turn = (1.0, 0.0, 0.0, 0.0) if rotation is None else rotation
     found = follow(ball, path.reshape(*shape, 2, 3), gamma, turn).fold

@@ -52,7 +52,7 @@ class Marchers:
             raise BadInput(f"rotation has the leading axes {given.shape[:-1]}, the states have {shape}") from None
         if (np.abs((q * q).sum(axis=1) - 1) > UNIT_TOLERANCE).any():
             raise BadInput("rotation must be unit Euler parameters (scalar first); divide by the length")
-        exponent = np.frexp(J.sum(axis=1) - J.min(axis=1) + D)[1]
+        exponent = np.frexp(largest_moment(J, D))[1]
         scaled = cls(q, g, np.ldexp(J, -exponent[:, np.newaxis]), np.ldexp(D, -exponent), exponent)
         regular = scaled.regular()
         settled = scaled.correct(scaled._scaled(K))
@@ -182,6 +182,12 @@ class Marchers:
         """q ∘ (1, w), divided by its length."""
         self.q = np.stack(compose(*(*self.q.T, 1.0, *w.T)), axis=-1)
         self.q /= np.linalg.norm(self.q, axis=1, keepdims=True)
+
+
+def largest_moment(J: Floats, D: Floats) -> Floats:
+    """Λmax, (n,): float64 holds it where J₁ + J₂ + J₃ is beyond its range."""
+    ascending = np.sort(J, axis=1)
+    return np.asarray(ascending[:, 1] + ascending[:, 2] + D)
 
 
 def nonsingular(matrices: Floats) -> Floats:

@@ -19,7 +19,7 @@ from ..ball import Ball, Floats, batch, numbers, unit_vertical
 from ..errors import Status
 from ..map import step
 from .candidates import Candidates, candidates
-from .marching import Marchers, nonsingular
+from .marching import Marchers, largest_moment, nonsingular
 from .quadrics import quadrics
 
 #: Most rotations that can have one momentum: the Bézout number of three quadrics.
@@ -113,7 +113,7 @@ def _solve(found: Branches, part: slice, K: Floats, g: Floats, J: Floats, D: Flo
 
 def _scaled(K: Floats, J: Floats, D: Floats) -> tuple[Floats, Floats, Floats]:
     """The same in units in which Λmax is about 1; a momentum that no rotation has is made smaller, not attainable."""
-    exponent = np.frexp(np.maximum(J.sum(axis=1) - J.min(axis=1) + D, np.finfo(float).tiny))[1]
+    exponent = np.frexp(np.maximum(largest_moment(J, D), np.finfo(float).tiny))[1]
     K = np.clip(np.ldexp(K, -exponent[:, np.newaxis]), -16.0, 16.0)
     return K, np.ldexp(J, -exponent[:, np.newaxis]), np.ldexp(D, -exponent)
 
