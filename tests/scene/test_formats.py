@@ -1,5 +1,6 @@
 """Results in NetCDF, CSV and Parquet: the same bits when they are read back, whole files, one sentence of refusal."""
 
+import json
 import os
 from pathlib import Path
 
@@ -10,11 +11,13 @@ import xarray
 from first import BALL, FIRST
 from small_units import equal_to_the_bit, plan
 
+from chapsym.dynamics import BadInput
 from chapsym.scene import SceneError, load
 from chapsym.scene.result import formats
 from chapsym.scene.running import sweep
 from chapsym.scene.running.source import plan_from, plan_of
 from chapsym.show import opening
+from chapsym.show.drawing import reading
 
 FILES = [".nc", ".csv", ".parquet", ".npz"]
 
@@ -106,6 +109,15 @@ def test_what_is_no_result_is_not_read(tmp_path, result):
         formats.load(tmp_path / "run.txt")
     with pytest.raises(SceneError, match="a result is written to"):
         formats.save(result, tmp_path / "run.xlsx")
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_group_that_lacks_all_is_told_without_a_warning(tmp_path):
+    (tmp_path / "run.zarr").mkdir()
+    about = {"attributes": {"chapsym_version": "0"}, "zarr_format": 3, "node_type": "group"}
+    (tmp_path / "run.zarr" / "zarr.json").write_text(json.dumps(about))
+    with pytest.raises(BadInput, match='no dimension "frame"'):
+        reading.with_balls(formats.load(tmp_path / "run.zarr"))
 
 
 OLD = Path(__file__).parent / "old"

@@ -51,6 +51,8 @@ def small_rotation(K1, K2, K3, g1, g2, g3, J1, J2, J3, D, shortest=SHORTEST):
     Returns (status, reach, q0, q1, q2, q3): the unit Euler parameters with q0 ≥ 0, and the fraction t
     that was attained, 1 when the status is TAKEN.
     """
+    if K1 != K1 or K2 != K2 or K3 != K3:  # a product of the caller overflowed
+        return NOT_CONVERGED, 0.0, 1.0, 0.0, 0.0, 0.0
     _, exponent = frexp(max(J2 + J3, J1 + J3, J1 + J2) + D)
     J1, J2, J3, D = ldexp(J1, -exponent), ldexp(J2, -exponent), ldexp(J3, -exponent), ldexp(D, -exponent)
     largest = max(abs(K1), abs(K2), abs(K3))

@@ -212,6 +212,8 @@ def _text(path: Path) -> str:
         if len(content) > MOST_BYTES:
             raise SceneError(f"{path} is no scene: it has more than {MOST_BYTES} bytes")
         return content.decode("utf-8-sig")
+    except SceneError:
+        raise
     except OSError as error:
         raise SceneError(f"{path} cannot be read: {error.strerror or error}") from None
     except UnicodeDecodeError:
