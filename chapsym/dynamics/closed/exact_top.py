@@ -69,6 +69,7 @@ class ExactTop:
         )  # fmt: skip
 
 
+@np.errstate(all="ignore")  # what overflows is refused
 def exact_top(ball: Ball, momentum: ArrayLike, gamma: ArrayLike) -> ExactTop:
     """The top whose discrete motion from γ is the continuous motion of `ball` with the momentum εK.
 
@@ -95,9 +96,8 @@ def exact_top(ball: Ball, momentum: ArrayLike, gamma: ArrayLike) -> ExactTop:
     exponent = int(np.frexp(top.inertia.max())[1])
     moments = np.ldexp(ball.inertia, -exponent)
     # 1 - Dl as a sum of positive terms.
-    with np.errstate(all="ignore"):
-        free = moments / (moments + np.ldexp(contact, -exponent))
-        speed = float(np.ldexp(size, -exponent) / (axis * axis * free).sum())
+    free = moments / (moments + np.ldexp(contact, -exponent))
+    speed = float(np.ldexp(size, -exponent) / (axis * axis * free).sum())
     if not np.isfinite(speed) or speed == 0.0:
         raise BadInput("float64 cannot hold this top: its moments of inertia and its momentum are too far apart")
     unit_top = Ball(np.ldexp(top.mass_tensor, -exponent), 0.0)
@@ -114,7 +114,6 @@ def _fixed(top: Ball, axis: Floats, speed: float) -> tuple[float, float]:
     return float(np.sin(speed * level) / level), 0.0
 
 
-@np.errstate(over="ignore", invalid="ignore")  # what overflows is beyond the branch
 def _moving(top: Ball, axis: Floats, speed: float) -> tuple[float, float]:
     """The momentum of the top with the increment of the continuous motion, and the twist that is left."""
     curve = Curve.through(top, axis)
