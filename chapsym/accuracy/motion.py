@@ -11,17 +11,17 @@ by the ratio of the two in the sample, that of each: a ball for which it tells t
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
-from chapsym.dynamics import BadInput, Ball, Status, Trajectory, is_steady, kernels, substeps, trajectory
-from chapsym.dynamics.ball import Asked, Floats
+from chapsym.dynamics import BadInput, Status, Trajectory, is_steady, kernels
+from chapsym.dynamics.ball import Floats
 from chapsym.dynamics.results import FRAMES
 
-#: What an accuracy may be of.
-PARTS = frozenset({"momentum", "gamma", "omega", "energy", "attitude", "contact"})
+from .problem import Method, Motion, Problem, apart, omega_of
+
 #: The accuracy where none is asked for: nobody sees or measures an error of that size.
 DEFAULT = 1e-6
 #: What double precision can be asked for; rounding may take this part of an accuracy.
@@ -42,107 +42,12 @@ CHEAP, LENGTH, CHECKS = 4, 0.55, 64
 OWN = 0.6
 #: Seconds of a stage, with the attitude and the contact point.
 STAGE = 4e-8
-_UP = np.array([0.0, 0.0, 1.0])
 
 
-@dataclass(frozen=True)
-class Method:
-    """An order, and its steps between two frames."""
-
-    order: int
-    steps: int
-
-    @property
-    def stages(self) -> int:
-        """Steps of the map between two frames."""
-        return len(substeps(self.order)) * self.steps
-
-
-@dataclass(frozen=True, eq=False)
-class Motion:
-    """n balls at frames + 1 equal times.
-
-    angular_momentum: K in kg m²/s, (n, frames + 1, 3).  gamma: (n, frames + 1, 3).  attitude: (n, frames + 1, 4), or
-    None.  contact: in m, from (0, 0), (n, frames + 1, 2), or None.
-    reached: the last frame of each ball, (n,); later ones are NaN.  status: why it stopped, a `Status`, (n,).
-    error: an estimate of each ball's largest error at any frame, (n,), in the norm of `apart`; of the contact point
-    alone in m, if it was asked for so.
-    order, steps: of each ball, (n,), the latter between two frames; 0 of a steady rotation, which needs none.
-    """
-
-    angular_momentum: Floats
-    gamma: Floats
-    attitude: Asked
-    contact: Asked
-    reached: np.ndarray
-    status: np.ndarray
-    error: Floats
-    order: np.ndarray
-    steps: np.ndarray
-
-
-@dataclass(frozen=True, eq=False)
-class Problem:
-    """What is asked for: n balls from K and γ, `frames` times `interval` seconds apart, to an accuracy.
-
-    attitude: (n, 4) or None, where it is not followed.  contact: whether it is.
-    metres: whether the accuracy is of the contact point, in metres, and of nothing else.
-    parts: what the accuracy is of, where it is not in metres.
-    """
-
-    ball: Ball
-    K: Floats
-    gamma: Floats
-    interval: float
-    frames: int
-    accuracy: float
-    attitude: Asked
-    contact: bool
-    metres: bool = False
-    parts: frozenset[str] = PARTS
-    threads: int = 0
-
-    def __len__(self) -> int:
-        return len(self.K)
-
-    def of(self, some: np.ndarray) -> "Problem":
-        """Some of the balls."""
-        ball = self.ball
-        few = Ball(ball.mass_tensor[some], ball.D[some], None if ball.radius is None else ball.radius[some])
-        attitude = None if self.attitude is None else self.attitude[some]
-        return Problem(
-            few, self.K[some], self.gamma[some], self.interval, self.frames, self.accuracy, attitude, self.contact,
-            self.metres, self.parts, self.threads,
-        )  # fmt: skip
-
-    @property
-    def end(self) -> float:
-        """The time of the last frame, in s."""
-        return self.frames * self.interval
-
-    @property
-    def unit(self) -> Any:
-        """What a relative error comes to in the norm: 1, or the radius in m."""
-        return self.ball.radius if self.metres else 1.0
-
-    def rate(self) -> Floats:
-        """|ω| at the start in rad/s, (n,)."""
-        return np.asarray(np.linalg.norm(_omega(self, self.K, self.gamma), axis=-1))
-
-    def take(self, method: Method, stride: int = 1, progress: Callable[[int], None] = lambda done: None) -> Trajectory:
-        """The balls at every `stride`-th frame, in `method.steps` steps from one to the next."""
-        frames = self.frames // stride
-        step = stride * self.interval / method.steps
-        return trajectory(
-            self.ball, step * self.K, self.gamma, method.steps * frames, order=method.order, every=method.steps,
-            attitude=False if self.attitude is None else self.attitude, contact=self.contact, time_step=step,
-            threads=self.threads, progress=progress,
-        )  # fmt: skip
-
-    def seconds(self) -> float:
-        """Nominal, of one core, with all that is compared."""
-        stages = max(_cheapest(self).stages, 1) * self.frames * len(self)
-        return 1e-3 + stages * STAGE * (1 + 1 / RATIO if len(self) <= ALL else RATIO)
+def nominal(problem: Problem) -> float:
+    """Seconds of one core for the motion and what it is compared with, by nominal prices."""
+    stages = max(_cheapest(problem).stages, 1) * problem.frames * len(problem)
+    return 1e-3 + stages * STAGE * (1 + 1 / RATIO if len(problem) <= ALL else RATIO)
 
 
 def moved(problem: Problem, progress: Callable[[float], None] = lambda done: None) -> Motion:
@@ -172,7 +77,7 @@ def moved(problem: Problem, progress: Callable[[float], None] = lambda done: Non
 def _spin(problem: Problem, some: np.ndarray, found: Motion) -> None:
     """Balls that rotate steadily, at once: about an axis that is fixed in body and space, along a straight line."""
     few = problem.of(some)
-    omega, time = _omega(few, few.K, few.gamma), np.arange(problem.frames + 1) * problem.interval
+    omega, time = omega_of(few, few.K, few.gamma), np.arange(problem.frames + 1) * problem.interval
     rate = few.rate()[:, np.newaxis]
     axis, half = np.where(rate > 0, omega / rate, 0.0)[:, np.newaxis], rate * time / 2
     turned = np.concatenate([np.cos(half)[..., np.newaxis], np.sin(half)[..., np.newaxis] * axis], axis=-1)
@@ -211,18 +116,6 @@ def _rounding(problem: Problem, walks: bool = True) -> Floats:
         condition = np.sqrt(moments.max(axis=-1) / moments.min(axis=-1))
         walked = np.sqrt(1.0 + 40 * turned) if walks else 1.0  # the roundings of some forty stages a radian
         return np.asarray(2.0**-53 * (1 + turned) * (2 * condition + walked) * problem.unit)
-
-
-def _omega(problem: Problem, K: Floats, gamma: Floats) -> Floats:
-    """ω of (n, 3) or (n, frames, 3); NaN where K is."""
-    tensor, D = problem.ball.mass_tensor, problem.ball.D
-    if K.ndim == 3:
-        tensor, D = tensor[:, np.newaxis], D[:, np.newaxis]
-    missing = np.isnan(K)
-    if not missing.any():
-        return kernels.angular_velocity(K, gamma, tensor, D)
-    omega = kernels.angular_velocity(np.where(missing, 0.0, K), np.where(missing, _UP, gamma), tensor, D)
-    return np.where(missing, np.nan, omega)
 
 
 def _error(problem: Problem, order: int, step: float) -> Floats:
@@ -367,48 +260,6 @@ def _verified(problem: Problem, method: Method, run: Trajectory) -> tuple[Floats
     expected = _error(problem, method.order, stride * problem.interval / fewer)
     rounded = floor + np.where(np.isinf(off), 0.0, np.fmin(floor * np.maximum(off / expected, 1.0), off))
     return off * min(SAFETY / (ratio**method.order - 1), 1.0), rounded
-
-
-@np.errstate(all="ignore")  # frames that were not reached are NaN
-def apart(problem: Problem, run: Trajectory | Motion, other: Trajectory, stride: int = 1) -> Floats:
-    """How far two runs are apart at each common frame, (n, frames): other has every `stride`-th frame of run.
-
-    The largest of the parts that are asked for: |ΔK|/|K|, |Δγ|, |Δω| over the largest |ω| of the ball, the difference
-    of the energies over that at the start, the angle between the attitudes in radians, and the distance of the contact
-    points in radii; or, if the accuracy is in metres, that distance in metres.
-    """
-
-    def length(a: Floats) -> Floats:
-        return np.asarray(np.sqrt((a * a).sum(axis=-1)))
-
-    radius = 1.0 if problem.ball.radius is None else problem.ball.radius[:, np.newaxis]
-    if problem.metres:
-        return length(run.contact[:, ::stride] - other.contact)
-    mine = run.angular_momentum if isinstance(run, Motion) else run.angular_momentum()
-    K, L, gamma = mine[:, ::stride], other.angular_momentum(), run.gamma[:, ::stride]
-    found, parts = [np.zeros(gamma.shape[:2])], problem.parts
-    if "gamma" in parts:
-        found.append(length(gamma - other.gamma))
-    if "momentum" in parts:
-        found.append(_over(length(K - L), length(problem.K)[:, np.newaxis]))
-    if "omega" in parts or "energy" in parts:
-        omega, there = _omega(problem, K, gamma), _omega(problem, L, other.gamma)
-        energy, other_energy = (K * omega).sum(axis=-1), (L * there).sum(axis=-1)
-        if "omega" in parts:
-            found.append(_over(length(omega - there), np.nanmax(length(omega), axis=-1, keepdims=True)))
-        if "energy" in parts:
-            found.append(_over(abs(energy - other_energy), energy[:, :1]))
-    if "attitude" in parts and problem.attitude is not None:
-        q, p = run.attitude[:, ::stride], other.attitude
-        found.append(4 * np.arcsin(np.minimum(np.minimum(length(q - p), length(q + p)) / 2, 1.0)))
-    if "contact" in parts and problem.contact:
-        found.append(length(run.contact[:, ::stride] - other.contact) / radius)
-    return np.asarray(np.max(found, axis=0))
-
-
-def _over(a: Floats, size: Floats) -> Floats:
-    """a / size; of a ball at rest a itself, which is 0."""
-    return np.asarray(a / np.where(size > 0, size, 1.0))
 
 
 def _some(run: Trajectory, which: np.ndarray) -> Trajectory:

@@ -16,7 +16,8 @@ from chapsym.dynamics.results import finished
 from chapsym.dynamics.trajectories import seconds, whole_number
 from chapsym.numbers import Rung
 
-from .motion import DEFAULT, FINEST, Problem, moved
+from .motion import DEFAULT, FINEST, moved
+from .problem import Problem
 
 
 def roll(

@@ -8,7 +8,8 @@ from scipy.integrate import solve_ivp
 
 import chapsym
 from chapsym.accuracy import motion
-from chapsym.accuracy.motion import Method, Problem, apart, moved
+from chapsym.accuracy.motion import moved
+from chapsym.accuracy.problem import Method, Problem, apart
 from chapsym.dynamics import BadInput, Ball, Status, kernels
 from chapsym.dynamics.attitudes import attitude_with
 

@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from chapsym.accuracy.motion import FINEST, PARTS, Problem, moved
+from chapsym.accuracy.motion import FINEST, moved, nominal
+from chapsym.accuracy.problem import PARTS, Problem
 from chapsym.dynamics import Ball
 from chapsym.dynamics.attitudes import attitude_with
 
@@ -37,7 +38,7 @@ class Moving(Model):
 
     def seconds(self, members: Members, task: Task, needed: frozenset[str]) -> float:
         """Nominal, by the steps that the law says."""
-        return self._problem(members, task, needed).seconds()
+        return nominal(self._problem(members, task, needed))
 
     def advance(
         self, members: Members, task: Task, needed: frozenset[str], state: State, segment: slice, progress: Progress

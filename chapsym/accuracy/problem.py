@@ -1,0 +1,163 @@
+"""What is asked of a motion: balls, times and an accuracy; what answers it, and how far two runs are apart."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from chapsym.dynamics import Ball, Trajectory, kernels, substeps, trajectory
+from chapsym.dynamics.ball import Asked, Floats
+
+#: What an accuracy may be of.
+PARTS = frozenset({"momentum", "gamma", "omega", "energy", "attitude", "contact"})
+_UP = np.array([0.0, 0.0, 1.0])
+
+
+@dataclass(frozen=True)
+class Method:
+    """An order, and its steps between two frames."""
+
+    order: int
+    steps: int
+
+    @property
+    def stages(self) -> int:
+        """Steps of the map between two frames."""
+        return len(substeps(self.order)) * self.steps
+
+
+@dataclass(frozen=True, eq=False)
+class Motion:
+    """n balls at frames + 1 equal times.
+
+    angular_momentum: K in kg m²/s, (n, frames + 1, 3).  gamma: (n, frames + 1, 3).  attitude: (n, frames + 1, 4), or
+    None.  contact: in m, from (0, 0), (n, frames + 1, 2), or None.
+    reached: the last frame of each ball, (n,); later ones are NaN.  status: why it stopped, a `Status`, (n,).
+    error: an estimate of each ball's largest error at any frame, (n,), in the norm of `apart`; of the contact point
+    alone in m, if it was asked for so.
+    order, steps: of each ball, (n,), the latter between two frames; 0 of a steady rotation, which needs none.
+    """
+
+    angular_momentum: Floats
+    gamma: Floats
+    attitude: Asked
+    contact: Asked
+    reached: np.ndarray
+    status: np.ndarray
+    error: Floats
+    order: np.ndarray
+    steps: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
+class Problem:
+    """What is asked for: n balls from K and γ, `frames` times `interval` seconds apart, to an accuracy.
+
+    attitude: (n, 4) or None, where it is not followed.  contact: whether it is.
+    metres: whether the accuracy is of the contact point, in metres, and of nothing else.
+    parts: what the accuracy is of, where it is not in metres.
+    """
+
+    ball: Ball
+    K: Floats
+    gamma: Floats
+    interval: float
+    frames: int
+    accuracy: float
+    attitude: Asked
+    contact: bool
+    metres: bool = False
+    parts: frozenset[str] = PARTS
+    threads: int = 0
+
+    def __len__(self) -> int:
+        return len(self.K)
+
+    def of(self, some: np.ndarray) -> "Problem":
+        """Some of the balls."""
+        ball = self.ball
+        few = Ball(ball.mass_tensor[some], ball.D[some], None if ball.radius is None else ball.radius[some])
+        attitude = None if self.attitude is None else self.attitude[some]
+        return Problem(
+            few, self.K[some], self.gamma[some], self.interval, self.frames, self.accuracy, attitude, self.contact,
+            self.metres, self.parts, self.threads,
+        )  # fmt: skip
+
+    @property
+    def end(self) -> float:
+        """The time of the last frame, in s."""
+        return self.frames * self.interval
+
+    @property
+    def unit(self) -> Any:
+        """What a relative error comes to in the norm: 1, or the radius in m."""
+        return self.ball.radius if self.metres else 1.0
+
+    def rate(self) -> Floats:
+        """|ω| at the start in rad/s, (n,)."""
+        return np.asarray(np.linalg.norm(omega_of(self, self.K, self.gamma), axis=-1))
+
+    def take(self, method: Method, stride: int = 1, progress: Callable[[int], None] = lambda done: None) -> Trajectory:
+        """The balls at every `stride`-th frame, in `method.steps` steps from one to the next."""
+        frames = self.frames // stride
+        step = stride * self.interval / method.steps
+        return trajectory(
+            self.ball, step * self.K, self.gamma, method.steps * frames, order=method.order, every=method.steps,
+            attitude=False if self.attitude is None else self.attitude, contact=self.contact, time_step=step,
+            threads=self.threads, progress=progress,
+        )  # fmt: skip
+
+
+def omega_of(problem: Problem, K: Floats, gamma: Floats) -> Floats:
+    """ω of (n, 3) or (n, frames, 3); NaN where K is."""
+    tensor, D = problem.ball.mass_tensor, problem.ball.D
+    if K.ndim == 3:
+        tensor, D = tensor[:, np.newaxis], D[:, np.newaxis]
+    missing = np.isnan(K)
+    if not missing.any():
+        return kernels.angular_velocity(K, gamma, tensor, D)
+    omega = kernels.angular_velocity(np.where(missing, 0.0, K), np.where(missing, _UP, gamma), tensor, D)
+    return np.where(missing, np.nan, omega)
+
+
+@np.errstate(all="ignore")  # frames that were not reached are NaN
+def apart(problem: Problem, run: Trajectory | Motion, other: Trajectory, stride: int = 1) -> Floats:
+    """How far two runs are apart at each common frame, (n, frames): other has every `stride`-th frame of run.
+
+    The largest of the parts that are asked for: |ΔK|/|K|, |Δγ|, |Δω| over the largest |ω| of the ball, the difference
+    of the energies over that at the start, the angle between the attitudes in radians, and the distance of the contact
+    points in radii; or, if the accuracy is in metres, that distance in metres.
+    """
+
+    def length(a: Floats) -> Floats:
+        return np.asarray(np.sqrt((a * a).sum(axis=-1)))
+
+    radius = 1.0 if problem.ball.radius is None else problem.ball.radius[:, np.newaxis]
+    if problem.metres:
+        return length(run.contact[:, ::stride] - other.contact)
+    mine = run.angular_momentum if isinstance(run, Motion) else run.angular_momentum()
+    K, L, gamma = mine[:, ::stride], other.angular_momentum(), run.gamma[:, ::stride]
+    found, parts = [np.zeros(gamma.shape[:2])], problem.parts
+    if "gamma" in parts:
+        found.append(length(gamma - other.gamma))
+    if "momentum" in parts:
+        found.append(_over(length(K - L), length(problem.K)[:, np.newaxis]))
+    if "omega" in parts or "energy" in parts:
+        omega, there = omega_of(problem, K, gamma), omega_of(problem, L, other.gamma)
+        energy, other_energy = (K * omega).sum(axis=-1), (L * there).sum(axis=-1)
+        if "omega" in parts:
+            found.append(_over(length(omega - there), np.nanmax(length(omega), axis=-1, keepdims=True)))
+        if "energy" in parts:
+            found.append(_over(abs(energy - other_energy), energy[:, :1]))
+    if "attitude" in parts and problem.attitude is not None:
+        q, p = run.attitude[:, ::stride], other.attitude
+        found.append(4 * np.arcsin(np.minimum(np.minimum(length(q - p), length(q + p)) / 2, 1.0)))
+    if "contact" in parts and problem.contact:
+        found.append(length(run.contact[:, ::stride] - other.contact) / radius)
+    return np.asarray(np.max(found, axis=0))
+
+
+def _over(a: Floats, size: Floats) -> Floats:
+    """a / size; of a ball at rest a itself, which is 0."""
+    return np.asarray(a / np.where(size > 0, size, 1.0))
