@@ -15,11 +15,13 @@ from chapsym.dynamics import kernels
 from chapsym.scene.result import formats
 from chapsym.scene.result.far import sentence
 from chapsym.scene.result.grid import grid
+from chapsym.scene.result.interpolation import interpolated
 
 from . import figures, opening
 from .drawing import reading
 
 if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
     from xarray import Dataset
 
     from .drawing.style import Picture
@@ -62,6 +64,14 @@ class Result:
         written = figures.save_all(one, folder, names=wanted)
         print(f"{len(written)} figures in {folder}")
         webbrowser.open(folder.as_uri())
+
+    def at(self, times: "ArrayLike") -> "Dataset":
+        """The result at any times between its frames, to the order 6 in the time between them: `chapsym.interpolated`.
+
+        times: one number or a list, in seconds, or in steps where the run has no times.  Raises BadInput.
+        """
+        found: Dataset = interpolated(self.dataset, times)
+        return found
 
     def save(self, path: str | Path) -> None:
         """Writes the result to .zarr, .nc, .csv, .parquet or .npz, whole; raises SceneError if the disk refuses."""

@@ -1,0 +1,195 @@
+"""The motion between the frames of a run: quintics through the states, with the rates that (2.3) gives for them."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from . import kernels
+from .ball import Asked, Ball, Floats, numbers
+from .errors import BadInput
+
+#: Frames with more turning than this between them, in radians, tell too little of what is between.
+MOST_TURN = 1.5
+#: 𝒦 with a horizontal part below this, relatively, tells no directions on the plane.
+VERTICAL = 1e-9
+#: What stands in the place of frames that are not there: where it is not 0.
+RESTING = {"gamma": [0.0, 0.0, 1.0], "attitude": [1.0, 0.0, 0.0, 0.0]}
+
+_torque = kernels.kernel("torque")
+
+
+@dataclass(frozen=True, eq=False)
+class Moments:
+    """States of a run at given times, (..., times, ...) or (...) for one time, in float64; NaN behind a stop.
+
+    time: seconds, or step numbers where the run has no time step.
+    momentum, gamma, attitude, contact: as those of the run; omega: body axes, rad/s, or radians a step.
+    """
+
+    time: Floats
+    momentum: Floats
+    gamma: Floats
+    omega: Floats
+    attitude: Asked
+    contact: Asked
+
+
+@dataclass(frozen=True, eq=False)
+class States:
+    """The frames of a run in principal axes: clock (frames,), K in the unit of the clock, and the rest as `Moments`.
+
+    there: which frames there are, (..., frames); what stands in the others is not looked at, but finite (`standing`).
+    """
+
+    ball: Ball
+    clock: Floats
+    there: np.ndarray
+    momentum: Floats
+    gamma: Floats
+    attitude: Asked = None
+    contact: Asked = None
+
+    def turning(self) -> float:
+        """The largest turning between next frames, of all balls, in radians; 0 where there is one frame."""
+        speed = np.sqrt((self._omega() ** 2).sum(axis=-1))
+        turns = np.maximum(speed[..., 1:], speed[..., :-1]) * np.diff(self.clock)
+        return float(np.max(turns, initial=0.0, where=self.there[..., 1:] & self.there[..., :-1]))
+
+    def _omega(self) -> Floats:
+        return kernels.angular_velocity(self.momentum, self.gamma, *self._body())
+
+    def _body(self) -> tuple[Floats, Floats]:
+        return self.ball.mass_tensor[..., np.newaxis, :], np.asarray(self.ball.D)[..., np.newaxis]
+
+    def at(self, times: ArrayLike) -> Moments:
+        """The states at these times, by quintics; raises BadInput for times out of range and frames too far apart."""
+        given = numbers(times, "times")
+        if given.ndim > 1:
+            raise BadInput(f"times must be one number or a list of them, not an array with the axes {given.shape}")
+        wanted, first, last = np.atleast_1d(given), self.clock[0], self.clock[-1]
+        if wanted.size and not (first <= wanted.min() and wanted.max() <= last):
+            raise BadInput(f"times must lie between the first frame and the last, {first:.10g} and {last:.10g}")
+        turn = self.turning()
+        if turn > MOST_TURN:
+            raise BadInput(
+                f"frames are up to {turn:.3g} radians of turning apart, too far to tell what is between (at most "
+                f"{MOST_TURN}): keep more frames, with a smaller `every`"
+            )
+        spin = self._omega()
+        quintic = Quintic(self.clock, wanted)
+        bent = kernels.angular_velocity(_torque(spin, self._body()[0]), self.gamma, *self._body())
+        K, gamma = (quintic.through(v, *_fixed_in_space(v, spin, bent)) for v in (self.momentum, self.gamma))
+        gamma = _unit(gamma)
+        attitude = None
+        if self.attitude is not None:
+            attitude = _unit(quintic.through(_one_sign(self.attitude), *_turning(_one_sign(self.attitude), spin, bent)))
+        contact = None
+        if self.contact is not None and (rolling := self._rolling(spin, bent)) is not None:
+            contact = quintic.through(self.contact, *rolling)
+        gone = ~quintic.known(self.there)
+        found = K, gamma, kernels.angular_velocity(K, gamma, *self._body()), attitude, contact
+        for values in found:
+            if values is not None:
+                values[gone] = np.nan
+        if given.ndim == 0:
+            return Moments(given, *(None if v is None else v[..., 0, :] for v in found))  # type: ignore[arg-type]
+        return Moments(wanted, *found)
+
+    def _rolling(self, spin: Floats, bent: Floats) -> tuple[Floats, Floats] | None:
+        """Velocity and acceleration of the contact point, (..., frames, 2): ρ ω × e₃ in space; None if not known."""
+        radius = np.asarray(self.ball.radius)[..., np.newaxis, np.newaxis]
+        if self.attitude is not None:
+            x, y = (kernels.transport(self.attitude, np.broadcast_to(e, self.gamma.shape)) for e in np.eye(3)[:2])
+            return radius * _rolled(spin, x, y), radius * _rolled(bent, x, y)
+        # Without the attitude: 𝒦 stays in space, so its horizontal part tells the directions, but for one angle.
+        level = self.momentum - (self.momentum * self.gamma).sum(axis=-1, keepdims=True) * self.gamma
+        vertical = (level**2).sum(axis=-1) <= VERTICAL**2 * (self.momentum**2).sum(axis=-1)
+        if (vertical & self.there).any():
+            return None
+        x = _unit(np.where(vertical[..., np.newaxis], [1.0, 0.0, 0.0], level))
+        y = np.cross(self.gamma, x)
+        rate, second = radius * _rolled(spin, x, y), radius * _rolled(bent, x, y)
+        h = np.diff(self.clock)[:, np.newaxis]
+        expected = h * (rate[..., 1:, :] + rate[..., :-1, :]) / 2 - h * h * np.diff(second, axis=-2) / 12
+        way = np.diff(np.asarray(self.contact), axis=-2)
+        both = self.there[..., 1:] & self.there[..., :-1]
+        turned = (way @ [1, 1j] * (expected @ [1, -1j])).sum(axis=-1, where=both)[..., np.newaxis]
+        turned = np.exp(1j * np.angle(turned))
+        return tuple(_plane(v @ [1, 1j] * turned) for v in (rate, second))  # type: ignore[return-value]
+
+
+def standing(**arrays: Asked) -> tuple[np.ndarray, dict[str, Asked]]:
+    """Which frames (...) of some arrays (..., k) are finite in all, and the arrays with a ball at rest elsewhere."""
+    given = {name: np.array(array, dtype=np.float64) for name, array in arrays.items() if array is not None}
+    there = np.all([np.isfinite(array).all(axis=-1) for array in given.values()], axis=0)
+    for name, array in given.items():
+        array[~there] = RESTING.get(name, 0.0)
+    return there, {name: given.get(name) for name in arrays}
+
+
+class Quintic:
+    """Hermite's quintics on frames at `clock`, (frames,), evaluated at `times`, (times,)."""
+
+    def __init__(self, clock: Floats, times: Floats) -> None:
+        self.at = np.clip(np.searchsorted(clock, times, side="right") - 1, 0, max(len(clock) - 2, 0))
+        self.next = np.minimum(self.at + 1, len(clock) - 1)
+        self.h = (clock[self.next] - clock[self.at])[:, np.newaxis]
+        away = (times - clock[self.at])[:, np.newaxis]
+        self.s = np.divide(away, self.h, out=np.zeros_like(away), where=self.h > 0)
+
+    def through(self, value: Floats, rate: Floats, second: Floats) -> Floats:
+        """The curve (..., times, k) with these values and derivatives at the frames, (..., frames, k)."""
+        i, j, h, s = self.at, self.next, self.h, self.s
+        r = 1 - s
+        found = _half(value[..., i, :], rate[..., i, :], second[..., i, :], h, s, r)
+        found = found + _half(value[..., j, :], rate[..., j, :], second[..., j, :], -h, r, s)
+        return np.where(s == 0, value[..., i, :], np.where(s == 1, value[..., j, :], found))
+
+    def known(self, there: np.ndarray) -> np.ndarray:
+        """At which times there are the frames that are needed, (..., times), of (..., frames)."""
+        s = self.s[:, 0]
+        return np.asarray((there[..., self.at] | (s == 1)) & (there[..., self.next] | (s == 0)))
+
+
+def _half(value: Floats, rate: Floats, second: Floats, h: Floats, s: Floats, r: Floats) -> Floats:
+    """What one end adds, s from it and r = 1 - s from the other, in parts of the interval."""
+    return np.asarray(
+        r**3 * ((1 + 3 * s + 6 * s * s) * value + h * s * (1 + 3 * s) * rate + h * h * s * s / 2 * second)
+    )
+
+
+def _fixed_in_space(v: Floats, spin: Floats, bent: Floats) -> tuple[Floats, Floats]:
+    """v' = v × ω and v'', of a vector that stays in space, seen from the body."""
+    rate = np.cross(v, spin)
+    return rate, np.cross(rate, spin) + np.cross(v, bent)
+
+
+def _turning(q: Floats, spin: Floats, bent: Floats) -> tuple[Floats, Floats]:
+    """q' = q ω/2 and q''."""
+    rate = _times(q, spin) / 2
+    return rate, (_times(rate, spin) + _times(q, bent)) / 2
+
+
+def _times(q: Floats, v: Floats) -> Floats:
+    """The quaternion product of q (..., 4) and the vector v (..., 3)."""
+    return kernels.compose(q, np.concatenate([np.zeros_like(v[..., :1]), v], axis=-1))
+
+
+def _one_sign(q: Floats) -> Floats:
+    """Each quaternion with the sign that is nearer to the one before: q and -q are one attitude."""
+    turned = np.where((q[..., 1:, :] * q[..., :-1, :]).sum(axis=-1, keepdims=True) < 0, -1.0, 1.0)
+    return np.concatenate([q[..., :1, :], q[..., 1:, :] * np.cumprod(turned, axis=-2)], axis=-2)
+
+
+def _rolled(spin: Floats, x: Floats, y: Floats) -> Floats:
+    """(⟨ω,y⟩, -⟨ω,x⟩), (..., 2): ω × e₃ along the horizontals x and y."""
+    return np.stack([(spin * y).sum(axis=-1), -(spin * x).sum(axis=-1)], axis=-1)
+
+
+def _plane(z: np.ndarray) -> Floats:
+    return np.stack([z.real, z.imag], axis=-1)
+
+
+def _unit(v: Floats) -> Floats:
+    return np.asarray(v / np.sqrt((v * v).sum(axis=-1, keepdims=True)))

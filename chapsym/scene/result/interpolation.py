@@ -1,0 +1,142 @@
+"""A result at any times between its frames: the quintics of `chapsym.dynamics.interpolation`, on labelled arrays."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from chapsym.dynamics import BadInput, Ball, kernels
+from chapsym.dynamics.ball import Floats
+from chapsym.dynamics.interpolation import States, standing
+
+if TYPE_CHECKING:
+    from xarray import Dataset
+
+#: What there is between the frames; energy, integrals and phase are known at the frames only.
+FOLLOWED = ("momentum", "gamma", "omega", "attitude", "contact")
+#: Of K, which is not multiplied by the step.
+RATE = "kg m2 s-1"
+
+
+def interpolated(run: Any, times: ArrayLike) -> Any:
+    """The states of a run at any times between its frames, as `solve_ivp`'s dense output.
+
+    run: the result of a scene (`Result`, or its Dataset), or a `Trajectory`, of which it is `at`.
+    times: one number or a list, in seconds, or in steps where the run has no times.
+    A Dataset comes with these times as its frames; 𝒦, γ, ω, attitude and contact are between them what `Trajectory.at`
+    says, to the order 6 in the time between frames, and what is known at the frames only is left out.  The result must
+    have γ or the attitude, and 𝒦 or ω.  A contact point whose 𝒦 is vertical is left out without the attitude.
+    Raises BadInput where it has not, for times beyond the frames, and for frames over 1.5 radians of turning apart.
+    """
+    if hasattr(run, "at"):
+        return run.at(times)
+    dataset = run if "ball" in run.dims else run.expand_dims("ball")
+    reason = missing(dataset)
+    if reason is not None:
+        raise BadInput(f"there is nothing between the frames: {reason}")
+    frames, per_step = _states(dataset)
+    found = frames.at(np.atleast_1d(np.asarray(times, dtype=np.float64)))
+    axes = _axes(dataset)
+    values: dict[str, Floats | None] = {
+        "momentum": _turned(axes, found.momentum * per_step), "gamma": _turned(axes, found.gamma),
+        "omega": _turned(axes, found.omega), "contact": found.contact,
+        "attitude": None if found.attitude is None else _composed(found.attitude, _conjugate(axes)),
+    }  # fmt: skip
+    kept = dataset.drop_vars([name for name, one in dataset.variables.items() if "frame" in one.dims])
+    for name in FOLLOWED:
+        if name in dataset and values[name] is not None:
+            dims = ("ball", "frame", *(dim for dim in dataset[name].dims if dim not in ("ball", "frame")))
+            kept[name] = dims, values[name], dataset[name].attrs
+    for name in ("step", "time"):
+        if name in dataset.coords:
+            there = np.interp(found.time, frames.clock, np.asarray(dataset[name].values, dtype=np.float64))
+            kept = kept.assign_coords({name: ("frame", there, dataset[name].attrs)})
+    return kept
+
+
+def missing(dataset: Dataset) -> str | None:
+    """Why the motion between the frames of a result is not known, in a sentence; None if it is."""
+    if "row" in dataset.dims or dataset.sizes.get("axis", 3) != 3:
+        return "it is known in three dimensions only"
+    if not {"gamma", "attitude"} & set(dataset.data_vars):
+        return 'no γ: add "gamma" to run.outputs'
+    if "momentum" not in dataset and not ("omega" in dataset and "time" in dataset.coords):
+        return 'no 𝒦 and no ω: add "momentum" to run.outputs'
+    if not {"mass_tensor", "D"} <= set(dataset.variables):
+        return "the result does not know J and D"
+    return None
+
+
+def turning(dataset: Dataset) -> float | None:
+    """The largest turning between next frames, of all balls, in radians; None where the result does not tell."""
+    if missing(dataset) is not None or not dataset.sizes.get("frame"):
+        return None
+    frames, _ = _states(dataset if "ball" in dataset.dims else dataset.expand_dims("ball"))
+    return frames.turning()
+
+
+def _states(dataset: Dataset) -> tuple[States, float]:
+    """The frames in principal axes, and what makes the result's momentum of K (in radians by the unit of the clock)."""
+    timed, stepped = "time" in dataset.coords, "step" in dataset.coords
+    step = np.asarray(dataset["step"].values if stepped else np.arange(dataset.sizes["frame"]), dtype=np.float64)
+    clock = np.asarray(dataset["time"].values, dtype=np.float64) if timed else step
+    per_step = 1.0
+    if "momentum" in dataset and timed and dataset["momentum"].attrs.get("units") != RATE:
+        per_step = clock[-1] / step[-1] if step[-1] else 1.0
+    axes, back = _axes(dataset), _conjugate(_axes(dataset))
+    there, given = standing(**{name: _frames(dataset, name) for name in FOLLOWED})
+    attitude, gamma = given["attitude"], given["gamma"]
+    attitude = None if attitude is None else _composed(attitude, axes)
+    if gamma is None:
+        assert attitude is not None
+        gamma = kernels.transport(attitude, np.broadcast_to([0.0, 0.0, 1.0], (*attitude.shape[:-1], 3)))
+    else:
+        gamma = _turned(back, gamma)
+    radius = _of_balls(dataset, "radius") if "radius" in dataset.variables else None
+    J, D = _of_balls(dataset, "mass_tensor"), _of_balls(dataset, "D")
+    ball = Ball(J, D, radius)
+    momentum, omega = given["momentum"], given["omega"]
+    if momentum is not None:
+        K = _turned(back, momentum) / per_step
+    else:
+        assert omega is not None
+        K = kernels.contact_momentum(_turned(back, omega), gamma, J[:, np.newaxis], D[:, np.newaxis])
+    return States(ball, clock, there, K, gamma, attitude, None if radius is None else given["contact"]), per_step
+
+
+def _frames(dataset: Dataset, name: str) -> Floats | None:
+    """A variable as float64, (balls, frames, ...), NaN behind the last step of a ball; None if it is not there."""
+    if name not in dataset:
+        return None
+    found = np.array(dataset[name].transpose("ball", "frame", ...).values, dtype=np.float64)
+    if "taken" in dataset and "step" in dataset.coords:
+        found[dataset["step"].values > np.atleast_1d(dataset["taken"].values)[:, np.newaxis]] = np.nan
+    return found
+
+
+def _of_balls(dataset: Dataset, name: str) -> Floats:
+    one = dataset[name] if "ball" in dataset[name].dims else dataset[name].expand_dims("ball")
+    return np.asarray(one.transpose("ball", ...).values, dtype=np.float64)
+
+
+def _axes(dataset: Dataset) -> Floats:
+    """The unit quaternions from principal axes to those of the result, (balls, 1, 4)."""
+    if "axes" not in dataset.variables:
+        return np.array([[[1.0, 0.0, 0.0, 0.0]]])
+    return _of_balls(dataset, "axes")[:, np.newaxis]
+
+
+def _conjugate(q: Floats) -> Floats:
+    return q * [1.0, -1.0, -1.0, -1.0]
+
+
+def _turned(q: Floats, v: Floats) -> Floats:
+    """Vectors (balls, frames, 3), turned by the quaternions (balls, 1, 4); NaN stays NaN."""
+    return np.asarray(v @ kernels.rotate(q, np.eye(3)))
+
+
+def _composed(p: Floats, q: Floats) -> Floats:
+    """The products of quaternions p (balls, frames, 4) and q (balls, 1, 4); NaN stays NaN."""
+    return np.asarray(p @ kernels.compose(np.eye(4), q))
