@@ -468,3 +468,100 @@ def test_a_spread_needs_three_balls_that_go_on():
     omega = np.array([[10.0, -2.0, 1.0]] * 2 + [[3000.0, -2.0, 1.0]] * 3)
     two = results.of(chapsym.roll(balls, omega, time_step=0.01, steps=5, contact=True, map=True), ["contact", "gamma"])
     assert figures.available(two)["spread"] == "a spread needs at least three balls that go on"
+
+
+def timed(every, steps=2000):
+    """The bowling ball, 30 rad/s, at every so many milliseconds, and at every one."""
+    return results.bowling(steps, every=every), results.bowling(steps)
+
+
+def shown_texts(figure):
+    """What stands in titles, in legends, and below the axes."""
+    told = [axis.get_title() for axis in figure.axes] + [legend.get_title().get_text() for legend in figure.legends]
+    return "\n".join([*told, figure.get_supxlabel()])
+
+
+@pytest.mark.parametrize("name", ["contact", "spheres", "omega", "attitude"])
+def test_sparse_frames_are_drawn_as_the_curve_between_them(name):
+    sparse, dense = timed(20, 400)
+    drawn, true = (
+        max(lines(figures.draw(data, name).axes[0]), key=lambda line: len(line.get_xdata())) for data in (sparse, dense)
+    )
+    assert drawn.get_marker() == "None"
+    assert len(drawn.get_xdata()) == 7 * 20 + 1
+    x, y = np.array(true.get_data())[:, ::20], np.array(drawn.get_data())[:, ::7]
+    if name != "spheres":  # which are seen from where most of the points are
+        assert y == pytest.approx(x, abs=1e-12, nan_ok=True)
+    assert "turning apart" not in shown_texts(figures.draw(sparse, name))
+
+
+def test_a_sphere_has_lines_where_the_frames_are_sparse_and_the_curve_is_that_of_all_frames():
+    from chapsym.show.drawing.curves import finer
+
+    sparse, dense = timed(20, 400)
+    fine = finer(sparse)
+    true = chapsym.interpolated(dense, fine["time"].values)
+    for name in ("gamma", "momentum", "omega", "contact"):
+        size = np.abs(true[name].values).max()
+        assert np.abs(fine[name].values - true[name].values).max() < 5e-5 * size, name  # the map itself
+    assert finer(dense) is dense
+
+
+def test_a_map_without_time_is_an_orbit_of_points_and_is_not_made_a_curve():
+    from chapsym.show.drawing.curves import finer, note
+
+    dataset = results.top(40, 3)
+    assert finer(dataset) is dataset
+    assert note(dataset) == ""
+
+
+@pytest.mark.parametrize("name", ["contact", "spheres", "omega", "attitude", "energy"])
+def test_frames_too_far_apart_are_points_and_the_figure_says_so(name):
+    dataset = timed(100)[0]
+    figure = figures.draw(dataset, name)
+    assert "frames are 3.1 rad of turning apart: what is between is not seen" in shown_texts(figure)
+    if name != "contact":
+        drawn = [line for axis in figure.axes for line in axis.lines if len(line.get_xdata()) == 21]
+        assert all(line.get_linestyle() == "None" for line in drawn)
+    way = dataset[["contact", "radius", "energy", "taken", "status"]]
+    assert "rad of turning apart" in shown_texts(figures.draw(way, "energy"))
+
+
+def test_hundreds_of_turns_are_ranges_and_a_part_that_says_what_it_is():
+    dataset = results.bowling(40_000, every=5)
+    omega, q, gamma = (figures.draw(dataset, name) for name in ("omega", "attitude", "spheres"))
+    whole, start = omega.axes
+    assert "range of each in the whole run; below, its start" in whole.get_title()
+    assert len(whole.collections) == 3
+    assert 0 < start.lines[0].get_xdata()[-1] < 8.0
+    assert start.lines[0].get_ydata() == pytest.approx(
+        chapsym.interpolated(dataset, start.lines[0].get_xdata())["omega"].values[0, :, 0]
+    )
+    title = q.axes[1].get_title()
+    assert title.startswith("its start, ")
+    assert title.endswith(" of 40 s")
+    for axis in (*gamma.axes, q.axes[0]):
+        assert "line: the first " in axis.get_title()
+        length = 0.0
+        for line in axis.lines:
+            x, y = np.array(line.get_data())
+            length += (
+                np.nansum(np.hypot(np.diff(x), np.diff(y))) if line.get_linewidth() == 1.2 and len(x) > 500 else 0.0
+            )
+        assert 20 < length < 200
+
+
+def test_a_series_that_swings_often_is_the_range_of_its_swings():
+    from matplotlib.figure import Figure
+
+    axis, t = Figure().subplots(), np.linspace(0.0, 1.0, 2501)
+    y = (2.0 + t) * np.sin(2 * np.pi * 250.3 * t)
+    assert series.swings(y) == pytest.approx(250, abs=1)
+    series.line(axis, t, y, "black")
+    assert not axis.lines
+    (area,) = axis.collections
+    x, drawn = area.get_paths()[0].vertices.T
+    inside = (x > 0.05) & (x < 0.95)
+    assert np.abs(np.abs(drawn[inside]) / (2.0 + x[inside]) - 1.0).max() < 0.06
+    assert series.start(y[:, np.newaxis]) == pytest.approx(2501 * 20 / 250.3, abs=12)
+    assert series.start(np.zeros((9, 1))) == 9

@@ -82,6 +82,17 @@ def clock(dataset: "Dataset") -> tuple[Floats, str]:
     return steps(dataset).astype(np.float64), "step"
 
 
+def span(t: Floats, label: str) -> str:
+    """How long readings of the clock last: "12 s", "40 steps"."""
+    return f"{t[-1] - t[0]:.3g} {'s' if label == 'time, s' else 'steps'}"
+
+
+def of_span(dataset: "Dataset", part: int) -> str:
+    """What a figure says of a line through the first frames alone; nothing if there are no others."""
+    t, label = clock(dataset)
+    return f"line: the first {span(t[:part], label)} of {span(t, label)}" if part < len(t) else ""
+
+
 def reached(dataset: "Dataset") -> np.ndarray:
     """Which frames each ball reached, (balls, frames); none of a ball whose turn has not come."""
     shape = dataset.sizes["ball"], dataset.sizes["frame"]

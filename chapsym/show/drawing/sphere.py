@@ -16,6 +16,10 @@ BEHIND = 0.28
 CURVE = "#F5CE7E"
 #: Neighbours at a larger angle than this (radians) are points of a discrete orbit, not of a line.
 NEAR = 0.12
+#: Radians of an orbit in a panel as wide as a figure: a longer line would fill the sphere.
+LONGEST = 200.0
+#: Points that show where the rest of it is.
+REST = 3000
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,8 +120,41 @@ def draw_curve(axis: Axes, view: View, points: Floats, label: str) -> None:
     axis.plot([], [], color=CURVE, linewidth=4.5, label=label)
 
 
-def draw_orbit(axis: Axes, view: View, points: Floats, colour: str, *, most: int = VERTICES) -> None:
-    """An orbit, (frames, 3): a line where neighbours are near, else points; its start a ring, its end a square."""
+def draw_orbit(
+    axis: Axes, view: View, points: Floats, colour: str, *, most: int = VERTICES, longest: float = LONGEST
+) -> int:
+    """An orbit, (frames, 3): a line where neighbours are near, else points; its start a ring, its end a square.
+
+    A line that would be longer than `longest` is drawn to there, and the rest as faint points.  Returns how many frames
+    the line, or the points, are.
+    """
+    part = as_long(points, longest)
+    _draw_path(axis, view, points[:part], colour, most)
+    if part < len(points):
+        rest = points[part :: max(1, (len(points) - part) // REST)]
+        x, y, depth = view.project(rest)
+        axis.plot(
+            x[depth >= 0], y[depth >= 0], ".", color=colour, markersize=1.5, alpha=0.35, zorder=2.5, rasterized=True
+        )
+    x, y, depth = view.project(points[[0, -1]])
+    for end, marker, face in ((0, "o", "white"), (1, "s", colour)):
+        axis.plot(
+            x[end], y[end], marker, markersize=6, color=colour, markerfacecolor=face, zorder=5,
+            alpha=1.0 if depth[end] >= 0 else 0.5,
+        )  # fmt: skip
+    return part
+
+
+def as_long(points: Floats, longest: float) -> int:
+    """How many points of an orbit (frames, 3) make a line so long; all of them, if it is shorter or no line."""
+    apart = np.sqrt((np.diff(points, axis=0) ** 2).sum(axis=-1))
+    if not len(apart) or apart.max() >= NEAR:
+        return len(points)
+    return 1 + int(np.searchsorted(np.cumsum(apart), longest, side="right"))
+
+
+def _draw_path(axis: Axes, view: View, points: Floats, colour: str, most: int) -> None:
+    """A line where neighbours are near, else points."""
     chosen = points if len(points) <= 20 * most else points[np.linspace(0, len(points) - 1, 20 * most).astype(int)]
     dense = len(chosen) > most
     apart = np.sqrt((np.diff(points, axis=0) ** 2).sum(axis=-1))
@@ -137,8 +174,3 @@ def draw_orbit(axis: Axes, view: View, points: Floats, colour: str, *, most: int
                 x[seen], y[seen], "o", color=colour, markersize=size, alpha=alpha, zorder=3 + front,
                 markeredgewidth=0, rasterized=dense,
             )  # fmt: skip
-    for end, marker, face in ((0, "o", "white"), (-1, "s", colour)):
-        axis.plot(
-            x[end], y[end], marker, markersize=6, color=colour, markerfacecolor=face, zorder=5,
-            alpha=1.0 if depth[end] >= 0 else 0.5,
-        )  # fmt: skip

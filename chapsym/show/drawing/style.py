@@ -98,6 +98,16 @@ def entitle(figure: Figure, title: str) -> None:
     figure.get_layout_engine().set(w_pad=0.06, h_pad=0.07)  # type: ignore[union-attr, call-arg]
 
 
+def add_note(figure: Figure, text: str) -> None:
+    """A line below the axes of a figure, after what stands there, or above its legend: both have one place."""
+    if text and figure.legends:
+        told = figure.legends[0].get_title().get_text()
+        figure.legends[0].set_title("\n".join(filter(None, (told, text))))
+        figure.legends[0].get_title().set_fontsize(10)
+    elif text:
+        figure.supxlabel("\n".join(filter(None, (figure.get_supxlabel(), text))), fontsize=10, color="0.35")
+
+
 def legend(figure: Figure, axes: Sequence[Axes]) -> None:
     """One legend below the figure, each name once, in as many columns as fit."""
     found = {label: handle for axis in axes for handle, label in zip(*axis.get_legend_handles_labels(), strict=True)}

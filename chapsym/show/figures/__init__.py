@@ -20,6 +20,9 @@ __all__ = ["FIGURES", "FORMATS", "available", "draw", "save", "save_all"]
 #: The modules, which are the names of the figures, the most telling first.
 FIGURES = ("contact", "spheres", "spread", "rotation", "phase", "omega", "attitude", "energy", "integrals")
 FORMATS = ("svg", "png")
+#: Those that are curves between the frames; and those that say so where frames are too far apart for that.
+CURVES = ("contact", "spheres", "omega", "attitude")
+TELLING = (*CURVES, "energy")
 
 
 def available(dataset: "Dataset") -> dict[str, str | None]:
@@ -34,7 +37,8 @@ def draw(dataset: "Dataset", name: str, ball: str | int | None = None) -> "Pictu
     Raises BadInput for a figure or ball that is not there, for one whose variables are missing, and where a frame that
     was reached is not finite.  The figure is a matplotlib Figure that notebooks show as it is; pyplot is not touched.
     """
-    from ..drawing.style import styled
+    from ..drawing import curves
+    from ..drawing.style import add_note, styled
 
     if name not in FIGURES:
         raise BadInput(f"there is no figure {name!r}; choose of {', '.join(FIGURES)}")
@@ -45,8 +49,11 @@ def draw(dataset: "Dataset", name: str, ball: str | int | None = None) -> "Pictu
     reason = _missing(chosen, name)
     if reason is not None:
         raise BadInput(f"{name}: {reason}")
+    begun = reading.begun(chosen)
     with styled():
-        figure: Picture = _module(name).draw(reading.begun(chosen))
+        figure: Picture = _module(name).draw(curves.finer(begun) if name in CURVES else begun)
+        if name in TELLING:
+            add_note(figure, curves.note(begun))
     return figure
 
 

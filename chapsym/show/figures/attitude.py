@@ -6,12 +6,14 @@ from xarray import Dataset
 from chapsym.dynamics import kernels
 from chapsym.dynamics.ball import Floats
 
-from ..drawing import components, reading, series
-from ..drawing.sphere import View, draw_globe, draw_orbit
+from ..drawing import components, curves, reading, series
+from ..drawing.sphere import LONGEST, View, draw_globe, draw_orbit
 from ..drawing.style import COLOURS, FEW, VERTICES, Picture, empty, entitle, legend
 
 #: From where the sphere of space is seen.
 EYE = np.array([0.8, -0.5, 0.5])
+#: Four lines that swing more often than this in one panel cannot be told apart.
+SWINGS = 40
 
 
 def missing(dataset: Dataset) -> str | None:
@@ -32,19 +34,26 @@ def draw(dataset: Dataset) -> Picture:
     figure = empty(7.2)
     above, below = figure.subplots(2, 1, height_ratios=[1.75, 1.0])
     entitle(figure, str(dataset.attrs.get("title", "")))
+    t, label = reading.clock(dataset)
     one = quaternions[0][np.isfinite(quaternions[0]).all(axis=-1)]
     view = View.towards_eye(EYE)
     draw_globe(above, view, ("x", "y", "z"))
+    shown = len(t)
     for i in range(3):
         path = kernels.rotate(one, np.broadcast_to(np.eye(3)[i], (len(one), 3)))
-        draw_orbit(above, view, path, COLOURS[i], most=VERTICES // 3)
+        part = draw_orbit(above, view, path, COLOURS[i], most=VERTICES // 3, longest=LONGEST / 5)
+        shown = min(shown, part if part < len(path) else shown)
         above.plot([], [], "o", color=COLOURS[i], markersize=5, label=f"body axis {i + 1}")
-    above.set_title("body axes in space (ring: start, square: end)")
+    told = "body axes in space (ring: start, square: end)"
+    above.set_title("\n".join(filter(None, (told, reading.of_span(dataset, shown)))))
     above.legend(loc="upper center", bbox_to_anchor=(0.5, 0.02), ncols=3, columnspacing=1.0)
-    t, label = reading.clock(dataset)
+    points, whole = curves.too_far(dataset), quaternions[0]
+    part = len(t) if points or not any(series.swings(y) > SWINGS for y in whole.T) else series.start(whole)
     for i in range(4):
-        series.line(below, t, quaternions[0, :, i], ("#000000", *COLOURS)[i], names[i])
+        series.line(below, t[:part], whole[:part, i], ("#000000", *COLOURS)[i], names[i], points=points)
     below.set(xlabel=label, ylabel="quaternion", ylim=(-1.05, 1.05))
+    if part < len(t):
+        below.set_title(f"its start, {reading.span(t[:part], label)} of {reading.span(t, label)}", fontsize=10)
     legend(figure, [below])
     return figure
 

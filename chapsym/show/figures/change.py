@@ -6,7 +6,7 @@ from xarray import Dataset
 
 from chapsym.dynamics.ball import Floats
 
-from ..drawing import reading, series
+from ..drawing import curves, reading, series
 from ..drawing.style import COLOURS, FEW, power
 
 #: The least range of an axis, in ulps of the value: a wobble of the last digit looks like one.
@@ -26,6 +26,7 @@ def plot(axis: Axes, dataset: Dataset, changes: dict[str, Floats]) -> None:
     The axis spans 20 ulps at least.
     """
     t, label = reading.clock(dataset)
+    points = curves.too_far(dataset)
     largest = max((float(np.nanmax(np.abs(c), initial=0.0)) for c in changes.values()), default=0.0)
     factor, text = power(max(largest, ULPS * ULP / 2))
     for colour, (name, change) in zip(COLOURS, changes.items(), strict=False):
@@ -33,7 +34,7 @@ def plot(axis: Axes, dataset: Dataset, changes: dict[str, Floats]) -> None:
         if len(change) == 1 or (len(changes) == 1 and len(change) <= FEW):
             for i, one in enumerate(change):
                 each = told if len(change) == 1 else reading.labels(dataset)[i]
-                series.line(axis, t, one / factor, colour if len(change) == 1 else COLOURS[i], each)
+                series.line(axis, t, one / factor, colour if len(change) == 1 else COLOURS[i], each, points=points)
         else:
             series.fan(axis, t, change / factor, colour, told)
     if largest <= ULPS * ULP / 2:

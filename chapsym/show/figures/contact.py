@@ -7,13 +7,11 @@ from xarray import Dataset
 
 from chapsym.dynamics.ball import Floats
 
-from ..drawing import reading, traces
+from ..drawing import curves, reading, series, traces
 from ..drawing.style import COLOURS, FEW, VERTICES, WIDTH, Picture, in_power, legend, new, power
 from .four import draw_pairs
 
 ABSENT = 'no contact: add "contact" to run.outputs'
-#: More balls than this are a density; fewer have a line each.
-LINES = 60
 #: Inches of the trace's panel, from flat to tall.
 LOW, HIGH = 2.2, 5.6
 #: Cells of the density along each side; and when ellipses around the balls are drawn, as parts of the run.
@@ -37,14 +35,15 @@ def draw(dataset: Dataset) -> Picture:
         str(dataset.attrs.get("title", "")), len(heights), height=sum(heights) / len(heights), height_ratios=heights
     )
     axis.set_aspect("equal", adjustable="datalim")
-    if len(trace) <= LINES:
+    if len(trace) <= curves.LINES:
         traces.lines(axis, dataset, trace)
     else:
         _density(axis, dataset, trace)
     axis.set(xlabel=in_power("x", "m", text), ylabel=in_power("y", "m", text))
     axis.margins(0.06)
     for panel in below:
-        _aside(panel, aside, in_power("along the way, from start to end", "m", text), factor)
+        label = in_power("along the way, from start to end", "m", text)
+        _aside(panel, aside, label, factor, curves.too_far(dataset))
     legend(figure, [axis])
     return figure
 
@@ -68,12 +67,17 @@ def sideways(trace: Floats, last: np.ndarray) -> list[tuple[Floats, Floats]]:
     return found if any(np.abs(off).max() > 1e-12 * np.abs(along).max() for along, off in found) else []
 
 
-def _aside(panel: Axes, aside: list[tuple[Floats, Floats]], label: str, factor: float) -> None:
-    """The same traces with the direction across the way enlarged."""
+def _aside(panel: Axes, aside: list[tuple[Floats, Floats]], label: str, factor: float, points: bool) -> None:
+    """The same traces with the direction across the way enlarged; of many waves their range."""
     size = max(float(np.abs(off).max()) for _, off in aside)
     unit, text = power(factor * size)
     for colour, (along, off) in zip(COLOURS, aside, strict=False):
-        panel.plot(along, off * factor / unit, color=colour, linewidth=1.2)
+        if (np.diff(along) >= 0).all():
+            series.line(panel, along, off * factor / unit, colour, points=points, linewidth=1.2)
+        else:
+            panel.plot(along, off * factor / unit, color=colour, linewidth=1.2)
+    if any(series.swings(off) > series.SWINGS for _, off in aside) and not points:
+        panel.set_title("the range of its waves", fontsize=10)
     panel.set(xlabel=label, ylabel=in_power("to the left", "m", text))
 
 

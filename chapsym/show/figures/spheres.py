@@ -13,7 +13,7 @@ from chapsym.dynamics.ball import Floats
 
 from ..drawing import reading
 from ..drawing.invariant import Body, bodies_of, curve_through, energy_range, is_vertical, unit
-from ..drawing.sphere import View, draw_curve, draw_globe, draw_orbit
+from ..drawing.sphere import LONGEST, View, draw_curve, draw_globe, draw_orbit
 from ..drawing.style import COLOURS, FEW, MAP, VERTICES, Picture, legend, new
 from . import four
 
@@ -23,6 +23,8 @@ TITLES = {"gamma": r"$\gamma$", "momentum": r"$\mathcal{K}/|\mathcal{K}|$"}
 PIXELS, CLOUD = 240, 80_000
 #: The frames of a cloud.
 MOMENTS = 400
+#: How much less of an orbit is drawn as a line where two spheres share the width.
+NARROW = 0.25
 
 
 def missing(dataset: Dataset) -> str | None:
@@ -55,9 +57,12 @@ def draw(dataset: Dataset) -> Picture:
         points = unit(found[name]) if name == "momentum" else found[name]
         if len(points) > FEW:
             _cloud(axis, t, points)
+            part = len(t)
         else:
-            _panel(axis, dataset, name, points, found, vertical)
-        axis.set_title(r"$\gamma$, and $\mathcal{K} = h\gamma$" if vertical else TITLES[name])
+            longest = LONGEST / len(points) * (1.0 if len(shown) == 1 else NARROW)
+            part = _panel(axis, dataset, name, points, found, vertical, longest)
+        title = r"$\gamma$, and $\mathcal{K} = h\gamma$" if vertical else TITLES[name]
+        axis.set_title("\n".join(filter(None, (title, reading.of_span(dataset, part)))))
     if len(found[shown[0]]) > FEW:
         _times(figure, axes, dataset)
     legend(figure, axes)
@@ -69,7 +74,10 @@ def _all_vertical(found: dict[str, Floats]) -> bool:
     return is_vertical(found["momentum"][there], found["gamma"][there])
 
 
-def _panel(axis: Axes, dataset: Dataset, name: str, points: Floats, found: dict[str, Floats], vertical: bool) -> None:
+def _panel(
+    axis: Axes, dataset: Dataset, name: str, points: Floats, found: dict[str, Floats], vertical: bool, longest: float
+) -> int:
+    """The orbits of a few balls; how many frames the shortest of their lines shows, all of them if each is whole."""
     flat = points[np.isfinite(points).all(axis=-1)]
     view = View.of(flat)
     draw_globe(axis, view, ("1", "2", "3"))
@@ -77,18 +85,21 @@ def _panel(axis: Axes, dataset: Dataset, name: str, points: Floats, found: dict[
     bodies = bodies_of(dataset)
     if len(points) == 1 and bodies and len(found) == 2 and not vertical and bodies[0].D > 0.0:
         _forbidden(axis, view, bodies[0], found, name == "gamma")
+    shortest = points.shape[1]
     for i, one in enumerate(points):
         orbit, colour = one[: last[i] + 1], COLOURS[i]
         if bodies and (vertical or (name == "momentum" and bodies[i].D == 0.0)):
             curve = curve_through(bodies[i], orbit, bodies[i].D if vertical else 0.0)
             if curve is not None:
                 draw_curve(axis, view, curve, "invariant curve")
-        draw_orbit(axis, view, orbit, colour, most=VERTICES // len(points))
+        part = draw_orbit(axis, view, orbit, colour, most=VERTICES // len(points), longest=longest)
+        shortest = min(shortest, part if part < len(orbit) else shortest)
         if len(points) > 1:
             axis.plot([], [], "o", color=colour, markersize=5, label=names[i])
     if len(points) == 1:
         axis.plot([], [], "o", color=COLOURS[0], markerfacecolor="white", label="start")
         axis.plot([], [], "s", color=COLOURS[0], label="end")
+    return shortest
 
 
 def _forbidden(axis: Axes, view: View, body: Body, found: dict[str, Floats], of_gamma: bool) -> None:

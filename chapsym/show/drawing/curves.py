@@ -1,0 +1,59 @@
+"""Frames that are far apart, made into curves: a run knows its motion between them, as long as they are near enough."""
+
+import numpy as np
+from xarray import Dataset
+
+from chapsym.dynamics.interpolation import MOST_TURN
+from chapsym.scene.result.interpolation import FOLLOWED, interpolated, missing, turning
+
+from . import reading
+
+#: Radians of turning between the points of a curve; and the most points that all balls together are given.
+FINE = 0.1
+MOST_POINTS = 200_000
+#: More balls than this have no curves of their own.
+LINES = 60
+
+
+def finer(dataset: Dataset) -> Dataset:
+    """The result with as many frames as its curves need, each of its frames among them; or as it is.
+
+    It stays as it is where its frames are near, or too far apart, or the points that a map without time has.
+    """
+    if "time" not in dataset.coords or dataset.sizes["ball"] > LINES or missing(dataset) is not None:
+        return dataset
+    turn = turning(dataset)
+    if turn is None or not FINE < turn <= MOST_TURN:
+        return dataset
+    t, _ = reading.clock(dataset)
+    parts = min(int(np.ceil(turn / FINE)), MOST_POINTS // (len(t) * dataset.sizes["ball"]))
+    if parts < 2:
+        return dataset
+    fine = np.interp(np.arange(parts * (len(t) - 1) + 1) / parts, np.arange(len(t)), t)
+    fine[::parts] = t
+    found: Dataset = interpolated(dataset, fine)
+    return found if {name for name in FOLLOWED if name in dataset} <= set(found.data_vars) else dataset
+
+
+def apart(dataset: Dataset) -> float:
+    """How far next frames are apart in radians of turning, at least; 0 where there is no time, or nothing tells."""
+    if "time" not in dataset.coords or dataset.sizes.get("frame", 0) < 2:
+        return 0.0
+    turn = turning(dataset)
+    if turn is None and {"contact", "radius"} <= set(dataset.variables) and dataset.sizes.get("plane") == 2:
+        way = np.diff(reading.values(dataset, "contact"), axis=1)  # no ball rolls with less turning than its way
+        radius = reading.per_ball(dataset, "radius")
+        assert radius is not None
+        turn = float(np.nanmax(np.hypot(way[..., 0], way[..., 1]) / radius[:, np.newaxis], initial=0.0))
+    return turn or 0.0
+
+
+def too_far(dataset: Dataset) -> bool:
+    """Whether the frames are too far apart for lines between them to mean anything."""
+    return apart(dataset) > MOST_TURN
+
+
+def note(dataset: Dataset) -> str:
+    """What a figure of such frames says; nothing where they are near."""
+    turn = apart(dataset)
+    return f"frames are {turn:.2g} rad of turning apart: what is between is not seen" if turn > MOST_TURN else ""
