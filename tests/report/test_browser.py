@@ -1,7 +1,10 @@
 """The page in a real browser, from disk: what it shows is what the records say, on a desk and on a phone."""
 
+import re
+
 import pytest
 import shown
+from contrast import contrast, low
 
 from chapsym.report import page, records
 
@@ -53,6 +56,24 @@ def test_the_page_is_not_wider_than_the_window_even_unfolded(tab):
         }).map(x => x.outerHTML.slice(0, 120))"""
     )
     assert outside == []
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_controls_and_letters_can_be_told_from_what_they_stand_on(written, opened, scheme):
+    tab = opened(written, color_scheme=scheme).tab
+    tab.evaluate("document.querySelectorAll('details').forEach(x => { x.open = true; })")
+    found, count = low(tab, "a, button, input, summary, p, li, dt, dd, th, td, pre, .badge, .tag, .heading")
+    assert found == []
+    assert count > 1000
+    tab.locator(".chips button").first.click()
+    assert low(tab, ".tools *")[0] == []
+    lit = re.search(
+        r"\.graph\.lit \.node \{ opacity: ([\d.]+)", (page.FOLDER / "style.css").read_text(encoding="utf-8")
+    )
+    ink, paper = (tab.evaluate(f"getComputedStyle(document.body).{name}") for name in ("color", "backgroundColor"))
+    ink, paper = ([int(x) / 255 for x in re.findall(r"\d+", colour)] for colour in (ink, paper))
+    faint = [float(lit[1]) * x + (1 - float(lit[1])) * y for x, y in zip(ink, paper, strict=True)]
+    assert contrast(faint, paper) >= 4.5
 
 
 def test_the_filter_shows_one_verdict(tab, register):

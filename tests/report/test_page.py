@@ -7,6 +7,7 @@ from types import SimpleNamespace
 
 import chromium
 import pytest
+from contrast import contrast
 
 from chapsym.report import page, records
 
@@ -191,18 +192,6 @@ def test_each_verdict_has_colours_that_can_be_read_in_light_and_in_dark():
         for name in ("ink", "muted", "link", *records.VERDICTS):
             for background in ("paper", "raised"):
                 assert contrast(colours[name], colours[background]) >= 4.5, (name, background)
-
-
-def contrast(a, b):
-    """The contrast of two colours, as the accessibility guidelines define it."""
-
-    def light(colour):
-        channels = [int(colour[i : i + 2], 16) / 255 for i in (1, 3, 5)]
-        r, g, b = [c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in channels]
-        return 0.2126 * r + 0.7152 * g + 0.0722 * b
-
-    lighter, darker = sorted((light(a), light(b)), reverse=True)
-    return (lighter + 0.05) / (darker + 0.05)
 
 
 def test_page_tests_that_are_not_run_are_counted_in_one_line(monkeypatch):

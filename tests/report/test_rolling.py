@@ -154,10 +154,37 @@ def test_a_ball_that_stops_is_shown_up_to_there_and_told():
     dataset["attitude"][0] = np.nan
     found = motion(dataset)
     assert [ball.name for ball in found.balls] == ["ball 2"]
-    assert found.notes == ["ball 1 has no frame that can be drawn"]
+    assert found.notes[-1] == "ball 1 has no frame that can be drawn"
     dataset["attitude"][:] = np.nan
     with pytest.raises(BadInput, match="no frame that can be drawn"):
         motion(dataset)
+
+
+def test_what_stands_behind_the_last_step_is_not_shown_and_the_clock_ends_where_the_last_ball_stops():
+    dataset = rolled(50, every=5)
+    dataset["taken"][0], dataset["status"][0] = 30, Status.FOLDED
+    for name in ("gamma", "omega", "attitude", "contact"):  # finite, and of no run
+        dataset[name][0, 7:] = 0.5
+    found = motion(dataset)
+    assert len(found.balls[0].attitude) == len(found.clock) == 7
+    assert (found.balls[0].contact[-1] == dataset["contact"].values[0, 6]).all()
+    assert found.notes == ["it ends at 0.15 of 0.25 s, where the ball stops"]
+    assert "model: full · 50 steps of 0.005 s" in html(dataset)
+    dataset["omega"][0, 4] = np.nan
+    assert len(motion(dataset).balls[0].attitude) == 4
+
+
+def test_frames_that_are_a_large_turn_apart_have_others_between_them():
+    """11 rad/s in 0.1 s: too far for an even turn and a straight way, near enough for the motion between."""
+    sparse, fine = motion(rolled(600, every=20)), motion(rolled(600))
+    count = sparse.between
+    assert len(sparse.clock) == 30 * count + 1
+    assert "more of its motion, interpolated to the order 6" in html(rolled(600, every=20))
+    same = np.searchsorted(fine.clock, sparse.clock[::count] - 1e-9)
+    np.testing.assert_array_equal(sparse.balls[0].contact[::count], fine.balls[0].contact[same])
+    true = np.stack([np.interp(sparse.clock, fine.clock, x) for x in fine.balls[0].contact.T], axis=-1)
+    assert np.abs(true - sparse.balls[0].contact).max() < 1e-3 * sparse.balls[0].radius
+    assert motion(rolled(50)).between == 1
 
 
 def test_a_ball_that_stops_between_the_frames_shown_is_shown_where_it_stops(monkeypatch):

@@ -1,9 +1,11 @@
 """The rolling ball in a real browser, from disk and offline: it moves, as it should, on a desk and on a phone."""
 
 import io
+import re
 
 import numpy as np
 import pytest
+from contrast import contrast, low
 from matplotlib import image
 from rolling_results import BALL, EVEN, rolled
 from shown import DESK, PHONE, WEBGL, Shown
@@ -12,6 +14,7 @@ from waiting import until
 from chapsym.dynamics import Status, kernels
 from chapsym.show.rolling import write_page
 from chapsym.show.rolling.motion import TOO_FAR, motion
+from chapsym.show.rolling.page import FOLDER
 
 #: As wide as a desk, for the page, and small: the picture is drawn without a graphics card.
 SMALL = {"width": 800, "height": 500}
@@ -268,6 +271,28 @@ def test_many_balls_are_followed_hidden_and_stop(rolling):
     assert page.picture() != shown
 
 
+def test_a_ball_that_stops_stands_where_it_stopped_and_says_so(rolling, tmp_path):
+    page = rolling("three")
+    page.tab.get_by_role("radio", name="Follow ball 3").check()
+    page.ask("chapsym.seek(50)")
+    assert "rad/s" in page.tab.locator("[data-read=speed]").inner_text()
+    page.ask("chapsym.seek(80)")
+    assert page.tab.locator("[data-read=speed]").inner_text() == "stopped"
+    assert page.tab.locator("[data-read=position]").inner_text() != ""
+    assert page.ask("chapsym.quaternion(80, 2)") == page.ask("chapsym.quaternion(50, 2)")
+    assert page.ask("chapsym.stage.balls[2].group.visible")
+    alone = rolled(400, every=4)
+    for name in ("momentum", "gamma", "omega", "attitude", "contact"):
+        alone[name][0, 51:] = np.nan
+    alone["taken"][0], alone["status"][0] = 200, Status.FOLDED
+    write_page(alone, tmp_path / "alone.html")
+    page = rolling(tmp_path / "alone.html")
+    page.tab.keyboard.press("End")
+    assert page.tab.locator("#now").inner_text() == "1.000 / 1.000 s"
+    assert page.ask("chapsym.position(1e9)") == pytest.approx(alone["contact"].values[0, 50])
+    assert "NaN" not in page.tab.locator("body").inner_text()
+
+
 def pixels(png):
     """The colours of a picture, (rows, columns, 3)."""
     return image.imread(io.BytesIO(png))[..., :3]
@@ -330,6 +355,30 @@ def test_a_phone(rolling, name):
 @pytest.mark.parametrize("size", [DESK, {"width": 900, "height": 700}])
 def test_nothing_overlaps_on_a_desk(rolling, size):
     boxes_apart(rolling("three", size))
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_controls_and_letters_can_be_told_from_what_they_stand_on(rolling, scheme):
+    """4.5 of every control in both states, of its border, and of the slider, whose parts no script can ask for."""
+    page = rolling(color_scheme=scheme)
+    used = "button, input, summary, label, output, dt, dd, kbd, h1, h2, p, li, em"
+    for _ in range(2):
+        found, count = low(page.tab, used)
+        assert found == []
+        assert count > 40
+        page.tab.locator("[aria-pressed]").evaluate_all("all => all.forEach(x => x.click())")
+    page.tab.keyboard.press("?")
+    assert low(page.tab, "dialog *")[0] == []
+    style = (FOLDER / "page.css").read_text(encoding="utf-8")
+    root = re.findall(r":root \{(.*?)\}", style, re.DOTALL)[scheme == "dark"]
+    colours = dict(re.findall(r"--([a-z]+): (#[0-9a-f]{6});", root))
+    track = re.findall(
+        r"slider-runnable-track \{.*?to right, var\(--([a-z]+)\).*?var\(--([a-z]+)\) 0", style, re.DOTALL
+    )[0]
+    thumb = re.search(r"-webkit-slider-thumb \{.*?background: var\(--([a-z]+)\)", style, re.DOTALL)[1]
+    for name in (*track, thumb, "link", "muted", "gamma", "omega", "momentum"):
+        for ground in ("paper", "raised", "on", "plane"):
+            assert contrast(colours[name], colours[ground]) >= 4.5, (name, ground)
 
 
 def test_dark_and_light(rolling):

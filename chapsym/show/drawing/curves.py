@@ -15,23 +15,24 @@ MOST_POINTS = 200_000
 LINES = 60
 
 
-def finer(dataset: Dataset) -> Dataset:
+def finer(dataset: Dataset, fine: float = FINE, most: int = MOST_POINTS) -> Dataset:
     """The result with as many frames as its curves need, each of its frames among them; or as it is.
 
+    fine: radians of turning between the new frames; most: how many all balls together may have.
     It stays as it is where its frames are near, or too far apart, or the points that a map without time has.
     """
     if "time" not in dataset.coords or dataset.sizes["ball"] > LINES or missing(dataset) is not None:
         return dataset
     turn = turning(dataset)
-    if turn is None or not FINE < turn <= MOST_TURN:
+    if turn is None or not fine < turn <= MOST_TURN:
         return dataset
     t, _ = reading.clock(dataset)
-    parts = min(int(np.ceil(turn / FINE)), MOST_POINTS // (len(t) * dataset.sizes["ball"]))
+    parts = min(int(np.ceil(turn / fine)), most // (len(t) * dataset.sizes["ball"]))
     if parts < 2:
         return dataset
-    fine = np.interp(np.arange(parts * (len(t) - 1) + 1) / parts, np.arange(len(t)), t)
-    fine[::parts] = t
-    found: Dataset = interpolated(dataset, fine)
+    times = np.interp(np.arange(parts * (len(t) - 1) + 1) / parts, np.arange(len(t)), t)
+    times[::parts] = t
+    found: Dataset = interpolated(dataset, times)
     return found if {name for name in FOLLOWED if name in dataset} <= set(found.data_vars) else dataset
 
 

@@ -113,7 +113,7 @@ export class RollingBall {
   }
 }
 
-export const ARROWS = { gamma: '#009e73', omega: '#e07b00', momentum: '#b8479a' };
+const ARROWS = { gamma: '#009e73', omega: '#e07b00', momentum: '#b8479a' };
 const scratch = new Vector3();
 
 function arrow(name) {

@@ -10,14 +10,17 @@ from xarray import Dataset
 from chapsym.dynamics import BadInput, Status, kernels
 from chapsym.dynamics.ball import Floats
 
-from ..drawing import reading
+from ..drawing import curves, reading
 from . import turning
 
 #: So many balls are told apart by their colours.
 MOST_BALLS = 20
 #: Frames of all balls together, and the least and the most of one.
 FRAMES, LEAST, MOST = 40_000, 2_000, 8_000
+#: Radians of turning between frames, beyond which an even turn, and a straight way, would be seen as such.
+EVEN = 0.4
 
+VECTORS = ("omega", "momentum", "gamma")
 TOO_FAR = (
     "frames are too far apart to show the turning between them: keep more frames (a smaller run.every), "
     'or add "omega" to run.outputs'
@@ -52,17 +55,22 @@ class Rolling:
 
 @dataclass(frozen=True, eq=False)
 class Motion:
-    """All that the page shows.  clock: of the kept frames, in `unit` ("s" or "steps")."""
+    """All that the page shows.  clock: of the kept frames, in `unit` ("s" or "steps").
+
+    between: how many there are from one frame of the result to the next: more than one if they are far apart.
+    """
 
     clock: Floats
     unit: str
     balls: list[Rolling]
     notes: list[str]
+    between: int = 1
 
 
 def motion(dataset: Dataset, balls: Sequence[str | int] | None = None) -> Motion:
     """The motion of the chosen balls, by name or index, or of the first twenty; thinned to a few thousand frames.
 
+    It ends where the last of them stops.
     Raises ReportError if the result has no attitude, no radius or more than three dimensions, with what to add.
     """
     dataset = dataset if "ball" in dataset.dims else dataset.expand_dims("ball")
@@ -78,6 +86,9 @@ def motion(dataset: Dataset, balls: Sequence[str | int] | None = None) -> Motion
     for i, length in zip(chosen, radius, strict=True):
         if not (np.isfinite(length) and length > 0):
             raise ReportError(f"{names[i]} has no radius, so it cannot be drawn: give ball.radius, in metres")
+    whole = part.sizes["frame"]
+    part = curves.finer(part, EVEN, _most(len(chosen)) * len(chosen))
+    between = (part.sizes["frame"] - 1) // max(whole - 1, 1)
     timed = "time" in part.coords
     counted = part["step"].values if "step" in part.coords else np.arange(part.sizes["frame"])
     clock = np.asarray(part["time"].values if timed else counted, dtype=np.float64)
@@ -86,9 +97,15 @@ def motion(dataset: Dataset, balls: Sequence[str | int] | None = None) -> Motion
     contact = _numbers(part, "contact") if rolls else _side_by_side(radius, attitude.shape[1])
     if not rolls:
         notes.append('the result has no contact point, so it turns on the spot: add "contact" to run.outputs')
-    ends = [_end(attitude[i], contact[i]) for i in range(len(chosen))]
+    vectors = [_numbers(part, name) for name in VECTORS if name in part]
+    reached = reading.reached(part)
+    ends = [_end(reached[i], attitude[i], contact[i], *(one[i] for one in vectors)) for i in range(len(chosen))]
     if not any(ends):
         raise ReportError("the result has no frame that can be drawn: no attitude is a finite number")
+    asked, clock = clock[-1], clock[: max(ends)]
+    if clock[-1] < asked:
+        one, unit = "the ball" if len(chosen) == 1 else "the last ball", "s" if timed else "steps"
+        notes.append(f"it ends at {clock[-1]:.6g} of {asked:.6g} {unit}, where {one} stops")
     kept = _kept(len(clock), len(chosen), [end for end in ends if end])
     if len(kept) < len(clock):
         notes.append(f"{len(kept)} of {len(clock)} frames are shown")
@@ -102,9 +119,9 @@ def motion(dataset: Dataset, balls: Sequence[str | int] | None = None) -> Motion
         rolling = _rolling(
             one, names[ball], attitude[i, :end], contact[i, :end], spot, float(radius[i]), kept[kept < end]
         )
-        rolling.notes.extend(_stopped(one, end == len(clock) or so_far is not None))
+        rolling.notes.extend(_stopped(one, end == part.sizes["frame"] or so_far is not None))
         found.append(rolling)
-    return Motion(clock[kept], "s" if timed else "steps", found, notes)
+    return Motion(clock[kept], "s" if timed else "steps", found, notes, between)
 
 
 def _check_drawable(dataset: Dataset) -> None:
@@ -156,17 +173,21 @@ def _side_by_side(radius: Floats, frames: int) -> Floats:
     return np.broadcast_to(np.stack([x, 0 * x], axis=-1)[:, np.newaxis], (len(radius), frames, 2))
 
 
-def _end(attitude: Floats, contact: Floats) -> int:
-    """How many frames there are before the first that is not finite."""
-    there = np.isfinite(attitude).all(axis=1) & np.isfinite(contact).all(axis=1)
-    return len(attitude) if there.all() else int(np.argmin(there))
+def _end(reached: np.ndarray, *arrays: Floats) -> int:
+    """How many frames there are before the first that the ball did not reach, or that is not finite."""
+    there = np.all([reached, *(np.isfinite(array).all(axis=1) for array in arrays)], axis=0)
+    return len(there) if there.all() else int(np.argmin(there))
 
 
 def _kept(frames: int, balls: int, ends: list[int]) -> np.ndarray:
     """The frames to show: every so many, the last, and those at which a ball stops."""
-    most = min(max(FRAMES // balls, LEAST), MOST)
-    stride = -(-frames // most)
+    stride = -(-frames // _most(balls))
     return np.union1d(np.arange(0, frames, stride), [*(end - 1 for end in ends), frames - 1])
+
+
+def _most(balls: int) -> int:
+    """How many frames each of so many balls may have."""
+    return min(max(FRAMES // balls, LEAST), MOST)
 
 
 def _rolling(
@@ -174,7 +195,7 @@ def _rolling(
 ) -> Rolling:
     """One ball at the kept frames."""
     attitude = attitude / np.sqrt((attitude**2).sum(axis=1, keepdims=True))
-    vectors = {key: _numbers(one, key) for key in ("omega", "momentum", "gamma") if key in one}
+    vectors = {key: _numbers(one, key) for key in VECTORS if key in one}
     omega = kernels.rotate(attitude, vectors["omega"]) if "omega" in vectors else None
     seconds = np.diff(np.asarray(one["time"].values, dtype=np.float64)) if "time" in one.coords else None
     # A run to an accuracy has no steps: they were chosen for each ball, and are many.

@@ -1,7 +1,6 @@
 // The page: clock, controls and readout.  The motion is in motion.js, what is drawn in stage.js.
 
 import { Motion } from 'motion';
-import { ARROWS } from 'ball';
 import { colourOf, Stage } from 'stage';
 
 const find = (selector) => document.querySelector(selector);
@@ -41,12 +40,14 @@ function tell() {
   write('position', `${x}, ${y} m`);
   if (ball.vectors.omega) {
     const omega = ball.inBody('omega', frame), step = (ball.largest.omega || 1) / 500;
-    write('speed', `${digits(omega.length(), step)} rad/s`);
-    write('omega', omega.toArray().map((v) => digits(v, step).replace('-', '−')).join(', ') + ' rad/s');
+    const over = ball.stops && frame > ball.frames - 1; // nothing is known of it any more
+    write('speed', over ? 'stopped' : `${digits(omega.length(), step)} rad/s`);
+    write('omega', over ? '—' : omega.toArray().map((v) => digits(v, step).replace('-', '−')).join(', ') + ' rad/s');
   }
   find('#now').textContent = motion.unit === 's' ? `${digits(time, length / 1000 || 1)} / ${reading(motion.end)}`
     : `${Math.round(time)} / ${motion.end}`;
   scrub.value = time;
+  scrub.style.setProperty('--played', `${length ? 100 * (time - motion.start) / length : 0}%`);
   scrub.setAttribute('aria-valuetext', reading(time));
   every('.balls em', (mark, i) => {
     mark.hidden = !(motion.balls[i].stops && frame >= motion.balls[i].frames - 1);
@@ -146,10 +147,7 @@ function connect() {
   find('#reset').addEventListener('click', () => stage.reset());
   find('#help').addEventListener('click', () => help.showModal());
   every('[data-look]', (button) => button.addEventListener('click', () => look(button.dataset.look)));
-  every('[data-arrow]', (button) => {
-    button.style.setProperty('--c', ARROWS[button.dataset.arrow]);
-    toggle(button, (on) => stage.showArrow(button.dataset.arrow, on));
-  });
+  every('[data-arrow]', (button) => toggle(button, (on) => stage.showArrow(button.dataset.arrow, on)));
   every('#ghost', (button) => toggle(button, (on) => stage.showGhost(on)));
   every('#ellipsoid', (button) => toggle(button, (on) => stage.showEllipsoid(on)));
   every('[name=followed]', (input) => input.addEventListener('change', () => { stage.follow(Number(input.value)); tell(); }));

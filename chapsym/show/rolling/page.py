@@ -59,6 +59,7 @@ def html(dataset: Dataset, *, balls: Sequence[str | int] | None = None) -> str:
         plan=_plan_line(dataset, found),
         notes=_notes(found),
         far=sentence(dataset),
+        between=found.between,
         balls=found.balls,
         rolls="contact" in dataset,
         vectors=[name for name in ("gamma", "omega", "momentum") if any(name in ball.vectors for ball in found.balls)],
@@ -74,7 +75,7 @@ def html(dataset: Dataset, *, balls: Sequence[str | int] | None = None) -> str:
 def _plan_line(dataset: Dataset, found: Motion) -> str:
     """The model, the steps or frames, and the time."""
     parts = [f"model: {dataset.attrs['model']}"] if dataset.attrs.get("model") else []
-    span = found.clock[-1]
+    span = dataset["time"].values[-1] if found.unit == "s" else found.clock[-1]
     if "step" in dataset.coords:
         count = int(dataset["step"].values[-1])
         steps = f"{count} step{'' if count == 1 else 's'}"
