@@ -1,10 +1,13 @@
 """The page in a real browser, from disk: what it shows is what the records say, on a desk and on a phone."""
 
+import io
 import re
 
+import numpy as np
 import pytest
 import shown
 from contrast import contrast, low
+from matplotlib import image
 
 from chapsym.report import page, records
 
@@ -56,6 +59,21 @@ def test_the_page_is_not_wider_than_the_window_even_unfolded(tab):
         }).map(x => x.outerHTML.slice(0, 120))"""
     )
     assert outside == []
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_a_wide_formula_on_a_phone_shows_at_which_end_there_is_more(written, opened, scheme):
+    tab = opened(written, shown.PHONE, has_touch=True, color_scheme=scheme).tab
+    wide = tab.locator(".errata .scroll, .claim .scroll").filter(visible=True)
+    overflows = wide.evaluate_all("all => all.map(x => x.scrollWidth > x.clientWidth + 40)")
+    assert sum(overflows) > 20
+    for box, more in ((wide.nth(overflows.index(True)), True), (wide.nth(overflows.index(False)), False)):
+        for start in (True, False):
+            box.evaluate("(x, start) => { x.scrollLeft = start ? 0 : 1e6; }", start)
+            picture = image.imread(io.BytesIO(box.screenshot()))[..., :3].mean(axis=2)
+            # Between the letters, the ground; at an end with more to see, a shadow in every row.
+            ends = [np.abs(np.median(picture[:, column]) - np.median(picture)) for column in (2, -3)]
+            assert [bool(end > 0.1) for end in ends] == [more and not start, more and start]
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])

@@ -104,8 +104,8 @@ def motion(dataset: Dataset, balls: Sequence[str | int] | None = None) -> Motion
         raise ReportError("the result has no frame that can be drawn: no attitude is a finite number")
     asked, clock = clock[-1], clock[: max(ends)]
     if clock[-1] < asked:
-        one, unit = "the ball" if len(chosen) == 1 else "the last ball", "s" if timed else "steps"
-        notes.append(f"it ends at {clock[-1]:.6g} of {asked:.6g} {unit}, where {one} stops")
+        who, unit = "the ball" if len(chosen) == 1 else "the last ball", "s" if timed else "steps"
+        notes.append(f"it ends at {clock[-1]:.6g} of {asked:.6g} {unit}, where {who} stops")
     kept = _kept(len(clock), len(chosen), [end for end in ends if end])
     if len(kept) < len(clock):
         notes.append(f"{len(kept)} of {len(clock)} frames are shown")
