@@ -12,7 +12,7 @@ from .output import fail, print_json, progress_bar
 if TYPE_CHECKING:
     from xarray import Dataset
 
-FORMATS = {"svg": ("svg",), "png": ("png",), "both": ("svg", "png")}
+FORMATS = {"svg": ("svg",), "png": ("png",), "pdf": ("pdf",), "both": ("svg", "png"), "gif": (), "mp4": ()}
 
 
 @app.command()
@@ -21,7 +21,14 @@ def show(
     output: Annotated[
         Path | None, typer.Option("-o", "--output", metavar="FOLDER", help="Where to; RESULT-figures by default.")
     ] = None,
-    form: Annotated[str, typer.Option("--format", metavar="svg|png|both", help="Of the figures.")] = "svg",
+    form: Annotated[
+        str,
+        typer.Option(
+            "--format",
+            metavar="svg|png|pdf|both|gif|mp4",
+            help="Of the figures; gif, mp4: the motion, moving pictures.",
+        ),
+    ] = "svg",
     ball: Annotated[str | None, typer.Option(metavar="NAME", help="Show one ball of several.")] = None,
     names: Annotated[str | None, typer.Option("--figures", metavar="A,B", help="Only these; all by default.")] = None,
     page: Annotated[
@@ -35,10 +42,12 @@ def show(
     Example: chapsym show docs/first.toml -o pictures
     """
     if form not in FORMATS:
-        fail(f"--format {form}: give svg, png or both", 2)
+        fail(f"--format {form}: give svg, png, pdf, both, gif or mp4", 2)
+    if names and not FORMATS[form]:
+        fail(f"--figures {names}: figures do not move; --format {form} draws the motion, so give svg, png or pdf", 2)
     # One for each result: a.csv and a.parquet are two.  A scene is known by its stem.
     folder = output or result.with_name(f"{result.name.removesuffix('.toml')}-figures")
-    written, missing, so_far = _pictures(result, folder, FORMATS[form], ball, names, page)
+    written, missing, so_far = _pictures(result, folder, form, ball, names, page)
     if as_json:
         files = [str(path) for path in written]
         print_json({"folder": str(folder), "files": files, "missing": missing, "unfinished": so_far})
@@ -57,18 +66,24 @@ def show(
 
 
 def _pictures(
-    result: Path, folder: Path, formats: tuple[str, ...], ball: str | None, names: str | None, page: bool | None
+    result: Path, folder: Path, form: str, ball: str | None, names: str | None, page: bool | None
 ) -> tuple[list[Path], dict[str, str], str | None]:
     """Writes what was asked for; the files, why each figure that is missing is, and how much of the run there is."""
     from chapsym.show import figures
     from chapsym.show.drawing import reading
 
+    if form == "mp4":
+        from chapsym.show.moving import check_writer
+
+        check_writer(form)
     dataset = reading.with_balls(_opened(result, folder), ball)
     reading.begun(dataset)
-    reasons = figures.available(dataset)
+    reasons = figures.available(dataset) if FORMATS[form] else {}
     wanted = _named(names, list(reasons)) if names else [name for name, reason in reasons.items() if reason is None]
-    written = figures.save_all(dataset, folder, formats, names=wanted)
+    written = figures.save_all(dataset, folder, FORMATS[form], names=wanted)
     missing = {} if names else {name: reason for name, reason in reasons.items() if reason is not None}
+    if not FORMATS[form]:
+        written.append(_motion(dataset, folder / f"motion.{form}"))
     if page is not False and (page or not names):
         reason = _page(dataset, folder / "page.html", must=page is True)
         if reason is None:
@@ -100,6 +115,14 @@ def _opened(result: Path, folder: Path) -> "Dataset":
         files.check_destination(folder / "page.html")
     with progress_bar("rolling", 1000) as shown:
         return opening.run(scene, lambda progress: shown(round(1000 * progress.steps / max(progress.of, 1))))
+
+
+def _motion(dataset: "Dataset", path: Path) -> Path:
+    from chapsym.show.moving import save_motion
+
+    with progress_bar("drawing", 1000) as shown:
+        save_motion(dataset, path, progress=lambda drawn, of: shown(1000 * drawn // of))
+    return path
 
 
 def _page(dataset: "Dataset", path: Path, must: bool) -> str | None:

@@ -90,6 +90,12 @@ class Result:
         """
         return grid(self.dataset)
 
+    def animate(self, path: str | Path, ball: str | int | None = None) -> None:
+        """Writes the motion of one ball as moving pictures, .gif or .mp4, as `chapsym show --format` does."""
+        from .moving import save_motion
+
+        save_motion(self.dataset, Path(path), ball)
+
     def rows(self) -> list[tuple[str, str]]:
         """The short table: what was rolled, for how long, what was stored, and how far the integrals drifted."""
         return [row for row in _rows(reading.with_balls(self.dataset)) if row[1]]

@@ -19,7 +19,7 @@ __all__ = ["FIGURES", "FORMATS", "available", "draw", "save", "save_all"]
 
 #: The modules, which are the names of the figures, the most telling first.
 FIGURES = ("contact", "spheres", "spread", "rotation", "phase", "omega", "attitude", "energy", "integrals")
-FORMATS = ("svg", "png")
+FORMATS = ("svg", "png", "pdf")
 #: Those that are curves between the frames; and those that say so where frames are too far apart for that.
 CURVES = ("contact", "spheres", "omega", "attitude")
 TELLING = (*CURVES, "energy")
@@ -58,12 +58,15 @@ def draw(dataset: "Dataset", name: str, ball: str | int | None = None) -> "Pictu
 
 
 def save(figure: "Picture", path: Path) -> None:
-    """Writes a figure to .svg or .png, whole; the same data give the same bytes.  Raises BadInput and CannotWrite."""
+    """Writes a figure to .svg, .png or .pdf, whole; the same data give the same bytes.
+
+    Raises BadInput and CannotWrite.
+    """
     from ..drawing.style import write
 
     form = path.suffix[1:]
     if form not in FORMATS:
-        raise BadInput(f"{str(path)!r}: a figure ends in .svg or .png")
+        raise BadInput(f"{str(path)!r}: a figure ends in .svg, .png or .pdf")
     files.write_whole(path, lambda stream: write(figure, stream, form))
 
 

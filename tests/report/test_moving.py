@@ -1,0 +1,134 @@
+"""Moving pictures: the ball as it turns at each time, its way, and what is written where."""
+
+import io
+import os
+from functools import partial
+
+import numpy as np
+import pytest
+import results
+from commands import refused
+from PIL import Image
+
+import chapsym
+from chapsym.dynamics import BadInput, kernels
+from chapsym.show import moving
+from chapsym.show.moving import ACROSS, MOST, RATE, TURN, save_motion
+from chapsym.show.result import Result
+
+
+@pytest.fixture
+def show(command):
+    """Runs `chapsym show`."""
+    return partial(command, "show")
+
+
+@pytest.fixture
+def fake_ffmpeg(tmp_path, monkeypatch):
+    """An ffmpeg that keeps what it is given: the raw pictures are the file."""
+    folder = tmp_path / "bin"
+    folder.mkdir()
+    program = folder / "ffmpeg"
+    program.write_text('#!/bin/bash\ncat > "${@: -1}"\n')
+    program.chmod(0o755)
+    monkeypatch.setenv("PATH", f"{folder}{os.pathsep}{os.environ['PATH']}")
+    return program
+
+
+def scene(dataset):
+    shown = moving._shown(dataset)
+    with moving.styled():
+        return moving._Scene(dataset, shown), shown
+
+
+def test_each_picture_shows_the_ball_and_its_place_at_its_time():
+    dataset = results.bowling(200)
+    drawn, shown = scene(dataset)
+    true = chapsym.interpolated(dataset, shown.t)
+    assert shown.attitude == pytest.approx(true["attitude"].values[0], abs=1e-14)
+    for i in drawn.pictures():
+        assert drawn.dot.get_xydata()[0] * drawn.factor == pytest.approx(true["contact"].values[0, i], abs=1e-14)
+        assert len(drawn.way.get_xdata()) == i + 1
+    last = shown.attitude[-1]
+    # The sign of xyz in body axes tells the octant of each pixel, light or dark.
+    picture = drawn.image.get_array()
+    side = np.linspace(-1.0, 1.0, ACROSS)
+    for row, column in ((60, 60), (60, 160), (150, 90), (110, 170), (170, 120)):
+        x, y = side[column], side[row]
+        depth = np.sqrt(1.0 - x * x - y * y)
+        seen = x * drawn.view.right + y * drawn.view.up + depth * drawn.view.towards
+        body = kernels.rotate(last * [1.0, -1.0, -1.0, -1.0], seen)
+        if np.abs(body).min() > 0.05 and np.abs(body).max() < 0.9:
+            light = picture[row, column, 2] / (0.92 * (0.72 + 0.28 * depth))
+            assert (light > 0.8) == (body.prod() > 0)
+    assert drawn.clock.get_text() == f"{shown.t[-1]:.2f} s"
+
+
+def test_what_turns_too_fast_for_all_pictures_is_a_part_and_says_so():
+    whole, part, far = (
+        moving._shown(data)
+        for data in (results.bowling(500), results.bowling(8000, every=5), results.bowling(40_000, every=100))
+    )
+    assert (whole.told, whole.t[-1]) == ("", 0.5)
+    assert len(whole.t) >= 2 * RATE
+    assert part.told.startswith("the first ")
+    assert part.told.endswith(" of 8 s")
+    for shown in (whole, part):
+        turned = 2 * np.arccos(np.abs((shown.attitude[1:] * shown.attitude[:-1]).sum(axis=-1)).clip(max=1.0))
+        assert turned.max() < 1.1 * TURN
+    # 3 radians apart: the frames themselves, and no more of them than pictures.
+    assert far.t == pytest.approx(0.1 * np.arange(MOST))
+
+
+def test_the_files_are_whole_and_what_cannot_be_written_is_a_sentence(tmp_path, fake_ffmpeg, monkeypatch):
+    monkeypatch.setattr(moving, "RATE", 3)
+    dataset = results.bowling(60)
+    told = []
+    save_motion(dataset, tmp_path / "a.gif", progress=lambda drawn, of: told.append((drawn, of)))
+    with Image.open(tmp_path / "a.gif") as picture:
+        count = picture.n_frames
+        assert picture.size == (320, 480)
+    assert told == [(i + 1, count) for i in range(count)]
+    Result(dataset).animate(tmp_path / "a.mp4")
+    assert (tmp_path / "a.mp4").stat().st_size == count * 320 * 480 * 4
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["a.gif", "a.mp4", "bin"]
+    fake_ffmpeg.write_text("#!/bin/bash\nexit 1\n")
+    with pytest.raises(BadInput, match=r"ffmpeg could not write the motion .*a \.gif needs none"):
+        save_motion(dataset, tmp_path / "b.mp4")
+    monkeypatch.setenv("PATH", str(tmp_path))
+    with pytest.raises(BadInput, match=r"ffmpeg, which is not installed here: install it, or write a \.gif"):
+        save_motion(dataset, tmp_path / "b.mp4")
+    with pytest.raises(BadInput, match=r"end in \.gif or \.mp4"):
+        save_motion(dataset, tmp_path / "b.avi")
+    with pytest.raises(BadInput, match='no attitude: add "attitude"'):
+        save_motion(dataset.drop_vars("attitude"), tmp_path / "b.gif")
+    with pytest.raises(BadInput, match="three dimensions only"):
+        save_motion(results.four(5), tmp_path / "b.gif")
+    assert not list(tmp_path.glob("b.*"))
+
+
+def test_a_ball_that_stops_and_one_without_contact_move_until_their_last_frame(monkeypatch):
+    dataset = results.folded()
+    dataset["attitude"] = ("ball", "frame", "quaternion"), np.tile([1.0, 0.0, 0.0, 0.0], (2, 301, 1))
+    shown = moving._shown(dataset.isel(ball=[1]).drop_vars("contact"))
+    assert shown.t[-1] == int(dataset["taken"][1])
+    assert shown.contact is None
+    drawn, _ = scene(dataset.isel(ball=[1]).drop_vars("contact"))
+    assert len(drawn.figure.axes) == 1
+    for _ in drawn.pictures():
+        pass
+    assert drawn.clock.get_text() == f"step {int(dataset['taken'][1])}"
+
+
+def test_the_command_writes_the_motion_and_figures_in_every_format(tmp_path, show, monkeypatch):
+    monkeypatch.setattr(moving, "RATE", 2)
+    Result(results.bowling(40)).save(tmp_path / "a.nc")
+    done = show(tmp_path / "a.nc", "-o", tmp_path / "b", "--format", "gif", "--no-page")
+    assert done.stdout == f"{tmp_path / 'b' / 'motion.gif'}\n"
+    assert Image.open(io.BytesIO((tmp_path / "b" / "motion.gif").read_bytes())).n_frames >= 2
+    done = show(tmp_path / "a.nc", "-o", tmp_path / "c", "--format", "pdf", "--figures", "contact")
+    assert (tmp_path / "c" / "contact.pdf").read_bytes()[:5] == b"%PDF-"
+    assert "figures do not move" in refused("show", tmp_path / "a.nc", "--format", "gif", "--figures", "omega")
+    assert "give svg, png, pdf, both, gif or mp4" in refused("show", tmp_path / "a.nc", "--format", "tiff")
+    monkeypatch.setenv("PATH", str(tmp_path))
+    assert "install it, or write a .gif" in refused("show", tmp_path / "nothing.toml", "--format", "mp4")
