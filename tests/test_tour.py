@@ -30,7 +30,8 @@ def shown(cell):
         else:
             data = output.data
             if "text/html" in data:
-                found.append(re.sub(r"<svg.*</svg>", "picture", data["text/html"], flags=re.DOTALL))
+                html = re.sub(r"<svg.*</svg>", "picture", data["text/html"], flags=re.DOTALL)
+                found.append(re.sub(r"<iframe.*</iframe>", "page", html, flags=re.DOTALL))
             elif "image/svg+xml" in data:
                 found.append("picture")
             else:

@@ -1,4 +1,4 @@
-"""A result in Python and in notebooks: a Dataset that shows itself as a short table and its most telling figure."""
+"""A result in Python and in notebooks: a Dataset that shows itself as a table, its most telling figure and its page."""
 
 import sys
 import tempfile
@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from chapsym.dynamics import kernels
+from chapsym.dynamics import BadInput, kernels
 from chapsym.scene.result import formats
 from chapsym.scene.result.far import sentence
 from chapsym.scene.result.grid import grid
@@ -119,7 +119,16 @@ class Result:
         drawable = begun and None in self.figures().values()
         picture = self.figure().svg() if drawable else ""
         caption = f"<caption {cell}>{title}</caption>" if title else ""
-        return f"<table>{caption}<tbody>{rows}</tbody></table>{picture}"
+        return f"<table>{caption}<tbody>{rows}</tbody></table>{picture}{self._page()}"
+
+    def _page(self) -> str:
+        """The page on which the ball rolls, as an element; nothing where it cannot be made."""
+        from .rolling import inline
+
+        try:
+            return inline(self.dataset)
+        except BadInput:
+            return ""
 
 
 def run_scene(scene: "str | Path | Mapping[str, Any]", progress: Callable[[Any], None] | None = None) -> Result:

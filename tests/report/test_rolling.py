@@ -250,7 +250,7 @@ def test_the_page_is_whole_and_asks_for_nothing(tmp_path):
     assert "Copyright © 2010-2026 three.js authors" in text
     assert text.count("</script>") == 3
     assert r"\u003c/script>\u003cb>" in text
-    assert 0.9e6 < len(text) < 1.3e6
+    assert 0.7e6 < len(text) < 1.0e6
 
 
 def test_three_js_is_unmodified_and_packaged():

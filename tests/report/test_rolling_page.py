@@ -12,6 +12,7 @@ from shown import DESK, PHONE, WEBGL, Shown
 from waiting import until
 
 from chapsym.dynamics import Status, kernels
+from chapsym.show.result import Result
 from chapsym.show.rolling import write_page
 from chapsym.show.rolling.motion import TOO_FAR, motion
 from chapsym.show.rolling.page import FOLDER
@@ -291,6 +292,33 @@ def test_a_ball_that_stops_stands_where_it_stopped_and_says_so(rolling, tmp_path
     assert page.tab.locator("#now").inner_text() == "1.000 / 1.000 s"
     assert page.ask("chapsym.position(1e9)") == pytest.approx(alone["contact"].values[0, 50])
     assert "NaN" not in page.tab.locator("body").inner_text()
+
+
+def test_in_a_notebook_the_page_stands_below_the_table_and_the_ball_rolls_there(rolling, results, tmp_path):
+    """Without network, in a frame of its own that nothing reaches: as a notebook's cell shows its result."""
+    shown = Result(results["one"][1])._repr_html_()
+    assert len(shown) < 900_000
+    (tmp_path / "cell.html").write_text(f"<!doctype html><meta charset=utf-8><body>{shown}", encoding="utf-8")
+    page = rolling(tmp_path / "cell.html")
+    assert page.tab.locator("table, svg").first.is_visible()
+    frame = page.tab.locator("iframe")
+    frame.scroll_into_view_if_needed()
+    inner = frame.element_handle().content_frame()
+    until(lambda: inner.evaluate("Boolean(window.chapsym && chapsym.stage)"))
+    inner.evaluate("chapsym.seek(100)")
+    assert inner.evaluate("chapsym.position(100)") == pytest.approx(results["one"][1]["contact"].values[0, 100])
+    assert inner.evaluate("document.documentElement.scrollWidth <= innerWidth")
+    page.drawn()
+    assert pixels(frame.screenshot()).std() > 0.1
+    assert page.ask("(() => { try { return Boolean(frames[0].chapsym); } catch { return 'closed'; } })()") == "closed"
+
+
+def test_a_page_too_large_for_a_notebook_is_left_out_and_says_where_to_write_it(results, monkeypatch):
+    monkeypatch.setattr("chapsym.show.rolling.notebook.MOST", 1000)
+    shown = Result(results["one"][1])._repr_html_()
+    assert "<iframe" not in shown
+    assert "too large to stand here: write it with <code>page(path)</code>" in shown
+    assert "<iframe" not in Result(results["one"][1].drop_vars("attitude"))._repr_html_()
 
 
 def pixels(png):
