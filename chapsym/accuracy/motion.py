@@ -64,7 +64,8 @@ def moved(problem: Problem, progress: Callable[[float], None] = lambda done: Non
         np.zeros(n, dtype=np.int64), np.zeros(n, dtype=np.int64),
     )  # fmt: skip
     steady = _check(problem)
-    _spin(problem, np.flatnonzero(steady), found)
+    if steady.any():
+        _spin(problem, np.flatnonzero(steady), found)
     done = int(steady.sum())
     for group in _alike(problem, np.flatnonzero(~steady)):
         _follow(problem, group, found, lambda part, base=done: progress(base + part))  # type: ignore[misc]
@@ -78,7 +79,7 @@ def _spin(problem: Problem, some: np.ndarray, found: Motion) -> None:
     """Balls that rotate steadily, at once: about an axis that is fixed in body and space, along a straight line."""
     few = problem.of(some)
     omega, time = omega_of(few, few.K, few.gamma), np.arange(problem.frames + 1) * problem.interval
-    rate = few.rate()[:, np.newaxis]
+    rate = few.rate[:, np.newaxis]
     axis, half = np.where(rate > 0, omega / rate, 0.0)[:, np.newaxis], rate * time / 2
     turned = np.concatenate([np.cos(half)[..., np.newaxis], np.sin(half)[..., np.newaxis] * axis], axis=-1)
     back = turned * [1.0, -1.0, -1.0, -1.0]
@@ -111,7 +112,7 @@ def _check(problem: Problem) -> np.ndarray:
 def _rounding(problem: Problem, walks: bool = True) -> Floats:
     """What rounding may leave of each ball: that of its parameters, which turns with it, and that of the stages."""
     with np.errstate(all="ignore"):
-        turned = problem.rate() * problem.end
+        turned = problem.rate * problem.end
         moments = problem.ball.inertia + problem.ball.D[:, np.newaxis]
         condition = np.sqrt(moments.max(axis=-1) / moments.min(axis=-1))
         walked = np.sqrt(1.0 + 40 * turned) if walks else 1.0  # the roundings of some forty stages a radian
@@ -120,7 +121,7 @@ def _rounding(problem: Problem, walks: bool = True) -> Floats:
 
 def _error(problem: Problem, order: int, step: float) -> Floats:
     """The error by the law, of each ball."""
-    rate = problem.rate()
+    rate = problem.rate
     return np.asarray(LAW[order] * (rate * step) ** order * (1 + rate * problem.end) * problem.unit)
 
 
@@ -153,7 +154,7 @@ def _follow(problem: Problem, group: np.ndarray, found: Motion, progress: Callab
     if len(group) <= ALL:
         _settle(problem, group, found, None, progress)
         return
-    order = group[np.argsort(problem.rate()[group], kind="stable")]
+    order = group[np.argsort(problem.rate[group], kind="stable")]
     picked = np.unique(np.linspace(0, len(order) - 1, SAMPLE).astype(int))
     sample, others = order[picked], np.delete(order, picked)
     _settle(problem, sample, found, None, lambda part: None)
@@ -188,7 +189,7 @@ def _by_sample(
     problem: Problem, sample: np.ndarray, others: np.ndarray, found: Motion, rest: Problem, run: Trajectory
 ) -> Floats:
     """The errors of the others, from the differences of all from a cheap run and the errors of the sample."""
-    angle = float(problem.rate()[others].max()) * problem.interval
+    angle = float(problem.rate[others].max()) * problem.interval
     stride = min(max(math.ceil(0.5 * LENGTH / angle) if angle else 1, -(-problem.frames // CHECKS)), problem.frames)
     cheap = Method(CHEAP, max(math.ceil(stride * angle / LENGTH), 1))
     few = problem.of(sample)

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -94,6 +95,7 @@ class Problem:
         """What a relative error comes to in the norm: 1, or the radius in m."""
         return self.ball.radius if self.metres else 1.0
 
+    @cached_property
     def rate(self) -> Floats:
         """|ω| at the start in rad/s, (n,)."""
         return np.asarray(np.linalg.norm(omega_of(self, self.K, self.gamma), axis=-1))

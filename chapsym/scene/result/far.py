@@ -51,6 +51,8 @@ _CHOSEN = ("order", "substeps")
 def sentence(data: "Dataset") -> tuple[str, str] | None:
     """The same for a reader: a key and a text; None if nothing is known."""
     map_, found = _map(data), far(data).get("motion")
+    if "row" in data.dims and "time" in data.coords:
+        return "discretisation", "of a ball in more than three dimensions it is not estimated"
     if map_ is not None:
         return "discretisation", map_.sentence()
     if found is None:
