@@ -401,8 +401,8 @@ def test_a_folder_that_cannot_be_is_one_sentence(tmp_path):
     with pytest.raises(files.CannotWrite, match="file cannot be made"):
         figures.save_all(results.sweep(4), tmp_path / "file")
     assert (tmp_path / "file").read_text() == "kept"
-    with pytest.raises(BadInput, match=r"ends in \.svg or \.png"):
-        figures.save(figures.draw(results.sweep(4), "rotation"), tmp_path / "a.pdf")
+    with pytest.raises(BadInput, match=r"ends in \.svg, \.png or \.pdf"):
+        figures.save(figures.draw(results.sweep(4), "rotation"), tmp_path / "a.tiff")
 
 
 def test_titles_are_those_of_the_scene_as_written():

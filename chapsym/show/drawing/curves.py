@@ -13,6 +13,8 @@ FINE = 0.1
 MOST_POINTS = 200_000
 #: More balls than this have no curves of their own.
 LINES = 60
+#: Of more balls than this, so many tell how far their frames are apart.
+SAMPLE = 50
 
 
 def finer(dataset: Dataset, fine: float = FINE, most: int = MOST_POINTS) -> Dataset:
@@ -21,13 +23,14 @@ def finer(dataset: Dataset, fine: float = FINE, most: int = MOST_POINTS) -> Data
     fine: radians of turning between the new frames; most: how many all balls together may have.
     It stays as it is where its frames are near, or too far apart, or the points that a map without time has.
     """
-    if "time" not in dataset.coords or dataset.sizes["ball"] > LINES or missing(dataset) is not None:
+    balls, frames = dataset.sizes["ball"], dataset.sizes["frame"]
+    if "time" not in dataset.coords or balls > LINES or missing(dataset) is not None or 2 * balls * frames > most:
         return dataset
     turn = turning(dataset)
     if turn is None or not fine < turn <= MOST_TURN:
         return dataset
     t, _ = reading.clock(dataset)
-    parts = min(int(np.ceil(turn / fine)), most // (len(t) * dataset.sizes["ball"]))
+    parts = min(int(np.ceil(turn / fine)), most // (balls * frames))
     if parts < 2:
         return dataset
     times = np.interp(np.arange(parts * (len(t) - 1) + 1) / parts, np.arange(len(t)), t)
@@ -40,6 +43,8 @@ def apart(dataset: Dataset) -> float:
     """How far next frames are apart in radians of turning, at least; 0 where there is no time, or nothing tells."""
     if "time" not in dataset.coords or dataset.sizes.get("frame", 0) < 2:
         return 0.0
+    some = np.unique(np.linspace(0, dataset.sizes["ball"] - 1, min(dataset.sizes["ball"], SAMPLE)).round().astype(int))
+    dataset = dataset.isel(ball=some, frame=slice(0, MOST_POINTS // len(some)))
     turn = turning(dataset)
     if turn is None and {"contact", "radius"} <= set(dataset.variables) and dataset.sizes.get("plane") == 2:
         way = np.diff(reading.values(dataset, "contact"), axis=1)  # no ball rolls with less turning than its way
