@@ -78,7 +78,7 @@ def _plan_line(dataset: Dataset, found: Motion) -> str:
     """The model, the steps or frames, and the time."""
     parts = [f"model: {dataset.attrs['model']}"] if dataset.attrs.get("model") else []
     span = dataset["time"].values[-1] if found.unit == "s" else found.clock[-1]
-    if "step" in dataset.coords:
+    if "step" in dataset.coords and "accuracy" not in dataset.attrs:  # else the steps are no more than a clock
         count = int(dataset["step"].values[-1])
         steps = f"{count} step{'' if count == 1 else 's'}"
         parts.append(f"{steps} of {span / count:.6g} s" if found.unit == "s" and count else steps)
