@@ -179,7 +179,7 @@ def test_frames_that_are_a_large_turn_apart_have_others_between_them():
     sparse, fine = motion(rolled(600, every=20)), motion(rolled(600))
     count = sparse.between
     assert len(sparse.clock) == 30 * count + 1
-    assert "more of its motion, interpolated to the order 6" in html(rolled(600, every=20))
+    assert "more are interpolated, to the order 6" in html(rolled(600, every=20))
     same = np.searchsorted(fine.clock, sparse.clock[::count] - 1e-9)
     np.testing.assert_array_equal(sparse.balls[0].contact[::count], fine.balls[0].contact[same])
     true = np.stack([np.interp(sparse.clock, fine.clock, x) for x in fine.balls[0].contact.T], axis=-1)
