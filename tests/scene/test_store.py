@@ -19,9 +19,12 @@ from waiting import GUARD, until
 
 from chapsym.dynamics import BadInput, Status
 from chapsym.scene import SceneError
+from chapsym.scene.plan import plan as plans
 from chapsym.scene.result import dataset
+from chapsym.scene.result.far import far
 from chapsym.scene.result.group import is_store
 from chapsym.scene.running import segments, sweep
+from chapsym.scene.running.source import plan_from
 from chapsym.scene.running.store import Store, creation, marks, write_region
 from chapsym.scene.running.tally import Stopped
 
@@ -327,3 +330,39 @@ def test_a_worker_that_is_late_changes_nothing(whole, path):
     assert sweep.run_to_store(wanted, path).complete
     write_region(path, wanted, 1, 0, columns)
     equal_to_the_bit(opened(path), whole)
+
+
+MOTION = """
+[ball]
+inertia = [0.006, 0.0071, 0.0089]
+mass = 2.0
+radius = 0.1
+[start]
+omega = [{ linspace = [3.0, 30.0, 10] }, -6.0, 3.0]
+[run]
+time_step = 0.05
+steps = 23
+every = 5
+outputs = ["gamma", "contact"]
+"""
+
+
+def test_the_motion_goes_on_too_and_has_the_same_bits(path, monkeypatch):
+    monkeypatch.setattr(plans, "CHUNK", 4)
+    found = plan_from(MOTION)
+    assert len(found.chunks) == 3
+    alone = sweep.run_in_memory(found)
+    assert alone["taken"].values.tolist() == [23] * 10
+    assert alone["error"].max() <= 1e-6
+
+    def end(progress):
+        if progress.balls >= 4:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        sweep.run_to_store(found, path, report=end)
+    half = opened(path)
+    assert 4 <= (half["order"].values != dataset.NOT_RUN).sum() < 10
+    assert 0 < far(half)["motion"]["error"] <= 1e-6
+    sweep.run_to_store(found, path)
+    equal_to_the_bit(opened(path), alone)

@@ -11,7 +11,7 @@ def explained(plan: Plan) -> list[tuple[str, str]]:
     of = "ball" if len(plan.members) == 1 else "balls"
     rows = [
         ("model", f"{plan.model.name}: {plan.model.about}"),
-        *((f"not {name}", why) for name, why in plan.refused.items()),
+        *((f"not {name}", why) for name, why in plan.refused.items() if plan.task.accuracy is None),
         ("follows", ", ".join(sorted(plan.needed))),
         ("kernels", ", ".join(plan.kernels()) or "none"),
         ("keeps", f"{', '.join(plan.task.outputs)}: {plan.frames} frames of {len(plan.members)} {of}"),

@@ -50,8 +50,9 @@ def _ball(members: Members, i: int) -> str:
 
 
 def _start(scene: Scene, members: Members, i: int) -> str:
-    what, unit = ("K", "kg m²/s") if scene.task().chosen else ("𝒦", "kg m²")
-    momentum = members.momentum[i]
+    task = scene.task()
+    what, unit = ("𝒦", "kg m²") if task.accuracy is None else ("K", "kg m²/s")
+    momentum = members.momentum[i] / (1.0 if task.accuracy is None else task.scale)
     with np.errstate(over="ignore"):
         size = np.sqrt((momentum * momentum).sum() / (1 if momentum.ndim == 1 else 2))
     shown = f"{what} = {_vector(momentum)} {unit}, " if momentum.ndim == 1 else ""
@@ -75,7 +76,8 @@ def _run(scene: Scene) -> str:
     task = scene.task()
     if task.accuracy is not None:
         end = task.interval * (task.frames - 1)
-        return f"the motion of the ball for {end:.6g} s, to {task.accuracy:.3g} of the {task.of}; {task.frames} frames"
+        of = f"the {task.of}" if task.searched else "what is kept"
+        return f"the motion of the ball for {end:.6g} s, to {task.accuracy:.3g} of {of}; {task.frames} frames"
     time = "" if task.time_step is None else f" of {task.time_step:.6g} s: {task.steps * task.time_step:.6g} s"
     order = "" if task.order == 2 else f", order {task.order}"
     precision = "" if task.precision == "double" else f", precision {task.precision}"
