@@ -14,6 +14,17 @@ from . import kernels
 from .ball import Asked, Ball, Floats
 from .errors import BadInput, Status, StepNotTaken
 from .interpolation import Moments, States, standing
+from .principal_axes import attitude_from_principal, attitude_to_principal
+
+
+def _in_axes(ball: Ball, found: Moments) -> Moments:
+    """States in principal axes, in those of the ball."""
+    many = np.ndim(found.time) > 0
+    assert ball.axes is not None
+    turned = {name: ball.from_principal(getattr(found, name), frames=many) for name in ("momentum", "gamma", "omega")}
+    axes = ball.axes[..., np.newaxis, :] if many else ball.axes
+    attitude = None if found.attitude is None else attitude_from_principal(axes, found.attitude)
+    return replace(found, **turned, attitude=attitude)
 
 
 @dataclass(frozen=True, eq=False)
@@ -138,8 +149,15 @@ class Trajectory:
         timed = self.time_step is not None
         momentum = self.angular_momentum() if timed else self.momentum
         there, frames = standing(momentum=momentum, gamma=self.gamma, attitude=self.attitude, contact=self.contact)
-        clock = np.asarray(self.time if timed else self.index, dtype=np.float64)
-        found = States(self.ball, clock, there, **frames).at(times)
+        clock, axes = np.asarray(self.time if timed else self.index, dtype=np.float64), self.ball.axes
+        if axes is not None:
+            vectors = {name: self.ball.to_principal(frames[name], frames=True) for name in ("momentum", "gamma")}
+            frames |= vectors
+            if self.attitude is not None:
+                frames["attitude"] = attitude_to_principal(axes[..., np.newaxis, :], frames["attitude"])
+        found = States(self.ball.principal, clock, there, **frames).at(times)
+        if axes is not None:
+            found = _in_axes(self.ball, found)
         return replace(found, momentum=found.momentum * self._time_step()) if timed else found
 
     def invariants(self) -> Floats:

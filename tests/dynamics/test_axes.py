@@ -280,3 +280,12 @@ def test_every_function_of_a_ball_answers_in_its_axes_or_refuses(name):
 def test_whatever_else_takes_a_ball_refuses(call):
     with pytest.raises(BadInput, match="takes principal axes only"):
         call()
+
+
+def test_between_its_frames_a_run_is_in_the_axes_of_its_ball_too():
+    fine = chapsym.roll(BALL, OMEGA, 0.002, 100, gamma=GAMMA, attitude=True)
+    run = chapsym.roll(BALL, OMEGA, 0.002, 100, gamma=GAMMA, attitude=True, every=2)
+    found = run.at(fine.time)
+    for name in ("momentum", "gamma", "omega", "attitude"):
+        assert np.abs(getattr(found, name) - getattr(fine, name)).max() < 1e-6, name
+    assert np.allclose(run.at(0.074).omega, fine.omega[37], atol=1e-6)
