@@ -30,6 +30,8 @@ FINEST, ROUNDING = 1e-12, 0.5
 LAW, MARGIN = {2: 0.16, 4: 4.8e-3, 6: 1.9e-3, 8: 1.5e-5}, 0.1
 #: How many times as large as Richardson's rule says an error is taken to be, and by which ratio steps are compared.
 SAFETY, RATIO = 4.0, 1.5
+#: How many roundings beside the start a run begins that verifies another, and how far the cheap one of a sweep does.
+ROUNDED, BESIDE = 8, 1e-6
 #: Runs that are tried, and how many times the steps of one, at least and at most, the next of the same order has.
 ATTEMPTS, LEAST_FINER, MOST_FINER = 8, 1.2, 4.0
 #: Balls whose steps differ by less than this ratio run abreast.
@@ -56,13 +58,16 @@ def moved(problem: Problem, progress: Callable[[float], None] = lambda done: Non
     Raises BadInput where rounding alone is more than the accuracy.
     """
     n, kept = len(problem), problem.frames + 1
-    found = Motion(
-        np.full((n, kept, 3), np.nan), np.full((n, kept, 3), np.nan),
-        None if problem.attitude is None else np.full((n, kept, 4), np.nan),
-        np.full((n, kept, 2), np.nan) if problem.contact else None,
-        np.zeros(n, dtype=np.int64), np.zeros(n, dtype=np.int64), np.zeros(n),
-        np.zeros(n, dtype=np.int64), np.zeros(n, dtype=np.int64),
-    )  # fmt: skip
+    try:
+        found = Motion(
+            np.full((n, kept, 3), np.nan), np.full((n, kept, 3), np.nan),
+            None if problem.attitude is None else np.full((n, kept, 4), np.nan),
+            np.full((n, kept, 2), np.nan) if problem.contact else None,
+            np.zeros(n, dtype=np.int64), np.zeros(n, dtype=np.int64), np.zeros(n),
+            np.zeros(n, dtype=np.int64), np.zeros(n, dtype=np.int64),
+        )  # fmt: skip
+    except (MemoryError, ValueError):
+        raise BadInput(f"{kept} states of {n} balls do not fit into memory: keep fewer, by a larger `every`") from None
     steady = _check(problem)
     if steady.any():
         _spin(problem, np.flatnonzero(steady), found)
@@ -101,6 +106,8 @@ def _check(problem: Problem) -> np.ndarray:
     steady = is_steady(problem.ball, problem.K, problem.gamma)
     floor = np.where(steady, _rounding(problem, walks=False), _rounding(problem))
     worst = int(np.argmax(floor)) if len(floor) else 0
+    if len(floor) and not np.isfinite(floor[worst]):
+        raise BadInput("the ball turns too far for float64: |ω|T, or its condition, is beyond 1.8e308")
     if len(floor) and floor[worst] > ROUNDING * problem.accuracy:
         raise BadInput(
             f"an accuracy of {problem.accuracy:g} after {problem.end:g} s cannot be had in double precision: rounding "
@@ -109,14 +116,17 @@ def _check(problem: Problem) -> np.ndarray:
     return steady
 
 
+@np.errstate(all="ignore")
 def _rounding(problem: Problem, walks: bool = True) -> Floats:
-    """What rounding may leave of each ball: that of its parameters, which turns with it, and that of the stages."""
-    with np.errstate(all="ignore"):
-        turned = problem.rate * problem.end
-        moments = problem.ball.inertia + problem.ball.D[:, np.newaxis]
-        condition = np.sqrt(moments.max(axis=-1) / moments.min(axis=-1))
-        walked = np.sqrt(1.0 + 40 * turned) if walks else 1.0  # the roundings of some forty stages a radian
-        return np.asarray(2.0**-53 * (1 + turned) * (2 * condition + walked) * problem.unit)
+    """What rounding may leave of each ball that is not sensitive: of its parameters, and of the stages.
+
+    That of J, D and K turns with the ball; ω along γ loses the digits of the condition of Λ - Dγγᵀ.
+    """
+    turned = problem.rate * problem.end
+    condition = (problem.ball.inertia.max(axis=-1) + problem.ball.D) / problem.ball.inertia.min(axis=-1)
+    walked = np.sqrt(1.0 + 40 * turned) if walks else 1.0  # the roundings of some forty stages a radian
+    turning = (1 + turned) * (2 * np.sqrt(condition) + walked)
+    return np.asarray(2.0**-53 * (turning + 8 * condition) * problem.unit)
 
 
 def _error(problem: Problem, order: int, step: float) -> Floats:
@@ -195,7 +205,7 @@ def _by_sample(
     few = problem.of(sample)
     whole = problem.frames / (problem.frames // stride * stride)
     seen = [
-        apart(one, states, one.take(cheap, stride), stride).max(axis=-1) * whole
+        apart(one, states, one.beside(BESIDE).take(cheap, stride), stride).max(axis=-1) * whole
         for one, states in ((few, _states(found, sample)), (rest, run))
     ]
     with np.errstate(all="ignore"):
@@ -211,23 +221,25 @@ def _settle(
     A ball that more steps do not help keeps the error that it has: rounding alone is larger than the accuracy.
     """
     method, left, factor = first or _cheapest(problem.of(some)), some, 1.0
+    before, gain = np.full(len(some), np.inf), 1.0
     for attempt in range(ATTEMPTS):
         part = problem.of(left)
         run = part.take(method, progress=lambda steps, one=method: progress(OWN * steps / (one.steps * problem.frames)))  # type: ignore[misc]
-        stepped, rounded = _verified(part, method, run)
-        error = stepped + rounded
-        there = (error <= problem.accuracy) | (stepped <= ROUNDING * problem.accuracy) | (rounded > problem.accuracy)
+        error = _verified(part, method, run)
+        there = (error <= problem.accuracy) | (np.isfinite(before) & np.isfinite(error) & (error > before / gain))
         there |= attempt + 1 == ATTEMPTS
         told = np.where(run.status == Status.TAKEN, error, np.nan)
         _put(found, left[there], _some(run, there), method, told[there])
         if there.all():
             return
-        left, part = left[~there], problem.of(left[~there])
-        if np.isfinite(stepped[~there]).all():
-            factor = max(factor, _learnt(part, method, stepped[~there]))
-            method = _more(method, _cheapest(part, factor))
+        left, before, last = left[~there], error[~there], method
+        if np.isfinite(before).all():
+            factor = max(factor, _learnt(problem.of(left), method, before))
+            method = _more(method, _cheapest(problem.of(left), factor))
         else:  # a ball that stopped tells nothing
             method = Method(method.order, 2 * method.steps)
+        # Of what more steps should gain half, in decades, shows that they help.
+        gain = (method.steps / last.steps) ** (method.order / 2) if method.order == last.order else 2.0
 
 
 def _learnt(problem: Problem, method: Method, error: Floats) -> float:
@@ -244,23 +256,20 @@ def _more(method: Method, wanted: Method) -> Method:
     return Method(method.order, min(max(wanted.steps, least), most))
 
 
-@np.errstate(all="ignore")  # the law may give 0
-def _verified(problem: Problem, method: Method, run: Trajectory) -> tuple[Floats, Floats]:
-    """The errors of each ball of the steps, by a run of fewer steps, infinite if one has stopped; and of rounding.
+def _verified(problem: Problem, method: Method, run: Trajectory) -> Floats:
+    """The error of each ball by a run of fewer steps, infinite if one has stopped; and what rounding may leave.
 
-    Where a ball is as much more sensitive than the law says, so it is to rounding; but that the two runs differ in.
+    That run starts a few roundings beside the other, so that a ball that is sensitive to its start shows it.
     """
-    floor = _rounding(problem)
     if not problem.frames:
-        return 0 * floor, floor
+        return _rounding(problem)
     stride = 2 if method.steps == 1 else 1
     fewer = 1 if method.steps <= 2 else round(method.steps / RATIO)
-    ratio = stride * method.steps / fewer
-    off = apart(problem, run, problem.take(Method(method.order, fewer), stride), stride).max(axis=-1)
+    share = min(SAFETY / ((stride * method.steps / fewer) ** method.order - 1), 1.0)
+    beside = problem.beside(ROUNDED * 2.0**-53 / share)
+    off = apart(problem, run, beside.take(Method(method.order, fewer), stride), stride).max(axis=-1)
     off = np.where(np.isnan(off), np.inf, off) * problem.frames / (problem.frames // stride * stride)
-    expected = _error(problem, method.order, stride * problem.interval / fewer)
-    rounded = floor + np.where(np.isinf(off), 0.0, np.fmin(floor * np.maximum(off / expected, 1.0), off))
-    return off * min(SAFETY / (ratio**method.order - 1), 1.0), rounded
+    return np.asarray(off * share + _rounding(problem))
 
 
 def _some(run: Trajectory, which: np.ndarray) -> Trajectory:

@@ -50,7 +50,7 @@ def roll(
     position: the contact point at the start in m, (..., 2).
     accuracy: of γ, of K, ω and the contact point relative to |K|, the largest |ω| and the radius, and of the attitude
     in radians, at every frame; 1e-6 without.  `error` of the result is an estimate of what was reached, by comparison
-    with a run of fewer steps.
+    with a run of fewer steps; it is larger than what was asked for where a start is too near to a separatrix.
     order, precision, map: any of them takes the map in steps of `time_step` in the place of the motion, as `trajectory`
     does, with 𝒦 = ε(Λω - D⟨ω,γ⟩γ).  threads, progress: as of `trajectory`.
 
@@ -64,7 +64,7 @@ def roll(
         raise BadInput("accuracy is of the motion of the ball; leave out order, precision and map")
     run = _rolled(
         ball, spin, vertical, turned, contact, "double" if precision is None else precision, seconds(time_step),
-        whole_number(steps, "steps", 0), every=whole_number(every, "every", 1), order=order or 2,
+        whole_number(steps, "steps", 0), every=whole_number(every, "every", 1), order=2 if order is None else order,
         accuracy=None if by_map else _accuracy(accuracy), threads=threads, progress=progress,
     )  # fmt: skip
     if contact and place.any():

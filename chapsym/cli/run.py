@@ -95,7 +95,7 @@ def _tell(plan: "Plan", destination: Path, outcome: Any, data: "Dataset", answer
         )
     else:
         _print(plan, destination, outcome, one)
-        if (away := sentence(data)) is not None:
+        if (away := sentence(data)) is not None and not (balls == len(answers) == 1):
             print(": ".join(away))
         if balls == len(answers) == 1:
             print_answer(answers[0], plan.members.axes)

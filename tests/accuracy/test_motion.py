@@ -127,7 +127,7 @@ def test_what_cannot_be_had_is_said_and_a_ball_that_rounding_leaves_keeps_its_er
     found = moved(problem([1e-9, 60.0, 1e-9], frames=8, interval=8.0, gamma=(0.0, 1.0, 0.0)))
     assert found.status[0] == Status.TAKEN
     assert found.error[0] > 1e-6
-    assert found.steps[0] < 4000
+    assert found.steps[0] < 11000  # the first choice, and one try more
 
 
 def test_roll_gives_the_motion_and_with_order_precision_or_map_the_map():

@@ -14,8 +14,8 @@ from .models import MODELS, Chosen, Model
 CHUNK = 4096
 #: Numbers kept by one unit, 32 MB.
 UNIT_NUMBERS = 2**22
-#: The same of a model that runs all frames at once.
-WHOLE_NUMBERS = 2**24
+#: Balls and numbers of a unit whose model runs all frames at once: less would be lost, but more verified.
+WHOLE_BALLS, WHOLE_NUMBERS = 1024, 2**24
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,7 +58,7 @@ class Plan:
         """The balls of each unit."""
         size = 1 if isinstance(self.model, Chosen) else CHUNK
         if self.model.whole and size > 1:
-            size = max(1, min(CHUNK, WHOLE_NUMBERS // (self.frames * max(self.numbers, 1))))
+            size = max(1, min(CHUNK, WHOLE_BALLS, WHOLE_NUMBERS // (self.frames * max(self.numbers, 1))))
         return [slice(i, min(i + size, len(self.members))) for i in range(0, len(self.members), size)]
 
     @property

@@ -4,6 +4,8 @@ from typing import Annotated, Any, Literal, Self, get_args
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
+from chapsym.accuracy.motion import FINEST
+
 from .bodies import PRESETS
 from .errors import At
 from .outputs import OUTPUTS
@@ -211,6 +213,9 @@ class RunTable(Table):
             raise At(f"run.accuracy is of the motion, and run.{key} of the map: leave out one of them", key)
         if self.time is None and self.time_step is None:
             raise At("run.accuracy needs run.time, in seconds", "accuracy")
+        if self.time_step is not None and self.accuracy is not None and self.accuracy < FINEST:
+            told = f"run.accuracy below {FINEST:g} takes more digits than float64 has: give run.time and run.frames"
+            raise At(f"{told} without run.time_step", "accuracy")
         if isinstance(self.accuracy, Metres) and self.accurate_of() == "state":
             told = 'of the state it is relative; a length goes with of = "contact"'
             raise At(f"run.accuracy has a unit, but {told}", "accuracy")

@@ -1,5 +1,6 @@
 """How far a result is from the motion of the ball: by its error, where that was verified, or as a map of its steps."""
 
+import math
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
@@ -33,16 +34,17 @@ def far(data: "Dataset") -> dict[str, Any]:
     map_ = _map(data)
     if map_ is not None:
         return {"discretisation": asdict(map_)}
-    if not {"error", "order", "substeps"} <= set(data.data_vars) or "accuracy" not in data.attrs:
+    if "error" not in data or "accuracy" not in data.attrs:
         return {}
-    error, ran = np.asarray(data["error"].values, dtype=float), data["order"].values >= 0
-    error = error[ran & np.isfinite(error)]
-    if not error.size:
+    error = np.asarray(data["error"].values, dtype=float)
+    there = ~np.isnan(error)  # balls whose turn has not come, or that stopped
+    if not there.any() or data.sizes.get("frame", 1) < 2:
         return {}
     accuracy, of = float(data.attrs["accuracy"]), str(data.attrs.get("accuracy_of"))
-    chosen = {name: [int(data[name].values[ran].min()), int(data[name].values[ran].max())] for name in _CHOSEN}
-    worse = int((error > accuracy).sum())
-    return {"motion": {"accuracy": accuracy, "of": of, "error": float(error.max()), "worse": worse, **chosen}}
+    chosen = {name: [int(f(data[name].values[there])) for f in (min, max)] for name in _CHOSEN if name in data}
+    largest, worse = float(error[there].max()), int((error[there] > accuracy).sum())
+    told = largest if math.isfinite(largest) else None
+    return {"motion": {"accuracy": accuracy, "of": of, "error": told, "worse": worse, **chosen}}
 
 
 _CHOSEN = ("order", "substeps")
@@ -57,18 +59,22 @@ def sentence(data: "Dataset") -> tuple[str, str] | None:
         return "discretisation", map_.sentence()
     if found is None:
         return None
-    balls = data.sizes["ball"]
-    unit = " m of the contact point" if found["of"] == "contact" else ""
-    about = f"of the ball to an estimated {found['error']:.1e}{unit}" if balls == 1 else (
-        f"of the balls to an estimated {found['error']:.1e}{unit}, the worst of {balls}"
-    )  # fmt: skip
+    balls, unit = data.sizes["ball"], " m of the contact point" if found["of"] == "contact" else ""
+    error = "an error that is not known" if found["error"] is None else f"an estimated {found['error']:.1e}{unit}"
+    about = f"of the ball to {error}" if balls == 1 else f"of the balls to {error}, the worst of {balls}"
     more = f"; {found['worse']} of them are not within it" if found["worse"] and balls > 1 else ""
     asked = f"{'not the ' if found['worse'] and balls == 1 else ''}{found['accuracy']:g} asked for{more}"
-    order, steps = (_span(*found[name]) for name in _CHOSEN)
-    how = f"order {order}, {steps} step{'s' if steps != '1' else ''} from frame to frame" if order != "0" else (
-        "a steady rotation, in closed form"
-    )  # fmt: skip
-    return "motion", f"{about} ({asked}): {how}"
+    return "motion", f"{about} ({asked})" + _how(*(found[name] for name in _CHOSEN if name in found))
+
+
+def _how(order: tuple[int, int] = (0, 0), substeps: tuple[int, int] | None = None) -> str:
+    """What was chosen, where it is known."""
+    if substeps is None:
+        return ""
+    if order[1] == 0:
+        return ": a steady rotation, in closed form"
+    steps = _span(*substeps)
+    return f": order {_span(*order)}, {steps} step{'s' if steps != '1' else ''} from frame to frame"
 
 
 def _span(least: int, most: int) -> str:

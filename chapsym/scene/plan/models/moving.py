@@ -62,12 +62,12 @@ class Moving(Model):
     def _problem(members: Members, task: Task, needed: frozenset[str]) -> Problem:
         assert isinstance(members.ball, Ball)
         assert task.accuracy is not None
-        attitude = None
-        if needed & {"attitude", "contact"}:
+        attitude, metres = None, task.of == "contact"
+        if metres or needed & {"attitude", "contact"}:
             attitude = attitude_with(members.gamma) if members.attitude is None else members.attitude
         return Problem(
             members.ball, members.momentum / task.scale, members.gamma, task.interval, task.frames - 1, task.accuracy,
-            attitude, "contact" in needed, task.of == "contact" and "contact" in needed, _parts(task.outputs),
+            attitude, metres or "contact" in needed, metres, _parts(task.outputs),
         )  # fmt: skip
 
 
