@@ -91,14 +91,14 @@ def _tell(plan: "Plan", destination: Path, outcome: Any, data: "Dataset", answer
         run = {"balls": balls, "frames": plan.frames, "steps": plan.task.steps, "model": plan.model.name}
         found = {"output": str(destination), **run, "failed": failed, "complete": outcome.complete, "lost": lost}
         print_json(
-            found | one | far(data) | (described(answers[0], plan.members.axes) if balls == len(answers) == 1 else {})
+            found | one | far(data) | (described(answers[0], plan.members) if balls == len(answers) == 1 else {})
         )
     else:
         _print(plan, destination, outcome, one)
         if (away := sentence(data)) is not None and not (balls == len(answers) == 1):
             print(": ".join(away))
         if balls == len(answers) == 1:
-            print_answer(answers[0], plan.members.axes)
+            print_answer(answers[0], plan.members)
     if failed == balls == 1:
         fail(f"{stopped(data)}; the {one['steps']} steps before it are in {destination}", 2)
     if failed == balls:

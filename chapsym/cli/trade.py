@@ -2,7 +2,7 @@
 
 import math
 import re
-from decimal import Decimal
+from decimal import Decimal, localcontext
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -111,9 +111,9 @@ def _answer(
         fail(_in_options(str(error), scene is None), 2)
     quiet()
     if as_json:
-        print_json(described(answer, plan.members.axes))
+        print_json(described(answer, plan.members))
     else:
-        print_answer(answer, plan.members.axes)
+        print_answer(answer, plan.members)
 
 
 def _in_options(sentence: str, all_of_it: bool) -> str:
@@ -146,9 +146,12 @@ def _described(accuracy: float, time: float | None, told: dict[str, str]) -> Any
     return scenes.checked({"ball": ball, "start": start, "run": {k: v for k, v in run.items() if v is not None}})
 
 
-def _final(answer: Any, axes: Any) -> dict[str, list[Any]]:
-    """K, γ and the contact point at the end, turned from principal axes."""
+def _final(answer: Any, members: Any) -> dict[str, list[Any]]:
+    """K, γ and the contact point at the end, turned from principal axes, from where the ball started."""
     found: dict[str, list[Any]] = answer.final()
+    axes = members.axes
+    if members.place is not None and "contact" in found:
+        found["contact"] = [_sum(x, start) for x, start in zip(found["contact"], members.place[0], strict=True)]
     if axes is not None:
         import numpy as np
 
@@ -159,8 +162,16 @@ def _final(answer: Any, axes: Any) -> dict[str, list[Any]]:
     return found
 
 
-def described(answer: Any, axes: Any = None) -> dict[str, Any]:
-    """The answer as plain data, in the axes (1, 4) in which the ball is given; None where these are principal."""
+def _sum(x: Any, start: float) -> Any:
+    """A float, or a decimal string, and a float."""
+    if isinstance(x, float):
+        return x + float(start)
+    with localcontext(prec=2 * len(x) + 40):
+        return str(Decimal(x) + Decimal(float(start)))
+
+
+def described(answer: Any, members: Any) -> dict[str, Any]:
+    """The answer for one ball as plain data, in the axes in which it is given."""
     request, choice = answer.request, answer.choice
     return {
         "accuracy": request.accuracy, "time": request.time, "of": request.of, "choice": _choice(choice),
@@ -169,7 +180,7 @@ def described(answer: Any, axes: Any = None) -> dict[str, Any]:
             _choice(a.choice) | {"estimate": a.estimate if a.estimate < 1e300 else None, "seconds": a.seconds}
             for a in answer.attempts
         ],
-        "final": _final(answer, axes),
+        "final": _final(answer, members),
     }  # fmt: skip
 
 
@@ -180,7 +191,7 @@ def _choice(choice: Any) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def print_answer(answer: Any, axes: Any = None) -> None:
+def print_answer(answer: Any, members: Any) -> None:
     """The answer for a reader, as of `described`."""
     request, choice = answer.request, answer.choice
     unit = "m" if request.of == "contact" else "relative"
@@ -191,7 +202,7 @@ def print_answer(answer: Any, axes: Any = None) -> None:
     print(f"cost      expected {choice.seconds:.2g} s; taken {taken:.2g} s, in all {answer.seconds:.2g} s")
     for one in answer.attempts[:-1]:
         print(f"          tried before: {one.choice.sentence()}, off by {one.estimate:.1e}")
-    for name, values in _final(answer, axes).items():
+    for name, values in _final(answer, members).items():
         print(f"{name:9} {_to_estimate(name, values, request.of, answer.estimate)}")
 
 

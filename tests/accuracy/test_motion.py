@@ -1,17 +1,24 @@
 """The motion to an accuracy: it is met, the estimate is above the error, sweeps cost little more than their runs."""
 
+import json
 from dataclasses import replace
 
 import numpy as np
 import pytest
+from commands import chapsym as command
 from scipy.integrate import solve_ivp
 
 import chapsym
-from chapsym.accuracy import motion
+from chapsym.accuracy import load_prices, motion
 from chapsym.accuracy.motion import moved
 from chapsym.accuracy.problem import Method, Problem, apart
 from chapsym.dynamics import BadInput, Ball, Status, kernels
 from chapsym.dynamics.attitudes import attitude_with
+from chapsym.scene import checked
+from chapsym.scene.plan.models.moving import _parts
+from chapsym.scene.result.far import far, sentence
+from chapsym.scene.running.source import plan_of
+from chapsym.scene.running.sweep import run_in_memory
 
 INERTIA = np.array([0.006, 0.0071, 0.0089])
 GAMMA = np.array([2.0, 3.0, 6.0]) / 7
@@ -164,3 +171,69 @@ def test_roll_starts_in_space_with_an_attitude_and_a_position():
                         ({"attitude": [0.0] * 4}, "attitude must be unit quaternions")]:  # fmt: skip
         with pytest.raises(BadInput, match=told):
             chapsym.roll(ball, spatial, 0.01, 5, **wrong)
+
+
+@pytest.mark.parametrize(
+    ("inertia", "D", "omega", "end", "accuracy", "true"),
+    [((1, 2, 2.5), 1.0, (0, 2, 0), 41.0, None, 2e-6), ((1, 2, 2.5), 1.0, (1e-12, 2, 0), 60.0, None, 7e-5),
+     ((1, 1.3, 1.6), 1e6, (0.67, 0.09, -0.73), 20.0, 3e-9, 3e-10)],
+)  # fmt: skip
+def test_what_rounding_of_the_start_does_is_in_the_estimate(inertia, D, omega, end, accuracy, true):
+    """Beside the unstable axis, and where ω along γ has few digits: `true` is by 80 bits, from the floats given."""
+    ball = Ball.from_inertia(inertia, D=D, radius=1.0)
+    run = chapsym.roll(ball, omega, end / 40, 40, gamma=GAMMA, attitude=True, contact=True, accuracy=accuracy)
+    assert run.error > true
+
+
+def test_roll_refuses_in_one_sentence_what_no_run_can_have():
+    ball = Ball.from_inertia((1, 1.3, 1.6), D=1e6)
+    for arguments, told in [
+        (((1, 2, 0), 1e-9, 10**13), "10000000000001 states of 1 balls do not fit into memory"),
+        (((1e300, 1e300, 0), 0.1, 10), "the ball turns too far for float64"),
+    ]:
+        with pytest.raises(BadInput, match=told):
+            chapsym.roll(ball, *arguments)
+    with pytest.raises(BadInput, match="order must be one of 2, 4, 6, 8, not 0"):
+        chapsym.roll(ball, (1, 2, 0), 0.1, 10, order=0)
+    with pytest.raises(BadInput, match="an accuracy of 1e-10 after 20 s cannot be had in double precision"):
+        chapsym.roll(ball, (0.67, 0.09, -0.73), 2.0, 10, gamma=GAMMA, accuracy=1e-10)
+
+
+SCENE = {
+    "ball": {"inertia": [0.006, 0.0071, 0.0089], "mass": 2.0, "radius": 0.1},
+    "start": {"omega": [14.0, -6.0, 3.0], "position": [5.0, 1.0]},
+}
+
+
+def test_energy_alone_is_verified_by_the_state_and_metres_by_the_contact_point():
+    """A difference of energies is 0 by chance where a run is not right."""
+    assert _parts(("energy",)) == _parts(("integrals", "gamma")) == {"momentum", "gamma"}
+    assert _parts(("contact", "attitude")) == {"contact", "attitude"}
+    asked = {"time_step": 0.01, "steps": 50, "accuracy": "1 um", "of": "contact", "outputs": ["gamma"]}
+    plan = plan_of(checked(SCENE | {"run": asked}))
+    kept = plan_of(checked(SCENE | {"run": asked | {"outputs": ["gamma", "contact"]}}))
+    found, beside = (run_in_memory(one) for one in (plan, kept))
+    assert "contact" not in found
+    assert found["error"].values == beside["error"].values
+
+
+def test_an_error_that_is_not_known_is_told_as_none_that_is_met():
+    asked = checked(SCENE | {"run": {"time_step": 0.01, "steps": 50}})
+    data = run_in_memory(plan_of(asked))
+    assert far(data)["motion"]["worse"] == 0
+    data["error"][:] = np.inf
+    assert far(data)["motion"] | {"error": None, "worse": 1} == far(data)["motion"]
+    key, told = sentence(data)
+    assert (key, told.split(":")[0]) == (
+        "motion",
+        "of the ball to an error that is not known (not the 1e-06 asked for)",
+    )
+
+
+def test_a_searched_run_ends_where_its_start_stood(tmp_path):
+    scene = tmp_path / "ball.toml"
+    scene.write_text("[ball]\ninertia = [0.01, 0.01, 0.01]\nmass = 2.0\nradius = 0.1\n[start]\nvelocity = [1.0, 0.0]\n"
+                     "position = [5.0, 1.0]\n[run]\ntime = 3.0\ncontact = true\naccuracy = 1e-6\n")  # fmt: skip
+    load_prices()  # which would tell that it takes them
+    found = json.loads(command("run", scene, "-o", tmp_path / "ball.npz", "--json").stdout)
+    assert np.allclose(found["final"]["contact"], [8.0, 1.0], atol=1e-6)

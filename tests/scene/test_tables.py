@@ -96,6 +96,7 @@ def test_steps_and_frames(run, steps, every):
         ({"steps": 10, "time_step": -1}, "run.time_step must be greater than 0"),
         ({"steps": 10, "time_step": {"grid": [1]}}, "run.time_step must be a number"),
         ({"accuracy": 1e-3, "steps": 3, "order": 4}, "run.accuracy is of the motion, and run.order of the map"),
+        ({"accuracy": 1e-13, "steps": 3}, "run.accuracy below 1e-12 takes more digits than float64 has: give run.time"),
         ({"accuracy": 1e-3, "steps": 3, "map": True}, "run.accuracy is of the motion, and run.map of the map"),
         ({"accuracy": 1e-3, "steps": 3, "outputs": ["phase"]}, "run.accuracy is of the motion, and run.outputs of the"),
         ({"steps": True}, "run.steps must be a whole number"),

@@ -218,13 +218,13 @@ def test_an_estimate_is_told_as_one_with_the_digits_it_is_about(capsys):
         request=SimpleNamespace(of="contact", accuracy=1e-8), choice=SimpleNamespace(sentence=str, seconds=1.0),
         estimate=4.0e-9, attempts=[SimpleNamespace(seconds=1.0)], seconds=1.0, final=lambda: final,
     )  # fmt: skip
-    print_answer(answer)
+    print_answer(answer, SimpleNamespace(axes=None, place=None))
     told = capsys.readouterr().out
     assert "at most" not in told
     assert "off by 4.0e-09 (m), estimated by a run of longer steps" in told
     assert told.endswith("angular_momentum 0.0639508  20  (not compared)\ncontact   -249.562570746  0.100000000\n")
     answer.request.of = "state"
-    print_answer(answer)
+    print_answer(answer, SimpleNamespace(axes=None, place=None))
     told = capsys.readouterr().out
     assert told.endswith("angular_momentum 0.06395079  20.00000000\ncontact   -249.563  0.1  (not compared)\n")
 
