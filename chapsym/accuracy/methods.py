@@ -99,7 +99,7 @@ def take(request: Request, method: Method, steps: int, frames: int, time: float 
     end = request.time if time is None else time
     step, every = end / steps, steps // frames
     _in_range(step, request.angular_momentum)
-    body = request.attitude if request.with_body else False
+    body = request.body
     ball, K, g = request.ball, request.angular_momentum, request.gamma
     if method.order == EXTRAPOLATED:
         return _extrapolated(request, step, every, frames, body)

@@ -37,8 +37,7 @@ class Motion:
     angular_momentum: K in kg m²/s, (n, frames + 1, 3).  gamma: (n, frames + 1, 3).  attitude: (n, frames + 1, 4), or
     None.  contact: in m, from (0, 0), (n, frames + 1, 2), or None.
     reached: the last frame of each ball, (n,); later ones are NaN.  status: why it stopped, a `Status`, (n,).
-    error: an estimate of each ball's largest error at any frame, (n,), in the norm of `apart`; of the contact point
-    alone in m, if it was asked for so.
+    error: an estimate of each ball's largest error at any frame, (n,), in the norm of `apart`.
     order, steps: of each ball, (n,), the latter between two frames; 0 of a steady rotation, which needs none.
     """
 
@@ -58,8 +57,7 @@ class Problem:
     """What is asked for: n balls from K and γ, `frames` times `interval` seconds apart, to an accuracy.
 
     attitude: (n, 4) or None, where it is not followed.  contact: whether it is.
-    metres: whether the accuracy is of the contact point, in metres, and of nothing else.
-    parts: what the accuracy is of, where it is not in metres.
+    parts: what the accuracy is of; with metres in metres, of relative errors and angles times the radius.
     """
 
     ball: Ball
@@ -82,10 +80,7 @@ class Problem:
         ball = self.ball
         few = Ball(ball.mass_tensor[some], ball.D[some], None if ball.radius is None else ball.radius[some])
         attitude = None if self.attitude is None else self.attitude[some]
-        return Problem(
-            few, self.K[some], self.gamma[some], self.interval, self.frames, self.accuracy, attitude, self.contact,
-            self.metres, self.parts, self.threads,
-        )  # fmt: skip
+        return replace(self, ball=few, K=self.K[some], gamma=self.gamma[some], attitude=attitude)
 
     @property
     def end(self) -> float:
@@ -134,13 +129,10 @@ def apart(problem: Problem, run: Trajectory | Motion, other: Trajectory, stride:
     """How far two runs are apart at each common frame, (n, frames): other has every `stride`-th frame of run.
 
     The largest of the parts that are asked for: |ΔK|/|K|, |Δγ|, |Δω| over the largest |ω| of the ball, the angle
-    between the attitudes in radians, and the distance of the contact points in radii; or, if the accuracy is in metres,
-    that distance in metres.
+    between the attitudes in radians, and the distance of the contact points in radii; times the radius, if the accuracy
+    is in metres.
     """
-
     radius = 1.0 if problem.ball.radius is None else problem.ball.radius[:, np.newaxis]
-    if problem.metres:
-        return lengths(run.contact[:, ::stride] - other.contact)
     mine = run.angular_momentum if isinstance(run, Motion) else run.angular_momentum()
     K, L, gamma = mine[:, ::stride], other.angular_momentum(), run.gamma[:, ::stride]
     found, parts = [np.zeros(gamma.shape[:2])], problem.parts
@@ -157,7 +149,7 @@ def apart(problem: Problem, run: Trajectory | Motion, other: Trajectory, stride:
         found.append(4 * np.arcsin(np.minimum(np.minimum(lengths(q - p), lengths(q + p)) / 2, 1.0)))
     if "contact" in parts and problem.contact:
         found.append(lengths(run.contact[:, ::stride] - other.contact) / radius)
-    return np.asarray(np.max(found, axis=0))
+    return np.asarray(np.max(found, axis=0) * (radius if problem.metres else 1.0))
 
 
 def _over(a: Floats, size: Floats) -> Floats:

@@ -27,7 +27,8 @@ ROUNDINGS = {"Single": 2.0**-24, "Double": 2.0**-53, "Quad": 2.0**-103, "Digits"
 class Request:
     """The continuous ball (2.3) from K (kg m²/s) and γ for `time` seconds, to an absolute `accuracy` at every frame.
 
-    of: "state", the larger of |ΔK|/|K| and |Δγ|; or "contact", the distance in metres.
+    of: "state", the larger of |ΔK|/|K| and |Δγ|; or "contact", the distance in metres.  An attitude that is asked for
+    counts, too: its angle in radians, or how far that moves the surface, in metres.
     frames: how many equal times, the last of them the end.  attitude: True, or a unit quaternion to be followed.
     rate, speed, rolling: the largest and the mean |ω|, and the mean |ω × γ|, in rad/s; condition: of Λ - Dγγᵀ.
     `surveyed` finds them.
@@ -61,24 +62,29 @@ class Request:
         object.__setattr__(self, "frames", whole_number(self.frames, "frames", 1))
         if self.accuracy < FINEST:
             raise BadInput(f"accuracy must be at least {FINEST:g}: the compositions' coefficients have 40 digits")
-        if not isinstance(self.attitude, bool | np.bool_):
+        if isinstance(self.attitude, bool | np.bool_):
+            object.__setattr__(self, "attitude", bool(self.attitude))
+        else:
             object.__setattr__(self, "attitude", initial_attitude(self.attitude, g[0]))
-        elif self.with_body:
+        if self.body is True:
             # Left to the run: every rung makes the least rotation in its own numbers.  What squares to nothing turns a
             # rung of wider range by another half turn than float64, where γ is upside down.
-            object.__setattr__(self, "attitude", True)
             object.__setattr__(self, "gamma", np.where(abs(self.gamma) < 1e-150, 0.0, self.gamma))
 
     @property
+    def body(self) -> Any:
+        """The attitude that a run follows, as `trajectory` takes it."""
+        return True if self.attitude is False and self.of == "contact" else self.attitude
+
+    @property
     def with_body(self) -> bool:
-        """Whether the attitude must be followed."""
-        given = not isinstance(self.attitude, bool | np.bool_)
-        return given or bool(self.attitude) or self.of == "contact"
+        """Whether a run follows the attitude."""
+        return self.body is not False
 
     @property
     def first_attitude(self) -> Floats:
         """The attitude at the start in float64, a unit quaternion, (4,)."""
-        return attitude_with(self.gamma) if isinstance(self.attitude, bool | np.bool_) else np.asarray(self.attitude)
+        return attitude_with(self.gamma) if isinstance(self.attitude, bool) else np.asarray(self.attitude)
 
     @property
     def angle(self) -> float:
@@ -103,7 +109,8 @@ class Request:
         summed: whether 𝒦 and γ are summed with compensation; the attitude never is.  What is not walks at random.
         """
         turned = 0.0 if summed else math.sqrt(self.condition) * (1 + self.angle) * self.unit
-        rolled = 2 * (1 + self.rolling * self.time) * self.unit if self.of == "contact" else 0.0
+        path = self.rolling * self.time if self.of == "contact" else 0.0
+        rolled = 0.0 if not self.with_body else 2 * (1 + path) * self.unit
         return self.shared(rung) + rounding(rung) * math.sqrt(stages) * max(turned, rolled)
 
 
@@ -122,12 +129,16 @@ def rounding(rung: Rung) -> float:
 def distance(request: Request, run: Trajectory, other: Trajectory) -> Floats:
     """How far apart two runs are in the request's norm, at each of their common frames but the first, (frames,)."""
     if request.of == "contact":
-        return lengths(_difference(request, run, other, "contact"))
-    size = float(lengths(request.angular_momentum)) or 1.0
-    return np.maximum(
-        lengths(_difference(request, run, other, "momentum")) / size,
-        lengths(_difference(request, run, other, "gamma")),
-    )
+        found = lengths(_difference(request, run, other, "contact"))
+    else:
+        size = float(lengths(request.angular_momentum)) or 1.0
+        found = np.maximum(
+            lengths(_difference(request, run, other, "momentum")) / size,
+            lengths(_difference(request, run, other, "gamma")),
+        )
+    if request.attitude is False:
+        return found
+    return np.maximum(found, 2 * request.unit * lengths(_difference(request, run, other, "attitude")))
 
 
 def _difference(request: Request, run: Trajectory, other: Trajectory, name: str) -> Floats:
@@ -144,7 +155,7 @@ def lengths(v: np.ndarray) -> Floats:
 
 
 def exact_values(request: Request, run: Trajectory, name: str) -> np.ndarray:
-    """`contact`, `gamma`, or `momentum` divided by the time step: floats, or Fractions where a float would not do."""
+    """`contact`, `gamma`, `attitude`, or `momentum` over the time step: floats, or Fractions where they fall short."""
     high = getattr(run, name)
     if run.low is None and high.dtype != object:
         return np.asarray(high.astype(float) / (run.time_step if name == "momentum" else 1.0))

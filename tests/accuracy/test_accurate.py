@@ -67,6 +67,18 @@ def test_the_true_error_is_within_the_estimate_and_that_within_the_accuracy(of, 
     assert error_of(answer) <= answer.estimate <= accuracy
 
 
+@pytest.mark.parametrize("of", ["contact", "state"])
+@pytest.mark.parametrize("turned", [True, (0.6, 0.48, 0.64, 0.0)])
+def test_an_attitude_that_is_asked_for_has_the_accuracy_too(of, turned):
+    """K and γ of a ball with equal moments show little of how far it has turned."""
+    ball = chapsym.Ball.from_inertia((0.006, 0.006, 0.006), mass=2.0, radius=0.1)
+    gamma = GAMMA if turned is True else kernels.rotate(np.array(turned) * [1, -1, -1, -1], np.array([0.0, 0.0, 1.0]))
+    answer = accurate(ball, K, gamma, 20.0, 1e-6, of=of, attitude=turned, prices=PRICES)
+    fine = chapsym.trajectory(ball, 0.005 * K, gamma, 4000, order=8, every=4000, attitude=turned, time_step=0.005)
+    off = 2 * np.linalg.norm(answer.trajectory.attitude[-1] - fine.attitude[-1])
+    assert off * (0.1 if of == "contact" else 1.0) <= answer.estimate <= 1e-6
+
+
 def test_looser_targets_cost_less():
     expected = [answered(float(f"1e-{k}")).choice.seconds for k in (3, 6, 9, 12, 18)]
     assert expected == sorted(expected)

@@ -218,6 +218,15 @@ def test_energy_alone_is_verified_by_the_state_and_metres_by_the_contact_point()
     assert found["error"].values == beside["error"].values
 
 
+def test_in_metres_the_attitude_counts_by_how_far_it_moves_the_surface():
+    asked = replace(problem([14.0, -6.0, 3.0]), metres=True)
+    found = moved(asked)
+    turned = replace(found, attitude=kernels.compose(found.attitude, np.array([np.cos(5e-4), np.sin(5e-4), 0.0, 0.0])))
+    off = apart(asked, turned, asked.take(Method(8, 20))).max()
+    assert off == pytest.approx(1e-4, rel=1e-2)  # 1e-3 rad of a ball of 0.1 m
+    assert found.error[0] <= 1e-6
+
+
 def test_an_error_that_is_not_known_is_told_as_none_that_is_met():
     asked = checked(SCENE | {"run": {"time_step": 0.01, "steps": 50}})
     data = run_in_memory(plan_of(asked))

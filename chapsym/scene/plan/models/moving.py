@@ -65,9 +65,10 @@ class Moving(Model):
         attitude, metres = None, task.of == "contact"
         if metres or needed & {"attitude", "contact"}:
             attitude = attitude_with(members.gamma) if members.attitude is None else members.attitude
+        parts = _parts(task.outputs) | ({"contact"} if metres else frozenset())
         return Problem(
             members.ball, members.momentum / task.scale, members.gamma, task.interval, task.frames - 1, task.accuracy,
-            attitude, metres or "contact" in needed, metres, _parts(task.outputs),
+            attitude, metres or "contact" in needed, metres, parts,
         )  # fmt: skip
 
 
