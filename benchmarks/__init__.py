@@ -22,9 +22,16 @@ SECTIONS = {
 }
 
 
-def run(section: str, quick: bool, on_round: Callable[[str], None] = lambda text: None) -> Result:
-    """Measures one section; `quick` is for a look, in seconds.  Raises NotComparable where two sides disagree."""
-    return import_module(f".{SECTIONS[section]}", __name__).measure(quick, on_round)
+#: The section that takes a ball of one's own.
+OWN = "trajectory"
+
+
+def run(section: str, quick: bool, on_round: Callable[[str], None] = lambda text: None, **own: Any) -> Result:
+    """Measures one section; `quick` is for a look, in seconds.  Raises NotComparable where two sides disagree.
+
+    own: of the section `OWN`, the ball and its start, as `trajectory.Start`.
+    """
+    return import_module(f".{SECTIONS[section]}", __name__).measure(quick, on_round, **own)
 
 
 def as_json(results: dict[str, Result], quick: bool) -> dict[str, Any]:

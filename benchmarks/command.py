@@ -4,13 +4,17 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 import benchmarks
 from chapsym.cli.output import check_figure, console_for, fail, print_json, print_table, quiet, say
 
 
-def measure(sections: Sequence[str], quick: bool, output: Path | None, as_json: bool) -> None:
-    """Measures the sections, or all of them; fails with a sentence as every command does."""
-    wanted = list(dict.fromkeys(sections or benchmarks.SECTIONS))
+def measure(sections: Sequence[str], quick: bool, output: Path | None, as_json: bool, own: Any = None) -> None:
+    """Measures the sections, or all of them, or that of one's own ball; fails with a sentence as every command does."""
+    wanted = list(dict.fromkeys(sections or (benchmarks.SECTIONS if own is None else [benchmarks.OWN])))
+    if own is not None and wanted != [benchmarks.OWN]:
+        fail(f"a ball of your own goes with the section {benchmarks.OWN} alone", 2)
     for name in wanted:
         if name not in benchmarks.SECTIONS:
             fail(f"there is no section {name!r}; there are {', '.join(benchmarks.SECTIONS)}", 2)
@@ -21,7 +25,7 @@ def measure(sections: Sequence[str], quick: bool, output: Path | None, as_json: 
     results = {}
     for name in wanted:
         try:
-            results[name] = benchmarks.run(name, quick, say)
+            results[name] = benchmarks.run(name, quick, say, **_floats(own))
         except benchmarks.NotComparable as error:
             quiet()
             fail(f"bench {name}: {error}", 1)
@@ -35,6 +39,14 @@ def measure(sections: Sequence[str], quick: bool, output: Path | None, as_json: 
         print_json(measured)
     else:
         _print_all(measured)
+
+
+def _floats(own: Any) -> dict[str, Any]:
+    """One's own ball, (J, D, 𝒦, γ) in exact numbers, as the section takes it."""
+    if own is None:
+        return {}
+    J, D, K, g = own
+    return {"own": (np.array(J, dtype=float), float(D), np.array(K, dtype=float), np.array(g, dtype=float))}
 
 
 def _print_all(measured: dict[str, Any]) -> None:

@@ -62,19 +62,26 @@ def agreement(sides: dict[str, Callable[[], Any]], momentum: np.ndarray, bound: 
     return differences
 
 
-def measure(quick: bool, on_round: Callable[[str], None] = lambda text: None) -> Result:
-    """Times one trajectory for each ε; every side is checked against chapsym before."""
+#: A ball and its start: J, D, 𝒦, γ.
+Start = tuple[np.ndarray, float, np.ndarray, np.ndarray]
+
+
+def measure(
+    quick: bool, on_round: Callable[[str], None] = lambda text: None, own: Start | None = None
+) -> Result:  # fmt: skip
+    """Times one trajectory for each ε, or of one's own ball; every side is checked against chapsym before."""
     steps, rounds = (50_000, 5) if quick else (2_000_000, 21)
     sides, missing = peers()
     rows, reach = [], []
-    for epsilon in EPSILONS:
-        K = epsilon * MOMENTUM
+    starts = [(MASS_TENSOR, D, epsilon * MOMENTUM, GAMMA) for epsilon in EPSILONS] if own is None else [own]
+    for J, contact, K, g in starts:
+        epsilon = float(np.linalg.norm(K))
         differ = agreement(
-            {name: partial(side, K, GAMMA, MASS_TENSOR, D, COMPARED) for name, (side, _) in sides.items()}, K, AGREEMENT
+            {name: partial(side, K, g, J, contact, COMPARED) for name, (side, _) in sides.items()}, K, AGREEMENT
         )
         with cores(1):
             contenders = [
-                Contender(name, partial(side, K, GAMMA, MASS_TENSOR, D, count), count)
+                Contender(name, partial(side, K, g, J, contact, count), count)
                 for name, (side, share) in sides.items()
                 if (count := max(20, steps // share))
             ]
@@ -89,7 +96,7 @@ def measure(quick: bool, on_round: Callable[[str], None] = lambda text: None) ->
             | {"differs by": differ[name]}
             for name, timing in timings.items()
         ]
-        if epsilon == EPSILONS[0]:
+        if own is None and not reach:
             home = timings[CHAPSYM]
             reach.append(Reached("numba Newton in q / chapsym", timings[NEWTON].ratio_to(home)[0], 3.5, True))
             reach.append(Reached("NumPy arrays of 3 / chapsym", timings[ARRAYS].ratio_to(home)[0], 1000, True))

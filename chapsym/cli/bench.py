@@ -5,8 +5,10 @@ from typing import Annotated
 
 import typer
 
+from chapsym.exact import rationals
+
 from .app import app
-from .options import Json
+from .options import Contact, Inertia, Json, Mass, MassTensor, Radius, ball_from
 from .output import fail
 
 
@@ -22,9 +24,20 @@ def bench(
     output: Annotated[
         Path | None, typer.Option("-o", "--output", metavar="FIGURE", help="A figure: .svg, .png or .pdf.")
     ] = None,
+    mass_tensor: MassTensor = None,
+    inertia: Inertia = None,
+    contact: Contact = None,
+    mass: Mass = None,
+    radius: Radius = None,
+    momentum: Annotated[
+        str | None, typer.Option(metavar="K1,K2,K3", help="The discrete momentum of a ball of your own.")
+    ] = None,
+    gamma: Annotated[str, typer.Option(metavar="G1,G2,G3", help="Its unit vertical, upwards.")] = "2/7,3/7,6/7",
     as_json: Json = False,
 ) -> None:
     """Measure speed, memory, drift and precision against other ways, all in one process, interleaved.
+
+    With --momentum and a ball, the section trajectory is measured with that ball.
 
     A figure that is not reached is shown, and is no failure: times depend on the machine and on what else it does.
 
@@ -36,4 +49,10 @@ def bench(
         command = benchmark("command")
     except ModuleNotFoundError as error:
         fail(str(error), 2)
-    command.measure(sections or [], quick, output, as_json)
+    told = (mass_tensor, inertia, contact, mass, radius)
+    own = None
+    if momentum is not None or any(value is not None for value in told):
+        if momentum is None:
+            fail("--momentum K1,K2,K3 goes with a ball of your own", 2)
+        own = *ball_from(*told), rationals(momentum, "--momentum", 3), rationals(gamma, "--gamma", 3)
+    command.measure(sections or [], quick, output, as_json, own)

@@ -53,6 +53,18 @@ def test_one_core_is_one_core_and_is_given_back():
     assert harness.available_cores() == before
 
 
+def test_a_ball_of_ones_own_is_measured(monkeypatch):
+    seen = []
+    monkeypatch.setattr(trajectory, "measure", lambda quick, on_round, own: seen.append(own) or result("trajectory"))
+    ball = "--mass-tensor", "1,2,4", "--D", "3"
+    assert answer("bench", *ball, "--momentum", "1/10,-1/20,3/40")["sections"]["trajectory"]["rows"]
+    J, D, K, g = seen[0]
+    assert (J.tolist(), D, K.tolist(), g.tolist()) == ([1, 2, 4], 3.0, [0.1, -0.05, 0.075], [2 / 7, 3 / 7, 6 / 7])
+    assert refused("bench", *ball) == "--momentum K1,K2,K3 goes with a ball of your own"
+    several = refused("bench", "batch", *ball, "--momentum", "1,0,0")
+    assert several == "a ball of your own goes with the section trajectory alone"
+
+
 @pytest.mark.parametrize("epsilon", trajectory.EPSILONS)
 def test_the_peers_take_the_steps_of_the_map(epsilon):
     sides, _ = trajectory.peers()
