@@ -72,7 +72,8 @@ def measure(
     """Times one trajectory for each ε, or of one's own ball; every side is checked against chapsym before."""
     steps, rounds = (50_000, 5) if quick else (2_000_000, 21)
     sides, missing = peers()
-    rows, reach = [], []
+    rows: list[dict[str, Any]] = []
+    reach: list[Reached] = []
     starts = [(MASS_TENSOR, D, epsilon * MOMENTUM, GAMMA) for epsilon in EPSILONS] if own is None else [own]
     for J, contact, K, g in starts:
         epsilon = float(np.linalg.norm(K))

@@ -20,7 +20,7 @@ from chapsym.dynamics import BadInput, Status, Trajectory, is_steady, kernels
 from chapsym.dynamics.ball import Floats
 from chapsym.dynamics.results import FRAMES
 
-from .problem import Method, Motion, Problem, apart, omega_of
+from .problem import Motion, Problem, Stepping, apart, omega_of
 
 #: The accuracy where none is asked for: nobody sees or measures an error of that size.
 DEFAULT = 1e-6
@@ -141,9 +141,9 @@ def _first(problem: Problem, order: int, factor: float = 1.0) -> Floats:
     return np.asarray((expected / (MARGIN * problem.accuracy)) ** (1 / order))
 
 
-def _cheapest(problem: Problem, factor: float = 1.0) -> Method:
+def _cheapest(problem: Problem, factor: float = 1.0) -> Stepping:
     """The order of the fewest stages that is expected to do for all balls."""
-    found = [Method(p, _whole(problem, float(_first(problem, p, factor).max()))) for p in LAW]
+    found = [Stepping(p, _whole(problem, float(_first(problem, p, factor).max()))) for p in LAW]
     return min(found, key=lambda method: method.stages)
 
 
@@ -179,20 +179,20 @@ def _follow(problem: Problem, group: np.ndarray, found: Motion, progress: Callab
     stopped = others[run.status != Status.TAKEN]
     for some in (doubtful, stopped):
         if len(some):
-            _settle(problem, some, found, Method(method.order, math.ceil(ALIKE * method.steps)), lambda part: None)
+            _settle(problem, some, found, Stepping(method.order, math.ceil(ALIKE * method.steps)), lambda part: None)
 
 
-def _worst(sample: np.ndarray, found: Motion) -> Method:
+def _worst(sample: np.ndarray, found: Motion) -> Stepping:
     """The method of the ball that needs most."""
-    return max((Method(int(found.order[i]), int(found.steps[i])) for i in sample), key=lambda one: one.stages)
+    return max((Stepping(int(found.order[i]), int(found.steps[i])) for i in sample), key=lambda one: one.stages)
 
 
-def _fewer(problem: Problem, sample: np.ndarray, found: Motion) -> Method | None:
+def _fewer(problem: Problem, sample: np.ndarray, found: Motion) -> Stepping | None:
     """Fewer steps of the same order that will do by what the sample showed; None if there are none."""
     method, error = _worst(sample, found), float(np.nanmax(found.error[sample], initial=0.0))
     allowed = SAFETY * MARGIN * problem.accuracy
     steps = _whole(problem, method.steps * (error / allowed) ** (1 / method.order))
-    return Method(method.order, steps) if steps < method.steps else None
+    return Stepping(method.order, steps) if steps < method.steps else None
 
 
 def _by_sample(
@@ -205,7 +205,7 @@ def _by_sample(
     rate = float(problem.rate[others].max())
     angle, length = rate * problem.interval, math.sqrt(CRUDE / (LAW[2] * (1 + rate * problem.end)))
     stride = min(max(math.ceil(length / angle), -(-problem.frames // CHECKS)), problem.frames)
-    crude = Method(2, math.ceil(stride * angle / length))
+    crude = Stepping(2, math.ceil(stride * angle / length))
     whole = problem.frames / (problem.frames // stride * stride)
     seen = []
     for one, states in ((problem.of(sample), _states(found, sample)), (rest, run)):
@@ -218,7 +218,7 @@ def _by_sample(
 
 
 def _settle(
-    problem: Problem, some: np.ndarray, found: Motion, first: Method | None, progress: Callable[[float], None]
+    problem: Problem, some: np.ndarray, found: Motion, first: Stepping | None, progress: Callable[[float], None]
 ) -> None:
     """Runs some balls until each is verified, with more steps those that are not; puts each where it belongs.
 
@@ -241,26 +241,26 @@ def _settle(
             factor = max(factor, _learnt(problem.of(left), method, before))
             method = _more(method, _cheapest(problem.of(left), factor))
         else:  # a ball that stopped tells nothing
-            method = Method(method.order, 2 * method.steps)
+            method = Stepping(method.order, 2 * method.steps)
         # Of what more steps should gain half, in decades, shows that they help.
         gain = (method.steps / last.steps) ** (method.order / 2) if method.order == last.order else 2.0
 
 
-def _learnt(problem: Problem, method: Method, error: Floats) -> float:
+def _learnt(problem: Problem, method: Stepping, error: Floats) -> float:
     """How many times as large as the law says the errors are."""
     expected = _error(problem, method.order, problem.interval / method.steps)
     return float((error / (SAFETY * expected)).max(initial=1.0))
 
 
-def _more(method: Method, wanted: Method) -> Method:
+def _more(method: Stepping, wanted: Stepping) -> Stepping:
     """What to try next: of the same order neither hardly more steps nor very many more."""
     if wanted.order != method.order:
         return wanted
     least, most = math.ceil(LEAST_FINER * method.steps), math.ceil(MOST_FINER * method.steps)
-    return Method(method.order, min(max(wanted.steps, least), most))
+    return Stepping(method.order, min(max(wanted.steps, least), most))
 
 
-def _verified(problem: Problem, method: Method, run: Trajectory) -> Floats:
+def _verified(problem: Problem, method: Stepping, run: Trajectory) -> Floats:
     """The error of each ball by a run of fewer steps, infinite if one has stopped; and what rounding may leave.
 
     That run starts a few roundings beside the other, so that a ball that is sensitive to its start shows it.
@@ -271,7 +271,7 @@ def _verified(problem: Problem, method: Method, run: Trajectory) -> Floats:
     fewer = 1 if method.steps <= 2 else round(method.steps / RATIO)
     share = min(SAFETY / ((stride * method.steps / fewer) ** method.order - 1), 1.0)
     beside = problem.beside(ROUNDED * 2.0**-53 / share)
-    off = apart(problem, run, beside.take(Method(method.order, fewer), stride), stride).max(axis=-1)
+    off = apart(problem, run, beside.take(Stepping(method.order, fewer), stride), stride).max(axis=-1)
     off = np.where(np.isnan(off), np.inf, off) * problem.frames / (problem.frames // stride * stride)
     return np.asarray(off * share + _rounding(problem))
 
@@ -289,7 +289,7 @@ def _states(found: Motion, some: np.ndarray) -> Motion:
     return Motion(**arrays)
 
 
-def _put(found: Motion, where: np.ndarray, run: Trajectory, method: Method, error: Floats) -> None:
+def _put(found: Motion, where: np.ndarray, run: Trajectory, method: Stepping, error: Floats) -> None:
     """Copies a run to its place."""
     found.angular_momentum[where], found.gamma[where] = run.angular_momentum(), run.gamma
     if found.attitude is not None:

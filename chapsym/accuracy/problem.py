@@ -18,7 +18,7 @@ _UP = np.array([0.0, 0.0, 1.0])
 
 
 @dataclass(frozen=True)
-class Method:
+class Stepping:
     """An order, and its steps between two frames."""
 
     order: int
@@ -101,7 +101,9 @@ class Problem:
         """|ω| at the start in rad/s, (n,)."""
         return lengths(omega_of(self, self.K, self.gamma))
 
-    def take(self, method: Method, stride: int = 1, progress: Callable[[int], None] = lambda done: None) -> Trajectory:
+    def take(
+        self, method: Stepping, stride: int = 1, progress: Callable[[int], None] = lambda done: None
+    ) -> Trajectory:
         """The balls at every `stride`-th frame, in `method.steps` steps from one to the next."""
         frames = self.frames // stride
         step = stride * self.interval / method.steps

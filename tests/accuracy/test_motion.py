@@ -11,7 +11,7 @@ from scipy.integrate import solve_ivp
 import chapsym
 from chapsym.accuracy import load_prices, motion
 from chapsym.accuracy.motion import moved
-from chapsym.accuracy.problem import Method, Problem, apart
+from chapsym.accuracy.problem import Problem, Stepping, apart
 from chapsym.dynamics import BadInput, Ball, Status, kernels
 from chapsym.dynamics.attitudes import attitude_with
 from chapsym.scene import checked
@@ -36,7 +36,7 @@ def problem(omega, frames=20, interval=0.1, accuracy=1e-6, inertia=INERTIA, gamm
 
 def true(asked, found):
     """The errors by a run of four times the steps, (n,)."""
-    fine = Method(8, 4 * int(max(found.steps.max(), 1)))
+    fine = Stepping(8, 4 * int(max(found.steps.max(), 1)))
     return apart(asked, found, asked.take(fine)).max(axis=-1)
 
 
@@ -124,7 +124,7 @@ def test_a_steady_rotation_is_had_at_once_after_any_time():
     assert np.allclose(found.contact[:, -1], 1e7 * speed, rtol=1e-12)
     short = problem([3.0, -2.0, 1.0], inertia=[0.01] * 3)
     exact = moved(short)
-    run = short.take(Method(8, 8))
+    run = short.take(Stepping(8, 8))
     assert apart(short, exact, run).max() < 1e-12
 
 
@@ -222,7 +222,7 @@ def test_in_metres_the_attitude_counts_by_how_far_it_moves_the_surface():
     asked = replace(problem([14.0, -6.0, 3.0]), metres=True)
     found = moved(asked)
     turned = replace(found, attitude=kernels.compose(found.attitude, np.array([np.cos(5e-4), np.sin(5e-4), 0.0, 0.0])))
-    off = apart(asked, turned, asked.take(Method(8, 20))).max()
+    off = apart(asked, turned, asked.take(Stepping(8, 20))).max()
     assert off == pytest.approx(1e-4, rel=1e-2)  # 1e-3 rad of a ball of 0.1 m
     assert found.error[0] <= 1e-6
 
