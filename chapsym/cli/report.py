@@ -1,6 +1,7 @@
 """chapsym report: the page of verdicts, and the short lists of errata."""
 
 import json
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -18,7 +19,10 @@ from .study import STUDIES
 @app.command()
 def report(
     output: Annotated[
-        Path, typer.Option("-o", "--output", metavar="FILE", help="A page (.html), or the list of errata (.md, .tex).")
+        Path,
+        typer.Option(
+            "-o", "--output", metavar="FILE", help="A page (.html), or the list of errata (.md, .tex, .json)."
+        ),
     ] = Path("chapsym-report.html"),
     fresh: Annotated[bool, typer.Option("--fresh", help="Prove every claim again.")] = False,
     studies: Annotated[
@@ -41,8 +45,9 @@ def report(
         _open_questions(output, studies, {} if fresh else kept_records(kept_in), kept_in, as_json)
         return
     files.check_destination(output)
+    earlier = _earlier_errata(output) if output.suffix == ".json" else {}
     found = records_of(all_claims(), {} if fresh else kept_records(kept_in), kept_in)
-    text = reports.WRITERS[output.suffix](found, _versions())
+    text = reports.WRITERS[output.suffix](found, _versions(), earlier)
     files.write_whole(output, lambda stream: stream.write(text.encode()))
     if as_json:
         print_json({"file": str(output), "counts": reports.counts(found), "claims": len(found)})
@@ -51,6 +56,16 @@ def report(
     failed = reports.unproved(found)
     if failed:
         fail(f"not proved: {', '.join(failed)}", 1)
+
+
+def _earlier_errata(path: Path) -> Mapping[str, Any]:
+    """The entries of the list that is written again, which keep their earlier states; none if there is no file."""
+    from chapsym.report import NotErrata, entries
+
+    try:
+        return entries(path.read_text(encoding="utf-8")) if path.exists() else {}
+    except (OSError, UnicodeDecodeError, NotErrata) as error:
+        fail(f"{path} is there and cannot be gone on with: {error}; name another file, or delete it to start anew", 2)
 
 
 def _open_questions(

@@ -2,14 +2,16 @@
 
 from collections.abc import Callable, Mapping, Sequence
 
-from . import errata, page
+from . import errata, errata_json, page
+from .errata_json import Entry, NotErrata, entries
 from .records import Record, counts, unproved
 
-__all__ = ["WRITERS", "counts", "unproved"]
+__all__ = ["WRITERS", "NotErrata", "counts", "entries", "unproved"]
 
-#: suffix of a file: what turns records and versions into its text.
-WRITERS: dict[str, Callable[[Sequence[Record], Mapping[str, str]], str]] = {
-    ".html": page.html,
-    ".md": lambda records, versions: errata.markdown(records, versions["chapsym"]),
-    ".tex": lambda records, versions: errata.latex(records, versions["chapsym"]),
+#: suffix of a file: what turns records, versions and the entries that the file has now into its text.
+WRITERS: dict[str, Callable[[Sequence[Record], Mapping[str, str], Mapping[str, Entry]], str]] = {
+    ".html": lambda records, versions, _: page.html(records, versions),
+    ".md": lambda records, versions, _: errata.markdown(records, versions["chapsym"]),
+    ".tex": lambda records, versions, _: errata.latex(records, versions["chapsym"]),
+    ".json": lambda records, versions, earlier: errata_json.text(records, versions["chapsym"], earlier),
 }

@@ -41,7 +41,15 @@ def test_the_page_has_a_default_name(report, tmp_path):
     assert re.search(r"chapsym \d+\.\d+\.\d+, sympy 1\.14\.\d+, python-flint \d+\.\d+\.\d+", text)
 
 
-@pytest.mark.parametrize(("suffix", "start"), [("html", "<!DOCTYPE"), ("md", "# Errata"), ("tex", r"\documentclass")])
+@pytest.mark.parametrize(
+    ("suffix", "start"),
+    [
+        ("html", "<!DOCTYPE"),
+        ("md", "# Errata"),
+        ("tex", r"\documentclass"),
+        ("json", '{\n "format": "chapsym errata 1"'),
+    ],
+)
 def test_the_suffix_chooses_what_is_written(report, tmp_path, suffix, start):
     done = report("-o", f"x.{suffix}", "--json")
     assert done.returncode == 0, done.stderr
@@ -62,8 +70,8 @@ def test_an_open_claim_that_the_paper_states_exits_1_and_the_page_is_written(rep
 @pytest.mark.parametrize(
     ("name", "sentence"),
     [
-        ("x.pdf", "the output must end in .html or .md or .tex"),
-        ("x", "the output must end in .html or .md or .tex"),
+        ("x.pdf", "the output must end in .html or .md or .tex or .json"),
+        ("x", "the output must end in .html or .md or .tex or .json"),
         ("nowhere/x.md", "the folder nowhere does not exist"),
     ],
 )
@@ -73,6 +81,26 @@ def test_a_file_that_cannot_be_written_is_one_sentence_before_anything_is_proved
     assert done.stdout == ""
     assert sentence in done.stderr
     assert done.stderr.count("\n") == 1
+
+
+def test_a_list_of_errata_that_is_written_again_keeps_the_states_of_earlier_releases(report, tmp_path):
+    assert report("-o", "x.json").returncode == 0
+    kept = (tmp_path / "x.json").read_text(encoding="utf-8")
+    (tmp_path / "x.json").write_text(kept.replace('"since": "', '"since": "0.0.'), encoding="utf-8")
+    assert report("-o", "x.json").returncode == 0
+    again = json.loads((tmp_path / "x.json").read_text(encoding="utf-8"))
+    assert all(state["since"].startswith("0.0.") for entry in again["errata"] for state in entry["states"])
+
+
+def test_another_file_in_the_place_of_the_list_of_errata_is_not_overwritten(report, tmp_path):
+    (tmp_path / "x.json").write_text('{"mine": 1}', encoding="utf-8")
+    done = report("-o", "x.json")
+    assert done.returncode == 2
+    assert done.stderr == (
+        "chapsym: x.json is there and cannot be gone on with: it is no list of errata; "
+        "name another file, or delete it to start anew\n"
+    )
+    assert (tmp_path / "x.json").read_text(encoding="utf-8") == '{"mine": 1}'
 
 
 def test_a_folder_in_the_place_of_the_file_loses_nothing(report, tmp_path):

@@ -86,4 +86,4 @@ def test_a_paper_without_errors_has_an_empty_list(record):
 def test_the_published_list_is_what_the_records_give(register, suffix):
     """To mend: chapsym report -o docs/errata.md, and the same for errata.tex."""
     published = (ROOT / "docs" / f"errata{suffix}").read_text(encoding="utf-8")
-    assert published == WRITERS[suffix](register, {"chapsym": chapsym.__version__})
+    assert published == WRITERS[suffix](register, {"chapsym": chapsym.__version__}, {})

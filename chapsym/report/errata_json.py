@@ -1,0 +1,111 @@
+"""The list of errata as data: each entry with its counterexamples, what uses it, and the states that releases gave it.
+
+`docs/errata.schema.json` describes the form.  An entry keeps its earlier states where the same file is written again.
+"""
+
+import hashlib
+import json
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from . import notation
+from .errata import NOTE, PAPER, cite, reproduce
+from .records import SECTIONS, Record, errors, label, place, truth
+
+FORMAT = "chapsym errata 1"
+WITHDRAWN = "withdrawn"
+
+Entry = dict[str, Any]
+State = dict[str, Any]
+
+
+class NotErrata(ValueError):
+    """A text is not a list of errata as `text` writes it."""
+
+
+def text(records: Sequence[Record], version: str, earlier: Mapping[str, Entry]) -> str:
+    """The errata as JSON; `earlier` are the entries of the file that this one replaces, see `entries`."""
+    current = [_with_states(_entry(record), record["verdict"], earlier, version) for record in errors(records)]
+    document = {
+        "format": FORMAT,
+        "paper": PAPER,
+        "note": NOTE,
+        "cite": cite(version),
+        "chapsym": version,
+        "claims": len(records),
+        "errata": current,
+        "withdrawn": _withdrawn(earlier, {entry["id"] for entry in current}, version),
+    }
+    return json.dumps(document, ensure_ascii=False, indent=1) + "\n"
+
+
+def entries(written: str) -> dict[str, Entry]:
+    """The entries of a list that `text` wrote, withdrawn ones too, by id; raises NotErrata if it is none."""
+    try:
+        document = json.loads(written)
+        if document["format"] != FORMAT:
+            raise NotErrata(f"its format is {document['format']!r}, not {FORMAT!r}")
+        found = {entry["id"]: entry for entry in [*document["errata"], *document["withdrawn"]]}
+        for entry in found.values():
+            _ = entry["states"][-1], [(state["since"], state["verdict"], state["digest"]) for state in entry["states"]]
+    except NotErrata:
+        raise
+    except (ValueError, LookupError, TypeError, RecursionError) as error:
+        raise NotErrata("it is no list of errata") from error
+    return found
+
+
+def _entry(record: Record) -> Entry:
+    """What an entry says, without its states."""
+    formula, prose = truth(record)
+    section, _ = place(record["id"]) or (None, None)
+    conditional = record["verdict"] == "conditional"
+    return {
+        "id": record["id"],
+        "label": label(record["id"]),
+        "section": section,
+        "section_title": SECTIONS.get(section or 0),
+        "title": record["evidence"]["title"],
+        "printed": record["printed"],
+        "true": formula or None,
+        "condition": prose or None if conditional else None,
+        "true_in_words": None if conditional else prose or None,
+        "counterexamples": [_example(example) for example in record["evidence"].get("counterexamples", [])],
+        "downstream": record["evidence"].get("downstream", []),
+        "proof": reproduce(record["id"]),
+    }
+
+
+def _example(example: Mapping[str, Any]) -> dict[str, Any]:
+    """An exact point, and the two sides of what is printed there."""
+    point = {symbol: notation.plain(value) for symbol, value in notation.point(example["point"])}
+    return {"point": point, "printed": [_sides(printed) for printed in example["printed"]]}
+
+
+def _sides(printed: Mapping[str, Any]) -> dict[str, Any]:
+    left, right = ([notation.in_line(value) for value in side] for side in notation.sides(dict(printed)))
+    return {"statement": printed["statement"], "left": left, "right": right}
+
+
+def _with_states(entry: Entry, verdict: str, earlier: Mapping[str, Entry], version: str) -> Entry:
+    digest = hashlib.sha256(json.dumps(entry, ensure_ascii=False, sort_keys=True).encode()).hexdigest()[:16]
+    before = earlier.get(entry["id"], {}).get("states", [])
+    return entry | {"states": _states(before, verdict, digest, version)}
+
+
+def _withdrawn(earlier: Mapping[str, Entry], current: set[str], version: str) -> list[Entry]:
+    """The entries that a release had and that are errors no more."""
+    return [
+        entry | {"states": _states(entry["states"], WITHDRAWN, entry["states"][-1]["digest"], version)}
+        for id, entry in earlier.items()
+        if id not in current and any(state["since"] != version for state in entry["states"])
+    ]
+
+
+def _states(earlier: list[State], verdict: str, digest: str, version: str) -> list[State]:
+    """The states with the newest last: one more if this one is new, in the place of another of the same release."""
+    released = [state for state in earlier if state["since"] != version]
+    for known in (earlier, released):
+        if known and (known[-1]["verdict"], known[-1]["digest"]) == (verdict, digest):
+            return known
+    return [*released, {"version": len(released) + 1, "since": version, "verdict": verdict, "digest": digest}]
