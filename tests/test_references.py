@@ -1,0 +1,58 @@
+"""The references: each is cited where the documentation says how it relates, and the citation file agrees with them."""
+
+import re
+import tomllib
+from pathlib import Path
+
+import pytest
+import yaml
+
+ROOT = Path(__file__).parents[1]
+BIBLIOGRAPHY = (ROOT / "docs" / "bibliography.md").read_text(encoding="utf-8")
+ENTRIES = re.findall(r"^@(\w+)\{(\w+),\n(.*?)^\}$", (ROOT / "docs" / "references.bib").read_text("utf-8"), re.M | re.S)
+KEYS = [key for _, key, _ in ENTRIES]
+
+
+def fields(key):
+    body = next(body for _, name, body in ENTRIES if name == key)
+    return dict(re.findall(r"^  (\w+) *= \{(.*)\},?$", body, re.M))
+
+
+def test_every_reference_is_annotated_and_every_citation_is_a_reference():
+    assert len(set(KEYS)) == len(KEYS) >= 30
+    cited = re.findall(r"\{cite:[tp]\}`(\w+)`", BIBLIOGRAPHY)
+    assert set(cited) == set(KEYS)
+
+
+@pytest.mark.parametrize("key", KEYS)
+def test_a_reference_names_who_what_when_and_its_key_does_too(key):
+    found = fields(key)
+    assert found.keys() >= {"author", "title", "year"}
+    first = re.match(r"[^,]+", found["author"]).group()
+    assert key.startswith(
+        first.lower().replace("é", "e").replace("í", "i").replace("ć", "c").replace("-", "").split()[0]
+    )
+    assert key == "chaplygin1903" or key.endswith(found["year"])  # of which the translation was seen
+
+
+def test_the_paper_and_the_citation_file_speak_of_the_same_reference_and_version():
+    citation = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    assert citation["version"] == project["version"]
+    assert citation["license"] == project["license"]
+    assert citation["authors"] == project["authors"] == [{"name": "The chapsym developers"}]
+    (paper,), found = citation["references"], fields("fedorov2007")
+    assert paper["title"] == found["title"].replace("{", "").replace("}", "")
+    assert (str(paper["year"]), str(paper["volume"]), paper["number"]) == (
+        found["year"],
+        found["volume"],
+        found["pages"],
+    )
+    assert paper["journal"] == found["journal"]
+
+
+def test_licences_are_files():
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    for name in project["license-files"]:
+        assert "Permission is hereby granted" in (ROOT / name).read_text(encoding="utf-8")
+    assert "the chapsym developers" in (ROOT / "LICENSE").read_text(encoding="utf-8")
