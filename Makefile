@@ -6,7 +6,7 @@ BIN := $(VENV)/bin
 SHELL := bash
 .SHELLFLAGS := -e -o pipefail -c
 
-.PHONY: verify test thorough lint pictures clean
+.PHONY: verify test thorough lint pictures release-check clean
 
 verify: $(VENV)/.installed
 	@mkdir -p out
@@ -39,6 +39,10 @@ lint: $(VENV)/.installed
 pictures: $(VENV)/.installed
 	for one in bowling:contact robot:spheres,attitude vertical:spheres,phase spread:contact,spread four:spheres; do \
 	  $(BIN)/chapsym show docs/scenes/$${one%%:*}.toml -o docs/pictures/$${one%%:*} --figures $${one##*:} --no-page; done
+
+# A clean tree, one version and date, fresh errata, packages that install; stops at the first thing that is missing.
+release-check: $(VENV)/.installed
+	@$(BIN)/python .ci/release_check.py
 
 # The editable install maps generated/ and proofs/ into the package; it is renewed when the metadata change.
 $(VENV)/.installed: pyproject.toml constraints.txt
