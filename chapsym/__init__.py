@@ -59,23 +59,26 @@ if TYPE_CHECKING:
         trajectory_n,
         trajectory_vertical,
     )
+    from .numbers import Digits, Enclosure
     from .scene.result.interpolation import interpolated
     from .show.result import Result, open_result, run_scene
 
 __version__ = "0.1.0"
 
 __all__ = [
-    "BadInput", "Ball", "BallN", "Branches", "Certificate", "Curve", "ExactTop", "Extrapolated", "Fold", "Followed",
-    "NotRetraced", "Result", "Status", "Step", "StepN", "StepNotTaken", "TopMotion", "Trajectory", "TrajectoryN",
-    "VerticalTrajectory", "accurate", "axial", "branches", "certify", "compose_step", "exact_top", "extrapolate",
-    "fold", "follow", "increment", "interpolated", "invariants_n", "is_steady", "is_top", "margin", "open_result",
-    "retrace_error", "reverse", "reverse_n", "roll", "rotation_number", "run_scene", "skew", "steady_frames", "step",
-    "step_n", "step_vertical", "substeps", "top_frames", "trajectory", "trajectory_n", "trajectory_vertical",
+    "BadInput", "Ball", "BallN", "Branches", "Certificate", "Curve", "Digits", "Enclosure", "ExactTop", "Extrapolated",
+    "Fold", "Followed", "NotRetraced", "Result", "Status", "Step", "StepN", "StepNotTaken", "TopMotion", "Trajectory",
+    "TrajectoryN", "VerticalTrajectory", "accurate", "axial", "branches", "certify", "compose_step", "exact_top",
+    "extrapolate", "fold", "follow", "increment", "interpolated", "invariants_n", "is_steady", "is_top", "margin",
+    "open_result", "retrace_error", "reverse", "reverse_n", "roll", "rotation_number", "run_scene", "skew",
+    "steady_frames", "step", "step_n", "step_vertical", "substeps", "top_frames", "trajectory", "trajectory_n",
+    "trajectory_vertical",
 ]  # fmt: skip
 
 #: Names that are not of `chapsym.dynamics`: where they are.
 _ELSEWHERE = dict.fromkeys(("Result", "open_result", "run_scene"), "chapsym.show.result")
 _ELSEWHERE |= dict.fromkeys(("accurate", "roll"), "chapsym.accuracy")
+_ELSEWHERE |= dict.fromkeys(("Digits", "Enclosure"), "chapsym.numbers")
 _ELSEWHERE["interpolated"] = "chapsym.scene.result.interpolation"
 
 

@@ -10,7 +10,7 @@ import typer
 from typer.exceptions import TyperException
 
 import chapsym
-from chapsym.exact import NotANumber
+from chapsym.rationals import NotANumber
 
 from .output import fail, quiet
 

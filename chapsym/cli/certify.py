@@ -10,7 +10,7 @@ from typing import Annotated, Any
 
 import typer
 
-from chapsym.exact import rational, rationals
+from chapsym.rationals import rational, rationals
 
 from .app import app
 from .options import Contact, Inertia, Json, MassTensor, ball_from

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from chapsym.exact import mass_tensor_from, rational, rationals
+from chapsym.rationals import mass_tensor_from, rational, rationals
 
 from .output import fail
 
@@ -108,12 +108,12 @@ def rung_from(
     """The rung of the precision ladder that the options name; `known` are the names that the command takes."""
     if sum(x is not None for x in (digits, rung, ball)) > 1:
         fail("choose one of --digits, --rung and --ball", 2)
-    from chapsym.numbers import NAMED, Ball, Digits
+    from chapsym.numbers import NAMED, Digits, Enclosure
 
     if digits is not None:
         return Digits(digits)
     if ball is not None:
-        return Ball(ball)
+        return Enclosure(ball)
     if rung is not None and rung not in known:
         listed = " or ".join(filter(None, (", ".join(known[:-1]), known[-1])))
         fail(f"--rung {rung}: give {listed}, or for any number of digits --digits N or --ball BITS", 2)

@@ -8,7 +8,7 @@ from typing import Annotated, Any
 
 import typer
 
-from chapsym.exact import rationals
+from chapsym.rationals import rationals
 
 from .app import app
 from .options import Contact, Inertia, Json, Mass, MassTensor, Radius, ball_from, contact_from, tensor_from

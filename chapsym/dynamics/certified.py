@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from chapsym.numbers import Ball as BallRung
+from chapsym.numbers import Enclosure
 
 from .ball import Asked, Floats, batch
 from .coefficients import COMPOSITIONS
@@ -122,7 +122,7 @@ def _orbit(
         assert trajectory.ball.radius is not None
         radius = np.broadcast_to(trajectory.ball.radius, shape).reshape(-1)
     with_body = first["attitude"] is not None
-    rung = BallRung(bits)
+    rung = Enclosure(bits)
     frames = ladder.frames_for(rung, len(D), count, count if with_body else 0)
     if with_body:
         frames.attitude[:, 0] = first["attitude"]

@@ -33,8 +33,8 @@ def step(ball: Ball, momentum: ArrayLike, gamma: ArrayLike, *, precision: str | 
     momentum: 𝒦 = ε K of the paper, in kg m², shape (..., 3); gamma: unit verticals upwards, (..., 3).
     Both broadcast with each other and with the balls.  Of a ball with axes they, and what is
     returned, are in these.
-    precision: "single", "double", "quad" (31 digits), `Digits(n)` (mpmath) or `Ball(bits)` (Arb, rigorous).  The floats
-    that are given are taken as exact on every rung, but γ is divided by its length on all but "double".
+    precision: "single", "double", "quad" (31 digits), `Digits(n)` (mpmath) or `Enclosure(bits)` (Arb, rigorous).  The
+    floats that are given are taken as exact on every rung, but γ is divided by its length on all but "double".
 
     One ball (no leading axis) raises StepNotTaken if it has no step; a batch reports `status` instead.
     Raises BadInput for shapes, NaN, infinities, and a gamma that is not unit.

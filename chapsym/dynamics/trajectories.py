@@ -47,8 +47,8 @@ def trajectory(
     stay exact.
     attitude: True (from the least rotation with R γ = e₃) or unit quaternions, (..., 4), to be followed.
     contact: whether to trace the contact point; it needs `ball.radius`, and implies the attitude.
-    precision: "single", "double", "quad" (31 digits), `Digits(n)` (mpmath) or `Ball(bits)` (Arb, rigorous).  The floats
-    that are given are taken as exact, but γ (and an attitude) is divided by its length on all but "double", and
+    precision: "single", "double", "quad" (31 digits), `Digits(n)` (mpmath) or `Enclosure(bits)` (Arb, rigorous).  The
+    floats that are given are taken as exact, but γ (and an attitude) is divided by its length on all but "double", and
     "single" rounds all to float32.  The coefficients of the orders 4, 6, 8 are rounded to float32 or float64; on higher
     rungs they are the 40 digits of `coefficients`, and the map composed with those is what a Ball encloses.  Of a Ball
     `bits` are correct in every frame, beside the length of each vector; the branch is proved where |𝒦| is within the

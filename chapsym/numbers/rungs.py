@@ -168,16 +168,16 @@ class Digits(Rung):
 
 
 @dataclass(frozen=True)
-class Ball(Rung):
+class Enclosure(Rung):
     """Arb balls: rigorous enclosures, with about `bits` correct bits; the arithmetic carries `guard` more."""
 
     bits: int
     guard: int = 40
 
     def __post_init__(self) -> None:
-        _whole("Ball", self.bits, 2)
+        _whole("Enclosure", self.bits, 2)
 
-    def guarded(self, digits: int) -> "Ball":
+    def guarded(self, digits: int) -> "Enclosure":
         """The same rung with guard bits for as many digits more."""
         return replace(self, guard=self.guard + math.ceil(digits / math.log10(2)))
 
@@ -217,5 +217,5 @@ def rung(precision: "str | Rung") -> Rung:
         return precision
     if isinstance(precision, str) and precision in NAMED:
         return NAMED[precision]
-    told = '"single", "double", "quad", or Digits(n) or Ball(bits) of chapsym.numbers'
+    told = '"single", "double", "quad", chapsym.Digits(n) or chapsym.Enclosure(bits)'
     raise ValueError(f"precision must be {told}, not {precision!r}")

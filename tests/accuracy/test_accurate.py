@@ -302,7 +302,7 @@ def test_choices_are_sorted_and_leave_out_what_is_barred():
 
 
 def test_numbers_of_every_rung_are_read_exactly_with_their_signs():
-    for precision in (chapsym.numbers.Digits(30), chapsym.numbers.Ball(100), "quad", "double", "single"):
+    for precision in (chapsym.numbers.Digits(30), chapsym.numbers.Enclosure(100), "quad", "double", "single"):
         run = chapsym.trajectory(BALL, -0.01 * K, GAMMA, 2, precision=precision)
         exact = exactly(run, "momentum").astype(float)
         np.testing.assert_allclose(exact, run.momentum.astype(float), rtol=1e-15)

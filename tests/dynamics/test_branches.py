@@ -20,8 +20,7 @@ from chapsym.dynamics import BadInput, Ball, branches, fold
 from chapsym.dynamics.loops.branch import inverse
 from chapsym.dynamics.oracle import Oracle
 from chapsym.dynamics.solutions import candidates, enclosed, intersection, multivalued
-from chapsym.numbers import Ball as ArbBall
-from chapsym.numbers import Digits, Double
+from chapsym.numbers import Digits, Double, Enclosure
 
 #: (J, D, 𝒦, γ): one state for each number of rotations; the odd numbers have a double root.
 STATES = {
@@ -181,7 +180,7 @@ def test_a_tiny_momentum_keeps_its_digits():
 
 
 def test_digits_are_those_of_the_enclosure():
-    digits, boxes = (solve(STATES[8], rung).write()["solutions"] for rung in (Digits(40), ArbBall(200)))
+    digits, boxes = (solve(STATES[8], rung).write()["solutions"] for rung in (Digits(40), Enclosure(200)))
     for s, box in zip(digits, boxes, strict=True):
         for x, y in zip((s["q0"], *s["q"], s["angle"]), (box["q0"], *box["q"], box["angle"]), strict=True):
             with flint.ctx.workprec(300):

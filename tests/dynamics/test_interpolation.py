@@ -5,8 +5,7 @@ import pytest
 
 import chapsym
 from chapsym.dynamics import kernels
-from chapsym.numbers import Ball as Enclosure
-from chapsym.numbers import Digits
+from chapsym.numbers import Digits, Enclosure
 
 BALL = chapsym.Ball.from_inertia((0.006, 0.007, 0.009), mass=2.0, radius=0.1)
 FINEST = 768

@@ -14,10 +14,9 @@ from chapsym.dynamics import compose_step
 from chapsym.dynamics.levels import double
 from chapsym.dynamics.loops import branch
 from chapsym.dynamics.map import exact_step
-from chapsym.numbers import NAMED, Digits
-from chapsym.numbers import Ball as Arb
+from chapsym.numbers import NAMED, Digits, Enclosure
 
-LEVELS = ["single", "double", "quad", Digits(20), Arb(60)]
+LEVELS = ["single", "double", "quad", Digits(20), Enclosure(60)]
 GAMMA = np.array([2, 3, 6]) / 7
 
 
@@ -149,7 +148,7 @@ def test_a_step_of_any_order_is_the_first_of_a_trajectory(order):
         assert np.array_equal(getattr(step, name), getattr(run, name)[:, 1], equal_nan=True)
 
 
-@pytest.mark.parametrize("precision", ["quad", Digits(30), Arb(120)], ids=str)
+@pytest.mark.parametrize("precision", ["quad", Digits(30), Enclosure(120)], ids=str)
 def test_what_fractions_have_beyond_float64_counts_in_a_step_too(precision):
     K = [F(1, 3), F(-1, 7), F(1, 5)]
     ball = Ball((1, 2, 4), 3)
@@ -186,11 +185,11 @@ def test_exact_numbers_are_rounded_once():
 def test_a_small_rotation_is_enclosed_beside_itself(size):
     """Beside 1 a run's attitude has its 60 bits; so small a rotation had 20 of them, or none."""
     ball, K = Ball((1e-3, 2e-7, 4e5), 1e6), np.array([3.0, -1.0, 2.0]) * size
-    _, *q = chapsym.step(ball, K, GAMMA, precision=Arb(60)).rotation
+    _, *q = chapsym.step(ball, K, GAMMA, precision=Enclosure(60)).rotation
     assert max(x.rad() for x in q) <= max(abs(x.mid()) for x in q) * 2.0**-56
 
 
-@pytest.mark.parametrize("precision", [Digits(1), Digits(20), Arb(60)], ids=str)
+@pytest.mark.parametrize("precision", [Digits(1), Digits(20), Enclosure(60)], ids=str)
 def test_a_fold_far_from_the_momentum_is_found_in_few_steps(precision, monkeypatch):
     """On a thousand digits it was sought to the last of them, for 5 to 17 seconds."""
     monkeypatch.setattr(branch, "MOST_STEPS", 400)
@@ -202,7 +201,7 @@ def test_a_fold_far_from_the_momentum_is_found_in_few_steps(precision, monkeypat
 def test_more_bits_than_the_condition_costs_are_tried():
     """D/J = 10²⁵⁹ costs some 860 bits at each of three products."""
     J, K = (1e-130, 1e-130, 1e-129), (1e-130, -1e-130, 1e-130)
-    found, truth = (chapsym.step(Ball(J, 1e130), K, GAMMA, precision=p).rotation for p in (Arb(60), Digits(20)))
+    found, truth = (chapsym.step(Ball(J, 1e130), K, GAMMA, precision=p).rotation for p in (Enclosure(60), Digits(20)))
     assert [float(x.mid()) for x in found] == pytest.approx(list(map(float, truth)), abs=1e-15)
     assert max(x.rad() for x in found) < 2.0**-55
 
@@ -217,7 +216,7 @@ def test_a_slow_ball_takes_one_step_in_float32_and_no_run():
 @pytest.mark.parametrize(
     ("options", "precision"),
     [({"rung": "single"}, "single"), ({}, "double"), ({"rung": "quad"}, "quad"), ({"digits": 20}, Digits(20)),
-     ({"ball": 60}, Arb(60))],
+     ({"ball": 60}, Enclosure(60))],
 )  # fmt: skip
 def test_the_command_prints_the_step_of_the_library(options, precision, capsys):
     command("1,-1/2,3/4", "0,0,1", mass_tensor="1,2,2.25", contact="3", **options, as_json=True)

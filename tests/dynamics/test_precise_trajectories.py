@@ -17,7 +17,7 @@ from chapsym.dynamics import kernels
 from chapsym.dynamics.coefficients import COMPOSITIONS
 from chapsym.dynamics.levels import balls, digits, root
 from chapsym.dynamics.loops.branch import small_rotation
-from chapsym.numbers import Ball, Digits
+from chapsym.numbers import Digits, Enclosure
 
 BALL = chapsym.Ball((0.1, 0.5, 1.6), 0.7, radius=0.5)
 DIRECTION = np.array([4, -2, 3]) / np.sqrt(29)
@@ -68,7 +68,7 @@ def test_orders_are_compositions_with_the_exact_coefficients(order):
     run = chapsym.trajectory(BALL, 0.2 * DIRECTION, GAMMA, steps, order=order, precision=Digits(45))
     assert off(run.momentum, [list(e[0]) for e in exact]) < 1e-45
     assert off(run.gamma, [list(e[1]) for e in exact]) < 1e-45
-    balls = chapsym.trajectory(BALL, 0.2 * DIRECTION, GAMMA, steps, order=order, contact=True, precision=Ball(150))
+    balls = chapsym.trajectory(BALL, 0.2 * DIRECTION, GAMMA, steps, order=order, contact=True, precision=Enclosure(150))
     for k, (K, g, _, _) in enumerate(exact):
         assert contains([*balls.momentum[k], *balls.gamma[k]], [*K, *g], 48)
     rough = tuple(F(float(c)) for c in stages)  # the control: 40 digits are not those of float64
@@ -81,7 +81,7 @@ def test_orders_are_compositions_with_the_exact_coefficients(order):
 @pytest.mark.parametrize("size", [0.05, 0.4])
 def test_balls_contain_the_oracle_step_by_step_and_are_small(size):
     steps, bits = 12, 200
-    run = chapsym.trajectory(BALL, size * DIRECTION, GAMMA, steps, contact=True, precision=Ball(bits))
+    run = chapsym.trajectory(BALL, size * DIRECTION, GAMMA, steps, contact=True, precision=Enclosure(bits))
     exact = orbit(BALL, size * DIRECTION, GAMMA, steps, digits=80, attitude=LEAST)
     for k, (K, g, R, r) in enumerate(exact):
         assert contains([*run.momentum[k], *run.gamma[k]], [*K, *g], 70)
@@ -99,7 +99,7 @@ def test_three_steps_of_any_state_are_enclosed(state):
     """Inside the bound of the lemma and beyond it, degenerate and stiff balls."""
     ball, momentum, gamma = state
     try:
-        run = chapsym.trajectory(ball, momentum, gamma, 3, precision=Ball(120))
+        run = chapsym.trajectory(ball, momentum, gamma, 3, precision=Enclosure(120))
         digits = chapsym.trajectory(ball, momentum, gamma, 3, precision=Digits(30))
     except StepNotTaken as stop:
         assert stop.index > 0 or float(ball.D) > 1e3  # noqa: PT017 - the first step exists
@@ -116,7 +116,7 @@ def test_three_steps_of_any_state_are_enclosed(state):
 
 @pytest.mark.parametrize("size", [0.05, 0.4])
 def test_a_thousand_steps_keep_all_their_bits(size):
-    run = chapsym.trajectory(BALL, size * DIRECTION, GAMMA, 1000, every=1000, precision=Ball(200))
+    run = chapsym.trajectory(BALL, size * DIRECTION, GAMMA, 1000, every=1000, precision=Enclosure(200))
     more = chapsym.trajectory(BALL, size * DIRECTION, GAMMA, 1000, every=1000, precision=Digits(80))
     for enclosed, numbers in ((run.momentum[-1], more.momentum[-1]), (run.gamma[-1], more.gamma[-1])):
         assert contains(enclosed, list(numbers), 75)
@@ -125,7 +125,7 @@ def test_a_thousand_steps_keep_all_their_bits(size):
     assert off(fewer.momentum, [list(x) for x in more.momentum]) < 1e-30
 
 
-@pytest.mark.parametrize("rung", ["single", "quad", Digits(30), Ball(100)], ids=str)
+@pytest.mark.parametrize("rung", ["single", "quad", Digits(30), Enclosure(100)], ids=str)
 def test_a_fold_on_the_way_stops_with_the_trajectory_before_it(rung):
     ball, K = FOLDING
     with pytest.raises(StepNotTaken) as plain:
@@ -148,12 +148,12 @@ def test_steps_come_in_batches_and_refuse_what_trajectories_refuse():
     assert found.rotation.shape == (2, 4)
     assert all(x != x for x in found.rotation[1])
     with pytest.raises(StepNotTaken, match="no rotation of this ball"):
-        chapsym.step(BALL, (40, 0, 0), GAMMA, precision=Ball(60))
+        chapsym.step(BALL, (40, 0, 0), GAMMA, precision=Enclosure(60))
     with pytest.raises(BadInput, match="precision must be"):
         chapsym.step(BALL, (0.1, 0, 0), GAMMA, precision="octuple")
 
 
-@pytest.mark.parametrize("rung", [Digits(30), Ball(100)])
+@pytest.mark.parametrize("rung", [Digits(30), Enclosure(100)])
 def test_integrals_and_energies_are_in_the_numbers_of_the_rung(rung):
     run = chapsym.roll(BALL, (1, 2, 3), 0.01, 30, precision=rung)
     drift = run.invariants()[-1] - run.invariants()[0]
@@ -164,7 +164,7 @@ def test_integrals_and_energies_are_in_the_numbers_of_the_rung(rung):
 def test_the_precision_of_others_is_left_alone():
     before = mpmath.mp.prec, flint.ctx.prec
     chapsym.trajectory(BALL, 0.3 * DIRECTION, GAMMA, 5, precision=Digits(60))
-    chapsym.trajectory(BALL, 0.3 * DIRECTION, GAMMA, 5, precision=Ball(300))
+    chapsym.trajectory(BALL, 0.3 * DIRECTION, GAMMA, 5, precision=Enclosure(300))
     assert (mpmath.mp.prec, flint.ctx.prec) == before
 
 
@@ -189,7 +189,7 @@ def test_a_mutated_formula_is_caught_by_the_oracle(monkeypatch, module, name, ch
         mutated(monkeypatch, balls, "root", lambda found: (tuple(x + (x >> 60) for x in found[0]), found[1]))
         mutated(monkeypatch, balls, "gibbs_newton", lambda n: (n[0], *n[1:4], *(x * 0 for x in n[4:])))
     mutated(monkeypatch, module, name, change)
-    run = chapsym.trajectory(BALL, 0.4 * DIRECTION, GAMMA, 2, precision=Ball(90))
+    run = chapsym.trajectory(BALL, 0.4 * DIRECTION, GAMMA, 2, precision=Enclosure(90))
     exact = orbit(BALL, 0.4 * DIRECTION, GAMMA, 2, digits=80)
     assert not contains([*run.momentum[-1], *run.gamma[-1]], [*exact[-1][0], *exact[-1][1]], 70)
 
@@ -197,7 +197,7 @@ def test_a_mutated_formula_is_caught_by_the_oracle(monkeypatch, module, name, ch
 def test_a_point_that_is_no_root_costs_digits_and_no_truth(monkeypatch):
     """The enclosure does not depend on the point: half of its digits wrong, the truth is still inside."""
     mutated(monkeypatch, balls, "root", lambda found: (tuple(x + (x >> 60) for x in found[0]), found[1]))
-    run = chapsym.trajectory(BALL, 0.4 * DIRECTION, GAMMA, 2, precision=Ball(90))
+    run = chapsym.trajectory(BALL, 0.4 * DIRECTION, GAMMA, 2, precision=Enclosure(90))
     exact = orbit(BALL, 0.4 * DIRECTION, GAMMA, 2, digits=80)
     assert contains([*run.momentum[-1], *run.gamma[-1]], [*exact[-1][0], *exact[-1][1]], 70)
 
@@ -222,7 +222,7 @@ def test_more_bits_than_can_be_carried_are_refused_in_one_sentence(monkeypatch):
     with pytest.raises(
         BadInput, match=r"the balls grow too much: after step \d+ of 1000, 100 bits leave less than 60"
     ) as caught:
-        chapsym.trajectory(BALL, 0.4 * DIRECTION, GAMMA, 1000, precision=Ball(60))
+        chapsym.trajectory(BALL, 0.4 * DIRECTION, GAMMA, 1000, precision=Enclosure(60))
     assert re.fullmatch(r"[^\n]*", str(caught.value))
 
 
@@ -252,7 +252,7 @@ def test_what_is_certified_is_monotone_and_contains_the_root(state, direction):
     assert np.linalg.eigvalsh((matrix + matrix.T) / 2)[0] >= slope - 1e-12 * (inertia.max() + contact)
 
 
-@pytest.mark.parametrize("precision", ["quad", Digits(20), Ball(80)], ids=str)
+@pytest.mark.parametrize("precision", ["quad", Digits(20), Enclosure(80)], ids=str)
 def test_reverse_refuses_what_it_would_round(precision):
     run = chapsym.trajectory(BALL, 0.1 * DIRECTION, GAMMA, 3, precision=precision)
     with pytest.raises(BadInput, match="reverse goes back in"):
@@ -264,7 +264,7 @@ def test_few_bits_of_a_heavy_ball_get_as_many_guards_as_they_need():
     ball = chapsym.Ball((1.779423646749144, 0.7875892554488442, 1.325351855087655), 9949625772.676554)
     K = (0.028855133210578584, -0.04534716690488444, -0.09916930020971375)
     gamma = (0.8775927590707405, -0.34737600149091397, 0.33039501027526086)
-    few = chapsym.trajectory(ball, K, gamma, 2, order=8, precision=Ball(40))
-    many = chapsym.trajectory(ball, K, gamma, 2, order=8, precision=Ball(300))
+    few = chapsym.trajectory(ball, K, gamma, 2, order=8, precision=Enclosure(40))
+    many = chapsym.trajectory(ball, K, gamma, 2, order=8, precision=Enclosure(300))
     for one, other in zip(few.momentum[-1], many.momentum[-1], strict=True):
         assert one.contains(other)

@@ -13,7 +13,7 @@ from chapsym.dynamics.levels import newton, start
 from chapsym.dynamics.loops import branch
 from chapsym.dynamics.map import exact_step
 from chapsym.dynamics.oracle import Oracle
-from chapsym.numbers import NAMED, Ball, Digits, Double, Quad
+from chapsym.numbers import NAMED, Digits, Double, Enclosure, Quad
 
 J, D = (F(1), F(2), F(4)), F(3)
 K, GAMMA = (F(1), F(-1, 2), F(3, 4)), (F(2, 7), F(3, 7), F(6, 7))
@@ -52,7 +52,7 @@ def test_digits_are_correct_to_the_last_one(digits, scale):
 
 def test_every_ball_is_written_in_arbs_form():
     for momentum in (K, (F(0),) * 3, (F(1, 10**30), F(0), F(0))):
-        for text in flat(exact_step(J, D, momentum, GAMMA, Ball(64)).write()):
+        for text in flat(exact_step(J, D, momentum, GAMMA, Enclosure(64)).write()):
             assert text.startswith("[")
             assert text.endswith("]")
             assert " +/- " in text
@@ -66,11 +66,11 @@ def test_gamma_must_be_unit_to_the_digits_asked_for():
     with pytest.raises(BadInput, match="give it exactly"):
         exact_step(J, D, K, nearly, Digits(30))
     with pytest.raises(BadInput, match="give it exactly"):
-        exact_step(J, D, K, nearly, Ball(100))
+        exact_step(J, D, K, nearly, Enclosure(100))
 
 
 @pytest.mark.parametrize("exponent", [3, 8, 11, 12, 14, 25])
-@pytest.mark.parametrize(("rung", "digits"), [(Digits(20), 20), (Ball(66), 19)])
+@pytest.mark.parametrize(("rung", "digits"), [(Digits(20), 20), (Enclosure(66), 19)])
 @pytest.mark.parametrize("K", [(F(3, 20), F(-1, 10), F(0)), (F(0), F(3, 2), F(-1, 2))], ids=["across", "any"])
 def test_a_stiff_ball_gets_all_its_digits(exponent, rung, digits, K):
     """D = 10^exponent costs digits in float64, which finds no start from 10^12 on; the rungs above carry more."""
@@ -102,7 +102,7 @@ def test_the_slope_of_the_enclosure_is_the_derivative(q, gamma, ball):
 def test_the_interval_test_itself_finds_the_root(monkeypatch):
     """Without refinement the float64 root is off by 1e-16, and the one interval Newton step must put that right."""
     monkeypatch.setattr(newton, "MOST_REFINEMENTS", 0)
-    rung, near = Ball(200), start.start(K, GAMMA, J, D)
+    rung, near = Enclosure(200), start.start(K, GAMMA, J, D)
     with flint.ctx.workprec(400):
         given = [tuple(map(rung.number, x)) for x in (near, K, GAMMA, J, (D,))]
         for enclosure, value in zip(newton.enclosed(rung, *given), truth(J, D, K, GAMMA, 80)[:4], strict=True):
@@ -110,7 +110,7 @@ def test_the_interval_test_itself_finds_the_root(monkeypatch):
             assert enclosure.rad() < flint.arb("1e-28")
 
 
-@pytest.mark.parametrize("rung", [Double(), Digits(20), Ball(80)])
+@pytest.mark.parametrize("rung", [Double(), Digits(20), Enclosure(80)])
 def test_rungs_make_root_and_write_numbers(rung):
     with rung.precision():
         root = rung.sqrt(rung.number(F(9, 4)))
@@ -129,7 +129,7 @@ def test_no_number_of_digits_is_float64_in_disguise(digits):
 
 @pytest.mark.parametrize(
     ("rung", "exponent", "digits"),
-    [(rung, n, 18) for rung in (Digits(20), Ball(66)) for n in (-900, -400, 400, 900)]
+    [(rung, n, 18) for rung in (Digits(20), Enclosure(66)) for n in (-900, -400, 400, 900)]
     + [(Quad(), n, 30.5) for n in (-240, -120, 100, 300)],
 )
 def test_units_are_no_matter(rung, exponent, digits):
@@ -148,7 +148,7 @@ def test_units_are_no_matter(rung, exponent, digits):
             assert abs(mp.mpf(middle) / scale / mp.mpf(exact) - 1) < mp.mpf(10) ** -digits
 
 
-@pytest.mark.parametrize("rung", [Digits(20), Ball(66)])
+@pytest.mark.parametrize("rung", [Digits(20), Enclosure(66)])
 def test_momenta_beyond_the_range_of_float64_are_unreachable_or_folded(rung):
     with pytest.raises(StepNotTaken, match="no rotation of this ball"):
         exact_step(J, D, [x * 10**400 for x in K], GAMMA, rung)
@@ -187,7 +187,7 @@ def test_the_named_rungs_are_the_map_to_their_digits(name, digits):
         assert abs(mpf(found) - exact) < mpf(10) ** -digits
 
 
-@pytest.mark.parametrize("make", [Digits, Ball], ids=lambda make: make.__name__)
+@pytest.mark.parametrize("make", [Digits, Enclosure], ids=lambda make: make.__name__)
 @pytest.mark.parametrize("value", [0, -3, 2.5, True, "x", None], ids=repr)
 def test_a_rung_takes_a_whole_number(make, value):
     with pytest.raises(ValueError, match="takes a whole number from"):

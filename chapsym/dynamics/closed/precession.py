@@ -12,7 +12,7 @@ from typing import Any, Self
 import numpy as np
 
 from chapsym.generated import gibbs_newton, precession_parts, turn
-from chapsym.numbers import Ball as ArbBall
+from chapsym.numbers import Enclosure
 
 from .. import kernels
 from ..ball import Floats
@@ -41,7 +41,7 @@ class Precession:
     def of(cls, motion: TopMotion) -> Self:
         """Of a motion; raises BadInput so near to the separatrix that the series has too many terms."""
         exact = motion.exact
-        with ArbBall(BITS).precision():
+        with Enclosure(BITS).precision():
             mean = _mean(exact, motion.first)
         return cls(motion, mean, _series(motion))
 

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from chapsym.generated import curve_increment
-from chapsym.numbers import Ball as ArbBall
+from chapsym.numbers import Enclosure
 
 from ..ball import Ball, Floats, in_principal_axes, inertia_of, numbers, unit_vertical
 from ..errors import BadInput
@@ -100,7 +100,7 @@ class TopMotion:
         half = float(increment(curve, size, start)) / 2.0
         if np.abs(curve.point(start + 2.0 * half) - step.gamma).max() > AGREEMENT:
             raise BadInput("the step of the map is not on the branch of the increment; take a shorter time step")
-        with ArbBall(BITS).precision():
+        with Enclosure(BITS).precision():
             exact = ExactCurve.of(curve, axis, scaled, size, half)
             found = as_pair(exact.half / (2 * exact.quarter))
             curve = exact.nearest()

@@ -15,7 +15,7 @@ from typing import Any
 from flint import arb, ctx, fmpq, fmpz
 
 from chapsym.generated import centre_step, compose, gibbs_newton, gibbs_residual, rotate, transport, turn
-from chapsym.numbers import Ball as BallRung
+from chapsym.numbers import Enclosure
 
 from .newton import enclosed
 from .root import NotSettled, extrapolated, root
@@ -122,7 +122,7 @@ class ArbBall:
         """The rotation where the lemma does not hold, enclosed."""
         K, g, J, D = tuple(2 * x for x in k), self.g, self.J, (self.D,)
         near = tuple(map(exact, start_near(K, g, J, self.D)))
-        q = enclosed(BallRung(self.precision, 0), near, K, g, J, D)
+        q = enclosed(Enclosure(self.precision, 0), near, K, g, J, D)
         if q is None:
             raise TooWide
         return q

@@ -18,7 +18,7 @@ SHARES = 16
 class Balls:
     """The balls of a run: momentum 𝒦 and γ at the start, (n, 3); J, (n, 3); D and the radius, (n,).
 
-    Floats, or on Digits and Ball exact fractions of any size.
+    Floats, or on Digits and Enclosure exact fractions of any size.
     rest: what 𝒦 has beyond float64, (n, 3), for the rungs that can hold it; None for nothing.
     """
 

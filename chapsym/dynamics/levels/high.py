@@ -1,4 +1,4 @@
-"""Runs and steps on the rungs of any precision: Digits(n) in mpmath's numbers, Ball(bits) in Arb's balls."""
+"""Runs and steps on the rungs of any precision: Digits(n) in mpmath's numbers, Enclosure(bits) in Arb's balls."""
 
 import math
 from collections.abc import Callable
@@ -7,7 +7,7 @@ from fractions import Fraction
 from functools import partial
 from typing import Any
 
-from chapsym.numbers import Ball, Digits
+from chapsym.numbers import Digits, Enclosure
 
 from ..coefficients import COMPOSITIONS
 from ..errors import BadInput, Status, StepNotTaken
@@ -27,19 +27,19 @@ MOST_GUARD = 2**22
 
 
 def run(
-    rung: Digits | Ball, balls: Balls, steps: int, every: int, frames: Frames, order: int,
+    rung: Digits | Enclosure, balls: Balls, steps: int, every: int, frames: Frames, order: int,
     progress: Callable[[int], None],
 ) -> None:  # fmt: skip
     """Takes `steps` steps of every ball into `frames`, one ball after the other; frame 0 is written anew.
 
-    Ball(bits): with as many bits more as the radii grow by, which is measured, so that `bits` are left at the end.
+    Enclosure(bits): with as many bits more as the radii grow by, which is measured, so that `bits` are left at the end.
     """
-    done, bits = 0, rung.bits if isinstance(rung, Ball) else rung.context.prec
+    done, bits = 0, rung.bits if isinstance(rung, Enclosure) else rung.context.prec
     for i in range(len(balls)):
         first = frames.attitude[i, 0].copy() if frames.with_body else None
         so_far = partial(lambda before, step: progress(before + step), done)
         way = _Way(balls, i, steps, every, frames, order, bits, so_far, first)
-        if isinstance(rung, Ball):
+        if isinstance(rung, Enclosure):
             _run_ball(rung, way)
         else:
             from .digits import DigitsBall  # mpmath and flint take 40 ms
@@ -98,7 +98,7 @@ class _Way:
                 self.progress(step)
 
 
-def _run_ball(rung: Ball, way: _Way) -> None:
+def _run_ball(rung: Enclosure, way: _Way) -> None:
     """Repeats the run with more bits until `rung.bits` are left; raises BadInput where more do not help."""
     guard, before, stuck = rung.guard, (0, -math.inf), 0
     _, lost = magnitude(*way.given[2:4])

@@ -6,7 +6,7 @@ from functools import partial
 
 import numpy as np
 
-from chapsym.numbers import NAMED, Ball, Digits, Double, Quad, Rung, Single
+from chapsym.numbers import NAMED, Digits, Double, Enclosure, Quad, Rung, Single
 from chapsym.numbers import rung as named
 
 from ..coefficients import substeps
@@ -28,7 +28,7 @@ def rung_of(precision: str | Rung) -> Rung:
 
 def frames_for(rung: Rung, balls: int, frames: int, body_frames: int, least: bool = False) -> Frames:
     """Empty frames in the numbers of the rung; raises BadInput if they do not fit into memory."""
-    objects = isinstance(rung, Digits | Ball)
+    objects = isinstance(rung, Digits | Enclosure)
     dtype = np.dtype(object if objects else np.float32 if isinstance(rung, Single) else np.float64)
     try:
         low = frames_for(NAMED["double"], balls, frames, body_frames) if isinstance(rung, Quad) else None
@@ -46,7 +46,7 @@ def run(
 ) -> None:  # fmt: skip
     """`double.run` on a rung.  Frame 0 is given in float64; other rungs write it anew, γ divided by its length."""
     substeps(order)  # raises BadInput for no order
-    if isinstance(rung, Digits | Ball):
+    if isinstance(rung, Digits | Enclosure):
         from . import high
 
         high.run(rung, balls, steps, every, frames, order, progress)
@@ -80,7 +80,9 @@ def step(rung: Rung, shape: tuple[int, ...], balls: Balls, order: int) -> Step:
 def _after_one(rung: Rung, balls: Balls, order: int) -> Frames:
     """The two frames of a run of one step, with attitudes that start as the identity and end as the rotation."""
     frames = _two_frames(rung, balls, order)
-    if isinstance(rung, Ball):  # a run's attitude has its bits beside 1; a small rotation is to have them beside itself
+    if isinstance(
+        rung, Enclosure
+    ):  # a run's attitude has its bits beside 1; a small rotation is to have them beside itself
         lacking = max(map(partial(_lacking, rung.bits), frames.attitude[frames.status == 0, 1, 1:]), default=0)
         if lacking:
             frames.attitude[:] = _two_frames(replace(rung, bits=rung.bits + lacking), balls, order).attitude

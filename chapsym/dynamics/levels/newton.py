@@ -5,8 +5,7 @@ from collections.abc import Sequence
 import flint
 
 import chapsym.generated as generated
-from chapsym.numbers import Ball as ArbBall
-from chapsym.numbers import Rung
+from chapsym.numbers import Enclosure, Rung
 
 from ..loops.branch import inverse, inverse_of
 
@@ -47,7 +46,7 @@ def normalised(rung: Rung, p: tuple) -> tuple:
     return tuple(x / length for x in p)
 
 
-def enclosed(rung: ArbBall, q: tuple, K: tuple, g: tuple, J: tuple, D: tuple) -> tuple | None:
+def enclosed(rung: Enclosure, q: tuple, K: tuple, g: tuple, J: tuple, D: tuple) -> tuple | None:
     """Unit Euler parameters as balls that contain the one root near the float64 root."""
     q = tuple(x.mid() for x in normalised(rung, q))
     for _ in range(MOST_REFINEMENTS):

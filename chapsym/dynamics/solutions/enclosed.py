@@ -16,8 +16,7 @@ import flint
 import numpy as np
 from flint import arb, fmpq
 
-from chapsym.numbers import Ball as ArbBall
-from chapsym.numbers import Digits, Rung
+from chapsym.numbers import Digits, Enclosure, Rung
 
 from ..ball import Ball
 from ..errors import StepNotTaken
@@ -176,7 +175,7 @@ def _apart(branches: Sequence[Branch]) -> bool:
 
 def _confirmed(branches: Sequence[Branch], bits: int, given: Sequence[Sequence[Fraction]]) -> bool:
     """Whether the interval Newton test, on the kernels, finds every simple root, at the same place."""
-    rung = ArbBall(bits - 40, guard=40)
+    rung = Enclosure(bits - 40, guard=40)
     state = [tuple(rung.number(x) for x in vector) for vector in given]
     for branch in branches:
         if branch.multiplicity == 1:
@@ -220,14 +219,14 @@ def _the_small_one(ball: Ball, K: Any, g: Any, given: Sequence[Sequence[Fraction
         return ()
     bits = 2 * (_bits(rung) + SPARE) + 64
     with flint.ctx.workprec(bits):
-        box = ArbBall(bits - 40, guard=40)
+        box = Enclosure(bits - 40, guard=40)
         state = [tuple(box.number(x) for x in vector) for vector in given]
         found = enclosed(box, tuple(arb(float(x)) for x in taken), *state)
         return () if found is None else (replace(_branch(found, 1), small_rotation=True),)
 
 
 def _bits(rung: Rung) -> int:
-    if isinstance(rung, ArbBall):
+    if isinstance(rung, Enclosure):
         return rung.bits
     return math.ceil(rung.digits / math.log10(2)) if isinstance(rung, Digits) else 53
 
@@ -243,6 +242,6 @@ def _written(rung: Rung, branch: Branch) -> dict[str, Any]:
 
 def _number(rung: Rung, value: arb) -> Any:
     """An Arb ball for JSON: the ball itself, or its midpoint, which is nearer than the digits that are written."""
-    if isinstance(rung, ArbBall):
+    if isinstance(rung, Enclosure):
         return rung.write(value)
     return rung.write(rung.number(fraction(value)))

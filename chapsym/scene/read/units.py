@@ -7,7 +7,7 @@ from fractions import Fraction
 from functools import cache
 from typing import Any
 
-from chapsym.exact import NotANumber, rational
+from chapsym.rationals import NotANumber, rational
 
 
 @dataclass(frozen=True)

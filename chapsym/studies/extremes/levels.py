@@ -8,7 +8,7 @@ from typing import Any
 import flint
 import mpmath
 
-from chapsym.numbers import Ball, Digits, Double, Pair, Quad, Rung, Single
+from chapsym.numbers import Digits, Double, Enclosure, Pair, Quad, Rung, Single
 
 #: Everything that is compared is compared with so many digits.
 mp = mpmath.MPContext()
@@ -41,7 +41,7 @@ LEVELS = (
     Level("double", Double(), Fraction(1, 2**52), Fraction(1, 2**1074)),
     Level("quad", Quad(), Fraction(1, 2**104), Fraction(1, 2**1074)),
     Level("Digits(50)", Digits(50), Fraction(1, 10**49), Fraction(0), guarded=True),
-    Level("Ball(200)", Ball(200), Fraction(1, 2**199), Fraction(0), guarded=True),
+    Level("Ball(200)", Enclosure(200), Fraction(1, 2**199), Fraction(0), guarded=True),
 )
 NAMES = tuple(level.name for level in LEVELS)
 

@@ -10,7 +10,7 @@ from chapsym.accuracy.methods import rung_label
 from chapsym.accuracy.prices import sample
 from chapsym.dynamics import BadInput, Trajectory, trajectory
 from chapsym.dynamics.certified import exactly
-from chapsym.numbers import NAMED, Ball, Digits, Rung
+from chapsym.numbers import NAMED, Digits, Enclosure, Rung
 
 from ..harness import Contender, cores, interleaved
 from .frontier import Frontier, Point, digits_of
@@ -18,7 +18,7 @@ from .frontier import Frontier, Point, digits_of
 #: |ω|ε in radians.
 STEP = 0.1
 FINEST = Digits(120)
-RUNGS: tuple[Rung, ...] = (*NAMED.values(), Digits(30), Digits(50), Digits(100), Ball(100), Ball(300))
+RUNGS: tuple[Rung, ...] = (*NAMED.values(), Digits(30), Digits(50), Digits(100), Enclosure(100), Enclosure(300))
 #: How many steps of the cheap rungs make up a run that is timed: enough for a millisecond.
 TIMED = {"single": 20_000, "double": 20_000, "quad": 4_000}
 
@@ -63,4 +63,4 @@ def _apart(a: np.ndarray, b: np.ndarray) -> float:
 
 
 def _name(rung: Any) -> str:
-    return f"ball{rung.bits}" if isinstance(rung, Ball) else rung_label(rung)
+    return f"ball{rung.bits}" if isinstance(rung, Enclosure) else rung_label(rung)

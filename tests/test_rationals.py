@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from chapsym.exact import NotANumber, mass_tensor_from, rational, rationals
+from chapsym.rationals import NotANumber, mass_tensor_from, rational, rationals
 
 
 @given(st.fractions())

@@ -1,0 +1,44 @@
+"""Old names, which work for one more release: each warns, and names the new one.
+
+The command prints the warning as one line on standard error.
+"""
+
+import sys
+import warnings
+from collections.abc import Callable, Mapping
+from typing import Any
+
+
+class Renamed(DeprecationWarning):
+    """An old name was used."""
+
+
+def renamed(old: str, new: str, stacklevel: int = 3) -> None:
+    """Warns of an old name, on behalf of the caller of the function that calls this one."""
+    warnings.warn(f"{old} is now {new}; the old name works until the next release", Renamed, stacklevel=stacklevel)
+
+
+def attributes(module: str, names: Mapping[str, str]) -> Callable[[str], Any]:
+    """A `__getattr__` for a module whose old names are the keys of `names`; raises AttributeError for all others."""
+
+    def get(name: str) -> Any:
+        if name not in names:
+            raise AttributeError(f"module {module!r} has no attribute {name!r}")
+        renamed(f"{module}.{name}", f"{module}.{names[name]}")
+        return getattr(sys.modules[module], names[name])
+
+    return get
+
+
+def tell_on_standard_error() -> None:
+    """From now on, old names are told in one line each, as the command does; other warnings are as before."""
+    show = warnings.showwarning
+
+    def told(message: Any, category: type[Warning], *where: Any) -> None:
+        if issubclass(category, Renamed):
+            print(f"chapsym: {message}", file=sys.stderr)
+        else:
+            show(message, category, *where)
+
+    warnings.showwarning = told  # type: ignore[assignment]
+    warnings.simplefilter("once", Renamed)
