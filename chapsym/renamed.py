@@ -5,7 +5,8 @@ The command prints the warning as one line on standard error.
 
 import sys
 import warnings
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from typing import Any
 
 
@@ -30,15 +31,20 @@ def attributes(module: str, names: Mapping[str, str]) -> Callable[[str], Any]:
     return get
 
 
-def tell_on_standard_error() -> None:
-    """From now on, old names are told in one line each, as the command does; other warnings are as before."""
-    show = warnings.showwarning
+@contextmanager
+def told_on_standard_error() -> Iterator[None]:
+    """Within it each old name is told once, in one line, as the command does; other warnings are as before."""
+    lines: set[str] = set()
 
     def told(message: Any, category: type[Warning], *where: Any) -> None:
-        if issubclass(category, Renamed):
-            print(f"chapsym: {message}", file=sys.stderr)
-        else:
+        if not issubclass(category, Renamed):
             show(message, category, *where)
+        elif str(message) not in lines:
+            lines.add(str(message))
+            print(f"chapsym: {message}", file=sys.stderr)
 
-    warnings.showwarning = told  # type: ignore[assignment]
-    warnings.simplefilter("once", Renamed)
+    with warnings.catch_warnings():
+        show = warnings.showwarning
+        warnings.showwarning = told  # type: ignore[assignment]
+        warnings.simplefilter("always", Renamed)
+        yield

@@ -1,9 +1,12 @@
 """Old names work, and warn."""
 
 import pytest
+from commands import chapsym as command
 
 import chapsym
 import chapsym.numbers
+
+STEP = ["--mass-tensor", "1,2,4", "--D", "3", "--momentum", "1,-1/2,3/4", "--gamma", "2/7,3/7,6/7"]
 
 
 def test_the_old_name_of_an_enclosure():
@@ -11,3 +14,32 @@ def test_the_old_name_of_an_enclosure():
         assert chapsym.numbers.Ball is chapsym.Enclosure
     with pytest.raises(AttributeError, match="no attribute 'Bell'"):
         _ = chapsym.numbers.Bell
+
+
+def test_old_options_are_told_in_a_line_and_answer_the_same():
+    given = [
+        *["step", "--mass-tensor", "1,2,4", "--D", "3", "--momentum", "1,-1/2,3/4", "--gamma", "2/7,3/7,6/7", "--json"]
+    ]
+    new = command(*given, "--precision", "single")
+    assert (new.returncode, new.stderr) == (0, "")
+    for old in (["--rung", "single"], ["--rung=single"]):
+        done = command(*given, *old)
+        assert (done.returncode, done.stdout) == (0, new.stdout)
+        assert done.stderr == "chapsym: --rung is now --precision; the old name works until the next release\n"
+    assert "--rung" not in command("step", "--help").stdout
+
+
+@pytest.mark.parametrize(
+    ("name", "old", "new"),
+    [
+        ("no-invariant-measure", "--height", "--vertical-momentum"),
+        ("periodic-orbit", "--momentum-gamma", "--vertical-momentum"),
+        ("periodic-orbit", "--momentum-momentum", "--k-squared"),
+    ],
+)
+def test_old_options_of_certificates(name, old, new):
+    done = command("certify", name, old, "x")
+    assert done.returncode == 2
+    told, error = done.stderr.splitlines()
+    assert told.startswith(f"chapsym: {old} is now {new};")
+    assert error.startswith(f"chapsym: {new}: 'x' is not a number")

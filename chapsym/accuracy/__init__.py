@@ -1,4 +1,4 @@
-"""A ball rolled to an accuracy: rung, order and step chosen from measured prices, and the result verified on itself."""
+"""A ball rolled to an accuracy: precision, order and step from measured prices, the result verified on itself."""
 
 from .answer import Accurate, accurate, foreseen
 from .choice import Choice, choices

@@ -35,8 +35,8 @@ class Accurate:
     """A run that meets its request.
 
     trajectory: at the times asked for, with order 12 for `extrapolate` and 0 for `exact_top`.
-    choice: rung, order and step.  estimate: of the error, at the worst of the times, in the norm of the request, by
-    comparison with longer steps: a bound where the shorter ones at least halve the error.
+    choice: precision, order and step.  estimate: of the error, at the worst of the times, in the norm of the request,
+    by comparison with longer steps: a bound where the shorter ones at least halve the error.
     attempts: all that was tried, the last of them the one that is delivered.
     seconds: of the processor, for everything: the pilot, all attempts, their verification.
     """
@@ -54,12 +54,12 @@ class Accurate:
     def final(self) -> dict[str, list[Any]]:
         """K, γ and the contact point at the end: floats, or decimal strings where a float would not hold them."""
         names = {"angular_momentum": "momentum", "gamma": "gamma", "contact": "contact"}
-        run, rung = self.trajectory, self.choice.method.rung
+        run, precision = self.trajectory, self.choice.method.precision
         there = {told: name for told, name in names.items() if getattr(run, name) is not None}
         values = {told: exact_values(self.request, run, name)[-1] for told, name in there.items()}
-        if isinstance(rung, Single | Double):
+        if isinstance(precision, Single | Double):
             return {told: [float(x) for x in v] for told, v in values.items()}
-        written = Digits(rung.digits)
+        written = Digits(precision.digits)
         return {told: [written.write(written.number(x)) for x in v] for told, v in values.items()}
 
     @property
@@ -91,7 +91,7 @@ def accurate(
     limit: seconds that the run may be expected to take.  prices: of this machine; `load_prices` by default.
 
     The result is verified on the run itself (see `Accurate`).  Raises BadInput for a request that cannot be met: one
-    that would take longer than the limit, or that is finer than every rung.
+    that would take longer than the limit, or that is finer than every precision.
     """
     started = clock.thread_time()
     request = Request(ball, angular_momentum, gamma, time, accuracy, of, frames, attitude)  # type: ignore[arg-type]

@@ -1,4 +1,4 @@
-"""The choice: of all rungs and orders whose expected error is small enough, the one that is expected to cost least."""
+"""The choice: of the precisions and orders that are expected to be accurate enough, the cheapest."""
 
 import math
 from collections.abc import Mapping
@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from .methods import EXACT, EXTRAPOLATED, Method, checks, methods
 from .pilot import Law
-from .prices import RUNGS, Prices
+from .prices import PRECISIONS, Prices
 from .request import Request
 
 #: How many times longer the steps are with which a run is compared, for orders up to 4 and above: by theory their
@@ -54,8 +54,8 @@ def choices(
     """
     found = [
         choice
-        for rung in RUNGS
-        for method in methods(request, rung)
+        for precision in PRECISIONS
+        for method in methods(request, precision)
         if method not in barred
         and method.order in laws
         and (choice := _one(request, method, laws[method.order], prices, (least or {}).get(method, 0)))
@@ -70,7 +70,7 @@ def _one(request: Request, method: Method, law: Law, prices: Prices, least: int)
         return None
     coarse = multiple(request, method, max(request.time / step, least))
     steps = finer(request, method, coarse)
-    if request.floor(method.rung, steps * method.walked, method.summed) > ROUNDING * request.accuracy:
+    if request.floor(method.precision, steps * method.walked, method.summed) > ROUNDING * request.accuracy:
         return None
     cost = 0.0
     for n in (coarse, steps):

@@ -1,4 +1,4 @@
-"""The ways to take a ball to the end: a rung of the precision ladder and an order, each by one call of dynamics."""
+"""The ways to take a ball to the end: a precision and an order, each by one call of dynamics."""
 
 from dataclasses import dataclass
 from fractions import Fraction
@@ -17,7 +17,7 @@ from chapsym.dynamics import (
     trajectory,
 )
 from chapsym.dynamics.ball import Floats
-from chapsym.numbers import NAMED, Digits, Double, Rung, Single
+from chapsym.numbers import NAMED, Digits, Double, Precision, Single
 
 from .request import Request
 
@@ -33,20 +33,20 @@ CHECKS, FEW = 16, 4
 
 @dataclass(frozen=True)
 class Method:
-    """A rung and an order: 2, 4, 6, 8; 12 for `extrapolate`; 0 for `exact_top`."""
+    """A precision and an order: 2, 4, 6, 8; 12 for `extrapolate`; 0 for `exact_top`."""
 
-    rung: Rung
+    precision: Precision
     order: int
 
     @property
     def label(self) -> str:
-        """The rung's name, with its digits."""
-        return rung_label(self.rung)
+        """The precision's name, with its digits."""
+        return label_of(self.precision)
 
     @property
     def summed(self) -> bool:
         """Whether 𝒦 and γ are summed with compensation, as float64's are in a composition."""
-        return self.order != EXTRAPOLATED and isinstance(self.rung, Double)
+        return self.order != EXTRAPOLATED and isinstance(self.precision, Double)
 
     @property
     def walked(self) -> int:
@@ -61,18 +61,18 @@ class Method:
         return len(substeps(self.order or 2))
 
 
-def rung_label(rung: Rung) -> str:
-    """What a table calls a rung: "double", "digits30"."""
-    return f"digits{rung.count}" if isinstance(rung, Digits) else type(rung).__name__.lower()
+def label_of(precision: Precision) -> str:
+    """What a table calls a precision: "double", "digits30"."""
+    return f"digits{precision.count}" if isinstance(precision, Digits) else type(precision).__name__.lower()
 
 
-def methods(request: Request, rung: Rung) -> list[Method]:
-    """All that can be asked of a rung for this request."""
-    found = [Method(rung, order) for order in COMPOSED]
-    if rung == NAMED["double"] and request.of == "state":
-        found.append(Method(rung, EXTRAPOLATED))
+def methods(request: Request, precision: Precision) -> list[Method]:
+    """All that can be asked of a precision for this request."""
+    found = [Method(precision, order) for order in COMPOSED]
+    if precision == NAMED["double"] and request.of == "state":
+        found.append(Method(precision, EXTRAPOLATED))
         if _is_top(request):
-            found.append(Method(rung, EXACT))
+            found.append(Method(precision, EXACT))
     return found
 
 
@@ -108,11 +108,13 @@ def take(request: Request, method: Method, steps: int, frames: int, time: float 
         run = trajectory(top.ball, top.momentum, g, steps, every=every, attitude=body, time_step=step)
         return top.restore(run)
     momentum: Any = step * K
-    if not isinstance(method.rung, Double | Single):  # T/n and its product with K, of which float64 has but 53 bits
+    if not isinstance(
+        method.precision, Double | Single
+    ):  # T/n and its product with K, of which float64 has but 53 bits
         momentum = [Fraction(end) / steps * Fraction(float(x)) for x in K]
     return trajectory(
         ball, momentum, g, steps, order=method.order, every=every, attitude=body, contact=request.of == "contact",
-        time_step=step, precision=method.rung,
+        time_step=step, precision=method.precision,
     )  # fmt: skip
 
 

@@ -1,4 +1,4 @@
-"""What a step costs on this machine, for every rung, order and length of step: measured once, kept in the user's cache.
+"""What a step costs on this machine, by precision, order and length of step: measured once, kept in the user's cache.
 
 A price is the seconds of a step at a few lengths θ = |ω|ε of the step (radians): long ones need more work, as the root
 is farther from its guess and the lemma that proves it at once does not cover them.  And what a call costs besides.
@@ -35,7 +35,7 @@ VERSION = 1
 LENGTHS = (0.02, 0.1, 0.25, 0.5, 1.0)
 #: What is priced, and chosen from.  One ball is no faster in float32 than in float64; mpmath, a thousand times slower
 #: than double-double, has hardly more digits here, as its runs start from the same 106 bits.
-RUNGS = (NAMED["double"], NAMED["quad"])
+PRECISIONS = (NAMED["double"], NAMED["quad"])
 #: Each price is the median of so many runs, each of about so many seconds.
 RUNS, LEAST = 3, 1e-3
 #: A price grows at most to so many steps a run.
@@ -44,7 +44,7 @@ MOST_STEPS = 1 << 14
 
 @dataclass(frozen=True)
 class Prices:
-    """calls: seconds of a call, by "rung/body"; steps: [(θ, seconds a step), ...] by "rung/order/body"."""
+    """calls: seconds of a call, by "precision/body"; steps: [(θ, seconds a step), ...] by "precision/order/body"."""
 
     calls: dict[str, float]
     steps: dict[str, list[tuple[float, float]]]
@@ -83,9 +83,9 @@ def calibrate(progress: Callable[[str], None] = lambda text: None) -> Prices:
     steps: dict[str, list[tuple[float, float]]] = {}
     wanted = [
         (request, method)
-        for rung in RUNGS
+        for precision in PRECISIONS
         for request in (sample("state", 1.0), sample("contact", 1.0))
-        for method in methods(request, rung)
+        for method in methods(request, precision)
         if method.order != EXACT
     ]
     started = time.monotonic()

@@ -12,14 +12,14 @@ from chapsym.dynamics.attitudes import attitude_with, initial_attitude
 from chapsym.dynamics.ball import Floats, batch, numbers, unit_vertical
 from chapsym.dynamics.certified import exactly
 from chapsym.dynamics.trajectories import whole_number
-from chapsym.numbers import Digits, Rung
+from chapsym.numbers import Digits, Precision
 
 #: What the accuracy may be of.
 NORMS = ("state", "contact")
 #: The coefficients of the compositions have 40 digits, and the times of a run are as exact as they.
 FINEST = 1e-30
-#: The unit roundoff of the rungs: that of double-double is a few units of its last place, and the momentum of mpmath's
-#: runs starts with 106 bits.
+#: The unit roundoff of the precisions: that of double-double is a few units of its last place, and the momentum of
+#: mpmath's runs starts with 106 bits.
 ROUNDINGS = {"Single": 2.0**-24, "Double": 2.0**-53, "Quad": 2.0**-103, "Digits": 2.0**-106}
 
 
@@ -67,8 +67,8 @@ class Request:
         else:
             object.__setattr__(self, "attitude", initial_attitude(self.attitude, g[0]))
         if self.body is True:
-            # Left to the run: every rung makes the least rotation in its own numbers.  What squares to nothing turns a
-            # rung of wider range by another half turn than float64, where γ is upside down.
+            # Left to the run: every precision makes the least rotation in its own numbers.  What squares to nothing
+            # turns one of wider range by another half turn than float64, where γ is upside down.
             object.__setattr__(self, "gamma", np.where(abs(self.gamma) < 1e-150, 0.0, self.gamma))
 
     @property
@@ -96,14 +96,14 @@ class Request:
         """What a relative error of the motion comes to in the norm: 1, or the radius in metres."""
         return float(self.ball.radius) if self.of == "contact" else 1.0  # type: ignore[arg-type]
 
-    def shared(self, rung: Rung) -> float:
-        """The rounding that all runs on a rung have in common, so that no comparison shows it: of J, D, K and γ.
+    def shared(self, precision: Precision) -> float:
+        """The rounding that all runs at a precision have in common, so that no comparison shows it: of J, D, K and γ.
 
         The factors here and in `floor` are the least that covered what was measured on some twenty random balls.
         """
-        return 2 * rounding(rung) * math.sqrt(self.condition) * (1 + self.angle) * self.unit
+        return 2 * rounding(precision) * math.sqrt(self.condition) * (1 + self.angle) * self.unit
 
-    def floor(self, rung: Rung, stages: float, summed: bool) -> float:
+    def floor(self, precision: Precision, stages: float, summed: bool) -> float:
         """The error that rounding is expected to make in a run of so many stages.
 
         summed: whether 𝒦 and γ are summed with compensation; the attitude never is.  What is not walks at random.
@@ -111,7 +111,7 @@ class Request:
         turned = 0.0 if summed else math.sqrt(self.condition) * (1 + self.angle) * self.unit
         path = self.rolling * self.time if self.of == "contact" else 0.0
         rolled = 0.0 if not self.with_body else 2 * (1 + path) * self.unit
-        return self.shared(rung) + rounding(rung) * math.sqrt(stages) * max(turned, rolled)
+        return self.shared(precision) + rounding(precision) * math.sqrt(stages) * max(turned, rolled)
 
 
 def _positive(value: Any, name: str) -> float:
@@ -121,9 +121,9 @@ def _positive(value: Any, name: str) -> float:
     return float(found)
 
 
-def rounding(rung: Rung) -> float:
-    """The unit roundoff of a rung."""
-    return ROUNDINGS["Digits" if isinstance(rung, Digits) else type(rung).__name__]
+def rounding(precision: Precision) -> float:
+    """The unit roundoff of a precision."""
+    return ROUNDINGS["Digits" if isinstance(precision, Digits) else type(precision).__name__]
 
 
 def distance(request: Request, run: Trajectory, other: Trajectory) -> Floats:

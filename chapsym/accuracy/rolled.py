@@ -14,7 +14,7 @@ from chapsym.dynamics.axes import in_given_axes
 from chapsym.dynamics.ball import SMALLEST, Floats, batch, numbers, unit_vertical
 from chapsym.dynamics.results import finished
 from chapsym.dynamics.trajectories import seconds, whole_number
-from chapsym.numbers import Rung
+from chapsym.numbers import Precision
 
 from .motion import DEFAULT, FINEST, moved
 from .problem import Problem
@@ -34,7 +34,7 @@ def roll(
     position: ArrayLike = (0.0, 0.0),
     accuracy: float | None = None,
     order: int | None = None,
-    precision: str | Rung | None = None,
+    precision: str | Precision | None = None,
     map: bool = False,
     threads: int = 0,
     progress: Callable[[int], None] = lambda steps_done: None,
@@ -104,7 +104,7 @@ def _start(
 
 @in_given_axes
 def _rolled(
-    ball: Ball, omega: Floats, gamma: Floats, attitude: bool | Floats, contact: bool, precision: str | Rung,
+    ball: Ball, omega: Floats, gamma: Floats, attitude: bool | Floats, contact: bool, precision: str | Precision,
     epsilon: float, steps: int, *, every: int, order: int, accuracy: float | None, threads: int,
     progress: Callable[[int], None],
 ) -> Trajectory:  # fmt: skip

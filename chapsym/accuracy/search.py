@@ -67,7 +67,7 @@ class Search:
         if not found:
             raise BadInput(
                 f"an accuracy of {request.accuracy:g} after {request.time:g} s cannot be had: it takes too many steps, "
-                "or rounding alone is larger on every rung"
+                "or rounding alone is larger at every precision"
             )
         if found[0].seconds > left:
             raise BadInput(
@@ -121,7 +121,7 @@ class Search:
             self.least[method] = choice.steps
             return None
         apart = float(distance(request, run, coarse).max())
-        floor = request.floor(method.rung, choice.steps * method.walked, method.summed)
+        floor = request.floor(method.precision, choice.steps * method.walked, method.summed)
         self.attempts.append(Attempt(choice, apart + floor, clock.thread_time() - started))
         if apart + floor <= request.accuracy:
             return run
@@ -138,7 +138,7 @@ class Search:
             self.laws = {order: law.scaled(factor) for order, law in self.laws.items()}
         self.least[method] = math.ceil(PROGRESS * choice.coarse)
         if floor * FLOORS > apart or self._stuck(choice):
-            composed = [m for m in methods(self.request, method.rung) if m.order in COMPOSED]
+            composed = [m for m in methods(self.request, method.precision) if m.order in COMPOSED]
             self.barred |= frozenset(composed if method.order in COMPOSED else [method])
 
     def _stuck(self, choice: Choice) -> bool:

@@ -11,7 +11,9 @@ from typer.exceptions import TyperException
 
 import chapsym
 from chapsym.rationals import NotANumber
+from chapsym.renamed import told_on_standard_error
 
+from .old import modernised
 from .output import fail, quiet
 
 app = typer.Typer(
@@ -37,7 +39,9 @@ def main() -> NoReturn:
     if len(sys.argv) == 1:
         sys.argv.append("--help")
     try:
-        status = _plain(typer.main.get_command(app)).main(prog_name="chapsym", standalone_mode=False)
+        with told_on_standard_error():
+            arguments, command = modernised(sys.argv[1:]), _plain(typer.main.get_command(app))
+            status = command.main(arguments, prog_name="chapsym", standalone_mode=False)
         sys.stdout.flush()
         if status == INTERRUPTED:
             fail("interrupted", INTERRUPTED)

@@ -7,7 +7,7 @@ import typer
 from chapsym.rationals import rationals
 
 from .app import app
-from .options import Contact, Inertia, Json, Mass, MassTensor, Radius, ball_from, rung_from
+from .options import Contact, Inertia, Json, Mass, MassTensor, Radius, ball_from, precision_from
 from .output import print_json
 
 
@@ -21,7 +21,7 @@ def branches(
     mass: Mass = None,
     radius: Radius = None,
     digits: Annotated[int | None, typer.Option(metavar="N", min=1, max=100_000, help="Significant digits.")] = None,
-    rung: Annotated[str | None, typer.Option(metavar="NAME", help="double: IEEE float64, the default.")] = None,
+    precision: Annotated[str | None, typer.Option(metavar="NAME", help="double: IEEE float64, the default.")] = None,
     ball: Annotated[
         int | None, typer.Option(metavar="BITS", min=2, max=1_000_000, help="Bits of an Arb enclosure.")
     ] = None,
@@ -33,7 +33,7 @@ def branches(
     """
     J, D = ball_from(mass_tensor, inertia, contact, mass, radius)
     K, g = rationals(momentum, "--momentum", 3), rationals(gamma, "--gamma", 3)
-    chosen = rung_from(digits, rung, ball, ("double",))
+    chosen = precision_from(digits, precision, ball, ("double",))
     from chapsym.dynamics.solutions.enclosed import precise_branches
 
     found = precise_branches(J, D, K, g, chosen).write()

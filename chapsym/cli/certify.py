@@ -42,7 +42,7 @@ def no_invariant_measure(
     mass_tensor: MassTensor = None,
     inertia: Inertia = None,
     contact: Contact = None,
-    height: Annotated[str, typer.Option(metavar="H", help="h of G_h: the momentum is h gamma.")] = "12/5",
+    vertical_momentum: Annotated[str, typer.Option(metavar="H", help="h of G_h: the momentum is h gamma.")] = "12/5",
     steps: Annotated[int | None, typer.Option(metavar="Q", help="Steps, odd; the fewest possible.")] = None,
     turns: Annotated[int | None, typer.Option(metavar="P", help="Half turns in them; 1.")] = None,
     level: Annotated[str | None, typer.Option(metavar="L", help="The level; found by default.")] = None,
@@ -61,7 +61,7 @@ def no_invariant_measure(
     Example: chapsym certify no-invariant-measure --mass-tensor 1,2,4 --D 7 --steps 21 -o real-ball.json
     """
     J, D = _ball(mass_tensor, inertia, contact, "1")
-    h = rational(height, "--height")
+    h = rational(vertical_momentum, "--vertical-momentum")
     at, within = (None if x is None else rational(x, name) for x, name in ((level, "--level"), (radius, "--radius")))
     from chapsym.certificates import measure
     from chapsym.certificates.reduced import Top
@@ -88,10 +88,8 @@ def periodic_orbit(
     mass_tensor: MassTensor = None,
     inertia: Inertia = None,
     contact: Contact = None,
-    size: Annotated[str, typer.Option("--momentum-momentum", metavar="KK", help="Of K with itself.")] = "15/2",
-    height: Annotated[
-        str | None, typer.Option("--momentum-gamma", metavar="KG", help="Of K with gamma; found by default.")
-    ] = None,
+    k_squared: Annotated[str, typer.Option(metavar="KK", help="|K|^2.")] = "15/2",
+    vertical_momentum: Annotated[str | None, typer.Option(metavar="H", help="<K, gamma>; found by default.")] = None,
     steps: Annotated[int, typer.Option(metavar="Q", help="Steps after which the orbit is back.")] = 20,
     attracting: Annotated[bool, typer.Option("--attracting", help="It must attract the orbits near it.")] = False,
     digits: Annotated[int | None, typer.Option(metavar="N", help="Decimals; as many as needed by default.")] = None,
@@ -106,8 +104,8 @@ def periodic_orbit(
     Example: chapsym certify periodic-orbit --mass-tensor 1,2,4 --D 1 --steps 26 --attracting -o attracting.json
     """
     J, D = _ball(mass_tensor, inertia, contact, "2")
-    KK = rational(size, "--momentum-momentum")
-    Kg = None if height is None else rational(height, "--momentum-gamma")
+    KK = rational(k_squared, "--k-squared")
+    Kg = None if vertical_momentum is None else rational(vertical_momentum, "--vertical-momentum")
     from chapsym.certificates import orbit
 
     find = partial(orbit.periodic_orbit, (J[0], J[1], J[2]), D, KK, steps, Kg, digits, attracting)

@@ -1,4 +1,4 @@
-"""chapsym extremes: where each rung breaks."""
+"""chapsym extremes: where each precision breaks."""
 
 from pathlib import Path
 from typing import Annotated, Any
@@ -75,18 +75,20 @@ def _print_matrix(matrix: dict[str, Any]) -> None:
     for group in page.groups(matrix):
         table = Table(title=f"{group['name']}: {group['title']}", title_justify="left")
         table.add_column("condition", min_width=46)
-        for rung in group["rungs"]:
-            table.add_column(rung, justify="right", min_width=10)
+        for precision in group["rungs"]:
+            table.add_column(precision, justify="right", min_width=10)
         for condition, cells in group["rows"]:
             shown = [
-                Text(page.shown(cells[rung]), COLOURS[cells[rung]["verdict"]]) if rung in cells else Text("·")
-                for rung in group["rungs"]
+                Text(page.shown(cells[precision]), COLOURS[cells[precision]["verdict"]])
+                if precision in cells
+                else Text("·")
+                for precision in group["rungs"]
             ]
             table.add_row(condition, *shown)
         console.print(table)
         for one in group["reasons"]:
             sign = page.VERDICTS[one["verdict"]][0]
-            about = "; ".join(f"{condition} ({rungs})" for condition, rungs in one["about"])
+            about = "; ".join(f"{condition} ({precisions})" for condition, precisions in one["about"])
             console.print(Text(f"  {sign} {about}:", COLOURS[one["verdict"]]), one["reason"])
         console.print()
     for verdict, (sign, meaning) in page.VERDICTS.items():

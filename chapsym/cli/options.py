@@ -12,7 +12,7 @@ from chapsym.rationals import mass_tensor_from, rational, rationals
 from .output import fail
 
 if TYPE_CHECKING:
-    from chapsym.numbers import Rung
+    from chapsym.numbers import Precision
 
 #: By how much, relatively, a symmetric tensor may differ from its transpose, as in scenes.
 ASYMMETRY = Fraction(1, 10**12)
@@ -102,19 +102,19 @@ def contact_from(contact: str | None, mass: str | None, radius: str | None) -> F
     return m * rho * rho
 
 
-def rung_from(
-    digits: int | None, rung: str | None, ball: int | None, known: Sequence[str] = ("single", "double", "quad")
-) -> "Rung":
-    """The rung of the precision ladder that the options name; `known` are the names that the command takes."""
-    if sum(x is not None for x in (digits, rung, ball)) > 1:
-        fail("choose one of --digits, --rung and --ball", 2)
+def precision_from(
+    digits: int | None, precision: str | None, ball: int | None, known: Sequence[str] = ("single", "double", "quad")
+) -> "Precision":
+    """The precision that the options name; `known` are the names that the command takes."""
+    if sum(x is not None for x in (digits, precision, ball)) > 1:
+        fail("choose one of --digits, --precision and --ball", 2)
     from chapsym.numbers import NAMED, Digits, Enclosure
 
     if digits is not None:
         return Digits(digits)
     if ball is not None:
         return Enclosure(ball)
-    if rung is not None and rung not in known:
+    if precision is not None and precision not in known:
         listed = " or ".join(filter(None, (", ".join(known[:-1]), known[-1])))
-        fail(f"--rung {rung}: give {listed}, or for any number of digits --digits N or --ball BITS", 2)
-    return NAMED[rung or "double"]
+        fail(f"--precision {precision}: give {listed}, or for any number of digits --digits N or --ball BITS", 2)
+    return NAMED[precision or "double"]

@@ -7,7 +7,18 @@ import typer
 from chapsym.rationals import rationals
 
 from .app import app
-from .options import Contact, Inertia, Json, Mass, MassTensor, Radius, ball_from, contact_from, rung_from, tensor_from
+from .options import (
+    Contact,
+    Inertia,
+    Json,
+    Mass,
+    MassTensor,
+    Radius,
+    ball_from,
+    contact_from,
+    precision_from,
+    tensor_from,
+)
 from .output import print_json
 
 
@@ -23,7 +34,7 @@ def step(
     digits: Annotated[
         int | None, typer.Option(metavar="N", min=1, max=100_000, help="Significant digits, by mpmath.")
     ] = None,
-    rung: Annotated[
+    precision: Annotated[
         str | None, typer.Option(metavar="NAME", help="single, double (the default) or quad: 7, 16 or 31 digits.")
     ] = None,
     ball: Annotated[
@@ -38,7 +49,7 @@ def step(
     Example: chapsym step --mass-tensor 1,2,4 --D 3 --momentum 1,-1/2,3/4 --gamma 2/7,3/7,6/7 --digits 50 --json
     """
     K, g = rationals(momentum, "--momentum", 3), rationals(gamma, "--gamma", 3)
-    chosen, tensor = rung_from(digits, rung, ball), tensor_from(inertia)
+    chosen, tensor = precision_from(digits, precision, ball), tensor_from(inertia)
     import numpy as np
 
     from chapsym import dynamics

@@ -16,7 +16,7 @@ from . import principal_axes
 from .attitudes import initial_attitude
 from .ball import Ball, batch, numbers, unit_vertical
 from .errors import BadInput, StepNotTaken
-from .levels import ladder
+from .levels import dispatch
 
 #: The vectors of arguments and of results, by their names.
 VECTORS = ("momentum", "angular_momentum", "omega", "gamma")
@@ -56,7 +56,7 @@ def in_given_axes(function: Callable[P, R]) -> Callable[P, R]:
 
 def _principal_arguments(ball: Ball, given: dict[str, Any]) -> dict[str, Any]:
     """The arguments that are others in principal axes."""
-    if not isinstance(ladder.rung_of(given.get("precision", "double")), Single | Double):
+    if not isinstance(dispatch.precision_of(given.get("precision", "double")), Single | Double):
         raise BadInput(
             "more digits than float64 has are kept in principal axes only: give the principal moments, and all vectors "
             "in their axes"

@@ -14,7 +14,7 @@ from chapsym.numbers import Enclosure
 from .ball import Asked, Floats, batch
 from .coefficients import COMPOSITIONS
 from .errors import BadInput, Status
-from .levels import high, ladder
+from .levels import dispatch, high
 from .levels.frames import Balls
 from .levels.start import fraction
 from .results import Trajectory
@@ -76,7 +76,7 @@ def certify(
 ) -> Certificate:
     """Encloses the true orbit of a trajectory, and bounds the errors of the trajectory, rigorously.
 
-    trajectory: on any rung, of one ball or a batch, of the order 2, 4, 6 or 8, with its attitude and contact.
+    trajectory: at any precision, of one ball or a batch, of the order 2, 4, 6 or 8, with its attitude and contact.
     bits: how many correct bits the balls shall have; the run is repeated with as many more as its length costs.
     progress: called with the steps done so far (of all balls together); a run that is repeated counts again.
 
@@ -122,15 +122,15 @@ def _orbit(
         assert trajectory.ball.radius is not None
         radius = np.broadcast_to(trajectory.ball.radius, shape).reshape(-1)
     with_body = first["attitude"] is not None
-    rung = Enclosure(bits)
-    frames = ladder.frames_for(rung, len(D), count, count if with_body else 0)
+    precision = Enclosure(bits)
+    frames = dispatch.frames_for(precision, len(D), count, count if with_body else 0)
     if with_body:
         frames.attitude[:, 0] = first["attitude"]
     for i, taken in enumerate(trajectory.taken.reshape(-1)):
         balls = Balls(*(x[i : i + 1] for x in (first["momentum"], first["gamma"], J, D, radius)))
         kept = min(count, int(taken) // every + 1)
         part = frames.part(i, kept)
-        high.run(rung, balls, (kept - 1) * every, every, part, trajectory.order, progress)
+        high.run(precision, balls, (kept - 1) * every, every, part, trajectory.order, progress)
         if part.status[0] != Status.TAKEN:
             raise BadInput(
                 f"the true orbit{f' of ball {i}' if shape else ''} does not take step {int(part.taken[0])}:"

@@ -7,7 +7,7 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import ArrayLike
 
-from chapsym.numbers import Rung
+from chapsym.numbers import Precision
 
 from .ball import Ball, Floats
 from .errors import BadInput
@@ -36,13 +36,13 @@ def in_float64(*vectors: Sequence[Fraction]) -> list[float]:
         raise BadInput("a number of the input is beyond the range of float64, where every step starts") from None
 
 
-def unit_exactly(gamma: Sequence[Fraction], rung: Rung) -> None:
-    """Raises BadInput unless |γ|² = 1 to the digits of the rung."""
+def unit_exactly(gamma: Sequence[Fraction], precision: Precision) -> None:
+    """Raises BadInput unless |γ|² = 1 to the digits of the precision."""
     off = abs(sum((x * x for x in gamma), Fraction(-1)))
     shown = f"{float(off):.2g}" if off < 10**300 else "more than 1e300"
-    if off > Fraction(1, 10**rung.digits):
+    if off > Fraction(1, 10**precision.digits):
         raise BadInput(
-            f"gamma must be a unit vector to {rung.digits} digits, but |gamma|^2 is off 1 by {shown}; "
+            f"gamma must be a unit vector to {precision.digits} digits, but |gamma|^2 is off 1 by {shown}; "
             "give it exactly, as rationals such as 2/7,3/7,6/7"
         )
 

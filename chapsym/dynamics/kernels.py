@@ -18,7 +18,7 @@ from .errors import BadInput
 
 
 def _array(value: ArrayLike, name: str, trailing: int | None) -> np.ndarray:
-    """The values of an argument: float64, or as they are where an array holds the numbers of another rung."""
+    """The values of an argument: float64, or as they are where an array holds the numbers of another precision."""
     if isinstance(value, np.ndarray) and value.dtype == object and trailing and value.shape[-1:] == (trailing,):
         return value
     return numbers(value, name, trailing)

@@ -1,4 +1,4 @@
-"""What steps and runs return: states of one ball or of a batch, in the numbers of a rung."""
+"""What steps and runs return: states of one ball or of a batch, in the numbers of a precision."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from chapsym.numbers import NAMED, Pair, Rung
+from chapsym.numbers import NAMED, Pair, Precision
 
 from . import kernels
 from .ball import Asked, Ball, Floats
@@ -44,7 +44,7 @@ class Step:
     momentum, gamma: 𝒦 and γ after the step, shape (..., 3).
     status: a `Status` for each ball, shape (...); where it is not TAKEN the numbers above are NaN.
     reach: the fraction of the momentum that the small-rotation branch attains, shape (...).
-    precision: the rung of the numbers.  The arrays are float32 for Single, objects (mpf, arb) for Digits and Ball.
+    precision: of the numbers.  The arrays are float32 for Single, objects (mpf, arb) for Digits and Enclosure.
     low: for Quad, what the numbers have beyond float64, as of `Trajectory`; else None.
     """
 
@@ -53,7 +53,7 @@ class Step:
     gamma: Floats
     status: np.ndarray
     reach: Floats
-    precision: Rung = NAMED["double"]
+    precision: Precision = NAMED["double"]
     low: LowStep | Any = None
 
     def write(self) -> dict[str, Any]:
@@ -65,7 +65,7 @@ class Step:
         values = getattr(self, name)
         if self.low is not None:
             values = map(Pair, values, getattr(self.low, name))
-        with self.precision.precision():
+        with self.precision.working():
             return list(map(self.precision.write, values))
 
 
@@ -112,7 +112,7 @@ class Trajectory:
     time_step: ε in seconds, if the run has one.
     order: of the composition that made the steps; 2 for the map itself, 0 for the continuous motion (`roll`,
     `exact_top`), of which `index` counts time steps.
-    precision: the rung of the numbers.  The arrays are float32 for Single, objects (mpf, arb) for Digits and Ball.
+    precision: of the numbers.  The arrays are float32 for Single, objects (mpf, arb) for Digits and Enclosure.
     low: for Quad, what the numbers have beyond float64: `momentum` + `low.momentum` is 𝒦, and so on; else None.
     error: of `roll`, an estimate of the largest error at any frame, (...); else None.
     """
@@ -127,7 +127,7 @@ class Trajectory:
     status: np.ndarray
     time_step: float | None = None
     order: int = 2
-    precision: Rung = NAMED["double"]
+    precision: Precision = NAMED["double"]
     low: Low | Any = None
     error: Asked = None
 
@@ -162,18 +162,18 @@ class Trajectory:
 
     def invariants(self) -> Floats:
         """⟨𝒦,γ⟩, ⟨𝒦,𝒦⟩ and ⟨γ,γ⟩ of each frame, (..., frames, 3); on Quad in float64, of the first halves."""
-        with self.precision.precision():
+        with self.precision.working():
             return kernels.invariants(*self._finite(self.momentum, self.gamma))
 
     def angular_momentum(self) -> Floats:
         """K = 𝒦/ε in kg m²/s, (..., frames, 3)."""
-        with self.precision.precision():
+        with self.precision.working():
             return self.momentum / self._time_step()
 
     @property
     def omega(self) -> Floats:
         """ω in rad/s for K = 𝒦/ε, in body axes, (..., frames, 3); raises BadInput if the run has no time step."""
-        with self.precision.precision():
+        with self.precision.working():
             omega = kernels.angular_velocity(*self._principal())
             return omega if self.ball.axes is None else self.ball.from_principal(omega, frames=True)
 
@@ -184,7 +184,7 @@ class Trajectory:
 
     def kinetic_energy(self) -> Floats:
         """½⟨K, ω⟩ in joules for K = 𝒦/ε, (..., frames); the map keeps it up to an oscillation."""
-        with self.precision.precision():
+        with self.precision.working():
             return kernels.energy(*self._principal())
 
     def _principal(self) -> tuple[Floats, Floats, Floats, Floats]:

@@ -7,14 +7,14 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import ArrayLike
 
-from chapsym.numbers import Rung
+from chapsym.numbers import Precision
 
 from .attitudes import initial_attitude
 from .axes import in_given_axes
 from .ball import Ball, batch, numbers, unit_vertical
 from .errors import BadInput
 from .exactly import beyond_float64
-from .levels import ladder
+from .levels import dispatch
 from .levels.frames import Balls, Frames
 from .results import Low, Trajectory, finished
 
@@ -34,14 +34,14 @@ def trajectory(
     attitude: bool | ArrayLike = False,
     contact: bool = False,
     time_step: float | None = None,
-    precision: str | Rung = "double",
+    precision: str | Precision = "double",
     threads: int = 0,
     progress: Callable[[int], None] = lambda steps_done: None,
 ) -> Trajectory:
     """Takes `steps` steps of the map on the small-rotation branch and keeps every `every`-th state.
 
     momentum, gamma: as for `step`; both broadcast with the balls.  A momentum of Fractions keeps 106 bits on "quad" and
-    higher rungs, so that εK may be exact there.
+    higher precisions, so that εK may be exact there.
     order: 2, or 4, 6, 8 for a symmetric composition of the map with stages cᵢ𝒦 (`substeps`): 𝒦, γ, the attitude and
     the contact point then converge with that order to those of the continuous ball (2.3), and the momentum integrals
     stay exact.
@@ -49,11 +49,11 @@ def trajectory(
     contact: whether to trace the contact point; it needs `ball.radius`, and implies the attitude.
     precision: "single", "double", "quad" (31 digits), `Digits(n)` (mpmath) or `Enclosure(bits)` (Arb, rigorous).  The
     floats that are given are taken as exact, but γ (and an attitude) is divided by its length on all but "double", and
-    "single" rounds all to float32.  The coefficients of the orders 4, 6, 8 are rounded to float32 or float64; on higher
-    rungs they are the 40 digits of `coefficients`, and the map composed with those is what a Ball encloses.  Of a Ball
-    `bits` are correct in every frame, beside the length of each vector; the branch is proved where |𝒦| is within the
-    bound of lemma `small-branch`, and beyond it that which the float64 continuation says.
-    threads: how many cores a batch may use; 0 for all.  Digits and Ball use one.
+    "single" rounds all to float32.  The coefficients of the orders 4, 6, 8 are rounded to float32 or float64; at higher
+    precisions they are the 40 digits of `coefficients`, and the map composed with those is what an Enclosure
+    encloses: `bits` are correct in every frame, beside the length of each vector.  Its branch is proved where |𝒦| is
+    within the bound of lemma `small-branch`; beyond it the float64 continuation selects the branch.
+    threads: how many cores a batch may use; 0 for all.  Digits and Enclosure use one.
     progress: called with the steps done so far (of all balls together), every 200 000 steps or so.
 
     One ball that cannot take a step raises StepNotTaken with `index` and the `trajectory` before it.
@@ -68,7 +68,7 @@ def trajectory(
     )
     every = min(every, steps + 1)
     time_step = None if time_step is None else seconds(time_step)
-    rung = ladder.rung_of(precision)
+    precision = dispatch.precision_of(precision)
     shape, (K, g, J, D) = batch(ball, numbers(momentum, "momentum", 3), unit_vertical(gamma))
     with_body = contact or not (isinstance(attitude, bool | np.bool_) and not attitude)
     if contact and ball.radius is None:
@@ -76,14 +76,14 @@ def trajectory(
     radius = np.broadcast_to(ball.radius if contact and ball.radius is not None else 0.0, shape).reshape(-1)
     balls, frames = len(D), steps // every + 1
     body_frames = frames if with_body else 0
-    frame = ladder.frames_for(rung, balls, frames, body_frames, isinstance(attitude, bool | np.bool_))
-    with np.errstate(over="ignore"):  # a rung of a smaller range refuses what it cannot hold
+    frame = dispatch.frames_for(precision, balls, frames, body_frames, isinstance(attitude, bool | np.bool_))
+    with np.errstate(over="ignore"):  # a precision of a smaller range refuses what it cannot hold
         frame.momentum[:, 0], frame.gamma[:, 0] = K, g
     rest = beyond_float64(momentum, shape)
     if with_body:
         first = np.broadcast_to(initial_attitude(attitude, g.reshape(*shape, 3)), (*shape, 4))
         frame.attitude[:, 0], frame.contact[:, 0] = first.reshape(-1, 4), 0.0
-    ladder.run(rung, Balls(K, g, J, D, radius, rest), steps, every, frame, order, threads, progress)
+    dispatch.run(precision, Balls(K, g, J, D, radius, rest), steps, every, frame, order, threads, progress)
 
     def shaped(array: np.ndarray) -> np.ndarray:
         return array.reshape(*shape, *array.shape[1:])
@@ -94,7 +94,7 @@ def trajectory(
 
     result = Trajectory(
         ball, np.arange(frames) * every, *bodies(frame), frame.taken.reshape(shape), frame.status.reshape(shape),
-        time_step, order, rung, None if frame.low is None else Low(*bodies(frame.low)),
+        time_step, order, precision, None if frame.low is None else Low(*bodies(frame.low)),
     )  # fmt: skip
     return finished(result, frame.reach)
 

@@ -1,4 +1,4 @@
-"""The page of the extremes: the matrix of conditions and rungs as one HTML file that opens from disk."""
+"""The page of the extremes: the matrix of conditions and precisions as one HTML file that opens from disk."""
 
 from collections.abc import Mapping, Sequence
 from itertools import groupby
@@ -14,7 +14,7 @@ VERDICTS = {
     "refused": ("–", "refused, with a sentence that says why"),
     "failed": ("✗", "wrong, or refused without a true reason"),
 }
-#: Decimal digits of the rungs: no more are counted.
+#: Decimal digits of the precisions: no more are counted.
 MOST_DIGITS = {"single": 7.2, "double": 16.0, "quad": 31.3, "Digits(50)": 50.0, "Ball(200)": 60.2}
 
 
@@ -30,26 +30,30 @@ def html(matrix: Mapping[str, Any], versions: Mapping[str, str], machine: str, d
 
 
 def groups(matrix: Mapping[str, Any]) -> list[dict[str, Any]]:
-    """Each group with its rungs and rows, a row with its cells by rung, and why cells are not within."""
+    """Each group with its precisions and rows, a row with its cells by precision, and why cells are not within."""
     found = []
     for name, those in groupby(matrix["cells"], lambda cell: cell["group"]):
         cells = list(those)
         rows = [(title, {c["rung"]: c for c in row}) for title, row in groupby(cells, lambda cell: cell["condition"])]
-        rungs = [rung for rung in matrix["rungs"] if any(cell["rung"] == rung for cell in cells)]
+        precisions = [precision for precision in matrix["rungs"] if any(cell["rung"] == precision for cell in cells)]
         title = matrix["groups"][name]
-        found.append({"name": name, "title": title, "rungs": rungs, "rows": rows, "reasons": reasons(cells)})
+        found.append({"name": name, "title": title, "rungs": precisions, "rows": rows, "reasons": reasons(cells)})
     return found
 
 
 def reasons(cells: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
-    """Why cells are not within: each sentence once, with the conditions and the rungs that it is about."""
+    """Why cells are not within: each sentence once, with the conditions and the precisions that it is about."""
     merged: dict[tuple[str, str], dict[str, list[str]]] = {}
     for cell in cells:
         if cell["verdict"] != "within":
             about = merged.setdefault((cell["verdict"], cell["reason"].removeprefix("step 0: ")), {})
             about.setdefault(cell["condition"], []).append(cell["rung"])
     return [
-        {"verdict": verdict, "reason": reason, "about": [(name, ", ".join(rungs)) for name, rungs in about.items()]}
+        {
+            "verdict": verdict,
+            "reason": reason,
+            "about": [(name, ", ".join(precisions)) for name, precisions in about.items()],
+        }
         for (verdict, reason), about in merged.items()
     ]
 

@@ -27,13 +27,13 @@ GAMMA = np.array([2.0, 3.0, 6.0]) / 7
 K = kernels.contact_momentum((3.0, -2.0, 1.0), GAMMA, BALL.mass_tensor, BALL.D)
 #: Prices that no machine has, so that every machine chooses the same.
 PRICES = Prices(
-    {f"{rung}/{body}": 1e-4 for rung in ("single", "double", "quad") for body in ("state", "body")},
+    {f"{precision}/{body}": 1e-4 for precision in ("single", "double", "quad") for body in ("state", "body")},
     {
-        f"{rung}/{order}/{body}": [(0.02, stages * price), (1.0, 8 * stages * price)]
-        for rung, price in (("single", 4e-8), ("double", 4e-8), ("quad", 3e-7))
+        f"{precision}/{order}/{body}": [(0.02, stages * price), (1.0, 8 * stages * price)]
+        for precision, price in (("single", 4e-8), ("double", 4e-8), ("quad", 3e-7))
         for order, stages in ((2, 1), (4, 5), (6, 9), (8, 17), (12, 15), (0, 1))
         for body in ("state", "body")
-        if rung == "double" or order in (2, 4, 6, 8)
+        if precision == "double" or order in (2, 4, 6, 8)
     },
 )
 
@@ -108,8 +108,8 @@ def test_a_pilot_that_is_fooled_is_found_out(monkeypatch):
         assert error_of(answer) <= answer.estimate <= 1e-9
 
 
-def test_a_rung_whose_rounding_is_too_large_is_left(monkeypatch):
-    """Rounding is thought absent: the runs in float64 do not come nearer to each other, and the next rung is taken."""
+def test_a_precision_whose_rounding_is_too_large_is_left(monkeypatch):
+    """Rounding is thought absent: runs in float64 do not come nearer to each other, and the next precision is taken."""
     monkeypatch.setattr(Request, "floor", lambda *_: 0.0)
     answer = asked(1e-17, "state")
     assert answer.attempts[0].choice.method.label == "double"
@@ -149,7 +149,7 @@ def test_the_exact_top_is_chosen_where_it_costs_least_and_a_ball_at_rest_stays()
     np.testing.assert_array_equal(answer.trajectory.gamma[-1], GAMMA)
 
 
-def test_exact_momenta_reach_the_higher_rungs_and_distance_sees_what_float64_does_not():
+def test_exact_momenta_reach_the_higher_precisions_and_distance_sees_what_float64_does_not():
     """εK rounded to float64 would be off by 1e-16; steps enough that the integrals are restored on the way."""
     request = surveyed(Request(BALL, K, GAMMA, 5.0, 1e-20, "state"))
     run = take(request, Method(NAMED["quad"], 8), 3200, 1)
@@ -238,7 +238,7 @@ def test_a_contact_beyond_float64_starts_from_the_exact_least_rotation(way):
     assert abs(off).max() <= Fraction(1, 10**19)
 
 
-def test_upside_down_every_rung_turns_about_the_first_axis():
+def test_upside_down_every_precision_turns_about_the_first_axis():
     """γ = (1e-160, 1e-160, -1) is upside down in float64; double-double, which sees more, would take another axis."""
     request = surveyed(Request(BALL, K, (1e-160, 1e-160, -1.0), 1.0, 1e-9, "contact"))
     runs = [take(request, Method(NAMED[name], 4), 1600, 16) for name in ("double", "quad")]
@@ -301,7 +301,7 @@ def test_choices_are_sorted_and_leave_out_what_is_barred():
     assert all(Fraction(c.steps, 16).denominator == Fraction(c.coarse, 16).denominator == 1 for c in found)
 
 
-def test_numbers_of_every_rung_are_read_exactly_with_their_signs():
+def test_numbers_of_every_precision_are_read_exactly_with_their_signs():
     for precision in (chapsym.numbers.Digits(30), chapsym.numbers.Enclosure(100), "quad", "double", "single"):
         run = chapsym.trajectory(BALL, -0.01 * K, GAMMA, 2, precision=precision)
         exact = exactly(run, "momentum").astype(float)

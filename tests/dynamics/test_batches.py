@@ -9,7 +9,7 @@ from chapsym.dynamics import columns
 from chapsym.dynamics.levels import double
 from chapsym.dynamics.loops import block, gibbs, loop
 
-RUNGS = ["single", "double", "quad"]
+PRECISIONS = ["single", "double", "quad"]
 RNG = np.random.default_rng(4)
 
 
@@ -58,10 +58,10 @@ def alone(*arguments, **options):
 
 @pytest.mark.parametrize(
     ("precision", "made", "n", "numba"),
-    [(p, balls, n, True) for p in RUNGS for n in (12, block.LANES, 150)]
+    [(p, balls, n, True) for p in PRECISIONS for n in (12, block.LANES, 150)]
     + [("single", balls, n, False) for n in (12, 150)]
     + [("double", balls, 40, False)]
-    + [(p, long_steps, 2 * block.LANES + 5, True) for p in RUNGS],
+    + [(p, long_steps, 2 * block.LANES + 5, True) for p in PRECISIONS],
 )
 def test_a_batch_is_its_balls_to_the_bit(precision, made, n, numba, monkeypatch):
     """One of the long steps cannot be certified: it neither stops the rounds of the others nor is settled by them."""
@@ -82,7 +82,7 @@ def test_a_batch_is_its_balls_to_the_bit(precision, made, n, numba, monkeypatch)
     assert made is not balls or run.status[[2, 8, 9]].tolist() == [Status.FOLDED, Status.UNREACHABLE, Status.NO_INERTIA]
 
 
-@pytest.mark.parametrize("precision", RUNGS)
+@pytest.mark.parametrize("precision", PRECISIONS)
 @pytest.mark.parametrize("options", [{}, {"order": 4}, {"contact": True}, {"order": 8, "contact": True}])
 def test_plain_is_compiled_to_the_bit(precision, options, monkeypatch):
     ball, state = Ball((0.1, 0.5, 1.6), 0.7, radius=0.1), ((0.03, -0.02, 0.035), np.array([2, 3, 6]) / 7)
@@ -95,7 +95,7 @@ def test_plain_is_compiled_to_the_bit(precision, options, monkeypatch):
         assert np.array_equal(few, many[: len(few)])
 
 
-@pytest.mark.parametrize("precision", RUNGS)
+@pytest.mark.parametrize("precision", PRECISIONS)
 def test_no_balls_and_no_axes(precision):
     none = chapsym.trajectory(Ball((1, 2, 4), 3), np.zeros((0, 3)), np.zeros((0, 3)), 5, precision=precision)
     assert {x.shape for x in floats_of(none)} == {(0, 6, 3)}

@@ -42,8 +42,8 @@ def exact(state):
     return tuple(map(Fraction, J)), Fraction(D), tuple(map(Fraction, K)), tuple(map(Fraction, g))
 
 
-def solve(state, rung=Double()):  # noqa: B008
-    return enclosed.precise_branches(*exact(state), rung)
+def solve(state, precision=Double()):  # noqa: B008
+    return enclosed.precise_branches(*exact(state), precision)
 
 
 def multiplicities(found):
@@ -180,7 +180,7 @@ def test_a_tiny_momentum_keeps_its_digits():
 
 
 def test_digits_are_those_of_the_enclosure():
-    digits, boxes = (solve(STATES[8], rung).write()["solutions"] for rung in (Digits(40), Enclosure(200)))
+    digits, boxes = (solve(STATES[8], precision).write()["solutions"] for precision in (Digits(40), Enclosure(200)))
     for s, box in zip(digits, boxes, strict=True):
         for x, y in zip((s["q0"], *s["q"], s["angle"]), (box["q0"], *box["q"], box["angle"]), strict=True):
             with flint.ctx.workprec(300):
@@ -196,7 +196,7 @@ def test_the_counts_must_agree(monkeypatch):
 
 def test_the_interval_newton_test_must_find_the_same_root(monkeypatch):
     found = solve(STATES[8]).solutions
-    monkeypatch.setattr(enclosed, "enclosed", lambda rung, q, *state: found[0].rotation)
+    monkeypatch.setattr(enclosed, "enclosed", lambda precision, q, *state: found[0].rotation)
     with pytest.raises(ArithmeticError, match="another rotation"):
         solve(STATES[8])
 

@@ -63,7 +63,7 @@ def test_the_bounds_are_the_errors_that_the_oracle_sees(order):
 
 
 @pytest.mark.parametrize("precision", ["single", "double", "quad", Digits(20)])
-def test_every_rung_is_certified_from_its_own_numbers(precision):
+def test_every_precision_is_certified_from_its_own_numbers(precision):
     run = chapsym.trajectory(BALL, K, GAMMA, 200, every=50, contact=True, precision=precision)
     proof = chapsym.certify(run)
     unit = {"single": 2.0**-24, "double": 2.0**-53, "quad": 2.0**-104}.get(precision, 1e-33)

@@ -161,10 +161,10 @@ def test_what_fractions_have_beyond_float64_counts_in_a_step_too(precision):
 
 @pytest.mark.parametrize("precision", LEVELS, ids=str)
 def test_exact_numbers_that_are_floats_are_stepped_as_floats(precision):
-    rung = NAMED[precision] if isinstance(precision, str) else precision
+    precision = NAMED[precision] if isinstance(precision, str) else precision
     J, D, K, g = (F(1), F(2), F(9, 4)), F(3), (F(1), F(-1, 2), F(3, 4)), (F(0), F(0), F(1))
     floats = [float(x) for x in K], [float(x) for x in g]
-    exact, plain = exact_step(J, D, K, g, rung), chapsym.step(Ball((1, 2, 2.25), 3), *floats, precision=rung)
+    exact, plain = exact_step(J, D, K, g, precision), chapsym.step(Ball((1, 2, 2.25), 3), *floats, precision=precision)
     for name in ("rotation", "momentum", "gamma"):
         assert bits(getattr(exact, name)) == bits(getattr(plain, name))
         assert exact.low is plain.low is None or bits(getattr(exact.low, name)) == bits(getattr(plain.low, name))
@@ -215,7 +215,7 @@ def test_a_slow_ball_takes_one_step_in_float32_and_no_run():
 
 @pytest.mark.parametrize(
     ("options", "precision"),
-    [({"rung": "single"}, "single"), ({}, "double"), ({"rung": "quad"}, "quad"), ({"digits": 20}, Digits(20)),
+    [({"precision": "single"}, "single"), ({}, "double"), ({"precision": "quad"}, "quad"), ({"digits": 20}, Digits(20)),
      ({"ball": 60}, Enclosure(60))],
 )  # fmt: skip
 def test_the_command_prints_the_step_of_the_library(options, precision, capsys):

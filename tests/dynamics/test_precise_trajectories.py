@@ -1,4 +1,4 @@
-"""Trajectories and steps on the rungs of any precision, against the independent oracle."""
+"""Trajectories and steps at any precision, against the independent oracle."""
 
 import re
 from fractions import Fraction as F
@@ -125,17 +125,17 @@ def test_a_thousand_steps_keep_all_their_bits(size):
     assert off(fewer.momentum, [list(x) for x in more.momentum]) < 1e-30
 
 
-@pytest.mark.parametrize("rung", ["single", "quad", Digits(30), Enclosure(100)], ids=str)
-def test_a_fold_on_the_way_stops_with_the_trajectory_before_it(rung):
+@pytest.mark.parametrize("precision", ["single", "quad", Digits(30), Enclosure(100)], ids=str)
+def test_a_fold_on_the_way_stops_with_the_trajectory_before_it(precision):
     ball, K = FOLDING
     with pytest.raises(StepNotTaken) as plain:
         chapsym.trajectory(ball, K, GAMMA, 100)
     with pytest.raises(StepNotTaken) as caught:
-        chapsym.trajectory(ball, K, GAMMA, 100, contact=False, precision=rung)
+        chapsym.trajectory(ball, K, GAMMA, 100, contact=False, precision=precision)
     assert (caught.value.index, caught.value.status) == (plain.value.index, Status.FOLDED)
     before = caught.value.trajectory
     assert before.momentum.shape == (plain.value.index + 1, 3)
-    batch = chapsym.trajectory(ball, [np.array(K) / 10, K], GAMMA, plain.value.index + 2, precision=rung)
+    batch = chapsym.trajectory(ball, [np.array(K) / 10, K], GAMMA, plain.value.index + 2, precision=precision)
     assert batch.status.tolist() == [Status.TAKEN, Status.FOLDED]
     assert batch.taken.tolist() == [plain.value.index + 2, plain.value.index]
     assert all(x != x for x in batch.momentum[1, -1])
@@ -153,9 +153,9 @@ def test_steps_come_in_batches_and_refuse_what_trajectories_refuse():
         chapsym.step(BALL, (0.1, 0, 0), GAMMA, precision="octuple")
 
 
-@pytest.mark.parametrize("rung", [Digits(30), Enclosure(100)])
-def test_integrals_and_energies_are_in_the_numbers_of_the_rung(rung):
-    run = chapsym.roll(BALL, (1, 2, 3), 0.01, 30, precision=rung)
+@pytest.mark.parametrize("precision", [Digits(30), Enclosure(100)])
+def test_integrals_and_energies_are_in_the_numbers_of_the_precision(precision):
+    run = chapsym.roll(BALL, (1, 2, 3), 0.01, 30, precision=precision)
     drift = run.invariants()[-1] - run.invariants()[0]
     assert all(abs(x) < 1e-28 for x in drift)
     assert abs(run.kinetic_energy()[0] - chapsym.roll(BALL, (1, 2, 3), 0.01, 30).kinetic_energy()[0]) < 1e-12

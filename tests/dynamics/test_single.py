@@ -1,4 +1,4 @@
-"""The float32 rung: float32 throughout, within the promise of the check, no drift, and batches are their balls."""
+"""The float32 precision: float32 throughout, within the promise of the check, no drift, and batches are their balls."""
 
 import re
 import warnings

@@ -7,7 +7,7 @@ from hypothesis import given, target
 from hypothesis import strategies as st
 
 from chapsym import generated
-from chapsym.numbers import Digits, Pair, Quad, pairs, rung
+from chapsym.numbers import Digits, Pair, Quad, named, pairs
 
 U = F(1, 2**53)
 #: Mantissas with many or few bits, and exponents that neither overflow nor underflow in a product's error.
@@ -107,8 +107,8 @@ def test_the_class_does_the_same(x, y, n):
 
 
 @given(st.fractions(max_denominator=10**30).filter(lambda x: x == 0 or abs(x) > F(1, 10**40)))
-def test_the_rung(value):
-    quad = rung("quad")
+def test_the_double_double_numbers(value):
+    quad = named("quad")
     assert type(quad) is Quad
     number = quad.number(value)
     assert abs(number.exactly() - value) <= U**2 * abs(value)
@@ -123,7 +123,7 @@ def test_a_kernel_runs_on_pairs():
     found = generated.residual(*map(Pair.of, point))
     for x, truth in zip(found, generated.residual(*point), strict=True):
         assert abs(x.exactly() - truth) <= 2000 * U**2
-    assert Digits(32).write(Digits(32).number(found[0].exactly())) == rung("quad").write(found[0])
+    assert Digits(32).write(Digits(32).number(found[0].exactly())) == named("quad").write(found[0])
 
 
 def test_compiled_they_have_the_same_bits():

@@ -70,13 +70,13 @@ def test_gamma_must_be_unit_to_the_digits_asked_for():
 
 
 @pytest.mark.parametrize("exponent", [3, 8, 11, 12, 14, 25])
-@pytest.mark.parametrize(("rung", "digits"), [(Digits(20), 20), (Enclosure(66), 19)])
+@pytest.mark.parametrize(("precision", "digits"), [(Digits(20), 20), (Enclosure(66), 19)])
 @pytest.mark.parametrize("K", [(F(3, 20), F(-1, 10), F(0)), (F(0), F(3, 2), F(-1, 2))], ids=["across", "any"])
-def test_a_stiff_ball_gets_all_its_digits(exponent, rung, digits, K):
-    """D = 10^exponent costs digits in float64, which finds no start from 10^12 on; the rungs above carry more."""
+def test_a_stiff_ball_gets_all_its_digits(exponent, precision, digits, K):
+    """D = 10^exponent costs digits in float64, which finds no start from 10^12 on; the precisions above carry more."""
     D = F(10**exponent)
     K = tuple(x * D for x in K) if K[2] == 0 else K  # along the vertical the ball bears only a momentum like J
-    right(exact_step(J, D, K, GAMMA, rung).write(), truth(J, D, K, GAMMA, 2 * exponent + 60), digits)
+    right(exact_step(J, D, K, GAMMA, precision).write(), truth(J, D, K, GAMMA, 2 * exponent + 60), digits)
 
 
 @given(testing.rational_rotations(), testing.rational_unit_vectors(), testing.rational_balls())
@@ -102,21 +102,21 @@ def test_the_slope_of_the_enclosure_is_the_derivative(q, gamma, ball):
 def test_the_interval_test_itself_finds_the_root(monkeypatch):
     """Without refinement the float64 root is off by 1e-16, and the one interval Newton step must put that right."""
     monkeypatch.setattr(newton, "MOST_REFINEMENTS", 0)
-    rung, near = Enclosure(200), start.start(K, GAMMA, J, D)
+    precision, near = Enclosure(200), start.start(K, GAMMA, J, D)
     with flint.ctx.workprec(400):
-        given = [tuple(map(rung.number, x)) for x in (near, K, GAMMA, J, (D,))]
-        for enclosure, value in zip(newton.enclosed(rung, *given), truth(J, D, K, GAMMA, 80)[:4], strict=True):
+        given = [tuple(map(precision.number, x)) for x in (near, K, GAMMA, J, (D,))]
+        for enclosure, value in zip(newton.enclosed(precision, *given), truth(J, D, K, GAMMA, 80)[:4], strict=True):
             assert enclosure.overlaps(flint.arb(str(value)) + flint.arb(0, "1e-70"))
             assert enclosure.rad() < flint.arb("1e-28")
 
 
-@pytest.mark.parametrize("rung", [Double(), Digits(20), Enclosure(80)])
-def test_rungs_make_root_and_write_numbers(rung):
-    with rung.precision():
-        root = rung.sqrt(rung.number(F(9, 4)))
-        assert root == rung.number(F(3, 2))
-        assert str(rung.write(root)).startswith(("1.5", "[1.5"))
-        assert rung.guarded(3).digits == rung.digits
+@pytest.mark.parametrize("precision", [Double(), Digits(20), Enclosure(80)])
+def test_precisions_make_root_and_write_numbers(precision):
+    with precision.working():
+        root = precision.sqrt(precision.number(F(9, 4)))
+        assert root == precision.number(F(3, 2))
+        assert str(precision.write(root)).startswith(("1.5", "[1.5"))
+        assert precision.guarded(3).digits == precision.digits
 
 
 @pytest.mark.parametrize("digits", range(12, 24))
@@ -128,18 +128,18 @@ def test_no_number_of_digits_is_float64_in_disguise(digits):
 
 
 @pytest.mark.parametrize(
-    ("rung", "exponent", "digits"),
-    [(rung, n, 18) for rung in (Digits(20), Enclosure(66)) for n in (-900, -400, 400, 900)]
+    ("precision", "exponent", "digits"),
+    [(precision, n, 18) for precision in (Digits(20), Enclosure(66)) for n in (-900, -400, 400, 900)]
     + [(Quad(), n, 30.5) for n in (-240, -120, 100, 300)],
 )
-def test_units_are_no_matter(rung, exponent, digits):
+def test_units_are_no_matter(precision, exponent, digits):
     """J, D and 𝒦 in other units: the same rotation, and the momenta by as much; also beyond the range of float64.
 
     Products of pairs underflow long before their halves do: the step is taken in units of the ball.
     """
     unit = F(10) ** exponent
     plain = exact_step(J, D, K, GAMMA, Digits(40)).write()
-    found = exact_step([unit * x for x in J], unit * D, [unit * x for x in K], GAMMA, rung).write()
+    found = exact_step([unit * x for x in J], unit * D, [unit * x for x in K], GAMMA, precision).write()
     mp = mpmath.MPContext()
     mp.dps = 50
     for name, scale in (("q", 1), ("gamma", 1), ("momentum", mp.mpf(10) ** exponent)):
@@ -148,10 +148,10 @@ def test_units_are_no_matter(rung, exponent, digits):
             assert abs(mp.mpf(middle) / scale / mp.mpf(exact) - 1) < mp.mpf(10) ** -digits
 
 
-@pytest.mark.parametrize("rung", [Digits(20), Enclosure(66)])
-def test_momenta_beyond_the_range_of_float64_are_unreachable_or_folded(rung):
+@pytest.mark.parametrize("precision", [Digits(20), Enclosure(66)])
+def test_momenta_beyond_the_range_of_float64_are_unreachable_or_folded(precision):
     with pytest.raises(StepNotTaken, match="no rotation of this ball"):
-        exact_step(J, D, [x * 10**400 for x in K], GAMMA, rung)
+        exact_step(J, D, [x * 10**400 for x in K], GAMMA, precision)
 
 
 def test_the_continuation_is_the_same_on_other_numbers():
@@ -179,7 +179,7 @@ def test_a_body_is_checked_at_any_size():
 
 
 @pytest.mark.parametrize(("name", "digits"), [("single", 6), ("double", 15), ("quad", 30)])
-def test_the_named_rungs_are_the_map_to_their_digits(name, digits):
+def test_the_named_precisions_are_the_map_to_their_digits(name, digits):
     for found, exact in zip(
         flat(exact_step(J, D, K, GAMMA, NAMED[name]).write()), truth(J, D, K, GAMMA, 40), strict=True
     ):
@@ -189,7 +189,7 @@ def test_the_named_rungs_are_the_map_to_their_digits(name, digits):
 
 @pytest.mark.parametrize("make", [Digits, Enclosure], ids=lambda make: make.__name__)
 @pytest.mark.parametrize("value", [0, -3, 2.5, True, "x", None], ids=repr)
-def test_a_rung_takes_a_whole_number(make, value):
+def test_a_precision_takes_a_whole_number(make, value):
     with pytest.raises(ValueError, match="takes a whole number from"):
         make(value)
 

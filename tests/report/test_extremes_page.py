@@ -5,27 +5,28 @@ import shown
 
 from chapsym.report import extremes
 
-RUNGS = ["single", "double", "quad", "Digits(50)", "Ball(200)"]
+PRECISIONS = ["single", "double", "quad", "Digits(50)", "Ball(200)"]
 SIZES = {"desk": shown.DESK, "phone": shown.PHONE}
 
 
-def cell(condition, rung, verdict, group="fold", ulps=1.0, digits=15.5, reason=""):
+def cell(condition, precision, verdict, group="fold", ulps=1.0, digits=15.5, reason=""):
     return {
-        "condition": condition, "group": group, "rung": rung, "verdict": verdict, "ulps": ulps, "promised": 4.0,
+        "condition": condition, "group": group, "rung": precision, "verdict": verdict, "ulps": ulps, "promised": 4.0,
         "digits": digits, "condition_number": 2.5, "reason": reason,
     }  # fmt: skip
 
 
 FOLDED = "the branch folds before <it> reaches this momentum"
 CELLS = [
-    *(cell("1e-8 before it", rung, "within") for rung in RUNGS),
+    *(cell("1e-8 before it", precision, "within") for precision in PRECISIONS),
     cell("one ulp beyond it", "single", "refused", reason=FOLDED, ulps=None, digits=None),
     cell("one ulp beyond it", "double", "refused", reason=f"step 0: {FOLDED}", ulps=None, digits=None),
     cell("one ulp beyond it", "quad", "failed", ulps=1e9, digits=2.0, reason="gamma is wrong by 1e+09 ulps"),
     cell("a condition with a name that is quite long, as some are", "double", "within", "elliptic", 0.0, None),
 ]
 MATRIX = {
-    "quick": True, "budget_ulps": 4.0, "rungs": RUNGS, "groups": {"fold": "Beside the fold", "elliptic": "The curve"},
+    "quick": True, "budget_ulps": 4.0, "rungs": PRECISIONS,
+    "groups": {"fold": "Beside the fold", "elliptic": "The curve"},
     "counts": {"within": 6, "refused": 2, "failed": 1}, "cells": CELLS,
 }  # fmt: skip
 

@@ -21,7 +21,7 @@ from chapsym.studies.extremes.levels import LEVELS, NAMES, level, mp, number
 from chapsym.studies.extremes.truth import State, truth
 
 PINS = json.loads((Path(__file__).parent / "extremes.json").read_text(encoding="utf-8"))
-#: How verdicts are pinned, a letter for each rung.
+#: How verdicts are pinned, a letter for each precision.
 LETTERS = {"within": "w", "refused": "r", "failed": "f"}
 TOGETHER = [group for group in matrix.GROUPS if group not in matrix.SHARED]
 GENERIC = State(states.J, states.D, states.K, states.G)
@@ -29,9 +29,9 @@ DOUBLE, HEAVIEST = level("double"), "D = 1e15, momentum horizontal"
 
 
 def verdicts(found):
-    """One letter for each rung, a dot where there is no cell."""
-    by_rung = {cell.rung: LETTERS[cell.verdict] for cell in found}
-    return "".join(by_rung.get(name, ".") for name in NAMES)
+    """One letter for each precision, a dot where there is no cell."""
+    by_precision = {cell.rung: LETTERS[cell.verdict] for cell in found}
+    return "".join(by_precision.get(name, ".") for name in NAMES)
 
 
 def test_every_row_is_pinned():
@@ -73,16 +73,16 @@ def test_a_step_that_is_a_little_wrong_fails(monkeypatch, part):
 
 
 def test_a_ball_that_excludes_the_truth_fails_though_it_is_near(monkeypatch):
-    honest, rung = steps.taken, level("Ball(200)")
-    assert steps.judge(rung, GENERIC).verdict == "within"
+    honest, precision = steps.taken, level("Ball(200)")
+    assert steps.judge(precision, GENERIC).verdict == "within"
 
     def wrong(level, state):
         q, momentum, gamma = honest(level, state)
-        with rung.rung.precision():
+        with precision.precision.working():
             return q, [x + flint.arb(2) ** -190 for x in momentum], gamma
 
     monkeypatch.setattr(steps, "taken", wrong)
-    found = steps.judge(rung, GENERIC)
+    found = steps.judge(precision, GENERIC)
     assert found.verdict == "failed"
     assert "excludes the truth" in found.reason
 
@@ -136,10 +136,10 @@ def test_the_worst_counts():
     assert cells.worst([near, bad, good]) is bad
 
 
-def test_ulps_are_those_of_the_rung_and_a_promise_of_no_digit_is_none():
+def test_ulps_are_those_of_the_precision_and_a_promise_of_no_digit_is_none():
     one = [mp.mpf(1)]
-    for rung, step in zip(LEVELS[:3], (2.0**-23, 2.0**-52, 2.0**-104), strict=True):
-        found = cells.compared(rung, [cells.Compared("x", [one[0] + 3 * mp.mpf(step)], one, 4)])
+    for precision, step in zip(LEVELS[:3], (2.0**-23, 2.0**-52, 2.0**-104), strict=True):
+        found = cells.compared(precision, [cells.Compared("x", [one[0] + 3 * mp.mpf(step)], one, 4)])
         assert found.ulps == 3
         assert found.verdict == "within"
     tiny = cells.compared(DOUBLE, [cells.Compared("x", [1e-320], [mp.mpf(float("1e-320")) * 1.0001], 4)])
@@ -165,8 +165,8 @@ def test_the_fold_is_where_the_oracle_stops():
 @pytest.mark.parametrize("side", [-1, 1])
 def test_next_to_the_fold_is_one_number_away(side):
     at = number(0.0) + fold_at(states.J, states.D, states.DYADIC, states.AXIS)
-    for rung, spacing in (("single", 2.0**-21), ("double", 2.0**-50)):  # the fold is at 6.88
-        gap = (number(states.next_to_fold(level(rung), side).K[0]) - at) * side
+    for precision, spacing in (("single", 2.0**-21), ("double", 2.0**-50)):  # the fold is at 6.88
+        gap = (number(states.next_to_fold(level(precision), side).K[0]) - at) * side
         assert 0 < gap <= spacing
 
 

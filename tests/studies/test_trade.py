@@ -110,7 +110,7 @@ def test_a_section_is_measured(section):
     found = trade.measure(section, quick=True)
     assert all(p.per_time > 0 and 0 <= p.digits <= 34 for p in found.points)
     assert found.best
-    for name in {p.name for p in found.points}:  # shorter steps are more exact, up to the rounding of the rung
+    for name in {p.name for p in found.points}:  # shorter steps are more exact, up to the rounding of the precision
         digits = [p.digits for p in sorted(found.points, key=lambda p: -p.step) if p.name == name]
         most = 6 if name.startswith("single") else 12.5
         assert all(b > a or min(a, b) > most for a, b in pairwise(digits)), name

@@ -41,7 +41,7 @@ class Precession:
     def of(cls, motion: TopMotion) -> Self:
         """Of a motion; raises BadInput so near to the separatrix that the series has too many terms."""
         exact = motion.exact
-        with Enclosure(BITS).precision():
+        with Enclosure(BITS).working():
             mean = _mean(exact, motion.first)
         return cls(motion, mean, _series(motion))
 

@@ -66,7 +66,7 @@ def steady_frames(
     𝒦ₖ = Ω⁻ᵏ𝒦, γₖ = Ω⁻ᵏγ, Rₖ = R₀Ωᵏ for the one rotation Ω by θ, sin θ = 2|w|, about w = B(γ)⁻¹𝒦/2, and the contact
     point moves by the same vector each step.  The cost does not depend on the step numbers, nor does the error: a few
     ulps of |𝒦|, of 1, and of the length of the path, for k below 10¹⁴.  γ counts as divided by its length, as on the
-    higher rungs.
+    higher precisions.
 
     index: ascending whole numbers from 0 on, (frames,).  The other arguments, what is raised (StepNotTaken for one ball
     beyond the fold, a `status` in a batch) and the result are those of `trajectory`.

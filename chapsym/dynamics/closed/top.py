@@ -100,7 +100,7 @@ class TopMotion:
         half = float(increment(curve, size, start)) / 2.0
         if np.abs(curve.point(start + 2.0 * half) - step.gamma).max() > AGREEMENT:
             raise BadInput("the step of the map is not on the branch of the increment; take a shorter time step")
-        with Enclosure(BITS).precision():
+        with Enclosure(BITS).working():
             exact = ExactCurve.of(curve, axis, scaled, size, half)
             found = as_pair(exact.half / (2 * exact.quarter))
             curve = exact.nearest()

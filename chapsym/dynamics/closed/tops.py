@@ -51,7 +51,7 @@ def top_frames(
     `top-precession`, `top-commutes`), k δ and k Ψ in double-double.  The cost does not depend on the step numbers, and
     neither does the error, for k below 10¹⁴: some ulps, and near the separatrix as many more as the period is longer;
     of γ and the attitude up to 1/k' ulps there, as b is no longer than k' while the top is near its unstable axis.
-    γ counts as divided by its length, as on the higher rungs.  The sign of an attitude's quaternion is that of the
+    γ counts as divided by its length, as at the higher precisions.  The sign of an attitude's quaternion is that of the
     scalar of the rotation since frame 0, taken as positive.
 
     index: ascending whole numbers from 0 on, (frames,).  The other arguments, what is raised (StepNotTaken for one ball

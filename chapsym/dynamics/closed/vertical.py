@@ -11,7 +11,7 @@ from chapsym.numbers import NAMED
 
 from ..ball import Ball, Floats, batch, numbers, unit_vertical
 from ..errors import BadInput, Status, StepNotTaken
-from ..levels import double, ladder
+from ..levels import dispatch, double
 from ..levels.frames import Balls, Frames
 from ..loops import loop, vertical_loop
 from ..results import Step, finished
@@ -103,12 +103,12 @@ def _taken(given: list[Floats], steps: int, every: int, rotation: bool = False) 
     rotation: of one step, the rotation as the attitude of frame 1.
     """
     g, J, D, h = given
-    rung, body = NAMED["double"], 2 * rotation
-    frames = ladder.frames_for(rung, len(D), steps // every + 1, body)
+    precision, body = NAMED["double"], 2 * rotation
+    frames = dispatch.frames_for(precision, len(D), steps // every + 1, body)
     frames.gamma[:, 0] = g
     others = [i for i in range(len(D)) if not _closed(g[i], J[i], float(D[i]), float(h[i]), steps, every, frames, i)]
     if others:
-        full = ladder.frames_for(rung, len(others), steps // every + 1, body)
+        full = dispatch.frames_for(precision, len(others), steps // every + 1, body)
         balls = Balls(h[others, np.newaxis] * g[others], g[others], J[others], D[others], np.zeros(len(others)))
         full.momentum[:, 0], full.gamma[:, 0], full.attitude[:, :1] = balls.momentum, balls.gamma, [1.0, 0.0, 0.0, 0.0]
         full.contact[:, :1] = 0.0

@@ -28,7 +28,7 @@ class DigitsBall:
     """A ball that takes steps at N digits; `stages` are the exact coefficients of the composition."""
 
     def __init__(
-        self, rung: Digits, K: Exact, g: Exact, J: Exact, D: Fraction, stages: Sequence[Fraction],
+        self, precision: Digits, K: Exact, g: Exact, J: Exact, D: Fraction, stages: Sequence[Fraction],
         attitude: Sequence[float] | None, radius: float, steps: int = 1,
     ) -> None:  # fmt: skip
         self.exponent, self.lost = magnitude(J, D)
@@ -36,8 +36,8 @@ class DigitsBall:
         small = max(0, -size) if any(K) else 0
         # Roundings of the state add up to the square of the number of steps, as its frequencies drift.
         more = 2 * math.ceil(math.log2(steps * len(stages) + 1)) + 2 * self.lost
-        self.home, self.rung = rung.context, rung.guarded(math.ceil(more * math.log10(2)))
-        self.context = self.rung.context
+        self.home, self.precision = precision.context, precision.guarded(math.ceil(more * math.log10(2)))
+        self.context = self.precision.context
         self.P = P = self.context.prec + small + 8
         self.scale = Fraction(2) ** -self.exponent
 
@@ -111,8 +111,8 @@ class DigitsBall:
     def _rotation(self, k: Numbers) -> Numbers:
         """The rotation of a step by the float64 continuation, refined: where the lemma does not hold."""
         K, g, J, D = (tuple(self.out(x) for x in v) for v in ([2 * x for x in k], self.g, self.J, (self.D,)))
-        near = tuple(map(self.rung.number, start_near(K, g, J, D[0])))
-        q = refined(self.rung, near, K, g, J, D)
+        near = tuple(map(self.precision.number, start_near(K, g, J, D[0])))
+        q = refined(self.precision, near, K, g, J, D)
         if q is None:
             raise StepNotTaken(Status.NOT_CONVERGED, 1.0)
         return q
@@ -130,7 +130,7 @@ class DigitsBall:
         return tuple(self.number(int(self.context.floor(self.context.ldexp(x, self.P)))) for x in v)
 
     def frame(self, bits: int) -> tuple[Numbers, Numbers, Numbers, Numbers]:
-        """𝒦, γ, the attitude and the contact point, rounded to so many bits, in the context of the rung."""
+        """𝒦, γ, the attitude and the contact point, rounded to so many bits, in the context of the precision."""
 
         def out(x: Any, shift: int = 0) -> Any:
             return self.home.make_mpf(from_man_exp(x, shift - self.P, bits, "n"))

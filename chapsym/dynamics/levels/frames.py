@@ -19,7 +19,7 @@ class Balls:
     """The balls of a run: momentum 𝒦 and γ at the start, (n, 3); J, (n, 3); D and the radius, (n,).
 
     Floats, or on Digits and Enclosure exact fractions of any size.
-    rest: what 𝒦 has beyond float64, (n, 3), for the rungs that can hold it; None for nothing.
+    rest: what 𝒦 has beyond float64, (n, 3), for the precisions that can hold it; None for nothing.
     """
 
     momentum: Floats
@@ -37,9 +37,9 @@ class Balls:
 class Frames:
     """What a run fills: (n, frames, ...) arrays whose frame 0 is given, and how each ball ended, (n,).
 
-    attitude and contact have no frames unless `with_body`.  The arrays are of the numbers of the rung: float32,
+    attitude and contact have no frames unless `with_body`.  The arrays are of the numbers of the precision: float32,
     float64, or objects; `low` has the second halves of double-double numbers.  least: the attitudes start as the least
-    rotations with R γ = e₃, which have more digits on other rungs than in frame 0.
+    rotations with R γ = e₃, which have more digits at other precisions than in frame 0.
     """
 
     momentum: np.ndarray

@@ -1,4 +1,4 @@
-"""Runs and steps on the rungs of any precision: Digits(n) in mpmath's numbers, Enclosure(bits) in Arb's balls."""
+"""Runs and steps at any precision: Digits(n) in mpmath's numbers, Enclosure(bits) in Arb's balls."""
 
 import math
 from collections.abc import Callable
@@ -27,25 +27,25 @@ MOST_GUARD = 2**22
 
 
 def run(
-    rung: Digits | Enclosure, balls: Balls, steps: int, every: int, frames: Frames, order: int,
+    precision: Digits | Enclosure, balls: Balls, steps: int, every: int, frames: Frames, order: int,
     progress: Callable[[int], None],
 ) -> None:  # fmt: skip
     """Takes `steps` steps of every ball into `frames`, one ball after the other; frame 0 is written anew.
 
     Enclosure(bits): with as many bits more as the radii grow by, which is measured, so that `bits` are left at the end.
     """
-    done, bits = 0, rung.bits if isinstance(rung, Enclosure) else rung.context.prec
+    done, bits = 0, precision.bits if isinstance(precision, Enclosure) else precision.context.prec
     for i in range(len(balls)):
         first = frames.attitude[i, 0].copy() if frames.with_body else None
         so_far = partial(lambda before, step: progress(before + step), done)
         way = _Way(balls, i, steps, every, frames, order, bits, so_far, first)
-        if isinstance(rung, Enclosure):
-            _run_ball(rung, way)
+        if isinstance(precision, Enclosure):
+            _run_ball(precision, way)
         else:
             from .digits import DigitsBall  # mpmath and flint take 40 ms
 
             K, g, J, D, stages, attitude, radius = way.given
-            way.take(DigitsBall(rung, K, g, J, D, stages, attitude, radius, steps))
+            way.take(DigitsBall(precision, K, g, J, D, stages, attitude, radius, steps))
         done += int(frames.taken[i])
 
 
@@ -98,28 +98,28 @@ class _Way:
                 self.progress(step)
 
 
-def _run_ball(rung: Enclosure, way: _Way) -> None:
-    """Repeats the run with more bits until `rung.bits` are left; raises BadInput where more do not help."""
-    guard, before, stuck = rung.guard, (0, -math.inf), 0
+def _run_ball(precision: Enclosure, way: _Way) -> None:
+    """Repeats the run with more bits until `precision.bits` are left; raises BadInput where more do not help."""
+    guard, before, stuck = precision.guard, (0, -math.inf), 0
     _, lost = magnitude(*way.given[2:4])
     while guard <= MOST_GUARD:
-        precision = rung.bits + guard
-        step, left = _attempt(precision, way)
-        if left >= rung.bits:
+        bits = precision.bits + guard
+        step, left = _attempt(bits, way)
+        if left >= precision.bits:
             return
         stuck = stuck + 1 if (step, left) <= before and guard > CONDITION * lost else 0
         if stuck == MOST_STUCK:
             break
         # What a step has cost, and a little more, for all steps.
-        cost = (precision - left) / step if step else 0.0
-        guard, before = max(2 * guard, math.ceil(1.1 * cost * way.steps) + rung.guard), (step, left)
+        cost = (bits - left) / step if step else 0.0
+        guard, before = max(2 * guard, math.ceil(1.1 * cost * way.steps) + precision.guard), (step, left)
     raise BadInput(
-        f"the balls grow too much: after step {step} of {way.steps}, {precision} bits leave less than {rung.bits};"
+        f"the balls grow too much: after step {step} of {way.steps}, {bits} bits leave less than {precision.bits};"
         " take fewer or shorter steps"
     )
 
 
-def _attempt(precision: int, way: _Way) -> tuple[int, float]:
+def _attempt(bits: int, way: _Way) -> tuple[int, float]:
     """Runs with so many bits while enough are left; the step where they were last looked at, and those left there.
 
     None are left where a step could not be proved.
@@ -129,8 +129,8 @@ def _attempt(precision: int, way: _Way) -> tuple[int, float]:
     from .balls import ArbBall, TooWide
 
     seen: tuple[int, float] = (0, math.inf)
-    with ctx.workprec(precision):
-        ball = ArbBall(precision, *way.given)
+    with ctx.workprec(bits):
+        ball = ArbBall(bits, *way.given)
 
         def enough(step: int) -> bool:
             nonlocal seen

@@ -1,11 +1,11 @@
-"""Newton's iteration in the numbers of a rung, and the interval Newton test of Arb's balls."""
+"""Newton's iteration in the numbers of a precision, and the interval Newton test of Arb's balls."""
 
 from collections.abc import Sequence
 
 import flint
 
 import chapsym.generated as generated
-from chapsym.numbers import Enclosure, Rung
+from chapsym.numbers import Enclosure, Precision
 
 from ..loops.branch import inverse, inverse_of
 
@@ -15,19 +15,19 @@ MOST_REFINEMENTS = 60
 MOST_INFLATIONS = 12
 
 
-def refined(rung: Rung, q: tuple, K: tuple, g: tuple, J: tuple, D: tuple) -> tuple | None:
-    """Newton's iteration in the numbers of the rung, until a correction is below the square root of what is asked.
+def refined(precision: Precision, q: tuple, K: tuple, g: tuple, J: tuple, D: tuple) -> tuple | None:
+    """Newton's iteration in the numbers of the precision, until a correction is below the square root of what is asked.
 
     Newton squares the correction, up to the digits that the conditioning costs, which the guard covers.
     """
-    q = normalised(rung, q)
-    settled = rung.number(rung.settled)
+    q = normalised(precision, q)
+    settled = precision.number(precision.settled)
     for _ in range(MOST_REFINEMENTS):
         w = _correction(q, K, g, J, D)
         change = max(abs(x) for x in w)
         if change > NEAR:
             return None
-        q = normalised(rung, generated.compose(*(*q, 1, *w)))
+        q = normalised(precision, generated.compose(*(*q, 1, *w)))
         if change <= settled * max(abs(x) for x in q[1:]):
             return q
     return None
@@ -40,22 +40,22 @@ def _correction(q: tuple, K: tuple, g: tuple, J: tuple, D: tuple) -> tuple:
     return tuple(-(i[3 * n] * r[0] + i[3 * n + 1] * r[1] + i[3 * n + 2] * r[2]) for n in range(3))
 
 
-def normalised(rung: Rung, p: tuple) -> tuple:
+def normalised(precision: Precision, p: tuple) -> tuple:
     """p divided by its length."""
-    length = rung.sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2] + p[3] * p[3])
+    length = precision.sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2] + p[3] * p[3])
     return tuple(x / length for x in p)
 
 
-def enclosed(rung: Enclosure, q: tuple, K: tuple, g: tuple, J: tuple, D: tuple) -> tuple | None:
+def enclosed(precision: Enclosure, q: tuple, K: tuple, g: tuple, J: tuple, D: tuple) -> tuple | None:
     """Unit Euler parameters as balls that contain the one root near the float64 root."""
-    q = tuple(x.mid() for x in normalised(rung, q))
+    q = tuple(x.mid() for x in normalised(precision, q))
     for _ in range(MOST_REFINEMENTS):
         w = tuple(x.mid() for x in _correction(q, K, g, J, D))
         change = max(abs(x) for x in w)
         if not change < NEAR:
             return None
-        q = tuple(x.mid() for x in normalised(rung, generated.compose(*(*q, flint.arb(1), *w))))
-        if change <= max(abs(x) for x in q[1:]) * flint.arb(2) ** (-(rung.bits + rung.guard) // 2 - 2):
+        q = tuple(x.mid() for x in normalised(precision, generated.compose(*(*q, flint.arb(1), *w))))
+        if change <= max(abs(x) for x in q[1:]) * flint.arb(2) ** (-(precision.bits + precision.guard) // 2 - 2):
             break
     # F(w) = 𝒦(q ∘ (1, w)) - |q|²(1 + |w|²)𝒦 vanishes exactly at the root; q is a point that is nearly unit.
     norm = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]
@@ -63,7 +63,7 @@ def enclosed(rung: Enclosure, q: tuple, K: tuple, g: tuple, J: tuple, D: tuple) 
     tangent = generated.tangent_jacobian(*q, *g, *J, *D)
     hessian = generated.tangent_hessian(*q, *g, *J, *D)
     # At rest the value is exactly 0, so the box needs a size of its own.
-    least = flint.arb(2) ** -(rung.bits + rung.guard)
+    least = flint.arb(2) ** -(precision.bits + precision.guard)
     largest = max(abs(x).upper() for x in _apply(inverse_of(*tangent)[1:], value))
     radius = 4 * largest if largest > 0 else least
     for _ in range(MOST_INFLATIONS):
@@ -73,7 +73,7 @@ def enclosed(rung: Enclosure, q: tuple, K: tuple, g: tuple, J: tuple, D: tuple) 
         if det > 0 or det < 0:
             image = tuple(-x for x in _apply(inverse_slope, value))
             if all(b.contains_interior(x) for b, x in zip(box, image, strict=True)):
-                return normalised(rung, generated.compose(*(*q, flint.arb(1), *image)))
+                return normalised(precision, generated.compose(*(*q, flint.arb(1), *image)))
         radius = radius * 4
     return None
 

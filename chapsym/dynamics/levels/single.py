@@ -1,4 +1,4 @@
-"""The float32 rung: the loops of float64, read in float32 (`retyped`), with the bounds of that type.
+"""The float32 precision: the loops of float64, read in float32 (`retyped`), with the bounds of that type.
 
 State, sums and rotations are float32; each register holds twice as many balls.  𝒦, γ, the attitude and the contact
 point are summed with compensation, and the integrals restored, as in float64.  Two things are float64 still: the

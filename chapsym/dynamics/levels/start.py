@@ -1,4 +1,4 @@
-"""Where a step on a high rung starts: the rotation that the continuation finds, in float64 or in mpmath's numbers.
+"""Where a step on a high precision starts: the rotation that the continuation finds, in float64 or in mpmath's numbers.
 
 float64 says which branch it is wherever it can.  Where it fails, or might, by the range of its exponents or because D
 is large beside J, the same continuation, the text of `branch` read once more, runs on numbers with enough digits.
@@ -28,7 +28,7 @@ DIGITS = 40
 
 
 def start_near(K: Any, g: Any, J: Any, D: Any) -> tuple[Fraction, ...]:
-    """`start` from numbers of any rung."""
+    """`start` from numbers of any precision."""
     k, vertical, tensor = (list(map(fraction, v)) for v in (K, g, J))
     return start(k, vertical, tensor, fraction(D))
 
@@ -74,7 +74,7 @@ def magnitude(J: Exact, D: Fraction) -> tuple[int, int]:
 
 
 def fraction(x: Any) -> Fraction:
-    """A number of any rung, exactly; of a ball its midpoint."""
+    """A number of any precision, exactly; of a ball its midpoint."""
     if hasattr(x, "mid"):
         man, exp = x.mid().man_exp()
         return Fraction(int(man)) * Fraction(2) ** int(exp)

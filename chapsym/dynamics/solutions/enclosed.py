@@ -16,7 +16,7 @@ import flint
 import numpy as np
 from flint import arb, fmpq
 
-from chapsym.numbers import Digits, Enclosure, Rung
+from chapsym.numbers import Digits, Enclosure, Precision
 
 from ..ball import Ball
 from ..errors import StepNotTaken
@@ -56,20 +56,20 @@ class Branch:
 
 @dataclass(frozen=True)
 class PreciseBranches:
-    """All rotations with a momentum, by angle, in the numbers of a rung; `write` gives the contract's JSON fields.
+    """All rotations with a momentum, by angle, in the numbers of a precision; `write` gives the contract's JSON fields.
 
     complete: whether it is proved that there is no other; if not, `reason` says why.
     """
 
-    rung: Rung
+    precision: Precision
     solutions: tuple[Branch, ...]
     complete: bool
     reason: str | None = None
 
     def write(self) -> dict[str, Any]:
         """count, complete and the solutions, as floats or decimal strings."""
-        with self.rung.precision():
-            solutions = [_written(self.rung, branch) for branch in self.solutions]
+        with self.precision.working():
+            solutions = [_written(self.precision, branch) for branch in self.solutions]
         reason = {} if self.reason is None else {"reason": self.reason}
         return {"count": len(solutions), "complete": self.complete, **reason, "solutions": solutions}
 
@@ -79,17 +79,17 @@ def precise_branches(
     D: Fraction,
     momentum: Sequence[Fraction],
     gamma: Sequence[Fraction],
-    rung: Rung,
+    precision: Precision,
 ) -> PreciseBranches:
     """Every rotation Ω with 𝒦(q, γ) = 𝒦 (5.2) of one ball, from exact rational input.
 
     (q0, q) and (-q0, -q) are one rotation.  The equations are solved as they are given: a γ that is unit to the
-    digits of the rung only is taken as it is.  The set is complete unless the complex solutions are infinitely many
-    for a reason that is not understood, or the real ones are.
+    digits of the precision only is taken as it is.  The set is complete unless the complex solutions are infinitely
+    many for a reason that is not understood, or the real ones are.
 
     Raises BadInput as `exact_step` does.
     """
-    unit_exactly(gamma, rung)
+    unit_exactly(gamma, precision)
     J, (contact,), K, g = np.split(np.array(in_float64(mass_tensor, (D,), momentum, gamma)), [3, 4, 7])
     ball = Ball(J, contact)
     state = [[fmpq(x.numerator, x.denominator) for x in v] for v in (momentum, gamma, mass_tensor, (D,))]
@@ -97,10 +97,10 @@ def precise_branches(
     try:
         points = common_points([_form(e) for e in (*equations, *_proportional(*state))])
     except NotFinite:
-        found = _the_small_one(ball, K, g, (momentum, gamma, mass_tensor, (D,)), rung)
-        return PreciseBranches(rung, found, False, _why_infinite(equations))
-    branches = _enclosures(points, rung, (momentum, gamma, mass_tensor, (D,)))
-    return PreciseBranches(rung, _with_small_rotation(branches, ball, K, g), True)
+        found = _the_small_one(ball, K, g, (momentum, gamma, mass_tensor, (D,)), precision)
+        return PreciseBranches(precision, found, False, _why_infinite(equations))
+    branches = _enclosures(points, precision, (momentum, gamma, mass_tensor, (D,)))
+    return PreciseBranches(precision, _with_small_rotation(branches, ball, K, g), True)
 
 
 def _form(quadric: Quadric) -> Form:
@@ -136,9 +136,9 @@ def _why_infinite(equations: Sequence[Quadric]) -> str:
     return "the equations have a curve of complex solutions in common, so that the real ones cannot be counted"
 
 
-def _enclosures(points: Points, rung: Rung, given: Sequence[Sequence[Fraction]]) -> tuple[Branch, ...]:
-    """The rotations in Arb, apart from each other, each component to the digits of the rung, by angle."""
-    wanted = _bits(rung) + SPARE
+def _enclosures(points: Points, precision: Precision, given: Sequence[Sequence[Fraction]]) -> tuple[Branch, ...]:
+    """The rotations in Arb, apart from each other, each component to the digits of the precision, by angle."""
+    wanted = _bits(precision) + SPARE
     bits = 2 * wanted + 64
     for _ in range(MOST_PRECISIONS):
         with flint.ctx.workprec(bits):
@@ -175,11 +175,11 @@ def _apart(branches: Sequence[Branch]) -> bool:
 
 def _confirmed(branches: Sequence[Branch], bits: int, given: Sequence[Sequence[Fraction]]) -> bool:
     """Whether the interval Newton test, on the kernels, finds every simple root, at the same place."""
-    rung = Enclosure(bits - 40, guard=40)
-    state = [tuple(rung.number(x) for x in vector) for vector in given]
+    precision = Enclosure(bits - 40, guard=40)
+    state = [tuple(precision.number(x) for x in vector) for vector in given]
     for branch in branches:
         if branch.multiplicity == 1:
-            again = enclosed(rung, branch.rotation, *state)
+            again = enclosed(precision, branch.rotation, *state)
             if again is None:
                 return False
             if not all(x.overlaps(y) for x, y in zip(again, branch.rotation, strict=True)):
@@ -211,13 +211,15 @@ def _with_small_rotation(branches: tuple[Branch, ...], ball: Ball, K: Any, g: An
     return tuple(replace(b, small_rotation=bool(d == first)) for b, d in zip(branches, distances, strict=True))
 
 
-def _the_small_one(ball: Ball, K: Any, g: Any, given: Sequence[Sequence[Fraction]], rung: Rung) -> tuple[Branch, ...]:
+def _the_small_one(
+    ball: Ball, K: Any, g: Any, given: Sequence[Sequence[Fraction]], precision: Precision
+) -> tuple[Branch, ...]:
     """The small rotation, if there is one that the interval Newton test encloses."""
     try:
         taken = step(ball, K, g).rotation
     except StepNotTaken:
         return ()
-    bits = 2 * (_bits(rung) + SPARE) + 64
+    bits = 2 * (_bits(precision) + SPARE) + 64
     with flint.ctx.workprec(bits):
         box = Enclosure(bits - 40, guard=40)
         state = [tuple(box.number(x) for x in vector) for vector in given]
@@ -225,23 +227,23 @@ def _the_small_one(ball: Ball, K: Any, g: Any, given: Sequence[Sequence[Fraction
         return () if found is None else (replace(_branch(found, 1), small_rotation=True),)
 
 
-def _bits(rung: Rung) -> int:
-    if isinstance(rung, Enclosure):
-        return rung.bits
-    return math.ceil(rung.digits / math.log10(2)) if isinstance(rung, Digits) else 53
+def _bits(precision: Precision) -> int:
+    if isinstance(precision, Enclosure):
+        return precision.bits
+    return math.ceil(precision.digits / math.log10(2)) if isinstance(precision, Digits) else 53
 
 
-def _written(rung: Rung, branch: Branch) -> dict[str, Any]:
-    q0, *q = (_number(rung, x) for x in branch.rotation)
-    angle = _number(rung, branch.angle)
+def _written(precision: Precision, branch: Branch) -> dict[str, Any]:
+    q0, *q = (_number(precision, x) for x in branch.rotation)
+    angle = _number(precision, branch.angle)
     return {
         "q0": q0, "q": q, "angle": angle,
         "multiplicity": branch.multiplicity, "small_rotation": branch.small_rotation,
     }  # fmt: skip
 
 
-def _number(rung: Rung, value: arb) -> Any:
+def _number(precision: Precision, value: arb) -> Any:
     """An Arb ball for JSON: the ball itself, or its midpoint, which is nearer than the digits that are written."""
-    if isinstance(rung, Enclosure):
-        return rung.write(value)
-    return rung.write(rung.number(fraction(value)))
+    if isinstance(precision, Enclosure):
+        return precision.write(value)
+    return precision.write(precision.number(fraction(value)))

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 Columns = dict[str, np.ndarray]
-#: An accuracy that float64 does not hold: the result has second halves, as on the rung "quad".
+#: An accuracy that float64 does not hold: the result has second halves, as at the precision "double-double".
 BEYOND_FLOAT64 = 1e-15
 
 
@@ -17,7 +17,7 @@ class Task:
     order: of the composition.  precision: "single", "double" or "quad".
     Or, of the continuous motion, an accuracy at these frames, in the norm `of` ("state" or "contact"), within `limit` s
     of the processor.  Without a time_step the frames are at `steps` equal parts of `time` s.
-    searched: whether the scene asks for that accuracy itself, so that all rungs may serve.
+    searched: whether the scene asks for that accuracy itself, so that all precisions may serve.
     """
 
     outputs: tuple[str, ...]

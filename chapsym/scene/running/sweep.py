@@ -126,7 +126,7 @@ def _locally(plan: Plan, sink: Memory | Store, tally: Tally) -> dict[int, str]:
         return after
 
     lost: dict[int, str] = {}
-    # The higher rungs set the precision of a whole process.
+    # The higher precisions set the precision of a whole process.
     with jobs.threads(1 if isinstance(plan.model, Chosen) else min(ABREAST, cores())) as crew:
         try:
             jobs.run(_chains(plan, sink, tally, lambda *which: jobs.Call(here, which), lost), crew)

@@ -30,8 +30,8 @@ BALL = Ball(states.J, states.D)
 
 
 def run(level: Level, momentum: Any, gamma: Any, J: Any = states.J, D: Any = states.D) -> Trajectory:
-    """A short run on the rung."""
-    return trajectory(Ball(J, D), momentum, gamma, STEPS, precision=level.rung)
+    """A short run at the precision."""
+    return trajectory(Ball(J, D), momentum, gamma, STEPS, precision=level.precision)
 
 
 def scaled_gamma(size: float) -> Callable[[Level], object]:
@@ -151,7 +151,7 @@ REFUSED_INPUT: dict[str, Sequence[Callable[[Level], object]]] = {
         lambda level: run(level, states.K, states.G, states.J, -1e-300),
     ),
     "more frames than memory": (
-        lambda level: trajectory(BALL, states.K, states.G, 10**15, precision=level.rung),
+        lambda level: trajectory(BALL, states.K, states.G, 10**15, precision=level.precision),
     ),
     "a precision that is none": (
         lambda level: trajectory(BALL, states.K, states.G, 1, precision="triple"),
@@ -165,11 +165,11 @@ def empty(level: Level, quick: bool) -> Judged:
         found = run(level, np.zeros(shape), states.G)
         if found.momentum.shape != (*shape[:-1], STEPS + 1, 3) or found.status.shape != shape[:-1]:
             return Judged(FAILED, reason=f"an empty batch {shape} has the shape {found.momentum.shape}")
-    still = trajectory(BALL, states.K, states.G, 0, precision=level.rung)
+    still = trajectory(BALL, states.K, states.G, 0, precision=level.precision)
     return Judged(WITHIN, 0.0, 0.0) if still.momentum.shape == (1, 3) else Judged(FAILED, reason="0 steps have frames")
 
 
-#: Balls of a huge batch, quick and full, by rung.
+#: Balls of a huge batch, quick and full, by precision.
 HUGE = {"single": (100_000, 4_000_000), "double": (100_000, 4_000_000), "quad": (5000, 400_000)}
 
 
@@ -177,7 +177,7 @@ def huge(level: Level, quick: bool) -> Judged:
     """A batch of many balls, every 997th beside itself alone."""
     count = HUGE.get(level.name, (20, 200))[0 if quick else 1]
     momentum = np.random.default_rng(7).uniform(-0.3, 0.3, (count, 3))
-    options: dict[str, Any] = {"every": STEPS, "precision": level.rung}
+    options: dict[str, Any] = {"every": STEPS, "precision": level.precision}
     whole = trajectory(BALL, momentum, states.G, STEPS, **options)
     for i in range(0, count, max(1, count // 9)):
         alone = trajectory(BALL, momentum[i], states.G, STEPS, **options)

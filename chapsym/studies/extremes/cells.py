@@ -22,7 +22,7 @@ NO_DIGIT = 0.1
 class Judged:
     """One comparison, or the worst of several.
 
-    ulps: the error in ulps of the rung, promised: how many were; digits: correct decimal digits, relative.
+    ulps: the error in ulps of the precision, promised: how many were; digits: correct decimal digits, relative.
     condition: κ of the state, or of what was computed from it.  reason: one line, for all that is not `within`.
     """
 
@@ -46,7 +46,7 @@ class Condition:
 
 @dataclass(frozen=True)
 class Cell:
-    """A condition on a rung."""
+    """A condition at a precision."""
 
     condition: str
     group: str
@@ -102,7 +102,7 @@ class Compared:
 
 
 def compared(level: Level, vectors: Sequence[Compared], condition: float | None = None) -> Judged:
-    """Every vector beside its truth, in ulps of the rung; a ball must contain it, and its radius is its error."""
+    """Every vector beside its truth, in ulps of the precision; a ball must contain it, and its radius is its error."""
     return worst([_one(level, vector, condition) for vector in vectors])
 
 

@@ -1,4 +1,4 @@
-"""The rungs as columns of the matrix: what an ulp is on each, and its numbers as exact ones."""
+"""The precisions as columns of the matrix: what an ulp is on each, and its numbers as exact ones."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -8,7 +8,7 @@ from typing import Any
 import flint
 import mpmath
 
-from chapsym.numbers import Digits, Double, Enclosure, Pair, Quad, Rung, Single
+from chapsym.numbers import Digits, Double, Enclosure, Pair, Precision, Quad, Single
 
 #: Everything that is compared is compared with so many digits.
 mp = mpmath.MPContext()
@@ -19,14 +19,14 @@ KNOWN = mp.mpf(10) ** -80
 
 @dataclass(frozen=True)
 class Level:
-    """A rung, one column.
+    """A precision, one column.
 
     unit: an ulp relative to the size of a vector; least: the smallest number, below which nothing is resolved.
     guarded: whether guard digits absorb the condition number, so that the promise does not know it.
     """
 
     name: str
-    rung: Rung
+    precision: Precision
     unit: Fraction
     least: Fraction
     guarded: bool = False
@@ -52,7 +52,7 @@ def level(name: str) -> Level:
 
 
 def number(value: Any) -> Any:
-    """The exact value of a number of any rung, as an mpf; of a ball its centre."""
+    """The exact value of a number of any precision, as an mpf; of a ball its centre."""
     if isinstance(value, Fraction):
         return mp.mpf(value.numerator) / value.denominator
     if isinstance(value, flint.arb):

@@ -78,10 +78,10 @@ def _conditions() -> list[Condition]:
 CONDITIONS = _conditions()
 
 
-def row(index: int, rungs: Sequence[str], quick: bool) -> list[Cell]:
-    """The cells of one condition, on those of the rungs that have its path."""
+def row(index: int, precisions: Sequence[str], quick: bool) -> list[Cell]:
+    """The cells of one condition, at those of the precisions that have its path."""
     condition = CONDITIONS[index]
-    return [cell(condition, level(name), quick) for name in rungs if name in condition.levels]
+    return [cell(condition, level(name), quick) for name in precisions if name in condition.levels]
 
 
 def extremes(

@@ -97,7 +97,7 @@ def ten_steps(start: str, level: Level, quick: bool, balls: int = 0) -> Judged:
     momentum = np.tile(state.K, (balls, 1)) if balls else state.K
 
     def run() -> tuple[Sequence[Any], Sequence[Any]]:
-        return last_frame(trajectory(ball_of(state), momentum, state.g, STEPS, every=STEPS, precision=level.rung))
+        return last_frame(trajectory(ball_of(state), momentum, state.g, STEPS, every=STEPS, precision=level.precision))
 
     return ends(level, state, (mp.one,) * STEPS, run)
 
@@ -112,14 +112,14 @@ def composed(start: str, level: Level, quick: bool) -> Judged:
     stages = tuple(number(c) for c in COMPOSITIONS[order].exact)
     return ends(
         level, state, stages,
-        lambda: last_frame(trajectory(ball_of(state), state.K, state.g, 1, order=order, precision=level.rung)),
+        lambda: last_frame(trajectory(ball_of(state), state.K, state.g, 1, order=order, precision=level.precision)),
     )  # fmt: skip
 
 
 def way_back(start: str, level: Level, quick: bool) -> Judged:
     """Ten steps and `reverse`: the start again, with the momentum reversed."""
     state, stages = starts()[start], (mp.one,) * STEPS
-    there = trajectory(ball_of(state), state.K, state.g, STEPS, precision=level.rung)
+    there = trajectory(ball_of(state), state.K, state.g, STEPS, precision=level.precision)
     momentum, gamma = last_frame(reverse(there))
     ulps = 2 * promised(state, stages)
     first = [[number(x) for x in v] for v in (-there.momentum[0], there.gamma[0])]
@@ -140,11 +140,11 @@ COMPENSATED = ("single", "double")
 
 
 def long_run(size: float, level: Level, quick: bool) -> Judged:
-    """How far the integrals move in a long run at ε = |𝒦|: in ulps of the rung."""
+    """How far the integrals move in a long run at ε = |𝒦|: in ulps of the precision."""
     steps = LENGTHS[level.name][0 if quick else 1]
     ball = Ball((0.1, 0.5, 1.6), 0.7)
     momentum = states.scaled(states.unit((0.3, -0.2, 0.35)), size)
-    run = trajectory(ball, momentum, states.G, steps, every=max(1, steps // 100), precision=level.rung)
+    run = trajectory(ball, momentum, states.G, steps, every=max(1, steps // 100), precision=level.precision)
     if int(run.taken) != steps:
         return Judged(FAILED, reason=f"{run.taken} of {steps} steps were taken")
     rounded = angle(ball, momentum) if level.name in COMPENSATED else 1.0

@@ -17,7 +17,7 @@ J, D, G, K = (1.0, 2.0, 4.0), 3.0, (2 / 7, 3 / 7, 6 / 7), (1.0, -0.5, 0.75)
 #: A ball whose small rotations go up to π, and the axis of such a rotation.
 SLENDER, LIGHT, TILTED = (0.25, 0.0003, 0.0002), 0.0252, (-0.859, -0.51, 0.032)
 FLIP = (-0.74, -0.63, -0.235)
-#: Exact multiples of it are exact in every rung, as those of γ = e₃ are.
+#: Exact multiples of it are exact at every precision, as those of γ = e₃ are.
 DYADIC, AXIS = (1.0, -0.5, 0.25), (0.0, 0.0, 1.0)
 SWEEP = (1e-12, 1e-9, 1e-6, 1e-3, 0.1, 0.5, 0.9, 0.99, 0.999)
 
@@ -59,7 +59,7 @@ def beside_fold(distance: float) -> State:
 
 @cache
 def next_to_fold(level: Level, side: int) -> State:
-    """The number of the rung (float64 at most) next to the fold, before (-1) or beyond it (1)."""
+    """The number of the precision (float64 at most) next to the fold, before (-1) or beyond it (1)."""
     at = fold_at(J, D, DYADIC, AXIS)
     nearest = np.float32(float(at)) if float(level.unit) > 1e-10 else np.float64(float(at))
     towards = type(nearest)(side * np.inf)
@@ -96,7 +96,7 @@ def _axes() -> list[Vector]:
     return [(1.0, 0.0, 0.0), (0.0, -1.0, 0.0), AXIS]
 
 
-#: Each condition of a single step, by group: its states, on a rung.
+#: Each condition of a single step, by group: its states, at a precision.
 CONDITIONS: dict[str, dict[str, Callable[[Level], list[State]]]] = {
     "momentum": {
         "generic": lambda level: [halfway(J, D), halfway((0.1, 0.5, 1.6), 0.7, (0.3, 0.2, -1.0))],

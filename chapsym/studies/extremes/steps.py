@@ -1,4 +1,4 @@
-"""One step on a rung, judged by the oracle: the rotation within 4κ ulps, 𝒦 and γ within 4(1 + |q|κ)."""
+"""One step at a precision, judged by the oracle: the rotation within 4κ ulps, 𝒦 and γ within 4(1 + |q|κ)."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
@@ -11,20 +11,20 @@ from .cells import BUDGET, FAILED, NO_DIGIT, REFUSED, Compared, Judged, compared
 from .levels import Level, number
 from .truth import State, Truth, reachable, scaled, truth
 
-#: Beyond this share of a rounding from the fold, a rung cannot tell the two sides.
+#: Beyond this share of a rounding from the fold, a precision cannot tell the two sides.
 BLUR = BUDGET
-#: A state whose κ ulps are below this has half its digits and more on any rung: then it can be resolved.
+#: A state whose κ ulps are below this has half its digits and more at any precision: then it can be resolved.
 RESOLVED = 1e-6
 
 
-#: q, 𝒦 and γ in the numbers of a rung.
+#: q, 𝒦 and γ in the numbers of a precision.
 Found = tuple[Any, Any, Any]
 
 
 def taken(level: Level, state: State) -> Found:
-    """q, 𝒦 and γ after the step, in the numbers of the rung; raises BadInput and StepNotTaken."""
+    """q, 𝒦 and γ after the step, in the numbers of the precision; raises BadInput and StepNotTaken."""
     ball = Ball(state.J, state.D)
-    found = step(ball, state.K, state.g, precision=level.rung)
+    found = step(ball, state.K, state.g, precision=level.precision)
     q, momentum, gamma = found.rotation, found.momentum, found.gamma
     if found.low is None:
         return q[1:], momentum, gamma
@@ -41,9 +41,7 @@ def judge(level: Level, state: State) -> Judged:
     except StepNotTaken as refusal:
         lie = _lie(refusal.status, level, state, exact)
         if lie and exact and exact.condition * level.unit > NO_DIGIT:
-            told = (
-                f"rounded to this rung it is another state, as κ = {exact.condition:.2g}, of which it says: {refusal}"
-            )
+            told = f"rounded to it this is another state, as κ = {exact.condition:.2g}, of which it says: {refusal}"
             return refused(told, exact)
         if lie:
             return Judged(FAILED, condition=exact.condition if exact else None, reason=lie)
@@ -56,7 +54,7 @@ def judge(level: Level, state: State) -> Judged:
 
 
 def beside(level: Level, found: Found, exact: Truth) -> Judged:
-    """q, 𝒦 and γ beside the truth; a rung with guard digits promises as if κ were 1."""
+    """q, 𝒦 and γ beside the truth; a precision with guard digits promises as if κ were 1."""
     kappa = 1.0 if level.guarded else exact.condition
     extent = float(max(map(abs, exact.q)))
     moved = BUDGET * (1.0 + extent * kappa)
@@ -108,7 +106,7 @@ def _lie(status: Status, level: Level, state: State, exact: Truth | None) -> str
 
 
 def blurred(level: Level, state: State) -> bool:
-    """Whether the rung cannot tell on which side of the fold the momentum is."""
+    """Whether the precision cannot tell on which side of the fold the momentum is."""
     return state.from_fold is not None and abs(state.from_fold) <= BLUR * float(level.unit)
 
 

@@ -16,7 +16,7 @@ from chapsym.dynamics.oracle import Oracle, OracleFailed
 
 from .levels import mp
 
-#: More than any rung has, and what the root near its fold, and the Euler parameters near π, cost: `KNOWN` is left.
+#: More than any precision has, and what the root near its fold, and the Euler parameters near π, cost: `KNOWN` is left.
 DIGITS = 115
 #: An input is changed by this, relatively, to see what becomes of the output.
 CHANGE = mp.mpf(10) ** -50

@@ -1,4 +1,4 @@
-"""One ball against the continuous ball (2.3): every rung, order and length of step."""
+"""One ball against the continuous ball (2.3): every precision, order and length of step."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
@@ -7,11 +7,11 @@ from functools import partial
 import numpy as np
 
 from chapsym.accuracy import Method, Request, methods, take
-from chapsym.accuracy.methods import CHECKS, EXACT, rung_label
+from chapsym.accuracy.methods import CHECKS, EXACT, label_of
 from chapsym.accuracy.pilot import surveyed
 from chapsym.accuracy.prices import sample
 from chapsym.dynamics import StepNotTaken
-from chapsym.numbers import NAMED, Digits, Rung
+from chapsym.numbers import NAMED, Digits, Precision
 
 from ..harness import Contender, NotComparable, cores, interleaved
 from .frontier import Frontier, Point, digits_of
@@ -22,7 +22,7 @@ Say = Callable[[str], None]
 END = 10.0
 #: Lengths of steps, |ω|ε in radians: of a look, and all.
 LENGTHS = {True: (0.4, 0.1, 0.03), False: (1.0, 0.7, 0.5, 0.35, 0.25, 0.18, 0.125, 0.09, 0.06, 0.04, 0.02, 0.01, 0.003)}
-#: The most seconds that a run of a rung may be expected to take, by these seconds a stage.
+#: The most seconds that a run of a precision may be expected to take, by these seconds a stage.
 STAGE = {"single": 5e-8, "double": 5e-8, "quad": 3e-7, "digits30": 3e-4, "digits50": 3e-4}
 LONGEST = {True: 0.02, False: 1.0}
 #: The digits of the reference, and how many of them another solution must confirm.
@@ -75,17 +75,17 @@ def reference(request: Request, quick: bool) -> tuple[np.ndarray, str]:
 
 def choices(request: Request, quick: bool) -> Iterator[tuple[Method, int]]:
     """Every method and number of steps whose run is not too long."""
-    rungs: list[Rung] = [*NAMED.values(), *([] if quick else [Digits(30), Digits(50)])]
-    for rung in rungs:
-        for method in methods(request, rung):
+    precisions: list[Precision] = [*NAMED.values(), *([] if quick else [Digits(30), Digits(50)])]
+    for precision in precisions:
+        for method in methods(request, precision):
             if method.order == EXACT:
                 continue
             for length in LENGTHS[quick]:
                 steps = CHECKS * max(1, round(request.rate * request.time / length / CHECKS))
-                if steps * method.stages * STAGE[rung_label(rung)] <= LONGEST[quick]:
+                if steps * method.stages * STAGE[label_of(precision)] <= LONGEST[quick]:
                     yield method, steps
 
 
 def name_of(method: Method) -> str:
-    """The rung and the order."""
+    """The precision and the order."""
     return f"{method.label}, order {method.order}"

@@ -1,4 +1,4 @@
-"""A batch of balls against the continuous ball: every rung, order and length of step, on one core."""
+"""A batch of balls against the continuous ball: every precision, order and length of step, on one core."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -37,7 +37,7 @@ def measure(quick: bool, say: Say) -> Frontier:
     exact = [truth(request, 20) for request in some]
     contenders, errors = [], {}
     for method, steps in choices(one, quick):
-        if isinstance(method.rung, Digits) or steps * method.stages * n * STAGE[method.label] > LONGEST[quick] / 4:
+        if isinstance(method.precision, Digits) or steps * method.stages * n * STAGE[method.label] > LONGEST[quick] / 4:
             continue
         name = f"{name_of(method)} at {steps}"
         say(f"batch: {name}")
@@ -64,5 +64,5 @@ def _all(ball: Ball, K: np.ndarray, gamma: np.ndarray, method: Method, steps: in
         extrapolate(ball, K, gamma, END / steps, steps)
         return
     trajectory(
-        ball, END / steps * K, gamma, steps, order=method.order, every=steps, precision=method.rung, threads=1
+        ball, END / steps * K, gamma, steps, order=method.order, every=steps, precision=method.precision, threads=1
     )  # fmt: skip

@@ -11,7 +11,7 @@ from chapsym.show.drawing.style import Picture
 
 from .frontier import Frontier, Point
 
-#: A colour for each order, and a marker for each rung.
+#: A colour for each order, and a marker for each precision.
 COLOURS = {order: style.COLOURS[i] for order, i in (("2", 0), ("4", 4), ("6", 2), ("8", 1), ("12", 3))}
 MARKERS = {
     "single": "v", "double": "o", "quad": "s", "digits30": "D", "digits50": "^", "digits100": "P", "ball100": "*",
@@ -25,8 +25,8 @@ def draw(found: dict[str, Frontier]) -> Picture:
     columns = min(2, len(found))
     rows = -(-len(found) // columns)
     figure, axes = style.new("", rows, columns, height=PANEL[1] + 0.9 / rows, width=PANEL[0] * columns)
-    rungs = list(dict.fromkeys(_rung(p) for one in found.values() for p in one.points))
-    markers = {rung: MARKERS.get(rung, "h") for rung in rungs}
+    precisions = list(dict.fromkeys(_precision(p) for one in found.values() for p in one.points))
+    markers = {precision: MARKERS.get(precision, "h") for precision in precisions}
     for axis, one in zip(axes, found.values(), strict=False):
         _panel(axis, one, markers)
     for axis in axes[len(found) :]:
@@ -40,7 +40,7 @@ def _panel(axis: Any, one: Frontier, markers: dict[str, str]) -> None:
     for point in one.points:
         on = point in best
         axis.plot(
-            point.digits, point.per_time * 1e6, marker=markers[_rung(point)], color=COLOURS[_order(point)],
+            point.digits, point.per_time * 1e6, marker=markers[_precision(point)], color=COLOURS[_order(point)],
             markersize=7 if on else 5, alpha=1.0 if on else 0.55, linestyle="none",
             markeredgecolor="black" if on else "none", markeredgewidth=0.8, zorder=3 if on else 2,
         )  # fmt: skip
@@ -52,11 +52,13 @@ def _panel(axis: Any, one: Frontier, markers: dict[str, str]) -> None:
 def _legend(found: dict[str, Frontier], markers: dict[str, str]) -> list[Any]:
     orders = sorted({_order(p) for one in found.values() for p in one.points}, key=int)
     shown = [Line2D([], [], color=COLOURS[o], marker="o", linestyle="none", label=f"order {o}") for o in orders]
-    shown += [Line2D([], [], color="0.3", marker=m, linestyle="none", label=rung) for rung, m in markers.items()]
+    shown += [
+        Line2D([], [], color="0.3", marker=m, linestyle="none", label=precision) for precision, m in markers.items()
+    ]
     return [*shown, Line2D([], [], color="0.35", linewidth=1, label="frontier")]
 
 
-def _rung(point: Point) -> str:
+def _precision(point: Point) -> str:
     return point.name.partition(",")[0]
 
 

@@ -18,14 +18,14 @@ GAMMA = np.array([0.1, 0.1, 0.7, 0.7])
 #: |K| is 0.36 and the least moment 1.5: steps up to 1 are taken.
 STEPS = {True: (16, 64, 256), False: (16, 32, 64, 128, 256, 512, 1024, 2048, 4096)}
 #: Numbers of steps of the reference, whose errors are even power series in the step.
-LADDER = {True: (64, 128, 256, 512), False: (256, 512, 1024, 2048)}
+REFERENCES = {True: (64, 128, 256, 512), False: (256, 512, 1024, 2048)}
 BATCH = 64
 
 
 def measure(quick: bool, say: Callable[[str], None], balls: int = 1) -> Frontier:
     """Digits of K and γ after END units of time, and the time of a unit for each ball of so many."""
     say("n = 4: the reference")
-    exact, agreed = _reference(LADDER[quick])
+    exact, agreed = _reference(REFERENCES[quick])
     contenders, errors = [], {}
     for steps in STEPS[quick]:
         say(f"n = 4: {steps} steps")
@@ -37,7 +37,7 @@ def measure(quick: bool, say: Callable[[str], None], balls: int = 1) -> Frontier
     for steps in STEPS[quick]:
         took = times[str(steps)].median
         points.append(Point("double, order 2", END / steps, took / steps, took / END, digits_of(errors[steps], 13.0)))
-    note = f"reference: {LADDER[quick]} steps extrapolated; with a column less it differs by {agreed:.0e}"
+    note = f"reference: {REFERENCES[quick]} steps extrapolated; with a column less it differs by {agreed:.0e}"
     title = "n = 4, one ball" if balls == 1 else f"n = 4, a batch of {balls}"
     return Frontier(title, f"correct digits of K and γ after {END:g} units of time", points, [note])
 

@@ -10,7 +10,7 @@ EVERY = (3, 6, 9, 12, 15, 18, 21, 24, 27, 30, 50, 100)
 
 @dataclass(frozen=True)
 class Point:
-    """One choice: its name (rung and order), its step, what it costs and how many digits it gives.
+    """One choice: its name (precision and order), its step, what it costs and how many digits it gives.
 
     step: |ω|ε in radians.  per_step, per_time: seconds a step, and a unit of simulated time, of one ball.
     digits: -log₁₀ of the error.

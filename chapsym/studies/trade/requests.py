@@ -119,10 +119,10 @@ def judge(request: Request, prices: Prices, compare: bool = True) -> Outcome:
 
 
 def best_choice(request: Request, exact: np.ndarray, delivered: float) -> tuple[str, float]:
-    """The cheapest rung, order and number of steps whose true error is within the accuracy, and its seconds."""
+    """The cheapest precision, order and number of steps whose true error is within the accuracy, and its seconds."""
     found = []
-    for rung in NAMED.values():
-        for method in methods(request, rung):
+    for precision in NAMED.values():
+        for method in methods(request, precision):
             steps = _fewest(request, method, exact, max(DEAREST * delivered, SHORT))
             if steps:
                 took = seconds_of(lambda: take(request, method, steps, 1))  # noqa: B023
@@ -247,7 +247,7 @@ def warm(prices: Prices) -> None:
     """Loads the compiled loops, which a short first run would do without."""
     for of in ("state", "contact"):
         request = surveyed(sample(of, 1.0))
-        for rung in NAMED.values():
-            for method in methods(request, rung):
+        for precision in NAMED.values():
+            for method in methods(request, precision):
                 with contextlib.suppress(StepNotTaken, BadInput):
                     take(request, method, 4000 // method.stages, 1)

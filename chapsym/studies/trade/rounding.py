@@ -1,4 +1,4 @@
-"""Rounding alone: each rung against the next but finer numbers, on the same steps of the map."""
+"""Rounding alone: each precision against the next but finer numbers, on the same steps of the map."""
 
 from collections.abc import Callable
 from functools import partial
@@ -6,11 +6,11 @@ from typing import Any
 
 import numpy as np
 
-from chapsym.accuracy.methods import rung_label
+from chapsym.accuracy.methods import label_of
 from chapsym.accuracy.prices import sample
 from chapsym.dynamics import BadInput, Trajectory, trajectory
 from chapsym.dynamics.certified import exactly
-from chapsym.numbers import NAMED, Digits, Enclosure, Rung
+from chapsym.numbers import NAMED, Digits, Enclosure, Precision
 
 from ..harness import Contender, cores, interleaved
 from .frontier import Frontier, Point, digits_of
@@ -18,29 +18,36 @@ from .frontier import Frontier, Point, digits_of
 #: |ω|ε in radians.
 STEP = 0.1
 FINEST = Digits(120)
-RUNGS: tuple[Rung, ...] = (*NAMED.values(), Digits(30), Digits(50), Digits(100), Enclosure(100), Enclosure(300))
-#: How many steps of the cheap rungs make up a run that is timed: enough for a millisecond.
+PRECISIONS: tuple[Precision, ...] = (
+    *NAMED.values(),
+    Digits(30),
+    Digits(50),
+    Digits(100),
+    Enclosure(100),
+    Enclosure(300),
+)
+#: How many steps of the cheap precisions make up a run that is timed: enough for a millisecond.
 TIMED = {"single": 20_000, "double": 20_000, "quad": 4_000}
 
 
 def measure(quick: bool, say: Callable[[str], None]) -> Frontier:
-    """The digits that are left of 𝒦 and γ after some steps of the map, on each rung, and the time of a step."""
+    """The digits that are left of 𝒦 and γ after some steps of the map, at each precision, and the time of a step."""
     request, steps, order = sample("state", 1.0), 50 if quick else 400, 2
     epsilon, missing = STEP / request.rate, []
     run = partial(trajectory, request.ball, epsilon * request.angular_momentum, request.gamma, order=order)
     say(f"rounding: the reference at {FINEST.count} digits, order {order}")
     exact = ends(run(steps, every=steps, precision=FINEST))
     contenders, digits = [], {}
-    for rung in RUNGS:
-        name = f"{_name(rung)}, order {order}"
+    for precision in PRECISIONS:
+        name = f"{_name(precision)}, order {order}"
         say(f"rounding: {name}")
         try:
-            digits[name] = digits_of(_apart(ends(run(steps, every=steps, precision=rung)), exact), FINEST.count)
+            digits[name] = digits_of(_apart(ends(run(steps, every=steps, precision=precision)), exact), FINEST.count)
         except BadInput as error:
             missing.append(f"{name}: {error}")
             continue
-        timed = TIMED.get(_name(rung), steps)
-        contenders.append(Contender(name, partial(run, timed, every=timed, precision=rung), timed))
+        timed = TIMED.get(_name(precision), steps)
+        contenders.append(Contender(name, partial(run, timed, every=timed, precision=precision), timed))
     with cores(1):
         times = interleaved(contenders, 1 if quick else 5, lambda done: say(f"rounding: round {done}"))
     points = [
@@ -62,5 +69,5 @@ def _apart(a: np.ndarray, b: np.ndarray) -> float:
     return float(max(errors[:3].max() / size, errors[3:].max()))
 
 
-def _name(rung: Any) -> str:
-    return f"ball{rung.bits}" if isinstance(rung, Enclosure) else rung_label(rung)
+def _name(precision: Any) -> str:
+    return f"ball{precision.bits}" if isinstance(precision, Enclosure) else label_of(precision)

@@ -1,4 +1,4 @@
-"""The continuous motion to an accuracy: rung, order and step are chosen for each ball, and the result is verified."""
+"""The continuous motion to an accuracy: precision, order and step chosen for each ball, the result verified."""
 
 from collections.abc import Callable
 from fractions import Fraction
@@ -31,7 +31,7 @@ class Chosen(Model):
         self.tell, self.progress = tell, progress
 
     name = "chosen for the accuracy"
-    about = "the cheapest rung, order and step that meet the accuracy, verified on the run"
+    about = "the cheapest precision, order and step that meet the accuracy, verified on the run"
     columns = frozenset({"momentum", "gamma", "attitude", "contact"})
     kernels = Rolling.kernels
     whole = True

@@ -33,7 +33,7 @@ class Moving(Model):
         return None
 
     def price(self, members: Members, task: Task, needed: frozenset[str]) -> float:
-        """More than a search for one ball, which has higher rungs, too."""
+        """More than a search for one ball, which has higher precisions, too."""
         return 2.0
 
     def seconds(self, members: Members, task: Task, needed: frozenset[str]) -> float:

@@ -1,6 +1,6 @@
 """float32 and float64, double-double, mpmath at N digits, and Arb balls at N bits: what a step needs of each.
 
-A kernel is `+ - * /` on whatever numbers it is given.  A rung makes those numbers from exact
+A kernel is `+ - * /` on whatever numbers it is given.  A precision makes those numbers from exact
 fractions, takes square roots, and writes results.
 """
 
@@ -26,7 +26,7 @@ def _whole(name: str, value: Any, least: int) -> None:
         raise ValueError(f"{name}(n) takes a whole number from {least} on, not {value!r}")
 
 
-class Rung(ABC):
+class Precision(ABC):
     """One kind of number."""
 
     @abstractmethod
@@ -56,18 +56,18 @@ class Rung(ABC):
         """The relative correction after which Newton's iteration is done: its square is below the digits asked for."""
         return Fraction(1, 10 ** (self.carried // 2 - 2))
 
-    def guarded(self, digits: int) -> "Rung":
-        """The same rung with as many guard digits more, where it has any."""
+    def guarded(self, digits: int) -> "Precision":
+        """The same precision with as many guard digits more, where it has any."""
         return self
 
     @contextmanager
-    def precision(self) -> Iterator[None]:
-        """Within it the arithmetic has the precision of the rung."""
+    def working(self) -> Iterator[None]:
+        """Within it the arithmetic has this precision."""
         yield
 
 
 @dataclass(frozen=True)
-class Single(Rung):
+class Single(Precision):
     """IEEE float32."""
 
     def number(self, value: Fraction) -> np.float32:
@@ -86,7 +86,7 @@ class Single(Rung):
 
 
 @dataclass(frozen=True)
-class Double(Rung):
+class Double(Precision):
     """IEEE float64."""
 
     def number(self, value: Fraction) -> float:
@@ -104,7 +104,7 @@ class Double(Rung):
 
 
 @dataclass(frozen=True)
-class Quad(Rung):
+class Quad(Precision):
     """Double-double numbers: pairs of float64, about 31 digits."""
 
     def number(self, value: Fraction) -> Pair:
@@ -122,7 +122,7 @@ class Quad(Rung):
 
 
 @dataclass(frozen=True)
-class Digits(Rung):
+class Digits(Precision):
     """mpmath numbers, correct to `count` significant digits; a context of its own, no global state.
 
     The arithmetic carries `guard` digits more.
@@ -135,7 +135,7 @@ class Digits(Rung):
         _whole("Digits", self.count, 1)
 
     def guarded(self, digits: int) -> "Digits":
-        """The same rung with as many guard digits more."""
+        """The same precision with as many guard digits more."""
         return replace(self, guard=self.guard + digits)
 
     @cached_property
@@ -168,7 +168,7 @@ class Digits(Rung):
 
 
 @dataclass(frozen=True)
-class Enclosure(Rung):
+class Enclosure(Precision):
     """Arb balls: rigorous enclosures, with about `bits` correct bits; the arithmetic carries `guard` more."""
 
     bits: int
@@ -178,7 +178,7 @@ class Enclosure(Rung):
         _whole("Enclosure", self.bits, 2)
 
     def guarded(self, digits: int) -> "Enclosure":
-        """The same rung with guard bits for as many digits more."""
+        """The same precision with guard bits for as many digits more."""
         return replace(self, guard=self.guard + math.ceil(digits / math.log10(2)))
 
     def number(self, value: Fraction) -> Any:
@@ -200,20 +200,20 @@ class Enclosure(Rung):
         return int(self.bits * math.log10(2))
 
     @contextmanager
-    def precision(self) -> Iterator[None]:
+    def working(self) -> Iterator[None]:
         from flint import ctx
 
         with ctx.workprec(self.bits + self.guard):
             yield
 
 
-#: What users call the rungs that have no parameter.
-NAMED: dict[str, Rung] = {"single": Single(), "double": Double(), "quad": Quad()}
+#: What users call the precisions that have no parameter.
+NAMED: dict[str, Precision] = {"single": Single(), "double": Double(), "quad": Quad()}
 
 
-def rung(precision: "str | Rung") -> Rung:
-    """The rung that a user named; raises ValueError, one sentence, for what is none."""
-    if isinstance(precision, Rung):
+def named(precision: "str | Precision") -> Precision:
+    """The precision that a user named; raises ValueError, one sentence, for anything else."""
+    if isinstance(precision, Precision):
         return precision
     if isinstance(precision, str) and precision in NAMED:
         return NAMED[precision]

@@ -1,4 +1,4 @@
-"""A run on any rung of the precision ladder: who takes the steps, and the arrays that they fill."""
+"""A run at any precision: the level that takes the steps, and the arrays that it fills."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -6,8 +6,7 @@ from functools import partial
 
 import numpy as np
 
-from chapsym.numbers import NAMED, Digits, Double, Enclosure, Quad, Rung, Single
-from chapsym.numbers import rung as named
+from chapsym.numbers import NAMED, Digits, Double, Enclosure, Precision, Quad, Single, named
 
 from ..coefficients import substeps
 from ..errors import BadInput, Status, StepNotTaken
@@ -18,20 +17,20 @@ from .frames import Balls, Frames
 from .start import exponent_of, fraction
 
 
-def rung_of(precision: str | Rung) -> Rung:
-    """The rung that a user named; raises BadInput for what is none."""
+def precision_of(precision: str | Precision) -> Precision:
+    """The precision that a user named; raises BadInput for anything else."""
     try:
         return named(precision)
     except ValueError as error:
         raise BadInput(str(error)) from None
 
 
-def frames_for(rung: Rung, balls: int, frames: int, body_frames: int, least: bool = False) -> Frames:
-    """Empty frames in the numbers of the rung; raises BadInput if they do not fit into memory."""
-    objects = isinstance(rung, Digits | Enclosure)
-    dtype = np.dtype(object if objects else np.float32 if isinstance(rung, Single) else np.float64)
+def frames_for(precision: Precision, balls: int, frames: int, body_frames: int, least: bool = False) -> Frames:
+    """Empty frames in the numbers of the precision; raises BadInput if they do not fit into memory."""
+    objects = isinstance(precision, Digits | Enclosure)
+    dtype = np.dtype(object if objects else np.float32 if isinstance(precision, Single) else np.float64)
     try:
-        low = frames_for(NAMED["double"], balls, frames, body_frames) if isinstance(rung, Quad) else None
+        low = frames_for(NAMED["double"], balls, frames, body_frames) if isinstance(precision, Quad) else None
         momenta, verticals = (np.full((balls, frames, 3), np.nan, dtype) for _ in "Kg")
         attitudes, traces = (np.full((balls, body_frames, n), np.nan, dtype) for n in (4, 2))
     except (MemoryError, ValueError):
@@ -41,17 +40,17 @@ def frames_for(rung: Rung, balls: int, frames: int, body_frames: int, least: boo
 
 
 def run(
-    rung: Rung, balls: Balls, steps: int, every: int, frames: Frames, order: int, threads: int,
+    precision: Precision, balls: Balls, steps: int, every: int, frames: Frames, order: int, threads: int,
     progress: Callable[[int], None],
 ) -> None:  # fmt: skip
-    """`double.run` on a rung.  Frame 0 is given in float64; other rungs write it anew, γ divided by its length."""
+    """`double.run` at a precision.  Frame 0 is given in float64; others write it anew, γ divided by its length."""
     substeps(order)  # raises BadInput for no order
-    if isinstance(rung, Digits | Enclosure):
+    if isinstance(precision, Digits | Enclosure):
         from . import high
 
-        high.run(rung, balls, steps, every, frames, order, progress)
+        high.run(precision, balls, steps, every, frames, order, progress)
         return
-    level = single if isinstance(rung, Single) else quad if isinstance(rung, Quad) else double
+    level = single if isinstance(precision, Single) else quad if isinstance(precision, Quad) else double
     level.run(balls, steps, every, frames, order, threads, progress)
 
 
@@ -59,33 +58,31 @@ def run(
 FINER = 200
 
 
-def step(rung: Rung, shape: tuple[int, ...], balls: Balls, order: int) -> Step:
+def step(precision: Precision, shape: tuple[int, ...], balls: Balls, order: int) -> Step:
     """The first step of a run of each ball, with the leading axes `shape` of the result.
 
     The rotation is the attitude of a run that starts as the identity; the map on floats takes a shorter way there.
     """
     low: LowStep | None = None
-    if order == 2 and isinstance(rung, Single | Double):
-        q, K, g, status, reach = (single if isinstance(rung, Single) else double).step_all(balls)
+    if order == 2 and isinstance(precision, Single | Double):
+        q, K, g, status, reach = (single if isinstance(precision, Single) else double).step_all(balls)
     else:
-        frames = _after_one(rung, balls, order)
+        frames = _after_one(precision, balls, order)
         q, K, g, status, reach = *_vectors(frames), frames.status, frames.reach
         low = None if frames.low is None else LowStep(*_shaped(shape, *_vectors(frames.low)))
     if not shape and status[0] != Status.TAKEN:
         raise StepNotTaken(Status(int(status[0])), float(reach[0]))
     q, K, g = _shaped(shape, q, K, g)
-    return Step(q, K, g, status.reshape(shape), reach.reshape(shape), rung, low)
+    return Step(q, K, g, status.reshape(shape), reach.reshape(shape), precision, low)
 
 
-def _after_one(rung: Rung, balls: Balls, order: int) -> Frames:
+def _after_one(precision: Precision, balls: Balls, order: int) -> Frames:
     """The two frames of a run of one step, with attitudes that start as the identity and end as the rotation."""
-    frames = _two_frames(rung, balls, order)
-    if isinstance(
-        rung, Enclosure
-    ):  # a run's attitude has its bits beside 1; a small rotation is to have them beside itself
-        lacking = max(map(partial(_lacking, rung.bits), frames.attitude[frames.status == 0, 1, 1:]), default=0)
+    frames = _two_frames(precision, balls, order)
+    if isinstance(precision, Enclosure):  # an attitude has its bits beside 1; a small rotation wants them beside itself
+        lacking = max(map(partial(_lacking, precision.bits), frames.attitude[frames.status == 0, 1, 1:]), default=0)
         if lacking:
-            frames.attitude[:] = _two_frames(replace(rung, bits=rung.bits + lacking), balls, order).attitude
+            frames.attitude[:] = _two_frames(replace(precision, bits=precision.bits + lacking), balls, order).attitude
     if frames.low is not None:  # where momenta are tiny, they were taken 2^beyond times as large
         beyond = [quad_step.scales(*ball)[1] for ball in zip(balls.momentum, balls.mass_tensor, balls.D, strict=True)]
         for of in (frames, frames.low):
@@ -93,11 +90,11 @@ def _after_one(rung: Rung, balls: Balls, order: int) -> Frames:
     return frames
 
 
-def _two_frames(rung: Rung, balls: Balls, order: int) -> Frames:
-    frames = frames_for(rung, len(balls), 2, 2)
+def _two_frames(precision: Precision, balls: Balls, order: int) -> Frames:
+    frames = frames_for(precision, len(balls), 2, 2)
     frames.momentum[:, 0], frames.gamma[:, 0] = balls.momentum, balls.gamma
     frames.attitude[:, 0], frames.contact[:, 0] = [1.0, 0, 0, 0], 0.0
-    run(rung, balls, 1, 1, frames, order, 1, lambda done: None)
+    run(precision, balls, 1, 1, frames, order, 1, lambda done: None)
     return frames
 
 
