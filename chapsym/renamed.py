@@ -48,3 +48,8 @@ def told_on_standard_error() -> Iterator[None]:
         warnings.showwarning = told  # type: ignore[assignment]
         warnings.simplefilter("always", Renamed)
         yield
+
+
+def in_words(identifier: str) -> str:
+    """What a reader sees where JSON keeps the old name of a precision: "quad" is double-double, "Ball" an enclosure."""
+    return identifier.replace("quad", "double-double").replace("Ball(", "Enclosure(")

@@ -15,7 +15,7 @@ ROOT = Path(chapsym.__file__).parent
 #: room: the rooms it may import (design, "The house"); lower rows never import higher ones.
 ROOMS = {
     "checker": set(),  # of certificates: the standard library only, see below
-    "generated": {"numbers"},  # quad.py is made of double-double operations
+    "generated": {"numbers"},  # double_double.py is made of double-double operations
     "rationals": set(),
     "files": set(),
     "workers": set(),
@@ -27,12 +27,24 @@ ROOMS = {
     "codegen": {"derive", "generated"},
     "dynamics": {"generated", "numbers"},
     "certificates": {"checker", "dynamics", "rationals", "files", "generated", "numbers"},
-    "accuracy": {"dynamics", "files", "generated", "numbers"},
+    "accuracy": {"dynamics", "files", "generated", "numbers", "renamed"},
     "jobs": {"dynamics", "workers"},
     "scene": {"accuracy", "dynamics", "rationals", "files", "generated", "jobs", "numbers"},
-    "studies": {"accuracy", "files", "generated", "jobs", "numbers", "dynamics", "scene", "show", "sources", "workers"},
+    "studies": {
+        "accuracy",
+        "files",
+        "generated",
+        "jobs",
+        "numbers",
+        "dynamics",
+        "scene",
+        "show",
+        "sources",
+        "workers",
+        "renamed",
+    },
     "proofs": {"certificates", "checker", "derive", "dynamics", "prove"},
-    "report": {"files"},
+    "report": {"files", "renamed"},
     "show": {"dynamics", "files", "scene"},
     "testing": {"dynamics"},
 }

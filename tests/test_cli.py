@@ -70,7 +70,10 @@ def test_an_inertia_tensor_has_nine_numbers_and_the_step_is_in_its_axes():
         ([*STEP, "--mass", "1"], "either --D, or --mass and --radius"),
         ([*STEP, "--digits", "20", "--ball", "64"], "choose one of --digits, --precision and --ball"),
         ([*STEP, "--digits", "0"], "--digits"),
-        ([*STEP, "--precision", "half"], "--precision half: give single, double or quad, or for any number of digits"),
+        (
+            [*STEP, "--precision", "half"],
+            "--precision half: give single, double or double-double, or for any number of digits",
+        ),
         (["step", "--inertia", "1,1,3", *STEP[3:]], "no body has the inertia 1,1,3"),
         (["step", "--inertia", "1,.1,0;.1,1,0;0,0,3", *STEP[3:]], "no body has the inertia (1.1, 0.9, 3)"),
         (["step", "--inertia", "6,1,0;2,5,0;0,0,3", *STEP[3:]], "a symmetric tensor, not one with I12 = 1 and I21 = 2"),

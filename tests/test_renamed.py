@@ -43,3 +43,33 @@ def test_old_options_of_certificates(name, old, new):
     told, error = done.stderr.splitlines()
     assert told.startswith(f"chapsym: {old} is now {new};")
     assert error.startswith(f"chapsym: {new}: 'x' is not a number")
+
+
+def test_quad_is_double_double():
+    ball, K, gamma = chapsym.Ball((1, 2, 4), 3), (1, -0.5, 0.75), (0, 0, 1)
+    with pytest.warns(DeprecationWarning, match='precision "quad" is now "double-double"') as told:
+        old = chapsym.step(ball, K, gamma, precision="quad")
+    new = chapsym.step(ball, K, gamma, precision="double-double")
+    assert (old.write(), old.precision) == (new.write(), new.precision)
+    assert len(told) == 1
+    assert chapsym.step(ball, K, gamma, precision="double-double").precision == chapsym.numbers.DoubleDouble()
+
+
+def test_quad_on_the_command_line():
+    new = command("step", *STEP, "--json", "--precision", "double-double")
+    old = command("step", *STEP, "--json", "--precision", "quad")
+    assert (new.stderr, new.stdout) == ("", old.stdout)
+    assert old.stderr == 'chapsym: precision "quad" is now "double-double"; the old name works until the next release\n'
+
+
+def test_quad_in_a_scene(tmp_path):
+    scene = tmp_path / "old.toml"
+    scene.write_text(
+        "[ball]\nmass_tensor = [1, 2, 4]\nD = 3\n[start]\nmomentum = [1, -0.5, 0.75]\ngamma = [0, 0, 1]\n"
+        '[run]\nsteps = 2\nprecision = "quad"\n'
+    )
+    done = command("run", scene, "-o", tmp_path / "old.npz", "--json")
+    assert done.returncode == 0, done.stderr
+    assert (
+        'chapsym: precision "quad" is now "double-double"; the old name works until the next release\n' in done.stderr
+    )

@@ -4,6 +4,8 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from chapsym.renamed import in_words
+
 from .methods import EXACT, EXTRAPOLATED, Method, checks, methods
 from .pilot import Law
 from .prices import PRECISIONS, Prices
@@ -41,7 +43,7 @@ class Choice:
         """The choice for a reader."""
         named = {EXACT: "the exact top", EXTRAPOLATED: "extrapolated to order 12"}
         order = named.get(self.method.order, f"order {self.method.order}")
-        return f"{self.method.label}, {order}, {self.steps} steps of {self.time_step:.6g} s"
+        return f"{in_words(self.method.label)}, {order}, {self.steps} steps of {self.time_step:.6g} s"
 
 
 def choices(

@@ -13,7 +13,7 @@ import numpy as np
 
 from chapsym.dynamics import Ball, Status, Trajectory, kernels, substeps, trajectory
 from chapsym.dynamics.ball import Floats, in_principal_axes
-from chapsym.dynamics.levels import double, quad
+from chapsym.dynamics.levels import double, double_double
 
 #: Stages of the map that the finer run of a pilot takes, all balls together, where its loops are compiled for the run
 #: itself; elsewhere it takes fewer than would have them compiled.
@@ -73,7 +73,7 @@ def discretisation(
     """
     work = steps * len(gamma) * len(substeps(order))
     some = np.unique(np.linspace(0, len(gamma) - 1, BALLS).astype(int))
-    short = quad.SHORT_RUN if precision == "quad" else double.SHORT_RUN
+    short = double_double.SHORT_RUN if precision == "double-double" else double.SHORT_RUN
     # The finer run of one in float32 is in float64, whose loops that run does not have compiled.
     most = MOST if double.has_numba() and work >= short and precision != "single" else short - 1
     pilot = min(steps, max(most // (2 * len(some) * len(substeps(order))), 1))

@@ -17,7 +17,7 @@ from chapsym.dynamics import (
     trajectory,
 )
 from chapsym.dynamics.ball import Floats
-from chapsym.numbers import NAMED, Digits, Double, Precision, Single
+from chapsym.numbers import NAMED, Digits, Double, DoubleDouble, Precision, Single
 
 from .request import Request
 
@@ -62,8 +62,10 @@ class Method:
 
 
 def label_of(precision: Precision) -> str:
-    """What a table calls a precision: "double", "digits30"."""
-    return f"digits{precision.count}" if isinstance(precision, Digits) else type(precision).__name__.lower()
+    """What JSON and the measured prices call a precision: "double", "digits30"; "quad" for double-double."""
+    if isinstance(precision, Digits):
+        return f"digits{precision.count}"
+    return "quad" if isinstance(precision, DoubleDouble) else type(precision).__name__.lower()
 
 
 def methods(request: Request, precision: Precision) -> list[Method]:

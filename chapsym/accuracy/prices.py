@@ -25,6 +25,7 @@ from chapsym import dynamics, files, generated, numbers
 from chapsym.dynamics import BadInput, Ball, StepNotTaken
 from chapsym.dynamics.levels.double import SHORT_RUN
 from chapsym.numbers import NAMED
+from chapsym.renamed import in_words
 
 from .methods import EXACT, Method, methods, take
 from .request import Request
@@ -35,7 +36,7 @@ VERSION = 1
 LENGTHS = (0.02, 0.1, 0.25, 0.5, 1.0)
 #: What is priced, and chosen from.  One ball is no faster in float32 than in float64; mpmath, a thousand times slower
 #: than double-double, has hardly more digits here, as its runs start from the same 106 bits.
-PRECISIONS = (NAMED["double"], NAMED["quad"])
+PRECISIONS = (NAMED["double"], NAMED["double-double"])
 #: Each price is the median of so many runs, each of about so many seconds.
 RUNS, LEAST = 3, 1e-3
 #: A price grows at most to so many steps a run.
@@ -90,7 +91,8 @@ def calibrate(progress: Callable[[str], None] = lambda text: None) -> Prices:
     ]
     started = time.monotonic()
     for done, (request, method) in enumerate(wanted):
-        progress(f"pricing {method.label}, order {method.order}: {_forecast(time.monotonic() - started, done, wanted)}")
+        left = _forecast(time.monotonic() - started, done, wanted)
+        progress(f"pricing {in_words(method.label)}, order {method.order}: {left}")
         with_body = request.of == "contact"
         if priced := _by_length(request, method):
             steps[Prices._key(method, with_body)] = priced

@@ -20,7 +20,7 @@ NORMS = ("state", "contact")
 FINEST = 1e-30
 #: The unit roundoff of the precisions: that of double-double is a few units of its last place, and the momentum of
 #: mpmath's runs starts with 106 bits.
-ROUNDINGS = {"Single": 2.0**-24, "Double": 2.0**-53, "Quad": 2.0**-103, "Digits": 2.0**-106}
+ROUNDINGS = {"Single": 2.0**-24, "Double": 2.0**-53, "DoubleDouble": 2.0**-103, "Digits": 2.0**-106}
 
 
 @dataclass(frozen=True, eq=False)

@@ -5,6 +5,8 @@ from typing import Annotated, Any
 
 import typer
 
+from chapsym.renamed import in_words
+
 from .app import app
 from .options import Json
 from .output import console_for, fail, print_json, progress_bar
@@ -75,20 +77,20 @@ def _print_matrix(matrix: dict[str, Any]) -> None:
     for group in page.groups(matrix):
         table = Table(title=f"{group['name']}: {group['title']}", title_justify="left")
         table.add_column("condition", min_width=46)
-        for precision in group["rungs"]:
-            table.add_column(precision, justify="right", min_width=10)
+        for precision in group["precisions"]:
+            table.add_column(in_words(precision), justify="right", min_width=10)
         for condition, cells in group["rows"]:
             shown = [
                 Text(page.shown(cells[precision]), COLOURS[cells[precision]["verdict"]])
                 if precision in cells
                 else Text("·")
-                for precision in group["rungs"]
+                for precision in group["precisions"]
             ]
             table.add_row(condition, *shown)
         console.print(table)
         for one in group["reasons"]:
             sign = page.VERDICTS[one["verdict"]][0]
-            about = "; ".join(f"{condition} ({precisions})" for condition, precisions in one["about"])
+            about = "; ".join(f"{condition} ({in_words(precisions)})" for condition, precisions in one["about"])
             console.print(Text(f"  {sign} {about}:", COLOURS[one["verdict"]]), one["reason"])
         console.print()
     for verdict, (sign, meaning) in page.VERDICTS.items():

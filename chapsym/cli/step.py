@@ -35,7 +35,8 @@ def step(
         int | None, typer.Option(metavar="N", min=1, max=100_000, help="Significant digits, by mpmath.")
     ] = None,
     precision: Annotated[
-        str | None, typer.Option(metavar="NAME", help="single, double (the default) or quad: 7, 16 or 31 digits.")
+        str | None,
+        typer.Option(metavar="NAME", help="single, double (the default) or double-double: 7, 16, 31 digits."),
     ] = None,
     ball: Annotated[
         int | None, typer.Option(metavar="BITS", min=2, max=1_000_000, help="Bits of an Arb enclosure.")

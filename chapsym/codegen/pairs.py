@@ -16,7 +16,7 @@ from .printer import NotStraightLine
 from .programs import PAIR_PROGRAMS, Program
 
 #: The module, its key in the manifest, and what it says of itself.
-FILE, KEY = "quad.py", "pairs"
+FILE, KEY = "double_double.py", "pairs"
 ABOUT = "The parts of a step on double-double numbers; x and x_ are the halves of x."
 PROGRAMS = PAIR_PROGRAMS
 #: What a call costs, in float64 operations.

@@ -1,7 +1,7 @@
 """What is generated for other numbers than scalars: rounds of a step, as straight-line programs that call kernels.
 
 Those on columns take the rounds of the loops from their own text.  Those on pairs do in double-double what
-`quad_loop` needs.
+`double_double_loop` needs.
 """
 
 import ast

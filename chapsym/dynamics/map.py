@@ -8,7 +8,7 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import ArrayLike
 
-from chapsym.numbers import NAMED, Digits, Double, Pair, Precision, Quad, Single
+from chapsym.numbers import NAMED, Digits, Double, DoubleDouble, Pair, Precision, Single
 
 from .axes import in_given_axes
 from .ball import Ball, batch, numbers, unit_vertical
@@ -20,7 +20,7 @@ from .levels.start import fraction
 from .results import LowStep, Step
 
 #: The digits of a step of exact numbers that pairs cannot hold, before it is rounded to pairs.
-BEYOND_QUAD = Digits(40)
+BEYOND_DOUBLE_DOUBLE = Digits(40)
 
 
 @in_given_axes
@@ -33,8 +33,8 @@ def step(ball: Ball, momentum: ArrayLike, gamma: ArrayLike, *, precision: str | 
     momentum: 𝒦 = ε K of the paper, in kg m², shape (..., 3); gamma: unit verticals upwards, (..., 3).
     Both broadcast with each other and with the balls.  Of a ball with axes they, and what is
     returned, are in these.
-    precision: "single", "double", "quad" (31 digits), `Digits(n)` (mpmath) or `Enclosure(bits)` (Arb, rigorous).  The
-    floats that are given are taken as exact at every precision, but γ is divided by its length on all but "double".
+    precision: "single", "double", "double-double" (31 digits), `Digits(n)` (mpmath) or `Enclosure(bits)` (Arb).
+    Floats that are given are taken as exact at every precision, but γ is divided by its length on all but "double".
 
     One ball (no leading axis) raises StepNotTaken if it has no step; a batch reports `status` instead.
     Raises BadInput for shapes, NaN, infinities, and a gamma that is not unit.
@@ -66,27 +66,27 @@ def exact_step(
 ) -> Step:  # fmt: skip
     """`step` of one ball from exact rational numbers, which are rounded once.
 
-    Single, Double: to floats.  Quad: numbers that are no floats are taken at 40 digits, and the step is rounded to
-    pairs.  Digits and Ball: to what those carry, of any size.
+    Single, Double: to floats.  DoubleDouble: numbers that are no floats are taken at 40 digits, and the step is rounded
+    to pairs.  Digits and Enclosure: to what those carry, of any size.
 
     Raises BadInput, also for a gamma that is not unit to the digits of the precision, and StepNotTaken as `step` does.
     """
     unit_exactly(gamma, precision)
     check_body(mass_tensor, D)
-    if isinstance(precision, Single | Double | Quad):
+    if isinstance(precision, Single | Double | DoubleDouble):
         tensor, vertical, (contact,), floats = (in_float64(x) for x in (mass_tensor, gamma, (D,), momentum))
         if any(x != 0 and y == 0.0 for x, y in zip(momentum, floats, strict=True)):
             raise BadInput(
                 "a component of the momentum is below the range of float64; ask for more with --digits or --ball"
             )
-        if not isinstance(precision, Quad) or [*tensor, *vertical, contact] == [*mass_tensor, *gamma, D]:
+        if not isinstance(precision, DoubleDouble) or [*tensor, *vertical, contact] == [*mass_tensor, *gamma, D]:
             return composed(Ball(tensor, contact), np.array(momentum, dtype=object), vertical, 2, precision)
-        return _in_pairs(exact_step(mass_tensor, D, momentum, gamma, BEYOND_QUAD), precision)
+        return _in_pairs(exact_step(mass_tensor, D, momentum, gamma, BEYOND_DOUBLE_DOUBLE), precision)
     K, g, J = (np.array([x], dtype=object) for x in (momentum, gamma, mass_tensor))
     return dispatch.step(precision, (), Balls(K, g, J, np.array([D], dtype=object), np.zeros(1)), 2)
 
 
-def _in_pairs(step: Step, precision: Quad) -> Step:
+def _in_pairs(step: Step, precision: DoubleDouble) -> Step:
     """A step in mpmath's numbers, rounded to pairs."""
     q, K, g = (
         np.array([Pair.of(fraction(x)).halves() for x in v]).T for v in (step.rotation, step.momentum, step.gamma)

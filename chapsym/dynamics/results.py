@@ -45,7 +45,7 @@ class Step:
     status: a `Status` for each ball, shape (...); where it is not TAKEN the numbers above are NaN.
     reach: the fraction of the momentum that the small-rotation branch attains, shape (...).
     precision: of the numbers.  The arrays are float32 for Single, objects (mpf, arb) for Digits and Enclosure.
-    low: for Quad, what the numbers have beyond float64, as of `Trajectory`; else None.
+    low: for DoubleDouble, what the numbers have beyond float64, as of `Trajectory`; else None.
     """
 
     rotation: Floats
@@ -113,7 +113,7 @@ class Trajectory:
     order: of the composition that made the steps; 2 for the map itself, 0 for the continuous motion (`roll`,
     `exact_top`), of which `index` counts time steps.
     precision: of the numbers.  The arrays are float32 for Single, objects (mpf, arb) for Digits and Enclosure.
-    low: for Quad, what the numbers have beyond float64: `momentum` + `low.momentum` is 𝒦, and so on; else None.
+    low: for DoubleDouble, what the numbers have beyond float64: `momentum` + `low.momentum` is 𝒦, and so on; else None.
     error: of `roll`, an estimate of the largest error at any frame, (...); else None.
     """
 
@@ -161,7 +161,7 @@ class Trajectory:
         return replace(found, momentum=found.momentum * self._time_step()) if timed else found
 
     def invariants(self) -> Floats:
-        """⟨𝒦,γ⟩, ⟨𝒦,𝒦⟩ and ⟨γ,γ⟩ of each frame, (..., frames, 3); on Quad in float64, of the first halves."""
+        """⟨𝒦,γ⟩, ⟨𝒦,𝒦⟩ and ⟨γ,γ⟩ of each frame, (..., frames, 3); on DoubleDouble in float64, of the first halves."""
         with self.precision.working():
             return kernels.invariants(*self._finite(self.momentum, self.gamma))
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from chapsym.numbers import Digits, Enclosure, Quad
+from chapsym.numbers import Digits, DoubleDouble, Enclosure
 
 from .ball import Ball, Floats
 from .errors import BadInput
@@ -93,7 +93,7 @@ def _frames(run: Trajectory) -> tuple[int, int]:
     """The steps from the first frame to the last, and from one to the next."""
     if not isinstance(run, Trajectory):
         raise BadInput(f"reverse takes a Trajectory, not {type(run).__name__}; of a state, reverse the momentum")
-    if isinstance(run.precision, Quad | Digits | Enclosure):
+    if isinstance(run.precision, DoubleDouble | Digits | Enclosure):
         raise BadInput("reverse goes back in float32 or float64 only: a run starts from floats, not from finer numbers")
     if len(run.index) < 2:
         raise BadInput("the run has no frame beside its first, so there is no way back")

@@ -40,15 +40,15 @@ def trajectory(
 ) -> Trajectory:
     """Takes `steps` steps of the map on the small-rotation branch and keeps every `every`-th state.
 
-    momentum, gamma: as for `step`; both broadcast with the balls.  A momentum of Fractions keeps 106 bits on "quad" and
-    higher precisions, so that εK may be exact there.
+    momentum, gamma: as for `step`; both broadcast with the balls.  A momentum of Fractions keeps 106 bits in
+    double-double and at higher precisions, so that εK may be exact there.
     order: 2, or 4, 6, 8 for a symmetric composition of the map with stages cᵢ𝒦 (`substeps`): 𝒦, γ, the attitude and
     the contact point then converge with that order to those of the continuous ball (2.3), and the momentum integrals
     stay exact.
     attitude: True (from the least rotation with R γ = e₃) or unit quaternions, (..., 4), to be followed.
     contact: whether to trace the contact point; it needs `ball.radius`, and implies the attitude.
-    precision: "single", "double", "quad" (31 digits), `Digits(n)` (mpmath) or `Enclosure(bits)` (Arb, rigorous).  The
-    floats that are given are taken as exact, but γ (and an attitude) is divided by its length on all but "double", and
+    precision: "single", "double", "double-double" (31 digits), `Digits(n)` (mpmath) or `Enclosure(bits)` (Arb).
+    Floats that are given are taken as exact, but γ (and an attitude) is divided by its length on all but "double", and
     "single" rounds all to float32.  The coefficients of the orders 4, 6, 8 are rounded to float32 or float64; at higher
     precisions they are the 40 digits of `coefficients`, and the map composed with those is what an Enclosure
     encloses: `bits` are correct in every frame, beside the length of each vector.  Its branch is proved where |𝒦| is

@@ -3,8 +3,8 @@
 from chapsym.renamed import attributes
 
 from .pair import Pair
-from .precisions import NAMED, Digits, Double, Enclosure, Precision, Quad, Single, named
+from .precisions import NAMED, Digits, Double, DoubleDouble, Enclosure, Precision, Single, named, new_name
 
-__all__ = ["NAMED", "Digits", "Double", "Enclosure", "Pair", "Precision", "Quad", "Single", "named"]
+__all__ = ["NAMED", "Digits", "Double", "DoubleDouble", "Enclosure", "Pair", "Precision", "Single", "named", "new_name"]
 
-__getattr__ = attributes(__name__, {"Ball": "Enclosure", "Rung": "Precision", "rung": "named"})
+__getattr__ = attributes(__name__, {"Ball": "Enclosure", "Quad": "DoubleDouble", "Rung": "Precision", "rung": "named"})

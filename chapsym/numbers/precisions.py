@@ -15,6 +15,8 @@ from typing import Any
 
 import numpy as np
 
+from chapsym.renamed import renamed
+
 from .pair import Pair
 
 #: Significant digits of a double-double number in text: 2^-106 is 1.2e-32.
@@ -104,7 +106,7 @@ class Double(Precision):
 
 
 @dataclass(frozen=True)
-class Quad(Precision):
+class DoubleDouble(Precision):
     """Double-double numbers: pairs of float64, about 31 digits."""
 
     def number(self, value: Fraction) -> Pair:
@@ -208,14 +210,25 @@ class Enclosure(Precision):
 
 
 #: What users call the precisions that have no parameter.
-NAMED: dict[str, Precision] = {"single": Single(), "double": Double(), "quad": Quad()}
+NAMED: dict[str, Precision] = {"single": Single(), "double": Double(), "double-double": DoubleDouble()}
+#: What they were called.
+OLD = {"quad": "double-double"}
+
+
+def new_name(name: Any, stacklevel: int = 2) -> Any:
+    """The name of a precision, where an old one is given, which warns; all else as it is."""
+    if not isinstance(name, str) or name not in OLD:
+        return name
+    renamed(f'precision "{name}"', f'"{OLD[name]}"', stacklevel + 2)
+    return OLD[name]
 
 
 def named(precision: "str | Precision") -> Precision:
     """The precision that a user named; raises ValueError, one sentence, for anything else."""
     if isinstance(precision, Precision):
         return precision
+    precision = new_name(precision, 4)
     if isinstance(precision, str) and precision in NAMED:
         return NAMED[precision]
-    told = '"single", "double", "quad", chapsym.Digits(n) or chapsym.Enclosure(bits)'
+    told = '"single", "double", "double-double", chapsym.Digits(n) or chapsym.Enclosure(bits)'
     raise ValueError(f"precision must be {told}, not {precision!r}")

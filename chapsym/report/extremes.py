@@ -6,6 +6,8 @@ from typing import Any
 
 from markupsafe import Markup
 
+from chapsym.renamed import in_words
+
 from .page import FOLDER, prose, templates
 
 #: verdict: its sign, which reads without colour, and what it says.
@@ -21,7 +23,7 @@ MOST_DIGITS = {"single": 7.2, "double": 16.0, "quad": 31.3, "Digits(50)": 50.0, 
 def html(matrix: Mapping[str, Any], versions: Mapping[str, str], machine: str, date: str | None = None) -> str:
     """The whole page of the JSON object of `chapsym extremes`; the same input gives the same bytes."""
     found = templates()
-    found.globals |= {"VERDICTS": VERDICTS, "shown": shown, "told": told, "heat": heat}
+    found.globals |= {"in_words": in_words, "VERDICTS": VERDICTS, "shown": shown, "told": told, "heat": heat}
     found.filters["prose"] = prose
     style = "".join((FOLDER / name).read_text(encoding="utf-8") for name in ("style.css", "extremes.css"))
     return found.get_template("extremes.html").render(
@@ -37,7 +39,7 @@ def groups(matrix: Mapping[str, Any]) -> list[dict[str, Any]]:
         rows = [(title, {c["rung"]: c for c in row}) for title, row in groupby(cells, lambda cell: cell["condition"])]
         precisions = [precision for precision in matrix["rungs"] if any(cell["rung"] == precision for cell in cells)]
         title = matrix["groups"][name]
-        found.append({"name": name, "title": title, "rungs": precisions, "rows": rows, "reasons": reasons(cells)})
+        found.append({"name": name, "title": title, "precisions": precisions, "rows": rows, "reasons": reasons(cells)})
     return found
 
 
@@ -70,7 +72,7 @@ def shown(cell: Mapping[str, Any]) -> str:
 
 def told(cell: Mapping[str, Any]) -> str:
     """What a cell says when it is pointed at."""
-    said = [f"{cell['rung']}: {cell['verdict']}"]
+    said = [f"{in_words(cell['rung'])}: {cell['verdict']}"]
     if cell["ulps"] is not None:
         said.append(f"error {cell['ulps']:.3g} ulps of {cell['promised']:.3g} promised")
     if cell["condition_number"] is not None:

@@ -152,11 +152,11 @@ def test_the_exact_top_is_chosen_where_it_costs_least_and_a_ball_at_rest_stays()
 def test_exact_momenta_reach_the_higher_precisions_and_distance_sees_what_float64_does_not():
     """εK rounded to float64 would be off by 1e-16; steps enough that the integrals are restored on the way."""
     request = surveyed(Request(BALL, K, GAMMA, 5.0, 1e-20, "state"))
-    run = take(request, Method(NAMED["quad"], 8), 3200, 1)
+    run = take(request, Method(NAMED["double-double"], 8), 3200, 1)
     assert true_error(request, run, truth_of_the_ball(5.0)) < 1e-19
     assert run.momentum.dtype == float
     assert abs(run.low.momentum[0]).max() > 0
-    run = take(request, Method(NAMED["quad"], 2), 160, 16)
+    run = take(request, Method(NAMED["double-double"], 2), 160, 16)
     moved = replace(run, low=replace(run.low, gamma=run.low.gamma + 1e-25))
     np.testing.assert_allclose(distance(request, run, moved), np.sqrt(3) * 1e-25, rtol=1e-6)
 
@@ -241,7 +241,7 @@ def test_a_contact_beyond_float64_starts_from_the_exact_least_rotation(way):
 def test_upside_down_every_precision_turns_about_the_first_axis():
     """γ = (1e-160, 1e-160, -1) is upside down in float64; double-double, which sees more, would take another axis."""
     request = surveyed(Request(BALL, K, (1e-160, 1e-160, -1.0), 1.0, 1e-9, "contact"))
-    runs = [take(request, Method(NAMED[name], 4), 1600, 16) for name in ("double", "quad")]
+    runs = [take(request, Method(NAMED[name], 4), 1600, 16) for name in ("double", "double-double")]
     assert distance(request, *runs).max() < 1e-9
 
 
@@ -302,7 +302,7 @@ def test_choices_are_sorted_and_leave_out_what_is_barred():
 
 
 def test_numbers_of_every_precision_are_read_exactly_with_their_signs():
-    for precision in (chapsym.numbers.Digits(30), chapsym.numbers.Enclosure(100), "quad", "double", "single"):
+    for precision in (chapsym.numbers.Digits(30), chapsym.numbers.Enclosure(100), "double-double", "double", "single"):
         run = chapsym.trajectory(BALL, -0.01 * K, GAMMA, 2, precision=precision)
         exact = exactly(run, "momentum").astype(float)
         np.testing.assert_allclose(exact, run.momentum.astype(float), rtol=1e-15)

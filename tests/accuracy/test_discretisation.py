@@ -11,7 +11,7 @@ from scipy.integrate import solve_ivp
 import chapsym
 from chapsym.accuracy.discretisation import MOST, Discretisation, discretisation, read
 from chapsym.dynamics import Status, kernels
-from chapsym.dynamics.levels import double, quad
+from chapsym.dynamics.levels import double, double_double
 
 BALLS = chapsym.Ball.from_inertia(((0.006, 0.007, 0.009), (0.03, 0.0312, 0.0318)), mass=(2.0, 7.0), radius=(0.1, 0.11))
 OMEGA = np.array([[14.0, -6.0, 3.0], [2.0, 60.0, 5.0]])
@@ -83,14 +83,14 @@ def test_of_a_higher_order_it_is_the_distance_of_that_order(order, rel):
 
 def test_the_rounding_of_float32_is_in_it_and_double_double_tells_more_than_float64():
     single = estimated(0, order=8, precision="single")
-    quad = estimated(0, finer=8, order=8, precision="quad")
+    double_double = estimated(0, finer=8, order=8, precision="double-double")
     runs = [chapsym.roll(one(0), OMEGA[[0]], STEP, STEPS, gamma=GAMMA[[0]], order=8, precision=name)
             for name in ("single", "double")]  # fmt: skip
     true = np.linalg.norm(runs[0].gamma - runs[1].gamma, axis=-1)[0, : round(single.time / STEP) + 1].max()
     assert single.gamma == pytest.approx(true, rel=0.1)
     assert true > 2.0**-24
-    assert 0.0 < quad.gamma < 2.0**-60
-    assert quad.omega is None
+    assert 0.0 < double_double.gamma < 2.0**-60
+    assert double_double.omega is None
 
 
 def test_of_many_balls_some_are_followed_and_the_largest_distance_counts():
@@ -123,11 +123,11 @@ def test_of_a_long_run_its_beginning_is_followed_and_that_is_said():
 @pytest.mark.parametrize(
     ("precision", "steps", "most"),
     [("double", 1, 1), ("double", 500, 500), ("double", 1999, 999), ("single", 1999, 999), ("single", 9999, 999),
-     ("quad", 499, 249)],
+     ("double-double", 499, 249)],
 )  # fmt: skip
 def test_a_run_that_is_not_compiled_has_a_pilot_that_is_not(monkeypatch, precision, steps, most):
     seen = []
-    for precision in (double, quad):
+    for precision in (double, double_double):
         monkeypatch.setattr(precision, "chosen", lambda functions, work: seen.append(work) or functions)
     found = discretisation(one(0), STEP * K[[0]], GAMMA[[0]], STEP, steps, precision=precision)
     assert found.time == pytest.approx(STEP * most)

@@ -9,7 +9,7 @@ from chapsym.dynamics import columns
 from chapsym.dynamics.levels import double
 from chapsym.dynamics.loops import block, gibbs, loop
 
-PRECISIONS = ["single", "double", "quad"]
+PRECISIONS = ["single", "double", "double-double"]
 RNG = np.random.default_rng(4)
 
 
@@ -88,7 +88,7 @@ def test_plain_is_compiled_to_the_bit(precision, options, monkeypatch):
     ball, state = Ball((0.1, 0.5, 1.6), 0.7, radius=0.1), ((0.03, -0.02, 0.035), np.array([2, 3, 6]) / 7)
     with monkeypatch.context() as patch:
         patch.setattr(double, "has_numba", lambda: False)
-        steps = 120 if precision == "quad" and options else 1100
+        steps = 120 if precision == "double-double" and options else 1100
         plain = chapsym.trajectory(ball, *state, steps, precision=precision, **options)
     run = chapsym.trajectory(ball, *state, 2200, precision=precision, **options)
     for few, many in zip(floats_of(plain), floats_of(run), strict=True):
@@ -165,7 +165,7 @@ def test_a_block_of_long_steps_mends_no_lane(monkeypatch):
     assert few == []
 
 
-@pytest.mark.parametrize("precision", ["double", "quad"])
+@pytest.mark.parametrize("precision", ["double", "double-double"])
 @pytest.mark.parametrize("options", [{}, {"attitude": True}])
 def test_threads_change_nothing(precision, options):
     ball, K, g = balls(300)

@@ -62,11 +62,11 @@ def test_the_bounds_are_the_errors_that_the_oracle_sees(order):
         run.contact, exact, strict=True)]).max() < 1e-15  # fmt: skip
 
 
-@pytest.mark.parametrize("precision", ["single", "double", "quad", Digits(20)])
+@pytest.mark.parametrize("precision", ["single", "double", "double-double", Digits(20)])
 def test_every_precision_is_certified_from_its_own_numbers(precision):
     run = chapsym.trajectory(BALL, K, GAMMA, 200, every=50, contact=True, precision=precision)
     proof = chapsym.certify(run)
-    unit = {"single": 2.0**-24, "double": 2.0**-53, "quad": 2.0**-104}.get(precision, 1e-33)
+    unit = {"single": 2.0**-24, "double": 2.0**-53, "double-double": 2.0**-104}.get(precision, 1e-33)
     for name in ("gamma", "attitude"):
         errors = getattr(proof, f"{name}_error")
         assert errors.shape == (5,)
@@ -173,7 +173,7 @@ def test_what_cannot_be_certified_is_refused_in_one_sentence(monkeypatch):
         chapsym.certify(chapsym.trajectory(BALL, K, GAMMA, 300))
 
 
-@pytest.mark.parametrize("precision", ["double", "quad"])
+@pytest.mark.parametrize("precision", ["double", "double-double"])
 def test_a_run_that_keeps_its_start_only_is_certified(precision):
     proved = chapsym.certify(chapsym.trajectory(BALL, K, GAMMA, 3, every=10, precision=precision))
     assert proved.gamma.shape == (1, 3)

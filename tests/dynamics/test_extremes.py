@@ -23,7 +23,7 @@ CALLS = {
     "fold": chapsym.fold,
     "is_steady": chapsym.is_steady,
     "single": lambda ball, K, g: chapsym.step(ball, K, g, precision="single"),
-    "quad": lambda ball, K, g: chapsym.step(ball, K, g, precision="quad"),
+    "double-double": lambda ball, K, g: chapsym.step(ball, K, g, precision="double-double"),
     "extrapolate": lambda ball, K, g: chapsym.extrapolate(ball, K, g, 0.01, 1),
 }
 

@@ -16,7 +16,7 @@ from chapsym.dynamics.loops import branch
 from chapsym.dynamics.map import exact_step
 from chapsym.numbers import NAMED, Digits, Enclosure
 
-LEVELS = ["single", "double", "quad", Digits(20), Enclosure(60)]
+LEVELS = ["single", "double", "double-double", Digits(20), Enclosure(60)]
 GAMMA = np.array([2, 3, 6]) / 7
 
 
@@ -89,7 +89,7 @@ def test_the_same_is_refused_at_any_magnitude(precision):
 @pytest.mark.parametrize("exponent", range(10, 110, 10))
 def test_a_step_that_is_taken_turns_whatever_the_ball_weighs(exponent):
     """From D/J = 10⁷⁶ on it was TAKEN with the rotation 0 or NaN: the Jacobian of an unscaled ball overflows."""
-    for precision in ("single", "double", "quad"):
+    for precision in ("single", "double", "double-double"):
         agree(Ball((1, 2, 4), 10.0**exponent), (1e-3, 2e-3, -1e-3), GAMMA, precision)
 
 
@@ -148,7 +148,7 @@ def test_a_step_of_any_order_is_the_first_of_a_trajectory(order):
         assert np.array_equal(getattr(step, name), getattr(run, name)[:, 1], equal_nan=True)
 
 
-@pytest.mark.parametrize("precision", ["quad", Digits(30), Enclosure(120)], ids=str)
+@pytest.mark.parametrize("precision", ["double-double", Digits(30), Enclosure(120)], ids=str)
 def test_what_fractions_have_beyond_float64_counts_in_a_step_too(precision):
     K = [F(1, 3), F(-1, 7), F(1, 5)]
     ball = Ball((1, 2, 4), 3)
@@ -174,7 +174,7 @@ def test_exact_numbers_are_rounded_once():
     """1/3 at 60 digits is not the 1/3 of float64; and pairs hold the step at 40 digits to their last bit or two."""
     J, D, K, g = (F(1), F(2), F(1, 3)), F(3), (F(1), F(-1, 2), F(3, 4)), (F(2, 7), F(3, 7), F(6, 7))
     truth = exact_step(J, D, K, g, Digits(60))
-    pairs = exact_step(J, D, K, g, NAMED["quad"])
+    pairs = exact_step(J, D, K, g, NAMED["double-double"])
     for name in ("rotation", "momentum", "gamma"):
         for exact, high, low in zip(getattr(truth, name), getattr(pairs, name), getattr(pairs.low, name), strict=True):
             assert abs(exact - exact.context.mpf(high) - exact.context.mpf(low)) <= 2.0**-105 * abs(exact)
@@ -215,7 +215,8 @@ def test_a_slow_ball_takes_one_step_in_float32_and_no_run():
 
 @pytest.mark.parametrize(
     ("options", "precision"),
-    [({"precision": "single"}, "single"), ({}, "double"), ({"precision": "quad"}, "quad"), ({"digits": 20}, Digits(20)),
+    [({"precision": "single"}, "single"), ({}, "double"),
+     ({"precision": "double-double"}, "double-double"), ({"digits": 20}, Digits(20)),
      ({"ball": 60}, Enclosure(60))],
 )  # fmt: skip
 def test_the_command_prints_the_step_of_the_library(options, precision, capsys):

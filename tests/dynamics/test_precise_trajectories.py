@@ -125,7 +125,7 @@ def test_a_thousand_steps_keep_all_their_bits(size):
     assert off(fewer.momentum, [list(x) for x in more.momentum]) < 1e-30
 
 
-@pytest.mark.parametrize("precision", ["single", "quad", Digits(30), Enclosure(100)], ids=str)
+@pytest.mark.parametrize("precision", ["single", "double-double", Digits(30), Enclosure(100)], ids=str)
 def test_a_fold_on_the_way_stops_with_the_trajectory_before_it(precision):
     ball, K = FOLDING
     with pytest.raises(StepNotTaken) as plain:
@@ -252,7 +252,7 @@ def test_what_is_certified_is_monotone_and_contains_the_root(state, direction):
     assert np.linalg.eigvalsh((matrix + matrix.T) / 2)[0] >= slope - 1e-12 * (inertia.max() + contact)
 
 
-@pytest.mark.parametrize("precision", ["quad", Digits(20), Enclosure(80)], ids=str)
+@pytest.mark.parametrize("precision", ["double-double", Digits(20), Enclosure(80)], ids=str)
 def test_reverse_refuses_what_it_would_round(precision):
     run = chapsym.trajectory(BALL, 0.1 * DIRECTION, GAMMA, 3, precision=precision)
     with pytest.raises(BadInput, match="reverse goes back in"):

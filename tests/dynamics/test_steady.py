@@ -55,7 +55,7 @@ def steady_states(draw):
 def test_every_frame_is_that_of_the_map(state, every):
     ball, momentum, gamma = state
     assert is_steady(ball, momentum, gamma)
-    run = trajectory(ball, momentum, gamma, 4 * every, every=every, contact=True, precision="quad")
+    run = trajectory(ball, momentum, gamma, 4 * every, every=every, contact=True, precision="double-double")
     found = steady_frames(ball, momentum, gamma, run.index, contact=True)
     assert far_from(run, found) <= BUDGET
     assert (found.taken, found.status) == (4 * every, Status.TAKEN)
@@ -74,7 +74,7 @@ def test_every_frame_is_that_of_the_map(state, every):
 def test_a_million_steps_on_nothing_has_added_up(J, D, momentum, gamma):
     """The same budget at k = 10⁶."""
     ball = Ball(J, D, radius=0.3)
-    run = trajectory(ball, momentum, gamma, 10**6, every=250_000, contact=True, precision="quad")
+    run = trajectory(ball, momentum, gamma, 10**6, every=250_000, contact=True, precision="double-double")
     found = steady_frames(ball, momentum, gamma, run.index, contact=True)
     assert far_from(run, found) <= BUDGET
 
@@ -82,7 +82,7 @@ def test_a_million_steps_on_nothing_has_added_up(J, D, momentum, gamma):
 def test_from_the_middle_axis_no_rounding_leads_away():
     """As the map in double-double for 20 steps, which a rounding there leaves; and on the axis for ever."""
     ball, momentum = Ball((1, 2, 4), 0.0, radius=0.3), (0.0, -2.0, 0.0)
-    run = trajectory(ball, momentum, GAMMA, 20, contact=True, precision="quad")
+    run = trajectory(ball, momentum, GAMMA, 20, contact=True, precision="double-double")
     assert far_from(run, steady_frames(ball, momentum, GAMMA, run.index, contact=True)) <= BUDGET
     assert (steady_frames(ball, momentum, GAMMA, [10**6]).momentum == momentum).all()
 
@@ -90,7 +90,7 @@ def test_from_the_middle_axis_no_rounding_leads_away():
 def test_every_step_of_many_is_that_of_the_map():
     """Frames at equal distances are made of two rotations: the same budget."""
     ball, momentum = Ball((1, 1, 1), 3.0, radius=0.3), (0.5, -1.5, 0.75)
-    run = trajectory(ball, momentum, GAMMA, 3000, contact=True, precision="quad")
+    run = trajectory(ball, momentum, GAMMA, 3000, contact=True, precision="double-double")
     assert far_from(run, steady_frames(ball, momentum, GAMMA, run.index, contact=True)) <= BUDGET
 
 

@@ -17,7 +17,7 @@ TOP = Ball((1, 2, 4), 0.0)
 
 
 def upright(height, gamma):
-    """𝒦 = hγ/|γ| as fractions, of which "quad" keeps 106 bits: the rounding of hγ would turn by an ulp a step."""
+    """𝒦 = hγ/|γ| as fractions, of which double-double keeps 106 bits: the rounding of hγ turns by an ulp a step."""
     g = [Fraction(float(x)) for x in gamma]
     square = sum(x * x for x in g)
     length = Fraction(isqrt(int(square * 4**160)), 2**160)
@@ -63,7 +63,7 @@ def test_every_frame_of_a_free_top_is_that_of_the_map(state, every):
     assert is_top(ball, momentum, gamma)
     motion = TopMotion.free(ball, momentum)
     assume(motion.curve.complement > 1e-4)
-    run = trajectory(ball, momentum, gamma, 4 * every, every=every, attitude=True, precision="quad")
+    run = trajectory(ball, momentum, gamma, 4 * every, every=every, attitude=True, precision="double-double")
     found = top_frames(ball, momentum, gamma, run.index, attitude=True)
     assert (far_from(run, found) <= budget(motion)).all()
     assert (found.taken, found.status) == (4 * every, Status.TAKEN)
@@ -86,7 +86,9 @@ def symmetric_balls(draw):
 def test_vertical_momentum_on_a_ball_with_two_equal_moments(state, every):
     ball, height, gamma = state
     assume(is_top(ball, height * gamma, gamma))  # one in 200 is an ulp more off the vertical than it takes
-    run = trajectory(ball, upright(height, gamma), gamma, 4 * every, every=every, attitude=True, precision="quad")
+    run = trajectory(
+        ball, upright(height, gamma), gamma, 4 * every, every=every, attitude=True, precision="double-double"
+    )
     motion = TopMotion.vertical(ball, height, gamma)
     assert np.abs(motion.directions(run.index) - run.gamma).max() <= budget(motion)[0]
     found = top_frames(ball, height * gamma, gamma, run.index, attitude=True)
@@ -111,7 +113,7 @@ def test_vertical_momentum_on_a_ball_with_two_equal_moments(state, every):
 )
 @pytest.mark.parametrize("gamma", [GAMMA, -GAMMA])
 def test_a_million_steps_on_nothing_has_added_up(ball, momentum, gamma):
-    run = trajectory(ball, momentum, gamma, 10**6, every=250_000, attitude=True, precision="quad")
+    run = trajectory(ball, momentum, gamma, 10**6, every=250_000, attitude=True, precision="double-double")
     found = top_frames(ball, momentum, gamma, run.index, attitude=True)
     assert (far_from(run, found) <= budget(TopMotion.free(ball, momentum))).all()
 
@@ -199,7 +201,7 @@ def test_next_to_the_separatrix_the_curve_is_that_of_the_momentum(apart):
     momentum[a] = np.sqrt((ball.mass_tensor[c] - ball.mass_tensor[b]) / moments[c]) * (1 + apart)
     momentum[b] = 0.1
     momentum *= 1e-3
-    run = trajectory(ball, momentum, (0, 0, 1), 3000, every=500, precision="quad")
+    run = trajectory(ball, momentum, (0, 0, 1), 3000, every=500, precision="double-double")
     motion = TopMotion.free(ball, momentum)
     assert motion.curve.complement < 2 * np.sqrt(abs(apart)) + 1e-7
     far = np.abs(motion.momenta(run.index) - run.momentum).max() / np.abs(momentum).max()
@@ -210,6 +212,6 @@ def test_next_to_the_separatrix_the_curve_is_that_of_the_momentum(apart):
 @pytest.mark.parametrize("third", [4.0, 1.0 + 2.0**-50])
 def test_units_may_be_as_small_and_as_large_as_those_of_the_map(unit, third):
     ball, momentum = Ball(unit * np.array([1, 1 + 2.0**-52, third]), 0.0), unit * np.array([0.3, -0.2, 0.5])
-    run = trajectory(ball, momentum, (0, 0, 1), 100, every=10, attitude=True, precision="quad")
+    run = trajectory(ball, momentum, (0, 0, 1), 100, every=10, attitude=True, precision="double-double")
     found = top_frames(ball, momentum, (0, 0, 1), run.index, attitude=True)
     assert (far_from(run, found) <= budget(TopMotion.free(ball, momentum))).all()

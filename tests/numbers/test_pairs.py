@@ -7,7 +7,7 @@ from hypothesis import given, target
 from hypothesis import strategies as st
 
 from chapsym import generated
-from chapsym.numbers import Digits, Pair, Quad, named, pairs
+from chapsym.numbers import Digits, DoubleDouble, Pair, named, pairs
 
 U = F(1, 2**53)
 #: Mantissas with many or few bits, and exponents that neither overflow nor underflow in a product's error.
@@ -108,12 +108,12 @@ def test_the_class_does_the_same(x, y, n):
 
 @given(st.fractions(max_denominator=10**30).filter(lambda x: x == 0 or abs(x) > F(1, 10**40)))
 def test_the_double_double_numbers(value):
-    quad = named("quad")
-    assert type(quad) is Quad
-    number = quad.number(value)
+    double_double = named("double-double")
+    assert type(double_double) is DoubleDouble
+    number = double_double.number(value)
     assert abs(number.exactly() - value) <= U**2 * abs(value)
-    assert abs(F(quad.write(number)) - number.exactly()) <= abs(value) * F(1, 10**31)
-    squared = quad.sqrt(abs(number)).exactly() ** 2
+    assert abs(F(double_double.write(number)) - number.exactly()) <= abs(value) * F(1, 10**31)
+    squared = double_double.sqrt(abs(number)).exactly() ** 2
     assert abs(squared - abs(number.exactly())) <= 7 * U**2 * abs(number.exactly())
 
 
@@ -123,7 +123,7 @@ def test_a_kernel_runs_on_pairs():
     found = generated.residual(*map(Pair.of, point))
     for x, truth in zip(found, generated.residual(*point), strict=True):
         assert abs(x.exactly() - truth) <= 2000 * U**2
-    assert Digits(32).write(Digits(32).number(found[0].exactly())) == named("quad").write(found[0])
+    assert Digits(32).write(Digits(32).number(found[0].exactly())) == named("double-double").write(found[0])
 
 
 def test_compiled_they_have_the_same_bits():

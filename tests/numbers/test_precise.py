@@ -13,7 +13,7 @@ from chapsym.dynamics.levels import newton, start
 from chapsym.dynamics.loops import branch
 from chapsym.dynamics.map import exact_step
 from chapsym.dynamics.oracle import Oracle
-from chapsym.numbers import NAMED, Digits, Double, Enclosure, Quad
+from chapsym.numbers import NAMED, Digits, Double, DoubleDouble, Enclosure
 
 J, D = (F(1), F(2), F(4)), F(3)
 K, GAMMA = (F(1), F(-1, 2), F(3, 4)), (F(2, 7), F(3, 7), F(6, 7))
@@ -130,7 +130,7 @@ def test_no_number_of_digits_is_float64_in_disguise(digits):
 @pytest.mark.parametrize(
     ("precision", "exponent", "digits"),
     [(precision, n, 18) for precision in (Digits(20), Enclosure(66)) for n in (-900, -400, 400, 900)]
-    + [(Quad(), n, 30.5) for n in (-240, -120, 100, 300)],
+    + [(DoubleDouble(), n, 30.5) for n in (-240, -120, 100, 300)],
 )
 def test_units_are_no_matter(precision, exponent, digits):
     """J, D and 𝒦 in other units: the same rotation, and the momenta by as much; also beyond the range of float64.
@@ -178,7 +178,7 @@ def test_a_body_is_checked_at_any_size():
         exact_step((F(0), F(0), tiny), F(0), (F(0),) * 3, GAMMA, Digits(20))
 
 
-@pytest.mark.parametrize(("name", "digits"), [("single", 6), ("double", 15), ("quad", 30)])
+@pytest.mark.parametrize(("name", "digits"), [("single", 6), ("double", 15), ("double-double", 30)])
 def test_the_named_precisions_are_the_map_to_their_digits(name, digits):
     for found, exact in zip(
         flat(exact_step(J, D, K, GAMMA, NAMED[name]).write()), truth(J, D, K, GAMMA, 40), strict=True
@@ -197,4 +197,6 @@ def test_a_precision_takes_a_whole_number(make, value):
 def test_a_quad_step_beyond_float64_is_refused():
     unit = F(10) ** 310
     with pytest.raises(BadInput, match="beyond the range of float64"):
-        exact_step([1 * unit, 2 * unit, 4 * unit], 3 * unit, [unit / 10] * 3, [F(n, 7) for n in (2, 3, 6)], Quad())
+        exact_step(
+            [1 * unit, 2 * unit, 4 * unit], 3 * unit, [unit / 10] * 3, [F(n, 7) for n in (2, 3, 6)], DoubleDouble()
+        )

@@ -188,7 +188,8 @@ def test_without_times_a_frame_is_found_by_its_step():
 
 
 KINDS = {
-    "quad": 'time_step = 0.01\nsteps = 20\noutputs = ["momentum", "attitude", "contact"]\nprecision = "quad"',
+    "double-double": 'time_step = 0.01\nsteps = 20\noutputs = ["momentum", "attitude", "contact"]'
+    '\nprecision = "double-double"',
     "single": 'time_step = 0.01\nsteps = 20\noutputs = ["gamma", "energy"]\nprecision = "single"',
     "accuracy": 'time = 1.0\naccuracy = 1e-7\nframes = 4\noutputs = ["momentum", "contact"]',
     "start": "time_step = 0.01\nsteps = 0",
@@ -208,7 +209,7 @@ def test_every_kind_of_run_comes_back_from_every_format(tmp_path, kind):
     if kind == "four":
         assert data.momentum.dims == ("ball", "frame", "row", "column")
         assert data.integral.values.tolist() == ["tr K^2", "tr K^4", "gamma.K^2.gamma", "gamma.gamma"]
-    if kind == "quad":
+    if kind == "double-double":
         assert (data.contact_low.values[0, 1:] != 0).all()
         assert (abs(data.contact_low.values) <= 2.0**-53 * abs(data.contact.values)).all()
     if kind == "accuracy":

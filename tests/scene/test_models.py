@@ -113,7 +113,7 @@ def test_the_discrete_top_is_the_map(tops):
     assert plan.model.name == Top.name
     direct, end = rolled(plan, [slice(0, 3), slice(3, plan.frames)])
     exact = chapsym.trajectory(
-        tops.ball, tops.momentum, tops.gamma, steps, every=29_999, attitude=True, precision="quad"
+        tops.ball, tops.momentum, tops.gamma, steps, every=29_999, attitude=True, precision="double-double"
     )
     assert (end["taken"] == exact.taken).all()
     sign = np.sign((direct["attitude"] * exact.attitude).sum(axis=-1, keepdims=True))  # both are the same attitude
@@ -242,7 +242,7 @@ def test_a_top_near_the_separatrix_is_followed_step_by_step_where_its_attitude_w
 
 
 def test_31_digits_of_attitude_and_contact():
-    run = {"time_step": 0.01, "steps": 20, "precision": "quad", "outputs": ["gamma", "attitude", "contact"]}
+    run = {"time_step": 0.01, "steps": 20, "precision": "double-double", "outputs": ["gamma", "attitude", "contact"]}
     body = {"inertia": [0.006, 0.007, 0.009], "mass": 2, "radius": 0.1}
     start = {"omega": [3, -2, 1], "gamma": ["2/7", "3/7", "6/7"]}
     origin = chapsym.run_scene({"ball": body, "start": start, "run": run}).dataset.isel(ball=0)

@@ -233,8 +233,8 @@ def test_the_angular_velocity_and_the_energy_are_those_of_the_momentum(members):
 def test_31_digits_are_refused_in_other_axes(members):
     turned = members(axes=TURN)
     with pytest.raises(chapsym.BadInput, match="31 digits are kept in principal axes only"):
-        planned(turned, Task(("momentum",), 5, precision="quad"))
-    assert planned(members(), Task(("momentum",), 5, precision="quad")).model.name == "reduced map"
+        planned(turned, Task(("momentum",), 5, precision="double-double"))
+    assert planned(members(), Task(("momentum",), 5, precision="double-double")).model.name == "reduced map"
 
 
 def test_the_energy_of_a_run_to_an_accuracy_is_that_of_K(members):

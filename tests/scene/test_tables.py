@@ -91,7 +91,7 @@ def test_steps_and_frames(run, steps, every):
         ({"steps": 10, "outputs": ["omega", "omega"]}, "run.outputs names an output twice"),
         ({"steps": 10, "outputs": ["spin"]}, "run.outputs.1 must be 'momentum', 'gamma', 'omega'"),
         ({"steps": 10, "order": 3}, "run.order must be 2, 4, 6 or 8"),
-        ({"steps": 10, "precision": "half"}, "run.precision must be 'single', 'double' or 'quad'"),
+        ({"steps": 10, "precision": "half"}, "run.precision must be 'single', 'double' or 'double-double'"),
         ({"steps": 10, "limit": 3}, "run.limit goes with run.accuracy"),
         ({"steps": 10, "time_step": -1}, "run.time_step must be greater than 0"),
         ({"steps": 10, "time_step": {"grid": [1]}}, "run.time_step must be a number"),
@@ -143,8 +143,8 @@ def test_outputs_and_their_short_forms():
     assert with_run(steps=1).task().outputs == ("momentum", "gamma")
     assert with_run(steps=1, contact=True).task().outputs == ("momentum", "gamma", "contact")
     assert with_run(steps=1, outputs=["energy"], attitude=True).task().outputs == ("attitude", "energy")
-    task = with_run(steps=1, order=4, precision="quad").task()
-    assert (task.order, task.precision, task.time_step) == (4, "quad", 0.01)
+    task = with_run(steps=1, order=4, precision="double-double").task()
+    assert (task.order, task.precision, task.time_step) == (4, "double-double", 0.01)
 
 
 def test_an_accuracy_is_a_task_of_frames():

@@ -72,7 +72,7 @@ def test_the_reference_agrees_with_mpmaths_taylor_series_and_with_a_run_in_doubl
     other = by_mpmath(request.ball, request.angular_momentum, request.gamma, 2)
     # That one does not divide γ by its length, which is 1 to rounding.
     assert max(abs(float(a) - float(b)) for a, b in zip(found[:6], other, strict=True)) < 1e-15
-    run = take(request, Method(NAMED["quad"], 8), 1600, 16)
+    run = take(request, Method(NAMED["double-double"], 8), 1600, 16)
     assert true_error(request, run, truth(request, 25)) < 1e-21
 
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from chapsym.generated.quad import steady_pairs
+from chapsym.generated.double_double import steady_pairs
 from chapsym.numbers import pairs
 
 from .. import kernels

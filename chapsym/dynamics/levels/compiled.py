@@ -16,21 +16,21 @@ import numba
 from numba.extending import register_jitable
 
 import chapsym.generated as generated
-import chapsym.generated.quad as generated_quad
+import chapsym.generated.double_double as generated_double_double
 from chapsym.numbers import fused, pairs
 
 from ..loops import (
     block,
     branch,
     composed_loop,
+    double_double_block,
+    double_double_loop,
+    double_double_step,
     gibbs,
     integrals,
     lanes,
     long_step,
     loop,
-    quad_block,
-    quad_loop,
-    quad_step,
     single_loop,
     single_step,
     sums,
@@ -43,7 +43,7 @@ from .retyped import Family
 SOURCES = (
     *(generated, branch, gibbs, integrals, sums, loop, block, composed_loop, vertical_loop, long_step, lanes),
     *(single_loop, single_step),
-    *(pairs, generated_quad, quad_step, quad_loop, quad_block),
+    *(pairs, generated_double_double, double_double_step, double_double_loop, double_double_block),
 )
 #: The functions on the way of every step: a call would cost more than they do.
 INLINED: set[Callable[..., Any]] = {
@@ -52,9 +52,14 @@ INLINED: set[Callable[..., Any]] = {
     *(sums.added, sums.turned, sums.filtered, composed_loop.extrapolated, composed_loop.turn_at),
     *(block.predicted, block.corrected, block.unsettled, block.moved, block.turn_at, block.extrapolated),
     *(value for value in vars(pairs).values() if isinstance(value, FunctionType)),
-    *(generated.gibbs_mixed, generated_quad.gibbs_residual_pairs, generated_quad.turn_pairs),
-    *(quad_step.correction, quad_step.small),
-    *(quad_block.approached, quad_block.residuals, quad_block.corrected, quad_block.turned),
+    *(generated.gibbs_mixed, generated_double_double.gibbs_residual_pairs, generated_double_double.turn_pairs),
+    *(double_double_step.correction, double_double_step.small),
+    *(
+        double_double_block.approached,
+        double_double_block.residuals,
+        double_double_block.corrected,
+        double_double_block.turned,
+    ),
     *(generated.compose, lanes.checked, lanes.moved, lanes.rates, lanes.begin, lanes.keep, lanes.side_by_side),
 }
 

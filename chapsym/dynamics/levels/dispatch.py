@@ -6,13 +6,13 @@ from functools import partial
 
 import numpy as np
 
-from chapsym.numbers import NAMED, Digits, Double, Enclosure, Precision, Quad, Single, named
+from chapsym.numbers import NAMED, Digits, Double, DoubleDouble, Enclosure, Precision, Single, named
 
 from ..coefficients import substeps
 from ..errors import BadInput, Status, StepNotTaken
-from ..loops import quad_step
+from ..loops import double_double_step
 from ..results import LowStep, Step
-from . import double, quad, single
+from . import double, double_double, single
 from .frames import Balls, Frames
 from .start import exponent_of, fraction
 
@@ -30,7 +30,7 @@ def frames_for(precision: Precision, balls: int, frames: int, body_frames: int, 
     objects = isinstance(precision, Digits | Enclosure)
     dtype = np.dtype(object if objects else np.float32 if isinstance(precision, Single) else np.float64)
     try:
-        low = frames_for(NAMED["double"], balls, frames, body_frames) if isinstance(precision, Quad) else None
+        low = frames_for(NAMED["double"], balls, frames, body_frames) if isinstance(precision, DoubleDouble) else None
         momenta, verticals = (np.full((balls, frames, 3), np.nan, dtype) for _ in "Kg")
         attitudes, traces = (np.full((balls, body_frames, n), np.nan, dtype) for n in (4, 2))
     except (MemoryError, ValueError):
@@ -50,7 +50,9 @@ def run(
 
         high.run(precision, balls, steps, every, frames, order, progress)
         return
-    level = single if isinstance(precision, Single) else quad if isinstance(precision, Quad) else double
+    level = (
+        single if isinstance(precision, Single) else double_double if isinstance(precision, DoubleDouble) else double
+    )
     level.run(balls, steps, every, frames, order, threads, progress)
 
 
@@ -84,7 +86,9 @@ def _after_one(precision: Precision, balls: Balls, order: int) -> Frames:
         if lacking:
             frames.attitude[:] = _two_frames(replace(precision, bits=precision.bits + lacking), balls, order).attitude
     if frames.low is not None:  # where momenta are tiny, they were taken 2^beyond times as large
-        beyond = [quad_step.scales(*ball)[1] for ball in zip(balls.momentum, balls.mass_tensor, balls.D, strict=True)]
+        beyond = [
+            double_double_step.scales(*ball)[1] for ball in zip(balls.momentum, balls.mass_tensor, balls.D, strict=True)
+        ]
         for of in (frames, frames.low):
             of.attitude[:, 1, 1:] = np.ldexp(of.attitude[:, 1, 1:], -np.array(beyond, np.int64)[:, np.newaxis])
     return frames

@@ -150,7 +150,7 @@ def _check_outputs(members: Members, task: Task) -> None:
     untimed = [] if task.timed else sorted(name for name in task.outputs if timed(name))
     if untimed:
         raise BadInput(f"{untimed[0]} needs run.time_step, in seconds: 𝒦 = εK alone does not tell it")
-    if members.axes is not None and task.precision == "quad":
+    if members.axes is not None and task.precision == "double-double":
         raise BadInput(
             "31 digits are kept in principal axes only: give the principal moments, and the start in their axes"
         )

@@ -2,9 +2,10 @@
 
 from typing import Annotated, Any, Literal, Self, get_args
 
-from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic import BaseModel, ConfigDict, Field, field_validator, model_validator
 
 from chapsym.accuracy.motion import FINEST
+from chapsym.numbers import new_name
 
 from .bodies import PRESETS
 from .errors import At
@@ -169,13 +170,18 @@ class RunTable(Table):
     order: Literal[2, 4, 6, 8] | None = Field(
         None, description="Of the composition in the time step; 2, the map itself, without."
     )
-    precision: Literal["single", "double", "quad"] | None = Field(
+    precision: Literal["single", "double", "double-double"] | None = Field(
         None, description="Of the numbers: 7, 16 or 31 digits; double without."
     )
     map: Switch = Field(False, description="Whether the map is meant where a motion in time is given; else the ball.")
     accuracy: Accurate | None = Field(None, description="Of the motion: of the contact point (m) or the state.")
     of: Literal["state", "contact"] | None = Field(None, description="What the accuracy is of.")
     limit: Seconds | None = Field(None, description="Of the processor, for a run to an accuracy; 600 s without.")
+
+    @field_validator("precision", mode="before")
+    @classmethod
+    def _new_name(cls, value: Any) -> Any:
+        return new_name(value)
 
     @model_validator(mode="after")
     def _steps_or_accuracy(self) -> Self:

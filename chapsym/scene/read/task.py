@@ -14,7 +14,7 @@ class Task:
     """outputs: names of `outputs.OUTPUTS`.
 
     steps, every: of the map, the latter between two frames.  time_step: ε in s, or None in the paper's units.
-    order: of the composition.  precision: "single", "double" or "quad".
+    order: of the composition.  precision: "single", "double" or "double-double".
     Or, of the continuous motion, an accuracy at these frames, in the norm `of` ("state" or "contact"), within `limit` s
     of the processor.  Without a time_step the frames are at `steps` equal parts of `time` s.
     searched: whether the scene asks for that accuracy itself, so that all precisions may serve.
@@ -58,7 +58,7 @@ class Task:
     @property
     def doubled(self) -> bool:
         """Whether what is followed has more digits than float64: second halves are kept, too."""
-        return self.precision == "quad" or (self.accuracy is not None and self.accuracy < BEYOND_FLOAT64)
+        return self.precision == "double-double" or (self.accuracy is not None and self.accuracy < BEYOND_FLOAT64)
 
     @property
     def scale(self) -> float:

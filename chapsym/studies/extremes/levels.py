@@ -8,7 +8,7 @@ from typing import Any
 import flint
 import mpmath
 
-from chapsym.numbers import Digits, Double, Enclosure, Pair, Precision, Quad, Single
+from chapsym.numbers import Digits, Double, DoubleDouble, Enclosure, Pair, Precision, Single
 
 #: Everything that is compared is compared with so many digits.
 mp = mpmath.MPContext()
@@ -39,7 +39,7 @@ class Level:
 LEVELS = (
     Level("single", Single(), Fraction(1, 2**23), Fraction(1, 2**149)),
     Level("double", Double(), Fraction(1, 2**52), Fraction(1, 2**1074)),
-    Level("quad", Quad(), Fraction(1, 2**104), Fraction(1, 2**1074)),
+    Level("quad", DoubleDouble(), Fraction(1, 2**104), Fraction(1, 2**1074)),
     Level("Digits(50)", Digits(50), Fraction(1, 10**49), Fraction(0), guarded=True),
     Level("Ball(200)", Enclosure(200), Fraction(1, 2**199), Fraction(0), guarded=True),
 )

@@ -62,7 +62,7 @@ def measure(quick: bool, say: Say, of: str = "contact") -> Frontier:
 def reference(request: Request, quick: bool) -> tuple[np.ndarray, str]:
     """The true motion by Taylor's series, confirmed by order 8 in double-double; raises NotComparable."""
     exact = truth(request, DIGITS)
-    method, steps = Method(NAMED["quad"], 8), CHECKS * (100 if quick else 1000)
+    method, steps = Method(NAMED["double-double"], 8), CHECKS * (100 if quick else 1000)
     wanted = 10.0 ** -(14 if quick else CONFIRMED)
     coarse, fine = (true_error(request, take(request, method, n, CHECKS), exact) for n in (steps // 2, steps))
     if not fine <= wanted or not fine <= coarse / 16:

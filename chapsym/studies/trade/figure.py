@@ -6,6 +6,7 @@ from typing import Any
 from matplotlib.lines import Line2D
 from matplotlib.ticker import NullFormatter
 
+from chapsym.renamed import in_words
 from chapsym.show.drawing import style
 from chapsym.show.drawing.style import Picture
 
@@ -53,7 +54,8 @@ def _legend(found: dict[str, Frontier], markers: dict[str, str]) -> list[Any]:
     orders = sorted({_order(p) for one in found.values() for p in one.points}, key=int)
     shown = [Line2D([], [], color=COLOURS[o], marker="o", linestyle="none", label=f"order {o}") for o in orders]
     shown += [
-        Line2D([], [], color="0.3", marker=m, linestyle="none", label=precision) for precision, m in markers.items()
+        Line2D([], [], color="0.3", marker=m, linestyle="none", label=in_words(precision))
+        for precision, m in markers.items()
     ]
     return [*shown, Line2D([], [], color="0.35", linewidth=1, label="frontier")]
 

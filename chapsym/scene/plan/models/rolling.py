@@ -45,7 +45,7 @@ class Rolling(Stepwise):
         """`chapsym.trajectory` of the batch."""
         assert isinstance(members.ball, Ball)
         attitude = state.get("attitude", False)
-        if "attitude" in state and members.attitude is None and task.precision == "quad":
+        if "attitude" in state and members.attitude is None and task.precision == "double-double":
             attitude = True  # in 31 digits, as γ; such a run has one segment
         return trajectory(
             members.ball, state["momentum"], state["gamma"], steps, every=task.every, order=task.order,

@@ -1,19 +1,19 @@
 """Many balls at once in double-double: blocks of `LANES` balls, as in `dynamics.block`; for numba only.
 
-Each lane has the bits of `quad_loop.march_quad` for that ball alone.
+Each lane has the bits of `double_double_loop.march_pairs` for that ball alone.
 """
 
 import numpy as np
 
-from chapsym.generated.quad import gibbs_residual_pairs, turn_pairs
+from chapsym.generated.double_double import gibbs_residual_pairs, turn_pairs
 from chapsym.numbers.pairs import two_sum
 
 from .block import extrapolated
 from .branch import TAKEN
+from .double_double_loop import ROWS, D, G, I, K, prepare_pairs, restore_pairs, stage, write
+from .double_double_step import correction, small
 from .gibbs import newton_round
 from .integrals import PERIOD
-from .quad_loop import ROWS, D, G, I, K, prepare_quad, restore_pairs, stage, write
-from .quad_step import correction, small
 
 #: Balls in a block: its rows stay in the first-level cache.
 LANES = 16
@@ -85,7 +85,7 @@ def corrected(S, P, ok):
 
 
 def mend(S, P, ok, step, taken, status, reach):
-    """The only stage of `quad_loop` for the lanes that did not settle; a ball that cannot go on rests from then on."""
+    """The stage of `double_double_loop` for the lanes that did not settle; a ball that cannot go on rests."""
     for i in range(LANES):
         if ok[i] == 1:
             continue
@@ -118,19 +118,21 @@ def turned(S, P):
         extrapolated(S, A + 2, i, P[W + 2, i] + P[E + 2, i])
 
 
-def prepare_quad_block(momentum, g, tensor, contact, c, state, shift, beyond):
-    """`prepare_quad` of each ball of a block; one that is not full repeats its last ball."""
+def prepare_pairs_block(momentum, g, tensor, contact, c, state, shift, beyond):
+    """`prepare_pairs` of each ball of a block; one that is not full repeats its last ball."""
     one, radius, enough, last = np.empty(ROWS), np.empty(1), np.empty(1), len(contact) - 1
     for lane in range(state.shape[1]):
         i = min(lane, last)
-        shift[i], beyond[i] = prepare_quad(momentum[i], g[i], tensor[i], contact[i], c, one, radius, enough)
+        shift[i], beyond[i] = prepare_pairs(momentum[i], g[i], tensor[i], contact[i], c, one, radius, enough)
         state[:ROWS, lane] = one
         state[ROWS:RADIUS, lane] = 0.0
         state[RADIUS, lane], state[ENOUGH, lane] = radius[0], enough[0]
 
 
-def march_quad_block(state, first, count, every, shift, momenta, momenta_, verticals, verticals_, taken, status, reach):
-    """`count` steps of the balls of a block from the step `first` on: state (ALL_ROWS, LANES), the rest as `quad_loop`.
+def march_pairs_block(
+    state, first, count, every, shift, momenta, momenta_, verticals, verticals_, taken, status, reach
+):
+    """`count` steps of a block from the step `first` on, as of `double_double_loop`: state (ALL_ROWS, LANES).
 
     shift, taken, status and reach have one entry for each ball; lanes beyond them are idle copies.
     """

@@ -11,12 +11,12 @@ from chapsym import generated
 from chapsym.dynamics import kernels
 from chapsym.dynamics.attitudes import attitude_with
 from chapsym.dynamics.errors import BadInput, StepNotTaken
-from chapsym.dynamics.levels import quad
-from chapsym.dynamics.loops import quad_loop, quad_step
+from chapsym.dynamics.levels import double_double
+from chapsym.dynamics.loops import double_double_loop, double_double_step
 from chapsym.dynamics.loops.branch import small_rotation
 from chapsym.dynamics.map import exact_step, step
 from chapsym.dynamics.oracle import Oracle
-from chapsym.numbers import Digits, Pair, Quad, pairs
+from chapsym.numbers import Digits, DoubleDouble, Pair, pairs
 from chapsym.studies import check
 
 #: One unit of double-double is the square of one of float64, 2⁻⁵²; the roundoff u² is a quarter of it.
@@ -37,7 +37,7 @@ def whole(high, low):
 
 def in_both(*arguments, **options):
     """A run in pairs and the same in 60 digits."""
-    return [chapsym.trajectory(*arguments, precision=p, **options) for p in ("quad", Digits(60))]
+    return [chapsym.trajectory(*arguments, precision=p, **options) for p in ("double-double", Digits(60))]
 
 
 def each(run, truth, name):
@@ -67,7 +67,7 @@ def test_steps_keep_the_promise_of_float64_squared(stratum):
     rng = np.random.default_rng([31, list(check.STRATA).index(stratum)])
     for _ in range(4):
         state = check.STRATA[stratum](rng)
-        run = chapsym.trajectory(chapsym.Ball(state.J, state.D), state.K, state.g, 1, precision="quad")
+        run = chapsym.trajectory(chapsym.Ball(state.J, state.D), state.K, state.g, 1, precision="double-double")
         g = [HIGH.mpf(float(x)) for x in state.g]
         length = HIGH.sqrt(sum(x * x for x in g))
         assert off(whole(run.gamma[0], run.low.gamma[0]), [x / length for x in g]) <= 8
@@ -89,16 +89,21 @@ def test_a_run_against_60_digits(order, steps, budget, up, start):
     for name, size in (("momentum", 0.05), ("gamma", 1.0), ("attitude", 1.0), ("contact", RADIUS)):
         assert max(off(*vector, size) for vector in each(run, truth, name)) <= budget
     assert abs(sum(x * x for x in whole(run.attitude[-1], run.low.attitude[-1])) - 1) <= 8 * U2
-    assert type(run.precision) is Quad
+    assert type(run.precision) is DoubleDouble
 
 
 def test_a_batch_of_another_order_is_not_taken_in_blocks(monkeypatch):
     """Blocks have the stage of order 2 only; 4 balls in plain Python, though they would fill one."""
-    monkeypatch.setattr(quad, "SHORT_RUN", 0)
-    monkeypatch.setattr(quad, "chosen", lambda functions, work: functions)
-    n, balls = quad.FEW, chapsym.Ball(np.array([J] * quad.FEW), np.full(quad.FEW, D), np.full(quad.FEW, RADIUS))
-    together = chapsym.trajectory(balls, [K] * n, [GAMMA] * n, 3, order=4, precision="quad")
-    alone = chapsym.trajectory(BALL, K, GAMMA, 3, order=4, precision="quad")
+    monkeypatch.setattr(double_double, "SHORT_RUN", 0)
+    monkeypatch.setattr(double_double, "chosen", lambda functions, work: functions)
+    n, balls = (
+        double_double.FEW,
+        chapsym.Ball(
+            np.array([J] * double_double.FEW), np.full(double_double.FEW, D), np.full(double_double.FEW, RADIUS)
+        ),
+    )
+    together = chapsym.trajectory(balls, [K] * n, [GAMMA] * n, 3, order=4, precision="double-double")
+    alone = chapsym.trajectory(BALL, K, GAMMA, 3, order=4, precision="double-double")
     for a, b in ((together, alone), (together.low, alone.low)):
         np.testing.assert_array_equal(a.momentum, [b.momentum] * n)
 
@@ -112,7 +117,7 @@ def test_tiny_momenta(size):
     for name, extent in (("momentum", 3 * size), ("contact", RADIUS * size)):
         for x, y in zip(*each(run, truth, name)[-1], strict=True):
             assert abs(HIGH.mpf(x.numerator) / x.denominator - y) <= max(32 * U2 * extent, 5e-324)
-    again = chapsym.trajectory(BALL, np.tile(momentum, (5, 1)), GAMMA, 600, every=3, precision="quad")
+    again = chapsym.trajectory(BALL, np.tile(momentum, (5, 1)), GAMMA, 600, every=3, precision="double-double")
     for a, b in ((again, run), (again.low, run.low)):
         np.testing.assert_array_equal(a.gamma[3, 1], b.gamma[-1])
         np.testing.assert_array_equal(a.momentum[3, 1], b.momentum[-1])
@@ -121,7 +126,7 @@ def test_tiny_momenta(size):
 def test_integrals_do_not_walk():
     """Restored every 1024 steps they stay within what that many add up to, 32u² and some; else 10⁶ make 1000u²."""
     steps = 1_000_000
-    run = chapsym.trajectory(BALL, K, GAMMA, steps, every=steps // 10, precision="quad")
+    run = chapsym.trajectory(BALL, K, GAMMA, steps, every=steps // 10, precision="double-double")
 
     def values(i):
         k, g = whole(run.momentum[i], run.low.momentum[i]), whole(run.gamma[i], run.low.gamma[i])
@@ -134,13 +139,15 @@ def test_integrals_do_not_walk():
 
 def test_restoring_takes_back_what_is_added():
     """Off by 1e-26 in γ and k: then it is below a few u²."""
-    state = np.zeros(quad_loop.ROWS)
+    state = np.zeros(double_double_loop.ROWS)
     one = np.ones((1, 1))
-    quad_loop.prepare_quad(np.array(K), np.array(GAMMA), np.array(J), D, np.array([[1.0, 0.0]]), state, one[0], one[0])
+    double_double_loop.prepare_pairs(
+        np.array(K), np.array(GAMMA), np.array(J), D, np.array([[1.0, 0.0]]), state, one[0], one[0]
+    )
     before = state.copy()
     state[1] += 3e-28
     state[9] -= 1e-26
-    quad_loop.restore_pairs(state)
+    double_double_loop.restore_pairs(state)
     for pair in ((6, 6), (0, 6), (0, 0)):
         a, b = (whole(state[i : i + 6 : 2], state[i + 1 : i + 6 : 2]) for i in pair)
         c, d = (whole(before[i : i + 6 : 2], before[i + 1 : i + 6 : 2]) for i in pair)
@@ -159,7 +166,7 @@ def test_a_heavy_ball_keeps_its_digits(D):
 
 
 def test_unit_vectors_in_pairs():
-    x = quad_step.unit(0.6, -0.3, 1.7)
+    x = double_double_step.unit(0.6, -0.3, 1.7)
     square = sum((F(a) + F(b)) ** 2 for a, b in zip(x[::2], x[1::2], strict=True))
     assert abs(square - 1) <= 24 * U2  # a root and a quotient: 2·(25/8 + 15) at most
     assert pairs.two_sum(x[0], x[1]) == x[:2]
@@ -171,7 +178,7 @@ def test_the_least_rotation(x, sign):
     """It turns γ to e₃ and has no part about e₃; upside down it is a half turn about e₁."""
     y = Pair(0.6 if x == 0.48 else 3 * x)
     z = sign * (1 - Pair(x) * x - y * y).sqrt()
-    a = quad.least_rotation(Pair(x), y, z)
+    a = double_double.least_rotation(Pair(x), y, z)
     exact = [v.exactly() for v in a]
     gamma = [v.exactly() for v in (Pair(x), y, z)]
     turned = generated.rotate(*exact, *gamma)
@@ -192,7 +199,7 @@ def test_steps_from_exact_input(fraction):
         K = np.array(direction) * 100.0
         K *= float(small_rotation(*K, *GAMMA, *J, D)[1]) * fraction
         given = [F(x) for x in J], F(D), [F(float(x)) for x in K], gamma
-        truth, found = exact_step(*given, Digits(45)), exact_step(*given, Quad())
+        truth, found = exact_step(*given, Digits(45)), exact_step(*given, DoubleDouble())
         extent, kappa = condition(check.State(np.array(J), D, K, np.array(GAMMA)))
         promise = check.BUDGET * kappa * ULP / U2
         assert off(whole(found.rotation, found.low.rotation), map(HIGH.mpf, truth.rotation), extent) <= promise
@@ -200,11 +207,11 @@ def test_steps_from_exact_input(fraction):
 
 def test_a_momentum_below_the_range_is_refused():
     with pytest.raises(BadInput, match="below the range of float64"):
-        exact_step((F(1), F(2), F(4)), F(3), (F(1), F(0), F(1, 10**380)), (F(0), F(0), F(1)), Quad())
+        exact_step((F(1), F(2), F(4)), F(3), (F(1), F(0), F(1, 10**380)), (F(0), F(0), F(1)), DoubleDouble())
 
 
 def test_a_step_against_digits():
-    one, exact = (chapsym.step(BALL, K, GAMMA, precision=p) for p in ("quad", Digits(40)))
+    one, exact = (chapsym.step(BALL, K, GAMMA, precision=p) for p in ("double-double", Digits(40)))
     for name in ("rotation", "momentum", "gamma"):
         assert off(whole(getattr(one, name), getattr(one.low, name)), map(HIGH.mpf, getattr(exact, name))) <= 8
 
@@ -225,7 +232,7 @@ def test_beside_a_fold_pairs_say_what_forty_digits_say():
         far = check._unit(rng) * 100 * (tensor.sum() + contact)
         ball, fold = chapsym.Ball(tensor, contact), far * check._reach(far, gamma, tensor, contact)
         for beyond in (3e-16, 4e-15):
-            found = takes(ball, fold * (1 + beyond), gamma, "quad")
+            found = takes(ball, fold * (1 + beyond), gamma, "double-double")
             assert found == takes(ball, fold * (1 + beyond), gamma, Digits(40))
             taken += found
     assert 0 < taken < 24

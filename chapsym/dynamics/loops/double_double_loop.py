@@ -6,7 +6,7 @@ pairs, and need no compensation; the integrals are restored now and then.
 
 from math import ldexp
 
-from chapsym.generated.quad import roll_pairs, turn_pairs
+from chapsym.generated.double_double import roll_pairs, turn_pairs
 from chapsym.numbers.pairs import (
     divide,
     loose_add,
@@ -20,8 +20,8 @@ from chapsym.numbers.pairs import (
 
 from .branch import TAKEN
 from .composed_loop import extrapolated
+from .double_double_step import bounds, scales, solved, unit
 from .integrals import PERIOD, shares
-from .quad_step import bounds, scales, solved, unit
 
 #: The rows of the numbers that describe a ball under way: k = 𝒦/2, γ and I as pairs (high, low, high, ...), J,
 #: D, and the three integrals as pairs.
@@ -29,7 +29,7 @@ K, G, I, J, D, INTEGRALS = 0, 6, 12, 18, 21, 22
 ROWS = 28
 
 
-def prepare_quad(momentum, g, tensor, contact, c, state, radius, enough):
+def prepare_pairs(momentum, g, tensor, contact, c, state, radius, enough):
     """Writes the state of a ball at the start and the bounds of its stages; returns the exponents of `scales`."""
     shift, beyond = scales(momentum, tensor, contact)
     size = beyond - shift - 1
@@ -130,7 +130,7 @@ def write(frame, frame_, pairs, at, exponent):
         frame[i], frame_[i] = ldexp(pairs[at + 2 * i], exponent), ldexp(pairs[at + 2 * i + 1], exponent)
 
 
-def march_quad(
+def march_pairs(
     state, c, radius, enough, past, first, count, every, shift, beyond, momenta, momenta_, verticals, verticals_,
     with_body, attitude, contact, rho, attitudes, attitudes_, traces, traces_,
 ):  # fmt: skip

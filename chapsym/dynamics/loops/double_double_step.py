@@ -12,7 +12,7 @@ is more, the rotation of w + e is corrected afresh, in Euler parameters (`polish
 from math import frexp, sqrt
 
 from chapsym.generated import gibbs_mixed
-from chapsym.generated.quad import gibbs_residual_pairs, moved_pairs, residual_pairs
+from chapsym.generated.double_double import gibbs_residual_pairs, moved_pairs, residual_pairs
 from chapsym.numbers.pairs import divide, loose_add, root, two_product, two_sum
 
 from .branch import FOLDED, NOT_CONVERGED, TAKEN, inverse, small_rotation

@@ -11,7 +11,8 @@ from ..ball import Floats
 from ..coefficients import COMPOSITIONS, substeps
 from ..errors import Status
 from ..failure import explain
-from ..loops import quad_block, quad_loop
+from ..loops import double_double_block as block
+from ..loops import double_double_loop as loop
 from .double import chosen, has_numba
 from .frames import Balls, Count, Frames, cores, share
 
@@ -33,11 +34,11 @@ def run(
     count, n = Count(progress), len(balls)
     work = steps * n * len(stages)
     in_blocks = n >= FEW and not frames.with_body and order == 2 and work >= SHORT_RUN and has_numba()
-    width = quad_block.LANES if in_blocks else 1
+    width = block.LANES if in_blocks else 1
     starts = range(0, n, width)
     loops = chosen(
-        (quad_block.march_quad_block, quad_block.prepare_quad_block) if in_blocks
-        else (quad_loop.march_quad, quad_loop.prepare_quad),
+        (block.march_pairs_block, block.prepare_pairs_block) if in_blocks
+        else (loop.march_pairs, loop.prepare_pairs),
         work * 4,
     )  # fmt: skip
 
@@ -79,12 +80,12 @@ def least_rotation(x: Pair, y: Pair, z: Pair) -> list[Pair]:
 def _add(rest: Floats, state: Floats, shift: int) -> None:
     """Gives the start what 𝒦 has beyond float64, and its integrals, to which it is restored."""
     state[1:6:2] = np.ldexp(rest, shift)
-    quad_loop.remember_pairs(state)
+    loop.remember_pairs(state)
 
 
 def _begin(frames: Frames, low: Frames, i: int, state: Floats, rest: Floats | None) -> tuple[Floats, Floats]:
     """Writes frame 0 of a ball; its attitude and its contact point as pairs."""
-    frames.gamma[i, 0], low.gamma[i, 0] = state[quad_loop.G : quad_loop.I : 2], state[quad_loop.G + 1 : quad_loop.I : 2]
+    frames.gamma[i, 0], low.gamma[i, 0] = state[loop.G : loop.I : 2], state[loop.G + 1 : loop.I : 2]
     low.momentum[i, 0] = 0.0 if rest is None else rest[i]
     attitude, contact = np.zeros((4, 2)), np.zeros(4)
     if frames.with_body:
@@ -102,7 +103,7 @@ def _run_one(
 ) -> None:  # fmt: skip
     march, prepare = loops
     K, g, J, D = balls.momentum[i], balls.gamma[i], balls.mass_tensor[i], float(balls.D[i])
-    state, limits, past = np.zeros(quad_loop.ROWS), np.zeros((2, len(stages))), np.zeros((len(stages), 8, 3))
+    state, limits, past = np.zeros(loop.ROWS), np.zeros((2, len(stages))), np.zeros((len(stages), 8, 3))
     shift, beyond = prepare(K, g, J, D, stages, state, *limits)
     if balls.rest is not None:
         _add(balls.rest[i], state, shift)
@@ -130,7 +131,7 @@ def _run_block(
 ) -> None:  # fmt: skip
     march, prepare = loops
     n = which.stop - which.start
-    state = np.zeros((quad_block.ALL_ROWS, quad_block.LANES))
+    state = np.zeros((block.ALL_ROWS, block.LANES))
     shift, beyond = np.zeros(n, dtype=np.int64), np.zeros(n, dtype=np.int64)
     prepare(balls.momentum[which], balls.gamma[which], balls.mass_tensor[which], balls.D[which], stages,
             state, shift, beyond)  # fmt: skip
@@ -139,7 +140,7 @@ def _run_block(
             _add(balls.rest[which.start + lane], state[:, lane], int(shift[lane]))
         _begin(frames, low, which.start + lane, state[:, lane], balls.rest)
     status, reach, taken = frames.status[which], frames.reach[which], frames.taken[which]
-    chunk = max(1, CHUNK // quad_block.LANES)
+    chunk = max(1, CHUNK // block.LANES)
     for first in range(0, steps, chunk):
         now = min(chunk, steps - first)
         march(

@@ -12,7 +12,7 @@ from chapsym import generated as kernels
 from chapsym.codegen import build, pairs
 from chapsym.codegen.printer import NotStraightLine
 from chapsym.codegen.programs import PAIR_PROGRAMS
-from chapsym.generated import quad as generated
+from chapsym.generated import double_double as generated
 from chapsym.numbers import Pair
 
 U2 = 2.0**-106
