@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from chapsym.exact import rationals
+from chapsym.rationals import rationals
 
 from .app import app
 from .options import Contact, Inertia, Json, Mass, MassTensor, Radius, ball_from

@@ -127,8 +127,8 @@ def test_of_a_long_run_its_beginning_is_followed_and_that_is_said():
 )  # fmt: skip
 def test_a_run_that_is_not_compiled_has_a_pilot_that_is_not(monkeypatch, precision, steps, most):
     seen = []
-    for precision in (double, double_double):
-        monkeypatch.setattr(precision, "chosen", lambda functions, work: seen.append(work) or functions)
+    for module in (double, double_double):
+        monkeypatch.setattr(module, "chosen", lambda functions, work: seen.append(work) or functions)
     found = discretisation(one(0), STEP * K[[0]], GAMMA[[0]], STEP, steps, precision=precision)
     assert found.time == pytest.approx(STEP * most)
     assert 0 < max(seen) < double.SHORT_RUN
