@@ -1,4 +1,4 @@
-"""chapsym: a referee that can be run, for Fedorov's discrete Chaplygin ball.
+"""chapsym: machine-checked review of Fedorov's discrete Chaplygin ball, and a simulator of it.
 
     >>> import chapsym
     >>> ball = chapsym.Ball(mass_tensor=(1, 2, 4), D=3)

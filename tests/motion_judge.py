@@ -208,7 +208,7 @@ def timed(work):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument(
-        "scene", nargs="*", help=f"of {', '.join(SHIPPED)}, 0 to {random_scenes.COUNT - 1}; all without"
+        "scene", nargs="*", help=f"of {', '.join(SHIPPED)}, 0 to {random_scenes.COUNT - 1}; default all"
     )
     parser.add_argument("-a", "--accuracy", type=float, help="run to this accuracy; without, the scene as it is")
     parser.add_argument("--order", type=int, help="the map with this order")

@@ -43,7 +43,7 @@ def bowling(steps=2000, every=1, **options):
     """A bowling ball, two seconds of it."""
     run = chapsym.roll(BOWLING, (2.0, 30.0, 5.0), 1e-3, steps, every=every, contact=True, map=True)
     return of(
-        run, options.pop("outputs", ALL), options.pop("title", "A bowling ball with an off-centre core"), **options
+        run, options.pop("outputs", ALL), options.pop("title", "A dynamically asymmetric bowling ball"), **options
     )
 
 

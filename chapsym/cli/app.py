@@ -106,4 +106,4 @@ def options(
         bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version.")
     ] = False,
 ) -> None:
-    """A referee that can be run, for Fedorov's discrete Chaplygin ball."""
+    """Machine-checked review of Fedorov's discrete Chaplygin ball, and a simulator of it."""

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     from chapsym.scene.plan.plan import Plan
 
-OUT = "A .zarr, which can be gone on with; or .nc, .parquet, .csv, .npz."
+OUT = "A .zarr, which can be resumed; or .nc, .parquet, .csv, .npz."
 
 
 @app.command()
@@ -30,7 +30,7 @@ def run(
 ) -> None:
     """Run a scene and write the result.
 
-    A run to a .zarr that was ended, however, goes on with the same command.
+    Repeat the command to resume an interrupted run to a .zarr.
 
     Example: chapsym run docs/first.toml -o first.npz
     """
@@ -116,7 +116,9 @@ def _tell(plan: "Plan", destination: Path, outcome: Any, data: "Dataset", answer
 
 def _print(plan: "Plan", destination: Path, outcome: Any, one: dict[str, Any]) -> None:
     """A line of what was run; of one ball how far the integrals drifted, too."""
-    about = f"{len(plan.members)} ball{'s' if len(plan.members) > 1 else ''}, {plan.frames} frames, {plan.model.name}"
+    about = (
+        f"{len(plan.members)} ball{'s' if len(plan.members) > 1 else ''}, {plan.frames} frames, {plan.model.in_words()}"
+    )
     comma = ","
     if one:
         steps = "" if plan.task.accuracy is not None else f"{one['steps']} steps, "

@@ -21,16 +21,18 @@ def study(
     quick: Annotated[bool, typer.Option("--quick", help="Fewer and coarser.")] = False,
     output: Annotated[
         Path | None,
-        typer.Option("-o", "--output", metavar="DIR", help="A folder for the data and figures; one left goes on."),
+        typer.Option(
+            "-o", "--output", metavar="DIR", help="A folder for the data and figures; an unfinished one is resumed."
+        ),
     ] = None,
     scheduler: Annotated[
         str | None, typer.Option(metavar="ADDRESS", help="A Dask scheduler, such as tcp://host:8786.")
     ] = None,
     as_json: Json = False,
 ) -> None:
-    """Measure: rotation numbers and plateaus of the reduced map, the energy of the full map, how much is chaotic.
+    """Measure: rotation numbers and mode locking of the reduced map, the energy of the full map, how much is chaotic.
 
-    With -o every unit of work is kept as it is done: the same command goes on after a kill.
+    With -o every unit of work is kept as it is done: repeat the command to resume an interrupted study.
 
     Example: chapsym study rotation --quick -o open
     """

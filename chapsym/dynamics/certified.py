@@ -80,8 +80,8 @@ def certify(
     bits: how many correct bits the balls shall have; the run is repeated with as many more as its length costs.
     progress: called with the steps done so far (of all balls together); a run that is repeated counts again.
 
-    The branch is proved by lemma `small-branch` where |𝒦| is within its bound; beyond it the float64 continuation says
-    which root is followed, and only that this is a root, and one alone near by, is proved.
+    The branch is proved by lemma `small-branch` where |𝒦| is within its bound.  Beyond it the float64 continuation
+    selects the root; it is proved only that this is a root, and the only one near by.
     Raises BadInput, one sentence, for what is no such trajectory, and where the true orbit cannot be followed to the
     end: balls that grow too much, or a step that the true orbit does not have.
     """

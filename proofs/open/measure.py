@@ -23,15 +23,15 @@ LEMMAS = {
 }  # fmt: skip
 
 ANSWER = (
-    "No, in general, for D > 0 and three different moments of inertia: on the small branch G_h leaves no finite "
-    "measure on the sphere invariant whose density is positive almost everywhere, so none with a positive continuous "
-    "density, and there is no real u = f(s, l), for each l a homeomorphism from a circle of s to the circle of u, in "
-    "which the increment is constant. This is proved for every ball with three different moments (1) for every h ≠ 0 "
-    "with |h| small enough and every D with 0 < D < D₀(h); (2) for almost every pair of D > 0 and h with 0 < |h| < "
-    "h₀(D); (3) for the J, D and h of the certificates, and all within their radii of these. In each case there is an "
-    "interval of levels l on which q steps turn by more than p half turns at one point and by less at another: there "
-    "every finite invariant measure is carried by finitely many periodic points on each circle. Yes, on this branch, "
-    "for D = 0 and for two equal moments: there the area of the sphere is invariant."
+    "No: for every ball with three different moments of inertia and D > 0, in each of three cases, G_h on the small "
+    "branch leaves no finite measure on the sphere invariant whose density is positive almost everywhere, so none with "
+    "a positive continuous density, and there is no real u = f(s, l), for each l a homeomorphism from a circle of s to "
+    "the circle of u, in which the increment is constant. The cases, all proved: (1) every h ≠ 0 with |h| small enough "
+    "and every D with 0 < D < D₀(h); (2) almost every pair of D > 0 and h with 0 < |h| < h₀(D); (3) the J, D and h of "
+    "the certificates, and all within their radii of these. In each case there is an interval of levels l on which q "
+    "steps turn by more than p half turns at one point and by less at another: there every finite invariant measure is "
+    "carried by finitely many periodic points on each circle. Yes, on this branch, for D = 0 and for two equal moments: "
+    "there the area of the sphere is invariant."
 )
 
 
@@ -76,7 +76,7 @@ def yes(p: Proof) -> None:
 
 def no(p: Proof) -> None:
     """The theorems."""
-    p.say("No, in general, for three different moments. What is used is proved anew:")
+    p.say("No, for three different moments and the h and D of (1), (2) and (3). What is used is proved anew:")
     for id in LEMMAS:
         p.lemma(judged(id))
     p.say("(1) By plateaus, (2) by almost-every there is an interval of levels with displacements of both signs; for h")

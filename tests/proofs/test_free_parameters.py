@@ -12,7 +12,7 @@ import pytest
 from chapsym import sources
 from chapsym.derive import ball, three, vertical
 from chapsym.derive.ball import D, Gamma, Omega, OmegaT
-from chapsym.proofs import second_routes as again
+from chapsym.proofs import second_routes
 from chapsym.proofs.paper import s5_increment
 from chapsym.prove import load
 from chapsym.prove.runner import judge, prove_one
@@ -31,7 +31,7 @@ def test_the_claim_has_a_second_route_and_controls_of_it(records, id):
 
 
 def test_the_second_routes_import_no_derivation_and_make_a_record_stale():
-    tree = ast.parse(Path(again.__file__).read_text(encoding="utf-8"))
+    tree = ast.parse(Path(second_routes.__file__).read_text(encoding="utf-8"))
     names = [a.name for node in ast.walk(tree) if isinstance(node, ast.Import) for a in node.names]
     names += [str(node.module) for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)]
     assert not [name for name in names if "derive" in name or "sympy" in name or "proofs" in name]
@@ -88,16 +88,21 @@ def plus(honest):
 
 #: A slip, and claims whose second route takes that function; those after the first are judged by `--thorough`.
 SECOND_ROUTE = {
-    "the last sign of (4.13)": (again, "momentum", wrong_last, ("prop-3", "remark-3", "5.15")),
-    "a factor in (4.13)": (again, "momentum_by_centre", doubled, ("5.2", "prop-1")),
-    "the constraint": (again, "centre_step", naive, ("prop-1",)),
-    "the sign of the action": (again, "action", negated, ("prop-1",)),
-    "no rotation": (again, "cayley", doubled, ("remark-3", "prop-4")),
-    "off the sphere": (again, "sphere", doubled, ("5.2", "5.15")),
-    "no hat": (again, "hat", negated, ("5.2",)),
-    "the half argument": (again.Increment, "half_square", plus, ("5.15",)),
-    "the relation": (again.Parts, "relation", lambda h: lambda self, D, sign=1: h(self, 2 * D, sign), ("5.15",)),
-    "σ": (again.VerticalStep, "sigma", doubled, ("prop-4",)),
+    "the last sign of (4.13)": (second_routes, "momentum", wrong_last, ("prop-3", "remark-3", "5.15")),
+    "a factor in (4.13)": (second_routes, "momentum_by_centre", doubled, ("5.2", "prop-1")),
+    "the constraint": (second_routes, "centre_step", naive, ("prop-1",)),
+    "the sign of the action": (second_routes, "action", negated, ("prop-1",)),
+    "no rotation": (second_routes, "cayley", doubled, ("remark-3", "prop-4")),
+    "off the sphere": (second_routes, "sphere", doubled, ("5.2", "5.15")),
+    "no hat": (second_routes, "hat", negated, ("5.2",)),
+    "the half argument": (second_routes.Increment, "half_square", plus, ("5.15",)),
+    "the relation": (
+        second_routes.Parts,
+        "relation",
+        lambda h: lambda self, D, sign=1: h(self, 2 * D, sign),
+        ("5.15",),
+    ),
+    "σ": (second_routes.VerticalStep, "sigma", doubled, ("prop-4",)),
 }
 
 
@@ -125,7 +130,7 @@ def test_the_ball_that_is_solved_for_is_that_of_a_known_state():
     assert sum(x**2 for x in gamma) == 1
     point = {"u1": "1/2", "u2": "1/4", "u3": "1/2", "D": 1, "h": "164/35"}
     point |= {"a": gamma[0] / (1 + gamma[2]), "b": gamma[1] / (1 + gamma[2])}
-    step = again.vertical_step()
+    step = second_routes.vertical_step()
     assert [at(x, **point) for x in step.gamma] == gamma
     assert [at(x, **point) for x in step.J] == [1, 2, 4]
     assert at(step.sigma(), **point) == Fraction(28, 5)
@@ -149,7 +154,7 @@ def test_the_parts_of_the_increment_are_jacobis_functions():
 
         for before, after in [("0.3", "1.7"), ("-2.1", "0.4"), ("3.0", "2.2")]:
             u, v = mpmath.mpf(before), mpmath.mpf(after)
-            pair = again.Increment(gamma(u), gamma(v), np.array([L1, L2, L3]), mpmath.mpf(3))
+            pair = second_routes.Increment(gamma(u), gamma(v), np.array([L1, L2, L3]), mpmath.mpf(3))
             (sh, ch, dh), (sm, _, _) = jacobi((v - u) / 2), jacobi((v + u) / 2)
             V = -C2 * C3 / C1 * (L2 - L3) / (L2 * L3)
             parts = pair.parts()

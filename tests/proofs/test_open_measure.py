@@ -15,7 +15,7 @@ def test_the_question_is_settled_by_lemmas_and_certificates(records):
     record = records["5.9-open"]
     evidence = record["evidence"]
     assert record["verdict"] == "settled", evidence["problems"]
-    assert evidence["answer"].startswith("No, in general")
+    assert evidence["answer"].startswith("No: for every ball with three different moments")
     assert evidence["measured"]
     assert evidence["conjectures"]
     assert evidence["certificates"]

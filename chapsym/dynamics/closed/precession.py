@@ -1,4 +1,4 @@
-"""The attitude of the discrete top at every step at once.
+"""The attitude of the Moser-Veselov top at every step at once.
 
 R b/|b|, b = γ × Λ⁻¹γ for γ along 𝒦, is across 𝒦, which is fixed in space, and turns about it.  Along the continuous
 motion its angle is ∫⟨b,Λ⁻¹b⟩/|b|² dt = cu + P(u), P periodic (lemma `top-precession`); the discrete top differs by a

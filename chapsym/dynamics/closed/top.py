@@ -1,4 +1,4 @@
-"""The discrete top, every state at once: on its curve of 𝒦/|𝒦| each step adds the same increment to Jacobi's u.
+"""The Moser-Veselov discrete Euler top, every state at once: each step adds the same increment to Jacobi's u.
 
 So it is for D = 0 (5.15-euler), 𝒦 any, and for vertical momentum 𝒦 = hγ and D > 0 where two J are equal: k = 0, the
 curve is a circle, and (5.15) as corrected does not know ū.  For three different J and D > 0 the increment changes.
@@ -36,7 +36,7 @@ AGREEMENT = 1e-9
 
 @dataclass(frozen=True, eq=False)
 class TopMotion:
-    """The motion of one discrete top, or of a ball with vertical momentum and two equal J.
+    """The motion of one Moser-Veselov top, or of a ball with vertical momentum and two equal J.
 
     curve: the curve of 𝒦/|𝒦| (of γ where 𝒦 = hγ); size: what makes 𝒦 of its points, in kg m².
     start: u at the step 0; direction: the point there, as it was given.

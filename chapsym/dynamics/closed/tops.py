@@ -1,4 +1,4 @@
-"""Frames of discrete tops at once, for arrays of balls: 𝒦, γ and the attitude at any step numbers."""
+"""Frames of Moser-Veselov tops at once, for arrays of balls: 𝒦, γ and the attitude at any step numbers."""
 
 from __future__ import annotations
 

@@ -32,7 +32,7 @@ _loading = threading.Lock()
 
 @dataclass(frozen=True, eq=False)
 class Loops:
-    """The loops that a run takes: the modules, or their twins in another type, and the numbers of their states."""
+    """Compiled loops for one number type."""
 
     loop: Any = loop
     composed_loop: Any = composed_loop

@@ -51,7 +51,7 @@ def run(
 
 @dataclass(frozen=True, eq=False)
 class _Way:
-    """What one ball of a run has before it."""
+    """The remaining work for one ball."""
 
     balls: Balls
     i: int

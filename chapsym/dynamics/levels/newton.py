@@ -16,7 +16,7 @@ MOST_INFLATIONS = 12
 
 
 def refined(precision: Precision, q: tuple, K: tuple, g: tuple, J: tuple, D: tuple) -> tuple | None:
-    """Newton's iteration in the numbers of the precision, until a correction is below the square root of what is asked.
+    """Newton's iteration in the numbers of the precision, until |correction| < √tolerance.
 
     Newton squares the correction, up to the digits that the conditioning costs, which the guard covers.
     """

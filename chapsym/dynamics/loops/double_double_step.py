@@ -106,8 +106,8 @@ def polished(q0, q1, q2, q3, k1, k1_, k2, k2_, k3, k3_, g1, g1_, g2, g2_, g3, g3
 
     In Euler parameters, so that it is regular at every rotation, and with their residual again at each pair: so it
     keeps its digits for heavy balls, too, where one correction by a float64 Jacobian leaves those of D/I.  Up to its
-    fold the branch has det > 0, and its mirror behind the fold det < 0: who gets there has left it, as has who is
-    corrected by more than `near`.
+    fold the branch has det > 0, and its mirror behind the fold det < 0: det ≤ 0 or a correction above `near` means
+    another branch.
     """
     q0_, q1_, q2_, q3_, before = 0.0, 0.0, 0.0, 0.0, near
     settled = False

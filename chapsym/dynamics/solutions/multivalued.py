@@ -28,7 +28,7 @@ MOST = 8
 CERTAIN = 1 / 16
 #: Roots nearer than this, in units of 1/bend, are one root.
 SAME = 1 / 3
-#: A complex point of length 1 with an imaginary part above this is not a badly computed real one.
+#: A complex point of length 1 with an imaginary part above this is counted as complex.
 FAR = 0.05
 #: A q0 of a unit quaternion that is not above this is 0: the rotation is by π.
 ROUNDING = 2.0**-51

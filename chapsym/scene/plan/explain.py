@@ -1,6 +1,7 @@
 """A plan for a reader: the model and why, what it keeps, what that costs, and what following everything would cost."""
 
 from .cost import Cost, full, predicted
+from .models import MODELS
 from .plan import Plan
 
 _UNITS = ("B", "kB", "MB", "GB", "TB")
@@ -9,9 +10,10 @@ _UNITS = ("B", "kB", "MB", "GB", "TB")
 def explained(plan: Plan) -> list[tuple[str, str]]:
     """Rows of a key and a text; it takes short runs of both models, some hundredths of a second each."""
     of = "ball" if len(plan.members) == 1 else "balls"
+    titles = {model.name: model.in_words() for model in MODELS}
     rows = [
-        ("model", f"{plan.model.name}: {plan.model.about}"),
-        *((f"not {name}", why) for name, why in plan.refused.items() if plan.task.accuracy is None),
+        ("model", f"{plan.model.in_words()}: {plan.model.about}"),
+        *((f"not {titles[name]}", why) for name, why in plan.refused.items() if plan.task.accuracy is None),
         ("follows", ", ".join(sorted(plan.needed))),
         ("kernels", ", ".join(plan.kernels()) or "none"),
         ("keeps", f"{', '.join(plan.task.outputs)}: {plan.frames} frames of {len(plan.members)} {of}"),
@@ -19,12 +21,15 @@ def explained(plan: Plan) -> list[tuple[str, str]]:
     cost = predicted(plan)
     rows.append(("cost", _told(cost)))
     if plan.task.accuracy is None:
-        rows.append(("everything", _beside(plan, cost)))
-    units = len(plan.chunks) * len(plan.segments)
-    rows.append(
-        ("work", f"{units} unit{'s' if units > 1 else ''}: {len(plan.chunks)} × {len(plan.segments)}, balls × frames")
-    )
+        rows.append(("full model", _beside(plan, cost)))
+    rows.append(("work", _work(len(plan.chunks), len(plan.segments))))
     return rows
+
+
+def _work(balls: int, frames: int) -> str:
+    """Into how many chunks the balls, and the frames of each, are divided."""
+    chunks = f"{balls * frames} chunk{'s' if balls * frames > 1 else ''}"
+    return chunks if frames == 1 else f"{chunks}: {balls} of balls × {frames} of frames"
 
 
 def _beside(plan: Plan, cost: Cost) -> str:
@@ -33,9 +38,9 @@ def _beside(plan: Plan, cost: Cost) -> str:
     unknown = sorted(plan.needed - whole.model.columns)
     everything = predicted(whole)
     if unknown:
-        return f"{_told(everything)}, without {' and '.join(unknown)}, which it does not know"
+        return f"{_told(everything)}; it does not follow {' and '.join(unknown)}"
     ratios = _ratio(everything.seconds, cost.seconds), _ratio(everything.bytes, cost.bytes)
-    return f"{_told(everything)}: {ratios[0]} the time, {ratios[1]} the numbers"
+    return f"{_told(everything)}: {ratios[0]} time, {ratios[1]} storage"
 
 
 def _told(cost: Cost) -> str:
@@ -53,4 +58,4 @@ def seconds_told(seconds: float) -> str:
 
 
 def _ratio(more: float, less: float) -> str:
-    return f"{more / less:.1f} times" if less > 0 else "many times"
+    return f"{more / less:.1f}×" if less > 0 else "many×"

@@ -73,7 +73,7 @@ class StartTable(Table):
     axes: Literal["body", "space"] = Field("body", description="In which axes momentum or omega is given.")
     vertical_momentum: Moment | None = Field(None, description="h, for the momentum 𝒦 = hγ of one step.")
     velocity: Speeds2 | None = Field(None, description="Of the centre along x and y of the plane; the ball rolls.")
-    spin: Rate | None = Field(None, description="About the vertical, upwards, with velocity; 0 without.")
+    spin: Rate | None = Field(None, description="About the vertical, upwards, with velocity; default 0.")
     gamma: PureN | None = Field(
         None, description="The vertical, upwards, in body axes, a unit vector; 0, 0, 1 without."
     )
@@ -85,7 +85,7 @@ class StartTable(Table):
         "axes of space (extrinsic xyz; the same as about its own z, y', x'', intrinsic), so that the rotation from "
         "body to space is Rz(yaw) Ry(pitch) Rx(roll), as in URDF.",
     )
-    position: Lengths2 | None = Field(None, description="The contact point at the start; 0, 0 without.")
+    position: Lengths2 | None = Field(None, description="The contact point at the start; default 0, 0.")
 
     @model_validator(mode="after")
     def _one_motion(self) -> Self:
@@ -113,7 +113,7 @@ class BallTable(Table):
     mass: Mass | None = Field(None, description="Of the whole ball.")
     radius: Length | None = Field(None, description="Of the ball.")
     D: Moment | None = Field(None, description="m ρ², in the place of mass; 0 for a top.")
-    thickness: Length | None = Field(None, description="Of the shell; thin without. Presets shell and dumbbell.")
+    thickness: Length | None = Field(None, description="Of the shell; thin by default. Presets shell and dumbbell.")
     point_mass: Mass | None = Field(None, description="Each of the two masses of a dumbbell.")
     separation: Length | None = Field(None, description="Of the two masses of a dumbbell.")
     block_mass: Mass | None = Field(None, description="Of a bowling ball's block, beyond the core that it displaces.")
@@ -161,22 +161,22 @@ class RunTable(Table):
     time_step: Seconds | None = Field(
         None, description="ε; without it momentum is 𝒦 of one step, and there is no time."
     )
-    every: Whole | None = Field(None, description="Keep every so many steps; 1 without.")
+    every: Whole | None = Field(None, description="Keep every so many steps; default 1.")
     frames: Whole | None = Field(None, description="Keep so many states beside the start, in the place of every.")
-    outputs: tuple[Output, ...] | None = Field(None, description="What to keep; momentum and gamma without.")
+    outputs: tuple[Output, ...] | None = Field(None, description="What to keep; default momentum and gamma.")
     attitude: Switch = Field(False, description='Short for "attitude" in outputs.')
     contact: Switch = Field(False, description='Short for "contact" in outputs.')
     output: str | None = Field(None, description="Where the result is written.")
     order: Literal[2, 4, 6, 8] | None = Field(
-        None, description="Of the composition in the time step; 2, the map itself, without."
+        None, description="Of the composition in the time step; default 2, the map itself."
     )
     precision: Literal["single", "double", "double-double"] | None = Field(
-        None, description="Of the numbers: 7, 16 or 31 digits; double without."
+        None, description="Of the numbers: 7, 16 or 31 digits; default double."
     )
     map: Switch = Field(False, description="Whether the map is meant where a motion in time is given; else the ball.")
     accuracy: Accurate | None = Field(None, description="Of the motion: of the contact point (m) or the state.")
     of: Literal["state", "contact"] | None = Field(None, description="What the accuracy is of.")
-    limit: Seconds | None = Field(None, description="Of the processor, for a run to an accuracy; 600 s without.")
+    limit: Seconds | None = Field(None, description="Of the processor, for a run to an accuracy; default 600 s.")
 
     @field_validator("precision", mode="before")
     @classmethod

@@ -153,7 +153,7 @@ REFUSED_INPUT: dict[str, Sequence[Callable[[Level], object]]] = {
     "more frames than memory": (
         lambda level: trajectory(BALL, states.K, states.G, 10**15, precision=level.precision),
     ),
-    "a precision that is none": (
+    "invalid precision": (
         lambda level: trajectory(BALL, states.K, states.G, 1, precision="triple"),
     ),
 }  # fmt: skip

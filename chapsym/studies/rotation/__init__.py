@@ -13,16 +13,16 @@ from .words import sentences
 
 __all__ = ["CAPTIONS", "TITLE", "save_figures", "sentences", "study"]
 
-TITLE = "The rotation number of the reduced map, and its plateaus"
+TITLE = "The rotation number of the reduced map, and its mode locking"
 #: What each figure shows, in the order in which they are shown.
 CAPTIONS = {
-    "rotation-staircase.svg": "The rotation number against the level l. Left the ball: its staircase looks smooth, as "
-    "its steps are 1e-22 wide and less (inset: the one at 1/8). Right a top that is kicked on purpose: its steps show.",
+    "rotation-staircase.svg": "The rotation number against the level l: a devil's staircase. Left the ball: its steps "
+    "are 1e-22 wide and less (inset: the one at 1/8). Right a top that is kicked on purpose: its steps show.",
     "rotation-displacement.svg": "How far nine steps miss one half turn, along the circle where they make it in the "
     "mean. For D = 1 the displacement takes both signs, so the map locks; for D = 0 it is zero to all 60 digits.",
-    "rotation-widths.svg": "Widths of the plateaus: exponentially small in q beside a given rotation number, and "
-    "proportional to D² as D tends to 0 (lines: the law, without a fitted constant).",
-    "rotation-digits.svg": "The trade: the digits with which each plateau is seen first, and what a step costs then.",
+    "rotation-widths.svg": "Widths of the locked intervals (resonance tongues at fixed h): exponentially small in q "
+    "beside a given rotation number, and proportional to D² as D tends to 0 (lines: the law, no fitted constant).",
+    "rotation-digits.svg": "The digits with which each locked interval is seen first, and what a step costs then.",
     "rotation-numbers.svg": "Digits of the weighted Birkhoff average against steps, and the rotation number over "
     "levels and heights.",
 }

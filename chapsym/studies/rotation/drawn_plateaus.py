@@ -43,7 +43,7 @@ def staircase(found: dict[str, Any]) -> Picture:
     floor = 10.0 * np.ceil(-min(w for *_, w in widths) / 10 + 0.2)
     for axis in axes[2:]:
         axis.axhline(FLOAT64, color="0.35", linestyle=":", linewidth=1.3)
-        axis.set(ylim=(-floor, 1), xlabel="level l", ylabel="$\\log_{10}$ width of the plateau in l")
+        axis.set(ylim=(-floor, 1), xlabel="level l", ylabel="$\\log_{10}$ width of the locked interval in l")
     axes[2].text(
         0.99, FLOAT64 + 0.8, "float64 is blind below", transform=axes[2].get_yaxis_transform(), ha="right", color="0.3",
         fontsize=9.5,
@@ -85,7 +85,7 @@ def _inset(axis: Any, found: dict[str, Any]) -> None:
     inset.set_xlabel(f"$l-l_0$, $10^{{{power}}}$", fontsize=9, labelpad=1)
     inset.set_ylabel(f"$\\rho-1/8$, $10^{{{power}}}$", fontsize=9, labelpad=1)
     inset.tick_params(labelsize=8)
-    inset.text(0.04, 0.86, "the plateau at 1/8", transform=inset.transAxes, fontsize=9)
+    inset.text(0.04, 0.86, "locked at 1/8", transform=inset.transAxes, fontsize=9)
     middle = float(case["level"])
     axis.plot([middle], [1 / 8], "o", color="black", markersize=4.5)
     axis.annotate("1/8", (middle, 1 / 8), (-6, 4), textcoords="offset points", ha="right", fontsize=9.5)
@@ -178,7 +178,7 @@ def digits(found: dict[str, Any]) -> Picture:
     axes[0].plot(*zip(*seen, strict=True), "o", color=BLUE, markersize=4)
     axes[0].set(
         xlabel="$-\\log_{10}$ |displacement of $G^q$|, in half turns", ylabel="working digits needed", xlim=(0, far),
-        ylim=(0, far), title=f"Digits at which {len(seen)} plateaus are seen",
+        ylim=(0, far), title=f"Digits at which {len(seen)} locked intervals are seen",
     )  # fmt: skip
     rows = found["times"]
     axes[1].plot([x["digits"] for x in rows], [x["seconds"] * 1e6 for x in rows], "o-", color=RED, markersize=5)

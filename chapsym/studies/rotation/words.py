@@ -45,8 +45,8 @@ def _plateaus(found: dict[str, Any]) -> list[str]:
     needed = [x["needed"] for x in rows]
     above = min((n for n in needed if n > 15), default=16)
     return [
-        f"plateaus that were measured: {len(rows)}, each of positive width, in l from {power(min(widths))} to "
-        f"{power(max(widths))}",
+        f"locked intervals (resonance tongues at fixed h) measured: {len(rows)}, each of positive width, in l from "
+        f"{power(min(widths))} to {power(max(widths))}",
         f"seen with float64's 53 bits: {sum(n <= 15 for n in needed)} of them; the others need {above} to "
         f"{max(needed)} digits",
     ]

@@ -31,6 +31,7 @@ class Chosen(Model):
         self.tell, self.progress = tell, progress
 
     name = "chosen for the accuracy"
+    title = "automatic, accuracy-driven"
     about = "the cheapest precision, order and step that meet the accuracy, verified on the run"
     columns = frozenset({"momentum", "gamma", "attitude", "contact"})
     kernels = Rolling.kernels

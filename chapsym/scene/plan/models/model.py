@@ -28,6 +28,7 @@ class Model(ABC):
     """
 
     name: ClassVar[str]
+    title: ClassVar[str] = ""
     about: ClassVar[str]
     columns: ClassVar[frozenset[str]]
     kernels: ClassVar[Mapping[str, tuple[str, ...]]] = {}
@@ -35,6 +36,11 @@ class Model(ABC):
     whole: ClassVar[bool] = False
     unit_steps: ClassVar[int] = 2**27
     reduction: ClassVar[bool] = False
+
+    @classmethod
+    def in_words(cls) -> str:
+        """What a reader sees; `name` is what results and JSON have."""
+        return cls.title or cls.name
 
     @abstractmethod
     def refuses(self, members: Members, task: Task, needed: frozenset[str]) -> str | None:

@@ -18,6 +18,7 @@ class Top(Model):
     """`top_frames`: no step is taken."""
 
     name = "discrete top"
+    title = "Moser-Veselov discrete Euler top"
     about = "𝒦 runs around its curve by the same phase each step: every frame by Jacobi's functions, no step between"
     columns = frozenset({"momentum", "gamma", "attitude", "phase", "rotation_number"})
     kernels = {"momentum": ("curve_increment",), "gamma": ("transport",), "attitude": ("compose",)}  # noqa: RUF012
