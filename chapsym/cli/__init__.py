@@ -1,4 +1,4 @@
-"""The command: thin, one module for each subcommand, every room imported only when it is asked for.
+"""The command: thin, one module for each subcommand, every package imported only when it is asked for.
 
 Exit status: 0 done and proved; 1 a verdict or a check is not what it should be; 2 the input has no answer,
 or the command line is wrong; 130 interrupted; 141 nobody reads the output.

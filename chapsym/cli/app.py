@@ -67,7 +67,7 @@ def main() -> NoReturn:
 
 
 def _foreseen() -> tuple[type[Exception], ...]:
-    """The errors whose sentence is for the user; looked up only where there is an error, as --help needs no room."""
+    """The errors whose sentence is for the user; imported only where there is an error, so that --help is fast."""
     from chapsym.dynamics import BadInput, StepNotTaken
     from chapsym.files import CannotWrite
 

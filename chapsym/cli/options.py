@@ -30,7 +30,9 @@ Records = Annotated[
 Json = Annotated[bool, typer.Option("--json", help="Print one JSON object on standard output.")]
 
 
-MassTensor = Annotated[str | None, typer.Option("--mass-tensor", metavar="J1,J2,J3", help="J of Sections 4 and 5.")]
+MassTensor = Annotated[
+    str | None, typer.Option("--mass-tensor", metavar="J1,J2,J3", help="J: second moments of mass (pseudo-inertia).")
+]
 
 
 Inertia = Annotated[

@@ -82,9 +82,10 @@ def _brief(value: Any) -> str:
 
 @dataclass(frozen=True, eq=False, init=False)
 class Ball:
-    """A ball, or an array of balls, that rolls without slipping; its centre of mass is its centre.
+    """A ball, or an array of balls, that rolls without slipping; balanced: its centre of mass is its centre.
 
-    mass_tensor: J = (J1, J2, J3) of Sections 4 and 5, ∫ xᵢ² dm, shape (..., 3), in kg m².
+    mass_tensor: J = (J1, J2, J3) of Sections 4 and 5, ∫ xᵢ² dm, shape (..., 3), in kg m²: the diagonal of the
+        second-moment (pseudo-inertia) matrix of robotics, not of the inertia tensor.
     D: m ρ² in kg m², shape (...); D = 0 is the Euler top.
     radius: ρ in m; needed for the trace of the contact point only.
     axes: unit quaternions, (..., 4), that turn the principal axes of the body, in which J is, to the axes in which
