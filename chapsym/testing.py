@@ -20,14 +20,15 @@ from fractions import Fraction
 
 import numpy as np
 
-try:
-    from hypothesis import strategies as st
-except ModuleNotFoundError:
-    raise ModuleNotFoundError("chapsym.testing needs Hypothesis: pip install 'chapsym[test]'") from None
+from chapsym import extras
 
-from chapsym.dynamics import Ball
-from chapsym.dynamics.ball import Floats
-from chapsym.dynamics.loops.branch import small_rotation
+extras.need("test")
+
+from hypothesis import strategies as st  # noqa: E402
+
+from chapsym.dynamics import Ball  # noqa: E402
+from chapsym.dynamics.ball import Floats  # noqa: E402
+from chapsym.dynamics.loops.branch import small_rotation  # noqa: E402
 
 ROTATIONS = ("generic", "near identity", "near pi")
 BALLS = ("generic", "degenerate")

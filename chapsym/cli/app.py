@@ -69,9 +69,10 @@ def main() -> NoReturn:
 def _foreseen() -> tuple[type[Exception], ...]:
     """The errors whose sentence is for the user; imported only where there is an error, so that --help is fast."""
     from chapsym.dynamics import BadInput, StepNotTaken
+    from chapsym.extras import MissingExtra
     from chapsym.files import CannotWrite
 
-    return NotANumber, BadInput, StepNotTaken, CannotWrite
+    return NotANumber, BadInput, StepNotTaken, CannotWrite, MissingExtra
 
 
 def _plain(command: Any) -> Any:

@@ -45,14 +45,10 @@ def bench(
     """
     from chapsym.studies.harness import benchmark
 
-    try:
-        command = benchmark("command")
-    except ModuleNotFoundError as error:
-        fail(str(error), 2)
     told = (mass_tensor, inertia, contact, mass, radius)
     own = None
     if momentum is not None or any(value is not None for value in told):
         if momentum is None:
             fail("--momentum K1,K2,K3 goes with a ball of your own", 2)
         own = *ball_from(*told), rationals(momentum, "--momentum", 3), rationals(gamma, "--gamma", 3)
-    command.measure(sections or [], quick, output, as_json, own)
+    benchmark("command").measure(sections or [], quick, output, as_json, own)

@@ -32,7 +32,7 @@ def extremes(
 
     Example: chapsym extremes --quick -o extremes.html
     """
-    from chapsym import files
+    from chapsym import extras, files
     from chapsym.studies import extremes as study
 
     wanted = list(dict.fromkeys(groups or study.GROUPS))
@@ -43,6 +43,8 @@ def extremes(
         if output.suffix != ".html":
             fail(f"{str(output)!r}: the page must end in .html", 2)
         files.check_destination(output)
+    if output is not None or not as_json:
+        extras.need("report")
     with progress_bar("judging", study.rows(wanted)) as shown:
         cells = study.extremes(quick, groups=wanted, on_row=shown)
     matrix = study.as_json(cells, quick)

@@ -63,8 +63,9 @@ def quiet() -> None:
 
 def check_figure(output: Path, sections: Iterable[str], drawn: Iterable[str]) -> None:
     """Fails, before anything is measured, where a figure of these sections cannot be drawn or written."""
-    from chapsym import files
+    from chapsym import extras, files
 
+    extras.need("figures")
     if output.suffix not in FIGURES:
         fail(f"{str(output)!r}: a figure must end in {', '.join(FIGURES)}", 2)
     if not set(sections) & set(drawn):

@@ -38,10 +38,13 @@ def study(
     """
     from importlib import import_module
 
+    from chapsym import extras
     from chapsym.studies import units
 
     if name not in STUDIES:
         fail(f"there is no study {name!r}; there are {', '.join(STUDIES)}", 2)
+    if output is not None:
+        extras.need("figures")
     module = import_module(f"chapsym.studies.{name}")
     folder = None if output is None else units.folder(output)
     kept = None if folder is None else folder / f"{name}.jsonl"

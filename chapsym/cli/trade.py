@@ -231,7 +231,7 @@ def _study(wanted: list[str], quick: bool, output: Path | None, as_json: bool) -
     for name in sections:
         try:
             found[name] = study.measure(name, quick, say)
-        except (NotComparable, ModuleNotFoundError) as error:
+        except NotComparable as error:
             quiet()
             fail(f"trade {name}: {error}", 1)
     quiet()

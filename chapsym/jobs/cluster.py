@@ -7,6 +7,7 @@ from concurrent.futures import CancelledError
 from contextlib import contextmanager
 from typing import Any
 
+from chapsym import extras
 from chapsym.dynamics import BadInput
 
 from .chains import Call
@@ -78,6 +79,7 @@ class Workers:
 
 @contextmanager
 def _client(address: str) -> Iterator[Any]:
+    extras.need("cluster")
     from distributed import Client
     from distributed.comm import parse_address, parse_host_port
 
@@ -95,8 +97,10 @@ def _client(address: str) -> Iterator[Any]:
         client = Client(address, timeout=REACHED, set_as_default=False)
     except (OSError, TimeoutError):
         raise BadInput(f"no Dask scheduler answers at {address} (waited {REACHED:.0f} s)") from None
-    except (ValueError, TypeError, ImportError) as error:
+    except (ValueError, TypeError) as error:
         raise BadInput(f"{wrong}: {error}") from None
+    except ImportError as error:
+        raise BadInput(f"what speaks to {address} cannot be imported: {error}") from None
     try:
         with client.as_current():
             yield client

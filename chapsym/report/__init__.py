@@ -2,9 +2,13 @@
 
 from collections.abc import Callable, Mapping, Sequence
 
-from . import errata, errata_json, page
-from .errata_json import Entry, NotErrata, entries
-from .records import Record, counts, unproved
+from chapsym import extras
+
+extras.need("report")
+
+from . import errata, errata_json, page  # noqa: E402
+from .errata_json import Entry, NotErrata, entries  # noqa: E402
+from .records import Record, counts, unproved  # noqa: E402
 
 __all__ = ["WRITERS", "NotErrata", "counts", "entries", "unproved"]
 

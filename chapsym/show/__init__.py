@@ -1,1 +1,5 @@
 """Results for the eye: figures and the rolling ball."""
+
+from chapsym import extras
+
+extras.need("figures")

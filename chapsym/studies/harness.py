@@ -18,6 +18,9 @@ from typing import Any
 
 import numpy as np
 
+from chapsym import extras
+from chapsym.dynamics import BadInput
+
 #: The packages whose versions belong to a measurement.
 NAMED = ("chapsym", "numpy", "numba", "llvmlite", "scipy", "heyoka")
 
@@ -95,6 +98,7 @@ def _seconds(contender: Contender) -> float:
 @contextmanager
 def cores(count: int) -> Iterator[None]:
     """Keeps every thread of this process, and numba's, to `count` cores, where the system can do that."""
+    extras.need("fast")
     import numba
 
     before, threads = _affinity(), numba.get_num_threads()
@@ -135,9 +139,10 @@ def installed(package: str) -> str | None:
 
 
 def benchmark(module: str) -> Any:
-    """A module of the benchmarks; raises ModuleNotFoundError, with a sentence, where they are not."""
+    """A module of the benchmarks; raises BadInput where they are not, and MissingExtra."""
     if not (BENCHMARKS / "gibbs.c").is_file():
-        raise ModuleNotFoundError("the benchmarks are not in the wheel; run them from a checkout")
+        raise BadInput("the benchmarks are not in the wheel; run them from a checkout")
+    extras.need("fast")
     return import_module(f"benchmarks.{module}")
 
 

@@ -300,9 +300,8 @@ def test_a_wheel_has_no_benchmarks_and_says_so(monkeypatch, tmp_path):
     """As seen by the commands that run them; a folder beside the wheel that has the name is not taken for ours."""
     (tmp_path / "benchmarks").mkdir()
     monkeypatch.setattr(harness, "BENCHMARKS", tmp_path / "benchmarks")
-    for command, status in ((["bench", "trajectory"], 2), (["trade", "kernels", "--quick"], 1)):
-        told = refused(*command, status=status)
-        assert told.endswith("the benchmarks are not in the wheel; run them from a checkout")
+    for command in (["bench", "trajectory"], ["trade", "kernels", "--quick"]):
+        assert refused(*command) == "the benchmarks are not in the wheel; run them from a checkout"
 
 
 def test_the_command_prints_json_or_a_table(monkeypatch):

@@ -81,7 +81,7 @@ def sizes(plan: Plan) -> dict[str, int]:
 def build(plan: Plan, columns: Mapping[str, Any], state: Mapping[str, Any]) -> "Dataset":
     """The result of a plan.
 
-    columns: the outputs of all balls and frames, (balls, frames, ...), in the axes given; arrays, or Dask's.
+    columns: the outputs of all balls and frames, (balls, frames, ...), in the axes given.
     state: `taken` and `status` after the last frame, (balls,), and `error` of a run to an accuracy.
     The Dataset has no other values than those, the plan's, and the version's: the same run gives the same bits.
     """

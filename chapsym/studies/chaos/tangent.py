@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from chapsym import extras
 from chapsym.dynamics.loops.gibbs import HEAVY
 from chapsym.dynamics.loops.loop import ROWS, D, G, I, K, prepare, put, safe_rotation, three
 from chapsym.generated import energy, gibbs_newton, turn
@@ -143,6 +144,7 @@ def follow_all(momenta, gammas, tensor, contact, steps, rows):
 
 @cache
 def _compiled() -> Callable[..., Any]:
+    extras.need("fast")
     from numba.extending import register_jitable
 
     from chapsym.dynamics.levels.compiled import compiled

@@ -3,13 +3,14 @@
 import os
 import shutil
 import time
+import warnings
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 from ...plan.plan import Plan
 from ...result.dataset import build, layout, sizes
+from ...result.flat import plain
 from . import marks
 from .refusals import refusals
 
@@ -80,29 +81,41 @@ def _alive(pid: int) -> bool:
 
 def _fill(path: Path, plan: Plan) -> None:
     """The group with all metadata and coordinates; of the values only that there are none yet."""
-    from dask.array import full
-
-    length = sizes(plan)
-    units = {"ball": _length(plan.chunks), "frame": _length(plan.segments)}
-    columns: dict[str, Any] = {}
-    encoding: dict[str, Any] = {}
-    for name, one in layout(plan).items():
-        shape = tuple(length[dim] for dim in one.dims)
-        chunks = tuple(units.get(dim, length[dim]) for dim in one.dims)
-        columns[name] = full(shape, one.missing, dtype=one.dtype, chunks=chunks)
-        encoding[name] = {"chunks": chunks, "fill_value": one.missing}
-    template = build(plan, columns, columns).assign_attrs(complete=False)
-    _to_zarr(template, path, encoding)
+    variables, length = layout(plan), sizes(plan)
+    none = {
+        name: np.broadcast_to(np.array(one.missing, one.dtype), [length[dim] for dim in one.dims])
+        for name, one in variables.items()
+    }
+    whole = build(plan, none, none).assign_attrs(complete=False)
+    whole.drop_vars(variables).to_zarr(path, zarr_format=3, consolidated=False)
+    _add_arrays(path, plan)
+    _consolidate(path)
     marks.folder(path).mkdir()
 
 
-def _to_zarr(template: Any, path: Path, encoding: dict[str, Any]) -> None:
-    import warnings
+def _add_arrays(path: Path, plan: Plan) -> None:
+    """The variables, without values, each unit a chunk."""
+    import zarr
+
+    length, units = sizes(plan), {"ball": _length(plan.chunks), "frame": _length(plan.segments)}
+    group = zarr.open_group(path, mode="r+", use_consolidated=False)
+    for name, one in layout(plan).items():
+        shape = tuple(length[dim] for dim in one.dims)
+        chunks = tuple(units.get(dim, length[dim]) for dim in one.dims)
+        group.create_array(
+            name, shape=shape, chunks=chunks, dtype=one.dtype, fill_value=one.missing, dimension_names=one.dims,
+            attributes=plain(one.attrs),
+        )  # fmt: skip
+
+
+def _consolidate(path: Path) -> None:
+    """One file of all metadata."""
+    import zarr
 
     with warnings.catch_warnings():
-        # Zarr says that other readers may not know its one file of all metadata; they read those of each array.
+        # Zarr says that other readers may not know it; they read those of each array.
         warnings.filterwarnings("ignore", message="Consolidated metadata")
-        template.to_zarr(path, compute=False, zarr_format=3, consolidated=True, encoding=encoding)
+        zarr.consolidate_metadata(path, zarr_format=3)
 
 
 def _length(slices: list[slice]) -> int:

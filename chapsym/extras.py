@@ -1,0 +1,27 @@
+"""What chapsym needs beside its core for some of what it does: the extras, and the sentence where one is absent."""
+
+from importlib.util import find_spec
+
+#: extra: what needs it, and the packages that it is made of; a test compares them with the project's metadata.
+EXTRAS = {
+    "fast": ("compiled loops need", ("numba",)),
+    "scenes": ("scenes and their results need", ("pydantic", "pint", "xarray", "zarr", "h5netcdf", "pyarrow")),
+    "figures": ("figures and rolling pages need", ("matplotlib", "jinja2")),
+    "cluster": ("a Dask cluster needs", ("distributed",)),
+    "report": ("the pages of a report need", ("jinja2", "latex2mathml")),
+    "test": ("chapsym.testing needs", ("hypothesis",)),
+}
+
+
+class MissingExtra(ImportError):
+    """An extra is not installed: what needs it, the packages that are absent, and the command that installs them."""
+
+
+def need(extra: str) -> None:
+    """Raises MissingExtra unless all packages of an extra are there; none is imported."""
+    what, packages = EXTRAS[extra]
+    absent = [package for package in packages if find_spec(package) is None]
+    if absent:
+        *some, last = absent
+        listed, are = (f"{', '.join(some)} and {last}", "are") if some else (last, "is")
+        raise MissingExtra(f"{what} {listed}, which {are} not installed: pip install 'chapsym[{extra}]'")
