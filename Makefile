@@ -45,9 +45,11 @@ release-check: $(VENV)/.installed
 	@$(BIN)/python .ci/release_check.py
 
 # The editable install maps generated/ and proofs/ into the package; it is renewed when the metadata change.
+# Dependency groups are known to pip from 25.1 on.
 $(VENV)/.installed: pyproject.toml constraints.txt
 	$(PYTHON) -m venv $(VENV)
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt -e '.[dev]'
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt 'pip>=25.1'
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt -e '.[all,test,docs]' --group dev
 	@touch $@
 
 clean:

@@ -17,6 +17,7 @@ ROOMS = {
     "checker": set(),  # of certificates: the standard library only, see below
     "generated": {"numbers"},  # double_double.py is made of double-double operations
     "rationals": set(),
+    "extras": set(),
     "files": set(),
     "workers": set(),
     "renamed": set(),
@@ -28,26 +29,17 @@ ROOMS = {
     "dynamics": {"generated", "numbers"},
     "certificates": {"checker", "dynamics", "rationals", "files", "generated", "numbers"},
     "accuracy": {"dynamics", "files", "generated", "numbers", "renamed"},
-    "jobs": {"dynamics", "workers"},
-    "scene": {"accuracy", "dynamics", "rationals", "files", "generated", "jobs", "numbers"},
+    "jobs": {"dynamics", "extras", "workers"},
+    "scene": {"accuracy", "dynamics", "rationals", "extras", "files", "generated", "jobs", "numbers"},
     "studies": {
-        "accuracy",
-        "files",
-        "generated",
-        "jobs",
-        "numbers",
-        "dynamics",
-        "scene",
-        "show",
-        "sources",
-        "workers",
-        "renamed",
+        "accuracy", "dynamics", "extras", "files", "generated", "jobs", "numbers", "renamed", "scene", "show",
+        "sources", "workers",
     },
     "proofs": {"certificates", "checker", "derive", "dynamics", "prove"},
-    "report": {"files", "renamed"},
-    "show": {"dynamics", "files", "scene"},
-    "testing": {"dynamics"},
-}
+    "report": {"extras", "files", "renamed"},
+    "show": {"dynamics", "extras", "files", "scene"},
+    "testing": {"dynamics", "extras"},
+}  # fmt: skip
 SYMPY_ROOMS = {"derive", "prove", "codegen", "proofs"}
 
 

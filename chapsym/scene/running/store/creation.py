@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from ...plan.plan import Plan
+from ...read.task import Columns
 from ...result.dataset import build, layout, sizes
 from ...result.flat import plain
 from . import marks
@@ -82,7 +83,7 @@ def _alive(pid: int) -> bool:
 def _fill(path: Path, plan: Plan) -> None:
     """The group with all metadata and coordinates; of the values only that there are none yet."""
     variables, length = layout(plan), sizes(plan)
-    none = {
+    none: Columns = {
         name: np.broadcast_to(np.array(one.missing, one.dtype), [length[dim] for dim in one.dims])
         for name, one in variables.items()
     }

@@ -1,0 +1,186 @@
+"""What is declared is imported, and the reverse; the core works alone; what needs an extra names it in a sentence."""
+
+import json
+import re
+import subprocess
+import sys
+import tomllib
+from contextlib import suppress
+from functools import cache
+from importlib.metadata import PackageNotFoundError, packages_distributions, requires
+from pathlib import Path
+
+import pytest
+import typer
+from imported import imported, modules
+
+from chapsym.cli.app import app
+from chapsym.extras import EXTRAS, MissingExtra, need
+
+ROOT = Path(__file__).parents[1]
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+#: What is there wherever it is imported: a notebook's shell.
+HOSTS = {"ipython"}
+RUNTIME = ("fast", "scenes", "figures", "cluster", "report")
+#: The packages of all extras, by the names under which they are imported.
+BESIDE = {package for extra in RUNTIME for package in EXTRAS[extra][1]}
+INPUT = ["--mass-tensor", "1,2,4", "--D", "3", "--momentum", "1,-1/2,3/4", "--gamma", "2/7,3/7,6/7"]
+
+
+def normal(name):
+    return re.sub(r"[-_.]+", "-", name).lower()
+
+
+def named(requirements):
+    """The distributions of requirements, without chapsym's own extras."""
+    return {normal(re.match(r"[\w.-]+", one).group()) for one in requirements} - {"chapsym"}
+
+
+def declared(*extras):
+    """The distributions of the core and of these extras."""
+    return named(PROJECT["dependencies"]).union(*(named(PROJECT["optional-dependencies"][extra]) for extra in extras))
+
+
+@cache
+def third_party(folder):
+    """The distributions whose packages the files of a folder import, lazily or not."""
+    known = modules(folder, folder.name)
+    for link in filter(Path.is_symlink, folder.iterdir()):
+        known |= modules(link, f"{folder.name}.{link.name}")
+    inside = {"chapsym", "benchmarks", *(path.stem for path in folder.glob("*.py"))}
+    tops = {other.split(".")[0] for name, path in known.items() for other in imported(name, path, known)}
+    owners = packages_distributions()
+    return {normal(owner) for top in tops - set(sys.stdlib_module_names) - inside for owner in owners.get(top, [top])}
+
+
+def offered(distributions):
+    """They, and what each that is installed requires itself: cycler of matplotlib, MarkupSafe of Jinja2."""
+    found = set(distributions)
+    for one in distributions:
+        with suppress(PackageNotFoundError):  # a peer of the benchmarks
+            found |= named(line for line in requires(one) or () if "extra ==" not in line)
+    return found
+
+
+@pytest.mark.parametrize(
+    ("folder", "extras"), [("chapsym", RUNTIME), ("benchmarks", (*RUNTIME, "bench")), ("tests", (*RUNTIME, "test"))]
+)
+def test_what_is_imported_is_declared(folder, extras):
+    allowed = offered(declared(*extras)) | HOSTS | named(EXTRAS["test"][1])
+    assert third_party(ROOT / folder) <= allowed
+
+
+def test_what_is_declared_is_imported():
+    formats = (ROOT / "chapsym" / "scene" / "result" / "formats.py").read_text(encoding="utf-8")
+    by_xarray = set(re.findall(r'engine="(\w+)"', formats))
+    assert declared(*RUNTIME) <= third_party(ROOT / "chapsym") | by_xarray
+    assert declared("bench") <= third_party(ROOT / "benchmarks") | third_party(ROOT / "chapsym")
+
+
+@pytest.mark.parametrize("extra", EXTRAS)
+def test_the_sentence_of_an_extra_tells_of_what_it_installs(extra):
+    owners = {normal(owner) for package in EXTRAS[extra][1] for owner in packages_distributions()[package]}
+    wanted = named(PROJECT["optional-dependencies"][extra])
+    assert owners == wanted or (extra == "test" and owners < wanted)
+
+
+def test_an_absent_package_is_told_with_its_extra_and_a_present_one_is_not(monkeypatch):
+    need("scenes")
+    for absent, told in (
+        (["pint"], "scenes and their results need pint, which is not installed: pip install 'chapsym[scenes]'"),
+        (["pint", "zarr"], "scenes and their results need pint and zarr, which are not installed: pip install "),
+    ):
+        for name in absent:
+            monkeypatch.setitem(sys.modules, name, None)
+        with pytest.raises(MissingExtra, match=re.escape(told)):
+            need("scenes")
+
+
+CHILD = """
+import json, sys
+sys.modules.update(dict.fromkeys(json.loads(sys.argv[1])))
+import commands
+found = {}
+for one in json.loads(sys.argv[2]):
+    done = commands.chapsym(*one)
+    found[" ".join(one)] = done.returncode, done.stdout, done.stderr
+import chapsym
+ball = chapsym.Ball((1, 2, 4), 3, radius=0.1)
+path = chapsym.trajectory(ball, (.1, .2, -.1), (2/7, 3/7, 6/7), 3000, attitude=True, time_step=0.01)
+rolled = chapsym.roll(ball, omega=(2.0, 30.0, 5.0), time_step=1e-3, steps=40, contact=True)
+many = chapsym.step(ball, [(.1 * i, .2, 0) for i in range(100)], (2/7, 3/7, 6/7))
+found["bits"] = [x.tobytes().hex() for x in (path.momentum[-1], path.attitude[-1], rolled.contact[-1], many.momentum)]
+try:
+    chapsym.run_scene({})
+except Exception as error:
+    found["run_scene"] = f"{type(error).__name__}: {error}"
+print(json.dumps(found))
+"""
+
+
+def found_without(absent, *commands):
+    """What the commands and the Python of `CHILD` do in a process that has not the packages `absent`.
+
+    What the core itself requires as it is installed here, as typer from 0.29 on does pydantic, cannot be taken away.
+    """
+    absent = sorted(name for name in absent if normal(name) not in offered(declared()))
+    arguments = [sys.executable, "-c", CHILD, json.dumps(absent), json.dumps(commands)]
+    done = subprocess.run(arguments, capture_output=True, text=True, cwd=ROOT / "tests", check=False)
+    assert done.returncode == 0, done.stderr
+    return json.loads(done.stdout)
+
+
+def test_the_core_alone_does_its_work_and_what_needs_more_names_the_extra(tmp_path):
+    work = [["step", *INPUT, "--digits", "50", "--json"], ["branches", *INPUT, "--json"], ["prove", "prop-2"]]
+    names = [[], *([name] for name in typer.main.get_command(app).commands)]
+    helps = [[*name, "--help"] for name in names]
+    scene, figure = str(ROOT / "docs" / "first.toml"), str(tmp_path / "x.svg")
+    refused = {
+        "scenes": (
+            ["run", scene, "-o", str(tmp_path / "x.npz")], ["scene", "new", str(tmp_path / "x.toml")],
+            ["scene", "check", scene], ["scene", "schema"], ["trade", "--accuracy", "1e-8", "--time", "10"],
+        ),
+        "figures": (
+            ["show", scene, "-o", str(tmp_path)], ["trade", "rounding", "-o", figure],
+            ["study", "rotation", "--quick", "-o", str(tmp_path)],
+        ),
+        "report": (["report", "-o", str(tmp_path / "x.html")], ["extremes", "--quick"]),
+        "fast": (["trade", "requests", "--quick"], ["bench", "trajectory", "--quick"], ["study", "chaos", "--quick"]),
+        "cluster": (["study", "rotation", "--quick", "--scheduler", "tcp://127.0.0.1:9"],),
+    }  # fmt: skip
+    everything = [*work, *helps, *(one for those in refused.values() for one in those)]
+    alone = found_without(BESIDE, *everything)
+    for one in (*work, *helps):
+        assert alone[" ".join(one)][::2] == [0, ""], alone[" ".join(one)]
+    for extra, those in refused.items():
+        for one in those:
+            status, said, told = alone[" ".join(one)]
+            assert (status, said, told.count("\n")) == (2, "", 1), (one, status, said, told)
+            assert re.match(rf"chapsym: .* not installed: pip install 'chapsym\[{extra}\]'\n", told), told
+    assert not list(tmp_path.iterdir())
+    assert re.match(r"MissingExtra: .*pip install 'chapsym\[figures\]'", alone["run_scene"])
+    assert alone["bits"] == found_without([])["bits"]
+
+
+def test_a_scene_runs_and_is_stored_with_no_extra_but_its_own(tmp_path):
+    """To every format, and a store is gone on with."""
+    absent = {*BESIDE, "dask"} - set(EXTRAS["scenes"][1])
+    scene = (ROOT / "docs" / "first.toml").read_text(encoding="utf-8")
+    (tmp_path / "s.toml").write_text(re.sub(r"steps = \d+", "steps = 200", scene), encoding="utf-8")
+    outputs = [str(tmp_path / f"x.{end}") for end in ("zarr", "nc", "csv", "parquet", "npz", "zarr")]
+    runs = [["run", str(tmp_path / "s.toml"), "-o", output] for output in outputs]
+    found = found_without(absent, *runs)
+    assert all(found[" ".join(one)][0] == 0 for one in runs), found
+    assert "was complete already" in found[" ".join(runs[0])][1]
+
+
+def test_what_fails_to_load_for_another_reason_is_not_told_as_absent(tmp_path):
+    (tmp_path / "pint.py").write_text("raise ImportError('a library of pint is damaged')")
+    program = (
+        f"import sys; sys.path.insert(0, {str(tmp_path)!r})\n"
+        "import chapsym.scene.read.units as units\n"
+        "try:\n    units.number('3 cm', units.LENGTH)\n"
+        "except ValueError as error:\n    print(error)"
+    )
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    assert done.stdout.strip().endswith("cannot be loaded: a library of pint is damaged")
