@@ -151,7 +151,8 @@ def test_the_core_alone_does_its_work_and_what_needs_more_names_the_extra(tmp_pa
     everything = [*work, *helps, *(one for those in refused.values() for one in those)]
     alone = found_without(BESIDE, *everything)
     for one in (*work, *helps):
-        assert alone[" ".join(one)][::2] == [0, ""], alone[" ".join(one)]
+        status, _, told = alone[" ".join(one)]
+        assert (status, told.strip()) == (0, ""), (one, told)
     for extra, those in refused.items():
         for one in those:
             status, said, told = alone[" ".join(one)]

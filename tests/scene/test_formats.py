@@ -58,7 +58,8 @@ def test_a_result_comes_back_to_the_bit(result, tmp_path, suffix):
 def test_plain_readers_have_the_same_numbers(result, tmp_path):
     for suffix in FILES:
         formats.save(result.isel(ball=slice(6, None)), tmp_path / f"run{suffix}")
-    table = pandas.read_csv(tmp_path / "run.csv", comment="#")
+    exactly = {} if int(pandas.__version__.split(".")[0]) >= 3 else {"float_precision": "round_trip"}
+    table = pandas.read_csv(tmp_path / "run.csv", comment="#", **exactly)
     assert list(table.columns[:4]) == ["ball", "step", "time", "start.omega.1"]
     wanted = result.isel(ball=slice(6, None))
     for frame in (table, pandas.read_parquet(tmp_path / "run.parquet")):

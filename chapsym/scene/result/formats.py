@@ -158,7 +158,12 @@ def _read_zarr(path: Path) -> "Dataset":
     check_ours(path)
     with warnings.catch_warnings():  # of a group that lacks what it should have, which is told in a sentence
         warnings.filterwarnings("ignore", message="Failed to open Zarr store with consolidated metadata")
-        return xarray.open_zarr(path)
+        data = xarray.open_zarr(path)
+    for one in data.variables.values():
+        # Older versions of Zarr and xarray would write texts to other formats in NumPy's own type, which none takes.
+        if getattr(one.encoding.get("dtype"), "kind", "") == "T":
+            del one.encoding["dtype"]
+    return data
 
 
 def _read_netcdf(path: Path) -> "Dataset":
