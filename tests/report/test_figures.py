@@ -437,7 +437,7 @@ def test_pyplot_is_not_touched():
     assert done.stdout.split() == ["False"]
 
 
-@pytest.mark.filterwarnings("error")
+@pytest.mark.filterwarnings("error", "ignore::DeprecationWarning")
 def test_a_name_that_the_font_has_not_is_drawn_without_warnings(tmp_path):
     ball = {"name": "球", "inertia": [0.006, 0.007, 0.009], "mass": 2, "radius": 0.1}
     scene = {"ball": [ball, ball | {"name": "b"}], "start": {"omega": [1, 2, 3]}, "run": {"time_step": 0.1, "steps": 3}}
@@ -454,7 +454,7 @@ def test_the_only_frame_of_a_ball_is_seen():
         assert all(line.get_marker() == "o" for line in drawn)
 
 
-@pytest.mark.filterwarnings("error")
+@pytest.mark.filterwarnings("error", "ignore::DeprecationWarning")
 def test_phases_of_balls_that_have_not_run_yet_are_drawn_without_a_warning():
     u = np.array([np.linspace(0.0, 1.0, 9), np.full(9, np.nan)])
     gained, known = phase.gains(u, np.ones(8), None, None)

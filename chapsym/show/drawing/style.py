@@ -57,7 +57,7 @@ def write(figure: Figure, stream: IO[bytes], form: str) -> None:
     """The bytes of a figure, "svg", "png" or "pdf": the same for the same data."""
     with styled(), warnings.catch_warnings():
         # A name in a script that the font has not: drawn as boxes, of which matplotlib would tell five times.
-        warnings.filterwarnings("ignore", message="Glyph .* missing from font")
+        warnings.filterwarnings("ignore", message="Glyph .* missing from")
         metadata = {"svg": ("Date", "Creator"), "png": ("Software",), "pdf": ("CreationDate", "Creator", "Producer")}
         figure.savefig(stream, format=form, metadata=dict.fromkeys(metadata[form]))
 
