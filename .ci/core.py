@@ -1,6 +1,5 @@
 """What the core alone is and does, run by the Python of an environment that has the wheel and no extra."""
 
-import os
 import subprocess
 import sys
 import sysconfig
@@ -71,7 +70,8 @@ path = chapsym.trajectory(ball, **start, steps=1000)
 assert (path.momentum[1] == one.momentum).all()
 assert abs((path.momentum * path.gamma).sum(axis=1) - path.momentum[0] @ path.gamma[0]).max() < 1e-14
 rolled = chapsym.roll(ball, omega=(2.0, 30.0, 5.0), time_step=1e-3, steps=100, contact=True)
-assert rolled.contact is not None and rolled.contact.shape == (101, 2)
+assert rolled.contact is not None
+assert rolled.contact.shape == (101, 2)
 assert chapsym.branches(ball, **start).complete
 
 many = chapsym.step(ball, path.momentum, path.gamma)
