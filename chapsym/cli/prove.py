@@ -33,7 +33,11 @@ def prove(
     claims = all_claims(lemmas=True)
     unknown = [id for id in ids or [] if id not in claims]
     if unknown:
-        fail(f"no proof judges the claim {unknown[0]!r}; chapsym prove --list names those that are judged", 2)
+        fail(
+            f"no proof judges the claim {unknown[0]!r}; chapsym prove --list names those that are judged, "
+            "and a claim of your own is judged by its script: python SCRIPT.py",
+            2,
+        )
     if listing:
         _list_claims(claims, as_json, kept_in)
         return

@@ -77,6 +77,10 @@ class Judgement:
         }
 
 
+class TwoProofs(ValueError):
+    """An id that another proof judges already."""
+
+
 _REGISTER: dict[str, Claim] = {}
 
 
@@ -88,7 +92,7 @@ def claim(
     def register(prove: Callable[[Proof], None]) -> Callable[[Proof], None]:
         if prove.__module__ != "__main__":  # a script that runs alone is run through its package name
             if id in _REGISTER:
-                raise ValueError(f"two proofs judge the claim {id}")
+                raise TwoProofs(f"two proofs judge the claim {id}")
             _REGISTER[id] = Claim(id, printed, tuple(uses), prove, tuple(files))
         return prove
 

@@ -1,6 +1,6 @@
 """Finds the proofs, runs them side by side, and prints what they found."""
 
-import importlib
+import importlib.util
 import multiprocessing
 import os
 import sys
@@ -13,7 +13,7 @@ from typing import Any
 
 from chapsym import workers
 
-from .claims import Claim, Judgement, register
+from .claims import Claim, Judgement, TwoProofs, register
 from .evidence import Proof, Verdict
 from .records import fingerprint
 
@@ -71,7 +71,11 @@ def prove_one(id: str) -> dict[str, Any]:
 def _record(judgement: Judgement) -> dict[str, Any]:
     """With what is downstream of a claim of the paper in the paper, and of a lemma anywhere."""
     id, paper = judgement.claim.id, load()
-    record = judgement.record(downstream(id, paper if id in paper else load(lemmas=True)))
+    return _fingerprinted(judgement, downstream(id, paper if id in paper else load(lemmas=True)))
+
+
+def _fingerprinted(judgement: Judgement, users: Sequence[str]) -> dict[str, Any]:
+    record = judgement.record(users)
     record["evidence"]["fingerprint"] = fingerprint(judgement.claim)
     return record
 
@@ -155,13 +159,40 @@ def explain(record: dict[str, Any]) -> str:
 
 
 def main(script: str) -> None:
-    """Runs the claims of one proof script, prints their derivations, and exits 1 if one is not proved."""
+    """Runs the claims of one proof script, prints their derivations, and exits 1 if one is not proved.
+
+    script: `__file__` of a script of `chapsym.proofs`, or of one of your own, anywhere, with ids of its own.
+    """
     claims = load(lemmas=True)
     name = next((name for name in _scripts() if Path(str(sys.modules[name].__file__)).samefile(script)), None)
     if name is None:
-        sys.exit(f"{script} is not an installed proof of chapsym; install this checkout first (pip install -e .)")
+        own = _claims_of(Path(script), claims)
+        sys.exit(report([_fingerprinted(judge(claim), downstream(id, own)) for id, claim in own.items()]))
     records = [prove_one(id) for id, claim in claims.items() if claim.prove.__module__ == name]
     sys.exit(report(records))
+
+
+def _claims_of(script: Path, judged: dict[str, Claim]) -> dict[str, Claim]:
+    """The claims of a user's own script, which is imported for them; exits with a sentence if it cannot be."""
+    name = f"claims_of_{script.stem}"
+    spec = importlib.util.spec_from_file_location(name, script)
+    assert spec is not None
+    assert spec.loader is not None
+    sys.modules[name] = module = importlib.util.module_from_spec(spec)
+    try:
+        spec.loader.exec_module(module)
+    except TwoProofs as error:
+        sys.exit(
+            f"{script}: {error}; give yours an id of its own, "
+            "or install this checkout first (pip install -e .) if it is a script of chapsym"
+        )
+    own = {id: claim for id, claim in register().items() if id not in judged}
+    if not own:
+        sys.exit(f"{script} has no claim: write @claim(id, formula) before a function of a Proof")
+    for id, claim in own.items():
+        if missing := [other for other in claim.uses if other not in own | judged]:
+            sys.exit(f"{script}: {id} uses {missing[0]!r}, which no proof judges")
+    return own
 
 
 def report(records: Iterable[dict[str, Any]]) -> int:

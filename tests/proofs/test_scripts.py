@@ -8,7 +8,7 @@ import pytest
 
 import chapsym.proofs
 from chapsym.derive import ball
-from chapsym.prove import main, runner
+from chapsym.prove import claims, load, main, runner
 
 FOLDER = Path(chapsym.proofs.__file__).parent
 LAST_LINES = 'if __name__ == "__main__":\n    main(__file__)\n'
@@ -63,8 +63,59 @@ def test_a_script_whose_proof_fails_exits_1(monkeypatch, capsys):
     assert "verdict: OPEN" in said
 
 
-def test_a_copy_of_a_script_is_not_mistaken_for_the_installed_one(tmp_path):
+@pytest.fixture
+def forgotten(monkeypatch):
+    """Claims that a test registers are those of the test only."""
+    load(lemmas=True)
+    monkeypatch.setattr(claims, "_REGISTER", claims.register())
+    monkeypatch.setattr(sys, "modules", sys.modules.copy())
+
+
+OWN = '''
+import sympy as sp
+from chapsym.derive.quotient import Quotient
+from chapsym.prove import claim, equations, main
+
+x, y = sp.symbols("x y")
+equal = equations(Quotient((x, y)))
+
+@claim("my-1", "x^2 - y^2 = (x - y)(x + y)", uses=("5.2",))
+def squares(p):
+    """A difference of squares."""
+    p.printed(equal("x² - y² = (x - y)(x + y)", x**2 - y**2, (x - y) * (x + y)))
+    p.control(equal("the same with x² + y²", x**2 + y**2, (x - y) * (x + y)))
+
+if __name__ == "__main__":
+    main(__file__)
+'''
+
+
+@pytest.mark.parametrize(("right", "status", "verdict"), [("(x - y)", 0, "HOLDS"), ("(x - 2*y)", 1, "OPEN")])
+def test_a_script_of_ones_own_is_judged_anywhere(right, status, verdict, forgotten, tmp_path, capsys):
+    script = tmp_path / "mine.py"
+    script.write_text(OWN.replace("(x - y) *", f"{right} *"), encoding="utf-8")
+    found, said = printed_by(script, capsys)
+    assert (found, said.count("[my-1]")) == (status, 1)
+    assert f"verdict: {verdict}" in said
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "sentence"),
+    [
+        ("my-1", "4.1", r"two proofs judge the claim 4.1; give yours an id of its own"),
+        ("5.2", "5.2000", r"my-1 uses '5.2000', which no proof judges"),
+        ("@claim", "#", r"has no claim: write @claim"),
+    ],
+)
+def test_what_is_wrong_with_a_script_of_ones_own_is_a_sentence(old, new, sentence, forgotten, tmp_path):
+    script = tmp_path / "mine.py"
+    script.write_text(OWN.replace(old, new), encoding="utf-8")
+    with pytest.raises(SystemExit, match=sentence):
+        main(str(script))
+
+
+def test_a_copy_of_a_script_is_not_mistaken_for_the_installed_one(forgotten, tmp_path):
     copy = tmp_path / "s4_limits.py"
     copy.write_text(path_of("paper.s4_limits").read_text(encoding="utf-8"), encoding="utf-8")
-    with pytest.raises(SystemExit, match=r"is not an installed proof of chapsym; install this checkout first"):
+    with pytest.raises(SystemExit, match=r"or install this checkout first"):
         main(str(copy))
