@@ -72,10 +72,10 @@ def floor(room):
     return 1 + max((floor(other) for other in ROOMS[room]), default=0)
 
 
-def test_the_readme_draws_the_floors_as_they_are():
+def test_the_page_of_the_architecture_draws_the_floors_as_they_are():
     floors = {height: sorted(room for room in ROOMS if floor(room) == height) for height in map(floor, ROOMS)}
     drawn = "".join(f"    {height}  {', '.join(floors[height])}\n" for height in sorted(floors, reverse=True))
-    assert f"\n\n{drawn}\n" in (ROOT.parent / "README.md").read_text(encoding="utf-8")
+    assert f"\n\n{drawn}\n" in (ROOT.parent / "docs/explanation/architecture.md").read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize("room", sorted(set(ROOMS) - SYMPY_ROOMS))

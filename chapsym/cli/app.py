@@ -40,7 +40,7 @@ def main() -> NoReturn:
         sys.argv.append("--help")
     try:
         with told_on_standard_error():
-            arguments, command = modernised(sys.argv[1:]), _plain(typer.main.get_command(app))
+            arguments, command = modernised(sys.argv[1:]), plain(typer.main.get_command(app))
             status = command.main(arguments, prog_name="chapsym", standalone_mode=False)
         sys.stdout.flush()
         if status == INTERRUPTED:
@@ -75,13 +75,13 @@ def _foreseen() -> tuple[type[Exception], ...]:
     return NotANumber, BadInput, StepNotTaken, CannotWrite, MissingExtra
 
 
-def _plain(command: Any) -> Any:
+def plain(command: Any) -> Any:
     """The same command, whose help shows an argument as it is called, without Python's name for its type."""
     for argument in command.params:
         if argument.param_type_name == "argument":
             argument.display_type_rich = lambda ctx: None
     for one in getattr(command, "commands", {}).values():
-        _plain(one)
+        plain(one)
     return command
 
 

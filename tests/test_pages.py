@@ -1,0 +1,128 @@
+"""The README and the documentation are true: their code runs and prints what they show, their links lead somewhere."""
+
+import json
+import re
+import sys
+import tempfile
+from pathlib import Path
+from urllib.parse import unquote, urlsplit
+
+import pages
+import pytest
+from pages import PAGES, ROOT, blocks, prose
+
+import chapsym
+
+TEXTS = {name: path.read_text(encoding="utf-8") for name, path in PAGES.items()}
+PLAYED = [name for name, text in TEXTS.items() if any(b.kind in ("console", "python") for b in blocks(text))]
+#: A link or a picture; its target may be in angle brackets.
+LINK = re.compile(r"\]\(<?([^()\s<>]+)>?\)")
+KINDS = {"console", "python", "sh", "text", "toml", "bibtex"}
+
+
+@pytest.fixture
+def records_of_the_run(request, monkeypatch, tmp_path):
+    """The verdicts of this run, which the report takes as it would the user's own."""
+    path = tmp_path / "verdicts.jsonl"
+    verdicts = request.getfixturevalue("verdicts")
+    path.write_text("".join(json.dumps(record) + "\n" for record in verdicts.values()), encoding="utf-8")
+    monkeypatch.setenv("CHAPSYM_RECORDS", str(path))
+
+
+@pytest.mark.parametrize("name", PLAYED)
+def test_what_a_page_shows_is_what_is_printed(name, request, tmp_path):
+    if "chapsym report" in TEXTS[name]:
+        request.getfixturevalue("records_of_the_run")
+    (tmp_path / "work").mkdir()
+    folder = pages.workspace(tmp_path / "work")
+    wrong = [said for _, said, _ in pages.played(TEXTS[name], folder) if said]
+    assert not wrong, "\n".join(wrong)
+
+
+@pytest.mark.parametrize("name", TEXTS)
+def test_every_block_is_of_a_kind_that_is_run_or_read(name):
+    for block in blocks(TEXTS[name]):
+        assert block.kind in KINDS or block.kind.startswith("{"), block.kind
+        if block.kind == "text":
+            assert not block.text.startswith(("$", "chapsym ")), block.text
+        if block.kind == "python":
+            assert ">>>" in block.text
+
+
+@pytest.mark.parametrize("name", TEXTS)
+def test_commands_that_are_not_run_are_commands(name, tmp_path):
+    lines = [line for block in blocks(TEXTS[name]) if block.kind == "sh" for line in block.text.splitlines()]
+    folder = pages.workspace(tmp_path)
+    spans = [re.sub(r"\s+", " ", span) for span in pages.SPAN.findall(prose(TEXTS[name]))]
+    wrong = [pages.unknown(line, folder) for line in [*lines, *spans] if line.startswith("chapsym ")]
+    assert not list(filter(None, wrong))
+    for line in lines:
+        if line.startswith("make "):
+            assert re.search(rf"^{line.split()[1]}:", (ROOT / "Makefile").read_text(), re.MULTILINE), line
+
+
+def slugs(text):
+    """The anchors of the headings of a page."""
+    headings = re.findall(r"^#{1,3} (.+)$", prose(text), re.MULTILINE)
+    return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
+
+
+@pytest.mark.parametrize("name", TEXTS)
+def test_every_link_of_a_page_leads_somewhere(name):
+    for target in LINK.findall(prose(TEXTS[name])):
+        url = urlsplit(target)
+        if url.scheme:
+            assert url.scheme == "https", target
+            assert "." in url.netloc, target
+            continue
+        path = (PAGES[name].parent / unquote(url.path)).resolve() if url.path else PAGES[name]
+        assert path.exists(), target
+        assert path.is_relative_to(ROOT), target
+        if url.fragment:
+            assert unquote(url.fragment) in slugs(path.read_text(encoding="utf-8")), target
+
+
+def test_every_page_is_reached_from_the_index():
+    """What the tables of contents list, from the first page on."""
+    found, pending = set(), [ROOT / "docs" / "index.md"]
+    while pending:
+        page = pending.pop()
+        found.add(page)
+        for block in blocks(page.read_text(encoding="utf-8")):
+            if block.kind == "{toctree}":
+                listed = [line for line in block.text.splitlines() if line and not line.startswith(":")]
+                pending += [(page.parent / re.sub(r".*<(.+)>", r"\1", line)).with_suffix(".md") for line in listed]
+    written = {path for path in (ROOT / "docs").rglob("*.md") if "_build" not in path.parts}
+    assert {path.resolve() for path in found} == written
+
+
+def test_every_public_name_and_every_command_has_its_place_in_the_reference():
+    python, command = (TEXTS[f"docs/reference/{name}.md"] for name in ("python", "command"))
+    described = re.findall(r"^\.\. auto\w+:: chapsym\.(\w+)$", python, re.MULTILINE)
+    assert sorted(described) == sorted(chapsym.__all__)
+
+    def commands(command, *path):
+        yield " ".join(path)
+        for name, one in getattr(command, "commands", {}).items():
+            yield from commands(one, *path, name)
+
+    named = re.findall(r"^```\{command-help\} ?(.*)$", command, re.MULTILINE)
+    assert sorted(named) == sorted(commands(pages.typer.main.get_command(pages.app)))
+
+
+def rewritten(name):
+    """A page with what its commands print now; what is shown with `...` stays where it is right."""
+    text, shift = TEXTS[name], 0
+    with tempfile.TemporaryDirectory() as folder:
+        for one, wrong, printed in pages.played(TEXTS[name], pages.workspace(Path(folder))):
+            if wrong and isinstance(one, pages.Command):
+                text = text[: one.start + shift] + printed + text[one.end + shift :]
+                shift += len(printed) - (one.end - one.start)
+            elif wrong:
+                print(wrong, file=sys.stderr)
+    return text
+
+
+if __name__ == "__main__":  # python tests/test_pages.py PAGE ... writes the outputs of commands anew
+    for name in sys.argv[1:]:
+        PAGES[name].write_text(rewritten(name), encoding="utf-8")
