@@ -7,7 +7,13 @@ from typing import Any
 import numpy as np
 
 import benchmarks
+from chapsym.cli import measured
 from chapsym.cli.output import check_figure, console_for, fail, print_json, print_table, quiet, say
+
+ABOUT = (
+    "The map beside other ways, all in one process and interleaved. Ratios are of medians; times depend on the machine "
+    "and on what else it does."
+)
 
 
 def measure(sections: Sequence[str], quick: bool, output: Path | None, as_json: bool, own: Any = None) -> None:
@@ -18,7 +24,8 @@ def measure(sections: Sequence[str], quick: bool, output: Path | None, as_json: 
     for name in wanted:
         if name not in benchmarks.SECTIONS:
             fail(f"there is no section {name!r}; there are {', '.join(benchmarks.SECTIONS)}", 2)
-    if output is not None:
+    page = measured.is_page(output)
+    if output is not None and not page:
         from . import figure
 
         check_figure(output, wanted, figure.AXES)
@@ -29,16 +36,19 @@ def measure(sections: Sequence[str], quick: bool, output: Path | None, as_json: 
         except benchmarks.NotComparable as error:
             quiet()
             fail(f"bench {name}: {error}", 1)
-    if output is not None:
+    if output is not None and not page:
         from chapsym.studies.figures import save_figure
 
         save_figure(figure.draw, results, output)
     quiet()
-    measured = benchmarks.as_json(results, quick)
+    found = benchmarks.as_json(results, quick)
+    if output is not None and page:
+        tables = [measured.Table(one["title"], one["rows"], _sentences(one)) for one in found["sections"].values()]
+        measured.write(output, "Speed beside other methods", ABOUT, tables, _shown)
     if as_json:
-        print_json(measured)
+        print_json(found)
     else:
-        _print_all(measured)
+        _print_all(found)
 
 
 def _floats(own: Any) -> dict[str, Any]:
@@ -49,22 +59,26 @@ def _floats(own: Any) -> dict[str, Any]:
     return {"own": (np.array(J, dtype=float), float(D), np.array(K, dtype=float), np.array(g, dtype=float))}
 
 
-def _print_all(measured: dict[str, Any]) -> None:
+def _sentences(section: dict[str, Any]) -> list[str]:
+    """What is said under the table of a section: the figures to reach, the peers that are missing, the notes."""
+    said = []
+    for one in section["reach"]:
+        sign, limit = ("reached" if one["met"] else "NOT reached"), ("at least" if one["at_least"] else "at most")
+        said.append(f"{one['what']}: {one['value']:.3g} (wanted: {limit} {one['wanted']:.3g}): {sign}")
+    return [*said, *(f"{name}: {reason}" for name, reason in section["missing"].items()), *section["notes"]]
+
+
+def _print_all(found: dict[str, Any]) -> None:
     console = console_for(140)
-    for section in measured["sections"].values():
+    for section in found["sections"].values():
         print_table(console, section["title"], section["rows"], _shown)
-        for one in section["reach"]:
-            sign, limit = ("reached" if one["met"] else "NOT reached"), ("at least" if one["at_least"] else "at most")
-            console.print(f"  {one['what']}: {one['value']:.3g} (wanted: {limit} {one['wanted']:.3g}): {sign}")
-        for name, reason in section["missing"].items():
-            console.print(f"  {name}: {reason}")
-        for note in section["notes"]:
-            console.print(f"  {note}")
+        for sentence in _sentences(section):
+            console.print(f"  {sentence}")
         console.print()
-    machine = measured["machine"]
+    machine = found["machine"]
     versions = ", ".join(f"{name} {version}" for name, version in machine["versions"].items())
     console.print(f"{machine['cpu']}; {machine['cores']} cores; {machine['system']}; C: {machine['compiler']}")
-    console.print(f"{machine['python']}; {versions}" + ("; quick" if measured["quick"] else ""))
+    console.print(f"{machine['python']}; {versions}" + ("; quick" if found["quick"] else ""))
 
 
 def _shown(value: Any) -> str:

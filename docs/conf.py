@@ -14,6 +14,7 @@ release = version = chapsym.__version__
 extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinxcontrib.bibtex", "extension"]
 exclude_patterns = ["_build"]
 myst_enable_extensions = ["deflist", "dollarmath"]
+smartquotes = False  # "..." is code more often than not
 myst_heading_anchors = 3
 bibtex_bibfiles = ["references.bib"]
 bibtex_reference_style = "author_year"

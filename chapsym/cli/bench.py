@@ -22,7 +22,8 @@ def bench(
     ] = None,
     quick: Annotated[bool, typer.Option("--quick", help="Smaller sizes and fewer rounds: seconds.")] = False,
     output: Annotated[
-        Path | None, typer.Option("-o", "--output", metavar="FIGURE", help="A figure: .svg, .png or .pdf.")
+        Path | None,
+        typer.Option("-o", "--output", metavar="FILE", help="A figure (.svg, .png, .pdf) or a page (.md)."),
     ] = None,
     mass_tensor: MassTensor = None,
     inertia: Inertia = None,

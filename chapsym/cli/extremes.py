@@ -7,6 +7,7 @@ import typer
 
 from chapsym.renamed import in_words
 
+from . import measured
 from .app import app
 from .options import Json
 from .output import console_for, fail, print_json, progress_bar
@@ -22,7 +23,7 @@ def extremes(
     ] = None,
     quick: Annotated[bool, typer.Option("--quick", help="Short runs and small batches.")] = False,
     output: Annotated[
-        Path | None, typer.Option("-o", "--output", metavar="PAGE", help="A page, .html, that opens from disk.")
+        Path | None, typer.Option("-o", "--output", metavar="PAGE", help="A page: .html, that opens from disk, or .md.")
     ] = None,
     as_json: Json = False,
 ) -> None:
@@ -40,15 +41,17 @@ def extremes(
         if name not in study.GROUPS:
             fail(f"there is no group {name!r}; there are {', '.join(study.GROUPS)}", 2)
     if output is not None:
-        if output.suffix != ".html":
-            fail(f"{str(output)!r}: the page must end in .html", 2)
+        if not measured.is_page(output) and output.suffix != ".html":
+            fail(f"{str(output)!r}: the page must end in .html or .md", 2)
         files.check_destination(output)
     if output is not None or not as_json:
         extras.need("report")
     with progress_bar("judging", study.rows(wanted)) as shown:
         cells = study.extremes(quick, groups=wanted, on_row=shown)
     matrix = study.as_json(cells, quick)
-    if output is not None:
+    if output is not None and output.suffix == ".md":
+        measured.write(output, "At the extremes", _about(matrix["counts"]), _tables(matrix))
+    elif output is not None:
         text = _page(matrix)
         files.write_whole(output, lambda stream: stream.write(text.encode()))
     if as_json:
@@ -67,6 +70,40 @@ def _page(matrix: dict[str, Any]) -> str:
 
     machine = harness.machine()
     return page.html(matrix, machine["versions"], f"{machine['cpu']}, {machine['cores']} cores, {machine['python']}")
+
+
+def _about(counts: dict[str, int]) -> str:
+    """What the cells of the tables say."""
+    from chapsym.report import extremes as page
+
+    signs = "; ".join(f"{sign} {verdict}: {meaning}" for verdict, (sign, meaning) in page.VERDICTS.items())
+    told = ", ".join(f"{count} {verdict}" for verdict, count in counts.items())
+    return (
+        "Every precision level under hard conditions, against references that share no formula with what they judge. "
+        f"{sum(counts.values())} cells: {told}. {signs[0].upper()}{signs[1:]}."
+    )
+
+
+def _tables(matrix: dict[str, Any]) -> list[measured.Table]:
+    """A table for each group of conditions, with the sentences of what was refused."""
+    from chapsym.report import extremes as page
+
+    return [
+        measured.Table(
+            f"{group['name']}: {group['title']}",
+            [
+                {"condition": condition, **{r: page.shown(cells[r]) if r in cells else "·" for r in group["rungs"]}}
+                for condition, cells in group["rows"]
+            ],
+            [
+                f"{page.VERDICTS[one['verdict']][0]} "
+                + "; ".join(f"{condition} ({rungs})" for condition, rungs in one["about"])
+                + f": {one['reason']}"
+                for one in group["reasons"]
+            ],
+        )
+        for group in page.groups(matrix)
+    ]
 
 
 def _print_matrix(matrix: dict[str, Any]) -> None:

@@ -10,9 +10,12 @@ import typer
 
 from chapsym.rationals import rationals
 
+from . import measured
 from .app import app
 from .options import Contact, Inertia, Json, Mass, MassTensor, Radius, ball_from, contact_from, tensor_from
 from .output import check_figure, console_for, fail, print_json, print_table, quiet, say
+
+ABOUT = "Time of the processor against correct digits, for every precision level, order and length of step."
 
 
 @app.command()
@@ -45,7 +48,12 @@ def trade(
     quick: Annotated[bool, typer.Option("--quick", help="Fewer and shorter runs.")] = False,
     output: Annotated[
         Path | None,
-        typer.Option("-o", "--output", metavar="FILE", help="A figure; with --accuracy the run, as of chapsym run."),
+        typer.Option(
+            "-o",
+            "--output",
+            metavar="FILE",
+            help="A figure or a page (.md); with --accuracy the run.",
+        ),
     ] = None,
     as_json: Json = False,
 ) -> None:
@@ -225,7 +233,8 @@ def _study(wanted: list[str], quick: bool, output: Path | None, as_json: bool) -
             fail(
                 f"there is no section {name!r}; there are {', '.join(study.SECTIONS)} (a scene goes with --accuracy)", 2
             )
-    if output is not None:
+    page = measured.is_page(output)
+    if output is not None and not page:
         check_figure(output, sections, study.DRAWN)
     found: dict[str, Any] = {}
     for name in sections:
@@ -235,7 +244,10 @@ def _study(wanted: list[str], quick: bool, output: Path | None, as_json: bool) -
             quiet()
             fail(f"trade {name}: {error}", 1)
     quiet()
-    if output is not None:
+    if output is not None and page:
+        tables = [measured.Table(one.title, one.table(), one.sentences()) for one in found.values()]
+        measured.write(output, "Speed against accuracy", ABOUT, tables, _shown)
+    elif output is not None:
         from chapsym.studies.figures import save_figure
         from chapsym.studies.trade.figure import draw
 
@@ -248,11 +260,15 @@ def _study(wanted: list[str], quick: bool, output: Path | None, as_json: bool) -
         fail(missed, 1)
 
 
+def _shown(value: Any) -> str:
+    return f"{value:.3g}" if isinstance(value, float) else str(value)
+
+
 def print_tables(found: dict[str, Any], machine: dict[str, Any]) -> None:
     """Each section's table and the sentences under it."""
     console = console_for(120)
     for section in found.values():
-        print_table(console, section.title, section.table(), lambda x: f"{x:.3g}" if isinstance(x, float) else str(x))
+        print_table(console, section.title, section.table(), _shown)
         for sentence in section.sentences():
             console.print(f"  {sentence}")
         console.print()

@@ -1,0 +1,68 @@
+"""The pages of what was measured are written by the commands, and show the tables that they print."""
+
+import re
+from pathlib import Path
+
+import pytest
+from commands import chapsym, refused
+
+import benchmarks
+from benchmarks import command
+from chapsym.studies import check
+
+PAGES = Path(__file__).parents[2] / "docs" / "reference" / "measured"
+ROW = re.compile(r"^\| (.+) \|$", re.MULTILINE)
+
+
+def table(page):
+    """The first table of a page: lists of what is in its cells."""
+    return [[cell.replace("\\", "") for cell in re.split(r"(?<!\\) \| ", row)] for row in ROW.findall(page)]
+
+
+def test_a_page_of_the_check_has_the_table_that_is_printed(tmp_path, monkeypatch):
+    monkeypatch.setattr(check, "STRATA", dict(list(check.STRATA.items())[:2]))
+    page = tmp_path / "check.md"
+    done = chapsym("check", "--states", 1, "--steps", 1000, "-o", page)
+    assert done.returncode == 0, done.stderr
+    text = page.read_text(encoding="utf-8")
+    assert f"`chapsym check --states 1 --steps 1000 -o {page}`" in text
+    assert re.search(r"on \d{4}-\d\d-\d\d\. Machine: .*\d cores", text)
+    header, _, *rows = table(text)
+    assert header[0] == "stratum"
+    for row in rows:
+        assert re.search(r" +│ +".join(map(re.escape, row)), done.stdout), row
+    assert len(rows) == 2
+
+
+def test_a_page_of_the_extremes_has_every_condition_of_its_group(tmp_path):
+    page = tmp_path / "extremes.md"
+    done = chapsym("extremes", "input", "--quick", "-o", page)
+    assert done.returncode == 0, done.stderr
+    conditions = [row[0] for row in table(page.read_text(encoding="utf-8"))[2:]]
+    assert conditions
+    assert all(condition in done.stdout for condition in conditions)
+
+
+def test_a_page_of_a_benchmark_has_its_rows_its_peers_and_what_was_to_be_reached(tmp_path, monkeypatch):
+    reach = [benchmarks.Reached("speed", 2.0, 1.0, True)]
+    one = benchmarks.Result("A_title", [{"name": "x|y", "value": 1.23456}], {"peer": "not installed"}, reach)
+    monkeypatch.setattr(benchmarks, "SECTIONS", {"one": "one"})
+    monkeypatch.setattr(benchmarks, "run", lambda *arguments: one)
+    page = tmp_path / "bench.md"
+    command.measure(["one"], True, page, False)
+    text = page.read_text(encoding="utf-8")
+    assert table(text) == [["name", "value"], ["---", "---:"], ["x|y", "1.23"]]
+    assert "## A\\_title" in text
+    assert "- speed: 2 (wanted: at least 1): reached\n- peer: not installed\n" in text
+
+
+def test_another_ending_is_refused_before_anything_is_measured(tmp_path):
+    assert "the page must end in .html or .md" in refused("extremes", "-o", tmp_path / "x.txt")
+    assert "the page must end in .md" in refused("check", "-o", tmp_path / "x.txt")
+
+
+@pytest.mark.parametrize("name", ["bench", "check", "extremes", "trade"])
+def test_the_pages_of_the_documentation_are_written_by_commands(name):
+    text = (PAGES / f"{name}.md").read_text(encoding="utf-8")
+    command = rf"`chapsym {name}( [^`]*)? -o docs/reference/measured/{name}\.md`, of chapsym \S+, on \d{{4}}-"
+    assert re.search(command, text)
