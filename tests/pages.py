@@ -146,7 +146,8 @@ def unknown(line, folder):
                 context = command.make_context(name, list(rest), parent=context)
     except TyperException as error:
         said = error.format_message()
-        return "" if said.startswith("Missing") else f"{line}: {said}"  # a text may speak of a command alone
+        named = said.startswith("Missing") or said.endswith("requires an argument.")  # a text may speak of it alone
+        return "" if named else f"{line}: {said}"
     except (typer.Exit, SystemExit):
         return ""
     return ""
