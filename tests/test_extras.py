@@ -14,7 +14,9 @@ import pytest
 import typer
 from imported import imported, modules
 
+from chapsym import jobs
 from chapsym.cli.app import app
+from chapsym.dynamics import BadInput
 from chapsym.extras import EXTRAS, MissingExtra, need
 
 ROOT = Path(__file__).parents[1]
@@ -185,3 +187,24 @@ def test_what_fails_to_load_for_another_reason_is_not_told_as_absent(tmp_path):
     )
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
     assert done.stdout.strip().endswith("cannot be loaded: a library of pint is damaged")
+
+
+def test_what_a_cluster_cannot_import_is_not_told_as_a_wrong_address(monkeypatch):
+    def refuses(*arguments, **options):
+        raise ImportError("no library of this kind of network")
+
+    monkeypatch.setattr("distributed.Client", refuses)
+    told = "what speaks to tcp://127.0.0.1:9 cannot be imported: no library of this kind of network"
+    with pytest.raises(BadInput, match=re.escape(told)), jobs.workers("tcp://127.0.0.1:9"):
+        pass
+
+
+def test_the_lowest_versions_that_ci_runs_are_those_that_are_allowed():
+    lines = (ROOT / "constraints-lowest.txt").read_text(encoding="utf-8").splitlines()
+    pinned = {normal(name): version for name, _, version in (line.partition("==") for line in lines) if version}
+    extras = PROJECT["optional-dependencies"]
+    for one in (*PROJECT["dependencies"], *(line for extra in (*RUNTIME, "test") for line in extras[extra])):
+        if not one.startswith("chapsym["):
+            name, bound = re.match(r"([\w.-]+)>=([\d.]+)", one).groups()
+            assert re.fullmatch(rf"{re.escape(bound)}(\.0)*", pinned[normal(name)]), one
+    assert not [line for line in lines if "://" in line]
