@@ -3,6 +3,7 @@
 import re
 import sys
 import tempfile
+import tomllib
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
@@ -46,6 +47,12 @@ def test_commands_that_are_not_run_are_commands(name, tmp_path):
     for line in lines:
         if line.startswith("make "):
             assert re.search(rf"^{line.split()[1]}:", (ROOT / "Makefile").read_text(), re.MULTILINE), line
+
+
+def test_extras_that_a_page_names_are_those_of_the_package():
+    extras = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["optional-dependencies"]
+    named = {name for text in TEXTS.values() for name in re.findall(r"pip install '(?:chapsym|\.)\[(\w+)\]'", text)}
+    assert named <= set(extras)
 
 
 def slugs(text):
