@@ -59,7 +59,7 @@ def sentence(data: "Dataset") -> tuple[str, str] | None:
         return "discretisation", map_.sentence()
     if found is None:
         return None
-    balls, unit = data.sizes["ball"], " m of the contact point" if found["of"] == "contact" else ""
+    balls, unit = data.sizes["ball"], " m" if found["of"] == "contact" else ""
     error = "an error that is not known" if found["error"] is None else f"an estimated {found['error']:.1e}{unit}"
     about = f"of the ball to {error}" if balls == 1 else f"of the balls to {error}, the worst of {balls}"
     more = f"; {found['worse']} of them are not within it" if found["worse"] and balls > 1 else ""
