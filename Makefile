@@ -44,6 +44,7 @@ docs: $(VENV)/.installed
 pictures: $(VENV)/.installed
 	for one in bowling:contact robot:spheres,attitude vertical:spheres,phase spread:contact,spread four:spheres; do \
 	  $(BIN)/chapsym show docs/scenes/$${one%%:*}.toml -o docs/pictures/$${one%%:*} --figures $${one##*:} --no-page; done
+	$(BIN)/python docs/pictures/page.py
 
 # A clean tree, one version and date, fresh errata, packages that install; stops at the first thing that is missing.
 release-check: $(VENV)/.installed
