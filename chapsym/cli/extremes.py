@@ -92,12 +92,15 @@ def _tables(matrix: dict[str, Any]) -> list[measured.Table]:
         measured.Table(
             f"{group['name']}: {group['title']}",
             [
-                {"condition": condition, **{r: page.shown(cells[r]) if r in cells else "·" for r in group["rungs"]}}
+                {
+                    "condition": condition,
+                    **{r: page.shown(cells[r]) if r in cells else "·" for r in group["precisions"]},
+                }
                 for condition, cells in group["rows"]
             ],
             [
                 f"{page.VERDICTS[one['verdict']][0]} "
-                + "; ".join(f"{condition} ({rungs})" for condition, rungs in one["about"])
+                + "; ".join(f"{condition} ({levels})" for condition, levels in one["about"])
                 + f": {one['reason']}"
                 for one in group["reasons"]
             ],

@@ -54,6 +54,7 @@ def steady_states(draw):
 @given(steady_states(), st.integers(1, 400))
 def test_every_frame_is_that_of_the_map(state, every):
     ball, momentum, gamma = state
+    gamma = np.where(abs(gamma) < 1e-150, 0.0, gamma)  # a half turn about what squares to 0 has no axis
     assert is_steady(ball, momentum, gamma)
     run = trajectory(ball, momentum, gamma, 4 * every, every=every, contact=True, precision="double-double")
     found = steady_frames(ball, momentum, gamma, run.index, contact=True)

@@ -174,7 +174,9 @@ class RunTable(Table):
         None, description="Of the numbers: 7, 16 or 31 digits; default double."
     )
     map: Switch = Field(False, description="Whether the map is meant where a motion in time is given; else the ball.")
-    accuracy: Accurate | None = Field(None, description="Of the motion: in metres where the contact point is kept, else relative.")
+    accuracy: Accurate | None = Field(
+        None, description="Of the motion: in metres where the contact point is kept, else relative."
+    )
     of: Literal["state", "contact"] | None = Field(None, description="What the accuracy is of.")
     limit: Seconds | None = Field(None, description="Of the processor, for a run to an accuracy; default 600 s.")
 
