@@ -11,13 +11,13 @@ document.py (the form of a file).
 from dataclasses import dataclass
 from typing import Any
 
-from . import drift, measure, orbit
+from . import drift, measure, orbit, register
 from .document import FORMAT, Unreadable, digest, read
 from .interval import Rejected
 
-__all__ = ["Rejected", "Unreadable", "Verdict", "check", "digest", "read", "statement"]
+__all__ = ["FORMAT", "Rejected", "Unreadable", "Verdict", "check", "digest", "read", "statement"]
 
-KINDS = {"no-invariant-measure": measure, "periodic-orbit": orbit, "energy-drift": drift}
+KINDS = {"no-invariant-measure": measure, "periodic-orbit": orbit, "energy-drift": drift, "register-claim": register}
 
 
 @dataclass(frozen=True)

@@ -13,6 +13,8 @@ from .interval import Interval, Rejected
 FORMAT = "chapsym-certificate/1"
 #: Most digits and steps of a certificate: what a reader can wait for.
 MOST_DIGITS, MOST_STEPS = 2_000, 1_000
+#: Of a file.
+MOST_BYTES = 4_000_000
 _EXACT = re.compile(r"-?\d+(/\d+|(\.\d+)?(e-?\d{1,3})?)", re.ASCII)
 _DECIMAL = re.compile(r"-?(0|[1-9]\d*)\.\d+", re.ASCII)
 
@@ -24,7 +26,11 @@ class Unreadable(Exception):
 def read(path: str | Path) -> dict[str, Any]:
     """The object of a JSON file; raises Unreadable, or Rejected for a name that stands twice in an object."""
     try:
-        data = json.loads(Path(path).read_text(encoding="utf-8"), object_pairs_hook=_once)
+        with Path(path).open("rb") as file:
+            content = file.read(MOST_BYTES + 1)
+        if len(content) > MOST_BYTES:
+            raise Unreadable(f"{path} has more than {MOST_BYTES} bytes")
+        data = json.loads(content.decode("utf-8"), object_pairs_hook=_once)
     except OSError as error:
         raise Unreadable(f"{path} cannot be read: {error.strerror or error}") from None
     except (ValueError, RecursionError):  # not UTF-8, not JSON, a number of too many digits, too deep

@@ -24,7 +24,7 @@ ROOMS = {
     "numbers": {"renamed"},
     "derive": set(),
     "sources": set(),
-    "prove": {"derive", "files", "sources", "workers"},
+    "prove": {"checker", "derive", "files", "sources", "workers"},
     "codegen": {"derive", "generated"},
     "dynamics": {"generated", "numbers"},
     "certificates": {"checker", "dynamics", "rationals", "files", "generated", "numbers"},

@@ -21,6 +21,12 @@ def prove(
     jobs: Annotated[
         int | None, typer.Option(metavar="N", min=1, help="Processes; one for each core by default.")
     ] = None,
+    certificates: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="DIR", help="Write what was decided as ID.json, for the checker; lemmas, too, if no ID is named."
+        ),
+    ] = None,
     kept_in: Records = None,
 ) -> None:
     """Judge the printed claims: run their proofs, side by side, and keep the verdicts.
@@ -41,7 +47,8 @@ def prove(
     if listing:
         _list_claims(claims, as_json, kept_in)
         return
-    records = judge_and_keep(list(dict.fromkeys(ids or all_claims())), jobs, kept_in)
+    everything = claims if certificates else all_claims()
+    records = judge_and_keep(list(dict.fromkeys(ids or everything)), jobs, kept_in, certificates)
     # The whole register is as it should be with the paper's open questions open; a claim that is named must be proved.
     failed = [record["id"] for record in records if record["verdict"] == "open"] if ids else unproved(records)
     if as_json:
@@ -55,8 +62,17 @@ def prove(
             for problem in record["evidence"]["problems"]:
                 print(f"{'':18} problem: {problem}")
         print(tally(records))
+    if certificates:
+        note(f"certificates in {certificates}: {_carried(records)}")
     if failed:
         fail(f"not proved: {', '.join(failed)}", 1)
+
+
+def _carried(records: list[dict[str, Any]]) -> str:
+    """What the certificates of all claims hold together."""
+    counts = [record["evidence"]["carried"] for record in records if record["evidence"]["carried"]]
+    statements, sentences = sum(c["statements"] for c in counts), sum(sum(c["sentences"].values()) for c in counts)
+    return f"{statements} statements that the checker accepted, {sentences} sentences that it did not judge"
 
 
 def _list_claims(claims: dict[str, Any], as_json: bool, kept_in: Path | None) -> None:
@@ -79,8 +95,10 @@ def _list_claims(claims: dict[str, Any], as_json: bool, kept_in: Path | None) ->
         print(f"{len(old)} records are stale: their derivation has changed; chapsym prove judges them anew")
 
 
-def judge_and_keep(wanted: list[str], jobs: int | None, kept_in: Path | None) -> list[dict[str, Any]]:
-    """Proves the claims, keeps their records, and says where a verdict is another than it was."""
+def judge_and_keep(
+    wanted: list[str], jobs: int | None, kept_in: Path | None, certificates: Path | None = None
+) -> list[dict[str, Any]]:
+    """Proves the claims, keeps their records and certificates, and says where a verdict is another than it was."""
     from chapsym import files
     from chapsym.prove import prove_all, records
 
@@ -94,11 +112,18 @@ def judge_and_keep(wanted: list[str], jobs: int | None, kept_in: Path | None) ->
         with suppress(OSError):  # which is said at the end
             records.append(path, record)
 
+    if certificates:
+        try:
+            certificates.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            fail(f"{certificates} cannot be written: {error.strerror or error}", 2)
     with suppress(files.CannotWrite):
         records.update(path, [], claims)  # with a last line that is whole
     try:
         with progress_bar("proving", len(wanted)) as shown:
-            judged = prove_all(wanted, jobs, keep)
+            judged = prove_all(wanted, jobs, keep, certificates)
+    except files.CannotWrite as error:
+        fail(str(error), 2)
     finally:  # an interrupt keeps what was finished, and puts it in order
         try:
             records.update(path, arrived, claims)

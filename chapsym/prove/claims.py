@@ -4,10 +4,13 @@ import ast
 import inspect
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+from chapsym.checker import Rejected
+
+from . import certificates
 from .evidence import Proof, Verdict
 from .statements import Fact
 
@@ -15,7 +18,7 @@ from .statements import Fact
 EVIDENCE = (
     "title", "hypotheses", "condition", "reason", "open_in_paper", "tried", "answer", "certificates", "measured",
     "conjectures", "derivation", "checks", "controls", "routes", "witnesses", "counterexamples", "uses", "downstream",
-    "problems",
+    "problems", "carried",
 )  # fmt: skip
 
 
@@ -55,6 +58,15 @@ class Judgement:
     verdict: Verdict
     proof: Proof
     seconds: float
+    certificate: dict[str, Any] | None = None
+
+    def certified(self) -> "Judgement":
+        """With what was decided as data that the checker accepted; where it does not, the claim is open."""
+        try:
+            return replace(self, certificate=certificates.certificate(self.claim.id, self.claim.printed, self.proof))
+        except Rejected as error:
+            self.proof.problems.append(f"the checker does not accept its certificate: {error}")
+            return replace(self, verdict=Verdict.OPEN)
 
     @property
     def open_in_paper(self) -> bool:
@@ -66,6 +78,7 @@ class Judgement:
         known = vars(self.proof) | {
             "title": self.claim.title, "open_in_paper": self.open_in_paper, "derivation": self.proof.lines,
             "uses": list(self.claim.uses), "downstream": list(downstream),
+            "carried": certificates.carried(self.certificate) if self.certificate else None,
         }  # fmt: skip
         return {
             "id": self.claim.id,

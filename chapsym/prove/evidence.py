@@ -49,11 +49,16 @@ class Proof:
     reason: str | None = None
     corrected_text: str | None = None
     condition: str | None = None
+    said: list[str] = field(default_factory=list)
+    decided: list[tuple[str, Statement, bool]] = field(default_factory=list)
+    points: list[Point] = field(default_factory=list)
+    refuted: list[str] = field(default_factory=list)
     _printed: list[tuple[Statement, bool]] = field(default_factory=list)
     _corrected: list[tuple[Statement, bool]] = field(default_factory=list)
 
     def say(self, *texts: str) -> None:
         """Lines of the derivation."""
+        self.said += texts
         self.lines += texts
 
     def show(self, name: str, value: Any) -> None:
@@ -72,8 +77,8 @@ class Proof:
 
     def route(self, name: str, *statements: Statement) -> None:
         """A second, independent proof of what was stated; it must agree."""
-        self.say(f"  second route: {name}")
-        decided = [self._decide(s, "second route: ") for s in statements]
+        self.lines.append(f"  second route: {name}")
+        decided = [self._decide(s, "second route") for s in statements]
         holds = bool(decided) and all(decided)
         self.routes.append({"name": name, "statements": [s.text for s in statements], "holds": holds})
         if not holds:
@@ -81,23 +86,24 @@ class Proof:
 
     def printed(self, *statements: Statement) -> None:
         """What the paper states; each is decided as printed."""
-        self._printed += [(s, self._decide(s, "printed: ")) for s in statements]
+        self._printed += [(s, self._decide(s, "printed")) for s in statements]
 
     def corrected(self, text: str, *statements: Statement) -> None:
         """The smallest correction of what is printed, and the statements that prove it."""
         self.corrected_text = text
-        self._corrected += [(s, self._decide(s, "corrected: ")) for s in statements]
+        self._corrected += [(s, self._decide(s, "corrected")) for s in statements]
 
     def under(self, condition: str, *statements: Statement) -> None:
         """What is printed under a hypothesis that the paper leaves out."""
         self.condition = condition
-        self._corrected += [(s, self._decide(s, f"under {condition}: ")) for s in statements]
+        self._corrected += [(s, self._decide(s, "under", f"under {condition}: ")) for s in statements]
 
     def counterexample(self, point: Point) -> None:
         """Evaluates every printed and corrected formula that was stated so far at an exact point.
 
         The hypotheses must hold there, some printed formula must fail, every corrected one must hold.
         """
+        self.points.append(point)
         for failure in point.failures():
             self.problems.append(f"the counterexample violates the hypothesis {failure}")
         printed, corrected = _equations(self._printed), _equations(self._corrected)
@@ -116,6 +122,8 @@ class Proof:
         """
         if holds:
             self.problems.append(f"the counterexample does not contradict: {statement}")
+        at = ", ".join(f"{name} = {value}" for name, value in values.items())
+        self.refuted.append(f"{statement}: found {found}, claimed {claimed}, at {at}")
         sides = {"statement": statement, "left": [str(found)], "right": [str(claimed)]}
         self.counterexamples.append({"point": dict(values), "printed": [sides], "corrected": []})
 
@@ -198,8 +206,10 @@ class Proof:
         if not (self.witnesses or self.counterexamples or self.certificates or self.reason):
             self.problems.append("no witness: it is not shown that the hypotheses can hold")
 
-    def _decide(self, statement: Statement, prefix: str = "") -> bool:
+    def _decide(self, statement: Statement, role: str = "lemma", prefix: str | None = None) -> bool:
         holds = statement.holds()
+        prefix = prefix or ("" if role == "lemma" else f"{role}: ")
+        self.decided.append((role, statement, holds))
         self.checks.append({"statement": prefix + statement.text, "holds": holds, "method": statement.method})
         self.lines.append(f"  {'✓' if holds else '✗'} {prefix}{statement.text}")
         return holds

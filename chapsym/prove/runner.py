@@ -13,6 +13,7 @@ from typing import Any
 
 from chapsym import workers
 
+from .certificates import write
 from .claims import Claim, Judgement, TwoProofs, register
 from .evidence import Proof, Verdict
 from .records import fingerprint
@@ -63,9 +64,15 @@ def downstream(id: str, claims: dict[str, Claim]) -> list[str]:
     return [other for other in claims if other in reached]
 
 
-def prove_one(id: str) -> dict[str, Any]:
-    """Judges one claim and returns its record; a proof that raises is an open claim with the reason."""
-    return _record(judge(load(lemmas=True)[id]))
+def prove_one(id: str, folder: Path | None = None) -> dict[str, Any]:
+    """Judges one claim and returns its record; a proof that raises is an open claim with the reason.
+
+    Its certificate is written to the folder, if one is named; raises CannotWrite if it cannot be.
+    """
+    judgement = judge(load(lemmas=True)[id])
+    if folder and judgement.certificate:
+        write(judgement.certificate, folder)
+    return _record(judgement)
 
 
 def _record(judgement: Judgement) -> dict[str, Any]:
@@ -83,7 +90,7 @@ def _fingerprinted(judgement: Judgement, users: Sequence[str]) -> dict[str, Any]
 def judge(claim: Claim) -> Judgement:
     """Judges a claim; an exception in the proof leaves it open, with the place where it arose."""
     try:
-        return claim.judge()
+        return claim.judge().certified()
     except (Exception, SystemExit) as error:  # a proof that leaves is no proof
         place = traceback.extract_tb(error.__traceback__)[-1]
         reason = f"the proof raised {type(error).__name__}: {error} ({Path(place.filename).name}:{place.lineno})"
@@ -95,23 +102,27 @@ def _open(claim: Claim, reason: str) -> Judgement:
 
 
 def prove_all(
-    ids: Sequence[str], jobs: int | None = None, on_result: Callable[[dict[str, Any]], None] = lambda record: None
+    ids: Sequence[str],
+    jobs: int | None = None,
+    on_result: Callable[[dict[str, Any]], None] = lambda record: None,
+    folder: Path | None = None,
 ) -> list[dict[str, Any]]:
     """Judges the claims in parallel processes; `on_result` sees each record as it arrives.
 
-    Returns the records in the order of `ids`.
+    Returns the records in the order of `ids`.  The certificates are written to the folder, if one is named; raises
+    CannotWrite if they cannot be.
     """
     jobs = min(jobs or os.cpu_count() or 1, len(ids))
     records: dict[str, dict[str, Any]] = {}
     if jobs <= 1:
         for id in ids:
-            records[id] = prove_one(id)
+            records[id] = prove_one(id, folder)
             on_result(records[id])
         return [records[id] for id in ids]
     # An interrupt is for this process; the workers end with the claim that they are at.
     pool = ProcessPoolExecutor(jobs, multiprocessing.get_context("spawn"), initializer=workers.begin)
     try:
-        for future in as_completed([pool.submit(prove_one, id) for id in ids]):
+        for future in as_completed([pool.submit(prove_one, id, folder) for id in ids]):
             record = future.result()
             records[record["id"]] = record
             on_result(record)
@@ -151,11 +162,22 @@ def explain(record: dict[str, Any]) -> str:
     lines += [f"  conjecture: {text}" for text in evidence["conjectures"]]
     if record["corrected"]:
         lines += [f"  corrected: {record['corrected']}"]
+    if evidence["carried"]:
+        lines += [f"  carried by: {carried(evidence['carried'])}"]
     if evidence["downstream"]:
         lines += [f"  used by: {', '.join(evidence['downstream'])}"]
     lines += [f"  PROBLEM: {problem}" for problem in evidence["problems"]]
     lines += [f"  verdict: {record['verdict'].upper()}  ({record['seconds']:.2f} s)"]
     return "\n".join(lines)
+
+
+def carried(counts: dict[str, Any]) -> str:
+    """What carries a verdict, in words."""
+    sentences = ", ".join(f"{n} {role}" for role, n in counts["sentences"].items())
+    return (
+        f"{counts['statements']} statements and {counts['counterexamples']} counterexamples that the checker accepted; "
+        f"{sum(counts['sentences'].values())} sentences{f' ({sentences})' if sentences else ''}"
+    )
 
 
 def main(script: str) -> None:

@@ -1,10 +1,12 @@
 """Statements that exact arithmetic decides, and the exact points at which they are looked at."""
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
 
 import sympy as sp
+
+from chapsym.derive import words
 
 from .polynomials import Identity
 
@@ -79,11 +81,17 @@ Statement = Equation | Fact | Identity
 
 @dataclass(frozen=True)
 class Point:
-    """An exact rational point: what its symbols are, how to evaluate, and what must hold there."""
+    """An exact rational point: how it is shown, its rational numbers and matrices, and what must hold there."""
 
     values: dict[str, str]
-    evaluate: Callable[[Any], Any]
+    exact: Mapping[sp.Symbol, Any]
     hypotheses: Sequence[Equation] = ()
+
+    def evaluate(self, expr: Any) -> Any:
+        """An expression at the point; words at its matrices."""
+        if any(isinstance(value, sp.MatrixBase) for value in self.exact.values()):
+            return words.evaluate(expr, self.exact)
+        return sp.sympify(expr).xreplace(dict(self.exact))
 
     def failures(self) -> list[str]:
         """The hypotheses that fail at the point."""
@@ -93,11 +101,7 @@ class Point:
 def rational_point(values: dict[sp.Symbol, Any], hypotheses: Sequence[Equation] = ()) -> Point:
     """A point given by rational numbers for commuting symbols."""
     exact = {symbol: sp.Rational(value) for symbol, value in values.items()}
-
-    def evaluate(expr: Any) -> Any:
-        return sp.sympify(expr).xreplace(exact)
-
-    return Point({str(k): str(v) for k, v in exact.items()}, evaluate, hypotheses)
+    return Point({str(k): str(v) for k, v in exact.items()}, exact, hypotheses)
 
 
 def _same_shape(a: Any, b: Any) -> tuple[Any, Any]:

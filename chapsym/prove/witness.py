@@ -72,7 +72,8 @@ def _point(equation: Equation, case: str) -> dict[sp.Symbol, Any] | None:
     if isinstance(algebra, Quotient):
         return _rational(algebra.symbols, algebra.relations, case)
     if isinstance(algebra, WordAlgebra):
-        return _matrices(equation, algebra, case)
+        symbols = {x for side in (*equation.left, *equation.right) for x in sp.sympify(side).free_symbols}
+        return matrices(symbols, algebra, case)
     return None
 
 
@@ -81,25 +82,24 @@ def _rational(
 ) -> dict[sp.Symbol, sp.Rational] | None:
     changed = CASES[case]
     names = {symbol.name for symbol in symbols}
-    if not names <= _scalars().keys() or (changed and not names & changed.keys()):
+    if not names <= scalars().keys() or (changed and not names & changed.keys()):
         return None
-    point = {symbol: sp.Rational(changed.get(symbol.name, _scalars()[symbol.name])) for symbol in symbols}
+    point = {symbol: sp.Rational(changed.get(symbol.name, scalars()[symbol.name])) for symbol in symbols}
     return point if all(relation.xreplace(point) == 0 for relation in relations) else None
 
 
-def _matrices(equation: Equation, algebra: WordAlgebra, case: str) -> dict[sp.Symbol, Any] | None:
+def matrices(symbols: set[sp.Symbol], algebra: WordAlgebra, case: str = "generic") -> dict[sp.Symbol, Any] | None:
     """Matrices for the letters, numbers for the parameters; the rules and transposes must be true of them."""
     degenerate = _degenerate_matrices(case)
-    symbols = {x for side in (*equation.left, *equation.right) for x in sp.sympify(side).free_symbols}
-    symbols |= set(algebra.transposes)
+    symbols = symbols | set(algebra.transposes)
     letters, free = {x for x in symbols if not x.is_commutative}, {x for x in symbols if x.is_commutative}
     names = {x.name for x in symbols}
-    if not {x.name for x in letters} <= _letters().keys() or not {x.name for x in free} <= _scalars().keys():
+    if not {x.name for x in letters} <= _letters().keys() or not {x.name for x in free} <= scalars().keys():
         return None
     if case != "generic" and not names & (degenerate.keys() | CASES[case].keys()):
         return None
     point: dict[sp.Symbol, Any] = {x: degenerate.get(x.name, _letters()[x.name]) for x in letters}
-    point |= {x: sp.Rational(CASES[case].get(x.name, _scalars()[x.name])) for x in free}
+    point |= {x: sp.Rational(CASES[case].get(x.name, scalars()[x.name])) for x in free}
     sound = all(_same(evaluate(image, point), point[x].T) for x, image in algebra.transposes.items())
     sound = sound and all(
         _same(point[a] * point[b], v if v.is_number else evaluate(v, point)) for (a, b), v in algebra.rules.items()
@@ -132,7 +132,8 @@ def _same(a: Any, b: Any) -> bool:
 
 
 @cache
-def _scalars() -> dict[str, sp.Rational]:
+def scalars() -> dict[str, sp.Rational]:
+    """The numbers of the table, with those that follow from others."""
     table = {name: sp.Rational(value) for name, value in SCALARS.items()}
     k2, sn, cn, dn = (table[name] for name in ("k2", "sh", "ch", "dh"))
     twice = _elliptic_sum(k2, (sn, cn, dn), (sn, cn, dn))

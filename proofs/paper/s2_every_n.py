@@ -5,7 +5,6 @@ import sympy as sp
 from chapsym.derive import motion
 from chapsym.derive.motion import ALGEBRA, D, Gamma, J, K, alpha, commutator, gamma, m, omega, rate, rho
 from chapsym.derive.three import hat
-from chapsym.derive.words import evaluate
 from chapsym.prove import Equation, Point, Proof, claim, equations, main
 
 DOWNWARDS = "γ is directed from the centre to the plane (2.9 as corrected)"
@@ -21,7 +20,7 @@ def motion_point() -> Point:
     values = {alpha: gain, omega: spin, J: sp.diag(1, 2, 4), gamma: down, motion.gammaT: down.T}
     values |= {Gamma: down * down.T, m: sp.S.One, rho: sp.S.One, D: sp.S.One}
     shown = {"ω": "(1, 1, 1)", "ω̇": "(2/7, -1/2, 1/3)", "J": "diag(1, 2, 4)", "γ": "e3", "m": "1", "ρ": "1", "D": "1"}
-    return Point(shown, lambda expr: evaluate(expr, values), [equation("the principle", eliminated(), 0)])
+    return Point(shown, values, [equation("the principle", eliminated(), 0)])
 
 
 @claim(
@@ -42,7 +41,7 @@ def rolling_condition(p: Proof) -> None:
     up, turn = sp.Matrix([0, 0, 1]), sp.Matrix([[0, 0, 1], [0, 0, 0], [-1, 0, 0]])
     values = {omega: turn, gamma: up, motion.v: sp.Matrix([1, 0, 0]), rho: sp.S.One}
     shown = {"ω": str(turn.tolist()), "γ": "e3", "v": "e1", "ρ": "1"}
-    p.counterexample(Point(shown, lambda expr: evaluate(expr, values)))
+    p.counterexample(Point(shown, values))
     p.control(equation("v + ργω = the velocity of P", motion.v + rho * gamma * omega, slip))
 
 

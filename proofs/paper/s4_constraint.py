@@ -86,7 +86,7 @@ def rotation_limit(p: Proof) -> None:
     turn = sp.Matrix([[0, 0, 0], [0, 0, -1], [0, 1, 0]])
     values = {spin: turn, e: sp.Rational(1, 2)}
     shown = {"ω": str(turn.tolist()), "ε": "1/2"}
-    p.counterexample(Point(shown, lambda expr: evaluate(expr, values)))
+    p.counterexample(Point(shown, values))
     p.control(Equation("up to order 1 it is 1 - εω", zeroth + e * first, 1 - e * spin, algebra))
 
 

@@ -4,7 +4,7 @@ import sympy as sp
 
 from chapsym.derive import principle
 from chapsym.derive.principle import ALGEBRA, R0, R0T, R1, R1T, RT, J, Lam, R, f, fT, gamma, gammaT, m, rho
-from chapsym.derive.words import WordAlgebra, evaluate, matrix_symbols
+from chapsym.derive.words import WordAlgebra, matrix_symbols
 from chapsym.prove import Equation, Point, Proof, claim, equations, main
 
 CORRECTED = principle.kinetic_factor()
@@ -25,7 +25,7 @@ def path_point(values: dict, *hypotheses: Equation) -> Point:
             full[ALGEBRA.transposes[symbol]] = value.T
     orthogonal = [equation(f"{a}·{a}ᵀ = 1", a * ALGEBRA.transposes[a], 1) for a in (R0, R, R1) if a in values]
     shown = {str(k): str(v.tolist() if isinstance(v, sp.MatrixBase) else v) for k, v in values.items()}
-    return Point(shown, lambda expr: evaluate(expr, full), (*orthogonal, *hypotheses))
+    return Point(shown, full, (*orthogonal, *hypotheses))
 
 
 def skew_part_of_4_3() -> sp.Expr:

@@ -1,0 +1,243 @@
+"""What a claim's proof decided, as data that the checker judges without it: a certificate of kind register-claim.
+
+What is no equation of an algebra, or could not be exported, is listed as a sentence; the checker counts those.
+"""
+
+import json
+from collections import Counter
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import sympy as sp
+from sympy.polys.rings import PolyRing
+
+from chapsym import checker, files
+from chapsym.checker import register
+from chapsym.checker.polynomial import FIELD, Quotient, Ring, Work
+from chapsym.checker.trees import value
+from chapsym.derive.quotient import Quotient as QuotientRing
+from chapsym.derive.words import WordAlgebra
+
+from . import witness
+from .cofactors import Ideal
+from .evidence import Proof
+from .points import candidates
+from .statements import Equation, Point, Statement
+from .trees import NotAlgebra, factored, number, tree
+
+
+def certificate(id: str, printed: str, proof: Proof) -> dict[str, Any]:
+    """The certificate of a claim whose proof has run; raises checker.Rejected if the checker does not accept it."""
+    made = _Maker(proof)
+    for point in proof.points:
+        made.counterexample(point)
+    for role, statement, holds in proof.decided:
+        made.add(role, statement, holds)
+    made.finish()
+    made.sentences += [{"role": "hypothesis", "text": text} for text in proof.hypotheses]
+    made.sentences += [{"role": "said", "text": text} for text in proof.said]
+    made.sentences += [{"role": "counterexample", "text": text} for text in proof.refuted]
+    made.sentences += [{"role": "certificate", "text": f"{c['file']}: {c['statement']}"} for c in proof.certificates]
+    data = {
+        "format": checker.FORMAT, "kind": "register-claim", "claim": id, "printed": printed,
+        "corrected": proof.corrected_text, "algebras": made.algebras, "points": made.points,
+        "statements": made.statements, "counterexamples": made.counterexamples, "sentences": made.sentences,
+    }  # fmt: skip
+    data["statement"] = checker.statement(data)
+    data["digest"] = checker.digest(data)
+    checker.check(data)
+    return data
+
+
+def carried(data: dict[str, Any]) -> dict[str, Any]:
+    """What the checker judged of a certificate that it accepted, counted; and the sentences that it did not."""
+    return {
+        "statements": len(data["statements"]),
+        "counterexamples": len(data["counterexamples"]),
+        "sentences": dict(Counter(sentence["role"] for sentence in data["sentences"])),
+    }
+
+
+def write(data: dict[str, Any], folder: Path) -> None:
+    """The certificate as ID.json, a part a line; raises CannotWrite if it cannot be."""
+    lines = []
+    for name, part in data.items():
+        if isinstance(part, list) and part:
+            rows = ",\n".join(json.dumps(one, ensure_ascii=False, separators=(",", ":")) for one in part)
+            lines.append(f"{json.dumps(name)}: [\n{rows}\n]")
+        else:
+            lines.append(f"{json.dumps(name)}: {json.dumps(part, ensure_ascii=False)}")
+    text = "{\n" + ",\n".join(lines) + "\n}\n"
+    files.write_whole(folder / f"{data['claim']}.json", lambda stream: stream.write(text.encode()))
+
+
+class _Maker:
+    """Collects the parts of a certificate, each algebra and each point once."""
+
+    def __init__(self, proof: Proof) -> None:
+        self.proof = proof
+        self.algebras: list[dict[str, Any]] = []
+        self.points: list[dict[str, Any]] = []
+        self.statements: list[dict[str, Any]] = []
+        self.counterexamples: list[dict[str, Any]] = []
+        self.sentences: list[dict[str, str]] = []
+        self._symbols: dict[int, list[sp.Symbol]] = {}
+        self._ideals: dict[int, Ideal] = {}
+
+    def counterexample(self, point: Point) -> None:
+        """A point, with the hypotheses there; what it refutes is added with the statements."""
+        exact = {symbol.name: _entry(entry) for symbol, entry in self._completed(point).items()}
+        hypotheses = [{"text": h.text, **_sides(h)} for h in point.hypotheses]
+        self.counterexamples.append({"point": exact, "hypotheses": hypotheses, "refutes": [], "agrees": []})
+
+    def _completed(self, point: Point) -> Mapping[sp.Symbol, Any]:
+        """With values of the variables that the relations have beside those of the printed statements."""
+        exact = point.exact
+        for _, statement, holds in self.proof.decided:
+            if isinstance(statement, Equation) and isinstance(statement.algebra, QuotientRing) and not holds:
+                ring = statement.algebra
+                exact = next(candidates(ring.symbols, ring.relations, exact), exact)
+        return exact
+
+    def add(self, role: str, statement: Statement, holds: bool) -> None:
+        """A decided statement, with what proves or refutes it; or a sentence."""
+        if not isinstance(statement, Equation):
+            truth = "" if holds else "false: "
+            self.sentences.append({"role": role, "text": f"{truth}{statement.text} ({statement.method})"})
+            return
+        try:
+            one = {"role": role, "text": statement.text, "algebra": self._algebra(statement), **_sides(statement)}
+            one |= self._proof(statement, one) if holds else {"refuted": None}
+        except (NotAlgebra, NotFound) as error:
+            self.sentences.append({"role": role, "text": f"{statement.text} (not exported: {error})"})
+            return
+        for example in self.counterexamples:
+            self._compare(example, one, len(self.statements))
+        if not holds and one["refuted"] is None:
+            self.sentences.append({"role": role, "text": f"false: {statement.text} (its counterexample is another's)"})
+            return
+        self.statements.append(one)
+
+    def _compare(self, example: dict[str, Any], one: dict[str, Any], i: int) -> None:
+        """Notes that a point refutes a printed statement, or that what is correct holds there."""
+        point, refutes = register.entries(example["point"]), "refuted" in one
+        if not refutes and one["role"] not in ("corrected", "under"):
+            return
+        try:
+            agrees = register.holds(one, point, "")
+        except checker.Rejected:  # the point says nothing of some variable
+            return
+        if refutes and not agrees:
+            example["refutes"].append(i)
+            one["refuted"] = self.counterexamples.index(example) if one["refuted"] is None else one["refuted"]
+        elif agrees and not refutes:
+            example["agrees"].append(i)
+
+    def finish(self) -> None:
+        """Leaves out the points that refute nothing which is here."""
+        kept = [example for example in self.counterexamples if example["refutes"]]
+        for one in self.statements:
+            if "refuted" in one:
+                one["refuted"] = kept.index(self.counterexamples[one["refuted"]])
+        self.counterexamples = kept
+
+    def _algebra(self, equation: Equation) -> int:
+        algebra = equation.algebra
+        if isinstance(algebra, QuotientRing):
+            symbols = list(algebra.symbols)
+            relations = [tree(relation) for relation in algebra.relations]
+            data = {"kind": "quotient", "variables": [x.name for x in symbols], "relations": relations}
+        elif isinstance(algebra, WordAlgebra):
+            data, symbols = self._words(algebra)
+        else:
+            raise NotAlgebra(f"{type(algebra).__name__} is neither a quotient ring nor an algebra of words")
+        i = _place(self.algebras, data)
+        self._symbols[i] = symbols
+        return i
+
+    def _words(self, algebra: WordAlgebra) -> tuple[dict[str, Any], list[sp.Symbol]]:
+        """With the letters and parameters of all statements of the claim that it decides."""
+        mine = [
+            s for _, s, _ in self.proof.decided
+            if isinstance(s, Equation) and isinstance(s.algebra, WordAlgebra)
+            and (s.algebra.transposes, s.algebra.rules) == (algebra.transposes, algebra.rules)
+        ]  # fmt: skip
+        expressions = [e for s in mine for e in (*s.left, *s.right)]
+        expressions += [*algebra.transposes, *algebra.transposes.values(), *algebra.rules.values()]
+        expressions += [letter for pair in algebra.rules for letter in pair]
+        symbols = sorted(set().union(*(sp.sympify(e).free_symbols for e in expressions)), key=lambda x: str(x.name))
+        return {
+            "kind": "words",
+            "letters": [x.name for x in symbols if not x.is_commutative],
+            "parameters": [x.name for x in symbols if x.is_commutative],
+            "transposes": [[x.name, tree(image)] for x, image in algebra.transposes.items()],
+            "rules": [[a.name, b.name, tree(image)] for (a, b), image in algebra.rules.items()],
+        }, symbols
+
+    def _proof(self, equation: Equation, one: dict[str, Any]) -> dict[str, Any]:
+        """The point, and the cofactors of an equation in a quotient ring."""
+        algebra, symbols = equation.algebra, self._symbols[one["algebra"]]
+        if isinstance(algebra, WordAlgebra):
+            exact = witness.matrices(set(symbols), algebra)
+            if exact is None:
+                raise NotFound("no matrices are known for which its rules hold")
+            return {"point": self._point(exact)}
+        assert isinstance(algebra, QuotientRing)
+        cofactors = self._cofactors(one)
+        for exact in candidates(symbols, algebra.relations):
+            entries = {x.name: _entry(v) for x, v in exact.items()}
+            try:
+                if register.holds(one, register.entries(entries), ""):
+                    return {"point": self._point(exact), "cofactors": cofactors}
+            except checker.Rejected:  # a denominator vanishes there
+                continue
+        raise NotFound("no rational point was found where its relations hold")
+
+    def _point(self, exact: Mapping[sp.Symbol, Any]) -> int:
+        return _place(self.points, {x.name: _entry(v) for x, v in sorted(exact.items(), key=lambda item: item[0].name)})
+
+    def _cofactors(self, one: dict[str, Any]) -> list[list[Any]]:
+        """For each entry of left - right, in the numerator that the checker forms."""
+        i, algebra = one["algebra"], self.algebras[one["algebra"]]
+        ring = Ring(algebra["variables"], Work())
+        names = ring.names()
+
+        def polynomial(of: Quotient) -> dict[tuple[int, ...], Any]:
+            shifts = [FIELD * j for j in range(len(ring.variables))]
+            return {tuple(m >> s & 0xFFFF for s in shifts): sp.QQ(c) for m, c in of.numerator.terms.items()}
+
+        if i not in self._ideals:
+            polynomials = PolyRing(self._symbols[i], sp.QQ, sp.grevlex)
+            relations = [value(relation, names, ring.number) for relation in algebra["relations"]]
+            scaled = [{m: c / r.scale for m, c in polynomial(r).items()} for r in relations]
+            self._ideals[i] = Ideal(polynomials, [polynomials.from_dict(r) for r in scaled])
+        found = []
+        for left, right in zip(one["left"], one["right"], strict=True):
+            difference = value(left, names, ring.number) - value(right, names, ring.number)
+            cofactors = self._ideals[i].cofactors(polynomial(difference))
+            if cofactors is None:
+                raise NotFound("no cofactors were found")
+            found.append([factored(cofactor, ring.variables) for cofactor in cofactors])
+        return found
+
+
+class NotFound(Exception):
+    """What a certificate needs beside the statement was not found; the message says what."""
+
+
+def _sides(equation: Equation) -> dict[str, Any]:
+    return {"left": [tree(x) for x in equation.left], "right": [tree(x) for x in equation.right]}
+
+
+def _entry(x: Any) -> Any:
+    """A number or a matrix of a point."""
+    return [[number(entry) for entry in row] for row in x.tolist()] if isinstance(x, sp.MatrixBase) else number(x)
+
+
+def _place(among: list[dict[str, Any]], data: dict[str, Any]) -> int:
+    """Where data stand in a list, to which they are added if they are new."""
+    text = json.dumps(data)
+    i = next((i for i, other in enumerate(among) if json.dumps(other) == text), len(among))
+    among += [data][: i == len(among)]
+    return i

@@ -1,0 +1,48 @@
+"""Rational points at which relations hold: a statement that is proved from them is not empty."""
+
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from typing import Any
+
+import sympy as sp
+
+from . import witness
+
+Exact = dict[sp.Symbol, sp.Rational]
+
+
+#: Beside the table of witnesses: for relations that it was not made for.
+OTHERS = {"r": "3/5", "w1": "1/2", "w2": "0", "w3": "0"}
+
+
+def candidates(
+    symbols: Sequence[sp.Symbol], relations: Sequence[sp.Expr], known: Mapping[sp.Symbol, Any] | None = None
+) -> Iterator[Exact]:
+    """Points with the known values at which all relations hold, if some are found: from the table, primes, or 1."""
+    known = dict(known or {})
+    primes = {symbol: sp.Integer(sp.prime(i)) for i, symbol in enumerate(symbols, 1)}
+    table = {symbol: witness.scalars().get(symbol.name, prime) for symbol, prime in primes.items()}
+    others = {symbol: sp.Rational(OTHERS[symbol.name]) for symbol in symbols if symbol.name in OTHERS}
+    for start in (table, table | others, primes, dict.fromkeys(symbols, sp.S.One)):
+        if (point := _moved(start | known, relations, known.keys())) is not None:
+            yield point
+
+
+def _moved(start: Exact, relations: Sequence[sp.Expr], fixed: Collection[sp.Symbol]) -> Exact | None:
+    """The point with one coordinate changed for each relation that fails there; None if no rational one is found."""
+    point = dict(start)
+    for i, relation in enumerate(relations):
+        if relation.xreplace(point) == 0:
+            continue
+        free = sorted(relation.free_symbols - set(fixed), key=str)
+        moves = (point | {x: root} for x in free for root in _roots(relation, x, point))
+        found = next((move for move in moves if all(r.xreplace(move) == 0 for r in relations[: i + 1])), None)
+        if found is None:
+            return None
+        point = found
+    return point
+
+
+def _roots(relation: sp.Expr, x: sp.Symbol, point: Exact) -> list[sp.Rational]:
+    """The rational values of x at which the relation holds."""
+    others = {symbol: value for symbol, value in point.items() if symbol != x}
+    return sorted(sp.Poly(relation.xreplace(others), x).ground_roots())

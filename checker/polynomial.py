@@ -1,0 +1,178 @@
+"""Polynomials with integer coefficients, and quotients of them, in expanded form.
+
+A monomial is one integer, 16 bits for the exponent of each variable: monomials are multiplied by adding them.  No
+degree reaches 2¹⁶, so no exponent runs into the next.  A quotient keeps its denominator as powers of factors that its
+ring knows by their number; equal factors are found again, nothing else is cancelled.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from fractions import Fraction
+from math import gcd, lcm
+
+from .interval import Rejected
+
+#: The products of two terms for one certificate; the terms, the degree, the bits of the coefficients of a polynomial.
+MOST_WORK, MOST_TERMS, MOST_DEGREE, MOST_BITS = 5_000_000, 200_000, 1_000, 20_000
+FIELD = 16
+
+
+class Work:
+    """What is left of the products of two terms."""
+
+    def __init__(self, left: int = MOST_WORK):
+        self.left = left
+
+    def spend(self, products: int) -> None:
+        """Raises Rejected when too much was asked for."""
+        self.left -= products
+        if self.left < 0:
+            raise Rejected("the certificate asks for more work than a checker should do")
+
+
+class Ring:
+    """The polynomials in some variables; it knows the factors of all denominators."""
+
+    def __init__(self, variables: Sequence[str], work: Work):
+        self.variables, self.work = tuple(variables), work
+        self.factors: list[Polynomial] = []
+        self._numbers: dict[frozenset[tuple[int, int]], int] = {}
+
+    def constant(self, n: int) -> Polynomial:
+        """The polynomial n."""
+        return Polynomial(self, {0: n} if n else {}, 0, n.bit_length())
+
+    def variable(self, i: int) -> Polynomial:
+        """The i-th variable."""
+        return Polynomial(self, {1 << FIELD * i: 1}, 1, 1)
+
+    def factor(self, polynomial: Polynomial) -> int:
+        """The number of a factor."""
+        key = frozenset(polynomial.terms.items())
+        if key not in self._numbers:
+            self._numbers[key] = len(self.factors)
+            self.factors.append(polynomial)
+        return self._numbers[key]
+
+    def names(self) -> dict[str, Quotient]:
+        """The variables as quotients, by name."""
+        return {name: Quotient(self.variable(i), 1, {}) for i, name in enumerate(self.variables)}
+
+    def number(self, x: Fraction) -> Quotient:
+        """A rational number as a quotient."""
+        return Quotient(self.constant(x.numerator), x.denominator, {})
+
+
+class Polynomial:
+    """A sum of terms: {monomial: coefficient}, none of them 0; `degree` and `bits` are bounds for them."""
+
+    __slots__ = ("bits", "degree", "ring", "terms")
+
+    def __init__(self, ring: Ring, terms: dict[int, int], degree: int, bits: int):
+        if bits > MOST_BITS:
+            bits = max((c.bit_length() for c in terms.values()), default=0)
+        if len(terms) > MOST_TERMS or degree > MOST_DEGREE or bits > MOST_BITS:
+            raise Rejected("the certificate has a polynomial too large to be checked")
+        self.ring, self.terms, self.degree, self.bits = ring, terms, degree, bits
+
+    def __add__(self, other: Polynomial) -> Polynomial:
+        small, large = sorted((self, other), key=lambda p: len(p.terms))
+        terms = dict(large.terms)
+        for monomial, c in small.terms.items():
+            total = terms.get(monomial, 0) + c
+            if total:
+                terms[monomial] = total
+            else:
+                del terms[monomial]
+        return Polynomial(self.ring, terms, max(self.degree, other.degree), max(self.bits, other.bits) + 1)
+
+    def __mul__(self, other: Polynomial) -> Polynomial:
+        small, large = sorted((self.terms, other.terms), key=len)
+        self.ring.work.spend(len(small) * len(large))
+        terms: dict[int, int] = {}
+        for shift, c in small.items():
+            for monomial, d in large.items():
+                at = monomial + shift
+                terms[at] = terms.get(at, 0) + c * d
+            if len(terms) > MOST_TERMS:
+                raise Rejected("the certificate has a polynomial too large to be checked")
+        kept = {monomial: c for monomial, c in terms.items() if c}
+        bits = self.bits + other.bits + len(small).bit_length()
+        return Polynomial(self.ring, kept, self.degree + other.degree, bits)
+
+    def __pow__(self, power: int) -> Polynomial:
+        result = self.ring.constant(1)
+        for _ in range(power):
+            result = result * self
+        return result
+
+    def times(self, n: int) -> Polynomial:
+        """A multiple of it; n is not 0."""
+        terms = self.terms if n == 1 else {monomial: n * c for monomial, c in self.terms.items()}
+        return Polynomial(self.ring, terms, self.degree, self.bits + n.bit_length())
+
+    def split(self) -> tuple[int, list[Polynomial]]:
+        """An integer and polynomials, of which it is the product: variables that divide it, and a primitive rest."""
+        monomials = list(self.terms)
+        least = [min(m >> FIELD * i & 0xFFFF for m in monomials) for i in range(len(self.ring.variables))]
+        common = sum(e << FIELD * i for i, e in enumerate(least))
+        content = gcd(*self.terms.values())
+        if self.terms[max(monomials)] < 0:
+            content = -content
+        rest = {m - common: c // content for m, c in self.terms.items()}
+        parts = [self.ring.variable(i) for i, e in enumerate(least) for _ in range(e)]
+        return content, parts if rest == {0: 1} else [*parts, Polynomial(self.ring, rest, self.degree, self.bits)]
+
+
+class Quotient:
+    """numerator / (scale · product of factor^power): scale is a positive integer, factors are numbers of the ring."""
+
+    __slots__ = ("factors", "numerator", "scale")
+
+    def __init__(self, numerator: Polynomial, scale: int, factors: dict[int, int]):
+        if scale.bit_length() > MOST_BITS or sum(factors.values()) > MOST_DEGREE:
+            raise Rejected("the certificate has a number too large to be checked")
+        self.numerator, self.scale, self.factors = numerator, scale, factors
+
+    def _over(self, scale: int, factors: dict[int, int]) -> Polynomial:
+        """The numerator over another denominator, which this one divides."""
+        known, result = self.numerator.ring.factors, self.numerator.times(scale // self.scale)
+        for i, power in factors.items():
+            for _ in range(power - self.factors.get(i, 0)):
+                result = result * known[i]
+        return result
+
+    def __add__(self, other: Quotient) -> Quotient:
+        scale, factors = lcm(self.scale, other.scale), _powers(max, self.factors, other.factors)
+        return Quotient(self._over(scale, factors) + other._over(scale, factors), scale, factors)
+
+    def __sub__(self, other: Quotient) -> Quotient:
+        return self + Quotient(other.numerator.times(-1), other.scale, other.factors)
+
+    def __mul__(self, other: Quotient) -> Quotient:
+        factors = _powers(int.__add__, self.factors, other.factors)
+        return Quotient(self.numerator * other.numerator, self.scale * other.scale, factors)
+
+    def __pow__(self, power: int) -> Quotient:
+        if power < 0:
+            return self._inverse() ** -power
+        return Quotient(self.numerator**power, self.scale**power, {i: e * power for i, e in self.factors.items()})
+
+    def _inverse(self) -> Quotient:
+        if not self.numerator.terms:
+            raise Rejected("a statement divides by 0")
+        ring, above = self.numerator.ring, self.numerator.ring.constant(self.scale)
+        for i, power in self.factors.items():
+            above = above * ring.factors[i] ** power
+        content, parts = self.numerator.split()
+        factors: dict[int, int] = {}
+        for part in parts:
+            number = ring.factor(part)
+            factors[number] = factors.get(number, 0) + 1
+        return Quotient(above.times(1 if content > 0 else -1), abs(content), factors)
+
+
+def _powers(join: Callable[[int, int], int], a: dict[int, int], b: dict[int, int]) -> dict[int, int]:
+    """The powers of the factors of two denominators, joined."""
+    return {i: join(a.get(i, 0), b.get(i, 0)) for i in (*a, *(i for i in b if i not in a))}

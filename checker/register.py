@@ -1,0 +1,334 @@
+"""Certificates of kind register-claim: the statements of one claim that are algebra, and exact counterexamples.
+
+A statement is a list of equations left = right between trees (trees.py), decided in an algebra:
+
+quotient  variables and relations, polynomials that vanish by hypothesis.  The numerator of left - right is formed here;
+          it must be Σ cofactor · relation, with the cofactors of the file.  Then left = right wherever the relations
+          hold and no denominator vanishes.  A rational point where that is so is given: such points exist.
+words     letters for matrices, parameters for numbers, and rules for the products of two letters.  left - right becomes
+          0 by the rules.  Then left = right for all matrices of any size for which the rules hold.  Matrices for which
+          they do, and for which the letters are transposes of one another as it is said, are given.
+
+A counterexample is a point, or matrices, at which the relations or rules and the hypotheses hold, the printed
+statements it refutes fail, and the corrected ones hold.  The sentences are not judged: they are what the claim says
+beside this.
+"""
+
+import re
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
+from typing import Any
+
+from .document import check_names, count
+from .interval import Rejected
+from .polynomial import Quotient, Ring, Work
+from .trees import check_name, check_tree, names_in, rational, value
+from .words import Matrix, Words, same
+
+NAMES = "format kind statement claim printed corrected algebras points statements counterexamples sentences digest"
+_CLAIM = re.compile(r"[\w.-]{1,40}", re.ASCII)
+ROLES = ("printed", "corrected", "under", "lemma", "second route")
+SENTENCES = (*ROLES, "hypothesis", "said", "counterexample", "certificate")
+#: Of each list in a file, and the letters of a text.
+MOST, MOST_LETTERS = 2_000, 4_000
+#: Rows and columns of a matrix.
+MOST_ROWS = 5
+Value = Fraction | Matrix
+
+
+def statement(data: dict[str, Any]) -> str:
+    """What was checked, counted, and what was not."""
+    proved = [one for one in data["statements"] if "refuted" not in one]
+    words = sum(data["algebras"][one["algebra"]]["kind"] == "words" for one in proved)
+    refuted = len(data["statements"]) - len(proved)
+    return (
+        f"Claim {data['claim']}: {len(proved) - words} statements hold wherever their relations hold and their "
+        f"denominators do not vanish, which happens at a point given for each; {words} statements about words hold for "
+        f"all matrices, of any size, that satisfy their rules, as those given do; {refuted} printed statements fail at "
+        f"{len(data['counterexamples'])} points given.  {len(data['sentences'])} sentences are listed and not checked."
+    )
+
+
+def check_form(data: dict[str, Any]) -> None:
+    """Raises Rejected unless every part is there, in its form, and every number in its only form."""
+    check_names(data, NAMES, "the certificate")
+    for name in ("points", "statements", "counterexamples", "sentences"):
+        many(data[name], name)
+    if not isinstance(data["claim"], str) or not _CLAIM.fullmatch(data["claim"]):
+        raise Rejected("claim must be the id of a claim, such as prop-4")
+    text(data["printed"], "printed")
+    if data["corrected"] is not None:
+        text(data["corrected"], "corrected")
+    algebras = [check_algebra(one, f"algebra {i}") for i, one in enumerate(many(data["algebras"], "algebras"))]
+    for i, one in enumerate(data["points"]):
+        check_point(one, f"point {i}")
+    for i, one in enumerate(data["counterexamples"]):
+        where = f"counterexample {i}"
+        check_names(one, "point hypotheses refutes agrees", where)
+        check_point(one["point"], where)
+        for hypothesis in many(one["hypotheses"], where):
+            check_names(hypothesis, "text left right", where)
+            text(hypothesis["text"], where)
+            check_sides(hypothesis, set(one["point"]), where)
+        for name in ("refutes", "agrees"):
+            for number in many(one[name], where):
+                count(number, 0, len(data["statements"]) - 1, where)
+    for i, one in enumerate(data["statements"]):
+        check_statement(one, algebras, data, f"statement {i}")
+    for i, one in enumerate(data["sentences"]):
+        check_names(one, "role text", f"sentence {i}")
+        chosen(one["role"], SENTENCES, f"sentence {i}")
+        text(one["text"], f"sentence {i}")
+
+
+def many(data: Any, where: str) -> list[Any]:
+    """A list, not too long."""
+    if not isinstance(data, list) or len(data) > MOST:
+        raise Rejected(f"{where} must have a list of at most {MOST}")
+    return data
+
+
+def text(data: Any, where: str) -> None:
+    """Raises Rejected unless this is a text, not too long."""
+    if not isinstance(data, str) or not 0 < len(data) <= MOST_LETTERS:
+        raise Rejected(f"{where} must have a text of at most {MOST_LETTERS} letters")
+
+
+def chosen(data: Any, among: Sequence[str], where: str) -> None:
+    """Raises Rejected unless this is one of some words."""
+    if not isinstance(data, str) or data not in among:
+        raise Rejected(f"{where} must be one of: {', '.join(among)}")
+
+
+def check_algebra(data: Any, where: str) -> set[str]:
+    """The form of an algebra; returns its names."""
+    kind = data.get("kind") if isinstance(data, dict) else None
+    chosen(kind, ("quotient", "words"), f"the kind of {where}")
+    if kind == "quotient":
+        check_names(data, "kind variables relations", where)
+        names = distinct(data["variables"], where)
+        for relation in many(data["relations"], where):
+            check_tree(relation, names, f"a relation of {where}")
+        return names
+    check_names(data, "kind letters parameters transposes rules", where)
+    letters = distinct(data["letters"], where)
+    names = distinct([*data["letters"], *many(data["parameters"], where)], where)
+    for pair in many(data["transposes"], where):
+        sized(pair, 2, where)
+        if not isinstance(pair[0], str) or pair[0] not in letters:
+            raise Rejected(f"{where} has a transpose of what is no letter")
+        check_tree(pair[1], names, where)
+    if len({pair[0] for pair in data["transposes"]}) < len(data["transposes"]):
+        raise Rejected(f"{where} has a letter with two transposes")
+    for rule in many(data["rules"], where):
+        sized(rule, 3, where)
+        if not all(isinstance(letter, str) and letter in letters for letter in rule[:2]):
+            raise Rejected(f"a rule of {where} is not about two letters")
+        check_tree(rule[2], names, f"a rule of {where}")
+    if len({tuple(rule[:2]) for rule in data["rules"]}) < len(data["rules"]):
+        raise Rejected(f"{where} has two rules for one product")
+    return names
+
+
+def distinct(data: Any, where: str) -> set[str]:
+    """The names of a list, each of which stands there once."""
+    for name in many(data, where):
+        check_name(name, where)
+    if len(set(data)) < len(data):
+        raise Rejected(f"{where} has a name twice")
+    return set(data)
+
+
+def sized(data: Any, size: int, where: str) -> None:
+    """Raises Rejected unless this is a list of that length."""
+    if not isinstance(data, list) or len(data) != size:
+        raise Rejected(f"{where} must have a list of {size}")
+
+
+def check_point(data: Any, where: str) -> None:
+    """Raises Rejected unless names are given values: numbers, or matrices as lists of rows."""
+    if not isinstance(data, dict) or len(data) > MOST:
+        raise Rejected(f"{where} must be an object of values")
+    for name, entry in data.items():
+        check_name(name, where)
+        if isinstance(entry, list):
+            check_matrix(entry, where)
+        else:
+            rational(entry, where)
+
+
+def check_matrix(rows: list[Any], where: str) -> None:
+    """Raises Rejected unless these are rows of numbers, of one length."""
+    if not all(isinstance(row, list) for row in rows) or not 1 <= len(rows) <= MOST_ROWS:
+        raise Rejected(f"{where} has a matrix that is no list of at most {MOST_ROWS} rows")
+    if len({len(row) for row in rows}) != 1 or not 1 <= len(rows[0]) <= MOST_ROWS:
+        raise Rejected(f"{where} has a matrix whose rows are not of one length from 1 to {MOST_ROWS}")
+    for row in rows:
+        for x in row:
+            rational(x, where)
+
+
+def check_sides(data: dict[str, Any], names: set[str], where: str) -> None:
+    """Raises Rejected unless left and right are trees, as many here as there."""
+    if not many(data["left"], where) or len(data["left"]) != len(many(data["right"], where)):
+        raise Rejected(f"{where} must have as many entries on the right as on the left, and one at least")
+    for tree in (*data["left"], *data["right"]):
+        check_tree(tree, names, where)
+
+
+def check_statement(one: Any, algebras: list[set[str]], data: dict[str, Any], where: str) -> None:
+    """The form of a statement, with what proves it or with the number of the counterexample that refutes it."""
+    names = "role text algebra left right "
+    if isinstance(one, dict) and "refuted" in one:
+        check_names(one, names + "refuted", where)
+        count(one["refuted"], 0, len(data["counterexamples"]) - 1, where)
+        chosen(one["role"], ("printed",), f"the role of {where}, which is refuted,")
+    else:
+        words = isinstance(one, dict) and "cofactors" not in one
+        check_names(one, names + "point" + " cofactors" * (not words), where)
+        count(one["point"], 0, len(data["points"]) - 1, where)
+    chosen(one["role"], ROLES, where)
+    text(one["text"], where)
+    check_sides(one, algebras[count(one["algebra"], 0, len(algebras) - 1, where)], where)
+    algebra = data["algebras"][one["algebra"]]
+    if "refuted" not in one and ("cofactors" in one) != (algebra["kind"] == "quotient"):
+        raise Rejected(f"{where} must have cofactors if it is one of a quotient, and none if it is one of words")
+    if "cofactors" in one:
+        sized(one["cofactors"], len(one["left"]), where)
+        for cofactors in one["cofactors"]:
+            sized(cofactors, len(algebra["relations"]), where)
+            for cofactor in cofactors:
+                check_tree(cofactor, set(algebra["variables"]), where)
+
+
+def check(data: dict[str, Any]) -> dict[str, str]:
+    """Raises Rejected unless every statement is proved and every counterexample is one; returns the counts."""
+    work = Work()
+    points = [entries(one) for one in data["points"]]
+    for i, one in enumerate(data["statements"]):
+        if "refuted" in one:
+            continue
+        algebra, point, where = data["algebras"][one["algebra"]], points[one["point"]], f"statement {i}"
+        if algebra["kind"] == "quotient":
+            check_identity(one, algebra, work, where)
+        else:
+            check_words(one, algebra, work, where)
+        check_hypotheses(algebra, point, where, whole=True)
+        if not holds(one, point, where):
+            raise Rejected(f"{where} fails at its point")
+    for i, one in enumerate(data["counterexamples"]):
+        check_counterexample(one, i, data)
+    refuted = [i for i, one in enumerate(data["statements"]) if "refuted" in one]
+    for i in refuted:
+        if i not in data["counterexamples"][data["statements"][i]["refuted"]]["refutes"]:
+            raise Rejected(f"statement {i} is not refuted by its counterexample")
+    roles = [one["role"] for one in data["statements"]]
+    return {
+        **{role: str(roles.count(role)) for role in ROLES if role in roles},
+        "refuted": str(len(refuted)),
+        "sentences not checked": str(len(data["sentences"])),
+    }
+
+
+def check_identity(one: dict[str, Any], algebra: dict[str, Any], work: Work, where: str) -> None:
+    """The numerator of left - right is Σ cofactor · relation."""
+    ring = Ring(algebra["variables"], work)
+    names, zero = ring.names(), ring.number(Fraction(0))
+    relations: list[Quotient] = [value(tree, names, ring.number) for tree in algebra["relations"]]
+    for left, right, cofactors in zip(one["left"], one["right"], one["cofactors"], strict=True):
+        difference: Quotient = value(left, names, ring.number) - value(right, names, ring.number)
+        made = zero
+        for cofactor, relation in zip(cofactors, relations, strict=True):
+            made = made + value(cofactor, names, ring.number) * relation
+        if made.factors:
+            raise Rejected(f"{where} has a relation or a cofactor that is no polynomial")
+        if difference.numerator.times(made.scale).terms != made.numerator.terms:
+            raise Rejected(f"{where} is not proved: its cofactors do not make left - right from the relations")
+
+
+def check_words(one: dict[str, Any], algebra: dict[str, Any], work: Work, where: str) -> None:
+    """left - right becomes 0 by the rules."""
+    parameters = algebra["parameters"]
+    none = (0,) * len(parameters)
+
+    def number(x: Fraction) -> Words:
+        return Words({(none, ()): x}, work)
+
+    names = {letter: Words({(none, (letter,)): Fraction(1)}, work) for letter in algebra["letters"]}
+    for i, name in enumerate(parameters):
+        names[name] = Words({(tuple(int(i == j) for j in range(len(parameters))), ()): Fraction(1)}, work)
+    rules = {(a, b): value(image, names, number) for a, b, image in algebra["rules"]}
+    for left, right in zip(one["left"], one["right"], strict=True):
+        if (value(left, names, number) - value(right, names, number)).rewritten(rules).terms:
+            raise Rejected(f"{where} is not proved: left - right does not become 0 by the rules")
+
+
+def entries(data: dict[str, Any]) -> dict[str, Value]:
+    """The values of a point."""
+    return {
+        name: Matrix([[Fraction(x) for x in row] for row in entry]) if isinstance(entry, list) else Fraction(entry)
+        for name, entry in data.items()
+    }
+
+
+def at(tree: Any, point: Mapping[str, Value], where: str) -> Value:
+    """The value of a tree at a point."""
+    if missing := names_in(tree) - point.keys():
+        raise Rejected(f"{where} has a point without a value for {min(missing)}")
+    try:
+        found: Value = value(tree, point, Fraction)
+    except ZeroDivisionError:
+        raise Rejected(f"{where} has a point at which a denominator vanishes") from None
+    return found
+
+
+def holds(one: dict[str, Any], point: Mapping[str, Value], where: str) -> bool:
+    """Whether left = right at a point, in every entry."""
+    sides = zip(one["left"], one["right"], strict=True)
+    entries_agree = [same(at(left, point, where), at(right, point, where)) for left, right in sides]
+    return all(entries_agree)  # each was looked at: none has a denominator that vanishes
+
+
+def check_hypotheses(algebra: dict[str, Any], point: Mapping[str, Value], where: str, whole: bool) -> None:
+    """What the algebra assumes is true at the point; of letters that it names, unless it must name the `whole`."""
+    quotient = algebra["kind"] == "quotient"
+    numbers, letters = (algebra["variables"], []) if quotient else (algebra["parameters"], algebra["letters"])
+    if whole and not {*numbers, *letters} <= point.keys():
+        raise Rejected(f"{where} has a point without a value for every variable")
+    if any(isinstance(point.get(name), Matrix) for name in numbers):
+        raise Rejected(f"{where} has a matrix where a number must stand")
+    if any(isinstance(point.get(name), Fraction) for name in letters):
+        raise Rejected(f"{where} has a number where a matrix must stand")
+    if quotient:
+        if any(at(relation, point, where) != 0 for relation in algebra["relations"]):
+            raise Rejected(f"{where} has a point at which a relation fails")
+        return
+    for a, b, image in algebra["rules"]:
+        if {a, b} | names_in(image) <= point.keys() and not same(
+            at(["*", a, b], point, where), at(image, point, where)
+        ):
+            raise Rejected(f"{where} has matrices for which a rule fails")
+    for letter, image in algebra["transposes"]:
+        matrix = point.get(letter) if names_in(image) <= point.keys() else None
+        if isinstance(matrix, Matrix) and not same(matrix.transposed, at(image, point, where)):
+            raise Rejected(f"{where} has matrices that are not transposes as it is said")
+
+
+def check_counterexample(one: dict[str, Any], i: int, data: dict[str, Any]) -> None:
+    """The hypotheses hold there, what it refutes fails, and what is correct holds."""
+    where, point = f"counterexample {i}", entries(one["point"])
+    if not one["refutes"]:
+        raise Rejected(f"{where} refutes nothing")
+    for hypothesis in one["hypotheses"]:
+        if not holds(hypothesis, point, where):
+            raise Rejected(f"{where} violates a hypothesis")
+    for number in one["refutes"]:
+        refuted = data["statements"][number]
+        if "refuted" not in refuted:
+            raise Rejected(f"{where} refutes a statement that is said to be proved")
+        check_hypotheses(data["algebras"][refuted["algebra"]], point, where, whole=False)
+        if holds(refuted, point, where):
+            raise Rejected(f"{where} does not contradict statement {number}")
+    for number in one["agrees"]:
+        if "refuted" in data["statements"][number] or not holds(data["statements"][number], point, where):
+            raise Rejected(f"{where} contradicts statement {number}, which it should confirm")

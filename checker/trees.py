@@ -1,0 +1,96 @@
+"""Expressions as data: a name, a number, or a list of an operation and its operands.
+
+    "q0"    -3    "2/5"    ["+", a, b, ...]    ["*", a, b, ...]    ["^", a, k]
+
+A number is an integer, or a quotient in quotes in lowest terms; k is an integer other than 0.  Factors stand in their
+order: they need not commute.
+"""
+
+import re
+from collections.abc import Callable, Collection, Mapping
+from fractions import Fraction
+from operator import add, mul
+from typing import Any
+
+from .interval import Rejected
+
+#: What a certificate may ask for, so that none takes memory or time without limit.
+MOST_DEPTH, MOST_OPERANDS, MOST_POWER, MOST_BITS, MOST_BITS_OF_VALUES = 60, 20_000, 60, 1_000, 10_000
+_NAME = re.compile(r"[^\W\d]\w*([\^_](\w+|[-+]))*")
+_QUOTIENT = re.compile(r"-?[1-9]\d*/[1-9]\d*", re.ASCII)
+
+
+def check_name(name: Any, where: str) -> None:
+    """Raises Rejected unless this can be the name of a variable: at most 20 letters and digits, such as R_+ and R^T."""
+    if not isinstance(name, str) or len(name) > 20 or not _NAME.fullmatch(name):
+        raise Rejected(f"{where} has a name that is none: {name!a:.40}")
+
+
+def rational(x: Any, where: str) -> Fraction:
+    """A number of a tree, which can be written in one way only."""
+    if type(x) is int and x.bit_length() <= MOST_BITS:
+        return Fraction(x)
+    if isinstance(x, str) and len(x) <= MOST_BITS and _QUOTIENT.fullmatch(x):
+        number = Fraction(x)
+        if number.denominator > 1 and str(number) == x and bits(number) <= MOST_BITS:
+            return number
+    raise Rejected(f"{where} has a number that is neither an integer nor a quotient such as 2/5 in lowest terms")
+
+
+def bits(x: Fraction) -> int:
+    """The bits of its numerator or of its denominator."""
+    return max(x.numerator.bit_length(), x.denominator.bit_length())
+
+
+def bounded(x: Any) -> Any:
+    """The same; raises Rejected for a rational number that grew without measure."""
+    if isinstance(x, Fraction) and bits(x) > MOST_BITS_OF_VALUES:
+        raise Rejected("the certificate has a number too large to be checked")
+    return x
+
+
+def check_tree(tree: Any, names: Collection[str], where: str, depth: int = 0) -> None:
+    """Raises Rejected unless `tree` is an expression in these names."""
+    if isinstance(tree, str) and tree in names:
+        return
+    if not isinstance(tree, list):
+        if isinstance(tree, str) and _NAME.fullmatch(tree):
+            raise Rejected(f"{where} has the name {tree!a:.40}, which is not among its variables")
+        rational(tree, where)
+        return
+    if depth >= MOST_DEPTH:
+        raise Rejected(f"{where} is deeper than {MOST_DEPTH}")
+    if not 3 <= len(tree) <= MOST_OPERANDS or tree[0] not in ("+", "*", "^"):
+        raise Rejected(f"{where} has a list that is no sum, product or power")
+    if tree[0] == "^":
+        if len(tree) != 3 or type(tree[2]) is not int or not 1 <= abs(tree[2]) <= MOST_POWER:
+            raise Rejected(f"{where} has a power that is no integer from 1 to {MOST_POWER} or its negative")
+        tree = tree[:2]
+    for part in tree[1:]:
+        check_tree(part, names, where, depth + 1)
+
+
+def value(tree: Any, names: Mapping[str, Any], number: Callable[[Fraction], Any]) -> Any:
+    """The value of a tree in any arithmetic with + * **: of its names, and of its rational numbers."""
+    if isinstance(tree, str) and tree in names:
+        return names[tree]
+    if not isinstance(tree, list):
+        return number(Fraction(tree))
+    if tree[0] == "^":
+        return bounded(value(tree[1], names, number) ** tree[2])
+    return _joined(add if tree[0] == "+" else mul, [value(part, names, number) for part in tree[1:]])
+
+
+def _joined(operation: Callable[[Any, Any], Any], values: list[Any]) -> Any:
+    """A long sum or product, in halves: so that no part of it is copied often."""
+    if len(values) == 1:
+        return values[0]
+    half = len(values) // 2
+    return bounded(operation(_joined(operation, values[:half]), _joined(operation, values[half:])))
+
+
+def names_in(tree: Any) -> set[str]:
+    """The names that occur in a tree that was checked."""
+    if isinstance(tree, list):
+        return set().union(*(names_in(part) for part in tree[1:]))
+    return {tree} if isinstance(tree, str) and _NAME.fullmatch(tree) else set()

@@ -1,0 +1,150 @@
+"""Sums of words in letters that do not commute, rewritten by rules; and matrices, which the letters stand for.
+
+A rule says what the product of two letters is.  If a sum of words becomes 0 by the rules, it is 0 for all matrices for
+which they hold, of whatever size.  It does not matter whether another order of the rules would lead there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from fractions import Fraction
+from operator import add, mul
+
+from .interval import Rejected
+from .polynomial import Work
+from .trees import bounded
+
+#: The letters of a word, the terms of a sum.
+MOST_LETTERS, MOST_WORDS = 60, 20_000
+#: The exponents of the parameters, and the letters.
+Term = tuple[tuple[int, ...], tuple[str, ...]]
+
+
+class Words:
+    """A sum of terms {(exponents of the parameters, letters): coefficient}, none of them 0."""
+
+    __slots__ = ("terms", "work")
+
+    def __init__(self, terms: Mapping[Term, Fraction], work: Work):
+        self.terms, self.work = {term: bounded(c) for term, c in terms.items() if c}, work
+        if len(self.terms) > MOST_WORDS or any(len(word) > MOST_LETTERS for _, word in self.terms):
+            raise Rejected("the certificate has a sum of words too large to be checked")
+
+    def __add__(self, other: Words) -> Words:
+        self.work.spend(len(self.terms) + len(other.terms))
+        terms = dict(self.terms)
+        for term, c in other.terms.items():
+            terms[term] = terms.get(term, Fraction(0)) + c
+        return Words(terms, self.work)
+
+    def __sub__(self, other: Words) -> Words:
+        return self + Words({term: -c for term, c in other.terms.items()}, self.work)
+
+    def __mul__(self, other: Words) -> Words:
+        self.work.spend(len(self.terms) * len(other.terms))
+        terms: dict[Term, Fraction] = {}
+        for (a, left), c in self.terms.items():
+            for (b, right), d in other.terms.items():
+                term = (tuple(map(add, a, b)), left + right)
+                terms[term] = terms.get(term, Fraction(0)) + c * d
+        return Words(terms, self.work)
+
+    def __pow__(self, power: int) -> Words:
+        base = self
+        if power < 0:
+            if len(self.terms) != 1 or any(word for _, word in self.terms):
+                raise Rejected("a statement about words divides by what is no product of parameters")
+            [((exponents, word), c)] = self.terms.items()
+            base = Words({(tuple(-e for e in exponents), word): 1 / c}, self.work)
+        result = base
+        for _ in range(abs(power) - 1):
+            result = result * base
+        return result
+
+    def rewritten(self, rules: Mapping[tuple[str, str], Words]) -> Words:
+        """What is left of the sum when no rule applies any more."""
+        settled: dict[Term, Fraction] = {}
+        pending = self.terms
+        while pending:
+            following: dict[Term, Fraction] = {}
+            for (exponents, word), c in pending.items():
+                at = next((i for i in range(len(word) - 1) if word[i : i + 2] in rules), None)
+                if at is None:
+                    settled[exponents, word] = settled.get((exponents, word), Fraction(0)) + c
+                    continue
+                image = rules[word[at], word[at + 1]]
+                self.work.spend(1 + len(image.terms))
+                for (more, middle), d in image.terms.items():
+                    term = (tuple(map(add, exponents, more)), word[:at] + middle + word[at + 2 :])
+                    following[term] = following.get(term, Fraction(0)) + c * d
+            pending = Words(following, self.work).terms
+        return Words(settled, self.work)
+
+
+class Matrix:
+    """A matrix of rational numbers; a number beside it stands for that multiple of the unit matrix."""
+
+    __slots__ = ("rows",)
+
+    def __init__(self, rows: list[list[Fraction]]):
+        self.rows = [[bounded(x) for x in row] for row in rows]
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """How many rows and columns."""
+        return len(self.rows), len(self.rows[0])
+
+    @property
+    def transposed(self) -> Matrix:
+        """Its transpose."""
+        return Matrix([list(column) for column in zip(*self.rows, strict=True)])
+
+    def is_zero(self) -> bool:
+        """Whether all entries are 0."""
+        return not any(map(any, self.rows))
+
+    def _as_matrix(self, other: Matrix | Fraction) -> Matrix:
+        """A number as a matrix of the same size."""
+        if isinstance(other, Matrix):
+            return other
+        n, columns = self.shape
+        if n != columns:
+            raise Rejected("a number is added to a matrix that is not square")
+        return Matrix([[other if i == j else Fraction(0) for j in range(n)] for i in range(n)])
+
+    def __add__(self, other: Matrix | Fraction) -> Matrix:
+        if other == 0:
+            return self
+        other = self._as_matrix(other)
+        if self.shape != other.shape:
+            raise Rejected("matrices of different sizes are added")
+        return Matrix([list(map(add, a, b)) for a, b in zip(self.rows, other.rows, strict=True)])
+
+    def __mul__(self, other: Matrix | Fraction) -> Matrix:
+        if not isinstance(other, Matrix):
+            return Matrix([[x * other for x in row] for row in self.rows])
+        if self.shape[1] != other.shape[0]:
+            raise Rejected("matrices are multiplied whose sizes do not fit")
+        columns = list(zip(*other.rows, strict=True))
+        return Matrix([[sum(map(mul, row, column), Fraction(0)) for column in columns] for row in self.rows])
+
+    __radd__ = __add__
+
+    def __rmul__(self, number: Fraction) -> Matrix:
+        return self * number
+
+    def __pow__(self, power: int) -> Matrix:
+        if power < 0:
+            raise Rejected("a matrix has a negative power")
+        result = self
+        for _ in range(power - 1):
+            result = result * self
+        return result
+
+
+def same(a: Matrix | Fraction, b: Matrix | Fraction) -> bool:
+    """Whether two values agree; the number 0 is every matrix of zeros."""
+    if not isinstance(a, Matrix) and not isinstance(b, Matrix):
+        return a == b
+    difference = a + b * Fraction(-1)
+    return difference.is_zero() if isinstance(difference, Matrix) else difference == 0
