@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from fractions import Fraction
+from itertools import pairwise
 from operator import add, mul
 
 from .interval import Rejected
@@ -68,7 +69,7 @@ class Words:
         while pending:
             following: dict[Term, Fraction] = {}
             for (exponents, word), c in pending.items():
-                at = next((i for i in range(len(word) - 1) if word[i : i + 2] in rules), None)
+                at = next((i for i, pair in enumerate(pairwise(word)) if pair in rules), None)
                 if at is None:
                     settled[exponents, word] = settled.get((exponents, word), Fraction(0)) + c
                     continue
@@ -144,7 +145,5 @@ class Matrix:
 
 def same(a: Matrix | Fraction, b: Matrix | Fraction) -> bool:
     """Whether two values agree; the number 0 is every matrix of zeros."""
-    if not isinstance(a, Matrix) and not isinstance(b, Matrix):
-        return a == b
     difference = a + b * Fraction(-1)
     return difference.is_zero() if isinstance(difference, Matrix) else difference == 0

@@ -121,7 +121,7 @@ def judge_and_keep(
         records.update(path, [], claims)  # with a last line that is whole
     try:
         with progress_bar("proving", len(wanted)) as shown:
-            judged = prove_all(wanted, jobs, keep, certificates)
+            judged = prove_all(wanted, jobs, keep, **({"folder": certificates} if certificates else {}))
     except files.CannotWrite as error:
         fail(str(error), 2)
     finally:  # an interrupt keeps what was finished, and puts it in order

@@ -155,6 +155,8 @@ def explain(record: dict[str, Any]) -> str:
         at = ", ".join(f"{k} = {v}" for k, v in seen["point"].items())
         cases = ", ".join(case["name"] for case in evidence["witnesses"][1:])
         lines += [f"  true at an exact point: {at}" + (f"; and for {cases}" if cases else "")]
+    if evidence["carried"]:
+        lines += [f"  carried by: {carried(evidence['carried'])}"]
     lines += [f"  nothing to decide: {evidence['reason']}"] if evidence["reason"] else []
     lines += [f"  tried: {text}" for text in evidence["tried"]]
     lines += [f"  ANSWER: {evidence['answer']}"] if evidence["answer"] else []
@@ -162,8 +164,6 @@ def explain(record: dict[str, Any]) -> str:
     lines += [f"  conjecture: {text}" for text in evidence["conjectures"]]
     if record["corrected"]:
         lines += [f"  corrected: {record['corrected']}"]
-    if evidence["carried"]:
-        lines += [f"  carried by: {carried(evidence['carried'])}"]
     if evidence["downstream"]:
         lines += [f"  used by: {', '.join(evidence['downstream'])}"]
     lines += [f"  PROBLEM: {problem}" for problem in evidence["problems"]]

@@ -1,0 +1,102 @@
+"""Certificates of kind register-claim: those of the repository are accepted, and nothing that is changed in them."""
+
+import copy
+import json
+import random
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from certificate_changes import refused
+from register_arithmetic import arithmetic
+from register_changes import CHANGES, SAMPLES, changed, inside, leaves, slip, small
+
+import chapsym.proofs
+from chapsym import checker
+from chapsym.checker import Rejected, check, read
+
+FOLDER = Path(chapsym.proofs.__file__).parent / "certificates" / "register"
+CHECKER = Path(checker.__file__).parent
+
+
+@pytest.fixture(scope="module")
+def samples():
+    return {id: read(FOLDER / f"{id}.json") for id in SAMPLES}
+
+
+def test_the_register_is_accepted_where_there_is_only_python(tmp_path):
+    """Some of the files, and the counts; `make verify` judges all."""
+    names = [str(FOLDER / f"{id}.json") for id in SAMPLES]
+    run = subprocess.run(
+        [sys.executable, "-I", "-S", str(CHECKER), "--json", *names], capture_output=True, text=True, cwd=tmp_path
+    )
+    assert run.returncode == 0, run.stderr
+    verdicts = json.loads(run.stdout)["certificates"]
+    assert all(one["accepted"] for one in verdicts)
+    assert verdicts[2]["statement"].startswith("Claim prop-4: 7 statements hold wherever their relations hold")
+
+
+def test_every_certificate_is_accepted():
+    claims = [*chapsym.proofs.CLAIMS, *chapsym.proofs.LEMMAS]
+    assert sorted(path.stem for path in FOLDER.iterdir()) == sorted(claims)
+    numbers = [check(read(FOLDER / f"{id}.json")).numbers for id in claims]
+    assert sum(int(n["refuted"]) for n in numbers) == 33
+    assert sum(int(n[role]) for n in numbers for role in n if role[0] not in "rs") == 452
+
+
+def test_a_hundred_changes_of_one_number_sign_operation_or_name_are_rejected(samples, thorough):
+    """Nothing of an identity or of its proof can be changed alone; the digest and the counts fit the change."""
+    rng = random.Random(18)
+    for _ in range(3000 if thorough else 130):
+        data, path = slip(samples[rng.choice(SAMPLES)], rng)
+        assert refused(data), (data["claim"], path)
+
+
+@pytest.mark.parametrize("name", CHANGES)
+def test_what_is_false_or_out_of_form_is_rejected_in_one_sentence(samples, name):
+    id, change = CHANGES[name]
+    data = changed(samples[id], change)
+    with pytest.raises(Rejected) as caught:
+        check(data)
+    assert 10 < len(str(caught.value)) < 200
+    assert "\n" not in str(caught.value)
+
+
+SMALL, SMALL_AND_WRONG = small()
+
+
+@pytest.mark.parametrize("name", SMALL)
+def test_small_certificates_that_are_right(name):
+    check(SMALL[name])
+
+
+@pytest.mark.parametrize("name", SMALL_AND_WRONG)
+def test_small_certificates_that_are_wrong(name):
+    assert refused(SMALL_AND_WRONG[name])
+
+
+def test_the_arithmetic_and_its_bounds():
+    arithmetic("chapsym.checker")
+
+
+def test_the_id_of_another_claim_is_another_statement(samples):
+    with pytest.raises(Rejected, match="the statement is not the one"):
+        check(samples["5.4"] | {"claim": "5.11"})
+
+
+def test_a_change_of_anything_is_seen_by_the_digest(samples):
+    rng = random.Random(5)
+    for id, data in samples.items():
+        path = rng.choice(list(leaves(data)))
+        other = copy.deepcopy(data)
+        inside(other, path[:-1])[path[-1]] = "another text"
+        with pytest.raises(Rejected):
+            check(other)
+        assert check(data).kind == "register-claim", id
+
+
+def test_a_file_that_is_too_large_is_not_read(tmp_path):
+    (tmp_path / "large.json").write_bytes(b" " * 5_000_000)
+    with pytest.raises(checker.Unreadable, match="more than 4000000 bytes"):
+        read(tmp_path / "large.json")

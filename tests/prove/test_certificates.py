@@ -1,0 +1,158 @@
+"""Certificates of the register: what is written is what is decided, and what is committed is what is written now."""
+
+import json
+from pathlib import Path
+
+import pytest
+import sympy as sp
+from commands import chapsym, refused
+
+from chapsym import checker, proofs
+from chapsym.derive.quotient import Quotient
+from chapsym.derive.words import WordAlgebra, matrix_symbols
+from chapsym.prove import Equation, Fact, Proof, load, rational_point
+from chapsym.prove.certificates import certificate
+from chapsym.prove.cofactors import Ideal
+from chapsym.prove.points import candidates
+from chapsym.prove.runner import judge
+from chapsym.prove.trees import NotAlgebra, factored, tree
+
+FOLDER = Path(proofs.__file__).parent / "certificates" / "register"
+x, y, z = sp.symbols("x y z")
+CIRCLE = Quotient((x, y), [x**2 + y**2 - 1])
+
+
+def test_what_is_committed_is_what_the_command_writes_now(tmp_path, thorough):
+    ids = list(load(lemmas=True)) if thorough else ["2.5-inverse", "4.9-F", "5.11", "prop-2", "5.3-small"]
+    chapsym("prove", *ids, "--jobs", "1", "--certificates", tmp_path, "--records", tmp_path / "v.jsonl")
+    for id in ids:
+        written, kept = (folder / f"{id}.json" for folder in (tmp_path, FOLDER))
+        assert written.read_text("utf-8") == kept.read_text("utf-8"), id
+
+
+def test_the_certificates_state_what_the_verdicts_rest_on(verdicts):
+    """Every check of the record is a statement or a sentence of the file, under its role and its text, and once."""
+    for id, record in verdicts.items():
+        data = checker.read(FOLDER / f"{id}.json")
+        assert (data["claim"], data["printed"], data["corrected"]) == (id, record["printed"], record["corrected"])
+        kept = [one["text"] for one in data["statements"]]
+        kept += [one["text"] for one in data["sentences"] if one["role"] in checker.register.ROLES]
+        for check in record["evidence"]["checks"]:
+            text = check["statement"]
+            for role in ("printed", "corrected", "second route", f"under {record['evidence']['condition']}"):
+                text = text.removeprefix(f"{role}: ")
+            found = [known for known in kept if known.removeprefix("false: ").startswith(text)]
+            assert found, (id, text)
+            kept.remove(min(found, key=len))
+        assert kept == [], id
+        assert record["evidence"]["carried"] == {
+            "statements": len(data["statements"]),
+            "counterexamples": len(data["counterexamples"]),
+            "sentences": {role: n for role in checker.register.SENTENCES if (n := count(data, role))},
+        }
+
+
+def count(data, role):
+    return sum(one["role"] == role for one in data["sentences"])
+
+
+def test_the_share_of_the_register_that_is_checked():
+    """A change here is progress, or a loss, and must be looked at."""
+    files = [checker.read(path) for path in FOLDER.iterdir()]
+    decided = sum(one["role"] in checker.register.ROLES for data in files for one in data["sentences"])
+    prose = sum(len(data["sentences"]) for data in files) - decided
+    assert (len(files), sum(len(data["statements"]) for data in files), decided, prose) == (138, 452, 139, 550)
+    assert sum(path.stat().st_size for path in FOLDER.iterdir()) < 2_000_000
+
+
+def proof(*statements, point=None):
+    made = Proof()
+    made.printed(*statements)
+    if point:
+        made.counterexample(point)
+    return made
+
+
+def test_a_statement_is_data_with_cofactors_and_a_point():
+    data = certificate("0", "x", proof(Equation("one", x**4 - y**4, 2 * x**2 - 1, CIRCLE)))
+    [one] = data["statements"]
+    assert one["cofactors"] == [[["+", -1, ["*", -1, ["^", "y", 2]], ["^", "x", 2]]]]  # (x² - y² - 1)(x² + y² - 1)
+    assert data["algebras"] == [
+        {"kind": "quotient", "variables": ["x", "y"], "relations": [["+", -1, ["^", "x", 2], ["^", "y", 2]]]}
+    ]
+    assert data["sentences"] == []
+
+
+def test_what_is_false_stands_with_its_counterexample_and_what_is_no_equation_is_a_sentence():
+    wrong = Equation("wrong", x, y, CIRCLE)
+    data = certificate("0", "x", proof(wrong, Fact("seven", True), point=rational_point({x: "3/5", y: "4/5"})))
+    assert data["counterexamples"][0]["refutes"] == [0]
+    assert data["sentences"] == [{"role": "printed", "text": "seven (exact arithmetic)"}]
+
+
+def test_a_counterexample_off_the_relations_is_not_accepted():
+    """The prover tests only the hypotheses that are handed to it; the checker tests those of the algebra."""
+    with pytest.raises(checker.Rejected, match="a relation fails"):
+        certificate("0", "x", proof(Equation("wrong", x, y, CIRCLE), point=rational_point({x: 3, y: 4})))
+
+
+def test_what_has_no_rational_point_or_is_no_algebra_is_a_sentence_that_says_so():
+    cubic = Quotient((x,), [x**3 - 4])
+    (a,) = matrix_symbols("zz")
+    data = certificate(
+        "0", "x", proof(Equation("cube", x**4, 4 * x, cubic), Equation("unknown", a, a, WordAlgebra({a: a})))
+    )
+    assert [one["text"] for one in data["sentences"]] == [
+        "cube (not exported: no rational point was found where its relations hold)",
+        "unknown (not exported: no matrices are known for which its rules hold)",
+    ]
+    assert data["statements"] == []
+
+
+def test_a_claim_whose_certificate_is_not_accepted_is_open(monkeypatch):
+    def rejects(data):
+        raise checker.Rejected("no")
+
+    monkeypatch.setattr("chapsym.checker.check", rejects)
+    judgement = judge(load()["5.11"])
+    assert str(judgement.verdict) == "open"
+    assert judgement.proof.problems == ["the checker does not accept its certificate: no"]
+
+
+@pytest.mark.parametrize("expr", [sp.sqrt(x), sp.sin(x), sp.I, x**y, sp.pi, sp.Float(0.5)])
+def test_what_is_no_quotient_of_polynomials_has_no_tree(expr):
+    with pytest.raises(NotAlgebra):
+        tree(expr)
+
+
+def test_a_polynomial_is_short_in_factors_and_means_the_same():
+    names, ring = ("x", "y", "z"), sp.ring("x y z", sp.QQ)[0]
+    for expr in ((x + y) ** 3 * (x - z) / 2, x**2 * y - 7, x * y + x * z + 1, sp.S.One, sp.S.Zero, -x):
+        found = factored(dict(ring.from_expr(sp.expand(expr))), names)
+        value = checker.register.value(found, dict(zip(names, (x, y, z), strict=True)), lambda n: sp.Rational(str(n)))
+        assert sp.expand(value - expr) == 0
+        assert len(json.dumps(found)) < 80
+
+
+def test_cofactors_make_a_polynomial_of_the_ideal_and_there_are_none_for_another():
+    ring = sp.ring("x y z", sp.QQ, sp.grevlex)[0]
+    relations = [ring.from_expr(e) for e in (x * y - z, y * z - x)]
+    ideal = Ideal(ring, relations)
+    wanted = ring.from_expr(sp.expand(x**2 - z**2))  # by the S-polynomial alone
+    cofactors = ideal.cofactors(dict(wanted))
+    assert sum((c * r for c, r in zip(cofactors, relations, strict=True)), ring.zero) == wanted
+    assert ideal.cofactors(dict(ring.from_expr(x + 1))) is None
+
+
+def test_points_are_on_the_relations_and_keep_what_is_known():
+    for relations in ([x**2 + y**2 - 1], [x * y - 6, z**3 - 8], [x**2], [x - y, y - z]):
+        point = next(candidates((x, y, z), relations))
+        assert all(relation.xreplace(point) == 0 for relation in relations)
+    assert next(candidates((x, y), [x + y - 1], {x: sp.Integer(5)})) == {x: 5, y: -4}
+    assert list(candidates((x,), [x**2 - 2])) == []
+
+
+def test_a_folder_that_cannot_be_is_refused_in_one_sentence(tmp_path):
+    (tmp_path / "file").write_text("")
+    said = refused("prove", "5.11", "--certificates", tmp_path / "file", "--records", tmp_path / "v.jsonl")
+    assert "file cannot be written" in said

@@ -1,0 +1,71 @@
+"""The arithmetic of the register's checker, and its bounds: with the standard library only, as its mutants are run."""
+
+from fractions import Fraction
+from importlib import import_module
+
+
+def arithmetic(package):
+    """Raises AssertionError if the polynomials, words or bounds of a checker are not what they should be."""
+    rejected = import_module(f"{package}.interval").Rejected
+
+    def refused(function, *arguments):
+        try:
+            function(*arguments)
+        except rejected:
+            return True
+        return False
+
+    polynomials(import_module(f"{package}.polynomial"), refused)
+    words(import_module(f"{package}.words"), import_module(f"{package}.polynomial").Work, refused)
+
+
+def bounded(p):
+    """Whether the bound of the coefficients is one."""
+    return all(c.bit_length() <= p.bits for c in p.terms.values())
+
+
+def polynomials(module, refused):
+    work = module.Work(3)
+    assert not refused(work.spend, 3)
+    assert refused(work.spend, 1)
+    ring = module.Ring(["x", "y"], module.Work())
+    x, large, ones = ring.variable(0), ring.constant(1 << 100), ring.constant(255)
+    assert bounded(large * large)
+    eight = ring.constant(0)
+    for i in range(8):
+        eight = eight + x**i * ones
+    assert bounded(eight * eight)
+    tight = module.Polynomial(ring, dict(eight.terms), 7, 8)
+    assert bounded(tight * tight)
+    assert bounded(ones + ones)
+    assert bounded(ones.times(255))
+    assert (x**600).degree == 600
+    assert refused(lambda: x**600 * x**600)
+    made = module.Polynomial
+    assert made(ring, {0: 1}, 0, 10**6).bits == 1
+    assert refused(made, ring, {0: 1 << module.MOST_BITS}, 0, module.MOST_BITS + 1)
+    assert refused(made, ring, dict.fromkeys(range(1, module.MOST_TERMS + 2), 1), 1, 1)
+    assert refused(module.Quotient, x, 1 << module.MOST_BITS, {})
+    assert refused(module.Quotient, x, 1, {0: module.MOST_DEGREE + 1})
+    a, b = ring.names().values()
+    difference = (a - b) ** -1 + (b - a) ** -1
+    assert not difference.numerator.terms
+    assert len(ring.factors) == 1
+    few = module.Ring(["x"], module.Work(3))
+    assert refused(lambda: (few.variable(0) + few.constant(1)) * (few.variable(0) + few.constant(2)))
+
+
+def words(module, Work, refused):
+    def word(letters, work=None, exponents=(0, 0)):
+        return module.Words({(exponents, tuple(letters)): Fraction(1)}, work or Work())
+
+    assert not refused(word, "a" * module.MOST_LETTERS)
+    assert refused(word, "a" * (module.MOST_LETTERS + 1))
+    many = {((i, 0), ()): Fraction(1) for i in range(module.MOST_WORDS + 1)}
+    assert refused(module.Words, many, Work())
+    assert refused(lambda: word("a", Work(1)) + word("b", Work(1)))
+    assert refused(lambda: word("ab", Work(2)).rewritten({("a", "b"): word("") + word("c") + word("d")}))
+    assert not refused(lambda: word("ab", Work(2)).rewritten({("a", "b"): word("c")}))
+    assert refused(lambda: word("a") ** -1)
+    assert refused(lambda: (word("", exponents=(1, 0)) + word("", exponents=(0, 1))) ** -1)
+    assert (word("", exponents=(1, -2)) ** -2).terms == {((-2, 4), ()): 1}

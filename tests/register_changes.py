@@ -1,0 +1,255 @@
+"""Certificates of the register that are changed: the cases of the checker's tests, and of its mutants."""
+
+import copy
+
+from certificate_changes import resealed
+
+#: A quotient ring with relations, with and without a counterexample; words, with matrices in the counterexample; both.
+SAMPLES = ("2.5-inverse", "5.4", "prop-4", "4.9-F", "2.11-eliminated", "5.16", "prop-2", "2.7-vertical")
+
+
+def leaves(data, path=()):
+    """The places of everything in lists and objects that is neither."""
+    if isinstance(data, dict | list):
+        for name, part in data.items() if isinstance(data, dict) else enumerate(data):
+            yield from leaves(part, (*path, name))
+    else:
+        yield path
+
+
+def inside(data, path):
+    for part in path:
+        data = data[part]
+    return data
+
+
+def mathematics(data):
+    """The places of the numbers, operations and names of what is proved, and of what proves it."""
+    for i, one in enumerate(data["statements"]):
+        if "refuted" not in one:
+            for part in {"left", "right", "cofactors"} & one.keys():
+                yield from leaves(one[part], ("statements", i, part))
+
+
+def slipped(value, rng):
+    """A number, an operation or a name that is changed."""
+    if isinstance(value, int):
+        return value + rng.choice((-3, -2, -1, 1, 2, 3)) if rng.random() < 0.6 else -value or 1
+    if value in ("+", "*"):
+        return "+" if value == "*" else "*"
+    if "/" in value:
+        return value[1:] if value.startswith("-") else f"-{value}"
+    return f"{value}x"
+
+
+def slip(data, rng):
+    """A certificate with one thing changed in what is proved or in its proof; and where."""
+    data = copy.deepcopy(data)
+    *folder, name = path = rng.choice(list(mathematics(data)))
+    place = inside(data, folder)
+    place[name] = slipped(place[name], rng)
+    return resealed(data), path
+
+
+def changed(data, change):
+    """A certificate after one of the CHANGES."""
+    data = copy.deepcopy(data)
+    change(data)
+    return resealed(data)
+
+
+def deep(depth):
+    tree = 1
+    for _ in range(depth):
+        tree = ["+", tree, 1]
+    return tree
+
+
+def put(*path, value):
+    def change(data):
+        inside(data, path[:-1])[path[-1]] = value
+
+    return change
+
+
+def first(data, kind="quotient", needs="cofactors"):
+    """The first statement that has such a proof."""
+    return next(one for one in data["statements"] if needs in one and data["algebras"][one["algebra"]]["kind"] == kind)
+
+
+CHANGES = {
+    "all cofactors are 0": (
+        "5.4",
+        lambda d: [one.update(cofactors=[[0] * len(c) for c in one["cofactors"]])
+                   for one in d["statements"] if "cofactors" in one],
+    ),
+    "a relation is dropped": ("5.4", lambda d: d["algebras"][0]["relations"].pop()),
+    "a cofactor is dropped": ("5.4", lambda d: first(d)["cofactors"][0].pop()),
+    "a cofactor with a pole": ("5.4", lambda d: first(d)["cofactors"][0].__setitem__(0, ["^", "q0", -1])),
+    "a relation with a pole": ("5.4", lambda d: d["algebras"][0]["relations"].__setitem__(0, ["^", "q0", -1])),
+    "a point on a pole": ("prop-4", lambda d: [p.update(sigma=0) for p in d["points"]]),
+    "a point off the relations": ("5.4", lambda d: [p.update(q0=2) for p in d["points"]]),
+    "a point without a value": ("5.4", lambda d: [p.pop("q0") for p in d["points"]]),
+    "a matrix for a number": ("5.4", lambda d: [p.update(q0=[[1]]) for p in d["points"]]),
+    "a number for a matrix": ("4.9-F", lambda d: [p.update({"R": 1}) for p in d["points"]]),
+    "a matrix that is no rotation": ("4.9-F", lambda d: d["points"][0]["R"][0].__setitem__(0, 9)),
+    "rows of two lengths": ("4.9-F", lambda d: d["points"][0]["R"][0].append(0)),
+    "a rule is dropped": ("prop-2", lambda d: d["algebras"][0]["rules"].clear()),
+    "two rules for one product": ("prop-2", lambda d: d["algebras"][0]["rules"].append(d["algebras"][0]["rules"][0])),
+    "a rule that never ends": (
+        "prop-2", lambda d: [rule.__setitem__(2, ["*", 2, *rule[:2]]) for rule in d["algebras"][0]["rules"]]
+    ),
+    "a huge exponent": ("5.4", lambda d: first(d)["left"].__setitem__(0, ["^", "q0", 10**9])),
+    "exponents of exponents": (
+        "5.4", lambda d: first(d)["left"].__setitem__(0, ["^", ["^", ["^", ["+", "q0", 1], 60], 60], 60])
+    ),
+    "0 times a huge pole": (
+        "5.4",
+        lambda d: first(d)["left"].__setitem__(0, ["+", ["*", 0, ["^", ["^", ["^", "q0", -60], 60], 60]], 1]),
+    ),
+    "a huge number at a point": (
+        "5.4", lambda d: d["counterexamples"][0]["hypotheses"][0].update(left=[["^", ["^", ["^", 10, 60], 60], 60]])
+    ),
+    "a product with too many terms": (
+        "5.4",
+        lambda d: first(d)["left"].__setitem__(0, ["^", ["+", 1, "q0", "q1", "q2", "q3", "J1", "J2", "J3"], 40]),
+    ),
+    "a deep tree": ("5.4", lambda d: first(d)["left"].__setitem__(0, deep(300))),
+    "a name twice": ("5.4", lambda d: d["algebras"][0]["variables"].append("q0")),
+    "a letter that is a parameter": ("prop-2", lambda d: d["algebras"][0]["parameters"].append("Omega")),
+    "an unknown name": ("5.4", lambda d: first(d)["left"].__setitem__(0, "z9")),
+    "a number not in lowest terms": ("5.4", lambda d: d["points"][0].update(q0="8/10")),
+    "an integer as a quotient": ("5.4", lambda d: d["points"][0].update(J1="1/1")),
+    "a decimal": ("5.4", lambda d: d["points"][0].update(q0=0.8)),
+    "true for 1": ("5.4", lambda d: d["points"][0].update(J1=True)),
+    "a power that is 0": ("5.4", lambda d: first(d)["left"].__setitem__(0, ["^", "q0", 0])),
+    "a sum of one": ("5.4", lambda d: first(d)["left"].__setitem__(0, ["+", "q0"])),
+    "a sum of nothing": ("5.4", lambda d: first(d)["left"].__setitem__(0, [])),
+    "another operation": ("5.4", lambda d: first(d)["left"].__setitem__(0, ["-", "q0", "q1"])),
+    "fewer entries on the right": ("5.4", lambda d: first(d)["right"].pop()),
+    "no entries": ("5.4", lambda d: first(d).update(left=[], right=[], cofactors=[])),
+    "a statement that is refuted is said to be proved": (
+        "5.4",
+        lambda d: [one.update(point=0, cofactors=first(d)["cofactors"], role="lemma") or one.pop("refuted")
+                   for one in d["statements"] if "refuted" in one],
+    ),
+    "a statement that is proved is said to be refuted": (
+        "5.4", lambda d: d["statements"].append({k: v for k, v in first(d).items() if k not in ("point", "cofactors")}
+                                                | {"role": "printed", "refuted": 0})
+    ),
+    "a lemma that is refuted": ("5.4", lambda d: first(d, needs="refuted").update(role="lemma")),
+    "a counterexample to nothing": ("5.4", lambda d: d["counterexamples"][0].update(refutes=[])),
+    "a counterexample that refutes what is right": (
+        "5.4", lambda d: d["counterexamples"][0].update(refutes=d["counterexamples"][0]["agrees"], agrees=[])
+    ),
+    "a counterexample that confirms what is wrong": (
+        "5.4", lambda d: d["counterexamples"][0].update(agrees=d["counterexamples"][0]["refutes"])
+    ),
+    "a counterexample off a hypothesis": ("5.4", lambda d: d["counterexamples"][0]["point"].update(h=1)),
+    "a counterexample off the relations": ("2.5-inverse", lambda d: d["counterexamples"][0].update(
+        hypotheses=[], point=d["counterexamples"][0]["point"] | {"g1": 5})),
+    "no claim": ("5.4", lambda d: d.update(claim="a\nb")),
+    "more sentences than it says": ("5.4", put("sentences", value=7)),
+    "a part that is no list": ("5.4", put("statements", value={})),
+    "a statement that is no object": ("5.4", put("statements", 0, value=[])),
+    "an index out of range": ("5.4", put("statements", 0, "algebra", value=9)),
+    "a negative index": ("5.4", put("statements", 0, "algebra", value=-1)),
+    "a role that is none": ("5.4", put("statements", 0, "role", value="axiom")),
+    "a text that is none": ("5.4", put("statements", 0, "text", value="")),
+    "an algebra that is none": ("5.4", put("algebras", 0, "kind", value="magic")),
+    "a name too many": ("5.4", put("proof", value=1)),
+    "a long list": ("5.4", put("sentences", value=[{"role": "said", "text": "x"}] * 3000)),
+    "a point that is no object": ("5.4", put("points", 0, value=7)),
+    "a point of many values": ("5.4", lambda d: d["points"].append({f"x{i}": 1 for i in range(2001)})),
+    "a long name": ("5.4", lambda d: d["counterexamples"][0]["point"].update({"x" * 30: 1})),
+    "six rows": ("5.4", lambda d: d["counterexamples"][0]["point"].update(x=[[1]] * 6)),
+    "six columns": ("5.4", lambda d: d["counterexamples"][0]["point"].update(x=[[1] * 6])),
+    "no rows": ("5.4", lambda d: d["counterexamples"][0]["point"].update(x=[])),
+    "no columns": ("5.4", lambda d: d["counterexamples"][0]["point"].update(x=[[]])),
+    "a row that is none": ("5.4", lambda d: d["counterexamples"][0]["point"].update(x=[[1], 1])),
+    "a transpose of a product": ("4.9-F", lambda d: d["algebras"][0]["transposes"].append([["*", "R", "R"], "R"])),
+    "a transpose of a parameter": ("4.9-F", lambda d: d["algebras"][0]["transposes"].append(["rho", "rho"])),
+    "a rule for unknown letters": ("4.9-F", lambda d: d["algebras"][0]["rules"].append(["Q1", "Q2", 0])),
+    "no such algebra": ("5.4", lambda d: d["statements"][0].update(algebra=len(d["algebras"]))),
+    "no such point": ("5.4", lambda d: first(d).update(point=len(d["points"]))),
+    "no such counterexample": ("5.4", lambda d: first(d, needs="refuted").update(refuted=len(d["counterexamples"]))),
+    "no such statement": ("5.4", lambda d: d["counterexamples"][0]["refutes"].append(len(d["statements"]))),
+}  # fmt: skip
+
+
+def by_hand(statements, points=(), algebras=(), counterexamples=()):
+    """A certificate with few parts."""
+    return resealed({
+        "format": "chapsym-certificate/1", "kind": "register-claim", "claim": "0", "printed": "x", "corrected": None,
+        "algebras": [*algebras], "points": [*points], "statements": [*statements],
+        "counterexamples": [*counterexamples], "sentences": [], "statement": "",
+    })  # fmt: skip
+
+
+def said(left, right, algebra=0, **more):
+    """A printed statement of one entry."""
+    return {"role": "printed", "text": "x", "algebra": algebra, "left": [left], "right": [right]} | more
+
+
+def contradicted(i, point, agrees=(), left=1):
+    """A counterexample, with a hypothesis."""
+    return {
+        "point": point,
+        "refutes": [i],
+        "agrees": [*agrees],
+        "hypotheses": [{"text": "x", "left": [left], "right": [1]}],
+    }
+
+
+FREE = {"kind": "quotient", "variables": ["x"], "relations": []}
+ONE = {"kind": "quotient", "variables": ["x"], "relations": [["+", "x", -1]]}
+LETTERS = {
+    "kind": "words",
+    "letters": ["A", "B"],
+    "parameters": ["m"],
+    "transposes": [["A", "B"]],
+    "rules": [["A", "B", 1]],
+}
+TURN = {"m": 1, "A": [[0, 1], [-1, 0]], "B": [[0, -1], [1, 0]]}
+
+
+def of_words(left, right, **changes):
+    """A statement about two letters, transposes and inverses of one another, and a parameter that is 1 at the point."""
+    return by_hand([said(left, right, point=0)], [TURN | changes], [LETTERS])
+
+
+def small():
+    """Certificates by hand: those that are right, and those that are not, by name."""
+    identity, point = said("x", 1, point=0, cofactors=[[1]]), {"x": 1}
+    wrong = said("x", 2, 1, refuted=0)
+    right = {
+        "x = 1 where x - 1 = 0": by_hand([identity], [point], [ONE]),
+        "x = 2 fails at 1": by_hand([identity, wrong], [point], [ONE, FREE], [contradicted(1, point, [0])]),
+        "AB = 1": of_words(["*", "A", "B"], 1),
+        "mAB/m = AB": of_words(["*", "m", "A", "B", ["^", "m", -1]], ["*", "A", "B"]),
+        "1/(x - 2) = -1/(2 - x)": by_hand(
+            [said(["^", ["+", "x", -2], -1], ["*", -1, ["^", ["+", 2, ["*", -1, "x"]], -1]], point=0, cofactors=[[]])],
+            [point], [FREE],
+        ),
+    }  # fmt: skip
+    two = [contradicted(0, {"x": 3}), contradicted(1, {"x": 2}, [0])]
+    return right, {
+        "it confirms what is refuted elsewhere": by_hand(
+            [said("x", 2, refuted=0), said("x", 5, refuted=1)], [], [FREE], two
+        ),
+        "it contradicts what it confirms": by_hand(
+            [identity, wrong], [point], [ONE, FREE], [contradicted(1, {"x": 3}, [0])]
+        ),
+        "a rule that fails": of_words("A", "A", A=[[2]], B=[[2]]),
+        "no transposes": of_words("A", "A", A=[[1, 1], [0, 1]], B=[[1, -1], [0, 1]]),
+        "m = 1": of_words("m", 1),
+        "1/m = m": of_words(["^", "m", -1], "m"),
+        "AB = BA": of_words(["*", "A", "B"], ["*", "B", "A"]),
+        "a power of four": by_hand(
+            [identity, wrong], [point], [ONE, FREE], [contradicted(1, point, [0], ["^", "x", 2, 2])]
+        ),
+        "a power in quotes": by_hand(
+            [identity, wrong], [point], [ONE, FREE], [contradicted(1, point, [0], ["^", "x", "2"])]
+        ),
+        "a deep truth": by_hand([said(deep(100), deep(100), point=0, cofactors=[[]])], [point], [FREE]),
+    }  # fmt: skip
