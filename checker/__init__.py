@@ -5,7 +5,7 @@
 
 To be read in this order: interval.py (arithmetic), linear.py (elimination, Newton's test), step.py (the map), then
 measure.py and orbit.py (what a certificate says and why it is proved); taylor.py (functions of the time), drift.py;
-document.py (the form of a file).
+document.py (the form of a file).  For the statements of the register: trees.py, polynomial.py, words.py, register.py.
 """
 
 from dataclasses import dataclass

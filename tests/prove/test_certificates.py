@@ -14,7 +14,7 @@ from chapsym.prove import Equation, Fact, Proof, load, rational_point
 from chapsym.prove.certificates import certificate
 from chapsym.prove.cofactors import Ideal
 from chapsym.prove.points import candidates
-from chapsym.prove.runner import judge
+from chapsym.prove.runner import explain, judge
 from chapsym.prove.trees import NotAlgebra, factored, tree
 
 FOLDER = Path(proofs.__file__).parent / "certificates" / "register"
@@ -50,6 +50,13 @@ def test_the_certificates_state_what_the_verdicts_rest_on(verdicts):
             "counterexamples": len(data["counterexamples"]),
             "sentences": {role: n for role in checker.register.SENTENCES if (n := count(data, role))},
         }
+
+
+def test_the_argument_of_a_claim_says_what_carries_it(verdicts):
+    assert (
+        "  carried by: 2 statements and 2 counterexamples that the checker accepted; 1 sentences (1 hypothesis)"
+        in explain(verdicts["5.11"]).splitlines()
+    )
 
 
 def count(data, role):
