@@ -173,11 +173,14 @@ def explain(record: dict[str, Any]) -> str:
 
 def carried(counts: dict[str, Any]) -> str:
     """What carries a verdict, in words."""
-    sentences = ", ".join(f"{n} {role}" for role, n in counts["sentences"].items())
-    return (
-        f"{counts['statements']} statements and {counts['counterexamples']} counterexamples that the checker accepted; "
-        f"{sum(counts['sentences'].values())} sentences{f' ({sentences})' if sentences else ''}"
-    )
+    by_role = ", ".join(f"{role}: {n}" for role, n in counts["sentences"].items())
+    sentences = _counted(sum(counts["sentences"].values()), "sentence") + (f" ({by_role})" if by_role else "")
+    found = [_counted(n, name) for name in ("statement", "counterexample") if (n := counts[name + "s"])]
+    return f"{' and '.join(found) or 'nothing'} that the checker accepted; {sentences}"
+
+
+def _counted(n: int, name: str) -> str:
+    return f"{n} {name}" if n == 1 else f"{n} {name}s"
 
 
 def main(script: str) -> None:

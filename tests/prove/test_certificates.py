@@ -54,7 +54,7 @@ def test_the_certificates_state_what_the_verdicts_rest_on(verdicts):
 
 def test_the_argument_of_a_claim_says_what_carries_it(verdicts):
     assert (
-        "  carried by: 2 statements and 2 counterexamples that the checker accepted; 1 sentences (1 hypothesis)"
+        "  carried by: 2 statements and 2 counterexamples that the checker accepted; 1 sentence (hypothesis: 1)"
         in explain(verdicts["5.11"]).splitlines()
     )
 
