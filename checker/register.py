@@ -41,10 +41,12 @@ def statement(data: dict[str, Any]) -> str:
     proved = [one for one in data["statements"] if "refuted" not in one]
     words = sum(data["algebras"][one["algebra"]]["kind"] == "words" for one in proved)
     refuted = len(data["statements"]) - len(proved)
+    equal = sum(one["left"] == one["right"] for one in proved)
     return (
         f"Claim {data['claim']}: {len(proved) - words} statements hold wherever their relations hold and their "
         f"denominators do not vanish, which happens at a point given for each; {words} statements about words hold for "
-        f"all matrices, of any size, that satisfy their rules, as those given do; {refuted} printed statements fail at "
+        f"all matrices, of any size, that satisfy their rules, as those given do; {equal} of these have one "
+        f"expression on both sides, and say nothing of how it was derived; {refuted} printed statements fail at "
         f"{len(data['counterexamples'])} points given.  {len(data['sentences'])} sentences are listed and not checked."
     )
 
@@ -226,6 +228,7 @@ def check(data: dict[str, Any]) -> dict[str, str]:
     return {
         **{role: str(roles.count(role)) for role in ROLES if role in roles},
         "refuted": str(len(refuted)),
+        "one expression on both sides": str(sum(one["left"] == one["right"] for one in data["statements"])),
         "sentences not checked": str(len(data["sentences"])),
     }
 

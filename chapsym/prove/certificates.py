@@ -54,6 +54,7 @@ def carried(data: dict[str, Any]) -> dict[str, Any]:
     """What the checker judged of a certificate that it accepted, counted; and the sentences that it did not."""
     return {
         "statements": len(data["statements"]),
+        "identical": sum(one["left"] == one["right"] for one in data["statements"]),
         "counterexamples": len(data["counterexamples"]),
         "sentences": dict(Counter(sentence["role"] for sentence in data["sentences"])),
     }

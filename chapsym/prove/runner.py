@@ -173,14 +173,12 @@ def explain(record: dict[str, Any]) -> str:
 
 def carried(counts: dict[str, Any]) -> str:
     """What carries a verdict, in words."""
-    by_role = ", ".join(f"{role}: {n}" for role, n in counts["sentences"].items())
-    sentences = _counted(sum(counts["sentences"].values()), "sentence") + (f" ({by_role})" if by_role else "")
-    found = [_counted(n, name) for name in ("statement", "counterexample") if (n := counts[name + "s"])]
-    return f"{' and '.join(found) or 'nothing'} that the checker accepted; {sentences}"
-
-
-def _counted(n: int, name: str) -> str:
-    return f"{n} {name}" if n == 1 else f"{n} {name}s"
+    same = f" ({counts['identical']} of one expression on both sides)" if counts["identical"] else ""
+    sentences = ", ".join(f"{n} {role}" for role, n in counts["sentences"].items())
+    return (
+        f"statements that the checker accepted: {counts['statements']}{same}; counterexamples: "
+        f"{counts['counterexamples']}; sentences: {sentences or 'none'}"
+    )
 
 
 def main(script: str) -> None:
