@@ -14,7 +14,7 @@ FORMAT = "chapsym-certificate/1"
 #: Most digits and steps of a certificate: what a reader can wait for.
 MOST_DIGITS, MOST_STEPS = 2_000, 1_000
 #: Of a file.
-MOST_BYTES = 4_000_000
+MOST_BYTES = 8_000_000
 _EXACT = re.compile(r"-?\d+(/\d+|(\.\d+)?(e-?\d{1,3})?)", re.ASCII)
 _DECIMAL = re.compile(r"-?(0|[1-9]\d*)\.\d+", re.ASCII)
 

@@ -14,6 +14,7 @@ statements it refutes fail, and the corrected ones hold.  The sentences are not 
 beside this.
 """
 
+import json
 import re
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
@@ -31,8 +32,8 @@ ROLES = ("printed", "corrected", "under", "lemma", "second route")
 SENTENCES = (*ROLES, "hypothesis", "said", "counterexample", "certificate")
 #: Of each list in a file, and the letters of a text.
 MOST, MOST_LETTERS = 2_000, 4_000
-#: Rows and columns of a matrix.
-MOST_ROWS = 5
+#: Rows and columns of a matrix; letters of the whole, five times those of the largest of the register.
+MOST_ROWS, MOST_OF_ALL = 4, 1_000_000
 Value = Fraction | Matrix
 
 
@@ -205,6 +206,8 @@ def check_statement(one: Any, algebras: list[set[str]], data: dict[str, Any], wh
 
 def check(data: dict[str, Any]) -> dict[str, str]:
     """Raises Rejected unless every statement is proved and every counterexample is one; returns the counts."""
+    if len(json.dumps(data)) > MOST_OF_ALL:
+        raise Rejected(f"the certificate has more than {MOST_OF_ALL} letters")
     work = Work()
     points = [entries(one) for one in data["points"]]
     for i, one in enumerate(data["statements"]):

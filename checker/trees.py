@@ -15,7 +15,7 @@ from typing import Any
 from .interval import Rejected
 
 #: What a certificate may ask for, so that none takes memory or time without limit.
-MOST_DEPTH, MOST_OPERANDS, MOST_POWER, MOST_BITS, MOST_BITS_OF_VALUES = 60, 20_000, 60, 1_000, 10_000
+MOST_DEPTH, MOST_OPERANDS, MOST_POWER, MOST_BITS, MOST_BITS_OF_VALUES = 60, 20_000, 60, 1_000, 2_000
 _NAME = re.compile(r"[^\W\d]\w*([\^_](\w+|[-+]))*")
 _QUOTIENT = re.compile(r"-?[1-9]\d*/[1-9]\d*", re.ASCII)
 

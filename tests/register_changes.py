@@ -159,6 +159,7 @@ CHANGES = {
     "an algebra that is none": ("5.4", put("algebras", 0, "kind", value="magic")),
     "a name too many": ("5.4", put("proof", value=1)),
     "a long list": ("5.4", put("sentences", value=[{"role": "said", "text": "x"}] * 3000)),
+    "a million letters": ("5.4", lambda d: d["sentences"].extend([{"role": "said", "text": "x" * 3000}] * 340)),
     "a point that is no object": ("5.4", put("points", 0, value=7)),
     "a point of many values": ("5.4", lambda d: d["points"].append({f"x{i}": 1 for i in range(2001)})),
     "a long name": ("5.4", lambda d: d["counterexamples"][0]["point"].update({"x" * 30: 1})),

@@ -97,6 +97,6 @@ def test_a_change_of_anything_is_seen_by_the_digest(samples):
 
 
 def test_a_file_that_is_too_large_is_not_read(tmp_path):
-    (tmp_path / "large.json").write_bytes(b" " * 5_000_000)
-    with pytest.raises(checker.Unreadable, match="more than 4000000 bytes"):
+    (tmp_path / "large.json").write_bytes(b" " * 8_000_001)
+    with pytest.raises(checker.Unreadable, match="more than 8000000 bytes"):
         read(tmp_path / "large.json")
