@@ -1,4 +1,4 @@
-"""The open question of Section 5, settled: for D > 0 the reduced map preserves, in general, no measure with a positive density."""
+"""The open question of Section 5, settled in three cases: for D > 0 the reduced map preserves no measure with a positive density."""
 
 from dataclasses import replace
 from typing import Any
@@ -114,7 +114,7 @@ def tampered(p: Proof, data: dict[str, Any]) -> None:
     files=FILES,
 )
 def invariant_measure_question(p: Proof) -> None:
-    """Open in the paper, settled here: for D > 0 not in general, as levels lock to periodic orbits."""
+    """Open in the paper, settled here in three cases: no such measure for D > 0 and three different moments, as levels lock."""
     p.assume("the small branch, |h| below the bound of small-branch")
     p.assume(
         "a measure in the sense of the paper, with a density that is positive; finite, as one with a continuous density is"
