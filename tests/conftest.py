@@ -61,12 +61,22 @@ def once(name, made, tmp_path_factory):
 
 
 @pytest.fixture(scope="session")
-def verdicts(tmp_path_factory):
-    """Every claim and every lemma by id, judged once."""
+def judged(tmp_path_factory):
+    """Every claim and every lemma, judged once: the records and the texts of the certificates, by id."""
     from chapsym.prove import load, prove_all
 
-    records = once("verdicts", lambda: prove_all(list(load(lemmas=True))), tmp_path_factory)
-    return {record["id"]: record for record in records}
+    def made():
+        folder = tmp_path_factory.mktemp("certificates")
+        records = prove_all(list(load(lemmas=True)), folder=folder)
+        return [[record, (folder / f"{record['id']}.json").read_text("utf-8")] for record in records]
+
+    return {record["id"]: (record, text) for record, text in once("judged", made, tmp_path_factory)}
+
+
+@pytest.fixture(scope="session")
+def verdicts(judged):
+    """The verdicts on every claim and every lemma, by id."""
+    return {id: record for id, (record, _) in judged.items()}
 
 
 @pytest.fixture(scope="session")
