@@ -6,7 +6,11 @@ Its commands and its Python are run with those of the other pages: `test_pages.p
 import re
 import tomllib
 from collections import Counter
+from contextlib import suppress
+from importlib.metadata import PackageNotFoundError, metadata, version
 from pathlib import Path
+
+from packaging.specifiers import SpecifierSet
 
 import chapsym
 
@@ -51,6 +55,17 @@ def test_versions_and_limits_agree():
     for requirement in project["dependencies"]:
         name = re.match(r"[\w-]+", requirement).group()
         assert re.search(rf"^{name}==", pinned, re.MULTILINE), name
+
+
+def test_the_versions_that_make_installs_take_every_python_that_is_allowed():
+    lines = (ROOT / "constraints.txt").read_text(encoding="utf-8").splitlines()
+    told = []
+    for name, _, pinned in (line.partition("==") for line in lines if "==" in line):
+        with suppress(PackageNotFoundError):  # what is not installed, or in another version, is not judged
+            needed = metadata(name).get("Requires-Python", "")
+            if version(name) == pinned and "3.11.0" not in SpecifierSet(needed):
+                told.append(f"{name} {pinned} needs Python {needed}")
+    assert not told
 
 
 def test_ci_calls_the_readmes_test_command():
