@@ -7,6 +7,7 @@ import sys
 import warnings
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
+from types import FrameType
 from typing import Any
 
 
@@ -14,9 +15,22 @@ class Renamed(DeprecationWarning):
     """An old name was used."""
 
 
-def renamed(old: str, new: str, stacklevel: int = 3) -> None:
-    """Warns of an old name, on behalf of the caller of the function that calls this one."""
-    warnings.warn(f"{old} is now {new}; the old name works until the next release", Renamed, stacklevel=stacklevel)
+#: What may stand between the code that uses an old name and `renamed`; it is not told of: Python shows a
+#: DeprecationWarning to who runs a script only where it is of a line of the script.
+BETWEEN = ("chapsym", "importlib", "pydantic")
+
+
+def renamed(old: str, new: str) -> None:
+    """Warns of an old name, on behalf of whatever called chapsym."""
+    frame, level = sys._getframe(1), 2
+    while frame.f_back is not None and _top(frame) in BETWEEN:
+        frame = frame.f_back
+        level += _top(frame) != "importlib"  # whose frames `warnings` does not count
+    warnings.warn(f"{old} is now {new}; the old name works until the next release", Renamed, stacklevel=level)
+
+
+def _top(frame: FrameType) -> str:
+    return str(frame.f_globals.get("__name__", "")).partition(".")[0]
 
 
 def attributes(module: str, names: Mapping[str, str]) -> Callable[[str], Any]:

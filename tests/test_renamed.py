@@ -1,5 +1,8 @@
 """Old names work, and warn."""
 
+import subprocess
+import sys
+
 import pytest
 from commands import chapsym as command
 
@@ -14,6 +17,33 @@ def test_the_old_name_of_an_enclosure():
         assert chapsym.numbers.Ball is chapsym.Enclosure
     with pytest.raises(AttributeError, match="no attribute 'Bell'"):
         _ = chapsym.numbers.Bell
+
+
+OLD_SCENE = (
+    "[ball]\nmass_tensor = [1, 2, 4]\nD = 3\n[start]\nmomentum = [1, -0.5, 0.75]\ngamma = [0, 0, 1]\n"
+    '[run]\nsteps = 2\nprecision = "quad"\n'
+)
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        'chapsym.step(BALL, (1, -0.5, 0.75), (0, 0, 1), precision="quad")',
+        'chapsym.trajectory(BALL, (1, -0.5, 0.75), (0, 0, 1), 3, precision="quad")',
+        'chapsym.roll(BALL, (1, 2, 3), 0.01, 3, precision="quad")',
+        'chapsym.run_scene("old.toml")',
+        "from chapsym.numbers import Ball",
+        "chapsym.numbers.Ball",
+    ],
+)
+def test_an_old_name_is_told_at_the_line_that_uses_it(line, tmp_path):
+    (tmp_path / "old.toml").write_text(OLD_SCENE)
+    script = tmp_path / "script.py"
+    script.write_text(f"import chapsym, chapsym.numbers\nBALL = chapsym.Ball((1, 2, 4), 3)\n{line}\n")
+    done = subprocess.run([sys.executable, script], capture_output=True, text=True, cwd=tmp_path, check=True)
+    told = done.stderr.splitlines()[0]
+    assert told.startswith(f"{script}:3: Renamed: ")
+    assert told.endswith("the old name works until the next release")
 
 
 def test_old_options_are_told_in_a_line_and_answer_the_same():
@@ -64,10 +94,7 @@ def test_quad_on_the_command_line():
 
 def test_quad_in_a_scene(tmp_path):
     scene = tmp_path / "old.toml"
-    scene.write_text(
-        "[ball]\nmass_tensor = [1, 2, 4]\nD = 3\n[start]\nmomentum = [1, -0.5, 0.75]\ngamma = [0, 0, 1]\n"
-        '[run]\nsteps = 2\nprecision = "quad"\n'
-    )
+    scene.write_text(OLD_SCENE)
     done = command("run", scene, "-o", tmp_path / "old.npz", "--json")
     assert done.returncode == 0, done.stderr
     assert (

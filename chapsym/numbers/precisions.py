@@ -215,11 +215,11 @@ NAMED: dict[str, Precision] = {"single": Single(), "double": Double(), "double-d
 OLD = {"quad": "double-double"}
 
 
-def new_name(name: Any, stacklevel: int = 2) -> Any:
+def new_name(name: Any) -> Any:
     """The name of a precision, where an old one is given, which warns; all else as it is."""
     if not isinstance(name, str) or name not in OLD:
         return name
-    renamed(f'precision "{name}"', f'"{OLD[name]}"', stacklevel + 2)
+    renamed(f'precision "{name}"', f'"{OLD[name]}"')
     return OLD[name]
 
 
@@ -227,7 +227,7 @@ def named(precision: "str | Precision") -> Precision:
     """The precision that a user named; raises ValueError, one sentence, for anything else."""
     if isinstance(precision, Precision):
         return precision
-    precision = new_name(precision, 4)
+    precision = new_name(precision)
     if isinstance(precision, str) and precision in NAMED:
         return NAMED[precision]
     told = '"single", "double", "double-double", chapsym.Digits(n) or chapsym.Enclosure(bits)'
