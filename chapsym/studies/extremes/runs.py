@@ -140,7 +140,7 @@ COMPENSATED = ("single", "double")
 
 
 def long_run(size: float, level: Level, quick: bool) -> Judged:
-    """How far the integrals move in a long run at ε = |𝒦|: in ulps of the precision."""
+    """How far the integrals move in a long run with |𝒦| = size: in ulps of the precision."""
     steps = LENGTHS[level.name][0 if quick else 1]
     ball = Ball((0.1, 0.5, 1.6), 0.7)
     momentum = states.scaled(states.unit((0.3, -0.2, 0.35)), size)
