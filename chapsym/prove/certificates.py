@@ -167,7 +167,7 @@ class _Maker:
         expressions = [e for s in mine for e in (*s.left, *s.right)]
         expressions += [*algebra.transposes, *algebra.transposes.values(), *algebra.rules.values()]
         expressions += [letter for pair in algebra.rules for letter in pair]
-        symbols = sorted(set().union(*(sp.sympify(e).free_symbols for e in expressions)), key=lambda x: str(x.name))
+        symbols = sorted(set().union(*(e.free_symbols for e in expressions)), key=lambda x: str(x.name))
         return {
             "kind": "words",
             "letters": [x.name for x in symbols if not x.is_commutative],

@@ -91,7 +91,7 @@ class Point:
         """An expression at the point; words at its matrices."""
         if any(isinstance(value, sp.MatrixBase) for value in self.exact.values()):
             return words.evaluate(expr, self.exact)
-        return sp.sympify(expr).xreplace(dict(self.exact))
+        return expr.xreplace(dict(self.exact))
 
     def failures(self) -> list[str]:
         """The hypotheses that fail at the point."""

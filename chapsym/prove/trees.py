@@ -15,7 +15,6 @@ class NotAlgebra(ValueError):
 
 def tree(expr: Any) -> Any:
     """The tree of an expression: a name, a number, or ["+" | "*" | "^", operands...]."""
-    expr = sp.sympify(expr)
     if isinstance(expr, sp.Symbol):
         return expr.name
     if isinstance(expr, sp.Rational):

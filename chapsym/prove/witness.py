@@ -72,7 +72,7 @@ def _point(equation: Equation, case: str) -> dict[sp.Symbol, Any] | None:
     if isinstance(algebra, Quotient):
         return _rational(algebra.symbols, algebra.relations, case)
     if isinstance(algebra, WordAlgebra):
-        symbols = {x for side in (*equation.left, *equation.right) for x in sp.sympify(side).free_symbols}
+        symbols = {x for side in (*equation.left, *equation.right) for x in side.free_symbols}
         return matrices(symbols, algebra, case)
     return None
 
@@ -110,7 +110,7 @@ def matrices(symbols: set[sp.Symbol], algebra: WordAlgebra, case: str = "generic
 def _true_at(equation: Equation, point: dict[sp.Symbol, Any]) -> bool | None:
     """Whether both sides agree at the point; None where a denominator vanishes."""
     if isinstance(equation.algebra, Quotient):
-        left, right = ([sp.sympify(e).xreplace(point) for e in side] for side in (equation.left, equation.right))
+        left, right = ([e.xreplace(point) for e in side] for side in (equation.left, equation.right))
         if any(value.has(sp.nan, sp.zoo, sp.oo) for value in (*left, *right)):
             return None
         return all(a == b for a, b in zip(left, right, strict=True))
@@ -207,7 +207,7 @@ def _cayley(*above: int) -> sp.Matrix:
 
 def _shown(equation: Equation, point: dict[sp.Symbol, Any]) -> dict[str, str]:
     """The values of the symbols that occur in the equation, by name."""
-    used = set().union(*(sp.sympify(e).free_symbols for e in (*equation.left, *equation.right)))
+    used = set().union(*(e.free_symbols for e in (*equation.left, *equation.right)))
     values = {str(symbol): value for symbol, value in point.items() if symbol in used}
     return {
         name: str(value.tolist() if isinstance(value, sp.MatrixBase) else value)
