@@ -11,16 +11,18 @@ from pathlib import Path
 
 def main(arguments: list[str] | None = None) -> int:
     """Judges files: 0 if all are accepted, 1 if one is rejected, 2 if one cannot be read."""
-    from . import Rejected, Unreadable, check, read
+    from . import Rejected, Unreadable, check, read, shown
 
     parser = argparse.ArgumentParser(prog="checker", description="Checks certificates, with the standard library only.")
     parser.add_argument("files", nargs="+", metavar="FILE")
+    parser.add_argument("--show", action="store_true", help="the formulas that were judged, of a claim of the register")
     parser.add_argument("--json", action="store_true", help="one JSON object on standard output")
     options = parser.parse_args(arguments)
     found, worst = [], 0
     for file in options.files:
         try:
-            verdict = check(read(file))
+            data = read(file)
+            verdict = check(data)
         except (Rejected, Unreadable) as error:
             worst = max(worst, 1 if isinstance(error, Rejected) else 2)
             found.append({"file": file, "accepted": False, "reason": str(error)})
@@ -30,6 +32,8 @@ def main(arguments: list[str] | None = None) -> int:
         if not options.json:
             print(f"{file}: accepted ({verdict.kind})\n  Proved: {verdict.statement}")
             print(*(f"  {name}: {value}" for name, value in verdict.numbers.items()), sep="\n")
+            if options.show and verdict.kind == "register-claim":
+                print(*(f"  {line}" for line in shown.lines(data)), sep="\n")
     if options.json:
         whole = (sys.stdout.encoding or "").lower().startswith("utf")  # otherwise with escapes
         print(json.dumps({"certificates": found}, ensure_ascii=not whole, indent=1))

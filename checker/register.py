@@ -8,6 +8,10 @@ quotient  variables and relations, polynomials that vanish by hypothesis.  The n
 words     letters for matrices, parameters for numbers, and rules for the products of two letters.  left - right becomes
           0 by the rules.  Then left = right for all matrices of any size for which the rules hold.  Matrices for which
           they do, and for which the letters are transposes of one another as it is said, are given.
+traces    the same, and a statement says that tr left = tr right.
+
+Trees of statements in words and traces may have names of the derivation (derivation.py), which makes what they
+stand for from premises.
 
 A counterexample is a point, or matrices, at which the relations or rules and the hypotheses hold, the printed
 statements it refutes fail, and the corrected ones hold.  The sentences are not judged: they are what the claim says
@@ -16,22 +20,26 @@ beside this.
 
 import json
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping
 from fractions import Fraction
 from typing import Any
 
+from . import derivation
+from .algebra import Algebra
+from .derivation import Made
 from .document import check_names, count
+from .form import MOST, chosen, distinct, many, sized, text
 from .interval import Rejected
-from .polynomial import Quotient, Ring, Work
+from .matrices import Quotients, quotients
+from .polynomial import Ring, Work
 from .trees import check_name, check_tree, names_in, rational, value
-from .words import Matrix, Words, same
+from .words import Matrix, same, trace
 
-NAMES = "format kind statement claim printed corrected algebras points statements counterexamples sentences digest"
+NAMES = "format kind statement claim printed corrected algebras derivation points statements counterexamples "
+NAMES += "sentences digest"
 _CLAIM = re.compile(r"[\w.-]{1,40}", re.ASCII)
 ROLES = ("printed", "corrected", "under", "lemma", "second route")
 SENTENCES = (*ROLES, "hypothesis", "said", "counterexample", "certificate")
-#: Of each list in a file, and the letters of a text.
-MOST, MOST_LETTERS = 2_000, 4_000
 #: Rows and columns of a matrix; letters of the whole, five times those of the largest of the register.
 MOST_ROWS, MOST_OF_ALL = 4, 1_000_000
 Value = Fraction | Matrix
@@ -40,13 +48,17 @@ Value = Fraction | Matrix
 def statement(data: dict[str, Any]) -> str:
     """What was checked, counted, and what was not."""
     proved = [one for one in data["statements"] if "refuted" not in one]
-    words = sum(data["algebras"][one["algebra"]]["kind"] == "words" for one in proved)
+    words = sum(data["algebras"][one["algebra"]]["kind"] != "quotient" for one in proved)
+    names = {one["name"] for one in data["derivation"]}
+    derived = sum(not names_in([0, *one["left"], *one["right"]]).isdisjoint(names) for one in proved)
+    premises = sum(derivation.is_premise(one, names) for one in data["derivation"])
     refuted = len(data["statements"]) - len(proved)
     equal = sum(one["left"] == one["right"] for one in proved)
     return (
         f"Claim {data['claim']}: {len(proved) - words} statements hold wherever their relations hold and their "
         f"denominators do not vanish, which happens at a point given for each; {words} statements about words hold for "
-        f"all matrices, of any size, that satisfy their rules, as those given do; {equal} of these have one "
+        f"all matrices, of any size, that satisfy their rules, as those given do; {derived} of these are about what "
+        f"{len(names) - premises} steps make from {premises} premises given; {equal} of these have one "
         f"expression on both sides, and say nothing of how it was derived; {refuted} printed statements fail at "
         f"{len(data['counterexamples'])} points given.  {len(data['sentences'])} sentences are listed and not checked."
     )
@@ -63,6 +75,7 @@ def check_form(data: dict[str, Any]) -> None:
     if data["corrected"] is not None:
         text(data["corrected"], "corrected")
     algebras = [check_algebra(one, f"algebra {i}") for i, one in enumerate(many(data["algebras"], "algebras"))]
+    defined = derivation.check_form(data["derivation"], data["algebras"], algebras)
     for i, one in enumerate(data["points"]):
         check_point(one, f"point {i}")
     for i, one in enumerate(data["counterexamples"]):
@@ -72,41 +85,22 @@ def check_form(data: dict[str, Any]) -> None:
         for hypothesis in many(one["hypotheses"], where):
             check_names(hypothesis, "text left right", where)
             text(hypothesis["text"], where)
-            check_sides(hypothesis, set(one["point"]), where)
+            check_sides(hypothesis, set().union(one["point"], *defined), where)
         for name in ("refutes", "agrees"):
             for number in many(one[name], where):
                 count(number, 0, len(data["statements"]) - 1, where)
     for i, one in enumerate(data["statements"]):
-        check_statement(one, algebras, data, f"statement {i}")
+        check_statement(one, algebras, defined, data, f"statement {i}")
     for i, one in enumerate(data["sentences"]):
         check_names(one, "role text", f"sentence {i}")
         chosen(one["role"], SENTENCES, f"sentence {i}")
         text(one["text"], f"sentence {i}")
 
 
-def many(data: Any, where: str) -> list[Any]:
-    """A list, not too long."""
-    if not isinstance(data, list) or len(data) > MOST:
-        raise Rejected(f"{where} must have a list of at most {MOST}")
-    return data
-
-
-def text(data: Any, where: str) -> None:
-    """Raises Rejected unless this is a text, not too long."""
-    if not isinstance(data, str) or not 0 < len(data) <= MOST_LETTERS:
-        raise Rejected(f"{where} must have a text of at most {MOST_LETTERS} letters")
-
-
-def chosen(data: Any, among: Sequence[str], where: str) -> None:
-    """Raises Rejected unless this is one of some words."""
-    if not isinstance(data, str) or data not in among:
-        raise Rejected(f"{where} must be one of: {', '.join(among)}")
-
-
 def check_algebra(data: Any, where: str) -> set[str]:
     """The form of an algebra; returns its names."""
     kind = data.get("kind") if isinstance(data, dict) else None
-    chosen(kind, ("quotient", "words"), f"the kind of {where}")
+    chosen(kind, ("quotient", "words", "traces"), f"the kind of {where}")
     if kind == "quotient":
         check_names(data, "kind variables relations", where)
         names = distinct(data["variables"], where)
@@ -131,21 +125,6 @@ def check_algebra(data: Any, where: str) -> set[str]:
     if len({tuple(rule[:2]) for rule in data["rules"]}) < len(data["rules"]):
         raise Rejected(f"{where} has two rules for one product")
     return names
-
-
-def distinct(data: Any, where: str) -> set[str]:
-    """The names of a list, each of which stands there once."""
-    for name in many(data, where):
-        check_name(name, where)
-    if len(set(data)) < len(data):
-        raise Rejected(f"{where} has a name twice")
-    return set(data)
-
-
-def sized(data: Any, size: int, where: str) -> None:
-    """Raises Rejected unless this is a list of that length."""
-    if not isinstance(data, list) or len(data) != size:
-        raise Rejected(f"{where} must have a list of {size}")
 
 
 def check_point(data: Any, where: str) -> None:
@@ -179,7 +158,9 @@ def check_sides(data: dict[str, Any], names: set[str], where: str) -> None:
         check_tree(tree, names, where)
 
 
-def check_statement(one: Any, algebras: list[set[str]], data: dict[str, Any], where: str) -> None:
+def check_statement(
+    one: Any, algebras: list[set[str]], defined: list[Collection[str]], data: dict[str, Any], where: str
+) -> None:
     """The form of a statement, with what proves it or with the number of the counterexample that refutes it."""
     names = "role text algebra left right "
     if isinstance(one, dict) and "refuted" in one:
@@ -192,8 +173,8 @@ def check_statement(one: Any, algebras: list[set[str]], data: dict[str, Any], wh
         count(one["point"], 0, len(data["points"]) - 1, where)
     chosen(one["role"], ROLES, where)
     text(one["text"], where)
-    check_sides(one, algebras[count(one["algebra"], 0, len(algebras) - 1, where)], where)
-    algebra = data["algebras"][one["algebra"]]
+    algebra = data["algebras"][count(one["algebra"], 0, len(algebras) - 1, where)]
+    check_sides(one, {*algebras[one["algebra"]], *defined[one["algebra"]]}, where)
     if "refuted" not in one and ("cofactors" in one) != (algebra["kind"] == "quotient"):
         raise Rejected(f"{where} must have cofactors if it is one of a quotient, and none if it is one of words")
     if "cofactors" in one:
@@ -209,20 +190,26 @@ def check(data: dict[str, Any]) -> dict[str, str]:
     if len(json.dumps(data)) > MOST_OF_ALL:
         raise Rejected(f"the certificate has more than {MOST_OF_ALL} letters")
     work = Work()
+    algebras = [
+        quotients(one, Ring(one["variables"], work)) if one["kind"] == "quotient" else Algebra(one, work)
+        for one in data["algebras"]
+    ]
+    defined = derivation.values(data["derivation"], algebras)
     points = [entries(one) for one in data["points"]]
     for i, one in enumerate(data["statements"]):
         if "refuted" in one:
             continue
         algebra, point, where = data["algebras"][one["algebra"]], points[one["point"]], f"statement {i}"
-        if algebra["kind"] == "quotient":
-            check_identity(one, algebra, work, where)
+        decided_in = algebras[one["algebra"]]
+        if isinstance(decided_in, Quotients):
+            check_identity(one, decided_in, defined, where)
         else:
-            check_words(one, algebra, work, where)
+            check_words(one, decided_in, algebra["kind"] == "traces", defined, where)
         check_hypotheses(algebra, point, where, whole=True)
-        if not holds(one, point, where):
+        if not holds(one, algebra, point, defined, where):
             raise Rejected(f"{where} fails at its point")
     for i, one in enumerate(data["counterexamples"]):
-        check_counterexample(one, i, data)
+        check_counterexample(one, i, data, defined)
     refuted = [i for i, one in enumerate(data["statements"]) if "refuted" in one]
     for i in refuted:
         if i not in data["counterexamples"][data["statements"][i]["refuted"]]["refutes"]:
@@ -231,41 +218,26 @@ def check(data: dict[str, Any]) -> dict[str, str]:
     return {
         **{role: str(roles.count(role)) for role in ROLES if role in roles},
         "refuted": str(len(refuted)),
+        "definitions": str(len(data["derivation"])),
         "one expression on both sides": str(sum(one["left"] == one["right"] for one in data["statements"])),
         "sentences not checked": str(len(data["sentences"])),
     }
 
 
-def check_identity(one: dict[str, Any], algebra: dict[str, Any], work: Work, where: str) -> None:
+def check_identity(one: dict[str, Any], ring: Quotients, defined: Mapping[str, Made], where: str) -> None:
     """The numerator of left - right is Σ cofactor · relation."""
-    ring = Ring(algebra["variables"], work)
-    names, zero = ring.names(), ring.number(Fraction(0))
-    relations: list[Quotient] = [value(tree, names, ring.number) for tree in algebra["relations"]]
+    names = derivation.entries([*one["left"], *one["right"]], defined)
     for left, right, cofactors in zip(one["left"], one["right"], one["cofactors"], strict=True):
-        difference: Quotient = value(left, names, ring.number) - value(right, names, ring.number)
-        made = zero
-        for cofactor, relation in zip(cofactors, relations, strict=True):
-            made = made + value(cofactor, names, ring.number) * relation
-        if made.factors:
-            raise Rejected(f"{where} has a relation or a cofactor that is no polynomial")
-        if difference.numerator.times(made.scale).terms != made.numerator.terms:
+        if not ring.vanishes(ring.read(left, names) - ring.read(right, names), cofactors, where):
             raise Rejected(f"{where} is not proved: its cofactors do not make left - right from the relations")
 
 
-def check_words(one: dict[str, Any], algebra: dict[str, Any], work: Work, where: str) -> None:
-    """left - right becomes 0 by the rules."""
-    parameters = algebra["parameters"]
-    none = (0,) * len(parameters)
-
-    def number(x: Fraction) -> Words:
-        return Words({(none, ()): x}, work)
-
-    names = {letter: Words({(none, (letter,)): Fraction(1)}, work) for letter in algebra["letters"]}
-    for i, name in enumerate(parameters):
-        names[name] = Words({(tuple(int(i == j) for j in range(len(parameters))), ()): Fraction(1)}, work)
-    rules = {(a, b): value(image, names, number) for a, b, image in algebra["rules"]}
+def check_words(one: dict[str, Any], algebra: Algebra, traces: bool, defined: Mapping[str, Made], where: str) -> None:
+    """left - right becomes 0 by the rules, or its trace does."""
+    names = derivation.named([*one["left"], *one["right"]], algebra, defined, where)
     for left, right in zip(one["left"], one["right"], strict=True):
-        if (value(left, names, number) - value(right, names, number)).rewritten(rules).terms:
+        difference = algebra.total([algebra.read(left, names) - algebra.read(right, names)])
+        if (algebra.traced(difference) if traces else difference).terms:
             raise Rejected(f"{where} is not proved: left - right does not become 0 by the rules")
 
 
@@ -277,22 +249,34 @@ def entries(data: dict[str, Any]) -> dict[str, Value]:
     }
 
 
-def at(tree: Any, point: Mapping[str, Value], where: str) -> Value:
+def at(tree: Any, point: Mapping[str, Value], defined: Mapping[str, Made], where: str) -> Value:
     """The value of a tree at a point."""
-    if missing := names_in(tree) - point.keys():
-        raise Rejected(f"{where} has a point without a value for {min(missing)}")
     try:
-        found: Value = value(tree, point, Fraction)
+        names = names_in(tree)
+        made = {name: derivation.at(defined[name], point, where) for name in names & defined.keys()}
+        if missing := names - point.keys() - made.keys():
+            raise Rejected(f"{where} has a point without a value for {min(missing)}")
+        found: Value = value(tree, {**point, **made}, Fraction)
     except ZeroDivisionError:
         raise Rejected(f"{where} has a point at which a denominator vanishes") from None
     return found
 
 
-def holds(one: dict[str, Any], point: Mapping[str, Value], where: str) -> bool:
-    """Whether left = right at a point, in every entry."""
-    sides = zip(one["left"], one["right"], strict=True)
-    entries_agree = [same(at(left, point, where), at(right, point, where)) for left, right in sides]
-    return all(entries_agree)  # each was looked at: none has a denominator that vanishes
+def holds(
+    one: dict[str, Any],
+    algebra: Mapping[str, Any] | None,
+    point: Mapping[str, Value],
+    defined: Mapping[str, Made],
+    where: str,
+) -> bool:
+    """Whether left = right at a point, in every entry; or whether the traces are equal."""
+    sides = [
+        (at(left, point, defined, where), at(right, point, defined, where))
+        for left, right in zip(one["left"], one["right"], strict=True)
+    ]  # each is looked at: none has a denominator that vanishes
+    if algebra is not None and algebra["kind"] == "traces":
+        return all(trace(left) == trace(right) for left, right in sides)
+    return all(same(left, right) for left, right in sides)
 
 
 def check_hypotheses(algebra: dict[str, Any], point: Mapping[str, Value], where: str, whole: bool) -> None:
@@ -306,35 +290,40 @@ def check_hypotheses(algebra: dict[str, Any], point: Mapping[str, Value], where:
     if any(isinstance(point.get(name), Fraction) for name in letters):
         raise Rejected(f"{where} has a number where a matrix must stand")
     if quotient:
-        if any(at(relation, point, where) != 0 for relation in algebra["relations"]):
+        if any(at(relation, point, {}, where) != 0 for relation in algebra["relations"]):
             raise Rejected(f"{where} has a point at which a relation fails")
         return
     for a, b, image in algebra["rules"]:
         if {a, b} | names_in(image) <= point.keys() and not same(
-            at(["*", a, b], point, where), at(image, point, where)
+            at(["*", a, b], point, {}, where), at(image, point, {}, where)
         ):
             raise Rejected(f"{where} has matrices for which a rule fails")
     for letter, image in algebra["transposes"]:
         matrix = point.get(letter) if names_in(image) <= point.keys() else None
-        if isinstance(matrix, Matrix) and not same(matrix.transposed, at(image, point, where)):
+        if isinstance(matrix, Matrix) and not same(matrix.transposed, at(image, point, {}, where)):
             raise Rejected(f"{where} has matrices that are not transposes as it is said")
 
 
-def check_counterexample(one: dict[str, Any], i: int, data: dict[str, Any]) -> None:
+def check_counterexample(one: dict[str, Any], i: int, data: dict[str, Any], defined: Mapping[str, Made]) -> None:
     """The hypotheses hold there, what it refutes fails, and what is correct holds."""
     where, point = f"counterexample {i}", entries(one["point"])
+
+    def true(number: int) -> bool:
+        statement = data["statements"][number]
+        return holds(statement, data["algebras"][statement["algebra"]], point, defined, where)
+
     if not one["refutes"]:
         raise Rejected(f"{where} refutes nothing")
     for hypothesis in one["hypotheses"]:
-        if not holds(hypothesis, point, where):
+        if not holds(hypothesis, None, point, defined, where):
             raise Rejected(f"{where} violates a hypothesis")
     for number in one["refutes"]:
         refuted = data["statements"][number]
         if "refuted" not in refuted:
             raise Rejected(f"{where} refutes a statement that is said to be proved")
         check_hypotheses(data["algebras"][refuted["algebra"]], point, where, whole=False)
-        if holds(refuted, point, where):
+        if true(number):
             raise Rejected(f"{where} does not contradict statement {number}")
     for number in one["agrees"]:
-        if "refuted" in data["statements"][number] or not holds(data["statements"][number], point, where):
+        if "refuted" in data["statements"][number] or not true(number):
             raise Rejected(f"{where} contradicts statement {number}, which it should confirm")

@@ -62,6 +62,10 @@ class Words:
             result = result * base
         return result
 
+    def letters(self) -> set[str]:
+        """Those that occur."""
+        return {letter for _, word in self.terms for letter in word}
+
     def rewritten(self, rules: Mapping[tuple[str, str], Words]) -> Words:
         """What is left of the sum when no rule applies any more."""
         settled: dict[Term, Fraction] = {}
@@ -147,3 +151,14 @@ def same(a: Matrix | Fraction, b: Matrix | Fraction) -> bool:
     """Whether two values agree; the number 0 is every matrix of zeros."""
     difference = a + b * Fraction(-1)
     return difference.is_zero() if isinstance(difference, Matrix) else difference == 0
+
+
+def trace(of: Matrix | Fraction) -> Fraction:
+    """That of a matrix; the number 0 is every matrix of zeros."""
+    if isinstance(of, Matrix):
+        if of.shape[0] != of.shape[1]:
+            raise Rejected("the trace of a matrix that is not square is asked for")
+        return sum((row[i] for i, row in enumerate(of.rows)), Fraction(0))
+    if of:
+        raise Rejected("the trace of a number depends on what it stands for")
+    return of

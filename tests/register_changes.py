@@ -182,7 +182,7 @@ def by_hand(statements, points=(), algebras=(), counterexamples=()):
     """A certificate with few parts."""
     return resealed({
         "format": "chapsym-certificate/1", "kind": "register-claim", "claim": "0", "printed": "x", "corrected": None,
-        "algebras": [*algebras], "points": [*points], "statements": [*statements],
+        "algebras": [*algebras], "derivation": [], "points": [*points], "statements": [*statements],
         "counterexamples": [*counterexamples], "sentences": [], "statement": "",
     })  # fmt: skip
 

@@ -1,6 +1,6 @@
 """Continuum limits: what the discrete objects tend to, to which order, with which leading remainder.
 
-The body rotation of one step is Ω = exp(ε ω) with ω skew, so Ωᵀ = exp(-ε ω).  In words (every n)
+The body rotation of one step is Ω = exp(ε ω) with ω skew, so Ωᵀ = exp(-ε ω) and dΩ/dε = Ωω.  In words (every n)
 and in vectors (n = 3) the expansions are exact up to the order that is carried.
 """
 
@@ -9,8 +9,9 @@ from typing import NamedTuple
 import sympy as sp
 
 from . import ball, principle, three
+from .derivation import STEPS, rate, replaced, written
 from .quotient import Quotient
-from .words import WordAlgebra, matrix_symbols
+from .words import unfolded
 
 eps = sp.Symbol("epsilon")
 w1, w2, w3 = sp.symbols("w1:4")
@@ -23,7 +24,7 @@ RING = Quotient((*omega, *three.gamma, *three.K, three.J1, three.J2, three.J3, t
 CARRIED = 3
 
 # The angular velocity in space: Ω̄ = R_{k+1} R_kᵀ = exp(ε ω̄).
-omega_space = matrix_symbols("omega_s")[0]
+omega_space = principle.omega_space
 
 
 class Remainder(NamedTuple):
@@ -34,15 +35,39 @@ class Remainder(NamedTuple):
     leading: sp.Expr
 
 
-def exponential(generator: sp.Expr) -> sp.Expr:
-    """exp(ε·generator) up to one order more than is carried, for a word or a matrix."""
-    return sp.Add(*(eps**k * generator**k / sp.factorial(k) for k in range(CARRIED + 2)))
+class Turning(NamedTuple):
+    """Where the letters of a rotation exp(ε ω) begin, and their derivatives by ε."""
+
+    start: dict[sp.Symbol, sp.Expr]
+    rates: dict[sp.Symbol, sp.Expr]
 
 
-def expand_words(expr: sp.Expr, algebra: WordAlgebra) -> Remainder:
-    """The limit, order and leading term of an expansion in words."""
-    coefficients = [algebra.normal(sp.expand(expr).coeff(eps, k)) for k in range(-1, CARRIED + 1)]
-    return _remainder(coefficients, lambda c: c == 0)
+#: Ω = exp(ε ω) in the body, and R_{k+1} = exp(ε ω̄) R_k in space.
+STEP = Turning(
+    {ball.Omega: sp.S.One, ball.OmegaT: sp.S.One},
+    {ball.Omega: ball.Omega * ball.omega, ball.OmegaT: -ball.omega * ball.OmegaT}
+    | dict.fromkeys((ball.omega, ball.J, ball.K, ball.Gamma, ball.gamma, ball.gammaT), sp.S.Zero),
+)
+SPACE_STEP = Turning(
+    {principle.R1: principle.R, principle.R1T: principle.RT},
+    {principle.R1: omega_space * principle.R1, principle.R1T: -principle.R1T * omega_space}
+    | dict.fromkeys((omega_space, principle.R, principle.RT, principle.gamma, principle.gammaT), sp.S.Zero),
+)
+
+
+def coefficients(of: sp.Symbol, turning: Turning) -> list[sp.Symbol]:
+    """Letters for the coefficients of 1, ε, ε², ... in the expansion of a defined letter: Taylor's formula."""
+    found, name = [], of
+    for k in range(CARRIED + 2):
+        at = replaced(f"{name}_{k}_at", "at ε = 0", of, turning.start, STEPS[of].algebra)
+        found.append(written(f"{name}_{k}", f"the coefficient of ε^{k}", at / sp.factorial(k), STEPS[of].algebra))
+        of = rate(f"{name}_{k}_rate", "its derivative by ε", of, turning.rates)
+    return found
+
+
+def expand_words(of: sp.Symbol, turning: Turning) -> Remainder:
+    """The limit, order and leading term of a defined letter over ε, as letters."""
+    return _remainder(coefficients(of, turning), lambda c: unfolded(c) == 0)
 
 
 def expand_vector(expr: sp.Matrix) -> Remainder:
@@ -62,35 +87,25 @@ def _remainder(coefficients: list, vanishes) -> Remainder:
     raise ArithmeticError(f"no remainder up to order {CARRIED}: the expansion may be exact")
 
 
-def in_step(expr: sp.Expr) -> sp.Expr:
-    """Words in Ω, Ωᵀ with Ω = exp(ε ω)."""
-    return expr.xreplace({ball.Omega: exponential(ball.omega), ball.OmegaT: exponential(-ball.omega)})
-
-
 def centre_momentum() -> Remainder:
     """M/ε for every n."""
-    return expand_words(sp.expand(in_step(ball.centre_momentum()) / eps), ball.ALGEBRA)
+    return expand_words(ball.centre_momentum(), STEP)
 
 
 def momentum() -> Remainder:
     """𝒦/ε for every n: the limit is the continuous momentum about the contact point (2.13)."""
-    return expand_words(sp.expand(in_step(ball.momentum()) / eps), ball.ALGEBRA)
+    return expand_words(ball.momentum(), STEP)
 
 
 def transport(tensor: sp.Symbol) -> Remainder:
     """(Ωᵀ T Ω - T)/ε for every n: the limit is Ṫ of a tensor that is fixed in space (2.12)."""
-    moved = exponential(-ball.omega) * tensor * exponential(ball.omega)
-    return expand_words(sp.expand((moved - tensor) / eps), ball.ALGEBRA)
+    moved = written(f"moved_{tensor}", f"Ωᵀ {tensor} Ω - {tensor}", ball.carried(tensor) - tensor, ball.ALGEBRA)
+    return expand_words(moved, STEP)
 
 
 def constraint() -> Remainder:
     """(constraint (4.9) - Δr)/ε for every n: the limit is ρ ω̄ γ, the rotational part of (4.2)."""
-    rotational = principle.discrete_constraint(principle.R, principle.R1, 0, 0)
-    rotation, inverse = exponential(omega_space), exponential(-omega_space)
-    words = principle.ALGEBRA.normal(rotational).xreplace(
-        {principle.R1: rotation * principle.R, principle.R1T: principle.RT * inverse}
-    )
-    return expand_words(principle.ALGEBRA.normal(words) / eps, principle.ALGEBRA)
+    return expand_words(principle.turning_step(), SPACE_STEP)
 
 
 def euler_parameters() -> tuple[sp.Expr, sp.Matrix]:

@@ -8,6 +8,8 @@ from collections.abc import Mapping
 
 import sympy as sp
 
+from . import derivation
+from .derivation import dual, replaced, written
 from .words import WordAlgebra, matrix_symbols
 
 omega, alpha, J, Gamma, K = matrix_symbols("omega alpha J Gamma K")  # alpha is dω/dt
@@ -31,14 +33,8 @@ RATES: dict[sp.Symbol, sp.Expr] = {
 
 
 def rate(expr: sp.Expr, rates: Mapping[sp.Symbol, sp.Expr] = RATES) -> sp.Expr:
-    """d/dt of a sum of words, by Leibniz' rule; every letter must have a rate."""
-    total = sp.S.Zero
-    for term in sp.Add.make_args(ALGEBRA.normal(expr)):
-        commuting, letters = term.args_cnc()
-        word = [base for letter in letters for base in [letter.as_base_exp()[0]] * int(letter.as_base_exp()[1])]
-        for i, letter in enumerate(word):
-            total += sp.Mul(*commuting) * sp.Mul(*word[:i]) * rates[letter] * sp.Mul(*word[i + 1 :])
-    return ALGEBRA.normal(total)
+    """d/dt of a sum of words; every letter must have a rate."""
+    return ALGEBRA.rate(expr, rates)
 
 
 def commutator(x: sp.Expr, y: sp.Expr) -> sp.Expr:
@@ -46,14 +42,17 @@ def commutator(x: sp.Expr, y: sp.Expr) -> sp.Expr:
     return x * y - y * x
 
 
-def centre_momentum() -> sp.Expr:
+def centre_momentum() -> sp.Symbol:
     """M: the skew matrix with ∂L/∂Ṙ · Rη = -½ tr(M η) for every skew η, from L = ½ tr(Ṙ J Ṙᵀ)."""
-    return -ALGEBRA.dual_of_skew(ALGEBRA.trace(omega * J * ALGEBRA.transpose(eta)), eta)
+    slope = written("impulse", "tr of it is ∂L/∂Ṙ · Rη, L = ½ tr(Ṙ J Ṙᵀ)", omega * J * ALGEBRA.transpose(eta), ALGEBRA)
+    return written("M", "∂L/∂Ṙ · Rη = -½ tr(η M)", -dual("impulse_dual", "½ tr(η it)", slope, eta), ALGEBRA)
 
 
-def contact_momentum() -> sp.Expr:
+def contact_momentum() -> sp.Symbol:
     """K = M + D(Γω + ωΓ), as printed in (2.13)."""
-    return centre_momentum() + D * (Gamma * omega + omega * Gamma)
+    return written(
+        "K_contact", "as printed in (2.13)", centre_momentum() + D * (Gamma * omega + omega * Gamma), ALGEBRA
+    )
 
 
 def rolling_velocity() -> sp.Expr:
@@ -61,26 +60,32 @@ def rolling_velocity() -> sp.Expr:
     return -rho * omega * gamma
 
 
-def inertial_force() -> sp.Expr:
+def inertial_force() -> sp.Symbol:
     """F = m(v̇ + ωv): the force that the plane must exert, (2.11)."""
-    return m * (a + omega * v)
+    return written("force", "m r̈ in the body", m * (a + omega * v), ALGEBRA)
 
 
-def on_rolling(expr: sp.Expr) -> sp.Expr:
-    """Replaces v and v̇ by what the rolling condition makes of them."""
-    velocity = rolling_velocity()
-    acceleration = rate(velocity)
+def on_rolling(name: str, of: sp.Symbol, more: Mapping[sp.Symbol, sp.Expr] | None = None) -> sp.Symbol:
+    """Replaces v and v̇ by what the rolling condition makes of them; and `more`."""
+    velocity = written("velocity", "v of the rolling condition, v + ρωγ = 0", rolling_velocity(), ALGEBRA)
+    acceleration = derivation.rate("acceleration", "its derivative: γ̇ = -ωγ, ω̇ = α", velocity, RATES)
     places = {v: velocity, vT: ALGEBRA.transpose(velocity), a: acceleration, aT: ALGEBRA.transpose(acceleration)}
-    return ALGEBRA.normal(sp.expand(expr.xreplace(places)))
+    return replaced(name, "on the rolling condition", of, places | dict(more or {}), ALGEBRA)
 
 
-def dalembert() -> sp.Expr:
+def dalembert() -> sp.Symbol:
     """The skew matrix that vanishes exactly when d'Alembert's principle holds.
 
     tr(R̈ J δRᵀ) + ⟨m r̈, δr⟩ = 0 for δR = Rη and δr = -ρRηγ, every skew η, with
     R̈ = R(ω̇ + ω²) and r̈ = R(v̇ + ωv).
     """
-    force = inertial_force()
     work = (alpha + omega * omega) * J * ALGEBRA.transpose(eta)
-    work += -rho * eta * gamma * ALGEBRA.transpose(force)
-    return -ALGEBRA.dual_of_skew(work, eta)
+    work += -rho * eta * gamma * ALGEBRA.transpose(inertial_force())
+    total = written("virtual_work", "tr of it is tr(R̈ J δRᵀ) + ⟨m r̈, δr⟩ for δR = Rη, δr = -ρRηγ", work, ALGEBRA)
+    resisting = dual("resisting", "½ tr(η it) is that work", total, eta)
+    return written("principle", "it vanishes when that work does for every skew η", -resisting, ALGEBRA)
+
+
+def eliminated() -> sp.Symbol:
+    """The principle with the velocity and the reaction eliminated, and D = mρ²."""
+    return on_rolling("principle_rolling", dalembert(), {m: D / rho**2})

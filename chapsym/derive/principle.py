@@ -6,8 +6,11 @@ the path satisfies).  The results are expressions in the noncommuting symbols be
 frame at the time k.  `ball.py` carries them to the body frame.
 """
 
+from collections.abc import Mapping
+
 import sympy as sp
 
+from .derivation import STEPS, dual, gradient, rate, replaced, terms, written
 from .words import WordAlgebra, matrix_symbols
 
 # Attitudes and centres at times k-1, k, k+1; J is diagonal, gamma the unit normal in space.
@@ -17,18 +20,19 @@ J, gamma, gammaT = matrix_symbols("J gamma gamma^T")
 # An infinitesimal rotation in space (skew), free increments, and the multipliers.
 xi, dR, dRT, dr, drT = matrix_symbols("xi dR dR^T dr dr^T")
 Lam, f, fT = matrix_symbols("Lambda f f^T")
-m, rho, s, c = sp.symbols("m rho s c")
+omega_space = matrix_symbols("omega_s")[0]  # the angular velocity in space
+m, rho, c = sp.symbols("m rho c")
 D = sp.Symbol("D")  # m rho^2
 
-ALGEBRA = WordAlgebra(
-    {
-        **{R0: R0T, R0T: R0, R: RT, RT: R, R1: R1T, R1T: R1},
-        **{r0: r0T, r0T: r0, r: rT, rT: r, r1: r1T, r1T: r1},
-        **{dR: dRT, dRT: dR, dr: drT, drT: dr, f: fT, fT: f, gamma: gammaT, gammaT: gamma},
-        **{J: J, Lam: Lam, xi: -xi},
-    },
-    {pair: 1 for a, b in [(R0, R0T), (R, RT), (R1, R1T)] for pair in [(a, b), (b, a)]},
-)
+TRANSPOSES = {
+    **{R0: R0T, R0T: R0, R: RT, RT: R, R1: R1T, R1T: R1},
+    **{r0: r0T, r0T: r0, r: rT, rT: r, r1: r1T, r1T: r1},
+    **{dR: dRT, dRT: dR, dr: drT, drT: dr, f: fT, fT: f, gamma: gammaT, gammaT: gamma},
+    **{J: J, Lam: Lam, xi: -xi, omega_space: -omega_space},
+}
+ALGEBRA = WordAlgebra(TRANSPOSES, {pair: 1 for a, b in [(R0, R0T), (R, RT), (R1, R1T)] for pair in [(a, b), (b, a)]})
+#: Where the path is varied: R_k need not be a rotation.
+FREE = WordAlgebra(TRANSPOSES)
 
 
 def rotational_term(a: sp.Expr, b: sp.Expr) -> sp.Expr:
@@ -65,56 +69,81 @@ def discrete_constraint(a: sp.Expr, b: sp.Expr, x: sp.Expr, y: sp.Expr) -> sp.Ex
     return y - x + rho / 2 * (space_rotation - ALGEBRA.transpose(space_rotation)) * gamma
 
 
-def action_variation(factor: sp.Expr) -> sp.Expr:
+def turning_step() -> sp.Symbol:
+    """(4.9) less Δr."""
+    rotational = discrete_constraint(R, R1, sp.S.Zero, sp.S.Zero)
+    return written("turning_step", "(4.9) without Δr", rotational, ALGEBRA)
+
+
+def variation() -> sp.Symbol:
     """δ𝕃(k-1, k) + δ𝕃(k, k+1) for free increments dR of R_k and dr of r_k, as a trace."""
-    action = lagrangian(factor, R0, R, r0, r) + lagrangian(factor, R, R1, r, r1)
-    moved = {R: R + s * dR, RT: RT + s * dRT, r: r + s * dr, rT: rT + s * drT}
-    return ALGEBRA.trace(sp.expand(action.xreplace(moved)).coeff(s, 1))
+    action = written(
+        "action",
+        "tr of it is 𝕃(k-1,k) + 𝕃(k,k+1), 𝕃 = c Tr(R_k J R_{k+1}ᵀ) + (m/2)|r_{k+1} - r_k|²",
+        lagrangian(c, R0, R, r0, r) + lagrangian(c, R, R1, r, r1),
+        FREE,
+    )
+    increments = dict.fromkeys((R0, R0T, R1, R1T, r0, r0T, r1, r1T, J), sp.S.Zero)
+    increments |= {R: dR, RT: dRT, r: dr, rT: drT}
+    return rate("variation_c", "for increments dR of R_k and dr of r_k", action, increments)
 
 
-def gradient(variation: sp.Expr, increment: sp.Symbol) -> sp.Expr:
-    """G with variation = tr(Gᵀ · increment) + (terms without it), for a trace expression."""
-    total = sp.S.Zero
-    transposed = ALGEBRA.transposes[increment]
-    for term in sp.Add.make_args(sp.expand(variation)):
-        if term.has(transposed):
-            term = ALGEBRA.transpose(term)
-        coefficient, word = sp.Mul(*term.args_cnc()[0]), term.args_cnc()[1]
-        if increment in word:
-            at = word.index(increment)
-            total += coefficient * ALGEBRA.transpose(sp.Mul(*(word[at + 1 :] + word[:at])))
-    return ALGEBRA.normal(total)
-
-
-def multiplier_equations(factor: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
+def multiplier_equations(factor: sp.Expr) -> tuple[sp.Symbol, sp.Symbol]:
     """D₁𝕃 + D₂𝕃 - (multiplier terms), in R_k and in r_k; both vanish on solutions.
 
     The multipliers are a symmetric Λ for R Rᵀ = 1 and a column for the rolling constraint.  That
     column is called -f, so that the equation in r_k reads m Δr_k - m Δr_{k-1} = f, as (4.4).
     """
-    variation = action_variation(factor)
-    holding = ALGEBRA.trace(-rolling_constraint(dr, dR) * fT + (dR * RT + R * dRT) * Lam / 2)
-    return (
-        ALGEBRA.normal(gradient(variation, dR) - gradient(holding, dR)),
-        ALGEBRA.normal(gradient(variation, dr) - gradient(holding, dr)),
+    holding = written(
+        "holding",
+        "tr of it: the constraint (4.2) times -f, and the increment of R Rᵀ/2 times Λ",
+        -rolling_constraint(dr, dR) * fT + (dR * RT + R * dRT) * Lam / 2,
+        FREE,
     )
+    varied = _with_factor(variation(), factor)
+    rows = []
+    for place, increment in (("R", dR), ("r", dr)):
+        slope = gradient(f"slope_{place}", f"of tr variation in {increment}", varied, increment)
+        held = gradient(f"held_{place}", f"of tr holding in {increment}", holding, increment)
+        rows.append(written(f"equation_{place}", "it vanishes on solutions", slope - held, ALGEBRA))
+    return rows[0], rows[1]
 
 
-def momentum_balance(factor: sp.Expr) -> sp.Expr:
+def momentum_balance(factor: sp.Expr) -> sp.Symbol:
     """The skew matrix that vanishes exactly when the principle holds, the multipliers eliminated.
 
     Virtual displacements: dR = ξR with ξ skew, and dr the one that the continuous constraint
     gives, -ρ ξ γ.  The principle says that the variation vanishes for every skew ξ.
     """
-    rotation = xi * R
-    displacement = -rolling_constraint(0, rotation)
-    virtual = {dR: rotation, dRT: ALGEBRA.transpose(rotation), dr: displacement, drT: ALGEBRA.transpose(displacement)}
-    return ALGEBRA.dual_of_skew(action_variation(factor).xreplace(virtual), xi)
+    rolling = written(
+        "rolling", "(4.2) for virtual displacements, dr + ρ dR Rᵀ γ: it vanishes", rolling_constraint(dr, dR), FREE
+    )
+    turning = terms("turning", "-dr by that", rolling, [dr], having=False)
+    turn = {dR: xi * R, dRT: ALGEBRA.transpose(xi * R)}
+    slipping = replaced("slipping", "-dr for dR = ξR", turning, turn, ALGEBRA)
+    centre = {dr: -slipping, drT: -ALGEBRA.transpose(slipping)}
+    work = replaced("work", "tr of it is the variation for dR = ξR and that dr", variation(), turn | centre, ALGEBRA)
+    return _with_factor(dual("balance_c", "it vanishes when the variation does for every skew ξ", work, xi), factor)
+
+
+def _with_factor(of: sp.Symbol, factor: sp.Expr) -> sp.Symbol:
+    """With a value in the place of the factor c of the Lagrangian."""
+    if factor == c:
+        return of
+    number = sp.Rational(factor)
+    name = str(of).removesuffix("_c") + ("" if number == -1 else f"_at_{number.p}_{number.q}".replace("-", "m"))
+    return replaced(name, f"for c = {number}", of, {c: number}, STEPS[of].algebra)
 
 
 def reaction() -> sp.Expr:
     """m Δr_k - m Δr_{k-1}, in terms of the centres: the force f^k of (4.4)."""
     return m * (r1 - r) - m * (r - r0)
+
+
+def rolling_reaction() -> sp.Symbol:
+    """The same on the discrete constraint."""
+    force = written("reaction", "m Δr_k - m Δr_{k-1}", reaction(), ALGEBRA)
+    return on_constraint("reaction_rolling", "on the discrete constraint", force)
 
 
 def spatial_momentum(a: sp.Expr, b: sp.Expr) -> sp.Expr:
@@ -123,9 +152,14 @@ def spatial_momentum(a: sp.Expr, b: sp.Expr) -> sp.Expr:
     return half - ALGEBRA.transpose(half)
 
 
-def on_constraint(expr: sp.Expr) -> sp.Expr:
-    """Replaces r_{k+1} and r_{k-1} by what the discrete constraint (4.9) makes of them."""
-    after = r1 - discrete_constraint(R, R1, r, r1)
-    before = r0 + discrete_constraint(R0, R, r0, r)
-    places = {r1: after, r1T: ALGEBRA.transpose(after), r0: before, r0T: ALGEBRA.transpose(before)}
-    return ALGEBRA.normal(sp.expand(expr.xreplace(places)))
+def on_constraint(name: str, text: str, of: sp.Symbol, more: Mapping[sp.Symbol, sp.Expr] | None = None) -> sp.Symbol:
+    """Replaces r_{k+1} and r_{k-1} by what the discrete constraint (4.9) makes of them; and `more`."""
+    steps = (("k", "k+1", "after", (R, R1, r, r1), r1, -1), ("k-1", "k", "before", (R0, R, r0, r), r0, 1))
+    places = dict(more or {})
+    for start, end, when, path, centre, sign in steps:
+        holds = written(
+            f"rolls_{when}", f"(4.9) from {start} to {end}: it vanishes", discrete_constraint(*path), ALGEBRA
+        )
+        rest = terms(f"rest_{when}", f"it without {centre}", holds, [centre], having=False)
+        places |= {centre: sign * rest, ALGEBRA.transposes[centre]: sign * ALGEBRA.transpose(rest)}
+    return replaced(name, text, of, places, ALGEBRA)

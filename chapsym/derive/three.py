@@ -7,8 +7,9 @@ from typing import Any
 import sympy as sp
 
 from . import ball
+from .derivation import coordinates, entry
 from .quotient import Quotient
-from .words import evaluate
+from .words import DEFINED
 
 q0, q1, q2, q3 = sp.symbols("q0:4")
 g1, g2, g3 = sp.symbols("g1:4")
@@ -58,9 +59,22 @@ def rotation() -> sp.ImmutableMatrix:
 @cache
 def momentum_matrix() -> sp.ImmutableMatrix:
     """(4.13) with the rotation of the Euler parameters in the place of Ω, as a skew 3×3 matrix."""
+    return DEFINED[_in_coordinates(ball.momentum())]
+
+
+@cache
+def axial_entries(name: str, of: sp.Symbol) -> sp.ImmutableMatrix:
+    """Letters for the vector of skew words at the rotation of the Euler parameters, as in Section 5."""
+    skew = _in_coordinates(of)
+    places = ((2, 1), (0, 2), (1, 0))
+    return sp.ImmutableMatrix([entry(f"{name}_{i}", "by (A₃₂, A₁₃, A₂₁)", skew, *at) for i, at in enumerate(places, 1)])
+
+
+def _in_coordinates(of: sp.Symbol) -> sp.Symbol:
     om = sp.Matrix(rotation())
-    values = {ball.Omega: om, ball.OmegaT: om.T, ball.J: J, ball.Gamma: gamma * gamma.T}
-    return sp.ImmutableMatrix(evaluate(ball.momentum(), values).applyfunc(sp.expand))
+    values = {ball.Omega: om, ball.OmegaT: om.T, ball.J: J, ball.D: D}
+    values |= {ball.gamma: gamma, ball.gammaT: gamma.T, ball.Gamma: gamma * gamma.T}
+    return coordinates(f"{of}_matrix", "n = 3: Ω in Euler parameters, J = diag(J₁, J₂, J₃)", of, values, RING)
 
 
 @cache

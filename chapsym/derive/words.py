@@ -10,6 +10,7 @@ The rules must be confluent, otherwise the normal form would depend on the order
 """
 
 from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
 from typing import Any
 
 import sympy as sp
@@ -17,9 +18,18 @@ import sympy as sp
 Word = tuple[sp.Symbol, ...]
 
 
+#: What a letter stands for that derivation.py has defined.
+DEFINED: dict[sp.Symbol, sp.Expr] = {}
+
+
 def matrix_symbols(names: str) -> tuple[sp.Symbol, ...]:
     """Noncommuting symbols, one for each name."""
     return sp.symbols(names, commutative=False, seq=True)
+
+
+def unfolded(expr: sp.Expr) -> sp.Expr:
+    """With what each defined letter stands for in its place."""
+    return expr.xreplace(DEFINED) if expr.free_symbols & DEFINED.keys() else expr
 
 
 class WordAlgebra:
@@ -49,7 +59,7 @@ class WordAlgebra:
     def normal(self, expr: sp.Expr | int) -> sp.Expr:
         """The normal form: expanded, with every rule applied until none matches."""
         total: dict[Word, sp.Expr] = {}
-        pending = list(_terms(sp.expand(expr)))
+        pending = list(_terms(expr))
         while pending:
             coefficient, word = pending.pop()
             match = next((i for i in range(len(word) - 1) if word[i : i + 2] in self.rules), None)
@@ -57,7 +67,7 @@ class WordAlgebra:
                 total[word] = total.get(word, sp.S.Zero) + coefficient
                 continue
             left, pair, right = word[:match], word[match : match + 2], word[match + 2 :]
-            for c, middle in _terms(sp.expand(self.rules[pair])):
+            for c, middle in _terms(self.rules[pair]):
                 pending.append((coefficient * c, left + middle + right))
         return sp.Add(*(sp.expand(c) * sp.Mul(*word) for word, c in total.items()))
 
@@ -68,11 +78,16 @@ class WordAlgebra:
     def transpose(self, expr: sp.Expr | int) -> sp.Expr:
         """Transposition: reverses each word and transposes its letters."""
         return sp.Add(
-            *(
-                c * sp.Mul(*(self.transposes[letter] for letter in reversed(word)))
-                for c, word in _terms(sp.expand(expr))
-            )
+            *(c * sp.Mul(*(self.transposes[letter] for letter in reversed(word))) for c, word in _terms(expr))
         )
+
+    def rate(self, expr: sp.Expr, rates: Mapping[sp.Symbol, sp.Expr]) -> sp.Expr:
+        """The derivative of a sum of words by Leibniz' rule, from those of the letters."""
+        total = sp.S.Zero
+        for c, word in _terms(self.normal(expr)):
+            for i, letter in enumerate(word):
+                total += c * sp.Mul(*word[:i]) * rates[letter] * sp.Mul(*word[i + 1 :])
+        return self.normal(total)
 
     def wedge(self, a: sp.Expr, b: sp.Expr) -> sp.Expr:
         """a ∧ b = a bᵀ - b aᵀ for two columns."""
@@ -102,6 +117,18 @@ class WordAlgebra:
             word = word[1:-1]
         return word
 
+    def gradient(self, expr: sp.Expr, letter: sp.Symbol) -> sp.Expr:
+        """G with tr expr = tr(Gᵀ · letter) + (terms without it)."""
+        total = sp.S.Zero
+        for c, word in _terms(expr):
+            if self.transposes[letter] in word:
+                [(sign, word)] = _terms(self.transpose(sp.Mul(*word)))
+                c *= sign
+            if letter in word:
+                at = word.index(letter)
+                total += c * self.transpose(sp.Mul(*word[at + 1 :], *word[:at]))
+        return self.normal(total)
+
     def dual_of_skew(self, expr: sp.Expr, xi: sp.Symbol) -> sp.Expr:
         """The matrix S with expr = ½ tr(ξ S), S skew, for a trace expression linear in the skew ξ.
 
@@ -116,9 +143,23 @@ class WordAlgebra:
         return self.normal(total - self.transpose(total))
 
 
+@dataclass(frozen=True)
+class Traces:
+    """The traces of sums of words of an algebra."""
+
+    algebra: WordAlgebra
+
+    def is_zero(self, expr: sp.Expr | int) -> bool:
+        """True exactly when tr expr has the normal form 0; raises ValueError for the trace of a number."""
+        traced = self.algebra.trace(expr)
+        if any(not word for _, word in _terms(traced)):
+            raise ValueError("the trace of a number depends on what it stands for")
+        return bool(traced == 0)
+
+
 def _terms(expr: sp.Expr | int) -> Iterable[tuple[sp.Expr, Word]]:
-    """The (coefficient, word) pairs of an expanded expression."""
-    for term in sp.Add.make_args(sp.sympify(expr)):
+    """The (coefficient, word) pairs of an expression."""
+    for term in sp.Add.make_args(sp.expand(unfolded(sp.sympify(expr)))):
         commuting, letters = term.args_cnc()
         word: list[sp.Symbol] = []
         for letter in letters:
@@ -147,7 +188,7 @@ def evaluate(expr: sp.Expr | int, values: Mapping[sp.Symbol, sp.Matrix | sp.Expr
     matrices = {symbol: value for symbol, value in values.items() if isinstance(value, sp.MatrixBase)}
     scalars = {symbol: value for symbol, value in values.items() if symbol not in matrices}
     parts = []
-    for commuting, word in _terms(sp.expand(expr)):
+    for commuting, word in _terms(expr):
         coefficient = commuting.subs(scalars, simultaneous=True)
         product = matrices[word[0]] if word else sp.eye(max(matrix.rows for matrix in matrices.values()))
         for letter in word[1:]:

@@ -13,11 +13,14 @@ import sympy as sp
 from sympy.polys.rings import PolyRing
 
 from chapsym import checker, files
-from chapsym.checker import register
+from chapsym.checker import derivation, register, shown
+from chapsym.checker.algebra import Algebra
+from chapsym.checker.matrices import Quotients, quotients
 from chapsym.checker.polynomial import FIELD, Quotient, Ring, Work
 from chapsym.checker.trees import value
+from chapsym.derive.derivation import STEPS, Step, needed
 from chapsym.derive.quotient import Quotient as QuotientRing
-from chapsym.derive.words import WordAlgebra
+from chapsym.derive.words import Traces, WordAlgebra, evaluate, unfolded
 
 from . import witness
 from .cofactors import Ideal
@@ -25,6 +28,9 @@ from .evidence import Proof
 from .points import candidates
 from .statements import Equation, Point, Statement
 from .trees import NotAlgebra, factored, number, tree
+
+#: Letters of a judged formula in a record.
+LONGEST = 400
 
 
 def certificate(id: str, printed: str, proof: Proof) -> dict[str, Any]:
@@ -41,8 +47,9 @@ def certificate(id: str, printed: str, proof: Proof) -> dict[str, Any]:
     made.sentences += [{"role": "certificate", "text": f"{c['file']}: {c['statement']}"} for c in proof.certificates]
     data = {
         "format": checker.FORMAT, "kind": "register-claim", "claim": id, "printed": printed,
-        "corrected": proof.corrected_text, "algebras": made.algebras, "points": made.points,
-        "statements": made.statements, "counterexamples": made.counterexamples, "sentences": made.sentences,
+        "corrected": proof.corrected_text, "algebras": made.algebras, "derivation": made.derivation,
+        "points": made.points, "statements": made.statements, "counterexamples": made.counterexamples,
+        "sentences": made.sentences,
     }  # fmt: skip
     data["statement"] = checker.statement(data)
     data["digest"] = checker.digest(data)
@@ -51,13 +58,27 @@ def certificate(id: str, printed: str, proof: Proof) -> dict[str, Any]:
 
 
 def carried(data: dict[str, Any]) -> dict[str, Any]:
-    """What the checker judged of a certificate that it accepted, counted; and the sentences that it did not."""
+    """What the checker judged of a certificate that it accepted, counted and as text; the sentences that it did not."""
+    identical = sum(one["left"] == one["right"] for one in data["statements"])
+    sentences = Counter(sentence["role"] for sentence in data["sentences"])
+    same = f" ({identical} of one expression on both sides)" if identical else ""
+    steps = f"; steps from the premises: {len(data['derivation'])}" if data["derivation"] else ""
+    listed = ", ".join(f"{n} {role}" for role, n in sentences.items()) or "none"
     return {
         "statements": len(data["statements"]),
-        "identical": sum(one["left"] == one["right"] for one in data["statements"]),
+        "identical": identical,
+        "steps": len(data["derivation"]),
         "counterexamples": len(data["counterexamples"]),
-        "sentences": dict(Counter(sentence["role"] for sentence in data["sentences"])),
+        "sentences": dict(sentences),
+        "text": f"statements that the checker accepted: {len(data['statements'])}{same}{steps}; "
+        f"counterexamples: {len(data['counterexamples'])}; sentences: {listed}",
+        "judged": [_cut(line) for line in shown.lines(data)],
     }
+
+
+def _cut(line: str) -> str:
+    """The beginning of a long line; `checker --show` has all of it."""
+    return line if len(line) <= LONGEST else f"{line[:LONGEST]}... ({len(line)} letters)"
 
 
 def write(data: dict[str, Any], folder: Path) -> None:
@@ -79,12 +100,25 @@ class _Maker:
     def __init__(self, proof: Proof) -> None:
         self.proof = proof
         self.algebras: list[dict[str, Any]] = []
+        self.derivation: list[dict[str, Any]] = []
         self.points: list[dict[str, Any]] = []
         self.statements: list[dict[str, Any]] = []
         self.counterexamples: list[dict[str, Any]] = []
         self.sentences: list[dict[str, str]] = []
         self._symbols: dict[int, list[sp.Symbol]] = {}
         self._ideals: dict[int, Ideal] = {}
+        stated = [statement for _, statement, _ in proof.decided if isinstance(statement, Equation)]
+        stated += [hypothesis for point in proof.points for hypothesis in point.hypotheses]
+        self._steps = list(needed([side for one in stated for sides in one.written for side in sides]))
+        self._defined: dict[str, derivation.Made] = {}
+        for letter in self._steps:
+            self.derivation.append(self._definition(letter))
+        self._defined = derivation.values(self.derivation, [self._arithmetic(one) for one in self.algebras])
+
+    def _arithmetic(self, algebra: dict[str, Any]) -> Algebra | Quotients:
+        if algebra["kind"] == "quotient":
+            return quotients(algebra, Ring(algebra["variables"], Work()))
+        return Algebra(algebra, Work())
 
     def counterexample(self, point: Point) -> None:
         """A point, with the hypotheses there; what it refutes is added with the statements."""
@@ -108,7 +142,12 @@ class _Maker:
             self.sentences.append({"role": role, "text": f"{truth}{statement.text} ({statement.method})"})
             return
         try:
-            one = {"role": role, "text": statement.text, "algebra": self._algebra(statement), **_sides(statement)}
+            one = {
+                "role": role,
+                "text": statement.text,
+                "algebra": self._algebra(statement.algebra),
+                **_sides(statement),
+            }
             one |= self._proof(statement, one) if holds else {"refuted": None}
         except (NotAlgebra, NotFound) as error:
             self.sentences.append({"role": role, "text": f"{statement.text} (not exported: {error})"})
@@ -126,7 +165,7 @@ class _Maker:
         if not refutes and one["role"] not in ("corrected", "under"):
             return
         try:
-            agrees = register.holds(one, point, "")
+            agrees = register.holds(one, self.algebras[one["algebra"]], point, self._defined, "")
         except checker.Rejected:  # the point says nothing of some variable
             return
         if refutes and not agrees:
@@ -143,14 +182,48 @@ class _Maker:
                 one["refuted"] = kept.index(self.counterexamples[one["refuted"]])
         self.counterexamples = kept
 
-    def _algebra(self, equation: Equation) -> int:
-        algebra = equation.algebra
+    def _definition(self, letter: sp.Symbol) -> dict[str, Any]:
+        """A step of the derivation."""
+        step = STEPS[letter]
+        by = step.by
+        if step.operation == "matrix":
+            by = self._places(step)
+        elif step.operation == "entry":
+            by = list(by)
+        elif isinstance(by, Mapping):
+            by = [[x.name, tree(sp.sympify(image))] for x, image in by.items()]
+        elif by is not None:
+            by = by.name if isinstance(by, sp.Symbol) else [x.name for x in by]
+        return {
+            "name": letter.name, "text": step.text, "algebra": self._algebra(step.algebra),
+            "operation": step.operation, "of": tree(step.of), "by": by or [],
+        }  # fmt: skip
+
+    def _places(self, step: Step) -> list[Any]:
+        """The matrices of a step, and the cofactors by which the rules hold of them."""
+
+        def rows(of: Any) -> Any:
+            return [[tree(x) for x in row] for row in of.tolist()] if isinstance(of, sp.MatrixBase) else tree(of)
+
+        places, cofactors, one = step.by, [], {"algebra": self._algebra(step.algebra)}
+        for (a, b), image in STEPS[step.of].algebra.rules.items():
+            if a in places:
+                product = places[a] * places[b]
+                claimed = evaluate(image, places) if image.free_symbols else image * sp.eye(product.rows)
+                sides = {"left": [tree(x) for x in product], "right": [tree(x) for x in claimed]}
+                cofactors.append(self._cofactors(one | sides))
+        return [[[x.name, rows(of)] for x, of in places.items()], cofactors]
+
+    def _algebra(self, algebra: Any) -> int:
         if isinstance(algebra, QuotientRing):
             symbols = list(algebra.symbols)
             relations = [tree(relation) for relation in algebra.relations]
             data = {"kind": "quotient", "variables": [x.name for x in symbols], "relations": relations}
         elif isinstance(algebra, WordAlgebra):
             data, symbols = self._words(algebra)
+        elif isinstance(algebra, Traces):
+            data, symbols = self._words(algebra.algebra)
+            data["kind"] = "traces"
         else:
             raise NotAlgebra(f"{type(algebra).__name__} is neither a quotient ring nor an algebra of words")
         i = _place(self.algebras, data)
@@ -158,15 +231,15 @@ class _Maker:
         return i
 
     def _words(self, algebra: WordAlgebra) -> tuple[dict[str, Any], list[sp.Symbol]]:
-        """With the letters and parameters of all statements of the claim that it decides."""
-        mine = [
-            s for _, s, _ in self.proof.decided
-            if isinstance(s, Equation) and isinstance(s.algebra, WordAlgebra)
-            and (s.algebra.transposes, s.algebra.rules) == (algebra.transposes, algebra.rules)
-        ]  # fmt: skip
-        expressions = [e for s in mine for e in (*s.left, *s.right)]
-        expressions += [*algebra.transposes, *algebra.transposes.values(), *algebra.rules.values()]
+        """With the letters and parameters of all statements of the claim that it decides, and of its derivation."""
+        expressions = [*algebra.transposes, *algebra.transposes.values(), *algebra.rules.values()]
         expressions += [letter for pair in algebra.rules for letter in pair]
+        for _, statement, _ in self.proof.decided:
+            if isinstance(statement, Equation) and _alike(statement.algebra, algebra):
+                expressions += [*statement.left, *statement.right]
+        for letter in self._steps:
+            if _alike(STEPS[letter].algebra, algebra):
+                expressions += [unfolded(letter), *_used(STEPS[letter])]
         symbols = sorted(set().union(*(e.free_symbols for e in expressions)), key=lambda x: str(x.name))
         return {
             "kind": "words",
@@ -179,6 +252,8 @@ class _Maker:
     def _proof(self, equation: Equation, one: dict[str, Any]) -> dict[str, Any]:
         """The point, and the cofactors of an equation in a quotient ring."""
         algebra, symbols = equation.algebra, self._symbols[one["algebra"]]
+        if isinstance(algebra, Traces):
+            algebra = algebra.algebra
         if isinstance(algebra, WordAlgebra):
             exact = witness.matrices(set(symbols), algebra)
             if exact is None:
@@ -189,7 +264,7 @@ class _Maker:
         for exact in candidates(symbols, algebra.relations):
             entries = {x.name: _entry(v) for x, v in exact.items()}
             try:
-                if register.holds(one, register.entries(entries), ""):
+                if register.holds(one, None, register.entries(entries), self._defined, ""):
                     return {"point": self._point(exact), "cofactors": cofactors}
             except checker.Rejected:  # a denominator vanishes there
                 continue
@@ -202,7 +277,7 @@ class _Maker:
         """For each entry of left - right, in the numerator that the checker forms."""
         i, algebra = one["algebra"], self.algebras[one["algebra"]]
         ring = Ring(algebra["variables"], Work())
-        names = ring.names()
+        names = ring.names() | derivation.entries([*one["left"], *one["right"]], self._defined)
 
         def polynomial(of: Quotient) -> dict[tuple[int, ...], Any]:
             shifts = [FIELD * j for j in range(len(ring.variables))]
@@ -228,7 +303,22 @@ class NotFound(Exception):
 
 
 def _sides(equation: Equation) -> dict[str, Any]:
-    return {"left": [tree(x) for x in equation.left], "right": [tree(x) for x in equation.right]}
+    left, right = equation.written
+    return {"left": [tree(x) for x in left], "right": [tree(x) for x in right]}
+
+
+def _alike(one: Any, other: WordAlgebra) -> bool:
+    """Whether an algebra is another one, or that of its traces."""
+    if isinstance(one, Traces):
+        one = one.algebra
+    same = isinstance(one, WordAlgebra) and (one.transposes, one.rules) == (other.transposes, other.rules)
+    return bool(same)
+
+
+def _used(step: Step) -> list[sp.Expr]:
+    """What a step writes down, its letters unfolded."""
+    by = step.by.values() if isinstance(step.by, Mapping) else ()
+    return [unfolded(sp.sympify(x)) for x in (step.of, *by)]
 
 
 def _entry(x: Any) -> Any:

@@ -12,6 +12,8 @@ from typing import Any
 
 import sympy as sp
 
+from chapsym.derive.words import unfolded
+
 from . import witness
 from .statements import Equation, Point, Statement
 
@@ -63,6 +65,8 @@ class Proof:
 
     def show(self, name: str, value: Any) -> None:
         """A line of the derivation that shows an expression that was just derived."""
+        if isinstance(value, sp.Expr):
+            value = unfolded(value)
         if isinstance(value, sp.MatrixBase):
             value = "[" + ",  ".join(str(entry) for entry in value) + "]"
         self.lines.append(f"    {name} = {value}")

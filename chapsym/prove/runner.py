@@ -156,7 +156,7 @@ def explain(record: dict[str, Any]) -> str:
         cases = ", ".join(case["name"] for case in evidence["witnesses"][1:])
         lines += [f"  true at an exact point: {at}" + (f"; and for {cases}" if cases else "")]
     if evidence["carried"]:
-        lines += [f"  carried by: {carried(evidence['carried'])}"]
+        lines += [f"  carried by: {evidence['carried']['text']}"]
     lines += [f"  nothing to decide: {evidence['reason']}"] if evidence["reason"] else []
     lines += [f"  tried: {text}" for text in evidence["tried"]]
     lines += [f"  ANSWER: {evidence['answer']}"] if evidence["answer"] else []
@@ -169,16 +169,6 @@ def explain(record: dict[str, Any]) -> str:
     lines += [f"  PROBLEM: {problem}" for problem in evidence["problems"]]
     lines += [f"  verdict: {record['verdict'].upper()}  ({record['seconds']:.2f} s)"]
     return "\n".join(lines)
-
-
-def carried(counts: dict[str, Any]) -> str:
-    """What carries a verdict, in words."""
-    same = f" ({counts['identical']} of one expression on both sides)" if counts["identical"] else ""
-    sentences = ", ".join(f"{n} {role}" for role, n in counts["sentences"].items())
-    return (
-        f"statements that the checker accepted: {counts['statements']}{same}; counterexamples: "
-        f"{counts['counterexamples']}; sentences: {sentences or 'none'}"
-    )
 
 
 def main(script: str) -> None:

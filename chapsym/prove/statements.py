@@ -1,7 +1,7 @@
 """Statements that exact arithmetic decides, and the exact points at which they are looked at."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Protocol
 
 import sympy as sp
@@ -26,10 +26,13 @@ class Equation:
     left: Any
     right: Any
     algebra: Algebra
+    #: The sides with the letters that derivation.py defined.
+    written: tuple[list[Any], list[Any]] = field(init=False)
 
     def __post_init__(self) -> None:
-        for side in ("left", "right"):
-            object.__setattr__(self, side, _entries(getattr(self, side)))
+        object.__setattr__(self, "written", (_entries(self.left), _entries(self.right)))
+        for name, side in zip(("left", "right"), self.written, strict=True):
+            object.__setattr__(self, name, [words.unfolded(entry) for entry in side])
         if len(self.left) != len(self.right) or not self.left:
             raise ValueError(f"the two sides of «{self.text}» have {len(self.left)} and {len(self.right)} entries")
 
@@ -45,6 +48,8 @@ class Equation:
     def at(self, evaluate: "Callable[[Any], Any]") -> tuple[list[str], list[str]]:
         """Both sides at a point, as exact rationals; raises if a value is not rational."""
         pairs = [_same_shape(evaluate(a), evaluate(b)) for a, b in zip(self.left, self.right, strict=True)]
+        if isinstance(self.algebra, words.Traces):
+            pairs = [(a.trace(), b.trace()) for a, b in pairs]
         return [_exact(a) for a, _ in pairs], [_exact(b) for _, b in pairs]
 
 
@@ -123,5 +128,6 @@ def _exact(value: Any) -> str:
 
 _METHODS = {
     "WordAlgebra": "words in noncommuting symbols, every n",
+    "Traces": "traces of words in noncommuting symbols, every n",
     "Quotient": "quotient ring over Q, Gröbner division",
 }

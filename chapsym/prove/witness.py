@@ -13,7 +13,7 @@ from typing import Any
 import sympy as sp
 
 from chapsym.derive.quotient import Quotient
-from chapsym.derive.words import WordAlgebra, evaluate
+from chapsym.derive.words import Traces, WordAlgebra, evaluate
 
 from .statements import Equation
 
@@ -71,6 +71,8 @@ def _point(equation: Equation, case: str) -> dict[sp.Symbol, Any] | None:
     algebra = equation.algebra
     if isinstance(algebra, Quotient):
         return _rational(algebra.symbols, algebra.relations, case)
+    if isinstance(algebra, Traces):
+        algebra = algebra.algebra
     if isinstance(algebra, WordAlgebra):
         symbols = {x for side in (*equation.left, *equation.right) for x in side.free_symbols}
         return matrices(symbols, algebra, case)
@@ -114,6 +116,9 @@ def _true_at(equation: Equation, point: dict[sp.Symbol, Any]) -> bool | None:
         if any(value.has(sp.nan, sp.zoo, sp.oo) for value in (*left, *right)):
             return None
         return all(a == b for a, b in zip(left, right, strict=True))
+    if isinstance(equation.algebra, Traces):
+        left, right = equation.at(lambda e: evaluate(e, point))
+        return left == right
     pairs = zip(equation.left, equation.right, strict=True)
     return all(_same(evaluate(a, point), evaluate(b, point)) for a, b in pairs)
 

@@ -7,9 +7,10 @@ knows which end of a step is first.
 import sympy as sp
 
 from chapsym.derive import ball, principle, three
-from chapsym.derive.ball import ALGEBRA, D, Gamma, K, Omega, OmegaT, gamma
+from chapsym.derive.ball import ALGEBRA, D, Gamma, K, Omega, OmegaT, gamma, gammaT
+from chapsym.derive.derivation import replaced
 from chapsym.derive.principle import R1, R, r, r1
-from chapsym.derive.words import WordAlgebra, matrix_symbols
+from chapsym.derive.words import Traces, WordAlgebra, matrix_symbols, unfolded
 from chapsym.proofs import second_routes
 from chapsym.prove import Equation, Identity, Proof, claim, equations, main
 
@@ -18,7 +19,19 @@ equation = equations(ALGEBRA)
 
 def with_ends_swapped(expr: sp.Expr, vertical: sp.Expr = OmegaT * Gamma * Omega) -> sp.Expr:
     """The same function of the step that goes back: Ωᵀ in the place of Ω, and Γ where the step has ended."""
-    return ALGEBRA.normal(expr.xreplace({Omega: OmegaT, OmegaT: Omega, Gamma: vertical}))
+    return ALGEBRA.normal(unfolded(expr).xreplace({Omega: OmegaT, OmegaT: Omega, Gamma: vertical}))
+
+
+def momentum_back() -> sp.Symbol:
+    """𝒦 of that step, as a step of the certificate."""
+    places = {
+        Omega: OmegaT,
+        OmegaT: Omega,
+        Gamma: OmegaT * Gamma * Omega,
+        gamma: OmegaT * gamma,
+        gammaT: gammaT * Omega,
+    }
+    return replaced("momentum_back", "Ωᵀ for Ω and γ_+ = Ωᵀγ for γ", ball.momentum(), places, ball.BOTH)
 
 
 def vector_with_ends_swapped() -> sp.Matrix:
@@ -51,15 +64,15 @@ def self_adjoint(p: Proof) -> None:
     p.say("Φ_ε: (K, γ) ↦ (ΩᵀKΩ, Ωᵀγ), and in space R ↦ RΩ, r ↦ r + Δr by (4.9), with Ω from 𝒦(Ω, γ) = εK.")
     p.say("The Lagrangian (4.1) and the constraint (4.9) do not know which end is first:")
     factor, both = principle.kinetic_factor(), principle.ALGEBRA
-    forth, back = (both.trace(sp.expand(principle.lagrangian(factor, *x))) for x in ((R, R1, r, r1), (R1, R, r1, r)))
-    p.lemma(equation("𝕃 with its ends exchanged is 𝕃", back, forth, both))
+    forth, back = (principle.lagrangian(factor, *x) for x in ((R, R1, r, r1), (R1, R, r1, r)))
+    p.lemma(equation("𝕃 with its ends exchanged is 𝕃", back, forth, Traces(both)))
     forth, back = (principle.discrete_constraint(*x) for x in ((R, R1, r, r1), (R1, R, r1, r)))
     p.lemma(equation("(4.9) with its ends exchanged is -(4.9)", back, -forth, both))
     p.say("Nor does 𝒦, up to its sign and to the frame; the step back has Ωᵀ and starts at Γ_+ = ΩᵀΓΩ:")
     momentum = ball.momentum()
     p.show("𝒦(Ω, Γ)", momentum)
-    p.show("𝒦(Ωᵀ, Γ_+)", with_ends_swapped(momentum))
-    p.printed(equation("𝒦(Ωᵀ, Γ_+) = -Ωᵀ𝒦(Ω, Γ)Ω, every n", with_ends_swapped(momentum), -ball.carried(momentum)))
+    p.show("𝒦(Ωᵀ, Γ_+)", momentum_back())
+    p.printed(equation("𝒦(Ωᵀ, Γ_+) = -Ωᵀ𝒦(Ω, Γ)Ω, every n", momentum_back(), -ball.carried(momentum)))
     p.say("With 𝒦(Ω, Γ) = εK the right side is -εK_+: so Φ_{-ε} at the end of the step has the solution Ωᵀ, and takes")
     p.printed(
         equation("K_+ = ΩᵀKΩ to ΩK_+Ωᵀ = K", Omega * (OmegaT * K * Omega) * OmegaT, K),
@@ -72,7 +85,7 @@ def self_adjoint(p: Proof) -> None:
     p.say("For n = 3 in Euler parameters, where Ωᵀ has -q:")
     carried = three.transported(sp.Matrix(three.momentum()))
     p.printed(Equation("𝒦⃗(q₀, -q, Ωᵀγ) = -Ωᵀ𝒦⃗(q₀, q, γ), n = 3", vector_with_ends_swapped(), -carried, three.RING))
-    p.control(equation("𝒦(Ωᵀ, Γ_+) = +Ωᵀ𝒦(Ω, Γ)Ω", with_ends_swapped(momentum), ball.carried(momentum)))
+    p.control(equation("𝒦(Ωᵀ, Γ_+) = +Ωᵀ𝒦(Ω, Γ)Ω", momentum_back(), ball.carried(momentum)))
     p.control(
         equation("the same with Γ in the place of Γ_+", with_ends_swapped(momentum, Gamma), -ball.carried(momentum))
     )
@@ -99,7 +112,7 @@ def reversible(p: Proof) -> None:
     p.assume("the step back takes the rotation Ωᵀ, as in self-adjoint")
     p.say("Φ: (𝒦, γ) ↦ (𝒦_+, γ_+) = (Ωᵀ𝒦Ω, Ωᵀγ) with 𝒦(Ω, γ) = 𝒦. From ϱ(𝒦_+, γ_+) = (-𝒦_+, γ_+) the step has Ωᵀ:")
     momentum = ball.momentum()
-    p.printed(equation("𝒦(Ωᵀ, Γ_+) = -𝒦_+", with_ends_swapped(momentum), -ball.carried(momentum)))
+    p.printed(equation("𝒦(Ωᵀ, Γ_+) = -𝒦_+", momentum_back(), -ball.carried(momentum)))
     p.say("so that it leads to ϱ(𝒦, γ), with the attitude RΩΩᵀ = R:")
     p.printed(
         equation("Ω(-𝒦_+)Ωᵀ = -𝒦", Omega * (-OmegaT * K * Omega) * OmegaT, -K),
@@ -107,7 +120,7 @@ def reversible(p: Proof) -> None:
     )
     p.say("ϱϱ = 1, so ϱΦϱΦ = 1; and a composition with c_i = c_{s+1-i} inherits it, stage by stage.")
     p.say("The sign of γ is no reversal: 𝒦 depends on Γ = γγᵀ alone.")
-    p.control(equation("ϱ(𝒦, γ) = (𝒦, -γ): 𝒦(Ωᵀ, Γ_+) = 𝒦_+", with_ends_swapped(momentum), ball.carried(momentum)))
+    p.control(equation("ϱ(𝒦, γ) = (𝒦, -γ): 𝒦(Ωᵀ, Γ_+) = 𝒦_+", momentum_back(), ball.carried(momentum)))
     p.control(equation("the step back with Ω: Ωᵀ(-𝒦_+)Ω = -𝒦", OmegaT * (-OmegaT * K * Omega) * Omega, -K))
 
 

@@ -1,16 +1,25 @@
 """Section 2: the continuous ball for every n, from d'Alembert's principle, with words in noncommuting symbols."""
 
+from collections.abc import Mapping
+
 import sympy as sp
 
-from chapsym.derive import motion
+from chapsym.derive import derivation, motion
 from chapsym.derive.motion import ALGEBRA, D, Gamma, J, K, alpha, commutator, gamma, m, omega, rate, rho
 from chapsym.derive.three import hat
+from chapsym.derive.words import Traces
 from chapsym.prove import Equation, Point, Proof, claim, equations, main
 
 DOWNWARDS = "γ is directed from the centre to the plane (2.9 as corrected)"
 
 
 equation = equations(ALGEBRA)
+TRACES = Traces(ALGEBRA)
+
+
+def moving(name: str, expr: sp.Expr, rates: Mapping[sp.Symbol, sp.Expr] = motion.RATES) -> sp.Symbol:
+    """The rate of an expression, as a step of the certificate."""
+    return derivation.rate(f"{name}_rate", "d/dt", derivation.written(name, "as in the claim", expr, ALGEBRA), rates)
 
 
 def motion_point() -> Point:
@@ -20,7 +29,7 @@ def motion_point() -> Point:
     values = {alpha: gain, omega: spin, J: sp.diag(1, 2, 4), gamma: down, motion.gammaT: down.T}
     values |= {Gamma: down * down.T, m: sp.S.One, rho: sp.S.One, D: sp.S.One}
     shown = {"ω": "(1, 1, 1)", "ω̇": "(2/7, -1/2, 1/3)", "J": "diag(1, 2, 4)", "γ": "e3", "m": "1", "ρ": "1", "D": "1"}
-    return Point(shown, values, [equation("the principle", eliminated(), 0)])
+    return Point(shown, values, [equation("the principle", motion.eliminated(), 0)])
 
 
 @claim(
@@ -51,8 +60,8 @@ def centre_momentum(p: Proof) -> None:
     derived = motion.centre_momentum()
     p.show("M", derived)
     p.printed(equation("M = Jω + ωJ", J * omega + omega * J, derived))
-    kinetic = ALGEBRA.trace(omega * J * ALGEBRA.transpose(omega)) / 2
-    p.lemma(equation("-¼ tr(ωM) = ½ tr(Ṙ J Ṙᵀ)", -ALGEBRA.trace(omega * derived) / 4, kinetic))
+    kinetic = omega * J * ALGEBRA.transpose(omega) / 2
+    p.lemma(equation("-¼ tr(ωM) = ½ tr(Ṙ J Ṙᵀ)", -omega * derived / 4, kinetic, TRACES))
     p.control(equation("M = ½(Jω + ωJ)", (J * omega + omega * J) / 2, derived))
 
 
@@ -84,17 +93,12 @@ def reaction_force(p: Proof) -> None:
     """The reaction force: its sign is misprinted."""
     p.assume(DOWNWARDS)
     p.say("v = -ρωγ and γ̇ = -ωγ give v̇ + ωv = -ρω̇γ.")
-    force = motion.on_rolling(motion.inertial_force())
+    force = motion.on_rolling("force_rolling", motion.inertial_force())
     p.show("F", force)
     p.printed(equation("F = mρω̇γ", m * rho * alpha * gamma, force))
     p.corrected(r"F = -m\rho\,\dot\omega\gamma", equation("F = -mρω̇γ", -m * rho * alpha * gamma, force))
     p.counterexample(motion_point())
     p.control(equation("F = -mρ(ω̇ + ω²)γ", -m * rho * (alpha + omega * omega) * gamma, force))
-
-
-def eliminated() -> sp.Expr:
-    """The principle with v, v̇ from the rolling condition and m = D/ρ²; it vanishes."""
-    return ALGEBRA.normal(sp.expand(motion.on_rolling(motion.dalembert()).subs(m, D / rho**2)))
 
 
 @claim(
@@ -109,13 +113,13 @@ def eliminated_force(p: Proof) -> None:
     balance = rate(momentum) + commutator(omega, momentum)
     lifted = D * (alpha * Gamma + Gamma * alpha)
     p.lemma(equation("Γ̇ + [ω,Γ] = 0", rate(Gamma) + commutator(omega, Gamma), 0))
-    p.printed(equation("Ṁ + [ω,M] - D(ω̇Γ + Γω̇) is what vanishes in a motion", balance - lifted, eliminated()))
+    p.printed(equation("Ṁ + [ω,M] - D(ω̇Γ + Γω̇) is what vanishes in a motion", balance - lifted, motion.eliminated()))
     p.corrected(
         r"\dot M + [\omega, M] = -D(\dot\omega\Gamma + \Gamma\dot\omega)",
-        equation("Ṁ + [ω,M] + D(ω̇Γ + Γω̇) is what vanishes in a motion", balance + lifted, eliminated()),
+        equation("Ṁ + [ω,M] + D(ω̇Γ + Γω̇) is what vanishes in a motion", balance + lifted, motion.eliminated()),
     )
     p.counterexample(motion_point())
-    p.control(equation("Ṁ + [ω,M] + 2D(ω̇Γ + Γω̇) is the principle", balance + 2 * lifted, eliminated()))
+    p.control(equation("Ṁ + [ω,M] + 2D(ω̇Γ + Γω̇) is the principle", balance + 2 * lifted, motion.eliminated()))
 
 
 @claim("2.12", r"\dot{\mathbf K} + [\omega, \mathbf K] = 0,\ \dot\Gamma + [\omega, \Gamma] = 0", ["2.11-eliminated"])
@@ -124,12 +128,14 @@ def conservation(p: Proof) -> None:
     momentum = motion.contact_momentum()
     p.show("K", momentum)
     p.printed(
-        equation("K̇ + [ω,K] is the principle", rate(momentum) + commutator(omega, momentum), eliminated()),
+        equation(
+            "K̇ + [ω,K] is the principle", moving("K_here", momentum) + commutator(omega, momentum), motion.eliminated()
+        ),
         equation("Γ̇ + [ω,Γ] = 0", rate(Gamma) + commutator(omega, Gamma), 0),
     )
-    p.control(equation("K̇ - [ω,K] is the principle", rate(momentum) - commutator(omega, momentum), eliminated()))
+    p.control(equation("K̇ - [ω,K] is the principle", rate(momentum) - commutator(omega, momentum), motion.eliminated()))
     wrong = J * omega + omega * J - D * (Gamma * omega + omega * Gamma)
-    p.control(equation("the same with -D in K", rate(wrong) + commutator(omega, wrong), eliminated()))
+    p.control(equation("the same with -D in K", rate(wrong) + commutator(omega, wrong), motion.eliminated()))
 
 
 @claim("2.14", r"\mathrm{tr}\,\mathbf K^s,\ \mathrm{tr}(\mathbf K^s\Gamma^l),\ \mathrm{tr}\,\Gamma = 1", ["2.12"])
@@ -141,31 +147,30 @@ def trace_integrals(p: Proof) -> None:
     p.say("By (2.12) the rate of K and of Γ is -[ω, ·], and the commutator is a derivation:")
     by_parts = commutator(omega, X) * Y + X * commutator(omega, Y)
     p.lemma(Equation("[ω,X]Y + X[ω,Y] = [ω,XY]", by_parts, commutator(omega, X * Y), algebra))
-    p.lemma(Equation("tr [ω,X] = 0", algebra.trace(commutator(omega, X)), 0, algebra))
+    p.lemma(Equation("tr [ω,X] = 0", commutator(omega, X), 0, Traces(algebra)))
     p.say("so that d/dt tr(K^sΓ^l) = -tr[ω, K^sΓ^l] = 0 for all s, l. The first of them, by Leibniz' rule:")
     for s, l in [(2, 0), (2, 1), (2, 2), (4, 1)]:
-        p.printed(equation(f"d/dt tr K^{s}Γ^{l} = 0", ALGEBRA.trace(rate(K**s * Gamma**l, rates)), 0))
-    p.printed(equation("d/dt tr Γ = 0", ALGEBRA.trace(rate(Gamma, rates)), 0))
-    p.control(equation("d/dt tr K²J = 0", ALGEBRA.trace(rate(K * K * J, rates)), 0))
+        p.printed(equation(f"d/dt tr K^{s}Γ^{l} = 0", moving(f"K^{s}_Gamma^{l}", K**s * Gamma**l, rates), 0, TRACES))
+    p.printed(equation("d/dt tr Γ = 0", moving("Gamma^1", Gamma, rates), 0, TRACES))
+    p.control(equation("d/dt tr K²J = 0", rate(K * K * J, rates), 0, TRACES))
     opposite = {**rates, K: commutator(omega, K)}
-    p.control(equation("d/dt tr K²Γ = 0 with K̇ = +[ω,K]", ALGEBRA.trace(rate(K * K * Gamma, opposite)), 0))
+    p.control(equation("d/dt tr K²Γ = 0 with K̇ = +[ω,K]", rate(K * K * Gamma, opposite), 0, TRACES))
 
 
 @claim("2.15", r"H = -\tfrac14\mathrm{tr}(\omega\,\mathcal A\omega) \text{ is an integral}", ["2.12"])
 def energy_integral(p: Proof) -> None:
     """The energy integral is the kinetic energy, for every n."""
     momentum = motion.contact_momentum()
-    energy = -ALGEBRA.trace(omega * momentum) / 4
+    energy = -omega * momentum / 4
     velocity = motion.rolling_velocity()
-    kinetic = ALGEBRA.trace(omega * J * ALGEBRA.transpose(omega)) / 2
-    kinetic += ALGEBRA.trace(D / rho**2 * velocity * ALGEBRA.transpose(velocity)) / 2
-    p.lemma(equation("H = ½ tr(Ṙ J Ṙᵀ) + ½ m|v|² on v = -ρωγ", energy, sp.expand(kinetic)))
+    kinetic = omega * J * ALGEBRA.transpose(omega) / 2 + D / rho**2 * velocity * ALGEBRA.transpose(velocity) / 2
+    p.lemma(equation("H = ½ tr(Ṙ J Ṙᵀ) + ½ m|v|² on v = -ρωγ", energy, kinetic, TRACES))
     p.say("dH/dt = -½ tr(ω(K̇ + [ω,K])): the principle times the velocity, so it vanishes along every motion.")
-    power = -ALGEBRA.trace(omega * eliminated()) / 2
-    p.printed(equation("dH/dt = -½ tr(ω·(principle))", ALGEBRA.trace(rate(-omega * momentum / 4)), power))
-    p.control(equation("the same for -½ tr(ωAω)", ALGEBRA.trace(rate(-omega * momentum / 2)), power))
+    power = -omega * motion.eliminated() / 2
+    p.printed(equation("dH/dt = -½ tr(ω·(principle))", moving("energy", energy), power, TRACES))
+    p.control(equation("the same for -½ tr(ωAω)", rate(-omega * momentum / 2), power, TRACES))
     centre = -omega * motion.centre_momentum() / 4
-    p.control(equation("the same for the energy about the centre", ALGEBRA.trace(rate(centre)), power))
+    p.control(equation("the same for the energy about the centre", rate(centre), power, TRACES))
 
 
 if __name__ == "__main__":

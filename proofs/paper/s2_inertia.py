@@ -6,16 +6,17 @@ import sympy as sp
 
 from chapsym.derive import continuous, motion, three
 from chapsym.derive.limits import omega as spin
-from chapsym.derive.motion import ALGEBRA, D, Gamma, J, K, commutator, eta, gamma, gammaT, omega, rate
+from chapsym.derive.motion import ALGEBRA, D, Gamma, J, K, commutator, eta, gamma, omega, rate
 from chapsym.derive.quotient import Quotient
 from chapsym.derive.three import hat
-from chapsym.derive.words import evaluate
+from chapsym.derive.words import Traces, evaluate
 from chapsym.prove import Equation, Fact, Proof, claim, equations, main, rational_point
 
 POSITIVE = "J_i + J_j > 0 for i ≠ j, D ≥ 0"
 
 
 equation = equations(ALGEBRA)
+TRACES = Traces(ALGEBRA)
 
 
 def applied(x: sp.Expr) -> sp.Expr:
@@ -24,8 +25,8 @@ def applied(x: sp.Expr) -> sp.Expr:
 
 
 def pairing(x: sp.Expr, y: sp.Expr) -> sp.Expr:
-    """⟨x, y⟩ = -½ tr(xy), the trace in normal form."""
-    return -ALGEBRA.trace(x * y) / 2
+    """⟨x, y⟩ = -½ tr(xy): the trace of this."""
+    return -x * y / 2
 
 
 @claim(
@@ -46,13 +47,16 @@ def inertia_operator(p: Proof) -> None:
     squares = sum((mass[i] + mass[j]) * x**2 for (i, j), x in entries.items())
     central = -(matrix * (sp.diag(*mass) * matrix + matrix * sp.diag(*mass))).trace() / 2
     p.lemma(Equation("-½ tr(ω(Jω + ωJ)) = Σ_{i<j} (J_i + J_j) ω_ij²", central, squares, ring))
-    form = -ALGEBRA.trace(omega * J * omega) + D * ALGEBRA.trace(gammaT * ALGEBRA.transpose(omega) * omega * gamma)
+    slip = omega * gamma
+    form = -omega * J * omega + D * slip * ALGEBRA.transpose(slip)
     kernel, values = sp.Matrix([[0, 0, 0], [0, 0, -1], [0, 1, 0]]), {J: sp.diag(1, 0, 0), Gamma: sp.diag(1, 0, 0)}
     image = evaluate(applied(omega), {**values, D: sp.S.One, omega: kernel})
     p.printed(Fact("𝒜 has no kernel, whatever the constant diagonal J: here J = (1,0,0)", not image.is_zero_matrix))
     p.under(
         POSITIVE,
-        equation("⟨ω,𝒜ω⟩ = -tr(ωJω) + D|ωγ|² = Σ (J_i+J_j)ω_ij² + D|ωγ|² > 0", pairing(omega, applied(omega)), form),
+        equation(
+            "⟨ω,𝒜ω⟩ = -tr(ωJω) + D|ωγ|² = Σ (J_i+J_j)ω_ij² + D|ωγ|² > 0", pairing(omega, applied(omega)), form, TRACES
+        ),
     )
     p.refute(
         {"J": "(1, 0, 0)", "D": "1", "γ": "e1", "ω": "e2∧e3"},
@@ -62,7 +66,7 @@ def inertia_operator(p: Proof) -> None:
         not image.is_zero_matrix,
     )
     p.say("J ≥ 0 alone is not enough: all mass on a line through the centre does not resist a turn about it.")
-    p.control(equation("⟨ω,𝒜ω⟩ = -tr(ωJω) - D|ωγ|²", pairing(omega, applied(omega)), form.subs(D, -D)))
+    p.control(equation("⟨ω,𝒜ω⟩ = -tr(ωJω) - D|ωγ|²", pairing(omega, applied(omega)), form.subs(D, -D), TRACES))
     wrong = sum(mass[i] * x**2 for (i, _), x in entries.items())
     p.control(Equation("-½ tr(ω(Jω + ωJ)) = Σ_{i<j} J_i ω_ij²", central, wrong, ring))
 
@@ -76,24 +80,24 @@ def invariant_measure(p: Proof) -> None:
     p.say("ν is invariant when div = ½ tr(𝒜⁻¹𝒜̇).  A trace tr(S∘T) with a symmetric S on so(n) depends only on the")
     p.say("quadratic form ⟨X,TX⟩, X in so(n); S is 1 or 𝒜⁻¹.  The parts of the divergence, as such forms:")
     X = eta
-    p.lemma(equation("𝒜 is symmetric: ⟨X,𝒜K⟩ = ⟨𝒜X,K⟩", pairing(X, applied(K)), pairing(applied(X), K)))
-    p.lemma(equation("∂K̇/∂K at fixed ω: ⟨X,[X,ω]⟩ = 0", pairing(X, commutator(X, omega)), 0))
-    p.lemma(equation("∂K̇/∂K through ω = 𝒜⁻¹K: ⟨X,[K,X]⟩ = 0", pairing(X, commutator(K, X)), 0))
+    p.lemma(equation("𝒜 is symmetric: ⟨X,𝒜K⟩ = ⟨𝒜X,K⟩", pairing(X, applied(K)), pairing(applied(X), K), TRACES))
+    p.lemma(equation("∂K̇/∂K at fixed ω: ⟨X,[X,ω]⟩ = 0", pairing(X, commutator(X, omega)), 0, TRACES))
+    p.lemma(equation("∂K̇/∂K through ω = 𝒜⁻¹K: ⟨X,[K,X]⟩ = 0", pairing(X, commutator(K, X)), 0, TRACES))
     p.say("∂γ̇/∂γ: -tr ω = 0, and -Σ e_iᵀ(∂_i ω)γ with ∂_i ω = -𝒜⁻¹ D{e_iγᵀ + γe_iᵀ, ω}: as e_iᵀYγ = ⟨Y, e_i∧γ⟩ and")
     p.say("Σ e_i (e_iᵀXγ) = Xγ, its form is D⟨{XΓ - ΓX, ω}, X⟩.  For ½𝒜̇ it is ½D⟨X, {Γ̇, X}⟩.")
     vertical = X * Gamma - Gamma * X
     paired = pairing(X, ALGEBRA.wedge(motion.v, gamma))
-    p.lemma(equation("⟨Y, vγᵀ - γvᵀ⟩ = vᵀYγ", paired, ALGEBRA.trace(motion.vT * X * gamma)))
+    p.lemma(equation("⟨Y, vγᵀ - γvᵀ⟩ = vᵀYγ", paired, motion.vT * X * gamma, TRACES))
     divergence = D * pairing(vertical * omega + omega * vertical, X)
     moved = rate(Gamma)
 
     def half_rate(sign: int = 1) -> sp.Expr:
         return sign * D / 2 * pairing(X, moved * X + X * moved)
 
-    p.printed(equation("div and ½ tr(𝒜⁻¹𝒜̇) have the same form, so ν is invariant", divergence, half_rate()))
+    p.printed(equation("div and ½ tr(𝒜⁻¹𝒜̇) have the same form, so ν is invariant", divergence, half_rate(), TRACES))
     for size in (3, 4, 5):
         p.route(f"the exact divergence at a rational point, n = {size}", Fact(*_exact_divergence(size, half=1)))
-    p.control(equation("the same for (det 𝒜)^(+1/2) dK", divergence, half_rate(-1)))
+    p.control(equation("the same for (det 𝒜)^(+1/2) dK", divergence, half_rate(-1), TRACES))
     p.control(Fact(*_exact_divergence(4, half=2)))
 
 

@@ -3,8 +3,9 @@
 import sympy as sp
 
 from chapsym.derive import ball, limits, principle
+from chapsym.derive.derivation import written
 from chapsym.derive.principle import ALGEBRA, R0, R0T, R1, R1T, RT, D, J, R, gamma, gammaT, m, rho
-from chapsym.derive.words import evaluate
+from chapsym.derive.words import Traces, evaluate, unfolded
 from chapsym.proofs.paper.s4_principle import equation, path_point
 from chapsym.prove import Equation, Fact, Point, Proof, claim, main
 
@@ -28,23 +29,23 @@ def spatial_rotation(a: sp.Expr, b: sp.Expr) -> sp.Expr:
 def chosen_constraint(p: Proof) -> None:
     """The chosen discrete constraint: horizontal, consistent on the diagonal, of second order."""
     p.assume("(4.2) and (4.9) share the direction of γ; with γ upwards both need ρ → -ρ (see 2.1)")
-    rotational = principle.discrete_constraint(R, R1, sp.S.Zero, sp.S.Zero)
+    rotational = unfolded(principle.turning_step())
     p.say("Δr is minus the rotational part of the constraint; its vertical component is γᵀΔr = tr(Δr γᵀ).")
-    vertical = ALGEBRA.trace(rotational * gammaT)
     diagonal = rotational.subs({R1: R, R1T: RT})
     limit = limits.constraint()
-    p.show("(4.9)/ε - Δr/ε", f"{limit.limit} + ε^{limit.order}·({limit.leading}) + ...")
+    shown = unfolded(limit.limit), unfolded(limit.leading)
+    p.show("(4.9)/ε - Δr/ε", f"{shown[0]} + ε^{limit.order}·({shown[1]}) + ...")
     continuous = principle.rolling_constraint(sp.S.Zero, limits.omega_space * R)
     both = ALGEBRA
     p.printed(
-        equation("γᵀ Δr_k = 0", vertical, sp.S.Zero),
+        Equation("γᵀ Δr_k = 0", principle.turning_step() * gammaT, sp.S.Zero, Traces(ALGEBRA)),
         equation("(4.9) at R_{k+1} = R_k, r_{k+1} = r_k", diagonal, sp.S.Zero),
         Equation("(4.9)/ε → the rotational part of (4.2), ρ ω̄ γ", limit.limit, continuous, both),
     )
     p.lemma(Fact(f"the remainder has the exact order 2, here {limit.order}", limit.order == 2))
     p.lemma(Equation("its leading term is (ρ/6) ω̄³γ", limit.leading, rho * limits.omega_space**3 * gamma / 6, both))
     naive = rho * R1 * RT * gamma
-    p.control(equation("the naive constraint is horizontal", ALGEBRA.trace(naive * gammaT), sp.S.Zero))
+    p.control(Equation("the naive constraint is horizontal", naive * gammaT, sp.S.Zero, Traces(ALGEBRA)))
     p.control(equation("the naive constraint admits (q, q)", naive.subs({R1: R, R1T: RT}), sp.S.Zero))
     p.control(Equation("(4.9)/ε → ρ ω̄ᵀγ", limit.limit, -rho * limits.omega_space * gamma, both))
 
@@ -66,16 +67,16 @@ def naive_constraint(p: Proof) -> None:
     p.witness("generic", {"Ω̄": str(turn.tolist()), "γ": "e3", "ρ": "1"})
     p.say("At Ω̄ = 1 it asks for Δr = -ργ: it does not admit (q, q), nor does it tend to (4.2).")
     p.lemma(equation("Δr at R_{k+1} = R_k is -ργ", naive.subs({R1: R, R1T: RT}), -rho * gamma))
-    p.control(equation("its vertical component vanishes", ALGEBRA.trace(naive * gammaT), sp.S.Zero))
+    p.control(Equation("its vertical component vanishes", naive * gammaT, sp.S.Zero, Traces(ALGEBRA)))
 
 
 @claim("4.9-limit", r"\bar\Omega_k \mapsto \mathbf I + \omega", uses=["4.9"])
 def rotation_limit(p: Proof) -> None:
     """The continuous limit of the rotation: ε is missing."""
     algebra, spin = ALGEBRA, limits.omega_space
-    expansion = sp.expand(limits.exponential(spin))
-    p.show("Ω̄", expansion)
-    zeroth, first = expansion.coeff(limits.eps, 0), expansion.coeff(limits.eps, 1)
+    turn = written("turn", "Ω̄ = R_{k+1} R_kᵀ = exp(ε ω̄)", R1 * RT, ALGEBRA)
+    zeroth, first, *_ = limits.coefficients(turn, limits.SPACE_STEP)
+    p.show("Ω̄", f"{unfolded(zeroth)} + ({unfolded(first)})·ε + ...")
     p.say("As a statement about the limit: Ω̄ = 1 + (first order) + O(ε²), where the first order is εω, not ω.")
     e = sp.Symbol("e")  # the value of ε, a parameter of the words
     p.printed(Equation("the part of Ω̄ up to order 1 = 1 + ω", zeroth + e * first, 1 + spin, algebra))
@@ -98,7 +99,7 @@ def rotation_limit(p: Proof) -> None:
 )
 def spatial_reaction(p: Proof) -> None:
     """The reaction in space: (4.4) on the discrete constraint."""
-    force = principle.on_constraint(principle.reaction())
+    force = principle.rolling_reaction()
     p.show("f", force)
     after, before = (m * rho / 2 * spatial_rotation(*pair) * gamma for pair in [(R, R1), (R0, R)])
     p.printed(equation("f as printed = m(Δr_k - Δr_{k-1}) on (4.9)", -after + before, force))
@@ -112,7 +113,7 @@ def spatial_reaction(p: Proof) -> None:
 )
 def body_reaction(p: Proof) -> None:
     """The reaction in the body: the sign of its second term is misprinted."""
-    force = RT * principle.on_constraint(principle.reaction())
+    force = RT * principle.rolling_reaction()
     after = m * rho / 2 * (NOW - NOW_T) * RT * gamma
     before = m * rho / 2 * (BEFORE - BEFORE_T) * RT * gamma
     p.printed(equation("F as printed = R_kᵀ f", -after - before, force))
@@ -144,7 +145,7 @@ def torque(p: Proof) -> None:
         return m * rho / 2 * (x * GAMMA + GAMMA * x)
 
     printed = -both_sides(NOW) + both_sides(NOW_T) + both_sides(BEFORE) - both_sides(BEFORE_T)
-    force = RT * principle.on_constraint(principle.reaction())
+    force = RT * principle.rolling_reaction()
     derived = ALGEBRA.wedge(force, RT * gamma)
     p.printed(equation("the printed torque = Fγᵀ - γFᵀ", printed, derived))
     wrong = -m * rho / 2 * ((NOW - NOW_T) + (BEFORE - BEFORE_T)) * RT * gamma

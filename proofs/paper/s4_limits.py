@@ -4,6 +4,7 @@ import sympy as sp
 
 from chapsym.derive import ball, limits
 from chapsym.derive.ball import ALGEBRA, D, Gamma, J, K, omega
+from chapsym.derive.words import unfolded
 from chapsym.prove import Fact, Proof, claim, equations, main
 
 equation = equations(ALGEBRA)
@@ -16,7 +17,8 @@ def commutator(a: sp.Expr, b: sp.Expr) -> sp.Expr:
 
 def show(p: Proof, name: str, remainder: limits.Remainder) -> None:
     """Prints limit, order and leading term."""
-    p.show(name, f"({remainder.limit}) + ε^{remainder.order}·({remainder.leading}) + ...")
+    limit, leading = unfolded(remainder.limit), unfolded(remainder.leading)
+    p.show(name, f"({limit}) + ε^{remainder.order}·({leading}) + ...")
 
 
 @claim(

@@ -4,7 +4,8 @@ import sympy as sp
 
 from chapsym.derive import ball
 from chapsym.derive.ball import ALGEBRA, D, Gamma, J, K, Omega, OmegaT
-from chapsym.derive.words import WordAlgebra, evaluate, matrix_symbols
+from chapsym.derive.derivation import replaced
+from chapsym.derive.words import Traces, WordAlgebra, evaluate, matrix_symbols, unfolded
 from chapsym.proofs import second_routes
 from chapsym.prove import Equation, Fact, Proof, claim, equations, main
 
@@ -93,7 +94,8 @@ def inside_the_proof(p: Proof) -> None:
 )
 def discrete_euler_top(p: Proof) -> None:
     """The discrete Euler top is the case D = 0, with its intertwining relations."""
-    now, before = (part.subs(D, 0) for part in ball.split_balance())
+    parts = zip(("top_now", "top_before"), ball.split_balance(), strict=True)
+    now, before = (replaced(name, "for D = 0", part, {D: sp.S.Zero}, ball.BOTH) for name, part in parts)
     centre = Omega * J - J * OmegaT
     p.printed(
         equation("𝒦 at D = 0 is M_k = ΩJ - JΩᵀ", now, centre),
@@ -122,7 +124,7 @@ def several_solutions(p: Proof) -> None:
     p.witness("generic", {"Ω": "a turn about e1 by cos θ = ±7/25, sin θ = 24/25", "γ": "e2", "J": "(1,2,4)", "D": "3"})
     p.lemma(Fact("𝒦 is not 0", not momentum(first).is_zero_matrix))
     X, XT = matrix_symbols("X X^T")
-    other = ball.momentum().xreplace({Omega: X, OmegaT: XT})
+    other = unfolded(ball.momentum()).xreplace({Omega: X, OmegaT: XT})
     algebra = WordAlgebra({**ALGEBRA.transposes, X: XT, XT: X}, {**ALGEBRA.rules, (X, XT): 1, (XT, X): 1})
     p.control(equation("any two rotations have the same 𝒦", other, ball.momentum(), algebra))
 
@@ -153,19 +155,16 @@ def trace_integrals(p: Proof) -> None:
     )
     p.lemma(equation("it fixes the identity", carried(sp.S.One), 1, algebra))
     p.say("By induction (𝒦_k)^s(Γ_k)^l = Ωᵀ(𝒦_{k-1})^s(Γ_{k-1})^lΩ for all s, l; and the trace does not see Ω:")
-    trace_free = equation("tr ΩᵀXΩ = tr X", algebra.trace(carried(X)), algebra.trace(X), algebra)
-    p.lemma(trace_free)
+    traces = Traces(algebra)
+    p.lemma(equation("tr ΩᵀXΩ = tr X", carried(X), X, traces))
     for s, l in [(2, 0), (2, 1), (2, 2), (4, 0), (4, 1), (6, 3)]:
         word = carried(K) ** s * carried(Gamma) ** l
-        p.printed(equation(f"tr 𝒦^{s}Γ^{l}", algebra.trace(word), algebra.trace(K**s * Gamma**l), algebra))
-    p.printed(equation("tr Γ", algebra.trace(carried(Gamma)), algebra.trace(Gamma), algebra))
+        p.printed(equation(f"tr 𝒦^{s}Γ^{l}", word, K**s * Gamma**l, traces))
+    p.printed(equation("tr Γ", carried(Gamma), Gamma, traces))
     p.say("tr Γ = |γ|² = 1 by the choice of γ. Odd s give 0, as 𝒦 is skew and Γ symmetric, for l = 0:")
-    p.lemma(equation("tr 𝒦³ = 0", algebra.trace(K**3), 0, algebra))
-    p.control(
-        equation("tr 𝒦²Γ with Γ_k = ΩΓΩᵀ", algebra.trace(carried(K) ** 2 * Omega * Gamma * OmegaT),
-                 algebra.trace(K**2 * Gamma), algebra)
-    )  # fmt: skip
-    p.control(equation("tr ΩXΩ = tr X", algebra.trace(Omega * X * Omega), algebra.trace(X), algebra))
+    p.lemma(equation("tr 𝒦³ = 0", K**3, 0, traces))
+    p.control(equation("tr 𝒦²Γ with Γ_k = ΩΓΩᵀ", carried(K) ** 2 * Omega * Gamma * OmegaT, K**2 * Gamma, traces))
+    p.control(equation("tr ΩXΩ = tr X", Omega * X * Omega, X, traces))
 
 
 if __name__ == "__main__":

@@ -3,8 +3,9 @@
 import sympy as sp
 
 from chapsym.derive import principle
+from chapsym.derive.derivation import replaced
 from chapsym.derive.principle import ALGEBRA, R0, R0T, R1, R1T, RT, J, Lam, R, f, fT, gamma, gammaT, m, rho
-from chapsym.derive.words import WordAlgebra, matrix_symbols
+from chapsym.derive.words import Traces, WordAlgebra, matrix_symbols
 from chapsym.prove import Equation, Point, Proof, claim, equations, main
 
 CORRECTED = principle.kinetic_factor()
@@ -54,6 +55,15 @@ def discrete_lagrangian(p: Proof) -> None:
     p.printed(printed)
     p.say("The translational parts agree, so c is read off the rotational part: it must be -1.")
     p.say("That is also what ½ Tr(ΔR J ΔRᵀ) = Tr J - Tr(R_k J R_{k+1}ᵀ), the kinetic energy, asks for.")
+    step = R1 - R
+    p.lemma(
+        Equation(
+            "½ Tr(ΔR J ΔRᵀ) = Tr(R_k J R_kᵀ) + c Tr(R_k J R_{k+1}ᵀ) with c = -1, both attitudes with the same Tr(R J Rᵀ)",
+            step * J * ALGEBRA.transpose(step) / 2,
+            (R * J * RT + R1 * J * R1T) / 2 + CORRECTED * principle.rotational_term(R, R1),
+            Traces(ALGEBRA),
+        )
+    )
     p.corrected(
         r"\mathbb L = -\mathrm{Tr}(R_k J R_{k+1}^T) + \frac m2 \langle\Delta r_k, \Delta r_k\rangle",
         equation(
@@ -93,7 +103,7 @@ def rotation_equation(p: Proof) -> None:
     in_R, _ = principle.multiplier_equations(CORRECTED)
     p.show("0", in_R)
     p.say("Λ is any symmetric matrix, so -Λ may be called Λ; the sign of the whole is free.")
-    derived = -in_R.xreplace({Lam: -Lam})
+    derived = -replaced("equation_R_other", "with -Λ for Λ", in_R, {Lam: -Lam}, ALGEBRA)
     printed = (R1 + R0) * J - Lam * R - rho * f * gammaT * R
     p.printed(equation("(4.3) left - right = the equation of the principle", printed, derived))
     p.control(equation("(4.3) with -ρ f γᵀR", (R1 + R0) * J - Lam * R + rho * f * gammaT * R, derived))

@@ -6,7 +6,6 @@ from chapsym.derive import ball, limits, three
 from chapsym.derive.limits import omega
 from chapsym.derive.quotient import Quotient
 from chapsym.derive.three import J1, J2, J3, RING, D, K, axial, gamma, hat, q, q0, q1, q2, q3
-from chapsym.derive.words import evaluate
 from chapsym.proofs import second_routes
 from chapsym.prove import Equation, Fact, Proof, claim, equations, main, rational_point
 
@@ -117,18 +116,16 @@ def printed_momentum(sign: int = 1, factor: int = 2) -> sp.Matrix:
 def vector_momentum(p: Proof) -> None:
     """The vector momentum, by substituting the rotation into (4.13)."""
     p.assume("|γ| = 1 and |q|² + q₀² = 1; Ω with the correction of (5.1)")
-    rotation = sp.Matrix(three.rotation())
-    values = {ball.Omega: rotation, ball.OmegaT: rotation.T, ball.J: three.J}
-    centre = axial(evaluate(ball.centre_momentum(), values))
+    centre, derived = three.axial_entries("M", ball.centre_momentum()), three.axial_entries("K", ball.momentum())
     p.say(
         "Into (4.13) go the matrix of the Euler parameters, J = diag(J₁,J₂,J₃) and Γ = γγᵀ; (A₃₂, A₁₃, A₂₁) comes out:"
     )
     p.show("𝒦", sp.Matrix(three.momentum()))
     p.printed(
         equation("M⃗ as printed", printed_centre_momentum(), centre),
-        equation("𝒦⃗ as printed", printed_momentum(), axial(three.momentum_matrix())),
+        equation("𝒦⃗ as printed", printed_momentum(), derived),
     )
-    p.lemma(equation("the collected form, which the kernels use", three.momentum(), axial(three.momentum_matrix())))
+    p.lemma(equation("the collected form, which the kernels use", three.momentum(), derived))
     p.say("In vectors: 𝒦⃗ = 2q₀Λq + 2 q×Λq - 2Dq₀⟨γ,q⟩γ with Λ = diag(J₂+J₃+D, ...).")
     lam = three.lam()
     second = 2 * (q0 * lam * q + q.cross(lam * q) - D * q0 * gamma.dot(q) * gamma)

@@ -7,7 +7,7 @@ from chapsym.derive.principle import ALGEBRA, R1, R1T, RT, R, r, r1
 from chapsym.derive.quotient import Quotient
 from chapsym.derive.three import D, K
 from chapsym.derive.vertical import RING, h
-from chapsym.derive.words import WordAlgebra, matrix_symbols
+from chapsym.derive.words import Traces, WordAlgebra, matrix_symbols
 from chapsym.prove import Equation, Proof, claim, main
 
 
@@ -58,16 +58,16 @@ def left_right(p: Proof) -> None:
     moved = {x: x + a for x in (r, r1)} | {algebra.transposes[x]: algebra.transposes[x] + aT for x in (r, r1)}
 
     def lagrangian(places: dict, factor: sp.Expr) -> sp.Expr:
-        """The trace of 𝕃 after the action."""
-        return algebra.trace(sp.expand(principle.lagrangian(factor, R, R1, r, r1).xreplace({**places, **moved})))
+        """𝕃 after the action: the trace of this."""
+        return principle.lagrangian(factor, R, R1, r, r1).xreplace({**places, **moved})
 
     def constraint(places: dict) -> sp.Expr:
         return sp.expand(principle.discrete_constraint(R, R1, r, r1).xreplace({**places, **moved}))
 
     for name, factor in (("as corrected", principle.kinetic_factor()), ("as printed", sp.Rational(1, 2))):
-        here = algebra.trace(principle.lagrangian(factor, R, R1, r, r1))
-        p.printed(Equation(f"𝕃 {name} is left-invariant", lagrangian(left, factor), here, algebra))
-        p.control(Equation(f"𝕃 {name} is right-invariant", lagrangian(right, factor), here, algebra))
+        here = principle.lagrangian(factor, R, R1, r, r1)
+        p.printed(Equation(f"𝕃 {name} is left-invariant", lagrangian(left, factor), here, Traces(algebra)))
+        p.control(Equation(f"𝕃 {name} is right-invariant", lagrangian(right, factor), here, Traces(algebra)))
     start = principle.discrete_constraint(R, R1, r, r1)
     p.printed(Equation("(4.9) is right-invariant", constraint(right), start, algebra))
     p.say("The forms of the distribution, δr + ρ δR Rᵀγ, are right-invariant, too: δR Rᵀ does not see R ↦ RS.")

@@ -9,12 +9,13 @@ from pathlib import Path
 
 import pytest
 from certificate_changes import refused
+from derivation_changes import derivations
 from register_arithmetic import arithmetic
 from register_changes import CHANGES, SAMPLES, changed, inside, leaves, slip, small
 
 import chapsym.proofs
 from chapsym import checker
-from chapsym.checker import Rejected, check, read
+from chapsym.checker import Rejected, check, read, shown
 
 FOLDER = Path(chapsym.proofs.__file__).parent / "certificates" / "register"
 CHECKER = Path(checker.__file__).parent
@@ -42,7 +43,7 @@ def test_every_certificate_is_accepted():
     assert sorted(path.stem for path in FOLDER.iterdir()) == sorted(claims)
     numbers = [check(read(FOLDER / f"{id}.json")).numbers for id in claims]
     assert sum(int(n["refuted"]) for n in numbers) == 33
-    assert sum(int(n.get(role, 0)) for n in numbers for role in checker.register.ROLES) == 452
+    assert sum(int(n.get(role, 0)) for n in numbers for role in checker.register.ROLES) == 453
 
 
 def test_a_hundred_changes_of_one_number_sign_operation_or_name_are_rejected(samples, thorough):
@@ -63,7 +64,7 @@ def test_what_is_false_or_out_of_form_is_rejected_in_one_sentence(samples, name)
     assert "\n" not in str(caught.value)
 
 
-SMALL, SMALL_AND_WRONG = small()
+SMALL, SMALL_AND_WRONG = (one | other for one, other in zip(small(), derivations(), strict=True))
 
 
 @pytest.mark.parametrize("name", SMALL)
@@ -100,3 +101,32 @@ def test_a_file_that_is_too_large_is_not_read(tmp_path):
     (tmp_path / "large.json").write_bytes(b" " * 8_000_001)
     with pytest.raises(checker.Unreadable, match="more than 8000000 bytes"):
         read(tmp_path / "large.json")
+
+
+def test_what_was_judged_is_shown_and_one_change_is_seen(samples):
+    """The formulas that a reader sees are made from the trees that were judged, and no two of these look alike."""
+    rng = random.Random(11)
+    for _ in range(200):
+        id = rng.choice([id for id in SAMPLES if samples[id]["statements"]])
+        data, path = slip(samples[id], rng)
+        if "cofactors" not in path:
+            assert [*shown.lines(data)] != [*shown.lines(samples[id])], (id, path)
+    difference = ["+", "a", ["*", -1, ["+", "b", ["*", -2, "c"]]], ["^", ["+", "a", "1/2"], -1], -3]
+    assert shown.formula(difference) == "a - (b + (-2)·c) + (a + 1/2)^(-1) - 3"
+    assert shown.formula(["^", ["*", -1, "a"], 2]) == "(-a)^2"
+    assert shown.formula(["*", "a", ["*", -1, "b"], ["^", ["^", "1/2", 2], 3]]) == "a·(-b)·((1/2)^2)^3"
+
+
+def test_the_derivation_of_a_claim_is_shown():
+    run = subprocess.run(
+        [sys.executable, "-I", "-S", str(CHECKER), "--show", str(FOLDER / "prop-1.json")],
+        capture_output=True,
+        text=True,
+    )
+    assert run.returncode == 0, run.stderr
+    lines = run.stdout.splitlines()
+    assert (
+        "  rolling = dr + rho·dR·R^T·gamma    [(4.2) for virtual displacements, dr + ρ dR Rᵀ γ: it vanishes]" in lines
+    )
+    assert "  balance_c = dual of work by xi    [it vanishes when the variation does for every skew ξ]" in lines
+    assert "      before = -Omega^T·momentum·Omega" in lines

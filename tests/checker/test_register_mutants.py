@@ -9,6 +9,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from derivation_changes import derivations
 from register_changes import CHANGES, SAMPLES, changed, slip, small
 
 import chapsym.proofs
@@ -17,7 +18,16 @@ from chapsym import checker
 FOLDER = Path(chapsym.proofs.__file__).parent / "certificates" / "register"
 CHECKER = Path(checker.__file__).parent
 ARITHMETIC = str(Path(__file__).parents[1] / "register_arithmetic.py")
-FILES = ("polynomial.py", "register.py", "trees.py", "words.py")
+FILES = (
+    "algebra.py",
+    "derivation.py",
+    "form.py",
+    "matrices.py",
+    "polynomial.py",
+    "register.py",
+    "trees.py",
+    "words.py",
+)
 TURNED = {
     ast.Lt: ast.GtE, ast.GtE: ast.Lt, ast.LtE: ast.Gt, ast.Gt: ast.LtE, ast.Eq: ast.NotEq, ast.NotEq: ast.Eq,
     ast.In: ast.NotIn, ast.NotIn: ast.In, ast.Is: ast.IsNot, ast.IsNot: ast.Is, ast.Add: ast.Sub, ast.Sub: ast.Add,
@@ -78,7 +88,7 @@ def battery(tmp_path_factory):
     rng = random.Random(7)
     wrong = [changed(samples[id], change) for id, change in CHANGES.values()]
     wrong += [slip(samples[rng.choice(SAMPLES)], rng)[0] for _ in range(40)]
-    right, more = small()
+    right, more = (one | other for one, other in zip(small(), derivations(), strict=True))
     right = [[data, checker.check(data).numbers] for data in (*samples.values(), *right.values())]
     file = tmp_path_factory.mktemp("battery") / "battery.json"
     file.write_text(json.dumps([right, [*wrong, *more.values()]]))

@@ -4,7 +4,8 @@ import pytest
 import sympy as sp
 
 from chapsym.derive import ball, limits
-from chapsym.derive.words import WordAlgebra, evaluate, matrix_symbols
+from chapsym.derive.derivation import written
+from chapsym.derive.words import Traces, WordAlgebra, evaluate, matrix_symbols
 
 R, RT, J, X, XT, xi = matrix_symbols("R RT J X XT xi")
 ALGEBRA = WordAlgebra({R: RT, RT: R, J: J, X: XT, XT: X, xi: -xi}, {(R, RT): 1, (RT, R): 1})
@@ -79,6 +80,20 @@ def test_transposes_that_are_no_involution_are_refused():
 
 def test_an_expansion_without_a_limit_is_told():
     with pytest.raises(ArithmeticError, match="there is no limit"):
-        limits.expand_words((J + limits.eps * X) / limits.eps, ALGEBRA)
+        limits.expand_words(written("at_once", "J does not tend to 0", J + ball.Omega, ball.ALGEBRA), limits.STEP)
     with pytest.raises(ArithmeticError, match="may be exact"):
-        limits.expand_words(J, ALGEBRA)
+        limits.expand_words(written("never", "nothing is left", ball.omega * 0, ball.ALGEBRA), limits.STEP)
+
+
+def test_a_letter_is_defined_once():
+    first = written("once", "a text", ball.Omega * ball.J, ball.ALGEBRA)
+    assert written("once", "a text", ball.Omega * ball.J, ball.ALGEBRA) is first
+    with pytest.raises(ValueError, match="the letter once is defined twice"):
+        written("once", "a text", ball.J * ball.Omega, ball.ALGEBRA)
+
+
+def test_traces_do_not_know_that_of_a_number():
+    assert Traces(ALGEBRA).is_zero(J * X - X * J)
+    assert not Traces(ALGEBRA).is_zero(J * X)
+    with pytest.raises(ValueError, match="the trace of a number"):
+        Traces(ALGEBRA).is_zero(sp.Integer(2))

@@ -8,6 +8,7 @@ import sympy as sp
 from commands import chapsym, refused
 
 from chapsym import checker, proofs
+from chapsym.checker.trees import names_in
 from chapsym.derive.quotient import Quotient
 from chapsym.derive.words import WordAlgebra, matrix_symbols
 from chapsym.prove import Equation, Fact, Proof, load, rational_point
@@ -51,8 +52,11 @@ def test_the_certificates_state_what_the_verdicts_rest_on(verdicts):
         assert record["evidence"]["carried"] == {
             "statements": len(data["statements"]),
             "identical": sum(one["left"] == one["right"] for one in data["statements"]),
+            "steps": len(data["derivation"]),
             "counterexamples": len(data["counterexamples"]),
             "sentences": {role: n for role in checker.register.SENTENCES if (n := count(data, role))},
+            "text": record["evidence"]["carried"]["text"],
+            "judged": record["evidence"]["carried"]["judged"],
         }
 
 
@@ -71,9 +75,32 @@ def test_the_share_of_the_register_that_is_checked():
     files = [checker.read(path) for path in FOLDER.iterdir()]
     decided = sum(one["role"] in checker.register.ROLES for data in files for one in data["sentences"])
     prose = sum(len(data["sentences"]) for data in files) - decided
-    assert (len(files), sum(len(data["statements"]) for data in files), decided, prose) == (138, 452, 139, 550)
-    assert sum(one["left"] == one["right"] for data in files for one in data["statements"]) == 106
+    assert (len(files), sum(len(data["statements"]) for data in files), decided, prose) == (138, 453, 139, 550)
+    assert sum(one["left"] == one["right"] for data in files for one in data["statements"]) == 73
     assert sum(path.stat().st_size for path in FOLDER.iterdir()) < 2_000_000
+
+
+def test_what_is_derived_is_in_the_chain():
+    """From the Lagrangian, the constraint and its virtual displacements to (4.13) and (5.2), by the checker's steps."""
+    derived = {}
+    for path in FOLDER.iterdir():
+        data = checker.read(path)
+        names = {one["name"] for one in data["derivation"]}
+        said = [one for one in data["statements"] if names & names_in([0, *one["left"], *one["right"]])]
+        derived |= {data["claim"]: (data, said)} if names else {}
+    assert derived.keys() >= {
+        "2.10", "2.11", "2.12", "2.14", "2.15", "4.1", "4.3", "4.4", "4.6", "4.7", "4.9-f", "4.10", "4.13-limit",
+        "5.2", "prop-1", "remark-3", "self-adjoint",
+    }  # fmt: skip
+    assert all(said for _, said in derived.values())
+    assert sum(len(said) for _, said in derived.values()) == 57
+    for claim in ("prop-1", "remark-3", "5.2"):
+        data, _ = derived[claim]
+        names = {one["name"] for one in data["derivation"]}
+        premises = [one["name"] for one in data["derivation"] if checker.derivation.is_premise(one, names)]
+        assert {"action", "rolling", "rolls_after", "rolls_before"} <= set(premises) <= {
+            "action", "rolling", "rolls_after", "rolls_before", "m_k"
+        }  # fmt: skip
 
 
 def proof(*statements, point=None):

@@ -1,0 +1,115 @@
+"""Derivations that can be read and judged as data: letters that are defined, each with the step that makes it.
+
+A letter stands for an expression.  It is written down in symbols, which makes it a premise where no other defined
+letter is in it, or made from a defined letter by one operation on words.  Formulas use the letter; words.py puts what
+it stands for in its place.  A certificate has the steps, and the checker takes them by itself.
+
+The operations, on the sum X of words that a letter stands for:
+
+rate      the derivative of X by Leibniz' rule, from the rates of the letters: also the variation of X
+replaced  X with expressions in the place of letters and parameters
+gradient  G with tr X = tr(Gᵀ Y) + (what has no Y), for a letter Y
+dual      the skew S with tr X = ½ tr(ξ S) for a skew letter ξ in which X is linear; tr X = 0 for every ξ if S = 0
+having, lacking   the terms of X with, or without, one of some letters
+matrix, entry     X at explicit matrices, which obey the rules in a quotient ring, and an entry of that
+"""
+
+from collections.abc import Collection, Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import sympy as sp
+
+from .quotient import Quotient
+from .words import DEFINED, WordAlgebra, evaluate, unfolded
+
+Places = Mapping[sp.Symbol, sp.Expr]
+
+
+@dataclass(frozen=True)
+class Step:
+    """How a letter came to be: in which algebra, what it is in words, by which operation on which letter."""
+
+    text: str
+    algebra: Any
+    operation: str
+    of: Any
+    by: Any = None
+
+
+STEPS: dict[sp.Symbol, Step] = {}
+
+
+def _defined(name: str, step: Step, value: sp.Expr) -> sp.Symbol:
+    letter = sp.Symbol(name, commutative=step.operation == "entry")
+    if letter in STEPS and (STEPS[letter] != step or DEFINED[letter] != value):
+        raise ValueError(f"the letter {name} is defined twice")
+    STEPS[letter], DEFINED[letter] = step, value
+    return letter
+
+
+def written(name: str, text: str, expr: sp.Expr, algebra: WordAlgebra) -> sp.Symbol:
+    """A letter for an expression that is written down."""
+    return _defined(name, Step(text, algebra, "written", expr), algebra.normal(expr))
+
+
+def rate(name: str, text: str, of: sp.Symbol, rates: Places) -> sp.Symbol:
+    """A letter for the rate of a defined one."""
+    algebra = STEPS[of].algebra
+    return _defined(name, Step(text, algebra, "rate", of, dict(rates)), algebra.rate(of, rates))
+
+
+def replaced(name: str, text: str, of: sp.Symbol, places: Places, algebra: WordAlgebra) -> sp.Symbol:
+    """A letter for a defined one with expressions in the place of letters, in the algebra of these."""
+    whole = {letter: unfolded(sp.sympify(image)) for letter, image in places.items()}
+    value = algebra.normal(sp.expand(DEFINED[of].xreplace(whole)))
+    return _defined(name, Step(text, algebra, "replaced", of, dict(places)), value)
+
+
+def gradient(name: str, text: str, of: sp.Symbol, letter: sp.Symbol) -> sp.Symbol:
+    """A letter for the gradient of tr(a defined one)."""
+    algebra = STEPS[of].algebra
+    return _defined(name, Step(text, algebra, "gradient", of, letter), algebra.gradient(DEFINED[of], letter))
+
+
+def dual(name: str, text: str, of: sp.Symbol, xi: sp.Symbol) -> sp.Symbol:
+    """A letter for the skew matrix that vanishes exactly when tr(a defined one) does for every skew ξ."""
+    algebra = STEPS[of].algebra
+    value = algebra.dual_of_skew(algebra.trace(DEFINED[of]), xi)
+    return _defined(name, Step(text, algebra, "dual", of, xi), value)
+
+
+def terms(name: str, text: str, of: sp.Symbol, letters: Collection[sp.Symbol], having: bool = True) -> sp.Symbol:
+    """A letter for the terms of a defined one that have one of some letters, or that have none."""
+    step = Step(text, STEPS[of].algebra, "having" if having else "lacking", of, tuple(letters))
+    chosen = (term for term in sp.Add.make_args(DEFINED[of]) if term.has(*letters) is having)
+    return _defined(name, step, sp.Add(*chosen))
+
+
+def coordinates(name: str, text: str, of: sp.Symbol, places: Mapping[sp.Symbol, Any], ring: Quotient) -> sp.Symbol:
+    """A name for the matrix of a defined letter with matrices for its letters; the rules hold of them in the ring."""
+    value = sp.ImmutableMatrix(evaluate(DEFINED[of], places).applyfunc(sp.expand))
+    return _defined(name, Step(text, ring, "matrix", of, dict(places)), value)
+
+
+def entry(name: str, text: str, of: sp.Symbol, row: int, column: int) -> sp.Symbol:
+    """A commuting letter for an entry of a named matrix."""
+    return _defined(name, Step(text, STEPS[of].algebra, "entry", of, (row, column)), DEFINED[of][row, column])
+
+
+def needed(expressions: Collection[sp.Expr]) -> Iterator[sp.Symbol]:
+    """The defined letters in some expressions and those that they are made from, each after what it needs."""
+    seen: dict[sp.Symbol, None] = {}
+
+    def visit(expr: Any) -> None:
+        for letter in sorted(expr.free_symbols & STEPS.keys(), key=str):
+            if letter not in seen:
+                visit(sp.sympify(STEPS[letter].of))
+                by = STEPS[letter].by
+                for image in by.values() if isinstance(by, dict) else ():
+                    visit(sp.sympify(image))
+                seen[letter] = None
+
+    for expr in expressions:
+        visit(expr)
+    yield from seen

@@ -1,0 +1,160 @@
+"""Algebras of words: letters with rules and transposes, parameters; and what can be done to sums of their words.
+
+Each operation is true of all matrices for which the rules and the transposes of the algebra hold.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterable, Mapping
+from fractions import Fraction
+from typing import Any
+
+from .interval import Rejected
+from .polynomial import Work
+from .trees import value
+from .words import Words
+
+
+class Algebra:
+    """Letters for matrices and parameters for numbers, rules for products of two letters, transposes of letters."""
+
+    def __init__(self, data: Mapping[str, Any], work: Work):
+        self.work, self.letters, self.parameters = work, set(data["letters"]), data["parameters"]
+        self.none = (0,) * len(self.parameters)
+        self.names = {letter: self.word(letter) for letter in data["letters"]}
+        for i, name in enumerate(self.parameters):
+            self.names[name] = self.scalar(tuple(int(i == j) for j in range(len(self.parameters))))
+        self.transposes = {letter: self.read(image, self.names) for letter, image in data["transposes"]}
+        self.rules = {(a, b): self.read(image, self.names) for a, b, image in data["rules"]}
+
+    def word(self, *letters: str) -> Words:
+        """One word."""
+        return Words({(self.none, letters): Fraction(1)}, self.work)
+
+    def scalar(self, exponents: tuple[int, ...], c: Fraction = Fraction(1)) -> Words:
+        """A number times powers of the parameters."""
+        return Words({(exponents, ()): c}, self.work)
+
+    def read(self, tree: Any, names: Mapping[str, Words]) -> Words:
+        """The sum of words that a tree is."""
+        found: Words = value(tree, names, lambda x: self.scalar(self.none, x))
+        return found
+
+    def product(self, factors: Iterable[Words]) -> Words:
+        """The product, in this order."""
+        result = self.word()
+        for factor in factors:
+            result = result * factor
+        return result
+
+    def total(self, parts: Iterable[Words]) -> Words:
+        """The sum, after the rules."""
+        result = Words({}, self.work)
+        for part in parts:
+            result = result + part
+        return result.rewritten(self.rules)
+
+    def image(self, of: Words, letters: Callable[[str], Words], scalar: Callable[[tuple[int, ...]], Words]) -> Words:
+        """`of` with other sums of words of this algebra in the place of its letters and of its parameters' powers."""
+        return self.total(
+            self.product([scalar(exponents) * self.scalar(self.none, c), *map(letters, word)])
+            for (exponents, word), c in of.terms.items()
+        )
+
+    def transposed(self, of: Words) -> Words:
+        """Each word turned round, with the transposes of its letters."""
+        turned = Words({(exponents, word[::-1]): c for (exponents, word), c in of.terms.items()}, self.work)
+        return self.image(turned, self.transpose, self.scalar)
+
+    def transpose(self, letter: str) -> Words:
+        """That of a letter."""
+        if letter not in self.transposes:
+            raise Rejected(f"the transpose of {letter} is needed, and is not given")
+        return self.transposes[letter]
+
+    def rate(self, of: Words, rates: Mapping[str, Words]) -> Words:
+        """The derivative by Leibniz' rule."""
+        parts = []
+        for (exponents, word), c in of.terms.items():
+            for i, letter in enumerate(word):
+                if letter not in rates:
+                    raise Rejected(f"the rate of {letter} is needed, and is not given")
+                before, after = self.word(*word[:i]), self.word(*word[i + 1 :])
+                parts.append(self.scalar(exponents, c) * before * rates[letter] * after)
+        return self.total(parts)
+
+    def around(self, of: Words, letter: str) -> Words:
+        """Z with tr of = tr(letter · Z); each word must have the letter once."""
+        parts = []
+        for (exponents, word), c in of.terms.items():
+            if word.count(letter) != 1:
+                raise Rejected(f"what is taken out of a trace is not linear in {letter}")
+            at = word.index(letter)
+            parts.append(self.scalar(exponents, c) * self.word(*word[at + 1 :], *word[:at]))
+        return self.total(parts)
+
+    def gradient(self, of: Words, letter: str) -> Words:
+        """G with tr of = tr(Gᵀ · letter) + (what has neither the letter nor its transpose, which must be a letter)."""
+        transposes = [word for _, word in self.transpose(letter).terms]
+        if len(transposes) != 1 or len(transposes[0]) != 1:
+            raise Rejected(f"a gradient is by {letter}, whose transpose is no letter")
+        plain, turned = having(of, [letter]), having(of, transposes[0])
+        if {*plain.terms} & {*turned.terms}:
+            raise Rejected(f"what is taken out of a trace is not linear in {letter}")
+        return self.transposed(self.around(self.total([plain, self.transposed(turned)]), letter))
+
+    def dual(self, of: Words, letter: str) -> Words:
+        """S = -Sᵀ with tr of = ½ tr(letter · S), for a letter that is skew."""
+        if self.total([self.transpose(letter), self.word(letter)]).terms:
+            raise Rejected(f"a dual is by {letter}, whose transpose is not -{letter}")
+        found = self.around(of, letter)
+        return self.total([found - self.transposed(found)])
+
+    def traced(self, of: Words) -> Words:
+        """A sum of words with the same trace, fewer where words are rotations or transposes of one another."""
+        settled: list[Words] = []
+        pending = of.rewritten(self.rules)
+        while pending.terms:
+            following = []
+            for (exponents, word), c in pending.terms.items():
+                if not word:
+                    raise Rejected("the trace of a number depends on what it stands for")
+                if len(word) > 1 and (word[-1], word[0]) in self.rules:
+                    following.append(self.scalar(exponents, c) * self.word(word[-1], *word[:-1]))
+                else:
+                    settled.append(self.scalar(exponents, c) * self._least(word))
+            pending = self.total(following)
+        return self.total(settled)
+
+    def _least(self, word: tuple[str, ...]) -> Words:
+        """With the trace of a word: the first of its rotations and those of its transpose, 0 if it is its negative."""
+        self.work.spend(len(word) * len(word))
+        signed = [(rotation, Fraction(1)) for rotation in rotations(word)]
+        if self.transposes.keys() >= set(word):
+            turned = self.transposed(self.word(*word)).terms
+            if len(turned) == 1:
+                [((exponents, other), sign)] = turned.items()
+                if exponents == self.none and abs(sign) == 1:
+                    signed += [(rotation, sign) for rotation in rotations(other)]
+        least = min(rotation for rotation, _ in signed)
+        signs = {sign for rotation, sign in signed if rotation == least}
+        return self.scalar(self.none, sum(signs, Fraction(0))) * self.word(*least)
+
+
+def all_or_none(letters: set[str], names: Collection[str], where: str) -> bool:
+    """Whether something is said of all of some letters, and not of none; raises Rejected if of a part of them."""
+    known = letters & set(names)
+    if known and known != letters:
+        raise Rejected(f"{where} says something of {min(known)} and nothing of {min(letters - known)}")
+    return bool(known)
+
+
+def rotations(word: tuple[str, ...]) -> list[tuple[str, ...]]:
+    """A word with its first letters at its end, from none of them to all but one."""
+    return [word[i:] + word[:i] for i in range(len(word))]
+
+
+def having(of: Words, letters: Collection[str], without: bool = False) -> Words:
+    """The terms that have one of some letters; or the others."""
+    chosen = {term: c for term, c in of.terms.items() if (not set(term[1]).isdisjoint(letters)) is not without}
+    return Words(chosen, of.work)

@@ -1,0 +1,250 @@
+"""Derivations: expressions that are made, step by step, from premises; the statements of a certificate may name them.
+
+A definition has a name, a text, the number of its algebra, an operation, and what that is applied to:
+
+written   a tree, in the letters of the algebra and in names defined before; without such names it is a premise
+rate      of a name X, by [letter, tree]...: the derivative of X by Leibniz' rule, where the letters have those rates
+replaced  of X, by [letter or parameter, tree]...: X with those in their places, in the algebra of the definition
+gradient  of X, by a letter Y: the G with tr X = tr(Gᵀ Y) + (what has neither Y nor its transpose)
+dual      of X, by a letter ξ with ξᵀ = -ξ: the S = -Sᵀ with tr X = ½ tr(ξ S), so that tr X = 0 for all ξ if S = 0
+having, lacking   of X, by letters: its terms that have one of them, or none; together they are X
+matrix, entry     X in coordinates (matrices.py)
+
+All this is done here.  Rates and replacements must respect the rules and the transposes of the algebra of X; a name is
+used in another algebra only if that has the letters and, for them, the rules.  What the texts say is not judged.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Mapping, Sequence
+from fractions import Fraction
+from typing import Any, NamedTuple
+
+from .algebra import Algebra, all_or_none, having
+from .document import check_names, count
+from .form import chosen, distinct, many, sized, text
+from .interval import Rejected
+from .matrices import MOST_ROWS, Entry, Placed, Quotients, check_places, entry, placed, words_at
+from .polynomial import Quotient
+from .trees import check_name, check_tree, names_in
+from .words import Matrix, Words
+
+#: Of a derivation.
+MOST_DEFINITIONS = 100
+PAIRS, LETTER, LETTERS = ("rate", "replaced"), ("gradient", "dual"), ("having", "lacking")
+OPERATIONS = ("written", *PAIRS, *LETTER, *LETTERS, "matrix", "entry")
+
+
+class Defined(NamedTuple):
+    """What a name stands for."""
+
+    words: Words
+    algebra: Algebra
+
+
+Made = Defined | Placed | Entry
+
+
+def is_premise(one: dict[str, Any], names: Collection[str]) -> bool:
+    """Whether a definition is made from nothing that is defined."""
+    return one["operation"] == "written" and names_in(one["of"]).isdisjoint(names)
+
+
+def check_form(
+    data: Any, algebras: Sequence[Mapping[str, Any]], names: Sequence[Collection[str]]
+) -> list[Collection[str]]:
+    """The form of a derivation in algebras that have been checked, with their names.
+
+    Returns for each algebra the names that are defined and can be used there.
+    """
+    if len(many(data, "the derivation")) > MOST_DEFINITIONS:
+        raise Rejected(f"the derivation has more than {MOST_DEFINITIONS} definitions")
+    taken = set().union(*names)
+    made: dict[str, dict[str, int]] = {"words": {}, "matrix": {}, "entry": {}}
+    for i, one in enumerate(data):
+        where = f"definition {i}"
+        check_names(one, "name text algebra operation of by", where)
+        check_name(one["name"], where)
+        if one["name"] in taken:
+            raise Rejected(f"{where} has a name that is taken")
+        taken.add(one["name"])
+        text(one["text"], where)
+        here = count(one["algebra"], 0, len(algebras) - 1, where)
+        chosen(one["operation"], OPERATIONS, f"the operation of {where}")
+        kind = one["operation"] if one["operation"] in made else "words"
+        if (algebras[here]["kind"] == "quotient") is (kind == "words"):
+            raise Rejected(f"{where} is in an algebra of another kind than its operation")
+        trees, known = [one["of"]], {*names[here], *made["words"]}
+        if one["operation"] != "written":
+            chosen(one["of"], list(made["matrix" if kind == "entry" else "words"]), f"what {where} is made from")
+            trees = []
+        if kind == "matrix":
+            check_places(one["by"], algebras[made["words"][one["of"]]], algebras[here], where)
+        elif kind == "entry":
+            sized(one["by"], 2, where)
+            for number in one["by"]:
+                count(number, 0, MOST_ROWS, where)
+            if made["matrix"][one["of"]] != here:
+                raise Rejected(f"{where} is in another algebra than its matrix")
+        elif one["operation"] != "written":
+            trees = _check_by(one, names[made["words"][one["of"]]], where)
+        elif one["by"] != []:
+            raise Rejected(f"{where} is written and made by something")
+        for tree in trees:
+            check_tree(tree, known, where)
+        made[kind][one["name"]] = here
+    return [
+        {name for name, there in made["entry"].items() if there == here} if one["kind"] == "quotient" else made["words"]
+        for here, one in enumerate(algebras)
+    ]
+
+
+def _check_by(one: dict[str, Any], names: Collection[str], where: str) -> list[Any]:
+    """The form of the other operand, about names of the algebra of the first; returns the trees in it."""
+    if one["operation"] in LETTER:
+        chosen(one["by"], sorted(names), f"the letter of {where}")
+        return []
+    by = many(one["by"], where)
+    if one["operation"] in PAIRS:
+        for pair in by:
+            sized(pair, 2, where)
+    letters = distinct([pair[0] for pair in by] if one["operation"] in PAIRS else by, where)
+    if not letters or not letters <= set(names):
+        raise Rejected(f"{where} must be by names of the algebra that it is made from")
+    return [pair[1] for pair in by] if one["operation"] in PAIRS else []
+
+
+def values(data: Sequence[dict[str, Any]], algebras: Sequence[Algebra | Quotients]) -> dict[str, Made]:
+    """What each name of a derivation, whose form was checked, stands for."""
+    found: dict[str, Made] = {}
+    for one in data:
+        algebra, where = algebras[one["algebra"]], f"the definition of {one['name']}"
+        of = found.get(one["of"]) if one["operation"] != "written" else None
+        if isinstance(algebra, Algebra):
+            found[one["name"]] = Defined(_made(one, algebra, found, where), algebra)
+        elif isinstance(of, Defined):
+            found[one["name"]] = placed(of.words, of.algebra, algebra, one["by"], where)
+        elif isinstance(of, Placed):
+            found[one["name"]] = entry(of, one["by"], where)
+    return found
+
+
+def named(trees: Sequence[Any], algebra: Algebra, defined: Mapping[str, Made], where: str) -> dict[str, Words]:
+    """The names of an algebra, and what the defined names in some trees stand for in it."""
+    used = ((name, defined[name]) for name in sorted(set().union(*map(names_in, trees)) & defined.keys()))
+    return {**algebra.names, **{name: _brought(of, algebra, where) for name, of in used if isinstance(of, Defined)}}
+
+
+def entries(trees: Sequence[Any], defined: Mapping[str, Made]) -> dict[str, Quotient]:
+    """What the defined names in some trees stand for in a quotient ring."""
+    used = ((name, defined[name]) for name in set().union(*map(names_in, trees)) & defined.keys())
+    return {name: of.value for name, of in used if isinstance(of, Entry)}
+
+
+def at(of: Made, point: Mapping[str, Fraction | Matrix], where: str) -> Fraction | Matrix:
+    """The value at a point."""
+    if isinstance(of, Defined):
+        return words_at(of.words, of.algebra, point, where)
+    if isinstance(of, Entry):
+        return of.at(point, where)
+    raise Rejected(f"{where} has a matrix where an entry must stand")
+
+
+def _brought(of: Defined, algebra: Algebra, where: str) -> Words:
+    """In another algebra, which has its letters and parameters and, for its own letters, the rules."""
+    if of.algebra is algebra:
+        return of.words
+    _respects(of.algebra, of.algebra.names.keys() & algebra.names.keys(), algebra, algebra.names, where)
+    return _image(of, algebra, algebra.names, where)
+
+
+def _made(one: dict[str, Any], algebra: Algebra, found: Mapping[str, Made], where: str) -> Words:
+    """What a definition makes."""
+    operation, by = one["operation"], one["by"]
+    if operation == "written":
+        return algebra.total([algebra.read(one["of"], named([one["of"]], algebra, found, where))])
+    of = found[one["of"]]
+    assert isinstance(of, Defined)  # by its form
+    if operation == "replaced":
+        images = _places(by, algebra, found, where)
+        kept = {name: word for name, word in algebra.names.items() if name in of.algebra.names}
+        _respects(of.algebra, of.algebra.names.keys(), algebra, kept | images, where)
+        return _image(of, algebra, kept | images, where)
+    if of.algebra is not algebra:
+        raise Rejected(f"{where} is in another algebra than what it is made from")
+    if operation == "rate":
+        rates = _places(by, algebra, found, where)
+        _respects_as_rates(algebra, rates, where)
+        return algebra.rate(of.words, rates)
+    if operation in LETTERS:
+        return having(of.words, by, without=operation == "lacking")
+    return algebra.gradient(of.words, by) if operation == "gradient" else algebra.dual(of.words, by)
+
+
+def _places(by: Sequence[tuple[str, Any]], algebra: Algebra, found: Mapping[str, Made], where: str) -> dict[str, Words]:
+    names = named([tree for _, tree in by], algebra, found, where)
+    return {name: algebra.read(tree, names) for name, tree in by}
+
+
+def _image(of: Defined, algebra: Algebra, images: Mapping[str, Words], where: str) -> Words:
+    """With other words in the place of its letters and parameters."""
+
+    def place(name: str) -> Words:
+        if name not in images:
+            raise Rejected(f"{where} says nothing of {name}")
+        return images[name]
+
+    def scalar(exponents: tuple[int, ...]) -> Words:
+        powers = [(place(name), e) for name, e in zip(of.algebra.parameters, exponents, strict=True) if e]
+        if any(word for image, _ in powers for _, word in image.terms):
+            raise Rejected(f"{where} has a matrix in the place of a number")
+        return algebra.product(image**e for image, e in powers)
+
+    return algebra.image(of.words, place, scalar)
+
+
+def _respects(
+    source: Algebra, names: Collection[str], algebra: Algebra, images: Mapping[str, Words], where: str
+) -> None:
+    """Raises Rejected unless the rules and transposes among some names of an algebra hold of their images."""
+
+    def image(words: Words) -> Words:
+        return _image(Defined(words, source), algebra, images, where)
+
+    def difference(made: Words, claimed: Words) -> bool:
+        return bool(algebra.total([made - claimed]).terms)
+
+    def product(a: str, b: str, c: Words) -> bool:
+        return difference(image(source.names[a]) * image(source.names[b]), image(c))
+
+    def transpose(letter: str, t: Words) -> bool:
+        return difference(image(t), algebra.transposed(image(source.names[letter])))
+
+    _each_rule(source, names, product, where)
+    _each_transpose(source, names, transpose, where)
+
+
+def _respects_as_rates(algebra: Algebra, rates: Mapping[str, Words], where: str) -> None:
+    """Raises Rejected unless Leibniz' rule respects the rules and transposes among the letters that have rates."""
+
+    def difference(made: Words, claimed: Words) -> bool:
+        return bool(algebra.total([made - algebra.rate(claimed, rates)]).terms)
+
+    def product(a: str, b: str, c: Words) -> bool:
+        return difference(rates[a] * algebra.word(b) + algebra.word(a) * rates[b], c)
+
+    _each_rule(algebra, rates.keys(), product, where)
+    _each_transpose(algebra, rates.keys(), lambda x, t: difference(algebra.transposed(rates[x]), t), where)
+
+
+def _each_rule(algebra: Algebra, names: Collection[str], fails: Callable[[str, str, Words], bool], where: str) -> None:
+    """Of the rules about the letters that are named; none may be about some of them and others."""
+    for (a, b), c in algebra.rules.items():
+        if all_or_none({a, b, *c.letters()}, names, where) and fails(a, b, c):
+            raise Rejected(f"{where} does not respect the rule for {a} {b}")
+
+
+def _each_transpose(algebra: Algebra, names: Collection[str], fails: Callable[[str, Words], bool], where: str) -> None:
+    for letter, transpose in algebra.transposes.items():
+        if all_or_none({letter, *transpose.letters()}, names, where) and fails(letter, transpose):
+            raise Rejected(f"{where} does not do to the transpose of {letter} what it does to {letter}")
