@@ -1,4 +1,4 @@
-"""What a result is made of: the sources of a module and of all of chapsym that it imports, as a hash."""
+"""What a result is made of: the sources of a module, of all of chapsym that it imports, and of what lies beside it."""
 
 import ast
 import hashlib
@@ -17,7 +17,7 @@ def fingerprint(module: str, besides: Collection[str] = (), more: str = "") -> s
 
 
 def closure(module: str, besides: Collection[str] = ()) -> set[str]:
-    """The module and all modules of chapsym that it imports, directly or through others, but some."""
+    """The module and all modules that it imports, directly or through others, of chapsym or beside it; but some."""
     reached: set[str] = set()
     pending = [module]
     while pending:
@@ -30,7 +30,7 @@ def closure(module: str, besides: Collection[str] = ()) -> set[str]:
 
 @cache
 def imports(module: str) -> tuple[str, ...]:
-    """The modules of chapsym that a module imports, at the top and inside functions."""
+    """The modules of chapsym, or beside it, that a module imports, at the top and inside functions."""
     package = module if Path(str(file(module))).name == "__init__.py" else module.rpartition(".")[0]
     found: set[str] = set()
     for node in ast.walk(ast.parse(source(module))):
@@ -39,7 +39,16 @@ def imports(module: str) -> tuple[str, ...]:
         elif isinstance(node, ast.ImportFrom):
             base = importlib.util.resolve_name("." * node.level + (node.module or ""), package)
             found |= {base} | {f"{base}.{alias.name}" for alias in node.names}
-    return tuple(name for name in found if name.startswith("chapsym.") and file(name))
+    return tuple(name for name in found if (name.startswith("chapsym.") or _beside(name, module)) and file(name))
+
+
+def _beside(name: str, module: str) -> bool:
+    """Whether a module is a user's own, of the folder or the package of another one."""
+    ours, theirs = file(module), None if module.startswith("chapsym.") else file(name)
+    if ours is None or theirs is None:
+        return False
+    same = name.partition(".")[0] == module.partition(".")[0]
+    return same or (Path(theirs).is_relative_to(Path(ours).parent) and "site-packages" not in theirs)
 
 
 @cache

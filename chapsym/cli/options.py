@@ -27,6 +27,16 @@ Records = Annotated[
 ]
 
 
+Own = Annotated[
+    str | None,
+    typer.Option(
+        "--register",
+        metavar="FOLDER",
+        help="Claims of your own: a folder of Python scripts, one script, or a package. It is code, and it is run.",
+    ),
+]
+
+
 Json = Annotated[bool, typer.Option("--json", help="Print one JSON object on standard output.")]
 
 

@@ -3,13 +3,16 @@
 from collections import Counter
 from contextlib import suppress
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from .app import app
-from .options import Json, Records
+from .options import Json, Own, Records
 from .output import fail, note, print_json, progress_bar
+
+if TYPE_CHECKING:
+    from chapsym.prove import Register
 
 
 @app.command()
@@ -27,6 +30,7 @@ def prove(
             metavar="DIR", help="Write what was decided as ID.json, for the checker; lemmas, too, if no ID is named."
         ),
     ] = None,
+    own: Own = None,
     kept_in: Records = None,
 ) -> None:
     """Judge the printed claims: run their proofs, side by side, and keep the verdicts.
@@ -36,19 +40,19 @@ def prove(
     from chapsym.prove import unproved
     from chapsym.prove.runner import explain as argument
 
-    claims = all_claims(lemmas=True)
+    register = register_from(own)
+    claims = all_claims(lemmas=True, register=register)
     unknown = [id for id in ids or [] if id not in claims]
     if unknown:
-        fail(
-            f"no proof judges the claim {unknown[0]!r}; chapsym prove --list names those that are judged, "
-            "and a claim of your own is judged by its script: python SCRIPT.py",
-            2,
-        )
+        named = f" --register {own}" if own else ""
+        others = "" if own else ", and --register FOLDER judges claims of your own"
+        known = f"chapsym prove --list{named} names those that are judged{others}"
+        fail(f"no proof judges the claim {unknown[0]!r}; {known}", 2)
     if listing:
-        _list_claims(claims, as_json, kept_in)
+        _list_claims(claims, as_json, kept_in, register)
         return
-    everything = claims if certificates else all_claims()
-    records = judge_and_keep(list(dict.fromkeys(ids or everything)), jobs, kept_in, certificates)
+    everything = claims if certificates else all_claims(register=register)
+    records = judge_and_keep(list(dict.fromkeys(ids or everything)), jobs, kept_in, certificates, register)
     # The whole register is as it should be with the paper's open questions open; a claim that is named must be proved.
     failed = [record["id"] for record in records if record["verdict"] == "open"] if ids else unproved(records)
     if as_json:
@@ -61,6 +65,8 @@ def prove(
             print(f"{record['id']:18} {record['verdict']:12} {title}")
             for problem in record["evidence"]["problems"]:
                 print(f"{'':18} problem: {problem}")
+            if record["evidence"]["problems"]:
+                print(f"{'':18} its proof: {claims[record['id']].place}")
         print(tally(records))
     if certificates:
         note(f"certificates in {certificates}: {_carried(records)}")
@@ -75,11 +81,11 @@ def _carried(records: list[dict[str, Any]]) -> str:
     return f"{statements} statements that the checker accepted, {sentences} sentences that it did not judge"
 
 
-def _list_claims(claims: dict[str, Any], as_json: bool, kept_in: Path | None) -> None:
+def _list_claims(claims: dict[str, Any], as_json: bool, kept_in: Path | None, register: "Register | None") -> None:
     """Every claim with the verdict on record, and whether what it was made with has changed since."""
     from chapsym.prove import records
 
-    kept = kept_records(kept_in)
+    kept = kept_records(kept_in, register)
     old = records.stale(kept, claims)
     rows = [
         {"id": id, "title": claim.title, "verdict": kept[id]["verdict"] if id in kept else None, "stale": id in old}
@@ -96,14 +102,19 @@ def _list_claims(claims: dict[str, Any], as_json: bool, kept_in: Path | None) ->
 
 
 def judge_and_keep(
-    wanted: list[str], jobs: int | None, kept_in: Path | None, certificates: Path | None = None
+    wanted: list[str],
+    jobs: int | None,
+    kept_in: Path | None,
+    certificates: Path | None = None,
+    register: "Register | None" = None,
 ) -> list[dict[str, Any]]:
     """Proves the claims, keeps their records and certificates, and says where a verdict is another than it was."""
     from chapsym import files
-    from chapsym.prove import prove_all, records
+    from chapsym.prove import PROOFS, prove_all, records
 
-    claims, path = all_claims(lemmas=True), kept_in or records.default_path()
-    kept = kept_records(kept_in)
+    register = register or PROOFS
+    claims, path = all_claims(lemmas=True, register=register), kept_in or records.default_path(register)
+    kept = kept_records(kept_in, register)
     arrived: list[dict[str, Any]] = []
 
     def keep(record: dict[str, Any]) -> None:
@@ -121,7 +132,7 @@ def judge_and_keep(
         records.update(path, [], claims)  # with a last line that is whole
     try:
         with progress_bar("proving", len(wanted)) as shown:
-            judged = prove_all(wanted, jobs, keep, **({"folder": certificates} if certificates else {}))
+            judged = prove_all(wanted, jobs, keep, folder=certificates, register=register)
     except files.CannotWrite as error:
         fail(str(error), 2)
     finally:  # an interrupt keeps what was finished, and puts it in order
@@ -137,7 +148,10 @@ def judge_and_keep(
 
 
 def records_of(
-    claims: dict[str, Any], kept: dict[str, dict[str, Any]], kept_in: Path | None = None
+    claims: dict[str, Any],
+    kept: dict[str, dict[str, Any]],
+    kept_in: Path | None = None,
+    register: "Register | None" = None,
 ) -> list[dict[str, Any]]:
     """The record of every claim: the one that is kept while it is fresh and no failure, otherwise judged now."""
     from chapsym.prove import records, unproved
@@ -148,33 +162,45 @@ def records_of(
     failed = unproved(fresh.values())
     wanted = [id for id in claims if id not in fresh or id in failed]
     if wanted:
-        kept = kept | {record["id"]: record for record in judge_and_keep(wanted, None, kept_in)}
+        kept = kept | {record["id"]: record for record in judge_and_keep(wanted, None, kept_in, None, register)}
     for id in claims:  # what uses a claim is said by other scripts than its own
         kept[id]["evidence"]["downstream"] = downstream(id, claims)
     return [kept[id] for id in claims]
 
 
-def kept_records(kept_in: Path | None) -> dict[str, dict[str, Any]]:
-    from chapsym.prove import records
+def kept_records(kept_in: Path | None, register: "Register | None" = None) -> dict[str, dict[str, Any]]:
+    """The records that are kept of a register, by id."""
+    from chapsym.prove import PROOFS, records
 
     try:
-        return records.read(kept_in or records.default_path())
+        return records.read(kept_in or records.default_path(register or PROOFS))
     except records.BrokenRecords as error:
         fail(str(error), 2)
     except OSError as error:
         fail(f"the records {error.filename} cannot be read: {error.strerror}", 2)
 
 
-def all_claims(lemmas: bool = False) -> dict[str, Any]:
-    """The claims of the paper, and chapsym's own lemmas if asked; a script that cannot be loaded is a failed proof."""
-    from chapsym.prove import BrokenScript, load
+def register_from(named: str | None) -> "Register":
+    """The register that --register names; that of chapsym if none is named."""
+    from chapsym.prove import PROOFS, Register
+
+    return PROOFS if named is None else Register(named)
+
+
+def all_claims(lemmas: bool = False, register: "Register | None" = None) -> dict[str, Any]:
+    """The claims of a register, and its lemmas if asked; a script that cannot be loaded is a failed proof."""
+    from chapsym.prove import PROOFS, BrokenScript, NoRegister, load
 
     try:
-        return load(lemmas)
+        return load(lemmas, register or PROOFS)
+    except NoRegister as error:
+        fail(str(error), 2)
     except BrokenScript as error:
         fail(str(error), 1)
 
 
 def tally(records: list[dict[str, Any]]) -> str:
+    """How many claims have each verdict."""
     counts = Counter(record["verdict"] for record in records)
-    return f"{len(records)} claims: " + ", ".join(f"{n} {verdict}" for verdict, n in sorted(counts.items()))
+    plural = "" if len(records) == 1 else "s"
+    return f"{len(records)} claim{plural}: " + ", ".join(f"{n} {verdict}" for verdict, n in sorted(counts.items()))

@@ -3,18 +3,22 @@
 from .claims import Claim, Judgement, claim, judged
 from .evidence import Proof, Verdict
 from .polynomials import Identity
-from .runner import BrokenScript, load, main, prove_all, unproved
+from .registers import PROOFS, BrokenScript, NoRegister, Register, load
+from .runner import main, prove_all, unproved
 from .statements import Equation, Fact, Point, equations, rational_point
 
 __all__ = [
+    "PROOFS",
     "BrokenScript",
     "Claim",
     "Equation",
     "Fact",
     "Identity",
     "Judgement",
+    "NoRegister",
     "Point",
     "Proof",
+    "Register",
     "Verdict",
     "claim",
     "equations",

@@ -37,6 +37,12 @@ class Claim:
         """The first line of the proof's docstring, which an interpreter that optimizes drops: then from the source."""
         return (self.prove.__doc__ or _docstring(self.prove)).strip().partition("\n")[0]
 
+    @property
+    def place(self) -> str:
+        """The file and the line where the proof begins."""
+        code = inspect.unwrap(self.prove).__code__
+        return f"{code.co_filename}, line {code.co_firstlineno}"
+
     def judge(self) -> "Judgement":
         """Runs the proof."""
         start, proof = time.perf_counter(), Proof()
@@ -91,7 +97,11 @@ class Judgement:
 
 
 class TwoProofs(ValueError):
-    """An id that another proof judges already."""
+    """An id that another proof judges already, and the place of that one."""
+
+    def __init__(self, id: str, other: str) -> None:
+        super().__init__(f"two proofs judge the claim {id}")
+        self.id, self.other = id, other
 
 
 _REGISTER: dict[str, Claim] = {}
@@ -104,9 +114,10 @@ def claim(
 
     def register(prove: Callable[[Proof], None]) -> Callable[[Proof], None]:
         if prove.__module__ != "__main__":  # a script that runs alone is run through its package name
-            if id in _REGISTER:
-                raise TwoProofs(f"two proofs judge the claim {id}")
-            _REGISTER[id] = Claim(id, printed, tuple(uses), prove, tuple(files))
+            new = Claim(id, printed, tuple(uses), prove, tuple(files))
+            old = _REGISTER.setdefault(id, new)
+            if old.place != new.place:  # else one file under two names
+                raise TwoProofs(id, old.place)
         return prove
 
     return register

@@ -19,22 +19,27 @@ from chapsym import files, sources
 
 from .claims import Claim
 from .evidence import Verdict
+from .registers import PROOFS, Register
 
 #: What decides beside this package.
 LIBRARIES = ("sympy", "python-flint", "numpy")
 
 #: How records are run, printed and kept does not change what they say.
-_BESIDES = {"chapsym.prove.runner", "chapsym.prove.records"}
+_BESIDES = {"chapsym.prove.runner", "chapsym.prove.records", "chapsym.prove.registers"}
 
 
 class BrokenRecords(ValueError):
     """The file of records cannot be read as such."""
 
 
-def default_path() -> Path:
-    """Where the records are kept unless a file is named: CHAPSYM_RECORDS, or else the user's cache."""
+def default_path(register: Register = PROOFS) -> Path:
+    """Where the records are kept unless a file is named: CHAPSYM_RECORDS, or else the user's cache.
+
+    Those of another register than chapsym's lie beside it, in a file of their own.
+    """
     named = os.environ.get("CHAPSYM_RECORDS")
-    return Path(named) if named else platformdirs.user_cache_path("chapsym") / "verdicts.jsonl"
+    path = Path(named) if named else platformdirs.user_cache_path("chapsym") / "verdicts.jsonl"
+    return path if register == PROOFS else path.with_name(f"{path.stem}-{register.key}.jsonl")
 
 
 def fingerprint(claim: Claim) -> str:

@@ -91,7 +91,7 @@ def test_a_binary_file_or_a_pipe_is_no_file_of_records(path, tmp_path):
 
 def test_an_interrupt_keeps_what_was_finished(tmp_path, path):
     env = changed(
-        tmp_path, "import chapsym.prove as prove", "honest = prove.prove_all", "def stopped(ids, jobs, arrived):",
+        tmp_path, "import chapsym.prove as prove", "honest = prove.prove_all", "def stopped(ids, jobs, arrived, **_):",
         "    honest(ids[:1], jobs, arrived)", "    raise KeyboardInterrupt", "prove.prove_all = stopped",
     )  # fmt: skip
     assert child("prove", "prop-2", "4.3", "--records", path, env=env).returncode == 130
@@ -131,7 +131,9 @@ def test_workers_end_with_the_process_that_started_them(tmp_path):
 
 def test_some_records_that_are_asked_for_leave_those_of_other_claims(path, monkeypatch):
     records.update(path, [made("2.1"), made("prop-4")], load())
-    monkeypatch.setattr("chapsym.prove.prove_all", lambda ids, jobs, arrived: [arrived(x) or x for x in map(made, ids)])
+    monkeypatch.setattr(
+        "chapsym.prove.prove_all", lambda ids, jobs, arrived, **_: [arrived(x) or x for x in map(made, ids)]
+    )
     asked = {id: load()[id] for id in ("4.3", "prop-4")}
     assert [record["id"] for record in command.records_of(asked, records.read(path), path)] == ["4.3", "prop-4"]
     assert list(records.read(path)) == ["2.1", "4.3", "prop-4"]

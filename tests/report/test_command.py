@@ -17,10 +17,10 @@ def report(tmp_path, monkeypatch, command, handmade):
 
     def run(*arguments, records=handmade):
         given = {record["id"]: record for record in records}
-        monkeypatch.setattr(chapsym.prove, "load", lambda lemmas=False: dict.fromkeys(given))
+        monkeypatch.setattr(chapsym.prove, "load", lambda *_: dict.fromkeys(given))
         monkeypatch.setattr(kept, "read", lambda path: dict(given))
         monkeypatch.setattr(kept, "stale", lambda *_: [])
-        monkeypatch.setattr(chapsym.prove, "prove_all", lambda ids, jobs=None, on_result=None: [given[i] for i in ids])
+        monkeypatch.setattr(chapsym.prove, "prove_all", lambda ids, *_, **__: [given[i] for i in ids])
         monkeypatch.setattr(kept, "update", lambda *_: None)
         monkeypatch.setattr(runner, "downstream", lambda id, claims: given[id]["evidence"]["downstream"])
         return command("report", *arguments)

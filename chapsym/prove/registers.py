@@ -1,0 +1,224 @@
+"""Registers: where claims are found.  That of chapsym is one; a user's own folder is another.
+
+A register is a folder of scripts, one script, or an importable package.  Its scripts are code, and finding its claims
+runs them, as finding tests runs a folder of tests.
+"""
+
+import contextlib
+import hashlib
+import importlib
+import importlib.util
+import re
+import sys
+import traceback
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from functools import partial
+from importlib.machinery import ModuleSpec
+from pathlib import Path
+from types import ModuleType
+
+from chapsym import sources
+
+from .claims import Claim, TwoProofs
+from .claims import register as registered
+
+
+class BrokenScript(ImportError):
+    """A script cannot be loaded, or its claims cannot stand together; the message names the file."""
+
+
+class NoRegister(ValueError):
+    """A place where no claims are found; the message says what would be one."""
+
+
+@dataclass(frozen=True)
+class Register:
+    """Claims in one place: a folder with Python scripts, the path of one script, or the name of a package.
+
+    A package, or a folder with an `__init__.py`, may say there: `SCRIPTS`, their names in order (without it, all files
+    that end in .py and do not begin with _); `CLAIMS`, the ids in order; `LEMMAS`, ids of what is judged only when it
+    is named; `PAPER`, what the claims are of; and `NOTE`, how its formulas are to be read.
+    """
+
+    place: str
+
+    def load(self, lemmas: bool = False) -> dict[str, Claim]:
+        """Imports every script and returns the claims by id, in order; then the lemmas, if asked.
+
+        Raises NoRegister if there is no such place, or no claim in it; BrokenScript if a script raises on import, or
+        if an id is taken, or listed without a proof, or used and not judged.
+        """
+        head = self._head()
+        for name in self._scripts(head):
+            _import(name)
+        found = {id: claim for id, claim in registered().items() if self._holds(head, claim)}
+        if not found:
+            raise NoRegister(f"{self.place} has no claim: write @claim(id, formula) before a function of a Proof")
+        listed = [*getattr(head, "CLAIMS", found)]
+        others = [*getattr(head, "LEMMAS", ())]
+        if missing := sorted(found.keys() ^ {*listed, *others}):
+            raise BrokenScript(f"the proofs and the list of claims and lemmas differ: {', '.join(missing)}")
+        self._check(found)
+        return {id: found[id] for id in (*listed, *(others if lemmas else ()))}
+
+    def sections(self, claims: Iterable[Claim]) -> dict[str, tuple[int, str]]:
+        """For each claim its script: which one it is, from 1, and the first line of its docstring."""
+        files = [sources.file(name) for name in self._scripts(self._head())]
+        found = {}
+        for claim in claims:
+            module = sys.modules[claim.prove.__module__]
+            title = (module.__doc__ or Path(str(module.__file__)).stem).strip().partition("\n")[0].rstrip(".")
+            found[claim.id] = files.index(module.__file__) + 1 if module.__file__ in files else len(files) + 1, title
+        return found
+
+    def told(self, name: str, default: str) -> str:
+        """What the `__init__.py` says under a name: PAPER or NOTE."""
+        return str(getattr(self._head(), name, default))
+
+    def script(self, path: Path) -> str | None:
+        """The module of a file, if it is one of the scripts."""
+        return next((name for name in self._scripts(self._head()) if _is(sources.file(name), path)), None)
+
+    @property
+    def key(self) -> str:
+        """A short name in letters that tells this place from others."""
+        path = self._path()
+        digest = hashlib.sha256(str(path or self.place).encode()).hexdigest()[:8]
+        return re.sub(r"\W", "_", path.stem if path else self.place) + f"_{digest}"
+
+    def _path(self) -> Path | None:
+        """The folder or the script; None for a package."""
+        try:
+            path = Path(self.place).resolve()
+            return path if path.exists() else None
+        except (OSError, ValueError):  # a name that no file can have
+            return None
+
+    def _head(self) -> ModuleType:
+        """The package of the scripts: that of this name, or one that is made for the folder."""
+        path = self._path()
+        if path is None:
+            return self._package()
+        if path.is_file() and path.suffix != ".py":
+            raise NoRegister(f"{self.place} is no Python script; a register is a folder of scripts, or one")
+        name = f"claims_of_{self.key}"
+        if name not in sys.modules:
+            folder, init = path if path.is_dir() else path.parent, path / "__init__.py"
+            spec: ModuleSpec | None = ModuleSpec(name, None, is_package=True)
+            if init.is_file():
+                spec = importlib.util.spec_from_file_location(name, init)
+            assert spec is not None
+            spec.submodule_search_locations = [str(folder)]
+            sys.modules[name] = module = importlib.util.module_from_spec(spec)
+            if str(folder) not in sys.path:  # scripts may import what lies beside them, as when they run alone
+                sys.path.append(str(folder))
+            if spec.loader:
+                _guarded(name, partial(spec.loader.exec_module, module))
+        return sys.modules[name]
+
+    def _package(self) -> ModuleType:
+        names = self.place.split(".")
+        spec = None
+        if all(map(str.isidentifier, names)):
+            with contextlib.suppress(ModuleNotFoundError):
+                spec = importlib.util.find_spec(self.place)
+        if spec is None or spec.submodule_search_locations is None:
+            raise NoRegister(
+                f"there is no folder {self.place}, and no package of that name; "
+                "a register is a folder of Python scripts with claims"
+            )
+        _import(self.place)
+        return sys.modules[self.place]
+
+    def _scripts(self, head: ModuleType) -> list[str]:
+        """The full names of the scripts."""
+        path = self._path()
+        if path is not None and path.is_file():
+            return [f"{head.__name__}.{path.stem}"]
+        names = getattr(head, "SCRIPTS", None)
+        if names is None:
+            found = sorted(one for folder in head.__path__ for one in Path(folder).glob("[!_]*.py"))
+            names = [one.stem for one in found]
+        return [f"{head.__name__}.{name}" for name in names]
+
+    def _holds(self, head: ModuleType, claim: Claim) -> bool:
+        """Whether a script of the register has the claim, or a file that lies beside it."""
+        module = claim.prove.__module__
+        file = Path(sources.file(module) or "")
+        return module.startswith(f"{head.__name__}.") or any(file.is_relative_to(one) for one in head.__path__)
+
+    def _check(self, claims: dict[str, Claim]) -> None:
+        """Raises BrokenScript where an id is one of chapsym's, or what a claim uses is judged nowhere."""
+        package = importlib.import_module(PROOFS.place)
+        ours = {*package.CLAIMS, *package.LEMMAS}
+        for id, claim in claims.items():
+            if self != PROOFS and id in ours:
+                raise _taken(claim.prove.__module__, id, "chapsym")
+            if missing := [used for used in claim.uses if used not in claims and used not in ours]:
+                raise BrokenScript(f"{_shown(claim.prove.__module__)}: {id} uses {missing[0]!r}, which no proof judges")
+
+
+#: The claims of Fedorov's paper, and the lemmas of chapsym.
+PROOFS = Register("chapsym.proofs")
+
+
+def register_of(script: str) -> Register:
+    """The register of a script: that of chapsym for its own, and the script alone for any other."""
+    return PROOFS if PROOFS.script(Path(script)) else Register(script)
+
+
+def load(lemmas: bool = False, register: Register = PROOFS) -> dict[str, Claim]:
+    """The claims of a register by id, in order, that of chapsym if no other is named; then the lemmas, if asked.
+
+    Raises NoRegister and BrokenScript as `Register.load` does.
+    """
+    return register.load(lemmas)
+
+
+def _import(name: str) -> None:
+    _guarded(name, partial(importlib.import_module, name))
+
+
+def _guarded(name: str, run: Callable[[], object]) -> None:
+    """Runs what imports a module, its output on standard error; what it raises becomes a sentence with the file."""
+    try:
+        with contextlib.redirect_stdout(sys.stderr):
+            run()
+    except TwoProofs as error:
+        raise _taken(name, error.id, error.other) from error
+    except BrokenScript:
+        raise
+    except (Exception, SystemExit) as error:
+        sys.modules.pop(name, None)  # a half of it would be taken for the whole
+        raise BrokenScript(f"the proof script {_shown(name)} cannot be loaded: {_said(name, error)}") from error
+
+
+def _taken(name: str, id: str, other: str) -> BrokenScript:
+    whose = "or install this checkout first (pip install -e .) if it is a script of chapsym; "
+    return BrokenScript(
+        f"{_shown(name)}: two proofs judge the claim {id}; give yours an id of its own, "
+        f"{whose if 'chapsym' in other else ''}the other proof is that of {other}"
+    )
+
+
+def _said(name: str, error: BaseException) -> str:
+    """What went wrong, and in which line of the script, or of a file beside it."""
+    if isinstance(error, SystemExit):
+        return "it leaves Python; what ends it, such as main(__file__), stands under if __name__ == '__main__'"
+    said = f"{type(error).__name__}: {error}"
+    folder = Path(sources.file(name) or "").parent
+    frames = [frame for frame in traceback.extract_tb(error.__traceback__) if Path(frame.filename).parent == folder]
+    return f"{said} ({Path(frames[-1].filename).name}, line {frames[-1].lineno})" if frames else said
+
+
+def _shown(name: str) -> str:
+    """A script for a reader: its file, or its name where it is one of chapsym."""
+    if name.startswith(f"{PROOFS.place}."):
+        return name.removeprefix(f"{PROOFS.place}.")
+    file = Path(sources.file(name) or name)
+    return str(file.relative_to(Path.cwd()) if file.is_relative_to(Path.cwd()) else file)
+
+
+def _is(file: str | None, path: Path) -> bool:
+    return file is not None and path.exists() and path.samefile(file)
