@@ -14,7 +14,7 @@ import sympy as sp
 
 from chapsym.derive.words import unfolded
 
-from . import witness
+from . import points, witness
 from .statements import Equation, Point, Statement
 
 
@@ -179,7 +179,7 @@ class Proof:
             return Verdict.OPEN
         self._look_at_witnesses()
         if not self.controls:
-            self.problems.append("the proof has no negative control")
+            self.problems.append("the proof has no negative control: give p.control a false variant, to be rejected")
         if not self._printed and not self.reason and not self.answer:
             self.problems.append("no printed form was judged")
         if self.answer and not any(check["holds"] for check in self.checks):
@@ -192,9 +192,6 @@ class Proof:
             return Verdict.DEFINITION
         if all(holds for _, holds in self._printed):
             return Verdict.HOLDS
-        if not self.counterexamples:
-            self.problems.append("the printed form is not proved, and there is no counterexample to it")
-            return Verdict.OPEN
         if not self._corrected:
             return Verdict.REFUTED
         if not all(holds for _, holds in self._corrected):
@@ -203,12 +200,23 @@ class Proof:
         return Verdict.CONDITIONAL if self.condition else Verdict.CORRECTED
 
     def _look_at_witnesses(self) -> None:
-        """Every true statement must be true at the exact points of its algebra; and there must be such a point."""
-        found, wrong = witness.look(_equations([pair for pair in [*self._printed, *self._corrected] if pair[1]]))
+        """Every true statement must be true at an exact point of its algebra; what is false, refuted at one."""
+        true = _equations([pair for pair in [*self._printed, *self._corrected] if pair[1]])
+        found, wrong = witness.look(true)
+        if not found and not self.witnesses:
+            found, wrong = points.look(true)
         self.witnesses += found
         self.problems += [f"fails at its witness: {text}" for text in wrong]
-        if not (self.witnesses or self.counterexamples or self.certificates or self.reason):
-            self.problems.append("no witness: it is not shown that the hypotheses can hold")
+        if self.counterexamples or self.certificates or self.reason:
+            return
+        if not self.answer and (unproved := [s.text for s, holds in self._printed if not holds]):
+            self.problems.append(
+                f"not proved as printed: {unproved[0]}; if it is false, give p.counterexample a point where it fails"
+            )
+        elif not self.witnesses:
+            self.problems.append(
+                "no witness: it is not shown that the hypotheses can hold; give p.witness a point where they do"
+            )
 
     def _decide(self, statement: Statement, role: str = "lemma", prefix: str | None = None) -> bool:
         holds = statement.holds()

@@ -5,7 +5,10 @@ from typing import Any
 
 import sympy as sp
 
+from chapsym.derive.quotient import Quotient
+
 from . import witness
+from .statements import Equation
 
 Exact = dict[sp.Symbol, sp.Rational]
 
@@ -25,6 +28,19 @@ def candidates(
     for start in (table, table | others, primes, dict.fromkeys(symbols, sp.S.One)):
         if (point := _moved(start | known, relations, known.keys())) is not None:
             yield point
+
+
+def look(equations: Sequence[Equation]) -> tuple[list[dict[str, Any]], list[str]]:
+    """As `witness.look`, at points that are found for the relations of each equation, where the table has none."""
+    found, wrong = [], []
+    for equation in equations:
+        ring = equation.algebra
+        points = candidates(ring.symbols, ring.relations) if isinstance(ring, Quotient) else iter(())
+        point, truth = next(((p, t) for p in points if (t := witness.true_at(equation, p)) is not None), ({}, None))
+        if truth is not None:
+            found.append({"name": equation.text, "point": witness.shown(equation, point), "statements": 1})
+            wrong += [] if truth else [equation.text]
+    return found, wrong
 
 
 def _moved(start: Exact, relations: Sequence[sp.Expr], fixed: Collection[sp.Symbol]) -> Exact | None:

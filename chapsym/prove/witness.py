@@ -56,12 +56,12 @@ def look(equations: Sequence[Equation]) -> tuple[list[dict[str, Any]], list[str]
     for equation in equations:
         for case in CASES:
             point = _point(equation, case)
-            if point is None or (truth := _true_at(equation, point)) is None:
+            if point is None or (truth := true_at(equation, point)) is None:
                 continue
             if not truth:
                 wrong.append(f"{equation.text} ({case})")
             seen = found.setdefault(case, {"name": case, "point": {}, "statements": 0})
-            seen["point"] |= _shown(equation, point)
+            seen["point"] |= shown(equation, point)
             seen["statements"] += 1
     return list(found.values()), wrong
 
@@ -109,8 +109,8 @@ def matrices(symbols: set[sp.Symbol], algebra: WordAlgebra, case: str = "generic
     return point if sound else None
 
 
-def _true_at(equation: Equation, point: dict[sp.Symbol, Any]) -> bool | None:
-    """Whether both sides agree at the point; None where a denominator vanishes."""
+def true_at(equation: Equation, point: dict[sp.Symbol, Any]) -> bool | None:
+    """Whether both sides agree at a point; None where a denominator vanishes."""
     if isinstance(equation.algebra, Quotient):
         left, right = ([e.xreplace(point) for e in side] for side in (equation.left, equation.right))
         if any(value.has(sp.nan, sp.zoo, sp.oo) for value in (*left, *right)):
@@ -210,7 +210,7 @@ def _cayley(*above: int) -> sp.Matrix:
     return (sp.eye(4) - generator).inv() * (sp.eye(4) + generator)
 
 
-def _shown(equation: Equation, point: dict[sp.Symbol, Any]) -> dict[str, str]:
+def shown(equation: Equation, point: dict[sp.Symbol, Any]) -> dict[str, str]:
     """The values of the symbols that occur in the equation, by name."""
     used = set().union(*(e.free_symbols for e in (*equation.left, *equation.right)))
     values = {str(symbol): value for symbol, value in point.items() if symbol in used}

@@ -129,11 +129,37 @@ def test_what_a_proof_rests_on_is_proved_anew(monkeypatch):
 
 
 def test_a_statement_needs_a_point_where_its_hypotheses_hold():
+    nowhere = Quotient((x, y), [x**2 + y**2 + 1])
     proof = Proof()
-    proof.printed(TRUE)
-    proof.control(FALSE)
+    proof.printed(Equation("true", x**2, -1 - y**2, nowhere))
+    proof.control(Equation("false", x**2, y**2, nowhere))
     assert proof.verdict() is Verdict.OPEN
-    assert proof.problems == ["no witness: it is not shown that the hypotheses can hold"]
+    assert proof.problems == [
+        "no witness: it is not shown that the hypotheses can hold; give p.witness a point where they do"
+    ]
+
+
+def test_a_point_is_found_for_symbols_that_are_in_no_table():
+    others = sp.symbols("psi zeta")
+    ring = Quotient(others, [others[0] ** 2 + others[1] ** 2 - 1])
+    proof = Proof()
+    proof.printed(Equation("ψ² = 1 - ζ²", others[0] ** 2, 1 - others[1] ** 2, ring))
+    proof.control(Equation("ψ = 1 - ζ", others[0], 1 - others[1], ring))
+    assert proof.verdict() is Verdict.HOLDS
+    (seen,) = proof.witnesses
+    point = {name: sp.Rational(value) for name, value in seen["point"].items()}
+    assert seen["statements"] == 1
+    assert point["psi"] ** 2 + point["zeta"] ** 2 == 1
+
+
+def test_what_is_false_and_not_refuted_is_said_to_be_so():
+    proof = Proof()
+    for said in WRONG:
+        getattr(proof, said[0])(*said[1:])
+    assert proof.verdict() is Verdict.OPEN
+    assert proof.problems == [
+        "not proved as printed: false; if it is false, give p.counterexample a point where it fails"
+    ]
 
 
 def test_the_table_of_witnesses_contradicts_a_wrong_decision():
