@@ -13,6 +13,8 @@ from .statements import Equation
 Exact = dict[sp.Symbol, sp.Rational]
 
 
+#: The sides of a right triangle, and the components of a unit vector: for relations of symbols in no table.
+SIDES, UNIT = ("3/5",), ("2/7", "3/7", "6/7")
 #: Beside the table of witnesses: for relations that it was not made for.
 OTHERS = {"r": "3/5", "w1": "1/2", "w2": "0", "w3": "0"}
 
@@ -20,12 +22,17 @@ OTHERS = {"r": "3/5", "w1": "1/2", "w2": "0", "w3": "0"}
 def candidates(
     symbols: Sequence[sp.Symbol], relations: Sequence[sp.Expr], known: Mapping[sp.Symbol, Any] | None = None
 ) -> Iterator[Exact]:
-    """Points with the known values at which all relations hold, if some are found: from the table, primes, or 1."""
+    """Points with the known values at which all relations hold, if some are found: from the table, primes, or 1.
+
+    And from triangles and unit vectors with rational sides.
+    """
     known = dict(known or {})
     primes = {symbol: sp.Integer(sp.prime(i)) for i, symbol in enumerate(symbols, 1)}
     table = {symbol: witness.scalars().get(symbol.name, prime) for symbol, prime in primes.items()}
     others = {symbol: sp.Rational(OTHERS[symbol.name]) for symbol in symbols if symbol.name in OTHERS}
-    for start in (table, table | others, primes, dict.fromkeys(symbols, sp.S.One)):
+    related = [symbol for symbol in symbols if any(relation.has(symbol) for relation in relations)]
+    round_ = [primes | {x: sp.Rational(of[i % len(of)]) for i, x in enumerate(related)} for of in (SIDES, UNIT)]
+    for start in (table, table | others, primes, dict.fromkeys(symbols, sp.S.One), *round_):
         if (point := _moved(start | known, relations, known.keys())) is not None:
             yield point
 
