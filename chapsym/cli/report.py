@@ -10,9 +10,9 @@ import typer
 import chapsym
 
 from .app import app
-from .options import Json, Records
+from .options import Json, Own, Records
 from .output import fail, print_json
-from .prove import all_claims, kept_records, records_of, tally
+from .prove import all_claims, kept_records, records_of, register_from, tally
 from .study import STUDIES
 
 
@@ -30,6 +30,7 @@ def report(
         typer.Option("--open", metavar="DIR", help="The page of the open questions, with the studies in DIR."),
     ] = None,
     as_json: Json = False,
+    own: Own = None,
     kept_in: Records = None,
 ) -> None:
     """Write the page of all verdicts, or the short list of errata; what is stale or was never judged is proved.
@@ -41,13 +42,25 @@ def report(
 
     if output.suffix not in reports.WRITERS:
         fail(f"{str(output)!r}: the output must end in {' or '.join(reports.WRITERS)}", 2)
+    if studies is not None and own is not None:
+        fail(
+            "--open shows the open questions of Fedorov's paper, and --register claims of your own: give one of them", 2
+        )
     if studies is not None:
         _open_questions(output, studies, {} if fresh else kept_records(kept_in), kept_in, as_json)
         return
     files.check_destination(output)
     earlier = _earlier_errata(output) if output.suffix == ".json" else {}
-    found = records_of(all_claims(), {} if fresh else kept_records(kept_in), kept_in)
-    text = reports.WRITERS[output.suffix](found, _versions(), earlier)
+    register = register_from(own)
+    claims = all_claims(register=register)
+    found = records_of(claims, {} if fresh else kept_records(kept_in, register), kept_in, register)
+    source = reports.FEDOROV
+    if own is not None:
+        source = reports.own(own, register.told("PAPER", ""), register.told("NOTE", ""))
+        sections = register.sections(claims.values())
+        for record in found:
+            record["evidence"]["section"] = sections[record["id"]]
+    text = reports.WRITERS[output.suffix](found, _versions(), earlier, source)
     files.write_whole(output, lambda stream: stream.write(text.encode()))
     if as_json:
         print_json({"file": str(output), "counts": reports.counts(found), "claims": len(found)})

@@ -9,8 +9,8 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from . import notation
-from .errata import NOTE, PAPER, cite, reproduce
-from .records import SECTIONS, Record, errors, label, place, truth
+from .records import Record, errors, label, section, truth
+from .source import FEDOROV, Source
 
 FORMAT = "chapsym errata 1"
 WITHDRAWN = "withdrawn"
@@ -23,14 +23,14 @@ class NotErrata(ValueError):
     """A text is not a list of errata as `text` writes it."""
 
 
-def text(records: Sequence[Record], version: str, earlier: Mapping[str, Entry]) -> str:
+def text(records: Sequence[Record], version: str, earlier: Mapping[str, Entry], source: Source = FEDOROV) -> str:
     """The errata as JSON; `earlier` are the entries of the file that this one replaces, see `entries`."""
-    current = [_with_states(_entry(record), record["verdict"], earlier, version) for record in errors(records)]
+    current = [_with_states(_entry(record, source), record["verdict"], earlier, version) for record in errors(records)]
     document = {
         "format": FORMAT,
-        "paper": PAPER,
-        "note": NOTE,
-        "cite": cite(version),
+        "paper": source.paper,
+        "note": source.note,
+        "cite": source.cite(version),
         "chapsym": version,
         "claims": len(records),
         "errata": current,
@@ -55,30 +55,31 @@ def entries(written: str) -> dict[str, Entry]:
     return found
 
 
-def _entry(record: Record) -> Entry:
+def _entry(record: Record, source: Source) -> Entry:
     """What an entry says, without its states."""
     formula, prose = truth(record)
-    section, _ = place(record["id"]) or (None, None)
+    number, title = section(record) or (None, None)
     conditional = record["verdict"] == "conditional"
     return {
         "id": record["id"],
         "label": label(record["id"]),
-        "section": section,
-        "section_title": SECTIONS.get(section or 0),
+        "section": number,
+        "section_title": title,
         "title": record["evidence"]["title"],
         "printed": record["printed"],
         "true": formula or None,
         "condition": prose or None if conditional else None,
         "true_in_words": None if conditional else prose or None,
-        "counterexamples": [_example(example) for example in record["evidence"].get("counterexamples", [])],
+        "counterexamples": [_example(example, source) for example in record["evidence"].get("counterexamples", [])],
         "downstream": record["evidence"].get("downstream", []),
-        "proof": reproduce(record["id"]),
+        "proof": source.reproduce(record["id"]),
     }
 
 
-def _example(example: Mapping[str, Any]) -> dict[str, Any]:
+def _example(example: Mapping[str, Any], source: Source) -> dict[str, Any]:
     """An exact point, and the two sides of what is printed there."""
-    point = {symbol: notation.plain(value) for symbol, value in notation.point(example["point"])}
+    named = notation.point(example["point"], not source.register)
+    point = {symbol: notation.plain(value) for symbol, value in named}
     return {"point": point, "printed": [_sides(printed) for printed in example["printed"]]}
 
 

@@ -23,11 +23,11 @@ _BESIDE = {
 Matrix = list[list[str]]
 
 
-def point(values: dict[str, str]) -> list[tuple[str, str]]:
+def point(values: dict[str, str], of_the_paper: bool = True) -> list[tuple[str, str]]:
     """The symbols of a point and their values, components gathered: J1, J2, J3 become J = (1, 2, 4)."""
-    names = dict(_SYMBOLS)
+    names = dict(_SYMBOLS) if of_the_paper else {}
     for sign, more in _BESIDE.items():
-        if sign in values:
+        if of_the_paper and sign in values:
             names |= more
     found: list[tuple[str, str]] = []
     done: set[str] = set()
@@ -236,6 +236,11 @@ def _character(x: str) -> str:
 
 def _unknown(x: str) -> str:
     return f"\\text{{[U+{ord(x):04X}]}}"
+
+
+def typed_latex(text: str) -> str:
+    """A command, or a name, as it is typed."""
+    return _prose(text).replace("--", "-{}-")
 
 
 def symbol_latex(symbol: str) -> str:

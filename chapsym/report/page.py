@@ -13,9 +13,10 @@ from typing import Any
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup, escape
 
-from . import errata, formulas, graph, notation, symbols
+from . import formulas, graph, notation, symbols
 from . import records as reading
 from .records import Record
+from .source import FEDOROV, Source
 
 FOLDER = Path(__file__).parent / "templates"
 
@@ -23,14 +24,17 @@ FOLDER = Path(__file__).parent / "templates"
 _MANY = 8
 
 
-def html(records: Sequence[Record], versions: Mapping[str, str], date: str | None = None) -> str:
+def html(
+    records: Sequence[Record], versions: Mapping[str, str], date: str | None = None, source: Source = FEDOROV
+) -> str:
     """The whole page; the same records and versions give the same bytes."""
-    page = _Page(records, versions)
+    page = _Page(records, versions, source)
+    sections = {name: both for name, both in SECTIONS.items() if name != "symbols" or source == FEDOROV}
     return page.render(
         "page.html",
         style=Markup((FOLDER / "style.css").read_text(encoding="utf-8")),
         script=Markup((FOLDER / "script.js").read_text(encoding="utf-8")),
-        body=[(name, title, page.section(name, title, write)) for name, (title, write) in SECTIONS.items()],
+        body=[(name, title, page.section(name, title, write)) for name, (title, write) in sections.items()],
         summary=page.section("summary", "Summary", summary),
         versions=versions,
         date=date,
@@ -48,13 +52,15 @@ def templates() -> Environment:
 class _Page:
     """The records, and the templates with what they need to show them."""
 
-    def __init__(self, records: Sequence[Record], versions: Mapping[str, str]) -> None:
+    def __init__(self, records: Sequence[Record], versions: Mapping[str, str], source: Source = FEDOROV) -> None:
         self.records = records
         self.versions = versions
+        self.source = source
         self._templates = templates()
         self._templates.globals |= {
-            "VERDICTS": reading.VERDICTS, "MANY": _MANY, "NOTE": errata.NOTE, "point": notation.point,
-            "sides": notation.sides, "differing": notation.differing, "reproduce": errata.reproduce,
+            "VERDICTS": reading.VERDICTS, "MANY": _MANY, "source": source, "ours": source == FEDOROV,
+            "point": lambda values: notation.point(values, not source.register),
+            "sides": notation.sides, "differing": notation.differing, "reproduce": source.reproduce,
             "truth": reading.truth, "by_method": by_method, "value": notation.value,
         }  # fmt: skip
         self._templates.filters |= {
@@ -99,7 +105,9 @@ def summary(page: _Page) -> Markup:
 
 def errata_table(page: _Page) -> Markup:
     """Every claim that is not true as printed, with what is true."""
-    return page.render("errata.html", errors=reading.errors(page.records), cite=errata.cite(page.versions["chapsym"]))
+    return page.render(
+        "errata.html", errors=reading.errors(page.records), cite=page.source.cite(page.versions["chapsym"])
+    )
 
 
 def open_questions(page: _Page) -> Markup:

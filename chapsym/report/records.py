@@ -57,23 +57,32 @@ def place(id: str) -> tuple[int, int] | None:
     return (int(number.group(1)), int(number.group(2) or 0)) if number else None
 
 
+def section(record: Record) -> tuple[int, str] | None:
+    """The number and the title of a claim's section: what its record says, or else what its id names."""
+    if told := record["evidence"].get("section"):
+        return told[0], told[1]
+    found = place(record["id"])
+    return (found[0], SECTIONS.get(found[0], "Elsewhere")) if found else None
+
+
 def in_paper_order(records: Iterable[Record]) -> list[Record]:
     """The records as the paper has them; what names no equation stays behind the record before it."""
     placed, last = [], (0, 0)
     for record in records:
-        last = place(record["id"]) or last
+        told = record["evidence"].get("section")
+        last = (told[0], 0) if told else place(record["id"]) or last
         placed.append((last, record))
     return [record for _, record in sorted(placed, key=lambda pair: pair[0])]
 
 
 def sections(records: Iterable[Record]) -> list[Section]:
     """The records by section of the paper."""
-    found: dict[int, list[Record]] = {}
-    number = 0
+    found: dict[tuple[int, str], list[Record]] = {}
+    last = 0, "Elsewhere"
     for record in in_paper_order(records):
-        number = (place(record["id"]) or (number, 0))[0]
-        found.setdefault(number, []).append(record)
-    return [Section(number, SECTIONS.get(number, "Elsewhere"), those) for number, those in found.items()]
+        last = section(record) or last
+        found.setdefault(last, []).append(record)
+    return [Section(number, title, those) for (number, title), those in found.items()]
 
 
 def label(id: str) -> str:

@@ -2,10 +2,7 @@
 
 SCRIPTS = ("kane", "forces", "lagrange", "issue")
 
-PAPER = (
-    "A rolling disc, in the documentation of sympy.physics.mechanics "
-    "(SymPy, doc/src/modules/physics/mechanics/examples, commit 07941f60ee1a)"
-)
+PAPER = "SymPy, documentation of sympy.physics.mechanics, A rolling disc"
 
 NOTE = (
     "The pages print code and what it answers; the formulas are these answers, with s_i, c_i, d_i, a_i for "

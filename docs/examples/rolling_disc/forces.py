@@ -1,7 +1,7 @@
 """A rolling disc, with Kane's method and constraint forces.
 
-rollingdisc_example_kane_constraints.rst: f1, f2, f3 act on the disc where it touches the plane, along L.x, along
-Y.z × L.x and along Y.z.  The page writes u1', u2' for the rates that its method finds.
+rollingdisc_example_kane_constraints.rst, commit 0f519ce33e4b: f1, f2, f3 act on the disc where it touches
+the plane, along L.x, along Y.z × L.x and along Y.z.  The page writes u1', u2' for the rates that its method finds.
 """
 
 import sympy as sp

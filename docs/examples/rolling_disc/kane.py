@@ -1,6 +1,7 @@
 """A rolling disc, with Kane's method.
 
-rollingdisc_example_kane.rst: the same motion, in the angular velocity u1, u2, u3 along L.x, L.y, L.z.
+rollingdisc_example_kane.rst, commit 0f519ce33e4b: the motion, in the angular velocity u1, u2, u3 along
+L.x, L.y, L.z.
 """
 
 from chapsym.prove import Proof, claim

@@ -1,7 +1,8 @@
 """A rolling disc using Lagrange's Method.
 
-rollingdisc_example_lagrange.rst: the page puts the constraint into the Lagrangian and takes its Euler-Lagrange
-equations, which is no principle of mechanics where the constraint is nonholonomic; and it lets the disc fall upwards.
+rollingdisc_example_lagrange.rst, commit 07941f60ee1a: the page puts the constraint into the Lagrangian and
+takes its Euler-Lagrange equations, which is no principle of mechanics where the constraint is nonholonomic; and it
+lets the disc fall upwards.
 """
 
 import sympy as sp
