@@ -24,6 +24,11 @@ def note(sentence: str) -> None:
     print(f"chapsym: {sentence}", file=sys.stderr)
 
 
+def counted(n: int, noun: str) -> str:
+    """So many of them: 1 claim, 2 claims."""
+    return f"{n} {noun}{'' if n == 1 else 's'}"
+
+
 def now_and_then() -> Callable[[str], None]:
     """Takes sentences, and notes one of them every few seconds."""
     last = time.monotonic()

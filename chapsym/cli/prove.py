@@ -9,7 +9,7 @@ import typer
 
 from .app import app
 from .options import Json, Own, Records
-from .output import fail, note, print_json, progress_bar
+from .output import counted, fail, note, print_json, progress_bar
 
 if TYPE_CHECKING:
     from chapsym.prove import Register
@@ -78,7 +78,8 @@ def _carried(records: list[dict[str, Any]]) -> str:
     """What the certificates of all claims hold together."""
     counts = [record["evidence"]["carried"] for record in records if record["evidence"]["carried"]]
     statements, sentences = sum(c["statements"] for c in counts), sum(sum(c["sentences"].values()) for c in counts)
-    return f"{statements} statements that the checker accepted, {sentences} sentences that it did not judge"
+    judged = f"{counted(statements, 'statement')} that the checker accepted"
+    return f"{judged}, {counted(sentences, 'sentence')} that it did not judge"
 
 
 def _list_claims(claims: dict[str, Any], as_json: bool, kept_in: Path | None, register: "Register | None") -> None:
@@ -98,7 +99,8 @@ def _list_claims(claims: dict[str, Any], as_json: bool, kept_in: Path | None, re
         state = "stale" if row["stale"] else row["verdict"] or "not judged"
         print(f"{row['id']:18} {state:12} {row['title']}")
     if old:
-        print(f"{len(old)} records are stale: their derivation has changed; chapsym prove judges them anew")
+        are = "is" if len(old) == 1 else "are"
+        print(f"{counted(len(old), 'record')} {are} stale: the derivation has changed; chapsym prove judges anew")
 
 
 def judge_and_keep(
@@ -115,6 +117,8 @@ def judge_and_keep(
     register = register or PROOFS
     claims, path = all_claims(lemmas=True, register=register), kept_in or records.default_path(register)
     kept = kept_records(kept_in, register)
+    if kept and not kept.keys() & claims.keys():  # which would be lost
+        fail(f"{path} holds verdicts on other claims, such as {next(iter(kept))}; give --records another file", 2)
     arrived: list[dict[str, Any]] = []
 
     def keep(record: dict[str, Any]) -> None:
@@ -202,5 +206,4 @@ def all_claims(lemmas: bool = False, register: "Register | None" = None) -> dict
 def tally(records: list[dict[str, Any]]) -> str:
     """How many claims have each verdict."""
     counts = Counter(record["verdict"] for record in records)
-    plural = "" if len(records) == 1 else "s"
-    return f"{len(records)} claim{plural}: " + ", ".join(f"{n} {verdict}" for verdict, n in sorted(counts.items()))
+    return f"{counted(len(records), 'claim')}: " + ", ".join(f"{n} {verdict}" for verdict, n in sorted(counts.items()))

@@ -39,15 +39,18 @@ def candidates(
 
 def look(equations: Sequence[Equation]) -> tuple[list[dict[str, Any]], list[str]]:
     """As `witness.look`, at points that are found for the relations of each equation, where the table has none."""
-    found, wrong = [], []
+    found: dict[tuple[Any, ...], dict[str, Any]] = {}
+    wrong = []
     for equation in equations:
         ring = equation.algebra
-        points = candidates(ring.symbols, ring.relations) if isinstance(ring, Quotient) else iter(())
-        point, truth = next(((p, t) for p in points if (t := witness.true_at(equation, p)) is not None), ({}, None))
-        if truth is not None:
-            found.append({"name": equation.text, "point": witness.shown(equation, point), "statements": 1})
-            wrong += [] if truth else [equation.text]
-    return found, wrong
+        for point in candidates(ring.symbols, ring.relations) if isinstance(ring, Quotient) else ():
+            if (truth := witness.true_at(equation, point)) is not None:
+                seen = found.setdefault(tuple(point.items()), {"name": "found", "point": {}, "statements": 0})
+                seen["point"] |= witness.shown(equation, point)
+                seen["statements"] += 1
+                wrong += [] if truth else [equation.text]
+                break
+    return list(found.values()), wrong
 
 
 def _moved(start: Exact, relations: Sequence[sp.Expr], fixed: Collection[sp.Symbol]) -> Exact | None:

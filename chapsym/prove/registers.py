@@ -42,6 +42,7 @@ class Register:
     """
 
     place: str
+    package: bool = False  # that it is a name, even where a file or a folder is called so
 
     def load(self, lemmas: bool = False) -> dict[str, Claim]:
         """Imports every script and returns the claims by id, in order; then the lemmas, if asked.
@@ -51,14 +52,17 @@ class Register:
         """
         head = self._head()
         for name in self._scripts(head):
+            if sources.file(name) is None:
+                missing = name.removeprefix(f"{head.__name__}.")
+                raise BrokenScript(f"{head.__file__}: SCRIPTS names {missing!r}, and there is no such script")
             _import(name)
         found = {id: claim for id, claim in registered().items() if self._holds(head, claim)}
         if not found:
             raise NoRegister(f"{self.place} has no claim: write @claim(id, formula) before a function of a Proof")
         listed = [*getattr(head, "CLAIMS", found)]
         others = [*getattr(head, "LEMMAS", ())]
-        if missing := sorted(found.keys() ^ {*listed, *others}):
-            raise BrokenScript(f"the proofs and the list of claims and lemmas differ: {', '.join(missing)}")
+        if apart := sorted(found.keys() ^ {*listed, *others}):
+            raise BrokenScript(f"{self.place}: the proofs and the list of claims and lemmas differ: {', '.join(apart)}")
         self._check(found)
         return {id: found[id] for id in (*listed, *(others if lemmas else ()))}
 
@@ -89,6 +93,8 @@ class Register:
 
     def _path(self) -> Path | None:
         """The folder or the script; None for a package."""
+        if self.package:
+            return None
         try:
             path = Path(self.place).resolve()
             return path if path.exists() else None
@@ -145,8 +151,9 @@ class Register:
     def _holds(self, head: ModuleType, claim: Claim) -> bool:
         """Whether a script of the register has the claim, or a file that lies beside it."""
         module = claim.prove.__module__
-        file = Path(sources.file(module) or "")
-        return module.startswith(f"{head.__name__}.") or any(file.is_relative_to(one) for one in head.__path__)
+        return module.startswith(f"{head.__name__}.") or any(
+            Path(sources.file(module) or "").is_relative_to(one) for one in head.__path__
+        )
 
     def _check(self, claims: dict[str, Claim]) -> None:
         """Raises BrokenScript where an id is one of chapsym's, or what a claim uses is judged nowhere."""
@@ -160,7 +167,7 @@ class Register:
 
 
 #: The claims of Fedorov's paper, and the lemmas of chapsym.
-PROOFS = Register("chapsym.proofs")
+PROOFS = Register("chapsym.proofs", package=True)
 
 
 def register_of(script: str) -> Register:
@@ -190,8 +197,9 @@ def _guarded(name: str, run: Callable[[], object]) -> None:
     except BrokenScript:
         raise
     except (Exception, SystemExit) as error:
+        said = f"the proof script {_shown(name)} cannot be loaded: {_said(name, error)}"
         sys.modules.pop(name, None)  # a half of it would be taken for the whole
-        raise BrokenScript(f"the proof script {_shown(name)} cannot be loaded: {_said(name, error)}") from error
+        raise BrokenScript(said) from error
 
 
 def _taken(name: str, id: str, other: str) -> BrokenScript:
