@@ -2,6 +2,7 @@
 
 import ast
 import inspect
+import textwrap
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
@@ -52,7 +53,7 @@ class Claim:
 
 
 def _docstring(function: Callable[..., object]) -> str:
-    (written,) = ast.parse(inspect.getsource(function)).body
+    (written,) = ast.parse(textwrap.dedent(inspect.getsource(function))).body
     return (isinstance(written, ast.FunctionDef) and ast.get_docstring(written)) or ""
 
 
@@ -110,7 +111,13 @@ _REGISTER: dict[str, Claim] = {}
 def claim(
     id: str, printed: str, uses: Sequence[str] = (), files: Sequence[Path] = ()
 ) -> Callable[[Callable[[Proof], None]], Callable]:
-    """Registers a proof as the judge of the claim `id`; `files` are what it reads, and its records depend on them."""
+    """Registers a proof as the judge of the claim `id`; `files` are what it reads, and its records depend on them.
+
+    printed: the formula in LaTeX.  uses: the ids of the claims on which it rests.  Raises TypeError where these are
+    of another type, and TwoProofs, on the proof, if another one has the id.
+    """
+    if not isinstance(id, str) or not isinstance(printed, str) or isinstance(uses, str):
+        raise TypeError("@claim takes an id and a formula, as text, and in uses a list of ids")
 
     def register(prove: Callable[[Proof], None]) -> Callable[[Proof], None]:
         if prove.__module__ != "__main__":  # a script that runs alone is run through its package name
@@ -124,7 +131,9 @@ def claim(
 
 
 def judged(id: str) -> Fact:
-    """That a claim is proved, by its own proof, run now; its script must have been imported."""
+    """That a claim is proved, by its own proof, run now; its script must have been imported, else LookupError."""
+    if id not in _REGISTER:
+        raise LookupError(f"no proof of {id!r} is loaded: import its script first")
     proved = (Verdict.HOLDS, Verdict.CORRECTED, Verdict.CONDITIONAL)
     return Fact(f"{id} is proved", _REGISTER[id].judge().verdict in proved, "its own proof, run now")
 

@@ -60,8 +60,8 @@ class Proof:
 
     def say(self, *texts: str) -> None:
         """Lines of the derivation."""
-        self.said += texts
-        self.lines += texts
+        self.said += map(str, texts)
+        self.lines += map(str, texts)
 
     def show(self, name: str, value: Any) -> None:
         """A line of the derivation that shows an expression that was just derived."""
@@ -73,7 +73,7 @@ class Proof:
 
     def assume(self, *texts: str) -> None:
         """Hypotheses under which the claim is judged."""
-        self.hypotheses += texts
+        self.hypotheses += map(str, texts)
 
     def lemma(self, *statements: Statement) -> None:
         """What must hold for the proof to stand."""

@@ -54,7 +54,9 @@ class Register:
         for name in self._scripts(head):
             if sources.file(name) is None:
                 missing = name.removeprefix(f"{head.__name__}.")
-                raise BrokenScript(f"{head.__file__}: SCRIPTS names {missing!r}, and there is no such script")
+                raise BrokenScript(
+                    f"{self.place} has no script {missing!r}; SCRIPTS names files without .py, which have no other dot"
+                )
             _import(name)
         found = {id: claim for id, claim in registered().items() if self._holds(head, claim)}
         if not found:

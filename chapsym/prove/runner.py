@@ -52,12 +52,13 @@ def _record(judgement: Judgement, register: Register) -> dict[str, Any]:
 
 
 def judge(claim: Claim) -> Judgement:
-    """Judges a claim; an exception in the proof leaves it open, with the place where it arose."""
+    """Judges a claim; an exception leaves it open, with the place where it arose, in the proof's own file if it can."""
     try:
         with contextlib.redirect_stdout(sys.stderr):  # what a proof prints is no result
             return claim.judge().certified()
     except (Exception, SystemExit) as error:  # a proof that leaves is no proof
-        place = traceback.extract_tb(error.__traceback__)[-1]
+        frames = traceback.extract_tb(error.__traceback__)
+        place = ([frame for frame in frames if frame.filename == sources.file(claim.prove.__module__)] or frames)[-1]
         reason = f"the proof raised {type(error).__name__}: {error} ({Path(place.filename).name}:{place.lineno})"
         return _open(claim, reason)
 

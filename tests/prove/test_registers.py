@@ -153,7 +153,7 @@ WRONG = {
     ),
     "a use of nothing": ("cubes", "5.2", "5.2000", r"cubes\.py: c-1 uses '5\.2000', which no proof judges"),
     "no proof": ("__init__", "", "CLAIMS = ('s-1', 's-2', 'c-1', 'c-2')", r"claims: the proofs and .* differ: c-2"),
-    "no script": ("__init__", "", "SCRIPTS = ('cube',)", r"__init__\.py: SCRIPTS names 'cube', and there is no such"),
+    "no script": ("__init__", "", "SCRIPTS = ('cube',)", "claims has no script 'cube'; SCRIPTS names files without"),
     "a broken head": ("__init__", "", "1 / 0", r"claims/__init__\.py cannot be loaded: ZeroDivisionError"),
 }
 
@@ -198,6 +198,42 @@ def test_what_a_proof_lacks_is_said_with_its_place(folder):
     assert (done.returncode, done.stderr.splitlines()[-1]) == (1, "chapsym: not proved: c-1")
     assert "problem: the proof has no negative control: give p.control a false variant" in done.stdout
     assert f"its proof: {path}, line 5" in done.stdout
+
+
+ODD = """
+from chapsym.prove import claim, judged
+from ring import alpha, equal
+
+for n in (2, 3):
+    @claim(f"n-{n}", f"\\\\alpha^{n}")
+    def power(p, n=n):
+        p.say(alpha)
+        p.printed(equal("power", alpha**n, alpha * alpha ** (n - 1)))
+        p.control(equal("one less", alpha**n, alpha ** (n - 1)))
+
+@claim("lost", "x")
+def lost(p):
+    p.lemma(judged("n-4"))
+
+@claim("else", "x")
+def elsewhere(p):
+    p.printed(equal("a symbol that the ring has not", alpha, alpha.subs(alpha, alpha + p.unknown)))
+"""
+
+
+def test_proofs_of_odd_forms_are_judged_and_what_they_raise_is_said(folder):
+    (folder / "odd-ones.py").write_text(ODD, "utf-8")
+    done = chapsym("prove", "n-2", "n-3", "lost", "else", "--register", "claims", "--jobs", "1")
+    assert done.stderr == "chapsym: not proved: lost, else\n"
+    assert "problem: the proof raised LookupError: no proof of 'n-4' is loaded" in done.stdout
+    assert "has no attribute 'unknown' (odd-ones.py:18)" in done.stdout
+    assert done.stdout.endswith("4 claims: 2 holds, 2 open\n")
+
+
+def test_what_a_claim_is_given_is_of_its_type():
+    for given in ((5, "x"), ("x", 5), ("x", "x", "5.2")):
+        with pytest.raises(TypeError, match=r"takes an id and a formula, as text, and in uses a list of ids"):
+            claims.claim(*given)
 
 
 def test_an_unknown_claim_is_told_where_the_known_ones_are(folder):
