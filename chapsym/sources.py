@@ -16,15 +16,18 @@ def fingerprint(module: str, besides: Collection[str] = (), more: str = "") -> s
     return digest.hexdigest()[:16]
 
 
-def closure(module: str, besides: Collection[str] = ()) -> set[str]:
-    """The module and all modules that it imports, directly or through others, of chapsym or beside it; but some."""
+def closure(module: str, besides: Collection[str] = (), own: bool = False) -> set[str]:
+    """The module and all modules that it imports, directly or through others, of chapsym or beside it; but some.
+
+    own: without chapsym, for a module that is not of it.
+    """
     reached: set[str] = set()
     pending = [module]
     while pending:
         name = pending.pop()
         if name not in reached and name not in besides:
             reached.add(name)
-            pending += imports(name)
+            pending += [other for other in imports(name) if not own or _beside(other, module)]
     return reached
 
 

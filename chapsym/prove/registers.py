@@ -58,7 +58,8 @@ class Register:
                     f"{self.place} has no script {missing!r}; SCRIPTS names files without .py, which have no other dot"
                 )
             _import(name)
-        found = {id: claim for id, claim in registered().items() if self._holds(head, claim)}
+        files = {sources.file(one) for name in self._scripts(head) for one in sources.closure(name, own=True)}
+        found = {id: claim for id, claim in registered().items() if sources.file(claim.prove.__module__) in files}
         if not found:
             raise NoRegister(f"{self.place} has no claim: write @claim(id, formula) before a function of a Proof")
         listed = [*getattr(head, "CLAIMS", found)]
@@ -150,13 +151,6 @@ class Register:
             names = [one.stem for one in found]
         return [f"{head.__name__}.{name}" for name in names]
 
-    def _holds(self, head: ModuleType, claim: Claim) -> bool:
-        """Whether a script of the register has the claim, or a file that lies beside it."""
-        module = claim.prove.__module__
-        return module.startswith(f"{head.__name__}.") or any(
-            Path(sources.file(module) or "").is_relative_to(one) for one in head.__path__
-        )
-
     def _check(self, claims: dict[str, Claim]) -> None:
         """Raises BrokenScript where an id is one of chapsym's, or what a claim uses is judged nowhere."""
         package = importlib.import_module(PROOFS.place)
@@ -165,7 +159,10 @@ class Register:
             if self != PROOFS and id in ours:
                 raise _taken(claim.prove.__module__, id, "chapsym")
             if missing := [used for used in claim.uses if used not in claims and used not in ours]:
-                raise BrokenScript(f"{_shown(claim.prove.__module__)}: {id} uses {missing[0]!r}, which no proof judges")
+                path = self._path()
+                alone = f"; the register {path.parent} would have its other scripts" if path and path.is_file() else ""
+                said = f"{id} uses {missing[0]!r}, which no proof judges{alone}"
+                raise BrokenScript(f"{_shown(claim.prove.__module__)}: {said}")
 
 
 #: The claims of Fedorov's paper, and the lemmas of chapsym.

@@ -2,6 +2,7 @@
 
 import json
 import re
+import shutil
 import sys
 from pathlib import Path
 
@@ -309,3 +310,27 @@ def test_the_worked_example_finds_what_is_false_in_the_documentation_of_sympy(di
         assert {*evidence["carried"]["sentences"]} <= {"hypothesis", "said"}, "all that is decided is a certificate"
     assert len(certificates) == len(found)
     assert sum(len(one["counterexamples"]) for one in certificates) == len(false)
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("cross(-r * UP)", "cross(r * UP)"),
+        ("lagrangian(m * g", "lagrangian(-m * g"),
+        ("own + carried", "own - carried"),
+    ],
+)
+def test_the_worked_example_sees_another_derivation(folder, old, new):
+    """The disc that rolls on a ceiling, that falls upwards, or for which the principle has another sign."""
+    shutil.copytree(DISC, "disc")
+    text = Path("disc/disc.py").read_text("utf-8")
+    assert text.count(old) == 1
+    Path("disc/disc.py").write_text(text.replace(old, new), "utf-8")
+    done = chapsym("prove", "K-u1", "--register", "disc")
+    assert (done.returncode, done.stderr) == (1, "chapsym: not proved: K-u1\n")
+
+
+def test_a_script_of_a_folder_alone_tells_where_the_others_are(folder):
+    assert chapsym("prove", "K-u2", "--register", DISC / "kane.py").returncode == 0
+    done = chapsym("prove", "--register", DISC / "forces.py")
+    assert f"which no proof judges; the register {DISC} would have its other scripts" in done.stderr
