@@ -62,8 +62,8 @@ class Register:
         found = {id: claim for id, claim in registered().items() if sources.file(claim.prove.__module__) in files}
         if not found:
             raise NoRegister(f"{self.place} has no claim: write @claim(id, formula) before a function of a Proof")
-        listed = [*getattr(head, "CLAIMS", found)]
         others = [*getattr(head, "LEMMAS", ())]
+        listed = [*getattr(head, "CLAIMS", (id for id in found if id not in others))]
         if apart := sorted(found.keys() ^ {*listed, *others}):
             raise BrokenScript(f"{self.place}: the proofs and the list of claims and lemmas differ: {', '.join(apart)}")
         self._check(found)

@@ -125,6 +125,8 @@ def test_a_script_or_a_package_is_a_register_too(folder, monkeypatch):
     monkeypatch.syspath_prepend("elsewhere")
     assert list(Register("mine").load()) == ["s-2"]
     assert list(Register("mine").load(lemmas=True)) == ["s-2", "s-1"]
+    del sys.modules["mine"].CLAIMS
+    assert list(Register("mine").load()) == ["s-2"]
     for name in ("mine", "mine.squares", "mine.ring"):
         del sys.modules[name]
 
