@@ -31,5 +31,5 @@ def momentum_n() -> sp.Expr:
 
 
 def momentum_balance(factor: sp.Expr) -> sp.Expr:
-    """The skew matrix that vanishes exactly when the principle holds, with this factor c of the Lagrangian (Section 4)."""
+    """The skew matrix that vanishes exactly when the principle holds; factor: the c of the Lagrangian (Section 4)."""
     return unfolded(principle.momentum_balance(factor))
