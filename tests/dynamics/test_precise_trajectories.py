@@ -268,3 +268,18 @@ def test_few_bits_of_a_heavy_ball_get_as_many_guards_as_they_need():
     many = chapsym.trajectory(ball, K, gamma, 2, order=8, precision=Enclosure(300))
     for one, other in zip(few.momentum[-1], many.momentum[-1], strict=True):
         assert one.contains(other)
+
+
+@pytest.mark.parametrize("bits", [0, 10**6])
+def test_the_kind_of_the_integers_does_not_change_a_bit(bits, monkeypatch):
+    """flint's and Python's: with a stage beyond small-branch, the attitude and the contact point."""
+    ball = chapsym.Ball((1, 2, 4), 3, radius=1)
+
+    def run():
+        chosen = {"precision": chapsym.Digits(60), "order": 4, "attitude": True, "contact": True}
+        run = chapsym.trajectory(ball, (0.5, -0.3, 1.4), (2 / 7, 3 / 7, 6 / 7), 6, **chosen)
+        return [run.momentum.tolist(), run.gamma.tolist(), run.attitude.tolist(), run.contact.tolist()]
+
+    before = run()
+    monkeypatch.setattr("chapsym.dynamics.levels.digits.FLINT_BITS", bits)
+    assert run() == before

@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import Any
 
+from flint import fmpz
 from mpmath.libmp import MPZ, from_man_exp
 
 from chapsym.generated import transport
@@ -22,6 +23,9 @@ from .root import NotSettled, extrapolated, root, to_float
 from .start import Exact, exponent_of, least, magnitude, start_near
 
 Numbers = tuple[Any, ...]
+
+#: Beyond so many bits flint's integers are faster than mpmath's.
+FLINT_BITS = 600
 
 
 class DigitsBall:
@@ -41,11 +45,12 @@ class DigitsBall:
         self.P = P = self.context.prec + small + 8
         self.scale = Fraction(2) ** -self.exponent
 
+        self.number = number = fmpz if P > FLINT_BITS else MPZ
+
         def fixed(x: Fraction, scale: Fraction = self.scale) -> Any:
             exact = x * scale
-            return MPZ((exact.numerator << P) // exact.denominator)
+            return number((exact.numerator << P) // exact.denominator)
 
-        self.number = MPZ
         self.k = tuple(fixed(x, self.scale / 2) for x in K)
         self.g = self._unit(g)
         self.J, self.D = [fixed(x) for x in J], fixed(D)
@@ -54,8 +59,8 @@ class DigitsBall:
         if attitude is not None:
             up = (Fraction(int(v), 1 << P) for v in self.g)
             self.a = self._unit(list(map(Fraction, attitude)) if attitude else least(*up))
-        self.radius, self.x = radius, [MPZ(0), MPZ(0)]
-        self.stages = [None if c == 1 else MPZ((c.numerator << P) // c.denominator) for c in stages]
+        self.radius, self.x = radius, [number(0), number(0)]
+        self.stages = [None if c == 1 else number((c.numerator << P) // c.denominator) for c in stages]
         floats = [[to_float(x, P) for x in v] for v in (self.k, self.I, (self.D,))]
         self.floats = tuple(floats[1]), floats[2][0]
         scales = [abs(float(c)) for c in stages]
@@ -133,7 +138,7 @@ class DigitsBall:
         """𝒦, γ, the attitude and the contact point, rounded to so many bits, in the context of the precision."""
 
         def out(x: Any, shift: int = 0) -> Any:
-            return self.home.make_mpf(from_man_exp(x, shift - self.P, bits, "n"))
+            return self.home.make_mpf(from_man_exp(MPZ(x), shift - self.P, bits, "n"))
 
         momentum = tuple(out(x, self.exponent + 1) for x in self.k)
         trace = tuple(out(x) * self.radius for x in self.x)
@@ -141,4 +146,4 @@ class DigitsBall:
 
     def out(self, x: Any) -> Any:
         """A fixed-point integer as an mpf with all its bits."""
-        return self.context.make_mpf(from_man_exp(x, -self.P))
+        return self.context.make_mpf(from_man_exp(MPZ(x), -self.P))
