@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -106,7 +107,8 @@ def _taken(given: list[Floats], steps: int, every: int, rotation: bool = False) 
     precision, body = NAMED["double"], 2 * rotation
     frames = dispatch.frames_for(precision, len(D), steps // every + 1, body)
     frames.gamma[:, 0] = g
-    others = [i for i in range(len(D)) if not _closed(g[i], J[i], float(D[i]), float(h[i]), steps, every, frames, i)]
+    (march,) = double.chosen((vertical_loop.march,), steps * int((D == 0.0).sum()))
+    others = [i for i in range(len(D)) if D[i] != 0.0 or not _closed(march, g[i], J[i], h[i], steps, every, frames, i)]
     if others:
         full = dispatch.frames_for(precision, len(others), steps // every + 1, body)
         balls = Balls(h[others, np.newaxis] * g[others], g[others], J[others], D[others], np.zeros(len(others)))
@@ -118,16 +120,15 @@ def _taken(given: list[Floats], steps: int, every: int, rotation: bool = False) 
     return frames
 
 
-def _closed(g: Floats, J: Floats, D: float, h: float, steps: int, every: int, frames: Frames, i: int) -> bool:
-    """Whether the closed form takes every step of the ball i into its frames.
+def _closed(
+    march: Callable[..., bool], g: Floats, J: Floats, h: float, steps: int, every: int, frames: Frames, i: int
+) -> bool:
+    """Whether the closed form takes every step of the ball i, whose D is 0, into its frames.
 
     Lemma `small-branch`: where there is a radius, a root with |q| < q₀ is that of the small-rotation branch.
     """
-    if D != 0.0:
-        return False
     state, q = np.empty(loop.ROWS), np.zeros(4)
-    loop.scaled((h, 0.0, 0.0), g, J, D, state)
-    (march,) = double.chosen((vertical_loop.march,), steps * len(frames.taken))
+    loop.scaled((float(h), 0.0, 0.0), g, J, 0.0, state)
     k, inertia, radius = state[loop.K], state[loop.I : loop.D], state[loop.RADIUS]
     if radius < 0.0 or not march(g, inertia, k, steps, every, frames.gamma[i], q):
         return False

@@ -111,7 +111,16 @@ def compiled(function: Callable[..., Any]) -> Callable[..., Any]:
     if family:
         _registered(tuple(family.twins.values()))
     ready = numba.njit(error_model="numpy", nogil=True)(function)
-    path = Path(inspect.getfile(function))
-    name = ".".join((*((family.name,) if family else ()), path.stem, function.__name__))
-    keep(ready, folder_for(source_hash()), name, path.read_bytes())
+    keep(ready, folder_for(source_hash()), _name(function), Path(inspect.getfile(function)).read_bytes())
     return ready
+
+
+@cache
+def is_kept(function: Callable[..., Any]) -> bool:
+    """Whether code of a function is on disk, for some processor: it need not be compiled then."""
+    return any(folder_for(source_hash()).glob(f"{_name(function)}-*.code"))
+
+
+def _name(function: Callable[..., Any]) -> str:
+    family: Family | None = function.__globals__.get("family")
+    return ".".join((*((family.name,) if family else ()), Path(inspect.getfile(function)).stem, function.__name__))

@@ -1,6 +1,7 @@
 """Runs many steps of one ball or of many: in plain Python, compiled, or compiled in blocks on every core."""
 
 import threading
+from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache
@@ -17,16 +18,17 @@ from ..failure import explain
 from ..loops import block, composed_loop, loop, single_step
 from .frames import Balls, Count, Frames, cores, share
 
-#: Shorter runs than this many steps in all are taken in plain Python: compiling would take longer.
+#: A run of so many steps is worth its loop compiled, and so are shorter runs that have come to as many,
 SHORT_RUN = 2000
-#: Single steps of up to so many balls are taken in plain Python, too.
-SMALL_BATCH = 64
+#: or to so many where it is not kept on disk: they take as long in plain Python as compiling it.
+COMPILING = 300_000
 #: Fewer balls than this do not fill a block.
 FEW = 8
 #: Steps of a ball, or of all balls of a block together, between two calls of `progress`: about ten milliseconds.
 CHUNK = 200_000
-#: The loops that are compiled and loaded already, and the lock of those that are being.
+#: The loops that are compiled and loaded already, the steps that others took in plain Python, and the lock of both.
 _ready: set[Callable] = set()
+_plain: Counter[Callable] = Counter()
 _loading = threading.Lock()
 
 
@@ -62,18 +64,19 @@ def run(
     if steps == 0 or n == 0:
         return
     work = steps * n * len(stages)
-    in_blocks = n >= FEW and not frames.with_body and order == 2 and work >= SHORT_RUN
-    if in_blocks and has_numba():
-        chosen((loops.block.march_block, loops.block.prepare_block), work)  # before there are threads
+    in_blocks = n >= FEW and not frames.with_body and order == 2
+    if in_blocks:
+        in_blocks = pays(loops.block.march_block, work) if has_numba() else work >= SHORT_RUN
+    taken_by = _of_blocks(loops) if in_blocks else chosen(_of_one(loops, len(stages)), work)
     width = (loops.block.LANES if has_numba() else loops.columns.LANES) if in_blocks else 1
     starts = range(0, n, width)
 
     def task(start: int) -> None:
         with np.errstate(over="ignore", invalid="ignore"):  # compiled loops do not warn either; `status` tells
             if in_blocks:
-                _run_block(balls, slice(start, min(n, start + width)), steps, every, frames, loops, count)
+                _run_block(taken_by, balls, slice(start, min(n, start + width)), steps, every, frames, loops, count)
             else:
-                _run_one(balls, start, steps, every, frames, loops, stages, work, count)
+                _run_one(taken_by, balls, start, steps, every, frames, loops, stages, count)
 
     share(task, starts, min(threads or cores(), len(starts)) if work >= SHORT_RUN else 1, count)
 
@@ -86,7 +89,7 @@ def step_all(balls: Balls, loops: Loops = DOUBLE) -> tuple[np.ndarray, ...]:
     n = len(balls)
     q, status, reach = np.full((n, 4), np.nan, loops.dtype), np.zeros(n, np.int64), np.ones(n)
     K, g, J, D = balls.momentum.copy(), balls.gamma.copy(), balls.mass_tensor, balls.D
-    (take,) = chosen((loops.step.advance_all,), SHORT_RUN if n > SMALL_BATCH else 0)
+    (take,) = chosen((loops.step.advance_all,), n)
     with np.errstate(over="ignore", under="ignore", invalid="ignore"):
         take(K, g, J, D, q, status, reach)
     for i in np.flatnonzero(status):
@@ -96,9 +99,12 @@ def step_all(balls: Balls, loops: Loops = DOUBLE) -> tuple[np.ndarray, ...]:
 
 
 def chosen(functions: Sequence[Callable], work: int) -> list[Callable]:
-    """The functions compiled, or as they are where compiling or loading them would take longer than `work` steps."""
-    if not compiles(functions[0], work):
-        return list(functions)
+    """The functions compiled if that `pays` the first of them, or as they are."""
+    return load(functions) if pays(functions[0], work) else list(functions)
+
+
+def load(functions: Sequence[Callable]) -> list[Callable]:
+    """The functions compiled: loaded from disk, or compiled when they are first called."""
     from .compiled import compiled
 
     with _loading:
@@ -106,8 +112,24 @@ def chosen(functions: Sequence[Callable], work: int) -> list[Callable]:
         return [compiled(function) for function in functions]
 
 
+def pays(function: Callable, work: int) -> bool:
+    """Whether `work` steps, with those that the process has taken in plain Python, are worth the compiled function.
+
+    Where they are not, they count as taken.
+    """
+    if compiles(function, work) or not has_numba():
+        return has_numba()
+    with _loading:
+        _plain[function] += work
+    if _plain[function] < SHORT_RUN:
+        return False
+    from .compiled import is_kept
+
+    return _plain[function] >= COMPILING or is_kept(function)
+
+
 def compiles(function: Callable, work: int) -> bool:
-    """Whether `work` steps are worth the compiled function: many are, and any once it is loaded."""
+    """Whether `work` steps alone are worth the compiled function: many are, and any once it is loaded."""
     return has_numba() and (work >= SHORT_RUN or function in _ready)
 
 
@@ -117,11 +139,27 @@ def has_numba() -> bool:
     return find_spec("numba") is not None
 
 
+def _of_blocks(loops: Loops) -> list[Callable]:
+    """(march, prepare) of many balls at once."""
+    if has_numba():
+        return load((loops.block.march_block, loops.block.prepare_block))
+    return [loops.columns.march_columns, loops.columns.prepare_columns]
+
+
+def _of_one(loops: Loops, stages: int) -> tuple[Callable, Callable]:
+    """(march, prepare) of one ball."""
+    if stages == 1:
+        return loops.loop.march, loops.loop.prepare
+    return loops.composed_loop.march_composed, loops.composed_loop.prepare_composed
+
+
 def _run_one(
-    balls: Balls, i: int, steps: int, every: int, frames: Frames, loops: Loops, stages: Floats, work: int, count: Count
-) -> None:
+    taken_by: list[Callable], balls: Balls, i: int, steps: int, every: int, frames: Frames, loops: Loops,
+    stages: Floats, count: Count,
+) -> None:  # fmt: skip
+    march, prepare = taken_by
     K, g, J, D = balls.momentum[i], balls.gamma[i], balls.mass_tensor[i], loops.number(balls.D[i])
-    march, state, scale = _under_way(K, g, J, D, loops, stages, work)
+    state, scale = begun(prepare, K, g, J, D, loops, stages)
     attitude, spot = np.zeros(loops.attitude, loops.dtype), np.zeros(loops.contact, loops.dtype)
     if frames.with_body:
         attitude[:4] = frames.attitude[i, 0]
@@ -141,19 +179,16 @@ def _run_one(
             return
 
 
-def _under_way(
-    K: Floats, g: Floats, J: Floats, D: float, loops: Loops, stages: Floats, work: int
-) -> tuple[Callable, list[Floats], float]:
-    """The loop for one ball, the state that it takes, and the scale with 𝒦 = scale·k."""
+def begun(
+    prepare: Callable, K: Floats, g: Floats, J: Floats, D: float, loops: Loops, stages: Floats
+) -> tuple[list[Floats], float]:
+    """The state that the loop of one ball takes, and the scale with 𝒦 = scale·k."""
     state = np.zeros(loop.ROWS, loops.dtype)
     if len(stages) == 1:
-        march, prepare = chosen((loops.loop.march, loops.loop.prepare), work)
-        return march, [state], loops.number(prepare(K, g, J, D, state))
-    composed = loops.composed_loop
-    march, prepare = chosen((composed.march_composed, composed.prepare_composed), work)
+        return [state], loops.number(prepare(K, g, J, D, state))
     bounds, past = np.zeros((2, len(stages)), loops.dtype), np.zeros((len(stages), 8, 3), loops.dtype)
     scale = prepare(K, g, J, D, stages, state, *bounds)
-    return march, [state, stages, *bounds, past], loops.number(scale)
+    return [state, stages, *bounds, past], loops.number(scale)
 
 
 def explained(status: int, K: Floats, g: Floats, J: Floats, D: float) -> Status:
@@ -161,12 +196,13 @@ def explained(status: int, K: Floats, g: Floats, J: Floats, D: float) -> Status:
     return explain(status, K.astype(np.float64), g.astype(np.float64), J.astype(np.float64), float(D))
 
 
-def _run_block(balls: Balls, which: slice, steps: int, every: int, frames: Frames, loops: Loops, count: Count) -> None:
+def _run_block(
+    taken_by: list[Callable], balls: Balls, which: slice, steps: int, every: int, frames: Frames, loops: Loops,
+    count: Count,
+) -> None:  # fmt: skip
+    march, prepare = taken_by
     n = which.stop - which.start
-    march, prepare, lanes = loops.columns.march_columns, loops.columns.prepare_columns, n
-    if has_numba():
-        (march, prepare) = chosen((loops.block.march_block, loops.block.prepare_block), SHORT_RUN)
-        lanes = loops.block.LANES
+    lanes = loops.block.LANES if has_numba() else n
     state, scale = np.zeros((loop.ROWS, lanes), loops.dtype), np.zeros(n, loops.dtype)
     prepare(balls.momentum[which], balls.gamma[which], balls.mass_tensor[which], balls.D[which], state, scale)
     status, reach, taken = frames.status[which], frames.reach[which], frames.taken[which]
