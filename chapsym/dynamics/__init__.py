@@ -20,11 +20,12 @@ from .results import Step, Trajectory
 from .reversal import NotRetraced, retrace_error, reverse
 from .solutions.continuation import Fold, Followed, fold, follow, margin
 from .solutions.multivalued import Branches, branches
+from .stepper import Stepper
 from .trajectories import trajectory
 
 __all__ = [
     "BadInput", "Ball", "BallN", "Branches", "Certificate", "Curve", "ExactTop", "Extrapolated", "Fold", "Followed",
-    "NotRetraced", "Status", "Step", "StepN", "StepNotTaken", "TopMotion", "Trajectory", "TrajectoryN",
+    "NotRetraced", "Status", "Step", "StepN", "StepNotTaken", "Stepper", "TopMotion", "Trajectory", "TrajectoryN",
     "VerticalTrajectory", "axial", "branches", "certify", "compose_step", "exact_top", "extrapolate", "fold",
     "follow", "increment", "invariants_n", "is_steady", "is_top", "margin", "retrace_error", "reverse", "reverse_n",
     "rotation_number", "skew", "steady_frames", "step", "step_n", "step_vertical", "substeps", "top_frames",

@@ -31,6 +31,11 @@ def attitude_with(gamma: Floats) -> Floats:
     return quaternion / length
 
 
+def is_followed(attitude: bool | ArrayLike) -> bool:
+    """Whether an attitude is asked for: True, or one to start from."""
+    return not isinstance(attitude, bool | np.bool_) or bool(attitude)
+
+
 def initial_attitude(attitude: bool | ArrayLike, gamma: Floats) -> Floats:
     """The attitude to start from: the one that was given, checked against γ, or the least rotation."""
     if isinstance(attitude, bool | np.bool_):

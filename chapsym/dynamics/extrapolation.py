@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .attitudes import initial_attitude
+from .attitudes import initial_attitude, is_followed
 from .axes import in_given_axes
 from .ball import Asked, Ball, Floats, batch, numbers, unit_vertical
 from .errors import BadInput, Status, StepNotTaken
@@ -86,7 +86,7 @@ def extrapolate(
     if h.ndim:
         raise BadInput(f"time_step must be one number of seconds, not {time_step!r}")
     shape, (K, g, J, D) = batch(ball, numbers(angular_momentum, "angular_momentum", 3), unit_vertical(gamma))
-    followed = not (isinstance(attitude, bool | np.bool_) and not attitude)
+    followed = is_followed(attitude)
     attitudes = np.tile([1.0, 0.0, 0.0, 0.0], (len(D), 1))
     if followed:
         attitudes[:] = np.broadcast_to(initial_attitude(attitude, g.reshape(*shape, 3)), (*shape, 4)).reshape(-1, 4)

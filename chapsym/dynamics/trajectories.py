@@ -9,9 +9,9 @@ from numpy.typing import ArrayLike
 
 from chapsym.numbers import Precision
 
-from .attitudes import initial_attitude
+from .attitudes import initial_attitude, is_followed
 from .axes import in_given_axes
-from .ball import Ball, batch, numbers, unit_vertical
+from .ball import Ball, Floats, batch, numbers, unit_vertical
 from .errors import BadInput
 from .exactly import beyond_float64
 from .levels import dispatch
@@ -70,10 +70,8 @@ def trajectory(
     time_step = None if time_step is None else seconds(time_step)
     precision = dispatch.precision_of(precision)
     shape, (K, g, J, D) = batch(ball, numbers(momentum, "momentum", 3), unit_vertical(gamma))
-    with_body = contact or not (isinstance(attitude, bool | np.bool_) and not attitude)
-    if contact and ball.radius is None:
-        raise BadInput("the contact point needs the radius: give the ball its radius")
-    radius = np.broadcast_to(ball.radius if contact and ball.radius is not None else 0.0, shape).reshape(-1)
+    with_body = contact or is_followed(attitude)
+    radius = np.broadcast_to(rolling_radius(ball) if contact else 0.0, shape).reshape(-1)
     balls, frames = len(D), steps // every + 1
     body_frames = frames if with_body else 0
     frame = dispatch.frames_for(precision, balls, frames, body_frames, isinstance(attitude, bool | np.bool_))
@@ -97,6 +95,13 @@ def trajectory(
         time_step, order, precision, None if frame.low is None else Low(*bodies(frame.low)),
     )  # fmt: skip
     return finished(result, frame.reach)
+
+
+def rolling_radius(ball: Ball) -> Floats:
+    """The radius of a ball whose contact point is traced; raises BadInput if it has none."""
+    if ball.radius is None:
+        raise BadInput("the contact point needs the radius: give the ball its radius")
+    return ball.radius
 
 
 def whole_number(value: int, name: str, least: int, most: int | None = None) -> int:

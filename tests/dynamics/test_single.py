@@ -101,7 +101,7 @@ def test_the_compiled_march_computes_in_float32_only():
     march = single.loops().loop.march
     z = lambda *s: np.zeros(s, np.float32)  # noqa: E731
     frames = z(2, 3), z(2, 3), True, z(8), z(4), np.float32(1), z(2, 4), z(2, 2)
-    kinds, seen = arithmetic(march, z(51), 0, 0, 1, np.float32(1), *frames)
+    kinds, seen = arithmetic(march, z(51), 0, 0, 0, 1, np.float32(1), *frames)
     assert {"4loop", "9integrals"} <= seen
     assert sum(count for kind, count in kinds.items() if "float" in kind) > 400
     assert not [kind for kind in kinds if "double" in kind]

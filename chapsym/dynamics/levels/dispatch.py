@@ -34,9 +34,14 @@ def frames_for(precision: Precision, balls: int, frames: int, body_frames: int, 
         momenta, verticals = (np.full((balls, frames, 3), np.nan, dtype) for _ in "Kg")
         attitudes, traces = (np.full((balls, body_frames, n), np.nan, dtype) for n in (4, 2))
     except (MemoryError, ValueError):
-        raise BadInput(f"{frames} frames of {balls} balls do not fit into memory; keep fewer with every=") from None
+        raise no_room(frames, balls) from None
     taken, status, reach = np.zeros(balls, dtype=np.int64), np.zeros(balls, dtype=np.int64), np.ones(balls)
     return Frames(momenta, verticals, attitudes, traces, taken, status, reach, body_frames > 0, low, least)
+
+
+def no_room(frames: int, balls: int) -> BadInput:
+    """What is raised where the frames do not fit into memory."""
+    return BadInput(f"{frames} frames of {balls} balls do not fit into memory; keep fewer with every=")
 
 
 def run(

@@ -67,7 +67,7 @@ def run(
     in_blocks = n >= FEW and not frames.with_body and order == 2
     if in_blocks:
         in_blocks = pays(loops.block.march_block, work) if has_numba() else work >= SHORT_RUN
-    taken_by = _of_blocks(loops) if in_blocks else chosen(_of_one(loops, len(stages)), work)
+    taken_by = _of_blocks(loops) if in_blocks else chosen(of_one(loops, len(stages)), work)
     width = (loops.block.LANES if has_numba() else loops.columns.LANES) if in_blocks else 1
     starts = range(0, n, width)
 
@@ -146,7 +146,7 @@ def _of_blocks(loops: Loops) -> list[Callable]:
     return [loops.columns.march_columns, loops.columns.prepare_columns]
 
 
-def _of_one(loops: Loops, stages: int) -> tuple[Callable, Callable]:
+def of_one(loops: Loops, stages: int) -> tuple[Callable, Callable]:
     """(march, prepare) of one ball."""
     if stages == 1:
         return loops.loop.march, loops.loop.prepare
@@ -167,7 +167,7 @@ def _run_one(
     for first in range(0, steps, chunk):
         now = min(chunk, steps - first)
         went, frames.status[i], frames.reach[i] = march(
-            *state, first, now, every, scale, frames.momentum[i], frames.gamma[i],
+            *state, 0, first, now, every, scale, frames.momentum[i], frames.gamma[i],
             frames.with_body, attitude, spot, loops.number(balls.radius[i]), frames.attitude[i], frames.contact[i],
         )  # fmt: skip
         frames.taken[i] += went

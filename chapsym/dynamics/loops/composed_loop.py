@@ -64,7 +64,7 @@ def composed_step(state, c, radius, enough, past, with_body, attitude, contact, 
 
 
 def march_composed(
-    state, c, radius, enough, past, first, count, every, scale,
+    state, c, radius, enough, past, begun, first, count, every, scale,
     momenta, verticals, with_body, attitude, contact, rho, attitudes, traces,
 ):  # fmt: skip
     """`march` of `loop`, each step a composition with the stage coefficients c.  Returns (taken, status, reach)."""
@@ -73,7 +73,7 @@ def march_composed(
         status, reach = composed_step(state, c, radius, enough, past, with_body, attitude, contact, rho)
         if status != 0:
             return step - 1 - first, status, reach
-        if step % period == 0:
+        if (begun + step) % period == 0:
             restore(state)
         if step % every == 0:
             frame = step // every

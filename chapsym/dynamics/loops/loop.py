@@ -96,9 +96,12 @@ def follow_body(p0, p1, p2, p3, g1, g2, g3, attitude, contact, radius):
     attitude[0], attitude[1], attitude[2], attitude[3] = a0 * scale, a1 * scale, a2 * scale, a3 * scale
 
 
-def march(state, first, count, every, scale, momenta, verticals, with_body, attitude, contact, rho, attitudes, traces):
+def march(
+    state, begun, first, count, every, scale, momenta, verticals, with_body, attitude, contact, rho, attitudes, traces
+):
     """Takes `count` steps from the step `first` on; keeps every `every`-th state in the frame arrays.
 
+    begun: the steps that were taken before the step 0 of the frames.
     state (ROWS), attitude (4) and contact (2) hold the present state and move; `scale` makes 𝒦 of k.  The attitude
     and the trace are touched only when `with_body`.  Returns (taken, status, reach).
     """
@@ -120,7 +123,7 @@ def march(state, first, count, every, scale, momenta, verticals, with_body, atti
     last = first + count
     while step < last and status == 0:
         # Up to the next frame, the next restoration, or the end.
-        stop = min(last, step + every - step % every, step + PERIOD - step % PERIOD)
+        stop = min(last, step + every - step % every, step + PERIOD - (begun + step) % PERIOD)
         while step < stop:
             settled, p0, p1, p2, p3, w1, w2, w3 = settle(
                 a1, a2, a3, k1, k2, k3, g1, g2, g3, I1, I2, I3, contact_term, radius, enough
@@ -139,7 +142,7 @@ def march(state, first, count, every, scale, momenta, verticals, with_body, atti
             k1, k2, k3, x1, x2, x3 = turned(p0, p1, p2, p3, k1, k2, k3, x1, x2, x3)
             g1, g2, g3, y1, y2, y3 = turned(p0, p1, p2, p3, g1, g2, g3, y1, y2, y3)
             step += 1
-        if status == 0 and step % PERIOD == 0:
+        if status == 0 and (begun + step) % PERIOD == 0:
             put(state, K, k1, k2, k3)
             put(state, G, g1, g2, g3)
             put(state, X, x1, x2, x3)

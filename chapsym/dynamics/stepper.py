@@ -1,0 +1,250 @@
+"""One ball under way: prepared once, so that a step, or a new momentum, costs about a microsecond."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from math import isfinite
+from typing import Any, TypeGuard
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from chapsym.generated import angular_velocity
+
+from .attitudes import initial_attitude, is_followed
+from .ball import UNIT_TOLERANCE, Asked, Ball, Floats, batch, numbers, unit_vertical
+from .coefficients import substeps
+from .errors import BadInput, Status, StepNotTaken
+from .levels import double
+from .levels.dispatch import no_room
+from .loops.loop import G, K
+from .results import Trajectory, finished
+from .trajectories import MOST_STEPS, rolling_radius, seconds, whole_number
+
+FLOAT64 = np.dtype(np.float64)
+
+
+class Stepper:
+    """One ball under way, for control loops and other integrators: steps of the map without the price of a call.
+
+    ball, momentum, gamma, order, attitude, contact, time_step: as for `trajectory`, of one ball in principal axes, in
+    float64.  All is checked here, and the compiled loop is loaded or, the first time on a machine, compiled here: no
+    step waits for it.  Without numba the steps are the same to the bit, in plain Python.
+
+    The states are those of `trajectory` from the same start, to the bit, however the steps are shared out to calls; so
+    they are after a restart or a new momentum.
+
+    Objects share nothing that changes: each may run in a thread of its own, and compiled steps let other threads run.
+    One object is for one thread at a time.  `copy.copy` makes another that goes on from the same state.
+
+    Raises BadInput as `trajectory` does, and for a batch.
+    """
+
+    def __init__(
+        self, ball: Ball, momentum: ArrayLike, gamma: ArrayLike, *, order: int = 2, attitude: bool | ArrayLike = False,
+        contact: bool = False, time_step: float | None = None,
+    ) -> None:  # fmt: skip
+        shape, _ = batch(ball, numbers(momentum, "momentum", 3), unit_vertical(gamma))
+        if shape:
+            raise BadInput(f"a Stepper takes one ball, not a batch with the leading axes {shape}")
+        epsilon = None if time_step is None else seconds(time_step)
+        self._prepare(ball, order, bool(contact) or is_followed(attitude), bool(contact), epsilon)
+        self.restart(momentum, gamma, attitude)
+        self._march_on(0, 0, 1, self._ends)  # no step, but all that is to be compiled is so now
+
+    def _prepare(self, ball: Ball, order: int, follows: bool, traced: bool, time_step: float | None) -> None:
+        """What never changes, and the buffers."""
+        self.ball, self.order, self.time_step, self._follows, self._traced = ball, order, time_step, follows, traced
+        self._J, self._D = ball.mass_tensor.copy(), float(ball.D)
+        self._radius = float(rolling_radius(ball)) if traced else 0.0
+        self._stages = substeps(order).copy()
+        self._march, self._begin = _ready(double.of_one(double.DOUBLE, len(self._stages)))
+        #: The attitude and the contact point, which move in the loop.
+        self._spin, self._spot = np.zeros(4), np.zeros(2)
+        #: The frames of a call of which only the end is kept: the second row is the present state.
+        self._ends = self._frames(2)
+        self._momentum, self._gamma = self._ends[0][1], self._ends[1][1]
+
+    def restart(self, momentum: ArrayLike, gamma: ArrayLike, attitude: bool | ArrayLike = True) -> None:
+        """Starts anew from 𝒦 (3,), γ (3,) and, where they are followed, an attitude (4,) and the contact point (0, 0).
+
+        attitude: True for the least rotation with R γ = e₃.  Raises BadInput; then the state is as before.
+        """
+        k = momentum if _is_vector(momentum) else _one("momentum", numbers(momentum, "momentum", 3))
+        g = gamma if _is_vector(gamma) and _is_unit(*gamma.tolist()) else _one("gamma", unit_vertical(gamma))
+        if self._follows:
+            self._spin[:] = self._ends[2][1] = initial_attitude(attitude, g)
+            self._spot[:] = self._ends[3][1] = 0.0
+        self._gamma[:] = g
+        self.momentum = k
+
+    def step(self, steps: int = 1) -> None:
+        """Takes `steps` steps; only the end is kept.
+
+        Raises StepNotTaken where one cannot be taken, with its `index` in this call; the state is then that before it.
+        """
+        steps = _count(steps, "steps", 0)
+        taken, status, reach = self._take(steps, steps, self._ends)
+        if status:
+            raise StepNotTaken(Status(status), reach, taken)
+
+    def trajectory(self, steps: int, every: int = 1) -> Trajectory:
+        """Takes `steps` steps; returns the present state and every `every`-th after it, `index` counting from here.
+
+        Raises StepNotTaken as `step`, with the `trajectory` before.
+        """
+        steps, every = _count(steps, "steps", 0), _count(every, "every", 1)
+        every = min(every, steps + 1)
+        count = steps // every + 1
+        try:
+            frames = self._frames(count)
+        except (MemoryError, ValueError):
+            raise no_room(count, 1) from None
+        momenta, verticals, attitudes, contacts = frames
+        momenta[0], verticals[0] = self._momentum, self._gamma
+        if self._follows:
+            attitudes[0], contacts[0] = self._ends[2][1], self._ends[3][1]
+        taken, status, reach = self._take(steps, every, frames)
+        run = Trajectory(
+            self.ball, np.arange(0, count * every, every), momenta, verticals, attitudes if self._follows else None,
+            contacts if self._traced else None, np.array(taken), np.array(status), self.time_step, self.order,
+        )  # fmt: skip
+        if status:
+            finished(run, np.array(reach))
+        return run
+
+    @property
+    def momentum(self) -> Floats:
+        """𝒦 in kg m², (3,), a copy.
+
+        Another may be given: γ, the attitude and the contact point stay.  Raises BadInput; the state is then as before.
+        """
+        return self._momentum.copy()
+
+    @momentum.setter
+    def momentum(self, momentum: ArrayLike) -> None:
+        """Goes on with another 𝒦."""
+        self._momentum[:] = momentum if _is_vector(momentum) else _one("momentum", numbers(momentum, "momentum", 3))
+        self._state, self._scale = double.begun(
+            self._begin, self._momentum, self._gamma, self._J, self._D, double.DOUBLE, self._stages
+        )
+        self._taken = 0
+
+    @property
+    def gamma(self) -> Floats:
+        """γ, (3,), a copy."""
+        return self._gamma.copy()
+
+    @property
+    def attitude(self) -> Asked:
+        """The attitude as a unit quaternion, body to space, scalar first, (4,), a copy; None if it is not followed."""
+        return self._ends[2][1].copy() if self._follows else None
+
+    @property
+    def contact(self) -> Asked:
+        """The contact point on the plane in metres, (2,), a copy; None if it is not traced."""
+        return self._ends[3][1].copy() if self._traced else None
+
+    @property
+    def taken(self) -> int:
+        """How many steps were taken since the start, the last restart, or the last new momentum."""
+        return self._taken
+
+    @property
+    def omega(self) -> Floats:
+        """ω in rad/s for K = 𝒦/ε, in body axes, (3,); raises BadInput if there is no time step."""
+        if self.time_step is None:
+            raise BadInput("this Stepper has no time step: it was given 𝒦 = εK; give it your ε as time_step=")
+        angular_momentum = [k / self.time_step for k in self._momentum.tolist()]
+        return np.array(angular_velocity(*(*angular_momentum, *self._gamma.tolist(), *self._J.tolist(), self._D)))
+
+    def _frames(self, count: int) -> tuple[Floats, ...]:
+        """Rows for so many states: 𝒦, γ, and of what is followed the attitude and the contact point."""
+        body = count if self._follows else 0
+        return np.empty((count, 3)), np.empty((count, 3)), np.empty((body, 4)), np.empty((body, 2))
+
+    def _take(self, steps: int, every: int, frames: tuple[Floats, ...]) -> tuple[int, int, float]:
+        """Takes steps into frames; returns (taken, status, reach)."""
+        done, status, reach = 0, 0, 1.0
+        try:
+            while done < steps and not status:
+                before = None if self.order == 2 else [x.copy() for x in self._moving()]
+                went, status, reach = self._march_on(done, min(double.CHUNK, steps - done), every, frames)
+                if status:
+                    status = self._stopped(status, before, partial(self._march_on, done, went, every, frames))
+                done += went
+                self._taken += went
+        finally:
+            if done < steps or frames is not self._ends:
+                self._show()
+        return done, status, reach
+
+    def _march_on(self, first: int, count: int, every: int, frames: tuple[Floats, ...]) -> tuple[int, int, float]:
+        momenta, verticals, attitudes, contacts = frames
+        took: tuple[int, int, float] = self._march(
+            *self._state, self._taken - first, first, count, every, self._scale, momenta, verticals,
+            self._follows, self._spin, self._spot, self._radius, attitudes, contacts,
+        )  # fmt: skip
+        return took
+
+    def _stopped(self, status: int, before: list[Floats] | None, again: Callable[[], Any]) -> Status:
+        """Why a step was not taken; the state becomes the one before it, which a composition has left."""
+        state = self._state[0]
+        why = double.explained(status, self._scale * state[K : K + 3], state[G : G + 3], self._J, self._D)
+        if before is not None:
+            for array, old in zip(self._moving(), before, strict=True):
+                array[:] = old
+            again()
+        return why
+
+    def _moving(self) -> list[Floats]:
+        """What the loop moves."""
+        return [self._state[0], self._state[-1], self._spin, self._spot]
+
+    def _show(self) -> None:
+        """Makes the state that moves in the loop the present one."""
+        state = self._state[0]
+        self._momentum[:], self._gamma[:] = self._scale * state[K : K + 3], state[G : G + 3]
+        if self._follows:
+            self._ends[2][1], self._ends[3][1] = self._spin, self._spot
+
+    def __getstate__(self) -> tuple[Any, ...]:
+        settings = self.ball, self.order, self._follows, self._traced, self.time_step
+        return settings, self._scale, self._taken, self._state, (self._spin, self._spot, *self._ends)
+
+    def __setstate__(self, kept: tuple[Any, ...]) -> None:
+        settings, self._scale, self._taken, state, moving = kept
+        self._prepare(*settings)
+        self._state = [x.copy() for x in state]
+        for mine, other in zip((self._spin, self._spot, *self._ends), moving, strict=True):
+            mine[:] = other
+
+
+def _ready(functions: tuple[Callable[..., Any], ...]) -> list[Callable[..., Any]]:
+    """The loops, compiled where there is numba; else as they are, and as silent."""
+    if double.has_numba():
+        return double.load(functions)
+    return [np.errstate(over="ignore", invalid="ignore")(function) for function in functions]
+
+
+def _count(value: int, name: str, least: int) -> int:
+    """`whole_number`, at once where the value is one."""
+    return value if type(value) is int and least <= value < MOST_STEPS else whole_number(value, name, least)
+
+
+def _is_vector(value: ArrayLike) -> TypeGuard[Floats]:
+    """Whether this is one float64 vector, and finite: what needs no more checks."""
+    return (
+        type(value) is np.ndarray and value.dtype == FLOAT64 and value.shape == (3,) and isfinite(sum(value.tolist()))
+    )
+
+
+def _is_unit(x: float, y: float, z: float) -> bool:
+    return abs(x * x + y * y + z * z - 1.0) < 0.5 * UNIT_TOLERANCE
+
+
+def _one(name: str, vector: Floats) -> Floats:
+    if vector.ndim != 1:
+        raise BadInput(f"{name} must be one vector, (3,), not of the shape {vector.shape}")
+    return vector

@@ -1,0 +1,282 @@
+"""The prepared ball: the states of `trajectory`, to the bit, however its steps are shared out to calls."""
+
+import copy
+import pickle
+import threading
+
+import numpy as np
+import pytest
+
+import chapsym
+from chapsym import BadInput, Ball, Status, StepNotTaken, Stepper
+from chapsym.dynamics.levels import double
+
+BALL, K, GAMMA = Ball((1, 2, 4), 3, radius=0.5), np.array([0.2, -0.1, 0.15]), np.array([2, 3, 6]) / 7
+#: Starts whose branch folds after a few steps of each order; of a composition at a stage in the midst of a step.
+FOLDING = {order: np.array([4.32, -2.16, 3.24]) * size for order, size in ((2, 1.0), (4, 1.35), (8, 1.5))}
+NAMES = ("momentum", "gamma", "attitude", "contact")
+TRACED, ORDERS = (
+    {"contact": True},
+    [{}, {"attitude": True}, {"contact": True}, {"order": 4}, {"order": 8, "contact": True}],
+)
+
+
+@pytest.fixture(params=["compiled", "plain"])
+def way(request, monkeypatch):
+    """With numba and without."""
+    if request.param == "plain":
+        monkeypatch.setattr(double, "has_numba", lambda: False)
+
+
+def same(state, other, frame=None):
+    """Whether two have the same state, to the bit; of a trajectory its frame."""
+    for name in NAMES:
+        a, b = getattr(state, name), getattr(other, name)
+        assert (a is None) == (b is None), name
+        assert a is None or np.array_equal(a, b if frame is None else b[frame]), name
+    return True
+
+
+@pytest.mark.parametrize("options", ORDERS, ids=str)
+def test_steps_in_any_calls_are_those_of_a_trajectory(options, way):
+    """Past a restoration of the integrals, which counts from the start."""
+    whole = chapsym.trajectory(BALL, K, GAMMA, 1300, **options)
+    stepper, at = Stepper(BALL, K, GAMMA, **options), 0
+    assert same(stepper, whole, 0)
+    for steps in (1, 1, 10, 0, 700, 3, 400):
+        stepper.step(steps)
+        at += steps
+        assert stepper.taken == at
+        assert same(stepper, whole, at)
+    run = stepper.trajectory(185, 11)
+    assert run.index.tolist() == list(range(0, 186, 11))
+    assert (run.taken, run.status, run.order) == (185, Status.TAKEN, options.get("order", 2))
+    assert same(run, whole, slice(at, at + 186, 11))
+    assert same(stepper, whole, 1300)
+
+
+def test_calls_that_are_long_are_the_same(monkeypatch):
+    """They are taken in parts, so that an interrupt is heard."""
+    monkeypatch.setattr(double, "CHUNK", 70)
+    steps, frames = Stepper(BALL, K, GAMMA, **TRACED), Stepper(BALL, K, GAMMA, **TRACED)
+    steps.step(1200)
+    run = frames.trajectory(1200, 50)
+    whole = chapsym.trajectory(BALL, K, GAMMA, 1200, every=50, **TRACED)
+    assert same(run, whole)
+    assert same(steps, whole, -1)
+    assert same(frames, steps)
+
+
+def test_an_interrupt_leaves_a_state_that_goes_on(monkeypatch):
+    monkeypatch.setattr(double, "CHUNK", 70)
+    stepper = Stepper(BALL, K, GAMMA, **TRACED)
+    march, calls = stepper._march, []
+
+    def interrupted(*arguments):
+        calls.append(arguments)
+        if len(calls) == 3:
+            raise KeyboardInterrupt
+        return march(*arguments)
+
+    monkeypatch.setattr(stepper, "_march", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        stepper.step(1200)
+    whole = chapsym.trajectory(BALL, K, GAMMA, 1200, **TRACED)
+    assert stepper.taken == 140
+    assert same(stepper, whole, 140)
+    stepper.step(1060)
+    assert same(stepper, whole, 1200)
+
+
+@pytest.mark.parametrize("options", ORDERS, ids=str)
+def test_a_new_momentum_is_a_new_start(options, way):
+    stepper = Stepper(BALL, K, GAMMA, **options)
+    stepper.step(20)
+    before = [getattr(stepper, name) for name in NAMES]
+    stepper.momentum += (0.01, 0.02, -0.03)
+    assert stepper.taken == 0
+    assert np.array_equal(stepper.momentum, before[0] + (0.01, 0.02, -0.03))
+    assert all(np.array_equal(getattr(stepper, name), old) for name, old in zip(NAMES[1:], before[1:], strict=True))
+    start = {} if before[2] is None else {"attitude": before[2]}
+    whole = chapsym.trajectory(BALL, stepper.momentum, before[1], 30, **options | start)
+    stepper.step(30)
+    assert np.array_equal(stepper.momentum, whole.momentum[-1])
+    assert np.array_equal(stepper.gamma, whole.gamma[-1])
+    if before[2] is not None:
+        assert np.array_equal(stepper.attitude, whole.attitude[-1])
+    if before[3] is not None:
+        roundings = 30 * 17 * 2.0**-53  # of steps, or of their stages, that are added to another number
+        np.testing.assert_allclose(stepper.contact, before[3] + whole.contact[-1], rtol=0, atol=roundings)
+
+
+def test_a_restart_is_a_new_object():
+    attitude = chapsym.trajectory(BALL, K, GAMMA, 5, attitude=True).attitude[-1]
+    gamma = chapsym.trajectory(BALL, K, GAMMA, 5).gamma[-1]
+    for start in ((K, GAMMA), (list(K), tuple(GAMMA)), (-K, gamma, attitude), (K.astype("f4"), GAMMA.astype("f4"))):
+        stepper = Stepper(BALL, 2 * K, -GAMMA, **TRACED)
+        stepper.step(7)
+        stepper.restart(*start)
+        other = Stepper(BALL, *start[:2], attitude=start[2] if len(start) == 3 else False, **TRACED)
+        assert same(stepper, other)
+        stepper.step(9)
+        other.step(9)
+        assert same(stepper, other)
+
+
+@pytest.mark.parametrize("options", ORDERS, ids=str)
+def test_a_step_that_cannot_be_taken_leaves_the_state_before_it(options, way):
+    start = FOLDING[options.get("order", 2)]
+    with pytest.raises(StepNotTaken) as whole:
+        chapsym.trajectory(BALL, start, GAMMA, 200, **options)
+    last = whole.value.trajectory
+    assert whole.value.index > 2
+    stepper = Stepper(BALL, start, GAMMA, **options)
+    with pytest.raises(StepNotTaken) as framed:
+        copy.copy(stepper).trajectory(200)
+    assert same(framed.value.trajectory, last)
+    stepper.step(2)
+    for index in (whole.value.index - 2, 0):  # again: it is where it was
+        with pytest.raises(StepNotTaken) as caught:
+            stepper.step(300)
+        assert (caught.value.status, caught.value.index) == (whole.value.status, index)
+        assert (caught.value.reach, stepper.taken) == (whole.value.reach, whole.value.index)
+        assert same(stepper, last, -1)
+    stepper.momentum = K
+    stepper.step()
+
+
+def test_omega_is_that_of_a_trajectory():
+    stepper = Stepper(BALL, K, GAMMA, time_step=0.02)
+    run = stepper.trajectory(10, 10)
+    assert np.array_equal(run.omega, chapsym.trajectory(BALL, K, GAMMA, 10, every=10, time_step=0.02).omega)
+    assert np.array_equal(stepper.omega, run.omega[-1])
+    assert run.time.tolist() == [0, 0.2]
+    with pytest.raises(BadInput, match="time_step="):
+        _ = Stepper(BALL, K, GAMMA).omega
+
+
+@pytest.mark.parametrize("copied", [copy.copy, copy.deepcopy, lambda x: pickle.loads(pickle.dumps(x))])
+@pytest.mark.parametrize("options", [TRACED, {"order": 4}], ids=str)
+def test_a_copy_goes_its_own_way(copied, options):
+    stepper = Stepper(BALL, K, GAMMA, time_step=0.1, **options)
+    stepper.step(40)
+    other = copied(stepper)
+    assert same(other, stepper)
+    assert (other.taken, other.time_step) == (40, 0.1)
+    stepper.step(1000)
+    assert not np.array_equal(other.gamma, stepper.gamma)
+    other.step(1000)
+    assert same(other, stepper)
+
+
+def test_what_is_returned_is_not_the_state():
+    stepper = Stepper(BALL, K, GAMMA, **TRACED)
+    other = copy.copy(stepper)
+    run = stepper.trajectory(3)
+    other.step(3)
+    for name in NAMES:
+        getattr(stepper, name)[:] = 5.0
+        getattr(run, name)[:] = 5.0
+    assert same(stepper, other)
+
+
+def test_two_threads_with_an_object_each():
+    """Each gets what it gets alone, though they run at once."""
+    starts = [(K, GAMMA), (-0.5 * K, -GAMMA)]
+    together, ends = threading.Barrier(2), [None, None]
+
+    def work(i):
+        stepper = Stepper(BALL, *starts[i], **TRACED)
+        together.wait(60)
+        for _ in range(400):
+            stepper.step()
+            stepper.step(3)
+            stepper.momentum *= 1.0001
+        ends[i] = stepper
+
+    threads = [threading.Thread(target=work, args=(i,)) for i in range(2)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    found = list(ends)
+    for i in range(2):
+        together = threading.Barrier(1)
+        work(i)
+        assert same(found[i], ends[i])
+
+
+@pytest.mark.parametrize(
+    ("arguments", "options", "sentence"),
+    [
+        ((BALL, np.tile(K, (2, 1)), GAMMA), {}, r"takes one ball, not a batch .* \(2,\)"),
+        ((Ball(np.ones((3, 3)), 1), K, GAMMA), {}, "takes one ball, not a batch"),
+        ((BALL, (1, 2), GAMMA), {}, "momentum must have 3 components"),
+        ((BALL, K, 1.1 * GAMMA), {}, "gamma must be a unit vector"),
+        ((BALL, (np.nan, 0, 0), GAMMA), {}, "momentum must be finite"),
+        ((BALL, K, GAMMA), {"order": 3}, "order must be one of"),
+        ((BALL, K, GAMMA), {"time_step": -1}, "time_step must be one positive number"),
+        ((BALL, K, GAMMA), {"attitude": (1, 0, 0, 0)}, "attitude and gamma disagree"),
+        ((Ball((1, 2, 4), 3), K, GAMMA), TRACED, "the contact point needs the radius"),
+        ((Ball.from_inertia(np.diag([6, 5, 3.0]) + 0.1, D=3), K, GAMMA), {}, "ball.principal"),
+        ((None, K, GAMMA), {}, "ball must be a chapsym.Ball"),
+    ],
+)
+def test_bad_input_is_refused_when_it_is_made(arguments, options, sentence):
+    with pytest.raises(BadInput, match=sentence):
+        Stepper(*arguments, **options)
+
+
+@pytest.mark.parametrize(
+    ("change", "sentence"),
+    [
+        (lambda s: s.restart((1, 2), GAMMA), "momentum must have 3 components"),
+        (
+            lambda s: s.restart(np.tile(K, (2, 1)), GAMMA),
+            r"momentum must be one vector, \(3,\), not of the shape \(2, 3\)",
+        ),
+        (lambda s: s.restart(K, 1.01 * GAMMA), "gamma must be a unit vector"),
+        (lambda s: s.restart(K, np.array([np.inf, 0, 0])), "gamma must be finite"),
+        (lambda s: s.restart(K, GAMMA, (1, 0, 0, 0)), "attitude and gamma disagree"),
+        (lambda s: setattr(s, "momentum", np.array([np.nan, 0, 0])), "momentum must be finite"),
+        (lambda s: setattr(s, "momentum", "123"), "momentum must be real numbers"),
+        (lambda s: s.step(-1), "steps must be a whole number from 0 on"),
+        (lambda s: s.step(2.0), "steps must be a whole number"),
+        (lambda s: s.step(True), "steps must be a whole number"),
+        (lambda s: s.trajectory(5, 0), "every must be a whole number from 1 on"),
+        (lambda s: s.trajectory(10**18), "frames of 1 balls do not fit into memory"),
+    ],
+)
+def test_what_is_refused_on_the_way_changes_nothing(change, sentence):
+    stepper = Stepper(BALL, K, GAMMA, **TRACED)
+    stepper.step(5)
+    other = copy.copy(stepper)
+    with pytest.raises(BadInput, match=sentence):
+        change(stepper)
+    for one in (stepper, other):
+        assert one.taken == 5
+        one.step(5)
+    assert same(stepper, other)
+
+
+def test_huge_momenta_are_numbers():
+    """Their sum overflows, they do not."""
+    stepper = Stepper(Ball((1e308, 4e307, 3e307), 0), (1.5e307,) * 3, (0, 0, 1))
+    stepper.momentum = np.array([1e308, 1e308, 1e308])
+    assert stepper.momentum.tolist() == [1e308] * 3
+
+
+@pytest.mark.parametrize("options", [TRACED, {"order": 4}], ids=str)
+def test_no_step_compiles(options):
+    """All that is compiled is so when the object is made, whatever it is given then and later."""
+    if not double.has_numba():
+        pytest.skip("numba is not installed")
+    strided, locked = np.zeros((3, 2)), np.array(K)
+    strided[:, 0], locked.flags.writeable = K, False
+    stepper = Stepper(BALL, strided[:, 0], list(GAMMA), **options)
+    stepper.step(np.int64(3))
+    stepper.trajectory(np.int32(4), 2)
+    stepper.momentum = strided[:, 0]
+    stepper.restart(locked, GAMMA)
+    chapsym.trajectory(BALL, K, GAMMA, 2500, **options)
+    assert [len(function.signatures) for function in (stepper._march, stepper._begin)] == [1, 1]
