@@ -16,6 +16,7 @@ SECTIONS = {
     "batch": "batch",
     "memory": "memory",
     "plans": "plans",
+    "calls": "calls",
     "first-call": "first_call",
     "long": "long_runs",
     "work-precision": "work_precision",

@@ -17,7 +17,8 @@ def bench(
     sections: Annotated[
         list[str] | None,
         typer.Argument(
-            metavar="[SECTION]...", help="trajectory, batch, memory, plans, first-call, long, work-precision; or all."
+            metavar="[SECTION]...",
+            help="trajectory, batch, memory, plans, calls, first-call, long, work-precision; or all.",
         ),
     ] = None,
     quick: Annotated[bool, typer.Option("--quick", help="Smaller sizes and fewer rounds: seconds.")] = False,

@@ -8,7 +8,18 @@ import pytest
 from commands import answer, chapsym, refused
 
 import benchmarks
-from benchmarks import batch, c_peer, continuous, figure, first_call, long_runs, memory, trajectory, work_precision
+from benchmarks import (
+    batch,
+    c_peer,
+    calls,
+    continuous,
+    figure,
+    first_call,
+    long_runs,
+    memory,
+    trajectory,
+    work_precision,
+)
 from chapsym import __version__
 from chapsym.studies import harness
 
@@ -240,6 +251,17 @@ def test_the_peak_of_a_batch_is_that_of_its_process():
     small, large = memory.peak_of_a_batch(100, 2), memory.peak_of_a_batch(100_100, 2)
     assert 10e6 < small < memory.GIGABYTE
     assert large - small > 1e5 * 13 * 8
+
+
+def test_a_stepper_that_goes_elsewhere_is_seen(monkeypatch):
+    run = calls.chapsym.trajectory
+    monkeypatch.setattr(
+        calls.chapsym, "trajectory", lambda ball, K, *rest, **more: run(ball, K * (1 + 1e-15), *rest, **more)
+    )
+    with pytest.raises(
+        benchmarks.NotComparable, match=r"differs from chapsym\.trajectory after 10 steps, in the momentum"
+    ):
+        calls.compare(10, True)
 
 
 def test_a_command_that_fails_is_not_timed(tmp_path):

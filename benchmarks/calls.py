@@ -1,0 +1,91 @@
+"""Short calls, warm, one core: microseconds of a call of 1, 10 and 1000 steps, by a function and by a `Stepper`."""
+
+from collections.abc import Callable
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+import chapsym
+from chapsym.studies.harness import Contender, NotComparable, Timing, cores, interleaved
+
+from .results import Reached, Result, ratio_columns
+from .trajectory import GAMMA, MASS_TENSOR, MOMENTUM, D
+
+#: |𝒦|, and the radius.
+EPSILON, RADIUS = 0.05, 0.1
+#: Steps of a call, and what a call of a Stepper is to cost at most, in µs.
+CALLS = {1: 3.0, 10: 5.0, 1000: None}
+PLAIN, STEPPER, FRAMES = "chapsym.trajectory", "Stepper.step", "Stepper.trajectory"
+#: A new momentum, a step, and the state that it leads to, as a control loop has it.
+STEP, LOOP = "chapsym.step", "Stepper: momentum, step, momentum and gamma"
+
+
+def repeat(function: Callable[[], Any], calls: int) -> None:
+    """So many calls."""
+    for _ in range(calls):
+        function()
+
+
+def sides(steps: int, contact: bool) -> dict[str, Callable[[], Any]]:
+    """A call of so many steps by each way; those of a Stepper go on from where it is."""
+    ball, K = chapsym.Ball(MASS_TENSOR, D, RADIUS), EPSILON * MOMENTUM
+    moved, framed, looped = (chapsym.Stepper(ball, K, GAMMA, contact=contact) for _ in range(3))
+    found: dict[str, Callable[[], Any]] = {
+        PLAIN: partial(chapsym.trajectory, ball, K, GAMMA, steps, contact=contact),
+        STEPPER: partial(moved.step, steps),
+        FRAMES: partial(framed.trajectory, steps),
+    }
+    if steps == 1 and not contact:
+        found |= {STEP: partial(chapsym.step, ball, K, GAMMA), LOOP: partial(ticked, looped, K)}
+    return found
+
+
+def ticked(stepper: chapsym.Stepper, momentum: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """One tick of a control loop."""
+    stepper.momentum = momentum
+    stepper.step()
+    return stepper.momentum, stepper.gamma
+
+
+def compare(steps: int, contact: bool) -> None:
+    """Raises NotComparable unless both give the same states, to the bit."""
+    ways = sides(steps, contact)
+    runs = [ways[name]() for name in (PLAIN, FRAMES)]
+    for name in ("momentum", "gamma", *(["contact"] if contact else [])):
+        if not np.array_equal(*(getattr(run, name) for run in runs)):
+            raise NotComparable(f"{FRAMES} differs from {PLAIN} after {steps} steps, in the {name}")
+
+
+def timed(steps: int, contact: bool, seconds: float, rounds: int) -> dict[str, Timing]:
+    """Times the calls, each side for so many seconds a round."""
+    contenders = []
+    for name, function in sides(steps, contact).items():
+        once = interleaved([Contender(name, partial(repeat, function, 20), 20)], 3)[name].median
+        calls = max(1, round(seconds / once))
+        contenders.append(Contender(name, partial(repeat, function, calls), calls))
+    return interleaved(contenders, rounds)
+
+
+def measure(quick: bool, on_round: Callable[[str], None] = lambda text: None) -> Result:
+    """Times calls of each length, with the contact point and without."""
+    seconds, rounds = (0.005, 5) if quick else (0.05, 21)
+    rows, reach = [], []
+    ball, K = chapsym.Ball(MASS_TENSOR, D), EPSILON * MOMENTUM
+    chapsym.trajectory(ball, K, GAMMA, 10_000)  # loads the loops
+    chapsym.step(ball, np.tile(K, (10_000, 1)), GAMMA)
+    for contact in (False, True):
+        for steps, wanted in CALLS.items():
+            told = f"steps = {steps}" + (", with the contact point" if contact else "")
+            on_round(f"calls, {told}")
+            compare(steps, contact)
+            with cores(1):
+                timings = timed(steps, contact, seconds, rounds)
+            rows += [
+                {"name": name, "steps": steps, "contact": contact, "µs a call": timing.median * 1e6}
+                | ratio_columns(timing, timings[PLAIN], PLAIN)
+                for name, timing in timings.items()
+            ]
+            if wanted:
+                reach.append(Reached(f"µs of {STEPPER}, {told}", timings[STEPPER].median * 1e6, wanted, False))
+    return Result("short calls, one core", rows, {}, reach)
