@@ -6,7 +6,7 @@ import pytest
 import chapsym
 from chapsym import BadInput, Ball, Status, StepNotTaken
 from chapsym.dynamics import columns
-from chapsym.dynamics.levels import double
+from chapsym.dynamics.levels import double, single
 from chapsym.dynamics.loops import block, gibbs, loop
 
 PRECISIONS = ["single", "double", "double-double"]
@@ -80,6 +80,28 @@ def test_a_batch_is_its_balls_to_the_bit(precision, made, n, numba, monkeypatch)
             assert np.array_equal(all_[i, : len(few)], few)
             assert np.isnan(all_[i, len(few) :]).all()
     assert made is not balls or run.status[[2, 8, 9]].tolist() == [Status.FOLDED, Status.UNREACHABLE, Status.NO_INERTIA]
+
+
+@pytest.mark.parametrize(("n", "widths"), [(2, [8]), (9, [16]), (41, [40, 8]), (63, [40, 24])])
+def test_a_block_is_as_wide_as_its_balls_need(n, widths, monkeypatch):
+    if not double.has_numba():
+        pytest.skip("numba is not installed")
+    used, (march, prepare) = [], double._of_blocks(double.DOUBLE)
+    spied = [lambda state, *rest: used.append(state.shape[1]) or march(state, *rest), prepare]
+    monkeypatch.setattr(double, "_of_blocks", lambda loops: spied)
+    ball, K, g = long_steps(n)
+    run = chapsym.trajectory(ball, K, g, 1100, every=100, threads=1)
+    assert used == widths
+    for i in {0, 1, n - 1}:
+        one = chapsym.trajectory(ball, K[i], g[i], 1100, every=100)
+        assert all(np.array_equal(all_[i], few) for all_, few in zip(floats_of(run), floats_of(one), strict=True))
+
+
+@pytest.mark.parametrize("loops", [double.DOUBLE, single.loops()], ids=["double", "single"])
+def test_the_rows_of_a_block_begin_on_lines_of_the_cache(loops):
+    rows = loops.block.rows(7, loops.dtype)
+    assert rows.shape == (7, loops.block.LANES)
+    assert {row.ctypes.data % 64 for row in rows} == {0}
 
 
 @pytest.mark.parametrize("precision", PRECISIONS)

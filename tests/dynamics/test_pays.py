@@ -47,10 +47,10 @@ def test_the_steps_of_short_runs_are_summed(loaded):
     assert loaded == [loop.march]
 
 
-@pytest.mark.parametrize(("balls", "taken_by"), [(4, loop.march), (8, block.march_block)])
-def test_those_of_all_balls_count_once(balls, taken_by, loaded):
-    """Few balls go one by one, and more in a block."""
-    assert after(lambda: run(-(-QUARTER // balls), balls), loaded) == 3
+@pytest.mark.parametrize(("contact", "taken_by"), [(True, loop.march), (False, block.march_block)])
+def test_those_of_all_balls_count_once(contact, taken_by, loaded):
+    """One by one or in a block."""
+    assert after(lambda: run(QUARTER // 4, 4, contact=contact), loaded) == 3
     assert loaded == [taken_by]
 
 

@@ -22,7 +22,7 @@ from .frames import Balls, Count, Frames, cores, share
 SHORT_RUN = 2000
 #: or to so many where it is not kept on disk: they take as long in plain Python as compiling it.
 COMPILING = 300_000
-#: Fewer balls than this do not fill a block.
+#: Fewer balls than this are slower by columns than one by one.
 FEW = 8
 #: Steps of a ball, or of all balls of a block together, between two calls of `progress`: about ten milliseconds.
 CHUNK = 200_000
@@ -64,9 +64,9 @@ def run(
     if steps == 0 or n == 0:
         return
     work = steps * n * len(stages)
-    in_blocks = n >= FEW and not frames.with_body and order == 2
+    in_blocks = n > 1 and not frames.with_body and order == 2
     if in_blocks:
-        in_blocks = pays(loops.block.march_block, work) if has_numba() else work >= SHORT_RUN
+        in_blocks = pays(loops.block.march_block, work) if has_numba() else n >= FEW and work >= SHORT_RUN
     taken_by = _of_blocks(loops) if in_blocks else chosen(of_one(loops, len(stages)), work)
     width = (loops.block.LANES if has_numba() else loops.columns.LANES) if in_blocks else 1
     starts = range(0, n, width)
@@ -202,7 +202,7 @@ def _run_block(
 ) -> None:  # fmt: skip
     march, prepare = taken_by
     n = which.stop - which.start
-    lanes = loops.block.LANES if has_numba() else n
+    lanes = -(-n // loops.block.REGISTER) * loops.block.REGISTER if has_numba() else n
     state, scale = np.zeros((loop.ROWS, lanes), loops.dtype), np.zeros(n, loops.dtype)
     prepare(balls.momentum[which], balls.gamma[which], balls.mass_tensor[which], balls.D[which], state, scale)
     status, reach, taken = frames.status[which], frames.reach[which], frames.taken[which]

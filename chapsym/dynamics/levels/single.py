@@ -46,7 +46,7 @@ def loops() -> Loops:
     return Loops(
         march,
         family.loops(composed_loop),
-        family.loops(block, LANES=2 * block.LANES),
+        family.loops(block, LANES=2 * block.LANES, REGISTER=2 * block.REGISTER),
         family.loops(columns),
         family.loops(single_step),
         np.float32, np.float32, attitude=8, contact=4,

@@ -10,8 +10,12 @@ from .integrals import PERIOD, restore
 from .loop import ENOUGH, RADIUS, ROWS, A, D, G, I, K, X, prepare, safe_rotation, three
 from .sums import filtered, turned
 
-#: Balls in a block: its rows stay in the first-level cache.
+#: Balls in a block, at most: its rows stay in the first-level cache.
 LANES = 40
+#: Balls in a block are made a multiple of what the widest register holds.
+REGISTER = 8
+#: Numbers in a line of the cache, at most.
+LINE = 16
 #: After a step that needed the second correction, so many are taken with it at once.
 PATIENCE = 64
 #: Rounds that all lanes take together where more than a few did not settle; those few are mended one by one.
@@ -19,9 +23,14 @@ ROUNDS = 4
 FEW = 2
 
 
+def whole(ok):
+    """The lanes in use, a multiple of REGISTER: said so, for a loop without a rest that would be narrower."""
+    return len(ok) // REGISTER * REGISTER
+
+
 def predicted(S, P, ok):
     """Every lane's rotation, by a Newton iterate from the extrapolation; returns how many did not settle."""
-    for i in range(LANES):
+    for i in range(whole(ok)):
         u1, u2, u3 = S[A, i], S[A + 1, i], S[A + 2, i]
         p0, p1, p2, p3, w1, w2, w3, first, _, _, _, _, _, _, _, _, _, _, _, _ = newton_round(
             u1, u2, u3, S[K, i], S[K + 1, i], S[K + 2, i], S[G, i], S[G + 1, i], S[G + 2, i],
@@ -38,7 +47,7 @@ def corrected(S, P, ok, again):
 
     A lane that is not near, outside the ball of the lemma, stays, and begins again from no rotation: `gibbs.search`.
     """
-    for i in range(LANES):
+    for i in range(whole(ok)):
         radius, enough = S[RADIUS, i], S[ENOUGH, i]
         u1, u2, u3 = (P[4, i], P[5, i], P[6, i]) if again else (S[A, i], S[A + 1, i], S[A + 2, i])
         near = u1 * u1 + (u2 * u2 + u3 * u3) <= radius
@@ -69,22 +78,22 @@ def corrected(S, P, ok, again):
 def unsettled(ok):
     """How many lanes did not settle: counted apart, as a wide counter would narrow the registers of the others."""
     bad = 0
-    for i in range(LANES):
+    for i in range(whole(ok)):
         bad += 1 - ok[i]
     return bad
 
 
-def uncertified(S):
+def uncertified(S, ok):
     """How many lanes no round can settle."""
     count = 0
-    for i in range(LANES):
+    for i in range(len(ok)):
         count += 0 if S[RADIUS, i] >= 0.0 else 1
     return count
 
 
 def mend(S, P, ok, step, taken, status, reach, balls):
     """The step of `loop.march` for the lanes that did not settle; a ball that cannot go on rests from then on."""
-    for i in range(LANES):
+    for i in range(len(ok)):
         if ok[i] == 1:
             continue
         if i < balls and status[i] == 0:
@@ -101,9 +110,9 @@ def mend(S, P, ok, step, taken, status, reach, balls):
         P[0, i], P[1, i], P[2, i], P[3, i], P[4, i], P[5, i], P[6, i] = 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
 
 
-def moved(S, P):
+def moved(S, P, ok):
     """Turns k and γ of every lane, with compensation, and carries the extrapolation on."""
-    for i in range(LANES):
+    for i in range(whole(ok)):
         p0, p1, p2, p3, w1, w2, w3 = P[0, i], P[1, i], P[2, i], P[3, i], P[4, i], P[5, i], P[6, i]
         turn_at(p0, p1, p2, p3, S, K, X, i)
         turn_at(p0, p1, p2, p3, S, G, X + 3, i)
@@ -140,16 +149,25 @@ def prepare_block(momentum, g, tensor, contact, state, scale):
         state[:, lane] = one
 
 
-def march_block(state, first, count, every, scale, momenta, verticals, taken, status, reach):
-    """`count` steps of the balls of a block from the step `first` on: state (ROWS, LANES), the rest as in `march`.
+def rows(count, dtype):
+    """Rows of LANES numbers, each of which begins on a line of the cache: no register is loaded from two."""
+    numbers = np.empty((count, LANES + LINE), dtype)
+    begin = -(numbers.ctypes.data // numbers.itemsize) % LINE
+    return numbers[:, begin : begin + LANES]
 
+
+def march_block(state, first, count, every, scale, momenta, verticals, taken, status, reach):
+    """`count` steps of the balls of a block from the step `first` on: state (ROWS, lanes), the rest as in `march`.
+
+    lanes: a multiple of REGISTER, LANES at most.
     scale, taken, status and reach have one entry for each ball; lanes beyond them are idle copies.
     """
-    S, P = np.empty((ROWS, LANES), state.dtype), np.empty((7, LANES), state.dtype)
-    ok = np.empty(LANES, dtype=np.int32)
-    S[:, :] = state
+    S, P = rows(ROWS, state.dtype), rows(7, state.dtype)
+    width = state.shape[1]
+    ok = np.empty(width, dtype=np.int32)
+    S[:, :width] = state
     balls = len(status)
-    step, last, patience, hopeless = first, first + count, 0, uncertified(S)
+    step, last, patience, hopeless = first, first + count, 0, uncertified(S, ok)
     while step < last:
         stop = min(last, step + every - step % every, step + PERIOD - step % PERIOD)
         while step < stop:
@@ -163,8 +181,8 @@ def march_block(state, first, count, every, scale, momenta, verticals, taken, st
                     bad, rounds = corrected(S, P, ok, True), rounds + 1
             if bad != 0:
                 mend(S, P, ok, step, taken, status, reach, balls)
-                hopeless = uncertified(S)
-            moved(S, P)
+                hopeless = uncertified(S, ok)
+            moved(S, P, ok)
             step += 1
         if step % PERIOD == 0:
             for i in range(balls):
@@ -180,4 +198,4 @@ def march_block(state, first, count, every, scale, momenta, verticals, taken, st
     for i in range(balls):
         if status[i] == 0:
             taken[i] = last
-    state[:, :] = S
+    state[:, :] = S[:, :width]
