@@ -5,7 +5,8 @@ import pytest
 
 import chapsym
 from chapsym import BadInput, Ball, Status, StepNotTaken
-from chapsym.dynamics import columns
+from chapsym.dynamics import columns, kernels
+from chapsym.dynamics.attitudes import attitude_with
 from chapsym.dynamics.levels import double, single
 from chapsym.dynamics.loops import block, gibbs, loop
 
@@ -97,6 +98,24 @@ def test_a_block_is_as_wide_as_its_balls_need(n, widths, monkeypatch):
         assert all(np.array_equal(all_[i], few) for all_, few in zip(floats_of(run), floats_of(one), strict=True))
 
 
+@pytest.mark.parametrize("precision", ["double", "single"])
+@pytest.mark.parametrize("made", [balls, long_steps])
+def test_bodies_roll_in_a_block_as_alone(made, precision):
+    """In double precision in a block, in single one by one; also those that stop, and from attitudes that are given."""
+    n = block.LANES + 5
+    ball, K, g = made(n, 1e-12, 1e8) if precision == "single" and made is balls else made(n)
+    J, D, radius = np.broadcast_to(ball.mass_tensor, (n, 3)), np.broadcast_to(ball.D, n), np.linspace(0.1, 2, n)
+    turned = kernels.compose(np.array([0.8, 0, 0, 0.6]), attitude_with(g))  # about the vertical
+    options = {"every": 7, "contact": True, "precision": precision}
+    run = chapsym.trajectory(Ball(J, D, radius), K, g, 1100, attitude=turned, **options)
+    for i in [*range(12), n - 2, n - 1]:
+        one, *end = alone(Ball(J[i], D[i], radius[i]), K[i], g[i], 1100, attitude=turned[i], **options)
+        assert [run.status[i], run.taken[i]] == end
+        for all_, few in zip(floats_of(run), floats_of(one), strict=True):
+            assert np.array_equal(all_[i, : len(few)], few)
+            assert np.isnan(all_[i, len(few) :]).all()
+
+
 @pytest.mark.parametrize("loops", [double.DOUBLE, single.loops()], ids=["double", "single"])
 def test_the_rows_of_a_block_begin_on_lines_of_the_cache(loops):
     rows = loops.block.rows(7, loops.dtype)
@@ -130,6 +149,10 @@ def test_no_balls_and_no_axes(precision):
         chapsym.trajectory(ball, np.float32(1.0), (0, 0, 1), 5, precision=precision)
 
 
+def no_bodies(n):
+    return False, np.zeros((7, block.LANES)), np.zeros((n, 0, 4)), np.zeros((n, 0, 2))
+
+
 def block_of(n):
     """A block of long steps after 20 of them, and the arrays that a step fills; in plain Python."""
     ball, K, g = long_steps(n)
@@ -137,7 +160,7 @@ def block_of(n):
     block.prepare_block(K, g, np.tile(ball.mass_tensor, (n, 1)), np.full(n, ball.D), state, scale)
     march = double.chosen((block.march_block,), double.SHORT_RUN)[0] if double.has_numba() else block.march_block
     frames, ends = np.zeros((n, 1, 3)), (np.zeros(n, np.int64), np.zeros(n, np.int64), np.ones(n))
-    march(state, 0, 20, 100, scale, frames, frames.copy(), *ends)
+    march(state, 0, 20, 100, scale, frames, frames.copy(), *ends, *no_bodies(n))
     assert not ends[1].any()
     return state, np.zeros((7, block.LANES)), np.zeros(block.LANES, np.int32)
 
@@ -183,7 +206,7 @@ def test_a_block_of_long_steps_mends_no_lane(monkeypatch):
     monkeypatch.setattr(block, "FEW", 0)
     monkeypatch.setattr(block, "mend", lambda S, P, ok, *rest: few.append(int((ok == 0).sum())))
     frames, ends = np.zeros((n, 1, 3)), (np.zeros(n, np.int64), np.zeros(n, np.int64), np.ones(n))
-    block.march_block(S, 20, 5, 100, np.ones(n), frames, frames.copy(), *ends)
+    block.march_block(S, 20, 5, 100, np.ones(n), frames, frames.copy(), *ends, *no_bodies(n))
     assert few == []
 
 
@@ -196,15 +219,15 @@ def test_threads_change_nothing(precision, options):
         assert np.array_equal(a, b, equal_nan=True)
 
 
-@pytest.mark.parametrize("numba", [True, False])
-def test_chunks_change_nothing(numba, monkeypatch):
+@pytest.mark.parametrize(("numba", "options"), [(True, {}), (True, {"attitude": True}), (False, {})])
+def test_chunks_change_nothing(numba, options, monkeypatch):
     """Also where a ball rests, for a later chunk, and where a frame falls between two."""
     ball, K, g = balls(70)
-    whole = chapsym.trajectory(ball, K, g, 1300, every=13)
+    whole = chapsym.trajectory(ball, K, g, 1300, every=13, **options)
     if not numba:
         monkeypatch.setattr(double, "has_numba", lambda: False)
     monkeypatch.setattr(double, "CHUNK", 97 * (block.LANES if numba else 70))
-    parts = chapsym.trajectory(ball, K, g, 1300, every=13)
+    parts = chapsym.trajectory(ball, K, g, 1300, every=13, **options)
     for a, b in zip([*floats_of(whole), whole.taken], [*floats_of(parts), parts.taken], strict=True):
         assert np.array_equal(a, b, equal_nan=True)
 

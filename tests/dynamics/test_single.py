@@ -89,7 +89,9 @@ def test_the_compiled_block_computes_in_float32_only():
     block, n = single.loops().block, 3
     arguments = [np.zeros(s, np.float32) for s in ((n,), (n, 2, 3), (n, 2, 3))]
     ends = np.zeros(n, np.int64), np.zeros(n, np.int64), np.ones(n)
-    kinds, seen = arithmetic(block.march_block, np.zeros((51, block.LANES), np.float32), 0, 0, 1, *arguments, *ends)
+    bodies = (np.zeros(s, np.float32) for s in ((7, block.LANES), (n, 0, 4), (n, 0, 2)))
+    state = np.zeros((51, block.LANES), np.float32)
+    kinds, seen = arithmetic(block.march_block, state, 0, 0, 1, *arguments, *ends, False, *bodies)
     assert {"5block", "9integrals"} <= seen
     assert not [kind for kind in kinds if "double" in kind]
     widths = {int(kind.split()[0][1:]): count for kind, count in kinds.items() if "float>" in kind}

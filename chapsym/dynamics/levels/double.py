@@ -43,9 +43,8 @@ class Loops:
     step: Any = single_step
     number: Callable[[Any], Any] = float
     dtype: Any = np.float64
-    #: How many numbers carry the attitude and the contact point from step to step.
-    attitude: int = 4
-    contact: int = 2
+    #: Whether the attitude and the contact point carry the rests of their sums, which blocks do not.
+    rests: bool = False
 
 
 DOUBLE = Loops()
@@ -64,9 +63,11 @@ def run(
     if steps == 0 or n == 0:
         return
     work = steps * n * len(stages)
-    in_blocks = n > 1 and not frames.with_body and order == 2
-    if in_blocks:
-        in_blocks = pays(loops.block.march_block, work) if has_numba() else n >= FEW and work >= SHORT_RUN
+    in_blocks = n > 1 and order == 2 and not (frames.with_body and loops.rests)
+    if in_blocks and has_numba():
+        in_blocks = pays(loops.block.march_block, work)
+    elif in_blocks:
+        in_blocks = n >= FEW and work >= SHORT_RUN and not frames.with_body
     taken_by = _of_blocks(loops) if in_blocks else chosen(of_one(loops, len(stages)), work)
     width = (loops.block.LANES if has_numba() else loops.columns.LANES) if in_blocks else 1
     starts = range(0, n, width)
@@ -160,7 +161,7 @@ def _run_one(
     march, prepare = taken_by
     K, g, J, D = balls.momentum[i], balls.gamma[i], balls.mass_tensor[i], loops.number(balls.D[i])
     state, scale = begun(prepare, K, g, J, D, loops, stages)
-    attitude, spot = np.zeros(loops.attitude, loops.dtype), np.zeros(loops.contact, loops.dtype)
+    attitude, spot = (np.zeros(k * (1 + loops.rests), loops.dtype) for k in (4, 2))
     if frames.with_body:
         attitude[:4] = frames.attitude[i, 0]
     chunk = max(1, CHUNK // len(stages))
@@ -206,10 +207,13 @@ def _run_block(
     state, scale = np.zeros((loop.ROWS, lanes), loops.dtype), np.zeros(n, loops.dtype)
     prepare(balls.momentum[which], balls.gamma[which], balls.mass_tensor[which], balls.D[which], state, scale)
     status, reach, taken = frames.status[which], frames.reach[which], frames.taken[which]
+    bodies = _bodies(balls, which, frames, lanes, loops) if has_numba() else ()
     chunk = max(1, CHUNK // lanes)
     for first in range(0, steps, chunk):
         now = min(chunk, steps - first)
-        march(state, first, now, every, scale, frames.momentum[which], frames.gamma[which], taken, status, reach)
+        march(
+            state, first, now, every, scale, frames.momentum[which], frames.gamma[which], taken, status, reach, *bodies
+        )
         count.add(now * n)
         if count.stopped:
             return
@@ -217,3 +221,12 @@ def _run_block(
         i = which.start + lane
         K, g = scale[lane] * state[:3, lane], state[3:6, lane]
         status[lane] = explained(status[lane], K, g, balls.mass_tensor[i], balls.D[i])
+
+
+def _bodies(balls: Balls, which: slice, frames: Frames, lanes: int, loops: Loops) -> tuple[Any, ...]:
+    """What a block takes to follow its bodies: whether it does, where they are, and their frames."""
+    body = np.zeros((7, lanes), loops.dtype)
+    if frames.with_body:
+        balls_of = np.minimum(np.arange(which.start, which.start + lanes), which.stop - 1)
+        body[:4], body[6] = frames.attitude[balls_of, 0].T, balls.radius[balls_of]
+    return frames.with_body, body, frames.attitude[which], frames.contact[which]

@@ -49,7 +49,7 @@ def loops() -> Loops:
         family.loops(block, LANES=2 * block.LANES, REGISTER=2 * block.REGISTER),
         family.loops(columns),
         family.loops(single_step),
-        np.float32, np.float32, attitude=8, contact=4,
+        np.float32, np.float32, rests=True,
     )  # fmt: skip
 
 

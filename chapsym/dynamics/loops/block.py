@@ -7,7 +7,7 @@ import numpy as np
 
 from .gibbs import newton_round, second_round, settle
 from .integrals import PERIOD, restore
-from .loop import ENOUGH, RADIUS, ROWS, A, D, G, I, K, X, prepare, safe_rotation, three
+from .loop import ENOUGH, RADIUS, ROWS, A, D, G, I, K, X, followed, prepare, safe_rotation, three
 from .sums import filtered, turned
 
 #: Balls in a block, at most: its rows stay in the first-level cache.
@@ -110,6 +110,15 @@ def mend(S, P, ok, step, taken, status, reach, balls):
         P[0, i], P[1, i], P[2, i], P[3, i], P[4, i], P[5, i], P[6, i] = 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
 
 
+def rolled(S, P, B, ok):
+    """Moves the attitude and the contact point of every lane by the step that begins at its γ."""
+    for i in range(whole(ok)):
+        B[0, i], B[1, i], B[2, i], B[3, i], B[4, i], B[5, i] = followed(
+            P[0, i], P[1, i], P[2, i], P[3, i], S[G, i], S[G + 1, i], S[G + 2, i],
+            B[0, i], B[1, i], B[2, i], B[3, i], B[4, i], B[5, i], B[6, i],
+        )  # fmt: skip
+
+
 def moved(S, P, ok):
     """Turns k and γ of every lane, with compensation, and carries the extrapolation on."""
     for i in range(whole(ok)):
@@ -156,16 +165,19 @@ def rows(count, dtype):
     return numbers[:, begin : begin + LANES]
 
 
-def march_block(state, first, count, every, scale, momenta, verticals, taken, status, reach):
+def march_block(
+    state, first, count, every, scale, momenta, verticals, taken, status, reach, with_body, body, attitudes, traces
+):
     """`count` steps of the balls of a block from the step `first` on: state (ROWS, lanes), the rest as in `march`.
 
     lanes: a multiple of REGISTER, LANES at most.
+    body: (7, lanes), the attitude, the contact point and the radius, which are touched only when `with_body`.
     scale, taken, status and reach have one entry for each ball; lanes beyond them are idle copies.
     """
-    S, P = rows(ROWS, state.dtype), rows(7, state.dtype)
+    S, P, B = rows(ROWS, state.dtype), rows(7, state.dtype), rows(7, state.dtype)
     width = state.shape[1]
     ok = np.empty(width, dtype=np.int32)
-    S[:, :width] = state
+    S[:, :width], B[:, :width] = state, body
     balls = len(status)
     step, last, patience, hopeless = first, first + count, 0, uncertified(S, ok)
     while step < last:
@@ -182,6 +194,8 @@ def march_block(state, first, count, every, scale, momenta, verticals, taken, st
             if bad != 0:
                 mend(S, P, ok, step, taken, status, reach, balls)
                 hopeless = uncertified(S, ok)
+            if with_body:
+                rolled(S, P, B, ok)
             moved(S, P, ok)
             step += 1
         if step % PERIOD == 0:
@@ -195,7 +209,11 @@ def march_block(state, first, count, every, scale, momenta, verticals, taken, st
                 if status[i] == 0:
                     for c in range(3):
                         momenta[i, frame, c], verticals[i, frame, c] = scale[i] * S[K + c, i], S[G + c, i]
+                    if with_body:
+                        for c in range(4):
+                            attitudes[i, frame, c] = B[c, i]
+                        traces[i, frame, 0], traces[i, frame, 1] = B[4, i], B[5, i]
     for i in range(balls):
         if status[i] == 0:
             taken[i] = last
-    state[:, :] = S[:, :width]
+    state[:, :], body[:, :] = S[:, :width], B[:, :width]

@@ -83,17 +83,23 @@ def safe_rotation(u1, u2, u3, state):
 
 
 def follow_body(p0, p1, p2, p3, g1, g2, g3, attitude, contact, radius):
-    """Moves the contact point and the attitude by the step with the quaternion p that begins at the vertical g."""
+    """Moves the attitude and the contact point by the step with the quaternion p that begins at the vertical g."""
+    a0, a1, a2, a3 = attitude[0], attitude[1], attitude[2], attitude[3]
+    attitude[0], attitude[1], attitude[2], attitude[3], contact[0], contact[1] = followed(
+        p0, p1, p2, p3, g1, g2, g3, a0, a1, a2, a3, contact[0], contact[1], radius
+    )
+
+
+def followed(p0, p1, p2, p3, g1, g2, g3, a0, a1, a2, a3, x, y, radius):
+    """The attitude a and the contact point (x, y) after the step with the quaternion p from the vertical g."""
     length = sqrt((p0 * p0 + p1 * p1) + (p2 * p2 + p3 * p3))
     q0, q1, q2, q3 = p0 / length, p1 / length, p2 / length, p3 / length
     s1, s2, s3 = centre_step(q0, q1, q2, q3, g1, g2, g3)
-    x, y, _ = rotate(attitude[0], attitude[1], attitude[2], attitude[3], s1, s2, s3)
-    contact[0] += radius * x
-    contact[1] += radius * y
-    a0, a1, a2, a3 = compose(attitude[0], attitude[1], attitude[2], attitude[3], q0, q1, q2, q3)
+    d1, d2, _ = rotate(a0, a1, a2, a3, s1, s2, s3)
+    a0, a1, a2, a3 = compose(a0, a1, a2, a3, q0, q1, q2, q3)
     # One Newton step to length 1: the product of unit quaternions is off by a rounding only.
     scale = 1.5 - 0.5 * (a0 * a0 + a1 * a1 + a2 * a2 + a3 * a3)
-    attitude[0], attitude[1], attitude[2], attitude[3] = a0 * scale, a1 * scale, a2 * scale, a3 * scale
+    return a0 * scale, a1 * scale, a2 * scale, a3 * scale, x + radius * d1, y + radius * d2
 
 
 def march(
