@@ -17,6 +17,7 @@ SECTIONS = {
     "memory": "memory",
     "plans": "plans",
     "calls": "calls",
+    "lanes": "lanes",
     "first-call": "first_call",
     "long": "long_runs",
     "work-precision": "work_precision",
