@@ -13,6 +13,9 @@ traces    the same, and a statement says that tr left = tr right.
 Trees of statements in words and traces may have names of the derivation (derivation.py), which makes what they
 stand for from premises.
 
+A comparison says that numbers at a point are less than others, equal or not.  A hypothesis is such relations, too; they
+must hold at every point of the certificate that has values for their names, and there must be one.
+
 A counterexample is a point, or matrices, at which the relations or rules and the hypotheses hold, the printed
 statements it refutes fail, and the corrected ones hold.  The sentences are not judged: they are what the claim says
 beside this.
@@ -20,7 +23,7 @@ beside this.
 
 import json
 import re
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
@@ -35,14 +38,16 @@ from .polynomial import Ring, Work
 from .trees import check_name, check_tree, names_in, rational, value
 from .words import Matrix, same, trace
 
-NAMES = "format kind statement claim printed corrected algebras derivation points statements counterexamples "
-NAMES += "sentences digest"
+NAMES = "format kind statement claim printed corrected hypotheses algebras derivation points statements comparisons "
+NAMES += "counterexamples sentences digest"
 _CLAIM = re.compile(r"[\w.-]{1,40}", re.ASCII)
 ROLES = ("printed", "corrected", "under", "lemma", "second route")
 SENTENCES = (*ROLES, "hypothesis", "said", "counterexample", "certificate")
 #: Rows and columns of a matrix; letters of the whole, five times those of the largest of the register.
 MOST_ROWS, MOST_OF_ALL = 4, 1_000_000
 Value = Fraction | Matrix
+#: What may stand between two numbers.
+COMPARED = ("<", "<=", "=", "!=")
 
 
 def statement(data: dict[str, Any]) -> str:
@@ -60,14 +65,16 @@ def statement(data: dict[str, Any]) -> str:
         f"all matrices, of any size, that satisfy their rules, as those given do; {derived} of these are about what "
         f"{len(names) - premises} steps make from {premises} premises given; {equal} of these have one "
         f"expression on both sides, and say nothing of how it was derived; {refuted} printed statements fail at "
-        f"{len(data['counterexamples'])} points given.  {len(data['sentences'])} sentences are listed and not checked."
+        f"{len(data['counterexamples'])} points given; {len(data['comparisons'])} comparisons hold at theirs.  "
+        f"{len(data['hypotheses'])} hypotheses hold at every point that has values for them.  "
+        f"{len(data['sentences'])} sentences are listed and not checked."
     )
 
 
 def check_form(data: dict[str, Any]) -> None:
     """Raises Rejected unless every part is there, in its form, and every number in its only form."""
     check_names(data, NAMES, "the certificate")
-    for name in ("points", "statements", "counterexamples", "sentences"):
+    for name in ("hypotheses", "points", "statements", "comparisons", "counterexamples", "sentences"):
         many(data[name], name)
     if not isinstance(data["claim"], str) or not _CLAIM.fullmatch(data["claim"]):
         raise Rejected("claim must be the id of a claim, such as prop-4")
@@ -91,6 +98,15 @@ def check_form(data: dict[str, Any]) -> None:
                 count(number, 0, len(data["statements"]) - 1, where)
     for i, one in enumerate(data["statements"]):
         check_statement(one, algebras, defined, data, f"statement {i}")
+    for i, one in enumerate(data["comparisons"]):
+        check_names(one, "role text point relations", f"comparison {i}")
+        chosen(one["role"], ROLES, f"comparison {i}")
+        at = count(one["point"], 0, len(data["points"]) - 1, f"comparison {i}")
+        check_relations(one, data["points"][at], f"comparison {i}")
+    known = set().union(*data["points"], *(one["point"] for one in data["counterexamples"]))
+    for i, one in enumerate(data["hypotheses"]):
+        check_names(one, "text relations", f"hypothesis {i}")
+        check_relations(one, known, f"hypothesis {i}")
     for i, one in enumerate(data["sentences"]):
         check_names(one, "role text", f"sentence {i}")
         chosen(one["role"], SENTENCES, f"sentence {i}")
@@ -158,6 +174,18 @@ def check_sides(data: dict[str, Any], names: set[str], where: str) -> None:
         check_tree(tree, names, where)
 
 
+def check_relations(data: dict[str, Any], names: Collection[str], where: str) -> None:
+    """Raises Rejected unless there are relations, each of two trees."""
+    text(data["text"], where)
+    if not many(data["relations"], where):
+        raise Rejected(f"{where} has no relation")
+    for relation in data["relations"]:
+        sized(relation, 3, where)
+        chosen(relation[0], COMPARED, f"a relation of {where}")
+        for tree in relation[1:]:
+            check_tree(tree, names, where)
+
+
 def check_statement(
     one: Any, algebras: list[set[str]], defined: list[Collection[str]], data: dict[str, Any], where: str
 ) -> None:
@@ -208,17 +236,24 @@ def check(data: dict[str, Any]) -> dict[str, str]:
         check_hypotheses(algebra, point, where, whole=True)
         if not holds(one, algebra, point, defined, where):
             raise Rejected(f"{where} fails at its point")
+    for i, one in enumerate(data["comparisons"]):
+        if not compared(one, points[one["point"]], f"comparison {i}"):
+            raise Rejected(f"comparison {i} fails at its point")
+    everywhere = [*points, *(entries(one["point"]) for one in data["counterexamples"])]
+    for i, one in enumerate(data["hypotheses"]):
+        check_hypothesis(one, everywhere, f"hypothesis {i}")
     for i, one in enumerate(data["counterexamples"]):
         check_counterexample(one, i, data, defined)
     refuted = [i for i, one in enumerate(data["statements"]) if "refuted" in one]
     for i in refuted:
         if i not in data["counterexamples"][data["statements"][i]["refuted"]]["refutes"]:
             raise Rejected(f"statement {i} is not refuted by its counterexample")
-    roles = [one["role"] for one in data["statements"]]
+    roles = [one["role"] for one in (*data["statements"], *data["comparisons"])]
     return {
         **{role: str(roles.count(role)) for role in ROLES if role in roles},
         "refuted": str(len(refuted)),
         "definitions": str(len(data["derivation"])),
+        "comparisons": str(len(data["comparisons"])),
         "one expression on both sides": str(sum(one["left"] == one["right"] for one in data["statements"])),
         "sentences not checked": str(len(data["sentences"])),
     }
@@ -277,6 +312,30 @@ def holds(
     if algebra is not None and algebra["kind"] == "traces":
         return all(trace(left) == trace(right) for left, right in sides)
     return all(same(left, right) for left, right in sides)
+
+
+def compared(one: dict[str, Any], point: Mapping[str, Value], where: str) -> bool:
+    """Whether all relations hold at a point; of matrices, whether they are equal or not."""
+    found = []
+    for relation, left, right in one["relations"]:
+        a, b = at(left, point, {}, where), at(right, point, {}, where)
+        if relation in ("=", "!="):
+            found.append(same(a, b) == (relation == "="))
+        elif isinstance(a, Matrix) or isinstance(b, Matrix):
+            raise Rejected(f"{where} says which of two matrices is less")
+        else:
+            found.append(a < b or (a == b and relation == "<="))
+    return all(found)  # each was looked at: none has a denominator that vanishes
+
+
+def check_hypothesis(one: dict[str, Any], points: Sequence[Mapping[str, Value]], where: str) -> None:
+    """Raises Rejected unless it holds at every point that has values for its names, and there is one."""
+    names = set().union(*(names_in(tree) for relation in one["relations"] for tree in relation[1:]))
+    tested = [point for point in points if names <= point.keys()]
+    if not tested:
+        raise Rejected(f"{where} is tested at no point")
+    if not all(compared(one, point, where) for point in tested):
+        raise Rejected(f"{where} is violated at a point")
 
 
 def check_hypotheses(algebra: dict[str, Any], point: Mapping[str, Value], where: str, whole: bool) -> None:

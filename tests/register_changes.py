@@ -178,12 +178,13 @@ CHANGES = {
 }  # fmt: skip
 
 
-def by_hand(statements, points=(), algebras=(), counterexamples=()):
+def by_hand(statements, points=(), algebras=(), counterexamples=(), hypotheses=(), comparisons=()):
     """A certificate with few parts."""
     return resealed({
         "format": "chapsym-certificate/1", "kind": "register-claim", "claim": "0", "printed": "x", "corrected": None,
-        "algebras": [*algebras], "derivation": [], "points": [*points], "statements": [*statements],
-        "counterexamples": [*counterexamples], "sentences": [], "statement": "",
+        "hypotheses": [*hypotheses], "algebras": [*algebras], "derivation": [], "points": [*points],
+        "statements": [*statements], "comparisons": [*comparisons], "counterexamples": [*counterexamples],
+        "sentences": [], "statement": "",
     })  # fmt: skip
 
 
@@ -219,6 +220,16 @@ def of_words(left, right, **changes):
     return by_hand([said(left, right, point=0)], [TURN | changes], [LETTERS])
 
 
+def compared(*relations, point=0):
+    """A comparison at a point."""
+    return {"role": "lemma", "text": "x", "point": point, "relations": [*relations]}
+
+
+def assumed(*relations):
+    """A hypothesis."""
+    return {"text": "x", "relations": [*relations]}
+
+
 def small():
     """Certificates by hand: those that are right, and those that are not, by name."""
     identity, point = said("x", 1, point=0, cofactors=[[1]]), {"x": 1}
@@ -228,6 +239,12 @@ def small():
         "x = 2 fails at 1": by_hand([identity, wrong], [point], [ONE, FREE], [contradicted(1, point, [0])]),
         "AB = 1": of_words(["*", "A", "B"], 1),
         "mAB/m = AB": of_words(["*", "m", "A", "B", ["^", "m", -1]], ["*", "A", "B"]),
+        "0 < x ≤ 1, x = 1, x ≠ 2": by_hand(
+            [], [point], [], [], [assumed(["<", 0, "x"])],
+            [compared(["<", 0, "x"], ["<=", "x", 1], ["<=", "x", 2], ["=", "x", 1], ["!=", "x", 2])],
+        ),
+        "A ≠ B, A = A": by_hand([], [TURN], [], [], [], [compared(["!=", "A", "B"], ["=", "A", "A"])]),
+        "x > 0 wherever x is": by_hand([], [point, {"y": 0}], [], [], [assumed(["<", 0, "x"])]),
         "1/(x - 2) = -1/(2 - x)": by_hand(
             [said(["^", ["+", "x", -2], -1], ["*", -1, ["^", ["+", 2, ["*", -1, "x"]], -1]], point=0, cofactors=[[]])],
             [point], [FREE],
@@ -241,6 +258,25 @@ def small():
         "it contradicts what it confirms": by_hand(
             [identity, wrong], [point], [ONE, FREE], [contradicted(1, {"x": 3}, [0])]
         ),
+        **{f"1 {sign} {x}": by_hand([], [point], [], [], [], [compared(["<=", 0, "x"], [sign, "x", x])])
+           for sign, x in (("<", 1), ("<", 0), ("<=", 0), ("=", 2), ("!=", 1))},
+        "which matrix is less": by_hand([], [TURN], [], [], [], [compared(["<", "A", "B"])]),
+        "whether a matrix is less than a number": by_hand([], [TURN], [], [], [], [compared(["<=", "A", 1])]),
+        "whether a number is less than a matrix": by_hand([], [TURN], [], [], [], [compared(["<=", 1, "A"])]),
+        "a comparison on a pole": by_hand([], [point], [], [], [], [compared(["<", ["^", ["+", "x", -1], -1], 9])]),
+        "a comparison of nothing": by_hand([], [point], [], [], [], [compared()]),
+        "a comparison of three": by_hand([], [point], [], [], [], [compared(["<", 0, 1, 2])]),
+        "another relation": by_hand([], [point], [], [], [], [compared([">", 1, 0])]),
+        "a comparison with an unknown name": by_hand([], [point], [], [], [], [compared(["=", "y", "y"])]),
+        "a comparison at no point": by_hand([], [point], [], [], [], [compared(["<", 0, 1], point=1)]),
+        "a hypothesis that is violated": by_hand([], [point, {"x": -1}], [], [], [assumed(["<", 0, "x"])]),
+        "a hypothesis that a counterexample violates": by_hand(
+            [said("x", 2, refuted=0)], [], [FREE], [contradicted(0, point)], [assumed(["<", "x", 1])]
+        ),
+        "a hypothesis that is tested nowhere": by_hand(
+            [], [{"x": 1}, {"y": 1}], [], [], [assumed(["<", 0, ["+", "x", "y"]])]
+        ),
+        "a hypothesis without a text": by_hand([], [point], [], [], [{"relations": [["<", 0, "x"]], "text": ""}]),
         "a rule that fails": of_words("A", "A", A=[[2]], B=[[2]]),
         "no transposes": of_words("A", "A", A=[[1, 1], [0, 1]], B=[[1, -1], [0, 1]]),
         "m = 1": of_words("m", 1),

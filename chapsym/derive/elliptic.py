@@ -13,6 +13,10 @@ from .quotient import Quotient
 L1, L2, L3, l, k2 = sp.symbols("L1 L2 L3 l k2")
 LAMBDA = (L1, L2, L3)
 
+#: What the paper assumes of them: 1/Λ1 < 1/Λ2 < l < 1/Λ3.
+ORDER = (L1 > L2, L2 > L3, L3 > 0, L2 * l > 1, L3 * l < 1)
+MODULUS = (k2 > 0, k2 < 1)
+
 
 class Jacobi(NamedTuple):
     """sn, cn, dn of one argument."""

@@ -117,6 +117,13 @@ def euler_parameters() -> tuple[sp.Expr, sp.Matrix]:
     return cosine, sinc * eps / 2 * omega
 
 
+def second_order(other: sp.Matrix) -> sp.Matrix:
+    """The coefficient of ε² in q for the rotation exp(ε ω + ε² other)."""
+    turned = dict(zip(omega, omega + eps * other, strict=True))
+    vector = euler_parameters()[1].subs(turned, simultaneous=True)
+    return vector.applyfunc(lambda e: sp.expand(e).coeff(eps, 2))
+
+
 def vector_parameters() -> tuple[Remainder, Remainder]:
     """q/ε and q₀ themselves."""
     scalar, vector = euler_parameters()

@@ -21,8 +21,14 @@ gamma = sp.Matrix([g1, g2, g3])
 K = sp.Matrix([K1, K2, K3])
 J = sp.diag(J1, J2, J3)
 
+#: No moment of inertia is 0: then Λ is regular and F > 0, for D ≥ 0 (2.13).
+MOMENTS = (J2 + J3 > 0, J1 + J3 > 0, J1 + J2 > 0, D >= 0)
+
 UNIT_QUATERNION = q0**2 + q.dot(q) - 1
 UNIT_VERTICAL = gamma.dot(gamma) - 1
+
+#: That the Euler parameters and the vertical are unit.
+UNITS = (sp.Eq(UNIT_QUATERNION, 0), sp.Eq(UNIT_VERTICAL, 0))
 
 #: Where 𝒦(q, γ) lives: Euler parameters and the vertical are unit; the ball is any ball.
 RING = Quotient((q0, q1, q2, q3, g1, g2, g3, J1, J2, J3, D), [UNIT_QUATERNION, UNIT_VERTICAL])

@@ -5,12 +5,13 @@ from .evidence import Proof, Verdict
 from .polynomials import Identity
 from .registers import PROOFS, BrokenScript, NoRegister, Register, load
 from .runner import main, prove_all, unproved
-from .statements import Equation, Fact, Point, equations, rational_point
+from .statements import Comparison, Equation, Fact, Point, equations, rational_point
 
 __all__ = [
     "PROOFS",
     "BrokenScript",
     "Claim",
+    "Comparison",
     "Equation",
     "Fact",
     "Identity",

@@ -26,7 +26,7 @@ from . import witness
 from .cofactors import Ideal
 from .evidence import Proof
 from .points import candidates
-from .statements import Equation, Point, Statement
+from .statements import Comparison, Equation, Point, Statement
 from .trees import NotAlgebra, factored, number, tree
 
 #: Letters of a judged formula in a record.
@@ -41,15 +41,17 @@ def certificate(id: str, printed: str, proof: Proof) -> dict[str, Any]:
     for role, statement, holds in proof.decided:
         made.add(role, statement, holds)
     made.finish()
-    made.sentences += [{"role": "hypothesis", "text": text} for text in proof.hypotheses]
+    hypotheses = [{"text": h.text, "relations": _relations(h)} for h in proof.assumed]
+    decidable = {h.text for h in proof.assumed}
+    made.sentences += [{"role": "hypothesis", "text": text} for text in proof.hypotheses if text not in decidable]
     made.sentences += [{"role": "said", "text": text} for text in proof.said]
     made.sentences += [{"role": "counterexample", "text": text} for text in proof.refuted]
     made.sentences += [{"role": "certificate", "text": f"{c['file']}: {c['statement']}"} for c in proof.certificates]
     data = {
         "format": checker.FORMAT, "kind": "register-claim", "claim": id, "printed": printed,
-        "corrected": proof.corrected_text, "algebras": made.algebras, "derivation": made.derivation,
-        "points": made.points, "statements": made.statements, "counterexamples": made.counterexamples,
-        "sentences": made.sentences,
+        "corrected": proof.corrected_text, "hypotheses": hypotheses, "algebras": made.algebras,
+        "derivation": made.derivation, "points": made.points, "statements": made.statements,
+        "comparisons": made.comparisons, "counterexamples": made.counterexamples, "sentences": made.sentences,
     }  # fmt: skip
     data["statement"] = checker.statement(data)
     data["digest"] = checker.digest(data)
@@ -62,15 +64,19 @@ def carried(data: dict[str, Any]) -> dict[str, Any]:
     identical = sum(one["left"] == one["right"] for one in data["statements"])
     sentences = Counter(sentence["role"] for sentence in data["sentences"])
     same = f" ({identical} of one expression on both sides)" if identical else ""
+    more = f"; comparisons: {len(data['comparisons'])}" if data["comparisons"] else ""
+    more += f"; hypotheses: {len(data['hypotheses'])}" if data["hypotheses"] else ""
     steps = f"; steps from the premises: {len(data['derivation'])}" if data["derivation"] else ""
     listed = ", ".join(f"{n} {role}" for role, n in sentences.items()) or "none"
     return {
         "statements": len(data["statements"]),
         "identical": identical,
         "steps": len(data["derivation"]),
+        "comparisons": len(data["comparisons"]),
+        "hypotheses": len(data["hypotheses"]),
         "counterexamples": len(data["counterexamples"]),
         "sentences": dict(sentences),
-        "text": f"statements that the checker accepted: {len(data['statements'])}{same}{steps}; "
+        "text": f"statements that the checker accepted: {len(data['statements'])}{same}{steps}{more}; "
         f"counterexamples: {len(data['counterexamples'])}; sentences: {listed}",
         "judged": [_cut(line) for line in shown.lines(data)],
     }
@@ -103,6 +109,7 @@ class _Maker:
         self.derivation: list[dict[str, Any]] = []
         self.points: list[dict[str, Any]] = []
         self.statements: list[dict[str, Any]] = []
+        self.comparisons: list[dict[str, Any]] = []
         self.counterexamples: list[dict[str, Any]] = []
         self.sentences: list[dict[str, str]] = []
         self._symbols: dict[int, list[sp.Symbol]] = {}
@@ -137,6 +144,11 @@ class _Maker:
 
     def add(self, role: str, statement: Statement, holds: bool) -> None:
         """A decided statement, with what proves or refutes it; or a sentence."""
+        if isinstance(statement, Comparison) and holds:
+            point = self._point(statement.point)
+            relations = _relations(statement)
+            self.comparisons.append({"role": role, "text": statement.text, "point": point, "relations": relations})
+            return
         if not isinstance(statement, Equation):
             truth = "" if holds else "false: "
             self.sentences.append({"role": role, "text": f"{truth}{statement.text} ({statement.method})"})
@@ -262,6 +274,8 @@ class _Maker:
         assert isinstance(algebra, QuotientRing)
         cofactors = self._cofactors(one)
         for exact in candidates(symbols, algebra.relations):
+            if not witness.allowed(exact, self.proof.assumed):
+                continue
             entries = {x.name: _entry(v) for x, v in exact.items()}
             try:
                 if register.holds(one, None, register.entries(entries), self._defined, ""):
@@ -319,6 +333,18 @@ def _used(step: Step) -> list[sp.Expr]:
     """What a step writes down, its letters unfolded."""
     by = step.by.values() if isinstance(step.by, Mapping) else ()
     return [unfolded(sp.sympify(x)) for x in (step.of, *by)]
+
+
+def _relations(comparison: Comparison) -> list[list[Any]]:
+    """The relations as the checker reads them: > and ≥ turned round."""
+    return [
+        [_OPERATIONS[r.rel_op], tree(r.lhs), tree(r.rhs)] if r.rel_op in _OPERATIONS
+        else [_OPERATIONS[r.reversed.rel_op], tree(r.rhs), tree(r.lhs)]
+        for r in comparison.relations
+    ]  # fmt: skip
+
+
+_OPERATIONS = {"<": "<", "<=": "<=", "==": "=", "!=": "!="}
 
 
 def _entry(x: Any) -> Any:

@@ -11,11 +11,12 @@ from enum import StrEnum
 from typing import Any
 
 import sympy as sp
+from sympy.core.relational import Relational
 
 from chapsym.derive.words import unfolded
 
 from . import points, witness
-from .statements import Equation, Point, Statement
+from .statements import Comparison, Equation, Point, Statement
 
 
 class Verdict(StrEnum):
@@ -40,6 +41,7 @@ class Proof:
     controls: list[dict[str, Any]] = field(default_factory=list)
     problems: list[str] = field(default_factory=list)
     hypotheses: list[str] = field(default_factory=list)
+    assumed: list[Comparison] = field(default_factory=list)
     counterexamples: list[dict[str, Any]] = field(default_factory=list)
     routes: list[dict[str, Any]] = field(default_factory=list)
     witnesses: list[dict[str, Any]] = field(default_factory=list)
@@ -71,9 +73,15 @@ class Proof:
             value = "[" + ",  ".join(str(entry) for entry in value) + "]"
         self.lines.append(f"    {name} = {value}")
 
-    def assume(self, *texts: str) -> None:
-        """Hypotheses under which the claim is judged."""
-        self.hypotheses += map(str, texts)
+    def assume(self, text: str, *relations: Relational) -> None:
+        """A hypothesis under which the claim is judged, and what it says as relations: `0 < x`, `sp.Ne(x, 0)`.
+
+        The relations must hold at every counterexample and witness that has values for their symbols, and at one at
+        least.
+        """
+        self.hypotheses.append(str(text))
+        if relations:
+            self.assumed.append(Comparison(text, relations))
 
     def lemma(self, *statements: Statement) -> None:
         """What must hold for the proof to stand."""
@@ -108,7 +116,8 @@ class Proof:
         The hypotheses must hold there, some printed formula must fail, every corrected one must hold.
         """
         self.points.append(point)
-        for failure in point.failures():
+        assumed = [h for h in self.assumed if h.symbols <= point.exact.keys()]
+        for failure in (*point.failures(), *(h.text for h in assumed if not h.true_at(point.exact))):
             self.problems.append(f"the counterexample violates the hypothesis {failure}")
         printed, corrected = _equations(self._printed), _equations(self._corrected)
         wrong = [sides for e in printed if (sides := _sides(e, point))["left"] != sides["right"]]
@@ -202,9 +211,9 @@ class Proof:
     def _look_at_witnesses(self) -> None:
         """Every true statement must be true at an exact point of its algebra; what is false, refuted at one."""
         true = _equations([pair for pair in [*self._printed, *self._corrected] if pair[1]])
-        found, wrong = witness.look(true)
+        found, wrong = witness.look(true, self.assumed)
         if not found and not self.witnesses:
-            found, wrong = points.look(true)
+            found, wrong = points.look(true, self.assumed)
         self.witnesses += found
         self.problems += [f"fails at its witness: {text}" for text in wrong]
         if self.counterexamples or self.certificates or self.reason:

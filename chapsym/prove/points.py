@@ -8,7 +8,7 @@ import sympy as sp
 from chapsym.derive.quotient import Quotient
 
 from . import witness
-from .statements import Equation
+from .statements import Comparison, Equation
 
 Exact = dict[sp.Symbol, sp.Rational]
 
@@ -37,14 +37,14 @@ def candidates(
             yield point
 
 
-def look(equations: Sequence[Equation]) -> tuple[list[dict[str, Any]], list[str]]:
+def look(equations: Sequence[Equation], assumed: Sequence[Comparison] = ()) -> tuple[list[dict[str, Any]], list[str]]:
     """As `witness.look`, at points that are found for the relations of each equation, where the table has none."""
     found: dict[tuple[Any, ...], dict[str, Any]] = {}
     wrong = []
     for equation in equations:
         ring = equation.algebra
         for point in candidates(ring.symbols, ring.relations) if isinstance(ring, Quotient) else ():
-            if (truth := witness.true_at(equation, point)) is not None:
+            if witness.allowed(point, assumed) and (truth := witness.true_at(equation, point)) is not None:
                 seen = found.setdefault(tuple(point.items()), {"name": "found", "point": {}, "statements": 0})
                 seen["point"] |= witness.shown(equation, point)
                 seen["statements"] += 1

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from typing import Any, Protocol
 
 import sympy as sp
+from sympy.core.relational import Relational
 
 from chapsym.derive import words
 
@@ -81,7 +82,53 @@ class Fact:
         return bool(self.truth)
 
 
-Statement = Equation | Fact | Identity
+@dataclass(frozen=True)
+class Comparison:
+    """Relations <, ≤, = and ≠ at an exact point, as SymPy writes them: `x < y`, `sp.Eq(x, y)`, `sp.Ne(x, y)`.
+
+    A hypothesis has no point of its own: it must hold wherever a claim is evaluated.
+    """
+
+    text: str
+    relations: Sequence[Relational]
+    point: Mapping[sp.Symbol, Any] = field(default_factory=dict)
+    method: str = "rational numbers at a point"
+
+    def __post_init__(self) -> None:
+        if decided := [r for r in self.relations if not isinstance(r, Relational)]:
+            raise TypeError(f"a relation of «{self.text}» is {decided[0]} already; write it with symbols, and a point")
+
+    @property
+    def symbols(self) -> set[sp.Symbol]:
+        """What must have a value."""
+        return set().union(*(relation.free_symbols for relation in self.relations))
+
+    def holds(self) -> bool:
+        """Whether all relations hold at its point."""
+        return self.true_at(self.point)
+
+    def true_at(self, exact: Mapping[sp.Symbol, Any]) -> bool:
+        """Whether all relations hold at a point; raises if a side is not rational there."""
+        return all(_compared(relation, exact) for relation in self.relations)
+
+
+def _compared(relation: Relational, exact: Mapping[sp.Symbol, Any]) -> bool:
+    used = {symbol: exact[symbol] for symbol in relation.free_symbols}
+    left, right = _same_shape(*(_evaluated(side, used) for side in (relation.lhs, relation.rhs)))
+    texts = _exact(left), _exact(right)  # of rational numbers
+    if relation.rel_op in ("==", "!="):
+        return (texts[0] == texts[1]) == (relation.rel_op == "==")
+    return bool(relation.func(left, right))
+
+
+Statement = Equation | Fact | Identity | Comparison
+
+
+def _evaluated(expr: Any, exact: Mapping[sp.Symbol, Any]) -> Any:
+    """An expression at rational values of its symbols; words at matrices."""
+    if any(isinstance(value, sp.MatrixBase) for value in exact.values()):
+        return words.evaluate(expr, exact)
+    return expr.xreplace(dict(exact))
 
 
 @dataclass(frozen=True)
@@ -94,9 +141,7 @@ class Point:
 
     def evaluate(self, expr: Any) -> Any:
         """An expression at the point; words at its matrices."""
-        if any(isinstance(value, sp.MatrixBase) for value in self.exact.values()):
-            return words.evaluate(expr, self.exact)
-        return expr.xreplace(dict(self.exact))
+        return _evaluated(expr, self.exact)
 
     def failures(self) -> list[str]:
         """The hypotheses that fail at the point."""

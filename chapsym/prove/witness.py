@@ -6,7 +6,7 @@ that its hypotheses can hold, and checks the decision by arithmetic that shares 
 same is done in the degenerate cases that a statement allows (equal J, no rolling, no rotation).
 """
 
-from collections.abc import Sequence
+from collections.abc import Collection, Mapping, Sequence
 from functools import cache
 from typing import Any
 
@@ -15,20 +15,21 @@ import sympy as sp
 from chapsym.derive.quotient import Quotient
 from chapsym.derive.words import Traces, WordAlgebra, evaluate
 
-from .statements import Equation
+from .statements import Comparison, Equation
 
-#: The commuting symbols: a turn, a unit vertical, a ball, the elliptic functions at k² = 1/6, and free ones.
+#: The commuting symbols: a turn, a unit vertical, a ball of matter (J ≥ 0, tr J ≤ D = mρ²; for Λ and h = 1 there is
+#: one, too, with D from 21/5 to 5), the elliptic functions of a curve of it, and free ones.
 SCALARS = {
     **{"q0": "4/5", "q1": "2/5", "q2": "1/5", "q3": "2/5", "g1": "2/7", "g2": "3/7", "g3": "6/7"},
-    **{"J1": "1", "J2": "2", "J3": "4", "D": "3", "m": "3/4", "rho": "2", "sigma": "28/5", "h": "5/2"},
+    **{"J1": "1", "J2": "5", "J3": "2", "D": "14", "m": "7/2", "rho": "2", "sigma": "484/25", "h": "5/2"},
     **{"K1": "1", "K2": "-1/2", "K3": "3/4", "w1": "1", "w2": "-1", "w3": "2", "v1": "1", "v2": "2", "v3": "-1"},
-    **{"a1": "2", "a2": "1/3", "a3": "-1", "L1": "6", "L2": "5", "L3": "2", "l": "3/10", "k2": "1/6", "V": "1/5"},
+    **{"a1": "2", "a2": "1/3", "a3": "-1", "L1": "8", "L2": "7", "L3": "6", "l": "25/168", "k2": "9/16", "V": "1/42"},
     **{"u1": "1/2", "u2": "-1/3", "u3": "1/5", "k1": "1/2", "k3": "-2/3", "d1": "1/7", "d2": "1", "d3": "-2/5"},
     **{f"m{i}{j}": f"{3 * i - 2 * j + (i == j)}/2" for i in (1, 2, 3) for j in (1, 2, 3)},
     **{"p0": "2", "p1": "1", "p2": "-1", "p3": "1/2"},
     **{"I1": "6", "I2": "5", "I3": "3", "t": "3/2", "v": "1/4", "H": "2"},
     **{"moment": "6", "stretch": "2"},
-    **{"sh": "24/25", "ch": "7/25", "dh": "23/25", "epsilon": "1/3", "e": "9/16"},
+    **{"sh": "4/5", "ch": "3/5", "dh": "4/5", "root": "15/16", "epsilon": "1/3", "e": "9/16"},
     **{"z": "2", "P0": "1/2", "P1": "1/3", "A1": "1/5", "A2": "-2", "M1": "3", "M2": "-5"},
     **{"b": "1/3", "alpha": "1/2", "beta": "2/3", "mu": "3/5", "x": "1/7"},
     **{"y": "4/9", "w": "1/2", "Dscr": "5/6", "G": "2", "lam": "1/3", "C1": "1/2", "C2": "2/3", "C3": "3/4"},
@@ -46,17 +47,17 @@ CASES: dict[str, dict[str, str]] = {
 }
 
 
-def look(equations: Sequence[Equation]) -> tuple[list[dict[str, Any]], list[str]]:
+def look(equations: Sequence[Equation], assumed: Sequence[Comparison] = ()) -> tuple[list[dict[str, Any]], list[str]]:
     """Evaluates the equations at every case; returns the witnesses found and the statements that fail there.
 
-    A statement with a zero denominator in a case is not made there, and does not count.
+    A statement with a zero denominator in a case, or off a hypothesis, is not made there, and does not count.
     """
     found: dict[str, dict[str, Any]] = {}
     wrong = []
     for equation in equations:
         for case in CASES:
             point = _point(equation, case)
-            if point is None or (truth := true_at(equation, point)) is None:
+            if point is None or not allowed(point, assumed) or (truth := true_at(equation, point)) is None:
                 continue
             if not truth:
                 wrong.append(f"{equation.text} ({case})")
@@ -64,6 +65,11 @@ def look(equations: Sequence[Equation]) -> tuple[list[dict[str, Any]], list[str]
             seen["point"] |= shown(equation, point)
             seen["statements"] += 1
     return list(found.values()), wrong
+
+
+def allowed(point: Mapping[sp.Symbol, Any], assumed: Sequence[Comparison]) -> bool:
+    """Whether the hypotheses hold of which the point has the symbols."""
+    return all(h.true_at(point) for h in assumed if h.symbols <= point.keys())
 
 
 def _point(equation: Equation, case: str) -> dict[sp.Symbol, Any] | None:
@@ -134,6 +140,11 @@ def _same(a: Any, b: Any) -> bool:
     if isinstance(a, sp.MatrixBase):
         return bool(a.is_zero_matrix if b == 0 else a.is_square and a == b * sp.eye(a.rows))
     return bool(a == b)
+
+
+def values_of(symbols: Collection[sp.Symbol]) -> dict[sp.Symbol, Any]:
+    """The values that the table has for some symbols: numbers, and matrices for letters."""
+    return {x: scalars()[x.name] if x.is_commutative else _letters()[x.name] for x in symbols}
 
 
 @cache

@@ -59,9 +59,11 @@ def infinite_density(power: int = -1) -> Equation:
 )
 def locked_circle(p: Proof) -> None:
     """Displacements of both signs leave a circle no invariant density, and an interval of such levels none to the sphere."""
+    p.assume("J_i + J_j > 0, D ≥ 0; |h| below the bound of small-branch, G_h on the small branch")
     p.assume(
-        "J_i + J_j > 0, D ≥ 0; |h| below the bound of small-branch, G_h on the small branch",
-        f"{REGULAR}; c is the axis with 1/Λ_c at the end of the 1/Λ's on the side of l, (a, b) the others; γ_c > 0",
+        f"{REGULAR}; c is the axis with 1/Λ_c at the end of the 1/Λ's on the side of l, (a, b) the others; γ_c > 0"
+    )
+    p.assume(
         "an invariant measure is a Borel measure ν ≥ 0 with ν(G_h⁻¹E) = ν(E), finite on the circle (on the sphere)",
     )
     p.say("1. The circle. By small-branch the root is unique, regular and so analytic in (γ, h): G_h is an analytic")

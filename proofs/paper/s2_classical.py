@@ -72,7 +72,7 @@ def vector_equations(p: Proof) -> None:
 )
 def closed_system(p: Proof) -> None:
     """The equations for ω, γ follow from (2.3) and K = Λω - D⟨ω,γ⟩γ."""
-    p.assume("J_i + J_j > 0, so that Λ is regular and F > 0 (2.13)")
+    p.assume("J_i + J_j > 0, D ≥ 0, so that Λ is regular and F > 0 (2.13)", *three.MOMENTS)
     p.say(
         "Put ω̇ from (2.2) into K̇ = ∂K/∂ω ω̇ + ∂K/∂γ (γ×ω); it must be K×ω. B(γ) = ∂K/∂ω is invertible, so ω̇ is unique."
     )
@@ -134,7 +134,7 @@ def kinetic_energy(p: Proof) -> None:
 )
 def invariant_measure(p: Proof) -> None:
     """The invariant measure, by the exact divergence."""
-    p.assume("J_i + J_j > 0, so that Λ is regular and F > 0 (2.13)")
+    p.assume("J_i + J_j > 0, D ≥ 0, so that Λ is regular and F > 0 (2.13)", *three.MOMENTS)
     p.assume("|γ| = 1: F is taken as ⟨Iγ, Λ⁻¹γ⟩ near the sphere, and the field is tangent to it")
     p.say("div(√F X) = 0 is, times 2√F: Ḟ + 2F div X = 0, with X = (ω̇, γ×ω) of (2.2) in R⁶.")
     factor = rolling_factor()
@@ -170,8 +170,9 @@ def vertical_values() -> tuple[sp.Expr, sp.Expr]:
 )
 def vertical_momentum(p: Proof) -> None:
     """What K = hγ makes of ω."""
-    p.assume("h ≠ 0; l = ⟨K,ω⟩ as in (2.4)")
     height, power = vertical_values()
+    p.assume("h ≠ 0", sp.Ne(height, 0))
+    p.assume("l = ⟨K,ω⟩ as in (2.4)")
     p.lemma(equation("Λω = sγ makes K = hγ", at_vertical(momentum()), height * gamma, VERTICAL))
     p.printed(
         equation("⟨ω,γ⟩ = l/h", at_vertical(omega).dot(gamma), power / height, VERTICAL),
@@ -196,8 +197,8 @@ def euler_top(p: Proof) -> None:
 )
 def top_integrals(p: Proof) -> None:
     """The two integrals of the top are constant, but the first is not the l of (2.4)."""
-    p.assume("h ≠ 0")
     height, power = vertical_values()
+    p.assume("h ≠ 0", sp.Ne(height, 0))
     spin, body = at_vertical(omega), s * gamma
     p.lemma(
         equation("|Λω|² = ((h²+Dl)/h)², a constant", body.dot(body), ((height**2 + D * power) / height) ** 2, VERTICAL)

@@ -12,7 +12,7 @@ from chapsym.prove import Equation, Proof, claim, equations, main, rational_poin
 equation = equations(RING)
 
 #: A ball, a unit vertical and an angular velocity for the counterexamples.
-BALL = {J1: 1, J2: 2, J3: 4, D: 3}
+BALL = {J1: 1, J2: 2, J3: 4, D: 8}
 UNIT = dict(zip(gamma, map(sp.Rational, ("2/7", "3/7", "6/7")), strict=True))
 SPIN = dict(zip(omega, (1, -1, 2), strict=True))
 
@@ -72,7 +72,7 @@ def on_motion(expr: sp.Expr) -> sp.Expr:
 )
 def inverse_momentum(p: Proof) -> None:
     """The inverse of K(ω, γ): the sign is misprinted."""
-    p.assume("J_i + J_j > 0, so that Λ is regular and F > 0 (2.13)")
+    p.assume("J_i + J_j > 0, D ≥ 0, so that Λ is regular and F > 0 (2.13)", *three.MOMENTS)
     p.show("K(ω, γ)", sp.Matrix(continuous.momentum()))
     lift = D / continuous.rolling_factor() * gamma.dot(inverse_inertia() * K) * gamma
     left = list(three.lam() * omega)
@@ -102,7 +102,7 @@ def inverse_momentum(p: Proof) -> None:
 )
 def energy_integral(p: Proof) -> None:
     """The energy integral as a function of K, γ: the sign is misprinted with that of the inverse."""
-    p.assume("J_i + J_j > 0, so that F > 0 (2.13)")
+    p.assume("J_i + J_j > 0, D ≥ 0, so that F > 0 (2.13)", *three.MOMENTS)
     p.say("ω(K, γ) is the inverse of K(ω, γ) that 2.5-inverse proves.")
     quadratic = K.dot(inverse_inertia() * K)
     lifted = D / continuous.rolling_factor() * gamma.dot(inverse_inertia() * K) ** 2

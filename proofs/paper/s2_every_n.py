@@ -23,12 +23,12 @@ def moving(name: str, expr: sp.Expr, rates: Mapping[sp.Symbol, sp.Expr] = motion
 
 
 def motion_point() -> Point:
-    """n = 3, γ = e₃, ω = (1, 1, 1), and the ω̇ that the principle gives; m = ρ = 1."""
-    spin, gain = hat(sp.Matrix([1, 1, 1])), hat(sp.Matrix(["2/7", "-1/2", "1/3"]))
+    """n = 3, γ = e₃, ω = (1, 1, 1), and the ω̇ that the principle gives; m = 10, ρ = 1."""
+    spin, gain = hat(sp.Matrix([1, 1, 1])), hat(sp.Matrix(["1/8", "-1/5", "1/3"]))
     down = sp.Matrix([0, 0, 1])
     values = {alpha: gain, omega: spin, J: sp.diag(1, 2, 4), gamma: down, motion.gammaT: down.T}
-    values |= {Gamma: down * down.T, m: sp.S.One, rho: sp.S.One, D: sp.S.One}
-    shown = {"ω": "(1, 1, 1)", "ω̇": "(2/7, -1/2, 1/3)", "J": "diag(1, 2, 4)", "γ": "e3", "m": "1", "ρ": "1", "D": "1"}
+    values |= {Gamma: down * down.T, m: sp.Integer(10), rho: sp.S.One, D: sp.Integer(10)}
+    shown = {"ω": "(1, 1, 1)", "ω̇": "(1/8, -1/5, 1/3)", "J": "diag(1, 2, 4)", "γ": "e3", "m": "10", "ρ": "1", "D": "10"}
     return Point(shown, values, [equation("the principle", motion.eliminated(), 0)])
 
 

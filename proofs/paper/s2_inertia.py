@@ -180,8 +180,8 @@ def isomorphism(p: Proof) -> None:
     determinant = sp.Matrix(three.contact_inertia()).det()
     density = three.lam().det() * continuous.rolling_factor()
     p.lemma(Equation("det 𝒜 = det Λ · F: the density of (2.6) but for a constant", determinant, density, ring))
-    point = dict(zip((*spin, *three.gamma, *three.K), (1, 0, 1, 1, 0, 0, 6, 0, 4), strict=True))
-    point |= {three.J1: 1, three.J2: 2, three.J3: 4, three.D: 1}
+    point = dict(zip((*spin, *three.gamma, *three.K), (1, 0, 1, 1, 0, 0, 6, 0, 11), strict=True))
+    point |= {three.J1: 1, three.J2: 2, three.J3: 4, three.D: 8}
     unit = Equation("|γ| = 1", three.gamma.dot(three.gamma), 1, ring)
     state = Equation("K = Λω - D⟨ω,γ⟩γ", three.K, momentum, ring)
     p.counterexample(rational_point(point, [unit, state]))

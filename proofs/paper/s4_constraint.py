@@ -2,12 +2,13 @@
 
 import sympy as sp
 
-from chapsym.derive import ball, limits, principle
+from chapsym.derive import ball, limits, motion, principle, three
 from chapsym.derive.derivation import written
 from chapsym.derive.principle import ALGEBRA, R0, R0T, R1, R1T, RT, D, J, R, gamma, gammaT, m, rho
-from chapsym.derive.words import Traces, evaluate, unfolded
+from chapsym.derive.words import Traces, matrix_symbols, unfolded
+from chapsym.proofs.paper.s4_limits import exact_order
 from chapsym.proofs.paper.s4_principle import equation, path_point
-from chapsym.prove import Equation, Fact, Point, Proof, claim, main
+from chapsym.prove import Comparison, Equation, Point, Proof, claim, main
 
 # Body rotations and the vertical tensor, as words in the attitudes.
 NOW, NOW_T = RT * R1, R1T * R
@@ -42,7 +43,7 @@ def chosen_constraint(p: Proof) -> None:
         equation("(4.9) at R_{k+1} = R_k, r_{k+1} = r_k", diagonal, sp.S.Zero),
         Equation("(4.9)/ε → the rotational part of (4.2), ρ ω̄ γ", limit.limit, continuous, both),
     )
-    p.lemma(Fact(f"the remainder has the exact order 2, here {limit.order}", limit.order == 2))
+    p.lemma(exact_order("the remainder", limit, 2))
     p.lemma(Equation("its leading term is (ρ/6) ω̄³γ", limit.leading, rho * limits.omega_space**3 * gamma / 6, both))
     naive = rho * R1 * RT * gamma
     p.control(Equation("the naive constraint is horizontal", naive * gammaT, sp.S.Zero, Traces(ALGEBRA)))
@@ -52,21 +53,38 @@ def chosen_constraint(p: Proof) -> None:
 
 @claim(
     "4.9-naive",
-    r"\Delta r_k + \rho\,\bar\Omega_k\bar\gamma = 0 \text{ imitates (2.9) and allows } \Delta r_k"
+    r"\Delta r_k + \rho\,\bar\Omega_k\bar\gamma = 0 \text{ imitates the form of (2.9) and allows } \Delta r_k"
     r"\text{ that are not horizontal}",
 )
 def naive_constraint(p: Proof) -> None:
-    """The naive constraint allows displacements that are not horizontal, even at rest."""
-    p.say("It has the form of (2.9), with Δr for v and Ω̄ for ω. Its vertical component is -ρ γᵀΩ̄γ:")
-    turn = sp.Matrix([[1, 0, 0], [0, "3/5", "-4/5"], [0, "4/5", "3/5"]])
-    up = sp.Matrix([0, 0, 1])
-    values = {R: sp.eye(3), RT: sp.eye(3), R1: turn, R1T: turn.T, gamma: up, rho: sp.S.One}
+    """It has the form of (2.9) and not its limit; it allows displacements that are not horizontal, even at rest."""
+    p.say("Its form is that of (2.9), v + ρωγ = 0: Δr stands for v and Ω̄ = R_{k+1}R_kᵀ for ω.")
+    dr = matrix_symbols("dr")[0]
+    rolling = motion.v - motion.rolling_velocity()
+    imitated = rolling.xreplace({motion.v: dr, motion.omega: R1 * RT, motion.gamma: gamma, motion.rho: rho})
+    p.printed(equation("(2.9) with Δr for v and Ω̄ for ω = Δr + ρΩ̄γ", imitated, dr + rho * R1 * RT * gamma))
+    p.say("Its vertical component is -ρ γᵀΩ̄γ; n = 3, Ω̄ by Euler parameters:")
     naive = -rho * R1 * RT * gamma
-    p.printed(Fact("at Ω̄ = a turn by (3/5, 4/5) about e₁, γ = e₃: Δr = (0, 4/5, -3/5)",
-                   turn.det() == 1 and list(evaluate(naive, values)) == [0, sp.Rational(4, 5), sp.Rational(-3, 5)]))  # fmt: skip
-    p.witness("generic", {"Ω̄": str(turn.tolist()), "γ": "e3", "ρ": "1"})
-    p.say("At Ω̄ = 1 it asks for Δr = -ργ: it does not admit (q, q), nor does it tend to (4.2).")
+    shift = -rho * sp.Matrix(three.rotation()) * three.gamma
+    place = three.placed(((three.q0, *three.q), ("4/5", "3/5", 0, 0)), (three.gamma, (0, 0, 1))) | {rho: 1}
+    at = {symbol: sp.Rational(value) for symbol, value in place.items()}
+    units = [sp.Eq(three.UNIT_QUATERNION, 0), sp.Eq(three.UNIT_VERTICAL, 0)]
+    expected = map(sp.Rational, (0, "24/25", "-7/25"))
+    p.printed(Comparison("⟨γ, Δr⟩ ≠ 0 at Ω̄ = a turn by (7/25, 24/25) about e₁, γ = e₃, ρ = 1: Δr = (0, 24/25, -7/25)",
+                         [*units, sp.Ne(three.gamma.dot(shift), 0),
+                          *(sp.Eq(x, value) for x, value in zip(shift, expected, strict=True))],
+                         at))  # fmt: skip
+    p.witness("generic", {"Ω̄": "a turn about e1 by cos θ = 7/25, sin θ = 24/25", "γ": "e3", "ρ": "1"})
+    p.say("It imitates no more than the form.  At Ω̄ = 1 it asks for Δr = -ργ: it does not admit (q, q).  For Ω̄ =")
+    p.say("exp(εω̄) and a path with Δr = O(ε) it does not tend to (4.2): the coefficients of 1 and of ε in -Δr/ρ are")
     p.lemma(equation("Δr at R_{k+1} = R_k is -ργ", naive.subs({R1: R, R1T: RT}), -rho * gamma))
+    turn = written("turn", "Ω̄ = R_{k+1} R_kᵀ = exp(ε ω̄)", R1 * RT, ALGEBRA)
+    zeroth, first, *_ = limits.coefficients(turn, limits.SPACE_STEP)
+    p.lemma(
+        equation("that of 1 is γ", zeroth * gamma, gamma),
+        equation("that of ε is ω̄γ", first * gamma, limits.omega_space * gamma),
+    )
+    p.control(equation("that of 1 is 0: (4.2) is the limit", zeroth * gamma, sp.S.Zero))
     p.control(Equation("its vertical component vanishes", naive * gammaT, sp.S.Zero, Traces(ALGEBRA)))
 
 

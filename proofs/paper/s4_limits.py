@@ -5,7 +5,7 @@ import sympy as sp
 from chapsym.derive import ball, limits
 from chapsym.derive.ball import ALGEBRA, D, Gamma, J, K, omega
 from chapsym.derive.words import unfolded
-from chapsym.prove import Fact, Proof, claim, equations, main
+from chapsym.prove import Comparison, Proof, claim, equations, main, witness
 
 equation = equations(ALGEBRA)
 
@@ -21,6 +21,18 @@ def show(p: Proof, name: str, remainder: limits.Remainder) -> None:
     p.show(name, f"({limit}) + ε^{remainder.order}·({leading}) + ...")
 
 
+def exact_order(name: str, remainder: limits.Remainder, order: int = 1, less: int = 0) -> Comparison:
+    """That a remainder, here divided by ε^less, has this order: its leading term is not 0 at a point."""
+    found, term = sp.Integer(remainder.order + less), remainder.leading
+    term = unfolded(term) if isinstance(term, sp.Expr) else term
+    vanishing = sp.Eq(term, 0) if isinstance(term, sp.Expr) else sp.Eq(term.dot(term), 0)
+    return Comparison(
+        f"{name} has the exact order {order}, here {found}, and its leading term is not 0",
+        [sp.Eq(found, order, evaluate=False), sp.Not(vanishing)],
+        witness.values_of(term.free_symbols),
+    )
+
+
 @claim(
     "4.6-limit",
     r"\Omega_k\mapsto I+\varepsilon\omega:\ M_k \text{ transforms to } M = J\omega+\omega J",
@@ -33,7 +45,7 @@ def centre_limit(p: Proof) -> None:
     show(p, "M/ε", m)
     p.printed(equation("M/ε → Jω + ωJ", m.limit, J * omega + omega * J))
     p.lemma(equation("the leading remainder is ½[ω², J]", m.leading, commutator(omega**2, J) / 2))
-    p.lemma(Fact(f"the remainder has the exact order 1, here {m.order}", m.order == 1))
+    p.lemma(exact_order("the remainder", m))
     p.control(equation("M/ε → Jω - ωJ", m.limit, J * omega - omega * J))
 
 
@@ -50,14 +62,14 @@ def momentum_limit(p: Proof) -> None:
     show(p, "𝒦/ε", momentum)
     centre, contact = J * omega + omega * J, D * (Gamma * omega + omega * Gamma)
     p.printed(equation("𝒦/ε → Jω + ωJ + D(Γω + ωΓ)", momentum.limit, centre + contact))
-    p.lemma(Fact(f"the remainder of 𝒦/ε has the exact order 1, here {momentum.order}", momentum.order == 1))
+    p.lemma(exact_order("the remainder of 𝒦/ε", momentum))
     p.lemma(equation("its leading term is ½[ω², J], without D", momentum.leading, commutator(omega**2, J) / 2))
     for name, tensor in [("𝒦", K), ("Γ", Gamma)]:
         moved = limits.transport(tensor)
         show(p, f"(Ωᵀ{name}Ω - {name})/ε", moved)
         turned = commutator(omega, tensor)
         p.printed(equation(f"(Ωᵀ{name}Ω - {name})/ε → -[ω, {name}]", moved.limit, -turned))
-        p.lemma(Fact(f"its remainder has the exact order 1, here {moved.order}", moved.order == 1))
+        p.lemma(exact_order("its remainder", moved))
         p.lemma(equation(f"its leading term is ½[ω, [ω, {name}]]", moved.leading, commutator(omega, turned) / 2))
     p.control(
         equation("𝒦/ε → Jω + ωJ - D(Γω + ωΓ)", momentum.limit, centre - contact),

@@ -2,12 +2,12 @@
 
 import sympy as sp
 
-from chapsym.derive import ball
+from chapsym.derive import ball, three
 from chapsym.derive.ball import ALGEBRA, D, Gamma, J, K, Omega, OmegaT
 from chapsym.derive.derivation import replaced
-from chapsym.derive.words import Traces, WordAlgebra, evaluate, matrix_symbols, unfolded
+from chapsym.derive.words import Traces, WordAlgebra, matrix_symbols, unfolded
 from chapsym.proofs import second_routes
-from chapsym.prove import Equation, Fact, Proof, claim, equations, main
+from chapsym.prove import Comparison, Equation, Proof, claim, equations, main
 
 equation = equations(ALGEBRA)
 
@@ -108,31 +108,27 @@ def discrete_euler_top(p: Proof) -> None:
 @claim("4.13-multivalued", r"\text{(4.13), in general, has several solutions } \Omega_k", uses=["prop-1"])
 def several_solutions(p: Proof) -> None:
     """Two rational rotations with the same momentum at the same vertical, for a ball with D > 0."""
-    first, second = (_turn(c, s) for c, s in (("7/25", "24/25"), ("-7/25", "24/25")))
-    vertical = sp.Matrix([0, 1, 0])
-    values = {J: sp.diag(1, 2, 4), Gamma: vertical * vertical.T, D: sp.Integer(3)}
-
-    def momentum(turn: sp.Matrix) -> sp.Matrix:
-        return evaluate(ball.momentum(), {**values, Omega: turn, OmegaT: turn.T})
-
-    p.say("Turns about e₁ with cos θ = ±7/25, sin θ = 24/25, at γ = e₂, J = (1,2,4), D = 3:")
-    p.show("𝒦 of the first", momentum(first))
-    p.printed(Fact("both are rotations, they differ, and (4.13) gives the same 𝒦",
-                   first.T * first == sp.eye(3) == second.T * second
-                   and first.det() == 1 == second.det() and first != second
-                   and momentum(first) == momentum(second)))  # fmt: skip
-    p.witness("generic", {"Ω": "a turn about e1 by cos θ = ±7/25, sin θ = 24/25", "γ": "e2", "J": "(1,2,4)", "D": "3"})
-    p.lemma(Fact("𝒦 is not 0", not momentum(first).is_zero_matrix))
+    p.say("n = 3: turns about e₁ with cos θ = ±7/25, sin θ = 24/25, at γ = e₂, J = (1,2,4), D = 8, by Euler parameters")
+    first, second = (three.q0, *three.q), sp.symbols("p0:4")
+    values = three.placed(
+        (first, ("4/5", "3/5", 0, 0)), (second, ("3/5", "4/5", 0, 0)), (three.gamma, (0, 1, 0)),
+        ((three.J1, three.J2, three.J3, three.D), (1, 2, 4, 8)),
+    )  # fmt: skip
+    at = {symbol: sp.Rational(value) for symbol, value in values.items()}
+    momentum = sp.Matrix(three.momentum())
+    other = momentum.subs(dict(zip(first, second, strict=True)), simultaneous=True)
+    p.show("𝒦 of the first", momentum.xreplace(at))
+    p.printed(
+        Comparison("both are rotations", [sp.Eq(sum(x**2 for x in turn), 1) for turn in (first, second)], at),
+        Comparison("they differ: q₀² = ¼(1 + tr Ω)", [sp.Ne(first[0] ** 2, second[0] ** 2)], at),
+        Comparison("(4.13) gives the same 𝒦⃗", [sp.Eq(a, b) for a, b in zip(momentum, other, strict=True)], at),
+    )
+    p.witness("generic", {"Ω": "a turn about e1 by cos θ = ±7/25, sin θ = 24/25", "γ": "e2", "J": "(1,2,4)", "D": "8"})
+    p.lemma(Comparison("𝒦⃗ is not 0", [sp.Ne(momentum[0], 0)], at))
     X, XT = matrix_symbols("X X^T")
     other = unfolded(ball.momentum()).xreplace({Omega: X, OmegaT: XT})
     algebra = WordAlgebra({**ALGEBRA.transposes, X: XT, XT: X}, {**ALGEBRA.rules, (X, XT): 1, (XT, X): 1})
     p.control(equation("any two rotations have the same 𝒦", other, ball.momentum(), algebra))
-
-
-def _turn(cosine: str, sine: str) -> sp.Matrix:
-    """A turn about e₁."""
-    c, s = sp.Rational(cosine), sp.Rational(sine)
-    return sp.Matrix([[1, 0, 0], [0, c, -s], [0, s, c]])
 
 
 @claim(

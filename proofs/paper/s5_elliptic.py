@@ -11,8 +11,15 @@ ON_CURVE = elliptic.ring(U)
 equation = equations(ON_CURVE)
 TWO = elliptic.ring(MEAN, HALF, amplitudes=(C1, C2, C3, V))
 
-#: Λ = (4, 2, 1), l = 5/8 lies between 1/2 and 1.
-BALL = {L1: 4, L2: 2, L3: 1, l: "5/8"}
+#: A curve of a ball of matter (J ≥ 0, tr J ≤ D) whose k is rational, and an argument with rational sn, cn, dn.
+BALL = {L1: 8, L2: 7, L3: 6, l: "25/168"}
+SQUARE = {k2: "9/16"}
+ARGUMENT = ("4/5", "3/5", "4/5")
+
+
+def on_ball() -> Equation:
+    """k² is that of the curve (5.8-modulus)."""
+    return equation("k² of (5.8-modulus)", k2, elliptic.squared_modulus())
 
 
 def printed_squares(sign: int = 1) -> list[sp.Expr]:
@@ -33,7 +40,7 @@ def printed_squares(sign: int = 1) -> list[sp.Expr]:
 )
 def amplitudes(p: Proof) -> None:
     """The amplitudes: the sign under the root of C3 is misprinted."""
-    p.assume("1/Λ1 < 1/Λ2 < l < 1/Λ3, so that Λ1 l > 1 and the printed C3 is imaginary")
+    p.assume("1/Λ1 < 1/Λ2 < l < 1/Λ3, so that Λ1 l > 1 and the printed C3 is imaginary", *elliptic.ORDER)
     p.say("|γ|² = 1 and ⟨γ,Λ⁻¹γ⟩ = l for γ = (C1 cn, C2 sn, C3 dn) and every u determine the squares:")
     derived = elliptic.squared_amplitudes()
     for name, square in zip(("C1²", "C2²", "C3²"), derived, strict=True):
@@ -57,6 +64,7 @@ def modulus(p: Proof) -> None:
     """The modulus."""
     printed = (L1 - L2) * (1 - L3 * l) / ((L2 - L3) * (L1 * l - 1))
     p.printed(equation("k² as printed", printed, elliptic.squared_modulus()))
+    p.assume("1/Λ1 < 1/Λ2 < l < 1/Λ3", *elliptic.ORDER)
     p.say("0 < k² < 1 where the paper works: 1 - k² has the sign of Λ2 l - 1.")
     complement = (L1 - L3) * (L2 * l - 1) / ((L2 - L3) * (L1 * l - 1))
     p.lemma(equation("1 - k² = (Λ1-Λ3)(Λ2 l-1)/((Λ2-Λ3)(Λ1 l-1))", 1 - printed, complement))
@@ -71,6 +79,7 @@ def modulus(p: Proof) -> None:
 def parameterisation(p: Proof) -> None:
     """The Jacobi parameterisation runs on the invariant curve."""
     p.assume("C3 with the correction of (5.8)")
+    p.assume("1/Λ1 < 1/Λ2 < l < 1/Λ3", *elliptic.ORDER)
     modulus = elliptic.squared_modulus()
     squares = [a * f**2 for a, f in zip(elliptic.squared_amplitudes(), (U.cn, U.sn, U.dn), strict=True)]
     replaced = [sp.sympify(s).subs(U.dn**2, 1 - modulus * U.sn**2).subs(U.cn**2, 1 - U.sn**2) for s in squares]
@@ -97,6 +106,8 @@ def pair() -> tuple[list[sp.Expr], list[sp.Expr]]:
 )
 def sums_and_differences(p: Proof) -> None:
     """Sums and differences by the addition formulas: the sign of the first difference is misprinted."""
+    p.assume("0 < k² < 1", *elliptic.MODULUS)
+    p.assume("1/Λ1 < 1/Λ2 < l < 1/Λ3", *elliptic.ORDER)
     now, after = pair()
     product = MEAN.sn * MEAN.dn * HALF.sn * HALF.dn
     size = 2 * C1 / elliptic.denominator()
@@ -112,9 +123,9 @@ def sums_and_differences(p: Proof) -> None:
         difference("γ~1 - γ1 = -(2C1/𝒟) sn ū dn ū sn δu dn δu", -1),
     )
     relations = [Equation("the relations of sn, cn, dn", MEAN.relations() + HALF.relations(), [sp.S.Zero] * 4, TWO)]
-    p.say("At k = 0 they are sine, cosine and 1: an exact point with sn ū = 3/5, sn δu = 5/13.")
-    values = {MEAN.sn: "3/5", MEAN.cn: "4/5", MEAN.dn: 1, HALF.sn: "5/13", HALF.cn: "12/13", HALF.dn: 1}
-    p.counterexample(rational_point({**values, k2: 0, C1: 1}, relations))
+    p.say("C1 is a factor of both sides; at the point 1 stands for it.")
+    values = {**BALL, **SQUARE, **dict(zip((*MEAN, *HALF), ARGUMENT * 2, strict=True))}
+    p.counterexample(rational_point({**values, C1: 1}, [*relations, on_ball()]))
     p.control(difference("γ~1 - γ1 = -(4C1/𝒟) sn ū dn ū sn δu dn δu", -2))
 
 
@@ -126,7 +137,9 @@ def sums_and_differences(p: Proof) -> None:
 )
 def increment_and_kappa(p: Proof) -> None:
     """What (5.10) says of the increment, in each of its three components."""
-    p.assume("sn δu ≠ 0; the sign of V is that of -C1 C2 C3, which the printed V² leaves open")
+    p.assume("sn δu, cn δu, dn δu and V are not 0", *(sp.Ne(x, 0) for x in (*HALF, V)))
+    p.assume("1/Λ1 < 1/Λ2 < l < 1/Λ3, and 0 < k² < 1", *elliptic.ORDER, *elliptic.MODULUS)
+    p.assume("the sign of V is that of -C1 C2 C3, which the printed V² leaves open")
     now, after = pair()
     total = [a + b for a, b in zip(now, after, strict=True)]
     scaled = [t / lam for t, lam in zip(total, LAMBDA, strict=True)]

@@ -8,7 +8,7 @@ from chapsym.derive import elliptic
 from chapsym.derive.elliptic import HALF, L1, L2, L3, LAMBDA, MEAN, U, k2, l
 from chapsym.derive.quotient import Quotient
 from chapsym.proofs import second_routes
-from chapsym.proofs.paper.s5_elliptic import TWO, V
+from chapsym.proofs.paper.s5_elliptic import ARGUMENT, BALL, SQUARE, TWO, V, on_ball
 from chapsym.prove import Equation, Point, Proof, claim, equations, main, rational_point
 
 
@@ -21,6 +21,9 @@ def curve_equation(text: str, left: sp.Expr, right: sp.Expr) -> Equation:
     """An equation in sn, cn, dn of ū and δu, with l in terms of k²."""
     return Equation(text, on_curve(left), on_curve(right), TWO)
 
+
+#: What the paper assumes of the curve; l is what k² and Λ make it, between 1/Λ2 and 1/Λ3.
+ON_CURVES = (*elliptic.MODULUS, *elliptic.ORDER[:3])
 
 #: Everything below has h = 1 (5.12-scaling), and y = sn²δu, w = sn cn dn of δu.
 D, Y = sp.Symbol("D"), HALF.sn**2
@@ -51,6 +54,7 @@ def true_g() -> sp.Expr:
 def first_form(p: Proof) -> None:
     """Π1 in Jacobi's functions."""
     p.assume("C3 with the correction of (5.8)")
+    p.assume("0 < k² < 1, Λ1 > Λ2 > Λ3 > 0", *ON_CURVES)
     a, b, c = (square / lam for square, lam in zip(elliptic.squared_amplitudes(), LAMBDA, strict=True))
     p.printed(
         curve_equation("Π1 = (l - μ sn²δu)/𝒟", elliptic.quarter_form(1), (l - MU * Y) / elliptic.denominator()),
@@ -68,6 +72,7 @@ def first_form(p: Proof) -> None:
 def second_form(p: Proof) -> None:
     """Π2 in terms of G."""
     p.assume("G with the correction of (5.14-G)")
+    p.assume("0 < k² < 1, Λ1 > Λ2 > Λ3 > 0", *ON_CURVES)
     a, b, c = quotients()
     middle = a * MEAN.cn**2 * HALF.cn**2 + b * MEAN.sn**2 * HALF.cn**2 * HALF.dn**2 + c * MEAN.dn**2 * HALF.dn**2
     square = elliptic.denominator() ** 2
@@ -88,6 +93,7 @@ def second_form(p: Proof) -> None:
 )
 def g_function(p: Proof) -> None:
     """G: k² is missing under its second term."""
+    p.assume("0 < k² < 1, Λ1 > Λ2 > Λ3 > 0", *ON_CURVES)
     p.say("G is what Π2 𝒟² = G𝒟/sn² - V² cn² dn²/sn² makes of it, an identity in sn²ū:")
     a, b, c = quotients()
     derived = (
@@ -108,12 +114,11 @@ def g_function(p: Proof) -> None:
 
 
 def curve_point() -> Point:
-    """Λ = (6,5,2), l = 3/10: k² = 1/6, V = 1/5; sn δu = 24/25, ū = 0."""
-    values = {L1: 6, L2: 5, L3: 2, k2: "1/6", HALF.sn: "24/25", HALF.cn: "7/25", HALF.dn: "23/25"}
+    """Λ = (8,7,6), l = 25/168: k² = 9/16, V = 1/42; sn δu = 4/5, ū = 0."""
+    values = {**BALL, **SQUARE, **dict(zip(HALF, ARGUMENT, strict=True)), MEAN.sn: 0, MEAN.cn: 1, MEAN.dn: 1}
     free = elliptic.ring(HALF)
     relations = Equation("the relations of δu", HALF.relations(), [sp.S.Zero] * 2, free)
-    point = rational_point({**values, MEAN.sn: 0, MEAN.cn: 1, MEAN.dn: 1}, [relations])
-    return replace(point, values={**point.values, "l": "3/10"})
+    return rational_point(values, [relations, on_ball()])
 
 
 def coefficient(expr: sp.Expr, power: int) -> sp.Expr:
@@ -131,6 +136,7 @@ def coefficient(expr: sp.Expr, power: int) -> sp.Expr:
 )
 def alpha(p: Proof) -> None:
     """α: l is missing beside 2Λ1Λ3 in the numerator."""
+    p.assume("0 < k² < 1, Λ1 > Λ2 > Λ3 > 0", *ON_CURVES)
     p.lemma(curve_equation("the constant term of G/V² is 1", coefficient(true_g(), 0), sp.S.One))
     derived = coefficient(true_g(), 1)
     p.show("α", sp.factor(on_curve(derived)))
@@ -152,6 +158,7 @@ def alpha(p: Proof) -> None:
 def beta(p: Proof) -> None:
     """β, for the G that is right."""
     p.assume("G with the correction of (5.14-G)")
+    p.assume("0 < k² < 1, Λ1 > Λ2 > Λ3 > 0", *ON_CURVES)
     printed = L1 * L3 / (L2 - L3) ** 2 * (1 - L3 * l) / (L1 * l - 1)
     p.printed(curve_equation("-β is the coefficient of sn⁴ in G/V²", -printed, coefficient(true_g(), 2)))
     p.control(curve_equation("β with the other sign", printed, coefficient(true_g(), 2)))
@@ -176,12 +183,12 @@ INVERSE, W, SECOND = 1 - D * level / SCALE, V * w / y, G * SCALE / y - V**2 * e 
 
 
 def step_point() -> Point:
-    """Λ = (6,5,2), l = 3/10, V = 1/5, sn δu = 24/25, sn ū = 3/5, and the D that makes T = 0: about 0.92."""
-    point = {L1: 6, L2: 5, L3: 2, k2: sp.Rational(1, 6), l: sp.Rational(3, 10), MEAN.sn: sp.Rational(3, 5)}
-    point |= dict(zip(HALF, map(sp.Rational, ("24/25", "7/25", "23/25")), strict=True))
+    """The curve of `curve_point`, sn δu = 4/5, sn ū = 12/13, and the D that makes T = 0, about 4.78: a ball of matter."""
+    point = {**BALL, **SQUARE, **dict(zip(HALF, ARGUMENT, strict=True)), MEAN.sn: "12/13"}
+    point = {symbol: sp.Rational(value) for symbol, value in point.items()}
     values = {
         **{SCALE: elliptic.denominator(), G: true_g(), y: Y, e: (HALF.cn * HALF.dn) ** 2},
-        **{w: SMALL_W, level: l - MU * Y, V: sp.Rational(1, 5)},
+        **{w: SMALL_W, level: l - MU * Y, V: sp.Rational(1, 42)},
     }
     exact = {symbol: sp.sympify(value).subs(point, simultaneous=True) for symbol, value in values.items()}
     exact[D] = sp.solve(true_relation().subs(exact), D)[0]
@@ -192,7 +199,7 @@ def step_point() -> Point:
         part("T = 0", true_relation(), 0 * w),
     ]
     found = rational_point(exact, hypotheses)
-    made_of = {"Λ": "(6, 5, 2)", "l": "3/10", "k²": "1/6", "sn δu": "24/25", "sn ū": "3/5"}
+    made_of = {"Λ": "(8, 7, 6)", "l": "25/168", "k²": "9/16", "sn δu": "4/5", "sn ū": "12/13"}
     return replace(found, values={**made_of, **found.values})
 
 
@@ -204,7 +211,8 @@ def step_point() -> Point:
 )
 def before_squaring(p: Proof) -> None:
     """The relation before squaring: d stands for D (h = 1), its factor ½ must be 1, and σ² is missing under the root."""
-    p.assume("h = 1 (5.12-scaling); sn δu, 𝒟 and 1 - DΠ1 do not vanish; d is D, the only thing (5.11) can make it")
+    p.assume("sn δu, 𝒟 and 1 - DΠ1 do not vanish", *(sp.Ne(x, 0) for x in (y, SCALE, INVERSE)))
+    p.assume("h = 1 (5.12-scaling); d is D, the only thing (5.11) can make it")
     half = 1 - D / 2 * level / SCALE
     p.say("With 1/σ = 1 - DΠ1 (5.11) and 2𝒟/ϰ = V cn dn/sn =: W, prop-4 reads ±√(1 - σ²Π2) = σW/𝒟 - 1. Squared:")
     squared = half**2 * (SCALE**2 - SECOND)
@@ -231,7 +239,8 @@ def before_squaring(p: Proof) -> None:
 )
 def relation_for_the_increment(p: Proof) -> None:
     """The relation for the increment is linear in 𝒟, for both signs of the root, with no extraneous solution."""
-    p.assume("h = 1; w = sn cn dn of δu; sn δu, 𝒟 and σ are finite and not 0; G as corrected; d is D")
+    p.assume("sn δu, 𝒟 and σ are finite and not 0", *(sp.Ne(x, 0) for x in (y, SCALE, INVERSE)))
+    p.assume("h = 1; w = sn cn dn of δu; G as corrected; d is D")
     p.say("From prop-4 as corrected: (2σ/ϰ - 1)² = 1 - σ²Π2, 2σ/ϰ = σW/𝒟. The V² terms cancel, and one factor σ:")
     statement = (W / (INVERSE * SCALE) - 1) ** 2 - 1 + SECOND / (INVERSE * SCALE) ** 2
     factor = 1 / (INVERSE * SCALE) ** 2 / y
@@ -272,7 +281,8 @@ def relation_for_the_increment(p: Proof) -> None:
 @claim("5.15-euler", r"d = 0:\ \text{the increment does not depend on } u", uses=["5.15"])
 def euler_increment(p: Proof) -> None:
     """Without rolling the increment is constant."""
-    p.assume("(5.15) as corrected; 𝒟 ≠ 0")
+    p.assume("𝒟 ≠ 0", sp.Ne(SCALE, 0))
+    p.assume("(5.15) as corrected")
     factored = SCALE * (G - 2 * V * w)
     p.printed(part("T at D = 0 is 𝒟(G - 2Vw), and ū is in 𝒟 only", true_relation(contact=sp.S.Zero), factored))
     p.control(part("the same for any D", true_relation(), factored))
@@ -287,6 +297,7 @@ def euler_increment(p: Proof) -> None:
 )
 def denominator_of_u(p: Proof) -> None:
     """𝒟 as a function of u and δu: the sign of the whole and three coefficients are wrong."""
+    p.assume("0 < k² < 1", *elliptic.MODULUS)
     p.say("sn ū = sn(u + δu) by the addition formula, into 𝒟 = 1 - k² sn²ū sn²δu.")
     ring = elliptic.ring(U, HALF)
     derived = 1 - k2 * elliptic.added(U, HALF, 1).sn ** 2 * HALF.sn**2
@@ -326,6 +337,7 @@ def weierstrass_form(p: Proof) -> None:
         equation("cn² = 1 - sn²", cosine, 1 - square),
         equation("dn² = 1 - k² sn²", delta, 1 - k2 * square),
     )
+    p.assume("0 < k² < 1", *elliptic.MODULUS)
     p.say("and d/du sn² = 2 sn cn dn agrees with dp/du = q: (2 sn cn dn)² = (dsn²/dp)² q².")
     rate = sp.diff(square, P)
     p.printed(equation("4 sn² cn² dn² = (d sn²/dp)² q²", 4 * square * cosine * delta, rate**2 * Q**2))
@@ -343,6 +355,7 @@ def weierstrass_w(p: Proof) -> None:
         equation("w = -½q/(p-e3)²", -Q / (2 * (P - E3) ** 2), derived),
     )
     p.lemma(equation("w² = sn² cn² dn²", derived**2, (P - E1) * (P - E2) / (P - E3) ** 3))
+    p.assume("0 < k² < 1", *elliptic.MODULUS)
     p.say("k² = 9/16, sn = 4/5, cn = 3/5, dn = 4/5: p = e3 + 25/16, q = -2 cn dn/sn³, w = 48/125.")
     values = {k2: "9/16", P: sp.Rational(25, 16) - sp.Rational(25, 48), Q: sp.Rational(-2 * 12 * 125, 25 * 64)}
     curve = equation("q² = 4(p-e1)(p-e2)(p-e3)", Q**2, 4 * (P - E1) * (P - E2) * (P - E3))
@@ -356,22 +369,31 @@ def weierstrass_w(p: Proof) -> None:
     uses=["5.16-weierstrass-e", "5.15"],
 )
 def increment_integral(p: Proof) -> None:
-    """The increment as an integral on the curve, from p = ∞, where δu = 0."""
-    p.assume(
-        "the root is that of the point P on the curve: 2√(...) = q there, negative for small δu > 0 (5.16-weierstrass-w)"
-    )
+    """The increment as an integral on the curve, from p = ∞, where δu = 0; with the positive root it is -δu."""
     p.assume("δu up to periods, as for every integral on the curve")
+    p.assume("0 < k² < 1", *elliptic.MODULUS)
     p.say("p = e3 + 1/sn²δu; p' = dp/dδu from sn' = cn dn:")
-    ring = elliptic.ring(HALF)
     value = E3 + 1 / HALF.sn**2
-    slope = sp.diff(value, HALF.sn) * HALF.cn * HALF.dn
+    slope = elliptic.derivative(value, HALF)
     p.show("p'", slope)
-    quartic = sp.prod(value - root for root in (E1, E2, E3))
-    p.printed(Equation("(dp/dδu)² = 4(p-e1)(p-e2)(p-e3): dδu = dp/(2√...)", slope**2, 4 * quartic, ring))
+    cubic = sp.prod(value - e for e in (E1, E2, E3))
+    p.say("The integral is δu when dp/dδu is 2√(...).  The paper does not say which root; the positive one, r > 0:")
+    root = sp.Symbol("root")
+    p.assume("0 < δu < a quarter of the period: sn, cn and dn of δu are positive", *(x > 0 for x in (root, *HALF)))
+    ring = Quotient((root, *HALF, k2), [*HALF.relations(), root**2 * HALF.sn**6 - (HALF.cn * HALF.dn) ** 2])
+    p.lemma(Equation("r² = (p-e1)(p-e2)(p-e3)", root**2, cubic, ring))
+    p.printed(Equation("dp/dδu = 2r", slope, 2 * root, ring))
+    on_curve = -2 * SMALL_W * (value - E3) ** 2
+    p.under(
+        "2√(…) is q at the point P = (p, q), w(δu) = -½q/(p-e3)² (5.16-weierstrass-w): negative for small δu > 0",
+        Equation("q² = 4(p-e1)(p-e2)(p-e3)", on_curve**2, 4 * cubic, ring),
+        Equation("dp/dδu = q", slope, on_curve, ring),
+    )
     p.lemma(Equation("p → ∞ as δu → 0: 1/(p - e3) = sn²δu", 1 / (value - E3), HALF.sn**2, ring))
-    falling = -2 * HALF.cn * HALF.dn / HALF.sn**3
-    p.lemma(Equation("p' = -2 cn dn/sn³: with the positive root the integral is -δu", slope, falling, ring))
-    p.control(Equation("(dp/dδu)² = (p-e1)(p-e2)(p-e3)", slope**2, quartic, ring))
+    point = {**SQUARE, **dict(zip(HALF, ARGUMENT, strict=True)), root: "15/16"}
+    p.counterexample(rational_point(point, [Equation("r² = (p-e1)(p-e2)(p-e3)", root**2, cubic, ring)]))
+    p.control(Equation("dp/dδu = -2r, whatever the sign of cn δu", slope, -2 * root, ring))
+    p.control(Equation("(dp/dδu)² = (p-e1)(p-e2)(p-e3)", slope**2, cubic, ring))
     other = 4 * sp.prod(value - E3 + E2 - root for root in (E1, E2, E3))
     p.control(Equation("the same with e2 for e3 in p", slope**2, other, ring))
 

@@ -25,9 +25,10 @@ REGULAR = "Λ1, Λ2, Λ3 are different, and l is none of 1/Λ1, 1/Λ2, 1/Λ3"
 )
 def invariant_curve(p: Proof) -> None:
     """The invariant curve covers the quartic by z and w = const·γ₁γ₂γ₃(z-l)²: four sign changes, none with a fixed point."""
-    p.assume(REGULAR)
-    z = sp.Symbol("z")
     roots = [1 / lam for lam in LAMBDA]
+    gaps = (L1 - L2, L2 - L3, L3 - L1)
+    p.assume(REGULAR, *(sp.Ne(x, 0) for x in (*gaps, *(l - root for root in roots))))
+    z = sp.Symbol("z")
     squares = [
         (z - roots[i]) * (l - roots[j]) * (l - roots[k]) / ((z - l) * (roots[i] - roots[j]) * (roots[i] - roots[k]))
         for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1))
@@ -39,8 +40,7 @@ def invariant_curve(p: Proof) -> None:
     p.show("γ₁²", squares[0])
     p.lemma(Equation("|γ|² = 1 for every z", sum(squares), 1, ring))
     p.lemma(Equation("⟨γ,Λ⁻¹γ⟩ = l for every z", sum(s * a for s, a in zip(squares, roots, strict=True)), l, ring))
-    gaps = (roots[0] - roots[1]) * (roots[1] - roots[2]) * (roots[2] - roots[0])
-    scale = gaps / sp.prod(l - a for a in roots)
+    scale = (roots[0] - roots[1]) * (roots[1] - roots[2]) * (roots[2] - roots[0]) / sp.prod(l - a for a in roots)
     p.say("w = γ₁γ₂γ₃ (z - l)² Π_{i<j}(1/Λ_i - 1/Λ_j)/Π(l - 1/Λ_i) is real where γ is, and")
     quartic = -sp.prod(z - a for a in roots) * (z - l)
     whole = sp.prod(squares) * (z - l) ** 4 * scale**2
@@ -95,8 +95,10 @@ def one_dimensional_map(p: Proof) -> None:
     """The reduced map on a curve is u + Δu(u, l); for D ≠ 0 an increment serves one value of sn²ū only."""
     p.assume("(5.15) as corrected, T = G𝒟 - 2Vw(𝒟 - Dλ) = 0 with λ = l - μ sn²δu; a branch is chosen")
     p.assume(
-        "V, k, y = sn²δu, w = sn cn dn δu and λ = Π1𝒟 = ¼⟨s,Λ⁻¹s⟩𝒟, s = γ + γ~, are not 0: s ≠ 0 and δu is no half period"
+        "V, k, y = sn²δu, w = sn cn dn δu and λ = Π1𝒟 = ¼⟨s,Λ⁻¹s⟩𝒟, s = γ + γ~, are not 0: s ≠ 0 and δu is no half period",
+        *(sp.Ne(x, 0) for x in (V, y, w, level)),
     )
+    p.assume("k² ≠ 0", sp.Ne(k2, 0))
     p.say("l is kept (prop-3) and u is the coordinate on its curve (5.7): the map is u + Δu(u, l).")
     p.say("Let one δu solve T = 0 at two points of the curve, x1 = sn²ū1 and x2 = sn²ū2:")
     same = [relation_at(x1), relation_at(x2)]
@@ -134,13 +136,14 @@ def structure(p: Proof) -> None:
     )
     p.say("D = 0: σ = h + 2Dq₀⟨γ,q⟩ = h is constant, too.  D > 0, an exact state and all its successors:")
     state = {symbol: sp.Rational(value) for symbol, value in SMALL.items()}
+    ball = tuple(state[x] for x in (three.J1, three.J2, three.J3))
     height = vertical.height().subs(state, simultaneous=True)
     here = vertical.gamma_now().subs(state, simultaneous=True)
     there = vertical.gamma_next().subs(state, simultaneous=True)
     p.say(
-        f"J = (1, 2, 4), D = 1, (q₀, q) = (4, 2, 1, 2)/5: γ = {list(here)}, h = {height}, σ = {state[sigma]}; γ~ = {list(there)}."
+        f"J = {ball}, D = {state[D]}, (q₀, q) = (4, 2, 1, 2)/5: γ = {list(here)}, h = {height}, σ = {state[sigma]}; γ~ = {list(there)}."
     )
-    equations = solutions.at((1, 2, 4), 1, list(there), list(height * there))
+    equations = solutions.at(ball, state[D], list(there), list(height * there))
     successors = solutions.count(equations)
     p.say(
         f"(5.2) for γ~ and 𝒦~ = hγ~ has {successors.distinct} solutions, {successors.real} of them real; the count refuses to miss one."
@@ -152,11 +155,11 @@ def structure(p: Proof) -> None:
 
     common = solutions.have_common_point([*equations, keeps(there, state[sigma])])
     p.printed(Fact("none of them has the σ of the step before: 1 is in the ideal of the four quadrics", not common))
-    shown = {"J": "(1, 2, 4)", "D": "1", "h": str(height), "γ~": str(list(there)), "σ": str(state[sigma])}
+    shown = {"J": str(ball), "D": str(state[D]), "h": str(height), "γ~": str(list(there)), "σ": str(state[sigma])}
     p.witness("generic", shown, Fact("|γ~| = 1", there.dot(there) == 1))
     flat = {**state, D: sp.S.Zero}
     p.witness("D = 0", {"σ": "h"}, Fact("σ = h", vertical.height().subs(flat, simultaneous=True) == state[sigma]))
-    own = [*solutions.at((1, 2, 4), 1, list(here), list(height * here)), keeps(here, state[sigma])]
+    own = [*solutions.at(ball, state[D], list(here), list(height * here)), keeps(here, state[sigma])]
     p.control(Fact("the same for the step's own solutions", not solutions.have_common_point(own)))
     p.control(part("T = 𝒟(G - 2Vw) for every D", true_relation(), SCALE * (G - 2 * V * w)))
 
@@ -170,8 +173,10 @@ def structure(p: Proof) -> None:
 def invariant_density(p: Proof) -> None:
     """A constant increment in some parameter, an invariant density on the curves, and one on the sphere are the same."""
     p.assume(
-        "regular levels l, where u is a coordinate; a branch of the map that is a diffeomorphism of each; densities positive and smooth",
-        "Δs is constant on a curve; it may depend on l. f and μ are smooth and positive in u and in l together",
+        "regular levels l, where u is a coordinate; a branch of the map that is a diffeomorphism of each; densities positive and smooth"
+    )
+    p.assume("Δs is constant on a curve; it may depend on l. f and μ are smooth and positive in u and in l together")
+    p.assume(
         "s is a coordinate of the circle, as u is: f(s + S) = f(s) + the period of u. On the line alone there is an f for "
         "every step without a fixed point: any increasing one from [0, Δs] to [u, u~], continued by the step",
     )
@@ -225,7 +230,7 @@ def invariant_density(p: Proof) -> None:
 def circle(p: Proof) -> None:
     """A diffeomorphism of the circle when |h| is small; for large |h| there may be no real step at all."""
     p.assume("Λ1, Λ2, Λ3 different, l regular: each real component of the curve is a circle, u mod its real period")
-    p.assume("J_i + J_j > 0 (2.13), so that F > 0")
+    p.assume("J_i + J_j > 0, D ≥ 0 (2.13), so that F > 0", *three.MOMENTS)
     p.say(
         "h = 0 has the solution q = 0, where ∂𝒦/∂q = 2B(γ) is regular on the whole curve, as F = 1 - Dl is constant on it:"
     )

@@ -2,12 +2,13 @@
 
 import sympy as sp
 
-from chapsym.derive import ball, limits, three
+from chapsym.derive import ball, continuous, limits, three
 from chapsym.derive.limits import omega
 from chapsym.derive.quotient import Quotient
 from chapsym.derive.three import J1, J2, J3, RING, D, K, axial, gamma, hat, q, q0, q1, q2, q3
 from chapsym.proofs import second_routes
-from chapsym.prove import Equation, Fact, Proof, claim, equations, main, rational_point
+from chapsym.proofs.paper.s4_limits import exact_order
+from chapsym.prove import Comparison, Equation, Fact, Proof, claim, equations, main, rational_point
 
 equation = equations(RING)
 
@@ -153,17 +154,23 @@ def vector_momentum(p: Proof) -> None:
     uses=["5.1"],
 )
 def parameter_expansion(p: Proof) -> None:
-    """The Euler parameters of a small rotation."""
+    """The Euler parameters of a small rotation, by the angle ε|ω| about ω."""
+    p.assume("θ = εω, as the paper says: the rotation is Ω = exp(εω); for Ω = 1 + εω + O(ε²) alone it is false")
     vector, scalar = limits.vector_parameters()
     p.printed(
         Equation("q/ε → ω/2", vector.limit, omega / 2, limits.RING),
         Equation("q₀ → 1", scalar.limit, 1, limits.RING),
     )
-    p.lemma(Fact(f"q - εω/2 has the exact order 3, here {vector.order + 1}", vector.order + 1 == 3))
-    p.lemma(Fact(f"q₀ - 1 has the exact order 2, here {scalar.order}", scalar.order == 2))
+    p.lemma(exact_order("q - εω/2", vector, 3, less=1), exact_order("q₀ - 1", scalar, 2))
     square = omega.dot(omega)
     p.lemma(Equation("the leading term of q is -|ω|²ω/48", vector.leading, -square / 48 * omega, limits.RING))
     p.lemma(Equation("the leading term of q₀ is -|ω|²/8", scalar.leading, -square / 8, limits.RING))
+    p.say("Without it: Ω = exp(εω + ε²a) is 1 + εω + O(ε²), too, and q = (ε/2)ω + (ε²/2)a + O(ε³):")
+    other = sp.Matrix(sp.symbols("a1:4"))
+    free = Quotient((*other, *limits.RING.symbols), limits.RING.relations)
+    second = limits.second_order(other)
+    p.lemma(Equation("the term of q in ε² is a/2", second, other / 2, free))
+    p.control(Equation("the term of q in ε² is 0 for Ω = exp(εω + ε²a)", second, [sp.S.Zero] * 3, free))
     p.control(Equation("q/ε → ω", vector.limit, omega, limits.RING))
 
 
@@ -182,7 +189,7 @@ def vector_limit(p: Proof) -> None:
     lam = sp.diag(J2 + J3 + D, J1 + J3 + D, J1 + J2 + D)
     printed = lam * omega - D * gamma.dot(omega) * gamma
     p.printed(Equation("𝒦⃗/ε → Λω - D⟨γ,ω⟩γ", limit.limit, printed, limits.RING))
-    p.lemma(Fact(f"the remainder has the exact order 1, here {limit.order}", limit.order == 1))
+    p.lemma(exact_order("the remainder", limit, 1))
     p.lemma(Equation("its leading term is ½ ω×Λω", limit.leading, omega.cross(lam * omega) / 2, limits.RING))
     p.control(Equation("𝒦⃗/ε → Λω + D⟨γ,ω⟩γ", limit.limit, lam * omega + D * gamma.dot(omega) * gamma, limits.RING))
     mass = sp.diag(J1 + D, J2 + D, J3 + D)
@@ -208,7 +215,7 @@ def vector_form(p: Proof) -> None:
     p.show(f"(Ωᵀ𝒦⃗ - 𝒦⃗)/ε, leading remainder of order {limit.order}", limit.leading)
     p.lemma(Equation("(Ωᵀ𝒦⃗ - 𝒦⃗)/ε → 𝒦⃗×ω", limit.limit, K.cross(omega), limits.RING))
     p.lemma(Equation("its leading remainder is ½(𝒦⃗×ω)×ω", limit.leading, K.cross(omega).cross(omega) / 2, limits.RING))
-    p.lemma(Fact(f"that remainder has the exact order 1, here {limit.order}", limit.order == 1))
+    p.lemma(exact_order("that remainder", limit, 1))
     p.control(Equation("the axial vector of Ωᵀ𝒦Ω = Ω𝒦⃗", moved, rotation * K, ring))
     p.control(Equation("𝒦̇ = ω×𝒦", limit.limit, omega.cross(K), limits.RING))
 
@@ -242,44 +249,39 @@ def vector_integrals(p: Proof) -> None:
     p.control(Equation("⟨Ωᵀ𝒦, Ωγ⟩ = ⟨𝒦, γ⟩", moved.dot(rotation * gamma), K.dot(gamma), ring))
 
 
-def rotation_of(parameters: tuple) -> sp.Matrix:
-    """Ω at unit Euler parameters."""
-    return sp.Matrix(three.rotation()).subs(dict(zip((q0, *q), map(sp.Rational, parameters), strict=True)))
-
-
 @claim("5.3-energy", r"\text{the energy integral (2.5) is not preserved}", uses=["5.3", "2.5"])
 def energy_changes(p: Proof) -> None:
     """One exact step that changes the energy, (2.5) as corrected; as printed it changes, too."""
     p.assume("the energy is (2.5) as corrected, in 𝒦")
-    ball = {J1: 1, J2: 2, J3: 4, D: 3}
-    state = {**UNIT, **dict(zip(gamma, map(sp.Rational, ("2/7", "3/7", "6/7")), strict=True)), **ball}
-    momentum = sp.Matrix(three.momentum()).subs(state, simultaneous=True)
-    rotation = sp.Matrix(three.rotation()).subs(state)
-    vertical = gamma.subs(state)
+    momentum, turn = sp.Matrix(three.momentum()), sp.Matrix(three.rotation()).T
+    inverse, factor = three.lam().inv(), continuous.rolling_factor()
+    quadratic, lifted = K.dot(inverse * K), D * gamma.dot(inverse * K) ** 2 / factor
 
-    def energy(momentum: sp.Matrix, vertical: sp.Matrix, sign: int, contact: int = 3) -> sp.Rational:
-        inverse = (sp.diag(6, 5, 3) + contact * sp.eye(3)).inv()
-        lifted = vertical.dot(inverse * momentum)
-        return momentum.dot(inverse * momentum) + sign * contact * lifted**2 / (
-            1 - contact * vertical.dot(inverse * vertical)
-        )
+    def changes(name: str, energy: sp.Expr, at: dict) -> Comparison:
+        """That the energy is not the same before and after the step of the Euler parameters."""
+        before = energy.subs(three.placed((K, momentum)), simultaneous=True)
+        after = energy.subs(three.placed((K, turn * momentum), (gamma, turn * gamma)), simultaneous=True)
+        units = [sp.Eq(three.UNIT_QUATERNION, 0), sp.Eq(three.UNIT_VERTICAL, 0)]
+        return Comparison(name, [*units, sp.Ne(before, after)], at)
 
-    values = {name: [energy(momentum, vertical, sign), energy(rotation.T * momentum, rotation.T * vertical, sign)]
-              for name, sign in (("as corrected", 1), ("as printed", -1))}  # fmt: skip
-    p.say("J = (1, 2, 4), D = 3, γ = (2, 3, 6)/7, Ω by (4, 2, 1, 2)/5; 𝒦 and γ after the step are Ωᵀ𝒦 and Ωᵀγ.")
-    for name, (before, after) in values.items():
-        p.show(f"(2.5) {name}, before and after", [before, after])
-        p.printed(Fact(f"(2.5) {name} changes in that step", before != after))
-    ends = {"J": "(1, 2, 4)", "D": "3", "γ": "(2, 3, 6)/7", "q₀, q": "(4, 2, 1, 2)/5", "𝒦": str(list(momentum))}
-    square = momentum.dot(momentum)
-    p.witness("generic", ends, Fact("⟨𝒦,𝒦⟩ does not", square == (rotation.T * momentum).dot(rotation.T * momentum)))
+    ball = {J1: 1, J2: 2, J3: 4, D: 8}
+    state = three.placed((gamma, map(sp.Rational, ("2/7", "3/7", "6/7")))) | UNIT | ball
+    state = {symbol: sp.Rational(value) for symbol, value in state.items()}
+    p.say("J = (1, 2, 4), D = 8, γ = (2, 3, 6)/7, Ω by (4, 2, 1, 2)/5; 𝒦 and γ after the step are Ωᵀ𝒦 and Ωᵀγ.")
+    for name, sign in (("as corrected", 1), ("as printed", -1)):
+        p.printed(changes(f"(2.5) {name} changes in that step", quadratic + sign * lifted, state))
+    p.lemma(
+        Equation("(2.5) as corrected is twice the energy", quadratic + lifted, 2 * continuous.energy(), limits.RING)
+    )
+    here = momentum.xreplace(state)
+    ends = {"J": "(1, 2, 4)", "D": "8", "γ": "(2, 3, 6)/7", "q₀, q": "(4, 2, 1, 2)/5", "𝒦": str(list(here))}
+    p.witness("generic", ends, Fact("|γ| = 1", gamma.dot(gamma).xreplace(state) == 1))
     p.say(
         "It may be kept in a step: a turn about an axis of the body that is vertical, or vertical momentum (6-vertical-energy)."
     )
-    turn = rotation_of(("4/5", 0, 0, "3/5"))
-    along, upright = sp.Matrix([0, 0, 5]), sp.Matrix([0, 0, 1])
-    kept = energy(along, upright, 1) != energy(turn.T * along, turn.T * upright, 1)
-    p.control(Fact("it changes in a turn about e₃ with 𝒦, γ along e₃", kept))
+    upright = three.placed(((q0, *q), ("4/5", 0, 0, "3/5")), (gamma, (0, 0, 1)))
+    upright = {symbol: sp.Rational(value) for symbol, value in upright.items()}
+    p.control(changes("it changes in a turn about e₃ with 𝒦, γ along e₃", quadratic + lifted, state | upright))
 
 
 if __name__ == "__main__":

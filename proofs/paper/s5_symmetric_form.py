@@ -63,7 +63,7 @@ def symmetric(text: str, factor: sp.Expr) -> Equation:
 )
 def sum_and_difference(p: Proof) -> None:
     """Sum and difference of consecutive verticals."""
-    p.assume(NOT_ZERO)
+    p.assume(NOT_ZERO, sp.Ne(sigma, 0))
     p.printed(
         equation("γ~ + γ = (4q₀/σ)Λq", total(), 4 * q0 / sigma * vertical.lam() * q),
         equation("γ~ - γ = (4/σ)Λq×q", difference(), 4 / sigma * (vertical.lam() * q).cross(q)),
@@ -78,8 +78,8 @@ def sum_and_difference(p: Proof) -> None:
 )
 def kappa_in_q0(p: Proof) -> None:
     """The symmetric form with ϰ = σ/q₀²."""
-    p.assume(NOT_ZERO)
-    p.assume("q₀ ≠ 0: at a rotation by π the sum γ~ + γ vanishes")
+    p.assume(NOT_ZERO, sp.Ne(sigma, 0))
+    p.assume("q₀ ≠ 0: at a rotation by π the sum γ~ + γ vanishes", sp.Ne(q0, 0))
     p.printed(symmetric("γ~ - γ = σ/(4q₀²)·(γ~+γ)×Λ⁻¹(γ~+γ)", sigma / (4 * q0**2)))
     p.control(symmetric("the same with σ/(2q₀²)", sigma / (2 * q0**2)))
     p.control(symmetric("the same with -σ/(4q₀²)", -sigma / (4 * q0**2)))
@@ -92,8 +92,8 @@ def kappa_in_q0(p: Proof) -> None:
 )
 def q0_from_sum(p: Proof) -> None:
     """q₀ as a function of the sum: σ² is missing under the root, and the root has two signs."""
-    p.assume(NOT_ZERO)
-    p.assume("q₀ ≠ 0: at a rotation by π the sum γ~ + γ vanishes")
+    p.assume(NOT_ZERO, sp.Ne(sigma, 0))
+    p.assume("q₀ ≠ 0: at a rotation by π the sum γ~ + γ vanishes", sp.Ne(q0, 0))
     p.say("By (5.12) |q|² = (σ²/16q₀²)⟨γ~+γ, Λ⁻²(γ~+γ)⟩, and |q|² = 1 - q₀²: a quadratic equation for q₀².")
     p.printed(square_of_root("(2q₀²-1)² = 1 - ¼⟨s, Λ⁻²s⟩, s = γ~+γ", sp.Rational(1, 4)))
     p.corrected(
@@ -124,7 +124,7 @@ def _signs() -> tuple[int, ...]:
 )
 def sigma_equation(p: Proof) -> None:
     """The equation that σ solves has the missing factor 2; the relation that closes it holds."""
-    p.assume(NOT_ZERO)
+    p.assume(NOT_ZERO, sp.Ne(sigma, 0))
     lifted = D * sigma / 4 * vertical.gamma_now().dot(inverse() * total())
     p.lemma(equation("⟨γ, Λ⁻¹s⟩ = ½⟨s, Λ⁻¹s⟩", vertical.gamma_now().dot(inverse() * total()), first_form() / 2))
     p.printed(equation("σ = h + D⟨γ, (σ/4)Λ⁻¹s⟩, s = γ~ + γ", sigma, vertical.height() + lifted))
@@ -143,7 +143,7 @@ def sigma_equation(p: Proof) -> None:
 )
 def sigma_of_sum(p: Proof) -> None:
     """σ as a function of the sum: D/8 must be D/4."""
-    p.assume("h ≠ 0; then σ ≠ 0 and the denominator is h/σ, which does not vanish")
+    p.assume("h ≠ 0; then σ ≠ 0 and the denominator is h/σ, which does not vanish", sp.Ne(vertical.height(), 0))
     p.printed(closed_sigma("σ(1 - (D/8)⟨s, Λ⁻¹s⟩) = h, s = γ~ + γ", D / 8))
     p.corrected(
         r"\sigma = \frac h{1-\frac D4\langle\tilde\gamma+\gamma,\Lambda^{-1}(\tilde\gamma+\gamma)\rangle}",
@@ -164,7 +164,8 @@ def sigma_of_sum(p: Proof) -> None:
 )
 def symmetric_form(p: Proof) -> None:
     """The symmetric form holds with other ϰ and σ, and with both signs of the root."""
-    p.assume("h ≠ 0 and q₀ ≠ 0 (no rotation by π); Λ invertible")
+    p.assume("h ≠ 0 and q₀ ≠ 0 (no rotation by π)", sp.Ne(vertical.height(), 0), sp.Ne(q0, 0))
+    p.assume("Λ is positive, as for every ball", *(x > 0 for x in vertical.lam().diagonal()))
     p.lemma(symmetric("5.10 with ϰ = σ/q₀²", sigma / (4 * q0**2)))
     p.say("Where the vector product is not 0, (5.10) leaves one ϰ, σ/q₀². The printed formula for it says")
     p.say("2σ/ϰ - 1 = √(...), that is 2q₀² - 1 = √(1 - ¼⟨s, Λ⁻²s⟩) with s = γ~ + γ; squared it is polynomial:")
@@ -216,7 +217,8 @@ def _product_is_not_zero(state: dict) -> bool:
 @claim("5.12-scaling", r"h = 1 \text{ by rescaling of } \Lambda \text{ and } D", uses=["prop-4"])
 def rescaling(p: Proof) -> None:
     """The map depends on Λ/h and D/h only."""
-    p.assume("h > 0 (for h < 0 turn γ round: (-h, -γ) is the same momentum); prop-4 as corrected")
+    p.assume("h > 0 (for h < 0 turn γ round: (-h, -γ) is the same momentum)", vertical.height() > 0)
+    p.assume("prop-4 as corrected")
     scale = sp.Symbol("s")
     ring = Quotient((scale, *RING.symbols), RING.relations)
     changed = {x: x / scale for x in (J1, J2, J3, D, sigma)}

@@ -13,9 +13,10 @@ from chapsym.prove import Equation, Point, Proof, claim, equations, main, ration
 
 equation = equations(RING)
 
-#: 𝒦 = hγ at two rational states, found by search: the rotation angle is below and above 90°.
-SMALL = {q0: "4/5", q1: "2/5", q2: "1/5", q3: "2/5", J1: 1, J2: 2, J3: 4, D: 1, sigma: "28/5"}
-LARGE = {q0: "1/2", q1: "1/2", q2: "1/2", q3: "1/2", J1: 1, J2: 2, J3: 5, D: 2, sigma: 7}
+#: 𝒦 = hγ at two rational states of balls of matter (J ≥ 0, tr J ≤ D), found by search: the rotation angle is below
+#: and above 90°.
+SMALL = {q0: "4/5", q1: "2/5", q2: "1/5", q3: "2/5", J1: 1, J2: 5, J3: 2, D: 14, sigma: "484/25"}
+LARGE = {q0: "1/5", q1: "2/5", q2: "2/5", q3: "4/5", J1: 1, J2: 2, J3: 4, D: 10, sigma: "148/25"}
 
 
 #: ⟨q, left⟩ = 2q₀⟨q, Λq⟩ and left(q₀ = 0) = 2 q×Λq leave 𝒦 = 0 when the left side vanishes: see prop-3.
@@ -58,7 +59,8 @@ def printed_vector(sign: int) -> sp.Matrix:
 )
 def vertical_relation(p: Proof) -> None:
     """The relation between γ and q when the momentum is vertical: a factor 2 is missing."""
-    p.assume("|γ| = 1, |q|² + q₀² = 1; the equations are judged modulo 𝒦 - hγ = 0")
+    p.assume("|γ| = 1, |q|² + q₀² = 1", *three.UNITS)
+    p.assume("the equations are judged modulo 𝒦 - hγ = 0")
     ring = Quotient((h, *three.RING.symbols), three.RING.relations)
     left = 2 * printed_vector(+1)
     p.lemma(Equation("the left side: 𝒦 of a ball with Ĵ and D = 0", left, vertical.left_side(), ring))
@@ -91,7 +93,7 @@ def vertical_relation(p: Proof) -> None:
 @claim("5.6-sigma", r"\sigma_k = h + D\langle\gamma_k, q_0\mathbf q\rangle", uses=["5.4"])
 def sigma_definition(p: Proof) -> None:
     """σ inherits the missing factor 2 of (5.4)."""
-    p.assume(NOT_ZERO)
+    p.assume(NOT_ZERO, sp.Ne(sigma, 0))
     p.say("σ is the factor for which the left side of (5.4) is σγ; h and γ are written in q, σ.")
     now, height = vertical.gamma_now(), vertical.height()
 
@@ -112,7 +114,7 @@ def sigma_definition(p: Proof) -> None:
 )
 def consecutive_verticals(p: Proof) -> None:
     """γ_k and γ_(k+1) in Euler parameters: the vectors are right, the sign of Ωᵀ is not."""
-    p.assume(NOT_ZERO)
+    p.assume(NOT_ZERO, sp.Ne(sigma, 0))
     now = vertical.gamma_now()
     turned = sp.Matrix(three.rotation()).T * now
     p.lemma(equation("γ_k as printed", 2 / sigma * printed_vector(+1), now))
@@ -134,7 +136,8 @@ def consecutive_verticals(p: Proof) -> None:
 )
 def quadratic_integral(p: Proof) -> None:
     """The quadratic integral of the reduced map, for every branch and every h."""
-    p.assume("q is real and Λ = diag(J₂+J₃+D, ...) is positive, as for every ball; (5.4) and (5.6) as corrected")
+    p.assume("Λ = diag(J₂+J₃+D, ...) is positive, as for every ball", *(x > 0 for x in vertical.lam().diagonal()))
+    p.assume("q is real; (5.4) and (5.6) as corrected")
     inverse = vertical.lam().inv()
     now, after = vertical.gamma_now(), vertical.gamma_next()
     p.say("σ ≠ 0: both verticals are functions of q, σ on |q|² + q₀² = 1, |γ| = 1; no branch is chosen.")

@@ -11,7 +11,7 @@ from chapsym import checker, proofs
 from chapsym.checker.trees import names_in
 from chapsym.derive.quotient import Quotient
 from chapsym.derive.words import WordAlgebra, matrix_symbols
-from chapsym.prove import Equation, Fact, Proof, load, rational_point
+from chapsym.prove import Comparison, Equation, Fact, Proof, load, rational_point
 from chapsym.prove.certificates import certificate
 from chapsym.prove.cofactors import Ideal
 from chapsym.prove.points import candidates
@@ -39,7 +39,7 @@ def test_the_certificates_state_what_the_verdicts_rest_on(verdicts):
     for id, record in verdicts.items():
         data = checker.read(FOLDER / f"{id}.json")
         assert (data["claim"], data["printed"], data["corrected"]) == (id, record["printed"], record["corrected"])
-        kept = [one["text"] for one in data["statements"]]
+        kept = [one["text"] for one in (*data["statements"], *data["comparisons"])]
         kept += [one["text"] for one in data["sentences"] if one["role"] in checker.register.ROLES]
         for check in record["evidence"]["checks"]:
             text = check["statement"]
@@ -53,6 +53,8 @@ def test_the_certificates_state_what_the_verdicts_rest_on(verdicts):
             "statements": len(data["statements"]),
             "identical": sum(one["left"] == one["right"] for one in data["statements"]),
             "steps": len(data["derivation"]),
+            "comparisons": len(data["comparisons"]),
+            "hypotheses": len(data["hypotheses"]),
             "counterexamples": len(data["counterexamples"]),
             "sentences": {role: n for role in checker.register.SENTENCES if (n := count(data, role))},
             "text": record["evidence"]["carried"]["text"],
@@ -61,9 +63,11 @@ def test_the_certificates_state_what_the_verdicts_rest_on(verdicts):
 
 
 def test_the_argument_of_a_claim_says_what_carries_it(verdicts):
-    carried = "  carried by: statements that the checker accepted: 2; counterexamples: 2; sentences: 1 hypothesis"
+    carried = (
+        "  carried by: statements that the checker accepted: 2; hypotheses: 1; counterexamples: 2; sentences: none"
+    )
     assert carried in explain(verdicts["5.11"]).splitlines()
-    assert "accepted: 4 (3 of one expression on both sides); " in explain(verdicts["5.2-expansion"])
+    assert "accepted: 5 (4 of one expression on both sides); " in explain(verdicts["5.2-expansion"])
 
 
 def count(data, role):
@@ -75,8 +79,9 @@ def test_the_share_of_the_register_that_is_checked():
     files = [checker.read(path) for path in FOLDER.iterdir()]
     decided = sum(one["role"] in checker.register.ROLES for data in files for one in data["sentences"])
     prose = sum(len(data["sentences"]) for data in files) - decided
-    assert (len(files), sum(len(data["statements"]) for data in files), decided, prose) == (138, 453, 139, 550)
-    assert sum(one["left"] == one["right"] for data in files for one in data["statements"]) == 73
+    assert (len(files), sum(len(data["statements"]) for data in files), decided, prose) == (138, 459, 125, 535)
+    assert [sum(len(data[part]) for data in files) for part in ("comparisons", "hypotheses")] == [16, 45]
+    assert sum(one["left"] == one["right"] for data in files for one in data["statements"]) == 111
     assert sum(path.stat().st_size for path in FOLDER.iterdir()) < 2_000_000
 
 
@@ -126,6 +131,31 @@ def test_what_is_false_stands_with_its_counterexample_and_what_is_no_equation_is
     data = certificate("0", "x", proof(wrong, Fact("seven", True), point=rational_point({x: "3/5", y: "4/5"})))
     assert data["counterexamples"][0]["refutes"] == [0]
     assert data["sentences"] == [{"role": "printed", "text": "seven (exact arithmetic)"}]
+
+
+def test_a_hypothesis_is_data_that_holds_at_the_points_and_where_it_does_not_there_is_none():
+    made = Proof()
+    made.assume("x is below 2", x < 2)
+    made.assume("in words only")
+    made.printed(Equation("one", x**4 - y**4, 2 * x**2 - 1, CIRCLE))
+    data = certificate("0", "x", made)
+    assert data["hypotheses"] == [{"text": "x is below 2", "relations": [["<", "x", 2]]}]
+    assert data["sentences"] == [{"role": "hypothesis", "text": "in words only"}]
+    assert checker.register.entries(data["points"][data["statements"][0]["point"]])["x"] < 2
+    made.assume("x is large", x > 5)
+    with pytest.raises(checker.Rejected, match=r"is tested at no point|which is not among its variables"):
+        certificate("0", "x", made)
+
+
+def test_a_comparison_is_data_and_a_false_one_is_a_sentence():
+    at = {x: sp.Rational(1, 2), y: sp.Integer(2)}
+    right = Comparison("order", [x < y, y >= 2, sp.Eq(x * y, 1), sp.Ne(x, 1)], at)
+    wrong = Comparison("other order", [y <= x], at)
+    data = certificate("0", "x", proof(right, wrong))
+    [one] = data["comparisons"]
+    assert data["points"][one["point"]] == {"x": "1/2", "y": 2}
+    assert one["relations"] == [["<", "x", "y"], ["<=", 2, "y"], ["=", ["*", "x", "y"], 1], ["!=", "x", 1]]
+    assert data["sentences"] == [{"role": "printed", "text": "false: other order (rational numbers at a point)"}]
 
 
 def test_a_counterexample_off_the_relations_is_not_accepted():

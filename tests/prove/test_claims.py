@@ -5,7 +5,7 @@ import sympy as sp
 
 from chapsym.derive import three
 from chapsym.derive.quotient import Quotient
-from chapsym.prove import Equation, Fact, Proof, Verdict, claim, claims, judged, load, rational_point
+from chapsym.prove import Comparison, Equation, Fact, Proof, Verdict, claim, claims, judged, load, rational_point
 from chapsym.prove.claims import Claim
 from chapsym.prove.runner import downstream, explain, judge, unproved
 
@@ -59,6 +59,10 @@ RULES = {
         "no printed form was judged",
     ),
     "a counterexample off the hypotheses": ([*MENDED, ("counterexample", OFF_CIRCLE)], "violates the hypothesis"),
+    "a counterexample off what was assumed": (
+        [("assume", "x is large", x > 1), *MENDED, ("counterexample", ON_CIRCLE)],
+        "the counterexample violates the hypothesis x is large",
+    ),
     "a counterexample that is none": (
         [*MENDED, ("counterexample", rational_point({x: 1, y: 0}))],
         "the counterexample does not contradict the printed form",
@@ -160,6 +164,22 @@ def test_what_is_false_and_not_refuted_is_said_to_be_so():
     assert proof.problems == [
         "not proved as printed: false; if it is false, give p.counterexample a point where it fails"
     ]
+
+
+def test_a_witness_is_a_point_where_what_is_assumed_holds():
+    J1 = sp.Symbol("J1")
+    for relation, witnesses in ((J1 > 0, 2), (J1 < 0, 0)):
+        proof = Proof()
+        proof.assume("the sign of J1", relation)
+        proof.printed(Equation("shown", J1, J1, Quotient((J1,))))
+        proof.control(FALSE)
+        assert proof.verdict() is (Verdict.HOLDS if witnesses else Verdict.OPEN)
+        assert len(proof.witnesses) == witnesses  # generic, and equal J
+
+
+def test_a_relation_that_is_decided_before_its_point_is_refused():
+    with pytest.raises(TypeError, match="is True already; write it with symbols, and a point"):
+        Comparison("order", [sp.Integer(1) < 2])
 
 
 def test_the_table_of_witnesses_contradicts_a_wrong_decision():

@@ -30,7 +30,7 @@ VERDICTS = {
     "5.13": "corrected", "5.13-V": "holds", "5.14-Pi1": "holds", "5.14-Pi2": "holds", "5.14-G": "corrected",
     "5.14-alpha": "corrected", "5.14-beta": "holds", "5.14": "corrected", "5.15": "corrected",
     "5.15-euler": "holds", "5.16": "corrected", "5.16-weierstrass-e": "holds", "5.16-weierstrass-w": "corrected",
-    "5.16-integral": "holds", "5.6-curve": "holds", "5.9": "holds", "remark-4": "holds", "5.9-liouville": "holds",
+    "5.16-integral": "conditional", "5.6-curve": "holds", "5.9": "holds", "remark-4": "holds", "5.9-liouville": "holds",
     "5.9-circle": "conditional", "5.9-open": "settled", "6-vertical-energy": "holds", "6-LR": "holds",
     "6-open": "settled",
 }  # fmt: skip
