@@ -139,6 +139,23 @@ def test_a_file_is_written_as_the_checker_reads_it(path):
     }
 
 
+def test_more_digits_are_sought_with_more_bits_and_more_terms(monkeypatch):
+    """20 digits by default: 256 bits and 64 terms, for the orbit that the search refines and for what it encloses."""
+    seen, found = [], orbit_of(certificate(FILES[0]))
+
+    def enclose(orbit, bits, order):
+        seen.append((orbit, bits, order))
+        raise NotEnclosed("the balls are too wide")
+
+    monkeypatch.setattr(drift_search, "refined", lambda near, digits, order, progress: found)
+    monkeypatch.setattr(drift_search, "enclose", enclose)
+    start = (found.J, found.D, found.momentum, found.gamma, found.signs, found.time, found.varied)
+    for digits in (20, 30):
+        with pytest.raises(BadInput, match=f"not proved with {digits} digits: the balls are too wide"):
+            drift_search.energy_drift(*start, digits=digits)
+    assert seen == [(found, 256, 64), (found, 336, 84)]
+
+
 @pytest.mark.parametrize(
     ("change", "words"),
     [({"gamma": (Fraction(1), Fraction(1), Fraction(0))}, "unit"), ({"signs": (1, 1, -1)}, "signs"),
