@@ -5,6 +5,7 @@ A statement is a list of equations left = right between trees (trees.py), decide
 quotient  variables and relations, polynomials that vanish by hypothesis.  The numerator of left - right is formed here;
           it must be Σ cofactor · relation, with the cofactors of the file.  Then left = right wherever the relations
           hold and no denominator vanishes.  A rational point where that is so is given: such points exist.
+          A statement may define names for what occurs often in it, each by those before.
 words     letters for matrices, parameters for numbers, and rules for the products of two letters.  left - right becomes
           0 by the rules.  Then left = right for all matrices of any size for which the rules hold.  Matrices for which
           they do, and for which the letters are transposes of one another as it is said, are given.
@@ -190,7 +191,7 @@ def check_statement(
     one: Any, algebras: list[set[str]], defined: list[Collection[str]], data: dict[str, Any], where: str
 ) -> None:
     """The form of a statement, with what proves it or with the number of the counterexample that refutes it."""
-    names = "role text algebra left right "
+    names = "role text algebra left right " + "definitions " * (isinstance(one, dict) and "definitions" in one)
     if isinstance(one, dict) and "refuted" in one:
         check_names(one, names + "refuted", where)
         count(one["refuted"], 0, len(data["counterexamples"]) - 1, where)
@@ -202,7 +203,17 @@ def check_statement(
     chosen(one["role"], ROLES, where)
     text(one["text"], where)
     algebra = data["algebras"][count(one["algebra"], 0, len(algebras) - 1, where)]
-    check_sides(one, {*algebras[one["algebra"]], *defined[one["algebra"]]}, where)
+    known = {*algebras[one["algebra"]], *defined[one["algebra"]]}
+    for definition in many(one.get("definitions", []), where):
+        sized(definition, 2, where)
+        check_name(definition[0], where)
+        if definition[0] in known:
+            raise Rejected(f"{where} defines a name that has a meaning")
+        check_tree(definition[1], known, where)
+        known.add(definition[0])
+    check_sides(one, known, where)
+    if "definitions" in one and algebra["kind"] != "quotient":
+        raise Rejected(f"{where} has definitions, and is not one of a quotient")
     if "refuted" not in one and ("cofactors" in one) != (algebra["kind"] == "quotient"):
         raise Rejected(f"{where} must have cofactors if it is one of a quotient, and none if it is one of words")
     if "cofactors" in one:
@@ -261,7 +272,11 @@ def check(data: dict[str, Any]) -> dict[str, str]:
 
 def check_identity(one: dict[str, Any], ring: Quotients, defined: Mapping[str, Made], where: str) -> None:
     """The numerator of left - right is Σ cofactor · relation."""
-    names = derivation.entries([*one["left"], *one["right"]], defined)
+    names = derivation.entries(
+        [*one["left"], *one["right"], *(tree for _, tree in one.get("definitions", []))], defined
+    )
+    for name, tree in one.get("definitions", []):
+        names[name] = ring.read(tree, names)
     for left, right, cofactors in zip(one["left"], one["right"], one["cofactors"], strict=True):
         if not ring.vanishes(ring.read(left, names) - ring.read(right, names), cofactors, where):
             raise Rejected(f"{where} is not proved: its cofactors do not make left - right from the relations")
@@ -305,6 +320,9 @@ def holds(
     where: str,
 ) -> bool:
     """Whether left = right at a point, in every entry; or whether the traces are equal."""
+    point = dict(point)
+    for name, tree in one.get("definitions", []):
+        point[name] = at(tree, point, defined, where)
     sides = [
         (at(left, point, defined, where), at(right, point, defined, where))
         for left, right in zip(one["left"], one["right"], strict=True)

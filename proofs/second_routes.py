@@ -19,9 +19,9 @@ from chapsym.prove.polynomials import Ratio, parameters
 Array = np.ndarray  # of Ratio: a vector or a matrix
 
 
-def identity(text: str, left: Any, right: Any) -> Identity:
-    """Equality of numbers, vectors or matrices, entry by entry."""
-    return Identity(text, list(np.ravel(left)), list(np.ravel(right)))
+def identity(text: str, left: Any, right: Any, large: bool = False) -> Identity:
+    """Equality of numbers, vectors or matrices, entry by entry; a large one has no certificate."""
+    return Identity(text, list(np.ravel(left)), list(np.ravel(right)), large)
 
 
 def mutated(text: str, statement: Identity) -> Identity:
@@ -160,8 +160,8 @@ def conservation(n: int, any_axes: bool, last: int = 1, naive: bool = False) -> 
     outer = [np.outer(R[i].T @ vertical, R[i].T @ vertical) for i in (0, 1)]
     work = sum((displaced(e) - displaced(-e)) / (2 * e))
     return [
-        identity(f"n = {n}: the work along every virtual turn ξ is ½ tr(ξ·balance)", work, np.trace(virtual @ balance) / 2),
-        identity(f"n = {n}: R_kᵀ·balance·R_k = 𝒦_k - Ωᵀ𝒦_(k-1)Ω", R[1].T @ balance @ R[1], now - previous.T @ before @ previous),
+        identity(f"n = {n}: the work along every virtual turn ξ is ½ tr(ξ·balance)", work, np.trace(virtual @ balance) / 2, large=True),
+        identity(f"n = {n}: R_kᵀ·balance·R_k = 𝒦_k - Ωᵀ𝒦_(k-1)Ω", R[1].T @ balance @ R[1], now - previous.T @ before @ previous, large=True),
         identity(f"n = {n}: the two forms of (4.13) agree", now, other),
         identity(f"n = {n}: Γ_k = ΩᵀΓ_(k-1)Ω", outer[1], previous.T @ outer[0] @ previous),
     ]  # fmt: skip
@@ -246,7 +246,9 @@ class VerticalStep:
     def is_vertical(self) -> Identity:
         """𝒦 = hγ with 𝒦 by the second form of (4.13), |γ| = 1."""
         whole = axial(momentum_by_centre(self.turn, np.diag(self.J), self.gamma, self.D))
-        return identity("𝒦 = hγ and |γ| = 1", [*whole, self.gamma @ self.gamma], [*(self.h * self.gamma), 1])
+        return identity(
+            "𝒦 = hγ and |γ| = 1", [*whole, self.gamma @ self.gamma], [*(self.h * self.gamma), 1], large=True
+        )
 
 
 def vertical_step(unit_height: bool = False) -> VerticalStep:
@@ -268,7 +270,7 @@ def quadratic_integral(power: int = -1, backwards: bool = False) -> list[Identit
     step = vertical_step()
     following = step.turn @ step.gamma if backwards else step.following
     forms = [vertical @ (step.lam**power * vertical) for vertical in (step.gamma, following)]
-    return [step.is_vertical(), identity(f"⟨γ, Λ^{power} γ⟩ is the same for γ and γ~", forms[0], forms[1])]
+    return [step.is_vertical(), identity(f"⟨γ, Λ^{power} γ⟩ is the same for γ and γ~", forms[0], forms[1], large=True)]
 
 
 def symmetric_form(part: int = 4, under_root: int = 2, factor: int = 4) -> list[Identity]:
@@ -280,10 +282,10 @@ def symmetric_form(part: int = 4, under_root: int = 2, factor: int = 4) -> list[
     inner = (step.gamma @ step.u) / (1 + step.u @ step.u)  # q₀⟨γ, q⟩
     return [
         step.is_vertical(),
-        identity("σ = h + 2D q₀⟨γ, q⟩ is h/(1 - (D/4)⟨s, Λ⁻¹s⟩)", step.h + 2 * step.D * inner, sigma),
-        identity("cos²θ = 1 - (σ²/4)⟨s, Λ⁻²s⟩", step.cosine**2, root),
+        identity("σ = h + 2D q₀⟨γ, q⟩ is h/(1 - (D/4)⟨s, Λ⁻¹s⟩)", step.h + 2 * step.D * inner, sigma, large=True),
+        identity("cos²θ = 1 - (σ²/4)⟨s, Λ⁻²s⟩", step.cosine**2, root, large=True),
         identity("γ~ - γ = (ϰ/4)s×Λ⁻¹s with ϰ = 2σ/(1 + cos θ)", step.following - step.gamma,
-                 kappa / factor * np.cross(s, s / step.lam)),
+                 kappa / factor * np.cross(s, s / step.lam), large=True),
     ]  # fmt: skip
 
 
@@ -303,9 +305,9 @@ def steps_of_the_symmetric_form(part: int = 4) -> list[Identity]:
     step = VerticalStep(u, cayley(hat(u)), pair.gamma, pair.following, J, pair.D, h)
     return [
         identity("(5.10)", 4 * d, kappa * np.cross(s, s / pair.lam)),
-        identity("(2σ/ϰ - 1)² = 1 - (σ²/4)⟨s, Λ⁻²s⟩", (2 * sigma / kappa - 1) ** 2, 1 - sigma**2 / 4 * (s @ (s / pair.lam**2))),
-        identity("2σ/ϰ - 1 is the cos θ of the turn", 2 * sigma / kappa - 1, step.cosine),
-        identity("γ~ = Ωᵀγ", step.following, step.turn.T @ step.gamma),
+        identity("(2σ/ϰ - 1)² = 1 - (σ²/4)⟨s, Λ⁻²s⟩", (2 * sigma / kappa - 1) ** 2, 1 - sigma**2 / 4 * (s @ (s / pair.lam**2)), large=True),
+        identity("2σ/ϰ - 1 is the cos θ of the turn", 2 * sigma / kappa - 1, step.cosine, large=True),
+        identity("γ~ = Ωᵀγ", step.following, step.turn.T @ step.gamma, large=True),
         step.is_vertical(),
     ]  # fmt: skip
 
@@ -409,11 +411,15 @@ def increment(contact: int = 1, sign: int = 1) -> list[Identity]:
     statement = (2 * sigma / kappa - 1) ** 2 - (1 - sigma**2 * second)
     relation = parts.relation(contact * pair.D, sign)
     return [
-        identity("γ and γ~ are (C1 cn, C2 sn, C3 dn) of one curve", on_curve, [1] * 4),
+        identity("γ and γ~ are (C1 cn, C2 sn, C3 dn) of one curve", on_curve, [1] * 4, large=True),
         identity("(5.10) defines ϰ: its three components agree", 4 * d, kappa * product),
-        identity("2𝒟 sn²δu = ϰVw (5.13-V)", 2 * parts.scale * y, kappa * parts.vw),
-        identity("(Vw)² = V² sn² cn² dn² with V² as printed", parts.vw**2, printed_v * y * (1 - y) * (1 - k2 * y)),
-        identity("(2σ/ϰ-1)² - (1-σ²Π2) = T·σ²/(𝒟² sn²δu)", statement, relation * sigma**2 / (parts.scale**2 * y)),
+        identity("2𝒟 sn²δu = ϰVw (5.13-V)", 2 * parts.scale * y, kappa * parts.vw, large=True),
+        identity(
+            "(Vw)² = V² sn² cn² dn² with V² as printed", parts.vw**2, printed_v * y * (1 - y) * (1 - k2 * y), large=True
+        ),
+        identity(
+            "(2σ/ϰ-1)² - (1-σ²Π2) = T·σ²/(𝒟² sn²δu)", statement, relation * sigma**2 / (parts.scale**2 * y), large=True
+        ),
     ]
 
 
@@ -421,4 +427,4 @@ def increment_of_the_map(contact: int = 1) -> Identity:
     """T = 0 at every step of the map with vertical momentum and h = 1, from (4.13)."""
     step = vertical_step(unit_height=True)
     parts = Increment(step.gamma, step.following, step.lam, step.D).parts()
-    return identity("T = 0 at every step with 𝒦 = γ", parts.relation(contact * step.D), 0)
+    return identity("T = 0 at every step with 𝒦 = γ", parts.relation(contact * step.D), 0, large=True)

@@ -230,6 +230,15 @@ def assumed(*relations):
     return {"text": "x", "relations": [*relations]}
 
 
+def defined(left, right, *definitions):
+    """A statement about x that defines names."""
+    return by_hand([said(left, right, point=0, cofactors=[[]], definitions=[*definitions])], [{"x": 1}], [FREE])
+
+
+SQUARED = [["y", ["+", "x", 1]], ["z", ["*", "y", "y"]]]
+BY_X = ["+", ["^", "x", 2], ["*", 2, "x"], 1]
+
+
 def small():
     """Certificates by hand: those that are right, and those that are not, by name."""
     identity, point = said("x", 1, point=0, cofactors=[[1]]), {"x": 1}
@@ -239,6 +248,8 @@ def small():
         "x = 2 fails at 1": by_hand([identity, wrong], [point], [ONE, FREE], [contradicted(1, point, [0])]),
         "AB = 1": of_words(["*", "A", "B"], 1),
         "mAB/m = AB": of_words(["*", "m", "A", "B", ["^", "m", -1]], ["*", "A", "B"]),
+        "(x + 1)² by names": defined("z", BY_X, *SQUARED),
+        "AB = 1 by a name": by_hand([said("C", 1, point=0, definitions=[["C", ["*", "A", "B"]]])], [TURN], [LETTERS]),
         "0 < x ≤ 1, x = 1, x ≠ 2": by_hand(
             [], [point], [], [], [assumed(["<", 0, "x"])],
             [compared(["<", 0, "x"], ["<=", "x", 1], ["<=", "x", 2], ["=", "x", 1], ["!=", "x", 2])],
@@ -260,6 +271,15 @@ def small():
         ),
         **{f"1 {sign} {x}": by_hand([], [point], [], [], [], [compared(["<=", 0, "x"], [sign, "x", x])])
            for sign, x in (("<", 1), ("<", 0), ("<=", 0), ("=", 2), ("!=", 1))},
+        "(x + 1)² is not what is named": defined("z", ["+", BY_X, "x"], *SQUARED),
+        "a name that is defined later": defined("z", BY_X, *SQUARED[::-1]),
+        "a name that is defined twice": defined("z", BY_X, *SQUARED, ["z", BY_X]),
+        "a variable that is defined": defined("x", 1, ["x", 1]),
+        "a definition without a name": defined("z", BY_X, *SQUARED, ["+", 1, 2]),
+        "a definition of no name": defined("z", BY_X, *SQUARED, [7, "x"]),
+        "a definition with a pole": defined("z", BY_X, *SQUARED, ["w", ["^", ["+", "x", -1], -1]]),
+        "a name that is not defined": defined("z", BY_X),
+        "BA by a name": by_hand([said("C", 1, point=0, definitions=[["C", ["*", "B", "A", "A"]]])], [TURN], [LETTERS]),
         "which matrix is less": by_hand([], [TURN], [], [], [], [compared(["<", "A", "B"])]),
         "whether a matrix is less than a number": by_hand([], [TURN], [], [], [], [compared(["<=", "A", 1])]),
         "whether a number is less than a matrix": by_hand([], [TURN], [], [], [], [compared(["<=", 1, "A"])]),

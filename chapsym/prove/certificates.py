@@ -5,7 +5,7 @@ What is no equation of an algebra, or could not be exported, is listed as a sent
 
 import json
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -26,8 +26,9 @@ from . import witness
 from .cofactors import Ideal
 from .evidence import Proof
 from .points import candidates
+from .polynomials import Identity, Ratio
 from .statements import Comparison, Equation, Point, Statement
-from .trees import NotAlgebra, factored, number, tree
+from .trees import NotAlgebra, factored, number, shared, tree
 
 #: Letters of a judged formula in a record.
 LONGEST = 400
@@ -149,6 +150,9 @@ class _Maker:
             relations = _relations(statement)
             self.comparisons.append({"role": role, "text": statement.text, "point": point, "relations": relations})
             return
+        if isinstance(statement, Identity) and holds and not statement.large:
+            self._identity(role, statement)
+            return
         if not isinstance(statement, Equation):
             truth = "" if holds else "false: "
             self.sentences.append({"role": role, "text": f"{truth}{statement.text} ({statement.method})"})
@@ -170,6 +174,18 @@ class _Maker:
             self.sentences.append({"role": role, "text": f"false: {statement.text} (its counterexample is another's)"})
             return
         self.statements.append(one)
+
+    def _identity(self, role: str, identity: Identity) -> None:
+        """An identity in free parameters: a statement without relations."""
+        names = identity.parameters
+        made = [x.made if isinstance(x, Ratio) else x for x in (*identity.left, *identity.right)]
+        definitions, trees = shared(made)
+        half = len(identity.left)
+        algebra = _place(self.algebras, {"kind": "quotient", "variables": names, "relations": []})
+        one = {"role": role, "text": identity.text, "algebra": algebra, "left": trees[:half], "right": trees[half:]}
+        one |= {"definitions": definitions} if definitions else {}
+        point = self._good_point(one, sp.symbols(names), ())
+        self.statements.append(one | {"point": point, "cofactors": [[]] * half})
 
     def _compare(self, example: dict[str, Any], one: dict[str, Any], i: int) -> None:
         """Notes that a point refutes a printed statement, or that what is correct holds there."""
@@ -272,14 +288,17 @@ class _Maker:
                 raise NotFound("no matrices are known for which its rules hold")
             return {"point": self._point(exact)}
         assert isinstance(algebra, QuotientRing)
-        cofactors = self._cofactors(one)
-        for exact in candidates(symbols, algebra.relations):
+        return {"cofactors": self._cofactors(one), "point": self._good_point(one, symbols, algebra.relations)}
+
+    def _good_point(self, one: dict[str, Any], symbols: Sequence[sp.Symbol], relations: Sequence[sp.Expr]) -> int:
+        """A point where the hypotheses and the relations hold, and no denominator vanishes."""
+        for exact in candidates(symbols, relations):
             if not witness.allowed(exact, self.proof.assumed):
                 continue
             entries = {x.name: _entry(v) for x, v in exact.items()}
             try:
                 if register.holds(one, None, register.entries(entries), self._defined, ""):
-                    return {"point": self._point(exact), "cofactors": cofactors}
+                    return self._point(exact)
             except checker.Rejected:  # a denominator vanishes there
                 continue
         raise NotFound("no rational point was found where its relations hold")

@@ -22,10 +22,15 @@ class TooLarge(ArithmeticError):
     """An expression grows beyond all use, as it does where a wrong definition leaves nothing to cancel."""
 
 
-class Ratio:
-    """A rational function over Q in lowest terms; its denominator is monic and not 0."""
+#: How a rational function was made: a parameter, an integer, or an operation with its operands.
+Made = str | int | tuple[Any, ...]
 
-    __slots__ = ("denominator", "numerator")
+
+class Ratio:
+    """A rational function over Q in lowest terms; its denominator is monic and not 0.  It knows how it was made."""
+
+    __slots__ = ("denominator", "made", "numerator")
+    made: Made
 
     def __init__(self, numerator: fmpq_mpoly, denominator: fmpq_mpoly) -> None:
         if denominator == 0:
@@ -47,22 +52,24 @@ class Ratio:
         mine, its = self.denominator / common, other.denominator / common
         # Both are in lowest terms: only a factor of what their denominators share can cancel.
         total = Ratio(_product(self.numerator, its) + _product(other.numerator, mine), common)
-        return Ratio._lowest(total.numerator, _product(total.denominator, _product(mine, its)))
+        whole = _product(total.denominator, _product(mine, its))
+        return Ratio._lowest(total.numerator, whole, ("+", self.made, other.made))
 
     def __mul__(self, other: Any) -> "Ratio":
         if (other := self._coerced(other)) is None:
             return NotImplemented
         # Both are in lowest terms: what cancels is crosswise, and the product is in lowest terms, too.
         one, two = Ratio(self.numerator, other.denominator), Ratio(other.numerator, self.denominator)
-        return Ratio._lowest(_product(one.numerator, two.numerator), _product(one.denominator, two.denominator))
+        above, below = _product(one.numerator, two.numerator), _product(one.denominator, two.denominator)
+        return Ratio._lowest(above, below, ("*", self.made, other.made))
 
     def __truediv__(self, other: Any) -> "Ratio":
         if (other := self._coerced(other)) is None:
             return NotImplemented
-        return self * Ratio(other.denominator, other.numerator)
+        return self * other._inverse()
 
     def __rtruediv__(self, other: Any) -> "Ratio":
-        return other * Ratio(self.denominator, self.numerator)
+        return other * self._inverse()
 
     def __neg__(self) -> "Ratio":
         return self * -1
@@ -74,17 +81,23 @@ class Ratio:
         return -self + other
 
     def __pow__(self, power: int) -> "Ratio":
-        base = self if power >= 0 else 1 / self
-        return prod([base] * abs(power), start=self._one())
+        base = self if power >= 0 else self._inverse()
+        result = prod([base] * abs(power), start=self._one())
+        return Ratio._lowest(result.numerator, result.denominator, ("^", self.made, power) if power else 1)
 
     __radd__, __rmul__ = __add__, __mul__
 
     @classmethod
-    def _lowest(cls, numerator: fmpq_mpoly, denominator: fmpq_mpoly) -> "Ratio":
+    def _lowest(cls, numerator: fmpq_mpoly, denominator: fmpq_mpoly, made: Made) -> "Ratio":
         """Of two polynomials that are known to have no common factor, the second monic."""
         ratio = object.__new__(cls)
-        ratio.numerator, ratio.denominator = numerator, denominator
+        ratio.numerator, ratio.denominator, ratio.made = numerator, denominator, made
         return ratio
+
+    def _inverse(self) -> "Ratio":
+        """1 over it."""
+        flipped = Ratio(self.denominator, self.numerator)
+        return Ratio._lowest(flipped.numerator, flipped.denominator, ("^", self.made, -1))
 
     def _coerced(self, other: Any) -> "Ratio | None":
         """The other operand as a rational function of the same parameters; None if it is not an integer or one."""
@@ -95,7 +108,7 @@ class Ratio:
     def _one(self, times: int = 1) -> "Ratio":
         """The constant 1, or a multiple of it."""
         context = self.denominator.context()
-        return Ratio._lowest(context.constant(times), context.constant(1))
+        return Ratio._lowest(context.constant(times), context.constant(1), times)
 
 
 def _product(a: fmpq_mpoly, b: fmpq_mpoly) -> fmpq_mpoly:
@@ -108,16 +121,20 @@ def _product(a: fmpq_mpoly, b: fmpq_mpoly) -> fmpq_mpoly:
 def parameters(names: str) -> list[Ratio]:
     """Free parameters, one for each name."""
     context = fmpq_mpoly_ctx.get(tuple(names.split()), Ordering.degrevlex)
-    return [Ratio(generator, context.constant(1)) for generator in context.gens()]
+    return [Ratio._lowest(x, context.constant(1), str(x)) for x in context.gens()]
 
 
 @dataclass(frozen=True)
 class Identity:
-    """left = right, entry by entry, for all values of the free parameters for which both sides are defined."""
+    """left = right, entry by entry, for all values of the free parameters for which both sides are defined.
+
+    `large` says that without cancelling, as the checker works, it asks for more than the checker does.
+    """
 
     text: str
     left: Sequence[Ratio | int]
     right: Sequence[Ratio | int]
+    large: bool = False
 
     def __post_init__(self) -> None:
         if len(self.left) != len(self.right) or not len(self.left):
@@ -127,6 +144,12 @@ class Identity:
     def method(self) -> str:
         """How the statement is decided."""
         return "python-flint polynomials, rational parameterisation"
+
+    @property
+    def parameters(self) -> list[str]:
+        """The names of the free parameters."""
+        [names] = {x.denominator.context().names() for x in (*self.left, *self.right) if isinstance(x, Ratio)}
+        return list(names)
 
     def holds(self) -> bool:
         """True exactly when the numerator of every left - right is the polynomial 0."""

@@ -1,10 +1,13 @@
 """Expressions of SymPy, and polynomials, as the trees that the checker reads."""
 
-from collections.abc import Mapping, Sequence
+from collections import Counter
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import sympy as sp
 from flint import Ordering, fmpq, fmpq_mpoly_ctx
+
+from .polynomials import Made
 
 Monomial = tuple[int, ...]
 
@@ -29,6 +32,54 @@ def tree(expr: Any) -> Any:
 def number(x: Any) -> int | str:
     """A rational number as it stands in a tree: an integer, or a quotient in quotes."""
     return int(x.p) if x.q == 1 else f"{x.p}/{x.q}"
+
+
+def shared(wholes: Sequence[Made]) -> tuple[list[list[Any]], list[Any]]:
+    """The trees of what was made of parameters: definitions of what occurs more than once, and the wholes by these.
+
+    Zeros and ones, of unit matrices, are left out.
+    """
+    uses: Counter[int] = Counter()
+    for whole in wholes:
+        _count(whole, uses)
+    named: dict[int, Any] = {}
+    definitions: list[list[Any]] = []
+
+    def found(made: Made) -> Any:
+        if not isinstance(made, tuple):
+            return made
+        if id(made) not in named:
+            operation, *operands = made
+            whole = _simple(operation, operands if operation == "^" else list(map(found, operands)), found)
+            if uses[id(made)] > 1 and isinstance(whole, list):
+                definitions.append([f"_{len(definitions) + 1}", whole])
+                whole = definitions[-1][0]
+            named[id(made)] = whole
+        return named[id(made)]
+
+    trees = [found(whole) for whole in wholes]
+    return definitions, trees
+
+
+def _count(made: Made, uses: "Counter[int]") -> None:
+    """How often each part occurs; what is below one that is named is counted once."""
+    if isinstance(made, tuple):
+        uses[id(made)] += 1
+        if uses[id(made)] == 1:
+            for part in made[1:]:
+                _count(part, uses)
+
+
+def _simple(operation: str, parts: list[Any], found: Callable[[Made], Any]) -> Any:
+    """A sum, a product or a power of trees, without what changes nothing."""
+    if operation == "^":
+        base, power = found(parts[0]), parts[1]
+        return base if power == 1 or base in (0, 1) else ["^", base, power]
+    if operation == "*" and 0 in parts:
+        return 0
+    kept = [x for x in parts if x != (0 if operation == "+" else 1)]
+    flat = [y for x in kept for y in _operands(operation, x)]
+    return _list(operation, flat) if flat else (0 if operation == "+" else 1)
 
 
 def factored(polynomial: Mapping[Monomial, Any], names: Sequence[str]) -> Any:

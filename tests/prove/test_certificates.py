@@ -1,6 +1,7 @@
 """Certificates of the register: what is written is what is decided, and what is committed is what is written now."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -15,8 +16,9 @@ from chapsym.prove import Comparison, Equation, Fact, Proof, load, rational_poin
 from chapsym.prove.certificates import certificate
 from chapsym.prove.cofactors import Ideal
 from chapsym.prove.points import candidates
+from chapsym.prove.polynomials import Identity, parameters
 from chapsym.prove.runner import explain, judge
-from chapsym.prove.trees import NotAlgebra, factored, tree
+from chapsym.prove.trees import NotAlgebra, factored, shared, tree
 
 FOLDER = Path(proofs.__file__).parent / "certificates" / "register"
 x, y, z = sp.symbols("x y z")
@@ -200,6 +202,27 @@ def test_a_polynomial_is_short_in_factors_and_means_the_same():
         value = checker.register.value(found, dict(zip(names, (x, y, z), strict=True)), lambda n: sp.Rational(str(n)))
         assert sp.expand(value - expr) == 0
         assert len(json.dumps(found)) < 80
+
+
+def test_what_was_made_of_parameters_is_a_tree_with_names_for_what_occurs_often():
+    a, b = parameters("a b")
+    whole = a + b
+    both = 2 / whole + 0 * a
+    made = [x.made for x in (both * both, both**-1 - 1 * b, whole + a, 0 * a)]
+    assert shared(made) == (
+        [["_1", ["+", "a", "b"]], ["_2", ["*", ["^", "_1", -1], 2]]],
+        [["*", "_2", "_2"], ["+", ["^", "_2", -1], ["*", "b", -1]], ["+", "_1", "a"], 0],
+    )
+
+
+def test_an_identity_is_a_statement_unless_it_is_large():
+    a, b = parameters("a b")
+    whole = a + b
+    one = Identity("square", [whole * whole], [a**2 + 2 * a * b + b**2])
+    data = certificate("0", "x", proof(one, replace(one, text="large", large=True)))
+    assert [(s["text"], s["cofactors"]) for s in data["statements"]] == [("square", [[]])]
+    assert data["statements"][0]["definitions"] == [["_1", ["+", "a", "b"]]]
+    assert [s["text"].partition(" (")[0] for s in data["sentences"]] == ["large"]
 
 
 def test_cofactors_make_a_polynomial_of_the_ideal_and_there_are_none_for_another():
