@@ -249,7 +249,6 @@ def small():
         "AB = 1": of_words(["*", "A", "B"], 1),
         "mAB/m = AB": of_words(["*", "m", "A", "B", ["^", "m", -1]], ["*", "A", "B"]),
         "(x + 1)² by names": defined("z", BY_X, *SQUARED),
-        "AB = 1 by a name": by_hand([said("C", 1, point=0, definitions=[["C", ["*", "A", "B"]]])], [TURN], [LETTERS]),
         "0 < x ≤ 1, x = 1, x ≠ 2": by_hand(
             [], [point], [], [], [assumed(["<", 0, "x"])],
             [compared(["<", 0, "x"], ["<=", "x", 1], ["<=", "x", 2], ["=", "x", 1], ["!=", "x", 2])],
@@ -279,7 +278,7 @@ def small():
         "a definition of no name": defined("z", BY_X, *SQUARED, [7, "x"]),
         "a definition with a pole": defined("z", BY_X, *SQUARED, ["w", ["^", ["+", "x", -1], -1]]),
         "a name that is not defined": defined("z", BY_X),
-        "BA by a name": by_hand([said("C", 1, point=0, definitions=[["C", ["*", "B", "A", "A"]]])], [TURN], [LETTERS]),
+        "a name in a statement about words": by_hand([said("C", 1, point=0, definitions=[["C", ["*", "A", "B"]]])], [TURN], [LETTERS]),
         "which matrix is less": by_hand([], [TURN], [], [], [], [compared(["<", "A", "B"])]),
         "whether a matrix is less than a number": by_hand([], [TURN], [], [], [], [compared(["<=", "A", 1])]),
         "whether a number is less than a matrix": by_hand([], [TURN], [], [], [], [compared(["<=", 1, "A"])]),
