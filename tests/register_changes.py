@@ -278,7 +278,9 @@ def small():
         "a definition of no name": defined("z", BY_X, *SQUARED, [7, "x"]),
         "a definition with a pole": defined("z", BY_X, *SQUARED, ["w", ["^", ["+", "x", -1], -1]]),
         "a name that is not defined": defined("z", BY_X),
-        "a name in a statement about words": by_hand([said("C", 1, point=0, definitions=[["C", ["*", "A", "B"]]])], [TURN], [LETTERS]),
+        "a name in a statement about words": by_hand(
+            [said("C", 1, point=0, definitions=[["C", ["*", "A", "B"]]])], [TURN], [LETTERS]
+        ),
         "which matrix is less": by_hand([], [TURN], [], [], [], [compared(["<", "A", "B"])]),
         "whether a matrix is less than a number": by_hand([], [TURN], [], [], [], [compared(["<=", "A", 1])]),
         "whether a number is less than a matrix": by_hand([], [TURN], [], [], [], [compared(["<=", 1, "A"])]),

@@ -4,6 +4,7 @@ sn, cn, dn of one or two arguments are symbols modulo their relations; the addit
 only transcendental input.  Λ1 > Λ2 > Λ3 and 1/Λ2 < l < 1/Λ3, as the paper assumes.
 """
 
+from functools import cache
 from typing import NamedTuple
 
 import sympy as sp
@@ -36,6 +37,7 @@ MEAN = Jacobi(*sp.symbols("sm cm dm"))
 HALF = Jacobi(*sp.symbols("sh ch dh"))
 
 
+@cache
 def squared_amplitudes() -> tuple[sp.Expr, sp.Expr, sp.Expr]:
     """C1², C2², C3² solved from |γ|² = 1, ⟨γ,Λ⁻¹γ⟩ = l with γ = (C1 cn, C2 sn, C3 dn), for every u.
 
@@ -53,6 +55,7 @@ def squared_amplitudes() -> tuple[sp.Expr, sp.Expr, sp.Expr]:
     return tuple(sp.factor(solution[x]) for x in (a, b, c))
 
 
+@cache
 def squared_modulus() -> sp.Expr:
     """k² of the curve: what makes the coefficient of sn² in |γ|² vanish."""
     first, second, third = squared_amplitudes()
@@ -83,6 +86,7 @@ def ring(*arguments: Jacobi, amplitudes: tuple[sp.Symbol, ...] = ()) -> Quotient
     return Quotient((*symbols, k2, *LAMBDA, l, *amplitudes), relations)
 
 
+@cache
 def level() -> sp.Expr:
     """l as a function of k²: the modulus solved for it.  With it k² is free and nothing else is tied."""
     return sp.factor(sp.solve(sp.numer(sp.together(squared_modulus() - k2)), l)[0])
@@ -93,6 +97,7 @@ def denominator() -> sp.Expr:
     return 1 - k2 * MEAN.sn**2 * HALF.sn**2
 
 
+@cache
 def quarter_form(power: int) -> sp.Expr:
     """¼⟨γ+γ~, Λ^-power(γ+γ~)⟩ with γ = γ(ū - δu), γ~ = γ(ū + δu): Π1 and Π2 for power 1 and 2."""
     before, after = (added(MEAN, HALF, sign) for sign in (-1, 1))

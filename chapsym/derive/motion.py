@@ -49,10 +49,9 @@ def centre_momentum() -> sp.Symbol:
 
 
 def contact_momentum() -> sp.Symbol:
-    """K = M + D(Γω + ωΓ), as printed in (2.13)."""
-    return written(
-        "K_contact", "as printed in (2.13)", centre_momentum() + D * (Gamma * omega + omega * Gamma), ALGEBRA
-    )
+    """K about the point of contact P: M + mv ∧ (C - P), with C - P = -ργ, v = -ρωγ and m = D/ρ²."""
+    lever = ALGEBRA.wedge(D / rho**2 * rolling_velocity(), -rho * gamma)
+    return written("K_contact", "M + mv ∧ (-ργ), v = -ρωγ and m = D/ρ²", centre_momentum() + lever, ALGEBRA)
 
 
 def rolling_velocity() -> sp.Expr:

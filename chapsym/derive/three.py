@@ -21,6 +21,8 @@ gamma = sp.Matrix([g1, g2, g3])
 K = sp.Matrix([K1, K2, K3])
 J = sp.diag(J1, J2, J3)
 
+MASSES = (J1, J2, J3)
+
 #: No moment of inertia is 0: then Λ is regular and F > 0, for D ≥ 0 (2.13).
 MOMENTS = (J2 + J3 > 0, J1 + J3 > 0, J1 + J2 > 0, D >= 0)
 

@@ -97,6 +97,8 @@ class Comparison:
     def __post_init__(self) -> None:
         if decided := [r for r in self.relations if not isinstance(r, Relational)]:
             raise TypeError(f"a relation of «{self.text}» is {decided[0]} already; write it with symbols, and a point")
+        exact = {x: v if isinstance(v, sp.MatrixBase) else sp.Rational(v) for x, v in self.point.items()}
+        object.__setattr__(self, "point", exact)
 
     @property
     def symbols(self) -> set[sp.Symbol]:

@@ -6,7 +6,7 @@ from chapsym.derive import gibbs, three
 from chapsym.derive.gibbs import BY_INERTIA, I1, I2, I3, INERTIA, d, k, u, v
 from chapsym.derive.quotient import Quotient
 from chapsym.derive.three import D, gamma, placed, q, q0
-from chapsym.prove import Equation, Fact, Proof, claim, equations, main
+from chapsym.prove import Comparison, Equation, Proof, claim, equations, main
 
 #: Free symbols: nothing is tied, |γ| = 1 is not used.
 FREE = Quotient((*u, *k, *d, *v, *gamma, I1, I2, I3, D), [])
@@ -141,13 +141,14 @@ def small_branch(p: Proof) -> None:
                        [(d.T * B * d)[0] - 2 * d.dot(k) * u.dot(d)], FREE))  # fmt: skip
 
 
-def _sharp() -> Fact:
+def _sharp() -> Comparison:
     """|d × Id| reaches ½(I_max - I_min)|d|², at the bisector of the two axes: the bound cannot be halved."""
-    bisector = sp.Matrix([1, 0, 1])
-    product = bisector.cross(sp.diag(3, 2, 1) * bisector)
-    reached = product.dot(product) / bisector.dot(bisector) ** 2
-    return Fact(
-        "|d × Id| = ½(I_max - I_min)|d|² at d = (1, 0, 1), I = (3, 2, 1)", reached == sp.Rational(3 - 1, 2) ** 2
+    product = d.cross(INERTIA * d)
+    largest, _, least = INERTIA.diagonal()
+    return Comparison(
+        "|d × Id| = ½(I_max - I_min)|d|² at d = (1, 0, 1), I = (3, 2, 1)",
+        [sp.Eq(product.dot(product), (largest - least) ** 2 / 4 * d.dot(d) ** 2)],
+        placed((d, (1, 0, 1)), (INERTIA.diagonal(), (3, 2, 1))),
     )
 
 

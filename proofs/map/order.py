@@ -12,7 +12,7 @@ from chapsym.derive import composition
 from chapsym.derive.composition import Word, defects
 from chapsym.derive.quotient import Quotient
 from chapsym.dynamics.coefficients import COMPOSITIONS
-from chapsym.prove import Equation, Fact, Proof, claim, main
+from chapsym.prove import Comparison, Equation, Fact, Proof, claim, main
 
 #: t = ∛4 and Suzuki's c = 1/(4 - t), as (4 - t)(16 + 4t + t²) = 64 - t³ = 60.
 t = sp.Symbol("t")
@@ -112,10 +112,15 @@ def order(p: Proof) -> None:
     p.printed(Fact("not 5: Σc⁵ ≠ 0 in the field Q(∛4)", not ROOT.is_zero(fifth)))
     p.control(Equation("order 5: Σc⁵ = 0", fifth, 0, ROOT))
     decimals = COMPOSITIONS[4].exact
-    changes = [(4 - 1 / (decimals[0] + x)) ** 3 < 4 for x in (-OFF, OFF)]
-    p.lemma(Fact("the decimals of c are off by less than 10⁻⁴⁰: t³ - 4 changes its sign", changes == [True, False]))
-    middle = decimals[0] == decimals[1] and abs(decimals[2] - (1 - 4 * decimals[0])) < 4 * OFF
-    p.lemma(Fact("and the middle one is 1 - 4c of them, off by less than 4·10⁻⁴⁰", middle))
+    first, second, middle, off = sp.symbols("c1:4 o")
+    at = {
+        x: sp.Rational(v.numerator, v.denominator)
+        for x, v in zip((first, second, middle, off), (*decimals[:3], OFF), strict=True)
+    }
+    changes = [(4 - 1 / (first - off)) ** 3 < 4, (4 - 1 / (first + off)) ** 3 > 4]
+    p.lemma(Comparison("the decimals of c are off by less than 10⁻⁴⁰: t³ - 4 changes its sign", changes, at))
+    near = [sp.Eq(first, second), middle - (1 - 4 * first) < 4 * off, middle - (1 - 4 * first) > -4 * off]
+    p.lemma(Comparison("and the middle one is 1 - 4c of them, off by less than 4·10⁻⁴⁰", near, at))
     with ctx.workprec(BITS):
         for wanted in (6, 8):
             kahan_and_li(p, wanted)

@@ -8,7 +8,7 @@ from chapsym.derive.gibbs import I1, I2, I3, D, d, k, u
 from chapsym.derive.quotient import Quotient
 from chapsym.derive.three import gamma, placed
 from chapsym.proofs.map.gibbs import FREE, equal
-from chapsym.prove import Equation, Fact, Proof, claim, equations, main
+from chapsym.prove import Comparison, Equation, Fact, Proof, claim, equations, main
 
 #: Of a steady rotation about e₃ by the angle θ: u = (0, 0, t), t = tan(θ/2), γ = (x, y, c).
 t = sp.Symbol("t")
@@ -176,11 +176,13 @@ def _example(p: Proof) -> None:
     for _ in range(4):
         product *= _derivative(axis, vertical, field).det()
         vertical = (turn(axis) * vertical).applyfunc(_simple)
+    size, least, largest, slope = sp.symbols("k i1 i3 rho")
     facts = (
         Fact("|𝒦|² = 25/4 and ⟨𝒦, γ⟩ = 3/2", _simple(momentum.dot(momentum)) == sp.Rational(25, 4)
              and _simple(momentum.dot(start)) == sp.Rational(3, 2)),
-        Fact("5/2 is below the bound of small-branch: ϱ < 3/4 as 5/6 < 24/25 = sin(2 arctan ¾), and ¾(½(6 - 3) + 5/2) = 3",
-             sp.Rational(5, 6) < 2 * sp.Rational(3, 4) / (1 + sp.Rational(9, 16)) and sp.Rational(3, 4) * 4 <= 3),
+        Comparison("5/2 is below the bound of small-branch: ϱ < 3/4 as 5/6 < 24/25 = sin(2 arctan ¾), and ¾(½(6 - 3) + 5/2) = 3",
+                   [size / least < 2 * slope / (1 + slope**2), slope * ((largest - least) / 2 + size) <= least],
+                   {size: "5/2", least: 3, largest: 6, slope: "3/4"}),
         Fact("after 4 steps γ has turned by π about e₃", [_simple(v) for v in vertical - sp.diag(-1, -1, 1) * start] == [0, 0, 0]),
         Fact("the determinant of 4 steps is not 1", product != field.one),
         Fact("it is Πf(φ - (j + ½)θ)/f(φ - jθ)", product == _by_formula(field)),

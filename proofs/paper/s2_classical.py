@@ -11,7 +11,7 @@ from chapsym.derive.quotient import Quotient
 from chapsym.derive.three import J1, J2, J3, D, K, gamma, hat
 from chapsym.derive.words import evaluate
 from chapsym.proofs.paper.s2_continuous import BALL, SPIN, UNIT, unit_vertical
-from chapsym.prove import Equation, Fact, Proof, claim, main, rational_point
+from chapsym.prove import Comparison, Equation, Proof, claim, main, rational_point
 
 alpha = sp.Matrix(sp.symbols("a1:4"))  # dω/dt
 h, l = sp.symbols("h l")
@@ -110,9 +110,18 @@ def four_integrals(p: Proof) -> None:
     p.printed(equation("d/dt ⟨K,ω⟩ = 0", power.subs(acceleration, simultaneous=True), 0))
     p.say("Independent: their gradients have rank 4 at a rational point, hence on an open dense set.")
     functions = sp.Matrix([gamma.dot(gamma), k.dot(gamma), k.dot(k), energy])
-    gradients = functions.jacobian([*omega, *gamma]).subs({**BALL, **UNIT}, simultaneous=True)
-    p.lemma(Fact(f"the rank at {BALL}, γ = (2/7,3/7,6/7), ω = (1,-1,2) is 4", gradients.subs(SPIN).rank() == 4))
-    p.lemma(Fact("a degenerate case: at rest, ω = 0, it is less", gradients.subs(dict.fromkeys(omega, 0)).rank() < 4))
+    gradients = functions.jacobian([*omega, *gamma])
+    at = {**BALL, **UNIT, **SPIN}
+    p.lemma(Comparison(f"a minor is not 0 at {BALL}, γ = (2/7,3/7,6/7), ω = (1,-1,2)",
+                       [sp.Ne(gradients[:, :4].det(method="berkowitz"), 0)], at))  # fmt: skip
+    p.say("It is 3 at most where K = tγ, and 2 at most at rest:")
+    size = sp.Symbol("t")
+    whole = sp.Matrix([K.dot(K) - 2 * size * K.dot(gamma) + size**2 * gamma.dot(gamma)])
+    flat = whole.jacobian([*K, *gamma]).subs(three.placed((K, size * gamma)), simultaneous=True)
+    p.lemma(equation("∇(⟨K,K⟩ - 2t⟨K,γ⟩ + t²⟨γ,γ⟩) = 0 in (K, γ) where K = tγ, for this t", flat.T, sp.zeros(6, 1),
+                     Quotient((size, *gamma))))  # fmt: skip
+    resting = gradients[2:, :].subs(dict.fromkeys(omega, 0))
+    p.lemma(equation("∇⟨K,K⟩ = ∇⟨K,ω⟩ = 0 where ω = 0", resting.reshape(12, 1), sp.zeros(12, 1)))
     p.control(equation("d/dt ⟨K,ω⟩ = 0 for Λω̇ = Λω×ω", power.subs(
         dict(zip(alpha, inverse_inertia() * (three.lam() * omega).cross(omega), strict=True)), simultaneous=True), 0))  # fmt: skip
     p.control(equation("⟨K,γ⟩ = ⟨Λω,γ⟩", k.dot(gamma), (three.lam() * omega).dot(gamma)))

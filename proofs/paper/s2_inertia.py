@@ -10,7 +10,7 @@ from chapsym.derive.motion import ALGEBRA, D, Gamma, J, K, commutator, eta, gamm
 from chapsym.derive.quotient import Quotient
 from chapsym.derive.three import hat
 from chapsym.derive.words import Traces, evaluate
-from chapsym.prove import Equation, Fact, Proof, claim, equations, main, rational_point
+from chapsym.prove import Comparison, Equation, Fact, Proof, claim, equations, main, rational_point
 
 POSITIVE = "J_i + J_j > 0 for i ≠ j, D ≥ 0"
 
@@ -37,7 +37,8 @@ def pairing(x: sp.Expr, y: sp.Expr) -> sp.Expr:
 )
 def inertia_operator(p: Proof) -> None:
     """The momentum about the contact point; its operator is nondegenerate when any two J_i have a positive sum."""
-    p.say("K is the momentum about the centre and that of the force: M + D(Γω + ωΓ); it is in so*(n), not so*(m).")
+    p.say("K is the momentum about the point of contact P: M about the centre C, and mv ∧ (C - P) with C - P = -ργ and")
+    p.say("v = -ρωγ; it is in so*(n), not so*(m).")
     p.printed(equation("K = Jω + ωJ + D(Γω + ωΓ)", applied(omega), motion.contact_momentum()))
     p.say("⟨ω, 𝒜ω⟩ for every n, and entry by entry (n = 5: the sum over i, j is symmetric for every n):")
     size, mass = 5, sp.symbols("J1:6")
@@ -51,6 +52,10 @@ def inertia_operator(p: Proof) -> None:
     form = -omega * J * omega + D * slip * ALGEBRA.transpose(slip)
     kernel, values = sp.Matrix([[0, 0, 0], [0, 0, -1], [0, 1, 0]]), {J: sp.diag(1, 0, 0), Gamma: sp.diag(1, 0, 0)}
     image = evaluate(applied(omega), {**values, D: sp.S.One, omega: kernel})
+    place = {**values, D: sp.S.One, omega: kernel}
+    p.lemma(
+        Comparison("𝒜ω = 0 for ω = e2∧e3 at J = (1,0,0), γ = e1", [sp.Eq(applied(omega), 0), sp.Ne(omega, 0)], place)
+    )
     p.printed(Fact("𝒜 has no kernel, whatever the constant diagonal J: here J = (1,0,0)", not image.is_zero_matrix))
     p.under(
         POSITIVE,

@@ -3,7 +3,7 @@
 import sympy as sp
 
 from chapsym.derive.quotient import Quotient
-from chapsym.prove import Equation, Fact, Proof, claim, main
+from chapsym.prove import Comparison, Equation, Fact, Proof, claim, main
 
 
 @claim(
@@ -107,6 +107,13 @@ def discrete_principle(p: Proof) -> None:
     )
     values = dict(zip((*PATH, *CHANGE, *QUADRATIC), (5, 0, 1, 3, 4, 1, 0, 0, 0, "1/2", -1, "1/2"), strict=True))
     exact = {k: sp.Rational(v) for k, v in values.items()}
+    p.lemma(
+        Comparison(
+            "they differ at 𝕃 = (y - x)²/2, q_{-1}, ..., q_3 = 5, 0, 1, 3, 4, δq = 1, 0, 0, 0",
+            [sp.Ne(first_variation(), discrete_sum(0)), *(sp.Eq(x, 0) for x in end)],
+            exact,
+        )
+    )
     left, right = first_variation().subs(exact), discrete_sum(0).subs(exact)
     shown = {"𝕃": "(y - x)²/2", "q_{-1}, ..., q_3": "5, 0, 1, 3, 4", "δq": "1, 0, 0, 0"}
     p.refute(shown, "δ Σ_{k=0}^{N-1} 𝕃(q_k, q_{k+1}), N = 3, is the printed sum", left, right, left == right)
@@ -174,16 +181,19 @@ def consistency(p: Proof) -> None:
         r"\text{ is taken in coordinates that straighten them}",
         Equation("its dimension: s parameters of leaves and two points", count + 2 * (size - count), needed, ring),
         Equation("A∘Ψ = 0 in such coordinates is x2 = y2: the same leaf", flat * step, y2 - x2, plane),
-        Fact("it contains (q, q) for q = (0, 1)", bool(flat.subs(point) == 0)),
+        Comparison("it contains (q, q) for q = (0, 1)", [sp.Eq(flat, 0)], point | {step: 1}),
     )
     left, right = (x.subs({size: 2, count: 1}) for x in (product, needed))
+    p.lemma(Comparison("dim N×N ≠ dim D for n = 2, s = 1", [sp.Ne(product, needed)], {size: 2, count: 1}))
     point_of = {"Q": "R²", "A": "dx2", "N": "{x2 = 0}", "n, s": "2, 1"}
     p.refute(point_of, "dim N×N (left), dim D (right)", left, right, left == right)
     p.say("Ψ matters: with the leaves x1² + x2² = c and Ψ(q, q') = (q, (q' - q)/ε) the pair (1, 0), (1, 1) is in D_d:")
     tangent = (x1 * (y1 - x1) + x2 * (y2 - x2)) / step
     pair = {x1: 1, x2: 0, y1: 1, y2: 1, step: 1}
-    p.lemma(Fact("A∘Ψ = 0 for that pair", bool(tangent.subs(pair) == 0)))
-    p.lemma(Fact("its points are on two leaves", bool((x1**2 + x2**2).subs(pair) != (y1**2 + y2**2).subs(pair))))
+    p.lemma(
+        Comparison("A∘Ψ = 0 for that pair", [sp.Eq(tangent, 0)], pair),
+        Comparison("its points are on two leaves", [sp.Ne(x1**2 + x2**2, y1**2 + y2**2)], pair),
+    )
     p.witness(
         "generic", {"q": "(0, 1)", "q'": "(5, 1)", "A": "dx2"}, Fact("A∘Ψ = 0", flat.subs({x2: 1, y2: 1, step: 1}) == 0)
     )

@@ -5,7 +5,7 @@ import sympy as sp
 from chapsym.derive import continuous, principle, three
 from chapsym.derive.quotient import Quotient
 from chapsym.derive.three import J1, J2, J3, RING, D, gamma, hat, placed, q, q0
-from chapsym.prove import Equation, Fact, Proof, claim, equations, main
+from chapsym.prove import Comparison, Equation, Fact, Proof, claim, equations, main
 
 m, rho = sp.symbols("m rho")
 BALL_RING = Quotient((m, rho, *RING.symbols), [*RING.relations, D - m * rho**2])
@@ -92,6 +92,8 @@ def regularity(p: Proof) -> None:
     p.lemma(
         Equation("½ - w = (1-u)²/(2(1+u²)) ≥ 0", sp.Rational(1, 2) - slope, (1 - step) ** 2 / (2 * (1 + step**2)), line)
     )
+    square = 2 * (step - sp.Rational(1, 4)) ** 2 + sp.Rational(15, 8)
+    p.lemma(Equation("2(1 + u²) - u = 2(u - ¼)² + 15/8 > 0", 2 * (1 + step**2) - step, square, line))
     discriminant = sp.discriminant(2 * (1 + step**2) - step, step)
     p.printed(Fact("u_{k-1} = 0 has a successor: 2(1 + u²) = u has a real root", bool(discriminant >= 0)))
     p.under("there is a successor nearby, as Ω = 1 is one for the ball at rest", jacobian_is_printed)
@@ -104,11 +106,12 @@ def regularity(p: Proof) -> None:
     at_rest = determinant(true, TURN)
     p.lemma(equation("c = -1: det = det(I + D(1 - γγᵀ))", at_rest, det(inertia + lifted)))
     p.lemma(equation("which is det Λ · F > 0", at_rest, det(three.lam()) * continuous.rolling_factor()))
-    p.lemma(equation("c = ½: det = -det(½I - D(1 - γγᵀ))", determinant(wrong, TURN), -det(inertia / 2 - lifted)))
+    at_rest_as_printed = determinant(wrong, TURN)
+    p.lemma(equation("c = ½: det = -det(½I - D(1 - γγᵀ))", at_rest_as_printed, -det(inertia / 2 - lifted)))
     homogeneous = {J1: 1, J2: 1, J3: 1, m: 1, rho: 1, D: 1, **placed((gamma, (0, 0, 1)))}
-    singular, regular = (determinant(c, TURN).subs(homogeneous) for c in (wrong, true))
+    singular, regular = (x.subs(homogeneous) for x in (at_rest_as_printed, at_rest))
     text = f"J = (1,1,1), m = ρ = 1, γ = e3: det = {singular} as printed, {regular} as corrected"
-    p.lemma(Fact(text, singular == 0 < regular))
+    p.lemma(Comparison(text, [sp.Eq(at_rest_as_printed, 0), at_rest > 0], homogeneous))
     p.say(
         "So with the printed Lagrangian the criterion fails at rest for some balls; with the true one it holds for every ball."
     )
@@ -121,9 +124,15 @@ def regularity(p: Proof) -> None:
     at = homogeneous | placed(((J1, J2, J3), (3, 2, 1)), (gamma, sp.Matrix([2, 3, 6]) / 7))
     signs = [det(_at_turn(jacobian, at, turn)) for turn in turns.values()]
     p.show("det ∂𝒦/∂Ω at Ω ~ (3,1,1,-1) and (1,1,1,-1), J = (3,2,1), D = 1, γ = (2,3,6)/7", signs)
-    p.lemma(Fact("it changes sign between these two turns", signs[0] * signs[1] < 0))
+    p.say(
+        "It changes sign between these two turns (of degree 6 in the parameters, which are given up to their length):"
+    )
+    triple = jacobian[0, :].dot(jacobian[1, :].cross(jacobian[2, :]))
+    for (name, turn), sign in zip(turns.items(), signs, strict=True):
+        relation = triple > 0 if sign > 0 else triple < 0
+        p.lemma(Comparison(f"the sign at {name} is that of {sign}", [relation], at | placed(((q0, *q), turn))))
     p.witness("generic", {"J": "(1,1,1)", "m": "1", "ρ": "1", "γ": "e3", "Ω": "1"}, Fact("det > 0", regular > 0))
-    p.control(equation("c = ½: det = det(I + D(1 - γγᵀ))", determinant(wrong, TURN), det(inertia + lifted)))
+    p.control(equation("c = ½: det = det(I + D(1 - γγᵀ))", at_rest_as_printed, det(inertia + lifted)))
     p.control(Equation("det of the derivative = -det of the matrix, for s = 2", det(derivative), -det(printed), free))
 
 

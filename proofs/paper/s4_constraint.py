@@ -30,6 +30,7 @@ def spatial_rotation(a: sp.Expr, b: sp.Expr) -> sp.Expr:
 def chosen_constraint(p: Proof) -> None:
     """The chosen discrete constraint: horizontal, consistent on the diagonal, of second order."""
     p.assume("(4.2) and (4.9) share the direction of γ; with γ upwards both need ρ → -ρ (see 2.1)")
+    p.assume("Ω̄ = exp(ε ω̄) with ω̄ skew")
     rotational = unfolded(principle.turning_step())
     p.say("Δr is minus the rotational part of the constraint; its vertical component is γᵀΔr = tr(Δr γᵀ).")
     diagonal = rotational.subs({R1: R, R1T: RT})
@@ -66,8 +67,7 @@ def naive_constraint(p: Proof) -> None:
     p.say("Its vertical component is -ρ γᵀΩ̄γ; n = 3, Ω̄ by Euler parameters:")
     naive = -rho * R1 * RT * gamma
     shift = -rho * sp.Matrix(three.rotation()) * three.gamma
-    place = three.placed(((three.q0, *three.q), ("4/5", "3/5", 0, 0)), (three.gamma, (0, 0, 1))) | {rho: 1}
-    at = {symbol: sp.Rational(value) for symbol, value in place.items()}
+    at = three.placed(((three.q0, *three.q), ("4/5", "3/5", 0, 0)), (three.gamma, (0, 0, 1))) | {rho: 1}
     units = [sp.Eq(three.UNIT_QUATERNION, 0), sp.Eq(three.UNIT_VERTICAL, 0)]
     expected = map(sp.Rational, (0, "24/25", "-7/25"))
     p.printed(Comparison("⟨γ, Δr⟩ ≠ 0 at Ω̄ = a turn by (7/25, 24/25) about e₁, γ = e₃, ρ = 1: Δr = (0, 24/25, -7/25)",
@@ -191,6 +191,7 @@ def closed_sides(sign: int = 1) -> tuple[sp.Expr, sp.Expr]:
 )
 def closed_equation(p: Proof) -> None:
     """The closed equation for (Ω, γ): the balance with the forces eliminated."""
+    p.assume("𝕃 with the correction of (4.1); F with that of (4.9-F)")
     p.say("R_kᵀ S R_k with m = D/ρ² and Δr from (4.9); it vanishes along every path:")
     balance = ball.body_balance()
     p.show("R_kᵀ S R_k", balance)

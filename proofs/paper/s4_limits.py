@@ -40,6 +40,7 @@ def exact_order(name: str, remainder: limits.Remainder, order: int = 1, less: in
 )
 def centre_limit(p: Proof) -> None:
     """M/ε → Jω + ωJ, with a remainder of the exact order 1."""
+    p.assume("Ω_k = exp(ε ω) with ω skew: Ω = 1 + εω + O(ε²)")
     p.assume("read as M/ε, as the paper itself writes for 𝒦 after (4.13): M alone tends to 0")
     m = limits.centre_momentum()
     show(p, "M/ε", m)

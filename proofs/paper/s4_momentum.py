@@ -32,6 +32,7 @@ def printed_forms() -> tuple[sp.Expr, sp.Expr]:
 )
 def compact_form(p: Proof) -> None:
     """The closed equation is the conservation of one momentum, for every n."""
+    p.assume("𝕃 with the correction of (4.1)")
     p.assume("Γ is even in γ: (4.12) fixes γ_k up to a common sign, and (4.11) fixes the sign")
     p.say("The balance splits into a part with R_{k+1} and a part with R_{k-1}. In the symbols of their own steps:")
     now, before = ball.split_balance()

@@ -112,6 +112,18 @@ def sums_and_differences(p: Proof) -> None:
     product = MEAN.sn * MEAN.dn * HALF.sn * HALF.dn
     size = 2 * C1 / elliptic.denominator()
     p.lemma(Equation("γ~1 + γ1 = (2C1/𝒟) cn ū cn δu", after[0] + now[0], size * MEAN.cn * HALF.cn, TWO))
+    p.say("The similar expressions for the other components, which the paper does not print:")
+    for i, name, sum_of, difference_of in (
+        (1, "2", MEAN.sn * HALF.cn * HALF.dn, MEAN.cn * MEAN.dn * HALF.sn),
+        (2, "3", MEAN.dn * HALF.dn, -k2 * MEAN.sn * MEAN.cn * HALF.sn * HALF.cn),
+    ):
+        whole = 2 * (C1, C2, C3)[i] / elliptic.denominator()
+        p.lemma(
+            Equation(f"γ~{name} + γ{name} = (2C{name}/𝒟)({sum_of})", after[i] + now[i], whole * sum_of, TWO),
+            Equation(
+                f"γ~{name} - γ{name} = (2C{name}/𝒟)({difference_of})", after[i] - now[i], whole * difference_of, TWO
+            ),
+        )
 
     def difference(text: str, sign: int) -> Equation:
         return Equation(text, after[0] - now[0], sign * size * product, TWO)

@@ -9,7 +9,7 @@ from chapsym.derive.elliptic import HALF, L1, L2, L3, LAMBDA, MEAN, U, k2, l
 from chapsym.derive.quotient import Quotient
 from chapsym.proofs import second_routes
 from chapsym.proofs.paper.s5_elliptic import ARGUMENT, BALL, SQUARE, TWO, V, on_ball
-from chapsym.prove import Equation, Point, Proof, claim, equations, main, rational_point
+from chapsym.prove import Comparison, Equation, Point, Proof, claim, equations, main, rational_point
 
 
 def on_curve(expr: sp.Expr) -> sp.Expr:
@@ -182,9 +182,9 @@ def true_relation(contact: sp.Expr = D, root: sp.Expr = V) -> sp.Expr:
 INVERSE, W, SECOND = 1 - D * level / SCALE, V * w / y, G * SCALE / y - V**2 * e / y
 
 
-def step_point() -> Point:
-    """The curve of `curve_point`, sn δu = 4/5, sn ū = 12/13, and the D that makes T = 0, about 4.78: a ball of matter."""
-    point = {**BALL, **SQUARE, **dict(zip(HALF, ARGUMENT, strict=True)), MEAN.sn: "12/13"}
+def step_point(mean: str = "12/13") -> Point:
+    """The curve of `curve_point`, sn δu = 4/5, sn ū, and the D that makes T = 0: 4.78 at 12/13, that of a ball of matter."""
+    point = {**BALL, **SQUARE, **dict(zip(HALF, ARGUMENT, strict=True)), MEAN.sn: mean}
     point = {symbol: sp.Rational(value) for symbol, value in point.items()}
     values = {
         **{SCALE: elliptic.denominator(), G: true_g(), y: Y, e: (HALF.cn * HALF.dn) ** 2},
@@ -199,8 +199,28 @@ def step_point() -> Point:
         part("T = 0", true_relation(), 0 * w),
     ]
     found = rational_point(exact, hypotheses)
-    made_of = {"Λ": "(8, 7, 6)", "l": "25/168", "k²": "9/16", "sn δu": "4/5", "sn ū": "12/13"}
+    made_of = {"Λ": "(8, 7, 6)", "l": "25/168", "k²": "9/16", "sn δu": "4/5", "sn ū": mean}
     return replace(found, values={**made_of, **found.values})
+
+
+#: The constant of (5.14) and (5.15), which the paper does not say.
+CONSTANT = sp.Symbol("d")
+
+
+def no_constant(relation: sp.Expr) -> list[Comparison]:
+    """That a relation of degree 2 in d has no root d, and none d = cD, at two steps at once: the resultant is not 0."""
+    renamed = {x: sp.Symbol(f"{x.name}2") for x in PARTS.symbols}
+    places = dict(step_point().exact) | {renamed[x]: v for x, v in step_point("3/5").exact.items()}
+    steps = [sp.Eq(true_relation().xreplace(names), 0) for names in ({}, renamed)]
+    found = []
+    for name, unknown in (("d", CONSTANT), ("c with d = cD", CONSTANT * D)):
+        whole = sp.expand(relation.subs(CONSTANT, unknown))
+        (a, b, c), (a2, b2, c2) = (
+            [whole.coeff(CONSTANT, i).xreplace(names) for i in (0, 1, 2)] for names in ({}, renamed)
+        )
+        resultant = (a * c2 - c * a2) ** 2 - (a * b2 - b * a2) * (b * c2 - c * b2)
+        found.append(Comparison(f"no constant {name} serves two steps", [*steps, sp.Ne(resultant, 0)], places))
+    return found
 
 
 @claim(
@@ -226,6 +246,9 @@ def before_squaring(p: Proof) -> None:
             true_relation() / y,
         ),
     )
+    p.say("Nor does any other constant in the place of d, at two steps of this curve with different ū and D:")
+    other = 1 - CONSTANT / 2 * level / SCALE
+    p.lemma(*no_constant(other**2 * (SCALE**2 - SECOND) - (W - SCALE * other) ** 2))
     p.counterexample(step_point())
     p.control(part("the same with D/2", (W - SCALE * half) ** 2 - half**2 * SCALE**2 + SECOND, true_relation() / y))
 
@@ -245,9 +268,10 @@ def relation_for_the_increment(p: Proof) -> None:
     statement = (W / (INVERSE * SCALE) - 1) ** 2 - 1 + SECOND / (INVERSE * SCALE) ** 2
     factor = 1 / (INVERSE * SCALE) ** 2 / y
     inside = G * SCALE - V**2 * e
-    printed = -(D**2) / 4 * level**2 / SCALE**2 * inside
-    printed += D * level / SCALE * (inside - V * w * SCALE) + SCALE * (2 * V * w - G)
-    p.printed(part("the printed relation", printed, 0 * w))
+    printed = -(CONSTANT**2) / 4 * level**2 / SCALE**2 * inside
+    printed += CONSTANT * level / SCALE * (inside - V * w * SCALE) + SCALE * (2 * V * w - G)
+    p.printed(part("the printed relation, d = D", printed.subs(CONSTANT, D), 0 * w))
+    p.lemma(*no_constant(printed))
     p.corrected(
         r"G\,\mathcal D = 2Vw\,(\mathcal D - D(l-\mu\,\mathrm{sn}^2\delta u)),\text{ that is }"
         r"1-k^2\mathrm{sn}^2\bar u\,\mathrm{sn}^2\delta u = \frac{2VwD(l-\mu\,\mathrm{sn}^2\delta u)}{2Vw-G}",

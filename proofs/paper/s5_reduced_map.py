@@ -3,11 +3,25 @@
 import sympy as sp
 
 from chapsym.derive import continuous, elliptic, solutions, three, vertical
-from chapsym.derive.elliptic import L1, L2, L3, LAMBDA, U, k2, l
+from chapsym.derive.elliptic import HALF, L1, L2, L3, LAMBDA, U, k2, l
 from chapsym.derive.quotient import Quotient
 from chapsym.derive.three import RING, D, gamma, q, q0
 from chapsym.derive.vertical import sigma
-from chapsym.proofs.paper.s5_increment import PARTS, SCALE, G, V, level, part, step_point, true_relation, w, y
+from chapsym.proofs.paper.s5_increment import (
+    PARTS,
+    SCALE,
+    G,
+    V,
+    curve_equation,
+    level,
+    part,
+    quotients,
+    step_point,
+    true_g,
+    true_relation,
+    w,
+    y,
+)
 from chapsym.proofs.paper.s5_vertical import SMALL
 from chapsym.prove import Equation, Fact, Proof, claim, equations, main
 
@@ -49,9 +63,12 @@ def invariant_curve(p: Proof) -> None:
         "A point (z, w) fixes γ_i² and γ₁γ₂γ₃: four γ, from one by changing two of the four signs of (1, γ₁, γ₂, γ₃) in P³."
     )
     p.say("A change of two signs has a fixed point only where two of the four coordinates vanish:")
-    pairs = [(i, j) for i in range(3) for j in range(i)]
-    crossings = [sp.solve([squares[i], squares[j]], z) for i, j in pairs]
-    p.printed(Fact("no two of γ₁², γ₂², γ₃² vanish at one z", all(not c for c in crossings)))
+    p.say(
+        "No two of γ₁², γ₂², γ₃² vanish at one z: γ_i² does at z = 1/Λ_i alone, where γ_j² is a product of differences"
+    )
+    pairs = [(i, j, 3 - i - j) for i in range(3) for j in range(3) if i != j]
+    p.printed(Equation("γ_j² = (l - 1/Λ_k)/(1/Λ_j - 1/Λ_k) at z = 1/Λ_i", [squares[j].subs(z, roots[i]) for i, j, _ in pairs],
+                       [(l - roots[k]) / (roots[j] - roots[k]) for _, j, k in pairs], ring))  # fmt: skip
     p.say(
         "and two of them do not vanish at infinity (z = l), where each γ_i² has a simple pole with a non-zero coefficient:"
     )
@@ -95,10 +112,20 @@ def one_dimensional_map(p: Proof) -> None:
     """The reduced map on a curve is u + Δu(u, l); for D ≠ 0 an increment serves one value of sn²ū only."""
     p.assume("(5.15) as corrected, T = G𝒟 - 2Vw(𝒟 - Dλ) = 0 with λ = l - μ sn²δu; a branch is chosen")
     p.assume(
-        "V, k, y = sn²δu, w = sn cn dn δu and λ = Π1𝒟 = ¼⟨s,Λ⁻¹s⟩𝒟, s = γ + γ~, are not 0: s ≠ 0 and δu is no half period",
-        *(sp.Ne(x, 0) for x in (V, y, w, level)),
+        "V, y = sn²δu, 𝒟 and λ = Π1𝒟 = ¼⟨s,Λ⁻¹s⟩𝒟, s = γ + γ~, are not 0: s ≠ 0 and δu is no half period of sn",
+        *(sp.Ne(x, 0) for x in (V, y, SCALE, level)),
     )
-    p.assume("k² ≠ 0", sp.Ne(k2, 0))
+    p.assume("0 < k² < 1", *elliptic.MODULUS)
+    p.say(
+        "Nor is w = sn cn dn δu: cn δu = 0 or dn δu = 0 would leave T = G𝒟 with G ≠ 0, as dn²δu - k²cn²δu = 1 - k² ≠ 0:"
+    )
+    p.lemma(
+        curve_equation("cn δu = 0: G = (C3²/Λ3²) dn²δu", true_g().subs(HALF.cn, 0), quotients()[2] * HALF.dn**2),
+        curve_equation(
+            "dn δu = 0: G = (C1²/(k²Λ1²)) cn²δu", true_g().subs(HALF.dn, 0), quotients()[0] / k2 * HALF.cn**2
+        ),
+        curve_equation("dn²δu - k²cn²δu = 1 - k²", HALF.dn**2 - k2 * HALF.cn**2, 1 - k2),
+    )
     p.say("l is kept (prop-3) and u is the coordinate on its curve (5.7): the map is u + Δu(u, l).")
     p.say("Let one δu solve T = 0 at two points of the curve, x1 = sn²ū1 and x2 = sn²ū2:")
     same = [relation_at(x1), relation_at(x2)]
@@ -181,17 +208,19 @@ def invariant_density(p: Proof) -> None:
         "every step without a fixed point: any increasing one from [0, Δs] to [u, u~], continued by the step",
     )
     s, shift = sp.symbols("s c")
-    f, mu = sp.Function("f"), sp.Function("mu")
-    p.say("u = f(s), u~ = f(s + c) with f' = 1/μ(f): du~/du = f'(s+c)/f'(s), by the chain rule.")
+    f = sp.Function("f")
+    p.say(
+        "u = f(s), u~ = f(s + c) with f' = 1/μ(f): du~/du = f'(s+c)/f'(s), by the chain rule.  With f1, f2, μ1, μ2 for"
+    )
+    p.say("f' and μ(f) at s and s + c, f1μ1 = 1 = f2μ2:")
+    now, after, first, second = sp.symbols("mu1 mu2 f1 f2")
     slope = sp.diff(f(s + shift), s).doit() / sp.diff(f(s), s)
-    slopes = {sp.diff(f(s + shift), s).doit(): 1 / mu(f(s + shift)), sp.diff(f(s), s): 1 / mu(f(s))}
-    now, after = sp.symbols("mu1 mu2")
-    plain = {mu(f(s)): now, mu(f(s + shift)): after}
-    densities = Quotient((now, after))
-    p.printed(Equation("du~/du = μ(u)/μ(u~)", slope.subs(slopes).subs(plain), now / after, densities))
+    slope = slope.subs({sp.diff(f(s + shift), s).doit(): second, sp.diff(f(s), s): first})
+    densities = Quotient((now, after, first, second), [first * now - 1, second * after - 1])
+    p.printed(Equation("du~/du = μ(u)/μ(u~)", slope, now / after, densities))
     p.say("The other way round s = ∫μ du: ds~ = μ(u~)du~ = μ(u)du = ds, so s~ - s is constant on the curve.")
     p.say("μ = 1/f' has the period of u exactly when f(s + S) = f(s) + that period, with S = ∫μ du over the circle.")
-    p.lemma(Equation("μ(u~) du~/du = μ(u) for that slope", after * (now / after), now, densities))
+    p.lemma(Equation("μ(u~) du~/du = μ(u) for that slope", after * slope, now, densities))
     p.say("On the sphere: (l, u) ↦ (l, u~) has the Jacobian ∂u~/∂u.  The area is a function of l times dl du:")
     a, b, c = elliptic.squared_amplitudes()
     ring = elliptic.ring(U)
@@ -217,7 +246,7 @@ def invariant_density(p: Proof) -> None:
         {"γ": "(2, 1, 2)/3", "Λ": "(6, 5, 2)"},
         Fact("l is regular", level_of.subs(at) not in (sp.Rational(1, n) for n in (6, 5, 2))),
     )
-    p.control(Equation("du~/du = μ(u~)/μ(u)", slope.subs(slopes).subs(plain), after / now, densities))
+    p.control(Equation("du~/du = μ(u~)/μ(u)", slope, after / now, densities))
     without = Quotient(sphere.symbols, sphere.relations[:2])
     p.control(Equation("⟨γ, γ_u×γ_l⟩ = -c/2 without ⟨Λ⁻¹γ,γ_l⟩ = ½", area, -factor / 2, without))
 

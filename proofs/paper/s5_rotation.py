@@ -79,11 +79,13 @@ def axis_and_angle(p: Proof) -> None:
     half_turn = sp.diag(1, -1, -1)
     square = (half_turn.trace() + 1) / sp.Integer(4)
     p.printed(Fact("Ω = diag(1,-1,-1) has Euler parameters with q₀ > 0", bool(square > 0)))
-    of_axis = rotation.subs({q0: 0, q1: 1, q2: 0, q3: 0})
+    axis = {q0: sp.S.Zero, q1: sp.S.One, q2: sp.S.Zero, q3: sp.S.Zero}
     minus = {x: -x for x in (q0, *q)}
     p.under(
         "Ω is no rotation by π; with those, q₀ ≥ 0 and (0, q) ~ (0, -q)",
-        Fact("q₀ = 0, q = e₁ gives diag(1,-1,-1)", of_axis == half_turn),
+        Comparison(
+            "q₀ = 0, q = e₁ gives diag(1,-1,-1)", [sp.Eq(a, b) for a, b in zip(rotation, half_turn, strict=True)], axis
+        ),
         equation("(-q₀, -q) gives the same Ω", rotation.subs(minus, simultaneous=True), rotation),
         equation("4q₀² = 1 + tr Ω", 4 * q0**2, 1 + rotation.trace()),
     )
@@ -211,6 +213,7 @@ def vector_form(p: Proof) -> None:
     moved = axial(rotation.T * hat(K) * rotation)
     p.printed(Equation("the axial vector of Ωᵀ𝒦Ω = Ωᵀ𝒦⃗", moved, rotation.T * K, ring))
     p.say("γ_k = Ωᵀγ_{k-1} is (4.11).")
+    p.assume("in the limit the rotation of the step is exp(ε ω)")
     limit = limits.vector_transport()
     p.show(f"(Ωᵀ𝒦⃗ - 𝒦⃗)/ε, leading remainder of order {limit.order}", limit.leading)
     p.lemma(Equation("(Ωᵀ𝒦⃗ - 𝒦⃗)/ε → 𝒦⃗×ω", limit.limit, K.cross(omega), limits.RING))
@@ -237,15 +240,18 @@ def vector_integrals(p: Proof) -> None:
     )
     p.say("Only ΩᵀΩ = 1 is used: the branch of Ω does not matter.")
     gradients = sp.Matrix([K.dot(gamma), K.dot(K), gamma.dot(gamma)]).jacobian(sp.Matrix([*K, *gamma]))
-    at = dict(zip((*K, *gamma), map(sp.Rational, (1, "-1/2", "3/4", "2/7", "3/7", "6/7")), strict=True))
+    at = three.placed((K, (1, "-1/2", "3/4")), (gamma, ("2/7", "3/7", "6/7")))
     p.printed(
-        Fact(
-            "with |γ|² they are independent: the rank of the gradients is 3 at 𝒦 = (1, -1/2, 3/4), γ = (2, 3, 6)/7",
-            gradients.subs(at).rank() == 3,
+        Comparison(
+            "with |γ|² they are independent: a minor of the gradients is not 0 at 𝒦 = (1, -1/2, 3/4), γ = (2, 3, 6)/7",
+            [sp.Ne(gradients[:, :2].row_join(gradients[:, 3]).det(method="berkowitz"), 0)], at,
         )
-    )
-    along = dict(zip(K, (2 * g for g in gamma), strict=True))
-    p.lemma(Fact("a degenerate case: for 𝒦 parallel to γ the rank is 2", gradients.subs(along).subs(at).rank() == 2))
+    )  # fmt: skip
+    size = sp.Symbol("t")
+    dependent = gradients[1, :] - 2 * size * gradients[0, :] + size**2 * gradients[2, :]
+    dependent = dependent.subs(three.placed((K, size * gamma)), simultaneous=True)
+    p.lemma(Equation("where 𝒦 = tγ: ∇(⟨𝒦,𝒦⟩ - 2t⟨𝒦,γ⟩ + t²⟨γ,γ⟩) = 0 for this t", dependent, [sp.S.Zero] * 6,
+                     Quotient((size, *gamma))))  # fmt: skip
     p.control(Equation("⟨Ωᵀ𝒦, Ωγ⟩ = ⟨𝒦, γ⟩", moved.dot(rotation * gamma), K.dot(gamma), ring))
 
 
@@ -280,7 +286,6 @@ def energy_changes(p: Proof) -> None:
         "It may be kept in a step: a turn about an axis of the body that is vertical, or vertical momentum (6-vertical-energy)."
     )
     upright = three.placed(((q0, *q), ("4/5", 0, 0, "3/5")), (gamma, (0, 0, 1)))
-    upright = {symbol: sp.Rational(value) for symbol, value in upright.items()}
     p.control(changes("it changes in a turn about e₃ with 𝒦, γ along e₃", quadratic + lifted, state | upright))
 
 

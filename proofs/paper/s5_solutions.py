@@ -7,7 +7,7 @@ import sympy as sp
 from chapsym.derive import solutions, three
 from chapsym.derive.quotient import Quotient
 from chapsym.derive.three import RING, D, K, gamma, placed, q, q0
-from chapsym.prove import Equation, Fact, Proof, claim, main
+from chapsym.prove import Comparison, Equation, Fact, Proof, claim, main
 
 Momentum = tuple[int | str, int | str, int | str]
 
@@ -27,7 +27,7 @@ ROLLING: dict[int, Momentum] = {
 STRONG = 1000
 
 REAL = "Euler parameters that differ by a sign are one solution; q₀ ≥ 0, so that rotations by π count"
-FINITE = "the solutions are finitely many, and J1, J2, J3 differ"
+FINITE = "the solutions are finitely many, complex ones with them, and J1, J2, J3 differ"
 
 
 def examples(contact: int, momenta: Iterable[Momentum]) -> dict[Momentum, solutions.Count]:
@@ -148,7 +148,15 @@ def lower_bound(p: Proof) -> None:
         "A ball of matter inside its surface has D = mρ² ≥ J1 + J2 + J3.  Such balls, too, have momenta that no rotation has:"
     )
     heavy = solutions.count(solutions.at(BALL, 7, VERTICAL, (40, 0, 0)))
-    p.lemma(Fact("|𝒦| = 40 is above 5/2 Λmax = 65/2 there", sp.Rational(5, 2) * 13 < 40))
+    largest = three.lam()[0, 0]
+    at = placed(((*three.MASSES, D), (1, 2, 4, 7)), (K, (40, 0, 0)))
+    p.lemma(
+        Comparison(
+            "|𝒦| = 40 is above 5/2 Λmax = 65/2 there",
+            [K.dot(K) > sp.Rational(25, 4) * largest**2, *(largest >= x for x in three.lam().diagonal())],
+            at,
+        )
+    )
     state = {"J": "(1, 2, 4)", "D": "7", "γ": "(6/7, 2/7, 3/7)", "𝒦": "(40, 0, 0)"}
     p.refute(state, "the number of real solutions", heavy.real, "at least 2", heavy.real >= 2)
     p.say("It happens on orbits with D > 0: one step after a state that has a rotation, there may be none.")
@@ -201,12 +209,16 @@ def small_solution(p: Proof) -> None:
         "Two different u, v with |u|, |v| ≤ r have |s| < r, a contradiction: two small solutions are one.",
         "There is one: u ↦ B⁻¹(½𝒦(1+|u|²) - u×Λu) maps |u| ≤ r into itself and contracts there, as |B⁻¹| ≤ 1/Imin and,",
         "with ρ = Imin/Λmax ≤ 1, |𝒦| ≤ ρ²Λmax/4, r = 2ρ/9, its values are below (ρ/8)(1+r²) + r²/ρ and its slope below",
-        "(|𝒦|r + 2Λmax r)/Imin ≤ (2/9)(ρ²/4 + 2); both are largest, against r = 2ρ/9 and 1, at ρ = 1:",
+        "(|𝒦|r + 2Λmax r)/Imin ≤ (2/9)(ρ²/4 + 2).  These are below r and 1, as the differences are sums of positive terms:",
     )
-    radius = sp.Rational(2, 9)
+    ratio, radius = sp.Symbol("r"), sp.Rational(2, 9)
+    line, r = Quotient((ratio,)), radius * ratio
+    values, slope = ratio / 8 * (1 + r**2) + r**2 / ratio, radius * (ratio**2 / 4 + 2)
     p.printed(
-        Fact("(1/8)(1+r²) + r² < r at r = 2/9", sp.Rational(1, 8) * (1 + radius**2) + radius**2 < radius),
-        Fact("(2/9)(1/4 + 2) = 1/2 < 1", radius * (sp.Rational(1, 4) + 2) == sp.Rational(1, 2)),
+        Equation(
+            "r - (ρ/8)(1+r²) - r²/ρ = ρ(27 + 4(1-ρ²))/648", r - values, ratio * (27 + 4 * (1 - ratio**2)) / 648, line
+        ),
+        Equation("1 - (2/9)(ρ²/4 + 2) = (9 + (1-ρ²))/18", 1 - slope, (9 + (1 - ratio**2)) / 18, line),
     )
     bound = sp.Rational(2 * 3, 9 * (6 + 3))
     tiny = sp.Matrix([1, -1, 1]) / 40

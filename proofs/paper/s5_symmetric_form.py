@@ -10,7 +10,7 @@ from chapsym.derive.three import J1, J2, J3, D, q, q0
 from chapsym.derive.vertical import RING, sigma
 from chapsym.proofs import second_routes
 from chapsym.proofs.paper.s5_vertical import LARGE, NOT_ZERO, SMALL, vertical_point
-from chapsym.prove import Equation, Fact, Proof, claim, equations, main
+from chapsym.prove import Comparison, Equation, Proof, claim, equations, main
 
 equation = equations(RING)
 
@@ -105,14 +105,17 @@ def q0_from_sum(p: Proof) -> None:
         p.say(f"A rotation by an angle {name} 90°:")
         p.counterexample(vertical_point(state))
     p.say("2q₀² - 1 = cos θ, so the sign of the root is that of cos θ; the second state needs the minus sign:")
-    p.lemma(Fact("2q₀² > 1 at the first state, 2q₀² < 1 at the second", _signs() == (1, -1)))
+    p.lemma(*_signs())
     p.control(square_of_root("(2q₀²-1)² = 1 - (σ/4)⟨s, Λ⁻²s⟩", sigma / 4))
     p.control(square_of_root("(2q₀²-1)² = 1 + (σ²/4)⟨s, Λ⁻²s⟩", -(sigma**2) / 4))
 
 
-def _signs() -> tuple[int, ...]:
+def _signs() -> tuple[Comparison, Comparison]:
     """The signs of 2q₀² - 1 at the two rational states."""
-    return tuple(int(sp.sign(2 * sp.Rational(state[q0]) ** 2 - 1)) for state in (SMALL, LARGE))
+    return (
+        Comparison("2q₀² > 1 at the first state", [2 * q0**2 > 1], SMALL),
+        Comparison("2q₀² < 1 at the second", [2 * q0**2 < 1], LARGE),
+    )
 
 
 @claim(
@@ -184,8 +187,10 @@ def symmetric_form(p: Proof) -> None:
     for name, state in [("below", SMALL), ("above", LARGE)]:
         p.say(f"A state with the rotation angle {name} 90°: the sign of the root is that of 2q₀² - 1 = cos θ.")
         p.counterexample(vertical_point(state))
-        p.lemma(Fact("the vector product in (5.10) is not zero there", _product_is_not_zero(state)))
-    p.lemma(Fact("the two states need the two signs of the root", _signs() == (1, -1)))
+        product = total().cross(inverse() * total())
+        p.lemma(Comparison("the vector product in (5.10) is not zero there", [sp.Ne(product[0], 0)], state))
+    p.say("The two states need the two signs of the root:")
+    p.lemma(*_signs())
     _converse(p)
     p.control(symmetric("5.10 with ϰ = 2σ/q₀²", sigma / (2 * q0**2)))
     p.control(symmetric("5.10 with Λ⁻¹s×s", -sigma / (4 * q0**2)))
@@ -207,11 +212,6 @@ def symmetric_form(p: Proof) -> None:
     p.control(second_routes.mutated("(5.10) with ϰ/2", second_routes.symmetric_form(factor=2)[3]))
     wrong = second_routes.steps_of_the_symmetric_form(part=8)[4]
     p.control(second_routes.mutated("the converse with D/8 in σ: 𝒦 = hγ", wrong))
-
-
-def _product_is_not_zero(state: dict) -> bool:
-    values = {symbol: sp.Rational(value) for symbol, value in state.items()}
-    return not total().cross(inverse() * total()).subs(values, simultaneous=True).is_zero_matrix
 
 
 @claim("5.12-scaling", r"h = 1 \text{ by rescaling of } \Lambda \text{ and } D", uses=["prop-4"])
