@@ -6,7 +6,7 @@ BIN := $(VENV)/bin
 SHELL := bash
 .SHELLFLAGS := -e -o pipefail -c
 
-.PHONY: verify test thorough lint docs pictures release-check clean
+.PHONY: verify test thorough lint docs pictures rocq release-check clean
 
 verify: $(VENV)/.installed
 	@mkdir -p out
@@ -47,6 +47,12 @@ pictures: $(VENV)/.installed
 	for one in bowling:contact robot:spheres,attitude vertical:spheres,phase spread:contact,spread four:spheres; do \
 	  $(BIN)/chapsym show docs/scenes/$${one%%:*}.toml -o docs/pictures/$${one%%:*} --figures $${one##*:} --no-page; done
 	$(BIN)/python docs/pictures/page.py
+
+# Rocq judges the certificates of the register, too: with Python and Rocq alone.
+rocq:
+	@command -v coqc > /dev/null || { echo "Rocq is not installed, so nothing was judged; on Debian: apt install coq libcoq-mathcomp-algebra"; exit 1; }
+	cd chapsym/prove && $(PYTHON) -m rocq ../../proofs/certificates/register ../../out/rocq
+	@$(MAKE) -s -C out/rocq -j $$(getconf _NPROCESSORS_ONLN)
 
 # A clean tree, one version and date, fresh errata, packages that install; stops at the first thing that is missing.
 release-check: $(VENV)/.installed

@@ -1,8 +1,10 @@
 """chapsym prove: judge the printed claims; and what other commands need of the verdicts."""
 
+import json
 from collections import Counter
 from contextlib import suppress
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -31,6 +33,12 @@ def prove(
         ),
     ] = None,
     own: Own = None,
+    rocq: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="DIR", help="Write the same as theorems of Rocq (Coq 8.16), with a Makefile that has them judged."
+        ),
+    ] = None,
     kept_in: Records = None,
 ) -> None:
     """Judge the printed claims: run their proofs, side by side, and keep the verdicts.
@@ -51,8 +59,12 @@ def prove(
     if listing:
         _list_claims(claims, as_json, kept_in, register)
         return
-    everything = claims if certificates else all_claims(register=register)
-    records = judge_and_keep(list(dict.fromkeys(ids or everything)), jobs, kept_in, certificates, register)
+    everything = claims if certificates or rocq else all_claims(register=register)
+    with TemporaryDirectory() as spare:
+        folder = certificates or (Path(spare) if rocq else None)
+        records = judge_and_keep(list(dict.fromkeys(ids or everything)), jobs, kept_in, folder, register)
+        if rocq and folder:
+            _write_rocq([folder / f"{record['id']}.json" for record in records], rocq)
     # The whole register is as it should be with the paper's open questions open; a claim that is named must be proved.
     failed = [record["id"] for record in records if record["verdict"] == "open"] if ids else unproved(records)
     if as_json:
@@ -72,6 +84,20 @@ def prove(
         note(f"certificates in {certificates}: {_carried(records)}")
     if failed:
         fail(f"not proved: {', '.join(failed)}", 1)
+
+
+def _write_rocq(certificates: list[Path], folder: Path) -> None:
+    """The certificates that were made, as theorems."""
+    from chapsym.prove.rocq import write
+
+    try:
+        written = write(
+            (json.loads(file.read_text(encoding="utf-8")) for file in certificates if file.exists()), folder
+        )
+    except OSError as error:
+        fail(f"{folder} cannot be written: {error.strerror or error}", 2)
+    theorems = f"{written.theorems.total()} theorems of {written.claims} claims"
+    note(f"{theorems} in {folder}; make -C {folder} -j2 has Rocq judge them")
 
 
 def _carried(records: list[dict[str, Any]]) -> str:

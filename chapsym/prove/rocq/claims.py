@@ -1,0 +1,106 @@
+"""The theorems of one claim, from its certificate."""
+
+from collections import Counter
+from collections.abc import Mapping
+from typing import Any
+
+from . import matrices, quotients, words
+from .names import comment, identifier
+from .quotients import Fact
+
+#: Why a statement has no theorem.
+SAME = "it has one expression on both sides"
+
+
+class Claim:
+    """Its text and its theorems, by the library that they need; how many of each sort, and what is left out."""
+
+    def __init__(self, data: dict[str, Any]):
+        self.data, self.name = data, f"claim_{identifier(data['claim'])}"
+        self.parts: dict[str, list[str]] = {}
+        self.names: dict[str, list[str]] = {}
+        self.theorems: Counter[str] = Counter()
+        self.left_out: Counter[str] = Counter()
+        self._points: set[str] = set()
+        for i, one in enumerate(data["statements"]):
+            if "refuted" not in one:
+                self._statement(f"{self.name}_statement_{i}", one)
+        for i, example in enumerate(data["counterexamples"]):
+            self._counterexample(f"{self.name}_counterexample_{i}", example)
+
+    def _put(self, library: str, sort: str, text: str, name: str, theorem: str) -> None:
+        self.parts.setdefault(library, []).append(f"{comment(text)}\n{theorem}")
+        self.names.setdefault(library, []).append(name)
+        self.theorems[sort] += 1
+
+    def _statement(self, name: str, one: dict[str, Any]) -> None:
+        """A statement that is proved, and a point at which its hypotheses are true."""
+        algebra, point = self.data["algebras"][one["algebra"]], self.data["points"][one["point"]]
+        is_quotient = algebra["kind"] == "quotient"
+        library = "Points" if is_quotient else "Words"
+        try:
+            if one["left"] == one["right"]:
+                raise words.LeftOut(SAME)
+            theorem = (
+                quotients.statement(name, one, algebra) if is_quotient else words.statement(name, one, algebra, point)
+            )
+        except words.LeftOut as error:
+            self.left_out[str(error)] += 1
+            self.parts.setdefault(library, []).append(comment(f"Left out, because {error}: {one['text']}"))
+            return
+        self._put(library, "statements", f"{one['role']}: {one['text']}", name, theorem)
+        assumed = _hypotheses(algebra, point)
+        if is_quotient:
+            assumed += _nonzero([*one["left"], *one["right"]])
+        key = repr((one["algebra"], one["point"], assumed))
+        if assumed and key not in self._points:
+            self._points.add(key)
+            names = [*algebra["variables"]] if is_quotient else [*algebra["parameters"], *algebra["letters"]]
+            values = {name: point[name] for name in names}
+            self._point("points", "These hypotheses can be true.", f"{name}_point", values, assumed, [algebra])
+
+    def _counterexample(self, name: str, example: dict[str, Any]) -> None:
+        """A point at which printed statements fail, and those in their place hold."""
+        statements = self.data["statements"]
+        refuted, agreeing = ([statements[n] for n in example[part]] for part in ("refutes", "agrees"))
+        algebras = [self.data["algebras"][n] for n in dict.fromkeys(one["algebra"] for one in refuted)]
+        facts = [("=", _sides(hypothesis)) for hypothesis in example["hypotheses"]]
+        facts += [fact for algebra in algebras for fact in _hypotheses(algebra, example["point"])]
+        facts += _nonzero([tree for one in (*agreeing, *refuted) for tree in (*one["left"], *one["right"])])
+        facts += [("=", _sides(one)) for one in agreeing] + [("<>", _sides(one)) for one in refuted]
+        text = "False as printed: " + "; ".join(one["text"] for one in refuted)
+        self._point("counterexamples", text, name, example["point"], facts, algebras)
+
+    def _point(
+        self,
+        sort: str,
+        text: str,
+        name: str,
+        values: Mapping[str, Any],
+        facts: list[Fact],
+        algebras: list[dict[str, Any]],
+    ) -> None:
+        """Numbers of every field, or matrices of rational numbers, for which the facts are true."""
+        if not any(isinstance(value, list) for value in values.values()):
+            self._put("Points", sort, text, name, quotients.at_point(name, values, facts))
+            return
+        pairs = [pair for algebra in algebras for pair in algebra.get("transposes", [])]
+        known = [pair for pair in pairs if words.names_in(["+", *pair]) <= values.keys()]
+        self._put("Matrices", sort, text, name, matrices.at_point(name, values, facts, known))
+
+
+def _sides(one: dict[str, Any]) -> list[tuple[Any, Any]]:
+    return list(zip(one["left"], one["right"], strict=True))
+
+
+def _nonzero(trees: list[Any]) -> list[Fact]:
+    """No denominator of these expressions is 0."""
+    return [("<>", [(tree, 0)]) for tree in quotients.denominators(trees)]
+
+
+def _hypotheses(algebra: dict[str, Any], point: Mapping[str, Any]) -> list[Fact]:
+    """What an algebra assumes, of the names that a point gives."""
+    if algebra["kind"] == "quotient":
+        return [("=", [(relation, 0)]) for relation in algebra["relations"]]
+    rules = [rule for rule in algebra["rules"] if words.names_in(["+", *rule]) <= point.keys()]
+    return [("=", [(["*", a, b], image)]) for a, b, image in rules]

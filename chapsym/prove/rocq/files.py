@@ -1,0 +1,103 @@
+"""The files of a folder that Rocq judges: the libraries, those of each claim, and a Makefile."""
+
+from collections import Counter
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from .claims import Claim
+from .names import comment
+
+HERE = Path(__file__).resolve().parent
+LIBRARIES = ("Identities", "Points", "Words", "Matrices")
+#: What a file begins with, by the library that it needs; and how its name ends.
+HEADS = {
+    "Points": "Require Import Points Identities ZArith List QArith.\nImport ListNotations.\n"
+    "Open Scope nat_scope.\nOpen Scope field_of_0.",
+    "Words": 'Set Warnings "-notation-overridden,-ambiguous-paths".\n'
+    "From mathcomp Require Import ssreflect ssrfun ssrbool eqtype ssrnat seq ssralg ssrint matrix.\n"
+    "Require Import Words.\nImport GRing.Theory.\nOpen Scope ring_scope.",
+    "Matrices": "Require Import Matrices QArith List.\nImport ListNotations.\nOpen Scope Q_scope.",
+}
+ENDINGS = {"Points": "", "Words": "_words", "Matrices": "_matrices"}
+
+
+@dataclass
+class Written:
+    """What was written, counted; the files by the library that they need."""
+
+    claims: int = 0
+    theorems: Counter[str] = field(default_factory=Counter)
+    left_out: Counter[str] = field(default_factory=Counter)
+    files: dict[str, list[str]] = field(default_factory=lambda: {library: [] for library in HEADS})
+
+    def __str__(self) -> str:
+        theorems = ", ".join(f"{n} {sort}" for sort, n in sorted(self.theorems.items(), reverse=True))
+        left_out = "; ".join(f"{n}, because {reason}" for reason, n in self.left_out.items()) or "none"
+        return (
+            f"claims      {self.claims}\n"
+            f"theorems    {self.theorems.total()}: {theorems}\n"
+            f"statements left out: {left_out}"
+        )
+
+
+def write(certificates: Iterable[dict[str, Any]], folder: Path) -> Written:
+    """Writes the files of certificates that the checker has accepted to a folder; raises OSError if it cannot be."""
+    folder.mkdir(parents=True, exist_ok=True)
+    for old in folder.glob("claim_*"):
+        old.unlink()
+    written = Written()
+    for data in certificates:
+        claim = Claim(data)
+        written.claims += bool(claim.theorems)
+        written.theorems += claim.theorems
+        written.left_out += claim.left_out
+        for library, parts in claim.parts.items():
+            name = claim.name + ENDINGS[library]
+            theorems = claim.names.get(library, [])
+            begins = [comment(f"Claim {data['claim']}, from its certificate."), HEADS[library]]
+            ends = [f"Definition theorems := ({', '.join(theorems)}).\nPrint Assumptions theorems."] if theorems else []
+            (folder / f"{name}.v").write_text("\n\n".join([*begins, *parts, *ends]) + "\n", encoding="utf-8")
+            written.files[library] += [name] if theorems else []
+    for library in LIBRARIES:
+        text, path = (HERE / f"{library}.v").read_bytes(), folder / f"{library}.v"
+        if not path.exists() or path.read_bytes() != text:  # otherwise Rocq need not judge it again
+            path.write_bytes(text)
+    (folder / "summary.txt").write_text(f"{written}\n", encoding="utf-8")
+    (folder / "Makefile").write_text(_makefile(written), encoding="utf-8")
+    return written
+
+
+def _makefile(written: Written) -> str:
+    """Has Rocq judge every file, and says what it found."""
+    lists = "".join(
+        f"{library.upper()} := {' '.join(names)}\n$({library.upper()}:%=%.out): {library}.vo\n"
+        for library, names in written.files.items()
+    )
+    everything = " ".join(f"$({library.upper()}:%=%.out)" for library in written.files)
+    return MAKEFILE.format(lists=lists, everything=everything)
+
+
+MAKEFILE = """# make -j2: Rocq judges every file, and the axioms of each theorem are counted.
+
+COQC ?= coqc
+BEGAN := $(shell date +%s)
+.DELETE_ON_ERROR:
+.PHONY: judged
+judged:
+
+{lists}
+judged: {everything}
+	@cat summary.txt
+	@echo "axioms      $$(cat $^ | grep -v '^Closed under the global context' | sort -u | grep . || echo none)"
+	@echo "seconds     $$(($$(date +%s) - $(BEGAN)))"
+
+Points.vo: Identities.vo
+
+%.vo: %.v
+	$(COQC) -q -noglob $<
+
+claim_%.out: claim_%.v
+	$(COQC) -q -noglob $< > $@
+"""

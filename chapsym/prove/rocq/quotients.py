@@ -1,0 +1,147 @@
+"""Statements in quotient rings, and their points, as theorems about every field of characteristic 0."""
+
+from collections.abc import Iterable, Mapping
+from fractions import Fraction
+from typing import Any
+
+from .names import identifier, integer
+
+Tree = Any
+#: What a variable is: its identifier, and its number from 1 on.
+Variables = Mapping[str, tuple[str, int]]
+
+
+def variables(names: Iterable[str]) -> dict[str, tuple[str, int]]:
+    """The variables of an algebra."""
+    return {name: (identifier(name), i) for i, name in enumerate(names, 1)}
+
+
+def written(tree: Tree, names: Variables) -> str:
+    """An expression, for a reader: in parentheses, unless it is one name or number."""
+    if isinstance(tree, str) and tree in names:
+        return names[tree][0]
+    if not isinstance(tree, list):
+        x = Fraction(tree)
+        return f"#{integer(x.numerator)}" if x.denominator == 1 else f"(#{integer(x.numerator)} / #{x.denominator})"
+    if tree[0] == "^":
+        base, power = written(tree[1], names), abs(tree[2])
+        whole = base if power == 1 else f"({base} ^ {power})"
+        return whole if tree[2] > 0 else f"(/ {whole})"
+    return "(" + f" {tree[0]} ".join(written(part, names) for part in tree[1:]) + ")"
+
+
+def equation(left: Tree, right: Tree, names: Variables) -> str:
+    """left = right."""
+    return f"{written(left, names)} = {written(right, names)} :> Field"
+
+
+def data(tree: Tree, names: Variables) -> str:
+    """The same expression, as data of type tree."""
+    if isinstance(tree, str) and tree in names:
+        return f"(Var {names[tree][1]})"
+    if not isinstance(tree, list):
+        x = Fraction(tree)
+        number = f"Int {integer(x.numerator)}" if x.denominator == 1 else f"Rat {integer(x.numerator)} {x.denominator}"
+        return f"({number})"
+    if tree[0] == "^":
+        base, power = data(tree[1], names), abs(tree[2])
+        whole = base if power == 1 else f"(Pow {base} {power})"
+        return whole if tree[2] > 0 else f"(Inv {whole})"
+    operation, (first, *rest) = {"+": "Sum", "*": "Prod"}[tree[0]], [data(part, names) for part in tree[1:]]
+    for part in rest:
+        first = f"({operation} {first} {part})"
+    return first
+
+
+def denominators(trees: Iterable[Tree]) -> list[Tree]:
+    """What must not be 0 in these expressions, each once."""
+    found: dict[str, Tree] = {}
+
+    def below(tree: Tree, inverted: bool) -> None:
+        if not isinstance(tree, list):
+            if inverted and isinstance(tree, str) and not _is_number(tree):
+                found.setdefault(repr(tree), tree)
+            return
+        if tree[0] == "^":
+            if inverted and tree[2] < 0:
+                found.setdefault(repr(tree[1]), tree[1])
+            below(tree[1], inverted != (tree[2] < 0))
+            return
+        if inverted and tree[0] == "+":
+            found.setdefault(repr(tree), tree)
+        for part in tree[1:]:
+            below(part, inverted and tree[0] == "*")
+
+    for tree in trees:
+        below(tree, False)
+    return list(found.values())
+
+
+def _is_number(tree: str) -> bool:
+    return tree[0] in "-0123456789"
+
+
+def conjunction(parts: list[str]) -> str:
+    """All of them, a line each."""
+    return " /\\\n  ".join(parts)
+
+
+def listed(parts: Iterable[str]) -> str:
+    """A list, a line for each."""
+    return "[" + ";\n    ".join(parts) + "]"
+
+
+def statement(name: str, one: dict[str, Any], algebra: dict[str, Any]) -> str:
+    """The theorem: the equations of a statement hold where its relations do and no denominator vanishes."""
+    names = variables(algebra["variables"])
+    known = denominators([*one["left"], *one["right"]])
+    hypotheses = [f"{written(r, names)} = zero ->" for r in algebra["relations"]]
+    hypotheses += [f"{written(t, names)} <> zero ->" for t in known]
+    equations = [equation(a, b, names) for a, b in zip(one["left"], one["right"], strict=True)]
+    entries = [
+        f"({data(a, names)}, {data(b, names)}, {listed(data(c, names) for c in cofactors)})"
+        for a, b, cofactors in zip(one["left"], one["right"], one["cofactors"], strict=True)
+    ]
+    all_names = " ".join(identifier for identifier, _ in names.values())
+    relations, nonzero = (listed(data(t, names) for t in trees) for trees in (algebra["relations"], known))
+    return "\n".join([
+        f"Theorem {name} : forall (Field : field) ({all_names} : Field),",
+        *(f"  {hypothesis}" for hypothesis in hypotheses),
+        f"  {conjunction(equations)}.",
+        f"Proof.\n  intros Field {all_names}.",
+        f"  exact (identity Field {_list(names)}\n    {relations}\n    {nonzero}\n    {listed(entries)}",
+        "    ltac:(vm_cast_no_check (eq_refl true))).\nQed.",
+    ])  # fmt: skip
+
+
+def _list(names: Variables) -> str:
+    return "[" + "; ".join(identifier for identifier, _ in names.values()) + "]"
+
+
+Fact = tuple[str, list[tuple[Tree, Tree]]]
+
+
+def at_point(name: str, point: Mapping[str, Any], facts: list[Fact]) -> str:
+    """The theorem: numbers exist for which the facts ("=" all sides agree, "<>" not all do) are true."""
+    names = variables(point)
+    texts, trees = [], []
+    for relation, sides in facts:
+        equations = [equation(a, b, names) for a, b in sides]
+        pairs = listed(f"({data(a, names)}, {data(b, names)})" for a, b in sides)
+        if relation == "=":
+            texts += [f"({conjunction(equations)})"]
+            trees.append(f"Equal {pairs}")
+        else:
+            texts.append(f"~ ({conjunction(equations)})")
+            trees.append(f"Unequal {pairs}")
+    values = [Fraction(x) for x in point.values()]
+    rationals = "; ".join(f"Qmake {integer(x.numerator)} {x.denominator}" for x in values)
+    witnesses = ", ".join(f"(#{integer(x.numerator)} / #{x.denominator})" for x in values)
+    all_names = " ".join(identifier for identifier, _ in names.values())
+    return "\n".join([
+        f"Theorem {name} : forall Field : field, exists {all_names} : Field,",
+        f"  {conjunction(texts)}.",
+        f"Proof.\n  intros Field. exists {witnesses}.",
+        f"  exact (facts_at Field [{rationals}]\n    {listed(trees)}",
+        "    ltac:(vm_cast_no_check (eq_refl true))).\nQed.",
+    ])  # fmt: skip

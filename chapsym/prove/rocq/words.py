@@ -1,0 +1,197 @@
+"""Statements about words as theorems about matrices of every size, over every commutative ring."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import reduce
+from math import lcm
+from typing import Any
+
+from .names import identifier
+
+Tree = Any
+#: Rows and columns of a letter; True is n, False is 1.
+Shape = tuple[bool, bool]
+TYPES = {(True, True): ("'M[R]_n", "square"), (True, False): ("'cV[R]_n", "column"), (False, True): ("'rV[R]_n", "row")}
+
+
+class LeftOut(Exception):
+    """A statement that is not translated; the message says why."""
+
+
+@dataclass
+class Algebra:
+    """The letters with their shapes, and how each is written; N is a multiple of all denominators."""
+
+    letters: dict[str, tuple[int, Shape, str]]
+    parameters: dict[str, tuple[int, str]]
+    N: int
+
+    def is_number(self, tree: Tree) -> bool:
+        """Whether no letter is in a tree."""
+        return not any(name in self.letters for name in names_in(tree))
+
+    def shape(self, tree: Tree) -> Shape | None:
+        """Rows and columns; None of a number, which stands for any multiple of a unit matrix."""
+        if self.is_number(tree):
+            return None
+        if isinstance(tree, str):
+            return self.letters[tree][1]
+        if tree[0] == "+":
+            return next(self.shape(part) for part in tree[1:] if not self.is_number(part))
+        factors = tree[1:2] if tree[0] == "^" else tree[1:]
+        shapes = [shape for shape in map(self.shape, factors) if shape]
+        return shapes[0][0], shapes[-1][1]
+
+    def number(self, tree: Tree) -> tuple[str, str]:
+        """A number as it is read, and as data."""
+        if isinstance(tree, str) and tree in self.parameters:
+            i, name = self.parameters[tree]
+            return name, f"(Param {i})"
+        if not isinstance(tree, list):
+            x = Fraction(tree)
+            whole = x.numerator if x.denominator == 1 else int(x * self.N)
+            text = f"{whole}%:R" if whole >= 0 else f"(- {-whole}%:R)"
+            number = f"(Number ({f'Posz {whole}' if whole >= 0 else f'Negz {-whole - 1}'}))"
+            if x.denominator == 1:
+                return text, number
+            if whole == 1:
+                return f"{self.N}%:R^-1", "(Param 0)"
+            return f"({text} / {self.N}%:R)", f"(SProd {number} (Param 0))"
+        if tree[0] == "^":
+            if tree[2] < 0:
+                raise LeftOut("it divides by a parameter")
+            return self.number(["*", *[tree[1]] * tree[2]] if tree[2] > 1 else tree[1])
+        return _joined(tree[0], "SSum" if tree[0] == "+" else "SProd", map(self.number, tree[1:]))
+
+    def matrix(self, tree: Tree) -> tuple[str, str]:
+        """A matrix as it is read, and as data."""
+        if self.is_number(tree):
+            if tree == 1:
+                return "1%:M", "Unit"
+            text, number = self.number(tree)
+            return f"({text} *: 1%:M)", f"(Scaled {number} Unit)"
+        if isinstance(tree, str):
+            return self.letters[tree][2], f"(Letter {self.letters[tree][0]})"
+        if tree[0] == "^":
+            if tree[2] < 0:
+                raise LeftOut("it has the inverse of a matrix")
+            return self.matrix(["*", *[tree[1]] * tree[2]] if tree[2] > 1 else tree[1])
+        if tree[0] == "+":
+            return _joined("+", "Sum", map(self.matrix, tree[1:]))
+        text, product = _joined("*m", "Prod", (self.matrix(part) for part in tree[1:] if not self.is_number(part)))
+        numbers = [self.number(part) for part in tree[1:] if self.is_number(part)]
+        if not numbers:
+            return text, product
+        factor, number = _joined("*", "SProd", numbers)
+        return f"({factor} *: {text})", f"(Scaled {number} {product})"
+
+
+def _joined(sign: str, operation: str, parts: Iterable[tuple[str, str]]) -> tuple[str, str]:
+    texts, data = zip(*parts, strict=True)
+    whole = f" {sign} ".join(texts)
+    return f"({whole})" if len(texts) > 1 else whole, reduce(lambda a, b: f"({operation} {a} {b})", data)
+
+
+def names_in(tree: Tree) -> set[str]:
+    """The names in a tree, and its quotients in quotes."""
+    if isinstance(tree, list):
+        return set().union(*(names_in(part) for part in tree[1:]))
+    return {tree} if isinstance(tree, str) else set()
+
+
+def _denominators(tree: Tree) -> set[int]:
+    if isinstance(tree, list):
+        return set().union(*(_denominators(part) for part in tree[1:]))
+    return {Fraction(tree).denominator} if not isinstance(tree, str) or tree[0] in "-0123456789" else set()
+
+
+def statement(name: str, one: dict[str, Any], data: dict[str, Any], point: dict[str, Any]) -> str:
+    """The theorem: the equations of a statement hold for all matrices for which the rules do."""
+    rules = _rules(data, names_in([None, *one["left"], *one["right"]]))
+    algebra = _algebra(data, one, rules, point)
+    shapes = {shape for shape in map(algebra.shape, (*one["left"], *one["right"])) if shape}
+    if len(shapes) != 1:
+        raise LeftOut("its sides are matrices of no size, or of several")
+    [(s, t)] = shapes
+    if s != t and any(map(algebra.is_number, (*one["left"], *one["right"]))):
+        raise LeftOut("a side is a number, and the other is no square matrix")
+    hypotheses, rules_as_data = [], []
+    for a, b, image in rules:
+        (product, _), (text, tree) = algebra.matrix(["*", a, b]), algebra.matrix(image)
+        hypotheses.append(f"{product[1:-1]} = {text} ->")
+        rules_as_data.append(f"({algebra.letters[a][0]}, {algebra.letters[b][0]}, {tree})%N")
+    sides = [(algebra.matrix(a), algebra.matrix(b)) for a, b in zip(one["left"], one["right"], strict=True)]
+    equations = " /\\\n  ".join(f"{a} = {b}" for (a, _), (b, _) in sides)
+    entries = ";\n    ".join(f"({a}, {b})" for (_, a), (_, b) in sides)
+    binders, variables = _binders(algebra)
+    unit, inverse = f"{algebra.N}%:R \\is a @GRing.unit R ->", f"{algebra.N}%:R^-1"
+    letters = [f"{TYPES[shape][1]} {_argument(text)}" for _, shape, text in algebra.letters.values()]
+    parameters = [inverse if algebra.N > 1 else "1", *(text for _, text in algebra.parameters.values())]
+    return "\n".join([
+        f"Theorem {name} : forall (R : comUnitRingType) (n : nat){binders},",
+        *([f"  {unit}"] if algebra.N > 1 else []),
+        *(f"  {hypothesis}" for hypothesis in hypotheses),
+        f"  {equations}.",
+        f"Proof.\n  intros R n{variables}{' unit_N' if algebra.N > 1 else ''}.",
+        f"  exact (@words [:: {'; '.join(_pair(shape) for _, shape, _ in algebra.letters.values())}]",
+        f"    [:: {'; '.join(rules_as_data)}] {algebra.N} {_bool(s)} {_bool(t)}",
+        f"    [:: {entries}]",
+        "    ltac:(vm_cast_no_check (erefl true)) R n",
+        f"    [:: {'; '.join(parameters)}]",
+        f"    [:: {'; '.join(letters)}]",
+        f"    ({'mulrV unit_N' if algebra.N > 1 else 'mulr1 _'})).\nQed.",
+    ])  # fmt: skip
+
+
+def _rules(data: dict[str, Any], used: set[str]) -> list[list[Any]]:
+    """The rules about the letters of a statement, and about those that these rules bring in."""
+    while True:
+        rules = [rule for rule in data["rules"] if {*rule[:2]} <= used]
+        more = used.union(*(names_in(rule[2]) for rule in rules))
+        if more == used:
+            return rules
+        used = more
+
+
+def _algebra(data: dict[str, Any], one: dict[str, Any], rules: list[list[Any]], point: dict[str, Any]) -> Algebra:
+    used = names_in([None, *one["left"], *one["right"], *(part for rule in rules for part in rule)])
+    sizes = {size for name in data["letters"] for size in (len(point[name]), len(point[name][0]))} - {1}
+    if len(sizes) != 1:
+        raise LeftOut("its matrices are of several sizes")
+    transposes = {a: b for a, b in data["transposes"] if isinstance(b, str) and b != a}
+    letters = {}
+    for i, name in enumerate(sorted(used & set(data["letters"]))):
+        shape = (len(point[name]) > 1, len(point[name][0]) > 1)
+        if shape not in TYPES:
+            raise LeftOut(f"{name} is a matrix of one entry")
+        other = transposes.get(name)
+        is_transpose = other is not None and transposes.get(other) == name and (len(other), other) < (len(name), name)
+        letters[name] = i, shape, f"{identifier(str(other))}^T" if is_transpose else identifier(name)
+    parameters = {name: (i, identifier(name)) for i, name in enumerate(sorted(used & set(data["parameters"])), 1)}
+    N = lcm(1, *_denominators(["+", *one["left"], *one["right"], *(rule[2] for rule in rules)]))
+    return Algebra(letters, parameters, N)
+
+
+def _binders(algebra: Algebra) -> tuple[str, str]:
+    """The variables with their types; a transpose is that of another variable."""
+    types: dict[str, list[str]] = {"R": [text for _, text in algebra.parameters.values()]}
+    for _, shape, text in algebra.letters.values():
+        plain, transposed = text.removesuffix("^T"), text.endswith("^T")
+        mine = types.setdefault(TYPES[shape[::-1] if transposed else shape][0], [])
+        mine += [plain][: plain not in mine]
+    groups = {type: " ".join(names) for type, names in types.items() if names}
+    binders = "".join(f" ({names} : {type})" for type, names in groups.items())
+    return binders, "".join(f" {names}" for names in groups.values())
+
+
+def _argument(text: str) -> str:
+    return f"({text})" if "^" in text else text
+
+
+def _pair(shape: Shape) -> str:
+    return f"({_bool(shape[0])}, {_bool(shape[1])})"
+
+
+def _bool(x: bool) -> str:
+    return str(x).lower()

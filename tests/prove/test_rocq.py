@@ -1,0 +1,109 @@
+"""The claims as theorems of Rocq: all that is proved is written, and where Rocq is, it accepts what is true only."""
+
+import json
+import re
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+import chapsym.proofs
+from chapsym.prove.rocq import write
+from chapsym.prove.rocq.names import comment, identifier
+
+REGISTER = Path(chapsym.proofs.__path__[0]) / "certificates" / "register"
+needs_rocq = pytest.mark.skipif(not shutil.which("coqc"), reason="coqc is not here: no theorem is judged")
+
+
+def certificate(id):
+    return json.loads((REGISTER / f"{id}.json").read_text(encoding="utf-8"))
+
+
+def rocq(folder, *targets):
+    """What Rocq says of some files."""
+    return subprocess.run(["make", "-C", folder, *targets], capture_output=True, text=True)
+
+
+def test_every_statement_that_says_something_is_a_theorem(tmp_path):
+    data = [certificate(path.stem) for path in sorted(REGISTER.glob("*.json"))]
+    written = write(data, tmp_path)
+    statements = [one for claim in data for one in claim["statements"] if "refuted" not in one]
+    empty = sum(one["left"] == one["right"] for one in statements)
+    assert written.left_out == {"it has one expression on both sides": empty}
+    assert written.theorems["statements"] == len(statements) - empty
+    assert written.theorems["counterexamples"] == sum(len(claim["counterexamples"]) for claim in data)
+    texts = [path.read_text(encoding="utf-8") for path in tmp_path.glob("claim_*.v")]
+    names = [name for text in texts for name in re.findall(r"^Theorem (\w+)", text, re.MULTILINE)]
+    assert len(names) == len(set(names)) == written.theorems.total()
+    assert sum(text.count("Left out, because") for text in texts) == empty
+    core = {"prop-1", "prop-2", "prop-3", "prop-4", "remark-3", *(f"5.{i}" for i in (1, 2, 3, 4, 6, 15))}
+    assert all(any(f"claim_{identifier(id)}_statement" in name for name in names) for id in core)
+
+
+def test_a_text_cannot_end_its_comment():
+    assert comment('f*) "g (**) \n h') == "(* f* ) ''g ( ** )   h *)"
+
+
+def test_names_stay_apart():
+    names = ["R", "R_", "R_r", "R_+", "R_-", "R^T", "R.", "R-", "R__", "R_u", "Rᵀ", "forall", "forall_r", "zero"]
+    assert len({identifier(name) for name in names}) == len(names)
+    assert all(re.fullmatch(r"[A-Za-z]\w*", identifier(name), re.ASCII) for name in names)
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """In which Rocq judges each library once."""
+    return tmp_path_factory.mktemp("rocq")
+
+
+@needs_rocq
+def test_rocq_accepts_a_quotient_words_and_matrices_without_an_axiom(folder):
+    write([certificate("5.14"), certificate("4.9-F")], folder)
+    found = rocq(folder)
+    assert found.returncode == 0, found.stdout + found.stderr
+    assert "claims      2\ntheorems    6: 2 statements, 2 points, 2 counterexamples\n" in found.stdout
+    assert re.search(r"^axioms      none$", found.stdout, re.MULTILINE)
+
+
+def a_cofactor(data):
+    data["statements"][1]["cofactors"][0][0] = ["+", 1, data["statements"][1]["cofactors"][0][0]]
+
+
+def a_side(data):
+    data["statements"][1]["right"][0] = ["*", 2, data["statements"][1]["right"][0]]
+
+
+def a_relation(data):
+    del data["algebras"][0]["relations"][0], data["statements"][1]["cofactors"][0][0]
+
+
+def a_point(data):
+    data["points"][0]["w"] = "1/5"
+
+
+def a_counterexample(data):
+    data["counterexamples"][0]["refutes"] = [1]
+
+
+@needs_rocq
+@pytest.mark.parametrize("change", [a_cofactor, a_side, a_relation, a_point, a_counterexample])
+def test_rocq_rejects_what_a_change_makes_false(folder, change):
+    data = certificate("5.14")
+    change(data)
+    write([data], folder)
+    found = rocq(folder)
+    assert found.returncode != 0
+    assert "claim_5_d14.v" in found.stderr
+
+
+@needs_rocq
+def test_rocq_rejects_false_words_and_a_false_counterexample(folder):
+    data = certificate("4.9-F")
+    for one in data["statements"]:
+        if "refuted" not in one:
+            one["right"] = [["*", 2, one["right"][0]]]
+    data["counterexamples"][0]["point"]["rho"] = 0
+    write([data], folder)
+    found = rocq(folder, "-k")
+    assert {"claim_4_d9__F_words.v", "claim_4_d9__F_matrices.v"} <= set(re.findall(r"claim_\w+\.v", found.stderr))
