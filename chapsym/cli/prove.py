@@ -96,8 +96,8 @@ def _write_rocq(certificates: list[Path], folder: Path) -> None:
         )
     except OSError as error:
         fail(f"{folder} cannot be written: {error.strerror or error}", 2)
-    theorems = f"{written.theorems.total()} theorems of {written.claims} claims"
-    note(f"{theorems} in {folder}; make -C {folder} -j2 has Rocq judge them")
+    counts = f"claims: {written.claims}, theorems: {written.theorems.total()}"
+    note(f"for Rocq in {folder}: {counts}; make -C {folder} -j2 has them judged")
 
 
 def _carried(records: list[dict[str, Any]]) -> str:

@@ -7,12 +7,14 @@ import subprocess
 from pathlib import Path
 
 import pytest
+from commands import chapsym
 
-import chapsym.proofs
+from chapsym import proofs
 from chapsym.prove.rocq import write
 from chapsym.prove.rocq.names import comment, identifier
 
-REGISTER = Path(chapsym.proofs.__path__[0]) / "certificates" / "register"
+ROOT = Path(__file__).resolve().parents[2]
+REGISTER = Path(proofs.__path__[0]) / "certificates" / "register"
 needs_rocq = pytest.mark.skipif(not shutil.which("coqc"), reason="coqc is not here: no theorem is judged")
 
 
@@ -39,6 +41,26 @@ def test_every_statement_that_says_something_is_a_theorem(tmp_path):
     assert sum(text.count("Left out, because") for text in texts) == empty
     core = {"prop-1", "prop-2", "prop-3", "prop-4", "remark-3", *(f"5.{i}" for i in (1, 2, 3, 4, 6, 15))}
     assert all(any(f"claim_{identifier(id)}_statement" in name for name in names) for id in core)
+
+
+def test_the_command_writes_the_theorems_of_a_claim(tmp_path):
+    options = ("--jobs", "1", "--records", tmp_path / "v.jsonl", "--rocq", tmp_path / "made")
+    assert "claims: 1, theorems: 4; make -C" in chapsym("prove", "5.11", *options).stderr
+    write([certificate("5.11")], tmp_path / "kept")
+    made, kept = (
+        {path.name: path.read_bytes() for path in (tmp_path / folder).iterdir()} for folder in ("made", "kept")
+    )
+    assert made == kept
+
+
+def test_without_rocq_one_sentence_says_what_to_install(tmp_path):
+    for tool in ("bash", "make"):
+        (tmp_path / tool).symlink_to(shutil.which(tool))
+    found = subprocess.run(
+        ["make", "-s", "rocq"], cwd=ROOT, env={"PATH": str(tmp_path)}, capture_output=True, text=True
+    )
+    assert found.returncode != 0
+    assert found.stdout.startswith("Rocq is not installed, so nothing was judged; on Debian: apt install coq")
 
 
 def test_a_text_cannot_end_its_comment():
