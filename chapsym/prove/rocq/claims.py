@@ -39,6 +39,8 @@ class Claim:
         is_quotient = algebra["kind"] == "quotient"
         library = "Points" if is_quotient else "Words"
         try:
+            if algebra["kind"] not in ("quotient", "words"):
+                raise words.LeftOut(f"its algebra is of the kind {algebra['kind']}")
             if one["left"] == one["right"]:
                 raise words.LeftOut(SAME)
             theorem = (

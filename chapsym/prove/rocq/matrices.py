@@ -5,7 +5,7 @@ from fractions import Fraction
 from typing import Any
 
 from .names import identifier, integer
-from .quotients import Fact, denominators
+from .quotients import SIGNS, Fact, denominators
 
 Tree = Any
 
@@ -37,7 +37,7 @@ class Point:
             return quotient(tree)
         if tree[0] == "^":
             return f"({self.number(tree[1])} ^ {integer(tree[2])})"
-        return "(" + f" {tree[0]} ".join(map(self.number, tree[1:])) + ")"
+        return "(" + SIGNS[tree[0]].join(map(self.number, tree[1:])) + ")"
 
     def matrix(self, tree: Tree, rows: int) -> str:
         """A matrix; a number stands for that multiple of the unit matrix."""

@@ -7,6 +7,7 @@ from typing import Any
 from .names import identifier, integer
 
 Tree = Any
+SIGNS = {"+": " + ", "*": " * "}
 #: What a variable is: its identifier, and its number from 1 on.
 Variables = Mapping[str, tuple[str, int]]
 
@@ -27,7 +28,7 @@ def written(tree: Tree, names: Variables) -> str:
         base, power = written(tree[1], names), abs(tree[2])
         whole = base if power == 1 else f"({base} ^ {power})"
         return whole if tree[2] > 0 else f"(/ {whole})"
-    return "(" + f" {tree[0]} ".join(written(part, names) for part in tree[1:]) + ")"
+    return "(" + SIGNS[tree[0]].join(written(part, names) for part in tree[1:]) + ")"
 
 
 def equation(left: Tree, right: Tree, names: Variables) -> str:

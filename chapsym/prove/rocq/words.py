@@ -62,7 +62,7 @@ class Algebra:
             if tree[2] < 0:
                 raise LeftOut("it divides by a parameter")
             return self.number(["*", *[tree[1]] * tree[2]] if tree[2] > 1 else tree[1])
-        return _joined(tree[0], "SSum" if tree[0] == "+" else "SProd", map(self.number, tree[1:]))
+        return _joined(*{"+": ("+", "SSum"), "*": ("*", "SProd")}[tree[0]], map(self.number, tree[1:]))
 
     def matrix(self, tree: Tree) -> tuple[str, str]:
         """A matrix as it is read, and as data."""
