@@ -141,7 +141,7 @@ class Algebra:
         return self.scalar(self.none, sum(signs, Fraction(0))) * self.word(*least)
 
 
-def all_or_none(letters: set[str], names: Collection[str], where: str) -> bool:
+def all_or_none(letters: set[str], names: Iterable[str], where: str) -> bool:
     """Whether something is said of all of some letters, and not of none; raises Rejected if of a part of them."""
     known = letters & set(names)
     if known and known != letters:

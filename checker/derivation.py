@@ -10,8 +10,11 @@ dual      of X, by a letter ξ with ξᵀ = -ξ: the S = -Sᵀ with tr X = ½ tr
 having, lacking   of X, by letters: its terms that have one of them, or none; together they are X
 matrix, entry     X in coordinates (matrices.py)
 
-All this is done here.  Rates and replacements must respect the rules and the transposes of the algebra of X; a name is
-used in another algebra only if that has the letters and, for them, the rules.  What the texts say is not judged.
+It may have its value, as a tree in the names of its algebra, so that a reader need not take the steps.
+
+All this is done here, each step in its own algebra: what was made without a rule need not obey it.  Rates and
+replacements must respect the rules and the transposes of the algebra of X; a name is used in another algebra only if
+that has the letters and, for them, the rules.  What the texts say is not judged.
 """
 
 from __future__ import annotations
@@ -63,7 +66,10 @@ def check_form(
     made: dict[str, dict[str, int]] = {"words": {}, "matrix": {}, "entry": {}}
     for i, one in enumerate(data):
         where = f"definition {i}"
-        check_names(one, "name text algebra operation of by", where)
+        valued = isinstance(one, dict) and "value" in one
+        check_names(one, "name text algebra operation of by" + " value" * valued, where)
+        if valued:
+            check_tree(one["value"], names[count(one["algebra"], 0, len(algebras) - 1, where)], where)
         check_name(one["name"], where)
         if one["name"] in taken:
             raise Rejected(f"{where} has a name that is taken")
@@ -87,7 +93,7 @@ def check_form(
             if made["matrix"][one["of"]] != here:
                 raise Rejected(f"{where} is in another algebra than its matrix")
         elif one["operation"] != "written":
-            trees = _check_by(one, names[made["words"][one["of"]]], where)
+            trees += _check_by(one, algebras[made["words"][one["of"]]], where)
         elif one["by"] != []:
             raise Rejected(f"{where} is written and made by something")
         for tree in trees:
@@ -99,10 +105,11 @@ def check_form(
     ]
 
 
-def _check_by(one: dict[str, Any], names: Collection[str], where: str) -> list[Any]:
-    """The form of the other operand, about names of the algebra of the first; returns the trees in it."""
+def _check_by(one: dict[str, Any], source: Mapping[str, Any], where: str) -> list[Any]:
+    """The form of the other operand, about letters of the algebra of the first; returns the trees in it."""
+    names = [*source["letters"], *(source["parameters"] if one["operation"] == "replaced" else [])]
     if one["operation"] in LETTER:
-        chosen(one["by"], sorted(names), f"the letter of {where}")
+        chosen(one["by"], names, f"the letter of {where}")
         return []
     by = many(one["by"], where)
     if one["operation"] in PAIRS:
@@ -121,11 +128,36 @@ def values(data: Sequence[dict[str, Any]], algebras: Sequence[Algebra | Quotient
         algebra, where = algebras[one["algebra"]], f"the definition of {one['name']}"
         of = found.get(one["of"]) if one["operation"] != "written" else None
         if isinstance(algebra, Algebra):
-            found[one["name"]] = Defined(_made(one, algebra, found, where), algebra)
+            words = _made(one, algebra, found, where)
+            if "value" in one and algebra.total([words - algebra.read(one["value"], algebra.names)]).terms:
+                raise Rejected(f"{where} has another value than it says")
+            found[one["name"]] = Defined(words, algebra)
         elif isinstance(of, Defined):
             found[one["name"]] = placed(of.words, of.algebra, algebra, one["by"], where)
         elif isinstance(of, Placed):
-            found[one["name"]] = entry(of, one["by"], where)
+            made = entry(of, one["by"], where)
+            if "value" in one and (made.value - algebra.read(one["value"])).numerator.terms:
+                raise Rejected(f"{where} has another value than it says")
+            found[one["name"]] = made
+    return found
+
+
+def check_use(data: Sequence[dict[str, Any]], trees: Sequence[Any]) -> None:
+    """Raises Rejected where a definition is used neither in these trees nor by one that is."""
+    known = used(data, trees)
+    for one in data:
+        if one["name"] not in known:
+            raise Rejected(f"the definition of {one['name']} is not used")
+
+
+def used(data: Sequence[dict[str, Any]], trees: Sequence[Any]) -> set[str]:
+    """The names in trees, and in the definitions of these."""
+    found = names_in([0, *trees])
+    for one in reversed(data):
+        if one["name"] in found:
+            found |= names_in([0, one["of"]])
+            if one["operation"] in PAIRS:
+                found |= names_in([0, *(tree for _, tree in one["by"])])
     return found
 
 
@@ -154,6 +186,9 @@ def _brought(of: Defined, algebra: Algebra, where: str) -> Words:
     """In another algebra, which has its letters and parameters and, for its own letters, the rules."""
     if of.algebra is algebra:
         return of.words
+    for name in of.algebra.names.keys() & algebra.names.keys():
+        if (name in of.algebra.letters) is not (name in algebra.letters):
+            raise Rejected(f"{where} has {name} as a number in one algebra and as a matrix in another")
     _respects(of.algebra, of.algebra.names.keys() & algebra.names.keys(), algebra, algebra.names, where)
     return _image(of, algebra, algebra.names, where)
 

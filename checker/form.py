@@ -6,8 +6,8 @@ from typing import Any
 from .interval import Rejected
 from .trees import check_name
 
-#: Of each list in a file, and the letters of a text.
-MOST, MOST_LETTERS = 2_000, 4_000
+#: Of each list in a file, the letters of a text, and the names of an algebra.
+MOST, MOST_LETTERS, MOST_NAMES = 2_000, 4_000, 200
 
 
 def many(data: Any, where: str) -> list[Any]:
@@ -18,9 +18,9 @@ def many(data: Any, where: str) -> list[Any]:
 
 
 def text(data: Any, where: str) -> None:
-    """Raises Rejected unless this is a text, not too long."""
-    if not isinstance(data, str) or not 0 < len(data) <= MOST_LETTERS:
-        raise Rejected(f"{where} must have a text of at most {MOST_LETTERS} letters")
+    """Raises Rejected unless this is a text of one line, not too long."""
+    if not isinstance(data, str) or not 0 < len(data) <= MOST_LETTERS or not data.isprintable():
+        raise Rejected(f"{where} must have a text of at most {MOST_LETTERS} letters, in one line")
 
 
 def chosen(data: Any, among: Sequence[str], where: str) -> None:
@@ -31,7 +31,9 @@ def chosen(data: Any, among: Sequence[str], where: str) -> None:
 
 def distinct(data: Any, where: str) -> set[str]:
     """The names of a list, each of which stands there once."""
-    for name in many(data, where):
+    if len(many(data, where)) > MOST_NAMES:
+        raise Rejected(f"{where} has more than {MOST_NAMES} names")
+    for name in data:
         check_name(name, where)
     if len(set(data)) < len(data):
         raise Rejected(f"{where} has a name twice")

@@ -141,6 +141,11 @@ def words_at(of: Words, algebra: Algebra, point: Mapping[str, Fraction | Matrix]
         powers = [(name, e) for name, e in zip(algebra.parameters, exponents, strict=True) if e]
         if missing := {*word, *(name for name, _ in powers)} - point.keys():
             raise Rejected(f"{where} has a point without a value for {min(missing)}")
+        if not all(isinstance(point[letter], Matrix) for letter in word):
+            raise Rejected(f"{where} has a number where a matrix must stand")
+        if not all(isinstance(point[name], Fraction) for name, _ in powers):
+            raise Rejected(f"{where} has a matrix where a number must stand")
+        algebra.work.spend(100 * len(word))  # about the products of two numbers
         part: Any = c
         for name, e in powers:
             part = part * point[name] ** e
@@ -221,6 +226,7 @@ def _entries(a: Rows, b: Rows) -> list[tuple[Quotient, Quotient]]:
 
 
 def _dot(row: Sequence[Quotient], column: Sequence[Quotient]) -> Quotient:
+    row[0].numerator.ring.work.spend(len(row))
     products = [x * y for x, y in zip(row, column, strict=True)]
     total = products[0]
     for product in products[1:]:

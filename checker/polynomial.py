@@ -89,7 +89,9 @@ class Polynomial:
 
     def __mul__(self, other: Polynomial) -> Polynomial:
         small, large = sorted((self.terms, other.terms), key=len)
-        self.ring.work.spend(len(small) * len(large))
+        # A product of long numbers is more work, as is one of monomials in many variables.
+        price = 1 + (self.bits + other.bits) // 512 + len(self.ring.variables) // 64
+        self.ring.work.spend(len(small) * len(large) * price)
         terms: dict[int, int] = {}
         for shift, c in small.items():
             for monomial, d in large.items():

@@ -25,11 +25,12 @@ beside this.
 import json
 import re
 from collections.abc import Collection, Mapping, Sequence
+from contextlib import suppress
 from fractions import Fraction
 from typing import Any
 
 from . import derivation
-from .algebra import Algebra
+from .algebra import Algebra, all_or_none
 from .derivation import Made
 from .document import check_names, count
 from .form import MOST, chosen, distinct, many, sized, text
@@ -63,8 +64,9 @@ def statement(data: dict[str, Any]) -> str:
     return (
         f"Claim {data['claim']}: {len(proved) - words} statements hold wherever their relations hold and their "
         f"denominators do not vanish, which happens at a point given for each; {words} statements about words hold for "
-        f"all matrices, of any size, that satisfy their rules, as those given do; {derived} of these are about what "
-        f"{len(names) - premises} steps make from {premises} premises given; {equal} of these have one "
+        f"all matrices that satisfy their rules, as those given do, of whatever sizes make both sides matrices of one "
+        f"size, where no number that they divide by is 0; {derived} of these are about what {len(names)} definitions "
+        f"make, of which {premises} name no other; {equal} of these have one "
         f"expression on both sides, and say nothing of how it was derived; {refuted} printed statements fail at "
         f"{len(data['counterexamples'])} points given; {len(data['comparisons'])} comparisons hold at theirs.  "
         f"{len(data['hypotheses'])} hypotheses hold at every point that has values for them.  "
@@ -235,6 +237,9 @@ def check(data: dict[str, Any]) -> dict[str, str]:
     ]
     defined = derivation.values(data["derivation"], algebras)
     points = [entries(one) for one in data["points"]]
+    for i, one in enumerate(data["algebras"]):
+        if one["kind"] != "quotient":
+            check_satisfiable(one, points, f"algebra {i}")
     for i, one in enumerate(data["statements"]):
         if "refuted" in one:
             continue
@@ -254,7 +259,9 @@ def check(data: dict[str, Any]) -> dict[str, str]:
     for i, one in enumerate(data["hypotheses"]):
         check_hypothesis(one, everywhere, f"hypothesis {i}")
     for i, one in enumerate(data["counterexamples"]):
-        check_counterexample(one, i, data, defined)
+        check_counterexample(one, i, data, algebras, defined)
+    stated = [*data["statements"], *(h for one in data["counterexamples"] for h in one["hypotheses"])]
+    derivation.check_use(data["derivation"], [tree for one in stated for tree in (*one["left"], *one["right"])])
     refuted = [i for i, one in enumerate(data["statements"]) if "refuted" in one]
     for i in refuted:
         if i not in data["counterexamples"][data["statements"][i]["refuted"]]["refutes"]:
@@ -371,17 +378,33 @@ def check_hypotheses(algebra: dict[str, Any], point: Mapping[str, Value], where:
             raise Rejected(f"{where} has a point at which a relation fails")
         return
     for a, b, image in algebra["rules"]:
-        if {a, b} | names_in(image) <= point.keys() and not same(
+        if all_or_none({a, b, *names_in(image)}, point, where) and not same(
             at(["*", a, b], point, {}, where), at(image, point, {}, where)
         ):
             raise Rejected(f"{where} has matrices for which a rule fails")
     for letter, image in algebra["transposes"]:
-        matrix = point.get(letter) if names_in(image) <= point.keys() else None
-        if isinstance(matrix, Matrix) and not same(matrix.transposed, at(image, point, {}, where)):
-            raise Rejected(f"{where} has matrices that are not transposes as it is said")
+        if all_or_none({letter, *names_in(image)}, point, where):
+            matrix = point[letter]
+            if not isinstance(matrix, Matrix) or not same(matrix.transposed, at(image, point, {}, where)):
+                raise Rejected(f"{where} has matrices that are not transposes as it is said")
 
 
-def check_counterexample(one: dict[str, Any], i: int, data: dict[str, Any], defined: Mapping[str, Made]) -> None:
+def check_satisfiable(algebra: dict[str, Any], points: Sequence[Mapping[str, Value]], where: str) -> None:
+    """Raises Rejected unless what an algebra of words assumes is true at a point that is given."""
+    for point in points:
+        if {*algebra["letters"], *algebra["parameters"]} <= point.keys():
+            with suppress(Rejected):
+                return check_hypotheses(algebra, point, where, whole=True)
+    raise Rejected(f"{where} has no point at which its rules hold")
+
+
+def check_counterexample(
+    one: dict[str, Any],
+    i: int,
+    data: dict[str, Any],
+    algebras: Sequence[Algebra | Quotients],
+    defined: Mapping[str, Made],
+) -> None:
     """The hypotheses hold there, what it refutes fails, and what is correct holds."""
     where, point = f"counterexample {i}", entries(one["point"])
 
@@ -399,8 +422,12 @@ def check_counterexample(one: dict[str, Any], i: int, data: dict[str, Any], defi
         if "refuted" not in refuted:
             raise Rejected(f"{where} refutes a statement that is said to be proved")
         check_hypotheses(data["algebras"][refuted["algebra"]], point, where, whole=False)
+        decided_in = algebras[refuted["algebra"]]
+        if isinstance(decided_in, Algebra):  # what is defined has a meaning there
+            derivation.named([*refuted["left"], *refuted["right"]], decided_in, defined, where)
         if true(number):
             raise Rejected(f"{where} does not contradict statement {number}")
     for number in one["agrees"]:
+        check_hypotheses(data["algebras"][data["statements"][number]["algebra"]], point, where, whole=False)
         if "refuted" in data["statements"][number] or not true(number):
             raise Rejected(f"{where} contradicts statement {number}, which it should confirm")

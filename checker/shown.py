@@ -29,32 +29,57 @@ def definition(one: dict[str, Any]) -> str:
     operation, of, by = one["operation"], one["of"], one["by"]
     if operation == "written":
         return f"{one['name']} = {formula(of)}"
+    if operation in LETTERS:
+        return f"{one['name']} = terms of {of} {operation} {' or '.join(by)}"
     if operation in LETTER:
         by = f" by {by}"
-    elif operation in LETTERS:
-        return f"{one['name']} = terms of {of} {operation} {' and '.join(by)}"
     elif operation == "entry":
-        by = f" {by[0] + 1}, {by[1] + 1}"
+        by = f" in row {by[0] + 1}, column {by[1] + 1}"
     elif operation == "matrix":
-        by = f" with matrices for {', '.join(name for name, _ in by[0])}"
+        by = " where " + ", ".join(f"{name} is {_place(place)}" for name, place in by[0])
     else:
         sign = "→" if operation == "replaced" else "has the rate"
         by = " where " + ", ".join(f"{name} {sign} {formula(tree)}" for name, tree in by)
     return f"{one['name']} = {operation} of {of}{by}"
 
 
+def _place(place: Any) -> str:
+    if isinstance(place, list) and place and isinstance(place[0], list):
+        return "[" + "; ".join(", ".join(map(formula, row)) for row in place) + "]"
+    return formula(place)
+
+
+def assumed(algebra: dict[str, Any]) -> str:
+    """What an algebra takes for granted."""
+    if algebra["kind"] == "quotient":
+        return ", ".join(f"{formula(relation)} = 0" for relation in algebra["relations"])
+    transposes = [f"{letter} transposed = {formula(image)}" for letter, image in algebra["transposes"]]
+    return ", ".join([f"{a}·{b} = {formula(image)}" for a, b, image in algebra["rules"]] + transposes)
+
+
 def lines(data: dict[str, Any]) -> Iterator[str]:
-    """Every premise, step and statement of a certificate that was accepted."""
+    """Every premise, step, statement and counterexample of a certificate that was accepted."""
+    for i, algebra in enumerate(data["algebras"]):
+        yield f"algebra {i} ({algebra['kind']}): {assumed(algebra) or 'nothing is assumed'}"
     for one in data["derivation"]:
-        yield f"{definition(one)}    [{one['text']}]"
+        yield f"{definition(one)}    [{one['text']}; in algebra {one['algebra']}]"
+        if "value" in one and one["operation"] != "written":
+            yield f"    = {formula(one['value'])}"
     for one in data["statements"]:
         algebra = data["algebras"][one["algebra"]]
-        sign = "=" if "refuted" not in one else "≠"
         traces = "the traces of " if algebra["kind"] == "traces" else ""
-        yield f"{one['role']}: {one['text']}"
+        false = f", not all of these, at counterexample {one['refuted']}" if "refuted" in one else ""
+        yield f"{one['role']}: {one['text']}    [in algebra {one['algebra']}{false}]"
+        for name, tree in one.get("definitions", ()):
+            yield f"    {name} is {formula(tree)}"
         for left, right in zip(one["left"], one["right"], strict=True):
-            yield f"    {traces}{formula(left)} {sign} {formula(right)}"
-        if algebra["kind"] == "quotient" and algebra["relations"]:
-            yield "    where " + ", ".join(f"{formula(relation)} = 0" for relation in algebra["relations"])
-        elif algebra["kind"] != "quotient" and algebra["rules"]:
-            yield "    where " + ", ".join(f"{a}·{b} = {formula(image)}" for a, b, image in algebra["rules"])
+            yield f"    {traces}{formula(left)} = {formula(right)}"
+    for part in ("comparisons", "hypotheses"):
+        for one in data[part]:
+            yield f"{part[:-1]}: {one['text']}"
+            yield from (f"    {formula(a)} {relation} {formula(b)}" for relation, a, b in one["relations"])
+    for i, one in enumerate(data["counterexamples"]):
+        yield f"counterexample {i}: " + ", ".join(f"{name} = {_place(value)}" for name, value in one["point"].items())
+        for hypothesis in one["hypotheses"]:
+            for left, right in zip(hypothesis["left"], hypothesis["right"], strict=True):
+                yield f"    with {formula(left)} = {formula(right)}    [{hypothesis['text']}]"

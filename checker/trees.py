@@ -16,13 +16,15 @@ from .interval import Rejected
 
 #: What a certificate may ask for, so that none takes memory or time without limit.
 MOST_DEPTH, MOST_OPERANDS, MOST_POWER, MOST_BITS, MOST_BITS_OF_VALUES = 60, 20_000, 60, 1_000, 2_000
-_NAME = re.compile(r"[^\W\d]\w*([\^_](\w+|[-+]))*")
+#: Such as q0, R_+ and Omega^T; none looks like a power.
+_NAME = re.compile(r"[A-Za-z_]\w*(_[+-])?(\^[A-Za-z])?", re.ASCII)
+MOST_LETTERS_OF_A_NAME = 40
 _QUOTIENT = re.compile(r"-?[1-9]\d*/[1-9]\d*", re.ASCII)
 
 
 def check_name(name: Any, where: str) -> None:
-    """Raises Rejected unless this can be the name of a variable: at most 20 letters and digits, such as R_+ and R^T."""
-    if not isinstance(name, str) or len(name) > 20 or not _NAME.fullmatch(name):
+    """Raises Rejected unless this can be the name of a variable: at most 40 letters and digits, such as R_+ and R^T."""
+    if not isinstance(name, str) or not _is_name(name):
         raise Rejected(f"{where} has a name that is none: {name!a:.40}")
 
 
@@ -54,7 +56,7 @@ def check_tree(tree: Any, names: Collection[str], where: str, depth: int = 0) ->
     if isinstance(tree, str) and tree in names:
         return
     if not isinstance(tree, list):
-        if isinstance(tree, str) and _NAME.fullmatch(tree):
+        if isinstance(tree, str) and _is_name(tree):
             raise Rejected(f"{where} has the name {tree!a:.40}, which is not among its variables")
         rational(tree, where)
         return
@@ -93,4 +95,8 @@ def names_in(tree: Any) -> set[str]:
     """The names that occur in a tree that was checked."""
     if isinstance(tree, list):
         return set().union(*(names_in(part) for part in tree[1:]))
-    return {tree} if isinstance(tree, str) and _NAME.fullmatch(tree) else set()
+    return {tree} if isinstance(tree, str) and _is_name(tree) else set()
+
+
+def _is_name(text: str) -> bool:
+    return len(text) <= MOST_LETTERS_OF_A_NAME and bool(_NAME.fullmatch(text))

@@ -42,7 +42,7 @@ class Words:
         return self + Words({term: -c for term, c in other.terms.items()}, self.work)
 
     def __mul__(self, other: Words) -> Words:
-        self.work.spend(len(self.terms) * len(other.terms))
+        self.work.spend(len(self.terms) * len(other.terms) * (1 + len(next(iter(self.terms), ((), ()))[0]) // 8))
         terms: dict[Term, Fraction] = {}
         for (a, left), c in self.terms.items():
             for (b, right), d in other.terms.items():
@@ -78,7 +78,7 @@ class Words:
                     settled[exponents, word] = settled.get((exponents, word), Fraction(0)) + c
                     continue
                 image = rules[word[at], word[at + 1]]
-                self.work.spend(1 + len(image.terms))
+                self.work.spend((1 + len(image.terms)) * (1 + (len(word) + len(exponents)) // 8))
                 for (more, middle), d in image.terms.items():
                     term = (tuple(map(add, exponents, more)), word[:at] + middle + word[at + 2 :])
                     following[term] = following.get(term, Fraction(0)) + c * d

@@ -76,6 +76,10 @@ def derivations():
     right = {
         "what is written": made(product, ["*", "B", "Z"], "X"),
         "a premise by the rules": made([step("Z", "written", ["*", "A", "B", "X"])], "Z", "X"),
+        "its value": made([product[0] | {"value": ["*", "A", "X"]}], "Z", ["*", "A", "X"]),
+        "the value of an entry": made(
+            [step("Z", "written", "A"), step("Q", "matrix", "Z", [pairs(A=TURN, B=BACK), ON_CIRCLE], 2),
+             step("q", "entry", "Q", [1, 0], 2) | {"value": "s"}], "q", "s", 2, 1, [CIRCLE], cofactors=[[0]]),
         "a name in another": made([*product, step("V", "written", ["*", "B", "Z"])], "V", "X"),
         "a rate": made(turned, "V", rate),
         "a rate of a power": made(
@@ -143,6 +147,28 @@ def derivations():
                                           more=[LETTERS]),
         "a rate of another sign": made(turned, "V", ["+", rate[1], ["*", -1, *rate[2][1:]]]),
         "a rate of nothing": made([*turned[:1], step("V", "rate", "Z")], "V", 0),
+        "a rate of a number, which is not one of a letter": made(
+            [step("Z", "written", ["*", "m", "S"]), step("V", "rate", "Z", pairs(m=1, S=0))], "V", 0),
+        "having a number": made([two, step("V", "having", "Z", ["m"])], "V", 0),
+        "lacking a number": made([two, step("V", "lacking", "Z", ["m"])], "V", "Z"),
+        "a number that is a matrix elsewhere": made(
+            [step("Z", "written", ["+", ["*", "S", "X"], ["*", -1, "X", "S"]], algebra=2)], "Z", 0,
+            more=[LETTERS | {"letters": ["X"], "parameters": ["S"], "transposes": [], "rules": []}]),
+        "rules that no matrix has": made(
+            [step("Z", "written", ["*", "X", "U"], algebra=2)], 1, 1,
+            more=[LETTERS | {"letters": ["X", "U"], "transposes": [], "rules": [["U", "U", 0], ["U", "U1", 1]]}]),
+        "an algebra without a point": made(
+            [step("Z", "written", ["*", "X", "W"], algebra=2), step("V", "replaced", "Z", pairs(W=1), 0)], "V", "X",
+            more=[LETTERS | {"letters": ["X", "W"], "transposes": [], "rules": [["W", "W", 0]]}]),
+        "a definition that is not used": made(product, "A", "A"),
+        "another value": made([product[0] | {"value": ["*", "X", "A"]}], "Z", ["*", "A", "X"]),
+        "a value by a name": made([*product, step("V", "written", "Z") | {"value": "Z"}], "V", "Z"),
+        "another value of an entry": made(
+            [step("Z", "written", "A"), step("Q", "matrix", "Z", [pairs(A=TURN, B=BACK), ON_CIRCLE], 2),
+             step("q", "entry", "Q", [1, 0], 2) | {"value": "c"}], "q", "s", 2, 1, [CIRCLE], cofactors=[[0]]),
+        "a name that looks like a power": made(
+            [step("A^2", "written", "A")], "A^2", "A"),
+        "a text of two lines": made([product[0] | {"text": "x\n    1 = 0"}], "Z", ["*", "A", "X"]),
         "a rate of a parameter": made([*turned[:1], step("V", "rate", "Z", pairs(**KEPT, Q=1))], "V", rate),
         "a rate twice": made([*turned[:1], step("V", "rate", "Z", [*pairs(**KEPT), ["A", KEPT["A"]]])], "V", rate),
         "a rate of three": made([*turned[:1], step("V", "rate", "Z", [["A", "A", "A"]])], "V", rate),

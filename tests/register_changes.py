@@ -162,7 +162,7 @@ CHANGES = {
     "a million letters": ("5.4", lambda d: d["sentences"].extend([{"role": "said", "text": "x" * 3000}] * 340)),
     "a point that is no object": ("5.4", put("points", 0, value=7)),
     "a point of many values": ("5.4", lambda d: d["points"].append({f"x{i}": 1 for i in range(2001)})),
-    "a long name": ("5.4", lambda d: d["counterexamples"][0]["point"].update({"x" * 30: 1})),
+    "a long name": ("5.4", lambda d: d["counterexamples"][0]["point"].update({"x" * 41: 1})),
     "six rows": ("5.4", lambda d: d["counterexamples"][0]["point"].update(x=[[1]] * 6)),
     "six columns": ("5.4", lambda d: d["counterexamples"][0]["point"].update(x=[[1] * 6])),
     "no rows": ("5.4", lambda d: d["counterexamples"][0]["point"].update(x=[])),

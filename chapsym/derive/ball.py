@@ -52,6 +52,15 @@ def split_balance() -> tuple[sp.Symbol, sp.Symbol]:
     return _in_step_symbols("momentum", now, at_start=True), _in_step_symbols("before", before, at_start=False)
 
 
+def momentum_in_space(now: bool) -> sp.Symbol:
+    """𝒦_k or 𝒦_{k-1}: `momentum()` with Ω = R_kᵀR_{k+1} or R_{k-1}ᵀR_k, and γ = Rᵀγ⃗ at the start of the step."""
+    a, aT, b, bT = (space.R, space.RT, space.R1, space.R1T) if now else (space.R0, space.R0T, space.R, space.RT)
+    places = {Omega: aT * b, OmegaT: bT * a, gamma: aT * space.gamma, gammaT: space.gammaT * a}
+    places[Gamma] = aT * space.gamma * space.gammaT * a
+    text = f"by Ω = R_{{{'k' if now else 'k-1'}}}ᵀR_{{{'k+1' if now else 'k'}}} and γ = Rᵀγ⃗"
+    return replaced(f"momentum_{'k' if now else 'before'}", text, momentum(), places, BOTH)
+
+
 def momentum() -> sp.Symbol:
     """𝒦(Ω, Γ) of (4.13), as words in Ω, Ωᵀ, J, Γ and the scalar D."""
     return split_balance()[0]

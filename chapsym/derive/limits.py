@@ -33,6 +33,8 @@ class Remainder(NamedTuple):
     limit: sp.Expr
     order: int
     leading: sp.Expr
+    #: What is divided by ε, and vanishes: there is a limit.
+    constant: sp.Expr
 
 
 class Turning(NamedTuple):
@@ -83,7 +85,7 @@ def _remainder(coefficients: list, vanishes) -> Remainder:
         raise ArithmeticError(f"there is no limit: the expansion begins with ({coefficients[0]})/epsilon")
     for order, leading in enumerate(coefficients[2:], start=1):
         if not vanishes(leading):
-            return Remainder(coefficients[1], order, leading)
+            return Remainder(coefficients[1], order, leading, coefficients[0])
     raise ArithmeticError(f"no remainder up to order {CARRIED}: the expansion may be exact")
 
 

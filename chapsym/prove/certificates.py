@@ -114,13 +114,16 @@ class _Maker:
         self.counterexamples: list[dict[str, Any]] = []
         self.sentences: list[dict[str, str]] = []
         self._symbols: dict[int, list[sp.Symbol]] = {}
+        self._words_of: dict[int, WordAlgebra] = {}
         self._ideals: dict[int, Ideal] = {}
         stated = [statement for _, statement, _ in proof.decided if isinstance(statement, Equation)]
         stated += [hypothesis for point in proof.points for hypothesis in point.hypotheses]
         self._steps = list(needed([side for one in stated for sides in one.written for side in sides]))
         self._defined: dict[str, derivation.Made] = {}
         for letter in self._steps:
-            self.derivation.append(self._definition(letter))
+            definition = self._definition(letter)
+            value = unfolded(letter) if definition["operation"] != "matrix" else None
+            self.derivation.append(definition | ({} if value is None else {"value": tree(value)}))
         self._defined = derivation.values(self.derivation, [self._arithmetic(one) for one in self.algebras])
 
     def _arithmetic(self, algebra: dict[str, Any]) -> Algebra | Quotients:
@@ -138,9 +141,12 @@ class _Maker:
         """With values of the variables that the relations have beside those of the printed statements."""
         exact = point.exact
         for _, statement, holds in self.proof.decided:
-            if isinstance(statement, Equation) and isinstance(statement.algebra, QuotientRing) and not holds:
-                ring = statement.algebra
-                exact = next(candidates(ring.symbols, ring.relations, exact), exact)
+            if isinstance(statement, Equation) and not holds:
+                algebra = statement.algebra
+                if isinstance(algebra, QuotientRing):
+                    exact = next(candidates(algebra.symbols, algebra.relations, exact), exact)
+                else:
+                    exact = _with_transposes(exact, algebra.algebra if isinstance(algebra, Traces) else algebra)
         return exact
 
     def add(self, role: str, statement: Statement, holds: bool) -> None:
@@ -193,6 +199,7 @@ class _Maker:
         if not refutes and one["role"] not in ("corrected", "under"):
             return
         try:
+            register.check_hypotheses(self.algebras[one["algebra"]], point, "", whole=False)
             agrees = register.holds(one, self.algebras[one["algebra"]], point, self._defined, "")
         except checker.Rejected:  # the point says nothing of some variable
             return
@@ -203,7 +210,13 @@ class _Maker:
             example["agrees"].append(i)
 
     def finish(self) -> None:
-        """Leaves out the points that refute nothing which is here."""
+        """Leaves out what is not used, and gives each algebra of words a point."""
+        stated = [*self.statements, *(h for one in self.counterexamples if one["refutes"] for h in one["hypotheses"])]
+        used = derivation.used(self.derivation, [tree for one in stated for tree in (*one["left"], *one["right"])])
+        self.derivation = [one for one in self.derivation if one["name"] in used]
+        for i, algebra in enumerate(self.algebras):
+            if algebra["kind"] != "quotient" and (exact := witness.matrices(set(self._symbols[i]), self._words_of[i])):
+                self._point(exact)
         kept = [example for example in self.counterexamples if example["refutes"]]
         for one in self.statements:
             if "refuted" in one:
@@ -256,6 +269,8 @@ class _Maker:
             raise NotAlgebra(f"{type(algebra).__name__} is neither a quotient ring nor an algebra of words")
         i = _place(self.algebras, data)
         self._symbols[i] = symbols
+        if not isinstance(algebra, QuotientRing):
+            self._words_of[i] = algebra.algebra if isinstance(algebra, Traces) else algebra
         return i
 
     def _words(self, algebra: WordAlgebra) -> tuple[dict[str, Any], list[sp.Symbol]]:
@@ -346,6 +361,18 @@ def _alike(one: Any, other: WordAlgebra) -> bool:
         one = one.algebra
     same = isinstance(one, WordAlgebra) and (one.transposes, one.rules) == (other.transposes, other.rules)
     return bool(same)
+
+
+def _with_transposes(exact: Mapping[sp.Symbol, Any], algebra: Any) -> dict[sp.Symbol, Any]:
+    """With the matrices that the transposes and the rules give, for letters of the algebra that have none."""
+    whole = dict(exact)
+    for x, image in algebra.transposes.items():
+        if x in exact and image.is_Symbol:
+            whole.setdefault(image, exact[x].T)
+    for (a, b), image in algebra.rules.items():
+        if a in whole and b in whole and image.is_Symbol:
+            whole.setdefault(image, whole[a] * whole[b])
+    return whole
 
 
 def _used(step: Step) -> list[sp.Expr]:

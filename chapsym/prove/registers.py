@@ -62,8 +62,9 @@ class Register:
         found = {id: claim for id, claim in registered().items() if sources.file(claim.prove.__module__) in files}
         if not found:
             raise NoRegister(f"{self.place} has no claim: write @claim(id, formula) before a function of a Proof")
-        others = [*getattr(head, "LEMMAS", ())]
-        listed = [*getattr(head, "CLAIMS", (id for id in found if id not in others))]
+        others = _listed(head, "LEMMAS") or []
+        listed = _listed(head, "CLAIMS")
+        listed = [id for id in found if id not in others] if listed is None else listed
         if apart := sorted(found.keys() ^ {*listed, *others}):
             raise BrokenScript(f"{self.place}: the proofs and the list of claims and lemmas differ: {', '.join(apart)}")
         self._check(found)
@@ -145,7 +146,7 @@ class Register:
         path = self._path()
         if path is not None and path.is_file():
             return [f"{head.__name__}.{path.stem}"]
-        names = getattr(head, "SCRIPTS", None)
+        names = _listed(head, "SCRIPTS")
         if names is None:
             found = sorted(one for folder in head.__path__ for one in Path(folder).glob("[!_]*.py"))
             names = [one.stem for one in found]
@@ -229,3 +230,11 @@ def _shown(name: str) -> str:
 
 def _is(file: str | None, path: Path) -> bool:
     return file is not None and path.exists() and path.samefile(file)
+
+
+def _listed(head: ModuleType, name: str) -> list[str] | None:
+    """What the package says of its scripts or claims; None where it says nothing."""
+    given = getattr(head, name, None)
+    if given is not None and (not isinstance(given, list | tuple) or not all(isinstance(one, str) for one in given)):
+        raise BrokenScript(f"{head.__file__}: {name} must be a list of texts")
+    return None if given is None else [*given]

@@ -150,8 +150,8 @@ def trace_integrals(p: Proof) -> None:
     p.lemma(Equation("tr [ω,X] = 0", commutator(omega, X), 0, Traces(algebra)))
     p.say("so that d/dt tr(K^sΓ^l) = -tr[ω, K^sΓ^l] = 0 for all s, l. The first of them, by Leibniz' rule:")
     for s, l in [(2, 0), (2, 1), (2, 2), (4, 1)]:
-        p.printed(equation(f"d/dt tr K^{s}Γ^{l} = 0", moving(f"K^{s}_Gamma^{l}", K**s * Gamma**l, rates), 0, TRACES))
-    p.printed(equation("d/dt tr Γ = 0", moving("Gamma^1", Gamma, rates), 0, TRACES))
+        p.printed(equation(f"d/dt tr K^{s}Γ^{l} = 0", moving(f"K{s}_Gamma{l}", K**s * Gamma**l, rates), 0, TRACES))
+    p.printed(equation("d/dt tr Γ = 0", moving("Gamma_alone", Gamma, rates), 0, TRACES))
     p.control(equation("d/dt tr K²J = 0", rate(K * K * J, rates), 0, TRACES))
     opposite = {**rates, K: commutator(omega, K)}
     p.control(equation("d/dt tr K²Γ = 0 with K̇ = +[ω,K]", rate(K * K * Gamma, opposite), 0, TRACES))

@@ -2,7 +2,7 @@
 
 import sympy as sp
 
-from chapsym.derive import ball, three
+from chapsym.derive import ball, principle, three
 from chapsym.derive.ball import ALGEBRA, D, Gamma, J, K, Omega, OmegaT
 from chapsym.derive.derivation import replaced
 from chapsym.derive.words import Traces, WordAlgebra, matrix_symbols, unfolded
@@ -45,6 +45,17 @@ def compact_form(p: Proof) -> None:
         equation("the part of the step k-1 = -Ωᵀ𝒦_{k-1}Ω", before, -ball.carried(now)),
     )
     p.say("So 𝒦_k - Ωᵀ𝒦_{k-1}Ω is the balance itself: (4.12) and (4.10) say the same.")
+    step = principle.R0T * principle.R
+    carried = principle.RT * principle.R0 * ball.momentum_in_space(now=False) * step
+    conserved = ball.momentum_in_space(now=True) - carried
+    p.printed(Equation("𝒦_k - Ωᵀ𝒦_{k-1}Ω = the balance in the body", conserved, ball.body_balance(), ball.BOTH))
+    turned = step * ball.momentum_in_space(now=False) * principle.RT * principle.R0
+    p.control(
+        Equation(
+            "𝒦_k - Ω𝒦_{k-1}Ωᵀ = the balance in the body",
+            ball.momentum_in_space(now=True) - turned, ball.body_balance(), ball.BOTH,
+        )
+    )  # fmt: skip
     p.lemma(equation("Γ_k = ΩᵀΓ_{k-1}Ω from (4.11)", OmegaT * ball.gamma * ball.gammaT * Omega, ball.carried(Gamma)))
     p.lemma(equation("𝒦ᵀ = -𝒦", ALGEBRA.transpose(now), -now))
     mutated = first - D * (Gamma * Omega - OmegaT * Gamma)

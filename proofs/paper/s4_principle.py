@@ -105,7 +105,7 @@ def rotation_equation(p: Proof) -> None:
     p.say("Λ is any symmetric matrix, so -Λ may be called Λ; the sign of the whole is free.")
     derived = -replaced("equation_R_other", "with -Λ for Λ", in_R, {Lam: -Lam}, ALGEBRA)
     printed = (R1 + R0) * J - Lam * R - rho * f * gammaT * R
-    p.printed(equation("(4.3) left - right = the equation of the principle", printed, derived))
+    p.printed(equation("(4.3) left - right = minus the equation of the principle with -Λ for Λ", printed, derived))
     p.control(equation("(4.3) with -ρ f γᵀR", (R1 + R0) * J - Lam * R + rho * f * gammaT * R, derived))
     p.control(equation("(4.3) with J on the left", J * (R1 + R0) - Lam * R - rho * f * gammaT * R, derived))
 

@@ -125,8 +125,8 @@ def test_the_derivation_of_a_claim_is_shown():
     )
     assert run.returncode == 0, run.stderr
     lines = run.stdout.splitlines()
-    assert (
-        "  rolling = dr + rho·dR·R^T·gamma    [(4.2) for virtual displacements, dr + ρ dR Rᵀ γ: it vanishes]" in lines
-    )
-    assert "  balance_c = dual of work by xi    [it vanishes when the variation does for every skew ξ]" in lines
+    rolling = "[(4.2) for virtual displacements, dr + ρ dR Rᵀ γ: it vanishes; in algebra 0]"
+    assert f"  rolling = dr + rho·dR·R^T·gamma    {rolling}" in lines
+    dual = "[it vanishes when the variation does for every skew ξ; in algebra 1]"
+    assert f"  balance_c = dual of work by xi    {dual}" in lines
     assert "      before = -Omega^T·momentum·Omega" in lines

@@ -22,11 +22,16 @@ class Claim:
         self.theorems: Counter[str] = Counter()
         self.left_out: Counter[str] = Counter()
         self._points: set[str] = set()
+        self._values = {one["name"]: one["value"] for one in data["derivation"] if "value" in one}
         for i, one in enumerate(data["statements"]):
             if "refuted" not in one:
-                self._statement(f"{self.name}_statement_{i}", one)
+                self._statement(f"{self.name}_statement_{i}", self._unfolded(one))
         for i, example in enumerate(data["counterexamples"]):
             self._counterexample(f"{self.name}_counterexample_{i}", example)
+
+    def _unfolded(self, one: dict[str, Any]) -> dict[str, Any]:
+        """With the values of what the derivation defines in the place of its names."""
+        return one | {side: [_placed(tree, self._values) for tree in one[side]] for side in ("left", "right")}
 
     def _put(self, library: str, sort: str, text: str, name: str, theorem: str) -> None:
         self.parts.setdefault(library, []).append(f"{comment(text)}\n{theorem}")
@@ -43,6 +48,10 @@ class Claim:
                 raise words.LeftOut(f"its algebra is of the kind {algebra['kind']}")
             if one["left"] == one["right"]:
                 raise words.LeftOut(SAME)
+            if algebra["kind"] == "traces":
+                raise words.LeftOut("it is about traces")
+            if "definitions" in one:
+                raise words.LeftOut("it is written with names for its parts")
             theorem = (
                 quotients.statement(name, one, algebra) if is_quotient else words.statement(name, one, algebra, point)
             )
@@ -64,9 +73,9 @@ class Claim:
     def _counterexample(self, name: str, example: dict[str, Any]) -> None:
         """A point at which printed statements fail, and those in their place hold."""
         statements = self.data["statements"]
-        refuted, agreeing = ([statements[n] for n in example[part]] for part in ("refutes", "agrees"))
+        refuted, agreeing = ([self._unfolded(statements[n]) for n in example[part]] for part in ("refutes", "agrees"))
         algebras = [self.data["algebras"][n] for n in dict.fromkeys(one["algebra"] for one in refuted)]
-        facts = [("=", _sides(hypothesis)) for hypothesis in example["hypotheses"]]
+        facts = [("=", _sides(self._unfolded(hypothesis))) for hypothesis in example["hypotheses"]]
         facts += [fact for algebra in algebras for fact in _hypotheses(algebra, example["point"])]
         facts += _nonzero([tree for one in (*agreeing, *refuted) for tree in (*one["left"], *one["right"])])
         facts += [("=", _sides(one)) for one in agreeing] + [("<>", _sides(one)) for one in refuted]
@@ -89,6 +98,15 @@ class Claim:
         pairs = [pair for algebra in algebras for pair in algebra.get("transposes", [])]
         known = [pair for pair in pairs if words.names_in(["+", *pair]) <= values.keys()]
         self._put("Matrices", sort, text, name, matrices.at_point(name, values, facts, known))
+
+
+def _placed(tree: Any, values: Mapping[str, Any]) -> Any:
+    """A tree with other trees in the place of some names."""
+    if isinstance(tree, list):
+        return [tree[0], _placed(tree[1], values), tree[2]] if tree[0] == "^" else [
+            tree[0], *(_placed(part, values) for part in tree[1:])
+        ]  # fmt: skip
+    return values.get(tree, tree) if isinstance(tree, str) else tree
 
 
 def _sides(one: dict[str, Any]) -> list[tuple[Any, Any]]:
