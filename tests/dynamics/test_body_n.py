@@ -24,7 +24,7 @@ def test_the_body_turns_and_rolls_with_the_steps(n):
     assert np.abs(stride).max() > 0.01
     steps = step_n(ball, run.momentum[:, 7], run.gamma[:, 7])
     assert np.abs(R[:, 8] - R[:, 7] @ steps.rotation).max() <= 8 * UNIT_ROUNDOFF
-    assert (run.momentum[:, 8] == steps.momentum).all()
+    assert np.abs(run.momentum[:, 8] - steps.momentum).max() <= 8 * UNIT_ROUNDOFF * np.abs(run.momentum).max()
 
 
 @pytest.mark.parametrize("n", SIZES)

@@ -4,7 +4,7 @@ import warnings
 
 import numpy as np
 import pytest
-from balls_n import SIZES, UNIT_ROUNDOFF, offset
+from balls_n import SIZES, UNIT_ROUNDOFF, offset, proven_branch
 
 import chapsym
 from chapsym import Ball, BallN, Status, skew, step_n
@@ -24,28 +24,6 @@ def test_in_three_dimensions_the_fold_is_the_same(heavy):
     assert ((general.status == Status.TAKEN) == (special.status == Status.TAKEN)).all()
     assert np.isnan(general.rotation[general.status == Status.FOLDED]).all()
     assert np.abs(general.reach - special.reach).max() <= 64 * UNIT_ROUNDOFF * (1 + heavy)
-
-
-def proven_branch(K, gamma, J, D):
-    """Ω - 1 at the end of the branch, by steps along t of which each is proven to stay on it; needs a small D/J.
-
-    From a point P the map f(ξ) = 𝒦(P exp ξ) has |Df(ξ)η - Tη| ≤ l|ξ||η| with l = 2 max J + D and
-    |ξ|² = Σ ξᵢⱼ², i > j: the derivative of exp ξ is off η by at most |ξ||η|, and 𝒦 is linear with the norm l.
-    So for the least singular value σ of T, f is injective on |ξ| < σ/l, and a curve of momenta no longer than
-    σ²/2l has its rotations there: it is enough to find one.
-    """
-    n, k, E, t = len(gamma), so_n.coordinates(K), np.zeros_like(K), 0.0
-    bound = 2 * J.max() + D
-    while t < 1:
-        least = np.linalg.svd(so_n.jacobian(E, gamma, J, D), compute_uv=False)[-1]
-        start, t = np.eye(n) + E, min(1.0, t + 0.99 * least**2 / (2 * bound * np.linalg.norm(k)))
-        for _ in range(6):
-            gap = t * k - so_n.coordinates(so_n.momentum(E, gamma, J, D))
-            E = so_n.turned(E, so_n.from_coordinates(np.linalg.solve(so_n.jacobian(E, gamma, J, D), gap), n))
-        assert np.abs(t * k - so_n.coordinates(so_n.momentum(E, gamma, J, D))).max() < 1e-12
-        angles = np.angle(np.linalg.eigvals(start.T @ (np.eye(n) + E)))
-        assert np.sqrt((angles**2).sum() / 2) < least / bound
-    return E
 
 
 @pytest.mark.parametrize("n", SIZES)

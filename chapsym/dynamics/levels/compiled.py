@@ -31,6 +31,8 @@ from ..loops import (
     lanes,
     long_step,
     loop,
+    loop_n,
+    rotation_n,
     single_loop,
     single_step,
     sums,
@@ -42,7 +44,7 @@ from .retyped import Family
 #: What the compiled code is made of.
 SOURCES = (
     *(generated, branch, gibbs, integrals, sums, loop, block, composed_loop, vertical_loop, long_step, lanes),
-    *(single_loop, single_step),
+    *(single_loop, single_step, rotation_n, loop_n),
     *(pairs, generated_double_double, double_double_step, double_double_loop, double_double_block),
 )
 #: The functions on the way of every step: a call would cost more than they do.

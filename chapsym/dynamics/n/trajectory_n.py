@@ -11,9 +11,10 @@ from ..ball import Asked, Floats, numbers
 from ..errors import BadInput, Status
 from ..results import finished
 from ..trajectories import whole_number
-from . import so_n
+from . import so_n, warm_n
 from .ball_n import BallN, flat_states, initial_attitudes, skew_matrices
 from .branch_n import small_rotation
+from .near_n import limits
 from .step_n import blocks
 
 
@@ -89,7 +90,16 @@ def trajectory_n(
     for block in blocks(balls, n):
         here = {name: array[block] for name, array in state.items()}
         kept = {name: array[block] for name, array in frames.items()}
-        _march(here, kept, steps, every, taken[block], status[block], reach[block])
+        for name in kept:
+            kept[name][:, 0] = here[name]
+        ends = taken[block], status[block], reach[block]
+        near, enough = limits(here["momentum"], here["mass_tensor"], here["D"])
+        known, other = np.flatnonzero(near > 0), np.flatnonzero(near <= 0)
+        if known.size:
+            there = {name: array[known] for name, array in here.items()}
+            warm_n.march(there, kept, (near[known], enough[known]), steps, every, *ends, known)
+        if other.size:
+            _march({name: array[other] for name, array in here.items()}, kept, steps, every, *ends, other)
     shaped = {name: frames[name].reshape(*shape, count, *size) for name, size in sizes.items()}
     result = TrajectoryN(
         ball, np.arange(count) * every, shaped["momentum"], shaped["gamma"], shaped.get("attitude"),
@@ -100,12 +110,9 @@ def trajectory_n(
 
 def _march(
     state: dict[str, Floats], frames: dict[str, Floats], steps: int, every: int,
-    taken: np.ndarray, status: np.ndarray, reach: Floats,
+    taken: np.ndarray, status: np.ndarray, reach: Floats, at: np.ndarray,
 ) -> None:  # fmt: skip
-    """Steps some balls together, and writes their frames, counts, statuses and reaches in place."""
-    at = np.arange(len(taken))
-    for name in frames:
-        frames[name][:, 0] = state[name]
+    """Steps some balls together, the rows `at` of what else is given, and writes these in place."""
     for k in range(1, steps + 1):
         E, status[at], reach[at] = small_rotation(*(state[x] for x in ("momentum", "gamma", "mass_tensor", "D")))
         went = status[at] == Status.TAKEN

@@ -1,0 +1,73 @@
+"""Below a bound on |𝒦| any rotation by small angles with the momentum 𝒦 is the small rotation, however it was found.
+
+The argument is by hand; tests try each of its inequalities, and no claim of the register checks it.
+Norms of skew matrices are |η|² = Σ ηᵢⱼ², i > j; the angles of a rotation are those of its planes.  s is the least
+Jᵢ + Jⱼ, i ≠ j, and λ(φ) the least eigenvalue of [[s cos φ, -D sin φ/4], [-D sin φ/4, (s + D) cos φ]].
+
+1. For a rotation M by angles up to φ < 90° and η skew, ⟨η, 𝒦(Mη)⟩ ≥ λ(φ)|η|².  By (4.13) the left side is
+   Σ Jⱼ ηⱼᵀMηⱼ + D/2 (ζᵀMζ + ζᵀηMᵀγ), with the columns ηⱼ of η, and ζ = ηγ.  Here xᵀMx ≥ cos φ |x|², Σ Jⱼ|ηⱼ|² ≥ s|η|²,
+   and Mᵀγ = aγ + w with w ⟂ γ, a ≥ cos φ and |w| ≤ sin φ.  So it is at least
+   s cos φ |η|² + D/2 (2 cos φ |ζ|² - sin φ |ζ| y), where y is the part of ηw/|w| normal to γ, and |ζ|² + y² ≤ |η|².
+2. If λ(r) > 0, two rotations by angles up to r have different momenta.  They are MC and MCᵀ with C² the rotation from
+   one to the other, as xᵀMCx + xᵀMCᵀx > 0; so their difference is Mη with η = C - Cᵀ, and 𝒦, which is linear, is 𝒦(Mη).
+   The angles of M are up to r: for an eigenvector x of M with the angle φ, 2 cos r ≤ cos φ x*(C + Cᵀ)x ≤ 2 cos φ.
+   So by 1, 𝒦(Mη) = 0 only for η = 0.
+3. If the largest angle of Ω is θ < 180°, then |𝒦(Ω)| ≥ 2 sin(θ/2) λ(θ/2).  With the root M of Ω, Ω - 1 = M(M - Mᵀ), and
+   |M - Mᵀ| is at least 2 sin(θ/2); 1 gives |𝒦||η| ≥ λ(θ/2)|η|² for η = M - Mᵀ.
+
+So for |𝒦| < 2 sin(r/2) λ(r/2) the branch from the identity never comes to the angle r (3), has no fold before it (1),
+and at its end is the only rotation by angles up to r with the momentum 𝒦 (2).  As Σ Eᵢⱼ² is the sum of 8 sin²(θ/2) over
+the planes, Σ Eᵢⱼ² ≤ 8 sin²(r/2) is enough for the angles; the end of the branch has that, by the proof of 3.
+A rotation that is found with a residual is the small rotation of a momentum so far from 𝒦.
+|𝒦| is an integral, so that one look at the start serves for a trajectory.
+"""
+
+import numpy as np
+
+from ..ball import Floats
+from .branch_n import top
+
+#: The angles r that are tried, as fractions of the one at which λ vanishes: the least that will do.
+ANGLES = (0.25, 0.5, 0.75, 0.9)
+#: What |𝒦| and |γ| may change in a trajectory, relative to themselves, by roundings.
+DRIFT = 1e-6
+#: Where a momentum or a least moment is so small beside the largest moment, the step is taken as for larger momenta.
+LEAST_MOMENTUM, LEAST_MOMENT = 2.0**-200, 2.0**-30
+#: Nor are balls served whose moments are beyond 2^±MOST.
+MOST = 900
+
+
+def least(angle: Floats, s: Floats, D: Floats) -> Floats:
+    """λ(φ)."""
+    cos, sin = np.cos(angle), np.sin(angle)
+    product = cos * s * (cos * (s + D)) - (D * sin / 4) ** 2
+    return product / (cos * (s + D / 2) + np.hypot(cos * D / 2, D * sin / 4))
+
+
+def bounds(size: Floats, J: Floats, D: Floats) -> tuple[Floats, Floats]:
+    """(near, enough) for balls with |𝒦| = size, (b,), moments (b, n) and D (b,) of which the largest is about 1.
+
+    near: a rotation with the momentum and Σ Eᵢⱼ² ≤ near is the small one; negative where that is not known.
+    enough: what the square of a last correction of Newton may be, divided by |E|, for the next to be below half a
+    rounding of |E|.  The next is at most l/2λ times that square, with l = 2 max J + D, a bound of 𝒦(Ωξ²).
+    """
+    s = np.sort(J, axis=-1)[:, :2].sum(axis=-1)
+    near, enough = np.full(len(D), -1.0), np.zeros(len(D))
+    served = (s >= LEAST_MOMENT) & (size >= LEAST_MOMENTUM)
+    farthest = np.arctan2(4 * np.sqrt(s * (s + D)), D)
+    for part in reversed(ANGLES):
+        r = part * farthest
+        known = served & (size * (1 + DRIFT) < 2 * np.sin(r / 2) * least(r / 2, s, D))
+        near[known] = 8 * np.sin(r[known] / 2) ** 2
+        enough[known] = 2.0**-53 * (least(r, s, D) / (2 * J.max(axis=-1) + D))[known]
+    return near, enough
+
+
+def limits(K: Floats, J: Floats, D: Floats) -> tuple[Floats, Floats]:
+    """`bounds` of balls of any size, with 𝒦 (b, n, n)."""
+    exponent = np.frexp(top(J, D))[1]
+    with np.errstate(over="ignore", under="ignore"):
+        size = np.linalg.norm(np.ldexp(K, -exponent[:, np.newaxis, np.newaxis]), axis=(-2, -1)) / np.sqrt(2)
+        near, enough = bounds(size, np.ldexp(J, -exponent[:, np.newaxis]), np.ldexp(D, -exponent))
+    near[np.abs(exponent) > MOST] = -1.0
+    return near, enough

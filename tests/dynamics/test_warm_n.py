@@ -1,0 +1,147 @@
+"""Steps in n dimensions from a guess: as accurate as one by one, with the same bits however they are taken."""
+
+import numpy as np
+import pytest
+from balls_n import SIZES, UNIT_ROUNDOFF, batch
+
+from chapsym import BallN, Status, StepNotTaken, step_n, trajectory_n
+from chapsym.dynamics.levels import double
+from chapsym.dynamics.n import so_n, warm_n
+from chapsym.dynamics.n import trajectory_n as of_trajectories
+from chapsym.dynamics.n.near_n import limits
+from chapsym.studies.extremes import n_dim
+from chapsym.studies.extremes.cells import BUDGET
+
+NAMES = ("momentum", "gamma", "attitude", "contact")
+#: With so small a factor some corrections of the first ball are small enough, and some not.
+STUBBORN = {3: 1.6e-17, 4: 3e-17, 5: 3e-17, 8: 6e-17}
+
+
+def same(one, other):
+    return all(np.array_equal(getattr(one, name), getattr(other, name), equal_nan=True) for name in NAMES)
+
+
+def alone(ball, i):
+    return BallN(ball.mass_tensor[i], ball.D[i], radius=ball.radius[i])
+
+
+def asking(patch, *factors):
+    """Of the ball i it is asked that the last correction be smaller by the factor i of its square."""
+
+    def asked(*balls):
+        near, enough = limits(*balls)
+        return near, enough * np.array(factors)[: len(enough)]
+
+    patch.setattr(of_trajectories, "limits", asked)
+
+
+def plain(patch):
+    patch.setattr(double, "has_numba", lambda: False)
+
+
+@pytest.mark.parametrize("n", SIZES)
+@pytest.mark.parametrize("stubborn", [False, True])
+def test_compiled_and_in_numpy_one_ball_and_a_batch_have_the_same_bits(n, stubborn, monkeypatch):
+    """Two balls are stubborn: of some of their steps, or of all, the corrections are not as small as is asked."""
+    ball, K, gamma = batch(n, 5, 0.1)
+    if stubborn:
+        asking(monkeypatch, STUBBORN[n], 0, 1, 1, 1)
+    near = limits(K, ball.mass_tensor, ball.D)[0]
+    assert (near > 0).all()
+    safe, taken = [], warm_n._safely
+    monkeypatch.setattr(warm_n, "_safely", lambda *at: safe.append(1) or taken(*at))
+    steps = 30 if stubborn else 250
+    with monkeypatch.context() as patch:
+        plain(patch)
+        slow = trajectory_n(ball, K, gamma, steps, every=5, contact=True)
+    monkeypatch.setattr(double, "SHORT_RUN", 1)
+    in_numpy = len(safe)
+    fast = trajectory_n(ball, K, gamma, steps, every=5, contact=True)
+    assert same(slow, fast)
+    assert len(safe) == 2 * in_numpy
+    assert steps < in_numpy < 2 * steps if stubborn else not safe
+    one = trajectory_n(alone(ball, 0), K[0], gamma[0], steps, every=5, contact=True)
+    assert all((getattr(one, name) == getattr(fast, name)[0]).all() for name in NAMES)
+
+
+def test_how_a_run_is_cut_and_what_is_kept_does_not_matter(monkeypatch):
+    ball, K, gamma = batch(4, 3, 0.1)
+    whole = trajectory_n(ball, K, gamma, 300, contact=True)
+    monkeypatch.setattr(warm_n, "CHUNK", 7)
+    assert same(whole, trajectory_n(ball, K, gamma, 300, contact=True))
+    few = trajectory_n(ball, K, gamma, 300, every=150)
+    assert (few.momentum == whole.momentum[:, ::150]).all()
+    assert (few.gamma == whole.gamma[:, ::150]).all()
+
+
+@pytest.mark.parametrize("condition", n_dim.CONDITIONS)
+def test_each_step_is_as_accurate_as_one_of_its_own(condition):
+    """𝒦 and γ within the budget of a step in the study of the extremes, beside mpmath; γ of the frame is not unit."""
+    served = 0
+    for x, gamma, J, D in n_dim.CONDITIONS[condition]:
+        K = 0.3 * so_n.from_coordinates(np.array(x), 4)
+        served += (limits(K[None], np.array([J]), np.array([D]))[0] > 0).sum()
+        run = trajectory_n(BallN(J, D), K, gamma, 13)
+        for k in (0, 1, 12):
+            state = tuple(so_n.coordinates(run.momentum[k])), tuple(run.gamma[k])
+            E, after, vertical, kappa = n_dim.truth(*state, J, D)
+            budget = BUDGET * UNIT_ROUNDOFF * (1 + float(max(map(abs, E))) * kappa)
+            off = max(abs(float(a - b)) for a, b in zip(after, run.momentum[k + 1].flat, strict=True))
+            assert off <= budget * np.abs(K).max()
+            assert max(abs(float(a - b)) for a, b in zip(vertical, run.gamma[k + 1], strict=True)) <= budget
+    others = {"D = 1e6", "D = 1e12", "at rest", "momentum 1e-300", "momentum 5e-320", "ratios of 1e12"}
+    assert bool(served) == (condition not in others)
+
+
+@pytest.mark.parametrize("n", SIZES)
+def test_after_many_steps_a_step_is_that_of_the_continuation(n):
+    ball, K, gamma = batch(n, 8, 0.15, seed=11)
+    run = trajectory_n(ball, K, gamma, 2000, every=1)
+    for k in (0, 7, 1999):
+        step = step_n(ball, run.momentum[:, k], run.gamma[:, k])
+        assert np.abs(step.momentum - run.momentum[:, k + 1]).max() <= 16 * UNIT_ROUNDOFF * np.abs(K).max()
+        assert np.abs(step.gamma - run.gamma[:, k + 1]).max() <= 16 * UNIT_ROUNDOFF
+
+
+@pytest.mark.parametrize("numba", [True, False])
+def test_a_ball_that_stops_stops_alone(numba, monkeypatch):
+    """The safe way refuses its step 20: what it returns is not known to be met by any ball below the bound."""
+    ball, K, gamma = batch(4, 3, 0.1)
+    whole = trajectory_n(ball, K, gamma, 40, contact=True)
+    if numba:
+        monkeypatch.setattr(double, "SHORT_RUN", 1)
+    else:
+        plain(monkeypatch)
+    asking(monkeypatch, 0, 1, 1)
+    calls, taken = [], warm_n.small_rotation
+
+    def refusing(*ball):
+        calls.append(1)
+        E, status, reach = taken(*ball)
+        return (E, np.array([Status.FOLDED]), np.array([0.5])) if len(calls) == 20 else (E, status, reach)
+
+    monkeypatch.setattr(warm_n, "small_rotation", refusing)
+    run = trajectory_n(ball, K, gamma, 40, contact=True)
+    assert run.status.tolist() == [Status.FOLDED, Status.TAKEN, Status.TAKEN]
+    assert run.taken.tolist() == [19, 40, 40]
+    assert np.isfinite(run.contact[0, :20]).all()
+    assert np.isnan(run.contact[0, 20:]).all()
+    assert (run.momentum[1:] == whole.momentum[1:]).all()
+    calls.clear()
+    with pytest.raises(StepNotTaken) as caught:
+        trajectory_n(alone(ball, 0), K[0], gamma[0], 40)
+    assert (caught.value.index, caught.value.reach) == (19, 0.5)
+
+
+def test_balls_above_the_bound_go_beside_those_below():
+    ball, K, gamma = batch(4, 4, 0.1)
+    K *= np.array([12.0, 12.0, 12.0, 0.0])[:, None, None]
+    near = limits(K, ball.mass_tensor, ball.D)[0]
+    assert (near > 0).tolist() == [True, False, False, False]
+    run = trajectory_n(ball, K, gamma, 30, contact=True)
+    assert run.status.tolist() == [Status.TAKEN, Status.TAKEN, Status.FOLDED, Status.TAKEN]
+    one = trajectory_n(alone(ball, 0), K[0], gamma[0], 30, contact=True)
+    assert all((getattr(one, name) == getattr(run, name)[0]).all() for name in NAMES)
+    step = step_n(alone(ball, 1), run.momentum[1, 9], run.gamma[1, 9])
+    assert np.abs(step.momentum - run.momentum[1, 10]).max() <= 16 * UNIT_ROUNDOFF * np.abs(K).max()
+    assert (run.gamma[3] == gamma[3]).all()
