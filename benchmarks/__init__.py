@@ -21,6 +21,7 @@ SECTIONS = {
     "first-call": "first_call",
     "long": "long_runs",
     "work-precision": "work_precision",
+    "dimensions": "dimensions",
 }
 
 

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 from balls_n import SIZES, UNIT_ROUNDOFF, offset, proven_branch
 
-from chapsym.dynamics.n import near_n, so_n
+from chapsym.dynamics.loops import loop_n
+from chapsym.dynamics.n import columns_n, near_n, so_n
 
 
 def turned_planes(angles, n):
@@ -96,3 +97,25 @@ def test_beyond_the_bound_and_out_of_range_nothing_is_known():
     for states, sign in ((known, 1), (unknown, -1)):
         for k, j, d in states:
             assert np.sign(near_n.limits(k, j, np.array([d]))[0]).tolist() == [sign], (k, j, d)
+
+
+@pytest.mark.parametrize(("D", "inside", "outside"), [(0.0, 0.98, 0.99), (2.0, 0.86, 0.88), (10.0, 0.64, 0.66)])
+def test_the_bound_is_where_the_page_says(D, inside, outside):
+    J, K = np.array([[0.75, 2.0, 0.25, 3.0]]), so_n.from_coordinates(np.eye(6)[:1], 4)
+    for size, sign in ((inside, 1), (outside, -1)):
+        assert np.sign(near_n.limits(size * K, J, np.array([D]))[0]) == sign
+
+
+def test_another_rotation_with_the_momentum_is_not_taken():
+    """For equal moments and D = 0 those by θ and by 180° - θ in a plane have one momentum; Newton stays where it is."""
+    J, D, gamma, n = np.full(4, 0.25), np.zeros(1), np.eye(4)[3], 4
+    small, large = (turned_planes((angle,), n) - np.eye(n) for angle in (0.3, np.pi - 0.3))
+    K = so_n.momentum(small, gamma, J, D[0])
+    near, enough = near_n.limits(K[None], J[None], D)
+    for E, right in ((small, True), (large, False)):
+        work = [np.empty(shape) for shape in ((n, n), (n, n), (6, 6), 6, n, n)]
+        found, one = E.copy(), E[..., None].copy()
+        assert loop_n.settle(K, gamma, J, 0.0, near[0], enough[0], found, *work) == right
+        assert np.abs(found - E).max() < 1e-15
+        batch = K[..., None], gamma[:, None], J[:, None], D, near, enough
+        assert columns_n.settle(one, *batch)[1].tolist() == [right]

@@ -13,6 +13,7 @@ from benchmarks import (
     c_peer,
     calls,
     continuous,
+    dimensions,
     figure,
     first_call,
     long_runs,
@@ -238,6 +239,12 @@ def test_the_integrals_of_the_top_are_integrals():
     assert abs(long_runs.integrals(momenta, verticals, np.sqrt(J), 0.0)["energy, D = 0"]).max() > 1e-4
     rolling = long_runs.with_chapsym(0.4 * K, g, J, 0.5, 1000, 10)
     assert abs(long_runs.integrals(*rolling, J, 0.0)["energy, D = 0"]).max() > 1e-4
+
+
+def test_steps_in_n_dimensions_that_differ_are_not_compared(monkeypatch):
+    monkeypatch.setattr(dimensions, "one_by_one", lambda n, steps, balls=1: dimensions.trajectory(n, steps + 1))
+    with pytest.raises(benchmarks.NotComparable, match="n = 4: the trajectory differs"):
+        dimensions.measure(True)
 
 
 def test_a_trajectory_allocates_what_it_keeps():

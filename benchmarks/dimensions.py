@@ -1,0 +1,88 @@
+"""n dimensions: a trajectory beside its steps taken one by one, each continued from the identity (`step_n`)."""
+
+import time
+from collections.abc import Callable
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+import chapsym
+from chapsym.studies.harness import Contender, NotComparable, cores, interleaved
+
+from .results import Reached, Result, ratio_columns
+
+ONE_BY_ONE = "step by step"
+#: Of the first n: the moments of the ball; the momentum below the diagonal, row by row, and γ are of this kind, too.
+MASS_TENSOR, D, RADIUS = (1.0, 2.0, 0.5, 3.0, 1.5, 2.5, 0.8, 1.2), 3.0, 0.1
+#: |𝒦|, as a matrix.
+EPSILON = 0.05
+BATCH = 64
+#: Steps of a trajectory, and of those one by one.
+STEPS, FEW = 3000, 30
+#: How far the two may be apart after FEW steps, relative to 𝒦.
+ROUNDING = 2.0**-44
+#: Microseconds for a step of one ball in four dimensions.
+WANTED = 5.0
+
+
+def start(n: int) -> tuple[chapsym.BallN, np.ndarray, np.ndarray]:
+    """A ball in n dimensions, 𝒦 and γ."""
+    K = np.tril(np.cos(np.arange(1.0, n * n + 1)).reshape(n, n), -1)
+    K, gamma = K - K.T, 2.0 + np.sin(np.arange(n))
+    return (
+        chapsym.BallN(MASS_TENSOR[:n], D, radius=RADIUS), EPSILON * K / np.linalg.norm(K), gamma / np.linalg.norm(gamma)
+    )  # fmt: skip
+
+
+def trajectory(n: int, steps: int, balls: int = 1, contact: bool = False) -> np.ndarray:
+    """𝒦 at the end of a trajectory, of the first ball."""
+    ball, K, gamma = start(n)
+    run = chapsym.trajectory_n(ball, np.broadcast_to(K, (balls, n, n)), gamma, steps, every=steps, contact=contact)
+    return run.momentum[0, -1]
+
+
+def one_by_one(n: int, steps: int, balls: int = 1) -> np.ndarray:
+    """The same, one step after the other."""
+    ball, K, gamma = start(n)
+    K, gamma = np.broadcast_to(K, (balls, n, n)), np.broadcast_to(gamma, (balls, n))
+    for _ in range(steps):
+        step = chapsym.step_n(ball, K, gamma)
+        K, gamma = step.momentum, step.gamma
+    return K[0]
+
+
+def _say(on_round: Callable[[str], None], n: int, done: int) -> None:
+    on_round(f"n = {n}: round {done}")
+
+
+def measure(quick: bool, on_round: Callable[[str], None] = lambda text: None) -> Result:
+    """Times one ball, one with its contact point, and a batch, on one core; the ends are compared before."""
+    rounds, rows = 3 if quick else 9, []
+    steps = STEPS // 10 if quick else STEPS
+    for n in (4,) if quick else (3, 4, 5, 6, 8):
+        apart = float(np.abs(trajectory(n, FEW) - one_by_one(n, FEW)).max() / EPSILON)
+        if not apart <= ROUNDING:
+            raise NotComparable(f"n = {n}: the trajectory differs from its steps one by one by {apart:.1e}")
+        sides: dict[str, tuple[Callable[..., Any], int, int]] = {
+            "one ball": (trajectory, 1, steps),
+            "one ball, contact": (partial(trajectory, contact=True), 1, steps),
+            f"one ball, {ONE_BY_ONE}": (one_by_one, 1, FEW),
+            f"{BATCH} balls": (trajectory, BATCH, steps // 10),
+            f"{BATCH} balls, {ONE_BY_ONE}": (one_by_one, BATCH, FEW // 10),
+        }
+        with cores(1):
+            timed = interleaved(
+                [Contender(name, partial(side, n, many, balls), many * balls, time.thread_time)
+                 for name, (side, balls, many) in sides.items()],
+                rounds, partial(_say, on_round, n),
+            )  # fmt: skip
+        for name, (_, balls, _) in sides.items():
+            beside = timed[f"one ball, {ONE_BY_ONE}" if balls == 1 else f"{BATCH} balls, {ONE_BY_ONE}"]
+            rows.append({
+                "n": n, "name": name, "µs a ball and step": timed[name].median * 1e6,
+                **ratio_columns(timed[name], beside, ONE_BY_ONE), "differs by": apart,
+            })  # fmt: skip
+    four = next(row for row in rows if row["n"] == 4 and row["name"] == "one ball")
+    reach = [Reached("n = 4, one ball, µs a step", four["µs a ball and step"], WANTED, False)]
+    return Result("n dimensions, one core", rows, reach=reach)
