@@ -133,7 +133,6 @@ def _safely(one: Under, with_body: bool) -> tuple[int, float]:
     if status[0] == Status.TAKEN:
         n = len(one.g)
         W, c = np.empty((n, n)), np.empty(n)
-        one.past[:], one.use[:] = 0.0, 0.0
         rotation_n.remember(E[0], one.past, one.use)
         if with_body:
             rotation_n.roll(E[0], one.g, one.R, one.spot, float(one.rho), c, W)
