@@ -28,7 +28,7 @@ from ..ball import Floats
 from .branch_n import top
 
 #: The angles r that are tried, as fractions of the one at which λ vanishes: the least that will do.
-ANGLES = (0.25, 0.5, 0.75, 0.9)
+ANGLES = np.array((0.25, 0.5, 0.75, 0.9))
 #: What |𝒦| and |γ| may change in a trajectory, relative to themselves, by roundings.
 DRIFT = 1e-6
 #: Where a momentum or a least moment is so small beside the largest moment, the step is taken as for larger momenta.
@@ -52,15 +52,12 @@ def bounds(size: Floats, J: Floats, D: Floats) -> tuple[Floats, Floats]:
     rounding of |E|.  The next is at most l/2λ times that square, with l = 2 max J + D, a bound of 𝒦(Ωξ²).
     """
     s = np.sort(J, axis=-1)[:, :2].sum(axis=-1)
-    near, enough = np.full(len(D), -1.0), np.zeros(len(D))
-    served = (s >= LEAST_MOMENT) & (size >= LEAST_MOMENTUM)
-    farthest = np.arctan2(4 * np.sqrt(s * (s + D)), D)
-    for part in reversed(ANGLES):
-        r = part * farthest
-        known = served & (size * (1 + DRIFT) < 2 * np.sin(r / 2) * least(r / 2, s, D))
-        near[known] = 8 * np.sin(r[known] / 2) ** 2
-        enough[known] = 2.0**-53 * (least(r, s, D) / (2 * J.max(axis=-1) + D))[known]
-    return near, enough
+    r = ANGLES[:, np.newaxis] * np.arctan2(4 * np.sqrt(s * (s + D)), D)
+    half = np.sin(r / 2)
+    fits = (size * (1 + DRIFT) < 2 * half * least(r / 2, s, D)) & (s >= LEAST_MOMENT) & (size >= LEAST_MOMENTUM)
+    first = fits.argmax(axis=0), np.arange(len(D))
+    known, smallest = fits[first], least(r, s, D)[first]
+    return np.where(known, 8 * half[first] ** 2, -1.0), 2.0**-53 * smallest / (2 * J.max(axis=-1) + D)
 
 
 def limits(K: Floats, J: Floats, D: Floats) -> tuple[Floats, Floats]:
