@@ -99,7 +99,7 @@ def summary(page: _Page) -> Markup:
     """The counts by verdict."""
     return page.render(
         "summary.html", counts=reading.counts(page.records), total=len(page.records),
-        unproved=reading.unproved(page.records),
+        unproved=reading.unproved(page.records), carried=reading.carried(page.records),
     )  # fmt: skip
 
 

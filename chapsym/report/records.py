@@ -100,6 +100,16 @@ def counts(records: Iterable[Record]) -> dict[str, int]:
     return {verdict: found[verdict] for verdict in [*VERDICTS, *found] if verdict in found}
 
 
+def carried(records: Iterable[Record]) -> dict[str, int]:
+    """What carries the verdicts, counted over all claims: what the checker of certificates accepted, and sentences."""
+    counts = [record["evidence"].get("carried") or {} for record in records]
+    found = {
+        name: sum(one.get(name, 0) for one in counts)
+        for name in ("statements", "identical", "comparisons", "counterexamples", "steps")
+    }
+    return found | {"sentences": sum(sum(one.get("sentences", {}).values()) for one in counts)}
+
+
 def errors(records: Iterable[Record]) -> list[Record]:
     """The claims that are not true as printed, in the order of the paper."""
     return [record for record in in_paper_order(records) if record["verdict"] in ERRORS]
