@@ -111,8 +111,11 @@ import chapsym
 ball = chapsym.Ball((1, 2, 4), 3, radius=0.1)
 path = chapsym.trajectory(ball, (.1, .2, -.1), (2/7, 3/7, 6/7), 3000, attitude=True, time_step=0.01)
 rolled = chapsym.roll(ball, omega=(2.0, 30.0, 5.0), time_step=1e-3, steps=40, contact=True)
+K4 = [[0, -.03, 0, .01], [.03, 0, .02, 0], [0, -.02, 0, -.05], [-.01, 0, .05, 0]]
+four = chapsym.trajectory_n(chapsym.BallN((1, 2, .5, 3), 3, radius=1), K4, (.1, .1, .7, .7), 300, contact=True)
 many = chapsym.step(ball, [(.1 * i, .2, 0) for i in range(100)], (2/7, 3/7, 6/7))
-found["bits"] = [x.tobytes().hex() for x in (path.momentum[-1], path.attitude[-1], rolled.contact[-1], many.momentum)]
+ends = path.momentum[-1], path.attitude[-1], rolled.contact[-1], many.momentum, four.momentum[-1], four.contact[-1]
+found["bits"] = [x.tobytes().hex() for x in ends]
 try:
     chapsym.run_scene({})
 except Exception as error:

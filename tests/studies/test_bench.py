@@ -242,7 +242,7 @@ def test_the_integrals_of_the_top_are_integrals():
 
 
 def test_steps_in_n_dimensions_that_differ_are_not_compared(monkeypatch):
-    monkeypatch.setattr(dimensions, "one_by_one", lambda n, steps, balls=1: dimensions.trajectory(n, steps + 1))
+    monkeypatch.setattr(dimensions, "continued", lambda n, steps, balls=1: dimensions.trajectory(n, steps + 1))
     with pytest.raises(benchmarks.NotComparable, match="n = 4: the trajectory differs"):
         dimensions.measure(True)
 
