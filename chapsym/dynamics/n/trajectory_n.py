@@ -62,6 +62,8 @@ def trajectory_n(
     attitude: True (from the least rotation with R γ = eₙ) or rotations, (..., n, n), to be followed.
     contact: whether to trace the contact point; it needs `ball.radius`, and implies the attitude.
 
+    A ball below the bound of `near_n` begins each step at a guess by the last ones, compiled in long runs with numba;
+    one above it is continued from the identity, as by `step_n`.
     One ball that cannot take a step raises StepNotTaken with `index` and the `trajectory` before it.
     In a batch the others go on, and `status` and `taken` say which stopped, where.
     Raises BadInput as `step_n` does, and for counts that are not whole numbers.
