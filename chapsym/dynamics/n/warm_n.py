@@ -6,7 +6,7 @@ import numpy as np
 
 from ..ball import Floats
 from ..errors import Status
-from ..levels.double import chosen, compiles
+from ..levels.double import load, pays
 from ..loops import loop_n, rotation_n
 from . import columns_n
 from .branch_n import small_rotation, top
@@ -43,7 +43,7 @@ def march(
     taken: np.ndarray, status: np.ndarray, reach: Floats, at: np.ndarray,
 ) -> None:  # fmt: skip
     """Steps balls with these `near_n.limits`, and writes the rows `at` of frames, counts, statuses and reaches."""
-    run = _compiled if compiles(loop_n.march, steps * len(at) * WEIGHT) else _by_columns
+    run = _compiled if pays(loop_n.march, steps * len(at) * WEIGHT) else _by_columns
     run(_begun(state, limits), frames, steps, every, taken, status, reach, at)
 
 
@@ -63,7 +63,7 @@ def _compiled(
     under: Under, frames: dict[str, Floats], steps: int, every: int,
     taken: np.ndarray, status: np.ndarray, reach: Floats, at: np.ndarray,
 ) -> None:  # fmt: skip
-    (take,) = chosen((loop_n.march,), steps * len(at) * WEIGHT)
+    (take,) = load((loop_n.march,))
     with_body = "attitude" in frames
     for i, row in enumerate(at):
         one = _ball(under, i)
