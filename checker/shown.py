@@ -57,8 +57,8 @@ def assumed(algebra: dict[str, Any]) -> str:
     return ", ".join([f"{a}·{b} = {formula(image)}" for a, b, image in algebra["rules"]] + transposes)
 
 
-def lines(data: dict[str, Any]) -> Iterator[str]:
-    """Every premise, step, statement and counterexample of a certificate that was accepted."""
+def lines(data: dict[str, Any], parts: bool = True) -> Iterator[str]:
+    """Every premise, step, statement and counterexample of an accepted certificate; and the `parts` of statements."""
     for i, algebra in enumerate(data["algebras"]):
         yield f"algebra {i} ({algebra['kind']}): {assumed(algebra) or 'nothing is assumed'}"
     for one in data["derivation"]:
@@ -70,7 +70,10 @@ def lines(data: dict[str, Any]) -> Iterator[str]:
         traces = "the traces of " if algebra["kind"] == "traces" else ""
         false = f", not all of these, at counterexample {one['refuted']}" if "refuted" in one else ""
         yield f"{one['role']}: {one['text']}    [in algebra {one['algebra']}{false}]"
-        for name, tree in one.get("definitions", ()):
+        definitions = one.get("definitions", ())
+        if definitions and not parts:
+            yield f"    with {len(definitions)} names for parts, which checker --show prints"
+        for name, tree in definitions if parts else ():
             yield f"    {name} is {formula(tree)}"
         for left, right in zip(one["left"], one["right"], strict=True):
             yield f"    {traces}{formula(left)} = {formula(right)}"

@@ -79,7 +79,7 @@ def carried(data: dict[str, Any]) -> dict[str, Any]:
         "sentences": dict(sentences),
         "text": f"statements that the checker accepted: {len(data['statements'])}{same}{steps}{more}; "
         f"counterexamples: {len(data['counterexamples'])}; sentences: {listed}",
-        "judged": [_cut(line) for line in shown.lines(data)],
+        "judged": [_cut(line) for line in shown.lines(data, parts=False)],
     }
 
 
@@ -199,7 +199,8 @@ class _Maker:
         if not refutes and one["role"] not in ("corrected", "under"):
             return
         try:
-            register.check_hypotheses(self.algebras[one["algebra"]], point, "", whole=False)
+            if not refutes:
+                register.check_hypotheses(self.algebras[one["algebra"]], point, "", whole=False)
             agrees = register.holds(one, self.algebras[one["algebra"]], point, self._defined, "")
         except checker.Rejected:  # the point says nothing of some variable
             return
@@ -214,6 +215,7 @@ class _Maker:
         stated = [*self.statements, *(h for one in self.counterexamples if one["refutes"] for h in one["hypotheses"])]
         used = derivation.used(self.derivation, [tree for one in stated for tree in (*one["left"], *one["right"])])
         self.derivation = [one for one in self.derivation if one["name"] in used]
+        self._leave_out_algebras()
         for i, algebra in enumerate(self.algebras):
             if algebra["kind"] != "quotient" and (exact := witness.matrices(set(self._symbols[i]), self._words_of[i])):
                 self._point(exact)
@@ -222,6 +224,16 @@ class _Maker:
             if "refuted" in one:
                 one["refuted"] = kept.index(self.counterexamples[one["refuted"]])
         self.counterexamples = kept
+
+    def _leave_out_algebras(self) -> None:
+        """Those in which nothing is left."""
+        using = [*self.statements, *self.derivation]
+        kept = sorted({one["algebra"] for one in using})
+        for one in using:
+            one["algebra"] = kept.index(one["algebra"])
+        self.algebras = [self.algebras[i] for i in kept]
+        self._symbols = {new: self._symbols[old] for new, old in enumerate(kept) if old in self._symbols}
+        self._words_of = {new: self._words_of[old] for new, old in enumerate(kept) if old in self._words_of}
 
     def _definition(self, letter: sp.Symbol) -> dict[str, Any]:
         """A step of the derivation."""

@@ -43,7 +43,7 @@ def wrong_momentum(honest):
 
 
 FIRST_ROUTE = {
-    "prop-1": (ball, "split_balance", lambda honest: lambda: (2 * honest()[0], honest()[1])),
+    "prop-1": (ball, "carried", lambda honest: lambda expr: 2 * honest(expr)),
     "remark-3": (ball, "momentum", wrong_momentum),
     "5.2": (three, "momentum", lambda honest: lambda: -honest()),
     "prop-3": (vertical, "gamma_next", lambda honest: lambda: honest()[[1, 0, 2], :]),

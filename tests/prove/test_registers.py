@@ -27,17 +27,17 @@ SQUARES = '''"""On squares."""
 from chapsym.prove import claim, rational_point
 from .ring import alpha, equal, r
 
-@claim("s-1", "\\alpha^2 - r^2 = (\\alpha - r)(\\alpha + r)")
+@claim("s-1", r"\\alpha^2 - r^2 = (\\alpha - r)(\\alpha + r)")
 def difference(p):
     """A difference of squares."""
     p.printed(equal("α² - r² = (α - r)(α + r)", alpha**2 - r**2, (alpha - r) * (alpha + r)))
     p.control(equal("the same with α² + r²", alpha**2 + r**2, (alpha - r) * (alpha + r)))
 
-@claim("s-2", "(\\alpha + r)^2 = \\alpha^2 + r^2", uses=["s-1"])
+@claim("s-2", r"(\\alpha + r)^2 = \\alpha^2 + r^2", uses=["s-1"])
 def dream(p):
     """The square of a sum."""
     p.printed(equal("(α + r)² = α² + r²", (alpha + r) ** 2, alpha**2 + r**2))
-    p.corrected("(\\alpha + r)^2 = \\alpha^2 + 2\\alpha r + r^2",
+    p.corrected(r"(\\alpha + r)^2 = \\alpha^2 + 2\\alpha r + r^2",
                 equal("with 2αr", (alpha + r) ** 2, alpha**2 + 2 * alpha * r + r**2))
     p.counterexample(rational_point({alpha: 1, r: 2}))
     p.control(equal("with αr", (alpha + r) ** 2, alpha**2 + alpha * r + r**2))
@@ -46,7 +46,7 @@ CUBES = '''"""On cubes."""
 from chapsym.prove import claim, main
 from ring import alpha, equal
 
-@claim("c-1", "\\alpha^3 = \\alpha\\alpha^2", uses=["5.2"])
+@claim("c-1", r"\\alpha^3 = \\alpha\\alpha^2", uses=["5.2"])
 def cube(p):
     """A cube."""
     print("a proof may print")

@@ -151,7 +151,7 @@ def test_letters_of_the_graph_can_be_read(tab):
 
 
 def test_a_derivation_is_folded_until_it_is_asked_for(tab):
-    derivation = tab.locator('[id="claim-5.4"] pre')
+    derivation = tab.locator('[id="claim-5.4"] details:has(> summary:text-is("Derivation")) pre')
     assert not derivation.is_visible()
     tab.locator('[id="claim-5.4"] summary', has_text="Derivation").click()
     assert derivation.is_visible()
