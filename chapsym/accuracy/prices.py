@@ -157,18 +157,27 @@ def _code() -> str:
 
 
 def load_prices(progress: Callable[[str], None] = lambda text: None) -> Prices:
-    """The prices that were kept, or else fresh ones, which are kept if the cache can be written."""
+    """The prices that were kept, or else fresh ones, which are kept if the cache can be written.
+
+    Where another process has kept prices meanwhile, they are those: what is chosen by them does not change later.
+    """
     kept = path()
-    try:
-        found = json.loads(kept.read_text(encoding="utf-8"))
-        if found["version"] == VERSION:
-            return _checked(found["calls"], found["steps"])
-    except (OSError, ValueError, KeyError, TypeError, AttributeError, OverflowError, RecursionError):
-        pass
+    if (found := _kept(kept)) is not None:
+        return found
     progress("taking this machine's prices, once")
     fresh = calibrate(progress)
+    if (found := _kept(kept)) is not None:
+        return found
     save(fresh, kept)
     return fresh
+
+
+def _kept(file: Path) -> Prices | None:
+    try:
+        found = json.loads(file.read_text(encoding="utf-8"))
+        return _checked(found["calls"], found["steps"]) if found["version"] == VERSION else None
+    except (OSError, ValueError, KeyError, TypeError, AttributeError, OverflowError, RecursionError):
+        return None
 
 
 def _checked(calls: Any, steps: Any) -> Prices:

@@ -274,6 +274,20 @@ def test_prices_are_kept_whole_and_taken_anew_if_they_are_broken(tmp_path, monke
     assert [p.name for p in (tmp_path / "deep").iterdir()] == ["prices.json"]
 
 
+def test_prices_that_another_process_kept_meanwhile_are_taken(tmp_path, monkeypatch):
+    """Two processes that start with an empty cache choose alike, whichever is first."""
+    monkeypatch.setattr(pricing, "path", lambda: tmp_path / "prices.json")
+    dearer = replace(PRICES, calls={name: 2 * x for name, x in PRICES.calls.items()})
+
+    def calibrate(progress):
+        pricing.save(dearer, tmp_path / "prices.json")
+        return PRICES
+
+    monkeypatch.setattr(pricing, "calibrate", calibrate)
+    assert pricing.load_prices() == dearer
+    assert pricing.load_prices() == dearer
+
+
 def test_a_folder_that_cannot_be_written_is_done_without(tmp_path, monkeypatch):
     (tmp_path / "file").write_text("")
     monkeypatch.setattr(pricing, "path", lambda: tmp_path / "file" / "prices.json")
