@@ -38,7 +38,8 @@ def made(steps, left, right, kind="words", at=0, more=(), **changes):
         "format": "chapsym-certificate/1", "kind": "register-claim", "claim": "0", "printed": "x", "corrected": None,
         "hypotheses": [], "comparisons": [], "derivation": [*steps],
         "algebras": [LETTERS, LETTERS | {"kind": "traces"}, *more],
-        "points": [POINT, UNIT, {"m": 1, "U": [[0, 1], [-1, 0]]}], "statements": [one], "counterexamples": [],
+        "points": [POINT, UNIT, {"m": 1, "U": [[0, 1], [-1, 0]]}, POINT | {"P": [[0, 0], [0, 0]]}],
+        "statements": [one], "counterexamples": [],
         "sentences": [], "statement": "",
     })  # fmt: skip
 
@@ -203,6 +204,10 @@ def derivations():
             [step("Z", "written", ["*", "A", "B", "S"]), step("V", "replaced", "Z", pairs(S="S"), 2)], "V", "S", 2,
             more=[FREE]),
         "used where a rule is another": made([step("Z", "written", ["*", "P", "P"], algebra=2)], "Z", 0, more=[OTHER]),
+        "used where a rule is another, which the point obeys": made(
+            [step("Z", "written", ["*", "P", "P"], algebra=2)], "Z", 0, at=3, more=[OTHER]),
+        "a value in an algebra that is not there": made(
+            [step("Z", "written", "A", algebra=2) | {"value": "A"}], "A", "A"),
         "replaced against a projection": replacing("P", "C", P="C"),
         "moved by what is not there": made([step("Z", "written", "X"), step("V", "replaced", "Z", moved)], "V", "V"),
         "tr A = tr X": made([], "A", "X", "traces"),
