@@ -24,6 +24,14 @@ def bounded(p):
     return all(c.bit_length() <= p.bits for c in p.terms.values())
 
 
+def spent(Work, of):
+    """The work of a square."""
+    work = Work(1000)
+    whole = of(work)
+    whole * whole
+    return 1000 - work.left
+
+
 def polynomials(module, refused):
     work = module.Work(3)
     assert not refused(work.spend, 3)
@@ -51,11 +59,22 @@ def polynomials(module, refused):
     difference = (a - b) ** -1 + (b - a) ** -1
     assert not difference.numerator.terms
     assert len(ring.factors) == 1
+    assert spent(module.Work, lambda work: module.Ring(["x"], work).constant(1 << 5119)) == 1 + 10240 // 512
+    assert spent(module.Work, lambda work: module.Ring([f"x{i}" for i in range(128)], work).constant(1)) == 3
     few = module.Ring(["x"], module.Work(3))
     assert refused(lambda: (few.variable(0) + few.constant(1)) * (few.variable(0) + few.constant(2)))
 
 
 def words(module, Work, refused):
+    def many(work):
+        return module.Words({((0,) * 16, (letter,)): Fraction(1) for letter in "AB"}, work)
+
+    assert spent(Work, many) == 4 * (1 + 16 // 8)
+    work = Work(1000)
+    one = {"AB": module.Words({((0, 0), ()): Fraction(1)}, work)}
+    module.Words({((0, 0), tuple("AB" + "C" * 12)): Fraction(1)}, work).rewritten({("A", "B"): one["AB"]})
+    assert work.left == 1000 - 2 * (1 + 16 // 8)
+
     def word(letters, work=None, exponents=(0, 0)):
         return module.Words({(exponents, tuple(letters)): Fraction(1)}, work or Work())
 

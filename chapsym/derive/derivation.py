@@ -61,7 +61,7 @@ def rate(name: str, text: str, of: sp.Symbol, rates: Places) -> sp.Symbol:
 
 def replaced(name: str, text: str, of: sp.Symbol, places: Places, algebra: WordAlgebra) -> sp.Symbol:
     """A letter for a defined one with expressions in the place of letters, in the algebra of these."""
-    whole = {letter: unfolded(sp.sympify(image)) for letter, image in places.items()}
+    whole = {letter: unfolded(image) for letter, image in places.items()}
     value = algebra.normal(sp.expand(DEFINED[of].xreplace(whole)))
     return _defined(name, Step(text, algebra, "replaced", of, dict(places)), value)
 
@@ -104,10 +104,10 @@ def needed(expressions: Collection[sp.Expr]) -> Iterator[sp.Symbol]:
     def visit(expr: Any) -> None:
         for letter in sorted(expr.free_symbols & STEPS.keys(), key=str):
             if letter not in seen:
-                visit(sp.sympify(STEPS[letter].of))
+                visit(STEPS[letter].of)
                 by = STEPS[letter].by
                 for image in by.values() if isinstance(by, dict) else ():
-                    visit(sp.sympify(image))
+                    visit(image)
                 seen[letter] = None
 
     for expr in expressions:

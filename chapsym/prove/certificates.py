@@ -244,7 +244,7 @@ class _Maker:
         elif step.operation == "entry":
             by = list(by)
         elif isinstance(by, Mapping):
-            by = [[x.name, tree(sp.sympify(image))] for x, image in by.items()]
+            by = [[x.name, tree(image)] for x, image in by.items()]
         elif by is not None:
             by = by.name if isinstance(by, sp.Symbol) else [x.name for x in by]
         return {
@@ -390,7 +390,7 @@ def _with_transposes(exact: Mapping[sp.Symbol, Any], algebra: Any) -> dict[sp.Sy
 def _used(step: Step) -> list[sp.Expr]:
     """What a step writes down, its letters unfolded."""
     by = step.by.values() if isinstance(step.by, Mapping) else ()
-    return [unfolded(sp.sympify(x)) for x in (step.of, *by)]
+    return [unfolded(x) for x in (step.of, *by)]
 
 
 def _relations(comparison: Comparison) -> list[list[Any]]:

@@ -157,6 +157,14 @@ WRONG = {
     "a use of nothing": ("cubes", "5.2", "5.2000", r"cubes\.py: c-1 uses '5\.2000', which no proof judges"),
     "no proof": ("__init__", "", "CLAIMS = ('s-1', 's-2', 'c-1', 'c-2')", r"claims: the proofs and .* differ: c-2"),
     "no script": ("__init__", "", "SCRIPTS = ('cube',)", "claims has no script 'cube'; SCRIPTS names files without"),
+    "scripts that are no list": (
+        "__init__",
+        "",
+        "SCRIPTS = 5",
+        r"claims/__init__\.py: SCRIPTS must be a list of texts",
+    ),
+    "claims that are no list": ("__init__", "", "CLAIMS = 's-1'", r"CLAIMS must be a list of texts"),
+    "lemmas that are no texts": ("__init__", "", "LEMMAS = (3,)", r"LEMMAS must be a list of texts"),
     "a broken head": ("__init__", "", "1 / 0", r"claims/__init__\.py cannot be loaded: ZeroDivisionError"),
 }
 

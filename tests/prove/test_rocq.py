@@ -11,6 +11,7 @@ from commands import chapsym
 
 from chapsym import proofs
 from chapsym.prove.rocq import write
+from chapsym.prove.rocq.claims import SAME
 from chapsym.prove.rocq.names import comment, identifier
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -31,11 +32,14 @@ def test_every_statement_that_says_something_is_a_theorem(tmp_path):
     data = [certificate(path.stem) for path in sorted(REGISTER.glob("*.json"))]
     written = write(data, tmp_path)
     statements = [one for claim in data for one in claim["statements"] if "refuted" not in one]
-    assert written.left_out == {
-        "it has one expression on both sides": 92,
-        "its algebra is of the kind traces": 29,
-        "it is written with names for its parts": 19,
-    }
+    assert {reason: n for reason, n in written.left_out.items() if reason != SAME} == {
+        "its algebra is of the kind traces": sum(
+            claim["algebras"][one["algebra"]]["kind"] == "traces" and one["left"] != one["right"]
+            for claim in data for one in claim["statements"]
+        ),
+        "it is written with names for its parts": sum("definitions" in one for one in statements),
+    }  # fmt: skip
+    assert written.left_out[SAME] >= sum(one["left"] == one["right"] for one in statements)
     assert written.theorems["statements"] == len(statements) - written.left_out.total()
     assert written.theorems["counterexamples"] == sum(len(claim["counterexamples"]) for claim in data)
     texts = [path.read_text(encoding="utf-8") for path in tmp_path.glob("claim_*.v")]
