@@ -12,6 +12,7 @@ from .gibbs_newton import gibbs_newton
 from .gibbs_newton_heavy import gibbs_newton_heavy
 from .gibbs_residual import gibbs_residual
 from .gibbs_second import gibbs_second
+from .gibbs_symmetric import gibbs_symmetric
 from .invariants import invariants
 from .isotropic_spin import isotropic_spin
 from .modified_load import modified_load
@@ -45,6 +46,7 @@ TABLE = {
     "gibbs_newton_heavy": (gibbs_newton_heavy, (('gibbs', 3), ('half_momentum', 3), ('gamma', 3), ('inertia', 3), ('D', 1)), (13,)),
     "gibbs_residual": (gibbs_residual, (('gibbs', 3), ('half_momentum', 3), ('gamma', 3), ('inertia', 3), ('D', 1)), (3,)),
     "gibbs_second": (gibbs_second, (('correction', 3), ('half_momentum', 3), ('cofactors', 9), ('inertia', 3)), (3,)),
+    "gibbs_symmetric": (gibbs_symmetric, (('gibbs', 3), ('half_momentum', 3), ('gamma', 3), ('inertia', 3), ('D', 1)), (3,)),
     "invariants": (invariants, (('momentum', 3), ('gamma', 3)), (3,)),
     "isotropic_spin": (isotropic_spin, (('half_momentum', 3), ('gamma', 3), ('moment', 1), ('D', 1)), (3,)),
     "modified_load": (modified_load, (('omega', 3), ('rate', 3), ('gamma', 3), ('mass_tensor', 3), ('D', 1)), (3,)),

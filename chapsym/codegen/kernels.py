@@ -244,6 +244,15 @@ KERNELS: tuple[Kernel, ...] = (
         gibbs.mixed_steps,
     ),
     Kernel(
+        "gibbs_symmetric",
+        "The trace, the sum of the principal minors of size 2 and the determinant of the symmetric part of ∂G/∂u.",
+        ("gibbs", "straight-path"),
+        (GIBBS, HALF, GAMMA, INERTIA, CONTACT),
+        ("trace", "minors", "det"),
+        gibbs.symmetric,
+        gibbs.symmetric_steps,
+    ),
+    Kernel(
         "gibbs_residual",
         "G(u) = B(γ)u + u × Iu - (1 + |u|²)k, which the Gibbs vector of the next step makes zero.",
         ("gibbs",),

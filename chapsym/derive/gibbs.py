@@ -90,6 +90,29 @@ def jacobian() -> sp.Matrix:
     return sp.Matrix(contact_inertia()) + polar(u)
 
 
+def symmetric_part() -> sp.Matrix:
+    """½(∂G/∂u + its transpose): the least stretch of the Jacobian is at least its smallest eigenvalue."""
+    a = jacobian()
+    return ((a + a.T) / 2).applyfunc(sp.expand)
+
+
+def symmetric() -> list[sp.Expr]:
+    """The trace, the sum of the principal minors of size 2 and the determinant of `symmetric_part`."""
+    s = symmetric_part()
+    minors = [s.extract(pair, pair).det() for pair in ((0, 1), (0, 2), (1, 2))]
+    return [s.trace(), sum(minors), s.det(method="berkowitz")]
+
+
+def symmetric_steps() -> tuple[Steps, list[sp.Expr]]:
+    """The same by the six entries."""
+    s = symmetric_part()
+    upper = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)]
+    minors = [E.extract(pair, pair).det() for pair in ((0, 1), (0, 2), (1, 2))]
+    determinant = E[0, 0] * minors[2] + E[0, 1] * (E[0, 2] * E[1, 2] - E[0, 1] * E[2, 2])
+    determinant += E[0, 2] * (E[0, 1] * E[1, 2] - E[0, 2] * E[1, 1])
+    return [(sp.Matrix([E[i] for i in upper]), sp.Matrix([s[i] for i in upper]))], [E.trace(), sum(minors), determinant]
+
+
 def newton_target() -> sp.Matrix:
     """(∂G/∂u)u - G(u), which is the Jacobian times the next Newton iterate: u × Iu + (1 - |u|²)k."""
     return u.cross(INERTIA * u) + (1 - u.dot(u)) * k

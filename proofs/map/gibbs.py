@@ -152,5 +152,57 @@ def _sharp() -> Comparison:
     )
 
 
+@claim(
+    "straight-path",
+    r"G(u)=0,\ t=s+cs(1-s),\ |G_t(su)| < \frac{m^2}{4\sigma},\ \langle d,\partial G_t(su)d\rangle \ge m|d|^2 "
+    r"\ (0\le s\le 1,\ m > 0,\ 0\le c\le 1) \ \Rightarrow\ u \text{ is the root of the small branch}",
+    uses=("gibbs", "gibbs-newton", "small-branch"),
+)
+def straight_path(p: Proof) -> None:
+    """A root beyond the bound of small-branch is proved to be the small branch's by the straight path to it."""
+    p.assume("|γ| = 1, I_min > 0, D ≥ 0; G_t is G with tk in place of k; σ = ½(I_max - I_min) + |𝒦|; m depends on s")
+    s, c, t = sp.symbols("s c t")
+    ring = Quotient((*u, *k, *d, *v, *gamma, I1, I2, I3, D, s, c, t), [])
+    at, path = s + c * s * (1 - s), placed((u, s * u))
+    residual, jacobian, n = sp.Matrix(gibbs.residual()), gibbs.jacobian(), u.dot(u)
+    stretched = jacobian.subs(placed((k, at * k)) | path, simultaneous=True)
+    along = residual.subs(placed((k, at * k)) | path, simultaneous=True)
+    rest = (n * (1 + s) - c * (1 + s**2 * n)) * k - u.cross(INERTIA * u)
+    p.printed(equal("G_t(su) = sG(u) + s(1 - s)R(s), R(s) = (|u|²(1 + s) - c(1 + s²|u|²))k - u × Iu",
+                    along, s * residual + s * (1 - s) * rest, ring))  # fmt: skip
+    B = sp.Matrix(gibbs.contact_inertia())
+    form = (d.T * ((1 - s) * B + s * jacobian) * d)[0] + 2 * s * (1 - s) * (1 - c * s) * d.dot(k) * u.dot(d)
+    p.printed(Equation("⟨d, ∂G_t(su)d⟩ = (1 - s)⟨d, Bd⟩ + s⟨d, ∂G(u)d⟩ + 2s(1 - s)(1 - cs)⟨d, k⟩⟨u, d⟩",
+                       [(d.T * stretched * d)[0]], [form], ring))  # fmt: skip
+    p.lemma(Equation("2⟨d, a⟩⟨d, b⟩ = ½⟨d, a + b⟩² - ½⟨d, a - b⟩², a = u, b = v", [2 * d.dot(u) * d.dot(v)],
+                     [d.dot(u + v) ** 2 / 2 - d.dot(u - v) ** 2 / 2], ring))  # fmt: skip
+    p.say(
+        "With |a| = |b| this is at least -½|a - b|²|d|² = (⟨a, b⟩ - |a||b|)|d|²; so 2⟨d, k⟩⟨u, d⟩ ≥ (⟨k, u⟩ - |k||u|)|d|²,"
+    )
+    p.say("and as 0 ≤ 1 - cs ≤ 1 one may take m(s) = (1 - s)m₀ + sm₁ - s(1 - s)(|k||u| - ⟨k, u⟩) with the smallest")
+    p.say("eigenvalues m₀ of B and m₁ of the symmetric part of ∂G(u).")
+    moved = jacobian.subs(placed((k, t * k), (u, u + v)), simultaneous=True)
+    still = jacobian.subs(placed((k, t * k)), simultaneous=True)
+    p.lemma(Equation("⟨d, (∂G_t(u + v) - ∂G_t(u))d⟩ = -⟨v, d × Id⟩ - 2t⟨d, k⟩⟨v, d⟩", [(d.T * (moved - still) * d)[0]],
+                     [-v.dot(d.cross(INERTIA * d)) - 2 * t * d.dot(k) * v.dot(d)], ring))  # fmt: skip
+    p.say("which is at most σ|v||d|² (small-branch: |d × Id| ≤ ½(I_max - I_min)|d|²).  So in the ball of radius m/(2σ)")
+    p.say("round su G_t is strictly monotone with the constant ½m, and as |G_t(su)| < ½m · m/(2σ) it has one root y(s)")
+    p.say(
+        "in the ball, inside, and a regular one.  By the theorem of implicit functions y is continuous; y(0) = 0, y(1) = u,"
+    )
+    p.say("and t grows from 0 to 1 with s: y is the curve from u = 0 that the small branch follows, and meets no fold.")
+    symmetric, matrix = gibbs.symmetric_part(), sp.Matrix(gibbs.symmetric_part())
+    trace, minors, determinant = gibbs.symmetric()
+    p.lemma(
+        Equation("⟨d, ∂G d⟩ = ⟨d, Sd⟩, S = ½(∂G + ∂Gᵀ)", [(d.T * jacobian * d)[0]], [(d.T * symmetric * d)[0]], ring)
+    )
+    p.lemma(Equation("det(s - S) = s³ - s² tr S + s minors - det S", [(s * sp.eye(3) - matrix).det(method="berkowitz")],
+                     [s**3 - trace * s**2 + minors * s - determinant], ring))  # fmt: skip
+    p.control(equal("G_t(su) = s(1 - s)R(s) with + u × Iu", along,
+                    s * residual + s * (1 - s) * (rest + 2 * u.cross(INERTIA * u)), ring))  # fmt: skip
+    p.control(Equation("⟨d, ∂G_t(su)d⟩ without what is quadratic in s", [(d.T * stretched * d)[0]],
+                       [(d.T * ((1 - s) * B + s * jacobian) * d)[0]], ring))  # fmt: skip
+
+
 if __name__ == "__main__":
     main(__file__)

@@ -41,6 +41,14 @@ def long_steps(n):
     return Ball((0.1, 0.5, 1.6), 0.7), K, g / np.linalg.norm(g, axis=1, keepdims=True)
 
 
+def beyond(n):
+    """n balls beyond the bound of the certificate: most are proved on the path, some in a second round, some fold."""
+    random = np.random.default_rng(9)
+    K, g = random.normal(size=(n, 3)), random.normal(size=(n, 3))
+    K *= random.choice([0.5, 0.6, 0.8, 1.0], (n, 1)) / np.linalg.norm(K, axis=1, keepdims=True)
+    return Ball((0.1, 0.5, 1.6), 0.7), K, g / np.linalg.norm(g, axis=1, keepdims=True)
+
+
 def floats_of(run):
     """All arrays of a run; of pairs both halves."""
     halves = [run] if run.low is None else [run, run.low]
@@ -62,7 +70,8 @@ def alone(*arguments, **options):
     [(p, balls, n, True) for p in PRECISIONS for n in (12, block.LANES, 150)]
     + [("single", balls, n, False) for n in (12, 150)]
     + [("double", balls, 40, False)]
-    + [(p, long_steps, 2 * block.LANES + 5, True) for p in PRECISIONS],
+    + [(p, long_steps, 2 * block.LANES + 5, True) for p in PRECISIONS]
+    + [(p, beyond, block.LANES + 9, True) for p in PRECISIONS],
 )
 def test_a_batch_is_its_balls_to_the_bit(precision, made, n, numba, monkeypatch):
     """One of the long steps cannot be certified: it neither stops the rounds of the others nor is settled by them."""
@@ -121,6 +130,24 @@ def test_the_rows_of_a_block_begin_on_lines_of_the_cache(loops):
     rows = loops.block.rows(7, loops.dtype)
     assert rows.shape == (7, loops.block.LANES)
     assert {row.ctypes.data % 64 for row in rows} == {0}
+
+
+@pytest.mark.parametrize("numba", [True, False])
+def test_steps_beyond_the_bound_are_proved_in_their_lanes(numba, monkeypatch):
+    """To the bit those of one ball in plain Python; and what takes the continuation is a few of a hundred steps."""
+    ball, K, g = beyond(24)
+    K *= 0.7
+    if not numba:
+        monkeypatch.setattr(double, "has_numba", lambda: False)
+    run = chapsym.trajectory(ball, K, g, 40)
+    continued = []
+    monkeypatch.setattr(double, "has_numba", lambda: False)
+    small_rotation = loop.small_rotation
+    monkeypatch.setattr(loop, "small_rotation", lambda *args: continued.append(args) or small_rotation(*args))
+    for i in range(24):
+        one = chapsym.trajectory(ball, K[i], g[i], 40)
+        assert all(np.array_equal(all_[i], few) for all_, few in zip(floats_of(run), floats_of(one), strict=True))
+    assert 0 < len(continued) < 0.1 * 24 * 40
 
 
 @pytest.mark.parametrize("precision", PRECISIONS)

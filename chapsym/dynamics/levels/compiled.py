@@ -32,6 +32,7 @@ from ..loops import (
     long_step,
     loop,
     loop_n,
+    path,
     rotation_n,
     single_loop,
     single_step,
@@ -43,16 +44,17 @@ from .retyped import Family
 
 #: What the compiled code is made of.
 SOURCES = (
-    *(generated, branch, gibbs, integrals, sums, loop, block, composed_loop, vertical_loop, long_step, lanes),
+    *(generated, branch, gibbs, path, integrals, sums, loop, block, composed_loop, vertical_loop, long_step, lanes),
     *(single_loop, single_step, rotation_n, loop_n),
     *(pairs, generated_double_double, double_double_step, double_double_loop, double_double_block),
 )
 #: The functions on the way of every step: a call would cost more than they do.
 INLINED: set[Callable[..., Any]] = {
     *(generated.gibbs_newton, generated.gibbs_second, generated.turn),
+    *(path.small_between, path.lowest, path.joined, path.settle_on_path, generated.gibbs_symmetric),
     *(gibbs.newton_round, gibbs.second_round, gibbs.settle, loop.three, loop.put),
     *(sums.added, sums.turned, sums.filtered, composed_loop.extrapolated, composed_loop.turn_at),
-    *(block.rows, block.whole, block.predicted, block.corrected, block.unsettled),
+    *(block.rows, block.whole, block.predicted, block.corrected, block.on_path, block.unsettled),
     *(block.moved, block.turn_at, block.extrapolated, block.rolled, loop.followed),
     *(generated.centre_step, generated.rotate),
     *(value for value in vars(pairs).values() if isinstance(value, FunctionType)),

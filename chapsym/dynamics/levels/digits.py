@@ -17,12 +17,19 @@ from chapsym.generated.fixed import body_fixed, turns_fixed
 from chapsym.numbers import Digits
 
 from ..errors import Status, StepNotTaken
-from ..loops.gibbs import certificate
+from ..loops.gibbs import BEYOND, certificate
+from ..loops.path import joined
 from .newton import refined
 from .root import NotSettled, extrapolated, root, to_float
 from .start import Exact, exponent_of, least, magnitude, start_near
 
 Numbers = tuple[Any, ...]
+
+
+def inner(x: Sequence[float], y: Sequence[float]) -> float:
+    """The scalar product."""
+    return x[0] * y[0] + x[1] * y[1] + x[2] * y[2]
+
 
 #: Beyond so many bits flint's integers are faster than mpmath's.
 FLINT_BITS = 600
@@ -89,18 +96,26 @@ class DigitsBall:
             self.k, self.g = moved[:3], moved[3:]
 
     def _gibbs(self, k: Numbers, bound: float, past: list) -> Any:
-        """The Gibbs vector where lemma `small-branch` says that it is that of the branch; else None."""
-        if not bound >= 0.0:
+        """The Gibbs vector where `small-branch` or `straight-path` says that it is that of the branch; else None."""
+        if not (bound >= 0.0 or bound == BEYOND):
             return None
         try:
             u, start = root(extrapolated(past), k, self.g, self.I, self.D, self.floats, self.P, self.number, self.lost)
         except (NotSettled, ZeroDivisionError, OverflowError):
             return None
-        if not start[0] * start[0] + (start[1] * start[1] + start[2] * start[2]) <= bound:
+        if not (self._on_path(u, k) if bound == BEYOND else inner(start, start) <= bound):
             return None
         past.insert(0, start)
         del past[8:]
         return u
+
+    def _on_path(self, root: Numbers, k: Numbers) -> bool:
+        """Whether the straight path joins a root to no rotation: an inequality with room, looked at in float64."""
+        u, half, g = ([to_float(x, self.P) for x in v] for v in (root, k, self.g))
+        I, D = self.floats
+        numbers = *u, inner(u, u), *half, math.hypot(*half), *g, *I, D, 0.5 * (max(I) - min(I))
+        proved, _ = joined(*numbers)
+        return bool(proved)
 
     def _follow(self, u: Numbers) -> None:
         """Moves the contact point and the attitude."""

@@ -18,7 +18,7 @@ from chapsym.numbers import pairs
 from .. import columns
 from ..ball import Floats
 from ..errors import BadInput
-from ..loops import block, composed_loop, gibbs, integrals, loop, single_loop, single_step, sums
+from ..loops import block, composed_loop, gibbs, integrals, loop, path, single_loop, single_step, sums
 from . import double
 from .double import Loops
 from .frames import Balls, Frames
@@ -42,6 +42,7 @@ def loops() -> Loops:
     family.loops(integrals, VERTICAL=np.float32(1e-4))  # the square of an angle that float32 can tell from 0
     own = family.loops(single_loop)
     rounds.bound = own.checkable
+    family.loops(path)
     march = family.loops(loop, small_rotation=own.widened, follow_body=own.follow_body)
     return Loops(
         march,

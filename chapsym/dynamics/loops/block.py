@@ -5,9 +5,11 @@ It does to each ball what `loop.march` does, with the same roundings; for numba 
 
 import numpy as np
 
-from .gibbs import newton_round, second_round, settle
+from .gibbs import BEYOND, newton_round, second_round, settle
 from .integrals import PERIOD, restore
 from .loop import ENOUGH, RADIUS, ROWS, A, D, G, I, K, X, followed, prepare, safe_rotation, three
+from .path import MOST_ROUNDS as PATH_ROUNDS
+from .path import settle_on_path
 from .sums import filtered, turned
 
 #: Balls in a block, at most: its rows stay in the first-level cache.
@@ -75,6 +77,29 @@ def corrected(S, P, ok, again):
     return unsettled(ok)
 
 
+def on_path(S, P, ok, again):
+    """A round of `path.search_on_path` for the lanes beyond the bound; `again`, from the round before.
+
+    Returns how many did not settle, and for how many of them another round may.
+    """
+    for i in range(whole(ok)):
+        u1, u2, u3 = (P[4, i], P[5, i], P[6, i]) if again else (S[A, i], S[A + 1, i], S[A + 2, i])
+        going = (S[RADIUS, i] == BEYOND) & ((P[7, i] == 1.0) | (not again))
+        settled, p0, p1, p2, p3, w1, w2, w3, may = settle_on_path(
+            u1, u2, u3, S[K, i], S[K + 1, i], S[K + 2, i], S[G, i], S[G + 1, i], S[G + 2, i],
+            S[I, i], S[I + 1, i], S[I + 2, i], S[D, i],
+        )  # fmt: skip
+        P[0, i], P[1, i] = p0 if going else P[0, i], p1 if going else P[1, i]
+        P[2, i], P[3, i] = p2 if going else P[2, i], p3 if going else P[3, i]
+        P[4, i], P[5, i], P[6, i] = w1 if going else P[4, i], w2 if going else P[5, i], w3 if going else P[6, i]
+        P[7, i] = 1.0 if going & may else 0.0
+        ok[i] = 1 if going & settled else ok[i]
+    left = 0.0
+    for i in range(whole(ok)):
+        left += P[7, i]
+    return unsettled(ok), left
+
+
 def unsettled(ok):
     """How many lanes did not settle: counted apart, as a wide counter would narrow the registers of the others."""
     bad = 0
@@ -84,11 +109,12 @@ def unsettled(ok):
 
 
 def uncertified(S, ok):
-    """How many lanes no round can settle."""
-    count = 0
+    """How many lanes no round by the lemma can settle, and how many of them are beyond its bound."""
+    count, beyond = 0, 0
     for i in range(len(ok)):
         count += 0 if S[RADIUS, i] >= 0.0 else 1
-    return count
+        beyond += 1 if S[RADIUS, i] == BEYOND else 0
+    return count, beyond
 
 
 def mend(S, P, ok, step, taken, status, reach, balls):
@@ -174,12 +200,13 @@ def march_block(
     body: (7, lanes), the attitude, the contact point and the radius, which are touched only when `with_body`.
     scale, taken, status and reach have one entry for each ball; lanes beyond them are idle copies.
     """
-    S, P, B = rows(ROWS, state.dtype), rows(7, state.dtype), rows(7, state.dtype)
+    S, P, B = rows(ROWS, state.dtype), rows(8, state.dtype), rows(7, state.dtype)
     width = state.shape[1]
     ok = np.empty(width, dtype=np.int32)
     S[:, :width], B[:, :width] = state, body
     balls = len(status)
-    step, last, patience, hopeless = first, first + count, 0, uncertified(S, ok)
+    step, last, patience = first, first + count, 0
+    hopeless, beyond = uncertified(S, ok)
     while step < last:
         stop = min(last, step + every - step % every, step + PERIOD - step % PERIOD)
         while step < stop:
@@ -191,9 +218,13 @@ def march_block(
                 bad, rounds = corrected(S, P, ok, False), 1
                 while bad > hopeless + FEW and rounds < ROUNDS:
                     bad, rounds = corrected(S, P, ok, True), rounds + 1
+            if beyond != 0:
+                (bad, left), rounds = on_path(S, P, ok, False), 1
+                while left > FEW and rounds < PATH_ROUNDS:
+                    (bad, left), rounds = on_path(S, P, ok, True), rounds + 1
             if bad != 0:
                 mend(S, P, ok, step, taken, status, reach, balls)
-                hopeless = uncertified(S, ok)
+                hopeless, beyond = uncertified(S, ok)
             if with_body:
                 rolled(S, P, B, ok)
             moved(S, P, ok)

@@ -16,8 +16,9 @@ from chapsym.generated.double_double import gibbs_residual_pairs, moved_pairs, r
 from chapsym.numbers.pairs import divide, loose_add, root, two_product, two_sum
 
 from .branch import FOLDED, NOT_CONVERGED, TAKEN, inverse, small_rotation
-from .gibbs import MOST_ROUNDS, certificate, newton_round
+from .gibbs import BEYOND, MOST_ROUNDS, certificate, newton_round
 from .loop import HIGHEST
+from .path import search_on_path
 
 #: |e|² relative to |w|² from which the sum is corrected once more: 8 roundings of float64.
 SMALL = 2.0**-100
@@ -159,7 +160,13 @@ def solved(
         p0 = 1.0 / sqrt(1.0 + (w1 * w1 + (w2 * w2 + w3 * w3)))
         p1, p2, p3 = p0 * w1, p0 * w2, p0 * w3
     else:
-        status, reach, p0, p1, p2, p3 = small_rotation(2.0 * k1, 2.0 * k2, 2.0 * k3, g1, g2, g3, J1, J2, J3, D)
+        if radius == BEYOND:
+            settled, p0, p1, p2, p3, w1, w2, w3 = search_on_path(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D)
+        if settled:
+            p0 = 1.0 / sqrt(1.0 + (w1 * w1 + (w2 * w2 + w3 * w3)))
+            p1, p2, p3 = p0 * w1, p0 * w2, p0 * w3
+        else:
+            status, reach, p0, p1, p2, p3 = small_rotation(2.0 * k1, 2.0 * k2, 2.0 * k3, g1, g2, g3, J1, J2, J3, D)
         # So near to 1 float64 does not see on which side of the fold 𝒦 is; pairs do.
         if status != TAKEN and not (status == FOLDED and reach > NEARLY):
             return status, reach, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0

@@ -27,6 +27,8 @@ SMALLEST = 2.0**-120
 LIGHTEST = 2.0**-300
 #: From this D/I_min on a ball is heavy: by a row u loses up to half of D/I_min in ulps, a twelfth in the median.
 HEAVY = 32.0
+#: In place of a radius²: |𝒦| is beyond the bound, and each root has to be proved (`path`).
+BEYOND = -2.0
 
 
 def is_heavy(I1, I2, I3, D):
@@ -42,7 +44,7 @@ def certificate(k1, k2, k3, I1, I2, I3, D):
 
 
 def bound(k1, k2, k3, I1, I2, I3, D):
-    """(radius², enough) by lemma `small-branch`; (-1, 0) where |𝒦| is beyond its bound.
+    """(radius², enough) by lemma `small-branch`; (BEYOND, 0) where |𝒦| is beyond its bound.
 
     A Newton correction d with |d|² ≤ enough is the last: it leaves a relative error of `LEFT` at most.
     """
@@ -51,11 +53,11 @@ def bound(k1, k2, k3, I1, I2, I3, D):
     least, most = min(I1, I2, I3), max(I1, I2, I3)
     spread = 0.5 * (most - least)
     if not size < least:
-        return -1.0, 0.0
+        return BEYOND, 0.0
     inner = size / (least + sqrt((least - size) * (least + size)))  # tan(½ arcsin(|𝒦|/I_min)): the root is within
     slope = spread + size
     if not inner * slope < INSIDE * least:
-        return -1.0, 0.0
+        return BEYOND, 0.0
     limit = min(1.0, least / slope) if slope > 0.0 else 1.0
     # A little more than the ball that contains the root, inside the one on which G is monotone.
     radius = min(1.25 * inner, 0.5 * (inner + limit))

@@ -5,8 +5,9 @@ from math import frexp, ldexp, sqrt
 from chapsym.generated import centre_step, compose, rotate
 
 from .branch import small_rotation
-from .gibbs import SMALLEST, certificate, search_safely, settle
+from .gibbs import BEYOND, SMALLEST, certificate, search_safely, settle
 from .integrals import PERIOD, remember, restore
+from .path import search_on_path
 from .sums import filtered, turned
 
 #: The largest exponent by which a ball is scaled.
@@ -68,10 +69,13 @@ def safe_rotation(u1, u2, u3, state):
     """
     k1, k2, k3 = three(state, K)
     g1, g2, g3 = three(state, G)
-    settled, p0, p1, p2, p3, w1, w2, w3 = search_safely(
-        u1, u2, u3, k1, k2, k3, g1, g2, g3,
-        state[I], state[I + 1], state[I + 2], state[D], state[RADIUS], state[ENOUGH],
-    )  # fmt: skip
+    I1, I2, I3 = three(state, I)
+    if state[RADIUS] == BEYOND:
+        settled, p0, p1, p2, p3, w1, w2, w3 = search_on_path(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, state[D])
+    else:
+        settled, p0, p1, p2, p3, w1, w2, w3 = search_safely(
+            u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, state[D], state[RADIUS], state[ENOUGH]
+        )  # fmt: skip
     if settled:
         return 0, 1.0, p0, p1, p2, p3, w1, w2, w3
     status, reach, p0, p1, p2, p3 = small_rotation(

@@ -18,7 +18,7 @@ def checkable(k1, k2, k3, I1, I2, I3, D):
     """`gibbs.bound`; none either where float32 could not compare the squares that it is used with."""
     radius, enough = bound(k1, k2, k3, I1, I2, I3, D)
     moving = k1 != 0.0 or k2 != 0.0 or k3 != 0.0
-    if moving and enough < LEAST_ENOUGH:
+    if moving and radius >= 0.0 and enough < LEAST_ENOUGH:
         return -1.0, 0.0
     return radius, enough
 

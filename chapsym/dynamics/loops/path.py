@@ -1,0 +1,113 @@
+"""Beyond the bound of lemma `small-branch`: each step's root is proved to be that of the small-rotation branch.
+
+Plain scalar Python, so that the same functions run on floats and are compiled by numba.
+
+Lemma `straight-path` joins the root u at hand to no rotation by the path su, t(s) = s + cs(1 - s), 0 ≤ s ≤ 1.  There
+G = s(1 - s)R(s), and the Jacobian stretches by m(s) at least; with σ = ½(I_max - I_min) + |𝒦| the root is that of the
+branch if 4σs(1 - s)|R(s)| < m(s)² for all s.  That is looked at on a few intervals.  m(1) also bounds what a
+correction leaves.  Near a fold m(1) goes to 0, and the check fails: such a step is left to the continuation.
+"""
+
+from math import sqrt
+
+from chapsym.generated import gibbs_symmetric
+
+from .gibbs import LEFT, newton_round, second_round
+
+#: How much of the inequality may be used: its roundings are far below the rest.
+INSIDE = 0.98
+#: c makes R(s) as small as it can be at this s.
+LEVEL = 0.75
+#: Rounds that are tried before the continuation: the guess comes from the steps before.
+MOST_ROUNDS = 4
+#: A correction whose square is below this, beside |u|², has found a root: another round would not prove more.
+FOUND = 1e-26
+
+
+def search_on_path(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D):
+    """Rounds of `settle_on_path`; returns (settled, p0, p1, p2, p3, u1, u2, u3)."""
+    for _ in range(MOST_ROUNDS):
+        settled, p0, p1, p2, p3, u1, u2, u3, may = settle_on_path(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D)
+        if settled:
+            return True, p0, p1, p2, p3, u1, u2, u3
+        if not may:
+            break
+    return False, 1.0, 0.0, 0.0, 0.0, u1, u2, u3
+
+
+def settle_on_path(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D):
+    """Three corrections of a guess of the Gibbs vector, and whether what they find is proved to be the branch's root.
+
+    Returns (settled, p0, p1, p2, p3, u1, u2, u3, may): another round may settle it.  The last two corrections, d and
+    e, leave a residual of at most 3κ max(|d|,|e|)|e|, κ = ½(I_max - I_min) + |k| (`gibbs-newton`), and half the least
+    stretch divides it.
+    """
+    _, _, _, _, u1, u2, u3, _, _, _, _, _, _, _, _, _, _, _, _, _ = newton_round(
+        u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D
+    )
+    p0, _, _, _, _, _, _, first, d1, d2, d3, c11, c12, c13, c21, c22, c23, c31, c32, c33 = newton_round(
+        u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D
+    )
+    p1, p2, p3, w1, w2, w3, second = second_round(
+        p0, p0 * (u1 + d1), p0 * (u2 + d2), p0 * (u3 + d3), k1, k2, k3, d1, d2, d3,
+        c11, c12, c13, c21, c22, c23, c31, c32, c33, I1, I2, I3,
+    )  # fmt: skip
+    half = sqrt(k1 * k1 + (k2 * k2 + k3 * k3))
+    spread = 0.5 * (max(I1, I2, I3) - min(I1, I2, I3))
+    square = w1 * w1 + (w2 * w2 + w3 * w3)
+    proved, least = joined(w1, w2, w3, square, k1, k2, k3, half, g1, g2, g3, I1, I2, I3, D, spread)
+    curved, allowed = 6.0 * (spread + half), LEFT * least
+    settled = proved & (curved * curved * (max(first, second) * second) <= allowed * allowed * square)
+    return settled, p0, p1, p2, p3, w1, w2, w3, (second > FOUND * square) & (not settled)
+
+
+def joined(u1, u2, u3, square, k1, k2, k3, half, g1, g2, g3, I1, I2, I3, D, spread):
+    """Whether the straight path joins a root u of G to no rotation, and the least stretch m(1) at u.
+
+    square: |u|²; half: |k|; spread: ½(I_max - I_min).
+    """
+    none = 0.0 * u1
+    first = lowest(*gibbs_symmetric(none, none, none, k1, k2, k3, g1, g2, g3, I1, I2, I3, D))
+    last = lowest(*gibbs_symmetric(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D))
+    x1 = I3 * u2 * u3 - I2 * u2 * u3
+    x2 = I1 * u1 * u3 - I3 * u1 * u3
+    x3 = I2 * u1 * u2 - I1 * u1 * u2
+    along = (x1 * k1 + (x2 * k2 + x3 * k3)) / (half * half)
+    across = max(x1 * x1 + (x2 * x2 + x3 * x3) - along * along * (half * half), 0.0)
+    c = max(0.0, min(1.0, (square * (1.0 + LEVEL) - along) / (1.0 + LEVEL * LEVEL * square)))
+    sag = half * sqrt(square) - (k1 * u1 + (k2 * u2 + k3 * u3))
+    slope = spread + 2.0 * half
+    proved = (first > 0.0) & (last > 0.0)
+    proved = proved & small_between(0.0, 0.4, 0.24, square, c, along, across, half, slope, sag, first, last)
+    proved = proved & small_between(0.4, 0.65, 0.25, square, c, along, across, half, slope, sag, first, last)
+    proved = proved & small_between(0.65, 0.85, 0.2275, square, c, along, across, half, slope, sag, first, last)
+    proved = proved & small_between(0.85, 1.0, 0.1275, square, c, along, across, half, slope, sag, first, last)
+    return proved, last
+
+
+def small_between(a, b, most, square, c, along, across, half, slope, sag, first, last):
+    """Whether 4σs(1 - s)|R(s)| < m(s)² for a ≤ s ≤ b, where s(1 - s) ≤ most.
+
+    R(s) has the component |k|r(s) along k, r = |u|²(1 + s) - c(1 + s²|u|²) - `along`, which is concave, and the
+    square `across` beside it; m(s) = (1 - s)·first + s·last - s(1 - s)·sag at least.
+    """
+    start = square * (1.0 + a) - c * (1.0 + a * a * square) - along
+    end = square * (1.0 + b) - c * (1.0 + b * b * square) - along
+    r = max(abs(start), abs(end)) + 0.25 * (b - a) * (b - a) * c * square
+    m = min((1.0 - a) * first + a * last, (1.0 - b) * first + b * last) - most * sag
+    left = 4.0 * slope * most
+    return (m > 0.0) & (left * left * (half * half * (r * r) + across) < INSIDE * (m * m) * (m * m))
+
+
+def lowest(trace, minors, det):
+    """A little less than the smallest eigenvalue of a symmetric 3×3 matrix with these invariants; -1 unless it is > 0.
+
+    Newton's iteration on the characteristic polynomial from 0: left of its roots it is concave and grows, so no
+    iterate passes the first.
+    """
+    positive = (trace > 0.0) & (minors > 0.0) & (det > 0.0)
+    x = det / minors if positive else -1.0
+    for _ in range(2):
+        value, slope = ((x - trace) * x + minors) * x - det, (3.0 * x - 2.0 * trace) * x + minors
+        x = x - value / slope if positive & (slope > 0.0) else x
+    return x

@@ -1,0 +1,215 @@
+"""Steps beyond the bound of small-branch: what lemma `straight-path` proves, and what it must not."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
+from small_branch import heavy, prepared
+
+import chapsym
+from chapsym import Ball, Status, testing
+from chapsym.dynamics.loops import gibbs, loop, path
+from chapsym.dynamics.loops.branch import small_rotation
+
+BALL = Ball((0.1, 0.5, 1.6), 0.7)
+MOMENTUM, GAMMA = np.array((6, -2, 3)) / 7, np.array((2, 3, 6)) / 7
+
+
+def of(state):
+    """k, γ, I and D of a state as `search_on_path` wants them, or None within the bound of small-branch."""
+    array = prepared(state)
+    if array[loop.RADIUS] != gibbs.BEYOND:
+        return None
+    return (*array[loop.K : loop.K + 3], *array[loop.G : loop.G + 3], *array[loop.I : loop.I + 3], array[loop.D])
+
+
+def continued(state):
+    """(status, Gibbs vector) of the continuation."""
+    ball, momentum, gamma = state
+    status, _, q0, *q = small_rotation(*momentum, *gamma, *ball.mass_tensor, float(ball.D))
+    return status, np.array(q) / q0 if q0 else np.full(3, np.inf)
+
+
+@given(testing.states(fraction=(0.2, 0.98)), testing.unit_vectors(), st.floats(0, 3))
+def test_what_is_proved_is_the_root_of_the_continuation(state, direction, size):
+    """Whatever the guess is: the other roots, to which Newton's iteration may go, are never taken for it."""
+    assume(not heavy(state[0]))
+    numbers = of(state)
+    assume(numbers is not None)
+    status, u = continued(state)
+    assert status == Status.TAKEN
+    for guess in (u, u + size * direction, -size * u, size * direction):
+        settled, p0, *rest = path.search_on_path(*guess, *numbers)
+        if settled:
+            assert np.abs(np.array(rest[3:]) - u).max() <= 1e-9 * np.linalg.norm(u)  # near a fold both lose digits
+            assert np.array(rest[:3]) / p0 == pytest.approx(np.array(rest[3:]), rel=1e-14)
+
+
+@given(testing.states(fraction=(1.0001, 3.0)), testing.unit_vectors(), st.floats(0, 3))
+def test_behind_the_fold_nothing_is_proved(state, direction, size):
+    """There are roots there, but none that the small branch goes to."""
+    assume(not heavy(state[0]))
+    numbers = of(state)
+    assume(numbers is not None and continued(state)[0] == Status.FOLDED)
+    for guess in (size * direction, -size * direction, 3 * size * direction):
+        assert not path.search_on_path(*guess, *numbers)[0]
+
+
+def test_how_far_the_straight_path_reaches():
+    """Of 300 seeded states at a fraction of their fold: as measured, so that a check that says no too often is seen."""
+    draw, proved = np.random.default_rng(5), {0.6: 0, 0.8: 0, 0.9: 0}
+    count = 0
+    while count < 300:
+        J, D = draw.uniform(0.2, 3, 3), draw.choice([0.0, 3.0])
+        K, g = draw.normal(size=(2, 3))
+        ball, g = Ball(J, D), g / np.linalg.norm(g)
+        K *= 8 * (2 * J.sum() + D) / np.linalg.norm(K)
+        status, reach, *_ = small_rotation(*K, *g, *J, D)
+        if status != Status.FOLDED or heavy(ball):
+            continue
+        count += 1
+        for fraction in proved:
+            state = ball, fraction * reach * K, g
+            numbers = of(state)
+            proved[fraction] += numbers is None or path.search_on_path(*continued(state)[1], *numbers)[0]
+    assert proved[0.6] >= 299
+    assert proved[0.8] >= 290
+    assert proved[0.9] >= 265
+
+
+def test_where_the_path_joins_its_inequality_holds():
+    """4σ|G_t(su)| < m² all along, with G and the least eigenvalue m of its Jacobian's symmetric part by NumPy."""
+    draw, closest = np.random.default_rng(8), []
+    s = np.linspace(0, 1, 101)[:, np.newaxis]
+    for _ in range(300):
+        inertia, D = draw.uniform(1, 4) + np.array([*draw.uniform(0, 1, 2), 0.0]), draw.choice([0.0, 3.0])
+        axis, g = (v / np.linalg.norm(v) for v in draw.normal(size=(2, 3)))
+        B, spread = np.diag(inertia) + D * (np.eye(3) - np.outer(g, g)), np.ptp(inertia) / 2
+        for length in np.arange(1.2, 0, -0.02):  # the largest that is joined
+            u = length * axis
+            square, x = u @ u, np.cross(u, inertia * u)
+            k = (B @ u + x) / (1 + square)  # so that u is a root
+            half = np.linalg.norm(k)
+            if path.joined(*u, square, *k, half, *g, *inertia, D, spread)[0]:
+                break
+        c = (square * (1 + path.LEVEL) - x @ k / half**2) / (1 + path.LEVEL**2 * square)
+        t = s + np.clip(c, 0, 1) * s * (1 - s)
+        residual = s * (B @ u) + s**2 * x - (1 + s**2 * square) * t * k
+        twist = np.array([np.cross(u, inertia * e) + np.cross(e, inertia * u) for e in np.eye(3)]).T
+        jacobian = B + s[..., np.newaxis] * (twist - 2 * t[..., np.newaxis] * np.outer(k, u))
+        m = np.linalg.eigvalsh((jacobian + jacobian.mT) / 2)[:, 0]
+        used = 4 * (spread + 2 * half) * np.linalg.norm(residual, axis=1) / m**2
+        assert m.min() > 0
+        assert used.max() < 1
+        closest.append(used.max())
+    assert max(closest) > 0.4  # the bounds on intervals cost about a half
+
+
+def test_the_intervals_cover_the_path(monkeypatch):
+    """What the check of the intervals is given, by formulas in vectors: with room for roundings only."""
+    calls = []
+    monkeypatch.setattr(path, "small_between", lambda *given: calls.append(given) or True)
+    draw = np.random.default_rng(3)
+    for size in np.linspace(0.01, 1.5, 100):
+        inertia, D = draw.uniform(1, 2, 3), draw.choice([0.0, 3.0])
+        u, g, k = draw.normal(size=(3, 3))
+        u, g = u * size / np.linalg.norm(u), g / np.linalg.norm(g)
+        square, x, spread = u @ u, np.cross(u, inertia * u), np.ptp(inertia) / 2
+        k = draw.choice([0.1 * x, k])  # c is 0 where u × Iu has much of a small k
+        half = np.linalg.norm(k)
+        proved, least = path.joined(*u, square, *k, half, *g, *inertia, D, spread)
+        B = np.diag(inertia) + D * (np.eye(3) - np.outer(g, g))
+        bent = np.array([np.cross(u, inertia * e) + np.cross(e, inertia * u) for e in np.eye(3)]).T
+        S = B + (bent + bent.T) / 2 - np.outer(k, u) - np.outer(u, k)
+        eigenvalues = np.linalg.eigvalsh(B)[0], np.linalg.eigvalsh(S)[0]
+        assert proved == (eigenvalues[1] > 0)
+        a, b, most = np.array(calls)[:, :3].T
+        assert [a[0], *a[1:], 1.0] == [0.0, *b[:-1], b[-1]]
+        assert (most >= np.where((a <= 0.5) & (b >= 0.5), 0.25, np.maximum(a * (1 - a), b * (1 - b)))).all()
+        component = x @ k / half**2
+        exact = [
+            component,
+            (x - component * k) @ (x - component * k),
+            spread + 2 * half,
+            half * np.sqrt(square) - k @ u,
+        ]
+        for _, _, _, found, c, along, across, length, slope, bent, first, last in calls:
+            assert 0 <= c <= 1
+            assert (found, length, last) == (square, half, least)
+            assert [along, across, slope, bent] == pytest.approx(exact, abs=1e-12)
+            for bound, eigenvalue in zip((first, last), eigenvalues, strict=True):
+                assert 0.4 * eigenvalue <= bound <= eigenvalue * (1 + 1e-12) or (bound == -1 and eigenvalue < 0)
+        calls.clear()
+
+
+def stretched(rng):
+    """A random positive definite matrix, with eigenvalues far apart or together."""
+    axes, _ = np.linalg.qr(rng.normal(size=(3, 3)))
+    return axes @ np.diag(10.0 ** rng.uniform(-3, 0, 3)) @ axes.T
+
+
+def test_the_least_eigenvalue_is_bounded_from_below():
+    rng = np.random.default_rng(1)
+    for _ in range(300):
+        matrix = stretched(rng)
+        trace, det = np.trace(matrix), np.linalg.det(matrix)
+        minors = (trace**2 - np.trace(matrix @ matrix)) / 2
+        least = np.linalg.eigvalsh(matrix)[0]
+        assert 0.5 * least <= path.lowest(trace, minors, det) <= least * (1 + 1e-9)
+    assert path.lowest(1.0, -1.0, -1.0) == path.lowest(-3.0, 3.0, -1.0) == path.lowest(3.0, 1.0, -0.1) == -1.0
+
+
+@pytest.mark.parametrize("guess", [(math.nan, 0.0, 0.0), (math.inf, 1.0, 1.0), (1e200, 0.0, 0.0)])
+def test_a_guess_that_is_no_number_proves_nothing(guess):
+    numbers = of((BALL, 0.6 * MOMENTUM, GAMMA))
+    with np.errstate(all="ignore"):
+        assert not path.search_on_path(*map(np.float64, guess), *map(np.float64, numbers))[0]
+
+
+def test_an_interval_is_small_where_it_says_so():
+    """4σs(1 - s)|R(s)| < m(s)², with R and m by their formulas in vectors, for the largest σ that is accepted."""
+    rng, closest = np.random.default_rng(2), 0.0
+    for _ in range(1000):
+        a, b = np.sort(rng.uniform(size=2))
+        b = a + (b - a) * rng.choice([0.1, 1.0])
+        k, u = rng.normal(size=(2, 3)) * [[1], [rng.uniform(0, 1.5)]]
+        inertia, c, first, last = rng.uniform(0.5, 2, 3), rng.uniform(), *rng.uniform(0.1, 2, 2)
+        x, square, half = np.cross(u, inertia * u), u @ u, np.linalg.norm(k)
+        along, sag = x @ k / half**2, rng.uniform(0, 1)
+        across = max(x @ x - along**2 * half**2, 0)
+        most = 0.25 if a <= 0.5 <= b else max(a * (1 - a), b * (1 - b))
+        low, high = 0.0, 1e3
+        for _ in range(50):
+            middle = (low + high) / 2
+            small = path.small_between(a, b, most, square, c, along, across, half, middle, sag, first, last)
+            low, high = (middle, high) if small else (low, middle)
+        if low == 0.0:
+            continue  # m is not positive
+        s = np.linspace(a, b, 30)
+        R = np.linalg.norm(np.outer(square * (1 + s) - c * (1 + s * s * square), k) - x, axis=1)
+        m = (1 - s) * first + s * last - s * (1 - s) * sag
+        assert m.min() > 0
+        used = (4 * low * s * (1 - s) * R / m**2).max()
+        assert used < 1
+        closest = max(closest, used)
+    assert closest > 0.95
+    # r = s(1 - s) is 0 at both ends, and not between.
+    assert not path.small_between(0.0, 1.0, 0.25, 1.0, 1.0, 0.0, 0.0, 1.0, 8.0, 0.0, 1.0, 1.0)
+
+
+@pytest.mark.parametrize("precision", ["single", "double", "double-double", chapsym.Digits(30)])
+@pytest.mark.parametrize("size", [0.5, 0.8])
+def test_a_run_beyond_the_bound_is_that_of_the_continuation(precision, size, monkeypatch):
+    """40 steps, each of which the path proves, beside those that `small_rotation` finds: they differ by roundings."""
+    run = chapsym.trajectory(BALL, size * MOMENTUM, GAMMA, 40, precision=precision)
+    K, g = size * MOMENTUM, GAMMA
+    for _ in range(40):
+        status, _, *q = small_rotation(*K, *g, *BALL.mass_tensor, float(BALL.D))
+        assert status == Status.TAKEN
+        K, g = (np.array(chapsym.dynamics.kernels.transport(np.array(q), v)) for v in (K, g))
+    # A rounding of a step grows as the motion, which is regular here, does: by less than the number of steps.
+    budget = 40 * 40 * (2.0**-24 if precision == "single" else 2.0**-53)
+    assert np.abs(np.array(run.momentum[-1], dtype=float) - K).max() <= budget * size
+    assert np.abs(np.array(run.gamma[-1], dtype=float) - g).max() <= budget
