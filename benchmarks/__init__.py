@@ -18,6 +18,7 @@ SECTIONS = {
     "plans": "plans",
     "calls": "calls",
     "lanes": "lanes",
+    "beyond": "beyond",
     "first-call": "first_call",
     "long": "long_runs",
     "work-precision": "work_precision",

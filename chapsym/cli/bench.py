@@ -18,7 +18,8 @@ def bench(
         list[str] | None,
         typer.Argument(
             metavar="[SECTION]...",
-            help="trajectory, batch, memory, plans, calls, lanes, first-call, long, work-precision, dimensions; all.",
+            help="trajectory, batch, memory, plans, calls, lanes, beyond, first-call, long, work-precision, "
+            "dimensions; all.",
         ),
     ] = None,
     quick: Annotated[bool, typer.Option("--quick", help="Smaller sizes and fewer rounds: seconds.")] = False,

@@ -129,7 +129,7 @@ class DigitsBall:
         self.x = [self.x[0] + x, self.x[1] + y]
 
     def _rotation(self, k: Numbers) -> Numbers:
-        """The rotation of a step by the float64 continuation, refined: where the lemma does not hold."""
+        """The rotation of a step by the float64 continuation, refined: where neither lemma holds."""
         K, g, J, D = (tuple(self.out(x) for x in v) for v in ([2 * x for x in k], self.g, self.J, (self.D,)))
         near = tuple(map(self.precision.number, start_near(K, g, J, D[0])))
         q = refined(self.precision, near, K, g, J, D)

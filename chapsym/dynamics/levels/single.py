@@ -2,7 +2,7 @@
 
 State, sums and rotations are float32; each register holds twice as many balls.  𝒦, γ, the attitude and the contact
 point are summed with compensation, and the integrals restored, as in float64.  Two things are float64 still: the
-continuation of a step that is beyond the bound of lemma `small-branch`, rounded, and why such a step has no rotation.
+continuation of a step that neither `small-branch` nor `straight-path` proves, rounded, and why a step has no rotation.
 """
 
 from collections.abc import Callable
