@@ -6,7 +6,8 @@
 To be read in this order: interval.py (arithmetic), linear.py (elimination, Newton's test), step.py (the map), then
 measure.py and orbit.py (what a certificate says and why it is proved); taylor.py (functions of the time), drift.py;
 document.py (the form of a file).  For the statements of the register: trees.py, polynomial.py, words.py, algebra.py,
-matrices.py, derivation.py (how what they are about is made), form.py, register.py; shown.py prints what was judged.
+matrices.py, derivation.py (how what they are about is made), form.py, roots.py, register.py; shown.py prints what was
+judged.
 """
 
 from dataclasses import dataclass

@@ -142,6 +142,11 @@ def values(data: Sequence[dict[str, Any]], algebras: Sequence[Algebra | Quotient
     return found
 
 
+def valued(data: Sequence[dict[str, Any]]) -> dict[str, Any]:
+    """The trees of the names that have a value."""
+    return {one["name"]: one["value"] for one in data if "value" in one}
+
+
 def check_use(data: Sequence[dict[str, Any]], trees: Sequence[Any]) -> None:
     """Raises Rejected where a definition is used neither in these trees nor by one that is."""
     known = used(data, trees)

@@ -17,6 +17,9 @@ stand for from premises.
 A comparison says that numbers at a point are less than others, equal or not.  A hypothesis is such relations, too; they
 must hold at every point of the certificate that has values for their names, and there must be one.
 
+A count is such relations between the numbers of solutions that equations have (roots.py), which hold; or, for one that
+is printed and false, do not.
+
 A counterexample is a point, or matrices, at which the relations or rules and the hypotheses hold, the printed
 statements it refutes fail, and the corrected ones hold.  The sentences are not judged: they are what the claim says
 beside this.
@@ -29,7 +32,7 @@ from contextlib import suppress
 from fractions import Fraction
 from typing import Any
 
-from . import derivation
+from . import derivation, roots
 from .algebra import Algebra, all_or_none
 from .derivation import Made
 from .document import check_names, count
@@ -41,7 +44,7 @@ from .trees import check_name, check_tree, names_in, rational, value
 from .words import Matrix, same, trace
 
 NAMES = "format kind statement claim printed corrected hypotheses algebras derivation points statements comparisons "
-NAMES += "counterexamples sentences digest"
+NAMES += "counts counterexamples sentences digest"
 _CLAIM = re.compile(r"[\w.-]{1,40}", re.ASCII)
 ROLES = ("printed", "corrected", "under", "lemma", "second route")
 SENTENCES = (*ROLES, "hypothesis", "said", "counterexample", "certificate")
@@ -60,6 +63,7 @@ def statement(data: dict[str, Any]) -> str:
     derived = sum(not names_in([0, *one["left"], *one["right"]]).isdisjoint(names) for one in proved)
     premises = sum(derivation.is_premise(one, names) for one in data["derivation"])
     refuted = len(data["statements"]) - len(proved)
+    true = sum(one["holds"] for one in data["counts"])
     equal = sum(one["left"] == one["right"] for one in proved)
     return (
         f"Claim {data['claim']}: {len(proved) - words} statements hold wherever their relations hold and their "
@@ -68,7 +72,8 @@ def statement(data: dict[str, Any]) -> str:
         f"size, where no number that they divide by is 0; {derived} of these are about what {len(names)} definitions "
         f"make, of which {premises} name no other; {equal} of these have one "
         f"expression on both sides, and say nothing of how it was derived; {refuted} printed statements fail at "
-        f"{len(data['counterexamples'])} points given; {len(data['comparisons'])} comparisons hold at theirs.  "
+        f"{len(data['counterexamples'])} points given; {len(data['comparisons'])} comparisons hold at theirs; "
+        f"{true} counts of the solutions of equations hold, and {len(data['counts']) - true} printed ones fail.  "
         f"{len(data['hypotheses'])} hypotheses hold at every point that has values for them.  "
         f"{len(data['sentences'])} sentences are listed and not checked."
     )
@@ -77,7 +82,7 @@ def statement(data: dict[str, Any]) -> str:
 def check_form(data: dict[str, Any]) -> None:
     """Raises Rejected unless every part is there, in its form, and every number in its only form."""
     check_names(data, NAMES, "the certificate")
-    for name in ("hypotheses", "points", "statements", "comparisons", "counterexamples", "sentences"):
+    for name in ("hypotheses", "points", "statements", "comparisons", "counts", "counterexamples", "sentences"):
         many(data[name], name)
     if not isinstance(data["claim"], str) or not _CLAIM.fullmatch(data["claim"]):
         raise Rejected("claim must be the id of a claim, such as prop-4")
@@ -106,6 +111,15 @@ def check_form(data: dict[str, Any]) -> None:
         chosen(one["role"], ROLES, f"comparison {i}")
         at = count(one["point"], 0, len(data["points"]) - 1, f"comparison {i}")
         check_relations(one, data["points"][at], f"comparison {i}")
+    values = [derivation.valued(data["derivation"]).keys() & names for names in defined]
+    for i, one in enumerate(data["counts"]):
+        where = f"count {i}"
+        check_names(one, roots.NAMES, where)
+        if type(one["holds"]) is not bool:
+            raise Rejected(f"{where} must say whether it holds: true or false")
+        chosen(one["role"], ROLES if one["holds"] else ("printed",), f"the role of {where}")
+        check_relations(one, roots.NUMBERS, where)
+        roots.check_form(one, data["algebras"], data["points"], values, where)
     known = set().union(*data["points"], *(one["point"] for one in data["counterexamples"]))
     for i, one in enumerate(data["hypotheses"]):
         check_names(one, "text relations", f"hypothesis {i}")
@@ -255,23 +269,32 @@ def check(data: dict[str, Any]) -> dict[str, str]:
     for i, one in enumerate(data["comparisons"]):
         if not compared(one, points[one["point"]], f"comparison {i}"):
             raise Rejected(f"comparison {i} fails at its point")
+    values = derivation.valued(data["derivation"])
+    for i, one in enumerate(data["counts"]):
+        algebra, point, where = data["algebras"][one["algebra"]], points[one["point"]], f"count {i}"
+        numbers = roots.solutions(one, algebra, point, values, work, where)
+        if compared(one, numbers, where) is not one["holds"]:
+            raise Rejected(f"{where} says something else than the numbers {', '.join(map(str, numbers.values()))}")
     everywhere = [*points, *(entries(one["point"]) for one in data["counterexamples"])]
     for i, one in enumerate(data["hypotheses"]):
         check_hypothesis(one, everywhere, f"hypothesis {i}")
     for i, one in enumerate(data["counterexamples"]):
         check_counterexample(one, i, data, algebras, defined)
     stated = [*data["statements"], *(h for one in data["counterexamples"] for h in one["hypotheses"])]
-    derivation.check_use(data["derivation"], [tree for one in stated for tree in (*one["left"], *one["right"])])
+    trees = [tree for one in stated for tree in (*one["left"], *one["right"])]
+    trees += [tree for one in data["counts"] for tree in (*one["equations"], *one["nonzero"])]
+    derivation.check_use(data["derivation"], trees)
     refuted = [i for i, one in enumerate(data["statements"]) if "refuted" in one]
     for i in refuted:
         if i not in data["counterexamples"][data["statements"][i]["refuted"]]["refutes"]:
             raise Rejected(f"statement {i} is not refuted by its counterexample")
-    roles = [one["role"] for one in (*data["statements"], *data["comparisons"])]
+    roles = [one["role"] for one in (*data["statements"], *data["comparisons"], *data["counts"])]
     return {
         **{role: str(roles.count(role)) for role in ROLES if role in roles},
         "refuted": str(len(refuted)),
         "definitions": str(len(data["derivation"])),
         "comparisons": str(len(data["comparisons"])),
+        "counts": str(len(data["counts"])),
         "one expression on both sides": str(sum(one["left"] == one["right"] for one in data["statements"])),
         "sentences not checked": str(len(data["sentences"])),
     }

@@ -5,13 +5,30 @@ from .evidence import Proof, Verdict
 from .polynomials import Identity
 from .registers import PROOFS, BrokenScript, NoRegister, Register, load
 from .runner import main, prove_all, unproved
-from .statements import Comparison, Equation, Fact, Point, equations, rational_point
+from .statements import (
+    COMPLEX,
+    COMPLEX_MULTIPLE,
+    REAL,
+    REAL_MULTIPLE,
+    Comparison,
+    Count,
+    Equation,
+    Fact,
+    Point,
+    equations,
+    rational_point,
+)
 
 __all__ = [
+    "COMPLEX",
+    "COMPLEX_MULTIPLE",
     "PROOFS",
+    "REAL",
+    "REAL_MULTIPLE",
     "BrokenScript",
     "Claim",
     "Comparison",
+    "Count",
     "Equation",
     "Fact",
     "Identity",

@@ -27,8 +27,8 @@ from .cofactors import Ideal
 from .evidence import Proof
 from .points import candidates
 from .polynomials import Identity, Ratio
-from .statements import Comparison, Equation, Point, Statement
-from .trees import NotAlgebra, factored, number, shared, tree
+from .statements import Comparison, Count, Equation, Point, Statement
+from .trees import NotAlgebra, factored, nested, number, shared, tree
 
 #: Letters of a judged formula in a record.
 LONGEST = 400
@@ -52,7 +52,8 @@ def certificate(id: str, printed: str, proof: Proof) -> dict[str, Any]:
         "format": checker.FORMAT, "kind": "register-claim", "claim": id, "printed": printed,
         "corrected": proof.corrected_text, "hypotheses": hypotheses, "algebras": made.algebras,
         "derivation": made.derivation, "points": made.points, "statements": made.statements,
-        "comparisons": made.comparisons, "counterexamples": made.counterexamples, "sentences": made.sentences,
+        "comparisons": made.comparisons, "counts": made.counts, "counterexamples": made.counterexamples,
+        "sentences": made.sentences,
     }  # fmt: skip
     data["statement"] = checker.statement(data)
     data["digest"] = checker.digest(data)
@@ -66,6 +67,7 @@ def carried(data: dict[str, Any]) -> dict[str, Any]:
     sentences = Counter(sentence["role"] for sentence in data["sentences"])
     same = f" ({identical} of one expression on both sides)" if identical else ""
     more = f"; comparisons: {len(data['comparisons'])}" if data["comparisons"] else ""
+    more += f"; counts of solutions: {len(data['counts'])}" if data["counts"] else ""
     more += f"; hypotheses: {len(data['hypotheses'])}" if data["hypotheses"] else ""
     steps = f"; steps from the premises: {len(data['derivation'])}" if data["derivation"] else ""
     listed = ", ".join(f"{n} {role}" for role, n in sentences.items()) or "none"
@@ -74,6 +76,7 @@ def carried(data: dict[str, Any]) -> dict[str, Any]:
         "identical": identical,
         "steps": len(data["derivation"]),
         "comparisons": len(data["comparisons"]),
+        "counts": len(data["counts"]),
         "hypotheses": len(data["hypotheses"]),
         "counterexamples": len(data["counterexamples"]),
         "sentences": dict(sentences),
@@ -111,6 +114,7 @@ class _Maker:
         self.points: list[dict[str, Any]] = []
         self.statements: list[dict[str, Any]] = []
         self.comparisons: list[dict[str, Any]] = []
+        self.counts: list[dict[str, Any]] = []
         self.counterexamples: list[dict[str, Any]] = []
         self.sentences: list[dict[str, str]] = []
         self._symbols: dict[int, list[sp.Symbol]] = {}
@@ -118,7 +122,10 @@ class _Maker:
         self._ideals: dict[int, Ideal] = {}
         stated = [statement for _, statement, _ in proof.decided if isinstance(statement, Equation)]
         stated += [hypothesis for point in proof.points for hypothesis in point.hypotheses]
-        self._steps = list(needed([side for one in stated for sides in one.written for side in sides]))
+        expressions = [side for one in stated for sides in one.written for side in sides]
+        for _, one, _ in proof.decided:
+            expressions += [*one.equations, *one.nonzero] if isinstance(one, Count) else []
+        self._steps = list(needed(expressions))
         self._defined: dict[str, derivation.Made] = {}
         for letter in self._steps:
             definition = self._definition(letter)
@@ -155,6 +162,9 @@ class _Maker:
             point = self._point(statement.point)
             relations = _relations(statement)
             self.comparisons.append({"role": role, "text": statement.text, "point": point, "relations": relations})
+            return
+        if isinstance(statement, Count) and (holds or (role == "printed" and not statement.nonzero)):
+            self.counts.append(self._count(role, statement, holds))
             return
         if isinstance(statement, Identity) and holds and not statement.large:
             self._identity(role, statement)
@@ -193,6 +203,19 @@ class _Maker:
         point = self._good_point(one, sp.symbols(names), ())
         self.statements.append(one | {"point": point, "cofactors": [[]] * half})
 
+    def _count(self, role: str, count: Count, holds: bool) -> dict[str, Any]:
+        """A count, with what proves the numbers of solutions."""
+        found = count.elimination()
+        names = [f"y{i}" for i in range(len(count.unknowns))]
+        return {
+            "role": role, "text": count.text,
+            "algebra": self._algebra(count.algebra), "point": self._point(count.point),
+            "unknowns": [x.name for x in count.unknowns], "equations": [tree(e) for e in count.equations],
+            "nonzero": [tree(e) for e in count.nonzero], "chart": found.chart,
+            "combinations": [[nested(factor, names) for factor in c] for c in found.combinations],
+            "relations": _relations(count), "holds": holds,
+        }  # fmt: skip
+
     def _compare(self, example: dict[str, Any], one: dict[str, Any], i: int) -> None:
         """Notes that a point refutes a printed statement, or that what is correct holds there."""
         point, refutes = register.entries(example["point"]), "refuted" in one
@@ -213,7 +236,9 @@ class _Maker:
     def finish(self) -> None:
         """Leaves out what is not used, and gives each algebra of words a point."""
         stated = [*self.statements, *(h for one in self.counterexamples if one["refutes"] for h in one["hypotheses"])]
-        used = derivation.used(self.derivation, [tree for one in stated for tree in (*one["left"], *one["right"])])
+        trees = [tree for one in stated for tree in (*one["left"], *one["right"])]
+        trees += [tree for one in self.counts for tree in (*one["equations"], *one["nonzero"])]
+        used = derivation.used(self.derivation, trees)
         self.derivation = [one for one in self.derivation if one["name"] in used]
         self._leave_out_algebras()
         for i, algebra in enumerate(self.algebras):
@@ -227,7 +252,7 @@ class _Maker:
 
     def _leave_out_algebras(self) -> None:
         """Those in which nothing is left."""
-        using = [*self.statements, *self.derivation]
+        using = [*self.statements, *self.counts, *self.derivation]
         kept = sorted({one["algebra"] for one in using})
         for one in using:
             one["algebra"] = kept.index(one["algebra"])
@@ -393,7 +418,7 @@ def _used(step: Step) -> list[sp.Expr]:
     return [unfolded(x) for x in (step.of, *by)]
 
 
-def _relations(comparison: Comparison) -> list[list[Any]]:
+def _relations(comparison: Comparison | Count) -> list[list[Any]]:
     """The relations as the checker reads them: > and ≥ turned round."""
     return [
         [_OPERATIONS[r.rel_op], tree(r.lhs), tree(r.rhs)] if r.rel_op in _OPERATIONS

@@ -16,7 +16,10 @@ from sympy.core.relational import Relational
 from chapsym.derive.words import unfolded
 
 from . import points, witness
-from .statements import Comparison, Equation, Point, Statement
+from .statements import Comparison, Count, Equation, Point, Statement
+
+#: How the relations of a count are said of a number.
+SAID = {"==": "", "!=": "not ", "<": "less than ", "<=": "at most ", ">": "more than ", ">=": "at least "}
 
 
 class Verdict(StrEnum):
@@ -97,8 +100,15 @@ class Proof:
             self.problems.append(f"the second route fails: {name}")
 
     def printed(self, *statements: Statement) -> None:
-        """What the paper states; each is decided as printed."""
-        self._printed += [(s, self._decide(s, "printed")) for s in statements]
+        """What the paper states; each is decided as printed.  A count that is false is its own counterexample.
+
+        But for one that also says where something does not vanish.
+        """
+        decided = [(s, self._decide(s, "printed")) for s in statements]
+        self._printed += decided
+        for statement, holds in decided:
+            if isinstance(statement, Count) and not (holds or statement.nonzero):
+                self._contradict(statement)
 
     def corrected(self, text: str, *statements: Statement) -> None:
         """The smallest correction of what is printed, and the statements that prove it."""
@@ -116,9 +126,8 @@ class Proof:
         The hypotheses must hold there, some printed formula must fail, every corrected one must hold.
         """
         self.points.append(point)
-        assumed = [h for h in self.assumed if h.symbols <= point.exact.keys()]
-        for failure in (*point.failures(), *(h.text for h in assumed if not h.true_at(point.exact))):
-            self.problems.append(f"the counterexample violates the hypothesis {failure}")
+        self.problems += [f"the counterexample violates the hypothesis {failure}" for failure in point.failures()]
+        self._look_at_hypotheses(point.exact)
         printed, corrected = _equations(self._printed), _equations(self._corrected)
         wrong = [sides for e in printed if (sides := _sides(e, point))["left"] != sides["right"]]
         right = [_sides(e, point) for e in corrected]
@@ -139,6 +148,23 @@ class Proof:
         self.refuted.append(f"{statement}: found {found}, claimed {claimed}, at {at}")
         sides = {"statement": statement, "left": [str(found)], "right": [str(claimed)]}
         self.counterexamples.append({"point": dict(values), "printed": [sides], "corrected": []})
+
+    def _contradict(self, count: Count) -> None:
+        self._look_at_hypotheses(count.point)
+        numbers = count.numbers()
+        sides = {
+            "statement": count.text,
+            "left": [str(relation.lhs.xreplace(numbers)) for relation in count.relations],
+            "right": [f"{SAID[relation.rel_op]}{relation.rhs}" for relation in count.relations],
+        }
+        values = {str(symbol): str(value) for symbol, value in count.point.items()}
+        self.counterexamples.append({"point": values, "printed": [sides], "corrected": []})
+
+    def _look_at_hypotheses(self, exact: Mapping[sp.Symbol, Any]) -> None:
+        assumed = [h for h in self.assumed if h.symbols <= exact.keys()]
+        self.problems += [
+            f"the counterexample violates the hypothesis {h.text}" for h in assumed if not h.true_at(exact)
+        ]
 
     def control(self, *statements: Statement) -> None:
         """Mutated statements, which the same machinery must reject."""

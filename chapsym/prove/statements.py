@@ -5,10 +5,13 @@ from dataclasses import dataclass, field
 from typing import Any, Protocol
 
 import sympy as sp
+from flint import fmpq
 from sympy.core.relational import Relational
 
 from chapsym.derive import words
+from chapsym.derive.quotient import Quotient
 
+from .elimination import Elimination, Form, eliminate
 from .polynomials import Identity
 
 
@@ -123,7 +126,62 @@ def _compared(relation: Relational, exact: Mapping[sp.Symbol, Any]) -> bool:
     return bool(relation.func(left, right))
 
 
-Statement = Equation | Fact | Identity | Comparison
+#: The solutions that are different, and those counted with multiplicity.
+REAL, COMPLEX, REAL_MULTIPLE, COMPLEX_MULTIPLE = NUMBERS = sp.symbols(
+    "real complex real_with_multiplicity complex_with_multiplicity"
+)
+
+
+@dataclass(frozen=True)
+class Count:
+    """What is said of the number of solutions of equations that are homogeneous in some unknowns, in projective space.
+
+    The relations are between REAL, COMPLEX, REAL_MULTIPLE, COMPLEX_MULTIPLE and integers.  The point has rational
+    numbers for all other symbols, those of the algebra among them; equations may have letters of a derivation.
+    What is in `nonzero`, homogeneous too, vanishes at no solution.  Deciding raises NotCounted if the solutions are
+    infinitely many, or none, complex ones with them, or if a multiple one has no tangent line of its own.
+    """
+
+    text: str
+    equations: Sequence[sp.Expr]
+    unknowns: Sequence[sp.Symbol]
+    point: Mapping[sp.Symbol, Any]
+    relations: Sequence[Relational]
+    algebra: Quotient
+    nonzero: Sequence[sp.Expr] = ()
+    method: str = "elimination over Q, and Sturm's theorem"
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "point", {symbol: sp.Rational(x) for symbol, x in self.point.items()})
+
+    def holds(self) -> bool:
+        """Whether the relations hold, and what must not vanish does not."""
+        if not all(map(self.elimination().vanishes_at_none, self._forms(self.nonzero))):
+            return False
+        return Comparison(self.text, self.relations).true_at(self.numbers())
+
+    def numbers(self) -> dict[sp.Symbol, sp.Integer]:
+        """The numbers of solutions."""
+        eliminant = sp.Poly(
+            [sp.Rational(int(c.p), int(c.q)) for c in self.elimination().eliminant][::-1], sp.Symbol("t")
+        )
+        parts = [(part.count_roots(), part.degree(), power) for part, power in eliminant.sqf_list()[1]]
+        counts = [(real, degree, real * power, degree * power) for real, degree, power in parts]
+        return {name: sp.Integer(sum(n)) for name, n in zip(NUMBERS, zip((0,) * 4, *counts, strict=True), strict=True)}
+
+    def elimination(self) -> Elimination:
+        """What proves the numbers."""
+        return eliminate(tuple(tuple(form.items()) for form in self._forms(self.equations)), len(self.unknowns))
+
+    def _forms(self, expressions: Sequence[sp.Expr]) -> list[Form]:
+        """Expressions at the point, by their terms in the unknowns."""
+        polynomials = [
+            sp.Poly(words.unfolded(e).xreplace(self.point), *self.unknowns, domain="QQ") for e in expressions
+        ]
+        return [{m: fmpq(int(c.p), int(c.q)) for m, c in polynomial.terms()} for polynomial in polynomials]
+
+
+Statement = Equation | Fact | Identity | Comparison | Count
 
 
 def _evaluated(expr: Any, exact: Mapping[sp.Symbol, Any]) -> Any:

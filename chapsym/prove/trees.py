@@ -31,6 +31,8 @@ def tree(expr: Any) -> Any:
 
 def number(x: Any) -> int | str:
     """A rational number as it stands in a tree: an integer, or a quotient in quotes."""
+    if isinstance(x, int):
+        return x
     return int(x.p) if x.q == 1 else f"{x.p}/{x.q}"
 
 
@@ -91,12 +93,14 @@ def factored(polynomial: Mapping[Monomial, Any], names: Sequence[str]) -> Any:
     constant, factors = context.from_dict(coefficients).factor()
     parts = [] if constant == 1 else [number(constant)]
     for factor, power in sorted(factors, key=str):
-        parts.append(_power(_nested(factor.to_dict(), names), int(power)))
+        parts.append(_power(nested(factor.to_dict(), names), int(power)))
     return _list("*", parts) if parts else 1
 
 
-def _nested(terms: Mapping[Monomial, Any], names: Sequence[str]) -> Any:
+def nested(terms: Mapping[Monomial, Any], names: Sequence[str]) -> Any:
     """A sum of terms, with the variable that most of them have in front of these: Horner's form."""
+    if not terms:
+        return 0
     counts = [sum(m[i] > 0 for m in terms) for i in range(len(names))]
     most = max(range(len(names)), key=counts.__getitem__)
     if counts[most] < 2:
@@ -104,8 +108,8 @@ def _nested(terms: Mapping[Monomial, Any], names: Sequence[str]) -> Any:
     least = min(m[most] for m in terms if m[most])
     divided = {(*m[:most], m[most] - least, *m[most + 1 :]): c for m, c in terms.items() if m[most]}
     rest = {m: c for m, c in terms.items() if not m[most]}
-    product = ["*", _power(names[most], int(least)), *_operands("*", _nested(divided, names))]
-    return ["+", product, *_operands("+", _nested(rest, names))] if rest else product
+    product = ["*", _power(names[most], int(least)), *_operands("*", nested(divided, names))]
+    return ["+", product, *_operands("+", nested(rest, names))] if rest else product
 
 
 def _term(monomial: Monomial, coefficient: Any, names: Sequence[str]) -> Any:

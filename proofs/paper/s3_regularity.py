@@ -5,7 +5,7 @@ import sympy as sp
 from chapsym.derive import continuous, principle, three
 from chapsym.derive.quotient import Quotient
 from chapsym.derive.three import J1, J2, J3, RING, D, gamma, hat, placed, q, q0
-from chapsym.prove import Comparison, Equation, Fact, Proof, claim, equations, main
+from chapsym.prove import REAL, Comparison, Count, Equation, Fact, Proof, claim, equations, main
 
 m, rho = sp.symbols("m rho")
 BALL_RING = Quotient((m, rho, *RING.symbols), [*RING.relations, D - m * rho**2])
@@ -94,11 +94,15 @@ def regularity(p: Proof) -> None:
     )
     square = 2 * (step - sp.Rational(1, 4)) ** 2 + sp.Rational(15, 8)
     p.lemma(Equation("2(1 + u²) - u = 2(u - ¼)² + 15/8 > 0", 2 * (1 + step**2) - step, square, line))
-    discriminant = sp.discriminant(2 * (1 + step**2) - step, step)
-    p.printed(Fact("u_{k-1} = 0 has a successor: 2(1 + u²) = u has a real root", bool(discriminant >= 0)))
+    before, scale = sp.symbols("b v")
+    asked = sp.numer(sp.together(slope.subs(step, step / scale) - slope.subs(step, before) - 2))
+    p.printed(
+        Count(
+            "Q = R, s = 0, 𝕃 = ½ln(1 + u²) + 2x, u = y - x, u_{k-1} = b: the number of real u_k = u/v",
+            [asked], (scale, step), {before: 0}, [REAL >= 1], Quotient((before,)),
+        )
+    )  # fmt: skip
     p.under("there is a successor nearby, as Ω = 1 is one for the ball at rest", jacobian_is_printed)
-    p.refute({"Q": "R", "s": "0", "𝕃": "½ln(1 + u²) + 2x, u = y - x", "u_{k-1}": "0"},
-             "the discriminant of 2(1 + u²) = u for the next u", discriminant, "at least 0", bool(discriminant >= 0))  # fmt: skip
     true, wrong = principle.kinetic_factor(), sp.Rational(1, 2)
     inertia = three.lam() - D * sp.eye(3)
     lifted = D * (sp.eye(3) - gamma * gamma.T)

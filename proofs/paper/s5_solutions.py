@@ -1,52 +1,72 @@
 """Section 5: how many rotations have a given momentum, counted exactly, and the one that is small."""
 
-from collections.abc import Iterable
+from collections.abc import Sequence
+from typing import Any
 
 import sympy as sp
+from sympy.core.relational import Relational
 
 from chapsym.derive import solutions, three
 from chapsym.derive.quotient import Quotient
 from chapsym.derive.three import RING, D, K, gamma, placed, q, q0
-from chapsym.prove import Comparison, Equation, Fact, Proof, claim, main
+from chapsym.prove import (
+    COMPLEX,
+    COMPLEX_MULTIPLE,
+    REAL,
+    REAL_MULTIPLE,
+    Comparison,
+    Count,
+    Equation,
+    Fact,
+    Proof,
+    claim,
+    main,
+)
 
-Momentum = tuple[int | str, int | str, int | str]
+Vector = Sequence[Any]
 
-#: The ball and the vertical of the examples, and 𝒦 with the number of real solutions, each counted below.
+#: The ball and the vertical of the examples, and 𝒦 by the number of real solutions.
 BALL, VERTICAL = (1, 2, 4), ("6/7", "2/7", "3/7")
-WITHOUT_ROLLING: dict[int, Momentum] = {
+WITHOUT_ROLLING: dict[int, Vector] = {
     0: (1, 1, 4),
     1: (0, 0, 3),
     2: (1, 1, 1),
     3: (0, 0, 1),
     4: ("1/2", "1/2", "1/2"),
 }
-ROLLING: dict[int, Momentum] = {
+ROLLING: dict[int, Vector] = {
     **{0: (2, 4, 6), 2: (1, 2, 1), 3: (2, 0, 0), 4: (1, 1, 1), 5: (0, 0, 1), 6: (0, 1, 1)},
     8: ("-1/4", "-3/2", "1/2"),
 }
 STRONG = 1000
 
-REAL = "Euler parameters that differ by a sign are one solution; q₀ ≥ 0, so that rotations by π count"
-FINITE = "the solutions are finitely many, complex ones with them, and J1, J2, J3 differ"
+SIGN = "Euler parameters that differ by a sign are one solution; q₀ ≥ 0, so that rotations by π count"
+FINITE = "the solutions are finitely many, complex ones with them"
+UNEQUAL = [sp.Ne(a, b) for a, b in ((three.J1, three.J2), (three.J2, three.J3), (three.J3, three.J1))]
+NUMBER = "the number of real solutions"
 
 
-def examples(contact: int, momenta: Iterable[Momentum]) -> dict[Momentum, solutions.Count]:
-    """The exact counts for some momenta."""
-    return {momentum: solutions.count(solutions.at(BALL, contact, VERTICAL, momentum)) for momentum in momenta}
+def count(
+    text: str,
+    contact: int,
+    momentum: Vector,
+    *relations: Relational,
+    ball: Vector = BALL,
+    vertical: Vector = VERTICAL,
+    nonzero: Sequence[sp.Expr] = (),
+) -> Count:
+    """What is said of the number of solutions of (5.2), with 𝒦(q, γ) as it is derived, for a ball, γ and 𝒦."""
+    point = placed((three.MASSES, ball), ([D], [contact]), (gamma, vertical), (K, momentum))
+    return Count(text, solutions.equations(), solutions.POINT, point, relations, RING, nonzero)
 
 
-def show(p: Proof, contact: int, counts: dict[Momentum, solutions.Count]) -> None:
-    """A line for each example."""
-    for momentum, found in counts.items():
-        shown = ", ".join(map(str, momentum))
-        p.say(
-            f"    D = {contact}, 𝒦 = ({shown}): {found.real} real solutions of {found.distinct} complex ones (Sturm, Hermite)"
-        )
-
-
-def all_counts() -> tuple[dict[Momentum, solutions.Count], dict[Momentum, solutions.Count]]:
-    """The examples without and with rolling."""
-    return examples(0, WITHOUT_ROLLING.values()), examples(STRONG, ROLLING.values())
+def example(contact: int, number: int) -> Count:
+    """An example: so many real solutions, of 8 with multiplicity; where they are even, none has q₀ = 0."""
+    momentum = (ROLLING if contact else WITHOUT_ROLLING)[number]
+    text = f"D = {contact}, 𝒦 = ({', '.join(map(str, momentum))}): {number}"
+    odd = number % 2  # a fold: one solution is double
+    relations = (sp.Eq(REAL, number), sp.Eq(COMPLEX, 8 - odd), sp.Eq(COMPLEX_MULTIPLE, 8))
+    return count(text, contact, momentum, *relations, nonzero=[] if odd else [q0])
 
 
 def isotropic_points() -> tuple[Quotient, list[sp.Expr]]:
@@ -64,19 +84,15 @@ def isotropic_points() -> tuple[Quotient, list[sp.Expr]]:
 )
 def upper_bound(p: Proof) -> None:
     """At most 8 real solutions, and 8 occur; at most 4 when D = 0."""
-    p.assume(REAL)
+    p.assume(SIGN)
     p.assume(FINITE)
+    p.assume("J1, J2, J3 differ", *UNEQUAL)
     p.say("𝒦(q, γ) - 𝒦(q₀² + |q|²) = 0 are three quadrics in P³: at most 8 points if finitely many (Bézout).")
     quadrics = solutions.quadrics()
     scale = sp.Symbol("s")
     ring = Quotient((scale, *three.K, *RING.symbols))
     grown = [e.subs({x: scale * x for x in solutions.POINT}, simultaneous=True) for e in quadrics]
-    free, rolling = all_counts()
-    p.say(f"J = {BALL}, γ = (6/7, 2/7, 3/7); the eliminant is counted over Q:")
-    show(p, 0, free)
-    show(p, STRONG, rolling)
-    most = max(c.real for c in rolling.values())
-    p.printed(Fact("no example has more than 4", most <= 4, "real roots of the eliminant over Q, and Hermite's form"))
+    p.printed(count(NUMBER, STRONG, ROLLING[8], REAL <= 4))
     points, isotropic = isotropic_points()
     spin = sp.Matrix(isotropic[1:])
     lam = sp.diag(*points.symbols[3:6])
@@ -88,32 +104,19 @@ def upper_bound(p: Proof) -> None:
         Equation("the three equations are homogeneous of degree 2", grown, [scale**2 * e for e in quadrics], ring),
         Equation("D = 0: 2(q₀Λq + q×Λq) = 0 at those points", flat, [sp.S.Zero] * 3, points),
         Equation("and q₀² + |q|² = 0", isotropic[0] ** 2 + spin.dot(spin), 0, points),
-        Fact("the examples reach these bounds and no more", most == 8 and max(c.real for c in free.values()) == 4),
+        example(STRONG, 8),
+        example(0, 4),
     )
-    worst = ROLLING[8]
-    state = {"J": "(1, 2, 4)", "D": str(STRONG), "γ": "(6/7, 2/7, 3/7)", "𝒦": "(-1/4, -3/2, 1/2)"}
-    p.refute(state, "the number of real solutions", rolling[worst].real, "at most 4", rolling[worst].real <= 4)
-    for wanted, found in ((WITHOUT_ROLLING, free), (ROLLING, rolling)):
-        p.lemma(
-            Fact(f"every number of {sorted(wanted)} occurs", sorted(c.real for c in found.values()) == sorted(wanted))
-        )
-    even = [
-        (contact, momenta[n])
-        for contact, momenta in ((0, WITHOUT_ROLLING), (STRONG, ROLLING))
-        for n in momenta
-        if n % 2 == 0
-    ]
-    half_turns = [solutions.have_common_point([*solutions.at(BALL, contact, VERTICAL, k), q0]) for contact, k in even]
-    p.lemma(Fact("no solution of the even examples is a rotation by π: all of them have q₀ > 0", not any(half_turns)))
-    rest = solutions.at(BALL, STRONG, VERTICAL, (0, 0, 0))
-    p.control(Fact("no solution of 𝒦 = 0 is a rotation by π", not solutions.have_common_point([*rest, q0])))
+    p.say("Every number from 0 to 4 occurs without rolling, and with it 0, 2, 3, 4, 5, 6, 8, all for one ball and γ.")
+    p.say("No solution of the even examples is a rotation by π: all of them have q₀ > 0.")
+    p.lemma(*(example(0, number) for number in (0, 1, 2, 3)))
+    p.lemma(*(example(STRONG, number) for number in (0, 2, 3, 4, 5, 6)))
+    p.control(count("no solution of 𝒦 = 0 is a rotation by π", STRONG, (0, 0, 0), sp.Eq(REAL, 4), nonzero=[q0]))
     p.say("An odd number has a double solution in it, a fold, as 8 and 4 are even; 7 occurs at another vertical:")
-    other = solutions.count(solutions.at(BALL, 100, (0, "3/5", "4/5"), (-2, 0, 0)))
-    p.lemma(Fact("D = 100, γ = (0, 3/5, 4/5), 𝒦 = (-2, 0, 0): 7 real solutions, one double", other[:3] == (7, 7, 8)))
-    p.witness("8 solutions", state, Fact("8 real solutions", rolling[worst].real == 8))
-    flat = solutions.count(solutions.at(BALL, 0, VERTICAL, worst))
-    p.witness("D = 0", {**state, "D": "0"}, Fact("at most 4", flat.real <= 4))
-    p.control(Fact("no example has more than 6", most <= 6))
+    seven = (sp.Eq(REAL, 7), sp.Eq(REAL_MULTIPLE, 8), sp.Eq(COMPLEX, 7))
+    p.lemma(count("D = 100, 𝒦 = (-2, 0, 0): 7, one double", 100, (-2, 0, 0), *seven, vertical=(0, "3/5", "4/5")))
+    p.lemma(count("D = 0, and the 𝒦 of the 8: at most 4", 0, ROLLING[8], REAL <= 4))
+    p.control(count("the example with 8 has at most 6", STRONG, ROLLING[8], REAL <= 6))
     wrong = 2 * (-isotropic[0] * lam * spin + spin.cross(lam * spin))
     p.control(Equation("the isotropic points with +q₀", wrong, [sp.S.Zero] * 3, points))
 
@@ -125,31 +128,14 @@ def upper_bound(p: Proof) -> None:
 )
 def lower_bound(p: Proof) -> None:
     """There may be none, even on an orbit; when there is one, there are two, with multiplicity."""
-    p.assume(REAL)
+    p.assume(SIGN)
     p.assume(FINITE)
+    p.assume("J1, J2, J3 differ", *UNEQUAL)
     p.say("|𝒦| = 2|q₀Bq + q×Λq| ≤ 2Λmax |q|(|q₀| + |q|) ≤ (1 + √2)Λmax: a larger momentum has no rotation.")
-    free, rolling = all_counts()
-    least = min(c.real for c in (*free.values(), *rolling.values()))
-    p.printed(
-        Fact("every example has at least 2", least >= 2, "real roots of the eliminant over Q, and Hermite's form")
-    )
-    p.say("Bézout: the quadrics have 8 common points with multiplicity (at D = 0 four of them are not rotations).")
-    p.say("Their coefficients are real, so the non-real points come in conjugate pairs: one solution is never alone.")
-    lonely = [c for c in (*free.values(), *rolling.values()) if c.real == 1 and solutions.multiplicity(c) < 2]
-    scale = sp.Symbol("s")
-    ring = Quotient((scale, *three.K, *RING.symbols))
-    grown = [e.subs({x: scale * x for x in solutions.POINT}, simultaneous=True) for e in solutions.quadrics()]
-    p.under(
-        "𝒦 = 𝒦(Ω, γ) for some rotation Ω, and solutions counted with multiplicity",
-        Equation("three quadrics with real coefficients", grown, [scale**2 * e for e in solutions.quadrics()], ring),
-        Fact("no example has a single solution that is simple", not lonely),
-    )
-    p.say(
-        "A ball of matter inside its surface has D = mρ² ≥ J1 + J2 + J3.  Such balls, too, have momenta that no rotation has:"
-    )
-    heavy = solutions.count(solutions.at(BALL, 7, VERTICAL, (40, 0, 0)))
+    p.say("A ball of matter inside its surface has D = mρ² ≥ J1 + J2 + J3.  Such a ball, too, has such momenta:")
+    large = (40, 0, 0)
     largest = three.lam()[0, 0]
-    at = placed(((*three.MASSES, D), (1, 2, 4, 7)), (K, (40, 0, 0)))
+    at = placed(((*three.MASSES, D), (*BALL, 7)), (K, large))
     p.lemma(
         Comparison(
             "|𝒦| = 40 is above 5/2 Λmax = 65/2 there",
@@ -157,27 +143,36 @@ def lower_bound(p: Proof) -> None:
             at,
         )
     )
-    state = {"J": "(1, 2, 4)", "D": "7", "γ": "(6/7, 2/7, 3/7)", "𝒦": "(40, 0, 0)"}
-    p.refute(state, "the number of real solutions", heavy.real, "at least 2", heavy.real >= 2)
+    p.printed(count(NUMBER, 7, large, REAL >= 2))
     p.say("It happens on orbits with D > 0: one step after a state that has a rotation, there may be none.")
-    momentum, vertical = solutions.after((1, 2, 3), 7, ("1/3", "2/3", "2/3"), (4, 2, 4, -1))
+    p.say("J = (1, 2, 3), D = 7, γ = (1, 2, 2)/3, Euler parameters ~ (4, 2, 4, -1):")
+    ball, before, turn = (1, 2, 3), ("1/3", "2/3", "2/3"), (4, 2, 4, -1)
+    momentum, vertical = solutions.after(ball, 7, before, turn)
+    state = placed(((*three.MASSES, D), (*ball, 7)), (gamma, before), (solutions.POINT, turn))
+    turned = three.rotation().T
+    carried = [sp.Eq(a, b * solutions.NORM**2) for a, b in zip(turned * three.momentum(), momentum, strict=True)]
+    carried += [sp.Eq(a, b * solutions.NORM) for a, b in zip(turned * gamma, vertical, strict=True)]
+    p.lemma(Comparison("Ωᵀ𝒦 and Ωᵀγ are the 𝒦 and γ of the next step", carried, state))
     p.show("𝒦 after the step", momentum)
     p.show("γ after the step", vertical)
-    stopped = solutions.count(solutions.at((1, 2, 3), 7, vertical, momentum)).real
-    orbit = {"J": "(1, 2, 3)", "D": "7", "γ": "(1/3, 2/3, 2/3)", "Ω": "Euler parameters ~ (4, 2, 4, -1)"}
-    p.refute(orbit, "the number of real solutions after one step", stopped, "at least 2", stopped >= 2)
-    p.say(
-        "At 𝒦 = 0 the solutions are 1 and the rotations by π about the axes: 4, of which only one has the paper's q₀ > 0."
+    p.printed(count(f"{NUMBER} after that step", 7, momentum, REAL >= 2, ball=ball, vertical=vertical))
+    p.say("Bézout: the quadrics have 8 common points with multiplicity (at D = 0 four of them are not rotations).")
+    p.say("Their coefficients are real, so the non-real points come in conjugate pairs: one solution is never alone.")
+    scale = sp.Symbol("s")
+    ring = Quotient((scale, *three.K, *RING.symbols))
+    grown = [e.subs({x: scale * x for x in solutions.POINT}, simultaneous=True) for e in solutions.quadrics()]
+    single = WITHOUT_ROLLING[1]
+    double = (sp.Eq(REAL, 1), sp.Eq(REAL_MULTIPLE, 2))
+    p.under(
+        "𝒦 = 𝒦(Ω, γ) for some rotation Ω, and solutions counted with multiplicity",
+        Equation("three quadrics with real coefficients", grown, [scale**2 * e for e in solutions.quadrics()], ring),
+        count("the one solution of 𝒦 = (0, 0, 3), D = 0, is double", 0, single, *double),
+        count("2 solutions of 𝒦 = (1, 1, 1), D = 0", 0, WITHOUT_ROLLING[2], sp.Eq(REAL, 2)),
     )
-    rest = solutions.count(solutions.at(BALL, STRONG, VERTICAL, (0, 0, 0)))
-    p.lemma(Fact("4 real solutions at 𝒦 = 0", rest.real == 4))
-    double = solutions.multiplicity(free[WITHOUT_ROLLING[1]]) == 2
-    p.lemma(Fact("the one solution of 𝒦 = (0, 0, 3), D = 0, is double", double))
-    p.witness(
-        "2 solutions", state | {"D": "0", "𝒦": "(1, 1, 1)"}, Fact("two solutions", free[WITHOUT_ROLLING[2]].real == 2)
-    )
-    p.control(Fact("every example has at least 1", least >= 1))
-    p.control(Fact("the number of different real solutions is even", all(c.real % 2 == 0 for c in free.values())))
+    p.say("At 𝒦 = 0 the solutions are 1 and the rotations by π about the axes; only one has the paper's q₀ > 0.")
+    p.lemma(count("4 real solutions at 𝒦 = 0", STRONG, (0, 0, 0), sp.Eq(REAL, 4)))
+    p.control(count("at least 1 at 𝒦 = (40, 0, 0), D = 7", 7, large, REAL >= 1))
+    p.control(count("the one solution of 𝒦 = (0, 0, 3), D = 0, is simple", 0, single, sp.Eq(REAL_MULTIPLE, 1)))
 
 
 @claim("5.3-small", r"\text{only one of the real solutions } \mathbf q \text{ is small}", uses=["5.2"])

@@ -5,6 +5,7 @@ import json
 from fractions import Fraction
 
 import flint
+import groebner_count
 import mpmath
 import numpy as np
 import pytest
@@ -15,7 +16,6 @@ from hypothesis import strategies as st
 
 import chapsym
 from chapsym import generated, testing
-from chapsym.derive import solutions
 from chapsym.dynamics import BadInput, Ball, branches, fold
 from chapsym.dynamics.loops.branch import inverse
 from chapsym.dynamics.oracle import Oracle
@@ -62,8 +62,8 @@ def test_every_number_of_rotations_occurs(count):
     assert sum(multiplicities(found)) % 2 == 0
     assert sorted(multiplicities(found))[:-1] == [1] * (count - 1)
     J, D, K, g = STATES[count]
-    other = solutions.count(solutions.at(J, D, g, K))
-    assert (other.real, solutions.multiplicity(other)) == (count, sum(multiplicities(found)))
+    other = groebner_count.count(groebner_count.at(J, D, g, K))
+    assert (other.real, groebner_count.multiplicity(other)) == (count, sum(multiplicities(found)))
 
 
 CONTEXT = mpmath.MPContext()
@@ -92,12 +92,12 @@ def test_the_count_is_the_one_by_groebner_bases(ball, gamma, K):
     J, D = ball
     found = solve((J, D, K, gamma))
     try:
-        other = solutions.count(solutions.at([*map(str, J)], str(D), [*map(str, gamma)], [*map(str, K)]))
-    except solutions.NotFinite:
+        other = groebner_count.count(groebner_count.at([*map(str, J)], str(D), [*map(str, gamma)], [*map(str, K)]))
+    except groebner_count.NotFinite:
         assert len(set(J)) < 3
         return
     assert found.complete
-    assert (other.real, solutions.multiplicity(other)) == (len(found.solutions), sum(multiplicities(found)))
+    assert (other.real, groebner_count.multiplicity(other)) == (len(found.solutions), sum(multiplicities(found)))
 
 
 @given(testing.rational_balls(), testing.rational_unit_vectors(), testing.rational_rotations())
@@ -165,7 +165,7 @@ def test_equal_moments_have_a_closed_form(size, count):
 def test_isotropic_points_are_no_rotations():
     """At D = 0 four of the eight complex points have q₀² + |q|² = 0."""
     state = ((1, 2, 4), 0, (1, "1/2", "1/4"), ("2/7", "3/7", "6/7"))
-    assert solutions.count(solutions.at(state[0], 0, state[3], state[2])).distinct == 8
+    assert groebner_count.count(groebner_count.at(state[0], 0, state[3], state[2])).distinct == 8
     found = solve(state)
     assert found.complete
     assert len(found.solutions) <= 4

@@ -1,0 +1,213 @@
+"""Counts: how many solutions equations have that are homogeneous in their unknowns, as points of projective space.
+
+A count has unknowns, equations, and in `nonzero` what must vanish at no solution; a point has a number for every other
+name.  Its proof has
+
+chart         a regular matrix A: the unknowns are A y, y = (y0, ..., yn); t is yn where y0 is 1
+combinations  lists of polynomials in y, as many as equations; they stand for Σ polynomial · equation, which is 0 at
+              every solution
+
+1. For i = n, ..., 1 one of the combinations is a multiple of a power of yi, and not 0, where y0 and the y after yi are
+   0.  So a solution with y0 = 0 would have yn = 0, ..., y1 = 0: there is none, and y0 can be 1.
+2. The first n combinations are linear in y1, ..., y(n-1): they are M(t)(1, y1, ..., y(n-1)), where M is a matrix of
+   polynomials.  So e(t) = det M(t), which is not the polynomial 0, is 0 at every solution.
+3. Let Y be the cofactors of the last row of M.  Y0 and e have no common root: at each root of e the rows before the
+   last vanish on one vector only, up to a factor, so that it has one solution at most, y = (Y, t Y0).
+4. It has one: the equations at that y, polynomials in t, are divisible by e.
+
+So there are as many solutions as e has different roots, and as many real ones as it has real roots, which Sturm's
+theorem counts.  By 3 and 4 the local ring of a solution is Q[t]/(e) at its root: their multiplicities are equal.  What
+must not vanish has, at that y, no common root with e.
+"""
+
+from collections.abc import Collection, Mapping, Sequence
+from fractions import Fraction
+from itertools import pairwise
+from math import gcd
+from typing import Any
+
+from .document import count
+from .form import distinct, many, sized
+from .interval import Rejected
+from .polynomial import FIELD, MOST_BITS, Polynomial, Quotient, Ring, Work
+from .trees import check_tree, names_in, rational, value
+
+NAMES = "role text algebra point unknowns equations nonzero chart combinations relations holds"
+#: What is found: different solutions, and each as often as its multiplicity.
+NUMBERS = ("real", "complex", "real_with_multiplicity", "complex_with_multiplicity")
+MOST_UNKNOWNS = 5
+#: The integer coefficients of a polynomial in t: that of 1 first, the last not 0.
+Dense = list[int]
+
+
+def check_form(
+    one: dict[str, Any],
+    algebras: Sequence[dict[str, Any]],
+    points: Sequence[dict[str, Any]],
+    defined: Sequence[Collection[str]],
+    where: str,
+) -> None:
+    """The form of a count, but for its role, text and relations; `defined` are the names with a value, by algebra."""
+    unknowns = distinct(one["unknowns"], where)
+    size = count(len(unknowns), 2, MOST_UNKNOWNS, f"the number of unknowns of {where}")
+    algebra = algebras[count(one["algebra"], 0, len(algebras) - 1, where)]
+    point = points[count(one["point"], 0, len(points) - 1, where)]
+    numbers = {name for name, entry in point.items() if not isinstance(entry, list)}
+    if algebra["kind"] != "quotient" or not set(algebra["variables"]) <= numbers | unknowns:
+        raise Rejected(f"{where} must be in a quotient, with a number for every variable that is no unknown")
+    made = set(defined[one["algebra"]])
+    if twice := numbers & unknowns | numbers & made | unknowns & made:
+        raise Rejected(f"{where} has two meanings for {min(twice)}")
+    for tree in (*many(one["equations"], where), *many(one["nonzero"], where)):
+        check_tree(tree, numbers | unknowns | made, where)
+    sized(one["chart"], size, where)
+    for row in one["chart"]:
+        sized(row, size, where)
+        for x in row:
+            rational(x, where)
+    if len(many(one["combinations"], where)) < size - 1:
+        raise Rejected(f"{where} must have {size - 1} combinations at least")
+    for combination in one["combinations"]:
+        sized(combination, len(one["equations"]), where)
+        for tree in combination:
+            check_tree(tree, _coordinates(size), where)
+
+
+def solutions(
+    one: dict[str, Any],
+    algebra: dict[str, Any],
+    point: Mapping[str, Any],
+    values: Mapping[str, Any],
+    work: Work,
+    where: str,
+) -> dict[str, Fraction]:
+    """The NUMBERS of a count whose form was checked; raises Rejected unless they are proved."""
+    size, trees = len(one["unknowns"]), [*one["equations"], *one["nonzero"]]
+    ring = Ring(_coordinates(size), work)
+    known = {name: ring.number(x) for name, x in point.items() if isinstance(x, Fraction)}
+    for relation in algebra["relations"]:
+        if names_in(relation) <= known.keys() and value(relation, known, ring.number).numerator.terms:
+            raise Rejected(f"{where} has a point at which a relation fails")
+    chart = [[ring.number(Fraction(x)) for x in row] for row in one["chart"]]
+    if not _determinant(chart, ring).numerator.terms:
+        raise Rejected(f"{where} has a chart that is not regular")
+
+    def forms(y: Sequence[Quotient]) -> list[Quotient]:
+        """The equations, and what must not vanish, where the unknowns are A y."""
+        names = known | {x: _dot(row, y, ring) for x, row in zip(one["unknowns"], chart, strict=True)}
+        for name in set().union(*map(names_in, trees)) & values.keys():
+            names[name] = value(values[name], names, ring.number)
+        return [value(tree, names, ring.number) for tree in trees]
+
+    y, last = ring.names(), len(one["equations"])
+    found = forms([*y.values()])
+    for combination in one["combinations"]:
+        found.append(_dot([value(tree, y, ring.number) for tree in combination], found[:last], ring))
+    if any(f.factors or len({sum(_exponents(m, size)) for m in f.numerator.terms}) > 1 for f in found):
+        raise Rejected(f"{where} has what is no homogeneous polynomial")
+    combinations = [f.numerator for f in found[len(trees) :]]
+    for i in range(1, size):
+        if not any(_is_power_at_infinity(combination, i, size) for combination in combinations):
+            raise Rejected(f"{where} may have solutions with y0 = 0: no combination is a power of y{i} there")
+    rows = [_row(combination, ring, where) for combination in combinations[: size - 1]]
+    cofactors = _cofactors(rows[:-1], ring)
+    e = _dense(_dot(rows[-1], cofactors, ring))
+    if not e:
+        raise Rejected(f"{where} has combinations with the determinant 0")
+    on_curve = list(map(_dense, forms([*cofactors, cofactors[0] * y[f"y{size - 1}"]])))
+    if len(_chain(e, _dense(cofactors[0]), work)[-1]) > 1:
+        raise Rejected(f"{where} may have two solutions for one root")
+    if any(_remainder(form, e, work) for form in on_curve[:last]):
+        raise Rejected(f"{where} has a root that may be that of no solution")
+    if any(len(_chain(e, form, work)[-1]) > 1 for form in on_curve[last:]):
+        raise Rejected(f"{where} has a solution at which something vanishes that should not")
+    return dict(zip(NUMBERS, map(Fraction, _roots(e, work)), strict=True))
+
+
+def _coordinates(size: int) -> list[str]:
+    return [f"y{i}" for i in range(size)]
+
+
+def _exponents(monomial: int, size: int) -> list[int]:
+    return [monomial >> FIELD * i & 0xFFFF for i in range(size)]
+
+
+def _is_power_at_infinity(form: Polynomial, i: int, size: int) -> bool:
+    """Whether it is a multiple of a power of yi, and not 0, where y0 and all y after yi are 0."""
+    left = [e for e in (_exponents(m, size) for m in form.terms) if not e[0] and not any(e[i + 1 :])]
+    return len(left) == 1 and sum(left[0]) == left[0][i]
+
+
+def _row(form: Polynomial, ring: Ring, where: str) -> list[Quotient]:
+    """The coefficients of 1, y1, ..., y(n-1), polynomials in t, where y0 is 1."""
+    size = len(ring.variables)
+    row: list[dict[int, int]] = [{} for _ in range(size - 1)]
+    for monomial, c in form.terms.items():
+        _, *middle, power = _exponents(monomial, size)
+        if sum(middle) > 1:
+            raise Rejected(f"{where} has one of the first combinations that is not linear")
+        row[middle.index(1) + 1 if any(middle) else 0][power << FIELD * (size - 1)] = c
+    return [Quotient(Polynomial(ring, terms, form.degree, form.bits), 1, {}) for terms in row]
+
+
+def _dot(row: Sequence[Quotient], column: Sequence[Quotient], ring: Ring) -> Quotient:
+    total = ring.number(Fraction(0))
+    for a, b in zip(row, column, strict=True):
+        total = total + a * b
+    return total
+
+
+def _determinant(rows: Sequence[Sequence[Quotient]], ring: Ring) -> Quotient:
+    """Up to its sign."""
+    return _dot(rows[-1], _cofactors(rows[:-1], ring), ring) if rows else ring.number(Fraction(1))
+
+
+def _cofactors(rows: Sequence[Sequence[Quotient]], ring: Ring) -> list[Quotient]:
+    """Those of a row below these, up to one sign for all."""
+    left_out = [[[*row[:i], *row[i + 1 :]] for row in rows] for i in range(len(rows) + 1)]
+    return [ring.number(Fraction((-1) ** i)) * _determinant(minor, ring) for i, minor in enumerate(left_out)]
+
+
+def _dense(of: Quotient) -> Dense:
+    """A polynomial in t, the last variable, with its denominator left out."""
+    powers = {_exponents(m, len(of.numerator.ring.variables))[-1]: c for m, c in of.numerator.terms.items()}
+    return [powers.get(k, 0) for k in range(max(powers, default=-1) + 1)]
+
+
+def _remainder(a: Dense, b: Dense, work: Work) -> Dense:
+    """A positive multiple of the remainder of a by b, without a common factor."""
+    while len(a) >= len(b):
+        bits = max(map(int.bit_length, a))
+        if bits > MOST_BITS:
+            raise Rejected("the certificate has a polynomial too large to be checked")
+        work.spend(len(a) * (1 + bits // 512))
+        common = gcd(a[-1], b[-1]) * (1 if b[-1] > 0 else -1)
+        shifted = [0] * (len(a) - len(b)) + b
+        a = [x * (b[-1] // common) - y * (a[-1] // common) for x, y in zip(a, shifted, strict=True)]
+        while a and not a[-1]:
+            a = a[:-1]
+    common = gcd(*a)
+    return [x // common for x in a]
+
+
+def _chain(a: Dense, b: Dense, work: Work) -> list[Dense]:
+    """Euclid's algorithm with the signs of Sturm's: the last is the greatest common divisor."""
+    found = [a]
+    while b:
+        found.append(b)
+        a, b = b, [-x for x in _remainder(a, b, work)]
+    return found
+
+
+def _roots(e: Dense, work: Work) -> tuple[int, int, int, int]:
+    """The NUMBERS of the roots: one of a multiplicity m > 1 is a root of gcd(e, e') of the multiplicity m - 1."""
+    real, different = [], []
+    while len(e) > 1:
+        chain = _chain(e, [k * c for k, c in enumerate(e)][1:], work)
+        above = [p[-1] > 0 for p in chain]
+        below = [sign is (len(p) % 2 == 1) for sign, p in zip(above, chain, strict=True)]
+        changes = [sum(x is not y for x, y in pairwise(signs)) for signs in (below, above)]
+        real.append(changes[0] - changes[1])
+        different.append(len(e) - len(chain[-1]))
+        e = chain[-1]
+    return sum(real[:1]), sum(different[:1]), sum(real), sum(different)
