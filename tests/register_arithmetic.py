@@ -17,6 +17,7 @@ def arithmetic(package):
 
     polynomials(import_module(f"{package}.polynomial"), refused)
     words(import_module(f"{package}.words"), import_module(f"{package}.polynomial").Work, refused)
+    roots(import_module(f"{package}.roots"), import_module(f"{package}.polynomial").Work)
 
 
 def bounded(p):
@@ -63,6 +64,14 @@ def polynomials(module, refused):
     assert spent(module.Work, lambda work: module.Ring([f"x{i}" for i in range(128)], work).constant(1)) == 3
     few = module.Ring(["x"], module.Work(3))
     assert refused(lambda: (few.variable(0) + few.constant(1)) * (few.variable(0) + few.constant(2)))
+
+
+def roots(module, Work):
+    work = Work(1000)
+    assert module._remainder([1, 0, 1 << 1024], [1, 3], work) == [1]
+    assert work.left == 1000 - (3 + 2) * (1 + 1025 // 512) ** 2
+    assert module._roots([-6, 11, -6, 1], work) == (3, 3, 3, 3)
+    assert module._roots([1, 0, 2, 0, 1], work) == (0, 2, 0, 4)
 
 
 def words(module, Work, refused):

@@ -4,8 +4,9 @@ import copy
 
 from certificate_changes import resealed
 
-#: A quotient ring with relations, with and without a counterexample; words, with matrices in the counterexample; both.
-SAMPLES = ("2.5-inverse", "5.4", "prop-4", "4.9-F", "2.11-eliminated", "5.16", "prop-2", "2.7-vertical")
+#: A quotient ring with relations, with and without a counterexample; words, with matrices in the counterexample; both;
+#: a number of solutions.
+SAMPLES = ("2.5-inverse", "5.4", "prop-4", "4.9-F", "2.11-eliminated", "5.16", "prop-2", "2.7-vertical", "5.9-circle")
 
 
 def leaves(data, path=()):
@@ -29,6 +30,11 @@ def mathematics(data):
         if "refuted" not in one:
             for part in {"left", "right", "cofactors"} & one.keys():
                 yield from leaves(one[part], ("statements", i, part))
+    for i, one in enumerate(data["counts"]):
+        yield from leaves(one["equations"], ("counts", i, "equations"))
+        yield from leaves(one["chart"], ("counts", i, "chart"))
+        for k in range(len(one["unknowns"]) - 1):  # the others show that something is not 0, as many do
+            yield from leaves(one["combinations"][k], ("counts", i, "combinations", k))
 
 
 def slipped(value, rng):
@@ -178,13 +184,13 @@ CHANGES = {
 }  # fmt: skip
 
 
-def by_hand(statements, points=(), algebras=(), counterexamples=(), hypotheses=(), comparisons=()):
+def by_hand(statements, points=(), algebras=(), counterexamples=(), hypotheses=(), comparisons=(), counts=()):
     """A certificate with few parts."""
     return resealed({
         "format": "chapsym-certificate/1", "kind": "register-claim", "claim": "0", "printed": "x", "corrected": None,
         "hypotheses": [*hypotheses], "algebras": [*algebras], "derivation": [], "points": [*points],
-        "statements": [*statements], "comparisons": [*comparisons], "counterexamples": [*counterexamples],
-        "sentences": [], "statement": "",
+        "statements": [*statements], "comparisons": [*comparisons], "counts": [*counts],
+        "counterexamples": [*counterexamples], "sentences": [], "statement": "",
     })  # fmt: skip
 
 

@@ -9,6 +9,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from count_changes import counts
 from derivation_changes import derivations
 from register_changes import CHANGES, SAMPLES, changed, slip, small
 
@@ -25,6 +26,7 @@ FILES = (
     "matrices.py",
     "polynomial.py",
     "register.py",
+    "roots.py",
     "trees.py",
     "words.py",
 )
@@ -88,7 +90,7 @@ def battery(tmp_path_factory):
     rng = random.Random(7)
     wrong = [changed(samples[id], change) for id, change in CHANGES.values()]
     wrong += [slip(samples[rng.choice(SAMPLES)], rng)[0] for _ in range(40)]
-    right, more = (one | other for one, other in zip(small(), derivations(), strict=True))
+    right, more = (a | b | c for a, b, c in zip(small(), derivations(), counts(), strict=True))
     right = [[data, checker.check(data).numbers] for data in (*samples.values(), *right.values())]
     file = tmp_path_factory.mktemp("battery") / "battery.json"
     file.write_text(json.dumps([right, [*wrong, *more.values()]]))
