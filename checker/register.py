@@ -60,7 +60,8 @@ def statement(data: dict[str, Any]) -> str:
     proved = [one for one in data["statements"] if "refuted" not in one]
     words = sum(data["algebras"][one["algebra"]]["kind"] != "quotient" for one in proved)
     names = {one["name"] for one in data["derivation"]}
-    derived = sum(not names_in([0, *one["left"], *one["right"]]).isdisjoint(names) for one in proved)
+    about = [[*one["left"], *one["right"]] for one in proved] + [one["equations"] for one in data["counts"]]
+    derived = sum(not names_in([0, *trees]).isdisjoint(names) for trees in about)
     premises = sum(derivation.is_premise(one, names) for one in data["derivation"])
     refuted = len(data["statements"]) - len(proved)
     true = sum(one["holds"] for one in data["counts"])
@@ -69,11 +70,11 @@ def statement(data: dict[str, Any]) -> str:
         f"Claim {data['claim']}: {len(proved) - words} statements hold wherever their relations hold and their "
         f"denominators do not vanish, which happens at a point given for each; {words} statements about words hold for "
         f"all matrices that satisfy their rules, as those given do, of whatever sizes make both sides matrices of one "
-        f"size, where no number that they divide by is 0; {derived} of these are about what {len(names)} definitions "
-        f"make, of which {premises} name no other; {equal} of these have one "
+        f"size, where no number that they divide by is 0; {true} statements about how many solutions equations "
+        f"have, at a point given for each, hold, and {len(data['counts']) - true} printed ones fail; {derived} of these "
+        f"are about what {len(names)} definitions make, of which {premises} name no other; {equal} of these have one "
         f"expression on both sides, and say nothing of how it was derived; {refuted} printed statements fail at "
-        f"{len(data['counterexamples'])} points given; {len(data['comparisons'])} comparisons hold at theirs; "
-        f"{true} counts of the solutions of equations hold, and {len(data['counts']) - true} printed ones fail.  "
+        f"{len(data['counterexamples'])} points given; {len(data['comparisons'])} comparisons hold at theirs.  "
         f"{len(data['hypotheses'])} hypotheses hold at every point that has values for them.  "
         f"{len(data['sentences'])} sentences are listed and not checked."
     )

@@ -78,9 +78,8 @@ def lines(data: dict[str, Any], parts: bool = True) -> Iterator[str]:
         for left, right in zip(one["left"], one["right"], strict=True):
             yield f"    {traces}{formula(left)} = {formula(right)}"
     for one in data["counts"]:
-        point = data["points"][one["point"]]
-        at = ", ".join(f"{name} = {value}" for name, value in point.items() if not isinstance(value, list))
-        yield f"{one['role']}: {one['text']}    [solutions ({' : '.join(one['unknowns'])}) at {at}]"
+        at = "".join(f", {name} = {_place(value)}" for name, value in data["points"][one["point"]].items())
+        yield f"{one['role']}: {one['text']}    [solutions ({' : '.join(one['unknowns'])}){at}]"
         yield "    " + ", ".join(f"{formula(tree)} = 0" for tree in one["equations"])
         yield from (f"    at none {formula(tree)} = 0" for tree in one["nonzero"])
         said = " and ".join(f"{formula(a)} {relation} {formula(b)}" for relation, a, b in one["relations"])

@@ -105,7 +105,7 @@ def carried(records: Iterable[Record]) -> dict[str, int]:
     counts = [record["evidence"].get("carried") or {} for record in records]
     found = {
         name: sum(one.get(name, 0) for one in counts)
-        for name in ("statements", "identical", "comparisons", "counterexamples", "steps")
+        for name in ("statements", "identical", "comparisons", "counts", "counterexamples", "steps")
     }
     return found | {"sentences": sum(sum(one.get("sentences", {}).values()) for one in counts)}
 

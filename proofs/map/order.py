@@ -12,7 +12,7 @@ from chapsym.derive import composition
 from chapsym.derive.composition import Word, defects
 from chapsym.derive.quotient import Quotient
 from chapsym.dynamics.coefficients import COMPOSITIONS
-from chapsym.prove import Comparison, Equation, Fact, Proof, claim, main
+from chapsym.prove import COMPLEX, REAL, Comparison, Count, Equation, Fact, Proof, claim, main
 
 #: t = ∛4 and Suzuki's c = 1/(4 - t), as (4 - t)(16 + 4t + t²) = 64 - t³ = 60.
 t = sp.Symbol("t")
@@ -109,7 +109,11 @@ def order(p: Proof) -> None:
     exact = defects(suzuki, 4)
     p.printed(Equation("order 4: every word through the weight 4", exact.values(), [sp.S.Zero] * len(exact), ROOT))
     fifth = defects(suzuki, 5)[(5,)]
-    p.printed(Fact("not 5: Σc⁵ ≠ 0 in the field Q(∛4)", not ROOT.is_zero(fifth)))
+    whole = sp.Symbol("v")
+    homogeneous = [sp.Poly(e, t).homogenize(whole).as_expr() for e in (t**3 - 4, fifth)]
+    one = (sp.Eq(REAL, 1), sp.Eq(COMPLEX, 3))
+    text = "not 5: Σc⁵ ≠ 0 at the roots t/v of t³ = 4, one of them real"
+    p.printed(Count(text, homogeneous[:1], (whole, t), {}, one, Quotient(()), homogeneous[1:]))
     p.control(Equation("order 5: Σc⁵ = 0", fifth, 0, ROOT))
     decimals = COMPOSITIONS[4].exact
     first, second, middle, off = sp.symbols("c1:4 o")

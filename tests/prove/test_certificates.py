@@ -41,7 +41,7 @@ def test_the_certificates_state_what_the_verdicts_rest_on(verdicts):
     for id, record in verdicts.items():
         data = checker.read(FOLDER / f"{id}.json")
         assert (data["claim"], data["printed"], data["corrected"]) == (id, record["printed"], record["corrected"])
-        kept = [one["text"] for one in (*data["statements"], *data["comparisons"])]
+        kept = [one["text"] for one in (*data["statements"], *data["comparisons"], *data["counts"])]
         kept += [one["text"] for one in data["sentences"] if one["role"] in checker.register.ROLES]
         for check in record["evidence"]["checks"]:
             text = check["statement"]
@@ -56,6 +56,7 @@ def test_the_certificates_state_what_the_verdicts_rest_on(verdicts):
             "identical": sum(one["left"] == one["right"] for one in data["statements"]),
             "steps": len(data["derivation"]),
             "comparisons": len(data["comparisons"]),
+            "counts": len(data["counts"]),
             "hypotheses": len(data["hypotheses"]),
             "counterexamples": len(data["counterexamples"]),
             "sentences": {role: n for role in checker.register.SENTENCES if (n := count(data, role))},
@@ -81,8 +82,8 @@ def test_the_share_of_the_register_that_is_checked():
     files = [checker.read(path) for path in FOLDER.iterdir()]
     decided = sum(one["role"] in checker.register.ROLES for data in files for one in data["sentences"])
     prose = sum(len(data["sentences"]) for data in files) - decided
-    assert (len(files), sum(len(data["statements"]) for data in files), decided, prose) == (138, 498, 84, 549)
-    assert [sum(len(data[part]) for data in files) for part in ("comparisons", "hypotheses")] == [43, 45]
+    assert (len(files), sum(len(data["statements"]) for data in files), decided, prose) == (138, 498, 69, 533)
+    assert [sum(len(data[part]) for data in files) for part in ("comparisons", "counts", "hypotheses")] == [45, 25, 47]
     assert sum(one["left"] == one["right"] for data in files for one in data["statements"]) == 80
     assert sum(path.stat().st_size for path in FOLDER.iterdir()) < 2_000_000
 
@@ -94,13 +95,14 @@ def test_what_is_derived_is_in_the_chain():
         data = checker.read(path)
         names = {one["name"] for one in data["derivation"]}
         said = [one for one in data["statements"] if names & names_in([0, *one["left"], *one["right"]])]
+        said += [one for one in data["counts"] if names & names_in([0, *one["equations"]])]
         derived |= {data["claim"]: (data, said)} if names else {}
     assert derived.keys() >= {
         "2.10", "2.11", "2.12", "2.14", "2.15", "4.1", "4.3", "4.4", "4.6", "4.7", "4.9-f", "4.10", "4.13-limit",
-        "5.2", "prop-1", "remark-3", "self-adjoint",
+        "5.2", "5.3-at-most-4", "5.3-at-least-2", "5.9-circle", "prop-1", "remark-3", "remark-4", "self-adjoint",
     }  # fmt: skip
     assert all(said for _, said in derived.values())
-    assert sum(len(said) for _, said in derived.values()) == 64
+    assert sum(len(said) for _, said in derived.values()) == 87
     for claim in ("prop-1", "remark-3", "5.2"):
         data, _ = derived[claim]
         names = {one["name"] for one in data["derivation"]}

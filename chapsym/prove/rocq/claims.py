@@ -9,7 +9,7 @@ from .names import comment, identifier
 from .quotients import Fact
 
 #: Why a statement has no theorem.
-SAME = "it has one expression on both sides"
+SAME, COUNT = "it has one expression on both sides", "it is a number of solutions"
 
 
 class Claim:
@@ -26,12 +26,18 @@ class Claim:
         for i, one in enumerate(data["statements"]):
             if "refuted" not in one:
                 self._statement(f"{self.name}_statement_{i}", self._unfolded(one))
+        for one in data["counts"]:
+            self._leave_out("Points", COUNT, one["text"])
         for i, example in enumerate(data["counterexamples"]):
             self._counterexample(f"{self.name}_counterexample_{i}", example)
 
     def _unfolded(self, one: dict[str, Any]) -> dict[str, Any]:
         """With the values of what the derivation defines in the place of its names."""
         return one | {side: [_placed(tree, self._values) for tree in one[side]] for side in ("left", "right")}
+
+    def _leave_out(self, library: str, reason: str, text: str) -> None:
+        self.left_out[reason] += 1
+        self.parts.setdefault(library, []).append(comment(f"Left out, because {reason}: {text}"))
 
     def _put(self, library: str, sort: str, text: str, name: str, theorem: str) -> None:
         self.parts.setdefault(library, []).append(f"{comment(text)}\n{theorem}")
@@ -54,8 +60,7 @@ class Claim:
                 quotients.statement(name, one, algebra) if is_quotient else words.statement(name, one, algebra, point)
             )
         except words.LeftOut as error:
-            self.left_out[str(error)] += 1
-            self.parts.setdefault(library, []).append(comment(f"Left out, because {error}: {one['text']}"))
+            self._leave_out(library, str(error), one["text"])
             return
         self._put(library, "statements", f"{one['role']}: {one['text']}", name, theorem)
         assumed = _hypotheses(algebra, point)
