@@ -43,7 +43,7 @@ STRONG = 1000
 SIGN = "Euler parameters that differ by a sign are one solution; q₀ ≥ 0, so that rotations by π count"
 FINITE = "the solutions are finitely many, complex ones with them"
 UNEQUAL = [sp.Ne(a, b) for a, b in ((three.J1, three.J2), (three.J2, three.J3), (three.J3, three.J1))]
-NUMBER = "the number of real solutions"
+NUMBER = "the number of real q with 𝒦 = K"
 
 
 def count(
@@ -155,7 +155,16 @@ def lower_bound(p: Proof) -> None:
     p.lemma(Comparison("Ωᵀ𝒦 and Ωᵀγ are the 𝒦 and γ of the next step", carried, state))
     p.show("𝒦 after the step", momentum)
     p.show("γ after the step", vertical)
-    p.printed(count(f"{NUMBER} after that step", 7, momentum, REAL >= 2, ball=ball, vertical=vertical))
+    p.printed(
+        count(
+            f"{NUMBER}, one step after γ = (1, 2, 2)/3 and Euler parameters ~ (4, 2, 4, -1)",
+            7,
+            momentum,
+            REAL >= 2,
+            ball=ball,
+            vertical=vertical,
+        )
+    )
     p.say("Bézout: the quadrics have 8 common points with multiplicity (at D = 0 four of them are not rotations).")
     p.say("Their coefficients are real, so the non-real points come in conjugate pairs: one solution is never alone.")
     scale = sp.Symbol("s")
