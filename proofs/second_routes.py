@@ -6,7 +6,7 @@ those by π), a unit vector a point of the stereographic plane, and for a vertic
 solved for.  Nothing here comes from chapsym.derive.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import pairwise
 from typing import Any
@@ -19,9 +19,9 @@ from chapsym.prove.polynomials import Ratio, parameters
 Array = np.ndarray  # of Ratio: a vector or a matrix
 
 
-def identity(text: str, left: Any, right: Any, large: bool = False) -> Identity:
-    """Equality of numbers, vectors or matrices, entry by entry; a large one has no certificate."""
-    return Identity(text, list(np.ravel(left)), list(np.ravel(right)), large)
+def identity(text: str, left: Any, right: Any) -> Identity:
+    """Equality of numbers, vectors or matrices, entry by entry."""
+    return Identity(text, list(np.ravel(left)), list(np.ravel(right)))
 
 
 def mutated(text: str, statement: Identity) -> Identity:
@@ -112,14 +112,13 @@ def centre_step(before: Array, after: Array, vertical: Array, rho: Any, naive: b
     return -rho * (turn @ vertical - vertical) if naive else -rho / 2 * (turn - turn.T) @ vertical
 
 
-def balance_in_space(
-    R: list[Array], J: Array, vertical: Array, mass: Any, rho: Any, naive: bool = False
-) -> tuple[Array, list[Array]]:
-    """m_k - m_{k-1} - ρ(fγᵀ - γfᵀ) for three attitudes, f by (4.4) and (4.9); and the two steps Δr."""
-    spins = [after @ J @ before.T - before @ J @ after.T for before, after in pairwise(R)]
-    steps = [centre_step(before, after, vertical, rho, naive) for before, after in pairwise(R)]
-    force = mass * steps[1] - mass * steps[0]
-    return spins[1] - spins[0] - rho * (np.outer(force, vertical) - np.outer(vertical, force)), steps
+def momentum_in_space(
+    before: Array, after: Array, J: Array, vertical: Array, mass: Any, rho: Any, naive: bool = False
+) -> Array:
+    """m - ρ(pγᵀ - γpᵀ) of one step between two attitudes, with m by (4.3), p = mΔr and Δr by (4.9)."""
+    impulse = mass * centre_step(before, after, vertical, rho, naive)
+    rolling = np.outer(impulse, vertical) - np.outer(vertical, impulse)
+    return after @ J @ before.T - before @ J @ after.T - rho * rolling
 
 
 def action(R: list[Array], r: list[Array], J: Array, mass: Any) -> Array:
@@ -132,21 +131,15 @@ def action(R: list[Array], r: list[Array], J: Array, mass: Any) -> Array:
     )
 
 
-def conservation(n: int, any_axes: bool, last: int = 1, naive: bool = False) -> list[Identity]:
-    """Proposition 1 from the principle of Section 3; the axes of space are any, or those of the body at the time k."""
-    count = n * (n - 1) // 2
-    names = [f"{kind}{i}" for kind in ("a", "b", "p", "x") for i in range(count)]
-    names += [f"{kind}{i}" for kind in ("g", "J") for i in range(n)]
+def principle(n: int) -> Identity:
+    """The principle of Section 3 along every virtual turn; the attitudes are any matrices, rotations or not."""
+    names = [f"{kind}{i}{j}" for kind in "pqr" for i in range(n) for j in range(n)]
+    names += [f"x{i}" for i in range(n * (n - 1) // 2)] + [f"{kind}{i}" for kind in "gJ" for i in range(n)]
     free = parameters(" ".join([*names, "mass", "rho", "e"]))
-    a, b, frame, virtual = (skew(free[i * count : (i + 1) * count], n) for i in range(4))
-    vertical, J = array(free[4 * count : 4 * count + n]), np.diag(array(free[4 * count + n : 4 * count + 2 * n]))
+    R = [array(free[i * n * n : (i + 1) * n * n]).reshape(n, n) for i in range(3)]
+    virtual, vertical, J = skew(free[3 * n * n :], n), array(free[-3 - 2 * n : -3 - n]), np.diag(free[-3 - n : -3])
     mass, rho, e = free[-3:]
-    previous, turn = cayley(a), cayley(b)
-    first = cayley(frame) if any_axes else previous.T
-    R = [first, first @ previous if any_axes else unit(n)]
-    R.append(R[1] @ turn)
-
-    balance, steps = balance_in_space(R, J, vertical, mass, rho, naive)
+    steps = [centre_step(before, after, vertical, rho) for before, after in pairwise(R)]
     r = [0 * steps[0], steps[0], steps[0] + steps[1]]
 
     def displaced(size: Any) -> Array:
@@ -154,16 +147,33 @@ def conservation(n: int, any_axes: bool, last: int = 1, naive: bool = False) -> 
         there = [R[0], R[1] + size * virtual @ R[1], R[2]]
         return action(there, [r[0], r[1] - size * rho * virtual @ vertical, r[2]], J, mass)
 
-    D = mass * rho**2
-    before, now = (momentum(x, J, R[i].T @ vertical, D, last) for i, x in enumerate((previous, turn)))
-    other = momentum_by_centre(turn, J, R[1].T @ vertical, D)
-    outer = [np.outer(R[i].T @ vertical, R[i].T @ vertical) for i in (0, 1)]
     work = sum((displaced(e) - displaced(-e)) / (2 * e))
+    earlier, later = (momentum_in_space(*pair, J, vertical, mass, rho) for pair in pairwise(R))
+    text = f"n = {n}: the work along every virtual turn ξ is ½ tr(ξ·balance), the balance the change of m - ρmΔr∧γ"
+    return identity(text, work, np.trace(virtual @ (later - earlier)) / 2)
+
+
+def conservation(n: int, any_axes: bool, last: int = 1, naive: bool = False) -> list[Identity]:
+    """Proposition 1 from the principle of Section 3; the axes of space are any, or those of the body at the time k."""
+    count = n * (n - 1) // 2
+    names = [f"{kind}{i}" for kind in "ap" for i in range(count)] + [f"{kind}{i}" for kind in "gJ" for i in range(n)]
+    free = parameters(" ".join([*names, "mass", "rho"]))
+    vertical, J = array(free[2 * count : 2 * count + n]), np.diag(free[2 * count + n : 2 * count + 2 * n])
+    turn, (mass, rho) = cayley(skew(free[:count], n)), free[-2:]
+    now = cayley(skew(free[count : 2 * count], n)) if any_axes else unit(n)
+    D = mass * rho**2
+
+    def in_space(before: Array, after: Array) -> Array:
+        return now.T @ momentum_in_space(before, after, J, vertical, mass, rho, naive) @ now
+
+    earlier, gamma = now @ turn.T, now.T @ vertical
+    before, after = (momentum(turn, J, attitude.T @ vertical, D, last) for attitude in (earlier, now))
+    outer = [np.outer(attitude.T @ vertical, attitude.T @ vertical) for attitude in (earlier, now)]
     return [
-        identity(f"n = {n}: the work along every virtual turn ξ is ½ tr(ξ·balance)", work, np.trace(virtual @ balance) / 2, large=True),
-        identity(f"n = {n}: R_kᵀ·balance·R_k = 𝒦_k - Ωᵀ𝒦_(k-1)Ω", R[1].T @ balance @ R[1], now - previous.T @ before @ previous, large=True),
-        identity(f"n = {n}: the two forms of (4.13) agree", now, other),
-        identity(f"n = {n}: Γ_k = ΩᵀΓ_(k-1)Ω", outer[1], previous.T @ outer[0] @ previous),
+        identity(f"n = {n}: R_kᵀ·(its part of the step k)·R_k = 𝒦_k", in_space(now, now @ turn), after),
+        identity(f"n = {n}: R_kᵀ·(that of the step k-1)·R_k = Ωᵀ𝒦_(k-1)Ω", in_space(earlier, now), turn.T @ before @ turn),
+        identity(f"n = {n}: the two forms of (4.13) agree", after, momentum_by_centre(turn, J, gamma, D)),
+        identity(f"n = {n}: Γ_k = ΩᵀΓ_(k-1)Ω", outer[1], turn.T @ outer[0] @ turn),
     ]  # fmt: skip
 
 
@@ -214,25 +224,43 @@ def vector_momentum(sign: int = 1, factor: int = 2, centre: int = 1) -> list[Ide
 
 @dataclass(frozen=True)
 class VerticalStep:
-    """One step with vertical momentum: u = q/q₀ and the turn, γ, γ~ = Ωᵀγ, the ball, and h."""
+    """A turn with u = q/q₀, γ, D, h, and the ball for which u = (ϰ/4)Λ⁻¹s, s = γ + γ~, γ~ = Ωᵀγ."""
 
     u: Array
-    turn: Array
     gamma: Array
-    following: Array
-    J: Array
+    kappa: Any
     D: Any
     h: Any
+
+    @cached_property
+    def turn(self) -> Array:
+        """Ω."""
+        return cayley(hat(self.u))
+
+    @cached_property
+    def following(self) -> Array:
+        """γ~."""
+        return self.turn.T @ self.gamma
+
+    @property
+    def sum(self) -> Array:
+        """s."""
+        return self.gamma + self.following
+
+    @property
+    def inverse_of_sum(self) -> Array:
+        """Λ⁻¹s."""
+        return 4 * self.u / self.kappa
 
     @property
     def lam(self) -> Array:
         """Λ."""
-        return sum(self.J) - self.J + self.D
+        return self.sum / self.inverse_of_sum
 
     @property
-    def sum(self) -> Array:
-        """s = γ~ + γ."""
-        return self.gamma + self.following
+    def J(self) -> Array:
+        """That Λ = diag(J₂ + J₃ + D, ...) says."""
+        return (sum(self.lam) - self.D) / 2 - self.lam
 
     @property
     def cosine(self) -> Any:
@@ -241,129 +269,182 @@ class VerticalStep:
 
     def sigma(self, part: int = 4) -> Any:
         """σ of (5.11) as corrected; `part` is 8 as printed."""
-        return self.h / (1 - self.D / part * (self.sum @ (self.sum / self.lam)))
+        return self.h / (1 - self.D / part * (self.sum @ self.inverse_of_sum))
+
+    @property
+    def second(self) -> Any:
+        """⟨s, Λ⁻²s⟩."""
+        return self.inverse_of_sum @ self.inverse_of_sum
 
     def is_vertical(self) -> Identity:
         """𝒦 = hγ with 𝒦 by the second form of (4.13), |γ| = 1."""
         whole = axial(momentum_by_centre(self.turn, np.diag(self.J), self.gamma, self.D))
-        return identity(
-            "𝒦 = hγ and |γ| = 1", [*whole, self.gamma @ self.gamma], [*(self.h * self.gamma), 1], large=True
-        )
+        return identity("𝒦 = hγ and |γ| = 1", [*whole, self.gamma @ self.gamma], [*(self.h * self.gamma), 1])
+
+    def of_no_other_ball(self) -> Identity:
+        """𝒦 = hγ, with 𝒦 by the first form of (4.13), is linear in J: solved by Cramer's rule."""
+        rolling = axial(momentum(self.turn, 0 * self.turn, self.gamma, self.D))
+        spinning = array([axial(momentum(self.turn, np.diag(row), self.gamma, 0 * self.D)) for row in unit(3)]).T
+        return identity("no other J has 𝒦 = hγ", inverse(spinning) @ (self.h * self.gamma - rolling), self.J)
 
 
 def vertical_step(unit_height: bool = False) -> VerticalStep:
-    """Ω, |γ| = 1, D and h are free, and 𝒦 = hγ, linear in J, is solved for the ball.
+    """Ω, |γ| = 1, D and h are free, and the ball is the one with 𝒦 = hγ (`of_no_other_ball`).
 
     The states with q₀q₁q₂q₃ ≠ 0 are reached, which are dense among those with σ ≠ 0.
     """
     *u, a, b, D, height = parameters("u1 u2 u3 a b D h")
     h: Any = 1 if unit_height else height
-    turn, gamma = cayley(hat(u)), sphere(a, b)
-    rolling = axial(momentum(turn, 0 * turn, gamma, D))
-    spinning = array([axial(momentum(turn, np.diag(row), gamma, 0 * D)) for row in unit(3)]).T
-    J = inverse(spinning) @ (h * gamma - rolling)
-    return VerticalStep(array(u), turn, gamma, turn.T @ gamma, J, D, h)
+    gibbs, gamma = array(u), sphere(a, b)
+    kappa = h * (1 + gibbs @ gibbs) + 2 * D * (gamma @ gibbs)  # σ/q₀²
+    return VerticalStep(gibbs, gamma, kappa, D, h)
 
 
 def quadratic_integral(power: int = -1, backwards: bool = False) -> list[Identity]:
     """Proposition 3; the arguments mutate the power of Λ and the transport of γ."""
     step = vertical_step()
-    following = step.turn @ step.gamma if backwards else step.following
-    forms = [vertical @ (step.lam**power * vertical) for vertical in (step.gamma, following)]
-    return [step.is_vertical(), identity(f"⟨γ, Λ^{power} γ⟩ is the same for γ and γ~", forms[0], forms[1], large=True)]
+    change, of_sum = step.following - step.gamma, step.inverse_of_sum
+    if backwards or power != -1:
+        following = step.turn @ step.gamma if backwards else step.following
+        change, of_sum = following - step.gamma, step.lam**power * (following + step.gamma)
+    text = f"⟨γ~ - γ, Λ^{power}(γ~ + γ)⟩ = 0: ⟨γ, Λ^{power} γ⟩ is the same for γ and γ~"
+    return [step.is_vertical(), step.of_no_other_ball(), identity(text, change @ of_sum, 0)]
 
 
 def symmetric_form(part: int = 4, under_root: int = 2, factor: int = 4) -> list[Identity]:
     """Proposition 4 as corrected; printed are part 8 (in σ) and under_root 0 (the power of σ under the root)."""
     step = vertical_step()
-    sigma, s = step.sigma(part), step.sum
-    root = 1 - sigma**under_root / 4 * (s @ (s / step.lam**2))
+    sigma = step.sigma(part)
+    root = 1 - sigma**under_root / 4 * step.second
     kappa = 2 * sigma / (1 + step.cosine)
     inner = (step.gamma @ step.u) / (1 + step.u @ step.u)  # q₀⟨γ, q⟩
     return [
         step.is_vertical(),
-        identity("σ = h + 2D q₀⟨γ, q⟩ is h/(1 - (D/4)⟨s, Λ⁻¹s⟩)", step.h + 2 * step.D * inner, sigma, large=True),
-        identity("cos²θ = 1 - (σ²/4)⟨s, Λ⁻²s⟩", step.cosine**2, root, large=True),
+        step.of_no_other_ball(),
+        identity("σ = h + 2D q₀⟨γ, q⟩ is h/(1 - (D/4)⟨s, Λ⁻¹s⟩)", step.h + 2 * step.D * inner, sigma),
+        identity("cos²θ = 1 - (σ²/4)⟨s, Λ⁻²s⟩", step.cosine**2, root),
         identity("γ~ - γ = (ϰ/4)s×Λ⁻¹s with ϰ = 2σ/(1 + cos θ)", step.following - step.gamma,
-                 kappa / factor * np.cross(s, s / step.lam), large=True),
+                 kappa / factor * np.cross(step.sum, step.inverse_of_sum)),
     ]  # fmt: skip
+
+
+def turn_of_a_pair() -> Identity:
+    """4(γ~ - γ) = ϰ s×Λ⁻¹s is γ~ - γ = s×u with u = (ϰ/4)Λ⁻¹s, for any s and u."""
+    free = parameters("s1 s2 s3 u1 u2 u3")
+    s, u = array(free[:3]), array(free[3:])
+    d = np.cross(s, u)
+    return identity("u = (ϰ/4)Λ⁻¹s turns γ into γ~: γ~ = Ωᵀγ", (s + d) / 2, cayley(hat(u)).T @ ((s - d) / 2))
 
 
 def steps_of_the_symmetric_form(part: int = 4) -> list[Identity]:
     """The converse: γ, γ~ with (5.10), σ and ϰ as corrected are one step; `part` mutates σ.
 
-    Two unit vectors with ⟨γ, Λ⁻¹γ⟩ = ⟨γ~, Λ⁻¹γ~⟩ have a ϰ by (5.10), and (2σ/ϰ - 1)² = 1 - (σ²/4)⟨s, Λ⁻²s⟩
-    is linear in σ.  Then q₀² = σ/ϰ, and q = (σ/4q₀)Λ⁻¹s is q₀u with u = (ϰ/4)Λ⁻¹s.
+    Two unit vectors with ⟨γ, Λ⁻¹γ⟩ = ⟨γ~, Λ⁻¹γ~⟩ have a ϰ by (5.10), and u = (ϰ/4)Λ⁻¹s turns one into the other: so
+    γ, u, ϰ and D are free, and Λ⁻¹s = (4/ϰ)u.  (2σ/ϰ - 1)² = 1 - (σ²/4)⟨s, Λ⁻²s⟩ is linear in σ; q₀² = σ/ϰ.
     """
-    pair = pair_on_a_curve()
-    s, d = pair.gamma + pair.following, pair.following - pair.gamma
-    kappa = 4 * d[0] / np.cross(s, s / pair.lam)[0]
-    sigma = (4 / kappa) / (4 / kappa**2 + s @ (s / pair.lam**2) / 4)
-    h = sigma * (1 - pair.D / part * (s @ (s / pair.lam)))
-    u = kappa / 4 * s / pair.lam
-    J = (sum(pair.lam) - 2 * pair.lam - pair.D) / 2
-    step = VerticalStep(u, cayley(hat(u)), pair.gamma, pair.following, J, pair.D, h)
+    *u, a, b, kappa, D = parameters("u1 u2 u3 a b kappa D")
+    step = VerticalStep(array(u), sphere(a, b), kappa, D, 0)
+    sigma = (4 / kappa) / (4 / kappa**2 + step.second / 4)
+    step = replace(step, h=sigma * (1 - D / part * (step.sum @ step.inverse_of_sum)))
     return [
-        identity("(5.10)", 4 * d, kappa * np.cross(s, s / pair.lam)),
-        identity("(2σ/ϰ - 1)² = 1 - (σ²/4)⟨s, Λ⁻²s⟩", (2 * sigma / kappa - 1) ** 2, 1 - sigma**2 / 4 * (s @ (s / pair.lam**2)), large=True),
-        identity("2σ/ϰ - 1 is the cos θ of the turn", 2 * sigma / kappa - 1, step.cosine, large=True),
-        identity("γ~ = Ωᵀγ", step.following, step.turn.T @ step.gamma, large=True),
+        has_kappa(pair_on_a_curve())[0],
+        turn_of_a_pair(),
+        identity("(2σ/ϰ - 1)² = 1 - (σ²/4)⟨s, Λ⁻²s⟩", (2 * sigma / kappa - 1) ** 2, 1 - sigma**2 / 4 * step.second),
+        identity("2σ/ϰ - 1 is the cos θ of the turn", 2 * sigma / kappa - 1, step.cosine),
         step.is_vertical(),
-    ]  # fmt: skip
+    ]
 
 
 @dataclass(frozen=True)
 class Increment:
     """What (5.15) is made of, for two points γ(u), γ(ũ) of one curve; all of it is rational in them.
 
-    By the addition theorem for ũ ± u, the halves by sn²(x/2) = (1 - cn x)/(1 + dn x).
+    By the addition theorem for ũ ± u, the halves by sn²(x/2) = (1 - cn x)/(1 + dn x).  Each part goes on in lowest
+    terms; that this is the same is an identity of its own.
     """
 
     gamma: Array
     following: Array
     lam: Array
     D: Any
+    reduced: list[Identity] = field(default_factory=list)
+
+    def lowest(self, text: str, value: Any) -> Any:
+        """A number or a vector in lowest terms."""
+        lowest = np.vectorize(lambda x: x.lowest() if isinstance(x, Ratio) else x, otypes=[object])(array(value))
+        self.reduced.append(identity(f"{text} in lowest terms", value, lowest))
+        return lowest if lowest.shape else lowest.item()
+
+    @cached_property
+    def inverse(self) -> Array:
+        """1/Λ1, 1/Λ2, 1/Λ3."""
+        return self.lowest("1/Λ1, 1/Λ2, 1/Λ3", 1 / self.lam)
 
     @cached_property
     def level(self) -> Any:
         """l."""
-        return self.gamma @ (self.gamma / self.lam)
+        return self.lowest("l", self.gamma @ (self.gamma * self.inverse))
 
     @cached_property
-    def squares(self) -> tuple[Any, Any, Any]:
+    def squares(self) -> Array:
         """C1², C2², C3² of (5.8) as corrected."""
-        (L1, L2, L3), l = self.lam, self.level
-        return L1 * (1 - L3 * l) / (L1 - L3), L2 * (1 - L3 * l) / (L2 - L3), L3 * (L1 * l - 1) / (L1 - L3)
+        (L1, L2, L3), l = 1 / self.inverse, self.level
+        squares = [L1 * (1 - L3 * l) / (L1 - L3), L2 * (1 - L3 * l) / (L2 - L3), L3 * (L1 * l - 1) / (L1 - L3)]
+        return self.lowest("C1², C2², C3²", squares)
+
+    @cached_property
+    def over_squares(self) -> Array:
+        """1/C1², 1/C2², 1/C3²."""
+        return self.lowest("1/C1², 1/C2², 1/C3²", 1 / self.squares)
 
     @cached_property
     def modulus(self) -> Any:
         """k²."""
-        (L1, L2, L3), l = self.lam, self.level
-        return (L1 - L2) * (1 - L3 * l) / ((L2 - L3) * (L1 * l - 1))
+        (L1, L2, L3), l = 1 / self.inverse, self.level
+        return self.lowest("k²", (L1 - L2) * (1 - L3 * l) / ((L2 - L3) * (L1 * l - 1)))
 
     @cached_property
-    def below(self) -> Any:
-        """The denominator of the addition theorem, 1 - k² sn²u sn²ũ."""
-        return 1 - self.modulus * (self.gamma[1] * self.following[1] / self.squares[1]) ** 2
+    def above(self) -> Any:
+        """1/(1 - k² sn²u sn²ũ), of the addition theorem."""
+        below = 1 - self.modulus * (self.gamma[1] * self.following[1] * self.over_squares[1]) ** 2
+        return self.lowest("1/(1 - k² sn²u sn²ũ)", 1 / below)
 
     def half_square(self, sign: int) -> Any:
         """sn² of (ũ + sign·u)/2."""
-        a, b, c = self.squares
+        a, b, c = self.over_squares
         x, y, z = self.gamma * self.following
-        cn = (x / a - sign * y * z / (b * c)) / self.below
-        dn = (z / c - sign * self.modulus * x * y / (a * b)) / self.below
-        return (1 - cn) / (1 + dn)
+        name = f"(ũ {'+' if sign > 0 else '-'} u)"
+        cn = self.lowest(f"cn{name}", (x * a - sign * y * z * b * c) * self.above)
+        dn = self.lowest(f"dn{name}", (z * c - sign * self.modulus * x * y * a * b) * self.above)
+        return self.lowest(f"sn²(½{name})", (1 - cn) / (1 + dn))
 
+    @cached_property
+    def coefficients(self) -> Array:
+        """Of 1/Λ1², 1/Λ2², 1/Λ3² in G."""
+        (a, b, c), k2, y = self.squares, self.modulus, self.y
+        in_g = [a / k2 * (1 - y), -b / k2 * (1 - y) * (1 - k2 * y), c * (1 - k2 * y)]
+        return self.lowest("the coefficients of Λ⁻² in G", in_g)
+
+    @cached_property
+    def y(self) -> Any:
+        """sn²δu."""
+        return self.half_square(-1)
+
+    @cached_property
     def parts(self) -> "Parts":
         """sn²δu, 𝒟, V w(δu), G and l - μ sn²δu."""
-        (a, b, c), k2, (L1, L2, L3), l = self.squares, self.modulus, self.lam, self.level
-        y, mean = self.half_square(-1), self.half_square(+1)
+        k2, (L1, L2, L3), l, y = self.modulus, 1 / self.inverse, self.level, self.y
         (g1, g2, g3), (h1, h2, h3) = self.gamma, self.following
         # V = -(C2 C3/C1)(Λ2-Λ3)/(Λ2Λ3); 2w = sn(ũ-u)(1 - k²y²); C1 C2 C3 sn(ũ-u) is rational in γ, γ~.
-        sine = (h2 * g1 * g3 - g2 * h1 * h3) / self.below
-        vw = -(L2 - L3) / (L2 * L3) * sine / a * (1 - k2 * y**2) / 2
-        G = a / (k2 * L1**2) * (1 - y) - b / (k2 * L2**2) * (1 - y) * (1 - k2 * y) + c / L3**2 * (1 - k2 * y)
-        return Parts(y, 1 - k2 * mean * y, vw, G, l - (1 - L3 * l) / (L2 - L3) * y)
+        sine = self.lowest("C1 C2 C3 sn(ũ - u)", (h2 * g1 * g3 - g2 * h1 * h3) * self.above)
+        vw = -(L2 - L3) / (L2 * L3) * sine * self.over_squares[0] * (1 - k2 * y**2) / 2
+        return Parts(
+            y,
+            self.lowest("𝒟", 1 - k2 * self.half_square(+1) * y),
+            self.lowest("Vw(δu)", vw),
+            self.coefficients @ self.inverse**2,
+            self.lowest("l - μ sn²δu", l - (1 - L3 * l) / (L2 - L3) * y),
+        )
 
 
 @dataclass(frozen=True)
@@ -386,45 +467,69 @@ def pair_on_a_curve() -> Increment:
 
     Every such triple with Λ finite and γ~₁² ≠ γ₁² is reached, but for a vector (0, 0, -1).
     """
-    a, b, c, d, L2, L3, D = parameters("a b c d L2 L3 D")
+    a, b, c, d, m2, m3, D = parameters("a b c d m2 m3 D")  # m2 and m3 are 1/Λ2 and 1/Λ3
     gamma, following = sphere(a, b), sphere(c, d)
     rise = following**2 - gamma**2
-    return Increment(gamma, following, array([-rise[0] / (rise[1] / L2 + rise[2] / L3), L2, L3]), D)
+    return Increment(gamma, following, 1 / array([-(rise[1] * m2 + rise[2] * m3) / rise[0], m2, m3]), D)
 
 
-def increment(contact: int = 1, sign: int = 1) -> list[Identity]:
-    """(5.15) as corrected, h = 1, for every two points of a curve; the arguments mutate D and V in it."""
-    pair = pair_on_a_curve()
-    parts, k2, l = pair.parts(), pair.modulus, pair.level
-    (L1, L2, L3), s, d = pair.lam, pair.gamma + pair.following, pair.following - pair.gamma
-    product = np.cross(s, s / pair.lam)
+def has_kappa(pair: Increment) -> tuple[Identity, Any]:
+    """(5.10) for two points of a curve, and its ϰ."""
+    s, d = pair.gamma + pair.following, pair.following - pair.gamma
+    product = np.cross(s, s * pair.inverse)
     kappa = 4 * d[0] / product[0]
-    first, second = s @ (s / pair.lam) / 4, s @ (s / pair.lam**2) / 4
-    sigma = 1 / (1 - pair.D * first)
+    return identity("(5.10) defines ϰ: its three components agree", 4 * d, kappa * product), kappa
+
+
+def increment() -> list[Identity]:
+    """(5.15) as corrected, h = 1, for every two points of a curve."""
+    pair = pair_on_a_curve()
+    parts, k2, l, (L1, L2, L3) = pair.parts, pair.modulus, pair.level, 1 / pair.inverse
+    defines, kappa = has_kappa(pair)
     on_curve = [
         entry
         for x in (pair.gamma, pair.following)
         for entry in (x[0] ** 2 / pair.squares[0] + x[1] ** 2 / pair.squares[1],
                       x[2] ** 2 / pair.squares[2] + k2 * x[1] ** 2 / pair.squares[1])
     ]  # fmt: skip
-    y, printed_v = parts.y, (L2 - L3) * (L1 * l - 1) / (L1 * L2 * L3)
-    statement = (2 * sigma / kappa - 1) ** 2 - (1 - sigma**2 * second)
-    relation = parts.relation(contact * pair.D, sign)
+    s = pair.gamma + pair.following
+    printed_v = pair.lowest("V² as printed", (L2 - L3) * (L1 * l - 1) / (L1 * L2 * L3))
+    rest = pair.lowest(
+        "the coefficients of Λ⁻² in Π2 𝒟² sn² - G𝒟",
+        s**2 / 4 * parts.scale**2 * parts.y - parts.scale * pair.coefficients,
+    )
     return [
-        identity("γ and γ~ are (C1 cn, C2 sn, C3 dn) of one curve", on_curve, [1] * 4, large=True),
-        identity("(5.10) defines ϰ: its three components agree", 4 * d, kappa * product),
-        identity("2𝒟 sn²δu = ϰVw (5.13-V)", 2 * parts.scale * y, kappa * parts.vw, large=True),
-        identity(
-            "(Vw)² = V² sn² cn² dn² with V² as printed", parts.vw**2, printed_v * y * (1 - y) * (1 - k2 * y), large=True
-        ),
-        identity(
-            "(2σ/ϰ-1)² - (1-σ²Π2) = T·σ²/(𝒟² sn²δu)", statement, relation * sigma**2 / (parts.scale**2 * y), large=True
-        ),
-    ]
+        *pair.reduced,
+        identity("γ and γ~ are (C1 cn, C2 sn, C3 dn) of one curve", on_curve, [1] * 4),
+        defines,
+        identity("2𝒟 sn²δu = ϰVw (5.13-V)", 2 * parts.scale * parts.y, kappa * parts.vw),
+        identity("(Vw)² = V² sn² cn² dn²", parts.vw**2,
+                 printed_v * parts.y * (1 - parts.y) * (1 - k2 * parts.y)),
+        identity("Π1 = (l - μ sn²)/𝒟", s @ (s * pair.inverse) / 4, parts.level / parts.scale),
+        identity("Π2 𝒟² sn² = G𝒟 - (Vw)²/sn²", rest @ pair.inverse**2, -(parts.vw**2) / parts.y),
+        relation_for_the_increment(),
+    ]  # fmt: skip
 
 
-def increment_of_the_map(contact: int = 1) -> Identity:
-    """T = 0 at every step of the map with vertical momentum and h = 1, from (4.13)."""
+def relation_for_the_increment(contact: int = 1, sign: int = 1) -> Identity:
+    """With σ = 1/(1 - DΠ1), ϰ, Π1 and Π2 by these parts; the arguments mutate D and V in it."""
+    y, scale, vw, G, level, D = parameters("y Dscr Vw G lam D")
+    parts = Parts(y, scale, vw, G, level)
+    sigma, kappa, second = 1 / (1 - D * level / scale), 2 * scale * y / vw, (G * scale - vw**2 / y) / (scale**2 * y)
+    return identity(
+        "(2σ/ϰ-1)² - (1-σ²Π2) = T·σ²/(𝒟² sn²δu)",
+        (2 * sigma / kappa - 1) ** 2 - (1 - sigma**2 * second),
+        parts.relation(contact * D, sign) * sigma**2 / (scale**2 * y),
+    )
+
+
+def increment_of_the_map(part: int = 4) -> list[Identity]:
+    """So T = 0 at every step of the map with vertical momentum and h = 1, from (4.13); `part` mutates σ."""
     step = vertical_step(unit_height=True)
-    parts = Increment(step.gamma, step.following, step.lam, step.D).parts()
-    return identity("T = 0 at every step with 𝒦 = γ", parts.relation(contact * step.D), 0, large=True)
+    sigma = step.sigma(part)
+    square = (2 * sigma / step.kappa - 1) ** 2
+    return [
+        step.is_vertical(),
+        step.of_no_other_ball(),
+        identity("(2σ/ϰ-1)² = 1-σ²Π2 at every step with 𝒦 = γ", square, 1 - sigma**2 * step.second / 4),
+    ]

@@ -26,7 +26,7 @@ from . import witness
 from .cofactors import Ideal
 from .evidence import Proof
 from .points import candidates
-from .polynomials import Identity, Ratio
+from .polynomials import Identity
 from .statements import Comparison, Count, Equation, Point, Statement
 from .trees import NotAlgebra, factored, nested, number, shared, tree
 
@@ -166,7 +166,7 @@ class _Maker:
         if isinstance(statement, Count) and (holds or (role == "printed" and not statement.nonzero)):
             self.counts.append(self._count(role, statement, holds))
             return
-        if isinstance(statement, Identity) and holds and not statement.large:
+        if isinstance(statement, Identity) and holds:
             self._identity(role, statement)
             return
         if not isinstance(statement, Equation):
@@ -194,8 +194,7 @@ class _Maker:
     def _identity(self, role: str, identity: Identity) -> None:
         """An identity in free parameters: a statement without relations."""
         names = identity.parameters
-        made = [x.made if isinstance(x, Ratio) else x for x in (*identity.left, *identity.right)]
-        definitions, trees = shared(made)
+        definitions, trees = shared([*identity.left, *identity.right])
         half = len(identity.left)
         algebra = _place(self.algebras, {"kind": "quotient", "variables": names, "relations": []})
         one = {"role": role, "text": identity.text, "algebra": algebra, "left": trees[:half], "right": trees[half:]}

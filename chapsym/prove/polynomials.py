@@ -22,8 +22,9 @@ class TooLarge(ArithmeticError):
     """An expression grows beyond all use, as it does where a wrong definition leaves nothing to cancel."""
 
 
-#: How a rational function was made: a parameter, an integer, or an operation with its operands.
-Made = str | int | tuple[Any, ...]
+#: How a rational function was made: a parameter, an integer, an operation with its operands (of ^ the last is a power),
+#: or None: it is written as what it is in lowest terms.
+Made = str | int | tuple[Any, ...] | None
 
 
 class Ratio:
@@ -53,7 +54,7 @@ class Ratio:
         # Both are in lowest terms: only a factor of what their denominators share can cancel.
         total = Ratio(_product(self.numerator, its) + _product(other.numerator, mine), common)
         whole = _product(total.denominator, _product(mine, its))
-        return Ratio._lowest(total.numerator, whole, ("+", self.made, other.made))
+        return Ratio._lowest(total.numerator, whole, ("+", self, other))
 
     def __mul__(self, other: Any) -> "Ratio":
         if (other := self._coerced(other)) is None:
@@ -61,7 +62,7 @@ class Ratio:
         # Both are in lowest terms: what cancels is crosswise, and the product is in lowest terms, too.
         one, two = Ratio(self.numerator, other.denominator), Ratio(other.numerator, self.denominator)
         above, below = _product(one.numerator, two.numerator), _product(one.denominator, two.denominator)
-        return Ratio._lowest(above, below, ("*", self.made, other.made))
+        return Ratio._lowest(above, below, ("*", self, other))
 
     def __truediv__(self, other: Any) -> "Ratio":
         if (other := self._coerced(other)) is None:
@@ -83,9 +84,13 @@ class Ratio:
     def __pow__(self, power: int) -> "Ratio":
         base = self if power >= 0 else self._inverse()
         result = prod([base] * abs(power), start=self._one())
-        return Ratio._lowest(result.numerator, result.denominator, ("^", self.made, power) if power else 1)
+        return Ratio._lowest(result.numerator, result.denominator, ("^", self, power) if power else 1)
 
     __radd__, __rmul__ = __add__, __mul__
+
+    def lowest(self) -> "Ratio":
+        """The same, which does not know how it was made: it is written in lowest terms."""
+        return Ratio._lowest(self.numerator, self.denominator, None)
 
     @classmethod
     def _lowest(cls, numerator: fmpq_mpoly, denominator: fmpq_mpoly, made: Made) -> "Ratio":
@@ -97,7 +102,7 @@ class Ratio:
     def _inverse(self) -> "Ratio":
         """1 over it."""
         flipped = Ratio(self.denominator, self.numerator)
-        return Ratio._lowest(flipped.numerator, flipped.denominator, ("^", self.made, -1))
+        return Ratio._lowest(flipped.numerator, flipped.denominator, ("^", self, -1))
 
     def _coerced(self, other: Any) -> "Ratio | None":
         """The other operand as a rational function of the same parameters; None if it is not an integer or one."""
@@ -126,15 +131,11 @@ def parameters(names: str) -> list[Ratio]:
 
 @dataclass(frozen=True)
 class Identity:
-    """left = right, entry by entry, for all values of the free parameters for which both sides are defined.
-
-    `large` says that without cancelling, as the checker works, it asks for more than the checker does.
-    """
+    """left = right, entry by entry, for all values of the free parameters for which both sides are defined."""
 
     text: str
     left: Sequence[Ratio | int]
     right: Sequence[Ratio | int]
-    large: bool = False
 
     def __post_init__(self) -> None:
         if len(self.left) != len(self.right) or not len(self.left):

@@ -7,7 +7,7 @@ from typing import Any
 import sympy as sp
 from flint import Ordering, fmpq, fmpq_mpoly_ctx
 
-from .polynomials import Made
+from .polynomials import Ratio
 
 Monomial = tuple[int, ...]
 
@@ -36,7 +36,7 @@ def number(x: Any) -> int | str:
     return int(x.p) if x.q == 1 else f"{x.p}/{x.q}"
 
 
-def shared(wholes: Sequence[Made]) -> tuple[list[list[Any]], list[Any]]:
+def shared(wholes: Sequence[Ratio | int]) -> tuple[list[list[Any]], list[Any]]:
     """The trees of what was made of parameters: definitions of what occurs more than once, and the wholes by these.
 
     Zeros and ones, of unit matrices, are left out.
@@ -47,32 +47,47 @@ def shared(wholes: Sequence[Made]) -> tuple[list[list[Any]], list[Any]]:
     named: dict[int, Any] = {}
     definitions: list[list[Any]] = []
 
-    def found(made: Made) -> Any:
-        if not isinstance(made, tuple):
-            return made
-        if id(made) not in named:
-            operation, *operands = made
-            whole = _simple(operation, operands if operation == "^" else list(map(found, operands)), found)
-            if uses[id(made)] > 1 and isinstance(whole, list):
+    def found(of: Ratio | int) -> Any:
+        if not isinstance(of, Ratio):
+            return int(of)
+        if isinstance(of.made, str | int):
+            return of.made
+        if id(of) not in named:
+            if of.made is None:
+                whole = lowest_terms(of)
+            else:
+                operation, *operands = of.made
+                whole = _simple(operation, operands if operation == "^" else list(map(found, operands)), found)
+            if uses[id(of)] > 1 and isinstance(whole, list):
                 definitions.append([f"_{len(definitions) + 1}", whole])
                 whole = definitions[-1][0]
-            named[id(made)] = whole
-        return named[id(made)]
+            named[id(of)] = whole
+        return named[id(of)]
 
     trees = [found(whole) for whole in wholes]
     return definitions, trees
 
 
-def _count(made: Made, uses: "Counter[int]") -> None:
+def _count(of: Ratio | int, uses: "Counter[int]") -> None:
     """How often each part occurs; what is below one that is named is counted once."""
-    if isinstance(made, tuple):
-        uses[id(made)] += 1
-        if uses[id(made)] == 1:
-            for part in made[1:]:
+    if isinstance(of, Ratio) and not isinstance(of.made, str | int):
+        uses[id(of)] += 1
+        if uses[id(of)] == 1 and of.made:
+            for part in of.made[1:]:
                 _count(part, uses)
 
 
-def _simple(operation: str, parts: list[Any], found: Callable[[Made], Any]) -> Any:
+def lowest_terms(of: Ratio) -> Any:
+    """The tree of a rational function as a quotient of polynomials, both in factors."""
+    names = of.denominator.context().names()
+    parts = _operands("*", factored(of.numerator.to_dict(), names))
+    _, factors = of.denominator.factor()  # it is monic
+    parts += [["^", _nested(factor.to_dict(), names), -int(power)] for factor, power in sorted(factors, key=str)]
+    kept = [part for part in parts if part != 1] or [1]
+    return _list("*", kept)
+
+
+def _simple(operation: str, parts: list[Any], found: Callable[[Ratio | int], Any]) -> Any:
     """A sum, a product or a power of trees, without what changes nothing."""
     if operation == "^":
         base, power = found(parts[0]), parts[1]

@@ -64,9 +64,10 @@ def compact_form(p: Proof) -> None:
     p.control(equation("the part of the step k-1 = -Ω𝒦Ωᵀ", before, -Omega * now * OmegaT))
     p.route(
         "from the action to (4.13) in free parameters, every turn without the eigenvalue -1: "
-        "n = 3 in any axes of space, n = 4 in those of the body at the time k",
+        "n = 3 in any axes of space, n = 4 in those of the body where the step begins",
+        *map(second_routes.principle, (3, 4)),
         *second_routes.conservation(3, any_axes=True),
-        *second_routes.conservation(4, any_axes=False),
+        *second_routes.conservation(4, any_axes=False)[:1],
     )
     wrong = second_routes.conservation(3, any_axes=False, last=-1)[1]
     p.control(second_routes.mutated("n = 3: (4.12) with -D/2 in the last term of the first form", wrong))

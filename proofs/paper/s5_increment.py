@@ -293,13 +293,12 @@ def relation_for_the_increment(p: Proof) -> None:
     )
     p.route(
         "every step of the map with 𝒦 = γ, from (4.13), solved for the ball (q₀q₁q₂q₃ ≠ 0)",
-        second_routes.increment_of_the_map(),
+        *second_routes.increment_of_the_map(),
     )
-    p.control(second_routes.mutated("T with 2D at two points of a curve", second_routes.increment(contact=2)[4]))
-    p.control(second_routes.mutated("T with -V at two points of a curve", second_routes.increment(sign=-1)[4]))
-    p.control(
-        second_routes.mutated("T = 0 with 2D at every step with 𝒦 = γ", second_routes.increment_of_the_map(contact=2))
-    )
+    p.control(second_routes.mutated("T with 2D", second_routes.relation_for_the_increment(contact=2)))
+    p.control(second_routes.mutated("T with -V", second_routes.relation_for_the_increment(sign=-1)))
+    wrong = second_routes.increment_of_the_map(part=2)[2]
+    p.control(second_routes.mutated("with 2D in σ at every step with 𝒦 = γ", wrong))
 
 
 @claim("5.15-euler", r"d = 0:\ \text{the increment does not depend on } u", uses=["5.15"])

@@ -202,14 +202,14 @@ def symmetric_form(p: Proof) -> None:
         *second_routes.symmetric_form(),
     )
     p.route(
-        "the converse: γ, γ~ on the unit sphere, Λ2, Λ3 and D are free, σ is solved for, and u = (ϰ/4)Λ⁻¹s",
+        "the converse: γ on the unit sphere, u = (ϰ/4)Λ⁻¹s, ϰ and D are free, and σ is solved for",
         *second_routes.steps_of_the_symmetric_form(),
     )
-    p.control(second_routes.mutated("σ with D/8, as printed", second_routes.symmetric_form(part=8)[1]))
+    p.control(second_routes.mutated("σ with D/8, as printed", second_routes.symmetric_form(part=8)[2]))
     p.control(
-        second_routes.mutated("cos²θ = 1 - ¼⟨s, Λ⁻²s⟩, as printed", second_routes.symmetric_form(under_root=0)[2])
+        second_routes.mutated("cos²θ = 1 - ¼⟨s, Λ⁻²s⟩, as printed", second_routes.symmetric_form(under_root=0)[3])
     )
-    p.control(second_routes.mutated("(5.10) with ϰ/2", second_routes.symmetric_form(factor=2)[3]))
+    p.control(second_routes.mutated("(5.10) with ϰ/2", second_routes.symmetric_form(factor=2)[4]))
     wrong = second_routes.steps_of_the_symmetric_form(part=8)[4]
     p.control(second_routes.mutated("the converse with D/8 in σ: 𝒦 = hγ", wrong))
 

@@ -163,8 +163,8 @@ def quadratic_integral(p: Proof) -> None:
         "Ω, |γ| = 1, D and h are free and 𝒦 = hγ with (4.13), linear in J, is solved for the ball (q₀q₁q₂q₃ ≠ 0)",
         *second_routes.quadratic_integral(),
     )
-    p.control(second_routes.mutated("⟨γ, Λγ⟩ is an integral", second_routes.quadratic_integral(power=1)[1]))
-    p.control(second_routes.mutated("the integral with γ~ = Ωγ", second_routes.quadratic_integral(backwards=True)[1]))
+    p.control(second_routes.mutated("⟨γ, Λγ⟩ is an integral", second_routes.quadratic_integral(power=1)[2]))
+    p.control(second_routes.mutated("the integral with γ~ = Ωγ", second_routes.quadratic_integral(backwards=True)[2]))
 
 
 if __name__ == "__main__":

@@ -157,7 +157,7 @@ def test_the_parts_of_the_increment_are_jacobis_functions():
             pair = second_routes.Increment(gamma(u), gamma(v), np.array([L1, L2, L3]), mpmath.mpf(3))
             (sh, ch, dh), (sm, _, _) = jacobi((v - u) / 2), jacobi((v + u) / 2)
             V = -C2 * C3 / C1 * (L2 - L3) / (L2 * L3)
-            parts = pair.parts()
+            parts = pair.parts
             wanted = {
                 "y": sh**2,
                 "scale": 1 - k2 * sm**2 * sh**2,

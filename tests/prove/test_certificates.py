@@ -210,21 +210,30 @@ def test_what_was_made_of_parameters_is_a_tree_with_names_for_what_occurs_often(
     a, b = parameters("a b")
     whole = a + b
     both = 2 / whole + 0 * a
-    made = [x.made for x in (both * both, both**-1 - 1 * b, whole + a, 0 * a)]
-    assert shared(made) == (
+    assert shared([both * both, both**-1 - 1 * b, whole + a, 0 * a, 3]) == (
         [["_1", ["+", "a", "b"]], ["_2", ["*", ["^", "_1", -1], 2]]],
-        [["*", "_2", "_2"], ["+", ["^", "_2", -1], ["*", "b", -1]], ["+", "_1", "a"], 0],
+        [["*", "_2", "_2"], ["+", ["^", "_2", -1], ["*", "b", -1]], ["+", "_1", "a"], 0, 3],
     )
 
 
-def test_an_identity_is_a_statement_unless_it_is_large():
+def test_what_is_in_lowest_terms_is_a_tree_of_factors_and_goes_on_from_there():
+    a, b = parameters("a b")
+    made = (a**2 - b**2) / (2 * a * (a + b) ** 3)
+    assert (made.made[0], made.lowest().made, made.lowest() == made) == ("*", None, True)
+    lowest = ["*", "1/2", ["+", ["*", -1, "b"], "a"], ["^", ["+", "b", "a"], -2], ["^", "a", -1]]
+    assert shared([made.lowest()]) == ([], [lowest])
+    one = made.lowest()
+    assert [name for name, _ in shared([one * one])[0]] == ["_1"]
+    assert shared([(a - a + 1).lowest(), (a - a).lowest()])[1] == [1, 0]
+
+
+def test_an_identity_is_a_statement():
     a, b = parameters("a b")
     whole = a + b
-    one = Identity("square", [whole * whole], [a**2 + 2 * a * b + b**2])
-    data = certificate("0", "x", proof(one, replace(one, text="large", large=True)))
+    data = certificate("0", "x", proof(Identity("square", [whole * whole], [a**2 + 2 * a * b + b**2])))
     assert [(s["text"], s["cofactors"]) for s in data["statements"]] == [("square", [[]])]
     assert data["statements"][0]["definitions"] == [["_1", ["+", "a", "b"]]]
-    assert [s["text"].partition(" (")[0] for s in data["sentences"]] == ["large"]
+    assert data["sentences"] == []
 
 
 def test_cofactors_make_a_polynomial_of_the_ideal_and_there_are_none_for_another():
