@@ -137,7 +137,11 @@ def principle(n: int) -> Identity:
     names += [f"x{i}" for i in range(n * (n - 1) // 2)] + [f"{kind}{i}" for kind in "gJ" for i in range(n)]
     free = parameters(" ".join([*names, "mass", "rho", "e"]))
     R = [array(free[i * n * n : (i + 1) * n * n]).reshape(n, n) for i in range(3)]
-    virtual, vertical, J = skew(free[3 * n * n :], n), array(free[-3 - 2 * n : -3 - n]), np.diag(free[-3 - n : -3])
+    virtual, vertical, J = (
+        skew(free[3 * n * n :], n),
+        array(free[-3 - 2 * n : -3 - n]),
+        np.diag(array(free[-3 - n : -3])),
+    )
     mass, rho, e = free[-3:]
     steps = [centre_step(before, after, vertical, rho) for before, after in pairwise(R)]
     r = [0 * steps[0], steps[0], steps[0] + steps[1]]
@@ -158,7 +162,7 @@ def conservation(n: int, any_axes: bool, last: int = 1, naive: bool = False) -> 
     count = n * (n - 1) // 2
     names = [f"{kind}{i}" for kind in "ap" for i in range(count)] + [f"{kind}{i}" for kind in "gJ" for i in range(n)]
     free = parameters(" ".join([*names, "mass", "rho"]))
-    vertical, J = array(free[2 * count : 2 * count + n]), np.diag(free[2 * count + n : 2 * count + 2 * n])
+    vertical, J = array(free[2 * count : 2 * count + n]), np.diag(array(free[2 * count + n : 2 * count + 2 * n]))
     turn, (mass, rho) = cayley(skew(free[:count], n)), free[-2:]
     now = cayley(skew(free[count : 2 * count], n)) if any_axes else unit(n)
     D = mass * rho**2

@@ -1,7 +1,6 @@
 """Certificates of the register: what is written is what is decided, and what is committed is what is written now."""
 
 import json
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
