@@ -437,7 +437,7 @@ class Increment:
     @cached_property
     def parts(self) -> "Parts":
         """sn²δu, 𝒟, V w(δu), G and l - μ sn²δu."""
-        k2, (L1, L2, L3), l, y = self.modulus, 1 / self.inverse, self.level, self.y
+        k2, (_, L2, L3), l, y = self.modulus, 1 / self.inverse, self.level, self.y
         (g1, g2, g3), (h1, h2, h3) = self.gamma, self.following
         # V = -(C2 C3/C1)(Λ2-Λ3)/(Λ2Λ3); 2w = sn(ũ-u)(1 - k²y²); C1 C2 C3 sn(ũ-u) is rational in γ, γ~.
         sine = self.lowest("C1 C2 C3 sn(ũ - u)", (h2 * g1 * g3 - g2 * h1 * h3) * self.above)
