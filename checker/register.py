@@ -14,8 +14,9 @@ traces    the same, and a statement says that tr left = tr right.
 Trees of statements in words and traces may have names of the derivation (derivation.py), which makes what they
 stand for from premises.
 
-A comparison says that numbers at a point are less than others, equal or not.  A hypothesis is such relations, too; they
-must hold at every point of the certificate that has values for their names, and there must be one.
+A comparison says that numbers at a point are less than others, equal or not; a printed one may be refuted: it fails
+there.  A hypothesis is such relations, too; they must hold at every point of the certificate that has values for their
+names, and there must be one.
 
 A count is such relations between the numbers of solutions that equations have (roots.py), which hold; or, for one that
 is printed and false, do not.
@@ -65,6 +66,7 @@ def statement(data: dict[str, Any]) -> str:
     premises = sum(derivation.is_premise(one, names) for one in data["derivation"])
     refuted = len(data["statements"]) - len(proved)
     true = sum(one["holds"] for one in data["counts"])
+    failing = sum("refuted" in one for one in data["comparisons"])
     equal = sum(one["left"] == one["right"] for one in proved)
     return (
         f"Claim {data['claim']}: {len(proved) - words} statements hold wherever their relations hold and their "
@@ -74,7 +76,8 @@ def statement(data: dict[str, Any]) -> str:
         f"have, at a point given for each, hold, and {len(data['counts']) - true} printed ones fail; {derived} of "
         f"these are about what {len(names)} definitions make, of which {premises} name no other; {equal} of these have "
         f"one expression on both sides, and say nothing of how it was derived; {refuted} printed statements fail at "
-        f"{len(data['counterexamples'])} points given; {len(data['comparisons'])} comparisons hold at theirs.  "
+        f"{len(data['counterexamples'])} points given; {len(data['comparisons']) - failing} comparisons hold at "
+        f"theirs, and {failing} printed ones fail.  "
         f"{len(data['hypotheses'])} hypotheses hold at every point that has values for them.  "
         f"{len(data['sentences'])} sentences are listed and not checked."
     )
@@ -108,8 +111,11 @@ def check_form(data: dict[str, Any]) -> None:
     for i, one in enumerate(data["statements"]):
         check_statement(one, algebras, defined, data, f"statement {i}")
     for i, one in enumerate(data["comparisons"]):
-        check_names(one, "role text point relations", f"comparison {i}")
-        chosen(one["role"], ROLES, f"comparison {i}")
+        fails = isinstance(one, dict) and "refuted" in one
+        check_names(one, "role text point relations" + " refuted" * fails, f"comparison {i}")
+        chosen(one["role"], ("printed",) if fails else ROLES, f"comparison {i}")
+        if fails and one["refuted"] is not True:
+            raise Rejected(f"comparison {i} is refuted or has no such name")
         at = count(one["point"], 0, len(data["points"]) - 1, f"comparison {i}")
         check_relations(one, data["points"][at], f"comparison {i}")
     values = [derivation.valued(data["derivation"]).keys() & names for names in defined]
@@ -268,8 +274,8 @@ def check(data: dict[str, Any]) -> dict[str, str]:
         if not holds(one, algebra, point, defined, where):
             raise Rejected(f"{where} fails at its point")
     for i, one in enumerate(data["comparisons"]):
-        if not compared(one, points[one["point"]], f"comparison {i}"):
-            raise Rejected(f"comparison {i} fails at its point")
+        if compared(one, points[one["point"]], f"comparison {i}") is ("refuted" in one):
+            raise Rejected(f"comparison {i} {'holds' if 'refuted' in one else 'fails'} at its point")
     values = derivation.valued(data["derivation"])
     for i, one in enumerate(data["counts"]):
         algebra, point, where = data["algebras"][one["algebra"]], points[one["point"]], f"count {i}"
@@ -289,10 +295,11 @@ def check(data: dict[str, Any]) -> dict[str, str]:
     for i in refuted:
         if i not in data["counterexamples"][data["statements"][i]["refuted"]]["refutes"]:
             raise Rejected(f"statement {i} is not refuted by its counterexample")
-    roles = [one["role"] for one in (*data["statements"], *data["comparisons"], *data["counts"])]
+    said = [*data["statements"], *data["comparisons"], *data["counts"]]
+    roles = [one["role"] for one in said]
     return {
         **{role: str(roles.count(role)) for role in ROLES if role in roles},
-        "refuted": str(len(refuted)),
+        "refuted": str(sum("refuted" in one or one.get("holds") is False for one in said)),
         "definitions": str(len(data["derivation"])),
         "comparisons": str(len(data["comparisons"])),
         "counts": str(len(data["counts"])),

@@ -86,7 +86,7 @@ def lines(data: dict[str, Any], parts: bool = True) -> Iterator[str]:
         yield f"    {said}" if one["holds"] else f"    false: {said}"
     for part in ("comparisons", "hypotheses"):
         for one in data[part]:
-            yield f"{part[:-1]}: {one['text']}"
+            yield f"{part[:-1]}{', which fails' if 'refuted' in one else ''}: {one['text']}"
             yield from (f"    {formula(a)} {relation} {formula(b)}" for relation, a, b in one["relations"])
     for i, one in enumerate(data["counterexamples"]):
         yield f"counterexample {i}: " + ", ".join(f"{name} = {_place(value)}" for name, value in one["point"].items())

@@ -226,9 +226,9 @@ def of_words(left, right, **changes):
     return by_hand([said(left, right, point=0)], [TURN | changes], [LETTERS])
 
 
-def compared(*relations, point=0):
+def compared(*relations, point=0, **more):
     """A comparison at a point."""
-    return {"role": "lemma", "text": "x", "point": point, "relations": [*relations]}
+    return {"role": "lemma", "text": "x", "point": point, "relations": [*relations]} | more
 
 
 def assumed(*relations):
@@ -248,6 +248,7 @@ BY_X = ["+", ["^", "x", 2], ["*", 2, "x"], 1]
 def small():
     """Certificates by hand: those that are right, and those that are not, by name."""
     identity, point = said("x", 1, point=0, cofactors=[[1]]), {"x": 1}
+    fails, refuted = [["<", "x", 0]], {"role": "printed", "refuted": True}
     wrong = said("x", 2, 1, refuted=0)
     right = {
         "x = 1 where x - 1 = 0": by_hand([identity], [point], [ONE]),
@@ -259,6 +260,7 @@ def small():
             [], [point], [], [], [assumed(["<", 0, "x"])],
             [compared(["<", 0, "x"], ["<=", "x", 1], ["<=", "x", 2], ["=", "x", 1], ["!=", "x", 2])],
         ),
+        "x < 0 < 1 is printed, and fails": by_hand([], [point], [], [], [], [compared(["<", 0, 1], *fails, **refuted)]),
         "A ≠ B, A = A": by_hand([], [TURN], [], [], [], [compared(["!=", "A", "B"], ["=", "A", "A"])]),
         "x > 0 wherever x is": by_hand([], [point, {"y": 0}], [], [], [assumed(["<", 0, "x"])]),
         "1/(x - 2) = -1/(2 - x)": by_hand(
@@ -276,6 +278,11 @@ def small():
         ),
         **{f"1 {sign} {x}": by_hand([], [point], [], [], [], [compared(["<=", 0, "x"], [sign, "x", x])])
            for sign, x in (("<", 1), ("<", 0), ("<=", 0), ("=", 2), ("!=", 1))},
+        "0 < x is printed, and fails": by_hand([], [point], [], [], [], [compared(["<", 0, "x"], **refuted)]),
+        "a lemma that fails": by_hand([], [point], [], [], [], [compared(*fails, refuted=True)]),
+        "a comparison that fails": by_hand([], [point], [], [], [], [compared(*fails, role="printed")]),
+        **{f"it fails: {x}": by_hand([], [point], [], [], [], [compared(*fails, role="printed", refuted=x)])
+           for x in (1, False, 0, None)},
         "(x + 1)² is not what is named": defined("z", ["+", BY_X, "x"], *SQUARED),
         "a name that is defined later": defined("z", BY_X, *SQUARED[::-1]),
         "a name that is defined twice": defined("z", BY_X, *SQUARED, ["z", BY_X]),

@@ -66,7 +66,9 @@ def carried(data: dict[str, Any]) -> dict[str, Any]:
     identical = sum(one["left"] == one["right"] for one in data["statements"])
     sentences = Counter(sentence["role"] for sentence in data["sentences"])
     same = f" ({identical} of one expression on both sides)" if identical else ""
-    more = f"; comparisons: {len(data['comparisons'])}" if data["comparisons"] else ""
+    failing = sum("refuted" in one for one in data["comparisons"])
+    fail = f" ({failing} fail as printed)" if failing else ""
+    more = f"; comparisons: {len(data['comparisons'])}{fail}" if data["comparisons"] else ""
     more += f"; counts of solutions: {len(data['counts'])}" if data["counts"] else ""
     more += f"; hypotheses: {len(data['hypotheses'])}" if data["hypotheses"] else ""
     steps = f"; steps from the premises: {len(data['derivation'])}" if data["derivation"] else ""
@@ -158,10 +160,10 @@ class _Maker:
 
     def add(self, role: str, statement: Statement, holds: bool) -> None:
         """A decided statement, with what proves or refutes it; or a sentence."""
-        if isinstance(statement, Comparison) and holds:
+        if isinstance(statement, Comparison) and (holds or role == "printed"):
             point = self._point(statement.point)
-            relations = _relations(statement)
-            self.comparisons.append({"role": role, "text": statement.text, "point": point, "relations": relations})
+            one = {"role": role, "text": statement.text, "point": point, "relations": _relations(statement)}
+            self.comparisons.append(one | ({} if holds else {"refuted": True}))
             return
         if isinstance(statement, Count) and (holds or (role == "printed" and not statement.nonzero)):
             self.counts.append(self._count(role, statement, holds))

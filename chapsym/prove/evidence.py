@@ -137,15 +137,22 @@ class Proof:
             self.problems.append("the correction fails at the counterexample")
         self.counterexamples.append({"point": point.values, "printed": wrong, "corrected": right})
 
-    def refute(self, values: Mapping[str, str], statement: str, found: Any, claimed: Any, holds: bool) -> None:
+    def refute(
+        self, values: Mapping[str, str], statement: str, found: Any, claimed: Any, holds: bool | Comparison
+    ) -> None:
         """A counterexample to a printed statement that is no equation: what is found there, and what is claimed.
 
-        `holds` says whether the claim is true of what was found; it must not be.
+        `holds` says whether the claim is true of what was found; it must not be.  A comparison that was printed says
+        it at its point, as data for the checker; otherwise the counterexample is a sentence.
         """
-        if holds:
-            self.problems.append(f"the counterexample does not contradict: {statement}")
-        at = ", ".join(f"{name} = {value}" for name, value in values.items())
-        self.refuted.append(f"{statement}: found {found}, claimed {claimed}, at {at}")
+        if isinstance(holds, Comparison):
+            if (holds, False) not in self._printed:
+                self.problems.append(f"the counterexample contradicts nothing that was printed: {statement}")
+        else:
+            if holds:
+                self.problems.append(f"the counterexample does not contradict: {statement}")
+            at = ", ".join(f"{name} = {value}" for name, value in values.items())
+            self.refuted.append(f"{statement}: found {found}, claimed {claimed}, at {at}")
         sides = {"statement": statement, "left": [str(found)], "right": [str(claimed)]}
         self.counterexamples.append({"point": dict(values), "printed": [sides], "corrected": []})
 

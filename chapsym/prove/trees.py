@@ -82,7 +82,7 @@ def lowest_terms(of: Ratio) -> Any:
     names = of.denominator.context().names()
     parts = _operands("*", factored(of.numerator.to_dict(), names))
     _, factors = of.denominator.factor()  # it is monic
-    parts += [["^", _nested(factor.to_dict(), names), -int(power)] for factor, power in sorted(factors, key=str)]
+    parts += [["^", nested(factor.to_dict(), names), -int(power)] for factor, power in sorted(factors, key=str)]
     kept = [part for part in parts if part != 1] or [1]
     return _list("*", kept)
 

@@ -51,12 +51,12 @@ def inertia_operator(p: Proof) -> None:
     slip = omega * gamma
     form = -omega * J * omega + D * slip * ALGEBRA.transpose(slip)
     kernel, values = sp.Matrix([[0, 0, 0], [0, 0, -1], [0, 1, 0]]), {J: sp.diag(1, 0, 0), Gamma: sp.diag(1, 0, 0)}
-    image = evaluate(applied(omega), {**values, D: sp.S.One, omega: kernel})
     place = {**values, D: sp.S.One, omega: kernel}
     p.lemma(
         Comparison("𝒜ω = 0 for ω = e2∧e3 at J = (1,0,0), γ = e1", [sp.Eq(applied(omega), 0), sp.Ne(omega, 0)], place)
     )
-    p.printed(Fact("𝒜 has no kernel, whatever the constant diagonal J: here J = (1,0,0)", not image.is_zero_matrix))
+    text = "𝒜 has no kernel, whatever the constant diagonal J: 𝒜ω ≠ 0 for this ω, at J = (1,0,0)"
+    p.printed(moved := Comparison(text, [sp.Ne(applied(omega), 0)], place))
     p.under(
         POSITIVE,
         equation(
@@ -66,9 +66,9 @@ def inertia_operator(p: Proof) -> None:
     p.refute(
         {"J": "(1, 0, 0)", "D": "1", "γ": "e1", "ω": "e2∧e3"},
         "𝒜ω for this ω ≠ 0",
-        image.tolist(),
+        evaluate(applied(omega), place).tolist(),
         "not zero",
-        not image.is_zero_matrix,
+        moved,
     )
     p.say("J ≥ 0 alone is not enough: all mass on a line through the centre does not resist a turn about it.")
     p.control(equation("⟨ω,𝒜ω⟩ = -tr(ωJω) - D|ωγ|²", pairing(omega, applied(omega)), form.subs(D, -D), TRACES))

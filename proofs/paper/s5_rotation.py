@@ -76,9 +76,11 @@ def axis_and_angle(p: Proof) -> None:
 
     p.printed(equation("Ω = (q₀²-|q|²) + 2q₀ q× + 2qqᵀ, nine entries", rotation, rodrigues(1)))
     p.say("As (q₀, q) and (-q₀, -q) give the same Ω, q₀ ≥ 0 can be had; but tr Ω = 4q₀² - 1 is -1 only for q₀ = 0.")
-    half_turn = sp.diag(1, -1, -1)
-    square = (half_turn.trace() + 1) / sp.Integer(4)
-    p.printed(Fact("Ω = diag(1,-1,-1) has Euler parameters with q₀ > 0", bool(square > 0)))
+    half_turn, diagonal = sp.diag(1, -1, -1), sp.symbols("Omega11 Omega22 Omega33")
+    square = (1 + sum(diagonal)) / 4
+    at = dict(zip(diagonal, half_turn.diagonal(), strict=True))
+    text = "Ω = diag(1,-1,-1) has Euler parameters with q₀ > 0: q₀² = (1 + tr Ω)/4 > 0"
+    p.printed(positive := Comparison(text, [square > 0], at))
     axis = {q0: sp.S.Zero, q1: sp.S.One, q2: sp.S.Zero, q3: sp.S.Zero}
     minus = {x: -x for x in (q0, *q)}
     p.under(
@@ -89,7 +91,7 @@ def axis_and_angle(p: Proof) -> None:
         equation("(-q₀, -q) gives the same Ω", rotation.subs(minus, simultaneous=True), rotation),
         equation("4q₀² = 1 + tr Ω", 4 * q0**2, 1 + rotation.trace()),
     )
-    p.refute({"Ω": "diag(1, -1, -1)"}, "q₀² = (1 + tr Ω)/4", square, "positive", bool(square > 0))
+    p.refute({"Ω": "diag(1, -1, -1)"}, "q₀² = (1 + tr Ω)/4", square.subs(at), "positive", positive)
     p.control(equation("the same by the angle -θ", rotation, rodrigues(-1)))
 
 

@@ -150,15 +150,27 @@ def test_a_hypothesis_is_data_that_holds_at_the_points_and_where_it_does_not_the
         certificate("0", "x", made)
 
 
-def test_a_comparison_is_data_and_a_false_one_is_a_sentence():
+def test_a_comparison_is_data_and_a_false_one_that_is_printed_is_refuted():
     at = {x: sp.Rational(1, 2), y: sp.Integer(2)}
     right = Comparison("order", [x < y, y >= 2, sp.Eq(x * y, 1), sp.Ne(x, 1)], at)
     wrong = Comparison("other order", [y <= x], at)
-    data = certificate("0", "x", proof(right, wrong))
-    [one] = data["comparisons"]
+    made = proof(right, wrong)
+    made.lemma(wrong)
+    data = certificate("0", "x", made)
+    one, other = data["comparisons"]
     assert data["points"][one["point"]] == {"x": "1/2", "y": 2}
     assert one["relations"] == [["<", "x", "y"], ["<=", 2, "y"], ["=", ["*", "x", "y"], 1], ["!=", "x", 1]]
-    assert data["sentences"] == [{"role": "printed", "text": "false: other order (rational numbers at a point)"}]
+    assert (other["text"], other["refuted"]) == ("other order", True)
+    assert data["sentences"] == [{"role": "lemma", "text": "false: other order (rational numbers at a point)"}]
+
+
+def test_a_printed_comparison_is_its_own_counterexample():
+    wrong = Comparison("order", [y <= x], {x: 1, y: 2})
+    made = proof(wrong)
+    made.refute({"x": "1"}, "y", 2, "at most 1", wrong)
+    assert (made.refuted, made.problems, made.counterexamples[0]["printed"][0]["right"]) == ([], [], ["at most 1"])
+    made.refute({"x": "1"}, "y", 2, "at most 1", Comparison("another", [y <= x], {x: 1, y: 2}))
+    assert made.problems == ["the counterexample contradicts nothing that was printed: y"]
 
 
 def test_a_counterexample_off_the_relations_is_not_accepted():
