@@ -1,7 +1,7 @@
 """A small checker of certificates: the standard library only, and nothing of the rest of chapsym.
 
     from chapsym.checker import check, read        or        python checker FILE...  in the folder of the repository
-    verdict = check(read("proofs/certificates/….json"))
+    verdict = check(read("proofs/certificates/….json"))        what it rests on must be accepted, too: standing
 
 To be read in this order: interval.py (arithmetic), linear.py (elimination, Newton's test), step.py (the map), then
 measure.py and orbit.py (what a certificate says and why it is proved); taylor.py (functions of the time), drift.py;
@@ -10,6 +10,7 @@ matrices.py, derivation.py (how what they are about is made), form.py, roots.py,
 judged.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -17,18 +18,23 @@ from . import drift, measure, orbit, register
 from .document import FORMAT, Unreadable, digest, read
 from .interval import Rejected
 
-__all__ = ["FORMAT", "Rejected", "Unreadable", "Verdict", "check", "digest", "read", "statement"]
+__all__ = ["FORMAT", "Rejected", "Unreadable", "Verdict", "check", "digest", "read", "standing", "statement"]
 
 KINDS = {"no-invariant-measure": measure, "periodic-orbit": orbit, "energy-drift": drift, "register-claim": register}
 
 
 @dataclass(frozen=True)
 class Verdict:
-    """An accepted certificate: its kind, the theorem that it proves in one sentence, and numbers that were proved."""
+    """An accepted certificate: its kind, the theorem that it proves in one sentence, and numbers that were proved.
+
+    name: the id of a claim, or the digest of another kind.  rests: the names of those that must be accepted, too.
+    """
 
     kind: str
     statement: str
     numbers: dict[str, str]
+    name: str
+    rests: tuple[str, ...] = ()
 
 
 def statement(data: dict[str, Any]) -> str:
@@ -52,4 +58,15 @@ def check(data: dict[str, Any]) -> Verdict:
         raise Rejected("the statement is not the one that the numbers make")
     if data["digest"] != seal:
         raise Rejected("the digest is not that of the file: something in it was changed")
-    return Verdict(kind, data["statement"], KINDS[kind].check(data))
+    numbers = KINDS[kind].check(data)
+    if kind == "register-claim":
+        return Verdict(kind, sentence, numbers, data["claim"], tuple(one["certificate"] for one in data["rests"]))
+    return Verdict(kind, sentence, numbers, seal)
+
+
+def standing(verdicts: Sequence[Verdict]) -> set[str]:
+    """The names of those that rest on nothing but others that stand; none that rests on itself does."""
+    found: set[str] = set()
+    while new := {one.name for one in verdicts if found.issuperset(one.rests)} - found:
+        found |= new
+    return found

@@ -7,26 +7,36 @@ import runpy
 import sys
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
+from typing import Any
 
 
 def main(arguments: list[str] | None = None) -> int:
     """Judges files: 0 if all are accepted, 1 if one is rejected, 2 if one cannot be read."""
-    from . import Rejected, Unreadable, check, read, shown
+    from . import Rejected, Unreadable, check, read, shown, standing
 
     parser = argparse.ArgumentParser(prog="checker", description="Checks certificates, with the standard library only.")
     parser.add_argument("files", nargs="+", metavar="FILE")
     parser.add_argument("--show", action="store_true", help="the formulas that were judged, of a claim of the register")
     parser.add_argument("--json", action="store_true", help="one JSON object on standard output")
     options = parser.parse_args(arguments)
-    found, worst = [], 0
+    judged: list[tuple[Any, Any]] = []
     for file in options.files:
         try:
             data = read(file)
-            verdict = check(data)
+            judged.append((check(data), data if options.show else {}))
         except (Rejected, Unreadable) as error:
-            worst = max(worst, 1 if isinstance(error, Rejected) else 2)
-            found.append({"file": file, "accepted": False, "reason": str(error)})
-            print(f"{file}: {'rejected' if isinstance(error, Rejected) else 'unreadable'}: {error}", file=sys.stderr)
+            judged.append((error, {}))
+    stand = standing([verdict for verdict, _ in judged if not isinstance(verdict, Exception)])
+    found, worst = [], 0
+    for file, (verdict, data) in zip(options.files, judged, strict=True):
+        if not isinstance(verdict, Exception) and (missing := sorted(set(verdict.rests) - stand)):
+            verdict = Rejected(f"it rests on {missing[0]}, which is not accepted among these files")
+        if isinstance(verdict, Exception):
+            worst = max(worst, 1 if isinstance(verdict, Rejected) else 2)
+            found.append({"file": file, "accepted": False, "reason": str(verdict)})
+            print(
+                f"{file}: {'rejected' if isinstance(verdict, Rejected) else 'unreadable'}: {verdict}", file=sys.stderr
+            )
             continue
         found.append({"file": file, "accepted": True, **vars(verdict)})
         if not options.json:

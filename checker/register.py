@@ -22,8 +22,8 @@ A count is such relations between the numbers of solutions that equations have (
 is printed and false, do not.
 
 A counterexample is a point, or matrices, at which the relations or rules and the hypotheses hold, the printed
-statements it refutes fail, and the corrected ones hold.  The sentences are not judged: they are what the claim says
-beside this.
+statements it refutes fail, and the corrected ones hold.  It rests on other certificates, by the ids of their claims or
+their digests: they must be accepted, too.  The sentences are not judged: they are what the claim says beside this.
 """
 
 import json
@@ -45,10 +45,11 @@ from .trees import check_name, check_tree, names_in, rational, value
 from .words import Matrix, same, trace
 
 NAMES = "format kind statement claim printed corrected hypotheses algebras derivation points statements comparisons "
-NAMES += "counts counterexamples sentences digest"
+NAMES += "counts counterexamples rests sentences digest"
 _CLAIM = re.compile(r"[\w.-]{1,40}", re.ASCII)
+_CERTIFICATE = re.compile(r"[\w.-]{1,40}|[0-9a-f]{64}", re.ASCII)
 ROLES = ("printed", "corrected", "under", "lemma", "second route")
-SENTENCES = (*ROLES, "hypothesis", "said", "counterexample", "certificate")
+SENTENCES = (*ROLES, "hypothesis", "said", "counterexample")
 #: Rows and columns of a matrix; letters of the whole, five times those of the largest of the register.
 MOST_ROWS, MOST_OF_ALL = 4, 1_000_000
 Value = Fraction | Matrix
@@ -79,6 +80,7 @@ def statement(data: dict[str, Any]) -> str:
         f"{len(data['counterexamples'])} points given; {len(data['comparisons']) - failing} comparisons hold at "
         f"theirs, and {failing} printed ones fail.  "
         f"{len(data['hypotheses'])} hypotheses hold at every point that has values for them.  "
+        f"It rests on {len(data['rests'])} other certificates, which must be accepted.  "
         f"{len(data['sentences'])} sentences are listed and not checked."
     )
 
@@ -86,7 +88,8 @@ def statement(data: dict[str, Any]) -> str:
 def check_form(data: dict[str, Any]) -> None:
     """Raises Rejected unless every part is there, in its form, and every number in its only form."""
     check_names(data, NAMES, "the certificate")
-    for name in ("hypotheses", "points", "statements", "comparisons", "counts", "counterexamples", "sentences"):
+    parts = "hypotheses points statements comparisons counts counterexamples rests sentences"
+    for name in parts.split():
         many(data[name], name)
     if not isinstance(data["claim"], str) or not _CLAIM.fullmatch(data["claim"]):
         raise Rejected("claim must be the id of a claim, such as prop-4")
@@ -131,6 +134,13 @@ def check_form(data: dict[str, Any]) -> None:
     for i, one in enumerate(data["hypotheses"]):
         check_names(one, "text relations", f"hypothesis {i}")
         check_relations(one, known, f"hypothesis {i}")
+    for i, one in enumerate(data["rests"]):
+        where = f"what it rests on, {i},"
+        check_names(one, "role text certificate", where)
+        chosen(one["role"], ROLES, where)
+        text(one["text"], where)
+        if not isinstance(one["certificate"], str) or not _CERTIFICATE.fullmatch(one["certificate"]):
+            raise Rejected(f"{where} must be the id of a claim or a digest")
     for i, one in enumerate(data["sentences"]):
         check_names(one, "role text", f"sentence {i}")
         chosen(one["role"], SENTENCES, f"sentence {i}")
@@ -304,6 +314,7 @@ def check(data: dict[str, Any]) -> dict[str, str]:
         "comparisons": str(len(data["comparisons"])),
         "counts": str(len(data["counts"])),
         "one expression on both sides": str(sum(one["left"] == one["right"] for one in data["statements"])),
+        "rests on": str(len(data["rests"])),
         "sentences not checked": str(len(data["sentences"])),
     }
 

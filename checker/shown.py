@@ -88,6 +88,8 @@ def lines(data: dict[str, Any], parts: bool = True) -> Iterator[str]:
         for one in data[part]:
             yield f"{part[:-1]}{', which fails' if 'refuted' in one else ''}: {one['text']}"
             yield from (f"    {formula(a)} {relation} {formula(b)}" for relation, a, b in one["relations"])
+    for one in data["rests"]:
+        yield f"{one['role']}: {one['text']}    [by the certificate {one['certificate']}]"
     for i, one in enumerate(data["counterexamples"]):
         yield f"counterexample {i}: " + ", ".join(f"{name} = {_place(value)}" for name, value in one["point"].items())
         for hypothesis in one["hypotheses"]:

@@ -184,13 +184,19 @@ CHANGES = {
 }  # fmt: skip
 
 
+def resting(*names, claim="0", role="lemma"):
+    """A certificate that rests on others."""
+    rests = [{"role": role, "text": "x", "certificate": name} for name in names]
+    return resealed(by_hand([]) | {"claim": claim, "rests": rests})
+
+
 def by_hand(statements, points=(), algebras=(), counterexamples=(), hypotheses=(), comparisons=(), counts=()):
     """A certificate with few parts."""
     return resealed({
         "format": "chapsym-certificate/1", "kind": "register-claim", "claim": "0", "printed": "x", "corrected": None,
         "hypotheses": [*hypotheses], "algebras": [*algebras], "derivation": [], "points": [*points],
         "statements": [*statements], "comparisons": [*comparisons], "counts": [*counts],
-        "counterexamples": [*counterexamples], "sentences": [], "statement": "",
+        "counterexamples": [*counterexamples], "rests": [], "sentences": [], "statement": "",
     })  # fmt: skip
 
 
@@ -260,6 +266,7 @@ def small():
             [], [point], [], [], [assumed(["<", 0, "x"])],
             [compared(["<", 0, "x"], ["<=", "x", 1], ["<=", "x", 2], ["=", "x", 1], ["!=", "x", 2])],
         ),
+        "it rests on others": resting("prop-1", "0" * 64, "0"),
         "x < 0 < 1 is printed, and fails": by_hand([], [point], [], [], [], [compared(["<", 0, 1], *fails, **refuted)]),
         "A ≠ B, A = A": by_hand([], [TURN], [], [], [], [compared(["!=", "A", "B"], ["=", "A", "A"])]),
         "x > 0 wherever x is": by_hand([], [point, {"y": 0}], [], [], [assumed(["<", 0, "x"])]),
@@ -278,6 +285,8 @@ def small():
         ),
         **{f"1 {sign} {x}": by_hand([], [point], [], [], [], [compared(["<=", 0, "x"], [sign, "x", x])])
            for sign, x in (("<", 1), ("<", 0), ("<=", 0), ("=", 2), ("!=", 1))},
+        **{f"it rests on {name!r}": resting(name) for name in ("", "a b", "0" * 63, "g" * 64, 7, None, ["prop-1"])},
+        "it rests on a role that is none": resting("prop-1", role="said"),
         "0 < x is printed, and fails": by_hand([], [point], [], [], [], [compared(["<", 0, "x"], **refuted)]),
         "a lemma that fails": by_hand([], [point], [], [], [], [compared(*fails, refuted=True)]),
         "a comparison that fails": by_hand([], [point], [], [], [], [compared(*fails, role="printed")]),

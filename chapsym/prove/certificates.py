@@ -27,7 +27,7 @@ from .cofactors import Ideal
 from .evidence import Proof
 from .points import candidates
 from .polynomials import Identity
-from .statements import Comparison, Count, Equation, Point, Statement
+from .statements import Comparison, Count, Equation, Point, Rest, Statement
 from .trees import NotAlgebra, factored, nested, number, shared, tree
 
 #: Letters of a judged formula in a record.
@@ -47,13 +47,17 @@ def certificate(id: str, printed: str, proof: Proof) -> dict[str, Any]:
     made.sentences += [{"role": "hypothesis", "text": text} for text in proof.hypotheses if text not in decidable]
     made.sentences += [{"role": "said", "text": text} for text in proof.said]
     made.sentences += [{"role": "counterexample", "text": text} for text in proof.refuted]
-    made.sentences += [{"role": "certificate", "text": f"{c['file']}: {c['statement']}"} for c in proof.certificates]
+    made.rests += [
+        {"role": "lemma", "text": f"{c['file']}: {c['statement']}", "certificate": c["digest"]}
+        for c in proof.certificates
+        if c["accepted"]
+    ]
     data = {
         "format": checker.FORMAT, "kind": "register-claim", "claim": id, "printed": printed,
         "corrected": proof.corrected_text, "hypotheses": hypotheses, "algebras": made.algebras,
         "derivation": made.derivation, "points": made.points, "statements": made.statements,
         "comparisons": made.comparisons, "counts": made.counts, "counterexamples": made.counterexamples,
-        "sentences": made.sentences,
+        "rests": made.rests, "sentences": made.sentences,
     }  # fmt: skip
     data["statement"] = checker.statement(data)
     data["digest"] = checker.digest(data)
@@ -71,6 +75,7 @@ def carried(data: dict[str, Any]) -> dict[str, Any]:
     more = f"; comparisons: {len(data['comparisons'])}{fail}" if data["comparisons"] else ""
     more += f"; counts of solutions: {len(data['counts'])}" if data["counts"] else ""
     more += f"; hypotheses: {len(data['hypotheses'])}" if data["hypotheses"] else ""
+    more += f"; rests on other certificates: {len(data['rests'])}" if data["rests"] else ""
     steps = f"; steps from the premises: {len(data['derivation'])}" if data["derivation"] else ""
     listed = ", ".join(f"{n} {role}" for role, n in sentences.items()) or "none"
     return {
@@ -81,6 +86,7 @@ def carried(data: dict[str, Any]) -> dict[str, Any]:
         "counts": len(data["counts"]),
         "hypotheses": len(data["hypotheses"]),
         "counterexamples": len(data["counterexamples"]),
+        "rests": len(data["rests"]),
         "sentences": dict(sentences),
         "text": f"statements that the checker accepted: {len(data['statements'])}{same}{steps}{more}; "
         f"counterexamples: {len(data['counterexamples'])}; sentences: {listed}",
@@ -118,6 +124,7 @@ class _Maker:
         self.comparisons: list[dict[str, Any]] = []
         self.counts: list[dict[str, Any]] = []
         self.counterexamples: list[dict[str, Any]] = []
+        self.rests: list[dict[str, str]] = []
         self.sentences: list[dict[str, str]] = []
         self._symbols: dict[int, list[sp.Symbol]] = {}
         self._words_of: dict[int, WordAlgebra] = {}
@@ -167,6 +174,9 @@ class _Maker:
             return
         if isinstance(statement, Count) and (holds or (role == "printed" and not statement.nonzero)):
             self.counts.append(self._count(role, statement, holds))
+            return
+        if isinstance(statement, Rest) and holds:
+            self.rests.append({"role": role, "text": statement.text, "certificate": statement.certificate})
             return
         if isinstance(statement, Identity) and holds:
             self._identity(role, statement)

@@ -13,7 +13,7 @@ from chapsym.checker import Rejected
 
 from . import certificates
 from .evidence import Proof, Verdict
-from .statements import Fact
+from .statements import Rest
 
 #: What a record says beside the verdict, in this order: what a `Proof` collects, and what is known of its claim.
 EVIDENCE = (
@@ -130,12 +130,12 @@ def claim(
     return register
 
 
-def judged(id: str) -> Fact:
+def judged(id: str) -> Rest:
     """That a claim is proved, by its own proof, run now; its script must have been imported, else LookupError."""
     if id not in _REGISTER:
         raise LookupError(f"no proof of {id!r} is loaded: import its script first")
     proved = (Verdict.HOLDS, Verdict.CORRECTED, Verdict.CONDITIONAL)
-    return Fact(f"{id} is proved", _REGISTER[id].judge().verdict in proved, "its own proof, run now")
+    return Rest(f"{id} is proved", id, _REGISTER[id].judge().verdict in proved, "its own proof, run now")
 
 
 def register() -> dict[str, Claim]:

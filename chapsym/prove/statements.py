@@ -86,6 +86,20 @@ class Fact:
 
 
 @dataclass(frozen=True)
+class Rest:
+    """That another certificate is accepted: that of a claim, by its id, or of another kind, by its digest."""
+
+    text: str
+    certificate: str
+    truth: bool
+    method: str
+
+    def holds(self) -> bool:
+        """Whether it is."""
+        return self.truth
+
+
+@dataclass(frozen=True)
 class Comparison:
     """Relations <, ≤, = and ≠ at an exact point, as SymPy writes them: `x < y`, `sp.Eq(x, y)`, `sp.Ne(x, y)`.
 
@@ -181,7 +195,7 @@ class Count:
         return [{m: fmpq(int(c.p), int(c.q)) for m, c in polynomial.terms()} for polynomial in polynomials]
 
 
-Statement = Equation | Fact | Identity | Comparison | Count
+Statement = Equation | Fact | Identity | Comparison | Count | Rest
 
 
 def _evaluated(expr: Any, exact: Mapping[sp.Symbol, Any]) -> Any:

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import certificate_maker as maker
 import pytest
+from register_changes import resting
 
 import chapsym.checker
 from chapsym.checker.__main__ import main
@@ -43,6 +44,29 @@ def test_the_exit_status_is_that_of_the_worst_file(files, names, status, capsys)
     out, err = capsys.readouterr()
     assert len(err.splitlines()) == sum(name != "right" for name in names.split())
     assert out.count("Proved: For every ball with J = (1, 2, 4)") == names.count("right")
+
+
+def test_what_rests_on_others_is_accepted_only_with_them(tmp_path, capsys):
+    """A claim, by its id, and a file, by its digest; and none in a circle."""
+    right = maker.measure(level="0.2430009529063826355053267220620552038", digits=37)
+    files = {
+        "a": resting("b", "c", claim="a"), "b": resting("c", claim="b"), "c": resting(claim="c"),
+        "seal": resting(resting()["digest"], claim="seal"), "digest": right,
+        "by digest": resting(right["digest"], claim="by-digest"),
+        "one": resting("two", claim="one"), "two": resting("one", claim="two"),
+        "itself": resting("itself", claim="itself"),
+    }  # fmt: skip
+    for name, data in files.items():
+        (tmp_path / name).write_text(json.dumps(data))
+    for names, status in {
+        "a b c": 0, "c b a": 0, "a c": 1, "a b": 1, "b c": 0, "seal": 1, "by digest": 1, "by digest,digest": 0,
+        "one two": 1, "itself": 1, "c itself": 1,
+    }.items():  # fmt: skip
+        given = names.split(",") if "," in names or names in files else names.split()
+        assert main([str(tmp_path / name) for name in given]) == status, names
+        err = capsys.readouterr().err
+        assert bool(err) is bool(status)
+        assert all("rests on" in line for line in err.splitlines())
 
 
 def test_json_is_one_object_and_nothing_else_on_standard_output(files, capsys):
