@@ -9,11 +9,10 @@ from typing import NamedTuple
 import sympy as sp
 
 from . import ball, principle, three
-from .derivation import STEPS, rate, replaced, written
+from .derivation import STEPS, coordinates, rate, replaced, written
 from .quotient import Quotient
 from .words import unfolded
 
-eps = sp.Symbol("epsilon")
 w1, w2, w3 = sp.symbols("w1:4")
 omega = sp.Matrix([w1, w2, w3])
 
@@ -69,17 +68,10 @@ def coefficients(of: sp.Symbol, turning: Turning) -> list[sp.Symbol]:
 
 def expand_words(of: sp.Symbol, turning: Turning) -> Remainder:
     """The limit, order and leading term of a defined letter over ε, as letters."""
-    return _remainder(coefficients(of, turning), lambda c: unfolded(c) == 0)
+    return remainder(coefficients(of, turning), lambda c: unfolded(c) == 0)
 
 
-def expand_vector(expr: sp.Matrix) -> Remainder:
-    """The limit, order and leading term of a vector of polynomials in ε (on |γ| = 1)."""
-    expanded = expr.applyfunc(sp.expand)
-    coefficients = [expanded.applyfunc(lambda e, k=k: RING.normal(e.coeff(eps, k))) for k in range(-1, CARRIED + 1)]
-    return _remainder(coefficients, lambda c: c.is_zero_matrix)
-
-
-def _remainder(coefficients: list, vanishes) -> Remainder:
+def remainder(coefficients: list, vanishes) -> Remainder:
     """From the coefficients of ε⁻¹, 1, ε, ...; the first must vanish, otherwise there is no limit."""
     if not vanishes(coefficients[0]):
         raise ArithmeticError(f"there is no limit: the expansion begins with ({coefficients[0]})/epsilon")
@@ -110,39 +102,13 @@ def constraint() -> Remainder:
     return expand_words(principle.turning_step(), SPACE_STEP)
 
 
-def euler_parameters() -> tuple[sp.Expr, sp.Matrix]:
-    """q₀ = cos(ε|ω|/2) and q = sin(ε|ω|/2) ω/|ω|, up to the carried order; exact in ω."""
-    square = omega.dot(omega) / 4 * eps**2
-    terms = range(CARRIED // 2 + 2)
-    cosine = sp.Add(*((-square) ** k / sp.factorial(2 * k) for k in terms))
-    sinc = sp.Add(*((-square) ** k / sp.factorial(2 * k + 1) for k in terms))
-    return cosine, sinc * eps / 2 * omega
+def in_vectors(name: str, of: Remainder) -> Remainder:
+    """The same for n = 3: its skew matrices as vectors of letters for their entries."""
+    places = three.BALL | {ball.omega: three.hat(omega), ball.K: three.hat(three.K)}
 
+    def vector(name: str, letter: sp.Expr) -> sp.Matrix:
+        text = "n = 3: ω, 𝒦 and γ as vectors, J = diag(J₁, J₂, J₃)"
+        used = {x: at for x, at in places.items() if not x.is_commutative or unfolded(letter).has(x)}
+        return three.axial_entries(name, coordinates(f"{name}_matrix", text, letter, used, RING))
 
-def second_order(other: sp.Matrix) -> sp.Matrix:
-    """The coefficient of ε² in q for the rotation exp(ε ω + ε² other)."""
-    turned = dict(zip(omega, omega + eps * other, strict=True))
-    vector = euler_parameters()[1].subs(turned, simultaneous=True)
-    return vector.applyfunc(lambda e: sp.expand(e).coeff(eps, 2))
-
-
-def vector_parameters() -> tuple[Remainder, Remainder]:
-    """q/ε and q₀ themselves."""
-    scalar, vector = euler_parameters()
-    return expand_vector(vector / eps), expand_vector(sp.Matrix([scalar]))
-
-
-def vector_momentum() -> Remainder:
-    """𝒦(q, γ)/ε for n = 3."""
-    return expand_vector((_with_step(three.momentum()) / eps).applyfunc(sp.expand))
-
-
-def vector_transport() -> Remainder:
-    """(Ωᵀ x - x)/ε for n = 3 and a vector x (𝒦 or γ); the limit is x × ω."""
-    return expand_vector(((_with_step(three.rotation()).T * three.K - three.K) / eps).applyfunc(sp.expand))
-
-
-def _with_step(matrix: sp.ImmutableMatrix) -> sp.Matrix:
-    """With the Euler parameters of the step."""
-    scalar, vector = euler_parameters()
-    return sp.Matrix(matrix).subs(three.placed(((three.q0, *three.q), (scalar, *vector))), simultaneous=True)
+    return Remainder(vector(f"{name}_limit", of.limit), of.order, vector(f"{name}_leading", of.leading), of.constant)

@@ -23,6 +23,9 @@ J = sp.diag(J1, J2, J3)
 
 MASSES = (J1, J2, J3)
 
+#: What the letters of the words for every n stand for.
+BALL = {ball.J: J, ball.D: D, ball.gamma: gamma, ball.gammaT: gamma.T, ball.Gamma: gamma * gamma.T}
+
 #: No moment of inertia is 0: then Λ is regular and F > 0, for D ≥ 0 (2.13).
 MOMENTS = (J2 + J3 > 0, J1 + J3 > 0, J1 + J2 > 0, D >= 0)
 
@@ -67,22 +70,25 @@ def rotation() -> sp.ImmutableMatrix:
 @cache
 def momentum_matrix() -> sp.ImmutableMatrix:
     """(4.13) with the rotation of the Euler parameters in the place of Ω, as a skew 3×3 matrix."""
-    return DEFINED[_in_coordinates(ball.momentum())]
+    return DEFINED[_turned(ball.momentum())]
 
 
 @cache
-def axial_entries(name: str, of: sp.Symbol) -> sp.ImmutableMatrix:
+def turned_entries(name: str, of: sp.Symbol) -> sp.ImmutableMatrix:
     """Letters for the vector of skew words at the rotation of the Euler parameters, as in Section 5."""
-    skew = _in_coordinates(of)
+    return axial_entries(name, _turned(of))
+
+
+def _turned(of: sp.Symbol) -> sp.Symbol:
+    om = sp.Matrix(rotation())
+    text = "n = 3: Ω in Euler parameters, J = diag(J₁, J₂, J₃)"
+    return coordinates(f"{of}_matrix", text, of, BALL | {ball.Omega: om, ball.OmegaT: om.T}, RING)
+
+
+def axial_entries(name: str, skew: sp.Symbol) -> sp.ImmutableMatrix:
+    """Letters for the vector of a named skew matrix, as in Section 5."""
     places = ((2, 1), (0, 2), (1, 0))
     return sp.ImmutableMatrix([entry(f"{name}_{i}", "by (A₃₂, A₁₃, A₂₁)", skew, *at) for i, at in enumerate(places, 1)])
-
-
-def _in_coordinates(of: sp.Symbol) -> sp.Symbol:
-    om = sp.Matrix(rotation())
-    values = {ball.Omega: om, ball.OmegaT: om.T, ball.J: J, ball.D: D}
-    values |= {ball.gamma: gamma, ball.gammaT: gamma.T, ball.Gamma: gamma * gamma.T}
-    return coordinates(f"{of}_matrix", "n = 3: Ω in Euler parameters, J = diag(J₁, J₂, J₃)", of, values, RING)
 
 
 @cache

@@ -70,10 +70,10 @@ class Proof:
 
     def show(self, name: str, value: Any) -> None:
         """A line of the derivation that shows an expression that was just derived."""
-        if isinstance(value, sp.Expr):
-            value = unfolded(value)
         if isinstance(value, sp.MatrixBase):
-            value = "[" + ",  ".join(str(entry) for entry in value) + "]"
+            value = "[" + ",  ".join(str(unfolded(entry)) for entry in value) + "]"
+        elif isinstance(value, sp.Expr):
+            value = unfolded(value)
         self.lines.append(f"    {name} = {value}")
 
     def assume(self, text: str, *relations: Relational) -> None:

@@ -12,6 +12,7 @@ from typing import Any
 
 import sympy as sp
 
+from chapsym.derive.quaternions import left, right
 from chapsym.derive.quotient import Quotient
 from chapsym.derive.words import Traces, WordAlgebra, evaluate
 
@@ -99,7 +100,7 @@ def _rational(
 def matrices(symbols: set[sp.Symbol], algebra: WordAlgebra, case: str = "generic") -> dict[sp.Symbol, Any] | None:
     """Matrices for the letters, numbers for the parameters; the rules and transposes must be true of them."""
     degenerate = _degenerate_matrices(case)
-    symbols = symbols | set(algebra.transposes)
+    symbols = symbols | set(algebra.transposes) | {x for pair in algebra.rules for x in pair}
     letters, free = {x for x in symbols if not x.is_commutative}, {x for x in symbols if x.is_commutative}
     names = {x.name for x in symbols}
     if not {x.name for x in letters} <= _letters().keys() or not {x.name for x in free} <= scalars().keys():
@@ -195,6 +196,10 @@ def _letters() -> dict[str, sp.Matrix]:
     table["J"], table["Gamma"] = sp.diag(1, 2, 4, 5), table["gamma"] * table["gamma"].T
     table["X"] = table["X^T"] = sp.eye(4) - 2 * table["Gamma"]  # any matrix, a symmetric one, a rotation
     table["Y"] = table["Y^T"] = sp.diag(2, 1, 0, 3) + table["Gamma"]
+    turn, spin, extra = ([scalars()[f"{x}{i}"] for i in (1, 2, 3)] for x in "qwa")
+    table |= {"Q": left(scalars()["q0"], turn), "Q_bar": right(scalars()["q0"], [-x for x in turn])}
+    table |= {"W": left(0, spin), "W_bar": right(0, spin), "A": left(0, extra), "Q_a": left(1, extra)}
+    table["eps"] = sp.eye(4) / 3
     table["Lambda"] = sp.Matrix(4, 4, lambda i, j: i + j + i * j)
     return table
 

@@ -24,8 +24,9 @@ def show(p: Proof, name: str, remainder: limits.Remainder) -> None:
 def exact_order(name: str, remainder: limits.Remainder, order: int = 1, less: int = 0) -> Comparison:
     """That a remainder, here divided by ε^less, has this order: its leading term is not 0 at a point."""
     found, term = sp.Integer(remainder.order + less), remainder.leading
-    term = unfolded(term) if isinstance(term, sp.Expr) else term
-    vanishing = sp.Eq(term, 0) if isinstance(term, sp.Expr) else sp.Eq(term.dot(term), 0)
+    vector = isinstance(term, sp.MatrixBase)
+    term = term.applyfunc(unfolded) if vector else unfolded(term)
+    vanishing = sp.Eq(term.dot(term), 0) if vector else sp.Eq(term, 0)
     return Comparison(
         f"{name} has the exact order {order}, here {found}, and its leading term is not 0",
         [sp.Eq(found, order, evaluate=False), sp.Not(vanishing)],

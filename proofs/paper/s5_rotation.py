@@ -2,7 +2,7 @@
 
 import sympy as sp
 
-from chapsym.derive import ball, continuous, limits, three
+from chapsym.derive import ball, continuous, limits, quaternions, three
 from chapsym.derive.limits import omega
 from chapsym.derive.quotient import Quotient
 from chapsym.derive.three import J1, J2, J3, RING, D, K, axial, gamma, hat, q, q0, q1, q2, q3
@@ -121,7 +121,7 @@ def printed_momentum(sign: int = 1, factor: int = 2) -> sp.Matrix:
 def vector_momentum(p: Proof) -> None:
     """The vector momentum, by substituting the rotation into (4.13)."""
     p.assume("|γ| = 1 and |q|² + q₀² = 1; Ω with the correction of (5.1)")
-    centre, derived = three.axial_entries("M", ball.centre_momentum()), three.axial_entries("K", ball.momentum())
+    centre, derived = three.turned_entries("M", ball.centre_momentum()), three.turned_entries("K", ball.momentum())
     p.say(
         "Into (4.13) go the matrix of the Euler parameters, J = diag(J₁,J₂,J₃) and Γ = γγᵀ; (A₃₂, A₁₃, A₂₁) comes out:"
     )
@@ -160,22 +160,42 @@ def vector_momentum(p: Proof) -> None:
 def parameter_expansion(p: Proof) -> None:
     """The Euler parameters of a small rotation, by the angle ε|ω| about ω."""
     p.assume("θ = εω, as the paper says: the rotation is Ω = exp(εω); for Ω = 1 + εω + O(ε²) alone it is false")
-    vector, scalar = limits.vector_parameters()
+    turn, start, rate, spin = quaternions.turned()
+    words, ring = equations(quaternions.ALGEBRA), equations(quaternions.RING)
+    moved, spun = quaternions.on_vectors(turn), quaternions.on_vectors(spin)
+    p.say("q(ε) with q' = ½ q ω and q(0) = 1 has the rotation exp(εω), as a product of 4 × 4 matrices:")
+    p.lemma(
+        words("x ↦ q x q̄ is 1 at ε = 0", start, 1),
+        words("its derivative is itself after x ↦ ½(ωx - xω)", rate, turn * spin),
+    )
+    p.lemma(ring("x ↦ q x q̄ is Ω", [x for column in moved for x in column[1:]], sp.Matrix(three.rotation()).T))
+    p.lemma(
+        ring(
+            "½(ωx - xω) is ω × x",
+            [x for column in spun for x in column],
+            [x for e in hat(omega).T.tolist() for x in (0, *e)],
+        )
+    )
+    constant, terms = quaternions.expansion()
+    vector, scalar = quaternions.remainders()
+    zero, square = sp.zeros(3, 1), omega.dot(omega)
     p.printed(
-        Equation("q/ε → ω/2", vector.limit, omega / 2, limits.RING),
-        Equation("q₀ → 1", scalar.limit, 1, limits.RING),
+        words("q₀ → 1, and q → 0", constant, 1),
+        ring("q/ε → ω/2", vector.limit, omega / 2),
+        ring("q has no term in ε², and q₀ none in ε", [*terms[1][1:], terms[0][0]], [*zero, 0]),
     )
     p.lemma(exact_order("q - εω/2", vector, 3, less=1), exact_order("q₀ - 1", scalar, 2))
-    square = omega.dot(omega)
-    p.lemma(Equation("the leading term of q is -|ω|²ω/48", vector.leading, -square / 48 * omega, limits.RING))
-    p.lemma(Equation("the leading term of q₀ is -|ω|²/8", scalar.leading, -square / 8, limits.RING))
-    p.say("Without it: Ω = exp(εω + ε²a) is 1 + εω + O(ε²), too, and q = (ε/2)ω + (ε²/2)a + O(ε³):")
-    other = sp.Matrix(sp.symbols("a1:4"))
-    free = Quotient((*other, *limits.RING.symbols), limits.RING.relations)
-    second = limits.second_order(other)
-    p.lemma(Equation("the term of q in ε² is a/2", second, other / 2, free))
-    p.control(Equation("the term of q in ε² is 0 for Ω = exp(εω + ε²a)", second, [sp.S.Zero] * 3, free))
-    p.control(Equation("q/ε → ω", vector.limit, omega, limits.RING))
+    p.lemma(ring("the leading term of q is -|ω|²ω/48", vector.leading, -square / 48 * omega))
+    p.lemma(ring("the leading term of q₀ is -|ω|²/8", scalar.leading, -square / 8))
+    p.say("Without it: Ω = exp(εω)exp(ε²a) is 1 + εω + O(ε²), too, and q = (ε/2)ω + (ε²/2)a + O(ε³):")
+    first, second = quaternions.other_expansion()
+    p.lemma(
+        ring(
+            "the term of q in ε is ω/2, that in ε² a/2", [*first[1:], *second[1:]], [*omega / 2, *quaternions.other / 2]
+        )
+    )
+    p.control(ring("the term of q in ε² is 0 for Ω = exp(εω)exp(ε²a)", second[1:, :], zero))
+    p.control(ring("q/ε → ω", vector.limit, omega))
 
 
 @claim(
@@ -187,9 +207,11 @@ def parameter_expansion(p: Proof) -> None:
 def vector_limit(p: Proof) -> None:
     """𝒦⃗/ε tends to the momentum of the continuous ball; the remainder has the exact order 1."""
     p.assume("|γ| = 1; the rotation of the step is exp(ε ω)")
-    limit = limits.vector_momentum()
+    words = limits.momentum()
+    limit = limits.in_vectors("K", words)
     p.show("limit", limit.limit)
     p.show(f"leading remainder, order {limit.order}", limit.leading)
+    p.lemma(Equation("𝒦 has no part without ε", words.constant, 0, ball.ALGEBRA))
     lam = sp.diag(J2 + J3 + D, J1 + J3 + D, J1 + J2 + D)
     printed = lam * omega - D * gamma.dot(omega) * gamma
     p.printed(Equation("𝒦⃗/ε → Λω - D⟨γ,ω⟩γ", limit.limit, printed, limits.RING))
@@ -216,7 +238,9 @@ def vector_form(p: Proof) -> None:
     p.printed(Equation("the axial vector of Ωᵀ𝒦Ω = Ωᵀ𝒦⃗", moved, rotation.T * K, ring))
     p.say("γ_k = Ωᵀγ_{k-1} is (4.11).")
     p.assume("in the limit the rotation of the step is exp(ε ω)")
-    limit = limits.vector_transport()
+    words = limits.transport(ball.K)
+    limit = limits.in_vectors("moved", words)
+    p.lemma(Equation("Ωᵀ𝒦Ω - 𝒦 has no part without ε", words.constant, 0, ball.ALGEBRA))
     p.show(f"(Ωᵀ𝒦⃗ - 𝒦⃗)/ε, leading remainder of order {limit.order}", limit.leading)
     p.lemma(Equation("(Ωᵀ𝒦⃗ - 𝒦⃗)/ε → 𝒦⃗×ω", limit.limit, K.cross(omega), limits.RING))
     p.lemma(Equation("its leading remainder is ½(𝒦⃗×ω)×ω", limit.leading, K.cross(omega).cross(omega) / 2, limits.RING))
