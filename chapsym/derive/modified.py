@@ -6,7 +6,7 @@ the map is self-adjoint.  All in ω, its rate ω' along the continuous ball, and
 
 import sympy as sp
 
-from . import limits, three
+from . import three
 from .limits import omega
 from .three import J1, J2, J3, D, gamma
 
@@ -83,6 +83,7 @@ def equation_jet() -> list[sp.Matrix]:
 
 def along(expr: sp.Matrix | sp.Expr, direction: sp.Matrix) -> sp.Matrix | sp.Expr:
     """The derivative in γ along `direction`."""
-    change = dict(zip(gamma, gamma + limits.eps * direction, strict=True))
+    eps = sp.Symbol("epsilon")
+    change = dict(zip(gamma, gamma + eps * direction, strict=True))
     moved = expr.subs(change, simultaneous=True)
-    return moved.diff(limits.eps).subs(limits.eps, 0)
+    return moved.diff(eps).subs(eps, 0)

@@ -49,6 +49,8 @@ class Ratio:
     def __add__(self, other: Any) -> "Ratio":
         if (other := self._coerced(other)) is None:
             return NotImplemented
+        if self.made == 0 or other.made == 0:  # of matrices with many zeros
+            return other if self.made == 0 else self
         common = self.denominator.gcd(other.denominator)
         mine, its = self.denominator / common, other.denominator / common
         # Both are in lowest terms: only a factor of what their denominators share can cancel.
@@ -59,6 +61,9 @@ class Ratio:
     def __mul__(self, other: Any) -> "Ratio":
         if (other := self._coerced(other)) is None:
             return NotImplemented
+        for one, another in ((self, other), (other, self)):
+            if one.made in (0, 1):
+                return one if one.made == 0 else another
         # Both are in lowest terms: what cancels is crosswise, and the product is in lowest terms, too.
         one, two = Ratio(self.numerator, other.denominator), Ratio(other.numerator, self.denominator)
         above, below = _product(one.numerator, two.numerator), _product(one.denominator, two.denominator)

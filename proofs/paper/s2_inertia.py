@@ -1,7 +1,11 @@
 """Section 2: the inertia operator of the continuous ball for every n, the invariant measure, and n = 3."""
 
 import itertools
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
 
+import numpy as np
 import sympy as sp
 
 from chapsym.derive import continuous, motion, three
@@ -10,7 +14,10 @@ from chapsym.derive.motion import ALGEBRA, D, Gamma, J, K, commutator, eta, gamm
 from chapsym.derive.quotient import Quotient
 from chapsym.derive.three import hat
 from chapsym.derive.words import Traces, evaluate
-from chapsym.prove import Comparison, Equation, Fact, Proof, claim, equations, main, rational_point
+from chapsym.proofs import second_routes
+from chapsym.proofs.second_routes import Array
+from chapsym.prove import Comparison, Equation, Identity, Proof, claim, equations, main, rational_point
+from chapsym.prove.polynomials import parameters
 
 POSITIVE = "J_i + J_j > 0 for i ≠ j, D ≥ 0"
 
@@ -100,50 +107,47 @@ def invariant_measure(p: Proof) -> None:
         return sign * D / 2 * pairing(X, moved * X + X * moved)
 
     p.printed(equation("div and ½ tr(𝒜⁻¹𝒜̇) have the same form, so ν is invariant", divergence, half_rate(), TRACES))
-    for size in (3, 4, 5):
-        p.route(f"the exact divergence at a rational point, n = {size}", Fact(*_exact_divergence(size, half=1)))
+    p.route(
+        "in coordinates, n = 3, 4: div + ½ tr(𝒜⁻¹𝒜̇) is the trace of 𝒜⁻¹(x ↦ [𝒜x,ω] + Sx), so of x ↦ [x,ω] + 𝒜⁻¹Sx",
+        *(statement for size in (3, 4) for statement in exact_divergence(size)),
+    )
     p.control(equation("the same for (det 𝒜)^(+1/2) dK", divergence, half_rate(-1), TRACES))
-    p.control(Fact(*_exact_divergence(4, half=2)))
+    p.control(replace(exact_divergence(4, rates=2)[2], text="n = 4: S is skew with 𝒜̇ in the place of ½𝒜̇"))
 
 
-def _exact_divergence(size: int, half: int) -> tuple[str, bool]:
-    """div(ω̇, γ̇) + half·½ tr(𝒜⁻¹𝒜̇) = 0 for the equations in (ω, γ), in coordinates, at a rational point."""
-    basis = [_unit(size, i, j) for i, j in itertools.combinations(range(size), 2)]
-    mass, roll = sp.diag(*[1, 2, 4, 5, 7][:size]), sp.Integer(3)
-    vertical = sp.Matrix([2, -1, 2, 4, -2][:size])
-    turning = sum((c * e for c, e in zip((1, -2, 3, 1, 2, -1, 2, 1, -3, 1), basis, strict=False)), sp.zeros(size, size))
-    tensor = vertical * vertical.T
-    tensor_rate = tensor * turning - turning * tensor
+def exact_divergence(n: int, rates: int = 1) -> list[Identity]:
+    """That div + rates·½ tr(𝒜⁻¹𝒜̇) = 0 for the equations in (ω, γ), in coordinates.
 
-    def operator(x: sp.Matrix, gamma_tensor: sp.Matrix, bare: sp.Matrix) -> sp.Matrix:
-        whole = bare + roll * gamma_tensor
-        return whole * x + x * whole
+    𝒜ω̇ = [K,ω] - 𝒜̇ω, where 𝒜̇ depends on ω through Γ̇ = [Γ,ω]: its derivative is x ↦ [𝒜x,ω] + Sx, less rates·½𝒜̇.
+    """
+    places = [*itertools.combinations(range(n), 2)]
+    names = [f"w{i}" for i in range(len(places))] + [f"{kind}{i}" for kind in "gJ" for i in range(n)]
+    *free, D = parameters(" ".join([*names, "D"]))
+    turning, vertical = second_routes.skew(free[: -2 * n], n), second_routes.array(free[-2 * n : -n])
+    tensor, mass = np.outer(vertical, vertical), np.diag(second_routes.array(free[-n:]))
 
-    def coordinates(x: sp.Matrix) -> list[sp.Expr]:
-        return [-(e * x).trace() / 2 for e in basis]
+    def bracket(x: Array, y: Array) -> Array:
+        return x @ y - y @ x
 
-    def matrix_of(linear) -> sp.Matrix:
-        return sp.Matrix([coordinates(linear(e)) for e in basis]).T
+    def operator(x: Array, whole: Any) -> Array:
+        return whole @ x + x @ whole
 
-    inertia = matrix_of(lambda x: operator(x, tensor, mass))
-    inertia_rate = matrix_of(lambda x: operator(x, tensor_rate, sp.zeros(size, size)))
+    def matrix_of(linear: Callable[[Array], Array]) -> Array:
+        units = [second_routes.skew([int(place == other) for other in places], n) for place in places]
+        return second_routes.array([[linear(x)[place] for x in units] for place in places])
 
-    def torque_change(x: sp.Matrix) -> sp.Matrix:
-        """The derivative along x of 𝒜ω̇ = [K,ω] - 𝒜̇ω, where 𝒜̇ depends on ω through Γ̇ = [Γ,ω]."""
-        momentum, change = operator(turning, tensor, mass), operator(x, tensor, mass)
-        swept = tensor * x - x * tensor
-        torque = change * turning - turning * change + momentum * x - x * momentum
-        return torque - operator(x, tensor_rate, sp.zeros(size, size)) - operator(turning, swept, sp.zeros(size, size))
-
-    divergence = (inertia.inv() * matrix_of(torque_change)).trace() - turning.trace()
-    total = divergence + half * (inertia.inv() * inertia_rate).trace() / 2
-    return f"div(ω̇, γ̇) + {half}·½ tr(𝒜⁻¹𝒜̇) = 0 at J = {list(mass.diagonal())}, γ = {list(vertical)}", total == 0
-
-
-def _unit(size: int, i: int, j: int) -> sp.Matrix:
-    matrix = sp.zeros(size, size)
-    matrix[i, j], matrix[j, i] = 1, -1
-    return matrix
+    inertia = mass + D * tensor
+    momentum, rate = operator(turning, inertia), D * bracket(tensor, turning)
+    whole = matrix_of(
+        lambda x: bracket(momentum, x) - operator(x, rate) - operator(turning, D * bracket(tensor, x))
+        + rates * operator(x, rate) / 2
+    )  # fmt: skip
+    symmetric, skew = matrix_of(lambda x: operator(x, inertia)), matrix_of(lambda x: bracket(x, turning))
+    return [
+        second_routes.identity(f"n = {n}: 𝒜 is symmetric", symmetric, symmetric.T),
+        second_routes.identity(f"n = {n}: x ↦ [x,ω] is skew", skew, -skew.T),
+        second_routes.identity(f"n = {n}: S is skew", whole, -whole.T),
+    ]
 
 
 @claim(
