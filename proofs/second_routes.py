@@ -6,6 +6,7 @@ those by π), a unit vector a point of the stereographic plane, and for a vertic
 solved for.  Nothing here comes from chapsym.derive.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import pairwise
@@ -39,7 +40,7 @@ def unit(n: int) -> Array:
     return np.eye(n, dtype=int).astype(object)
 
 
-def skew(above: list[Ratio], n: int) -> Array:
+def skew(above: Sequence[Any], n: int) -> Array:
     """The skew matrix with the given entries above the diagonal, row by row."""
     matrix, rest = unit(n) * 0, iter(above)
     for i in range(n):

@@ -1,7 +1,5 @@
 """Where q steps are p half turns, the reduced map is a rotation to first order in D, and to second order it never is."""
 
-from math import gcd
-
 import sympy as sp
 
 from chapsym.derive import elliptic
@@ -40,15 +38,13 @@ def product_of_poles(sign: int = 1) -> Identity:
     return second_routes.identity("1/(sinh x sinh y) = (coth x + coth y)/sinh(x+y)", 1 / (sinh(X) * sinh(Y)), right)
 
 
-def chords_of_a_polygon(most: int, weight: int = 2) -> bool:
-    """Σ over r mod q of 2 - 2cos(2πpr/q) = 2q for all p prime to q ≤ most, with e^{2πi/q} a root of its polynomial."""
-    x = sp.Symbol("x")
-    for q in range(2, most + 1):
-        for p in (p for p in range(1, q) if gcd(p, q) == 1):
-            total = sum(weight - x ** (p * r % q) - x ** (-p * r % q) for r in range(q)) - 2 * q
-            if sp.rem(total, sp.cyclotomic_poly(q, x), x) != 0:
-                return False
-    return True
+def chords_of_a_polygon(most: int, weight: int = 2) -> Equation:
+    """Σ over r mod q of 2 - 2cos(2πpr/q) = 2q for all q ≤ most, times w - 1, by w = e^{2πip/q}: w^q = 1 and w ≠ 1."""
+    w = sp.Symbol("w")
+    sums = [(w - 1) * sum(weight - w**r - w ** (q - r) for r in range(q)) for q in range(2, most + 1)]
+    wanted = [2 * q * (w - 1) - (1 + w) * (w**q - 1) for q in range(2, most + 1)]
+    text = f"(w - 1)Σ_{{r mod q}} ({weight} - w^r - w^{{q-r}}) = 2q(w - 1) - (1 + w)(w^q - 1), q = 2..{most}"
+    return Equation(text, sums, wanted, Quotient((w,)))
 
 
 def in_fourier_series(p: Proof) -> None:
@@ -59,12 +55,12 @@ def in_fourier_series(p: Proof) -> None:
     p.say("Nη, and the weights, 0 in the class of 0, add up to 2N. So it is -(π/K)²N/sinh Nη, and the one of -2dn² =")
     p.say("-2Z' - 2E/K over q points, divided by q, is -(π/K)²N/sinh Nη, too.")
     p.route(
-        "from the Fourier series of Z", product_of_poles(),
-        Fact("Σ_{r mod q} (2 - 2cos(2πpr/q)) = 2q, q = 2..12, p prime to q", chords_of_a_polygon(12),
-             "division by the cyclotomic polynomial"),
-    )  # fmt: skip
+        "from the Fourier series of Z; Σ_{r mod q} (2 - 2cos(2πpr/q)) = 2q by w = e^{2πip/q}, w^q = 1, w ≠ 1",
+        product_of_poles(),
+        chords_of_a_polygon(12),
+    )
     p.control(second_routes.mutated("(coth x - coth y)/sinh(x+y)", product_of_poles(-1)))
-    p.control(Fact("Σ_{r mod q} (1 - 2cos(2πpr/q)) = 2q", chords_of_a_polygon(12, 1)))
+    p.control(chords_of_a_polygon(12, 1))
 
 
 @claim(
