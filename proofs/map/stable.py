@@ -9,7 +9,7 @@ from chapsym.derive.gibbs import v as e
 from chapsym.derive.limits import omega
 from chapsym.derive.quotient import Quotient
 from chapsym.derive.three import D, K, gamma, placed, q, q0, unrolled
-from chapsym.prove import Equation, Fact, Proof, claim, equations, main
+from chapsym.prove import Comparison, Equation, Fact, Proof, claim, equations, main
 
 #: Any 3×3 matrix.
 M = sp.Matrix(3, 3, sp.symbols("m1:4(1:4)"))
@@ -75,11 +75,19 @@ def stable_determinant(p: Proof) -> None:
         equal("γᵀA = γᵀM", gamma.T * A, gamma.T * M), scalar("|γ|² det A = ⟨Mᵀγ, adj(A)γ⟩", NORM * A.det(), value)
     )
     p.say("adj(A) has D² at most, and M none.  In the sum over a row of A the terms have D³, which cancels:")
-    along = {gamma[0]: 2, gamma[1]: 3, gamma[2]: 6} | placed((M, sp.eye(3)))
-    terms = [sp.expand((A[0, j] * adjugate[j, 0]).subs(along)).coeff(D, 3) for j in range(3)]
-    p.lemma(Fact("the coefficients of D³ in a row, at γ = (2, 3, 6), are not 0, but their sum is",
-                 all(terms) and sum(terms) == 0))  # fmt: skip
-    p.lemma(Fact("⟨Mᵀγ, adj(A)γ⟩ has D² at most, term by term", _degree(M.T * gamma) + _degree(adjugate * gamma) == 2))
+    one = placed((M, sp.eye(3)))
+    terms = [A[0, j].subs(one) * adjugate[j, 0].subs(one) for j in range(3)]
+    cubes = [rolling[0, j] * rolling.adjugate()[j, 0] for j in range(3)]
+    less = [sum(sp.expand(e).coeff(D, i) * D**i for i in range(3)) for e in terms]
+    p.lemma(
+        equal("for M = 1 the terms of a row are D³ times those without M, and less", terms,
+              [D**3 * c + rest for c, rest in zip(cubes, less, strict=True)]),
+        Comparison("at γ = (2, 3, 6) those are not 0, but their sum is", [*(sp.Ne(c, 0) for c in cubes), sp.Eq(sum(cubes), 0)],
+                   placed((gamma, (2, 3, 6)))),
+    )  # fmt: skip
+    mixed = (M + rolling).adjugate() - M.adjugate() - rolling.adjugate()
+    p.lemma(equal("adj(A)γ has D² at most: adj(M)γ, D times a vector without D, and D² times another", adjugate * gamma,
+                  M.adjugate() * gamma + D * mixed * gamma + D**2 * rolling.adjugate() * gamma))  # fmt: skip
     B = sp.Matrix(gibbs.contact_inertia())
     p.lemma(equal("∂G/∂u = (I + polar(u)) + D(|γ|² - γγᵀ)", gibbs.jacobian(), INERTIA + gibbs.polar(u) + D * rolling))
     p.lemma(equal("B(γ) = I + D(|γ|² - γγᵀ)", B, INERTIA + D * rolling))
@@ -88,17 +96,14 @@ def stable_determinant(p: Proof) -> None:
     p.lemma(scalar("the kernel divides ⟨Mᵀγ, Cᵀγ⟩ by |γ|²", sp.cancel(unrolled(last, sp.Matrix([determinant]))[0] * NORM),
                    (gamma.T * gibbs.M * gibbs.C.T * gamma)[0],
                    Quotient((*gibbs.M, *gibbs.C, *gamma), [])))  # fmt: skip
-    p.lemma(Fact("and the rest is that of `gibbs_newton`", rest == gibbs.newton_steps()[1][1:]))
+    others = gibbs.newton_steps()[1][1:]
+    names = sorted(set().union(*(e.free_symbols for e in rest)), key=str)
+    p.lemma(Equation("and the rest is that of `gibbs_newton`", rest, others, Quotient(names)))
     T = sp.Matrix(three.tangent_jacobian())
     p.lemma(equal("γᵀT(D) = γᵀT(0) for the tangent Jacobian", inertial(gamma.T * T), inertial(gamma.T * T.subs(D, 0))))
     p.control(scalar("|γ|² det A = ⟨Mγ, adj(A)γ⟩", NORM * A.det(), ((M * gamma).T * adjugate * gamma)[0]))
     p.control(equal("T(D)γ = T(0)γ", inertial(T * gamma), inertial(T.subs(D, 0) * gamma)))
     p.control(scalar("|γ|² det A = ⟨γ, M adj(M)γ⟩", NORM * A.det(), (gamma.T * M * M.adjugate() * gamma)[0]))
-
-
-def _degree(vector: sp.Matrix) -> int:
-    """The largest degree in D of a vector's entries."""
-    return max(sp.Poly(entry, D).degree() for entry in vector)
 
 
 @claim(
@@ -126,10 +131,10 @@ def stable_inverse(p: Proof) -> None:
         "of two positive terms.  So every entry has its digits, and ω has an error of a few roundings of |B⁻¹||K|: what",
         "a rounding of K does itself.  That is the condition of ω: |B⁻¹||K|/|ω|, up to Λmax/I_min for K across γ.",
     )
-    p.lemma(Fact("F det Λ is a polynomial in γ², I, D without a minus sign", _positive(f)))
-    p.lemma(Fact("so is each entry of F (det Λ)² B⁻¹, but for the factor γᵢγⱼ", all(
-        _positive(inverse[i, j] if i == j else sp.cancel(inverse[i, j] / (gamma[i] * gamma[j])))
-        for i in range(3) for j in range(3))))  # fmt: skip
+    across = [gamma[i] * gamma[j] if i != j else sp.S.One for i in range(3) for j in range(3)]
+    p.lemma(scalar("F det Λ is a polynomial in γ², I, D without a minus sign", f, without_minus(f)))
+    p.lemma(equal("so is each entry of F (det Λ)² B⁻¹, but for the factor γᵢγⱼ", inverse,
+                  [factor * without_minus(sp.cancel(entry / factor)) for factor, entry in zip(across, inverse, strict=True)]))  # fmt: skip
     p.lemma(_quotient("ω of the kernel", sp.Matrix(continuous.angular_velocity()), inverse * K, f * whole))
     p.lemma(_quotient("its energy", sp.Matrix([continuous.energy()]), K.T * inverse * K, 2 * f * whole))
     p.control(scalar("F det Λ = det Λ - D⟨γ, adj(Λ)γ⟩ off |γ| = 1", f, whole - D * gamma.dot(adjugate * gamma)))
@@ -137,6 +142,13 @@ def stable_inverse(p: Proof) -> None:
                    _positive(NORM * whole) and _positive(-D * gamma.dot(adjugate * gamma))))  # fmt: skip
     p.control(equal("B⁻¹ with -D/F", (NORM * Lam - D * gamma * gamma.T) * (2 * f * adjugate - inverse),
                     NORM * f * whole * sp.eye(3)))  # fmt: skip
+
+
+def without_minus(polynomial: sp.Expr) -> sp.Expr:
+    """The polynomial term by term; raises ArithmeticError if one has a minus sign."""
+    if not _positive(polynomial):
+        raise ArithmeticError(f"a term of {polynomial} has a minus sign")
+    return sp.expand(polynomial)
 
 
 def _positive(polynomial: sp.Expr) -> bool:
