@@ -16,6 +16,7 @@ from .statements import (
     Fact,
     Point,
     equations,
+    in_field,
     rational_point,
 )
 
@@ -40,6 +41,7 @@ __all__ = [
     "Verdict",
     "claim",
     "equations",
+    "in_field",
     "judged",
     "load",
     "main",

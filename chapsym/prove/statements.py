@@ -66,6 +66,20 @@ def equations(usual: Algebra) -> Callable[..., Equation]:
     return equation
 
 
+def in_field(text: str, left: Sequence[Any], right: Sequence[Any], relation: sp.Expr) -> Equation:
+    """left = right at a root of a polynomial in one symbol, which may have no rational one.
+
+    An identity for every number in its place: left = right + (a multiple of the polynomial).
+    """
+    (x,) = relation.free_symbols
+    moved = []
+    for a, b in zip(left, right, strict=True):
+        above, below = sp.fraction(sp.together(a - b))
+        multiple = sp.div(sp.expand(above), relation, x)[0] / below
+        moved.append(sp.Add(b, sp.Mul(relation, multiple, evaluate=False), evaluate=False))
+    return Equation(text, left, moved, Quotient((x,)))
+
+
 def _entries(side: Any) -> list[Any]:
     """A side as the list of its entries."""
     entries = side if isinstance(side, sp.MatrixBase | Iterable) else [side]

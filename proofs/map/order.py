@@ -12,7 +12,7 @@ from chapsym.derive import composition
 from chapsym.derive.composition import Word, defects
 from chapsym.derive.quotient import Quotient
 from chapsym.dynamics.coefficients import COMPOSITIONS
-from chapsym.prove import Comparison, Equation, Fact, Proof, claim, main
+from chapsym.prove import Comparison, Equation, Fact, Proof, claim, in_field, main
 
 #: t = ∛4 and Suzuki's c = 1/(4 - t), as (4 - t)(16 + 4t + t²) = 64 - t³ = 60.
 t = sp.Symbol("t")
@@ -80,13 +80,6 @@ def _combination(row: Sequence[Any], of: Sequence[sp.Expr]) -> sp.Expr:
     return sp.Add(*terms, evaluate=False)
 
 
-def in_the_field(text: str, left: Sequence[sp.Expr], right: Sequence[sp.Expr | int]) -> Equation:
-    """left = right at t = ∛4: left - right is a multiple of t³ - 4."""
-    multiples = [sp.div(sp.expand(a - b), CUBE, t)[0] for a, b in zip(left, right, strict=True)]
-    moved = [sp.Add(b, sp.Mul(CUBE, m, evaluate=False), evaluate=False) for b, m in zip(right, multiples, strict=True)]
-    return Equation(text, left, moved, Quotient((t,)))
-
-
 @claim(
     "composition-order",
     r"\Phi_{c_s\varepsilon}\circ\dots\circ\Phi_{c_1\varepsilon} \text{ has the order } 4, 6, 8"
@@ -127,13 +120,13 @@ def order(p: Proof) -> None:
     p.control(told_by(words[:-1], 7))
     p.say("Order 4: c = 1/(4 - t) twice, 1 - 4c, c twice, with t = ∛4 (Suzuki), where the multiples of t³ - 4 vanish:")
     suzuki = palindrome([SUZUKI, SUZUKI, 1 - 4 * SUZUKI])
-    p.lemma(in_the_field("c(4 - t) = 1", [SUZUKI * (4 - t)], [1]))
+    p.lemma(in_field("c(4 - t) = 1", [SUZUKI * (4 - t)], [1], CUBE))
     exact = defects(suzuki, 4)
-    p.printed(in_the_field("order 4: every word through the weight 4 vanishes", [*exact.values()], [0] * len(exact)))
+    p.printed(in_field("order 4: every word through the weight 4 vanishes", [*exact.values()], [0] * len(exact), CUBE))
     fifth = defects(suzuki, 5)[(5,)]
     inverse = sp.invert(sp.rem(sp.expand(fifth), CUBE, t), CUBE, t)
-    p.printed(in_the_field("not 5: Σc⁵ has an inverse in the field Q(∛4)", [fifth * inverse], [1]))
-    p.control(in_the_field("order 5: Σc⁵ = 0", [fifth], [0]))
+    p.printed(in_field("not 5: Σc⁵ has an inverse in the field Q(∛4)", [fifth * inverse], [1], CUBE))
+    p.control(in_field("order 5: Σc⁵ = 0", [fifth], [0], CUBE))
     decimals = COMPOSITIONS[4].exact
     first, second, middle, off = sp.symbols("c1:4 o")
     at = {

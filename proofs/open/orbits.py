@@ -1,24 +1,28 @@
 """Periodic orbits of the whole map, 𝒦 not parallel to γ, and what they exclude: lemmas of chapsym on Section 6."""
 
+from collections.abc import Iterable, Sequence
+
 import sympy as sp
-from sympy.polys.matrices import DomainMatrix
 
 from chapsym.derive import gibbs
 from chapsym.derive.gibbs import I1, I2, I3, D, d, k, u
 from chapsym.derive.quotient import Quotient
 from chapsym.derive.three import gamma, placed
 from chapsym.proofs.map.gibbs import FREE, equal
-from chapsym.prove import Comparison, Equation, Fact, Proof, claim, equations, main
+from chapsym.prove import Comparison, Equation, Proof, claim, equations, in_field, main
 
 #: Of a steady rotation about e₃ by the angle θ: u = (0, 0, t), t = tan(θ/2), γ = (x, y, c).
 t = sp.Symbol("t")
 x, y, c = gamma
 STEADY = Quotient((t, x, y, c, I1, I2, I3, D), [x**2 + y**2 + c**2 - 1])
 equation = equations(STEADY)
+#: 𝒜, 𝒜~, Y = 𝒜⁻¹𝒢 and the derivative S of a step.
+A, A_back, Y, S = (sp.Matrix(3, 3, sp.symbols(f"{name}1:4(1:4)")) for name in "abys")
 #: The example: a turn by 45° a step, in Q(√2).
-ROOT = sp.sqrt(2)
-EXAMPLE = {I1: sp.Integer(6), I2: sp.Integer(5), I3: sp.Integer(3), D: sp.Integer(1), t: ROOT - 1, c: ROOT / 2}
-EXAMPLE |= {x: 3 * ROOT / 10, y: 4 * ROOT / 10}
+ROOT = sp.Symbol("r")
+SQUARE = ROOT**2 - 2
+EXAMPLE = {I1: sp.Integer(6), I2: sp.Integer(5), I3: sp.Integer(3), D: sp.Integer(1), t: ROOT - 1}
+START = sp.Matrix([3, 4, 5]) * ROOT / 10
 
 
 def turn(v: sp.Matrix) -> sp.Matrix:
@@ -91,12 +95,27 @@ def step_determinant(p: Proof) -> None:
     without = {D: sp.S.Zero}
     p.printed(Equation("det 𝒜~ = det 𝒜 for D = 0", [_determinant(slope(-u, gamma).subs(without))],
                      [_determinant(slope(u, gamma).subs(without))], FREE))  # fmt: skip
-    numbers = placed((gamma, sp.Matrix([2, 3, 6]) / 7)) | {D: 2, **ball}
-    S = turn(point) - turning(point) * here.subs(numbers).inv() * by_turns(point, gamma).subs(numbers)
-    quotient = _determinant(there.subs(numbers)) / _determinant(here.subs(numbers))
-    p.lemma(Fact("det S by its definition is this quotient, at γ = (2, 3, 6)/7, D = 2", S.det() == quotient))
+    p.say("With Y = 𝒜⁻¹𝒢 and S = T - EY as they are defined:")
+    numbers = placed((gamma, sp.Matrix([2, 3, 6]) / 7)) | {D: sp.Integer(2)}
+    gained = by_turns(point, gamma).subs(ball)
+    slopes = here.subs(numbers).inv() * gained.subs(numbers)
+    values = (here.subs(numbers), there.subs(numbers), slopes, turn(point) - turning(point) * slopes)
+    numbers |= placed(*zip((A, A_back, Y, S), values, strict=True))
+    pairs = ((A, here), (A_back, there), (A * Y, gained), (S, turn(point) - turning(point) * Y))
+    defined = [sp.Eq(a, b) for left, right in pairs for a, b in zip(left, right, strict=True)]
+
+    def by_definition(text: str, quotient: sp.Expr) -> Comparison:
+        return Comparison(text, [*defined, sp.Eq(_triple(S), quotient)], numbers)
+
+    quotient = _triple(A_back) / _triple(A)
+    p.lemma(by_definition("det S by its definition is this quotient, at γ = (2, 3, 6)/7, D = 2", quotient))
     p.control(key("T⁻¹𝒜~ = 𝒜 + 𝒢T⁻¹E", -1))
-    p.control(Fact("det S = 1 at this γ and D", S.det() == 1))
+    p.control(by_definition("det S = 1 at this γ and D", sp.S.One))
+
+
+def _triple(m: sp.Matrix) -> sp.Expr:
+    """The determinant of a 3 × 3 matrix, as a product of its rows."""
+    return m[0, :].dot(m[1, :].cross(m[2, :]))
 
 
 def _determinant(m: sp.Matrix) -> sp.Expr:
@@ -169,51 +188,78 @@ def _example(p: Proof) -> None:
     p.say(
         "Example, in Q(√2): J = (1, 2, 4), D = 1, θ = 45°, γ = (3, 4, 5)√2/10.  The product of det S by its definition:"
     )
-    field = sp.QQ.algebraic_field(ROOT)
-    axis, vertical = (v.subs(EXAMPLE).applyfunc(_simple) for v in (sp.Matrix([0, 0, t]), sp.Matrix([x, y, c])))
-    momentum = (2 * half_momentum(axis, vertical).subs(EXAMPLE)).applyfunc(_simple)
-    product, start = field.one, vertical
+    axis, vertical = sp.Matrix([0, 0, EXAMPLE[t]]), sp.Matrix([x, y, c])
+    momentum = 2 * half_momentum(axis, START).subs(EXAMPLE)
+    T, E = _normal(turn(axis)), _normal(turning(axis))
+    states = [START]
     for _ in range(4):
-        product *= _derivative(axis, vertical, field).det()
-        vertical = (turn(axis) * vertical).applyfunc(_simple)
-    size, least, largest, slope = sp.symbols("k i1 i3 rho")
+        states.append(_normal(T * states[-1]))
+    made = [e.subs(EXAMPLE) for e in (*slope(axis, vertical), *by_turns(axis, vertical))]
+    places = [placed((gamma, state)) for state in states[:4]]
+    known = [_normal(sp.Matrix([e.xreplace(at) for e in made])) for at in places]
+    steps = [(sp.Matrix(3, 3, e[:9]), sp.Matrix(3, 3, e[9:])) for e in known]
+    slopes = [_normal(A.adjugate() * _inverse(_normal(sp.Matrix([A.det()]))[0]) * G) for A, G in steps]
+    changes = [_normal(T - E * Y_) for Y_ in slopes]
+    parts = [_normal(sp.Matrix([_determinant(S_)]))[0] for S_ in changes]
+    product = _normal(sp.Matrix([sp.prod(parts)]))[0]
+    least, size, largest, slope_ = sp.symbols("i1 k i3 rho")
     facts = (
-        Fact("|𝒦|² = 25/4 and ⟨𝒦, γ⟩ = 3/2", _simple(momentum.dot(momentum)) == sp.Rational(25, 4)
-             and _simple(momentum.dot(start)) == sp.Rational(3, 2)),
+        at_root("|𝒦|² = 25/4 and ⟨𝒦, γ⟩ = 3/2", [momentum.dot(momentum), momentum.dot(START)], [sp.Rational(25, 4), sp.Rational(3, 2)]),
         Comparison("5/2 is below the bound of small-branch: ϱ < 3/4 as 5/6 < 24/25 = sin(2 arctan ¾), and ¾(½(6 - 3) + 5/2) = 3",
-                   [size / least < 2 * slope / (1 + slope**2), slope * ((largest - least) / 2 + size) <= least],
-                   {size: "5/2", least: 3, largest: 6, slope: "3/4"}),
-        Fact("after 4 steps γ has turned by π about e₃", [_simple(v) for v in vertical - sp.diag(-1, -1, 1) * start] == [0, 0, 0]),
-        Fact("the determinant of 4 steps is not 1", product != field.one),
-        Fact("it is Πf(φ - (j + ½)θ)/f(φ - jθ)", product == _by_formula(field)),
+                   [size / least < 2 * slope_ / (1 + slope_**2), slope_ * ((largest - least) / 2 + size) <= least],
+                   {size: "5/2", least: 3, largest: 6, slope_: "3/4"}),
+        at_root("Ωᵀ and E", [*turn(axis), *turning(axis)], [*T, *E]),
+        at_root("each state is Ωᵀ times the one before", _all(T * state for state in states[:4]), _all(states[1:])),
+        at_root("after 4 steps γ has turned by π about e₃", states[4], sp.diag(-1, -1, 1) * START),
+        at_root("𝒜 and 𝒢 at each step", [e.xreplace(at) for at in places for e in made], _all(known)),
+        at_root("𝒜Y = 𝒢", _all(A * Y_ for (A, _), Y_ in zip(steps, slopes, strict=True)), _all(G for _, G in steps)),
+        at_root("S = T - EY", _all(changes), _all(T - E * Y_ for Y_ in slopes)),
+        at_root("the determinants of S, and their product", [*map(_determinant, changes), sp.Mul(*parts, evaluate=False)], [*parts, product]),
+        at_root("the product is not 1: the difference has an inverse", [(product - 1) * _inverse(product - 1)], [1]),
+        at_root("it is Πf(φ - (j + ½)θ)/f(φ - jθ)", [_by_formula()], [product]),
     )  # fmt: skip
     for fact in facts:
         p.lemma(fact)
-    p.witness("J = (1, 2, 4), D = 1, θ = 45°", {str(name): str(value) for name, value in EXAMPLE.items()}, *facts)
-    p.show("\\det D\\Phi^4", field.to_sympy(product))
-    p.control(Fact("the determinant of 4 steps is 1", product == field.one))
+    named = EXAMPLE | placed((gamma, START)) | {ROOT: sp.sqrt(2)}
+    p.witness("J = (1, 2, 4), D = 1, θ = 45°", {str(name): str(value) for name, value in named.items()}, *facts[:2])
+    p.show("\\det D\\Phi^4", product)
+    p.control(at_root("the determinant of 4 steps is 1", [product], [1]))
 
 
-def _simple(value: sp.Expr) -> sp.Expr:
-    return sp.radsimp(sp.expand(value))
+def at_root(text: str, left: Sequence[sp.Expr], right: Sequence[sp.Expr | int]) -> Equation:
+    """left = right for r² = 2."""
+    return in_field(text, [*left], [*right], SQUARE)
 
 
-def _derivative(axis: sp.Matrix, vertical: sp.Matrix, field: sp.Domain) -> DomainMatrix:
-    """S of one step of the example, by its definition."""
-    parts = (turn(axis), turning(axis), slope(axis, vertical), by_turns(axis, vertical))
-    T, E, A, W = (DomainMatrix.from_Matrix(m.subs(EXAMPLE).applyfunc(_simple)).convert_to(field) for m in parts)
-    return T - E * A.inv() * W
+def _inverse(of: sp.Expr) -> sp.Expr:
+    """1/(a + br) for r² = 2."""
+    return sp.invert(of, SQUARE, ROOT)
 
 
-def _by_formula(field: sp.Domain) -> object:
-    """Π f(φ - (j + ½)θ)/f(φ - jθ) in the field: the closed form, with (x + iy)² turned by multiples of e^{-iθ}."""
-    P, Q = (field.from_sympy(_simple(v.subs(EXAMPLE))) for v in (steady_level(t), SWING))
-    real = [field.from_sympy(_simple(v.subs(EXAMPLE))) for v in (around(x, y, t), 2 * x * y - t * (x**2 - y**2))]
-    cosine = field.from_sympy(ROOT / 2)
-    value = field.one
+def _normal(of: sp.Matrix) -> sp.Matrix:
+    """As a + br, for r² = 2."""
+
+    def normal(entry: sp.Expr) -> sp.Expr:
+        above, below = sp.fraction(sp.together(entry))
+        return sp.rem(sp.expand(above * _inverse(sp.expand(below))), SQUARE, ROOT)
+
+    return sp.Matrix(of).applyfunc(normal)
+
+
+def _all(matrices: Iterable[sp.Matrix]) -> list[sp.Expr]:
+    """Their entries."""
+    return [entry for matrix in matrices for entry in matrix]
+
+
+def _by_formula() -> sp.Expr:
+    """Π f(φ - (j + ½)θ)/f(φ - jθ): the closed form, with (x + iy)² turned by multiples of e^{-iθ}."""
+    at_start = EXAMPLE | placed((gamma, START))
+    P, Q = (sp.sympify(v).subs(at_start) for v in (steady_level(t), SWING))
+    real = [v.subs(at_start) for v in (around(x, y, t), 2 * x * y - t * (x**2 - y**2))]
+    value = sp.S.One
     for j in range(8):
         value = value / (P + Q * real[0]) if j % 2 == 0 else value * (P + Q * real[0])
-        real = [cosine * (real[0] + real[1]), cosine * (real[1] - real[0])]
+        real = [*_normal(ROOT / 2 * sp.Matrix([real[0] + real[1], real[1] - real[0]]))]
     return value
 
 
