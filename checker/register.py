@@ -21,6 +21,8 @@ names, and there must be one.
 A count is such relations between the numbers of solutions that equations have (roots.py), which hold; or, for one that
 is printed and false, do not.
 
+A zero is a solution of equations, one and no other within a distance of a point (zeros.py).
+
 A counterexample is a point, or matrices, at which the relations or rules and the hypotheses hold, the printed
 statements it refutes fail, and the corrected ones hold.  It rests on other certificates, by the ids of their claims or
 their digests: they must be accepted, too.  The sentences are not judged: they are what the claim says beside this.
@@ -33,7 +35,7 @@ from contextlib import suppress
 from fractions import Fraction
 from typing import Any
 
-from . import derivation, roots
+from . import derivation, roots, zeros
 from .algebra import Algebra, all_or_none
 from .derivation import Made
 from .document import check_names, count
@@ -45,7 +47,7 @@ from .trees import check_name, check_tree, names_in, rational, value
 from .words import Matrix, same, trace
 
 NAMES = "format kind statement claim printed corrected hypotheses algebras derivation points statements comparisons "
-NAMES += "counts counterexamples rests sentences digest"
+NAMES += "counts zeros counterexamples rests sentences digest"
 _CLAIM = re.compile(r"[\w.-]{1,40}", re.ASCII)
 _CERTIFICATE = re.compile(r"[\w.-]{1,40}|[0-9a-f]{64}", re.ASCII)
 ROLES = ("printed", "corrected", "under", "lemma", "second route")
@@ -79,6 +81,7 @@ def statement(data: dict[str, Any]) -> str:
         f"one expression on both sides, and say nothing of how it was derived; {refuted} printed statements fail at "
         f"{len(data['counterexamples'])} points given; {len(data['comparisons']) - failing} comparisons hold at "
         f"theirs, and {failing} printed ones fail.  "
+        f"{len(data['zeros'])} systems of equations have one solution within a distance of a point, and no other.  "
         f"{len(data['hypotheses'])} hypotheses hold at every point that has values for them.  "
         f"It rests on {len(data['rests'])} other certificates, which must be accepted.  "
         f"{len(data['sentences'])} sentences are listed and not checked."
@@ -88,7 +91,7 @@ def statement(data: dict[str, Any]) -> str:
 def check_form(data: dict[str, Any]) -> None:
     """Raises Rejected unless every part is there, in its form, and every number in its only form."""
     check_names(data, NAMES, "the certificate")
-    parts = "hypotheses points statements comparisons counts counterexamples rests sentences"
+    parts = "hypotheses points statements comparisons counts zeros counterexamples rests sentences"
     for name in parts.split():
         many(data[name], name)
     if not isinstance(data["claim"], str) or not _CLAIM.fullmatch(data["claim"]):
@@ -130,6 +133,10 @@ def check_form(data: dict[str, Any]) -> None:
         chosen(one["role"], ROLES if one["holds"] else ("printed",), f"the role of {where}")
         check_relations(one, roots.NUMBERS, where)
         roots.check_form(one, data["algebras"], data["points"], values, where)
+    for i, one in enumerate(data["zeros"]):
+        check_names(one, zeros.NAMES, f"zero {i}")
+        chosen(one["role"], ROLES, f"zero {i}")
+        zeros.check_form(one, data["points"], f"zero {i}")
     known = set().union(*data["points"], *(one["point"] for one in data["counterexamples"]))
     for i, one in enumerate(data["hypotheses"]):
         check_names(one, "text relations", f"hypothesis {i}")
@@ -292,6 +299,8 @@ def check(data: dict[str, Any]) -> dict[str, str]:
         numbers = roots.solutions(one, algebra, point, values, work, where)
         if compared(one, numbers, where) is not one["holds"]:
             raise Rejected(f"{where} says something else than the numbers {', '.join(map(str, numbers.values()))}")
+    for i, one in enumerate(data["zeros"]):
+        zeros.check(one, points[one["point"]], work, f"zero {i}")
     everywhere = [*points, *(entries(one["point"]) for one in data["counterexamples"])]
     for i, one in enumerate(data["hypotheses"]):
         check_hypothesis(one, everywhere, f"hypothesis {i}")
@@ -305,7 +314,7 @@ def check(data: dict[str, Any]) -> dict[str, str]:
     for i in refuted:
         if i not in data["counterexamples"][data["statements"][i]["refuted"]]["refutes"]:
             raise Rejected(f"statement {i} is not refuted by its counterexample")
-    said = [*data["statements"], *data["comparisons"], *data["counts"]]
+    said = [one for name in ("statements", "comparisons", "counts", "zeros") for one in data[name]]
     roles = [one["role"] for one in said]
     return {
         **{role: str(roles.count(role)) for role in ROLES if role in roles},
@@ -313,6 +322,7 @@ def check(data: dict[str, Any]) -> dict[str, str]:
         "definitions": str(len(data["derivation"])),
         "comparisons": str(len(data["comparisons"])),
         "counts": str(len(data["counts"])),
+        "zeros": str(len(data["zeros"])),
         "one expression on both sides": str(sum(one["left"] == one["right"] for one in data["statements"])),
         "rests on": str(len(data["rests"])),
         "sentences not checked": str(len(data["sentences"])),

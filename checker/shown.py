@@ -88,6 +88,12 @@ def lines(data: dict[str, Any], parts: bool = True) -> Iterator[str]:
         for one in data[part]:
             yield f"{part[:-1]}{', which fails' if 'refuted' in one else ''}: {one['text']}"
             yield from (f"    {formula(a)} {relation} {formula(b)}" for relation, a, b in one["relations"])
+    for one in data["zeros"]:
+        at = ", ".join(f"{name} = {data['points'][one['point']][name]}" for name in one["unknowns"])
+        yield f"{one['role']}: {one['text']}    [one solution within {one['radius']} of {at}]"
+        yield from (f"    {name} is {formula(tree)}" for name, tree in (one["definitions"] if parts else ()))
+        yield from (f"    {formula(tree)} = 0" for tree in one["equations"])
+        yield from (f"    and there {formula(tree)} ≠ 0" for tree in one["nonzero"])
     for one in data["rests"]:
         yield f"{one['role']}: {one['text']}    [by the certificate {one['certificate']}]"
     for i, one in enumerate(data["counterexamples"]):

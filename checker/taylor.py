@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from fractions import Fraction
+from functools import reduce
 from itertools import accumulate
 from math import ceil
 from operator import add, mul
@@ -138,6 +139,11 @@ class Dual:
 
     def __rsub__(self, other: Any) -> Dual:
         return -self + other
+
+    def __pow__(self, power: int) -> Dual:
+        """For a power other than 0."""
+        base = self if power > 0 else 1 / self
+        return reduce(mul, [base] * abs(power))
 
     def __rtruediv__(self, other: int) -> Dual:
         one = 1 / self.value

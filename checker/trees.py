@@ -13,6 +13,7 @@ from operator import add, mul
 from typing import Any
 
 from .interval import Rejected
+from .taylor import Dual
 
 #: What a certificate may ask for, so that none takes memory or time without limit.
 MOST_DEPTH, MOST_OPERANDS, MOST_POWER, MOST_BITS, MOST_BITS_OF_VALUES = 60, 20_000, 60, 1_000, 2_000
@@ -45,8 +46,9 @@ def bits(x: Fraction) -> int:
 
 
 def bounded(x: Any) -> Any:
-    """The same; raises Rejected for a rational number that grew without measure."""
-    if isinstance(x, Fraction) and bits(x) > MOST_BITS_OF_VALUES:
+    """The same; raises Rejected for a rational number, or an interval, that grew without measure."""
+    grown = isinstance(x, Dual) and (x.value.most >> x.value.bits).bit_length() > MOST_BITS_OF_VALUES
+    if grown or (isinstance(x, Fraction) and bits(x) > MOST_BITS_OF_VALUES):
         raise Rejected("the certificate has a number too large to be checked")
     return x
 

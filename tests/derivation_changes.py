@@ -39,7 +39,7 @@ def made(steps, left, right, kind="words", at=0, more=(), **changes):
         "hypotheses": [], "comparisons": [], "counts": [], "derivation": [*steps],
         "algebras": [LETTERS, LETTERS | {"kind": "traces"}, *more],
         "points": [POINT, UNIT, {"m": 1, "U": [[0, 1], [-1, 0]]}, POINT | {"P": [[0, 0], [0, 0]]}],
-        "statements": [one], "counterexamples": [], "rests": [],
+        "statements": [one], "counterexamples": [], "zeros": [], "rests": [],
         "sentences": [], "statement": "",
     })  # fmt: skip
 

@@ -190,12 +190,64 @@ def resting(*names, claim="0", role="lemma"):
     return resealed(by_hand([]) | {"claim": claim, "rests": rests})
 
 
+def near(equations, unknowns=("x",), radius="1/100", nonzero=(), definitions=(), **point):
+    """A solution near a point: of y² = 2 near 7/5, in most."""
+    one = {"role": "lemma", "text": "x", "point": 0, "unknowns": [*unknowns], "definitions": [*definitions]}
+    one |= {"equations": [*equations], "nonzero": [*nonzero], "radius": radius}
+    return resealed(by_hand([], [{"x": "17/12", "a": 2} | point]) | {"zeros": [one]})
+
+
+ROOT = ["+", ["^", "x", 2], ["*", -1, "a"]]
+CIRCLE = [["+", ["^", "x", 2], ["^", "y", 2], -1], ["+", "x", ["*", -1, "y"]]]
+
+
+def zeros():
+    """Solutions that are near a point, and what is none."""
+    both = {"unknowns": ("x", "y"), "x": "5/7", "y": "5/7"}
+    return {
+        "x² = 2 near 17/12": near([ROOT]),
+        "x² = 2 near 17/12, x ≠ 1": near([ROOT], nonzero=[["+", "x", -1], ["+", "x", "-7/5"]]),
+        "-x² = -2": near([["*", -1, ROOT]]),
+        "x⁻² = 1/2": near([["+", ["^", "x", -2], "-1/2"]]),
+        "x² = 2 by names": near(["z"], definitions=[["y", ["*", "x", "x"]], ["z", ["+", "y", ["*", -1, "a"]]]]),
+        "x² + y² = 1, x = y": near(CIRCLE, **both),
+        "x = 1/3": near([["+", "x", "-1/3"]], x="1/3", radius="1/1000"),
+        "x = 17/12 to the edge": near([["+", "x", "-7/5"]], radius="1/59"),
+    }, {
+        "x² = 3": near([ROOT], a=3),
+        "x² = 2 within 2": near([ROOT], radius=2),
+        "x² = 2 within too little": near([ROOT], radius="1/500"),
+        "x = 17/12 beyond the edge": near([["+", "x", "-7/5"]], radius="1/60"),
+        "x = 17/12 beyond the other edge": near([["+", "x", "-43/30"]], radius="1/60"),
+        "x² = 0, twice": near([["^", "x", 2]], x="1/1000"),
+        "x² = 2 where x² - 2 is not 0": near([ROOT], nonzero=[["+", "x", -1], ROOT]),
+        "x + y = 1 twice": near([CIRCLE[1]] * 2, **both),
+        "one equation of two": near(CIRCLE[:1], **both),
+        "two equations of one": near(CIRCLE, y="5/7"),
+        "no unknown": near([], ()),
+        "21 unknowns": near([f"x{i}" for i in range(21)], [f"x{i}" for i in range(21)],
+                            **{f"x{i}": 0 for i in range(21)}),
+        "an unknown without a value": near([ROOT], ("z",)),
+        "an unknown twice": near([ROOT] * 2, ("x", "x")),
+        "a matrix at the point": near([ROOT], b=[[1]]),
+        "a radius of 0": near([ROOT], radius=0),
+        "a radius below 0": near([ROOT], radius="-1/100"),
+        "a name that is defined later": near(["z"], definitions=[["z", "y"], ["y", ROOT]]),
+        "a variable that is defined": near(["a"], definitions=[["a", ROOT]]),
+        "a definition of three": near(["z"], definitions=[["z", ROOT, 1]]),
+        "a definition of no name": near(["z"], definitions=[["z", ROOT], [7, 1]]),
+        "a pole": near([["+", ROOT, ["*", 0, ["^", ["+", "x", "-17/12"], -1]]]]),
+        "a power of powers": near([["+", ROOT, ["*", 0, ["^", ["^", ["^", "x", 60], 60], 60]]]]),
+        "too much work": near([["+", "x", "-17/12", *[["*", 0, "x"]] * 19_000]], radius=f"1/{2**999}"),
+    }  # fmt: skip
+
+
 def by_hand(statements, points=(), algebras=(), counterexamples=(), hypotheses=(), comparisons=(), counts=()):
     """A certificate with few parts."""
     return resealed({
         "format": "chapsym-certificate/1", "kind": "register-claim", "claim": "0", "printed": "x", "corrected": None,
         "hypotheses": [*hypotheses], "algebras": [*algebras], "derivation": [], "points": [*points],
-        "statements": [*statements], "comparisons": [*comparisons], "counts": [*counts],
+        "statements": [*statements], "comparisons": [*comparisons], "counts": [*counts], "zeros": [],
         "counterexamples": [*counterexamples], "rests": [], "sentences": [], "statement": "",
     })  # fmt: skip
 
@@ -276,7 +328,8 @@ def small():
         ),
     }  # fmt: skip
     two = [contradicted(0, {"x": 3}), contradicted(1, {"x": 2}, [0])]
-    return right, {
+    found, lost = zeros()
+    return right | found, lost | {
         "it confirms what is refuted elsewhere": by_hand(
             [said("x", 2, refuted=0), said("x", 5, refuted=1)], [], [FREE], two
         ),

@@ -27,7 +27,7 @@ from .cofactors import Ideal
 from .evidence import Proof
 from .points import candidates
 from .polynomials import Identity
-from .statements import Comparison, Count, Equation, Point, Rest, Statement
+from .statements import Comparison, Count, Equation, Point, Rest, Statement, Zero
 from .trees import NotAlgebra, factored, nested, number, shared, tree
 
 #: Letters of a judged formula in a record.
@@ -56,7 +56,8 @@ def certificate(id: str, printed: str, proof: Proof) -> dict[str, Any]:
         "format": checker.FORMAT, "kind": "register-claim", "claim": id, "printed": printed,
         "corrected": proof.corrected_text, "hypotheses": hypotheses, "algebras": made.algebras,
         "derivation": made.derivation, "points": made.points, "statements": made.statements,
-        "comparisons": made.comparisons, "counts": made.counts, "counterexamples": made.counterexamples,
+        "comparisons": made.comparisons, "counts": made.counts, "zeros": made.zeros,
+        "counterexamples": made.counterexamples,
         "rests": made.rests, "sentences": made.sentences,
     }  # fmt: skip
     data["statement"] = checker.statement(data)
@@ -75,6 +76,7 @@ def carried(data: dict[str, Any]) -> dict[str, Any]:
     more = f"; comparisons: {len(data['comparisons'])}{fail}" if data["comparisons"] else ""
     more += f"; counts of solutions: {len(data['counts'])}" if data["counts"] else ""
     more += f"; hypotheses: {len(data['hypotheses'])}" if data["hypotheses"] else ""
+    more += f"; solutions near points: {len(data['zeros'])}" if data["zeros"] else ""
     more += f"; rests on other certificates: {len(data['rests'])}" if data["rests"] else ""
     steps = f"; steps from the premises: {len(data['derivation'])}" if data["derivation"] else ""
     listed = ", ".join(f"{n} {role}" for role, n in sentences.items()) or "none"
@@ -85,6 +87,7 @@ def carried(data: dict[str, Any]) -> dict[str, Any]:
         "comparisons": len(data["comparisons"]),
         "counts": len(data["counts"]),
         "hypotheses": len(data["hypotheses"]),
+        "zeros": len(data["zeros"]),
         "counterexamples": len(data["counterexamples"]),
         "rests": len(data["rests"]),
         "sentences": dict(sentences),
@@ -124,6 +127,7 @@ class _Maker:
         self.comparisons: list[dict[str, Any]] = []
         self.counts: list[dict[str, Any]] = []
         self.counterexamples: list[dict[str, Any]] = []
+        self.zeros: list[dict[str, Any]] = []
         self.rests: list[dict[str, str]] = []
         self.sentences: list[dict[str, str]] = []
         self._symbols: dict[int, list[sp.Symbol]] = {}
@@ -174,6 +178,9 @@ class _Maker:
             return
         if isinstance(statement, Count) and (holds or (role == "printed" and not statement.nonzero)):
             self.counts.append(self._count(role, statement, holds))
+            return
+        if isinstance(statement, Zero) and holds:
+            self._zero(role, statement)
             return
         if isinstance(statement, Rest) and holds:
             self.rests.append({"role": role, "text": statement.text, "certificate": statement.certificate})
@@ -226,6 +233,16 @@ class _Maker:
             "combinations": [[nested(factor, names) for factor in c] for c in found.combinations],
             "relations": _relations(count), "holds": holds,
         }  # fmt: skip
+
+    def _zero(self, role: str, zero: Zero) -> None:
+        """A solution near a point."""
+        self.zeros.append({
+            "role": role, "text": zero.text, "point": self._point(zero.point),
+            "unknowns": [x.name for x in zero.unknowns],
+            "definitions": [[name.name, tree(expr)] for name, expr in zero.definitions],
+            "equations": [tree(e) for e in zero.equations], "nonzero": [tree(e) for e in zero.nonzero],
+            "radius": number(zero.radius),
+        })  # fmt: skip
 
     def _compare(self, example: dict[str, Any], one: dict[str, Any], i: int) -> None:
         """Notes that a point refutes a printed statement, or that what is correct holds there."""

@@ -114,6 +114,28 @@ class Rest:
 
 
 @dataclass(frozen=True)
+class Zero:
+    """That equations have one solution within `radius` in each unknown, and no other, where `nonzero` is not 0.
+
+    The equations say what vanishes, in the unknowns, in the other symbols of the point and in names defined in order.
+    """
+
+    text: str
+    unknowns: Sequence[sp.Symbol]
+    definitions: Sequence[tuple[sp.Symbol, sp.Expr]]
+    equations: Sequence[sp.Expr]
+    nonzero: Sequence[sp.Expr]
+    point: Mapping[sp.Symbol, sp.Rational]
+    radius: sp.Rational
+    truth: bool
+    method: str
+
+    def holds(self) -> bool:
+        """What was decided."""
+        return self.truth
+
+
+@dataclass(frozen=True)
 class Comparison:
     """Relations <, ≤, = and ≠ at an exact point, as SymPy writes them: `x < y`, `sp.Eq(x, y)`, `sp.Ne(x, y)`.
 
@@ -209,7 +231,7 @@ class Count:
         return [{m: fmpq(int(c.p), int(c.q)) for m, c in polynomial.terms()} for polynomial in polynomials]
 
 
-Statement = Equation | Fact | Identity | Comparison | Count | Rest
+Statement = Equation | Fact | Identity | Comparison | Count | Rest | Zero
 
 
 def _evaluated(expr: Any, exact: Mapping[sp.Symbol, Any]) -> Any:

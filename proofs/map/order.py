@@ -12,7 +12,7 @@ from chapsym.derive import composition
 from chapsym.derive.composition import Word, defects
 from chapsym.derive.quotient import Quotient
 from chapsym.dynamics.coefficients import COMPOSITIONS
-from chapsym.prove import Comparison, Equation, Fact, Proof, claim, in_field, main
+from chapsym.prove import Comparison, Equation, Fact, Proof, Zero, claim, in_field, main
 
 #: t = ∛4 and Suzuki's c = 1/(4 - t), as (4 - t)(16 + 4t + t²) = 64 - t³ = 60.
 t = sp.Symbol("t")
@@ -54,12 +54,6 @@ def isolated(half: Sequence[Fraction], order: int) -> list[arb] | None:
         return None
     found = [x - change[i, 0] for i, x in enumerate(rest)]
     return [first, *found] if all(b.contains_interior(x) for b, x in zip(box, found, strict=True)) else None
-
-
-def misses(half: Sequence[arb], order: int) -> bool:
-    """Whether some condition of the next weight fails, for every choice in the balls."""
-    found = defects(palindrome(half), order + 1)
-    return any(not found[word].contains(0) for word in composition.words(order + 1))
 
 
 def told_by(words: Sequence[Word], weight: int) -> Equation:
@@ -146,13 +140,42 @@ def kahan_and_li(p: Proof, order: int) -> None:
     """One solution near the decimals, and what it misses."""
     half = COMPOSITIONS[order].exact[: len(COMPOSITIONS[order].half)]
     p.say(f"Order {order}: c₁ = {float(half[0])!r}..., one equation for each other coefficient (Kahan and Li):")
-    found = isolated(half, order)
-    text = f"order {order}: one solution with this c₁ within 10⁻⁴⁰ of the decimals"
-    p.printed(Fact(text, found is not None, METHOD))
-    if found is not None:
-        p.printed(Fact(f"not {order + 1}: a condition fails there", misses(found, order), METHOD))
+    text = f"order {order}, not {order + 1}: one solution with this c₁ within 10⁻⁴⁰ of the decimals, and there Σc^{order + 1} ≠ 0"
+    p.printed(near(text, half, order))
     changed = [*half[:-1], half[-1] + Fraction(1, 10**38)]
-    p.control(Fact(f"{text}, the 38th of the middle one changed", isolated(changed, order) is not None, METHOD))
+    p.control(near(f"{text}, the 38th of the middle one changed", changed, order))
+
+
+def near(text: str, half: Sequence[Fraction], order: int) -> Zero:
+    """That there is one solution near some decimals, which has no higher order: as data, and decided in balls."""
+    found = isolated(half, order)
+    names = sp.symbols(f"c1:{len(half) + 1}")
+    definitions, equations = conditions(palindrome(names), order)
+    point = {x: sp.Rational(v.numerator, v.denominator) for x, v in zip(names, half, strict=True)}
+    missed = sum(c ** (order + 1) for c in palindrome(names))
+    truth = found is not None and not sum(c ** (order + 1) for c in palindrome(found)).contains(0)
+    off = sp.Rational(OFF.numerator, OFF.denominator)
+    return Zero(text, names[1:], definitions, equations, [missed], point, off, truth, METHOD)
+
+
+def conditions(coefficients: Sequence[sp.Symbol], order: int) -> tuple[list[tuple[sp.Symbol, sp.Expr]], list[sp.Expr]]:
+    """What vanishes for a composition of this order, with names for the coefficients of its first factors' series.
+
+    The coefficient of a word in a product is the sum over the ways to part it (composition.product).
+    """
+    wanted = composition.lyndon(order)
+    prefixes = sorted({word[:i] for word in wanted for i in range(1, len(word) + 1)})
+    known: dict[Word, sp.Expr] = {(): sp.S.One}
+    definitions = []
+    for k, c in enumerate(coefficients, 1):
+        after: dict[Word, sp.Expr] = {(): sp.S.One}
+        for word in prefixes:
+            parted = ((known.get(word[:i], sp.S.Zero), word[i:]) for i in range(len(word) + 1))
+            value = sum(left * c ** sum(right) / sp.factorial(len(right)) for left, right in parted)
+            after[word] = sp.Symbol(f"s{k}_{''.join(map(str, word))}")
+            definitions.append((after[word], value))
+        known = after
+    return definitions, [known[word] - int(word == (1,)) for word in wanted]
 
 
 if __name__ == "__main__":

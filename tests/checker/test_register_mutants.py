@@ -29,6 +29,7 @@ FILES = (
     "roots.py",
     "trees.py",
     "words.py",
+    "zeros.py",
 )
 TURNED = {
     ast.Lt: ast.GtE, ast.GtE: ast.Lt, ast.LtE: ast.Gt, ast.Gt: ast.LtE, ast.Eq: ast.NotEq, ast.NotEq: ast.Eq,

@@ -40,7 +40,7 @@ def test_the_certificates_state_what_the_verdicts_rest_on(verdicts):
     for id, record in verdicts.items():
         data = checker.read(FOLDER / f"{id}.json")
         assert (data["claim"], data["printed"], data["corrected"]) == (id, record["printed"], record["corrected"])
-        kept = [one["text"] for one in (*data["statements"], *data["comparisons"], *data["counts"])]
+        kept = [one["text"] for name in ("statements", "comparisons", "counts", "zeros") for one in data[name]]
         kept += [one["text"] for one in data["rests"] if len(one["certificate"]) < 64]
         kept += [one["text"] for one in data["sentences"] if one["role"] in checker.register.ROLES]
         for check in record["evidence"]["checks"]:
@@ -58,6 +58,7 @@ def test_the_certificates_state_what_the_verdicts_rest_on(verdicts):
             "comparisons": len(data["comparisons"]),
             "counts": len(data["counts"]),
             "hypotheses": len(data["hypotheses"]),
+            "zeros": len(data["zeros"]),
             "counterexamples": len(data["counterexamples"]),
             "rests": len(data["rests"]),
             "sentences": {role: n for role in checker.register.SENTENCES if (n := count(data, role))},

@@ -1,0 +1,93 @@
+"""Solutions of systems that have one, and no other, within a distance of a point: by Newton's test in intervals.
+
+A zero has unknowns, as many equations as these (trees that vanish), a point with values for the unknowns and for all
+other names, and a radius.  Names may be defined for what occurs often.  What is in `nonzero` does not vanish there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from fractions import Fraction
+from typing import Any
+
+from .document import count
+from .form import distinct, many, sized, text
+from .interval import Interval, Rejected
+from .linear import solve, transposed
+from .polynomial import Work
+from .taylor import Dual, derivative
+from .trees import check_name, check_tree, rational, value
+
+NAMES = "role text point unknowns definitions equations nonzero radius"
+#: Unknowns.
+MOST_UNKNOWNS = 20
+
+
+def check_form(one: dict[str, Any], points: Sequence[Mapping[str, Any]], where: str) -> None:
+    """Raises Rejected unless its parts are there and each name has a value; its names and its role are as they must."""
+    text(one["text"], where)
+    point = points[count(one["point"], 0, len(points) - 1, where)]
+    unknowns = distinct(one["unknowns"], where)
+    if not unknowns <= point.keys() or not 1 <= len(unknowns) <= MOST_UNKNOWNS:
+        raise Rejected(f"{where} must have from 1 to {MOST_UNKNOWNS} unknowns, with values at its point")
+    if any(isinstance(entry, list) for entry in point.values()):
+        raise Rejected(f"{where} has a matrix where a number must stand")
+    known = set(point)
+    for definition in many(one["definitions"], where):
+        sized(definition, 2, where)
+        check_name(definition[0], where)
+        if definition[0] in known:
+            raise Rejected(f"{where} defines a name that has a meaning")
+        check_tree(definition[1], known, where)
+        known.add(definition[0])
+    sized(one["equations"], len(unknowns), where)
+    for tree in (*one["equations"], *many(one["nonzero"], where)):
+        check_tree(tree, known, where)
+    if rational(one["radius"], where) <= 0:
+        raise Rejected(f"{where} must have a radius above 0")
+
+
+def check(one: Mapping[str, Any], point: Mapping[str, Any], work: Work, where: str) -> None:
+    """Raises Rejected unless there is one solution, and no other, within the radius in each unknown.
+
+    For x, y in the box X about the centre c is f(x) - f(y) = A(x, y)(x - y), where A lies in the derivative over X.
+    If all matrices there are regular and N = c - f′(X)⁻¹f(c) lies inside X, then x ↦ c - A(x, c)⁻¹f(c) takes X into N:
+    it has a fixed point (Brouwer), a solution, in N, and two solutions x, y in X would be equal (linear.py).
+    """
+    radius = Fraction(one["radius"])
+    bits = 64 + 2 * max(radius.denominator.bit_length(), *(x.denominator.bit_length() for x in point.values()))
+    unknowns, size = one["unknowns"], _size([one["definitions"], one["equations"], one["nonzero"]])
+    work.spend((len(unknowns) + 3) * size * (1 + bits // 64))
+    numbers = {name: Interval.enclosing(x, x, bits) for name, x in point.items()}
+    centre = [numbers[name] for name in unknowns]
+    box = [Interval.enclosing(point[name] - radius, point[name] + radius, bits) for name in unknowns]
+
+    def trees(part: str) -> Callable[[Sequence[Any]], list[Any]]:
+        def at(values: Sequence[Any]) -> list[Any]:
+            names = {**numbers, **dict(zip(unknowns, values, strict=True))}
+            known = {name: x if isinstance(x, Dual) else Dual(x, 0) for name, x in names.items()}
+
+            def number(x: Fraction) -> Dual:
+                return Dual(Interval.enclosing(x, x, bits), 0)
+
+            for name, tree in one["definitions"]:
+                known[name] = value(tree, known, number)
+            return [value(tree, known, number) for tree in one[part]]
+
+        return at
+
+    equations = trees("equations")
+    zero = Interval(0, 0, bits)
+    units = [[zero + int(i == j) for j in range(len(unknowns))] for i in range(len(unknowns))]
+    slopes = transposed([[zero + x for x in derivative(equations, box, unit)] for unit in units])
+    found = solve(slopes, [[x.value] for x in equations(centre)])
+    near = [x - s for x, (s,) in zip(centre, found, strict=True)]
+    if not all(x.inside(y) for x, y in zip(near, box, strict=True)):
+        raise Rejected(f"{where} is not proved to have one solution within its radius")
+    if not all(x.value.sign for x in trees("nonzero")(near)):
+        raise Rejected(f"{where} has something that is not proved to differ from 0 at the solution")
+
+
+def _size(tree: Any) -> int:
+    """The parts of trees."""
+    return 1 + sum(map(_size, tree)) if isinstance(tree, list) else 1
