@@ -34,7 +34,8 @@ def rolled(K: np.ndarray, g: np.ndarray, steps: int) -> chapsym.Trajectory:
 
 def to_the_fold(epsilon: float) -> float:
     """|𝒦| beside that of the fold, at the first step."""
-    _, reach, *_ = branch.small_rotation(*(10.0 * MOMENTUM), *GAMMA, *MASS_TENSOR, D)
+    far = 10.0 * MOMENTUM, GAMMA, MASS_TENSOR, [D]
+    _, reach, *_ = branch.small_rotation(*(x for vector in far for x in vector))
     return epsilon / (10.0 * reach)
 
 
