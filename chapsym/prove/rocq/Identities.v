@@ -2,7 +2,8 @@
 
    A certificate says of trees `left` and `right`, of relations r1, r2, ... and of cofactors c1, c2, ...:
    the numerator of left - right is c1 r1 + c2 r2 + ... .  `proves` computes whether that is so; `identity` says what
-   follows: left = right wherever the relations are 0 and no denominator is. *)
+   follows: left = right wherever the relations are 0 and no denominator is.  A variable may be the name of a tree in
+   the variables before: wherever it is equal to this tree. *)
 
 Require Import ZArith List Bool Setoid Lia Field.
 Require Import BinList Ring_theory Ring_polynom InitialRing Field_theory.
@@ -115,33 +116,45 @@ Fixpoint qpow (x : quotient) (k : nat) : quotient :=
 Definition qinv (x : quotient) : quotient :=
   Quotient (lifted (constant 1%Z) (scale x) (denominators x)) 1 [(numerator x, 1%nat)].
 
+(* What names stand for. *)
+Definition names := list (positive * quotient).
+Fixpoint meaning (ns : names) (i : positive) : quotient :=
+  match ns with [] => qvariable i | (j, q) :: ns => if Pos.eqb j i then q else meaning ns i end.
+
 (* The quotient of an expression (or of its inverse), where the denominators are among those known not to be 0. *)
-Fixpoint form (known : list tree) (inverted : bool) (t : tree) : option quotient :=
+Fixpoint form (known : list tree) (ns : names) (inverted : bool) (t : tree) : option quotient :=
   let both inverted f s t :=
-    match form known inverted s, form known inverted t with Some x, Some y => Some (f x y) | _, _ => None end in
+    match form known ns inverted s, form known ns inverted t with Some x, Some y => Some (f x y) | _, _ => None end in
   if inverted then
     match t with
     | Int (Zpos a) => Some (qnumber 1 a)
     | Int (Zneg a) => Some (qnumber (-1) a)
     | Rat (Zpos a) b => Some (qnumber (Zpos b) a)
     | Rat (Zneg a) b => Some (qnumber (Zneg b) a)
-    | Var i => if existsb (same t) known then Some (qinv (qvariable i)) else None
+    | Var i => if existsb (same t) known then Some (qinv (meaning ns i)) else None
     | Sum s u => if existsb (same t) known then option_map qinv (both false qadd s u) else None
     | Prod s t => both true qmul s t
-    | Pow t k => option_map (fun x => qpow x k) (form known true t)
-    | Inv t => if existsb (same t) known then form known false t else None
+    | Pow t k => option_map (fun x => qpow x k) (form known ns true t)
+    | Inv t => if existsb (same t) known then form known ns false t else None
     | _ => None
     end
   else
     match t with
     | Int a => Some (qnumber a 1)
     | Rat a b => Some (qnumber a b)
-    | Var i => Some (qvariable i)
+    | Var i => Some (meaning ns i)
     | Sum s t => both false qadd s t
     | Prod s t => both false qmul s t
-    | Pow t k => option_map (fun x => qpow x k) (form known false t)
-    | Inv t => form known true t
+    | Pow t k => option_map (fun x => qpow x k) (form known ns false t)
+    | Inv t => form known ns true t
     end.
+
+(* The names in the order of their definitions. *)
+Fixpoint named (known : list tree) (ns : names) (definitions : list (positive * tree)) : option names :=
+  match definitions with
+  | [] => Some ns
+  | (i, t) :: rest => match form known ns false t with Some q => named known ((i, q) :: ns) rest | None => None end
+  end.
 
 Definition combination (cofactors relations : list tree) : tree :=
   fold_right (fun cr t => Sum (Prod (fst cr) (snd cr)) t) (Int 0) (combine cofactors relations).
@@ -150,9 +163,9 @@ Fixpoint leading (p : polynomial) : Z :=
   match p with Pc a => a | Pinj _ p => leading p | PX p _ _ => leading p end.
 
 (* The numerator of left - right is a multiple of the combination of the relations. *)
-Definition proves (known relations : list tree) (entry : tree * tree * list tree) : bool :=
+Definition proves (known : list tree) (ns : names) (relations : list tree) (entry : tree * tree * list tree) : bool :=
   let '(lhs, rhs, cofactors) := entry in
-  match form known false (Sum lhs (Prod (Int (-1)) rhs)), form [] false (combination cofactors relations) with
+  match form known ns false (Sum lhs (Prod (Int (-1)) rhs)), form [] [] false (combination cofactors relations) with
   | Some x, Some y =>
       let p := numerator x in
       let q := numerator y in
@@ -347,9 +360,19 @@ Proof.
   rewrite <- IHk, inverse_times; trivial. now apply power_neq0.
 Qed.
 
-Lemma form_ok t : forall inverted q, form known inverted t = Some q ->
+(* Names have the values of what they stand for. *)
+Definition right_names (ns : names) := Forall (fun n => is (snd n) (nth zero (fst n) l)) ns.
+
+Lemma is_meaning ns i : right_names ns -> is (meaning ns i) (nth zero i l).
+Proof.
+  induction 1 as [|[j q] ns H _ IH]; simpl; [apply is_variable | ].
+  destruct (Pos.eqb_spec j i) as [<-|]; trivial.
+Qed.
+
+Lemma form_ok ns : right_names ns -> forall t inverted q, form known ns inverted t = Some q ->
   if inverted then value t <> zero /\ is q (/ value t) else is q (value t).
 Proof.
+  intros right_ns t.
   assert (N : forall a b, #(Zpos a) <> zero :> F /\ #(Zneg b) <> zero :> F).
   { intros. split; now apply integer_neq0. }
   induction t as [a|a b|i|s IHs t IHt|s IHs t IHt|t IH k|t IH]; intros [|] q H; cbn [form] in H; cbn [value].
@@ -376,31 +399,39 @@ Proof.
       replace (#(Zneg a) : F) with (#(Zneg a) / #(Zpos b) * #(Zpos b) : F) by (field; trivial). rewrite Z. ring.
   - inversion H. apply is_number.
   - destruct (existsb (same (Var i)) known) eqn:K; inversion H. apply known_ok in K. split; [exact K | ].
-    apply is_inv; [exact K | apply is_variable].
-  - inversion H. apply is_variable.
+    apply is_inv; [exact K | now apply is_meaning].
+  - inversion H. now apply is_meaning.
   - destruct (existsb (same (Sum s t)) known) eqn:K; [ | discriminate H]. apply known_ok in K.
-    destruct (form known false s) as [x|] eqn:Es; [ | discriminate H].
-    destruct (form known false t) as [y|] eqn:Et; [ | discriminate H]. inversion H. split; [exact K | ].
+    destruct (form known ns false s) as [x|] eqn:Es; [ | discriminate H].
+    destruct (form known ns false t) as [y|] eqn:Et; [ | discriminate H]. inversion H. split; [exact K | ].
     apply is_inv; [exact K | apply is_add; [now apply (IHs false) | now apply (IHt false)]].
-  - destruct (form known false s) as [x|] eqn:Es; [ | discriminate H].
-    destruct (form known false t) as [y|] eqn:Et; [ | discriminate H]. inversion H.
+  - destruct (form known ns false s) as [x|] eqn:Es; [ | discriminate H].
+    destruct (form known ns false t) as [y|] eqn:Et; [ | discriminate H]. inversion H.
     apply is_add; [now apply (IHs false) | now apply (IHt false)].
-  - destruct (form known true s) as [x|] eqn:Es; [ | discriminate H].
-    destruct (form known true t) as [y|] eqn:Et; [ | discriminate H]. inversion H.
+  - destruct (form known ns true s) as [x|] eqn:Es; [ | discriminate H].
+    destruct (form known ns true t) as [y|] eqn:Et; [ | discriminate H]. inversion H.
     destruct (IHs true x Es) as [S1 S2]. destruct (IHt true y Et) as [T1 T2].
     split; [now apply times_neq0 | ]. rewrite inverse_times by trivial. now apply is_mul.
-  - destruct (form known false s) as [x|] eqn:Es; [ | discriminate H].
-    destruct (form known false t) as [y|] eqn:Et; [ | discriminate H]. inversion H.
+  - destruct (form known ns false s) as [x|] eqn:Es; [ | discriminate H].
+    destruct (form known ns false t) as [y|] eqn:Et; [ | discriminate H]. inversion H.
     apply is_mul; [now apply (IHs false) | now apply (IHt false)].
-  - destruct (form known true t) as [x|] eqn:Et; [ | discriminate H]. inversion H.
+  - destruct (form known ns true t) as [x|] eqn:Et; [ | discriminate H]. inversion H.
     destruct (IH true x Et) as [T1 T2]. split; [now apply power_neq0 | ].
     rewrite inverse_power by trivial. now apply is_pow.
-  - destruct (form known false t) as [x|] eqn:Et; [ | discriminate H]. inversion H. apply is_pow. now apply (IH false).
+  - destruct (form known ns false t) as [x|] eqn:Et; [ | discriminate H]. inversion H. apply is_pow. now apply (IH false).
   - destruct (existsb (same t) known) eqn:K; [ | discriminate H]. apply known_ok in K.
     assert (J : / value t <> zero).
     { intros E. apply (F_1_neq_0 Fth). transitivity (/ value t * value t); [now field | rewrite E; ring]. }
     split; [exact J | ]. replace (/ / value t) with (value t) by (field; repeat split; trivial; apply (F_1_neq_0 Fth)). now apply (IH false).
   - now apply (IH true).
+Qed.
+
+Lemma named_ok definitions : Forall (fun d => nth zero (fst d) l = value (snd d)) definitions ->
+  forall ns ms, right_names ns -> named known ns definitions = Some ms -> right_names ms.
+Proof.
+  induction 1 as [|[i t] rest H _ IH]; simpl; intros ns ms R E; [now injection E as <- | ].
+  destruct (form known ns false t) as [q|] eqn:T; [ | discriminate E].
+  apply IH in E; trivial. constructor; trivial. simpl in *. rewrite H. now apply (form_ok ns R t false).
 Qed.
 
 (* What a theorem says: hypotheses, then the equations. *)
@@ -421,8 +452,10 @@ Let Fth := is_field F.
 Add Field this_field : Fth.
 Variable l : list F.
 
-Definition identity_says relations known (entries : list (tree * tree * list tree)) : Prop :=
-  under (map (fun r => value F l r = zero) relations ++ map (fun t => value F l t <> zero) known)
+Definition identity_says relations definitions known (entries : list (tree * tree * list tree)) : Prop :=
+  under (map (fun r => value F l r = zero) relations
+      ++ map (fun d => value F l (Var (fst d)) = value F l (snd d)) definitions
+      ++ map (fun t => value F l t <> zero) known)
     (every (map (fun e => value F l (fst (fst e)) = value F l (snd (fst e))) entries)).
 
 Lemma combination_ok relations : Forall (fun r => value F l r = zero) relations ->
@@ -433,17 +466,20 @@ Proof.
   rewrite IH, H. ring.
 Qed.
 
-Theorem identity relations known entries :
-  forallb (proves known relations) entries = true -> identity_says relations known entries.
+Theorem identity relations definitions known entries :
+  match named known [] definitions with Some ns => forallb (proves known ns relations) entries | None => false end = true ->
+  identity_says relations definitions known entries.
 Proof.
-  intros C. apply under_intro. rewrite Forall_app, !Forall_map. intros [R K]. apply every_intro.
+  intros C. apply under_intro. rewrite !Forall_app, !Forall_map. intros [R [D K]]. apply every_intro.
+  destruct (named known [] definitions) as [ns|] eqn:N; [ | discriminate C].
+  apply (named_ok F l known K definitions D [] ns (Forall_nil _)) in N. rename N into right_ns.
   rewrite Forall_map. apply Forall_forall. intros [[s t] cofactors] I. simpl.
   apply (proj1 (forallb_forall _ _) C) in I. unfold proves in I.
-  destruct (form known false (Sum s (Prod (Int (-1)) t))) as [x|] eqn:X; [ | discriminate I].
-  destruct (form [] false (combination cofactors relations)) as [y|] eqn:Y; [ | discriminate I].
+  destruct (form known ns false (Sum s (Prod (Int (-1)) t))) as [x|] eqn:X; [ | discriminate I].
+  destruct (form [] [] false (combination cofactors relations)) as [y|] eqn:Y; [ | discriminate I].
   cbv zeta in I.
-  apply (form_ok F l known K) in X. assert (N := is_neq0 F l _ _ X). destruct X as [_ X].
-  apply (form_ok F l [] (Forall_nil _)) in Y. destruct Y as [_ Y].
+  apply (form_ok F l known K ns right_ns) in X. assert (N := is_neq0 F l _ _ X). destruct X as [_ X].
+  apply (form_ok F l [] (Forall_nil _) [] (Forall_nil _)) in Y. destruct Y as [_ Y].
   rewrite (combination_ok relations R cofactors) in Y.
   assert (Z : at_l F l (numerator x) = zero).
   { destruct (agree (numerator x) (constant 0%Z)) eqn:A; [now apply at_agree with (l := l) in A | ].

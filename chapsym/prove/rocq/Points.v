@@ -1,7 +1,7 @@
 (* Expressions at rational points, in every field of characteristic 0.
 
-   `facts_at` says that facts computed with rational numbers are true of the same numbers in the field: what shows that
-   hypotheses can be true, and that a printed statement is false. *)
+   `some_point` says that facts computed with rational numbers are true of numbers in the field, the same ones: what
+   shows that hypotheses can be true, and that a printed statement is false. *)
 
 Require Import ZArith List Bool QArith Qcanon Lia Field.
 Require Import BinList Ring_theory InitialRing Field_theory.
@@ -95,8 +95,16 @@ Proof.
   destruct point; [symmetry; apply rational_0 | reflexivity].
 Qed.
 
+(* What a fact says. *)
+Definition says (l : list F) (f : fact) : Prop :=
+  match f with
+  | Equal sides => every (map (fun s => value F l (fst s) = value F l (snd s)) sides)
+  | Unequal sides => ~ every (map (fun s => value F l (fst s) = value F l (snd s)) sides)
+  end.
+
+Section At.
 Variable point : list Q.
-Let l := map rational point.
+Notation l := (map rational point).
 
 Lemma rational_value_ok t : forall x, rational_value point t = Some x -> value F l t = rational x.
 Proof.
@@ -127,13 +135,6 @@ Proof.
   symmetry. apply Qeq_bool_iff.
 Qed.
 
-(* What a fact says. *)
-Definition says (f : fact) : Prop :=
-  match f with
-  | Equal sides => every (map (fun s => value F l (fst s) = value F l (snd s)) sides)
-  | Unequal sides => ~ every (map (fun s => value F l (fst s) = value F l (snd s)) sides)
-  end.
-
 Lemma every_elim parts : every parts -> Forall (fun G : Prop => G) parts.
 Proof.
   induction parts as [|G rest IH]; [constructor | ]. intros H. destruct rest as [|K rest].
@@ -141,7 +142,7 @@ Proof.
   - destruct H. constructor; auto.
 Qed.
 
-Theorem facts_at facts : forallb (holds_at point) facts = true -> every (map says facts).
+Lemma facts_at facts : forallb (holds_at point) facts = true -> every (map (says l) facts).
 Proof.
   intros H. apply every_intro. rewrite Forall_map. apply Forall_forall. intros f I.
   apply (proj1 (forallb_forall _ _) H) in I. destruct f as [sides|sides]; simpl in *.
@@ -152,6 +153,20 @@ Proof.
     destruct I as [[s t] [I J]]. apply (proj1 (Forall_forall _ _) K) in I.
     destruct (equal_at point (s, t)) as [[|]|] eqn:E; try discriminate J.
     apply (equal_at_ok _ _ _ E) in I. discriminate I.
+Qed.
+End At.
+
+(* There are n numbers of which P is true. *)
+Fixpoint some (n : nat) (P : list F -> Prop) : Prop :=
+  match n with O => P [] | S n => exists x, some n (fun l => P (x :: l)) end.
+
+Theorem some_point point facts :
+  forallb (holds_at point) facts = true -> some (length point) (fun l => every (map (says l) facts)).
+Proof.
+  intros H. apply facts_at in H.
+  assert (W : forall P : list F -> Prop, P (map rational point) -> some (length point) P).
+  { clear. induction point as [|q point IH]; intros P H; simpl; [exact H | ]. exists (rational q). now apply IH. }
+  exact (W _ H).
 Qed.
 End Points.
 

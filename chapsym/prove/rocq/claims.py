@@ -33,7 +33,9 @@ class Claim:
 
     def _unfolded(self, one: dict[str, Any]) -> dict[str, Any]:
         """With the values of what the derivation defines in the place of its names."""
-        return one | {side: [_placed(tree, self._values) for tree in one[side]] for side in ("left", "right")}
+        sides = {side: [_placed(tree, self._values) for tree in one[side]] for side in ("left", "right")}
+        names = [[name, _placed(tree, self._values)] for name, tree in one.get("definitions", [])]
+        return one | sides | ({"definitions": names} if names else {})
 
     def _leave_out(self, library: str, reason: str, text: str) -> None:
         self.left_out[reason] += 1
@@ -54,8 +56,6 @@ class Claim:
                 raise words.LeftOut(f"its algebra is of the kind {algebra['kind']}")
             if one["left"] == one["right"]:
                 raise words.LeftOut(SAME)
-            if "definitions" in one:
-                raise words.LeftOut("it is written with names for its parts")
             theorem = (
                 quotients.statement(name, one, algebra) if is_quotient else words.statement(name, one, algebra, point)
             )
@@ -65,12 +65,14 @@ class Claim:
         self._put(library, "statements", f"{one['role']}: {one['text']}", name, theorem)
         assumed = _hypotheses(algebra, point)
         if is_quotient:
-            assumed += _nonzero([*one["left"], *one["right"]])
+            assumed += [("=", [pair]) for pair in one.get("definitions", [])] + _nonzero(quotients.trees_of(one))
         key = repr((one["algebra"], one["point"], assumed))
         if assumed and key not in self._points:
             self._points.add(key)
             names = [*algebra["variables"]] if is_quotient else [*algebra["parameters"], *algebra["letters"]]
             values = {name: point[name] for name in names}
+            for defined, tree in one.get("definitions", []):
+                values[defined] = str(quotients.value(tree, values))
             self._point("points", "These hypotheses can be true.", f"{name}_point", values, assumed, [algebra])
 
     def _counterexample(self, name: str, example: dict[str, Any]) -> None:

@@ -6,7 +6,7 @@ ESCAPES = {"-": "__", ".": "_d", "_": "_u", "+": "_p", "^": "_h", "'": "_q"}
 RESERVED = frozenset({
     "as", "at", "by", "cofix", "else", "end", "exists", "exists2", "fix", "for", "forall", "fun", "if", "in", "is",
     "let", "match", "mod", "of", "return", "then", "using", "where", "with", "IF", "Prop", "SProp", "Set", "Type",
-    "Field", "R", "n", "field", "matrix", "Q", "identity", "facts_at", "words", "square", "column", "row",
+    "Field", "R", "n", "field", "matrix", "Q", "identity", "some_point", "words", "square", "column", "row",
     "transposed", "unit_matrix", "zero_matrix", "integer", "rational", "zero", "one", "plus", "minus", "times",
     "opposite", "over", "inverse", "power", "Int", "Rat", "Var", "Sum", "Prod", "Pow", "Inv", "Equal", "Unequal",
     "Qmake", "Letter", "Unit", "Scaled", "Number", "Param", "SSum", "SProd", "Posz", "Negz", "true", "false",

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Mapping
 from fractions import Fraction
+from math import prod
 from typing import Any
 
 from .names import identifier, integer
@@ -92,12 +93,29 @@ def listed(parts: Iterable[str]) -> str:
     return "[" + ";\n    ".join(parts) + "]"
 
 
+def value(tree: Tree, point: Mapping[str, Any]) -> Fraction:
+    """Of an expression at rational numbers."""
+    if not isinstance(tree, list):
+        return Fraction(point.get(tree, tree))
+    if tree[0] == "^":
+        return value(tree[1], point) ** tree[2]
+    parts = [value(part, point) for part in tree[1:]]
+    return sum(parts, Fraction(0)) if tree[0] == "+" else prod(parts, start=Fraction(1))
+
+
+def trees_of(one: Mapping[str, Any]) -> list[Tree]:
+    """All of a statement: both sides, and what names stand for."""
+    return [*one["left"], *one["right"], *(tree for _, tree in one.get("definitions", []))]
+
+
 def statement(name: str, one: dict[str, Any], algebra: dict[str, Any]) -> str:
-    """The theorem: the equations of a statement hold where its relations do and no denominator vanishes."""
-    names = variables(algebra["variables"])
-    known = denominators([*one["left"], *one["right"]])
+    """The theorem: the equations hold where relations do, names are what they stand for, and no denominator vanishes."""
+    definitions = one.get("definitions", [])
+    names = variables([*algebra["variables"], *(name for name, _ in definitions)])
+    known = denominators(trees_of(one))
     hypotheses = [f"{written(r, names)} = zero ->" for r in algebra["relations"]]
-    hypotheses += [f"{written(t, names)} <> zero ->" for t in known]
+    hypotheses += [f"{equation(name, tree, names)} ->" for name, tree in definitions]
+    hypotheses += [f"{written(t, names)} <> zero :> Field ->" for t in known]
     equations = [equation(a, b, names) for a, b in zip(one["left"], one["right"], strict=True)]
     entries = [
         f"({data(a, names)}, {data(b, names)}, {listed(data(c, names) for c in cofactors)})"
@@ -105,12 +123,13 @@ def statement(name: str, one: dict[str, Any], algebra: dict[str, Any]) -> str:
     ]
     all_names = " ".join(identifier for identifier, _ in names.values())
     relations, nonzero = (listed(data(t, names) for t in trees) for trees in (algebra["relations"], known))
+    defined = listed(f"({names[name][1]}%positive, {data(tree, names)})" for name, tree in definitions)
     return "\n".join([
         f"Theorem {name} : forall (Field : field) ({all_names} : Field),",
         *(f"  {hypothesis}" for hypothesis in hypotheses),
         f"  {conjunction(equations)}.",
         f"Proof.\n  intros Field {all_names}.",
-        f"  exact (identity Field {_list(names)}\n    {relations}\n    {nonzero}\n    {listed(entries)}",
+        f"  exact (identity Field {_list(names)}\n    {relations}\n    {defined}\n    {nonzero}\n    {listed(entries)}",
         "    ltac:(vm_cast_no_check (eq_refl true))).\nQed.",
     ])  # fmt: skip
 
@@ -137,12 +156,10 @@ def at_point(name: str, point: Mapping[str, Any], facts: list[Fact]) -> str:
             trees.append(f"Unequal {pairs}")
     values = [Fraction(x) for x in point.values()]
     rationals = "; ".join(f"Qmake {integer(x.numerator)} {x.denominator}" for x in values)
-    witnesses = ", ".join(f"(#{integer(x.numerator)} / #{x.denominator})" for x in values)
     all_names = " ".join(identifier for identifier, _ in names.values())
     return "\n".join([
         f"Theorem {name} : forall Field : field, exists {all_names} : Field,",
         f"  {conjunction(texts)}.",
-        f"Proof.\n  intros Field. exists {witnesses}.",
-        f"  exact (facts_at Field [{rationals}]\n    {listed(trees)}",
+        f"Proof.\n  intros Field.\n  exact (some_point Field [{rationals}]\n    {listed(trees)}",
         "    ltac:(vm_cast_no_check (eq_refl true))).\nQed.",
     ])  # fmt: skip
