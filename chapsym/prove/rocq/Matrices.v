@@ -18,6 +18,7 @@ Definition times (A B : matrix) : matrix :=
 Definition scaled (c : Q) (A : matrix) : matrix := map (map (fun x => Qred (c * x))) A.
 Definition unit_matrix (n : nat) : matrix :=
   map (fun i => map (fun j => if Nat.eqb i j then 1 else 0) (seq 0 n)) (seq 0 n).
+Definition trace (A : matrix) : Q := fold_right (fun i s => Qred (nth i (nth i A []) 0 + s)) 0 (seq 0 (length A)).
 Definition zero_matrix (n m : nat) : matrix := repeat (repeat 0 m) n.
 Definition equal (A B : matrix) : bool :=
   fits A B && negb (Nat.eqb (length A) 0) && forallb (fun x => x) (concat (zipped (zipped Qeq_bool) A B)).

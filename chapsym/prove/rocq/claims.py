@@ -4,7 +4,7 @@ from collections import Counter
 from collections.abc import Mapping
 from typing import Any
 
-from . import matrices, quotients, words
+from . import matrices, quotients, traces, words
 from .names import comment, identifier
 from .quotients import Fact
 
@@ -37,6 +37,16 @@ class Claim:
         names = [[name, _placed(tree, self._values)] for name, tree in one.get("definitions", [])]
         return one | sides | ({"definitions": names} if names else {})
 
+    def _at_a_point(self, one: dict[str, Any]) -> dict[str, Any]:
+        """With trees in the place of the names of parts, and traces of matrices for what is said of their traces."""
+        one, values = self._unfolded(one), dict[str, Any]()
+        for name, tree in one.get("definitions", []):
+            values[name] = _placed(tree, values)
+        sides = {side: [_placed(tree, values) for tree in one[side]] for side in ("left", "right")}
+        if self.data["algebras"][one["algebra"]]["kind"] == "traces":
+            sides = {side: [tree if tree == 0 else ["tr", tree] for tree in trees] for side, trees in sides.items()}
+        return one | sides
+
     def _leave_out(self, library: str, reason: str, text: str) -> None:
         self.left_out[reason] += 1
         self.parts.setdefault(library, []).append(comment(f"Left out, because {reason}: {text}"))
@@ -50,15 +60,15 @@ class Claim:
         """A statement that is proved, and a point at which its hypotheses are true."""
         algebra, point = self.data["algebras"][one["algebra"]], self.data["points"][one["point"]]
         is_quotient = algebra["kind"] == "quotient"
-        library = "Points" if is_quotient else "Words"
+        is_traced = algebra["kind"] == "traces"
+        library = "Points" if is_quotient else "Traces"
         try:
-            if algebra["kind"] not in ("quotient", "words"):
-                raise words.LeftOut(f"its algebra is of the kind {algebra['kind']}")
             if one["left"] == one["right"]:
                 raise words.LeftOut(SAME)
-            theorem = (
-                quotients.statement(name, one, algebra) if is_quotient else words.statement(name, one, algebra, point)
-            )
+            if is_quotient:
+                theorem = quotients.statement(name, one, algebra)
+            else:
+                theorem = (traces if is_traced else words).statement(name, one, algebra, point)
         except words.LeftOut as error:
             self._leave_out(library, str(error), one["text"])
             return
@@ -67,7 +77,8 @@ class Claim:
         if is_quotient:
             assumed += [("=", [pair]) for pair in one.get("definitions", [])] + _nonzero(quotients.trees_of(one))
         key = repr((one["algebra"], one["point"], assumed))
-        if assumed and key not in self._points:
+        is_assumed = assumed or (is_traced and algebra["transposes"])
+        if is_assumed and key not in self._points:
             self._points.add(key)
             names = [*algebra["variables"]] if is_quotient else [*algebra["parameters"], *algebra["letters"]]
             values = {name: point[name] for name in names}
@@ -78,7 +89,7 @@ class Claim:
     def _counterexample(self, name: str, example: dict[str, Any]) -> None:
         """A point at which printed statements fail, and those in their place hold."""
         statements = self.data["statements"]
-        refuted, agreeing = ([self._unfolded(statements[n]) for n in example[part]] for part in ("refutes", "agrees"))
+        refuted, agreeing = ([self._at_a_point(statements[n]) for n in example[part]] for part in ("refutes", "agrees"))
         algebras = [self.data["algebras"][n] for n in dict.fromkeys(one["algebra"] for one in refuted)]
         facts = [("=", _sides(self._unfolded(hypothesis))) for hypothesis in example["hypotheses"]]
         facts += [fact for algebra in algebras for fact in _hypotheses(algebra, example["point"])]

@@ -10,27 +10,27 @@ from .claims import Claim
 from .names import comment
 
 HERE = Path(__file__).resolve().parent
-LIBRARIES = ("Identities", "Points", "Words", "Matrices")
+LIBRARIES = ("Identities", "Points", "Words", "Traces", "Matrices")
 #: What a file begins with, by the library that it needs; and how its name ends.
 HEADS = {
     "Points": "Require Import Points Identities ZArith List QArith.\nImport ListNotations.\n"
     "Open Scope nat_scope.\nOpen Scope field_of_0.",
-    "Words": 'Set Warnings "-notation-overridden,-ambiguous-paths".\n'
+    "Traces": 'Set Warnings "-notation-overridden,-ambiguous-paths".\n'
     "From mathcomp Require Import ssreflect ssrfun ssrbool eqtype ssrnat seq ssralg ssrint matrix.\n"
-    "Require Import Words.\nImport GRing.Theory.\nOpen Scope ring_scope.",
+    "Require Import Words Traces.\nImport GRing.Theory.\nOpen Scope ring_scope.",
     "Matrices": "Require Import Matrices QArith List.\nImport ListNotations.\nOpen Scope Q_scope.",
 }
-ENDINGS = {"Points": "", "Words": "_words", "Matrices": "_matrices"}
+ENDINGS = {"Points": "", "Traces": "_words", "Matrices": "_matrices"}
 
 
 @dataclass
 class Written:
-    """What was written, counted; the files by the library that they need."""
+    """What was written, counted; the files by the library that they need, with their theorems."""
 
     claims: int = 0
     theorems: Counter[str] = field(default_factory=Counter)
     left_out: Counter[str] = field(default_factory=Counter)
-    files: dict[str, list[str]] = field(default_factory=lambda: {library: [] for library in HEADS})
+    files: dict[str, dict[str, list[str]]] = field(default_factory=lambda: {library: {} for library in HEADS})
 
     def __str__(self) -> str:
         theorems = ", ".join(f"{n} {sort}" for sort, n in sorted(self.theorems.items(), reverse=True))
@@ -45,7 +45,7 @@ class Written:
 def write(certificates: Iterable[dict[str, Any]], folder: Path) -> Written:
     """Writes the files of certificates that the checker has accepted to a folder; raises OSError if it cannot be."""
     folder.mkdir(parents=True, exist_ok=True)
-    for old in folder.glob("claim_*"):
+    for old in (*folder.glob("claim_*"), *folder.glob("axioms_*")):
         old.unlink()
     written = Written()
     for data in certificates:
@@ -55,28 +55,36 @@ def write(certificates: Iterable[dict[str, Any]], folder: Path) -> Written:
         written.left_out += claim.left_out
         for library, parts in claim.parts.items():
             name = claim.name + ENDINGS[library]
-            theorems = claim.names.get(library, [])
             begins = [comment(f"Claim {data['claim']}, from its certificate."), HEADS[library]]
-            ends = [f"Definition theorems := ({', '.join(theorems)}).\nPrint Assumptions theorems."] if theorems else []
-            (folder / f"{name}.v").write_text("\n\n".join([*begins, *parts, *ends]) + "\n", encoding="utf-8")
-            written.files[library] += [name] if theorems else []
+            (folder / f"{name}.v").write_text("\n\n".join([*begins, *parts]) + "\n", encoding="utf-8")
+            if theorems := claim.names.get(library):
+                written.files[library][name] = theorems
     for library in LIBRARIES:
         text, path = (HERE / f"{library}.v").read_bytes(), folder / f"{library}.v"
         if not path.exists() or path.read_bytes() != text:  # otherwise Rocq need not judge it again
             path.write_bytes(text)
+    for library, files in written.files.items():
+        (folder / f"axioms_{library}.v").write_text(_axioms(files), encoding="utf-8")
     (folder / "summary.txt").write_text(f"{written}\n", encoding="utf-8")
     (folder / "Makefile").write_text(_makefile(written), encoding="utf-8")
     return written
 
 
+def _axioms(files: dict[str, list[str]]) -> str:
+    """Has Rocq print the axioms that the theorems of some files use: once for all, which is quicker."""
+    used = "".join(f"  let _ := {name}.{theorem} in\n" for name, theorems in files.items() for theorem in theorems)
+    required = f"Require {' '.join(files)}.\n" if files else ""
+    return f"{required}Definition theorems :=\n{used}  tt.\nPrint Assumptions theorems.\n"
+
+
 def _makefile(written: Written) -> str:
     """Has Rocq judge every file, and says what it found."""
     lists = "".join(
-        f"{library.upper()} := {' '.join(names)}\n$({library.upper()}:%=%.out): {library}.vo\n"
-        for library, names in written.files.items()
+        f"{library.upper()} := {' '.join(files)}\n$({library.upper()}:%=%.vo): {library}.vo\n"
+        f"axioms_{library}.out: $({library.upper()}:%=%.vo)\n"
+        for library, files in written.files.items()
     )
-    everything = " ".join(f"$({library.upper()}:%=%.out)" for library in written.files)
-    return MAKEFILE.format(lists=lists, everything=everything)
+    return MAKEFILE.format(lists=lists, everything=" ".join(f"axioms_{library}.out" for library in written.files))
 
 
 MAKEFILE = """# make -j2: Rocq judges every file, and the axioms of each theorem are counted.
@@ -94,10 +102,11 @@ judged: {everything}
 	@echo "seconds     $$(($$(date +%s) - $(BEGAN)))"
 
 Points.vo: Identities.vo
+Traces.vo: Words.vo
 
 %.vo: %.v
 	$(COQC) -q -noglob $<
 
-claim_%.out: claim_%.v
+axioms_%.out: axioms_%.v
 	$(COQC) -q -noglob $< > $@
 """

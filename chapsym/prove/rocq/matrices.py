@@ -19,7 +19,7 @@ class Point:
     def is_number(self, tree: Tree) -> bool:
         """Whether no matrix is in a tree."""
         if isinstance(tree, list):
-            return all(map(self.is_number, tree[1:2] if tree[0] == "^" else tree[1:]))
+            return tree[0] == "tr" or all(map(self.is_number, tree[1:2] if tree[0] == "^" else tree[1:]))
         return not (isinstance(tree, str) and isinstance(self.values.get(tree), list))
 
     def size(self, tree: Tree) -> tuple[int, int]:
@@ -37,6 +37,8 @@ class Point:
             return quotient(tree)
         if tree[0] == "^":
             return f"({self.number(tree[1])} ^ {integer(tree[2])})"
+        if tree[0] == "tr":
+            return f"(trace {self.matrix(tree[1], self.size(tree[1])[0])})"
         return "(" + SIGNS[tree[0]].join(map(self.number, tree[1:])) + ")"
 
     def matrix(self, tree: Tree, rows: int) -> str:
@@ -81,11 +83,11 @@ def at_point(name: str, values: Mapping[str, Any], facts: list[Fact], transposes
         equations = " /\\ ".join(point.equation(a, b) for a, b in sides)
         texts.append(equations if relation == "=" else f"~ ({equations})")
     binders = " ".join(f"({identifier(x)} : {'matrix' if isinstance(v, list) else 'Q'})" for x, v in values.items())
-    witnesses = ", ".join(_value(v) for v in values.values())
+    witnesses = "\n".join(f"  pose ({identifier(x)} := {_value(v)})." for x, v in values.items())
     return "\n".join([
         f"Theorem {name} : exists {binders},",
         "  " + " /\\\n  ".join(dict.fromkeys(texts)) + ".",
-        f"Proof.\n  exists {witnesses}.\n  at_this_point.\nQed.",
+        f"Proof.\n{witnesses}\n  exists {', '.join(map(identifier, values))}.\n  at_this_point.\nQed.",
     ])  # fmt: skip
 
 

@@ -6,11 +6,11 @@ ESCAPES = {"-": "__", ".": "_d", "_": "_u", "+": "_p", "^": "_h", "'": "_q"}
 RESERVED = frozenset({
     "as", "at", "by", "cofix", "else", "end", "exists", "exists2", "fix", "for", "forall", "fun", "if", "in", "is",
     "let", "match", "mod", "of", "return", "then", "using", "where", "with", "IF", "Prop", "SProp", "Set", "Type",
-    "Field", "R", "n", "field", "matrix", "Q", "identity", "some_point", "words", "square", "column", "row",
-    "transposed", "unit_matrix", "zero_matrix", "integer", "rational", "zero", "one", "plus", "minus", "times",
+    "Field", "R", "n", "field", "matrix", "Q", "identity", "some_point", "words", "traces", "trace", "square", "column",
+    "row", "transposed", "unit_matrix", "zero_matrix", "integer", "rational", "zero", "one", "plus", "minus", "times",
     "opposite", "over", "inverse", "power", "Int", "Rat", "Var", "Sum", "Prod", "Pow", "Inv", "Equal", "Unequal",
     "Qmake", "Letter", "Unit", "Scaled", "Number", "Param", "SSum", "SProd", "Posz", "Negz", "true", "false",
-    "eq_refl", "erefl", "mulrV", "mulr1",
+    "eq_refl", "erefl", "conj", "I", "None", "Some", "mulrV", "mulr1",
 })  # fmt: skip
 
 

@@ -109,7 +109,7 @@ def trees_of(one: Mapping[str, Any]) -> list[Tree]:
 
 
 def statement(name: str, one: dict[str, Any], algebra: dict[str, Any]) -> str:
-    """The theorem: the equations hold where relations do, names are what they stand for, and no denominator vanishes."""
+    """The theorem: the equations hold where relations do and no denominator vanishes; names are what they stand for."""
     definitions = one.get("definitions", [])
     names = variables([*algebra["variables"], *(name for name, _ in definitions)])
     known = denominators(trees_of(one))

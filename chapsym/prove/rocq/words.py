@@ -108,43 +108,72 @@ def _denominators(tree: Tree) -> set[int]:
 
 def statement(name: str, one: dict[str, Any], data: dict[str, Any], point: dict[str, Any]) -> str:
     """The theorem: the equations of a statement hold for all matrices for which the rules do."""
-    rules = _rules(data, names_in([None, *one["left"], *one["right"]]))
-    algebra = _algebra(data, one, rules, point)
+    rules = rules_for(data, names_in([None, *one["left"], *one["right"]]))
+    algebra = algebra_of(data, one, rules, point)
     shapes = {shape for shape in map(algebra.shape, (*one["left"], *one["right"])) if shape}
     if len(shapes) != 1:
         raise LeftOut("its sides are matrices of no size, or of several")
     [(s, t)] = shapes
     if s != t and any(map(algebra.is_number, (*one["left"], *one["right"]))):
         raise LeftOut("a side is a number, and the other is no square matrix")
-    hypotheses, rules_as_data = [], []
+    sides = [(algebra.matrix(a), algebra.matrix(b)) for a, b in zip(one["left"], one["right"], strict=True)]
+    hypotheses, rules_as_data = rules_of(algebra, rules)
+    return theorem(
+        name,
+        algebra,
+        hypotheses,
+        [f"{a} = {b}" for (a, _), (b, _) in sides],
+        f"words {shapes_of(algebra)}\n    {rules_as_data} {algebra.N} {_bool(s)} {_bool(t)}",
+        [f"({a}, {b})" for (_, a), (_, b) in sides],
+    )
+
+
+def rules_of(algebra: Algebra, rules: list[list[Any]]) -> tuple[list[str], str]:
+    """The rules as hypotheses, and as data."""
+    hypotheses, parts = [], []
     for a, b, image in rules:
         (product, _), (text, tree) = algebra.matrix(["*", a, b]), algebra.matrix(image)
-        hypotheses.append(f"{product[1:-1]} = {text} ->")
-        rules_as_data.append(f"({algebra.letters[a][0]}, {algebra.letters[b][0]}, {tree})%N")
-    sides = [(algebra.matrix(a), algebra.matrix(b)) for a, b in zip(one["left"], one["right"], strict=True)]
-    equations = " /\\\n  ".join(f"{a} = {b}" for (a, _), (b, _) in sides)
-    entries = ";\n    ".join(f"({a}, {b})" for (_, a), (_, b) in sides)
+        hypotheses.append(f"{product[1:-1]} = {text}")
+        parts.append(f"({algebra.letters[a][0]}, {algebra.letters[b][0]}, {tree})%N")
+    return hypotheses, f"[:: {'; '.join(parts)}]"
+
+
+def shapes_of(algebra: Algebra) -> str:
+    """Rows and columns of the letters, as data."""
+    return f"[:: {'; '.join(f'({_bool(s)}, {_bool(t)})' for _, (s, t), _ in algebra.letters.values())}]"
+
+
+def theorem(
+    name: str,
+    algebra: Algebra,
+    hypotheses: list[str],
+    equations: list[str],
+    lemma: str,
+    entries: list[str],
+    known: str = "",
+) -> str:
+    """The theorem that a lemma with its data proves, by what it computes of entries, and by what is `known`."""
     binders, variables = _binders(algebra)
     unit, inverse = f"{algebra.N}%:R \\is a @GRing.unit R ->", f"{algebra.N}%:R^-1"
     letters = [f"{TYPES[shape][1]} {_argument(text)}" for _, shape, text in algebra.letters.values()]
     parameters = [inverse if algebra.N > 1 else "1", *(text for _, text in algebra.parameters.values())]
+    whole, data = " /\\\n  ".join(equations), ";\n    ".join(entries)
     return "\n".join([
         f"Theorem {name} : forall (R : comUnitRingType) (n : nat){binders},",
         *([f"  {unit}"] if algebra.N > 1 else []),
-        *(f"  {hypothesis}" for hypothesis in hypotheses),
-        f"  {equations}.",
+        *(f"  {hypothesis} ->" for hypothesis in hypotheses),
+        f"  {whole}.",
         f"Proof.\n  intros R n{variables}{' unit_N' if algebra.N > 1 else ''}.",
-        f"  exact (@words [:: {'; '.join(_pair(shape) for _, shape, _ in algebra.letters.values())}]",
-        f"    [:: {'; '.join(rules_as_data)}] {algebra.N} {_bool(s)} {_bool(t)}",
-        f"    [:: {entries}]",
+        f"  exact (@{lemma}",
+        f"    [:: {data}]",
         "    ltac:(vm_cast_no_check (erefl true)) R n",
         f"    [:: {'; '.join(parameters)}]",
         f"    [:: {'; '.join(letters)}]",
-        f"    ({'mulrV unit_N' if algebra.N > 1 else 'mulr1 _'})).\nQed.",
+        f"    ({'mulrV unit_N' if algebra.N > 1 else 'mulr1 _'}){known}).\nQed.",
     ])  # fmt: skip
 
 
-def _rules(data: dict[str, Any], used: set[str]) -> list[list[Any]]:
+def rules_for(data: dict[str, Any], used: set[str]) -> list[list[Any]]:
     """The rules about the letters of a statement, and about those that these rules bring in."""
     while True:
         rules = [rule for rule in data["rules"] if {*rule[:2]} <= used]
@@ -154,8 +183,11 @@ def _rules(data: dict[str, Any], used: set[str]) -> list[list[Any]]:
         used = more
 
 
-def _algebra(data: dict[str, Any], one: dict[str, Any], rules: list[list[Any]], point: dict[str, Any]) -> Algebra:
-    used = names_in([None, *one["left"], *one["right"], *(part for rule in rules for part in rule)])
+def algebra_of(
+    data: dict[str, Any], one: dict[str, Any], rules: list[list[Any]], point: dict[str, Any], more: Iterable[str] = ()
+) -> Algebra:
+    """The letters and parameters of a statement, of its rules, and `more` letters."""
+    used = names_in([None, *one["left"], *one["right"], *(part for rule in rules for part in rule), *more])
     sizes = {size for name in data["letters"] for size in (len(point[name]), len(point[name][0]))} - {1}
     if len(sizes) != 1:
         raise LeftOut("its matrices are of several sizes")
@@ -187,10 +219,6 @@ def _binders(algebra: Algebra) -> tuple[str, str]:
 
 def _argument(text: str) -> str:
     return f"({text})" if "^" in text else text
-
-
-def _pair(shape: Shape) -> str:
-    return f"({_bool(shape[0])}, {_bool(shape[1])})"
 
 
 def _bool(x: bool) -> str:
