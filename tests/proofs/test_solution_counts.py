@@ -53,9 +53,15 @@ def proved_radius(u):
     return radius if first + second * radius**2 / 2 <= radius and second * radius < 1 else None
 
 
+def point(J, D, gamma, K):
+    """A ball, a vertical and a momentum, as the register writes them."""
+    vectors = [(f"{name}{i}", x) for name, v in (("J", J), ("g", gamma), ("K", K)) for i, x in enumerate(v, 1)]
+    return {name: str(x) for name, x in [*vectors, ("D", D)]}
+
+
 def test_eight_real_solutions_exist_and_none_is_found_where_there_is_none(records):
     example = records["5.3-at-most-4"]["evidence"]["counterexamples"][0]
-    assert example["point"] == {"J": "(1, 2, 4)", "D": "1000", "γ": "(6/7, 2/7, 3/7)", "𝒦": "(-1/4, -3/2, 1/2)"}
+    assert example["point"] == point(J, STRONG, GAMMA, EIGHT)
     assert example["printed"][0]["left"] == ["8"]
     places = [np.array([F(round(x * 10**7), 10**7) for x in point]) for point in NEAR]
     radii = [proved_radius(u) for u in places]
@@ -70,7 +76,7 @@ def test_a_momentum_that_no_rotation_has(records):
     """|𝒦₁| = 2|(J₂+J₃+D)q₀q₁ + ...| ≤ |𝒦| ≤ 2Λmax|q|(|q₀| + |q|) ≤ (1 + √2)Λmax < 5/2·13 < 40."""
     example = records["5.3-at-least-2"]["evidence"]["counterexamples"][0]
     assert example["printed"][0]["left"] == ["0"]
-    assert example["point"] == {"J": "(1, 2, 4)", "D": "7", "γ": "(6/7, 2/7, 3/7)", "𝒦": "(40, 0, 0)"}
+    assert example["point"] == point(J, F(7), GAMMA, (40, 0, 0))
     assert F(5, 2) * (J[1] + J[2] + 7) < 40
     assert F(3, 2) ** 2 > 2, "5/2 is above 1 + √2"
 
@@ -83,8 +89,11 @@ def test_the_orbit_that_stops(records):
     turn = square * _unnormalized(u)
     other = F(16, 25) * _unnormalized(np.array([F(1, 2), F(1, 4), F(1, 2)]))
     assert other.tolist() == rotation(F(4, 5), F(2, 5), F(1, 5), F(2, 5))
-    point = records["5.3-at-least-2"]["evidence"]["counterexamples"][1]["point"]
-    assert point == {"J": "(1, 2, 3)", "D": "7", "γ": "(1/3, 2/3, 2/3)", "Ω": "Euler parameters ~ (4, 2, 4, -1)"}
+    example = records["5.3-at-least-2"]["evidence"]["counterexamples"][1]
+    assert example["printed"][0]["statement"].endswith(
+        "one step after γ = (1, 2, 2)/3 and Euler parameters ~ (4, 2, 4, -1)"
+    )
+    assert example["point"] == point((1, 2, 3), 7, turn.T @ gamma, turn.T @ before)
     lines = "\n".join(records["5.3-at-least-2"]["evidence"]["derivation"])
     assert f"𝒦 after the step = {list(map(str, turn.T @ before))}".replace("'", "") in lines
     assert f"γ after the step = {list(map(str, turn.T @ gamma))}".replace("'", "") in lines
