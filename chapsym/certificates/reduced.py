@@ -13,7 +13,7 @@ from flint import arb
 
 from chapsym.dynamics.errors import BadInput
 from chapsym.dynamics.levels.balls import MATRIX_BITS, certified, newton_enclosure, upper
-from chapsym.generated import turn
+from chapsym.generated import gibbs_residual, turn
 
 from .balls import NotProved, ball, near_root
 
@@ -97,7 +97,8 @@ class Reduced:
         """
         if not upper(u) <= self.inner:
             raise NotProved("the Gibbs vector is not within the bound of lemma small-branch")
-        v = newton_enclosure(u, self.slope, self._momentum(gamma), gamma, self.I, self.D, 2 * MATRIX_BITS)
+        state = (*self._momentum(gamma), *gamma, *self.I, self.D)
+        v = newton_enclosure(u, gibbs_residual(*(*u, *state)), self.slope, state, 2 * MATRIX_BITS)
         return v, tuple(x + y for x, y in zip(gamma, turn(1, *v, *gamma), strict=True))
 
     def _momentum(self, gamma: Vector) -> Vector:

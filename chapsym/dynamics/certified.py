@@ -35,6 +35,8 @@ class Certificate:
     momentum, gamma, attitude, contact: Arb's balls, shaped as those of the trajectory; None where it has none.
     momentum_error, gamma_error, attitude_error, contact_error: upper bounds, (..., frames), of the length of the
     difference between the trajectory and the true orbit, in the unit of the array.  NaN after the last step.
+    selected: how many rotations (one a step for order 2), (...), are those that the float64 continuation selects: each
+    is proved to be a root, and the only one near by, but not the small rotation.  0: the whole orbit is proved.
     trajectory: what was certified.
     """
 
@@ -47,6 +49,7 @@ class Certificate:
     gamma_error: Floats
     attitude_error: Asked
     contact_error: Asked
+    selected: np.ndarray
 
     def digits(self, name: str) -> np.ndarray:
         """The true values as decimal strings, each rounded to the digits that its ball proves: all are right.
@@ -60,8 +63,8 @@ class Certificate:
         return np.array([proved_digits(x) for x in values.flat], dtype=object).reshape(values.shape)
 
     def write(self) -> dict[str, Any]:
-        """For JSON: the step numbers, and the digits and the bounds of the errors of every array."""
-        found: dict[str, Any] = {"index": self.trajectory.index.tolist()}
+        """For JSON: the step numbers, `selected`, and the digits and the bounds of the errors of every array."""
+        found: dict[str, Any] = {"index": self.trajectory.index.tolist(), "selected": self.selected.tolist()}
         for name in self._names():
             found[name] = self.digits(name).tolist()
             found[f"{name}_error"] = getattr(self, f"{name}_error").tolist()
@@ -80,8 +83,9 @@ def certify(
     bits: how many correct bits the balls shall have; the run is repeated with as many more as its length costs.
     progress: called with the steps done so far (of all balls together); a run that is repeated counts again.
 
-    The branch is proved by lemma `small-branch` where |𝒦| is within its bound.  Beyond it the float64 continuation
-    selects the root; it is proved only that this is a root, and the only one near by.
+    The branch is proved by lemma `small-branch` where |𝒦| is within its bound, and beyond it by lemma `straight-path`,
+    step by step.  Where that does not reach, as near a fold, the float64 continuation selects the root; it is proved
+    only that this is a root, and the only one near by: `selected` counts such steps.
     Raises BadInput, one sentence, for what is no such trajectory, and where the true orbit cannot be followed to the
     end: balls that grow too much, or a step that the true orbit does not have.
     """
@@ -91,9 +95,9 @@ def certify(
         raise BadInput(f"certify takes orders {', '.join(map(str, COMPOSITIONS))}: this is no orbit of the map")
     bits = whole_number(bits, "bits", 2)
     given = {name: None if getattr(trajectory, name) is None else exactly(trajectory, name) for name in NAMES}
-    enclosed = _orbit(trajectory, given, bits, progress)
+    enclosed, selected = _orbit(trajectory, given, bits, progress)
     errors = {name: None if array is None else _errors(array, given[name], bits) for name, array in enclosed.items()}
-    return Certificate(trajectory, *enclosed.values(), *errors.values())  # type: ignore[arg-type]
+    return Certificate(trajectory, *enclosed.values(), *errors.values(), selected)  # type: ignore[arg-type]
 
 
 def exactly(trajectory: Trajectory, name: str) -> np.ndarray:
@@ -107,8 +111,8 @@ def exactly(trajectory: Trajectory, name: str) -> np.ndarray:
 
 def _orbit(
     trajectory: Trajectory, given: dict[str, Any], bits: int, progress: Callable[[int], None]
-) -> dict[str, np.ndarray | None]:
-    """The frames of the true orbit."""
+) -> tuple[dict[str, np.ndarray | None], np.ndarray]:
+    """The frames of the true orbit, and how many rotations of each ball were selected."""
     index, count = trajectory.index, len(trajectory.index)
     every = int(index[1] - index[0]) if count > 1 else 1
     start = [np.asarray(getattr(trajectory, name)[..., 0, :], dtype=float) for name in ("momentum", "gamma")]
@@ -126,21 +130,23 @@ def _orbit(
     frames = dispatch.frames_for(precision, len(D), count, count if with_body else 0)
     if with_body:
         frames.attitude[:, 0] = first["attitude"]
+    selected = []
     for i, taken in enumerate(trajectory.taken.reshape(-1)):
         balls = Balls(*(x[i : i + 1] for x in (first["momentum"], first["gamma"], J, D, radius)))
         kept = min(count, int(taken) // every + 1)
         part = frames.part(i, kept)
-        high.run(precision, balls, (kept - 1) * every, every, part, trajectory.order, progress)
+        selected += high.run(precision, balls, (kept - 1) * every, every, part, trajectory.order, progress)
         if part.status[0] != Status.TAKEN:
             raise BadInput(
                 f"the true orbit{f' of ball {i}' if shape else ''} does not take step {int(part.taken[0])}:"
                 f" {Status(int(part.status[0])).sentence}"
             )
     arrays = (frames.momentum, frames.gamma, frames.attitude, frames.contact)
-    return {
+    found = {
         name: None if first[name] is None else array.reshape(*shape, *array.shape[1:])
         for name, array in zip(NAMES, arrays, strict=True)
     }
+    return found, np.array(selected, dtype=np.int64).reshape(shape)
 
 
 def _errors(balls: np.ndarray, given: Any, bits: int) -> Floats:

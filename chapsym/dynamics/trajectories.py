@@ -51,8 +51,9 @@ def trajectory(
     Floats that are given are taken as exact, but γ (and an attitude) is divided by its length on all but "double", and
     "single" rounds all to float32.  The coefficients of the orders 4, 6, 8 are rounded to float32 or float64; at higher
     precisions they are the 40 digits of `coefficients`, and the map composed with those is what an Enclosure
-    encloses: `bits` are correct in every frame, beside the length of each vector.  Its branch is proved where |𝒦| is
-    within the bound of lemma `small-branch`; beyond it the float64 continuation selects the branch.
+    encloses: `bits` are correct in every frame, beside the length of each vector.  Its branch is proved by the lemmas
+    `small-branch` and `straight-path`; where neither reaches, as near a fold, the float64 continuation selects it
+    (`Certificate.selected`).
     threads: how many cores a batch may use; 0 for all.  Digits and Enclosure use one.
     progress: called with the steps done so far (of all balls together), every 200 000 steps or so.
 

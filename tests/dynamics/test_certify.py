@@ -1,5 +1,6 @@
 """Certificates: the balls contain the oracle's orbit, the bounds bound, and every digit shown is right."""
 
+import itertools
 from dataclasses import replace
 from decimal import Decimal
 from fractions import Fraction as F
@@ -18,6 +19,8 @@ from chapsym import BadInput, StepNotTaken, testing
 from chapsym.dynamics.certified import proved_digits
 from chapsym.dynamics.coefficients import COMPOSITIONS
 from chapsym.dynamics.levels import balls, high
+from chapsym.dynamics.loops import path
+from chapsym.dynamics.loops.branch import small_rotation
 from chapsym.numbers import Digits
 
 BALL = chapsym.Ball((0.1, 0.5, 1.6), 0.7, radius=0.5)
@@ -136,6 +139,76 @@ def test_both_ends_of_a_ball_round_to_what_is_shown(middle, radius):
         assert F(10) ** exponent <= 1000 * F(radius)
 
 
+#: A momentum beyond the bound of small-branch.
+BEYOND = 0.6 * np.array([6, -2, 3]) / 7
+
+
+@pytest.mark.parametrize("order", [2, 4])
+def test_beyond_the_bound_of_small_branch_every_step_is_proved(order, monkeypatch):
+    monkeypatch.setattr(balls.ArbBall, "_rotation", lambda *_: pytest.fail("the continuation was asked"))
+    run = chapsym.trajectory(BALL, BEYOND / (1 if order == 2 else 2), GAMMA, 12, order=order)
+    proof = chapsym.certify(run, bits=100)
+    assert proof.selected.shape == ()
+    assert proof.selected == 0
+    exact = orbit(BALL, run.momentum[0], GAMMA, 12, COMPOSITIONS[order].exact, digits=50)
+    for k, (K, g, _, _) in enumerate(exact):
+        assert all(right(text, x) for text, x in zip(proof.digits("momentum")[k], K, strict=True))
+        assert all(right(text, x) for text, x in zip(proof.digits("gamma")[k], g, strict=True))
+
+
+def test_near_a_fold_the_continuation_selects_and_it_is_told():
+    near = 0.999 * chapsym.fold(BALL, BEYOND, GAMMA).reach * BEYOND
+    run = chapsym.trajectory(BALL, [near, BEYOND], GAMMA, 1)
+    assert run.status.tolist() == [0, 0]
+    proof = chapsym.certify(run, bits=100)
+    assert proof.selected.tolist() == [1, 0]
+    _, (_, g, _, _) = orbit(BALL, near, GAMMA, 1, digits=50)
+    assert all(right(text, x) for text, x in zip(proof.digits("gamma")[0, 1], g, strict=True))
+
+
+def test_a_check_of_the_path_in_balls_is_that_in_floats_where_it_is_certain():
+    """On boxes round the root of the branch: yes only where it is yes at corners, too, with a slope that they have."""
+    draw, said = np.random.default_rng(6), {True: 0, False: 0}
+    inertia, D = BALL.inertia, float(BALL.D)
+    spread = np.ptp(inertia) / 2
+    for _ in range(150):
+        k, g = draw.normal(size=(2, 3))
+        g /= np.linalg.norm(g)
+        k *= draw.uniform(0.1, 0.7) / np.linalg.norm(k)
+        status, _, q0, *q = small_rotation(*2 * k, *g, *BALL.mass_tensor, D)
+        if status:
+            continue
+        u, width = np.array(q) / q0, draw.choice([0.0, 1e-3, 0.03])
+        with flint.ctx.workprec(80):
+            box = [flint.arb(float(x), float(width)) for x in u]
+            slope = balls.stretch(box, *(flint.arb(float(x)) for x in (*k, *g, *inertia, D)))
+        said[slope is not None] += 1
+        for corner in itertools.product((-width, width), repeat=3):
+            v = u + corner
+            proved, least = path.joined(*v, v @ v, *k, np.linalg.norm(k), *g, *inertia, D, spread)
+            assert proved or slope is None
+            assert slope is None or float(slope) <= least * (1 + 1e-9)
+        assert width or (slope is not None) == proved
+    assert min(said.values()) > 20
+
+
+def test_a_broken_check_of_the_path_is_seen(monkeypatch):
+    """The controls: a slope that claims too much, and points that are no roots, against the oracle."""
+    plain, found = balls.stretch, balls.root
+    run = chapsym.trajectory(BALL, BEYOND, GAMMA, 1)
+    truth = orbit(BALL, BEYOND, GAMMA, 1, digits=50)[1][1]
+
+    def off(*given):
+        u, start = found(*given)
+        return tuple(x + (x >> 60) for x in u), start
+
+    monkeypatch.setattr(balls, "root", off)
+    assert all(right(*pair) for pair in zip(chapsym.certify(run, bits=90).digits("gamma")[1], truth, strict=True))
+    monkeypatch.setattr(balls, "stretch", lambda *given: plain(*given) * 10**9)
+    monkeypatch.setattr(balls, "gibbs_newton", lambda *given: (flint.arb(1),) * 4 + (flint.arb(0),) * 9)
+    assert not all(right(*pair) for pair in zip(chapsym.certify(run, bits=90).digits("gamma")[1], truth, strict=True))
+
+
 def test_a_batch_with_a_ball_that_stopped():
     ball = chapsym.Ball((1, 2, 4), 3)
     run = chapsym.trajectory(ball, [(0.3, -0.1, 0.2), (3.9, -1.95, 2.925)], GAMMA, 40, every=2)
@@ -146,7 +219,8 @@ def test_a_batch_with_a_ball_that_stopped():
     assert np.isfinite(proof.gamma_error[1, :kept]).all()
     assert np.isnan(proof.gamma_error[1, kept:]).all()
     assert proof.digits("gamma")[1, -1].tolist() == ["nan"] * 3
-    assert set(proof.write()) == {"index", "momentum", "momentum_error", "gamma", "gamma_error"}
+    assert proof.selected[0] == 0 < proof.selected[1]
+    assert set(proof.write()) == {"index", "selected", "momentum", "momentum_error", "gamma", "gamma_error"}
 
 
 def test_a_long_run_is_certified_and_tells_progress():

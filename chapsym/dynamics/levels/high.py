@@ -29,24 +29,27 @@ MOST_GUARD = 2**22
 def run(
     precision: Digits | Enclosure, balls: Balls, steps: int, every: int, frames: Frames, order: int,
     progress: Callable[[int], None],
-) -> None:  # fmt: skip
+) -> list[int]:  # fmt: skip
     """Takes `steps` steps of every ball into `frames`, one ball after the other; frame 0 is written anew.
+
+    Returns for each ball how many rotations are not proved to be the branch's, but selected (`ArbBall.selected`).
 
     Enclosure(bits): with as many bits more as the radii grow by, which is measured, so that `bits` are left at the end.
     """
-    done, bits = 0, precision.bits if isinstance(precision, Enclosure) else precision.context.prec
+    done, selected, bits = 0, [], precision.bits if isinstance(precision, Enclosure) else precision.context.prec
     for i in range(len(balls)):
         first = frames.attitude[i, 0].copy() if frames.with_body else None
         so_far = partial(lambda before, step: progress(before + step), done)
         way = _Way(balls, i, steps, every, frames, order, bits, so_far, first)
         if isinstance(precision, Enclosure):
-            _run_ball(precision, way)
+            selected.append(_run_ball(precision, way))
         else:
             from .digits import DigitsBall  # mpmath and flint take 40 ms
 
             K, g, J, D, stages, attitude, radius = way.given
             way.take(DigitsBall(precision, K, g, J, D, stages, attitude, radius, steps))
         done += int(frames.taken[i])
+    return selected
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,15 +101,18 @@ class _Way:
                 self.progress(step)
 
 
-def _run_ball(precision: Enclosure, way: _Way) -> None:
-    """Repeats the run with more bits until `precision.bits` are left; raises BadInput where more do not help."""
+def _run_ball(precision: Enclosure, way: _Way) -> int:
+    """Repeats the run with more bits until `precision.bits` are left; raises BadInput where more do not help.
+
+    Returns how many rotations were selected.
+    """
     guard, before, stuck = precision.guard, (0, -math.inf), 0
     _, lost = magnitude(*way.given[2:4])
     while guard <= MOST_GUARD:
         bits = precision.bits + guard
-        step, left = _attempt(bits, way)
+        step, left, selected = _attempt(bits, way)
         if left >= precision.bits:
-            return
+            return selected
         stuck = stuck + 1 if (step, left) <= before and guard > CONDITION * lost else 0
         if stuck == MOST_STUCK:
             break
@@ -119,10 +125,11 @@ def _run_ball(precision: Enclosure, way: _Way) -> None:
     )
 
 
-def _attempt(bits: int, way: _Way) -> tuple[int, float]:
-    """Runs with so many bits while enough are left; the step where they were last looked at, and those left there.
+def _attempt(bits: int, way: _Way) -> tuple[int, float, int]:
+    """Runs with so many bits while enough are left.
 
-    None are left where a step could not be proved.
+    Returns the step where they were last looked at, the bits left there, and how many rotations were selected.  None
+    are left where a step could not be proved.
     """
     from flint import ctx
 
@@ -142,12 +149,12 @@ def _attempt(bits: int, way: _Way) -> tuple[int, float]:
         try:
             way.take(ball, enough)
         except TooWide:
-            return seen[0] + 1, 0.0
+            return seen[0] + 1, 0.0, ball.selected
         if way.frames.status[way.i] != Status.TAKEN:
             seen = (int(way.frames.taken[way.i]), ball.bits())
     if seen[1] < way.bits:
         way.frames.status[way.i], way.frames.reach[way.i] = Status.TAKEN, 1.0  # of balls that were too wide to tell
-    return seen
+    return *seen, ball.selected
 
 
 def write(frames: Frames, i: int, at: int, values: tuple[Any, Any, Any, Any]) -> None:
