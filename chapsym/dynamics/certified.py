@@ -97,7 +97,7 @@ def certify(
     given = {name: None if getattr(trajectory, name) is None else exactly(trajectory, name) for name in NAMES}
     enclosed, selected = _orbit(trajectory, given, bits, progress)
     errors = {name: None if array is None else _errors(array, given[name], bits) for name, array in enclosed.items()}
-    return Certificate(trajectory, *enclosed.values(), *errors.values(), selected=selected)  # type: ignore[arg-type]
+    return Certificate(trajectory, *enclosed.values(), *errors.values(), selected)  # type: ignore[arg-type, call-arg]
 
 
 def exactly(trajectory: Trajectory, name: str) -> np.ndarray:
