@@ -7,7 +7,8 @@ from typing import Any
 
 from flint import arb, ctx
 
-from chapsym.dynamics.levels.balls import exact, upper
+from chapsym.dynamics.levels.balls import exact
+from chapsym.dynamics.levels.proved_root import upper
 from chapsym.dynamics.levels.start import fraction
 from chapsym.generated import gibbs_newton
 

@@ -18,7 +18,7 @@ from flint import arb, ctx
 from chapsym import checker
 from chapsym.checker.document import MOST_DIGITS, MOST_STEPS
 from chapsym.dynamics.errors import BadInput
-from chapsym.dynamics.levels.balls import upper
+from chapsym.dynamics.levels.proved_root import upper
 from chapsym.dynamics.levels.start import fraction
 
 from . import families

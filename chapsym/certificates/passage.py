@@ -13,7 +13,8 @@ from typing import Any
 from flint import arb, arb_mat
 
 from chapsym.dynamics.errors import BadInput
-from chapsym.dynamics.levels.balls import certified, exact, upper
+from chapsym.dynamics.levels.balls import exact
+from chapsym.dynamics.levels.proved_root import certified, upper
 from chapsym.generated import compose, gibbs_newton, gibbs_residual
 
 from .balls import NotProved, cross, dot, near_root

@@ -12,7 +12,7 @@ from typing import Any
 from flint import arb
 
 from chapsym.dynamics.errors import BadInput
-from chapsym.dynamics.levels.balls import MATRIX_BITS, certified, newton_enclosure, upper
+from chapsym.dynamics.levels.proved_root import MATRIX_BITS, certified, newton_enclosure, upper
 from chapsym.generated import gibbs_residual, turn
 
 from .balls import NotProved, ball, near_root

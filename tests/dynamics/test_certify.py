@@ -4,6 +4,7 @@ import itertools
 from dataclasses import replace
 from decimal import Decimal
 from fractions import Fraction as F
+from functools import partial
 
 import flint
 import mpmath
@@ -16,12 +17,13 @@ from orbits import context, from_quaternion, orbit
 
 import chapsym
 from chapsym import BadInput, StepNotTaken, testing
+from chapsym.dynamics import certified
 from chapsym.dynamics.certified import proved_digits
 from chapsym.dynamics.coefficients import COMPOSITIONS
-from chapsym.dynamics.levels import balls, high
+from chapsym.dynamics.levels import balls, high, proved_root
 from chapsym.dynamics.loops import path
 from chapsym.dynamics.loops.branch import small_rotation
-from chapsym.numbers import Digits
+from chapsym.numbers import Digits, Enclosure
 
 BALL = chapsym.Ball((0.1, 0.5, 1.6), 0.7, radius=0.5)
 K = 0.3 * np.array([4, -2, 3]) / np.sqrt(29)
@@ -181,7 +183,7 @@ def test_a_check_of_the_path_in_balls_is_that_in_floats_where_it_is_certain():
         u, width = np.array(q) / q0, draw.choice([0.0, 1e-3, 0.03])
         with flint.ctx.workprec(80):
             box = [flint.arb(float(x), float(width)) for x in u]
-            slope = balls.stretch(box, *(flint.arb(float(x)) for x in (*k, *g, *inertia, D)))
+            slope = proved_root.stretch(box, *(flint.arb(float(x)) for x in (*k, *g, *inertia, D)))
         said[slope is not None] += 1
         for corner in itertools.product((-width, width), repeat=3):
             v = u + corner
@@ -194,7 +196,7 @@ def test_a_check_of_the_path_in_balls_is_that_in_floats_where_it_is_certain():
 
 def test_a_broken_check_of_the_path_is_seen(monkeypatch):
     """The controls: a slope that claims too much, and points that are no roots, against the oracle."""
-    plain, found = balls.stretch, balls.root
+    plain, found = proved_root.stretch, balls.root
     run = chapsym.trajectory(BALL, BEYOND, GAMMA, 1)
     truth = orbit(BALL, BEYOND, GAMMA, 1, digits=50)[1][1]
 
@@ -204,8 +206,8 @@ def test_a_broken_check_of_the_path_is_seen(monkeypatch):
 
     monkeypatch.setattr(balls, "root", off)
     assert all(right(*pair) for pair in zip(chapsym.certify(run, bits=90).digits("gamma")[1], truth, strict=True))
-    monkeypatch.setattr(balls, "stretch", lambda *given: plain(*given) * 10**9)
-    monkeypatch.setattr(balls, "gibbs_newton", lambda *given: (flint.arb(1),) * 4 + (flint.arb(0),) * 9)
+    monkeypatch.setattr(proved_root, "stretch", lambda *given: plain(*given) * 10**9)
+    monkeypatch.setattr(proved_root, "gibbs_newton", lambda *given: (flint.arb(1),) * 4 + (flint.arb(0),) * 9)
     assert not all(right(*pair) for pair in zip(chapsym.certify(run, bits=90).digits("gamma")[1], truth, strict=True))
 
 
@@ -242,7 +244,8 @@ def test_what_cannot_be_certified_is_refused_in_one_sentence(monkeypatch):
         chapsym.certify(run).digits("attitude")
     with pytest.raises(BadInput, match="certify takes orders"):
         chapsym.certify(replace(run, order=0))
-    monkeypatch.setattr(high, "MOST_GUARD", 50)
+    monkeypatch.setattr(high, "MOST_GUARD", 10)
+    monkeypatch.setattr(certified, "Enclosure", partial(Enclosure, guard=10))
     with pytest.raises(BadInput, match="grow too much: after step"):
         chapsym.certify(chapsym.trajectory(BALL, K, GAMMA, 300))
 

@@ -133,7 +133,8 @@ def _attempt(bits: int, way: _Way) -> tuple[int, float, int]:
     """
     from flint import ctx
 
-    from .balls import ArbBall, TooWide
+    from .balls import ArbBall
+    from .proved_root import TooWide
 
     seen: tuple[int, float] = (0, math.inf)
     with ctx.workprec(bits):

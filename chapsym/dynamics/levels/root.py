@@ -124,6 +124,8 @@ def root(
     gf = (to_float(g[0], P), to_float(g[1], P), to_float(g[2], P))
     rounds = MOST_ROUNDS if guess == (0.0, 0.0, 0.0) else 2
     start, inverse = float_root(guess, kf, gf, *floats, rounds)
+    if not all(map(math.isfinite, (*start, *inverse))):
+        raise NotSettled
     levels = [P]
     while levels[-1] > CHORD_BITS + 4 * lost:
         levels.append(levels[-1] // 2 + SHORT + lost)
