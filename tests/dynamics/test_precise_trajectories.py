@@ -179,6 +179,7 @@ def mutated(monkeypatch, module, name, change):
     [
         (balls, "turn", lambda x: (-x[0], *x[1:])),
         (balls, "turn", lambda x: (x[0] + flint.arb(2) ** -80, *x[1:])),
+        (balls, "point", lambda p: ((*p[0][:3], p[0][3] + flint.arb(2) ** -80), p[1])),
         (balls, "gibbs_residual", lambda r: (r[0] + flint.arb(2) ** -60, *r[1:])),
         (balls, "certified", lambda b: (b[0], b[1] * 0 + 10**9)),
     ],

@@ -25,8 +25,6 @@ from .start import Exact, exponent_of, least, magnitude, start_near
 
 #: From so many bits on fmpz is faster than Python's integers.
 FMPZ_BITS = 300
-#: The mean-value form is for small ξ.
-LARGEST = 0.125
 #: A rotation with a smaller q₀ is taken as a quaternion in balls: its Gibbs vector is too long.
 LEAST_SCALAR = 0.125
 
@@ -58,7 +56,7 @@ class ArbBall:
         self.a: Numbers = () if attitude is None else unit(map(exact, attitude) if attitude else least(*self.g))
         # What is followed is the rotation since the start: 𝒦 and γ are those of the start, turned back by it.
         self.first_k, self.first_g, self.length = self.k, self.g, upper(self.k)
-        self.p: Numbers = (arb(1), arb(0), arb(0), arb(0))
+        self.p: Any = (arb(1), arb(0), arb(0), arb(0))
         self.spread, self.matrix_bits = Spread(), MATRIX_BITS + 3 * self.lost
         self.radius, self.x = exact(radius), (arb(0), arb(0))
         self.size = exponent_of(max(map(abs, K))) - self.exponent - 1
@@ -141,8 +139,8 @@ class ArbBall:
             return tuple(x.mid() for x in u), upper([x.rad() for x in u])
         if self.a:
             self._follow(q, every[3:6])
-        self.p, far = point(compose(*(*self._turned(), *q)))
-        self.spread.restart(self._small(far))
+        self.p, far = point(compose(*self._turned(), *q))
+        self.spread.restart(far)
         return None
 
     def _turn_by(self, u: Numbers, off: Any, k: Numbers, every: Numbers) -> None:
@@ -160,16 +158,10 @@ class ArbBall:
             scale = (1 / (1 + u[0] * u[0] + u[1] * u[1] + u[2] * u[2]).sqrt()).mid()
         if self.a:
             self._follow(unit((arb(1), *u)), every[3:6])
-        self.p, far = point(scale * x for x in compose(*self.p, 1, *u))
+        self.p, far = point(scale * x for x in compose(*(*self.p, 1, *u)))
         with ctx.workprec(self.matrix_bits):
             # p∘(1, ε)∘(1, ξ) is p∘(1, ξ'), |ξ' - ξ| ≤ |ε|(1 + |ξ| + |ξ|²)/(1 - |ε||ξ|) ≤ 2|ε|.
             self.spread.moved(M, more + 2 * far)
-            self._small(self.spread.size)
-
-    def _small(self, size: Any) -> Any:
-        if not size < LARGEST:
-            raise TooWide
-        return size
 
     def _rotation(self, every: Numbers) -> Numbers:
         """The rotations of all states, where neither lemma holds."""
@@ -185,10 +177,10 @@ class ArbBall:
         x, y, _ = rotate(*self._attitude(), *centre_step(*q, *g))
         self.x = (self.x[0] + x, self.x[1] + y)
 
-    def _turned(self) -> Numbers:
+    def _turned(self) -> Any:
         """The rotation since the start, of any length, with all that there may be."""
         off = arb(0, self.spread.size)
-        return compose(*self.p, 1, off, off, off)
+        return compose(*(*self.p, 1, off, off, off))
 
     def _attitude(self) -> Numbers:
         return unit(compose(*(*self.a, *self._turned())))

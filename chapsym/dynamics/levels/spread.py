@@ -16,6 +16,9 @@ from .proved_root import TooWide, upper
 
 Vector = Sequence[Any]
 
+#: The form is for small ξ.
+LARGEST = 0.125
+
 
 class Spread:
     """ξ = Br of balls; every method is to be called with the precision of matrices."""
@@ -25,22 +28,29 @@ class Spread:
 
     def restart(self, radius: Any) -> None:
         """All ξ with |ξ| ≤ radius."""
-        self.axes, self.size = arb_mat(3, 3, [1, 0, 0, 0, 1, 0, 0, 0, 1]), radius
+        self.axes, self.size = arb_mat(3, 3, [1, 0, 0, 0, 1, 0, 0, 0, 1]), small(radius)
         self.box = arb_mat(3, 1, [arb(0, radius)] * 3)
 
     def moved(self, M: Any, more: Any) -> None:
         """All Mξ + w with |w| ≤ more."""
-        carried = M * self.axes
+        edges = M * self.axes
         try:
-            axes = orthogonal(carried, self.box)
+            axes = orthogonal(edges, self.box)
             inverse = axes.inv()
         except ZeroDivisionError:
             raise TooWide from None
-        box = inverse * carried * self.box
+        box = inverse * edges * self.box
         rows = inverse.entries()
         radii = (x.abs_upper() + more * upper(rows[3 * i : 3 * i + 3]) for i, x in enumerate(box.entries()))
         self.axes, self.box = axes, arb_mat(3, 1, [arb(0, r.abs_upper()) for r in radii])
-        self.size = upper((axes * self.box).entries())
+        self.size = small(upper((axes * self.box).entries()))
+
+
+def small(size: Any) -> Any:
+    """A bound of |ξ|; raises TooWide where the form is not for it."""
+    if not size < LARGEST:
+        raise TooWide
+    return size
 
 
 def orthogonal(matrix: Any, box: Any) -> Any:
