@@ -204,5 +204,55 @@ def straight_path(p: Proof) -> None:
                        [(d.T * ((1 - s) * B + s * jacobian) * d)[0]], ring))  # fmt: skip
 
 
+@claim(
+    "state-error",
+    r"\tilde v = v(\xi{=}0),\ v = \Omega(\xi)^T\tilde v \ (v = k, \gamma) \ \Rightarrow\ A(u - \tilde u) = -S\xi,\ "
+    r"(1,-\tilde u)(1,\xi)(1,u) = (1+|\tilde u|^2)(1, \Omega(\tilde u)^T\xi) + (1,-\tilde u)(1,\xi)(0,u-\tilde u)",
+    uses=("gibbs", "gibbs-newton", "gibbs-rotation"),
+)
+def state_error(p: Proof) -> None:
+    """How a small rotation ξ of the state changes the step: the mean-value form of the enclosures."""
+    p.assume("|γ| = 1; u and ũ are the Gibbs vectors at k, γ and at k̃, γ̃, which are turned by the Gibbs vector ξ = d")
+    p.say("With 1 + |ξ|² on both sides, for k̃ = v and as well for γ̃:")
+    once = v.cross(d)
+    p.lemma(equal("(1 + |ξ|²)(Ωᵀv - v) = 2(v + v × ξ) × ξ", 2 * (d.cross(d.cross(v)) - d.cross(v)),
+                  2 * (v + once).cross(d)))  # fmt: skip
+    w, n, m = (sp.Matrix(sp.symbols(f"{name}1:4")) for name in "wnm")
+    wide = Quotient((*u, *v, *k, *d, *gamma, *w, *n, *m, I1, I2, I3, D), [])
+    p.say("Let γ = γ̃ + n, k = k̃ + m, with B of |γ| = |γ̃| = 1, so that B(γ) = I + D - Dγγᵀ; ũ stands as u:")
+
+    def residual(at: sp.Matrix, momentum: sp.Matrix, vertical: sp.Matrix) -> sp.Matrix:
+        return (
+            INERTIA * at + D * (at - vertical * vertical.dot(at)) + at.cross(INERTIA * at) - (1 + at.dot(at)) * momentum
+        )
+
+    change = -D * ((gamma + n).dot(u) * n + gamma * u.dot(n)) - NORM * m
+    p.printed(equal("G(ũ; k, γ) - G(ũ; k̃, γ̃) = -D(⟨γ, ũ⟩n + γ̃⟨ũ, n⟩) - (1 + |ũ|²)m",
+                    residual(u, k + m, gamma + n) - residual(u, k, gamma), change, wide))  # fmt: skip
+    middle = sp.Matrix(gibbs.residual()).jacobian(u).subs(placed((u, u + w / 2)), simultaneous=True)
+    moved = sp.Matrix(gibbs.residual()).subs(placed((u, u + w)), simultaneous=True)
+    p.printed(equal("G(ũ + w) - G(ũ) = A(ũ + w/2)w", moved - sp.Matrix(gibbs.residual()), middle * w, wide))
+    p.say("So w = u - ũ has Aw = -Sξ.  For the rotation after the step, with Hamilton's product:")
+    one = sp.Integer(1)
+
+    def product(a: tuple, b: tuple) -> tuple:
+        return a[0] * b[0] - a[1].dot(b[1]), a[0] * b[1] + b[0] * a[1] + a[1].cross(b[1])
+
+    first = product((one, -u), (one, d))
+    after, steady = product(first, (one, u + w)), product(first, (one, u))
+    turned = (1 - u.dot(u)) * d + 2 * u * u.dot(d) - 2 * u.cross(d)
+    p.lemma(Equation("(1, -ũ)(1, ξ)(1, ũ) = (1 + |ũ|², (1 - |ũ|²)ξ + 2ũ⟨ũ, ξ⟩ - 2ũ × ξ)",
+                     [steady[0], *steady[1]], [NORM, *turned], wide))  # fmt: skip
+    rest = product((sp.Integer(0), d), (sp.Integer(0), w))
+    beside = product((one, -u), rest)
+    p.printed(Equation("(1, -ũ)(1, ξ)(1, ũ + w) is that, and (⟨ũ, w⟩, w - ũ × w) and (1, -ũ)(0, ξ)(0, w) more",
+                       [after[0] - steady[0], *(after[1] - steady[1])],
+                       [u.dot(w) + beside[0], *(w - u.cross(w) + beside[1])], wide))  # fmt: skip
+    p.say("The last has the length (1 + |ũ|²)^½|ξ||w| at most, as quaternions multiply in length.")
+    p.control(equal("G(ũ; k, γ) - G(ũ; k̃, γ̃) without γ̃⟨ũ, n⟩", residual(u, k + m, gamma + n) - residual(u, k, gamma),
+                    change + D * gamma * u.dot(n), wide))  # fmt: skip
+    p.control(Equation("(1, -ũ)(1, ξ)(1, ũ) with + 2ũ × ξ", [*steady[1]], [*(turned + 4 * u.cross(d))], wide))
+
+
 if __name__ == "__main__":
     main(__file__)

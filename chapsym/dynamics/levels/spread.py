@@ -86,8 +86,9 @@ def carried(u: Vector, inverse: Any, k: Vector, g: Vector, D: Any, size: Any) ->
     """M and a bound of |w| for a step: ξ becomes Mξ + w, |ξ| ≤ size.
 
     u: the Gibbs vector of the point; inverse: A⁻¹ for every middle between it and another state's; k, γ: for all
-    states.  ũ + δ is the Gibbs vector at ξ, and 0 = Aδ + Sξ, S from G(ũ) = B(γ)ũ + ũ × Iũ - (1 + |ũ|²)k with
-    v - ṽ = 2[v + v × ξ]ₓξ/(1 + |ξ|²) for v = γ̃, k̃.  Then (1, -ũ)(1, ξ)(1, ũ + δ) is a multiple of (1, ξ').
+    states.  By lemma `state-error` the Gibbs vector at ξ is ũ + δ with Aδ = -Sξ, S by what ξ changes in k and γ,
+    v - ṽ = 2[ṽ + ṽ × ξ]ₓξ/(1 + |ξ|²); and (1, -ũ)(1, ξ)(1, ũ + δ) is a multiple of (1, ξ').  What stands beside
+    the 2 is within 2|ξ||v| of ṽ, as the v of all states are.
     """
     u1, u2, u3 = u
     g1, g2, g3 = g
