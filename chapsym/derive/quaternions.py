@@ -52,10 +52,10 @@ def _basis() -> list[sp.Matrix]:
 @cache
 def turned() -> tuple[sp.Symbol, sp.Symbol, sp.Symbol, sp.Symbol]:
     """Letters for x ↦ q x q̄, its value at ε = 0, its derivative by ε, and ½(ωx - xω)."""
-    whole = written("turn", "x ↦ q x q̄", Q * Q_bar, ALGEBRA)
+    whole = written("conjugation", "x ↦ q x q̄", Q * Q_bar, ALGEBRA)
     spin = written("spin", "x ↦ ½(ωx - xω)", (W - W_bar) / 2, ALGEBRA)
-    at = replaced("turn_at", "at ε = 0", whole, TURN.start, ALGEBRA)
-    return whole, at, rate("turn_rate", "its derivative by ε: q' = ½ q ω, q̄' = -½ ω q̄", whole, TURN.rates), spin
+    at = replaced("conjugation_at", "at ε = 0", whole, TURN.start, ALGEBRA)
+    return whole, at, rate("conjugation_rate", "its derivative by ε: q' = ½ q ω, q̄' = -½ ω q̄", whole, TURN.rates), spin
 
 
 def on_vectors(of: sp.Symbol) -> list[list[sp.Symbol]]:

@@ -18,7 +18,7 @@ NORM = q0**2 + q.dot(q)
 
 def equations() -> list[sp.Expr]:
     """𝒦(q, γ) - 𝒦 (q₀² + |q|²), with the letters of the derivation that makes 𝒦(q, γ)."""
-    return list(sp.Matrix(three.axial_entries("K", ball.momentum())) - K * NORM)
+    return list(sp.Matrix(three.turned_entries("K", ball.momentum())) - K * NORM)
 
 
 @cache

@@ -35,6 +35,15 @@ def test_the_command_writes_what_is_committed(tmp_path):
     assert (tmp_path / "5.11.json").read_text("utf-8") == (FOLDER / "5.11.json").read_text("utf-8")
 
 
+def test_a_letter_is_defined_once_in_the_register():
+    """Any claims may be proved in one process, in any order."""
+    found = {}
+    for path in FOLDER.iterdir():
+        for one in checker.read(path)["derivation"]:
+            step = {part: one[part] for part in ("text", "operation", "of", "by")}
+            assert found.setdefault(one["name"], step) == step, f"{path.name}: {one['name']}"
+
+
 def test_the_certificates_state_what_the_verdicts_rest_on(verdicts):
     """Every check of the record is a statement or a sentence of the file, under its role and its text, and once."""
     for id, record in verdicts.items():
