@@ -203,7 +203,7 @@ CIRCLE = [["+", ["^", "x", 2], ["^", "y", 2], -1], ["+", "x", ["*", -1, "y"]]]
 
 def zeros():
     """Solutions that are near a point, and what is none."""
-    both = {"unknowns": ("x", "y"), "x": "5/7", "y": "5/7"}
+    both, eight = {"unknowns": ("x", "y"), "x": "5/7", "y": "5/7"}, [f"x{i}" for i in range(7)]
     return {
         "x² = 2 near 17/12": near([ROOT]),
         "x² = 2 near 17/12, x ≠ 1": near([ROOT], nonzero=[["+", "x", -1], ["+", "x", "-7/5"]]),
@@ -239,6 +239,9 @@ def zeros():
         "a pole": near([["+", ROOT, ["*", 0, ["^", ["+", "x", "-17/12"], -1]]]]),
         "a power of powers": near([["+", ROOT, ["*", 0, ["^", ["^", ["^", "x", 60], 60], 60]]]]),
         "too much work": near([["+", "x", "-17/12", *[["*", 0, "x"]] * 19_000]], radius=f"1/{2**999}"),
+        "too much work for eight": near([["+", "x", "-17/12", *[0] * 19_000], *eight], ["x", *eight], f"1/{2**999}",
+                                        **dict.fromkeys(eight, 0)),
+        "no such point": resealed(near([ROOT]) | {"points": []}),
     }  # fmt: skip
 
 
