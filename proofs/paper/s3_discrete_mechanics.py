@@ -93,7 +93,12 @@ def discrete_principle(p: Proof) -> None:
     symbols = (*PATH, *CHANGE, *QUADRATIC)
     last_fixed, both_fixed = Quotient(symbols, end), Quotient(symbols, [*end, CHANGE[0]])
     p.printed(
-        Equation("δS = the printed sum, for every δq_k, δq_N = 0", first_variation(), discrete_sum(0), last_fixed)
+        Equation(
+            "δ Σ_{k=0}^{N-1} 𝕃(q_k, q_{k+1}), N = 3, is the printed sum, for every δq_k, δq_N = 0",
+            first_variation(),
+            discrete_sum(0),
+            last_fixed,
+        )
     )
     values = dict(zip((*PATH, *CHANGE, *QUADRATIC), (5, 0, 1, 3, 4, 1, 0, 0, 0, "1/2", -1, "1/2"), strict=True))
     shown = {"𝕃": "(y - x)²/2", "q_{-1}, ..., q_3": "5, 0, 1, 3, 4", "δq": "1, 0, 0, 0"}
@@ -175,7 +180,7 @@ def consistency(p: Proof) -> None:
         Equation("A∘Ψ = 0 in such coordinates is x2 = y2: the same leaf", flat * step, y2 - x2, plane),
         Comparison("it contains (q, q) for q = (0, 1)", [sp.Eq(flat, 0)], point | {step: 1}),
     )
-    point_of = {"Q": "R²", "A": "dx2", "N": "{x2 = 0}", "n, s": "2, 1", "ε": "1", "q": "(0, 1)"}
+    point_of = {"Q": "R²", "A": "dx2", "N": "{x2 = 0}", "n, s": "2, 1"}
     p.counterexample(replace(rational_point(point | {size: 2, count: 1, step: 1}), values=point_of))
     p.say("Ψ matters: with the leaves x1² + x2² = c and Ψ(q, q') = (q, (q' - q)/ε) the pair (1, 0), (1, 1) is in D_d:")
     tangent = (x1 * (y1 - x1) + x2 * (y2 - x2)) / step
