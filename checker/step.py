@@ -69,17 +69,18 @@ def check_small_branch(ball: Ball, size: Interval) -> None:
 
 def gibbs_vector(ball: Ball, state: Pair, near: Vector) -> Vector:
     """The root u of (1) near given numbers, enclosed; raises Rejected unless it is there and |u| < 1."""
-    momentum, gamma = state
-
-    def residual(u: Vector) -> Vector:
-        force = plus(minus([L * x for L, x in zip(ball.contact, u, strict=True)], times(ball.D * dot(gamma, u), gamma)),
-                     cross(u, [I * x for I, x in zip(ball.inertia, u, strict=True)]))  # fmt: skip
-        return minus(force, times((1 + dot(u, u)) / 2, momentum))
-
-    u = newton(residual, lambda u: jacobian(ball, state, u), near)
+    u = newton(lambda u: residual(ball, state, u), lambda u: jacobian(ball, state, u), near)
     if not dot(u, u) < 1:
         raise Rejected("a step does not have |u| < 1")
     return u
+
+
+def residual(ball: Ball, state: Pair, u: Vector) -> Vector:
+    """F(u) of (1)."""
+    momentum, gamma = state
+    force = plus(minus([L * x for L, x in zip(ball.contact, u, strict=True)], times(ball.D * dot(gamma, u), gamma)),
+                 cross(u, [I * x for I, x in zip(ball.inertia, u, strict=True)]))  # fmt: skip
+    return minus(force, times((1 + dot(u, u)) / 2, momentum))
 
 
 def jacobian(ball: Ball, state: Pair, u: Vector) -> Matrix:
