@@ -6,7 +6,7 @@ BIN := $(VENV)/bin
 SHELL := bash
 .SHELLFLAGS := -e -o pipefail -c
 
-.PHONY: verify test thorough lint docs pictures rocq release-check clean
+.PHONY: verify test thorough lint docs pictures rocq rocq-register rocq-intervals release-check clean
 
 verify: $(VENV)/.installed
 	@mkdir -p out
@@ -47,11 +47,19 @@ pictures: $(VENV)/.installed
 	  $(BIN)/chapsym show docs/scenes/$${one%%:*}.toml -o docs/pictures/$${one%%:*} --figures $${one##*:} --no-page; done
 	$(BIN)/python docs/pictures/page.py
 
-# Rocq judges the certificates of the register, too: with Python and Rocq alone.
+# Rocq judges the certificates of the register, too, and one of intervals: with Python and Rocq alone.
 rocq:
 	@command -v coqc > /dev/null || { echo "Rocq is not installed, so nothing was judged; on Debian: apt install coq libcoq-mathcomp-algebra"; exit 1; }
 	cd chapsym/prove && $(PYTHON) -m rocq ../../proofs/certificates/register ../../out/rocq
-	@$(MAKE) -s -C out/rocq -j $$(getconf _NPROCESSORS_ONLN)
+	$(PYTHON) -m chapsym.certificates.rocq proofs/certificates/measure-large.json out/rocq-intervals
+	@$(MAKE) -s -j $$(getconf _NPROCESSORS_ONLN) -O rocq-register rocq-intervals
+
+rocq-register:
+	@$(MAKE) -s -C out/rocq
+
+rocq-intervals:
+	@if [ -d "$$(coqc -where)/user-contrib/Interval" ]; then $(MAKE) -s -C out/rocq-intervals; \
+	else echo "coq-interval is not installed, so no interval certificate was judged; on Debian: apt install libcoq-interval"; fi
 
 # A clean tree, one version and date, fresh errata, packages that install; stops at the first thing that is missing.
 release-check: $(VENV)/.installed
