@@ -51,7 +51,7 @@ NAMES += "counts zeros counterexamples rests sentences digest"
 _CLAIM = re.compile(r"[\w.-]{1,40}", re.ASCII)
 _CERTIFICATE = re.compile(r"[\w.-]{1,40}|[0-9a-f]{64}", re.ASCII)
 ROLES = ("printed", "corrected", "under", "lemma", "second route")
-SENTENCES = (*ROLES, "hypothesis", "said", "counterexample")
+SENTENCES = (*ROLES, "hypothesis", "said")
 #: Rows and columns of a matrix; letters of the whole, five times those of the largest of the register.
 MOST_ROWS, MOST_OF_ALL = 4, 1_000_000
 Value = Fraction | Matrix

@@ -46,7 +46,6 @@ def certificate(id: str, printed: str, proof: Proof) -> dict[str, Any]:
     decidable = {h.text for h in proof.assumed}
     made.sentences += [{"role": "hypothesis", "text": text} for text in proof.hypotheses if text not in decidable]
     made.sentences += [{"role": "said", "text": text} for text in proof.said]
-    made.sentences += [{"role": "counterexample", "text": text} for text in proof.refuted]
     made.rests += [
         {"role": "lemma", "text": f"{c['file']}: {c['statement']}", "certificate": c["digest"]}
         for c in proof.certificates

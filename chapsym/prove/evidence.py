@@ -18,7 +18,7 @@ from chapsym.derive.words import unfolded
 from . import points, witness
 from .statements import Comparison, Count, Equation, Point, Statement
 
-#: How the relations of a count are said of a number.
+#: How the relations of a count or of a comparison are said of a number.
 SAID = {"==": "", "!=": "not ", "<": "less than ", "<=": "at most ", ">": "more than ", ">=": "at least "}
 
 
@@ -59,7 +59,6 @@ class Proof:
     said: list[str] = field(default_factory=list)
     decided: list[tuple[str, Statement, bool]] = field(default_factory=list)
     points: list[Point] = field(default_factory=list)
-    refuted: list[str] = field(default_factory=list)
     _printed: list[tuple[Statement, bool]] = field(default_factory=list)
     _corrected: list[tuple[Statement, bool]] = field(default_factory=list)
 
@@ -100,14 +99,15 @@ class Proof:
             self.problems.append(f"the second route fails: {name}")
 
     def printed(self, *statements: Statement) -> None:
-        """What the paper states; each is decided as printed.  A count that is false is its own counterexample.
+        """What the paper states; each is decided as printed.
 
-        But for one that also says where something does not vanish.
+        A count or a comparison that is false is its own counterexample, but for a count that also says where something
+        does not vanish.
         """
         decided = [(s, self._decide(s, "printed")) for s in statements]
         self._printed += decided
         for statement, holds in decided:
-            if isinstance(statement, Count) and not (holds or statement.nonzero):
+            if not holds and isinstance(statement, Comparison | Count) and not getattr(statement, "nonzero", ()):
                 self._contradict(statement)
 
     def corrected(self, text: str, *statements: Statement) -> None:
@@ -137,34 +137,12 @@ class Proof:
             self.problems.append("the correction fails at the counterexample")
         self.counterexamples.append({"point": point.values, "printed": wrong, "corrected": right})
 
-    def refute(
-        self, values: Mapping[str, str], statement: str, found: Any, claimed: Any, holds: bool | Comparison
-    ) -> None:
-        """A counterexample to a printed statement that is no equation: what is found there, and what is claimed.
-
-        `holds` says whether the claim is true of what was found; it must not be.  A comparison that was printed says
-        it at its point, as data for the checker; otherwise the counterexample is a sentence.
-        """
-        if isinstance(holds, Comparison):
-            if (holds, False) not in self._printed:
-                self.problems.append(f"the counterexample contradicts nothing that was printed: {statement}")
-        else:
-            if holds:
-                self.problems.append(f"the counterexample does not contradict: {statement}")
-            at = ", ".join(f"{name} = {value}" for name, value in values.items())
-            self.refuted.append(f"{statement}: found {found}, claimed {claimed}, at {at}")
-        sides = {"statement": statement, "left": [str(found)], "right": [str(claimed)]}
-        self.counterexamples.append({"point": dict(values), "printed": [sides], "corrected": []})
-
-    def _contradict(self, count: Count) -> None:
-        self._look_at_hypotheses(count.point)
-        numbers = count.numbers()
-        sides = {
-            "statement": count.text,
-            "left": [str(relation.lhs.xreplace(numbers)) for relation in count.relations],
-            "right": [f"{SAID[relation.rel_op]}{relation.rhs}" for relation in count.relations],
-        }
-        values = {str(symbol): str(value) for symbol, value in count.point.items()}
+    def _contradict(self, of: Count | Comparison) -> None:
+        self._look_at_hypotheses(of.point)
+        left, right = of.sides()
+        right = [f"{SAID[relation.rel_op]}{x}" for relation, x in zip(of.relations, right, strict=True)]
+        values = {str(x): str(v.tolist() if isinstance(v, sp.MatrixBase) else v) for x, v in of.point.items()}
+        sides = {"statement": of.text, "left": left, "right": right}
         self.counterexamples.append({"point": values, "printed": [sides], "corrected": []})
 
     def _look_at_hypotheses(self, exact: Mapping[sp.Symbol, Any]) -> None:

@@ -162,14 +162,25 @@ class Comparison:
         """Whether all relations hold at its point."""
         return self.true_at(self.point)
 
+    def sides(self) -> tuple[list[str], list[str]]:
+        """What the relations compare, at its point."""
+        values = [_values(relation, self.point) for relation in self.relations]
+        return [_exact(left) for left, _ in values], [_exact(right) for _, right in values]
+
     def true_at(self, exact: Mapping[sp.Symbol, Any]) -> bool:
         """Whether all relations hold at a point; raises if a side is not rational there."""
         return all(_compared(relation, exact) for relation in self.relations)
 
 
-def _compared(relation: Relational, exact: Mapping[sp.Symbol, Any]) -> bool:
+def _values(relation: Relational, exact: Mapping[sp.Symbol, Any]) -> tuple[Any, Any]:
+    """Both sides at a point."""
     used = {symbol: exact[symbol] for symbol in relation.free_symbols}
-    left, right = _same_shape(*(_evaluated(side, used) for side in (relation.lhs, relation.rhs)))
+    left, right = (_evaluated(side, used) for side in (relation.lhs, relation.rhs))
+    return left, right
+
+
+def _compared(relation: Relational, exact: Mapping[sp.Symbol, Any]) -> bool:
+    left, right = _same_shape(*_values(relation, exact))
     texts = _exact(left), _exact(right)  # of rational numbers
     if relation.rel_op in ("==", "!="):
         return (texts[0] == texts[1]) == (relation.rel_op == "==")
@@ -209,6 +220,10 @@ class Count:
         if not all(map(self.elimination().vanishes_at_none, self._forms(self.nonzero))):
             return False
         return Comparison(self.text, self.relations).true_at(self.numbers())
+
+    def sides(self) -> tuple[list[str], list[str]]:
+        """What the relations compare."""
+        return Comparison(self.text, self.relations, self.numbers()).sides()
 
     def numbers(self) -> dict[sp.Symbol, sp.Integer]:
         """The numbers of solutions."""

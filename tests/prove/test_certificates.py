@@ -178,13 +178,14 @@ def test_a_comparison_is_data_and_a_false_one_that_is_printed_is_refuted():
     assert data["sentences"] == [{"role": "lemma", "text": "false: other order (rational numbers at a point)"}]
 
 
-def test_a_printed_comparison_is_its_own_counterexample():
-    wrong = Comparison("order", [y <= x], {x: 1, y: 2})
-    made = proof(wrong)
-    made.refute({"x": "1"}, "y", 2, "at most 1", wrong)
-    assert (made.refuted, made.problems, made.counterexamples[0]["printed"][0]["right"]) == ([], [], ["at most 1"])
-    made.refute({"x": "1"}, "y", 2, "at most 1", Comparison("another", [y <= x], {x: 1, y: 2}))
-    assert made.problems == ["the counterexample contradicts nothing that was printed: y"]
+def test_a_printed_comparison_that_is_false_is_its_own_counterexample():
+    at = {x: sp.Integer(1), y: sp.Integer(2)}
+    made = Proof()
+    made.assume("x is not 1", sp.Ne(x, 1))
+    made.printed(Comparison("right", [x < y], at), Comparison("order", [y <= x + z - z, sp.Ne(x - 1, 0)], at))
+    sides = {"statement": "order", "left": ["2", "0"], "right": ["at most 1", "not 0"]}
+    assert made.counterexamples == [{"point": {"x": "1", "y": "2"}, "printed": [sides], "corrected": []}]
+    assert made.problems == ["the counterexample violates the hypothesis x is not 1"]
 
 
 def test_a_counterexample_off_the_relations_is_not_accepted():
