@@ -25,7 +25,8 @@ WRONG = [("printed", FALSE), CONTROL]
 MENDED = [*WRONG, ("corrected", "c", TRUE)]
 CERTIFICATE, ANSWER = ("certificate", "c.json", "x > 0", "0", True), ("settle", "No.")
 SETTLED = [("lemma", TRUE), CONTROL, CERTIFICATE, ANSWER]
-#: A statement that is no equation, and what refutes it.
+#: Statements that are no equations: one with a point, where it fails, and one without.
+COMPARED = [("printed", Comparison("order", [x > y], {x: 1, y: 2})), ("corrected", "c", TRUE), CONTROL]
 COUNTED = [("printed", Fact("at most 4", False)), ("corrected", "at most 8", Fact("at most 8", True)), CONTROL]
 FREE = Equation("printed", [x**2], [1 - y**2], Quotient((x, y)))
 APART = ("counterexample", rational_point({x: 1, y: 1}))
@@ -76,12 +77,12 @@ RULES = {
     "a second route": ([PROVED, CONTROL, ("route", "another", TRUE)], Verdict.HOLDS),
     "a second route that differs": ([PROVED, CONTROL, ("route", "another", FALSE)], "the second route fails: another"),
     "a second route of nothing": ([PROVED, CONTROL, ("route", "none")], ""),
-    "a statement that is no equation": (
-        [*COUNTED, ("refute", {"J": "1"}, "count", 6, "at most 4", False)],
-        Verdict.CORRECTED,
+    "a comparison that fails": (COMPARED, Verdict.CORRECTED),
+    "a comparison that fails off what was assumed": (
+        [("assume", "x is large", x > 1), *COMPARED],
+        "the counterexample violates the hypothesis x is large",
     ),
-    "it is not refuted": (COUNTED, ""),
-    "what refutes it does not": ([*COUNTED, ("refute", {"J": "1"}, "count", 4, "at most 4", True)], ""),
+    "what is false and has no point": (COUNTED, ""),
     "a definition": ([("define", "it names"), CONTROL], Verdict.DEFINITION),
     "a definition without a control": ([("define", "it names")], ""),
 }
