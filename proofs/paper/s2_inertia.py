@@ -62,7 +62,7 @@ def inertia_operator(p: Proof) -> None:
     p.lemma(
         Comparison("𝒜ω = 0 for ω = e2∧e3 at J = (1,0,0), γ = e1", [sp.Eq(applied(omega), 0), sp.Ne(omega, 0)], place)
     )
-    text = "𝒜 has no kernel, whatever the constant diagonal J: 𝒜ω ≠ 0 for this ω, at J = (1,0,0)"
+    text = "𝒜 has no kernel, whatever the constant diagonal J: 𝒜ω ≠ 0 for this ω"
     p.printed(Comparison(text, [sp.Ne(applied(omega), 0)], place))
     p.under(
         POSITIVE,
