@@ -148,6 +148,17 @@ def gibbs_residual(a):
     return list(rolled(J, D, a["gamma"]) * u + hat(u) * MP.diag(list(I)) * u - (1 + (u.T * u)[0]) * k)
 
 
+def symmetric(a):
+    """The invariants of ½(∂G/∂u + its transpose) by powers of it; ∂(u × Iu) by the products of u and Iu."""
+    u, k, (D,) = column(a["gibbs"]), column(a["half_momentum"]), a["D"]
+    I = a["inertia"]
+    whole = MP.diag(list(I))
+    A = rolled([sum(I) / 2 - x for x in I], D, a["gamma"]) + hat(u) * whole - hat(whole * u) - 2 * k * u.T
+    S = (A + A.T) / 2
+    trace, square = (sum(M[i, i] for i in range(3)) for M in (S, S * S))
+    return [trace, (trace**2 - square) / 2, MP.det(S)]
+
+
 def second(a):
     d, C = column(a["correction"]), matrix([a["cofactors"][i : i + 3] for i in (0, 3, 6)])
     return list(C.T * quadratic(a, d))
@@ -234,6 +245,7 @@ INDEPENDENT = {
     "gibbs_newton_heavy": newton,
     "gibbs_second": second,
     "gibbs_mixed": mixed,
+    "gibbs_symmetric": symmetric,
     "gibbs_residual": gibbs_residual,
     "turn": lambda a: list((turn(a["quaternion"]).T - MP.eye(3)) * column(a["vector"])),
     "vertical_square": lambda a: [dot([x * x for x in a["gamma"]], [math.prod(a["Lambda"]) / m for m in a["Lambda"]])],

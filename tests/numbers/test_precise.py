@@ -33,11 +33,16 @@ def flat(written):
 
 
 def right(written, exact, digits):
-    """Whether numbers are those of the oracle to so many digits; those with a radius within it, too."""
-    for text, value in zip(flat(written), exact, strict=True):
+    """Whether numbers are those of the oracle to so many digits.
+
+    Those with a radius are within it, too, and have their digits beside the length of their vector, as is said of them.
+    """
+    lengths = [max(map(abs, exact[at])) for at in (slice(0, 4), slice(4, 7), slice(7, 10))]
+    for i, (text, value) in enumerate(zip(flat(written), exact, strict=True)):
         mpf = value.context.mpf
         middle, _, radius = text.strip("[]").partition(" +/- ")
-        assert abs(mpf(middle) - value) <= min(abs(value) * mpf(10) ** (1 - digits), mpf(radius or "inf"))
+        size = lengths[(i >= 4) + (i >= 7)] if radius else abs(value)
+        assert abs(mpf(middle) - value) <= min(size * mpf(10) ** (1 - digits), mpf(radius or "inf"))
 
 
 @pytest.mark.parametrize("digits", [5, 30, 50, 200])
