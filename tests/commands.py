@@ -3,9 +3,9 @@
 import contextlib
 import io
 import json
-import re
 import logging
 import os
+import re
 import subprocess
 import sys
 from unittest import mock
