@@ -367,7 +367,9 @@ def test_counts_and_single_numbers(records):
     before, first, second = 5, 0, 1  # 𝕃 = (y-x)²/2, q = 5, 0, 1, 3, 4, δq₀ = 1: the action has no q_{-1}
     agree(records, "3.4-principle", (-(second - first), -(second - first) + (first - before)))
     # n = 2, s = 1: N×N has the dimension 2(n-s), the distribution 2n-s.
-    agree(records, "remark-1", (2 * (2 - 1), 2 * 2 - 1))
+    agree(records, "remark-1", (2 * (2 - 1), 2 * 2 - 1), example=1)
+    # N×N is {x2 = y2 = 0}, and (q, q) has 1 and 1 there for q = (0, 1).
+    agree(records, "remark-1", (vector(1, 1), vector(0, 0)))
     # diag(1,-1,-1) has 4q₀² = 1 + tr = 0, and is the rotation of (0, e1).
     assert (rotation(F(0), *E1) == diagonal(1, -1, -1)).all()
     assert records["5.1-angle"]["evidence"]["counterexamples"][0]["printed"][0]["left"] == ["0"]
@@ -391,13 +393,14 @@ def test_5_9_circle_a_momentum_that_no_rotation_has(records):
     assert max(abs(form).sum(axis=1)) < 40
 
 
+E1_E1 = "[[1, 0, 0], [0, 0, 0], [0, 0, 0]]"
 #: Where a printed statement is no equation, the point must be the one that is recomputed above.
 POINTS = {
-    "2.13": {"J": "(1, 0, 0)", "D": "1", "γ": "e1", "ω": "e2∧e3"},
+    "2.13": {"D": "1", "J": E1_E1, "Gamma": E1_E1, "omega": "[[0, 0, 0], [0, 0, -1], [0, 1, 0]]"},
     "3.4-principle": {"𝕃": "(y - x)²/2", "q_{-1}, ..., q_3": "5, 0, 1, 3, 4", "δq": "1, 0, 0, 0"},
-    "remark-1": {"Q": "R²", "A": "dx2", "N": "{x2 = 0}", "n, s": "2, 1"},
+    "remark-1": {"x1": "0", "x2": "1", "y1": "0", "y2": "1"},
     "remark-2": {"b": "0"},
-    "5.1-angle": {"Ω": "diag(1, -1, -1)"},
+    "5.1-angle": {"Omega11": "1", "Omega22": "-1", "Omega33": "-1"},
     "5.9-circle": {"J1": "1", "J2": "2", "J3": "4", "D": "7", "h": "40", "g1": "2/7", "g2": "3/7", "g3": "6/7"},
 }
 
