@@ -31,8 +31,8 @@ def one_step():
     """The certificate without all but the first step of its first orbit."""
     data = json.loads(LARGE.read_text(encoding="utf-8"))
     orbit = data["orbits"][0]
-    [step] = orbit["steps"] = orbit["steps"][:1]
-    return data | {"steps": 1, "orbits": [orbit | {"displacement": "-0.10046052746928570908"}]}, step
+    one = orbit | {"steps": orbit["steps"][:1], "displacement": "-0.10046052746928570908"}
+    return data | {"steps": 1, "orbits": [one]}
 
 
 def written(folder, data):
@@ -62,34 +62,49 @@ def test_the_theorem_has_every_number_of_the_certificate(tmp_path):
     assert re.findall(r"Rabs \(sine .*? - (.*?)\) < 5e-21\)", theorem) == ["415e-20", "(-365e-20)"]
 
 
+def test_the_axioms_are_counted_by_their_libraries(tmp_path):
+    written(tmp_path, one_step())
+    said = "Axioms:\nUint63.b_spec\n  : forall x : A.b,\n    x\nPrimInt63.tail0 : x\nUint63.a : x\nZ.of : Z\n"
+    (tmp_path / "said").write_text(f"#!/bin/sh\ncat << 'end'\n{said}end\n", encoding="utf-8")
+    found = rocq(tmp_path, "COQC=sh said")
+    assert re.search(r"^axioms      of one_step: 4: 1 PrimInt63 2 Uint63 1 Z$", found.stdout, re.MULTILINE)
+
+
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     """In which Rocq judges the library once."""
     return tmp_path_factory.mktemp("intervals")
 
 
-def rocq(folder):
+def rocq(folder, *options):
     """What Rocq says of the files."""
-    return subprocess.run(["make", "-C", folder], capture_output=True, text=True)
+    return subprocess.run(["make", "-C", folder, *options], capture_output=True, text=True)
+
+
+def lines(text, start):
+    """The numbers of the lines that begin so."""
+    return [i for i, line in enumerate(text.splitlines(), 1) if line.strip().startswith(start)]
 
 
 @needs_interval
-def test_rocq_accepts_a_step_and_counts_its_axioms(folder):
-    written(folder, one_step()[0])
+def test_rocq_accepts_the_steps_and_rejects_a_digit_that_is_wrong(folder):
+    data = one_step()
+    step = data["orbits"][0]["steps"][0]
+    step["gamma"][2] = step["gamma"][2][:-1] + "0"  # it is a 1
+    text = written(folder, data)
     found = rocq(folder)
-    assert found.returncode == 0, found.stderr
-    assert re.search(r"^axioms      of one_step: [1-9]\d*: ", found.stdout, re.MULTILINE)
+    assert found.returncode != 0
+    [_, gamma] = lines(text, "+ by_box ")  # that u is right, was accepted
+    assert f'"./one_step.v", line {gamma},' in found.stderr
 
 
 @needs_interval
-def test_rocq_rejects_a_digit_and_a_bound_that_are_wrong(folder):
-    data, step = one_step()
-    step["u"][0] = step["u"][0][:-1] + "1"  # it is a 0
-    written(folder, data)
-    found = rocq(folder)
-    assert "by_box" in found.stderr or "Numerical evaluation failed" in found.stderr
-    text = written(folder, one_step()[0])
+def test_rocq_rejects_a_bound_that_is_too_small(folder):
+    text = written(folder, one_step())
     [radius] = re.findall(r"near (\S+) \(V [^()]*\) u /", text)
     assert radius == "19e-29"
-    (folder / "one_step.v").write_text(text.replace("19e-29", "9e-29"), encoding="utf-8")
-    assert rocq(folder).returncode != 0
+    (folder / "one_step.v").write_text(text.replace(radius, "9e-29"), encoding="utf-8")
+    found = rocq(folder)
+    assert found.returncode != 0
+    start, step = lines(text, "Qed.")[1:3]
+    assert start < int(re.findall(r'"./one_step.v", line (\d+)', found.stderr)[0]) < step

@@ -34,6 +34,12 @@ Definition derivative J D h g w d :=
       (plus (cross d (each (inertia J) w)) (cross w (each (inertia J) d))))
     (times (dot w d * h) g).
 
+(* A row times the derivative. *)
+Definition entries J D h g v row :=
+  minus (plus (minus (each (contact J D) row) (times (D * dot g row) g))
+      (plus (cross (each (inertia J) v) row) (each (inertia J) (cross row v))))
+    (times (dot g row * h) v).
+
 Definition near r c v := Rabs (x1 v - x1 c) <= r /\ Rabs (x2 v - x2 c) <= r /\ Rabs (x3 v - x3 c) <= r.
 
 Definition within lo hi v := x1 lo <= x1 v <= x1 hi /\ x2 lo <= x2 v <= x2 hi /\ x3 lo <= x3 v <= x3 hi.
@@ -75,6 +81,13 @@ Proof.
     * (t * (1 + (u1 * u1 + u2 * u2 + u3 * u3)) - 1)) by ring end.
   rewrite E. ring.
 Qed.
+
+Lemma quadratic J D h g c d :
+  minus (force J D h g (plus c d)) (force J D h g c) = derivative J D h g (plus c (times (1 / 2) d)) d.
+Proof. destruct J, g, c, d. apply extensional; unfold force, derivative, dot; simpl; field. Qed.
+
+Lemma by_rows J D h g v row d : dot row (derivative J D h g v d) = dot (entries J D h g v row) d.
+Proof. destruct J, g, v, row, d. unfold derivative, entries, dot; simpl; ring. Qed.
 
 Section Root.
 Variables (J : vector) (D h a b k rho m : R) (g u : vector).
@@ -127,9 +140,8 @@ Let w := plus c (times (1 / 2) d).
 
 Lemma difference v : dot v (derivative J D h g w d) = - dot v (force J D h g c).
 Proof.
-  transitivity (dot v (force J D h g u) - dot v (force J D h g c)).
-  - unfold derivative, force, w, d, contact, dot, each, minus, plus, times, cross; simpl; field.
-  - rewrite is_root. unfold dot; simpl; ring.
+  unfold w. rewrite <- quadratic. replace (plus c d) with u; [rewrite is_root; unfold dot; simpl; ring | ].
+  apply extensional; unfold d; simpl; ring.
 Qed.
 
 Lemma small_w : dot w w <= rho * rho.
@@ -203,11 +215,7 @@ Proof.
   unfold Rsqr in *. repeat split; apply abs_of_square; trivial; lra.
 Qed.
 
-(* Newton's formula with a row of a matrix near the inverse of the derivative: this is row * derivative. *)
-Definition entries J D h g v row :=
-  minus (plus (minus (each (contact J D) row) (times (D * dot g row) g))
-      (plus (cross (each (inertia J) v) row) (each (inertia J) (cross row v))))
-    (times (dot g row * h) v).
+(* Newton's formula with a row of a matrix near the inverse of the derivative. *)
 Definition size v := Rabs (x1 v) + Rabs (x2 v) + Rabs (x3 v).
 
 Lemma newton kappa e row unit :
@@ -222,7 +230,7 @@ Proof.
     repeat split; apply Rabs_le; lra. }
   specialize (K w W). set (N := minus (entries J D h g w row) unit) in K. simpl in K.
   assert (E : dot unit d = - dot row (force J D h g c) - dot N d).
-  { rewrite <- difference. unfold N, entries, derivative, contact, dot, each, minus, plus, times, cross; simpl; ring. }
+  { rewrite <- difference, by_rows. unfold N, dot, minus; simpl; ring. }
   rewrite E. clear E. destruct residual as [F1 [F2 F3]]. change (x1 zero) with 0 in F1. change (x2 zero) with 0 in F2.
   change (x3 zero) with 0 in F3. rewrite Rminus_0_r in F1, F2, F3.
   assert (P : forall x y p q, Rabs x <= p -> Rabs y <= q -> Rabs (x * y) <= p * q).

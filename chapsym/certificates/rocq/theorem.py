@@ -88,7 +88,7 @@ Proof. computed {bits}. Qed.
   {both}.
 Proof.
   intros J D h l I. apply is_plain in I. destruct I as [I L].
-  refine ({conjunction}_{")" * (4 + len(says))}.
+  refine ({conjunction}_{")" * (5 + len(says))}.
   - computed {bits}.
   - computed {bits}.
   - apply {"Rgt_not_eq" if walk.height > 0 else "Rlt_not_eq"}. computed {bits}.
@@ -200,12 +200,13 @@ MAKEFILE = """# make: Rocq judges the certificates, and the axioms of each theor
 
 COQC ?= coqc
 NAMES := {names}
+LISTED := sed '/^ /d; /^Axioms:/d'
 BEGAN := $(shell date +%s)
 .DELETE_ON_ERROR:
 .PHONY: judged
 judged: $(NAMES:%=%.out)
-	@$(foreach name,$(NAMES),echo "axioms      of $(name): $$(grep -c '^[A-Za-z].*\\.' $(name).out):"\
-$$(grep '^[A-Za-z].*\\.' $(name).out | sed 's/[ :].*//; s/[.][^.]*$$//' | sort | uniq -c);)
+	@$(foreach name,$(NAMES),echo "axioms      of $(name): $$($(LISTED) $(name).out | wc -l):"\
+$$($(LISTED) $(name).out | sed 's/[ :].*//; s/[.][^.]*$$//' | sort | uniq -c);)
 	@echo "seconds     $$(($$(date +%s) - $(BEGAN)))"
 
 $(NAMES:%=%.out): Steps.vo
