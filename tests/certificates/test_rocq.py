@@ -4,6 +4,7 @@ import json
 import re
 import shutil
 import subprocess
+import sys
 from fractions import Fraction
 from pathlib import Path
 
@@ -13,6 +14,7 @@ from chapsym import proofs
 from chapsym.certificates.rocq import write
 from chapsym.certificates.rocq.theorem import real
 
+ROOT = Path(__file__).resolve().parents[2]
 LARGE = Path(proofs.__path__[0]) / "certificates" / "measure-large.json"
 
 
@@ -37,9 +39,28 @@ def one_step():
 
 def written(folder, data):
     """The text for a certificate."""
-    (folder / "one-step.json").write_text(json.dumps(data), encoding="utf-8")
-    write([folder / "one-step.json"], folder)
+    write({"one_step": data}, folder)
     return (folder / "one_step.v").read_text(encoding="utf-8")
+
+
+def command(*arguments):
+    """What the command says."""
+    name = "chapsym.certificates.rocq"
+    return subprocess.run([sys.executable, "-S", "-m", name, *arguments], cwd=ROOT, capture_output=True, text=True)
+
+
+@pytest.mark.parametrize(
+    ("kept", "sentence"),
+    [
+        ("periodic-orbit-simplest", "only certificates of kind no-invariant-measure are written"),
+        ("none", "cannot be read"),
+    ],
+)
+def test_what_is_no_such_certificate_is_said_in_a_sentence(tmp_path, kept, sentence):
+    said = command(LARGE.with_name(f"{kept}.json"), tmp_path / "made").stderr
+    assert sentence in said
+    assert said.count("\n") == 1
+    assert not (tmp_path / "made").exists()
 
 
 def test_a_real_number_is_written_as_it_is():
@@ -49,7 +70,7 @@ def test_a_real_number_is_written_as_it_is():
 
 
 def test_the_theorem_has_every_number_of_the_certificate(tmp_path):
-    write([LARGE], tmp_path)
+    assert command(LARGE, tmp_path).returncode == 0
     text = (tmp_path / "measure_large.v").read_text(encoding="utf-8")
     theorem = text.partition("Theorem measure_large")[2].partition("Proof.")[0]
     data = json.loads(LARGE.read_text(encoding="utf-8"))

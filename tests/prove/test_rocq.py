@@ -34,6 +34,8 @@ def test_every_statement_that_says_something_is_a_theorem(tmp_path):
     statements = [one for claim in data for one in claim["statements"] if "refuted" not in one]
     assert set(written.left_out) == {SAME, COUNT}
     assert written.left_out[COUNT] == sum(len(claim["counts"]) for claim in data)
+    page = (ROOT / "docs" / "how-to" / "rocq.md").read_text(encoding="utf-8")
+    assert f"{written.theorems.total()} theorems of {written.claims} claims" in page
     assert written.left_out[SAME] >= sum(one["left"] == one["right"] for one in statements)
     assert written.theorems["statements"] == len(statements) + written.left_out[COUNT] - written.left_out.total()
     assert written.theorems["counterexamples"] == sum(len(claim["counterexamples"]) for claim in data)
@@ -117,11 +119,13 @@ def folder(tmp_path_factory):
 
 
 @needs_rocq
-def test_rocq_accepts_a_quotient_words_and_matrices_without_an_axiom(folder):
-    write([certificate("5.14"), certificate("4.9-F")], folder)
+def test_rocq_accepts_a_quotient_words_traces_names_and_matrices_without_an_axiom(folder):
+    claims = ("5.14", "4.9-F", "prop-2", "resonance")
+    written = write([*map(certificate, claims)], folder)
     found = rocq(folder)
     assert found.returncode == 0, found.stdout + found.stderr
-    assert "claims      2\ntheorems    6: 2 statements, 2 points, 2 counterexamples\n" in found.stdout
+    assert f"{written}\n" in found.stdout
+    assert (written.claims, min(written.theorems.values()), len(written.theorems)) == (4, 2, 3)
     assert re.search(r"^axioms      none$", found.stdout, re.MULTILINE)
 
 
@@ -169,19 +173,23 @@ def a_transpose(data):
 
 
 @needs_rocq
-@pytest.mark.parametrize(("id", "change"), [("resonance", a_definition), ("prop-2", a_trace), ("prop-2", a_transpose)])
-def test_rocq_judges_names_of_parts_and_traces(folder, id, change):
+@pytest.mark.parametrize(
+    ("id", "change", "theorem"),
+    [
+        ("resonance", a_definition, "claim_resonance_statement_2"),
+        ("prop-2", a_trace, "claim_prop__2_statement_10"),
+        ("prop-2", a_transpose, "claim_prop__2_statement_10"),
+    ],
+)
+def test_rocq_rejects_a_name_and_a_trace_that_a_change_makes_false(folder, id, change, theorem):
     data = certificate(id)
-    at = {"resonance": 2, "prop-2": 10}[id]
-    data["statements"][:at] = [data["statements"][0] | {"refuted": 0}] * at  # only this one and those after it
-    write([data | {"counterexamples": []}], folder)
-    found = rocq(folder)
-    assert found.returncode == 0, found.stderr
     change(data)
-    write([data | {"counterexamples": []}], folder)
+    write([data], folder)
     found = rocq(folder)
     assert found.returncode != 0
-    assert f"claim_{identifier(id)}" in found.stderr
+    [line] = re.findall(rf'"./(claim_{identifier(id)}\w*.v)", line (\d+)', found.stderr)
+    before = (folder / line[0]).read_text(encoding="utf-8").splitlines()[: int(line[1])]
+    assert re.findall(r"Theorem (\w+)", "\n".join(before))[-1] == theorem
 
 
 @needs_rocq

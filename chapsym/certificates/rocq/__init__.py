@@ -8,4 +8,7 @@ say that the steps exist, nor what follows from the displacements.  Nothing here
 
 from .theorem import write
 
-__all__ = ["write"]
+#: What is written.
+KIND = "no-invariant-measure"
+
+__all__ = ["KIND", "write"]

@@ -1,7 +1,6 @@
 """The texts that Rocq judges: the theorem of a certificate, and a lemma for each step."""
 
-import json
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from itertools import pairwise
 from pathlib import Path
@@ -182,18 +181,16 @@ Qed.
 """
 
 
-def write(certificates: Sequence[Path], folder: Path) -> None:
-    """Writes the theorems of certificates, with what Rocq needs to judge them; raises OSError if it cannot be."""
+def write(certificates: Mapping[str, dict[str, Any]], folder: Path) -> None:
+    """Writes the theorems of certificates, by name, with what Rocq needs to judge them; raises OSError."""
     folder.mkdir(parents=True, exist_ok=True)
     library = folder / "Steps.v"
     text = (HERE / library.name).read_bytes()
     if not library.exists() or library.read_bytes() != text:  # otherwise Rocq need not judge it again
         library.write_bytes(text)
-    names = [path.stem.replace("-", "_") for path in certificates]
-    for name, path in zip(names, certificates, strict=True):
-        theorem = str(Theorem(name, json.loads(path.read_text(encoding="utf-8"))))
-        (folder / f"{name}.v").write_text(theorem, encoding="utf-8")
-    (folder / "Makefile").write_text(MAKEFILE.format(names=" ".join(names)), encoding="utf-8")
+    for name, data in certificates.items():
+        (folder / f"{name}.v").write_text(str(Theorem(name, data)), encoding="utf-8")
+    (folder / "Makefile").write_text(MAKEFILE.format(names=" ".join(certificates)), encoding="utf-8")
 
 
 MAKEFILE = """# make: Rocq judges the certificates, and the axioms of each theorem are counted; X.out lists those of X.
