@@ -6,9 +6,9 @@ vectors and γ of the file, correctly rounded, turns in one direction, and has t
 say that the steps exist, nor what follows from the displacements.  Nothing here has to be trusted: Rocq judges it.
 """
 
-from .theorem import write
+from .theorem import Theorem, write
 
 #: What is written.
 KIND = "no-invariant-measure"
 
-__all__ = ["KIND", "write"]
+__all__ = ["KIND", "Theorem", "write"]

@@ -5,23 +5,23 @@ from pathlib import Path
 
 from chapsym.checker import Rejected, Unreadable, check, read
 
-from . import KIND, write
+from . import KIND, Theorem, write
 
 
 def main(*paths: str) -> str | None:
     """Writes the theorems of the certificates to the last folder; returns a sentence if one of them has none."""
     *certificates, folder = map(Path, paths)
-    accepted = {}
+    texts = {}
     for path in certificates:
         try:
             data = read(path)
-            kind = check(data).kind
+            if (kind := check(data).kind) != KIND:
+                raise Rejected(f"only certificates of kind {KIND} are written for Rocq, and this is of kind {kind}")
+            name = path.stem.replace("-", "_")
+            texts[name] = str(Theorem(name, data))
         except (Rejected, Unreadable) as error:
             return f"{path.name}: {error}"
-        if kind != KIND:
-            return f"{path.name}: only certificates of kind {KIND} are written for Rocq, and this is of kind {kind}"
-        accepted[path.stem.replace("-", "_")] = data
-    write(accepted, folder)
+    write(texts, folder)
     return None
 
 

@@ -6,6 +6,8 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
+from chapsym.checker import Rejected
+
 from .boxes import KAPPA, Box, Step, Walk
 
 HERE = Path(__file__).resolve().parent
@@ -36,13 +38,13 @@ def ends(box: Box) -> str:
 
 
 class Theorem:
-    """The text of a certificate, whose numbers the checker has accepted."""
+    """The text, str(Theorem(…)), of a certificate that the checker has accepted; raises Rejected if there is none."""
 
     def __init__(self, name: str, data: dict[str, Any]):
         self.name, self.data, self.walk = name, data, Walk(data)
         self.bits = f"{self.walk.digits * 10 // 3 + 40}%positive"
         self.axes = [f"x{i}" for i in data["axes"]]
-        self.half = real(Fraction(1, 2 * 10 ** data["digits"]))
+        self.half = Fraction(1, 2 * 10 ** data["digits"])
         self.level = self._between(self.walk.level, "l")
         self.tame = " ".join(map(real, self.walk.tame))
 
@@ -107,7 +109,10 @@ Print Assumptions {self.name}.
         boxes = [start, *(step.after for step in steps)]
         lemmas = [self._start(name, places, start)]
         lemmas += [self._step(f"step_{name}{k}", boxes[k - 1], step) for k, step in enumerate(steps, 1)]
-        facts = [*self._rounded(data["steps"]), *self._turns(list(map(self.walk.vector, boxes)), data["displacement"])]
+        facts = [
+            *self._rounded(data["steps"], steps),
+            *self._turns(list(map(self.walk.vector, boxes)), data["displacement"]),
+        ]
         says = " /\\\n    ".join(text for text, _ in facts)
         proofs = "".join(f"    + {proof}.\n" for _, proof in facts)
         chain = "".join(
@@ -124,13 +129,16 @@ Print Assumptions {self.name}.
             f"    repeat match goal with |- _ /\\ _ => split end.\n{proofs}",
         )
 
-    def _rounded(self, steps: Sequence[dict[str, Any]]) -> list[tuple[str, str]]:
-        """The numbers of the file are right, and how that is proved."""
-        return [
-            (f"rounded {self.half} {vector([Fraction(x) for x in given[key]])} {of}", f"by_box {self.bits} {of}")
-            for k, given in enumerate(steps, 1)
-            for key, of in (("u", f"(u {k}%nat)"), ("gamma", f"(g {k}%nat)"))
-        ]
+    def _rounded(self, steps: Sequence[dict[str, Any]], found: Sequence[Step]) -> list[tuple[str, str]]:
+        """The numbers of the file are right, and how that is proved; raises Rejected if the boxes are too wide."""
+        facts = []
+        for k, (given, step) in enumerate(zip(steps, found, strict=True), 1):
+            for key, of, box in (("u", f"(u {k}%nat)", step.u), ("gamma", f"(g {k}%nat)", step.after)):
+                numbers = [Fraction(x) for x in given[key]]
+                if not all(abs(x - c) + box.radius < self.half for x, c in zip(numbers, box.centre, strict=True)):
+                    raise Rejected(f"the box of {key} of step {k} is too wide for Rocq to prove how it is rounded")
+                facts.append((f"rounded {real(self.half)} {vector(numbers)} {of}", f"by_box {self.bits} {of}"))
+        return facts
 
     def _turns(self, gammas: Sequence[Any], displacement: str) -> list[tuple[str, str]]:
         """Each step turns in one direction; on which side of the start each ends, and how far from it the last."""
@@ -145,7 +153,7 @@ Print Assumptions {self.name}.
         pairs = [*pairwise(range(q + 1)), *((0, k) for k in range(1, q + 1))]
         facts = [(side(v, w), f"by_boxes {self.bits} (g {v}%nat) (g {w}%nat)") for v, w in pairs]
         last = Fraction(displacement) * circle.direction(list(gammas)) * (-1) ** self.data["half_turns"]
-        text = f"Rabs ({sine(0, q)} - {real(last)}) < {self.half}"
+        text = f"Rabs ({sine(0, q)} - {real(last)}) < {real(self.half)}"
         return [*facts, (text, f"by_boxes {self.bits} (g 0%nat) (g {q}%nat)")]
 
     def _start(self, name: str, places: Sequence[str], box: Box) -> str:
@@ -181,16 +189,16 @@ Qed.
 """
 
 
-def write(certificates: Mapping[str, dict[str, Any]], folder: Path) -> None:
-    """Writes the theorems of certificates, by name, with what Rocq needs to judge them; raises OSError."""
+def write(texts: Mapping[str, str], folder: Path) -> None:
+    """Writes theorems, by name, with what Rocq needs to judge them; raises OSError if it cannot be."""
     folder.mkdir(parents=True, exist_ok=True)
     library = folder / "Steps.v"
-    text = (HERE / library.name).read_bytes()
-    if not library.exists() or library.read_bytes() != text:  # otherwise Rocq need not judge it again
-        library.write_bytes(text)
-    for name, data in certificates.items():
-        (folder / f"{name}.v").write_text(str(Theorem(name, data)), encoding="utf-8")
-    (folder / "Makefile").write_text(MAKEFILE.format(names=" ".join(certificates)), encoding="utf-8")
+    content = (HERE / library.name).read_bytes()
+    if not library.exists() or library.read_bytes() != content:  # otherwise Rocq need not judge it again
+        library.write_bytes(content)
+    for name, text in texts.items():
+        (folder / f"{name}.v").write_text(text, encoding="utf-8")
+    (folder / "Makefile").write_text(MAKEFILE.format(names=" ".join(texts)), encoding="utf-8")
 
 
 MAKEFILE = """# make: Rocq judges the certificates, and the axioms of each theorem are counted; X.out lists those of X.
