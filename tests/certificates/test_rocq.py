@@ -81,6 +81,8 @@ def test_the_theorem_has_every_number_of_the_certificate(tmp_path):
     assert re.findall(r"orbit (\d+) J D h", theorem) == ["7", "7"]
     last = "sine x1 x2 (g 0%nat) (g 7%nat)"
     assert theorem.count(f"0 < {last}") == theorem.count(f"{last} < 0") == 1
+    assert theorem.index(f"0 < {last}") < theorem.index(f"{last} < 0")  # as the displacements have their signs
+    assert len(re.findall(r"sine x1 x2 \(g \d%nat\) \(g \d%nat\) < 0", theorem)) == 2 * 13 + 1
     assert re.findall(r"Rabs \(sine .*? - (.*?)\) < 5e-21\)", theorem) == ["415e-20", "(-365e-20)"]
 
 
