@@ -99,6 +99,8 @@ def solutions(
 
     y, last = ring.names(), len(one["equations"])
     found = forms([*y.values()])
+    if ring.factors:  # 1/(1/x) would come out as x, which has a root where 1/x has no value
+        raise Rejected(f"{where} divides by something that is no number")
     for combination in one["combinations"]:
         found.append(_dot([value(tree, y, ring.number) for tree in combination], found[:last], ring))
     if any(f.factors or len({sum(_exponents(m, size)) for m in f.numerator.terms}) > 1 for f in found):

@@ -21,6 +21,8 @@ from .trees import check_name, check_tree, rational, value
 NAMES = "role text point unknowns definitions equations nonzero radius"
 #: Unknowns.
 MOST_UNKNOWNS = 20
+#: Bits before the point that a value may have.
+LARGE = 2000
 
 
 def check_form(one: dict[str, Any], points: Sequence[Mapping[str, Any]], where: str) -> None:
@@ -57,7 +59,7 @@ def check(one: Mapping[str, Any], point: Mapping[str, Any], work: Work, where: s
     radius = Fraction(one["radius"])
     bits = 64 + 2 * max(radius.denominator.bit_length(), *(x.denominator.bit_length() for x in point.values()))
     unknowns, size = one["unknowns"], _size([one["definitions"], one["equations"], one["nonzero"]])
-    work.spend((len(unknowns) + 3) * size * (1 + bits // 64))
+    work.spend((len(unknowns) + 3) * size * (1 + (bits + LARGE) // 64))
     numbers = {name: Interval.enclosing(x, x, bits) for name, x in point.items()}
     centre = [numbers[name] for name in unknowns]
     box = [Interval.enclosing(point[name] - radius, point[name] + radius, bits) for name in unknowns]
@@ -89,5 +91,8 @@ def check(one: Mapping[str, Any], point: Mapping[str, Any], work: Work, where: s
 
 
 def _size(tree: Any) -> int:
-    """The parts of trees."""
-    return 1 + sum(map(_size, tree)) if isinstance(tree, list) else 1
+    """The parts of trees, a power as often as it multiplies."""
+    if not isinstance(tree, list):
+        return 1
+    times = abs(tree[2]) if tree and tree[0] == "^" else 1
+    return times + sum(map(_size, tree))

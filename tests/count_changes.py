@@ -193,6 +193,8 @@ def counts():
         "a combination that is 0": other(touch, combinations=[[0, 0], *BY_TOUCH]),
         "a numerator of a combination": other(cubic, combinations=[[square("y0", -1)]]),
         "an equation with a pole": other(cubic, equations=[times(CUBIC, square("w", -1))]),
+        "1/(1/x), which has no value at its root": counted([square(square("x", -1), -1)], are(1, 1, 1, 1)),
+        "a part that has no value where it must not vanish": other(cubic, nonzero=[square(square("w", -1), -1)]),
         "an equation that is not homogeneous": other(cubic, equations=[less(square("x", 3), "x")]),
         "what must not vanish is not homogeneous": other(cubic, nonzero=[plus("x", 7)]),
         "a combination that is not homogeneous": other(cubic, combinations=[[1], [plus("y0", 1)]]),

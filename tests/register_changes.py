@@ -238,6 +238,9 @@ def zeros():
         "a definition of no name": near(["z"], definitions=[["z", ROOT], [7, 1]]),
         "a pole": near([["+", ROOT, ["*", 0, ["^", ["+", "x", "-17/12"], -1]]]]),
         "a power of powers": near([["+", ROOT, ["*", 0, ["^", ["^", ["^", "x", 60], 60], 60]]]]),
+        "powers that are much work": near(
+            ["z"], definitions=[["z", ["+", "x", "-17/12", *[["*", 0, ["^", "x", 60]]] * 1000]]], radius=f"1/{2**999}"
+        ),
         "too much work": near([["+", "x", "-17/12", *[["*", 0, "x"]] * 19_000]], radius=f"1/{2**999}"),
         "too much work for eight": near([["+", "x", "-17/12", *[0] * 19_000], *eight], ["x", *eight], f"1/{2**999}",
                                         **dict.fromkeys(eight, 0)),
