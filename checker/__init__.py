@@ -27,7 +27,7 @@ KINDS = {"no-invariant-measure": measure, "periodic-orbit": orbit, "energy-drift
 class Verdict:
     """An accepted certificate: its kind, the theorem that it proves in one sentence, and numbers that were proved.
 
-    name: the id of a claim, or the digest of another kind.  rests: the names of those that must be accepted, too.
+    name: its digest, after the id if it is that of a claim.  rests: the names of those that must be accepted, too.
     """
 
     kind: str
@@ -60,7 +60,9 @@ def check(data: dict[str, Any]) -> Verdict:
         raise Rejected("the digest is not that of the file: something in it was changed")
     numbers = KINDS[kind].check(data)
     if kind == "register-claim":
-        return Verdict(kind, sentence, numbers, data["claim"], tuple(one["certificate"] for one in data["rests"]))
+        return Verdict(
+            kind, sentence, numbers, f"{data['claim']} {seal}", tuple(one["certificate"] for one in data["rests"])
+        )
     return Verdict(kind, sentence, numbers, seal)
 
 

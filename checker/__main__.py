@@ -27,10 +27,13 @@ def main(arguments: list[str] | None = None) -> int:
         except (Rejected, Unreadable) as error:
             judged.append((error, {}))
     stand = standing([verdict for verdict, _ in judged if not isinstance(verdict, Exception)])
+    claims = [name.split()[0] for name in {v.name for v, _ in judged if not isinstance(v, Exception)} if " " in name]
     found, worst = [], 0
     for file, (verdict, data) in zip(options.files, judged, strict=True):
         if not isinstance(verdict, Exception) and (missing := sorted(set(verdict.rests) - stand)):
             verdict = Rejected(f"it rests on {missing[0]}, which is not accepted among these files")
+        if not isinstance(verdict, Exception) and claims.count(one := verdict.name.split()[0]) > 1:
+            verdict = Rejected(f"another of these files is a certificate of claim {one}, too, and says something else")
         if isinstance(verdict, Exception):
             worst = max(worst, 1 if isinstance(verdict, Rejected) else 2)
             found.append({"file": file, "accepted": False, "reason": str(verdict)})

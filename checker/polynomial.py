@@ -13,8 +13,8 @@ from math import gcd, lcm
 
 from .interval import Rejected
 
-#: The products of two terms for one certificate; the terms, the degree, the bits of the coefficients of a polynomial.
-MOST_WORK, MOST_TERMS, MOST_DEGREE, MOST_BITS = 5_000_000, 200_000, 1_000, 20_000
+#: The products of two terms, and other work, for one certificate; the terms, the degree, the bits of the coefficients of a polynomial.
+MOST_WORK, MOST_TERMS, MOST_DEGREE, MOST_BITS = 6_000_000, 200_000, 1_000, 20_000
 FIELD = 16
 
 
@@ -78,6 +78,7 @@ class Polynomial:
 
     def __add__(self, other: Polynomial) -> Polynomial:
         small, large = sorted((self, other), key=lambda p: len(p.terms))
+        self.ring.work.spend(len(small.terms) + len(large.terms) // 16)  # a term that is only copied is less work
         terms = dict(large.terms)
         for monomial, c in small.terms.items():
             total = terms.get(monomial, 0) + c

@@ -24,8 +24,8 @@ is printed and false, do not.
 A zero is a solution of equations, one and no other within a distance of a point (zeros.py).
 
 A counterexample is a point, or matrices, at which the relations or rules and the hypotheses hold, the printed
-statements it refutes fail, and the corrected ones hold.  It rests on other certificates, by the ids of their claims or
-their digests: they must be accepted, too.  The sentences are not judged: they are what the claim says beside this.
+statements it refutes fail, and the corrected ones hold.  It rests on other certificates, by their digests, that of a
+claim after its id: they must be accepted, too.  The sentences are not judged: they are what the claim says beside this.
 """
 
 import json
@@ -49,7 +49,7 @@ from .words import Matrix, same, trace
 NAMES = "format kind statement claim printed corrected hypotheses algebras derivation points statements comparisons "
 NAMES += "counts zeros counterexamples rests sentences digest"
 _CLAIM = re.compile(r"[\w.-]{1,40}", re.ASCII)
-_CERTIFICATE = re.compile(r"[\w.-]{1,40}|[0-9a-f]{64}", re.ASCII)
+_CERTIFICATE = re.compile(r"([\w.-]{1,40} )?[0-9a-f]{64}", re.ASCII)
 ROLES = ("printed", "corrected", "under", "lemma", "second route")
 SENTENCES = (*ROLES, "hypothesis", "said")
 #: Rows and columns of a matrix; letters of the whole, five times those of the largest of the register.
@@ -147,7 +147,7 @@ def check_form(data: dict[str, Any]) -> None:
         chosen(one["role"], ROLES, where)
         text(one["text"], where)
         if not isinstance(one["certificate"], str) or not _CERTIFICATE.fullmatch(one["certificate"]):
-            raise Rejected(f"{where} must be the id of a claim or a digest")
+            raise Rejected(f"{where} must be a digest, after an id if it is that of a claim")
     for i, one in enumerate(data["sentences"]):
         check_names(one, "role text", f"sentence {i}")
         chosen(one["role"], SENTENCES, f"sentence {i}")

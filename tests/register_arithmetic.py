@@ -62,7 +62,11 @@ def polynomials(module, refused):
     assert len(ring.factors) == 1
     assert spent(module.Work, lambda work: module.Ring(["x"], work).constant(1 << 5119)) == 1 + 10240 // 512
     assert spent(module.Work, lambda work: module.Ring([f"x{i}" for i in range(128)], work).constant(1)) == 3
-    few = module.Ring(["x"], module.Work(3))
+    wide = module.Ring(["x"], module.Work(1000))
+    seventeen = module.Polynomial(wide, dict.fromkeys(range(17), 1), 16, 1)
+    assert bounded(seventeen + wide.constant(1))
+    assert wide.work.left == 1000 - (1 + 17 // 16)
+    few = module.Ring(["x"], module.Work(5))  # two sums of two terms, and half a product
     assert refused(lambda: (few.variable(0) + few.constant(1)) * (few.variable(0) + few.constant(2)))
 
 

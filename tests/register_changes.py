@@ -184,10 +184,11 @@ CHANGES = {
 }  # fmt: skip
 
 
-def resting(*names, claim="0", role="lemma"):
-    """A certificate that rests on others."""
+def resting(*names, claim="0", role="lemma", more=False):
+    """A certificate that rests on others; `more`: it says one thing more."""
     rests = [{"role": role, "text": "x", "certificate": name} for name in names]
-    return resealed(by_hand([]) | {"claim": claim, "rests": rests})
+    compares = [compared(["<", 0, 1])] if more else []
+    return resealed(by_hand([], [{"x": 1}], [], [], [], compares) | {"claim": claim, "rests": rests})
 
 
 def near(equations, unknowns=("x",), radius="1/100", nonzero=(), definitions=(), **point):
@@ -324,7 +325,7 @@ def small():
             [], [point], [], [], [assumed(["<", 0, "x"])],
             [compared(["<", 0, "x"], ["<=", "x", 1], ["<=", "x", 2], ["=", "x", 1], ["!=", "x", 2])],
         ),
-        "it rests on others": resting("prop-1", "0" * 64, "0"),
+        "it rests on others": resting(f"prop-1 {'0' * 64}", "0" * 64),
         "x < 0 < 1 is printed, and fails": by_hand([], [point], [], [], [], [compared(["<", 0, 1], *fails, **refuted)]),
         "A ≠ B, A = A": by_hand([], [TURN], [], [], [], [compared(["!=", "A", "B"], ["=", "A", "A"])]),
         "x > 0 wherever x is": by_hand([], [point, {"y": 0}], [], [], [assumed(["<", 0, "x"])]),
@@ -344,8 +345,9 @@ def small():
         ),
         **{f"1 {sign} {x}": by_hand([], [point], [], [], [], [compared(["<=", 0, "x"], [sign, "x", x])])
            for sign, x in (("<", 1), ("<", 0), ("<=", 0), ("=", 2), ("!=", 1))},
-        **{f"it rests on {name!r}": resting(name) for name in ("", "a b", "0" * 63, "g" * 64, 7, None, ["prop-1"])},
-        "it rests on a role that is none": resting("prop-1", role="said"),
+        **{f"it rests on {name!r}": resting(name)
+           for name in ("", "a b", "prop-1", "0" * 63, "g" * 64, f"a  {'0' * 64}", 7, None, ["prop-1"])},
+        "it rests on a role that is none": resting("0" * 64, role="said"),
         "0 < x is printed, and fails": by_hand([], [point], [], [], [], [compared(["<", 0, "x"], **refuted)]),
         "a lemma that fails": by_hand([], [point], [], [], [], [compared(*fails, refuted=True)]),
         "a comparison that fails": by_hand([], [point], [], [], [], [compared(*fails, role="printed")]),

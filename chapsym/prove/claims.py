@@ -135,7 +135,9 @@ def judged(id: str) -> Rest:
     if id not in _REGISTER:
         raise LookupError(f"no proof of {id!r} is loaded: import its script first")
     proved = (Verdict.HOLDS, Verdict.CORRECTED, Verdict.CONDITIONAL)
-    return Rest(f"{id} is proved", id, _REGISTER[id].judge().verdict in proved, "its own proof, run now")
+    found = _REGISTER[id].judge().certified()
+    seal = found.certificate["digest"] if found.certificate else ""
+    return Rest(f"{id} is proved", f"{id} {seal}", found.verdict in proved, "its own proof, run now")
 
 
 def register() -> dict[str, Claim]:

@@ -101,7 +101,7 @@ class Fact:
 
 @dataclass(frozen=True)
 class Rest:
-    """That another certificate is accepted: that of a claim, by its id, or of another kind, by its digest."""
+    """That another certificate is accepted: by its digest, after the id if it is that of a claim."""
 
     text: str
     certificate: str

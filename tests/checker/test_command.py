@@ -47,26 +47,37 @@ def test_the_exit_status_is_that_of_the_worst_file(files, names, status, capsys)
 
 
 def test_what_rests_on_others_is_accepted_only_with_them(tmp_path, capsys):
-    """A claim, by its id, and a file, by its digest; and none in a circle."""
+    """A claim by its id and its digest, and a file of another kind by its digest."""
     right = maker.measure(level="0.2430009529063826355053267220620552038", digits=37)
+    c = resting(claim="c")
+    b = resting(f"c {c['digest']}", claim="b")
     files = {
-        "a": resting("b", "c", claim="a"), "b": resting("c", claim="b"), "c": resting(claim="c"),
-        "seal": resting(resting()["digest"], claim="seal"), "digest": right,
-        "by digest": resting(right["digest"], claim="by-digest"),
-        "one": resting("two", claim="one"), "two": resting("one", claim="two"),
-        "itself": resting("itself", claim="itself"),
+        "a": resting(f"b {b['digest']}", f"c {c['digest']}", claim="a"), "b": b, "c": c,
+        "by digest": resting(right["digest"], claim="by-digest"), "digest": right,
+        "other id": resting(f"b {c['digest']}", claim="other"), "no id": resting(c["digest"], claim="no"),
+        "other c": resting(f"b {'0' * 64}", claim="c"),
     }  # fmt: skip
     for name, data in files.items():
         (tmp_path / name).write_text(json.dumps(data))
     for names, status in {
-        "a b c": 0, "c b a": 0, "a c": 1, "a b": 1, "b c": 0, "seal": 1, "by digest": 1, "by digest,digest": 0,
-        "one two": 1, "itself": 1, "c itself": 1,
+        "a b c": 0, "c b a": 0, "a c": 1, "a b": 1, "b c": 0, "by digest": 1, "by digest,digest": 0,
+        "other id,b,c": 1, "no id,c": 1, "b,other c": 1,
     }.items():  # fmt: skip
         given = names.split(",") if "," in names or names in files else names.split()
         assert main([str(tmp_path / name) for name in given]) == status, names
         err = capsys.readouterr().err
         assert bool(err) is bool(status)
         assert all("rests on" in line for line in err.splitlines())
+
+
+def test_two_files_that_differ_are_no_certificate_of_one_claim(tmp_path, capsys):
+    """What says less would stand for the other; the same file may be given twice."""
+    for name, data in {"1": resting(claim="c"), "2": resting(claim="c"), "3": resting(claim="c", more=True)}.items():
+        (tmp_path / name).write_text(json.dumps(data))
+    first, same, other = (str(tmp_path / name) for name in "123")
+    assert main([first, same]) == 0
+    assert main([first, other]) == 1
+    assert capsys.readouterr().err.count("is a certificate of claim c, too") == 2
 
 
 def test_json_is_one_object_and_nothing_else_on_standard_output(files, capsys):

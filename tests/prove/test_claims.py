@@ -107,7 +107,7 @@ def test_a_settled_question_is_proved_and_explained(monkeypatch):
         """Title."""
         p.lemma(TRUE)
         p.control(FALSE)
-        p.certificate("c.json", "x > 0", "0", True)
+        p.certificate("c.json", "x > 0", "0" * 64, True)
         p.settle("No.")
         p.measure("1e-28")
         p.conjecture("never")
