@@ -41,7 +41,7 @@ def prove(
     ] = None,
     kept_in: Records = None,
 ) -> None:
-    """Judge the printed claims: run their proofs, side by side, and keep the verdicts.
+    """Judge claims, those of the paper or your own: run their proofs, side by side, and keep the verdicts.
 
     Example: chapsym prove prop-4 5.11 --explain
     """

@@ -38,6 +38,9 @@ class WordAlgebra:
     `transposes` maps each symbol to its transpose (an expression: `{J: J, xi: -xi, R: RT, RT: R}`).
     `rules` maps an adjacent pair to the expression that replaces it: `{(R, RT): 1}`.
 
+    `example` maps letters to matrices, and parameters to numbers, for which the rules hold: that there are some is part
+    of a proof.  The letters of chapsym's own derivations have theirs (prove/witness.py).
+
     Raises ValueError if the rules are not confluent, or if transposing twice does not give a symbol back.
     """
 
@@ -45,8 +48,9 @@ class WordAlgebra:
         self,
         transposes: Mapping[sp.Symbol, sp.Expr],
         rules: Mapping[tuple[sp.Symbol, sp.Symbol], sp.Expr | int] | None = None,
+        example: Mapping[sp.Symbol, Any] | None = None,
     ) -> None:
-        self.transposes = dict(transposes)
+        self.transposes, self.example = dict(transposes), dict(example or {})
         self.rules = {pair: sp.sympify(value) for pair, value in (rules or {}).items()}
         for symbol in self.transposes:
             if self.transpose(self.transpose(symbol)) != symbol:

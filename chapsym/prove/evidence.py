@@ -112,12 +112,12 @@ class Proof:
 
     def corrected(self, text: str, *statements: Statement) -> None:
         """The smallest correction of what is printed, and the statements that prove it."""
-        self.corrected_text = text
+        self.corrected_text = str(text)
         self._corrected += [(s, self._decide(s, "corrected")) for s in statements]
 
     def under(self, condition: str, *statements: Statement) -> None:
         """What is printed under a hypothesis that the paper leaves out."""
-        self.condition = condition
+        self.condition = str(condition)
         self._corrected += [(s, self._decide(s, "under", f"under {condition}: ")) for s in statements]
 
     def counterexample(self, point: Point) -> None:
@@ -164,15 +164,17 @@ class Proof:
         """An exact point at which the hypotheses hold and the statements, evaluated, are true."""
         wrong = [s.text for s in statements if not s.holds()]
         self.problems += [f"fails at its witness ({name}): {text}" for text in wrong]
-        self.witnesses.append({"name": name, "point": dict(values), "statements": len(statements)})
+        self.witnesses.append(
+            {"name": name, "point": {str(x): str(v) for x, v in values.items()}, "statements": len(statements)}
+        )
 
     def define(self, reason: str) -> None:
         """Nothing to decide: a definition, and why it is one."""
-        self.reason = reason
+        self.reason = str(reason)
 
     def leave_open(self, *tried: str) -> None:
         """A question that the paper leaves open and that is not settled here: what was tried."""
-        self.tried += tried
+        self.tried += map(str, tried)
 
     def certificate(self, file: str, statement: str, digest: str, accepted: bool) -> None:
         """A file that the independent checker has judged, with the sentence that it proves."""
@@ -183,15 +185,15 @@ class Proof:
 
     def settle(self, answer: str) -> None:
         """The answer to a question that the paper leaves open: what the lemmas and certificates prove, and no more."""
-        self.answer = answer
+        self.answer = str(answer)
 
     def measure(self, *findings: str) -> None:
         """Numerical evidence beside what is proved, with its digits; no verdict rests on it."""
-        self.measured += findings
+        self.measured += map(str, findings)
 
     def conjecture(self, *texts: str) -> None:
         """What is believed and not proved; no verdict rests on it."""
-        self.conjectures += texts
+        self.conjectures += map(str, texts)
 
     def verdict(self) -> Verdict:
         """The verdict that the evidence supports; `open` when anything is missing or failed."""
@@ -235,7 +237,8 @@ class Proof:
             )
         elif not self.witnesses:
             self.problems.append(
-                "no witness: it is not shown that the hypotheses can hold; give p.witness a point where they do"
+                "no witness: it is not shown that the hypotheses can hold; give p.witness a point where they do, "
+                "or the algebra of words an example"
             )
 
     def _decide(self, statement: Statement, role: str = "lemma", prefix: str | None = None) -> bool:

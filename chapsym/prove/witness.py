@@ -100,15 +100,17 @@ def _rational(
 def matrices(symbols: set[sp.Symbol], algebra: WordAlgebra, case: str = "generic") -> dict[sp.Symbol, Any] | None:
     """Matrices for the letters, numbers for the parameters; the rules and transposes must be true of them."""
     degenerate = _degenerate_matrices(case)
+    given = {x.name: sp.sympify(value) for x, value in algebra.example.items()}
     symbols = symbols | set(algebra.transposes) | {x for pair in algebra.rules for x in pair}
     letters, free = {x for x in symbols if not x.is_commutative}, {x for x in symbols if x.is_commutative}
     names = {x.name for x in symbols}
-    if not {x.name for x in letters} <= _letters().keys() or not {x.name for x in free} <= scalars().keys():
+    matrices, numbers = _letters() | given, scalars() | given
+    if not {x.name for x in letters} <= matrices.keys() or not {x.name for x in free} <= numbers.keys():
         return None
     if case != "generic" and not names & (degenerate.keys() | CASES[case].keys()):
         return None
-    point: dict[sp.Symbol, Any] = {x: degenerate.get(x.name, _letters()[x.name]) for x in letters}
-    point |= {x: sp.Rational(CASES[case].get(x.name, scalars()[x.name])) for x in free}
+    point: dict[sp.Symbol, Any] = {x: degenerate.get(x.name, matrices[x.name]) for x in letters}
+    point |= {x: sp.Rational(CASES[case].get(x.name, numbers[x.name])) for x in free}
     sound = all(_same(evaluate(image, point), point[x].T) for x, image in algebra.transposes.items())
     sound = sound and all(
         _same(point[a] * point[b], v if v.is_number else evaluate(v, point)) for (a, b), v in algebra.rules.items()

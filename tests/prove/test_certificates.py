@@ -11,7 +11,7 @@ from chapsym import checker, proofs
 from chapsym.checker.trees import names_in
 from chapsym.derive.quotient import Quotient
 from chapsym.derive.words import WordAlgebra, matrix_symbols
-from chapsym.prove import Comparison, Equation, Fact, Proof, load, rational_point
+from chapsym.prove import Comparison, Equation, Fact, Proof, Verdict, equations, load, rational_point
 from chapsym.prove.certificates import certificate
 from chapsym.prove.cofactors import Ideal
 from chapsym.prove.points import candidates
@@ -205,6 +205,25 @@ def test_what_has_no_rational_point_or_is_no_algebra_is_a_sentence_that_says_so(
         "unknown (not exported: no matrices are known for which its rules hold)",
     ]
     assert data["statements"] == []
+
+
+def test_letters_of_ones_own_have_the_matrices_that_their_algebra_gives():
+    turn, turned, other = matrix_symbols("own own^T other")
+    matrices = {
+        turn: sp.Matrix([[0, -1], [1, 0]]),
+        turned: sp.Matrix([[0, 1], [-1, 0]]),
+        other: sp.Matrix([[1, 2], [3, 4]]),
+    }
+    cancels = [other * turn * turned, other]
+    for example, count in ((matrices, 1), (matrices | {turned: matrices[turn]}, 0), ({}, 0)):
+        algebra = WordAlgebra({turn: turned, turned: turn}, {(turn, turned): 1, (turned, turn): 1}, example)
+        data = certificate("0", "x", proof(Equation("cancels", *cancels, algebra)))
+        assert len(data["statements"]) == count
+    own = equations(WordAlgebra({turn: turned, turned: turn}, {(turn, turned): 1, (turned, turn): 1}, matrices))
+    claim = Proof()
+    claim.printed(own("cancels", *cancels))
+    claim.control(own("does not", other * turn, other))
+    assert claim.verdict() is Verdict.HOLDS
 
 
 def test_a_claim_whose_certificate_is_not_accepted_is_open(monkeypatch):

@@ -1,5 +1,7 @@
 """The rule that turns evidence into a verdict: nothing can assert one."""
 
+import json
+
 import pytest
 import sympy as sp
 
@@ -102,6 +104,19 @@ def test_what_is_said_makes_the_verdict(rule):
         assert expected in proof.problems[0]
 
 
+def test_what_is_said_may_be_any_object_and_a_record_is_text():
+    """Of a claim of one's own: a number or an expression where text is expected."""
+    proof = Proof()
+    proof.lemma(TRUE)
+    proof.control(FALSE)
+    for name in ("say", "settle", "measure", "conjecture", "define", "assume"):
+        getattr(proof, name)(x)
+    proof.witness("circle", {x: sp.Rational(3, 5)})
+    claim = Claim("9.9", "x", (), lambda p: None)
+    record = claims.Judgement(claim, proof.verdict(), proof, 0.0).record()
+    assert json.loads(json.dumps(record))["evidence"]["measured"] == ["x"]
+
+
 def test_a_settled_question_is_proved_and_explained(monkeypatch):
     def settles(p):
         """Title."""
@@ -140,7 +155,8 @@ def test_a_statement_needs_a_point_where_its_hypotheses_hold():
     proof.control(Equation("false", x**2, y**2, nowhere))
     assert proof.verdict() is Verdict.OPEN
     assert proof.problems == [
-        "no witness: it is not shown that the hypotheses can hold; give p.witness a point where they do"
+        "no witness: it is not shown that the hypotheses can hold; give p.witness a point where they do, "
+        "or the algebra of words an example"
     ]
 
 
