@@ -8,12 +8,12 @@ from typing import Any
 import numpy as np
 import sympy as sp
 
-from chapsym.derive import continuous, motion, three
+from chapsym.derive import continuous, derivation, motion, three
 from chapsym.derive.limits import omega as spin
-from chapsym.derive.motion import ALGEBRA, D, Gamma, J, K, commutator, eta, gamma, omega, rate
+from chapsym.derive.motion import ALGEBRA, D, Gamma, J, K, alpha, commutator, eta, gamma, gammaT, omega, rate
 from chapsym.derive.quotient import Quotient
 from chapsym.derive.three import hat
-from chapsym.derive.words import Traces, evaluate
+from chapsym.derive.words import Traces, WordAlgebra, evaluate, matrix_symbols
 from chapsym.proofs import second_routes
 from chapsym.proofs.second_routes import Array
 from chapsym.prove import Comparison, Equation, Identity, Proof, claim, equations, main, rational_point
@@ -82,18 +82,31 @@ def invariant_measure(p: Proof) -> None:
     """√(det 𝒜) is the density of an invariant measure, for every n."""
     p.assume("𝒜 is nondegenerate (2.13)")
     p.say("In the variables (K, γ) the density is ν = (det 𝒜)^(-1/2), as dK = det 𝒜 dω at fixed γ; γ̇ = -ωγ, K̇ = [K,ω].")
-    p.say("ν is invariant when div = ½ tr(𝒜⁻¹𝒜̇).  A trace tr(S∘T) with a symmetric S on so(n) depends only on the")
-    p.say("quadratic form ⟨X,TX⟩, X in so(n); S is 1 or 𝒜⁻¹.  The parts of the divergence, as such forms:")
+    p.say("ν is invariant when div = ½ tr(𝒜⁻¹𝒜̇), by Jacobi's formula for the derivative of a determinant.")
+    p.lemma(*traces_of_maps())
+    p.say(
+        "So tr(S∘T) depends only on the quadratic form ⟨X,TX⟩, X in so(n); S is 1 or 𝒜⁻¹.  The parts of the divergence:"
+    )
     X = eta
     p.lemma(equation("𝒜 is symmetric: ⟨X,𝒜K⟩ = ⟨𝒜X,K⟩", pairing(X, applied(K)), pairing(applied(X), K), TRACES))
     p.lemma(equation("∂K̇/∂K at fixed ω: ⟨X,[X,ω]⟩ = 0", pairing(X, commutator(X, omega)), 0, TRACES))
     p.lemma(equation("∂K̇/∂K through ω = 𝒜⁻¹K: ⟨X,[K,X]⟩ = 0", pairing(X, commutator(K, X)), 0, TRACES))
-    p.say("∂γ̇/∂γ: -tr ω = 0, and -Σ e_iᵀ(∂_i ω)γ with ∂_i ω = -𝒜⁻¹ D{e_iγᵀ + γe_iᵀ, ω}: as e_iᵀYγ = ⟨Y, e_i∧γ⟩ and")
-    p.say("Σ e_i (e_iᵀXγ) = Xγ, its form is D⟨{XΓ - ΓX, ω}, X⟩.  For ½𝒜̇ it is ½D⟨X, {Γ̇, X}⟩.")
+    v, vT = motion.v, motion.vT
+    p.say("∂γ̇/∂γ: -tr ω = 0, and the trace of v ↦ -(∂_v ω)γ, where ∂_v ω = -𝒜⁻¹Tv:")
+    free = WordAlgebra(ALGEBRA.transposes)  # γ need not stay a unit vector
+    operator = derivation.written("A_omega", "𝒜ω", applied(omega), free)
+    rates = {J: sp.S.Zero, omega: alpha, Gamma: v * gammaT + gamma * vT}
+    varied = derivation.rate("A_omega_varied", "its variation, δω = α and δγ = v", operator, rates)
+    turned = gained(v * gammaT + gamma * vT)
+    p.lemma(Equation("0 = δK = 𝒜δω + Tv for δγ = v, Tv = D{vγᵀ + γvᵀ, ω}", varied, applied(alpha) + turned, free))
+    p.say("-(∂_v ω)γ is -Uᵀ(∂_v ω), where Uᵀ takes X to Xγ and Uv = v∧γ; so the trace is tr(Uᵀ𝒜⁻¹T) = tr(𝒜⁻¹TUᵀ):")
+    p.lemma(equation("⟨X, Uv⟩ = vᵀXγ", pairing(X, ALGEBRA.wedge(v, gamma)), vT * X * gamma, TRACES))
     vertical = X * Gamma - Gamma * X
-    paired = pairing(X, ALGEBRA.wedge(motion.v, gamma))
-    p.lemma(equation("⟨Y, vγᵀ - γvᵀ⟩ = vᵀYγ", paired, motion.vT * X * gamma, TRACES))
-    divergence = D * pairing(vertical * omega + omega * vertical, X)
+    upright = X * gamma
+    columns = upright * gammaT + gamma * ALGEBRA.transpose(upright)
+    p.lemma(equation("TUᵀX = T(Xγ) = D{XΓ - ΓX, ω}", gained(columns), gained(vertical)))
+    p.say("For ½𝒜̇ the form is ½D⟨X, {Γ̇, X}⟩.")
+    divergence = pairing(gained(vertical), X)
     moved = rate(Gamma)
 
     def half_rate(sign: int = 1) -> sp.Expr:
@@ -106,6 +119,21 @@ def invariant_measure(p: Proof) -> None:
     )
     p.control(equation("the same for (det 𝒜)^(+1/2) dK", divergence, half_rate(-1), TRACES))
     p.control(replace(exact_divergence(4, rates=2)[2], text="n = 4: S is skew with 𝒜̇ in the place of ½𝒜̇"))
+
+
+def gained(moved: sp.Expr) -> sp.Expr:
+    """D{moved, ω}: what 𝒜ω gains when Γ gains `moved`."""
+    return D * (moved * omega + omega * moved)
+
+
+def traces_of_maps() -> list[Equation]:
+    """Of linear maps between spaces of any dimensions, as matrices in orthonormal bases."""
+    S, T, TT, U, UT = matrix_symbols("S T T^T U U^T")
+    square, other = sp.Matrix(2, 2, [1, 2, 0, 3]), sp.Matrix(2, 2, [0, 1, 5, 1])
+    example = {S: sp.Matrix(2, 2, [1, 1, 1, 4]), T: square, TT: square.T, U: other, UT: other.T}
+    same = equations(Traces(WordAlgebra({S: S, T: TT, TT: T, U: UT, UT: U}, {}, example)))
+    return [same("tr(ST) = tr(S(T + Tᵀ)/2) for a symmetric S", S * T, S * (T + TT) / 2),
+            same("tr(UᵀST) = tr(STUᵀ)", UT * S * T, S * T * UT)]  # fmt: skip
 
 
 def exact_divergence(n: int, rates: int = 1) -> list[Identity]:

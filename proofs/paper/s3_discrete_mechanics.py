@@ -4,8 +4,11 @@ from dataclasses import replace
 
 import sympy as sp
 
+from chapsym.derive import derivation
+from chapsym.derive.derivation import written
 from chapsym.derive.quotient import Quotient
-from chapsym.prove import Comparison, Equation, Fact, Proof, claim, main, rational_point
+from chapsym.derive.words import WordAlgebra, matrix_symbols
+from chapsym.prove import Comparison, Equation, Fact, Proof, claim, equations, main, rational_point
 
 
 @claim(
@@ -35,6 +38,7 @@ def energy(p: Proof) -> None:
     plain = dict(zip(slots, sp.symbols(f"d1:{len(slots) + 1}"), strict=True))
     free = Quotient((*plain.values(), *velocity, *acceleration))
     p.lemma(Equation("dE/dt = ⟨d/dt ∂L/∂q̇ - ∂L/∂q, q̇⟩", total.xreplace(plain), power.xreplace(plain), free))
+    p.lemma(*power_for_every_size())
     p.say("(3.3) puts Σ λ_j A^j in the place of the bracket:")
     work = (sp.Matrix([multiplier]) * forms * sp.Matrix(velocity))[0]
     on_constraint = list(forms * sp.Matrix(velocity))
@@ -48,6 +52,24 @@ def energy(p: Proof) -> None:
     p.control(Equation("the same off the constraint: (3.3) alone", work, 0, Quotient(ring.symbols)))
     affine = Quotient((*ring.symbols, sp.Symbol("b")), [on_constraint[0] - sp.Symbol("b"), on_constraint[1]])
     p.control(Equation("the same for ⟨A^1, q̇⟩ = b, not homogeneous", work, 0, affine))
+
+
+def power_for_every_size() -> list[Equation]:
+    """The same for every number of coordinates and of forms: L̇ = ⟨∂L/∂q, q̇⟩ + ⟨∂L/∂q̇, v̇⟩, and Aq̇ = 0."""
+    v, a, A = matrix_symbols("v a A_forms")  # columns; the forms are the rows of A
+    impulse, force, slope, multiplier = matrix_symbols("p^T f^T g^T lambda^T")  # rows: ∂L/∂q̇, its rate, ∂L/∂q, λ
+    rows = {impulse: [1, 2, 3], force: [1, 0, 2], slope: [0, 1, 1], multiplier: [5]}
+    example = {v: sp.Matrix([1, 1, 2]), a: sp.Matrix([3, 0, 1]), A: sp.Matrix([[1, 1, -1]])}
+    example |= {x: sp.Matrix([row]) for x, row in rows.items()}
+    free, constrained = WordAlgebra({}, {}, example), WordAlgebra({}, {(A, v): 0}, example)
+    paired = written("p_v", "⟨∂L/∂q̇, q̇⟩", impulse * v, free)
+    moved = derivation.rate("p_v_rate", "its rate", paired, {impulse: force, v: a})
+    balanced = derivation.replaced("p_v_by_33", "by (3.3)", moved, {force: slope + multiplier * A}, constrained)
+    lagrangian = slope * v + impulse * a
+    return [
+        Equation("dE/dt = ⟨d/dt ∂L/∂q̇ - ∂L/∂q, q̇⟩, for every n", moved - lagrangian, (force - slope) * v, free),
+        Equation("dE/dt = 0 by (3.3) where Aq̇ = 0, for every n and s", balanced - lagrangian, 0, constrained),
+    ]
 
 
 # Section 3 for one degree of freedom is enough to see which terms a sum has: 𝕃 = a x² + b x y + c y².
@@ -110,6 +132,11 @@ def discrete_principle(p: Proof) -> None:
     p.say(
         "With δq_0 = 0 the printed sum says the same, but then its first term is void; the paper does not fix the ends."
     )
+    p.say(
+        "For every N and every number of coordinates, with free ends, δS = the sum from k = 1 + the two terms of the ends:"
+    )
+    p.say("for N = 1 the sum is empty, and one step more adds to both sides the same.")
+    p.lemma(one_step_more())
     p.say("For a path that begins at q_{-1}, with both ends fixed, the printed range would be right:")
     longer = first_variation() + sp.diff(step_action(PATH[0], PATH[1]), PATH[1]) * CHANGE[0]
     p.lemma(
@@ -117,6 +144,21 @@ def discrete_principle(p: Proof) -> None:
     )
     p.control(Equation("δS = Σ_{k=2}^{N-1}", first_variation(), discrete_sum(2), both_fixed))
     p.control(Equation("δS = Σ_{k=1}^{N-1} with free ends", first_variation(), discrete_sum(1), Quotient(symbols)))
+
+
+def one_step_more() -> Equation:
+    """The step of the induction: P + D2(q_{N-1}, q_N)δq_N, where P is the sum from 1 to N - 1, grows by δ𝕃(q_N, q_{N+1})."""
+    P, before, slope_1, slope_2 = matrix_symbols("P_N D_2_before D_1 D_2")  # P: the sum
+    now, after = matrix_symbols("dq_N dq_next")
+    slopes = {
+        before: sp.Matrix([[1, 2], [0, 1]]),
+        slope_1: sp.Matrix([[3, -1], [1, 1]]),
+        slope_2: sp.eye(2),
+    }  # of two 𝕃
+    example = {P: sp.Matrix([7, 5]), now: sp.Matrix([1, 4]), after: sp.Matrix([2, -1]), **slopes}
+    grown = P + (slope_1 + before) * now + slope_2 * after - (P + before * now)
+    text = "from N to N + 1 the sum and the term of its end grow by D1 δq_N + D2 δq_{N+1}"
+    return Equation(text, grown, slope_1 * now + slope_2 * after, WordAlgebra({}, {}, example))
 
 
 @claim(
@@ -144,6 +186,10 @@ def discrete_equations(p: Proof) -> None:
     p.printed(Equation("e = Σ λ_j A_j with λ = the first s entries of e", e, combination, on_principle))
     p.say("and the other way round, a combination of the forms annihilates every δq:")
     p.lemma(Equation("⟨Σ λ_j A_j, δq⟩ = 0", (combination.T * displacement)[0], 0, ring))
+    p.say(
+        "The same for every n and s, with e = (e', e''): e''ᵀ = e'ᵀB follows, as t is free, and eᵀ = λᵀ(1 | B) for λ = e':"
+    )
+    p.lemma(*blocks())
     values = dict(zip((*B, *t), (1, 2, 0, -1, 1, 3, 1, 1, 2), strict=True))
     exact = combination.subs({**values, e[0]: 2, e[1]: 5})
     work = (exact.T * displacement.subs(values))[0]
@@ -152,6 +198,25 @@ def discrete_equations(p: Proof) -> None:
     )
     p.control(Equation("e is the multiple of one form", e, e[0] * forms[0, :], on_principle))
     p.control(Equation("the same without the principle", e, combination, ring))
+
+
+def blocks() -> list[Equation]:
+    """(3.5) in blocks, for every number of coordinates and of forms."""
+    B, t, upper, lower = matrix_symbols("B_forms t_free e_upper e_lower")  # e' and e'' as rows
+    example = {
+        B: sp.Matrix([[1, 2], [0, 3]]),
+        t: sp.Matrix([3, 1]),
+        upper: sp.Matrix([[2, 4]]),
+        lower: sp.Matrix([[1, 5]]),
+    }
+    algebra = WordAlgebra({}, {}, example)
+    equal = equations(algebra)
+    work = written("e_dq", "⟨e, δq⟩ for δq = (-Bt, t)", -upper * B * t + lower * t, algebra)
+    annihilated = derivation.replaced("lambda_A_dq", "for e = λᵀ(1 | B)", work, {lower: upper * B}, algebra)
+    return [
+        equal("⟨e, δq⟩ = (e''ᵀ - e'ᵀB)t", work, (lower - upper * B) * t),
+        equal("⟨λᵀ(1 | B), δq⟩ = 0", annihilated, 0),
+    ]
 
 
 @claim(

@@ -203,6 +203,18 @@ def step_point(mean: str = "12/13") -> Point:
     return replace(found, values={**made_of, **found.values})
 
 
+def from_prop_4() -> list[Equation]:
+    """What ϰ = 2σ/(1 + root), root² = 1 - σ²Π2, is in W = 2𝒟/ϰ."""
+    root, first, second = sp.symbols("root P1 P2")
+    sigma = 1 / (1 - D * first)
+    W = 2 * SCALE * (1 + root) / (2 * sigma)
+    equal = equations(Quotient((root, SCALE, D, first, second), [(root**2 - 1) * (1 - D * first) ** 2 + second]))
+    return [
+        equal("σW/𝒟 - 1 is the root", sigma * W / SCALE - 1, root),
+        equal("(W - 𝒟/σ)² = 𝒟²(1/σ² - Π2)", (W - SCALE / sigma) ** 2, SCALE**2 * (1 / sigma**2 - second)),
+    ]
+
+
 #: The constant of (5.14) and (5.15), which the paper does not say.
 CONSTANT = sp.Symbol("d")
 
@@ -246,6 +258,8 @@ def before_squaring(p: Proof) -> None:
             true_relation() / y,
         ),
     )
+    p.say("That it is so before and after the squaring, for any Π1 and Π2:")
+    p.lemma(*from_prop_4())
     p.say("Nor does any other constant in the place of d, at two steps of this curve with different ū and D:")
     other = 1 - CONSTANT / 2 * level / SCALE
     p.lemma(*no_constant(other**2 * (SCALE**2 - SECOND) - (W - SCALE * other) ** 2))
