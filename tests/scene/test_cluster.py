@@ -177,7 +177,7 @@ def process(*arguments):
 
 
 def test_workers_that_die_and_a_scheduler_that_ends(local, tmp_path, caplog, monkeypatch, path):
-    """Two workers die of one chunk each time, and of another once; then the scheduler is killed, too."""
+    """A worker dies of one chunk each time, and of another once, and comes again; then the scheduler is killed, too."""
     for name in ("distributed", "distributed.client"):
         monkeypatch.setattr(logging.getLogger(name), "handlers", [caplog.handler])
     (tmp_path / "deadly.py").write_text(
@@ -201,7 +201,7 @@ def test_workers_that_die_and_a_scheduler_that_ends(local, tmp_path, caplog, mon
             time.sleep(0.05)
         worker = ["distributed.cli.dask_worker", address, "--nanny", "--nthreads", "1", "--no-dashboard"]
         preload = ["--preload", str(tmp_path / "deadly.py")]
-        with process(*worker, *preload), process(*worker, *preload):
+        with process(*worker, *preload):
             outcome = sweep.run_to_store(plan_from(SCENE), path, address)
             assert outcome.lost == {(12, 16): "its worker was lost, 3 times"}
             assert (tmp_path / "died").exists()
