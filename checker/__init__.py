@@ -10,6 +10,7 @@ matrices.py, derivation.py (how what they are about is made), form.py, roots.py,
 judged.
 """
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -18,7 +19,18 @@ from . import drift, measure, orbit, register
 from .document import FORMAT, Unreadable, digest, read
 from .interval import Rejected
 
-__all__ = ["FORMAT", "Rejected", "Unreadable", "Verdict", "check", "digest", "read", "standing", "statement"]
+__all__ = [
+    "FORMAT",
+    "Rejected",
+    "Unreadable",
+    "Verdict",
+    "check",
+    "claimed_twice",
+    "digest",
+    "read",
+    "standing",
+    "statement",
+]
 
 KINDS = {"no-invariant-measure": measure, "periodic-orbit": orbit, "energy-drift": drift, "register-claim": register}
 
@@ -66,9 +78,17 @@ def check(data: dict[str, Any]) -> Verdict:
     return Verdict(kind, sentence, numbers, seal)
 
 
+def claimed_twice(verdicts: Sequence[Verdict]) -> set[str]:
+    """The names of certificates of one claim that differ: the one may say less than the other."""
+    names = {one.name for one in verdicts if one.kind == "register-claim"}
+    claims = Counter(name.split()[0] for name in names)
+    return {name for name in names if claims[name.split()[0]] > 1}
+
+
 def standing(verdicts: Sequence[Verdict]) -> set[str]:
-    """The names of those that rest on nothing but others that stand; none that rests on itself does."""
+    """The names of those, of claims that no other is of, that rest on nothing but others that stand."""
     found: set[str] = set()
-    while new := {one.name for one in verdicts if found.issuperset(one.rests)} - found:
+    alone = [one for one in verdicts if one.name not in claimed_twice(verdicts)]
+    while new := {one.name for one in alone if found.issuperset(one.rests)} - found:
         found |= new
     return found

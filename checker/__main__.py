@@ -12,7 +12,7 @@ from typing import Any
 
 def main(arguments: list[str] | None = None) -> int:
     """Judges files: 0 if all are accepted, 1 if one is rejected, 2 if one cannot be read."""
-    from . import Rejected, Unreadable, check, read, shown, standing
+    from . import Rejected, Unreadable, check, claimed_twice, read, shown, standing
 
     parser = argparse.ArgumentParser(prog="checker", description="Checks certificates, with the standard library only.")
     parser.add_argument("files", nargs="+", metavar="FILE")
@@ -26,14 +26,15 @@ def main(arguments: list[str] | None = None) -> int:
             judged.append((check(data), data if options.show else {}))
         except (Rejected, Unreadable) as error:
             judged.append((error, {}))
-    stand = standing([verdict for verdict, _ in judged if not isinstance(verdict, Exception)])
-    claims = [name.split()[0] for name in {v.name for v, _ in judged if not isinstance(v, Exception)} if " " in name]
+    right = [verdict for verdict, _ in judged if not isinstance(verdict, Exception)]
+    stand, twice = standing(right), claimed_twice(right)
     found, worst = [], 0
     for file, (verdict, data) in zip(options.files, judged, strict=True):
+        if not isinstance(verdict, Exception) and verdict.name in twice:
+            one = verdict.name.split()[0]
+            verdict = Rejected(f"another of these files is a certificate of claim {one}, too, and says something else")
         if not isinstance(verdict, Exception) and (missing := sorted(set(verdict.rests) - stand)):
             verdict = Rejected(f"it rests on {missing[0]}, which is not accepted among these files")
-        if not isinstance(verdict, Exception) and claims.count(one := verdict.name.split()[0]) > 1:
-            verdict = Rejected(f"another of these files is a certificate of claim {one}, too, and says something else")
         if isinstance(verdict, Exception):
             worst = max(worst, 1 if isinstance(verdict, Rejected) else 2)
             found.append({"file": file, "accepted": False, "reason": str(verdict)})

@@ -11,7 +11,7 @@ from typing import Any
 
 from .interval import Rejected
 from .polynomial import Work
-from .trees import value
+from .trees import divisors, value
 from .words import Words
 
 
@@ -21,6 +21,7 @@ class Algebra:
     def __init__(self, data: Mapping[str, Any], work: Work):
         self.work, self.letters, self.parameters = work, set(data["letters"]), data["parameters"]
         self.none = (0,) * len(self.parameters)
+        self.divisors: set[str] = set()  # parameters by which something is divided, though it may not be seen any more
         self.names = {letter: self.word(letter) for letter in data["letters"]}
         for i, name in enumerate(self.parameters):
             self.names[name] = self.scalar(tuple(int(i == j) for j in range(len(self.parameters))))
@@ -37,8 +38,14 @@ class Algebra:
 
     def read(self, tree: Any, names: Mapping[str, Words]) -> Words:
         """The sum of words that a tree is."""
+        self.divisors |= self.among(names[name] for name in divisors(tree) & names.keys())
         found: Words = value(tree, names, lambda x: self.scalar(self.none, x))
         return found
+
+    def among(self, words: Iterable[Words]) -> set[str]:
+        """The parameters that occur in some words."""
+        found = (zip(self.parameters, exponents, strict=True) for one in words for exponents, _ in one.terms)
+        return {name for pairs in found for name, e in pairs if e}
 
     def product(self, factors: Iterable[Words]) -> Words:
         """The product, in this order."""

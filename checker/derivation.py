@@ -207,6 +207,8 @@ def _made(one: dict[str, Any], algebra: Algebra, found: Mapping[str, Made], wher
     assert isinstance(of, Defined)  # by its form
     if operation == "replaced":
         images = _places(by, algebra, found, where)
+        if nothing := sorted(name for name in images.keys() & of.algebra.divisors if not images[name].terms):
+            raise Rejected(f"{where} puts 0 in the place of {nothing[0]}, by which something is divided")
         kept = {name: word for name, word in algebra.names.items() if name in of.algebra.names}
         _respects(of.algebra, of.algebra.names.keys(), algebra, kept | images, where)
         return _image(of, algebra, kept | images, where)
@@ -240,6 +242,7 @@ def _image(of: Defined, algebra: Algebra, images: Mapping[str, Words], where: st
             raise Rejected(f"{where} has a matrix in the place of a number")
         return algebra.product(image**e for image, e in powers)
 
+    algebra.divisors |= algebra.among(images[name] for name in of.algebra.divisors & images.keys())
     return algebra.image(of.words, place, scalar)
 
 

@@ -118,6 +118,8 @@ def placed(words: Words, algebra: Algebra, into: Quotients, by: Sequence[Any], w
     places = dict(by[0])
     matrices = {name: [list(map(into.read, row)) for row in place] for name, place in by[0] if name in algebra.letters}
     numbers = {name: into.read(place) for name, place in by[0] if name not in algebra.letters}
+    if nothing := sorted(name for name in numbers.keys() & algebra.divisors if not numbers[name].numerator.terms):
+        raise Rejected(f"{where} puts 0 in the place of {nothing[0]}, by which something is divided")
     at = Places(into.ring, matrices, numbers)
     _check_rules(algebra, at, into, by[1], where)
     first = next(iter(words.terms), None)

@@ -13,7 +13,8 @@ from math import gcd, lcm
 
 from .interval import Rejected
 
-#: The products of two terms, and other work, for one certificate; the terms, the degree, the bits of the coefficients of a polynomial.
+#: The products of two terms, and other work, for one certificate; the terms, the degree, the bits of the coefficients
+#: of a polynomial.
 MOST_WORK, MOST_TERMS, MOST_DEGREE, MOST_BITS = 6_000_000, 200_000, 1_000, 20_000
 FIELD = 16
 
@@ -78,7 +79,7 @@ class Polynomial:
 
     def __add__(self, other: Polynomial) -> Polynomial:
         small, large = sorted((self, other), key=lambda p: len(p.terms))
-        self.ring.work.spend(len(small.terms) + len(large.terms) // 16)  # a term that is only copied is less work
+        self.ring.work.spend(len(small.terms) + len(large.terms) * self._length() // 4)  # a term that is copied is less
         terms = dict(large.terms)
         for monomial, c in small.terms.items():
             total = terms.get(monomial, 0) + c
@@ -88,11 +89,15 @@ class Polynomial:
                 del terms[monomial]
         return Polynomial(self.ring, terms, max(self.degree, other.degree), max(self.bits, other.bits) + 1)
 
+    def _length(self) -> int:
+        """The price of a number of its length."""
+        return 1 + self.bits // 512
+
     def __mul__(self, other: Polynomial) -> Polynomial:
         small, large = sorted((self.terms, other.terms), key=len)
         # A product of long numbers is more work, as is one of monomials in many variables.
         price = 1 + (self.bits + other.bits) // 512 + len(self.ring.variables) // 64
-        self.ring.work.spend(len(small) * len(large) * price)
+        self.ring.work.spend(1 + len(small) * len(large) * price)
         terms: dict[int, int] = {}
         for shift, c in small.items():
             for monomial, d in large.items():
@@ -112,11 +117,13 @@ class Polynomial:
 
     def times(self, n: int) -> Polynomial:
         """A multiple of it; n is not 0."""
+        self.ring.work.spend(len(self.terms) * (self._length() + n.bit_length() // 512))
         terms = self.terms if n == 1 else {monomial: n * c for monomial, c in self.terms.items()}
         return Polynomial(self.ring, terms, self.degree, self.bits + n.bit_length())
 
     def split(self) -> tuple[int, list[Polynomial]]:
         """An integer and polynomials, of which it is the product: variables that divide it, and a primitive rest."""
+        self.ring.work.spend(len(self.terms) * (1 + len(self.ring.variables) // 8))
         monomials = list(self.terms)
         least = [min(m >> FIELD * i & 0xFFFF for m in monomials) for i in range(len(self.ring.variables))]
         common = sum(e << FIELD * i for i, e in enumerate(least))

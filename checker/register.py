@@ -24,7 +24,8 @@ is printed and false, do not.
 A zero is a solution of equations, one and no other within a distance of a point (zeros.py).
 
 A counterexample is a point, or matrices, at which the relations or rules and the hypotheses hold, the printed
-statements it refutes fail, and the corrected ones hold.  It rests on other certificates, by their digests, that of a
+statements it refutes fail, and the corrected ones with which it agrees hold; if it has a value for one name of a
+hypothesis, it has one for each.  It rests on other certificates, by their digests, that of a
 claim after its id: they must be accepted, too.  The sentences are not judged: they are what the claim says beside this.
 """
 
@@ -43,7 +44,7 @@ from .form import MOST, chosen, distinct, many, sized, text
 from .interval import Rejected
 from .matrices import Quotients, quotients
 from .polynomial import Ring, Work
-from .trees import check_name, check_tree, names_in, rational, value
+from .trees import check_name, check_tree, names_in, rational, size, value
 from .words import Matrix, same, trace
 
 NAMES = "format kind statement claim printed corrected hypotheses algebras derivation points statements comparisons "
@@ -90,6 +91,9 @@ def statement(data: dict[str, Any]) -> str:
 
 def check_form(data: dict[str, Any]) -> None:
     """Raises Rejected unless every part is there, in its form, and every number in its only form."""
+    with suppress(RecursionError):  # which is told of later
+        if len(json.dumps(data)) > MOST_OF_ALL:
+            raise Rejected(f"the certificate has more than {MOST_OF_ALL} letters")
     check_names(data, NAMES, "the certificate")
     parts = "hypotheses points statements comparisons counts zeros counterexamples rests sentences"
     for name in parts.split():
@@ -101,21 +105,25 @@ def check_form(data: dict[str, Any]) -> None:
         text(data["corrected"], "corrected")
     algebras = [check_algebra(one, f"algebra {i}") for i, one in enumerate(many(data["algebras"], "algebras"))]
     defined = derivation.check_form(data["derivation"], data["algebras"], algebras)
+    made = {one["name"] for one in data["derivation"]}
     for i, one in enumerate(data["points"]):
-        check_point(one, f"point {i}")
+        check_point(one, made, f"point {i}")
     for i, one in enumerate(data["counterexamples"]):
         where = f"counterexample {i}"
         check_names(one, "point hypotheses refutes agrees", where)
-        check_point(one["point"], where)
+        check_point(one["point"], made, where)
+        known = made.union(one["point"])
         for hypothesis in many(one["hypotheses"], where):
             check_names(hypothesis, "text left right", where)
             text(hypothesis["text"], where)
-            check_sides(hypothesis, set().union(one["point"], *defined), where)
+            check_sides(hypothesis, known, where)
         for name in ("refutes", "agrees"):
             for number in many(one[name], where):
                 count(number, 0, len(data["statements"]) - 1, where)
+            if len(set(one[name])) < len(one[name]):
+                raise Rejected(f"{where} has a statement twice")
     for i, one in enumerate(data["statements"]):
-        check_statement(one, algebras, defined, data, f"statement {i}")
+        check_statement(one, algebras, defined, made, data, f"statement {i}")
     for i, one in enumerate(data["comparisons"]):
         fails = isinstance(one, dict) and "refuted" in one
         check_names(one, "role text point relations" + " refuted" * fails, f"comparison {i}")
@@ -132,11 +140,11 @@ def check_form(data: dict[str, Any]) -> None:
             raise Rejected(f"{where} must say whether it holds: true or false")
         chosen(one["role"], ROLES if one["holds"] else ("printed",), f"the role of {where}")
         check_relations(one, roots.NUMBERS, where)
-        roots.check_form(one, data["algebras"], data["points"], values, where)
+        roots.check_form(one, data["algebras"], data["points"], values, made, where)
     for i, one in enumerate(data["zeros"]):
         check_names(one, zeros.NAMES, f"zero {i}")
         chosen(one["role"], ROLES, f"zero {i}")
-        zeros.check_form(one, data["points"], f"zero {i}")
+        zeros.check_form(one, data["points"], made, f"zero {i}")
     known = set().union(*data["points"], *(one["point"] for one in data["counterexamples"]))
     for i, one in enumerate(data["hypotheses"]):
         check_names(one, "text relations", f"hypothesis {i}")
@@ -184,12 +192,14 @@ def check_algebra(data: Any, where: str) -> set[str]:
     return names
 
 
-def check_point(data: Any, where: str) -> None:
-    """Raises Rejected unless names are given values: numbers, or matrices as lists of rows."""
+def check_point(data: Any, made: Collection[str], where: str) -> None:
+    """Raises Rejected unless names that the derivation does not make have values: numbers, or lists of rows."""
     if not isinstance(data, dict) or len(data) > MOST:
         raise Rejected(f"{where} must be an object of values")
     for name, entry in data.items():
         check_name(name, where)
+        if name in made:
+            raise Rejected(f"{where} has a value for {name}, which the derivation makes")
         if isinstance(entry, list):
             check_matrix(entry, where)
         else:
@@ -228,7 +238,12 @@ def check_relations(data: dict[str, Any], names: Collection[str], where: str) ->
 
 
 def check_statement(
-    one: Any, algebras: list[set[str]], defined: list[Collection[str]], data: dict[str, Any], where: str
+    one: Any,
+    algebras: list[set[str]],
+    defined: list[Collection[str]],
+    made: Collection[str],
+    data: dict[str, Any],
+    where: str,
 ) -> None:
     """The form of a statement, with what proves it or with the number of the counterexample that refutes it."""
     names = "role text algebra left right " + "definitions " * (isinstance(one, dict) and "definitions" in one)
@@ -247,7 +262,7 @@ def check_statement(
     for definition in many(one.get("definitions", []), where):
         sized(definition, 2, where)
         check_name(definition[0], where)
-        if definition[0] in known:
+        if definition[0] in known or definition[0] in made:
             raise Rejected(f"{where} defines a name that has a meaning")
         check_tree(definition[1], known, where)
         known.add(definition[0])
@@ -266,9 +281,8 @@ def check_statement(
 
 def check(data: dict[str, Any]) -> dict[str, str]:
     """Raises Rejected unless every statement is proved and every counterexample is one; returns the counts."""
-    if len(json.dumps(data)) > MOST_OF_ALL:
-        raise Rejected(f"the certificate has more than {MOST_OF_ALL} letters")
     work = Work()
+    work.spend(evaluations(data))
     algebras = [
         quotients(one, Ring(one["variables"], work)) if one["kind"] == "quotient" else Algebra(one, work)
         for one in data["algebras"]
@@ -301,9 +315,9 @@ def check(data: dict[str, Any]) -> dict[str, str]:
             raise Rejected(f"{where} says something else than the numbers {', '.join(map(str, numbers.values()))}")
     for i, one in enumerate(data["zeros"]):
         zeros.check(one, points[one["point"]], work, f"zero {i}")
-    everywhere = [*points, *(entries(one["point"]) for one in data["counterexamples"])]
+    contradicting = [entries(one["point"]) for one in data["counterexamples"]]
     for i, one in enumerate(data["hypotheses"]):
-        check_hypothesis(one, everywhere, f"hypothesis {i}")
+        check_hypothesis(one, [*points, *contradicting], contradicting, f"hypothesis {i}")
     for i, one in enumerate(data["counterexamples"]):
         check_counterexample(one, i, data, algebras, defined)
     stated = [*data["statements"], *(h for one in data["counterexamples"] for h in one["hypotheses"])]
@@ -327,6 +341,18 @@ def check(data: dict[str, Any]) -> dict[str, str]:
         "rests on": str(len(data["rests"])),
         "sentences not checked": str(len(data["sentences"])),
     }
+
+
+def evaluations(data: dict[str, Any]) -> int:
+    """The parts of trees that are evaluated at points."""
+    stated = [size([one["left"], one["right"], one.get("definitions", [])]) for one in data["statements"]]
+    assumed = sum(size(one["relations"]) for one in data["hypotheses"])
+    total = sum(stated) + assumed * (len(data["points"]) + len(data["counterexamples"]))
+    total += sum(size(one["relations"]) for one in data["comparisons"])
+    for one in data["counterexamples"]:
+        total += sum(stated[i] for i in (*one["refutes"], *one["agrees"]))
+        total += sum(size([h["left"], h["right"]]) for h in one["hypotheses"])
+    return total
 
 
 def check_identity(one: dict[str, Any], ring: Quotients, defined: Mapping[str, Made], where: str) -> None:
@@ -405,10 +431,21 @@ def compared(one: dict[str, Any], point: Mapping[str, Value], where: str) -> boo
     return all(found)  # each was looked at: none has a denominator that vanishes
 
 
-def check_hypothesis(one: dict[str, Any], points: Sequence[Mapping[str, Value]], where: str) -> None:
-    """Raises Rejected unless it holds at every point that has values for its names, and there is one."""
+def check_hypothesis(
+    one: dict[str, Any],
+    points: Sequence[Mapping[str, Value]],
+    contradicting: Sequence[Mapping[str, Value]],
+    where: str,
+) -> None:
+    """Raises Rejected unless it holds at every point that has values for its names, and there is one.
+
+    A counterexample that has a value for one of them must have one for each.
+    """
     names = set().union(*(names_in(tree) for relation in one["relations"] for tree in relation[1:]))
     tested = [point for point in points if names <= point.keys()]
+    for point in contradicting:
+        if not names.isdisjoint(point) and (missing := names - point.keys()):
+            raise Rejected(f"{where} is not tested at a counterexample, which has no value for {min(missing)}")
     if not tested:
         raise Rejected(f"{where} is tested at no point")
     if not all(compared(one, point, where) for point in tested):

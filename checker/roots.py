@@ -45,9 +45,13 @@ def check_form(
     algebras: Sequence[dict[str, Any]],
     points: Sequence[dict[str, Any]],
     defined: Sequence[Collection[str]],
+    made: Collection[str],
     where: str,
 ) -> None:
-    """The form of a count, but for its role, text and relations; `defined` are the names with a value, by algebra."""
+    """The form of a count, but for its role, text and relations.
+
+    `defined` are the names with a value, by algebra, and `made` all that the derivation makes.
+    """
     unknowns = distinct(one["unknowns"], where)
     size = count(len(unknowns), 2, MOST_UNKNOWNS, f"the number of unknowns of {where}")
     algebra = algebras[count(one["algebra"], 0, len(algebras) - 1, where)]
@@ -55,11 +59,10 @@ def check_form(
     numbers = {name for name, entry in point.items() if not isinstance(entry, list)}
     if algebra["kind"] != "quotient" or not set(algebra["variables"]) <= numbers | unknowns:
         raise Rejected(f"{where} must be in a quotient, with a number for every variable that is no unknown")
-    made = set(defined[one["algebra"]])
-    if twice := numbers & unknowns | numbers & made | unknowns & made:
+    if twice := numbers & unknowns | (numbers | unknowns).intersection(made):
         raise Rejected(f"{where} has two meanings for {min(twice)}")
     for tree in (*many(one["equations"], where), *many(one["nonzero"], where)):
-        check_tree(tree, numbers | unknowns | made, where)
+        check_tree(tree, {*numbers, *unknowns, *defined[one["algebra"]]}, where)
     sized(one["chart"], size, where)
     for row in one["chart"]:
         sized(row, size, where)
@@ -94,6 +97,8 @@ def solutions(
         """The equations, and what must not vanish, where the unknowns are A y."""
         names = known | {x: _dot(row, y, ring) for x, row in zip(one["unknowns"], chart, strict=True)}
         for name in set().union(*map(names_in, trees)) & values.keys():
+            if missing := names_in(values[name]) - names.keys():
+                raise Rejected(f"{where} has no value for {min(missing)}")
             names[name] = value(values[name], names, ring.number)
         return [value(tree, names, ring.number) for tree in trees]
 

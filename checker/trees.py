@@ -100,5 +100,22 @@ def names_in(tree: Any) -> set[str]:
     return {tree} if isinstance(tree, str) and _is_name(tree) else set()
 
 
+def divisors(tree: Any) -> set[str]:
+    """The names that occur in what a tree divides by."""
+    if not isinstance(tree, list):
+        return set()
+    if tree[0] == "^":
+        return names_in(tree[1]) if tree[2] < 0 else divisors(tree[1])
+    return set().union(*map(divisors, tree[1:]))
+
+
+def size(tree: Any) -> int:
+    """The parts of trees and of lists of them, a power as often as it multiplies."""
+    if not isinstance(tree, list):
+        return 1
+    times = abs(tree[2]) if tree and tree[0] == "^" else 1
+    return times + sum(map(size, tree))
+
+
 def _is_name(text: str) -> bool:
     return len(text) <= MOST_LETTERS_OF_A_NAME and bool(_NAME.fullmatch(text))

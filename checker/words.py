@@ -15,8 +15,8 @@ from .interval import Rejected
 from .polynomial import Work
 from .trees import bounded
 
-#: The letters of a word, the terms of a sum.
-MOST_LETTERS, MOST_WORDS = 60, 20_000
+#: The letters of a word, the terms of a sum, the exponent of a parameter.
+MOST_LETTERS, MOST_WORDS, MOST_EXPONENT = 60, 20_000, 1_000
 #: The exponents of the parameters, and the letters.
 Term = tuple[tuple[int, ...], tuple[str, ...]]
 
@@ -28,7 +28,9 @@ class Words:
 
     def __init__(self, terms: Mapping[Term, Fraction], work: Work):
         self.terms, self.work = {term: bounded(c) for term, c in terms.items() if c}, work
-        if len(self.terms) > MOST_WORDS or any(len(word) > MOST_LETTERS for _, word in self.terms):
+        if len(self.terms) > MOST_WORDS or any(
+            len(word) > MOST_LETTERS or any(abs(e) > MOST_EXPONENT for e in exponents) for exponents, word in self.terms
+        ):
             raise Rejected("the certificate has a sum of words too large to be checked")
 
     def __add__(self, other: Words) -> Words:
@@ -42,7 +44,7 @@ class Words:
         return self + Words({term: -c for term, c in other.terms.items()}, self.work)
 
     def __mul__(self, other: Words) -> Words:
-        self.work.spend(len(self.terms) * len(other.terms) * (1 + len(next(iter(self.terms), ((), ()))[0]) // 8))
+        self.work.spend(1 + len(self.terms) * len(other.terms) * (1 + len(next(iter(self.terms), ((), ()))[0]) // 8))
         terms: dict[Term, Fraction] = {}
         for (a, left), c in self.terms.items():
             for (b, right), d in other.terms.items():
@@ -78,7 +80,7 @@ class Words:
                     settled[exponents, word] = settled.get((exponents, word), Fraction(0)) + c
                     continue
                 image = rules[word[at], word[at + 1]]
-                self.work.spend((1 + len(image.terms)) * (1 + (len(word) + len(exponents)) // 8))
+                self.work.spend(4 * (1 + len(image.terms)) * (1 + (len(word) + len(exponents)) // 8))
                 for (more, middle), d in image.terms.items():
                     term = (tuple(map(add, exponents, more)), word[:at] + middle + word[at + 2 :])
                     following[term] = following.get(term, Fraction(0)) + c * d

@@ -6,7 +6,7 @@ other names, and a radius.  Names may be defined for what occurs often.  What is
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
@@ -16,7 +16,7 @@ from .interval import Interval, Rejected
 from .linear import solve, transposed
 from .polynomial import Work
 from .taylor import Dual, derivative
-from .trees import check_name, check_tree, rational, value
+from .trees import check_name, check_tree, rational, size, value
 
 NAMES = "role text point unknowns definitions equations nonzero radius"
 #: Unknowns.
@@ -25,7 +25,7 @@ MOST_UNKNOWNS = 20
 LARGE = 2000
 
 
-def check_form(one: dict[str, Any], points: Sequence[Mapping[str, Any]], where: str) -> None:
+def check_form(one: dict[str, Any], points: Sequence[Mapping[str, Any]], made: Collection[str], where: str) -> None:
     """Raises Rejected unless its parts are there and each name has a value; its names and its role are as they must."""
     text(one["text"], where)
     point = points[count(one["point"], 0, len(points) - 1, where)]
@@ -38,7 +38,7 @@ def check_form(one: dict[str, Any], points: Sequence[Mapping[str, Any]], where: 
     for definition in many(one["definitions"], where):
         sized(definition, 2, where)
         check_name(definition[0], where)
-        if definition[0] in known:
+        if definition[0] in known or definition[0] in made:
             raise Rejected(f"{where} defines a name that has a meaning")
         check_tree(definition[1], known, where)
         known.add(definition[0])
@@ -58,8 +58,8 @@ def check(one: Mapping[str, Any], point: Mapping[str, Any], work: Work, where: s
     """
     radius = Fraction(one["radius"])
     bits = 64 + 2 * max(radius.denominator.bit_length(), *(x.denominator.bit_length() for x in point.values()))
-    unknowns, size = one["unknowns"], _size([one["definitions"], one["equations"], one["nonzero"]])
-    work.spend((len(unknowns) + 3) * size * (1 + (bits + LARGE) // 64))
+    unknowns, parts = one["unknowns"], size([one["definitions"], one["equations"], one["nonzero"]])
+    work.spend((len(unknowns) + 3) * parts * (1 + (bits + LARGE) // 64))
     numbers = {name: Interval.enclosing(x, x, bits) for name, x in point.items()}
     centre = [numbers[name] for name in unknowns]
     box = [Interval.enclosing(point[name] - radius, point[name] + radius, bits) for name in unknowns]
@@ -88,11 +88,3 @@ def check(one: Mapping[str, Any], point: Mapping[str, Any], work: Work, where: s
         raise Rejected(f"{where} is not proved to have one solution within its radius")
     if not all(x.value.sign for x in trees("nonzero")(near)):
         raise Rejected(f"{where} has something that is not proved to differ from 0 at the solution")
-
-
-def _size(tree: Any) -> int:
-    """The parts of trees, a power as often as it multiplies."""
-    if not isinstance(tree, list):
-        return 1
-    times = abs(tree[2]) if tree and tree[0] == "^" else 1
-    return times + sum(map(_size, tree))

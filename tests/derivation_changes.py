@@ -100,6 +100,8 @@ def derivations():
         "a letter by 1": replacing(["*", "A", "X", "B"], "X", A=1, B=1),
         "from fewer letters": made(fewer, "V", ["*", 2, "S", "A"], more=[FREE]),
         "in the algebra of more rules": made([step("Z", "written", ["*", "A", "B"], algebra=2)], "Z", 1, more=[FREE]),
+        "Z = X is refuted": contradicting(product, POINT),
+        "0 for a number": replacing(["+", "A", ["*", "m", "X"]], "A", m=0),
         "a power": made([], ["^", "X", 3], ["*", "X", "X", "X"]),
         "tr AX = tr XA": made([], ["*", "A", "X"], ["*", "X", "A"], "traces"),
         "tr AXB = tr X": made([], ["*", "A", "X", "B"], "X", "traces"),
@@ -274,4 +276,57 @@ def derivations():
             [step("Z", "written", "A"), step("Q", "matrix", "Z", [pairs(A=TURN, B=BACK), ON_CIRCLE], 2),
              step("q", "entry", "Q", [1, 0, 0], 2)], "q", "s", 2, 1, [CIRCLE], cofactors=[[0]]),
         "a name of words in a quotient ring": made(product, "Z", "Z", 2, 1, [CIRCLE], cofactors=[[0]]),
+        "a local name that the derivation has": made(
+            product, "Z", "c", 2, 1, [CIRCLE], cofactors=[[0]], definitions=[["Z", "c"]]),
+        "a value for what the derivation makes": hidden(made(product, "Z", ["*", "A", "X"]), "Z"),
+        "a value at a counterexample for what the derivation makes": contradicting(product, POINT | {"Z": [[0]]}),
+        "an unknown that the derivation makes": hiding_unknown(),
+        "a local name of a zero that the derivation makes": hiding_local_name(made(product, "Z", ["*", "A", "X"])),
+        "0 for a number that was divided by": replacing(["*", "m", ["^", "m", -1], "A"], "A", m=0),
+        "0 for one that was divided by in the place of another": made(
+            [step("Z", "written", ["*", "m", ["^", "m", -1], "A"]), step("V", "replaced", "Z", pairs(m=["^", "m", 2])),
+             step("U", "replaced", "V", pairs(m=0))], "U", "A"),
+        "0 for one that was divided by in another algebra": made(
+            [step("Z", "written", ["*", "m", ["^", "m", -1], "A"], algebra=2), step("V", "written", "Z"),
+             step("U", "replaced", "V", pairs(m=0))], "U", "A", more=[FREE | {"parameters": ["m"]}]),
+        "a coordinate 0 for what was divided by": in_coordinates(
+            {"A": TURN, "B": BACK, "m": 0}, of=["*", "m", ["^", "m", -1], "A"]),
+        "a power of a power of a number": made(
+            [step("Z", "written", ["*", ["^", "m", 60], "A"]), step("V", "replaced", "Z", pairs(m=["^", "m", 60]))],
+            "V", "V"),
     }  # fmt: skip
+
+
+def contradicting(steps, point):
+    """Z = X is refuted at a point."""
+    one = {"role": "printed", "text": "x", "algebra": 0, "left": ["Z"], "right": ["X"], "refuted": 0}
+    example = {"point": point, "hypotheses": [], "refutes": [0], "agrees": []}
+    return resealed(made(steps, "Z", "X") | {"statements": [one], "counterexamples": [example]})
+
+
+def hidden(data, name):
+    """With a value for a name at its first point."""
+    return resealed(data | {"points": [data["points"][0] | {name: [[0]]}, *data["points"][1:]]})
+
+
+def hiding_unknown():
+    """xw = 0 has two solutions; but 1, if x stands for 3w."""
+    words = {"kind": "words", "letters": ["A"], "parameters": ["w"], "transposes": [], "rules": []}
+    none = {"kind": "quotient", "variables": [], "relations": []}
+    step = {"name": "x", "text": "x", "algebra": 1, "operation": "written", "of": ["*", 3, "w"], "by": []}
+    one = {
+        "role": "lemma", "text": "x", "algebra": 0, "point": 1, "unknowns": ["x", "w"], "equations": [["*", "x", "w"]],
+        "nonzero": [], "chart": [[1, 0], [0, 1]], "combinations": [[1]], "relations": [["=", "complex", 1]],
+        "holds": True,
+    }  # fmt: skip
+    data = made([], "A", "A") | {"algebras": [none, words], "derivation": [step | {"value": step["of"]}]}
+    return resealed(data | {"points": [{"A": [[1]], "w": 1}, {}], "statements": [], "counts": [one]})
+
+
+def hiding_local_name(data):
+    """A zero of z = x - 1, where Z is z, too."""
+    one = {
+        "role": "lemma", "text": "x", "point": 4, "unknowns": ["x"], "definitions": [["Z", ["+", "x", -1]]],
+        "equations": ["Z"], "nonzero": [], "radius": "1/100",
+    }  # fmt: skip
+    return resealed(data | {"points": [*data["points"], {"x": 1}], "zeros": [one]})

@@ -60,12 +60,20 @@ def polynomials(module, refused):
     difference = (a - b) ** -1 + (b - a) ** -1
     assert not difference.numerator.terms
     assert len(ring.factors) == 1
-    assert spent(module.Work, lambda work: module.Ring(["x"], work).constant(1 << 5119)) == 1 + 10240 // 512
-    assert spent(module.Work, lambda work: module.Ring([f"x{i}" for i in range(128)], work).constant(1)) == 3
+    assert spent(module.Work, lambda work: module.Ring(["x"], work).constant(1 << 5119)) == 2 + 10240 // 512
+    assert spent(module.Work, lambda work: module.Ring([f"x{i}" for i in range(128)], work).constant(1)) == 4
     wide = module.Ring(["x"], module.Work(1000))
     seventeen = module.Polynomial(wide, dict.fromkeys(range(17), 1), 16, 1)
     assert bounded(seventeen + wide.constant(1))
-    assert wide.work.left == 1000 - (1 + 17 // 16)
+    assert wide.work.left == 1000 - (1 + 17 // 4)
+    long = module.Polynomial(wide, {0: 1 << 1023, 1: 1}, 1, 1024)
+    assert bounded(long + wide.constant(1))
+    assert wide.work.left == 995 - (1 + 2 * (1 + 1024 // 512) // 4)
+    assert bounded(long.times(1 << 511))
+    assert wide.work.left == 993 - 2 * (1 + 1024 // 512 + 512 // 512)
+    broad = module.Ring([f"x{i}" for i in range(16)], module.Work(1000))
+    (broad.variable(0) + broad.variable(1)).split()
+    assert broad.work.left == 1000 - 1 - 2 * (1 + 16 // 8)
     few = module.Ring(["x"], module.Work(5))  # two sums of two terms, and half a product
     assert refused(lambda: (few.variable(0) + few.constant(1)) * (few.variable(0) + few.constant(2)))
 
@@ -82,11 +90,11 @@ def words(module, Work, refused):
     def many(work):
         return module.Words({((0,) * 16, (letter,)): Fraction(1) for letter in "AB"}, work)
 
-    assert spent(Work, many) == 4 * (1 + 16 // 8)
+    assert spent(Work, many) == 1 + 4 * (1 + 16 // 8)
     work = Work(1000)
     one = {"AB": module.Words({((0, 0), ()): Fraction(1)}, work)}
     module.Words({((0, 0), tuple("AB" + "C" * 12)): Fraction(1)}, work).rewritten({("A", "B"): one["AB"]})
-    assert work.left == 1000 - 2 * (1 + 16 // 8)
+    assert work.left == 1000 - 4 * 2 * (1 + 16 // 8)
 
     def word(letters, work=None, exponents=(0, 0)):
         return module.Words({(exponents, tuple(letters)): Fraction(1)}, work or Work())
@@ -96,8 +104,12 @@ def words(module, Work, refused):
     many = {((i, 0), ()): Fraction(1) for i in range(module.MOST_WORDS + 1)}
     assert refused(module.Words, many, Work())
     assert refused(lambda: word("a", Work(1)) + word("b", Work(1)))
-    assert refused(lambda: word("ab", Work(2)).rewritten({("a", "b"): word("") + word("c") + word("d")}))
-    assert not refused(lambda: word("ab", Work(2)).rewritten({("a", "b"): word("c")}))
+    assert refused(lambda: word("ab", Work(8)).rewritten({("a", "b"): word("") + word("c") + word("d")}))
+    assert not refused(lambda: word("ab", Work(8)).rewritten({("a", "b"): word("c")}))
+    most = module.MOST_EXPONENT
+    assert not refused(word, "a", None, (-most, most))
+    assert refused(word, "a", None, (0, -most - 1))
+    assert refused(word, "a", None, (most + 1, 0))
     assert refused(lambda: word("a") ** -1)
     assert refused(lambda: (word("", exponents=(1, 0)) + word("", exponents=(0, 1))) ** -1)
     assert (word("", exponents=(1, -2)) ** -2).terms == {((-2, 4), ()): 1}

@@ -348,6 +348,10 @@ def small():
         **{f"it rests on {name!r}": resting(name)
            for name in ("", "a b", "prop-1", "0" * 63, "g" * 64, f"a  {'0' * 64}", 7, None, ["prop-1"])},
         "it rests on a role that is none": resting("0" * 64, role="said"),
+        "it confirms a statement twice": by_hand([identity, wrong], [point], [ONE, FREE], [
+            contradicted(1, {"x": 1}, [0, 0])]),
+        "a hypothesis that its counterexample does not have": by_hand(
+            [wrong], [{"x": 2, "y": 3}], [FREE, FREE], [contradicted(0, {"x": 3})], [assumed(["<", "x", "y"])]),
         "0 < x is printed, and fails": by_hand([], [point], [], [], [], [compared(["<", 0, "x"], **refuted)]),
         "a lemma that fails": by_hand([], [point], [], [], [], [compared(*fails, refuted=True)]),
         "a comparison that fails": by_hand([], [point], [], [], [], [compared(*fails, role="printed")]),
