@@ -16,6 +16,7 @@ def arithmetic(package):
         return False
 
     polynomials(import_module(f"{package}.polynomial"), refused)
+    evaluations(import_module(f"{package}.register"))
     words(import_module(f"{package}.words"), import_module(f"{package}.polynomial").Work, refused)
     roots(import_module(f"{package}.roots"), import_module(f"{package}.polynomial").Work)
 
@@ -76,6 +77,22 @@ def polynomials(module, refused):
     assert broad.work.left == 1000 - 1 - 2 * (1 + 16 // 8)
     few = module.Ring(["x"], module.Work(5))  # two sums of two terms, and half a product
     assert refused(lambda: (few.variable(0) + few.constant(1)) * (few.variable(0) + few.constant(2)))
+
+
+def evaluations(module):
+    """Parts of trees that are evaluated: 10 and 6 of the statements, 5 of what is compared or assumed."""
+    first = {"left": ["x"], "right": [["^", "x", 2]], "definitions": []}
+    second = {"left": ["x"], "right": [1]}
+    relations = {"relations": [["<", "x", 0]]}
+    example = {"refutes": [0], "agrees": [1], "hypotheses": [{"left": ["x"], "right": [1]}]}
+    sizes = module.size([["x"], [["^", "x", 2]], []]), module.size([["x"], [1], []]), module.size([["<", "x", 0]])
+    found = module.evaluations({
+        "statements": [first, second], "hypotheses": [relations], "comparisons": [relations, relations],
+        "points": [{}, {}, {}], "counterexamples": [example, example],
+    })  # fmt: skip
+    assert sizes == (10, 6, 5)
+    assert found == 10 + 6 + (3 + 2) * 5 + 2 * 5 + 2 * (10 + 6 + 5)
+    assert module.size(["^", "x", -60]) == 60 + 3
 
 
 def roots(module, Work):

@@ -17,10 +17,15 @@ Monomial = tuple[int, ...]
 
 
 class Quotient:
-    """Q[symbols] modulo the ideal of `relations` (polynomials that vanish by hypothesis)."""
+    """Q[symbols] modulo the ideal of `relations` (polynomials that vanish by hypothesis).
+
+    Raises ValueError for a symbol whose name is not in ASCII: certificates have no other.
+    """
 
     def __init__(self, symbols: Sequence[sp.Symbol], relations: Sequence[sp.Expr] = ()) -> None:
         self.symbols = tuple(symbols)
+        if strange := [x for x in self.symbols if not str(x).isascii()]:
+            raise ValueError(f"the symbol {strange[0]} must have a name in ASCII, such as beta")
         self.relations = tuple(relations)
 
     @cached_property

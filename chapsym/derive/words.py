@@ -22,6 +22,10 @@ Word = tuple[sp.Symbol, ...]
 DEFINED: dict[sp.Symbol, sp.Expr] = {}
 
 
+#: Of one rewriting; the longest of chapsym's own takes some thousands.
+MOST_STEPS = 200_000
+
+
 def matrix_symbols(names: str) -> tuple[sp.Symbol, ...]:
     """Noncommuting symbols, one for each name."""
     return sp.symbols(names, commutative=False, seq=True)
@@ -41,7 +45,8 @@ class WordAlgebra:
     `example` maps letters to matrices, and parameters to numbers, for which the rules hold: that there are some is part
     of a proof.  The letters of chapsym's own derivations have theirs (prove/witness.py).
 
-    Raises ValueError if the rules are not confluent, or if transposing twice does not give a symbol back.
+    Raises ValueError if the rules are not confluent or do not end, if transposing twice does not give a symbol back, or
+    if the example breaks a rule or a transpose.
     """
 
     def __init__(
@@ -59,12 +64,32 @@ class WordAlgebra:
             for (c, d), right in self.rules.items():
                 if b == c and self.normal(left * d) != self.normal(a * right):
                     raise ValueError(f"the rewriting rules are not confluent: {a}{b}{d} has two normal forms")
+        for a, b in self.rules:
+            self.normal(a * b)
+        self._check_example()
+
+    def _check_example(self) -> None:
+        """Where the example has values for all letters of a rule or transpose, these hold."""
+        given = self.example
+        said = [(a * b, image, f"the rule for {a} {b}") for (a, b), image in self.rules.items()]
+        for left, image, what in said:
+            if (left.free_symbols | image.free_symbols) <= given.keys():
+                product = evaluate(left, given)
+                claimed = evaluate(image, given) if image.free_symbols else image * sp.eye(product.rows)
+                if not product.is_zero_matrix if image == 0 else product != claimed:
+                    raise ValueError(f"the example breaks {what}")
+        for x, image in self.transposes.items():
+            if {x, *image.free_symbols} <= given.keys() and evaluate(image, given) != given[x].T:
+                raise ValueError(f"the example breaks the transpose of {x}")
 
     def normal(self, expr: sp.Expr | int) -> sp.Expr:
         """The normal form: expanded, with every rule applied until none matches."""
         total: dict[Word, sp.Expr] = {}
-        pending = list(_terms(expr))
+        pending, steps = list(_terms(expr)), 0
         while pending:
+            steps += 1
+            if steps > MOST_STEPS:
+                raise ValueError(f"the rewriting rules do not end within {MOST_STEPS} steps")
             coefficient, word = pending.pop()
             match = next((i for i in range(len(word) - 1) if word[i : i + 2] in self.rules), None)
             if match is None:

@@ -78,8 +78,8 @@ class Proof:
     def assume(self, text: str, *relations: Relational) -> None:
         """A hypothesis under which the claim is judged, and what it says as relations: `0 < x`, `sp.Ne(x, 0)`.
 
-        The relations must hold at every counterexample and witness that has values for their symbols, and at one at
-        least.
+        The relations must hold at every witness that has values for their symbols, and at one at least.  A
+        counterexample that has a value for one of the symbols must have one for each, and they hold there.
         """
         self.hypotheses.append(str(text))
         if relations:
@@ -146,6 +146,11 @@ class Proof:
         self.counterexamples.append({"point": values, "printed": [sides], "corrected": []})
 
     def _look_at_hypotheses(self, exact: Mapping[sp.Symbol, Any]) -> None:
+        self.problems += [
+            f"the counterexample has no value for {min(map(str, h.symbols - exact.keys()))}, of the hypothesis {h.text}"
+            for h in self.assumed
+            if not h.symbols <= exact.keys() and not h.symbols.isdisjoint(exact)
+        ]
         assumed = [h for h in self.assumed if h.symbols <= exact.keys()]
         self.problems += [
             f"the counterexample violates the hypothesis {h.text}" for h in assumed if not h.true_at(exact)

@@ -11,7 +11,7 @@ import importlib.util
 import re
 import sys
 import traceback
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from functools import partial
 from importlib.machinery import ModuleSpec
@@ -159,6 +159,10 @@ class Register:
         for id, claim in claims.items():
             if self != PROOFS and id in ours:
                 raise _taken(claim.prove.__module__, id, "chapsym")
+            if id in _reached(id, claims):
+                raise BrokenScript(
+                    f"{self.place}: {id} uses itself, directly or through others: uses goes in no circle"
+                )
             if missing := [used for used in claim.uses if used not in claims and used not in ours]:
                 path = self._path()
                 alone = f"; the register {path.parent} would have its other scripts" if path and path.is_file() else ""
@@ -173,6 +177,15 @@ PROOFS = Register("chapsym.proofs", package=True)
 def register_of(script: str) -> Register:
     """The register of a script: that of chapsym for its own, and the script alone for any other."""
     return PROOFS if PROOFS.script(Path(script)) else Register(script)
+
+
+def _reached(id: str, claims: Mapping[str, Claim]) -> set[str]:
+    """What a claim uses, directly or through others."""
+    found: set[str] = set()
+    new = {id}
+    while new := {used for one in new & claims.keys() for used in claims[one].uses} - found:
+        found |= new
+    return found
 
 
 def load(lemmas: bool = False, register: Register = PROOFS) -> dict[str, Claim]:

@@ -56,19 +56,21 @@ def energy(p: Proof) -> None:
 
 def power_for_every_size() -> list[Equation]:
     """The same for every number of coordinates and of forms: L̇ = ⟨∂L/∂q, q̇⟩ + ⟨∂L/∂q̇, v̇⟩, and Aq̇ = 0."""
-    v, a, A = matrix_symbols("v a A_forms")  # columns; the forms are the rows of A
+    v, a, A, L = matrix_symbols("v a A_forms L_value")  # columns; the forms are the rows of A; L, of 3 systems
     impulse, force, slope, multiplier = matrix_symbols("p^T f^T g^T lambda^T")  # rows: ∂L/∂q̇, its rate, ∂L/∂q, λ
-    rows = {impulse: [1, 2, 3], force: [1, 0, 2], slope: [0, 1, 1], multiplier: [5]}
-    example = {v: sp.Matrix([1, 1, 2]), a: sp.Matrix([3, 0, 1]), A: sp.Matrix([[1, 1, -1]])}
-    example |= {x: sp.Matrix([row]) for x, row in rows.items()}
+    rows = {impulse: [[1, 2, 3], [0, 1, 1], [1, 0, 0]], force: [[1, 0, 2], [2, 2, 0], [0, 1, 0]]}
+    rows |= {slope: [[0, 1, 1], [3, 0, 1], [1, 1, 0]], multiplier: [[5, 1, 0], [2, 0, 1], [0, 1, 3]]}
+    rows |= {A: [[1, 1, -1], [1, -1, 0], [2, 0, -1]], L: [[7], [4], [1]], v: [[1], [1], [2]], a: [[3], [0], [1]]}
+    example = {x: sp.Matrix(of) for x, of in rows.items()}
     free, constrained = WordAlgebra({}, {}, example), WordAlgebra({}, {(A, v): 0}, example)
-    paired = written("p_v", "⟨∂L/∂q̇, q̇⟩", impulse * v, free)
-    moved = derivation.rate("p_v_rate", "its rate", paired, {impulse: force, v: a})
-    balanced = derivation.replaced("p_v_by_33", "by (3.3)", moved, {force: slope + multiplier * A}, constrained)
-    lagrangian = slope * v + impulse * a
+    whole = written("E_system", "⟨∂L/∂q̇, q̇⟩ - L", impulse * v - L, free)
+    chain = "dE/dt by the chain rule: dL/dt = ⟨∂L/∂q, q̇⟩ + ⟨∂L/∂q̇, v̇⟩"
+    moved = derivation.rate("E_rate", chain, whole, {impulse: force, v: a, L: slope * v + impulse * a})
+    text = "by (3.3): d/dt ∂L/∂q̇ = ∂L/∂q + Σ λ_j A^j"
+    balanced = derivation.replaced("E_rate_by_33", text, moved, {force: slope + multiplier * A}, constrained)
     return [
-        Equation("dE/dt = ⟨d/dt ∂L/∂q̇ - ∂L/∂q, q̇⟩, for every n", moved - lagrangian, (force - slope) * v, free),
-        Equation("dE/dt = 0 by (3.3) where Aq̇ = 0, for every n and s", balanced - lagrangian, 0, constrained),
+        Equation("dE/dt = ⟨d/dt ∂L/∂q̇ - ∂L/∂q, q̇⟩, for every n", moved, (force - slope) * v, free),
+        Equation("dE/dt = 0 by (3.3) where Aq̇ = 0, for every n and s", balanced, 0, constrained),
     ]
 
 

@@ -258,7 +258,7 @@ def before_squaring(p: Proof) -> None:
             true_relation() / y,
         ),
     )
-    p.say("That it is so before and after the squaring, for any Π1 and Π2:")
+    p.say("What prop-4 says, put in, before and after the squaring, for any Π1 and Π2:")
     p.lemma(*from_prop_4())
     p.say("Nor does any other constant in the place of d, at two steps of this curve with different ū and D:")
     other = 1 - CONSTANT / 2 * level / SCALE

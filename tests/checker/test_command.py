@@ -78,6 +78,11 @@ def test_two_files_that_differ_are_no_certificate_of_one_claim(tmp_path, capsys)
     assert main([first, same]) == 0
     assert main([first, other]) == 1
     assert capsys.readouterr().err.count("is a certificate of claim c, too") == 2
+    on_it = tmp_path / "4"
+    on_it.write_text(json.dumps(resting(f"c {resting(claim='c')['digest']}", claim="d")))
+    assert main([first, same, str(on_it)]) == 0
+    assert main([first, other, str(on_it)]) == 1
+    assert "which is not accepted" in capsys.readouterr().err
 
 
 def test_json_is_one_object_and_nothing_else_on_standard_output(files, capsys):

@@ -11,6 +11,17 @@ R, RT, J, X, XT, xi = matrix_symbols("R RT J X XT xi")
 ALGEBRA = WordAlgebra({R: RT, RT: R, J: J, X: XT, XT: X, xi: -xi}, {(R, RT): 1, (RT, R): 1})
 
 
+def test_an_example_must_obey_and_rules_must_end():
+    turn = {R: sp.Matrix([[0, -1], [1, 0]]), RT: sp.Matrix([[0, 1], [-1, 0]])}
+    WordAlgebra({R: RT, RT: R}, {(R, RT): 1, (RT, R): 1}, turn)
+    with pytest.raises(ValueError, match=r"the example breaks the rule for R RT"):
+        WordAlgebra({}, {(R, RT): 1}, turn | {RT: turn[R]})
+    with pytest.raises(ValueError, match="the example breaks the transpose of R"):
+        WordAlgebra({R: RT, RT: R}, {}, turn | {RT: turn[R]})
+    with pytest.raises(ValueError, match="do not end"):
+        WordAlgebra({}, {(X, J): X * J})
+
+
 def test_rules_apply_until_none_matches():
     assert ALGEBRA.normal((R * RT) ** 2 * J * RT * R * R) == J * R
 

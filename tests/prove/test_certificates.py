@@ -215,7 +215,7 @@ def test_letters_of_ones_own_have_the_matrices_that_their_algebra_gives():
         other: sp.Matrix([[1, 2], [3, 4]]),
     }
     cancels = [other * turn * turned, other]
-    for example, count in ((matrices, 1), (matrices | {turned: matrices[turn]}, 0), ({}, 0)):
+    for example, count in ((matrices, 1), ({}, 0)):
         algebra = WordAlgebra({turn: turned, turned: turn}, {(turn, turned): 1, (turned, turn): 1}, example)
         data = certificate("0", "x", proof(Equation("cancels", *cancels, algebra)))
         assert len(data["statements"]) == count

@@ -137,6 +137,21 @@ def test_a_settled_question_is_proved_and_explained(monkeypatch):
     assert lines[-4:-1] == ["  ANSWER: No.", "  measured, not proved: 1e-28", "  conjecture: never"]
 
 
+def test_a_counterexample_has_a_value_for_each_symbol_of_a_hypothesis():
+    proof = Proof()
+    proof.assume("x is a square", sp.Eq(x, y**2))
+    proof.printed(Equation("x = 1", x, 1, Quotient((x,))))
+    proof.counterexample(rational_point({x: -4}))
+    proof.control(Equation("x = 2", x, 2, Quotient((x,))))
+    assert proof.verdict() is Verdict.OPEN
+    assert "the counterexample has no value for y, of the hypothesis x is a square" in proof.problems
+
+
+def test_a_symbol_has_a_name_in_ascii():
+    with pytest.raises(ValueError, match="the symbol β must have a name in ASCII"):
+        Quotient((sp.Symbol("β"),))
+
+
 def test_what_a_proof_rests_on_is_proved_anew(monkeypatch):
     def fails(p):
         """Title."""

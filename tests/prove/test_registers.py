@@ -154,6 +154,7 @@ WRONG = {
         "4.1",
         r"cubes\.py: two proofs judge the claim 4\.1; give yours an id .*chapsym",
     ),
+    "a use in a circle": ("cubes", "5.2", "c-1", "claims: c-1 uses itself, directly or through others"),
     "a use of nothing": ("cubes", "5.2", "5.2000", r"cubes\.py: c-1 uses '5\.2000', which no proof judges"),
     "no proof": ("__init__", "", "CLAIMS = ('s-1', 's-2', 'c-1', 'c-2')", r"claims: the proofs and .* differ: c-2"),
     "no script": ("__init__", "", "SCRIPTS = ('cube',)", "claims has no script 'cube'; SCRIPTS names files without"),
