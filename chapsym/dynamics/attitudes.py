@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from math import sqrt
+
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -17,6 +19,8 @@ SINGLE_AGREEMENT = 1e-4
 
 def attitude_with(gamma: Floats) -> Floats:
     """The attitude of the least rotation for which γ is vertical, R γ = e₃, shape (..., 4)."""
+    if gamma.shape == (3,):
+        return np.array(_least(*gamma.tolist()))
     x, y, z = gamma[..., 0], gamma[..., 1], gamma[..., 2]
     zero = np.zeros_like(z)
     # Components that are so small that their squares vanish are nothing beside a half turn.
@@ -29,6 +33,15 @@ def attitude_with(gamma: Floats) -> Floats:
     down = length[..., 0] == 0
     quaternion[down], length[down] = [0.0, 1.0, 0.0, 0.0], 1.0
     return quaternion / length
+
+
+def _least(x: float, y: float, z: float) -> tuple[float, ...]:
+    """`attitude_with` of one γ, with the same roundings."""
+    x, y = (0.0 if abs(v) < 1e-150 else v for v in (x, y))
+    quaternion = (1 + z, y, -x, 0.0) if not z < 0 else ((x * x + y * y) / (1 - z), y, -x, 0.0)
+    a, b, c, _ = quaternion
+    length = sqrt(a * a + b * b + c * c)
+    return (0.0, 1.0, 0.0, 0.0) if length == 0.0 else tuple(v / length for v in quaternion)
 
 
 def is_followed(attitude: bool | ArrayLike) -> bool:

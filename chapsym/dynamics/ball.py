@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from math import isfinite
 from numbers import Number
-from typing import Any, Self
+from typing import Any, Self, TypeGuard
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -18,6 +19,7 @@ from .principal_axes import Floats
 #: An array that is None unless it was asked for; whoever asked need not tell the type checker so, hence `Any`.
 Asked = Floats | Any
 
+FLOAT64 = np.dtype(np.float64)
 #: Below this float64 loses digits.
 SMALLEST = np.finfo(np.float64).tiny
 #: How far |γ|² may be from 1: more than the rounding of 10⁶ steps, so that a run may go on from its end.
@@ -32,6 +34,8 @@ def numbers(value: ArrayLike, name: str, trailing: int | None = None) -> Floats:
     Real numbers of any kind are taken, `Fraction` and `Decimal` too; complex numbers, texts, dates and
     masked entries are refused with BadInput.
     """
+    if trailing == 3 and is_vector(value):
+        return value.copy()
     array = _as_float(value, name)
     if trailing is not None and (array.ndim == 0 or array.shape[-1] != trailing):
         raise BadInput(f"{name} must have {trailing} components along its last axis, not the shape {array.shape}")
@@ -40,6 +44,18 @@ def numbers(value: ArrayLike, name: str, trailing: int | None = None) -> Floats:
         at = f" at index {tuple(map(int, where))}" if array.ndim else ""
         raise BadInput(f"{name} must be finite, but it is {array[tuple(where)]}{at}")
     return array
+
+
+def is_vector(value: ArrayLike) -> TypeGuard[Floats]:
+    """Whether this is one float64 vector, and finite: what needs no more checks."""
+    return (
+        type(value) is np.ndarray and value.dtype == FLOAT64 and value.shape == (3,) and isfinite(sum(value.tolist()))
+    )
+
+
+def is_unit(x: float, y: float, z: float) -> bool:
+    """Whether this is a unit vector for sure."""
+    return abs(x * x + y * y + z * z - 1.0) < 0.5 * UNIT_TOLERANCE
 
 
 def _as_float(value: ArrayLike, name: str) -> Floats:
@@ -170,6 +186,11 @@ class Ball:
         return inertia_of(self.mass_tensor)
 
     @cached_property
+    def is_one(self) -> bool:
+        """Whether this is one ball, not an array of balls."""
+        return self.mass_tensor.ndim == 1 and self.D.ndim == 0 and (self.radius is None or self.radius.ndim == 0)
+
+    @cached_property
     def principal(self) -> Ball:
         """The same ball in its principal axes, for what takes no other: give it vectors turned by `to_principal`."""
         return self if self.axes is None else Ball(self.mass_tensor, self.D, self.radius)
@@ -290,6 +311,8 @@ def in_single(value: ArrayLike) -> bool:
 
 def unit_vertical(gamma: ArrayLike) -> Floats:
     """γ as checked unit vectors, shape (..., 3); a float32 array, which cannot be so near to unit, as divided."""
+    if is_vector(gamma) and is_unit(*gamma.tolist()):
+        return gamma.copy()
     array = numbers(gamma, "gamma", 3)
     squared = (array * array).sum(axis=-1)
     if in_single(gamma) and (np.abs(squared - 1) <= SINGLE_TOLERANCE).all():
@@ -308,11 +331,20 @@ def batch(ball: Ball, *vectors: Floats) -> tuple[tuple[int, ...], list[Floats]]:
     Returns (shape, [vector (n, 3) ..., mass_tensor (n, 3), D (n,)]); raises BadInput for a ball that has axes.
     """
     in_principal_axes(ball)
+    if ball.is_one and all(v.ndim == 1 for v in vectors):
+        return (), [*(v[np.newaxis].copy() for v in (*vectors, ball.mass_tensor)), ball.D[np.newaxis].copy()]
     radius = () if ball.radius is None else ball.radius.shape
     try:
         shape = np.broadcast_shapes(ball.D.shape, ball.mass_tensor.shape[:-1], radius, *(v.shape[:-1] for v in vectors))
     except ValueError:
         shapes = ", ".join(str(s) for s in [ball.mass_tensor.shape, ball.D.shape, *(v.shape for v in vectors)])
         raise BadInput(f"the leading axes of ball (mass_tensor, D) and vectors do not broadcast: {shapes}") from None
-    flat = [np.broadcast_to(v, (*shape, 3)).reshape(-1, 3).copy() for v in (*vectors, ball.mass_tensor)]
-    return shape, [*flat, np.broadcast_to(ball.D, shape).reshape(-1).copy()]
+    flat = [_filled((*shape, 3), v).reshape(-1, 3) for v in (*vectors, ball.mass_tensor)]
+    return shape, [*flat, _filled(shape, ball.D).reshape(-1)]
+
+
+def _filled(shape: tuple[int, ...], value: Floats) -> Floats:
+    """`value` broadcast, as an array of its own."""
+    array = np.empty(shape)
+    array[...] = value
+    return array

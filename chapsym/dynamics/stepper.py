@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
-from math import isfinite
-from typing import Any, TypeGuard
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -13,16 +12,14 @@ from numpy.typing import ArrayLike
 from chapsym.generated import angular_velocity
 
 from .attitudes import initial_attitude, is_followed
-from .ball import UNIT_TOLERANCE, Asked, Ball, Floats, batch, numbers, unit_vertical
+from .ball import Asked, Ball, Floats, batch, is_unit, is_vector, numbers, unit_vertical
 from .coefficients import substeps
 from .errors import BadInput, Status, StepNotTaken
 from .levels import double
 from .levels.dispatch import no_room
 from .loops.loop import G, K
 from .results import Trajectory, finished
-from .trajectories import MOST_STEPS, rolling_radius, seconds, whole_number
-
-FLOAT64 = np.dtype(np.float64)
+from .trajectories import rolling_radius, seconds, whole_number
 
 
 class Stepper:
@@ -71,8 +68,8 @@ class Stepper:
 
         attitude: True for the least rotation with R γ = e₃.  Raises BadInput; then the state is as before.
         """
-        k = momentum if _is_vector(momentum) else _one("momentum", numbers(momentum, "momentum", 3))
-        g = gamma if _is_vector(gamma) and _is_unit(*gamma.tolist()) else _one("gamma", unit_vertical(gamma))
+        k = momentum if is_vector(momentum) else _one("momentum", numbers(momentum, "momentum", 3))
+        g = gamma if is_vector(gamma) and is_unit(*gamma.tolist()) else _one("gamma", unit_vertical(gamma))
         if self._follows:
             self._spin[:] = self._ends[2][1] = initial_attitude(attitude, g)
             self._spot[:] = self._ends[3][1] = 0.0
@@ -84,7 +81,7 @@ class Stepper:
 
         Raises StepNotTaken where one cannot be taken, with its `index` in this call; the state is then that before it.
         """
-        steps = _count(steps, "steps", 0)
+        steps = whole_number(steps, "steps", 0)
         taken, status, reach = self._take(steps, steps, self._ends)
         if status:
             raise StepNotTaken(Status(status), reach, taken)
@@ -94,7 +91,7 @@ class Stepper:
 
         Raises StepNotTaken as `step`, with the `trajectory` before.
         """
-        steps, every = _count(steps, "steps", 0), _count(every, "every", 1)
+        steps, every = whole_number(steps, "steps", 0), whole_number(every, "every", 1)
         every = min(every, steps + 1)
         count = steps // every + 1
         try:
@@ -125,7 +122,7 @@ class Stepper:
     @momentum.setter
     def momentum(self, momentum: ArrayLike) -> None:
         """Goes on with another 𝒦."""
-        self._momentum[:] = momentum if _is_vector(momentum) else _one("momentum", numbers(momentum, "momentum", 3))
+        self._momentum[:] = momentum if is_vector(momentum) else _one("momentum", numbers(momentum, "momentum", 3))
         self._state, self._scale = double.begun(
             self._begin, self._momentum, self._gamma, self._J, self._D, double.DOUBLE, self._stages
         )
@@ -226,22 +223,6 @@ def _ready(functions: tuple[Callable[..., Any], ...]) -> list[Callable[..., Any]
     if double.has_numba():
         return double.load(functions)
     return [np.errstate(over="ignore", invalid="ignore")(function) for function in functions]
-
-
-def _count(value: int, name: str, least: int) -> int:
-    """`whole_number`, at once where the value is one."""
-    return value if type(value) is int and least <= value < MOST_STEPS else whole_number(value, name, least)
-
-
-def _is_vector(value: ArrayLike) -> TypeGuard[Floats]:
-    """Whether this is one float64 vector, and finite: what needs no more checks."""
-    return (
-        type(value) is np.ndarray and value.dtype == FLOAT64 and value.shape == (3,) and isfinite(sum(value.tolist()))
-    )
-
-
-def _is_unit(x: float, y: float, z: float) -> bool:
-    return abs(x * x + y * y + z * z - 1.0) < 0.5 * UNIT_TOLERANCE
 
 
 def _one(name: str, vector: Floats) -> Floats:

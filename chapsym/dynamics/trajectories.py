@@ -107,6 +107,8 @@ def rolling_radius(ball: Ball) -> Floats:
 
 def whole_number(value: int, name: str, least: int, most: int | None = None) -> int:
     """A count from `least` to `most`, or without it 2^62 for all that is larger; raises BadInput for anything else."""
+    if type(value) is int and least <= value < MOST_STEPS and (most is None or value <= most):
+        return value
     number = isinstance(value, int | np.integer) and not isinstance(value, bool)
     if not number or value < least or (most is not None and value > most):
         told = "on" if most is None else f"to {most}"

@@ -106,11 +106,18 @@ def chosen(functions: Sequence[Callable], work: int) -> list[Callable]:
 
 def load(functions: Sequence[Callable]) -> list[Callable]:
     """The functions compiled: loaded from disk, or compiled when they are first called."""
-    from .compiled import compiled
-
     with _loading:
         _ready.add(functions[0])
+        compiled = _compiler()
         return [compiled(function) for function in functions]
+
+
+@cache
+def _compiler() -> Callable[[Callable], Callable]:
+    """`compiled`, which loads numba."""
+    from .compiled import compiled
+
+    return compiled
 
 
 def pays(function: Callable, work: int) -> bool:
