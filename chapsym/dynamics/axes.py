@@ -79,7 +79,7 @@ def _principal_arguments(ball: Ball, given: dict[str, Any]) -> dict[str, Any]:
 
 def _in_axes_of(ball: Ball, found: Any) -> Any:
     """A result in principal axes, in those of the ball."""
-    frames = hasattr(found, "index")
+    frames = getattr(found, "index", None) is not None
     assert ball.axes is not None
     axes = ball.axes[..., np.newaxis, :] if frames else ball.axes
     turned: dict[str, Any] = {}

@@ -12,7 +12,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
-from math import frexp, ldexp, prod
+from math import isfinite, prod
 from typing import Any
 
 import numpy as np
@@ -22,14 +22,17 @@ from .attitudes import initial_attitude, is_followed
 from .axes import in_given_axes
 from .ball import Asked, Ball, Floats, batch, numbers, unit_vertical
 from .errors import BadInput, Status, StepNotTaken
-from .levels.double import chosen, compiles
-from .loops import loop
-from .loops.lanes import MOST_COLUMNS, long_steps_in_lanes
-from .loops.long_step import FIRST, long_steps
-from .trajectories import whole_number
+from .levels import double
+from .levels.dispatch import no_room
+from .levels.frames import Count, cores, share
+from .loops.guess import guess_weights
+from .loops.lanes import EIGHT, MOST_COLUMNS
+from .loops.long_run import march_eight, march_one
+from .loops.long_step import FIRST
+from .trajectories import rolling_radius, whole_number
 
-#: Longer steps than 2^LONGEST, in units where the momentum and the ball are about 1, have no rotation anyway.
-LONGEST = 100
+#: From so many balls on a block of eight is faster than one after another.
+FEW = 6
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,9 +41,12 @@ class Extrapolated:
 
     angular_momentum: K in kg m²/s, shape (..., 3); gamma: the vertical upwards, (..., 3).
     attitude: unit quaternions, body to space, scalar first, (..., 4), or None.
+    contact: the contact point on the plane in m, from (0, 0), (..., 2), or None.
+    index: None; or the steps after which the frames are, (frames,), and those above are (..., frames, 3), ...
     doubt: the sum over the steps of the angle between the rotation and the one with a column less, in radians,
     (...): an estimate of the error that one column less would have made, so a large one of the error.
-    status: a `Status` for each ball, (...); where it is not TAKEN the numbers above are NaN.
+    status: a `Status` for each ball, (...); from where it is not TAKEN on the numbers above are NaN.
+    taken: the steps of each ball before that, (...).
     """
 
     angular_momentum: Floats
@@ -48,6 +54,9 @@ class Extrapolated:
     attitude: Asked
     doubt: Floats
     status: np.ndarray
+    taken: np.ndarray
+    contact: Asked = None
+    index: np.ndarray | None = None
 
 
 @cache
@@ -58,7 +67,6 @@ def weights(columns: int) -> tuple[Fraction, ...]:
 
 
 @in_given_axes
-@np.errstate(all="ignore")  # as compiled: `status` tells
 def extrapolate(
     ball: Ball,
     angular_momentum: ArrayLike,
@@ -67,7 +75,10 @@ def extrapolate(
     steps: int,
     *,
     columns: int = 6,
+    every: int | None = None,
     attitude: bool | ArrayLike = False,
+    contact: bool = False,
+    threads: int = 0,
 ) -> Extrapolated:
     """Follows the continuous ball (2.12, 2.13) for `steps` times `time_step`, to the order 2 `columns`.
 
@@ -75,57 +86,98 @@ def extrapolate(
     each other and with the balls.  time_step: seconds, negative for back in time.
     columns: 2 to 6.  A step is columns(columns + 3)/2 steps of the map; its error is of the order
     time_step^(2 columns), ⟨K,γ⟩, |K|² and |γ|² are kept to rounding.
+    every: without it only the end is kept; with it the start and every `every`-th state.
     attitude: True (from the least rotation with R γ = e₃) or unit quaternions, (..., 4), to be followed.
+    contact: whether to trace the contact point, to the same order; it needs `ball.radius`, and implies the attitude.
+    threads: how many cores a batch may use; 0 for all.
 
-    A ball in a batch may differ from the same ball alone by roundings: short runs take another loop.
+    A ball has the same bits alone and in a batch, whatever ran before.
     One ball raises StepNotTaken where the map has no step of length time_step/n; a batch reports `status`.
     Raises BadInput as `step` does, for a time_step that is not one finite number, and for counts out of range.
     """
     steps, columns = whole_number(steps, "steps", 0), whole_number(columns, "columns", 2, MOST_COLUMNS)
-    h = numbers(time_step, "time_step")
-    if h.ndim:
-        raise BadInput(f"time_step must be one number of seconds, not {time_step!r}")
+    kept = max(steps, 1) if every is None else min(whole_number(every, "every", 1), steps + 1)
+    threads, h = whole_number(threads, "threads", 0), _seconds(time_step)
     shape, (K, g, J, D) = batch(ball, numbers(angular_momentum, "angular_momentum", 3), unit_vertical(gamma))
-    followed = is_followed(attitude)
-    attitudes = np.tile([1.0, 0.0, 0.0, 0.0], (len(D), 1))
-    if followed:
-        attitudes[:] = np.broadcast_to(initial_attitude(attitude, g.reshape(*shape, 3)), (*shape, 4)).reshape(-1, 4)
-    march = _march(columns, steps * len(D) * columns * (columns + 3) // 2)
-    doubt, status = np.zeros(len(D)), np.zeros(len(D), dtype=np.int64)
-    for i in range(len(D)):
-        state, half, exponent = _scaled(K[i], J[i], float(D[i]), float(h))
-        taken, status[i], reach, doubt[i] = march(K[i], g[i], attitudes[i], half, state, steps)
-        K[i] = np.ldexp(K[i], exponent)
-        if status[i] != Status.TAKEN:
-            if not shape:
-                raise StepNotTaken(Status(int(status[i])), reach, taken)
-            K[i], g[i], attitudes[i], doubt[i] = np.nan, np.nan, np.nan, np.nan
+    follows = contact or is_followed(attitude)
+    n, count = len(D), steps // kept + 1
+    body = count if follows else 0
+    try:
+        momenta, verticals = np.empty((n, count, 3)), np.empty((n, count, 3))
+        attitudes, spots = np.empty((n, body, 4)), np.empty((n, body, 2))
+    except (MemoryError, ValueError):
+        raise no_room(count, n) from None
+    momenta[:, 0], verticals[:, 0] = K, g
+    if follows:
+        first = initial_attitude(attitude, g.reshape(*shape, 3))
+        attitudes[:, 0], spots[:, 0] = np.broadcast_to(first, (*shape, 4)).reshape(-1, 4), 0.0
+    radius = np.broadcast_to(rolling_radius(ball), shape).reshape(-1).copy() if contact else D
+    frames = momenta, verticals, attitudes, spots, J, D, radius
+    doubt, taken, status = _march(frames, (h, steps, kept, follows, bool(contact)), columns, threads, not shape)
+
+    def shaped(array: Floats) -> Floats:
+        array = array[:, -1] if every is None else array
+        return array.reshape(shape + array.shape[1:]) if shape else array[0]
+
     return Extrapolated(
-        K.reshape(*shape, 3), g.reshape(*shape, 3), attitudes.reshape(*shape, 4) if followed else None,
-        doubt.reshape(shape), status.reshape(shape),
+        shaped(momenta), shaped(verticals), shaped(attitudes) if follows else None, doubt.reshape(shape),
+        status.reshape(shape), taken.reshape(shape), shaped(spots) if contact else None,
+        None if every is None else np.arange(count) * kept,
     )  # fmt: skip
 
 
-def _march(columns: int, work: int) -> Callable[..., Any]:
-    """What takes the long steps: (K, g, attitude, half, state, steps) -> (taken, status, reach, doubt)."""
-    full = np.array(weights(columns), dtype=float)
-    short = np.array([*weights(columns - 1), 0], dtype=float)
-    if not compiles(long_steps_in_lanes, work):
-        return lambda K, g, a, half, state, steps: long_steps(K, g, a, half, full, short, state, steps)
-    from .loops.guess import guess_weights
-
-    (lanes,), guesses = chosen((long_steps_in_lanes,), work), guess_weights(columns)
-    return lambda K, g, a, half, state, steps: lanes(K, g, a, half, full, short, *guesses, state, steps)
+def _seconds(time_step: float) -> float:
+    """One finite number; raises BadInput for anything else."""
+    if type(time_step) is float and isfinite(time_step):
+        return time_step
+    h = numbers(time_step, "time_step")
+    if h.ndim:
+        raise BadInput(f"time_step must be one number of seconds, not {time_step!r}")
+    return float(h)
 
 
-def _scaled(K: Floats, J: Floats, D: float, h: float) -> tuple[Floats, float, int]:
-    """Scales K by a power of two in place, exactly, so that it is about 1, and the ball likewise.
+def _march(
+    frames: tuple[Floats, ...], how: tuple[Any, ...], columns: int, threads: int, alone: bool
+) -> tuple[Floats, np.ndarray, np.ndarray]:
+    """Takes all long steps; returns doubt, taken and status, (n,).
 
-    Returns (state, half, exponent): the state with J, I and D, half a long step in these units, and K's exponent.
+    frames, how: the first arguments of `march_lanes`.  alone: one ball that stops raises StepNotTaken.
     """
-    state = np.empty(loop.ROWS)
-    _, size = frexp(loop.scaled((0.0, 0.0, 0.0), (0.0, 0.0, 1.0), J, D, state))
-    _, exponent = frexp(float(np.abs(K).max()))
-    K[:] = np.ldexp(K, -exponent)
-    mantissa, shift = frexp(0.5 * h)
-    return state, ldexp(mantissa, min(shift + exponent - (size - 2), LONGEST)), exponent
+    n, steps = len(frames[0]), how[1]
+    work = steps * n * columns * (columns + 3) // 2
+    weights, doubt, reach = _weights(columns), np.empty(n), np.empty(n)
+    taken, status = np.zeros(n, dtype=np.int64), np.zeros(n, dtype=np.int64)
+    ends = doubt, taken, status, reach
+    if alone:
+        _taken_by(march_one, work)(*frames, *how, *weights, *ends)
+        if status[0]:
+            raise StepNotTaken(Status(int(status[0])), float(reach[0]), int(taken[0]))
+        return doubt, taken, status
+    blocks = (n + EIGHT - FEW) // EIGHT if double.has_numba() else 0  # the last may have idle lanes
+    march = _taken_by(march_eight, work) if blocks else None
+    each = _taken_by(march_one, work) if n > EIGHT * blocks else None
+
+    def task(part: int) -> None:
+        first = EIGHT * part if part < blocks else EIGHT * blocks + part - blocks
+        some = slice(first, first + (EIGHT if part < blocks else 1))
+        loop: Any = march if part < blocks else each
+        loop(*(x[some] for x in frames), *how, *weights, *(x[some] for x in ends))
+
+    parts = range(blocks + max(0, n - EIGHT * blocks))
+    workers = min(threads or cores(), len(parts)) if work >= double.SHORT_RUN else 1
+    share(task, parts, workers, Count(lambda done: None))
+    return doubt, taken, status
+
+
+def _taken_by(march: Callable[..., None], work: int) -> Callable[..., None]:
+    """The loop, compiled if that pays, or in plain Python and as silent: `status` tells."""
+    (found,) = double.chosen((march,), work)
+    return np.errstate(all="ignore")(found) if found is march else found
+
+
+@cache
+def _weights(columns: int) -> tuple[Floats, Floats, Floats]:
+    """What the loops take: the weights of the columns, as of `march_lanes`, and those of the guesses."""
+    full, short = weights(columns), (*weights(columns - 1), Fraction(0))
+    first = np.array(full, dtype=float)
+    return np.array([first, first - np.array(short, dtype=float)]), *guess_weights(columns)

@@ -9,7 +9,7 @@ import chapsym
 from chapsym.dynamics import extrapolation, kernels
 from chapsym.dynamics.attitudes import initial_attitude
 from chapsym.dynamics.levels import double
-from chapsym.dynamics.loops import guess, lanes
+from chapsym.dynamics.loops import lanes, long_run
 from chapsym.studies.trade.reference import continuous
 
 BALL = chapsym.Ball((0.1, 0.5, 1.6), 0.7)
@@ -97,19 +97,120 @@ def at_random(n, seed=5):
 @pytest.mark.parametrize("columns", range(2, 7))
 @pytest.mark.parametrize("time_step", [0.05, 0.5])
 def test_lanes_take_the_rotations_of_the_branch(monkeypatch, columns, time_step):
-    """The plain way proves each rotation to be that of the small-rotation branch, or continues it from no rotation.
+    """The safe way proves each rotation to be that of the small-rotation branch, or continues it from no rotation.
 
     The roots agree to roundings; 27 steps of the map, weights with Σ|w| < 60, and 4 long steps: 1e-12 is ample.
     """
     ball, K, g = at_random(20)
-    plain = chapsym.extrapolate(ball, K, g, time_step, 4, columns=columns, attitude=True)
-    assert (plain.status == 0).sum() >= 15
-    monkeypatch.setattr(double, "SHORT_RUN", 0)
+    ball = chapsym.Ball(ball.mass_tensor, ball.D, 0.7)
+    fast = chapsym.extrapolate(ball, K, g, time_step, 4, columns=columns, contact=True)
+    monkeypatch.setattr(double, "SHORT_RUN", 10**9)
     monkeypatch.setattr(double, "_ready", set())
-    lanes = chapsym.extrapolate(ball, K, g, time_step, 4, columns=columns, attitude=True)
-    assert (lanes.status == plain.status).all()
-    for name in ("angular_momentum", "gamma", "attitude", "doubt"):
-        np.testing.assert_allclose(getattr(lanes, name), getattr(plain, name), rtol=0, atol=1e-12)
+    monkeypatch.setattr(long_run, "side_by_side", lambda S, *args: S[lanes.LOST].fill(1.0) or True)
+    safe = chapsym.extrapolate(ball, K, g, time_step, 4, columns=columns, contact=True)
+    assert (safe.status == 0).sum() >= 15
+    assert (safe.status == fast.status).all()
+    for name in ("angular_momentum", "gamma", "attitude", "contact", "doubt"):
+        np.testing.assert_allclose(getattr(fast, name), getattr(safe, name), rtol=0, atol=1e-12)
+        assert (getattr(fast, name) != getattr(safe, name)).any()  # two ways indeed
+
+
+def everything(found):
+    parts = (found.angular_momentum, found.gamma, found.attitude, found.contact, found.doubt)
+    return [np.asarray(x) for x in parts if x is not None]
+
+
+@pytest.mark.parametrize(("time_step", "columns"), [(0.3, 6), (2.0, 6), (4.0, 6), (0.7, 2), (0.7, 4)])
+def test_a_ball_has_the_same_bits_alone_in_a_batch_and_in_plain_python(monkeypatch, time_step, columns):
+    """A long time_step takes the safe way for some balls, and stops others; neither touches those beside them."""
+    ball, K, g = at_random(11)
+    radius = np.linspace(0.1, 0.9, 11)
+    ball = chapsym.Ball(ball.mass_tensor, ball.D, radius)
+    more = {"columns": columns, "contact": True, "every": 2}
+    plain = []
+    monkeypatch.setattr(double, "_ready", set())
+    for short_run in (10**9, 0):
+        monkeypatch.setattr(double, "SHORT_RUN", short_run)
+        monkeypatch.setattr(double, "_plain", double.Counter())
+        whole = chapsym.extrapolate(ball, K, g, time_step, 5, **more)
+        for n in (2, 8):  # one after another, and a full block
+            few = chapsym.Ball(ball.mass_tensor[:n], ball.D[:n], radius[:n])
+            found = chapsym.extrapolate(few, K[:n], g[:n], time_step, 5, threads=1, **more)
+            for a, b in zip(everything(found), everything(whole), strict=True):
+                np.testing.assert_array_equal(a, b[:n])
+        for i in range(11):
+            one = chapsym.Ball(ball.mass_tensor[i], ball.D[i], radius[i])
+            if whole.status[i]:
+                with pytest.raises(chapsym.StepNotTaken):
+                    chapsym.extrapolate(one, K[i], g[i], time_step, 5, **more)
+                continue
+            found = chapsym.extrapolate(one, K[i], g[i], time_step, 5, **more)
+            for a, b in zip(everything(found), everything(whole), strict=True):
+                np.testing.assert_array_equal(a, b[i])
+        plain.append(everything(whole))
+    for a, b in zip(*plain, strict=True):
+        np.testing.assert_array_equal(a, b)
+    assert time_step != 4.0 or 0 < np.isnan(plain[0][4]).sum() < 11
+
+
+def test_a_batch_of_many_has_the_same_bits_on_any_number_of_cores():
+    ball, K, g = at_random(45)
+    one = chapsym.extrapolate(ball, K, g, 0.4, 60, attitude=True, threads=1)
+    two = chapsym.extrapolate(ball, K, g, 0.4, 60, attitude=True, threads=2)
+    for a, b in zip(everything(one), everything(two), strict=True):
+        np.testing.assert_array_equal(a, b)
+
+
+def test_every_state_is_that_of_a_run_which_ends_there():
+    ball = chapsym.Ball(BALL.mass_tensor, BALL.D, 0.3)
+    run = chapsym.extrapolate(ball, K, GAMMA, 0.5, 7, every=3, contact=True)
+    assert run.index.tolist() == [0, 3, 6]
+    assert run.contact.shape == (3, 2)
+    for frame, steps in enumerate(run.index.tolist()):
+        end = chapsym.extrapolate(ball, K, GAMMA, 0.5, steps, contact=True)
+        assert end.index is None
+        for name in ("angular_momentum", "gamma", "attitude", "contact"):
+            np.testing.assert_array_equal(getattr(run, name)[frame], getattr(end, name))
+    assert (run.contact[0] == 0).all()
+    batch = chapsym.extrapolate(ball, [K, 100 * K], GAMMA, 0.5, 7, every=3)
+    assert batch.angular_momentum.shape == (2, 3, 3)
+    assert np.isnan(batch.gamma[1, 1:]).all()
+    assert (batch.gamma[1, 0] == GAMMA).all()
+    assert batch.contact is None
+
+
+def test_the_contact_point_converges_with_the_order_to_that_of_the_continuous_ball():
+    """Against a Taylor series of the rolling ball, in which is nothing of the map."""
+    ball = chapsym.Ball(BALL.mass_tensor, BALL.D, 0.3)
+    known = continuous(ball, K, GAMMA, None, [Fraction(2)], 25)[0, 6:].astype(float)
+
+    def off(steps, columns):
+        end = chapsym.extrapolate(ball, K, GAMMA, 2 / steps, steps, columns=columns, contact=True)
+        return np.abs(end.contact - known).max()
+
+    for columns, steps in ((2, 8), (3, 4)):
+        coarse, fine = off(steps, columns), off(2 * steps, columns)
+        assert fine > 1e-12
+        assert np.log2(coarse / fine) == pytest.approx(2 * columns, abs=0.75)
+    # 20 turns with Σ|w| = 54: about a thousand roundings of 0.3 m at worst.
+    assert off(20, 6) < 1e-13
+
+
+def test_the_contact_point_in_axes_of_the_ball_is_that_in_principal_axes():
+    turn = np.array([0.8, 0.0, 0.6, 0.0])
+    there = chapsym.Ball(BALL.mass_tensor, BALL.D, 0.3, turn)
+    k, g = there.from_principal(K), there.from_principal(GAMMA)
+    end = chapsym.extrapolate(there, k, g, 0.5, 4, contact=True, every=2)
+    space = kernels.rotate(end.attitude, end.angular_momentum)
+    np.testing.assert_allclose(space, np.broadcast_to(space[0], space.shape), rtol=0, atol=1e-14)
+    start = kernels.compose(initial_attitude(True, g), turn)
+    same = chapsym.extrapolate(there.principal, K, GAMMA, 0.5, 4, contact=True, every=2, attitude=start)
+    np.testing.assert_allclose(end.contact, same.contact, rtol=0, atol=1e-14)
+
+
+def test_a_contact_point_needs_a_radius():
+    with pytest.raises(chapsym.BadInput, match="radius"):
+        chapsym.extrapolate(BALL, K, GAMMA, 0.5, 1, contact=True)
 
 
 @pytest.mark.parametrize(("time_step", "rounds"), [(2.1, 3), (0.25, 0)])
@@ -119,13 +220,11 @@ def test_lanes_do_not_need_the_safe_way(monkeypatch, time_step, rounds):
     At 2.1 three columns are beyond the lemma's bound.
     """
     calls = []
-    monkeypatch.setattr(lanes, "long_step", lambda *args: calls.append(1) or (0, 1.0, 0.0))
+    monkeypatch.setattr(long_run, "long_step", lambda *args: calls.append(1) or (0, 1.0))
     monkeypatch.setattr(lanes, "MOST_ROUNDS", rounds)
-    state, half, _ = extrapolation._scaled(K.copy(), BALL.mass_tensor, float(BALL.D), time_step)
-    full = np.array(extrapolation.weights(6), dtype=float)
-    start = K.copy(), GAMMA.copy(), np.array([1.0, 0, 0, 0])
-    taken, *_ = lanes.long_steps_in_lanes(*start, half, full, full, *guess.guess_weights(6), state, 40)
-    assert taken == 40
+    monkeypatch.setattr(double, "SHORT_RUN", 10**9)
+    monkeypatch.setattr(double, "_ready", set())
+    chapsym.extrapolate(BALL, K, GAMMA, time_step, 40)
     assert not calls
 
 

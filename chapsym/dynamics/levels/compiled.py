@@ -29,6 +29,7 @@ from ..loops import (
     gibbs,
     integrals,
     lanes,
+    long_run,
     long_step,
     loop,
     loop_n,
@@ -44,7 +45,21 @@ from .retyped import Family
 
 #: What the compiled code is made of.
 SOURCES = (
-    *(generated, branch, gibbs, path, integrals, sums, loop, block, composed_loop, vertical_loop, long_step, lanes),
+    *(
+        generated,
+        branch,
+        gibbs,
+        path,
+        integrals,
+        sums,
+        loop,
+        block,
+        composed_loop,
+        vertical_loop,
+        long_step,
+        lanes,
+        long_run,
+    ),
     *(single_loop, single_step, rotation_n, loop_n),
     *(pairs, generated_double_double, double_double_step, double_double_loop, double_double_block),
 )
@@ -66,7 +81,9 @@ INLINED: set[Callable[..., Any]] = {
         double_double_block.corrected,
         double_double_block.turned,
     ),
-    *(generated.compose, lanes.checked, lanes.moved, lanes.rates, lanes.begin, lanes.keep, lanes.side_by_side),
+    *(generated.compose, generated.angular_velocity, long_step.moved_body, lanes.checked, lanes.moved),
+    *(lanes.rates, lanes.start, lanes.begin, lanes.begin_second, lanes.finish, lanes.gather, lanes.side_by_side),
+    *(lanes.lose, long_run.march_lanes),
 }
 
 

@@ -1,7 +1,9 @@
-"""A long step of the continuous ball, its columns side by side: four lanes in vector code, for numba only.
+"""Long steps of the continuous ball, columns side by side, of one ball or of eight: vector code, for numba.
 
 With the columns n = 2, ..., m lane i first takes the column m - i, and then the column i where there is one; so the
-columns 2 to 7 are 7, 6, 5 + 2 and 4 + 3 steps of the map, 7 slots of four.  Each number has a row of its own.
+columns 2 to 7 are 7, 6, 5 + 2 and 4 + 3 steps of the map, 7 slots of four.  Each number has a row of its own, in which
+the lane i of the ball b of B is the i B + b th.  What a lane does depends on its own ball alone: a settled lane waits
+for the others unchanged.  So a ball has the same bits alone, in a block, and in plain Python.
 
 The steps are as long as the error allows, mostly longer than lemma `small-branch` proves; so each is checked on the
 spot.  With d the Newton correction of u, e the second one, A⁻¹ = C/det the inverse of the Jacobian at u and
@@ -13,15 +15,13 @@ beyond, it is the one that Newton's method finds from the rates of the other ste
 
 from math import sqrt
 
-import numpy as np
+from chapsym.generated import angular_velocity, centre_step, compose, turn
 
-from chapsym.generated import angular_velocity, compose, turn
+from .gibbs import newton_round, second_round
+from .long_step import DOUBT, FIRST, MOVING, moved_body
 
-from .gibbs import LEFT, certificate, is_heavy, newton_round, second_round
-from .long_step import FIRST, long_step, turn_all
-from .loop import D, I, J, put, three
-
-LANES = 4
+#: Columns side by side, and balls in a block.
+LANES, EIGHT = 4, 8
 #: The most columns that fit: 2, ..., 7.
 MOST_COLUMNS = 6
 SLOTS = MOST_COLUMNS + 1
@@ -29,27 +29,38 @@ SLOTS = MOST_COLUMNS + 1
 TERMS = 5
 #: ... and that of the first step of a lane's second column for ω, its derivative, and the first steps of the others.
 FIRST_TERMS = 2 + LANES + 1
-#: Rows of the one array: k, γ, u, the two before it, the quaternion so far, half the step and its inverse, c², the
-#: lemma's radius², (what may be left of u / 4.26)², a quaternion of the step, whether it is open, and the weights.
-K, G, U, V, X, Q, HALF, INVERSE = 0, 3, 6, 9, 12, 15, 19, 20
-SLOPE, WITHIN, LEAST, P, OPEN, WEIGHT = 21, 22, 23, 24, 28, 29
-ROWS = WEIGHT + TERMS
-#: Where the lemma has no radius, none is asked for.
-ANYWHERE = 2.0**1000
+#: All numbers are in one array, so that the loops see that nothing overlaps.  Rows of the lanes: k, γ, u, the two
+#: before it, the quaternion and the way of the centre so far, half the step, its inverse, c², the lemma's radius²,
+#: (what may be left of u / 4.26)², I and D, K and γ, ω and its derivative at the beginning, the weights of the guess,
+#: a quaternion of the step, whether it is open, and whether its ball is lost: the safe way takes it.
+K, G, U, V, X, Q, Y, HALF, INVERSE, SLOPE, WITHIN, LEAST = 0, 3, 6, 9, 12, 15, 19, 22, 23, 24, 25, 26
+BALL, START, VERTICAL, OMEGA, RATE, WEIGHT, P, OPEN, LOST = 27, 31, 34, 37, 40, 43, 48, 52, 53
+#: Rows of the lanes that a run does not change: HALF, ..., LEAST of the first column and of the second, the weights of
+#: both in the sums, and those of the first guess.
+FIRSTS, SECONDS, FULL, CHANGE, GUESS = 54, 59, 64, 66, 68
+#: The rate of each lane's first step, the quaternion and the way of the column that it has finished first, and sums.
+KEPT, DONE, SUMS = 70, 73, 80
+#: Rows of the balls, one number each: `long_step.MOVING`, half a long step, the radius, J and D, whether it rests, and
+#: the rate of the first step of the largest second column.
+MOVED = SUMS + 11
+LENGTH, RADIUS, TENSOR, CONTACT, RESTS, LATER = (MOVED + MOVING + i for i in (0, 1, 2, 5, 6, 7))
+ROWS = MOVED + MOVING + 10
 #: (|A⁻¹| c |d|)² may be this: Kantorovich's number, 2|A⁻¹|c|d|, is then at most 1/4.
 KANTOROVICH = 1.0 / 64.0
-#: (1.42 · 3)².
-BEHIND = 18.2
 #: Rounds of a slot that are tried before the long step is left to the safe way.
 MOST_ROUNDS = 6
 
 
-def checked(S, twice, I1, I2, I3, contact):
-    """A Newton iterate, or two if `twice`, and a second correction in every lane; returns whether one is open."""
-    for i in range(LANES):
+def checked(S, B, again):
+    """Two Newton iterates, or one `again`, and a second correction in every lane; returns how many are open.
+
+    A lane that has settled before stays as it is.
+    """
+    for i in range(LANES * B):
         k1, k2, k3, g1, g2, g3 = S[K, i], S[K + 1, i], S[K + 2, i], S[G, i], S[G + 1, i], S[G + 2, i]
         u1, u2, u3 = S[U, i], S[U + 1, i], S[U + 2, i]
-        if twice:
+        I1, I2, I3, contact = S[BALL, i], S[BALL + 1, i], S[BALL + 2, i], S[BALL + 3, i]
+        if not again:
             _, _, _, _, u1, u2, u3, _, _, _, _, _, _, _, _, _, _, _, _, _ = newton_round(
                 u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, contact
             )  # fmt: skip
@@ -64,20 +75,34 @@ def checked(S, twice, I1, I2, I3, contact):
         settled = (p0 > 0.0) & (w1 * w1 + (w2 * w2 + w3 * w3) <= S[WITHIN, i])
         settled = settled & (bent * first <= KANTOROVICH * (p0 * p0))
         settled = settled & (bent * (max(first, second) * second) <= S[LEAST, i] * (p0 * p0))
-        S[P, i], S[P + 1, i], S[P + 2, i], S[P + 3, i] = p0, p1, p2, p3
-        S[U, i], S[U + 1, i], S[U + 2, i] = w1, w2, w3
-        S[OPEN, i] = 0.0 if settled else 1.0
-    return (S[OPEN, 0] + S[OPEN, 1]) + (S[OPEN, 2] + S[OPEN, 3]) != 0.0
+        closed = again & (S[OPEN, i] == 0.0)
+        S[P, i], S[P + 1, i] = S[P, i] if closed else p0, S[P + 1, i] if closed else p1
+        S[P + 2, i], S[P + 3, i] = S[P + 2, i] if closed else p2, S[P + 3, i] if closed else p3
+        S[U, i], S[U + 1, i] = S[U, i] if closed else w1, S[U + 1, i] if closed else w2
+        S[U + 2, i] = S[U + 2, i] if closed else w3
+        S[OPEN, i] = 0.0 if closed | settled | (S[LOST, i] != 0.0) else 1.0
+    left = 0
+    for i in range(LANES * B):
+        left += 1 if S[OPEN, i] != 0.0 else 0
+    return left
 
 
-def moved(S, o1, o2, o3, a1, a2, a3):
+def moved(S, B, traced):
     """Turns k and γ of every lane, carries its quaternion on by (1, u), and guesses the next u.
 
-    o is ω and a its derivative at the beginning of the long step.
+    traced: whether its centre moves, too, in the axes of the body at the beginning of the long step.
     """
-    for i in range(LANES):
+    for i in range(LANES * B):
         p0, p1, p2, p3 = S[P, i], S[P + 1, i], S[P + 2, i], S[P + 3, i]
         w1, w2, w3 = S[U, i], S[U + 1, i], S[U + 2, i]
+        if traced:
+            scale = 1.0 / (1.0 + (w1 * w1 + (w2 * w2 + w3 * w3)))
+            s1, s2, s3 = centre_step(1.0, w1, w2, w3, S[G, i], S[G + 1, i], S[G + 2, i])
+            s1, s2, s3 = scale * s1, scale * s2, scale * s3
+            x1, x2, x3 = turn(S[Q, i], -S[Q + 1, i], -S[Q + 2, i], -S[Q + 3, i], s1, s2, s3)
+            S[Y, i] += s1 + x1
+            S[Y + 1, i] += s2 + x2
+            S[Y + 2, i] += s3 + x3
         x1, x2, x3 = turn(p0, p1, p2, p3, S[K, i], S[K + 1, i], S[K + 2, i])
         S[K, i] += x1
         S[K + 1, i] += x2
@@ -93,119 +118,201 @@ def moved(S, o1, o2, o3, a1, a2, a3):
         S[V, i], S[V + 1, i], S[V + 2, i], S[X, i], S[X + 1, i], S[X + 2, i] = w1, w2, w3, v1, v2, v3
         a, b, c = S[WEIGHT, i], S[WEIGHT + 1, i], S[WEIGHT + 2, i]
         d, e = S[HALF, i] * S[WEIGHT + 3, i], S[HALF, i] * S[WEIGHT + 4, i]
-        S[U, i] = (a * w1 + b * v1) + (c * x1 + (d * o1 + e * a1))
-        S[U + 1, i] = (a * w2 + b * v2) + (c * x2 + (d * o2 + e * a2))
-        S[U + 2, i] = (a * w3 + b * v3) + (c * x3 + (d * o3 + e * a3))
+        S[U, i] = (a * w1 + b * v1) + (c * x1 + (d * S[OMEGA, i] + e * S[RATE, i]))
+        S[U + 1, i] = (a * w2 + b * v2) + (c * x2 + (d * S[OMEGA + 1, i] + e * S[RATE + 1, i]))
+        S[U + 2, i] = (a * w3 + b * v3) + (c * x3 + (d * S[OMEGA + 2, i] + e * S[RATE + 2, i]))
 
 
-def begin(S, i, n, K0, g, half, table, R, weights, terms):
-    """Puts the column n into lane i; table[n] has its c², radius² and least, weights[n] those of its first guess."""
-    for c in range(3):
-        S[K + c, i], S[G + c, i], S[Q + 1 + c, i] = half / n * K0[c], g[c], 0.0
-    S[Q, i], S[HALF, i], S[INVERSE, i] = 1.0, half / n, n / half
-    S[SLOPE, i], S[WITHIN, i], S[LEAST, i] = three(table[n], 0)
-    for c in range(3):
-        rate = 0.0
-        for j in range(terms):
-            rate += weights[n, j] * R[j, c]
-        S[U + c, i] = half / n * rate
+def begin(S, B):
+    """Puts its first column into every lane, with the first guess."""
+    for i in range(LANES * B):
+        half = S[FIRSTS, i]
+        S[HALF, i], S[INVERSE, i], S[SLOPE, i] = half, S[FIRSTS + 1, i], S[FIRSTS + 2, i]
+        S[WITHIN, i], S[LEAST, i] = S[FIRSTS + 3, i], S[FIRSTS + 4, i]
+        start(S, i)
+        a, b = half * S[GUESS, i], half * S[GUESS + 1, i]
+        S[U, i] = a * S[OMEGA, i] + b * S[RATE, i]
+        S[U + 1, i] = a * S[OMEGA + 1, i] + b * S[RATE + 1, i]
+        S[U + 2, i] = a * S[OMEGA + 2, i] + b * S[RATE + 2, i]
 
 
-def keep(S, i, R, j):
-    """Keeps the rate of the step that lane i has just taken as R[j]."""
-    for c in range(3):
-        R[j, c] = S[V + c, i] * S[INVERSE, i]
+def begin_second(S, B, lane, weights):
+    """Puts its second column into a lane of every ball."""
+    for b in range(B):
+        i = lane * B + b
+        half = S[SECONDS, i]
+        S[HALF, i], S[INVERSE, i], S[SLOPE, i] = half, S[SECONDS + 1, i], S[SECONDS + 2, i]
+        S[WITHIN, i], S[LEAST, i] = S[SECONDS + 3, i], S[SECONDS + 4, i]
+        start(S, i)
+    w0, w1, w2, w3, w4, w5, w6 = (
+        weights[lane, 0], weights[lane, 1], weights[lane, 2], weights[lane, 3],
+        weights[lane, 4], weights[lane, 5], weights[lane, 6],
+    )  # fmt: skip
+    for b in range(B):  # not a loop of the components: eight balls would be unrolled, and not become vector code
+        i, j, k, m = b, B + b, 2 * B + b, 3 * B + b
+        half = S[HALF, lane * B + b]
+        x1 = (w0 * S[OMEGA, i] + w1 * S[RATE, i]) + (w2 * S[KEPT, i] + w3 * S[KEPT, j])
+        x2 = (w0 * S[OMEGA + 1, i] + w1 * S[RATE + 1, i]) + (w2 * S[KEPT + 1, i] + w3 * S[KEPT + 1, j])
+        x3 = (w0 * S[OMEGA + 2, i] + w1 * S[RATE + 2, i]) + (w2 * S[KEPT + 2, i] + w3 * S[KEPT + 2, j])
+        x1 += (w4 * S[KEPT, k] + w5 * S[KEPT, m]) + w6 * S[LATER, i]
+        x2 += (w4 * S[KEPT + 1, k] + w5 * S[KEPT + 1, m]) + w6 * S[LATER + 1, i]
+        x3 += (w4 * S[KEPT + 2, k] + w5 * S[KEPT + 2, m]) + w6 * S[LATER + 2, i]
+        S[U, lane * B + b], S[U + 1, lane * B + b], S[U + 2, lane * B + b] = half * x1, half * x2, half * x3
 
 
-def gather(S, i, w, v, T):
-    """Adds the unit quaternion of a column that lane i has finished to T[0], and to T[1], with its weights."""
-    scale = 1.0 / sqrt((S[Q, i] ** 2 + S[Q + 1, i] ** 2) + (S[Q + 2, i] ** 2 + S[Q + 3, i] ** 2))
-    for c in range(4):
-        q = S[Q + c, i] * scale
-        T[0, c] += w * q
-        T[1, c] += v * q
+def start(S, i):
+    """The state of a lane at the beginning of a column."""
+    half = S[HALF, i]
+    S[K, i], S[K + 1, i], S[K + 2, i] = half * S[START, i], half * S[START + 1, i], half * S[START + 2, i]
+    S[G, i], S[G + 1, i], S[G + 2, i] = S[VERTICAL, i], S[VERTICAL + 1, i], S[VERTICAL + 2, i]
+    S[V, i], S[V + 1, i], S[V + 2, i], S[X, i], S[X + 1, i], S[X + 2, i] = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    S[Q, i], S[Q + 1, i], S[Q + 2, i], S[Q + 3, i] = 1.0, 0.0, 0.0, 0.0
+    S[Y, i], S[Y + 1, i], S[Y + 2, i] = 0.0, 0.0, 0.0
 
 
-def bounds(K0, half, most, state, table):
-    """Writes the squares of c and of the lemma's radius for every column up to `most`."""
-    I1, I2, I3 = three(state, I)
-    spread = 0.5 * (max(I1, I2, I3) - min(I1, I2, I3))
-    for n in range(FIRST, most + 1):
-        k1, k2, k3 = half / n * K0[0], half / n * K0[1], half / n * K0[2]
-        size = sqrt(k1 * k1 + k2 * k2 + k3 * k3)
-        radius, _ = certificate(k1, k2, k3, I1, I2, I3, state[D])
-        least = LEFT * size / (max(I1, I2, I3) + state[D] + spread)
-        anywhere = -1.0 if is_heavy(I1, I2, I3, state[D]) else ANYWHERE  # a heavy ball takes the safe way
-        put(table[n], 0, (spread + size) ** 2, radius if radius >= 0.0 else anywhere, least * least / BEHIND)
+def finish(S, i):
+    """Keeps the quaternion and the way of the first column of a lane."""
+    S[DONE, i], S[DONE + 1, i], S[DONE + 2, i], S[DONE + 3, i] = S[Q, i], S[Q + 1, i], S[Q + 2, i], S[Q + 3, i]
+    S[DONE + 4, i], S[DONE + 5, i], S[DONE + 6, i] = S[Y, i], S[Y + 1, i], S[Y + 2, i]
 
 
-def rates(K0, g, half, state, R):
-    """ω and its derivative in units of the long step, (2.12) and (2.13), as R[0] and R[1]."""
-    K1, K2, K3 = three(K0, 0)
-    g1, g2, g3 = three(g, 0)
-    J1, J2, J3 = three(state, J)
-    w1, w2, w3 = angular_velocity(K1, K2, K3, g1, g2, g3, J1, J2, J3, state[D])
-    put(R[0], 0, w1, w2, w3)
-    # K = Λω - D⟨γ,ω⟩γ turns, and so does γ: B(γ)ω̇ = (K + D⟨γ,ω⟩γ) × ω.
-    height = state[D] * (g1 * w1 + g2 * w2 + g3 * w3)
-    m1, m2, m3 = K1 + height * g1, K2 + height * g2, K3 + height * g3
-    x1, x2, x3 = m2 * w3 - m3 * w2, m3 * w1 - m1 * w3, m1 * w2 - m2 * w1
-    x1, x2, x3 = angular_velocity(x1, x2, x3, g1, g2, g3, J1, J2, J3, state[D])
-    put(R[1], 0, 2.0 * half * x1, 2.0 * half * x2, 2.0 * half * x3)
+def gather(S, B):
+    """Turns every ball by the weighted sum of the columns, but those that are lost."""
+    for i in range(LANES * B):
+        a0, a1, a2, a3 = S[DONE, i], S[DONE + 1, i], S[DONE + 2, i], S[DONE + 3, i]
+        b0, b1, b2, b3 = S[Q, i], S[Q + 1, i], S[Q + 2, i], S[Q + 3, i]
+        one = 1.0 / sqrt((a0 * a0 + a1 * a1) + (a2 * a2 + a3 * a3))
+        two = 1.0 / sqrt((b0 * b0 + b1 * b1) + (b2 * b2 + b3 * b3))
+        w, v = S[FULL, i] * one, S[FULL + 1, i] * two
+        S[SUMS, i], S[SUMS + 1, i] = w * a0 + v * b0, w * a1 + v * b1
+        S[SUMS + 2, i], S[SUMS + 3, i] = w * a2 + v * b2, w * a3 + v * b3
+        w, v = S[CHANGE, i] * one, S[CHANGE + 1, i] * two
+        S[SUMS + 4, i], S[SUMS + 5, i] = w * a0 + v * b0, w * a1 + v * b1
+        S[SUMS + 6, i], S[SUMS + 7, i] = w * a2 + v * b2, w * a3 + v * b3
+        w, v = S[FULL, i], S[FULL + 1, i]
+        S[SUMS + 8, i] = w * S[DONE + 4, i] + v * S[Y, i]
+        S[SUMS + 9, i] = w * S[DONE + 5, i] + v * S[Y + 1, i]
+        S[SUMS + 10, i] = w * S[DONE + 6, i] + v * S[Y + 2, i]
+    for c in range(11):
+        for b in range(B):
+            S[SUMS + c, b] = (S[SUMS + c, b] + S[SUMS + c, B + b]) + (S[SUMS + c, 2 * B + b] + S[SUMS + c, 3 * B + b])
+    for b in range(B):
+        rests = S[LOST, b] != 0.0
+        k1, k2, k3, g1, g2, g3 = (
+            S[MOVED, b],
+            S[MOVED + 1, b],
+            S[MOVED + 2, b],
+            S[MOVED + 3, b],
+            S[MOVED + 4, b],
+            S[MOVED + 5, b],
+        )
+        a0, a1, a2, a3, x, y = (
+            S[MOVED + 6, b],
+            S[MOVED + 7, b],
+            S[MOVED + 8, b],
+            S[MOVED + 9, b],
+            S[MOVED + 10, b],
+            S[MOVED + 11, b],
+        )
+        d0, d1, d2, d3 = S[SUMS + 4, b], S[SUMS + 5, b], S[SUMS + 6, b], S[SUMS + 7, b]
+        more = 2.0 * sqrt((d0 * d0 + d1 * d1) + (d2 * d2 + d3 * d3))
+        l1, l2, l3, h1, h2, h3, b0, b1, b2, b3, v, w = moved_body(
+            k1, k2, k3, g1, g2, g3, a0, a1, a2, a3, x, y, S[SUMS, b], S[SUMS + 1, b], S[SUMS + 2, b], S[SUMS + 3, b],
+            S[SUMS + 8, b], S[SUMS + 9, b], S[SUMS + 10, b], S[RADIUS, b],
+        )  # fmt: skip
+        S[MOVED, b], S[MOVED + 1, b], S[MOVED + 2, b] = k1 if rests else l1, k2 if rests else l2, k3 if rests else l3
+        S[MOVED + 3, b], S[MOVED + 4, b] = g1 if rests else h1, g2 if rests else h2
+        S[MOVED + 5, b] = g3 if rests else h3
+        S[MOVED + 6, b], S[MOVED + 7, b] = a0 if rests else b0, a1 if rests else b1
+        S[MOVED + 8, b], S[MOVED + 9, b] = a2 if rests else b2, a3 if rests else b3
+        S[MOVED + 10, b], S[MOVED + 11, b] = x if rests else v, y if rests else w
+        S[MOVED + DOUBT, b] += 0.0 if rests else more
 
 
-def side_by_side(K0, g, attitude, half, full, short, following, beginning, state, table, S, R, T):
-    """One long step in place; returns (settled, doubt), and writes nothing unless all has settled."""
-    most = FIRST + len(full) - 1
+def rates(S, B):
+    """K, γ, ω and its derivative in units of the long step, (2.12) and (2.13), of every ball in all its lanes."""
+    for b in range(B):
+        K1, K2, K3, g1, g2, g3 = (
+            S[MOVED, b],
+            S[MOVED + 1, b],
+            S[MOVED + 2, b],
+            S[MOVED + 3, b],
+            S[MOVED + 4, b],
+            S[MOVED + 5, b],
+        )
+        J1, J2, J3, contact = S[TENSOR, b], S[TENSOR + 1, b], S[TENSOR + 2, b], S[CONTACT, b]
+        w1, w2, w3 = angular_velocity(K1, K2, K3, g1, g2, g3, J1, J2, J3, contact)
+        # K = Λω - D⟨γ,ω⟩γ turns, and so does γ: B(γ)ω̇ = (K + D⟨γ,ω⟩γ) × ω.
+        height = contact * (g1 * w1 + g2 * w2 + g3 * w3)
+        m1, m2, m3 = K1 + height * g1, K2 + height * g2, K3 + height * g3
+        x1, x2, x3 = m2 * w3 - m3 * w2, m3 * w1 - m1 * w3, m1 * w2 - m2 * w1
+        x1, x2, x3 = angular_velocity(x1, x2, x3, g1, g2, g3, J1, J2, J3, contact)
+        whole = 2.0 * S[LENGTH, b]
+        S[START, b], S[START + 1, b], S[START + 2, b] = K1, K2, K3
+        S[VERTICAL, b], S[VERTICAL + 1, b], S[VERTICAL + 2, b] = g1, g2, g3
+        S[OMEGA, b], S[OMEGA + 1, b], S[OMEGA + 2, b] = w1, w2, w3
+        S[RATE, b], S[RATE + 1, b], S[RATE + 2, b] = whole * x1, whole * x2, whole * x3
+        S[LATER, b], S[LATER + 1, b], S[LATER + 2, b], S[LOST, b] = 0.0, 0.0, 0.0, S[RESTS, b]
+    for row in range(START, RATE + 3):
+        for b in range(B):
+            one = S[row, b]
+            S[row, B + b], S[row, 2 * B + b], S[row, 3 * B + b] = one, one, one
+    for b in range(B):
+        one = S[LOST, b]
+        S[LOST, B + b], S[LOST, 2 * B + b], S[LOST, 3 * B + b] = one, one, one
+
+
+def side_by_side(S, B, columns, traced, following, beginning):
+    """One long step of every ball in place but of those that get lost; returns whether one is."""
+    most = FIRST + columns - 1
     second = most - LANES  # the largest of the second columns
-    I1, I2, I3 = three(state, I)
-    contact = state[D]
-    rates(K0, g, half, state, R)
-    o1, o2, o3 = three(R[0], 0)
-    a1, a2, a3 = three(R[1], 0)
-    for c in range(4):
-        T[0, c], T[1, c] = 0.0, 0.0
-    for i in range(LANES):
-        begin(S, i, max(most - i, FIRST), K0, g, half, table, R, beginning, 2)
+    rates(S, B)
+    begin(S, B)
+    lost = False
     for slot in range(most):
-        i = most - slot
-        if i < LANES:  # lane i has finished its first column, n = slot
-            if slot >= FIRST:
-                gather(S, i, full[slot - FIRST], full[slot - FIRST] - short[slot - FIRST], T)
-            if FIRST <= i <= second:
-                begin(S, i, i, K0, g, half, table, R, beginning, FIRST_TERMS)
-        for j in range(TERMS):  # at fixed rows: the loops must see that nothing overlaps
-            w0, w1, w2, w3 = following[slot, j, 0], following[slot, j, 1], following[slot, j, 2], following[slot, j, 3]
-            S[WEIGHT + j, 0], S[WEIGHT + j, 1], S[WEIGHT + j, 2], S[WEIGHT + j, 3] = w0, w1, w2, w3
-        is_open, left = checked(S, True, I1, I2, I3, contact), MOST_ROUNDS
-        while is_open and left > 0:
-            is_open, left = checked(S, False, I1, I2, I3, contact), left - 1
-        if is_open:
-            return False, 0.0
-        moved(S, o1, o2, o3, a1, a2, a3)
+        lane = most - slot
+        if lane < LANES:  # it has finished its first column, n = slot
+            for b in range(B):
+                finish(S, lane * B + b)
+        if lane == 3 and second >= 3:
+            begin_second(S, B, 3, beginning)
+        elif lane == 2 and second >= 2:
+            begin_second(S, B, 2, beginning)
+        for j in range(TERMS):
+            for c in range(LANES):
+                weight = following[slot, j, c]
+                for b in range(B):
+                    S[WEIGHT + j, c * B + b] = weight
+        left, rounds = checked(S, B, False), 0
+        while left > 0 and rounds < MOST_ROUNDS:
+            left, rounds = checked(S, B, True), rounds + 1
+        if left > 0:
+            lost = True
+            lose(S, B)
+            if B == 1:
+                return True
+        if traced:  # two loops: one would compute the centre in any case
+            moved(S, B, True)
+        else:
+            moved(S, B, False)
         if slot == 0:
-            for i in range(LANES):
-                keep(S, i, R, 2 + i)
-        elif i < LANES and i == second:
-            keep(S, i, R, 2 + LANES)
-    gather(S, 0, full[most - FIRST], full[most - FIRST] - short[most - FIRST], T)
-    for i in range(FIRST, min(second + 1, LANES)):
-        gather(S, i, full[i - FIRST], full[i - FIRST] - short[i - FIRST], T)
-    turn_all(K0, g, attitude, T[0, 0], T[0, 1], T[0, 2], T[0, 3])
-    return True, 2.0 * sqrt((T[1, 0] ** 2 + T[1, 1] ** 2) + (T[1, 2] ** 2 + T[1, 3] ** 2))
+            for i in range(LANES * B):
+                S[KEPT, i], S[KEPT + 1, i] = S[V, i] * S[INVERSE, i], S[V + 1, i] * S[INVERSE, i]
+                S[KEPT + 2, i] = S[V + 2, i] * S[INVERSE, i]
+        elif lane == second and lane < LANES:
+            for b in range(B):
+                i = lane * B + b
+                S[LATER, b], S[LATER + 1, b] = S[V, i] * S[INVERSE, i], S[V + 1, i] * S[INVERSE, i]
+                S[LATER + 2, b] = S[V + 2, i] * S[INVERSE, i]
+    for b in range(B):
+        finish(S, b)
+    gather(S, B)
+    return lost
 
 
-def long_steps_in_lanes(K0, g, attitude, half, full, short, following, beginning, state, steps):
-    """As `long_step.long_steps`, with the weights of the guesses (`guess`); returns (taken, status, reach, doubt)."""
-    S, T, R = np.zeros((ROWS, LANES)), np.zeros((2, 4)), np.zeros((FIRST_TERMS, 3))
-    table = np.zeros((MOST_COLUMNS + FIRST, 3))
-    bounds(K0, half, FIRST + len(full) - 1, state, table)
-    doubt = 0.0
-    for k in range(steps):
-        settled, more = side_by_side(K0, g, attitude, half, full, short, following, beginning, state, table, S, R, T)
-        if not settled:
-            status, reach, more = long_step(K0, g, attitude, half, full, short, state)
-            if status != 0:
-                return k, status, reach, doubt
-        doubt += more
-    return steps, 0, 1.0, doubt
+def lose(S, B):
+    """Marks all lanes of every ball of which one is open, and closes them."""
+    for b in range(B):
+        is_open = (S[OPEN, b] + S[OPEN, B + b]) + (S[OPEN, 2 * B + b] + S[OPEN, 3 * B + b]) != 0.0
+        for lane in range(LANES):
+            S[LOST, lane * B + b] = 1.0 if is_open else S[LOST, lane * B + b]

@@ -1,0 +1,163 @@
+"""Many long steps of one ball or of eight: the frames in and out, and the safe way where the lanes do not settle.
+
+Plain scalar Python, so that the same functions run on floats and are compiled by numba.
+"""
+
+from math import ldexp, nan, sqrt
+
+import numpy as np
+
+from . import loop
+from .gibbs import LEFT, certificate, is_heavy
+from .lanes import (
+    BALL,
+    CONTACT,
+    EIGHT,
+    FIRSTS,
+    FULL,
+    GUESS,
+    LANES,
+    LENGTH,
+    LOST,
+    MOVED,
+    RADIUS,
+    RESTS,
+    ROWS,
+    SECONDS,
+    TENSOR,
+    side_by_side,
+)
+from .long_step import ATTITUDE, DOUBT, FIRST, MOVING, SPOT, begun, long_step
+from .loop import D, I, J, three
+
+#: Where the lemma has no radius, none is asked for.
+ANYWHERE = 2.0**1000
+#: (1.42 · 3)².
+BEHIND = 18.2
+
+
+def enter(S, B, b, columns, J0, D0, radius, h, sums, beginning, body, state):
+    """Puts a ball, of which `body` has all but the scale, into its column of S; returns K's exponent (`begun`)."""
+    half, exponent = begun(body, J0, D0, h, state)
+    for c in range(MOVING):
+        S[MOVED + c, b] = body[c]
+    S[LENGTH, b], S[RADIUS, b], S[CONTACT, b], S[RESTS, b] = half, radius, state[D], 0.0
+    for c in range(3):
+        S[TENSOR + c, b] = state[J + c]
+    most = FIRST + columns - 1
+    for lane in range(LANES):
+        i, first = lane * B + b, max(most - lane, FIRST)
+        for c in range(3):
+            S[BALL + c, i] = state[I + c]
+        S[BALL + 3, i] = state[D]
+        entered(S, FIRSTS, i, body, half / first, state)
+        entered(S, SECONDS, i, body, half / max(lane, FIRST), state)
+        one, two = most - lane >= FIRST, FIRST <= lane <= most - LANES
+        for c in range(2):
+            S[FULL + 2 * c, i] = sums[c, first - FIRST] if one else 0.0
+            S[FULL + 2 * c + 1, i] = sums[c, lane - FIRST] if two else 0.0
+            S[GUESS + c, i] = beginning[first, c]
+    return exponent
+
+
+def entered(S, at, i, body, part, state):
+    """Half a step of a lane and what goes with it: its inverse, c², the lemma's radius² and what may be left of u."""
+    I1, I2, I3 = three(state, I)
+    spread = 0.5 * (max(I1, I2, I3) - min(I1, I2, I3))
+    k1, k2, k3 = part * body[0], part * body[1], part * body[2]
+    size = sqrt(k1 * k1 + k2 * k2 + k3 * k3)
+    within, _ = certificate(k1, k2, k3, I1, I2, I3, state[D])
+    least = LEFT * size / (max(I1, I2, I3) + state[D] + spread)
+    anywhere = -1.0 if is_heavy(I1, I2, I3, state[D]) else ANYWHERE  # a heavy ball takes the safe way
+    S[at, i], S[at + 1, i], S[at + 2, i] = part, 1.0 / part if part != 0.0 else 0.0, (spread + size) * (spread + size)
+    S[at + 3, i], S[at + 4, i] = within if within >= 0.0 else anywhere, least * least / BEHIND
+
+
+def safely(S, b, sums, state):
+    """The safe way of a long step for one ball; returns (status, reach)."""
+    body = np.empty(MOVING)
+    for c in range(MOVING):
+        body[c] = S[MOVED + c, b]
+    status, reach = long_step(body, S[LENGTH, b], S[RADIUS, b], sums, state)
+    for c in range(MOVING):
+        S[MOVED + c, b] = body[c]
+    return status, reach
+
+
+def show(S, b, exponent, frame, momenta, verticals, attitudes, traces, follows, going):
+    """Writes the state of a ball into one of its frames, or NaN where it is not going any more."""
+    for c in range(3):
+        momenta[b, frame, c] = ldexp(S[MOVED + c, b], int(exponent)) if going else nan
+        verticals[b, frame, c] = S[MOVED + 3 + c, b] if going else nan
+    if follows:
+        for c in range(4):
+            attitudes[b, frame, c] = S[MOVED + ATTITUDE + c, b] if going else nan
+        for c in range(2):
+            traces[b, frame, c] = S[MOVED + SPOT + c, b] if going else nan
+
+
+def march_lanes(
+    B, momenta, verticals, attitudes, traces, J0, D0, radius, h, steps, every, follows, traced,
+    sums, following, beginning, doubt, taken, status, reach,
+):  # fmt: skip
+    """`steps` long steps of at most B balls from their frames 0, (balls, frames, ...); keeps every `every`-th state.
+
+    follows, traced: whether there are attitudes and traces, and whether the latter are wanted.
+    sums: the weights of the columns, and their differences from those without the last column, (2, columns);
+    following, beginning: those of the guesses (`guess`).  doubt, taken, status, reach: of each ball, (balls,).
+    """
+    S, columns = np.zeros((ROWS, LANES * B)), sums.shape[1]
+    states, exponents, body = np.zeros((B, loop.ROWS)), np.zeros(B, dtype=np.int64), np.zeros(MOVING)
+    balls = len(status)
+    for b in range(B):
+        i = min(b, balls - 1)  # lanes beyond the balls repeat the last
+        body[:] = 0.0
+        for c in range(3):
+            body[c], body[3 + c] = momenta[i, 0, c], verticals[i, 0, c]
+        body[ATTITUDE] = 1.0
+        if follows:
+            for c in range(4):
+                body[ATTITUDE + c] = attitudes[i, 0, c]
+            body[SPOT], body[SPOT + 1] = traces[i, 0, 0], traces[i, 0, 1]
+        exponents[b] = enter(S, B, b, columns, J0[i], D0[i], radius[i], h, sums, beginning, body, states[b])
+    for step in range(steps):
+        if side_by_side(S, B, columns, traced, following, beginning):
+            for b in range(B):
+                if S[LOST, b] != 0.0 and S[RESTS, b] == 0.0:
+                    stopped, reached = safely(S, b, sums, states[b])
+                    if stopped != 0:
+                        S[RESTS, b] = 1.0
+                        if b < balls:
+                            status[b], reach[b], taken[b] = stopped, reached, step
+        if (step + 1) % every == 0:
+            for b in range(balls):
+                show(
+                    S, b, exponents[b], (step + 1) // every, momenta, verticals, attitudes, traces, follows,
+                    status[b] == 0,
+                )  # fmt: skip
+    for b in range(balls):
+        doubt[b] = S[MOVED + DOUBT, b] if status[b] == 0 else nan
+        if status[b] == 0:
+            taken[b], reach[b] = steps, 1.0
+
+
+def march_one(
+    momenta, verticals, attitudes, traces, J0, D0, radius, h, steps, every, follows, traced,
+    sums, following, beginning, doubt, taken, status, reach,
+):  # fmt: skip
+    """`march_lanes` for one ball."""
+    march_lanes(
+        1, momenta, verticals, attitudes, traces, J0, D0, radius, h, steps, every, follows, traced,
+        sums, following, beginning, doubt, taken, status, reach,
+    )  # fmt: skip
+
+
+def march_eight(
+    momenta, verticals, attitudes, traces, J0, D0, radius, h, steps, every, follows, traced,
+    sums, following, beginning, doubt, taken, status, reach,
+):  # fmt: skip
+    """`march_lanes` for eight balls, or fewer."""
+    march_lanes(
+        EIGHT, momenta, verticals, attitudes, traces, J0, D0, radius, h, steps, every, follows, traced,
+        sums, following, beginning, doubt, taken, status, reach,
+    )  # fmt: skip
