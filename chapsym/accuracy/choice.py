@@ -79,8 +79,7 @@ def _one(request: Request, method: Method, law: Law, prices: Prices, least: int)
         price = prices.of(method, request.with_body, max(request.rate * request.time / n, 1e-12))
         if price is None:
             return None
-        calls = checks(request, method) if method.order == EXTRAPOLATED else 1
-        cost += n * price + calls * prices.call(method, request.with_body)
+        cost += n * price + prices.call(method, request.with_body)
     expected = 0.0 if method.order == EXACT else law.error(request.time / steps)
     return Choice(method, steps, coarse, request.time / steps, expected, cost)
 

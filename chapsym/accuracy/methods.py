@@ -8,8 +8,6 @@ import numpy as np
 
 from chapsym.dynamics import (
     BadInput,
-    Status,
-    StepNotTaken,
     Trajectory,
     exact_top,
     extrapolate,
@@ -71,9 +69,9 @@ def label_of(precision: Precision) -> str:
 def methods(request: Request, precision: Precision) -> list[Method]:
     """All that can be asked of a precision for this request."""
     found = [Method(precision, order) for order in COMPOSED]
-    if precision == NAMED["double"] and request.of == "state":
+    if precision == NAMED["double"]:
         found.append(Method(precision, EXTRAPOLATED))
-        if _is_top(request):
+        if request.of == "state" and _is_top(request):
             found.append(Method(precision, EXACT))
     return found
 
@@ -88,7 +86,7 @@ def _is_top(request: Request) -> bool:
 
 
 def checks(request: Request, method: Method) -> int:
-    """The equal times at which two runs are compared, a multiple of the frames: few where each costs a call."""
+    """The equal times at which two runs are compared, a multiple of the frames: few where the steps are long."""
     least = FEW if method.order == EXTRAPOLATED else CHECKS
     return request.frames * -(-least // request.frames)
 
@@ -129,19 +127,12 @@ def _in_range(step: float, K: Floats) -> None:
 
 
 def _extrapolated(request: Request, step: float, every: int, frames: int, body: Any) -> Trajectory:
-    """`extrapolate` from frame to frame, as a trajectory of order 12."""
-    K, g = [request.angular_momentum], [request.gamma]
-    q: list[Any] = [False if body is False else request.first_attitude]
-    for k in range(frames):
-        try:
-            found = extrapolate(request.ball, K[-1], g[-1], step, every, columns=COLUMNS, attitude=q[-1])
-        except StepNotTaken as error:
-            raise StepNotTaken(error.status, error.reach, k * every + (error.index or 0)) from None
-        K.append(found.angular_momentum)
-        g.append(found.gamma)
-        q.append(False if found.attitude is None else found.attitude)
-    attitude = None if body is False else np.array(q)
+    """`extrapolate` as a trajectory of order 12."""
+    found = extrapolate(
+        request.ball, request.angular_momentum, request.gamma, step, frames * every, columns=COLUMNS, every=every,
+        attitude=body, contact=request.of == "contact",
+    )  # fmt: skip
     return Trajectory(
-        request.ball, np.arange(frames + 1) * every, np.array(K) * step, np.array(g), attitude, None,
-        np.array(frames * every), np.array(int(Status.TAKEN)), step, EXTRAPOLATED,
+        request.ball, np.arange(frames + 1) * every, found.angular_momentum * step, found.gamma, found.attitude,
+        found.contact, np.array(frames * every), found.status, step, EXTRAPOLATED,
     )  # fmt: skip

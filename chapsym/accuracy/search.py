@@ -56,7 +56,7 @@ class Search:
     def consider_extrapolation(self) -> None:
         """Pilots the extrapolation too, where what else there is costs more than that."""
         found = choices(self.request, self.laws, self.prices)
-        if self.request.of == "state" and not (found and found[0].seconds < PILOT):
+        if not (found and found[0].seconds < PILOT):
             self.laws |= pilot(self.request, (EXTRAPOLATED,))
 
     def choose(self, left: float, limit: float) -> Choice:
