@@ -22,6 +22,7 @@ SECTIONS = {
     "first-call": "first_call",
     "long": "long_runs",
     "work-precision": "work_precision",
+    "extrapolation": "extrapolation",
     "dimensions": "dimensions",
 }
 

@@ -145,7 +145,7 @@ def swept(
         timed = interleaved(contenders, rounds, lambda done: on_round(f"work-precision: round {done} of {rounds}"))
     return {
         method.name: [
-            _point(control, ends[method.name, control], timed[f"{method.name} at {control:g}"], exact, kept)
+            point(control, ends[method.name, control], timed[f"{method.name} at {control:g}"], exact, kept)
             for control in method.controls
             if (method.name, control) in ends
         ]
@@ -153,7 +153,7 @@ def swept(
     }
 
 
-def _point(control: float, end: np.ndarray, timing: Timing, exact: np.ndarray, kept: np.ndarray) -> Point:
+def point(control: float, end: np.ndarray, timing: Timing, exact: np.ndarray, kept: np.ndarray) -> Point:
     height, square, energy = map(float, abs(integrals(end) / kept - 1))
     return Point(control, timing.median, float(abs(end - exact).max()), (height, square, energy))
 
