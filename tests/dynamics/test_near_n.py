@@ -7,6 +7,8 @@ from balls_n import SIZES, UNIT_ROUNDOFF, offset, proven_branch
 from chapsym.dynamics.loops import loop_n
 from chapsym.dynamics.n import columns_n, near_n, so_n
 
+ONE = np.ones(1)
+
 
 def turned_planes(angles, n):
     """The rotation by these angles in the planes (0, 1), (2, 3), …"""
@@ -79,7 +81,7 @@ def test_just_below_the_bound_the_rotation_is_the_proven_one_and_is_near(n):
             known = near_n.bounds(scale * size * np.ones(1), scale * j[None], scale * d[None])[0][0] > 0
             below, above = (size, above) if known else (below, size)
         K = way * 0.999 * below / np.linalg.norm(so_n.coordinates(way))
-        (near,), _ = near_n.limits(K[None], j[None], d[None])
+        ((near,),), _ = near_n.limits(K[None], j[None], d[None], ONE)
         E = offset((K, g, j, d))
         assert 0 < (E * E).sum() <= near
         assert np.abs(E - proven_branch(K, g, j, d)).max() < 1e-11
@@ -96,14 +98,14 @@ def test_beyond_the_bound_and_out_of_range_nothing_is_known():
     ]  # fmt: skip
     for states, sign in ((known, 1), (unknown, -1)):
         for k, j, d in states:
-            assert np.sign(near_n.limits(k, j, np.array([d]))[0]).tolist() == [sign], (k, j, d)
+            assert np.sign(near_n.limits(k, j, np.array([d]), ONE)[0]).tolist() == [[sign]], (k, j, d)
 
 
 @pytest.mark.parametrize(("D", "inside", "outside"), [(0.0, 0.98, 0.99), (2.0, 0.86, 0.88), (10.0, 0.64, 0.66)])
 def test_the_bound_is_where_the_page_says(D, inside, outside):
     J, K = np.array([[0.75, 2.0, 0.25, 3.0]]), so_n.from_coordinates(np.eye(6)[:1], 4)
     for size, sign in ((inside, 1), (outside, -1)):
-        assert np.sign(near_n.limits(size * K, J, np.array([D]))[0]) == sign
+        assert np.sign(near_n.limits(size * K, J, np.array([D]), ONE)[0]) == sign
 
 
 def test_another_rotation_with_the_momentum_is_not_taken():
@@ -111,7 +113,7 @@ def test_another_rotation_with_the_momentum_is_not_taken():
     J, D, gamma, n = np.full(4, 0.25), np.zeros(1), np.eye(4)[3], 4
     small, large = (turned_planes((angle,), n) - np.eye(n) for angle in (0.3, np.pi - 0.3))
     K = so_n.momentum(small, gamma, J, D[0])
-    near, enough = near_n.limits(K[None], J[None], D)
+    near, enough = (x[0] for x in near_n.limits(K[None], J[None], D, ONE))
     for E, right in ((small, True), (large, False)):
         work = [np.empty(shape) for shape in ((n, n), (n, n), (6, 6), 6, n, n)]
         found, one = E.copy(), E[..., None].copy()

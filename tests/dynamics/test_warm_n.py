@@ -6,13 +6,13 @@ from balls_n import SIZES, UNIT_ROUNDOFF, batch
 
 from chapsym import BallN, Status, StepNotTaken, step_n, trajectory_n
 from chapsym.dynamics.levels import double
-from chapsym.dynamics.n import so_n, warm_n
-from chapsym.dynamics.n import trajectory_n as of_trajectories
+from chapsym.dynamics.n import run_n, so_n, warm_n
 from chapsym.dynamics.n.near_n import limits
 from chapsym.studies.extremes import n_dim
 from chapsym.studies.extremes.cells import BUDGET
 
 NAMES = ("momentum", "gamma", "attitude", "contact")
+ONE = np.ones(1)
 #: With so small a factor some corrections of the first ball are small enough, and some not.
 STUBBORN = {3: 1.6e-17, 4: 3e-17, 5: 3e-17, 8: 6e-17}
 
@@ -30,9 +30,9 @@ def asking(patch, *factors):
 
     def asked(*balls):
         near, enough = limits(*balls)
-        return near, enough * np.array(factors)[: len(enough)]
+        return near, enough * np.array(factors)[: len(enough), np.newaxis]
 
-    patch.setattr(of_trajectories, "limits", asked)
+    patch.setattr(run_n, "limits", asked)
 
 
 def plain(patch):
@@ -46,7 +46,7 @@ def test_compiled_and_in_numpy_one_ball_and_a_batch_have_the_same_bits(n, stubbo
     ball, K, gamma = batch(n, 5, 0.1)
     if stubborn:
         asking(monkeypatch, STUBBORN[n], 0, 1, 1, 1)
-    near = limits(K, ball.mass_tensor, ball.D)[0]
+    near = limits(K, ball.mass_tensor, ball.D, ONE)[0]
     assert (near > 0).all()
     safe, taken = [], warm_n._safely
     monkeypatch.setattr(warm_n, "_safely", lambda *at: safe.append(1) or taken(*at))
@@ -80,7 +80,7 @@ def test_each_step_is_as_accurate_as_one_of_its_own(condition):
     served = 0
     for x, gamma, J, D in n_dim.CONDITIONS[condition]:
         K = 0.3 * so_n.from_coordinates(np.array(x), 4)
-        served += (limits(K[None], np.array([J]), np.array([D]))[0] > 0).sum()
+        served += (limits(K[None], np.array([J]), np.array([D]), ONE)[0] > 0).sum()
         run = trajectory_n(BallN(J, D), K, gamma, 13)
         for k in (0, 1, 12):
             state = tuple(so_n.coordinates(run.momentum[k])), tuple(run.gamma[k])
@@ -136,8 +136,8 @@ def test_a_ball_that_stops_stops_alone(numba, monkeypatch):
 def test_balls_above_the_bound_go_beside_those_below():
     ball, K, gamma = batch(4, 4, 0.1)
     K *= np.array([12.0, 12.0, 12.0, 0.0])[:, None, None]
-    near = limits(K, ball.mass_tensor, ball.D)[0]
-    assert (near > 0).tolist() == [True, False, False, False]
+    near = limits(K, ball.mass_tensor, ball.D, ONE)[0]
+    assert (near > 0).tolist() == [[True], [False], [False], [False]]
     run = trajectory_n(ball, K, gamma, 30, contact=True)
     assert run.status.tolist() == [Status.TAKEN, Status.TAKEN, Status.FOLDED, Status.TAKEN]
     one = trajectory_n(alone(ball, 0), K[0], gamma[0], 30, contact=True)

@@ -29,28 +29,34 @@ def settle(k, g, J, D, near, enough, E, O, W, T, r, h, c):
 
 
 def march(
-    k, g, J, D, near, enough, past, use, first, count, every, scale, momenta, verticals,
+    k, g, J, D, c, near, enough, past, use, first, count, every, scale, momenta, verticals,
     with_body, R, spot, rho, attitudes, traces,
 ):  # fmt: skip
-    """Takes `count` steps from the step `first` on, until one does not settle; returns how many.
+    """Takes `count` stages from the stage `first` on, until one does not settle; returns how many.
 
-    k (n, n), g (n), R (n, n) and spot (n - 1) hold the present state and move; past (ORDER, n, n) and use (ORDER)
-    have the last rotations.  𝒦 = scale·k.  Every `every`-th state goes to the frame arrays.
+    A step is its stages, with the coefficients c (s,), one after the other: each turns k by the rotation of cᵢk.
+    k (n, n), g (n), R (n, n) and spot (n - 1) hold the present state and move.  Each stage has its own bounds near (s,)
+    and enough (s,), and its last rotations in past (s, ORDER, n, n) and use (s, ORDER).
+    𝒦 = scale·k.  The state after every `every`-th step goes to the frame arrays.
     The attitude and the trace are touched only when `with_body`.
     """
-    n = k.shape[0]
+    n, stages = k.shape[0], c.shape[0]
     E, O, W, T = empty((n, n)), empty((n, n)), empty((n, n)), empty((n * (n - 1) // 2, n * (n - 1) // 2))
-    r, h, c = empty(n * (n - 1) // 2), empty(n), empty(n)
-    for step in range(first + 1, first + count + 1):
-        guess(past, use, E)
-        if not settle(k, g, J, D, near, enough, E, O, W, T, r, h, c):
-            return step - 1 - first
-        remember(E, past, use)
+    r, h, v, part = empty(n * (n - 1) // 2), empty(n), empty(n), empty((n, n))
+    for stage in range(first, first + count):
+        s = stage % stages
+        for i in range(n):
+            for j in range(n):
+                part[i, j] = c[s] * k[i, j]
+        guess(past[s], use[s], E)
+        if not settle(part, g, J, D, near[s], enough[s], E, O, W, T, r, h, v):
+            return stage - first
+        remember(E, past[s], use[s])
         if with_body:
-            roll(E, g, R, spot, rho, c, W)
-        move(E, k, g, W, c)
-        if step % every == 0:
-            frame = step // every
+            roll(E, g, R, spot, rho, v, W)
+        move(E, k, g, W, v)
+        if (stage + 1) % (stages * every) == 0:
+            frame = (stage + 1) // (stages * every)
             for i in range(n):
                 verticals[frame, i] = g[i]
                 for j in range(n):

@@ -6,20 +6,16 @@ continued from the identity, and goes to Ωᵀ𝒦Ω and Ωᵀγ (4.11, 4.12).  
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ..ball import Floats
+from ..coefficients import substeps
 from ..errors import Status, StepNotTaken
-from . import so_n
 from .ball_n import BallN, flat_states
-from .branch_n import small_rotation
-
-#: The Jacobians of the balls that are solved together take about this many numbers: what a cache holds.
-BLOCK = 2**15
+from .run_n import run
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,7 +36,7 @@ class StepN:
 
 
 def step_n(ball: BallN, momentum: ArrayLike, gamma: ArrayLike) -> StepN:
-    """One step of the map (4.11), (4.12), (4.13) on the small-rotation branch.
+    """One step of the map (4.11), (4.12), (4.13) on the small-rotation branch: the first step of `trajectory_n`.
 
     momentum: 𝒦 = ε K of the paper, skew, in kg m², (..., n, n); gamma: unit verticals, (..., n).
     Both broadcast with each other and with the balls.
@@ -49,19 +45,12 @@ def step_n(ball: BallN, momentum: ArrayLike, gamma: ArrayLike) -> StepN:
     Raises BadInput for shapes, NaN, infinities, a momentum that is not skew, and a gamma that is not unit.
     """
     shape, (K, g, J, D) = flat_states(ball, momentum, gamma)
-    E, status, reach = np.empty_like(K), np.zeros(len(D), dtype=np.int64), np.ones(len(D))
-    for block in blocks(len(D), ball.n):
-        E[block], status[block], reach[block] = small_rotation(K[block], g[block], J[block], D[block])
+    n, balls = ball.n, len(D)
+    turn = np.broadcast_to(np.eye(n), (balls, n, n))
+    state = {"momentum": K, "gamma": g, "mass_tensor": J, "D": D, "attitude": turn}
+    frames = {name: np.full((balls, 2, *state[name].shape[1:]), np.nan) for name in ("attitude", "momentum", "gamma")}
+    _, status, reach = run(state, frames, substeps(2), 1, 1)
     if not shape and status[0] != Status.TAKEN:
         raise StepNotTaken(Status(int(status[0])), float(reach[0]))
-    K, g = so_n.carried(K, E), so_n.transported(g, E)
-    return StepN(
-        (np.eye(ball.n) + E).reshape(*shape, ball.n, ball.n), K.reshape(*shape, ball.n, ball.n),
-        g.reshape(*shape, ball.n), status.reshape(shape), reach.reshape(shape),
-    )  # fmt: skip
-
-
-def blocks(balls: int, n: int) -> Iterator[slice]:
-    """Slices of a batch whose balls are solved together."""
-    size = max(1, BLOCK // (n * n * n * (n - 1) // 2))
-    return (slice(first, first + size) for first in range(0, balls, size))
+    ends = (array[:, 1].reshape(*shape, *array.shape[2:]) for array in frames.values())
+    return StepN(*ends, status.reshape(shape), reach.reshape(shape))

@@ -8,14 +8,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..ball import Asked, Floats, numbers
+from ..coefficients import substeps
 from ..errors import BadInput, Status
 from ..results import finished
 from ..trajectories import whole_number
-from . import so_n, warm_n
 from .ball_n import BallN, flat_states, initial_attitudes, skew_matrices
-from .branch_n import small_rotation
-from .near_n import limits
-from .step_n import blocks
+from .run_n import run
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,6 +26,7 @@ class TrajectoryN:
     contact: the contact point on the hyperplane in metres, from 0, (..., frames, n-1), or None.
     taken: the number of steps that were taken, (...); frames after it are NaN.
     status: why a ball stopped, a `Status`, (...).
+    order: of the composition that made the steps; 2 for the map itself.
     """
 
     ball: BallN
@@ -38,6 +37,7 @@ class TrajectoryN:
     contact: Asked
     taken: np.ndarray
     status: np.ndarray
+    order: int = 2
 
     def invariants(self) -> Floats:
         """`invariants_n` of each frame, (..., frames, m); raises BadInput if a ball stopped early."""
@@ -52,23 +52,28 @@ def trajectory_n(
     gamma: ArrayLike,
     steps: int,
     *,
+    order: int = 2,
     every: int = 1,
     attitude: bool | ArrayLike = False,
     contact: bool = False,
+    threads: int = 0,
 ) -> TrajectoryN:
     """Takes `steps` steps of the map on the small-rotation branch and keeps every `every`-th state.
 
     momentum, gamma: as for `step_n`.
+    order: 2, or 4, 6, 8 for a symmetric composition of the map with stages cᵢ𝒦 (`substeps`), as for `trajectory`.
     attitude: True (from the least rotation with R γ = eₙ) or rotations, (..., n, n), to be followed.
     contact: whether to trace the contact point; it needs `ball.radius`, and implies the attitude.
+    threads: how many cores a batch may use where its steps are compiled; 0 for all.
 
     A ball below the bound of `near_n` begins each step at a guess by the last ones, compiled in long runs with numba;
-    one above it is continued from the identity, as by `step_n`.
+    one above it is continued from the identity at each step.
     One ball that cannot take a step raises StepNotTaken with `index` and the `trajectory` before it.
     In a batch the others go on, and `status` and `taken` say which stopped, where.
     Raises BadInput as `step_n` does, and for counts that are not whole numbers.
     """
     steps, every = whole_number(steps, "steps", 0), whole_number(every, "every", 1)
+    threads, stages = whole_number(threads, "threads", 0), substeps(order)
     every = min(every, steps + 1)
     shape, (K, g, J, D) = flat_states(ball, momentum, gamma)
     if contact and ball.radius is None:
@@ -88,57 +93,13 @@ def trajectory_n(
     if contact:
         state["contact"] = np.zeros((balls, n - 1))
         state["radius"] = np.broadcast_to(np.asarray(ball.radius), shape).reshape(-1)
-    taken, status, reach = np.zeros(balls, dtype=np.int64), np.zeros(balls, dtype=np.int64), np.ones(balls)
-    for block in blocks(balls, n):
-        here = {name: array[block] for name, array in state.items()}
-        kept = {name: array[block] for name, array in frames.items()}
-        for name in kept:
-            kept[name][:, 0] = here[name]
-        ends = taken[block], status[block], reach[block]
-        near, enough = limits(here["momentum"], here["mass_tensor"], here["D"])
-        known, other = np.flatnonzero(near > 0), np.flatnonzero(near <= 0)
-        if known.size:
-            there = {name: array[known] for name, array in here.items()}
-            warm_n.march(there, kept, (near[known], enough[known]), steps, every, *ends, known)
-        if other.size:
-            _march({name: array[other] for name, array in here.items()}, kept, steps, every, *ends, other)
+    taken, status, reach = run(state, frames, stages, steps, every, threads)
     shaped = {name: frames[name].reshape(*shape, count, *size) for name, size in sizes.items()}
     result = TrajectoryN(
         ball, np.arange(count) * every, shaped["momentum"], shaped["gamma"], shaped.get("attitude"),
-        shaped.get("contact"), taken.reshape(shape), status.reshape(shape),
+        shaped.get("contact"), taken.reshape(shape), status.reshape(shape), int(order),
     )  # fmt: skip
     return finished(result, reach)
-
-
-def _march(
-    state: dict[str, Floats], frames: dict[str, Floats], steps: int, every: int,
-    taken: np.ndarray, status: np.ndarray, reach: Floats, at: np.ndarray,
-) -> None:  # fmt: skip
-    """Steps some balls together, the rows `at` of what else is given, and writes these in place."""
-    for k in range(1, steps + 1):
-        E, status[at], reach[at] = small_rotation(*(state[x] for x in ("momentum", "gamma", "mass_tensor", "D")))
-        went = status[at] == Status.TAKEN
-        if not went.all():
-            at, E, state = at[went], E[went], {name: array[went] for name, array in state.items()}
-            if not at.size:
-                return
-        state = _moved(state, E)
-        taken[at] += 1
-        if k % every == 0:
-            for name in frames:
-                frames[name][at, k // every] = state[name]
-
-
-def _moved(state: dict[str, Floats], E: Floats) -> dict[str, Floats]:
-    """The state after a step with the rotation 1 + E: 𝒦 and γ, and those of attitude and contact that there are."""
-    K, g = state["momentum"], state["gamma"]
-    after = {**state, "momentum": so_n.carried(K, E), "gamma": so_n.transported(g, E)}
-    if "contact" in state:
-        stride = (state["attitude"] @ so_n.twist(E, g)[..., np.newaxis])[..., :-1, 0]
-        after["contact"] = state["contact"] + state["radius"][:, np.newaxis] / 2 * stride
-    if "attitude" in state:
-        after["attitude"] = so_n.polar(state["attitude"] + state["attitude"] @ E)
-    return after
 
 
 def reverse_n(trajectory: TrajectoryN) -> TrajectoryN:
@@ -156,7 +117,7 @@ def reverse_n(trajectory: TrajectoryN) -> TrajectoryN:
     attitude = False if trajectory.attitude is None else trajectory.attitude[..., -1, :, :]
     back = trajectory_n(
         trajectory.ball, -trajectory.momentum[..., -1, :, :], trajectory.gamma[..., -1, :], steps,
-        every=every, attitude=attitude, contact=trajectory.contact is not None,
+        order=trajectory.order, every=every, attitude=attitude, contact=trajectory.contact is not None,
     )  # fmt: skip
     if trajectory.contact is None or back.contact is None:
         return back

@@ -1,0 +1,82 @@
+"""Runs in n dimensions: below the bound of `near_n` from guesses by the last rotations, else by the continuation."""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from ..ball import Floats
+from ..errors import Status
+from . import so_n, warm_n
+from .branch_n import small_rotation
+from .near_n import limits
+
+#: The Jacobians of the balls that are solved together take about this many numbers: what a cache holds.
+BLOCK = 2**15
+
+
+def run(
+    state: dict[str, Floats], frames: dict[str, Floats], stages: Floats, steps: int, every: int, threads: int = 1
+) -> tuple[np.ndarray, np.ndarray, Floats]:
+    """Takes `steps` steps of each ball into the frames from 1 on, of which every `every`-th is kept.
+
+    state: momentum (b, n, n), gamma (b, n), mass_tensor (b, n) and D (b,); to be followed, attitude (b, n, n),
+    contact (b, n-1) and radius (b,).  frames: of what moves, (b, frames, ...); the first is written here.
+    stages: cᵢ of the composition, (s,).  threads: how many cores compiled steps may use.
+    Returns (taken, status, reach), (b,).
+    """
+    for name, array in frames.items():
+        array[:, 0] = state[name]
+    balls, n = state["gamma"].shape
+    taken, status, reach = np.zeros(balls, dtype=np.int64), np.zeros(balls, dtype=np.int64), np.ones(balls)
+    near, enough = limits(state["momentum"], state["mass_tensor"], state["D"], stages)
+    below = (near > 0).all(axis=-1)
+    known, other = np.flatnonzero(below), np.flatnonzero(~below)
+    for at in blocks(known, n):
+        bounds = near[at], enough[at]
+        warm_n.march(_rows(state, at), frames, bounds, stages, steps, every, taken, status, reach, at, threads)
+    for at in blocks(other, n):
+        _march(_rows(state, at), frames, stages, steps, every, taken, status, reach, at)
+    return taken, status, reach
+
+
+def blocks(balls: np.ndarray, n: int) -> Iterator[np.ndarray]:
+    """The numbers of the balls of a batch, of those together that are solved together."""
+    size = max(1, BLOCK // (n * n * n * (n - 1) // 2))
+    return (balls[first : first + size] for first in range(0, len(balls), size))
+
+
+def _rows(state: dict[str, Floats], at: np.ndarray) -> dict[str, Floats]:
+    return {name: array[at] for name, array in state.items()}
+
+
+def _march(
+    state: dict[str, Floats], frames: dict[str, Floats], stages: Floats, steps: int, every: int,
+    taken: np.ndarray, status: np.ndarray, reach: Floats, at: np.ndarray,
+) -> None:  # fmt: skip
+    """Steps some balls together, the rows `at` of what else is given, and writes these in place."""
+    for step in range(1, steps + 1):
+        for c in stages:
+            K, rest = c * state["momentum"], (state[x] for x in ("gamma", "mass_tensor", "D"))
+            E, status[at], reach[at] = small_rotation(K, *rest)
+            went = status[at] == Status.TAKEN
+            if not went.all():
+                at, E, state = at[went], E[went], _rows(state, went)
+                if not at.size:
+                    return
+            state = _moved(state, E)
+        taken[at] += 1
+        if step % every == 0:
+            for name in frames:
+                frames[name][at, step // every] = state[name]
+
+
+def _moved(state: dict[str, Floats], E: Floats) -> dict[str, Floats]:
+    """The state after the rotation 1 + E: 𝒦 and γ, and those of attitude and contact that there are."""
+    K, g = state["momentum"], state["gamma"]
+    after = {**state, "momentum": so_n.carried(K, E), "gamma": so_n.transported(g, E)}
+    if "contact" in state:
+        stride = (state["attitude"] @ so_n.twist(E, g)[..., np.newaxis])[..., :-1, 0]
+        after["contact"] = state["contact"] + state["radius"][:, np.newaxis] / 2 * stride
+    if "attitude" in state:
+        after["attitude"] = so_n.polar(state["attitude"] + state["attitude"] @ E)
+    return after
