@@ -69,6 +69,14 @@ def condition(E, state):
     return inverse * (np.abs(K).max() + 2 * (J.sum() + D) * np.abs(E).max()) / np.abs(E).max()
 
 
+def invariant_scales(K):
+    """How much each invariant may change for a relative change of 1 of 𝒦 and γ: 2j|𝒦|²ʲ⁻¹|𝒦|_F, 2j|𝒦|²ʲ, 2."""
+    n, norm, frobenius = K.shape[-1], np.linalg.norm(K, 2, axis=(-2, -1)), np.linalg.norm(K, axis=(-2, -1))
+    traces = [2 * j * norm ** (2 * j - 1) * frobenius for j in range(1, n // 2 + 1)]
+    weights = [2 * j * norm ** (2 * j) for j in range(1, (n - 1) // 2 + 1)]
+    return np.stack([*traces, *weights, 2 * np.ones(len(K))], axis=-1)
+
+
 def proven_branch(K, gamma, J, D):
     """Ω - 1 at the end of the branch, by steps along t of which each is proven to stay on it; needs a small D/J.
 

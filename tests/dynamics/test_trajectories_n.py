@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from balls_n import SIZES, UNIT_ROUNDOFF, batch
+from balls_n import SIZES, UNIT_ROUNDOFF, batch, invariant_scales
 
 from chapsym import (
     BadInput,
@@ -17,14 +17,6 @@ from chapsym import (
     trajectory_n,
 )  # fmt: skip
 from chapsym.dynamics.n import so_n
-
-
-def invariant_scales(K):
-    """How much each invariant may change for a relative change of 1 of 𝒦 and γ: 2j|𝒦|²ʲ⁻¹|𝒦|_F, 2j|𝒦|²ʲ, 2."""
-    n, norm, frobenius = K.shape[-1], np.linalg.norm(K, 2, axis=(-2, -1)), np.linalg.norm(K, axis=(-2, -1))
-    traces = [2 * j * norm ** (2 * j - 1) * frobenius for j in range(1, n // 2 + 1)]
-    weights = [2 * j * norm ** (2 * j) for j in range(1, (n - 1) // 2 + 1)]
-    return np.stack([*traces, *weights, 2 * np.ones(len(K))], axis=-1)
 
 
 @pytest.mark.parametrize("size", [0.05, 0.3])

@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 from balls_n import SIZES, UNIT_ROUNDOFF, batch
 
-from chapsym import BallN, Status, StepNotTaken, step_n, trajectory_n
+from chapsym import BallN, Status, StepNotTaken, step_n, substeps, trajectory_n
 from chapsym.dynamics.levels import double
 from chapsym.dynamics.n import run_n, so_n, warm_n
+from chapsym.dynamics.n.branch_n import small_rotation
 from chapsym.dynamics.n.near_n import limits
 from chapsym.studies.extremes import n_dim
 from chapsym.studies.extremes.cells import BUDGET
@@ -40,27 +41,28 @@ def plain(patch):
 
 
 @pytest.mark.parametrize("n", SIZES)
-@pytest.mark.parametrize("stubborn", [False, True])
-def test_compiled_and_in_numpy_one_ball_and_a_batch_have_the_same_bits(n, stubborn, monkeypatch):
-    """Two balls are stubborn: of some of their steps, or of all, the corrections are not as small as is asked."""
+@pytest.mark.parametrize(("order", "stubborn"), [(2, False), (2, True), (4, True)])
+def test_compiled_and_in_numpy_one_ball_and_a_batch_have_the_same_bits(n, order, stubborn, monkeypatch):
+    """Two balls are stubborn: of some of their stages, or of all, the corrections are not as small as is asked."""
     ball, K, gamma = batch(n, 5, 0.1)
     if stubborn:
         asking(monkeypatch, STUBBORN[n], 0, 1, 1, 1)
-    near = limits(K, ball.mass_tensor, ball.D, ONE)[0]
-    assert (near > 0).all()
+    stages = substeps(order)
+    assert (limits(K, ball.mass_tensor, ball.D, stages)[0] > 0).all()
     safe, taken = [], warm_n._safely
     monkeypatch.setattr(warm_n, "_safely", lambda *at: safe.append(1) or taken(*at))
-    steps = 30 if stubborn else 250
+    steps = 250 if not stubborn else 30 if order == 2 else 15
+    work = steps * len(stages)
     with monkeypatch.context() as patch:
         plain(patch)
-        slow = trajectory_n(ball, K, gamma, steps, every=5, contact=True)
+        slow = trajectory_n(ball, K, gamma, steps, order=order, every=5, contact=True)
     monkeypatch.setattr(double, "SHORT_RUN", 1)
     in_numpy = len(safe)
-    fast = trajectory_n(ball, K, gamma, steps, every=5, contact=True)
+    fast = trajectory_n(ball, K, gamma, steps, order=order, every=5, contact=True)
     assert same(slow, fast)
     assert len(safe) == 2 * in_numpy
-    assert steps < in_numpy < 2 * steps if stubborn else not safe
-    one = trajectory_n(alone(ball, 0), K[0], gamma[0], steps, every=5, contact=True)
+    assert work < in_numpy < 2 * work if stubborn else not safe
+    one = trajectory_n(alone(ball, 0), K[0], gamma[0], steps, order=order, every=5, contact=True)
     assert all((getattr(one, name) == getattr(fast, name)[0]).all() for name in NAMES)
 
 
@@ -98,9 +100,28 @@ def test_after_many_steps_a_step_is_that_of_the_continuation(n):
     ball, K, gamma = batch(n, 8, 0.15, seed=11)
     run = trajectory_n(ball, K, gamma, 2000, every=1)
     for k in (0, 7, 1999):
-        step = step_n(ball, run.momentum[:, k], run.gamma[:, k])
-        assert np.abs(step.momentum - run.momentum[:, k + 1]).max() <= 16 * UNIT_ROUNDOFF * np.abs(K).max()
-        assert np.abs(step.gamma - run.gamma[:, k + 1]).max() <= 16 * UNIT_ROUNDOFF
+        now = run.momentum[:, k], run.gamma[:, k]
+        E, _, _ = small_rotation(*now, ball.mass_tensor, ball.D)
+        momentum, vertical = so_n.carried(now[0], E), so_n.transported(now[1], E)
+        assert np.abs(momentum - run.momentum[:, k + 1]).max() <= 16 * UNIT_ROUNDOFF * np.abs(K).max()
+        assert np.abs(vertical - run.gamma[:, k + 1]).max() <= 16 * UNIT_ROUNDOFF
+
+
+@pytest.mark.parametrize("numba", [True, False])
+def test_a_step_is_the_first_of_a_trajectory(numba, monkeypatch):
+    """Of balls below the bound and above it, and with the rotation that the attitude takes."""
+    if not numba:
+        plain(monkeypatch)
+    ball, K, gamma = batch(4, 4, 0.1)
+    K *= np.array([1.0, 12.0, 0.0, 1e-40])[:, None, None]
+    run = trajectory_n(ball, K, gamma, 3, attitude=True)
+    step = step_n(ball, K, gamma)
+    assert (step.status == Status.TAKEN).all()
+    assert (step.momentum == run.momentum[:, 1]).all()
+    assert (step.gamma == run.gamma[:, 1]).all()
+    assert np.abs(run.attitude[:, 0] @ step.rotation - run.attitude[:, 1]).max() <= 8 * UNIT_ROUNDOFF
+    E, _, _ = small_rotation(K, gamma, ball.mass_tensor, ball.D)
+    assert np.abs(step.rotation - (np.eye(4) + E)).max() <= 8 * UNIT_ROUNDOFF
 
 
 @pytest.mark.parametrize("numba", [True, False])

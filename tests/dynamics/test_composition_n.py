@@ -1,0 +1,146 @@
+"""Compositions in n dimensions: the order, the stages, the integrals, three dimensions, and where a stage folds."""
+
+import threading
+from functools import cache
+
+import numpy as np
+import pytest
+from balls_n import SIZES, UNIT_ROUNDOFF, batch, invariant_scales
+from motion_n import continuous
+
+import chapsym
+from chapsym import Ball, BallN, Status, StepNotTaken, axial, skew, step_n, substeps, trajectory_n
+from chapsym.dynamics.n import warm_n
+from chapsym.dynamics.n.near_n import limits
+
+ORDERS = (4, 6, 8)
+NAMES = ("momentum", "gamma", "attitude", "contact")
+#: A time in which the ball turns by some radians.
+END = 4.0
+
+
+@cache
+def moved(n):
+    """A ball, its K and γ at the start, and the continuous motion at END."""
+    ball, K, gamma = batch(n, 1, 3.0, seed=5)
+    one = BallN(ball.mass_tensor[0] + 0.5, ball.D[0], radius=ball.radius[0])
+    first = trajectory_n(one, K[0], gamma[0], 0, attitude=True).attitude[0]
+    return one, K[0], gamma[0], continuous(one, K[0], gamma[0], first, END)
+
+
+@pytest.mark.parametrize(
+    ("order", "steps"),
+    [(2, (100, 200, 400, 800)), (4, (24, 32, 48, 64)), (6, (12, 16, 20, 24, 32)), (8, (10, 12, 14, 17))],
+)
+@pytest.mark.parametrize("n", [3, 4, 5])
+def test_the_order_is_measured(n, order, steps):
+    """Of all that is followed, beside the continuous ball: as in three dimensions, a fit is off by less than 0.2."""
+    ball, K, gamma, exact = moved(n)
+    errors = []
+    for count in steps:
+        run = trajectory_n(ball, K * END / count, gamma, count, order=order, every=count, contact=True)
+        found = run.momentum[-1] * count / END, run.gamma[-1], run.attitude[-1], run.contact[-1]
+        errors.append(max(np.abs(a - b).max() for a, b in zip(found, exact, strict=True)))
+    assert errors[0] < 1e-3
+    assert errors[-1] > 1e-13
+    slope = -np.polyfit(np.log(steps), np.log(errors), 1)[0]
+    assert abs(slope - order) < 0.2, errors
+
+
+@pytest.mark.parametrize("order", ORDERS)
+@pytest.mark.parametrize("n", SIZES)
+def test_a_step_is_its_stages(n, order):
+    """Each turns 𝒦 and γ by the rotation that `step_n` finds from cᵢ𝒦; both round it by some ulps."""
+    ball, K, gamma = batch(n, 4, 0.2)
+    run = trajectory_n(ball, K, gamma, 1, order=order, attitude=True)
+    momentum, vertical, attitude = K, gamma, run.attitude[:, 0]
+    for c in substeps(order):
+        rotation = step_n(ball, c * momentum, vertical).rotation
+        momentum, vertical = rotation.mT @ momentum @ rotation, (rotation.mT @ vertical[..., None])[..., 0]
+        momentum, attitude = (momentum - momentum.mT) / 2, attitude @ rotation
+    allowed = 8 * UNIT_ROUNDOFF * len(substeps(order))
+    assert np.abs(run.momentum[:, 1] - momentum).max() <= allowed * np.abs(K).max()
+    assert np.abs(run.gamma[:, 1] - vertical).max() <= allowed
+    assert np.abs(run.attitude[:, 1] - attitude).max() <= allowed
+
+
+@pytest.mark.parametrize("order", ORDERS)
+def test_in_three_dimensions_it_is_the_same_composition(order):
+    """After ten steps, of which each stage rounds by some ulps on both sides; the motion hardly magnifies them."""
+    ball, K, gamma = Ball((0.5, 1.0, 2.0), 0.7, radius=0.5), np.array([0.2, -0.1, 0.15]), np.array([2, 3, 6]) / 7
+    special = chapsym.trajectory(ball, K, gamma, 10, order=order, contact=True)
+    general = trajectory_n(BallN((0.5, 1.0, 2.0), 0.7, 0.5), skew(K), gamma, 10, order=order, contact=True)
+    allowed = 16 * UNIT_ROUNDOFF * 10 * len(substeps(order))
+    assert np.abs(axial(general.momentum) - special.momentum).max() <= allowed * np.abs(K).max()
+    assert np.abs(general.gamma - special.gamma).max() <= allowed
+    assert np.abs(general.contact - special.contact).max() <= allowed
+    assert np.abs(special.contact[-1]).max() > 0.1
+
+
+@pytest.mark.parametrize("n", SIZES)
+def test_the_integrals_drift_like_roundings_of_the_stages(n):
+    steps, order = 60, 8
+    ball, K, gamma = batch(n, 4, 0.3)
+    run = trajectory_n(ball, K, gamma, steps, order=order)
+    drift = np.abs(run.invariants() - run.invariants()[:, :1]) / invariant_scales(K)[:, np.newaxis]
+    assert drift.max() <= 3 * UNIT_ROUNDOFF * np.sqrt(steps * len(substeps(order)))
+
+
+@pytest.mark.parametrize("n", [3, 5])
+def test_the_way_back_is_of_the_same_order(n):
+    ball, K, gamma = batch(n, 2, 0.3)
+    run = trajectory_n(ball, K, gamma, 12, order=6, contact=True)
+    back = chapsym.reverse_n(run)
+    assert back.order == 6
+    assert np.abs(back.gamma[:, ::-1] - run.gamma).max() <= 64 * 12 * 9 * UNIT_ROUNDOFF
+    assert np.abs(back.contact[:, ::-1] - run.contact).max() <= 64 * 12 * 9 * UNIT_ROUNDOFF
+
+
+def heavy():
+    """A ball whose branch folds at the third step of order 4 from 4.07·K, in one of its stages."""
+    ball, K, gamma = batch(4, 1, 1.0, seed=4)
+    return BallN(ball.mass_tensor[0], ball.D[0]), K[0], gamma[0]
+
+
+def test_a_stage_that_folds_stops_one_ball_and_a_batch_goes_on():
+    ball, K, gamma = heavy()
+    with pytest.raises(StepNotTaken) as caught:
+        trajectory_n(ball, 4.07 * K, gamma, 30, order=4, attitude=True)
+    error = caught.value
+    assert (error.status, error.index, error.trajectory.order) == (Status.FOLDED, 2, 4)
+    run = trajectory_n(ball, np.stack([4.07 * K, 0.1 * K]), gamma, 30, order=4)
+    assert run.status.tolist() == [Status.FOLDED, Status.TAKEN]
+    assert run.taken.tolist() == [2, 30]
+    assert np.isnan(run.momentum[0, 3:]).all()
+    assert (run.momentum[1] == trajectory_n(ball, 0.1 * K, gamma, 30, order=4).momentum).all()
+    assert (error.trajectory.momentum == trajectory_n(ball, 4.07 * K, gamma, 2, order=4).momentum).all()
+
+
+def test_each_stage_has_the_bound_of_its_own_momentum():
+    ball, K, _ = heavy()
+    stages = substeps(8)
+    K = 3 * K
+    near, enough = limits(K[None], ball.mass_tensor[None], ball.D[None], stages)
+    for i, c in enumerate(stages):
+        one = limits(c * K[None], ball.mass_tensor[None], ball.D[None], np.ones(1))
+        assert (near[0, i], enough[0, i]) == (one[0][0, 0], one[1][0, 0])
+    assert len(set(near[0])) > 1
+
+
+def test_threads_share_a_batch_and_its_bits_stay(monkeypatch):
+    ball, K, gamma = batch(4, 6, 0.2)
+    seen, honest = set(), warm_n.advance
+    monkeypatch.setattr(warm_n, "advance", lambda *a: seen.add(threading.get_ident()) or honest(*a))
+    runs = [trajectory_n(ball, K, gamma, 700, order=4, every=50, contact=True, threads=threads) for threads in (1, 3)]
+    assert len(seen) > 1
+    assert all((getattr(runs[0], name) == getattr(runs[1], name)).all() for name in NAMES)
+    rows = np.arange(6)
+    one = [trajectory_n(BallN(ball.mass_tensor[i], ball.D[i], ball.radius[i]), K[i], gamma[i], 700, order=4, every=50)
+           for i in rows]  # fmt: skip
+    assert all((one[i].momentum == runs[0].momentum[i]).all() for i in rows)
+
+
+@pytest.mark.parametrize("order", [0, 3, True, "4"])
+def test_other_orders_are_refused(order):
+    with pytest.raises(chapsym.BadInput, match="order must be one of 2, 4, 6, 8"):
+        trajectory_n(*heavy(), 3, order=order)
