@@ -78,7 +78,7 @@ def test_just_below_the_bound_the_rotation_is_the_proven_one_and_is_near(n):
         for _ in range(60):
             size = np.sqrt(below * above)
             K = way * size / np.linalg.norm(so_n.coordinates(way))
-            known = near_n.bounds(scale * size * np.ones(1), scale * j[None], scale * d[None])[0][0] > 0
+            known = near_n.bounds(scale * size * np.ones((1, 1)), scale * j[None], scale * d[None])[0][0, 0] > 0
             below, above = (size, above) if known else (below, size)
         K = way * 0.999 * below / np.linalg.norm(so_n.coordinates(way))
         ((near,),), _ = near_n.limits(K[None], j[None], d[None], ONE)

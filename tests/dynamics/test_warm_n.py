@@ -66,6 +66,20 @@ def test_compiled_and_in_numpy_one_ball_and_a_batch_have_the_same_bits(n, order,
     assert all((getattr(one, name) == getattr(fast, name)[0]).all() for name in NAMES)
 
 
+@pytest.mark.parametrize("order", [2, 6])
+def test_the_safe_way_takes_the_same_stages(order, monkeypatch):
+    """Each by the continuation: beside the guesses some ulps a stage."""
+    ball, K, gamma = batch(4, 1, 0.1)
+    whole = trajectory_n(ball, K, gamma, 5, order=order, contact=True)
+    asking(monkeypatch, 0)
+    calls, taken = [], warm_n._safely
+    monkeypatch.setattr(warm_n, "_safely", lambda *at: calls.append(1) or taken(*at))
+    safe = trajectory_n(ball, K, gamma, 5, order=order, contact=True)
+    assert len(calls) == 5 * len(substeps(order))
+    allowed = 16 * UNIT_ROUNDOFF * len(calls)
+    assert all(np.abs(getattr(whole, name) - getattr(safe, name)).max() <= allowed for name in NAMES)
+
+
 def test_how_a_run_is_cut_and_what_is_kept_does_not_matter(monkeypatch):
     ball, K, gamma = batch(4, 3, 0.1)
     whole = trajectory_n(ball, K, gamma, 300, contact=True)

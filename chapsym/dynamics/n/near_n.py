@@ -45,21 +45,19 @@ def least(angle: Floats, s: Floats, D: Floats) -> Floats:
 
 
 def bounds(size: Floats, J: Floats, D: Floats) -> tuple[Floats, Floats]:
-    """(near, enough) for |𝒦| = size, (...), with moments (..., n) and D (...) of which the largest is about 1.
+    """(near, enough) for |𝒦| = size, (b, s), moments (b, n) and D (b,) of which the largest is about 1.
 
     near: a rotation with the momentum and Σ Eᵢⱼ² ≤ near is the small one; negative where that is not known.
     enough: what the square of a last correction of Newton may be, divided by |E|, for the next to be below half a
     rounding of |E|.  The next is at most l/2λ times that square, with l = 2 max J + D, a bound of 𝒦(Ωξ²).
     """
-    s = np.sort(J, axis=-1)[..., :2].sum(axis=-1)
-    r = np.multiply.outer(ANGLES, np.arctan2(4 * np.sqrt(s * (s + D)), D))
-    half = np.sin(r / 2)
-    fits = (size * (1 + DRIFT) < 2 * half * least(r / 2, s, D)) & (s >= LEAST_MOMENT) & (size >= LEAST_MOMENTUM)
-    first = fits.argmax(axis=0)[np.newaxis]
-    known, half, smallest = (
-        np.take_along_axis(np.broadcast_to(x, fits.shape), first, 0)[0] for x in (fits, half, least(r, s, D))
-    )
-    return np.where(known, 8 * half**2, -1.0), 2.0**-53 * smallest / (2 * J.max(axis=-1) + D)
+    s = np.sort(J, axis=-1)[:, :2].sum(axis=-1)
+    r = ANGLES[:, np.newaxis] * np.arctan2(4 * np.sqrt(s * (s + D)), D)
+    half, slack = np.sin(r / 2), 2.0**-53 / (2 * J.max(axis=-1) + D)
+    bound = np.where(s >= LEAST_MOMENT, 2 * half * least(r / 2, s, D), -1.0)
+    fits = (size * (1 + DRIFT) < bound[..., np.newaxis]) & (size >= LEAST_MOMENTUM)
+    first = fits.argmax(axis=0), np.arange(len(D))[:, np.newaxis]
+    return np.where(fits.any(axis=0), 8 * half[first] ** 2, -1.0), slack[:, np.newaxis] * least(r, s, D)[first]
 
 
 def limits(K: Floats, J: Floats, D: Floats, stages: Floats) -> tuple[Floats, Floats]:
@@ -67,7 +65,7 @@ def limits(K: Floats, J: Floats, D: Floats, stages: Floats) -> tuple[Floats, Flo
     exponent = np.frexp(top(J, D))[1]
     with np.errstate(over="ignore", under="ignore"):
         size = np.linalg.norm(np.ldexp(K, -exponent[:, np.newaxis, np.newaxis]), axis=(-2, -1)) / np.sqrt(2)
-        J, D = np.ldexp(J, -exponent[:, np.newaxis]), np.ldexp(D, -exponent)
-        near, enough = bounds(np.multiply.outer(size, np.abs(stages)), J[:, np.newaxis], D[:, np.newaxis])
+        sizes = np.multiply.outer(size, np.abs(stages))
+        near, enough = bounds(sizes, np.ldexp(J, -exponent[:, np.newaxis]), np.ldexp(D, -exponent))
     near[np.abs(exponent) > MOST] = -1.0
     return near, enough
