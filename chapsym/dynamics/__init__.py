@@ -15,6 +15,7 @@ from .extrapolation import Extrapolated, extrapolate
 from .map import compose_step, step
 from .n.ball_n import BallN, axial, skew
 from .n.step_n import StepN, step_n
+from .n.stepper_n import StepperN
 from .n.trajectory_n import TrajectoryN, invariants_n, reverse_n, trajectory_n
 from .results import Step, Trajectory
 from .reversal import NotRetraced, retrace_error, reverse
@@ -25,9 +26,9 @@ from .trajectories import trajectory
 
 __all__ = [
     "BadInput", "Ball", "BallN", "Branches", "Certificate", "Curve", "ExactTop", "Extrapolated", "Fold", "Followed",
-    "NotRetraced", "Status", "Step", "StepN", "StepNotTaken", "Stepper", "TopMotion", "Trajectory", "TrajectoryN",
-    "VerticalTrajectory", "axial", "branches", "certify", "compose_step", "exact_top", "extrapolate", "fold",
-    "follow", "increment", "invariants_n", "is_steady", "is_top", "margin", "retrace_error", "reverse", "reverse_n",
-    "rotation_number", "skew", "steady_frames", "step", "step_n", "step_vertical", "substeps", "top_frames",
-    "trajectory", "trajectory_n", "trajectory_vertical",
+    "NotRetraced", "Status", "Step", "StepN", "StepNotTaken", "Stepper", "StepperN", "TopMotion", "Trajectory",
+    "TrajectoryN", "VerticalTrajectory", "axial", "branches", "certify", "compose_step", "exact_top", "extrapolate",
+    "fold", "follow", "increment", "invariants_n", "is_steady", "is_top", "margin", "retrace_error", "reverse",
+    "reverse_n", "rotation_number", "skew", "steady_frames", "step", "step_n", "step_vertical", "substeps",
+    "top_frames", "trajectory", "trajectory_n", "trajectory_vertical",
 ]  # fmt: skip

@@ -3,15 +3,45 @@
 from collections.abc import Iterator
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from ..attitudes import is_followed
 from ..ball import Floats
-from ..errors import Status
+from ..errors import BadInput, Status
 from . import so_n, warm_n
+from .ball_n import BallN, flat_states, initial_attitudes
 from .branch_n import small_rotation
 from .near_n import limits
 
 #: The Jacobians of the balls that are solved together take about this many numbers: what a cache holds.
 BLOCK = 2**15
+#: What moves, of which frames may be kept.
+MOVING = ("momentum", "gamma", "attitude", "contact")
+
+
+def start(
+    ball: BallN, momentum: ArrayLike, gamma: ArrayLike, attitude: bool | ArrayLike, contact: bool
+) -> tuple[tuple[int, ...], dict[str, Floats]]:
+    """The common leading shape, and the state that `run` takes, checked; raises BadInput."""
+    shape, (K, g, J, D) = flat_states(ball, momentum, gamma)
+    if contact and ball.radius is None:
+        raise BadInput("the contact point needs the radius: give the ball its radius")
+    state = {"momentum": K, "gamma": g, "mass_tensor": J, "D": D}
+    if contact or is_followed(attitude):
+        state["attitude"] = initial_attitudes(attitude, g, shape)
+    if contact:
+        state["contact"] = np.zeros((len(D), ball.n - 1))
+        state["radius"] = np.broadcast_to(np.asarray(ball.radius), shape).reshape(-1)
+    return shape, state
+
+
+def rows(state: dict[str, Floats], count: int) -> dict[str, Floats]:
+    """Room for so many frames of what moves of each ball, (b, count, ...); raises BadInput if there is not so much."""
+    try:
+        return {name: np.full((len(x), count, *x.shape[1:]), np.nan) for name, x in state.items() if name in MOVING}
+    except (MemoryError, ValueError):
+        balls = len(state["gamma"])
+        raise BadInput(f"{count} frames of {balls} balls do not fit into memory; keep fewer with every=") from None
 
 
 def run(
@@ -35,7 +65,7 @@ def run(
         bounds = near[at], enough[at]
         warm_n.march(_rows(state, at), frames, bounds, stages, steps, every, taken, status, reach, at, threads)
     for at in blocks(other, n):
-        _march(_rows(state, at), frames, stages, steps, every, taken, status, reach, at)
+        continued(_rows(state, at), frames, stages, steps, every, taken, status, reach, at)
     return taken, status, reach
 
 
@@ -49,11 +79,14 @@ def _rows(state: dict[str, Floats], at: np.ndarray) -> dict[str, Floats]:
     return {name: array[at] for name, array in state.items()}
 
 
-def _march(
+def continued(
     state: dict[str, Floats], frames: dict[str, Floats], stages: Floats, steps: int, every: int,
     taken: np.ndarray, status: np.ndarray, reach: Floats, at: np.ndarray,
-) -> None:  # fmt: skip
-    """Steps some balls together, the rows `at` of what else is given, and writes these in place."""
+) -> dict[str, Floats]:  # fmt: skip
+    """Steps some balls together, the rows `at` of what else is given, and writes these in place.
+
+    Returns the state of the balls that took all steps.
+    """
     for step in range(1, steps + 1):
         for c in stages:
             K, rest = c * state["momentum"], (state[x] for x in ("gamma", "mass_tensor", "D"))
@@ -62,12 +95,13 @@ def _march(
             if not went.all():
                 at, E, state = at[went], E[went], _rows(state, went)
                 if not at.size:
-                    return
+                    return state
             state = _moved(state, E)
         taken[at] += 1
         if step % every == 0:
             for name in frames:
                 frames[name][at, step // every] = state[name]
+    return state
 
 
 def _moved(state: dict[str, Floats], E: Floats) -> dict[str, Floats]:

@@ -15,7 +15,7 @@ from ..ball import Floats
 from ..coefficients import substeps
 from ..errors import Status, StepNotTaken
 from .ball_n import BallN, flat_states
-from .run_n import run
+from .run_n import rows, run
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,12 +45,11 @@ def step_n(ball: BallN, momentum: ArrayLike, gamma: ArrayLike) -> StepN:
     Raises BadInput for shapes, NaN, infinities, a momentum that is not skew, and a gamma that is not unit.
     """
     shape, (K, g, J, D) = flat_states(ball, momentum, gamma)
-    n, balls = ball.n, len(D)
-    turn = np.broadcast_to(np.eye(n), (balls, n, n))
+    turn = np.broadcast_to(np.eye(ball.n), K.shape)
     state = {"momentum": K, "gamma": g, "mass_tensor": J, "D": D, "attitude": turn}
-    frames = {name: np.full((balls, 2, *state[name].shape[1:]), np.nan) for name in ("attitude", "momentum", "gamma")}
+    frames = rows(state, 2)
     _, status, reach = run(state, frames, substeps(2), 1, 1)
     if not shape and status[0] != Status.TAKEN:
         raise StepNotTaken(Status(int(status[0])), float(reach[0]))
-    ends = (array[:, 1].reshape(*shape, *array.shape[2:]) for array in frames.values())
-    return StepN(*ends, status.reshape(shape), reach.reshape(shape))
+    momentum, gamma, rotation = (x[:, 1].reshape(*shape, *x.shape[2:]) for x in frames.values())
+    return StepN(rotation, momentum, gamma, status.reshape(shape), reach.reshape(shape))

@@ -12,8 +12,8 @@ from ..coefficients import substeps
 from ..errors import BadInput, Status
 from ..results import finished
 from ..trajectories import whole_number
-from .ball_n import BallN, flat_states, initial_attitudes, skew_matrices
-from .run_n import run
+from .ball_n import BallN, skew_matrices
+from .run_n import rows, run, start
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,28 +75,12 @@ def trajectory_n(
     steps, every = whole_number(steps, "steps", 0), whole_number(every, "every", 1)
     threads, stages = whole_number(threads, "threads", 0), substeps(order)
     every = min(every, steps + 1)
-    shape, (K, g, J, D) = flat_states(ball, momentum, gamma)
-    if contact and ball.radius is None:
-        raise BadInput("the contact point needs the radius: give the ball its radius")
-    with_body = contact or not (isinstance(attitude, bool | np.bool_) and not attitude)
-    n, balls, count = ball.n, len(D), steps // every + 1
-    sizes = {"momentum": (n, n), "gamma": (n,)}
-    sizes |= {"attitude": (n, n)} if with_body else {}
-    sizes |= {"contact": (n - 1,)} if contact else {}
-    try:
-        frames = {name: np.full((balls, count, *size), np.nan) for name, size in sizes.items()}
-    except (MemoryError, ValueError):
-        raise BadInput(f"{count} frames of {balls} balls do not fit into memory; keep fewer with every=") from None
-    state = {"momentum": K, "gamma": g, "mass_tensor": J, "D": D}
-    if with_body:
-        state["attitude"] = initial_attitudes(attitude, g, shape)
-    if contact:
-        state["contact"] = np.zeros((balls, n - 1))
-        state["radius"] = np.broadcast_to(np.asarray(ball.radius), shape).reshape(-1)
+    shape, state = start(ball, momentum, gamma, attitude, contact)
+    frames = rows(state, steps // every + 1)
     taken, status, reach = run(state, frames, stages, steps, every, threads)
-    shaped = {name: frames[name].reshape(*shape, count, *size) for name, size in sizes.items()}
+    shaped = {name: array.reshape(*shape, *array.shape[1:]) for name, array in frames.items()}
     result = TrajectoryN(
-        ball, np.arange(count) * every, shaped["momentum"], shaped["gamma"], shaped.get("attitude"),
+        ball, np.arange(0, steps + 1, every), shaped["momentum"], shaped["gamma"], shaped.get("attitude"),
         shaped.get("contact"), taken.reshape(shape), status.reshape(shape), int(order),
     )  # fmt: skip
     return finished(result, reach)

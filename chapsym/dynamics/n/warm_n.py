@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Self
 
 import numpy as np
 
@@ -24,13 +25,15 @@ class Under:
     """Balls under way: what moves and what does not, each array with the balls along its first axis.
 
     Moments are divided by `scale`, so that the largest is about 1; 𝒦 = scale·k.
-    near, enough, past, use: of each stage of a step, (b, s, ...); `near_n.limits`, `rotation_n.remember`.
+    stages, near, enough, past, use: cᵢ of each stage of a step and what it has of its own, (b, s, ...);
+    `near_n.limits`, `rotation_n.remember`.
     """
 
     k: Floats
     g: Floats
     J: Floats
     D: Floats
+    stages: Floats
     near: Floats
     enough: Floats
     past: Floats
@@ -40,95 +43,109 @@ class Under:
     spot: Floats
     rho: Floats
 
+    def ball(self, i: int) -> Self:
+        """One of the balls, in the same memory."""
+        return type(self)(*(x[i] for x in vars(self).values()))
+
+    def copy(self) -> Self:
+        """The same in other memory."""
+        return type(self)(*(x.copy() for x in vars(self).values()))
+
+    def keep(self, frames: dict[str, Floats], frame: int) -> None:
+        """Writes the state of one ball into its frames."""
+        now = {"momentum": self.scale * self.k, "gamma": self.g, "attitude": self.R, "contact": self.spot}
+        for name, array in frames.items():
+            array[frame] = now[name]
+
 
 def march(
     state: dict[str, Floats], frames: dict[str, Floats], limits: tuple[Floats, Floats], stages: Floats,
     steps: int, every: int, taken: np.ndarray, status: np.ndarray, reach: Floats, at: np.ndarray, threads: int,
 ) -> None:  # fmt: skip
     """Steps balls with these `near_n.limits`, and writes the rows `at` of frames, counts, statuses and reaches."""
-    under, work = begun(state, limits), steps * len(stages) * len(at)
+    under, work = begun(state, limits, stages), steps * len(stages) * len(at)
     if not pays(loop_n.march, work * WEIGHT):
-        _by_columns(under, frames, stages, steps, every, taken, status, reach, at)
+        _by_columns(under, frames, steps, every, taken, status, reach, at)
         return
     (take,), count = load((loop_n.march,)), Count(lambda done: None)
 
     def task(i: int) -> None:
-        row = at[i]
-        one = Under(*(x[i] for x in vars(under).values()))
-        taken[row], status[row], reach[row] = advance(take, one, _of(frames, row), stages, steps, every, count)
+        row, one = at[i], under.ball(i)
+        taken[row], status[row], reach[row] = advance(take, one, _of(frames, row), steps, every, count)
 
     share(task, range(len(at)), min(threads or cores(), len(at)) if work >= SHORT_RUN else 1, count)
 
 
-def begun(state: dict[str, Floats], limits: tuple[Floats, Floats]) -> Under:
+def begun(state: dict[str, Floats], limits: tuple[Floats, Floats], stages: Floats) -> Under:
+    """Balls at their start, from the state that `run_n.run` takes, in memory of their own."""
     K, g, J, D = (state[x] for x in ("momentum", "gamma", "mass_tensor", "D"))
-    b, n, s = *g.shape, limits[0].shape[1]
+    b, n, s = *g.shape, len(stages)
     exponent = np.frexp(top(J, D))[1]
+    past, use = np.zeros((b, s, rotation_n.ORDER, n, n)), np.zeros((b, s, rotation_n.ORDER))
     return Under(
         np.ldexp(K, -exponent[:, np.newaxis, np.newaxis]), g.copy(), np.ldexp(J, -exponent[:, np.newaxis]),
-        np.ldexp(D, -exponent), *limits, np.zeros((b, s, rotation_n.ORDER, n, n)), np.zeros((b, s, rotation_n.ORDER)),
-        np.ldexp(1.0, exponent), state.get("attitude", np.zeros((b, n, n))).copy(),
-        state.get("contact", np.zeros((b, n - 1))).copy(), state.get("radius", np.zeros(b)),
+        np.ldexp(D, -exponent), np.tile(stages, (b, 1)), *limits, past, use, np.ldexp(1.0, exponent),
+        state.get("attitude", np.zeros((b, n, n))).copy(), state.get("contact", np.zeros((b, n - 1))).copy(),
+        state.get("radius", np.zeros(b)),
     )  # fmt: skip
 
 
 def advance(
-    take: Callable, one: Under, frames: dict[str, Floats], stages: Floats, steps: int, every: int, count: Count
+    take: Callable, one: Under, frames: dict[str, Floats], steps: int, every: int, count: Count
 ) -> tuple[int, int, float]:
     """Takes steps of one ball with the loop `take`, into its own frames; returns (taken, status, reach)."""
     momenta, verticals, with_body = frames["momentum"], frames["gamma"], "attitude" in frames
     attitudes = frames["attitude"] if with_body else momenta[:0]
     traces = frames["contact"] if "contact" in frames else np.empty((len(attitudes), len(one.spot)))
-    s, done = len(stages), 0
+    s, done = len(one.stages), 0
     while done < steps * s and not count.stopped:
         now = min(CHUNK, steps * s - done)
         went = take(
-            one.k, one.g, one.J, float(one.D), stages, one.near, one.enough, one.past, one.use,
+            one.k, one.g, one.J, float(one.D), one.stages, one.near, one.enough, one.past, one.use,
             done, now, every, float(one.scale), momenta, verticals,
             with_body, one.R, one.spot, float(one.rho), attitudes, traces,
         )  # fmt: skip
         done += went
         if went < now:
-            status, reach = _safely(one, done % s, stages, with_body)
+            status, reach = _safely(one, done % s, with_body)
             if status != Status.TAKEN:
                 return done // s, status, reach
             done += 1
             if done % (s * every) == 0:
-                _keep(one, frames, done // (s * every))
+                one.keep(frames, done // (s * every))
     return done // s, Status.TAKEN, 1.0
 
 
 def _by_columns(
-    under: Under, frames: dict[str, Floats], stages: Floats, steps: int, every: int,
+    under: Under, frames: dict[str, Floats], steps: int, every: int,
     taken: np.ndarray, status: np.ndarray, reach: Floats, at: np.ndarray,
 ) -> None:  # fmt: skip
     with_body = "attitude" in frames
     c = Under(*(np.ascontiguousarray(np.moveaxis(x, 0, -1)) for x in vars(under).values()))
     resting = np.zeros(len(at), dtype=bool)
-    for done in range(1, steps * len(stages) + 1):
-        s = (done - 1) % len(stages)
+    stages = len(c.stages)
+    for done in range(1, steps * stages + 1):
+        s = (done - 1) % stages
         past, use = c.past[s], c.use[s]
         with np.errstate(all="ignore"):  # what does not settle is thrown away
             E, settled = columns_n.settle(
-                columns_n.guess(past, use), stages[s] * c.k, c.g, c.J, c.D, c.near[s], c.enough[s]
+                columns_n.guess(past, use), c.stages[s] * c.k, c.g, c.J, c.D, c.near[s], c.enough[s]
             )
-        mended = {i: _copy(_lane(c, i)) for i in np.flatnonzero(~settled & ~resting).tolist()}
+        mended = {i: _lane(c, i).copy() for i in np.flatnonzero(~settled & ~resting).tolist()}
         E[..., ~settled] = 0.0
         columns_n.remember(E, past, use)
         if with_body:
             columns_n.roll(E, c.g, c.R, c.spot, c.rho)
         columns_n.move(E, c.k, c.g)
         for i, one in mended.items():
-            status[at[i]], reach[at[i]] = _safely(one, s, stages, with_body)
+            status[at[i]], reach[at[i]] = _safely(one, s, with_body)
             for name in ("k", "g", "past", "use", "R", "spot"):
                 getattr(c, name)[..., i] = getattr(one, name)
             resting[i] = status[at[i]] != Status.TAKEN
-        taken[at[~resting]] += s == len(stages) - 1
-        if done % (len(stages) * every) == 0:
+        taken[at[~resting]] += s == stages - 1
+        if done % (stages * every) == 0:
             for i in np.flatnonzero(~resting).tolist():
-                _keep(
-                    _lane(c, i), {name: array[at[i]] for name, array in frames.items()}, done // (len(stages) * every)
-                )
+                _lane(c, i).keep(_of(frames, at[i]), done // (stages * every))
 
 
 def _of(frames: dict[str, Floats], row: int) -> dict[str, Floats]:
@@ -139,13 +156,11 @@ def _lane(under: Under, i: int) -> Under:
     return Under(*(x[..., i] for x in vars(under).values()))
 
 
-def _copy(one: Under) -> Under:
-    return Under(*(x.copy() for x in vars(one).values()))
-
-
-def _safely(one: Under, s: int, stages: Floats, with_body: bool) -> tuple[int, float]:
+def _safely(one: Under, s: int, with_body: bool) -> tuple[int, float]:
     """A stage of a ball that Newton did not find, by the continuation from the identity; returns (status, reach)."""
-    E, status, reach = small_rotation(*(np.asarray(x)[np.newaxis] for x in (stages[s] * one.k, one.g, one.J, one.D)))
+    E, status, reach = small_rotation(
+        *(np.asarray(x)[np.newaxis] for x in (one.stages[s] * one.k, one.g, one.J, one.D))
+    )
     if status[0] == Status.TAKEN:
         n = len(one.g)
         W, c = np.empty((n, n)), np.empty(n)
@@ -154,9 +169,3 @@ def _safely(one: Under, s: int, stages: Floats, with_body: bool) -> tuple[int, f
             rotation_n.roll(E[0], one.g, one.R, one.spot, float(one.rho), c, W)
         rotation_n.move(E[0], one.k, one.g, W, c)
     return int(status[0]), float(reach[0])
-
-
-def _keep(one: Under, frames: dict[str, Floats], frame: int) -> None:
-    now = {"momentum": one.scale * one.k, "gamma": one.g, "attitude": one.R, "contact": one.spot}
-    for name, array in frames.items():
-        array[frame] = now[name]
