@@ -22,6 +22,8 @@ EPSILON = 0.05
 BATCH = 64
 #: Steps of a trajectory, and of those one by one.
 STEPS, FEW = 3000, 30
+#: Steps in a call of a prepared ball.
+CALL = 10
 #: How far the two may be apart after FEW steps, relative to 𝒦.
 ROUNDING = 2.0**-44
 #: Microseconds for a step of one ball in four dimensions.
@@ -42,6 +44,22 @@ def trajectory(n: int, steps: int, balls: int = 1, contact: bool = False) -> np.
     ball, K, gamma = start(n)
     run = chapsym.trajectory_n(ball, np.broadcast_to(K, (balls, n, n)), gamma, steps, every=steps, contact=contact)
     return run.momentum[0, -1]
+
+
+def composed(n: int, stages: int, balls: int = 1) -> np.ndarray:
+    """𝒦 at the end of so many stages of the composition of order 8."""
+    ball, K, gamma = start(n)
+    steps = stages // len(chapsym.substeps(8))
+    end: np.ndarray = chapsym.trajectory_n(ball, K, gamma, steps, order=8, every=steps).momentum[-1]
+    return end
+
+
+def called(n: int, steps: int, balls: int = 1) -> np.ndarray:
+    """𝒦 at the end of steps that are taken in calls of CALL."""
+    stepper = chapsym.StepperN(*start(n))
+    for _ in range(steps // CALL):
+        stepper.step(CALL)
+    return stepper.momentum
 
 
 def continued(n: int, steps: int, balls: int = 1) -> np.ndarray:
@@ -70,6 +88,8 @@ def measure(quick: bool, on_round: Callable[[str], None] = lambda text: None) ->
         sides: dict[str, tuple[Callable[..., Any], int, int]] = {
             "one ball": (trajectory, 1, steps),
             "one ball, contact": (partial(trajectory, contact=True), 1, steps),
+            "one ball, a stage of order 8": (composed, 1, steps - steps % len(chapsym.substeps(8))),
+            f"one ball, {CALL} steps in a call": (called, 1, steps),
             f"one ball, {CONTINUED}": (continued, 1, FEW),
             f"{BATCH} balls": (trajectory, BATCH, steps // 10),
             f"{BATCH} balls, {CONTINUED}": (continued, BATCH, FEW // 10),
