@@ -21,8 +21,8 @@ class General(Stepwise):
         """Balls in three dimensions, and what `trajectory_n` does not have."""
         if not isinstance(members.ball, BallN):
             return "the ball is one in three dimensions"
-        if task.order != 2 or task.precision != "double" or task.accuracy is not None:
-            return "more than three dimensions have order 2 and float64 only"
+        if task.precision != "double" or task.accuracy is not None:
+            return "more than three dimensions have the map and its compositions only, in float64"
         return None
 
     def attitude(self, members: Members) -> np.ndarray:
@@ -36,7 +36,7 @@ class General(Stepwise):
         """`chapsym.trajectory_n` of the batch."""
         assert isinstance(members.ball, BallN)
         found = trajectory_n(
-            members.ball, state["momentum"], state["gamma"], steps, every=task.every,
+            members.ball, state["momentum"], state["gamma"], steps, order=task.order, every=task.every,
             attitude=state.get("attitude", False), contact="contact" in state,
         )  # fmt: skip
         progress(len(members) * steps)
