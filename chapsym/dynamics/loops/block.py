@@ -181,7 +181,8 @@ def prepare_block(momentum, g, tensor, contact, state, scale):
     for lane in range(state.shape[1]):
         i = min(lane, last)
         scale[i] = prepare(momentum[i], g[i], tensor[i], contact[i], one)
-        state[:, lane] = one
+        for row in range(ROWS):
+            state[row, lane] = one[row]
 
 
 def rows(count, dtype):
@@ -189,6 +190,13 @@ def rows(count, dtype):
     numbers = np.empty((count, LANES + LINE), dtype)
     begin = -(numbers.ctypes.data // numbers.itemsize) % LINE
     return numbers[:, begin : begin + LANES]
+
+
+def carry(numbers, to, width):
+    """Copies columns; an assignment of slices takes seconds to compile."""
+    for row in range(to.shape[0]):
+        for i in range(width):
+            to[row, i] = numbers[row, i]
 
 
 def march_block(
@@ -203,7 +211,8 @@ def march_block(
     S, P, B = rows(ROWS, state.dtype), rows(8, state.dtype), rows(7, state.dtype)
     width = state.shape[1]
     ok = np.empty(width, dtype=np.int32)
-    S[:, :width], B[:, :width] = state, body
+    carry(state, S, width)
+    carry(body, B, width)
     balls = len(status)
     step, last, patience = first, first + count, 0
     hopeless, beyond = uncertified(S, ok)
@@ -233,7 +242,8 @@ def march_block(
             for i in range(balls):
                 one = S[:, i].copy()
                 restore(one)
-                S[X : X + 6, i] = one[X : X + 6]
+                for row in range(X, X + 6):
+                    S[row, i] = one[row]
         if step % every == 0:
             frame = step // every
             for i in range(balls):
@@ -247,4 +257,5 @@ def march_block(
     for i in range(balls):
         if status[i] == 0:
             taken[i] = last
-    state[:, :], body[:, :] = S[:, :width], B[:, :width]
+    carry(S, state, width)
+    carry(B, body, width)
