@@ -1,7 +1,9 @@
 """What is kept of compiled code: in a closed folder only, whatever lies there, once for all processes."""
 
+import ast
 import fcntl
 import importlib.util
+import inspect
 import os
 import tempfile
 import threading
@@ -234,3 +236,12 @@ def test_nobody_waits_where_there_are_no_locks(tmp_path, monkeypatch):
     monkeypatch.setattr(code_cache, "fcntl", None)
     with code_cache.alone(tmp_path / "lock"), code_cache.alone(tmp_path / "lock"):
         pass
+
+
+@pytest.mark.parametrize("module", compiled.SOURCES, ids=lambda module: module.__name__)
+def test_no_loop_assigns_an_array_to_a_slice(module):
+    """That takes a second and a half to compile, for the sentence about shapes that do not fit; a number is cheap."""
+    for node in ast.walk(ast.parse(inspect.getsource(module))):
+        if isinstance(node, ast.Assign) and not isinstance(node.value, ast.Constant):
+            slices = [x for target in node.targets for x in ast.walk(target) if isinstance(x, ast.Slice)]
+            assert not slices, f"line {node.lineno}"

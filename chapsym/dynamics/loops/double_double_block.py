@@ -8,7 +8,7 @@ import numpy as np
 from chapsym.generated.double_double import gibbs_residual_pairs, turn_pairs
 from chapsym.numbers.pairs import two_sum
 
-from .block import extrapolated
+from .block import carry, extrapolated
 from .branch import TAKEN
 from .double_double_loop import ROWS, D, G, I, K, prepare_pairs, restore_pairs, stage, write
 from .double_double_step import correction, small
@@ -124,8 +124,8 @@ def prepare_pairs_block(momentum, g, tensor, contact, c, state, shift, beyond):
     for lane in range(state.shape[1]):
         i = min(lane, last)
         shift[i], beyond[i] = prepare_pairs(momentum[i], g[i], tensor[i], contact[i], c, one, radius, enough)
-        state[:ROWS, lane] = one
-        state[ROWS:RADIUS, lane] = 0.0
+        for row in range(RADIUS):
+            state[row, lane] = one[row] if row < ROWS else 0.0
         state[RADIUS, lane], state[ENOUGH, lane] = radius[0], enough[0]
 
 
@@ -137,7 +137,7 @@ def march_pairs_block(
     shift, taken, status and reach have one entry for each ball; lanes beyond them are idle copies.
     """
     S, P, ok = np.empty((ALL_ROWS, LANES)), np.empty((WORK_ROWS, LANES)), np.empty(LANES, dtype=np.int64)
-    S[:, :] = state
+    carry(state, S, LANES)
     for step in range(first, first + count):
         bad, rounds = approached(S, P, ok, False), 1
         while bad != 0 and rounds < ROUNDS:
@@ -150,7 +150,8 @@ def march_pairs_block(
             for i in range(LANES):
                 one = S[:ROWS, i].copy()
                 restore_pairs(one)
-                S[:ROWS, i] = one
+                for row in range(ROWS):
+                    S[row, i] = one[row]
         if (step + 1) % every == 0:
             frame = (step + 1) // every
             for i in range(len(status)):
@@ -161,4 +162,4 @@ def march_pairs_block(
     for i in range(len(status)):
         if status[i] == TAKEN:
             taken[i] = first + count
-    state[:, :] = S
+    carry(S, state, LANES)
