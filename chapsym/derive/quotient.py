@@ -7,10 +7,12 @@ is decided by division by a Gröbner basis, in exact arithmetic (python-flint be
 
 from collections.abc import Sequence
 from functools import cached_property
+from math import prod
 from operator import add, ge, sub
 from typing import Any
 
 import sympy as sp
+from flint import Ordering, fmpq_mpoly, fmpq_mpoly_ctx
 from sympy.polys.rings import PolyElement, PolyRing
 
 Monomial = tuple[int, ...]
@@ -50,10 +52,52 @@ class Quotient:
         remainder says that the numerator is not in the ideal.
         Raises ZeroDivisionError if the denominator vanishes under the relations.
         """
-        numerator, denominator = sp.fraction(sp.together(expr))
-        if not self._reduce(denominator):
-            raise ZeroDivisionError(f"the denominator {denominator} is zero under the hypotheses")
-        return not self._reduce(numerator)
+        numerator, divisors = self._numerator(sp.sympify(expr))
+        for written, divisor in divisors:
+            if not self._rest(divisor.to_dict()):
+                raise ZeroDivisionError(f"the denominator {written} is zero under the hypotheses")
+        return not self._rest(numerator.to_dict())
+
+    @cached_property
+    def _known(self) -> dict[sp.Expr, tuple[fmpq_mpoly, fmpq_mpoly]]:
+        """The symbols as fractions."""
+        context = fmpq_mpoly_ctx.get(tuple(f"x{i}" for i in range(len(self.symbols))), Ordering.degrevlex)
+        return {x: (gen, context.constant(1)) for x, gen in zip(self.symbols, context.gens(), strict=True)}
+
+    def _numerator(self, expr: sp.Expr) -> tuple[fmpq_mpoly, list[tuple[sp.Expr, fmpq_mpoly]]]:
+        """The numerator of a rational function, and each expression that it divides by, with its numerator."""
+        known, divisors = dict(self._known), []
+        one = next(iter(known.values()))[1]
+
+        def of(expr: sp.Expr) -> tuple[fmpq_mpoly, fmpq_mpoly]:
+            if expr not in known:
+                known[expr] = made(expr)
+            return known[expr]
+
+        def made(expr: sp.Expr) -> tuple[fmpq_mpoly, fmpq_mpoly]:
+            if isinstance(expr, sp.Rational):
+                return one * expr.p, one * expr.q
+            if isinstance(expr, sp.Pow) and isinstance(expr.exp, sp.Integer):
+                (above, below), power = of(expr.base), int(expr.exp)
+                if power > 0:
+                    return above**power, below**power
+                divisors.append((expr.base, above))
+                return below**-power, above**-power
+            parts = [of(part) for part in expr.args]
+            if isinstance(expr, sp.Mul):
+                above, below = prod((a for a, _ in parts), start=one), prod((b for _, b in parts), start=one)
+                common = above.gcd(below)
+                return above / common, below / common
+            if not isinstance(expr, sp.Add):
+                raise ValueError(f"{expr} is not a rational function of {self.symbols}")
+            above, below = parts[0]
+            for a, b in parts[1:]:
+                common = below.gcd(b)
+                mine, its = below / common, b / common
+                above, below = above * its + a * mine, below * its
+            return above, below
+
+        return of(expr)[0], divisors
 
     @cached_property
     def _rules(self) -> list[tuple[Monomial, list[tuple[Monomial, Any]]]]:
@@ -65,9 +109,12 @@ class Quotient:
         ]
 
     def _reduce(self, expr: sp.Expr) -> PolyElement:
-        """The normal form.  Terms are replaced in any order, as that by a Gröbner basis does not depend on it."""
+        """The normal form of a polynomial."""
+        return self._ring.from_dict(self._rest(dict(self._ring.from_expr(expr))))
+
+    def _rest(self, pending: dict[Monomial, Any]) -> dict[Monomial, Any]:
+        """The same of its terms, which are replaced in any order: that by a Gröbner basis does not depend on it."""
         zero = self._ring.domain.zero
-        pending = dict(self._ring.from_expr(expr))
         settled: dict[Monomial, Any] = {}
         while pending:
             replaced: dict[Monomial, Any] = {}
@@ -82,4 +129,4 @@ class Quotient:
                     to = tuple(map(add, rest, other))
                     replaced[to] = replaced.get(to, zero) + factor * times
             pending = {monomial: factor for monomial, factor in replaced.items() if factor}
-        return self._ring.from_dict({monomial: factor for monomial, factor in settled.items() if factor})
+        return {monomial: factor for monomial, factor in settled.items() if factor}
