@@ -53,7 +53,7 @@ class Interval:
 
     def __mul__(self, other: Interval | int) -> Interval:
         other = self._of(other)
-        ends = [x * y for x in (self.lo, self.hi) for y in (other.lo, other.hi)]
+        ends = self.lo * other.lo, self.lo * other.hi, self.hi * other.lo, self.hi * other.hi
         return Interval(min(ends) >> self.bits, -(-max(ends) >> self.bits), self.bits)
 
     def __truediv__(self, other: Interval | int) -> Interval:

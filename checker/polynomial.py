@@ -99,10 +99,11 @@ class Polynomial:
         price = 1 + (self.bits + other.bits) // 512 + len(self.ring.variables) // 64
         self.ring.work.spend(1 + len(small) * len(large) * price)
         terms: dict[int, int] = {}
+        so_far = terms.get
         for shift, c in small.items():
             for monomial, d in large.items():
                 at = monomial + shift
-                terms[at] = terms.get(at, 0) + c * d
+                terms[at] = so_far(at, 0) + c * d
             if len(terms) > MOST_TERMS:
                 raise Rejected("the certificate has a polynomial too large to be checked")
         kept = {monomial: c for monomial, c in terms.items() if c}

@@ -69,9 +69,10 @@ def lam() -> sp.Matrix:
     return three.lam()
 
 
-def total() -> sp.Matrix:
+@cache
+def total() -> sp.ImmutableMatrix:
     """γ + γ~."""
-    return (gamma_now() + gamma_next()).applyfunc(sp.factor)
+    return sp.ImmutableMatrix((gamma_now() + gamma_next()).applyfunc(sp.factor))
 
 
 # The rotation in closed form.  With σ = 2t and ⟨γ, q⟩/q₀ = e/t the equation 𝒦 = hγ is linear in q/q₀; what is

@@ -36,6 +36,9 @@ class Ratio:
     def __init__(self, numerator: fmpq_mpoly, denominator: fmpq_mpoly) -> None:
         if denominator == 0:
             raise ZeroDivisionError("the denominator is the polynomial 0")
+        if denominator == 1:  # of most
+            self.numerator, self.denominator = numerator, denominator
+            return
         common = numerator.gcd(denominator) * denominator.leading_coefficient()
         self.numerator, self.denominator = numerator / common, denominator / common
 

@@ -21,3 +21,37 @@ def test_the_normal_form_is_that_of_sympy(relations):
         assert sp.expand(ring.normal(polynomial) - wanted) == 0
     assert ring.is_zero(relations[-1] * (x[2] - x[5]) / (1 + x[6]))
     assert not ring.is_zero(relations[-1] + x[3])
+
+
+def random_rational(rng, depth):
+    if depth == 0:
+        return rng.choice([*x, sp.Integer(rng.randint(-3, 3)), sp.Rational(rng.randint(1, 5), 3)])
+    a, b = random_rational(rng, depth - 1), random_rational(rng, depth - 1)
+    return rng.choice([a + b, a - b, a * b, a / (b + x[7]), (a + x[7]) ** -2, a**3 - b])
+
+
+def test_the_numerator_is_that_of_sympy_up_to_a_factor_without_zeros():
+    """It and the divisors are those of the rational function: left - right of the cross products vanishes."""
+    rng, ring = random.Random(7), Quotient(x)
+    for _ in range(20):
+        expr = random_rational(rng, 3)
+        above, below = sp.fraction(sp.together(expr))
+        assert ring.is_zero(expr - above / below)
+        assert ring.is_zero(expr) == (sp.expand(above) == 0)
+        assert not ring.is_zero(expr - above / below + x[0] / (1 + x[1]))
+
+
+def test_each_expression_that_is_divided_by_is_looked_at():
+    """One that cancels or that is in the denominator of a denominator, too."""
+    ring, one = Quotient(x, SPHERES), sum(v * v for v in x[:4])
+    for zero in (one - 1, one * x[4] - x[4], (one - 1) ** 2 / x[7]):
+        for expr in (1 / zero, x[0] + x[1] * zero * (x[2] - 1 / zero), x[0] / (1 + 1 / zero)):
+            with pytest.raises(ZeroDivisionError, match="is zero under the hypotheses"):
+                ring.is_zero(expr)
+    assert ring.is_zero((one**-2 - 1) / (one + x[0]))
+
+
+@pytest.mark.parametrize("expr", [sp.sqrt(x[0]) - 1, sp.sin(x[0]), sp.Symbol("other") * x[0], x[0] ** x[1]])
+def test_what_is_no_rational_function_of_the_symbols_is_refused(expr):
+    with pytest.raises(ValueError, match="is not a rational function of"):
+        Quotient(x).is_zero(expr)
