@@ -1,0 +1,145 @@
+"""How far the motion is from polynomials in time, proved from what they leave of the equations.
+
+The motion: R turns with the angular velocity ω of the body, B(γ)ω = K, B(γ) = I + D(1 - γγᵀ), where K = Rᵀk and
+γ = Rᵀe₃ are fixed in space.  Time is τ in [0, 1], and k is that of the step, k times its length.
+
+The polynomials: p(τ), the direction of a quaternion, and w(τ).  With P the rotation of p, K and γ those of P,
+    ε = 2 vec(p̄e)/|p|², e = p' - ½ p∘w:  P turns with w + ε;     κ = B(γ)w - K.
+
+Lemma (by hand).  The motion is R = P·Rot, Rot the rotation of the quaternion (1, ξ), and with A = B⁻¹C,
+Cξ = Iw × ξ - I(w × ξ), X ≥ |ξ|, X ≤ ¼, β ≥ ‖B⁻¹‖, s = 5βσX ≤ ½, σ = ½(I_max - I_min) and W ≥ |w|
+    |ξ' - Aξ| ≤ q = ½β(8σX²W + 5σXδ + |κ|) + ½|ε| + ½(δ + |ε|)X(1 + X),     δ = (sW + β|κ|)/(1 - s).
+1. In the axes of P the angular velocity is ϖ = Rot ω.  As B(γ) of the motion is Rotᵀ(S + B)Rot with S = Rot I Rotᵀ - I,
+   and K of the motion is RotᵀK, (B + S)ϖ = K = Bw - κ.  So d = ϖ - w has (B + S)d = -Sw - κ.
+2. Rot - 1 = N with |N| ≤ 2X and |N - 2[ξ]ₓ| ≤ 2X².  S is the same for I less any number, so for ‖I‖ ≤ σ:
+   |S| ≤ 4σX + 4σX² ≤ 5σX, and S is 2([ξ]ₓI - I[ξ]ₓ) up to 8σX².  The latter gives w what -2Cξ is.
+3. So |d| ≤ δ, and |d - 2Aξ| ≤ β(8σX²W + 5σXδ + |κ|).
+4. The quaternion Q of Rot has Q' = ½(d - ε)∘Q, so that ξ' = ½(Δ + Δ × ξ + ⟨Δ,ξ⟩ξ) with Δ = d - ε.
+If |A| ≤ L and M is a matrix of polynomials with M(0) = 1 and |M' - AM| ≤ η, then from |ξ(0)| ≤ r (Gronwall)
+    |ξ| ≤ (r + q)exp(L) < X, which proves that X was enough, and |ξ(1) - M(1)ξ(0)| ≤ (q + ηr)exp(L).
+"""
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+from flint import arb, arb_poly, ctx
+
+from chapsym import generated
+
+from ..levels.proved_root import TooWide, highest, lowest, upper
+from .models import UNIT, Model, bound, models
+from .series import Series, bend
+
+#: Pieces of a step on which the size of A is bounded apart.
+PIECES = 8
+#: What stands beside 1 in the bound of |ξ| that is tried first.
+ROOM = 1.5
+
+
+class Body(NamedTuple):
+    """J and D in balls, and I of them."""
+
+    J: Sequence[Any]
+    D: Any
+
+    @property
+    def inertia(self) -> tuple[Any, ...]:
+        """The moments about the centre."""
+        J1, J2, J3 = self.J
+        return J2 + J3, J1 + J3, J1 + J2
+
+
+class Defects(NamedTuple):
+    """What polynomials leave: e and κ, models; `unit` contains 1/|p|², and R is that of p/|p|, row by row."""
+
+    e: Sequence[Model]
+    kappa: Sequence[Model]
+    unit: Any
+    R: Sequence[Model]
+
+
+def defects(p: Sequence[Any], w: Sequence[Any], k: Sequence[Any], body: Body, degree: int) -> Defects:
+    """Those of exact polynomials p and w; raises TooWide where |p| may be far from 1."""
+    a, omega = models(p, degree), models(w, degree)
+    off = bound([a[0] * a[0] + a[1] * a[1] + a[2] * a[2] + a[3] * a[3] - 1])
+    if not off < 0.5:
+        raise TooWide
+    unit = 1 / (1 + arb(0, off))
+    turned = generated.compose(*a, 0, *omega)
+    e = [Model(x.derivative(), degree) - y * arb(0.5) for x, y in zip(p, turned, strict=True)]
+    R = [x * unit for x in generated.rotation(*a)]
+    K = [R[i] * k[0] + R[i + 3] * k[1] + R[i + 6] * k[2] for i in range(3)]
+    carried = generated.contact_momentum(*omega, *R[6:], *body.J, body.D)
+    return Defects(e, [x - y for x, y in zip(carried, K, strict=True)], unit, R)
+
+
+class Step(NamedTuple):
+    """What a step does to ξ: M, all that ξ(1) may differ from Mξ(0) by, and what ϖ may differ from w by."""
+
+    M: Any
+    more: Any
+    slip: Any
+
+
+def deviation(series: Series, w: Sequence[Any], found: Defects, body: Body, start: Any) -> Step:
+    """The lemma, for |ξ(0)| ≤ start; to be called with the precision of matrices.  Raises TooWide.
+
+    series: gives M, floats that need not be right.  w: the exact polynomials.
+    """
+    degree = series.a.shape[1] - 1
+    omega, gamma = models(w, degree), models([x.poly for x in found.R[6:]], degree)
+    e, kappa = bound(found.e), bound(found.kappa)
+    epsilon = (2 * e * found.unit.sqrt()).abs_upper()
+    inverse, growth, W = _sizes(omega, gamma, body)
+    M = [[arb_poly(series.Phi[:, i, j].tolist()) for j in range(3)] for i in range(3)]
+    eta = (inverse * _slip(M, omega, gamma, body, degree)).abs_upper()
+    I = body.inertia
+    sigma = ((highest(*I) - lowest(*I)) / 2).abs_upper()
+    stretch = growth.exp().abs_upper()
+    X = (ROOM * (start + epsilon + inverse * kappa) * stretch).abs_upper()
+    s = 5 * inverse * sigma * X
+    if not (X <= 0.25 and s <= 0.5):
+        raise TooWide
+    slip = ((s * W + inverse * kappa) / (1 - s)).abs_upper()
+    q = inverse * (8 * sigma * X * X * W + 5 * sigma * X * slip + kappa) / 2
+    q = (q + epsilon / 2 + (slip + epsilon) * X * (1 + X) / 2).abs_upper()
+    if not (start + q) * stretch <= X:
+        raise TooWide
+    ends = [sum((c for c in x.coeffs()), arb(0)) for row in M for x in row]
+    return Step(_matrix(ends), ((q + eta * start) * stretch).abs_upper(), slip)
+
+
+def _sizes(w: Sequence[Model], gamma: Sequence[Model], body: Body) -> tuple[Any, Any, Any]:
+    """Bounds of ‖B⁻¹‖, of the integral of |A|, and of |w| on [0, 1]."""
+    inverse, growth, W = arb(0), arb(0), arb(0)
+    for i in range(PIECES):
+        time = (arb(i) + UNIT) / PIECES
+        v, g = [x.at(time) for x in w], [x.at(time) for x in gamma]
+        columns = [generated.angular_velocity(*x, *g, *body.J, body.D) for x in _UNITS]
+        inverse = inverse.max(upper([x for column in columns for x in column]))
+        A = [generated.angular_velocity(*bend(body.J, v, x), *g, *body.J, body.D) for x in _UNITS]
+        growth += upper([x for column in A for x in column]) / PIECES
+        W = W.max(upper(v))
+    if not (inverse.is_finite() and growth.is_finite()):
+        raise TooWide
+    return inverse.abs_upper(), growth.abs_upper(), W.abs_upper()
+
+
+def _slip(M: Sequence[Any], w: Sequence[Model], gamma: Sequence[Model], body: Body, degree: int) -> Any:
+    """A bound of BM' - CM."""
+    left = []
+    for j in range(3):
+        x = models([M[i][j] for i in range(3)], degree)
+        rate = models([M[i][j].derivative() for i in range(3)], degree)
+        carried = generated.contact_momentum(*rate, *gamma, *body.J, body.D)
+        left += [y - z for y, z in zip(carried, bend(body.J, w, x), strict=True)]
+    return bound(left)
+
+
+def _matrix(entries: Sequence[Any]) -> Any:
+    from flint import arb_mat
+
+    return arb_mat(3, 3, entries)
+
+
+_UNITS = ((1, 0, 0), (0, 1, 0), (0, 0, 1))

@@ -1,0 +1,205 @@
+"""One continuous motion under way: a step finds polynomials, mends them until rounding is left, and proves them.
+
+What finds them may be wrong: only what `deviation` proves of them is used.
+"""
+
+import math
+from collections.abc import Sequence
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+from flint import arb, arb_poly, ctx
+
+from chapsym import generated
+
+from ..levels.balls import exact as ball
+from ..levels.balls import point, unit
+from ..levels.proved_root import MATRIX_BITS, TooWide, highest, upper
+from ..levels.spread import Spread
+from ..levels.start import exponent_of
+from .deviation import Body, Defects, defects, deviation
+from .models import Model, bound, exact
+from .series import TERMS, Floats, Series, convolved, linear, motion, quotient
+
+Numbers = tuple[Any, ...]
+
+#: A step is this part of the radius of convergence: where the price of a unit of time is least.
+PART = 1 / math.e
+#: Bits that a correction in float64 is taken to gain, and that are carried beyond those known so far.
+GAIN, BEYOND = 40, 60
+#: What is left after the last correction is so many bits above the rounding.
+LEFT = 8
+#: Corrections that may do nothing, and how many times as many terms are tried then.
+STUCK, MORE_TERMS = 3, 1.25
+
+
+class Path:
+    """A motion in balls of `precision` bits; every method is to be called with that precision set.
+
+    attitude: a quaternion, K: the momentum in the axes of the body, both in balls.
+    time: since the start, exactly.  steps: taken so far.
+    """
+
+    def __init__(
+        self, precision: int, J: Sequence[Any], D: Any, K: Sequence[Any], attitude: Sequence[Any], radius: Any
+    ) -> None:
+        self.precision, self.time, self.steps = precision, Fraction(0), 0
+        body = Body(J, D)
+        self.scale = arb(2) ** _exponent(highest(*body.inertia) + D)
+        self.body = Body(tuple(x / self.scale for x in J), D / self.scale)
+        self.k = generated.rotate(*unit(attitude), *(x / self.scale for x in K))
+        self.p, far = point(unit(attitude))
+        self.spread = Spread()
+        self.radius, self.contact = radius, (arb(0), arb(0))
+        self.rough = 0.0
+        with ctx.workprec(MATRIX_BITS):
+            self.spread.restart(far)
+
+    def advance(self, end: Fraction) -> None:
+        """Goes on to a later time, or a part of the way; raises TooWide where the balls allow no proof."""
+        left = end - self.time
+        series, length = self._series(left)
+        degree = self._degree(series)
+        k = tuple(ball(length) * x for x in self.k)
+        p, w, found = self._mended(series, k, degree)
+        with ctx.workprec(MATRIX_BITS):
+            proved = deviation(series, w, found, self.body, self.spread.size)
+        if self.radius is not None:
+            self._roll(w, found, proved.slip)
+        self.p, far = point(unit(sum(x.coeffs(), arb(0)) for x in p))
+        with ctx.workprec(MATRIX_BITS):
+            # p∘(1, ε)∘(1, ξ) is p∘(1, ξ'), |ξ' - ξ| ≤ |ε|(1 + |ξ| + |ξ|²)/(1 - |ε||ξ|) ≤ 2|ε|.
+            self.spread.moved(proved.M, proved.more + 2 * far)
+        self.time, self.steps = self.time + length, self.steps + 1
+
+    def _series(self, left: Fraction) -> tuple[Series, Fraction]:
+        """The series in float64 in units of the next step, and its length."""
+        a, J, D = tuple(map(float, self.p)), tuple(map(float, self.body.J)), float(self.body.D)
+        k = np.array([float(x) for x in self.k])
+        whole = float(left)
+        rough = self.rough or _turn(a, k, J, D)
+        rough = min(rough, whole) if rough else whole
+        found = motion(a, rough * k, J, D)
+        reach = rough * found.reach()
+        if not reach > 0:
+            raise TooWide
+        most = PART * reach
+        self.rough = most if math.isfinite(most) else rough
+        count = math.ceil(whole / most) if whole > most else 1
+        length = left if count == 1 else _short(left / count)
+        return found.scaled(float(length) / rough), length
+
+    def _degree(self, series: Series) -> int:
+        """So many terms that what is beyond is below the rounding."""
+        reach = series.reach()
+        bits = math.log2(reach) if reach > 1 else 0.5
+        return max(math.ceil(self.precision / bits), 2) + 4
+
+    def _mended(self, series: Series, k: Numbers, degree: int) -> tuple[list[Any], list[Any], Defects]:
+        """Exact polynomials p and w, and what they leave at the whole precision."""
+        terms = min(degree + 1, TERMS)
+        p = [arb_poly(row[:terms].tolist()) for row in series.a]
+        p = [x - x(0) + y for x, y in zip(p, self.p, strict=True)]
+        w = [arb_poly(row[:terms].tolist()) for row in series.w]
+        p, w = [exact(x) for x in p], [exact(x) for x in w]
+        bits, stuck, size = GAIN, 0, math.inf
+        while True:
+            bits = min(bits + BEYOND, self.precision)
+            with ctx.workprec(bits):
+                n = max(TERMS, degree * bits // self.precision)
+                found = defects(p, w, k, self.body, n)
+                before, size = size, _log(bound([*found.e, *found.kappa]))
+            if bits == self.precision:
+                if size <= LEFT - self.precision:
+                    return p, w, found
+                stuck += size > before - 2
+                if stuck > STUCK:
+                    raise TooWide
+                if stuck:
+                    degree = math.ceil(MORE_TERMS * degree)
+            self._correct(p, w, series, found, degree)
+            bits = max(bits - BEYOND, -size) + GAIN
+
+    def _correct(self, p: list[Any], w: list[Any], series: Series, found: Defects, degree: int) -> None:
+        """Adds to p and w what takes away their defects to the first order: ξ' = Aξ - ½(B⁻¹κ + ε)."""
+        shift, (e, kappa) = _floats(found.e, found.kappa, degree + 1)
+        back = series.a * np.array([[1.0], [-1.0], [-1.0], [-1.0]])
+        away = convolved(lambda x, y: generated.compose(*x, *y), back, e, degree + 1)
+        epsilon = 2 * away[1:]
+        b = quotient(series.B, kappa.T)
+        rest = -(b + epsilon.T) / 2
+        xi = linear(series.A, rest[:degree], np.zeros(3)).T
+        rate = xi[:, 1:] * np.arange(1, xi.shape[1])
+        scalar = np.append(0.0, -away[0, :degree] / np.arange(1, degree + 1))  # brings |p| to 1
+        move = convolved(lambda x, y: generated.compose(*x, *y), series.a, np.vstack([scalar, xi]), degree + 1)
+        turn = convolved(_cross, series.w, xi, degree + 1)
+        change = 2 * turn + epsilon
+        change[:, : rate.shape[1]] += 2 * rate
+        for polys, by in ((p, move), (w, change)):
+            for i, row in enumerate(by):
+                polys[i] = exact(polys[i] + arb_poly(row.tolist()) * shift)
+
+    def _roll(self, w: Sequence[Any], found: Defects, slip: Any) -> None:
+        """Moves the contact point by ρ(y₂, -y₁), y the turn in space; that of the ball is within `slip`."""
+        R, off = found.R, arb(0, slip)
+        omega = [Model(x, R[0].degree) for x in w]
+        x, y = ((R[i] * omega[0] + R[i + 1] * omega[1] + R[i + 2] * omega[2]).poly.integral() for i in (3, 0))
+        dx, dy = (sum(z.coeffs(), arb(0)) + off for z in (x, y))
+        self.contact = (self.contact[0] + self.radius * dx, self.contact[1] - self.radius * dy)
+
+    def frame(self) -> dict[str, Numbers]:
+        """The attitude, γ, K, ω and the contact point, if there is one, now."""
+        off = arb(0, self.spread.size)
+        a = unit(generated.compose(*self.p, 1, off, off, off))
+        R = generated.rotation(*a)
+        gamma = unit(R[6:])
+        k = tuple(sum((R[3 * i + j] * self.k[i] for i in range(3)), arb(0)) for j in range(3))
+        omega = generated.angular_velocity(*k, *gamma, *self.body.J, self.body.D)
+        found = {"gamma": gamma, "angular_momentum": tuple(x * self.scale for x in k), "omega": omega, "attitude": a}
+        return found if self.radius is None else found | {"contact": self.contact}
+
+
+def _exponent(x: Any) -> int:
+    """About the logarithm to base 2 of a ball."""
+    man, exp = x.mid().man_exp()
+    return int(exp) + int(man).bit_length()
+
+
+def _log(x: Any) -> float:
+    """The logarithm to base 2 of a bound, rounded up."""
+    return _exponent(x) if x > 0 else -math.inf
+
+
+def _turn(a: Sequence[float], k: Floats, J: Sequence[float], D: float) -> float:
+    """The time of about a radian; 0 at rest."""
+    R = np.reshape(generated.rotation(*a), (3, 3))
+    omega = generated.angular_velocity(*(k @ R), *R[2], *J, D)
+    rate = math.sqrt(sum(x * x for x in omega))
+    return 1 / rate if rate else 0.0
+
+
+def _short(x: Fraction) -> Fraction:
+    """A time a little less, with few digits."""
+    unit = Fraction(2) ** (exponent_of(x) - 12)
+    return (x // unit) * unit
+
+
+def _floats(e: Sequence[Model], kappa: Sequence[Model], terms: int) -> tuple[Any, tuple[Floats, Floats]]:
+    """The coefficients as floats beside a power of 2."""
+    size = _log(bound([*e, *kappa]))
+    shift = arb(2) ** (int(size) if size > -math.inf else 0)
+
+    def rows(models: Sequence[Model]) -> Floats:
+        found = np.zeros((len(models), terms))
+        for i, x in enumerate(models):
+            floats = [float(c) for c in (x.poly * (1 / shift)).coeffs()[:terms]]
+            found[i, : len(floats)] = floats
+        return found
+
+    return shift, (rows(e), rows(kappa))
+
+
+def _cross(x: Sequence[Any], y: Sequence[Any]) -> tuple[Any, ...]:
+    """x × y."""
+    return x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]
