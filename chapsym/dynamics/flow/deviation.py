@@ -50,10 +50,14 @@ class Body(NamedTuple):
 
 
 class Defects(NamedTuple):
-    """What polynomials leave: e and κ, models; `unit` contains 1/|p|², and R is that of p/|p|, row by row."""
+    """What polynomials leave: e, κ with |p|²R in the place of R, and |p|² - 1, models.
+
+    R: |p|²R row by row; unit: contains 1/|p|².
+    """
 
     e: Sequence[Model]
     kappa: Sequence[Model]
+    off: Model
     unit: Any
     R: Sequence[Model]
 
@@ -61,16 +65,17 @@ class Defects(NamedTuple):
 def defects(p: Sequence[Any], w: Sequence[Any], k: Sequence[Any], body: Body, degree: int) -> Defects:
     """Those of exact polynomials p and w; raises TooWide where |p| may be far from 1."""
     a, omega = models(p, degree), models(w, degree)
-    off = bound([a[0] * a[0] + a[1] * a[1] + a[2] * a[2] + a[3] * a[3] - 1])
-    if not off < 0.5:
+    off = a[0] * a[0] + a[1] * a[1] + a[2] * a[2] + a[3] * a[3] - 1
+    most = bound([off])
+    if not most < 0.5:
         raise TooWide
-    unit = 1 / (1 + arb(0, off))
+    unit = 1 / (1 + arb(0, most))
     turned = generated.compose(*a, 0, *omega)
     e = [Model(x.derivative(), degree) - y * arb(0.5) for x, y in zip(p, turned, strict=True)]
-    R = [x * unit for x in generated.rotation(*a)]
+    R = generated.rotation(*a)
     K = [R[i] * k[0] + R[i + 3] * k[1] + R[i + 6] * k[2] for i in range(3)]
     carried = generated.contact_momentum(*omega, *R[6:], *body.J, body.D)
-    return Defects(e, [x - y for x, y in zip(carried, K, strict=True)], unit, R)
+    return Defects(e, [x - y for x, y in zip(carried, K, strict=True)], off, unit, R)
 
 
 class Step(NamedTuple):
@@ -81,18 +86,20 @@ class Step(NamedTuple):
     slip: Any
 
 
-def deviation(series: Series, w: Sequence[Any], found: Defects, body: Body, start: Any) -> Step:
+def deviation(series: Series, w: Sequence[Any], size: Any, found: Defects, body: Body, start: Any) -> Step:
     """The lemma, for |ξ(0)| ≤ start; to be called with the precision of matrices.  Raises TooWide.
 
-    series: gives M, floats that need not be right.  w: the exact polynomials.
+    series: gives M, floats that need not be right.  w: the exact polynomials.  size: a bound of |k|.
     """
     degree = series.a.shape[1] - 1
-    omega, gamma = models(w, degree), models([x.poly for x in found.R[6:]], degree)
-    e, kappa = bound(found.e), bound(found.kappa)
+    omega, gamma = models(w, degree), models([x.poly * found.unit for x in found.R[6:]], degree)
+    e, off = bound(found.e), bound([found.off])
     epsilon = (2 * e * found.unit.sqrt()).abs_upper()
     inverse, growth, W = _sizes(omega, gamma, body)
     M = [[arb_poly(series.Phi[:, i, j].tolist()) for j in range(3)] for i in range(3)]
     eta = (inverse * _slip(M, omega, gamma, body, degree)).abs_upper()
+    # With |p|² = 1 + η what is computed has (2η + η²)Dγ × (w × γ) - ηK too much.
+    kappa = bound(found.kappa) + (2 * off + off * off) * body.D * W + off * size
     I = body.inertia
     sigma = ((highest(*I) - lowest(*I)) / 2).abs_upper()
     stretch = growth.exp().abs_upper()

@@ -64,7 +64,7 @@ class Path:
         k = tuple(ball(length) * x for x in self.k)
         p, w, found = self._mended(series, k, degree)
         with ctx.workprec(MATRIX_BITS):
-            proved = deviation(series, w, found, self.body, self.spread.size)
+            proved = deviation(series, w, upper(k), found, self.body, self.spread.size)
         if self.radius is not None:
             self._roll(w, found, proved.slip)
         self.p, far = point(unit(sum(x.coeffs(), arb(0)) for x in p))
@@ -123,7 +123,9 @@ class Path:
 
     def _correct(self, p: list[Any], w: list[Any], series: Series, found: Defects, degree: int) -> None:
         """Adds to p and w what takes away their defects to the first order: ξ' = Aξ - ½(B⁻¹κ + ε)."""
-        shift, (e, kappa) = _floats(found.e, found.kappa, degree + 1)
+        shift, (e, kappa, off) = _floats([found.e, found.kappa, [found.off]], degree + 1)
+        # κ is that of |p|²R in place of R; what this is off by is taken away with the rest.
+        kappa += convolved(lambda x, y: [x[0] * z for z in y], off, self._central(series), degree + 1)
         back = series.a * np.array([[1.0], [-1.0], [-1.0], [-1.0]])
         away = convolved(lambda x, y: generated.compose(*x, *y), back, e, degree + 1)
         epsilon = 2 * away[1:]
@@ -140,9 +142,14 @@ class Path:
             for i, row in enumerate(by):
                 polys[i] = exact(polys[i] + arb_poly(row.tolist()) * shift)
 
+    def _central(self, series: Series) -> Floats:
+        """Iw - Dγ × (w × γ), what B(γ)w - K gains for each part by which |p|² is above 1."""
+        J, D = tuple(map(float, self.body.J)), float(self.body.D)
+        return convolved(lambda x, y: generated.contact_momentum(*x, *y, *J, -D), series.w, series.gamma, TERMS)
+
     def _roll(self, w: Sequence[Any], found: Defects, slip: Any) -> None:
         """Moves the contact point by ρ(y₂, -y₁), y the turn in space; that of the ball is within `slip`."""
-        R, off = found.R, arb(0, slip)
+        R, off = [x * found.unit for x in found.R[:6]], arb(0, slip)
         omega = [Model(x, R[0].degree) for x in w]
         x, y = ((R[i] * omega[0] + R[i + 1] * omega[1] + R[i + 2] * omega[2]).poly.integral() for i in (3, 0))
         dx, dy = (sum(z.coeffs(), arb(0)) + off for z in (x, y))
@@ -185,9 +192,9 @@ def _short(x: Fraction) -> Fraction:
     return (x // unit) * unit
 
 
-def _floats(e: Sequence[Model], kappa: Sequence[Model], terms: int) -> tuple[Any, tuple[Floats, Floats]]:
-    """The coefficients as floats beside a power of 2."""
-    size = _log(bound([*e, *kappa]))
+def _floats(vectors: Sequence[Sequence[Model]], terms: int) -> tuple[Any, list[Floats]]:
+    """The coefficients of vectors as floats beside a power of 2."""
+    size = max(_log(bound(models)) for models in vectors)
     shift = arb(2) ** (int(size) if size > -math.inf else 0)
 
     def rows(models: Sequence[Model]) -> Floats:
@@ -197,7 +204,7 @@ def _floats(e: Sequence[Model], kappa: Sequence[Model], terms: int) -> tuple[Any
             found[i, : len(floats)] = floats
         return found
 
-    return shift, (rows(e), rows(kappa))
+    return shift, [rows(models) for models in vectors]
 
 
 def _cross(x: Sequence[Any], y: Sequence[Any]) -> tuple[Any, ...]:

@@ -104,7 +104,7 @@ def linear(A: Floats, rest: Floats, start: Floats) -> Floats:
 def convolved(by: Callable[..., Sequence[Any]], x: Floats, y: Floats, terms: int) -> Floats:
     """A bilinear function of two vectors of series, cut to so many terms."""
     rows = by([_Series(row) for row in x], [_Series(row) for row in y])
-    return np.array([row.terms[:terms] for row in rows])
+    return np.array([np.pad(row.terms[:terms], (0, max(0, terms - len(row.terms)))) for row in rows])
 
 
 class _Series:
@@ -119,10 +119,13 @@ class _Series:
         return _Series(np.convolve(self.terms, other.terms) if isinstance(other, _Series) else self.terms * other)
 
     def __add__(self, other: "_Series") -> "_Series":
-        return _Series(self.terms + other.terms)
+        longer, shorter = sorted((self.terms, other.terms), key=len, reverse=True)
+        found = longer.copy()
+        found[: len(shorter)] += shorter
+        return _Series(found)
 
     def __sub__(self, other: "_Series") -> "_Series":
-        return _Series(self.terms - other.terms)
+        return self + -other
 
     def __neg__(self) -> "_Series":
         return _Series(-self.terms)
