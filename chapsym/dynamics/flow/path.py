@@ -27,7 +27,7 @@ Numbers = tuple[Any, ...]
 #: A step is this part of the radius of convergence: where the price of a unit of time is least.
 PART = 1 / math.e
 #: Bits that a correction in float64 is taken to gain, and that are carried beyond those known so far.
-GAIN, BEYOND = 40, 60
+GAIN, BEYOND = 44, 56
 #: What is left after the last correction is so many bits above the rounding.
 LEFT = 8
 #: Corrections that may do nothing, and how many times as many terms are tried then.

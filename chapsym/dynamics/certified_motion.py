@@ -1,0 +1,336 @@
+"""The motion of the continuous ball with proved digits: from exact data, at the times that are asked for."""
+
+import math
+import time as clock
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from decimal import Decimal
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+
+from .ball import Ball, in_principal_axes
+from .errors import BadInput
+from .exactly import check_body, unit_exactly
+from .levels.start import exponent_of, fraction
+
+#: What a frame has; `contact` where the ball has a radius.
+PARTS = ("gamma", "angular_momentum", "omega", "attitude", "contact")
+#: Bits of the first attempt beyond those of the digits, and for each doubling of the turns.
+GUARD, OF_TURNS = 40, 2
+#: The most digits, and the most bits that an attempt may have.
+MOST_DIGITS, MOST_BITS = 100_000, 2**20
+#: Bits beyond those that were missing, for the next attempt.
+MARGIN = 6
+
+
+@dataclass(frozen=True)
+class ExactBall:
+    """A ball whose numbers are taken as they are written; `Ball` has the nearest float64.
+
+    mass_tensor: J in kg m², three numbers; D: m ρ² in kg m²; radius: ρ in m, for the contact point only.  A number is an
+    int, a Fraction, a Decimal, a text such as "0.1" or "2/7"; a float is the binary number that it is.
+    Raises BadInput for what no ball has.
+    """
+
+    mass_tensor: tuple[Fraction, ...]
+    D: Fraction
+    radius: Fraction | None = None
+
+    def __init__(self, mass_tensor: Any, D: Any, radius: Any = None) -> None:
+        from .flow.start import exactly, vector
+
+        given = vector(mass_tensor, "mass_tensor"), exactly(D, "D")
+        rho = None if radius is None else exactly(radius, "radius")
+        check_body(*given)
+        if rho is not None and rho <= 0:
+            raise BadInput(f"radius must be positive, but it is {float(rho):g}")
+        for name, value in zip(("mass_tensor", "D", "radius"), (*given, rho), strict=True):
+            object.__setattr__(self, name, value)
+
+
+@dataclass(frozen=True, eq=False)
+class CertifiedMotion:
+    """The motion at the times that were reached, in Arb's balls that contain it.
+
+    times: in s, exact.  gamma, angular_momentum (K in kg m²/s), omega (rad/s): (frames, 3); attitude: (frames, 4), unit,
+    the first component that is proved not to be 0 positive; contact: in m, (frames, 2), or None.
+    digits: every radius is at most 10^-digits, relative to the length of K and of ω, and to the ball's radius.
+    steps, bits: of the run that proved it.  stopped: one sentence, where not all times were reached; else None.
+    """
+
+    times: tuple[Fraction, ...]
+    gamma: np.ndarray
+    angular_momentum: np.ndarray
+    omega: np.ndarray
+    attitude: np.ndarray
+    contact: np.ndarray | None
+    digits: int
+    steps: int
+    bits: int
+    stopped: str | None = None
+
+    def write(self) -> dict[str, Any]:
+        """For JSON: each number as [middle, radius], decimal strings; the true number is between their sums."""
+        arrays = {name: array for name in PARTS if (array := getattr(self, name)) is not None}
+        frames = [
+            {"time": decimal(at), **{name: [list(written(x)) for x in array[i]] for name, array in arrays.items()}}
+            for i, at in enumerate(self.times)
+        ]
+        found: dict[str, Any] = {"frames": frames, "digits": self.digits, "steps": self.steps, "bits": self.bits}
+        return found if self.stopped is None else found | {"stopped": self.stopped}
+
+
+def certified_motion(
+    ball: Ball | ExactBall,
+    angular_momentum: Any,
+    gamma: Any,
+    times: Any,
+    digits: int = 20,
+    *,
+    attitude: Any = None,
+    limit: float = 600.0,
+    progress: Callable[[str], None] = lambda sentence: None,
+) -> CertifiedMotion:
+    """Encloses the motion of the continuous ball (2.3) at some times: the digits are proved.
+
+    ball: an `ExactBall`, or one `Ball` in principal axes, whose floats are taken exactly.
+    angular_momentum: K in kg m²/s, in the axes of the body.  gamma: the unit vertical, upwards; it is divided by its
+    length.  times: one in s from 0 on, or several in ascending order.  All as exact numbers (see `ExactBall`).
+    digits: every radius is at most 10^-digits, relative to the length of K and of ω, and to the ball's radius.
+    attitude: a quaternion, scalar first, which turns γ up and is divided by its length; the least rotation by default.
+    limit: seconds for all attempts.  progress: called with sentences.
+
+    Polynomials in time are proved in Arb's balls, step by step (`dynamics/flow`); the run is repeated with more bits
+    until the digits are there.  Where that cannot be within the limit, the times that were reached are returned, and
+    `stopped` says why.  Raises BadInput for what is no motion.
+    """
+    from chapsym.numbers import Digits
+
+    from .flow.start import Start, balls, fixed, upright, vector
+
+    exact = _exact_ball(ball)
+    vertical = vector(gamma, "gamma")
+    unit_exactly(vertical, Digits(5))
+    if attitude is None:
+        turned = upright(vertical)
+    else:
+        quaternion = vector(attitude, "attitude", 4)
+        _check_up(quaternion, vertical)
+        turned = lambda: balls(quaternion)  # noqa: E731
+    momentum = fixed(vector(angular_momentum, "angular_momentum"))
+    start = Start(exact.mass_tensor, exact.D, turned, momentum, exact.radius)
+    return follow(start, _ascending(times), digits, limit=limit, progress=progress)
+
+
+def _exact_ball(ball: Any) -> ExactBall:
+    if isinstance(ball, ExactBall):
+        return ball
+    one = in_principal_axes(ball)
+    if one.mass_tensor.ndim != 1 or one.D.ndim or (one.radius is not None and one.radius.ndim):
+        raise BadInput("certified_motion takes one ball, not a batch")
+    return ExactBall(one.mass_tensor, one.D, one.radius)
+
+
+def _check_up(attitude: Sequence[Fraction], gamma: Sequence[Fraction]) -> None:
+    """Raises BadInput unless the quaternion turns γ up, to rounding."""
+    from chapsym import generated
+
+    square = sum(x * x for x in attitude)
+    if not square:
+        raise BadInput("attitude must not be 0: it is a unit quaternion, scalar first")
+    off = [float(x / square - y) for x, y in zip(generated.rotation(*attitude)[6:], gamma, strict=True)]
+    if max(map(abs, off)) > 1e-5:
+        raise BadInput("attitude must turn gamma to (0, 0, 1): give those two together, or gamma alone")
+
+
+def _ascending(times: Any) -> tuple[Fraction, ...]:
+    from .flow.start import exactly, vector
+
+    if isinstance(times, str | int | float | Fraction | Decimal):
+        found: tuple[Fraction, ...] = (exactly(times, "times"),)
+    else:
+        listed = list(times)
+        found = vector(listed, "times", len(listed))
+    if not found or found[0] < 0 or any(x >= y for x, y in zip(found, found[1:], strict=False)):
+        raise BadInput("times must be one or more numbers of seconds from 0 on, each later than the one before")
+    return found
+
+
+def follow(
+    start: Any, times: Sequence[Fraction], digits: int, *, limit: float = 600.0,
+    progress: Callable[[str], None] = lambda sentence: None,
+) -> CertifiedMotion:  # fmt: skip
+    """`certified_motion` from a `flow.start.Start`."""
+    if isinstance(digits, bool) or not isinstance(digits, int) or not 1 <= digits <= MOST_DIGITS:
+        raise BadInput(f"digits must be a whole number from 1 to {MOST_DIGITS}, not {digits!r}")
+    if not (isinstance(limit, int | float) and limit > 0):
+        raise BadInput(f"limit must be a positive number of seconds, not {limit!r}")
+    search = _Search(start, tuple(times), digits, clock.monotonic() + limit, progress)
+    bits = math.ceil(digits * math.log2(10)) + GUARD + OF_TURNS * search.doublings()
+    why = None
+    while why is None and not search.done:
+        more = search.attempt(bits)
+        if search.done:
+            break
+        if more is None:
+            why = f"{limit:g} s were not enough"
+        elif bits + more > MOST_BITS:
+            why = f"more than {MOST_BITS} bits would be needed"
+        else:
+            bits += more
+    return search.found(why)
+
+
+class _Search:
+    """Attempts with more and more bits; the frames of the best of them."""
+
+    def __init__(
+        self, start: Any, times: tuple[Fraction, ...], digits: int, deadline: float, progress: Callable[[str], None]
+    ) -> None:
+        self.start, self.times, self.digits, self.deadline, self.progress = start, times, digits, deadline, progress
+        self.frames: list[dict[str, tuple[Any, ...]]] = []
+        self.bits = self.steps = 0
+
+    @property
+    def done(self) -> bool:
+        """Whether all times are reached."""
+        return len(self.frames) == len(self.times)
+
+    def doublings(self) -> int:
+        """About the logarithm to base 2 of the turns, at most, and of their number at the start."""
+        from flint import ctx
+
+        from .levels.proved_root import upper
+
+        with ctx.workprec(64):
+            omega = upper(self.start.path(64).frame()["omega"])
+            turns = fraction(omega) * self.times[-1] if omega.is_finite() else Fraction(0)
+        return max(exponent_of(turns), 0) if turns else 0
+
+    def attempt(self, bits: int) -> int | None:
+        """Follows the motion with so many bits; returns how many more are needed, or None: the time is up."""
+        from flint import ctx
+
+        from .levels.proved_root import TooWide
+
+        frames: list[dict[str, tuple[Any, ...]]] = []
+        missing, good = -math.inf, True
+        with ctx.workprec(bits):
+            path = self.start.path(bits)
+            for end in self.times:
+                try:
+                    while path.time < end:
+                        if clock.monotonic() > self.deadline:
+                            return None
+                        self._tell(path, bits)
+                        path.advance(end)
+                except TooWide:
+                    return self._more(path, bits)
+                frame = _signed(path.frame())
+                missing = max(missing, _missing(frame, self.digits, self.start.radius))
+                good = good and missing <= 0
+                if good:
+                    frames.append(frame)
+                    if len(frames) > len(self.frames):
+                        self.frames, self.bits, self.steps = frames, bits, path.steps
+        return math.ceil(missing) + MARGIN if math.isfinite(missing) else bits
+
+    def _more(self, path: Any, bits: int) -> int:
+        """The bits that were lost, for all of the time, but no more than twice as many as there were."""
+        if path.time == 0:
+            return bits
+        lost = bits + float(path.spread.size.log()) / math.log(2) if path.spread.size > 0 else 0.0
+        foreseen = 1.1 * lost * float(self.times[-1] / path.time)
+        return math.ceil(min(max(foreseen - bits, bits / 4), bits)) + math.ceil(self.digits * math.log2(10))
+
+    def _tell(self, path: Any, bits: int) -> None:
+        part = float(path.time / self.times[-1])
+        self.progress(f"{bits} bits: {float(path.time):.6g} s of {float(self.times[-1]):.6g} s, {part:.0%}")
+
+    def found(self, why: str | None) -> CertifiedMotion:
+        """What is proved; `why`: not all of it is, as a part of a sentence."""
+        kept = self.times[: len(self.frames)]
+        stopped = None
+        if why is not None:
+            told = f"{len(kept)} of {len(self.times)} frames are proved"
+            until = f", until {decimal(kept[-1])} s" if kept else ""
+            stopped = f"{why} for {self.digits} digits at {decimal(self.times[-1])} s: {told}{until}"
+        names = PARTS if self.start.radius is not None else PARTS[:-1]
+        arrays: dict[str, Any] = {name: _stacked([frame[name] for frame in self.frames]) for name in names}
+        arrays.setdefault("contact", None)
+        return CertifiedMotion(kept, **arrays, digits=self.digits, steps=self.steps, bits=self.bits, stopped=stopped)
+
+
+def _stacked(rows: list[tuple[Any, ...]]) -> np.ndarray:
+    found = np.empty((len(rows), len(rows[0]) if rows else 0), dtype=object)
+    for i, row in enumerate(rows):
+        found[i] = row
+    return found
+
+
+def _signed(frame: dict[str, tuple[Any, ...]]) -> dict[str, tuple[Any, ...]]:
+    """With that of the two quaternions whose first component that is proved not to be 0 is positive."""
+    a = frame["attitude"]
+    first = next((x for x in a if not x.contains(0)), None)
+    return frame | {"attitude": tuple(-x for x in a)} if first is not None and first < 0 else frame
+
+
+def _missing(frame: dict[str, tuple[Any, ...]], digits: int, radius: Fraction | None) -> float:
+    """How many bits more would make the radii small enough; at most 0 if they are."""
+    worst = -math.inf
+    for name, vector in frame.items():
+        widest = max(fraction(x.rad()) for x in vector)
+        if not widest:
+            continue
+        if name in ("angular_momentum", "omega"):
+            size = max(abs(fraction(x)) for x in vector)
+        else:
+            size = radius if name == "contact" and radius is not None else Fraction(1)
+        if not size:
+            return math.inf
+        worst = max(worst, _log2(widest / size * 10**digits) + 1 / 64)
+    return worst
+
+
+def _log2(x: Fraction) -> float:
+    shift = exponent_of(x)
+    return math.log2(float(x / Fraction(2) ** shift)) + shift
+
+
+def decimal(x: Fraction) -> str:
+    """A fraction as a decimal number where it is one, else as a quotient."""
+    twos, rest = 0, x.denominator
+    while rest % 2 == 0:
+        twos, rest = twos + 1, rest // 2
+    fives = 0
+    while rest % 5 == 0:
+        fives, rest = fives + 1, rest // 5
+    if rest != 1:
+        return str(x)
+    places = max(twos, fives)
+    return f"{Decimal(int(x * 10**places)).scaleb(-places, _context(x, places)):f}"
+
+
+def _context(x: Fraction, places: int) -> Any:
+    from decimal import Context
+
+    return Context(prec=len(str(int(abs(x) * 10**places))) + 1)
+
+
+def written(x: Any) -> tuple[str, str]:
+    """(middle, radius) as decimal strings, whose ball contains that of x; the radius has two digits."""
+    middle, radius = fraction(x), fraction(x.rad())
+    if not radius and (text := decimal(middle)) and len(text) <= 40:
+        return text, "0"
+    if not radius:
+        radius = abs(middle) * Fraction(1, 10**30)
+    place = math.floor(_log2(radius) * math.log10(2)) - 1
+    unit = Fraction(10) ** place
+    rounded = round(middle / unit)
+    off = math.ceil((radius + abs(middle - rounded * unit)) / unit)
+    digits = tuple(map(int, str(abs(rounded))))
+    shown = Decimal((int(rounded < 0), digits, place))
+    text = f"{shown:f}" if len(digits) + 12 > -place else f"{shown:e}"
+    return text, f"{Decimal((0, tuple(map(int, str(off))), place)):e}"

@@ -1,0 +1,123 @@
+"""Exact data of a motion, and the balls that contain them at any precision."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from decimal import Decimal
+from fractions import Fraction
+from numbers import Rational
+from typing import Any, NamedTuple
+
+from flint import arb, fmpq
+
+from chapsym import generated
+from chapsym.rationals import NotANumber, rational
+
+from ..errors import BadInput
+from ..levels.balls import unit
+from ..levels.start import least
+from .path import Path
+
+
+class Turns(NamedTuple):
+    """The number rational + of_pi·π."""
+
+    rational: Fraction
+    of_pi: Fraction = Fraction(0)
+
+
+Number = Fraction | Turns
+Balls = Sequence[Any]
+
+
+def ball(x: Number) -> Any:
+    """A ball that contains the number, at the precision that is set."""
+    if isinstance(x, Turns):
+        found = ball(x.rational)
+        return found + ball(x.of_pi) * arb.pi() if x.of_pi else found
+    return arb(fmpq(x.numerator, x.denominator))
+
+
+def balls(v: Sequence[Number]) -> tuple[Any, ...]:
+    """A vector of them."""
+    return tuple(map(ball, v))
+
+
+def exactly(value: Any, name: str) -> Fraction:
+    """A number as it is written: of a text, a Decimal, a Fraction or an integer; a float is the binary number it is."""
+    if isinstance(value, str):
+        try:
+            return rational(value, name)
+        except NotANumber as error:
+            raise BadInput(str(error)) from None
+    try:
+        if isinstance(value, Rational | Decimal | float) and not isinstance(value, bool):
+            return Fraction(value)
+    except (ValueError, OverflowError):
+        raise BadInput(f"{name} must be finite, not {value}") from None
+    if hasattr(value, "item"):
+        return exactly(value.item(), name)
+    raise BadInput(f'{name} must be a number, or a text such as "0.1" or "2/7", not {_brief(value)}')
+
+
+def vector(values: Any, name: str, count: int = 3) -> tuple[Fraction, ...]:
+    """So many of them."""
+    try:
+        listed = [] if isinstance(values, str) else list(values)
+    except TypeError:
+        listed = []
+    if len(listed) != count:
+        raise BadInput(f"{name} must be {count} numbers, not {_brief(values)}")
+    return tuple(exactly(x, f"{name} {i}") for i, x in enumerate(listed, start=1))
+
+
+def _brief(value: Any) -> str:
+    text = repr(value)
+    return text if len(text) <= 60 else text[:57] + "..."
+
+
+@dataclass(frozen=True)
+class Start:
+    """A motion's data.
+
+    mass_tensor, D: exact.  attitude: its quaternion of any length, in balls at the precision that is set.
+    momentum: of the unit quaternion, K in the axes of the body.  radius, position: exact, or None.
+    """
+
+    mass_tensor: Sequence[Fraction]
+    D: Fraction
+    attitude: Callable[[], Balls]
+    momentum: Callable[[Balls], Balls]
+    radius: Fraction | None = None
+    position: tuple[Fraction, Fraction] = (Fraction(0), Fraction(0))
+
+    def path(self, precision: int) -> Path:
+        """The motion at the start; to be called with that precision set."""
+        a = unit(self.attitude())
+        radius = None if self.radius is None else ball(self.radius)
+        path = Path(precision, balls(self.mass_tensor), ball(self.D), self.momentum(a), a, radius)
+        path.contact = (ball(self.position[0]), ball(self.position[1]))
+        return path
+
+
+def upright(gamma: Sequence[Number]) -> Callable[[], Balls]:
+    """The least rotation that turns γ, of any length, up."""
+    return lambda: least(*unit(balls(gamma)))
+
+
+def fixed(momentum: Sequence[Number]) -> Callable[[Balls], Balls]:
+    """K as it is."""
+    return lambda attitude: balls(momentum)
+
+
+def turning(
+    omega: Sequence[Number], mass_tensor: Sequence[Fraction], D: Fraction, space: bool
+) -> Callable[[Balls], Balls]:
+    """K = B(γ)ω, ω in the axes of the body or of space."""
+
+    def momentum(attitude: Balls) -> Balls:
+        v = balls(omega)
+        if space:
+            v = generated.transport(*attitude, *v)
+        return generated.contact_momentum(*v, *generated.rotation(*attitude)[6:], *balls(mass_tensor), ball(D))
+
+    return momentum
