@@ -1,6 +1,6 @@
 """The motion of the continuous ball by another way: extrapolated midpoint steps of ω and R, with far more digits.
 
-It shares nothing with what it judges: B(γ)ω' = Iω × ω with the matrix B(γ) = I + D(1 - γγᵀ) solved by elimination,
+It shares nothing with what it judges: B(γ)ω' = Iω × ω with the matrix B(γ) = I + D(|γ|² - γγᵀ) solved by elimination,
 R' = Rω̂ for the rows of R, the last of which is γ, and r' = ρω × e₃ in space.  Gragg's midpoint rule has an error in
 even powers of its step, and Aitken-Neville takes these away.  The numbers are the middles of balls of 480 bits.
 """
@@ -44,7 +44,7 @@ class Truth:
             rows = matrix_of([number(x) for x in quaternion])
             self.y = [*map(number, omega), *(x for row in rows for x in row), arb(0), arb(0)]
             self.time = Fraction(0)
-            self.rate = max(abs(float(x)) for x in self.y[:3]) + 1e-9
+            self.rate = max(0.01, *(abs(float(x)) for x in self.y[:3]))
 
     def at(self, time):
         """K, γ, ω, the rows of R and the contact point: lists of numbers."""
@@ -57,8 +57,11 @@ class Truth:
             return {"angular_momentum": K, "gamma": rows[2], "omega": w, "rows": rows, "contact": self.y[12:]}
 
     def carried(self, g):
-        """B(γ)."""
-        entries = [self.inertia[i] * (i == j) + self.D * ((i == j) - g[i] * g[j]) for i in range(3) for j in range(3)]
+        """B(γ), with |γ|² in the place of 1: the midpoints are not on the sphere."""
+        one = sum(x * x for x in g)
+        entries = [
+            self.inertia[i] * (i == j) + self.D * (one * (i == j) - g[i] * g[j]) for i in range(3) for j in range(3)
+        ]
         return arb_mat(3, 3, entries)
 
     def field(self, y):

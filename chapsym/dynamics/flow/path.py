@@ -24,14 +24,16 @@ from .series import TERMS, Floats, Series, convolved, linear, motion, quotient
 
 Numbers = tuple[Any, ...]
 
-#: A step is this part of the radius of convergence: where the price of a unit of time is least.
-PART = 1 / math.e
+#: A step is this part of the radius of convergence, where the price of a unit of time is least, and so many radians.
+PART, RADIANS = 1 / math.e, 2.0
+#: How often a step that cannot be proved is halved.
+HALVINGS = 5
 #: Bits that a correction in float64 is taken to gain, and that are carried beyond those known so far.
 GAIN, BEYOND = 44, 56
 #: What is left after the last correction is so many bits above the rounding.
-LEFT = 8
+LEFT = 11
 #: Corrections that may do nothing, and how many times as many terms are tried then.
-STUCK, MORE_TERMS = 3, 1.25
+STUCK, MORE_TERMS = 1, 1.25
 
 
 class Path:
@@ -58,13 +60,17 @@ class Path:
 
     def advance(self, end: Fraction) -> None:
         """Goes on to a later time, or a part of the way; raises TooWide where the balls allow no proof."""
-        left = end - self.time
-        series, length = self._series(left)
-        degree = self._degree(series)
-        k = tuple(ball(length) * x for x in self.k)
-        p, w, found = self._mended(series, k, degree)
-        with ctx.workprec(MATRIX_BITS):
-            proved = deviation(series, w, upper(k), found, self.body, self.spread.size)
+        for halved in range(HALVINGS + 1):
+            series, length = self._series(end - self.time, 0.5**halved)
+            k = tuple(ball(length) * x for x in self.k)
+            p, w, found = self._mended(series, k)
+            try:
+                with ctx.workprec(MATRIX_BITS):
+                    proved = deviation(series, w, upper(k), found, self.body, self.spread.size)
+                break
+            except TooWide:
+                if halved == HALVINGS:
+                    raise
         if self.radius is not None:
             self._roll(w, found, proved.slip)
         self.p, far = point(unit(sum(x.coeffs(), arb(0)) for x in p))
@@ -73,18 +79,18 @@ class Path:
             self.spread.moved(proved.M, proved.more + 2 * far)
         self.time, self.steps = self.time + length, self.steps + 1
 
-    def _series(self, left: Fraction) -> tuple[Series, Fraction]:
-        """The series in float64 in units of the next step, and its length."""
+    def _series(self, left: Fraction, part: float) -> tuple[Series, Fraction]:
+        """The series in float64 in units of the next step, and its length: a part of what serves best."""
         a, J, D = tuple(map(float, self.p)), tuple(map(float, self.body.J)), float(self.body.D)
         k = np.array([float(x) for x in self.k])
         whole = float(left)
         rough = self.rough or _turn(a, k, J, D)
         rough = min(rough, whole) if rough else whole
         found = motion(a, rough * k, J, D)
-        reach = rough * found.reach()
-        if not reach > 0:
+        rate = float(np.linalg.norm(found.w[:, 0])) / rough
+        most = part * min(PART * rough * found.reach(), RADIANS / rate if rate else math.inf)
+        if not most > 0:
             raise TooWide
-        most = PART * reach
         self.rough = most if math.isfinite(most) else rough
         count = math.ceil(whole / most) if whole > most else 1
         length = left if count == 1 else _short(left / count)
@@ -96,8 +102,9 @@ class Path:
         bits = math.log2(reach) if reach > 1 else 0.5
         return max(math.ceil(self.precision / bits), 2) + 4
 
-    def _mended(self, series: Series, k: Numbers, degree: int) -> tuple[list[Any], list[Any], Defects]:
+    def _mended(self, series: Series, k: Numbers) -> tuple[list[Any], list[Any], Defects]:
         """Exact polynomials p and w, and what they leave at the whole precision."""
+        degree = self._degree(series)
         terms = min(degree + 1, TERMS)
         p = [arb_poly(row[:terms].tolist()) for row in series.a]
         p = [x - x(0) + y for x, y in zip(p, self.p, strict=True)]
@@ -111,11 +118,9 @@ class Path:
                 found = defects(p, w, k, self.body, n)
                 before, size = size, _log(bound([*found.e, *found.kappa]))
             if bits == self.precision:
-                if size <= LEFT - self.precision:
-                    return p, w, found
                 stuck += size > before - 2
-                if stuck > STUCK:
-                    raise TooWide
+                if size <= LEFT - self.precision or stuck > STUCK:
+                    return p, w, found
                 if stuck:
                     degree = math.ceil(MORE_TERMS * degree)
             self._correct(p, w, series, found, degree)
