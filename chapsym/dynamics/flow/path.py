@@ -26,6 +26,8 @@ Numbers = tuple[Any, ...]
 
 #: A step is this part of the radius of convergence, where the price of a unit of time is least, and so many radians.
 PART, RADIANS = 1 / math.e, 2.0
+#: The unit of time of the series is at most so much shorter than the step, after a few looks.
+ALIKE, LOOKS = 1.5, 4
 #: How often a step that cannot be proved is halved.
 HALVINGS = 5
 #: Bits that a correction in float64 is taken to gain, and that are carried beyond those known so far.
@@ -84,20 +86,27 @@ class Path:
         a, J, D = tuple(map(float, self.p)), tuple(map(float, self.body.J)), float(self.body.D)
         k = np.array([float(x) for x in self.k])
         whole = float(left)
-        rough = self.rough or _turn(a, k, J, D)
-        rough = min(rough, whole) if rough else whole
-        found = motion(a, rough * k, J, D)
-        rate = float(np.linalg.norm(found.w[:, 0])) / rough
-        most = part * min(PART * rough * found.reach(), RADIANS / rate if rate else math.inf)
-        if not most > 0:
-            raise TooWide
-        self.rough = most if math.isfinite(most) else rough
+        unit_of_time = min(self.rough or _turn(a, k, J, D) or whole, whole)
+        for _ in range(LOOKS):
+            found = motion(a, unit_of_time * k, J, D)
+            rate = float(np.linalg.norm(found.w[:, 0])) / unit_of_time
+            most = part * min(PART * unit_of_time * found.reach(), RADIANS / rate if rate else math.inf)
+            if not most > 0:
+                raise TooWide
+            # Rounding grows with the powers of the length: the unit is to be about that.
+            if min(most, whole) < ALIKE * unit_of_time:
+                break
+            unit_of_time = min(most, whole)
+        self.rough = unit_of_time
         count = math.ceil(whole / most) if whole > most else 1
         length = left if count == 1 else _short(left / count)
-        return found.scaled(float(length) / rough), length
+        return found.scaled(float(length) / unit_of_time), length
 
     def _degree(self, series: Series) -> int:
         """So many terms that what is beyond is below the rounding."""
+        small = series.sizes() < 2.0**-self.precision
+        if small[-2:].all():
+            return max(int(np.flatnonzero(~small)[-1]), 1) + 3
         reach = series.reach()
         bits = math.log2(reach) if reach > 1 else 0.5
         return max(math.ceil(self.precision / bits), 2) + 4

@@ -41,14 +41,17 @@ class Series(NamedTuple):
             self.Phi * rows,
         )  # fmt: skip
 
+    def sizes(self) -> Floats:
+        """The size of each coefficient, (n,): of w beside its first."""
+        turning = max(np.abs(self.w[:, 0]).max(), 1.0)
+        return np.asarray(np.max([np.abs(x).max(axis=0) for x in (self.a, self.gamma, self.w / turning)], axis=0))
+
     def reach(self) -> float:
-        """About the radius in which the series converge, in units of time; infinite where they are polynomials."""
-        sizes = np.array([np.abs(x).max(axis=0) for x in (self.a, self.w)])
-        sizes[1] /= max(sizes[1, 0], 1.0)
-        orders = np.arange(sizes.shape[1])[-8:]
-        last = sizes.max(axis=0)[-8:]
+        """About the radius in which the series, that of A too, converge, in units of time; infinite of a polynomial."""
+        near = np.abs(self.A).max(axis=(1, 2))
+        last = np.maximum(self.sizes(), near / max(near[0], 1.0))[-8:]
         with np.errstate(divide="ignore"):
-            return float((last ** (-1.0 / orders)).min())
+            return float((last ** (-1.0 / np.arange(self.a.shape[1])[-8:])).min())
 
 
 def bend(J: Vector, w: Vector, x: Vector) -> tuple[Any, Any, Any]:
