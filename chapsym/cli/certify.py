@@ -183,7 +183,7 @@ def _deliver(
 
     if output is not None:
         files.check_destination(output)
-    with _telling() as progress:
+    with telling() as progress:
         found = find(progress=progress)
     if output is not None:
         write(output, found)
@@ -196,7 +196,7 @@ def _deliver(
 
 
 @contextmanager
-def _telling() -> Iterator[Callable[[str], None]]:
+def telling() -> Iterator[Callable[[str], None]]:
     """Yields a function of a sentence: a line that changes on a terminal, elsewhere a line every few seconds."""
     from rich.console import Console
 

@@ -57,6 +57,19 @@ def number(value: Any, dimension: Dimension = PURE) -> float:
     return float(value)
 
 
+def exact_number(value: Any, dimension: Dimension = PURE) -> tuple[Fraction, Fraction]:
+    """(a, b) of the number a + bπ that a text, with or without a unit, or a whole number means in SI.
+
+    A turn, a degree and what is made of them are multiples of π.  Raises ValueError as `number` does.
+    """
+    found = _exact(str(value), dimension)
+    if dimension not in ANGULAR or not has_unit(value):
+        return found, Fraction(0)
+    pi = Fraction(_registry().Quantity(Fraction(1), "pi").to_base_units().magnitude)
+    part = found / pi  # pint has π as a fraction of 49 digits: what holds it as a factor has it in no denominator
+    return (Fraction(0), part) if part.denominator % pi.numerator else (found, Fraction(0))
+
+
 def has_unit(value: Any) -> bool:
     """Whether something is a text of a number and more than that."""
     parts = _FORM.fullmatch(value[:200]) if isinstance(value, str) else None

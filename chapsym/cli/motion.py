@@ -1,0 +1,54 @@
+"""chapsym certify motion: the continuous ball of a scene, with proved digits."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from .certify import Output, certify, telling
+from .options import Json
+from .output import counted, fail, print_json
+
+
+@certify.command()
+def motion(
+    scene: Annotated[Path, typer.Argument(metavar="SCENE.toml", help="One ball, and how it starts.")],
+    digits: Annotated[int, typer.Option(metavar="N", help="How many digits of every number are proved.")] = 20,
+    limit: Annotated[float, typer.Option(metavar="S", help="Seconds after which what is proved is given.")] = 600.0,
+    output: Output = None,
+    as_json: Json = False,
+) -> None:
+    """Enclose the motion of the continuous ball at the frames of a scene, with proved radii.
+
+    The numbers of the scene are taken exactly as they are written.
+
+    Example: chapsym certify motion docs/first.toml --digits 20 -o motion.json
+    """
+    from chapsym import files
+    from chapsym.certificates.document import write
+    from chapsym.dynamics.certified_motion import follow
+    from chapsym.scene import load
+    from chapsym.scene.members.exactly import exact_motion
+
+    if output is not None:
+        files.check_destination(output)
+    start, times = exact_motion(load(scene))
+    with telling() as progress:
+        found = follow(start, times, digits, limit=limit, progress=progress)
+    written = found.write()
+    if output is not None:
+        write(output, written)
+    if as_json:
+        print_json(written)
+    elif found.times:
+        if output is not None:
+            print(f"wrote {output}")
+        about = f"{digits} digits, {counted(found.steps, 'step')}, {found.bits} bits"
+        print(f"{counted(len(found.times), 'frame')} proved: {about}; the last of them")
+        last = written["frames"][-1]
+        print(f"  time {last['time']}")
+        for name, vector in last.items():
+            for middle, radius in vector if name != "time" else ():
+                print(f"  {name:16} {middle} +/- {radius}")
+    if found.stopped is not None:
+        fail(found.stopped, 1)

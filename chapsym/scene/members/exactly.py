@@ -1,0 +1,129 @@
+"""The one motion of a scene with its numbers as they are written, not their floats: for certified digits."""
+
+import tomllib
+from collections.abc import Callable, Mapping, Sequence
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+
+from chapsym import generated
+from chapsym.dynamics.flow.start import Balls, Start, Turns, ball, balls, turning, upright
+from chapsym.dynamics.levels.balls import unit
+from chapsym.rationals import mass_tensor_from
+
+from ..read.bodies import PRESETS
+from ..read.errors import SceneError
+from ..read.scene import Scene
+from ..read.units import ANGLE, LENGTH, MASS, MOMENT, PURE, RATE, SPEED, TIME, Dimension, exact_number
+from .expand import expand
+
+#: The dimension of each key that is read.
+DIMENSIONS = {
+    "mass_tensor": MOMENT, "inertia": MOMENT, "mass": MASS, "radius": LENGTH, "D": MOMENT, "thickness": LENGTH,
+    "point_mass": MASS, "separation": LENGTH, "omega": RATE, "velocity": SPEED, "spin": RATE, "gamma": PURE,
+    "attitude": PURE, "quaternion_xyzw": PURE, "rpy": ANGLE, "position": LENGTH, "time": TIME, "time_step": TIME,
+}  # fmt: skip
+
+
+def exact_motion(scene: Scene) -> tuple[Start, tuple[Fraction, ...]]:
+    """The start of the one ball of a scene of a file, and the times of its frames.
+
+    Raises SceneError where the scene has several balls, is of the map, or has a body whose principal axes are others
+    than those in which it is given.
+    """
+    name = scene.name or "the scene"
+    if scene.toml is None:
+        raise SceneError(f"{name}: certified digits need the numbers as a scene file writes them")
+    if len(expand(scene)) != 1:
+        raise SceneError(f"{name}: certify motion takes one ball; this scene has several, or a range")
+    if scene.maps:
+        raise SceneError(
+            f"{name} is of the map; certify motion is of the continuous ball: give start.omega, or start.velocity"
+        )
+    data = tomllib.loads(scene.toml, parse_float=lambda text: text.replace("_", ""))
+    table = data["ball"][0] if isinstance(data["ball"], list) else data["ball"]
+    told = table.get("start") or data["start"]
+    tensor, D = _body(table, name)
+    radius = _rational(table, "radius") if "radius" in table else None
+    attitude = _attitude(told)
+    if "velocity" in told:
+        assert radius is not None
+        momentum = _rolling(told, tensor, D, radius)
+    else:
+        momentum = turning(_numbers(told, "omega"), tensor, D, told.get("axes") == "space")
+    place = tuple(x.rational for x in _numbers(told, "position")) if "position" in told else (Fraction(0), Fraction(0))
+    return Start(tensor, D, attitude, momentum, radius, (place[0], place[1])), _times(scene, data["run"])
+
+
+def _numbers(table: Mapping[str, Any], key: str) -> tuple[Turns, ...]:
+    return tuple(_number(x, DIMENSIONS[key]) for x in table[key])
+
+
+def _number(value: Any, dimension: Dimension) -> Turns:
+    return Turns(*exact_number(value, dimension))
+
+
+def _rational(table: Mapping[str, Any], key: str) -> Fraction:
+    return _number(table[key], DIMENSIONS[key]).rational
+
+
+def _body(table: Mapping[str, Any], name: str) -> tuple[tuple[Fraction, ...], Fraction]:
+    """J and D, exactly."""
+    D = _rational(table, "D") if "D" in table else _rational(table, "mass") * _rational(table, "radius") ** 2
+    if "mass_tensor" in table:
+        return tuple(x.rational for x in _numbers(table, "mass_tensor")), D
+    if "inertia" in table:
+        rows = table["inertia"]
+        if not isinstance(rows[0], list):
+            return mass_tensor_from([x.rational for x in _numbers(table, "inertia")]), D
+        matrix = [[_number(x, MOMENT).rational for x in row] for row in rows]
+        if any(matrix[i][j] for i in range(3) for j in range(3) if i != j):
+            raise SceneError(f"{name}: {_AXES}")
+        return mass_tensor_from([matrix[i][i] for i in range(3)]), D
+    if table["preset"] == "bowling":
+        raise SceneError(f"{name}: {_AXES}")
+    preset = PRESETS[table["preset"]]
+    given: dict[str, Any] = {
+        key: np.array(_rational(table, key), dtype=object) for key in ("mass", "radius", *preset.keys) if key in table
+    }
+    return tuple(preset.tensor(given)), D
+
+
+_AXES = "certify motion takes principal axes: give the principal moments as inertia, and all vectors in their axes"
+
+
+def _attitude(start: Mapping[str, Any]) -> Callable[[], Balls]:
+    """The quaternion in balls."""
+    if "rpy" in start:
+        angles = _numbers(start, "rpy")
+        return lambda: _turned([ball(x) / 2 for x in angles])
+    for key, order in (("attitude", (0, 1, 2, 3)), ("quaternion_xyzw", (3, 0, 1, 2))):
+        if key in start:
+            given = _numbers(start, key)
+            return lambda: balls([given[i] for i in order])
+    return upright(_numbers(start, "gamma") if "gamma" in start else (Fraction(0), Fraction(0), Fraction(1)))
+
+
+def _turned(halves: Sequence[Any]) -> Balls:
+    """Rz(yaw) Ry(pitch) Rx(roll), from half the angles."""
+    roll, pitch, yaw = ((x.cos(), x.sin()) for x in halves)
+    about_z, about_y = (yaw[0], 0, 0, yaw[1]), (pitch[0], 0, pitch[1], 0)
+    found: Balls = unit(generated.compose(*about_z, *generated.compose(*about_y, roll[0], roll[1], 0, 0)))
+    return found
+
+
+def _rolling(
+    start: Mapping[str, Any], tensor: Sequence[Fraction], D: Fraction, radius: Fraction
+) -> Callable[[Balls], Balls]:
+    """K of a ball that rolls with a velocity and a spin: ω in space is (-v₂/ρ, v₁/ρ, spin)."""
+    first, second = (x.rational for x in _numbers(start, "velocity"))
+    spin = _number(start.get("spin", 0), RATE)
+    return turning((-second / radius, first / radius, spin), tensor, D, space=True)
+
+
+def _times(scene: Scene, run: Mapping[str, Any]) -> tuple[Fraction, ...]:
+    """Those of the frames, the start among them."""
+    steps, every = scene.run.counts()
+    whole = _rational(run, "time_step") * every if "time_step" in run else _rational(run, "time") / steps
+    return tuple(i * whole for i in range(steps // every + 1))
