@@ -191,12 +191,12 @@ class _Search:
     ) -> None:
         self.start, self.times, self.digits, self.deadline, self.progress = start, times, digits, deadline, progress
         self.frames: list[dict[str, tuple[Any, ...]]] = []
-        self.bits = self.steps = 0
+        self.kept = self.bits = self.steps = 0
 
     @property
     def done(self) -> bool:
         """Whether all times are reached."""
-        return len(self.frames) == len(self.times)
+        return self.kept == len(self.times)
 
     def doublings(self) -> int:
         """About the logarithm to base 2 of the turns, at most, and of their number at the start."""
@@ -205,7 +205,7 @@ class _Search:
         from .levels.proved_root import upper
 
         with ctx.workprec(64):
-            omega = upper(self.start.path(64).frame()["omega"])
+            omega = upper(self.start.path(64).frame(Fraction(0))["omega"])
             turns = fraction(omega) * self.times[-1] if omega.is_finite() else Fraction(0)
         return max(exponent_of(turns), 0) if turns else 0
 
@@ -215,26 +215,24 @@ class _Search:
 
         from .levels.proved_root import TooWide
 
+        missing, kept = -math.inf, 0
         frames: list[dict[str, tuple[Any, ...]]] = []
-        missing, good = -math.inf, True
         with ctx.workprec(bits):
             path = self.start.path(bits)
             for end in self.times:
-                try:
-                    while path.time < end:
-                        if clock.monotonic() > self.deadline:
-                            return None
-                        self._tell(path, bits)
-                        path.advance(end)
-                except TooWide:
-                    return self._more(path, bits)
-                frame = _signed(path.frame())
-                missing = max(missing, _missing(frame, self.digits, self.start.radius))
-                good = good and missing <= 0
-                if good:
-                    frames.append(frame)
-                    if len(frames) > len(self.frames):
-                        self.frames, self.bits, self.steps = frames, bits, path.steps
+                while path.time < end:
+                    if clock.monotonic() > self.deadline:
+                        return None
+                    self._tell(path, bits)
+                    try:
+                        path.advance(self.times[-1])
+                    except TooWide:
+                        return self._more(path, bits)
+                frames.append(_signed(path.frame(end)))
+                missing = max(missing, _missing(frames[-1], self.digits, self.start.radius))
+                kept = len(frames) if missing <= 0 else kept
+                if kept > self.kept:
+                    self.frames, self.kept, self.bits, self.steps = frames, kept, bits, path.steps
         return math.ceil(missing) + MARGIN if math.isfinite(missing) else bits
 
     def _more(self, path: Any, bits: int) -> int:
@@ -251,14 +249,14 @@ class _Search:
 
     def found(self, why: str | None) -> CertifiedMotion:
         """What is proved; `why`: not all of it is, as a part of a sentence."""
-        kept = self.times[: len(self.frames)]
+        kept, frames = self.times[: self.kept], self.frames[: self.kept]
         stopped = None
         if why is not None:
             told = f"{len(kept)} of {len(self.times)} frames are proved"
             until = f", until {decimal(kept[-1])} s" if kept else ""
             stopped = f"{why} for {self.digits} digits at {decimal(self.times[-1])} s: {told}{until}"
         names = PARTS if self.start.radius is not None else PARTS[:-1]
-        arrays: dict[str, Any] = {name: _stacked([frame[name] for frame in self.frames]) for name in names}
+        arrays: dict[str, Any] = {name: _stacked([frame[name] for frame in frames]) for name in names}
         arrays.setdefault("contact", None)
         return CertifiedMotion(kept, **arrays, digits=self.digits, steps=self.steps, bits=self.bits, stopped=stopped)
 

@@ -79,10 +79,14 @@ def defects(p: Sequence[Any], w: Sequence[Any], k: Sequence[Any], body: Body, de
 
 
 class Step(NamedTuple):
-    """What a step does to ξ: M, all that ξ(1) may differ from Mξ(0) by, and what ϖ may differ from w by."""
+    """What a step does to ξ: M, all that ξ(1) may differ from Mξ(0) by, and on [0, 1] a bound of |ξ|.
+
+    slip: what ϖ may differ from w by.
+    """
 
     M: Any
     more: Any
+    within: Any
     slip: Any
 
 
@@ -113,7 +117,7 @@ def deviation(series: Series, w: Sequence[Any], size: Any, found: Defects, body:
     if not (start + q) * stretch <= X:
         raise TooWide
     ends = [sum((c for c in x.coeffs()), arb(0)) for row in M for x in row]
-    return Step(_matrix(ends), ((q + eta * start) * stretch).abs_upper(), slip)
+    return Step(_matrix(ends), ((q + eta * start) * stretch).abs_upper(), X, slip)
 
 
 def _sizes(w: Sequence[Model], gamma: Sequence[Model], body: Body) -> tuple[Any, Any, Any]:

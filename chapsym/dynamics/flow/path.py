@@ -6,7 +6,7 @@ What finds them may be wrong: only what `deviation` proves of them is used.
 import math
 from collections.abc import Sequence
 from fractions import Fraction
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from flint import arb, arb_poly, ctx
@@ -57,6 +57,7 @@ class Path:
         self.spread = Spread()
         self.radius, self.contact = radius, (arb(0), arb(0))
         self.rough = 0.0
+        self.last: Last | None = None
         with ctx.workprec(MATRIX_BITS):
             self.spread.restart(far)
 
@@ -73,8 +74,10 @@ class Path:
             except TooWide:
                 if halved == HALVINGS:
                     raise
-        if self.radius is not None:
-            self._roll(w, found, proved.slip)
+        moved = None if self.radius is None else self._rolled(w, found, proved.slip)
+        self.last = Last(self.time, length, p, proved.within, self.contact, moved)
+        if moved is not None:
+            self.contact = self.last.place(arb(1))
         self.p, far = point(unit(sum(x.coeffs(), arb(0)) for x in p))
         with ctx.workprec(MATRIX_BITS):
             # p∘(1, ε)∘(1, ξ) is p∘(1, ξ'), |ξ' - ξ| ≤ |ε|(1 + |ξ| + |ξ|²)/(1 - |ε||ξ|) ≤ 2|ε|.
@@ -161,24 +164,45 @@ class Path:
         J, D = tuple(map(float, self.body.J)), float(self.body.D)
         return convolved(lambda x, y: generated.contact_momentum(*x, *y, *J, -D), series.w, series.gamma, TERMS)
 
-    def _roll(self, w: Sequence[Any], found: Defects, slip: Any) -> None:
-        """Moves the contact point by ρ(y₂, -y₁), y the turn in space; that of the ball is within `slip`."""
+    def _rolled(self, w: Sequence[Any], found: Defects, slip: Any) -> Numbers:
+        """Polynomials of the way of the contact point: ρ(y₂, -y₁), y the turn in space, ϖ within `slip` of w."""
         R, off = [x * found.unit for x in found.R[:6]], arb(0, slip)
         omega = [Model(x, R[0].degree) for x in w]
-        x, y = ((R[i] * omega[0] + R[i + 1] * omega[1] + R[i + 2] * omega[2]).poly.integral() for i in (3, 0))
-        dx, dy = (sum(z.coeffs(), arb(0)) + off for z in (x, y))
-        self.contact = (self.contact[0] + self.radius * dx, self.contact[1] - self.radius * dy)
+        x, y = ((R[i] * omega[0] + R[i + 1] * omega[1] + R[i + 2] * omega[2]).poly + off for i in (3, 0))
+        return (self.radius * x.integral(), -self.radius * y.integral())
 
-    def frame(self) -> dict[str, Numbers]:
-        """The attitude, γ, K, ω and the contact point, if there is one, now."""
-        off = arb(0, self.spread.size)
-        a = unit(generated.compose(*self.p, 1, off, off, off))
+    def frame(self, time: Fraction) -> dict[str, Numbers]:
+        """The attitude, γ, K, ω and the contact point, if there is one, at the end of the last step or within it."""
+        p, within, contact = self.p, self.spread.size, self.contact
+        if time != self.time:
+            assert self.last is not None
+            tau = ball((time - self.last.time) / self.last.length)
+            p, within, contact = tuple(x(tau) for x in self.last.p), self.last.within, self.last.place(tau)
+        off = arb(0, within)
+        a = unit(generated.compose(*p, 1, off, off, off))
         R = generated.rotation(*a)
         gamma = unit(R[6:])
         k = tuple(sum((R[3 * i + j] * self.k[i] for i in range(3)), arb(0)) for j in range(3))
         omega = generated.angular_velocity(*k, *gamma, *self.body.J, self.body.D)
         found = {"gamma": gamma, "angular_momentum": tuple(x * self.scale for x in k), "omega": omega, "attitude": a}
-        return found if self.radius is None else found | {"contact": self.contact}
+        return found if self.radius is None else found | {"contact": contact}
+
+
+class Last(NamedTuple):
+    """A step: when it began, its length, p, a bound of |ξ| on it, and the contact point and the way it goes."""
+
+    time: Fraction
+    length: Fraction
+    p: Sequence[Any]
+    within: Any
+    contact: Numbers
+    moved: Numbers | None
+
+    def place(self, tau: Any) -> Numbers:
+        """The contact point at a part of the step; where it began for a ball without a radius."""
+        if self.moved is None:
+            return self.contact
+        return tuple(x + by(tau) for x, by in zip(self.contact, self.moved, strict=True))
 
 
 def _exponent(x: Any) -> int:
