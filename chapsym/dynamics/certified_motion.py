@@ -18,7 +18,7 @@ from .levels.start import exponent_of, fraction
 #: What a frame has; `contact` where the ball has a radius.
 PARTS = ("gamma", "angular_momentum", "omega", "attitude", "contact")
 #: Bits of the first attempt beyond those of the digits, and for each doubling of the turns.
-GUARD, OF_TURNS = 40, 2
+GUARD, OF_TURNS = 24, 2
 #: The most digits, and the most bits that an attempt may have.
 MOST_DIGITS, MOST_BITS = 100_000, 2**20
 #: Bits beyond those that were missing, for the next attempt.

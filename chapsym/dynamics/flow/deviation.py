@@ -13,7 +13,7 @@ Cξ = Iw × ξ - I(w × ξ), X ≥ |ξ|, X ≤ ¼, β ≥ ‖B⁻¹‖, s = 5β�
    and K of the motion is RotᵀK, (B + S)ϖ = K = Bw - κ.  So d = ϖ - w has (B + S)d = -Sw - κ.
 2. Rot - 1 = N with |N| ≤ 2X and |N - 2[ξ]ₓ| ≤ 2X².  S is the same for I less any number, so for ‖I‖ ≤ σ:
    |S| ≤ 4σX + 4σX² ≤ 5σX, and S is 2([ξ]ₓI - I[ξ]ₓ) up to 8σX².  The latter gives w what -2Cξ is.
-3. So |d| ≤ δ, and |d - 2Aξ| ≤ β(8σX²W + 5σXδ + |κ|).
+3. So |d| ≤ δ, and |d - 2Aξ| ≤ β(8σX²W + 5σXδ + |κ|); with |A| ≤ a this makes |d| ≤ 2aX + β(8σX²W + 5σXδ + |κ|).
 4. The quaternion Q of Rot has Q' = ½(d - ε)∘Q, so that ξ' = ½(Δ + Δ × ξ + ⟨Δ,ξ⟩ξ) with Δ = d - ε.
 If |A| ≤ L and M is a matrix of polynomials with M(0) = 1 and |M' - AM| ≤ η, then from |ξ(0)| ≤ r (Gronwall)
     |ξ| ≤ (r + q)exp(L) < X, which proves that X was enough, and |ξ(1) - M(1)ξ(0)| ≤ (q + ηr)exp(L).
@@ -99,7 +99,7 @@ def deviation(series: Series, w: Sequence[Any], size: Any, found: Defects, body:
     omega, gamma = models(w, degree), models([x.poly * found.unit for x in found.R[6:]], degree)
     e, off = bound(found.e), bound([found.off])
     epsilon = (2 * e * found.unit.sqrt()).abs_upper()
-    inverse, growth, W = _sizes(omega, gamma, body)
+    inverse, growth, largest, W = _sizes(omega, gamma, body)
     M = [[arb_poly(series.Phi[:, i, j].tolist()) for j in range(3)] for i in range(3)]
     eta = (inverse * _slip(M, omega, gamma, body, degree)).abs_upper()
     # With |p|² = 1 + η what is computed has (2η + η²)Dγ × (w × γ) - ηK too much.
@@ -111,29 +111,31 @@ def deviation(series: Series, w: Sequence[Any], size: Any, found: Defects, body:
     s = 5 * inverse * sigma * X
     if not (X <= 0.25 and s <= 0.5):
         raise TooWide
-    slip = ((s * W + inverse * kappa) / (1 - s)).abs_upper()
-    q = inverse * (8 * sigma * X * X * W + 5 * sigma * X * slip + kappa) / 2
-    q = (q + epsilon / 2 + (slip + epsilon) * X * (1 + X) / 2).abs_upper()
+    crude = (s * W + inverse * kappa) / (1 - s)
+    beyond = inverse * (8 * sigma * X * X * W + 5 * sigma * X * crude + kappa)
+    slip = (2 * largest * X + beyond).abs_upper()
+    q = ((beyond + epsilon + (slip + epsilon) * X * (1 + X)) / 2).abs_upper()
     if not (start + q) * stretch <= X:
         raise TooWide
     ends = [sum((c for c in x.coeffs()), arb(0)) for row in M for x in row]
     return Step(_matrix(ends), ((q + eta * start) * stretch).abs_upper(), X, slip)
 
 
-def _sizes(w: Sequence[Model], gamma: Sequence[Model], body: Body) -> tuple[Any, Any, Any]:
-    """Bounds of ‖B⁻¹‖, of the integral of |A|, and of |w| on [0, 1]."""
-    inverse, growth, W = arb(0), arb(0), arb(0)
+def _sizes(w: Sequence[Model], gamma: Sequence[Model], body: Body) -> tuple[Any, Any, Any, Any]:
+    """Bounds of ‖B⁻¹‖, of the integral of |A|, of |A| and of |w| on [0, 1]."""
+    inverse, growth, largest, W = arb(0), arb(0), arb(0), arb(0)
     for i in range(PIECES):
         time = (arb(i) + UNIT) / PIECES
         v, g = [x.at(time) for x in w], [x.at(time) for x in gamma]
         columns = [generated.angular_velocity(*x, *g, *body.J, body.D) for x in _UNITS]
         inverse = inverse.max(upper([x for column in columns for x in column]))
         A = [generated.angular_velocity(*bend(body.J, v, x), *g, *body.J, body.D) for x in _UNITS]
-        growth += upper([x for column in A for x in column]) / PIECES
+        size = upper([x for column in A for x in column])
+        growth, largest = growth + size / PIECES, largest.max(size)
         W = W.max(upper(v))
     if not (inverse.is_finite() and growth.is_finite()):
         raise TooWide
-    return inverse.abs_upper(), growth.abs_upper(), W.abs_upper()
+    return inverse.abs_upper(), growth.abs_upper(), largest.abs_upper(), W.abs_upper()
 
 
 def _slip(M: Sequence[Any], w: Sequence[Model], gamma: Sequence[Model], body: Body, degree: int) -> Any:
