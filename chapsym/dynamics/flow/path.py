@@ -20,7 +20,7 @@ from ..levels.spread import Spread
 from ..levels.start import exponent_of
 from .deviation import Body, Defects, defects, deviation
 from .models import Model, bound, exact
-from .series import TERMS, Floats, Series, convolved, linear, motion, quotient
+from .series import LONG, TERMS, Floats, Series, convolved, linear, long_float, motion, quotient
 
 Numbers = tuple[Any, ...]
 
@@ -86,8 +86,8 @@ class Path:
 
     def _series(self, left: Fraction, part: float) -> tuple[Series, Fraction]:
         """The series in float64 in units of the next step, and its length: a part of what serves best."""
-        a, J, D = tuple(map(float, self.p)), tuple(map(float, self.body.J)), float(self.body.D)
-        k = np.array([float(x) for x in self.k])
+        a, k, J = (np.array([long_float(x) for x in v]) for v in (self.p, self.k, self.body.J))
+        D = long_float(self.body.D)
         whole = float(left)
         unit_of_time = min(self.rough or _turn(a, k, J, D) or whole, whole)
         for _ in range(LOOKS):
@@ -103,7 +103,7 @@ class Path:
         self.rough = unit_of_time
         count = math.ceil(whole / most) if whole > most else 1
         length = left if count == 1 else _short(left / count)
-        return found.scaled(float(length) / unit_of_time), length
+        return found.scaled(LONG(float(length)) / LONG(unit_of_time)), length
 
     def _degree(self, series: Series) -> int:
         """So many terms that what is beyond is below the rounding."""
@@ -118,10 +118,8 @@ class Path:
         """Exact polynomials p and w, and what they leave at the whole precision."""
         degree = self._degree(series)
         terms = min(degree + 1, TERMS)
-        p = [arb_poly(row[:terms].tolist()) for row in series.a]
-        p = [x - x(0) + y for x, y in zip(p, self.p, strict=True)]
-        w = [arb_poly(row[:terms].tolist()) for row in series.w]
-        p, w = [exact(x) for x in p], [exact(x) for x in w]
+        p = [x - x(0) + y for x, y in zip(_polys(series.a[:, :terms]), self.p, strict=True)]
+        p, w = [exact(x) for x in p], [exact(x) for x in _polys(series.w[:, :terms])]
         bits, stuck, size = GAIN, 0, math.inf
         while True:
             bits = min(bits + BEYOND, self.precision)
@@ -203,6 +201,13 @@ class Last(NamedTuple):
         if self.moved is None:
             return self.contact
         return tuple(x + by(tau) for x, by in zip(self.contact, self.moved, strict=True))
+
+
+def _polys(rows: Floats) -> list[Any]:
+    """Polynomials of long floats."""
+    high = rows.astype(float)
+    rest = (rows - high).astype(float)
+    return [arb_poly(x.tolist()) + arb_poly(y.tolist()) for x, y in zip(high, rest, strict=True)]
 
 
 def _exponent(x: Any) -> int:

@@ -1,4 +1,4 @@
-"""Taylor polynomials of the motion in float64: nothing that is proved rests on them.
+"""Taylor polynomials of the motion in floats, the longest that the machine has: nothing that is proved rests on them.
 
 Time is τ, in units of a length h that the caller chooses; w = hω, and the momentum is hK, so that both are angles.  The
 motion is y' = y × w for what is fixed in space, a' = ½ a∘w, and B(γ)w = hK for the ball: bilinear in y and w.
@@ -17,10 +17,12 @@ Vector = Sequence[Any]
 
 #: Coefficients of a polynomial in float64: beyond them are 17 digits, at the length of a step.
 TERMS = 44
+#: Where it has more digits than float64 there is one correction less.
+LONG = np.longdouble
 
 
 class Series(NamedTuple):
-    """a (4, n), γ and w (3, n): coefficients of the motion; B, A and Φ (n, 3, 3).
+    """a (4, n), γ and w (3, n): coefficients of the motion, long floats; B, A and Φ (n, 3, 3), floats.
 
     A is the matrix of the linear equation ξ' = Aξ of neighbouring motions (see `deviation`), Φ its solutions from 1.
     """
@@ -32,12 +34,12 @@ class Series(NamedTuple):
     A: Floats
     Phi: Floats
 
-    def scaled(self, by: float) -> "Series":
+    def scaled(self, by: Any) -> "Series":
         """The same with `by` times the unit of time."""
         powers = by ** np.arange(self.a.shape[1])
-        rows = powers[:, np.newaxis, np.newaxis]
+        rows = powers.astype(float)[:, np.newaxis, np.newaxis]
         return Series(
-            self.a * powers, self.gamma * powers, by * self.w * powers, self.B * rows, by * self.A * rows,
+            self.a * powers, self.gamma * powers, by * self.w * powers, self.B * rows, float(by) * self.A * rows,
             self.Phi * rows,
         )  # fmt: skip
 
@@ -66,19 +68,20 @@ def bend(J: Vector, w: Vector, x: Vector) -> tuple[Any, Any, Any]:
 
 def motion(a: Vector, k: Vector, J: Vector, D: float, terms: int = TERMS) -> Series:
     """The series from the attitude a, with hK = k in space."""
-    y, w = np.zeros((10, terms)), np.zeros((3, terms))
+    y, w, one = np.zeros((10, terms), LONG), np.zeros((3, terms), LONG), np.eye(3, dtype=LONG)
     R = np.reshape(generated.rotation(*a), (3, 3))
     y[:4, 0], y[4:7, 0], y[7:, 0] = a, R[2], np.asarray(k) @ R
-    B = np.zeros((terms, 3, 3))
-    B[0] = np.transpose([generated.contact_momentum(*e, *y[4:7, 0], *J, D) for e in np.eye(3)])
-    inverse = np.transpose([generated.angular_velocity(*e, *y[4:7, 0], *J, D) for e in np.eye(3)])
+    B = np.zeros((terms, 3, 3), LONG)
+    B[0] = np.transpose([generated.contact_momentum(*e, *y[4:7, 0], *J, D) for e in one])
+    inverse = np.transpose([generated.angular_velocity(*e, *y[4:7, 0], *J, D) for e in one])
     w[:, 0] = inverse @ y[7:, 0]
     for n in range(terms - 1):
         y[:, n + 1] = _BILINEAR @ (y[:, : n + 1] @ w[:, n::-1].T).ravel() / (n + 1)
         g = y[4:7, : n + 2]
         B[n + 1] = -D * (g @ g[:, ::-1].T)
         w[:, n + 1] = inverse @ (y[7:, n + 1] - np.einsum("mij,jm->i", B[1 : n + 2], w[:, n::-1]))
-    C = np.transpose([bend(J, w, e[:, np.newaxis] * np.ones(terms)) for e in np.eye(3)], (2, 1, 0))
+    B, J, turn = B.astype(float), [float(x) for x in J], w.astype(float)
+    C = np.transpose([bend(J, turn, e[:, np.newaxis] * np.ones(terms)) for e in np.eye(3)], (2, 1, 0))
     A = quotient(B, C)
     return Series(y[:4], y[4:7], w, B, A, linear(A, np.zeros((terms - 1, 3, 3)), np.eye(3)))
 
@@ -106,7 +109,7 @@ def linear(A: Floats, rest: Floats, start: Floats) -> Floats:
 
 def convolved(by: Callable[..., Sequence[Any]], x: Floats, y: Floats, terms: int) -> Floats:
     """A bilinear function of two vectors of series, cut to so many terms."""
-    rows = by([_Series(row) for row in x], [_Series(row) for row in y])
+    rows = by([_Series(row.astype(float)) for row in x], [_Series(row.astype(float)) for row in y])
     return np.array([np.pad(row.terms[:terms], (0, max(0, terms - len(row.terms)))) for row in rows])
 
 
@@ -134,6 +137,12 @@ class _Series:
         return _Series(-self.terms)
 
     __rmul__ = __mul__
+
+
+def long_float(x: Any) -> Any:
+    """The middle of a ball."""
+    high = float(x)
+    return LONG(high) + LONG(float(x - high))
 
 
 def _bilinear() -> Floats:
