@@ -31,7 +31,7 @@ ALIKE, LOOKS = 1.5, 4
 #: How often a step that cannot be proved is halved.
 HALVINGS = 5
 #: Bits that a correction in float64 is taken to gain, and that are carried beyond those known so far.
-GAIN, BEYOND = 44, 56
+GAIN, BEYOND = 48, 66
 #: What is left after the last correction is so many bits above the rounding.
 LEFT = 11
 #: Corrections that may do nothing, and how many times as many terms are tried then.
