@@ -17,7 +17,9 @@ if TYPE_CHECKING:
         BallN,
         Branches,
         Certificate,
+        CertifiedMotion,
         Curve,
+        ExactBall,
         ExactTop,
         Extrapolated,
         Fold,
@@ -35,6 +37,7 @@ if TYPE_CHECKING:
         VerticalTrajectory,
         axial,
         branches,
+        certified_motion,
         certify,
         compose_step,
         exact_top,
@@ -68,13 +71,13 @@ if TYPE_CHECKING:
 __version__ = "0.1.0"
 
 __all__ = [
-    "BadInput", "Ball", "BallN", "Branches", "Certificate", "Curve", "Digits", "Enclosure", "ExactTop", "Extrapolated",
-    "Fold", "Followed", "NotRetraced", "Result", "Status", "Step", "StepN", "StepNotTaken", "Stepper", "StepperN",
-    "TopMotion", "Trajectory", "TrajectoryN", "VerticalTrajectory", "accurate", "axial", "branches", "certify",
-    "compose_step", "exact_top", "extrapolate", "fold", "follow", "increment", "interpolated", "invariants_n",
-    "is_steady", "is_top", "margin", "open_result", "retrace_error", "reverse", "reverse_n", "roll", "rotation_number",
-    "run_scene", "skew", "steady_frames", "step", "step_n", "step_vertical", "substeps", "top_frames", "trajectory",
-    "trajectory_n", "trajectory_vertical",
+    "BadInput", "Ball", "BallN", "Branches", "Certificate", "CertifiedMotion", "Curve", "Digits", "Enclosure",
+    "ExactBall", "ExactTop", "Extrapolated", "Fold", "Followed", "NotRetraced", "Result", "Status", "Step", "StepN",
+    "StepNotTaken", "Stepper", "StepperN", "TopMotion", "Trajectory", "TrajectoryN", "VerticalTrajectory", "accurate",
+    "axial", "branches", "certified_motion", "certify", "compose_step", "exact_top", "extrapolate", "fold", "follow",
+    "increment", "interpolated", "invariants_n", "is_steady", "is_top", "margin", "open_result", "retrace_error",
+    "reverse", "reverse_n", "roll", "rotation_number", "run_scene", "skew", "steady_frames", "step", "step_n",
+    "step_vertical", "substeps", "top_frames", "trajectory", "trajectory_n", "trajectory_vertical",
 ]  # fmt: skip
 
 #: Names that are not of `chapsym.dynamics`: where they are.

@@ -5,7 +5,9 @@ or the command line is wrong; 130 interrupted; 141 nobody reads the output.
 """
 
 # The order of the imports is that of the subcommands in --help.
-from . import prove, report, codegen, step, branches, scene, run, show, check, certify, motion, trade, extremes, study, bench  # noqa: F401, I001
+from . import (  # noqa: F401, I001
+    prove, report, codegen, step, branches, scene, run, show, check, certify, motion, trade, extremes, study, bench,
+)  # fmt: skip
 from .app import main
 
 __all__ = ["main"]

@@ -26,7 +26,7 @@ def motion(
     """
     from chapsym import files
     from chapsym.certificates.document import write
-    from chapsym.dynamics.certified_motion import follow
+    from chapsym.dynamics.enclosed_motion import follow
     from chapsym.scene import load
     from chapsym.scene.members.exactly import exact_motion
 

@@ -10,6 +10,7 @@ from .closed.top import TopMotion
 from .closed.tops import is_top, top_frames
 from .closed.vertical import VerticalTrajectory, step_vertical, trajectory_vertical
 from .coefficients import substeps
+from .enclosed_motion import CertifiedMotion, ExactBall, certified_motion
 from .errors import BadInput, Status, StepNotTaken
 from .extrapolation import Extrapolated, extrapolate
 from .map import compose_step, step
@@ -25,10 +26,11 @@ from .stepper import Stepper
 from .trajectories import trajectory
 
 __all__ = [
-    "BadInput", "Ball", "BallN", "Branches", "Certificate", "Curve", "ExactTop", "Extrapolated", "Fold", "Followed",
-    "NotRetraced", "Status", "Step", "StepN", "StepNotTaken", "Stepper", "StepperN", "TopMotion", "Trajectory",
-    "TrajectoryN", "VerticalTrajectory", "axial", "branches", "certify", "compose_step", "exact_top", "extrapolate",
-    "fold", "follow", "increment", "invariants_n", "is_steady", "is_top", "margin", "retrace_error", "reverse",
-    "reverse_n", "rotation_number", "skew", "steady_frames", "step", "step_n", "step_vertical", "substeps",
-    "top_frames", "trajectory", "trajectory_n", "trajectory_vertical",
+    "BadInput", "Ball", "BallN", "Branches", "Certificate", "CertifiedMotion", "Curve", "ExactBall", "ExactTop",
+    "Extrapolated", "Fold", "Followed", "NotRetraced", "Status", "Step", "StepN", "StepNotTaken", "Stepper",
+    "StepperN", "TopMotion", "Trajectory", "TrajectoryN", "VerticalTrajectory", "axial", "branches",
+    "certified_motion", "certify", "compose_step", "exact_top", "extrapolate", "fold", "follow", "increment",
+    "invariants_n", "is_steady", "is_top", "margin", "retrace_error", "reverse", "reverse_n", "rotation_number",
+    "skew", "steady_frames", "step", "step_n", "step_vertical", "substeps", "top_frames", "trajectory", "trajectory_n",
+    "trajectory_vertical",
 ]  # fmt: skip

@@ -22,7 +22,7 @@ If |A| ≤ L and M is a matrix of polynomials with M(0) = 1 and |M' - AM| ≤ η
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
-from flint import arb, arb_poly, ctx
+from flint import arb, arb_poly
 
 from chapsym import generated
 
@@ -70,11 +70,11 @@ def defects(p: Sequence[Any], w: Sequence[Any], k: Sequence[Any], body: Body, de
     if not most < 0.5:
         raise TooWide
     unit = 1 / (1 + arb(0, most))
-    turned = generated.compose(*a, 0, *omega)
+    turned = generated.compose(*(*a, 0, *omega))
     e = [Model(x.derivative(), degree) - y * arb(0.5) for x, y in zip(p, turned, strict=True)]
     R = generated.rotation(*a)
     K = [R[i] * k[0] + R[i + 3] * k[1] + R[i + 6] * k[2] for i in range(3)]
-    carried = generated.contact_momentum(*omega, *R[6:], *body.J, body.D)
+    carried = generated.contact_momentum(*(*omega, *R[6:], *body.J, body.D))
     return Defects(e, [x - y for x, y in zip(carried, K, strict=True)], off, unit, R)
 
 
@@ -127,9 +127,9 @@ def _sizes(w: Sequence[Model], gamma: Sequence[Model], body: Body) -> tuple[Any,
     for i in range(PIECES):
         time = (arb(i) + UNIT) / PIECES
         v, g = [x.at(time) for x in w], [x.at(time) for x in gamma]
-        columns = [generated.angular_velocity(*x, *g, *body.J, body.D) for x in _UNITS]
+        columns = [generated.angular_velocity(*(*x, *g, *body.J, body.D)) for x in _UNITS]
         inverse = inverse.max(upper([x for column in columns for x in column]))
-        A = [generated.angular_velocity(*bend(body.J, v, x), *g, *body.J, body.D) for x in _UNITS]
+        A = [generated.angular_velocity(*(*bend(body.J, v, x), *g, *body.J, body.D)) for x in _UNITS]
         size = upper([x for column in A for x in column])
         growth, largest = growth + size / PIECES, largest.max(size)
         W = W.max(upper(v))
@@ -144,7 +144,7 @@ def _slip(M: Sequence[Any], w: Sequence[Model], gamma: Sequence[Model], body: Bo
     for j in range(3):
         x = models([M[i][j] for i in range(3)], degree)
         rate = models([M[i][j].derivative() for i in range(3)], degree)
-        carried = generated.contact_momentum(*rate, *gamma, *body.J, body.D)
+        carried = generated.contact_momentum(*(*rate, *gamma, *body.J, body.D))
         left += [y - z for y, z in zip(carried, bend(body.J, w, x), strict=True)]
     return bound(left)
 

@@ -52,7 +52,7 @@ class Path:
         body = Body(J, D)
         self.scale = arb(2) ** _exponent(highest(*body.inertia) + D)
         self.body = Body(tuple(x / self.scale for x in J), D / self.scale)
-        self.k = generated.rotate(*unit(attitude), *(x / self.scale for x in K))
+        self.k = generated.rotate(*(*unit(attitude), *(x / self.scale for x in K)))
         self.p, far = point(unit(attitude))
         self.spread = Spread()
         self.radius, self.contact = radius, (arb(0), arb(0))
@@ -134,7 +134,7 @@ class Path:
                 if stuck:
                     degree = math.ceil(MORE_TERMS * degree)
             self._correct(p, w, series, found, degree)
-            bits = max(bits - BEYOND, -size) + GAIN
+            bits = math.floor(min(max(bits - BEYOND, -size), self.precision)) + GAIN
 
     def _correct(self, p: list[Any], w: list[Any], series: Series, found: Defects, degree: int) -> None:
         """Adds to p and w what takes away their defects to the first order: ξ' = Aξ - ½(B⁻¹κ + ε)."""
@@ -142,14 +142,14 @@ class Path:
         # κ is that of |p|²R in place of R; what this is off by is taken away with the rest.
         kappa += convolved(lambda x, y: [x[0] * z for z in y], off, self._central(series), degree + 1)
         back = series.a * np.array([[1.0], [-1.0], [-1.0], [-1.0]])
-        away = convolved(lambda x, y: generated.compose(*x, *y), back, e, degree + 1)
+        away = convolved(lambda x, y: generated.compose(*(*x, *y)), back, e, degree + 1)
         epsilon = 2 * away[1:]
         b = quotient(series.B, kappa.T)
         rest = -(b + epsilon.T) / 2
         xi = linear(series.A, rest[:degree], np.zeros(3)).T
         rate = xi[:, 1:] * np.arange(1, xi.shape[1])
         scalar = np.append(0.0, -away[0, :degree] / np.arange(1, degree + 1))  # brings |p| to 1
-        move = convolved(lambda x, y: generated.compose(*x, *y), series.a, np.vstack([scalar, xi]), degree + 1)
+        move = convolved(lambda x, y: generated.compose(*(*x, *y)), series.a, np.vstack([scalar, xi]), degree + 1)
         turn = convolved(_cross, series.w, xi, degree + 1)
         change = 2 * turn + epsilon
         change[:, : rate.shape[1]] += 2 * rate
@@ -160,7 +160,7 @@ class Path:
     def _central(self, series: Series) -> Floats:
         """Iw - Dγ × (w × γ), what B(γ)w - K gains for each part by which |p|² is above 1."""
         J, D = tuple(map(float, self.body.J)), float(self.body.D)
-        return convolved(lambda x, y: generated.contact_momentum(*x, *y, *J, -D), series.w, series.gamma, TERMS)
+        return convolved(lambda x, y: generated.contact_momentum(*(*x, *y, *J, -D)), series.w, series.gamma, TERMS)
 
     def _rolled(self, w: Sequence[Any], found: Defects, slip: Any) -> Numbers:
         """Polynomials of the way of the contact point: ρ(y₂, -y₁), y the turn in space, ϖ within `slip` of w."""
@@ -177,11 +177,11 @@ class Path:
             tau = ball((time - self.last.time) / self.last.length)
             p, within, contact = tuple(x(tau) for x in self.last.p), self.last.within, self.last.place(tau)
         off = arb(0, within)
-        a = unit(generated.compose(*p, 1, off, off, off))
+        a = unit(generated.compose(*(*p, 1, off, off, off)))
         R = generated.rotation(*a)
         gamma = unit(R[6:])
         k = tuple(sum((R[3 * i + j] * self.k[i] for i in range(3)), arb(0)) for j in range(3))
-        omega = generated.angular_velocity(*k, *gamma, *self.body.J, self.body.D)
+        omega = generated.angular_velocity(*(*k, *gamma, *self.body.J, self.body.D))
         found = {"gamma": gamma, "angular_momentum": tuple(x * self.scale for x in k), "omega": omega, "attitude": a}
         return found if self.radius is None else found | {"contact": contact}
 
@@ -221,10 +221,10 @@ def _log(x: Any) -> float:
     return _exponent(x) if x > 0 else -math.inf
 
 
-def _turn(a: Sequence[float], k: Floats, J: Sequence[float], D: float) -> float:
+def _turn(a: Floats, k: Floats, J: Floats, D: float) -> float:
     """The time of about a radian; 0 at rest."""
     R = np.reshape(generated.rotation(*a), (3, 3))
-    omega = generated.angular_velocity(*(k @ R), *R[2], *J, D)
+    omega = generated.angular_velocity(*(*(k @ R), *R[2], *J, D))
     rate = math.sqrt(sum(x * x for x in omega))
     return 1 / rate if rate else 0.0
 

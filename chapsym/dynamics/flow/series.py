@@ -4,7 +4,6 @@ Time is τ, in units of a length h that the caller chooses; w = hω, and the mom
 motion is y' = y × w for what is fixed in space, a' = ½ a∘w, and B(γ)w = hK for the ball: bilinear in y and w.
 """
 
-import math
 from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
@@ -13,7 +12,7 @@ import numpy as np
 from chapsym import generated
 
 Floats = np.ndarray
-Vector = Sequence[Any]
+Vector = Sequence[Any] | np.ndarray
 
 #: Coefficients of a polynomial in float64: beyond them are 17 digits, at the length of a step.
 TERMS = 44
@@ -72,8 +71,8 @@ def motion(a: Vector, k: Vector, J: Vector, D: float, terms: int = TERMS) -> Ser
     R = np.reshape(generated.rotation(*a), (3, 3))
     y[:4, 0], y[4:7, 0], y[7:, 0] = a, R[2], np.asarray(k) @ R
     B = np.zeros((terms, 3, 3), LONG)
-    B[0] = np.transpose([generated.contact_momentum(*e, *y[4:7, 0], *J, D) for e in one])
-    inverse = np.transpose([generated.angular_velocity(*e, *y[4:7, 0], *J, D) for e in one])
+    B[0] = np.transpose([generated.contact_momentum(*(*e, *y[4:7, 0], *J, D)) for e in one])
+    inverse = np.transpose([generated.angular_velocity(*(*e, *y[4:7, 0], *J, D)) for e in one])
     w[:, 0] = inverse @ y[7:, 0]
     for n in range(terms - 1):
         y[:, n + 1] = _BILINEAR @ (y[:, : n + 1] @ w[:, n::-1].T).ravel() / (n + 1)
@@ -150,7 +149,7 @@ def _bilinear() -> Floats:
     found = np.zeros((10, 10, 3))
     for i, a in enumerate(np.eye(4)):
         for j, e in enumerate(np.eye(3)):
-            found[:4, i, j] = np.array(generated.compose(*a, 0.0, *e)) / 2
+            found[:4, i, j] = np.array(generated.compose(*(*a, 0.0, *e))) / 2
     for i, v in enumerate(np.eye(3)):
         for j, e in enumerate(np.eye(3)):
             found[4:7, 4 + i, j] = found[7:, 7 + i, j] = np.cross(v, e)

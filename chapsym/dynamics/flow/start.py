@@ -117,7 +117,7 @@ def turning(
     def momentum(attitude: Balls) -> Balls:
         v = balls(omega)
         if space:
-            v = generated.transport(*attitude, *v)
-        return generated.contact_momentum(*v, *generated.rotation(*attitude)[6:], *balls(mass_tensor), ball(D))
+            v = generated.transport(*(*attitude, *v))
+        return generated.contact_momentum(*(*v, *generated.rotation(*attitude)[6:], *balls(mass_tensor), ball(D)))
 
     return momentum

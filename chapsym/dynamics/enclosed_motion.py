@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -29,8 +30,8 @@ MARGIN = 6
 class ExactBall:
     """A ball whose numbers are taken as they are written; `Ball` has the nearest float64.
 
-    mass_tensor: J in kg m², three numbers; D: m ρ² in kg m²; radius: ρ in m, for the contact point only.  A number is an
-    int, a Fraction, a Decimal, a text such as "0.1" or "2/7"; a float is the binary number that it is.
+    mass_tensor: J in kg m², three numbers; D: m ρ² in kg m²; radius: ρ in m, for the contact point only.
+    A number is an int, a Fraction, a Decimal, or a text such as "0.1" or "2/7"; a float is the binary number it is.
     Raises BadInput for what no ball has.
     """
 
@@ -54,8 +55,9 @@ class ExactBall:
 class CertifiedMotion:
     """The motion at the times that were reached, in Arb's balls that contain it.
 
-    times: in s, exact.  gamma, angular_momentum (K in kg m²/s), omega (rad/s): (frames, 3); attitude: (frames, 4), unit,
-    the first component that is proved not to be 0 positive; contact: in m, (frames, 2), or None.
+    times: in s, exact.  gamma, angular_momentum (K in kg m²/s), omega (rad/s): (frames, 3).
+    attitude: (frames, 4), unit, its first component that is proved not to be 0 positive.
+    contact: in m, (frames, 2), or None.
     digits: every radius is at most 10^-digits, relative to the length of K and of ω, and to the ball's radius.
     steps, bits: of the run that proved it.  stopped: one sentence, where not all times were reached; else None.
     """
@@ -153,7 +155,7 @@ def _ascending(times: Any) -> tuple[Fraction, ...]:
     else:
         listed = list(times)
         found = vector(listed, "times", len(listed))
-    if not found or found[0] < 0 or any(x >= y for x, y in zip(found, found[1:], strict=False)):
+    if not found or found[0] < 0 or any(x >= y for x, y in pairwise(found)):
         raise BadInput("times must be one or more numbers of seconds from 0 on, each later than the one before")
     return found
 

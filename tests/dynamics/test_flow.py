@@ -1,0 +1,218 @@
+"""What the enclosure of a motion rests on: the equations, the models, and the lemma of the deviation."""
+
+import random
+from fractions import Fraction as F
+
+import numpy as np
+import pytest
+import sympy as sp
+from flint import arb, arb_poly, ctx
+from motion_truth import Truth, matrix_of, number
+
+from chapsym import generated
+from chapsym.derive import continuous, three
+from chapsym.derive.limits import RING, omega
+from chapsym.dynamics.flow import deviation, models, series
+from chapsym.dynamics.flow.path import Path
+from chapsym.dynamics.levels.proved_root import TooWide, upper
+from chapsym.dynamics.levels.start import fraction
+
+BITS = 120
+J, D = (1, 2, 4), 3
+ATTITUDE, K = (1, 2, -1, 3), (3, 1, 4)
+XI = sp.Matrix(sp.symbols("x1:4"))
+
+
+def begun(attitude=ATTITUDE, radius=None):
+    return Path(BITS, tuple(map(arb, J)), arb(D), tuple(map(arb, K)), tuple(map(arb, attitude)), radius)
+
+
+def test_what_is_fixed_in_space_turns_as_the_equations_say():
+    """(2.3): with a' = ½ a∘ω each row of the rotation of a has x' = x × ω, for quaternions of any length."""
+    a = sp.Matrix([three.q0, *three.q])
+    rate = three.quaternion_product(a, sp.Matrix([0, *omega])) / 2
+    R = sp.Matrix(three.rotation())
+    turned = R.applyfunc(lambda x: sum(sp.diff(x, y) * z for y, z in zip(a, rate, strict=True)))
+    for i in range(3):
+        assert (turned[i, :].T - R[i, :].T.cross(omega)).applyfunc(sp.expand).is_zero_matrix
+
+
+@pytest.mark.parametrize("sign", [1, -1])
+def test_the_linear_equation_is_the_derivative_of_the_motion(sign):
+    """B(d - 2ξ × ω) is 2(Iω × ξ - I(ω × ξ)), d what ω changes by where K and γ gain 2K × ξ and 2γ × ξ; on |γ| = 1."""
+
+    def carried(w, g):
+        return sp.Matrix(continuous.momentum()).subs(
+            dict(zip([*omega, *three.gamma], [*w, *g], strict=True)), simultaneous=True
+        )
+
+    s = sp.Symbol("s")
+    moved = sp.diff(carried(omega, three.gamma + 2 * s * three.gamma.cross(XI)), s).subs(s, 0)
+    change = 2 * carried(omega, three.gamma).cross(XI) - moved  # B d, as B(γ)ω = K
+    left = change - 2 * carried(omega.cross(XI), three.gamma)
+    right = sign * 2 * sp.Matrix(series.bend(three.MASSES, omega, XI))
+    assert all(RING_XI.is_zero(sp.expand(x)) for x in left - right) == (sign == 1)
+
+
+RING_XI = type(RING)((*omega, *three.gamma, *XI, *three.MASSES, three.D), [three.UNIT_VERTICAL])
+
+
+def test_a_product_that_is_cut_contains_the_whole():
+    rng = random.Random(1)
+    for _ in range(20):
+        x, y = ([F(rng.randint(-9, 9), rng.randint(1, 9)) for _ in range(8)] for _ in range(2))
+        a, b = (models.Model(arb_poly([number(c) for c in v]), 8) for v in (x, y))
+        low = models.Model((a * b).poly, 4)
+        low.poly = models.cut(low.poly, 4)
+        assert low.poly.length() <= 5
+        for time in (F(0), F(1, 3), F(1)):
+            value = sum(c * time**i for i, c in enumerate(x)) * sum(c * time**i for i, c in enumerate(y))
+            assert low.at(number(time)).contains(number(value))
+            assert abs(low.at(number(time)) - number(value)).abs_lower() == 0
+
+
+def polynomials(path, length=F(1, 2), corrected=True, spoilt=0.0):
+    """The series of a step, its polynomials, what they leave, and hK."""
+    with ctx.workprec(BITS):
+        floats, length = path._series(length, 1.0)
+        k = tuple(number(length) * x for x in path.k)
+        if corrected:
+            p, w, found = path._mended(floats, k)
+        else:
+            p = [models.exact(x) for x in poly(floats.a)]
+            w = [models.exact(x) for x in poly(floats.w)]
+            p = [models.exact(x - x(0) + y) for x, y in zip(p, path.p, strict=True)]
+            p[1] = p[1] + arb_poly([0, 0, spoilt])
+            w[2] = w[2] + arb_poly([0, 10 * spoilt])
+            found = deviation.defects(p, w, k, path.body, 90)
+        return floats, p, w, found, k, length
+
+
+def poly(rows):
+    return [arb_poly(row.astype(float).tolist()) for row in rows]
+
+
+def true_gibbs(p, a):
+    """ξ of the motion a = p∘(1, ξ) beside p."""
+    q = generated.compose(p[0], -p[1], -p[2], -p[3], *a)
+    return [x / q[0] for x in q[1:]]
+
+
+def true_attitude(start, length):
+    """A quaternion of the motion after `length` from an attitude, with K fixed in space, by the other way."""
+    with ctx.workprec(480):
+        R0 = matrix_of([arb(x) for x in ATTITUDE])
+        k = [sum(R0[i][j] * K[j] for j in range(3)) for i in range(3)]
+        R = matrix_of(start)
+        body = [sum(R[i][j] * k[i] for i in range(3)) for j in range(3)]
+        w = [fraction(x) for x in generated.angular_velocity(*body, *R[2], *J, D)]
+        rows = Truth(J, D, w, [fraction(x) for x in start]).at(length)["rows"]
+        (a, b, c), (d, e, f), (g, h, i) = rows
+        q0 = (1 + a + e + i).sqrt() / 2
+        return q0, (h - f) / (4 * q0), (c - g) / (4 * q0), (d - b) / (4 * q0)
+
+
+def off_by(xi0, floats, p, w, found, k, path, length):
+    """How far the neighbour at ξ0 is from where the lemma puts it, the bound of that, and |ξ0|."""
+    with ctx.workprec(480):
+        start = generated.compose(*path.p, 1, *map(arb, xi0))
+        a = true_attitude(start, length)
+        xi1 = true_gibbs([x(arb(1)) for x in p], a)
+    with ctx.workprec(128):
+        size = upper([arb(x) for x in xi0])
+        step = deviation.deviation(floats, w, upper(k), found, path.body, size)
+        ends = [sum((step.M[i, j] * xi0[j] for j in range(3)), arb(0)) for i in range(3)]
+        return upper([x - y for x, y in zip(xi1, ends, strict=True)]), step, upper(xi1), size
+
+
+NEIGHBOURS = [(1e-3, -2e-3, 1e-3), (0.0, 0.0, 1e-3), (1e-6, 1e-6, -1e-6)]
+
+
+@pytest.mark.parametrize("xi0", NEIGHBOURS)
+def test_a_neighbour_is_where_the_lemma_says(xi0):
+    """Beside the motion itself: M to the first order, `more` for the second; neither more than a few hundred |ξ|²."""
+    path = begun()
+    off, step, far, size = off_by(xi0, *(made := polynomials(path))[:5], path, made[5])
+    assert off <= step.more
+    assert far <= step.within
+    assert step.more < 2000 * size * size
+
+
+def test_a_linear_equation_with_another_sign_is_seen(monkeypatch):
+    path = begun()
+    made = polynomials(path)
+    monkeypatch.setattr(deviation, "bend", lambda J, w, x: tuple(-y for y in series.bend(J, w, x)))
+    floats = made[0]._replace(Phi=series.linear(-made[0].A, made[0].A[:-1] * 0, np.eye(3)))
+    off, step, _, _ = off_by(NEIGHBOURS[0], floats, *made[1:5], path, made[5])
+    assert off > step.more
+
+
+def test_a_matrix_that_is_wrong_costs_width_and_not_truth():
+    path = begun()
+    made = polynomials(path)
+    spoilt = made[0].Phi.copy()
+    spoilt[1] += 0.01
+    off, step, _, size = off_by(NEIGHBOURS[0], made[0]._replace(Phi=spoilt), *made[1:5], path, made[5])
+    assert off <= step.more
+    assert step.more > 0.01 * size
+
+
+@pytest.mark.parametrize("spoilt", [0.0, 1e-9, 1e-4])
+def test_polynomials_that_are_wrong_are_off_by_what_is_said(spoilt):
+    """Uncorrected and spoilt ones: the bound contains the error, and is not a thousand times as large."""
+    path = begun()
+    made = polynomials(path, corrected=False, spoilt=spoilt)
+    off, step, _, _ = off_by((0.0, 0.0, 0.0), *made[:5], path, made[5])
+    assert off <= step.more
+    if spoilt:
+        assert step.more < 1000 * off
+
+
+def steady(path, length=F(1, 100)):
+    """Of a rotation with the first ω: e is rounding, and κ all that is left."""
+    with ctx.workprec(BITS):
+        k = tuple(number(length) * x for x in path.k)
+        R = generated.rotation(*path.p)
+        body = [sum(R[3 * i + j] * k[i] for i in range(3)) for j in range(3)]
+        w = [x.mid() for x in generated.angular_velocity(*body, *R[6:], *path.body.J, path.body.D)]
+        rows = [list(path.p)]
+        for n in range(1, 16):
+            rows.append([x / (2 * n) for x in generated.compose(*rows[-1], 0, *w)])
+        p, w = [models.exact(arb_poly(list(x))) for x in zip(*rows, strict=True)], [arb_poly([x]) for x in w]
+        floats = series.motion(*long_start(path, k))
+        return floats, p, w, deviation.defects(p, w, k, path.body, 90), k, length
+
+
+def long_start(path, k):
+    a, k, J = (np.array([series.long_float(x) for x in v]) for v in (path.p, k, path.body.J))
+    return a, k, J, series.long_float(path.body.D)
+
+
+@pytest.mark.parametrize("left_out", [False, True])
+def test_what_is_left_of_the_momentum_counts(left_out):
+    path = begun()
+    floats, p, w, found, k, length = steady(path)
+    assert models.bound(found.e) < 1e-30 < 1e-6 < models.bound(found.kappa)
+    if left_out:
+        found = found._replace(kappa=NONE)
+    off, step, _, _ = off_by((0.0, 0.0, 0.0), floats, p, w, found, k, path, length)
+    assert (off > step.more) == left_out
+
+
+def test_what_is_left_of_the_turning_counts():
+    """With all that is left, the bound bounds; without e, κ and |p|² - 1 it would not."""
+    path = begun()
+    floats, p, w, found, k, length = polynomials(path, corrected=False, spoilt=1e-4)
+    found = found._replace(e=NONE, kappa=NONE, off=NONE[0])
+    off, step, _, _ = off_by((0.0, 0.0, 0.0), floats, p, w, found, k, path, length)
+    assert off > step.more
+
+
+NONE = [models.Model(arb_poly([0]), 3)] * 3
+
+
+def test_what_is_far_off_is_refused():
+    path = begun()
+    floats, _, w, found, k, _ = polynomials(path)
+    with ctx.workprec(128), pytest.raises(TooWide):
+        deviation.deviation(floats, w, upper(k), found, path.body, arb(0.3))
