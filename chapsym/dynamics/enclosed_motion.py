@@ -320,7 +320,7 @@ def _context(x: Fraction, places: int) -> Any:
 
 
 def written(x: Any) -> tuple[str, str]:
-    """(middle, radius) as decimal strings, whose ball contains that of x; the radius has two digits."""
+    """(middle, radius) as decimal strings, whose ball contains that of x; the radius has two digits or three."""
     middle, radius = fraction(x), fraction(x.rad())
     if not radius and (text := decimal(middle)) and len(text) <= 40:
         return text, "0"

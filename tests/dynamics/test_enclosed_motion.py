@@ -1,0 +1,319 @@
+"""Certified motions: the balls contain the motion found by another way, in ordinary and in extreme cases."""
+
+import json
+import random
+from decimal import Decimal
+from fractions import Fraction as F
+
+import pytest
+from commands import chapsym as command
+from flint import arb, ctx
+from motion_truth import BITS, Truth, matrix_of, number
+
+import chapsym
+from chapsym.dynamics import enclosed_motion
+from chapsym.dynamics.enclosed_motion import decimal, follow, written
+from chapsym.dynamics.flow import start as exact
+
+ORDINARY = (1, 2, 4), 3, ("1", "-1/2", "3/4"), (1, 2, -1, 3)
+VECTORS = ("angular_momentum", "gamma", "omega", "contact")
+
+
+def started(mass_tensor, D, omega, quaternion, radius=1):
+    """A start with ω in the axes of the body, all exact."""
+    J, D, w, q = [F(x) for x in mass_tensor], F(D), [F(x) for x in omega], [F(x) for x in quaternion]
+    return exact.Start(
+        J, D, lambda: exact.balls(q), exact.turning(w, J, D, False), None if radius is None else F(radius)
+    )
+
+
+def worst(found, case, times):
+    """The largest error beside its radius; asserts that what has no radius is right."""
+    truth = Truth(*([F(x) for x in case[0]], F(case[1]), [F(x) for x in case[2]], [F(x) for x in case[3]]))
+    largest = 0.0
+    for i, time in enumerate(times):
+        true = truth.at(F(time))
+        with ctx.workprec(BITS):
+            pairs = [pair for name in VECTORS for pair in zip(getattr(found, name)[i], true[name], strict=True)]
+            for row, right in zip(matrix_of(found.attitude[i]), true["rows"], strict=True):
+                pairs += zip(row, right, strict=True)
+            for x, right in pairs:
+                off, radius = abs((x - right).mid()), x.rad()
+                largest = max(largest, float(off / radius) if radius > 0 else 0.0 if off < 1e-60 else 1e9)
+    return largest
+
+
+def random_case(rng):
+    """Moments and D over some decades, any start."""
+    J = [F(rng.randint(1, 999), 100) * F(10) ** rng.choice((-2, -1, 0, 0)) for _ in range(3)]
+    D = F(rng.randint(0, 999), 100) * F(10) ** rng.choice((-3, 0, 0, 2))
+    w = [F(rng.randint(-99, 99), 50) for _ in range(3)]
+    return J, D, w, [rng.randint(-9, 9) for _ in range(3)] + [rng.randint(1, 9)]
+
+
+def test_random_motions_are_contained(thorough):
+    rng = random.Random(20)
+    for _ in range(1000 if thorough else 5):
+        case, times = random_case(rng), [F(rng.randint(1, 9), 7), F(2)]
+        found = follow(started(*case), times, 15)
+        assert found.stopped is None
+        assert worst(found, case, times) < 1, case
+        assert all(x.rad() <= arb("1e-15") for x in found.gamma.flat)
+
+
+Q, W = (1, 2, -1, 3), ("1", "-1/2", "3/4")
+EXTREMES = {
+    "D is 0": ((1, 2, 4), 0, W, Q),
+    "D is a million times J": ((1, 2, 4), 5 * 10**6, W, Q),
+    "D is a millionth of J": ((1, 2, 4), "5e-6", W, Q),
+    "equal moments": ((1, 1, 1), 3, W, Q),
+    "two equal moments": ((1, 1, 4), 3, W, Q),
+    "nearly equal moments": ((1, "1.0000000001", 1), 3, W, Q),
+    "at rest": ((1, 2, 4), 3, (0, 0, 0), Q),
+    "flat": ((1, 2, 0), 3, W, Q),
+    "a rod": (("1e-6", "1e-6", 1), 3, W, Q),
+    "a rod without thickness": ((0, 0, 1), 3, W, Q),
+    "vertical momentum": ((1, 2, 4), 3, ("1/9", "1/5", "1/2"), (2, 0, 0, 0)),
+    "near the separatrix": ((1, 2, 4), 3, ("1e-8", 1, 0), (1, 0, 0, 0)),
+    "small units": (("1e-12", "2e-12", "4e-12"), "3e-12", W, Q),
+}
+
+
+@pytest.mark.parametrize("name", EXTREMES)
+def test_extreme_motions_are_contained(name):
+    case = EXTREMES[name]
+    if name == "vertical momentum":  # ω with B(γ)ω = 5γ at γ = e₃
+        case = (case[0], case[1], (0, 0, F(5, 3)), case[3])
+    found = follow(started(*case), [F(0), F(1)], 15)
+    assert found.stopped is None
+    assert worst(found, case, [0, 1]) < 1
+
+
+def test_a_steady_rotation_is_the_closed_form():
+    """About the third axis, unstable: a turn by ωt, and nothing moves; the growth is met with more bits."""
+    found = follow(started((1, 4, 2), 3, (0, 0, 1), (1, 0, 0, 0)), [F(30)], 20)
+    with ctx.workprec(200):
+        half = arb(15)
+        for x, right in zip(found.attitude[0], (half.cos(), 0, 0, half.sin()), strict=True):
+            assert (x + right).contains(0)  # cos 15 < 0: the other of the two quaternions
+        assert all(x.rad() < arb("1e-20") for x in found.attitude[0])
+        assert all(x.contains(0) for x in found.contact[0])
+
+
+def test_more_digits_agree_with_less():
+    few, many = (follow(started(*ORDINARY), [F(1)], digits) for digits in (10, 80))
+    assert many.bits > few.bits
+    for x, y in zip(few.omega[0], many.omega[0], strict=True):
+        assert x.overlaps(y)
+        assert y.rad() < arb("1e-79")
+
+
+def test_frames_within_a_step_agree_with_those_at_its_end():
+    dense = follow(started(*ORDINARY), [F(i, 20) for i in range(21)], 15)
+    assert dense.steps < 10
+    for i in (3, 10, 20):
+        alone = follow(started(*ORDINARY), [F(i, 20)], 15)
+        for name in (*VECTORS, "attitude"):
+            assert all(x.overlaps(y) for x, y in zip(getattr(dense, name)[i], getattr(alone, name)[0], strict=True))
+
+
+@pytest.mark.parametrize("spoil", ["tail", "defect", "sign"])
+def test_a_wrong_enclosure_does_not_pass_for_one(spoil, monkeypatch):
+    """The equations themselves with a slip: D beside what is fixed in space, a sign, ½ left out."""
+    from chapsym import generated
+
+    real = {"tail": generated.rotation, "defect": generated.contact_momentum, "sign": generated.compose}[spoil]
+    name = real.__name__
+
+    def wrong(*given):
+        result = list(real(*given))
+        result[1] = result[1] * arb("1.000000000001") if spoil != "sign" else -result[1]
+        return tuple(result)
+
+    from chapsym.dynamics.flow import deviation
+
+    monkeypatch.setattr(deviation, "generated", _Kernels(generated, {name: wrong}))
+    found = follow(started(*ORDINARY), [F(1)], 15, limit=0.3)
+    assert found.stopped is not None or worst(found, ORDINARY, [1]) > 1
+
+
+class _Kernels:
+    """Some kernels in the place of others, for one module."""
+
+    def __init__(self, kernels, others):
+        self.kernels, self.others = kernels, others
+
+    def __getattr__(self, name):
+        return self.others.get(name) or getattr(self.kernels, name)
+
+
+def test_the_public_function_takes_numbers_as_they_are_written():
+    ball = chapsym.ExactBall(("0.1", "1/2", Decimal("1.6")), "0.7", radius=F(1, 2))
+    found = chapsym.certified_motion(ball, ("0.1", "-0.05", 0), ("2/7", "3/7", "6/7"), ["0", "0.1"], digits=30)
+    with ctx.workprec(200):
+        assert found.angular_momentum[0, 0].contains(number("1/10"))
+        assert not found.angular_momentum[0, 0].contains(arb(0.1))
+        assert found.gamma[0, 0].contains(number("2/7"))
+    assert found.times == (0, F(1, 10))
+    assert found.attitude[0, 0] > 0
+    same = chapsym.certified_motion(ball, ("0.1", "-0.05", 0), ("2/7", "3/7", "6/7"), "0.1", attitude=found_up())
+    assert all(x.overlaps(y) for x, y in zip(same.omega[0], found.omega[1], strict=True))
+
+
+def found_up():
+    """The least rotation that turns (2, 3, 6)/7 up, as `least` has it: (1 + z, y, -x, 0)."""
+    return F(13, 7), F(3, 7), F(-2, 7), 0
+
+
+BALL = chapsym.Ball((1, 2, 4), 3)
+BAD = [
+    (dict(ball=3), "ball must be a chapsym.Ball, not int"),
+    (dict(ball=chapsym.Ball(((1, 2, 4), (1, 2, 5)), 3)), "takes one ball, not a batch"),
+    (dict(gamma=(1, 1, 1)), "gamma must be a unit vector"),
+    (dict(gamma=("2/7", "3/7", "a")), "'a' is not a number"),
+    (dict(gamma=(0, 1)), "gamma must be 3 numbers"),
+    (dict(angular_momentum=(1, float("nan"), 0)), "angular_momentum 2 must be finite"),
+    (dict(times=()), "times must be one or more"),
+    (dict(times=(2, 1)), "each later than the one before"),
+    (dict(times=-1), "from 0 on"),
+    (dict(digits=0), "digits must be a whole number from 1"),
+    (dict(digits=2.5), "digits must be a whole number from 1"),
+    (dict(limit=0), "limit must be a positive number"),
+    (dict(attitude=(1, 0, 0, 0)), "attitude must turn gamma to"),
+    (dict(attitude=(0, 0, 0, 0)), "attitude must not be 0"),
+]
+
+
+@pytest.mark.parametrize(("wrong", "sentence"), BAD, ids=[sentence for _, sentence in BAD])
+def test_bad_input_is_told_in_a_sentence(wrong, sentence):
+    good = dict(ball=BALL, angular_momentum=(1, 2, 3), gamma=("2/7", "3/7", "6/7"), times=1)
+    with pytest.raises(chapsym.BadInput, match=sentence):
+        chapsym.certified_motion(**(good | wrong))
+
+
+@pytest.mark.parametrize("wrong", [((-1, 2, 4), 3), ((0, 0, 0), 3), ((1, 2, 4), -3), ((1, 2, 4), 3, 0)])
+def test_no_body_is_refused(wrong):
+    with pytest.raises(chapsym.BadInput):
+        chapsym.ExactBall(*wrong)
+
+
+def test_what_is_proved_is_given_where_the_time_is_up(monkeypatch):
+    clock = iter(range(100))
+    monkeypatch.setattr(enclosed_motion.clock, "monotonic", lambda: next(clock))
+    found = follow(started(*ORDINARY), [F(i) for i in range(101)], 10, limit=5)
+    assert 1 <= len(found.times) < 101
+    assert found.stopped == (
+        f"5 s were not enough for 10 digits at 100 s: {len(found.times)} of 101 frames are proved, "
+        f"until {found.times[-1]} s"
+    )
+    assert found.write()["stopped"] == found.stopped
+
+
+def test_more_bits_are_taken_where_they_are_needed(monkeypatch):
+    monkeypatch.setattr(enclosed_motion, "GUARD", -10)
+    found = follow(started(*ORDINARY), [F(1)], 15)
+    assert found.stopped is None
+    assert worst(found, ORDINARY, [1]) < 1
+    monkeypatch.setattr(enclosed_motion, "MOST_BITS", 60)
+    assert follow(started(*ORDINARY), [F(1)], 15).stopped.startswith("more than 60 bits would be needed for 15 digits")
+
+
+def test_decimals_contain_their_balls():
+    rng = random.Random(3)
+    with ctx.workprec(200):
+        for _ in range(300):
+            x = arb(rng.getrandbits(150)) / 2 ** rng.randint(0, 400) * rng.choice((1, -1))
+            x = arb(x.mid(), abs(x.mid()) / 2 ** rng.randint(5, 140)) if rng.random() < 0.9 else x.mid()
+            middle, radius = written(x)
+            outer = arb(number(Decimal(middle)), number(Decimal(radius)))
+            assert outer.contains(x)
+            assert len(Decimal(radius).as_tuple().digits) <= 3
+            assert Decimal(radius) == 0 or outer.rad() <= 2 * x.rad() + abs(x.mid()) * arb("1e-29")
+
+
+def test_times_are_written_as_decimals_where_they_are_such():
+    assert [decimal(F(x)) for x in ("2", "0", "1/8", "1/3", "12.50")] == ["2", "0", "0.125", "1/3", "12.5"]
+
+
+SCENE = """
+[ball]
+mass_tensor = [0.1, 0.2, "2/5"]
+D = 0.3
+radius = 0.1
+[start]
+omega = [0.1, "30 deg/s", {spin}]
+{more}
+[run]
+time = 0.3
+frames = 3
+"""
+
+
+def scene(tmp_path, more="", spin="-0.2", **replaced):
+    path = tmp_path / "scene.toml"
+    text = SCENE.format(more=more, spin=spin)
+    for old, new in replaced.values():
+        text = text.replace(old, new)
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def test_the_command_takes_the_numbers_of_a_scene_as_they_are_written(tmp_path):
+    path = scene(tmp_path, 'rpy = ["90 deg", 0.0, "-60 deg"]\nposition = [0.5, -1]')
+    done = command("certify", "motion", path, "--digits", "25", "--json", "-o", tmp_path / "out.json")
+    assert done.returncode == 0, done.stderr
+    found = json.loads(done.stdout)
+    assert found == json.loads((tmp_path / "out.json").read_text(encoding="utf-8"))
+    assert found.keys() == {"frames", "digits", "steps", "bits"}
+    assert [frame["time"] for frame in found["frames"]] == ["0", "0.1", "0.2", "0.3"]
+    first = found["frames"][0]
+    balls = {name: [(Decimal(x), Decimal(r)) for x, r in v] for name, v in first.items() if name != "time"}
+    (x, r), (y, s), _ = balls["omega"]
+    assert abs(x - Decimal("0.1")) <= r < Decimal("1e-25")
+    assert abs(y - Decimal("0.523598775598298873077107230546583814032861566562517636829")) <= s
+    assert [[float(x) for x, _ in balls[name]] for name in ("contact", "gamma")] == [[0.5, -1.0], [0, 1, 0]]
+    half = Decimal(3).sqrt() / 2
+    for (x, r), right in zip(balls["attitude"], (half, half, Decimal("-0.5"), Decimal("-0.5")), strict=True):
+        assert abs(x - right * Decimal("0.5").sqrt()) <= r + Decimal("1e-27")
+
+
+def test_the_command_says_what_it_has_proved(tmp_path):
+    done = command("certify", "motion", scene(tmp_path), "--digits", "8")
+    assert done.returncode == 0
+    assert done.stdout.startswith("4 frames proved: 8 digits, ")
+    assert "angular_momentum" in done.stdout
+
+
+REFUSED = [
+    (dict(one=("omega = [0.1,", "momentum = [0.1,"), two=("30 deg/s", "1"), three=("time = 0.3", "steps = 3"), four=("frames = 3", "")), "is of the map"),
+    (dict(one=("D = 0.3", "D = { linspace = [1, 2, 3] }")), "takes one ball"),
+    (dict(one=('mass_tensor = [0.1, 0.2, "2/5"]', "inertia = [[2, 1, 0], [1, 3, 0], [0, 0, 4]]")), "principal axes"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("changed", "sentence"), REFUSED, ids=[sentence for _, sentence in REFUSED])
+def test_a_scene_that_is_not_for_it_is_refused(tmp_path, changed, sentence):
+    done = command("certify", "motion", scene(tmp_path, **changed))
+    assert (done.returncode, done.stdout) == (2, "")
+    assert sentence in done.stderr
+
+
+def test_a_motion_that_takes_too_long_fails_with_what_is_proved(tmp_path):
+    done = command("certify", "motion", scene(tmp_path), "--digits", "8", "--limit", "1e-9", "--json")
+    assert done.returncode == 1
+    assert json.loads(done.stdout)["stopped"].startswith("1e-09 s were not enough for 8 digits at 0.3 s: 1 of 4")
+    assert "1e-09 s were not enough" in done.stderr
+
+
+@pytest.mark.parametrize(
+    ("body", "scale"),
+    [('preset = "homogeneous"', F(2, 5)), ('preset = "shell"', F(2, 3)), ("inertia = [0.01, 0.01, 0.01]", None)],
+)
+def test_bodies_are_exact(tmp_path, body, scale):
+    """Of a sphere K = (I + D)ω - D⟨ω,γ⟩γ with I a part of D = mρ²."""
+    changed = dict(one=('mass_tensor = [0.1, 0.2, "2/5"]', f"mass = 3\n{body}"), two=("D = 0.3", ""))
+    found = json.loads(command("certify", "motion", scene(tmp_path, **changed), "--json").stdout)
+    D = F(3, 100)
+    I = F(1, 100) if scale is None else scale * D
+    middle, radius = found["frames"][0]["angular_momentum"][0]
+    assert abs(F(middle) - (I + D) * F(1, 10)) <= F(radius) < F(1, 10**20)
