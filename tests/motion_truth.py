@@ -10,8 +10,8 @@ from fractions import Fraction
 from flint import arb, arb_mat, ctx, fmpq
 
 BITS, COLUMNS = 480, 20
-#: Radians of a step.
-TURN = Fraction(1, 3)
+#: Radians of the first step; a step is halved while the last two columns differ by more than SMALL.
+TURN, SMALL = Fraction(1, 3), 1e-33
 
 
 def number(x):
@@ -44,14 +44,20 @@ class Truth:
             rows = matrix_of([number(x) for x in quaternion])
             self.y = [*map(number, omega), *(x for row in rows for x in row), arb(0), arb(0)]
             self.time = Fraction(0)
-            self.rate = max(0.01, *(abs(float(x)) for x in self.y[:3]))
+            rate = max(0.01, *(abs(float(x)) for x in self.y[:3]))
+            self.length = TURN / Fraction(rate).limit_denominator(1000)
 
     def at(self, time):
         """K, γ, ω, the rows of R and the contact point: lists of numbers."""
         with ctx.workprec(BITS):
             while self.time < time:
-                step = min(TURN / Fraction(self.rate).limit_denominator(1000), Fraction(time) - self.time)
-                self.y, self.time = self.step(number(step)), self.time + step
+                step = min(self.length, Fraction(time) - self.time)
+                found, error = self.step(number(step))
+                if not error < SMALL:
+                    self.length = step / 2
+                    continue
+                self.y, self.time = found, self.time + step
+                self.length = max(self.length, step) * Fraction(9, 8)
             w, rows = self.y[:3], [self.y[3:6], self.y[6:9], self.y[9:12]]
             K = (self.carried(rows[2]) * arb_mat(3, 1, w)).entries()
             return {"angular_momentum": K, "gamma": rows[2], "omega": w, "rows": rows, "contact": self.y[12:]}
@@ -72,14 +78,15 @@ class Truth:
         return [*rate, *(x for row in rows for x in cross(row, w)), self.radius * space[1], -self.radius * space[0]]
 
     def step(self, length):
-        table = []
+        table = before_last = []
         for j in range(1, COLUMNS + 1):
             row = [self.midpoints(length, 2 * j)]
             for i, before in enumerate(table):
                 ratio = arb(j * j) / ((j - 1 - i) ** 2)
                 row.append([(x * ratio - y) / (ratio - 1) for x, y in zip(row[i], before, strict=True)])
-            table = row
-        return [x.mid() for x in table[-1]]
+            before_last, table = table, row
+        error = max(abs(x - y) for x, y in zip(table[-1], before_last[-1], strict=True))
+        return [x.mid() for x in table[-1]], error
 
     def midpoints(self, length, count):
         h = length / count

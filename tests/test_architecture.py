@@ -26,7 +26,7 @@ ROOMS = {
     "sources": set(),
     "prove": {"checker", "derive", "files", "sources", "workers"},
     "codegen": {"derive", "generated"},
-    "dynamics": {"generated", "numbers"},
+    "dynamics": {"generated", "numbers", "rationals"},
     "certificates": {"checker", "dynamics", "rationals", "files", "generated", "numbers"},
     "accuracy": {"dynamics", "files", "generated", "numbers", "renamed"},
     "jobs": {"dynamics", "extras", "workers"},
