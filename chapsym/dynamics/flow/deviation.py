@@ -15,13 +15,15 @@ Cξ = Iw × ξ - I(w × ξ), X ≥ |ξ|, X ≤ ¼, β ≥ ‖B⁻¹‖, s = 5β�
    |S| ≤ 4σX + 4σX² ≤ 5σX, and S is 2([ξ]ₓI - I[ξ]ₓ) up to 8σX².  The latter gives w what -2Cξ is.
 3. So |d| ≤ δ, and |d - 2Aξ| ≤ β(8σX²W + 5σXδ + |κ|); with |A| ≤ a this makes |d| ≤ 2aX + β(8σX²W + 5σXδ + |κ|).
 4. The quaternion Q of Rot has Q' = ½(d - ε)∘Q, so that ξ' = ½(Δ + Δ × ξ + ⟨Δ,ξ⟩ξ) with Δ = d - ε.
-If |A| ≤ L and M is a matrix of polynomials with M(0) = 1 and |M' - AM| ≤ η, then from |ξ(0)| ≤ r (Gronwall)
-    |ξ| ≤ (r + q)exp(L) < X, which proves that X was enough, and |ξ(1) - M(1)ξ(0)| ≤ (q + ηr)exp(L).
+If |SAS⁻¹| ≤ L with S diagonal, its entries from s to 1, and M is a matrix of polynomials with M(0) = 1 and
+|M' - AM| ≤ η, then from |ξ(0)| ≤ r (Gronwall, for Sξ)
+    |ξ| ≤ (r + q)exp(L)/s ≤ X, which proves that X was enough, and |ξ(1) - M(1)ξ(0)| ≤ (q + ηr)exp(L)/s.
 """
 
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
+import numpy as np
 from flint import arb, arb_poly
 
 from chapsym import generated
@@ -32,6 +34,8 @@ from .series import Series, bend
 
 #: Pieces of a step on which the size of A is bounded apart.
 PIECES = 8
+#: What is too small beside 1 to count in the choice of S.
+FLAT = 1e-9
 #: What stands beside 1 in the bound of |ξ| that is tried first.
 ROOM = 1.5
 
@@ -99,14 +103,15 @@ def deviation(series: Series, w: Sequence[Any], size: Any, found: Defects, body:
     omega, gamma = models(w, degree), models([x.poly * found.unit for x in found.R[6:]], degree)
     e, off = bound(found.e), bound([found.off])
     epsilon = (2 * e * found.unit.sqrt()).abs_upper()
-    inverse, growth, largest, W = _sizes(omega, gamma, body)
+    weights = _weights(series)
+    inverse, growth, largest, W = _sizes(omega, gamma, body, weights)
     M = [[arb_poly(series.Phi[:, i, j].tolist()) for j in range(3)] for i in range(3)]
     eta = (inverse * _slip(M, omega, gamma, body, degree)).abs_upper()
     # With |p|² = 1 + η what is computed has (2η + η²)Dγ × (w × γ) - ηK too much.
     kappa = bound(found.kappa) + (2 * off + off * off) * body.D * W + off * size
     I = body.inertia
     sigma = ((highest(*I) - lowest(*I)) / 2).abs_upper()
-    stretch = growth.exp().abs_upper()
+    stretch = (growth.exp() / arb(min(weights))).abs_upper()
     X = (ROOM * (start + epsilon + inverse * kappa) * stretch).abs_upper()
     s = 5 * inverse * sigma * X
     if not (X <= 0.25 and s <= 0.5):
@@ -121,8 +126,18 @@ def deviation(series: Series, w: Sequence[Any], size: Any, found: Defects, body:
     return Step(_matrix(ends), ((q + eta * start) * stretch).abs_upper(), X, slip)
 
 
-def _sizes(w: Sequence[Model], gamma: Sequence[Model], body: Body) -> tuple[Any, Any, Any, Any]:
-    """Bounds of ‖B⁻¹‖, of the integral of |A|, of |A| and of |w| on [0, 1]."""
+def _weights(series: Series) -> list[float]:
+    """The entries of S, powers of 2: with them the rows and the columns of A are about as large (Osborne)."""
+    size = np.abs(series.A).sum(axis=0) * (1 - np.eye(3))
+    found = np.zeros(3)
+    for i in 3 * (0, 1, 2):
+        scaled = size * 2.0 ** (found[:, np.newaxis] - found)
+        found[i] += np.round(np.log2((scaled[:, i].sum() + FLAT) / (scaled[i].sum() + FLAT)) / 2)
+    return [float(x) for x in 2.0 ** (found - found.max())]
+
+
+def _sizes(w: Sequence[Model], gamma: Sequence[Model], body: Body, S: Sequence[float]) -> tuple[Any, Any, Any, Any]:
+    """Bounds of ‖B⁻¹‖, of the integral of |SAS⁻¹|, of |A| and of |w| on [0, 1]."""
     inverse, growth, largest, W = arb(0), arb(0), arb(0), arb(0)
     for i in range(PIECES):
         time = (arb(i) + UNIT) / PIECES
@@ -130,8 +145,9 @@ def _sizes(w: Sequence[Model], gamma: Sequence[Model], body: Body) -> tuple[Any,
         columns = [generated.angular_velocity(*(*x, *g, *body.J, body.D)) for x in _UNITS]
         inverse = inverse.max(upper([x for column in columns for x in column]))
         A = [generated.angular_velocity(*(*bend(body.J, v, x), *g, *body.J, body.D)) for x in _UNITS]
-        size = upper([x for column in A for x in column])
-        growth, largest = growth + size / PIECES, largest.max(size)
+        largest = largest.max(upper([x for column in A for x in column]))
+        weighted = [x * (row / by) for column, by in zip(A, S, strict=True) for x, row in zip(column, S, strict=True)]
+        growth += upper(weighted) / PIECES
         W = W.max(upper(v))
     if not (inverse.is_finite() and growth.is_finite()):
         raise TooWide
