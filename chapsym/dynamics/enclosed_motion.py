@@ -185,6 +185,10 @@ def follow(
     return search.found(why)
 
 
+class _TimeUp(Exception):
+    """The limit is reached."""
+
+
 class _Search:
     """Attempts with more and more bits; the frames of the best of them."""
 
@@ -221,15 +225,15 @@ class _Search:
         frames: list[dict[str, tuple[Any, ...]]] = []
         with ctx.workprec(bits):
             path = self.start.path(bits)
+            path.tick = lambda: self._tell(path, bits)
             for end in self.times:
                 while path.time < end:
-                    if clock.monotonic() > self.deadline:
-                        return None
-                    self._tell(path, bits)
                     try:
                         path.advance(self.times[-1])
                     except TooWide:
                         return self._more(path, bits)
+                    except _TimeUp:
+                        return None
                 frames.append(_signed(path.frame(end)))
                 missing = max(missing, _missing(frames[-1], self.digits, self.start.radius))
                 kept = len(frames) if missing <= 0 else kept
@@ -246,6 +250,8 @@ class _Search:
         return math.ceil(min(max(foreseen - bits, bits / 4), bits)) + math.ceil(self.digits * math.log2(10))
 
     def _tell(self, path: Any, bits: int) -> None:
+        if clock.monotonic() > self.deadline:
+            raise _TimeUp
         part = float(path.time / self.times[-1])
         self.progress(f"{bits} bits: {float(path.time):.6g} s of {float(self.times[-1]):.6g} s, {part:.0%}")
 

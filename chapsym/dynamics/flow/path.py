@@ -4,7 +4,7 @@ What finds them may be wrong: only what `deviation` proves of them is used.
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 from typing import Any, NamedTuple
 
@@ -42,13 +42,14 @@ class Path:
     """A motion in balls of `precision` bits; every method is to be called with that precision set.
 
     attitude: a quaternion, K: the momentum in the axes of the body, both in balls.
-    time: since the start, exactly.  steps: taken so far.
+    time: since the start, exactly.  steps: taken so far.  tick: called within a step; what it raises ends it.
     """
 
     def __init__(
         self, precision: int, J: Sequence[Any], D: Any, K: Sequence[Any], attitude: Sequence[Any], radius: Any
     ) -> None:
         self.precision, self.time, self.steps = precision, Fraction(0), 0
+        self.tick: Callable[[], None] = lambda: None
         body = Body(J, D)
         self.scale = arb(2) ** _exponent(highest(*body.inertia) + D)
         self.body = Body(tuple(x / self.scale for x in J), D / self.scale)
@@ -122,6 +123,7 @@ class Path:
         p, w = [exact(x) for x in p], [exact(x) for x in _polys(series.w[:, :terms])]
         bits, stuck, size = GAIN, 0, math.inf
         while True:
+            self.tick()
             bits = min(bits + BEYOND, self.precision)
             with ctx.workprec(bits):
                 n = max(TERMS, degree * bits // self.precision)
