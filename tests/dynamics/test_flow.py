@@ -98,16 +98,21 @@ def true_gibbs(p, a):
     return [x / q[0] for x in q[1:]]
 
 
-def true_attitude(start, length):
-    """A quaternion of the motion after `length` from an attitude, with K fixed in space, by the other way."""
+def neighbour(start):
+    """The motion from an attitude, with the same K in space, by the other way."""
     with ctx.workprec(480):
         R0 = matrix_of([arb(x) for x in ATTITUDE])
         k = [sum(R0[i][j] * K[j] for j in range(3)) for i in range(3)]
         R = matrix_of(start)
         body = [sum(R[i][j] * k[i] for i in range(3)) for j in range(3)]
         w = [fraction(x) for x in generated.angular_velocity(*body, *R[2], *J, D)]
-        rows = Truth(J, D, w, [fraction(x) for x in start]).at(length)["rows"]
-        (a, b, c), (d, e, f), (g, h, i) = rows
+        return Truth(J, D, w, [fraction(x) for x in start])
+
+
+def true_attitude(start, length):
+    """A quaternion of it after `length`."""
+    with ctx.workprec(480):
+        (a, b, c), (d, e, f), (g, h, i) = neighbour(start).at(length)["rows"]
         q0 = (1 + a + e + i).sqrt() / 2
         return q0, (h - f) / (4 * q0), (c - g) / (4 * q0), (d - b) / (4 * q0)
 
@@ -136,6 +141,22 @@ def test_a_neighbour_is_where_the_lemma_says(xi0):
     assert off <= step.more
     assert far <= step.within
     assert step.more < 2000 * size * size
+
+
+@pytest.mark.parametrize("xi0", [(6e-4, -6e-4, 5e-4), (0.0, 0.0, -9e-4), (9e-4, 0.0, 0.0)])
+def test_neighbours_are_in_the_frames(xi0):
+    """Of a path that does not know its start to 1e-3: within the step and at its end, the contact point, too."""
+    path = begun(radius=arb(1))
+    truth = neighbour(generated.compose(*path.p, 1, *map(arb, xi0)))
+    with ctx.workprec(BITS):
+        path.spread.restart(arb("1e-3"))
+        path.advance(F(1, 2))
+        for time in (F(1, 5), F(1, 2)):
+            assert path.time == F(1, 2)
+            found, true = path.frame(time), truth.at(time)
+            for name in ("gamma", "angular_momentum", "omega", "contact"):
+                assert all(x.contains(y) for x, y in zip(found[name], true[name], strict=True)), name
+                assert max(x.rad() for x in found[name]) < 0.1, name
 
 
 def test_a_linear_equation_with_another_sign_is_seen(monkeypatch):
