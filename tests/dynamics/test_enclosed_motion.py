@@ -261,8 +261,9 @@ def scene(tmp_path, more="", spin="-0.2", replaced=None):
 
 
 def test_the_command_takes_the_numbers_of_a_scene_as_they_are_written(tmp_path):
-    path = scene(tmp_path, 'rpy = ["90 deg", 0.0, "-60 deg"]\nposition = [0.5, -1]')
-    done = command("certify", "motion", path, "--digits", "25", "--json", "-o", tmp_path / "out.json")
+    spin = "-0.200000000000000000000000000000000000000000001"
+    path = scene(tmp_path, 'rpy = ["90 deg", 0.0, "-60 deg"]\nposition = [0.5, -1]', spin)
+    done = command("certify", "motion", path, "--digits", "60", "--json", "-o", tmp_path / "out.json")
     assert done.returncode == 0, done.stderr
     found = json.loads(done.stdout)
     assert found == json.loads((tmp_path / "out.json").read_text(encoding="utf-8"))
@@ -270,11 +271,13 @@ def test_the_command_takes_the_numbers_of_a_scene_as_they_are_written(tmp_path):
     assert [frame["time"] for frame in found["frames"]] == ["0", "0.1", "0.2", "0.3"]
     first = found["frames"][0]
     balls = {name: [(Decimal(x), Decimal(r)) for x, r in v] for name, v in first.items() if name != "time"}
-    (x, r), (y, s), _ = balls["omega"]
-    assert abs(x - Decimal("0.1")) <= r < Decimal("1e-25")
-    assert abs(y - Decimal("0.523598775598298873077107230546583814032861566562517636829")) <= s
+    (x, r), (y, s), (z, t) = (tuple(map(F, x)) for x in balls["omega"])
+    assert abs(x - F("0.1")) <= r < F("1e-60")
+    assert abs(z - F(spin)) <= t
+    with ctx.workprec(300):
+        assert abs(number(y) - arb.pi() / 6) < number(s)
     assert [[float(x) for x, _ in balls[name]] for name in ("contact", "gamma")] == [[0.5, -1.0], [0, 1, 0]]
-    half = Decimal(3).sqrt() / 2
+    half = Decimal(3).sqrt() / 2  # to the 28 digits of decimals
     for (x, r), right in zip(balls["attitude"], (half, half, Decimal("-0.5"), Decimal("-0.5")), strict=True):
         assert abs(x - right * Decimal("0.5").sqrt()) <= r + Decimal("1e-27")
 

@@ -24,7 +24,8 @@ XI = sp.Matrix(sp.symbols("x1:4"))
 
 
 def begun(attitude=ATTITUDE, radius=None):
-    return Path(BITS, tuple(map(arb, J)), arb(D), tuple(map(arb, K)), tuple(map(arb, attitude)), radius)
+    with ctx.workprec(BITS):
+        return Path(BITS, tuple(map(arb, J)), arb(D), tuple(map(arb, K)), tuple(map(arb, attitude)), radius)
 
 
 def test_what_is_fixed_in_space_turns_as_the_equations_say():
@@ -130,7 +131,7 @@ def off_by(xi0, floats, p, w, found, k, path, length):
         return upper([x - y for x, y in zip(xi1, ends, strict=True)]), step, upper(xi1), size
 
 
-NEIGHBOURS = [(1e-3, -2e-3, 1e-3), (0.0, 0.0, 1e-3), (1e-6, 1e-6, -1e-6)]
+NEIGHBOURS = [(1e-3, -2e-3, 1e-3), (0.0, 0.0, 1e-3), (0.0, 1e-3, 0.0), (1e-3, 0.0, 0.0), (1e-6, 1e-6, -1e-6)]
 
 
 @pytest.mark.parametrize("xi0", NEIGHBOURS)
@@ -173,8 +174,8 @@ def test_a_matrix_that_is_wrong_costs_width_and_not_truth():
     made = polynomials(path)
     spoilt = made[0].Phi.copy()
     spoilt[1] += 0.01
-    off, step, _, size = off_by(NEIGHBOURS[0], made[0]._replace(Phi=spoilt), *made[1:5], path, made[5])
-    assert off <= step.more
+    off, step, _, size = off_by(NEIGHBOURS[-1], made[0]._replace(Phi=spoilt), *made[1:5], path, made[5])
+    assert 0.001 * size < off <= step.more
     assert step.more > 0.01 * size
 
 
@@ -220,13 +221,41 @@ def test_what_is_left_of_the_momentum_counts(left_out):
     assert (off > step.more) == left_out
 
 
-def test_what_is_left_of_the_turning_counts():
-    """With all that is left, the bound bounds; without e, κ and |p|² - 1 it would not."""
+@pytest.mark.parametrize("left_out", [False, True])
+def test_what_is_left_of_the_turning_counts(left_out):
+    """p does not move at all, and w is that of the start: e is all that is left."""
     path = begun()
-    floats, p, w, found, k, length = polynomials(path, corrected=False, spoilt=1e-4)
-    found = found._replace(e=NONE, kappa=NONE, off=NONE[0])
+    floats, p, w, _, k, length = steady(path)
+    with ctx.workprec(BITS):
+        p = [arb_poly([x[0]]) for x in p]
+        found = deviation.defects(p, w, k, path.body, 90)
+    assert models.bound(found.kappa) < 1e-30 < 1e-3 < models.bound(found.e)
+    if left_out:
+        found = found._replace(e=NONE)
     off, step, _, _ = off_by((0.0, 0.0, 0.0), floats, p, w, found, k, path, length)
-    assert off > step.more
+    assert (off > step.more) == left_out
+
+
+def test_the_second_order_is_within_its_bound():
+    """|d - 2Aξ| ≤ β(8σX²W + 5σXδ) with δ = 5βσXW/(1 - 5βσX), for random balls and turns; it comes within a decade."""
+    rng = np.random.default_rng(4)
+    largest = 0.0
+    for _ in range(400):
+        J = 10.0 ** rng.uniform(-1, 1, 3)
+        D, K, g, xi = 10.0 ** rng.uniform(-2, 1), rng.normal(size=3), rng.normal(size=3), rng.normal(size=3)
+        g, I = g / np.linalg.norm(g), np.diag([J[1] + J[2], J[0] + J[2], J[0] + J[1]])
+        B = I + D * (np.eye(3) - np.outer(g, g))
+        beta, sigma = np.linalg.norm(np.linalg.inv(B), 2), np.ptp(np.diag(I)) / 2
+        xi *= min(0.1 / (beta * sigma), 0.25) * 10.0 ** rng.uniform(-2, 0) / np.linalg.norm(xi)
+        X, w = np.linalg.norm(xi), np.linalg.solve(B, K)
+        R = np.array([[float(x) for x in row] for row in matrix_of([1.0, *map(float, xi)])])
+        d = np.linalg.solve(B + R @ I @ R.T - I, K) - w
+        W, s = np.linalg.norm(w), 5 * beta * sigma * X
+        beyond = np.linalg.norm(d - 2 * np.linalg.solve(B, np.array(series.bend(J, w, xi))))
+        bound = beta * (8 * sigma * X * X * W + 5 * sigma * X * s * W / (1 - s))
+        largest = max(largest, beyond / bound)
+        assert np.linalg.norm(d) <= s * W / (1 - s)
+    assert 0.1 < largest <= 1
 
 
 NONE = [models.Model(arb_poly([0]), 3)] * 3
