@@ -150,7 +150,7 @@ def _check_up(attitude: Sequence[Fraction], gamma: Sequence[Fraction]) -> None:
 def _ascending(times: Any) -> tuple[Fraction, ...]:
     from .flow.start import exactly, vector
 
-    if isinstance(times, str | int | float | Fraction | Decimal):
+    if isinstance(times, str) or not hasattr(times, "__iter__"):
         found: tuple[Fraction, ...] = (exactly(times, "times"),)
     else:
         listed = list(times)

@@ -178,6 +178,7 @@ BAD = [
     ({"times": ()}, "times must be one or more"),
     ({"times": (2, 1)}, "each later than the one before"),
     ({"times": -1}, "from 0 on"),
+    ({"times": None}, "times must be a number"),
     ({"digits": 0}, "digits must be a whole number from 1"),
     ({"digits": 2.5}, "digits must be a whole number from 1"),
     ({"limit": 0}, "limit must be a positive number"),
