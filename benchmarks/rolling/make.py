@@ -1,0 +1,100 @@
+"""Makes the data set anew from its cases: python -m benchmarks.rolling.make [NAME ...], some minutes.
+
+cases/NAME.toml is the scene; data/NAME.json has its frames as [middle, radius], and what is needed to set up an engine;
+data/NAME.csv the same in the units and names of engines.  data/SHA256SUMS has the digests of all files.
+"""
+
+import csv
+import hashlib
+import io
+import json
+import sys
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import mpmath
+
+from chapsym import files
+from chapsym.dynamics.certified_motion import decimal, follow
+from chapsym.scene import load
+from chapsym.scene.members.exactly import exact_motion
+
+HERE = Path(__file__).parent
+CASES, DATA = HERE / "cases", HERE / "data"
+DIGITS = 30
+#: Digits of the numbers in the CSV files: more than float64 has.
+SHOWN = 20
+#: What is less is 0, but for rounding.
+NOTHING = mpmath.mpf("1e-30")
+COLUMNS = "time x y z qw qx qy qz vx vy vz wx wy wz"
+
+
+def made(scene: Path) -> dict[str, Any]:
+    """The case of a scene: body, frames with proved radii, and how they were proved."""
+    given = load(scene)
+    start, times = exact_motion(given)
+    assert start.radius is not None
+    found = follow(start, times, DIGITS, limit=3600.0)
+    if found.stopped:
+        raise RuntimeError(f"{scene.name}: {found.stopped}")
+    mass = start.D / start.radius**2
+    whole = sum(start.mass_tensor)
+    moments = [decimal(whole - x) for x in start.mass_tensor]
+    body = {"mass": decimal(mass), "radius": decimal(start.radius), "inertia": moments}
+    return {"case": scene.stem, "title": given.title, "ball": body, **found.write()}
+
+
+def text(case: dict[str, Any]) -> str:
+    """As JSON, a frame a line."""
+    head = {name: value for name, value in case.items() if name != "frames"}
+    frames = ",\n".join(json.dumps(frame, separators=(",", ":")) for frame in case["frames"])
+    return json.dumps(head, ensure_ascii=False)[:-1] + f', "frames": [\n{frames}\n]}}\n'
+
+
+def table(case: dict[str, Any]) -> str:
+    """The frames as CSV, in space: the centre, the attitude from body to space, the velocity and ω."""
+    mpmath.mp.dps = DIGITS + 10
+    radius = mpmath.mpf(Fraction(case["ball"]["radius"]).numerator) / Fraction(case["ball"]["radius"]).denominator
+    stream = io.StringIO()
+    print("# m, s, rad; z is up; q turns the axes of the body into those of space", file=stream)
+    rows = csv.writer(stream, lineterminator="\n")
+    rows.writerow(COLUMNS.split())
+    for frame in case["frames"]:
+        (x, y), q, spin = (
+            [mpmath.mpf(middle) for middle, _ in frame[part]] for part in ("contact", "attitude", "omega")
+        )
+        w = turned(q, spin)
+        velocity = [radius * w[1], -radius * w[0], mpmath.mpf(0)]
+        numbers = [x, y, radius, *q, *velocity, *w]
+        rows.writerow([frame["time"], *(mpmath.nstr(v if abs(v) > NOTHING else 0, SHOWN) for v in numbers)])
+    return stream.getvalue()
+
+
+def turned(q: list[Any], v: list[Any]) -> list[Any]:
+    """A vector of the body in space."""
+    from chapsym import generated
+
+    rows = generated.rotation(*q)
+    return [sum(rows[3 * i + j] * v[j] for j in range(3)) for i in range(3)]
+
+
+def main(names: list[str]) -> None:
+    DATA.mkdir(exist_ok=True)
+    for scene in sorted(CASES.glob("*.toml")):
+        if names and scene.stem not in names:
+            continue
+        print(scene.stem, file=sys.stderr)
+        case = made(scene)
+        keep(DATA / f"{scene.stem}.json", text(case))
+        keep(DATA / f"{scene.stem}.csv", table(case))
+    sums = [f"{hashlib.sha256(p.read_bytes()).hexdigest()}  {p.name}\n" for p in sorted(DATA.glob("*.*"))]
+    keep(DATA / "SHA256SUMS", "".join(sums))
+
+
+def keep(path: Path, written: str) -> None:
+    files.write_whole(path, lambda stream: stream.write(written.encode()))
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

@@ -1,0 +1,75 @@
+"""chapsym judge: how far the trajectories of an engine are from a certified motion."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from .app import app
+from .options import Json
+from .output import fail, print_json
+
+if TYPE_CHECKING:
+    from chapsym.studies.judge import Convergence
+
+
+@app.command()
+def judge(
+    results: Annotated[list[Path], typer.Argument(metavar="RESULT.csv ...", help="Of one engine, each with its step.")],
+    against: Annotated[Path, typer.Option(metavar="CASE.json", help="A case of benchmarks/rolling/data.")],
+    output: Annotated[
+        Path | None,
+        typer.Option("-o", "--output", metavar="FILE", help="The curves: .svg, .png, .pdf, or a page: .html."),
+    ] = None,
+    as_json: Json = False,
+) -> None:
+    """Judge an engine: how far its ball is from where a ball that rolls without slipping is.
+
+    The columns are time, x, y, z, qw, qx, qy, qz and, for energy and momentum, vx, vy, vz, wx, wy, wz: m, s, rad, z up.
+    Three files or more, with steps in one ratio, tell the order, and what no step takes away.
+
+    Example: chapsym judge mine.csv --against benchmarks/rolling/data/robot.json
+    """
+    from chapsym.studies.judge import convergence, departure, read_case, read_trajectory, sentence
+
+    case = read_case(against)
+    runs = [read_trajectory(file, case.time) for file in results]
+    found = [departure(case, run) for run in runs]
+    known: dict[str, Convergence] = {}
+    if len(runs) > 2:
+        known = {name: convergence(runs, [getattr(one, name) for one in found], name) for name in ("path", "attitude")}
+    elif len(runs) == 2:
+        fail("give one result, or three or more with steps in one ratio: two do not tell an order", 2)
+    if output is not None:
+        from chapsym.studies.judge.drawing import save
+
+        save(output, case, runs, found, known)
+    if as_json:
+        rows = [
+            {"file": run.file, "time_step": run.step, "departure": one.summary(case.time)}
+            for run, one in zip(runs, found, strict=True)
+        ]
+        print_json(
+            {"case": case.name, "results": rows, "convergence": {name: vars(one) for name, one in known.items()}}
+        )
+        return
+    for run, one in zip(runs, found, strict=True):
+        print(f"{run.file}{'' if run.step is None else f', step {run.step:g} s'}, against {case.name}:")
+        for line in lines(one.summary(case.time)):
+            print(f"  {line}")
+    for name, several in known.items():
+        print(f"{name}: {sentence(several, 'm' if name == 'path' else 'degrees')}")
+    if output is not None:
+        print(f"wrote {output}")
+
+
+def lines(summary: dict[str, Any]) -> list[str]:
+    """A line for each part."""
+    found = []
+    for name, part in summary.items():
+        after = ""
+        if "limit" in part:
+            limit = f"{part['limit']:g} {part['unit']}"
+            after = f"within {limit}" if part["departs"] is None else f"beyond {limit} from {part['departs']:g} s on"
+        found.append(f"{name:9} at most {part['greatest']:<10.3g} {part['unit']:8} {after}".rstrip())
+    return found

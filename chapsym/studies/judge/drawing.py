@@ -1,0 +1,99 @@
+"""The departure of an engine as curves, and as a page with the curves and one table."""
+
+import html
+import io
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from chapsym import files
+from chapsym.dynamics.errors import BadInput
+from chapsym.show.drawing.style import WIDE, Picture, new, styled, write
+from chapsym.studies.figures import save_figure
+
+from .case import Case
+from .departure import LIMITS, UNITS, Departure
+from .order import Convergence, sentence
+from .trajectory import Trajectory
+
+FORMS = (".svg", ".png", ".pdf", ".html")
+
+
+def save(
+    output: Path, case: Case, runs: Sequence[Trajectory], found: Sequence[Departure], known: Mapping[str, Convergence]
+) -> None:
+    """Writes the curves, or the page; raises BadInput for another ending, CannotWrite where the disk refuses."""
+    if output.suffix not in FORMS:
+        raise BadInput(f"{str(output)!r} must end in {', '.join(FORMS)}")
+    files.check_destination(output)
+    data = {"case": case, "runs": runs, "found": found}
+    if output.suffix != ".html":
+        return save_figure(draw, data, output)
+    stream = io.BytesIO()
+    with styled():
+        write(draw(data), stream, "svg")
+    curves = stream.getvalue().decode()
+    page = _page(case, runs, found, known, curves[curves.index("<svg") :])
+    files.write_whole(output, lambda stream: stream.write(page.encode()))
+
+
+def draw(data: Mapping[str, Any]) -> Picture:
+    """A panel for each part, a line for each run, over the time; the limit of departure is dotted."""
+    case, found = data["case"], data["found"]
+    parts = [name for name in UNITS if any(name in one.parts() for one in found)]
+    title = f"{case.name}: distance from the certified motion"
+    figure, axes = new(title, -(-len(parts) // 2), 2, height=2.6, width=WIDE)
+    for axis, name in zip(axes, parts, strict=False):
+        for run, one in zip(data["runs"], found, strict=True):
+            if name in one.parts():
+                away = np.abs(one.parts()[name])
+                label = Path(run.file).stem if run.step is None else f"{run.step:g} s"
+                axis.plot(case.time[away > 0], away[away > 0], label=label)
+        if name in LIMITS:
+            axis.axhline(LIMITS[name], color="0.5", linestyle=":", linewidth=1)
+        axis.set(yscale="log", ylabel=f"{name}, {UNITS[name]}", xlabel="t, s", xlim=(0, case.time[-1]))
+    for axis in axes[len(parts) :]:
+        axis.set_visible(False)
+    axes[0].legend()
+    return figure
+
+
+def _page(
+    case: Case, runs: Sequence[Trajectory], found: Sequence[Departure], known: Mapping[str, Convergence], curves: str
+) -> str:
+    names = [name for name in UNITS if any(name in one.parts() for one in found)]
+    head = "".join(f"<th>{name}, {UNITS[name]}</th>" for name in names)
+    rows = ""
+    for run, one in zip(runs, found, strict=True):
+        summary = one.summary(case.time)
+        cells = "".join(f"<td>{_cell(summary.get(name))}</td>" for name in names)
+        step = "" if run.step is None else f"{run.step:g}"
+        rows += f"<tr><th>{html.escape(run.file)}</th><td>{step}</td>{cells}</tr>\n"
+    said = "".join(f"<p>{html.escape(f'{name}: {sentence(one, UNITS[name])}')}</p>\n" for name, one in known.items())
+    limits = ", ".join(f"{limit:g} {UNITS[name]} ({name})" for name, limit in LIMITS.items())
+    title = html.escape(case.name)
+    return f"""<!doctype html>
+<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
+<title>{title}: an engine, judged</title>
+<style>body {{ font: 16px/1.5 system-ui, sans-serif; max-width: 70rem; margin: 2rem auto; padding: 0 1rem }}
+table {{ border-collapse: collapse; display: block; overflow-x: auto }}
+th, td {{ padding: .3rem .8rem; text-align: right; border-bottom: 1px solid #ddd }}
+th:first-child {{ text-align: left }}
+svg {{ width: 100%; height: auto }}</style></head>
+<body><h1>{title}</h1>
+<p>How far the ball of an engine is from the certified motion of a ball that rolls without slipping: the greatest
+distance at the frames, and when it passes {limits}.</p>
+<table><thead><tr><th>file</th><th>step, s</th>{head}</tr></thead><tbody>
+{rows}</tbody></table>
+{said}{curves}
+</body></html>
+"""
+
+
+def _cell(part: Mapping[str, Any] | None) -> str:
+    if part is None:
+        return ""
+    departs = part.get("departs")
+    return f"{part['greatest']:.3g}" + ("" if departs is None else f"<br><small>from {departs:g} s on</small>")
