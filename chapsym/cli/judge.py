@@ -65,11 +65,13 @@ def judge(
 
 def lines(summary: dict[str, Any]) -> list[str]:
     """A line for each part."""
+    from chapsym.studies.judge.departure import limit_of
+
     found = []
     for name, part in summary.items():
         after = ""
         if "limit" in part:
-            limit = f"{part['limit']:g} {part['unit']}"
+            limit = limit_of(name)
             after = f"within {limit}" if part["departs"] is None else f"beyond {limit} from {part['departs']:g} s on"
         found.append(f"{name:9} at most {part['greatest']:<10.3g} {part['unit']:8} {after}".rstrip())
     return found

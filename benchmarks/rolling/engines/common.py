@@ -1,6 +1,7 @@
 """What the adapters share: the start of a case as an engine takes it, and the file that it writes."""
 
-from collections.abc import Iterable
+import argparse
+from collections.abc import Callable, Iterable
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +11,8 @@ from chapsym.studies.judge import Case, read_case
 from chapsym.studies.judge.trajectory import MORE, NEEDED
 
 DATA = Path(__file__).parents[1] / "data"
+#: Time, centre, quaternion (scalar first), velocity and ω in space.
+Rows = Iterable[Iterable[float]]
 
 
 def case_of(name: str) -> Case:
@@ -30,12 +33,20 @@ def steps_between(case: Case, step: float) -> int:
     return count
 
 
-def write(path: Path, step: float, rows: Iterable[Iterable[float]]) -> None:
-    """time, centre, quaternion (scalar first), velocity, ω in space."""
+def text(step: float, rows: Rows) -> str:
+    """The file that `chapsym judge` reads."""
+    lines = [f"# time_step = {step!r}", ",".join((*NEEDED, *MORE))]
+    lines += [",".join(repr(float(x)) for x in row) for row in rows]
+    return "\n".join(lines) + "\n"
 
-    def text(stream):
-        lines = [f"# time_step = {step!r}", ",".join((*NEEDED, *MORE))]
-        lines += [",".join(repr(float(x)) for x in row) for row in rows]
-        stream.write(("\n".join(lines) + "\n").encode())
 
-    files.write_whole(path, text)
+def command(run: Callable[[Case, float, bool], Rows], about: str) -> None:
+    """The command line of an adapter."""
+    parser = argparse.ArgumentParser(description=about.splitlines()[0])
+    parser.add_argument("case")
+    parser.add_argument("step", type=float)
+    parser.add_argument("output", type=Path)
+    parser.add_argument("--best", action="store_true", help="the settings that we found best, instead of the defaults")
+    given = parser.parse_args()
+    written = text(given.step, run(case_of(given.case), given.step, given.best)).encode()
+    files.write_whole(given.output, lambda stream: stream.write(written))

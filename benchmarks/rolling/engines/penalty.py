@@ -4,24 +4,18 @@ The floor is a spring with a damper; the friction is a force against the slip, i
 Kutta's method of order 4 with a fixed step, in space.
 """
 
-import argparse
-from pathlib import Path
-
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from .common import case_of, steps_between, velocity_of, write
+from chapsym.studies.judge import Case
+
+from .common import Rows, command, steps_between, velocity_of
 
 GRAVITY, STIFFNESS, DAMPING, VISCOSITY = 9.81, 1e6, 1e3, 1e3  # m/s², N/m, N s/m, N s/m, each a kg of the ball
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("case")
-    parser.add_argument("step", type=float)
-    parser.add_argument("output", type=Path)
-    given = parser.parse_args()
-    case = case_of(given.case)
+def run(case: Case, step: float, best: bool = False) -> Rows:
+    """There is one setting only."""
 
     def rate(state: np.ndarray) -> np.ndarray:
         """Of the centre, the quaternion (scalar first), the velocity and ω."""
@@ -40,7 +34,7 @@ def main() -> None:
 
     sunk = GRAVITY / STIFFNESS
     start = [[*case.path[0], case.radius - sunk], case.attitude[0], velocity_of(case), case.omega[0]]
-    state, rows, count, h = np.concatenate(start), [], steps_between(case, given.step), given.step
+    state, count, h = np.concatenate(start), steps_between(case, step), step
     for time in case.time:
         for _ in range(count if time else 0):
             a = rate(state)
@@ -48,9 +42,8 @@ def main() -> None:
             c = rate(state + h / 2 * b)
             state = state + h / 6 * (a + 2 * b + 2 * c + rate(state + h * c))
             state[3:7] /= np.linalg.norm(state[3:7])
-        rows.append([time, *state])
-    write(given.output, given.step, rows)
+        yield [time, *state]
 
 
 if __name__ == "__main__":
-    main()
+    command(run, __doc__)

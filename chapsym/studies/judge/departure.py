@@ -13,6 +13,11 @@ LIMITS = {"path": 1e-3, "attitude": 1.0, "energy": 1.0, "momentum": 1.0}
 UNITS = {"path": "m", "attitude": "degrees", "energy": "%", "momentum": "%", "height": "m", "slip": "m/s"}
 
 
+def limit_of(name: str) -> str:
+    """A limit in words: 1 degree."""
+    return f"{LIMITS[name]:g} {'degree' if name == 'attitude' else UNITS[name]}"
+
+
 @dataclass(frozen=True, eq=False)
 class Departure:
     """At the frames, (frames,) each, or None where the file has no velocities.

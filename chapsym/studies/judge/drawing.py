@@ -1,7 +1,6 @@
 """The departure of an engine as curves, and as a page with the curves and one table."""
 
 import html
-import io
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -10,11 +9,11 @@ import numpy as np
 
 from chapsym import files
 from chapsym.dynamics.errors import BadInput
-from chapsym.show.drawing.style import WIDE, Picture, new, styled, write
+from chapsym.show.drawing.style import WIDE, Picture, legend, new, styled
 from chapsym.studies.figures import save_figure
 
 from .case import Case
-from .departure import LIMITS, UNITS, Departure
+from .departure import LIMITS, UNITS, Departure, limit_of
 from .order import Convergence, sentence
 from .trajectory import Trajectory
 
@@ -31,16 +30,13 @@ def save(
     data = {"case": case, "runs": runs, "found": found}
     if output.suffix != ".html":
         return save_figure(draw, data, output)
-    stream = io.BytesIO()
     with styled():
-        write(draw(data), stream, "svg")
-    curves = stream.getvalue().decode()
-    page = _page(case, runs, found, known, curves[curves.index("<svg") :])
+        page = _page(case, runs, found, known, draw(data).svg())
     files.write_whole(output, lambda stream: stream.write(page.encode()))
 
 
 def draw(data: Mapping[str, Any]) -> Picture:
-    """A panel for each part, a line for each run, over the time; the limit of departure is dotted."""
+    """A panel for each part, a line for each run, over the time after the start; the limit of departure is dotted."""
     case, found = data["case"], data["found"]
     parts = [name for name in UNITS if any(name in one.parts() for one in found)]
     title = f"{case.name}: distance from the certified motion"
@@ -48,15 +44,19 @@ def draw(data: Mapping[str, Any]) -> Picture:
     for axis, name in zip(axes, parts, strict=False):
         for run, one in zip(data["runs"], found, strict=True):
             if name in one.parts():
-                away = np.abs(one.parts()[name])
-                label = Path(run.file).stem if run.step is None else f"{run.step:g} s"
-                axis.plot(case.time[away > 0], away[away > 0], label=label)
+                label = Path(run.file).stem if run.step is None else f"step {run.step:g} s"
+                away = one.parts()[name][1:]
+                axis.plot(case.time[1:], away if name == "height" else np.abs(away), label=label)
         if name in LIMITS:
             axis.axhline(LIMITS[name], color="0.5", linestyle=":", linewidth=1)
-        axis.set(yscale="log", ylabel=f"{name}, {UNITS[name]}", xlabel="t, s", xlim=(0, case.time[-1]))
+        if name == "height":
+            axis.ticklabel_format(axis="y", scilimits=(-2, 3))
+        else:
+            axis.set_yscale("log", nonpositive="mask")
+        axis.set(ylabel=f"{name}, {UNITS[name]}", xlabel="t, s", xlim=(0, case.time[-1]))
     for axis in axes[len(parts) :]:
         axis.set_visible(False)
-    axes[0].legend()
+    legend(figure, axes)
     return figure
 
 
@@ -70,18 +70,18 @@ def _page(
         summary = one.summary(case.time)
         cells = "".join(f"<td>{_cell(summary.get(name))}</td>" for name in names)
         step = "" if run.step is None else f"{run.step:g}"
-        rows += f"<tr><th>{html.escape(run.file)}</th><td>{step}</td>{cells}</tr>\n"
+        rows += f"<tr><th>{html.escape(Path(run.file).name)}</th><td>{step}</td>{cells}</tr>\n"
     said = "".join(f"<p>{html.escape(f'{name}: {sentence(one, UNITS[name])}')}</p>\n" for name, one in known.items())
-    limits = ", ".join(f"{limit:g} {UNITS[name]} ({name})" for name, limit in LIMITS.items())
+    limits = ", ".join(f"{limit_of(name)} ({name})" for name in LIMITS)
     title = html.escape(case.name)
     return f"""<!doctype html>
 <html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
 <title>{title}: an engine, judged</title>
 <style>body {{ font: 16px/1.5 system-ui, sans-serif; max-width: 70rem; margin: 2rem auto; padding: 0 1rem }}
 table {{ border-collapse: collapse; display: block; overflow-x: auto }}
-th, td {{ padding: .3rem .8rem; text-align: right; border-bottom: 1px solid #ddd }}
+th, td {{ padding: .3rem .8rem; text-align: right; border-bottom: 1px solid #ddd; white-space: nowrap; vertical-align: top }}
 th:first-child {{ text-align: left }}
-svg {{ width: 100%; height: auto }}</style></head>
+small {{ color: #555 }}</style></head>
 <body><h1>{title}</h1>
 <p>How far the ball of an engine is from the certified motion of a ball that rolls without slipping: the greatest
 distance at the frames, and when it passes {limits}.</p>

@@ -55,8 +55,8 @@ def sentence(found: Convergence, unit: str) -> str:
     if found.order is None:
         return "the differences between steps do not fall: no order"
     return (
-        f"order {found.order:.2f}; of the finest run's distance {found.of_the_step:.2g} {unit} are of its step, "
-        f"{found.floor:.2g} {unit} are not (estimated)"
+        f"order {found.order:.2f}; of the finest run's distance {found.of_the_step:.3g} {unit} are of its step, "
+        f"{found.floor:.3g} {unit} are not (estimated)"
     )
 
 
