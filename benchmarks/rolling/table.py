@@ -1,10 +1,9 @@
-"""Measures engines on five cases: python -m benchmarks.rolling.table > docs/reference/measured/engines.md, some minutes.
+"""Measures engines on five cases, for docs/reference/measured/engines.md: python -m benchmarks.rolling.table, minutes.
 
 An engine whose package is not installed is left out, and named.
 """
 
 import importlib
-import math
 import sys
 from collections.abc import Iterator
 from importlib.metadata import version
@@ -15,6 +14,7 @@ from chapsym.studies.judge import Case, convergence, departure, read_trajectory
 
 from .engines.common import case_of, text
 
+OUTPUT = Path(__file__).parents[2] / "docs" / "reference" / "measured" / "engines.md"
 CASES = ("bowling", "random-3", "robot", "heavy-axis", "separatrix")
 STEPS = (0.002, 0.001, 0.0005)
 #: The module of an engine, its package, its name, its steps in s, and whether it has settings that are better.
@@ -22,16 +22,18 @@ ENGINES = (
     ("mujoco_ball", "mujoco", "MuJoCo", STEPS, True),
     ("pybullet_ball", "pybullet", "PyBullet", STEPS, True),
     ("drake_ball", "drake", "Drake", STEPS, True),
-    ("penalty", "scipy", "penalty contact (SciPy)", (0.0005, 0.00025, 0.000125), False),
+    ("penalty", "chapsym", "penalty contact", (0.0005, 0.00025, 0.000125), False),
 )
 HEAD = """# Engines, measured
 
-How far the balls of engines are from certified motions ([how to judge one](../../how-to/judge-an-engine.md)): the greatest at the
-frames of a case. `momentum` is that about the point of contact, as a vector in space. Order and floor are those of the path, estimated
-from the three steps; the floor is what is left of the finest run's distance when its step is taken to 0. Where the differences between
-steps do not fall, there is no order. `defaults` are the settings that the engine comes with, `best` those that we found best; both stand
-in `benchmarks/rolling/engines`. Written by `python -m benchmarks.rolling.table`, with {versions}.
+How far the balls of engines are from certified motions ([how to judge one](../../how-to/judge-an-engine.md)): the
+greatest at the frames of a case. `momentum` is that about the point of contact, as a vector in space. Order and floor
+are those of the path, estimated from the three steps: the floor is what is left of the finest run's distance if its
+step goes to 0. Where the differences between steps do not fall, there is no order. `defaults` are the settings that the
+engine comes with, `best` those that we found best; both are in `benchmarks/rolling/engines`. The penalty contact is a
+control of our own. Written by `python -m benchmarks.rolling.table`, with {versions}.
 """
+COLUMNS = "| engine | settings | step, ms | path, m | attitude, degrees | energy, % | momentum, % | order | floor, m |"
 
 
 def rows(case: Case, module: str, steps: tuple[float, ...], best: bool) -> Iterator[str]:
@@ -56,7 +58,7 @@ def rows(case: Case, module: str, steps: tuple[float, ...], best: bool) -> Itera
 
 def plain(number: str) -> str:
     """As decimals where they are short."""
-    return f"{float(number):g}" if "e+" in number and math.isfinite(float(number)) else number
+    return f"{float(number):g}" if "e+" in number else number
 
 
 def main() -> None:
@@ -68,22 +70,20 @@ def main() -> None:
             missing.append(engine[2])
         else:
             there.append(engine)
-            versions.append(f"{engine[2]} {version(engine[1])}" if engine[4] else f"SciPy {version(engine[1])}")
-    print(HEAD.format(versions=", ".join(versions)))
+            versions.append(f"{engine[2]} {version(engine[1])}" if engine[4] else f"chapsym {version(engine[1])}")
+    lines = [HEAD.format(versions=", ".join(versions))]
     if missing:
-        print(f"Not installed here: {', '.join(missing)}.\n")
+        lines.append(f"Not installed here: {', '.join(missing)}.\n")
     for name in CASES:
         case = case_of(name)
-        print(f"## {name}\n\n{case.time[-1]:g} s.\n")
-        print("| engine | settings | step, ms | path, m | attitude, degrees | energy, % | momentum, % | order | floor, m |")
-        print("|---|---|---|---|---|---|---|---|---|")
+        lines += [f"## {name}\n\n{case.time[-1]:g} s.\n", COLUMNS, "|---" * 9 + "|"]
         for module, _, title, steps, two in there:
             for best in (False, True) if two else (False,):
-                print(name, title, best, file=sys.stderr)
+                print(name, title, "best" if best else "", file=sys.stderr)
                 settings = ("best" if best else "defaults") if two else ""
-                for row in rows(case, module, steps, best):
-                    print(f"| {title} | {settings} | {row} |", flush=True)
-        print()
+                lines += [f"| {title} | {settings} | {row} |" for row in rows(case, module, steps, best)]
+        lines.append("")
+    OUTPUT.write_text("\n".join(lines), encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -1,13 +1,14 @@
 """Drake: python -m benchmarks.rolling.engines.drake_ball CASE STEP OUTPUT.csv [--best]
 
-A free sphere with the moments of the case on a half space, in a discrete MultibodyPlant with the settings as they come
-and friction 0.5; with --best friction 10, a penetration of 1e-6 m and a stiction tolerance of 1e-6 m/s.
+A free sphere with the moments of the case on a half space, in a discrete MultibodyPlant with friction 0.5 and else the
+settings as they come; with --best Drake's contact SAP with a stiffness of 1e9 N/m, near-rigid from 1e-4 on, and
+friction 10.
 """
 
 import numpy as np
-from pydrake.geometry import HalfSpace, Sphere
+from pydrake.geometry import AddContactMaterial, HalfSpace, ProximityProperties, Sphere
 from pydrake.math import RigidTransform
-from pydrake.multibody.plant import AddMultibodyPlantSceneGraph, CoulombFriction
+from pydrake.multibody.plant import AddMultibodyPlantSceneGraph, CoulombFriction, DiscreteContactApproximation
 from pydrake.multibody.tree import SpatialInertia, UnitInertia
 from pydrake.systems.analysis import Simulator
 from pydrake.systems.framework import DiagramBuilder
@@ -22,13 +23,16 @@ def run(case: Case, step: float, best: bool) -> Rows:
     plant, _ = AddMultibodyPlantSceneGraph(builder, step)
     moments = UnitInertia(*(case.inertia / case.mass))
     ball = plant.AddRigidBody("ball", SpatialInertia(case.mass, np.zeros(3), moments))
-    friction = CoulombFriction(*((10.0, 10.0) if best else (0.5, 0.5)))
-    plant.RegisterCollisionGeometry(ball, RigidTransform(), Sphere(case.radius), "sphere", friction)
-    plant.RegisterCollisionGeometry(plant.world_body(), RigidTransform(), HalfSpace(), "floor", friction)
-    plant.Finalize()
+    material = ProximityProperties()
     if best:
-        plant.set_penetration_allowance(1e-6)
-        plant.set_stiction_tolerance(1e-6)
+        AddContactMaterial(point_stiffness=1e9, friction=CoulombFriction(10.0, 10.0), properties=material)
+        plant.set_discrete_contact_approximation(DiscreteContactApproximation.kSap)
+        plant.set_sap_near_rigid_threshold(1e-4)
+    else:
+        AddContactMaterial(friction=CoulombFriction(0.5, 0.5), properties=material)
+    plant.RegisterCollisionGeometry(ball, RigidTransform(), Sphere(case.radius), "sphere", material)
+    plant.RegisterCollisionGeometry(plant.world_body(), RigidTransform(), HalfSpace(), "floor", material)
+    plant.Finalize()
     diagram = builder.Build()
     simulator = Simulator(diagram)
     context = plant.GetMyMutableContextFromRoot(simulator.get_mutable_context())

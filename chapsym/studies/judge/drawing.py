@@ -79,7 +79,8 @@ def _page(
 <title>{title}: an engine, judged</title>
 <style>body {{ font: 16px/1.5 system-ui, sans-serif; max-width: 70rem; margin: 2rem auto; padding: 0 1rem }}
 table {{ border-collapse: collapse; display: block; overflow-x: auto }}
-th, td {{ padding: .3rem .8rem; text-align: right; border-bottom: 1px solid #ddd; white-space: nowrap; vertical-align: top }}
+th, td {{ padding: .3rem .8rem; text-align: right; vertical-align: top; white-space: nowrap }}
+th, td {{ border-bottom: 1px solid #ddd }}
 th:first-child {{ text-align: left }}
 small {{ color: #555 }}</style></head>
 <body><h1>{title}</h1>
