@@ -1,0 +1,263 @@
+"""How far an engine is from a certified motion: `chapsym judge`, and the data of benchmarks/rolling."""
+
+import csv
+import hashlib
+import json
+import re
+from decimal import Decimal
+from pathlib import Path
+
+import numpy as np
+import pytest
+from commands import answer, chapsym, refused
+
+from benchmarks.rolling import make
+from chapsym.studies.judge import Trajectory, convergence, departure, read_case, read_trajectory, sentence
+from chapsym.studies.judge.departure import angle
+from chapsym.studies.judge.trajectory import MORE, NEEDED
+
+DATA = make.DATA
+FILE = DATA / "random-3.json"
+#: Of float64, some operations after one another.
+ROUNDING = 50 * 2.0**-53
+
+
+@pytest.fixture(scope="module")
+def case():
+    return read_case(FILE)
+
+
+@pytest.fixture(scope="module")
+def table():
+    """The case as an engine without an error would write it: a row for each frame, by column."""
+    lines = [line for line in FILE.with_suffix(".csv").read_text("utf-8").splitlines() if not line.startswith("#")]
+    rows = list(csv.DictReader(lines))
+    return {name: np.array([float(row[name]) for row in rows]) for name in rows[0]}
+
+
+def text(table, step=None):
+    head = [] if step is None else [f"# time_step = {step}"]
+    rows = [",".join(map(repr, map(float, row))) for row in zip(*table.values(), strict=True)]
+    return "\n".join([*head, ",".join(table), *rows]) + "\n"
+
+
+def judged(case, table, folder):
+    file = folder / "run.csv"
+    file.write_text(text(table), encoding="utf-8")
+    return departure(case, read_trajectory(file, case.time))
+
+
+@pytest.mark.parametrize("file", sorted(DATA.glob("*.json")), ids=lambda file: file.stem)
+def test_a_cases_own_table_departs_by_rounding_only(file):
+    case = read_case(file)
+    found = departure(case, read_trajectory(file.with_suffix(".csv"), case.time)).parts()
+    long = max(1.0, abs(case.path).max())
+    assert found["path"].max() <= ROUNDING * long
+    assert np.radians(found["attitude"]).max() <= ROUNDING
+    assert abs(found["height"]).max() == 0.0
+    # the energy and the momentum are kept by the motion: what is left is rounding, of terms that may be larger
+    assert max(abs(found[name]).max() for name in ("energy", "momentum")) / 100 <= 4 * ROUNDING
+    assert found["slip"].max() <= ROUNDING * case.radius * abs(case.omega).max()
+
+
+def test_a_shift_a_turn_and_a_lift_are_told(case, table, tmp_path):
+    cos, sin = np.cos(np.radians(1)), np.sin(np.radians(1))  # a turn by 2 degrees about the vertical
+    q = [table[name] for name in NEEDED[4:]]
+    turned = [cos * q[0] - sin * q[3], cos * q[1] - sin * q[2], cos * q[2] + sin * q[1], cos * q[3] + sin * q[0]]
+    moved = {"x": table["x"] + 1.2e-3, "y": table["y"] - 1.6e-3, "z": table["z"] + 3e-4}
+    found = judged(case, table | moved | dict(zip(NEEDED[4:], turned, strict=True)), tmp_path)
+    np.testing.assert_allclose(found.path, 2e-3, rtol=1e-11)  # differences of metres
+    np.testing.assert_allclose(found.attitude, 2.0, rtol=1e-12)
+    np.testing.assert_allclose(found.height, 3e-4, rtol=1e-11)
+    known = found.summary(case.time)
+    assert (known["path"]["departs"], known["attitude"]["departs"]) == (0.0, 0.0)
+    assert "departs" not in known["height"]
+
+
+def test_a_speed_that_is_one_per_cent_higher_is_told_in_energy_momentum_and_slip(case, table, tmp_path):
+    faster = {name: 1.01 * table[name] for name in MORE}
+    found = judged(case, table | faster, tmp_path)
+    np.testing.assert_allclose(found.energy, 2.01, rtol=1e-11)  # 1.01² = 1.0201
+    np.testing.assert_allclose(found.momentum, 1.0, rtol=1e-11)
+    assert found.slip.max() <= ROUNDING * case.radius * abs(case.omega).max()  # it rolls
+    found = judged(case, table | {name: 1.01 * table[name] for name in MORE[:3]}, tmp_path)
+    speed = case.radius * np.linalg.norm(case.omega[:, :2], axis=-1)
+    np.testing.assert_allclose(found.slip, speed / 100, rtol=1e-11)
+    # mv²/2 grows by 2.01 %, of an energy of which it is a part; mρ|v| by 1 % of a momentum that has the spin, too
+    rows = _matrices(case.attitude)
+    spin = np.einsum("fij,j,fkj,fk->fi", rows, case.inertia, rows, case.omega)
+    carried = spin + case.mass * case.radius**2 * case.omega * [1, 1, 0]
+    energy = (case.omega * carried).sum(axis=-1)[0] / 2
+    np.testing.assert_allclose(found.energy, 2.01 * case.mass * speed**2 / 2 / energy, rtol=1e-9)
+    whole = np.linalg.norm(carried[0])
+    np.testing.assert_allclose(found.momentum, case.mass * case.radius * speed / whole, rtol=1e-9)
+
+
+def _matrices(q):
+    """By the formula of the quaternion, apart from the code's."""
+    w, u = q[:, 0, None, None], q[:, 1:]
+    cross = np.cross(np.eye(3), u[:, None, :])  # rows: e_i × u
+    return (2 * w**2 - 1) * np.eye(3) + 2 * u[:, :, None] * u[:, None, :] + 2 * w * cross
+
+
+def test_an_attitude_and_its_negative_are_one_and_velocities_may_be_left_out(case, table, tmp_path):
+    other = table | {name: -table[name] for name in NEEDED[4:]}
+    assert np.radians(judged(case, other, tmp_path).attitude).max() <= ROUNDING
+    found = judged(case, {name: table[name] for name in NEEDED}, tmp_path)
+    assert list(found.parts()) == ["path", "attitude", "height"]
+    q = np.array([1.0, 0.0, 0.0, 0.0])
+    for small in (1e-9, 1.0, 179.0, 180.0):
+        half = np.radians(small) / 2
+        assert angle(q, np.array([np.cos(half), 0, np.sin(half), 0])) == pytest.approx(small, rel=1e-14)
+
+
+def run(step, order, floor, frames=5):
+    """Off by step^order along x, and by the floor beyond that: a soft contact, say."""
+    away = np.linspace(0, 1, frames)
+    centre = np.stack([away * (step**order + floor), 0 * away, 0 * away], axis=-1)
+    return Trajectory("made up", centre, np.tile([1.0, 0, 0, 0], (frames, 1)), None, None, step)
+
+
+@pytest.mark.parametrize(("order", "floor"), [(1, 0.0), (2, 0.003), (4, 1e-4)])
+def test_the_order_and_the_floor_of_known_runs_are_found(order, floor):
+    runs = [run(step, order, floor) for step in (0.1, 0.4, 0.2)]  # in any order
+    found = convergence(runs, [one.centre[:, 0] for one in runs])
+    assert found.order == pytest.approx(order, rel=1e-11)
+    assert found.of_the_step == pytest.approx(0.1**order, rel=1e-10)
+    assert found.floor == pytest.approx(floor, rel=1e-8, abs=1e-12)
+    assert sentence(found, "m").startswith(f"order {order:.2f}; ")
+
+
+def test_steps_that_do_not_matter_have_no_order():
+    runs = [run(step, 2, 0.0) for step in (0.1, 0.1, 0.1)]
+    for one, step in zip(runs, (0.4, 0.2, 0.1), strict=True):
+        object.__setattr__(one, "step", step)
+    found = convergence(runs, [one.centre[:, 0] for one in runs])
+    assert (found.order, found.of_the_step, found.floor) == (None, None, None)
+    assert sentence(found, "m") == "the differences between steps do not fall: no order"
+
+
+def first(table, name, value):
+    return table | {name: np.array([value, *table[name][1:]])}
+
+
+REFUSED = {
+    "has no column qw": lambda t: text({name: column for name, column in t.items() if name != "qw"}),
+    "has no row at 10 s: it must have one at each time": lambda t: text({k: v[:-1] for k, v in t.items()}),
+    "has no row at 0.25 s": lambda t: text(t | {"time": t["time"] + 1e-3 * (t["time"] == 0.25)}),
+    "the quaternion at 0 s has the length": lambda t: text(first(t, "qw", 3.0)),
+    "row 1 must have 14 finite numbers": lambda t: text(first(t, "vx", np.nan)),
+    "row 2 must have 14 finite": lambda t: "\n".join([*text(t).splitlines()[:2], "0.25,1,2"]),
+    "row 1 must have 14": lambda t: text(t).replace("\n0.0,", "\nzero,"),
+    "has no rows": lambda t: text(t).splitlines()[0],
+    "has no column time": lambda t: "",
+    "time_step must be a positive number of seconds, not -1": lambda t: text(t, -1),
+    "time_step must be a positive number of seconds, not soon": lambda t: text(t, "soon"),
+}
+
+
+@pytest.mark.parametrize("sentence", REFUSED)
+def test_a_table_that_cannot_be_judged_is_refused_in_one_sentence(sentence, table, tmp_path):
+    file = tmp_path / "bad.csv"
+    file.write_text(REFUSED[sentence](table), encoding="utf-8")
+    assert sentence in refused("judge", file, "--against", FILE)
+
+
+def test_files_that_are_none_are_refused_in_one_sentence(table, tmp_path):
+    own = FILE.with_suffix(".csv")
+    assert "two do not tell an order" in refused("judge", own, own, "--against", FILE)
+    assert "has no line '# time_step = SECONDS'" in refused("judge", own, own, own, "--against", FILE)
+    steps = []
+    for step in (0.004, 0.002, 0.0005):
+        steps.append(tmp_path / f"{step}.csv")
+        steps[-1].write_text(text(table, step), encoding="utf-8")
+    assert "the same number each time, but they are 0.004, 0.002, 0.0005" in refused("judge", *steps, "--against", FILE)
+    assert "the same number" in refused("judge", steps[0], steps[0], steps[0], "--against", FILE)
+    assert "is no case" in refused("judge", own, "--against", own)
+    other = tmp_path / "other.json"
+    for content in ("{}", "[]", '{"case": "a", "ball": {"mass": "1/0"}}', "[" * 100000):
+        other.write_text(content, encoding="utf-8")
+        assert "is no case" in refused("judge", own, "--against", other)
+    assert "cannot be read: No such file" in refused("judge", own, "--against", tmp_path / "none.json")
+    assert "cannot be read: No such file" in refused("judge", tmp_path / "none.csv", "--against", FILE)
+    assert "cannot be read" in refused("judge", tmp_path, "--against", FILE)
+    (tmp_path / "bytes.csv").write_bytes(b"\xff\xfe\x00")
+    assert "it is no text" in refused("judge", tmp_path / "bytes.csv", "--against", FILE)
+    assert "must end in .svg" in refused("judge", own, "--against", FILE, "-o", tmp_path / "x.txt")
+
+
+@pytest.fixture(scope="module")
+def three(table, tmp_path_factory):
+    """Three runs of an engine of order 2 that is 2 mm off whatever its step."""
+    folder = tmp_path_factory.mktemp("three")
+    for step in (0.04, 0.02, 0.01):
+        file = folder / f"{step}.csv"
+        file.write_text(text(table | {"x": table["x"] + (step**2 + 0.002) * table["time"] / 10}, step), "utf-8")
+    return sorted(folder.iterdir())
+
+
+def test_the_command_tells_the_departure_and_the_order(three):
+    found = answer("judge", *three, "--against", FILE)
+    assert list(found) == ["case", "results", "convergence"]
+    assert found["case"] == "random-3"
+    assert [row["time_step"] for row in found["results"]] == [0.01, 0.02, 0.04]
+    path = found["results"][0]["departure"]["path"]
+    assert list(path) == ["greatest", "end", "unit", "limit", "departs"]
+    assert path["greatest"] == pytest.approx(0.0021, rel=1e-9)
+    assert (path["unit"], path["limit"], path["departs"]) == ("m", 1e-3, 5.0)  # 2.1 mm · t/10 s: from 4.76 s on
+    assert found["convergence"]["path"]["order"] == pytest.approx(2, rel=1e-6)
+    assert found["convergence"]["path"]["floor"] == pytest.approx(0.002, rel=1e-6)
+    assert found["convergence"]["attitude"] == {"order": None, "of_the_step": None, "floor": None}
+    said = chapsym("judge", three[0], "--against", FILE).stdout.splitlines()
+    assert said[0] == f"{three[0]}, step 0.01 s, against random-3:"
+    assert said[1].split() == ["path", "at", "most", "0.0021", "m", "beyond", "0.001", "m", "from", "5", "s", "on"]
+    assert [line.split()[0] for line in said[1:]] == ["path", "attitude", "energy", "momentum", "height", "slip"]
+    assert "within 1 degree" in said[2]
+
+
+def test_the_page_has_one_table_and_the_curves_and_the_figure_the_same_bytes_twice(three, tmp_path):
+    pytest.importorskip("matplotlib")
+    page = tmp_path / "page.html"
+    assert f"wrote {page}" in chapsym("judge", *three, "--against", FILE, "-o", page).stdout
+    written = page.read_text("utf-8")
+    assert written.count("<table>") == written.count("<svg") == 1
+    assert written.count("<tr>") == 4
+    assert "<th>0.01.csv</th><td>0.01</td><td>0.0021<br><small>from 5 s on</small></td>" in written
+    assert "path: order 2.00" in written
+    assert not re.search(r"(src|href)=.http|url\(http|<script", written)
+    made = []
+    for _ in range(2):
+        done = chapsym("judge", FILE.with_suffix(".csv"), "--against", FILE, "-o", tmp_path / "one.svg")
+        assert (done.returncode, done.stderr) == (0, "")
+        made.append((tmp_path / "one.svg").read_bytes())
+    assert made[0] == made[1]
+    assert made[0].startswith(b"<?xml")
+
+
+def test_the_data_are_those_that_their_hashes_name():
+    lines = (DATA / "SHA256SUMS").read_text("utf-8").splitlines()
+    named = dict(reversed(line.split("  ")) for line in lines)
+    scenes = {scene.stem for scene in make.CASES.glob("*.toml")}
+    assert set(named) == {f"{name}.{kind}" for name in scenes for kind in ("json", "csv")}
+    for name, digest in named.items():
+        assert hashlib.sha256((DATA / name).read_bytes()).hexdigest() == digest, name
+
+
+def test_every_number_of_the_data_has_thirty_digits():
+    """Its proved radius is below 1e-30 of the greatest of its vector, or of 1."""
+    for file in DATA.glob("*.json"):
+        data = json.loads(file.read_text("utf-8"))
+        assert data["digits"] == 30
+        for frame in data["frames"]:
+            for part in ("gamma", "angular_momentum", "omega", "attitude", "contact"):
+                entries = [(Decimal(middle), Decimal(radius)) for middle, radius in frame[part]]
+                size = max(1, *(abs(middle) for middle, _ in entries))
+                assert max(radius for _, radius in entries) <= Decimal("1e-30") * size, (file.name, frame["time"], part)
+
+
+@pytest.mark.parametrize("name", ["homogeneous", "robot-slow"])
+def test_data_are_made_anew_to_the_byte(name):
+    pytest.importorskip("pydantic")
+    case = make.made(make.CASES / f"{name}.toml")
+    assert make.text(case) == Path(DATA, f"{name}.json").read_text("utf-8")
+    assert make.table(case) == Path(DATA, f"{name}.csv").read_text("utf-8")
