@@ -87,7 +87,7 @@ def same(shown, printed):
 
 def workspace(folder):
     """A folder that looks like the root of the repository, and takes what the examples write."""
-    for name in ("docs", "proofs", "checker", "chapsym", "generated"):
+    for name in ("docs", "proofs", "checker", "chapsym", "generated", "benchmarks"):
         (folder / name).symlink_to(ROOT / name)
     return folder
 

@@ -23,6 +23,8 @@ ROOT = Path(__file__).parents[1]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
 #: What is there wherever it is imported: a notebook's shell.
 HOSTS = {"ipython"}
+#: Drake is imported by another name than it is installed.
+RENAMED = {"pydrake"}
 RUNTIME = ("fast", "scenes", "figures", "cluster", "report")
 #: The packages of all extras, by the names under which they are imported.
 BESIDE = {package for extra in RUNTIME for package in EXTRAS[extra][1]}
@@ -65,10 +67,10 @@ def offered(distributions):
 
 
 @pytest.mark.parametrize(
-    ("folder", "extras"), [("chapsym", RUNTIME), ("benchmarks", (*RUNTIME, "bench")), ("tests", (*RUNTIME, "test"))]
+    ("folder", "extras"), [("chapsym", RUNTIME), ("benchmarks", (*RUNTIME, "bench", "engines")), ("tests", (*RUNTIME, "test"))]
 )
 def test_what_is_imported_is_declared(folder, extras):
-    allowed = offered(declared(*extras)) | HOSTS | named(EXTRAS["test"][1])
+    allowed = offered(declared(*extras)) | HOSTS | RENAMED | named(EXTRAS["test"][1])
     assert third_party(ROOT / folder) <= allowed
 
 

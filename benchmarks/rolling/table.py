@@ -31,7 +31,9 @@ greatest at the frames of a case. `momentum` is that about the point of contact,
 are those of the path, estimated from the three steps: the floor is what is left of the finest run's distance if its
 step goes to 0. Where the differences between steps do not fall, there is no order. `defaults` are the settings that the
 engine comes with, `best` those that we found best; both are in `benchmarks/rolling/engines`. The penalty contact is a
-control of our own. Written by `python -m benchmarks.rolling.table`, with {versions}.
+control of our own.
+
+Written by `python -m benchmarks.rolling.table`, with {versions}.
 """
 COLUMNS = "| engine | settings | step, ms | path, m | attitude, degrees | energy, % | momentum, % | order | floor, m |"
 
