@@ -67,7 +67,8 @@ def offered(distributions):
 
 
 @pytest.mark.parametrize(
-    ("folder", "extras"), [("chapsym", RUNTIME), ("benchmarks", (*RUNTIME, "bench", "engines")), ("tests", (*RUNTIME, "test"))]
+    ("folder", "extras"),
+    [("chapsym", RUNTIME), ("benchmarks", (*RUNTIME, "bench", "engines")), ("tests", (*RUNTIME, "test"))],
 )
 def test_what_is_imported_is_declared(folder, extras):
     allowed = offered(declared(*extras)) | HOSTS | RENAMED | named(EXTRAS["test"][1])
