@@ -16,7 +16,7 @@ from typing import Any
 import mpmath
 
 from chapsym import files
-from chapsym.dynamics.certified_motion import decimal, follow
+from chapsym.dynamics.enclosed_motion import decimal, follow
 from chapsym.scene import load
 from chapsym.scene.members.exactly import exact_motion
 
