@@ -50,6 +50,7 @@ def draw(data: Mapping[str, Any]) -> Picture:
         if name in LIMITS:
             axis.axhline(LIMITS[name], color="0.5", linestyle=":", linewidth=1)
         if name == "height":
+            axis.axhline(0, color="0.5", linestyle=":", linewidth=1)
             axis.ticklabel_format(axis="y", scilimits=(-2, 3))
         else:
             axis.set_yscale("log", nonpositive="mask")
