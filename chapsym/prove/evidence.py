@@ -159,6 +159,7 @@ class Proof:
     def control(self, *statements: Statement) -> None:
         """Mutated statements, which the same machinery must reject."""
         for statement in statements:
+            _check(statement)
             rejected = not statement.holds()
             self.controls.append({"statement": statement.text, "rejected": rejected})
             self.lines.append(f"  control: {statement.text}: {'rejected, as it must be' if rejected else 'ACCEPTED'}")
@@ -247,12 +248,20 @@ class Proof:
             )
 
     def _decide(self, statement: Statement, role: str = "lemma", prefix: str | None = None) -> bool:
+        _check(statement)
         holds = statement.holds()
         prefix = prefix or ("" if role == "lemma" else f"{role}: ")
         self.decided.append((role, statement, holds))
         self.checks.append({"statement": prefix + statement.text, "holds": holds, "method": statement.method})
         self.lines.append(f"  {'✓' if holds else '✗'} {prefix}{statement.text}")
         return holds
+
+
+def _check(statement: Any) -> None:
+    if not hasattr(statement, "holds") or not isinstance(statement.text, str):
+        raise TypeError(
+            f"a statement has a text and is decided, such as equal('x = y', x, y); this is {statement!r:.60}"
+        )
 
 
 def _equations(judged: Sequence[tuple[Statement, bool]]) -> list[Equation]:

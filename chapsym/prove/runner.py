@@ -59,7 +59,8 @@ def judge(claim: Claim) -> Judgement:
     except (Exception, SystemExit) as error:  # a proof that leaves is no proof
         frames = traceback.extract_tb(error.__traceback__)
         place = ([frame for frame in frames if frame.filename == sources.file(claim.prove.__module__)] or frames)[-1]
-        reason = f"the proof raised {type(error).__name__}: {error} ({Path(place.filename).name}:{place.lineno})"
+        said = " ".join(str(error).split())
+        reason = f"the proof raised {type(error).__name__}: {said} ({Path(place.filename).name}:{place.lineno})"
         return _open(claim, reason)
 
 

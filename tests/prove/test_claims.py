@@ -147,6 +147,23 @@ def test_a_counterexample_has_a_value_for_each_symbol_of_a_hypothesis():
     assert "the counterexample has no value for y, of the hypothesis x is a square" in proof.problems
 
 
+@pytest.mark.parametrize("said", ["text", equation(x, x, 7)])
+def test_what_is_no_statement_is_told_in_one_line(said):
+    for name in ("printed", "control"):
+        with pytest.raises(
+            TypeError, match=r"a statement has a text and is decided, such as equal\('x = y', x, y\); this is"
+        ):
+            getattr(Proof(), name)(said)
+
+
+def test_a_reason_is_one_line():
+    def raises(p):
+        raise RuntimeError("a\nb\n  c")
+
+    (problem,) = judge(Claim("9.9", "x", (), raises)).proof.problems
+    assert problem.startswith("the proof raised RuntimeError: a b c (test_claims.py:")
+
+
 def test_a_symbol_has_a_name_in_ascii():
     with pytest.raises(ValueError, match="the symbol β must have a name in ASCII"):
         Quotient((sp.Symbol("β"),))
