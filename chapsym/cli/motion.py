@@ -1,7 +1,7 @@
 """chapsym certify motion: the continuous ball of a scene, with proved digits."""
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -15,12 +15,16 @@ def motion(
     scene: Annotated[Path, typer.Argument(metavar="SCENE.toml", help="One ball, and how it starts.")],
     digits: Annotated[int, typer.Option(metavar="N", help="How many digits of every number are proved.")] = 20,
     limit: Annotated[float, typer.Option(metavar="S", help="Seconds after which what is proved is given.")] = 600.0,
+    against: Annotated[
+        Path | None, typer.Option(metavar="RESULT", help="A result of the scene: a bound of its error is proved.")
+    ] = None,
     output: Output = None,
     as_json: Json = False,
 ) -> None:
     """Enclose the motion of the continuous ball at the frames of a scene, with proved radii.
 
-    The numbers of the scene are taken exactly as they are written.
+    The numbers of the scene are taken exactly as they are written.  With --against, a bound of how far the frames of
+    its result are from the motion.
 
     Example: chapsym certify motion docs/first.toml --digits 20 -o motion.json
     """
@@ -29,13 +33,20 @@ def motion(
     from chapsym.dynamics.enclosed_motion import follow
     from chapsym.scene import load
     from chapsym.scene.members.exactly import exact_motion
+    from chapsym.scene.result.proved import UNITS, proved_errors
 
     if output is not None:
         files.check_destination(output)
-    start, times = exact_motion(load(scene))
+    given = load(scene)
+    start, times = exact_motion(given)
+    result = None if against is None else _loaded(against, str(given.toml))
     with telling() as progress:
         found = follow(start, times, digits, limit=limit, progress=progress)
     written = found.write()
+    errors = {}
+    if result is not None:
+        errors = proved_errors(result, found)
+        written["errors"] = errors
     if output is not None:
         write(output, written)
     if as_json:
@@ -50,5 +61,18 @@ def motion(
         for name, vector in last.items():
             for middle, radius in vector if name != "time" else ():
                 print(f"  {name:16} {middle} +/- {radius}")
+        for name, error in errors.items():
+            unit = UNITS[name]
+            print(f"  {name:16} of {against} is within {error:.2g}{unit} at these frames: proved")
     if found.stopped is not None:
         fail(found.stopped, 1)
+
+
+def _loaded(result: Path, scene: str) -> Any:
+    """A result, which must be of the scene."""
+    from chapsym.scene.result import formats
+    from chapsym.scene.result.proved import check_scene
+
+    dataset = formats.load(result).load()
+    check_scene(dataset, scene)
+    return dataset

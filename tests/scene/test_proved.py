@@ -1,0 +1,74 @@
+"""The error of a run, proved by the motion with certified digits."""
+
+import numpy as np
+import pytest
+from commands import answer, chapsym, refused
+from first import BALL
+
+from chapsym.dynamics.enclosed_motion import follow
+from chapsym.scene import load
+from chapsym.scene.members.exactly import exact_motion
+from chapsym.scene.result import formats
+from chapsym.scene.result.proved import check_scene, proved_errors
+
+RUN = 'time = 1.0\nframes = 8\noutputs = ["gamma", "omega", "attitude", "contact"]\n'
+
+
+@pytest.fixture(scope="module")
+def scene(tmp_path_factory):
+    """A scene and its result."""
+    path = tmp_path_factory.mktemp("proved") / "one.toml"
+    path.write_text(f"{BALL}{RUN}")
+    chapsym("run", path, "-o", path.with_suffix(".npz"))
+    return path
+
+
+@pytest.fixture(scope="module")
+def both(scene):
+    """The result, and the motion."""
+    return formats.load(scene.with_suffix(".npz")).load(), follow(*exact_motion(load(scene)), 20)
+
+
+def test_the_bound_is_that_of_the_greatest_difference(both):
+    dataset, found = both
+    errors = proved_errors(dataset, found)
+    assert list(errors) == ["gamma", "omega", "attitude", "contact"]
+    for name, error in errors.items():
+        middles = np.array([[float(x.mid()) for x in row] for row in getattr(found, name)])
+        away = np.abs(dataset[name].values[0] - middles).max(axis=-1)
+        if name == "attitude":
+            away = np.minimum(away, np.abs(dataset[name].values[0] + middles).max(axis=-1))
+        away = away.max()
+        assert away * (1 - 1e-12) - 1e-15 <= error <= away * (1 + 1e-12) + 1e-15
+        assert error < 1e-6  # what is asked for by default
+
+
+@pytest.mark.parametrize("name", ["gamma", "omega", "attitude", "contact"])
+def test_one_number_that_is_off_is_seen(both, name):
+    dataset, found = both
+    other = dataset.copy(deep=True)
+    other[name].values[0, -1, -1] += 1e-3
+    assert proved_errors(other, found)[name] == pytest.approx(1e-3, rel=1e-2)
+    other[name].values[0, -1, -1] = np.nan
+    assert proved_errors(other, found)[name] == np.inf
+
+
+def test_a_quaternion_and_its_negative_are_one_attitude(both):
+    dataset, found = both
+    other = dataset.copy(deep=True)
+    other["attitude"].values[0, 3] *= -1
+    assert proved_errors(other, found) == proved_errors(dataset, found)
+
+
+def test_the_command_has_the_bound_and_takes_no_other_scene(scene, tmp_path):
+    result = scene.with_suffix(".npz")
+    assert max(answer("certify", "motion", scene, "--against", result)["errors"].values()) < 1e-6
+    other = tmp_path / "other.toml"
+    other.write_text(f"{BALL}{RUN}".replace("frames = 8", "frames = 4"))
+    assert "is of another scene" in refused("certify", "motion", other, "--against", result)
+    assert "gone.npz" in refused("certify", "motion", scene, "--against", tmp_path / "gone.npz")
+
+
+def test_a_scene_is_known_by_its_text(both):
+    dataset, _ = both
+    check_scene(dataset, dataset.attrs["scene"])
