@@ -248,7 +248,7 @@ ANSWER = {"step", "compose_step", "trajectory", "roll", "extrapolate"}
 ARGUMENTS = {
     "momentum": STATE["momentum"], "angular_momentum": STATE["momentum"], "omega": OMEGA, "gamma": GAMMA, "order": 4,
     "steps": 2, "time_step": 1e-3, "height": 0.1, "index": [0, 1], "path": [[0, 0, 0], STATE["momentum"]],
-    "time": 1.0, "accuracy": 1e-6,
+    "time": 1.0, "times": 1.0, "accuracy": 1e-6,
 }  # fmt: skip
 OF_A_BALL = [
     name

@@ -236,7 +236,7 @@ def test_prices_are_forecast_from_those_that_were_taken(monkeypatch):
     monkeypatch.setattr(prices, "_seconds", lambda *_: 1e-6)
     told = []
     found = prices.calibrate(told.append)
-    assert told[0] == "pricing double, order 2: 17 of 17 left"
-    assert told[6].endswith("11 of 17 left, about 13 s")
+    assert told[0] == "pricing double, order 2: 18 of 18 left"
+    assert told[6].endswith("12 of 18 left, about 14 s")
     assert sorted(found.calls) == ["double/body", "double/state", "quad/body", "quad/state"]
-    assert len(found.steps) == 17 + 2
+    assert len(found.steps) == 18 + 2
