@@ -28,7 +28,7 @@ HEAD = """# Engines, measured
 
 How far the balls of engines are from certified motions ([how to judge one](../../how-to/judge-an-engine.md)): the
 greatest at the frames of a case. `momentum` is that about the point of contact, as a vector in space. Order and floor
-are those of the path, estimated from the three steps: the floor is what is left of the finest run's distance if its
+are those of the path, estimated from the three steps: the floor is how far the limit of the runs is from the truth if the
 step goes to 0. Where the differences between steps do not fall, there is no order. `defaults` are the settings that the
 engine comes with, `best` those that we found best; both are in `benchmarks/rolling/engines`. The penalty contact is a
 control of our own.
@@ -48,7 +48,7 @@ def rows(case: Case, module: str, steps: tuple[float, ...], best: bool) -> Itera
             file.write_text(text(step, run(case, step, best)), encoding="utf-8")
             runs.append(read_trajectory(file, case.time))
             found.append(departure(case, runs[-1]))
-    known = convergence(runs, [one.path for one in found])
+    known = convergence(case, runs)
     for step, one in zip(steps, found, strict=True):
         parts = one.parts()
         numbers = [f"{abs(parts[name]).max():.2g}" for name in ("path", "attitude", "energy", "momentum")]

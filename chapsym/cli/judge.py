@@ -37,7 +37,7 @@ def judge(
     found = [departure(case, run) for run in runs]
     known: dict[str, Convergence] = {}
     if len(runs) > 2:
-        known = {name: convergence(runs, [getattr(one, name) for one in found], name) for name in ("path", "attitude")}
+        known = {name: convergence(case, runs, name) for name in ("path", "attitude")}
     elif len(runs) == 2:
         fail("give one result, or three or more with steps in one ratio: two do not tell an order", 2)
     if output is not None:

@@ -2,7 +2,7 @@
 
 import math
 import time as clock
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence, Set
 from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
@@ -21,7 +21,9 @@ PARTS = ("gamma", "angular_momentum", "omega", "attitude", "contact")
 #: Bits of the first attempt beyond those of the digits, and for each doubling of the turns.
 GUARD, OF_TURNS = 24, 2
 #: The most digits, and the most bits that an attempt may have.
-MOST_DIGITS, MOST_BITS = 100_000, 2**20
+MOST_DIGITS, MOST_BITS = 4_000, 2**20
+#: Bits by which a radius may grow when it is written: it and the middle are rounded, which adds .15 of it.
+ROUNDED = 0.25
 #: Bits beyond those that were missing, for the next attempt.
 MARGIN = 6
 
@@ -77,7 +79,10 @@ class CertifiedMotion:
         """For JSON: each number as [middle, radius], decimal strings; the true number is between their sums."""
         arrays = {name: array for name in PARTS if (array := getattr(self, name)) is not None}
         frames = [
-            {"time": decimal(at), **{name: [list(written(x)) for x in array[i]] for name, array in arrays.items()}}
+            {
+                "time": decimal(at),
+                **{name: [list(written(x, self.digits)) for x in array[i]] for name, array in arrays.items()},
+            }
             for i, at in enumerate(self.times)
         ]
         found: dict[str, Any] = {"frames": frames, "digits": self.digits, "steps": self.steps, "bits": self.bits}
@@ -102,6 +107,7 @@ def certified_motion(
     length.  times: one in s from 0 on, or several in ascending order.  All as exact numbers (see `ExactBall`).
     digits: every radius is at most 10^-digits, relative to the length of K and of ω, and to the ball's radius.
     attitude: a quaternion, scalar first, which turns γ up and is divided by its length; the least rotation by default.
+    It and γ may differ by rounding, 1e-5 at most: then the attitude is taken.
     limit: seconds for all attempts.  progress: called with sentences.
 
     Polynomials in time are proved in Arb's balls, step by step (`dynamics/flow`); the run is repeated with more bits
@@ -152,6 +158,8 @@ def _ascending(times: Any) -> tuple[Fraction, ...]:
 
     if isinstance(times, str) or not hasattr(times, "__iter__"):
         found: tuple[Fraction, ...] = (exactly(times, "times"),)
+    elif isinstance(times, bytes | Mapping | Set) or not isinstance(times, Iterable):
+        raise BadInput("times must be one or more numbers of seconds from 0 on, each later than the one before")
     else:
         listed = list(times)
         found = vector(listed, "times", len(listed))
@@ -165,11 +173,15 @@ def follow(
     progress: Callable[[str], None] = lambda sentence: None,
 ) -> CertifiedMotion:  # fmt: skip
     """`certified_motion` from a `flow.start.Start`."""
+    if isinstance(digits, np.integer):
+        digits = int(digits)
     if isinstance(digits, bool) or not isinstance(digits, int) or not 1 <= digits <= MOST_DIGITS:
         raise BadInput(f"digits must be a whole number from 1 to {MOST_DIGITS}, not {digits!r}")
     if not (isinstance(limit, int | float) and limit > 0):
         raise BadInput(f"limit must be a positive number of seconds, not {limit!r}")
     search = _Search(start, tuple(times), digits, clock.monotonic() + limit, progress)
+    if not search.determined():
+        raise BadInput("the ball does not resist a turn about the vertical: ω does not follow from K")
     bits = math.ceil(digits * math.log2(10)) + GUARD + OF_TURNS * search.doublings()
     why = None
     while why is None and not search.done:
@@ -204,6 +216,13 @@ class _Search:
         """Whether all times are reached."""
         return self.kept == len(self.times)
 
+    def determined(self) -> bool:
+        """Whether ω at the start follows from K."""
+        from flint import ctx
+
+        with ctx.workprec(1024):
+            return all(x.is_finite() for x in self.start.path(1024).frame(Fraction(0))["omega"])
+
     def doublings(self) -> int:
         """About the logarithm to base 2 of the turns, at most, and of their number at the start."""
         from flint import ctx
@@ -234,6 +253,8 @@ class _Search:
                         return self._more(path, bits)
                     except _TimeUp:
                         return None
+                    except (np.linalg.LinAlgError, ArithmeticError):  # of the floats that propose the steps
+                        raise BadInput("the numbers are too far apart in size to find steps of the motion") from None
                 frames.append(_signed(path.frame(end)))
                 missing = max(missing, _missing(frames[-1], self.digits, self.start.radius))
                 kept = len(frames) if missing <= 0 else kept
@@ -296,7 +317,7 @@ def _missing(frame: dict[str, tuple[Any, ...]], digits: int, radius: Fraction | 
             size = radius if name == "contact" and radius is not None else Fraction(1)
         if not size:
             return math.inf
-        worst = max(worst, _log2(widest / size * 10**digits) + 1 / 64)
+        worst = max(worst, _log2(widest / size * 10**digits) + ROUNDED)
     return worst
 
 
@@ -322,21 +343,24 @@ def decimal(x: Fraction) -> str:
 def _context(x: Fraction, places: int) -> Any:
     from decimal import Context
 
-    return Context(prec=len(str(int(abs(x) * 10**places))) + 1)
+    return Context(prec=int(abs(x) * 10**places).bit_length() + 1)  # more than its digits
 
 
-def written(x: Any) -> tuple[str, str]:
-    """(middle, radius) as decimal strings, whose ball contains that of x; the radius has two digits or three."""
+def written(x: Any, digits: int) -> tuple[str, str]:
+    """(middle, radius) as decimal strings, whose ball contains that of x; the radius has two digits or three.
+
+    digits: of a number that has none of its own, as its radius is 0.
+    """
     middle, radius = fraction(x), fraction(x.rad())
     if not radius and (text := decimal(middle)) and len(text) <= 40:
         return text, "0"
     if not radius:
-        radius = abs(middle) * Fraction(1, 10**30)
+        radius = abs(middle) / 10 ** (digits + 2)
     place = math.floor(_log2(radius) * math.log10(2)) - 1
     unit = Fraction(10) ** place
     rounded = round(middle / unit)
     off = math.ceil((radius + abs(middle - rounded * unit)) / unit)
-    digits = tuple(map(int, str(abs(rounded))))
-    shown = Decimal((int(rounded < 0), digits, place))
-    text = f"{shown:f}" if len(digits) + 12 > -place else f"{shown:e}"
+    figures = tuple(map(int, str(abs(rounded))))
+    shown = Decimal((int(rounded < 0), figures, place))
+    text = f"{shown:f}" if len(figures) + 12 > -place else f"{shown:e}"
     return text, f"{Decimal((0, tuple(map(int, str(off))), place)):e}"

@@ -5,12 +5,14 @@ import random
 from decimal import Decimal
 from fractions import Fraction as F
 
+import numpy as np
 import pytest
 from commands import chapsym as command
 from flint import arb, ctx
 from motion_truth import BITS, Truth, matrix_of, number
 
 import chapsym
+from chapsym import BadInput, ExactBall, certified_motion
 from chapsym.dynamics import enclosed_motion
 from chapsym.dynamics.enclosed_motion import decimal, follow, written
 from chapsym.dynamics.flow import start as exact
@@ -227,11 +229,42 @@ def test_decimals_contain_their_balls():
         for _ in range(300):
             x = arb(rng.getrandbits(150)) / 2 ** rng.randint(0, 400) * rng.choice((1, -1))
             x = arb(x.mid(), abs(x.mid()) / 2 ** rng.randint(5, 140)) if rng.random() < 0.9 else x.mid()
-            middle, radius = written(x)
+            middle, radius = written(x, 28)
             outer = arb(number(Decimal(middle)), number(Decimal(radius)))
             assert outer.contains(x)
             assert len(Decimal(radius).as_tuple().digits) <= 3
             assert Decimal(radius) == 0 or outer.rad() <= 2 * x.rad() + abs(x.mid()) * arb("1e-29")
+
+
+def test_a_radius_that_is_written_is_within_the_digits():
+    """Where the ball has as many digits as are missed nowhere, and in a number that is exact and long."""
+    with ctx.workprec(200):
+        for i in range(200):
+            x = arb(1 + i / 70, 1e-12 * 2**-enclosed_motion.ROUNDED)
+            assert Decimal(written(x, 12)[1]) <= Decimal("1e-12")
+        assert Decimal(written(arb(0.1), 50)[1]) <= Decimal("1e-51")
+    many = certified_motion(
+        ExactBall((1, 2, 4), 3), (0, 0, 0), ("2/7", "3/7", "6/7"), ["0"], enclosed_motion.MOST_DIGITS
+    )
+    assert len(many.write()["frames"][0]["gamma"][0][0]) > enclosed_motion.MOST_DIGITS
+
+
+@pytest.mark.parametrize(("change", "sentence"), [
+    ({"ball": ExactBall((0, 0, 1), 3), "gamma": (0, 0, 1)}, "does not resist a turn about the vertical"),
+    ({"times": b"12"}, "times must be one or more numbers"), ({"times": {1: 2}}, "times must be one or more numbers"),
+    ({"times": ["1e-400"]}, "too far apart"), ({"times": "1e400"}, "too far apart"),
+    ({"angular_momentum": np.eye(3)}, "angular_momentum 1 must be a number"),
+    ({"angular_momentum": [np.longdouble(1)] * 3}, "angular_momentum 1 must be a number"),
+])  # fmt: skip
+def test_what_no_floats_can_propose_is_one_sentence(change, sentence):
+    given = {
+        "ball": ExactBall((1, 2, 4), 3),
+        "angular_momentum": (1, 2, 3),
+        "gamma": ("2/7", "3/7", "6/7"),
+        "times": [1],
+    }
+    with pytest.raises(BadInput, match=sentence):
+        certified_motion(**given | change)
 
 
 def test_times_are_written_as_decimals_where_they_are_such():

@@ -12,7 +12,7 @@ import pytest
 from commands import answer, chapsym, refused
 
 from benchmarks.rolling import make
-from chapsym.studies.judge import Trajectory, convergence, departure, read_case, read_trajectory, sentence
+from chapsym.studies.judge import Case, Trajectory, convergence, departure, read_case, read_trajectory, sentence
 from chapsym.studies.judge.departure import angle
 from chapsym.studies.judge.trajectory import MORE, NEEDED
 
@@ -111,28 +111,57 @@ def test_an_attitude_and_its_negative_are_one_and_velocities_may_be_left_out(cas
         assert angle(q, np.array([np.cos(half), 0, np.sin(half), 0])) == pytest.approx(small, rel=1e-14)
 
 
-def run(step, order, floor, frames=5):
-    """Off by step^order along x, and by the floor beyond that: a soft contact, say."""
+def still(of):
+    """The truth of a ball at rest, at the frames of a run."""
+    frames = len(of.centre)
+    attitude = np.tile([1.0, 0, 0, 0], (frames, 1))
+    return Case(
+        "still", 1.0, 1.0, np.ones(3), np.arange(frames), np.zeros((frames, 2)), attitude, np.zeros((frames, 3))
+    )
+
+
+def run(step, order, floor, by=1.0, frames=5):
+    """Off by step^order along x, times `by`, and by the floor beyond that: a soft contact, say."""
     away = np.linspace(0, 1, frames)
-    centre = np.stack([away * (step**order + floor), 0 * away, 0 * away], axis=-1)
+    centre = np.stack([away * (by * step**order + floor), 0 * away, 0 * away], axis=-1)
     return Trajectory("made up", centre, np.tile([1.0, 0, 0, 0], (frames, 1)), None, None, step)
 
 
 @pytest.mark.parametrize(("order", "floor"), [(1, 0.0), (2, 0.003), (4, 1e-4)])
 def test_the_order_and_the_floor_of_known_runs_are_found(order, floor):
     runs = [run(step, order, floor) for step in (0.1, 0.4, 0.2)]  # in any order
-    found = convergence(runs, [one.centre[:, 0] for one in runs])
+    found = convergence(still(runs[0]), runs)
     assert found.order == pytest.approx(order, rel=1e-11)
     assert found.of_the_step == pytest.approx(0.1**order, rel=1e-10)
     assert found.floor == pytest.approx(floor, rel=1e-8, abs=1e-12)
     assert sentence(found, "m").startswith(f"order {order:.2f}; ")
 
 
+def test_an_error_of_the_step_that_hides_the_floor_is_seen():
+    """1 mm and -0.9 (h/1 ms)² mm: the finest run is 0.1 mm off, its limit 1 mm."""
+    runs = [run(step, 2, 1e-3, -0.9e-3 / 0.1**2) for step in (0.4, 0.2, 0.1)]
+    found = convergence(still(runs[0]), runs)
+    assert found.of_the_step == pytest.approx(0.9e-3, rel=1e-9)
+    assert found.floor == pytest.approx(1e-3, rel=1e-9)
+
+
+def test_the_order_of_the_attitude_does_not_see_the_sign_of_a_quaternion(case):
+    runs = []
+    for i, step in enumerate((0.4, 0.2, 0.1)):
+        half = np.radians(5 * step**2 + 2) / 2
+        turned = np.tile([np.cos(half), 0, 0, np.sin(half)], (3, 1)) * (-1) ** i
+        runs.append(Trajectory(f"{step}", np.zeros((3, 3)), turned, None, None, step))
+    found = convergence(still(runs[0]), runs, "attitude")
+    assert found.order == pytest.approx(2, rel=1e-4)
+    assert found.of_the_step == pytest.approx(0.05, rel=1e-4)
+    assert found.floor == pytest.approx(2, rel=1e-4)
+
+
 def test_steps_that_do_not_matter_have_no_order():
     runs = [run(step, 2, 0.0) for step in (0.1, 0.1, 0.1)]
     for one, step in zip(runs, (0.4, 0.2, 0.1), strict=True):
         object.__setattr__(one, "step", step)
-    found = convergence(runs, [one.centre[:, 0] for one in runs])
+    found = convergence(still(runs[0]), runs)
     assert (found.order, found.of_the_step, found.floor) == (None, None, None)
     assert sentence(found, "m") == "the differences between steps do not fall: no order"
 
@@ -146,9 +175,12 @@ REFUSED = {
     "has no row at 10 s: it must have one at each time": lambda t: text({k: v[:-1] for k, v in t.items()}),
     "has no row at 0.25 s": lambda t: text(t | {"time": t["time"] + 1e-3 * (t["time"] == 0.25)}),
     "the quaternion at 0 s has the length": lambda t: text(first(t, "qw", 3.0)),
-    "row 1 must have 14 finite numbers": lambda t: text(first(t, "vx", np.nan)),
-    "row 2 must have 14 finite": lambda t: "\n".join([*text(t).splitlines()[:2], "0.25,1,2"]),
+    "row 1 must have 14 numbers, separated by commas, below 1e+100": lambda t: text(first(t, "vx", np.nan)),
+    "row 2 must have 14 numbers": lambda t: "\n".join([*text(t).splitlines()[:2], "0.25,1,2"]),
     "row 1 must have 14": lambda t: text(t).replace("\n0.0,", "\nzero,"),
+    "row 1 must have 14 numbers, sep": lambda t: text(first(t, "vx", 1e308)),
+    "has the column x twice": lambda t: text(t).replace("vx,vy", "x,vy"),
+    "has two rows at 10 s": lambda t: text(t) + "10.0" + ",1" * 13 + "\n",
     "has no rows": lambda t: text(t).splitlines()[0],
     "has no column time": lambda t: "",
     "time_step must be a positive number of seconds, not -1": lambda t: text(t, -1),

@@ -54,8 +54,8 @@ def exactly(value: Any, name: str) -> Fraction:
             return Fraction(value)
     except (ValueError, OverflowError):
         raise BadInput(f"{name} must be finite, not {value}") from None
-    if hasattr(value, "item"):
-        return exactly(value.item(), name)
+    if getattr(value, "size", None) == 1 and type(value) is not type(plain := value.item()):
+        return exactly(plain, name)
     raise BadInput(f'{name} must be a number, or a text such as "0.1" or "2/7", not {_brief(value)}')
 
 

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from chapsym import generated
+from chapsym.dynamics.exactly import check_body
 from chapsym.dynamics.flow.start import Balls, Start, Turns, ball, balls, turning, upright
 from chapsym.dynamics.levels.balls import unit
 from chapsym.rationals import mass_tensor_from
@@ -30,9 +31,18 @@ def exact_motion(scene: Scene) -> tuple[Start, tuple[Fraction, ...]]:
     """The start of the one ball of a scene of a file, and the times of its frames.
 
     Raises SceneError where the scene has several balls, is of the map, or has a body whose principal axes are others
-    than those in which it is given.
+    than those in which it is given, or that no body has when its numbers are taken as they are written.
     """
     name = scene.name or "the scene"
+    try:
+        return _exact_motion(scene, name)
+    except SceneError:
+        raise
+    except ValueError as error:
+        raise SceneError(f"{name}: {error}") from None
+
+
+def _exact_motion(scene: Scene, name: str) -> tuple[Start, tuple[Fraction, ...]]:
     if scene.toml is None:
         raise SceneError(f"{name}: certified digits need the numbers as a scene file writes them")
     if len(expand(scene)) != 1:
@@ -45,6 +55,7 @@ def exact_motion(scene: Scene) -> tuple[Start, tuple[Fraction, ...]]:
     table = data["ball"][0] if isinstance(data["ball"], list) else data["ball"]
     told = table.get("start") or data["start"]
     tensor, D = _body(table, name)
+    check_body(tensor, D)
     radius = _rational(table, "radius") if "radius" in table else None
     attitude = _attitude(told)
     if "velocity" in told:

@@ -44,6 +44,10 @@ _SHORT = re.compile(r"\b(?:kilo|mega|giga|milli|micro|nano|centi|deci|hecto)s?\b
 _UNIT = re.compile(r"(?:1\s*/)?(?:[^\W\d]|[\s°²³·*/^-]|[1-9](?!\d))+")
 
 
+#: Letters of a number with a unit.
+LONGEST = 200
+
+
 def number(value: Any, dimension: Dimension = PURE) -> float:
     """A number in SI, or a text such as "2/7" or "30 rpm", as a float; raises ValueError with what would be right."""
     if isinstance(value, str):
@@ -62,17 +66,19 @@ def exact_number(value: Any, dimension: Dimension = PURE) -> tuple[Fraction, Fra
 
     A turn, a degree and what is made of them are multiples of π.  Raises ValueError as `number` does.
     """
-    found = _exact(str(value), dimension)
+    amount, factor = _amount(str(value), dimension)
     if dimension not in ANGULAR or not has_unit(value):
-        return found, Fraction(0)
+        return amount * factor, Fraction(0)
     pi = Fraction(_registry().Quantity(Fraction(1), "pi").to_base_units().magnitude)
-    part = found / pi  # pint has π as a fraction of 49 digits: what holds it as a factor has it in no denominator
-    return (Fraction(0), part) if part.denominator % pi.numerator else (found, Fraction(0))
+    part = (
+        factor / pi
+    )  # pint has π as a fraction of 49 digits: a unit that holds it as a factor has it in no denominator
+    return (Fraction(0), amount * part) if part.denominator % pi.numerator else (amount * factor, Fraction(0))
 
 
 def has_unit(value: Any) -> bool:
     """Whether something is a text of a number and more than that."""
-    parts = _FORM.fullmatch(value[:200]) if isinstance(value, str) else None
+    parts = _FORM.fullmatch(value) if isinstance(value, str) and len(value) <= LONGEST else None
     return parts is not None and bool(parts[2])
 
 
@@ -97,17 +103,23 @@ def _float(exact: Fraction) -> float:
 
 def _exact(text: str, dimension: Dimension) -> Fraction:
     """The number that a text means, in SI."""
-    parts = _FORM.fullmatch(text[:200])
+    amount, factor = _amount(text, dimension)
+    return amount * factor
+
+
+def _amount(text: str, dimension: Dimension) -> tuple[Fraction, Fraction]:
+    """The number in a text, and what its unit is in SI."""
+    parts = _FORM.fullmatch(text) if len(text) <= LONGEST else None
     if parts is None or not parts[2]:
         try:
-            return rational(text, "value")
+            return rational(text, "value"), Fraction(1)
         except NotANumber as error:
             raise ValueError(_told(error) + ("" if dimension is PURE else _or(dimension))) from None
     try:
         amount = rational(parts[1], "value")
     except NotANumber as error:
         raise ValueError(_told(error)) from None
-    return amount * _factor(parts[2], text.strip(), dimension)
+    return amount, _factor(parts[2], text.strip(), dimension)
 
 
 @cache

@@ -38,10 +38,16 @@ def read_case(file: Path) -> Case:
         mass, radius, *inertia = (float(Fraction(x)) for x in (ball["mass"], ball["radius"], *ball["inertia"]))
         time = np.array([float(Fraction(frame["time"])) for frame in frames])
         path, attitude, omega = (_middles(frames, part) for part in ("contact", "attitude", "omega"))
+        shapes = [path.shape, attitude.shape, omega.shape]
+        numbers = (mass, radius, *inertia, *time, *path.flat, *attitude.flat, *omega.flat)
+        if shapes != [(len(time), n) for n in (2, 4, 3)] or len(inertia) != 3 or not np.isfinite(numbers).all():
+            raise ValueError
+        if len(time) < 2 or min(mass, radius) <= 0:
+            raise ValueError
         return Case(str(data["case"]), mass, radius, np.array(inertia), time, path, attitude, in_space(attitude, omega))
     except OSError as error:
         raise BadInput(f"{file} cannot be read: {error.strerror or error}") from None
-    except (ValueError, KeyError, TypeError, IndexError, ZeroDivisionError, RecursionError):
+    except (ValueError, KeyError, TypeError, IndexError, ArithmeticError, RecursionError):
         raise BadInput(f"{file} is no case: it must be a file of benchmarks/rolling/data that ends in .json") from None
 
 

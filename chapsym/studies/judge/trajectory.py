@@ -1,6 +1,5 @@
 """What an engine wrote: a CSV file with a row for each time, in m, s and rad, z up."""
 
-import csv
 import re
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,6 +10,8 @@ from chapsym.dynamics.errors import BadInput
 
 NEEDED = ("time", "x", "y", "z", "qw", "qx", "qy", "qz")
 MORE = ("vx", "vy", "vz", "wx", "wy", "wz")
+#: Numbers from here on are of no ball.
+LARGEST = 1e100
 #: Two times are the same, if they differ by less than this part of the last.
 SAME_TIME = 1e-9
 
@@ -34,7 +35,7 @@ class Trajectory:
 def read_trajectory(file: Path, times: np.ndarray) -> Trajectory:
     """The rows at `times`; other rows are left out.  Raises BadInput, one sentence, where there are none for one."""
     try:
-        lines = file.read_text(encoding="utf-8").splitlines()
+        lines = file.read_text(encoding="utf-8-sig").splitlines()
     except (OSError, UnicodeDecodeError) as error:
         raise BadInput(f"{file} cannot be read: {getattr(error, 'strerror', None) or 'it is no text'}") from None
     names, rows = _table(file, [line for line in lines if line.strip() and not line.startswith("#")])
@@ -55,17 +56,19 @@ def read_trajectory(file: Path, times: np.ndarray) -> Trajectory:
 
 
 def _table(file: Path, lines: list[str]) -> tuple[list[str], np.ndarray]:
-    names = [name.strip() for name in next(csv.reader(lines[:1]), [])]
+    names = [name.strip().strip('"') for name in (lines[0].split(",") if lines else [])]
     if missing := [name for name in NEEDED if name not in names]:
         raise BadInput(f"{file} has no column {missing[0]}: its first row must name {','.join((*NEEDED, *MORE))}")
+    if twice := [name for name in names if names.count(name) > 1]:
+        raise BadInput(f"{file} has the column {twice[0]} twice")
     rows = []
-    for i, row in enumerate(csv.reader(lines[1:]), 1):
+    for i, line in enumerate(lines[1:], 1):
         try:
-            numbers = [float(x) for x in row]
+            numbers = [float(x) for x in line.split(",")]
         except ValueError:
             numbers = []
-        if len(numbers) != len(names) or not np.isfinite(numbers).all():
-            raise BadInput(f"{file}: row {i} must have {len(names)} finite numbers")
+        if len(numbers) != len(names) or not (np.abs(numbers) < LARGEST).all():
+            raise BadInput(f"{file}: row {i} must have {len(names)} numbers, separated by commas, below {LARGEST:g}")
         rows.append(numbers)
     return names, np.array(rows).reshape(-1, len(names))
 
@@ -74,13 +77,17 @@ def _places(file: Path, given: np.ndarray, times: np.ndarray) -> np.ndarray:
     """The row of each time: the engine is not interpolated."""
     if not given.size:
         raise BadInput(f"{file} has no rows")
-    at = np.abs(given[:, None] - times).argmin(axis=0)
-    off = np.abs(given[at] - times) > SAME_TIME * max(times[-1], 1.0)
+    near = SAME_TIME * max(times[-1], 1.0)
+    at = np.array([np.abs(given - time).argmin() for time in times])
+    off = np.abs(given[at] - times) > near
     if off.any():
         raise BadInput(
             f"{file} has no row at {times[off][0]:g} s: it must have one at each time of the case, every "
             f"{times[1] - times[0]:g} s to {times[-1]:g} s"
         )
+    several = np.array([(np.abs(given - time) <= near).sum() > 1 for time in times])
+    if several.any():
+        raise BadInput(f"{file} has two rows at {times[several][0]:g} s")
     return at
 
 
