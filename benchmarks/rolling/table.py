@@ -28,8 +28,8 @@ HEAD = """# Engines, measured
 
 How far the balls of engines are from certified motions ([how to judge one](../../how-to/judge-an-engine.md)): the
 greatest at the frames of a case. `momentum` is that about the point of contact, as a vector in space. Order and floor
-are those of the path, estimated from the three steps: the floor is how far the limit of the runs is from the truth if the
-step goes to 0. Where the differences between steps do not fall, there is no order. `defaults` are the settings that the
+are those of the path, estimated from the three steps: the floor is how far the runs are from the truth in the limit of
+small steps. Where the differences between steps do not fall, there is no order. `defaults` are the settings that the
 engine comes with, `best` those that we found best; both are in `benchmarks/rolling/engines`. The penalty contact is a
 control of our own.
 
