@@ -43,7 +43,7 @@ class Quotient:
 
     def normal(self, expr: sp.Expr | int) -> sp.Expr:
         """The normal form of a polynomial modulo the relations."""
-        return self._reduce(sp.sympify(expr)).as_expr()
+        return self._reduce(sp.sympify(expr, strict=True)).as_expr()
 
     def is_zero(self, expr: sp.Expr | int) -> bool:
         """True exactly when the rational function vanishes wherever the relations hold and it is defined.
@@ -52,7 +52,7 @@ class Quotient:
         remainder says that the numerator is not in the ideal.
         Raises ZeroDivisionError if the denominator vanishes under the relations.
         """
-        numerator, divisors = self._numerator(sp.sympify(expr))
+        numerator, divisors = self._numerator(sp.sympify(expr, strict=True))  # a text is not evaluated
         for written, divisor in divisors:
             if not self._rest(divisor.to_dict()):
                 raise ZeroDivisionError(f"the denominator {written} is zero under the hypotheses")
@@ -60,14 +60,16 @@ class Quotient:
 
     @cached_property
     def _known(self) -> dict[sp.Expr, tuple[fmpq_mpoly, fmpq_mpoly]]:
-        """The symbols as fractions."""
+        """1 and the symbols as fractions."""
         context = fmpq_mpoly_ctx.get(tuple(f"x{i}" for i in range(len(self.symbols))), Ordering.degrevlex)
-        return {x: (gen, context.constant(1)) for x, gen in zip(self.symbols, context.gens(), strict=True)}
+        one = context.constant(1)
+        known = {x: (gen, one) for x, gen in zip(self.symbols, context.gens(), strict=True)}
+        return {sp.S.One: (one, one), **known}
 
     def _numerator(self, expr: sp.Expr) -> tuple[fmpq_mpoly, list[tuple[sp.Expr, fmpq_mpoly]]]:
         """The numerator of a rational function, and each expression that it divides by, with its numerator."""
         known, divisors = dict(self._known), []
-        one = next(iter(known.values()))[1]
+        one = known[sp.S.One][0]
 
         def of(expr: sp.Expr) -> tuple[fmpq_mpoly, fmpq_mpoly]:
             if expr not in known:

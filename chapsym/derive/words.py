@@ -11,6 +11,7 @@ The rules must be confluent, otherwise the normal form would depend on the order
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from fractions import Fraction
 from typing import Any
 
 import sympy as sp
@@ -46,7 +47,7 @@ class WordAlgebra:
     of a proof.  The letters of chapsym's own derivations have theirs (prove/witness.py).
 
     Raises ValueError if the rules are not confluent or do not end, if transposing twice does not give a symbol back, or
-    if the example breaks a rule or a transpose.
+    if the example is not rational or breaks a rule or a transpose.
     """
 
     def __init__(
@@ -55,8 +56,9 @@ class WordAlgebra:
         rules: Mapping[tuple[sp.Symbol, sp.Symbol], sp.Expr | int] | None = None,
         example: Mapping[sp.Symbol, Any] | None = None,
     ) -> None:
-        self.transposes, self.example = dict(transposes), dict(example or {})
-        self.rules = {pair: sp.sympify(value) for pair, value in (rules or {}).items()}
+        self.transposes = dict(transposes)
+        self.example = {x: _rational(x, value) for x, value in (example or {}).items()}
+        self.rules = {pair: sp.sympify(value, strict=True) for pair, value in (rules or {}).items()}
         for symbol in self.transposes:
             if self.transpose(self.transpose(symbol)) != symbol:
                 raise ValueError(f"transposing {symbol} twice does not give {symbol} back")
@@ -172,6 +174,15 @@ class WordAlgebra:
         return self.normal(total - self.transpose(total))
 
 
+def _rational(letter: sp.Symbol, value: Any) -> Any:
+    """A matrix of rational numbers, or one number, of an example."""
+    if isinstance(value, sp.MatrixBase) and all(x.is_Rational for x in value):
+        return value
+    if isinstance(value, int | Fraction | sp.Rational):
+        return sp.Rational(value)
+    raise ValueError(f"the example of {letter} must be a sp.Matrix of rational numbers, or one such number")
+
+
 @dataclass(frozen=True)
 class Traces:
     """The traces of sums of words of an algebra."""
@@ -188,7 +199,7 @@ class Traces:
 
 def _terms(expr: sp.Expr | int) -> Iterable[tuple[sp.Expr, Word]]:
     """The (coefficient, word) pairs of an expression."""
-    for term in sp.Add.make_args(sp.expand(unfolded(sp.sympify(expr)))):
+    for term in sp.Add.make_args(sp.expand(unfolded(sp.sympify(expr, strict=True)))):
         commuting, letters = term.args_cnc()
         word: list[sp.Symbol] = []
         for letter in letters:

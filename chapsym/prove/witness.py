@@ -100,7 +100,7 @@ def _rational(
 def matrices(symbols: set[sp.Symbol], algebra: WordAlgebra, case: str = "generic") -> dict[sp.Symbol, Any] | None:
     """Matrices for the letters, numbers for the parameters; the rules and transposes must be true of them."""
     degenerate = _degenerate_matrices(case)
-    given = {x.name: sp.sympify(value) for x, value in algebra.example.items()}
+    given = {x.name: value for x, value in algebra.example.items()}
     symbols = symbols | set(algebra.transposes) | {x for pair in algebra.rules for x in pair}
     letters, free = {x for x in symbols if not x.is_commutative}, {x for x in symbols if x.is_commutative}
     names = {x.name for x in symbols}

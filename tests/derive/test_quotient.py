@@ -55,3 +55,15 @@ def test_each_expression_that_is_divided_by_is_looked_at():
 def test_what_is_no_rational_function_of_the_symbols_is_refused(expr):
     with pytest.raises(ValueError, match="is not a rational function of"):
         Quotient(x).is_zero(expr)
+
+
+def test_a_text_is_not_evaluated_and_a_ring_may_have_no_symbol():
+    for expr in ("x - x", "__import__('os').getpid()"):
+        with pytest.raises(sp.SympifyError):
+            Quotient(x).is_zero(expr)
+        with pytest.raises(sp.SympifyError):
+            Quotient(x).normal(expr)
+    assert Quotient(()).is_zero(sp.Rational(1, 2) - sp.Rational(2, 4))
+    assert not Quotient(()).is_zero(sp.Integer(3))
+    with pytest.raises(ZeroDivisionError):
+        Quotient(()).is_zero(sp.Pow(sp.Add(1, -1, evaluate=False), -1, evaluate=False))

@@ -18,6 +18,9 @@ def test_an_example_must_obey_and_rules_must_end():
         WordAlgebra({}, {(R, RT): 1}, turn | {RT: turn[R]})
     with pytest.raises(ValueError, match="the example breaks the transpose of R"):
         WordAlgebra({R: RT, RT: R}, {}, turn | {RT: turn[R]})
+    for strange in ("1", [[1]], sp.Matrix([[sp.sqrt(2)]]), sp.sqrt(2), 0.5):
+        with pytest.raises(ValueError, match=r"the example of R must be a sp\.Matrix of rational numbers"):
+            WordAlgebra({}, {}, {R: strange})
     with pytest.raises(ValueError, match="do not end"):
         WordAlgebra({}, {(X, J): X * J})
 

@@ -6,7 +6,7 @@ from commands import answer, chapsym, refused
 from first import BALL
 
 from chapsym.dynamics.enclosed_motion import follow
-from chapsym.scene import load
+from chapsym.scene import SceneError, load
 from chapsym.scene.members.exactly import exact_motion
 from chapsym.scene.result import formats
 from chapsym.scene.result.proved import check_scene, proved_errors
@@ -72,3 +72,5 @@ def test_the_command_has_the_bound_and_takes_no_other_scene(scene, tmp_path):
 def test_a_scene_is_known_by_its_text(both):
     dataset, _ = both
     check_scene(dataset, dataset.attrs["scene"])
+    with pytest.raises(SceneError, match="the result has none of gamma, omega, attitude, contact"):
+        check_scene(dataset[["error"]].assign_attrs(dataset.attrs), dataset.attrs["scene"])

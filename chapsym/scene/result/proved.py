@@ -21,7 +21,9 @@ BITS = 128
 
 
 def check_scene(dataset: "Dataset", scene: str) -> None:
-    """Raises SceneError for a result of another scene."""
+    """Raises SceneError for a result of another scene, or with nothing to compare."""
+    if not any(name in dataset for name in UNITS):
+        raise SceneError(f"the result has none of {', '.join(UNITS)}: ask for one in its outputs")
     if dataset.attrs.get("scene") != scene:
         raise SceneError("the result is of another scene: run this one, and compare its result")
 
