@@ -1,5 +1,7 @@
 """chapsym certify motion: the continuous ball of a scene, with proved digits."""
 
+from decimal import ROUND_CEILING, Context
+from math import isfinite
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -46,7 +48,7 @@ def motion(
     errors = {}
     if result is not None:
         errors = proved_errors(result, found)
-        written["errors"] = errors
+        written["errors"] = {name: error if isfinite(error) else None for name, error in errors.items()}
     if output is not None:
         write(output, written)
     if as_json:
@@ -62,10 +64,17 @@ def motion(
             for middle, radius in vector if name != "time" else ():
                 print(f"  {name:16} {middle} +/- {radius}")
         for name, error in errors.items():
-            unit = UNITS[name]
-            print(f"  {name:16} of {against} is within {error:.2g}{unit} at these frames: proved")
+            print(f"  {name:16} of {against} {_within(error, UNITS[name])}")
     if found.stopped is not None:
         fail(found.stopped, 1)
+
+
+def _within(error: float, unit: str) -> str:
+    """A bound in two digits, which are rounded up."""
+    if not isfinite(error):
+        return "has no number at some of these frames"
+    shown = Context(prec=2, rounding=ROUND_CEILING).create_decimal_from_float(error)
+    return f"is within {float(shown):.2g}{unit} at these frames: proved"
 
 
 def _loaded(result: Path, scene: str) -> Any:

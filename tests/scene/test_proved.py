@@ -5,6 +5,7 @@ import pytest
 from commands import answer, chapsym, refused
 from first import BALL
 
+from chapsym.cli.motion import _within
 from chapsym.dynamics.enclosed_motion import follow
 from chapsym.scene import SceneError, load
 from chapsym.scene.members.exactly import exact_motion
@@ -67,6 +68,21 @@ def test_the_command_has_the_bound_and_takes_no_other_scene(scene, tmp_path):
     other.write_text(f"{BALL}{RUN}".replace("frames = 8", "frames = 4"))
     assert "is of another scene" in refused("certify", "motion", other, "--against", result)
     assert "gone.npz" in refused("certify", "motion", scene, "--against", tmp_path / "gone.npz")
+
+
+@pytest.mark.parametrize(("error", "said"), [
+    (4.51e-8, "is within 4.6e-08 m at these frames: proved"), (0.0, "is within 0 m at these frames: proved"),
+    (float("inf"), "has no number at some of these frames"),
+])  # fmt: skip
+def test_what_is_printed_is_a_bound_too(error, said):
+    assert _within(error, " m") == said
+
+
+def test_a_frame_without_a_number_has_no_bound(scene, both, tmp_path):
+    other = both[0].copy(deep=True)
+    other["contact"].values[0, -1] = np.nan
+    formats.save(other, tmp_path / "other.npz")
+    assert answer("certify", "motion", scene, "--against", tmp_path / "other.npz")["errors"]["contact"] is None
 
 
 def test_a_scene_is_known_by_its_text(both):
