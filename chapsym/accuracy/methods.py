@@ -15,6 +15,7 @@ from chapsym.dynamics import (
     trajectory,
 )
 from chapsym.dynamics.ball import Floats
+from chapsym.dynamics.extrapolation import stages_of
 from chapsym.numbers import NAMED, Digits, Double, DoubleDouble, Precision, Single
 
 from .request import Request
@@ -55,7 +56,7 @@ class Method:
     def stages(self) -> int:
         """Steps of the map in a step."""
         if self.order == EXTRAPOLATED:
-            return COLUMNS * (COLUMNS + 3) // 2
+            return stages_of(COLUMNS)
         return len(substeps(self.order or 2))
 
 

@@ -18,9 +18,9 @@ from .methods import Method, take
 from .request import Request, distance, lengths
 
 #: The pilot turns the ball by so many radians, or to the end.
-ANGLE = 24.0
+ANGLE = 40.0
 #: Lengths of steps, |ω|ε in radians, of each order; and of the reference, of order 8.
-LENGTHS = {2: (0.15, 0.05, 0.015), 4: (0.4, 0.2, 0.1), 6: (0.5, 0.3, 0.15), 8: (0.6, 0.4, 0.2), 12: (0.9, 0.6, 0.4)}
+LENGTHS = {2: (0.15, 0.05, 0.015), 4: (0.4, 0.2, 0.1), 6: (0.5, 0.3, 0.15), 8: (0.6, 0.4, 0.2), 12: (2.5, 1.25, 0.8)}
 REFERENCE = 0.05
 #: Times at which the pilot is compared.
 CHECKS = 16

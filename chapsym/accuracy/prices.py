@@ -33,7 +33,7 @@ from .request import Request
 #: Changes when the file does.
 VERSION = 1
 #: Lengths of steps at which prices are taken, in radians.
-LENGTHS = (0.02, 0.1, 0.25, 0.5, 1.0)
+LENGTHS = (0.02, 0.1, 0.25, 0.5, 1.0, 2.0)
 #: What is priced, and chosen from.  One ball is no faster in float32 than in float64; mpmath, a thousand times slower
 #: than double-double, has hardly more digits here, as its runs start from the same 106 bits.
 PRECISIONS = (NAMED["double"], NAMED["double-double"])

@@ -332,7 +332,7 @@ def batch(ball: Ball, *vectors: Floats) -> tuple[tuple[int, ...], list[Floats]]:
     """
     in_principal_axes(ball)
     if ball.is_one and all(v.ndim == 1 for v in vectors):
-        return (), [*(v[np.newaxis].copy() for v in (*vectors, ball.mass_tensor)), ball.D[np.newaxis].copy()]
+        return (), [v[np.newaxis].copy() for v in (*vectors, ball.mass_tensor, ball.D)]
     radius = () if ball.radius is None else ball.radius.shape
     try:
         shape = np.broadcast_shapes(ball.D.shape, ball.mass_tensor.shape[:-1], radius, *(v.shape[:-1] for v in vectors))

@@ -1,9 +1,10 @@
 """The continuous ball to high order: the rotation of a long step, extrapolated from the map with shorter steps.
 
 The map is self-adjoint, so the rotation that n steps of length h/n make together is an even power series in h/n.
-Its quaternions for c values of n, with the weights n²/(n² - m²) multiplied over the other m, leave an error of order
-h^(2c+1).  K and γ are then turned by *one* rotation: ⟨K,γ⟩, |K|² and |γ|² are kept to rounding, at every order.
-A step is no longer exactly self-adjoint, as compositions are, nor is the measure kept: both to the order h^(2c+1).
+Its quaternions for c values of n up to 7, with the weights n²/(n² - m²) multiplied over the other m, leave an error of
+order h^(2c+1).  The steps are fitted to steady rotation (`loops.fitted`), which leaves less of it.  K and γ are then
+turned by *one* rotation: ⟨K,γ⟩, |K|² and |γ|² are kept to rounding, at every order.  A step is no longer exactly
+self-adjoint, as compositions are, nor is the measure kept: both to the order h^(2c+1).
 """
 
 from __future__ import annotations
@@ -28,7 +29,7 @@ from .levels.frames import Count, cores, share
 from .loops.guess import guess_weights
 from .loops.lanes import EIGHT, MOST_COLUMNS
 from .loops.long_run import march_eight, march_one
-from .loops.long_step import FIRST
+from .loops.long_step import LAST
 from .trajectories import rolling_radius, whole_number
 
 #: From so many balls on a block of eight is faster than one after another.
@@ -61,9 +62,14 @@ class Extrapolated:
 
 @cache
 def weights(columns: int) -> tuple[Fraction, ...]:
-    """The exact weights of the columns n = 2, ..., columns + 1: Σ w = 1 and Σ w/n^(2j) = 0 for 0 < j < columns."""
-    every = range(FIRST, FIRST + columns)
+    """The exact weights of the columns n = 8 - columns, ..., 7: Σ w = 1 and Σ w/n^(2j) = 0 for 0 < j < columns."""
+    every = range(LAST + 1 - columns, LAST + 1)
     return tuple(prod((Fraction(n * n, n * n - m * m) for m in every if m != n), start=Fraction(1)) for n in every)
+
+
+def stages_of(columns: int) -> int:
+    """How many steps of the map a long step is."""
+    return sum(range(LAST + 1 - columns, LAST + 1))
 
 
 @in_given_axes
@@ -84,7 +90,7 @@ def extrapolate(
 
     angular_momentum: K in kg m²/s, shape (..., 3); gamma: unit verticals upwards, (..., 3).  Both broadcast with
     each other and with the balls.  time_step: seconds, negative for back in time.
-    columns: 2 to 6.  A step is columns(columns + 3)/2 steps of the map; its error is of the order
+    columns: 2 to 6.  A step is 8 - columns, ..., 6 and 7 steps of the map beside each other; its error is of the order
     time_step^(2 columns), ⟨K,γ⟩, |K|² and |γ|² are kept to rounding.
     every: without it only the end is kept; with it the start and every `every`-th state.
     attitude: True (from the least rotation with R γ = e₃) or unit quaternions, (..., 4), to be followed.
@@ -103,11 +109,10 @@ def extrapolate(
     n, count = len(D), steps // kept + 1
     body = count if follows else 0
     try:
-        momenta, verticals = np.empty((n, count, 3)), np.empty((n, count, 3))
+        momenta, verticals = _frames(K, count), _frames(g, count)
         attitudes, spots = np.empty((n, body, 4)), np.empty((n, body, 2))
     except (MemoryError, ValueError):
         raise no_room(count, n) from None
-    momenta[:, 0], verticals[:, 0] = K, g
     if follows:
         first = initial_attitude(attitude, g.reshape(*shape, 3))
         attitudes[:, 0], spots[:, 0] = np.broadcast_to(first, (*shape, 4)).reshape(-1, 4), 0.0
@@ -124,6 +129,15 @@ def extrapolate(
         status.reshape(shape), taken.reshape(shape), shaped(spots) if contact else None,
         None if every is None else np.arange(count) * kept,
     )  # fmt: skip
+
+
+def _frames(first: Floats, count: int) -> Floats:
+    """Room for frames, (n, count, 3), of which the first is there; it is `first` itself where there is no other."""
+    if count == 1:
+        return first.reshape(-1, 1, 3)
+    frames = np.empty((len(first), count, 3))
+    frames[:, 0] = first
+    return frames
 
 
 def _seconds(time_step: float) -> float:
@@ -144,7 +158,7 @@ def _march(
     frames, how: the first arguments of `march_lanes`.  alone: one ball that stops raises StepNotTaken.
     """
     n, steps = len(frames[0]), how[1]
-    work = steps * n * columns * (columns + 3) // 2
+    work = steps * n * stages_of(columns)
     weights, doubt, reach = _weights(columns), np.empty(n), np.empty(n)
     taken, status = np.zeros(n, dtype=np.int64), np.zeros(n, dtype=np.int64)
     ends = doubt, taken, status, reach
@@ -178,6 +192,6 @@ def _taken_by(march: Callable[..., None], work: int) -> Callable[..., None]:
 @cache
 def _weights(columns: int) -> tuple[Floats, Floats, Floats]:
     """What the loops take: the weights of the columns, as of `march_lanes`, and those of the guesses."""
-    full, short = weights(columns), (*weights(columns - 1), Fraction(0))
+    full, short = weights(columns), (Fraction(0), *weights(columns - 1))
     first = np.array(full, dtype=float)
     return np.array([first, first - np.array(short, dtype=float)]), *guess_weights(columns)

@@ -1,12 +1,13 @@
 """Weights that put together the rates 2u/h of earlier steps of the map to guess the next one."""
 
 from functools import cache
+from math import factorial
 
 import numpy as np
 
 from ..ball import Floats
-from .lanes import FIRST_TERMS, LANES, MOST_COLUMNS, SLOTS, TERMS
-from .long_step import FIRST
+from .lanes import DERIVATIVES, FIRST_TERMS, LANES, TERMS
+from .long_step import LAST
 
 #: The Taylor coefficients of a rate, in the time of a long step and its square, are taken to fall like this.
 DECAY = 0.5
@@ -18,12 +19,12 @@ SMALL = 1e-6
 
 def middles(columns: int) -> Floats:
     """(middle, length) of each lane's step in each slot, in units of the long step, (slots, LANES, 2)."""
-    most = FIRST + columns - 1
-    out = np.empty((most, LANES, 2))
+    first = LAST + 1 - columns
+    out = np.empty((LAST, LANES, 2))
     for lane in range(LANES):
-        n, j = max(most - lane, FIRST), 0
-        for slot in range(most):
-            if slot == most - lane and FIRST <= lane < most - LANES + 1:
+        n, j = max(LAST - lane, first), 0
+        for slot in range(LAST):
+            if slot == LAST - lane and first <= lane:
                 n, j = lane, 0
             out[slot, lane] = (j + 0.5) / n, 1 / n
             j += 1
@@ -35,14 +36,13 @@ def _moments(t: Floats, e: Floats) -> Floats:
 
 
 def _weights(known: Floats, wanted: Floats) -> Floats:
-    """Weights of ω, of its derivative and of the known rates (middle, length), (terms, 2), for the wanted one.
+    """Weights of ω, of its derivatives and of the known rates (middle, length), (terms, 2), for the wanted one.
 
     A rate is a series in its middle t and, as the map is self-adjoint, the square of its length e.  The weights
     take Σ w tⁱe²ʲ over the known rates to that of the new one as nearly as they can while they stay moderate.
     """
-    start = _moments(np.zeros(1), np.zeros(1))
-    slope = np.array([[DECAY if power == (1, 0) else 0.0] for power in POWERS])
-    matrix = np.hstack([start, slope, _moments(*known.T)])
+    start = [[factorial(k) * DECAY**k if power == (k, 0) else 0.0 for power in POWERS] for k in range(DERIVATIVES)]
+    matrix = np.hstack([np.transpose(start), _moments(*known.T)])
     size = matrix.shape[1]
     padded = np.concatenate([_moments(*wanted[:, np.newaxis])[:, 0], np.zeros(size)])
     return np.linalg.lstsq(np.vstack([matrix, SMALL * np.eye(size)]), padded, rcond=None)[0]
@@ -52,19 +52,18 @@ def _weights(known: Floats, wanted: Floats) -> Floats:
 def guess_weights(columns: int) -> tuple[Floats, Floats]:
     """The weights of every slot's guesses, (slots, TERMS, LANES), and those of every column's first, (n, terms)."""
     stages = middles(columns)
-    most = len(stages)
-    following = np.zeros((SLOTS, TERMS, LANES))
-    for slot in range(1, most):
+    following = np.zeros((LAST, TERMS, LANES))
+    for slot in range(1, LAST):
         for lane in range(LANES):
             middle, length = stages[slot, lane]
             steps = min(3, round(middle / length - 0.5))  # of this column, before
             before = np.array([(middle - j * length, length) for j in range(1, steps + 1)]).reshape(-1, 2)
             weights = _weights(before, stages[slot, lane])
-            following[slot - 1, 3:, lane], following[slot - 1, :steps, lane] = weights[:2], weights[2:]
-    beginning = np.zeros((FIRST + MOST_COLUMNS, FIRST_TERMS))
+            following[slot - 1, : len(weights), lane] = weights
+    beginning = np.zeros((LAST + 1, FIRST_TERMS))
     firsts = stages[0]
-    second = most - LANES
-    for n in range(FIRST, most + 1):
+    second = LAST - LANES
+    for n in range(LAST + 1 - columns, LAST + 1):
         known = firsts[:0] if n > second else firsts if n == second else np.vstack([firsts, [0.5 / second, 1 / second]])
-        beginning[n, : 2 + len(known)] = _weights(known, np.array([0.5 / n, 1 / n]))
+        beginning[n, : DERIVATIVES + len(known)] = _weights(known, np.array([0.5 / n, 1 / n]))
     return following, beginning

@@ -1,9 +1,10 @@
 """Long steps of the continuous ball, columns side by side, of one ball or of eight: vector code, for numba.
 
-With the columns n = 2, ..., m lane i first takes the column m - i, and then the column i where there is one; so the
-columns 2 to 7 are 7, 6, 5 + 2 and 4 + 3 steps of the map, 7 slots of four.  Each number has a row of its own, in which
-the lane i of the ball b of B is the i B + b th.  What a lane does depends on its own ball alone: a settled lane waits
-for the others unchanged.  So a ball has the same bits alone, in a block, and in plain Python.
+Lane i first takes the column n = 7 - i, and then the column i where there is one; so the columns 2 to 7 are 7, 6,
+5 + 2 and 4 + 3 steps of the map, 7 slots of four.  A lane without a column repeats one, with no weight.  Each number
+has a row of its own, in which the lane i of the ball b of B is the i B + b th.  What a lane does depends on its own
+ball alone: a settled lane waits for the others unchanged.  So a ball has the same bits alone, in a block, and in plain
+Python.
 
 The steps are as long as the error allows, mostly longer than lemma `small-branch` proves; so each is checked on the
 spot.  With d the Newton correction of u, e the second one, A⁻¹ = C/det the inverse of the Jacobian at u and
@@ -17,29 +18,32 @@ from math import sqrt
 
 from chapsym.generated import angular_velocity, centre_step, compose, turn
 
+from .fitted import fitted, half_angle, turn_square
 from .gibbs import newton_round, second_round
-from .long_step import DOUBT, FIRST, MOVING, moved_body
+from .long_step import DOUBT, LAST, MOVING, moved_body
 
 #: Columns side by side, and balls in a block.
 LANES, EIGHT = 4, 8
 #: The most columns that fit: 2, ..., 7.
 MOST_COLUMNS = 6
-SLOTS = MOST_COLUMNS + 1
-#: A guess has weights for the last three Gibbs vectors of its column, for ω and for its derivative ...
-TERMS = 5
-#: ... and that of the first step of a lane's second column for ω, its derivative, and the first steps of the others.
-FIRST_TERMS = 2 + LANES + 1
+#: A guess has weights for ω and two derivatives, and for the last three Gibbs vectors of its column ...
+DERIVATIVES = 3
+TERMS = DERIVATIVES + 3
+#: ... and that of the first step of a lane's second column for ω, its derivatives, and the first steps of the others.
+FIRST_TERMS = DERIVATIVES + LANES + 1
 #: All numbers are in one array, so that the loops see that nothing overlaps.  Rows of the lanes: k, γ, u, the two
 #: before it, the quaternion and the way of the centre so far, half the step, its inverse, c², the lemma's radius²,
-#: (what may be left of u / 4.26)², I and D, K and γ, ω and its derivative at the beginning, the weights of the guess,
-#: a quaternion of the step, whether it is open, and whether its ball is lost: the safe way takes it.
+#: (what may be left of u / 4.26)², I and D, K and γ, ω and its derivatives at the beginning, (h|ω|)²,
+#: the weights of the guess, a quaternion of the step, whether it is open, and whether its ball is lost: the safe way
+#: takes it.
 K, G, U, V, X, Q, Y, HALF, INVERSE, SLOPE, WITHIN, LEAST = 0, 3, 6, 9, 12, 15, 19, 22, 23, 24, 25, 26
-BALL, START, VERTICAL, OMEGA, RATE, WEIGHT, P, OPEN, LOST = 27, 31, 34, 37, 40, 43, 48, 52, 53
-#: Rows of the lanes that a run does not change: HALF, ..., LEAST of the first column and of the second, the weights of
-#: both in the sums, and those of the first guess.
-FIRSTS, SECONDS, FULL, CHANGE, GUESS = 54, 59, 64, 66, 68
+BALL, START, VERTICAL, OMEGA, RATE, CURVE, TURNED, WEIGHT, P, OPEN, LOST = 27, 31, 34, 37, 40, 43, 46, 47, 53, 57, 58
+#: Rows of the lanes that a run does not change: half a step of the first column that is not fitted, its inverse, its
+#: |k|, the lemma's radius², LEAST and 1/n²; the same of the second; the weights of both in the sums, and those of the
+#: first guess; and ½(I_max - I_min).
+FIRSTS, SECONDS, FULL, CHANGE, GUESS, SPREAD, TANGENT = 59, 65, 71, 73, 75, 78, 79
 #: The rate of each lane's first step, the quaternion and the way of the column that it has finished first, and sums.
-KEPT, DONE, SUMS = 70, 73, 80
+KEPT, DONE, SUMS = 80, 83, 90
 #: Rows of the balls, one number each: `long_step.MOVING`, half a long step, the radius, J and D, whether it rests, and
 #: the rate of the first step of the largest second column.
 MOVED = SUMS + 11
@@ -116,53 +120,55 @@ def moved(S, B, traced):
         )
         v1, v2, v3, x1, x2, x3 = S[V, i], S[V + 1, i], S[V + 2, i], S[X, i], S[X + 1, i], S[X + 2, i]
         S[V, i], S[V + 1, i], S[V + 2, i], S[X, i], S[X + 1, i], S[X + 2, i] = w1, w2, w3, v1, v2, v3
-        a, b, c = S[WEIGHT, i], S[WEIGHT + 1, i], S[WEIGHT + 2, i]
-        d, e = S[HALF, i] * S[WEIGHT + 3, i], S[HALF, i] * S[WEIGHT + 4, i]
-        S[U, i] = (a * w1 + b * v1) + (c * x1 + (d * S[OMEGA, i] + e * S[RATE, i]))
-        S[U + 1, i] = (a * w2 + b * v2) + (c * x2 + (d * S[OMEGA + 1, i] + e * S[RATE + 1, i]))
-        S[U + 2, i] = (a * w3 + b * v3) + (c * x3 + (d * S[OMEGA + 2, i] + e * S[RATE + 2, i]))
+        d, e, f = S[WEIGHT, i], S[WEIGHT + 1, i], S[WEIGHT + 2, i]
+        a, b, c = S[WEIGHT + 3, i], S[WEIGHT + 4, i], S[WEIGHT + 5, i]
+        tangent = S[TANGENT, i]
+        y1 = (d * S[OMEGA, i] + e * S[RATE, i]) + f * S[CURVE, i]
+        y2 = (d * S[OMEGA + 1, i] + e * S[RATE + 1, i]) + f * S[CURVE + 1, i]
+        y3 = (d * S[OMEGA + 2, i] + e * S[RATE + 2, i]) + f * S[CURVE + 2, i]
+        S[U, i] = (a * w1 + b * v1) + (c * x1 + tangent * y1)
+        S[U + 1, i] = (a * w2 + b * v2) + (c * x2 + tangent * y2)
+        S[U + 2, i] = (a * w3 + b * v3) + (c * x3 + tangent * y3)
 
 
 def begin(S, B):
     """Puts its first column into every lane, with the first guess."""
     for i in range(LANES * B):
-        half = S[FIRSTS, i]
-        S[HALF, i], S[INVERSE, i], S[SLOPE, i] = half, S[FIRSTS + 1, i], S[FIRSTS + 2, i]
-        S[WITHIN, i], S[LEAST, i] = S[FIRSTS + 3, i], S[FIRSTS + 4, i]
-        start(S, i)
-        a, b = half * S[GUESS, i], half * S[GUESS + 1, i]
-        S[U, i] = a * S[OMEGA, i] + b * S[RATE, i]
-        S[U + 1, i] = a * S[OMEGA + 1, i] + b * S[RATE + 1, i]
-        S[U + 2, i] = a * S[OMEGA + 2, i] + b * S[RATE + 2, i]
+        start(S, i, FIRSTS)
+        tangent, a, b, c = S[TANGENT, i], S[GUESS, i], S[GUESS + 1, i], S[GUESS + 2, i]
+        S[U, i] = tangent * ((a * S[OMEGA, i] + b * S[RATE, i]) + c * S[CURVE, i])
+        S[U + 1, i] = tangent * ((a * S[OMEGA + 1, i] + b * S[RATE + 1, i]) + c * S[CURVE + 1, i])
+        S[U + 2, i] = tangent * ((a * S[OMEGA + 2, i] + b * S[RATE + 2, i]) + c * S[CURVE + 2, i])
 
 
 def begin_second(S, B, lane, weights):
     """Puts its second column into a lane of every ball."""
     for b in range(B):
-        i = lane * B + b
-        half = S[SECONDS, i]
-        S[HALF, i], S[INVERSE, i], S[SLOPE, i] = half, S[SECONDS + 1, i], S[SECONDS + 2, i]
-        S[WITHIN, i], S[LEAST, i] = S[SECONDS + 3, i], S[SECONDS + 4, i]
-        start(S, i)
-    w0, w1, w2, w3, w4, w5, w6 = (
+        start(S, lane * B + b, SECONDS)
+    w0, w1, w2, w3, w4, w5, w6, w7 = (
         weights[lane, 0], weights[lane, 1], weights[lane, 2], weights[lane, 3],
-        weights[lane, 4], weights[lane, 5], weights[lane, 6],
+        weights[lane, 4], weights[lane, 5], weights[lane, 6], weights[lane, 7],
     )  # fmt: skip
     for b in range(B):  # not a loop of the components: eight balls would be unrolled, and not become vector code
         i, j, k, m = b, B + b, 2 * B + b, 3 * B + b
-        half = S[HALF, lane * B + b]
-        x1 = (w0 * S[OMEGA, i] + w1 * S[RATE, i]) + (w2 * S[KEPT, i] + w3 * S[KEPT, j])
-        x2 = (w0 * S[OMEGA + 1, i] + w1 * S[RATE + 1, i]) + (w2 * S[KEPT + 1, i] + w3 * S[KEPT + 1, j])
-        x3 = (w0 * S[OMEGA + 2, i] + w1 * S[RATE + 2, i]) + (w2 * S[KEPT + 2, i] + w3 * S[KEPT + 2, j])
-        x1 += (w4 * S[KEPT, k] + w5 * S[KEPT, m]) + w6 * S[LATER, i]
-        x2 += (w4 * S[KEPT + 1, k] + w5 * S[KEPT + 1, m]) + w6 * S[LATER + 1, i]
-        x3 += (w4 * S[KEPT + 2, k] + w5 * S[KEPT + 2, m]) + w6 * S[LATER + 2, i]
-        S[U, lane * B + b], S[U + 1, lane * B + b], S[U + 2, lane * B + b] = half * x1, half * x2, half * x3
+        tangent = S[TANGENT, lane * B + b]
+        x1 = (w0 * S[OMEGA, i] + w1 * S[RATE, i]) + (w2 * S[CURVE, i] + w3 * S[KEPT, i])
+        x2 = (w0 * S[OMEGA + 1, i] + w1 * S[RATE + 1, i]) + (w2 * S[CURVE + 1, i] + w3 * S[KEPT + 1, i])
+        x3 = (w0 * S[OMEGA + 2, i] + w1 * S[RATE + 2, i]) + (w2 * S[CURVE + 2, i] + w3 * S[KEPT + 2, i])
+        x1 += (w4 * S[KEPT, j] + w5 * S[KEPT, k]) + (w6 * S[KEPT, m] + w7 * S[LATER, i])
+        x2 += (w4 * S[KEPT + 1, j] + w5 * S[KEPT + 1, k]) + (w6 * S[KEPT + 1, m] + w7 * S[LATER + 1, i])
+        x3 += (w4 * S[KEPT + 2, j] + w5 * S[KEPT + 2, k]) + (w6 * S[KEPT + 2, m] + w7 * S[LATER + 2, i])
+        S[U, lane * B + b], S[U + 1, lane * B + b], S[U + 2, lane * B + b] = tangent * x1, tangent * x2, tangent * x3
 
 
-def start(S, i):
-    """The state of a lane at the beginning of a column."""
-    half = S[HALF, i]
+def start(S, i, at):
+    """Puts a lane to the start of a column, of which the rows from `at` have the numbers, and fits its step."""
+    scale = fitted(S[TURNED, i] * S[at + 5, i])
+    half, slope = S[at, i] * scale, S[SPREAD, i] + S[at + 2, i] * scale
+    bend = half_angle(S[TURNED, i] * S[at + 5, i])
+    S[TANGENT, i] = half / bend
+    S[HALF, i], S[INVERSE, i], S[SLOPE, i] = half, S[at + 1, i] * bend / scale, slope * slope
+    S[WITHIN, i], S[LEAST, i] = S[at + 3, i], S[at + 4, i] * (scale * scale)
     S[K, i], S[K + 1, i], S[K + 2, i] = half * S[START, i], half * S[START + 1, i], half * S[START + 2, i]
     S[G, i], S[G + 1, i], S[G + 2, i] = S[VERTICAL, i], S[VERTICAL + 1, i], S[VERTICAL + 2, i]
     S[V, i], S[V + 1, i], S[V + 2, i], S[X, i], S[X + 1, i], S[X + 2, i] = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
@@ -229,8 +235,8 @@ def gather(S, B):
         S[MOVED + DOUBT, b] += 0.0 if rests else more
 
 
-def rates(S, B):
-    """K, γ, ω and its derivative in units of the long step, (2.12) and (2.13), of every ball in all its lanes."""
+def rates(S, B, first):
+    """K, γ, ω and two derivatives in units of the long step, (2.12) and (2.13), of every ball in all its lanes."""
     for b in range(B):
         K1, K2, K3, g1, g2, g3 = (
             S[MOVED, b],
@@ -246,14 +252,25 @@ def rates(S, B):
         height = contact * (g1 * w1 + g2 * w2 + g3 * w3)
         m1, m2, m3 = K1 + height * g1, K2 + height * g2, K3 + height * g3
         x1, x2, x3 = m2 * w3 - m3 * w2, m3 * w1 - m1 * w3, m1 * w2 - m2 * w1
+        a1, a2, a3 = angular_velocity(x1, x2, x3, g1, g2, g3, J1, J2, J3, contact)
+        # B(γ)ω̈ = Λω̇ × ω + Λω × ω̇ + D(⟨γ̇,ω̇⟩γ + ⟨γ,ω̇⟩γ̇).
+        d1, d2, d3 = g2 * w3 - g3 * w2, g3 * w1 - g1 * w3, g1 * w2 - g2 * w1
+        along, across = contact * (d1 * a1 + d2 * a2 + d3 * a3), contact * (g1 * a1 + g2 * a2 + g3 * a3)
+        n1, n2, n3 = (S[BALL, b] + contact) * a1, (S[BALL + 1, b] + contact) * a2, (S[BALL + 2, b] + contact) * a3
+        x1 = ((n2 * w3 - n3 * w2) + (m2 * a3 - m3 * a2)) + (along * g1 + across * d1)
+        x2 = ((n3 * w1 - n1 * w3) + (m3 * a1 - m1 * a3)) + (along * g2 + across * d2)
+        x3 = ((n1 * w2 - n2 * w1) + (m1 * a2 - m2 * a1)) + (along * g3 + across * d3)
         x1, x2, x3 = angular_velocity(x1, x2, x3, g1, g2, g3, J1, J2, J3, contact)
         whole = 2.0 * S[LENGTH, b]
+        square = whole * whole
         S[START, b], S[START + 1, b], S[START + 2, b] = K1, K2, K3
         S[VERTICAL, b], S[VERTICAL + 1, b], S[VERTICAL + 2, b] = g1, g2, g3
         S[OMEGA, b], S[OMEGA + 1, b], S[OMEGA + 2, b] = w1, w2, w3
-        S[RATE, b], S[RATE + 1, b], S[RATE + 2, b] = whole * x1, whole * x2, whole * x3
+        S[RATE, b], S[RATE + 1, b], S[RATE + 2, b] = whole * a1, whole * a2, whole * a3
+        S[CURVE, b], S[CURVE + 1, b], S[CURVE + 2, b] = square * x1, square * x2, square * x3
+        S[TURNED, b] = turn_square(whole, first, w1, w2, w3)
         S[LATER, b], S[LATER + 1, b], S[LATER + 2, b], S[LOST, b] = 0.0, 0.0, 0.0, S[RESTS, b]
-    for row in range(START, RATE + 3):
+    for row in range(START, TURNED + 1):
         for b in range(B):
             one = S[row, b]
             S[row, B + b], S[row, 2 * B + b], S[row, 3 * B + b] = one, one, one
@@ -264,19 +281,18 @@ def rates(S, B):
 
 def side_by_side(S, B, columns, traced, following, beginning):
     """One long step of every ball in place but of those that get lost; returns whether one is."""
-    most = FIRST + columns - 1
-    second = most - LANES  # the largest of the second columns
-    rates(S, B)
+    first, second = LAST + 1 - columns, LAST - LANES  # the largest of the second columns
+    rates(S, B, first)
     begin(S, B)
     lost = False
-    for slot in range(most):
-        lane = most - slot
+    for slot in range(LAST):
+        lane = LAST - slot
         if lane < LANES:  # it has finished its first column, n = slot
             for b in range(B):
                 finish(S, lane * B + b)
-        if lane == 3 and second >= 3:
+        if lane == 3 and first <= 3:
             begin_second(S, B, 3, beginning)
-        elif lane == 2 and second >= 2:
+        elif lane == 2 and first <= 2:
             begin_second(S, B, 2, beginning)
         for j in range(TERMS):
             for c in range(LANES):

@@ -12,6 +12,7 @@ from .gibbs import LEFT, certificate, is_heavy
 from .lanes import (
     BALL,
     CONTACT,
+    DERIVATIVES,
     EIGHT,
     FIRSTS,
     FULL,
@@ -24,10 +25,11 @@ from .lanes import (
     RESTS,
     ROWS,
     SECONDS,
+    SPREAD,
     TENSOR,
     side_by_side,
 )
-from .long_step import ATTITUDE, DOUBT, FIRST, MOVING, SPOT, begun, long_step
+from .long_step import ATTITUDE, DOUBT, LAST, MOVING, SPOT, begun, long_step
 from .loop import D, I, J, three
 
 #: Where the lemma has no radius, none is asked for.
@@ -44,24 +46,30 @@ def enter(S, B, b, columns, J0, D0, radius, h, sums, beginning, body, state):
     S[LENGTH, b], S[RADIUS, b], S[CONTACT, b], S[RESTS, b] = half, radius, state[D], 0.0
     for c in range(3):
         S[TENSOR + c, b] = state[J + c]
-    most = FIRST + columns - 1
+    least = LAST + 1 - columns
     for lane in range(LANES):
-        i, first = lane * B + b, max(most - lane, FIRST)
+        i, first = lane * B + b, max(LAST - lane, least)
         for c in range(3):
             S[BALL + c, i] = state[I + c]
         S[BALL + 3, i] = state[D]
-        entered(S, FIRSTS, i, body, half / first, state)
-        entered(S, SECONDS, i, body, half / max(lane, FIRST), state)
-        one, two = most - lane >= FIRST, FIRST <= lane <= most - LANES
-        for c in range(2):
-            S[FULL + 2 * c, i] = sums[c, first - FIRST] if one else 0.0
-            S[FULL + 2 * c + 1, i] = sums[c, lane - FIRST] if two else 0.0
+        entered(S, FIRSTS, i, body, half, first, state)
+        entered(S, SECONDS, i, body, half, max(lane, least), state)
+        one, two = LAST - lane >= least, lane >= least
+        for c in range(DERIVATIVES):
             S[GUESS + c, i] = beginning[first, c]
+        for c in range(2):
+            S[FULL + 2 * c, i] = sums[c, first - least] if one else 0.0
+            S[FULL + 2 * c + 1, i] = sums[c, lane - least] if two else 0.0
     return exponent
 
 
-def entered(S, at, i, body, part, state):
-    """Half a step of a lane and what goes with it: its inverse, c², the lemma's radius² and what may be left of u."""
+def entered(S, at, i, body, half, n, state):
+    """Half a step of a lane and what goes with it (`FIRSTS`).
+
+    The lemma's radius for the step that is not fitted serves the fitted one, too, as that is shorter: its root is
+    nearer to 0, and what is monotone stays so.
+    """
+    part = half / n
     I1, I2, I3 = three(state, I)
     spread = 0.5 * (max(I1, I2, I3) - min(I1, I2, I3))
     k1, k2, k3 = part * body[0], part * body[1], part * body[2]
@@ -69,8 +77,9 @@ def entered(S, at, i, body, part, state):
     within, _ = certificate(k1, k2, k3, I1, I2, I3, state[D])
     least = LEFT * size / (max(I1, I2, I3) + state[D] + spread)
     anywhere = -1.0 if is_heavy(I1, I2, I3, state[D]) else ANYWHERE  # a heavy ball takes the safe way
-    S[at, i], S[at + 1, i], S[at + 2, i] = part, 1.0 / part if part != 0.0 else 0.0, (spread + size) * (spread + size)
+    S[at, i], S[at + 1, i], S[at + 2, i], S[SPREAD, i] = part, 1.0 / part if part != 0.0 else 0.0, size, spread
     S[at + 3, i], S[at + 4, i] = within if within >= 0.0 else anywhere, least * least / BEHIND
+    S[at + 5, i] = 1.0 / (n * n)
 
 
 def safely(S, b, sums, state):

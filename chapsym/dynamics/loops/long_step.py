@@ -11,11 +11,12 @@ import numpy as np
 from chapsym.generated import angular_velocity, centre_step, compose, rotate, turn
 
 from .branch import NOT_CONVERGED
+from .fitted import fitted, turn_square
 from .gibbs import certificate, settle
 from .loop import ENOUGH, RADIUS, D, G, I, J, K, put, safe_rotation, scaled, three
 
-#: The first column: one step of the map as long as the whole gains little, and may not exist.
-FIRST = 2
+#: The last column; the first is LAST + 1 - columns: longer steps of the map gain less than more columns do.
+LAST = 7
 #: Longer steps than 2^LONGEST, in units where the momentum and the ball are about 1, have no rotation anyway.
 LONGEST = 100
 #: A ball under way, and where its numbers begin: K, γ, the attitude, the contact point, and the doubt so far.
@@ -37,13 +38,15 @@ def begun(body, J0, D0, h, state):
     return ldexp(mantissa, min(shift + exponent - (size - 2), LONGEST)), exponent
 
 
-def column(body, half, n, state):
-    """The unit quaternion that n steps of the map make together from K and γ of `body`, each with 𝒦 = 2 half K/n.
+def column(body, half, n, square, state):
+    """The unit quaternion that n fitted steps of the map make together from K and γ of `body`.
 
+    Each has 𝒦 = 2 half K/n times `fitted`, of `turn_square` over n².
     state (`loop.ROWS`) has J, I and D; the rest of it is used.  Returns (status, reach, q0, q1, q2, q3, y1, y2, y3)
     with the way y of the centre in radii, in the axes of the body at the start.
     """
-    k1, k2, k3 = half / n * body[MOMENTUM], half / n * body[MOMENTUM + 1], half / n * body[MOMENTUM + 2]
+    part = half / n * fitted(square * (1.0 / (n * n)))
+    k1, k2, k3 = part * body[MOMENTUM], part * body[MOMENTUM + 1], part * body[MOMENTUM + 2]
     g1, g2, g3 = three(body, VERTICAL)
     I1, I2, I3 = three(state, I)
     state[RADIUS], state[ENOUGH] = certificate(k1, k2, k3, I1, I2, I3, state[D])
@@ -86,8 +89,13 @@ def long_step(body, half, radius, sums, state):
     q0, q1, q2, q3 = 0.0, 0.0, 0.0, 0.0
     d0, d1, d2, d3 = 0.0, 0.0, 0.0, 0.0
     y1, y2, y3 = 0.0, 0.0, 0.0
+    w1, w2, w3 = angular_velocity(
+        body[0], body[1], body[2], body[3], body[4], body[5], state[J], state[J + 1], state[J + 2], state[D]
+    )
+    first = LAST + 1 - sums.shape[1]
+    square = turn_square(2.0 * half, first, w1, w2, w3)
     for i in range(sums.shape[1]):
-        status, reach, p0, p1, p2, p3, s1, s2, s3 = column(body, half, FIRST + i, state)
+        status, reach, p0, p1, p2, p3, s1, s2, s3 = column(body, half, first + i, square, state)
         if status != 0:
             return status, reach
         w, v = sums[0, i], sums[1, i]
