@@ -12,6 +12,7 @@ from chapsym.dynamics.extrapolation import weights
 
 from . import states
 from .cells import BUDGET, FAILED, Compared, Judged, compared, worst
+from .derived import angular_velocity
 from .folds import fold_at
 from .levels import Level, mp, number
 from .runs import ball_of, chain, promised, starts
@@ -91,7 +92,7 @@ def fold_search(condition: str, level: Level, quick: bool) -> Judged:
     return told
 
 
-#: Long steps, in units of half the reach of their state.
+#: Long steps, in units of half the reach of their state: short enough that the sine is its series.
 LONG = {"generic": 0.2, "tiny momentum": 1.0, "D = 1e6": 0.2, "a flat body": 0.2, "γ along an axis": 0.2}
 
 
@@ -100,10 +101,10 @@ def long_step(start: str, columns: int) -> tuple[State, list[Any], list[Any], fl
     """The state, 𝒦 and γ after one extrapolated step of the oracle's rotations, ulps promised, and κ."""
     state = starts()[start]
     state = replace(state, K=states.scaled(state.K, LONG[start]))
+    spin = mp.norm(mp.matrix(angular_velocity([*map(mp.mpf, (*state.K, *state.g, *state.J)), mp.mpf(state.D)])))
     total, ulps, kappa = [mp.zero] * 4, BUDGET, 1.0
-    for w in weights(columns):
-        n = 2 + weights(columns).index(w)
-        stages = (1 / mp.mpf(n),) * n
+    for n, w in enumerate(weights(columns), 8 - columns):
+        stages = (mp.sin(spin / n) / spin,) * n  # fitted to steady rotation
         product = [mp.one, mp.zero, mp.zero, mp.zero]
         for one in chain(state, stages):
             product = _compose(product, [one.q0, *one.q])
