@@ -1,5 +1,6 @@
 """Exact verdicts: claims, evidence, negative controls, and the runner."""
 
+from .argument import Reading, Theorem, no, there_is
 from .claims import Claim, Judgement, claim, judged
 from .evidence import Proof, Verdict
 from .polynomials import Identity
@@ -38,7 +39,9 @@ __all__ = [
     "NoRegister",
     "Point",
     "Proof",
+    "Reading",
     "Register",
+    "Theorem",
     "Verdict",
     "Zero",
     "claim",
@@ -47,7 +50,9 @@ __all__ = [
     "judged",
     "load",
     "main",
+    "no",
     "prove_all",
     "rational_point",
+    "there_is",
     "unproved",
 ]

@@ -5,21 +5,22 @@ import inspect
 import textwrap
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
 from chapsym.checker import Rejected
 
-from . import certificates
+from . import argument, certificates
+from .argument import Grounds
 from .evidence import Proof, Verdict
 from .statements import Rest
 
 #: What a record says beside the verdict, in this order: what a `Proof` collects, and what is known of its claim.
 EVIDENCE = (
-    "title", "hypotheses", "condition", "reason", "open_in_paper", "tried", "answer", "certificates", "measured",
-    "conjectures", "derivation", "checks", "controls", "routes", "witnesses", "counterexamples", "uses", "downstream",
-    "problems", "carried",
+    "title", "hypotheses", "condition", "reason", "open_in_paper", "tried", "question", "answer", "readings", "settled",
+    "theorems", "certificates", "measured", "conjectures", "derivation", "checks", "controls", "routes", "witnesses",
+    "counterexamples", "uses", "downstream", "problems", "carried",
 )  # fmt: skip
 
 
@@ -46,7 +47,7 @@ class Claim:
 
     def judge(self) -> "Judgement":
         """Runs the proof."""
-        start, proof = time.perf_counter(), Proof()
+        start, proof = time.perf_counter(), Proof(uses=self.uses)
         self.prove(proof)
         verdict = proof.verdict()
         return Judgement(self, verdict, proof, time.perf_counter() - start)
@@ -80,12 +81,28 @@ class Judgement:
         """Whether the claim is a question of the paper that is left open here, too, and nothing failed."""
         return self.verdict is Verdict.OPEN and bool(self.proof.tried) and not self.proof.problems
 
+    @property
+    def grounds(self) -> Grounds:
+        """What the claim states, and what carries it, but for what it rests on."""
+        proof = self.proof
+        decided = [statement for _, statement, holds in proof.decided if holds and not isinstance(statement, Rest)]
+        return Grounds(proof.stated.get(""), len(decided), len(proof.certificates), argument.sentences(proof.said))
+
+    def _settled(self) -> dict[str, Any]:
+        """What carries the claim, with the claims that were proved anew for it."""
+        rests = [statement for _, statement, _ in self.proof.decided if isinstance(statement, Rest)]
+        return argument.settlement(
+            {self.claim.id: self.grounds} | {one.name: one.grounds for one in rests if one.grounds}
+        )
+
     def record(self, downstream: Sequence[str] = ()) -> dict[str, Any]:
         """The claim's row of the register, as the command's contract has it."""
         known = vars(self.proof) | {
             "title": self.claim.title, "open_in_paper": self.open_in_paper, "derivation": self.proof.lines,
             "uses": list(self.claim.uses), "downstream": list(downstream),
             "carried": certificates.carried(self.certificate) if self.certificate else None,
+            "answer": self.proof.answer, "theorems": [_theorem(self.proof, part) for part in self.proof.stated],
+            "settled": self._settled() if self.verdict is Verdict.SETTLED else None,
         }  # fmt: skip
         return {
             "id": self.claim.id,
@@ -95,6 +112,11 @@ class Judgement:
             "evidence": {name: known[name] for name in EVIDENCE},
             "seconds": round(self.seconds, 3),
         }
+
+
+def _theorem(proof: Proof, part: str) -> dict[str, Any]:
+    """What a proof states, with its steps."""
+    return {"part": part, **asdict(proof.stated[part]), "steps": [asdict(step) for step in proof.steps[part]]}
 
 
 class TwoProofs(ValueError):
@@ -137,7 +159,7 @@ def judged(id: str) -> Rest:
     proved = (Verdict.HOLDS, Verdict.CORRECTED, Verdict.CONDITIONAL)
     found = _REGISTER[id].judge().certified()
     seal = found.certificate["digest"] if found.certificate else ""
-    return Rest(f"{id} is proved", f"{id} {seal}", found.verdict in proved, "its own proof, run now")
+    return Rest(f"{id} is proved", f"{id} {seal}", found.verdict in proved, "its own proof, run now", found.grounds)
 
 
 def register() -> dict[str, Claim]:

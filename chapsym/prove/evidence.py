@@ -15,8 +15,9 @@ from sympy.core.relational import Relational
 
 from chapsym.derive.words import unfolded
 
-from . import points, witness
-from .statements import Comparison, Count, Equation, Point, Statement
+from . import argument, points, witness
+from .argument import Reading, Step, Theorem
+from .statements import Comparison, Count, Equation, Point, Rest, Statement
 
 #: How the relations of a count or of a comparison are said of a number.
 SAID = {"==": "", "!=": "not ", "<": "less than ", "<=": "at most ", ">": "more than ", ">=": "at least "}
@@ -52,7 +53,11 @@ class Proof:
     certificates: list[dict[str, Any]] = field(default_factory=list)
     measured: list[str] = field(default_factory=list)
     conjectures: list[str] = field(default_factory=list)
-    answer: str | None = None
+    uses: tuple[str, ...] = ()
+    stated: dict[str, Theorem] = field(default_factory=dict)
+    steps: dict[str, list[Step]] = field(default_factory=dict)
+    question: dict[str, str] | None = None
+    readings: list[dict[str, Any]] = field(default_factory=list)
     reason: str | None = None
     corrected_text: str | None = None
     condition: str | None = None
@@ -61,6 +66,7 @@ class Proof:
     points: list[Point] = field(default_factory=list)
     _printed: list[tuple[Statement, bool]] = field(default_factory=list)
     _corrected: list[tuple[Statement, bool]] = field(default_factory=list)
+    _since: tuple[int, int] = (0, 0)
 
     def say(self, *texts: str) -> None:
         """Lines of the derivation."""
@@ -189,9 +195,52 @@ class Proof:
         if not accepted:
             self.problems.append(f"the checker does not accept {file}")
 
-    def settle(self, answer: str) -> None:
-        """The answer to a question that the paper leaves open: what the lemmas and certificates prove, and no more."""
-        self.answer = str(answer)
+    def state(self, theorem: Theorem, part: str = "") -> None:
+        """What the lemma says, as data, or a part of the proof under its name; the steps to its conclusions follow."""
+        self.stated[part], self.steps[part] = theorem, []
+        self._since = len(self.said), len(self.checks)
+
+    def step(self, gives: str, *needs: str) -> None:
+        """What follows, by the sentences said since the last step, from what it needs.
+
+        needs: of what the theorem is given, of what a step before gives, ids that the claim uses, files of accepted
+        certificates, texts of decided statements.
+        """
+        said, checks = self._since
+        decided = tuple(check["statement"] for check in self.checks[checks:])
+        made = Step(gives, needs, argument.sentences(self.said[said:]), decided)
+        self.steps[list(self.stated)[-1]].append(made)
+        self.lines.append(f"  ⊢ {gives}")
+        self._since = len(self.said), len(self.checks)
+
+    def ask(self, words: str, where: str) -> None:
+        """A question of the paper, word for word, and where it stands."""
+        self.question = {"words": words, "where": where}
+
+    def settle(self, readings: Sequence[Reading]) -> None:
+        """Readings of a question that the paper leaves open, each with the theorem that the lemmas make, or open."""
+        known = {part: theorem for part, theorem in self.stated.items() if not self.gaps(part)}
+        for _, rest, holds in self.decided:
+            if isinstance(rest, Rest) and holds and rest.grounds and rest.grounds.theorem:
+                known[rest.name] = rest.grounds.theorem
+        for one in readings:
+            made = None
+            try:
+                made = argument.assembled(one, known) if one.by else None
+            except argument.Gap as gap:
+                self.problems.append(f"not answered: {gap}")
+            self.readings.append(argument.row(one, made))
+
+    def gaps(self, part: str) -> list[str]:
+        """Why the steps do not prove what a part states; empty if they do."""
+        decided = {check["statement"] for check in self.checks if check["holds"]}
+        files = {one["file"] for one in self.certificates if one["accepted"]}
+        return argument.gaps(self.stated[part], self.steps[part], {*self.uses, *decided, *files})
+
+    @property
+    def answer(self) -> str | None:
+        """What is answered of a question: the theorems, made from the statements of the lemmas."""
+        return "  ".join(argument.told(one) for one in self.readings if one["theorem"]) or None
 
     def measure(self, *findings: str) -> None:
         """Numerical evidence beside what is proved, with its digits; no verdict rests on it."""
@@ -210,6 +259,7 @@ class Proof:
             self.problems.append("the proof has no negative control: give p.control a false variant, to be rejected")
         if not self._printed and not self.reason and not self.answer:
             self.problems.append("no printed form was judged")
+        self.problems += [gap for part in self.stated for gap in self.gaps(part)]
         if self.answer and not any(check["holds"] for check in self.checks):
             self.problems.append("the answer has no lemma that is decided")
         if self.problems:

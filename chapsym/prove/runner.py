@@ -13,6 +13,7 @@ from typing import Any
 
 from chapsym import sources, workers
 
+from .argument import counted, told
 from .certificates import write
 from .claims import Claim, Judgement
 from .evidence import Proof, Verdict
@@ -110,6 +111,8 @@ def explain(record: dict[str, Any]) -> str:
     """The whole argument of one claim, as text."""
     evidence = record["evidence"]
     lines = [f"[{record['id']}] {evidence['title']}", f"  printed: {record['printed']}"]
+    if evidence["question"]:
+        lines += [f"  asked, {evidence['question']['where']}: {evidence['question']['words']}"]
     lines += [f"  hypothesis: {h}" for h in evidence["hypotheses"]]
     lines += ["", *evidence["derivation"]]
     for example in evidence["counterexamples"]:
@@ -127,7 +130,9 @@ def explain(record: dict[str, Any]) -> str:
         lines += [f"  carried by: {evidence['carried']['text']}"]
     lines += [f"  nothing to decide: {evidence['reason']}"] if evidence["reason"] else []
     lines += [f"  tried: {text}" for text in evidence["tried"]]
-    lines += [f"  ANSWER: {evidence['answer']}"] if evidence["answer"] else []
+    for row in evidence["readings"]:
+        lines += [f"  ANSWER to: {row['asked']}", f"    {told(row)}"] if row["theorem"] else [f"  OPEN: {row['asked']}"]
+    lines += [f"  settled {counted(evidence['settled'])}"] if evidence["settled"] else []
     lines += [f"  measured, not proved: {text}" for text in evidence["measured"]]
     lines += [f"  conjecture: {text}" for text in evidence["conjectures"]]
     if record["corrected"]:

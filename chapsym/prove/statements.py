@@ -11,6 +11,7 @@ from sympy.core.relational import Relational
 from chapsym.derive import words
 from chapsym.derive.quotient import Quotient
 
+from .argument import Grounds
 from .elimination import Elimination, Form, eliminate
 from .polynomials import Identity
 
@@ -107,6 +108,13 @@ class Rest:
     certificate: str
     truth: bool
     method: str
+    #: What carries it, where it is a claim.
+    grounds: Grounds | None = None
+
+    @property
+    def name(self) -> str:
+        """The id of the claim."""
+        return self.certificate.split()[0]
 
     def holds(self) -> bool:
         """Whether it is."""

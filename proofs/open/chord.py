@@ -6,7 +6,7 @@ from chapsym.derive import elliptic
 from chapsym.derive.elliptic import HALF, MEAN, U, k2
 from chapsym.derive.quotient import Quotient
 from chapsym.proofs.paper.s5_increment import RATIO, SCALE, SMALL_W, TWO, D, G, V, Y, level, part, true_relation, w, y
-from chapsym.prove import Equation, Proof, claim, main
+from chapsym.prove import Equation, Proof, Theorem, claim, main
 
 PAIR = elliptic.ring(U, HALF)
 #: Z(u~) - Z(u) = z, the values P₀, P₁, A₁, A₂ of Ψ, Ψ', A', A'' at D = 0, all to the second order in D.
@@ -38,6 +38,13 @@ def coordinate(a: sp.Expr) -> sp.Expr:
     return D * (P0 + P1 * a - z)
 
 
+CURVE = "0 < k < 1, h > 0, λ, V, w, 𝒟 are not 0"
+BRANCH = "M(a₀) = 0, M'(a₀) ≠ 0, and a = δu is the root near a₀"
+RELATION = "the map on its curve is M(δu) = D(Ψ(δu) - Z(u~) + Z(u))"
+EXPANSION = "u~ - u = 2a₀ + D(c₁ - 2A'z) + D²(c₂ + c₃z + A''z²) + O(D³), z = Z(u~) - Z(u), uniformly in z"
+SHAPE = "Ψ(a) - Z(u~) + Z(u) = 2w/(y𝒟)"
+
+
 @claim(
     "chord",
     r"M(\delta u) = D\,(\Psi(\delta u) - Z(u_{k+1}) + Z(u_k)),\ "
@@ -50,6 +57,7 @@ def chord(p: Proof) -> None:
     p.assume(
         "to first order: M(a₀) = 0, M'(a₀) ≠ 0, and a is the root near a₀, as on the small branch whose root at D = 0 is a₀"
     )
+    p.state(Theorem((), (CURVE, BRANCH), (RELATION, EXPANSION)))
     p.say("Z is Jacobi's zeta function: odd, of period 2K, Z' = dn² - E/K. Its addition theorem Z(u+v) = Z(u) + Z(v) -")
     p.say("k² sn u sn v sn(u+v) is an identity at u = 0, and its derivative by u is one:")
     p.lemma(addition())
@@ -58,7 +66,9 @@ def chord(p: Proof) -> None:
     shape = 2 * RATIO * (1 - 1 / elliptic.denominator())
     p.printed(Equation("-k² sn ū sn a (sn(ū+a) + sn(ū-a)) = (2w/y)(1 - 1/𝒟)", chord_of_zeta(), shape, TWO))
     p.lemma(Equation("w/y = cn dn/sn", SMALL_W / Y, RATIO, TWO))
-    p.say("With Ψ = 2Z + 2w/y that is Ψ(a) - Z(u~) + Z(u) = 2w/(y𝒟). And (5.15), T = 0, says 1/𝒟 = (1 - G/(2Vw))/(Dλ):")
+    p.say("With Ψ = 2Z + 2w/y that is Ψ(a) - Z(u~) + Z(u) = 2w/(y𝒟).")
+    p.step(SHAPE, CURVE)
+    p.say("And (5.15), T = 0, says 1/𝒟 = (1 - G/(2Vw))/(Dλ):")
     M, whole = (2 * w - G / V) / (y * level), V * y * level * SCALE
     p.printed(
         part("M(a) - D·2w/(y𝒟) = -T/(Vyλ𝒟), M = (2w - G/V)/(yλ)", M - 2 * D * w / (y * SCALE), -true_relation() / whole)
@@ -73,6 +83,7 @@ def chord(p: Proof) -> None:
         Equation("T scaled", [true_relation().subs(scaled, simultaneous=True)],
                  [h * (h * G * SCALE - 2 * V * w * (SCALE - D * level))], height),
         )  # fmt: skip
+    p.step(RELATION, SHAPE, CURVE, "5.15", "5.12-scaling", "5.13")
     p.say("Let M(a₀) = 0 and M'(a₀) ≠ 0, and A the inverse of M near 0. As z = Z(u~) - Z(u) is bounded, a = A(D(Ψ(a) -")
     p.say("z)) has one solution near a₀ for |D| small, analytic in D and z, and uniformly in z, modulo D³, it is")
     a = half_increment()
@@ -84,6 +95,7 @@ def chord(p: Proof) -> None:
     p.lemma(
         Equation("the coefficient of D²z² in 2a is A''", sp.expand(2 * a).coeff(D, 2).coeff(z, 2), A2, SECOND_ORDER)
     )
+    p.step(EXPANSION, RELATION, BRANCH)
     p.say("z is a difference along the orbit: with v = u + 2DA'(0)Z(u) the map is v~ = v + const + O(D²), a rotation")
     p.say("on every curve, resonant or not.  What tells it from one is of the order D², and the sum of z² along an")
     p.say("orbit.")

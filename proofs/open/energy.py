@@ -1,4 +1,4 @@
-"""The open question of Section 6, settled: no integral of the map tends to the energy in C¹ as ε tends to 0, for balls with D > 0."""
+"""The open question of Section 6: no integrals of the steps tend to the energy in C¹ as ε tends to 0, for some balls."""
 
 import sympy as sp
 
@@ -8,8 +8,8 @@ from chapsym.derive.three import placed
 from chapsym.proofs.map import gibbs, self_adjoint
 from chapsym.proofs.map import modified as map_modified
 from chapsym.proofs.map.modified import FREE
-from chapsym.proofs.open import certified, orbits
-from chapsym.prove import Equation, Fact, Proof, claim, judged, main
+from chapsym.proofs.open import certified, orbits, readings, terms
+from chapsym.prove import Equation, Fact, Proof, Theorem, claim, judged, main, no, there_is
 
 FILES = certified.files("energy-drift")
 ORBITS = certified.files("periodic-orbit")
@@ -21,21 +21,13 @@ LEMMAS = {
     "periodic-orbits": orbits,
 }  # fmt: skip
 
-ANSWER = (
-    "No, not in C¹, for the balls of the certificates, D > 0, and all balls near them. Let Φ_ε be the step in K = "
-    "𝒦/ε, γ, on the small branch, and let the continuous ball (J, D) have a closed orbit on which ∮X₃(H)dt ≠ 0, "
-    "where X₃(H) = (D/4)⟨γ,ω'⟩⟨γ',ω'⟩: these balls do. Then, for every neighbourhood U of the orbit in R³ × S² and "
-    "every sequence ε_j → 0, ε_j > 0, there are no C¹ integrals F_j on U of the step with ε = ε_j that tend in "
-    "C¹(U) to f(H, |K|², ⟨K,γ⟩), f any C² function with ∂f/∂H ≠ 0 on the orbit; nor any integrals f + ε_j H₁ + ε_j² "
-    "H₂ + o(ε_j²), uniformly on U, with H₁ of class C¹ and H₂ continuous. In particular no integral of the map that "
-    "is real analytic near 𝒦 = 0 is H(𝒦,γ) + O(|𝒦|³). If ∮div_μ X₃ dt ≠ 0, which the certificates prove, too, no "
-    "invariant densities of these steps tend in C¹(U) to the density of the continuous ball, times any positive C¹ "
-    "function of |K|², ⟨K,γ⟩. Without ε: for every D > 0 and I₁ ≠ I₂ no measure with a continuous positive density "
-    "is invariant near the steady rotations about e₃ with γ not parallel to e₃, and at the periodic orbits of the "
-    "certificates every C¹ integral depends, to first order, on |γ|, |𝒦|, ⟨𝒦,γ⟩ alone. Yes, for D = 0, where the "
-    "energy itself is an integral of the map (every branch), and for 𝒦 parallel to γ. Not excluded are integrals "
-    "that tend to the energy uniformly, and have neither derivatives that tend to those of f nor such an expansion."
-)
+BALLS = "for the balls of the certificates energy-drift-*, and all balls near them"
+ORBITS_OF = "for the orbits of the certificates periodic-orbit-*"
+PERIOD = "x_ε → x lies on a closed orbit of the continuous ball of the period nε"
+ONE_STEP = "f∘Φ_ε = f + ε³f_H X₃(H) + O(ε⁴)"
+ONE_PERIOD = "after n steps x_ε is back up to O(ε²), and f has changed by ε²f_H ∮X₃(H)dt + o(ε²)"
+DENSITY_STEP = "log(det DΦ_ε · μ∘Φ_ε/μ) = ε³div_μ X₃ + O(ε⁴)"
+UNEQUAL = ("D > 0, I1 ≠ I2", "near the steady rotations about e₃ with γ not parallel to e₃")
 
 
 def scaling(p: Proof) -> None:
@@ -56,38 +48,61 @@ def scaling(p: Proof) -> None:
         "   Let T be the period of the orbit of x. For ε < T take n = ⌊T/ε⌋ steps and λ = T/(nε), so 1 ≤ λ < 1 + ε/(T - ε):"
     )
     p.say("   the orbit of x_ε = (λK, γ) has the period nε exactly, and x_ε → x.")
+    p.step(PERIOD, terms.DRIFT)
 
 
 def no_integral(p: Proof) -> None:
     """Steps 2 to 4: the theorem on the energy."""
+    concluded = tuple(map(no, (terms.IN_C1, terms.EXPANDED, terms.ANALYTIC)))
+    p.state(Theorem((terms.NEAR_IT,), (terms.SMALL_BRANCH, terms.DRIFT), concluded), readings.INTEGRALS)
     scaling(p)
     p.say(
         "2. One step.  On a compact neighbourhood V of the orbit, with V in U, by modified-field and modified-energy,",
         "   Φ_ε = φ_ε + O(ε³) and H∘Φ_ε = H + ε³X₃(H) + O(ε⁴), φ the flow of the continuous ball; uniformly, since u is",
         "   analytic in ε, K, γ. |K|², ⟨K,γ⟩ are integrals of the map, so f∘Φ_ε = f + ε³f_H X₃(H) + O(ε⁴), f = f(H, ..).",
+    )
+    p.step(ONE_STEP, terms.SMALL_BRANCH, terms.NEAR_IT, "modified-field", "modified-energy")
+    p.say(
         "3. One period.  By Gronwall's lemma Φ_ε^i(x_ε) = φ_{iε}(x_ε) + O(ε²) for i ≤ n; the orbit stays in V. At i = n,",
         "   |Φ_ε^n(x_ε) - x_ε| ≤ Cε².  And summing 2., f(Φ_ε^n(x_ε)) - f(x_ε) = ε²f_H ∮X₃(H)dt + o(ε²), as the sum is a",
         "   Riemann sum, and f_H is constant on the orbit: it depends on integrals of the continuous ball.",
+    )
+    p.step(ONE_PERIOD, ONE_STEP, PERIOD)
+    p.say(
         "4. The contradiction.  If F∘Φ_ε = F and r = F - f, then f(Φ_ε^n(x_ε)) - f(x_ε) = r(x_ε) - r(Φ_ε^n(x_ε)), which is",
         "   at most sup|dr|·2Cε², while the left side is at least ½|f_H ∮X₃(H)dt|ε² for small ε. So sup|dr| over U is at",
         "   least |f_H ∮X₃(H)dt|/(4C) for all small ε, and does not tend to 0.  (A short arc of V joins the two points.)",
-        "   And if r = εH₁ + ε²H₂ + o(ε²) uniformly, H₁ of class C¹, H₂ continuous, the right side is O(ε³) + o(ε²): too little.",
-        "   An analytic F = H + O(|𝒦|³) at 𝒦 = εK, over ε², is H + O(ε) in C¹: so it is no integral.",
     )
+    p.step(no(terms.IN_C1), ONE_PERIOD, terms.DRIFT)
+    p.say(
+        "   And if r = εH₁ + ε²H₂ + o(ε²) uniformly, H₁ of class C¹, H₂ continuous, the right side is O(ε³) + o(ε²): too"
+    )
+    p.say("   little.")
+    p.step(no(terms.EXPANDED), ONE_PERIOD, terms.DRIFT)
+    p.say("   An analytic F = H + O(|𝒦|³) at 𝒦 = εK, over ε², is H + O(ε) in C¹: so it is no integral.")
+    p.step(no(terms.ANALYTIC), no(terms.IN_C1))
 
 
 def no_density(p: Proof) -> None:
     """The theorem on densities."""
+    stated = Theorem((terms.NEAR_IT,), (terms.SMALL_BRANCH, terms.DRIFT_OF_DENSITY), (no(terms.DENSITIES),))
+    p.state(stated, readings.DENSITY)
     p.say(
         "Densities.  On R³ × S² with dK dγ the continuous ball keeps μ = τ^(-1/2) (modified-measure). By modified-field, in",
-        "   C¹ as it is analytic, log(det DΦ_ε · μ∘Φ_ε/μ) = ε³div_μ X₃ + O(ε⁴).  If ϱ∘Φ_ε · det DΦ_ε = ϱ with ϱ = g μ exp(r),",
+        "   C¹ as it is analytic, log(det DΦ_ε · μ∘Φ_ε/μ) = ε³div_μ X₃ + O(ε⁴).",
+    )
+    p.step(DENSITY_STEP, terms.SMALL_BRANCH, "modified-field", "modified-measure")
+    p.say(
+        "   If ϱ∘Φ_ε · det DΦ_ε = ϱ with ϱ = g μ exp(r),",
         "   g = g(|K|², ⟨K,γ⟩), the sum over one period is r(x_ε) - r(Φ_ε^n(x_ε)) = ε²∮div_μ X₃ dt + o(ε²): as in 4., |dr| does",
         "   not tend to 0.  div_μ X₃ has the degree 3 in ω, so that 1. holds for it.",
     )
+    p.step(no(terms.DENSITIES), DENSITY_STEP, terms.DRIFT_OF_DENSITY, terms.NEAR_IT)
 
 
 def certificates(p: Proof) -> None:
     """Closed orbits with integrals that are not 0, as the separate checker judges them."""
+    p.state(Theorem((BALLS,), (), (terms.DRIFT, terms.DRIFT_OF_DENSITY)), readings.DRIFTS)
     p.say(
         "The certificates: an orbit from the start, one component of K varied, back on a section up to S, a rotation by π;",
         "   what it misses in one more component has opposite signs at the two ends of the starts, and |γ|, |K|, ⟨K,γ⟩, H",
@@ -102,6 +117,9 @@ def certificates(p: Proof) -> None:
         point = {"J": ", ".join(ball["J"]), "D": ball["D"], "X3(H)": data["energy"][0], "div X3": data["density"][0]}
         apart = all(abs(sp.Rational(centre)) > sp.Rational(radius) for centre, radius in enclosures)
         p.witness(f"J = ({point['J']})", point, Fact("0 is in neither enclosure", apart))
+    p.step(terms.DRIFT, BALLS, "map-symmetries", *(file.name for file in FILES))
+    p.say("   The integral of div_μ X₃ is in the same files.")
+    p.step(terms.DRIFT_OF_DENSITY, BALLS, "map-symmetries", *(file.name for file in FILES))
     if accepted:
         early = str(sp.Rational(accepted[0]["time"]) / 8)
         p.control(certified.changed("the first certificate with another time", accepted[0], ("time",), early))
@@ -109,12 +127,15 @@ def certificates(p: Proof) -> None:
 
 def fixed_step(p: Proof) -> None:
     """What holds for one 𝒦, without ε: measures and integrals near periodic orbits."""
+    p.state(Theorem((), (*UNEQUAL, terms.SMALL_BRANCH), (no(terms.STEADY_DENSITY),)), readings.STEADY)
     p.say("For a fixed 𝒦: by steady-circles no measure with a continuous positive density is invariant near a steady")
-    p.say(
-        "   circle. And by periodic-orbits, where an orbit is back and its derivative on the level of |γ|, |𝒦|, ⟨𝒦,γ⟩ has"
-    )
+    p.say("   circle.")
+    p.step(no(terms.STEADY_DENSITY), *UNEQUAL, terms.SMALL_BRANCH, "steady-circles")
+    p.state(Theorem((ORBITS_OF,), (terms.SMALL_BRANCH,), (no(terms.THIRD),)), readings.CLOSED_ORBITS)
+    p.say("And by periodic-orbits, where an orbit is back and its derivative on the level of |γ|, |𝒦|, ⟨𝒦,γ⟩ has")
     p.say("   no eigenvalue 1, dF is 0 on that level for every C¹ integral F:")
     accepted = certified.present(p, ORBITS, "periodic-orbit")
+    p.step(no(terms.THIRD), ORBITS_OF, terms.SMALL_BRANCH, "periodic-orbits", *(file.name for file in ORBITS))
     if accepted:
         size = accepted[0]["integrals"]["momentum.momentum"]
         wrong = ("integrals", "momentum.momentum"), f"{sp.Rational(size) + 1}"
@@ -128,11 +149,16 @@ def fixed_step(p: Proof) -> None:
     files=(*FILES, *ORBITS),
 )
 def energy_question(p: Proof) -> None:
-    """Open in the paper, settled here: no integral of the map tends to the energy in C¹, for an open set of balls."""
+    """No C¹ integrals of the steps tend to the energy in C¹, for an open set of balls; in C⁰ the question is open."""
+    p.ask(*readings.QUESTIONS["6-open"])
     p.assume("the small branch; K = 𝒦/ε and γ near the orbit, ε small: then small-branch holds")
-    p.say(
-        "For D = 0 the energy is an integral of the map (energy-without-rolling), for 𝒦 ∥ γ it is one, too (6-vertical-energy)."
-    )
+    flat, vertical = "D = 0", "𝒦 is parallel to γ"
+    p.state(Theorem((), (flat,), (there_is(terms.KEPT),)), readings.NO_ROLLING)
+    p.say("For D = 0 the energy is an integral of the map (energy-without-rolling).")
+    p.step(there_is(terms.KEPT), flat, "energy-without-rolling")
+    p.state(Theorem((), (vertical,), (there_is(terms.KEPT),)), readings.VERTICAL)
+    p.say("For 𝒦 ∥ γ it is one, too (6-vertical-energy).")
+    p.step(there_is(terms.KEPT), vertical, "6-vertical-energy")
     for id in LEMMAS:
         p.lemma(judged(id))
     p.say("For D > 0:")
@@ -148,7 +174,7 @@ def energy_question(p: Proof) -> None:
     p.lemma(Equation("X₃(H) is odd under K ↦ -K", modified.energy_rate().xreplace(odd), -modified.energy_rate(), FREE))
     p.control(Equation("X₃(H) is 0 for every D", modified.energy_rate(), 0, FREE))
     p.lemma(Equation("X₃(H) is 0 for D = 0", modified.energy_rate().subs(three.D, 0), 0, FREE))
-    p.settle(ANSWER)
+    p.settle(readings.READINGS["6-open"])
     p.measure(*MEASURED)
     p.conjecture(
         "For every ball with three different moments and D > 0 there is such an orbit: in every resonance of the "

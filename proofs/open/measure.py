@@ -1,4 +1,4 @@
-"""The open question of Section 5, settled in three cases: for D > 0 the reduced map preserves no measure with a positive density."""
+"""The open question of Section 5: finite measures with a positive density, for D > 0, in three cases."""
 
 from dataclasses import replace
 from typing import Any
@@ -10,8 +10,8 @@ from chapsym.derive.quotient import Quotient
 from chapsym.proofs.map import gibbs, self_adjoint, symmetries
 from chapsym.proofs.map.gibbs import FREE
 from chapsym.proofs.map.symmetries import carried
-from chapsym.proofs.open import certified, chord, generic, locking, resonance
-from chapsym.prove import Equation, Proof, claim, judged, main
+from chapsym.proofs.open import certified, chord, generic, locking, readings, resonance, terms
+from chapsym.prove import Equation, Proof, Theorem, claim, judged, main, there_is
 
 KIND = "no-invariant-measure"
 FILES = certified.files(KIND)
@@ -22,17 +22,8 @@ LEMMAS = {
     "locked-circle": locking,
 }  # fmt: skip
 
-ANSWER = (
-    "No: for every ball with three different moments of inertia and D > 0, in each of three cases, G_h on the small "
-    "branch leaves no finite measure on the sphere invariant whose density is positive almost everywhere, so none with "
-    "a positive continuous density, and there is no real u = f(s, l), for each l a homeomorphism from a circle of s to "
-    "the circle of u, in which the increment is constant. The cases, all proved: (1) every h ≠ 0 with |h| small enough "
-    "and every D with 0 < D < D₀(h); (2) almost every pair of D > 0 and h with 0 < |h| < h₀(D); (3) the J, D and h of "
-    "the certificates, and all within their radii of these. In each case there is an interval of levels l on which q "
-    "steps turn by more than p half turns at one point and by less at another: there every finite invariant measure is "
-    "carried by finitely many periodic points on each circle. Yes, on this branch, for D = 0 and for two equal moments: "
-    "there the area of the sphere is invariant."
-)
+WITHIN = "for all J, D, h within the radii of the certificates measure-*"
+FLAT, ROUND = "D = 0", "two of I1, I2, I3 are equal"
 
 
 def about_the_axis(swap: bool = False) -> list[Equation]:
@@ -61,15 +52,24 @@ def renamed(axial: int = 1) -> list[Equation]:
 
 def yes(p: Proof) -> None:
     """The cases with an invariant measure."""
-    p.say("Yes for D = 0: du is invariant on every curve (5.15-euler), and dA = c(l)/2 dl du (5.9-liouville): dA is.")
+    p.state(
+        Theorem((), (FLAT, terms.THREE, terms.SMALL_BRANCH), (there_is(terms.PARAMETER), there_is(terms.MEASURE))),
+        readings.FLAT,
+    )
+    p.say("Yes for D = 0: the increment of u is constant on every curve (5.15-euler), so s = u will do.")
     p.say("That is for l > 1/Λ2; for l < 1/Λ2 exchange 1 and 3: the map is the inverse of the renamed ball's.")
     for statement in renamed():
         p.lemma(statement)
-    p.say("Yes for I1 = I2: G_h commutes with the rotations about e₃,")
+    p.step(there_is(terms.PARAMETER), FLAT, terms.THREE, terms.SMALL_BRANCH, "5.15-euler", "symmetries")
+    p.say("So du is invariant on every curve, and as dA = c(l)/2 dl du (5.9-liouville), so is the area dA.")
+    p.step(there_is(terms.MEASURE), there_is(terms.PARAMETER), "5.9-liouville")
+    p.state(Theorem((), (ROUND, terms.SMALL_BRANCH), (there_is(terms.MEASURE),)), readings.ROUND)
+    p.say("Yes for two equal moments, say I1 = I2: G_h commutes with the rotations about e₃,")
     for statement in about_the_axis():
         p.lemma(statement)
     p.say("and keeps l = (1 - γ₃²)/Λ1 + γ₃²/Λ3, so the circles of latitude, each of which it turns: dA is invariant.")
     p.say("(If all three are equal it commutes with every rotation, those about γ among them: it fixes γ.)")
+    p.step(there_is(terms.MEASURE), ROUND, terms.SMALL_BRANCH, "prop-3")
     p.control(replace(renamed(axial=-1)[0], text="1 and 3 exchanged without the signs of u and 𝒦"))
     p.control(about_the_axis(swap=True)[0])
 
@@ -79,13 +79,17 @@ def no(p: Proof) -> None:
     p.say("No, for three different moments and the h and D of (1), (2) and (3). What is used is proved anew:")
     for id in LEMMAS:
         p.lemma(judged(id))
-    p.say("(1) By plateaus, (2) by almost-every there is an interval of levels with displacements of both signs; for h")
-    p.say("< 0, the inverse map, as well. By locked-circle the finite invariant measures are carried there by periodic")
-    p.say("points: none has a density that is positive almost everywhere.")
+    p.say("(1) By plateaus, (2) by almost-every there is an interval of levels with displacements of both signs. By")
+    p.say(
+        "locked-circle the finite invariant measures are carried there by periodic points: none has a density that is"
+    )
+    p.say("positive almost everywhere.")
+    p.state(Theorem((WITHIN,), (terms.SMALL_BRANCH,), (terms.BOTH_SIGNS,)), readings.BOXES)
     p.say("(3) For numbers at hand two orbits, in interval arithmetic, one beyond and one short of p half turns:")
     accepted = certified.present(p, FILES, KIND)
     p.say("The radius says how far J, D, h and l may be off: there is an interval of levels for every J, D, h of the")
     p.say("box, to which locked-circle applies.")
+    p.step(terms.BOTH_SIGNS, WITHIN, terms.SMALL_BRANCH, *(file.name for file in FILES))
     if accepted:
         tampered(p, accepted[0])
 
@@ -114,14 +118,15 @@ def tampered(p: Proof, data: dict[str, Any]) -> None:
     files=FILES,
 )
 def invariant_measure_question(p: Proof) -> None:
-    """Open in the paper, settled here in three cases: no such measure for D > 0 and three different moments, as levels lock."""
+    """No finite measure with a density that is positive almost everywhere is invariant, for D > 0, in three cases."""
+    p.ask(*readings.QUESTIONS["5.9-open"])
     p.assume("the small branch, |h| below the bound of small-branch")
     p.assume(
         "a measure in the sense of the paper, with a density that is positive; finite, as one with a continuous density is"
     )
     yes(p)
     no(p)
-    p.settle(ANSWER)
+    p.settle(readings.READINGS["5.9-open"])
     p.measure(
         "The second order of resonance against the map, 110 digits: Λ = (6, 5, 3), l = 1/4, q = 5, p = 1, h ≈ 3.839 such "
         "that the displacement is 0 at γ2 = 0 (beyond the bound of small-branch, on the root continued from h = 0): at "

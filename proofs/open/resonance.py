@@ -6,8 +6,9 @@ from chapsym.derive import elliptic
 from chapsym.derive.elliptic import HALF, L1, L2, L3, U, k2, l
 from chapsym.derive.quotient import Quotient
 from chapsym.proofs import second_routes
+from chapsym.proofs.open import terms
 from chapsym.proofs.open.chord import PAIR
-from chapsym.prove import Equation, Fact, Identity, Proof, claim, main
+from chapsym.prove import Equation, Fact, Identity, Proof, Theorem, claim, main
 from chapsym.prove.polynomials import Ratio, parameters
 
 #: Z(u+v) - Z(u) - Z(v), and cn dn/sn of v.
@@ -63,6 +64,13 @@ def in_fourier_series(p: Proof) -> None:
     p.control(chords_of_a_polygon(12, 1))
 
 
+CHORD = "0 < k < 1 with M(a₀) = 0, M'(a₀) ≠ 0 as in chord; p ≠ 0, q ≥ 2 without common factor"
+NEAR = "δ = u_q - u_0 - 2Kp is O(D²) at some u₀, as D → 0 with Λ, l, h such that 2a₀q = 2Kp + O(D)"
+SQUARES = "δ = const + D²A''Σz² + O(D³) over the orbit of a rotation, with Σz = 0 in the sum"
+SUM = "δ = const - 2A''D²Σdn²(u₀ + 2Kj/q) + O(D³), A'' = -M''/M'³"
+NOT_CONSTANT = "Σdn²(u₀ + 2Kj/q) is greatest at u₀ = 0, less at K/q, and strictly monotone between them, mod 2K/q"
+
+
 @claim(
     "resonance",
     r"2a_0q = 2Kp:\quad u_q - u_0 - 2Kp = c - 2A''(0)\,D^2\sum_{j=0}^{q-1}\mathrm{dn}^2\bigl(u_0+\tfrac{2Kj}q\bigr)+O(D^3),"
@@ -75,12 +83,14 @@ def resonance(p: Proof) -> None:
         "chord: Λ1 > Λ2 > Λ3, 1/Λ2 < l < 1/Λ3, so that 0 < k < 1, M(a₀) = 0, M'(a₀) ≠ 0; p ≠ 0, q ≥ 2 without common factor"
     )
     p.assume("δ = u_q - u_0 - 2Kp is O(D²) at some u₀, as D → 0 with Λ, l, h such that 2a₀q = 2Kp + O(D)")
+    p.state(Theorem((), (CHORD, NEAR), (SUM, NOT_CONSTANT)))
     p.say("By chord u~ - u = 2a = 2a₀ + D(c₁ - 2A'z) + D²(c₂ + c₃z + A''z²) + O(D³) with z = Z(u~) - Z(u), c_i of the")
     p.say("curve. Over q steps δ = O(D), and Σz = Z(u_q) - Z(u_0) = Z(u_0 + δ) - Z(u_0) = O(δ), as 2K is a period of")
     p.say("Z. So δ = const + O(D²): as it is O(D²) at one u₀, it is at all, and then Σz = O(D²). To second order")
     p.say(
         "    δ = const + D²A'' Σz² + O(D³), in Σz² the orbit u_0 + 2Kpj/q of a rotation: the points u_0 + 2Kj/q mod 2K."
     )
+    p.step(SQUARES, CHORD, NEAR, "chord")
     p.say("The squares, with c = Z(v) + cn dn/sn(v) and v = 2Kp/q (v is no multiple of 2K, as q ≥ 2):")
     p.printed(square())
     p.say("that is (z - c)² = c' - dn²u - dn²u~ by the addition theorem. With Σz = 0 on the orbit: Σz² = const -")
@@ -89,6 +99,7 @@ def resonance(p: Proof) -> None:
     inverse = Quotient((M1, M2))
     twice = -M2 / M1**3 * M1**2 + M2 / M1
     p.lemma(Equation("A(M(a)) = a twice differentiated, at A' = 1/M', A'' = -M''/M'³", twice, 0, inverse))
+    p.step(SUM, SQUARES)
     p.say("f(u) = Σ_j dn²(u + 2Kj/q) has the periods 2K/q, 2iK' and in a cell one pole, double, at iK', as dn² has in")
     p.say("its own and the q shifts of iK' differ: f is not constant. f' has order 3, so its zeros are those that it")
     p.say("must have, as it is odd: 0, K/q, K/q + iK'. On the real axis f is strictly monotone between 0 and K/q, mod")
@@ -97,6 +108,7 @@ def resonance(p: Proof) -> None:
     p.say("odd} mq/sinh(mqη). So, if A'' ≠ 0, the displacement is extreme near u₀ = 0, where γ_b = 0, and near K/q,")
     p.say("which for odd q is u₀ = K, where γ_a = 0, mod 2K/q. It differs there by 2A''D²(f(0) - f(K/q)) + O(D³),")
     p.say("least at γ_b = 0 where A'' > 0.")
+    p.step(NOT_CONSTANT, CHORD)
     in_fourier_series(p)
     p.control(square(pole=-POLE))
     p.control(square(sign=1))
@@ -112,23 +124,29 @@ def slow_parts() -> tuple[sp.Expr, sp.Expr, Quotient]:
     return sp.expand(above / h), sp.expand(below / h**2), Quotient((h, b, V, l, k2, alpha, beta, mu), [h**2])
 
 
+WIDTH = "near a level with 2a₀q = 2Kp, A'' ≠ 0, ω' ≠ 0 there are, for D small, levels with displacements of both signs"
+TWIST = "for h small, A'' > 0 and ω' > 0 on an interval of levels, where ω = a₀/K takes rational values p/q > 0"
+
+
 @claim(
     "plateaus",
     r"h \text{ small},\ 0 < D < D_0(h): \text{ on an interval of levels } l \text{ of a length} \ge cD^2,\ "
     r"\mathcal G_h^q \text{ displaces by } p \text{ half turns and more, and by } p \text{ half turns and less}",
-    uses=["resonance", "5.9-circle", "small-branch"],
+    uses=["resonance", "5.9-circle", "small-branch", "self-adjoint"],
 )
 def plateaus(p: Proof) -> None:
     """For every ball with three different moments, every small h and every smaller D there are levels with displacements of both signs."""
     p.assume(
         "Λ1 > Λ2 > Λ3 fixed and D → 0, or I1 > I2 > I3 fixed and Λ = I + D: all below is uniform in Λ near its limit"
     )
-    p.assume("0 < h < h₀ for some h₀ that depends on Λ; h < 0 is the inverse map; the small branch")
+    p.assume("0 < h < h₀ for some h₀ that depends on Λ; the small branch")
+    p.state(Theorem((terms.FOR_SMALL,), (terms.THREE, terms.SMALL_BRANCH), (terms.BOTH_SIGNS,)))
     p.say("1. Let a level l₀ have 2a₀q = 2Kp, A'' ≠ 0 and let ω(l) = a₀/K have ω' ≠ 0 there. δ at u₀ = 0 plus δ at u₀")
     p.say("= K/q is 4q(a₀ - Kp/q) + O(D), which changes its sign within |l - l₀| ≤ CD: it is 0 at some l*. By the")
     p.say("first order of resonance δ is const + O(D²) there, hence O(D²), and δ = ±A''D²(f(0) - f(K/q)) + O(D³) at")
     p.say("the two points: of opposite signs for D small enough. As ∂δ/∂l = 2qK ω' + O(D), they stay so on an interval")
     p.say("around l* of a length that is A''D²(f(0) - f(K/q))/(qK|ω'|) to leading order: the width of the plateau p/q.")
+    p.step(WIDTH, "resonance", terms.THREE)
     p.say("2. Both hypotheses hold for small h. M = (2w - hG/V)/(yλ), with (5.14-alpha) and a = hb, modulo h²:")
     above, below, ring = slow_parts()
     b, V = sp.symbols("b V")
@@ -157,8 +175,13 @@ def plateaus(p: Proof) -> None:
         Equation("dk²/dl = -(Λ1-Λ2)(Λ1-Λ3)/((Λ2-Λ3)(Λ1l-1)²) < 0", slope, falling, level),
     )
     p.say("and K increases with k. So ω' > 0 for h small, ω takes an interval of values, with rational ones p/q among")
-    p.say("them, and 1. applies to each of these: h₀ and the interval of l are chosen first, then h, then p/q, then")
-    p.say("D₀.")
+    p.say("them.")
+    p.step(TWIST, terms.THREE, terms.SMALL_BRANCH, "5.9-circle", "small-branch")
+    p.say(
+        "1. applies to each of these: h₀ and the interval of l are chosen first, then h, then p/q, then D₀. For h < 0"
+    )
+    p.say("it is the inverse map (self-adjoint): its displacement is -δ∘F⁻¹, of both signs as well.")
+    p.step(terms.BOTH_SIGNS, WIDTH, TWIST, terms.FOR_SMALL, "self-adjoint")
     p.witness("a level", {"Λ": "(6, 5, 2)", "l": "3/10", "V²": "1/25", "k²": "1/6"},
               Fact("V² > 0 and 0 < k² < 1", all(0 < x < 1 for x in at_a_level())))  # fmt: skip
     p.control(Equation("(2w - hG/V)/h = b - V", above, b - V, ring))

@@ -7,7 +7,21 @@ import sympy as sp
 
 from chapsym.derive import three
 from chapsym.derive.quotient import Quotient
-from chapsym.prove import Comparison, Equation, Fact, Proof, Verdict, claim, claims, judged, load, rational_point
+from chapsym.prove import (
+    Comparison,
+    Equation,
+    Fact,
+    Proof,
+    Reading,
+    Theorem,
+    Verdict,
+    claim,
+    claims,
+    judged,
+    load,
+    no,
+    rational_point,
+)
 from chapsym.prove.claims import Claim
 from chapsym.prove.runner import downstream, explain, judge, unproved
 
@@ -25,8 +39,12 @@ OFF_CIRCLE = rational_point({x: 1, y: 1}, [equation(x**2 + y**2, sp.S.One)])
 PROVED, CONTROL = ("printed", TRUE), ("control", FALSE)
 WRONG = [("printed", FALSE), CONTROL]
 MENDED = [*WRONG, ("corrected", "c", TRUE)]
-CERTIFICATE, ANSWER = ("certificate", "c.json", "x > 0", "0", True), ("settle", "No.")
-SETTLED = [("lemma", TRUE), CONTROL, CERTIFICATE, ANSWER]
+CERTIFICATE, ANSWER = (
+    ("certificate", "c.json", "x > 0", "0" * 64, True),
+    ("settle", [Reading("r", "root", "no", ("part",))]),
+)
+STATED = [("state", Theorem((), (), (no("root"),)), "part"), ("say", "So."), ("step", no("root"), "c.json")]
+SETTLED = [("lemma", TRUE), CONTROL, CERTIFICATE, *STATED, ANSWER]
 #: Statements that are no equations: one with a point, where it fails, and one without.
 COMPARED = [("printed", Comparison("order", [x > y], {x: 1, y: 2})), ("corrected", "c", TRUE), CONTROL]
 COUNTED = [("printed", Fact("at most 4", False)), ("corrected", "at most 8", Fact("at most 8", True)), CONTROL]
@@ -50,6 +68,8 @@ RULES = {
     "an answer": (SETTLED, Verdict.SETTLED),
     "an answer without a lemma": (SETTLED[1:], "the answer has no lemma that is decided"),
     "an answer without a control": ([SETTLED[0], *SETTLED[2:]], "the proof has no negative control"),
+    "an answer without its step": ([*SETTLED[:5], ANSWER], "not answered: part is not proved, or states nothing"),
+    "an answer without its sentence": ([*SETTLED[:4], *SETTLED[5:]], "not answered: part is not proved"),
     "an answer with a false lemma": ([*SETTLED, ("lemma", FALSE)], ""),
     "an answer with a control that passes": ([*SETTLED, ("control", TRUE)], ""),
     "an answer that is left open": ([*SETTLED, ("leave_open", "a polynomial")], Verdict.OPEN),
@@ -109,7 +129,7 @@ def test_what_is_said_may_be_any_object_and_a_record_is_text():
     proof = Proof()
     proof.lemma(TRUE)
     proof.control(FALSE)
-    for name in ("say", "settle", "measure", "conjecture", "define", "assume"):
+    for name in ("say", "measure", "conjecture", "define", "assume"):
         getattr(proof, name)(x)
     proof.witness("circle", {x: sp.Rational(3, 5)})
     claim = Claim("9.9", "x", (), lambda p: None)
@@ -120,10 +140,8 @@ def test_what_is_said_may_be_any_object_and_a_record_is_text():
 def test_a_settled_question_is_proved_and_explained(monkeypatch):
     def settles(p):
         """Title."""
-        p.lemma(TRUE)
-        p.control(FALSE)
-        p.certificate("c.json", "x > 0", "0" * 64, True)
-        p.settle("No.")
+        for name, *arguments in SETTLED:
+            getattr(p, name)(*arguments)
         p.measure("1e-28")
         p.conjecture("never")
 
@@ -134,7 +152,8 @@ def test_a_settled_question_is_proved_and_explained(monkeypatch):
     assert not record["evidence"]["open_in_paper"]
     lines = explain(record).splitlines()
     assert "  ✓ certificate c.json: x > 0" in lines
-    assert lines[-4:-1] == ["  ANSWER: No.", "  measured, not proved: 1e-28", "  conjecture: never"]
+    assert lines[-6:-4] == ["  ANSWER to: r", "    No. there is no root (part)."]
+    assert lines[-3:-1] == ["  measured, not proved: 1e-28", "  conjecture: never"]
 
 
 def test_a_counterexample_has_a_value_for_each_symbol_of_a_hypothesis():

@@ -1,0 +1,162 @@
+"""What a proof concludes, as data: hypotheses and conclusions, the steps between them, and readings of a question.
+
+The texts are names: two say the same where they are equal, letter for letter.  That the steps join and that nothing is
+left out is decided; what a sentence says is not.
+"""
+
+import re
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from dataclasses import asdict, dataclass
+from typing import Any
+
+#: How a reading of a question may be answered: what is asked for does not exist, exists, exists for a trivial reason.
+NO, YES, TRIVIALLY, OPEN = ANSWERS = ("no", "yes", "trivially yes", "open")
+
+#: The words for what is settled.
+MACHINE_CHECKED, BY_HAND = "machine-checked", "by hand"
+
+
+@dataclass(frozen=True)
+class Theorem:
+    """Where the letters are as quantified and the hypotheses hold, the conclusions do; other letters are arbitrary."""
+
+    quantifiers: tuple[str, ...]
+    hypotheses: tuple[str, ...]
+    conclusions: tuple[str, ...]
+
+    @property
+    def given(self) -> tuple[str, ...]:
+        """What its proof may use."""
+        return (*self.quantifiers, *self.hypotheses)
+
+
+@dataclass(frozen=True)
+class Step:
+    """That something follows from what it needs, by so many sentences; the statements that were decided beside them."""
+
+    gives: str
+    needs: tuple[str, ...]
+    sentences: int
+    checks: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Reading:
+    """One way to read a question: whether there is such a thing, and what answers it, in the order in which it joins.
+
+    asked: the reading in words.  thing: what is asked for, after "there is a".  by: lemmas, and parts of the question's
+    own proof; none if it is open.
+    """
+
+    asked: str
+    thing: str
+    answer: str
+    by: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        if self.answer not in ANSWERS or (self.answer == OPEN) == bool(self.by):
+            raise ValueError(f"a reading is open, or answered by what proves it; this is not: {self.asked}")
+
+    @property
+    def goal(self) -> str:
+        """What must be concluded."""
+        return no(self.thing) if self.answer == NO else there_is(self.thing)
+
+
+class Gap(Exception):
+    """Something does not follow; the message says what."""
+
+
+def there_is(thing: str) -> str:
+    """That a thing exists, as a conclusion."""
+    return f"there is a {thing}"
+
+
+def no(thing: str) -> str:
+    """That a thing does not exist."""
+    return f"there is no {thing}"
+
+
+def sentences(texts: Iterable[str]) -> int:
+    """How many sentences a text has, as stops and colons end them; the numbers of its paragraphs are none."""
+    whole = re.sub(r"(^|\n)\s*\d+\.\s", r"\1", "\n".join(texts))
+    return sum(any(map(str.isalpha, part)) for part in re.split(r"[.:](?:\s|$)", whole))
+
+
+def gaps(theorem: Theorem, steps: Sequence[Step], known: Collection[str]) -> list[str]:
+    """Why the steps do not prove a theorem from what is known; empty if they do, and nothing of it all is idle."""
+    found, have, used = [], {*known, *theorem.given}, set(theorem.conclusions)
+    for step in steps:
+        found += [f"«{step.gives}» needs «{need}», which nothing gives" for need in step.needs if need not in have]
+        if not step.sentences:
+            found.append(f"no sentence carries «{step.gives}»")
+        have.add(step.gives)
+        used.update(step.needs)
+    shown = {*known, *(step.gives for step in steps)}
+    found += [f"«{one}» is concluded by no step" for one in theorem.conclusions if one not in shown]
+    idle = [*theorem.given, *(step.gives for step in steps)]
+    return found + [f"«{one}» is used by no step" for one in idle if one not in used]
+
+
+def assembled(reading: Reading, theorems: Mapping[str, Theorem]) -> Theorem:
+    """What answers a reading: with all that its lemmas need and none before them gives; raises Gap if none does."""
+    quantifiers: dict[str, None] = {}
+    hypotheses: dict[str, None] = {}
+    given: dict[str, str] = {}
+    idle = dict.fromkeys(reading.by[:-1])
+    for name in reading.by:
+        if name not in theorems:
+            raise Gap(f"{name} is not proved, or states nothing")
+        theorem = theorems[name]
+        for one in theorem.hypotheses:
+            if one in given:
+                idle.pop(given[one], None)
+            else:
+                hypotheses[one] = None
+        quantifiers |= dict.fromkeys(theorem.quantifiers)
+        given |= dict.fromkeys(theorem.conclusions, name)
+    if not reading.by or reading.goal not in theorems[reading.by[-1]].conclusions:
+        raise Gap(f"{', '.join(reading.by) or 'nothing'} does not conclude that {reading.goal}")
+    if idle:
+        raise Gap(f"{next(iter(idle))} gives nothing that is needed: {reading.asked}")
+    return Theorem(tuple(quantifiers), tuple(hypotheses), (reading.goal,))
+
+
+def row(reading: Reading, theorem: Theorem | None) -> dict[str, Any]:
+    """A reading with the theorem that answers it, as a record has it."""
+    made = asdict(theorem) if theorem else None
+    return {"asked": reading.asked, "answer": reading.answer, "by": list(reading.by), "theorem": made}
+
+
+def told(row: Mapping[str, Any]) -> str:
+    """An answered reading as a sentence."""
+    theorem = row["theorem"]
+    given = "; ".join([*theorem["quantifiers"], *theorem["hypotheses"]])
+    where = f"Where {given}: " if given else ""
+    return f"{row['answer'].capitalize()}. {where}{'; '.join(theorem['conclusions'])} ({', '.join(row['by'])})."
+
+
+@dataclass(frozen=True)
+class Grounds:
+    """What a proof states, and what carries it: decided statements, accepted certificates, sentences."""
+
+    theorem: Theorem | None
+    statements: int
+    certificates: int
+    sentences: int
+
+
+def settlement(of: Mapping[str, Grounds]) -> dict[str, Any]:
+    """What carries proofs together: the word for it, and the number of each."""
+    names = "statements", "certificates", "sentences"
+    total = {name: sum(getattr(one, name) for one in of.values()) for name in names}
+    return {"word": BY_HAND if total["sentences"] else MACHINE_CHECKED, **total, "proofs": list(of)}
+
+
+def counted(by: Mapping[str, Any]) -> str:
+    """A settlement as text."""
+    machine = (
+        f"{by['statements']} decided statements and {by['certificates']} accepted certificates are machine-checked"
+    )
+    hand = f"; {by['sentences']} sentences are by hand" if by["sentences"] else ""
+    return f"{by['word']}: {machine}{hand}; in these proofs: {', '.join(by['proofs'])}"

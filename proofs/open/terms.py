@@ -1,0 +1,46 @@
+"""The words in which the lemmas on the open questions are stated: hypotheses and conclusions, each named once.
+
+A text is a name: two lemmas join where one concludes what the other assumes, letter for letter.
+"""
+
+# Hypotheses.
+THREE = "I1, I2, I3 are different"
+SMALL_BRANCH = "|𝒦| is below the bound of small-branch, and the map is that of the small branch"
+REGULAR_LEVEL = "l is none of 1/Λ1, 1/Λ2, 1/Λ3"
+MOMENTS = "J_i + J_j > 0 and D ≥ 0"
+FOR_SMALL = (
+    "there is h₀ > 0, and for every h with 0 < |h| < h₀ there is D₀(h) > 0, so that for every D with 0 < D < D₀(h)"
+)
+FOR_ALMOST_ALL = "for every D̂ > 0 there is h₀ > 0, so that for almost every (D, h) with 0 < D < D̂ and 0 < |h| < h₀"
+
+#: What joins the lemmas of 5.9-open.
+BOTH_SIGNS = (
+    "for some q and p ≥ 1 there is an interval of levels on which q steps turn by more than p half turns at one point of "
+    "each circle, and by less at another"
+)
+
+# What question 5.9-open asks for, in its readings.
+MEASURE = "finite measure on the sphere, invariant under G_h, with a density that is positive almost everywhere"
+PARAMETER = "real u = f(s, l), for each l a homeomorphism from a circle of s to that of u, with a constant increment"
+INFINITE = (
+    "measure on the locked circle, infinite and invariant, with a density smooth and positive off finitely many points"
+)
+LINE = "real analytic u = f(s), from the line of s to that of u over the locked circle, with a constant increment"
+CARRIED = "every finite invariant measure on a circle of these levels is carried by finitely many periodic points"
+
+# What question 6-open asks for.
+IN_C1 = (
+    "family of C¹ integrals of the steps that tends in C¹ to H, or to a C² f(H, |K|², ⟨K,γ⟩) with ∂f/∂H ≠ 0, as ε → 0"
+)
+IN_C0 = "family of continuous integrals of the steps that tends uniformly to such a function"
+EXPANDED = "family of integrals f + εH₁ + ε²H₂ + o(ε²) of the steps, uniformly, with H₁ of class C¹ and H₂ continuous"
+ANALYTIC = "real analytic integral H + O(|𝒦|³) of the map near 𝒦 = 0"
+KEPT = "conserved energy: H itself is an integral of the map"
+DENSITIES = "family of invariant densities of the steps that tends in C¹ to that of the continuous ball"
+STEADY_DENSITY = "measure, invariant under the whole map, with a continuous positive density near these rotations"
+THIRD = "C¹ integral of the map with a differential independent of those of |γ|, |𝒦|², ⟨𝒦,γ⟩ on these orbits"
+
+#: What joins the parts of 6-open.
+DRIFT = "the continuous ball has a closed orbit with ∮X₃(H)dt ≠ 0, X₃(H) = (D/4)⟨γ,ω'⟩⟨γ',ω'⟩"
+DRIFT_OF_DENSITY = "the continuous ball has a closed orbit with ∮div_μ X₃ dt ≠ 0"
+NEAR_IT = "for every neighbourhood U of the orbit in R³ × S² and every sequence ε_j → 0, ε_j > 0"

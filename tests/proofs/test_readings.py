@@ -1,0 +1,164 @@
+"""What answers the two questions: each link of the arguments is needed, and the table is the one that is proved."""
+
+from dataclasses import replace
+from fractions import Fraction
+
+import pytest
+import sympy as sp
+
+from chapsym import checker
+from chapsym.proofs.open import certified, energy, locking, measure, readings
+from chapsym.prove import Proof, Verdict, judged, load, no, there_is
+from chapsym.prove.argument import gaps
+from chapsym.prove.runner import judge
+
+#: The lemmas whose statements are data, beside the parts of the questions.
+STATED = ("chord", "resonance", "plateaus", "almost-every", "locked-circle")
+QUESTIONS = {"5.9-open": measure, "6-open": energy}
+
+
+@pytest.fixture(scope="module")
+def rests():
+    """The lemmas of the questions, judged once."""
+    load(lemmas=True)
+    return {id: judged(id) for id in {**measure.LEMMAS, **energy.LEMMAS}}
+
+
+@pytest.fixture(scope="module")
+def shown():
+    """What the checker says of each certificate, once."""
+    return {}
+
+
+@pytest.fixture
+def once(rests, shown, monkeypatch):
+    """The questions rest on these lemmas and certificates, without judging them again."""
+    check = checker.check
+
+    def checked(data):
+        if data["digest"] not in shown:
+            shown[data["digest"]] = check(data)
+        return shown[data["digest"]]
+
+    for module in QUESTIONS.values():
+        monkeypatch.setattr(module, "judged", rests.__getitem__)
+    monkeypatch.setattr(checker, "check", checked)
+    monkeypatch.setattr(certified, "changed", lambda *_: measure.renamed(axial=-1)[0])
+
+
+def proof_of(id):
+    claim = load(lemmas=True)[id]
+    proof = Proof(uses=claim.uses)
+    claim.prove(proof)
+    return proof
+
+
+@pytest.mark.usefixtures("once")
+@pytest.mark.parametrize("id", QUESTIONS)
+def test_every_reading_that_is_not_open_is_proved(id):
+    judgement = judge(load()[id])
+    assert judgement.verdict is Verdict.SETTLED, judgement.proof.problems
+    assert [row["asked"] for row in judgement.proof.readings] == [one.asked for one in readings.READINGS[id]]
+    for row, one in zip(judgement.proof.readings, readings.READINGS[id], strict=True):
+        assert (row["theorem"] is None) == (one.answer == "open")
+        assert all(name in load(lemmas=True) or name.startswith(f"{id}: ") for name in one.by)
+    evidence = judgement.record()["evidence"]
+    assert evidence["settled"]["word"] == "by hand"
+    assert set(evidence["settled"]["proofs"]) == {id, *QUESTIONS[id].LEMMAS}
+    assert min(evidence["settled"][name] for name in ("statements", "certificates", "sentences")) > 0
+
+
+ANSWERED = [(id, i) for id, rows in readings.READINGS.items() for i, one in enumerate(rows) if one.by]
+
+
+@pytest.mark.usefixtures("once")
+@pytest.mark.parametrize(("id", "row"), ANSWERED)
+def test_a_negated_answer_and_a_swapped_lemma_do_not_follow(id, row, monkeypatch):
+    rows = readings.READINGS[id]
+    other = "yes" if rows[row].answer == "no" else "no"
+    swapped = (*rows[row].by[:-1], "chord" if id == "5.9-open" else "modified-field")
+    for changed in (replace(rows[row], answer=other), replace(rows[row], by=swapped)):
+        monkeypatch.setitem(readings.READINGS, id, (*rows[:row], changed, *rows[row + 1 :]))
+        judgement = judge(load()[id])
+        assert judgement.verdict is Verdict.OPEN
+        assert judgement.proof.problems[0].startswith("not answered: ")
+
+
+@pytest.mark.usefixtures("once")
+@pytest.mark.parametrize("id", QUESTIONS)
+def test_without_its_prose_no_question_is_settled(id, monkeypatch):
+    monkeypatch.setattr(Proof, "say", lambda *_: None)
+    assert judge(load()[id]).verdict is Verdict.OPEN
+
+
+@pytest.mark.parametrize("id", [*STATED, *QUESTIONS])
+@pytest.mark.usefixtures("once")
+def test_each_hypothesis_and_each_step_by_hand_is_needed(id):
+    proof = proof_of(id)
+    files = {one["file"] for one in proof.certificates}
+    known = {*proof.uses, *files, *(check["statement"] for check in proof.checks)}
+    assert proof.stated
+    for part, theorem in proof.stated.items():
+        steps = proof.steps[part]
+        assert gaps(theorem, steps, known) == []
+        for name in ("quantifiers", "hypotheses"):
+            given = getattr(theorem, name)
+            for i in range(len(given)):
+                assert gaps(replace(theorem, **{name: given[:i] + given[i + 1 :]}), steps, known)
+        for i, one in enumerate(steps):
+            assert gaps(theorem, steps[:i] + steps[i + 1 :], known), one.gives
+            for need in set(one.needs) & {*proof.uses, *files}:
+                swapped = replace(one, needs=tuple("5.1" if n == need else n for n in one.needs))
+                assert gaps(theorem, [*steps[:i], swapped, *steps[i + 1 :]], known), need
+        for conclusion in theorem.conclusions:
+            if conclusion.startswith(no("")):
+                negated = there_is(conclusion.removeprefix(no("")))
+                assert gaps(replace(theorem, conclusions=(negated,)), steps, known)
+
+
+@pytest.mark.parametrize(
+    "change",
+    {
+        "negated": lambda t: replace(t, conclusions=tuple(c.replace("is no", "is a") for c in t.conclusions)),
+        "a hypothesis less": lambda t: replace(t, hypotheses=t.hypotheses[1:]),
+        "a hypothesis more": lambda t: replace(t, hypotheses=(*t.hypotheses, "l = 1")),
+    }.values(),
+)
+def test_a_lemma_that_states_something_else_does_not_hold(change, monkeypatch):
+    monkeypatch.setattr(locking, "STATED", change(locking.STATED))
+    assert judge(load(lemmas=True)["locked-circle"]).verdict is Verdict.OPEN
+
+
+@pytest.mark.usefixtures("once")
+def test_a_lemma_that_needs_more_makes_the_theorem_need_more(rests, monkeypatch):
+    """Nobody types the hypotheses of an answer: they are those of its lemmas."""
+    told = rests["plateaus"]
+    theorem = replace(told.grounds.theorem, hypotheses=(*told.grounds.theorem.hypotheses, "l = 1"))
+    narrower = rests | {"plateaus": replace(told, grounds=replace(told.grounds, theorem=theorem))}
+    monkeypatch.setattr(measure, "judged", narrower.__getitem__)
+    first = judge(load()["5.9-open"]).proof.readings[0]
+    assert "l = 1" in first["theorem"]["hypotheses"]
+
+
+def test_the_mass_lies_inside_where_tr_J_is_at_most_D():
+    """J = Σ m x xᵀ and D = mρ²: |x| ≤ ρ gives J ≥ 0 and tr J ≤ D; and six points and the centre reach each such J."""
+    mass, radius, *J = sp.symbols("m rho J1:4", positive=True)
+    points = [sign * radius * axis for axis in sp.eye(3).columnspace() for sign in (1, -1)]
+    weights = [J[i // 2] / (2 * radius**2) for i in range(6)]
+    tensor = sum((w * x * x.T for w, x in zip(weights, points, strict=True)), sp.zeros(3))
+    assert tensor == sp.diag(*J)
+    assert sum((w * x for w, x in zip(weights, points, strict=True)), sp.zeros(3, 1)) == sp.zeros(3, 1)
+    centre = mass - sum(weights)  # what is left for the centre: it is not negative exactly if tr J ≤ mρ²
+    assert sp.expand(centre * radius**2) == mass * radius**2 - sum(J)
+    x = sp.Matrix(sp.symbols("x1:4"))
+    assert (x * x.T).trace() == x.dot(x)  # so tr J = Σ m|x|² ≤ mρ²
+
+
+def test_the_balls_that_are_said_to_have_their_mass_inside_do():
+    for name, inside in {"measure-real-ball": True, "energy-drift-real-ball": True, "measure-simplest": False}.items():
+        ball = checker.read(certified.FOLDER / f"{name}.json")["ball"]
+        J = [Fraction(value) for value in ball["J"]]
+        assert (min(J) >= 0 and sum(J) <= Fraction(ball["D"])) is inside
+    told = " ".join(one.asked for rows in readings.READINGS.values() for one in rows)
+    assert "measure-real-ball: tr J ≤ D" in told
+    assert "energy-drift-real-ball: tr J ≤ D" in told
