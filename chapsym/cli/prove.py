@@ -75,6 +75,8 @@ def prove(
         for record in records:
             title = f"{record['evidence']['title']}  ({record['seconds']:.2f} s)"
             print(f"{record['id']:18} {record['verdict']:12} {title}")
+            if record["evidence"]["settled"]:
+                print(f"{'':18} settled {record['evidence']['settled']['text']}")
             for problem in record["evidence"]["problems"]:
                 print(f"{'':18} problem: {problem}")
             if record["evidence"]["problems"]:

@@ -125,15 +125,14 @@ def assembled(reading: Reading, theorems: Mapping[str, Theorem]) -> Theorem:
 def row(reading: Reading, theorem: Theorem | None) -> dict[str, Any]:
     """A reading with the theorem that answers it, as a record has it."""
     made = asdict(theorem) if theorem else None
-    return {"asked": reading.asked, "answer": reading.answer, "by": list(reading.by), "theorem": made}
+    text = told(reading, theorem) if theorem else None
+    return {"asked": reading.asked, "answer": reading.answer, "by": list(reading.by), "theorem": made, "text": text}
 
 
-def told(row: Mapping[str, Any]) -> str:
+def told(reading: Reading, theorem: Theorem) -> str:
     """An answered reading as a sentence."""
-    theorem = row["theorem"]
-    given = "; ".join([*theorem["quantifiers"], *theorem["hypotheses"]])
-    where = f"Where {given}: " if given else ""
-    return f"{row['answer'].capitalize()}. {where}{'; '.join(theorem['conclusions'])} ({', '.join(row['by'])})."
+    where = f"Where {'; '.join(theorem.given)}: " if theorem.given else ""
+    return f"{reading.answer.capitalize()}. {where}{'; '.join(theorem.conclusions)} ({', '.join(reading.by)})."
 
 
 @dataclass(frozen=True)
@@ -147,16 +146,11 @@ class Grounds:
 
 
 def settlement(of: Mapping[str, Grounds]) -> dict[str, Any]:
-    """What carries proofs together: the word for it, and the number of each."""
+    """What carries proofs together: the word for it, the number of each, and both as text."""
     names = "statements", "certificates", "sentences"
     total = {name: sum(getattr(one, name) for one in of.values()) for name in names}
-    return {"word": BY_HAND if total["sentences"] else MACHINE_CHECKED, **total, "proofs": list(of)}
-
-
-def counted(by: Mapping[str, Any]) -> str:
-    """A settlement as text."""
-    machine = (
-        f"{by['statements']} decided statements and {by['certificates']} accepted certificates are machine-checked"
-    )
-    hand = f"; {by['sentences']} sentences are by hand" if by["sentences"] else ""
-    return f"{by['word']}: {machine}{hand}; in these proofs: {', '.join(by['proofs'])}"
+    word = BY_HAND if total["sentences"] else MACHINE_CHECKED
+    machine = f"{total['statements']} decided statements and {total['certificates']} accepted certificates"
+    hand = f"; {total['sentences']} sentences are by hand" if total["sentences"] else ""
+    text = f"{word}: {machine} are machine-checked{hand}; in the proofs of {', '.join(of)}"
+    return {"word": word, **total, "proofs": list(of), "text": text}

@@ -240,7 +240,7 @@ class Proof:
     @property
     def answer(self) -> str | None:
         """What is answered of a question: the theorems, made from the statements of the lemmas."""
-        return "  ".join(argument.told(one) for one in self.readings if one["theorem"]) or None
+        return "  ".join(one["text"] for one in self.readings if one["theorem"]) or None
 
     def measure(self, *findings: str) -> None:
         """Numerical evidence beside what is proved, with its digits; no verdict rests on it."""

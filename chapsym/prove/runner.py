@@ -13,7 +13,6 @@ from typing import Any
 
 from chapsym import sources, workers
 
-from .argument import counted, told
 from .certificates import write
 from .claims import Claim, Judgement
 from .evidence import Proof, Verdict
@@ -131,8 +130,10 @@ def explain(record: dict[str, Any]) -> str:
     lines += [f"  nothing to decide: {evidence['reason']}"] if evidence["reason"] else []
     lines += [f"  tried: {text}" for text in evidence["tried"]]
     for row in evidence["readings"]:
-        lines += [f"  ANSWER to: {row['asked']}", f"    {told(row)}"] if row["theorem"] else [f"  OPEN: {row['asked']}"]
-    lines += [f"  settled {counted(evidence['settled'])}"] if evidence["settled"] else []
+        lines += (
+            [f"  ANSWER to: {row['asked']}", f"    {row['text']}"] if row["theorem"] else [f"  OPEN: {row['asked']}"]
+        )
+    lines += [f"  settled {evidence['settled']['text']}"] if evidence["settled"] else []
     lines += [f"  measured, not proved: {text}" for text in evidence["measured"]]
     lines += [f"  conjecture: {text}" for text in evidence["conjectures"]]
     if record["corrected"]:

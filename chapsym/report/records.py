@@ -16,7 +16,7 @@ VERDICTS = {
     "corrected": "false as printed; the smallest correction is proved",
     "conditional": "false as printed; true under a hypothesis that the paper leaves out",
     "refuted": "false, and no small correction saves it",
-    "settled": "left open in the paper, and decided here",
+    "settled": "left open in the paper; readings of it are decided here, machine-checked or by hand",
     "definition": "a definition, with nothing to prove",
     "cited": "a result of other authors, taken over from them",
     "open": "not decided",

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from fractions import Fraction
+from pathlib import Path
 
 import pytest
 import sympy as sp
@@ -152,6 +153,14 @@ def test_the_mass_lies_inside_where_tr_J_is_at_most_D():
     assert sp.expand(centre * radius**2) == mass * radius**2 - sum(J)
     x = sp.Matrix(sp.symbols("x1:4"))
     assert (x * x.T).trace() == x.dot(x)  # so tr J = Σ m|x|² ≤ mρ²
+
+
+@pytest.mark.parametrize("id", QUESTIONS)
+def test_the_page_has_the_words_and_the_table(id):
+    page = Path(__file__).parents[2].joinpath("docs/explanation/open.md").read_text(encoding="utf-8")
+    words, place = readings.QUESTIONS[id]
+    assert f"> {words} ({place})\n\n{readings.table(id)}\n" in page
+    assert readings.table(id).count("\n") == 2 + len(readings.READINGS[id])
 
 
 def test_the_balls_that_are_said_to_have_their_mass_inside_do():

@@ -36,6 +36,24 @@ def test_answers_and_lemmas_are_there_and_escaped_and_links_lead_to_them(asked):
     assert text == questions.html(copy.deepcopy(asked), [], [], VERSIONS)
 
 
+def test_the_words_of_the_paper_and_the_readings_are_shown_with_what_carries_them(record):
+    row = {"asked": "real <i>s</i>", "answer": "no", "by": ["locked-circle"], "text": "No. Where h = 1: no."}
+    left = {"asked": "complex s", "answer": "open", "by": [], "theorem": None, "text": None}
+    rows = [row | {"theorem": {"conclusions": []}}, left]
+    given = record(
+        "5.9-open", "settled", answer="No.", readings=rows, settled={"text": "by hand: 2 sentences"},
+        question={"words": "“is there a (multi-valued) reparameterization”", "where": "Section 5"},
+    )  # fmt: skip
+    text = questions.html([given], [], [], VERSIONS)
+    shown = re.sub(r"<[^>]+>", "", text)
+    for said in (
+        "“is there a (multi-valued) reparameterization”", "Section 5", "Settled by hand: 2 sentences.", "complex s",
+        "real &lt;i&gt;s&lt;/i&gt;", "No. Where h = 1: no.", "locked-circle",
+    ):  # fmt: skip
+        assert said in shown, said
+    assert re.findall(r"<td><b>(.*?)</b></td><td>(.*?)</td>", text) == [("no", "locked-circle"), ("open", "open")]
+
+
 def test_a_certificate_is_shown_as_it_is_judged(asked):
     data = checker.read(SIMPLEST)
     good = questions.Checked("good.json", data, checker.check(data).numbers)
