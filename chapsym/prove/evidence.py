@@ -198,7 +198,7 @@ class Proof:
     def state(self, theorem: Theorem, part: str = "") -> None:
         """What the lemma says, as data, or a part of the proof under its name; the steps to its conclusions follow."""
         self.stated[part], self.steps[part] = theorem, []
-        self._since = len(self.said), len(self.checks)
+        self._since = len(self.said), len(self.decided)
 
     def step(self, gives: str, *needs: str) -> None:
         """What follows, by the sentences said since the last step, from what it needs.
@@ -206,12 +206,12 @@ class Proof:
         needs: of what the theorem is given, of what a step before gives, ids that the claim uses, files of accepted
         certificates, texts of decided statements.
         """
-        said, checks = self._since
-        decided = tuple(check["statement"] for check in self.checks[checks:])
-        made = Step(gives, needs, argument.sentences(self.said[said:]), decided)
+        said, decided = self._since
+        checks = tuple(statement.text for _, statement, _ in self.decided[decided:])
+        made = Step(gives, needs, argument.sentences(self.said[said:]), checks)
         self.steps[list(self.stated)[-1]].append(made)
         self.lines.append(f"  ⊢ {gives}")
-        self._since = len(self.said), len(self.checks)
+        self._since = len(self.said), len(self.decided)
 
     def ask(self, words: str, where: str) -> None:
         """A question of the paper, word for word, and where it stands."""
@@ -233,7 +233,7 @@ class Proof:
 
     def gaps(self, part: str) -> list[str]:
         """Why the steps do not prove what a part states; empty if they do."""
-        decided = {check["statement"] for check in self.checks if check["holds"]}
+        decided = {statement.text for _, statement, holds in self.decided if holds}
         files = {one["file"] for one in self.certificates if one["accepted"]}
         return argument.gaps(self.stated[part], self.steps[part], {*self.uses, *decided, *files})
 

@@ -6,7 +6,7 @@ from chapsym.derive import gibbs, three
 from chapsym.derive.gibbs import BY_INERTIA, I1, I2, I3, INERTIA, d, k, u, v
 from chapsym.derive.quotient import Quotient
 from chapsym.derive.three import D, gamma, placed, q, q0
-from chapsym.prove import Comparison, Equation, Proof, claim, equations, main
+from chapsym.prove import Comparison, Equation, Proof, Theorem, claim, equations, main
 
 #: Free symbols: nothing is tied, |γ| = 1 is not used.
 FREE = Quotient((*u, *k, *d, *v, *gamma, I1, I2, I3, D), [])
@@ -99,6 +99,12 @@ def gibbs_rotation(proof: Proof) -> None:
     proof.control(equal("the same with + p₀ p × v", rotation.T * v - norm * v, 2 * (p.cross(once) + p0 * once), ANY))
 
 
+BOUND = "|𝒦| < I_min, ϱ(½(I_max - I_min) + |𝒦|) < I_min, ϱ = tan(½ arcsin(|𝒦|/I_min))"
+SPLIT = "for 0 < t ≤ 1 every root at t𝒦 has |u| ≤ ϱ(t) or |u| ≥ 1/ϱ(t), ϱ(t) < 1"
+MONOTONE = "G at t𝒦 is strictly monotone on |u| ≤ ϱ(1) for 0 ≤ t ≤ 1"
+ONE_ROOT = "one rotation with |u| < 1 has the momentum 𝒦, a regular root, and it is that of the small branch"
+
+
 @claim(
     "small-branch",
     r"|\mathcal K| < I_{\min},\ \varrho\,(\tfrac12(I_{\max}-I_{\min}) + |\mathcal K|) < I_{\min},\ "
@@ -108,7 +114,9 @@ def gibbs_rotation(proof: Proof) -> None:
 )
 def small_branch(p: Proof) -> None:
     """A bound on |𝒦| under which a root with θ < 90° is the small branch's, whatever γ is."""
-    p.assume("|γ| = 1, I_min > 0, D ≥ 0")
+    ball = "|γ| = 1, I_min > 0, D ≥ 0"
+    p.assume(ball)
+    p.state(Theorem((), (ball, BOUND), (ONE_ROOT,)))
     B, jacobian = sp.Matrix(gibbs.contact_inertia()), gibbs.jacobian()
     inertial = (u.T * INERTIA * u)[0]
     residual = sp.Matrix(gibbs.residual())
@@ -126,12 +134,17 @@ def small_branch(p: Proof) -> None:
     p.lemma(Equation("with |𝒦| = 2sb/(1 + s²), b = I_min: ½|𝒦|(1 + x²) - bx vanishes at x = s and at x = 1/s",
                      [s * b * (1 + s**2) - b * s * (1 + s**2), s * b * (1 + s**2) - b * s**2 * (s + 1 / s)],
                      [sp.S.Zero, sp.S.Zero], curve))  # fmt: skip
+    p.step(SPLIT, ball, BOUND)
     p.printed(Equation("⟨d, ∂G(u)d⟩ = ⟨d, Bd⟩ - ⟨u, d × Id⟩ - 2⟨d, k⟩⟨u, d⟩", [(d.T * jacobian * d)[0]],
                        [(d.T * B * d)[0] - u.dot(d.cross(INERTIA * d)) - 2 * d.dot(k) * u.dot(d)], FREE))  # fmt: skip
     p.say("|d × Id| = |d × (I - c)d| ≤ ½(I_max - I_min)|d|² for c in the middle.  So ⟨d, ∂G d⟩ > 0 for d ≠ 0 while")
     p.say("|u|(½(I_max - I_min) + |𝒦|) < I_min: G is strictly monotone on that ball, and has one root there at most;")
-    p.say("for t𝒦 with t < 1 the ball is larger.  It contains |u| ≤ ϱ(1), so the curve from u = 0 never meets a fold")
-    p.say("for t ≤ 1 and cannot leave |u| ≤ ϱ(t) across the gap: at t = 1 it is the one root with |u| < 1.")
+    p.say("for t𝒦 with t < 1 the ball is larger.  It contains |u| ≤ ϱ(1).")
+    p.step(MONOTONE, ball, BOUND)
+    p.say(
+        "So the curve from u = 0 never meets a fold for t ≤ 1 and cannot leave |u| ≤ ϱ(t) across the gap: at t = 1 it is the one root with |u| < 1."
+    )
+    p.step(ONE_ROOT, SPLIT, MONOTONE)
     c = sp.Symbol("c")
     shifted = Quotient((*d, I1, I2, I3, c), [])
     p.lemma(equal("d × Id = d × (I - c)d", d.cross(INERTIA * d), d.cross((INERTIA - c * sp.eye(3)) * d), shifted))

@@ -12,7 +12,7 @@ from chapsym.derive.quotient import Quotient
 from chapsym.derive.three import J1, J2, J3, D, K, gamma, placed
 from chapsym.proofs.map.symmetries import HALF_TURNS, MIRRORS, turned
 from chapsym.proofs.second_routes import Array, Identity, array, identity, inverse, mutated, parameters, unit
-from chapsym.prove import Equation, Fact, Proof, claim, equations, main
+from chapsym.prove import Equation, Fact, Proof, Theorem, claim, equations, main
 
 X = sp.Matrix(sp.symbols("v1:4"))
 MOVING = gamma.cross(omega)
@@ -40,6 +40,15 @@ def second_torque() -> sp.Matrix:
     return (INERTIA * rate).cross(omega) + (INERTIA * omega).cross(rate) - inertia_along(MOVING, rate)
 
 
+COMPACT = "K = 𝒦/ε and γ are in a compact set, and ε is so small that small-branch holds"
+FIELD = "Φ_ε = exp(εX₁ + ε³X₃) + O(ε⁴), with ω + ε²ω₃ in the place of ω, uniformly with all derivatives"
+TURNS = "u = εω/2 + ε²ω'/4 + ε³u₃ turns every vector as the flow of ω + ε²ω₃ does, up to O(ε⁴)"
+ENERGY = "H∘Φ_ε = H + ε³X₃(H) + O(ε⁴), X₃(H) = (D/4)⟨γ,ω'⟩⟨γ',ω'⟩"
+KEPT = "div_μ X₁ = 0: μ is the invariant density of the continuous ball"
+COMMUTES = "Φ commutes with γ ↦ -γ and with (𝒦, γ) ↦ (S𝒦, Sγ)"
+CANCELS = "∮X₃(H)dt = 0 over a closed orbit that a reversal takes to itself"
+
+
 @claim(
     "modified-field",
     r"\Phi_\varepsilon = \exp(\varepsilon X_1 + \varepsilon^3X_3) + O(\varepsilon^4):\ \dot\gamma = \gamma\times\tilde\Omega,\ "
@@ -51,6 +60,7 @@ def modified_field(p: Proof) -> None:
     p.assume(
         "K = 𝒦/ε and γ in a compact set, ε so small that small-branch holds: u is analytic in ε, K, γ, and 0 at ε = 0"
     )
+    p.state(Theorem((), (COMPACT,), (FIELD,)))
     p.say("ω' and ω'' are the derivatives of ω along the continuous ball γ̇ = γ × ω, K̇ = K × ω; from K = B(γ)ω:")
     p.lemma(equal("d/dt(Bω - K) = Bω' - Iω × ω", inertia_along(MOVING, omega) + carried(rate) - carried(omega).cross(omega),
                   carried(rate) - modified.torque()))  # fmt: skip
@@ -64,6 +74,7 @@ def modified_field(p: Proof) -> None:
     p.say("First, this u turns every vector as the flow does: for any x,")
     for power, (step, flow) in enumerate(zip(modified.step_jet(X), modified.flow_jet(X), strict=True)):
         p.printed(equal(f"Ωᵀx and the flow of ẋ = x × Ω̃ agree in ε^{power}", step, flow))
+    p.step(TURNS, COMPACT, "gibbs-rotation", "2.5-inverse")
     p.say("Second, it solves the equation of the step: the coefficients of Bu + u × Iu - (1 + |u|²)εK/2 are")
     one, two, three_ = modified.equation_jet()
     p.printed(
@@ -73,6 +84,7 @@ def modified_field(p: Proof) -> None:
               2 * (carried(second) - second_torque()) - (carried(share) - modified.load())),
     )  # fmt: skip
     p.say("so 0 up to ε³; B > 0 is the derivative in u at 0, so that u is the root of the small branch up to O(ε⁴).")
+    p.step(FIELD, TURNS, COMPACT, "gibbs", "small-branch")
     p.say("X₂ = 0, as Ω̃ has no term in ε: so it must be, for the step with -ε undoes the step (self-adjoint).")
     p.say("|γ|, |K|, ⟨K,γ⟩ are integrals of every such field, as they are of the map.")
     _controls(p, two, three_)
@@ -148,6 +160,7 @@ def modified_energy(p: Proof) -> None:
     """In a step the energy changes by ε³(D/4)⟨γ,ω'⟩⟨γ̇,ω'⟩, with γ̇ and ω' of the continuous ball."""
     p.assume("as in modified-field")
     w = X
+    p.state(Theorem((), (COMPACT,), (ENERGY,)))
     p.say("H = ½⟨ω,Bω⟩ with K = Bω.  Along γ̇ = γ × w, K̇ = K × w, for any w, Ḣ = ⟨ω,K̇⟩ - ½⟨ω,Ḃω⟩:")
     on_momentum = continuous.energy().subs(placed((K, carried(omega))), simultaneous=True)
     ring = Quotient((*omega, *three.RING.symbols), three.RING.relations)
@@ -160,6 +173,7 @@ def modified_energy(p: Proof) -> None:
     found = modified.energy_rate()
     p.show("X₃(H)", found)
     p.printed(Equation("-12⟨ω₃,Bω'⟩ = 3D⟨γ,ω'⟩⟨γ̇,ω'⟩", twelvefold, 12 * found, on_rate()))
+    p.step(ENERGY, COMPACT, "modified-field", "2.5")
     p.say(
         "It is 0 for D = 0, where the map keeps H (energy-without-rolling), and for vertical momentum, where ⟨γ,ω⟩ is a"
     )
@@ -182,7 +196,9 @@ def modified_energy(p: Proof) -> None:
 )
 def without_rolling(p: Proof) -> None:
     """For D = 0, the discrete Euler top, the energy ½⟨K, I⁻¹K⟩ is an integral of the map itself, on every branch."""
-    p.assume("D = 0; q₀ ≠ 0")
+    flat = "D = 0; q₀ ≠ 0"
+    p.assume(flat)
+    p.state(Theorem((), (flat,), ("H∘Φ = H, on every branch",)))
     u = gibbs.u
     norm = 1 + u.dot(u)
     start, moved = INERTIA * u + u.cross(INERTIA * u), INERTIA * u - u.cross(INERTIA * u)
@@ -192,6 +208,7 @@ def without_rolling(p: Proof) -> None:
     energies = [(INERTIA.inv() * x).dot(x) for x in (start, moved)]
     p.printed(Equation("⟨Ωᵀ𝒦, I⁻¹Ωᵀ𝒦⟩ = ⟨𝒦, I⁻¹𝒦⟩", energies[1], energies[0], ring))
     p.say("The difference is 4⟨Iu, I⁻¹(u × Iu)⟩ = 4⟨u, u × Iu⟩ = 0.")
+    p.step("H∘Φ = H, on every branch", flat, "gibbs", "gibbs-rotation")
     p.control(Equation("⟨Ωᵀ𝒦, I⁻²Ωᵀ𝒦⟩ = ⟨𝒦, I⁻²𝒦⟩", [(INERTIA.inv() * moved).dot(INERTIA.inv() * moved)],
                        [(INERTIA.inv() * start).dot(INERTIA.inv() * start)], ring))  # fmt: skip
     heavy = INERTIA + D * sp.eye(3)
@@ -209,6 +226,7 @@ def without_rolling(p: Proof) -> None:
 def modified_measure(p: Proof) -> None:
     """The divergence of the field of w against the density of the continuous ball; 0 for w = ω."""
     p.assume("|γ| = 1; L_j is the field K̇ = K × e_j, γ̇ = γ × e_j, so that the field of w is Σ w_j L_j")
+    p.state(Theorem((), (), (KEPT,)))
     fields = [(K.cross(e), gamma.cross(e)) for e in sp.eye(3).columnspace()]
     ring = Quotient((*K, *gamma, J1, J2, J3, D), [three.UNIT_VERTICAL])
     p.lemma(Equation("div L_j = 0", [sum(f[0].diff(K[i])[i] + f[1].diff(gamma[i])[i] for i in range(3)) for f in fields],
@@ -222,9 +240,7 @@ def modified_measure(p: Proof) -> None:
     free = Quotient((*w, *ring.symbols), ring.relations)
     p.printed(Equation("-½X_w(τ) = D⟨Λ⁻¹γ, γ × w⟩", -change / 2, lift, free))
     lifted = lift.subs(placed((w, spin)), simultaneous=True)
-    p.printed(
-        Equation("div_μ X₁ = 0: μ is the invariant density of the continuous ball", divergence, -lifted / weight, ring)
-    )
+    p.printed(Equation(KEPT, divergence, -lifted / weight, ring))
     p.control(Equation("the density 1 is invariant", divergence, 0, ring))
     p.control(Equation("the density 1/τ is invariant", divergence, -2 * lifted / weight, ring))
 
@@ -242,7 +258,9 @@ def _along(expr: sp.Expr, field: tuple[sp.Matrix, sp.Matrix]) -> sp.Expr:
 )
 def symmetries(p: Proof) -> None:
     """The map commutes with γ ↦ -γ and with rotations by π about the principal axes; with -𝒦 they are its reversals."""
-    p.assume("S = diag(±1, ±1, ±1), det S = 1; the branch is the small one, or any that is carried along")
+    turns = "S = diag(±1, ±1, ±1), det S = 1; the branch is the small one, or any that is carried along"
+    p.assume(turns)
+    p.state(Theorem((), (turns,), (COMMUTES, CANCELS)))
     u, k = gibbs.u, gibbs.k
     residual = sp.Matrix(gibbs.residual())
     ring = Quotient((*u, *k, *gibbs.v, *gamma, *gibbs.INERTIA.diagonal(), D), [])
@@ -256,6 +274,7 @@ def symmetries(p: Proof) -> None:
         p.printed(equal(f"{name}: G(Su; S𝒦, Sγ) = SG(u; 𝒦, γ)", residual.xreplace(there), S * residual, ring))
         text = f"{name}: Su carries Sv to where S takes what u makes of v"
         p.printed(equal(text, turned(S * gibbs.v, S * u), S * turned(gibbs.v), ring))
+    p.step(COMMUTES, turns, "gibbs", "gibbs-rotation")
     p.say("(𝒦, γ) ↦ (-𝒦, γ) reverses the map by the lemma reversible; so do its products with these.")
     p.say(
         "For X₃(H): under γ ↦ -γ both ω and ω' are as before; under S they are Sω, Sω'; under K ↦ -K they are -ω, ω':"
@@ -269,6 +288,7 @@ def symmetries(p: Proof) -> None:
     p.say(
         "So its integral over a closed orbit that a reversal takes to itself is 0: an orbit that proves anything is asymmetric."
     )
+    p.step(CANCELS, turns, COMMUTES, "reversible", "modified-energy")
     mirror = MIRRORS["σ1"]
     there = placed((u, mirror * u), (k, mirror * k), (gamma, mirror * gamma))
     p.control(equal("a reflection is a symmetry", residual.xreplace(there), mirror * residual, ring))

@@ -12,7 +12,7 @@ from chapsym.derive.derivation import replaced
 from chapsym.derive.principle import R1, R, r, r1
 from chapsym.derive.words import Traces, WordAlgebra, matrix_symbols, unfolded
 from chapsym.proofs import second_routes
-from chapsym.prove import Equation, Identity, Proof, claim, equations, main
+from chapsym.prove import Equation, Identity, Proof, Theorem, claim, equations, main
 
 equation = equations(ALGEBRA)
 
@@ -49,6 +49,10 @@ def in_free_parameters(n: int, sign: int = -1, last: int = 1) -> Identity:
     return second_routes.identity(f"n = {n}: 𝒦(Ωᵀ, Ωᵀγ) = -Ωᵀ𝒦(Ω, γ)Ω", back, sign * turn.T @ there @ turn)
 
 
+BACK = "the step back takes the rotation Ωᵀ among those with its momentum"
+SMALL = "on the small branch below its bound it does"
+
+
 @claim(
     "self-adjoint",
     r"\mathcal K(\Omega^T, \Omega^T\gamma) = -\Omega^T\mathcal K(\Omega, \gamma)\Omega;"
@@ -61,6 +65,7 @@ def self_adjoint(p: Proof) -> None:
         "the step back takes the rotation Ωᵀ among those with its momentum; on the small-rotation branch it does where "
         "|𝒦| is below the bound of small-branch, which does not depend on γ"
     )
+    p.state(Theorem((), (BACK,), ("Φ_{-ε}∘Φ_ε = 1, every n", SMALL)))
     p.say("Φ_ε: (K, γ) ↦ (ΩᵀKΩ, Ωᵀγ), and in space R ↦ RΩ, r ↦ r + Δr by (4.9), with Ω from 𝒦(Ω, γ) = εK.")
     p.say("The Lagrangian (4.1) and the constraint (4.9) do not know which end is first:")
     factor, both = principle.kinetic_factor(), principle.ALGEBRA
@@ -78,10 +83,13 @@ def self_adjoint(p: Proof) -> None:
         equation("K_+ = ΩᵀKΩ to ΩK_+Ωᵀ = K", Omega * (OmegaT * K * Omega) * OmegaT, K),
         equation("γ_+ = Ωᵀγ to Ωγ_+ = γ", Omega * (OmegaT * gamma), gamma),
     )
+    p.say("and RΩ to RΩΩᵀ = R, and r by the opposite of Δr.")
+    p.step("Φ_{-ε}∘Φ_ε = 1, every n", BACK, "prop-1", "4.1", "4.9")
     p.say(
-        "and RΩ to RΩΩᵀ = R, and r by the opposite of Δr.  Ω and Ωᵀ turn by one angle: with small-branch, Ωᵀ is the small"
+        "Ω and Ωᵀ turn by one angle: with small-branch, Ωᵀ is the small rotation back where Ω is the one there.  Beyond"
     )
-    p.say("rotation back where Ω is the one there.  Beyond its bound, just before a fold, it need not be.")
+    p.say("its bound, just before a fold, it need not be.")
+    p.step(SMALL, "small-branch")
     p.say("For n = 3 in Euler parameters, where Ωᵀ has -q:")
     carried = three.transported(sp.Matrix(three.momentum()))
     p.printed(Equation("𝒦⃗(q₀, -q, Ωᵀγ) = -Ωᵀ𝒦⃗(q₀, q, γ), n = 3", vector_with_ends_swapped(), -carried, three.RING))
@@ -110,6 +118,8 @@ def self_adjoint(p: Proof) -> None:
 def reversible(p: Proof) -> None:
     """With the momentum reversed the ball rolls back over the states it came by, for every n."""
     p.assume("the step back takes the rotation Ωᵀ, as in self-adjoint")
+    back = "ϱΦϱ = Φ⁻¹ for ϱ(𝒦, γ) = (-𝒦, γ), every n, and for a composition with c_i = c_{s+1-i}"
+    p.state(Theorem((), (BACK,), (back,)))
     p.say("Φ: (𝒦, γ) ↦ (𝒦_+, γ_+) = (Ωᵀ𝒦Ω, Ωᵀγ) with 𝒦(Ω, γ) = 𝒦. From ϱ(𝒦_+, γ_+) = (-𝒦_+, γ_+) the step has Ωᵀ:")
     momentum = ball.momentum()
     p.printed(equation("𝒦(Ωᵀ, Γ_+) = -𝒦_+", momentum_back(), -ball.carried(momentum)))
@@ -119,6 +129,7 @@ def reversible(p: Proof) -> None:
         equation("Ωγ_+ = γ", Omega * (OmegaT * gamma), gamma),
     )
     p.say("ϱϱ = 1, so ϱΦϱΦ = 1; and a composition with c_i = c_{s+1-i} inherits it, stage by stage.")
+    p.step(back, BACK, "self-adjoint")
     p.say("The sign of γ is no reversal: 𝒦 depends on Γ = γγᵀ alone.")
     p.control(equation("ϱ(𝒦, γ) = (𝒦, -γ): 𝒦(Ωᵀ, Γ_+) = 𝒦_+", momentum_back(), ball.carried(momentum)))
     p.control(equation("the step back with Ω: Ωᵀ(-𝒦_+)Ω = -𝒦", OmegaT * (-OmegaT * K * Omega) * Omega, -K))

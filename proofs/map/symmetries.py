@@ -6,7 +6,7 @@ from chapsym.derive import gibbs
 from chapsym.derive.gibbs import k, u
 from chapsym.derive.three import gamma, placed
 from chapsym.proofs.map.gibbs import NORM, equal
-from chapsym.prove import Equation, Proof, claim, main
+from chapsym.prove import Equation, Proof, Theorem, claim, main
 
 HALF_TURNS = {f"S{i + 1}": sp.diag(*(1 if i == j else -1 for j in range(3))) for i in range(3)}
 MIRRORS = {f"σ{i + 1}": sp.diag(*(-1 if i == j else 1 for j in range(3))) for i in range(3)}
@@ -33,6 +33,12 @@ def carried(name: str, on_u: sp.Matrix, on_gamma: sp.Matrix, on_k: sp.Matrix) ->
     ]
 
 
+BELOW = "|𝒦| is below the bound of small-branch"
+COMMUTES = "S G_h = G_h S for the rotations S by π about the principal axes"
+MIRRORED = "Φ(-σ𝒦, σγ) is (-σ, σ) of Φ(𝒦, γ), and G_{-h}(-γ) = -G_h(γ)"
+REVERSED = "σ G_h σ = G_h⁻¹ for the reflections σ across them, and G_h(-γ) = -G_h⁻¹(γ)"
+
+
 @claim(
     "symmetries",
     r"S\,\mathcal G_h = \mathcal G_h S,\ \sigma\,\mathcal G_h\,\sigma = \mathcal G_h^{-1},\ "
@@ -43,17 +49,24 @@ def carried(name: str, on_u: sp.Matrix, on_gamma: sp.Matrix, on_k: sp.Matrix) ->
 def symmetries(p: Proof) -> None:
     """Rotations by π about the principal axes commute with the map, reflections of them reverse the reduced one."""
     p.assume("|𝒦| below the bound of small-branch; it and |u| are the same on both sides, so that the branch is, too")
+    p.state(Theorem((), (BELOW,), (COMMUTES, REVERSED)))
     p.say("The step from (𝒦, γ): G(u; γ, k) = 0 with k = 𝒦/2, then 𝒦~ = Ωᵀ𝒦, γ~ = Ωᵀγ with (1 + |u|²)Ωᵀ from u.")
     for name, S in HALF_TURNS.items():
         p.printed(*carried(f"{name}: u, γ, 𝒦 ↦ Su, Sγ, S𝒦", S, S, S))
-    p.say("So Φ(S𝒦, Sγ) = S Φ(𝒦, γ), and S G_h = G_h S where 𝒦 = hγ.  A reflection turns u and 𝒦, axial vectors, too:")
+    p.say("So Φ(S𝒦, Sγ) = S Φ(𝒦, γ), and S G_h = G_h S where 𝒦 = hγ.")
+    p.step(COMMUTES, BELOW, "gibbs", "gibbs-rotation", "small-branch")
+    p.say("A reflection turns u and 𝒦, axial vectors, too:")
     for name, mirror in MIRRORS.items():
         p.printed(*carried(f"{name}: u, γ, 𝒦 ↦ -σu, σγ, -σ𝒦", -mirror, mirror, -mirror))
     p.say("So Φ(-σ𝒦, σγ) is (-σ, σ) of Φ(𝒦, γ), and with 𝒦 = hγ it is G_{-h}σ = σG_h.  The equation is even in γ:")
     one = sp.eye(3)
     p.printed(*carried("-1: u, γ, 𝒦 ↦ u, -γ, 𝒦", one, -one, one))
-    p.say("So G_{-h}(-γ) = -G_h(γ).  The step with -h undoes that with h (self-adjoint): G_{-h} = G_h⁻¹.  Hence σ G_h")
-    p.say("σ = G_h⁻¹ and G_h(-γ) = -G_h⁻¹(γ): the half γ_c < 0 of the sphere repeats the half γ_c > 0. On a level")
+    p.say("So G_{-h}(-γ) = -G_h(γ).")
+    p.step(MIRRORED, BELOW, "gibbs", "gibbs-rotation", "small-branch")
+    p.say("The step with -h undoes that with h (self-adjoint): G_{-h} = G_h⁻¹.  Hence σ G_h σ = G_h⁻¹ and G_h(-γ) =")
+    p.say("-G_h⁻¹(γ).")
+    p.step(REVERSED, MIRRORED, "self-adjoint")
+    p.say("The half γ_c < 0 of the sphere repeats the half γ_c > 0. On a level")
     p.say("circle around the axis c let F be a lift of R^p G_h^q, R the rotation by π about c, and δ = F - 1. With the")
     p.say("coordinate 0 where γ_a (or γ_b) is 0, σ gives F⁻¹(x) = -F(-x), that is δ(-x - δ(x)) = δ(x): where δ is")
     p.say("small it is almost even about these points, which is why they are the starts of a certificate.")
