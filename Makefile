@@ -6,7 +6,7 @@ BIN := $(VENV)/bin
 SHELL := bash
 .SHELLFLAGS := -e -o pipefail -c
 
-.PHONY: verify test thorough lint docs pictures rocq rocq-register rocq-intervals release-check clean
+.PHONY: verify test thorough lint docs note pictures rocq rocq-register rocq-intervals release-check clean
 
 verify: $(VENV)/.installed
 	@mkdir -p out
@@ -40,6 +40,13 @@ lint: $(VENV)/.installed
 docs: $(VENV)/.installed
 	$(BIN)/python -m sphinx -W --keep-going -q -b html docs docs/_build
 	@echo "docs/_build/index.html"
+
+# The note on the two open questions, out/note/note.pdf: its source is written from the proofs and certificates; LaTeX must be installed.
+note: $(VENV)/.installed
+	$(BIN)/python docs/note/make.py out/note
+	@command -v pdflatex > /dev/null || { echo "LaTeX is not installed: the source alone is in out/note"; exit 1; }
+	cd out/note && pdflatex -halt-on-error -interaction=batchmode note && bibtex note && pdflatex -interaction=batchmode note && \
+	pdflatex -halt-on-error -interaction=batchmode note
 
 # The pictures of the examples, in docs/pictures.
 pictures: $(VENV)/.installed

@@ -112,6 +112,7 @@ _COMMANDS = {
     "≈": r"\approx", "∪": r"\cup", "⊂": r"\subset", "∇": r"\nabla", "∥": r"\parallel", "⊗": r"\otimes",
     "⇒": r"\Rightarrow", "⇔": r"\Leftrightarrow", "←": r"\leftarrow", "⊥": r"\perp", "∀": r"\forall", "∑": r"\sum",
     "∏": r"\prod",
+    "⊢": r"\vdash", "∩": r"\cap", "∮": r"\oint", "∦": r"\nparallel", "ϱ": r"\varrho", "⌊": r"\lfloor", "⌋": r"\rfloor",
     "℘": r"\wp", "ϰ": r"\varkappa", "ε": r"\varepsilon", "ℝ": r"\mathbb R", "ℕ": r"\mathbb N", "ℂ": r"\mathbb C",
     "ℤ": r"\mathbb Z", "ℚ": r"\mathbb Q", "ℰ": r"\mathcal E", "ℱ": r"\mathcal F", "ℓ": r"\ell", "°": r"^{\circ}",
     "′": "'", "⅓": r"\tfrac13", "⅛": r"\tfrac18", "¾": r"\tfrac34", "∘": r"\circ", "∖": r"\setminus", "|": "|",

@@ -44,7 +44,7 @@ def chords_of_a_polygon(most: int, weight: int = 2) -> Equation:
     w = sp.Symbol("w")
     sums = [(w - 1) * sum(weight - w**r - w ** (q - r) for r in range(q)) for q in range(2, most + 1)]
     wanted = [2 * q * (w - 1) - (1 + w) * (w**q - 1) for q in range(2, most + 1)]
-    text = f"(w - 1)Σ_{{r mod q}} ({weight} - w^r - w^{{q-r}}) = 2q(w - 1) - (1 + w)(w^q - 1), q = 2..{most}"
+    text = f"(w - 1)Σ_r ({weight} - w^r - w^{{q-r}}) = 2q(w - 1) - (1 + w)(w^q - 1), r mod q, q = 2..{most}"
     return Equation(text, sums, wanted, Quotient((w,)))
 
 
@@ -56,7 +56,7 @@ def in_fourier_series(p: Proof) -> None:
     p.say("Nη, and the weights, 0 in the class of 0, add up to 2N. So it is -(π/K)²N/sinh Nη, and the one of -2dn² =")
     p.say("-2Z' - 2E/K over q points, divided by q, is -(π/K)²N/sinh Nη, too.")
     p.route(
-        "from the Fourier series of Z; Σ_{r mod q} (2 - 2cos(2πpr/q)) = 2q by w = e^{2πip/q}, w^q = 1, w ≠ 1",
+        "from the Fourier series of Z; Σ_r (2 - 2cos(2πpr/q)) = 2q, r mod q, by w = e^{2πip/q}, w^q = 1, w ≠ 1",
         product_of_poles(),
         chords_of_a_polygon(12),
     )
@@ -104,8 +104,9 @@ def resonance(p: Proof) -> None:
     p.say("its own and the q shifts of iK' differ: f is not constant. f' has order 3, so its zeros are those that it")
     p.say("must have, as it is odd: 0, K/q, K/q + iK'. On the real axis f is strictly monotone between 0 and K/q, mod")
     p.say("2K/q. By the Fourier series of dn², with η = πK'/K: f = qE/K + q(π/K)² Σ_{m≥1} mq cos(mqπu/K)/sinh(mqη),")
-    p.say("all harmonics of one sign: f has its maximum at 0, its minimum at K/q, and f(0) - f(K/q) = 2q(π/K)² Σ_{m")
-    p.say("odd} mq/sinh(mqη). So, if A'' ≠ 0, the displacement is extreme near u₀ = 0, where γ_b = 0, and near K/q,")
+    p.say("all harmonics of one sign: f has its maximum at 0, its minimum at K/q, and f(0) - f(K/q) is 2q(π/K)² times")
+    p.say("the sum of mq/sinh(mqη) over odd m. So, if A'' ≠ 0, the displacement is extreme near u₀ = 0, where γ_b = 0,")
+    p.say("and near K/q,")
     p.say("which for odd q is u₀ = K, where γ_a = 0, mod 2K/q. It differs there by 2A''D²(f(0) - f(K/q)) + O(D³),")
     p.say("least at γ_b = 0 where A'' > 0.")
     p.step(NOT_CONSTANT, CHORD)
