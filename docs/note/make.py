@@ -95,7 +95,7 @@ def _proof(record: dict[str, Any], first: str) -> list[str]:
         elif line.startswith("    "):
             lines.append(rf"\begin{{quote}}\small {latex(line)}\end{{quote}}")
         elif line.startswith("  second"):
-            lines.append(latex(f"A second proof {line.partition(': ')[2]}:"))
+            lines.append(latex(f"A second proof: {line.partition(': ')[2]}."))
     return [*lines, r"\end{proof}", ""]
 
 

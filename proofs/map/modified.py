@@ -41,7 +41,7 @@ def second_torque() -> sp.Matrix:
 
 
 COMPACT = "K = 𝒦/ε and γ are in a compact set, and ε is so small that small-branch holds"
-FIELD = "Φ_ε = exp(εX₁ + ε³X₃) + O(ε⁴), with ω + ε²ω₃ in the place of ω, uniformly with all derivatives"
+FIELD = "Φ_ε = exp(εX₁ + ε³X₃) + O(ε⁴), with ω + ε²ω₃ in the place of ω, uniformly"
 TURNS = "u = εω/2 + ε²ω'/4 + ε³u₃ turns every vector as the flow of ω + ε²ω₃ does, up to O(ε⁴)"
 ENERGY = "H∘Φ_ε = H + ε³X₃(H) + O(ε⁴), X₃(H) = (D/4)⟨γ,ω'⟩⟨γ',ω'⟩"
 KEPT = "div_μ X₁ = 0: μ is the invariant density of the continuous ball"
