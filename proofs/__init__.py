@@ -36,6 +36,7 @@ SCRIPTS = (
     "map.symmetries",
     "map.vertical",
     "open.orbits",
+    "open.volume",
 )
 
 #: The claims of the paper that need a verdict, in its order: each has a proof in one of the scripts.
@@ -60,5 +61,5 @@ LEMMAS = (
     "stable-momentum", "stable-determinant", "stable-inverse", "steady", "steady-branch", "steady-axis", "steady-roll",
     "isotropic-spin", "straight", "symmetries", "chord", "resonance", "plateaus", "almost-every", "locked-circle",
     "modified-field", "modified-energy", "energy-without-rolling", "modified-measure", "map-symmetries",
-    "step-determinant", "steady-circles", "periodic-orbits",
+    "step-determinant", "steady-circles", "periodic-orbits", "measure-iff",
 )  # fmt: skip

@@ -190,18 +190,18 @@ def _example(p: Proof) -> None:
     )
     axis, vertical = sp.Matrix([0, 0, EXAMPLE[t]]), sp.Matrix([x, y, c])
     momentum = 2 * half_momentum(axis, START).subs(EXAMPLE)
-    T, E = _normal(turn(axis)), _normal(turning(axis))
+    T, E = normal(turn(axis)), normal(turning(axis))
     states = [START]
     for _ in range(4):
-        states.append(_normal(T * states[-1]))
+        states.append(normal(T * states[-1]))
     made = [e.subs(EXAMPLE) for e in (*slope(axis, vertical), *by_turns(axis, vertical))]
     places = [placed((gamma, state)) for state in states[:4]]
-    known = [_normal(sp.Matrix([e.xreplace(at) for e in made])) for at in places]
+    known = [normal(sp.Matrix([e.xreplace(at) for e in made])) for at in places]
     steps = [(sp.Matrix(3, 3, e[:9]), sp.Matrix(3, 3, e[9:])) for e in known]
-    slopes = [_normal(A.adjugate() * _inverse(_normal(sp.Matrix([A.det()]))[0]) * G) for A, G in steps]
-    changes = [_normal(T - E * Y_) for Y_ in slopes]
-    parts = [_normal(sp.Matrix([_determinant(S_)]))[0] for S_ in changes]
-    product = _normal(sp.Matrix([sp.prod(parts)]))[0]
+    slopes = [normal(A.adjugate() * _inverse(normal(sp.Matrix([A.det()]))[0]) * G) for A, G in steps]
+    changes = [normal(T - E * Y_) for Y_ in slopes]
+    parts = [normal(sp.Matrix([_determinant(S_)]))[0] for S_ in changes]
+    product = normal(sp.Matrix([sp.prod(parts)]))[0]
     least, size, largest, slope_ = sp.symbols("i1 k i3 rho")
     facts = (
         at_root("|𝒦|² = 25/4 and ⟨𝒦, γ⟩ = 3/2", [momentum.dot(momentum), momentum.dot(START)], [sp.Rational(25, 4), sp.Rational(3, 2)]),
@@ -215,8 +215,8 @@ def _example(p: Proof) -> None:
         at_root("𝒜Y = 𝒢", _all(A * Y_ for (A, _), Y_ in zip(steps, slopes, strict=True)), _all(G for _, G in steps)),
         at_root("S = T - EY", _all(changes), _all(T - E * Y_ for Y_ in slopes)),
         at_root("the determinants of S, and their product", [*map(_determinant, changes), sp.Mul(*parts, evaluate=False)], [*parts, product]),
-        at_root("the product is not 1: the difference has an inverse", [(product - 1) * _inverse(product - 1)], [1]),
-        at_root("it is Πf(φ - (j + ½)θ)/f(φ - jθ)", [_by_formula()], [product]),
+        not_one("the product", product),
+        at_root("it is Πf(φ - (j + ½)θ)/f(φ - jθ)", [by_formula(EXAMPLE)], [product]),
     )  # fmt: skip
     for fact in facts:
         p.lemma(fact)
@@ -231,19 +231,24 @@ def at_root(text: str, left: Sequence[sp.Expr], right: Sequence[sp.Expr | int]) 
     return in_field(text, [*left], [*right], SQUARE)
 
 
+def not_one(text: str, value: sp.Expr) -> Equation:
+    """That a number of Q(√2) is not 1."""
+    return at_root(f"{text} is not 1: the difference has an inverse", [(value - 1) * _inverse(value - 1)], [1])
+
+
 def _inverse(of: sp.Expr) -> sp.Expr:
     """1/(a + br) for r² = 2."""
     return sp.invert(of, SQUARE, ROOT)
 
 
-def _normal(of: sp.Matrix) -> sp.Matrix:
+def normal(of: sp.Matrix) -> sp.Matrix:
     """As a + br, for r² = 2."""
 
-    def normal(entry: sp.Expr) -> sp.Expr:
+    def reduced(entry: sp.Expr) -> sp.Expr:
         above, below = sp.fraction(sp.together(entry))
         return sp.rem(sp.expand(above * _inverse(sp.expand(below))), SQUARE, ROOT)
 
-    return sp.Matrix(of).applyfunc(normal)
+    return sp.Matrix(of).applyfunc(reduced)
 
 
 def _all(matrices: Iterable[sp.Matrix]) -> list[sp.Expr]:
@@ -251,15 +256,15 @@ def _all(matrices: Iterable[sp.Matrix]) -> list[sp.Expr]:
     return [entry for matrix in matrices for entry in matrix]
 
 
-def _by_formula() -> sp.Expr:
-    """Π f(φ - (j + ½)θ)/f(φ - jθ): the closed form, with (x + iy)² turned by multiples of e^{-iθ}."""
-    at_start = EXAMPLE | placed((gamma, START))
+def by_formula(ball: dict[sp.Symbol, sp.Expr]) -> sp.Expr:
+    """Π f(φ - (j + ½)θ)/f(φ - jθ) for 4 steps from `START`, θ = 45°: (x + iy)² turned by multiples of e^{-iθ}."""
+    at_start = ball | placed((gamma, START))
     P, Q = (sp.sympify(v).subs(at_start) for v in (steady_level(t), SWING))
     real = [v.subs(at_start) for v in (around(x, y, t), 2 * x * y - t * (x**2 - y**2))]
     value = sp.S.One
     for j in range(8):
         value = value / (P + Q * real[0]) if j % 2 == 0 else value * (P + Q * real[0])
-        real = [*_normal(ROOT / 2 * sp.Matrix([real[0] + real[1], real[1] - real[0]]))]
+        real = [*normal(ROOT / 2 * sp.Matrix([real[0] + real[1], real[1] - real[0]]))]
     return value
 
 

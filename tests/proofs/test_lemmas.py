@@ -58,7 +58,8 @@ SLIPS = {
     "the determinant": (gibbs, ["newton_heavy_steps"], lopsided, ["stable-determinant"]),
     "twice D": (continuous, ["angular_velocity"], doubled, ["stable-inverse", "isotropic-spin"]),
     "the residual": (
-        gibbs, ["residual", "jacobian"], flipped, ["steady", "steady-branch", "steady-axis", "steady-roll"],
+        gibbs, ["residual", "jacobian"], flipped,
+        ["steady", "steady-branch", "steady-axis", "steady-roll", "measure-iff"],
     ),
     "a factor in the kernel": (steady, ["spin_steps"], lambda right: (right[0], 2 * right[1]), ["isotropic-spin"]),
     "the contact point": (three, ["centre_step"], lambda right: sp.diag(1, 1, -1) * right, ["straight"]),
