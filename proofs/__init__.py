@@ -37,6 +37,8 @@ SCRIPTS = (
     "map.vertical",
     "open.orbits",
     "open.volume",
+    "open.separatrix",
+    "open.splitting",
 )
 
 #: The claims of the paper that need a verdict, in its order: each has a proof in one of the scripts.
@@ -62,4 +64,5 @@ LEMMAS = (
     "isotropic-spin", "straight", "symmetries", "chord", "resonance", "plateaus", "almost-every", "locked-circle",
     "modified-field", "modified-energy", "energy-without-rolling", "modified-measure", "map-symmetries",
     "step-determinant", "steady-circles", "periodic-orbits", "measure-iff",
+    "separatrix-map", "separatrix-limit", "separatrix",
 )  # fmt: skip

@@ -6,7 +6,7 @@ from fractions import Fraction
 import pytest
 import sympy as sp
 
-from chapsym.derive import ball, composition, continuous, gibbs, modified, steady, three
+from chapsym.derive import ball, composition, continuous, elliptic, gibbs, modified, steady, three
 from chapsym.proofs import LEMMAS
 from chapsym.proofs.map import order
 from chapsym.prove import load
@@ -59,7 +59,10 @@ SLIPS = {
     "twice D": (continuous, ["angular_velocity"], doubled, ["stable-inverse", "isotropic-spin"]),
     "the residual": (
         gibbs, ["residual", "jacobian"], flipped,
-        ["steady", "steady-branch", "steady-axis", "steady-roll", "measure-iff"],
+        ["steady", "steady-branch", "steady-axis", "steady-roll", "measure-iff", "separatrix-map"],
+    ),
+    "the value of V": (
+        elliptic, ["increment_parts"], lambda right: [right[0], 2 * right[1], *right[2:]], ["separatrix-map"],
     ),
     "a factor in the kernel": (steady, ["spin_steps"], lambda right: (right[0], 2 * right[1]), ["isotropic-spin"]),
     "the contact point": (three, ["centre_step"], lambda right: sp.diag(1, 1, -1) * right, ["straight"]),
