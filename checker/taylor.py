@@ -32,6 +32,11 @@ class Model:
         scaled = x * 2**bits
         return cls([scaled.numerator // scaled.denominator], int(scaled.denominator > 1), bits)
 
+    @classmethod
+    def enclosing(cls, x: Interval) -> Model:
+        """The numbers of an interval."""
+        return cls([x.point().lo], (x.width + 1) >> 1, x.bits)
+
     @property
     def most(self) -> int:
         """A bound of |x(s)|·2^bits."""

@@ -8,9 +8,9 @@ import pytest
 from certificate_changes import refused, replaced, resealed
 from modified_floats import Modified
 
-from chapsym.checker import Rejected, check, drift, statement
+from chapsym.checker import Rejected, check, drift, rolling, statement
 from chapsym.checker.interval import Interval
-from chapsym.checker.taylor import derivative
+from chapsym.checker.taylor import Model, derivative
 
 BITS = 128
 J, D = [Fraction(1), Fraction(2), Fraction(4)], Fraction(1)
@@ -39,17 +39,19 @@ def right():
 
 @pytest.fixture(scope="module")
 def ball():
-    return drift.Rolling.of(INERTIA, D, lambda x: drift.number(x, BITS))
+    return drift.Modified.of(INERTIA, D, lambda x: rolling.number(x, BITS))
 
 
 @pytest.fixture
 def flow():
     """Of so many terms."""
-    return lambda order: drift.Flow((INERTIA, D), Fraction(3), BITS, order)
+    fine = rolling.Rolling.of(INERTIA, D, lambda x: Model.constant(x, BITS))
+    boxes = rolling.Rolling.of(INERTIA, D, lambda x: rolling.number(x, rolling.BITS))
+    return lambda order: rolling.Flow(fine, boxes, [Fraction(3)] * 3 + [Fraction(1)] * 3, order)
 
 
 def enclosed(state):
-    return [drift.number(x, BITS) for x in state]
+    return [rolling.number(x, BITS) for x in state]
 
 
 def middle(x):
@@ -93,7 +95,7 @@ def test_what_the_series_leaves_out_is_enclosed(flow, monkeypatch):
     coarse = run(flow(14), START, exact, end)
     assert all(x.lo <= y.lo and y.hi <= x.hi for x, y in zip(coarse, truth, strict=True))
     assert max(x.width for x in truth) < 2 ** (BITS - 70)
-    monkeypatch.setattr(drift.Flow, "defect", lambda self, *rest: Fraction(0))
+    monkeypatch.setattr(rolling.Flow, "defect", lambda self, *rest: Fraction(0))
     assert not all(x.lo <= y.hi and y.lo <= x.hi for x, y in zip(run(flow(14), START, exact, end), truth, strict=True))
 
 
@@ -114,7 +116,7 @@ def test_all_starts_that_are_near_enough_are_enclosed(flow):
 def test_the_norm_bounds_the_growth_of_what_is_near(flow):
     """Against the eigenvalues of the symmetric part of the derivative, by differences in floats."""
     one, h = flow(8), 1e-6
-    box = [drift.number(x, drift.BITS) for x in START]
+    box = [rolling.number(x, rolling.BITS) for x in START]
     weights = np.array(one.weights, float)
 
     def field(x):
@@ -133,7 +135,7 @@ def test_the_norm_bounds_the_growth_of_what_is_near(flow):
 def test_starts_too_far_apart_and_more_steps_than_a_reader_can_wait_for_are_refused(flow, right, monkeypatch):
     with pytest.raises(Rejected, match="too far apart"):
         run(flow(16), START, Fraction(1, 1000), Fraction(1))
-    monkeypatch.setattr(drift, "MOST_STEPS", 3)
+    monkeypatch.setattr(rolling, "MOST_STEPS", 3)
     with pytest.raises(Rejected, match="more than 3 steps"):
         check(right)
 

@@ -1,0 +1,79 @@
+"""The attitude of the continuous ball, as a quaternion a = (q₀, q) whose rotation R takes the body's axes to space.
+
+K and the vertical are fixed in space: with K = Rᵀk and γ = Rᵀe₃, which are then as in rolling.py,
+    a′ = f(a) = ½a∘ω,  a∘(s, v) = (q₀s - ⟨q, v⟩, sq + q₀v + q × v),
+for R′u = R(ω × u), and the columns v of Rᵀ have v′ = v × ω.  In K and γ there is |a|²R for R, and ω is divided by |a|²:
+then ω does not depend on |a|.
+
+How f changes.  Let e = a∘(s, ξ).  Along it K and γ change by 2K × ξ and 2γ × ξ, as in axes of the body that turn, and
+from Bω = K, as Dγγᵀ turns, too, ω changes by 2ω × ξ + 2B⁻¹Cξ, Cξ = Iω × ξ - I(ω × ξ).  As ξ∘ω + 2ω × ξ = ω∘ξ, this is
+f′e = ½(a∘ω∘a⁻¹)∘e + a∘B⁻¹Cξ, and the first is antisymmetric in e.  So ⟨e, f′e⟩ = |a|²⟨ξ, B⁻¹Cξ⟩, and as
+|e|² = |a|²(s² + |ξ|²), μ is that of B⁻¹C.  For a ball with one moment C = 0: such motions keep their distance.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from .linear import cross, dot, plus
+from .rolling import Rolling, newest
+from .taylor import Model
+
+
+@dataclass(frozen=True)
+class Turning(Rolling):
+    """The continuous ball by its attitude; states are quaternions.  half: ½k."""
+
+    half: Sequence[Any]
+
+    def vectors(self, a: Sequence[Any]) -> list[Any]:
+        """½K and γ, times |a|²."""
+        rows = rotation(a)
+        K = [dot(column, self.half) for column in zip(*rows, strict=True)]
+        return [*K, *rows[2]]
+
+    def spin(self, state: Sequence[Any]) -> list[Any]:
+        """½ω."""
+        by = 1 / dot(state, state)
+        return [x * by for x in super().spin(self.vectors(state))]
+
+    def turned(self, state: Sequence[Any], w: Sequence[Any]) -> list[Any]:
+        """a∘(0, w)."""
+        q0, q = state[0], state[1:]
+        return [-dot(q, w), *plus([x * q0 for x in w], cross(q, w))]
+
+    def stretch(self, state: Sequence[Any]) -> list[list[Any]]:
+        """The columns of B⁻¹C."""
+        vectors, w, I = self.vectors(state), self.spin(state), self.inertia
+        gamma = vectors[3:]
+        columns = [[w[0]._of(0)] * 3 for _ in range(3)]
+        for i in range(3):
+            for j, k, sign in ((i - 2, i - 1, 2), (i - 1, i - 2, -2)):
+                columns[k][i] = (I[j] - I[i]) * w[j] * sign
+        return [self.solved(column, gamma, *self.inverse(gamma)) for column in columns]
+
+    def series(self, start: Sequence[int], order: int) -> list[list[int]]:
+        """As of `Rolling`, which gives those of ω; those of a follow."""
+        bits, a = self.D.bits, [[x] for x in start]
+        half = [x.terms[0] for x in self.vectors([Model(x, 0, bits) for x in a])]
+        _, w = self.series_with_spin([*(2 * x for x in half[:3]), *half[3:]], order)
+        for k in range(order - 1):
+            parts = [[newest(x, y[: k + 1]) for y in w] for x in a]
+            q0, q = parts[0], parts[1:]
+            rates = [-sum(q[i][i] for i in range(3)), *(q0[i] + q[i - 2][i - 1] - q[i - 1][i - 2] for i in range(3))]
+            for x, rate in zip(a, rates, strict=True):
+                x.append((rate >> bits) // (2 * (k + 1)))
+        return a
+
+
+def rotation(a: Sequence[Any]) -> list[list[Any]]:
+    """The rows of |a|²R."""
+    p = {(i, j): a[i] * a[j] for i in range(4) for j in range(i, 4)}
+    rest = p[0, 0] - p[1, 1] - p[2, 2] - p[3, 3]
+    rows = [[2 * p[min(i, j), max(i, j)] for j in (1, 2, 3)] for i in (1, 2, 3)]
+    for i in range(3):
+        turn = 2 * p[0, i + 1]
+        rows[i][i] = rows[i][i] + rest
+        rows[i - 2][i - 1] = rows[i - 2][i - 1] - turn
+        rows[i - 1][i - 2] = rows[i - 1][i - 2] + turn
+    return rows

@@ -1,0 +1,222 @@
+"""Certificates of kind motion: where the continuous ball is at some times, each number up to a radius.
+
+The ball has the mass tensor diag(J1, J2, J3) and D = m·radius²; the motion is that of attitude.py.  The point of
+contact, under the centre, has the velocity radius·(Ω₂, -Ω₁), Ω = Rω: the ball rolls.
+
+1. The start is enclosed: the unit quaternion of every quaternion of the file, and k = RK.
+2. Steps of rolling.py enclose the solutions from there, and the integral of the velocity of the point of contact.  The
+   checker chooses the steps.  It takes units in which the ball and its rotation are about 1: powers of 2.
+3. Each number of a frame is proved to be within its radius of that of the motion.  Of the quaternions a and -a that one
+   is meant of which the first number that is not 0, up to its radius, is positive.
+4. No radius is more than 10^-digits, relative to the greatest number of K or ω, and to the radius of the ball.
+"""
+
+from collections.abc import Iterator, Sequence
+from fractions import Fraction
+from functools import partial
+from itertools import pairwise
+from math import ceil
+from typing import Any, NamedTuple
+
+from .attitude import Turning, rotation
+from .document import MOST_DIGITS, MOST_STEPS, check_names, count, exact, listed
+from .interval import Interval, Rejected
+from .linear import Vector, dot
+from .rolling import BITS, Flow, Rolling, number
+from .taylor import Model
+
+NAMES = "format kind statement ball start digits bits order frames digest"
+#: What a frame has, and how many numbers; `contact` where the ball has a radius.
+PARTS = {"gamma": 3, "angular_momentum": 3, "omega": 3, "attitude": 4, "contact": 2}
+
+
+def statement(data: dict[str, Any]) -> str:
+    """What is proved, with the numbers of the file."""
+    ball, frames = data["ball"], data["frames"]
+    rolls = f", radius = {ball['radius']}" if "radius" in ball else ""
+    a, K = (shown(data["start"][name]) for name in ("attitude", "momentum"))
+    place = f", in ({', '.join(data['start']['position'])})" if rolls else ""
+    return (
+        f"The continuous ball with J = ({', '.join(ball['J'])}), D = {ball['D']}{rolls}, that starts with the attitude "
+        f"({a}), divided by its length, and K = ({K}){place}, is at {len(frames)} times from {frames[0]['time']} to "
+        f"{frames[-1]['time']} where the frames say: each number up to its radius, which is at most "
+        f"1e-{data['digits']}, relative to the greatest number of K and of omega, and to the ball's radius."
+    )
+
+
+def check_form(data: dict[str, Any]) -> None:
+    """Raises Rejected unless all numbers are there, in their form, and the radii as small as the digits say."""
+    check_names(data, NAMES, "the certificate")
+    if not isinstance(data["ball"], dict):
+        raise Rejected("ball must be an object")
+    rolls = "radius" in data["ball"]
+    check_names(data["ball"], "J D radius" if rolls else "J D", "ball")
+    J = [exact(x, "a number of J") for x in listed(data["ball"]["J"], 3, "J")]
+    D = exact(data["ball"]["D"], "D")
+    if min(*J, D) < 0 or min(sum(J) - x + D for x in J) <= 0:
+        raise Rejected("J and D must not be negative, and the ball must resist every turn")
+    size = exact(data["ball"].get("radius", "1"), "radius")
+    if size <= 0:
+        raise Rejected("radius must be positive")
+    check_names(data["start"], "attitude momentum position" if rolls else "attitude momentum", "start")
+    _pairs(data["start"]["attitude"], 4, "the attitude of the start")
+    if not any(x for x, _ in _pairs(data["start"]["momentum"], 3, "the momentum of the start")):
+        raise Rejected("the momentum of the start is 0: a ball at rest stays where it is")
+    for x in listed(data["start"]["position"], 2, "position") if rolls else ():
+        exact(x, "a number of the position")
+    digits = count(data["digits"], 1, MOST_DIGITS, "digits")
+    count(data["bits"], BITS, 8192, "bits")
+    count(data["order"], 8, 2048, "order")
+    if not isinstance(data["frames"], list) or not 0 < len(data["frames"]) <= MOST_STEPS:
+        raise Rejected(f"frames must be a list of 1 to {MOST_STEPS}")
+    parts = {name: n for name, n in PARTS.items() if rolls or name != "contact"}
+    for frame in data["frames"]:
+        check_names(frame, " ".join(["time", *parts]), "a frame")
+        for name, n in parts.items():
+            _check_claim(name, _pairs(frame[name], n, f"{name} of a frame"), Fraction(1, 10**digits), size)
+    moments = [exact(frame["time"], "a time") for frame in data["frames"]]
+    if moments[0] < 0 or any(x >= y for x, y in pairwise(moments)):
+        raise Rejected("the times of the frames must be from 0 on, each later than the one before")
+
+
+def _pairs(data: Any, n: int, where: str) -> list[list[Fraction]]:
+    """So many of a centre and a radius."""
+    found = [[exact(x, where) for x in listed(pair, 2, where)] for pair in listed(data, n, where)]
+    if any(radius < 0 for _, radius in found):
+        raise Rejected(f"{where} has a negative radius")
+    return found
+
+
+def _check_claim(name: str, pairs: Sequence[Sequence[Fraction]], share: Fraction, radius: Fraction) -> None:
+    """Raises Rejected unless the radii are this share, at most, and the attitude is the one of two that is meant."""
+    if name in ("angular_momentum", "omega"):
+        size = max(abs(x) for x, _ in pairs)
+    else:
+        size = radius if name == "contact" else Fraction(1)
+    if max(off for _, off in pairs) > share * size:
+        raise Rejected(f"a radius of {name} is greater than the digits say")
+    if name == "attitude" and next((x for x, off in pairs if abs(x) > off), Fraction(1)) < 0:
+        raise Rejected("the first number of an attitude that is not 0 must be positive")
+
+
+class Piece(NamedTuple):
+    """A part of the motion: models of the attitude and the point of contact, when it begins, its length, the error."""
+
+    attitude: list[Model]
+    place: list[Model]
+    begin: int
+    length: int
+    error: Fraction
+
+    @property
+    def end(self) -> int:
+        """When it ends."""
+        return self.begin + self.length
+
+    def at(self, moment: Fraction) -> tuple[Vector, Vector]:
+        """The attitude and the place at a time within."""
+        s = number((moment - self.begin) / self.length, self.attitude[0].bits)
+        return [x.at(s) for x in self.attitude], [x.at(s) for x in self.place]
+
+
+class Motion:
+    """The motion of a certificate, in units of powers of 2 in which the ball and ω are about 1, and of its radius."""
+
+    def __init__(self, data: dict[str, Any]):
+        J, D, bits = [Fraction(x) for x in data["ball"]["J"]], Fraction(data["ball"]["D"]), data["bits"]
+        (a, off), (K, wide) = (zip(*_fractions(data["start"][name]), strict=True) for name in ("attitude", "momentum"))
+        moments = [sum(J) - x for x in J]
+        mass = power(max(moments) + D)
+        ball = [x / mass for x in moments], D / mass
+        time = 1 / power(rate(Rolling.of(*ball, Fraction), [x / mass for x in K], a))
+        self.units = {"angular_momentum": mass / time, "omega": 1 / time, "time": time}
+        self.units["contact"] = Fraction(data["ball"].get("radius", "1"))
+        start = [enclosed(x, by, bits) for x, by in zip(a, off, strict=True)]
+        length = dot(start, start).sqrt()
+        self.start = [x / length for x in start]
+        half = [enclosed(x * time / mass / 2, by * time / mass / 2, bits) for x, by in zip(K, wide, strict=True)]
+        half = [dot(row, half) for row in rotation(self.start)]
+        self.ball = Turning.of(*ball, partial(number, bits=bits), half)
+        fine = Turning.of(*ball, partial(Model.constant, bits=bits), [Model.enclosing(x) for x in half])
+        rough = Turning.of(*ball, partial(number, bits=BITS), [x.rescaled(BITS) for x in half])
+        self.flow = Flow(fine, rough, [Fraction(1)] * 4, data["order"])
+        self.place = [number(Fraction(x) / self.units["contact"], bits) for x in data["start"].get("position", ())]
+
+    def frames(self, times: Sequence[Fraction]) -> Iterator[dict[str, Vector]]:
+        """The frames at these times, enclosed, in their units."""
+        wanted = [x / self.units["time"] * 2**self.flow.bits for x in times]
+        piece = self.first()
+        for moment in wanted:
+            while piece.end < moment:
+                piece = self.after(piece, ceil(wanted[-1]))
+            yield self.frame(*piece.at(moment))
+
+    def first(self) -> Piece:
+        """The start, as a piece that ends there."""
+        attitude, place = ([Model.enclosing(x) for x in v] for v in (self.start, self.place))
+        return Piece(attitude, place, -1, 1, Fraction(sum(x.off for x in attitude), 2**self.flow.bits))
+
+    def after(self, piece: Piece, end: int) -> Piece:
+        """The piece after one, which ends by then."""
+        start = [sum(x.terms) for x in piece.attitude]
+        attitude, length, error = self.flow.step(start, piece.error, end - piece.end)
+        place = [Model.enclosing(x) for x in piece.at(Fraction(piece.end))[1]]
+        if place:
+            h, half = Model([2 * length], 0, self.flow.bits), self.flow.fine.spin(attitude)
+            along, across, _ = (dot(row, half) for row in rotation(attitude))
+            place = [x + y.integral() * h for x, y in zip(place, (across, -along), strict=True)]
+        return Piece(attitude, place, piece.end, length, error)
+
+    def frame(self, a: Vector, place: Vector) -> dict[str, Vector]:
+        """What a frame has, but for which of a and -a."""
+        vectors, half = self.ball.vectors(a), self.ball.spin(a)
+        K, omega = ([2 * x for x in v] for v in (vectors[:3], half))
+        found = {"gamma": vectors[3:], "angular_momentum": K, "omega": omega, "attitude": a}
+        return found | {"contact": place} if place else found
+
+
+def check(data: dict[str, Any]) -> dict[str, str]:
+    """Raises Rejected unless every number of every frame is proved; returns those of the last."""
+    motion, frames = Motion(data), data["frames"]
+    for frame, found in zip(frames, motion.frames([Fraction(x["time"]) for x in frames]), strict=True):
+        for name, values in found.items():
+            claims, unit = _fractions(frame[name]), motion.units.get(name, Fraction(1))
+            if name == "attitude" and not _agree(values, claims):
+                values = [-x for x in values]
+            for x, (centre, radius), pair in zip(values, claims, frame[name], strict=True):
+                if not x.within(centre / unit, radius / unit):
+                    raise Rejected(f"{name} at {frame['time']} is not proved to be {' up to '.join(pair)}")
+    return {f"{name} at {frames[-1]['time']}": shown(frames[-1][name]) for name in PARTS if name in frames[-1]}
+
+
+def _agree(a: Vector, claims: Sequence[Sequence[Fraction]]) -> bool:
+    """Whether a has the sign of what is claimed, where that is greatest."""
+    x, (centre, _) = max(zip(a, claims, strict=True), key=lambda pair: abs(pair[1][0]))
+    return x.sign == (1 if centre > 0 else -1)
+
+
+def _fractions(pairs: Sequence[Sequence[str]]) -> list[list[Fraction]]:
+    return [[Fraction(x) for x in pair] for pair in pairs]
+
+
+def shown(pairs: Sequence[Sequence[str]]) -> str:
+    """The numbers of a vector, up to their radii."""
+    return ", ".join(" up to ".join(pair) if pair[1] != "0" else pair[0] for pair in pairs)
+
+
+def rate(ball: Rolling, momentum: Sequence[Fraction], attitude: Sequence[Fraction]) -> Fraction:
+    """The greatest number of ω at the start, nearly."""
+    try:
+        return max(map(abs, ball.spin([*momentum, *rotation(attitude)[2]])))
+    except ZeroDivisionError:
+        raise Rejected("the rotation at the start does not follow from the momentum") from None
+
+
+def enclosed(x: Fraction, off: Fraction, bits: int) -> Interval:
+    """All numbers that are off from one by so much, at most."""
+    return Interval.enclosing(x - off, x + off, bits)
+
+
+def power(x: Fraction) -> Fraction:
+    """A power of 2 near a positive number."""
+    return Fraction(2) ** (x.numerator.bit_length() - x.denominator.bit_length())

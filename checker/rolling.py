@@ -1,0 +1,196 @@
+"""The continuous ball, and a proved step of it in time.
+
+With I = diag(J2 + J3, J3 + J1, J1 + J2), Λ = I + D, B = Λ - Dγγᵀ and ω = B⁻¹K, |γ| = 1, it is
+    K′ = K × ω,  γ′ = γ × ω;  |γ|, |K|, ⟨K, γ⟩ and H = ½⟨K, ω⟩ are integrals,
+for the derivative of H is ⟨ω, K′⟩ + D⟨γ, ω⟩⟨γ′, ω⟩ = 0.  With z = Λ⁻¹v, B⁻¹v = z + D⟨γ, z⟩/⟨γ, IΛ⁻¹γ⟩·Λ⁻¹γ; so ω is
+also evaluated where |γ| is not 1: it depends on γ/|γ| alone, and the integrals are integrals there, too.
+
+A step.  p(s), 0 ≤ s ≤ 1, is a polynomial near the solutions x(t₀ + hs); any polynomial will do.  Errors are measured by
+|e|² = Σ(e_i/w_i)², w the weights; so let A be f′ with the entries a_ij w_j/w_i.  Let |p′ - h f(p)| ≤ d.  In a tube
+about a part of p let μ be the greatest sum in a row of ½(A + Aᵀ), with absolute values beside the diagonal, for all
+means A of such f′: f(x) - f(p) = A(x - p) for one of them, and ⟨e, Ae⟩ ≤ μ|e|² (Gershgorin).  So a solution that starts
+within e of p(0) stays within (e + d)·exp(Σ h max(μ, 0) over the parts) of p (Gronwall), if this is less than the radius
+of the tube, which the solution then cannot have left.  What is antisymmetric in f′ counts for nothing: so f′e is taken
+without (K, γ) = e in K × ω and γ × ω, the weights being the same in a vector.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from math import ceil
+from operator import mul
+from typing import Any, Self
+
+from .document import MOST_STEPS
+from .interval import Interval, Rejected
+from .linear import cross, dot
+from .taylor import Model, derivative
+
+#: A step is this part of where the series seems to end; its parts with one μ each, with so many bits; n = 2^ROOTS.
+SHARE, PARTS, BITS, ROOTS = 4, 4, 64, 12
+#: The radius of the tube, beside the weights.
+TUBE = Fraction(1, 2**14)
+
+
+@dataclass(frozen=True)
+class Rolling:
+    """The continuous ball, in intervals or models; states are K and γ in one list, of such, or of duals over them."""
+
+    inertia: Sequence[Any]
+    D: Any
+    slowness: Sequence[Any]
+
+    @classmethod
+    def of(cls, inertia: Sequence[Fraction], D: Fraction, number: Any, *rest: Any) -> Self:
+        """With the numbers that `number` makes of fractions."""
+        return cls([number(x) for x in inertia], number(D), [number(1 / (x + D)) for x in inertia], *rest)
+
+    def inverse(self, gamma: Sequence[Any]) -> tuple[list[Any], Any]:
+        """Λ⁻¹γ and D/⟨γ, IΛ⁻¹γ⟩."""
+        eased = self.eased(gamma)
+        return eased, 1 / dot(self.carried(gamma), eased) * self.D
+
+    def eased(self, v: Sequence[Any]) -> list[Any]:
+        """Λ⁻¹v."""
+        return [x * s for x, s in zip(v, self.slowness, strict=True)]
+
+    def spin(self, state: Sequence[Any]) -> list[Any]:
+        """ω."""
+        return self.solved(state[:3], state[3:], *self.inverse(state[3:]))
+
+    def solved(self, v: Sequence[Any], gamma: Sequence[Any], eased: Sequence[Any], lift: Any) -> list[Any]:
+        """B⁻¹v."""
+        near = self.eased(v)
+        share = dot(gamma, near) * lift
+        return [x + y * share for x, y in zip(near, eased, strict=True)]
+
+    def turned(self, state: Sequence[Any], w: Sequence[Any]) -> list[Any]:
+        """(K × w, γ × w): linear in the state, with an antisymmetric matrix."""
+        return [*cross(state[:3], w), *cross(state[3:], w)]
+
+    def field(self, state: Sequence[Any]) -> list[Any]:
+        """(K′, γ′)."""
+        return self.turned(state, self.spin(state))
+
+    def stretch(self, state: Sequence[Any]) -> list[list[Any]]:
+        """The columns of a matrix that is the derivative of the field but for an antisymmetric one."""
+        one, zero, six = state[0]._of(1), state[0]._of(0), range(6)
+        units = [[one if i == j else zero for i in six] for j in six]
+        return [self.turned(state, derivative(self.spin, state, e)) for e in units]
+
+    def energy(self, state: Sequence[Any]) -> Any:
+        """2H."""
+        return dot(state[:3], self.spin(state))
+
+    def carried(self, w: Sequence[Any]) -> list[Any]:
+        """Iw."""
+        return [x * i for x, i in zip(w, self.inertia, strict=True)]
+
+    def series(self, start: Sequence[int], order: int) -> list[list[int]]:
+        """Of models: the start, and coefficients near those of the solution in the time; nothing rests on them."""
+        return self.series_with_spin(start, order)[0]
+
+    def series_with_spin(self, start: Sequence[int], order: int) -> tuple[list[list[int]], list[list[int]]]:
+        """The series, and that of ω."""
+        state = [[x] for x in start]
+        K, gamma = state[:3], state[3:]
+        (D,), bits, slow = self.D.terms, self.D.bits, [x.terms[0] for x in self.slowness]
+        weights = [x.terms[0] for x in self.carried(self.slowness)]
+        below: list[int] = []
+        lift: list[int] = []
+        w: list[list[int]] = [[], [], []]
+        for k in range(order - 1):
+            squares, products = ([newest(x, y) >> bits for x, y in zip(v, gamma, strict=True)] for v in (gamma, K))
+            below.append(dot(weights, squares) >> bits)
+            if not below[0]:
+                raise Rejected("the ball does not resist a turn about the vertical: its rotation does not follow")
+            force = D * dot(slow, products) >> bits
+            lift.append((force - sum(map(mul, below[1:], reversed(lift)))) // below[0])
+            for spin, s, x, y in zip(w, slow, K, gamma, strict=True):
+                spin.append(s * (x[k] + (newest(y, lift) >> bits)) >> bits)
+            for v in (K, gamma):
+                rates = [newest(v[i - 2], w[i - 1]) - newest(v[i - 1], w[i - 2]) for i in range(3)]
+                for x, rate in zip(v, rates, strict=True):
+                    x.append((rate >> bits) // (k + 1))
+        return state, w
+
+
+class Flow:
+    """Solutions of the continuous ball, step by step; states and times are integers, in units of 2^-bits.
+
+    fine, boxes: the ball in models of so many bits, and in intervals of BITS.  weights: the same in a vector.
+    """
+
+    def __init__(self, fine: Rolling, boxes: Rolling, weights: Sequence[Fraction], order: int):
+        self.fine, self.boxes, self.bits, self.order, self.weights = fine, boxes, fine.D.bits, order, weights
+        self.ratios = [[number(v / w, BITS) for v in self.weights] for w in self.weights]
+        self.steps = 0
+
+    def step(self, start: Sequence[int], error: Fraction, most: int) -> tuple[list[Model], int, Fraction]:
+        """A step of at most this length from all states within `error` of the start: models, its length, the error."""
+        self.steps += 1
+        if self.steps > MOST_STEPS:
+            raise Rejected(f"the motion takes more than {MOST_STEPS} steps")
+        terms = self.fine.series(start, self.order)
+        length = min(self.length(terms), most)
+        power = 1 << self.bits
+        for k in range(1, self.order):
+            power = power * length >> self.bits
+            for x in terms:
+                x[k] = x[k] * power >> self.bits
+        middle = [Model(x, 0, self.bits) for x in terms]
+        error, unit = (error + self.defect(middle, length)) * self.growth(middle, length), 4**self.bits
+        error = Fraction(ceil(error * unit), unit)
+        if error >= TUBE:
+            raise Rejected("the solutions are not enclosed: the starts are too far apart, or the time is too long")
+        return [x.wider(error * w * 2**self.bits) for x, w in zip(middle, self.weights, strict=True)], length, error
+
+    def length(self, terms: Sequence[Sequence[int]]) -> int:
+        """A length of at most 1, at which the k-th terms are SHARE^-k, about; nothing rests on it."""
+        parts, unit = 1 << 12, 12
+        for k in (self.order - 2, self.order - 1):
+            for x, w in zip(terms, self.weights, strict=True):
+                while abs(x[k]) * (SHARE * parts) ** k > ceil(w) << self.bits + unit * k:
+                    parts = parts * 7 >> 3
+        return parts << self.bits - unit
+
+    def defect(self, middle: Sequence[Model], length: int) -> Fraction:
+        """A bound of |p′ - h f(p)|."""
+        h, bound = Model([length], 0, self.bits), Fraction(0)
+        for p, rate, w in zip(middle, self.fine.field(middle), self.weights, strict=True):
+            off = rate * h - Model([k * x for k, x in enumerate(p.terms)][1:], 0, self.bits)
+            bound += off.most / w
+        return bound / 2**self.bits
+
+    def growth(self, middle: Sequence[Model], length: int) -> Fraction:
+        """A bound of exp(Σ h max(μ, 0)): by exp(x) ≤ (1 - x/n)⁻ⁿ, 0 ≤ x < n."""
+        total = Fraction(0)
+        rough = [x.coarser(self.order, BITS) for x in middle]
+        for part in range(PARTS):
+            s = Interval.enclosing(Fraction(part, PARTS), Fraction(part + 1, PARTS), BITS)
+            tube = [x.at(s).wider(ceil(TUBE * w * 2**BITS)) for x, w in zip(rough, self.weights, strict=True)]
+            total += max(self.norm(tube), Fraction(0)) / PARTS
+        root = number(1 - total * Fraction(length, 2 ** (self.bits + ROOTS)), BITS)
+        if not root > 0:
+            raise Rejected("a step is too long for its bound")
+        for _ in range(ROOTS):
+            root = root * root
+        return Fraction((1 / root).hi, 2**BITS)
+
+    def norm(self, box: Sequence[Interval]) -> Fraction:
+        """μ on a box."""
+        columns = self.boxes.stretch(box)
+        all_ = range(len(columns))
+        a = [[columns[j][i] * self.ratios[i][j] for j in all_] for i in all_]
+        rows = [2 * a[i][i].hi + sum((a[i][j] + a[j][i]).most for j in all_ if j != i) for i in all_]
+        return Fraction(max(rows), 2 ** (BITS + 1))
+
+
+def newest(x: Sequence[int], y: Sequence[int]) -> int:
+    """The last coefficient of the product of two series of as many terms."""
+    return sum(map(mul, x, reversed(y)))
+
+
+def number(x: Fraction, bits: int) -> Interval:
+    """One number."""
+    return Interval.enclosing(x, x, bits)
