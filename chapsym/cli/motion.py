@@ -20,30 +20,37 @@ def motion(
     against: Annotated[
         Path | None, typer.Option(metavar="RESULT", help="A result of the scene: a bound of its error is proved.")
     ] = None,
+    certificate: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="Write there what the separate checker judges on its own.")
+    ] = None,
     output: Output = None,
     as_json: Json = False,
 ) -> None:
     """Enclose the motion of the continuous ball at the frames of a scene, with proved radii.
 
     The numbers of the scene are taken exactly as they are written.  With --against, a bound of how far the frames of
-    its result are from the motion.
+    its result are from the motion.  With --certificate, a file for chapsym certify check, of a motion of few turns.
 
     Example: chapsym certify motion docs/first.toml --digits 20 -o motion.json
     """
     from chapsym import files
     from chapsym.certificates.document import write
+    from chapsym.certificates.motion import motion as certified
     from chapsym.dynamics.enclosed_motion import follow
     from chapsym.scene import load
     from chapsym.scene.members.exactly import exact_motion
     from chapsym.scene.result.proved import UNITS, proved_errors
 
-    if output is not None:
-        files.check_destination(output)
+    for path in (output, certificate):
+        if path is not None:
+            files.check_destination(path)
     given = load(scene)
     start, times = exact_motion(given)
     result = None if against is None else _loaded(against, str(given.toml))
     with telling() as progress:
         found = follow(start, times, digits, limit=limit, progress=progress)
+        if certificate is not None and found.stopped is None:
+            write(certificate, certified(start, found, progress))
     written = found.write()
     errors = {}
     if result is not None:
@@ -56,6 +63,8 @@ def motion(
     elif found.times:
         if output is not None:
             print(f"wrote {output}")
+        if certificate is not None and found.stopped is None:
+            print(f"wrote {certificate}; check it by chapsym certify check {certificate}")
         about = f"{digits} digits, {counted(found.steps, 'step')}, {found.bits} bits"
         print(f"{counted(len(found.times), 'frame')} proved: {about}; the last of them")
         last = written["frames"][-1]

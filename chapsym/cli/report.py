@@ -144,6 +144,8 @@ def _certificates() -> list[Any]:
     judged = []
     for path in sorted((Path(proofs.__path__[0]) / "certificates").glob("*.json")):
         data = checker.read(path)
+        if data.get("kind") == "motion":  # an example: no proof rests on it
+            continue
         try:
             judged.append(Checked(path.name, data, checker.check(data).numbers))
         except checker.Rejected as error:

@@ -1,0 +1,107 @@
+"""A certificate of where the continuous ball is: the frames of a certified motion, and the start they are from."""
+
+import math
+from collections.abc import Callable, Sequence
+from fractions import Fraction
+from typing import Any
+
+from flint import ctx
+
+from chapsym import checker
+from chapsym.dynamics import BadInput
+from chapsym.dynamics.enclosed_motion import CertifiedMotion
+from chapsym.dynamics.flow.start import Start
+from chapsym.dynamics.levels.balls import unit
+from chapsym.dynamics.levels.start import fraction
+
+from .balls import decade, shortest
+from .document import stated
+
+KIND = "motion"
+#: Bits of the first attempt beyond those of the digits, how many more the next ones have, and the most beyond.
+GUARD, MORE, MOST = 48, 1.5, 512
+#: A number of the start with so small a denominator, and so many bits known, is written as a quotient.
+SIMPLE, KNOWN = 10**18, 512
+
+
+def motion(
+    start: Start, found: CertifiedMotion, progress: Callable[[str], None] = lambda sentence: None
+) -> dict[str, Any]:
+    """The certificate of the frames that were found from a start, accepted by the checker.
+
+    The checker encloses the motion with more and more bits, as it loses some in each turn, more of a ball with unlike
+    moments.  Raises BadInput where it accepts no certificate within a minute or so.
+    """
+    if len(found.times) > checker.document.MOST_STEPS:
+        raise BadInput(f"a certificate has at most {checker.document.MOST_STEPS} frames, not {len(found.times)}")
+    digits = math.ceil(found.digits * math.log2(10))
+    bits, why = digits + GUARD, ""
+    while bits <= digits + MOST:
+        progress(f"the checker tries {bits} bits")
+        data = document(start, found, bits)
+        try:
+            checker.check(data)
+        except checker.Rejected as error:
+            bits, why = math.ceil(MORE * bits), str(error)
+        else:
+            return data
+    raise BadInput(f"the checker proves too few digits of this motion, ask for less time or fewer digits: {why}")
+
+
+def document(start: Start, found: CertifiedMotion, bits: int) -> dict[str, Any]:
+    """The certificate, for a checker with so many bits: not checked."""
+    ball = {"J": [shortest(x) for x in start.mass_tensor], "D": shortest(start.D)}
+    began: dict[str, Any] = _start(start, bits)
+    if start.radius is not None:
+        ball["radius"] = shortest(start.radius)
+        began["position"] = [shortest(x) for x in start.position]
+    arrays = {name: getattr(found, name) for name in checker.motion.PARTS if getattr(found, name) is not None}
+    share, radius = Fraction(1, 10**found.digits), start.radius or Fraction(1)
+    frames = [
+        {"time": shortest(at), **{name: _claims(name, rows[i], share, radius) for name, rows in arrays.items()}}
+        for i, at in enumerate(found.times)
+    ]
+    return stated(KIND, ball=ball, start=began, digits=found.digits, bits=bits, order=bits // 2, frames=frames)
+
+
+def _start(start: Start, bits: int) -> dict[str, list[list[str]]]:
+    """The attitude, its greatest number 1, and the momentum: quotients where they seem to be, else [middle, radius]."""
+    with ctx.workprec(bits + KNOWN):
+        a = start.attitude()
+        greatest = max(a, key=lambda x: abs(fraction(x)))
+        return {
+            "attitude": [_known(x / greatest, bits) for x in a],
+            "momentum": [_known(x, bits) for x in start.momentum(unit(a))],
+        }
+
+
+def _known(x: Any, bits: int) -> list[str]:
+    """A ball as [middle, radius]; what is a quotient with a small denominator as that.
+
+    The start is what the certificate says: nothing rests on whether a number of a scene was this quotient.
+    """
+    middle, radius = fraction(x.mid()), fraction(x.rad())
+    simple = middle.limit_denominator(SIMPLE)
+    if abs(simple - middle) <= radius:
+        return [shortest(simple), "0"]
+    share = Fraction(1, 2**bits) * max(abs(middle), Fraction(1, 2**bits))
+    return _pair(middle, Fraction(10) ** (decade(max(share, 8 * radius)) + 1))
+
+
+def _claims(name: str, row: Sequence[Any], share: Fraction, radius: Fraction) -> list[list[str]]:
+    """The numbers of a frame, up to a power of 10 that is at most this share of their size."""
+    middles = [fraction(x.mid()) for x in row]
+    if name in ("angular_momentum", "omega"):
+        size = max(map(abs, middles))
+    else:
+        size = radius if name == "contact" else Fraction(1)
+    off = Fraction(10) ** decade(size * share)
+    if name == "attitude" and next(x for x in middles if abs(x) > 2 * off) < 0:
+        middles = [-x for x in middles]
+    return [_pair(x, off) for x in middles]
+
+
+def _pair(middle: Fraction, radius: Fraction) -> list[str]:
+    """[middle, radius], the middle with a decimal more than the radius, a power of 10."""
+    place = radius / 10
+    return [shortest(round(middle / place) * place), shortest(radius)]
