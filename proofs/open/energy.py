@@ -8,7 +8,7 @@ from chapsym.derive.three import placed
 from chapsym.proofs.map import gibbs, self_adjoint
 from chapsym.proofs.map import modified as map_modified
 from chapsym.proofs.map.modified import FREE
-from chapsym.proofs.open import certified, orbits, readings, terms
+from chapsym.proofs.open import certified, orbits, readings, terms, volume
 from chapsym.prove import Equation, Fact, Proof, Theorem, claim, judged, main, no, there_is
 
 FILES = certified.files("energy-drift")
@@ -18,7 +18,7 @@ LEMMAS = {
     "small-branch": gibbs, "reversible": self_adjoint, "modified-field": map_modified,
     "modified-energy": map_modified, "energy-without-rolling": map_modified, "modified-measure": map_modified,
     "map-symmetries": map_modified, "step-determinant": orbits, "steady-circles": orbits,
-    "periodic-orbits": orbits,
+    "measure-iff": volume, "periodic-orbits": orbits,
 }  # fmt: skip
 
 BALLS = "for the balls of the certificates energy-drift-*, and all balls near them"
@@ -27,7 +27,6 @@ PERIOD = "x_ε → x lies on a closed orbit of the continuous ball of the period
 ONE_STEP = "f∘Φ_ε = f + ε³f_H X₃(H) + O(ε⁴)"
 ONE_PERIOD = "after n steps x_ε is back up to O(ε²), and f has changed by ε²f_H ∮X₃(H)dt + o(ε²)"
 DENSITY_STEP = "log(det DΦ_ε · μ∘Φ_ε/μ) = ε³div_μ X₃ + O(ε⁴)"
-UNEQUAL = ("D > 0, I1 ≠ I2", "near the steady rotations about e₃ with γ not parallel to e₃")
 
 
 def scaling(p: Proof) -> None:
@@ -127,12 +126,10 @@ def certificates(p: Proof) -> None:
 
 def fixed_step(p: Proof) -> None:
     """What holds for one 𝒦, without ε: measures and integrals near periodic orbits."""
-    p.state(Theorem((), (*UNEQUAL, terms.SMALL_BRANCH), (no(terms.STEADY_DENSITY),)), readings.STEADY)
-    p.say("For a fixed 𝒦: by steady-circles no measure with a continuous positive density is invariant near a steady")
-    p.say("   circle.")
-    p.step(no(terms.STEADY_DENSITY), *UNEQUAL, terms.SMALL_BRANCH, "steady-circles")
     p.state(Theorem((ORBITS_OF,), (terms.SMALL_BRANCH,), (no(terms.THIRD),)), readings.CLOSED_ORBITS)
-    p.say("And by periodic-orbits, where an orbit is back and its derivative on the level of |γ|, |𝒦|, ⟨𝒦,γ⟩ has")
+    p.say(
+        "For a fixed 𝒦, by periodic-orbits, where an orbit is back and its derivative on the level of |γ|, |𝒦|, ⟨𝒦,γ⟩ has"
+    )
     p.say("   no eigenvalue 1, dF is 0 on that level for every C¹ integral F:")
     accepted = certified.present(p, ORBITS, "periodic-orbit")
     p.step(no(terms.THIRD), ORBITS_OF, terms.SMALL_BRANCH, "periodic-orbits", *(file.name for file in ORBITS))

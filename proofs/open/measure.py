@@ -1,4 +1,4 @@
-"""The open question of Section 5: finite measures with a positive density, for D > 0, in three cases."""
+"""The open question of Section 5: finite measures with a positive density, for D > 0, in four cases."""
 
 from dataclasses import replace
 from typing import Any
@@ -10,7 +10,7 @@ from chapsym.derive.quotient import Quotient
 from chapsym.proofs.map import gibbs, self_adjoint, symmetries
 from chapsym.proofs.map.gibbs import FREE
 from chapsym.proofs.map.symmetries import carried
-from chapsym.proofs.open import certified, chord, generic, locking, readings, resonance, terms
+from chapsym.proofs.open import certified, chord, generic, locking, readings, resonance, separatrix, splitting, terms
 from chapsym.prove import Equation, Proof, Theorem, claim, judged, main, there_is
 
 KIND = "no-invariant-measure"
@@ -20,6 +20,7 @@ LEMMAS = {
     "small-branch": gibbs, "self-adjoint": self_adjoint, "symmetries": symmetries, "chord": chord,
     "resonance": resonance, "plateaus": resonance, "almost-every": generic,
     "locked-circle": locking,
+    "reversible": self_adjoint, "separatrix-map": separatrix, "separatrix-limit": separatrix, "separatrix": splitting,
 }  # fmt: skip
 
 WITHIN = "for all J, D, h within the radii of the certificates measure-*"
@@ -76,10 +77,12 @@ def yes(p: Proof) -> None:
 
 def no(p: Proof) -> None:
     """The theorems."""
-    p.say("No, for three different moments and the h and D of (1), (2) and (3). What is used is proved anew:")
+    p.say("No, for three different moments and the h and D of (1) to (4). What is used is proved anew:")
     for id in LEMMAS:
         p.lemma(judged(id))
-    p.say("(1) By plateaus, (2) by almost-every there is an interval of levels with displacements of both signs. By")
+    p.say(
+        "(1) By plateaus, (2) by almost-every, (4) by separatrix there is an interval of levels with displacements of both signs. By"
+    )
     p.say(
         "locked-circle the finite invariant measures are carried there by periodic points: none has a density that is"
     )
@@ -118,7 +121,7 @@ def tampered(p: Proof, data: dict[str, Any]) -> None:
     files=FILES,
 )
 def invariant_measure_question(p: Proof) -> None:
-    """No finite measure with a density that is positive almost everywhere is invariant, for D > 0, in three cases."""
+    """No finite measure with a density that is positive almost everywhere is invariant, for D > 0, in four cases."""
     p.ask(*readings.QUESTIONS["5.9-open"])
     p.assume("the small branch, |h| below the bound of small-branch")
     p.assume(

@@ -28,7 +28,7 @@ QUESTIONS = {
 #: Parts of the proofs of the questions themselves.
 BOXES, FLAT, ROUND = "5.9-open: certificates", "5.9-open: D = 0", "5.9-open: two equal moments"
 DRIFTS, INTEGRALS, DENSITY = "6-open: certificates", "6-open: integrals", "6-open: densities"
-CLOSED_ORBITS, STEADY = "6-open: periodic orbits", "6-open: steady rotations"
+CLOSED_ORBITS = "6-open: periodic orbits"
 NO_ROLLING, VERTICAL = "6-open: D = 0", "6-open: vertical momentum"
 
 READINGS = {
@@ -39,9 +39,11 @@ READINGS = {
                 terms.MEASURE, NO, ("almost-every", "locked-circle")),
         Reading("finite measure; one ball and one h, and all near them (measure-real-ball: tr J ≤ D)",
                 terms.MEASURE, NO, (BOXES, "locked-circle")),
-        Reading("finite measure; all h ≠ 0 below the bound, all D > 0, with tr J ≤ D or not", terms.MEASURE, OPEN),
-        Reading("real s, single-valued f: a circle of s; almost all D > 0 and small h",
-                terms.PARAMETER, NO, ("almost-every", "locked-circle")),
+        Reading("finite measure; all h ≠ 0 below the bound, all D > 0 but a discrete set for each h (tr J ≤ D among them)",
+                terms.MEASURE, NO, ("separatrix", "locked-circle")),
+        Reading("finite measure; all h ≠ 0 below the bound, all D > 0 without exception", terms.MEASURE, OPEN),
+        Reading("real s, single-valued f: a circle of s; all h ≠ 0 below the bound, all D > 0 but a discrete set",
+                terms.PARAMETER, NO, ("separatrix", "locked-circle")),
         Reading("real s, a line of s: f is real analytic, s as a function of u has infinitely many values on the circle",
                 terms.LINE, TRIVIALLY, ("almost-every", "locked-circle")),
         Reading("complex s, multi-valued f, analytic beyond a neighbourhood of the real circle", terms.PARAMETER, OPEN),
@@ -68,8 +70,8 @@ READINGS = {
         Reading("𝒦 parallel to γ", terms.KEPT, YES, (VERTICAL,)),
         Reading("beside it: invariant densities that tend in C¹; two balls, and all near them",
                 terms.DENSITIES, NO, (DRIFTS, DENSITY)),
-        Reading("beside it: a measure of the whole map for one 𝒦, density continuous; all D > 0, I1 ≠ I2",
-                terms.STEADY_DENSITY, NO, (STEADY,)),
+        Reading("beside it: a measure of the whole map near 𝒦 = 0, density continuous; all D > 0, two different moments",
+                terms.WHOLE, NO, ("measure-iff",)),
     ),
 }  # fmt: skip
 

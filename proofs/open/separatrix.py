@@ -9,8 +9,9 @@ from chapsym.derive.elliptic import L1, L2, L3, l
 from chapsym.derive.gibbs import I1, I2, I3, D
 from chapsym.derive.quotient import Quotient
 from chapsym.derive.three import placed
+from chapsym.proofs.open import terms
 from chapsym.proofs.open.orbits import half_momentum, turn
-from chapsym.prove import Comparison, Equation, Proof, claim, main
+from chapsym.prove import Comparison, Equation, Proof, Theorem, claim, main
 
 #: X = coth a, T = tanh ū, E² = (1 - T²)(X² - 1); γ = (C1 E, TX ∓ 1, C3 E)/(X ∓ T) at u = ū ∓ a.
 X, T, E, C1, C3, h, S, Y, kappa = sp.symbols("X T E C1 C3 h S Y kappa")
@@ -145,6 +146,10 @@ def _increments(p: Proof) -> None:
     p.witness("J = (1/2, 3/2, 7/2), D = 1, h = 20/13", {str(x): str(v) for x, v in values.items()}, *facts)
 
 
+UNIFORM = "increments on levels near 1/Λ₂ tend to those on it, with a summable bound"
+PASSAGE = "q steps displace to the side of Δ(u) - β + o(1), uniformly in u, where 2K - qc_k = β"
+
+
 def bound_of_dn(sign: int = 1) -> Equation:
     """dn² where sn is at least tanh: k² = 1 - k'²."""
     t, k = sp.symbols("t k")
@@ -171,6 +176,7 @@ def without_the_mean(sign: int = -1) -> Equation:
 def separatrix_limit(p: Proof) -> None:
     """Beside the separatrix q steps displace to the side that Δ less a constant says: what orbits on it miss between their ends."""
     p.assume("I₁ > I₂ > I₃ > 0, D > 0, 0 < h below the bound of small-branch; h < 0 is the inverse map")
+    p.state(Theorem((), (terms.THREE, terms.SMALL_BRANCH, terms.NOT_CONSTANT), (terms.BOTH_SIGNS,)))
     p.say(
         "f is the map u ↦ ũ of separatrix-map, c the limit of its increments, g(u) = f(u) - u - c. On levels l > 1/Λ₂",
         "near 1/Λ₂ k < 1, f_k is the map u ↦ u~ of the circle, of period 4K, increasing, f_k(u + 2K) = f_k(u) + 2K",
@@ -192,8 +198,11 @@ def separatrix_limit(p: Proof) -> None:
     p.say(
         "and k' ≤ e^{π/2}e^{-K} (K + log k' ≤ π/2, DLMF 19.9.1). dn has period 2K: so |f_k(u) - u - c_k| ≤ C_R",
         "e^{-2|u|} for |u| ≤ K + R, every R; and f_k(u) - u - c_k → g(u), uniformly for u in compact sets. For k = 1",
-        "|g(u)| ≤ Ce^{-2|u|}: h₊(u) = lim(uₙ - nc) = u + Σg(uₙ) exists, is continuous, h₊(f(u)) = h₊(u) + c. 2. Half",
-        "a passage. Let u₀ be in a compact set, and n → ∞ as k → 1 with uₙ ≤ K + R. Increments are at least 2a₁: so",
+        "|g(u)| ≤ Ce^{-2|u|}: h₊(u) = lim(uₙ - nc) = u + Σg(uₙ) exists, is continuous, h₊(f(u)) = h₊(u) + c.",
+    )
+    p.step(UNIFORM, terms.THREE, terms.SMALL_BRANCH, "separatrix-map", "chord", "small-branch", "locked-circle")
+    p.say(
+        "2. Half a passage. Let u₀ be in a compact set, and n → ∞ as k → 1 with uₙ ≤ K + R. Increments are at least 2a₁: so",
         "Σ_{i<n}(u_{i+1} - u_i - c_k) has the summable bound C_R e^{-2|u_i|}, and each term tends to that of k = 1.",
         "Hence",
         "    uₙ = h₊(u₀) + nc_k + o(1), uniformly.",
@@ -202,6 +211,9 @@ def separatrix_limit(p: Proof) -> None:
         "⌊q/2⌋. Up to K u_i = ic_k + O(1), and nc_k = K + O(1): O(1) steps are beyond K, so uₙ < K + R for an R, and",
         "so is w_{q-n}. As f_k increases,",
         "    u_q > u₀ + 2K  <=>  uₙ > 2K - w_{q-n}  <=>  Δ(u₀) - β + o(1) > 0,  Δ(u₀) = h₊(u₀) + h₊(-u₀), and likewise for <.",
+    )
+    p.step(PASSAGE, UNIFORM, "reversible")
+    p.say(
         "4. The levels. Let Δ(x) < β < Δ(y). For every large q there is a k with 2K - qc_k = β, as the left side is",
         "below β at a fixed k near 1 and tends to ∞ as k → 1; so k → 1 as q → ∞. For large q the displacement u_q -",
         "u₀ - 2K, p = 1, is negative at u₀ = x, positive at u₀ = y, and so it is on an interval of levels. They tend",
@@ -209,6 +221,7 @@ def separatrix_limit(p: Proof) -> None:
         "many points, and no finite measure that G_h keeps has a density that is positive almost everywhere near the",
         "level l = 1/Λ₂.",
     )
+    p.step(terms.BOTH_SIGNS, PASSAGE, terms.NOT_CONSTANT)
     plain = Quotient((X, D, h, kappa, I2))
     rate = sp.diff(2 * I2 * X - h * (kappa * X**2 + 1 / kappa), X) * (1 - X**2)
     p.lemma(Equation("d/da(-F(coth a)) = (X² - 1)(2hϰX - 2I₂)", rate, (X**2 - 1) * (2 * h * kappa * X - 2 * I2), plain))

@@ -5,13 +5,15 @@ from dataclasses import replace
 import sympy as sp
 
 from chapsym.derive.quotient import Quotient
+from chapsym.proofs.open import terms
 from chapsym.proofs.open.separatrix import X
-from chapsym.prove import Equation, Proof, claim, main
+from chapsym.prove import Equation, Proof, Theorem, claim, main
 
 #: tanh of v and of c; the values of F', F'' at X.
 t, s, F1, F2 = sp.symbols("t s F1 F2")
 ENDS = Quotient((t, s))
 SLOPES = Quotient((X, F1, F2))
+SMALL_D = "Δ(0) - Δ(c/2) is not 0 for small D > 0"
 
 
 def square_of_a_chord(sign: int = 1) -> Equation:
@@ -41,6 +43,7 @@ def separatrix(p: Proof) -> None:
     """For every ball with three different moments, every h below the bound, all D > 0 but a discrete set: no such measure."""
     p.assume("I₁ > I₂ > I₃ > 0 and h fixed, Λ = I + D; h > 0, as h < 0 is the inverse map (self-adjoint)")
     p.assume("h is below the bound of small-branch, which does not depend on D; the small branch")
+    p.state(Theorem((terms.BUT_DISCRETE,), (terms.THREE, terms.SMALL_BRANCH), (terms.BOTH_SIGNS,)))
     p.say(
         "Let f be the map of separatrix-map, with c, X₀, F, and Δ = h₊(u) + h₊(-u) of separatrix-limit, for this D.",
         "1. Second order. With Y_i = Dz_i, z_i = tanh u_{i+1} - tanh u_i, the increment is 2A(Y_i), coth A(Y) = X,",
@@ -59,6 +62,9 @@ def separatrix(p: Proof) -> None:
         "so Σz_i² = 4 coth c - 2Σ_j sech²(u + jc) + O(D). As ∫sech²x e^{-iξx}dx = πξ/sinh(πξ/2), Poisson's sum is",
         "    Σ_j sech²(u + jc) = 2/c + (4π²/c²) Σ_{m≥1} m cos(2πmu/c)/sinh(mπ²/c), and",
         "    E(D) := Δ(0) - Δ(c/2) = -(16π²/c²) A''(0) D² Σ_{m odd} m/sinh(mπ²/c) + O(D³), which is not 0 for small D > 0.",
+    )
+    p.step(SMALL_D, terms.THREE, terms.SMALL_BRANCH, "separatrix-map", "separatrix-limit")
+    p.say(
         "2. E is analytic in D near [0, ∞). Λ, ϰ, X₀, c are, since X₀ is a simple root. Let D₁ ≥ 0. At real u the",
         "derivative of F - Y by X is not 0: so f is analytic in u and D near real u and D₁ (implicit functions).",
         "Where Re u > r, r large, it is analytic in u and D near D₁ as well, whatever Im u is: tanh u - 1 is O(e^{-2",
@@ -68,12 +74,14 @@ def separatrix(p: Proof) -> None:
         "0, and by 1. not 0 everywhere: its zeros have no limit point in [0, ∞), and at every other D Δ is not",
         "constant.",
     )
+    p.step(terms.NOT_CONSTANT, SMALL_D, terms.BUT_DISCRETE, "separatrix-map")
     p.say(
         "3. Where Δ is not constant, every neighbourhood of the level l = 1/Λ₂ has intervals of levels with",
         "displacements of both signs (separatrix-limit), and no finite measure that G_h keeps has a density that is",
         "positive almost everywhere (locked-circle). Left out are the D > 0 for which Δ is constant, if there are",
         "any: zeros of E.",
     )
+    p.step(terms.BOTH_SIGNS, terms.NOT_CONSTANT, "separatrix-limit", "self-adjoint")
     p.measure(*MEASURED)
     p.conjecture("Δ is not constant for any D > 0: then no D is left out.")
     p.control(replace(second_derivative(-1), text="A'' with -F''"))

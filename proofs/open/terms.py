@@ -11,6 +11,7 @@ MOMENTS = "J_i + J_j > 0 and D ≥ 0"
 FOR_SMALL = (
     "there is h₀ > 0, and for every h with 0 < |h| < h₀ there is D₀(h) > 0, so that for every D with 0 < D < D₀(h)"
 )
+BUT_DISCRETE = "for every h ≠ 0 there is a set without limit points in [0, ∞), and for every D > 0 that is not in it"
 FOR_ALMOST_ALL = "for every D̂ > 0 there is h₀ > 0, so that for almost every (D, h) with 0 < D < D̂ and 0 < |h| < h₀"
 
 #: What joins the lemmas of 5.9-open.
@@ -18,6 +19,9 @@ BOTH_SIGNS = (
     "for some q and p ≥ 1 there is an interval of levels on which q steps turn by more than p half turns at one point of "
     "each circle, and by less at another"
 )
+
+#: Of the orbits on the level l = 1/Λ₂, c the limit of their increments.
+NOT_CONSTANT = "Δ(u) = h₊(u) + h₊(-u), h₊ = lim(u_n - nc), is not constant"
 
 # What question 5.9-open asks for, in its readings.
 MEASURE = "finite measure on the sphere, invariant under G_h, with a density that is positive almost everywhere"
@@ -37,7 +41,8 @@ EXPANDED = "family of integrals f + εH₁ + ε²H₂ + o(ε²) of the steps, un
 ANALYTIC = "real analytic integral H + O(|𝒦|³) of the map near 𝒦 = 0"
 KEPT = "conserved energy: H itself is an integral of the map"
 DENSITIES = "family of invariant densities of the steps that tends in C¹ to that of the continuous ball"
-STEADY_DENSITY = "measure, invariant under the whole map, with a continuous positive density near these rotations"
+ROLLS, TWO_DIFFER = "D > 0", "two of I1, I2, I3 are different"
+WHOLE = "measure on |𝒦| < r, for some r > 0, invariant under the whole map, with a continuous positive density"
 THIRD = "C¹ integral of the map with a differential independent of those of |γ|, |𝒦|², ⟨𝒦,γ⟩ on these orbits"
 
 #: What joins the parts of 6-open.

@@ -9,9 +9,9 @@ from chapsym.derive.gibbs import I1, I2, I3, D, u
 from chapsym.derive.quotient import Quotient
 from chapsym.derive.steady import moment
 from chapsym.derive.three import UNIT_VERTICAL, gamma, placed
-from chapsym.proofs.open import orbits
+from chapsym.proofs.open import orbits, terms
 from chapsym.proofs.open.orbits import START, SWING, around, half_momentum, slope, steady_level, t, turn
-from chapsym.prove import Comparison, Equation, Proof, claim, main
+from chapsym.prove import Comparison, Equation, Proof, Theorem, claim, main, no
 
 MOMENTS = (I1, I2, I3)
 UNIT = Quotient((*u, t, *gamma, *MOMENTS, moment, D), [UNIT_VERTICAL])
@@ -67,6 +67,7 @@ def measure_iff(p: Proof) -> None:
     """For D > 0 the whole map preserves a continuous positive density near 𝒦 = 0 if and only if the three moments are equal."""
     p.assume("I_i > 0, D > 0", *(x > 0 for x in (*MOMENTS, D)))
     p.assume("the small branch on P_r: |𝒦| < r, |γ| = 1, for any r > 0 up to the bound of small-branch")
+    p.state(Theorem((), (terms.ROLLS, terms.TWO_DIFFER, terms.SMALL_BRANCH), (no(terms.WHOLE),)))
     p.assume("densities against d³𝒦 dσ(γ), σ the area of the sphere; the measure may be infinite")
     p.say(
         "Φ is an analytic diffeomorphism of P_r: it keeps |𝒦|, its root is regular (small-branch), and it has an inverse",
@@ -97,6 +98,10 @@ def measure_iff(p: Proof) -> None:
         "but at the points with cos mψ = 0. At each other point x, ϱ(Φ^{2m}x) det DΦ^{2m}(x) = ϱ(x) with Φ^{2m}x = x is",
         "false for ϱ(x) > 0. So there is no such ϱ on any P_r, on any open set with one of these circles in it, nor on the",
         "level M of one.",
+    )
+    by = "small-branch", "self-adjoint", "step-determinant", "steady", "steady-circles"
+    p.step(no(terms.WHOLE), terms.ROLLS, terms.TWO_DIFFER, terms.SMALL_BRANCH, *by)
+    p.say(
         "For D = 0 the volume is invariant for all moments (step-determinant): for D ≥ 0 the condition is D = 0 or I₁ = I₂ = I₃.",
         "Not excluded: densities that vanish, or are not continuous, on every one of these circles.",
     )
