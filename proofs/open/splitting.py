@@ -60,15 +60,15 @@ def separatrix(p: Proof) -> None:
     p.printed(square_of_a_chord())
     p.say(
         "so Σz_i² = 4 coth c - 2Σ_j sech²(u + jc) + O(D). As ∫sech²x e^{-iξx}dx = πξ/sinh(πξ/2), Poisson's sum is",
-        "    Σ_j sech²(u + jc) = 2/c + (4π²/c²) Σ_{m≥1} m cos(2πmu/c)/sinh(mπ²/c), and",
-        "    E(D) := Δ(0) - Δ(c/2) = -(16π²/c²) A''(0) D² Σ_{m odd} m/sinh(mπ²/c) + O(D³), which is not 0 for small D > 0.",
+        "    Σ_j sech²(u + jc) = 2/c + (4π²/c²) Σ m cos(2πmu/c)/sinh(mπ²/c), m = 1, 2, ..., and",
+        "    E(D) := Δ(0) - Δ(c/2) = -(16π²/c²) A''(0) D² Σ m/sinh(mπ²/c) + O(D³), m = 1, 3, 5, ..., which is not 0 for small D > 0.",
     )
     p.step(SMALL_D, terms.THREE, terms.SMALL_BRANCH, "separatrix-map", "separatrix-limit")
     p.say(
         "2. E is analytic in D near [0, ∞). Λ, ϰ, X₀, c are, since X₀ is a simple root. Let D₁ ≥ 0. At real u the",
         "derivative of F - Y by X is not 0: so f is analytic in u and D near real u and D₁ (implicit functions).",
-        "Where Re u > r, r large, it is analytic in u and D near D₁ as well, whatever Im u is: tanh u - 1 is O(e^{-2",
-        "Re u}) there, so Y is small, and a = A(Y) a contraction; |f(u) - u - c| ≤ Ce^{-2 Re u} and Re c > c(D₁)/2.",
+        "Where x = Re u > r, r large, it is analytic in u and D near D₁ as well, whatever Im u is: tanh u - 1 is",
+        "O(e^{-2x}) there, so Y is small, and a = A(Y) a contraction; |f(u) - u - c| ≤ Ce^{-2x} and Re c > c(D₁)/2.",
         "Finitely many steps lead from near a real u to Re u > r, and from there on Re uₙ grows by at least c(D₁)/4 a",
         "step: uₙ - nc converges uniformly, and its limit h₊ is analytic in u and D. So E is analytic near every D₁ ≥",
         "0, and by 1. not 0 everywhere: its zeros have no limit point in [0, ∞), and at every other D Δ is not",
