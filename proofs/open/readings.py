@@ -33,7 +33,7 @@ NO_ROLLING, VERTICAL = "6-open: D = 0", "6-open: vertical momentum"
 
 READINGS = {
     "5.9-open": (
-        Reading("finite measure; all small h and then all small D (tr J > D: mass outside the ball)",
+        Reading("finite measure; all small h and then all small D (nothing is said of tr J ≤ D)",
                 terms.MEASURE, NO, ("plateaus", "locked-circle")),
         Reading("finite measure; almost all D > 0 and small h (tr J ≤ D among them: all mass inside)",
                 terms.MEASURE, NO, ("almost-every", "locked-circle")),
