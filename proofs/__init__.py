@@ -39,6 +39,7 @@ SCRIPTS = (
     "open.volume",
     "open.separatrix",
     "open.splitting",
+    "open.melnikov",
 )
 
 #: The claims of the paper that need a verdict, in its order: each has a proof in one of the scripts.
@@ -64,5 +65,5 @@ LEMMAS = (
     "isotropic-spin", "straight", "symmetries", "chord", "resonance", "plateaus", "almost-every", "locked-circle",
     "modified-field", "modified-energy", "energy-without-rolling", "modified-measure", "map-symmetries",
     "step-determinant", "steady-circles", "periodic-orbits", "measure-iff",
-    "separatrix-map", "separatrix-limit", "separatrix",
+    "separatrix-map", "separatrix-limit", "separatrix", "melnikov", "energy-orbits",
 )  # fmt: skip

@@ -4,21 +4,23 @@ from dataclasses import replace
 
 import sympy as sp
 
-from chapsym.derive import elliptic
+from chapsym.derive import elliptic, gibbs
 from chapsym.derive.elliptic import L1, L2, L3, l
 from chapsym.derive.gibbs import I1, I2, I3, D
 from chapsym.derive.quotient import Quotient
 from chapsym.derive.three import placed
+from chapsym.proofs.map.gibbs import FREE
 from chapsym.proofs.open import terms
 from chapsym.proofs.open.orbits import half_momentum, turn
 from chapsym.prove import Comparison, Equation, Proof, Theorem, claim, main
 
-#: X = coth a, T = tanh ū, E² = (1 - T²)(X² - 1); γ = (C1 E, TX ∓ 1, C3 E)/(X ∓ T) at u = ū ∓ a.
-X, T, E, C1, C3, h, S, Y, kappa = sp.symbols("X T E C1 C3 h S Y kappa")
+#: X = coth a, T = tanh ū, E² = (1 - T²)(X² - 1); γ = (C1 E, TX ∓ 1, C3 E)/(X ∓ T) at u = ū ∓ a, with C1² + C3² = 1.
+X, T, E, r, h, S, Y, kappa = sp.symbols("X T E r h S Y kappa")
+C1, C3 = (1 - r**2) / (1 + r**2), 2 * r / (1 + r**2)
 #: 1/Λ₂ = C1²/Λ₁ + C3²/Λ₃ is l.
-MIDDLE = L1 * L3 / (C1**2 * L3 + C3**2 * L1)
-ON_ARC = Quotient((X, T, E, C1, C3, L1, L3, h, D), [E**2 - (1 - T**2) * (X**2 - 1), C1**2 + C3**2 - 1])
-LAMBDA = sp.diag(L1, MIDDLE, L3)
+MIDDLE = L1 * L3 * (1 + r**2) ** 2 / (L3 * (1 - r**2) ** 2 + 4 * L1 * r**2)
+ON_ARC = Quotient((X, T, E, r, L1, L3, D), [E**2 - (1 - T**2) * (X**2 - 1)])
+LAMBDA, INVERSE = sp.diag(L1, MIDDLE, L3), sp.diag(1 / L1, 1 / MIDDLE, 1 / L3)
 KAPPA = -C1 * C3 * MIDDLE * (L1 - L3) / (L1 * L3)
 #: tanh ũ - tanh u.
 RISE = 2 * X * (1 - T**2) / (X**2 - T**2)
@@ -37,9 +39,16 @@ def gibbs_vector(factor: int = 1) -> sp.Matrix:
     return factor * sp.Matrix([C1 * across / L1, T / X, C3 * across / L3]) / KAPPA
 
 
+def cayley() -> Equation:
+    """Ωᵀ of any Gibbs vector u by a vector product; at γ that is γ~."""
+    u, v = gibbs.u, gibbs.v
+    return Equation("Ωᵀv - v = (Ωᵀv + v) × u", turn(u) * v - v, (turn(u) * v + v).cross(u), FREE)
+
+
 def rotated(factor: int = 1) -> Equation:
     """That this u turns γ to γ~."""
-    return Equation("Ωᵀγ = γ~", turn(gibbs_vector(factor)) * place(-1), place(1), ON_ARC)
+    before, after = place(-1), place(1)
+    return Equation("γ~ - γ = (γ~ + γ) × u", after - before, (after + before).cross(gibbs_vector(factor)), ON_ARC)
 
 
 def momentum(contact: sp.Expr = D) -> Equation:
@@ -99,16 +108,15 @@ def separatrix_map(p: Proof) -> None:
     for sign in (-1, 1):
         at = place(sign)
         p.lemma(Equation(f"|γ|² = 1, ⟨γ,Λ⁻¹γ⟩ = 1/Λ₂ at ū {'+' if sign > 0 else '-'} a",
-                         [at.dot(at), at.dot(LAMBDA.inv() * at)], [1, 1 / MIDDLE], ON_ARC))  # fmt: skip
+                         [at.dot(at), at.dot(INVERSE * at)], [1, 1 / MIDDLE], ON_ARC))  # fmt: skip
     p.lemma(Equation("tanh ũ - tanh u = 2X(1 - T²)/(X² - T²)", place(1)[1] - place(-1)[1], RISE, ON_ARC))
     p.lemma(Equation("ϰ = -C1C3Λ₂(Λ₁ - Λ₃)/(Λ₁Λ₃)", KAPPA**2, (L1 - MIDDLE) * (MIDDLE - L3) / (L1 * L3), ON_ARC))
     p.say(
         "2. By prop-4 (5.10) the Gibbs vector of the step is a multiple of Λ⁻¹(γ~ + γ), and Ωᵀγ = γ~ says which: with",
         "ϰu = (C1E₁/Λ₁, T/X, C3E₁/Λ₃), E₁ = Λ₂E/(X² - 1),",
     )
-    p.lemma(
-        Equation("u × Λ⁻¹(γ~ + γ) = 0", gibbs_vector().cross(LAMBDA.inv() * (place(1) + place(-1))), [0] * 3, ON_ARC)
-    )
+    p.lemma(Equation("u × Λ⁻¹(γ~ + γ) = 0", gibbs_vector().cross(INVERSE * (place(1) + place(-1))), [0] * 3, ON_ARC))
+    p.lemma(cayley())
     p.printed(rotated())
     p.say("and the relation is 𝒦 = hγ: the 𝒦 of this u (gibbs) is, for every X and T,")
     p.printed(momentum())
@@ -202,9 +210,9 @@ def separatrix_limit(p: Proof) -> None:
     )
     p.step(UNIFORM, terms.THREE, terms.SMALL_BRANCH, "separatrix-map", "chord", "small-branch", "locked-circle")
     p.say(
-        "2. Half a passage. Let u₀ be in a compact set, and n → ∞ as k → 1 with uₙ ≤ K + R. Increments are at least 2a₁: so",
-        "Σ_{i<n}(u_{i+1} - u_i - c_k) has the summable bound C_R e^{-2|u_i|}, and each term tends to that of k = 1.",
-        "Hence",
+        "2. Half a passage. Let u₀ be in a compact set, and n → ∞ as k → 1 with uₙ ≤ K + R. Increments are at least",
+        "2a₁: so Σ_{i<n}(u_{i+1} - u_i - c_k) has the summable bound C_R e^{-2|u_i|}, and each term tends to that of",
+        "k = 1. Hence",
         "    uₙ = h₊(u₀) + nc_k + o(1), uniformly.",
         "3. The passage. f_k(-f_k(u)) = -u: the relation keeps its form if (u, u~) becomes (-u~, -u). So the orbit",
         "that goes back from 2K + u₀ is 2K - w_j, w_j the orbit from w₀ = -u₀. Let β = 2K - qc_k be bounded, n =",
