@@ -53,6 +53,7 @@ pictures: $(VENV)/.installed
 	for one in bowling:contact robot:spheres,attitude vertical:spheres,phase spread:contact,spread four:spheres; do \
 	  $(BIN)/chapsym show docs/scenes/$${one%%:*}.toml -o docs/pictures/$${one%%:*} --figures $${one##*:} --no-page; done
 	$(BIN)/python docs/pictures/page.py
+	$(BIN)/python docs/pictures/radii.py
 
 # Rocq judges the certificates of the register, too, and one of intervals: with Python and Rocq alone.
 rocq:
