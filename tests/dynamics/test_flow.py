@@ -12,7 +12,8 @@ from motion_truth import Truth, matrix_of, number
 from chapsym import generated
 from chapsym.derive import continuous, three
 from chapsym.derive.limits import RING, omega
-from chapsym.dynamics.flow import deviation, models, series
+from chapsym.dynamics.flow import deviation, models, newton, series
+from chapsym.dynamics.flow import path as paths
 from chapsym.dynamics.flow.path import Path
 from chapsym.dynamics.levels.proved_root import TooWide, upper
 from chapsym.dynamics.levels.start import fraction
@@ -266,3 +267,45 @@ def test_what_is_far_off_is_refused():
     floats, _, w, found, k, _ = polynomials(path)
     with ctx.workprec(128), pytest.raises(TooWide):
         deviation.deviation(floats, w, upper(k), found, path.body, arb(0.3))
+
+
+def test_corrections_gain_more_bits_each_time(monkeypatch):
+    """48 bits each would take 31 of them; and where the start is not moved."""
+    seen = []
+
+    def counted(*arguments):
+        seen.append(ctx.prec)
+        return deviation.defects(*arguments)
+
+    monkeypatch.setattr(paths, "defects", counted)
+    with ctx.workprec(1500):
+        path = Path(1500, tuple(map(arb, J)), arb(D), tuple(map(arb, K)), tuple(map(arb, ATTITUDE)), None)
+        start = list(path.p)
+        path.advance(F(1, 4))
+        assert [p(arb(0)) == x for p, x in zip(path.last.p, start, strict=True)] == [True] * 4
+        assert path.spread.size < arb(2) ** -1480
+    assert len(seen) <= 14
+
+
+def test_the_solutions_of_neighbours_have_twice_as_many_bits_once_they_are_mended():
+    with ctx.workprec(400):
+        path = Path(400, tuple(map(arb, J)), arb(D), tuple(map(arb, K)), tuple(map(arb, ATTITUDE)), None)
+        floats, length = path._series(F(1, 4), 1.0)
+        p, w, _ = path._mended(floats, tuple(number(length) * x for x in path.k))
+        one, left = newton.Neighbours(floats, path.body), []
+        for _ in range(3):
+            left.append(unlike_inverse(one))
+            one.mend(p, w, 200)
+        assert left[0] < arb(2) ** -48
+        assert left[1] < arb(2) ** -94
+        assert left[2] < arb(2) ** -186
+        # Φ' = AΦ, as BΦ' = CΦ.
+        unit = 1 / sum((x * x for x in p), arb_poly([0]))(arb(0))
+        gamma = models.models([x * unit for x in generated.rotation(*p)[6:]], 400)
+        assert deviation._slip(one.phi, models.models(w, 400), gamma, path.body, 400) < arb(2) ** -300
+
+
+def unlike_inverse(one):
+    """How far ΦΨ is from 1 on [0, 1]."""
+    rows = newton._product(one.phi, one.psi)
+    return upper([(x - (i == j))(models.UNIT) for i, row in enumerate(rows) for j, x in enumerate(row)])

@@ -20,7 +20,8 @@ from ..levels.spread import Spread
 from ..levels.start import exponent_of
 from .deviation import Body, Defects, defects, deviation
 from .models import Model, bound, exact
-from .series import LONG, TERMS, Floats, Series, convolved, linear, long_float, motion, quotient
+from .newton import Neighbours
+from .series import LONG, TERMS, Floats, Series, convolved, cross, linear, long_float, motion, quotient
 
 Numbers = tuple[Any, ...]
 
@@ -34,6 +35,8 @@ HALVINGS = 5
 GAIN, BEYOND = 48, 66
 #: What is left after the last correction is so many bits above the rounding.
 LEFT = 11
+#: Bits for each that a correction gains from which on the next gain twice as many, and bits of them that are lost.
+FAR, LOST = 4, 12
 #: Corrections that may do nothing, and how many times as many terms are tried then.
 STUCK, MORE_TERMS = 1, 1.25
 
@@ -121,12 +124,13 @@ class Path:
         terms = min(degree + 1, TERMS)
         p = [x - x(0) + y for x, y in zip(_polys(series.a[:, :terms]), self.p, strict=True)]
         p, w = [exact(x) for x in p], [exact(x) for x in _polys(series.w[:, :terms])]
-        bits, stuck, size = GAIN, 0, math.inf
+        bits, stuck, size, gain = GAIN, 0, math.inf, GAIN
+        neighbours: Neighbours | None = None
         while True:
             self.tick()
             bits = min(bits + BEYOND, self.precision)
             with ctx.workprec(bits):
-                n = max(TERMS, degree * bits // self.precision)
+                n = self._terms(degree, bits) - 1
                 found = defects(p, w, k, self.body, n)
                 before, size = size, _log(bound([*found.e, *found.kappa]))
             if bits == self.precision:
@@ -135,11 +139,26 @@ class Path:
                     return p, w, found
                 if stuck:
                     degree = math.ceil(MORE_TERMS * degree)
-            self._correct(p, w, series, found, degree)
-            bits = math.floor(min(max(bits - BEYOND, -size), self.precision)) + GAIN
+            known = math.floor(min(max(bits - BEYOND, -size), self.precision))
+            further = min(2 * gain, known) - LOST
+            if further > gain and self.precision - known > FAR * gain:
+                neighbours, gain = neighbours or Neighbours(series, self.body), further
+                with ctx.workprec(gain + BEYOND):
+                    neighbours.mend(p, w, self._terms(degree, gain + BEYOND))
+            if neighbours is None:
+                change = self._correction(series, found, degree)
+            else:
+                with ctx.workprec(gain + BEYOND):
+                    change = neighbours.correction(p, w, found, self._terms(degree, known + gain + BEYOND))
+            p, w = ([exact(x + y) for x, y in zip(*pair, strict=True)] for pair in zip((p, w), change, strict=True))
+            bits = known + gain
 
-    def _correct(self, p: list[Any], w: list[Any], series: Series, found: Defects, degree: int) -> None:
-        """Adds to p and w what takes away their defects to the first order: ξ' = Aξ - ½(B⁻¹κ + ε)."""
+    def _terms(self, degree: int, bits: int) -> int:
+        """So many terms serve for so many bits."""
+        return max(TERMS, min(degree, degree * bits // self.precision)) + 1
+
+    def _correction(self, series: Series, found: Defects, degree: int) -> tuple[list[Any], list[Any]]:
+        """What takes away the defects of p and w to the first order, if it is added: ξ' = Aξ - ½(B⁻¹κ + ε)."""
         shift, (e, kappa, off) = _floats([found.e, found.kappa, [found.off]], degree + 1)
         # κ is that of |p|²R in place of R; what this is off by is taken away with the rest.
         kappa += convolved(lambda x, y: [x[0] * z for z in y], off, self._central(series), degree + 1)
@@ -152,12 +171,11 @@ class Path:
         rate = xi[:, 1:] * np.arange(1, xi.shape[1])
         scalar = np.append(0.0, -away[0, :degree] / np.arange(1, degree + 1))  # brings |p| to 1
         move = convolved(lambda x, y: generated.compose(*(*x, *y)), series.a, np.vstack([scalar, xi]), degree + 1)
-        turn = convolved(_cross, series.w, xi, degree + 1)
+        turn = convolved(cross, series.w, xi, degree + 1)
         change = 2 * turn + epsilon
         change[:, : rate.shape[1]] += 2 * rate
-        for polys, by in ((p, move), (w, change)):
-            for i, row in enumerate(by):
-                polys[i] = exact(polys[i] + arb_poly(row.tolist()) * shift)
+        by, turned = ([arb_poly(row.tolist()) * shift for row in rows] for rows in (move, change))
+        return by, turned
 
     def _central(self, series: Series) -> Floats:
         """Iw - Dγ × (w × γ), what B(γ)w - K gains for each part by which |p|² is above 1."""
@@ -250,8 +268,3 @@ def _floats(vectors: Sequence[Sequence[Model]], terms: int) -> tuple[Any, list[F
         return found
 
     return shift, [rows(models) for models in vectors]
-
-
-def _cross(x: Sequence[Any], y: Sequence[Any]) -> tuple[Any, ...]:
-    """x × y."""
-    return x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]

@@ -65,6 +65,11 @@ def bend(J: Vector, w: Vector, x: Vector) -> tuple[Any, Any, Any]:
     )
 
 
+def cross(x: Vector, y: Vector) -> tuple[Any, Any, Any]:
+    """x × y."""
+    return x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]
+
+
 def motion(a: Vector, k: Vector, J: Vector, D: float, terms: int = TERMS) -> Series:
     """The series from the attitude a, with hK = k in space."""
     y, w, one = np.zeros((10, terms), LONG), np.zeros((3, terms), LONG), np.eye(3, dtype=LONG)
