@@ -8,7 +8,7 @@ from chapsym.derive.three import placed
 from chapsym.proofs.map import gibbs, self_adjoint
 from chapsym.proofs.map import modified as map_modified
 from chapsym.proofs.map.modified import FREE
-from chapsym.proofs.open import certified, orbits, readings, terms, volume
+from chapsym.proofs.open import certified, melnikov, orbits, readings, terms, volume
 from chapsym.prove import Equation, Fact, Proof, Theorem, claim, judged, main, no, there_is
 
 FILES = certified.files("energy-drift")
@@ -18,7 +18,7 @@ LEMMAS = {
     "small-branch": gibbs, "reversible": self_adjoint, "modified-field": map_modified,
     "modified-energy": map_modified, "energy-without-rolling": map_modified, "modified-measure": map_modified,
     "map-symmetries": map_modified, "step-determinant": orbits, "steady-circles": orbits,
-    "measure-iff": volume, "periodic-orbits": orbits,
+    "measure-iff": volume, "periodic-orbits": orbits, "melnikov": melnikov, "energy-orbits": melnikov,
 }  # fmt: skip
 
 BALLS = "for the balls of the certificates energy-drift-*, and all balls near them"
@@ -146,7 +146,7 @@ def fixed_step(p: Proof) -> None:
     files=(*FILES, *ORBITS),
 )
 def energy_question(p: Proof) -> None:
-    """No C¹ integrals of the steps tend to the energy in C¹, for an open set of balls; in C⁰ the question is open."""
+    """For three different moments and D > 0 no C¹ integrals of the steps tend to the energy in C¹; in C⁰ that is open."""
     p.ask(*readings.QUESTIONS["6-open"])
     p.assume("the small branch; K = 𝒦/ε and γ near the orbit, ε small: then small-branch holds")
     flat, vertical = "D = 0", "𝒦 is parallel to γ"
@@ -174,8 +174,7 @@ def energy_question(p: Proof) -> None:
     p.settle(readings.READINGS["6-open"])
     p.measure(*MEASURED)
     p.conjecture(
-        "For every ball with three different moments and D > 0 there is such an orbit: in every resonance of the "
-        "continuous ball that is crossed with a twist some orbits have ∮X₃(H)dt ≠ 0.",
+        "In every resonance of the continuous ball that is crossed with a twist some orbits have ∮X₃(H)dt ≠ 0.",
         "The small branch has, at a fixed small ε, no real analytic integral independent of |γ|, |𝒦|², ⟨𝒦,γ⟩; between the "
         "resonances there are invariant tori, on which the energy oscillates and does not drift (KAM, reversible).",
     )

@@ -9,8 +9,9 @@ from chapsym.derive.elliptic import L1, L2, L3
 from chapsym.derive.gibbs import I1, I2, I3, v
 from chapsym.derive.quotient import Quotient
 from chapsym.derive.three import UNIT_VERTICAL, D, gamma, placed
+from chapsym.proofs.open import terms
 from chapsym.proofs.open.separatrix import C1, C3, KAPPA, MIDDLE, r
-from chapsym.prove import Equation, Proof, claim, main
+from chapsym.prove import Equation, Proof, Theorem, claim, main
 
 LAMBDA, INVERSE = sp.diag(L1, L2, L3), sp.diag(1 / L1, 1 / L2, 1 / L3)
 INERTIA = LAMBDA - D * sp.eye(3)
@@ -122,6 +123,10 @@ def melnikov(p: Proof) -> None:
     p.control(replace(by_parts(2)[0], text="σ²(σE)' with ½"))
 
 
+TORI = "near vertical momentum the levels of H are tori, on which the first return to a circle is a rotation by ρ(l, s)"
+CLOSED = "for all large n and all small s there is an l_s near 1/Λ₂ with ρ(l_s, s) = 4πn"
+
+
 def precession(low: sp.Expr = L2 * L3) -> Equation:
     """det(Λ)⟨b,Λ⁻¹b⟩ - Λ₂Λ₃|b|², on the sphere; the argument mutates Λ₂Λ₃."""
     b, (x, y, z) = gamma.cross(INVERSE * gamma), gamma
@@ -141,6 +146,7 @@ def precession(low: sp.Expr = L2 * L3) -> Equation:
 def energy_orbits(p: Proof) -> None:
     """Every ball with three different moments and D > 0 has closed orbits along which X₃ changes the energy."""
     p.assume("I₁ > I₂ > I₃ > 0, D > 0, Λ = I + D; h > 0", L1 > L2, L2 > L3, L3 > 0)
+    p.state(Theorem((), (terms.ROLLS, terms.THREE), (terms.DRIFT,)))
     p.say(
         "1. Tori. On |K|² = h²(1 + s²), ⟨K,γ⟩ = h let K = h(γ + se): the frames (e, γ × e, γ) make it SO(3), and the",
         "continuous ball a flow on it, analytic in s, s = 0 among them: γ' = γ × ω, e' = e × ω, ω = B(γ)⁻¹h(γ + se).",
@@ -150,7 +156,11 @@ def energy_orbits(p: Proof) -> None:
         "with H = ½h²l/(1 - Dl) near by are a torus. It is cut by γ₂ = 0, γ₁ > 0 in a circle, across the flow, with",
         "the angle φ of e as coordinate. The first return keeps a smooth positive measure of this circle: so it is a",
         "rotation by ρ(l, s) in another coordinate, ρ continuous. If ρ = 0 mod 2π every orbit on the torus is closed",
-        "after one return. 2. s = 0. W, the horizontal part of ω₀ in space, is not 0 and turns at the rate",
+        "after one return.",
+    )
+    p.step(TORI, terms.ROLLS, terms.THREE, "modified-measure")
+    p.say(
+        "2. s = 0. W, the horizontal part of ω₀ in space, is not 0 and turns at the rate",
         "c⟨b,Λ⁻¹b⟩/|b|² (top-precession), with",
     )
     p.printed(precession())
@@ -159,6 +169,9 @@ def energy_orbits(p: Proof) -> None:
         "the same angle ϑ(l) in each half, and ρ(l, 0) = 2ϑ(l). As the period tends to ∞ as l → 1/Λ₂, so does ϑ: near",
         "1/Λ₂ there are l₁, l₂ with ϑ - 2πn of opposite signs, for all large n. For s small there is an l_s between",
         "with ρ(l_s, s) = 4πn.",
+    )
+    p.step(CLOSED, TORI, "top-precession", "symmetries")
+    p.say(
         "3. The integral. On this torus X₃(H) is s times its first order, as in melnikov, and O(s²); over one return,",
         "in bounded time, the orbit is within O(s) of that with s = 0 and this l, φ. So ∮X₃(H)dt = s",
         "Re(e^{-iφ}Z(l_s)) + O(s²), Z(l) = -(D/4)∫⟨γ',ω₀'⟩dW over a period. The two halves differ by e^{iϑ}, which is",
@@ -169,6 +182,7 @@ def energy_orbits(p: Proof) -> None:
         "∮X₃(H)dt ≥ s|Z| + O(s²) > 0 for small s > 0. So step 1 to 4 of 6-open, which need one closed orbit with",
         "∮X₃(H)dt ≠ 0, hold for every such ball, near this orbit.",
     )
+    p.step(terms.DRIFT, CLOSED, "melnikov")
     p.measure(
         "Λ = (6, 5, 3), D = 1, h = 13/10, s = 1e-6, e at the angle φ = 1 from W: orbits with T = 101.82, 121.47, 140.94 are closed "
         "after one return; the second, with ϑ an even multiple of π, has ∮X₃(H)dt = -1.0054e-4 s (2|Z| sin 1 = 9.81e-5), the "
