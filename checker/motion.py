@@ -19,7 +19,8 @@ from math import ceil
 from typing import Any, NamedTuple
 
 from .attitude import Turning, rotation
-from .document import MOST_DIGITS, MOST_STEPS, check_names, count, exact, listed
+from .document import MOST_DIGITS, check_names, count, exact, listed
+from .form import MOST
 from .interval import Interval, Rejected
 from .linear import Vector, dot
 from .rolling import BITS, Flow, Rolling, number
@@ -65,10 +66,10 @@ def check_form(data: dict[str, Any]) -> None:
     for x in listed(data["start"]["position"], 2, "position") if rolls else ():
         exact(x, "a number of the position")
     digits = count(data["digits"], 1, MOST_DIGITS, "digits")
-    count(data["bits"], BITS, 8192, "bits")
-    count(data["order"], 8, 2048, "order")
-    if not isinstance(data["frames"], list) or not 0 < len(data["frames"]) <= MOST_STEPS:
-        raise Rejected(f"frames must be a list of 1 to {MOST_STEPS}")
+    count(data["bits"], BITS, 4096, "bits")
+    count(data["order"], 8, 1024, "order")
+    if not isinstance(data["frames"], list) or not 0 < len(data["frames"]) <= MOST:
+        raise Rejected(f"frames must be a list of 1 to {MOST}")
     parts = {name: n for name, n in PARTS.items() if rolls or name != "contact"}
     for frame in data["frames"]:
         check_names(frame, " ".join(["time", *parts]), "a frame")

@@ -133,6 +133,8 @@ class Flow:
             raise Rejected(f"the motion takes more than {MOST_STEPS} steps")
         terms = self.fine.series(start, self.order)
         length = min(self.length(terms), most)
+        if length <= 0:
+            raise Rejected("the motion is too fast for its units: a step has no length")
         power = 1 << self.bits
         for k in range(1, self.order):
             power = power * length >> self.bits

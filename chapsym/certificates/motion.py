@@ -30,10 +30,10 @@ def motion(
     """The certificate of the frames that were found from a start, accepted by the checker.
 
     The checker encloses the motion with more and more bits, as it loses some in each turn, more of a ball with unlike
-    moments.  Raises BadInput where it accepts no certificate within a minute or so.
+    moments.  Raises BadInput where it accepts no certificate with MOST bits more than those of the digits.
     """
-    if len(found.times) > checker.document.MOST_STEPS:
-        raise BadInput(f"a certificate has at most {checker.document.MOST_STEPS} frames, not {len(found.times)}")
+    if len(found.times) > checker.form.MOST:
+        raise BadInput(f"a certificate has at most {checker.form.MOST} frames, not {len(found.times)}")
     digits = math.ceil(found.digits * math.log2(10))
     bits, why = digits + GUARD, ""
     while bits <= digits + MOST:
@@ -61,7 +61,9 @@ def document(start: Start, found: CertifiedMotion, bits: int) -> dict[str, Any]:
         {"time": shortest(at), **{name: _claims(name, rows[i], share, radius) for name, rows in arrays.items()}}
         for i, at in enumerate(found.times)
     ]
-    return stated(KIND, ball=ball, start=began, digits=found.digits, bits=bits, order=bits // 2, frames=frames)
+    return stated(
+        KIND, ball=ball, start=began, digits=found.digits, bits=bits, order=min(bits // 2, 1024), frames=frames
+    )
 
 
 def _start(start: Start, bits: int) -> dict[str, list[list[str]]]:

@@ -128,6 +128,6 @@ def test_what_the_checker_cannot_follow_is_refused_in_a_sentence(tmp_path, monke
     monkeypatch.setattr(checker.rolling, "MOST_STEPS", 1)
     with pytest.raises(BadInput, match="ask for less time or fewer digits: the motion takes more than 1 steps"):
         motion.motion(start, found)
-    monkeypatch.setattr(checker.document, "MOST_STEPS", 2)
+    monkeypatch.setattr(checker.form, "MOST", 2)
     with pytest.raises(BadInput, match="at most 2 frames, not 3"):
         motion.motion(start, found)

@@ -201,6 +201,12 @@ def test_what_is_changed_and_sealed_anew_is_refused_by_mathematics(right, path, 
         check(resealed(replaced(right, path, value)))
 
 
+def test_a_step_without_a_length_is_refused(right, monkeypatch):
+    monkeypatch.setattr(rolling.Flow, "length", lambda self, terms: 0)
+    with pytest.raises(Rejected, match="a step has no length"):
+        check(right)
+
+
 def test_nothing_is_changed_without_a_new_seal(right):
     with pytest.raises(Rejected, match="digest"):
         check(replaced(right, (*FRAME, "gamma", 0, 0), "0.8"))
