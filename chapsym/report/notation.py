@@ -115,8 +115,8 @@ _COMMANDS = {
     "⊢": r"\vdash", "∩": r"\cap", "∮": r"\oint", "∦": r"\nparallel", "ϱ": r"\varrho", "⌊": r"\lfloor", "⌋": r"\rfloor",
     "℘": r"\wp", "ϰ": r"\varkappa", "ε": r"\varepsilon", "ℝ": r"\mathbb R", "ℕ": r"\mathbb N", "ℂ": r"\mathbb C",
     "ℤ": r"\mathbb Z", "ℚ": r"\mathbb Q", "ℰ": r"\mathcal E", "ℱ": r"\mathcal F", "ℓ": r"\ell", "°": r"^{\circ}",
-    "ϑ": r"\vartheta",
-    "′": "'", "⅓": r"\tfrac13", "⅔": r"\tfrac23", "⅛": r"\tfrac18", "¾": r"\tfrac34", "∘": r"\circ", "∖": r"\setminus", "|": "|",
+    "ϑ": r"\vartheta", "⅔": r"\tfrac23",
+    "′": "'", "⅓": r"\tfrac13", "⅛": r"\tfrac18", "¾": r"\tfrac34", "∘": r"\circ", "∖": r"\setminus", "|": "|",
     "{": r"\{", "}": r"\}", "%": r"\%", "&": r"\&", "#": r"\#", "$": r"\$", "~": r"\sim", "\\": r"\backslash",
     "*": r"\ast", "«": r"\text{``}", "»": r"\text{''}", "✓": r"\checkmark", "✗": r"\times",
 }  # fmt: skip
