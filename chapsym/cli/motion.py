@@ -73,14 +73,14 @@ def motion(
             for middle, radius in vector if name != "time" else ():
                 print(f"  {name:16} {middle} +/- {radius}")
         for name, error in errors.items():
-            print(f"  {name:16} of {against} {_within(error, UNITS[name])}")
+            print(f"  {name:16} of {against} {within(error, UNITS[name])}")
     if found.stopped is not None:
         fail(found.stopped, 1)
 
 
-def _within(error: float, unit: str) -> str:
-    """A bound in two digits, which are rounded up."""
-    if not isfinite(error):
+def within(error: float | None, unit: str) -> str:
+    """A bound in two digits, which are rounded up; none where a frame has no number."""
+    if error is None or not isfinite(error):
         return "has no number at some of these frames"
     shown = Context(prec=2, rounding=ROUND_CEILING).create_decimal_from_float(error)
     return f"is within {float(shown):.2g}{unit} at these frames: proved"

@@ -1,5 +1,6 @@
 """chapsym run: roll a scene."""
 
+import json
 import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -13,8 +14,11 @@ from .output import fail, note, print_json
 if TYPE_CHECKING:
     from xarray import Dataset
 
+    from chapsym.scene import Scene
     from chapsym.scene.plan.plan import Plan
 
+#: Seconds that a proof may take where the scene does not say.
+LIMIT = 600.0
 OUT = "A .zarr, which can be resumed; or .nc, .parquet, .csv, .npz."
 
 
@@ -36,9 +40,11 @@ def run(
     """
     from chapsym.scene import load
     from chapsym.scene.result import formats
+    from chapsym.scene.result.proved import with_proof
     from chapsym.scene.running import sweep
     from chapsym.scene.running.source import plan_of
 
+    from .certify import telling
     from .following import following
     from .output import quiet, say
 
@@ -48,6 +54,7 @@ def run(
         if scheduler is not None and destination.suffix != ".zarr":
             fail(f"{destination}: --scheduler needs a .zarr, of which each worker writes its part", 2)
         formats.check_destination(destination)
+        exact = _exact(wanted, destination) if wanted.run.proved else None
         plan, answers = sweep.telling(plan_of(wanted), say)
         formats.check_size(plan, destination)
         with following(as_json) as report:
@@ -59,10 +66,29 @@ def run(
                 formats.save(data, destination)
                 outcome = sweep.Outcome(int((data.status != 0).sum()))
         quiet()
+        stopped = None
+        if exact is not None:
+            with telling() as progress:
+                data, motion = with_proof(data, exact, float(wanted.run.limit or LIMIT), progress)
+            formats.save(data, destination)
+            stopped = motion.stopped
     except KeyboardInterrupt:
         kept = "the same command goes on from there" if destination.suffix == ".zarr" else "nothing was written"
         fail(f"interrupted; {kept}", INTERRUPTED)
     _tell(plan, destination, outcome, data, answers, as_json)
+    if stopped is not None:
+        fail(f"the frames after {len(motion.times)} are not proved: {stopped}", 1)
+
+
+def _exact(scene: "Scene", destination: Path) -> Any:
+    """The start and the times of a scene that asks for a proof; refused before it is run."""
+    from chapsym.scene.members.exactly import exact_motion
+    from chapsym.scene.result.proved import check_outputs
+
+    if destination.suffix == ".zarr":
+        fail(f"{destination}: run.proved writes its bounds into one file: take .npz, .nc, .csv or .parquet", 2)
+    check_outputs(scene.run.names())
+    return exact_motion(scene)
 
 
 def _named(scene: Path, name: str | None) -> Path:
@@ -80,18 +106,25 @@ def _named(scene: Path, name: str | None) -> Path:
 def _tell(plan: "Plan", destination: Path, outcome: Any, data: "Dataset", answers: list[Any], as_json: bool) -> None:
     """What was run and where it is; units that were not run are an error, balls that stopped early are none."""
     from chapsym.scene.result.far import far, sentence
+    from chapsym.scene.result.proved import PROVED, UNITS
     from chapsym.scene.result.summary import last_state, stopped
 
+    from .motion import within
     from .trade import described, print_answer
 
     balls, failed = len(plan.members), outcome.failed
+    bounds = json.loads(data.attrs.get(PROVED, "{}"))
     one = last_state(data) if balls == 1 and not outcome.lost else {}
     if as_json:
         lost = [{"balls": list(which), "reason": why} for which, why in outcome.lost.items()]
         run = {"balls": balls, "frames": plan.frames, "steps": plan.task.steps, "model": plan.model.name}
         found = {"output": str(destination), **run, "failed": failed, "complete": outcome.complete, "lost": lost}
         print_json(
-            found | one | far(data) | (described(answers[0], plan.members) if balls == len(answers) == 1 else {})
+            found
+            | one
+            | far(data)
+            | (described(answers[0], plan.members) if balls == len(answers) == 1 else {})
+            | ({PROVED: bounds} if PROVED in data.attrs else {})
         )
     else:
         _print(plan, destination, outcome, one)
@@ -99,6 +132,8 @@ def _tell(plan: "Plan", destination: Path, outcome: Any, data: "Dataset", answer
             print(": ".join(away))
         if balls == len(answers) == 1:
             print_answer(answers[0], plan.members)
+        for name, error in bounds.items():
+            print(f"{name} {within(error, UNITS[name])}")
     if failed == balls == 1:
         fail(f"{stopped(data)}; the {one['steps']} steps before it are in {destination}", 2)
     if failed == balls:

@@ -1,11 +1,13 @@
 """The error of a run, proved by the motion with certified digits."""
 
+import json
+
 import numpy as np
 import pytest
 from commands import answer, chapsym, refused
 from first import BALL
 
-from chapsym.cli.motion import _within
+from chapsym.cli.motion import within
 from chapsym.dynamics.enclosed_motion import follow
 from chapsym.scene import SceneError, load
 from chapsym.scene.members.exactly import exact_motion
@@ -70,12 +72,32 @@ def test_the_command_has_the_bound_and_takes_no_other_scene(scene, tmp_path):
     assert "gone.npz" in refused("certify", "motion", scene, "--against", tmp_path / "gone.npz")
 
 
+def test_a_scene_may_ask_for_the_proof_and_its_bounds_are_in_the_result(scene, both, tmp_path):
+    path, result = tmp_path / "proved.toml", tmp_path / "proved.nc"
+    path.write_text(f"{BALL}{RUN}proved = true\n")
+    told = answer("run", path, "-o", result)["proved"]
+    assert told == json.loads(formats.load(result).attrs["proved"])
+    assert told == pytest.approx(proved_errors(*both))  # of 18 digits and of 20
+
+
+@pytest.mark.parametrize(("more", "output", "said"), [
+    ("proved = true", "x.zarr", "run.proved writes its bounds into one file"),
+    ("proved = true\nmap = true", "x.npz", "run.proved is of the motion, and run.map of the map"),
+    ("proved = true\noutputs = [\"energy\"]", "x.npz", "ask for one in its outputs"),
+])  # fmt: skip
+def test_what_cannot_be_proved_is_refused_before_the_run(tmp_path, more, output, said):
+    path = tmp_path / "asks.toml"
+    path.write_text(f"{BALL}time = 1.0\nframes = 8\n{more}\n")
+    assert said in refused("run", path, "-o", tmp_path / output)
+    assert not (tmp_path / output).exists()
+
+
 @pytest.mark.parametrize(("error", "said"), [
     (4.51e-8, "is within 4.6e-08 m at these frames: proved"), (0.0, "is within 0 m at these frames: proved"),
     (float("inf"), "has no number at some of these frames"),
 ])  # fmt: skip
 def test_what_is_printed_is_a_bound_too(error, said):
-    assert _within(error, " m") == said
+    assert within(error, " m") == said
 
 
 def test_a_frame_without_a_number_has_no_bound(scene, both, tmp_path):

@@ -1,11 +1,15 @@
 """How far the frames of a result are from a motion with proved digits: a bound, not an estimate."""
 
+import json
 import math
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Iterable
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from chapsym.dynamics import CertifiedMotion
+from chapsym.dynamics.enclosed_motion import follow
 
 from ..read.errors import SceneError
 
@@ -20,10 +24,31 @@ UNITS = {"gamma": "", "omega": " rad/s", "attitude": "", "contact": " m"}
 BITS = 128
 
 
+#: Digits of the motion with which a result in float64 is compared, and the name of the bounds in its attributes.
+DIGITS, PROVED = 18, "proved"
+
+
+def check_outputs(outputs: Iterable[str]) -> None:
+    """Raises SceneError where none of them can be compared."""
+    if not set(outputs) & set(UNITS):
+        raise SceneError(f"the result has none of {', '.join(UNITS)}: ask for one in its outputs")
+
+
+def with_proof(
+    dataset: "Dataset", exact: tuple[Any, tuple[Fraction, ...]], limit: float, progress: Callable[[str], None]
+) -> tuple["Dataset", CertifiedMotion]:
+    """A result with its bounds (`proved_errors`, null where there is none) in the attribute "proved", and the motion.
+
+    exact: the start and the times of its scene (`members.exactly.exact_motion`).  limit: seconds.
+    """
+    found = follow(*exact, DIGITS, limit=limit, progress=progress)
+    errors = {name: error if math.isfinite(error) else None for name, error in proved_errors(dataset, found).items()}
+    return dataset.assign_attrs({PROVED: json.dumps(errors)}), found
+
+
 def check_scene(dataset: "Dataset", scene: str) -> None:
     """Raises SceneError for a result of another scene, or with nothing to compare."""
-    if not any(name in dataset for name in UNITS):
-        raise SceneError(f"the result has none of {', '.join(UNITS)}: ask for one in its outputs")
+    check_outputs(map(str, dataset))
     if dataset.attrs.get("scene") != scene:
         raise SceneError("the result is of another scene: run this one, and compare its result")
 
