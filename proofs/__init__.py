@@ -28,6 +28,7 @@ SCRIPTS = (
     "open.measure",
     "open.energy",
     "map.gibbs",
+    "map.gyrostat",
     "map.modified",
     "map.order",
     "map.self_adjoint",
@@ -66,4 +67,5 @@ LEMMAS = (
     "modified-field", "modified-energy", "energy-without-rolling", "modified-measure", "map-symmetries",
     "step-determinant", "steady-circles", "periodic-orbits", "measure-iff",
     "separatrix-map", "separatrix-limit", "separatrix", "melnikov", "energy-orbits",
+    "gyrostat-rotor", "gyrostat-motion", "gyrostat-integrals", "gyrostat-measure",
 )  # fmt: skip

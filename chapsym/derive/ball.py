@@ -30,7 +30,7 @@ def centre_momentum() -> sp.Symbol:
         "m_k", "R_{k+1} J R_kᵀ - R_k J R_{k+1}ᵀ", space.spatial_momentum(space.R, space.R1), space.ALGEBRA
     )
     carried = written("m_k_body", "R_kᵀ m_k R_k", space.RT * spatial * space.R, space.ALGEBRA)
-    return _in_step_symbols("M_k", carried, at_start=True)
+    return in_step_symbols("M_k", carried, at_start=True)
 
 
 def body_balance() -> sp.Symbol:
@@ -49,7 +49,7 @@ def split_balance() -> tuple[sp.Symbol, sp.Symbol]:
     balance, later = body_balance(), (space.R1, space.R1T)
     now = terms("part_now", "its terms with R_{k+1}", balance, later)
     before = terms("part_before", "its terms without R_{k+1}", balance, later, having=False)
-    return _in_step_symbols("momentum", now, at_start=True), _in_step_symbols("before", before, at_start=False)
+    return in_step_symbols("momentum", now, at_start=True), in_step_symbols("before", before, at_start=False)
 
 
 def momentum_in_space(now: bool) -> sp.Symbol:
@@ -78,7 +78,7 @@ BOTH = WordAlgebra(
 )
 
 
-def _in_step_symbols(name: str, of: sp.Symbol, at_start: bool) -> sp.Symbol:
+def in_step_symbols(name: str, of: sp.Symbol, at_start: bool, algebra: WordAlgebra = BOTH) -> sp.Symbol:
     """Rewrites words in R_{k-1}, R_k, R_{k+1} and the spatial γ with the symbols of one step.
 
     `at_start`: the step begins at k, so R_{k+1} = R_k Ω.  Otherwise it ends there: R_k = R_{k-1} Ω.
@@ -91,4 +91,4 @@ def _in_step_symbols(name: str, of: sp.Symbol, at_start: bool) -> sp.Symbol:
         text = "by R_k = R_{k-1} Ω and γ⃗ = R_{k-1} γ"
         places = {space.R: space.R0 * Omega, space.RT: OmegaT * space.R0T}
         places |= {space.gamma: space.R0 * gamma, space.gammaT: gammaT * space.R0T}
-    return replaced(name, text, of, places, BOTH)
+    return replaced(name, text, of, places, algebra)

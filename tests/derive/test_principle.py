@@ -2,7 +2,7 @@
 
 import sympy as sp
 
-from chapsym.derive import principle
+from chapsym.derive import gyrostat, principle
 from chapsym.derive.words import evaluate
 
 S = sp.Symbol("s")
@@ -44,3 +44,24 @@ def test_the_balance_is_skew():
 
 def test_the_kinetic_energy_asks_for_minus_the_trace():
     assert principle.kinetic_factor() == -1
+
+
+def test_the_rotors_balance_is_the_derivative_of_its_action():
+    """d/ds of ½ tr(AᵀRᵀR_+) of both steps along dR = ξR at a rational path equals ½ tr(ξ S)."""
+    before, now, after = cayley(1, 2, 0), cayley(0, 1, 3), cayley(2, 0, 1)
+    rotor = sp.Matrix([[0, 3, -1], [-3, 0, 2], [1, -2, 0]])
+    xi = sp.Matrix([[0, 2, -1], [-2, 0, 5], [1, -5, 0]])
+    turned = now + S * xi * now
+    action = ((rotor.T * before.T * turned).trace() + (rotor.T * turned.T * after).trace()) / 2
+    values = {principle.R0: before, principle.R: now, principle.R1: after, gyrostat.step_A: rotor}
+    values |= {principle.ALGEBRA.transposes[k]: v.T for k, v in list(values.items())[:3]}
+    balance = evaluate(gyrostat.rotor_balance(), values)
+    assert sp.diff(sp.expand(action), S).subs(S, 0) == (xi * balance).trace() / 2
+
+
+def test_the_discrete_term_is_a_times_the_vector_of_the_odd_part():
+    turn, rotor = cayley(2, 1, 3), sp.Matrix([[0, 3, -1], [-3, 0, 2], [1, -2, 0]])
+    vector, odd = sp.Matrix([-2, -1, -3]), (turn - turn.T) / 2
+    values = {principle.R: sp.eye(3), principle.RT: sp.eye(3), principle.R1: turn, gyrostat.step_A: rotor}
+    found = evaluate(gyrostat.discrete_term(principle.R, principle.R1), values).trace()
+    assert found == vector.dot(sp.Matrix([odd[2, 1], odd[0, 2], odd[1, 0]]))

@@ -1,0 +1,144 @@
+"""A gyrostat: the ball with a balanced rotor inside, for every n, from the same two principles.
+
+The rotor adds ½ tr(AᵀRᵀṘ) to the Lagrangian, A skew and constant in the body, and ½ tr(AᵀR_kᵀR_{k+1}) to the discrete
+one: for n = 3 these are ⟨a,ω⟩, and ⟨a,·⟩ of the vector of ½(Ω - Ωᵀ), the least function that is linear in Ω and odd.
+`motion` and `principle` have the rest.
+"""
+
+from functools import cache
+
+import sympy as sp
+
+from . import ball, continuous, limits, motion, three
+from . import principle as space
+from .derivation import coordinates, dual, rate, replaced, terms, written
+from .motion import eta, omega
+from .quotient import Quotient
+from .words import WordAlgebra, matrix_symbols
+
+# The rotor's angular momentum (skew), that of a step, and in the continuous principle the rate of η.
+A, step_A, xi = matrix_symbols("A A_step xi")
+SKEW = {A: -A, step_A: -step_A, xi: -xi}
+
+ALGEBRA = WordAlgebra({**motion.ALGEBRA.transposes, **SKEW}, motion.ALGEBRA.rules)
+SPACE = WordAlgebra({**space.ALGEBRA.transposes, **SKEW}, space.ALGEBRA.rules)
+FREE = WordAlgebra(SPACE.transposes)
+STEP = WordAlgebra({**ball.ALGEBRA.transposes, **SKEW}, ball.ALGEBRA.rules)
+BOTH = WordAlgebra({**ball.BOTH.transposes, **SKEW}, ball.BOTH.rules)
+
+#: d/dt of the letters: the rotor is constant in the body.
+RATES: dict[sp.Symbol, sp.Expr] = {**motion.RATES, A: sp.S.Zero, eta: xi}
+
+#: n = 3: the rotor's angular momentum, in the axes of the body.
+a1, a2, a3 = sp.symbols("a1:4")
+rotor = sp.Matrix([a1, a2, a3])
+RING = Quotient((*three.RING.symbols, *rotor), three.RING.relations)
+
+
+def added_torque() -> sp.Symbol:
+    """What the rotor adds to the principle of `motion.dalembert`.
+
+    δ(½ tr(Aᵀω)) for δR = Rη, where δω = η̇ + [ω,η], less the derivative of ½ tr(Aᵀη), which the ends of the path take.
+    """
+    term = written("rotor_term", "tr of it is ½ tr(Aᵀω), ⟨a,ω⟩ for n = 3", -A * omega / 2, ALGEBRA)
+    varied = rate(
+        "rotor_varied",
+        "δR = Rη: δω = ξ + [ω,η], ξ = η̇",
+        term,
+        {A: sp.S.Zero, omega: xi + motion.commutator(omega, eta)},
+    )
+    ends = written("rotor_ends", "tr of it is ½ tr(Aᵀη)", -A * eta / 2, ALGEBRA)
+    ended = rate("rotor_ended", "d/dt", ends, {A: sp.S.Zero, eta: xi})
+    work = written("rotor_work", "tr of it is the work, up to a derivative", varied - ended, ALGEBRA)
+    return dual("rotor_torque", "½ tr(η it) is that work", work, eta)
+
+
+def eliminated() -> sp.Symbol:
+    """The principle with the rotor, the velocity and the reaction eliminated; it vanishes in a motion."""
+    return written(
+        "gyrostat_principle",
+        "the ball's principle, and the rotor's part",
+        motion.eliminated() + added_torque(),
+        ALGEBRA,
+    )
+
+
+def contact_momentum() -> sp.Symbol:
+    """K about the point of contact: that of the ball, and ∂/∂Ṙ of the rotor's term along Rη, which is -½ tr(η it)."""
+    slope = written("rotor_impulse", "tr of it is ½ tr(Aᵀη), the rotor's ∂L/∂Ṙ · Rη", -A * eta / 2, ALGEBRA)
+    own = written(
+        "rotor_momentum", "∂L/∂Ṙ · Rη = -½ tr(η it)", -dual("rotor_impulse_dual", "½ tr(η it)", slope, eta), ALGEBRA
+    )
+    return written("K_gyrostat", "that of the ball, and the rotor's", motion.contact_momentum() + own, ALGEBRA)
+
+
+def discrete_term(a: sp.Expr, b: sp.Expr) -> sp.Expr:
+    """The matrix whose trace is the rotor's term ½ tr(AᵀR_kᵀR_{k+1})."""
+    return -step_A * SPACE.transpose(a) * b / 2
+
+
+def rotor_balance() -> sp.Symbol:
+    """What the rotor adds to `principle.momentum_balance`: it belongs to dR = ξR, whatever the centre does."""
+    path = discrete_term(space.R0, space.R) + discrete_term(space.R, space.R1)
+    action = written("rotor_action", "tr of it is the rotor's part of 𝕃(k-1,k) + 𝕃(k,k+1)", path, FREE)
+    still = dict.fromkeys((step_A, space.R0, space.R0T, space.R1, space.R1T), sp.S.Zero)
+    varied = rate(
+        "rotor_variation", "for increments dR of R_k", action, still | {space.R: space.dR, space.RT: space.dRT}
+    )
+    turn = {space.dR: space.xi * space.R, space.dRT: SPACE.transpose(space.xi * space.R)}
+    work = replaced("rotor_turned", "for dR = ξR", varied, turn, SPACE)
+    return dual("rotor_balance", "it vanishes when the rotor's part does for every skew ξ", work, space.xi)
+
+
+@cache
+def split_balance() -> tuple[sp.Symbol, sp.Symbol]:
+    """(𝒦_k, -Ωᵀ𝒦_{k-1}Ω) of the gyrostat, as `ball.split_balance` has them of the ball."""
+    seen = space.RT * rotor_balance() * space.R
+    balance = written(
+        "gyrostat_balance", "the ball's balance, and the rotor's, in the body", ball.body_balance() + seen, SPACE
+    )
+    later = (space.R1, space.R1T)
+    now = terms("gyrostat_now", "its terms with R_{k+1}", balance, later)
+    before = terms("gyrostat_before", "its terms without R_{k+1}", balance, later, having=False)
+    return (
+        ball.in_step_symbols("momentum_gyrostat", now, True, BOTH),
+        ball.in_step_symbols("before_gyrostat", before, False, BOTH),
+    )
+
+
+def momentum() -> sp.Symbol:
+    """𝒦(Ω, Γ) of the gyrostat, as words in Ω, Ωᵀ, J, Γ, the rotor's A of a step, and D."""
+    return split_balance()[0]
+
+
+#: Ω = exp(ε ω), and A of a step is εA.
+TURNING = limits.Turning({**limits.STEP.start, step_A: sp.S.Zero}, {**limits.STEP.rates, step_A: A, A: sp.S.Zero})
+
+
+def limit() -> limits.Remainder:
+    """𝒦/ε for every n."""
+    return limits.expand_words(momentum(), TURNING)
+
+
+@cache
+def vector_momentum() -> sp.ImmutableMatrix:
+    """𝒦(q, γ) for n = 3, a letter for each entry, with the rotor's angular momentum of a step."""
+    turn = sp.Matrix(three.rotation())
+    places = three.BALL | {ball.Omega: turn, ball.OmegaT: turn.T, step_A: three.hat(rotor)}
+    matrix = coordinates("gyrostat_matrix", "n = 3: Ω in Euler parameters, A = a×", momentum(), places, RING)
+    return three.axial_entries("K_gyrostat", matrix)
+
+
+def added_momentum() -> sp.Matrix:
+    """What the rotor adds to 𝒦(q, γ): q₀²a + q₀ q × a - ⟨a,q⟩q."""
+    return three.q0**2 * rotor + three.q0 * three.q.cross(rotor) - rotor.dot(three.q) * three.q
+
+
+def relative(momentum: sp.Matrix = three.K) -> dict[sp.Symbol, sp.Expr]:
+    """K - a in the place of K: B(γ)ω = K - a, in what `continuous` says of the ball."""
+    return three.placed((three.K, momentum - rotor))
+
+
+def energy() -> sp.Expr:
+    """½⟨K - a, ω⟩, the kinetic energy less that of the rotor, as a function of K, γ."""
+    return continuous.energy().subs(relative(), simultaneous=True)
