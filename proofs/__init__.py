@@ -29,6 +29,7 @@ SCRIPTS = (
     "open.energy",
     "map.gibbs",
     "map.gyrostat",
+    "map.gyrostat_map",
     "map.modified",
     "map.order",
     "map.self_adjoint",
@@ -68,4 +69,5 @@ LEMMAS = (
     "step-determinant", "steady-circles", "periodic-orbits", "measure-iff",
     "separatrix-map", "separatrix-limit", "separatrix", "melnikov", "energy-orbits",
     "gyrostat-rotor", "gyrostat-motion", "gyrostat-integrals", "gyrostat-measure",
+    "gyrostat-map", "gyrostat-map-integrals", "gyrostat-self-adjoint", "gyrostat-energy", "gyrostat-map-measure",
 )  # fmt: skip

@@ -6,7 +6,7 @@ from fractions import Fraction
 import pytest
 import sympy as sp
 
-from chapsym.derive import ball, composition, continuous, elliptic, gibbs, modified, steady, three
+from chapsym.derive import ball, composition, continuous, elliptic, gibbs, gyrostat, modified, steady, three
 from chapsym.proofs import LEMMAS
 from chapsym.proofs.map import order
 from chapsym.prove import load
@@ -49,6 +49,7 @@ def lopsided(heavy):
 
 #: A slip: in which functions, what it makes of what they give, and the lemmas that must see it.
 SLIPS = {
+    "the rotor's momentum": (gyrostat, ["added_momentum"], lambda right: -right, ["gyrostat-map"]),
     "half the load": (modified, ["load"], lambda right: right.subs(three.D, three.D / 2), ["modified-field"]),
     "the correction": (modified, ["correction"], lambda right: right + modified.omega, ["modified-field"]),
     "a factor of the energy": (modified, ["energy_rate"], lambda right: right * 4 / 3, ["modified-energy"]),
