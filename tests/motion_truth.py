@@ -1,6 +1,6 @@
 """The motion of the continuous ball by another way: extrapolated midpoint steps of ω and R, with far more digits.
 
-It shares nothing with what it judges: B(γ)ω' = Iω × ω with the matrix B(γ) = I + D(|γ|² - γγᵀ) solved by elimination,
+It shares nothing with what it judges: B(γ)ω' = (Iω + a) × ω with B(γ) = I + D(|γ|² - γγᵀ) solved by elimination,
 R' = Rω̂ for the rows of R, the last of which is γ, and r' = ρω × e₃ in space.  Gragg's midpoint rule has an error in
 even powers of its step, and Aitken-Neville takes these away.  The numbers are the middles of balls of 480 bits.
 """
@@ -37,10 +37,11 @@ def matrix_of(quaternion):
 class Truth:
     """The motion from ω and a quaternion, in the axes of the body; call `at` with later and later times."""
 
-    def __init__(self, mass_tensor, D, omega, quaternion, radius=1):
+    def __init__(self, mass_tensor, D, omega, quaternion, radius=1, rotor=(0, 0, 0)):
         with ctx.workprec(BITS):
             J1, J2, J3 = map(number, mass_tensor)
             self.inertia, self.D, self.radius = (J2 + J3, J1 + J3, J1 + J2), number(D), number(radius)
+            self.rotor = list(map(number, rotor))
             rows = matrix_of([number(x) for x in quaternion])
             self.y = [*map(number, omega), *(x for row in rows for x in row), arb(0), arb(0)]
             self.time = Fraction(0)
@@ -59,7 +60,8 @@ class Truth:
                 self.y, self.time = found, self.time + step
                 self.length = max(self.length, step) * Fraction(9, 8)
             w, rows = self.y[:3], [self.y[3:6], self.y[6:9], self.y[9:12]]
-            K = (self.carried(rows[2]) * arb_mat(3, 1, w)).entries()
+            own = (self.carried(rows[2]) * arb_mat(3, 1, w)).entries()
+            K = [x + y for x, y in zip(own, self.rotor, strict=True)]
             return {"angular_momentum": K, "gamma": rows[2], "omega": w, "rows": rows, "contact": self.y[12:]}
 
     def carried(self, g):
@@ -72,7 +74,7 @@ class Truth:
 
     def field(self, y):
         w, rows = y[:3], [y[3:6], y[6:9], y[9:12]]
-        torque = cross([a * b for a, b in zip(self.inertia, w, strict=True)], w)
+        torque = cross([a * b + c for a, b, c in zip(self.inertia, w, self.rotor, strict=True)], w)
         rate = self.carried(rows[2]).solve(arb_mat(3, 1, torque)).entries()
         space = [sum(a * b for a, b in zip(row, w, strict=True)) for row in rows[:2]]
         return [*rate, *(x for row in rows for x in cross(row, w)), self.radius * space[1], -self.radius * space[0]]

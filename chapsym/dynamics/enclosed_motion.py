@@ -97,6 +97,7 @@ def certified_motion(
     digits: int = 20,
     *,
     attitude: Any = None,
+    rotor: Any = (0, 0, 0),
     limit: float = 600.0,
     progress: Callable[[str], None] = lambda sentence: None,
 ) -> CertifiedMotion:
@@ -108,6 +109,8 @@ def certified_motion(
     digits: every radius is at most 10^-digits, relative to the length of K and of ω, and to the ball's radius.
     attitude: a quaternion, scalar first, which turns γ up and is divided by its length; the least rotation by default.
     It and γ may differ by rounding, 1e-5 at most: then the attitude is taken.
+    rotor: a in kg m²/s, the constant angular momentum of a rotor inside, in the axes of the body (lemmas
+    `gyrostat-rotor`, `gyrostat-motion`); then K = B(γ)ω + a, and K ≠ a.
     limit: seconds for all attempts.  progress: called with sentences.
 
     Polynomials in time are proved in Arb's balls, step by step (`dynamics/flow`); the run is repeated with more bits
@@ -127,8 +130,10 @@ def certified_motion(
         quaternion = vector(attitude, "attitude", 4)
         _check_up(quaternion, vertical)
         turned = lambda: balls(quaternion)  # noqa: E731
-    momentum = fixed(vector(angular_momentum, "angular_momentum"))
-    start = Start(exact.mass_tensor, exact.D, turned, momentum, exact.radius)
+    momentum, inside = vector(angular_momentum, "angular_momentum"), vector(rotor, "rotor")
+    if any(inside) and momentum == inside:
+        raise BadInput("angular_momentum must not be that of the rotor: then the ball is at rest, and stays there")
+    start = Start(exact.mass_tensor, exact.D, turned, fixed(momentum), exact.radius, rotor=inside)
     return follow(start, _ascending(times), digits, limit=limit, progress=progress)
 
 

@@ -15,6 +15,7 @@ import chapsym
 from chapsym import BadInput, ExactBall, certified_motion
 from chapsym.dynamics import enclosed_motion
 from chapsym.dynamics.enclosed_motion import decimal, follow, written
+from chapsym.dynamics.flow import path as paths
 from chapsym.dynamics.flow import start as exact
 
 ORDINARY = (1, 2, 4), 3, ("1", "-1/2", "3/4"), (1, 2, -1, 3)
@@ -23,17 +24,20 @@ TRUTH = 1e-30
 VECTORS = ("angular_momentum", "gamma", "omega", "contact")
 
 
-def started(mass_tensor, D, omega, quaternion, radius=1):
+def started(mass_tensor, D, omega, quaternion, rotor=(0, 0, 0), radius=1):
     """A start with ω in the axes of the body, all exact."""
-    J, D, w, q = [F(x) for x in mass_tensor], F(D), [F(x) for x in omega], [F(x) for x in quaternion]
-    return exact.Start(
-        J, D, lambda: exact.balls(q), exact.turning(w, J, D, False), None if radius is None else F(radius)
-    )
+    J, D, w, q, a = [F(x) for x in mass_tensor], F(D), *([F(x) for x in v] for v in (omega, quaternion, rotor))
+    turning = exact.turning(w, J, D, False)
+
+    def momentum(attitude):
+        return tuple(x + y for x, y in zip(turning(attitude), exact.balls(a), strict=True))
+
+    return exact.Start(J, D, lambda: exact.balls(q), momentum, None if radius is None else F(radius), rotor=a)
 
 
 def worst(found, case, times):
     """The largest error, less what the truth may be off by, beside its radius."""
-    truth = Truth(*([F(x) for x in case[0]], F(case[1]), [F(x) for x in case[2]], [F(x) for x in case[3]]))
+    truth = Truth(case[0], F(case[1]), *case[2:4], rotor=case[4] if len(case) > 4 else (0, 0, 0))
     largest = 0.0
     for i, time in enumerate(times):
         true = truth.at(F(time))
@@ -65,7 +69,21 @@ def test_random_motions_are_contained(thorough):
         assert all(x.rad() <= arb("1e-15") for x in found.gamma.flat)
 
 
+def test_random_motions_with_a_rotor_are_contained(thorough):
+    """The rotor's angular momentum is from a thousandth of the others to thirty times them."""
+    rng = random.Random(21)
+    for _ in range(200 if thorough else 5):
+        times, size = [F(rng.randint(1, 9), 7), F(2)], F(10) ** rng.choice((-3, -1, 0, 1))
+        case = (*random_case(rng), [size * F(rng.randint(-99, 99), 33) for _ in range(3)])
+        found = follow(started(*case), times, 15)
+        assert found.stopped is None
+        assert worst(found, case, times) < 1, case
+        assert all(x.rad() <= arb("1e-15") for x in found.gamma.flat)
+
+
 Q, W = (1, 2, -1, 3), ("1", "-1/2", "3/4")
+#: A rotor of about the angular momentum of the ball.
+A = ("-3", "2", "7/2")
 EXTREMES = {
     "D is 0": ((1, 2, 4), 0, W, Q),
     "D is a million times J": ((1, 2, 4), 5 * 10**6, W, Q),
@@ -80,6 +98,14 @@ EXTREMES = {
     "vertical momentum": ((1, 2, 4), 3, ("1/9", "1/5", "1/2"), (2, 0, 0, 0)),
     "near the separatrix": ((1, 2, 4), 3, ("1e-8", 1, 0), (1, 0, 0, 0)),
     "small units": (("1e-12", "2e-12", "4e-12"), "3e-12", W, Q),
+    "a rotor": ((1, 2, 4), 3, W, Q, A),
+    "a rotor, D is 0": ((1, 2, 4), 0, W, Q, A),
+    "a rotor, D is a million times J": ((1, 2, 4), 5 * 10**6, W, Q, A),
+    "a rotor, equal moments": ((1, 1, 1), 3, W, Q, A),
+    "a rotor in a rod": (("1e-6", "1e-6", 1), 3, W, Q, A),
+    "a heavy rotor": ((1, 2, 4), 3, W, Q, (100, 20, -30)),
+    "a light rotor": ((1, 2, 4), 3, W, Q, ("1e-20", 0, "1e-30")),
+    "a rotor, hardly moving": ((1, 2, 4), 3, ("1e-12", "-2e-12", "1e-15"), Q, A),
 }
 
 
@@ -119,6 +145,34 @@ def test_frames_within_a_step_agree_with_those_at_its_end():
         alone = follow(started(*ORDINARY), [F(i, 20)], 15)
         for name in (*VECTORS, "attitude"):
             assert all(x.overlaps(y) for x, y in zip(getattr(dense, name)[i], getattr(alone, name)[0], strict=True))
+
+
+def test_no_rotor_is_what_there_was_before():
+    given = ExactBall((1, 2, 4), 3, 1), (1, 2, 3), ("2/7", "3/7", "6/7"), ["1/2", 2]
+    assert certified_motion(*given, rotor=(0, 0, "0")).write() == certified_motion(*given).write()
+
+
+def test_many_digits_with_a_rotor_keep_its_integrals():
+    """By the corrections that gain more bits each time; ⟨K,γ⟩, |K|² and ½⟨K - a, ω⟩ are those of the start."""
+    start = (3, 1, 4), ("2/7", "3/7", "6/7"), ["0", "1/2"]
+    found = certified_motion(ExactBall((1, 2, 4), 3), *start, 600, rotor=A)
+    assert found.stopped is None
+    with ctx.workprec(2200):
+        inside = exact.balls([F(x) for x in A])
+        states = zip(found.angular_momentum, found.gamma, found.omega, strict=True)
+        first, last = ([K @ g, K @ K, (K - inside) @ w] for K, g, w in states)
+        assert all(x.overlaps(y) and y.rad() < arb("1e-595") for x, y in zip(first, last, strict=True))
+
+
+def test_a_rotor_that_is_left_out_is_seen(monkeypatch):
+    """Of the equations that are proved: only κ has it."""
+    from chapsym.dynamics.flow import deviation
+
+    real = deviation.defects
+    monkeypatch.setattr(paths, "defects", lambda p, w, k, body, n: real(p, w, k, body._replace(rotor=(0, 0, 0)), n))
+    case = (*ORDINARY, A)
+    found = follow(started(*case), [F(1)], 15, limit=0.5)
+    assert found.stopped is not None or worst(found, case, [1]) > 1
 
 
 @pytest.mark.parametrize("spoil", ["tail", "defect", "sign"])
@@ -181,6 +235,8 @@ BAD = [
     ({"times": (2, 1)}, "each later than the one before"),
     ({"times": -1}, "from 0 on"),
     ({"times": None}, "times must be a number"),
+    ({"rotor": (1, 2)}, "rotor must be 3 numbers"),
+    ({"rotor": (1, 2, 3)}, "angular_momentum must not be that of the rotor"),
     ({"digits": 0}, "digits must be a whole number from 1"),
     ({"digits": 2.5}, "digits must be a whole number from 1"),
     ({"limit": 0}, "limit must be a positive number"),

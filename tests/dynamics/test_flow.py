@@ -11,6 +11,7 @@ from motion_truth import Truth, matrix_of, number
 
 from chapsym import generated
 from chapsym.derive import continuous, three
+from chapsym.derive.gyrostat import rotor
 from chapsym.derive.limits import RING, omega
 from chapsym.dynamics.flow import deviation, models, newton, series
 from chapsym.dynamics.flow import path as paths
@@ -24,9 +25,13 @@ ATTITUDE, K = (1, 2, -1, 3), (3, 1, 4)
 XI = sp.Matrix(sp.symbols("x1:4"))
 
 
-def begun(attitude=ATTITUDE, radius=None):
+NONE_INSIDE, ROTOR = (0, 0, 0), (-2, 5, 3)
+
+
+def begun(attitude=ATTITUDE, radius=None, rotor=NONE_INSIDE):
     with ctx.workprec(BITS):
-        return Path(BITS, tuple(map(arb, J)), arb(D), tuple(map(arb, K)), tuple(map(arb, attitude)), radius)
+        given = (tuple(map(arb, x)) for x in (K, attitude))
+        return Path(BITS, tuple(map(arb, J)), arb(D), *given, radius, tuple(map(arb, rotor)))
 
 
 def test_what_is_fixed_in_space_turns_as_the_equations_say():
@@ -41,7 +46,7 @@ def test_what_is_fixed_in_space_turns_as_the_equations_say():
 
 @pytest.mark.parametrize("sign", [1, -1])
 def test_the_linear_equation_is_the_derivative_of_the_motion(sign):
-    """B(d - 2ξ × ω) is 2(Iω × ξ - I(ω × ξ)), d what ω changes by where K and γ gain 2K × ξ and 2γ × ξ; on |γ| = 1."""
+    """B(d - 2ξ × ω) is 2Cξ, d what ω changes by where K = Bω + a and γ gain 2K × ξ and 2γ × ξ; on |γ| = 1."""
 
     def carried(w, g):
         return sp.Matrix(continuous.momentum()).subs(
@@ -50,13 +55,13 @@ def test_the_linear_equation_is_the_derivative_of_the_motion(sign):
 
     s = sp.Symbol("s")
     moved = sp.diff(carried(omega, three.gamma + 2 * s * three.gamma.cross(XI)), s).subs(s, 0)
-    change = 2 * carried(omega, three.gamma).cross(XI) - moved  # B d, as B(γ)ω = K
+    change = 2 * (carried(omega, three.gamma) + rotor).cross(XI) - moved  # B d, as B(γ)ω + a = K
     left = change - 2 * carried(omega.cross(XI), three.gamma)
-    right = sign * 2 * sp.Matrix(series.bend(three.MASSES, omega, XI))
+    right = sign * 2 * sp.Matrix(deviation.Body(three.MASSES, three.D, rotor).bent(omega, XI))
     assert all(RING_XI.is_zero(sp.expand(x)) for x in left - right) == (sign == 1)
 
 
-RING_XI = type(RING)((*omega, *three.gamma, *XI, *three.MASSES, three.D), [three.UNIT_VERTICAL])
+RING_XI = type(RING)((*omega, *three.gamma, *XI, *rotor, *three.MASSES, three.D), [three.UNIT_VERTICAL])
 
 
 def test_a_product_that_is_cut_contains_the_whole():
@@ -78,15 +83,16 @@ def polynomials(path, length=F(1, 2), corrected=True, spoilt=0.0):
     with ctx.workprec(BITS):
         floats, length = path._series(length, 1.0)
         k = tuple(number(length) * x for x in path.k)
+        body = path.body.during(number(length))
         if corrected:
-            p, w, found = path._mended(floats, k)
+            p, w, found = path._mended(floats, k, body)
         else:
             p = [models.exact(x) for x in poly(floats.a)]
             w = [models.exact(x) for x in poly(floats.w)]
             p = [models.exact(x - x(0) + y) for x, y in zip(p, path.p, strict=True)]
             p[1] = p[1] + arb_poly([0, 0, spoilt])
             w[2] = w[2] + arb_poly([0, 10 * spoilt])
-            found = deviation.defects(p, w, k, path.body, 90)
+            found = deviation.defects(p, w, k, body, 90)
         return floats, p, w, found, k, length
 
 
@@ -100,34 +106,35 @@ def true_gibbs(p, a):
     return [x / q[0] for x in q[1:]]
 
 
-def neighbour(start):
+def neighbour(start, inside=NONE_INSIDE):
     """The motion from an attitude, with the same K in space, by the other way."""
     with ctx.workprec(480):
         R0 = matrix_of([arb(x) for x in ATTITUDE])
         k = [sum(R0[i][j] * K[j] for j in range(3)) for i in range(3)]
         R = matrix_of(start)
         body = [sum(R[i][j] * k[i] for i in range(3)) for j in range(3)]
-        w = [fraction(x) for x in generated.angular_velocity(*body, *R[2], *J, D)]
-        return Truth(J, D, w, [fraction(x) for x in start])
+        own = [x - y for x, y in zip(body, inside, strict=True)]
+        w = [fraction(x) for x in generated.angular_velocity(*own, *R[2], *J, D)]
+        return Truth(J, D, w, [fraction(x) for x in start], rotor=inside)
 
 
-def true_attitude(start, length):
+def true_attitude(start, length, inside=NONE_INSIDE):
     """A quaternion of it after `length`."""
     with ctx.workprec(480):
-        (a, b, c), (d, e, f), (g, h, i) = neighbour(start).at(length)["rows"]
+        (a, b, c), (d, e, f), (g, h, i) = neighbour(start, inside).at(length)["rows"]
         q0 = (1 + a + e + i).sqrt() / 2
         return q0, (h - f) / (4 * q0), (c - g) / (4 * q0), (d - b) / (4 * q0)
 
 
-def off_by(xi0, floats, p, w, found, k, path, length):
+def off_by(xi0, floats, p, w, found, k, path, length, inside=NONE_INSIDE):
     """How far the neighbour at ξ0 is from where the lemma puts it, the bound of that, and |ξ0|."""
     with ctx.workprec(480):
         start = generated.compose(*path.p, 1, *map(arb, xi0))
-        a = true_attitude(start, length)
+        a = true_attitude(start, length, inside)
         xi1 = true_gibbs([x(arb(1)) for x in p], a)
     with ctx.workprec(128):
         size = upper([arb(x) for x in xi0])
-        step = deviation.deviation(floats, w, upper(k), found, path.body, size)
+        step = deviation.deviation(floats, w, upper(k), found, path.body.during(number(length)), size)
         ends = [sum((step.M[i, j] * xi0[j] for j in range(3)), arb(0)) for i in range(3)]
         return upper([x - y for x, y in zip(xi1, ends, strict=True)]), step, upper(xi1), size
 
@@ -135,14 +142,21 @@ def off_by(xi0, floats, p, w, found, k, path, length):
 NEIGHBOURS = [(1e-3, -2e-3, 1e-3), (0.0, 0.0, 1e-3), (0.0, 1e-3, 0.0), (1e-3, 0.0, 0.0), (1e-6, 1e-6, -1e-6)]
 
 
+@pytest.mark.parametrize("inside", [NONE_INSIDE, ROTOR])
 @pytest.mark.parametrize("xi0", NEIGHBOURS)
-def test_a_neighbour_is_where_the_lemma_says(xi0):
+def test_a_neighbour_is_where_the_lemma_says(xi0, inside):
     """Beside the motion itself: M to the first order, `more` for the second; neither more than a few hundred |ξ|²."""
-    path = begun()
-    off, step, far, size = off_by(xi0, *(made := polynomials(path))[:5], path, made[5])
+    path = begun(rotor=inside)
+    off, step, far, size = off_by(xi0, *(made := polynomials(path))[:5], path, made[5], inside)
     assert off <= step.more
     assert far <= step.within
     assert step.more < 2000 * size * size
+
+
+def test_a_neighbour_is_not_where_the_lemma_says_without_the_rotor():
+    path = begun(rotor=ROTOR)
+    off, step, *_ = off_by(NEIGHBOURS[0], *(made := polynomials(path))[:5], path, made[5], NONE_INSIDE)
+    assert off > step.more
 
 
 @pytest.mark.parametrize("xi0", [(6e-4, -6e-4, 5e-4), (0.0, 0.0, -9e-4), (9e-4, 0.0, 0.0)])
@@ -237,9 +251,10 @@ def test_what_is_left_of_the_turning_counts(left_out):
     assert (off > step.more) == left_out
 
 
-def test_the_second_order_is_within_its_bound():
-    """|d - 2Aξ| ≤ β(8σX²W + 5σXδ) with δ = 5βσXW/(1 - 5βσX), for random balls and turns; it comes within a decade."""
-    rng = np.random.default_rng(4)
+@pytest.mark.parametrize("heavy", [0.0, 0.1, 1.0, 100.0])
+def test_the_second_order_is_within_its_bound(heavy):
+    """|d - 2Aξ| ≤ θ and |d| ≤ δ without κ, for random balls, turns and rotors; it comes within a decade."""
+    rng, rotors = np.random.default_rng(4), np.random.default_rng(7)
     largest = 0.0
     for _ in range(400):
         J = 10.0 ** rng.uniform(-1, 1, 3)
@@ -248,14 +263,17 @@ def test_the_second_order_is_within_its_bound():
         B = I + D * (np.eye(3) - np.outer(g, g))
         beta, sigma = np.linalg.norm(np.linalg.inv(B), 2), np.ptp(np.diag(I)) / 2
         xi *= min(0.1 / (beta * sigma), 0.25) * 10.0 ** rng.uniform(-2, 0) / np.linalg.norm(xi)
-        X, w = np.linalg.norm(xi), np.linalg.solve(B, K)
+        a = heavy * rotors.normal(size=3)
+        X, w = np.linalg.norm(xi), np.linalg.solve(B, K - a)
         R = np.array([[float(x) for x in row] for row in matrix_of([1.0, *map(float, xi)])])
-        d = np.linalg.solve(B + R @ I @ R.T - I, K) - w
+        d = np.linalg.solve(B + R @ I @ R.T - I, K - R @ a) - w
         W, s = np.linalg.norm(w), 5 * beta * sigma * X
-        beyond = np.linalg.norm(d - 2 * np.linalg.solve(B, np.array(series.bend(J, w, xi))))
-        bound = beta * (8 * sigma * X * X * W + 5 * sigma * X * s * W / (1 - s))
+        beyond = np.linalg.norm(d - 2 * np.linalg.solve(B, np.array(deviation.Body(J, D, a).bent(w, xi))))
+        size = np.linalg.norm(a)
+        delta = (s * W + 2 * beta * X * size) / (1 - s)
+        bound = beta * (8 * sigma * X * X * W + 2 * X * X * size + 5 * sigma * X * delta)
         largest = max(largest, beyond / bound)
-        assert np.linalg.norm(d) <= s * W / (1 - s)
+        assert np.linalg.norm(d) <= delta
     assert 0.1 < largest <= 1
 
 
@@ -291,7 +309,7 @@ def test_the_solutions_of_neighbours_have_twice_as_many_bits_once_they_are_mende
     with ctx.workprec(400):
         path = Path(400, tuple(map(arb, J)), arb(D), tuple(map(arb, K)), tuple(map(arb, ATTITUDE)), None)
         floats, length = path._series(F(1, 4), 1.0)
-        p, w, _ = path._mended(floats, tuple(number(length) * x for x in path.k))
+        p, w, _ = path._mended(floats, tuple(number(length) * x for x in path.k), path.body)
         one, left = newton.Neighbours(floats, path.body), []
         for _ in range(3):
             left.append(unlike_inverse(one))

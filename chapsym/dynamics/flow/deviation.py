@@ -1,19 +1,22 @@
 """How far the motion is from polynomials in time, proved from what they leave of the equations.
 
-The motion: R turns with the angular velocity ω of the body, B(γ)ω = K, B(γ) = I + D(1 - γγᵀ), where K = Rᵀk and
-γ = Rᵀe₃ are fixed in space.  Time is τ in [0, 1], and k is that of the step, k times its length.
+The motion: R turns with the angular velocity ω of the body, B(γ)ω + a = K, B(γ) = I + D(1 - γγᵀ), where K = Rᵀk and
+γ = Rᵀe₃ are fixed in space, and a, the angular momentum of a rotor, in the body.  Time is τ in [0, 1], and k and a are
+those of the step: times its length.
 
 The polynomials: p(τ), the direction of a quaternion, and w(τ).  With P the rotation of p, K and γ those of P,
-    ε = 2 vec(p̄e)/|p|², e = p' - ½ p∘w:  P turns with w + ε;     κ = B(γ)w - K.
+    ε = 2 vec(p̄e)/|p|², e = p' - ½ p∘w:  P turns with w + ε;     κ = B(γ)w + a - K.
 
 Lemma (by hand).  The motion is R = P·Rot, Rot the rotation of the quaternion (1, ξ), and with A = B⁻¹C,
-Cξ = Iw × ξ - I(w × ξ), X ≥ |ξ|, X ≤ ¼, β ≥ ‖B⁻¹‖, s = 5βσX ≤ ½, σ = ½(I_max - I_min) and W ≥ |w|
-    |ξ' - Aξ| ≤ q = ½β(8σX²W + 5σXδ + |κ|) + ½|ε| + ½(δ + |ε|)X(1 + X),     δ = (sW + β|κ|)/(1 - s).
+Cξ = (Iw + a) × ξ - I(w × ξ), X ≥ |ξ|, X ≤ ¼, β ≥ ‖B⁻¹‖, s = 5βσX ≤ ½, σ = ½(I_max - I_min) and W ≥ |w|
+    |ξ' - Aξ| ≤ q = ½(θ + |ε| + (δ + |ε|)X(1 + X)),     θ = β(8σX²W + 2X²|a| + 5σXδ + |κ|),
+    δ = (sW + 2βX|a| + β|κ|)/(1 - s).
 1. In the axes of P the angular velocity is ϖ = Rot ω.  As B(γ) of the motion is Rotᵀ(S + B)Rot with S = Rot I Rotᵀ - I,
-   and K of the motion is RotᵀK, (B + S)ϖ = K = Bw - κ.  So d = ϖ - w has (B + S)d = -Sw - κ.
+   and K of the motion is RotᵀK, (B + S)ϖ = K - Rot a = Bw - κ - (Rot - 1)a.  So d = ϖ - w has
+   (B + S)d = -Sw - κ - (Rot - 1)a.
 2. Rot - 1 = N with |N| ≤ 2X and |N - 2[ξ]ₓ| ≤ 2X².  S is the same for I less any number, so for ‖I‖ ≤ σ:
-   |S| ≤ 4σX + 4σX² ≤ 5σX, and S is 2([ξ]ₓI - I[ξ]ₓ) up to 8σX².  The latter gives w what -2Cξ is.
-3. So |d| ≤ δ, and |d - 2Aξ| ≤ β(8σX²W + 5σXδ + |κ|); with |A| ≤ a this makes |d| ≤ 2aX + β(8σX²W + 5σXδ + |κ|).
+   |S| ≤ 4σX + 4σX² ≤ 5σX, and S is 2([ξ]ₓI - I[ξ]ₓ) up to 8σX².  The latter with w, and 2ξ × a of Na, are -2Cξ.
+3. So |d| ≤ δ, and |d - 2Aξ| ≤ θ; with ‖A‖ ≤ α this makes |d| ≤ 2αX + θ.
 4. The quaternion Q of Rot has Q' = ½(d - ε)∘Q, so that ξ' = ½(Δ + Δ × ξ + ⟨Δ,ξ⟩ξ) with Δ = d - ε.
 If |SAS⁻¹| ≤ L with S diagonal, its entries from s to 1, and M is a matrix of polynomials with M(0) = 1 and
 |M' - AM| ≤ η, then from |ξ(0)| ≤ r (Gronwall, for Sξ)
@@ -30,7 +33,7 @@ from chapsym import generated
 
 from ..levels.proved_root import TooWide, highest, lowest, upper
 from .models import UNIT, Model, bound, models
-from .series import Series, bend
+from .series import Series, bend, cross
 
 #: Pieces of a step on which the size of A is bounded apart.
 PIECES = 8
@@ -41,16 +44,25 @@ ROOM = 1.5
 
 
 class Body(NamedTuple):
-    """J and D in balls, and I of them."""
+    """J and D in balls, and I of them; a, of a rotor, per unit of the time in which ω is."""
 
     J: Sequence[Any]
     D: Any
+    rotor: Sequence[Any]
 
     @property
     def inertia(self) -> tuple[Any, ...]:
         """The moments about the centre."""
         J1, J2, J3 = self.J
         return J2 + J3, J1 + J3, J1 + J2
+
+    def during(self, length: Any) -> "Body":
+        """With a of a step of that length."""
+        return self._replace(rotor=tuple(length * x for x in self.rotor))
+
+    def bent(self, w: Sequence[Any], x: Sequence[Any]) -> list[Any]:
+        """Cx."""
+        return [y + z for y, z in zip(bend(self.J, w, x), cross(self.rotor, x), strict=True)]
 
 
 class Defects(NamedTuple):
@@ -79,7 +91,8 @@ def defects(p: Sequence[Any], w: Sequence[Any], k: Sequence[Any], body: Body, de
     R = generated.rotation(*a)
     K = [R[i] * k[0] + R[i + 3] * k[1] + R[i + 6] * k[2] for i in range(3)]
     carried = generated.contact_momentum(*(*omega, *R[6:], *body.J, body.D))
-    return Defects(e, [x - y for x, y in zip(carried, K, strict=True)], off, unit, R)
+    kappa = [x + s - y for x, s, y in zip(carried, body.rotor, K, strict=True)]
+    return Defects(e, kappa, off, unit, R)
 
 
 class Step(NamedTuple):
@@ -116,8 +129,9 @@ def deviation(series: Series, w: Sequence[Any], size: Any, found: Defects, body:
     s = 5 * inverse * sigma * X
     if not (X <= 0.25 and s <= 0.5):
         raise TooWide
-    crude = (s * W + inverse * kappa) / (1 - s)
-    beyond = inverse * (8 * sigma * X * X * W + 5 * sigma * X * crude + kappa)
+    rotor = upper(body.rotor)
+    crude = (s * W + inverse * (2 * X * rotor + kappa)) / (1 - s)
+    beyond = inverse * (8 * sigma * X * X * W + 2 * X * X * rotor + 5 * sigma * X * crude + kappa)
     slip = (2 * largest * X + beyond).abs_upper()
     q = ((beyond + epsilon + (slip + epsilon) * X * (1 + X)) / 2).abs_upper()
     if not (start + q) * stretch <= X:
@@ -144,7 +158,7 @@ def _sizes(w: Sequence[Model], gamma: Sequence[Model], body: Body, S: Sequence[f
         v, g = [x.at(time) for x in w], [x.at(time) for x in gamma]
         columns = [generated.angular_velocity(*(*x, *g, *body.J, body.D)) for x in _UNITS]
         inverse = inverse.max(upper([x for column in columns for x in column]))
-        A = [generated.angular_velocity(*(*bend(body.J, v, x), *g, *body.J, body.D)) for x in _UNITS]
+        A = [generated.angular_velocity(*(*body.bent(v, x), *g, *body.J, body.D)) for x in _UNITS]
         largest = largest.max(upper([x for column in A for x in column]))
         weighted = [x * (row / by) for column, by in zip(A, S, strict=True) for x, row in zip(column, S, strict=True)]
         growth += upper(weighted) / PIECES
@@ -161,7 +175,7 @@ def _slip(M: Sequence[Any], w: Sequence[Model], gamma: Sequence[Model], body: Bo
         x = models([M[i][j] for i in range(3)], degree)
         rate = models([M[i][j].derivative() for i in range(3)], degree)
         carried = generated.contact_momentum(*(*rate, *gamma, *body.J, body.D))
-        left += [y - z for y, z in zip(carried, bend(body.J, w, x), strict=True)]
+        left += [y - z for y, z in zip(carried, body.bent(w, x), strict=True)]
     return bound(left)
 
 

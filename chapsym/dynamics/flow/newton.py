@@ -16,7 +16,7 @@ from chapsym import generated
 
 from .deviation import Body, Defects
 from .models import exact
-from .series import Floats, Series, bend, cross, linear
+from .series import Floats, Series, cross, linear
 
 Row = Sequence[Any]
 Rows = Sequence[Row]
@@ -35,7 +35,7 @@ class Neighbours:
             gamma, omega, phi, psi = generated.rotation(*_series(p))[6:], _series(w), *map(_all, (self.phi, self.psi))
             off = []
             for column in zip(*phi, strict=True):
-                turned = self._solved(bend(self.body.J, omega, column), gamma)
+                turned = self._solved(self.body.bent(omega, column), gamma)
                 off.append([x.derivative() - y for x, y in zip(column, turned, strict=True)])
             mixed = _product(psi, list(zip(*off, strict=True)))
             less = _product(phi, [[x.integral() for x in row] for row in mixed])
@@ -52,7 +52,8 @@ class Neighbours:
             gamma = generated.rotation(*a)[6:]
             # κ is that of |p|²R in place of R; what this is off by is taken away with the rest.
             central = generated.contact_momentum(*(*omega, *gamma, *self.body.J, -self.body.D))
-            b = self._solved([x + off * y for x, y in zip(kappa, central, strict=True)], gamma)
+            whole = [x + y for x, y in zip(central, self.body.rotor, strict=True)]
+            b = self._solved([x + off * y for x, y in zip(kappa, whole, strict=True)], gamma)
             away = generated.compose(a[0], -a[1], -a[2], -a[3], *e)
             rest = _product(_all(self.psi), [[x + 2 * y] for x, y in zip(b, away[1:], strict=True)])
             xi = [arb(-0.5) * x for (x,) in _product(_all(self.phi), [[x.integral()] for (x,) in rest])]

@@ -44,18 +44,18 @@ STUCK, MORE_TERMS = 1, 1.25
 class Path:
     """A motion in balls of `precision` bits; every method is to be called with that precision set.
 
-    attitude: a quaternion, K: the momentum in the axes of the body, both in balls.
+    attitude: a quaternion, K: the momentum, rotor: that of a rotor, in the axes of the body, all in balls.
     time: since the start, exactly.  steps: taken so far.  tick: called within a step; what it raises ends it.
     """
 
     def __init__(
-        self, precision: int, J: Sequence[Any], D: Any, K: Sequence[Any], attitude: Sequence[Any], radius: Any
-    ) -> None:
+        self, precision: int, J: Sequence[Any], D: Any, K: Sequence[Any], attitude: Sequence[Any], radius: Any,
+        rotor: Sequence[Any] = (0, 0, 0),
+    ) -> None:  # fmt: skip
         self.precision, self.time, self.steps = precision, Fraction(0), 0
         self.tick: Callable[[], None] = lambda: None
-        body = Body(J, D)
-        self.scale = arb(2) ** _exponent(highest(*body.inertia) + D)
-        self.body = Body(tuple(x / self.scale for x in J), D / self.scale)
+        self.scale = arb(2) ** _exponent(highest(*Body(J, D, rotor).inertia) + D)
+        self.body = Body(tuple(x / self.scale for x in J), D / self.scale, tuple(x / self.scale for x in rotor))
         self.k = generated.rotate(*(*unit(attitude), *(x / self.scale for x in K)))
         self.p, far = point(unit(attitude))
         self.spread = Spread()
@@ -70,10 +70,11 @@ class Path:
         for halved in range(HALVINGS + 1):
             series, length = self._series(end - self.time, 0.5**halved)
             k = tuple(ball(length) * x for x in self.k)
-            p, w, found = self._mended(series, k)
+            body = self.body.during(ball(length))
+            p, w, found = self._mended(series, k, body)
             try:
                 with ctx.workprec(MATRIX_BITS):
-                    proved = deviation(series, w, upper(k), found, self.body, self.spread.size)
+                    proved = deviation(series, w, upper(k), found, body, self.spread.size)
                 break
             except TooWide:
                 if halved == HALVINGS:
@@ -90,12 +91,12 @@ class Path:
 
     def _series(self, left: Fraction, part: float) -> tuple[Series, Fraction]:
         """The series in float64 in units of the next step, and its length: a part of what serves best."""
-        a, k, J = (np.array([long_float(x) for x in v]) for v in (self.p, self.k, self.body.J))
+        a, k, J, s = (np.array([long_float(x) for x in v]) for v in (self.p, self.k, self.body.J, self.body.rotor))
         D = long_float(self.body.D)
         whole = float(left)
-        unit_of_time = min(self.rough or _turn(a, k, J, D) or whole, whole)
+        unit_of_time = min(self.rough or _turn(a, k, J, D, s) or whole, whole)
         for _ in range(LOOKS):
-            found = motion(a, unit_of_time * k, J, D)
+            found = motion(a, unit_of_time * k, J, D, unit_of_time * s)
             rate = float(np.linalg.norm(found.w[:, 0])) / unit_of_time
             most = part * min(PART * unit_of_time * found.reach(), RADIANS / rate if rate else math.inf)
             if not most > 0:
@@ -118,8 +119,8 @@ class Path:
         bits = math.log2(reach) if reach > 1 else 0.5
         return max(math.ceil(self.precision / bits), 2) + 4
 
-    def _mended(self, series: Series, k: Numbers) -> tuple[list[Any], list[Any], Defects]:
-        """Exact polynomials p and w, and what they leave at the whole precision."""
+    def _mended(self, series: Series, k: Numbers, body: Body) -> tuple[list[Any], list[Any], Defects]:
+        """Exact polynomials p and w, and what they leave at the whole precision; k and `body` are those of the step."""
         degree = self._degree(series)
         terms = min(degree + 1, TERMS)
         p = [x - x(0) + y for x, y in zip(_polys(series.a[:, :terms]), self.p, strict=True)]
@@ -131,7 +132,7 @@ class Path:
             bits = min(bits + BEYOND, self.precision)
             with ctx.workprec(bits):
                 n = self._terms(degree, bits) - 1
-                found = defects(p, w, k, self.body, n)
+                found = defects(p, w, k, body, n)
                 before, size = size, _log(bound([*found.e, *found.kappa]))
             if bits == self.precision:
                 stuck += size > before - 2
@@ -142,11 +143,11 @@ class Path:
             known = math.floor(min(max(bits - BEYOND, -size), self.precision))
             further = min(2 * gain, known) - LOST
             if further > gain and self.precision - known > FAR * gain:
-                neighbours, gain = neighbours or Neighbours(series, self.body), further
+                neighbours, gain = neighbours or Neighbours(series, body), further
                 with ctx.workprec(gain + BEYOND):
                     neighbours.mend(p, w, self._terms(degree, gain + BEYOND))
             if neighbours is None:
-                change = self._correction(series, found, degree)
+                change = self._correction(series, found, body, degree)
             else:
                 with ctx.workprec(gain + BEYOND):
                     change = neighbours.correction(p, w, found, self._terms(degree, known + gain + BEYOND))
@@ -157,11 +158,11 @@ class Path:
         """So many terms serve for so many bits."""
         return max(TERMS, min(degree, degree * bits // self.precision)) + 1
 
-    def _correction(self, series: Series, found: Defects, degree: int) -> tuple[list[Any], list[Any]]:
+    def _correction(self, series: Series, found: Defects, body: Body, degree: int) -> tuple[list[Any], list[Any]]:
         """What takes away the defects of p and w to the first order, if it is added: ξ' = Aξ - ½(B⁻¹κ + ε)."""
         shift, (e, kappa, off) = _floats([found.e, found.kappa, [found.off]], degree + 1)
         # κ is that of |p|²R in place of R; what this is off by is taken away with the rest.
-        kappa += convolved(lambda x, y: [x[0] * z for z in y], off, self._central(series), degree + 1)
+        kappa += convolved(lambda x, y: [x[0] * z for z in y], off, _central(series, body), degree + 1)
         back = series.a * np.array([[1.0], [-1.0], [-1.0], [-1.0]])
         away = convolved(lambda x, y: generated.compose(*(*x, *y)), back, e, degree + 1)
         epsilon = 2 * away[1:]
@@ -176,11 +177,6 @@ class Path:
         change[:, : rate.shape[1]] += 2 * rate
         by, turned = ([arb_poly(row.tolist()) * shift for row in rows] for rows in (move, change))
         return by, turned
-
-    def _central(self, series: Series) -> Floats:
-        """Iw - Dγ × (w × γ), what B(γ)w - K gains for each part by which |p|² is above 1."""
-        J, D = tuple(map(float, self.body.J)), float(self.body.D)
-        return convolved(lambda x, y: generated.contact_momentum(*(*x, *y, *J, -D)), series.w, series.gamma, TERMS)
 
     def _rolled(self, w: Sequence[Any], found: Defects, slip: Any) -> Numbers:
         """Polynomials of the way of the contact point: ρ(y₂, -y₁), y the turn in space, ϖ within `slip` of w."""
@@ -201,7 +197,8 @@ class Path:
         R = generated.rotation(*a)
         gamma = unit(R[6:])
         k = tuple(sum((R[3 * i + j] * self.k[i] for i in range(3)), arb(0)) for j in range(3))
-        omega = generated.angular_velocity(*(*k, *gamma, *self.body.J, self.body.D))
+        relative = [x - y for x, y in zip(k, self.body.rotor, strict=True)]
+        omega = generated.angular_velocity(*(*relative, *gamma, *self.body.J, self.body.D))
         found = {"gamma": gamma, "angular_momentum": tuple(x * self.scale for x in k), "omega": omega, "attitude": a}
         return found if self.radius is None else found | {"contact": contact}
 
@@ -241,11 +238,19 @@ def _log(x: Any) -> float:
     return _exponent(x) if x > 0 else -math.inf
 
 
-def _turn(a: Floats, k: Floats, J: Floats, D: float) -> float:
-    """The time of about a radian; 0 at rest."""
+def _central(series: Series, body: Body) -> Floats:
+    """Iw + a - Dγ × (w × γ), what K - B(γ)w - a gains for each part by which |p|² is above 1."""
+    J, D = tuple(map(float, body.J)), float(body.D)
+    found = convolved(lambda x, y: generated.contact_momentum(*(*x, *y, *J, -D)), series.w, series.gamma, TERMS)
+    found[:, 0] += [float(x) for x in body.rotor]
+    return found
+
+
+def _turn(a: Floats, k: Floats, J: Floats, D: float, rotor: Floats) -> float:
+    """The time of about a radian, of the ball or of one that the rotor alone turns; 0 at rest."""
     R = np.reshape(generated.rotation(*a), (3, 3))
-    omega = generated.angular_velocity(*(*(k @ R), *R[2], *J, D))
-    rate = math.sqrt(sum(x * x for x in omega))
+    turns = (generated.angular_velocity(*(*x, *R[2], *J, D)) for x in (k @ R - rotor, rotor))
+    rate = max(math.sqrt(sum(x * x for x in omega)) for omega in turns)
     return 1 / rate if rate else 0.0
 
 

@@ -1,7 +1,8 @@
 """Taylor polynomials of the motion in floats, the longest that the machine has: nothing that is proved rests on them.
 
 Time is τ, in units of a length h that the caller chooses; w = hω, and the momentum is hK, so that both are angles.  The
-motion is y' = y × w for what is fixed in space, a' = ½ a∘w, and B(γ)w = hK for the ball: bilinear in y and w.
+motion is y' = y × w for what is fixed in space, a' = ½ a∘w, and B(γ)w + hs = hK for the ball, s the angular momentum of
+a rotor in it: bilinear in y and w.
 """
 
 from collections.abc import Callable, Sequence
@@ -70,15 +71,15 @@ def cross(x: Vector, y: Vector) -> tuple[Any, Any, Any]:
     return x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]
 
 
-def motion(a: Vector, k: Vector, J: Vector, D: float, terms: int = TERMS) -> Series:
-    """The series from the attitude a, with hK = k in space."""
+def motion(a: Vector, k: Vector, J: Vector, D: float, rotor: Vector = (0.0, 0.0, 0.0), terms: int = TERMS) -> Series:
+    """The series from the attitude a, with hK = k in space and hs = `rotor` in the body."""
     y, w, one = np.zeros((10, terms), LONG), np.zeros((3, terms), LONG), np.eye(3, dtype=LONG)
     R = np.reshape(generated.rotation(*a), (3, 3))
     y[:4, 0], y[4:7, 0], y[7:, 0] = a, R[2], np.asarray(k) @ R
     B = np.zeros((terms, 3, 3), LONG)
     B[0] = np.transpose([generated.contact_momentum(*(*e, *y[4:7, 0], *J, D)) for e in one])
     inverse = np.transpose([generated.angular_velocity(*(*e, *y[4:7, 0], *J, D)) for e in one])
-    w[:, 0] = inverse @ y[7:, 0]
+    w[:, 0] = inverse @ (y[7:, 0] - rotor)
     for n in range(terms - 1):
         y[:, n + 1] = _BILINEAR @ (y[:, : n + 1] @ w[:, n::-1].T).ravel() / (n + 1)
         g = y[4:7, : n + 2]
@@ -86,6 +87,7 @@ def motion(a: Vector, k: Vector, J: Vector, D: float, terms: int = TERMS) -> Ser
         w[:, n + 1] = inverse @ (y[7:, n + 1] - np.einsum("mij,jm->i", B[1 : n + 2], w[:, n::-1]))
     B, J, turn = B.astype(float), [float(x) for x in J], w.astype(float)
     C = np.transpose([bend(J, turn, e[:, np.newaxis] * np.ones(terms)) for e in np.eye(3)], (2, 1, 0))
+    C[0] += np.transpose([cross([float(x) for x in rotor], e) for e in np.eye(3)])
     A = quotient(B, C)
     return Series(y[:4], y[4:7], w, B, A, linear(A, np.zeros((terms - 1, 3, 3)), np.eye(3)))
 

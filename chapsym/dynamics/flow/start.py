@@ -81,6 +81,7 @@ class Start:
 
     mass_tensor, D: exact.  attitude: its quaternion of any length, in balls at the precision that is set.
     momentum: of the unit quaternion, K in the axes of the body.  radius, position: exact, or None.
+    rotor: the angular momentum of a rotor, in the axes of the body, exact; K has it.
     """
 
     mass_tensor: Sequence[Fraction]
@@ -89,12 +90,13 @@ class Start:
     momentum: Callable[[Balls], Balls]
     radius: Fraction | None = None
     position: tuple[Fraction, Fraction] = (Fraction(0), Fraction(0))
+    rotor: Sequence[Fraction] = (Fraction(0),) * 3
 
     def path(self, precision: int) -> Path:
         """The motion at the start; to be called with that precision set."""
         a = unit(self.attitude())
         radius = None if self.radius is None else ball(self.radius)
-        path = Path(precision, balls(self.mass_tensor), ball(self.D), self.momentum(a), a, radius)
+        path = Path(precision, balls(self.mass_tensor), ball(self.D), self.momentum(a), a, radius, balls(self.rotor))
         path.contact = (ball(self.position[0]), ball(self.position[1]))
         return path
 
