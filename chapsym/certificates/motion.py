@@ -24,14 +24,22 @@ GUARD, MORE, MOST = 48, 1.5, 512
 SIMPLE, KNOWN = 10**18, 512
 
 
+def check_start(start: Start) -> None:
+    """Raises BadInput for a ball with a rotor inside: the checker has no equations of it."""
+    if any(map(any, start.rotor)):
+        raise BadInput("a certificate is of a ball without a rotor: the checker has no equations of one with it")
+
+
 def motion(
     start: Start, found: CertifiedMotion, progress: Callable[[str], None] = lambda sentence: None
 ) -> dict[str, Any]:
     """The certificate of the frames that were found from a start, accepted by the checker.
 
     The checker encloses the motion with more and more bits, as it loses some in each turn, more of a ball with unlike
-    moments.  Raises BadInput where it accepts no certificate with MOST bits more than those of the digits.
+    moments.  Raises BadInput where it accepts no certificate with MOST bits more than those of the digits, and as
+    `check_start` does.
     """
+    check_start(start)
     if len(found.times) > checker.form.MOST:
         raise BadInput(f"a certificate has at most {checker.form.MOST} frames, not {len(found.times)}")
     digits = math.ceil(found.digits * math.log2(10))

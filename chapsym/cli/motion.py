@@ -35,6 +35,7 @@ def motion(
     """
     from chapsym import files
     from chapsym.certificates.document import write
+    from chapsym.certificates.motion import check_start
     from chapsym.certificates.motion import motion as certified
     from chapsym.dynamics.enclosed_motion import follow
     from chapsym.scene import load
@@ -46,6 +47,8 @@ def motion(
             files.check_destination(path)
     given = load(scene)
     start, times = exact_motion(given)
+    if certificate is not None:
+        check_start(start)
     result = None if against is None else _loaded(against, str(given.toml))
     with telling() as progress:
         found = follow(start, times, digits, limit=limit, progress=progress)

@@ -119,7 +119,7 @@ def certified_motion(
     """
     from chapsym.numbers import Digits
 
-    from .flow.start import Start, balls, fixed, upright, vector
+    from .flow.start import Start, Turns, balls, fixed, upright, vector
 
     exact = _exact_ball(ball)
     vertical = vector(gamma, "gamma")
@@ -133,7 +133,7 @@ def certified_motion(
     momentum, inside = vector(angular_momentum, "angular_momentum"), vector(rotor, "rotor")
     if any(inside) and momentum == inside:
         raise BadInput("angular_momentum must not be that of the rotor: then the ball is at rest, and stays there")
-    start = Start(exact.mass_tensor, exact.D, turned, fixed(momentum), exact.radius, rotor=inside)
+    start = Start(exact.mass_tensor, exact.D, turned, fixed(momentum), exact.radius, rotor=tuple(map(Turns, inside)))
     return follow(start, _ascending(times), digits, limit=limit, progress=progress)
 
 

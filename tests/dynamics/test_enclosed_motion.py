@@ -27,11 +27,8 @@ VECTORS = ("angular_momentum", "gamma", "omega", "contact")
 def started(mass_tensor, D, omega, quaternion, rotor=(0, 0, 0), radius=1):
     """A start with ω in the axes of the body, all exact."""
     J, D, w, q, a = [F(x) for x in mass_tensor], F(D), *([F(x) for x in v] for v in (omega, quaternion, rotor))
-    turning = exact.turning(w, J, D, False)
-
-    def momentum(attitude):
-        return tuple(x + y for x, y in zip(turning(attitude), exact.balls(a), strict=True))
-
+    a = tuple(map(exact.Turns, a))
+    momentum = exact.turning(w, J, D, False, a)
     return exact.Start(J, D, lambda: exact.balls(q), momentum, None if radius is None else F(radius), rotor=a)
 
 
@@ -380,7 +377,51 @@ def test_the_command_says_what_it_has_proved(tmp_path):
 
 
 OF_THE_MAP = {"omega = [0.1,": "momentum = [0.1,", "30 deg/s": "1", "time = 0.3": "steps = 3", "frames = 3": ""}
+ROTOR = {"radius = 0.1": 'radius = 0.1\nrotor = [0.01, "1/30", "-2e-3 kg m^2 rpm"]'}
+
+
+def test_the_command_takes_a_rotor_as_it_is_written(tmp_path):
+    """K is Bω + a, and the motion that of `certified_motion`; in units of turns a is a multiple of π."""
+    path = scene(tmp_path, replaced=ROTOR)
+    done = command("certify", "motion", path, "--digits", "12", "--json")
+    assert done.returncode == 0, done.stderr
+    told = json.loads(done.stdout)["frames"]
+    plain = json.loads(command("certify", "motion", scene(tmp_path), "--digits", "12", "--json").stdout)["frames"]
+    with ctx.workprec(200):
+        inside = [number("1/100"), number("1/30"), -arb.pi() * number("2e-3") / 30]
+        for (x, r), (y, s), a in zip(*(f[0]["angular_momentum"] for f in (told, plain)), inside, strict=True):
+            assert abs(number(x) - number(y) - a) <= number(r) + number(s)
+        w, q = ([F(x) for x, _ in told[0][name]] for name in ("omega", "attitude"))
+        truth = Truth((F("0.1"), F("0.2"), F("0.4")), F("0.3"), w, q, F("0.1"), [F(str(float(x))) for x in inside])
+        true = truth.at(F("0.3"))
+        for name in VECTORS:
+            for (x, _), right in zip(told[-1][name], true[name], strict=True):
+                assert abs(number(x) - right) < 1e-11
+
+
+@pytest.mark.parametrize("words", [("run", "-o", "out.npz"), ("scene", "check")])
+def test_what_has_no_rotor_refuses_one_in_a_sentence(tmp_path, words):
+    done = command(*words, scene(tmp_path, replaced=ROTOR))
+    assert (done.returncode, done.stdout) == (2, "")
+    assert "ball.rotor goes with chapsym certify motion alone" in done.stderr
+    assert len(done.stderr.splitlines()) == 1
+
+
+def test_no_certificate_is_written_of_a_rotor(tmp_path):
+    done = command("certify", "motion", scene(tmp_path, replaced=ROTOR), "--certificate", tmp_path / "c.json")
+    assert (done.returncode, done.stdout) == (2, "")
+    assert "a certificate is of a ball without a rotor" in done.stderr
+    assert not (tmp_path / "c.json").exists()
+
+
 REFUSED = [
+    (
+        ROTOR | {"omega = [0.1,": "omega = [0,", "30 deg/s": "0 rpm", "-0.2]": "0.0]"},
+        "without angular velocity the ball stays at rest",
+    ),
+    ({"radius = 0.1": "radius = 0.1\nrotor = [1, 2]"}, "rotor"),
+    ({"radius = 0.1": 'radius = 0.1\nrotor = [1, 2, "3 kg"]'}, "angular momentum"),
+    ({"radius = 0.1": "radius = 0.1\nrotor = [1, 2, { linspace = [1, 2, 3] }]"}, "rotor"),
     (OF_THE_MAP, "is of the map"),
     ({"D = 0.3": "D = { linspace = [1, 2, 3] }"}, "takes one ball"),
     ({'mass_tensor = [0.1, 0.2, "2/5"]': "inertia = [[2, 1, 0], [1, 3, 0], [0, 0, 4]]"}, "principal axes"),

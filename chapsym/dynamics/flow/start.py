@@ -26,6 +26,7 @@ class Turns(NamedTuple):
 
 
 Number = Fraction | Turns
+NO_ROTOR = (Turns(Fraction(0)),) * 3
 Balls = Sequence[Any]
 
 
@@ -81,7 +82,7 @@ class Start:
 
     mass_tensor, D: exact.  attitude: its quaternion of any length, in balls at the precision that is set.
     momentum: of the unit quaternion, K in the axes of the body.  radius, position: exact, or None.
-    rotor: the angular momentum of a rotor, in the axes of the body, exact; K has it.
+    rotor: the angular momentum of a rotor, in the axes of the body; it is part of K.
     """
 
     mass_tensor: Sequence[Fraction]
@@ -90,7 +91,7 @@ class Start:
     momentum: Callable[[Balls], Balls]
     radius: Fraction | None = None
     position: tuple[Fraction, Fraction] = (Fraction(0), Fraction(0))
-    rotor: Sequence[Fraction] = (Fraction(0),) * 3
+    rotor: Sequence[Turns] = NO_ROTOR
 
     def path(self, precision: int) -> Path:
         """The motion at the start; to be called with that precision set."""
@@ -112,14 +113,16 @@ def fixed(momentum: Sequence[Number]) -> Callable[[Balls], Balls]:
 
 
 def turning(
-    omega: Sequence[Number], mass_tensor: Sequence[Fraction], D: Fraction, space: bool
-) -> Callable[[Balls], Balls]:
-    """K = B(γ)ω, ω in the axes of the body or of space."""
+    omega: Sequence[Number], mass_tensor: Sequence[Fraction], D: Fraction, space: bool,
+    rotor: Sequence[Number] = NO_ROTOR,
+) -> Callable[[Balls], Balls]:  # fmt: skip
+    """K = B(γ)ω + a, ω in the axes of the body or of space, a of the rotor."""
 
     def momentum(attitude: Balls) -> Balls:
         v = balls(omega)
         if space:
             v = generated.transport(*(*attitude, *v))
-        return generated.contact_momentum(*(*v, *generated.rotation(*attitude)[6:], *balls(mass_tensor), ball(D)))
+        own = generated.contact_momentum(*(*v, *generated.rotation(*attitude)[6:], *balls(mass_tensor), ball(D)))
+        return tuple(x + y for x, y in zip(own, balls(rotor), strict=True))
 
     return momentum

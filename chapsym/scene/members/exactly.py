@@ -9,14 +9,14 @@ import numpy as np
 
 from chapsym import generated
 from chapsym.dynamics.exactly import check_body
-from chapsym.dynamics.flow.start import Balls, Start, Turns, ball, balls, turning, upright
+from chapsym.dynamics.flow.start import NO_ROTOR, Balls, Start, Turns, ball, balls, turning, upright
 from chapsym.dynamics.levels.balls import unit
 from chapsym.rationals import mass_tensor_from
 
 from ..read.bodies import PRESETS
 from ..read.errors import SceneError
 from ..read.scene import Scene
-from ..read.units import ANGLE, LENGTH, MASS, MOMENT, PURE, RATE, SPEED, TIME, Dimension, exact_number
+from ..read.units import ANGLE, LENGTH, MASS, MOMENT, PURE, RATE, SPEED, TIME, TURNING, Dimension, exact_number
 from .expand import expand
 
 #: The dimension of each key that is read.
@@ -24,6 +24,7 @@ DIMENSIONS = {
     "mass_tensor": MOMENT, "inertia": MOMENT, "mass": MASS, "radius": LENGTH, "D": MOMENT, "thickness": LENGTH,
     "point_mass": MASS, "separation": LENGTH, "omega": RATE, "velocity": SPEED, "spin": RATE, "gamma": PURE,
     "attitude": PURE, "quaternion_xyzw": PURE, "rpy": ANGLE, "position": LENGTH, "time": TIME, "time_step": TIME,
+    "rotor": TURNING,
 }  # fmt: skip
 
 
@@ -45,7 +46,7 @@ def exact_motion(scene: Scene) -> tuple[Start, tuple[Fraction, ...]]:
 def _exact_motion(scene: Scene, name: str) -> tuple[Start, tuple[Fraction, ...]]:
     if scene.toml is None:
         raise SceneError(f"{name}: certified digits need the numbers as a scene file writes them")
-    if len(expand(scene)) != 1:
+    if len(expand(_without_rotors(scene))) != 1:
         raise SceneError(f"{name}: certify motion takes one ball; this scene has several, or a range")
     if scene.maps:
         raise SceneError(
@@ -58,13 +59,27 @@ def _exact_motion(scene: Scene, name: str) -> tuple[Start, tuple[Fraction, ...]]
     check_body(tensor, D)
     radius = _rational(table, "radius") if "radius" in table else None
     attitude = _attitude(told)
+    rotor = _numbers(table, "rotor") if "rotor" in table else NO_ROTOR
     if "velocity" in told:
         assert radius is not None
-        momentum = _rolling(told, tensor, D, radius)
+        momentum = _rolling(told, tensor, D, radius, rotor)
     else:
-        momentum = turning(_numbers(told, "omega"), tensor, D, told.get("axes") == "space")
+        momentum = turning(_numbers(told, "omega"), tensor, D, told.get("axes") == "space", rotor)
     place = tuple(x.rational for x in _numbers(told, "position")) if "position" in told else (Fraction(0), Fraction(0))
-    return Start(tensor, D, attitude, momentum, radius, (place[0], place[1])), _times(scene, data["run"])
+    if any(map(any, rotor)) and not any(map(any, _moving(told))):
+        raise SceneError(f"{name}: without angular velocity the ball stays at rest, whatever the rotor")
+    start = Start(tensor, D, attitude, momentum, radius, (place[0], place[1]), rotor)
+    return start, _times(scene, data["run"])
+
+
+def _moving(start: Mapping[str, Any]) -> tuple[Turns, ...]:
+    if "omega" in start:
+        return _numbers(start, "omega")
+    return (*_numbers(start, "velocity"), _number(start.get("spin", 0), RATE))
+
+
+def _without_rotors(scene: Scene) -> Scene:
+    return scene.model_copy(update={"ball": tuple(one.model_copy(update={"rotor": None}) for one in scene.ball)})
 
 
 def _numbers(table: Mapping[str, Any], key: str) -> tuple[Turns, ...]:
@@ -125,12 +140,12 @@ def _turned(halves: Sequence[Any]) -> Balls:
 
 
 def _rolling(
-    start: Mapping[str, Any], tensor: Sequence[Fraction], D: Fraction, radius: Fraction
+    start: Mapping[str, Any], tensor: Sequence[Fraction], D: Fraction, radius: Fraction, rotor: Sequence[Turns]
 ) -> Callable[[Balls], Balls]:
     """K of a ball that rolls with a velocity and a spin: ω in space is (-v₂/ρ, v₁/ρ, spin)."""
     first, second = (x.rational for x in _numbers(start, "velocity"))
     spin = _number(start.get("spin", 0), RATE)
-    return turning((-second / radius, first / radius, spin), tensor, D, space=True)
+    return turning((-second / radius, first / radius, spin), tensor, D, True, rotor)
 
 
 def _times(scene: Scene, run: Mapping[str, Any]) -> tuple[Fraction, ...]:

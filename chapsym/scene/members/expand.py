@@ -94,6 +94,9 @@ class Body:
 
     def members(self) -> Members:
         """Its members; raises SceneError with the name of the first that cannot be."""
+        if self.ball.rotor is not None:
+            told = "ball.rotor goes with chapsym certify motion alone: no run, map or reduction has a rotor inside"
+            raise SceneError(f"{self._place()}{told}")
         sweep = self.sweep()
         values, count, names = sweep.values(), len(sweep), self.names
         parameters = {key: Parameter(array, units_of(key)) for key, array in values.items()}

@@ -6,7 +6,7 @@ from pydantic import BeforeValidator, Discriminator, Field, GetJsonSchemaHandler
 from pydantic_core import core_schema
 
 from .ranges import Value, value
-from .units import ANGLE, LENGTH, MASS, MOMENT, PURE, RATE, SPEED, TIME, Dimension, has_unit, number
+from .units import ANGLE, LENGTH, MASS, MOMENT, PURE, RATE, SPEED, TIME, TURNING, Dimension, has_unit, number
 
 
 class Quantity:
@@ -58,6 +58,7 @@ Rate = Annotated[Value, Quantity(RATE)]
 Angle = Annotated[Value, Quantity(ANGLE)]
 Speed = Annotated[Value, Quantity(SPEED)]
 Pure = Annotated[Value, Quantity(PURE)]
+Turning = Annotated[float, Quantity(TURNING, swept=False)]
 Seconds = Annotated[float, Quantity(TIME, swept=False, positive=True)]
 
 #: The tags of lists and matrices are no keys: errors leave them out.
@@ -92,6 +93,7 @@ Omega = Annotated[
     | Annotated[tuple[RatesN, ...], Field(min_length=4), Tag(MATRIX)],
     Discriminator(_shape),
 ]
+Turnings3 = Annotated[tuple[Turning, Turning, Turning], Vector]
 Lengths3 = Annotated[tuple[Length, Length, Length], Vector]
 Lengths2 = Annotated[tuple[Length, ...], Field(min_length=2), Vector]
 Speeds2 = Annotated[tuple[Speed, Speed], Vector]

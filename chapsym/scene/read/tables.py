@@ -29,6 +29,7 @@ from .quantities import (
     Rate,
     Seconds,
     Speeds2,
+    Turnings3,
 )  # fmt: skip
 
 Count = Annotated[int, Field(strict=True, ge=0)]
@@ -119,6 +120,9 @@ class BallTable(Table):
     block_mass: Mass | None = Field(None, description="Of a bowling ball's block, beyond the core that it displaces.")
     block_size: Lengths3 | None = Field(None, description="Edges of a bowling ball's block along the axes.")
     block_offset: Lengths3 | None = Field(None, description="Middle of a bowling ball's block, from the centre.")
+    rotor: Turnings3 | None = Field(
+        None, description="Angular momentum of a rotor inside, constant in the body's axes. For certify motion alone."
+    )
     start: StartTable | None = Field(None, description="Its own start, in the place of [start].")
 
     @model_validator(mode="after")

@@ -29,11 +29,12 @@ LENGTH = Dimension("a length", "m", "metres", "m", ("0.1085", "108.5 mm"))
 MASS = Dimension("a mass", "kg", "kilograms", "kg", ("7.26", "16 lb"))
 TIME = Dimension("a time", "s", "seconds", "s", ("0.01", "10 ms"))
 MOMENT = Dimension("a moment of inertia", "kg m2", "kg m²", "kg*m**2", ("0.032", "320 kg cm^2"))
+TURNING = Dimension("an angular momentum", "kg m2 s-1", "kg m²/s", "kg*m**2/s", ("0.02", "200 kg cm^2/s"))
 RATE = Dimension("an angular velocity", "rad s-1", "radians per second", "rad/s", ("3.14", "30 rpm"))
 ANGLE = Dimension("an angle", "rad", "radians", "rad", ("0.5", "30 deg"))
 SPEED = Dimension("a velocity", "m s-1", "metres per second", "m/s", ("8.0", "29 km/h"))
 PURE = Dimension("a number without a unit", "1", "a number", "", ("0.5", "2/7"))
-KNOWN = (LENGTH, MASS, TIME, MOMENT, RATE, ANGLE, SPEED)
+KNOWN = (LENGTH, MASS, TIME, MOMENT, TURNING, RATE, ANGLE, SPEED)
 #: Those that must say which angle: to pint an angle is a number, and 1 Hz would be 1 rad/s.
 ANGULAR = {RATE: "'30 rpm' or '3 rad/s'", ANGLE: "'30 deg' or '0.5 rad'"}
 
@@ -67,7 +68,7 @@ def exact_number(value: Any, dimension: Dimension = PURE) -> tuple[Fraction, Fra
     A turn, a degree and what is made of them are multiples of π.  Raises ValueError as `number` does.
     """
     amount, factor = _amount(str(value), dimension)
-    if dimension not in ANGULAR or not has_unit(value):
+    if dimension not in (*ANGULAR, TURNING) or not has_unit(value):
         return amount * factor, Fraction(0)
     pi = Fraction(_registry().Quantity(Fraction(1), "pi").to_base_units().magnitude)
     part = (
