@@ -1,14 +1,14 @@
-"""The open question of Section 6: no integrals of the steps tend to the energy in C¹ as ε tends to 0, for some balls."""
+"""The open question of Section 6: no integrals of the steps tend to the energy in C¹ as ε tends to 0."""
 
 import sympy as sp
 
 from chapsym.derive import modified, three
 from chapsym.derive.limits import omega
 from chapsym.derive.three import placed
-from chapsym.proofs.map import gibbs, self_adjoint
+from chapsym.proofs.map import gibbs, self_adjoint, stable, symmetries, vertical
 from chapsym.proofs.map import modified as map_modified
 from chapsym.proofs.map.modified import FREE
-from chapsym.proofs.open import certified, melnikov, orbits, readings, terms, volume
+from chapsym.proofs.open import certified, chord, locking, melnikov, orbits, readings, separatrix, terms, volume
 from chapsym.prove import Equation, Fact, Proof, Theorem, claim, judged, main, no, there_is
 
 FILES = certified.files("energy-drift")
@@ -18,7 +18,10 @@ LEMMAS = {
     "small-branch": gibbs, "reversible": self_adjoint, "modified-field": map_modified,
     "modified-energy": map_modified, "energy-without-rolling": map_modified, "modified-measure": map_modified,
     "map-symmetries": map_modified, "step-determinant": orbits, "steady-circles": orbits,
-    "measure-iff": volume, "periodic-orbits": orbits, "melnikov": melnikov, "energy-orbits": melnikov,
+    "measure-iff": volume, "periodic-orbits": orbits, "top-precession": vertical,
+    "stable-inverse": stable, "chord": chord, "symmetries": symmetries, "self-adjoint": self_adjoint,
+    "locked-circle": locking, "separatrix-map": separatrix, "separatrix-limit": separatrix, "melnikov": melnikov,
+    "energy-orbits": melnikov,
 }  # fmt: skip
 
 BALLS = "for the balls of the certificates energy-drift-*, and all balls near them"

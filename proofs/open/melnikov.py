@@ -79,13 +79,15 @@ def by_parts(part: int = 3) -> list[Equation]:
 
 @claim(
     "melnikov",
-    r"\int X_3(H)\,dt = -s\,\frac\pi{12}D\,\Omega^4\frac{1+\varkappa^2}{\cosh(\pi/2\varkappa)}\sin\varphi + O(s^2),\quad "
+    r"\frac d{ds}\Big|_0\int X_3(H)\,dt = -\frac\pi{12}D\,\Omega^4\frac{1+\varkappa^2}{\cosh(\pi/2\varkappa)}\sin\varphi,\quad "
     r"K = h(\gamma + se),\ l = \tfrac1{\Lambda_2},\ \Omega = \tfrac h{I_2}",
     uses=("modified-energy", "stable-inverse", "top-precession", "separatrix-map"),
 )
 def melnikov(p: Proof) -> None:
     """Along the separatrix, with a momentum that is nearly vertical, the energy gains a sine of the phase that is never 0."""
-    p.assume("Λ₁ > Λ₂ > Λ₃ > 0, D > 0, h > 0; the integral is the one to first order in s, along the orbit with s = 0")
+    p.assume(
+        "I₁ > I₂ > I₃ > 0, D > 0, Λ = I + D, h > 0; the integral is the one to first order in s, along the orbit with s = 0"
+    )
     p.say(
         "1. Beside vertical momentum. e is a horizontal unit vector, fixed in space as K and γ are. With F = 1 - Dl:",
     )
@@ -124,7 +126,7 @@ def melnikov(p: Proof) -> None:
 
 
 TORI = "near vertical momentum the levels of H are tori, on which the first return to a circle is a rotation by ρ(l, s)"
-CLOSED = "for all large n and all small s there is an l_s near 1/Λ₂ with ρ(l_s, s) = 4πn"
+CLOSED = "for every large n there is s₀ > 0, and for 0 < s < s₀ there is an l_s near 1/Λ₂ with ρ(l_s, s) = 4πn"
 
 
 def precession(low: sp.Expr = L2 * L3) -> Equation:
@@ -141,13 +143,15 @@ def precession(low: sp.Expr = L2 * L3) -> Equation:
 @claim(
     "energy-orbits",
     r"I_1>I_2>I_3,\ D>0 \ \Rightarrow\ \text{the continuous ball has closed orbits with } \oint X_3(H)\,dt \ne 0",
-    uses=("melnikov", "modified-measure", "top-precession", "symmetries"),
+    uses=("melnikov", "modified-measure", "top-precession", "separatrix-limit"),
 )
 def energy_orbits(p: Proof) -> None:
     """Every ball with three different moments and D > 0 has closed orbits along which X₃ changes the energy."""
     p.assume("I₁ > I₂ > I₃ > 0, D > 0, Λ = I + D; h > 0", L1 > L2, L2 > L3, L3 > 0)
-    p.state(Theorem((), (terms.ROLLS, terms.THREE), (terms.DRIFT,)))
+    p.state(Theorem((), (terms.ROLLS, terms.THREE, terms.MOMENTS), (terms.DRIFT,)))
     p.say(
+        "The moments may be named in this order: an odd renaming P is a reflection, γ ↦ Pγ, ω ↦ -Pω, K ↦ -PK, which takes",
+        "motions to motions, and X₃(H) stays as it is.",
         "1. Tori. On |K|² = h²(1 + s²), ⟨K,γ⟩ = h let K = h(γ + se): the frames (e, γ × e, γ) make it SO(3), and the",
         "continuous ball a flow on it, analytic in s, s = 0 among them: γ' = γ × ω, e' = e × ω, ω = B(γ)⁻¹h(γ + se).",
         "It keeps H, and a measure with a smooth positive density (2.6, modified-measure). For s = 0 H is ½h²l/(1 -",
@@ -165,24 +169,24 @@ def energy_orbits(p: Proof) -> None:
     )
     p.printed(precession())
     p.say(
-        "≥ 0, so at least by c/Λ₁. Half a period of γ takes it to (-γ₁, -γ₂, γ₃), a symmetry (symmetries): W turns by",
+        "≥ 0, so at least by c/Λ₁. Half a period of γ takes it to (-γ₁, -γ₂, γ₃), a symmetry, as S B(γ)Sᵀ = B(Sγ): W turns by",
         "the same angle ϑ(l) in each half, and ρ(l, 0) = 2ϑ(l). As the period tends to ∞ as l → 1/Λ₂, so does ϑ: near",
-        "1/Λ₂ there are l₁, l₂ with ϑ - 2πn of opposite signs, for all large n. For s small there is an l_s between",
-        "with ρ(l_s, s) = 4πn.",
+        "1/Λ₂ there are l₁, l₂ with ϑ - 2πn of opposite signs, for all large n. For each n there is s₀ > 0, so",
+        "that for 0 < s < s₀ there is an l_s between with ρ(l_s, s) = 4πn.",
     )
-    p.step(CLOSED, TORI, "top-precession", "symmetries")
+    p.step(CLOSED, TORI, "top-precession")
     p.say(
         "3. The integral. On this torus X₃(H) is s times its first order, as in melnikov, and O(s²); over one return,",
         "in bounded time, the orbit is within O(s) of that with s = 0 and this l, φ. So ∮X₃(H)dt = s",
-        "Re(e^{-iφ}Z(l_s)) + O(s²), Z(l) = -(D/4)∫⟨γ',ω₀'⟩dW over a period. The two halves differ by e^{iϑ}, which is",
-        "1 + O(s) at l_s, so Z(l_s) is 2Z_half(l_s) + O(s). And |Z_half(l)| → |Z| of melnikov as l → 1/Λ₂: centred at",
+        "Re(e^{-iφ}Z(l_s)) + O(s²), Z(l) = -(D/4)∫⟨γ',ω₀'⟩dW over a period. The two halves differ by e^{iϑ}, which",
+        "is 1 + o(1) at l_s as s → 0, so Z(l_s) is 2Z_half(l_s) + o(1). And |Z_half(l)| → |Z| of melnikov as l → 1/Λ₂: centred at",
         "γ₂ = 0, the integrand tends to that of the separatrix on bounded times, and ⟨γ',ω₀'⟩ ≤ C|b|² ≤ C'(1 - γ₂²) ≤",
         "C''e^{-2λ't} up to a quarter of the period, since cn² ≤ dn², and dn has that bound (separatrix-limit). With",
         "l₁, l₂ so near to 1/Λ₂ that |Z_half| ≥ ½|Z| between them, and φ such that Re(e^{-iφ}Z(l_s)) = |Z(l_s)|,",
-        "∮X₃(H)dt ≥ s|Z| + O(s²) > 0 for small s > 0. So step 1 to 4 of 6-open, which need one closed orbit with",
+        "∮X₃(H)dt ≥ s|Z| + o(s) > 0 for small s > 0. So step 1 to 4 of 6-open, which need one closed orbit with",
         "∮X₃(H)dt ≠ 0, hold for every such ball, near this orbit.",
     )
-    p.step(terms.DRIFT, CLOSED, "melnikov")
+    p.step(terms.DRIFT, CLOSED, terms.MOMENTS, "melnikov", "separatrix-limit")
     p.measure(
         "Λ = (6, 5, 3), D = 1, h = 13/10, s = 1e-6, e at the angle φ = 1 from W: orbits with T = 101.82, 121.47, 140.94 are closed "
         "after one return; the second, with ϑ an even multiple of π, has ∮X₃(H)dt = -1.0054e-4 s (2|Z| sin 1 = 9.81e-5), the "

@@ -42,7 +42,7 @@ READINGS = {
         Reading("finite measure; all h ≠ 0 below the bound, all D > 0 but a discrete set for each h (tr J ≤ D among them)",
                 terms.MEASURE, NO, ("separatrix", "locked-circle")),
         Reading("finite measure; all h ≠ 0 below the bound, all D > 0 without exception", terms.MEASURE, OPEN),
-        Reading("real s, single-valued f: a circle of s; all h ≠ 0 below the bound, all D > 0 but a discrete set",
+        Reading("real s, single-valued f: a circle of s; all h ≠ 0 below the bound, all D > 0 but a discrete set for each h",
                 terms.PARAMETER, NO, ("separatrix", "locked-circle")),
         Reading("real s, a line of s: f is real analytic, s as a function of u has infinitely many values on the circle",
                 terms.LINE, TRIVIALLY, ("almost-every", "locked-circle")),
@@ -71,7 +71,7 @@ READINGS = {
         Reading("𝒦 parallel to γ", terms.KEPT, YES, (VERTICAL,)),
         Reading("beside it: invariant densities that tend in C¹; two balls, and all near them",
                 terms.DENSITIES, NO, (DRIFTS, DENSITY)),
-        Reading("beside it: a measure of the whole map near 𝒦 = 0, density continuous; all D > 0, two different moments",
+        Reading("beside it: a measure of the whole map near 𝒦 = 0, density continuous and positive; all D > 0, two different moments",
                 terms.WHOLE, NO, ("measure-iff",)),
     ),
 }  # fmt: skip

@@ -101,9 +101,10 @@ def separatrix_map(p: Proof) -> None:
     p.say(
         "1. On |γ| = 1, l = 1/Λ₂ is γ₁²(1/Λ₂ - 1/Λ₁) = γ₃²(1/Λ₃ - 1/Λ₂): two circles through ±e₂, that is these two",
         "fixed points and four arcs γ = (C1 sech u, tanh u, C3 sech u), C1² + C3² = 1. Take C1C3 < 0 (else -u for u:",
-        "symmetries). The arc is mapped to itself: l is kept (prop-3), and so is the arc along G_{th}, 0 ≤ t ≤ 1. Let",
-        "u = ū - a, ũ = ū + a, X = coth a, T = tanh ū, E² = (1 - T²)(X² - 1): then γ, γ~ = (C1E, TX ∓ 1, C3E)/(X ∓",
-        "T), and",
+        "symmetries). The arc is mapped to itself: l is kept (prop-3), and so is the arc along G_{th}, 0 ≤ t ≤ 1. No",
+        "point of it is fixed: a Gibbs vector τγ with 𝒦 ∥ γ needs τ(Iγ - ⟨γ,Iγ⟩γ) + τ²γ × Iγ = 0, two orthogonal",
+        "parts, so γ would be along an axis. Let u = ū - a, ũ = ū + a, a ≠ 0, X = coth a, T = tanh ū, E² = (1 -",
+        "T²)(X² - 1): then γ, γ~ = (C1E, TX ∓ 1, C3E)/(X ∓ T), and",
     )
     for sign in (-1, 1):
         at = place(sign)
@@ -155,7 +156,7 @@ def _increments(p: Proof) -> None:
 
 
 UNIFORM = "increments on levels near 1/Λ₂ tend to those on it, with a summable bound"
-PASSAGE = "q steps displace to the side of Δ(u) - β + o(1), uniformly in u, where 2K - qc_k = β"
+PASSAGE = "q steps displace to the side of Δ(u) - β + o(1), uniformly for u in compact sets, where 2K - qc_k = β"
 
 
 def bound_of_dn(sign: int = 1) -> Equation:

@@ -42,6 +42,7 @@ def second_derivative(sign: int = 1) -> Equation:
 def separatrix(p: Proof) -> None:
     """For every ball with three different moments, every h below the bound, all D > 0 but a discrete set: no such measure."""
     p.assume("I₁ > I₂ > I₃ > 0 and h fixed, Λ = I + D; h > 0, as h < 0 is the inverse map (self-adjoint)")
+    p.assume("other names of the moments: an exchange of 1 and 3 takes the map of h to that of -h (symmetries)")
     p.assume("h is below the bound of small-branch, which does not depend on D; the small branch")
     p.state(Theorem((terms.BUT_DISCRETE,), (terms.THREE, terms.SMALL_BRANCH), (terms.BOTH_SIGNS,)))
     p.say(
@@ -91,8 +92,8 @@ def separatrix(p: Proof) -> None:
 MEASURED = (
     "I = (9, 6, 5), h = 9/2: E(D) over its second order, with the c and A'' of this D, is 0.998726, 0.987325, 0.879285, "
     "0.238356 for D = 1/1000, 1/100, 1/10, 1.",
-    "The same ball, D = 1/10: after 300 steps of the map on the level with 2K - 300c = Δ(0), k'² = 1.46e-29, the displacement "
-    "of u = 0 is 9e-30, that of c/2 is 1.47790438e-21: Δ says this one to 8 digits.",
+    "The same ball, D = 1/10: after 300 steps of the map on the level with 2 log(4/k') - 300c = Δ(0), k'² = 1.46e-29, the displacement "
+    "of u = 0 is 9e-30, that of c/2 is 1.47790438e-21; (Δ(c/2) - Δ(0))/h₊'(-c/2) is 1.47790437e-21.",
     "The same ball: E changes its sign at D = 2.3953174412988807611; there Δ(c/4) - Δ(0) = 4.06745e-54, so Δ is not constant.",
 )
 
