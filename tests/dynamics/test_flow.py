@@ -277,6 +277,24 @@ def test_the_second_order_is_within_its_bound(heavy):
     assert 0.1 < largest <= 1
 
 
+def test_the_bound_of_a_rotor_is_that_of_the_lemma():
+    """`slip` is at least 2αX + θ, with α, β and W as they are found, and θ and δ as the lemma has them."""
+    path = begun(rotor=ROTOR)
+    floats, _, w, found, k, length = polynomials(path)
+    with ctx.workprec(128):
+        body = path.body.during(number(length))
+        step = deviation.deviation(floats, w, upper(k), found, body, arb(1e-3))
+        degree = floats.a.shape[1] - 1
+        omega, gamma = (models.models(x, degree) for x in (w, [x.poly * found.unit for x in found.R[6:]]))
+        beta, _, alpha, W = deviation._sizes(omega, gamma, body, deviation._weights(floats))
+        X, size, I = step.within, upper(body.rotor), sorted(map(float, body.inertia))
+        sigma = arb((I[2] - I[0]) / 2)
+        s = 5 * beta * sigma * X
+        delta = (s * W + 2 * beta * X * size) / (1 - s)
+        theta = beta * (8 * sigma * X * X * W + 2 * X * X * size + 5 * sigma * X * delta)
+        assert step.slip > (2 * alpha * X + theta) * arb(1 - 1e-9)
+
+
 NONE = [models.Model(arb_poly([0]), 3)] * 3
 
 
