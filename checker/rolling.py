@@ -28,6 +28,8 @@ from .taylor import Model, derivative
 
 #: A step is this part of where the series seems to end; its parts with one μ each, with so many bits; n = 2^ROOTS.
 SHARE, PARTS, BITS, ROOTS = 4, 4, 64, 12
+#: The most steps · order² · bits: some minutes.
+MOST_WORK = 3_000_000_000
 #: The radius of the tube, beside the weights.
 TUBE = Fraction(1, 2**14)
 
@@ -131,6 +133,10 @@ class Flow:
         self.steps += 1
         if self.steps > MOST_STEPS:
             raise Rejected(f"the motion takes more than {MOST_STEPS} steps")
+        if self.steps * self.order**2 * self.bits > MOST_WORK:
+            raise Rejected(
+                "the motion takes longer than a reader can wait for: take less time, fewer bits, a lower order"
+            )
         terms = self.fine.series(start, self.order)
         length = min(self.length(terms), most)
         if length <= 0:

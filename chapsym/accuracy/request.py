@@ -1,7 +1,7 @@
 """What is asked for, the norm in which it is asked, and what rounding alone leaves of it."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
@@ -102,6 +102,11 @@ class Request:
         The factors here and in `floor` are the least that covered what was measured on some twenty random balls.
         """
         return 2 * rounding(precision) * math.sqrt(self.condition) * (1 + self.angle) * self.unit
+
+    def beside(self, roundings: float) -> "Request":
+        """The same with K so many roundings of float64 off, relatively, in a direction that nothing prefers."""
+        K = self.angular_momentum
+        return replace(self, angular_momentum=K + roundings * 2.0**-53 * lengths(K) * np.array([0.6, 0.64, 0.48]))
 
     def floor(self, precision: Precision, stages: float, summed: bool) -> float:
         """The error that rounding is expected to make in a run of so many stages.

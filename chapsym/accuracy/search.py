@@ -6,6 +6,7 @@ from dataclasses import dataclass, field, replace
 
 from chapsym.dynamics import BadInput, Status, StepNotTaken, Trajectory
 from chapsym.dynamics.levels.double import SHORT_RUN
+from chapsym.numbers import Double
 
 from .choice import Choice, choices, finer
 from .methods import COMPOSED, EXTRAPOLATED, Method, checks, methods, take
@@ -23,6 +24,8 @@ TRIAL, FIRST, PART = 5e-3, 3, 0.05
 LONGEST, SURELY = 0.05, 10.0
 #: If rounding is more than this part of a difference, shorter steps do not help.
 FLOORS = 4.0
+#: How many roundings beside the start a run in float64 begins that verifies another: a ball that is sensitive shows it.
+ROUNDED = 8
 #: No expectation is corrected by more than this at once: the difference of a coarse run may be anything.
 MOST_CORRECTED = 1e4
 
@@ -107,12 +110,15 @@ class Search:
         request, method = self.request, choice.method
         started = clock.thread_time()
         coarse = None
-        if self.last is not None and self.last[0] == method and choice.coarse <= self.last[1]:
+        beside = self.request
+        if isinstance(method.precision, Double):
+            beside = request.beside(ROUNDED)
+        elif self.last is not None and self.last[0] == method and choice.coarse <= self.last[1]:
             _, n, coarse = self.last
             steps = finer(request, method, n)
             choice = replace(choice, coarse=n, steps=steps, time_step=request.time / steps)
         try:
-            coarse = coarse or take(request, method, choice.coarse, checks(request, method))
+            coarse = coarse or take(beside, method, choice.coarse, checks(request, method))
             run = take(request, method, choice.steps, checks(request, method))
         except StepNotTaken as error:
             if error.status == Status.NO_INERTIA:

@@ -135,6 +135,10 @@ def test_the_norm_bounds_the_growth_of_what_is_near(flow):
 def test_starts_too_far_apart_and_more_steps_than_a_reader_can_wait_for_are_refused(flow, right, monkeypatch):
     with pytest.raises(Rejected, match="too far apart"):
         run(flow(16), START, Fraction(1, 1000), Fraction(1))
+    with monkeypatch.context() as less:
+        less.setattr(rolling, "MOST_WORK", 10**6)
+        with pytest.raises(Rejected, match="longer than a reader can wait for"):
+            check(right)
     monkeypatch.setattr(rolling, "MOST_STEPS", 3)
     with pytest.raises(Rejected, match="more than 3 steps"):
         check(right)
