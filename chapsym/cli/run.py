@@ -48,6 +48,7 @@ def run(
     from .following import following
     from .output import quiet, say
 
+    saved = False
     try:
         wanted = load(scene)
         destination = output or _named(scene, wanted.run.output)
@@ -68,12 +69,15 @@ def run(
         quiet()
         stopped = None
         if exact is not None:
+            saved = True
             with telling() as progress:
                 data, motion = with_proof(data, exact, float(wanted.run.limit or LIMIT), progress)
             formats.save(data, destination)
             stopped = motion.stopped
     except KeyboardInterrupt:
         kept = "the same command goes on from there" if destination.suffix == ".zarr" else "nothing was written"
+        if saved:
+            kept = f"the result is in {destination}, without a proof"
         fail(f"interrupted; {kept}", INTERRUPTED)
     _tell(plan, destination, outcome, data, answers, as_json)
     if stopped is not None:

@@ -2,7 +2,7 @@
 
 By lemmas `steady` and `steady-branch` a step of length s turns it by θ with sin θ = s|ω|.  So the step for the time h
 has the length s = sin(h|ω|)/|ω|.  That is h times an even function of h, so the rotation of n steps stays an even
-series, and its first term is smaller for every ball: where ω is nearly constant, by two to three orders of magnitude.
+series.  In lemma `modified-field` 12ω₃ loses its part 2|ω|²ω so, up to what |ω| changes in the long step.
 """
 
 #: 1.5²: steps that would turn the ball by nearly a right angle, where the branch folds, are not fitted.

@@ -71,9 +71,8 @@ def exact_number(value: Any, dimension: Dimension = PURE) -> tuple[Fraction, Fra
     if dimension not in (*ANGULAR, TURNING) or not has_unit(value):
         return amount * factor, Fraction(0)
     pi = Fraction(_registry().Quantity(Fraction(1), "pi").to_base_units().magnitude)
-    part = (
-        factor / pi
-    )  # pint has π as a fraction of 49 digits: a unit that holds it as a factor has it in no denominator
+    # pint has π as a fraction of 49 digits: a unit that holds it as a factor has it in no denominator.
+    part = factor / pi
     return (Fraction(0), amount * part) if part.denominator % pi.numerator else (amount * factor, Fraction(0))
 
 
