@@ -1,4 +1,4 @@
-"""The file: read, its digest, and its numbers, each of which can be written in one way only."""
+"""The file: read, its digest, and its numbers: decimals and fractions, without spaces, signs but -, or names."""
 
 import hashlib
 import json
