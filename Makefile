@@ -54,6 +54,7 @@ pictures: $(VENV)/.installed
 	  $(BIN)/chapsym show docs/scenes/$${one%%:*}.toml -o docs/pictures/$${one%%:*} --figures $${one##*:} --no-page; done
 	$(BIN)/python docs/pictures/page.py
 	$(BIN)/python docs/pictures/radii.py
+	$(BIN)/chapsym judge benchmarks/rolling/examples/*.csv --against benchmarks/rolling/data/robot.json -o docs/pictures/engines/robot.svg
 
 # Rocq judges the certificates of the register, too, and one of intervals: with Python and Rocq alone.
 rocq:
