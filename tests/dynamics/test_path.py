@@ -57,6 +57,18 @@ def test_behind_the_fold_nothing_is_proved(state, direction, size):
         assert not path.search_on_path(*guess, *numbers)[0]
 
 
+def test_a_root_is_proved_only_up_to_what_its_corrections_leave():
+    """What is left over is divided by half the least stretch: for this root it may be 2^-53 of |u|, and no more."""
+    state = BALL, 0.8 * MOMENTUM, GAMMA
+    numbers, (_, u) = of(state), continued(state)
+    k, (g, inertia, D) = numbers[:3], (numbers[3:6], numbers[6:9], numbers[9])
+    square, half = float(u @ u), math.hypot(*k)
+    _, least = path.joined(*u, square, *k, half, *g, *inertia, D, (max(inertia) - min(inertia)) / 2)
+    most = (2.0**-53 * least) ** 2 * square
+    assert path.proved(*u, 0.99 * most, *numbers)
+    assert not path.proved(*u, 1.01 * most, *numbers)
+
+
 def test_how_far_the_straight_path_reaches():
     """Of 300 seeded states at a fraction of their fold: as measured, so that a check that says no too often is seen."""
     draw, proved = np.random.default_rng(5), {0.6: 0, 0.8: 0, 0.9: 0}

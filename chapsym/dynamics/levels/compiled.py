@@ -66,10 +66,11 @@ SOURCES = (
 #: The functions on the way of every step: a call would cost more than they do.
 INLINED: set[Callable[..., Any]] = {
     *(generated.gibbs_newton, generated.gibbs_second, generated.turn),
-    *(path.small_between, path.lowest, path.joined, path.settle_on_path, generated.gibbs_symmetric),
+    *(path.small_between, path.lowest, path.joined, path.improved, path.proved, generated.gibbs_symmetric),
     *(gibbs.newton_round, gibbs.second_round, gibbs.settle, loop.three, loop.put),
     *(sums.added, sums.turned, sums.filtered, composed_loop.extrapolated, composed_loop.turn_at),
-    *(block.rows, block.whole, block.predicted, block.corrected, block.on_path, block.unsettled),
+    *(block.rows, block.whole, block.predicted, block.corrected, block.unsettled),
+    *(block.approached, block.nearer, block.on_path),
     *(block.moved, block.turn_at, block.extrapolated, block.rolled, loop.followed),
     *(generated.centre_step, generated.rotate),
     *(value for value in vars(pairs).values() if isinstance(value, FunctionType)),

@@ -9,7 +9,7 @@ from .gibbs import BEYOND, newton_round, second_round, settle
 from .integrals import PERIOD, restore
 from .loop import ENOUGH, RADIUS, ROWS, A, D, G, I, K, X, followed, prepare, safe_rotation, three
 from .path import MOST_ROUNDS as PATH_ROUNDS
-from .path import settle_on_path
+from .path import improved, proved
 from .sums import filtered, turned
 
 #: Balls in a block, at most: its rows stay in the first-level cache.
@@ -77,27 +77,49 @@ def corrected(S, P, ok, again):
     return unsettled(ok)
 
 
-def on_path(S, P, ok, again):
-    """A round of `path.search_on_path` for the lanes beyond the bound; `again`, from the round before.
-
-    Returns how many did not settle, and for how many of them another round may.
-    """
+def approached(S, P, ok):
+    """The lanes beyond the bound by a Newton iterate from the extrapolation, as `path.search_on_path` begins."""
     for i in range(whole(ok)):
-        u1, u2, u3 = (P[4, i], P[5, i], P[6, i]) if again else (S[A, i], S[A + 1, i], S[A + 2, i])
-        going = (S[RADIUS, i] == BEYOND) & ((P[7, i] == 1.0) | (not again))
-        settled, p0, p1, p2, p3, w1, w2, w3, may = settle_on_path(
-            u1, u2, u3, S[K, i], S[K + 1, i], S[K + 2, i], S[G, i], S[G + 1, i], S[G + 2, i],
+        beyond = S[RADIUS, i] == BEYOND
+        _, _, _, _, w1, w2, w3, _, _, _, _, _, _, _, _, _, _, _, _, _ = newton_round(
+            S[A, i], S[A + 1, i], S[A + 2, i], S[K, i], S[K + 1, i], S[K + 2, i], S[G, i], S[G + 1, i], S[G + 2, i],
+            S[I, i], S[I + 1, i], S[I + 2, i], S[D, i],
+        )  # fmt: skip
+        P[4, i], P[5, i], P[6, i] = w1 if beyond else P[4, i], w2 if beyond else P[5, i], w3 if beyond else P[6, i]
+        P[7, i] = 1.0 if beyond else 0.0
+        ok[i] = 0 if beyond else ok[i]
+
+
+def nearer(S, P, ok):
+    """A round of corrections for the lanes on the path that are not near; returns how many are left for another."""
+    for i in range(whole(ok)):
+        going = P[7, i] == 1.0
+        p0, p1, p2, p3, w1, w2, w3, left, near, found = improved(
+            P[4, i], P[5, i], P[6, i], S[K, i], S[K + 1, i], S[K + 2, i], S[G, i], S[G + 1, i], S[G + 2, i],
             S[I, i], S[I + 1, i], S[I + 2, i], S[D, i],
         )  # fmt: skip
         P[0, i], P[1, i] = p0 if going else P[0, i], p1 if going else P[1, i]
         P[2, i], P[3, i] = p2 if going else P[2, i], p3 if going else P[3, i]
         P[4, i], P[5, i], P[6, i] = w1 if going else P[4, i], w2 if going else P[5, i], w3 if going else P[6, i]
-        P[7, i] = 1.0 if going & may else 0.0
-        ok[i] = 1 if going & settled else ok[i]
+        P[7, i], P[8, i] = 0.0 if near | found else P[7, i], left if going else P[8, i]
     left = 0.0
     for i in range(whole(ok)):
         left += P[7, i]
-    return unsettled(ok), left
+    return left
+
+
+def on_path(S, P, ok):
+    """Settles the lanes beyond the bound whose root is proved to be that of the branch; returns how many are left.
+
+    The others go the way of one ball, `mend`, from the beginning.
+    """
+    for i in range(whole(ok)):
+        settled = (S[RADIUS, i] == BEYOND) & proved(
+            P[4, i], P[5, i], P[6, i], P[8, i], S[K, i], S[K + 1, i], S[K + 2, i], S[G, i], S[G + 1, i], S[G + 2, i],
+            S[I, i], S[I + 1, i], S[I + 2, i], S[D, i],
+        )  # fmt: skip
+        ok[i] = 1 if settled else ok[i]
+    return unsettled(ok)
 
 
 def unsettled(ok):
@@ -208,7 +230,7 @@ def march_block(
     body: (7, lanes), the attitude, the contact point and the radius, which are touched only when `with_body`.
     scale, taken, status and reach have one entry for each ball; lanes beyond them are idle copies.
     """
-    S, P, B = rows(ROWS, state.dtype), rows(8, state.dtype), rows(7, state.dtype)
+    S, P, B = rows(ROWS, state.dtype), rows(9, state.dtype), rows(7, state.dtype)
     width = state.shape[1]
     ok = np.empty(width, dtype=np.int32)
     carry(state, S, width)
@@ -219,8 +241,8 @@ def march_block(
     while step < last:
         stop = min(last, step + every - step % every, step + PERIOD - step % PERIOD)
         while step < stop:
-            bad = hopeless + 1
-            if patience == 0:
+            bad = hopeless + 1 if beyond < width else hopeless
+            if patience == 0 and beyond < width:
                 bad = predicted(S, P, ok)
             if bad > hopeless:
                 patience = PATIENCE if patience == 0 else patience - 1
@@ -228,9 +250,11 @@ def march_block(
                 while bad > hopeless + FEW and rounds < ROUNDS:
                     bad, rounds = corrected(S, P, ok, True), rounds + 1
             if beyond != 0:
-                (bad, left), rounds = on_path(S, P, ok, False), 1
-                while left > FEW and rounds < PATH_ROUNDS:
-                    (bad, left), rounds = on_path(S, P, ok, True), rounds + 1
+                approached(S, P, ok)
+                left, rounds = nearer(S, P, ok), 1
+                while left > 0 and rounds < PATH_ROUNDS:
+                    left, rounds = nearer(S, P, ok), rounds + 1
+                bad = on_path(S, P, ok)
             if bad != 0:
                 mend(S, P, ok, step, taken, status, reach, balls)
                 hopeless, beyond = uncertified(S, ok)

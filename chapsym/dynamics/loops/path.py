@@ -19,46 +19,57 @@ INSIDE = 0.98
 #: c makes R(s) as small as it can be at this s.
 LEVEL = 0.75
 #: Rounds that are tried before the continuation: the guess comes from the steps before.
-MOST_ROUNDS = 4
+MOST_ROUNDS = 6
+#: Before the least stretch is known it is taken to be this times I_max + D, which no stretch exceeds.
+NEAR = 0.0625
 #: A correction whose square is below this, beside |u|², has found a root: another round would not prove more.
 FOUND = 1e-26
 
 
 def search_on_path(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D):
-    """Rounds of `settle_on_path`; returns (settled, p0, p1, p2, p3, u1, u2, u3)."""
-    for _ in range(MOST_ROUNDS):
-        settled, p0, p1, p2, p3, u1, u2, u3, may = settle_on_path(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D)
-        if settled:
-            return True, p0, p1, p2, p3, u1, u2, u3
-        if not may:
-            break
-    return False, 1.0, 0.0, 0.0, 0.0, u1, u2, u3
+    """A Newton iterate, and rounds of corrections until the root is proved to be that of the branch.
 
-
-def settle_on_path(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D):
-    """Three corrections of a guess of the Gibbs vector, and whether what they find is proved to be the branch's root.
-
-    Returns (settled, p0, p1, p2, p3, u1, u2, u3, may): another round may settle it.  The last two corrections, d and
-    e, leave a residual of at most 3κ max(|d|,|e|)|e|, κ = ½(I_max - I_min) + |k| (`gibbs-newton`), and half the least
-    stretch divides it.
+    Returns (settled, p0, p1, p2, p3, u1, u2, u3).
     """
     _, _, _, _, u1, u2, u3, _, _, _, _, _, _, _, _, _, _, _, _, _ = newton_round(
         u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D
     )
-    p0, _, _, _, _, _, _, first, d1, d2, d3, c11, c12, c13, c21, c22, c23, c31, c32, c33 = newton_round(
+    for _ in range(MOST_ROUNDS):
+        p0, p1, p2, p3, u1, u2, u3, left, near, found = improved(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D)
+        if (near or found) and proved(u1, u2, u3, left, k1, k2, k3, g1, g2, g3, I1, I2, I3, D):
+            return True, p0, p1, p2, p3, u1, u2, u3
+        if found:
+            break
+    return False, 1.0, 0.0, 0.0, 0.0, u1, u2, u3
+
+
+def improved(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D):
+    """Two corrections, d and e, of a guess of the Gibbs vector: (p0, p1, p2, p3, u1, u2, u3, left, near, found).
+
+    They leave a residual of at most 3κ max(|d|,|e|)|e|, κ = ½(I_max - I_min) + |k| (`gibbs-newton`); left: the square
+    of twice that.  near: `proved` may well allow so much; found: another round would not leave less.
+    """
+    p0, p1, p2, p3, _, _, _, first, d1, d2, d3, c11, c12, c13, c21, c22, c23, c31, c32, c33 = newton_round(
         u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D
     )
     p1, p2, p3, w1, w2, w3, second = second_round(
-        p0, p0 * (u1 + d1), p0 * (u2 + d2), p0 * (u3 + d3), k1, k2, k3, d1, d2, d3,
-        c11, c12, c13, c21, c22, c23, c31, c32, c33, I1, I2, I3,
+        p0, p1, p2, p3, k1, k2, k3, d1, d2, d3, c11, c12, c13, c21, c22, c23, c31, c32, c33, I1, I2, I3
     )  # fmt: skip
+    square = w1 * w1 + (w2 * w2 + w3 * w3)
+    curved = 6.0 * (0.5 * (max(I1, I2, I3) - min(I1, I2, I3)) + sqrt(k1 * k1 + (k2 * k2 + k3 * k3)))
+    left = curved * curved * (max(first, second) * second)
+    allowed = LEFT * (NEAR * (max(I1, I2, I3) + D))
+    return p0, p1, p2, p3, w1, w2, w3, left, left <= allowed * allowed * square, second <= FOUND * square
+
+
+def proved(u1, u2, u3, left, k1, k2, k3, g1, g2, g3, I1, I2, I3, D):
+    """Whether u is proved to be the branch's root up to a rounding: half the least stretch divides what is left."""
     half = sqrt(k1 * k1 + (k2 * k2 + k3 * k3))
     spread = 0.5 * (max(I1, I2, I3) - min(I1, I2, I3))
-    square = w1 * w1 + (w2 * w2 + w3 * w3)
-    proved, least = joined(w1, w2, w3, square, k1, k2, k3, half, g1, g2, g3, I1, I2, I3, D, spread)
-    curved, allowed = 6.0 * (spread + half), LEFT * least
-    settled = proved & (curved * curved * (max(first, second) * second) <= allowed * allowed * square)
-    return settled, p0, p1, p2, p3, w1, w2, w3, (second > FOUND * square) & (not settled)
+    square = u1 * u1 + (u2 * u2 + u3 * u3)
+    reached, least = joined(u1, u2, u3, square, k1, k2, k3, half, g1, g2, g3, I1, I2, I3, D, spread)
+    allowed = LEFT * least
+    return reached & (left <= allowed * allowed * square)
 
 
 def joined(u1, u2, u3, square, k1, k2, k3, half, g1, g2, g3, I1, I2, I3, D, spread):
