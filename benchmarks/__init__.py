@@ -24,6 +24,8 @@ SECTIONS = {
     "work-precision": "work_precision",
     "extrapolation": "extrapolation",
     "dimensions": "dimensions",
+    "digits": "digits",
+    "commands": "commands",
 }
 
 

@@ -43,7 +43,9 @@ def measure(sections: Sequence[str], quick: bool, output: Path | None, as_json: 
     quiet()
     found = benchmarks.as_json(results, quick)
     if output is not None and page:
-        tables = [measured.Table(one["title"], one["rows"], _sentences(one)) for one in found["sections"].values()]
+        goals = [_goal(name, goal) for name, one in found["sections"].items() for goal in one["reach"]]
+        tables = [measured.Table("What was set out to be reached", goals)]
+        tables += [measured.Table(one["title"], one["rows"], _remarks(one)) for one in found["sections"].values()]
         measured.write(output, "Speed beside other methods", ABOUT, tables, _shown)
     if as_json:
         print_json(found)
@@ -65,7 +67,25 @@ def _sentences(section: dict[str, Any]) -> list[str]:
     for one in section["reach"]:
         sign, limit = ("reached" if one["met"] else "NOT reached"), ("at least" if one["at_least"] else "at most")
         said.append(f"{one['what']}: {one['value']:.3g} (wanted: {limit} {one['wanted']:.3g}): {sign}")
-    return [*said, *(f"{name}: {reason}" for name, reason in section["missing"].items()), *section["notes"]]
+    return [*said, *_remarks(section)]
+
+
+def _remarks(section: dict[str, Any]) -> list[str]:
+    """The peers that are missing, and the notes."""
+    return [*(f"{name}: {reason}" for name, reason in section["missing"].items()), *section["notes"]]
+
+
+def _goal(section: str, goal: dict[str, Any]) -> dict[str, Any]:
+    """A row of the table of what is to be reached."""
+    limit = "at least" if goal["at_least"] else "at most"
+    wanted = f"{limit} {goal['wanted']:.3g}"
+    return {
+        "section": section,
+        "figure": goal["what"],
+        "measured": goal["value"],
+        "wanted": wanted,
+        "reached": goal["met"],
+    }
 
 
 def _print_all(found: dict[str, Any]) -> None:

@@ -27,16 +27,20 @@ every = 1000
 """
 
 
-def timed(arguments: tuple[str, ...], cache: Path) -> tuple[float, float, str]:
+#: What runs the arguments of a command.
+COMMAND = ("-m", "chapsym.cli")
+
+
+def timed(arguments: tuple[str, ...], cache: Path, program: tuple[str, ...] = COMMAND) -> tuple[float, float, str]:
     """Runs a command in a process of its own; returns (seconds, those of the processor, what it says on stderr)."""
     environment = {**os.environ, "XDG_CACHE_HOME": str(cache)}
     start, busy = time.perf_counter(), _busy()
     done = subprocess.run(
-        [sys.executable, "-m", "chapsym.cli", *arguments], capture_output=True, text=True, check=False, env=environment
+        [sys.executable, *program, *arguments], capture_output=True, text=True, check=False, env=environment
     )
     seconds, busy = time.perf_counter() - start, _busy() - busy
     if done.returncode:
-        raise RuntimeError(f"chapsym {arguments[0]} fails: {done.stderr.strip()}")
+        raise RuntimeError(f"{' '.join(('chapsym', *arguments[:1]))} fails: {done.stderr.strip()}")
     return seconds, busy, done.stderr
 
 

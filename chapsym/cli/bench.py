@@ -19,7 +19,7 @@ def bench(
         typer.Argument(
             metavar="[SECTION]...",
             help="trajectory, batch, memory, plans, calls, lanes, beyond, first-call, long, work-precision, "
-            "extrapolation, dimensions; all.",
+            "extrapolation, dimensions, digits, commands; all.",
         ),
     ] = None,
     quick: Annotated[bool, typer.Option("--quick", help="Smaller sizes and fewer rounds: seconds.")] = False,

@@ -278,8 +278,8 @@ def test_a_command_that_fails_is_not_timed(tmp_path):
 
 @pytest.mark.parametrize("section", benchmarks.SECTIONS)
 def test_a_quick_look_runs_and_is_plain_data(section, monkeypatch, thorough):
-    if section == "first-call" and not thorough:
-        pytest.skip("it starts five processes; make thorough does")
+    if section in ("first-call", "commands") and not thorough:
+        pytest.skip("it starts five processes or more; make thorough does")
     if section == "long":  # the rest is quick as it is
         monkeypatch.setattr(long_runs, "QUICK", (2000, 2))
     said = []
