@@ -4,7 +4,8 @@ import ast
 import inspect
 import textwrap
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -152,12 +153,36 @@ def claim(
     return register
 
 
+#: What was judged in this process, while it is asked to judge each claim only `once`.
+_KNOWN: dict[Claim, Judgement] | None = None
+
+
+@contextmanager
+def once() -> Iterator[None]:
+    """Within this a claim is judged once, though others rest on it: its proof must not change meanwhile."""
+    global _KNOWN
+    _KNOWN, before = {}, _KNOWN
+    try:
+        yield
+    finally:
+        _KNOWN = before
+
+
+def judgement_of(claim: Claim) -> Judgement:
+    """A claim judged now, with what was decided as data that the checker accepted; or what it was, within `once`."""
+    if _KNOWN is None:
+        return claim.judge().certified()
+    if claim not in _KNOWN:
+        _KNOWN[claim] = claim.judge().certified()
+    return _KNOWN[claim]
+
+
 def judged(id: str) -> Rest:
     """That a claim is proved, by its own proof, run now; its script must have been imported, else LookupError."""
     if id not in _REGISTER:
         raise LookupError(f"no proof of {id!r} is loaded: import its script first")
     proved = (Verdict.HOLDS, Verdict.CORRECTED, Verdict.CONDITIONAL)
-    found = _REGISTER[id].judge().certified()
+    found = judgement_of(_REGISTER[id])
     seal = found.certificate["digest"] if found.certificate else ""
     return Rest(f"{id} is proved", f"{id} {seal}", found.verdict in proved, "its own proof, run now", found.grounds)
 

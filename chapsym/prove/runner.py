@@ -14,7 +14,7 @@ from typing import Any
 from chapsym import sources, workers
 
 from .certificates import write
-from .claims import Claim, Judgement
+from .claims import Claim, Judgement, judgement_of, once
 from .evidence import Proof, Verdict
 from .records import fingerprint
 from .registers import PROOFS, BrokenScript, NoRegister, Register, register_of
@@ -55,7 +55,7 @@ def judge(claim: Claim) -> Judgement:
     """Judges a claim; an exception leaves it open, with the place where it arose, in the proof's own file if it can."""
     try:
         with contextlib.redirect_stdout(sys.stderr):  # what a proof prints is no result
-            return claim.judge().certified()
+            return judgement_of(claim)
     except (Exception, SystemExit) as error:  # a proof that leaves is no proof
         frames = traceback.extract_tb(error.__traceback__)
         place = ([frame for frame in frames if frame.filename == sources.file(claim.prove.__module__)] or frames)[-1]
@@ -83,12 +83,13 @@ def prove_all(
     jobs = min(jobs or os.cpu_count() or 1, len(ids))
     records: dict[str, dict[str, Any]] = {}
     if jobs <= 1:
-        for id in ids:
-            records[id] = prove_one(id, folder, register)
-            on_result(records[id])
+        with once():
+            for id in ids:
+                records[id] = prove_one(id, folder, register)
+                on_result(records[id])
         return [records[id] for id in ids]
     # An interrupt is for this process; the workers end with the claim that they are at.
-    pool = ProcessPoolExecutor(jobs, multiprocessing.get_context("spawn"), initializer=workers.begin)
+    pool = ProcessPoolExecutor(jobs, multiprocessing.get_context("spawn"), initializer=_begin)
     try:
         for future in as_completed([pool.submit(prove_one, id, folder, register) for id in ids]):
             record = future.result()
@@ -104,6 +105,12 @@ def prove_all(
     finally:
         pool.shutdown(cancel_futures=True)
     return [records[id] for id in ids]
+
+
+def _begin() -> None:
+    """In a worker, which judges a claim once, whatever asks for it."""
+    workers.begin()
+    once().__enter__()
 
 
 def explain(record: dict[str, Any]) -> str:

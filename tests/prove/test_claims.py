@@ -21,6 +21,7 @@ from chapsym.prove import (
     load,
     no,
     rational_point,
+    runner,
 )
 from chapsym.prove.claims import Claim
 from chapsym.prove.runner import downstream, explain, judge, unproved
@@ -197,6 +198,32 @@ def test_what_a_proof_rests_on_is_proved_anew(monkeypatch):
     monkeypatch.setitem(claims._REGISTER, "2.1", Claim("2.1", "x", (), fails))
     assert judged("2.2").holds()
     assert not judged("2.1").holds()
+
+
+def test_all_that_is_proved_together_is_proved_once(monkeypatch):
+    """A lemma is not run again by the claims that rest on it, in one process, and only until that is over."""
+    ran = []
+
+    def lemma(p):
+        """Title."""
+        ran.append(1)
+        p.printed(TRUE)
+        p.control(FALSE)
+
+    def rests(p):
+        """Title."""
+        p.lemma(judged("lemma"))
+
+    claims_of = {id: Claim(id, "x", (), proof) for id, proof in (("lemma", lemma), ("a", rests), ("b", rests))}
+    for id, one in claims_of.items():
+        monkeypatch.setitem(claims._REGISTER, id, one)
+    monkeypatch.setattr(runner.Register, "load", lambda self, lemmas=False: claims_of)
+    monkeypatch.setattr(runner, "fingerprint", lambda claim: "")
+    runner.prove_all(["a", "lemma", "b"], jobs=1)
+    assert len(ran) == 1
+    runner.prove_all(["lemma"], jobs=1)
+    assert judged("lemma").holds()
+    assert len(ran) == 3
 
 
 def test_a_statement_needs_a_point_where_its_hypotheses_hold():
