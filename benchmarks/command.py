@@ -36,21 +36,26 @@ def measure(sections: Sequence[str], quick: bool, output: Path | None, as_json: 
         except benchmarks.NotComparable as error:
             quiet()
             fail(f"bench {name}: {error}", 1)
+        if output is not None and page:  # after each section: what is measured is kept, whatever comes then
+            _write(benchmarks.as_json(results, quick), output)
     if output is not None and not page:
         from chapsym.studies.figures import save_figure
 
         save_figure(figure.draw, results, output)
     quiet()
     found = benchmarks.as_json(results, quick)
-    if output is not None and page:
-        goals = [_goal(name, goal) for name, one in found["sections"].items() for goal in one["reach"]]
-        tables = [measured.Table("What was set out to be reached", goals)]
-        tables += [measured.Table(one["title"], one["rows"], _remarks(one)) for one in found["sections"].values()]
-        measured.write(output, "Speed beside other methods", ABOUT, tables, _shown)
     if as_json:
         print_json(found)
     else:
         _print_all(found)
+
+
+def _write(found: dict[str, Any], output: Path) -> None:
+    """The page of what was measured so far; the goals come first."""
+    goals = [_goal(name, goal) for name, one in found["sections"].items() for goal in one["reach"]]
+    tables = [measured.Table("What was set out to be reached", goals)]
+    tables += [measured.Table(one["title"], one["rows"], _remarks(one)) for one in found["sections"].values()]
+    measured.write(output, "Speed beside other methods", ABOUT, tables, _shown)
 
 
 def _floats(own: Any) -> dict[str, Any]:

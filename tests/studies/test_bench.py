@@ -297,6 +297,18 @@ def test_a_quick_look_runs_and_is_plain_data(section, monkeypatch, thorough):
     assert said
 
 
+def test_what_was_measured_before_a_section_fails_is_on_the_page(monkeypatch, tmp_path):
+    def run(name, quick, on_round):
+        if name == "batch":
+            raise benchmarks.NotComparable("they differ")
+        return result(name, reach=[benchmarks.Reached("x", 1.0, 2.0, False)])
+
+    monkeypatch.setattr(benchmarks, "run", run)
+    page = tmp_path / "bench.md"
+    assert chapsym("bench", "calls", "batch", "-o", str(page)).returncode == 1
+    assert "| calls | x | 1 | at most 2 | yes |" in page.read_text(encoding="utf-8")
+
+
 def test_what_is_reached():
     for value, at_least, met in ((2.0, True, True), (1.9, True, False), (1.9, False, True), (2.1, False, False)):
         assert benchmarks.Reached("x", value, 2.0, at_least).met == met
