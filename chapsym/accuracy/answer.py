@@ -37,7 +37,8 @@ class Accurate:
     trajectory: at the times asked for, with order 12 for `extrapolate` and 0 for `exact_top`.
     choice: precision, order and step.  estimate: of the error, at the worst of the times, in the norm of the request,
     by comparison with longer steps; in float64 the other run starts 8 roundings beside this one, so that what a start
-    that is sensitive makes of rounding is seen.
+    that is sensitive makes of rounding is seen.  Where rounding is all that is left, the estimate is one draw of it:
+    the error may be a few times that.
     attempts: all that was tried, the last of them the one that is delivered.
     seconds: of the processor, for everything: the pilot, all attempts, their verification.
     """
