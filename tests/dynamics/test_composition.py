@@ -1,5 +1,6 @@
 """Compositions: coefficients against the order conditions, orders against the continuous ball, exact integrals."""
 
+import math
 from fractions import Fraction
 
 import mpmath
@@ -8,11 +9,12 @@ import pytest
 
 import chapsym
 from chapsym import BadInput, Ball, Status, StepNotTaken
-from chapsym.derive.composition import defects, words
+from chapsym.derive.composition import defects, product, step_series, words
 from chapsym.dynamics import kernels
 from chapsym.dynamics.coefficients import COMPOSITIONS
 from chapsym.dynamics.levels import double
-from chapsym.dynamics.loops import composed_loop, gibbs, loop
+from chapsym.dynamics.loops import composed_loop, double_double_loop, gibbs, loop
+from chapsym.dynamics.loops.guess import stage_weights
 from chapsym.studies.trade.reference import continuous
 
 BALL = Ball((0.1, 0.5, 1.6), 0.7, radius=0.5)
@@ -218,8 +220,57 @@ def test_the_guess_continues_polynomials_of_degree_7():
     for degree, exact in ((7, True), (8, False)):
         past = np.zeros((8, 3))
         for n in range(-8, 0):
-            composed_loop.extrapolated(past, float(n**degree), float((n + 2) ** degree), 1.0)
+            double_double_loop.extrapolated(past, float(n**degree), float((n + 2) ** degree), 1.0)
         assert (past[0] == [0.0, 2.0**degree, 1.0]).all() == exact
+
+
+def rates(c, weight):
+    """The coefficients of words of up to a weight at the middle of each stage, times even powers of c, by series."""
+    series = {word: float(word == ()) for w in range(weight + 1) for word in words(w)}
+    found = []
+    for s in c:
+        half = {word: math.prod(s**letter / 2 for letter in word) / math.factorial(len(word)) for word in series}
+        middle = product(series, half)
+        powers = [(word, e) for word in series for e in range(0, weight + 1, 2) if sum(word) + e <= weight]
+        found.append([middle[word] * s**e for word, e in powers])
+        series = product(series, step_series(s, weight))
+    return np.array(found)
+
+
+@pytest.mark.parametrize(("order", "places"), [(4, 15), (6, 18), (8, 17)])
+def test_the_guess_of_a_stage_is_right_for_every_word_up_to_weight_4(order, places):
+    """In each place, from a whole round before; and not for those of weight 5."""
+    stages = chapsym.substeps(order)
+    first, later = stage_weights(tuple(map(float, stages)))
+    assert len(later) == places
+    c = np.tile(stages, 2 * places // len(stages))
+    four, five = rates(c, 4), rates(c, 5)
+    for i in range(places):
+        window = slice(i, i + places)
+        weights = np.roll(later[i, :places], -i)  # the oldest first
+        missed = [np.abs(weights @ (c[window, None] * r[window]) - c[i + places] * r[i + places]) for r in (four, five)]
+        assert missed[0].max() < 1e-7
+        assert missed[1].max() > 1e-4
+        assert (later[i, places:] == 0).all()
+        assert (first[i, i:] == 0).all()
+
+
+@pytest.mark.parametrize("order", [4, 6, 8])
+def test_a_stage_is_guessed_from_those_around_it(order, monkeypatch):
+    """From the second round on no stage is searched, and the guesses are near: they lack 1e-4 at most."""
+    monkeypatch.setattr(double, "has_numba", lambda: False)  # in plain Python
+    missed, honest = [], composed_loop.settle
+
+    def settle(*arguments):
+        found = honest(*arguments)
+        missed.append(math.dist(arguments[:3], found[-3:]) / math.hypot(*found[-3:]) if found[0] else math.inf)
+        return found
+
+    monkeypatch.setattr(composed_loop, "settle", settle)
+    chapsym.trajectory(BALL, 0.2 * K, GAMMA, 12, order=order)
+    later = missed[stage_weights(tuple(map(float, chapsym.substeps(order)))).shape[1] :]
+    assert len(later) > 30
+    assert max(later) < 1e-4
 
 
 def test_each_stage_has_the_certificate_of_its_own_momentum(monkeypatch):

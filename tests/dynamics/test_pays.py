@@ -8,7 +8,7 @@ import pytest
 import chapsym
 from chapsym import Ball, substeps
 from chapsym.dynamics.levels import compiled, double, single
-from chapsym.dynamics.loops import block, composed_loop, loop, single_step
+from chapsym.dynamics.loops import block, composed_block, loop, single_step
 
 BALL, K, GAMMA = Ball((1, 2, 4), 3, radius=0.5), np.array([0.2, -0.1, 0.15]), np.array([2, 3, 6]) / 7
 QUARTER = double.SHORT_RUN // 4
@@ -47,7 +47,7 @@ def test_the_steps_of_short_runs_are_summed(loaded):
     assert loaded == [loop.march]
 
 
-@pytest.mark.parametrize(("order", "taken_by"), [(2, block.march_block), (4, composed_loop.march_composed)])
+@pytest.mark.parametrize(("order", "taken_by"), [(2, block.march_block), (4, composed_block.march_composed_block)])
 def test_those_of_all_balls_and_stages_count_once(order, taken_by, loaded):
     """In a block or one by one."""
     assert after(lambda: run(QUARTER // 4 // len(substeps(order)), 4, order=order), loaded) == 3

@@ -22,6 +22,7 @@ from chapsym.numbers import fused, pairs
 from ..loops import (
     block,
     branch,
+    composed_block,
     composed_loop,
     double_double_block,
     double_double_loop,
@@ -55,6 +56,7 @@ SOURCES = (
         loop,
         block,
         composed_loop,
+        composed_block,
         vertical_loop,
         long_step,
         lanes,
@@ -68,14 +70,14 @@ INLINED: set[Callable[..., Any]] = {
     *(generated.gibbs_newton, generated.gibbs_second, generated.turn),
     *(path.small_between, path.lowest, path.joined, path.improved, path.proved, generated.gibbs_symmetric),
     *(gibbs.newton_round, gibbs.second_round, gibbs.settle, loop.three, loop.put),
-    *(sums.added, sums.turned, sums.filtered, composed_loop.extrapolated, composed_loop.turn_at),
+    *(sums.added, sums.turned, sums.filtered, composed_loop.guess, composed_loop.turn_at),
     *(block.rows, block.whole, block.predicted, block.corrected, block.unsettled),
     *(block.approached, block.nearer, block.on_path),
     *(block.moved, block.turn_at, block.extrapolated, block.rolled, loop.followed),
     *(generated.centre_step, generated.rotate),
     *(value for value in vars(pairs).values() if isinstance(value, FunctionType)),
     *(generated.gibbs_mixed, generated_double_double.gibbs_residual_pairs, generated_double_double.turn_pairs),
-    *(double_double_step.correction, double_double_step.small),
+    *(double_double_step.correction, double_double_step.small, double_double_loop.extrapolated),
     *(
         double_double_block.approached,
         double_double_block.residuals,
@@ -85,6 +87,12 @@ INLINED: set[Callable[..., Any]] = {
     *(generated.compose, generated.angular_velocity, long_step.moved_body, lanes.checked, lanes.moved),
     *(lanes.rates, lanes.start, lanes.begin, lanes.begin_second, lanes.finish, lanes.gather, lanes.side_by_side),
     *(lanes.lose, long_run.march_lanes),
+}
+
+#: The functions whose text is put in the place of a call: what the caller knows of its arrays, that no two overlap,
+#: holds for their loops, too.
+WRITTEN_IN: set[Callable[..., Any]] = {
+    *(block.solved, composed_block.guess_block, composed_block.begin_stage, composed_block.end_stage),
 }
 
 
@@ -106,9 +114,14 @@ def source_hash() -> str:
     return digest.hexdigest()[:16]
 
 
+def _is_one_of(function: FunctionType, some: set[Callable[..., Any]]) -> bool:
+    """Whether it is one of some functions, or the twin of one."""
+    return (function.__code__.co_filename, function.__name__) in _names(frozenset(some))
+
+
 @cache
-def _inlined() -> set[tuple[str, str]]:
-    return {(function.__code__.co_filename, function.__name__) for function in INLINED}
+def _names(some: frozenset[Callable[..., Any]]) -> set[tuple[str, str]]:
+    return {(function.__code__.co_filename, function.__name__) for function in some}
 
 
 @cache
@@ -119,9 +132,11 @@ def _registered(modules: tuple[ModuleType, ...]) -> None:
         for function in _functions(module):
             if function.__module__.startswith("chapsym.") and function not in seen:
                 seen.add(function)
-                inlined = (function.__code__.co_filename, function.__name__) in _inlined()
                 # Nobody calls it but compiled code: it needs no way in from C, which takes time to compile.
-                register_jitable(error_model="numpy", forceinline=inlined, no_cfunc_wrapper=True)(function)
+                register_jitable(
+                    error_model="numpy", no_cfunc_wrapper=True, forceinline=_is_one_of(function, INLINED),
+                    inline="always" if _is_one_of(function, WRITTEN_IN) else "never",
+                )(function)  # fmt: skip
 
 
 @cache

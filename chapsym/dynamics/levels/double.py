@@ -15,7 +15,8 @@ from ..ball import Floats
 from ..coefficients import substeps
 from ..errors import Status
 from ..failure import explain
-from ..loops import block, composed_loop, loop, single_step
+from ..loops import block, composed_block, composed_loop, loop, single_step
+from ..loops.guess import stage_weights
 from .frames import Balls, Count, Frames, cores, share
 
 #: A run of so many steps is worth its loop compiled, and so are shorter runs that have come to as many,
@@ -39,6 +40,7 @@ class Loops:
     loop: Any = loop
     composed_loop: Any = composed_loop
     block: Any = block
+    composed_block: Any = composed_block
     columns: Any = columns
     step: Any = single_step
     number: Callable[[Any], Any] = float
@@ -63,19 +65,24 @@ def run(
     if steps == 0 or n == 0:
         return
     work = steps * n * len(stages)
-    in_blocks = n > 1 and order == 2 and not (frames.with_body and loops.rests)
+    in_blocks = n > 1 and not (frames.with_body and loops.rests)
     if in_blocks and has_numba():
-        in_blocks = pays(loops.block.march_block, work)
+        in_blocks = pays(_of_blocks(loops, len(stages))[0], work)
     elif in_blocks:
-        in_blocks = n >= FEW and work >= SHORT_RUN and not frames.with_body
-    taken_by = _of_blocks(loops) if in_blocks else chosen(of_one(loops, len(stages)), work)
+        in_blocks = order == 2 and n >= FEW and work >= SHORT_RUN and not frames.with_body
+    if in_blocks:
+        blocks = _of_blocks(loops, len(stages))
+        taken_by = load(blocks) if has_numba() else list(blocks)
+    else:
+        taken_by = chosen(of_one(loops, len(stages)), work)
     width = (loops.block.LANES if has_numba() else loops.columns.LANES) if in_blocks else 1
     starts = range(0, n, width)
 
     def task(start: int) -> None:
         with np.errstate(over="ignore", invalid="ignore"):  # compiled loops do not warn either; `status` tells
             if in_blocks:
-                _run_block(taken_by, balls, slice(start, min(n, start + width)), steps, every, frames, loops, count)
+                which = slice(start, min(n, start + width))
+                _run_block(taken_by, balls, which, steps, every, frames, loops, stages, count)
             else:
                 _run_one(taken_by, balls, start, steps, every, frames, loops, stages, count)
 
@@ -147,11 +154,13 @@ def has_numba() -> bool:
     return find_spec("numba") is not None
 
 
-def _of_blocks(loops: Loops) -> list[Callable]:
+def _of_blocks(loops: Loops, stages: int) -> tuple[Callable, Callable]:
     """(march, prepare) of many balls at once."""
-    if has_numba():
-        return load((loops.block.march_block, loops.block.prepare_block))
-    return [loops.columns.march_columns, loops.columns.prepare_columns]
+    if not has_numba():
+        return loops.columns.march_columns, loops.columns.prepare_columns
+    if stages == 1:
+        return loops.block.march_block, loops.block.prepare_block
+    return loops.composed_block.march_composed_block, loops.composed_block.prepare_composed_block
 
 
 def of_one(loops: Loops, stages: int) -> tuple[Callable, Callable]:
@@ -194,9 +203,14 @@ def begun(
     state = np.zeros(loop.ROWS, loops.dtype)
     if len(stages) == 1:
         return [state], loops.number(prepare(K, g, J, D, state))
-    bounds, past = np.zeros((2, len(stages)), loops.dtype), np.zeros((len(stages), 8, 3), loops.dtype)
+    bounds, weights = np.zeros((2, len(stages)), loops.dtype), _weights(stages, loops)
     scale = prepare(K, g, J, D, stages, state, *bounds)
-    return [state, stages, *bounds, past], loops.number(scale)
+    return [state, stages, weights, *bounds, np.zeros((weights.shape[2], 3), loops.dtype)], loops.number(scale)
+
+
+def _weights(stages: Floats, loops: Loops) -> Floats:
+    """Those of the guesses of a composition, in the type of the loops."""
+    return stage_weights(tuple(map(float, stages))).astype(loops.dtype)
 
 
 def explained(status: int, K: Floats, g: Floats, J: Floats, D: float) -> Status:
@@ -206,21 +220,29 @@ def explained(status: int, K: Floats, g: Floats, J: Floats, D: float) -> Status:
 
 def _run_block(
     taken_by: list[Callable], balls: Balls, which: slice, steps: int, every: int, frames: Frames, loops: Loops,
-    count: Count,
+    stages: Floats, count: Count,
 ) -> None:  # fmt: skip
     march, prepare = taken_by
     n = which.stop - which.start
     lanes = -(-n // loops.block.REGISTER) * loops.block.REGISTER if has_numba() else n
     state, scale = np.zeros((loop.ROWS, lanes), loops.dtype), np.zeros(n, loops.dtype)
-    prepare(balls.momentum[which], balls.gamma[which], balls.mass_tensor[which], balls.D[which], state, scale)
+    begin = balls.momentum[which], balls.gamma[which], balls.mass_tensor[which], balls.D[which]
+    own: tuple[Floats, ...] = ()  # what only a composition has
+    if len(stages) == 1:
+        prepare(*begin, state, scale)
+    else:
+        bounds, weights = np.zeros((2, len(stages), lanes), loops.dtype), _weights(stages, loops)
+        prepare(*begin, stages, state, *bounds, scale)
+        own = stages, weights, *bounds, np.zeros((3 * weights.shape[2], lanes), loops.dtype)
     status, reach, taken = frames.status[which], frames.reach[which], frames.taken[which]
     bodies = _bodies(balls, which, frames, lanes, loops) if has_numba() else ()
-    chunk = max(1, CHUNK // lanes)
+    chunk = max(1, CHUNK // (lanes * len(stages)))
     for first in range(0, steps, chunk):
         now = min(chunk, steps - first)
         march(
-            state, first, now, every, scale, frames.momentum[which], frames.gamma[which], taken, status, reach, *bodies
-        )
+            state, *own, first, now, every, scale, frames.momentum[which], frames.gamma[which], taken, status, reach,
+            *bodies,
+        )  # fmt: skip
         count.add(now * n)
         if count.stopped:
             return

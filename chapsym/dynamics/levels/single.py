@@ -18,7 +18,7 @@ from chapsym.numbers import pairs
 from .. import columns
 from ..ball import Floats
 from ..errors import BadInput
-from ..loops import block, composed_loop, gibbs, integrals, loop, path, single_loop, single_step, sums
+from ..loops import block, composed_block, composed_loop, gibbs, integrals, loop, path, single_loop, single_step, sums
 from . import double
 from .double import Loops
 from .frames import Balls, Frames
@@ -44,10 +44,12 @@ def loops() -> Loops:
     rounds.bound = own.checkable
     family.loops(path)
     march = family.loops(loop, small_rotation=own.widened, follow_body=own.follow_body)
+    composed = family.loops(composed_loop)
     return Loops(
         march,
-        family.loops(composed_loop),
+        composed,
         family.loops(block, LANES=2 * block.LANES, REGISTER=2 * block.REGISTER),
+        family.loops(composed_block),
         family.loops(columns),
         family.loops(single_step),
         np.float32, np.float32, rests=True,

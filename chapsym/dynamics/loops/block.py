@@ -130,13 +130,35 @@ def unsettled(ok):
     return bad
 
 
-def uncertified(S, ok):
+def uncertified(radius, ok):
     """How many lanes no round by the lemma can settle, and how many of them are beyond its bound."""
     count, beyond = 0, 0
     for i in range(len(ok)):
-        count += 0 if S[RADIUS, i] >= 0.0 else 1
-        beyond += 1 if S[RADIUS, i] == BEYOND else 0
+        count += 0 if radius[i] >= 0.0 else 1
+        beyond += 1 if radius[i] == BEYOND else 0
     return count, beyond
+
+
+def solved(S, P, ok, hopeless, beyond, patience):
+    """Every lane's rotation; returns the patience that is left, and how many lanes are to be mended.
+
+    hopeless, beyond: of `uncertified`.
+    """
+    bad = hopeless + 1 if beyond < len(ok) else hopeless
+    if patience == 0 and beyond < len(ok):
+        bad = predicted(S, P, ok)
+    if bad > hopeless:
+        patience = PATIENCE if patience == 0 else patience - 1
+        bad, rounds = corrected(S, P, ok, False), 1
+        while bad > hopeless + FEW and rounds < ROUNDS:
+            bad, rounds = corrected(S, P, ok, True), rounds + 1
+    if beyond != 0:
+        approached(S, P, ok)
+        left, rounds = nearer(S, P, ok), 1
+        while left > 0 and rounds < PATH_ROUNDS:
+            left, rounds = nearer(S, P, ok), rounds + 1
+        bad = on_path(S, P, ok)
+    return patience, bad
 
 
 def mend(S, P, ok, step, taken, status, reach, balls):
@@ -221,6 +243,28 @@ def carry(numbers, to, width):
             to[row, i] = numbers[row, i]
 
 
+def restored(S, status):
+    """`integrals.restore` of each ball that has not stopped."""
+    for i in range(len(status)):
+        if status[i] == 0:
+            one = S[:, i].copy()
+            restore(one)
+            for row in range(X, X + 6):
+                S[row, i] = one[row]
+
+
+def keep(S, B, frame, scale, momenta, verticals, status, with_body, attitudes, traces):
+    """Writes a frame of each ball that has not stopped."""
+    for i in range(len(status)):
+        if status[i] == 0:
+            for c in range(3):
+                momenta[i, frame, c], verticals[i, frame, c] = scale[i] * S[K + c, i], S[G + c, i]
+            if with_body:
+                for c in range(4):
+                    attitudes[i, frame, c] = B[c, i]
+                traces[i, frame, 0], traces[i, frame, 1] = B[4, i], B[5, i]
+
+
 def march_block(
     state, first, count, every, scale, momenta, verticals, taken, status, reach, with_body, body, attitudes, traces
 ):
@@ -237,47 +281,22 @@ def march_block(
     carry(body, B, width)
     balls = len(status)
     step, last, patience = first, first + count, 0
-    hopeless, beyond = uncertified(S, ok)
+    hopeless, beyond = uncertified(S[RADIUS], ok)
     while step < last:
         stop = min(last, step + every - step % every, step + PERIOD - step % PERIOD)
         while step < stop:
-            bad = hopeless + 1 if beyond < width else hopeless
-            if patience == 0 and beyond < width:
-                bad = predicted(S, P, ok)
-            if bad > hopeless:
-                patience = PATIENCE if patience == 0 else patience - 1
-                bad, rounds = corrected(S, P, ok, False), 1
-                while bad > hopeless + FEW and rounds < ROUNDS:
-                    bad, rounds = corrected(S, P, ok, True), rounds + 1
-            if beyond != 0:
-                approached(S, P, ok)
-                left, rounds = nearer(S, P, ok), 1
-                while left > 0 and rounds < PATH_ROUNDS:
-                    left, rounds = nearer(S, P, ok), rounds + 1
-                bad = on_path(S, P, ok)
+            patience, bad = solved(S, P, ok, hopeless, beyond, patience)
             if bad != 0:
                 mend(S, P, ok, step, taken, status, reach, balls)
-                hopeless, beyond = uncertified(S, ok)
+                hopeless, beyond = uncertified(S[RADIUS], ok)
             if with_body:
                 rolled(S, P, B, ok)
             moved(S, P, ok)
             step += 1
         if step % PERIOD == 0:
-            for i in range(balls):
-                one = S[:, i].copy()
-                restore(one)
-                for row in range(X, X + 6):
-                    S[row, i] = one[row]
+            restored(S, status)
         if step % every == 0:
-            frame = step // every
-            for i in range(balls):
-                if status[i] == 0:
-                    for c in range(3):
-                        momenta[i, frame, c], verticals[i, frame, c] = scale[i] * S[K + c, i], S[G + c, i]
-                    if with_body:
-                        for c in range(4):
-                            attitudes[i, frame, c] = B[c, i]
-                        traces[i, frame, 0], traces[i, frame, 1] = B[4, i], B[5, i]
+            keep(S, B, step // every, scale, momenta, verticals, status, with_body, attitudes, traces)
     for i in range(balls):
         if status[i] == 0:
             taken[i] = last

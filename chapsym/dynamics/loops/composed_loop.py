@@ -1,22 +1,29 @@
 """The inner loop of compositions: plain scalar Python that numba compiles.
 
 A composition takes the stages Φ_{cᵢε} one after the other.  In the paper's variables 𝒦 = εK, so a stage finds its
-rotation from cᵢ𝒦 and then carries 𝒦 itself: 𝒦 and γ turn rigidly, whatever the coefficients are.  The Gibbs vector
-of the stage i is smooth from step to step, so each stage has an extrapolation of its own.
+rotation from cᵢ𝒦 and then carries 𝒦 itself: 𝒦 and γ turn rigidly, whatever the coefficients are.  The stages go back
+and forth, so those of the last step or two lie all around the next: its Gibbs vector is guessed from theirs.
 """
 
 from .gibbs import settle
 from .integrals import PERIOD, restore
 from .loop import ENOUGH, RADIUS, D, G, I, K, X, follow_body, prepare, put, safe_rotation, three
-from .sums import filtered, turned
+from .sums import turned
 
 
-def extrapolated(past, w1, w2, w3):
-    """Takes the newest Gibbs vector of a stage into its filter (8, 3), the first row of which is the next guess."""
-    for c, w in ((0, w1), (1, w2), (2, w3)):
-        (
-            past[0, c], past[1, c], past[2, c], past[3, c], past[4, c], past[5, c], past[6, c], past[7, c]
-        ) = filtered(past[1, c], past[2, c], past[3, c], past[4, c], past[5, c], past[6, c], past[7, c], w)  # fmt: skip
+def guess(past, weights):
+    """The next Gibbs vector from those of the last stages, (places, 3), by its weights (`guess.stage_weights`)."""
+    u1, u2, u3 = 0.0, 0.0, 0.0
+    for j in range(len(weights)):
+        u1 = u1 + weights[j] * past[j, 0]
+        u2 = u2 + weights[j] * past[j, 1]
+        u3 = u3 + weights[j] * past[j, 2]
+    return u1, u2, u3
+
+
+def place(step, stages, places):
+    """Of a step, counted from 0, the place of its first stage, and which weights it takes: 0 in the first round."""
+    return step * stages % places, 0 if step * stages < places else 1
 
 
 def turn_at(p0, p1, p2, p3, state, at, rest):
@@ -34,19 +41,21 @@ def prepare_composed(momentum, g, tensor, contact, c, state, radius, enough):
     return prepare(momentum, g, tensor, contact, state)
 
 
-def composed_step(state, c, radius, enough, past, with_body, attitude, contact, rho):
-    """All stages of one step of the ball in `state` (ROWS), in place.
+def composed_step(step, state, c, weights, radius, enough, past, with_body, attitude, contact, rho):
+    """All stages of one step, counted from 0, of the ball in `state` (ROWS), in place.
 
-    c, radius², enough: of the stages, (s,); past: their filters, (s, 8, 3).  Returns (status, reach).  Where a
-    stage is not taken, the state is left with its momentum and its vertical.
+    c, radius², enough: of the stages, (s,); weights: of the guesses (`guess.stage_weights`), and past, (vectors, 3),
+    what they are for.  Returns (status, reach).  Where a stage is not taken, the state is left with its momentum and
+    its vertical.
     """
+    at, later = place(step, c.shape[0], weights.shape[1])
     for i in range(c.shape[0]):
         k1, k2, k3 = three(state, K)
         g1, g2, g3 = three(state, G)
         I1, I2, I3 = three(state, I)
+        u1, u2, u3 = guess(past, weights[later, at + i])
         settled, p0, p1, p2, p3, w1, w2, w3 = settle(
-            past[i, 0, 0], past[i, 0, 1], past[i, 0, 2], c[i] * k1, c[i] * k2, c[i] * k3, g1, g2, g3,
-            I1, I2, I3, state[D], radius[i], enough[i],
+            u1, u2, u3, c[i] * k1, c[i] * k2, c[i] * k3, g1, g2, g3, I1, I2, I3, state[D], radius[i], enough[i]
         )  # fmt: skip
         if not settled:
             put(state, K, c[i] * k1, c[i] * k2, c[i] * k3)
@@ -55,7 +64,7 @@ def composed_step(state, c, radius, enough, past, with_body, attitude, contact, 
             if status != 0:
                 return status, reach
             put(state, K, k1, k2, k3)
-        extrapolated(past[i], w1, w2, w3)
+        put(past[at + i], 0, w1, w2, w3)
         if with_body:
             follow_body(p0, p1, p2, p3, g1, g2, g3, attitude, contact, rho)
         turn_at(p0, p1, p2, p3, state, K, X)
@@ -64,13 +73,15 @@ def composed_step(state, c, radius, enough, past, with_body, attitude, contact, 
 
 
 def march_composed(
-    state, c, radius, enough, past, begun, first, count, every, scale,
+    state, c, weights, radius, enough, past, begun, first, count, every, scale,
     momenta, verticals, with_body, attitude, contact, rho, attitudes, traces,
 ):  # fmt: skip
     """`march` of `loop`, each step a composition with the stage coefficients c.  Returns (taken, status, reach)."""
     period = max(1, PERIOD // c.shape[0])
     for step in range(first + 1, first + count + 1):
-        status, reach = composed_step(state, c, radius, enough, past, with_body, attitude, contact, rho)
+        status, reach = composed_step(
+            begun + step - 1, state, c, weights, radius, enough, past, with_body, attitude, contact, rho
+        )
         if status != 0:
             return step - 1 - first, status, reach
         if (begun + step) % period == 0:

@@ -19,9 +19,9 @@ from chapsym.numbers.pairs import (
 )
 
 from .branch import TAKEN
-from .composed_loop import extrapolated
 from .double_double_step import bounds, scales, solved, unit
 from .integrals import PERIOD, shares
+from .sums import filtered
 
 #: The rows of the numbers that describe a ball under way: k = 𝒦/2, γ and I as pairs (high, low, high, ...), J,
 #: D, and the three integrals as pairs.
@@ -78,6 +78,14 @@ def restore_pairs(state):
     for i in range(0, 6, 2):
         k[i], k[i + 1] = two_sum(k[i], k[i + 1] + (along_k * k[i] + along_gamma * g[i]))
         g[i], g[i + 1] = two_sum(g[i], g[i + 1] + stretch * g[i])
+
+
+def extrapolated(past, w1, w2, w3):
+    """Takes the newest Gibbs vector of a stage into its filter (8, 3), the first row of which is the next guess."""
+    for c, w in ((0, w1), (1, w2), (2, w3)):
+        (
+            past[0, c], past[1, c], past[2, c], past[3, c], past[4, c], past[5, c], past[6, c], past[7, c]
+        ) = filtered(past[1, c], past[2, c], past[3, c], past[4, c], past[5, c], past[6, c], past[7, c], w)  # fmt: skip
 
 
 def stage(state, c, c_, radius, enough, past):

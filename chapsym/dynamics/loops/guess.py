@@ -1,4 +1,4 @@
-"""Weights that put together the rates 2u/h of earlier steps of the map to guess the next one."""
+"""Weights that put together the rates 2u/h, or the Gibbs vectors u, of earlier steps of the map to guess the next."""
 
 from functools import cache
 from math import factorial
@@ -67,3 +67,55 @@ def guess_weights(columns: int) -> tuple[Floats, Floats]:
         known = firsts[:0] if n > second else firsts if n == second else np.vstack([firsts, [0.5 / second, 1 / second]])
         beginning[n, : DERIVATIVES + len(known)] = _weights(known, np.array([0.5 / n, 1 / n]))
     return following, beginning
+
+
+#: A block adds so many Gibbs vectors at once.
+GROUP = 4
+#: Of how many moments the weights up to 0, 1, 2, 3 and 4 are.
+COUNTS = (1, 2, 4, 7, 12)
+
+
+def _stage_moments(c: Floats) -> Floats:
+    """By what the rates of the stages c, one after the other, differ up to the fourth order, (stages, 12).
+
+    A stage is exp(cX₁ + c³X₃ + ...), and its rate an even series in c at its middle.  So they are the coefficients of
+    words in X₁ and X₃ up to the middle, times powers of c².  That of X₁ is t, that of X₃ is the sum of the c³, and
+    that of X₁X₃ has each c³ times the t of its middle; by shuffles the others are products of these.
+    """
+    start, cube = np.cumsum(c) - c, c**3
+    t = start + c / 2
+    sums = np.cumsum(cube) - cube / 2
+    ordered = np.cumsum(t * cube) - t * cube + (start + c / 4) * cube / 2
+    e = c * c
+    one = np.ones_like(c)
+    return np.stack([one, t, t**2, e, t**3, t * e, sums, t**4, t**2 * e, e * e, t * sums, ordered], axis=1)
+
+
+def _stage_guess(c: Floats) -> Floats:
+    """The weights of the Gibbs vectors of all stages but the last for that of the last, (stages - 1,)."""
+    known = len(c) - 1
+    moments = _stage_moments(c)[:, : max((n for n in COUNTS if n <= known), default=0)]
+    if not known:
+        return np.zeros(0)
+    short = np.concatenate([moments[-1], np.zeros(known)])
+    return np.linalg.lstsq(np.vstack([moments[:-1].T, SMALL * np.eye(known)]), short, rcond=None)[0] * c[-1] / c[:-1]
+
+
+@cache
+def stage_weights(stages: tuple[float, ...]) -> Floats:
+    """The weights of the last Gibbs vectors for that of each stage of a composition, (2, places, vectors).
+
+    The vectors lie in places that are used one after the other, and again: as many as whole steps need to fit the
+    twelve moments, filled up with zeros to whole groups.  The first weights are for the first round, in which
+    only the places before are filled, the others for all later ones.
+    """
+    s = len(stages)
+    places = s * -(-COUNTS[-1] // s)
+    round_ = np.array(stages * (places // s))
+    found = np.zeros((2, places, -(-places // GROUP) * GROUP))
+    for i in range(places):
+        found[0, i, :i] = _stage_guess(round_[: i + 1])
+        before = (i + np.arange(places)) % places  # the oldest is in the place that is filled next
+        found[1, i, before] = _stage_guess(round_[np.append(before, i)])
+    found.flags.writeable = False
+    return found
