@@ -1,4 +1,4 @@
-"""Small and odd batches, with the contact point and without: nanoseconds a ball and step on one core."""
+"""Small and odd batches and compositions, with the contact point and without: nanoseconds a step of the map."""
 
 from collections.abc import Callable
 from functools import partial
@@ -11,34 +11,36 @@ from .batch import State, states
 from .results import Reached, Result
 from .trajectory import EPSILONS
 
-#: Balls: less than a register, one, a little more, a block, a little more, and many blocks.
-BALLS = (2, 8, 9, 40, 41, 1000)
+#: (order, balls): less than a register, one, a little more, a block, a little more, and many blocks; compositions.
+CASES = [(2, balls) for balls in (2, 8, 9, 40, 41, 1000)] + [(order, 1000) for order in (4, 6, 8)]
 RADIUS = 0.1
 #: A state is kept every so many steps.
 EVERY = 50
-#: What the contact point may cost, to the same run without it, at the first of the EPSILONS and with many balls.
-MOST = 2.2
+#: What the contact point may cost, to the same run without it, at the first of the EPSILONS and with many balls; and
+#: a stage of order 8, to a step of the map.
+MOST, STAGE = 2.2, 2.0
 
 
-def rolled(state: State, steps: int, contact: bool) -> Any:
+def rolled(state: State, steps: int, order: int, contact: bool) -> Any:
     """The public trajectory of the batch."""
     K, g, J, D = state
-    return chapsym.trajectory(chapsym.Ball(J, D, RADIUS), K, g, steps, every=EVERY, threads=1, contact=contact)
+    ball = chapsym.Ball(J, D, RADIUS)
+    return chapsym.trajectory(ball, K, g, steps, order=order, every=EVERY, threads=1, contact=contact)
 
 
 def measure(quick: bool, on_round: Callable[[str], None] = lambda text: None) -> Result:
-    """Times batches of each size, with the contact point and without."""
+    """Times batches of each size and order, with the contact point and without."""
     work, rounds = (100_000, 3) if quick else (2_000_000, 21)
     rows: list[dict[str, Any]] = []
-    reach: list[Reached] = []
     for epsilon in EPSILONS:
-        for balls in BALLS:
-            on_round(f"{balls} balls, ε = {epsilon:g}")
-            state, steps = states(balls, epsilon), max(2000 // balls + EVERY, work // max(balls, 40))
+        for order, balls in CASES:
+            on_round(f"{balls} balls, order {order}, ε = {epsilon:g}")
+            stages = len(chapsym.substeps(order))
+            state, steps = states(balls, epsilon), max(2000 // balls + EVERY, work // max(balls, 40)) // stages
             with cores(1):
                 timings = interleaved(
                     [
-                        Contender(str(contact), partial(rolled, state, steps, contact), steps * balls)
+                        Contender(str(contact), partial(rolled, state, steps, order, contact), steps * stages * balls)
                         for contact in (False, True)
                     ],
                     rounds,
@@ -47,12 +49,18 @@ def measure(quick: bool, on_round: Callable[[str], None] = lambda text: None) ->
             ratio, lower, upper = followed.ratio_to(alone)
             rows.append(
                 {
-                    "ε": epsilon, "balls": balls, "ns a ball and step": alone.median * 1e9,
+                    "ε": epsilon, "order": order, "balls": balls, "ns a ball and step": alone.median * 1e9,
                     "with the contact point": followed.median * 1e9, "ratio": ratio, "quartiles": [lower, upper],
                 }
             )  # fmt: skip
-        if not reach:
-            reach.append(
-                Reached(f"{balls} balls, ε = {epsilon:g}: with the contact point / without", ratio, MOST, False)
-            )
-    return Result("small and odd batches, one core", rows, {}, reach)
+    of = {(row["ε"], row["order"], row["balls"]): row for row in rows}
+    first = EPSILONS[0]
+    reach = [
+        Reached(
+            f"1000 balls, ε = {first:g}: with the contact point / without", of[first, 2, 1000]["ratio"], MOST, False
+        )
+    ]
+    for epsilon in EPSILONS:
+        stage, step = (of[epsilon, order, 1000]["ns a ball and step"] for order in (8, 2))
+        reach.append(Reached(f"1000 balls, ε = {epsilon:g}: a stage of order 8 / a step", stage / step, STAGE, False))
+    return Result("small and odd batches and compositions, one core", rows, {}, reach)
