@@ -80,6 +80,7 @@ def test_a_batch_is_its_balls_to_the_bit(precision, made, n, numba, order, monke
     ball, K, g = made(n, 1e-12, 1e8) if precision == "single" and made is balls else made(n)
     options = {"every": 7, "precision": precision, "order": order}
     with monkeypatch.context() as patch:
+        patch.setattr(double, "BLOCKS", 0)
         if not numba:
             patch.setattr(double, "has_numba", lambda: False)
             patch.setattr(columns, "LANES", 15)  # and one to spare
@@ -113,8 +114,9 @@ def test_a_block_is_as_wide_as_its_balls_need(n, widths, monkeypatch):
 
 @pytest.mark.parametrize("precision", ["double", "single"])
 @pytest.mark.parametrize(("made", "order"), [(balls, 2), (long_steps, 2), (balls, 6), (long_steps, 8)])
-def test_bodies_roll_in_a_block_as_alone(made, order, precision):
+def test_bodies_roll_in_a_block_as_alone(made, order, precision, monkeypatch):
     """In double precision in a block, in single one by one; also those that stop, and from attitudes that are given."""
+    monkeypatch.setattr(double, "BLOCKS", 0)
     n = block.LANES + 5
     ball, K, g = made(n, 1e-12, 1e8) if precision == "single" and made is balls else made(n)
     J, D, radius = np.broadcast_to(ball.mass_tensor, (n, 3)), np.broadcast_to(ball.D, n), np.linspace(0.1, 2, n)

@@ -8,7 +8,7 @@ import pytest
 import chapsym
 from chapsym import Ball, substeps
 from chapsym.dynamics.levels import compiled, double, single
-from chapsym.dynamics.loops import block, composed_block, loop, single_step
+from chapsym.dynamics.loops import block, composed_block, composed_loop, loop, single_step
 
 BALL, K, GAMMA = Ball((1, 2, 4), 3, radius=0.5), np.array([0.2, -0.1, 0.15]), np.array([2, 3, 6]) / 7
 QUARTER = double.SHORT_RUN // 4
@@ -47,7 +47,7 @@ def test_the_steps_of_short_runs_are_summed(loaded):
     assert loaded == [loop.march]
 
 
-@pytest.mark.parametrize(("order", "taken_by"), [(2, block.march_block), (4, composed_block.march_composed_block)])
+@pytest.mark.parametrize(("order", "taken_by"), [(2, block.march_block), (4, composed_loop.march_composed)])
 def test_those_of_all_balls_and_stages_count_once(order, taken_by, loaded):
     """In a block or one by one."""
     assert after(lambda: run(QUARTER // 4 // len(substeps(order)), 4, order=order), loaded) == 3
@@ -69,6 +69,20 @@ def test_a_loop_that_is_not_on_disk_has_to_pay_for_being_compiled(loaded, monkey
     monkeypatch.setattr(compiled, "is_kept", lambda function: False)
     monkeypatch.setattr(double, "COMPILING", 6 * QUARTER)
     assert after(lambda: run(QUARTER), loaded) == 5
+
+
+@pytest.mark.parametrize("kept", [True, False])
+def test_a_block_of_compositions_is_compiled_for_much_work_alone(kept, loaded, monkeypatch):
+    """If it is on disk it serves from the first run that is long enough; the bits are the same."""
+    monkeypatch.setattr(compiled, "is_kept", lambda function: kept)
+    steps = double.SHORT_RUN // (2 * 17)
+    few = run(steps, 2, order=8)
+    assert composed_block.march_composed_block not in loaded
+    monkeypatch.setattr(double, "BLOCKS", 4 * 17 * steps)
+    assert all(np.array_equal(a[:2], b) for a, b in zip(run(steps, 3, order=8), few, strict=True))
+    assert (composed_block.march_composed_block in loaded) == kept
+    run(steps, 4, order=8)
+    assert composed_block.march_composed_block in loaded
 
 
 def test_a_long_run_is_compiled_at_once(loaded):

@@ -23,6 +23,9 @@ from .frames import Balls, Count, Frames, cores, share
 SHORT_RUN = 2000
 #: or to so many where it is not kept on disk: they take as long in plain Python as compiling it.
 COMPILING = 300_000
+#: Stages of compositions that are worth their block compiled, where it is not kept on disk: one by one these take
+#: about a second.
+BLOCKS = 10_000_000
 #: Fewer balls than this are slower by columns than one by one.
 FEW = 8
 #: Steps of a ball, or of all balls of a block together, between two calls of `progress`: about ten milliseconds.
@@ -67,12 +70,13 @@ def run(
     work = steps * n * len(stages)
     in_blocks = n > 1 and not (frames.with_body and loops.rests)
     if in_blocks and has_numba():
-        in_blocks = pays(_of_blocks(loops, len(stages))[0], work)
+        blocks = _of_blocks(loops, len(stages))[0]
+        in_blocks = pays(blocks, work) if order == 2 else _is_worth(blocks, work)
     elif in_blocks:
         in_blocks = order == 2 and n >= FEW and work >= SHORT_RUN and not frames.with_body
     if in_blocks:
-        blocks = _of_blocks(loops, len(stages))
-        taken_by = load(blocks) if has_numba() else list(blocks)
+        functions = _of_blocks(loops, len(stages))
+        taken_by = load(functions) if has_numba() else list(functions)
     else:
         taken_by = chosen(of_one(loops, len(stages)), work)
     width = (loops.block.LANES if has_numba() else loops.columns.LANES) if in_blocks else 1
@@ -146,6 +150,15 @@ def pays(function: Callable, work: int) -> bool:
 def compiles(function: Callable, work: int) -> bool:
     """Whether `work` steps alone are worth the compiled function: many are, and any once it is loaded."""
     return has_numba() and (work >= SHORT_RUN or function in _ready)
+
+
+def _is_worth(block: Callable, work: int) -> bool:
+    """Whether so many stages of compositions are to be taken by their block, rather than one by one."""
+    if block in _ready or work < SHORT_RUN or work >= BLOCKS:
+        return block in _ready or work >= BLOCKS
+    from .compiled import is_kept
+
+    return is_kept(block)
 
 
 @cache
