@@ -47,7 +47,8 @@ def stop(S, T, radius, status, ok):
     """Rests the lanes that `mend` left with no rotation; a ball that stops keeps the momentum of its stage."""
     for i in range(len(ok)):
         if (i >= len(status) or status[i] != 0) and ok[i] == 0 and radius[0, i] != STOPPED:
-            radius[:, i] = STOPPED
+            for stage in range(len(radius)):
+                radius[stage, i] = STOPPED
             for row in range(K, K + 3):
                 S[row, i] = T[row, i]
 
