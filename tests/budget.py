@@ -3,7 +3,7 @@
 from hypothesis import settings
 
 #: Of a property that says nothing else, and how many times that in a thorough run.
-EXAMPLES, THOROUGH = 60, 10
+EXAMPLES, THOROUGH = 40, 15
 
 
 def examples(count):

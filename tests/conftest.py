@@ -4,6 +4,7 @@ import fcntl
 import json
 import os
 import tempfile
+from dataclasses import asdict
 
 import chromium
 import pytest
@@ -28,6 +29,14 @@ def pytest_addoption(parser):
 
 def pytest_configure(config):
     settings.load_profile("thorough" if config.getoption("--thorough") else "same")
+    config.addinivalue_line("markers", "thorough: slow, and quicker ones see most of what it sees: with --thorough only")
+
+
+def pytest_collection_modifyitems(config, items):
+    if not config.getoption("--thorough"):
+        slow = [item for item in items if item.get_closest_marker("thorough")]
+        config.hook.pytest_deselected(items=slow)
+        items[:] = [item for item in items if item not in set(slow)]
 
 
 def pytest_terminal_summary(terminalreporter, config):
@@ -71,6 +80,26 @@ def judged(tmp_path_factory):
         return [[record, (folder / f"{record['id']}.json").read_text("utf-8")] for record in records]
 
     return {record["id"]: (record, text) for record, text in once("judged", made, tmp_path_factory)}
+
+
+@pytest.fixture
+def uncertified(monkeypatch):
+    """Claims are judged without the certificates, which take as long as the proofs."""
+    from chapsym.prove import Judgement
+
+    monkeypatch.setattr(Judgement, "certified", lambda self: self)
+
+
+@pytest.fixture(scope="session")
+def checked(tmp_path_factory):
+    """What the checker says of each certificate beside the register, by its digest; all are accepted."""
+    from chapsym import checker
+    from chapsym.proofs.open import certified
+
+    def made():
+        return [asdict(checker.check(checker.read(file))) for file in sorted(certified.FOLDER.glob("*.json"))]
+
+    return {one["name"]: checker.Verdict(**one) for one in once("checked", made, tmp_path_factory)}
 
 
 @pytest.fixture(scope="session")

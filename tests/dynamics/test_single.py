@@ -85,6 +85,7 @@ def arithmetic(march, *arguments):
     return kinds, {re.match(loops, x)[1] for x in bodies}
 
 
+@pytest.mark.thorough
 def test_the_compiled_block_computes_in_float32_only():
     block, n = single.loops().block, 3
     arguments = [np.zeros(s, np.float32) for s in ((n,), (n, 2, 3), (n, 2, 3))]

@@ -52,6 +52,7 @@ FIRST_ROUTE = {
 }
 
 
+@pytest.mark.usefixtures("uncertified")
 @pytest.mark.parametrize("id", CLAIMS)
 def test_a_slip_in_the_first_route_does_not_reach_the_second(monkeypatch, id):
     claims = load()
@@ -106,6 +107,7 @@ SECOND_ROUTE = {
 }
 
 
+@pytest.mark.usefixtures("uncertified")
 @pytest.mark.parametrize("slip", SECOND_ROUTE)
 def test_a_slip_in_the_second_route_leaves_the_claim_open(monkeypatch, slip, thorough):
     place, name, mutate, ids = SECOND_ROUTE[slip]

@@ -85,17 +85,18 @@ def _spin():
     steady.spin.cache_clear()
 
 
-@pytest.mark.usefixtures("_spin")
+@pytest.mark.usefixtures("_spin", "uncertified")
 @pytest.mark.parametrize("slip", SLIPS)
-def test_a_slip_in_a_derivation_is_seen(monkeypatch, slip):
+def test_a_slip_in_a_derivation_is_seen(monkeypatch, slip, thorough):
     place, names, wrong, ids = SLIPS[slip]
     for name in names:
         honest = getattr(place, name)
         monkeypatch.setattr(place, name, lambda *given, honest=honest: wrong(honest(*given)))
-    for id in ids:
+    for id in ids if thorough else ids[:2]:
         assert verdict(id) != "holds", id
 
 
+@pytest.mark.usefixtures("uncertified")
 @pytest.mark.parametrize(("wanted", "place", "digit"), [(4, 0, 39), (4, 2, 38), (6, 1, 38), (8, 0, 30), (8, 8, 38)])
 def test_a_wrong_digit_is_seen(wanted, place, digit, monkeypatch):
     one = order.COMPOSITIONS[wanted]

@@ -9,7 +9,7 @@ import sympy as sp
 
 from chapsym import checker
 from chapsym.proofs.open import certified, energy, locking, measure, readings
-from chapsym.prove import Proof, Verdict, judged, load, no, there_is
+from chapsym.prove import Judgement, Proof, Verdict, judged, load, no, there_is
 from chapsym.prove.argument import gaps
 from chapsym.prove.runner import judge
 
@@ -24,30 +24,19 @@ QUESTIONS = {"5.9-open": measure, "6-open": energy}
 
 @pytest.fixture(scope="module")
 def rests():
-    """The lemmas of the questions, judged once."""
+    """The lemmas of the questions, judged once, without their certificates."""
     load(lemmas=True)
-    return {id: judged(id) for id in {**measure.LEMMAS, **energy.LEMMAS}}
-
-
-@pytest.fixture(scope="module")
-def shown():
-    """What the checker says of each certificate, once."""
-    return {}
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(Judgement, "certified", lambda self: self)
+        return {id: judged(id) for id in {**measure.LEMMAS, **energy.LEMMAS}}
 
 
 @pytest.fixture
-def once(rests, shown, monkeypatch):
+def once(rests, checked, uncertified, monkeypatch):
     """The questions rest on these lemmas and certificates, without judging them again."""
-    check = checker.check
-
-    def checked(data):
-        if data["digest"] not in shown:
-            shown[data["digest"]] = check(data)
-        return shown[data["digest"]]
-
     for module in QUESTIONS.values():
         monkeypatch.setattr(module, "judged", rests.__getitem__)
-    monkeypatch.setattr(checker, "check", checked)
+    monkeypatch.setattr(checker, "check", lambda data: checked[data["digest"]])
     monkeypatch.setattr(certified, "changed", lambda *_: measure.renamed(axial=-1)[0])
 
 
@@ -58,16 +47,14 @@ def proof_of(id):
     return proof
 
 
-@pytest.mark.usefixtures("once")
 @pytest.mark.parametrize("id", QUESTIONS)
-def test_every_reading_that_is_not_open_is_proved(id):
-    judgement = judge(load()[id])
-    assert judgement.verdict is Verdict.SETTLED, judgement.proof.problems
-    assert [row["asked"] for row in judgement.proof.readings] == [one.asked for one in readings.READINGS[id]]
-    for row, one in zip(judgement.proof.readings, readings.READINGS[id], strict=True):
+def test_every_reading_that_is_not_open_is_proved(id, records):
+    evidence = records[id]["evidence"]
+    assert records[id]["verdict"] == Verdict.SETTLED, evidence["problems"]
+    assert [row["asked"] for row in evidence["readings"]] == [one.asked for one in readings.READINGS[id]]
+    for row, one in zip(evidence["readings"], readings.READINGS[id], strict=True):
         assert (row["theorem"] is None) == (one.answer == "open")
         assert all(name in load(lemmas=True) or name.startswith(f"{id}: ") for name in one.by)
-    evidence = judgement.record()["evidence"]
     assert evidence["settled"]["word"] == "by hand"
     assert set(evidence["settled"]["proofs"]) == {id, *QUESTIONS[id].LEMMAS}
     assert min(evidence["settled"][name] for name in ("statements", "certificates", "sentences")) > 0

@@ -21,7 +21,7 @@ def written(register, tmp_path_factory):
     return path
 
 
-@pytest.fixture(params=SIZES)
+@pytest.fixture(params=["desk", pytest.param("phone", marks=pytest.mark.thorough)])
 def tab(request, written, opened):
     """The page, loaded afresh."""
     return opened(written, SIZES[request.param], has_touch=request.param == "phone").tab
@@ -49,6 +49,7 @@ def test_formulas_are_drawn(tab):
     assert [size for size in sizes if min(size) < 2] == []
 
 
+@pytest.mark.parametrize("tab", SIZES, indirect=True)
 def test_the_page_is_not_wider_than_the_window_even_unfolded(tab):
     tab.evaluate("document.querySelectorAll('details').forEach(x => { x.open = true; })")
     assert tab.evaluate("document.documentElement.scrollWidth <= innerWidth")
@@ -61,7 +62,7 @@ def test_the_page_is_not_wider_than_the_window_even_unfolded(tab):
     assert outside == []
 
 
-@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("scheme", ["light", pytest.param("dark", marks=pytest.mark.thorough)])
 def test_a_wide_formula_on_a_phone_shows_at_which_end_there_is_more(written, opened, scheme):
     tab = opened(written, shown.PHONE, has_touch=True, color_scheme=scheme).tab
     wide = tab.locator(".errata .scroll, .claim .scroll").filter(visible=True)

@@ -349,7 +349,7 @@ def boxes_apart(page):
     return buttons
 
 
-@pytest.mark.parametrize("name", ["one", "three"])
+@pytest.mark.parametrize("name", [pytest.param("one", marks=pytest.mark.thorough), "three"])
 def test_a_phone(rolling, name):
     """At 390 px nothing overlaps; a finger presses play, and one that drags turns the view."""
     page = rolling(name, PHONE, has_touch=True, is_mobile=True)
@@ -380,7 +380,7 @@ def test_a_phone(rolling, name):
     assert page.ask(distance) < 0.7 * near
 
 
-@pytest.mark.parametrize("size", [DESK, {"width": 900, "height": 700}])
+@pytest.mark.parametrize("size", [pytest.param(DESK, marks=pytest.mark.thorough), {"width": 900, "height": 700}])
 def test_nothing_overlaps_on_a_desk(rolling, size):
     boxes_apart(rolling("three", size))
 

@@ -276,10 +276,14 @@ def test_a_command_that_fails_is_not_timed(tmp_path):
         first_call.timed(("run", "absent.toml", "-o", "x.npz"), tmp_path)
 
 
-@pytest.mark.parametrize("section", benchmarks.SECTIONS)
-def test_a_quick_look_runs_and_is_plain_data(section, monkeypatch, thorough):
-    if section in ("first-call", "commands") and not thorough:
-        pytest.skip("it starts five processes or more; make thorough does")
+#: Five processes or more, or half a minute of references.
+SLOW = {"first-call", "commands", "extrapolation", "work-precision"}
+
+
+@pytest.mark.parametrize(
+    "section", [pytest.param(one, marks=[pytest.mark.thorough] * (one in SLOW)) for one in benchmarks.SECTIONS]
+)
+def test_a_quick_look_runs_and_is_plain_data(section, monkeypatch):
     if section == "long":  # the rest is quick as it is
         monkeypatch.setattr(long_runs, "QUICK", (2000, 2))
     said = []

@@ -23,6 +23,9 @@ from chapsym.studies.extremes.truth import State, truth
 PINS = json.loads((Path(__file__).parent / "extremes.json").read_text(encoding="utf-8"))
 #: How verdicts are pinned, a letter for each precision.
 LETTERS = {"within": "w", "refused": "r", "failed": "f"}
+#: Of these one row in three, but for thorough runs; the rows of each group, by their numbers.
+SLOW = {"runs", "fold search", "elliptic", "inertia", "fold"}
+NUMBERS = {group: [i for i, c in enumerate(matrix.CONDITIONS) if c.group == group] for group in matrix.GROUPS}
 TOGETHER = [group for group in matrix.GROUPS if group not in matrix.SHARED]
 GENERIC = State(states.J, states.D, states.K, states.G)
 DOUBLE, HEAVIEST = level("double"), "D = 1e15, momentum horizontal"
@@ -42,9 +45,9 @@ def test_every_row_is_pinned():
 
 @pytest.mark.parametrize("groups", [*([group] for group in TOGETHER), [*matrix.SHARED]], ids="+".join)
 def test_the_verdicts_are_those_that_are_pinned(groups, thorough):
-    wrong = []
+    wrong, slow = [], not SLOW.isdisjoint(groups)
     for index, condition in enumerate(matrix.CONDITIONS):
-        if condition.group in groups:
+        if condition.group in groups and (thorough or not slow or NUMBERS[condition.group].index(index) % 3 == 0):
             found = matrix.row(index, NAMES, quick=not thorough)
             if verdicts(found) != PINS[condition.group][condition.name]:
                 wrong += [(condition.group, condition.name, verdicts(found), [c.reason for c in found])]
