@@ -29,7 +29,7 @@ def pytest_addoption(parser):
 
 def pytest_configure(config):
     settings.load_profile("thorough" if config.getoption("--thorough") else "same")
-    config.addinivalue_line("markers", "thorough: slow, and quicker ones see most of what it sees: with --thorough only")
+    config.addinivalue_line("markers", "thorough: slow, and quicker ones see most of it: with --thorough only")
 
 
 def pytest_collection_modifyitems(config, items):

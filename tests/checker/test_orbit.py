@@ -29,7 +29,7 @@ def test_an_orbit_that_no_symmetry_maps_to_itself_is_accepted(right):
 
 
 def test_numbers_that_are_changed_are_refused_by_mathematics_alone(right, thorough):
-    """Half a second each: some of the Gibbs vectors and of what stands once; `make thorough` takes all that stands once."""
+    """Half a second each: some of the Gibbs vectors and, but for `make thorough`, of what stands once."""
     rng = random.Random(23)
     paths = [path for path in leaves(right) if path[0] != "orbit"]
     some = paths if thorough else rng.sample(paths, 6)
