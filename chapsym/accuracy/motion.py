@@ -16,20 +16,26 @@ from typing import Any
 
 import numpy as np
 
-from chapsym.dynamics import BadInput, Status, Trajectory, is_steady, kernels
+from chapsym.dynamics import BadInput, Status, is_steady, kernels
 from chapsym.dynamics.ball import Floats
-from chapsym.dynamics.results import FRAMES
+from chapsym.dynamics.extrapolation import weights
+from chapsym.dynamics.levels.double import has_numba
+from chapsym.dynamics.loops.lanes import MOST_COLUMNS
 
-from .problem import Motion, Problem, Stepping, apart, omega_of
+from .problem import EXTRAPOLATED, Motion, Problem, Run, Stepping, apart, omega_of
 
 #: The accuracy where none is asked for: nobody sees or measures an error of that size.
 DEFAULT = 1e-6
 #: What double precision can be asked for; rounding may take this part of an accuracy.
 FINEST, ROUNDING = 1e-12, 0.5
 #: c of each order, measured on balls of all shapes; and the part of the accuracy that the law is to give.
-LAW, MARGIN = {2: 0.16, 4: 4.8e-3, 6: 1.9e-3, 8: 1.5e-5}, 0.1
+LAW, MARGIN = {2: 0.16, 4: 4.8e-3, 6: 1.9e-3, 8: 1.5e-5, EXTRAPOLATED: 3e-11}, 0.1
+#: The largest |ω|h of a step of `extrapolate`, that of the comparison too: at 1.57 its steps of the map fold.
+FARTHEST = 1.3
 #: How many times as large as Richardson's rule says an error is taken to be, and by which ratio steps are compared.
 SAFETY, RATIO = 4.0, 1.5
+#: The steps of `extrapolate` are so long that their errors do not yet fall with its order; they are told by this one.
+TOLD = 8
 #: How many roundings beside the start a run begins that verifies another, and how far the crude one of a sweep does.
 ROUNDED, BESIDE = 8, 1e-6
 #: Runs that are tried, and how many times the steps of one, at least and at most, the next of the same order has.
@@ -42,6 +48,8 @@ ALL, SAMPLE = 48, 16
 CRUDE, CHECKS = 0.05, 64
 #: The part of the work that is the run itself, and not its verification.
 OWN = 0.6
+#: Roundings of the columns in a step of `extrapolate`: the sum of its |weights|.
+WEIGHTS = float(sum(map(abs, weights(MOST_COLUMNS))))
 #: Seconds of a stage, with the attitude and the contact point.
 STAGE = 4e-8
 
@@ -117,14 +125,16 @@ def _check(problem: Problem) -> np.ndarray:
 
 
 @np.errstate(all="ignore")
-def _rounding(problem: Problem, walks: bool = True) -> Floats:
-    """What rounding may leave of each ball that is not sensitive: of its parameters, and of the stages.
+def _rounding(problem: Problem, walks: bool = True, long_steps: int = 0) -> Floats:
+    """What rounding may leave of each ball that is not sensitive: of its parameters, of the stages, and of long steps.
 
     That of J, D and K turns with the ball; ω along γ loses the digits of the condition of Λ - Dγγᵀ.
     """
     turned = problem.rate * problem.end
     condition = (problem.ball.inertia.max(axis=-1) + problem.ball.D) / problem.ball.inertia.min(axis=-1)
     walked = np.sqrt(1.0 + 40 * turned) if walks else 1.0  # the roundings of some forty stages a radian
+    # Each long step has them, and from there on the ball turns otherwise.
+    walked = walked + WEIGHTS * np.sqrt(long_steps * condition)
     turning = (1 + turned) * (2 * np.sqrt(condition) + walked)
     return np.asarray(2.0**-53 * (turning + 8 * condition) * problem.unit)
 
@@ -141,10 +151,31 @@ def _first(problem: Problem, order: int, factor: float = 1.0) -> Floats:
     return np.asarray((expected / (MARGIN * problem.accuracy)) ** (1 / order))
 
 
-def _cheapest(problem: Problem, factor: float = 1.0) -> Stepping:
-    """The order of the fewest stages that is expected to do for all balls."""
-    found = [Stepping(p, _whole(problem, float(_first(problem, p, factor).max()))) for p in LAW]
+def _cheapest(problem: Problem, factor: float = 1.0, far: bool = True) -> Stepping:
+    """The order of the fewest stages that is expected to do for all balls; far: `EXTRAPOLATED` may be it."""
+    found = [Stepping(p, _whole(problem, float(_first(problem, p, factor).max()))) for p in LAW if p != EXTRAPOLATED]
+    if far and EXTRAPOLATED in LAW and has_numba():  # in plain Python it takes a batch ball by ball
+        angle = float(problem.rate.max(initial=0.0)) * problem.interval
+        steps = max(float(_first(problem, EXTRAPOLATED, factor).max()), angle / FARTHEST)
+        # Its error may grow a thousandfold within one frame: the last one must be compared.
+        steps = steps if problem.frames % 2 == 0 else max(steps, 2.0)
+        method = _compared(Stepping(EXTRAPOLATED, _whole(problem, steps)), angle)
+        if _rounding(problem, long_steps=method.steps * problem.frames).max() <= ROUNDING * problem.accuracy:
+            found.append(method)
     return min(found, key=lambda method: method.stages)
+
+
+def _compared(method: Stepping, angle: float) -> Stepping:
+    """With so many steps that those of the run that it is compared with are none too long, either."""
+    stride, fewer = _fewer_steps(method.steps)
+    return method if stride * angle <= fewer * FARTHEST else _compared(Stepping(method.order, method.steps + 1), angle)
+
+
+def _fewer_steps(steps: int) -> tuple[int, int]:
+    """What a run is compared with: every so many frames, in so many steps from one to the next of these."""
+    if steps == 1:
+        return 2, 1
+    return 1, 1 if steps == 2 else round(steps / RATIO)
 
 
 def _whole(problem: Problem, steps: float) -> int:
@@ -190,13 +221,15 @@ def _worst(sample: np.ndarray, found: Motion) -> Stepping:
 def _fewer(problem: Problem, sample: np.ndarray, found: Motion) -> Stepping | None:
     """Fewer steps of the same order that will do by what the sample showed; None if there are none."""
     method, error = _worst(sample, found), float(np.nanmax(found.error[sample], initial=0.0))
+    if method.order == EXTRAPOLATED:  # whose steps are as long as they can be
+        return None
     allowed = SAFETY * MARGIN * problem.accuracy
     steps = _whole(problem, method.steps * (error / allowed) ** (1 / method.order))
     return Stepping(method.order, steps) if steps < method.steps else None
 
 
 def _by_sample(
-    problem: Problem, sample: np.ndarray, others: np.ndarray, found: Motion, rest: Problem, run: Trajectory
+    problem: Problem, sample: np.ndarray, others: np.ndarray, found: Motion, rest: Problem, run: Run
 ) -> Floats:
     """The errors of the others, from the differences of all from a crude run and the errors of the sample.
 
@@ -224,22 +257,27 @@ def _settle(
 
     A ball that more steps do not help keeps the error that it has: rounding alone is larger than the accuracy.
     """
-    method, left, factor = first or _cheapest(problem.of(some)), some, 1.0
+    method, left, factor, far = first or _cheapest(problem.of(some)), some, 1.0, True
     before, gain = np.full(len(some), np.inf), 1.0
     for attempt in range(ATTEMPTS):
         part = problem.of(left)
         run = part.take(method, progress=lambda steps, one=method: progress(OWN * steps / (one.steps * problem.frames)))  # type: ignore[misc]
         error = _verified(part, method, run)
-        there = (error <= problem.accuracy) | (np.isfinite(before) & np.isfinite(error) & (error > before / gain))
+        there = error <= problem.accuracy
+        if method.order != EXTRAPOLATED:  # for which there are compositions left
+            there |= np.isfinite(before) & np.isfinite(error) & (error > before / gain)
         there |= attempt + 1 == ATTEMPTS
         told = np.where(run.status == Status.TAKEN, error, np.nan)
-        _put(found, left[there], _some(run, there), method, told[there])
+        _put(found, left[there], run.of(there), method, told[there])
         if there.all():
             return
         left, before, last = left[~there], error[~there], method
-        if np.isfinite(before).all():
+        if method.order == EXTRAPOLATED and attempt:  # its roundings are many, and its law is the least certain
+            far, factor, before = False, 1.0, np.full(len(left), np.inf)
+            method = _cheapest(problem.of(left), factor, far)
+        elif np.isfinite(before).all():
             factor = max(factor, _learnt(problem.of(left), method, before))
-            method = _more(method, _cheapest(problem.of(left), factor))
+            method = _more(method, _cheapest(problem.of(left), factor, far))
         else:  # a ball that stopped tells nothing
             method = Stepping(method.order, 2 * method.steps)
         # Of what more steps should gain half, in decades, shows that they help.
@@ -260,27 +298,27 @@ def _more(method: Stepping, wanted: Stepping) -> Stepping:
     return Stepping(method.order, min(max(wanted.steps, least), most))
 
 
-def _verified(problem: Problem, method: Stepping, run: Trajectory) -> Floats:
+def _share(ratio: float, order: int) -> float:
+    """What part of the difference from a run whose steps are so many times as long the error is taken to be."""
+    left = ratio ** min(order, TOLD) - 1
+    return min(SAFETY / left, max(1.0, 2 / left))
+
+
+def _verified(problem: Problem, method: Stepping, run: Run) -> Floats:
     """The error of each ball by a run of fewer steps, infinite if one has stopped; and what rounding may leave.
 
     That run starts a few roundings beside the other, so that a ball that is sensitive to its start shows it.
     """
     if not problem.frames:
         return _rounding(problem)
-    stride = 2 if method.steps == 1 else 1
-    fewer = 1 if method.steps <= 2 else round(method.steps / RATIO)
-    share = min(SAFETY / ((stride * method.steps / fewer) ** method.order - 1), 1.0)
-    beside = problem.beside(ROUNDED * 2.0**-53 / share)
+    stride, fewer = _fewer_steps(method.steps)
+    share = _share(stride * method.steps / fewer, method.order)
+    rounded = WEIGHTS if method.order == EXTRAPOLATED else ROUNDED
+    beside = problem.beside(rounded * 2.0**-53 / share)
     off = apart(problem, run, beside.take(Stepping(method.order, fewer), stride), stride).max(axis=-1)
     off = np.where(np.isnan(off), np.inf, off) * problem.frames / (problem.frames // stride * stride)
-    return np.asarray(off * share + _rounding(problem))
-
-
-def _some(run: Trajectory, which: np.ndarray) -> Trajectory:
-    """Some balls of a run, for `_put`."""
-    arrays: dict[str, Any] = {name: getattr(run, name) for name in (*FRAMES, "taken", "status") if name != "index"}
-    arrays = {name: None if array is None else array[which] for name, array in arrays.items()}
-    return replace(run, **arrays)
+    long_steps = method.steps * problem.frames if method.order == EXTRAPOLATED else 0
+    return np.asarray(off * share + _rounding(problem, long_steps=long_steps))
 
 
 def _states(found: Motion, some: np.ndarray) -> Motion:
@@ -289,9 +327,9 @@ def _states(found: Motion, some: np.ndarray) -> Motion:
     return Motion(**arrays)
 
 
-def _put(found: Motion, where: np.ndarray, run: Trajectory, method: Stepping, error: Floats) -> None:
+def _put(found: Motion, where: np.ndarray, run: Run, method: Stepping, error: Floats) -> None:
     """Copies a run to its place."""
-    found.angular_momentum[where], found.gamma[where] = run.angular_momentum(), run.gamma
+    found.angular_momentum[where], found.gamma[where] = run.angular_momentum, run.gamma
     if found.attitude is not None:
         found.attitude[where] = run.attitude
     if found.contact is not None:

@@ -7,19 +7,23 @@ from typing import Any
 
 import numpy as np
 
-from chapsym.dynamics import Ball, Trajectory, kernels, substeps, trajectory
+from chapsym.dynamics import Ball, extrapolate, kernels, substeps, trajectory
 from chapsym.dynamics.ball import Asked, Floats
+from chapsym.dynamics.extrapolation import stages_of
+from chapsym.dynamics.loops.lanes import MOST_COLUMNS
 
 from .request import lengths
 
 #: What an accuracy may be of.
 PARTS = frozenset({"momentum", "gamma", "omega", "attitude", "contact"})
+#: The order of `extrapolate` with all columns; lower ones are of the map and its compositions.
+EXTRAPOLATED = 2 * MOST_COLUMNS
 _UP = np.array([0.0, 0.0, 1.0])
 
 
 @dataclass(frozen=True)
 class Stepping:
-    """An order, and its steps between two frames."""
+    """An order, of a composition or `EXTRAPOLATED`, and its steps between two frames."""
 
     order: int
     steps: int
@@ -27,7 +31,27 @@ class Stepping:
     @property
     def stages(self) -> int:
         """Steps of the map between two frames."""
-        return len(substeps(self.order)) * self.steps
+        return (stages_of(MOST_COLUMNS) if self.order == EXTRAPOLATED else len(substeps(self.order))) * self.steps
+
+
+@dataclass(frozen=True, eq=False)
+class Run:
+    """Balls at the frames of a run: angular_momentum, gamma, attitude and contact as in `Motion`.
+
+    taken: the steps of each ball, (n,).  status: why it stopped, a `Status`, (n,).
+    """
+
+    angular_momentum: Floats
+    gamma: Floats
+    attitude: Asked
+    contact: Asked
+    taken: np.ndarray
+    status: np.ndarray
+
+    def of(self, which: np.ndarray) -> "Run":
+        """Some of the balls."""
+        arrays: dict[str, Any] = {name: None if x is None else x[which] for name, x in vars(self).items()}
+        return Run(**arrays)
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,17 +125,18 @@ class Problem:
         """|ω| at the start in rad/s, (n,)."""
         return lengths(omega_of(self, self.K, self.gamma))
 
-    def take(
-        self, method: Stepping, stride: int = 1, progress: Callable[[int], None] = lambda done: None
-    ) -> Trajectory:
+    def take(self, method: Stepping, stride: int = 1, progress: Callable[[int], None] = lambda done: None) -> Run:
         """The balls at every `stride`-th frame, in `method.steps` steps from one to the next."""
-        frames = self.frames // stride
-        step = stride * self.interval / method.steps
-        return trajectory(
-            self.ball, step * self.K, self.gamma, method.steps * frames, order=method.order, every=method.steps,
-            attitude=False if self.attitude is None else self.attitude, contact=self.contact, time_step=step,
-            threads=self.threads, progress=progress,
-        )  # fmt: skip
+        steps, step = method.steps * (self.frames // stride), stride * self.interval / method.steps
+        common: dict[str, Any] = {
+            "every": method.steps, "attitude": False if self.attitude is None else self.attitude,
+            "contact": self.contact, "threads": self.threads, "progress": progress,
+        }  # fmt: skip
+        if method.order == EXTRAPOLATED:
+            far = extrapolate(self.ball, self.K, self.gamma, step, steps, **common)
+            return Run(far.angular_momentum, far.gamma, far.attitude, far.contact, far.taken, far.status)
+        run = trajectory(self.ball, step * self.K, self.gamma, steps, order=method.order, time_step=step, **common)
+        return Run(run.angular_momentum(), run.gamma, run.attitude, run.contact, run.taken, run.status)
 
 
 def omega_of(problem: Problem, K: Floats, gamma: Floats) -> Floats:
@@ -127,7 +152,7 @@ def omega_of(problem: Problem, K: Floats, gamma: Floats) -> Floats:
 
 
 @np.errstate(all="ignore")  # frames that were not reached are NaN
-def apart(problem: Problem, run: Trajectory | Motion, other: Trajectory, stride: int = 1) -> Floats:
+def apart(problem: Problem, run: Run | Motion, other: Run, stride: int = 1) -> Floats:
     """How far two runs are apart at each common frame, (n, frames): other has every `stride`-th frame of run.
 
     The largest of the parts that are asked for: |ΔK|/|K|, |Δγ|, |Δω| over the largest |ω| of the ball, the angle
@@ -135,8 +160,7 @@ def apart(problem: Problem, run: Trajectory | Motion, other: Trajectory, stride:
     is in metres.
     """
     radius = 1.0 if problem.ball.radius is None else problem.ball.radius[:, np.newaxis]
-    mine = run.angular_momentum if isinstance(run, Motion) else run.angular_momentum()
-    K, L, gamma = mine[:, ::stride], other.angular_momentum(), run.gamma[:, ::stride]
+    K, L, gamma = run.angular_momentum[:, ::stride], other.angular_momentum, run.gamma[:, ::stride]
     found, parts = [np.zeros(gamma.shape[:2])], problem.parts
     if "gamma" in parts:
         found.append(lengths(gamma - other.gamma))

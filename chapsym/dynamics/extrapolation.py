@@ -85,6 +85,7 @@ def extrapolate(
     attitude: bool | ArrayLike = False,
     contact: bool = False,
     threads: int = 0,
+    progress: Callable[[int], None] = lambda steps_done: None,
 ) -> Extrapolated:
     """Follows the continuous ball (2.12, 2.13) for `steps` times `time_step`, to the order 2 `columns`.
 
@@ -96,6 +97,7 @@ def extrapolate(
     attitude: True (from the least rotation with R γ = e₃) or unit quaternions, (..., 4), to be followed.
     contact: whether to trace the contact point, to the same order; it needs `ball.radius`, and implies the attitude.
     threads: how many cores a batch may use; 0 for all.
+    progress: called with the steps done so far, of all balls together, whenever one ball or eight have all of theirs.
 
     A ball has the same bits alone and in a batch, whatever ran before.
     One ball raises StepNotTaken where the map has no step of length time_step/n; a batch reports `status`.
@@ -118,7 +120,8 @@ def extrapolate(
         attitudes[:, 0], spots[:, 0] = np.broadcast_to(first, (*shape, 4)).reshape(-1, 4), 0.0
     radius = np.broadcast_to(rolling_radius(ball), shape).reshape(-1).copy() if contact else D
     frames = momenta, verticals, attitudes, spots, J, D, radius
-    doubt, taken, status = _march(frames, (h, steps, kept, follows, bool(contact)), columns, threads, not shape)
+    how = h, steps, kept, follows, bool(contact)
+    doubt, taken, status = _march(frames, how, columns, threads, not shape, progress)
 
     def shaped(array: Floats) -> Floats:
         array = array[:, -1] if every is None else array
@@ -151,8 +154,9 @@ def _seconds(time_step: float) -> float:
 
 
 def _march(
-    frames: tuple[Floats, ...], how: tuple[Any, ...], columns: int, threads: int, alone: bool
-) -> tuple[Floats, np.ndarray, np.ndarray]:
+    frames: tuple[Floats, ...], how: tuple[Any, ...], columns: int, threads: int, alone: bool,
+    progress: Callable[[int], None],
+) -> tuple[Floats, np.ndarray, np.ndarray]:  # fmt: skip
     """Takes all long steps; returns doubt, taken and status, (n,).
 
     frames, how: the first arguments of `march_lanes`.  alone: one ball that stops raises StepNotTaken.
@@ -166,6 +170,7 @@ def _march(
         _taken_by(march_one, work)(*frames, *how, *weights, *ends)
         if status[0]:
             raise StepNotTaken(Status(int(status[0])), float(reach[0]), int(taken[0]))
+        progress(steps)
         return doubt, taken, status
     blocks = (n + EIGHT - FEW) // EIGHT if double.has_numba() else 0  # the last may have idle lanes
     march = _taken_by(march_eight, work) if blocks else None
@@ -176,10 +181,11 @@ def _march(
         some = slice(first, first + (EIGHT if part < blocks else 1))
         loop: Any = march if part < blocks else each
         loop(*(x[some] for x in frames), *how, *weights, *(x[some] for x in ends))
+        count.add(steps * len(doubt[some]))
 
     parts = range(blocks + max(0, n - EIGHT * blocks))
-    workers = min(threads or cores(), len(parts)) if work >= double.SHORT_RUN else 1
-    share(task, parts, workers, Count(lambda done: None))
+    workers, count = min(threads or cores(), len(parts)) if work >= double.SHORT_RUN else 1, Count(progress)
+    share(task, parts, workers, count)
     return doubt, taken, status
 
 
