@@ -1,9 +1,10 @@
 """The continuous motion of balls at equal times, to an accuracy: order and steps by a law, the result verified.
 
 The error of an order p after t seconds is about c (|ω|h)^p (1 + |ω|t), with nearly the same c for every ball that is
-not near a separatrix.  So the first guess needs no pilot.  A run is then compared with one of fewer steps, and by
-Richardson's rule its own error is their difference / (r^p - 1), where r is the ratio of the steps; it is taken
-`SAFETY` times as large.  A run that fails teaches the law, and is taken again with more steps.
+not near a separatrix; of `extrapolate` c differs a thousandfold, and the law is a first guess.  So no pilot is needed.
+A run is then compared with one of fewer steps, and by Richardson's rule its own error is their difference / (r^p - 1),
+where r is the ratio of the steps; it is taken `SAFETY` times as large.  A run that fails teaches the law, and is taken
+again with more steps.
 
 Of many alike balls a sample is verified so.  The others are compared with a crude run of the map: the distance tells,
 by the ratio of the two in the sample, the error of each.  A ball of which it tells too much is verified, too.

@@ -5,9 +5,13 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import ArrayLike
 
+from chapsym.numbers import Digits, Double, Precision
+
 from ..attitudes import is_followed
 from ..ball import Floats
+from ..coefficients import COMPOSITIONS, substeps
 from ..errors import BadInput, Status
+from ..levels.dispatch import precision_of
 from . import so_n, warm_n
 from .ball_n import BallN, flat_states, initial_attitudes
 from .branch_n import small_rotation
@@ -35,13 +39,33 @@ def start(
     return shape, state
 
 
-def rows(state: dict[str, Floats], count: int) -> dict[str, Floats]:
+def rows(state: dict[str, Floats], count: int, dtype: type = float) -> dict[str, Floats]:
     """Room for so many frames of what moves of each ball, (b, count, ...); raises BadInput if there is not so much."""
     try:
-        return {name: np.full((len(x), count, *x.shape[1:]), np.nan) for name, x in state.items() if name in MOVING}
+        return {
+            name: np.full((len(x), count, *x.shape[1:]), np.nan, dtype) for name, x in state.items() if name in MOVING
+        }
     except (MemoryError, ValueError):
         balls = len(state["gamma"])
         raise BadInput(f"{count} frames of {balls} balls do not fit into memory; keep fewer with every=") from None
+
+
+def stepped(
+    precision: str | Precision, state: dict[str, Floats], order: int, steps: int, every: int, threads: int = 1
+) -> tuple[dict[str, Floats], np.ndarray, np.ndarray, Floats]:
+    """The frames of a run from its start on, (b, frames, ...), and (taken, status, reach), (b,).
+
+    Raises BadInput for a precision that is neither "double" nor Digits, and for frames that do not fit into memory.
+    """
+    chosen, stages = precision_of(precision), substeps(order)
+    if not isinstance(chosen, Double | Digits):
+        raise BadInput(f'in n dimensions precision is "double" or chapsym.Digits(N), not {precision!r}')
+    frames = rows(state, steps // every + 1, float if isinstance(chosen, Double) else object)
+    if isinstance(chosen, Double):
+        return frames, *run(state, frames, stages, steps, every, threads)
+    from . import precise_n  # mpmath takes 40 ms
+
+    return frames, *precise_n.run(chosen, state, frames, COMPOSITIONS[order].exact, steps, every)
 
 
 def run(

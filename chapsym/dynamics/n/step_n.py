@@ -11,11 +11,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from chapsym.numbers import Precision
+
 from ..ball import Floats
-from ..coefficients import substeps
 from ..errors import Status, StepNotTaken
 from .ball_n import BallN, flat_states
-from .run_n import rows, run
+from .run_n import stepped
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,11 +36,12 @@ class StepN:
     reach: Floats
 
 
-def step_n(ball: BallN, momentum: ArrayLike, gamma: ArrayLike) -> StepN:
+def step_n(ball: BallN, momentum: ArrayLike, gamma: ArrayLike, *, precision: str | Precision = "double") -> StepN:
     """One step of the map (4.11), (4.12), (4.13) on the small-rotation branch: the first step of `trajectory_n`.
 
     momentum: 𝒦 = ε K of the paper, skew, in kg m², (..., n, n); gamma: unit verticals, (..., n).
     Both broadcast with each other and with the balls.
+    precision: "double", or `Digits(N)` for N digits in mpmath's numbers, from the floats that are given.
 
     One ball (no leading axis) raises StepNotTaken if it has no step; a batch reports `status` instead.
     Raises BadInput for shapes, NaN, infinities, a momentum that is not skew, and a gamma that is not unit.
@@ -47,8 +49,7 @@ def step_n(ball: BallN, momentum: ArrayLike, gamma: ArrayLike) -> StepN:
     shape, (K, g, J, D) = flat_states(ball, momentum, gamma)
     turn = np.broadcast_to(np.eye(ball.n), K.shape)
     state = {"momentum": K, "gamma": g, "mass_tensor": J, "D": D, "attitude": turn}
-    frames = rows(state, 2)
-    _, status, reach = run(state, frames, substeps(2), 1, 1)
+    frames, _, status, reach = stepped(precision, state, 2, 1, 1)
     if not shape and status[0] != Status.TAKEN:
         raise StepNotTaken(Status(int(status[0])), float(reach[0]))
     momentum, gamma, rotation = (x[:, 1].reshape(*shape, *x.shape[2:]) for x in frames.values())

@@ -7,13 +7,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
+from chapsym.numbers import Precision
+
 from ..ball import Asked, Floats, numbers
-from ..coefficients import substeps
 from ..errors import BadInput, Status
 from ..results import finished
 from ..trajectories import whole_number
 from .ball_n import BallN, skew_matrices
-from .run_n import rows, run, start
+from .run_n import start, stepped
 
 
 @dataclass(frozen=True, eq=False)
@@ -21,7 +22,8 @@ class TrajectoryN:
     """States of one ball, shape (frames, ...), or of a batch, shape (balls..., frames, ...).
 
     index: the step number of each frame, (frames,).
-    momentum, gamma: 𝒦 (..., frames, n, n), in kg m², and γ (..., frames, n).
+    momentum, gamma: 𝒦 (..., frames, n, n), in kg m², and γ (..., frames, n); with Digits(N), here and below, mpmath's
+    numbers, in arrays of objects.
     attitude: R from the body to space, R γ = eₙ, (..., frames, n, n), or None.
     contact: the contact point on the hyperplane in metres, from 0, (..., frames, n-1), or None.
     taken: the number of steps that were taken, (...); frames after it are NaN.
@@ -41,9 +43,9 @@ class TrajectoryN:
 
     def invariants(self) -> Floats:
         """`invariants_n` of each frame, (..., frames, m); raises BadInput if a ball stopped early."""
-        if np.isnan(self.momentum).any():
+        if (self.taken < self.index[-1]).any():
             raise BadInput("a ball of the batch stopped early; choose the frames up to `taken` first")
-        return invariants_n(self.momentum, self.gamma)
+        return _invariants(self.momentum, self.gamma)
 
 
 def trajectory_n(
@@ -57,6 +59,7 @@ def trajectory_n(
     attitude: bool | ArrayLike = False,
     contact: bool = False,
     threads: int = 0,
+    precision: str | Precision = "double",
 ) -> TrajectoryN:
     """Takes `steps` steps of the map on the small-rotation branch and keeps every `every`-th state.
 
@@ -65,6 +68,8 @@ def trajectory_n(
     attitude: True (from the least rotation with R γ = eₙ) or rotations, (..., n, n), to be followed.
     contact: whether to trace the contact point; it needs `ball.radius`, and implies the attitude.
     threads: how many cores a batch may use where its steps are compiled; 0 for all.
+    precision: "double", or `Digits(N)` for N digits in mpmath's numbers, at milliseconds a step.  That starts from the
+    floats that are given, γ divided by its length, and the attitude from the rotation nearest to that of float64.
 
     A ball below the bound of `near_n` begins each step at a guess by the last ones, compiled in long runs with numba;
     one above it is continued from the identity at each step.
@@ -73,11 +78,10 @@ def trajectory_n(
     Raises BadInput as `step_n` does, and for counts that are not whole numbers.
     """
     steps, every = whole_number(steps, "steps", 0), whole_number(every, "every", 1)
-    threads, stages = whole_number(threads, "threads", 0), substeps(order)
+    threads = whole_number(threads, "threads", 0)
     every = min(every, steps + 1)
     shape, state = start(ball, momentum, gamma, attitude, contact)
-    frames = rows(state, steps // every + 1)
-    taken, status, reach = run(state, frames, stages, steps, every, threads)
+    frames, taken, status, reach = stepped(precision, state, order, steps, every, threads)
     shaped = {name: array.reshape(*shape, *array.shape[1:]) for name, array in frames.items()}
     result = TrajectoryN(
         ball, np.arange(0, steps + 1, every), shaped["momentum"], shaped["gamma"], shaped.get("attitude"),
@@ -95,6 +99,8 @@ def reverse_n(trajectory: TrajectoryN) -> TrajectoryN:
     """
     if not isinstance(trajectory, TrajectoryN):
         raise BadInput(f"reverse_n takes a TrajectoryN, not {type(trajectory).__name__}")
+    if trajectory.momentum.dtype == object:
+        raise BadInput("reverse_n takes trajectories in double precision: a run at N digits starts from floats")
     if (trajectory.status != Status.TAKEN).any():
         raise BadInput("a ball of the batch stopped early; reverse the balls that did not")
     steps, every = int(trajectory.index[-1]), int((*trajectory.index, 1)[1])
@@ -117,8 +123,12 @@ def invariants_n(momentum: ArrayLike, gamma: ArrayLike) -> Floats:
     """
     K = numbers(momentum, "momentum")
     K = skew_matrices(K, K.shape[-1] if K.ndim else 3)
-    n = K.shape[-1]
-    g = numbers(gamma, "gamma", n)[..., np.newaxis]
+    return _invariants(K, numbers(gamma, "gamma", K.shape[-1]))
+
+
+def _invariants(K: Floats, gamma: Floats) -> Floats:
+    """The same of what was checked, floats or other numbers."""
+    n, g = K.shape[-1], gamma[..., np.newaxis]
     square, power, moved = K @ K, np.eye(n), g
     traces, weights = [], []
     for j in range(1, n // 2 + 1):
