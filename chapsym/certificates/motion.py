@@ -10,7 +10,8 @@ from flint import ctx
 from chapsym import checker
 from chapsym.dynamics import BadInput
 from chapsym.dynamics.enclosed_motion import CertifiedMotion
-from chapsym.dynamics.flow.start import Start
+from chapsym.dynamics.flow.axes import Principal
+from chapsym.dynamics.flow.start import Start, balls
 from chapsym.dynamics.levels.balls import unit
 from chapsym.dynamics.levels.start import fraction
 
@@ -25,7 +26,9 @@ SIMPLE, KNOWN = 10**18, 512
 
 
 def check_start(start: Start) -> None:
-    """Raises BadInput for a ball with a rotor inside: the checker has no equations of it."""
+    """Raises BadInput for a ball with a rotor inside, and for principal axes that are not those that are given."""
+    if start.tensor is not None:
+        raise BadInput("a certificate is of principal axes: give the principal moments, and all vectors in their axes")
     if any(map(any, start.rotor)):
         raise BadInput("a certificate is of a ball without a rotor: the checker has no equations of one with it")
 
@@ -81,7 +84,7 @@ def _start(start: Start, bits: int) -> dict[str, list[list[str]]]:
         greatest = max(a, key=lambda x: abs(fraction(x)))
         return {
             "attitude": [_known(x / greatest, bits) for x in a],
-            "momentum": [_known(x, bits) for x in start.momentum(unit(a))],
+            "momentum": [_known(x, bits) for x in start.momentum(unit(a), Principal(balls(start.mass_tensor)))],
         }
 
 

@@ -225,8 +225,17 @@ class _Search:
         """Whether ω at the start follows from K."""
         from flint import ctx
 
+        from .levels.proved_root import TooWide
+
         with ctx.workprec(1024):
-            return all(x.is_finite() for x in self.start.path(1024).frame(Fraction(0))["omega"])
+            try:
+                omega = self.start.path(1024).frame(Fraction(0))["omega"]
+            except TooWide:
+                raise BadInput(
+                    "two principal moments are equal, or nearly, and their axes are not given: give the principal "
+                    "moments, and all vectors in their axes"
+                ) from None
+            return all(x.is_finite() for x in omega)
 
     def doublings(self) -> int:
         """About the logarithm to base 2 of the turns, at most, and of their number at the start."""
@@ -234,8 +243,8 @@ class _Search:
 
         from .levels.proved_root import upper
 
-        with ctx.workprec(64):
-            omega = upper(self.start.path(64).frame(Fraction(0))["omega"])
+        with ctx.workprec(1024):
+            omega = upper(self.start.path(1024).frame(Fraction(0))["omega"])
             turns = fraction(omega) * self.times[-1] if omega.is_finite() else Fraction(0)
         return max(exponent_of(turns), 0) if turns else 0
 
@@ -248,7 +257,10 @@ class _Search:
         missing, kept = -math.inf, 0
         frames: list[dict[str, tuple[Any, ...]]] = []
         with ctx.workprec(bits):
-            path = self.start.path(bits)
+            try:
+                path = self.start.path(bits)
+            except TooWide:
+                return bits
             path.tick = lambda: self._tell(path, bits)
             for end in self.times:
                 while path.time < end:

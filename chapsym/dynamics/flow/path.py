@@ -46,6 +46,7 @@ class Path:
 
     attitude: a quaternion, K: the momentum, rotor: that of a rotor, in the axes of the body, all in balls.
     time: since the start, exactly.  steps: taken so far.  tick: called within a step; what it raises ends it.
+    given: a frame in other axes, from those of the tensor.
     """
 
     def __init__(
@@ -54,6 +55,7 @@ class Path:
     ) -> None:  # fmt: skip
         self.precision, self.time, self.steps = precision, Fraction(0), 0
         self.tick: Callable[[], None] = lambda: None
+        self.given: Callable[[dict[str, Numbers]], dict[str, Numbers]] = lambda frame: frame
         self.scale = arb(2) ** _exponent(highest(*Body(J, D, rotor).inertia) + D)
         self.body = Body(tuple(x / self.scale for x in J), D / self.scale, tuple(x / self.scale for x in rotor))
         self.k = generated.rotate(*(*unit(attitude), *(x / self.scale for x in K)))
@@ -200,7 +202,7 @@ class Path:
         relative = [x - y for x, y in zip(k, self.body.rotor, strict=True)]
         omega = generated.angular_velocity(*(*relative, *gamma, *self.body.J, self.body.D))
         found = {"gamma": gamma, "angular_momentum": tuple(x * self.scale for x in k), "omega": omega, "attitude": a}
-        return found if self.radius is None else found | {"contact": contact}
+        return self.given(found if self.radius is None else found | {"contact": contact})
 
 
 class Last(NamedTuple):

@@ -15,6 +15,7 @@ from chapsym.rationals import NotANumber, rational
 from ..errors import BadInput
 from ..levels.balls import unit
 from ..levels.start import least
+from .axes import Principal, principal
 from .path import Path
 
 
@@ -80,24 +81,31 @@ def _brief(value: Any) -> str:
 class Start:
     """A motion's data.
 
-    mass_tensor, D: exact.  attitude: its quaternion of any length, in balls at the precision that is set.
-    momentum: of the unit quaternion, K in the axes of the body.  radius, position: exact, or None.
-    rotor: the angular momentum of a rotor, in the axes of the body; it is part of K.
+    mass_tensor, D: exact; or, where the tensor is not diagonal in the axes of the body, `tensor`: it in balls at the
+    precision that is set, and no mass_tensor.
+    attitude: its quaternion of any length, in such balls.  momentum: K in principal axes, of their attitude and them.
+    radius, position: exact, or None.  rotor: the angular momentum of a rotor, in the axes of the body; it is part of K.
     """
 
     mass_tensor: Sequence[Fraction]
     D: Fraction
     attitude: Callable[[], Balls]
-    momentum: Callable[[Balls], Balls]
+    momentum: Callable[[Balls, Principal], Balls]
     radius: Fraction | None = None
     position: tuple[Fraction, Fraction] = (Fraction(0), Fraction(0))
     rotor: Sequence[Turns] = NO_ROTOR
+    tensor: Callable[[], Sequence[Balls]] | None = None
 
     def path(self, precision: int) -> Path:
-        """The motion at the start; to be called with that precision set."""
-        a = unit(self.attitude())
-        radius = None if self.radius is None else ball(self.radius)
-        path = Path(precision, balls(self.mass_tensor), ball(self.D), self.momentum(a), a, radius, balls(self.rotor))
+        """The motion at the start; to be called with that precision set.
+
+        Raises TooWide where it does not tell three principal moments apart.
+        """
+        axes = Principal(balls(self.mass_tensor)) if self.tensor is None else principal(self.tensor())
+        a = unit(generated.compose(*unit(self.attitude()), *axes.turn))
+        radius, rotor = None if self.radius is None else ball(self.radius), axes.inward(balls(self.rotor))
+        path = Path(precision, axes.moments, ball(self.D), self.momentum(a, axes), a, radius, rotor)
+        path.given = axes.given
         path.contact = (ball(self.position[0]), ball(self.position[1]))
         return path
 
@@ -107,22 +115,19 @@ def upright(gamma: Sequence[Number]) -> Callable[[], Balls]:
     return lambda: least(*unit(balls(gamma)))
 
 
-def fixed(momentum: Sequence[Number]) -> Callable[[Balls], Balls]:
+def fixed(momentum: Sequence[Number]) -> Callable[[Balls, Principal], Balls]:
     """K as it is."""
-    return lambda attitude: balls(momentum)
+    return lambda attitude, axes: axes.inward(balls(momentum))
 
 
 def turning(
-    omega: Sequence[Number], mass_tensor: Sequence[Fraction], D: Fraction, space: bool,
-    rotor: Sequence[Number] = NO_ROTOR,
-) -> Callable[[Balls], Balls]:  # fmt: skip
+    omega: Sequence[Number], D: Fraction, space: bool, rotor: Sequence[Number] = NO_ROTOR
+) -> Callable[[Balls, Principal], Balls]:
     """K = B(γ)ω + a, ω in the axes of the body or of space, a of the rotor."""
 
-    def momentum(attitude: Balls) -> Balls:
-        v = balls(omega)
-        if space:
-            v = generated.transport(*(*attitude, *v))
-        own = generated.contact_momentum(*(*v, *generated.rotation(*attitude)[6:], *balls(mass_tensor), ball(D)))
-        return tuple(x + y for x, y in zip(own, balls(rotor), strict=True))
+    def momentum(attitude: Balls, axes: Principal) -> Balls:
+        v = generated.transport(*(*attitude, *balls(omega))) if space else axes.inward(balls(omega))
+        own = generated.contact_momentum(*(*v, *generated.rotation(*attitude)[6:], *axes.moments, ball(D)))
+        return tuple(x + y for x, y in zip(own, axes.inward(balls(rotor)), strict=True))
 
     return momentum

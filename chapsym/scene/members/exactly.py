@@ -9,6 +9,7 @@ import numpy as np
 
 from chapsym import generated
 from chapsym.dynamics.exactly import check_body
+from chapsym.dynamics.flow.axes import Principal
 from chapsym.dynamics.flow.start import NO_ROTOR, Balls, Start, Turns, ball, balls, turning, upright
 from chapsym.dynamics.levels.balls import unit
 from chapsym.rationals import mass_tensor_from
@@ -22,17 +23,17 @@ from .expand import expand
 #: The dimension of each key that is read.
 DIMENSIONS = {
     "mass_tensor": MOMENT, "inertia": MOMENT, "mass": MASS, "radius": LENGTH, "D": MOMENT, "thickness": LENGTH,
-    "point_mass": MASS, "separation": LENGTH, "omega": RATE, "velocity": SPEED, "spin": RATE, "gamma": PURE,
-    "attitude": PURE, "quaternion_xyzw": PURE, "rpy": ANGLE, "position": LENGTH, "time": TIME, "time_step": TIME,
-    "rotor": TURNING,
+    "block_mass": MASS, "block_size": LENGTH, "block_offset": LENGTH, "point_mass": MASS, "separation": LENGTH,
+    "omega": RATE, "velocity": SPEED, "spin": RATE, "gamma": PURE, "attitude": PURE, "quaternion_xyzw": PURE,
+    "rpy": ANGLE, "position": LENGTH, "time": TIME, "time_step": TIME, "rotor": TURNING,
 }  # fmt: skip
 
 
 def exact_motion(scene: Scene) -> tuple[Start, tuple[Fraction, ...]]:
     """The start of the one ball of a scene of a file, and the times of its frames.
 
-    Raises SceneError where the scene has several balls, is of the map, or has a body whose principal axes are others
-    than those in which it is given, or that no body has when its numbers are taken as they are written.
+    Raises SceneError where the scene has several balls, is of the map, or has moments that no body has when its numbers
+    are taken as they are written.
     """
     name = scene.name or "the scene"
     try:
@@ -55,20 +56,21 @@ def _exact_motion(scene: Scene, name: str) -> tuple[Start, tuple[Fraction, ...]]
     data = tomllib.loads(scene.toml, parse_float=lambda text: text.replace("_", ""))
     table = data["ball"][0] if isinstance(data["ball"], list) else data["ball"]
     told = table.get("start") or data["start"]
-    tensor, D = _body(table, name)
-    check_body(tensor, D)
+    moments, D, tensor = _body(table)
+    if tensor is None:
+        check_body(moments, D)
     radius = _rational(table, "radius") if "radius" in table else None
     attitude = _attitude(told)
     rotor = _numbers(table, "rotor") if "rotor" in table else NO_ROTOR
     if "velocity" in told:
         assert radius is not None
-        momentum = _rolling(told, tensor, D, radius, rotor)
+        momentum = _rolling(told, D, radius, rotor)
     else:
-        momentum = turning(_numbers(told, "omega"), tensor, D, told.get("axes") == "space", rotor)
+        momentum = turning(_numbers(told, "omega"), D, told.get("axes") == "space", rotor)
     place = tuple(x.rational for x in _numbers(told, "position")) if "position" in told else (Fraction(0), Fraction(0))
     if any(map(any, rotor)) and not any(map(any, _moving(told))):
         raise SceneError(f"{name}: without angular velocity the ball stays at rest, whatever the rotor")
-    start = Start(tensor, D, attitude, momentum, radius, (place[0], place[1]), rotor)
+    start = Start(moments, D, attitude, momentum, radius, (place[0], place[1]), rotor, tensor)
     return start, _times(scene, data["run"])
 
 
@@ -94,29 +96,43 @@ def _rational(table: Mapping[str, Any], key: str) -> Fraction:
     return _number(table[key], DIMENSIONS[key]).rational
 
 
-def _body(table: Mapping[str, Any], name: str) -> tuple[tuple[Fraction, ...], Fraction]:
-    """J and D, exactly."""
+#: ∫xxᵀdm in balls at the precision that is set.
+Tensor = Callable[[], Sequence[Balls]]
+
+
+def _body(table: Mapping[str, Any]) -> tuple[tuple[Fraction, ...], Fraction, Tensor | None]:
+    """J and D, exactly; where the tensor is not diagonal no J, but it."""
     D = _rational(table, "D") if "D" in table else _rational(table, "mass") * _rational(table, "radius") ** 2
     if "mass_tensor" in table:
-        return tuple(x.rational for x in _numbers(table, "mass_tensor")), D
+        return tuple(x.rational for x in _numbers(table, "mass_tensor")), D, None
     if "inertia" in table:
         rows = table["inertia"]
         if not isinstance(rows[0], list):
-            return mass_tensor_from([x.rational for x in _numbers(table, "inertia")]), D
+            return mass_tensor_from([x.rational for x in _numbers(table, "inertia")]), D, None
         matrix = [[_number(x, MOMENT).rational for x in row] for row in rows]
-        if any(matrix[i][j] for i in range(3) for j in range(3) if i != j):
-            raise SceneError(f"{name}: {_AXES}")
-        return mass_tensor_from([matrix[i][i] for i in range(3)]), D
-    if table["preset"] == "bowling":
-        raise SceneError(f"{name}: {_AXES}")
+        half = sum((matrix[i][i] for i in range(3)), Fraction(0)) / 2
+        whole = [[half * (i == j) - (matrix[i][j] + matrix[j][i]) / 2 for j in range(3)] for i in range(3)]
+        if not any(whole[i][j] for i in range(3) for j in range(i)):
+            return tuple(whole[i][i] for i in range(3)), D, None
+        return (), D, lambda: [balls(row) for row in whole]
     preset = PRESETS[table["preset"]]
-    given: dict[str, Any] = {
-        key: np.array(_rational(table, key), dtype=object) for key in ("mass", "radius", *preset.keys) if key in table
-    }
-    return tuple(preset.tensor(given)), D
+    given: dict[str, Any] = {key: _exactly(table, key) for key in ("mass", "radius", *preset.keys) if key in table}
+    if "block_offset" not in given:
+        return tuple(preset.tensor(given)), D, None
+
+    def tensor() -> Sequence[Balls]:
+        """With a root in it: the distance of the block."""
+        inside = {key: np.vectorize(ball, otypes=[object])(x[np.newaxis]) for key, x in given.items()}  # a batch of one
+        found: Sequence[Balls] = [tuple(row) for row in preset.tensor(inside)[0]]
+        return found
+
+    return (), D, tensor
 
 
-_AXES = "certify motion takes principal axes: give the principal moments as inertia, and all vectors in their axes"
+def _exactly(table: Mapping[str, Any], key: str) -> Any:
+    """A number, or three, as an array of Fractions."""
+    given = [x.rational for x in _numbers(table, key)] if isinstance(table[key], list) else _rational(table, key)
+    return np.array(given, dtype=object)
 
 
 def _attitude(start: Mapping[str, Any]) -> Callable[[], Balls]:
@@ -140,12 +156,12 @@ def _turned(halves: Sequence[Any]) -> Balls:
 
 
 def _rolling(
-    start: Mapping[str, Any], tensor: Sequence[Fraction], D: Fraction, radius: Fraction, rotor: Sequence[Turns]
-) -> Callable[[Balls], Balls]:
+    start: Mapping[str, Any], D: Fraction, radius: Fraction, rotor: Sequence[Turns]
+) -> Callable[[Balls, Principal], Balls]:
     """K of a ball that rolls with a velocity and a spin: ω in space is (-v₂/ρ, v₁/ρ, spin)."""
     first, second = (x.rational for x in _numbers(start, "velocity"))
     spin = _number(start.get("spin", 0), RATE)
-    return turning((-second / radius, first / radius, spin), tensor, D, True, rotor)
+    return turning((-second / radius, first / radius, spin), D, True, rotor)
 
 
 def _times(scene: Scene, run: Mapping[str, Any]) -> tuple[Fraction, ...]:

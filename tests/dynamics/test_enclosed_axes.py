@@ -1,0 +1,128 @@
+"""Certified motions of a ball whose tensor is not diagonal: they are those in principal axes, turned."""
+
+import json
+from fractions import Fraction as F
+from pathlib import Path
+
+import numpy as np
+import pytest
+from commands import chapsym as command
+from flint import arb, ctx, fmpq
+
+import chapsym
+from chapsym.dynamics.enclosed_motion import follow
+from chapsym.dynamics.flow.axes import principal
+from chapsym.dynamics.levels.proved_root import TooWide
+from chapsym.scene import load
+from chapsym.scene.members.exactly import exact_motion
+
+BOWLING = Path(chapsym.__file__).parent / "scene" / "examples" / "bowling.toml"
+#: A rational rotation from principal axes to those of the body, and one from these to space.
+TURN, UP = (F(2, 3), F(1, 3), F(2, 3), F(0)), (F(6, 7), F(2, 7), F(0), F(3, 7))
+SCENE = """
+[ball]
+inertia = {inertia}
+mass = 2
+radius = "1/10"
+rotor = {rotor}
+[start]
+omega = {omega}
+attitude = {attitude}
+{space}
+[run]
+time = 0.4
+frames = 2
+"""
+
+
+def product(a, b):
+    return (
+        a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3],
+        a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],
+        a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1],
+        a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0],
+    )
+
+
+def turned(q, v):
+    """The vector v turned by the quaternion q."""
+    back = (q[0], *(-x for x in q[1:]))
+    return product(product(q, (0, *v)), back)[1:]
+
+
+def motion(tmp_path, **values):
+    path = tmp_path / "scene.toml"
+    told = {name: json.dumps(value, default=str) if name != "space" else value for name, value in values.items()}
+    path.write_text(SCENE.format(**told), encoding="utf-8")
+    start, times = exact_motion(load(path))
+    return start, follow(start, times, 20)
+
+
+@pytest.mark.parametrize("space", [False, True])
+def test_it_is_the_motion_in_principal_axes_turned(tmp_path, space):
+    moments, omega, rotor = (F(6, 1000), F(7, 1000), F(9, 1000)), (F(3), F(-2), F(1)), (F(0), F(1, 500), F(-1, 300))
+    columns = [turned(TURN, [F(int(i == j)) for i in range(3)]) for j in range(3)]
+    tensor = [[sum(m * c[i] * c[j] for m, c in zip(moments, columns, strict=True)) for j in range(3)] for i in range(3)]
+    assert all(tensor[i][j] for i in range(3) for j in range(3))
+    how = 'axes = "space"' if space else ""
+    one = motion(tmp_path, inertia=moments, rotor=rotor, omega=omega, attitude=product(UP, TURN), space=how)[1]
+    other = motion(
+        tmp_path, inertia=tensor, rotor=turned(TURN, rotor), omega=omega if space else turned(TURN, omega), attitude=UP,
+        space=how,
+    )[1]  # fmt: skip
+    with ctx.workprec(200):
+        q = [arb(fmpq(x.numerator, x.denominator)) for x in TURN]
+        back = [q[0], *(-x for x in q[1:])]
+        for i in range(3):
+            pairs = [
+                (x, y)
+                for name in ("gamma", "angular_momentum", "omega")
+                for x, y in zip(turned(q, getattr(one, name)[i]), getattr(other, name)[i], strict=True)
+            ]
+            a = product(one.attitude[i], back)
+            sign = 1 if a[0] * other.attitude[i][0] > 0 else -1
+            pairs += [(sign * x, y) for x, y in zip(a, other.attitude[i], strict=True)]
+            pairs += list(zip(one.contact[i], other.contact[i], strict=True))
+            assert all(x.overlaps(y) and float((x - y).abs_upper()) < 1e-19 for x, y in pairs)
+
+
+def test_the_bowling_ball_has_the_digits_of_its_block(tmp_path):
+    """Its tensor has a root in it.  The run has its own axes, by floats: a proved bound says how near it is."""
+    path = tmp_path / "bowling.toml"
+    path.write_text(BOWLING.read_text().replace("time = 2.4 ", "time = 0.1 ").replace("frames = 480", "frames = 5"))
+    assert command("run", path, "-o", tmp_path / "run.npz").returncode == 0
+    found = json.loads(
+        command("certify", "motion", path, "--digits", "15", "--against", tmp_path / "run.npz", "--json").stdout
+    )
+    assert set(found["errors"]) == {"gamma", "omega", "attitude", "contact"}
+    assert 0 < max(found["errors"].values()) < 1e-6
+    told = command("certify", "motion", path, "--certificate", tmp_path / "c.json")
+    assert (told.returncode, told.stdout) == (2, "")
+    assert "a certificate is of principal axes" in told.stderr
+
+
+def matrix(rows):
+    return [[arb(x) for x in row] for row in rows]
+
+
+def test_axes_and_moments_are_those_of_the_tensor():
+    rng = np.random.default_rng(5)
+    for _ in range(20):
+        A = rng.integers(-9, 9, (3, 3))
+        tensor = (A + A.T) / 2
+        with ctx.workprec(120):
+            found = principal(matrix(tensor.tolist()))
+            columns = [turned(found.turn, [int(i == j) for i in range(3)]) for j in range(3)]
+            for moment, v in zip(found.moments, columns, strict=True):
+                off = [
+                    sum(x * y for x, y in zip(row, v, strict=True)) - moment * w
+                    for row, w in zip(tensor, v, strict=True)
+                ]
+                assert all(x.contains(0) and x.rad() < 1e-25 for x in off)
+        assert np.allclose(sorted(float(x) for x in found.moments), np.linalg.eigvalsh(tensor), atol=1e-12)
+
+
+def test_a_diagonal_tensor_has_its_axes_and_equal_moments_none():
+    assert principal(matrix([[2, 0, 0], [0, 1, 0], [0, 0, 1]])).turn == (1, 0, 0, 0)
+    with pytest.raises(TooWide):
+        principal(matrix([[3, 1, 1], [1, 3, 1], [1, 1, 3]]))
