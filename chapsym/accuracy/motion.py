@@ -30,13 +30,15 @@ DEFAULT = 1e-6
 #: What double precision can be asked for; rounding may take this part of an accuracy.
 FINEST, ROUNDING = 1e-12, 0.5
 #: c of each order, measured on balls of all shapes; and the part of the accuracy that the law is to give.
-LAW, MARGIN = {2: 0.16, 4: 4.8e-3, 6: 1.9e-3, 8: 1.5e-5, EXTRAPOLATED: 3e-11}, 0.1
+LAW, MARGIN = {2: 0.16, 4: 4.8e-3, 6: 1.9e-3, 8: 1.5e-5, EXTRAPOLATED: 3e-10}, 0.1
 #: The largest |ω|h of a step of `extrapolate`, that of the comparison too: at 1.57 its steps of the map fold.
 FARTHEST = 1.3
+#: Of a ball of a larger condition the roundings of its columns are not known.
+CONDITIONED = 1e3
 #: How many times as large as Richardson's rule says an error is taken to be, and by which ratio steps are compared.
 SAFETY, RATIO = 4.0, 1.5
 #: The steps of `extrapolate` are so long that their errors do not yet fall with its order; they are told by this one.
-TOLD = 8
+TOLD = 4
 #: How many roundings beside the start a run begins that verifies another, and how far the crude one of a sweep does.
 ROUNDED, BESIDE = 8, 1e-6
 #: Runs that are tried, and how many times the steps of one, at least and at most, the next of the same order has.
@@ -45,6 +47,10 @@ ATTEMPTS, LEAST_FINER, MOST_FINER = 8, 1.2, 4.0
 ALIKE = 1.3
 #: So many balls are verified one by one; of more a sample of so many, the quickest and the slowest with it.
 ALL, SAMPLE = 48, 16
+#: Balls are of one shape where moments and D differ by less than this part.
+SHAPED = 0.1
+#: What a run costs with its verification, by its own work: by a sample, and of each ball.
+SAMPLED, VERIFIED = 1.2, 2.0
 #: The crude run of the others: its error by the law, and the times at which it is compared.
 CRUDE, CHECKS = 0.05, 64
 #: The part of the work that is the run itself, and not its verification.
@@ -132,12 +138,16 @@ def _rounding(problem: Problem, walks: bool = True, long_steps: int = 0) -> Floa
     That of J, D and K turns with the ball; ω along γ loses the digits of the condition of Λ - Dγγᵀ.
     """
     turned = problem.rate * problem.end
-    condition = (problem.ball.inertia.max(axis=-1) + problem.ball.D) / problem.ball.inertia.min(axis=-1)
+    condition = _condition(problem)
     walked = np.sqrt(1.0 + 40 * turned) if walks else 1.0  # the roundings of some forty stages a radian
     # Each long step has them, and from there on the ball turns otherwise.
     walked = walked + WEIGHTS * np.sqrt(long_steps * condition)
     turning = (1 + turned) * (2 * np.sqrt(condition) + walked)
     return np.asarray(2.0**-53 * (turning + 8 * condition) * problem.unit)
+
+
+def _condition(problem: Problem) -> Floats:
+    return np.asarray((problem.ball.inertia.max(axis=-1) + problem.ball.D) / problem.ball.inertia.min(axis=-1))
 
 
 def _error(problem: Problem, order: int, step: float) -> Floats:
@@ -156,20 +166,22 @@ def _cheapest(problem: Problem, factor: float = 1.0, far: bool = True) -> Steppi
     """The order of the fewest stages that is expected to do for all balls; far: `EXTRAPOLATED` may be it."""
     found = [Stepping(p, _whole(problem, float(_first(problem, p, factor).max()))) for p in LAW if p != EXTRAPOLATED]
     if far and EXTRAPOLATED in LAW and has_numba():  # in plain Python it takes a batch ball by ball
-        angle = float(problem.rate.max(initial=0.0)) * problem.interval
-        steps = max(float(_first(problem, EXTRAPOLATED, factor).max()), angle / FARTHEST)
-        # Its error may grow a thousandfold within one frame: the last one must be compared.
-        steps = steps if problem.frames % 2 == 0 else max(steps, 2.0)
-        method = _compared(Stepping(EXTRAPOLATED, _whole(problem, steps)), angle)
-        if _rounding(problem, long_steps=method.steps * problem.frames).max() <= ROUNDING * problem.accuracy:
+        method = _extrapolated(problem, factor)
+        rounding = _rounding(problem, long_steps=method.steps * problem.frames)
+        if rounding.max() <= ROUNDING * problem.accuracy and _condition(problem).max() <= CONDITIONED:
             found.append(method)
     return min(found, key=lambda method: method.stages)
 
 
-def _compared(method: Stepping, angle: float) -> Stepping:
-    """With so many steps that those of the run that it is compared with are none too long, either."""
-    stride, fewer = _fewer_steps(method.steps)
-    return method if stride * angle <= fewer * FARTHEST else _compared(Stepping(method.order, method.steps + 1), angle)
+def _extrapolated(problem: Problem, factor: float = 1.0) -> Stepping:
+    """That order with steps, and steps of the run that it is compared with, none of which is too long."""
+    angle = float(problem.rate.max(initial=0.0)) * problem.interval
+    steps = _whole(problem, float(_first(problem, EXTRAPOLATED, factor).max()))
+    if steps > 1 or 2 * angle > FARTHEST:
+        fewer = max(math.ceil(angle / FARTHEST), 1)
+        steps = max(steps, 2 if fewer == 1 else math.ceil(RATIO * (fewer - 0.5)))
+        steps += _fewer_steps(steps)[1] < fewer  # half is rounded to even
+    return Stepping(EXTRAPOLATED, steps)
 
 
 def _fewer_steps(steps: int) -> tuple[int, int]:
@@ -180,8 +192,11 @@ def _fewer_steps(steps: int) -> tuple[int, int]:
 
 
 def _whole(problem: Problem, steps: float) -> int:
-    """Whole steps between two frames: with one frame only enough that there can be fewer of them."""
-    return max(math.ceil(steps), 1 if problem.frames > 1 else 2)
+    """Whole steps between two frames, so many that the last frame is one that can be compared.
+
+    An error may grow a thousandfold within one frame.
+    """
+    return max(math.ceil(steps), 1 + problem.frames % 2)
 
 
 def _alike(problem: Problem, some: np.ndarray) -> list[np.ndarray]:
@@ -192,16 +207,24 @@ def _alike(problem: Problem, some: np.ndarray) -> list[np.ndarray]:
 
 
 def _follow(problem: Problem, group: np.ndarray, found: Motion, progress: Callable[[float], None]) -> None:
-    """Puts the motion of alike balls where it belongs."""
-    if len(group) <= ALL:
+    """Puts the motion of balls that take about as many steps where it belongs.
+
+    A sample tells of those of its shape, and of compositions, whose law is the same for all; others are verified.
+    """
+    odd = _of_other_shape(problem.of(group))
+    one, other = (_cheapest(problem.of(group), far=far) for far in (True, False))
+    if len(group) - odd.sum() <= ALL or VERIFIED * one.stages < SAMPLED * other.stages:
         _settle(problem, group, found, None, progress)
         return
+    if odd.any():
+        _settle(problem, group[odd], found, None, lambda part: None)
+        group = group[~odd]
     order = group[np.argsort(problem.rate[group], kind="stable")]
     picked = np.unique(np.linspace(0, len(order) - 1, SAMPLE).astype(int))
     sample, others = order[picked], np.delete(order, picked)
-    _settle(problem, sample, found, None, lambda part: None)
+    _settle(problem, sample, found, other, lambda part: None, far=False)
     if (fewer := _fewer(problem, sample, found)) is not None:
-        _settle(problem, sample, found, fewer, lambda part: None)
+        _settle(problem, sample, found, fewer, lambda part: None, far=False)
     method = _worst(sample, found)
     rest = problem.of(others)
     run = rest.take(method, progress=lambda steps: progress(steps / (method.steps * problem.frames)))
@@ -214,6 +237,15 @@ def _follow(problem: Problem, group: np.ndarray, found: Motion, progress: Callab
             _settle(problem, some, found, Stepping(method.order, math.ceil(ALIKE * method.steps)), lambda part: None)
 
 
+@np.errstate(all="ignore")  # moments that are 0
+def _of_other_shape(problem: Problem) -> np.ndarray:
+    """Which balls have moments, relative to each other, that differ from those in the middle of all."""
+    shape = np.column_stack([problem.ball.inertia, problem.ball.D])
+    shape /= shape.sum(axis=-1, keepdims=True)
+    middle = np.median(shape, axis=0)
+    return np.asarray((np.abs(shape - middle) > SHAPED * middle).any(axis=-1))
+
+
 def _worst(sample: np.ndarray, found: Motion) -> Stepping:
     """The method of the ball that needs most."""
     return max((Stepping(int(found.order[i]), int(found.steps[i])) for i in sample), key=lambda one: one.stages)
@@ -222,8 +254,6 @@ def _worst(sample: np.ndarray, found: Motion) -> Stepping:
 def _fewer(problem: Problem, sample: np.ndarray, found: Motion) -> Stepping | None:
     """Fewer steps of the same order that will do by what the sample showed; None if there are none."""
     method, error = _worst(sample, found), float(np.nanmax(found.error[sample], initial=0.0))
-    if method.order == EXTRAPOLATED:  # whose steps are as long as they can be
-        return None
     allowed = SAFETY * MARGIN * problem.accuracy
     steps = _whole(problem, method.steps * (error / allowed) ** (1 / method.order))
     return Stepping(method.order, steps) if steps < method.steps else None
@@ -252,13 +282,14 @@ def _by_sample(
 
 
 def _settle(
-    problem: Problem, some: np.ndarray, found: Motion, first: Stepping | None, progress: Callable[[float], None]
-) -> None:
+    problem: Problem, some: np.ndarray, found: Motion, first: Stepping | None, progress: Callable[[float], None],
+    far: bool = True,
+) -> None:  # fmt: skip
     """Runs some balls until each is verified, with more steps those that are not; puts each where it belongs.
 
     A ball that more steps do not help keeps the error that it has: rounding alone is larger than the accuracy.
     """
-    method, left, factor, far = first or _cheapest(problem.of(some)), some, 1.0, True
+    method, left, factor = first or _cheapest(problem.of(some), far=far), some, 1.0
     before, gain = np.full(len(some), np.inf), 1.0
     for attempt in range(ATTEMPTS):
         part = problem.of(left)
@@ -301,7 +332,7 @@ def _more(method: Stepping, wanted: Stepping) -> Stepping:
 
 def _share(ratio: float, order: int) -> float:
     """What part of the difference from a run whose steps are so many times as long the error is taken to be."""
-    left = ratio ** min(order, TOLD) - 1
+    left = ratio ** (TOLD if order == EXTRAPOLATED else order) - 1
     return min(SAFETY / left, max(1.0, 2 / left))
 
 
@@ -314,11 +345,10 @@ def _verified(problem: Problem, method: Stepping, run: Run) -> Floats:
         return _rounding(problem)
     stride, fewer = _fewer_steps(method.steps)
     share = _share(stride * method.steps / fewer, method.order)
-    rounded = WEIGHTS if method.order == EXTRAPOLATED else ROUNDED
-    beside = problem.beside(rounded * 2.0**-53 / share)
+    long_steps = method.steps * problem.frames if method.order == EXTRAPOLATED else 0
+    beside = problem.beside((ROUNDED + WEIGHTS * math.sqrt(long_steps)) * 2.0**-53 / share)
     off = apart(problem, run, beside.take(Stepping(method.order, fewer), stride), stride).max(axis=-1)
     off = np.where(np.isnan(off), np.inf, off) * problem.frames / (problem.frames // stride * stride)
-    long_steps = method.steps * problem.frames if method.order == EXTRAPOLATED else 0
     return np.asarray(off * share + _rounding(problem, long_steps=long_steps))
 
 
