@@ -6,8 +6,9 @@ A run is then compared with one of fewer steps, and by Richardson's rule its own
 where r is the ratio of the steps; it is taken `SAFETY` times as large.  A run that fails teaches the law, and is taken
 again with more steps.
 
-Of many alike balls a sample is verified so.  The others are compared with a crude run of the map: the distance tells,
-by the ratio of the two in the sample, the error of each.  A ball of which it tells too much is verified, too.
+Of many balls of one shape, taken by a composition, a sample is verified so.  The others are compared with a crude run
+of the map: the distance tells, by the ratio of the two in the sample, the error of each.  A ball of which it tells too
+much is verified, too.
 """
 
 import math
@@ -33,6 +34,9 @@ FINEST, ROUNDING = 1e-12, 0.5
 LAW, MARGIN = {2: 0.16, 4: 4.8e-3, 6: 1.9e-3, 8: 1.5e-5, EXTRAPOLATED: 3e-10}, 0.1
 #: The largest |ω|h of a step of `extrapolate`, that of the comparison too: at 1.57 its steps of the map fold.
 FARTHEST = 1.3
+#: Stages of compositions, about a second of one ball, from which on `extrapolate` may take their place: its loop takes
+#: ten seconds more to compile, once a machine.
+WORTH = 10_000_000
 #: Of a ball of a larger condition the roundings of its columns are not known.
 CONDITIONED = 1e3
 #: How many times as large as Richardson's rule says an error is taken to be, and by which ratio steps are compared.
@@ -165,7 +169,8 @@ def _first(problem: Problem, order: int, factor: float = 1.0) -> Floats:
 def _cheapest(problem: Problem, factor: float = 1.0, far: bool = True) -> Stepping:
     """The order of the fewest stages that is expected to do for all balls; far: `EXTRAPOLATED` may be it."""
     found = [Stepping(p, _whole(problem, float(_first(problem, p, factor).max()))) for p in LAW if p != EXTRAPOLATED]
-    if far and EXTRAPOLATED in LAW and has_numba():  # in plain Python it takes a batch ball by ball
+    work = min(method.stages for method in found) * problem.frames * len(problem)
+    if far and work >= WORTH and EXTRAPOLATED in LAW and has_numba():  # in plain Python it takes a batch ball by ball
         method = _extrapolated(problem, factor)
         rounding = _rounding(problem, long_steps=method.steps * problem.frames)
         if rounding.max() <= ROUNDING * problem.accuracy and _condition(problem).max() <= CONDITIONED:

@@ -24,6 +24,19 @@ INERTIA = np.array([0.006, 0.0071, 0.0089])
 GAMMA = np.array([2.0, 3.0, 6.0]) / 7
 
 
+@pytest.fixture(autouse=True)
+def _of_any_work(monkeypatch):
+    """Short runs may be extrapolated, too."""
+    monkeypatch.setattr(motion, "WORTH", 0)
+
+
+def test_what_takes_less_than_a_second_is_not_worth_another_loop(monkeypatch):
+    monkeypatch.undo()
+    few, many = (problem([14.0, -6.0, 3.0], frames, 0.5, 1e-4) for frames in (40, 40_000))
+    assert motion._cheapest(few).order == 8
+    assert motion._cheapest(many).order == EXTRAPOLATED
+
+
 def problem(omega, frames=20, interval=0.1, accuracy=1e-6, inertia=INERTIA, gamma=GAMMA):
     """Balls of 2 kg and 0.1 m, with everything followed."""
     omega = np.atleast_2d(np.asarray(omega, dtype=float))
