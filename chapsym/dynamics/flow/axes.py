@@ -3,12 +3,14 @@
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
-from flint import acb_mat, arb
+import numpy as np
+from flint import acb_mat
 
 from chapsym import generated
 
 from ..levels.balls import unit
 from ..levels.proved_root import TooWide
+from ..principal_axes import quaternions
 
 Numbers = tuple[Any, ...]
 #: What turns no axes.
@@ -53,21 +55,8 @@ def principal(tensor: Sequence[Sequence[Any]]) -> Principal:
         columns.append(unit([(x / largest).real for x in v]))
     (a1, a2, a3), (b1, b2, b3) = columns
     columns.append((a2 * b3 - a3 * b2, a3 * b1 - a1 * b3, a1 * b2 - a2 * b1))
-    found = Principal(tuple(x.real for x in moments), _quaternion([list(row) for row in zip(*columns, strict=True)]))
+    turn = tuple(quaternions(np.array(columns, dtype=object).T))
+    found = Principal(tuple(x.real for x in moments), turn)
     if not all(x.is_finite() for x in (*found.moments, *found.turn)):
         raise TooWide("the principal moments are not told apart")
     return found
-
-
-def _quaternion(r: Sequence[Sequence[Any]]) -> Numbers:
-    """Of a rotation: 4qqᵀ is linear in the matrix, and its row with the largest diagonal is q, but for the length."""
-    x, y, z = r[2][1] - r[1][2], r[0][2] - r[2][0], r[1][0] - r[0][1]
-    xy, xz, yz = r[0][1] + r[1][0], r[0][2] + r[2][0], r[1][2] + r[2][1]
-    rows = [
-        [1 + r[0][0] + r[1][1] + r[2][2], x, y, z],
-        [x, 1 + r[0][0] - r[1][1] - r[2][2], xy, xz],
-        [y, xy, 1 - r[0][0] + r[1][1] - r[2][2], yz],
-        [z, xz, yz, 1 - r[0][0] - r[1][1] + r[2][2]],
-    ]
-    best = max(range(4), key=lambda i: float(arb(rows[i][i]).mid()))
-    return unit(rows[best])

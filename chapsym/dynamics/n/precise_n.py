@@ -48,7 +48,7 @@ class DigitsBallN:
     def _numbers(self, x: Floats, scale: Fraction = Fraction(1)) -> Any:
         """Exactly the floats, times a power of two; one number, or an array."""
         made = [self.precision.number(Fraction(float(y)) * scale) for y in np.ravel(x)]
-        return np.array([*made, None], dtype=object)[:-1].reshape(np.shape(x)) if np.ndim(x) else made[0]
+        return np.array(made, dtype=object).reshape(np.shape(x)) if np.ndim(x) else made[0]
 
     def step(self) -> None:
         """Takes a step, stage by stage; raises StepNotTaken."""
@@ -88,7 +88,7 @@ class DigitsBallN:
 
     def _given(self, x: Any) -> Any:
         """Rounded to the digits that were asked for, and their guard."""
-        return np.array([*(+self.home.mpf(y) for y in x.flat), None], dtype=object)[:-1].reshape(x.shape)
+        return np.array([+self.home.mpf(y) for y in x.flat], dtype=object).reshape(x.shape)
 
 
 def run(
