@@ -22,6 +22,8 @@ PARTS = ("gamma", "angular_momentum", "omega", "attitude", "contact")
 GUARD, OF_TURNS = 24, 2
 #: The most digits, and the most bits that an attempt may have.
 MOST_DIGITS, MOST_BITS = 4_000, 2**20
+#: The two routes, and the bits with which it is seen whether there is the second.
+TAYLOR, THETA, SOLVED = "taylor", "theta", 400
 #: Bits by which a radius may grow when it is written: it and the middle are rounded, which adds .15 of it.
 ROUNDED = 0.25
 #: Bits beyond those that were missing, for the next attempt.
@@ -98,6 +100,7 @@ def certified_motion(
     *,
     attitude: Any = None,
     rotor: Any = (0, 0, 0),
+    by: str = TAYLOR,
     limit: float = 600.0,
     progress: Callable[[str], None] = lambda sentence: None,
 ) -> CertifiedMotion:
@@ -111,6 +114,9 @@ def certified_motion(
     It and γ may differ by rounding, 1e-5 at most: then the attitude is taken.
     rotor: a in kg m²/s, the constant angular momentum of a rotor inside, in the axes of the body (lemmas
     `gyrostat-rotor`, `gyrostat-motion`); then K = B(γ)ω + a, and K ≠ a.
+    by: "taylor", or "theta" for Chaplygin's solution in theta functions of genus two, which shares no step with it
+    (lemmas `chaplygin-reduction`, `chaplygin-separation`, `chaplygin-theta`): of a ball with three different moments
+    and D > 0 without a rotor, in a motion that is not steady, not on the separatrix, and whose K is not vertical.
     limit: seconds for all attempts.  progress: called with sentences.
 
     Polynomials in time are proved in Arb's balls, step by step (`dynamics/flow`); the run is repeated with more bits
@@ -134,7 +140,7 @@ def certified_motion(
     if any(inside) and momentum == inside:
         raise BadInput("angular_momentum must not be that of the rotor: then the ball is at rest, and stays there")
     start = Start(exact.mass_tensor, exact.D, turned, fixed(momentum), exact.radius, rotor=tuple(map(Turns, inside)))
-    return follow(start, _ascending(times), digits, limit=limit, progress=progress)
+    return follow(start, _ascending(times), digits, by=by, limit=limit, progress=progress)
 
 
 def _exact_ball(ball: Any) -> ExactBall:
@@ -174,7 +180,7 @@ def _ascending(times: Any) -> tuple[Fraction, ...]:
 
 
 def follow(
-    start: Any, times: Sequence[Fraction], digits: int, *, limit: float = 600.0,
+    start: Any, times: Sequence[Fraction], digits: int, *, by: str = TAYLOR, limit: float = 600.0,
     progress: Callable[[str], None] = lambda sentence: None,
 ) -> CertifiedMotion:  # fmt: skip
     """`certified_motion` from a `flow.start.Start`."""
@@ -184,9 +190,13 @@ def follow(
         raise BadInput(f"digits must be a whole number from 1 to {MOST_DIGITS}, not {digits!r}")
     if not (isinstance(limit, int | float) and limit > 0):
         raise BadInput(f"limit must be a positive number of seconds, not {limit!r}")
-    search = _Search(start, tuple(times), digits, clock.monotonic() + limit, progress)
+    if by not in (TAYLOR, THETA):
+        raise BadInput(f'by must be "{TAYLOR}" or "{THETA}", not {by!r}')
+    search = _Search(start, tuple(times), digits, by, clock.monotonic() + limit, progress)
     if not search.determined():
         raise BadInput("the ball does not resist a turn about the vertical: ω does not follow from K")
+    if by == THETA:
+        search.check_solved()
     bits = math.ceil(digits * math.log2(10)) + GUARD + OF_TURNS * search.doublings()
     why = None
     while why is None and not search.done:
@@ -210,8 +220,13 @@ class _Search:
     """Attempts with more and more bits; the frames of the best of them."""
 
     def __init__(
-        self, start: Any, times: tuple[Fraction, ...], digits: int, deadline: float, progress: Callable[[str], None]
-    ) -> None:
+        self, start: Any, times: tuple[Fraction, ...], digits: int, by: str, deadline: float,
+        progress: Callable[[str], None],
+    ) -> None:  # fmt: skip
+        from .flow.path import Path
+        from .theta.path import ThetaPath
+
+        self.by: Any = ThetaPath if by == THETA else Path
         self.start, self.times, self.digits, self.deadline, self.progress = start, times, digits, deadline, progress
         self.frames: list[dict[str, tuple[Any, ...]]] = []
         self.kept = self.bits = self.steps = 0
@@ -237,6 +252,23 @@ class _Search:
                 ) from None
             return all(x.is_finite() for x in omega)
 
+    def check_solved(self) -> None:
+        """Raises BadInput where theta functions of genus two do not give the motion, or only with very many bits."""
+        from flint import ctx
+
+        from .levels.proved_root import TooWide
+
+        if any(map(any, self.start.rotor)):
+            raise BadInput("the solution in theta functions is of a ball without a rotor")
+        with ctx.workprec(SOLVED):
+            try:
+                self.start.path(SOLVED, self.by)
+            except TooWide:
+                raise BadInput(
+                    "there are no theta functions of genus two for this motion: they need three different moments, "
+                    "D > 0, K that is not vertical, and a motion that is neither steady nor on the separatrix"
+                ) from None
+
     def doublings(self) -> int:
         """About the logarithm to base 2 of the turns, at most, and of their number at the start."""
         from flint import ctx
@@ -258,7 +290,7 @@ class _Search:
         frames: list[dict[str, tuple[Any, ...]]] = []
         with ctx.workprec(bits):
             try:
-                path = self.start.path(bits)
+                path = self.start.path(bits, self.by)
             except TooWide:
                 return bits
             path.tick = lambda: self._tell(path, bits)
@@ -283,7 +315,7 @@ class _Search:
         """The bits that were lost, for all of the time, but no more than twice as many as there were."""
         if path.time == 0:
             return bits
-        lost = bits + float(path.spread.size.log()) / math.log(2) if path.spread.size > 0 else 0.0
+        lost = max(bits + path.width, 0.0)
         foreseen = 1.1 * lost * float(self.times[-1] / path.time)
         return math.ceil(min(max(foreseen - bits, bits / 4), bits)) + math.ceil(self.digits * math.log2(10))
 

@@ -67,6 +67,11 @@ class Path:
         with ctx.workprec(MATRIX_BITS):
             self.spread.restart(far)
 
+    @property
+    def width(self) -> float:
+        """The logarithm to base 2 of how far the attitude may be off."""
+        return _log(self.spread.size)
+
     def advance(self, end: Fraction) -> None:
         """Goes on to a later time, or a part of the way; raises TooWide where the balls allow no proof."""
         for halved in range(HALVINGS + 1):

@@ -15,6 +15,7 @@ from chapsym.rationals import NotANumber, rational
 from ..errors import BadInput
 from ..levels.balls import unit
 from ..levels.start import least
+from ..theta.path import ThetaPath
 from .axes import Principal, principal
 from .path import Path
 
@@ -96,15 +97,15 @@ class Start:
     rotor: Sequence[Turns] = NO_ROTOR
     tensor: Callable[[], Sequence[Balls]] | None = None
 
-    def path(self, precision: int) -> Path:
+    def path(self, precision: int, by: type[Path] | type[ThetaPath] = Path) -> Path | ThetaPath:
         """The motion at the start; to be called with that precision set.
 
-        Raises TooWide where it does not tell three principal moments apart.
+        Raises TooWide where it does not tell three principal moments apart, or not all that a `ThetaPath` needs.
         """
         axes = Principal(balls(self.mass_tensor)) if self.tensor is None else principal(self.tensor())
         a = unit(generated.compose(*unit(self.attitude()), *axes.turn))
         radius, rotor = None if self.radius is None else ball(self.radius), axes.inward(balls(self.rotor))
-        path = Path(precision, axes.moments, ball(self.D), self.momentum(a, axes), a, radius, rotor)
+        path = by(precision, axes.moments, ball(self.D), self.momentum(a, axes), a, radius, rotor)
         path.given = axes.given
         path.contact = (ball(self.position[0]), ball(self.position[1]))
         return path
