@@ -123,9 +123,10 @@ def certified_motion(
     until the digits are there.  Where that cannot be within the limit, the times that were reached are returned, and
     `stopped` says why.  Raises BadInput for what is no motion.
     """
+    from chapsym import generated
     from chapsym.numbers import Digits
 
-    from .flow.start import Start, Turns, balls, fixed, upright, vector
+    from .flow.start import Start, Turns, balls, fixed, parallel, upright, vector
 
     exact = _exact_ball(ball)
     vertical = vector(gamma, "gamma")
@@ -139,7 +140,11 @@ def certified_motion(
     momentum, inside = vector(angular_momentum, "angular_momentum"), vector(rotor, "rotor")
     if any(inside) and momentum == inside:
         raise BadInput("angular_momentum must not be that of the rotor: then the ball is at rest, and stays there")
-    start = Start(exact.mass_tensor, exact.D, turned, fixed(momentum), exact.radius, rotor=tuple(map(Turns, inside)))
+    upwards = vertical if attitude is None else generated.rotation(*quaternion)[6:]
+    start = Start(
+        exact.mass_tensor, exact.D, turned, fixed(momentum), exact.radius, rotor=tuple(map(Turns, inside)),
+        vertical=parallel(momentum, upwards),
+    )  # fmt: skip
     return follow(start, _ascending(times), digits, by=by, limit=limit, progress=progress)
 
 
@@ -224,9 +229,11 @@ class _Search:
         progress: Callable[[str], None],
     ) -> None:  # fmt: skip
         from .flow.path import Path
-        from .theta.path import ThetaPath
+        from .theta.general import General
+        from .theta.jacobi import Top
 
-        self.by: Any = ThetaPath if by == THETA else Path
+        solved = Top if start.vertical or not start.D else General
+        self.by: Any = solved if by == THETA else Path
         self.start, self.times, self.digits, self.deadline, self.progress = start, times, digits, deadline, progress
         self.frames: list[dict[str, tuple[Any, ...]]] = []
         self.kept = self.bits = self.steps = 0
@@ -304,7 +311,10 @@ class _Search:
                         return None
                     except (np.linalg.LinAlgError, ArithmeticError):  # of the floats that propose the steps
                         raise BadInput("the numbers are too far apart in size to find steps of the motion") from None
-                frames.append(_signed(path.frame(end)))
+                try:
+                    frames.append(_signed(path.frame(end)))
+                except TooWide:
+                    return self._more(path, bits)
                 missing = max(missing, _missing(frames[-1], self.digits, self.start.radius))
                 kept = len(frames) if missing <= 0 else kept
                 if kept > self.kept:

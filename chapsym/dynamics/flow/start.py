@@ -15,7 +15,6 @@ from chapsym.rationals import NotANumber, rational
 from ..errors import BadInput
 from ..levels.balls import unit
 from ..levels.start import least
-from ..theta.path import ThetaPath
 from .axes import Principal, principal
 from .path import Path
 
@@ -78,6 +77,11 @@ def _brief(value: Any) -> str:
     return text if len(text) <= 60 else text[:57] + "..."
 
 
+def parallel(v: Sequence[Fraction], w: Sequence[Fraction]) -> bool:
+    """Whether v × w = 0."""
+    return all(v[i - 2] * w[i - 1] == v[i - 1] * w[i - 2] for i in range(3))
+
+
 @dataclass(frozen=True)
 class Start:
     """A motion's data.
@@ -86,6 +90,7 @@ class Start:
     precision that is set, and no mass_tensor.
     attitude: its quaternion of any length, in such balls.  momentum: K in principal axes, of their attitude and them.
     radius, position: exact, or None.  rotor: the angular momentum of a rotor, in the axes of the body; it is part of K.
+    vertical: whether K is known to be parallel to γ.
     """
 
     mass_tensor: Sequence[Fraction]
@@ -96,11 +101,12 @@ class Start:
     position: tuple[Fraction, Fraction] = (Fraction(0), Fraction(0))
     rotor: Sequence[Turns] = NO_ROTOR
     tensor: Callable[[], Sequence[Balls]] | None = None
+    vertical: bool = False
 
-    def path(self, precision: int, by: type[Path] | type[ThetaPath] = Path) -> Path | ThetaPath:
+    def path(self, precision: int, by: Callable[..., Any] = Path) -> Any:
         """The motion at the start; to be called with that precision set.
 
-        Raises TooWide where it does not tell three principal moments apart, or not all that a `ThetaPath` needs.
+        by: `Path`, or a class with the same methods.  Raises TooWide where it does not tell three principal moments apart, or not all that theta functions need.
         """
         axes = Principal(balls(self.mass_tensor)) if self.tensor is None else principal(self.tensor())
         a = unit(generated.compose(*unit(self.attitude()), *axes.turn))

@@ -43,18 +43,27 @@ class Analytic:
 
     def at(self, s: Any) -> Any:
         """The value at a real s in the disc."""
-        return self.series(s) + self._beyond(s)
+        return self.series(s) + arb(0, self.beyond(s))
 
     def integral(self, s: Any) -> Any:
         """The integral from 0 to s."""
-        return self.series.integral()(s) + arb(0, (abs(s) * self._beyond(s)).abs_upper())
+        return self.series.integral()(s) + arb(0, (abs(s) * self.beyond(s)).abs_upper())
 
-    def _beyond(self, s: Any) -> Any:
-        """What the terms beyond come to (Cauchy)."""
+    def on(self, disc: Disc) -> "Analytic":
+        """The same on a smaller disc, where the coefficients tell a better bound."""
+        return Analytic(self.series, size(self.series, disc.radius) + self.beyond(disc.radius), disc)
+
+    def beyond(self, s: Any) -> Any:
+        """A bound of the terms that are not kept (Cauchy)."""
         part = (abs(s) / self.disc.radius).abs_upper()
         if not part < 1:
             raise TooWide
-        return arb(0, (self.bound * part**self.disc.terms / (1 - part)).abs_upper())
+        return (self.bound * part**self.disc.terms / (1 - part)).abs_upper()
+
+
+def size(poly: Any, radius: Any) -> Any:
+    """Σ|cₖ|Rᵏ."""
+    return arb_poly([x.abs_upper() for x in poly.coeffs()])(radius).abs_upper()
 
 
 def combined(factors: Sequence[Any], functions: Sequence[Analytic]) -> Analytic:

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 from flint import arb, arb_mat, arb_poly, ctx
 
 from ..levels.proved_root import TooWide
-from .analytic import Analytic, Disc
+from .analytic import Analytic, Disc, size
 
 #: The most terms that may be looked at for one sum.
 MOST_TERMS = 40_000
@@ -147,11 +147,6 @@ class Thetas:
             x = (abs(rate) * radius).abs_upper()
             total += factor * x**self.terms * x.exp()
         return (total / arb(self.terms).gamma() / self.terms).abs_upper()
-
-
-def size(poly: Any, radius: Any) -> Any:
-    """Σ|cₖ|Rᵏ."""
-    return arb_poly([x.abs_upper() for x in poly.coeffs()])(radius).abs_upper()
 
 
 def _least_eigenvalue(Y: Any) -> Any:
