@@ -27,6 +27,7 @@ SCRIPTS = (
     "open.locking",
     "open.measure",
     "open.energy",
+    "map.chaplygin",
     "map.gibbs",
     "map.gyrostat",
     "map.gyrostat_map",
@@ -70,4 +71,5 @@ LEMMAS = (
     "separatrix-map", "separatrix-limit", "separatrix", "melnikov", "energy-orbits",
     "gyrostat-rotor", "gyrostat-motion", "gyrostat-integrals", "gyrostat-measure",
     "gyrostat-map", "gyrostat-map-integrals", "gyrostat-self-adjoint", "gyrostat-energy", "gyrostat-map-measure",
+    "chaplygin-reduction", "chaplygin-separation", "chaplygin-theta", "euler-top",
 )  # fmt: skip

@@ -24,7 +24,7 @@ def motion(
         Path | None, typer.Option(metavar="FILE", help="Write there what the separate checker judges on its own.")
     ] = None,
     by: Annotated[
-        str, typer.Option(metavar="ROUTE", help="taylor, or theta: the solution in theta functions of genus two.")
+        str, typer.Option(metavar="ROUTE", help="taylor, or theta: the solution in theta functions.")
     ] = "taylor",
     output: Output = None,
     as_json: Json = False,

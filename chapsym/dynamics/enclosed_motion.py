@@ -114,9 +114,10 @@ def certified_motion(
     It and γ may differ by rounding, 1e-5 at most: then the attitude is taken.
     rotor: a in kg m²/s, the constant angular momentum of a rotor inside, in the axes of the body (lemmas
     `gyrostat-rotor`, `gyrostat-motion`); then K = B(γ)ω + a, and K ≠ a.
-    by: "taylor", or "theta" for Chaplygin's solution in theta functions of genus two, which shares no step with it
-    (lemmas `chaplygin-reduction`, `chaplygin-separation`, `chaplygin-theta`): of a ball with three different moments
-    and D > 0 without a rotor, in a motion that is not steady, not on the separatrix, and whose K is not vertical.
+    by: "taylor", or "theta": the solution in theta functions, which shares no step with it.  They are of genus two
+    (lemmas `chaplygin-reduction`, `chaplygin-separation`, `chaplygin-theta`), and of genus one where D = 0 or K is
+    vertical (`euler-top`); of a ball with three different moments, without a rotor, in a motion that is neither steady
+    nor on the separatrix.
     limit: seconds for all attempts.  progress: called with sentences.
 
     Polynomials in time are proved in Arb's balls, step by step (`dynamics/flow`); the run is repeated with more bits
@@ -260,7 +261,7 @@ class _Search:
             return all(x.is_finite() for x in omega)
 
     def check_solved(self) -> None:
-        """Raises BadInput where theta functions of genus two do not give the motion, or only with very many bits."""
+        """Raises BadInput where theta functions do not give the motion, or only with very many bits or terms."""
         from flint import ctx
 
         from .levels.proved_root import TooWide
@@ -272,8 +273,8 @@ class _Search:
                 self.start.path(SOLVED, self.by)
             except TooWide:
                 raise BadInput(
-                    "there are no theta functions of genus two for this motion: they need three different moments, "
-                    "D > 0, K that is not vertical, and a motion that is neither steady nor on the separatrix"
+                    "this motion is not found by theta functions: they need three different moments, and a motion that "
+                    "is neither steady nor on the separatrix, nor very near to one that is"
                 ) from None
 
     def doublings(self) -> int:

@@ -106,7 +106,8 @@ class Start:
     def path(self, precision: int, by: Callable[..., Any] = Path) -> Any:
         """The motion at the start; to be called with that precision set.
 
-        by: `Path`, or a class with the same methods.  Raises TooWide where it does not tell three principal moments apart, or not all that theta functions need.
+        by: `Path`, or a class with the same methods.  Raises TooWide where the precision does not tell three principal
+        moments apart, or not all that theta functions need.
         """
         axes = Principal(balls(self.mass_tensor)) if self.tensor is None else principal(self.tensor())
         a = unit(generated.compose(*unit(self.attitude()), *axes.turn))

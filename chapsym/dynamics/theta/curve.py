@@ -69,7 +69,10 @@ class Curve:
         mu, w = root
         low, high = self.points[cut], self.points[cut + 1]
         middle, half = (low + high) / 2, (high - low) / 2
-        rest = _rest(self.points, self.factor, cut, mu)
+        rest = self.factor
+        for i, e in enumerate(self.points):
+            if i not in (cut, cut + 1):
+                rest *= mu - e if i < cut else e - mu
         angle = arb.atan2(w / (half * rest.sqrt()), (middle - mu) / half)
         return [integral(self.points, self.factor, cut, power, angle) for power in (0, 1)]
 
@@ -93,24 +96,21 @@ def curve(found: Reduced) -> Curve:
 def integral(points: Sequence[Any], factor: Any, gap: int, power: int, angle: Any) -> Any:
     """∫μᵖdμ/√|φ| between two branch points, from the left to μ = middle - half·cos(angle)."""
     low, high = points[gap], points[gap + 1]
-    middle, half = (low + high) / 2, (high - low) / 2
 
     def rate(f: Any, analytic: bool) -> Any:
-        mu = middle - half * f.cos()
-        return mu**power * _rest(points, acb(factor), gap, mu).rsqrt(analytic=analytic)
+        # By half the angle, whose squares are small at the ends in balls, too; one by one, the factors stay away
+        # from the cut of the root.
+        before, after = ((high - low) * x * x for x in ((f / 2).sin(), (f / 2).cos()))
+        found = (low + before) ** power
+        for i, e in enumerate(points):
+            if i not in (gap, gap + 1):
+                found *= (before + (low - e) if i < gap else after + (e - high)).rsqrt(analytic=analytic)
+        return found
 
-    found = acb.integral(rate, 0, acb(angle)).real
+    found = acb.integral(rate, 0, acb(angle)).real / factor.sqrt()
     if not found.is_finite():
         raise TooWide
     return found
-
-
-def _rest(points: Sequence[Any], factor: Any, gap: int, mu: Any) -> Any:
-    """|φ| without the two factors that vanish at the ends of a gap."""
-    for i, e in enumerate(points):
-        if i not in (gap, gap + 1):
-            factor = factor * (mu - e if i < gap else e - mu)
-    return factor
 
 
 def _inverse(matrix: Any) -> Any:

@@ -10,7 +10,7 @@ import numpy as np
 from chapsym import generated
 from chapsym.dynamics.exactly import check_body
 from chapsym.dynamics.flow.axes import Principal
-from chapsym.dynamics.flow.start import NO_ROTOR, Balls, Start, Turns, ball, balls, turning, upright
+from chapsym.dynamics.flow.start import NO_ROTOR, Balls, Start, Turns, ball, balls, parallel, turning, upright
 from chapsym.dynamics.levels.balls import unit
 from chapsym.rationals import mass_tensor_from
 
@@ -70,8 +70,24 @@ def _exact_motion(scene: Scene, name: str) -> tuple[Start, tuple[Fraction, ...]]
     place = tuple(x.rational for x in _numbers(told, "position")) if "position" in told else (Fraction(0), Fraction(0))
     if any(map(any, rotor)) and not any(map(any, _moving(told))):
         raise SceneError(f"{name}: without angular velocity the ball stays at rest, whatever the rotor")
-    start = Start(moments, D, attitude, momentum, radius, (place[0], place[1]), rotor, tensor)
+    vertical = tensor is None and not any(map(any, rotor)) and _is_vertical(told, moments, D)
+    start = Start(moments, D, attitude, momentum, radius, (place[0], place[1]), rotor, tensor, vertical)
     return start, _times(scene, data["run"])
+
+
+def _is_vertical(start: Mapping[str, Any], J: Sequence[Fraction], D: Fraction) -> bool:
+    """Whether K, Λω but for a part of γ, is seen to be parallel to γ: ω in the axes of the body, γ not by angles."""
+    if "omega" not in start or start.get("axes") == "space" or "rpy" in start:
+        return False
+    omega = _numbers(start, "omega")
+    quaternion = _quaternion(start)
+    up: Sequence[Fraction] = (Fraction(0), Fraction(0), Fraction(1))
+    if quaternion is not None:
+        up = generated.rotation(*quaternion)[6:]
+    elif "gamma" in start:
+        up = [x.rational for x in _numbers(start, "gamma")]
+    parts = ([getattr(x, name) for x in omega] for name in ("rational", "of_pi"))
+    return all(parallel([(sum(J) - j + D) * x for j, x in zip(J, part, strict=True)], up) for part in parts)
 
 
 def _moving(start: Mapping[str, Any]) -> tuple[Turns, ...]:
@@ -140,11 +156,19 @@ def _attitude(start: Mapping[str, Any]) -> Callable[[], Balls]:
     if "rpy" in start:
         angles = _numbers(start, "rpy")
         return lambda: _turned([ball(x) / 2 for x in angles])
+    quaternion = _quaternion(start)
+    if quaternion is not None:
+        return lambda: balls(quaternion)
+    return upright(_numbers(start, "gamma") if "gamma" in start else (Fraction(0), Fraction(0), Fraction(1)))
+
+
+def _quaternion(start: Mapping[str, Any]) -> list[Fraction] | None:
+    """Of any length, scalar first, if there is one."""
     for key, order in (("attitude", (0, 1, 2, 3)), ("quaternion_xyzw", (3, 0, 1, 2))):
         if key in start:
             given = _numbers(start, key)
-            return lambda: balls([given[i] for i in order])
-    return upright(_numbers(start, "gamma") if "gamma" in start else (Fraction(0), Fraction(0), Fraction(1)))
+            return [given[i].rational for i in order]
+    return None
 
 
 def _turned(halves: Sequence[Any]) -> Balls:
