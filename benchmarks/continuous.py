@@ -4,13 +4,14 @@ A peer is a function (y (6,) = (K, γ), end, control) -> y at the end; `control`
 """
 
 from collections.abc import Callable
+from fractions import Fraction
 from functools import cache
 from typing import Any
 
-import mpmath
 import numpy as np
 
-from chapsym import generated
+from chapsym import Ball, certified_motion, generated
+from chapsym.dynamics.levels.start import fraction
 from chapsym.studies.harness import NotComparable
 
 from .trajectory import MASS_TENSOR, D
@@ -19,8 +20,8 @@ Peer = Callable[[np.ndarray, float, float], np.ndarray]
 BALL = (*map(float, MASS_TENSOR), D)
 #: heyoka.py's batch: two vectors of AVX-512, which took the least time a ball where it was tried.
 LANES = 8
-#: The reference: columns of its extrapolation (twice as many is its order), digits, and steps a unit of time.
-COLUMNS, DIGITS, DENSITY = 12, 30, 2
+#: Digits of the reference.
+DIGITS = 25
 
 
 def rates(K1, K2, K3, g1, g2, g3, J1, J2, J3, D):
@@ -157,45 +158,7 @@ def taylor_batch(y: np.ndarray, end: float, tolerance: float) -> np.ndarray:
     return integrator.state[:, 0].copy()
 
 
-def taylor_extended(y: np.ndarray, end: float) -> np.ndarray:
-    """heyoka.py in long double, for a second opinion; raises ValueError where that is no more than double."""
-    import heyoka
-
-    if np.finfo(np.longdouble).eps >= np.finfo(np.float64).eps:
-        raise ValueError("long double has no more digits than double here")
-    start, tolerance = y.astype(np.longdouble), np.longdouble("1e-19")
-    integrator = heyoka.taylor_adaptive(_system(np.longdouble), start, tol=tolerance, fp_type=np.longdouble)
-    integrator.propagate_until(np.longdouble(end))
-    return integrator.state.copy()
-
-
-def reference(y: np.ndarray, end: float, density: int = DENSITY, columns: int = COLUMNS) -> list[mpmath.mpf]:
-    """The solution by Gragg's extrapolated midpoint rule in mpmath: order 2·columns, `density` steps a unit of time."""
-    with mpmath.workdps(DIGITS):
-        ball = [mpmath.mpf(x) for x in BALL]
-        state = [mpmath.mpf(float(x)) for x in y]
-        steps = int(mpmath.ceil(end * density))
-        for _ in range(steps):
-            state = _extrapolated(state, mpmath.mpf(end) / steps, columns, ball)
-        return state
-
-
-def _extrapolated(y: list, h: Any, columns: int, ball: list) -> list:
-    """One step: midpoint rules with 2, 4, ... substeps, extrapolated in the square of the substep (Aitken-Neville)."""
-    table: list[list] = []
-    for j in range(1, columns + 1):
-        row = [_midpoint(y, h, 2 * j, ball)]
-        for i in range(1, j):
-            weight = 1 / ((mpmath.mpf(j) / (j - i)) ** 2 - 1)
-            row.append([a + weight * (a - b) for a, b in zip(row[-1], table[-1][i - 1], strict=True)])
-        table.append(row)
-    return table[-1][-1]
-
-
-def _midpoint(y: list, h: Any, count: int, ball: list) -> list:
-    """An even number of substeps of the midpoint rule: then its error is even in the substep, without smoothing."""
-    small = h / count
-    before, now = y, [a + small * b for a, b in zip(y, rates(*y, *ball), strict=True)]
-    for _ in range(count - 1):
-        before, now = now, [a + 2 * small * b for a, b in zip(before, rates(*now, *ball), strict=True)]
-    return now
+def reference(y: np.ndarray, end: float) -> list[Fraction]:
+    """K and γ at the end, to proved digits."""
+    found = certified_motion(Ball(MASS_TENSOR, D), y[:3], y[3:], end, DIGITS)
+    return [fraction(x) for x in (*found.angular_momentum[0], *found.gamma[0])]

@@ -172,28 +172,12 @@ def test_the_map_tends_to_the_continuous_ball_with_order_2(exact):
     assert coarse / fine == pytest.approx(4, rel=0.02)
 
 
-def test_the_reference_has_more_digits_than_what_is_judged():
-    y, columns = work_precision.STATE, continuous.COLUMNS
-    usual = continuous.reference(y, 2.0)
-    other = continuous.reference(y, 2.0, density=3, columns=columns - 2)
-    assert max(abs(a - b) for a, b in zip(usual, other, strict=True)) < 1e-22
-    rough = [continuous.reference(y, 2.0, density, columns=2) for density in (8, 16)]
-    errors = [float(max(abs(a - b) for a, b in zip(usual, r, strict=True))) for r in rough]
-    assert errors[0] / errors[1] == pytest.approx(2**4, rel=0.1)  # of order 2·columns
-
-
-def test_references_that_disagree_are_refused(monkeypatch):
-    without(monkeypatch, "heyoka")
+def test_the_reference_is_the_motion_to_proved_digits(monkeypatch):
     monkeypatch.setattr(work_precision, "END", 2.0)
-    honest = continuous.reference
-    assert "another step and order" in work_precision.reference()[1]
-
-    def depends_on_its_step(y, end, density=continuous.DENSITY, columns=continuous.COLUMNS):
-        return [x + density * 2e-15 for x in honest(y, end, density, columns)]
-
-    monkeypatch.setattr(continuous, "reference", depends_on_its_step)
-    with pytest.raises(benchmarks.NotComparable, match="differ by 2"):
-        work_precision.reference()
+    exact, told = work_precision.reference()
+    assert told == "reference: the motion with 25 proved digits"
+    coarse, fine = (abs(continuous.rk4(work_precision.STATE, 2.0, n) - exact).max() for n in (40, 80))
+    assert coarse / fine == pytest.approx(2**4, rel=0.1)
 
 
 def test_the_time_to_an_error_is_read_off_a_straight_line():

@@ -14,14 +14,13 @@ from commands import chapsym as command
 from first import BALL, FIRST
 from reference import cross
 
-import chapsym
 from chapsym.accuracy import Method, prices, take
 from chapsym.accuracy.prices import sample
 from chapsym.cli.trade import print_answer
 from chapsym.dynamics.attitudes import attitude_with
 from chapsym.numbers import NAMED
 from chapsym.studies import trade
-from chapsym.studies.trade import balls, four
+from chapsym.studies.trade import four, reference
 from chapsym.studies.trade.figure import draw
 from chapsym.studies.trade.frontier import Frontier, Point, digits_of
 from chapsym.studies.trade.reference import continuous
@@ -76,17 +75,6 @@ def test_the_reference_agrees_with_mpmaths_taylor_series_and_with_a_run_in_doubl
     assert true_error(request, run, truth(request, 25)) < 1e-21
 
 
-@pytest.mark.parametrize("digits", [12, 16, 20])
-def test_the_reference_has_its_digits_for_a_ball_whose_series_cancels(digits):
-    """Heavy and thin: coefficients that cancel told nothing of the step once, and the error was 1e-6."""
-    ball = chapsym.Ball((0.00126653, 0.00131799, 0.00255669), 0.13083978, 0.16692626)
-    g = np.array([-0.17170057, -0.47772868, 0.86156498])
-    given = ball, np.array([0.48771686, 0.04624645, 0.12380181]), g, attitude_with(g / np.sqrt(g @ g)), [Fraction(3)]
-    exact = continuous(*given, 30)[0]
-    error = abs(continuous(*given, digits)[0] - exact).astype(float).max()
-    assert error < 10.0**-digits
-
-
 def test_random_requests_are_met():
     found = measure(quick=True, say=lambda text: None)
     assert found.hits == len(found.outcomes) == 5
@@ -116,11 +104,11 @@ def test_a_section_is_measured(section):
         assert all(b > a or min(a, b) > most for a, b in pairwise(digits)), name
 
 
-def test_two_references_that_differ_are_told(monkeypatch):
-    request = replace(sample("contact", 2.0), accuracy=1e-20)
-    monkeypatch.setattr(balls, "truth", lambda request, digits: truth(request, digits) + Fraction(1, 10**9))
-    with pytest.raises(trade.NotComparable, match="two solutions of the continuous ball differ by"):
-        balls.reference(request, quick=True)
+def test_a_reference_without_its_digits_is_told(monkeypatch):
+    request = sample("contact", 2.0)
+    monkeypatch.setattr(reference, "LONGEST", 1e-9)
+    with pytest.raises(trade.NotComparable, match="not enough for 34 digits"):
+        truth(request, 34)
 
 
 def test_the_reference_of_n_4_is_checked(monkeypatch):
