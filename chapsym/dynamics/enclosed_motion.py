@@ -13,7 +13,7 @@ import numpy as np
 
 from .ball import Ball, in_principal_axes
 from .errors import BadInput
-from .exactly import check_body, unit_exactly
+from .exactly import check_body, check_tensor, unit_exactly
 from .levels.start import exponent_of, fraction
 
 #: What a frame has; `contact` where the ball has a radius.
@@ -34,25 +34,36 @@ MARGIN = 6
 class ExactBall:
     """A ball whose numbers are taken as they are written; `Ball` has the nearest float64.
 
-    mass_tensor: J in kg m², three numbers; D: m ρ² in kg m²; radius: ρ in m, for the contact point only.
+    mass_tensor: J = ∫xxᵀdm in kg m²: three numbers in principal axes, or a symmetric tensor, three rows, in any axes.
+    D: m ρ² in kg m²; radius: ρ in m, for the contact point only.
     A number is an int, a Fraction, a Decimal, or a text such as "0.1" or "2/7"; a float is the binary number it is.
     Raises BadInput for what no ball has.
     """
 
-    mass_tensor: tuple[Fraction, ...]
+    mass_tensor: tuple[Fraction, ...] | tuple[tuple[Fraction, ...], ...]
     D: Fraction
     radius: Fraction | None = None
 
     def __init__(self, mass_tensor: Any, D: Any, radius: Any = None) -> None:
         from .flow.start import exactly, vector
 
-        given = vector(mass_tensor, "mass_tensor"), exactly(D, "D")
+        contact = exactly(D, "D")
         rho = None if radius is None else exactly(radius, "radius")
-        check_body(*given)
+        moments: Any
+        if np.shape(mass_tensor) == (3, 3):
+            moments = check_tensor([vector(row, "mass_tensor") for row in mass_tensor], contact)
+        else:
+            moments = vector(mass_tensor, "mass_tensor")
+            check_body(moments, contact)
         if rho is not None and rho <= 0:
             raise BadInput(f"radius must be positive, but it is {float(rho):g}")
-        for name, value in zip(("mass_tensor", "D", "radius"), (*given, rho), strict=True):
+        for name, value in zip(("mass_tensor", "D", "radius"), (moments, contact, rho), strict=True):
             object.__setattr__(self, name, value)
+
+    @property
+    def diagonal(self) -> bool:
+        """Whether the tensor is given in principal axes."""
+        return not isinstance(self.mass_tensor[0], tuple)
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,7 +117,8 @@ def certified_motion(
 ) -> CertifiedMotion:
     """Encloses the motion of the continuous ball (2.3) at some times: the digits are proved.
 
-    ball: an `ExactBall`, or one `Ball` in principal axes, whose floats are taken exactly.
+    ball: an `ExactBall`, or one `Ball` in principal axes, whose floats are taken exactly.  The axes of a tensor that is
+    not diagonal are enclosed: it must have three different principal moments, and all vectors are in its own axes.
     angular_momentum: K in kg m²/s, in the axes of the body.  gamma: the unit vertical, upwards; it is divided by its
     length.  times: one in s from 0 on, or several in ascending order.  All as exact numbers (see `ExactBall`).
     digits: every radius is at most 10^-digits, relative to the length of K and of ω, and to the ball's radius.
@@ -142,9 +154,11 @@ def certified_motion(
     if any(inside) and momentum == inside:
         raise BadInput("angular_momentum must not be that of the rotor: then the ball is at rest, and stays there")
     upwards = vertical if attitude is None else generated.rotation(*quaternion)[6:]
+    moments: Any = exact.mass_tensor
     start = Start(
-        exact.mass_tensor, exact.D, turned, fixed(momentum), exact.radius, rotor=tuple(map(Turns, inside)),
-        vertical=parallel(momentum, upwards),
+        moments if exact.diagonal else (), exact.D, turned, fixed(momentum), exact.radius,
+        rotor=tuple(map(Turns, inside)), vertical=parallel(momentum, upwards),
+        tensor=None if exact.diagonal else lambda: [balls(row) for row in moments],
     )  # fmt: skip
     return follow(start, _ascending(times), digits, by=by, limit=limit, progress=progress)
 

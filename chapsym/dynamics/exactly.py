@@ -3,6 +3,7 @@
 import math
 from collections.abc import Sequence
 from fractions import Fraction
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -22,6 +23,21 @@ def check_body(J: Sequence[Fraction], D: Fraction) -> None:
         scale = Fraction(2) ** -exponent_of(largest)
     # What is far smaller than the rest must not become 0: it is the difference between a body and none.
     Ball([_at_least(x * scale) for x in J], _at_least(D * scale))
+
+
+def check_tensor(rows: Sequence[Sequence[Fraction]], D: Fraction) -> tuple[Any, ...]:
+    """A tensor ∫xxᵀdm by rows, or its diagonal if it has nothing else; raises BadInput for that of no body."""
+    if any(rows[i][j] != rows[j][i] for i in range(3) for j in range(i)):
+        raise BadInput("mass_tensor must be symmetric: give the two entries of each pair alike")
+    diagonal = tuple(rows[i][i] for i in range(3))
+    check_body(diagonal, D)
+    if not any(rows[i][j] for i in range(3) for j in range(i)):
+        return diagonal
+    (a, d, e), (_, b, f), (_, _, c) = rows
+    whole = a * b * c + 2 * d * e * f - a * f * f - b * e * e - c * d * d
+    if min(a * b - d * d, a * c - e * e, b * c - f * f, whole) < 0:
+        raise BadInput("no body has this mass_tensor: the second moment of the mass is negative along some axis")
+    return tuple(map(tuple, rows))
 
 
 def _at_least(x: Fraction) -> float:
