@@ -1,14 +1,15 @@
 """The attitude of the continuous ball, as a quaternion a = (q₀, q) whose rotation R takes the body's axes to space.
 
-K and the vertical are fixed in space: with K = Rᵀk and γ = Rᵀe₃, which are then as in rolling.py,
+K and the vertical are fixed in space: with K = Rᵀk and γ = Rᵀe₃, which are then as in rolling.py, or Bω = K - r with a
+rotor, whose angular momentum r is constant in the body,
     a′ = f(a) = ½a∘ω,  a∘(s, v) = (q₀s - ⟨q, v⟩, sq + q₀v + q × v),
-for R′u = R(ω × u), and the columns v of Rᵀ have v′ = v × ω.  In K and γ there is |a|²R for R, and ω is divided by |a|²:
-then ω does not depend on |a|.
+for R′u = R(ω × u), and the columns v of Rᵀ have v′ = v × ω.  In K and γ there is |a|²R for R, and B⁻¹K is divided by
+|a|²: then ω does not depend on |a|.
 
 How f changes.  Let e = a∘(s, ξ).  Along it K and γ change by 2K × ξ and 2γ × ξ, as in axes of the body that turn, and
-from Bω = K, as Dγγᵀ turns, too, ω changes by 2ω × ξ + 2B⁻¹Cξ, Cξ = Iω × ξ - I(ω × ξ).  As ξ∘ω + 2ω × ξ = ω∘ξ, this is
-f′e = ½(a∘ω∘a⁻¹)∘e + a∘B⁻¹Cξ, and the first is antisymmetric in e.  So ⟨e, f′e⟩ = |a|²⟨ξ, B⁻¹Cξ⟩, and as
-|e|² = |a|²(s² + |ξ|²), μ is that of B⁻¹C.  For a ball with one moment C = 0: such motions keep their distance.
+from Bω = K - r, as Dγγᵀ turns, too, ω changes by 2ω × ξ + 2B⁻¹Cξ, Cξ = (Iω + r) × ξ - I(ω × ξ).  As ξ∘ω + 2ω × ξ =
+ω∘ξ, this is f′e = ½(a∘ω∘a⁻¹)∘e + a∘B⁻¹Cξ, and the first is antisymmetric in e.  So ⟨e, f′e⟩ = |a|²⟨ξ, B⁻¹Cξ⟩, and as
+|e|² = |a|²(s² + |ξ|²), μ is that of B⁻¹C.  With one moment and no rotor C = 0: such motions keep their distance.
 """
 
 from collections.abc import Sequence
@@ -22,9 +23,10 @@ from .taylor import Model
 
 @dataclass(frozen=True)
 class Turning(Rolling):
-    """The continuous ball by its attitude; states are quaternions.  half: ½k."""
+    """The continuous ball by its attitude; states are quaternions.  half: ½k.  rotor: ½r, or empty."""
 
     half: Sequence[Any]
+    rotor: Sequence[Any] = ()
 
     def vectors(self, a: Sequence[Any]) -> list[Any]:
         """½K and γ, times |a|²."""
@@ -34,8 +36,11 @@ class Turning(Rolling):
 
     def spin(self, state: Sequence[Any]) -> list[Any]:
         """½ω."""
-        by = 1 / dot(state, state)
-        return [x * by for x in super().spin(self.vectors(state))]
+        square, vectors = dot(state, state), self.vectors(state)
+        if self.rotor:
+            vectors[:3] = [x - square * y for x, y in zip(vectors[:3], self.rotor, strict=True)]
+        by = 1 / square
+        return [x * by for x in super().spin(vectors)]
 
     def turned(self, state: Sequence[Any], w: Sequence[Any]) -> list[Any]:
         """a∘(0, w)."""
@@ -49,14 +54,16 @@ class Turning(Rolling):
         columns = [[w[0]._of(0)] * 3 for _ in range(3)]
         for i in range(3):
             for j, k, sign in ((i - 2, i - 1, 2), (i - 1, i - 2, -2)):
-                columns[k][i] = (I[j] - I[i]) * w[j] * sign
+                bent = (I[j] - I[i]) * w[j]
+                columns[k][i] = (bent + self.rotor[j] if self.rotor else bent) * sign
         return [self.solved(column, gamma, *self.inverse(gamma)) for column in columns]
 
     def series(self, start: Sequence[int], order: int) -> list[list[int]]:
         """As of `Rolling`, which gives those of ω; those of a follow."""
         bits, a = self.D.bits, [[x] for x in start]
         half = [x.terms[0] for x in self.vectors([Model(x, 0, bits) for x in a])]
-        _, w = self.series_with_spin([*(2 * x for x in half[:3]), *half[3:]], order)
+        rotor = [2 * x.terms[0] for x in self.rotor]
+        _, w = self.series_with_spin([*(2 * x for x in half[:3]), *half[3:]], order, rotor)
         for k in range(order - 1):
             parts = [[newest(x, y[: k + 1]) for y in w] for x in a]
             q0, q = parts[0], parts[1:]

@@ -1,7 +1,8 @@
 """Certificates of kind motion: where the continuous ball is at some times, each number up to a radius.
 
-The ball has the mass tensor diag(J1, J2, J3) and D = m·radius²; the motion is that of attitude.py.  The point of
-contact, under the centre, has the velocity radius·(Ω₂, -Ω₁), Ω = Rω: the ball rolls.
+The ball has the mass tensor diag(J1, J2, J3) and D = m·radius², and perhaps a rotor, whose angular momentum is part of
+K and constant in the body; the motion is that of attitude.py.  The point of contact, under the centre, has the velocity
+radius·(Ω₂, -Ω₁), Ω = Rω: the ball rolls.
 
 1. The start is enclosed: the unit quaternion of every quaternion of the file, and k = RK.
 2. Steps of rolling.py enclose the solutions from there, and the integral of the velocity of the point of contact.  The
@@ -36,12 +37,13 @@ def statement(data: dict[str, Any]) -> str:
     ball, frames = data["ball"], data["frames"]
     rolls = f", radius = {ball['radius']}" if "radius" in ball else ""
     a, K = (shown(data["start"][name]) for name in ("attitude", "momentum"))
+    inside = f", a rotor with ({', '.join(ball['rotor'])}) in K" if "rotor" in ball else ""
     place = f", in ({', '.join(data['start']['position'])})" if rolls else ""
     return (
-        f"The continuous ball with J = ({', '.join(ball['J'])}), D = {ball['D']}{rolls}, that starts with the attitude "
-        f"({a}), divided by its length, and K = ({K}){place}, is at {len(frames)} times from {frames[0]['time']} to "
-        f"{frames[-1]['time']} where the frames say: each number up to its radius, which is at most "
-        f"1e-{data['digits']}, relative to the greatest number of K and of omega, and to the ball's radius."
+        f"The continuous ball with J = ({', '.join(ball['J'])}), D = {ball['D']}{rolls}{inside}, that starts with the "
+        f"attitude ({a}), divided by its length, and K = ({K}){place}, is at {len(frames)} times from "
+        f"{frames[0]['time']} to {frames[-1]['time']} where the frames say: each number up to its radius, which is at "
+        f"most 1e-{data['digits']}, relative to the greatest number of K and of omega, and to the ball's radius."
     )
 
 
@@ -51,7 +53,8 @@ def check_form(data: dict[str, Any]) -> None:
     if not isinstance(data["ball"], dict):
         raise Rejected("ball must be an object")
     rolls = "radius" in data["ball"]
-    check_names(data["ball"], "J D radius" if rolls else "J D", "ball")
+    more = [name for name in ("radius", "rotor") if name in data["ball"]]
+    check_names(data["ball"], " ".join(["J D", *more]), "ball")
     J = [exact(x, "a number of J") for x in listed(data["ball"]["J"], 3, "J")]
     D = exact(data["ball"]["D"], "D")
     if min(*J, D) < 0 or min(sum(J) - x + D for x in J) <= 0:
@@ -61,8 +64,10 @@ def check_form(data: dict[str, Any]) -> None:
         raise Rejected("radius must be positive")
     check_names(data["start"], "attitude momentum position" if rolls else "attitude momentum", "start")
     _pairs(data["start"]["attitude"], 4, "the attitude of the start")
-    if not any(x for x, _ in _pairs(data["start"]["momentum"], 3, "the momentum of the start")):
-        raise Rejected("the momentum of the start is 0: a ball at rest stays where it is")
+    rotor = [exact(x, "a number of the rotor") for x in listed(data["ball"].get("rotor", ["0"] * 3), 3, "rotor")]
+    K = _pairs(data["start"]["momentum"], 3, "the momentum of the start")
+    if [x for x, _ in K] == rotor:
+        raise Rejected("the momentum of the start is that of the rotor, or 0: a ball at rest stays where it is")
     for x in listed(data["start"]["position"], 2, "position") if rolls else ():
         exact(x, "a number of the position")
     digits = count(data["digits"], 1, MOST_DIGITS, "digits")
@@ -129,7 +134,10 @@ class Motion:
         moments = [sum(J) - x for x in J]
         mass = power(max(moments) + D)
         ball = [x / mass for x in moments], D / mass
-        time = 1 / power(rate(Rolling.of(*ball, Fraction), [x / mass for x in K], a))
+        rotor = [Fraction(x) / mass for x in data["ball"].get("rotor", ())]
+        own = [x / mass - y for x, y in zip(K, rotor or [Fraction(0)] * 3, strict=True)]
+        time = 1 / power(rate(Rolling.of(*ball, Fraction), own, a))
+        rotor = [x * time / 2 for x in rotor]
         self.units = {"angular_momentum": mass / time, "omega": 1 / time, "time": time}
         self.units["contact"] = Fraction(data["ball"].get("radius", "1"))
         start = [enclosed(x, by, bits) for x, by in zip(a, off, strict=True)]
@@ -137,9 +145,14 @@ class Motion:
         self.start = [x / length for x in start]
         half = [enclosed(x * time / mass / 2, by * time / mass / 2, bits) for x, by in zip(K, wide, strict=True)]
         half = [dot(row, half) for row in rotation(self.start)]
-        self.ball = Turning.of(*ball, partial(number, bits=bits), half)
-        fine = Turning.of(*ball, partial(Model.constant, bits=bits), [Model.enclosing(x) for x in half])
-        rough = Turning.of(*ball, partial(number, bits=BITS), [x.rescaled(BITS) for x in half])
+        one, fine_one, rough_one = (
+            partial(number, bits=bits),
+            partial(Model.constant, bits=bits),
+            partial(number, bits=BITS),
+        )
+        self.ball = Turning.of(*ball, one, half, [one(x) for x in rotor])
+        fine = Turning.of(*ball, fine_one, [Model.enclosing(x) for x in half], [fine_one(x) for x in rotor])
+        rough = Turning.of(*ball, rough_one, [x.rescaled(BITS) for x in half], [rough_one(x) for x in rotor])
         self.flow = Flow(fine, rough, [Fraction(1)] * 4, data["order"])
         self.place = [number(Fraction(x) / self.units["contact"], bits) for x in data["start"].get("position", ())]
 

@@ -92,28 +92,34 @@ class Rolling:
         """Of models: the start, and coefficients near those of the solution in the time; nothing rests on them."""
         return self.series_with_spin(start, order)[0]
 
-    def series_with_spin(self, start: Sequence[int], order: int) -> tuple[list[list[int]], list[list[int]]]:
-        """The series, and that of ω."""
+    def series_with_spin(
+        self, start: Sequence[int], order: int, rotor: Sequence[int] = ()
+    ) -> tuple[list[list[int]], list[list[int]]]:
+        """The series, and that of ω, of a ball with a rotor where there is one."""
         state = [[x] for x in start]
         K, gamma = state[:3], state[3:]
+        own = [[x[0] - y] for x, y in zip(K, rotor, strict=True)] if rotor else K
         (D,), bits, slow = self.D.terms, self.D.bits, [x.terms[0] for x in self.slowness]
         weights = [x.terms[0] for x in self.carried(self.slowness)]
         below: list[int] = []
         lift: list[int] = []
         w: list[list[int]] = [[], [], []]
         for k in range(order - 1):
-            squares, products = ([newest(x, y) >> bits for x, y in zip(v, gamma, strict=True)] for v in (gamma, K))
+            squares, products = ([newest(x, y) >> bits for x, y in zip(v, gamma, strict=True)] for v in (gamma, own))
             below.append(dot(weights, squares) >> bits)
             if not below[0]:
                 raise Rejected("the ball does not resist a turn about the vertical: its rotation does not follow")
             force = D * dot(slow, products) >> bits
             lift.append((force - sum(map(mul, below[1:], reversed(lift)))) // below[0])
-            for spin, s, x, y in zip(w, slow, K, gamma, strict=True):
+            for spin, s, x, y in zip(w, slow, own, gamma, strict=True):
                 spin.append(s * (x[k] + (newest(y, lift) >> bits)) >> bits)
             for v in (K, gamma):
                 rates = [newest(v[i - 2], w[i - 1]) - newest(v[i - 1], w[i - 2]) for i in range(3)]
                 for x, rate in zip(v, rates, strict=True):
                     x.append((rate >> bits) // (k + 1))
+            if rotor:
+                for x, y in zip(own, K, strict=True):
+                    x.append(y[-1])
         return state, w
 
 

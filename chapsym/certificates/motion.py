@@ -26,11 +26,11 @@ SIMPLE, KNOWN = 10**18, 512
 
 
 def check_start(start: Start) -> None:
-    """Raises BadInput for a ball with a rotor inside, and for principal axes that are not those that are given."""
+    """Raises BadInput for principal axes that are not those that are given, and for a rotor with π in its numbers."""
     if start.tensor is not None:
         raise BadInput("a certificate is of principal axes: give the principal moments, and all vectors in their axes")
-    if any(map(any, start.rotor)):
-        raise BadInput("a certificate is of a ball without a rotor: the checker has no equations of one with it")
+    if any(x.of_pi for x in start.rotor):
+        raise BadInput("a certificate has the rotor's angular momentum as rational numbers: give it in kg m^2/s")
 
 
 def motion(
@@ -61,7 +61,9 @@ def motion(
 
 def document(start: Start, found: CertifiedMotion, bits: int) -> dict[str, Any]:
     """The certificate, for a checker with so many bits: not checked."""
-    ball = {"J": [shortest(x) for x in start.mass_tensor], "D": shortest(start.D)}
+    ball: dict[str, Any] = {"J": [shortest(x) for x in start.mass_tensor], "D": shortest(start.D)}
+    if any(map(any, start.rotor)):
+        ball["rotor"] = [shortest(x.rational) for x in start.rotor]
     began: dict[str, Any] = _start(start, bits)
     if start.radius is not None:
         ball["radius"] = shortest(start.radius)

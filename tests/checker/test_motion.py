@@ -94,13 +94,14 @@ def middle(x):
     return (x.lo + x.hi) / 2 ** (x.bits + 1)
 
 
-def test_the_derivative_of_the_field_is_antisymmetric_but_for_the_matrix_that_is_stated():
+@pytest.mark.parametrize("with_rotor", [False, True])
+def test_the_derivative_of_the_field_is_antisymmetric_but_for_the_matrix_that_is_stated(with_rotor):
     """⟨e, f′e⟩ = |a|²⟨ξ, B⁻¹Cξ⟩ for e = a∘(s, ξ), by duals, for quaternions of any length."""
     rng = random.Random(5)
     for _ in range(8):
-        numbers = [interval(Fraction(rng.randrange(-99, 99), 50)) for _ in range(11)]
-        a, e, k = numbers[:4], numbers[4:8], numbers[8:]
-        one = attitude.Turning.of(INERTIA, D, interval, k)
+        numbers = [interval(Fraction(rng.randrange(-99, 99), 50)) for _ in range(14)]
+        a, e, k, rotor = numbers[:4], numbers[4:8], numbers[8:11], numbers[11:]
+        one = attitude.Turning.of(INERTIA, D, interval, k, rotor if with_rotor else ())
         found = sum(middle(x) * middle(y) for x, y in zip(e, derivative(one.field, a, e), strict=True))
         columns = np.array([[middle(x) for x in column] for column in one.stretch(a)])
         (q0, *q), v = [middle(x) for x in a], [middle(x) for x in e]
@@ -122,17 +123,20 @@ def random_start(rng):
     return tensor, D, [number(4) for _ in range(3)], [1, *(number(1) for _ in range(3))]
 
 
+@pytest.mark.parametrize("with_rotor", [False, True])
 @pytest.mark.parametrize("seed", range(6))
-def test_what_is_enclosed_contains_the_motion_found_by_another_way(right, seed):
-    tensor, D, omega, quaternion = random_start(random.Random(seed))
+def test_what_is_enclosed_contains_the_motion_found_by_another_way(right, seed, with_rotor):
+    tensor, D, omega, quaternion = random_start(rng := random.Random(seed))
+    rotor = [Fraction(rng.randrange(-300, 300), 100) * with_rotor for _ in range(3)]
     whole = sum(tensor)
-    K = momentum([whole - x for x in tensor], D, omega, quaternion)
+    K = [x + y for x, y in zip(momentum([whole - x for x in tensor], D, omega, quaternion), rotor, strict=True)]
+    inside = {"rotor": [str(x) for x in rotor]} if with_rotor else {}
     data = right | {
-        "ball": {"J": [str(x) for x in tensor], "D": str(D), "radius": "1/2"}, "bits": 160, "order": 80,
+        "ball": {"J": [str(x) for x in tensor], "D": str(D), "radius": "1/2"} | inside, "bits": 160, "order": 80,
         "start": right["start"] | {"attitude": [[str(x), "0"] for x in quaternion],
                                    "momentum": [[str(x), "0"] for x in K]},
     }  # fmt: skip
-    one, path = motion.Motion(data), Truth(tensor, D, omega, quaternion, RADIUS)
+    one, path = motion.Motion(data), Truth(tensor, D, omega, quaternion, RADIUS, rotor)
     times = [Fraction(1, 7), Fraction(1, 2)]
     for found, time in zip(one.frames(times), times, strict=True):
         true = path.at(time)

@@ -7,13 +7,14 @@ from fractions import Fraction as F
 
 import numpy as np
 import pytest
+from certificate_changes import resealed
 from commands import chapsym as command
 from contained import ORDINARY, VECTORS, random_case, started, worst
 from flint import arb, ctx
 from motion_truth import Truth, number
 
 import chapsym
-from chapsym import BadInput, ExactBall, certified_motion
+from chapsym import BadInput, ExactBall, certified_motion, checker
 from chapsym.dynamics import enclosed_motion
 from chapsym.dynamics.enclosed_motion import decimal, follow, written
 from chapsym.dynamics.flow import path as paths
@@ -371,10 +372,23 @@ def test_what_has_no_rotor_refuses_one_in_a_sentence(tmp_path, words):
     assert len(done.stderr.splitlines()) == 1
 
 
-def test_no_certificate_is_written_of_a_rotor(tmp_path):
+def test_a_certificate_of_a_ball_with_a_rotor_is_accepted_and_another_rotor_is_not(tmp_path):
+    file = tmp_path / "c.json"
+    path = scene(tmp_path, replaced={"radius = 0.1": 'radius = 0.1\nrotor = [0.01, "1/30", -0.002]'})
+    made = command("certify", "motion", path, "--digits", "9", "--certificate", file)
+    assert made.returncode == 0, made.stderr
+    assert "a rotor with (1e-2, 1/30, -0.002) in K" in checker.check(json.loads(file.read_text())).statement
+    for other in (["0.01", "1/30", "-0.0021"], ["0", "0", "0"]):
+        data = json.loads(file.read_text())
+        data["ball"]["rotor"] = other
+        with pytest.raises(checker.Rejected, match="is not proved to be"):
+            checker.check(resealed(data))
+
+
+def test_no_certificate_is_written_of_a_rotor_in_turns(tmp_path):
     done = command("certify", "motion", scene(tmp_path, replaced=ROTOR), "--certificate", tmp_path / "c.json")
     assert (done.returncode, done.stdout) == (2, "")
-    assert "a certificate is of a ball without a rotor" in done.stderr
+    assert "a certificate has the rotor's angular momentum as rational numbers" in done.stderr
     assert not (tmp_path / "c.json").exists()
 
 
