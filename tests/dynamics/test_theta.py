@@ -64,8 +64,7 @@ def test_the_series_and_their_bounds_hold_off_the_real_line():
     disc = Disc(thetas.radius, 24)
     with_bounds, _ = thetas.on(disc, thetas.series(arb(0)))
     for k in range(12):
-        s = acb(0, 2 * k / 12).exp_pi_i() if k else acb(0, 1)
-        s = s * acb(thetas.radius) * (1 if k % 2 else 0.5)
+        s = (acb(k) / 6).exp_pi_i() * acb(thetas.radius)
         values = tau.theta(acb_mat([[acb(x) + s * u] for x, u in zip(start, direction, strict=True)]))
         for i, c in enumerate(EVERY):
             assert abs(values[0, i]) <= with_bounds[c.a, c.b].bound
