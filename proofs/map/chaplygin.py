@@ -98,7 +98,8 @@ def separation(proof: Proof) -> None:
     proof.say(
         "So at the roots B⁻¹Vᵢ = μᵢVᵢ + P(μᵢ)p, V₁, V₂ and p are orthogonal to each other, and |Vᵢ|² = (1 - dμᵢ)P(μᵢ)N'(μᵢ)",
         "with N'(μ₁) = g₂(μ₁ - μ₂), N'(μ₂) = -g₂(μ₁ - μ₂). The residues of F are positive: a root lies between each two of",
-        "the 1/Λⱼ. Let q = xV₁ + yV₂: |q| = 1 and ⟨q,ω̃⟩ = 1/c are x²|V₁|² + y²|V₂|² = 1 and its sum with μ₁ and μ₂ = 1/c.",
+        "the 1/Λⱼ. Let q = xV₁ + yV₂: |q| = 1 and ⟨q,ω̃⟩ = 1/c are x²|V₁|² + y²|V₂|² = 1 and its sum with μ₁ and μ₂ = 1/c:",
+        "so 1/c is between the two roots.",
         "p × ω̃ = xμ₁ p × V₁ + yμ₂ p × V₂, and N changes along p' by 2⟨V,p'⟩:",
     )
     moved = sp.Matrix(sp.symbols("r1:4"))

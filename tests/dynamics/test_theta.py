@@ -92,6 +92,16 @@ def test_products_inverses_and_integrals_are_within_their_bounds():
         one.at(arb(1))
 
 
+def test_of_bounds_too_small_for_floats_the_largest_is_taken():
+    with ctx.workprec(1200):
+        _, thetas = functions(8)
+        bounds = [lattice.left for lattice in thetas.lattices.values()]
+        disc = Disc(thetas.radius, 8)
+        found, _ = thetas.on(disc, dict.fromkeys(thetas.named, arb_poly([0])))
+        assert all(float(x) == 0.0 for x in bounds)
+        assert all(f.series[0].rad() >= x for f in found.values() for x in bounds)
+
+
 def test_a_period_matrix_that_is_not_positive_has_no_functions():
     with pytest.raises(TooWide):
         Thetas(matrix(((1, 2), (2, 1))), [arb(0)] * 2, [arb(1), arb(0)], {0: EVERY[0]}, 10)
@@ -165,6 +175,10 @@ def test_the_top_is_contained(kind, thorough):
         pytest.param((1, 2, 4), 3, (0, 2, 1), (0, 0, 1), 3, id="p1 and q1 begin at 0"),
         pytest.param((4, 2, 1), 3, (1, 0, 2), (0, 0, 1), 3, id="p2 and q2 begin at 0"),
         pytest.param((4, 2, 1), 3, (1, 2, 0), (0, 0, 1), 3, id="K normal to the vertical"),
+        pytest.param(("1/50", "3/100", "9/200"), "1/100", (1, 2, 0), ("0.6", "0.8", 0), "0.1", id="at a right end"),
+        pytest.param(("1/50", "3/100", "9/200"), "1/100", (4, 1, -3), ("0.6", 0, "0.8"), "0.1", id="at another"),
+        pytest.param((1, 2, 4), 3, ("1e-9", "1e-9", 1), (0, 1, 0), 3, id="near an axis"),
+        pytest.param((1, 2, 4), 0, ("1e-50", "2e-50", "3e-50"), (0, 1, 0), "1e50", id="a slow top"),
         pytest.param((1, 2, 4), 3, (1, "1e-6", 2), (0, 0, 1), 20, id="near a plane"),
         pytest.param((1, 2, 4), "1e-6", (1, 1, 2), (0, 0, 1), 20, id="small D"),
         pytest.param((1, 2, 4), "1e6", ("1e6", "1e6", 2), (0, 0, 1), "0.5", id="large D"),

@@ -14,6 +14,7 @@ from typing import Any
 from flint import acb, arb, arb_mat
 
 from ..levels.proved_root import TooWide
+from ..levels.start import fraction
 from .functions import Characteristic
 from .reduction import Reduced, Vector
 
@@ -42,7 +43,8 @@ def riemann() -> Characteristic:
 class Curve:
     """Branch points and what each is of (0, 1, 2 of Λ, "c" and "d"), the factor of μ⁵ in φ, and the periods.
 
-    The cycles: a₁ and a₂ round the cuts e₁e₂ and e₃e₄, b₁ and b₂ from these to the cut from e₅ to infinity.
+    The cycles: a₁ and a₂ round the cuts e₁e₂ and e₃e₄, b₁ and b₂ from these to the cut from e₅ to infinity.  They and
+    BRANCHES are by hand; tests compare what comes out with other ways.
     inverse: of the matrix of the periods of dμ/w and μdμ/w on a₁ and a₂, in rows.  Y: the period matrix is iY.
     """
 
@@ -73,14 +75,16 @@ class Curve:
         for i, e in enumerate(self.points):
             if i not in (cut, cut + 1):
                 rest *= mu - e if i < cut else e - mu
-        angle = arb.atan2(w / (half * rest.sqrt()), (middle - mu) / half)
+        sine, cosine = w / (half * rest.sqrt()), (middle - mu) / half
+        # At the right end the angle is near π, on either side of it: a period more or less is the same.
+        angle = arb.atan2(sine, cosine) if cosine.mid() > 0 else arb.pi() + arb.atan2(-sine, -cosine)
         return [integral(self.points, self.factor, cut, power, angle) for power in (0, 1)]
 
 
 def curve(found: Reduced) -> Curve:
     """The curve of a motion; raises TooWide where two branch points may be one."""
     named = [(1 / found.c, "c"), *((x, i) for i, x in enumerate(found.inverse))]
-    named.sort(key=lambda pair: float(pair[0].mid()))
+    named.sort(key=lambda pair: fraction(pair[0].mid()))
     points = (*(x for x, _ in named), 1 / found.d)
     if not all(x < y for x, y in itertools.pairwise(points)):
         raise TooWide

@@ -6,7 +6,8 @@
 
 import itertools
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from functools import reduce
 from typing import Any, NamedTuple
 
 from flint import arb, arb_mat, arb_poly, ctx
@@ -127,15 +128,20 @@ class Thetas:
         both = lattice.rows * arb_mat([list(pair) for pair in zip(values, rates, strict=True)])
         return arb_poly([both[k, k % 2] * (-1 if k % 4 > 1 else 1) for k in range(self.terms)])
 
+    def start_series(self) -> dict[Any, Any]:
+        """The Taylor series at the start, with what the polynomials leave out."""
+        found, _ = self.on(Disc(self.radius, self.terms), self.series(arb(0)))
+        return {name: f.series for name, f in found.items()}
+
     def on(self, disc: Disc, polynomials: Mapping[Any, Any]) -> tuple[dict[Any, Analytic], Any]:
         """The functions of these polynomials on a disc no larger than `radius`, and a bound of what is left out there.
 
         The k-th coefficient of what is left out of the lattice is at most its size over Rᵏ (Cauchy); the terms of the
         lattice beyond the polynomial are those of exponential series.
         """
-        left = max((lattice.left for lattice in self.lattices.values()), key=float)
+        left = _largest(lattice.left for lattice in self.lattices.values())
         off = arb_poly([arb(0, (left / disc.radius**k).abs_upper()) for k in range(self.terms)])
-        beyond = max((self._beyond(lattice, disc.radius) for lattice in self.lattices.values()), key=float) + left
+        beyond = _largest(self._beyond(lattice, disc.radius) for lattice in self.lattices.values()) + left
         return {
             name: Analytic(poly + off, size(poly, disc.radius) + beyond, disc) for name, poly in polynomials.items()
         }, beyond
@@ -147,6 +153,11 @@ class Thetas:
             x = (abs(rate) * radius).abs_upper()
             total += factor * x**self.terms * x.exp()
         return (total / arb(self.terms).gamma() / self.terms).abs_upper()
+
+
+def _largest(bounds: Iterable[Any]) -> Any:
+    """As balls: floats would lose the smallest."""
+    return reduce(lambda x, y: x.max(y), bounds)
 
 
 def _least_eigenvalue(Y: Any) -> Any:

@@ -40,7 +40,7 @@ class General(Pieces):
         for i in range(3):
             named |= {("p", i): on.characteristic(i), ("q", i): on.characteristic("c", "d", i)}
         self.thetas = Thetas(on.Y, *on.line(found), named, self.terms)
-        self.constants = constants(self.thetas.series(arb(0)), "d", _told(found))
+        self.constants = constants(self.thetas.start_series(), "d", _told(found))
         self.piece = self._piece((arb(0),) * (1 if radius is None else 3))
 
     def _piece(self, values: Vector) -> Piece:

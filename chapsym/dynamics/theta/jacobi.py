@@ -17,6 +17,7 @@ from chapsym import generated
 
 from ..levels.balls import exact, unit
 from ..levels.proved_root import TooWide
+from ..levels.start import fraction
 from .analytic import Analytic, Disc, size
 from .functions import Characteristic, Thetas
 from .pieces import CHANGE, PART, SMALLER, Piece, Pieces, constants, radius_of
@@ -28,7 +29,10 @@ ABOVE = Characteristic((1,), (1,)), Characteristic((1,), (0,)), Characteristic((
 
 
 class Top(Pieces):
-    """A motion with D = 0 or K parallel to γ, and three different moments, neither steady nor on the separatrix."""
+    """A motion with D = 0 or K parallel to γ, and three different moments, neither steady nor on the separatrix.
+
+    The parameter is κt.
+    """
 
     def __init__(
         self, precision: int, J: Sequence[Any], D: Any, K: Sequence[Any], attitude: Sequence[Any], radius: Any,
@@ -48,9 +52,9 @@ class Top(Pieces):
         speed, start, Y = self._curve(q)
         named: dict[Any, Characteristic] = {"": BELOW} | dict(zip(self.axes, ABOVE, strict=True))
         self.thetas = Thetas(Y, [start], [speed], named, self.terms)
-        rates = [self.rate * x for x in cross(q, times(self.A, q))]
+        rates = cross(q, times(self.A, q))
         told = {i: (q[i], rates[i]) for i in range(3)}
-        self.constants = constants(self.thetas.series(arb(0)), "", told)
+        self.constants = constants(self.thetas.start_series(), "", told)
         self.q = generated.rotate(*attitude, *q)
         E = self._leaning(q)
         self.space = [generated.rotate(*attitude, *v) for v in (q, E, cross(q, E))]
@@ -58,7 +62,7 @@ class Top(Pieces):
 
     def _order(self) -> tuple[int, int, int]:
         """The axes m, s and f."""
-        low, middle, high = sorted(range(3), key=lambda i: float(self.A[i].mid()))
+        low, middle, high = sorted(range(3), key=lambda i: fraction(self.A[i].mid()))
         A = self.A
         if not (A[low] < A[middle] < A[high]):
             raise TooWide
@@ -79,7 +83,7 @@ class Top(Pieces):
         quarter, other = (acb(x).elliptic_k().real for x in (parameter, 1 - parameter))
         u = acb.elliptic_f(acb(amplitude), acb(parameter)).real
         turns = -1 if (f - m) % 3 == 1 else 1  # whether m, f, s are in their cyclic order
-        speed = self.rate * abs(scale).sqrt() * turns * (1 if A[f] > A[s] else -1)
+        speed = abs(scale).sqrt() * turns * (1 if A[f] > A[s] else -1)
         return (speed if q[f].mid() > 0 else -speed) / (2 * quarter), u / (2 * quarter), arb_mat([[other / quarter]])
 
     def _leaning(self, q: Sequence[Any]) -> Vector:
@@ -88,7 +92,7 @@ class Top(Pieces):
         return unit([(1 if i == f else 0) - q[f] * x for i, x in enumerate(q)])
 
     def _after(self) -> Any:
-        return self.parameter + self.piece.length
+        return (self.parameter + self.piece.length) / self.rate
 
     def _piece(self, values: Vector) -> Piece:
         quotients = self._quotients("", self.constants)
@@ -98,7 +102,7 @@ class Top(Pieces):
         disc, least = _where_large(square)
         q, square = [x.on(disc) for x in q], square.on(disc)
         by = square.inverse(least)
-        turning = (q[m] * q[m] * self.A[m] + q[s] * q[s] * self.A[s]) * by * self.rate
+        turning = (q[m] * q[m] * self.A[m] + q[s] * q[s] * self.A[s]) * by
         disc = Disc((SMALLER * disc.radius).mid(), disc.terms)
         q, square, turning = [x.on(disc) for x in q], square.on(disc), turning.on(disc)
         rates = [turning]
@@ -121,14 +125,14 @@ class Top(Pieces):
             angles = arb_series(turning.series.integral().coeffs()[: disc.terms]) + angle
             size = arb_series(square.series.coeffs()).rsqrt()
             waves = [arb_poly((size * wave).coeffs()) for wave in (angles.cos(), angles.sin())]
-        cosine, sine = (Analytic(wave, most, disc) * self.rate for wave in waves)
+        cosine, sine = (Analytic(wave, most, disc) for wave in waves)
         alpha = q[f] * (self.A[f] - self.level)
         return [alpha * cosine + moved * sine, alpha * sine - moved * cosine]
 
     def frame(self, time: Fraction) -> dict[str, Vector]:
         """The motion at a time in the last piece."""
         piece = self.piece
-        s = exact(time) - self.parameter
+        s = exact(time) * self.rate - self.parameter
         q, angle = unit([x.at(s) for x in piece.functions]), piece.integral(0, s)
         E = self._leaning(q)
         cosine, sine = angle.cos(), angle.sin()

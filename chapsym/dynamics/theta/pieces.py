@@ -136,10 +136,13 @@ def constants(series: dict[Any, Any], divisor: Any, told: dict[Any, tuple[Any, A
 
 def radius_of(poly: Any, most: Any, largest: Any) -> Any:
     """About the R with Σ|cₖ|Rᵏ = most, k from 1, but no more than the largest: a short number."""
+    whole = float(largest)
+    if not 0.0 < whole < np.inf:
+        raise TooWide
     sizes = np.array([float(abs(x).mid()) for x in poly.coeffs()[1:]])
     powers, low, high = np.arange(1, len(sizes) + 1), 0.0, 1.0
-    sizes = np.exp(np.minimum(np.log(np.maximum(sizes, 1e-300)) + powers * np.log(float(largest)), 600.0))
+    sizes = np.exp(np.minimum(np.log(np.maximum(sizes, 1e-300)) + powers * np.log(whole), 600.0))
     for _ in range(16):
         middle = (low + high) / 2
         low, high = (middle, high) if (sizes * middle**powers).sum() < float(most) else (low, middle)
-    return arb(float(np.float32(low * float(largest))))
+    return arb(low * whole)
