@@ -29,8 +29,9 @@ DIGITS, RADIANS = 12, 8.0
 HEAD = """# The data set, judged by the separate checker
 
 Measured by `python -m benchmarks.rolling.checked`. Of each case of `benchmarks/rolling/data` the first frames, about
-{radians:g} radians of the motion, are rounded to {digits} digits; the checker, which shares no code with chapsym,
-proves them from the scene's start or says why it cannot. Beyond these frames the data rest on Arb and chapsym.
+{radians:g} radians of the motion but at least two frames, are rounded to {digits} digits. The checker, which shares no
+code with chapsym, proves them from the scene's start or says why it cannot.
+Beyond them the data rest on Arb and chapsym.
 
 | case | frames | until, s | the checker | seconds |
 |---|---|---|---|---|

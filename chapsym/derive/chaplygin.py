@@ -3,7 +3,7 @@
 import sympy as sp
 
 from .elliptic import L1, L2, L3
-from .three import UNIT_VERTICAL, gamma
+from .three import gamma
 
 p = gamma
 q = sp.Matrix(sp.symbols("q1:4"))
@@ -11,7 +11,6 @@ c, d, mu, nu = sp.symbols("c d mu nu")
 LAMBDA = sp.diag(L1, L2, L3)
 #: What d leaves of Λ: the moments of the reduced ball.
 LIGHTER = LAMBDA - d * sp.eye(3)
-UNIT = UNIT_VERTICAL
 
 
 def product(root: sp.Expr = mu) -> sp.Expr:

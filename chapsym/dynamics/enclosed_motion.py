@@ -50,7 +50,7 @@ class ExactBall:
         contact = exactly(D, "D")
         rho = None if radius is None else exactly(radius, "radius")
         moments: Any
-        if np.shape(mass_tensor) == (3, 3):
+        if isinstance(mass_tensor, Sequence | np.ndarray) and _of_rows(mass_tensor):
             moments = check_tensor([vector(row, "mass_tensor") for row in mass_tensor], contact)
         else:
             moments = vector(mass_tensor, "mass_tensor")
@@ -161,6 +161,11 @@ def certified_motion(
         tensor=None if exact.diagonal else lambda: [balls(row) for row in moments],
     )  # fmt: skip
     return follow(start, _ascending(times), digits, by=by, limit=limit, progress=progress)
+
+
+def _of_rows(values: Any) -> bool:
+    """Whether there are three, each a sequence."""
+    return len(values) == 3 and all(isinstance(x, list | tuple | np.ndarray) for x in values)
 
 
 def _exact_ball(ball: Any) -> ExactBall:

@@ -3,16 +3,17 @@
 import sympy as sp
 
 from chapsym.derive import chaplygin
-from chapsym.derive.chaplygin import LAMBDA, LIGHTER, UNIT, c, d, direction, mu, nu, p, product, q, quadratic
+from chapsym.derive.chaplygin import LAMBDA, LIGHTER, c, d, direction, mu, nu, p, product, q, quadratic
 from chapsym.derive.elliptic import L1, L2, L3
 from chapsym.derive.quotient import Quotient
+from chapsym.derive.three import UNIT_VERTICAL
 from chapsym.prove import Equation, Proof, claim, equations, main
 
 #: γ = s₁p + s₂q and K = k₁p + k₂q; H₂ = ⟨K,ω⟩.
 s1, s2, k1, k2, D, H2 = sp.symbols("s1 s2 k1 k2 D H2")
 PLANE = Quotient((*p, *q, s1, s2, k1, k2, D, H2), [D * H2 * s1 * s2 + k1 * k2])
 FREE = Quotient((*p, *q, L1, L2, L3, d), [])
-ON = Quotient((*p, L1, L2, L3, d, mu, nu), [UNIT])
+ON = Quotient((*p, L1, L2, L3, d, mu, nu), [UNIT_VERTICAL])
 #: q = xV₁ + yV₂, by the squares X = x²|V₁|², Y = y²|V₂|², and the roots.
 m1, m2, lead, P1, X, Y = sp.symbols("mu1 mu2 g2 P1 X Y")
 ROOTS = Quotient((m1, m2, c, d, lead, P1, X, Y), [X + Y - 1, c * (m1 * X + m2 * Y) - 1])
@@ -198,7 +199,7 @@ def others() -> tuple[sp.Expr, sp.Expr]:
 def top(proof: Proof) -> None:
     """Where D = 0 or K is vertical the ball turns as Euler's top does, and its angle about K is a quadrature."""
     proof.assume("Λ = I + D, A = Λ⁻¹; the axes m, s, f of the body in any order; K ≠ 0")
-    ring = Quotient((*p, L1, L2, L3, D), [UNIT])
+    ring = Quotient((*p, L1, L2, L3, D), [UNIT_VERTICAL])
     spun = INVERSE * p
     turned = LAMBDA * spun - D * p * p.dot(spun)
     scaled = sp.cancel(L1 * L2 * L3 * (p.dot(p) - D * p.dot(spun)))

@@ -102,6 +102,14 @@ def test_of_bounds_too_small_for_floats_the_largest_is_taken():
         assert all(f.series[0].rad() >= x for f in found.values() for x in bounds)
 
 
+def test_the_series_at_the_start_have_what_the_sums_leave_out():
+    """So do the constants that are made of them."""
+    _, thetas = functions(8)
+    left = arb("1e-3")
+    thetas.lattices = {a: lattice._replace(left=left) for a, lattice in thetas.lattices.items()}
+    assert all(f[0].rad() >= left for f in thetas.start_series().values())
+
+
 def test_a_period_matrix_that_is_not_positive_has_no_functions():
     with pytest.raises(TooWide):
         Thetas(matrix(((1, 2), (2, 1))), [arb(0)] * 2, [arb(1), arb(0)], {0: EVERY[0]}, 10)

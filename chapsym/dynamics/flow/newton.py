@@ -31,7 +31,7 @@ class Neighbours:
 
     def mend(self, p: Row, w: Row, terms: int) -> None:
         """Gives Φ and Ψ twice as many bits, if p and w have as many."""
-        with _terms(terms):
+        with capped(terms):
             gamma, omega, phi, psi = generated.rotation(*_series(p))[6:], _series(w), *map(_all, (self.phi, self.psi))
             off = []
             for column in zip(*phi, strict=True):
@@ -46,7 +46,7 @@ class Neighbours:
 
     def correction(self, p: Row, w: Row, found: Defects, terms: int) -> tuple[list[Any], list[Any]]:
         """What takes away the defects of p and w to the first order, if it is added."""
-        with _terms(terms):
+        with capped(terms):
             a, omega = _series(p), _series(w)
             e, kappa, (off,) = (_series(x.poly for x in v) for v in (found.e, found.kappa, [found.off]))
             gamma = generated.rotation(*a)[6:]
@@ -68,7 +68,7 @@ class Neighbours:
 
 
 @contextmanager
-def _terms(terms: int) -> Iterator[None]:
+def capped(terms: int) -> Iterator[None]:
     """Cuts series to so many terms."""
     before, ctx.cap = ctx.cap, terms
     try:

@@ -25,7 +25,7 @@ class Analytic:
 
     def __mul__(self, other: Any) -> "Analytic":
         if isinstance(other, Analytic):
-            product = _cut(self.series * other.series, self.disc.terms)
+            product = (self.series * other.series).truncate(self.disc.terms)
             return Analytic(product, self.bound * other.bound, self.disc)
         return Analytic(self.series * other, self.bound * abs(arb(other)), self.disc)
 
@@ -74,10 +74,6 @@ def combined(factors: Sequence[Any], functions: Sequence[Analytic]) -> Analytic:
     return total
 
 
-def _cut(poly: Any, terms: int) -> Any:
-    return poly if poly.length() <= terms else arb_poly(poly.coeffs()[:terms])
-
-
 def _inverse(poly: Any, terms: int) -> Any:
     """The series of 1/f, by Newton's iteration."""
     if poly[0].contains(0):
@@ -85,5 +81,5 @@ def _inverse(poly: Any, terms: int) -> Any:
     found, known = arb_poly([1 / poly[0]]), 1
     while known < terms:
         known = min(2 * known, terms)
-        found = _cut(found * (2 - _cut(_cut(poly, known) * found, known)), known)
+        found = (found * (2 - (poly.truncate(known) * found).truncate(known))).truncate(known)
     return found

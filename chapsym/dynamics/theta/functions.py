@@ -74,9 +74,10 @@ class Thetas:
         decay, grow = arb.pi() * _least_eigenvalue(Y), 2 * arb.pi() * self.speed * self.radius * arb(g).sqrt()
         if not decay > 0:
             raise TooWide
-        most = math.ceil(float((grow + (grow * grow + 4 * decay * (bits + grow)).sqrt()) / (2 * decay))) + 1
-        if (2 * most + 1) ** g > MOST_TERMS:
+        reach = (grow + (grow * grow + 4 * decay * (bits + grow)).sqrt()) / (2 * decay)
+        if not (2 * reach + 5) ** g < MOST_TERMS:
             raise TooWide
+        most = math.ceil(float(reach)) + 1
         j = arb(most) + 0.5
         left = 2 * g * (2 * j + 3) ** (g - 1) * (-decay * j * j + grow * (j + 1)).exp()
         ratio = (-decay * (2 * j + 1) + grow).exp() * ((2 * j + 5) / (2 * j + 3)) ** (g - 1)

@@ -14,13 +14,14 @@ from flint import arb, ctx
 
 from chapsym import generated
 
+from ..flow.series import cross
 from ..levels.balls import exact, unit
 from ..levels.proved_root import TooWide
 from .analytic import combined
 from .curve import curve
 from .functions import Characteristic, Thetas
 from .pieces import PART, Piece, Pieces, constants
-from .reduction import Reduced, Vector, cross, dot, reduced, times
+from .reduction import Reduced, Vector, dot, reduced, times
 
 
 class General(Pieces):

@@ -6,22 +6,23 @@ l = ⟨q,Λ⁻¹q⟩.  With Λ⁻¹ = A, f the axis that q goes round, m that of
 and the axis f turns about K in space with χ' = κ(A_m q_m² + A_s q_s²)/(1 - q_f²).
 """
 
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from fractions import Fraction
 from typing import Any
 
-from flint import acb, arb, arb_mat, arb_poly, arb_series, ctx
+from flint import acb, arb, arb_mat, arb_poly, arb_series
 
 from chapsym import generated
 
+from ..flow.newton import capped
+from ..flow.series import cross
 from ..levels.balls import exact, unit
 from ..levels.proved_root import TooWide
 from ..levels.start import fraction
 from .analytic import Analytic, Disc, size
 from .functions import Characteristic, Thetas
 from .pieces import CHANGE, PART, SMALLER, Piece, Pieces, constants, radius_of
-from .reduction import Vector, cross, dot, times
+from .reduction import Vector, dot, times
 
 #: θ₄ below, and θ₁, θ₂, θ₃ of sn, cn, dn.
 BELOW = Characteristic((0,), (1,))
@@ -55,7 +56,6 @@ class Top(Pieces):
         rates = cross(q, times(self.A, q))
         told = {i: (q[i], rates[i]) for i in range(3)}
         self.constants = constants(self.thetas.start_series(), "", told)
-        self.q = generated.rotate(*attitude, *q)
         E = self._leaning(q)
         self.space = [generated.rotate(*attitude, *v) for v in (q, E, cross(q, E))]
         self.piece = self._piece((arb(0),) * (1 if radius is None else 3))
@@ -121,7 +121,7 @@ class Top(Pieces):
         f, disc = self.axes[2], turning.disc
         moved = cross(q, times(self.A, q))[f]
         most = (disc.radius * turning.bound).exp() / least.sqrt()
-        with _terms(disc.terms):
+        with capped(disc.terms):
             angles = arb_series(turning.series.integral().coeffs()[: disc.terms]) + angle
             size = arb_series(square.series.coeffs()).rsqrt()
             waves = [arb_poly((size * wave).coeffs()) for wave in (angles.cos(), angles.sin())]
@@ -150,16 +150,6 @@ class Top(Pieces):
             x, y = (sum((w * v[i] for w, v in zip(turned, self.space, strict=True)), arb(0)) for i in range(2))
             frame["contact"] = (self.contact[0] + self.radius * y, self.contact[1] - self.radius * x)
         return self._told(frame)
-
-
-@contextmanager
-def _terms(count: int) -> Iterator[None]:
-    """Power series with so many terms."""
-    before, ctx.cap = ctx.cap, count
-    try:
-        yield
-    finally:
-        ctx.cap = before
 
 
 def _where_large(f: Analytic) -> tuple[Disc, Any]:

@@ -1,5 +1,6 @@
 """A motion by theta functions, piece by piece: on each, all is a series, and what has no closed form is integrated."""
 
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
 from fractions import Fraction
 from typing import Any, NamedTuple
@@ -45,7 +46,7 @@ class Piece(NamedTuple):
         return tuple(self.integral(i, self.length) for i in range(len(self.rates)))
 
 
-class Pieces:
+class Pieces(ABC):
     """A motion in balls of `precision` bits, as `flow.path.Path` is one; every method is to be called with that set.
 
     J, D, K in principal axes, attitude: a unit quaternion, radius: or None.  thetas: the functions, of the parameter.
@@ -76,7 +77,7 @@ class Pieces:
 
     @property
     def width(self) -> float:
-        """The logarithm to base 2 of what is integrated is off by."""
+        """The logarithm to base 2 of how far what is integrated may be off."""
         off = float(self.piece.values[0].rad())
         return float(np.log2(off)) if off else -float(self.precision)
 
@@ -88,8 +89,13 @@ class Pieces:
         self.piece = self._piece(values)
         self.steps += 1
 
+    @abstractmethod
     def _piece(self, values: Vector) -> Piece:
-        raise NotImplementedError
+        """The piece from the parameter on, with these values of what is integrated."""
+
+    @abstractmethod
+    def frame(self, time: Fraction) -> dict[str, Vector]:
+        """The motion at a time in the last piece."""
 
     def _quotients(self, divisor: Any, constants: dict[Any, Any]) -> dict[Any, Analytic]:
         """Constants times the functions over the divisor, from the parameter on; raises TooWide without a disc."""

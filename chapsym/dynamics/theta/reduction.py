@@ -13,22 +13,18 @@ from typing import Any
 
 from chapsym import generated
 
+from ..flow.series import cross
 from ..levels.proved_root import TooWide
 
 Vector = tuple[Any, ...]
 
 
 def dot(x: Sequence[Any], y: Sequence[Any]) -> Any:
-    """⟨x,y⟩; an empty sum of weights is not meant."""
+    """⟨x,y⟩ of numbers of any kind, which need not know 0."""
     first, *rest = (a * b for a, b in zip(x, y, strict=True))
     for term in rest:
         first = first + term
     return first
-
-
-def cross(x: Sequence[Any], y: Sequence[Any]) -> Vector:
-    """x × y."""
-    return x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]
 
 
 def times(x: Sequence[Any], y: Sequence[Any]) -> Vector:
