@@ -48,6 +48,11 @@ def transposed(matrix: Matrix) -> Matrix:
     return [list(column) for column in zip(*matrix, strict=True)]
 
 
+def image(matrix: Matrix, v: Vector) -> Vector:
+    """The product with a vector."""
+    return [dot(row, v) for row in matrix]
+
+
 def determinant(matrix: Matrix) -> Interval:
     """det of a 3 × 3 matrix: ⟨first row, second × third⟩."""
     return dot(matrix[0], cross(matrix[1], matrix[2]))
@@ -73,29 +78,40 @@ def solve(matrix: Matrix, right: Matrix) -> Matrix:
     return [row[len(rows) :] for row in rows]
 
 
-def newton(residual: Callable[[Vector], Vector], jacobian: Callable[[Vector], Matrix], centre: Vector) -> Vector:
-    """A box that contains one root of a map f of Rⁿ near `centre`, by Newton's test in intervals; else raises Rejected.
+def isolated(residual: Callable[[Vector], Vector], jacobian: Callable[[Vector], Matrix], box: Vector) -> Vector:
+    """A box inside the box X that contains the one root of a map f of Rⁿ in X; raises Rejected if it is not proved.
 
-    `residual` and `jacobian` enclose f and f′ for all values of the parameters that they contain.  Let X be a box about
-    the centre c and S = jacobian(X).  For x, y in X is f(x) - f(y) = A(x, y)(x - y), where A, the mean of f′ on the
-    segment, lies in S.  If all matrices in S are regular and N = c - S⁻¹f(c) lies inside X, then the continuous map
-    x ↦ c - A(x, c)⁻¹f(c) takes X into N, so it has a fixed point (Brouwer), a root of f, in N; and two roots x, y in X
+    `residual` and `jacobian` enclose f and f′ for all values of the parameters that they contain.  Let c be in the
+    middle of X and S = jacobian(X).  For x, y in X is f(x) - f(y) = A(x, y)(x - y), where A, the mean of f′ on the
+    segment, lies in S.  If all matrices in S are regular and N = c - S⁻¹f(c) lies inside X, then the continuous map x
+    ↦ c - A(x, c)⁻¹f(c) takes X into N, so it has a fixed point (Brouwer), a root of f, in N; and two roots x, y in X
     would have A(x, y)(x - y) = 0, x = y.  This holds for each value of the parameters: the root is a function of them,
-    and N contains its values.  Again from the middle m of N: the root x has x - m = -A(x, m)⁻¹f(m) with A(x, m) in
-    jacobian(N), which encloses it anew; this is repeated while the box shrinks by half.
+    and N contains its values.
     """
-
-    def step(at: Vector, over: Vector) -> Vector:
-        return minus(at, [s for (s,) in solve(jacobian(over), [[x] for x in residual(at)])])
-
-    centre = [x.point() for x in step(centre, centre)]  # Newton's iteration: the test may start from any point
-    size = max(x.most for x in minus(step(centre, centre), centre))
-    box = [x.wider(2 * size + 8) for x in centre]
-    root = step(centre, box)
+    root = _newton_step(residual, jacobian, [x.point() for x in box], box)
     if not all(x.inside(y) for x, y in zip(root, box, strict=True)):
         raise Rejected("Newton's test proves no root near the numbers of the file")
+    return root
+
+
+def newton(residual: Callable[[Vector], Vector], jacobian: Callable[[Vector], Matrix], centre: Vector) -> Vector:
+    """A box that contains one root of f near `centre`: `isolated` in a box that Newton's iteration finds.
+
+    Again from the middle m of N: the root x has x - m = -A(x, m)⁻¹f(m) with A(x, m) in jacobian(N), which encloses it
+    anew; this is repeated while the box shrinks by half.
+    """
+    centre = [x.point() for x in _newton_step(residual, jacobian, centre, centre)]  # the test may start from any point
+    size = max(x.most for x in minus(_newton_step(residual, jacobian, centre, centre), centre))
+    root = isolated(residual, jacobian, [x.wider(2 * size + 8) for x in centre])
     while True:
-        closer = step([x.point() for x in root], root)
+        closer = _newton_step(residual, jacobian, [x.point() for x in root], root)
         if 2 * max(x.width for x in closer) >= max(x.width for x in root):
             return root
         root = closer
+
+
+def _newton_step(
+    residual: Callable[[Vector], Vector], jacobian: Callable[[Vector], Matrix], at: Vector, over: Vector
+) -> Vector:
+    """at - S⁻¹f(at), S = f′ over a box."""
+    return minus(at, [s for (s,) in solve(jacobian(over), [[x] for x in residual(at)])])

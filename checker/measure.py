@@ -8,7 +8,9 @@ middle is 0, and s ≠ 0, as w = 0 only for h = 0: ⟨γ, Λ⁻¹γ⟩ is an int
 and the level l lies strictly between it and the next, the level consists of two circles, γ_c > 0 and γ_c < 0, and its
 projection to the plane of the other two axes, a and b, is an ellipse about 0.  G_h depends smoothly on h and is the
 identity for h = 0, so it takes the circle γ_c > 0 to itself.  G_-h is its inverse: the two equations for γ and γ̃ are
-exchanged by (h, u, w, s) ↦ -(h, u, w, s).
+exchanged by (h, u, w, s) ↦ -(h, u, w, s).  Beyond the bound of check_small_branch the file has a `branch` of the roots
+over the circle; branch.py proves that its map is a homeomorphism of the circle that commutes with R, below, and keeps
+the direction, and that the steps of the orbits are on it.
 
 The lift.  Let φ be the angle in the plane (a, b), and g a lift of G_h to the line, φ ↦ g(φ).  The rotation R by π about
 the axis c commutes with G_h, so g(φ + π) = g(φ) + π (done twice it adds 2π), and any two values of g(φ) - φ differ by
@@ -27,6 +29,7 @@ from fractions import Fraction
 from itertools import pairwise
 from typing import Any
 
+from .branch import Branch, direction
 from .document import (
     MOST_DIGITS,
     MOST_STEPS,
@@ -41,17 +44,22 @@ from .document import (
 )
 from .interval import Interval, Rejected
 from .linear import Vector, times
-from .step import Ball, check_small_branch, gibbs_vector, turned
+from .step import Ball, Pair, check_small_branch, gibbs_vector, turned
 
 NAMES = "format kind statement ball radius axes steps half_turns digits orbits digest"
+#: t = tan ½φ at the points with γ_a = 0 and γ_b = 0, the other one positive.
+ZEROS = {"a": Fraction(1), "b": Fraction(0)}
 
 
 def statement(data: dict[str, Any]) -> str:
     """What is proved, with the numbers of the file."""
-    ball = data["ball"]
+    ball, axes = data["ball"], data["axes"]
+    branch = ""
+    if "branch" in data:
+        branch = f" for the roots that continue u = ({', '.join(data['branch']['u'])}) at γ_{axes[1]} = 0 < γ_{axes[0]}"
     return (
-        f"For every ball with J = ({', '.join(ball['J'])}), D = {ball['D']} and momentum {ball['height']} γ: on the "
-        f"circle ⟨γ, Λ⁻¹γ⟩ = {ball['level']}, γ_{data['axes'][2]} > 0, every number within {data['radius']}, some "
+        f"For every ball with J = ({', '.join(ball['J'])}), D = {ball['D']} and momentum {ball['height']} γ{branch}: "
+        f"on the circle ⟨γ, Λ⁻¹γ⟩ = {ball['level']}, γ_{axes[2]} > 0, every number within {data['radius']}, some "
         f"points are back after {data['steps']} steps and {data['half_turns']} half turn"
         f"{'s' * (data['half_turns'] != 1)}, others are not, and so the map leaves no finite measure invariant that is "
         f"positive on every arc."
@@ -60,7 +68,7 @@ def statement(data: dict[str, Any]) -> str:
 
 def check_form(data: dict[str, Any]) -> None:
     """Raises Rejected unless all numbers are there, in their form."""
-    check_names(data, NAMES, "the certificate")
+    check_names(data, NAMES + " branch" * ("branch" in data), "the certificate")
     check_names(data["ball"], "J D height level", "ball")
     for name in ("D", "height", "level"):
         exact(data["ball"][name], name)
@@ -69,6 +77,9 @@ def check_form(data: dict[str, Any]) -> None:
     exact(data["radius"], "radius")
     if sorted(count(x, 1, 3, "an axis") for x in listed(data["axes"], 3, "axes")) != [1, 2, 3]:
         raise Rejected("axes must be 1, 2, 3 in some order")
+    if "branch" in data:
+        check_names(data["branch"], "arcs u", "branch")
+        decimals(data["branch"]["u"], count(data["digits"], 1, MOST_DIGITS, "digits"), "u of branch")
 
 
 class Circle:
@@ -85,7 +96,6 @@ class Circle:
         self.height, self.level = (Interval.enclosing(x - radius, x + radius, bits) for x in (height, level))
         if not self.height.sign:
             raise Rejected("the height is not proved to differ from 0")
-        check_small_branch(self.ball, self.height.sign * self.height)
         self.a, self.b, self.c = (i - 1 for i in data["axes"])
         self.weights = [1 / x for x in self.ball.contact]
         of_a, of_b, of_c = (self.weights[i] for i in (self.a, self.b, self.c))
@@ -95,14 +105,32 @@ class Circle:
             self.level < of_c and of_a < self.level and of_b < self.level
         ):
             raise Rejected("the level is not proved to be a circle around its axis")
+        self.branch = None
+        if "branch" in data:
+            self.branch = Branch.proved(self, data["branch"], data["digits"])
+        else:
+            check_small_branch(self.ball, self.height.sign * self.height)
 
-    def start(self, zero: int) -> Vector:
-        """The point of the circle with γ_zero = 0, where `zero` is a or b, and the other two positive."""
-        other = self.a + self.b - zero
-        share = (self.level - self.weights[self.c]) / (self.weights[other] - self.weights[self.c])
-        gamma = [0 * share] * 3
-        gamma[other], gamma[self.c] = share.sqrt(), (1 - share).sqrt()
+    def point(self, cosine: Interval, sine: Interval) -> Vector:
+        """The points of the circle in a direction (cosine, sine) of the plane (a, b)."""
+        share = [w - self.weights[self.c] for w in (self.weights[self.a], self.weights[self.b])]
+        square = (self.level - self.weights[self.c]) / (share[0] * (cosine * cosine) + share[1] * (sine * sine))
+        gamma = [0 * square] * 3
+        gamma[self.a], gamma[self.b] = square.sqrt() * cosine, square.sqrt() * sine
+        gamma[self.c] = (1 - square).sqrt()
         return gamma
+
+    def start(self, t: Fraction) -> Vector:
+        """The point with t = tan ½φ."""
+        return self.point(*(self.number(x) for x in direction(t)))
+
+    def number(self, x: Fraction) -> Interval:
+        """A rational number, enclosed."""
+        return Interval.enclosing(x, x, self.level.bits)
+
+    def state(self, gamma: Vector) -> Pair:
+        """(𝒦, γ), 𝒦 = hγ."""
+        return times(self.height, gamma), gamma
 
     def sine(self, v: Vector, w: Vector) -> Interval:
         """A positive multiple of the sine of the angle from v to w in the plane (a, b)."""
@@ -110,13 +138,14 @@ class Circle:
 
     def orbit(self, start: Vector, steps: list[Any], digits: int) -> list[Vector]:
         """γ after 0, 1, … steps; the Gibbs vectors and γ of the file are compared on the way."""
-        gammas, bits = [start], self.level.bits
+        gammas = [start]
         for number, given in enumerate(steps, 1):
             where = f"step {number}"
             check_names(given, "u gamma", where)
             near = decimals(given["u"], digits, f"u of {where}")
-            state = times(self.height, gammas[-1]), gammas[-1]
-            u = gibbs_vector(self.ball, state, [Interval.enclosing(x, x, bits).point() for x in near])
+            u = gibbs_vector(self.ball, self.state(gammas[-1]), [self.number(x).point() for x in near])
+            if self.branch is not None:
+                self.branch.check_on(gammas[-1], u, where)
             gammas.append(turned(u, gammas[-1]))
             check_rounded(u, near, digits, f"u of {where}")
             check_rounded(
@@ -130,6 +159,16 @@ class Circle:
         if len(signs) > 1 or 0 in signs:
             raise Rejected("the steps do not all turn in one direction by less than half a turn")
         return signs.pop()
+
+
+def _tangent(start: Any) -> Fraction:
+    """t of a start: a for γ_a = 0, b for γ_b = 0, or a rational number."""
+    if isinstance(start, str) and start in ZEROS:
+        return ZEROS[start]
+    t = exact(start, "the start of an orbit must be a or b, or it")
+    if not -1 < t < 1 or t == 0:
+        raise Rejected("the start of an orbit must be a, b or a number between -1 and 1, not 0, which is b")
+    return t
 
 
 def half_turns(sines: list[Interval]) -> int:
@@ -150,9 +189,7 @@ def check(data: dict[str, Any]) -> dict[str, str]:
     found = set()
     for given in listed(data["orbits"], 2, "orbits"):
         check_names(given, "start steps displacement", "an orbit")
-        if given["start"] not in ("a", "b"):
-            raise Rejected("the start of an orbit must be a or b")
-        start = circle.start(circle.a if given["start"] == "a" else circle.b)
+        start = circle.start(_tangent(given["start"]))
         gammas = circle.orbit(start, listed(given["steps"], q, "the steps of an orbit"), digits)
         direction = circle.direction(gammas)
         sines = [direction * circle.sine(start, w) for w in gammas[1:]]

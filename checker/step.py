@@ -112,17 +112,20 @@ def moved(u: Vector, state: Pair) -> Pair:
     return turned(u, state[0]), turned(u, state[1])
 
 
+def source(ball: Ball, state: Pair, u: Vector, vector: Pair) -> Vector:
+    """D(⟨dγ, u⟩γ + ⟨γ, u⟩dγ) + ½(1 + |u|²)d𝒦: what F(u) of (1) loses where the state changes by (d𝒦, dγ)."""
+    gamma, (dk, dg) = state[1], vector
+    force = plus(times(dot(dg, u), gamma), times(dot(gamma, u), dg))
+    return plus(times(ball.D, force), times((1 + dot(u, u)) / 2, dk))
+
+
 def tangents(ball: Ball, state: Pair, u: Vector, vectors: Sequence[Pair]) -> list[Pair]:
     """The derivative of the step, applied to tangent vectors (d𝒦, dγ).
 
-    From (1): F′(u)du = D(⟨dγ, u⟩γ + ⟨γ, u⟩dγ) + ½(1 + |u|²)d𝒦.  From ṽ + u × ṽ = v - u × v, which is (2) for ṽ = Ωᵀv:
+    From (1): F′(u)du is `source`.  From ṽ + u × ṽ = v - u × v, which is (2) for ṽ = Ωᵀv:
     dṽ + u × dṽ = dv - u × dv - du × (v + ṽ), that is dṽ = Ωᵀdv - (1 + U)⁻¹(du × (v + ṽ)).
     """
-    gamma, norm = state[1], (1 + dot(u, u)) / 2
-    right = [
-        plus(times(ball.D, plus(times(dot(dg, u), gamma), times(dot(gamma, u), dg))), times(norm, dk))
-        for dk, dg in vectors
-    ]
+    right = [source(ball, state, u, vector) for vector in vectors]
     du = transposed(solve(jacobian(ball, state, u), transposed(right)))
     both = [plus(v, turned(u, v)) for v in state]
 

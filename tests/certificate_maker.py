@@ -12,11 +12,11 @@ def cross(a, b):
     return mp.matrix([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]])
 
 
-def gibbs(J, D, momentum, gamma):
-    """The root of Bu + u × Iu = (1 + |u|²)k near 0, by Newton's iteration from u = 0."""
+def gibbs(J, D, momentum, gamma, near=None):
+    """The root of Bu + u × Iu = (1 + |u|²)k near 0, by Newton's iteration from u = 0 or from `near`."""
     inertia = mp.diag([J[1] + J[2], J[2] + J[0], J[0] + J[1]])
     B = inertia + D * (mp.eye(3) - gamma * gamma.T)
-    k, u = momentum / 2, mp.zeros(3, 1)
+    k, u = momentum / 2, mp.zeros(3, 1) if near is None else near
     for _ in range(60):
         Iu = inertia * u
         F = B * u + cross(u, Iu) - (1 + (u.T * u)[0]) * k
@@ -25,7 +25,7 @@ def gibbs(J, D, momentum, gamma):
             e = mp.matrix([int(i == j) for i in range(3)])
             A[:, j] = B * e + cross(e, Iu) + cross(u, inertia * e) - 2 * u[j] * k
         correction = mp.lu_solve(A, F)
-        u -= correction
+        u = u - correction
         if mp.norm(correction) < mp.mpf(2) ** (-0.6 * mp.mp.prec):  # the next one is its square
             return u
     raise AssertionError("Newton's iteration does not converge")

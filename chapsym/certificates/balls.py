@@ -29,10 +29,12 @@ def cross(a: Sequence[Any], b: Sequence[Any]) -> list[Any]:
     return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 
 
-def near_root(k: Sequence[Any], g: Sequence[Any], I: Sequence[Any], D: Any) -> tuple[Any, ...]:
-    """The Gibbs vector with k = 𝒦/2 and γ by Newton's iteration from 0, in the middle of all balls; no proof."""
+def near_root(
+    k: Sequence[Any], g: Sequence[Any], I: Sequence[Any], D: Any, near: Sequence[Any] | None = None
+) -> tuple[Any, ...]:
+    """The Gibbs vector with k = 𝒦/2 and γ by Newton's iteration from 0 or near, in the middle of balls; no proof."""
     given = *_middles(k), *_middles(g), *_middles(I), D.mid()
-    u: tuple[Any, ...] = (arb(0), arb(0), arb(0))
+    u: tuple[Any, ...] = (arb(0), arb(0), arb(0)) if near is None else _middles(near)
     enough = arb(2) ** -(ctx.prec // 2 + 4)
     for _ in range(MOST_CORRECTIONS):
         det, *products = gibbs_newton(*(*u, *given))[:4]

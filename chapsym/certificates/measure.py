@@ -8,7 +8,7 @@ on the circle, it would be conjugate to a rotation, and δ would have one sign, 
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import pairwise
 from typing import Any
@@ -16,12 +16,14 @@ from typing import Any
 from flint import arb, ctx
 
 from chapsym import checker
+from chapsym.checker.branch import MOST_ARCS
 from chapsym.checker.document import MOST_DIGITS, MOST_STEPS
+from chapsym.checker.measure import Circle
 from chapsym.dynamics.errors import BadInput
 from chapsym.dynamics.levels.proved_root import TooWide
 from chapsym.dynamics.levels.start import fraction
 
-from . import resonance
+from . import plateau, resonance
 from .balls import NotProved, ball, decade, decimals, rounded, shortest
 from .document import stated
 from .reduced import Reduced, Top, Vector, angle, cross
@@ -33,11 +35,13 @@ KIND = "no-invariant-measure"
 SIGNIFICANT, MORE = 3, 3
 #: Decimals by which a radius must be smaller for every step; boxes grow by less.
 LOST = 3
+#: Arcs of a half circle that are tried first.
+FEWEST_ARCS = 32
 
 
 @dataclass(frozen=True)
 class Orbit:
-    """q steps from the point with γ_a = 0 or γ_b = 0, enclosed: the Gibbs vectors, γ after each step, and δ."""
+    """q steps from a start, enclosed: the Gibbs vectors, γ after each step, and δ."""
 
     start: str
     gibbs: list[Vector]
@@ -63,7 +67,7 @@ def no_invariant_measure(
 ) -> dict[str, Any]:  # fmt: skip
     """Finds the certificate that G_h of a top preserves no measure with a positive continuous density.
 
-    steps: q, odd; the least that turns by `half_turns` by default.  half_turns: p; 1, or what the level has.
+    steps: q; the least odd one that turns by `half_turns` by default.  half_turns: p; 1, or what the level has.
     level: l; in the middle of the plateau by default.  digits: decimals of the file; what the displacement needs.
     radius: how far each of J, D, h and l may be off; the largest power of 10 that is proved by default, and 0 where a
     component of J is 0, as it must not be negative.
@@ -71,14 +75,23 @@ def no_invariant_measure(
     Raises BadInput, one sentence, for what has no certificate.
     """
     _check(top, steps, half_turns, digits, radius)
-    if level is None:
-        at = resonance.find(top, steps, half_turns or 1, progress)
-    else:
-        at = resonance.on_level(top, level, steps, half_turns)
+    try:
+        if level is None:
+            at = resonance.find(top, steps, half_turns or 1, progress)
+        else:
+            at = resonance.on_level(top, level, steps, half_turns)
+    except (NotProved, TooWide):
+        raise BadInput(
+            f"beyond the bound of lemma small-branch, at |h| = {abs(top.height)}, a step is not found; take a smaller "
+            "height"
+        ) from None
     progress("enclosing both orbits")
     least = _least_digits(top, at)
     if digits is not None and digits < least:
         raise BadInput(f"{digits} digits are too few for this displacement and level; take {least} or more")
+    if Reduced(top).bound is None:
+        progress("proving the branch over the whole circle")
+        at = replace(at, arcs=_arcs(top, at, least))
     return _largest(top, at, least if digits is None else digits, digits is not None, radius, progress)
 
 
@@ -94,10 +107,8 @@ def _check(top: Top, steps: int | None, half_turns: int | None, digits: int | No
         )
     if top.height == 0:
         raise BadInput("for the height 0 the map moves nothing")
-    if steps is not None and not (3 <= steps <= MOST_STEPS and steps % 2):
-        raise BadInput(
-            f"the number of steps must be odd, so that both starts are extreme, from 3 to {MOST_STEPS}, not {steps}"
-        )
+    if steps is not None and not 3 <= steps <= MOST_STEPS:
+        raise BadInput(f"the number of steps must be from 3 to {MOST_STEPS}, not {steps}")
     if half_turns is not None and half_turns < 1:
         raise BadInput(f"the number of half turns must be at least 1, not {half_turns}")
     if steps is not None and half_turns is not None:
@@ -132,6 +143,20 @@ def _least_digits(top: Top, at: Resonance) -> int:
                 if digits <= MOST_DIGITS:
                     return digits
     raise BadInput(f"the displacement on this level is not told from 0 with {MOST_DIGITS} digits")
+
+
+def _arcs(top: Top, at: Resonance, digits: int) -> int:
+    """The least power of 2 of arcs over which the checker accepts the branch; raises BadInput where none is found."""
+    with ctx.workprec(math.ceil(digits * 10 / 3) + spare_bits(at.steps)):
+        arcs, reason = FEWEST_ARCS, ""
+        while arcs <= MOST_ARCS:
+            try:
+                Circle(_fields(top, replace(at, arcs=arcs), Fraction(0), digits))
+            except checker.Rejected as error:
+                arcs, reason = 2 * arcs, str(error)
+            else:
+                return arcs
+    raise BadInput(f"the branch is not proved over the whole circle with {MOST_ARCS} arcs: {reason}")
 
 
 def _largest(
@@ -182,18 +207,21 @@ def _radii(top: Top, at: Resonance, digits: int) -> list[Fraction]:
 
 def _orbits(top: Top, at: Resonance, radius: Fraction) -> list[Orbit]:
     reduced = Reduced(top, radius)
-    return [_orbit(reduced, at, reduced.start(ball(at.level, radius), at.axes, zero), zero) for zero in "ab"]
+    level = ball(at.level, radius)
+    return [_orbit(reduced, at, reduced.start(level, at.axes, plateau.tangent(x)), x) for x in at.starts]
 
 
-def _orbit(reduced: Reduced, at: Resonance, start: Vector, zero: str) -> Orbit:
+def _orbit(reduced: Reduced, at: Resonance, start: Vector, name: str) -> Orbit:
     """Every step, proved; raises NotProved."""
-    gibbs, gammas = [], [start]
+    gibbs: list[Vector] = []
+    gammas = [start]
     for _ in range(at.steps):
-        u, gamma = reduced.image(reduced.root(gammas[-1]), gammas[-1])
+        near = gibbs[-1] if gibbs else None
+        u, gamma = reduced.image(reduced.root(gammas[-1], near), gammas[-1])
         gibbs.append(u)
         gammas.append(gamma)
     s = direction([(cross(x, y, at.axes), angle(x, y, at.axes)) for x, y in pairwise(gammas)], at.half_turns)
-    return Orbit(zero, gibbs, gammas[1:], s * (-1) ** at.half_turns * cross(start, gammas[-1], at.axes))
+    return Orbit(name, gibbs, gammas[1:], s * (-1) ** at.half_turns * cross(start, gammas[-1], at.axes))
 
 
 def direction(turned: list[tuple[Any, Any]], half_turns: int) -> int:
@@ -212,13 +240,22 @@ def direction(turned: list[tuple[Any, Any]], half_turns: int) -> int:
 def _document(top: Top, at: Resonance, radius: Fraction, orbits: list[Orbit], digits: int) -> dict[str, Any]:
     if orbits[0].sign() * orbits[1].sign() >= 0:
         raise NotProved("the signs of the displacements are not proved")
-    return stated(
-        KIND,
-        ball={"J": [str(x) for x in top.J], "D": str(top.D), "height": str(top.height), "level": shortest(at.level)},
-        radius=shortest(radius),
-        axes=[i + 1 for i in at.axes],
-        steps=at.steps,
-        half_turns=at.half_turns,
-        digits=digits,
-        orbits=[x.write(digits) for x in orbits],
-    )
+    return stated(KIND, **_fields(top, at, radius, digits), orbits=[x.write(digits) for x in orbits])
+
+
+def _fields(top: Top, at: Resonance, radius: Fraction, digits: int) -> dict[str, Any]:
+    """All but the orbits."""
+    fields = {
+        "ball": {"J": [str(x) for x in top.J], "D": str(top.D), "height": str(top.height), "level": shortest(at.level)},
+        "radius": shortest(radius),
+        "axes": [i + 1 for i in at.axes],
+        "steps": at.steps,
+        "half_turns": at.half_turns,
+        "digits": digits,
+    }
+    if at.arcs:
+        reduced = Reduced(top, radius)
+        gamma = reduced.start(ball(at.level, radius), at.axes, Fraction(0))
+        u, _ = reduced.image(reduced.root(gamma), gamma)
+        fields["branch"] = {"arcs": at.arcs, "u": [rounded(x, digits) for x in u]}
+    return fields

@@ -1,10 +1,12 @@
 """The levels on which G_h turns by p half turns in q steps, for some points of the circle: a plateau, found.
 
-For odd q the displacement after q steps is least and largest at the points with γ_a = 0 and γ_b = 0, which reflections
-fix.  So the two levels on which one of them returns to p half turns are the ends of the plateau; it is about as narrow,
+The displacement after q steps is least and largest at two `starts`, nearly: for odd q the points with γ_a = 0 and
+γ_b = 0, which reflections fix.  So the levels on which one of them returns to p half turns are the ends of the plateau;
+it is about as narrow,
 beside the range of levels, as the q-th power of the nome.  Nothing here is proved: that is for the balls to do.
 """
 
+import contextlib
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -14,9 +16,11 @@ from typing import Any
 
 from flint import acb, arb, ctx
 
+from chapsym.checker.measure import ZEROS
+from chapsym.dynamics.levels.proved_root import TooWide
 from chapsym.dynamics.levels.start import exponent_of, fraction
 
-from .balls import ball
+from .balls import NotProved, ball
 from .reduced import Axes, Reduced, Top, Vector, angle, cross
 
 #: The levels that are looked at have x/(1 - x) = e^t for so many t up to ±REACH, x from the separatrix to the axis.
@@ -24,6 +28,8 @@ LEVELS, REACH = 29, 14.0
 #: Bits and steps of this look, and how well it finds the level, in half turns.
 LOOK_BITS, LOOK_STEPS, LOOK_NEAR = 64, 63, 1e-3
 MOST_SECANTS = 60
+#: The start of a symmetric step is a multiple of 1/MIDDLE after so many steps of its iteration.
+MIDDLE, MIDDLE_STEPS = 1000, 30
 
 
 @dataclass(frozen=True)
@@ -44,25 +50,26 @@ class Staircase:
 
 
 def staircases(top: Top, steps: int, progress: Callable[[str], None]) -> list[Staircase]:
-    """The circles around both axes; raises BadInput beyond the bound of lemma `small-branch`."""
+    """The circles around both axes, without those on which a step is not found."""
     found = []
     for axes in top.sides():
         _, b, c = axes
         inner, outer = 1 / top.moments[b], 1 / top.moments[c]
         shares = [1.0 / (1.0 + math.exp(REACH * (1.0 - 2.0 * i / (LEVELS - 1)))) for i in range(LEVELS)]
         levels = [inner + (outer - inner) * Fraction(x) for x in shares]
-        turns = []
+        counted = {}
         for number, level in enumerate(levels):
             progress(f"looking for the level: circle {number + 1} of {LEVELS} around axis {c + 1}")
-            turns.append(half_turns(top, level, axes, steps))
-        found.append(Staircase(axes, levels, turns))
+            with contextlib.suppress(NotProved, TooWide):
+                counted[level] = half_turns(top, level, axes, steps)
+        found.append(Staircase(axes, list(counted), list(counted.values())))
     return found
 
 
 def half_turns(top: Top, level: Fraction, axes: Axes, steps: int) -> list[float]:
     """Half turns after 1, 2, ... steps from the point with γ_b = 0, in the direction of the motion."""
     with ctx.workprec(LOOK_BITS):
-        orbit = trajectory(Reduced(top), level, axes, "b", steps)
+        orbit = trajectory(Reduced(top), level, axes, ZEROS["b"], steps)
         total, found = 0.0, []
         for before, after in pairwise(orbit):
             total += float(angle(before, after, axes)) / math.pi
@@ -70,11 +77,12 @@ def half_turns(top: Top, level: Fraction, axes: Axes, steps: int) -> list[float]
         return found
 
 
-def trajectory(reduced: Reduced, level: Fraction, axes: Axes, zero: str, steps: int) -> list[Vector]:
+def trajectory(reduced: Reduced, level: Fraction, axes: Axes, t: Fraction, steps: int) -> list[Vector]:
     """γ from a start on, rounded after every step."""
-    orbit = [tuple(x.mid() for x in reduced.start(ball(level), axes, zero))]
+    orbit, near = [tuple(x.mid() for x in reduced.start(ball(level), axes, t))], None
     for _ in range(steps):
-        orbit.append(tuple(x.mid() for x in reduced.image(reduced.root(orbit[-1]), orbit[-1])[1]))
+        near = reduced.root(orbit[-1], near)
+        orbit.append(tuple(x.mid() for x in reduced.image(near, orbit[-1])[1]))
     return orbit
 
 
@@ -93,13 +101,34 @@ def refined(top: Top, ends: tuple[Fraction, Fraction], axes: Axes, steps: int, t
     return low, high
 
 
+def starts(top: Top, level: Fraction, axes: Axes, steps: int) -> tuple[str, str]:
+    """Where the displacement after q steps is extreme, as a certificate names it: on lines that reversors fix.
+
+    For odd q γ_a = 0 and γ_b = 0; for even q γ_b = 0, and the start of a step that ends at its reflection, nearly.
+    """
+    if steps % 2:
+        return "a", "b"
+    t = 0.0
+    with ctx.workprec(LOOK_BITS):
+        reduced = Reduced(top)
+        for _ in range(MIDDLE_STEPS):
+            before, after = trajectory(reduced, level, axes, Fraction(t), 1)
+            t = math.tan(-float(angle(before, after, axes)) / 4)
+    return "b", str(Fraction(round(t * MIDDLE), MIDDLE))
+
+
+def tangent(start: str) -> Fraction:
+    """tan ½φ of such a start."""
+    return ZEROS[start] if start in ZEROS else Fraction(start)
+
+
 def end_of_plateau(
-    reduced: Reduced, near: tuple[Fraction, Fraction], axes: Axes, zero: str, steps: int, bits: int
+    reduced: Reduced, near: tuple[Fraction, Fraction], axes: Axes, t: Fraction, steps: int, bits: int
 ) -> Fraction:
-    """The level near two others on which the start with γ_a = 0 or γ_b = 0 is on its axis again, by secants."""
+    """The level near two others on which a start is on its line through 0 again, by secants."""
 
     def off(level: Fraction) -> Fraction:
-        orbit = trajectory(reduced, level, axes, zero, steps)
+        orbit = trajectory(reduced, level, axes, t, steps)
         return fraction(cross(orbit[0], orbit[-1], axes))
 
     (x, y), limit = near, unit_in_last_place(near[0], bits)

@@ -7,18 +7,21 @@ Everything is computed at the precision of flint's context.
 
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
+from typing import Any, cast
 
-from flint import arb
+from flint import arb, arb_mat, ctx
 
+from chapsym.checker.branch import direction
 from chapsym.dynamics.errors import BadInput
-from chapsym.dynamics.levels.proved_root import MATRIX_BITS, certified, newton_enclosure, upper
+from chapsym.dynamics.levels.proved_root import MATRIX_BITS, certified, inverse_slope, newton_enclosure, upper
 from chapsym.generated import gibbs_residual, turn
 
 from .balls import NotProved, ball, near_root
 
 Vector = tuple[Any, ...]
 Axes = tuple[int, int, int]
+#: Steps in h from 0 by which a root beyond the bound of `small-branch` is continued.
+CONTINUED = 16
 
 
 @dataclass(frozen=True)
@@ -59,50 +62,69 @@ class Top:
 class Reduced:
     """G_h for all J, D and h within `radius` of a top; with radius 0 for that top.
 
-    Raises BadInput where |h| is beyond the bound of lemma `small-branch`: there no step is proved.
+    Where |h| is beyond the bound of lemma `small-branch`, `bound` is None: each step encloses a root near those of the
+    small branch, which is continued from h = 0; that it is one branch over the circle is for the checker to prove.
     """
 
     def __init__(self, top: Top, radius: Fraction = Fraction(0)) -> None:
         J = [ball(x, radius) for x in top.J]
         self.I = (J[1] + J[2], J[0] + J[2], J[0] + J[1])
         self.D, self.half = ball(top.D, radius), ball(top.height, radius) / 2
-        bound = certified(2 * abs(self.half), self.I)
-        if bound is None:
-            raise BadInput(
-                f"|h| = {abs(top.height)} is beyond the bound of lemma small-branch for the moments of inertia "
-                f"{', '.join(str(x - top.D) for x in top.moments)}; take a smaller height"
-            )
-        self.inner, self.slope = bound
+        self.bound = certified(2 * abs(self.half), self.I)
 
-    def start(self, level: Any, axes: Axes, zero: str) -> Vector:
-        """The point of a level circle with γ_a = 0 (zero "a") or γ_b = 0 ("b"), the other one and γ_c positive."""
+    def start(self, level: Any, axes: Axes, t: Fraction) -> Vector:
+        """The point of a level circle with tan ½φ = t, φ the angle in the plane of (a, b), and γ_c positive."""
         a, b, c = axes
-        left = b if zero == "a" else a
-        L, M = self.I[left] + self.D, self.I[c] + self.D
-        gap = self.I[c] - self.I[left]
+        cosine, sine = (ball(x) for x in direction(t))
+        of_a, of_b, of_c = (1 / (self.I[i] + self.D) for i in axes)
+        square = (level - of_c) / ((of_a - of_c) * cosine**2 + (of_b - of_c) * sine**2)
         gamma = [arb(0)] * 3
-        gamma[left], gamma[c] = (L * (M * level - 1) / gap).sqrt(), (M * (1 - L * level) / gap).sqrt()
-        if not (gamma[left] > 0 and gamma[c] > 0):
+        gamma[a], gamma[b], gamma[c] = square.sqrt() * cosine, square.sqrt() * sine, (1 - square).sqrt()
+        if not (square > 0 and gamma[c] > 0):
             raise NotProved("the level may be at the end of its range")
         return tuple(gamma)
 
-    def root(self, gamma: Vector) -> Vector:
-        """The Gibbs vector of the step from the middle of γ, for the middle parameters: to rounding, no proof."""
-        return near_root(self._momentum(gamma), gamma, self.I, self.D)
+    def root(self, gamma: Vector, near: Vector | None = None) -> Vector:
+        """The Gibbs vector of the step from the middle of γ, for the middle parameters: to rounding, no proof.
+
+        near: beyond the bound, that of a γ near by; without it the root is continued from h = 0.
+        """
+        if self.bound is not None:
+            return near_root(self._momentum(gamma), gamma, self.I, self.D)
+        for part in range(1, CONTINUED + 1) if near is None else (CONTINUED,):
+            momentum = tuple(arb(part) / CONTINUED * x for x in self._momentum(gamma))
+            near = near_root(momentum, gamma, self.I, self.D, near)
+        return cast(Vector, near)
 
     def image(self, u: Vector, gamma: Vector) -> tuple[Vector, Vector]:
         """Encloses the Gibbs vectors and G_h of all γ in a box, for all parameters; u: a point near these vectors.
 
-        Lemma `small-branch` holds for these parameters: a root with |u| < 1 is the small branch's, and the one.
+        Within the bound of lemma `small-branch` a root with |u| < 1 is the small branch's, and the one.
         """
-        if not upper(u) <= self.inner:
+        if self.bound is not None and not upper(u) <= self.bound[0]:
             raise NotProved("the Gibbs vector is not within the bound of lemma small-branch")
         state = (*self._momentum(gamma), *gamma, *self.I, self.D)
-        v = newton_enclosure(u, gibbs_residual(*(*u, *state)), self.slope, state, 2 * MATRIX_BITS)
+        r = gibbs_residual(*(*u, *state))
+        if self.bound is None:
+            v = _newton_test(u, r, state)
+        else:
+            v = newton_enclosure(u, r, self.bound[1], state, 2 * MATRIX_BITS)
         return v, tuple(x + y for x, y in zip(gamma, turn(1, *v, *gamma), strict=True))
 
     def _momentum(self, gamma: Vector) -> Vector:
         return tuple(self.half * x for x in gamma)
+
+
+def _newton_test(u: Vector, r: Vector, state: Vector) -> Vector:
+    """The root near a point u with the residual r, by Newton's test; raises NotProved where it fails."""
+    least = arb(2) ** -ctx.prec
+    with ctx.workprec(2 * MATRIX_BITS):
+        column = arb_mat(3, 1, r)
+        off = (2 * upper((inverse_slope(u, arb(0), state) * column).entries()) + least).abs_upper()
+        d = (inverse_slope(u, off, state) * column).entries()
+        if not upper(d) < off:
+            raise NotProved("Newton's test proves no root")
+    return tuple(x - y for x, y in zip(u, d, strict=True))
 
 
 def cross(x: Vector, y: Vector, axes: Axes) -> Any:

@@ -22,12 +22,17 @@ RESOLVED_BITS = 40
 
 @dataclass(frozen=True)
 class Resonance:
-    """A level, and what happens there: p half turns in q steps."""
+    """A level, and what happens there: p half turns in q steps, most and least nearly from two starts.
+
+    arcs: into how many the half circle is cut to prove the branch; 0 within the bound of lemma `small-branch`.
+    """
 
     axes: Axes
     level: Fraction
     steps: int
     half_turns: int
+    starts: tuple[str, str]
+    arcs: int = 0
 
 
 def find(top: Top, steps: int | None, half_turns: int, progress: Callable[[str], None]) -> Resonance:
@@ -36,7 +41,8 @@ def find(top: Top, steps: int | None, half_turns: int, progress: Callable[[str],
     Raises BadInput where there is none, or where it is too narrow.
     """
     axes, near, steps = _circle(top, steps, half_turns, progress)
-    return Resonance(axes, _middle(top, near, axes, steps, progress), steps, half_turns)
+    starts = plateau.starts(top, near[0], axes, steps)
+    return Resonance(axes, _middle(top, near, axes, steps, starts, progress), steps, half_turns, starts)
 
 
 def _circle(
@@ -59,6 +65,8 @@ def _circle(
 
 def _why(sides: list[plateau.Staircase], steps: int | None, half_turns: int) -> str:
     """Why no circle was found."""
+    if not any(side.levels for side in sides):
+        return "no step is found on any circle, beyond the bound of lemma small-branch; take a smaller height"
     wanted = f"{turns(half_turns)} in {steps or f'an odd number up to {plateau.LOOK_STEPS}'} steps"
     most = max(counted[-1] / len(counted) for side in sides for counted in side.turns)
     if half_turns < most * (steps or plateau.LOOK_STEPS):
@@ -82,19 +90,22 @@ def on_level(top: Top, level: Fraction, steps: int | None, half_turns: int | Non
         wanted = "a whole number" if half_turns is None else half_turns
         raise BadInput(f"on this level {steps} steps turn by {found:.6g} half turns, not by {wanted}")
     check_reduced(steps, counted)
-    return Resonance(axes, level, steps, counted)
+    return Resonance(axes, level, steps, counted, plateau.starts(top, level, axes, steps))
 
 
 def _middle(
-    top: Top, near: tuple[Fraction, Fraction], axes: Axes, steps: int, progress: Callable[[str], None]
-) -> Fraction:
+    top: Top, near: tuple[Fraction, Fraction], axes: Axes, steps: int, starts: tuple[str, str],
+    progress: Callable[[str], None],
+) -> Fraction:  # fmt: skip
     """The simplest level in the middle half of the plateau, with twice the precision until it is resolved."""
     bits = math.ceil(-plateau.nome_power(top, near[0], axes, steps)) + spare_bits(steps)
     while bits < MOST_DIGITS * 10 // 3:
         progress(f"looking for {steps} steps around axis {axes[2] + 1} with {bits} bits")
         with ctx.workprec(bits):
             reduced = Reduced(top)
-            low, high = sorted(plateau.end_of_plateau(reduced, near, axes, zero, steps, bits) for zero in "ab")
+            low, high = sorted(
+                plateau.end_of_plateau(reduced, near, axes, plateau.tangent(x), steps, bits) for x in starts
+            )
         if high - low > plateau.unit_in_last_place(low, bits - RESOLVED_BITS):
             return simplest(low, high)
         bits *= 2

@@ -43,7 +43,7 @@ def no_invariant_measure(
     inertia: Inertia = None,
     contact: Contact = None,
     vertical_momentum: Annotated[str, typer.Option(metavar="H", help="h of G_h: the momentum is h gamma.")] = "12/5",
-    steps: Annotated[int | None, typer.Option(metavar="Q", help="Steps, odd; the fewest possible.")] = None,
+    steps: Annotated[int | None, typer.Option(metavar="Q", help="Steps; the fewest possible, odd.")] = None,
     turns: Annotated[int | None, typer.Option(metavar="P", help="Half turns in them; 1.")] = None,
     level: Annotated[str | None, typer.Option(metavar="L", help="The level; found by default.")] = None,
     digits: Annotated[int | None, typer.Option(metavar="N", help="Decimals; as many as needed by default.")] = None,
@@ -56,7 +56,8 @@ def no_invariant_measure(
     """Certify that the reduced map preserves no measure with a positive continuous density.
 
     On a level circle with the rotation number p/q one point is moved by more, another by less than p half turns in q
-    steps.  By default for the ball with J = (1, 2, 4), D = 1.
+    steps.  By default for the ball with J = (1, 2, 4), D = 1.  Beyond the bound of lemma small-branch it is also proved
+    that each point of the circle has one root of the branch.
 
     Example: chapsym certify no-invariant-measure --mass-tensor 1,2,4 --D 7 --steps 21 -o real-ball.json
     """
@@ -78,9 +79,12 @@ def _describe_measure(found: dict[str, Any]) -> None:
     print(f"J = ({', '.join(ball['J'])}), D = {ball['D']}, h = {ball['height']}, level {ball['level']}")
     print(f"and all within {found['radius']} of each of these: around axis {axes[2]} in {found['steps']} steps")
     for orbit in found["orbits"]:
-        axis = axes["ab".index(orbit["start"])]
+        start = orbit["start"]
+        at = f"gamma{axes['ab'.index(start)]} = 0" if start in ("a", "b") else f"tan(phi/2) = {start}"
         moved = f"{Decimal(orbit['displacement']):.2e}"
-        print(f"  half turns: {found['half_turns']}, then {moved} (a sine times two lengths), from gamma{axis} = 0")
+        print(f"  half turns: {found['half_turns']}, then {moved} (a sine times two lengths), from {at}")
+    if "branch" in found:
+        print(f"beyond the bound of small-branch: one root at each point, proved over {found['branch']['arcs']} arcs")
 
 
 @certify.command("periodic-orbit")

@@ -20,10 +20,20 @@ def files(kind: str) -> tuple[Path, ...]:
 
 
 def _kind(file: Path) -> str | None:
+    found = _read(file)
+    return None if found is None else str(found.get("kind"))
+
+
+def _read(file: Path) -> dict[str, Any] | None:
     try:
-        return str(checker.read(file).get("kind"))
+        return checker.read(file)
     except (checker.Unreadable, checker.Rejected):
         return None
+
+
+def has_branch(file: Path) -> bool:
+    """Whether a certificate proves a branch of the step over its circle, beyond the bound of lemma small-branch."""
+    return "branch" in (_read(file) or {})
 
 
 def present(p: Proof, found: Sequence[Path], kind: str) -> list[dict[str, Any]]:

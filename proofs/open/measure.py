@@ -1,4 +1,4 @@
-"""The open question of Section 5: finite measures with a positive density, for D > 0, in four cases."""
+"""The open question of Section 5: finite measures with a positive density, for D > 0, in five cases."""
 
 from dataclasses import replace
 from typing import Any
@@ -12,6 +12,7 @@ from chapsym.proofs.map.gibbs import FREE
 from chapsym.proofs.map.symmetries import carried
 from chapsym.proofs.open import certified, chord, generic, locking, readings, resonance, separatrix, splitting, terms
 from chapsym.prove import Equation, Proof, Theorem, claim, judged, main, there_is
+from chapsym.prove import no as no_such
 
 KIND = "no-invariant-measure"
 FILES = certified.files(KIND)
@@ -23,7 +24,8 @@ LEMMAS = {
     "reversible": self_adjoint, "separatrix-map": separatrix, "separatrix-limit": separatrix, "separatrix": splitting,
 }  # fmt: skip
 
-WITHIN = "for all J, D, h within the radii of the certificates measure-*"
+WITHIN = "for all J, D, h within the radii of the certificates measure-* without a branch"
+WITHIN_BEYOND = "for all J, D, h within the radii of the certificates with a branch"
 FLAT, ROUND = "D = 0", "two of I1, I2, I3 are equal"
 
 
@@ -89,12 +91,31 @@ def no(p: Proof) -> None:
     p.say("positive almost everywhere.")
     p.state(Theorem((WITHIN,), (terms.SMALL_BRANCH,), (terms.BOTH_SIGNS,)), readings.BOXES)
     p.say("(3) For numbers at hand two orbits, in interval arithmetic, one beyond and one short of p half turns:")
-    accepted = certified.present(p, FILES, KIND)
+    accepted = [data for data in certified.present(p, FILES, KIND) if "branch" not in data]
     p.say("The radius says how far J, D, h and l may be off: there is an interval of levels for every J, D, h of the")
     p.say("box, to which locked-circle applies.")
-    p.step(terms.BOTH_SIGNS, WITHIN, terms.SMALL_BRANCH, *(file.name for file in FILES))
+    p.step(
+        terms.BOTH_SIGNS, WITHIN, terms.SMALL_BRANCH, *(file.name for file in FILES if not certified.has_branch(file))
+    )
+    beyond(p)
     if accepted:
         tampered(p, accepted[0])
+
+
+def beyond(p: Proof) -> None:
+    """The certificates that prove the branch, too."""
+    p.state(Theorem((WITHIN_BEYOND,), (terms.ON_BRANCH,), (no_such(terms.NEAR_A_CIRCLE),)), readings.BEYOND)
+    p.say(
+        "(5) Beyond the bound of small-branch a certificate also says into how many arcs a half circle is cut, and the"
+    )
+    p.say("checker proves one root in a box over each, joined to one branch whose map is a homeomorphism of the circle")
+    p.say(
+        "that keeps the direction and commutes with the rotation by π about its axis. As each root is simple, the map is"
+    )
+    p.say("analytic, and so for the levels, J, D and h within the radius. With the two orbits 2., 3. and 5. of")
+    p.say("locked-circle hold as they stand, for the half γ_c > 0: they use no more of the map.")
+    p.step(no_such(terms.NEAR_A_CIRCLE), WITHIN_BEYOND, terms.ON_BRANCH, "locked-circle",
+           *(file.name for file in FILES if certified.has_branch(file)))  # fmt: skip
 
 
 def tampered(p: Proof, data: dict[str, Any]) -> None:
@@ -121,7 +142,7 @@ def tampered(p: Proof, data: dict[str, Any]) -> None:
     files=FILES,
 )
 def invariant_measure_question(p: Proof) -> None:
-    """No finite measure with a density that is positive almost everywhere is invariant, for D > 0, in four cases."""
+    """No finite measure with a density that is positive almost everywhere is invariant, for D > 0, in five cases."""
     p.ask(*readings.QUESTIONS["5.9-open"])
     p.assume("the small branch, |h| below the bound of small-branch")
     p.assume(

@@ -27,6 +27,7 @@ QUESTIONS = {
 
 #: Parts of the proofs of the questions themselves.
 BOXES, FLAT, ROUND = "5.9-open: certificates", "5.9-open: D = 0", "5.9-open: two equal moments"
+BEYOND = "5.9-open: certificates with a branch"
 DRIFTS, INTEGRALS, DENSITY = "6-open: certificates", "6-open: integrals", "6-open: densities"
 CLOSED_ORBITS = "6-open: periodic orbits"
 NO_ROLLING, VERTICAL = "6-open: D = 0", "6-open: vertical momentum"
@@ -50,7 +51,9 @@ READINGS = {
         Reading("σ-finite measure, on a locked circle, C^∞ but at its periodic points",
                 terms.INFINITE, TRIVIALLY, ("almost-every", "locked-circle")),
         Reading("σ-finite measure on the whole sphere", terms.INFINITE, OPEN),
-        Reading("other branches than the small one", terms.MEASURE, OPEN),
+        Reading("beyond the bound of small-branch: one ball and one h above the least moment, and all near them; the circles near "
+                "one level, the branch over them (measure-beyond-bound: tr J ≤ D)", terms.NEAR_A_CIRCLE, NO, (BEYOND,)),
+        Reading("other branches than these and the small one", terms.MEASURE, OPEN),
         Reading("D = 0: finite measure", terms.MEASURE, YES, (FLAT,)),
         Reading("D = 0: real s, a circle of s", terms.PARAMETER, YES, (FLAT,)),
         Reading("two equal moments: finite measure", terms.MEASURE, YES, (ROUND,)),

@@ -32,6 +32,14 @@ INFINITE = (
 LINE = "real analytic u = f(s), from the line of s to that of u over the locked circle, with a constant increment"
 CARRIED = "every finite invariant measure on a circle of these levels is carried by finitely many periodic points"
 
+#: Beyond the bound: a ring of circles, and a branch over each.
+ON_BRANCH = (
+    "the map is that of the branch of a certificate with a branch, over the circles of the levels within its radius"
+)
+NEAR_A_CIRCLE = (
+    "finite measure on these circles, invariant under this map, with a density that is positive almost everywhere"
+)
+
 # What question 6-open asks for.
 IN_C1 = (
     "family of C¹ integrals of the steps that tends in C¹ to H, or to a C² f(H, |K|², ⟨K,γ⟩) with ∂f/∂H ≠ 0, as ε → 0"

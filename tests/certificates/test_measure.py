@@ -14,6 +14,7 @@ from chapsym.certificates import document, measure, plateau, resonance
 from chapsym.certificates.balls import NotProved, ball, rounded
 from chapsym.certificates.measure import no_invariant_measure
 from chapsym.certificates.reduced import Reduced, Top, cross
+from chapsym.cli import certify
 from chapsym.dynamics import BadInput
 from chapsym.dynamics.levels.start import fraction
 from chapsym.studies.rotation.circle import Level
@@ -27,6 +28,11 @@ COMMITTED = {
     "measure-simplest": (SIMPLEST, {}),
     "measure-real-ball": ({"J": "1,2,8", "D": "12", "height": "12/5"}, {}),
     "measure-large": ({"J": "1,4,8", "D": "1/2", "height": "22/5"}, {}),
+}
+#: With a branch, at heights above the least moment: it takes longer to find their radii.
+BEYOND = {
+    "measure-beyond-bound": ({"J": "1,2,10", "D": "14", "height": "8"}, {}),
+    "measure-even": ({"J": "1,2,10", "D": "1", "height": "10"}, {"steps": 8}),
 }
 
 
@@ -53,14 +59,38 @@ def test_the_committed_certificates_are_what_is_found(name):
     assert found["digest"] == document.digest(found)
 
 
-def test_the_real_ball_is_one():
+@pytest.mark.thorough
+@pytest.mark.parametrize("name", BEYOND)
+def test_the_committed_certificates_beyond_the_bound_are_what_is_found(name):
+    ball, arguments = BEYOND[name]
+    assert no_invariant_measure(top(**ball), **arguments) == committed(name)
+
+
+def test_beyond_the_bound_a_branch_is_proved_too(monkeypatch, capsys):
+    ball, arguments = BEYOND["measure-even"]
+    right = committed("measure-even")
+    known = {"level": Fraction(right["ball"]["level"]), "radius": Fraction(right["radius"])}
+    monkeypatch.setattr(measure, "FEWEST_ARCS", right["branch"]["arcs"] // 2)
+    assert no_invariant_measure(top(**ball), **arguments, **known) == right
+    certify._describe_measure(right)
+    assert "from gamma2 = 0" in capsys.readouterr().out
+    monkeypatch.setattr(measure, "MOST_ARCS", 128)
+    monkeypatch.setattr(measure, "FEWEST_ARCS", 128)
+    with pytest.raises(
+        BadInput, match="not proved over the whole circle with 128 arcs: the branch is not proved to have one root"
+    ):
+        no_invariant_measure(top(**ball), **arguments, **known)
+
+
+@pytest.mark.parametrize("name", ["measure-real-ball", "measure-beyond-bound"])
+def test_the_real_ball_is_one(name):
     """J1 + J2 + J3 = ∫r² dm is at most mρ² = D, in the whole box."""
-    found = committed("measure-real-ball")
+    found = committed(name)
     J, D, off = found["ball"]["J"], found["ball"]["D"], Fraction(found["radius"])
     assert sum(Fraction(x) + off for x in J) < Fraction(D) - off
 
 
-@pytest.mark.parametrize("name", COMMITTED)
+@pytest.mark.parametrize("name", [*COMMITTED, *BEYOND])
 def test_numbers_anywhere_in_the_box_have_these_decimals(name):
     """Random corners of the box and inner points, with points in the place of balls and twice the precision."""
     found, rng = committed(name), random.Random(7)
@@ -74,7 +104,7 @@ def test_numbers_anywhere_in_the_box_have_these_decimals(name):
         with ctx.workprec(8 * digits):
             reduced = Reduced(Top(tuple(moved[:3]), moved[3], moved[4]))
             for orbit in found["orbits"]:
-                gammas = plateau.trajectory(reduced, moved[5], axes, orbit["start"], found["steps"])
+                gammas = plateau.trajectory(reduced, moved[5], axes, plateau.tangent(orbit["start"]), found["steps"])
                 for gamma, step in zip(gammas, orbit["steps"], strict=False):
                     assert [rounded(x, digits) for x in reduced.root(gamma)] == step["u"]
                 assert [[rounded(x, digits) for x in v] for v in gammas[1:]] == [x["gamma"] for x in orbit["steps"]]
@@ -118,10 +148,10 @@ def test_secants_find_the_end_of_a_plateau_and_stop_where_there_is_none():
     """Two levels whose displacements are the same to the last bit have no secant."""
     near = LEVEL - Fraction(1, 10**6), LEVEL + Fraction(1, 10**6)
     with ctx.workprec(128):
-        found = plateau.end_of_plateau(Reduced(top()), near, (0, 1, 2), "a", 9, 128)
+        found = plateau.end_of_plateau(Reduced(top()), near, (0, 1, 2), Fraction(1), 9, 128)
         assert abs(found - LEVEL) < Fraction(1, 10**28)  # the plateau is 4e-29 wide
         same = LEVEL, LEVEL + Fraction(1, 2**200)
-        assert plateau.end_of_plateau(Reduced(top()), same, (0, 1, 2), "a", 9, 128) == same[1]
+        assert plateau.end_of_plateau(Reduced(top()), same, (0, 1, 2), Fraction(1), 9, 128) == same[1]
 
 
 def test_circles_around_the_axis_of_the_largest_moment():
@@ -129,7 +159,7 @@ def test_circles_around_the_axis_of_the_largest_moment():
     around = plateau.staircases(top(), 23, lambda what: None)[1]
     assert around.axes == (2, 1, 0)
     ends = plateau.refined(top(), around.between(23, 1), around.axes, 23, 1)
-    level = resonance._middle(top(), ends, around.axes, 23, lambda what: None)
+    level = resonance._middle(top(), ends, around.axes, 23, ("a", "b"), lambda what: None)
     found = no_invariant_measure(top(), level=level, steps=23)
     assert found["axes"] == [3, 2, 1]
     assert displacements(found)[0] * displacements(found)[1] < 0
@@ -168,11 +198,12 @@ def test_without_contact_both_displacements_are_one_number():
         ({"J": "0,0,4"}, {}, "at most one is 0"),
         ({"D": "-1"}, {}, "must not be negative"),
         ({"height": "0"}, {}, "moves nothing"),
-        ({"height": "3"}, {}, "beyond the bound of lemma small-branch"),
+        ({"height": "300"}, {}, "beyond the bound of lemma small-branch"),
+        ({"height": "300"}, {"level": LEVEL, "steps": 9}, "beyond the bound of lemma small-branch"),
         ({"height": "1/100"}, {}, "at most about"),
         ({}, {"steps": 5}, "no circle has 1 half turn in 5 steps"),
         ({}, {"steps": 1001}, "from 3 to 1000"),
-        ({}, {"steps": 8}, "must be odd"),
+        ({}, {"steps": 2}, "from 3 to 1000"),
         ({}, {"steps": 9, "half_turns": 3}, "common factor"),
         ({}, {"half_turns": 0}, "at least 1"),
         ({}, {"digits": 20}, "take 31 or more"),
@@ -224,11 +255,11 @@ def test_the_command_has_the_checker_judge(tmp_path):
 
 def orbits():
     with ctx.workprec(200):
-        return measure._orbits(top(), resonance.Resonance((0, 1, 2), LEVEL, 9, 1), Fraction(0))
+        return measure._orbits(top(), resonance.Resonance((0, 1, 2), LEVEL, 9, 1, ("a", "b")), Fraction(0))
 
 
 def test_a_certificate_needs_opposite_signs():
-    at, (one, other) = resonance.Resonance((0, 1, 2), LEVEL, 9, 1), orbits()
+    at, (one, other) = resonance.Resonance((0, 1, 2), LEVEL, 9, 1, ("a", "b")), orbits()
     assert measure._document(top(), at, Fraction(0), [one, other], 31) == no_invariant_measure(
         top(), level=LEVEL, steps=9, radius=Fraction(0)
     )
@@ -267,7 +298,7 @@ def test_a_step_is_enclosed_from_a_poor_point_too():
     """One Newton iterate from there is far off; the ball is not."""
     with ctx.workprec(200):
         reduced = Reduced(top())
-        gamma = reduced.start(ball(LEVEL), (0, 1, 2), "a")
+        gamma = reduced.start(ball(LEVEL), (0, 1, 2), Fraction(1))
         root = reduced.root(gamma)
         poor = tuple(x + ball(Fraction(1, 1000)).mid() for x in root)
         enclosed, _ = reduced.image(poor, gamma)

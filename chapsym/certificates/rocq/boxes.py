@@ -83,7 +83,7 @@ class Walk:
 
     def orbit(self, zero: int, steps: Sequence[dict[str, Any]]) -> tuple[Box, list[Step]]:
         """The start with γ_zero = 0, and the steps."""
-        start = self.box(self.circle.start(zero))
+        start = self.box(self.circle.start(Fraction(zero == self.circle.a)))
         found: list[Step] = []
         for given in steps:
             found.append(self.step(found[-1].after if found else start, given["u"]))

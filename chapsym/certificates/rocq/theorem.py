@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from chapsym.checker import Rejected
+from chapsym.checker.measure import ZEROS
 
 from .boxes import KAPPA, Box, Step, Walk
 
@@ -41,6 +42,8 @@ class Theorem:
     """The text, str(Theorem(…)), of a certificate that the checker has accepted; raises Rejected if there is none."""
 
     def __init__(self, name: str, data: dict[str, Any]):
+        if "branch" in data or any(one["start"] not in ZEROS for one in data["orbits"]):
+            raise Rejected("only certificates without a branch, with the starts a and b, are written for Rocq")
         self.name, self.data, self.walk = name, data, Walk(data)
         self.bits = f"{self.walk.digits * 10 // 3 + 40}%positive"
         self.axes = [f"x{i}" for i in data["axes"]]

@@ -1,0 +1,136 @@
+"""A branch of the roots of (1) in step.py over a whole circle, where |h| may be beyond the bound of the small branch.
+
+The circle is that of measure.py: γ = r(cos φ, sin φ) in the plane (a, b), γ_c > 0.  For half of it, t = tan ½φ from -1
+to 1, the file says into how many arcs it is cut.  Over every arc Newton's test proves that a box holds one root u for
+each γ of the arc; at the end that two arcs share their roots are one, as it lies in both boxes.  So these roots are a
+continuous function u(γ), and Z = {(γ, u(γ))}, γ from t = -1 to 1 and, by the rotation R by π about the axis c, which
+takes roots at γ to roots at Rγ, on the rest of the circle; where the halves meet the roots are compared.  Z is a
+component of all pairs of a γ of the circle and a root: near a pair of Z there is no other, and Z is compact.
+
+Let γ̃ = Ωᵀγ, which lies on the circle: ⟨γ̃, Λ⁻¹γ̃⟩ = ⟨γ, Λ⁻¹γ⟩ holds for every root, and γ̃_c > 0, proved at one
+point, holds at all, as the level has no points with γ_c = 0.  The map G: γ ↦ γ̃ of the circle is a homeomorphism.  For
+with S the reflection γ_b ↦ -γ_b the pair (Sγ̃, Su) is one of a root, too: of sγ = w + u × w, sγ̃ = w - u × w, w = Λu,
+the image under S is s·Sγ̃ = Sw + Su × Sw, s·Sγ = Sw - Su × Sw, and s is the same.  So ι: (γ, u) ↦ (Sγ̃, Su) takes
+pairs to pairs, ι(ι(γ, u)) = (γ, u), and ι(Z) is connected; one point of it is proved to lie in Z, so ι(Z) is Z, and SG
+is its own inverse.  G commutes with R.  It keeps the direction of the circle: the image of an arc is an arc from the
+image of one end to that of the other, of less than half a turn as it does not meet its image under R, and of one of
+them the sine is proved to be positive.  That is what measure.py uses of the map on the circle.
+"""
+
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any
+
+from .document import check_names, check_rounded, count, decimals
+from .interval import Rejected
+from .linear import Matrix, Vector, cross, image, isolated, minus, solve, times, transposed, unit
+from .step import gibbs_vector, jacobian, residual, source, turned
+
+if TYPE_CHECKING:
+    from .measure import Circle
+
+MOST_ARCS = 8_192
+#: A box reaches so many times the way between the roots at its ends beyond them.
+WIDER = 3
+
+
+def direction(t: Fraction) -> tuple[Fraction, Fraction]:
+    """(cos φ, sin φ) for t = tan ½φ."""
+    return (1 - t * t) / (1 + t * t), 2 * t / (1 + t * t)
+
+
+@dataclass(frozen=True)
+class Branch:
+    """A box about the roots over each arc, from t = -1 to 1."""
+
+    circle: "Circle"
+    boxes: list[Vector]
+
+    @classmethod
+    def proved(cls, circle: "Circle", data: Any, digits: int) -> "Branch":
+        """The branch of a file; raises Rejected unless it is there, once, over the whole circle."""
+        check_names(data, "arcs u", "branch")
+        half, odd = divmod(count(data["arcs"], 2, MOST_ARCS, "arcs"), 2)
+        if odd:
+            raise Rejected("arcs must be even, so that the branch starts at the end of two")
+        given = decimals(data["u"], digits, "u of branch")
+        ends = [Fraction(i, half) for i in range(-half, half + 1)]
+        gammas = [circle.start(t) for t in ends]
+        start = _root(circle, gammas[half], [circle.number(x).point() for x in given])
+        check_rounded(start, given, digits, "u of branch")
+        roots = {half: start}
+        for i in range(half + 1, 2 * half + 1):
+            roots[i] = _root(circle, gammas[i], roots[i - 1])
+        for i in range(half - 1, -1, -1):
+            roots[i] = _root(circle, gammas[i], roots[i + 1])
+        arcs = zip(pairwise(ends), pairwise(roots[i] for i in range(2 * half + 1)), strict=True)
+        branch = cls(circle, [_box(circle, first, last, pair) for (first, last), pair in arcs])
+        if not _inside(branch.half_turned(roots[0]), branch.boxes[-1]):
+            raise Rejected("the branch is not proved to close after half a turn")
+        images = [turned(roots[i], gammas[i]) for i in (half, half + 1)]
+        if not (images[0][circle.c] > 0 and circle.sine(*images) > 0):
+            raise Rejected("the branch is not proved to take the circle to itself in its direction")
+        branch.check_on(branch.reflected(images[0]), branch.reflected(start), "the step back")
+        return branch
+
+    def half_turned(self, v: Vector) -> Vector:
+        """R: by π about the axis c."""
+        return [x if i == self.circle.c else -x for i, x in enumerate(v)]
+
+    def reflected(self, v: Vector) -> Vector:
+        """S: the component b with the other sign."""
+        return [-x if i == self.circle.b else x for i, x in enumerate(v)]
+
+    def check_on(self, gamma: Vector, u: Vector, where: str) -> None:
+        """Raises Rejected unless the root u at this γ of the circle is that of the branch."""
+        circle, half = self.circle, len(self.boxes) // 2
+        if gamma[circle.a].hi < 0:
+            gamma, u = self.half_turned(gamma), self.half_turned(u)
+        x, y = gamma[circle.a], gamma[circle.b]
+        t = y / ((x * x + y * y).sqrt() + x)
+        for i in range(((t.lo * half) >> t.bits) + half, ((t.hi * half) >> t.bits) + half + 1):
+            turns, arc = divmod(i, 2 * half)  # beyond t = 1 it goes on at t = -1, half a turn on
+            if turns not in (-1, 0, 1) or not _inside(self.half_turned(u) if turns else u, self.boxes[arc]):
+                raise Rejected(f"{where} is not proved to be on the branch")
+
+
+def _root(circle: "Circle", gamma: Vector, near: Vector) -> Vector:
+    """The root at one γ near a given one."""
+    return gibbs_vector(circle.ball, circle.state(gamma), [x.point() for x in near])
+
+
+def _box(circle: "Circle", first: Fraction, last: Fraction, roots: tuple[Vector, Vector]) -> Vector:
+    """A box that contains the roots at the ends of an arc, and one root for each γ of the arc.
+
+    γ on the arc is γ_m + sT with γ_m its middle and T in the tangents γ × Λ⁻¹γ of the arc, as the mean of tangents of
+    one direction, so F(u) is that at γ_m less s·source(T).  Newton's test is done with both sides multiplied by a
+    matrix Y near the inverse of F′: so what it proves is that YF has one root, and Y is regular where YF′ is.
+    """
+    ends = [[circle.number(x) for x in direction(t)] for t in (first, last)]
+    middle = circle.state(circle.start((first + last) / 2))
+    whole = circle.state(circle.point(*(x.hull(y) for x, y in zip(*ends, strict=True))))
+    tangent = cross(whole[1], [w * x for w, x in zip(circle.weights, whole[1], strict=True)])
+    best = max(range(3), key=lambda i: tangent[i].least)
+    s = (whole[1][best] - middle[1][best]) / tangent[best]
+    between = [x.hull(y) for x, y in zip(*roots, strict=True)]
+    box = [x.wider(WIDER * max(y.width for y in between)) for x in between]
+    slope = [[x.point() for x in row] for row in jacobian(circle.ball, middle, [x.point() for x in box])]
+    Y = [[x.point() for x in row] for row in solve(slope, [unit(i, s) for i in range(3)])]
+
+    def pulled(u: Vector) -> Vector:
+        moved = source(circle.ball, whole, u, circle.state(tangent))
+        return minus(image(Y, residual(circle.ball, middle, u)), times(s, image(Y, moved)))
+
+    def matrix(u: Vector) -> Matrix:
+        return transposed([image(Y, column) for column in transposed(jacobian(circle.ball, whole, u))])
+
+    try:
+        isolated(pulled, matrix, box)
+    except Rejected:
+        raise Rejected(f"the branch is not proved to have one root at each point from t = {first} to {last}") from None
+    return box
+
+
+def _inside(u: Vector, box: Vector) -> bool:
+    return all(x.inside(y) for x, y in zip(u, box, strict=True))
