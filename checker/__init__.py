@@ -4,10 +4,9 @@
     verdict = check(read("proofs/certificates/….json"))        what it rests on must be accepted, too: standing
 
 To be read in this order: interval.py (arithmetic), linear.py (elimination, Newton's test), step.py (the map), then
-measure.py (with branch.py) and orbit.py (what a certificate says and why it is proved); taylor.py (functions of the
-time), rolling.py (the continuous ball), drift.py, motion.py; document.py (the form of a file).  For the statements of
-the register:
-trees.py, polynomial.py, words.py, algebra.py, matrices.py, derivation.py (how what they are about is made), form.py,
+measure.py (with branch.py), heteroclinic.py and orbit.py (what a certificate says and why it is proved); taylor.py
+(functions of the time), rolling.py (the continuous ball), drift.py, motion.py; document.py (the form of a file).  For
+the statements of the register: trees.py, polynomial.py, words.py, algebra.py, matrices.py, derivation.py (how what they are about is made), form.py,
 roots.py, register.py; shown.py prints what was judged.
 """
 
@@ -16,7 +15,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from . import drift, measure, motion, orbit, register
+from . import drift, heteroclinic, measure, motion, orbit, register
 from .document import FORMAT, Unreadable, digest, read
 from .interval import Rejected
 
@@ -35,6 +34,7 @@ __all__ = [
 
 KINDS = {
     "no-invariant-measure": measure,
+    "heteroclinic": heteroclinic,
     "periodic-orbit": orbit,
     "energy-drift": drift,
     "motion": motion,

@@ -28,10 +28,12 @@ app.add_typer(certify, name="certify")
 Output = Annotated[Path | None, typer.Option("-o", "--output", metavar="FILE", help="Write the certificate there.")]
 
 
-def _ball(mass_tensor: str | None, inertia: str | None, contact: str | None, default: str) -> tuple[Any, Any]:
-    """J and D as they are given; by default J = (1, 2, 4) with a D of the command."""
+def _ball(
+    mass_tensor: str | None, inertia: str | None, contact: str | None, D: str, J: str = "1,2,4"
+) -> tuple[Any, Any]:
+    """J and D as they are given; by default those of the command."""
     if mass_tensor is inertia is contact is None:
-        mass_tensor, contact = "1,2,4", default
+        mass_tensor, contact = J, D
     if contact is None:
         fail("D is missing: give --D", 2)
     return ball_from(mass_tensor, inertia, contact, None, None)
@@ -85,6 +87,52 @@ def _describe_measure(found: dict[str, Any]) -> None:
         print(f"  half turns: {found['half_turns']}, then {moved} (a sine times two lengths), from {at}")
     if "branch" in found:
         print(f"beyond the bound of small-branch: one root at each point, proved over {found['branch']['arcs']} arcs")
+
+
+@certify.command("heteroclinic")
+def heteroclinic(
+    mass_tensor: MassTensor = None,
+    inertia: Inertia = None,
+    contact: Contact = None,
+    vertical_momentum: Annotated[str, typer.Option(metavar="H", help="h of G_h: the momentum is h gamma.")] = "22/5",
+    starts: Annotated[
+        str | None, typer.Option(metavar="X1,X2", help="Two starts x = e^2u; 1 and about the middle of a step.")
+    ] = None,
+    digits: Annotated[int | None, typer.Option(metavar="N", help="Decimals; as many as needed by default.")] = None,
+    radius: Annotated[
+        str | None, typer.Option(metavar="R", help="How far parameters may be off; the largest power of 10.")
+    ] = None,
+    output: Output = None,
+    as_json: Json = False,
+) -> None:
+    """Certify that orbits of the reduced map between the unstable rotations do not fit at their ends.
+
+    On the level 1/Lambda2 increments tend to one number at both ends; what an orbit misses between them is proved to be
+    different for two starts.  By default for the ball with J = (1, 4, 8), D = 1/2.
+
+    Example: chapsym certify heteroclinic --mass-tensor 1,8,12 --D 22 --vertical-momentum 8 -o ends.json
+    """
+    J, D = _ball(mass_tensor, inertia, contact, "1/2", "1,4,8")
+    h = rational(vertical_momentum, "--vertical-momentum")
+    within = None if radius is None else rational(radius, "--radius")
+    from chapsym.certificates import heteroclinic as search
+    from chapsym.certificates.reduced import Top
+
+    two = None
+    if starts is not None:
+        given = rationals(starts, "--starts", 2)
+        two = given[0], given[1]
+    find = partial(search.heteroclinic, Top((J[0], J[1], J[2]), D, h), starts=two, digits=digits, radius=within)
+    _deliver(find, _describe_ends, output, as_json)
+
+
+def _describe_ends(found: dict[str, Any]) -> None:
+    ball, (first, other) = found["ball"], found["orbits"]
+    print(f"J = ({', '.join(ball['J'])}), D = {ball['D']}, h = {ball['height']}")
+    print(f"and all within {found['radius']} of each of these: on the level 1/Lambda2")
+    for one in (first, other):
+        print(f"  from x = {one['start']}: exp(Delta) is {one['end']}, in {one['steps']} steps")
+    print(f"  they differ by {Decimal(other['end']) - Decimal(first['end']):.2e}")
 
 
 @certify.command("periodic-orbit")

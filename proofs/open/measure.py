@@ -1,4 +1,4 @@
-"""The open question of Section 5: finite measures with a positive density, for D > 0, in five cases."""
+"""The open question of Section 5: finite measures with a positive density, for D > 0, in six cases."""
 
 from dataclasses import replace
 from typing import Any
@@ -14,8 +14,8 @@ from chapsym.proofs.open import certified, chord, generic, locking, readings, re
 from chapsym.prove import Equation, Proof, Theorem, claim, judged, main, there_is
 from chapsym.prove import no as no_such
 
-KIND = "no-invariant-measure"
-FILES = certified.files(KIND)
+KIND, HETEROCLINIC = "no-invariant-measure", "heteroclinic"
+FILES, ENDS = certified.files(KIND), certified.files(HETEROCLINIC)
 #: What the argument rests on, beside the paper's claims: proved anew with it.
 LEMMAS = {
     "small-branch": gibbs, "self-adjoint": self_adjoint, "symmetries": symmetries, "chord": chord,
@@ -26,6 +26,7 @@ LEMMAS = {
 
 WITHIN = "for all J, D, h within the radii of the certificates measure-* without a branch"
 WITHIN_BEYOND = "for all J, D, h within the radii of the certificates with a branch"
+WITHIN_ENDS = "for all J, D, h within the radii of the certificates heteroclinic-*"
 FLAT, ROUND = "D = 0", "two of I1, I2, I3 are equal"
 
 
@@ -98,6 +99,7 @@ def no(p: Proof) -> None:
         terms.BOTH_SIGNS, WITHIN, terms.SMALL_BRANCH, *(file.name for file in FILES if not certified.has_branch(file))
     )
     beyond(p)
+    ends(p)
     if accepted:
         tampered(p, accepted[0])
 
@@ -116,6 +118,28 @@ def beyond(p: Proof) -> None:
     p.say("locked-circle hold as they stand, for the half γ_c > 0: they use no more of the map.")
     p.step(no_such(terms.NEAR_A_CIRCLE), WITHIN_BEYOND, terms.ON_BRANCH, "locked-circle",
            *(file.name for file in FILES if certified.has_branch(file)))  # fmt: skip
+
+
+def ends(p: Proof) -> None:
+    """The certificates of what orbits on the level l = 1/Λ2 miss at their ends."""
+    p.state(Theorem((WITHIN_ENDS,), (terms.SMALL_BRANCH,), (terms.NOT_CONSTANT,)), readings.ENDS)
+    p.say(
+        "(6) For numbers at hand two orbits of the map of separatrix-map have different Δ(u), in interval arithmetic: Δ is"
+    )
+    p.say(
+        "not constant. There I1 > I2 > I3, so by separatrix-limit there are levels near 1/Λ2 with displacements of both"
+    )
+    p.say("signs. No small D is left out or assumed: it is one ball and one h, with all within the radius.")
+    accepted = certified.present(p, ENDS, HETEROCLINIC)
+    p.step(terms.NOT_CONSTANT, WITHIN_ENDS, terms.SMALL_BRANCH, "separatrix-map", *(file.name for file in ENDS))
+    if accepted:
+        data = accepted[0]
+        for text, place, value in (
+            ("the last digit of an end", ("orbits", 1, "end"), certified.other_digit(data["orbits"][1]["end"])),
+            ("fewer steps", ("orbits", 0, "steps"), data["orbits"][0]["steps"] // 2),
+            ("D = 1/1000000", ("ball", "D"), "1/1000000"),
+        ):
+            p.control(certified.changed(f"the certificate of the ends with {text}", data, place, value))
 
 
 def tampered(p: Proof, data: dict[str, Any]) -> None:
@@ -139,10 +163,10 @@ def tampered(p: Proof, data: dict[str, Any]) -> None:
     "5.9-open",
     r"\text{does } \mathcal G_h \text{ preserve an invariant measure? (open in the paper)}",
     ["5.9-liouville", "5.9", "5.9-circle", "5.15", "5.15-euler", "prop-3", *LEMMAS],
-    files=FILES,
+    files=(*FILES, *ENDS),
 )
 def invariant_measure_question(p: Proof) -> None:
-    """No finite measure with a density that is positive almost everywhere is invariant, for D > 0, in five cases."""
+    """No finite measure with a density that is positive almost everywhere is invariant, for D > 0, in six cases."""
     p.ask(*readings.QUESTIONS["5.9-open"])
     p.assume("the small branch, |h| below the bound of small-branch")
     p.assume(

@@ -27,7 +27,7 @@ QUESTIONS = {
 
 #: Parts of the proofs of the questions themselves.
 BOXES, FLAT, ROUND = "5.9-open: certificates", "5.9-open: D = 0", "5.9-open: two equal moments"
-BEYOND = "5.9-open: certificates with a branch"
+BEYOND, ENDS = "5.9-open: certificates with a branch", "5.9-open: certificates of the ends"
 DRIFTS, INTEGRALS, DENSITY = "6-open: certificates", "6-open: integrals", "6-open: densities"
 CLOSED_ORBITS = "6-open: periodic orbits"
 NO_ROLLING, VERTICAL = "6-open: D = 0", "6-open: vertical momentum"
@@ -42,6 +42,8 @@ READINGS = {
                 terms.MEASURE, NO, (BOXES, "locked-circle")),
         Reading("finite measure; all h ≠ 0 below the bound, all D > 0 but a discrete set for each h (tr J ≤ D among them)",
                 terms.MEASURE, NO, ("separatrix", "locked-circle")),
+        Reading("finite measure; one ball and one h, and all near them, by the level l = 1/Λ2 (heteroclinic-real-ball: tr J ≤ D)",
+                terms.MEASURE, NO, (ENDS, "separatrix-limit", "locked-circle")),
         Reading("finite measure; all h ≠ 0 below the bound, all D > 0 without exception", terms.MEASURE, OPEN),
         Reading("real s, single-valued f: a circle of s; all h ≠ 0 below the bound, all D > 0 but a discrete set for each h",
                 terms.PARAMETER, NO, ("separatrix", "locked-circle")),

@@ -1,0 +1,164 @@
+"""Certificates of kind heteroclinic: what orbits of the reduced map between the unstable rotations miss at their ends.
+
+The map.  Let I1 > I2 > I3 > 0, D > 0, Λ = I + D, ϰ² = (Λ1 - Λ2)(Λ2 - Λ3)/(Λ1Λ3), ϰ > 0, and h > 0 below the bound of
+check_small_branch.  Claim separatrix-map of the register says that on the arcs of |γ| = 1, ⟨γ, Λ⁻¹γ⟩ = 1/Λ2 between the
+rotations about ±e2 the reduced map is u ↦ ũ, with
+    F(X) = D(tanh ũ - tanh u),   F(X) = hϰX² - 2I2 X + h/ϰ,   X = coth ½(ũ - u) > X₀,                              (1)
+X₀ the larger root of F.  What is proved here is about (1).  With x = e^2u and s = e^(ũ - u) = (X + 1)/(X - 1), x̃ = s²x,
+    tanh ũ - tanh u = 8xX/((x + 1)Q),   Q = x(X + 1)² + (X - 1)²,   with the derivative 8x(1 - X²)/Q² by X.         (2)
+It falls for X > 1, and F grows for X > X₀; at X₀ F is less, for great X it is more: (1) has one root X > X₀.
+
+The ends.  Let s₀ = (X₀ + 1)/(X₀ - 1), c = log s₀.  Along an orbit u₀, u₁, ... is u_n - nc = u₀ + Σ log(s_i/s₀), i < n.
+As F is convex with F(X₀) = 0, F′(X₀)(X_i - X₀) ≤ F(X_i) ≤ D(1 - tanh u_i) < 2D/x_i; and log s has the derivative
+-2/(X² - 1).  So 0 < log(s₀/s_i) < 4D/(F′(X₀)(X₀² - 1)x_i).  The x_i grow, each by s_i² ≥ ŝ² from i = n on, ŝ that of
+X₀ + 2D/(F′(X₀)x_n): the sum of the 1/x_i, i ≥ n, is at most 1/(x_n(1 - ŝ⁻²)), and the limit h₊(u) of u_n - nc exists.
+Δ(u) = h₊(u) + h₊(-u): e^Δ is the product of all s_i/s₀ along the orbits of x and of 1/x.  It is enclosed at two starts.
+By lemma separatrix-limit, where Δ is not constant no finite measure that the reduced map keeps has a density that is
+positive almost everywhere.
+"""
+
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+from .document import MOST_DIGITS, check_names, check_rounded, count, decimal, exact, listed, scale
+from .interval import Interval, Rejected
+from .linear import newton
+from .step import Ball, check_small_branch
+
+NAMES = "format kind statement ball radius digits orbits digest"
+#: Steps of a half orbit; Newton's iterations to find the first.
+MOST_STEPS, FIRST = 10_000, 64
+
+
+def statement(data: dict[str, Any]) -> str:
+    """What is proved, with the numbers of the file."""
+    ball, starts = data["ball"], [one["start"] for one in data["orbits"]]
+    return (
+        f"For every ball with J = ({', '.join(ball['J'])}), D = {ball['D']} and momentum {ball['height']} γ, every "
+        f"number within {data['radius']}: on the level ⟨γ, Λ⁻¹γ⟩ = 1/Λ_2 the orbits from tanh u = (x - 1)/(x + 1), "
+        f"x = {starts[0]} and {starts[1]}, have two different Δ(u) = h₊(u) + h₊(-u), h₊ = lim(u_n - nc); "
+        f"so Δ is not constant."
+    )
+
+
+def check_form(data: dict[str, Any]) -> None:
+    """Raises Rejected unless all numbers are there, in their form."""
+    check_names(data, NAMES, "the certificate")
+    check_names(data["ball"], "J D height", "ball")
+    for name in ("D", "height"):
+        exact(data["ball"][name], name)
+    for x in listed(data["ball"]["J"], 3, "J"):
+        exact(x, "J")
+    exact(data["radius"], "radius")
+    digits = count(data["digits"], 1, MOST_DIGITS, "digits")
+    for one in listed(data["orbits"], 2, "orbits"):
+        check_names(one, "start steps end", "an orbit")
+        if not exact(one["start"], "start") > 0:
+            raise Rejected("the start x = e^2u of an orbit must be positive")
+        count(one["steps"], 1, MOST_STEPS, "steps")
+        decimal(one["end"], digits, "end")
+
+
+@dataclass(frozen=True)
+class Separatrix:
+    """The map (1) for every parameter of a box."""
+
+    D: Interval
+    middle: Interval
+    height: Interval
+    kappa: Interval
+    last: Interval
+    slope: Interval
+
+    @classmethod
+    def of(cls, data: dict[str, Any]) -> "Separatrix":
+        """That of a file; raises Rejected unless the hypotheses of the map hold in the whole box."""
+        radius = Fraction(data["radius"])
+        if radius < 0:
+            raise Rejected("the radius must not be negative")
+        J, D, h = (
+            [Fraction(x) for x in data["ball"]["J"]],
+            Fraction(data["ball"]["D"]),
+            Fraction(data["ball"]["height"]),
+        )
+        bits = scale(data["digits"], FIRST, [*J, D, h])
+        ball = Ball.within(J, D, radius, bits)
+        height = Interval.enclosing(h - radius, h + radius, bits)
+        first, middle, third = ball.inertia
+        if not (first > middle and middle > third):
+            raise Rejected("I1 > I2 > I3, that is J1 < J2 < J3, is not proved")
+        if not height > 0:
+            raise Rejected("the height must be positive: that of a negative one is the inverse map")
+        check_small_branch(ball, height)
+        contact = ball.contact
+        kappa = ((first - middle) * (middle - third) / (contact[0] * contact[2])).sqrt()
+        root = (middle * middle - height * height).sqrt()
+        last = (middle + root) / (height * kappa)
+        if not last > 1:
+            raise Rejected("X₀ > 1 is not proved")
+        return cls(ball.D, middle, height, kappa, last, 2 * root)
+
+    def residual(self, x: Interval, X: Interval) -> Interval:
+        """F(X) - D(tanh ũ - tanh u)."""
+        plain = self.height * self.kappa * X * X - 2 * self.middle * X + self.height / self.kappa
+        return plain - self.D * (8 * x * X / ((x + 1) * self.below(x, X)))
+
+    def derivative(self, x: Interval, X: Interval) -> Interval:
+        """That of the residual by X."""
+        Q = self.below(x, X)
+        return 2 * (self.height * self.kappa * X - self.middle) - self.D * (8 * x * (1 - X * X) / (Q * Q))
+
+    def below(self, x: Interval, X: Interval) -> Interval:
+        """Q of (2)."""
+        return x * ((X + 1) * (X + 1)) + (X - 1) * (X - 1)
+
+    def half_orbit(self, start: Interval, steps: int) -> Interval:
+        """The product of all s_i/s₀ from x on: that of the first `steps`, and a bound of the others."""
+        x, product, X = start, 1 + 0 * start, self.first(start)
+        for _ in range(steps):
+            X = self.root(x, X)
+            growth = self.growth(X)
+            product = product * (growth / self.growth(self.last))
+            x = growth * growth * x
+        return product * (1 - self.rest(x)).hull(1 + 0 * x)
+
+    def root(self, x: Interval, near: Interval) -> Interval:
+        """The X of the step from x."""
+        (X,) = newton(lambda v: [self.residual(x, v[0])], lambda v: [[self.derivative(x, v[0])]], [near.point()])
+        if not self.last < X:
+            raise Rejected("the root of a step is not proved to be beyond X₀")
+        return X
+
+    def first(self, x: Interval) -> Interval:
+        """A point near the root of the first step, by Newton's iteration from X₀."""
+        at, X = x.point(), self.last.point()
+        for _ in range(FIRST):
+            X = (X - self.residual(at, X) / self.derivative(at, X)).point()
+        return X
+
+    def growth(self, X: Interval) -> Interval:
+        """s."""
+        return (X + 1) / (X - 1)
+
+    def rest(self, x: Interval) -> Interval:
+        """A bound of the sum of log(s₀/s_i) from x on."""
+        least = self.growth(self.last + 2 * self.D / (self.slope * x))
+        bound = 4 * self.D / (self.slope * (self.last * self.last - 1))
+        return bound / (x * (1 - 1 / (least * least)))
+
+
+def check(data: dict[str, Any]) -> dict[str, str]:
+    """Raises Rejected unless the ends prove the statement; returns them."""
+    digits, found = data["digits"], []
+    separatrix = Separatrix.of(data)
+    for one in data["orbits"]:
+        start = Fraction(one["start"])
+        halves = [Interval.enclosing(x, x, separatrix.D.bits) for x in (start, 1 / start)]
+        end = separatrix.half_orbit(halves[0], one["steps"])
+        end = end * (end if start == 1 else separatrix.half_orbit(halves[1], one["steps"]))
+        check_rounded([end], [decimal(one["end"], digits, "end")], digits, "end")
+        found.append(end)
+    if not (found[0] < found[1] or found[1] < found[0]):
+        raise Rejected("the two ends are not proved to be different")
+    return {"exp Δ": " and ".join(one["end"] for one in data["orbits"])}
