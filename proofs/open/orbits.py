@@ -79,23 +79,25 @@ def step_determinant(p: Proof) -> None:
     p.lemma(equal("dT = [E du]×T, E = 2([u]× - 1)/(1 + |u|²)", change, (turning(u) * d).hat() * turned))
     p.say(
         "𝒜 = ∂G/∂u, 𝒢w its change by γ ↦ w × γ, k ↦ w × k: du = -𝒜⁻¹𝒢w, and S = T - E𝒜⁻¹𝒢; 𝒜~ and 𝒢~ are those at",
-        "(-u; Tγ, -Tk).  Where G = 0 the first lemma, differentiated by turns of the start and by u, says 𝒢~T = -T𝒢 and",
-        "𝒢~E - 𝒜~ = -T𝒜, that is T⁻¹𝒜~ = 𝒜 - 𝒢T⁻¹E.  So det S = det(1 - 𝒢T⁻¹E𝒜⁻¹) = det 𝒜~/det 𝒜.  For one u, all γ, D:",
+        "(-u; Tγ, -Tk).  For all u, γ, I, D, with the k of this step:",
     )
-    point = sp.Matrix([sp.Rational(1, 3), sp.Rational(-1, 4), sp.Rational(1, 5)])
-    ball, free = {I1: 6, I2: 5, I3: 3}, Quotient((*gamma, D), [])
-    here, there = slope(point, gamma).subs(ball), slope(-point, turn(point) * gamma).subs(ball)
-    change = by_turns(point, gamma).subs(ball) * turn(-point) * turning(point)
+    change = by_turns(u, gamma) * turn(-u) * turning(u)
 
     def key(text: str, sign: int) -> Equation:
-        return equal(text, here - sign * change, turn(-point) * there, free)
+        return equal(text, slope(u, gamma) - sign * change, turn(-u) * slope(-u, turned * gamma), FREE)
 
-    p.printed(key("T⁻¹𝒜~ = 𝒜 - 𝒢T⁻¹E, J = (1, 2, 4), u = (1/3, -1/4, 1/5)", 1))
+    p.printed(key("T⁻¹𝒜~ = 𝒜 - 𝒢T⁻¹E", 1))
+    p.say(
+        "Let Y = 𝒜⁻¹𝒢, F = T⁻¹E, so S = T(1 - FY) and T⁻¹𝒜~ = 𝒜(1 - YF): det S = det(1 - FY) = det(1 - YF) = det 𝒜~/det 𝒜, by"
+    )
+    p.lemma(exchanged())
     p.say("For D = 0 the two dets are equal: there the volume is invariant.")
     without = {D: sp.S.Zero}
     p.printed(Equation("det 𝒜~ = det 𝒜 for D = 0", [_determinant(slope(-u, gamma).subs(without))],
                      [_determinant(slope(u, gamma).subs(without))], FREE))  # fmt: skip
-    p.say("With Y = 𝒜⁻¹𝒢 and S = T - EY as they are defined:")
+    p.say("For one step, with Y and S as they are defined:")
+    point, ball = sp.Matrix([sp.Rational(1, 3), sp.Rational(-1, 4), sp.Rational(1, 5)]), {I1: 6, I2: 5, I3: 3}
+    here, there = slope(point, gamma).subs(ball), slope(-point, turn(point) * gamma).subs(ball)
     numbers = placed((gamma, sp.Matrix([2, 3, 6]) / 7)) | {D: sp.Integer(2)}
     gained = by_turns(point, gamma).subs(ball)
     slopes = here.subs(numbers).inv() * gained.subs(numbers)
@@ -110,7 +112,15 @@ def step_determinant(p: Proof) -> None:
     quotient = _triple(A_back) / _triple(A)
     p.lemma(by_definition("det S by its definition is this quotient, at γ = (2, 3, 6)/7, D = 2", quotient))
     p.control(key("T⁻¹𝒜~ = 𝒜 + 𝒢T⁻¹E", -1))
+    p.control(exchanged(-1))
     p.control(by_definition("det S = 1 at this γ and D", sp.S.One))
+
+
+def exchanged(sign: int = 1) -> Equation:
+    """det(1 - FY) of any two matrices is det(1 - YF); the argument mutates it."""
+    one = sp.eye(3)
+    text = "det(1 - FY) = det(1 - YF)" if sign > 0 else "det(1 - FY) = det(1 + YF)"
+    return Equation(text, [_determinant(one - S * Y)], [_determinant(one - sign * Y * S)], Quotient((*S, *Y), []))
 
 
 def _triple(m: sp.Matrix) -> sp.Expr:
