@@ -9,6 +9,7 @@ Then x and G^q(x) have the same integrals and the same P.  The derivative of (in
 contains both, so this map is injective there (as in linear.newton): G^q(x) = x.  The step is evaluated for all 𝒦 and γ
 of a box, with other lengths too, and each time the root u is found anew: it is proved to be the only one with |u| < 1
 for all of them (`check_branch`), so these are values of one function.  At the root |γ| = 1: it is the small branch.
+With a `radius` all this holds for every J, D, |𝒦|² and ⟨𝒦, γ⟩ within it of those of the file.
 
 The derivative W of G^q on M, in the basis V of tangent vectors at x with w = e1, e2, e3: DG^q·V = V·W, as x is the same
 before and after; so W = (PV)⁻¹ P·DG^q·V.  If det W ≠ 1, no measure with a continuous positive density near the orbit
@@ -45,9 +46,11 @@ INTEGRALS = ("momentum.momentum", "momentum.gamma")
 def statement(data: dict[str, Any]) -> str:
     """What is proved, with the numbers of the file."""
     size, height = (data["integrals"][name] for name in INTEGRALS)
+    the, within = ("every", f", every number within {data['radius']},") if "radius" in data else ("the", "")
     return (
-        f"For the ball with J = ({', '.join(data['ball']['J'])}), D = {data['ball']['D']}: with ⟨𝒦, 𝒦⟩ = {size}, "
-        f"⟨𝒦, γ⟩ = {height} a point is back after {data['steps']} steps, and the derivative of these steps on the "
+        f"For {the} ball with J = ({', '.join(data['ball']['J'])}), D = {data['ball']['D']}: "
+        f"with ⟨𝒦, 𝒦⟩ = {size}, ⟨𝒦, γ⟩ = {height}{within} a point is back after {data['steps']} steps, "
+        f"and the derivative of these steps on the "
         f"level of the integrals there has a determinant other than 1 and no eigenvalue 1."
         f"{ATTRACTING if 'trace' in data else ''}"
     )
@@ -55,12 +58,14 @@ def statement(data: dict[str, Any]) -> str:
 
 def check_form(data: dict[str, Any]) -> None:
     """Raises Rejected unless all numbers are there, in their form."""
-    check_names(data, NAMES + " trace" * ("trace" in data), "the certificate")
+    check_names(data, " ".join([NAMES, *(name for name in ("trace", "radius") if name in data)]), "the certificate")
     check_names(data["ball"], "J D", "ball")
     check_names(data["integrals"], " ".join(INTEGRALS), "integrals")
     check_names(data["start"], "momentum gamma", "start")
     for x in [*listed(data["ball"]["J"], 3, "J"), data["ball"]["D"], *data["integrals"].values()]:
         exact(x, "a number of ball or integrals")
+    if exact(data.get("radius", "0"), "radius") < 0:
+        raise Rejected("the radius must not be negative")
 
 
 class Search:
@@ -71,12 +76,13 @@ class Search:
         J, D = [Fraction(x) for x in data["ball"]["J"]], Fraction(data["ball"]["D"])
         integrals = [Fraction(data["integrals"][name]) for name in INTEGRALS]
         bits = scale(self.digits, q, [*J, D, *integrals])
+        radius = Fraction(data.get("radius", "0"))
 
         def enclosed(x: Fraction) -> Interval:
             return Interval.enclosing(x, x, bits)
 
-        self.ball = Ball.within(J, D, Fraction(0), bits)
-        self.size, self.height = (enclosed(x) for x in integrals)
+        self.ball = Ball.within(J, D, radius, bits)
+        self.size, self.height = (Interval.enclosing(x - radius, x + radius, bits) for x in integrals)
         check_small_branch(self.ball, self.size.sqrt())
         self.gibbs = []
         for i, given in enumerate(listed(data["orbit"], q, "orbit"), 1):

@@ -2,6 +2,8 @@
 
 import hashlib
 import json
+from collections.abc import Callable, Sequence
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -9,6 +11,8 @@ from chapsym import checker
 from chapsym.files import write_whole
 
 FORMAT = "chapsym-certificate/1"
+#: What is made of the other fields of a file.
+MADE = ("format", "kind", "statement", "digest")
 
 
 def sealed(kind: str, statement: str, **fields: Any) -> dict[str, Any]:
@@ -20,6 +24,16 @@ def sealed(kind: str, statement: str, **fields: Any) -> dict[str, Any]:
 def stated(kind: str, **fields: Any) -> dict[str, Any]:
     """The object of a certificate, with the statement that its numbers make, and sealed."""
     return sealed(kind, checker.statement({"kind": kind, **fields}), **fields)
+
+
+def widest(radii: Sequence[Fraction], found: Callable[[Fraction], dict[str, Any] | None]) -> dict[str, Any] | None:
+    """What is found with the largest of radii that fall, by halving, as smaller ones are easier; None if none is."""
+    first, last, best = 0, len(radii) - 1, found(radii[-1])
+    while best is not None and first < last:
+        middle = (first + last) // 2
+        other = found(radii[middle])
+        first, last, best = (middle + 1, last, best) if other is None else (first, middle, other)
+    return best
 
 
 def digest(document: dict[str, Any]) -> str:

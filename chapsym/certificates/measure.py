@@ -25,7 +25,7 @@ from chapsym.dynamics.levels.start import fraction
 
 from . import plateau, resonance
 from .balls import NotProved, ball, decade, decimals, rounded, shortest
-from .document import stated
+from .document import stated, widest
 from .reduced import Reduced, Top, Vector, angle, cross
 from .resonance import Resonance, spare_bits
 
@@ -162,21 +162,20 @@ def _arcs(top: Top, at: Resonance, digits: int) -> int:
 def _largest(
     top: Top, at: Resonance, least: int, only: bool, radius: Fraction | None, progress: Callable[[str], None]
 ) -> dict[str, Any]:
-    """The certificate with the largest radius, and the fewest digits for it: the smaller, the easier, so by halving."""
+    """The certificate with the largest radius, and the fewest digits for it."""
     digits = [least] if only else list(range(least, min(least + MORE, MOST_DIGITS) + 1))
     radii = _radii(top, at, least) if radius is None else [radius]
-    first, last = 0, len(radii) - 1
-    found = _accepted(top, at, radii[last], digits)
+
+    def tried(off: Fraction) -> dict[str, Any] | None:
+        progress(f"trying the radius {shortest(off)}")
+        return _accepted(top, at, off, digits)
+
+    found = widest(radii, tried)
     if found is None:
         raise BadInput(
-            f"the numbers do not round to {least} digits alike for all parameters within {shortest(radii[last])}; "
+            f"the numbers do not round to {least} digits alike for all parameters within {shortest(radii[-1])}; "
             f"take a smaller radius, or another number of digits"
         )
-    while first < last:
-        middle = (first + last) // 2
-        progress(f"trying the radius {shortest(radii[middle])}")
-        other = _accepted(top, at, radii[middle], digits)
-        first, last, found = (middle + 1, last, found) if other is None else (first, middle, other)
     return found
 
 

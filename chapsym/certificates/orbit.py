@@ -23,7 +23,7 @@ from chapsym.dynamics.levels.start import fraction
 
 from . import families
 from .balls import NotProved, rounded, shortest, simplest
-from .document import stated
+from .document import MADE, stated, widest
 from .families import Member
 from .passage import Level, Map, Passage, Vector, column, columns, entries, identity
 
@@ -32,11 +32,14 @@ KIND = "periodic-orbit"
 SEARCH_BITS, RESOLVED = 256, 160
 #: Decimals beyond those of det(1 - DG^q), at least; by default, with one a step, by which a checker's boxes may grow.
 SIGNIFICANT, SPARE_DIGITS = 3, 20
+#: Decimals that a box of parameters loses in a step, at most.
+GROWTH = 4
 
 
 def periodic_orbit(
     J: tuple[Fraction, Fraction, Fraction], D: Fraction, size: Fraction, steps: int, height: Fraction | None = None,
-    digits: int | None = None, attracting: bool = False, progress: Callable[[str], None] = lambda what: None,
+    digits: int | None = None, attracting: bool = False, radius: Fraction | None = None,
+    progress: Callable[[str], None] = lambda what: None,
 ) -> dict[str, Any]:  # fmt: skip
     """Finds the certificate of an orbit of so many steps, not symmetric, with det DG^q < 1 and without an eigenvalue
     1.
@@ -46,7 +49,8 @@ def periodic_orbit(
     J, D: the ball.  size: |𝒦|².  height: ⟨𝒦, γ⟩; the shortest decimal in the middle of the widest family by
     default.
     digits: decimals of the numbers in the file; enough by default.  attracting: all eigenvalues are to be inside
-    the unit circle.
+    the unit circle.  radius: how far each of J, D and the integrals may be off; the largest power of 10 by default, and
+    none where a component of J is 0.
     Returns the object of the file (`document`).  Raises BadInput, one sentence, for what has no certificate.
     """
     _check(J, D, size, steps, height, digits)
@@ -59,13 +63,38 @@ def periodic_orbit(
                 start, passage = proved(level, *families.solved(level, steps, near, 4 + bits.bit_length()), steps)
                 found = _document(level, steps, start, passage, _digits(passage, steps, digits), attracting)
             checker.check(found)
-            return found
+            return _with_radius(found, radius, steps, progress)
         except checker.Rejected as error:
             raise BadInput(f"the checker does not accept what was found: {error}; take other digits") from None
         except NotProved:
             if bits > 8 * (SEARCH_BITS + 4 * (digits or 0)):
                 raise BadInput(f"no orbit of {steps} steps is proved there; choose another <momentum, gamma>") from None
             bits = 2 * bits
+
+
+def _with_radius(
+    found: dict[str, Any], radius: Fraction | None, steps: int, progress: Callable[[str], None]
+) -> dict[str, Any]:
+    """The certificate for all numbers within a radius, which must be 0 where a component of J is."""
+    if radius == 0 or (radius is None and min(map(Fraction, found["ball"]["J"])) == 0):
+        return found
+    fields = {name: value for name, value in found.items() if name not in (*MADE, "radius")}
+    digits = found["digits"]
+    radii = [Fraction(1, 10 ** (digits + n)) for n in range(GROWTH * steps)] if radius is None else [radius]
+
+    def tried(off: Fraction) -> dict[str, Any] | None:
+        progress(f"trying the radius {shortest(off)}")
+        wide = stated(KIND, **fields, radius=shortest(off))
+        try:
+            checker.check(wide)
+        except checker.Rejected:
+            return None
+        return wide
+
+    best = widest(radii, tried)
+    if best is None:
+        raise BadInput(f"the checker does not accept the radius {shortest(radii[-1])}; take a smaller one, or 0")
+    return best
 
 
 def _check(

@@ -145,6 +145,9 @@ def periodic_orbit(
     steps: Annotated[int, typer.Option(metavar="Q", help="Steps after which the orbit is back.")] = 20,
     attracting: Annotated[bool, typer.Option("--attracting", help="It must attract the orbits near it.")] = False,
     digits: Annotated[int | None, typer.Option(metavar="N", help="Decimals; as many as needed by default.")] = None,
+    radius: Annotated[
+        str | None, typer.Option(metavar="R", help="How far parameters may be off; the largest power of 10.")
+    ] = None,
     output: Output = None,
     as_json: Json = False,
 ) -> None:
@@ -158,9 +161,10 @@ def periodic_orbit(
     J, D = _ball(mass_tensor, inertia, contact, "2")
     KK = rational(k_squared, "--k-squared")
     Kg = None if vertical_momentum is None else rational(vertical_momentum, "--vertical-momentum")
+    within = None if radius is None else rational(radius, "--radius")
     from chapsym.certificates import orbit
 
-    find = partial(orbit.periodic_orbit, (J[0], J[1], J[2]), D, KK, steps, Kg, digits, attracting)
+    find = partial(orbit.periodic_orbit, (J[0], J[1], J[2]), D, KK, steps, Kg, digits, attracting, within)
     _deliver(find, _describe_orbit, output, as_json)
 
 
@@ -168,6 +172,8 @@ def _describe_orbit(found: dict[str, Any]) -> None:
     ball, integrals = found["ball"], found["integrals"]
     print(f"J = ({', '.join(ball['J'])}), D = {ball['D']}, <K, K> = {integrals['momentum.momentum']}, ", end="")
     print(f"<K, gamma> = {integrals['momentum.gamma']}: back after {found['steps']} steps")
+    if "radius" in found:
+        print(f"and all within {found['radius']} of each of these")
     contraction, unit = Decimal(found["determinant"]) - 1, Decimal(found["unit_eigenvalue"])
     print(f"  det DG^q - 1 = {contraction:.3e}, det(1 - DG^q) = {unit:.3e} on the level")
     if "trace" in found:

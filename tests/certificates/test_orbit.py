@@ -11,8 +11,8 @@ from flint import arb, arb_mat, ctx
 
 import chapsym
 from chapsym import checker
-from chapsym.certificates import families, orbit
-from chapsym.certificates.balls import NotProved, rounded
+from chapsym.certificates import document, families, orbit
+from chapsym.certificates.balls import NotProved, rounded, shortest
 from chapsym.certificates.passage import Level, Map, Passage, columns, identity
 from chapsym.dynamics import BadInput
 from chapsym.dynamics.levels.balls import exact
@@ -68,6 +68,22 @@ def test_a_committed_certificate_is_proved_anew_and_accepted(name):
     assert [rounded(x, data["digits"]) for x in (det, unit)] == [data["determinant"], data["unit_eigenvalue"]]
     assert orbit.attracts(passage.derivative()) == ("trace" in data)
     assert checker.check(data).kind == orbit.KIND
+
+
+@pytest.mark.parametrize("name", COMMITTED)
+def test_a_committed_certificate_has_the_largest_radius(name):
+    data = committed(name)
+    for factor, accepted in ((Fraction(1, 10), True), (10, False)):
+        fields = {name: value for name, value in data.items() if name not in document.MADE}
+        other = document.stated(orbit.KIND, **fields | {"radius": shortest(factor * Fraction(data["radius"]))})
+        assert accepts(other) == accepted
+
+
+def accepts(data):
+    try:
+        return checker.check(data).kind == orbit.KIND
+    except checker.Rejected:
+        return False
 
 
 def test_a_moved_start_and_a_level_off_the_family_are_refused():
@@ -166,9 +182,12 @@ def test_an_orbit_is_found(monkeypatch):
         yield first[0]
 
     monkeypatch.setattr(families, "families", remembered)
-    data = orbit.periodic_orbit(NEAR.J, NEAR.D, NEAR.size, 20, digits=45)
+    data = orbit.periodic_orbit(NEAR.J, NEAR.D, NEAR.size, 20, digits=45, radius=Fraction(1, 10**95))
+    assert data["radius"] == "1e-95"
     assert checker.check(data).numbers["determinant"] == data["determinant"] < "1"
     assert data["integrals"]["momentum.gamma"].startswith("2.51")
+    with pytest.raises(BadInput, match="does not accept the radius 1e-40"):
+        orbit._with_radius(data, Fraction(1, 10**40), 20, lambda what: None)
     with pytest.raises(BadInput, match="too few to show"):
         orbit.periodic_orbit(NEAR.J, NEAR.D, NEAR.size, 20, digits=8)
     monkeypatch.setattr(checker, "check", Mock(side_effect=checker.Rejected("no")))

@@ -93,6 +93,21 @@ def test_the_root_of_a_step_is_proved_to_be_the_only_one_for_every_gamma_of_a_bo
             search.after(longer, [])
 
 
+def test_a_box_of_parameters_is_that_of_the_file_and_is_proved(right):
+    wide = resealed(right | {"radius": "1e-90"})
+    assert "every number within 1e-90," in check(wide).statement
+    search = Search(wide | {"radius": "1e-9"})
+    for box, x, off in zip(
+        (search.size, search.height, search.ball.D, *search.ball.inertia),
+        map(Fraction, (*right["integrals"].values(), "2", "6", "5", "3")), (1, 1, 1, 2, 2, 2), strict=True,
+    ):  # fmt: skip
+        assert not box.within(x, Fraction(999 * off, 10**12))
+        assert box.within(x, Fraction(1001 * off, 10**12))
+    for radius, sentence in (("1e-9", "."), ("1e-40", "."), ("-1e-90", "must not be negative"), ("2", "."), (1, "quotes")):
+        with pytest.raises(Rejected, match=sentence):
+            check(resealed(right | {"radius": radius}))
+
+
 @pytest.mark.parametrize("J", [("1", "2", "4"), ("2", "2", "4")])
 def test_a_point_that_is_parallel_to_its_momentum_or_does_not_come_back_is_refused(right, J):
     ball = {"J": list(J), "D": "2"}
