@@ -38,10 +38,9 @@ def _lemma(record: dict[str, Any]) -> str:
     name = typed_latex(record["id"])
     lines = [rf"\begin{{lemma}}[\texttt{{{name}}}]\label{{lem:{record['id']}}}", latex(evidence["title"])]
     lines += [rf"\[ {record['printed']} \]"]
+    lines += ["Throughout:", *_list(map(latex, evidence["hypotheses"]))] if evidence["hypotheses"] else []
     for stated in evidence["theorems"]:
-        lines += _stated(stated["quantifiers"] + stated["hypotheses"], stated["conclusions"])
-    if not evidence["theorems"]:
-        lines += _stated(evidence["hypotheses"], ())
+        lines += _stated(stated)
     uses = ", ".join(rf"Lemma~\ref{{lem:{id}}}" if id in LEMMAS else typed_latex(id) for id in evidence["uses"])
     return "\n".join([*lines, r"\end{lemma}", *_proof(record, f"It uses {uses}." if uses else "")])
 
@@ -58,8 +57,7 @@ def _question(record: dict[str, Any]) -> str:
     for row in evidence["readings"]:
         if row["theorem"]:
             lines += [rf"\begin{{theorem}}[{{{row['answer']}: {latex(row['asked'])}}}]"]
-            theorem = row["theorem"]
-            lines += _stated(theorem["quantifiers"] + theorem["hypotheses"], theorem["conclusions"])
+            lines += _stated(row["theorem"])
             by = (rf"Lemma~\ref{{lem:{id}}}" if id in LEMMAS else latex(f"part {id}") for id in row["by"])
             lines += [r"\end{theorem}", rf"\begin{{proof}} By {', '.join(by)}. \end{{proof}}"]
     left = (latex(row["asked"]) for row in evidence["readings"] if not row["theorem"])
@@ -68,10 +66,13 @@ def _question(record: dict[str, Any]) -> str:
     return "\n".join([*lines, *_proof(record, f"Of the parts; with the lemmas, {counted}.")])
 
 
-def _stated(given: Sequence[str], concluded: Sequence[str]) -> list[str]:
-    """Hypotheses and conclusions as lists."""
-    lines = ["Suppose that", *_list(map(latex, given))] if given else []
-    return lines + (["Then" if given else "It holds that", *_list(map(latex, concluded))] if concluded else [])
+def _stated(theorem: dict[str, Any]) -> list[str]:
+    """The quantifiers, then hypotheses and conclusions as lists."""
+    lines = [latex(f"{text[:1].upper()}{text[1:]}:") for text in theorem["quantifiers"]]
+    given = theorem["hypotheses"]
+    lines += ["suppose that" if lines else "Suppose that", *_list(map(latex, given))] if given else []
+    begins = "Then" if given else "it holds that" if lines else "It holds that"
+    return [*lines, begins, *_list(map(latex, theorem["conclusions"]))]
 
 
 def _list(items: Iterable[str]) -> list[str]:

@@ -44,7 +44,8 @@ def stable_momentum(p: Proof) -> None:
     p.printed(scalar("⟨γ, Ix + γ × D(x × γ + e)⟩ = ⟨γ, Ix⟩",
                      gamma.dot(INERTIA * x + gamma.cross(D * (x.cross(gamma) + e))), gamma.dot(INERTIA * x)))  # fmt: skip
     p.say(
-        "where B(γ) ≥ D: the same as a change of x by |e|.  A rounding of an entry of B is one of D, and reaches it all:"
+        "where B(γ) ≥ D.  So it is a change of x by at most √(1 + (b/a)²)|e|, whatever D is, with a = ⟨γ, Iγ⟩ and b the part of",
+        "Iγ across γ.  A rounding of an entry of B is one of D, and reaches it all:",
     )
     rounded = B + sp.Matrix(3, 3, lambda i, j: D * e[0] if (i, j) == (0, 0) else 0)
     steps, value = three.momentum_steps()

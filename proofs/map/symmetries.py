@@ -3,7 +3,7 @@
 import sympy as sp
 
 from chapsym.derive import gibbs
-from chapsym.derive.gibbs import k, u
+from chapsym.derive.gibbs import I1, I2, I3, k, u
 from chapsym.derive.three import gamma, placed
 from chapsym.proofs.map.gibbs import NORM, equal
 from chapsym.prove import Equation, Proof, Theorem, claim, main
@@ -33,9 +33,26 @@ def carried(name: str, on_u: sp.Matrix, on_gamma: sp.Matrix, on_k: sp.Matrix) ->
     ]
 
 
+#: The axes of the body named anew: in a circle, and 1 and 3 exchanged.
+CIRCLE, SWAP = sp.Matrix([[0, 0, 1], [1, 0, 0], [0, 1, 0]]), sp.Matrix([[0, 0, 1], [0, 1, 0], [1, 0, 0]])
+
+
+def renamed(names: sp.Matrix, axial: int = 1) -> list[Equation]:
+    """The step of the ball with its moments named anew; axial vectors, u and 𝒦, change sign with a reflection."""
+    moments = names * sp.Matrix([I1, I2, I3])
+    other = dict(zip((I1, I2, I3), moments, strict=True))
+    text = "1 → 2 → 3 → 1" if names == CIRCLE else "1 and 3 exchanged"
+    on_axial = axial * names.det() * names
+    return [
+        equal(one.text, [sp.sympify(x).subs(other, simultaneous=True) for x in one.left], one.right)
+        for one in carried(text, on_axial, names, on_axial)
+    ]
+
+
 BELOW = "|𝒦| is below the bound of small-branch"
 COMMUTES = "S G_h = G_h S for the rotations S by π about the principal axes"
 MIRRORED = "Φ(-σ𝒦, σγ) is (-σ, σ) of Φ(𝒦, γ), and G_{-h}(-γ) = -G_h(γ)"
+RENAMED = "with the axes named in any other way G_h becomes G_h or G_h⁻¹ of the ball with its moments named so"
 REVERSED = "σ G_h σ = G_h⁻¹ for the reflections σ across them, and G_h(-γ) = -G_h⁻¹(γ)"
 
 
@@ -49,7 +66,7 @@ REVERSED = "σ G_h σ = G_h⁻¹ for the reflections σ across them, and G_h(-γ
 def symmetries(p: Proof) -> None:
     """Rotations by π about the principal axes commute with the map, reflections of them reverse the reduced one."""
     p.assume("|𝒦| below the bound of small-branch; it and |u| are the same on both sides, so that the branch is, too")
-    p.state(Theorem((), (BELOW,), (COMMUTES, REVERSED)))
+    p.state(Theorem((), (BELOW,), (COMMUTES, REVERSED, RENAMED)))
     p.say("The step from (𝒦, γ): G(u; γ, k) = 0 with k = 𝒦/2, then 𝒦~ = Ωᵀ𝒦, γ~ = Ωᵀγ with (1 + |u|²)Ωᵀ from u.")
     for name, S in HALF_TURNS.items():
         p.printed(*carried(f"{name}: u, γ, 𝒦 ↦ Su, Sγ, S𝒦", S, S, S))
@@ -66,12 +83,23 @@ def symmetries(p: Proof) -> None:
     p.say("The step with -h undoes that with h (self-adjoint): G_{-h} = G_h⁻¹.  Hence σ G_h σ = G_h⁻¹ and G_h(-γ) =")
     p.say("-G_h⁻¹(γ).")
     p.step(REVERSED, MIRRORED, "self-adjoint")
+    p.say("Axes named anew, in the equation of the ball with its moments named so:")
+    p.lemma(*renamed(CIRCLE), *renamed(SWAP))
+    p.say(
+        "The first commutes with G_h. The second is a reflection: with u and 𝒦 = hγ it changes the sign of h, and G_{-h} ="
+    )
+    p.say(
+        "G_h⁻¹. These two make all orders of the axes: what is proved for I1 > I2 > I3 holds for any three different moments,"
+    )
+    p.say("as a displacement of the inverse map is -δ∘F⁻¹.")
+    p.step(RENAMED, BELOW, "gibbs", "gibbs-rotation", "small-branch", "self-adjoint")
     p.say("The half γ_c < 0 of the sphere repeats the half γ_c > 0. On a level")
     p.say("circle around the axis c let F be a lift of R^p G_h^q, R the rotation by π about c, and δ = F - 1. With the")
     p.say("coordinate 0 where γ_a (or γ_b) is 0, σ gives F⁻¹(x) = -F(-x), that is δ(-x - δ(x)) = δ(x): where δ is")
     p.say("small it is almost even about these points, which is why they are the starts of a certificate.")
     S, mirror = HALF_TURNS["S1"], MIRRORS["σ1"]
     p.lemma(equal("S and σ are their own inverses", S * S * u + mirror * mirror * k, u + k))
+    p.control(renamed(SWAP, -1)[0])
     p.control(carried("σ1 as if it were a rotation", mirror, mirror, mirror)[0])
     p.control(carried("S1 as if it were a reflection", -S, S, -S)[0])
     swap = sp.Matrix([[0, -1, 0], [1, 0, 0], [0, 0, 1]])

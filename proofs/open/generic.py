@@ -42,7 +42,7 @@ NOT_ZERO = "Δ is 0 on a set of measure 0 at most"
     "almost-every",
     r"\text{for almost every } (D, h),\ D>0,\ 0<h<h_0(D),\ \mathcal G_h \text{ has an interval of levels on which } "
     r"\mathcal G_h^q \text{ displaces by one half turn and more, and by one half turn and less}",
-    uses=["plateaus", "resonance", "5.15", "small-branch", "5.9-circle", "self-adjoint"],
+    uses=["plateaus", "resonance", "5.15", "small-branch", "5.9-circle", "self-adjoint", "symmetries"],
 )
 def almost_every(p: Proof) -> None:
     """For every ball with three different moments and almost every D and small h, there are levels with displacements of both signs."""
@@ -89,7 +89,8 @@ def almost_every(p: Proof) -> None:
         "its c/h strips. For h < 0 it is the inverse map (self-adjoint): its displacement is -δ∘F⁻¹, of both signs as"
     )
     p.say("well.")
-    p.step(terms.BOTH_SIGNS, STRIPS, NOT_ZERO, terms.FOR_ALMOST_ALL, "self-adjoint")
+    p.say("Another order of the moments is the same with other names (symmetries).")
+    p.step(terms.BOTH_SIGNS, STRIPS, NOT_ZERO, terms.FOR_ALMOST_ALL, "self-adjoint", "symmetries")
     p.witness("a level", {"Λ": "(6, 5, 2)", "l": "3/10", "D": "3/2"},
               Fact("V² > 0, 0 < k² < 1 and 0 < Dl < 1", all(0 < e < 1 for e in (*at_a_level(), sp.Rational(9, 20)))))  # fmt: skip
     p.lemma(

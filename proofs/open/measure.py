@@ -1,11 +1,10 @@
 """The open question of Section 5: finite measures with a positive density, for D > 0, in six cases."""
 
-from dataclasses import replace
 from typing import Any
 
 import sympy as sp
 
-from chapsym.derive.gibbs import I1, I2, I3
+from chapsym.derive.gibbs import I1, I2
 from chapsym.derive.quotient import Quotient
 from chapsym.proofs.map import gibbs, self_adjoint, symmetries
 from chapsym.proofs.map.gibbs import FREE
@@ -44,16 +43,6 @@ def about_the_axis(swap: bool = False) -> list[Equation]:
     ]
 
 
-def renamed(axial: int = 1) -> list[Equation]:
-    """The axes 1 and 3 exchanged, a reflection: axial vectors, u and 𝒦 = hγ, change sign with it, and so does h."""
-    swap = sp.Matrix([[0, 0, 1], [0, 1, 0], [1, 0, 0]])
-    other = {I1: I3, I3: I1}
-    return [
-        Equation(e.text, [sp.sympify(x).subs(other, simultaneous=True) for x in e.left], e.right, FREE)
-        for e in carried("1 and 3 exchanged", -axial * swap, swap, -axial * swap)[:2]
-    ]
-
-
 def yes(p: Proof) -> None:
     """The cases with an invariant measure."""
     p.state(
@@ -61,9 +50,9 @@ def yes(p: Proof) -> None:
         readings.FLAT,
     )
     p.say("Yes for D = 0: the increment of u is constant on every curve (5.15-euler), so s = u will do.")
-    p.say("That is for l > 1/Λ2; for l < 1/Λ2 exchange 1 and 3: the map is the inverse of the renamed ball's.")
-    for statement in renamed():
-        p.lemma(statement)
+    p.say(
+        "That is for l > 1/Λ2; for l < 1/Λ2 exchange 1 and 3: the map is the inverse of the renamed ball's (symmetries)."
+    )
     p.step(there_is(terms.PARAMETER), FLAT, terms.THREE, terms.SMALL_BRANCH, "5.15-euler", "symmetries")
     p.say("So du is invariant on every curve, and as dA = c(l)/2 dl du (5.9-liouville), so is the area dA.")
     p.step(there_is(terms.MEASURE), there_is(terms.PARAMETER), "5.9-liouville")
@@ -74,7 +63,6 @@ def yes(p: Proof) -> None:
     p.say("and keeps l = (1 - γ₃²)/Λ1 + γ₃²/Λ3, so the circles of latitude, each of which it turns: dA is invariant.")
     p.say("(If all three are equal it commutes with every rotation, those about γ among them: it fixes γ.)")
     p.step(there_is(terms.MEASURE), ROUND, terms.SMALL_BRANCH, "prop-3")
-    p.control(replace(renamed(axial=-1)[0], text="1 and 3 exchanged without the signs of u and 𝒦"))
     p.control(about_the_axis(swap=True)[0])
 
 

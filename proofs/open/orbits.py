@@ -150,7 +150,7 @@ def around(x_: sp.Expr, y_: sp.Expr, t_: sp.Expr) -> sp.Expr:
 
 @claim(
     "steady-circles",
-    r"u \parallel e_3,\ \gamma \not\parallel e_3,\ I_1 \ne I_2,\ D > 0,\ m\theta = p\pi,\ p \text{ odd} \ \Rightarrow\ "
+    r"u \parallel e_3,\ \gamma \not\parallel e_3,\ I_1 \ne I_2,\ D > 0,\ m\theta = p\pi,\ p \text{ odd},\ \gcd(m, p) = 1 \ \Rightarrow\ "
     r"\det D\Phi^{2m} = \Bigl(\frac{1 + z^{2m} + 2(-z)^m\cos m\psi}{1 + z^{2m} - 2(-z)^m\cos m\psi}\Bigr)^2,\ 0 < |z| < 1",
     uses=("steady", "small-branch", "step-determinant"),
 )

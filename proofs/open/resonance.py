@@ -56,7 +56,7 @@ def in_fourier_series(p: Proof) -> None:
     p.say("Nη, and the weights, 0 in the class of 0, add up to 2N. So it is -(π/K)²N/sinh Nη, and the one of -2dn² =")
     p.say("-2Z' - 2E/K over q points, divided by q, is -(π/K)²N/sinh Nη, too.")
     p.route(
-        "from the Fourier series of Z; Σ_r (2 - 2cos(2πpr/q)) = 2q, r mod q, by w = e^{2πip/q}, w^q = 1, w ≠ 1",
+        "from the Fourier series of Z; Σ_r (2 - 2cos(2πpr/q)) = 2q for q = 2..12, r mod q, by w = e^{2πip/q}, w^q = 1, w ≠ 1",
         product_of_poles(),
         chords_of_a_polygon(12),
     )
@@ -73,7 +73,7 @@ NOT_CONSTANT = "Σdn²(u₀ + 2Kj/q) is greatest at u₀ = 0, less at K/q, and s
 
 @claim(
     "resonance",
-    r"2a_0q = 2Kp:\quad u_q - u_0 - 2Kp = c - 2A''(0)\,D^2\sum_{j=0}^{q-1}\mathrm{dn}^2\bigl(u_0+\tfrac{2Kj}q\bigr)+O(D^3),"
+    r"2a_0q = 2Kp + O(D),\ \delta = O(D^2) \text{ at some } u_0:\quad \delta = u_q - u_0 - 2Kp = c - 2A''(0)\,D^2\sum_{j=0}^{q-1}\mathrm{dn}^2\bigl(u_0+\tfrac{2Kj}q\bigr)+O(D^3),"
     r"\quad A''(0) = -\frac{M''(a_0)}{M'(a_0)^3}",
     uses=["chord"],
 )
@@ -133,7 +133,7 @@ TWIST = "for h small, A'' > 0 and ω' > 0 on an interval of levels, where ω = a
     "plateaus",
     r"h \text{ small},\ 0 < D < D_0(h): \text{ on an interval of levels } l \text{ of a length} \ge cD^2,\ "
     r"\mathcal G_h^q \text{ displaces by } p \text{ half turns and more, and by } p \text{ half turns and less}",
-    uses=["resonance", "5.9-circle", "small-branch", "self-adjoint"],
+    uses=["resonance", "5.9-circle", "small-branch", "self-adjoint", "symmetries"],
 )
 def plateaus(p: Proof) -> None:
     """For every ball with three different moments, every small h and every smaller D there are levels with displacements of both signs."""
@@ -182,7 +182,8 @@ def plateaus(p: Proof) -> None:
         "1. applies to each of these: h₀ and the interval of l are chosen first, then h, then p/q, then D₀. For h < 0"
     )
     p.say("it is the inverse map (self-adjoint): its displacement is -δ∘F⁻¹, of both signs as well.")
-    p.step(terms.BOTH_SIGNS, WIDTH, TWIST, terms.FOR_SMALL, "self-adjoint")
+    p.say("Another order of the moments is the same with other names (symmetries).")
+    p.step(terms.BOTH_SIGNS, WIDTH, TWIST, terms.FOR_SMALL, "self-adjoint", "symmetries")
     p.witness("a level", {"Λ": "(6, 5, 2)", "l": "3/10", "V²": "1/25", "k²": "1/6"},
               Fact("V² > 0 and 0 < k² < 1", all(0 < x < 1 for x in at_a_level())))  # fmt: skip
     p.control(Equation("(2w - hG/V)/h = b - V", above, b - V, ring))

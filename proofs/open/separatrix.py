@@ -180,7 +180,7 @@ def without_the_mean(sign: int = -1) -> Equation:
     "separatrix-limit",
     r"\Delta(u) = h_+(u)+h_+(-u),\ h_+ = \lim(u_n-nc):\quad \Delta \text{ is not constant} \Rightarrow "
     r"\text{levels with displacements of both signs in every neighbourhood of } l = \tfrac1{\Lambda_2}",
-    uses=("separatrix-map", "chord", "locked-circle", "small-branch", "reversible"),
+    uses=("separatrix-map", "chord", "locked-circle", "small-branch", "reversible", "symmetries"),
 )
 def separatrix_limit(p: Proof) -> None:
     """Beside the separatrix q steps displace to the side that Δ less a constant says: what orbits on it miss between their ends."""
@@ -228,9 +228,9 @@ def separatrix_limit(p: Proof) -> None:
         "u₀ - 2K, p = 1, is negative at u₀ = x, positive at u₀ = y, and so it is on an interval of levels. They tend",
         "to 1/Λ₂ as q grows. By locked-circle every finite invariant measure on their circles is carried by finitely",
         "many points, and no finite measure that G_h keeps has a density that is positive almost everywhere near the",
-        "level l = 1/Λ₂.",
+        "level l = 1/Λ₂. Another order of the moments is the same with other names (symmetries).",
     )
-    p.step(terms.BOTH_SIGNS, PASSAGE, terms.NOT_CONSTANT)
+    p.step(terms.BOTH_SIGNS, PASSAGE, terms.NOT_CONSTANT, "symmetries")
     plain = Quotient((X, D, h, kappa, I2))
     rate = sp.diff(2 * I2 * X - h * (kappa * X**2 + 1 / kappa), X) * (1 - X**2)
     p.lemma(Equation("d/da(-F(coth a)) = (X² - 1)(2hϰX - 2I₂)", rate, (X**2 - 1) * (2 * h * kappa * X - 2 * I2), plain))

@@ -1,4 +1,4 @@
-"""The two ends of the separatrix do not fit: for every h ≠ 0 below the bound, and every D > 0 but a discrete set."""
+"""The two ends of the separatrix do not fit: for every h ≠ 0 below the bound, and every D > 0 but a closed discrete set."""
 
 from dataclasses import replace
 
@@ -40,7 +40,7 @@ def second_derivative(sign: int = 1) -> Equation:
     uses=("separatrix-map", "separatrix-limit", "locked-circle", "self-adjoint"),
 )
 def separatrix(p: Proof) -> None:
-    """For every ball with three different moments, every h below the bound, all D > 0 but a discrete set: no such measure."""
+    """For every ball with three different moments, every h below the bound, all D > 0 but a closed discrete set: no such measure."""
     p.assume("I₁ > I₂ > I₃ > 0 and h fixed, Λ = I + D; h > 0, as h < 0 is the inverse map (self-adjoint)")
     p.assume("other names of the moments: an exchange of 1 and 3 takes the map of h to that of -h (symmetries)")
     p.assume("h is below the bound of small-branch, which does not depend on D; the small branch")

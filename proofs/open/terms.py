@@ -8,11 +8,9 @@ THREE = "I1, I2, I3 are different"
 SMALL_BRANCH = "|𝒦| is below the bound of small-branch, and the map is that of the small branch"
 REGULAR_LEVEL = "l is none of 1/Λ1, 1/Λ2, 1/Λ3"
 MOMENTS = "J_i + J_j > 0 and D ≥ 0"
-FOR_SMALL = (
-    "there is h₀ > 0, and for every h with 0 < |h| < h₀ there is D₀(h) > 0, so that for every D with 0 < D < D₀(h)"
-)
-BUT_DISCRETE = "for every h ≠ 0 there is a set without limit points in [0, ∞), and for every D > 0 that is not in it"
-FOR_ALMOST_ALL = "for every D̂ > 0 there is h₀ > 0, so that for almost every (D, h) with 0 < D < D̂ and 0 < |h| < h₀"
+FOR_SMALL = "for each three moments there is h₀ > 0, and for every h with 0 < |h| < h₀ there is D₀(h) > 0, so that for every D with 0 < D < D₀(h)"
+BUT_DISCRETE = "for each three moments and every h ≠ 0 there is a set without limit points in [0, ∞), and for every D > 0 that is not in it"
+FOR_ALMOST_ALL = "for each three moments and every D̂ > 0 there is h₀ > 0, so that for almost every (D, h) with 0 < D < D̂ and 0 < |h| < h₀"
 
 #: What joins the lemmas of 5.9-open.
 BOTH_SIGNS = (
@@ -20,8 +18,10 @@ BOTH_SIGNS = (
     "each circle, and by less at another"
 )
 
-#: Of the orbits on the level l = 1/Λ₂, c the limit of their increments.
-NOT_CONSTANT = "Δ(u) = h₊(u) + h₊(-u), h₊ = lim(u_n - nc), is not constant"
+NOT_CONSTANT = (
+    "on the level l = 1/Λ2 Δ(u) = h₊(u) + h₊(-u) is not constant, h₊(u) = lim(u_n - nc), u_n the orbit of u, c the limit of "
+    "its increments"
+)
 
 # What question 5.9-open asks for, in its readings.
 MEASURE = "finite measure on the sphere, invariant under G_h, with a density that is positive almost everywhere"
@@ -48,9 +48,10 @@ IN_C0 = "family of continuous integrals of the steps that tends uniformly to suc
 EXPANDED = "family of integrals f + εH₁ + ε²H₂ + o(ε²) of the steps, uniformly, with H₁ of class C¹ and H₂ continuous"
 ANALYTIC = "real analytic integral H + O(|𝒦|³) of the map near 𝒦 = 0"
 KEPT = "conserved energy: H itself is an integral of the map"
-DENSITIES = "family of invariant densities of the steps that tends in C¹ to that of the continuous ball"
+DENSITIES = "family of invariant densities of the steps that tends in C¹ to g(|K|², ⟨K,γ⟩)τ^(-1/2), g > 0, τ as in modified-measure"
 ROLLS, TWO_DIFFER = "D > 0", "two of I1, I2, I3 are different"
-WHOLE = "measure on |𝒦| < r, for some r > 0, invariant under the whole map, with a continuous positive density"
+WHOLE = "number r > 0 with a measure on |𝒦| < r that the whole map preserves and that has a continuous positive density"
+ALL_EQUAL = "I1 = I2 = I3"
 THIRD = "C¹ integral of the map with a differential independent of those of |γ|, |𝒦|², ⟨𝒦,γ⟩ on these orbits"
 
 #: What joins the parts of 6-open.

@@ -11,7 +11,7 @@ from chapsym.derive.steady import moment
 from chapsym.derive.three import UNIT_VERTICAL, gamma, placed
 from chapsym.proofs.open import orbits, terms
 from chapsym.proofs.open.orbits import START, SWING, around, half_momentum, slope, steady_level, t, turn
-from chapsym.prove import Comparison, Equation, Proof, Theorem, claim, main, no
+from chapsym.prove import Comparison, Equation, Proof, Theorem, claim, main, no, there_is
 
 MOMENTS = (I1, I2, I3)
 UNIT = Quotient((*u, t, *gamma, *MOMENTS, moment, D), [UNIT_VERTICAL])
@@ -67,7 +67,7 @@ def measure_iff(p: Proof) -> None:
     """For D > 0 the whole map preserves a continuous positive density near 𝒦 = 0 if and only if the three moments are equal."""
     p.assume("I_i > 0, D > 0", *(x > 0 for x in (*MOMENTS, D)))
     p.assume("the small branch on P_r: |𝒦| < r, |γ| = 1, for any r > 0 up to the bound of small-branch")
-    p.state(Theorem((), (terms.ROLLS, terms.TWO_DIFFER, terms.SMALL_BRANCH), (no(terms.WHOLE),)))
+    p.state(Theorem((), (terms.ALL_EQUAL, terms.SMALL_BRANCH), (there_is(terms.WHOLE),)), "measure-iff: if")
     p.assume("densities against d³𝒦 dσ(γ), σ the area of the sphere; the measure may be infinite")
     p.say(
         "Φ is an analytic diffeomorphism of P_r: it keeps |𝒦|, its root is regular (small-branch), and it has an inverse",
@@ -82,6 +82,12 @@ def measure_iff(p: Proof) -> None:
         "It does not depend on γ, nor on the sign of u: so det 𝒜~, which is that at (-u, Ωᵀγ), is det 𝒜, and det DΦ = 1",
         "where 𝒦 ∦ γ, by continuity on P_r.  ϱ = 1 is invariant: d³𝒦 dσ(γ) itself, and on each level M of |𝒦|, ⟨𝒦, γ⟩ its",
         "volume that is invariant under rotations.",
+    )
+    p.step(
+        there_is(terms.WHOLE), terms.ALL_EQUAL, terms.SMALL_BRANCH, "small-branch", "self-adjoint", "step-determinant"
+    )
+    p.state(Theorem((), (terms.ROLLS, terms.TWO_DIFFER, terms.SMALL_BRANCH), (no(terms.WHOLE),)))
+    p.say(
         "Only if. Let two moments be different, and a, b their axes, so that a, b, c is a cyclic order of 1, 2, 3. Where",
         "u = te_c each step turns the ball by θ = 2 arctan t about e_c (steady), and, with P of steady-circles renamed,",
     )

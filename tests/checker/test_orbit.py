@@ -103,7 +103,13 @@ def test_a_box_of_parameters_is_that_of_the_file_and_is_proved(right):
     ):  # fmt: skip
         assert not box.within(x, Fraction(999 * off, 10**12))
         assert box.within(x, Fraction(1001 * off, 10**12))
-    for radius, sentence in (("1e-9", "."), ("1e-40", "."), ("-1e-90", "must not be negative"), ("2", "."), (1, "quotes")):
+    for radius, sentence in (
+        ("1e-9", "."),
+        ("1e-40", "."),
+        ("-1e-90", "must not be negative"),
+        ("2", "."),
+        (1, "quotes"),
+    ):
         with pytest.raises(Rejected, match=sentence):
             check(resealed(right | {"radius": radius}))
 

@@ -15,7 +15,7 @@ def test_the_question_is_settled_by_lemmas_and_certificates(records):
     record = records["5.9-open"]
     evidence = record["evidence"]
     assert record["verdict"] == "settled", evidence["problems"]
-    assert evidence["answer"].startswith("No. Where there is h₀ > 0")
+    assert evidence["answer"].startswith("No. Where for each three moments there is h₀ > 0")
     assert evidence["question"]["words"].startswith("“In this connection the following natural problem")
     assert evidence["measured"]
     assert evidence["conjectures"]
@@ -60,7 +60,7 @@ def test_a_changed_certificate_is_sealed_so_that_arithmetic_judges_it():
 
 def test_the_record_depends_on_the_certificates(tmp_path):
     claim = load()["5.9-open"]
-    assert claim.files == measure.FILES
+    assert claim.files == (*measure.FILES, *measure.ENDS)
     copy = tmp_path / claim.files[0].name
     copy.write_bytes(claim.files[0].read_bytes() + b"\n")
     changed = type(claim)(claim.id, claim.printed, claim.uses, claim.prove, (copy, *claim.files[1:]))

@@ -8,6 +8,7 @@ import pytest
 import sympy as sp
 
 from chapsym import checker
+from chapsym.proofs.map import symmetries
 from chapsym.proofs.open import certified, energy, locking, measure, readings
 from chapsym.prove import Judgement, Proof, Verdict, judged, load, no, there_is
 from chapsym.prove.argument import gaps
@@ -37,7 +38,7 @@ def once(rests, checked, uncertified, monkeypatch):
     for module in QUESTIONS.values():
         monkeypatch.setattr(module, "judged", rests.__getitem__)
     monkeypatch.setattr(checker, "check", lambda data: checked[data["digest"]])
-    monkeypatch.setattr(certified, "changed", lambda *_: measure.renamed(axial=-1)[0])
+    monkeypatch.setattr(certified, "changed", lambda *_: symmetries.renamed(symmetries.SWAP, -1)[0])
 
 
 def proof_of(id):
