@@ -22,10 +22,10 @@ from fractions import Fraction
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
-from .document import check_names, check_rounded, count, decimals
+from .document import check_names, check_rounded, decimals
 from .interval import Rejected
 from .linear import Matrix, Vector, cross, image, isolated, minus, solve, times, transposed, unit
-from .step import gibbs_vector, jacobian, residual, source, turned
+from .step import Pair, gibbs_vector, jacobian, residual, source, turned
 
 if TYPE_CHECKING:
     from .measure import Circle
@@ -51,7 +51,7 @@ class Branch:
     def proved(cls, circle: "Circle", data: Any, digits: int) -> "Branch":
         """The branch of a file; raises Rejected unless it is there, once, over the whole circle."""
         check_names(data, "arcs u", "branch")
-        half, odd = divmod(count(data["arcs"], 2, MOST_ARCS, "arcs"), 2)
+        half, odd = divmod(data["arcs"], 2)
         if odd:
             raise Rejected("arcs must be even, so that the branch starts at the end of two")
         given = decimals(data["u"], digits, "u of branch")
@@ -59,6 +59,7 @@ class Branch:
         gammas = [circle.start(t) for t in ends]
         start = _root(circle, gammas[half], [circle.number(x).point() for x in given])
         check_rounded(start, given, digits, "u of branch")
+        _check_meant(circle, circle.state(gammas[half]), given, digits)
         roots = {half: start}
         for i in range(half + 1, 2 * half + 1):
             roots[i] = _root(circle, gammas[i], roots[i - 1])
@@ -100,12 +101,23 @@ def _root(circle: "Circle", gamma: Vector, near: Vector) -> Vector:
     return gibbs_vector(circle.ball, circle.state(gamma), [x.point() for x in near])
 
 
+def _check_meant(circle: "Circle", state: Pair, given: list[Fraction], digits: int) -> None:
+    """Raises Rejected unless one root alone rounds to the numbers of the file."""
+    half = Fraction(1, 2 * 10**digits)
+    cell = [circle.number(x - half).hull(circle.number(x + half)).wider(1) for x in given]
+    try:
+        isolated(lambda u: residual(circle.ball, state, u), lambda u: jacobian(circle.ball, state, u), cell)
+    except Rejected:
+        raise Rejected("the u of branch may be that of two roots: it needs more digits") from None
+
+
 def _box(circle: "Circle", first: Fraction, last: Fraction, roots: tuple[Vector, Vector]) -> Vector:
     """A box that contains the roots at the ends of an arc, and one root for each γ of the arc.
 
-    γ on the arc is γ_m + sT with γ_m its middle and T in the tangents γ × Λ⁻¹γ of the arc, as the mean of tangents of
-    one direction, so F(u) is that at γ_m less s·source(T).  Newton's test is done with both sides multiplied by a
-    matrix Y near the inverse of F′: so what it proves is that YF has one root, and Y is regular where YF′ is.
+    Along the arc γ moves in the direction of γ × Λ⁻¹γ: from its middle γ_m by s times a mean T of these tangents, and
+    F(u) loses s times a mean of source(γ × Λ⁻¹γ), as what is enclosed at once for all γ of the arc is
+    convex.  Newton's test is done with both sides multiplied by a matrix Y near the inverse of F′: it proves that YF
+    has one root, and Y is regular where YF′ is.
     """
     ends = [[circle.number(x) for x in direction(t)] for t in (first, last)]
     middle = circle.state(circle.start((first + last) / 2))

@@ -13,6 +13,8 @@ from .interval import Interval, Rejected
 FORMAT = "chapsym-certificate/1"
 #: Most digits and steps of a certificate: what a reader can wait for.
 MOST_DIGITS, MOST_STEPS = 2_000, 1_000
+#: The most steps · bits² of a certificate, and the bits below which a step is no cheaper: some minutes.
+MOST_WORK, LEAST_BITS = 20_000_000_000, 1_000
 #: Of a file.
 MOST_BYTES = 8_000_000
 _EXACT = re.compile(r"-?\d+(/\d+|(\.\d+)?(e-?\d{1,3})?)", re.ASCII)
@@ -76,7 +78,7 @@ def count(value: Any, least: int, most: int, where: str) -> int:
 def exact(text: Any, where: str) -> Fraction:
     """A rational number such as 12/5, -3, 0.25 or 1e-90."""
     fits = isinstance(text, str) and len(text) <= MOST_DIGITS + 10 and _EXACT.fullmatch(text)
-    if not fits or (text[0] == "-" and not text.partition("e")[0].strip("-0.")):
+    if not fits or (text[0] == "-" and not re.split("[e/]", text)[0].strip("-0.")):
         raise Rejected(f"{where} must be a number in quotes such as 12/5, -3, 0.25 or 1e-90")
     try:
         return Fraction(text)
@@ -105,6 +107,12 @@ def check_rounded(true: Sequence[Interval], given: Sequence[Fraction], digits: i
     for x, number in zip(true, given, strict=True):
         if not x.rounds_to(number, digits):
             raise Rejected(f"{where} is not proved to be rounded correctly to {digits} digits after the point")
+
+
+def check_work(steps: int, bits: int) -> None:
+    """Raises Rejected where so many steps with numbers of so many bits take longer than a reader can wait for."""
+    if steps * (bits + LEAST_BITS) ** 2 > MOST_WORK:
+        raise Rejected("the certificate asks for more work than a reader can wait for: take fewer steps or digits")
 
 
 def scale(digits: int, steps: int, parameters: Sequence[Fraction]) -> int:

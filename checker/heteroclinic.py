@@ -2,9 +2,10 @@
 
 The map.  Let I1 > I2 > I3 > 0, D > 0, Λ = I + D, ϰ² = (Λ1 - Λ2)(Λ2 - Λ3)/(Λ1Λ3), ϰ > 0, and h > 0 below the bound of
 check_small_branch.  Claim separatrix-map of the register says that on the arcs of |γ| = 1, ⟨γ, Λ⁻¹γ⟩ = 1/Λ2 between the
-rotations about ±e2 the reduced map is u ↦ ũ, with
+rotations about ±e2 the reduced map is u ↦ ũ, with tanh u = γ2 where C1C3 < 0, and -u for u on the other arcs,
     F(X) = D(tanh ũ - tanh u),   F(X) = hϰX² - 2I2 X + h/ϰ,   X = coth ½(ũ - u) > X₀,                              (1)
-X₀ the larger root of F.  What is proved here is about (1).  With x = e^2u and s = e^(ũ - u) = (X + 1)/(X - 1), x̃ = s²x,
+X₀ the larger root of F.  What is proved here is about (1).  With x = e^2u and s = e^(ũ - u) = (X + 1)/(X - 1), x̃ =
+s²x,
     tanh ũ - tanh u = 8xX/((x + 1)Q),   Q = x(X + 1)² + (X - 1)²,   with the derivative 8x(1 - X²)/Q² by X.         (2)
 It falls for X > 1, and F grows for X > X₀; at X₀ F is less, for great X it is more: (1) has one root X > X₀.
 
@@ -21,7 +22,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from .document import MOST_DIGITS, check_names, check_rounded, count, decimal, exact, listed, scale
+from .document import MOST_DIGITS, check_names, check_rounded, check_work, count, decimal, exact, listed, scale
 from .interval import Interval, Rejected
 from .linear import newton
 from .step import Ball, check_small_branch
@@ -35,10 +36,11 @@ def statement(data: dict[str, Any]) -> str:
     """What is proved, with the numbers of the file."""
     ball, starts = data["ball"], [one["start"] for one in data["orbits"]]
     return (
-        f"For every ball with J = ({', '.join(ball['J'])}), D = {ball['D']} and momentum {ball['height']} γ, every "
-        f"number within {data['radius']}: on the level ⟨γ, Λ⁻¹γ⟩ = 1/Λ_2 the orbits from tanh u = (x - 1)/(x + 1), "
-        f"x = {starts[0]} and {starts[1]}, have two different Δ(u) = h₊(u) + h₊(-u), h₊ = lim(u_n - nc); "
-        f"so Δ is not constant."
+        f"For every ball with J = ({', '.join(ball['J'])}), D = {ball['D']}, h = {ball['height']}, every number within "
+        f"{data['radius']}: of the map u ↦ ũ, h(ϰX² + 1/ϰ) = 2I2 X + D(tanh ũ - tanh u), X = coth ½(ũ - u) > X₀, "
+        f"ϰ² = (Λ1 - Λ2)(Λ2 - Λ3)/(Λ1Λ3), X₀ the greater with h(ϰX₀² + 1/ϰ) = 2I2 X₀, the orbits from "
+        f"e^2u = {starts[0]} and {starts[1]} have two different Δ(u) = h₊(u) + h₊(-u), h₊ = lim(u_n - nc), "
+        f"c = log((X₀ + 1)/(X₀ - 1)); so Δ is not constant."
     )
 
 
@@ -83,6 +85,7 @@ class Separatrix:
             Fraction(data["ball"]["height"]),
         )
         bits = scale(data["digits"], FIRST, [*J, D, h])
+        check_work(sum(one["steps"] for one in data["orbits"]), bits)
         ball = Ball.within(J, D, radius, bits)
         height = Interval.enclosing(h - radius, h + radius, bits)
         first, middle, third = ball.inertia

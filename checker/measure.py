@@ -4,13 +4,14 @@ For 𝒦 = hγ the step (step.py) gives a map G_h of the sphere |γ| = 1 into it
 
 The circle.  With s = ½h(1 + |u|²) + D⟨γ, u⟩ and w = Λu equation (1) reads sγ = w + u × w (as u × Iu = u × Λu), so by
 (2) sγ̃ = w - u × w.  Hence both s²⟨γ, Λ⁻¹γ⟩ and s²⟨γ̃, Λ⁻¹γ̃⟩ are ⟨w, Λ⁻¹w⟩ ± 2⟨u × w, u⟩ + ⟨u × w, Λ⁻¹(u × w)⟩; the
-middle is 0, and s ≠ 0, as w = 0 only for h = 0: ⟨γ, Λ⁻¹γ⟩ is an integral.  If 1/Λ_c is the least or greatest 1/Λ
-and the level l lies strictly between it and the next, the level consists of two circles, γ_c > 0 and γ_c < 0, and its
+middle is 0, and s ≠ 0, as w = 0 only for h = 0: ⟨γ, Λ⁻¹γ⟩ is an integral.  If 1/Λ_c is the least or greatest 1/Λ and
+the level l lies strictly between it and the next, the level consists of two circles, γ_c > 0 and γ_c < 0, and its
 projection to the plane of the other two axes, a and b, is an ellipse about 0.  G_h depends smoothly on h and is the
 identity for h = 0, so it takes the circle γ_c > 0 to itself.  G_-h is its inverse: the two equations for γ and γ̃ are
 exchanged by (h, u, w, s) ↦ -(h, u, w, s).  Beyond the bound of check_small_branch the file has a `branch` of the roots
 over the circle; branch.py proves that its map is a homeomorphism of the circle that commutes with R, below, and keeps
-the direction, and that the steps of the orbits are on it.
+the direction, and that the steps of the orbits are on it.  Its roots are simple, so it goes on over the circles near
+by.
 
 The lift.  Let φ be the angle in the plane (a, b), and g a lift of G_h to the line, φ ↦ g(φ).  The rotation R by π about
 the axis c commutes with G_h, so g(φ + π) = g(φ) + π (done twice it adds 2π), and any two values of g(φ) - φ differ by
@@ -29,12 +30,13 @@ from fractions import Fraction
 from itertools import pairwise
 from typing import Any
 
-from .branch import Branch, direction
+from .branch import MOST_ARCS, Branch, direction
 from .document import (
     MOST_DIGITS,
     MOST_STEPS,
     check_names,
     check_rounded,
+    check_work,
     count,
     decimal,
     decimals,
@@ -79,6 +81,7 @@ def check_form(data: dict[str, Any]) -> None:
         raise Rejected("axes must be 1, 2, 3 in some order")
     if "branch" in data:
         check_names(data["branch"], "arcs u", "branch")
+        count(data["branch"]["arcs"], 2, MOST_ARCS, "arcs")
         decimals(data["branch"]["u"], count(data["digits"], 1, MOST_DIGITS, "digits"), "u of branch")
 
 
@@ -92,6 +95,7 @@ class Circle:
         J = [Fraction(x) for x in data["ball"]["J"]]
         D, height, level = (Fraction(data["ball"][name]) for name in ("D", "height", "level"))
         bits = scale(data["digits"], data["steps"], [*J, D, height, level])
+        check_work(2 * data["steps"] + (data["branch"]["arcs"] if "branch" in data else 0), bits)
         self.ball = Ball.within(J, D, radius, bits)
         self.height, self.level = (Interval.enclosing(x - radius, x + radius, bits) for x in (height, level))
         if not self.height.sign:
@@ -185,12 +189,15 @@ def check(data: dict[str, Any]) -> dict[str, str]:
     turns = count(data["half_turns"], 1, q, "half_turns")
     if len(data["ball"]["level"].partition(".")[2]) > digits:
         raise Rejected("the level has more decimals than the numbers that depend on it")
-    circle = Circle(data)
-    found = set()
     for given in listed(data["orbits"], 2, "orbits"):
         check_names(given, "start steps displacement", "an orbit")
+        listed(given["steps"], q, "the steps of an orbit")
+        _tangent(given["start"])
+    circle = Circle(data)
+    found = set()
+    for given in data["orbits"]:
         start = circle.start(_tangent(given["start"]))
-        gammas = circle.orbit(start, listed(given["steps"], q, "the steps of an orbit"), digits)
+        gammas = circle.orbit(start, given["steps"], digits)
         direction = circle.direction(gammas)
         sines = [direction * circle.sine(start, w) for w in gammas[1:]]
         displacement = sines[-1] * (-1) ** turns

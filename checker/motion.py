@@ -96,7 +96,7 @@ def _pairs(data: Any, n: int, where: str) -> list[list[Fraction]]:
 def _check_claim(name: str, pairs: Sequence[Sequence[Fraction]], share: Fraction, radius: Fraction) -> None:
     """Raises Rejected unless the radii are this share, at most, and the attitude is the one of two that is meant."""
     if name in ("angular_momentum", "omega"):
-        size = max(abs(x) for x, _ in pairs)
+        size = max(abs(x) - off for x, off in pairs)  # no number that is meant is less
     else:
         size = radius if name == "contact" else Fraction(1)
     if max(off for _, off in pairs) > share * size:

@@ -25,6 +25,7 @@ from .document import (
     MOST_STEPS,
     check_names,
     check_rounded,
+    check_work,
     count,
     decimal,
     decimals,
@@ -76,6 +77,7 @@ class Search:
         J, D = [Fraction(x) for x in data["ball"]["J"]], Fraction(data["ball"]["D"])
         integrals = [Fraction(data["integrals"][name]) for name in INTEGRALS]
         bits = scale(self.digits, q, [*J, D, *integrals])
+        check_work(6 * q, bits)
         radius = Fraction(data.get("radius", "0"))
 
         def enclosed(x: Fraction) -> Interval:

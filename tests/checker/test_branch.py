@@ -11,9 +11,10 @@ from certificate_changes import at, replaced, resealed
 
 from chapsym import proofs
 from chapsym.checker import Rejected, check
-from chapsym.checker.branch import Branch, direction
+from chapsym.checker.branch import Branch, _check_meant, direction
 from chapsym.checker.interval import Interval
 from chapsym.checker.measure import Circle
+from chapsym.checker.step import Ball
 
 
 @pytest.fixture(scope="module")
@@ -82,12 +83,30 @@ def test_the_directions_of_the_arcs_are_on_the_unit_circle_in_order():
         (("half_turns",), 3, "about 3 half turns"),
         (("orbits", 1, "start"), "147/1000", "u of step 1"),
         (("orbits", 1, "start"), "0", "not 0, which is b"),
+        (("orbits",), None, "orbits must be a list of 2"),
+        (("branch", "arcs"), 10**9, "from 2 to 8192"),
     ],
 )  # fmt: skip
 def test_what_is_changed_is_refused_by_mathematics_alone(right, path, value, sentence):
     assert at(right, path) != value
     with pytest.raises(Rejected, match=sentence):
         check(resealed(replaced(right, path, value)))
+
+
+def test_the_u_of_the_file_is_that_of_one_root(circle, right):
+    """At J = (1, 2, 4), D = 1, h = 3.7005 on this level two roots at γ_b = 0 round to (0.1, 0.5, 0.9)."""
+    ball = {"J": ["1", "2", "4"], "D": "1", "height": "37005/10000", "level": "0.21166783"}
+    there = Circle.__new__(Circle)
+    there.level, there.height, there.ball = circle.level, circle.number(Fraction("3.7005")), None
+    there.a, there.b, there.c = 1, 0, 2
+    there.ball = Ball.within([Fraction(x) for x in ball["J"]], Fraction(1), Fraction(0), circle.level.bits)
+    there.level, there.weights = circle.number(Fraction(ball["level"])), [1 / x for x in there.ball.contact]
+    state = there.state(there.start(Fraction(0)))
+    roots = [[Fraction(x) for x in text.split()] for text in ("0.1135 0.4671 0.8509", "0.1375 0.5076 0.9484")]
+    for given in roots:
+        _check_meant(there, state, given, 4)
+        with pytest.raises(Rejected, match="may be that of two roots"):
+            _check_meant(there, state, [round(10 * x) / Fraction(10) for x in given], 1)
 
 
 def test_without_the_branch_the_file_is_beyond_the_bound(right):

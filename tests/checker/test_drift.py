@@ -192,12 +192,15 @@ def test_what_is_stated_must_contain_what_is_found(right, known):
 
 def test_what_is_found_must_prove_the_statement(right, known):
     """All that is stated is as wide as can be: then only what is found can refuse."""
-    wide = resealed(right | {"misses": [["0", "9"]] * 2, "energy": ["0", "9"], "density": ["0", "9"]})
+    wide = resealed(right | {"misses": [["0", "9"]] * 2, "energy": ["1", "0.9999"], "density": ["1", "0.9999"]})
     assert check(wide)
+    for name in ("energy", "density"):
+        with pytest.raises(Rejected, match="may be 0"):
+            check(resealed(wide | {name: ["0", "9"]}))
     start, found, (energy, density) = known[-1, 1]
     for integrals in ([energy.hull(0 * energy), density], [energy, density.hull(0 * density)]):
         known[-1, 1] = start, found, integrals
-        with pytest.raises(Rejected, match="may be 0"):
+        with pytest.raises(Rejected, match=r"is not proved to be 1 up to 0\.9999"):
             check(wide)
     known[-1, 1] = start, [x.wider(1 << x.bits) for x in found], [energy, density]
     with pytest.raises(Rejected, match="tell states apart"):

@@ -120,6 +120,8 @@ def test_each_number_that_is_changed_is_refused_by_mathematics_alone(right):
         (("orbits", 0, "start"), "0", "must be positive"),
         (("orbits", 1, "end"), "0.998468790274232262099160", "end is not proved"),
         (("orbits",), [], "list of 2"),
+        (("ball", "D"), "1e-900", "more work than a reader"),
+        (("ball", "D"), "-0/5", "must be a number in quotes"),
     ],
 )  # fmt: skip
 def test_each_hypothesis_is_proved_from_the_numbers(right, path, value, sentence):

@@ -20,7 +20,9 @@ def test_the_question_is_settled_by_lemmas_and_certificates(records):
     assert evidence["measured"]
     assert evidence["conjectures"]
     assert evidence["certificates"]
-    assert {seen["file"] for seen in evidence["certificates"]} == {file.name for file in measure.FILES}
+    assert {seen["file"] for seen in evidence["certificates"]} == {
+        file.name for file in (*measure.FILES, *measure.ENDS)
+    }
     assert all(seen["accepted"] and len(seen["digest"]) == 64 for seen in evidence["certificates"])
     assert {f"{id} is proved" for id in measure.LEMMAS} <= {check["statement"] for check in evidence["checks"]}
     assert not evidence["tried"]
