@@ -20,35 +20,28 @@ them the sine is proved to be positive.  That is what measure.py uses of the map
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from .circle import Circle, direction
 from .document import check_names, check_rounded, decimals
 from .interval import Rejected
 from .linear import Matrix, Vector, cross, image, isolated, minus, solve, times, transposed, unit
 from .step import Pair, gibbs_vector, jacobian, residual, source, turned
-
-if TYPE_CHECKING:
-    from .measure import Circle
 
 MOST_ARCS = 8_192
 #: A box reaches so many times the way between the roots at its ends beyond them.
 WIDER = 3
 
 
-def direction(t: Fraction) -> tuple[Fraction, Fraction]:
-    """(cos φ, sin φ) for t = tan ½φ."""
-    return (1 - t * t) / (1 + t * t), 2 * t / (1 + t * t)
-
-
 @dataclass(frozen=True)
 class Branch:
     """A box about the roots over each arc, from t = -1 to 1."""
 
-    circle: "Circle"
+    circle: Circle
     boxes: list[Vector]
 
     @classmethod
-    def proved(cls, circle: "Circle", data: Any, digits: int) -> "Branch":
+    def proved(cls, circle: Circle, data: Any, digits: int) -> "Branch":
         """The branch of a file; raises Rejected unless it is there, once, over the whole circle."""
         check_names(data, "arcs u", "branch")
         half, odd = divmod(data["arcs"], 2)
@@ -96,12 +89,12 @@ class Branch:
                 raise Rejected(f"{where} is not proved to be on the branch")
 
 
-def _root(circle: "Circle", gamma: Vector, near: Vector) -> Vector:
+def _root(circle: Circle, gamma: Vector, near: Vector) -> Vector:
     """The root at one γ near a given one."""
     return gibbs_vector(circle.ball, circle.state(gamma), [x.point() for x in near])
 
 
-def _check_meant(circle: "Circle", state: Pair, given: list[Fraction], digits: int) -> None:
+def _check_meant(circle: Circle, state: Pair, given: list[Fraction], digits: int) -> None:
     """Raises Rejected unless one root alone rounds to the numbers of the file."""
     half = Fraction(1, 2 * 10**digits)
     cell = [circle.number(x - half).hull(circle.number(x + half)).wider(1) for x in given]
@@ -111,7 +104,7 @@ def _check_meant(circle: "Circle", state: Pair, given: list[Fraction], digits: i
         raise Rejected("the u of branch may be that of two roots: it needs more digits") from None
 
 
-def _box(circle: "Circle", first: Fraction, last: Fraction, roots: tuple[Vector, Vector]) -> Vector:
+def _box(circle: Circle, first: Fraction, last: Fraction, roots: tuple[Vector, Vector]) -> Vector:
     """A box that contains the roots at the ends of an arc, and one root for each γ of the arc.
 
     Along the arc γ moves in the direction of γ × Λ⁻¹γ: from its middle γ_m by s times a mean T of these tangents, and

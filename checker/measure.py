@@ -30,23 +30,12 @@ from fractions import Fraction
 from itertools import pairwise
 from typing import Any
 
-from .branch import MOST_ARCS, Branch, direction
-from .document import (
-    MOST_DIGITS,
-    MOST_STEPS,
-    check_names,
-    check_rounded,
-    check_work,
-    count,
-    decimal,
-    decimals,
-    exact,
-    listed,
-    scale,
-)
+from .branch import MOST_ARCS, Branch
+from .circle import Circle
+from .document import MOST_DIGITS, MOST_STEPS, check_names, check_rounded, count, decimal, decimals, exact, listed
 from .interval import Interval, Rejected
-from .linear import Vector, times
-from .step import Ball, Pair, check_small_branch, gibbs_vector, turned
+from .linear import Vector
+from .step import check_small_branch, gibbs_vector, turned
 
 NAMES = "format kind statement ball radius axes steps half_turns digits orbits digest"
 #: t = tan ½φ at the points with γ_a = 0 and γ_b = 0, the other one positive.
@@ -85,84 +74,28 @@ def check_form(data: dict[str, Any]) -> None:
         decimals(data["branch"]["u"], count(data["digits"], 1, MOST_DIGITS, "digits"), "u of branch")
 
 
-class Circle:
-    """The circle of a certificate for every parameter of its box, and the map on it; raises Rejected if it is none."""
+def branch_of(circle: Circle, data: dict[str, Any]) -> Branch | None:
+    """The branch of the file, proved over the circle; None where the bound proves the small branch."""
+    if "branch" in data:
+        return Branch.proved(circle, data["branch"], data["digits"])
+    check_small_branch(circle.ball, circle.height.sign * circle.height)
+    return None
 
-    def __init__(self, data: dict[str, Any]):
-        radius = Fraction(data["radius"])
-        if radius < 0:
-            raise Rejected("the radius must not be negative")
-        J = [Fraction(x) for x in data["ball"]["J"]]
-        D, height, level = (Fraction(data["ball"][name]) for name in ("D", "height", "level"))
-        bits = scale(data["digits"], data["steps"], [*J, D, height, level])
-        check_work(2 * data["steps"] + (data["branch"]["arcs"] if "branch" in data else 0), bits)
-        self.ball = Ball.within(J, D, radius, bits)
-        self.height, self.level = (Interval.enclosing(x - radius, x + radius, bits) for x in (height, level))
-        if not self.height.sign:
-            raise Rejected("the height is not proved to differ from 0")
-        self.a, self.b, self.c = (i - 1 for i in data["axes"])
-        self.weights = [1 / x for x in self.ball.contact]
-        of_a, of_b, of_c = (self.weights[i] for i in (self.a, self.b, self.c))
-        if not (of_a < of_b or of_b < of_a):
-            raise Rejected("the three moments of inertia are not proved to be different")
-        if not (of_c < self.level and self.level < of_a and self.level < of_b) and not (
-            self.level < of_c and of_a < self.level and of_b < self.level
-        ):
-            raise Rejected("the level is not proved to be a circle around its axis")
-        self.branch = None
-        if "branch" in data:
-            self.branch = Branch.proved(self, data["branch"], data["digits"])
-        else:
-            check_small_branch(self.ball, self.height.sign * self.height)
 
-    def point(self, cosine: Interval, sine: Interval) -> Vector:
-        """The points of the circle in a direction (cosine, sine) of the plane (a, b)."""
-        share = [w - self.weights[self.c] for w in (self.weights[self.a], self.weights[self.b])]
-        square = (self.level - self.weights[self.c]) / (share[0] * (cosine * cosine) + share[1] * (sine * sine))
-        gamma = [0 * square] * 3
-        gamma[self.a], gamma[self.b] = square.sqrt() * cosine, square.sqrt() * sine
-        gamma[self.c] = (1 - square).sqrt()
-        return gamma
-
-    def start(self, t: Fraction) -> Vector:
-        """The point with t = tan ½φ."""
-        return self.point(*(self.number(x) for x in direction(t)))
-
-    def number(self, x: Fraction) -> Interval:
-        """A rational number, enclosed."""
-        return Interval.enclosing(x, x, self.level.bits)
-
-    def state(self, gamma: Vector) -> Pair:
-        """(𝒦, γ), 𝒦 = hγ."""
-        return times(self.height, gamma), gamma
-
-    def sine(self, v: Vector, w: Vector) -> Interval:
-        """A positive multiple of the sine of the angle from v to w in the plane (a, b)."""
-        return v[self.a] * w[self.b] - v[self.b] * w[self.a]
-
-    def orbit(self, start: Vector, steps: list[Any], digits: int) -> list[Vector]:
-        """γ after 0, 1, … steps; the Gibbs vectors and γ of the file are compared on the way."""
-        gammas = [start]
-        for number, given in enumerate(steps, 1):
-            where = f"step {number}"
-            check_names(given, "u gamma", where)
-            near = decimals(given["u"], digits, f"u of {where}")
-            u = gibbs_vector(self.ball, self.state(gammas[-1]), [self.number(x).point() for x in near])
-            if self.branch is not None:
-                self.branch.check_on(gammas[-1], u, where)
-            gammas.append(turned(u, gammas[-1]))
-            check_rounded(u, near, digits, f"u of {where}")
-            check_rounded(
-                gammas[-1], decimals(given["gamma"], digits, f"gamma of {where}"), digits, f"gamma of {where}"
-            )
-        return gammas
-
-    def direction(self, gammas: list[Vector]) -> int:
-        """1 or -1: the sign of the angle of all steps, each less than π."""
-        signs = {self.sine(v, w).sign for v, w in pairwise(gammas)}
-        if len(signs) > 1 or 0 in signs:
-            raise Rejected("the steps do not all turn in one direction by less than half a turn")
-        return signs.pop()
+def orbit(circle: Circle, branch: Branch | None, start: Vector, steps: list[Any], digits: int) -> list[Vector]:
+    """γ after 0, 1, … steps; the Gibbs vectors and γ of the file are compared on the way."""
+    gammas = [start]
+    for number, given in enumerate(steps, 1):
+        where = f"step {number}"
+        check_names(given, "u gamma", where)
+        near = decimals(given["u"], digits, f"u of {where}")
+        u = gibbs_vector(circle.ball, circle.state(gammas[-1]), [circle.number(x).point() for x in near])
+        if branch is not None:
+            branch.check_on(gammas[-1], u, where)
+        gammas.append(turned(u, gammas[-1]))
+        check_rounded(u, near, digits, f"u of {where}")
+        check_rounded(gammas[-1], decimals(given["gamma"], digits, f"gamma of {where}"), digits, f"gamma of {where}")
+    return gammas
 
 
 def _tangent(start: Any) -> Fraction:
@@ -194,10 +127,10 @@ def check(data: dict[str, Any]) -> dict[str, str]:
         listed(given["steps"], q, "the steps of an orbit")
         _tangent(given["start"])
     circle = Circle(data)
-    found = set()
+    branch, found = branch_of(circle, data), set()
     for given in data["orbits"]:
         start = circle.start(_tangent(given["start"]))
-        gammas = circle.orbit(start, given["steps"], digits)
+        gammas = orbit(circle, branch, start, given["steps"], digits)
         direction = circle.direction(gammas)
         sines = [direction * circle.sine(start, w) for w in gammas[1:]]
         displacement = sines[-1] * (-1) ** turns

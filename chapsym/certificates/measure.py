@@ -17,8 +17,9 @@ from flint import arb, ctx
 
 from chapsym import checker
 from chapsym.checker.branch import MOST_ARCS
+from chapsym.checker.circle import Circle
 from chapsym.checker.document import MOST_DIGITS, MOST_STEPS
-from chapsym.checker.measure import Circle
+from chapsym.checker.measure import branch_of
 from chapsym.dynamics.errors import BadInput
 from chapsym.dynamics.levels.proved_root import TooWide
 from chapsym.dynamics.levels.start import fraction
@@ -151,7 +152,8 @@ def _arcs(top: Top, at: Resonance, digits: int) -> int:
         arcs, reason = FEWEST_ARCS, ""
         while arcs <= MOST_ARCS:
             try:
-                Circle(_fields(top, replace(at, arcs=arcs), Fraction(0), digits))
+                fields = _fields(top, replace(at, arcs=arcs), Fraction(0), digits)
+                branch_of(Circle(fields), fields)
             except checker.Rejected as error:
                 arcs, reason = 2 * arcs, str(error)
             else:

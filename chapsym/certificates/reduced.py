@@ -11,7 +11,7 @@ from typing import Any, cast
 
 from flint import arb, arb_mat, ctx
 
-from chapsym.checker.branch import direction
+from chapsym.checker.circle import direction
 from chapsym.dynamics.errors import BadInput
 from chapsym.dynamics.levels.proved_root import MATRIX_BITS, certified, inverse_slope, newton_enclosure, upper
 from chapsym.generated import gibbs_residual, turn

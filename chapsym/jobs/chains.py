@@ -41,10 +41,11 @@ class Crew(Protocol):
 def run(chains: Iterable[Chain], crew: Crew) -> None:
     """Every chain to its end, as many abreast as the crew has room for.
 
-    An error of a call is raised inside its chain, as `Lost` if it was tried TRIES times in vain; what a chain lets
-    through ends the run.
+    An error of a call is raised inside its chain, as `Lost` if it was tried TRIES times in vain, the last time when no other
+    call was made: a worker that ends takes with it what waits there.  What a chain lets through ends the run.
     """
     waiting = iter(chains)
+    suspects: list[tuple[Chain, Call]] = []
     flying: dict[Any, tuple[Chain, Call, int]] = {}
 
     def go_on(chain: Chain, step: Callable[[Any], Call], sent: Any) -> None:
@@ -57,6 +58,9 @@ def run(chains: Iterable[Chain], crew: Crew) -> None:
     while True:
         while len(flying) < max(crew.room(), 1) and (chain := next(waiting, None)) is not None:
             go_on(chain, chain.send, None)
+        if not flying and suspects:
+            chain, call = suspects.pop()
+            flying[crew.submit(call)] = chain, call, TRIES
         if not flying:
             return
         for future in list(crew.landed(flying)):
@@ -64,8 +68,10 @@ def run(chains: Iterable[Chain], crew: Crew) -> None:
             try:
                 result = future.result()
             except crew.lost:
-                if tried < TRIES:
+                if tried < TRIES - 1:
                     flying[crew.submit(call)] = chain, call, tried + 1
+                elif tried < TRIES:
+                    suspects.append((chain, call))
                 else:
                     go_on(chain, chain.throw, Lost(f"its worker was lost, {tried} times"))
             except Exception as error:

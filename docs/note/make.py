@@ -1,5 +1,6 @@
 """Writes the LaTeX source of the note from the register and the certificates: python docs/note/make.py FOLDER."""
 
+import re
 import shutil
 import sys
 from collections.abc import Iterable, Sequence
@@ -9,7 +10,8 @@ from typing import Any
 from chapsym import checker, files
 from chapsym.proofs.open import certified, energy, measure, readings
 from chapsym.prove import prove_all
-from chapsym.report.notation import latex, typed_latex
+from chapsym.report.notation import latex as typeset
+from chapsym.report.notation import typed_latex
 
 HERE = Path(__file__).parent
 LEMMAS = tuple({**measure.LEMMAS, **energy.LEMMAS})
@@ -37,12 +39,22 @@ def _lemma(record: dict[str, Any]) -> str:
     evidence = record["evidence"]
     name = typed_latex(record["id"])
     lines = [rf"\begin{{lemma}}[\texttt{{{name}}}]\label{{lem:{record['id']}}}", latex(evidence["title"])]
-    lines += [rf"\[ {record['printed']} \]"]
+    lines += [rf"\begin{{quote}}\raggedright {_breakable(record['printed'])}\end{{quote}}"]
     lines += ["Throughout:", *_list(map(latex, evidence["hypotheses"]))] if evidence["hypotheses"] else []
     for stated in evidence["theorems"]:
         lines += _stated(stated)
     uses = ", ".join(rf"Lemma~\ref{{lem:{id}}}" if id in LEMMAS else typed_latex(id) for id in evidence["uses"])
     return "\n".join([*lines, r"\end{lemma}", *_proof(record, f"It uses {uses}." if uses else "")])
+
+
+def _breakable(formula: str) -> str:
+    """A formula that may be longer than a line: its words stand outside of mathematics."""
+    return re.sub(r"\\text\{([^{}]*)\}", r"$ \1 $\\displaystyle ", rf"$\displaystyle {formula}$")
+
+
+def latex(text: str) -> str:
+    """A text as LaTeX, with breaks after commas: numbers may be long."""
+    return typeset(text).replace(", ", r",\allowbreak{} ")
 
 
 def _question(record: dict[str, Any]) -> str:
@@ -106,7 +118,7 @@ def _numbers() -> str:
     for file in sorted(certified.FOLDER.glob("*.json")):
         data = checker.read(file)
         rows.append(rf"\texttt{{{typed_latex(file.stem)}}} & {latex(checker.check(data).statement)} \\")
-    return "\n".join([r"\begin{longtable}{p{.22\linewidth}p{.7\linewidth}}", *rows, r"\end{longtable}", ""])
+    return "\n".join([r"\begin{longtable}{p{.3\linewidth}p{.62\linewidth}}", *rows, r"\end{longtable}", ""])
 
 
 if __name__ == "__main__":

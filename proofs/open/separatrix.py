@@ -80,6 +80,15 @@ def root(sign: int = 1) -> Equation:
     return Equation(text, [h * kappa * at**2 - 2 * I2 * at + h / kappa, 2 * h * kappa * at - 2 * I2], [Y, 2 * S], ROOT)
 
 
+def curve(sign: int = 1) -> Equation:
+    """The relation without a quotient; the argument mutates it."""
+    F = sp.Symbol("F")
+    left = (F - D * RISE) * (X**2 - T**2)
+    right = X * (X * F - 2 * D) - T**2 * (F - 2 * sign * D * X)
+    text = "(F - D(tanh ũ - tanh u))(X² - T²) = X(XF - 2D) - T²(F - 2DX)"
+    return Equation(text, left, right, Quotient((X, T, F, D)))
+
+
 def hyperbolic() -> Equation:
     """I₂/I₃ - 1 - ϰ² by positive terms."""
     square = (I1 - I2) * (I2 - I3) / ((I1 + D) * (I3 + D))
@@ -124,6 +133,7 @@ def separatrix_map(p: Proof) -> None:
     p.route("from the lemma chord at k = 1: 2Λ₂X - h(ϰX² + 1/ϰ) = D(2X - tanh ũ + tanh u)", *from_the_chord())
     _increments(p)
     p.control(replace(rotated(2), text="the same with 2u"), replace(momentum(-D), text="the relation with -D"))
+    p.control(replace(curve(-1), text="the same with F + 2DX"))
     p.control(replace(root(-1), text="the smaller root has F' = 2S, too"))
 
 
@@ -144,6 +154,8 @@ def _increments(p: Proof) -> None:
     )
     p.lemma(Equation("2/X - (tanh ũ - tanh u) = 2T²(X² - 1)/(X(X² - T²)) ≥ 0", 2 / X - RISE,
                      2 * T**2 * (X**2 - 1) / (X * (X**2 - T**2)), ON_ARC))  # fmt: skip
+    p.say("In X and T, T² = X(XF - 2D)/(F - 2DX): for most parameters a curve of genus 2.")
+    p.lemma(curve())
     values = {I1: 5, I2: 4, I3: 2, D: 1, h: "20/13", kappa: "1/3", X: 15}
     square, ratio = (I1 - I2) * (I2 - I3) / ((I1 + D) * (I3 + D)), h / I3
     facts = (

@@ -11,9 +11,10 @@ from certificate_changes import at, replaced, resealed
 
 from chapsym import proofs
 from chapsym.checker import Rejected, check
-from chapsym.checker.branch import Branch, _check_meant, direction
+from chapsym.checker.branch import Branch, _check_meant
+from chapsym.checker.circle import Circle, direction
 from chapsym.checker.interval import Interval
-from chapsym.checker.measure import Circle
+from chapsym.checker.measure import branch_of
 from chapsym.checker.step import Ball
 
 
@@ -29,6 +30,11 @@ def circle(right):
     return Circle(right)
 
 
+@pytest.fixture(scope="module")
+def branch(circle, right):
+    return branch_of(circle, right)
+
+
 def midpoint(x):
     return mp.mpf(x.lo + x.hi) / 2 / 2**x.bits
 
@@ -37,9 +43,9 @@ def contains(box, point):
     return all(x.lo <= y * 2**x.bits <= x.hi for x, y in zip(box, point, strict=True))
 
 
-def test_the_boxes_hold_the_roots_continued_from_height_0(right, circle):
+def test_the_boxes_hold_the_roots_continued_from_height_0(right, circle, branch):
     """Roots by another Newton's iteration, in 40 steps of h, at random points of both halves of the circle."""
-    rng, half = random.Random(5), len(circle.branch.boxes) // 2
+    rng, half = random.Random(5), len(branch.boxes) // 2
     J, D, h = [mp.mpf(x) for x in right["ball"]["J"]], mp.mpf(1), mp.mpf(10)
     for _ in range(12):
         t = Fraction(rng.randrange(-999, 1000), 1000)
@@ -47,16 +53,16 @@ def test_the_boxes_hold_the_roots_continued_from_height_0(right, circle):
         u = mp.zeros(3, 1)
         for part in range(1, 41):
             u = maker.gibbs(J, D, h * part / 40 * gamma, gamma, u)
-        assert contains(circle.branch.boxes[int((t + 1) * half)], u), t
+        assert contains(branch.boxes[int((t + 1) * half)], u), t
         turn = rng.choice([1, -1])  # the other half of the circle has the roots turned by R
         state = [Interval.enclosing(x, x, circle.level.bits) for x in map(Fraction, map(str, map(mp.nstr, u)))]
-        there = circle.start(t) if turn == 1 else circle.branch.half_turned(circle.start(t))
-        wide = state if turn == 1 else circle.branch.half_turned(state)
-        circle.branch.check_on(there, wide, "here")
+        there = circle.start(t) if turn == 1 else branch.half_turned(circle.start(t))
+        wide = state if turn == 1 else branch.half_turned(state)
+        branch.check_on(there, wide, "here")
         with pytest.raises(Rejected, match="here is not proved to be on the branch"):
-            circle.branch.check_on(there, [x + 1 for x in wide], "here")
+            branch.check_on(there, [x + 1 for x in wide], "here")
         with pytest.raises(Rejected, match="here is not proved to be on the branch"):
-            circle.branch.check_on(circle.branch.half_turned(there), wide, "here")
+            branch.check_on(branch.half_turned(there), wide, "here")
 
 
 def test_the_directions_of_the_arcs_are_on_the_unit_circle_in_order():
@@ -122,14 +128,14 @@ def test_the_symmetries_are_those_of_the_step(right, monkeypatch, method, senten
     """With another reflection or rotation the branch does not close, or is not its own inverse."""
     monkeypatch.setattr(Branch, method, lambda self, v: list(v))
     with pytest.raises(Rejected, match=sentence):
-        Circle(right)
+        branch_of(Circle(right), right)
 
 
 def test_a_direction_that_turns_round_is_refused(right, monkeypatch):
     sine = Circle.sine
     monkeypatch.setattr(Circle, "sine", lambda self, v, w: -sine(self, v, w))
     with pytest.raises(Rejected, match="in its direction"):
-        Circle(right)
+        branch_of(Circle(right), right)
 
 
 def test_every_step_of_the_orbits_is_asked_to_be_on_the_branch(right, monkeypatch):

@@ -75,6 +75,32 @@ def test_each_call_gets_what_the_one_before_gave_and_so_many_are_abreast(crew, l
     assert not lost or crew.submitted.count(AGAIN) == min(lost + 1, chains.TRIES)
 
 
+class Shared(Paper):
+    """One worker for all that is in hand: it ends with a call of the chain "deadly", and takes the others with it."""
+
+    def submit(self, call):
+        self.submitted.append(call.arguments)
+        future = Future()
+        future.call = call
+        return future
+
+    def landed(self, futures):
+        deadly = any(future.call.arguments[0] == "deadly" for future in futures)
+        for future in futures:
+            if deadly:
+                future.set_exception(Gone())
+            else:
+                future.set_result(future.call.function(*future.call.arguments))
+        return list(futures)
+
+
+def test_a_call_that_ends_its_worker_is_told_alone():
+    """Those that waited at the same worker have their results in the end."""
+    found = {}
+    jobs.run((chain(name, found) for name in ("a", "deadly", "b")), Shared(room=3))
+    assert found == {"a": 111, "deadly": "its worker was lost, 3 times", "b": 111}
+
+
 def test_an_error_of_a_call_is_raised_in_its_chain_which_may_go_on():
     found = []
 
