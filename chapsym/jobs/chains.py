@@ -41,8 +41,8 @@ class Crew(Protocol):
 def run(chains: Iterable[Chain], crew: Crew) -> None:
     """Every chain to its end, as many abreast as the crew has room for.
 
-    An error of a call is raised inside its chain, as `Lost` if it was tried TRIES times in vain, the last time when no other
-    call was made: a worker that ends takes with it what waits there.  What a chain lets through ends the run.
+    An error of a call is raised inside its chain, as `Lost` if it was tried TRIES times in vain, the last time when no
+    other call was made: a worker that ends takes with it what waits there.  What a chain lets through ends the run.
     """
     waiting = iter(chains)
     suspects: list[tuple[Chain, Call]] = []
