@@ -33,8 +33,9 @@ def test_without_certificates_with_a_rejected_one_or_a_lemma_that_fails_it_is_op
     lemmas, files = measure.LEMMAS, measure.FILES
     monkeypatch.setattr(measure, "LEMMAS", {})
     monkeypatch.setattr(measure, "FILES", ())
+    monkeypatch.setattr(measure, "ENDS", ())
     assert judge(claim).verdict is Verdict.OPEN
-    file = certified.files(measure.KIND)[0]
+    file = certified.FOLDER / "measure-simplest.json"
     data = json.loads(file.read_text(encoding="utf-8"))
     data["half_turns"] += 1
     (tmp_path / file.name).write_text(json.dumps(data), encoding="utf-8")
@@ -44,7 +45,7 @@ def test_without_certificates_with_a_rejected_one_or_a_lemma_that_fails_it_is_op
         assert judgement.verdict is Verdict.OPEN
         assert judgement.proof.problems[0] == f"the checker does not accept {path.name}"
     monkeypatch.setattr(measure, "LEMMAS", lemmas)
-    monkeypatch.setattr(measure, "FILES", files[:1])
+    monkeypatch.setattr(measure, "FILES", tuple(one for one in files if one.name == "measure-simplest.json"))
     monkeypatch.setattr(measure, "judged", lambda id: Fact(f"{id} is proved", id != "resonance"))
     judgement = judge(load()["5.9-open"])
     assert judgement.verdict is Verdict.OPEN
@@ -53,7 +54,7 @@ def test_without_certificates_with_a_rejected_one_or_a_lemma_that_fails_it_is_op
 
 def test_a_changed_certificate_is_sealed_so_that_arithmetic_judges_it():
     """A smaller box is proved as well as the box: it is accepted, and so no seal is what rejects the others."""
-    data = checker.read(measure.FILES[0])
+    data = checker.read(certified.FOLDER / "measure-simplest.json")
     assert certified.changed("a smaller box", data, ("radius",), "1e-300").holds()
     assert not certified.changed("one half turn more", data, ("half_turns",), data["half_turns"] + 1).holds()
     with pytest.raises(ValueError, match="nothing is changed"):
