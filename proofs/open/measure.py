@@ -68,7 +68,7 @@ def yes(p: Proof) -> None:
 
 def no(p: Proof) -> None:
     """The theorems."""
-    p.say("No, for three different moments and the h and D of (1) to (4). What is used is proved anew:")
+    p.say("No, for three different moments and the h and D of (1) to (5). What is used is proved anew:")
     for id in LEMMAS:
         p.lemma(judged(id))
     p.say(
@@ -86,8 +86,8 @@ def no(p: Proof) -> None:
     p.step(
         terms.BOTH_SIGNS, WITHIN, terms.SMALL_BRANCH, *(file.name for file in FILES if not certified.has_branch(file))
     )
-    beyond(p)
     ends(p)
+    beyond(p)
     if accepted:
         tampered(p, accepted[0])
 
@@ -96,7 +96,7 @@ def beyond(p: Proof) -> None:
     """The certificates that prove the branch, too."""
     p.state(Theorem((WITHIN_BEYOND,), (terms.ON_BRANCH,), (no_such(terms.NEAR_A_CIRCLE),)), readings.BEYOND)
     p.say(
-        "(5) Beyond the bound of small-branch a certificate also says into how many arcs a half circle is cut, and the"
+        "(6) Beyond the bound of small-branch a certificate also says into how many arcs a half circle is cut, and the"
     )
     p.say("checker proves one root in a box over each, joined to one branch whose map is a homeomorphism of the circle")
     p.say(
@@ -112,7 +112,7 @@ def ends(p: Proof) -> None:
     """The certificates of what orbits on the level l = 1/Λ2 miss at their ends."""
     p.state(Theorem((WITHIN_ENDS,), (terms.SMALL_BRANCH,), (terms.NOT_CONSTANT,)), readings.ENDS)
     p.say(
-        "(6) For numbers at hand two orbits of the map of separatrix-map have different Δ(u), in interval arithmetic: Δ is"
+        "(5) For numbers at hand two orbits of the map of separatrix-map have different Δ(u), in interval arithmetic: Δ is"
     )
     p.say(
         "not constant. There I1 > I2 > I3, so by separatrix-limit there are levels near 1/Λ2 with displacements of both"
