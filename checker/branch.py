@@ -23,7 +23,7 @@ from itertools import pairwise
 from typing import Any
 
 from .circle import Circle, direction
-from .document import check_names, check_rounded, decimals
+from .document import check_rounded, decimals
 from .interval import Rejected
 from .linear import Matrix, Vector, cross, image, isolated, minus, solve, times, transposed, unit
 from .step import Pair, gibbs_vector, jacobian, residual, source, turned
@@ -43,7 +43,6 @@ class Branch:
     @classmethod
     def proved(cls, circle: Circle, data: Any, digits: int) -> "Branch":
         """The branch of a file; raises Rejected unless it is there, once, over the whole circle."""
-        check_names(data, "arcs u", "branch")
         half, odd = divmod(data["arcs"], 2)
         if odd:
             raise Rejected("arcs must be even, so that the branch starts at the end of two")
@@ -108,9 +107,9 @@ def _box(circle: Circle, first: Fraction, last: Fraction, roots: tuple[Vector, V
     """A box that contains the roots at the ends of an arc, and one root for each γ of the arc.
 
     Along the arc γ moves in the direction of γ × Λ⁻¹γ: from its middle γ_m by s times a mean T of these tangents, and
-    F(u) loses s times a mean of source(γ × Λ⁻¹γ), as what is enclosed at once for all γ of the arc is
-    convex.  Newton's test is done with both sides multiplied by a matrix Y near the inverse of F′: it proves that YF
-    has one root, and Y is regular where YF′ is.
+    F(u) loses s times a mean of source(γ × Λ⁻¹γ), as what is enclosed at once for all γ of the arc is convex.  Newton's
+    test is done with both sides multiplied by a matrix Y near the inverse of F′: it proves that YF has one root, and Y
+    is regular where YF′ is.
     """
     ends = [[circle.number(x) for x in direction(t)] for t in (first, last)]
     middle = circle.state(circle.start((first + last) / 2))

@@ -4,8 +4,7 @@ The map.  Let I1 > I2 > I3 > 0, D > 0, Λ = I + D, ϰ² = (Λ1 - Λ2)(Λ2 - Λ3)
 check_small_branch.  Claim separatrix-map of the register says that on the arcs of |γ| = 1, ⟨γ, Λ⁻¹γ⟩ = 1/Λ2 between the
 rotations about ±e2 the reduced map is u ↦ ũ, with tanh u = γ2 where C1C3 < 0, and -u for u on the other arcs,
     F(X) = D(tanh ũ - tanh u),   F(X) = hϰX² - 2I2 X + h/ϰ,   X = coth ½(ũ - u) > X₀,                              (1)
-X₀ the larger root of F.  What is proved here is about (1).  With x = e^2u and s = e^(ũ - u) = (X + 1)/(X - 1), x̃ =
-s²x,
+X₀ the larger root of F.  What is proved here is about (1).  With x = e^2u, s = e^(ũ - u) = (X + 1)/(X - 1), x̃ = s²x,
     tanh ũ - tanh u = 8xX/((x + 1)Q),   Q = x(X + 1)² + (X - 1)²,   with the derivative 8x(1 - X²)/Q² by X.         (2)
 It falls for X > 1, and F grows for X > X₀; at X₀ F is less, for great X it is more: (1) has one root X > X₀.
 
@@ -79,11 +78,8 @@ class Separatrix:
         radius = Fraction(data["radius"])
         if radius < 0:
             raise Rejected("the radius must not be negative")
-        J, D, h = (
-            [Fraction(x) for x in data["ball"]["J"]],
-            Fraction(data["ball"]["D"]),
-            Fraction(data["ball"]["height"]),
-        )
+        J = [Fraction(x) for x in data["ball"]["J"]]
+        D, h = (Fraction(data["ball"][name]) for name in ("D", "height"))
         bits = scale(data["digits"], FIRST, [*J, D, h])
         check_work(sum(one["steps"] for one in data["orbits"]), bits)
         ball = Ball.within(J, D, radius, bits)

@@ -98,7 +98,7 @@ def orbit(circle: Circle, branch: Branch | None, start: Vector, steps: list[Any]
     return gammas
 
 
-def _tangent(start: Any) -> Fraction:
+def tangent(start: Any) -> Fraction:
     """t of a start: a for γ_a = 0, b for γ_b = 0, or a rational number."""
     if isinstance(start, str) and start in ZEROS:
         return ZEROS[start]
@@ -125,11 +125,11 @@ def check(data: dict[str, Any]) -> dict[str, str]:
     for given in listed(data["orbits"], 2, "orbits"):
         check_names(given, "start steps displacement", "an orbit")
         listed(given["steps"], q, "the steps of an orbit")
-        _tangent(given["start"])
+        tangent(given["start"])
     circle = Circle(data)
     branch, found = branch_of(circle, data), set()
     for given in data["orbits"]:
-        start = circle.start(_tangent(given["start"]))
+        start = circle.start(tangent(given["start"]))
         gammas = orbit(circle, branch, start, given["steps"], digits)
         direction = circle.direction(gammas)
         sines = [direction * circle.sine(start, w) for w in gammas[1:]]

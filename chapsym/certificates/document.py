@@ -10,6 +10,8 @@ from typing import Any
 from chapsym import checker
 from chapsym.files import write_whole
 
+from .balls import NotProved, shortest
+
 FORMAT = "chapsym-certificate/1"
 #: What is made of the other fields of a file.
 MADE = ("format", "kind", "statement", "digest")
@@ -26,13 +28,27 @@ def stated(kind: str, **fields: Any) -> dict[str, Any]:
     return sealed(kind, checker.statement({"kind": kind, **fields}), **fields)
 
 
-def widest(radii: Sequence[Fraction], found: Callable[[Fraction], dict[str, Any] | None]) -> dict[str, Any] | None:
-    """What is found with the largest of radii that fall, by halving, as smaller ones are easier; None if none is."""
+def accepted(document: dict[str, Any]) -> dict[str, Any]:
+    """The same object; raises checker.Rejected if the checker does not accept it."""
+    checker.check(document)
+    return document
+
+
+def widest(
+    radii: Sequence[Fraction], found: Callable[[Fraction], dict[str, Any]], progress: Callable[[str], None]
+) -> dict[str, Any]:
+    """What is found with the largest of radii that fall, by halving, as smaller ones are easier.
+
+    Raises what `found` raises for the smallest, NotProved or checker.Rejected.
+    """
     first, last, best = 0, len(radii) - 1, found(radii[-1])
-    while best is not None and first < last:
+    while first < last:
         middle = (first + last) // 2
-        other = found(radii[middle])
-        first, last, best = (middle + 1, last, best) if other is None else (first, middle, other)
+        progress(f"trying the radius {shortest(radii[middle])}")
+        try:
+            last, best = middle, found(radii[middle])
+        except (NotProved, checker.Rejected):
+            first = middle + 1
     return best
 
 

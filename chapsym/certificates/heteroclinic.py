@@ -18,7 +18,7 @@ from chapsym.dynamics.errors import BadInput
 from chapsym.dynamics.levels.start import fraction
 
 from .balls import ball, decade, decimal, shortest
-from .document import stated, widest
+from .document import accepted, stated, widest
 from .reduced import Top
 
 KIND = "heteroclinic"
@@ -94,22 +94,10 @@ def heteroclinic(
     radii = [Fraction(1, 10 ** (digits + n)) for n in range(RADII)] if radius is None else [radius]
     if min(top.J) == 0 and radius is None:
         radii = [Fraction(0)]
-    reasons = []
-
-    def tried(off: Fraction) -> dict[str, Any] | None:
-        progress(f"trying the radius {shortest(off)}")
-        found = _document(top, off, digits, orbits)
-        try:
-            checker.check(found)
-        except checker.Rejected as error:
-            reasons.append(str(error))
-            return None
-        return found
-
-    best = widest(radii, tried)
-    if best is None:
-        raise BadInput(f"the checker does not accept what was found: {reasons[-1]}")
-    return best
+    try:
+        return widest(radii, lambda off: accepted(_document(top, off, digits, orbits)), progress)
+    except checker.Rejected as error:
+        raise BadInput(f"the checker does not accept what was found: {error}") from None
 
 
 def _check(top: Top, starts: tuple[Fraction, Fraction] | None, digits: int | None, radius: Fraction | None) -> None:

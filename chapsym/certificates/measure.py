@@ -6,6 +6,7 @@ steps less p half turns, where this is below half a turn.  If G_h preserved a me
 on the circle, it would be conjugate to a rotation, and δ would have one sign, or be 0, everywhere.
 """
 
+import contextlib
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -19,14 +20,14 @@ from chapsym import checker
 from chapsym.checker.branch import MOST_ARCS
 from chapsym.checker.circle import Circle
 from chapsym.checker.document import MOST_DIGITS, MOST_STEPS
-from chapsym.checker.measure import branch_of
+from chapsym.checker.measure import branch_of, tangent
 from chapsym.dynamics.errors import BadInput
 from chapsym.dynamics.levels.proved_root import TooWide
 from chapsym.dynamics.levels.start import fraction
 
-from . import plateau, resonance
+from . import resonance
 from .balls import NotProved, ball, decade, decimals, rounded, shortest
-from .document import stated, widest
+from .document import accepted, stated, widest
 from .reduced import Reduced, Top, Vector, angle, cross
 from .resonance import Resonance, spare_bits
 
@@ -154,7 +155,7 @@ def _arcs(top: Top, at: Resonance, digits: int) -> int:
             try:
                 fields = _fields(top, replace(at, arcs=arcs), Fraction(0), digits)
                 branch_of(Circle(fields), fields)
-            except checker.Rejected as error:
+            except (checker.Rejected, NotProved) as error:
                 arcs, reason = 2 * arcs, str(error)
             else:
                 return arcs
@@ -167,35 +168,26 @@ def _largest(
     """The certificate with the largest radius, and the fewest digits for it."""
     digits = [least] if only else list(range(least, min(least + MORE, MOST_DIGITS) + 1))
     radii = _radii(top, at, least) if radius is None else [radius]
-
-    def tried(off: Fraction) -> dict[str, Any] | None:
-        progress(f"trying the radius {shortest(off)}")
-        return _accepted(top, at, off, digits)
-
-    found = widest(radii, tried)
-    if found is None:
+    try:
+        return widest(radii, lambda off: _accepted(top, at, off, digits), progress)
+    except NotProved:
         raise BadInput(
             f"the numbers do not round to {least} digits alike for all parameters within {shortest(radii[-1])}; "
             f"take a smaller radius, or another number of digits"
-        )
-    return found
+        ) from None
 
 
-def _accepted(top: Top, at: Resonance, radius: Fraction, candidates: list[int]) -> dict[str, Any] | None:
-    """The certificate with this radius and the fewest digits, proved, and accepted by the checker."""
+def _accepted(top: Top, at: Resonance, radius: Fraction, candidates: list[int]) -> dict[str, Any]:
+    """The certificate with this radius and the fewest digits, proved, and accepted by the checker; or NotProved."""
     with ctx.workprec(math.ceil(candidates[-1] * 10 / 3) + spare_bits(at.steps)):
         try:
             orbits = _orbits(top, at, radius)
-        except (NotProved, TooWide, BadInput):  # such a radius may be beyond the bound of small-branch
-            return None
+        except TooWide as error:
+            raise NotProved from error
         for digits in candidates:
-            try:
-                found = _document(top, at, radius, orbits, digits)
-                checker.check(found)
-            except (NotProved, checker.Rejected):
-                continue
-            return found
-    return None
+            with contextlib.suppress(NotProved, checker.Rejected):
+                return accepted(_document(top, at, radius, orbits, digits))
+    raise NotProved("the numbers do not round alike in the whole box, or the checker does not accept them")
 
 
 def _radii(top: Top, at: Resonance, digits: int) -> list[Fraction]:
@@ -209,7 +201,7 @@ def _radii(top: Top, at: Resonance, digits: int) -> list[Fraction]:
 def _orbits(top: Top, at: Resonance, radius: Fraction) -> list[Orbit]:
     reduced = Reduced(top, radius)
     level = ball(at.level, radius)
-    return [_orbit(reduced, at, reduced.start(level, at.axes, plateau.tangent(x)), x) for x in at.starts]
+    return [_orbit(reduced, at, reduced.start(level, at.axes, tangent(x)), x) for x in at.starts]
 
 
 def _orbit(reduced: Reduced, at: Resonance, start: Vector, name: str) -> Orbit:

@@ -23,7 +23,7 @@ from chapsym.dynamics.levels.start import fraction
 
 from . import families
 from .balls import NotProved, rounded, shortest, simplest
-from .document import MADE, stated, widest
+from .document import MADE, accepted, stated, widest
 from .families import Member
 from .passage import Level, Map, Passage, Vector, column, columns, entries, identity
 
@@ -81,20 +81,12 @@ def _with_radius(
     fields = {name: value for name, value in found.items() if name not in (*MADE, "radius")}
     digits = found["digits"]
     radii = [Fraction(1, 10 ** (digits + n)) for n in range(GROWTH * steps)] if radius is None else [radius]
-
-    def tried(off: Fraction) -> dict[str, Any] | None:
-        progress(f"trying the radius {shortest(off)}")
-        wide = stated(KIND, **fields, radius=shortest(off))
-        try:
-            checker.check(wide)
-        except checker.Rejected:
-            return None
-        return wide
-
-    best = widest(radii, tried)
-    if best is None:
-        raise BadInput(f"the checker does not accept the radius {shortest(radii[-1])}; take a smaller one, or 0")
-    return best
+    try:
+        return widest(radii, lambda off: accepted(stated(KIND, **fields, radius=shortest(off))), progress)
+    except checker.Rejected:
+        raise BadInput(
+            f"the checker does not accept the radius {shortest(radii[-1])}; take a smaller one, or 0"
+        ) from None
 
 
 def _check(

@@ -28,8 +28,8 @@ LEVELS, REACH = 29, 14.0
 #: Bits and steps of this look, and how well it finds the level, in half turns.
 LOOK_BITS, LOOK_STEPS, LOOK_NEAR = 64, 63, 1e-3
 MOST_SECANTS = 60
-#: The start of a symmetric step is a multiple of 1/MIDDLE after so many steps of its iteration.
-MIDDLE, MIDDLE_STEPS = 1000, 30
+#: Steps of the iteration for the start of a symmetric step.
+MIDDLE_STEPS = 30
 
 
 @dataclass(frozen=True)
@@ -114,12 +114,7 @@ def starts(top: Top, level: Fraction, axes: Axes, steps: int) -> tuple[str, str]
         for _ in range(MIDDLE_STEPS):
             before, after = trajectory(reduced, level, axes, Fraction(t), 1)
             t = math.tan(-float(angle(before, after, axes)) / 4)
-    return "b", str(Fraction(round(t * MIDDLE), MIDDLE))
-
-
-def tangent(start: str) -> Fraction:
-    """tan ½φ of such a start."""
-    return ZEROS[start] if start in ZEROS else Fraction(start)
+    return "b", str(Fraction(f"{t:.3g}"))
 
 
 def end_of_plateau(

@@ -8,6 +8,7 @@ from fractions import Fraction
 from flint import ctx
 
 from chapsym.checker.document import MOST_DIGITS
+from chapsym.checker.measure import tangent
 from chapsym.dynamics.errors import BadInput
 
 from . import plateau
@@ -103,9 +104,7 @@ def _middle(
         progress(f"looking for {steps} steps around axis {axes[2] + 1} with {bits} bits")
         with ctx.workprec(bits):
             reduced = Reduced(top)
-            low, high = sorted(
-                plateau.end_of_plateau(reduced, near, axes, plateau.tangent(x), steps, bits) for x in starts
-            )
+            low, high = sorted(plateau.end_of_plateau(reduced, near, axes, tangent(x), steps, bits) for x in starts)
         if high - low > plateau.unit_in_last_place(low, bits - RESOLVED_BITS):
             return simplest(low, high)
         bits *= 2

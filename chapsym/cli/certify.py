@@ -4,6 +4,7 @@ import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from decimal import Decimal
+from fractions import Fraction
 from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
@@ -27,6 +28,11 @@ app.add_typer(certify, name="certify")
 
 Output = Annotated[Path | None, typer.Option("-o", "--output", metavar="FILE", help="Write the certificate there.")]
 
+Digits = Annotated[int | None, typer.Option(metavar="N", help="Decimals; as many as needed by default.")]
+Radius = Annotated[
+    str | None, typer.Option(metavar="R", help="How far parameters may be off; the largest power of 10.")
+]
+
 
 def _ball(
     mass_tensor: str | None, inertia: str | None, contact: str | None, D: str, J: str = "1,2,4"
@@ -39,6 +45,11 @@ def _ball(
     return ball_from(mass_tensor, inertia, contact, None, None)
 
 
+def _optional(text: str | None, name: str) -> Fraction | None:
+    """A number that may be left out."""
+    return None if text is None else rational(text, name)
+
+
 @certify.command("no-invariant-measure")
 def no_invariant_measure(
     mass_tensor: MassTensor = None,
@@ -48,10 +59,8 @@ def no_invariant_measure(
     steps: Annotated[int | None, typer.Option(metavar="Q", help="Steps; the fewest possible, odd.")] = None,
     turns: Annotated[int | None, typer.Option(metavar="P", help="Half turns in them; 1.")] = None,
     level: Annotated[str | None, typer.Option(metavar="L", help="The level; found by default.")] = None,
-    digits: Annotated[int | None, typer.Option(metavar="N", help="Decimals; as many as needed by default.")] = None,
-    radius: Annotated[
-        str | None, typer.Option(metavar="R", help="How far parameters may be off; the largest power of 10.")
-    ] = None,
+    digits: Digits = None,
+    radius: Radius = None,
     output: Output = None,
     as_json: Json = False,
 ) -> None:
@@ -65,7 +74,7 @@ def no_invariant_measure(
     """
     J, D = _ball(mass_tensor, inertia, contact, "1")
     h = rational(vertical_momentum, "--vertical-momentum")
-    at, within = (None if x is None else rational(x, name) for x, name in ((level, "--level"), (radius, "--radius")))
+    at, within = _optional(level, "--level"), _optional(radius, "--radius")
     from chapsym.certificates import measure
     from chapsym.certificates.reduced import Top
 
@@ -98,10 +107,8 @@ def heteroclinic(
     starts: Annotated[
         str | None, typer.Option(metavar="X1,X2", help="Two starts x = e^2u; 1 and about the middle of a step.")
     ] = None,
-    digits: Annotated[int | None, typer.Option(metavar="N", help="Decimals; as many as needed by default.")] = None,
-    radius: Annotated[
-        str | None, typer.Option(metavar="R", help="How far parameters may be off; the largest power of 10.")
-    ] = None,
+    digits: Digits = None,
+    radius: Radius = None,
     output: Output = None,
     as_json: Json = False,
 ) -> None:
@@ -114,7 +121,7 @@ def heteroclinic(
     """
     J, D = _ball(mass_tensor, inertia, contact, "1/2", "1,4,8")
     h = rational(vertical_momentum, "--vertical-momentum")
-    within = None if radius is None else rational(radius, "--radius")
+    within = _optional(radius, "--radius")
     from chapsym.certificates import heteroclinic as search
     from chapsym.certificates.reduced import Top
 
@@ -144,10 +151,8 @@ def periodic_orbit(
     vertical_momentum: Annotated[str | None, typer.Option(metavar="H", help="<K, gamma>; found by default.")] = None,
     steps: Annotated[int, typer.Option(metavar="Q", help="Steps after which the orbit is back.")] = 20,
     attracting: Annotated[bool, typer.Option("--attracting", help="It must attract the orbits near it.")] = False,
-    digits: Annotated[int | None, typer.Option(metavar="N", help="Decimals; as many as needed by default.")] = None,
-    radius: Annotated[
-        str | None, typer.Option(metavar="R", help="How far parameters may be off; the largest power of 10.")
-    ] = None,
+    digits: Digits = None,
+    radius: Radius = None,
     output: Output = None,
     as_json: Json = False,
 ) -> None:
@@ -160,8 +165,8 @@ def periodic_orbit(
     """
     J, D = _ball(mass_tensor, inertia, contact, "2")
     KK = rational(k_squared, "--k-squared")
-    Kg = None if vertical_momentum is None else rational(vertical_momentum, "--vertical-momentum")
-    within = None if radius is None else rational(radius, "--radius")
+    Kg = _optional(vertical_momentum, "--vertical-momentum")
+    within = _optional(radius, "--radius")
     from chapsym.certificates import orbit
 
     find = partial(orbit.periodic_orbit, (J[0], J[1], J[2]), D, KK, steps, Kg, digits, attracting, within)

@@ -14,6 +14,7 @@ from chapsym.certificates import document, measure, plateau, resonance
 from chapsym.certificates.balls import NotProved, ball, rounded
 from chapsym.certificates.measure import no_invariant_measure
 from chapsym.certificates.reduced import Reduced, Top, cross
+from chapsym.checker.measure import tangent
 from chapsym.cli import certify
 from chapsym.dynamics import BadInput
 from chapsym.dynamics.levels.start import fraction
@@ -104,7 +105,7 @@ def test_numbers_anywhere_in_the_box_have_these_decimals(name):
         with ctx.workprec(8 * digits):
             reduced = Reduced(Top(tuple(moved[:3]), moved[3], moved[4]))
             for orbit in found["orbits"]:
-                gammas = plateau.trajectory(reduced, moved[5], axes, plateau.tangent(orbit["start"]), found["steps"])
+                gammas = plateau.trajectory(reduced, moved[5], axes, tangent(orbit["start"]), found["steps"])
                 for gamma, step in zip(gammas, orbit["steps"], strict=False):
                     assert [rounded(x, digits) for x in reduced.root(gamma)] == step["u"]
                 assert [[rounded(x, digits) for x in v] for v in gammas[1:]] == [x["gamma"] for x in orbit["steps"]]
