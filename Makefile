@@ -74,9 +74,9 @@ rocq-intervals:
 release-check: $(VENV)/.installed
 	@$(BIN)/python .ci/release_check.py
 
-# The editable install maps generated/ and proofs/ into the package; it is renewed when the metadata change.
+# The editable install maps generated/ and proofs/ into the package and compiles the loops; it is renewed when one changes.
 # Dependency groups are known to pip from 25.1 on.
-$(VENV)/.installed: pyproject.toml constraints.txt
+$(VENV)/.installed: pyproject.toml constraints.txt setup.py generated/loops.c chapsym/dynamics/native/module.c
 	$(PYTHON) -m venv $(VENV)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt 'pip>=25.1'
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt -e '.[all,test,docs]' --group dev

@@ -1,10 +1,46 @@
-"""The source distribution keeps the links of the repository, which setuptools alone would copy."""
+"""Compiles the loops, where there is a compiler of C; the source distribution keeps the links of the repository."""
 
+import os
 import shutil
+import sys
+import sysconfig
+from importlib.util import find_spec
 from pathlib import Path
 
-from setuptools import setup
+from setuptools import Extension, setup
+from setuptools.command.build_ext import build_ext
 from setuptools.command.sdist import sdist
+
+#: The bits are those of the text: no product is fused with a sum.
+FLAGS = ["-std=gnu11", "-O3", "-g0", "-ffp-contract=off", "-fno-math-errno", "-fno-trapping-math"]
+LOOPS = Extension(
+    "chapsym.dynamics.native.compiled",
+    ["generated/loops.c", "generated/loops_single.c", "chapsym/dynamics/native/module.c"],
+    include_dirs=["generated"],
+    depends=["generated/loops.h"],
+    define_macros=[("Py_LIMITED_API", "0x030B0000")],
+    extra_compile_args=FLAGS,
+    libraries=[] if sys.platform == "win32" else ["m"],
+    py_limited_api=True,
+    optional=True,  # without a compiler the loops run as plain Python, to the same bits
+)
+#: A compiler that is a wheel.
+ZIG = [sys.executable, "-m", "ziglang", "cc"]
+
+
+def has_compiler() -> bool:
+    """Whether the machine has a compiler of C."""
+    named = os.environ.get("CC") or sysconfig.get_config_var("CC") or "cc"
+    return shutil.which(named.split()[0]) is not None
+
+
+class WithAnyCompiler(build_ext):
+    """`build_ext` with the compiler of the system, or of the package ziglang."""
+
+    def build_extensions(self) -> None:
+        if not has_compiler() and find_spec("ziglang"):
+            self.compiler.set_executables(compiler_so=[*ZIG, "-fPIC"], compiler=ZIG, linker_so=[*ZIG, "-shared"])
+        super().build_extensions()
 
 
 class WithLinks(sdist):
@@ -18,4 +54,10 @@ class WithLinks(sdist):
             copy.symlink_to(link.readlink())
 
 
-setup(cmdclass={"sdist": WithLinks})
+is_plain = bool(os.environ.get("CHAPSYM_WITHOUT_C"))
+setup(
+    cmdclass={"build_ext": WithAnyCompiler, "sdist": WithLinks},
+    ext_modules=[] if is_plain else [LOOPS],
+    setup_requires=[] if is_plain or has_compiler() else ["ziglang>=0.13"],
+    options={"bdist_wheel": {"py_limited_api": "cp311"}},
+)

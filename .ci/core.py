@@ -20,7 +20,6 @@ ABSENT = {
     "scenes": ["scene", "new", "ball.toml"],
     "figures": ["show", "ball.toml"],
     "report": ["report"],
-    "fast": ["trade", "rounding", "--quick"],
     "cluster": ["study", "rotation", "--quick", "--scheduler", "tcp://127.0.0.1:9"],
 }
 

@@ -25,7 +25,7 @@ PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["
 HOSTS = {"ipython"}
 #: Drake is imported by another name than it is installed.
 RENAMED = {"pydrake"}
-RUNTIME = ("fast", "scenes", "figures", "cluster", "report")
+RUNTIME = ("scenes", "figures", "cluster", "report")
 #: The packages of all extras, by the names under which they are imported.
 BESIDE = {package for extra in RUNTIME for package in EXTRAS[extra][1]}
 INPUT = ["--mass-tensor", "1,2,4", "--D", "3", "--momentum", "1,-1/2,3/4", "--gamma", "2/7,3/7,6/7"]

@@ -75,7 +75,7 @@ def discretisation(
     some = np.unique(np.linspace(0, len(gamma) - 1, BALLS).astype(int))
     short = double_double.SHORT_RUN if precision == "double-double" else double.SHORT_RUN
     # The finer run of one in float32 is in float64, whose loops that run does not have compiled.
-    most = MOST if double.has_numba() and work >= short and precision != "single" else short - 1
+    most = MOST if work >= short and precision != "single" else short - 1
     pilot = min(steps, max(most // (2 * len(some) * len(substeps(order))), 1))
     if not steps:
         return None

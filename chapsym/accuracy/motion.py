@@ -21,7 +21,7 @@ import numpy as np
 from chapsym.dynamics import BadInput, Status, is_steady, kernels
 from chapsym.dynamics.ball import Floats
 from chapsym.dynamics.extrapolation import weights
-from chapsym.dynamics.levels.double import has_numba
+from chapsym.dynamics.native import is_compiled
 from chapsym.dynamics.loops.lanes import MOST_COLUMNS
 
 from .problem import EXTRAPOLATED, Motion, Problem, Run, Stepping, apart, omega_of
@@ -170,7 +170,7 @@ def _cheapest(problem: Problem, factor: float = 1.0, far: bool = True) -> Steppi
     """The order of the fewest stages that is expected to do for all balls; far: `EXTRAPOLATED` may be it."""
     found = [Stepping(p, _whole(problem, float(_first(problem, p, factor).max()))) for p in LAW if p != EXTRAPOLATED]
     work = min(method.stages for method in found) * problem.frames * len(problem)
-    if far and work >= WORTH and EXTRAPOLATED in LAW and has_numba():  # in plain Python it takes a batch ball by ball
+    if far and work >= WORTH and EXTRAPOLATED in LAW and is_compiled():  # in plain Python it takes a batch ball by ball
         method = _extrapolated(problem, factor)
         rounding = _rounding(problem, long_steps=method.steps * problem.frames)
         if rounding.max() <= ROUNDING * problem.accuracy and _condition(problem).max() <= CONDITIONED:

@@ -5,19 +5,19 @@ import importlib.util
 import json
 import os
 from collections.abc import Callable, Collection, Sequence
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 from types import ModuleType
 from typing import Any
 
 import sympy as sp
 
-from . import columns, fixed, ir, pairs, passes, printer
+from . import c_files, fixed, ir, pairs, passes, printer
 from .kernels import KERNELS, Kernel
 from .values import fingerprint, program_fingerprint, target_fingerprint, text_fingerprint
 
 #: What is written from programs, each into a module of its own.
-TARGETS: tuple[ModuleType, ...] = (columns, pairs, fixed)
+TARGETS: tuple[ModuleType, ...] = (pairs, fixed)
 ALL_PROGRAMS = tuple(program for target in TARGETS for program in target.PROGRAMS)
 MANIFEST, FINGERPRINTS = "manifest.json", "fingerprints.json"
 MEND = "chapsym codegen"
@@ -114,8 +114,19 @@ def build() -> dict[str, str]:
     table = {"sympy": sp.__version__, "kernels": rows}
     for target in TARGETS:
         files[target.FILE], table[target.KEY] = target_source(target)
+    files |= c_files.build(partial(_text, files), KERNELS)
     files[MANIFEST] = json.dumps(table, indent=1, ensure_ascii=False) + "\n"
     return files
+
+
+def _text(files: dict[str, str], path: str) -> str:
+    """The text of a module that the loops are made of: of what is generated the one that is being built."""
+    if path == "chapsym.generated":
+        return "\n\n".join(files[f"{kernel.name}.py"] for kernel in KERNELS)
+    package, _, name = path.rpartition(".")
+    if package == "chapsym.generated":
+        return files[f"{name}.py"]
+    return Path(__file__).parents[1].joinpath(*path.split(".")[1:]).with_suffix(".py").read_text(encoding="utf-8")
 
 
 @cache

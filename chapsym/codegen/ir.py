@@ -13,7 +13,7 @@ from typing import Any
 
 from .kernels import Group
 from .printer import NotStraightLine
-from .programs import ROUNDS, Program
+from .programs import Program
 
 OPERATIONS = {ast.Add: "add", ast.Sub: "subtract", ast.Mult: "multiply", ast.Div: "divide"}
 COMMUTATIVE = ("add", "multiply")
@@ -27,7 +27,7 @@ class Values:
     """The values of a program, numbered: the same operation on the same operands is the same value."""
 
     def __init__(self, texts: Texts) -> None:
-        self.texts, self.nodes = {**texts, **ROUNDS}, list[Node]()
+        self.texts, self.nodes = texts, list[Node]()
         self._numbers: dict[Node, int] = {}
 
     def number(self, *node: int | str) -> int:
@@ -118,21 +118,14 @@ def numbered(program: Program, values: Values) -> list[int]:
 
 
 def called(program: Program) -> list[str]:
-    """The kernels that a program calls, or the rounds that it takes."""
-    direct = _calls(program.text)
-    within = (_calls(ROUNDS[name]) for name in direct & ROUNDS.keys())
-    return sorted((direct | set().union(*within)) - ROUNDS.keys())
-
-
-def _calls(text: str) -> set[str]:
-    return {ast.unparse(node.func) for node in ast.walk(ast.parse(text)) if isinstance(node, ast.Call)}
+    """The kernels that a program calls."""
+    return sorted({ast.unparse(n.func) for n in ast.walk(ast.parse(program.text)) if isinstance(n, ast.Call)})
 
 
 def values(program: Program, kernels: Mapping[str, Callable], at: Callable[[str], Fraction]) -> list[Fraction]:
     """What the outputs of a program should be, at the point that `at` gives: its own text, with functions given."""
     scope: dict = {**kernels, **{name: at(name) for name in program.inputs}}
-    for text in (*ROUNDS.values(), program.text):
-        exec(compile(text, program.name, "exec"), scope)  # our own text, never a user's
+    exec(compile(program.text, program.name, "exec"), scope)  # our own text, never a user's
     return [scope[name] for name in program.outputs]
 
 
@@ -162,7 +155,5 @@ def function(
 
 
 def digest(programs: Sequence[Program]) -> str:
-    """The hash of the texts of programs, and of the rounds that they take."""
-    rounds = sorted({name for program in programs for name in _calls(program.text) & ROUNDS.keys()})
-    texts = [*(p.text for p in programs), *(ROUNDS[name] for name in rounds)]
-    return hashlib.sha256("\n".join(texts).encode()).hexdigest()
+    """The hash of the texts of programs."""
+    return hashlib.sha256("\n".join(program.text for program in programs).encode()).hexdigest()

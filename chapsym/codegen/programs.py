@@ -1,15 +1,11 @@
 """What is generated for other numbers than scalars: rounds of a step, as straight-line programs that call kernels.
 
-Those on columns take the rounds of the loops from their own text.  Those on pairs do in double-double what
-`double_double_loop` needs.
+They do in double-double what `double_double_loop` needs.
 """
 
-import ast
 from dataclasses import dataclass
-from pathlib import Path
 
 from .kernels import (
-    ANY_QUATERNION,
     BODY,
     CONTACT,
     FIRST,
@@ -23,54 +19,6 @@ from .kernels import (
     Group,
     sp,
 )
-
-#: The loops, of which rounds are taken as they stand.
-_LOOPS = Path(__file__).parents[1] / "dynamics" / "loops"
-
-
-class _Straight(ast.NodeTransformer):
-    """Makes a round a straight line: whole numbers as integers, and nothing of a choice that is not taken."""
-
-    def visit_FunctionDef(self, node: ast.FunctionDef) -> ast.AST:
-        optional = node.args.defaults
-        node.args.args, node.args.defaults = node.args.args[: len(node.args.args) - len(optional)], []
-        return self.generic_visit(node)
-
-    def visit_If(self, node: ast.If) -> list[ast.stmt]:
-        return node.orelse
-
-    def visit_Constant(self, node: ast.Constant) -> ast.Constant:
-        if isinstance(node.value, float) and node.value.is_integer():
-            return ast.copy_location(ast.Constant(int(node.value)), node)
-        return node
-
-
-def _round(file: str, name: str) -> str:
-    """A function of the loops, read and not imported: the loops themselves import what is generated."""
-    tree = ast.parse((_LOOPS / file).read_text(encoding="utf-8"))
-    function = next(node for node in tree.body if isinstance(node, ast.FunctionDef) and node.name == name)
-    return ast.unparse(_Straight().visit(function))
-
-
-#: What programs may call beside kernels.
-ROUNDS = {
-    name: _round(file, name)
-    for file, name in (
-        ("gibbs.py", "newton_round"), ("gibbs.py", "second_round"), ("sums.py", "added"), ("sums.py", "filtered"),
-    )
-}  # fmt: skip
-
-_NEWTON = """
-p0, p1, p2, p3, w1, w2, w3, first, d1, d2, d3, c11, c12, c13, c21, c22, c23, c31, c32, c33 = newton_round(
-    u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D)
-near = u1 * u1 + (u2 * u2 + u3 * u3)
-"""
-
-_SECOND = """
-r1, r2, r3, v1, v2, v3, second = second_round(
-    p0, p1, p2, p3, k1, k2, k3, d1, d2, d3, c11, c12, c13, c21, c22, c23, c31, c32, c33, I1, I2, I3)
-longer = v1 * v1 + (v2 * v2 + v3 * v3)
-"""
 
 
 @dataclass(frozen=True)
@@ -93,55 +41,11 @@ class Program:
         return tuple(symbol.name for _, symbols in self.groups for symbol in symbols)
 
 
-_ROUND: tuple[Group, ...] = (GIBBS, HALF, GAMMA, INERTIA, CONTACT)
-_ITERATE = ("p0", "p1", "p2", "p3", "w1", "w2", "w3", "near")
-
-COLUMN_PROGRAMS: tuple[Program, ...] = (
-    Program(
-        "newton_columns",
-        "A Newton iterate as a quaternion p and as a Gibbs vector w; |u|² and d = w - u.",
-        _ROUND,
-        (*_ITERATE, "d1", "d2", "d3"),
-        _NEWTON,
-    ),
-    Program(
-        "second_columns",
-        "The same with |d|², and after the second correction e: (p0, r), v = r/p0, |e/p0|² and |v|².",
-        _ROUND,
-        (*_ITERATE, "first", "r1", "r2", "r3", "v1", "v2", "v3", "second", "longer"),
-        _NEWTON + _SECOND,
-    ),
-    Program(
-        "turn_columns",
-        "Ωᵀk - k and Ωᵀγ - γ for the rotation of a quaternion that need not be unit.",
-        (ANY_QUATERNION, HALF, GAMMA),
-        ("x1", "x2", "x3", "y1", "y2", "y3"),
-        """
-x1, x2, x3 = turn(p0, p1, p2, p3, k1, k2, k3)
-y1, y2, y3 = turn(p0, p1, p2, p3, g1, g2, g3)
-""",
-    ),
-    Program(
-        "added_columns",
-        "A compensated sum: what is there with `more`, and what the roundings have added too much.",
-        (("sum", sp.symbols("total rest more")),),
-        ("there", "over"),
-        "there, over = added(total, rest, more)",
-    ),
-    Program(
-        "filtered_columns",
-        "The filter of the Gibbs vector after the newest, w.",
-        (("filter", sp.symbols("b c d e f h o")), ("newest", sp.symbols("w,"))),
-        ("n1", "n2", "n3", "n4", "n5", "n6", "n7", "n8"),
-        "n1, n2, n3, n4, n5, n6, n7, n8 = filtered(b, c, d, e, f, h, o, w)",
-    ),
-)
-
 PAIR_PROGRAMS: tuple[Program, ...] = (
     Program(
         "gibbs_residual_pairs",
         "G(u) = B(γ)u + u × Iu - (1 + |u|²)k at a float64 u; what is small of it has the error of its terms.",
-        _ROUND,
+        (GIBBS, HALF, GAMMA, INERTIA, CONTACT),
         ("r1", "r2", "r3"),
         """
 r1, r2, r3 = gibbs_residual(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D)

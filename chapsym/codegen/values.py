@@ -64,5 +64,5 @@ def program_fingerprint(program: Program, texts: ir.Texts) -> list[str]:
 
 
 def target_fingerprint(target: ModuleType, program: Program, text: str) -> list[str]:
-    """The same values from the text of a backend, run on its numbers: columns, pairs or integers of fractions."""
+    """The same values from the text of a backend, run on its numbers: pairs or integers of fractions."""
     return [decimal(value) for value in target.text_values(program, text, _at)]

@@ -19,6 +19,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from . import native
 from .attitudes import initial_attitude, is_followed
 from .axes import in_given_axes
 from .ball import Asked, Ball, Floats, batch, numbers, unit_vertical
@@ -167,19 +168,18 @@ def _march(
     taken, status = np.zeros(n, dtype=np.int64), np.zeros(n, dtype=np.int64)
     ends = doubt, taken, status, reach
     if alone:
-        _taken_by(march_one, work)(*frames, *how, *weights, *ends)
+        native.loop(march_one)(*frames, *how, *weights, *ends)
         if status[0]:
             raise StepNotTaken(Status(int(status[0])), float(reach[0]), int(taken[0]))
         progress(steps)
         return doubt, taken, status
-    blocks = (n + EIGHT - FEW) // EIGHT if double.has_numba() else 0  # the last may have idle lanes
-    march = _taken_by(march_eight, work) if blocks else None
-    each = _taken_by(march_one, work) if n > EIGHT * blocks else None
+    blocks = (n + EIGHT - FEW) // EIGHT if native.is_compiled() else 0  # the last may have idle lanes
+    march, each = native.loop(march_eight), native.loop(march_one)
 
     def task(part: int) -> None:
         first = EIGHT * part if part < blocks else EIGHT * blocks + part - blocks
         some = slice(first, first + (EIGHT if part < blocks else 1))
-        loop: Any = march if part < blocks else each
+        loop = march if part < blocks else each
         loop(*(x[some] for x in frames), *how, *weights, *(x[some] for x in ends))
         count.add(steps * len(doubt[some]))
 
@@ -187,12 +187,6 @@ def _march(
     workers, count = min(threads or cores(), len(parts)) if work >= double.SHORT_RUN else 1, Count(progress)
     share(task, parts, workers, count)
     return doubt, taken, status
-
-
-def _taken_by(march: Callable[..., None], work: int) -> Callable[..., None]:
-    """The loop, compiled if that pays, or in plain Python and as silent: `status` tells."""
-    (found,) = double.chosen((march,), work)
-    return np.errstate(all="ignore")(found) if found is march else found
 
 
 @cache

@@ -26,8 +26,7 @@ class Stepper:
     """One ball under way, for control loops and other integrators: steps of the map without the price of a call.
 
     ball, momentum, gamma, order, attitude, contact, time_step: as for `trajectory`, of one ball in principal axes, in
-    float64.  All is checked here, and the compiled loop is loaded or, the first time on a machine, compiled here: no
-    step waits for it.  Without numba the steps are the same to the bit, in plain Python.
+    float64.  All is checked here.
 
     The states are those of `trajectory` from the same start, to the bit, however the steps are shared out to calls; so
     they are after a restart or a new momentum.
@@ -48,7 +47,6 @@ class Stepper:
         epsilon = None if time_step is None else seconds(time_step)
         self._prepare(ball, order, bool(contact) or is_followed(attitude), bool(contact), epsilon)
         self.restart(momentum, gamma, attitude)
-        self._march_on(0, 0, 1, self._ends)  # no step, but all that is to be compiled is so now
 
     def _prepare(self, ball: Ball, order: int, follows: bool, traced: bool, time_step: float | None) -> None:
         """What never changes, and the buffers."""
@@ -56,7 +54,7 @@ class Stepper:
         self._J, self._D = ball.mass_tensor.copy(), float(ball.D)
         self._radius = float(rolling_radius(ball)) if traced else 0.0
         self._stages = substeps(order).copy()
-        self._march, self._begin = _ready(double.of_one(double.DOUBLE, len(self._stages)))
+        self._march, self._begin = double.of_one(double.DOUBLE, len(self._stages))
         #: The attitude and the contact point, which move in the loop.
         self._spin, self._spot = np.zeros(4), np.zeros(2)
         #: The frames of a call of which only the end is kept: the second row is the present state.
@@ -216,13 +214,6 @@ class Stepper:
         self._state = [x.copy() for x in state]
         for mine, other in zip((self._spin, self._spot, *self._ends), moving, strict=True):
             mine[:] = other
-
-
-def _ready(functions: tuple[Callable[..., Any], ...]) -> list[Callable[..., Any]]:
-    """The loops, compiled where there is numba; else as they are, and as silent."""
-    if double.has_numba():
-        return double.load(functions)
-    return [np.errstate(over="ignore", invalid="ignore")(function) for function in functions]
 
 
 def _one(name: str, vector: Floats) -> Floats:

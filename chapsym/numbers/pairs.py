@@ -12,12 +12,12 @@ Plain scalar Python that numba compiles; x, x_ are the halves of x, and u = 2⁻
 """
 
 from math import sqrt
-from typing import Any
 
 SPLITTER = 134217729.0  # 2^27 + 1
+SINGLE = {"SPLITTER": 4097.0}  # 2^12 + 1
 
 
-def two_sum(a: Any, b: Any) -> tuple[Any, Any]:
+def two_sum(a, b):
     """a + b exactly."""
     total = a + b
     part = total - a

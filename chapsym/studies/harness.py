@@ -18,11 +18,10 @@ from typing import Any
 
 import numpy as np
 
-from chapsym import extras
 from chapsym.dynamics import BadInput
 
 #: The packages whose versions belong to a measurement.
-NAMED = ("chapsym", "numpy", "numba", "llvmlite", "scipy", "heyoka")
+NAMED = ("chapsym", "numpy", "numba", "scipy", "heyoka")
 
 
 #: Where the benchmarks lie, if this is a checkout: the wheel has none.
@@ -97,19 +96,13 @@ def _seconds(contender: Contender) -> float:
 
 @contextmanager
 def cores(count: int) -> Iterator[None]:
-    """Keeps every thread of this process, and numba's, to `count` cores, where the system can do that."""
-    extras.need("fast")
-    import numba
-
-    before, threads = _affinity(), numba.get_num_threads()
-    settings: Any = numba.config
-    numba.set_num_threads(min(count, settings.NUMBA_NUM_THREADS))
+    """Keeps every thread of this process to `count` cores, where the system can do that."""
+    before = _affinity()
     if before:
         _pin(sorted(before)[:count])
     try:
         yield
     finally:
-        numba.set_num_threads(threads)
         if before:
             _pin(before)
 
@@ -142,7 +135,6 @@ def benchmark(module: str) -> Any:
     """A module of the benchmarks; raises BadInput where they are not, and MissingExtra."""
     if not (BENCHMARKS / "gibbs.c").is_file():
         raise BadInput("the benchmarks are not in the wheel; run them from a checkout")
-    extras.need("fast")
     return import_module(f"benchmarks.{module}")
 
 

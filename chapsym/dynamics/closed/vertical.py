@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from chapsym.numbers import NAMED
 
+from .. import native
 from ..ball import Ball, Floats, batch, numbers, unit_vertical
 from ..errors import BadInput, Status, StepNotTaken
 from ..levels import dispatch, double
@@ -107,7 +108,7 @@ def _taken(given: list[Floats], steps: int, every: int, rotation: bool = False) 
     precision, body = NAMED["double"], 2 * rotation
     frames = dispatch.frames_for(precision, len(D), steps // every + 1, body)
     frames.gamma[:, 0] = g
-    (march,) = double.chosen((vertical_loop.march,), steps * int((D == 0.0).sum()))
+    march = native.loop(vertical_loop.march)
     others = [i for i in range(len(D)) if D[i] != 0.0 or not _closed(march, g[i], J[i], h[i], steps, every, frames, i)]
     if others:
         full = dispatch.frames_for(precision, len(others), steps // every + 1, body)

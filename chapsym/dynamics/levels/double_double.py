@@ -7,16 +7,16 @@ import numpy as np
 
 from chapsym.numbers import Pair
 
+from .. import native
 from ..ball import Floats
 from ..coefficients import COMPOSITIONS, substeps
 from ..errors import Status
 from ..failure import explain
 from ..loops import double_double_block as block
 from ..loops import double_double_loop as loop
-from .double import chosen, has_numba
 from .frames import Balls, Count, Frames, cores, share
 
-#: Shorter runs than this many steps in all are taken in plain Python: loading the compiled loops would take longer.
+#: Shorter runs than this are not shared out to cores.
 SHORT_RUN = 500
 #: Fewer balls than this do not fill a block.
 FEW = 4
@@ -33,21 +33,15 @@ def run(
     stages = coefficients(order)
     count, n = Count(progress), len(balls)
     work = steps * n * len(stages)
-    in_blocks = n >= FEW and not frames.with_body and order == 2 and work >= SHORT_RUN and has_numba()
+    in_blocks = n >= FEW and not frames.with_body and order == 2 and native.is_compiled()
     width = block.LANES if in_blocks else 1
     starts = range(0, n, width)
-    loops = chosen(
-        (block.march_pairs_block, block.prepare_pairs_block) if in_blocks
-        else (loop.march_pairs, loop.prepare_pairs),
-        work * 4,
-    )  # fmt: skip
 
-    @np.errstate(all="ignore")  # what no rotation has overflows, and is refused
     def task(start: int) -> None:
         if in_blocks:
-            _run_block(loops, balls, slice(start, min(n, start + width)), steps, every, frames, low, stages, count)
+            _run_block(balls, slice(start, min(n, start + width)), steps, every, frames, low, stages, count)
         else:
-            _run_one(loops, balls, start, steps, every, frames, low, stages, count)
+            _run_one(balls, start, steps, every, frames, low, stages, count)
 
     share(task, starts, min(threads or cores(), len(starts)) if work >= SHORT_RUN else 1, count)
 
@@ -98,10 +92,9 @@ def _begin(frames: Frames, low: Frames, i: int, state: Floats, rest: Floats | No
 
 
 def _run_one(
-    loops: list[Callable], balls: Balls, i: int, steps: int, every: int, frames: Frames, low: Frames, stages: Floats,
-    count: Count,
-) -> None:  # fmt: skip
-    march, prepare = loops
+    balls: Balls, i: int, steps: int, every: int, frames: Frames, low: Frames, stages: Floats, count: Count
+) -> None:
+    march, prepare = native.loop(loop.march_pairs), native.loop(loop.prepare_pairs)
     K, g, J, D = balls.momentum[i], balls.gamma[i], balls.mass_tensor[i], float(balls.D[i])
     state, limits, past = np.zeros(loop.ROWS), np.zeros((2, len(stages))), np.zeros((len(stages), 8, 3))
     shift, beyond = prepare(K, g, J, D, stages, state, *limits)
@@ -126,10 +119,9 @@ def _run_one(
 
 
 def _run_block(
-    loops: list[Callable], balls: Balls, which: slice, steps: int, every: int, frames: Frames, low: Frames,
-    stages: Floats, count: Count,
-) -> None:  # fmt: skip
-    march, prepare = loops
+    balls: Balls, which: slice, steps: int, every: int, frames: Frames, low: Frames, stages: Floats, count: Count
+) -> None:
+    march, prepare = native.loop(block.march_pairs_block), native.loop(block.prepare_pairs_block)
     n = which.stop - which.start
     state = np.zeros((block.ALL_ROWS, block.LANES))
     shift, beyond = np.zeros(n, dtype=np.int64), np.zeros(n, dtype=np.int64)

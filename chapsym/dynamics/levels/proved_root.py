@@ -14,7 +14,7 @@ from flint import arb, arb_mat, ctx
 from chapsym.generated import gibbs_newton
 
 from ..loops import path
-from .retyped import Family
+from ..loops.twins import twin
 
 Numbers = tuple[Any, ...]
 
@@ -58,8 +58,7 @@ def newton_enclosure(u: Numbers, r: Numbers, slope: Any, state: Numbers, matrix_
 def joined() -> Any:
     """`path.joined` in balls: what its comparisons say is certain."""
     with ctx.workprec(MATRIX_BITS):
-        text = Family("arb", lambda x: arb(repr(x))).loops(path, max=highest, min=lowest, sqrt=arb.sqrt)
-    return text.joined
+        return twin(path, lambda x: arb(repr(x)), max=highest, min=lowest, sqrt=arb.sqrt)["joined"]
 
 
 def on_path(u: Numbers, length: Any, *state: Any) -> Any:

@@ -1,4 +1,4 @@
-"""The float32 precision: the loops of float64, read in float32 (`retyped`), with the bounds of that type.
+"""The float32 precision: the loops in float32, with the bounds of that type.
 
 State, sums and rotations are float32; each register holds twice as many balls.  𝒦, γ, the attitude and the contact
 point are summed with compensation, and the integrals restored, as in float64.  Two things are float64 still: the
@@ -6,54 +6,20 @@ continuation of a step that neither `small-branch` nor `straight-path` proves, r
 """
 
 from collections.abc import Callable
-from functools import cache
 from typing import Any
 
 import numpy as np
 
-import chapsym.generated as generated
-import chapsym.generated.columns as generated_columns
-from chapsym.numbers import pairs
-
-from .. import columns
 from ..ball import Floats
 from ..errors import BadInput
-from ..loops import block, composed_block, composed_loop, gibbs, integrals, loop, path, single_loop, single_step, sums
+from ..loops import gibbs
 from . import double
-from .double import Loops
 from .frames import Balls, Frames
-from .retyped import Family
 
 #: float32 has numbers from 2^-126 to 2^128; the scaled ones of a step need a little room.
 RANGE = 2.0**-120, 2.0**120
 #: A momentum below this, for Λmax = 1, turns the ball by less than the compensated sums of 𝒦 and γ can hold.
-SLOWEST = 2.0**-48
-
-
-@cache
-def loops() -> Loops:
-    """The loops in float32, each with the constants that its text has for float64."""
-    family = Family("single", np.float32)
-    family.kernels(generated)
-    family.programs(generated_columns)
-    rounds = family.loops(gibbs, LEFT=np.float32(2.0**-24), SMALLEST=np.float32(SLOWEST), LIGHTEST=np.float32(SLOWEST))
-    family.loops(pairs, SPLITTER=np.float32(4097.0))  # 2^12 + 1
-    family.loops(sums)
-    family.loops(integrals, VERTICAL=np.float32(1e-4))  # the square of an angle that float32 can tell from 0
-    own = family.loops(single_loop)
-    rounds.bound = own.checkable
-    family.loops(path)
-    march = family.loops(loop, small_rotation=own.widened, follow_body=own.follow_body)
-    composed = family.loops(composed_loop)
-    return Loops(
-        march,
-        composed,
-        family.loops(block, LANES=2 * block.LANES, REGISTER=2 * block.REGISTER),
-        family.loops(composed_block),
-        family.loops(columns),
-        family.loops(single_step),
-        np.float32, np.float32, rests=True,
-    )  # fmt: skip
+SLOWEST = gibbs.SINGLE["SMALLEST"]
 
 
 def run(
@@ -77,7 +43,7 @@ def run(
     if frames.with_body:
         frames.attitude[:, 0] = unit(frames.attitude[:, 0])
     with np.errstate(under="ignore"):
-        double.run(in_single, steps, every, frames, order, threads, progress, loops())
+        double.run(in_single, steps, every, frames, order, threads, progress, double.SINGLE)
         if frames.with_body:
             _in_metres(frames.contact, balls.radius)
 
@@ -122,4 +88,4 @@ def _in_metres(traces: np.ndarray, radius: Floats) -> None:
 
 def step_all(balls: Balls) -> tuple[np.ndarray, ...]:
     """`double.step_all` in float32, from the float64 state in `balls`; raises BadInput beyond the range of float32."""
-    return double.step_all(rounded(balls), loops())
+    return double.step_all(rounded(balls), double.SINGLE)

@@ -15,7 +15,7 @@ import numpy as np
 from ..errors import Status, StepNotTaken
 from ..failure import explain
 from ..loops import branch
-from .retyped import Family
+from ..loops.twins import twin
 
 Exact = Sequence[Fraction]
 
@@ -119,8 +119,8 @@ def _on_numbers(K: Exact, g: Exact, J: Exact, D: Fraction, digits: int) -> tuple
 def on(context: Any) -> Callable[..., tuple]:
     """`branch.small_rotation` in the numbers of an mpmath context, with its own limits."""
     unit = context.ldexp(1, -context.prec)
-    text = Family("mpf", context.mpf).loops(
-        branch, frexp=context.frexp, ldexp=context.ldexp, sqrt=context.sqrt,
+    names = twin(
+        branch, context.mpf, frexp=context.frexp, ldexp=context.ldexp, sqrt=context.sqrt,
         UNIT_ROUNDOFF=unit, SMALLEST=0, LEAST=-math.inf, SINGULAR=unit * 8,
     )  # fmt: skip
-    return partial(text.small_rotation, shortest=8 * unit)  # a step that is shorter is a fold
+    return partial(names["continued"], shortest=8 * unit)  # a step that is shorter is a fold

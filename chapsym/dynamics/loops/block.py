@@ -11,13 +11,14 @@ from .loop import ENOUGH, RADIUS, ROWS, A, D, G, I, K, X, followed, prepare, saf
 from .path import MOST_ROUNDS as PATH_ROUNDS
 from .path import improved, proved
 from .sums import filtered, turned
+from .text import Cube, Doubles, Integers, Matrix, Vector, lanes, out_of_line
 
 #: Balls in a block, at most: its rows stay in the first-level cache.
 LANES = 40
 #: Balls in a block are made a multiple of what the widest register holds.
 REGISTER = 8
-#: Numbers in a line of the cache, at most.
-LINE = 16
+#: A float32 is half as long.
+SINGLE = {"LANES": 80, "REGISTER": 16}
 #: After a step that needed the second correction, so many are taken with it at once.
 PATIENCE = 64
 #: Rounds that all lanes take together where more than a few did not settle; those few are mended one by one.
@@ -32,7 +33,7 @@ def whole(ok):
 
 def predicted(S, P, ok):
     """Every lane's rotation, by a Newton iterate from the extrapolation; returns how many did not settle."""
-    for i in range(whole(ok)):
+    for i in lanes(whole(ok)):
         u1, u2, u3 = S[A, i], S[A + 1, i], S[A + 2, i]
         p0, p1, p2, p3, w1, w2, w3, first, _, _, _, _, _, _, _, _, _, _, _, _ = newton_round(
             u1, u2, u3, S[K, i], S[K + 1, i], S[K + 2, i], S[G, i], S[G + 1, i], S[G + 2, i],
@@ -49,7 +50,7 @@ def corrected(S, P, ok, again):
 
     A lane that is not near, outside the ball of the lemma, stays, and begins again from no rotation: `gibbs.search`.
     """
-    for i in range(whole(ok)):
+    for i in lanes(whole(ok)):
         radius, enough = S[RADIUS, i], S[ENOUGH, i]
         u1, u2, u3 = (P[4, i], P[5, i], P[6, i]) if again else (S[A, i], S[A + 1, i], S[A + 2, i])
         near = u1 * u1 + (u2 * u2 + u3 * u3) <= radius
@@ -79,7 +80,7 @@ def corrected(S, P, ok, again):
 
 def approached(S, P, ok):
     """The lanes beyond the bound by a Newton iterate from the extrapolation, as `path.search_on_path` begins."""
-    for i in range(whole(ok)):
+    for i in lanes(whole(ok)):
         beyond = S[RADIUS, i] == BEYOND
         _, _, _, _, w1, w2, w3, _, _, _, _, _, _, _, _, _, _, _, _, _ = newton_round(
             S[A, i], S[A + 1, i], S[A + 2, i], S[K, i], S[K + 1, i], S[K + 2, i], S[G, i], S[G + 1, i], S[G + 2, i],
@@ -92,7 +93,7 @@ def approached(S, P, ok):
 
 def nearer(S, P, ok):
     """A round of corrections for the lanes on the path that are not near; returns how many are left for another."""
-    for i in range(whole(ok)):
+    for i in lanes(whole(ok)):
         going = P[7, i] == 1.0
         p0, p1, p2, p3, w1, w2, w3, left, near, found = improved(
             P[4, i], P[5, i], P[6, i], S[K, i], S[K + 1, i], S[K + 2, i], S[G, i], S[G + 1, i], S[G + 2, i],
@@ -103,7 +104,7 @@ def nearer(S, P, ok):
         P[4, i], P[5, i], P[6, i] = w1 if going else P[4, i], w2 if going else P[5, i], w3 if going else P[6, i]
         P[7, i], P[8, i] = 0.0 if near | found else P[7, i], left if going else P[8, i]
     left = 0.0
-    for i in range(whole(ok)):
+    for i in lanes(whole(ok)):
         left += P[7, i]
     return left
 
@@ -113,7 +114,7 @@ def on_path(S, P, ok):
 
     The others go the way of one ball, `mend`, from the beginning.
     """
-    for i in range(whole(ok)):
+    for i in lanes(whole(ok)):
         settled = (S[RADIUS, i] == BEYOND) & proved(
             P[4, i], P[5, i], P[6, i], P[8, i], S[K, i], S[K + 1, i], S[K + 2, i], S[G, i], S[G + 1, i], S[G + 2, i],
             S[I, i], S[I + 1, i], S[I + 2, i], S[D, i],
@@ -125,7 +126,7 @@ def on_path(S, P, ok):
 def unsettled(ok):
     """How many lanes did not settle: counted apart, as a wide counter would narrow the registers of the others."""
     bad = 0
-    for i in range(whole(ok)):
+    for i in lanes(whole(ok)):
         bad += 1 - ok[i]
     return bad
 
@@ -161,6 +162,7 @@ def solved(S, P, ok, hopeless, beyond, patience):
     return patience, bad
 
 
+@out_of_line
 def mend(S, P, ok, step, taken, status, reach, balls):
     """The step of `loop.march` for the lanes that did not settle; a ball that cannot go on rests from then on."""
     for i in range(len(ok)):
@@ -182,7 +184,7 @@ def mend(S, P, ok, step, taken, status, reach, balls):
 
 def rolled(S, P, B, ok):
     """Moves the attitude and the contact point of every lane by the step that begins at its γ."""
-    for i in range(whole(ok)):
+    for i in lanes(whole(ok)):
         B[0, i], B[1, i], B[2, i], B[3, i], B[4, i], B[5, i] = followed(
             P[0, i], P[1, i], P[2, i], P[3, i], S[G, i], S[G + 1, i], S[G + 2, i],
             B[0, i], B[1, i], B[2, i], B[3, i], B[4, i], B[5, i], B[6, i],
@@ -191,7 +193,7 @@ def rolled(S, P, B, ok):
 
 def moved(S, P, ok):
     """Turns k and γ of every lane, with compensation, and carries the extrapolation on."""
-    for i in range(whole(ok)):
+    for i in lanes(whole(ok)):
         p0, p1, p2, p3, w1, w2, w3 = P[0, i], P[1, i], P[2, i], P[3, i], P[4, i], P[5, i], P[6, i]
         turn_at(p0, p1, p2, p3, S, K, X, i)
         turn_at(p0, p1, p2, p3, S, G, X + 3, i)
@@ -219,7 +221,7 @@ def extrapolated(S, row, i, w):
     )  # fmt: skip
 
 
-def prepare_block(momentum, g, tensor, contact, state, scale):
+def prepare_block(momentum: Matrix, g: Matrix, tensor: Matrix, contact: Vector, state: Matrix, scale: Vector):
     """`loop.prepare` of each ball of a block; one that is not full repeats its last ball."""
     one, last = np.empty(ROWS, state.dtype), len(contact) - 1
     for lane in range(state.shape[1]):
@@ -229,13 +231,6 @@ def prepare_block(momentum, g, tensor, contact, state, scale):
             state[row, lane] = one[row]
 
 
-def rows(count, dtype):
-    """Rows of LANES numbers, each of which begins on a line of the cache: no register is loaded from two."""
-    numbers = np.empty((count, LANES + LINE), dtype)
-    begin = -(numbers.ctypes.data // numbers.itemsize) % LINE
-    return numbers[:, begin : begin + LANES]
-
-
 def carry(numbers, to, width):
     """Copies columns; an assignment of slices takes seconds to compile."""
     for row in range(to.shape[0]):
@@ -243,6 +238,7 @@ def carry(numbers, to, width):
             to[row, i] = numbers[row, i]
 
 
+@out_of_line
 def restored(S, status):
     """`integrals.restore` of each ball that has not stopped."""
     for i in range(len(status)):
@@ -266,15 +262,17 @@ def keep(S, B, frame, scale, momenta, verticals, status, with_body, attitudes, t
 
 
 def march_block(
-    state, first, count, every, scale, momenta, verticals, taken, status, reach, with_body, body, attitudes, traces
-):
+    state: Matrix, first: int, count: int, every: int, scale: Vector, momenta: Cube, verticals: Cube, taken: Integers,
+    status: Integers, reach: Doubles, with_body: bool, body: Matrix, attitudes: Cube, traces: Cube,
+):  # fmt: skip
     """`count` steps of the balls of a block from the step `first` on: state (ROWS, lanes), the rest as in `march`.
 
     lanes: a multiple of REGISTER, LANES at most.
     body: (7, lanes), the attitude, the contact point and the radius, which are touched only when `with_body`.
     scale, taken, status and reach have one entry for each ball; lanes beyond them are idle copies.
     """
-    S, P, B = rows(ROWS, state.dtype), rows(9, state.dtype), rows(7, state.dtype)
+    S = np.empty((ROWS, LANES), state.dtype)
+    P, B = np.empty((9, LANES), state.dtype), np.empty((7, LANES), state.dtype)
     width = state.shape[1]
     ok = np.empty(width, dtype=np.int32)
     carry(state, S, width)

@@ -45,8 +45,13 @@ MOST_STEPS = 20000
 MOST_CORRECTIONS = 20
 
 
-def small_rotation(K1, K2, K3, g1, g2, g3, J1, J2, J3, D, shortest=SHORTEST):
-    """Solves 𝒦(q, γ) = 𝒦 on the small-rotation branch; a step below `shortest` is taken for a fold.
+def small_rotation(K1, K2, K3, g1, g2, g3, J1, J2, J3, D):
+    """Solves 𝒦(q, γ) = 𝒦 on the small-rotation branch; returns as `continued`."""
+    return continued(K1, K2, K3, g1, g2, g3, J1, J2, J3, D, SHORTEST)
+
+
+def continued(K1, K2, K3, g1, g2, g3, J1, J2, J3, D, shortest):
+    """The small-rotation branch up to the momentum 𝒦; a step below `shortest` is taken for a fold.
 
     Returns (status, reach, q0, q1, q2, q3): the unit Euler parameters with q0 ≥ 0, and the fraction t
     that was attained, 1 when the status is TAKEN.

@@ -2,10 +2,11 @@
 
 import numpy as np
 
-from .block import carry, keep, mend, restored, rolled, rows, solved, turn_at, uncertified, whole
+from .block import LANES, carry, keep, mend, restored, rolled, solved, turn_at, uncertified, whole
 from .composed_loop import place, prepare_composed
 from .integrals import PERIOD
 from .loop import ENOUGH, RADIUS, ROWS, A, G, K, X
+from .text import Cube, Doubles, Integers, Matrix, Vector, lanes
 
 #: In place of a radius²: the ball has stopped.
 STOPPED = -3.0
@@ -13,12 +14,12 @@ STOPPED = -3.0
 
 def guess_block(T, past, weights, ok):
     """`composed_loop.guess` of every lane, from the rows of past (3 vectors, lanes); four vectors are read at once."""
-    for i in range(whole(ok)):
+    for i in lanes(whole(ok)):
         T[A, i], T[A + 1, i], T[A + 2, i] = 0.0, 0.0, 0.0
     for j in range(0, len(weights), 4):
         a, b, c, d = weights[j], weights[j + 1], weights[j + 2], weights[j + 3]
         x, y, z = 3 * j, 3 * j + 1, 3 * j + 2
-        for i in range(whole(ok)):
+        for i in lanes(whole(ok)):
             u1, u2, u3 = T[A, i] + a * past[x, i], T[A + 1, i] + a * past[y, i], T[A + 2, i] + a * past[z, i]
             u1, u2, u3 = u1 + b * past[x + 3, i], u2 + b * past[y + 3, i], u3 + b * past[z + 3, i]
             u1, u2, u3 = u1 + c * past[x + 6, i], u2 + c * past[y + 6, i], u3 + c * past[z + 6, i]
@@ -28,7 +29,7 @@ def guess_block(T, past, weights, ok):
 
 def begin_stage(S, T, s, radius, enough, ok):
     """The ball of a stage with the coefficient s: 𝒦 is s times that of the step."""
-    for i in range(whole(ok)):
+    for i in lanes(whole(ok)):
         T[K, i], T[K + 1, i], T[K + 2, i] = s * S[K, i], s * S[K + 1, i], s * S[K + 2, i]
         T[G, i], T[G + 1, i], T[G + 2, i] = S[G, i], S[G + 1, i], S[G + 2, i]
         T[RADIUS, i], T[ENOUGH, i] = radius[i], enough[i]
@@ -36,7 +37,7 @@ def begin_stage(S, T, s, radius, enough, ok):
 
 def end_stage(S, P, past, row, ok):
     """Turns 𝒦 and γ of every lane, and remembers the Gibbs vectors in the rows of past from `row` on."""
-    for i in range(whole(ok)):
+    for i in lanes(whole(ok)):
         p0, p1, p2, p3 = P[0, i], P[1, i], P[2, i], P[3, i]
         turn_at(p0, p1, p2, p3, S, K, X, i)
         turn_at(p0, p1, p2, p3, S, G, X + 3, i)
@@ -53,7 +54,10 @@ def stop(S, T, radius, status, ok):
                 S[row, i] = T[row, i]
 
 
-def prepare_composed_block(momentum, g, tensor, contact, c, state, radius, enough, scale):
+def prepare_composed_block(
+    momentum: Matrix, g: Matrix, tensor: Matrix, contact: Vector, c: Vector, state: Matrix, radius: Matrix,
+    enough: Matrix, scale: Vector,
+):  # fmt: skip
     """`prepare_composed` of each ball of a block; one that is not full repeats its last ball."""
     one, last = np.empty(ROWS, state.dtype), len(contact) - 1
     bounds = np.empty((2, len(c)), state.dtype)
@@ -67,15 +71,17 @@ def prepare_composed_block(momentum, g, tensor, contact, c, state, radius, enoug
 
 
 def march_composed_block(
-    state, c, weights, radius, enough, past, first, count, every, scale,
-    momenta, verticals, taken, status, reach, with_body, body, attitudes, traces,
+    state: Matrix, c: Vector, weights: Cube, radius: Matrix, enough: Matrix, past: Matrix, first: int, count: int,
+    every: int, scale: Vector, momenta: Cube, verticals: Cube, taken: Integers, status: Integers, reach: Doubles,
+    with_body: bool, body: Matrix, attitudes: Cube, traces: Cube,
 ):  # fmt: skip
     """`march_block`, each step a composition with the stage coefficients c.
 
     radius, enough: (s, lanes); weights: as of `composed_loop.composed_step`; past: (3 vectors, lanes).
     """
-    S, T, P = rows(ROWS, state.dtype), rows(ROWS, state.dtype), rows(9, state.dtype)
-    B, H = rows(7, state.dtype), rows(len(past), state.dtype)
+    S, T = np.empty((ROWS, LANES), state.dtype), np.empty((ROWS, LANES), state.dtype)
+    P, B = np.empty((9, LANES), state.dtype), np.empty((7, LANES), state.dtype)
+    H = np.empty((len(past), LANES), state.dtype)
     width, stages, balls = state.shape[1], len(c), len(status)
     ok, period = np.empty(width, dtype=np.int32), max(1, PERIOD // stages)
     carry(state, S, width)

@@ -5,10 +5,13 @@ rotation from cᵢ𝒦 and then carries 𝒦 itself: 𝒦 and γ turn rigidly, w
 and forth, so those of the last step or two lie all around the next: its Gibbs vector is guessed from theirs.
 """
 
+import numpy as np
+
 from .gibbs import settle
 from .integrals import PERIOD, restore
 from .loop import ENOUGH, RADIUS, D, G, I, K, X, follow_body, prepare, put, safe_rotation, three
 from .sums import turned
+from .text import Cube, Matrix, Vector, out_of_line
 
 
 def guess(past, weights):
@@ -33,10 +36,23 @@ def turn_at(p0, p1, p2, p3, state, at, rest):
     put(state, rest, x1, x2, x3)
 
 
-def prepare_composed(momentum, g, tensor, contact, c, state, radius, enough):
+@out_of_line
+def prepare_composed(
+    momentum: Vector,
+    g: Vector,
+    tensor: Vector,
+    contact: float,
+    c: Vector,
+    state: Vector,
+    radius: Vector,
+    enough: Vector,
+):
     """`prepare` of `loop`, and the certificate of the momentum of each stage into radius and enough, (s,)."""
+    part = np.empty(3, momentum.dtype)
     for i in range(c.shape[0]):
-        prepare(c[i] * momentum, g, tensor, contact, state)
+        for j in range(3):
+            part[j] = c[i] * momentum[j]
+        prepare(part, g, tensor, contact, state)
         radius[i], enough[i] = state[RADIUS], state[ENOUGH]
     return prepare(momentum, g, tensor, contact, state)
 
@@ -73,8 +89,9 @@ def composed_step(step, state, c, weights, radius, enough, past, with_body, atti
 
 
 def march_composed(
-    state, c, weights, radius, enough, past, begun, first, count, every, scale,
-    momenta, verticals, with_body, attitude, contact, rho, attitudes, traces,
+    state: Vector, c: Vector, weights: Cube, radius: Vector, enough: Vector, past: Matrix, begun: int, first: int,
+    count: int, every: int, scale: float, momenta: Matrix, verticals: Matrix, with_body: bool, attitude: Vector,
+    contact: Vector, rho: float, attitudes: Matrix, traces: Matrix,
 ):  # fmt: skip
     """`march` of `loop`, each step a composition with the stage coefficients c.  Returns (taken, status, reach)."""
     period = max(1, PERIOD // c.shape[0])

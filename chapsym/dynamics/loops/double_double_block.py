@@ -14,6 +14,7 @@ from .double_double_loop import ROWS, D, G, I, K, prepare_pairs, restore_pairs, 
 from .double_double_step import correction, small
 from .gibbs import newton_round
 from .integrals import PERIOD
+from .text import Cube, Doubles, Integers, Matrix, Vector, lanes, out_of_line
 
 #: Balls in a block: its rows stay in the first-level cache.
 LANES = 16
@@ -30,7 +31,7 @@ WORK_ROWS = 22
 def approached(S, P, ok, again):
     """A Newton iterate in float64 for every lane, from the guess or `again` from itself; how many want another."""
     bad = 0
-    for i in range(LANES):
+    for i in lanes(LANES):
         radius = S[RADIUS, i]
         u1, u2, u3 = (P[W, i], P[W + 1, i], P[W + 2, i]) if again else (S[A, i], S[A + 1, i], S[A + 2, i])
         near = u1 * u1 + (u2 * u2 + u3 * u3) <= radius
@@ -58,7 +59,7 @@ def approached(S, P, ok, again):
 
 def residuals(S, P):
     """G at every lane's w, in pairs."""
-    for i in range(LANES):
+    for i in lanes(LANES):
         P[R, i], _, P[R + 1, i], _, P[R + 2, i], _ = gibbs_residual_pairs(
             P[W, i], P[W + 1, i], P[W + 2, i],
             S[K, i], S[K + 1, i], S[K + 2, i], S[K + 3, i], S[K + 4, i], S[K + 5, i],
@@ -70,7 +71,7 @@ def residuals(S, P):
 def corrected(S, P, ok):
     """The correction e of every lane; returns how many did not settle."""
     bad = 0
-    for i in range(LANES):
+    for i in lanes(LANES):
         w1, w2, w3 = P[W, i], P[W + 1, i], P[W + 2, i]
         e1, e2, e3 = correction(
             P[DELTA, i], P[DELTA + 1, i], P[DELTA + 2, i], P[R, i], P[R + 1, i], P[R + 2, i],
@@ -84,6 +85,7 @@ def corrected(S, P, ok):
     return bad
 
 
+@out_of_line
 def mend(S, P, ok, step, taken, status, reach):
     """The stage of `double_double_loop` for the lanes that did not settle; a ball that cannot go on rests."""
     for i in range(LANES):
@@ -104,11 +106,11 @@ def mend(S, P, ok, step, taken, status, reach):
 
 def turned(S, P):
     """Turns k and γ of every lane, and carries the extrapolation on."""
-    for i in range(LANES):
+    for i in lanes(LANES):
         (
             S[0, i], S[1, i], S[2, i], S[3, i], S[4, i], S[5, i],
             S[6, i], S[7, i], S[8, i], S[9, i], S[10, i], S[11, i],
-        ) = turn_pairs(
+        ) = turn_pairs(  # type: ignore[call-arg]
             *two_sum(P[W, i], P[E, i]), *two_sum(P[W + 1, i], P[E + 1, i]), *two_sum(P[W + 2, i], P[E + 2, i]),
             S[0, i], S[1, i], S[2, i], S[3, i], S[4, i], S[5, i],
             S[6, i], S[7, i], S[8, i], S[9, i], S[10, i], S[11, i],
@@ -118,7 +120,10 @@ def turned(S, P):
         extrapolated(S, A + 2, i, P[W + 2, i] + P[E + 2, i])
 
 
-def prepare_pairs_block(momentum, g, tensor, contact, c, state, shift, beyond):
+def prepare_pairs_block(
+    momentum: Matrix, g: Matrix, tensor: Matrix, contact: Vector, c: Matrix, state: Matrix, shift: Integers,
+    beyond: Integers,
+):  # fmt: skip
     """`prepare_pairs` of each ball of a block; one that is not full repeats its last ball."""
     one, radius, enough, last = np.empty(ROWS), np.empty(1), np.empty(1), len(contact) - 1
     for lane in range(state.shape[1]):
@@ -130,8 +135,9 @@ def prepare_pairs_block(momentum, g, tensor, contact, c, state, shift, beyond):
 
 
 def march_pairs_block(
-    state, first, count, every, shift, momenta, momenta_, verticals, verticals_, taken, status, reach
-):
+    state: Matrix, first: int, count: int, every: int, shift: Integers, momenta: Cube, momenta_: Cube, verticals: Cube,
+    verticals_: Cube, taken: Integers, status: Integers, reach: Doubles,
+):  # fmt: skip
     """`count` steps of a block from the step `first` on, as of `double_double_loop`: state (ALL_ROWS, LANES).
 
     shift, taken, status and reach have one entry for each ball; lanes beyond them are idle copies.

@@ -22,6 +22,7 @@ from .branch import TAKEN
 from .double_double_step import bounds, scales, solved, unit
 from .integrals import PERIOD, shares
 from .sums import filtered
+from .text import Cube, Matrix, Vector, out_of_line
 
 #: The rows of the numbers that describe a ball under way: k = 𝒦/2, γ and I as pairs (high, low, high, ...), J,
 #: D, and the three integrals as pairs.
@@ -29,7 +30,17 @@ K, G, I, J, D, INTEGRALS = 0, 6, 12, 18, 21, 22
 ROWS = 28
 
 
-def prepare_pairs(momentum, g, tensor, contact, c, state, radius, enough):
+@out_of_line
+def prepare_pairs(
+    momentum: Vector,
+    g: Vector,
+    tensor: Vector,
+    contact: float,
+    c: Matrix,
+    state: Vector,
+    radius: Vector,
+    enough: Vector,
+):
     """Writes the state of a ball at the start and the bounds of its stages; returns the exponents of `scales`."""
     shift, beyond = scales(momentum, tensor, contact)
     size = beyond - shift - 1
@@ -68,6 +79,7 @@ def remember_pairs(state):
     state[INTEGRALS + 4], state[INTEGRALS + 5] = inner(k, k)
 
 
+@out_of_line
 def restore_pairs(state):
     """Gives k and γ the three integrals again, up to the rounding of these: else they walk by u² at each step."""
     k, g, h = state[K:G], state[G:I], state[INTEGRALS:ROWS]
@@ -139,8 +151,10 @@ def write(frame, frame_, pairs, at, exponent):
 
 
 def march_pairs(
-    state, c, radius, enough, past, first, count, every, shift, beyond, momenta, momenta_, verticals, verticals_,
-    with_body, attitude, contact, rho, attitudes, attitudes_, traces, traces_,
+    state: Vector, c: Matrix, radius: Vector, enough: Vector, past: Cube, first: int, count: int, every: int,
+    shift: int, beyond: int, momenta: Matrix, momenta_: Matrix, verticals: Matrix, verticals_: Matrix, with_body: bool,
+    attitude: Vector, contact: Vector, rho: float, attitudes: Matrix, attitudes_: Matrix, traces: Matrix,
+    traces_: Matrix,
 ):  # fmt: skip
     """Takes `count` steps from the step `first` on, each with the stages c (s, 2); keeps every `every`-th state.
 

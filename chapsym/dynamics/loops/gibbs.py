@@ -18,6 +18,8 @@ from chapsym.generated import gibbs_newton, gibbs_newton_heavy, gibbs_second
 
 #: The error that the last correction may leave, relative to the least that |u| can be: the unit roundoff.
 LEFT = 2.0**-53
+#: An `enough` below this cannot be compared with squares: only float32 has so few exponents.
+LEAST_ENOUGH = 0.0
 #: How much of the bound may be used: at the bound the Jacobian is singular.
 INSIDE = 0.95
 MOST_ROUNDS = 12
@@ -29,6 +31,8 @@ LIGHTEST = 2.0**-300
 HEAVY = 32.0
 #: In place of a radius²: |𝒦| is beyond the bound, and each root has to be proved (`path`).
 BEYOND = -2.0
+#: float32: a momentum below 2^-48, for Λmax = 1, turns the ball by less than the compensated sums of 𝒦 and γ can hold.
+SINGLE = {"LEFT": 2.0**-24, "SMALLEST": 2.0**-48, "LIGHTEST": 2.0**-48, "LEAST_ENOUGH": 2.0**-62}
 
 
 def is_heavy(I1, I2, I3, D):
@@ -61,10 +65,12 @@ def bound(k1, k2, k3, I1, I2, I3, D):
     limit = min(1.0, least / slope) if slope > 0.0 else 1.0
     # A little more than the ball that contains the root, inside the one on which G is monotone.
     radius = min(1.25 * inner, 0.5 * (inner + limit))
-    if half == 0.0:
-        return 0.0, 0.0
+    if half == 0.0:  # its square may be below the range of float32
+        moving = k1 != 0.0 or k2 != 0.0 or k3 != 0.0
+        return (-1.0, 0.0) if moving and LEAST_ENOUGH > 0.0 else (0.0, 0.0)
     contraction = (spread + half) / (least - radius * slope)
-    return radius * radius, LEFT * half / ((most + D + spread) * contraction)
+    enough = LEFT * half / ((most + D + spread) * contraction)
+    return (-1.0, 0.0) if enough < LEAST_ENOUGH else (radius * radius, enough)
 
 
 def newton_round(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, heavy=False):

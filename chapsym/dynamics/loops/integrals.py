@@ -10,10 +10,14 @@ The correction goes into the compensation, not into 𝒦 and γ: renormalised an
 
 from chapsym.numbers.pairs import split_product, two_sum
 
+from .text import out_of_line
+
 #: Steps between two restorations.
 PERIOD = 1024
 #: Where sin² of the angle of 𝒦 and γ is below this, ⟨𝒦,γ⟩ follows from |𝒦| and |γ|.
 VERTICAL = 1e-6
+#: The square of an angle that float32 can tell from 0.
+SINGLE = {"VERTICAL": 1e-4}
 
 
 def inner(a1, a2, a3, b1, b2, b3, high, low):
@@ -27,6 +31,7 @@ def inner(a1, a2, a3, b1, b2, b3, high, low):
     return two_sum(total, (e + f) + (g + low) + ((x_low + y_low) + z_low))
 
 
+@out_of_line
 def remember(state):
     """Writes the three integrals of k = state[0:3] and γ = state[3:6], as pairs, into state[12:18]."""
     k1, k2, k3, g1, g2, g3 = state[0], state[1], state[2], state[3], state[4], state[5]
@@ -73,6 +78,7 @@ def give(state, stretch, along_k, along_gamma):
         state[9 + i] = state[9 + i] - stretch * g
 
 
+@out_of_line
 def restore(state):
     """Corrects the compensations state[6:12] so that k and γ, with them, have the integrals in state[12:18] again.
 

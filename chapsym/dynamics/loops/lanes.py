@@ -21,6 +21,7 @@ from chapsym.generated import angular_velocity, centre_step, compose, turn
 from .fitted import fitted, half_angle, turn_square
 from .gibbs import newton_round, second_round
 from .long_step import DOUBT, LAST, MOVING, moved_body
+from .text import lanes
 
 #: Columns side by side, and balls in a block.
 LANES, EIGHT = 4, 8
@@ -47,7 +48,8 @@ KEPT, DONE, SUMS = 80, 83, 90
 #: Rows of the balls, one number each: `long_step.MOVING`, half a long step, the radius, J and D, whether it rests, and
 #: the rate of the first step of the largest second column.
 MOVED = SUMS + 11
-LENGTH, RADIUS, TENSOR, CONTACT, RESTS, LATER = (MOVED + MOVING + i for i in (0, 1, 2, 5, 6, 7))
+LENGTH, RADIUS, TENSOR = MOVED + MOVING, MOVED + MOVING + 1, MOVED + MOVING + 2
+CONTACT, RESTS, LATER = MOVED + MOVING + 5, MOVED + MOVING + 6, MOVED + MOVING + 7
 ROWS = MOVED + MOVING + 10
 #: (|A⁻¹| c |d|)² may be this: Kantorovich's number, 2|A⁻¹|c|d|, is then at most 1/4.
 KANTOROVICH = 1.0 / 64.0
@@ -60,7 +62,7 @@ def checked(S, B, again):
 
     A lane that has settled before stays as it is.
     """
-    for i in range(LANES * B):
+    for i in lanes(LANES * B):
         k1, k2, k3, g1, g2, g3 = S[K, i], S[K + 1, i], S[K + 2, i], S[G, i], S[G + 1, i], S[G + 2, i]
         u1, u2, u3 = S[U, i], S[U + 1, i], S[U + 2, i]
         I1, I2, I3, contact = S[BALL, i], S[BALL + 1, i], S[BALL + 2, i], S[BALL + 3, i]
@@ -86,7 +88,7 @@ def checked(S, B, again):
         S[U + 2, i] = S[U + 2, i] if closed else w3
         S[OPEN, i] = 0.0 if closed | settled | (S[LOST, i] != 0.0) else 1.0
     left = 0
-    for i in range(LANES * B):
+    for i in lanes(LANES * B):
         left += 1 if S[OPEN, i] != 0.0 else 0
     return left
 
@@ -96,7 +98,7 @@ def moved(S, B, traced):
 
     traced: whether its centre moves, too, in the axes of the body at the beginning of the long step.
     """
-    for i in range(LANES * B):
+    for i in lanes(LANES * B):
         p0, p1, p2, p3 = S[P, i], S[P + 1, i], S[P + 2, i], S[P + 3, i]
         w1, w2, w3 = S[U, i], S[U + 1, i], S[U + 2, i]
         if traced:
@@ -133,7 +135,7 @@ def moved(S, B, traced):
 
 def begin(S, B):
     """Puts its first column into every lane, with the first guess."""
-    for i in range(LANES * B):
+    for i in lanes(LANES * B):
         start(S, i, FIRSTS)
         tangent, a, b, c = S[TANGENT, i], S[GUESS, i], S[GUESS + 1, i], S[GUESS + 2, i]
         S[U, i] = tangent * ((a * S[OMEGA, i] + b * S[RATE, i]) + c * S[CURVE, i])
@@ -143,13 +145,13 @@ def begin(S, B):
 
 def begin_second(S, B, lane, weights):
     """Puts its second column into a lane of every ball."""
-    for b in range(B):
+    for b in lanes(B):
         start(S, lane * B + b, SECONDS)
     w0, w1, w2, w3, w4, w5, w6, w7 = (
         weights[lane, 0], weights[lane, 1], weights[lane, 2], weights[lane, 3],
         weights[lane, 4], weights[lane, 5], weights[lane, 6], weights[lane, 7],
     )  # fmt: skip
-    for b in range(B):  # not a loop of the components: eight balls would be unrolled, and not become vector code
+    for b in lanes(B):  # not a loop of the components: eight balls would be unrolled, and not become vector code
         i, j, k, m = b, B + b, 2 * B + b, 3 * B + b
         tangent = S[TANGENT, lane * B + b]
         x1 = (w0 * S[OMEGA, i] + w1 * S[RATE, i]) + (w2 * S[CURVE, i] + w3 * S[KEPT, i])
@@ -184,7 +186,7 @@ def finish(S, i):
 
 def gather(S, B):
     """Turns every ball by the weighted sum of the columns, but those that are lost."""
-    for i in range(LANES * B):
+    for i in lanes(LANES * B):
         a0, a1, a2, a3 = S[DONE, i], S[DONE + 1, i], S[DONE + 2, i], S[DONE + 3, i]
         b0, b1, b2, b3 = S[Q, i], S[Q + 1, i], S[Q + 2, i], S[Q + 3, i]
         one = 1.0 / sqrt((a0 * a0 + a1 * a1) + (a2 * a2 + a3 * a3))
@@ -200,9 +202,9 @@ def gather(S, B):
         S[SUMS + 9, i] = w * S[DONE + 5, i] + v * S[Y + 1, i]
         S[SUMS + 10, i] = w * S[DONE + 6, i] + v * S[Y + 2, i]
     for c in range(11):
-        for b in range(B):
+        for b in lanes(B):
             S[SUMS + c, b] = (S[SUMS + c, b] + S[SUMS + c, B + b]) + (S[SUMS + c, 2 * B + b] + S[SUMS + c, 3 * B + b])
-    for b in range(B):
+    for b in lanes(B):
         rests = S[LOST, b] != 0.0
         k1, k2, k3, g1, g2, g3 = (
             S[MOVED, b],
@@ -237,7 +239,7 @@ def gather(S, B):
 
 def rates(S, B, first):
     """K, γ, ω and two derivatives in units of the long step, (2.12) and (2.13), of every ball in all its lanes."""
-    for b in range(B):
+    for b in lanes(B):
         K1, K2, K3, g1, g2, g3 = (
             S[MOVED, b],
             S[MOVED + 1, b],
@@ -271,10 +273,10 @@ def rates(S, B, first):
         S[TURNED, b] = turn_square(whole, first, w1, w2, w3)
         S[LATER, b], S[LATER + 1, b], S[LATER + 2, b], S[LOST, b] = 0.0, 0.0, 0.0, S[RESTS, b]
     for row in range(START, TURNED + 1):
-        for b in range(B):
+        for b in lanes(B):
             one = S[row, b]
             S[row, B + b], S[row, 2 * B + b], S[row, 3 * B + b] = one, one, one
-    for b in range(B):
+    for b in lanes(B):
         one = S[LOST, b]
         S[LOST, B + b], S[LOST, 2 * B + b], S[LOST, 3 * B + b] = one, one, one
 
@@ -288,7 +290,7 @@ def side_by_side(S, B, columns, traced, following, beginning):
     for slot in range(LAST):
         lane = LAST - slot
         if lane < LANES:  # it has finished its first column, n = slot
-            for b in range(B):
+            for b in lanes(B):
                 finish(S, lane * B + b)
         if lane == 3 and first <= 3:
             begin_second(S, B, 3, beginning)
@@ -297,7 +299,7 @@ def side_by_side(S, B, columns, traced, following, beginning):
         for j in range(TERMS):
             for c in range(LANES):
                 weight = following[slot, j, c]
-                for b in range(B):
+                for b in lanes(B):
                     S[WEIGHT + j, c * B + b] = weight
         left, rounds = checked(S, B, False), 0
         while left > 0 and rounds < MOST_ROUNDS:
@@ -312,15 +314,15 @@ def side_by_side(S, B, columns, traced, following, beginning):
         else:
             moved(S, B, False)
         if slot == 0:
-            for i in range(LANES * B):
+            for i in lanes(LANES * B):
                 S[KEPT, i], S[KEPT + 1, i] = S[V, i] * S[INVERSE, i], S[V + 1, i] * S[INVERSE, i]
                 S[KEPT + 2, i] = S[V + 2, i] * S[INVERSE, i]
         elif lane == second and lane < LANES:
-            for b in range(B):
+            for b in lanes(B):
                 i = lane * B + b
                 S[LATER, b], S[LATER + 1, b] = S[V, i] * S[INVERSE, i], S[V + 1, i] * S[INVERSE, i]
                 S[LATER + 2, b] = S[V + 2, i] * S[INVERSE, i]
-    for b in range(B):
+    for b in lanes(B):
         finish(S, b)
     gather(S, B)
     return lost
@@ -328,7 +330,7 @@ def side_by_side(S, B, columns, traced, following, beginning):
 
 def lose(S, B):
     """Marks all lanes of every ball of which one is open, and closes them."""
-    for b in range(B):
+    for b in lanes(B):
         is_open = (S[OPEN, b] + S[OPEN, B + b]) + (S[OPEN, 2 * B + b] + S[OPEN, 3 * B + b]) != 0.0
         for lane in range(LANES):
             S[LOST, lane * B + b] = 1.0 if is_open else S[LOST, lane * B + b]

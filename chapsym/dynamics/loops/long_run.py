@@ -31,6 +31,7 @@ from .lanes import (
 )
 from .long_step import ATTITUDE, DOUBT, LAST, MOVING, SPOT, begun, long_step
 from .loop import D, I, J, three
+from .text import Cube, Doubles, Integers, Matrix, Vector, out_of_line
 
 #: Where the lemma has no radius, none is asked for.
 ANYWHERE = 2.0**1000
@@ -38,6 +39,7 @@ ANYWHERE = 2.0**1000
 BEHIND = 18.2
 
 
+@out_of_line
 def enter(S, B, b, columns, J0, D0, radius, h, sums, beginning, body, state):
     """Puts a ball, of which `body` has all but the scale, into its column of S; returns K's exponent (`begun`)."""
     half, exponent = begun(body, J0, D0, h, state)
@@ -82,6 +84,7 @@ def entered(S, at, i, body, half, n, state):
     S[at + 5, i] = 1.0 / (n * n)
 
 
+@out_of_line
 def safely(S, b, sums, state):
     """The safe way of a long step for one ball; returns (status, reach)."""
     body = np.empty(MOVING)
@@ -151,8 +154,9 @@ def march_lanes(
 
 
 def march_one(
-    momenta, verticals, attitudes, traces, J0, D0, radius, h, steps, every, follows, traced,
-    sums, following, beginning, doubt, taken, status, reach,
+    momenta: Cube, verticals: Cube, attitudes: Cube, traces: Cube, J0: Matrix, D0: Vector, radius: Vector, h: float,
+    steps: int, every: int, follows: bool, traced: bool, sums: Matrix, following: Cube, beginning: Matrix,
+    doubt: Vector, taken: Integers, status: Integers, reach: Doubles,
 ):  # fmt: skip
     """`march_lanes` for one ball."""
     march_lanes(
@@ -162,8 +166,9 @@ def march_one(
 
 
 def march_eight(
-    momenta, verticals, attitudes, traces, J0, D0, radius, h, steps, every, follows, traced,
-    sums, following, beginning, doubt, taken, status, reach,
+    momenta: Cube, verticals: Cube, attitudes: Cube, traces: Cube, J0: Matrix, D0: Vector, radius: Vector, h: float,
+    steps: int, every: int, follows: bool, traced: bool, sums: Matrix, following: Cube, beginning: Matrix,
+    doubt: Vector, taken: Integers, status: Integers, reach: Doubles,
 ):  # fmt: skip
     """`march_lanes` for eight balls, or fewer."""
     march_lanes(

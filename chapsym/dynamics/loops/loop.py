@@ -4,11 +4,13 @@ from math import frexp, ldexp, sqrt
 
 from chapsym.generated import centre_step, compose, rotate
 
+from . import single_loop
 from .branch import small_rotation
 from .gibbs import BEYOND, SMALLEST, certificate, search_safely, settle
 from .integrals import PERIOD, remember, restore
 from .path import search_on_path
 from .sums import filtered, turned
+from .text import Matrix, Vector, out_of_line
 
 #: The largest exponent by which a ball is scaled.
 HIGHEST = 1021
@@ -16,6 +18,8 @@ HIGHEST = 1021
 #: integrals as pairs, 8 vectors for the extrapolation of u, J, I, D, radius² and enough (lemma small-branch).
 K, G, X, INTEGRALS, A, J, I, D, RADIUS, ENOUGH = 0, 3, 6, 12, 18, 42, 45, 48, 49, 50
 ROWS = 51
+#: What float32 takes in their place.
+SINGLE = {"small_rotation": single_loop.widened, "follow_body": single_loop.follow_body}
 
 
 def three(array, at):
@@ -28,7 +32,8 @@ def put(array, at, x, y, z):
     array[at], array[at + 1], array[at + 2] = x, y, z
 
 
-def prepare(momentum, g, tensor, contact, state):
+@out_of_line
+def prepare(momentum: Vector, g: Vector, tensor: Vector, contact: float, state: Vector):
     """Writes the state of a ball at the start; returns `scale`, with 𝒦 = scale·k."""
     scale = scaled(momentum, g, tensor, contact, state)
     remember(state)
@@ -62,6 +67,7 @@ def scaled(momentum, g, tensor, contact, state):
     return ldexp(1.0, exponent + 1)
 
 
+@out_of_line
 def safe_rotation(u1, u2, u3, state):
     """The rotation of a step that the first round did not settle: from where it came, or by the continuation.
 
@@ -107,8 +113,9 @@ def followed(p0, p1, p2, p3, g1, g2, g3, a0, a1, a2, a3, x, y, radius):
 
 
 def march(
-    state, begun, first, count, every, scale, momenta, verticals, with_body, attitude, contact, rho, attitudes, traces
-):
+    state: Vector, begun: int, first: int, count: int, every: int, scale: float, momenta: Matrix, verticals: Matrix,
+    with_body: bool, attitude: Vector, contact: Vector, rho: float, attitudes: Matrix, traces: Matrix,
+):  # fmt: skip
     """Takes `count` steps from the step `first` on; keeps every `every`-th state in the frame arrays.
 
     begun: the steps that were taken before the step 0 of the frames.

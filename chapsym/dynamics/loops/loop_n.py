@@ -6,6 +6,7 @@ It serves balls below the bound of `n.near_n` only, where any rotation with the 
 from numpy import empty
 
 from .rotation_n import gap, guess, move, polish, remember, roll, slope, solve, turn
+from .text import Cube, Matrix, Tensor, Vector
 
 #: Corrections of Newton in a step, at most.
 MOST_ROUNDS = 12
@@ -29,8 +30,9 @@ def settle(k, g, J, D, near, enough, E, O, W, T, r, h, c):
 
 
 def march(
-    k, g, J, D, c, near, enough, past, use, first, count, every, scale, momenta, verticals,
-    with_body, R, spot, rho, attitudes, traces,
+    k: Matrix, g: Vector, J: Vector, D: float, c: Vector, near: Vector, enough: Vector, past: Tensor, use: Matrix,
+    first: int, count: int, every: int, scale: float, momenta: Cube, verticals: Matrix, with_body: bool, R: Matrix,
+    spot: Vector, rho: float, attitudes: Cube, traces: Matrix,
 ):  # fmt: skip
     """Takes `count` stages from the stage `first` on, until one does not settle; returns how many.
 

@@ -1,7 +1,6 @@
 """A step in n dimensions: plain scalar Python that numba compiles, once for every n.
 
 Ω is kept as E = Ω - 1, as in `n.so_n`.  The coordinate p of a skew matrix is its entry (i, j), i > j, row by row.
-`n.columns_n` does the same to many balls, with the same roundings.
 """
 
 #: The last so many rotations guess the next one.

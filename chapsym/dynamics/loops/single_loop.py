@@ -7,20 +7,7 @@ from numpy import float32, float64
 from chapsym.generated import centre_step, compose, rotate
 
 from .branch import small_rotation
-from .gibbs import bound
 from .sums import added
-
-#: Below this the square of `enough` would leave the range of float32.
-LEAST_ENOUGH = 2.0**-62
-
-
-def checkable(k1, k2, k3, I1, I2, I3, D):
-    """`gibbs.bound`; none either where float32 could not compare the squares that it is used with."""
-    radius, enough = bound(k1, k2, k3, I1, I2, I3, D)
-    moving = k1 != 0.0 or k2 != 0.0 or k3 != 0.0
-    if moving and radius >= 0.0 and enough < LEAST_ENOUGH:
-        return -1.0, 0.0
-    return radius, enough
 
 
 def widened(K1, K2, K3, g1, g2, g3, J1, J2, J3, D):

@@ -2,12 +2,13 @@
 
 from math import sqrt
 
-from numpy import zeros
+import numpy as np
 
 from chapsym.generated import turn
 
 from .gibbs import settle
 from .loop import ENOUGH, RADIUS, ROWS, D, G, I, K, prepare, put, safe_rotation, three
+from .text import Doubles, Integers, Matrix, Vector
 
 
 def advance(momentum, g, tensor, contact, state, q):
@@ -36,8 +37,10 @@ def advance(momentum, g, tensor, contact, state, q):
     return 0, reach
 
 
-def advance_all(K, g, J, D, q, status, reach):
+def advance_all(
+    momenta: Matrix, verticals: Matrix, tensors: Matrix, contacts: Vector, q: Matrix, status: Integers, reach: Doubles
+):
     """One step of each ball, in place: arrays (n, 3), (n, 3), (n, 3), (n,), (n, 4), (n,), (n,)."""
-    state = zeros(ROWS, K.dtype)
-    for i in range(K.shape[0]):
-        status[i], reach[i] = advance(K[i], g[i], J[i], D[i], state, q[i])
+    state = np.zeros(ROWS, momenta.dtype)
+    for i in range(momenta.shape[0]):
+        status[i], reach[i] = advance(momenta[i], verticals[i], tensors[i], contacts[i], state, q[i])

@@ -8,6 +8,7 @@ whole orbit, and one Newton correction a step keeps it true to the rounding of Î
 from chapsym.generated import vertical_level, vertical_rotation, vertical_square
 
 from .sums import turned
+from .text import Matrix, Vector
 
 #: Newton corrections of v below this, relative to v, are rounding.
 ROUNDING = 2.0**-49
@@ -25,7 +26,7 @@ def level_root(level, t, v, I1, I2, I3):
     return False, v
 
 
-def march(g, I, k, count, every, verticals, q):
+def march(g: Vector, I: Vector, k: float, count: int, every: int, verticals: Matrix, q: Vector):
     """Takes `count` steps from g (3) on, with k = h/2; keeps every `every`-th Î³ in the frames, the last rotation in q.
 
     Returns whether every step settled, on a rotation by less than a right angle; else the frames are of no use.

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from copy import deepcopy
 from typing import Self
 
@@ -13,9 +12,7 @@ from ..attitudes import is_followed
 from ..ball import Asked, Floats
 from ..coefficients import substeps
 from ..errors import BadInput, Status, StepNotTaken
-from ..levels.double import has_numba, load
 from ..levels.frames import Count
-from ..loops import loop_n
 from ..results import finished
 from ..trajectories import whole_number
 from . import warm_n
@@ -31,8 +28,7 @@ UNCOUNTED = Count(lambda done: None)
 class StepperN:
     """One ball in n dimensions under way, as `Stepper` in three: steps of the map without the price of a call.
 
-    ball, momentum, gamma, order, attitude, contact: as for `trajectory_n`, of one ball.  All is checked here, and the
-    loop is loaded or compiled here.  Without numba the steps are the same to the bit, in plain Python.
+    ball, momentum, gamma, order, attitude, contact: as for `trajectory_n`, of one ball.  All is checked here.
 
     The states are those of `trajectory_n` from the same start, to the bit, however the steps are shared out to calls.
 
@@ -47,7 +43,6 @@ class StepperN:
         self.ball, self.order, self._stages = ball, order, substeps(order)
         self._follows, self._traced = bool(contact) or is_followed(attitude), bool(contact)
         self.restart(momentum, gamma, attitude)
-        self.step(0)  # all that is to be compiled is so now
 
     def restart(self, momentum: ArrayLike, gamma: ArrayLike, attitude: bool | ArrayLike = True) -> None:
         """Starts anew from 𝒦 (n, n), γ (n,) and, where they are followed, an attitude (n, n) and the contact point 0.
@@ -152,7 +147,7 @@ class StepperN:
 
     def _take(self, steps: int, every: int, frames: dict[str, Floats]) -> tuple[int, int, float]:
         if self._below:
-            return warm_n.advance(_loop(), self._one, frames, steps, every, UNCOUNTED)
+            return warm_n.advance(self._one, frames, steps, every, UNCOUNTED)
         taken, status, reach = np.zeros(1, dtype=np.int64), np.zeros(1, dtype=np.int64), np.ones(1)
         batch = {name: array[np.newaxis] for name, array in frames.items()}
         at = np.zeros(1, dtype=np.int64)
@@ -166,8 +161,3 @@ class StepperN:
         else:
             for name, array in self._ends.items():
                 array[1] = self._state[name][0]
-
-
-def _loop() -> Callable:
-    """The loop, compiled where there is numba."""
-    return load((loop_n.march,))[0] if has_numba() else loop_n.march

@@ -1,21 +1,17 @@
-"""Steps of balls below the bound of `near_n`, each from a guess by those before: compiled, or by columns in NumPy."""
+"""Steps of balls below the bound of `near_n`, each from a guess by those before."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Self
 
 import numpy as np
 
+from .. import native
 from ..ball import Floats
 from ..errors import Status
-from ..levels.double import SHORT_RUN, load, pays
 from ..levels.frames import Count, cores, share
 from ..loops import loop_n, rotation_n
-from . import columns_n
 from .branch_n import small_rotation, top
 
-#: A step without numba takes about so many times that of a ball in three dimensions.
-WEIGHT = 10
 #: Stages of a ball between two moments at which the run can be interrupted.
 CHUNK = 10_000
 
@@ -63,17 +59,13 @@ def march(
     steps: int, every: int, taken: np.ndarray, status: np.ndarray, reach: Floats, at: np.ndarray, threads: int,
 ) -> None:  # fmt: skip
     """Steps balls with these `near_n.limits`, and writes the rows `at` of frames, counts, statuses and reaches."""
-    under, work = begun(state, limits, stages), steps * len(stages) * len(at)
-    if not pays(loop_n.march, work * WEIGHT):
-        _by_columns(under, frames, steps, every, taken, status, reach, at)
-        return
-    (take,), count = load((loop_n.march,)), Count(lambda done: None)
+    under, count = begun(state, limits, stages), Count(lambda done: None)
 
     def task(i: int) -> None:
         row, one = at[i], under.ball(i)
-        taken[row], status[row], reach[row] = advance(take, one, _of(frames, row), steps, every, count)
+        taken[row], status[row], reach[row] = advance(one, _of(frames, row), steps, every, count)
 
-    share(task, range(len(at)), min(threads or cores(), len(at)) if work >= SHORT_RUN else 1, count)
+    share(task, range(len(at)), min(threads or cores(), len(at)), count)
 
 
 def begun(state: dict[str, Floats], limits: tuple[Floats, Floats], stages: Floats) -> Under:
@@ -90,14 +82,12 @@ def begun(state: dict[str, Floats], limits: tuple[Floats, Floats], stages: Float
     )  # fmt: skip
 
 
-def advance(
-    take: Callable, one: Under, frames: dict[str, Floats], steps: int, every: int, count: Count
-) -> tuple[int, int, float]:
-    """Takes steps of one ball with the loop `take`, into its own frames; returns (taken, status, reach)."""
+def advance(one: Under, frames: dict[str, Floats], steps: int, every: int, count: Count) -> tuple[int, int, float]:
+    """Takes steps of one ball into its own frames; returns (taken, status, reach)."""
     momenta, verticals, with_body = frames["momentum"], frames["gamma"], "attitude" in frames
     attitudes = frames["attitude"] if with_body else momenta[:0]
     traces = frames["contact"] if "contact" in frames else np.empty((len(attitudes), len(one.spot)))
-    s, done = len(one.stages), 0
+    s, done, take = len(one.stages), 0, native.loop(loop_n.march)
     while done < steps * s and not count.stopped:
         now = min(CHUNK, steps * s - done)
         went = take(
@@ -116,44 +106,8 @@ def advance(
     return done // s, Status.TAKEN, 1.0
 
 
-def _by_columns(
-    under: Under, frames: dict[str, Floats], steps: int, every: int,
-    taken: np.ndarray, status: np.ndarray, reach: Floats, at: np.ndarray,
-) -> None:  # fmt: skip
-    with_body = "attitude" in frames
-    c = Under(*(np.ascontiguousarray(np.moveaxis(x, 0, -1)) for x in vars(under).values()))
-    resting = np.zeros(len(at), dtype=bool)
-    stages = len(c.stages)
-    for done in range(1, steps * stages + 1):
-        s = (done - 1) % stages
-        past, use = c.past[s], c.use[s]
-        with np.errstate(all="ignore"):  # what does not settle is thrown away
-            E, settled = columns_n.settle(
-                columns_n.guess(past, use), c.stages[s] * c.k, c.g, c.J, c.D, c.near[s], c.enough[s]
-            )
-        mended = {i: _lane(c, i).copy() for i in np.flatnonzero(~settled & ~resting).tolist()}
-        E[..., ~settled] = 0.0
-        columns_n.remember(E, past, use)
-        if with_body:
-            columns_n.roll(E, c.g, c.R, c.spot, c.rho)
-        columns_n.move(E, c.k, c.g)
-        for i, one in mended.items():
-            status[at[i]], reach[at[i]] = _safely(one, s, with_body)
-            for name in ("k", "g", "past", "use", "R", "spot"):
-                getattr(c, name)[..., i] = getattr(one, name)
-            resting[i] = status[at[i]] != Status.TAKEN
-        taken[at[~resting]] += s == stages - 1
-        if done % (stages * every) == 0:
-            for i in np.flatnonzero(~resting).tolist():
-                _lane(c, i).keep(_of(frames, at[i]), done // (stages * every))
-
-
 def _of(frames: dict[str, Floats], row: int) -> dict[str, Floats]:
     return {name: array[row] for name, array in frames.items()}
-
-
-def _lane(under: Under, i: int) -> Under:
-    return Under(*(x[..., i] for x in vars(under).values()))
 
 
 def _safely(one: Under, s: int, with_body: bool) -> tuple[int, float]:

@@ -7,8 +7,6 @@ from itertools import product
 from pathlib import Path
 from typing import Any
 
-from chapsym import extras
-
 from ..energy.section import packed
 from ..units import Report, Unit, run_units
 from .orbits import share
@@ -48,9 +46,8 @@ def study(
 ) -> dict[str, Any]:
     """Counts of chaotic orbits against ε, their exponents, what the phase volume does, and pictures; JSON data.
 
-    path, scheduler, report: as for `run_units`.  Raises BadInput as it does, and MissingExtra without numba.
+    path, scheduler, report: as for `run_units`.  Raises BadInput as it does.
     """
-    extras.need("fast")
     units = _units(quick)
     results = run_units([unit for _, unit in units], path, scheduler, report)
     found: dict[str, Any] = {"seed": SEED, "samples": [], "lengths": [], "pictures": []}

@@ -10,8 +10,6 @@ from typing import Any
 
 import numpy as np
 
-from chapsym import extras
-
 from ..units import Report, Unit, run_units
 from .continuous import Level
 from .section import packed
@@ -52,10 +50,8 @@ def study(
 ) -> dict[str, Any]:
     """Range and drift of the energy at generic, vertical and resonant starts, and with D = 0; JSON data.
 
-    path, scheduler, report: as for `run_units`.  Raises BadInput as it does, and MissingExtra: without numba
-    even a quick one takes more than minutes.
+    path, scheduler, report: as for `run_units`.  Raises BadInput as it does.
     """
-    extras.need("fast")
     balls = [[list(J), D, c] for J, D in BALLS for c in COSINES]
     balls = [[[0, 1, 3], 4.0, 0.5], [[1, 2, 4], 1.0, 0.617126]] if quick else balls
     search = {"most": 1 if quick else 2, "time": 60.0, "grid": 64}

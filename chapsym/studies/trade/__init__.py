@@ -4,8 +4,6 @@ from collections.abc import Callable
 from importlib import import_module
 from typing import Any, Protocol
 
-from chapsym import extras
-
 from ..harness import NotComparable, benchmark, machine
 from .frontier import Frontier, Point
 
@@ -39,9 +37,8 @@ class Section(Protocol):
 def measure(section: str, quick: bool, say: Callable[[str], None] = lambda text: None) -> Section:
     """Measures a section; raises NotComparable where a reference is not confirmed.
 
-    The kernels are measured by the benchmarks: BadInput where these are not.  Raises MissingExtra without numba.
+    The kernels are measured by the benchmarks: BadInput where these are not.
     """
-    extras.need("fast")
     name = SECTIONS[section]
     module = benchmark("kernels.section") if name == "kernels" else import_module(f".{name}", __name__)
     more: dict[str, Any] = {"of": section} if name == "balls" else {}

@@ -1,0 +1,28 @@
+"""What the loops are written in: scalar Python that runs as it is, and that codegen prints as C.
+
+A function whose parameters are all annotated may be called from outside; the types of the others follow.  The names
+below say how many axes an array has, the last one contiguous; its elements are the numbers of the loops, float64 or
+float32.
+"""
+
+from collections.abc import Callable
+from typing import TypeAlias, TypeVar
+
+import numpy as np
+
+Vector: TypeAlias = np.ndarray
+Matrix: TypeAlias = np.ndarray
+Cube: TypeAlias = np.ndarray
+Tensor: TypeAlias = np.ndarray
+#: int64, and float64 in loops of float32, too; one axis.
+Integers: TypeAlias = np.ndarray
+Doubles: TypeAlias = np.ndarray
+#: A range whose turns do not depend on each other: vector code.
+lanes = range
+
+_F = TypeVar("_F", bound=Callable[..., object])
+
+
+def out_of_line(function: _F) -> _F:
+    """Marks a function that is called seldom: in C it stays a call, where others are written in."""
+    return function

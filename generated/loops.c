@@ -1,0 +1,3185 @@
+/* The loops of chapsym/dynamics/loops, with the kernels that they call; with SINGLE defined in float32.
+ * Written by `chapsym codegen`: do not edit; change the loops or the derivation and generate again. */
+#include <math.h>
+#include <stdint.h>
+#include <string.h>
+
+#include "loops.h"
+
+#ifdef SINGLE
+typedef float real;
+#else
+typedef double real;
+#endif
+#define R(x) ((real)(x))
+/* On x86 a loop is compiled for wide registers, too, and takes them where the processor has them: to the same bits. */
+#if defined(__x86_64__) && defined(__gnu_linux__) && defined(__GNUC__) && !defined(__clang__) && !defined(WIDEST_OFF)
+#define WIDEST __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+#else
+#define WIDEST
+#endif
+#define INLINE static inline __attribute__((always_inline, unused))
+#define OUT_OF_LINE static __attribute__((noinline, unused))
+#define ALIGNED __attribute__((aligned(64)))
+#if defined(__clang__)
+#define INDEPENDENT _Pragma("clang loop vectorize(assume_safety)")
+#else
+#define INDEPENDENT _Pragma("GCC ivdep")
+#endif
+
+INLINE real real_sqrt(real x) { return (real)sqrt(x); }
+INLINE real real_abs(real x) { return (real)fabs(x); }
+INLINE real max_r(real a, real b) { return b > a ? b : a; }
+INLINE real min_r(real a, real b) { return b < a ? b : a; }
+INLINE int64_t max_i(int64_t a, int64_t b) { return b > a ? b : a; }
+INLINE int64_t min_i(int64_t a, int64_t b) { return b < a ? b : a; }
+
+#define ARRAY1(type, a) (type){a.p, a.n[0]}
+#define ARRAY2(type, a) (type){a.p, a.n[0], a.n[1], a.s[0]}
+#define ARRAY3(type, a) (type){a.p, a.n[0], a.n[1], a.n[2], a.s[0], a.s[1]}
+#define ARRAY4(type, a) (type){a.p, a.n[0], a.n[1], a.n[2], a.n[3], a.s[0], a.s[1], a.s[2]}
+
+typedef struct { double *p; int64_t n0; } d1;
+typedef struct { int64_t *p; int64_t n0; } i1;
+typedef struct { real *p; int64_t n0; } r1;
+typedef struct { real *p; int64_t n0, n1, s0; } r2;
+typedef struct { real *p; int64_t n0, n1, n2, s0, s1; } r3;
+typedef struct { real *p; int64_t n0, n1, n2, n3, s0, s1, s2; } r4;
+typedef struct { int32_t *p; int64_t n0; } w1;
+typedef struct { int a0; real a1; } t_br;
+typedef struct { int64_t a0, a1; } t_i2;
+typedef struct { int64_t a0; real a1; } t_ir;
+typedef struct { real a0; int64_t a1; } t_ri;
+typedef struct { real a0, a1; } t_r2;
+typedef struct { int64_t a0, a1; real a2; } t_i2r;
+typedef struct { real a0, a1, a2; } t_r3;
+typedef struct { real a0, a1, a2, a3; } t_r4;
+typedef struct { int a0; real a1, a2, a3, a4; } t_br4;
+typedef struct { int64_t a0; double a1, a2, a3, a4, a5; } t_id5;
+typedef struct { int64_t a0; real a1, a2, a3, a4, a5; } t_ir5;
+typedef struct { real a0, a1, a2, a3, a4, a5; } t_r6;
+typedef struct { int a0; real a1, a2, a3, a4, a5, a6; } t_br6;
+typedef struct { real a0, a1, a2, a3, a4, a5, a6; } t_r7;
+typedef struct { int a0; real a1, a2, a3, a4, a5, a6, a7; } t_br7;
+typedef struct { int64_t a0; real a1, a2, a3, a4, a5, a6, a7; } t_ir7;
+typedef struct { real a0, a1, a2, a3, a4, a5, a6, a7; } t_r8;
+typedef struct { int64_t a0; real a1, a2, a3, a4, a5, a6, a7, a8; } t_ir8;
+typedef struct { real a0, a1, a2, a3, a4, a5, a6, a7, a8; } t_r9;
+typedef struct { real a0, a1, a2, a3, a4, a5, a6, a7; int a8, a9; } t_r8b2;
+typedef struct { real a0, a1, a2, a3, a4, a5, a6, a7, a8, a9; } t_r10;
+typedef struct { real a0, a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11; } t_r12;
+typedef struct { real a0, a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11, a12; } t_r13;
+typedef struct { int a0; real a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11, a12, a13, a14, a15, a16; } t_br16;
+typedef struct { real a0, a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11, a12, a13, a14, a15, a16, a17; } t_r18;
+typedef struct { real a0, a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11, a12, a13, a14, a15, a16, a17, a18, a19; } t_r20;
+INLINE t_ri real_frexp(real x) { int e; real m = (real)frexp(x, &e); return (t_ri){m, e}; }
+
+#ifdef SINGLE
+#define gibbs_LEFT R(0x1.0000000000000p-24)
+#define gibbs_SMALLEST R(0x1.0000000000000p-48)
+#define gibbs_LIGHTEST R(0x1.0000000000000p-48)
+#define gibbs_LEAST_ENOUGH R(0x1.0000000000000p-62)
+#define pairs_SPLITTER R(0x1.0010000000000p+12)
+#define integrals_VERTICAL R(0x1.a36e2eb1c432dp-14)
+#define loop_small_rotation single_loop_widened
+#define loop_follow_body single_loop_follow_body
+#define block_LANES 80
+#define block_REGISTER 16
+t_id5 branch_small_rotation_double(double, double, double, double, double, double, double, double, double, double);
+#else
+#define gibbs_LEFT R(0x1.0000000000000p-53)
+#define gibbs_SMALLEST R(0x1.0000000000000p-120)
+#define gibbs_LIGHTEST R(0x1.0000000000000p-300)
+#define gibbs_LEAST_ENOUGH R(0x0.0p+0)
+#define pairs_SPLITTER R(0x1.0000002000000p+27)
+#define integrals_VERTICAL R(0x1.0c6f7a0b5ed8dp-20)
+#define loop_small_rotation branch_small_rotation
+#define block_LANES 40
+#define block_REGISTER 8
+#endif
+
+INLINE t_r3 loop_three(r1 array, int64_t at) {
+    return (t_r3){array.p[at], array.p[at + 1], array.p[at + 2]};
+}
+
+INLINE int gibbs_is_heavy(real I1, real I2, real I3, real D) {
+    return 32 * min_r(min_r(I1, I2), I3) < D;
+}
+
+INLINE t_r2 gibbs_bound(real k1, real k2, real k3, real I1, real I2, real I3, real D) {
+    real half = real_sqrt(k1 * k1 + k2 * k2 + k3 * k3), size = 2 * half, least = min_r(min_r(I1, I2), I3);
+    real most = max_r(max_r(I1, I2), I3), spread = R(0.5) * (most - least);
+    if (!(size < least)) return (t_r2){-2, 0};
+    real inner = size / (least + real_sqrt((least - size) * (least + size))), slope = spread + size;
+    if (!(inner * slope < R(0.95) * least)) return (t_r2){-2, 0};
+    real limit = slope > 0 ? min_r(1, least / slope) : 1, radius = min_r(R(1.25) * inner, R(0.5) * (inner + limit));
+    if (half == 0) {
+        int moving = k1 != 0 || k2 != 0 || k3 != 0;
+        return (t_r2){moving && gibbs_LEAST_ENOUGH > 0 ? -1 : 0, moving && gibbs_LEAST_ENOUGH > 0 ? 0 : 0};
+    }
+    real contraction = (spread + half) / (least - radius * slope);
+    real enough = gibbs_LEFT * half / ((most + D + spread) * contraction);
+    return (t_r2){enough < gibbs_LEAST_ENOUGH ? -1 : radius * radius, enough < gibbs_LEAST_ENOUGH ? 0 : enough};
+}
+
+INLINE t_r2 gibbs_certificate(real k1, real k2, real k3, real I1, real I2, real I3, real D) {
+    if (gibbs_is_heavy(I1, I2, I3, D)) return (t_r2){-1, 0};
+    return gibbs_bound(k1, k2, k3, I1, I2, I3, D);
+}
+
+INLINE real loop_scaled(r1 momentum, r1 g, r1 tensor, real contact, r1 state) {
+    t_ri t_1 = real_frexp(max_r(max_r(tensor.p[1] + tensor.p[2], tensor.p[0] + tensor.p[2]), tensor.p[0] +
+        tensor.p[1]) + contact);
+    int64_t exponent = t_1.a1;
+    real largest = max_r(max_r(real_abs(momentum.p[0]), real_abs(momentum.p[1])), real_abs(momentum.p[2]));
+    t_ri size = real_frexp(largest); exponent = max_i(min_i(exponent, 1021), size.a1 - 1021);
+    int tiny = 0 < largest && largest < (real)ldexp(R(0x1.0000000000000p-120), (int)exponent);
+    if (tiny) exponent = max_i(-1, exponent - 1021 + 1);
+    for (int64_t i_ = 0; i_ < state.n0; i_++) state.p[i_] = 0;
+    for (int64_t c = 0; c < 3; c++) {
+        state.p[0 + c] = (real)ldexp(momentum.p[c], (int)(-exponent - 1)); state.p[3 + c] = g.p[c];
+        state.p[42 + c] = (real)ldexp(tensor.p[c], (int)-exponent);
+    }
+    real t_2 = state.p[43] + state.p[44], t_3 = state.p[42] + state.p[44], t_4 = state.p[42] + state.p[43];
+    state.p[45] = t_2; state.p[46] = t_3; state.p[47] = t_4; state.p[48] = (real)ldexp(contact, (int)-exponent);
+    t_r3 k1 = loop_three(state, 0), I1 = loop_three(state, 45);
+    t_r2 t_5 = gibbs_certificate(k1.a0, k1.a1, k1.a2, I1.a0, I1.a1, I1.a2, state.p[48]); state.p[49] = t_5.a0;
+    state.p[50] = t_5.a1;
+    if (tiny || min_r(min_r(I1.a0, I1.a1), I1.a2) < R(0x1.0000000000000p-120)) state.p[49] = -1;
+    return (real)ldexp(1, (int)(exponent + 1));
+}
+
+INLINE t_r2 pairs_split_product(real a, real b) {
+    real product = a * b, t = pairs_SPLITTER * a, a_high = t - (t - a), a_low = a - a_high; t = pairs_SPLITTER * b;
+    real b_high = t - (t - b), b_low = b - b_high;
+    return (t_r2){product, a_high * b_high - product + a_high * b_low + a_low * b_high + a_low * b_low};
+}
+
+INLINE t_r2 pairs_two_sum(real a, real b) {
+    real total = a + b, part = total - a; return (t_r2){total, a - (total - part) + (b - part)};
+}
+
+INLINE t_r2 integrals_inner(real a1, real a2, real a3, real b1, real b2, real b3, real high, real low) {
+    t_r2 x = pairs_split_product(a1, b1), y = pairs_split_product(a2, b2), z = pairs_split_product(a3, b3);
+    t_r2 t_1 = pairs_two_sum(x.a0, y.a0); real total = t_1.a0, e = t_1.a1; t_r2 t_2 = pairs_two_sum(total, z.a0);
+    total = t_2.a0; real f = t_2.a1; t_r2 t_3 = pairs_two_sum(total, high); total = t_3.a0; real g = t_3.a1;
+    return pairs_two_sum(total, e + f + (g + low) + (x.a1 + y.a1 + z.a1));
+}
+
+OUT_OF_LINE void integrals_remember(r1 state) {
+    real k1 = state.p[0], k2 = state.p[1], k3 = state.p[2], g1 = state.p[3], g2 = state.p[4], g3 = state.p[5];
+    t_r2 t_1 = integrals_inner(g1, g2, g3, g1, g2, g3, 0, 0); state.p[12] = t_1.a0; state.p[13] = t_1.a1;
+    t_r2 t_2 = integrals_inner(k1, k2, k3, g1, g2, g3, 0, 0); state.p[14] = t_2.a0; state.p[15] = t_2.a1;
+    t_r2 t_3 = integrals_inner(k1, k2, k3, k1, k2, k3, 0, 0); state.p[16] = t_3.a0; state.p[17] = t_3.a1;
+}
+
+OUT_OF_LINE real loop_prepare(r1 momentum, r1 g, r1 tensor, real contact, r1 state) {
+    real scale = loop_scaled(momentum, g, tensor, contact, state); integrals_remember(state); return scale;
+}
+
+INLINE void loop_put(r1 array, int64_t at, real x, real y, real z) {
+    array.p[at] = x; array.p[at + 1] = y; array.p[at + 2] = z;
+}
+
+INLINE t_r13 kernel_gibbs_newton_heavy(real u1, real u2, real u3, real k1, real k2, real k3, real g1, real g2, real
+    g3, real I1, real I2, real I3, real D) {
+    real w1 = D * g1, w2 = D * g2, w3 = D * g3, e11 = g1 * w1, e12 = g1 * w2, e13 = g1 * w3, e22 = g2 * w2;
+    real e23 = g2 * w3, e33 = g3 * w3, t0 = u2 * u3, t1 = 1 - u1 * u1 - (u2 * u2 + u3 * u3), t2 = u1 * u3;
+    real t3 = u1 * u2, r1 = I3 * t0 + k1 * t1 - I2 * t0, r2 = I1 * t2 + k2 * t1 - I3 * t2;
+    real r3 = I2 * t3 + k3 * t1 - I1 * t3, t4 = 2 * k1, t5 = I3 * u3, t6 = I2 * u2, t7 = 2 * k2, t8 = I1 * u1;
+    real t9 = 2 * k3, m11 = I1 - t4 * u1, m12 = t5 - I2 * u3 - t4 * u2, m13 = I3 * u2 - t6 - t4 * u3;
+    real m21 = I1 * u3 - t5 - t7 * u1, m22 = I2 - t7 * u2, m23 = t8 - I3 * u1 - t7 * u3, m31 = t6 - I1 * u2 - t9 * u1;
+    real m32 = I2 * u1 - t8 - t9 * u2, m33 = I3 - t9 * u3, a11 = e22 + e33 + m11, a12 = m12 - e12, a13 = m13 - e13;
+    real a21 = m21 - e12, a22 = e11 + e33 + m22, a23 = m23 - e23, a31 = m31 - e13, a32 = m32 - e23;
+    real a33 = e11 + e22 + m33, c11 = a22 * a33 - a23 * a32, c12 = a23 * a31 - a21 * a33, c13 = a21 * a32 - a22 * a31;
+    real c21 = a13 * a32 - a12 * a33, c22 = a11 * a33 - a13 * a31, c23 = a12 * a31 - a11 * a32;
+    real c31 = a12 * a23 - a13 * a22, c32 = a13 * a21 - a11 * a23, c33 = a11 * a22 - a12 * a21;
+    real y1 = g1 * m11 + g2 * m21 + g3 * m31, y2 = g1 * m12 + g2 * m22 + g3 * m32;
+    real y3 = g1 * m13 + g2 * m23 + g3 * m33, z1 = c11 * g1 + c21 * g2 + c31 * g3;
+    real z2 = c12 * g1 + c22 * g2 + c32 * g3, z3 = c13 * g1 + c23 * g2 + c33 * g3;
+    real o_det = (y1 * z1 + y2 * z2 + y3 * z3) / (g1 * g1 + g2 * g2 + g3 * g3), o_N1 = c11 * r1 + c21 * r2 + c31 * r3;
+    real o_N2 = c12 * r1 + c22 * r2 + c32 * r3, o_N3 = c13 * r1 + c23 * r2 + c33 * r3, o_C11 = c11, o_C12 = c12;
+    real o_C13 = c13, o_C21 = c21, o_C22 = c22, o_C23 = c23, o_C31 = c31, o_C32 = c32, o_C33 = c33;
+    return (t_r13){o_det, o_N1, o_N2, o_N3, o_C11, o_C12, o_C13, o_C21, o_C22, o_C23, o_C31, o_C32, o_C33};
+}
+
+INLINE t_r13 kernel_gibbs_newton(real u1, real u2, real u3, real k1, real k2, real k3, real g1, real g2, real g3, real
+    I1, real I2, real I3, real D) {
+    real w1 = D * g1, w2 = D * g2, w3 = D * g3, e11 = g1 * w1, e12 = g1 * w2, e13 = g1 * w3, e22 = g2 * w2;
+    real e23 = g2 * w3, e33 = g3 * w3, t0 = u2 * u3, t1 = 1 - u1 * u1 - (u2 * u2 + u3 * u3), t2 = u1 * u3;
+    real t3 = u1 * u2, r1 = I3 * t0 + k1 * t1 - I2 * t0, r2 = I1 * t2 + k2 * t1 - I3 * t2;
+    real r3 = I2 * t3 + k3 * t1 - I1 * t3, t4 = 2 * k1, t5 = I3 * u3, t6 = I2 * u2, t7 = 2 * k2, t8 = I1 * u1;
+    real t9 = 2 * k3, m11 = I1 - t4 * u1, m12 = t5 - I2 * u3 - t4 * u2, m13 = I3 * u2 - t6 - t4 * u3;
+    real m21 = I1 * u3 - t5 - t7 * u1, m22 = I2 - t7 * u2, m23 = t8 - I3 * u1 - t7 * u3, m31 = t6 - I1 * u2 - t9 * u1;
+    real m32 = I2 * u1 - t8 - t9 * u2, m33 = I3 - t9 * u3, a11 = e22 + e33 + m11, a12 = m12 - e12, a13 = m13 - e13;
+    real a21 = m21 - e12, a22 = e11 + e33 + m22, a23 = m23 - e23, a31 = m31 - e13, a32 = m32 - e23;
+    real a33 = e11 + e22 + m33, c11 = a22 * a33 - a23 * a32, c12 = a23 * a31 - a21 * a33, c13 = a21 * a32 - a22 * a31;
+    real c21 = a13 * a32 - a12 * a33, c22 = a11 * a33 - a13 * a31, c23 = a12 * a31 - a11 * a32;
+    real c31 = a12 * a23 - a13 * a22, c32 = a13 * a21 - a11 * a23, c33 = a11 * a22 - a12 * a21;
+    real o_det = a11 * c11 + a12 * c12 + a13 * c13, o_N1 = c11 * r1 + c21 * r2 + c31 * r3;
+    real o_N2 = c12 * r1 + c22 * r2 + c32 * r3, o_N3 = c13 * r1 + c23 * r2 + c33 * r3, o_C11 = c11, o_C12 = c12;
+    real o_C13 = c13, o_C21 = c21, o_C22 = c22, o_C23 = c23, o_C31 = c31, o_C32 = c32, o_C33 = c33;
+    return (t_r13){o_det, o_N1, o_N2, o_N3, o_C11, o_C12, o_C13, o_C21, o_C22, o_C23, o_C31, o_C32, o_C33};
+}
+
+INLINE t_r20 gibbs_newton_round(real u1, real u2, real u3, real k1, real k2, real k3, real g1, real g2, real g3, real
+    I1, real I2, real I3, real D, int heavy) {
+    real p0, p1, p2, p3, c11, c12, c13, c21, c22, c23, c31, c32, c33;
+    if (heavy) {
+        t_r13 t_1 = kernel_gibbs_newton_heavy(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D); p0 = t_1.a0;
+        p1 = t_1.a1; p2 = t_1.a2; p3 = t_1.a3; c11 = t_1.a4; c12 = t_1.a5; c13 = t_1.a6; c21 = t_1.a7; c22 = t_1.a8;
+        c23 = t_1.a9; c31 = t_1.a10; c32 = t_1.a11; c33 = t_1.a12;
+    }
+    else {
+        t_r13 t_2 = kernel_gibbs_newton(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D); p0 = t_2.a0; p1 = t_2.a1;
+        p2 = t_2.a2; p3 = t_2.a3; c11 = t_2.a4; c12 = t_2.a5; c13 = t_2.a6; c21 = t_2.a7; c22 = t_2.a8; c23 = t_2.a9;
+        c31 = t_2.a10; c32 = t_2.a11; c33 = t_2.a12;
+    }
+    real scale = 1 / p0, w1 = p1 * scale, w2 = p2 * scale, w3 = p3 * scale, d1 = w1 - u1, d2 = w2 - u2, d3 = w3 - u3;
+    real first = d1 * d1 + (d2 * d2 + d3 * d3);
+    return (t_r20){p0, p1, p2, p3, w1, w2, w3, first, d1, d2, d3, c11, c12, c13, c21, c22, c23, c31, c32, c33};
+}
+
+INLINE t_r3 kernel_gibbs_second(real d1, real d2, real d3, real k1, real k2, real k3, real c11, real c12, real c13,
+    real c21, real c22, real c23, real c31, real c32, real c33, real I1, real I2, real I3) {
+    real t0 = d1 * d1 + d2 * d2 + d3 * d3, r1 = I3 * d2 * d3 - k1 * t0 - I2 * d2 * d3;
+    real r2 = I1 * d1 * d3 - k2 * t0 - I3 * d1 * d3, r3 = I2 * d1 * d2 - k3 * t0 - I1 * d1 * d2;
+    real o_e1 = c11 * r1 + c21 * r2 + c31 * r3, o_e2 = c12 * r1 + c22 * r2 + c32 * r3;
+    real o_e3 = c13 * r1 + c23 * r2 + c33 * r3; return (t_r3){o_e1, o_e2, o_e3};
+}
+
+INLINE t_r7 gibbs_second_round(real p0, real p1, real p2, real p3, real k1, real k2, real k3, real d1, real d2, real
+    d3, real c11, real c12, real c13, real c21, real c22, real c23, real c31, real c32, real c33, real I1, real I2,
+    real I3) {
+    t_r3 e1 = kernel_gibbs_second(d1, d2, d3, k1, k2, k3, c11, c12, c13, c21, c22, c23, c31, c32, c33, I1, I2, I3);
+    real scale = 1 / p0; p1 = p1 - e1.a0; p2 = p2 - e1.a1; p3 = p3 - e1.a2;
+    real second = (e1.a0 * e1.a0 + (e1.a1 * e1.a1 + e1.a2 * e1.a2)) * (scale * scale);
+    return (t_r7){p1, p2, p3, p1 * scale, p2 * scale, p3 * scale, second};
+}
+
+INLINE t_br7 gibbs_settle(real u1, real u2, real u3, real k1, real k2, real k3, real g1, real g2, real g3, real I1,
+    real I2, real I3, real D, real radius, real enough, int heavy) {
+    if (!(u1 * u1 + (u2 * u2 + u3 * u3) <= radius)) return (t_br7){0, 1, 0, 0, 0, u1, u2, u3};
+    t_r20 t_1 = gibbs_newton_round(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, heavy); real p0 = t_1.a0;
+    real p1 = t_1.a1, p2 = t_1.a2, p3 = t_1.a3, w1 = t_1.a4, w2 = t_1.a5, w3 = t_1.a6, first = t_1.a7, d1 = t_1.a8;
+    real d2 = t_1.a9, d3 = t_1.a10, c11 = t_1.a11, c12 = t_1.a12, c13 = t_1.a13, c21 = t_1.a14, c22 = t_1.a15;
+    real c23 = t_1.a16, c31 = t_1.a17, c32 = t_1.a18, c33 = t_1.a19;
+    if (first <= enough) return (t_br7){1, p0, p1, p2, p3, w1, w2, w3};
+    t_r7 t_2 = gibbs_second_round(p0, p1, p2, p3, k1, k2, k3, d1, d2, d3, c11, c12, c13, c21, c22, c23, c31, c32, c33,
+        I1, I2, I3);
+    p1 = t_2.a0; p2 = t_2.a1; p3 = t_2.a2; w1 = t_2.a3; w2 = t_2.a4; w3 = t_2.a5; real second = t_2.a6;
+    int settled = 9 * max_r(first, second) * second <= enough * enough && w1 * w1 + (w2 * w2 + w3 * w3) <= radius;
+    return (t_br7){settled, p0, p1, p2, p3, w1, w2, w3};
+}
+
+INLINE t_r8 sums_filtered(real b, real c, real d, real e, real f, real h, real o, real w) {
+    return (t_r8){b + 8 * w, c - 28 * w, d + 56 * w, e - 70 * w, f + 56 * w, h - 28 * w, o + 8 * w, -w};
+}
+
+INLINE t_r3 kernel_turn(real p0, real p1, real p2, real p3, real v1, real v2, real v3) {
+    real s = 2 / (p0 * p0 + p1 * p1 + (p2 * p2 + p3 * p3)), x1 = p2 * v3 - p3 * v2, x2 = p3 * v1 - p1 * v3;
+    real x3 = p1 * v2 - p2 * v1, o_x1 = s * (p2 * x3 - p0 * x1 - p3 * x2), o_x2 = s * (p3 * x1 - p0 * x2 - p1 * x3);
+    real o_x3 = s * (p1 * x2 - p0 * x3 - p2 * x1); return (t_r3){o_x1, o_x2, o_x3};
+}
+
+INLINE t_r2 sums_added(real total, real rest, real more) {
+    more = more - rest; real there = total + more; return (t_r2){there, there - total - more};
+}
+
+INLINE t_r6 sums_turned(real p0, real p1, real p2, real p3, real v1, real v2, real v3, real x1, real x2, real x3) {
+    t_r3 z1 = kernel_turn(p0, p1, p2, p3, v1, v2, v3); t_r2 t_1 = sums_added(v1, x1, z1.a0); v1 = t_1.a0; x1 = t_1.a1;
+    t_r2 t_2 = sums_added(v2, x2, z1.a1); v2 = t_2.a0; x2 = t_2.a1; t_r2 t_3 = sums_added(v3, x3, z1.a2); v3 = t_3.a0;
+    x3 = t_3.a1; return (t_r6){v1, v2, v3, x1, x2, x3};
+}
+
+INLINE t_r3 integrals_missing(r1 state) {
+    real k1 = state.p[0], k2 = state.p[1], k3 = state.p[2], g1 = state.p[3], g2 = state.p[4], g3 = state.p[5];
+    real x1 = state.p[6], x2 = state.p[7], x3 = state.p[8], y1 = state.p[9], y2 = state.p[10], y3 = state.p[11];
+    t_r2 t_1 = integrals_inner(g1, g2, g3, -g1, -g2, -g3, state.p[12], state.p[13]); real unit = t_1.a0;
+    t_r2 t_2 = integrals_inner(k1, k2, k3, -g1, -g2, -g3, state.p[14], state.p[15]); real height = t_2.a0;
+    t_r2 t_3 = integrals_inner(k1, k2, k3, -k1, -k2, -k3, state.p[16], state.p[17]); real squared = t_3.a0;
+    unit += 2 * (g1 * y1 + g2 * y2 + g3 * y3); height += k1 * y1 + k2 * y2 + k3 * y3 + (g1 * x1 + g2 * x2 + g3 * x3);
+    squared += 2 * (k1 * x1 + k2 * x2 + k3 * x3); return (t_r3){unit, height, squared};
+}
+
+INLINE t_r3 integrals_shares(real unit, real height, real squared, real one, real h, real n) {
+    if (!(n > 0)) return (t_r3){0, 0, 0};
+    real stretch = R(0.5) * unit / one; height -= stretch * h; real sine = one - h * h / n;
+    if (sine > integrals_VERTICAL) {
+        real along_gamma = (height - R(0.5) * squared * h / n) / sine;
+        return (t_r3){stretch, (R(0.5) * squared - along_gamma * h) / n, along_gamma};
+    }
+    return (t_r3){stretch, R(0.5) * squared / n, 0};
+}
+
+INLINE void integrals_give(r1 state, real stretch, real along_k, real along_gamma) {
+    for (int64_t i = 0; i < 3; i++) {
+        real k = state.p[i], g = state.p[3 + i]; state.p[6 + i] = state.p[6 + i] - (along_k * k + along_gamma * g);
+        state.p[9 + i] = state.p[9 + i] - stretch * g;
+    }
+}
+
+OUT_OF_LINE void integrals_restore(r1 state) {
+    t_r3 unit = integrals_missing(state);
+    t_r3 stretch = integrals_shares(unit.a0, unit.a1, unit.a2, state.p[12], state.p[14], state.p[16]);
+    integrals_give(state, stretch.a0, stretch.a1, stretch.a2);
+}
+
+INLINE t_r4 kernel_compose(real a0, real a1, real a2, real a3, real b0, real b1, real b2, real b3) {
+    real o_c0 = a0 * b0 - a1 * b1 - (a2 * b2 + a3 * b3), o_c1 = a0 * b1 + a1 * b0 + (a2 * b3 - a3 * b2);
+    real o_c2 = a0 * b2 + a2 * b0 + (a3 * b1 - a1 * b3), o_c3 = a0 * b3 + a1 * b2 + (a3 * b0 - a2 * b1);
+    return (t_r4){o_c0, o_c1, o_c2, o_c3};
+}
+
+INLINE t_r8b2 path_improved(real u1, real u2, real u3, real k1, real k2, real k3, real g1, real g2, real g3, real I1,
+    real I2, real I3, real D) {
+    t_r20 t_1 = gibbs_newton_round(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, 0); real p0 = t_1.a0;
+    real p1 = t_1.a1, p2 = t_1.a2, p3 = t_1.a3, first = t_1.a7, d1 = t_1.a8, d2 = t_1.a9, d3 = t_1.a10, c11 = t_1.a11;
+    real c12 = t_1.a12, c13 = t_1.a13, c21 = t_1.a14, c22 = t_1.a15, c23 = t_1.a16, c31 = t_1.a17, c32 = t_1.a18;
+    real c33 = t_1.a19;
+    t_r7 t_2 = gibbs_second_round(p0, p1, p2, p3, k1, k2, k3, d1, d2, d3, c11, c12, c13, c21, c22, c23, c31, c32, c33,
+        I1, I2, I3);
+    p1 = t_2.a0; p2 = t_2.a1; p3 = t_2.a2; real w1 = t_2.a3, w2 = t_2.a4, w3 = t_2.a5, second = t_2.a6;
+    real square = w1 * w1 + (w2 * w2 + w3 * w3), curved = 6 * (R(0.5) * (max_r(max_r(I1, I2), I3) - min_r(min_r(I1,
+        I2), I3)) + real_sqrt(k1 * k1 + (k2 * k2 + k3 * k3)));
+    real left = curved * curved * (max_r(first, second) * second);
+    real allowed = R(0x1.0000000000000p-53) * (R(0.0625) * (max_r(max_r(I1, I2), I3) + D));
+    return (t_r8b2){p0, p1, p2, p3, w1, w2, w3, left, left <= allowed * allowed * square, second <= R(1e-26) *
+        square};
+}
+
+INLINE real path_lowest(real trace, real minors, real det) {
+    int positive = ((trace > 0) & (minors > 0)) & (det > 0); real x = positive ? det / minors : -1;
+    for (int64_t i_0 = 0; i_0 < 2; i_0++) {
+        real value = ((x - trace) * x + minors) * x - det, slope = (3 * x - 2 * trace) * x + minors;
+        x = positive & (slope > 0) ? x - value / slope : x;
+    }
+    return x;
+}
+
+INLINE int path_small_between(real a, real b, real most, real square, real c, real along, real across, real half, real
+    slope, real sag, real first, real last) {
+    real start = square * (1 + a) - c * (1 + a * a * square) - along;
+    real end = square * (1 + b) - c * (1 + b * b * square) - along;
+    real r = max_r(real_abs(start), real_abs(end)) + R(0.25) * (b - a) * (b - a) * c * square;
+    real m = min_r((1 - a) * first + a * last, (1 - b) * first + b * last) - most * sag, left = 4 * slope * most;
+    return (m > 0) & (left * left * (half * half * (r * r) + across) < R(0.98) * (m * m) * (m * m));
+}
+
+INLINE t_r3 kernel_gibbs_symmetric(real u1, real u2, real u3, real k1, real k2, real k3, real g1, real g2, real g3,
+    real I1, real I2, real I3, real D) {
+    real t0 = D * g2 * g2, t1 = D * g3 * g3, t2 = D * g1, t3 = D * g1 * g1, e11 = I1 + t0 + (t1 - 2 * k1 * u1);
+    real e12 = I1 * u3 / 2 - I2 * u3 / 2 - g2 * t2 - (k1 * u2 + k2 * u1);
+    real e13 = I3 * u2 / 2 - I1 * u2 / 2 - g3 * t2 - (k1 * u3 + k3 * u1), e22 = I2 + t1 + (t3 - 2 * k2 * u2);
+    real e23 = I2 * u1 / 2 - I3 * u1 / 2 - k2 * u3 - (k3 * u2 + D * g2 * g3), e33 = I3 + t0 + (t3 - 2 * k3 * u3);
+    real t4 = e22 * e33 - e23 * e23, o_trace = e11 + e22 + e33;
+    real o_minors = t4 + e11 * e22 + e11 * e33 - (e12 * e12 + e13 * e13);
+    real o_det = e11 * t4 + e12 * (e13 * e23 - e12 * e33) + e13 * (e12 * e23 - e13 * e22);
+    return (t_r3){o_trace, o_minors, o_det};
+}
+
+INLINE t_br path_joined(real u1, real u2, real u3, real square, real k1, real k2, real k3, real half, real g1, real
+    g2, real g3, real I1, real I2, real I3, real D, real spread) {
+    real none = 0 * u1; t_r3 t_1 = kernel_gibbs_symmetric(none, none, none, k1, k2, k3, g1, g2, g3, I1, I2, I3, D);
+    real first = path_lowest(t_1.a0, t_1.a1, t_1.a2);
+    t_r3 t_2 = kernel_gibbs_symmetric(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D);
+    real last = path_lowest(t_2.a0, t_2.a1, t_2.a2), x1 = I3 * u2 * u3 - I2 * u2 * u3;
+    real x2 = I1 * u1 * u3 - I3 * u1 * u3, x3 = I2 * u1 * u2 - I1 * u1 * u2;
+    real along = (x1 * k1 + (x2 * k2 + x3 * k3)) / (half * half);
+    real across = max_r(x1 * x1 + (x2 * x2 + x3 * x3) - along * along * (half * half), 0);
+    real c = max_r(0, min_r(1, (square * R(1.75) - along) / (1 + R(0.5625) * square)));
+    real sag = half * real_sqrt(square) - (k1 * u1 + (k2 * u2 + k3 * u3)), slope = spread + 2 * half;
+    int proved = (first > 0) & (last > 0);
+    proved = proved & path_small_between(0, R(0.4), R(0.24), square, c, along, across, half, slope, sag, first, last);
+    proved = proved & path_small_between(R(0.4), R(0.65), R(0.25), square, c, along, across, half, slope, sag, first,
+        last);
+    proved = proved & path_small_between(R(0.65), R(0.85), R(0.2275), square, c, along, across, half, slope, sag,
+        first, last);
+    proved = proved & path_small_between(R(0.85), 1, R(0.1275), square, c, along, across, half, slope, sag, first,
+        last);
+    return (t_br){proved, last};
+}
+
+INLINE int path_proved(real u1, real u2, real u3, real left, real k1, real k2, real k3, real g1, real g2, real g3,
+    real I1, real I2, real I3, real D) {
+    real half = real_sqrt(k1 * k1 + (k2 * k2 + k3 * k3));
+    real spread = R(0.5) * (max_r(max_r(I1, I2), I3) - min_r(min_r(I1, I2), I3));
+    real square = u1 * u1 + (u2 * u2 + u3 * u3);
+    t_br reached = path_joined(u1, u2, u3, square, k1, k2, k3, half, g1, g2, g3, I1, I2, I3, D, spread);
+    real allowed = R(0x1.0000000000000p-53) * reached.a1; return reached.a0 & (left <= allowed * allowed * square);
+}
+
+INLINE t_br7 path_search_on_path(real u1, real u2, real u3, real k1, real k2, real k3, real g1, real g2, real g3, real
+    I1, real I2, real I3, real D) {
+    t_r20 t_1 = gibbs_newton_round(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, 0); u1 = t_1.a4; u2 = t_1.a5;
+    u3 = t_1.a6;
+    for (int64_t i_1 = 0; i_1 < 6; i_1++) {
+        t_r8b2 t_3 = path_improved(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D); real p0 = t_3.a0, p1 = t_3.a1;
+        real p2 = t_3.a2, p3 = t_3.a3; u1 = t_3.a4; u2 = t_3.a5; u3 = t_3.a6; real left = t_3.a7; int near = t_3.a8;
+        int found = t_3.a9;
+        if ((near || found) && path_proved(u1, u2, u3, left, k1, k2, k3, g1, g2, g3, I1, I2, I3, D))
+            return (t_br7){1, p0, p1, p2, p3, u1, u2, u3};
+        if (found) break;
+    }
+    return (t_br7){0, 1, 0, 0, 0, u1, u2, u3};
+}
+
+INLINE t_br7 gibbs_search(real u1, real u2, real u3, real k1, real k2, real k3, real g1, real g2, real g3, real I1,
+    real I2, real I3, real D, real radius, real enough, int heavy) {
+    int settled; real p0, p1, p2, p3;
+    for (int64_t guess = 0; guess < 2; guess++) {
+        if (guess == 1) {
+            u1 = 0; u2 = 0; u3 = 0;
+        }
+        for (int64_t i_0 = 0; i_0 < 12; i_0++) {
+            t_br7 t_2 = gibbs_settle(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, radius, enough, heavy);
+            settled = t_2.a0; p0 = t_2.a1; p1 = t_2.a2; p2 = t_2.a3; p3 = t_2.a4; u1 = t_2.a5; u2 = t_2.a6;
+            u3 = t_2.a7;
+            if (settled) return (t_br7){1, p0, p1, p2, p3, u1, u2, u3};
+        }
+    }
+    return (t_br7){0, 1, 0, 0, 0, u1, u2, u3};
+}
+
+INLINE t_br7 gibbs_search_safely(real u1, real u2, real u3, real k1, real k2, real k3, real g1, real g2, real g3, real
+    I1, real I2, real I3, real D, real radius, real enough) {
+    int heavy = gibbs_is_heavy(I1, I2, I3, D);
+    if (heavy && max_r(max_r(real_abs(k1), real_abs(k2)), real_abs(k3)) < min_r(min_r(I1, I2), I3)) {
+        t_ri size = real_frexp(max_r(max_r(I1, I2), I3) + D); I1 = (real)ldexp(I1, (int)-size.a1);
+        I2 = (real)ldexp(I2, (int)-size.a1); I3 = (real)ldexp(I3, (int)-size.a1); D = (real)ldexp(D, (int)-size.a1);
+        k1 = (real)ldexp(k1, (int)-size.a1); k2 = (real)ldexp(k2, (int)-size.a1); k3 = (real)ldexp(k3, (int)-size.a1);
+        if (min_r(min_r(I1, I2), I3) >= gibbs_LIGHTEST && max_r(max_r(real_abs(k1), real_abs(k2)), real_abs(k3)) >=
+            gibbs_LIGHTEST) {
+            t_r2 t_1 = gibbs_bound(k1, k2, k3, I1, I2, I3, D); radius = t_1.a0; enough = t_1.a1;
+        }
+    }
+    if (!(radius >= 0)) return (t_br7){0, 1, 0, 0, 0, u1, u2, u3};
+    return gibbs_search(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, radius, enough, heavy);
+}
+
+INLINE t_r3 kernel_centre_step(real q0, real q1, real q2, real q3, real g1, real g2, real g3) {
+    real t0 = 2 * q0, o_s1 = t0 * (g3 * q2 - g2 * q3), o_s2 = -t0 * (g3 * q1 - g1 * q3);
+    real o_s3 = t0 * (g2 * q1 - g1 * q2); return (t_r3){o_s1, o_s2, o_s3};
+}
+
+INLINE t_r3 kernel_rotate(real q0, real q1, real q2, real q3, real v1, real v2, real v3) {
+    real t0 = q2 * q2, t1 = q3 * q3, t2 = 2 * v1, t3 = q0 * q2, t4 = q1 * q3, t5 = q0 * q3, t6 = q1 * q2, t7 = 2 * v2;
+    real t8 = q1 * q1, t9 = q0 * q1, t10 = q2 * q3, t11 = 2 * v3;
+    real o_x1 = v1 + 2 * v3 * (t3 + t4) - (t2 * (t0 + t1) + t7 * (t5 - t6));
+    real o_x2 = v2 + t2 * (t5 + t6) - (t11 * (t9 - t10) + t7 * (t1 + t8));
+    real o_x3 = v3 + 2 * v2 * (t10 + t9) - (t11 * (t0 + t8) + t2 * (t3 - t4)); return (t_r3){o_x1, o_x2, o_x3};
+}
+
+INLINE t_r6 loop_followed(real p0, real p1, real p2, real p3, real g1, real g2, real g3, real a0, real a1, real a2,
+    real a3, real x, real y, real radius) {
+    real length = real_sqrt(p0 * p0 + p1 * p1 + (p2 * p2 + p3 * p3)), q0 = p0 / length, q1 = p1 / length;
+    real q2 = p2 / length, q3 = p3 / length; t_r3 s1 = kernel_centre_step(q0, q1, q2, q3, g1, g2, g3);
+    t_r3 d1 = kernel_rotate(a0, a1, a2, a3, s1.a0, s1.a1, s1.a2);
+    t_r4 t_1 = kernel_compose(a0, a1, a2, a3, q0, q1, q2, q3); a0 = t_1.a0; a1 = t_1.a1; a2 = t_1.a2; a3 = t_1.a3;
+    real scale = R(1.5) - R(0.5) * (a0 * a0 + a1 * a1 + a2 * a2 + a3 * a3);
+    return (t_r6){a0 * scale, a1 * scale, a2 * scale, a3 * scale, x + radius * d1.a0, y + radius * d1.a1};
+}
+
+OUT_OF_LINE real composed_loop_prepare_composed(r1 momentum, r1 g, r1 tensor, real contact, r1 c, r1 state, r1 radius,
+    r1 enough) {
+    ALIGNED real part_[3]; r1 part = {part_, 3};
+    for (int64_t i = 0; i < c.n0; i++) {
+        for (int64_t j = 0; j < 3; j++) part.p[j] = c.p[i] * momentum.p[j];
+        loop_prepare(part, g, tensor, contact, state); radius.p[i] = state.p[49]; enough.p[i] = state.p[50];
+    }
+    return loop_prepare(momentum, g, tensor, contact, state);
+}
+
+INLINE t_i2 composed_loop_place(int64_t step, int64_t stages, int64_t places) {
+    return (t_i2){step * stages % places, step * stages < places ? 0 : 1};
+}
+
+INLINE t_r3 composed_loop_guess(r2 past, r1 weights) {
+    real u1 = 0, u2 = 0, u3 = 0;
+    for (int64_t j = 0; j < weights.n0; j++) {
+        u1 = u1 + weights.p[j] * past.p[j * past.s0 + 0]; u2 = u2 + weights.p[j] * past.p[j * past.s0 + 1];
+        u3 = u3 + weights.p[j] * past.p[j * past.s0 + 2];
+    }
+    return (t_r3){u1, u2, u3};
+}
+
+INLINE void composed_loop_turn_at(real p0, real p1, real p2, real p3, r1 state, int64_t at, int64_t rest) {
+    t_r3 t_1 = loop_three(state, at), t_2 = loop_three(state, rest);
+    t_r6 v1 = sums_turned(p0, p1, p2, p3, t_1.a0, t_1.a1, t_1.a2, t_2.a0, t_2.a1, t_2.a2);
+    loop_put(state, at, v1.a0, v1.a1, v1.a2); loop_put(state, rest, v1.a3, v1.a4, v1.a5);
+}
+
+INLINE void block_prepare_block(r2 momentum, r2 g, r2 tensor, r1 contact, r2 state, r1 scale) {
+    ALIGNED real one_[51]; r1 one = {one_, 51}; int64_t last = contact.n0 - 1;
+    for (int64_t lane = 0; lane < state.n1; lane++) {
+        int64_t i = min_i(lane, last);
+        scale.p[i] = loop_prepare((r1){momentum.p + i * momentum.s0, momentum.n1}, (r1){g.p + i * g.s0, g.n1},
+            (r1){tensor.p + i * tensor.s0, tensor.n1}, contact.p[i], one);
+        for (int64_t row = 0; row < 51; row++) state.p[row * state.s0 + lane] = one.p[row];
+    }
+}
+
+INLINE void block_carry(r2 numbers, r2 to, int64_t width) {
+    for (int64_t row = 0; row < to.n0; row++) {
+        for (int64_t i = 0; i < width; i++) to.p[row * to.s0 + i] = numbers.p[row * numbers.s0 + i];
+    }
+}
+
+INLINE t_i2 block_uncertified(r1 radius, w1 ok) {
+    int64_t count = 0, beyond = 0;
+    for (int64_t i = 0; i < ok.n0; i++) {
+        count += radius.p[i] >= 0 ? 0 : 1; beyond += radius.p[i] == -2 ? 1 : 0;
+    }
+    return (t_i2){count, beyond};
+}
+
+INLINE int64_t block_whole(w1 ok) {
+    return ok.n0 / block_REGISTER * block_REGISTER;
+}
+
+INLINE int64_t block_unsettled(w1 ok) {
+    int64_t bad = 0, end_1 = block_whole(ok);
+    INDEPENDENT
+    for (int64_t i = 0; i < end_1; i++) bad += 1 - ok.p[i];
+    return bad;
+}
+
+INLINE int64_t block_predicted(r2 S, r2 P, w1 ok) {
+    int64_t end_1 = block_whole(ok);
+    INDEPENDENT
+    for (int64_t i = 0; i < end_1; i++) {
+        real u1 = S.p[18 * S.s0 + i], u2 = S.p[19 * S.s0 + i], u3 = S.p[20 * S.s0 + i];
+        t_r20 p0 = gibbs_newton_round(u1, u2, u3, S.p[0 * S.s0 + i], S.p[1 * S.s0 + i], S.p[2 * S.s0 + i], S.p[3 *
+            S.s0 + i], S.p[4 * S.s0 + i], S.p[5 * S.s0 + i], S.p[45 * S.s0 + i], S.p[46 * S.s0 + i], S.p[47 * S.s0 +
+            i], S.p[48 * S.s0 + i], 0);
+        P.p[0 * P.s0 + i] = p0.a0; P.p[1 * P.s0 + i] = p0.a1; P.p[2 * P.s0 + i] = p0.a2; P.p[3 * P.s0 + i] = p0.a3;
+        P.p[4 * P.s0 + i] = p0.a4; P.p[5 * P.s0 + i] = p0.a5; P.p[6 * P.s0 + i] = p0.a6;
+        int settled = (u1 * u1 + (u2 * u2 + u3 * u3) <= S.p[49 * S.s0 + i]) & (p0.a7 <= S.p[50 * S.s0 + i]);
+        ok.p[i] = settled ? 1 : 0;
+    }
+    return block_unsettled(ok);
+}
+
+INLINE void block_approached(r2 S, r2 P, w1 ok) {
+    int64_t end_1 = block_whole(ok);
+    INDEPENDENT
+    for (int64_t i = 0; i < end_1; i++) {
+        int beyond = S.p[49 * S.s0 + i] == -2;
+        t_r20 w1 = gibbs_newton_round(S.p[18 * S.s0 + i], S.p[19 * S.s0 + i], S.p[20 * S.s0 + i], S.p[0 * S.s0 + i],
+            S.p[1 * S.s0 + i], S.p[2 * S.s0 + i], S.p[3 * S.s0 + i], S.p[4 * S.s0 + i], S.p[5 * S.s0 + i], S.p[45 *
+            S.s0 + i], S.p[46 * S.s0 + i], S.p[47 * S.s0 + i], S.p[48 * S.s0 + i], 0);
+        real t_2 = beyond ? w1.a4 : P.p[4 * P.s0 + i], t_3 = beyond ? w1.a5 : P.p[5 * P.s0 + i];
+        real t_4 = beyond ? w1.a6 : P.p[6 * P.s0 + i]; P.p[4 * P.s0 + i] = t_2; P.p[5 * P.s0 + i] = t_3;
+        P.p[6 * P.s0 + i] = t_4; P.p[7 * P.s0 + i] = beyond ? 1 : 0; ok.p[i] = beyond ? 0 : ok.p[i];
+    }
+}
+
+INLINE int64_t block_on_path(r2 S, r2 P, w1 ok) {
+    int64_t end_1 = block_whole(ok);
+    INDEPENDENT
+    for (int64_t i = 0; i < end_1; i++) {
+        int settled = (S.p[49 * S.s0 + i] == -2) & path_proved(P.p[4 * P.s0 + i], P.p[5 * P.s0 + i], P.p[6 * P.s0 +
+            i], P.p[8 * P.s0 + i], S.p[0 * S.s0 + i], S.p[1 * S.s0 + i], S.p[2 * S.s0 + i], S.p[3 * S.s0 + i], S.p[4 *
+            S.s0 + i], S.p[5 * S.s0 + i], S.p[45 * S.s0 + i], S.p[46 * S.s0 + i], S.p[47 * S.s0 + i], S.p[48 * S.s0 +
+            i]);
+        ok.p[i] = settled ? 1 : ok.p[i];
+    }
+    return block_unsettled(ok);
+}
+
+INLINE int64_t block_corrected(r2 S, r2 P, w1 ok, int again) {
+    int64_t end_1 = block_whole(ok);
+    INDEPENDENT
+    for (int64_t i = 0; i < end_1; i++) {
+        real radius = S.p[49 * S.s0 + i], enough = S.p[50 * S.s0 + i];
+        real u1 = again ? P.p[4 * P.s0 + i] : S.p[18 * S.s0 + i], u2 = again ? P.p[5 * P.s0 + i] : S.p[19 * S.s0 + i];
+        real u3 = again ? P.p[6 * P.s0 + i] : S.p[20 * S.s0 + i]; int near = u1 * u1 + (u2 * u2 + u3 * u3) <= radius;
+        if (again) {
+            u1 = near ? u1 : 0; u2 = near ? u2 : 0; u3 = near ? u3 : 0; near = radius >= 0;
+        }
+        real k1 = S.p[0 * S.s0 + i], k2 = S.p[1 * S.s0 + i], k3 = S.p[2 * S.s0 + i], I1 = S.p[45 * S.s0 + i];
+        real I2 = S.p[46 * S.s0 + i], I3 = S.p[47 * S.s0 + i];
+        t_r20 t_2 = gibbs_newton_round(u1, u2, u3, k1, k2, k3, S.p[3 * S.s0 + i], S.p[4 * S.s0 + i], S.p[5 * S.s0 +
+            i], I1, I2, I3, S.p[48 * S.s0 + i], 0);
+        real p0 = t_2.a0, p1 = t_2.a1, p2 = t_2.a2, p3 = t_2.a3, w1 = t_2.a4, w2 = t_2.a5, w3 = t_2.a6;
+        real first = t_2.a7, d1 = t_2.a8, d2 = t_2.a9, d3 = t_2.a10, c11 = t_2.a11, c12 = t_2.a12, c13 = t_2.a13;
+        real c21 = t_2.a14, c22 = t_2.a15, c23 = t_2.a16, c31 = t_2.a17, c32 = t_2.a18, c33 = t_2.a19;
+        t_r7 r1 = gibbs_second_round(p0, p1, p2, p3, k1, k2, k3, d1, d2, d3, c11, c12, c13, c21, c22, c23, c31, c32,
+            c33, I1, I2, I3);
+        int once = near & (first <= enough);
+        int twice = near & (r1.a3 * r1.a3 + (r1.a4 * r1.a4 + r1.a5 * r1.a5) <= radius);
+        twice = twice & (9 * max_r(first, r1.a6) * r1.a6 <= enough * enough); int done = again & (ok.p[i] == 1);
+        p1 = once ? p1 : r1.a0; p2 = once ? p2 : r1.a1; p3 = once ? p3 : r1.a2; w1 = once ? w1 : r1.a3;
+        w2 = once ? w2 : r1.a4; w3 = once ? w3 : r1.a5; w1 = near ? w1 : u1; w2 = near ? w2 : u2; w3 = near ? w3 : u3;
+        real t_3 = done ? P.p[0 * P.s0 + i] : p0, t_4 = done ? P.p[1 * P.s0 + i] : p1; P.p[0 * P.s0 + i] = t_3;
+        P.p[1 * P.s0 + i] = t_4; real t_5 = done ? P.p[2 * P.s0 + i] : p2, t_6 = done ? P.p[3 * P.s0 + i] : p3;
+        P.p[2 * P.s0 + i] = t_5; P.p[3 * P.s0 + i] = t_6; real t_7 = done ? P.p[4 * P.s0 + i] : w1;
+        real t_8 = done ? P.p[5 * P.s0 + i] : w2, t_9 = done ? P.p[6 * P.s0 + i] : w3; P.p[4 * P.s0 + i] = t_7;
+        P.p[5 * P.s0 + i] = t_8; P.p[6 * P.s0 + i] = t_9; ok.p[i] = (done | once) | twice ? 1 : 0;
+    }
+    return block_unsettled(ok);
+}
+
+INLINE real block_nearer(r2 S, r2 P, w1 ok) {
+    real left; int64_t end_1 = block_whole(ok);
+    INDEPENDENT
+    for (int64_t i = 0; i < end_1; i++) {
+        int going = P.p[7 * P.s0 + i] == 1;
+        t_r8b2 t_2 = path_improved(P.p[4 * P.s0 + i], P.p[5 * P.s0 + i], P.p[6 * P.s0 + i], S.p[0 * S.s0 + i], S.p[1 *
+            S.s0 + i], S.p[2 * S.s0 + i], S.p[3 * S.s0 + i], S.p[4 * S.s0 + i], S.p[5 * S.s0 + i], S.p[45 * S.s0 + i],
+            S.p[46 * S.s0 + i], S.p[47 * S.s0 + i], S.p[48 * S.s0 + i]);
+        real p0 = t_2.a0, p1 = t_2.a1, p2 = t_2.a2, p3 = t_2.a3, w1 = t_2.a4, w2 = t_2.a5, w3 = t_2.a6; left = t_2.a7;
+        int near = t_2.a8, found = t_2.a9; real t_3 = going ? p0 : P.p[0 * P.s0 + i];
+        real t_4 = going ? p1 : P.p[1 * P.s0 + i]; P.p[0 * P.s0 + i] = t_3; P.p[1 * P.s0 + i] = t_4;
+        real t_5 = going ? p2 : P.p[2 * P.s0 + i], t_6 = going ? p3 : P.p[3 * P.s0 + i]; P.p[2 * P.s0 + i] = t_5;
+        P.p[3 * P.s0 + i] = t_6; real t_7 = going ? w1 : P.p[4 * P.s0 + i], t_8 = going ? w2 : P.p[5 * P.s0 + i];
+        real t_9 = going ? w3 : P.p[6 * P.s0 + i]; P.p[4 * P.s0 + i] = t_7; P.p[5 * P.s0 + i] = t_8;
+        P.p[6 * P.s0 + i] = t_9; real t_10 = near | found ? 0 : P.p[7 * P.s0 + i];
+        real t_11 = going ? left : P.p[8 * P.s0 + i]; P.p[7 * P.s0 + i] = t_10; P.p[8 * P.s0 + i] = t_11;
+    }
+    left = 0; int64_t end_12 = block_whole(ok);
+    INDEPENDENT
+    for (int64_t i = 0; i < end_12; i++) left += P.p[7 * P.s0 + i];
+    return left;
+}
+
+INLINE t_i2 block_solved(r2 S, r2 P, w1 ok, int64_t hopeless, int64_t beyond, int64_t patience) {
+    int64_t bad = beyond < ok.n0 ? hopeless + 1 : hopeless;
+    if (patience == 0 && beyond < ok.n0) bad = block_predicted(S, P, ok);
+    int64_t rounds;
+    if (bad > hopeless) {
+        patience = patience == 0 ? 64 : patience - 1; bad = block_corrected(S, P, ok, 0); rounds = 1;
+        while (bad > hopeless + 2 && rounds < 4) {
+            bad = block_corrected(S, P, ok, 1); rounds = rounds + 1;
+        }
+    }
+    if (beyond != 0) {
+        block_approached(S, P, ok); real left = block_nearer(S, P, ok); rounds = 1;
+        while (left > 0 && rounds < 6) {
+            left = block_nearer(S, P, ok); rounds = rounds + 1;
+        }
+        bad = block_on_path(S, P, ok);
+    }
+    return (t_i2){patience, bad};
+}
+
+INLINE void block_turn_at(real p0, real p1, real p2, real p3, r2 S, int64_t at, int64_t rest, int64_t i) {
+    t_r6 v1 = sums_turned(p0, p1, p2, p3, S.p[at * S.s0 + i], S.p[(at + 1) * S.s0 + i], S.p[(at + 2) * S.s0 + i],
+        S.p[rest * S.s0 + i], S.p[(rest + 1) * S.s0 + i], S.p[(rest + 2) * S.s0 + i]);
+    S.p[at * S.s0 + i] = v1.a0; S.p[(at + 1) * S.s0 + i] = v1.a1; S.p[(at + 2) * S.s0 + i] = v1.a2;
+    S.p[rest * S.s0 + i] = v1.a3; S.p[(rest + 1) * S.s0 + i] = v1.a4; S.p[(rest + 2) * S.s0 + i] = v1.a5;
+}
+
+INLINE void block_extrapolated(r2 S, int64_t row, int64_t i, real w) {
+    t_r8 t_1 = sums_filtered(S.p[(row + 3) * S.s0 + i], S.p[(row + 6) * S.s0 + i], S.p[(row + 9) * S.s0 + i], S.p[(row
+        + 12) * S.s0 + i], S.p[(row + 15) * S.s0 + i], S.p[(row + 18) * S.s0 + i], S.p[(row + 21) * S.s0 + i], w);
+    S.p[row * S.s0 + i] = t_1.a0; S.p[(row + 3) * S.s0 + i] = t_1.a1; S.p[(row + 6) * S.s0 + i] = t_1.a2;
+    S.p[(row + 9) * S.s0 + i] = t_1.a3; S.p[(row + 12) * S.s0 + i] = t_1.a4; S.p[(row + 15) * S.s0 + i] = t_1.a5;
+    S.p[(row + 18) * S.s0 + i] = t_1.a6; S.p[(row + 21) * S.s0 + i] = t_1.a7;
+}
+
+INLINE void block_moved(r2 S, r2 P, w1 ok) {
+    int64_t end_1 = block_whole(ok);
+    INDEPENDENT
+    for (int64_t i = 0; i < end_1; i++) {
+        real p0 = P.p[0 * P.s0 + i], p1 = P.p[1 * P.s0 + i], p2 = P.p[2 * P.s0 + i], p3 = P.p[3 * P.s0 + i];
+        real w1 = P.p[4 * P.s0 + i], w2 = P.p[5 * P.s0 + i], w3 = P.p[6 * P.s0 + i];
+        block_turn_at(p0, p1, p2, p3, S, 0, 6, i); block_turn_at(p0, p1, p2, p3, S, 3, 9, i);
+        block_extrapolated(S, 18, i, w1); block_extrapolated(S, 19, i, w2); block_extrapolated(S, 20, i, w3);
+    }
+}
+
+OUT_OF_LINE void block_restored(r2 S, i1 status) {
+    r1 one; int64_t row;
+    for (int64_t i = 0; i < status.n0; i++) {
+        if (status.p[i] == 0) {
+            real one_[S.n0];
+            for (int64_t i_ = 0; i_ < S.n0; i_++) one_[i_] = S.p[i_ * S.s0 + i];
+            one = (r1){one_, S.n0}; integrals_restore(one);
+            for (row = 6; row < 12; row++) S.p[row * S.s0 + i] = one.p[row];
+        }
+    }
+}
+
+INLINE void block_keep(r2 S, r2 B, int64_t frame, r1 scale, r3 momenta, r3 verticals, i1 status, int with_body, r3
+    attitudes, r3 traces) {
+    int64_t c;
+    for (int64_t i = 0; i < status.n0; i++) {
+        if (status.p[i] == 0) {
+            for (c = 0; c < 3; c++) {
+                momenta.p[i * momenta.s0 + frame * momenta.s1 + c] = scale.p[i] * S.p[(0 + c) * S.s0 + i];
+                verticals.p[i * verticals.s0 + frame * verticals.s1 + c] = S.p[(3 + c) * S.s0 + i];
+            }
+            if (with_body) {
+                for (c = 0; c < 4; c++) attitudes.p[i * attitudes.s0 + frame * attitudes.s1 + c] = B.p[c * B.s0 + i];
+                traces.p[i * traces.s0 + frame * traces.s1 + 0] = B.p[4 * B.s0 + i];
+                traces.p[i * traces.s0 + frame * traces.s1 + 1] = B.p[5 * B.s0 + i];
+            }
+        }
+    }
+}
+
+INLINE void block_rolled(r2 S, r2 P, r2 B, w1 ok) {
+    int64_t end_1 = block_whole(ok);
+    INDEPENDENT
+    for (int64_t i = 0; i < end_1; i++) {
+        t_r6 t_2 = loop_followed(P.p[0 * P.s0 + i], P.p[1 * P.s0 + i], P.p[2 * P.s0 + i], P.p[3 * P.s0 + i], S.p[3 *
+            S.s0 + i], S.p[4 * S.s0 + i], S.p[5 * S.s0 + i], B.p[0 * B.s0 + i], B.p[1 * B.s0 + i], B.p[2 * B.s0 + i],
+            B.p[3 * B.s0 + i], B.p[4 * B.s0 + i], B.p[5 * B.s0 + i], B.p[6 * B.s0 + i]);
+        B.p[0 * B.s0 + i] = t_2.a0; B.p[1 * B.s0 + i] = t_2.a1; B.p[2 * B.s0 + i] = t_2.a2;
+        B.p[3 * B.s0 + i] = t_2.a3; B.p[4 * B.s0 + i] = t_2.a4; B.p[5 * B.s0 + i] = t_2.a5;
+    }
+}
+
+INLINE void composed_block_prepare_composed_block(r2 momentum, r2 g, r2 tensor, r1 contact, r1 c, r2 state, r2 radius,
+    r2 enough, r1 scale) {
+    ALIGNED real one_[51]; r1 one = {one_, 51}; int64_t last = contact.n0 - 1; ALIGNED real bounds_[2 * c.n0];
+    r2 bounds = {bounds_, 2, c.n0, c.n0};
+    for (int64_t lane = 0; lane < state.n1; lane++) {
+        int64_t i = min_i(lane, last);
+        scale.p[i] = composed_loop_prepare_composed((r1){momentum.p + i * momentum.s0, momentum.n1}, (r1){g.p + i *
+            g.s0, g.n1}, (r1){tensor.p + i * tensor.s0, tensor.n1}, contact.p[i], c, one, (r1){bounds.p + 0 *
+            bounds.s0, bounds.n1}, (r1){bounds.p + 1 * bounds.s0, bounds.n1});
+        for (int64_t row = 0; row < 51; row++) state.p[row * state.s0 + lane] = one.p[row];
+        for (int64_t stage = 0; stage < c.n0; stage++) {
+            radius.p[stage * radius.s0 + lane] = bounds.p[0 * bounds.s0 + stage];
+            enough.p[stage * enough.s0 + lane] = bounds.p[1 * bounds.s0 + stage];
+        }
+    }
+}
+
+INLINE void composed_block_begin_stage(r2 S, r2 T, real s, r1 radius, r1 enough, w1 ok) {
+    int64_t end_1 = block_whole(ok);
+    INDEPENDENT
+    for (int64_t i = 0; i < end_1; i++) {
+        T.p[0 * T.s0 + i] = s * S.p[0 * S.s0 + i]; T.p[1 * T.s0 + i] = s * S.p[1 * S.s0 + i];
+        T.p[2 * T.s0 + i] = s * S.p[2 * S.s0 + i]; T.p[3 * T.s0 + i] = S.p[3 * S.s0 + i];
+        T.p[4 * T.s0 + i] = S.p[4 * S.s0 + i]; T.p[5 * T.s0 + i] = S.p[5 * S.s0 + i];
+        T.p[49 * T.s0 + i] = radius.p[i]; T.p[50 * T.s0 + i] = enough.p[i];
+    }
+}
+
+INLINE void composed_block_guess_block(r2 T, r2 past, r1 weights, w1 ok) {
+    int64_t i, end_1 = block_whole(ok);
+    INDEPENDENT
+    for (i = 0; i < end_1; i++) {
+        T.p[18 * T.s0 + i] = 0; T.p[19 * T.s0 + i] = 0; T.p[20 * T.s0 + i] = 0;
+    }
+    real u1, u2, u3;
+    for (int64_t j = 0; j < weights.n0; j += 4) {
+        real a = weights.p[j], b = weights.p[j + 1], c = weights.p[j + 2], d = weights.p[j + 3]; int64_t x = 3 * j;
+        int64_t y = 3 * j + 1, z = 3 * j + 2, end_2 = block_whole(ok);
+        INDEPENDENT
+        for (i = 0; i < end_2; i++) {
+            u1 = T.p[18 * T.s0 + i] + a * past.p[x * past.s0 + i];
+            u2 = T.p[19 * T.s0 + i] + a * past.p[y * past.s0 + i];
+            u3 = T.p[20 * T.s0 + i] + a * past.p[z * past.s0 + i]; u1 = u1 + b * past.p[(x + 3) * past.s0 + i];
+            u2 = u2 + b * past.p[(y + 3) * past.s0 + i]; u3 = u3 + b * past.p[(z + 3) * past.s0 + i];
+            u1 = u1 + c * past.p[(x + 6) * past.s0 + i]; u2 = u2 + c * past.p[(y + 6) * past.s0 + i];
+            u3 = u3 + c * past.p[(z + 6) * past.s0 + i]; u1 = u1 + d * past.p[(x + 9) * past.s0 + i];
+            u2 = u2 + d * past.p[(y + 9) * past.s0 + i]; u3 = u3 + d * past.p[(z + 9) * past.s0 + i];
+            T.p[18 * T.s0 + i] = u1; T.p[19 * T.s0 + i] = u2; T.p[20 * T.s0 + i] = u3;
+        }
+    }
+}
+
+INLINE void composed_block_end_stage(r2 S, r2 P, r2 past, int64_t row, w1 ok) {
+    int64_t end_1 = block_whole(ok);
+    INDEPENDENT
+    for (int64_t i = 0; i < end_1; i++) {
+        real p0 = P.p[0 * P.s0 + i], p1 = P.p[1 * P.s0 + i], p2 = P.p[2 * P.s0 + i], p3 = P.p[3 * P.s0 + i];
+        block_turn_at(p0, p1, p2, p3, S, 0, 6, i); block_turn_at(p0, p1, p2, p3, S, 3, 9, i);
+        past.p[row * past.s0 + i] = P.p[4 * P.s0 + i]; past.p[(row + 1) * past.s0 + i] = P.p[5 * P.s0 + i];
+        past.p[(row + 2) * past.s0 + i] = P.p[6 * P.s0 + i];
+    }
+}
+
+INLINE void composed_block_stop(r2 S, r2 T, r2 radius, i1 status, w1 ok) {
+    int64_t stage, row;
+    for (int64_t i = 0; i < ok.n0; i++) {
+        if ((i >= status.n0 || status.p[i] != 0) && ok.p[i] == 0 && radius.p[0 * radius.s0 + i] != -3) {
+            for (stage = 0; stage < radius.n0; stage++) radius.p[stage * radius.s0 + i] = -3;
+            for (row = 0; row < 3; row++) S.p[row * S.s0 + i] = T.p[row * T.s0 + i];
+        }
+    }
+}
+
+#ifndef SINGLE
+
+INLINE t_r9 kernel_tangent_jacobian(real q0, real q1, real q2, real q3, real g1, real g2, real g3, real J1, real J2,
+    real J3, real D) {
+    real t0 = q0 * q0, t1 = g2 * g2, t2 = g3 * g3, t3 = J2 + J3 + D * (t1 + t2), t4 = 2 * t3, t5 = 2 * D * g1;
+    real t6 = g2 * t5, t7 = q0 * t6, t8 = -J3, t9 = J2 + t8, t10 = 2 * q3 * t9 - t7, t11 = g3 * t5, t12 = q0 * t11;
+    real t13 = 2 * q2 * t9 - t12, t14 = 2 * q1 * t3 - q2 * t6 - q3 * t11, t15 = q0 * t4, t16 = g1 * g1;
+    real t17 = J1 + J3 + D * (t16 + t2), t18 = 2 * t17, t19 = q0 * t18, t20 = 2 * J1 + 2 * t8, t21 = -t7 - q3 * t20;
+    real t22 = 2 * D * g2 * g3, t23 = q0 * t22, t24 = -t23 - q1 * t20, t25 = 2 * q2 * t17 - q1 * t6 - q3 * t22;
+    real t26 = J1 + J2 + D * (t1 + t16), t27 = 2 * t26, t28 = q0 * t27, t29 = J1 - J2, t30 = 2 * q2 * t29 - t12;
+    real t31 = 2 * q1 * t29 - t23, t32 = 2 * q3 * t26 - q1 * t11 - q2 * t22;
+    real o_dK11 = q3 * t10 + t0 * t4 - (q1 * t14 + q2 * t13), o_dK12 = q0 * t10 + q1 * t13 - (q2 * t14 + q3 * t15);
+    real o_dK13 = q0 * t13 + q2 * t15 - (q1 * t10 + q3 * t14), o_dK21 = q0 * t21 + q3 * t19 - (q1 * t25 + q2 * t24);
+    real o_dK22 = q1 * t24 + t0 * t18 - (q2 * t25 + q3 * t21), o_dK23 = q0 * t24 + q2 * t21 - (q1 * t19 + q3 * t25);
+    real o_dK31 = q0 * t30 + q3 * t31 - (q1 * t32 + q2 * t28), o_dK32 = q0 * t31 + q1 * t28 - (q2 * t32 + q3 * t30);
+    real o_dK33 = q2 * t30 + t0 * t27 - (q1 * t31 + q3 * t32);
+    return (t_r9){o_dK11, o_dK12, o_dK13, o_dK21, o_dK22, o_dK23, o_dK31, o_dK32, o_dK33};
+}
+
+INLINE t_r10 branch_inverse_of(real a11, real a12, real a13, real a21, real a22, real a23, real a31, real a32, real
+    a33) {
+    real c11 = a22 * a33 - a23 * a32, c12 = a23 * a31 - a21 * a33, c13 = a21 * a32 - a22 * a31;
+    real c21 = a13 * a32 - a12 * a33, c22 = a11 * a33 - a13 * a31, c23 = a12 * a31 - a11 * a32;
+    real c31 = a12 * a23 - a13 * a22, c32 = a13 * a21 - a11 * a23, c33 = a11 * a22 - a12 * a21;
+    real det = a11 * c11 + a12 * c12 + a13 * c13;
+    if (det == 0) return (t_r10){0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
+    real s = 1 / det;
+    return (t_r10){det, c11 * s, c21 * s, c31 * s, c12 * s, c22 * s, c32 * s, c13 * s, c23 * s, c33 * s};
+}
+
+INLINE t_r10 branch_inverse(real q0, real q1, real q2, real q3, real g1, real g2, real g3, real J1, real J2, real J3,
+    real D) {
+    t_r9 t_1 = kernel_tangent_jacobian(q0, q1, q2, q3, g1, g2, g3, J1, J2, J3, D); real a11 = t_1.a0, a12 = t_1.a1;
+    real a13 = t_1.a2, a21 = t_1.a3, a22 = t_1.a4, a23 = t_1.a5, a31 = t_1.a6, a32 = t_1.a7, a33 = t_1.a8;
+    t_r10 det = branch_inverse_of(a11, a12, a13, a21, a22, a23, a31, a32, a33);
+    if (det.a0 == 0 || !gibbs_is_heavy(J2 + J3, J1 + J3, J1 + J2, D))
+        return (t_r10){det.a0, det.a1, det.a2, det.a3, det.a4, det.a5, det.a6, det.a7, det.a8, det.a9};
+    t_r9 t_2 = kernel_tangent_jacobian(q0, q1, q2, q3, g1, g2, g3, J1, J2, J3, 0 * D); a11 = t_2.a0; a12 = t_2.a1;
+    a13 = t_2.a2; a21 = t_2.a3; a22 = t_2.a4; a23 = t_2.a5; a31 = t_2.a6; a32 = t_2.a7; a33 = t_2.a8;
+    real y1 = g1 * a11 + g2 * a21 + g3 * a31, y2 = g1 * a12 + g2 * a22 + g3 * a32;
+    real y3 = g1 * a13 + g2 * a23 + g3 * a33, z1 = det.a1 * g1 + det.a2 * g2 + det.a3 * g3;
+    real z2 = det.a4 * g1 + det.a5 * g2 + det.a6 * g3, z3 = det.a7 * g1 + det.a8 * g2 + det.a9 * g3;
+    real true = (y1 * z1 + y2 * z2 + y3 * z3) / (g1 * g1 + g2 * g2 + g3 * g3);
+    if (true == 0) return (t_r10){0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
+    real s = 1 / true;
+    return (t_r10){det.a0 * true, s * det.a1, s * det.a2, s * det.a3, s * det.a4, s * det.a5, s * det.a6, s * det.a7,
+        s * det.a8, s * det.a9};
+}
+
+INLINE t_r18 kernel_tangent_hessian(real q0, real q1, real q2, real q3, real g1, real g2, real g3, real J1, real J2,
+    real J3, real D) {
+    real t0 = q0 * q1, t1 = J3 * t0, t2 = q2 * q3, t3 = J3 * t2, t4 = J2 * t0 + J2 * t2, t5 = g3 * q2, t6 = g1 * t5;
+    real t7 = g2 * g2, t8 = q0 * t7, t9 = g3 * g3, t10 = q0 * t9, t11 = g1 * g2, t12 = q3 * t11, t13 = 4 * D;
+    real t14 = q1 * t13, t15 = q1 * q3, t16 = J1 * t15, t17 = q0 * q2, t18 = J3 * t15 + J3 * t17;
+    real t19 = 4 * J1 * q0 * q2 - 4 * t16 - 4 * t18, t20 = g1 * g1, t21 = q3 * t20, t22 = q3 * t9, t23 = q1 * q2;
+    real t24 = J2 * t23, t25 = q0 * q3, t26 = J2 * t25, t27 = J1 * t23 + J1 * t25, t28 = 4 * t24 + 4 * t27 - 4 * t26;
+    real t29 = g1 * g3, t30 = g2 * g3, t31 = q2 * t20, t32 = q2 * t7, t33 = 4 * t3 + 4 * t4 - 4 * t1, t34 = q3 * t7;
+    real t35 = q2 * t13, t36 = q0 * t20, t37 = q1 * t30, t38 = q1 * t20, t39 = q2 * t9, t40 = q3 * t13, t41 = q0 * q0;
+    real t42 = J2 * t41, t43 = q1 * q1, t44 = J3 * t43, t45 = q2 * q2, t46 = J2 * t45, t47 = J3 * t45, t48 = q3 * q3;
+    real t49 = J3 * t48 - J3 * t41, t50 = J2 * t48 - J2 * t43, t51 = t11 * t25, t52 = t17 * t29, t53 = t15 * t29;
+    real t54 = t11 * t23, t55 = t48 * t9, t56 = t45 * t7, t57 = 2 * D, t58 = 4 * J3, t59 = q3 * t10;
+    real t60 = q1 * t39 - t11 * t48, t61 = 4 * J2, t62 = q2 * t8, t63 = q1 * t34 - t29 * t45, t64 = J1 * t48;
+    real t65 = J1 * t45, t66 = J1 * t41 - J1 * t43, t67 = t0 * t30, t68 = t2 * t30, t69 = t20 * t43, t70 = 4 * J1;
+    real t71 = q2 * t21 - t30 * t43, o_ddK11_1 = 4 * t3 - 4 * t1 - (4 * t4 + t14 * (t10 + t6 + (t8 - t12)));
+    real o_ddK11_2 = t19 + t14 * (g1 * g2 * q0 - t21 - (t22 + g2 * t5));
+    real o_ddK11_3 = t28 + t14 * (t31 + t32 + (q0 * t29 + q3 * t30));
+    real o_ddK22_1 = t33 + t35 * (t22 + t34 + (q0 * t11 + q1 * t29));
+    real o_ddK22_2 = 4 * t16 - 4 * t18 - (4 * J1 * t17 + t35 * (t10 + t12 + (t36 - t37)));
+    real o_ddK22_3 = t35 * (g2 * g3 * q0 - t38 - (q1 * t7 + q3 * t29)) - t28;
+    real o_ddK33_1 = t40 * (g1 * g3 * q0 - t32 - (t39 + q1 * t11)) - t33;
+    real o_ddK33_2 = t40 * (t38 + q0 * t30 + (q1 * t9 + q2 * t11)) - t19;
+    real o_ddK33_3 = 4 * t24 - 4 * t26 - (4 * t27 + t40 * (t36 + t37 + (t8 - t6))), o_ddK23_1 = 2 * t42 + 2 * t44 + (2
+        * t49 + 2 * t50) + (t57 * (t51 + t52 + (t53 + t55) + (t48 * t7 - t54 - (t56 + t45 * t9))) - 2 * t46 - 2 *
+        t47), o_ddK23_2 = t57 * (t60 + q1 * t31 + (t11 * t45 + t15 * t30) + (t17 * t30 - t59 - q0 * t21)) - t58 * (t25
+        - t23), o_ddK23_3 = -t57 * (t62 + t63 + (q0 * t31 + q1 * t21) + (t23 * t30 + t29 * t48 - t25 * t30)) - t61 *
+        (t15 + t17), o_ddK13_1 = t57 * (g1 * g3 * q0 * q1 - t59 - (t60 + q1 * t32) - (q3 * t8 + t11 * t43 + t2 * t29))
+        - t58 * (t23 + t25), o_ddK13_2 = 2 * t44 + 2 * t65 + (t57 * (t51 + t54 + (t67 + t69) + (t43 * t9 - t55 - (t68
+        + t20 * t48))) - 2 * t47) - (2 * t49 + 2 * t64 + 2 * t66), o_ddK13_3 = -t57 * (q0 * q1 * t20 + q0 * q1 * t7 -
+        (t71 + q3 * t32) - (t23 * t29 + t25 * t29 + t30 * t48)) - t70 * (t0 - t2);
+    real o_ddK12_1 = t57 * (t63 + q1 * t22 + (t0 * t11 + t11 * t2) + (t29 * t43 - t62 - q2 * t10)) - t61 * (t17 -
+        t15), o_ddK12_2 = -t57 * (t71 + q1 * t10 + (q1 * t36 + q2 * t22) + (t11 * t15 + t30 * t45 - t11 * t17)) - t70
+        * (t0 + t2), o_ddK12_3 = 2 * t46 + 2 * t50 + (2 * t65 + 2 * t66) + (t57 * (t52 + t56 + (t67 + t68) + (t20 *
+        t45 - t53 - (t69 + t43 * t7))) - 2 * t42 - 2 * t64);
+    return (t_r18){o_ddK11_1, o_ddK11_2, o_ddK11_3, o_ddK22_1, o_ddK22_2, o_ddK22_3, o_ddK33_1, o_ddK33_2, o_ddK33_3,
+        o_ddK23_1, o_ddK23_2, o_ddK23_3, o_ddK13_1, o_ddK13_2, o_ddK13_3, o_ddK12_1, o_ddK12_2, o_ddK12_3};
+}
+
+INLINE t_r6 branch_tangent(real q0, real q1, real q2, real q3, real K1, real K2, real K3, real g1, real g2, real g3,
+    real J1, real J2, real J3, real D) {
+    t_r10 det = branch_inverse(q0, q1, q2, q3, g1, g2, g3, J1, J2, J3, D);
+    t_r18 t_1 = kernel_tangent_hessian(q0, q1, q2, q3, g1, g2, g3, J1, J2, J3, D);
+    real h_[] = {t_1.a0, t_1.a1, t_1.a2, t_1.a3, t_1.a4, t_1.a5, t_1.a6, t_1.a7, t_1.a8, t_1.a9, t_1.a10, t_1.a11,
+        t_1.a12, t_1.a13, t_1.a14, t_1.a15, t_1.a16, t_1.a17};
+    r1 h = {h_, 18}; real bend = 0;
+    for (int64_t pair = 0; pair < 6; pair++) {
+        real x = h.p[3 * pair], y = h.p[3 * pair + 1], z = h.p[3 * pair + 2];
+        real a = det.a1 * x + det.a2 * y + det.a3 * z, b = det.a4 * x + det.a5 * y + det.a6 * z;
+        real c = det.a7 * x + det.a8 * y + det.a9 * z, weight = pair < 3 ? 1 : 2;
+        bend += weight * (a * a + b * b + c * c);
+    }
+    real d1 = det.a1 * K1 + det.a2 * K2 + det.a3 * K3, d2 = det.a4 * K1 + det.a5 * K2 + det.a6 * K3;
+    real d3 = det.a7 * K1 + det.a8 * K2 + det.a9 * K3;
+    return (t_r6){det.a0, real_sqrt(d1 * d1 + d2 * d2 + d3 * d3), real_sqrt(bend), d1, d2, d3};
+}
+
+INLINE t_r4 branch_turned(real q0, real q1, real q2, real q3, real w1, real w2, real w3) {
+    t_r4 p0 = kernel_compose(q0, q1, q2, q3, 1, w1, w2, w3);
+    real length = real_sqrt(p0.a0 * p0.a0 + p0.a1 * p0.a1 + p0.a2 * p0.a2 + p0.a3 * p0.a3);
+    return (t_r4){p0.a0 / length, p0.a1 / length, p0.a2 / length, p0.a3 / length};
+}
+
+INLINE t_r3 kernel_residual(real q0, real q1, real q2, real q3, real K1, real K2, real K3, real g1, real g2, real g3,
+    real J1, real J2, real J3, real D) {
+    real c1 = g3 * q2 - g2 * q3, c2 = g1 * q3 - g3 * q1, c3 = g2 * q1 - g1 * q2, f1 = D * c1, f2 = D * c2;
+    real f3 = D * c3, t0 = -J3, t1 = 2 * q3, t2 = 2 * q0;
+    real o_r1 = t2 * (f3 * g2 + q1 * (J2 + J3) - f2 * g3) + q2 * t1 * (J2 + t0) - K1;
+    real o_r2 = 2 * q0 * (f1 * g3 + q2 * (J1 + J3) - f3 * g1) - K2 - q1 * t1 * (J1 + t0);
+    real o_r3 = t2 * (f2 * g1 + q3 * (J1 + J2) - f1 * g2) + 2 * q1 * q2 * (J1 - J2) - K3;
+    return (t_r3){o_r1, o_r2, o_r3};
+}
+
+INLINE t_br4 branch_corrected(real q0, real q1, real q2, real q3, real K1, real K2, real K3, real g1, real g2, real
+    g3, real J1, real J2, real J3, real D) {
+    real size = max_r(max_r(real_abs(K1), real_abs(K2)), real_abs(K3));
+    real top = max_r(max_r(J2 + J3, J1 + J3), J1 + J2) + D, before = 2;
+    for (int64_t i_0 = 0; i_0 < 20; i_0++) {
+        t_r3 r1 = kernel_residual(q0, q1, q2, q3, K1, K2, K3, g1, g2, g3, J1, J2, J3, D);
+        t_r10 det = branch_inverse(q0, q1, q2, q3, g1, g2, g3, J1, J2, J3, D);
+        if (det.a0 == 0) return (t_br4){0, q0, q1, q2, q3};
+        real w1 = -(det.a1 * r1.a0 + det.a2 * r1.a1 + det.a3 * r1.a2);
+        real w2 = -(det.a4 * r1.a0 + det.a5 * r1.a1 + det.a6 * r1.a2);
+        real w3 = -(det.a7 * r1.a0 + det.a8 * r1.a1 + det.a9 * r1.a2);
+        t_r4 t_2 = branch_turned(q0, q1, q2, q3, w1, w2, w3); q0 = t_2.a0; q1 = t_2.a1; q2 = t_2.a2; q3 = t_2.a3;
+        real change = max_r(max_r(real_abs(w1), real_abs(w2)), real_abs(w3));
+        real extent = max_r(max_r(real_abs(q1), real_abs(q2)), real_abs(q3)), largest =
+            max_r(max_r(max_r(max_r(max_r(max_r(max_r(max_r(real_abs(det.a1), real_abs(det.a2)), real_abs(det.a3)),
+            real_abs(det.a4)), real_abs(det.a5)), real_abs(det.a6)), real_abs(det.a7)), real_abs(det.a8)),
+            real_abs(det.a9));
+        real noise = R(0x1.0000000000000p-49) * largest * (size + 2 * top * extent);
+        if (change <= max_r(R(1e-09) * extent, R(8e-323))) return (t_br4){1, q0, q1, q2, q3};
+        if (change <= noise && change >= R(0.25) * before) return (t_br4){1, q0, q1, q2, q3};
+        before = change;
+    }
+    return (t_br4){0, q0, q1, q2, q3};
+}
+
+INLINE t_ir5 branch_continued(real K1, real K2, real K3, real g1, real g2, real g3, real J1, real J2, real J3, real D,
+    real shortest) {
+    if (K1 != K1 || K2 != K2 || K3 != K3) return (t_ir5){2, 0, 1, 0, 0, 0};
+    t_ri exponent = real_frexp(max_r(max_r(J2 + J3, J1 + J3), J1 + J2) + D); J1 = (real)ldexp(J1, (int)-exponent.a1);
+    J2 = (real)ldexp(J2, (int)-exponent.a1); J3 = (real)ldexp(J3, (int)-exponent.a1);
+    D = (real)ldexp(D, (int)-exponent.a1); real largest = max_r(max_r(real_abs(K1), real_abs(K2)), real_abs(K3));
+    t_ri size = real_frexp(largest); int64_t shift = largest > 0 ? min_i(-exponent.a1, 3 - size.a1) : -exponent.a1;
+    int64_t beyond = largest > 0 ? max_i(0, -200 - (size.a1 + shift)) : 0;
+    K1 = (real)ldexp(K1, (int)(shift + beyond)); K2 = (real)ldexp(K2, (int)(shift + beyond));
+    K3 = (real)ldexp(K3, (int)(shift + beyond)); real end = (real)ldexp(1, (int)(shift + exponent.a1)), t = 0, q0 = 1;
+    real q1 = 0, q2 = 0, q3 = 0;
+    for (int64_t i_0 = 0; i_0 < 20000; i_0++) {
+        t_r6 det = branch_tangent(q0, q1, q2, q3, K1, K2, K3, g1, g2, g3, J1, J2, J3, D);
+        if (t == 0 && !(det.a0 > R(0x1.0000000000000p-50))) return (t_ir5){4, 0, q0, q1, q2, q3};
+        if (!(det.a0 > 0)) return (t_ir5){1, t * end, q0, q1, q2, q3};
+        real slope = det.a2 + 2 * t * det.a1, length = R(0.5) / (slope + real_sqrt(slope * slope + 2));
+        real remaining = 1 - t, step = det.a1 * remaining <= length ? remaining : length / det.a1;
+        if (step < remaining && step < max_r(shortest * t, R(1e-19) * min_r(t, remaining)))
+            return (t_ir5){1, t * end, q0, q1, q2, q3};
+        real ahead = step == remaining ? 1 : t + step;
+        t_r4 t_2 = branch_turned(q0, q1, q2, q3, step * det.a3, step * det.a4, step * det.a5); real p0 = t_2.a0;
+        real p1 = t_2.a1, p2 = t_2.a2, p3 = t_2.a3;
+        t_br4 t_3 = branch_corrected(p0, p1, p2, p3, ahead * K1, ahead * K2, ahead * K3, g1, g2, g3, J1, J2, J3, D);
+        int settled = t_3.a0; p0 = t_3.a1; p1 = t_3.a2; p2 = t_3.a3; p3 = t_3.a4;
+        if (!settled) return (t_ir5){2, t * end, q0, q1, q2, q3};
+        t = ahead; q0 = p0; q1 = p1; q2 = p2; q3 = p3;
+        if (t == 1 && end < 1) return (t_ir5){2, end, q0, q1, q2, q3};
+        if (t == 1) {
+            if (q0 < 0) {
+                q0 = -q0; q1 = -q1; q2 = -q2; q3 = -q3;
+            }
+            return (t_ir5){0, 1, q0, (real)ldexp(q1, (int)-beyond), (real)ldexp(q2, (int)-beyond), (real)ldexp(q3,
+                (int)-beyond)};
+        }
+    }
+    return (t_ir5){2, t * end, q0, q1, q2, q3};
+}
+
+INLINE t_ir5 branch_small_rotation(real K1, real K2, real K3, real g1, real g2, real g3, real J1, real J2, real J3,
+    real D) {
+    return branch_continued(K1, K2, K3, g1, g2, g3, J1, J2, J3, D, R(4e-16));
+}
+t_ir5 branch_small_rotation_double(real K1, real K2, real K3, real g1, real g2, real g3, real J1, real J2, real J3,
+    real D) {
+    return branch_small_rotation(K1, K2, K3, g1, g2, g3, J1, J2, J3, D);
+}
+
+INLINE void loop_follow_body(real p0, real p1, real p2, real p3, real g1, real g2, real g3, r1 attitude, r1 contact,
+    real radius) {
+    real a0 = attitude.p[0], a1 = attitude.p[1], a2 = attitude.p[2], a3 = attitude.p[3];
+    t_r6 t_1 = loop_followed(p0, p1, p2, p3, g1, g2, g3, a0, a1, a2, a3, contact.p[0], contact.p[1], radius);
+    attitude.p[0] = t_1.a0; attitude.p[1] = t_1.a1; attitude.p[2] = t_1.a2; attitude.p[3] = t_1.a3;
+    contact.p[0] = t_1.a4; contact.p[1] = t_1.a5;
+}
+
+INLINE t_ri long_step_begun(r1 body, r1 J0, real D0, real h, r1 state) {
+    ALIGNED real none_[3]; memset(none_, 0, sizeof none_); r1 none = {none_, 3};
+    t_ri size = real_frexp(loop_scaled(none, none, J0, D0, state));
+    t_ri exponent = real_frexp(max_r(max_r(real_abs(body.p[0]), real_abs(body.p[1])), real_abs(body.p[2])));
+    for (int64_t c = 0; c < 3; c++) body.p[c] = (real)ldexp(body.p[c], (int)-exponent.a1);
+    t_ri mantissa = real_frexp(R(0.5) * h);
+    return (t_ri){(real)ldexp(mantissa.a0, (int)min_i(mantissa.a1 + exponent.a1 - (size.a1 - 2), 100)), exponent.a1};
+}
+
+INLINE void long_run_entered(r2 S, int64_t at, int64_t i, r1 body, real half, int64_t n, r1 state) {
+    real part = half / n; t_r3 I1 = loop_three(state, 45);
+    real spread = R(0.5) * (max_r(max_r(I1.a0, I1.a1), I1.a2) - min_r(min_r(I1.a0, I1.a1), I1.a2));
+    real k1 = part * body.p[0], k2 = part * body.p[1], k3 = part * body.p[2];
+    real size = real_sqrt(k1 * k1 + k2 * k2 + k3 * k3);
+    t_r2 within = gibbs_certificate(k1, k2, k3, I1.a0, I1.a1, I1.a2, state.p[48]);
+    real least = R(0x1.0000000000000p-53) * size / (max_r(max_r(I1.a0, I1.a1), I1.a2) + state.p[48] + spread);
+    real anywhere = gibbs_is_heavy(I1.a0, I1.a1, I1.a2, state.p[48]) ? -1 : R(0x1.0000000000000p+1000);
+    S.p[at * S.s0 + i] = part; S.p[(at + 1) * S.s0 + i] = part != 0 ? 1 / part : 0; S.p[(at + 2) * S.s0 + i] = size;
+    S.p[78 * S.s0 + i] = spread; S.p[(at + 3) * S.s0 + i] = within.a0 >= 0 ? within.a0 : anywhere;
+    S.p[(at + 4) * S.s0 + i] = least * least / R(18.2); S.p[(at + 5) * S.s0 + i] = 1 / (n * n);
+}
+
+OUT_OF_LINE int64_t long_run_enter(r2 S, int64_t B, int64_t b, int64_t columns, r1 J0, real D0, real radius, real h,
+    r2 sums, r2 beginning, r1 body, r1 state) {
+    t_ri half = long_step_begun(body, J0, D0, h, state); int64_t c;
+    for (c = 0; c < 13; c++) S.p[(101 + c) * S.s0 + b] = body.p[c];
+    S.p[114 * S.s0 + b] = half.a0; S.p[115 * S.s0 + b] = radius; S.p[119 * S.s0 + b] = state.p[48];
+    S.p[120 * S.s0 + b] = 0;
+    for (c = 0; c < 3; c++) S.p[(116 + c) * S.s0 + b] = state.p[42 + c];
+    int64_t least = 8 - columns;
+    for (int64_t lane = 0; lane < 4; lane++) {
+        int64_t i = lane * B + b, first = max_i(7 - lane, least);
+        for (c = 0; c < 3; c++) S.p[(27 + c) * S.s0 + i] = state.p[45 + c];
+        S.p[30 * S.s0 + i] = state.p[48]; long_run_entered(S, 59, i, body, half.a0, first, state);
+        long_run_entered(S, 65, i, body, half.a0, max_i(lane, least), state); int one = 7 - lane >= least;
+        int two = lane >= least;
+        for (c = 0; c < 3; c++) S.p[(75 + c) * S.s0 + i] = beginning.p[first * beginning.s0 + c];
+        for (c = 0; c < 2; c++) {
+            S.p[(71 + 2 * c) * S.s0 + i] = one ? sums.p[c * sums.s0 + first - least] : 0;
+            S.p[(71 + 2 * c + 1) * S.s0 + i] = two ? sums.p[c * sums.s0 + lane - least] : 0;
+        }
+    }
+    return half.a1;
+}
+
+INLINE t_r3 kernel_angular_velocity(real K1, real K2, real K3, real g1, real g2, real g3, real J1, real J2, real J3,
+    real D) {
+    real t0 = J2 + J3, t1 = 1 / (D + t0), t2 = J1 + J3, t3 = 1 / (D + t2), t4 = J1 + J2, t5 = 1 / (D + t4), t6 = D *
+        (K1 * g1 * t1 + K2 * g2 * t3 + K3 * g3 * t5) / (g1 * g1 * t0 * t1 + g2 * g2 * t2 * t3 + g3 * g3 * t4 * t5);
+    real o_w1 = t1 * (K1 + g1 * t6), o_w2 = t3 * (K2 + g2 * t6), o_w3 = t5 * (K3 + g3 * t6);
+    return (t_r3){o_w1, o_w2, o_w3};
+}
+
+INLINE real fitted_turn_square(real h, int64_t first, real w1, real w2, real w3) {
+    real square = h * h * (w1 * w1 + (w2 * w2 + w3 * w3)); return square <= R(2.25) * (first * first) ? square : 0;
+}
+
+INLINE void lanes_rates(r2 S, int64_t B, int64_t first) {
+    int64_t b;
+    INDEPENDENT
+    for (b = 0; b < B; b++) {
+        real K1 = S.p[101 * S.s0 + b], K2 = S.p[102 * S.s0 + b], K3 = S.p[103 * S.s0 + b], g1 = S.p[104 * S.s0 + b];
+        real g2 = S.p[105 * S.s0 + b], g3 = S.p[106 * S.s0 + b], J1 = S.p[116 * S.s0 + b], J2 = S.p[117 * S.s0 + b];
+        real J3 = S.p[118 * S.s0 + b], contact = S.p[119 * S.s0 + b];
+        t_r3 w1 = kernel_angular_velocity(K1, K2, K3, g1, g2, g3, J1, J2, J3, contact);
+        real height = contact * (g1 * w1.a0 + g2 * w1.a1 + g3 * w1.a2), m1 = K1 + height * g1, m2 = K2 + height * g2;
+        real m3 = K3 + height * g3, x1 = m2 * w1.a2 - m3 * w1.a1, x2 = m3 * w1.a0 - m1 * w1.a2;
+        real x3 = m1 * w1.a1 - m2 * w1.a0;
+        t_r3 a1 = kernel_angular_velocity(x1, x2, x3, g1, g2, g3, J1, J2, J3, contact);
+        real d1 = g2 * w1.a2 - g3 * w1.a1, d2 = g3 * w1.a0 - g1 * w1.a2, d3 = g1 * w1.a1 - g2 * w1.a0;
+        real along = contact * (d1 * a1.a0 + d2 * a1.a1 + d3 * a1.a2);
+        real across = contact * (g1 * a1.a0 + g2 * a1.a1 + g3 * a1.a2), n1 = (S.p[27 * S.s0 + b] + contact) * a1.a0;
+        real n2 = (S.p[28 * S.s0 + b] + contact) * a1.a1, n3 = (S.p[29 * S.s0 + b] + contact) * a1.a2;
+        x1 = n2 * w1.a2 - n3 * w1.a1 + (m2 * a1.a2 - m3 * a1.a1) + (along * g1 + across * d1);
+        x2 = n3 * w1.a0 - n1 * w1.a2 + (m3 * a1.a0 - m1 * a1.a2) + (along * g2 + across * d2);
+        x3 = n1 * w1.a1 - n2 * w1.a0 + (m1 * a1.a1 - m2 * a1.a0) + (along * g3 + across * d3);
+        t_r3 t_1 = kernel_angular_velocity(x1, x2, x3, g1, g2, g3, J1, J2, J3, contact); x1 = t_1.a0; x2 = t_1.a1;
+        x3 = t_1.a2; real whole = 2 * S.p[114 * S.s0 + b], square = whole * whole; S.p[31 * S.s0 + b] = K1;
+        S.p[32 * S.s0 + b] = K2; S.p[33 * S.s0 + b] = K3; S.p[34 * S.s0 + b] = g1; S.p[35 * S.s0 + b] = g2;
+        S.p[36 * S.s0 + b] = g3; S.p[37 * S.s0 + b] = w1.a0; S.p[38 * S.s0 + b] = w1.a1; S.p[39 * S.s0 + b] = w1.a2;
+        S.p[40 * S.s0 + b] = whole * a1.a0; S.p[41 * S.s0 + b] = whole * a1.a1; S.p[42 * S.s0 + b] = whole * a1.a2;
+        S.p[43 * S.s0 + b] = square * x1; S.p[44 * S.s0 + b] = square * x2; S.p[45 * S.s0 + b] = square * x3;
+        S.p[46 * S.s0 + b] = fitted_turn_square(whole, first, w1.a0, w1.a1, w1.a2); real t_2 = 0, t_3 = 0, t_4 = 0;
+        real t_5 = S.p[120 * S.s0 + b]; S.p[121 * S.s0 + b] = t_2; S.p[122 * S.s0 + b] = t_3;
+        S.p[123 * S.s0 + b] = t_4; S.p[58 * S.s0 + b] = t_5;
+    }
+    real one;
+    for (int64_t row = 31; row < 47; row++) {
+        INDEPENDENT
+        for (b = 0; b < B; b++) {
+            one = S.p[row * S.s0 + b]; S.p[row * S.s0 + B + b] = one; S.p[row * S.s0 + 2 * B + b] = one;
+            S.p[row * S.s0 + 3 * B + b] = one;
+        }
+    }
+    INDEPENDENT
+    for (b = 0; b < B; b++) {
+        one = S.p[58 * S.s0 + b]; S.p[58 * S.s0 + B + b] = one; S.p[58 * S.s0 + 2 * B + b] = one;
+        S.p[58 * S.s0 + 3 * B + b] = one;
+    }
+}
+
+INLINE real fitted_fitted(real square) {
+    real fourth = square * square;
+    real last = R(0x1.71de3a556c734p-19) - square * R(0x1.ae64567f544e4p-26) + fourth * R(0x1.6124613a86d09p-33);
+    return 1 - square * R(0x1.5555555555555p-3) + fourth * (R(0x1.1111111111111p-7) - square *
+        R(0x1.a01a01a01a01ap-13)) + fourth * fourth * last;
+}
+
+INLINE real fitted_half_angle(real square) {
+    real fourth = square * square;
+    return 1 - square * R(0.25) + fourth * (R(0x1.5555555555555p-6) - square * R(0x1.6c16c16c16c17p-11) + fourth *
+        R(0x1.a01a01a01a01ap-17));
+}
+
+INLINE void lanes_start(r2 S, int64_t i, int64_t at) {
+    real scale = fitted_fitted(S.p[46 * S.s0 + i] * S.p[(at + 5) * S.s0 + i]), half = S.p[at * S.s0 + i] * scale;
+    real slope = S.p[78 * S.s0 + i] + S.p[(at + 2) * S.s0 + i] * scale;
+    real bend = fitted_half_angle(S.p[46 * S.s0 + i] * S.p[(at + 5) * S.s0 + i]); S.p[79 * S.s0 + i] = half / bend;
+    real t_1 = half, t_2 = S.p[(at + 1) * S.s0 + i] * bend / scale, t_3 = slope * slope; S.p[22 * S.s0 + i] = t_1;
+    S.p[23 * S.s0 + i] = t_2; S.p[24 * S.s0 + i] = t_3; real t_4 = S.p[(at + 3) * S.s0 + i];
+    real t_5 = S.p[(at + 4) * S.s0 + i] * (scale * scale); S.p[25 * S.s0 + i] = t_4; S.p[26 * S.s0 + i] = t_5;
+    real t_6 = half * S.p[31 * S.s0 + i], t_7 = half * S.p[32 * S.s0 + i], t_8 = half * S.p[33 * S.s0 + i];
+    S.p[0 * S.s0 + i] = t_6; S.p[1 * S.s0 + i] = t_7; S.p[2 * S.s0 + i] = t_8; real t_9 = S.p[34 * S.s0 + i];
+    real t_10 = S.p[35 * S.s0 + i], t_11 = S.p[36 * S.s0 + i]; S.p[3 * S.s0 + i] = t_9; S.p[4 * S.s0 + i] = t_10;
+    S.p[5 * S.s0 + i] = t_11; S.p[9 * S.s0 + i] = 0; S.p[10 * S.s0 + i] = 0; S.p[11 * S.s0 + i] = 0;
+    S.p[12 * S.s0 + i] = 0; S.p[13 * S.s0 + i] = 0; S.p[14 * S.s0 + i] = 0; S.p[15 * S.s0 + i] = 1;
+    S.p[16 * S.s0 + i] = 0; S.p[17 * S.s0 + i] = 0; S.p[18 * S.s0 + i] = 0; S.p[19 * S.s0 + i] = 0;
+    S.p[20 * S.s0 + i] = 0; S.p[21 * S.s0 + i] = 0;
+}
+
+INLINE void lanes_begin(r2 S, int64_t B) {
+    int64_t end_1 = 4 * B;
+    INDEPENDENT
+    for (int64_t i = 0; i < end_1; i++) {
+        lanes_start(S, i, 59); real tangent = S.p[79 * S.s0 + i], a = S.p[75 * S.s0 + i], b = S.p[76 * S.s0 + i];
+        real c = S.p[77 * S.s0 + i];
+        S.p[6 * S.s0 + i] = tangent * (a * S.p[37 * S.s0 + i] + b * S.p[40 * S.s0 + i] + c * S.p[43 * S.s0 + i]);
+        S.p[7 * S.s0 + i] = tangent * (a * S.p[38 * S.s0 + i] + b * S.p[41 * S.s0 + i] + c * S.p[44 * S.s0 + i]);
+        S.p[8 * S.s0 + i] = tangent * (a * S.p[39 * S.s0 + i] + b * S.p[42 * S.s0 + i] + c * S.p[45 * S.s0 + i]);
+    }
+}
+
+INLINE t_r12 long_step_moved_body(real k1, real k2, real k3, real g1, real g2, real g3, real a0, real a1, real a2,
+    real a3, real x, real y, real q0, real q1, real q2, real q3, real y1, real y2, real y3, real radius) {
+    t_r3 t_1 = kernel_turn(q0, q1, q2, q3, k1, k2, k3); real d1 = t_1.a0, d2 = t_1.a1, d3 = t_1.a2; k1 = k1 + d1;
+    k2 = k2 + d2; k3 = k3 + d3; t_r3 t_2 = kernel_turn(q0, q1, q2, q3, g1, g2, g3); d1 = t_2.a0; d2 = t_2.a1;
+    d3 = t_2.a2; g1 = g1 + d1; g2 = g2 + d2; g3 = g3 + d3; t_r3 t_3 = kernel_rotate(a0, a1, a2, a3, y1, y2, y3);
+    d1 = t_3.a0; d2 = t_3.a1; x = x + radius * d1; y = y + radius * d2;
+    t_r4 t_4 = kernel_compose(a0, a1, a2, a3, q0, q1, q2, q3); a0 = t_4.a0; a1 = t_4.a1; a2 = t_4.a2; a3 = t_4.a3;
+    real scale = 1 / real_sqrt(a0 * a0 + a1 * a1 + (a2 * a2 + a3 * a3));
+    return (t_r12){k1, k2, k3, g1, g2, g3, a0 * scale, a1 * scale, a2 * scale, a3 * scale, x, y};
+}
+
+INLINE void lanes_gather(r2 S, int64_t B) {
+    real a0, a1, a2, a3, b0, b1, b2, b3, w, v; int64_t end_1 = 4 * B;
+    INDEPENDENT
+    for (int64_t i = 0; i < end_1; i++) {
+        a0 = S.p[83 * S.s0 + i]; a1 = S.p[84 * S.s0 + i]; a2 = S.p[85 * S.s0 + i]; a3 = S.p[86 * S.s0 + i];
+        b0 = S.p[15 * S.s0 + i]; b1 = S.p[16 * S.s0 + i]; b2 = S.p[17 * S.s0 + i]; b3 = S.p[18 * S.s0 + i];
+        real one = 1 / real_sqrt(a0 * a0 + a1 * a1 + (a2 * a2 + a3 * a3));
+        real two = 1 / real_sqrt(b0 * b0 + b1 * b1 + (b2 * b2 + b3 * b3)); w = S.p[71 * S.s0 + i] * one;
+        v = S.p[72 * S.s0 + i] * two; S.p[90 * S.s0 + i] = w * a0 + v * b0; S.p[91 * S.s0 + i] = w * a1 + v * b1;
+        S.p[92 * S.s0 + i] = w * a2 + v * b2; S.p[93 * S.s0 + i] = w * a3 + v * b3; w = S.p[73 * S.s0 + i] * one;
+        v = S.p[74 * S.s0 + i] * two; S.p[94 * S.s0 + i] = w * a0 + v * b0; S.p[95 * S.s0 + i] = w * a1 + v * b1;
+        S.p[96 * S.s0 + i] = w * a2 + v * b2; S.p[97 * S.s0 + i] = w * a3 + v * b3; w = S.p[71 * S.s0 + i];
+        v = S.p[72 * S.s0 + i]; S.p[98 * S.s0 + i] = w * S.p[87 * S.s0 + i] + v * S.p[19 * S.s0 + i];
+        S.p[99 * S.s0 + i] = w * S.p[88 * S.s0 + i] + v * S.p[20 * S.s0 + i];
+        S.p[100 * S.s0 + i] = w * S.p[89 * S.s0 + i] + v * S.p[21 * S.s0 + i];
+    }
+    int64_t b;
+    for (int64_t c = 0; c < 11; c++) {
+        INDEPENDENT
+        for (b = 0; b < B; b++)
+            S.p[(90 + c) * S.s0 + b] = S.p[(90 + c) * S.s0 + b] + S.p[(90 + c) * S.s0 + B + b] + (S.p[(90 + c) * S.s0
+                + 2 * B + b] + S.p[(90 + c) * S.s0 + 3 * B + b]);
+    }
+    INDEPENDENT
+    for (b = 0; b < B; b++) {
+        int rests = S.p[58 * S.s0 + b] != 0; real k1 = S.p[101 * S.s0 + b], k2 = S.p[102 * S.s0 + b];
+        real k3 = S.p[103 * S.s0 + b], g1 = S.p[104 * S.s0 + b], g2 = S.p[105 * S.s0 + b], g3 = S.p[106 * S.s0 + b];
+        a0 = S.p[107 * S.s0 + b]; a1 = S.p[108 * S.s0 + b]; a2 = S.p[109 * S.s0 + b]; a3 = S.p[110 * S.s0 + b];
+        real x = S.p[111 * S.s0 + b], y = S.p[112 * S.s0 + b], d0 = S.p[94 * S.s0 + b], d1 = S.p[95 * S.s0 + b];
+        real d2 = S.p[96 * S.s0 + b], d3 = S.p[97 * S.s0 + b];
+        real more = 2 * real_sqrt(d0 * d0 + d1 * d1 + (d2 * d2 + d3 * d3));
+        t_r12 t_2 = long_step_moved_body(k1, k2, k3, g1, g2, g3, a0, a1, a2, a3, x, y, S.p[90 * S.s0 + b], S.p[91 *
+            S.s0 + b], S.p[92 * S.s0 + b], S.p[93 * S.s0 + b], S.p[98 * S.s0 + b], S.p[99 * S.s0 + b], S.p[100 * S.s0
+            + b], S.p[115 * S.s0 + b]);
+        real l1 = t_2.a0, l2 = t_2.a1, l3 = t_2.a2, h1 = t_2.a3, h2 = t_2.a4, h3 = t_2.a5; b0 = t_2.a6; b1 = t_2.a7;
+        b2 = t_2.a8; b3 = t_2.a9; v = t_2.a10; w = t_2.a11; S.p[101 * S.s0 + b] = rests ? k1 : l1;
+        S.p[102 * S.s0 + b] = rests ? k2 : l2; S.p[103 * S.s0 + b] = rests ? k3 : l3;
+        S.p[104 * S.s0 + b] = rests ? g1 : h1; S.p[105 * S.s0 + b] = rests ? g2 : h2;
+        S.p[106 * S.s0 + b] = rests ? g3 : h3; S.p[107 * S.s0 + b] = rests ? a0 : b0;
+        S.p[108 * S.s0 + b] = rests ? a1 : b1; S.p[109 * S.s0 + b] = rests ? a2 : b2;
+        S.p[110 * S.s0 + b] = rests ? a3 : b3; S.p[111 * S.s0 + b] = rests ? x : v;
+        S.p[112 * S.s0 + b] = rests ? y : w; S.p[113 * S.s0 + b] += rests ? 0 : more;
+    }
+}
+
+INLINE void lanes_finish(r2 S, int64_t i) {
+    real t_1 = S.p[15 * S.s0 + i], t_2 = S.p[16 * S.s0 + i], t_3 = S.p[17 * S.s0 + i], t_4 = S.p[18 * S.s0 + i];
+    S.p[83 * S.s0 + i] = t_1; S.p[84 * S.s0 + i] = t_2; S.p[85 * S.s0 + i] = t_3; S.p[86 * S.s0 + i] = t_4;
+    real t_5 = S.p[19 * S.s0 + i], t_6 = S.p[20 * S.s0 + i], t_7 = S.p[21 * S.s0 + i]; S.p[87 * S.s0 + i] = t_5;
+    S.p[88 * S.s0 + i] = t_6; S.p[89 * S.s0 + i] = t_7;
+}
+
+INLINE void lanes_begin_second(r2 S, int64_t B, int64_t lane, r2 weights) {
+    INDEPENDENT
+    for (int64_t b = 0; b < B; b++) lanes_start(S, lane * B + b, 65);
+    real w0 = weights.p[lane * weights.s0 + 0], w1 = weights.p[lane * weights.s0 + 1];
+    real w2 = weights.p[lane * weights.s0 + 2], w3 = weights.p[lane * weights.s0 + 3];
+    real w4 = weights.p[lane * weights.s0 + 4], w5 = weights.p[lane * weights.s0 + 5];
+    real w6 = weights.p[lane * weights.s0 + 6], w7 = weights.p[lane * weights.s0 + 7];
+    INDEPENDENT
+    for (int64_t b = 0; b < B; b++) {
+        int64_t i = b, j = B + b, k = 2 * B + b, m = 3 * B + b; real tangent = S.p[79 * S.s0 + lane * B + b], x1 = w0
+            * S.p[37 * S.s0 + i] + w1 * S.p[40 * S.s0 + i] + (w2 * S.p[43 * S.s0 + i] + w3 * S.p[80 * S.s0 + i]), x2 =
+            w0 * S.p[38 * S.s0 + i] + w1 * S.p[41 * S.s0 + i] + (w2 * S.p[44 * S.s0 + i] + w3 * S.p[81 * S.s0 + i]),
+            x3 = w0 * S.p[39 * S.s0 + i] + w1 * S.p[42 * S.s0 + i] + (w2 * S.p[45 * S.s0 + i] + w3 * S.p[82 * S.s0 +
+            i]);
+        x1 += w4 * S.p[80 * S.s0 + j] + w5 * S.p[80 * S.s0 + k] + (w6 * S.p[80 * S.s0 + m] + w7 * S.p[121 * S.s0 +
+            i]);
+        x2 += w4 * S.p[81 * S.s0 + j] + w5 * S.p[81 * S.s0 + k] + (w6 * S.p[81 * S.s0 + m] + w7 * S.p[122 * S.s0 +
+            i]);
+        x3 += w4 * S.p[82 * S.s0 + j] + w5 * S.p[82 * S.s0 + k] + (w6 * S.p[82 * S.s0 + m] + w7 * S.p[123 * S.s0 +
+            i]);
+        S.p[6 * S.s0 + lane * B + b] = tangent * x1; S.p[7 * S.s0 + lane * B + b] = tangent * x2;
+        S.p[8 * S.s0 + lane * B + b] = tangent * x3;
+    }
+}
+
+INLINE int64_t lanes_checked(r2 S, int64_t B, int again) {
+    int64_t end_1 = 4 * B;
+    INDEPENDENT
+    for (int64_t i = 0; i < end_1; i++) {
+        real k1 = S.p[0 * S.s0 + i], k2 = S.p[1 * S.s0 + i], k3 = S.p[2 * S.s0 + i], g1 = S.p[3 * S.s0 + i];
+        real g2 = S.p[4 * S.s0 + i], g3 = S.p[5 * S.s0 + i], u1 = S.p[6 * S.s0 + i], u2 = S.p[7 * S.s0 + i];
+        real u3 = S.p[8 * S.s0 + i], I1 = S.p[27 * S.s0 + i], I2 = S.p[28 * S.s0 + i], I3 = S.p[29 * S.s0 + i];
+        real contact = S.p[30 * S.s0 + i];
+        if (!again) {
+            t_r20 t_2 = gibbs_newton_round(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, contact, 0); u1 = t_2.a4;
+            u2 = t_2.a5; u3 = t_2.a6;
+        }
+        t_r20 t_3 = gibbs_newton_round(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, contact, 0); real p0 = t_3.a0;
+        real p1 = t_3.a1, p2 = t_3.a2, p3 = t_3.a3, first = t_3.a7, d1 = t_3.a8, d2 = t_3.a9, d3 = t_3.a10;
+        real c11 = t_3.a11, c12 = t_3.a12, c13 = t_3.a13, c21 = t_3.a14, c22 = t_3.a15, c23 = t_3.a16, c31 = t_3.a17;
+        real c32 = t_3.a18, c33 = t_3.a19;
+        t_r7 t_4 = gibbs_second_round(p0, p1, p2, p3, k1, k2, k3, d1, d2, d3, c11, c12, c13, c21, c22, c23, c31, c32,
+            c33, I1, I2, I3);
+        p1 = t_4.a0; p2 = t_4.a1; p3 = t_4.a2; real w1 = t_4.a3, w2 = t_4.a4, w3 = t_4.a5, second = t_4.a6;
+        real squares = c11 * c11 + c12 * c12 + c13 * c13 + (c21 * c21 + c22 * c22 + c23 * c23);
+        real bent = S.p[24 * S.s0 + i] * (squares + (c31 * c31 + c32 * c32 + c33 * c33));
+        int settled = (p0 > 0) & (w1 * w1 + (w2 * w2 + w3 * w3) <= S.p[25 * S.s0 + i]);
+        settled = settled & (bent * first <= R(0.015625) * (p0 * p0));
+        settled = settled & (bent * (max_r(first, second) * second) <= S.p[26 * S.s0 + i] * (p0 * p0));
+        int closed = again & (S.p[57 * S.s0 + i] == 0); real t_5 = closed ? S.p[53 * S.s0 + i] : p0;
+        real t_6 = closed ? S.p[54 * S.s0 + i] : p1; S.p[53 * S.s0 + i] = t_5; S.p[54 * S.s0 + i] = t_6;
+        real t_7 = closed ? S.p[55 * S.s0 + i] : p2, t_8 = closed ? S.p[56 * S.s0 + i] : p3; S.p[55 * S.s0 + i] = t_7;
+        S.p[56 * S.s0 + i] = t_8; real t_9 = closed ? S.p[6 * S.s0 + i] : w1, t_10 = closed ? S.p[7 * S.s0 + i] : w2;
+        S.p[6 * S.s0 + i] = t_9; S.p[7 * S.s0 + i] = t_10; S.p[8 * S.s0 + i] = closed ? S.p[8 * S.s0 + i] : w3;
+        S.p[57 * S.s0 + i] = (closed | settled) | (S.p[58 * S.s0 + i] != 0) ? 0 : 1;
+    }
+    int64_t left = 0, end_11 = 4 * B;
+    INDEPENDENT
+    for (int64_t i = 0; i < end_11; i++) left += S.p[57 * S.s0 + i] != 0 ? 1 : 0;
+    return left;
+}
+
+INLINE void lanes_lose(r2 S, int64_t B) {
+    INDEPENDENT
+    for (int64_t b = 0; b < B; b++) {
+        int is_open = S.p[57 * S.s0 + b] + S.p[57 * S.s0 + B + b] + (S.p[57 * S.s0 + 2 * B + b] + S.p[57 * S.s0 + 3 *
+            B + b]) != 0;
+        for (int64_t lane = 0; lane < 4; lane++)
+            S.p[58 * S.s0 + lane * B + b] = is_open ? 1 : S.p[58 * S.s0 + lane * B + b];
+    }
+}
+
+INLINE void lanes_moved(r2 S, int64_t B, int traced) {
+    real x1, x2, x3, scale, s1, s2, s3; int64_t end_1 = 4 * B;
+    INDEPENDENT
+    for (int64_t i = 0; i < end_1; i++) {
+        real p0 = S.p[53 * S.s0 + i], p1 = S.p[54 * S.s0 + i], p2 = S.p[55 * S.s0 + i], p3 = S.p[56 * S.s0 + i];
+        real w1 = S.p[6 * S.s0 + i], w2 = S.p[7 * S.s0 + i], w3 = S.p[8 * S.s0 + i];
+        if (traced) {
+            scale = 1 / (1 + (w1 * w1 + (w2 * w2 + w3 * w3)));
+            t_r3 t_2 = kernel_centre_step(1, w1, w2, w3, S.p[3 * S.s0 + i], S.p[4 * S.s0 + i], S.p[5 * S.s0 + i]);
+            s1 = t_2.a0; s2 = t_2.a1; s3 = t_2.a2; s1 = scale * s1; s2 = scale * s2; s3 = scale * s3;
+            t_r3 t_3 = kernel_turn(S.p[15 * S.s0 + i], -S.p[16 * S.s0 + i], -S.p[17 * S.s0 + i], -S.p[18 * S.s0 + i],
+                s1, s2, s3);
+            x1 = t_3.a0; x2 = t_3.a1; x3 = t_3.a2; S.p[19 * S.s0 + i] += s1 + x1; S.p[20 * S.s0 + i] += s2 + x2;
+            S.p[21 * S.s0 + i] += s3 + x3;
+        }
+        t_r3 t_4 = kernel_turn(p0, p1, p2, p3, S.p[0 * S.s0 + i], S.p[1 * S.s0 + i], S.p[2 * S.s0 + i]); x1 = t_4.a0;
+        x2 = t_4.a1; x3 = t_4.a2; S.p[0 * S.s0 + i] += x1; S.p[1 * S.s0 + i] += x2; S.p[2 * S.s0 + i] += x3;
+        t_r3 t_5 = kernel_turn(p0, p1, p2, p3, S.p[3 * S.s0 + i], S.p[4 * S.s0 + i], S.p[5 * S.s0 + i]); x1 = t_5.a0;
+        x2 = t_5.a1; x3 = t_5.a2; S.p[3 * S.s0 + i] += x1; S.p[4 * S.s0 + i] += x2; S.p[5 * S.s0 + i] += x3;
+        t_r4 t_6 = kernel_compose(S.p[15 * S.s0 + i], S.p[16 * S.s0 + i], S.p[17 * S.s0 + i], S.p[18 * S.s0 + i], 1,
+            w1, w2, w3);
+        S.p[15 * S.s0 + i] = t_6.a0; S.p[16 * S.s0 + i] = t_6.a1; S.p[17 * S.s0 + i] = t_6.a2;
+        S.p[18 * S.s0 + i] = t_6.a3; real v1 = S.p[9 * S.s0 + i], v2 = S.p[10 * S.s0 + i], v3 = S.p[11 * S.s0 + i];
+        x1 = S.p[12 * S.s0 + i]; x2 = S.p[13 * S.s0 + i]; x3 = S.p[14 * S.s0 + i]; S.p[9 * S.s0 + i] = w1;
+        S.p[10 * S.s0 + i] = w2; S.p[11 * S.s0 + i] = w3; S.p[12 * S.s0 + i] = v1; S.p[13 * S.s0 + i] = v2;
+        S.p[14 * S.s0 + i] = v3; real d = S.p[47 * S.s0 + i], e = S.p[48 * S.s0 + i], f = S.p[49 * S.s0 + i];
+        real a = S.p[50 * S.s0 + i], b = S.p[51 * S.s0 + i], c = S.p[52 * S.s0 + i], tangent = S.p[79 * S.s0 + i];
+        real y1 = d * S.p[37 * S.s0 + i] + e * S.p[40 * S.s0 + i] + f * S.p[43 * S.s0 + i];
+        real y2 = d * S.p[38 * S.s0 + i] + e * S.p[41 * S.s0 + i] + f * S.p[44 * S.s0 + i];
+        real y3 = d * S.p[39 * S.s0 + i] + e * S.p[42 * S.s0 + i] + f * S.p[45 * S.s0 + i];
+        S.p[6 * S.s0 + i] = a * w1 + b * v1 + (c * x1 + tangent * y1);
+        S.p[7 * S.s0 + i] = a * w2 + b * v2 + (c * x2 + tangent * y2);
+        S.p[8 * S.s0 + i] = a * w3 + b * v3 + (c * x3 + tangent * y3);
+    }
+}
+
+INLINE int lanes_side_by_side(r2 S, int64_t B, int64_t columns, int traced, r3 following, r2 beginning) {
+    int64_t first = 8 - columns, second = 3; lanes_rates(S, B, first); lanes_begin(S, B); int lost = 0; int64_t b, c;
+    int64_t i; real weight;
+    for (int64_t slot = 0; slot < 7; slot++) {
+        int64_t lane = 7 - slot;
+        if (lane < 4) {
+            INDEPENDENT
+            for (b = 0; b < B; b++) lanes_finish(S, lane * B + b);
+        }
+        if (lane == 3 && first <= 3) lanes_begin_second(S, B, 3, beginning);
+        else {
+            if (lane == 2 && first <= 2) lanes_begin_second(S, B, 2, beginning);
+        }
+        for (int64_t j = 0; j < 6; j++) {
+            for (c = 0; c < 4; c++) {
+                weight = following.p[slot * following.s0 + j * following.s1 + c];
+                INDEPENDENT
+                for (b = 0; b < B; b++) S.p[(47 + j) * S.s0 + c * B + b] = weight;
+            }
+        }
+        int64_t left = lanes_checked(S, B, 0), rounds = 0;
+        while (left > 0 && rounds < 6) {
+            left = lanes_checked(S, B, 1); rounds = rounds + 1;
+        }
+        if (left > 0) {
+            lost = 1; lanes_lose(S, B);
+            if (B == 1) return 1;
+        }
+        if (traced) lanes_moved(S, B, 1);
+        else lanes_moved(S, B, 0);
+        if (slot == 0) {
+            int64_t end_1 = 4 * B;
+            INDEPENDENT
+            for (i = 0; i < end_1; i++) {
+                real t_2 = S.p[9 * S.s0 + i] * S.p[23 * S.s0 + i], t_3 = S.p[10 * S.s0 + i] * S.p[23 * S.s0 + i];
+                S.p[80 * S.s0 + i] = t_2; S.p[81 * S.s0 + i] = t_3;
+                S.p[82 * S.s0 + i] = S.p[11 * S.s0 + i] * S.p[23 * S.s0 + i];
+            }
+        }
+        else {
+            if (lane == second && lane < 4) {
+                INDEPENDENT
+                for (b = 0; b < B; b++) {
+                    i = lane * B + b; real t_4 = S.p[9 * S.s0 + i] * S.p[23 * S.s0 + i];
+                    real t_5 = S.p[10 * S.s0 + i] * S.p[23 * S.s0 + i]; S.p[121 * S.s0 + b] = t_4;
+                    S.p[122 * S.s0 + b] = t_5; S.p[123 * S.s0 + b] = S.p[11 * S.s0 + i] * S.p[23 * S.s0 + i];
+                }
+            }
+        }
+    }
+    INDEPENDENT
+    for (b = 0; b < B; b++) lanes_finish(S, b);
+    lanes_gather(S, B); return lost;
+}
+
+INLINE void long_run_show(r2 S, int64_t b, int64_t exponent, int64_t frame, r3 momenta, r3 verticals, r3 attitudes, r3
+    traces, int follows, int going) {
+    int64_t c;
+    for (c = 0; c < 3; c++) {
+        momenta.p[b * momenta.s0 + frame * momenta.s1 + c] = going ? (real)ldexp(S.p[(101 + c) * S.s0 + b],
+            (int)(int64_t)exponent) : NAN;
+        verticals.p[b * verticals.s0 + frame * verticals.s1 + c] = going ? S.p[(104 + c) * S.s0 + b] : NAN;
+    }
+    if (follows) {
+        for (c = 0; c < 4; c++)
+            attitudes.p[b * attitudes.s0 + frame * attitudes.s1 + c] = going ? S.p[(107 + c) * S.s0 + b] : NAN;
+        for (c = 0; c < 2; c++)
+            traces.p[b * traces.s0 + frame * traces.s1 + c] = going ? S.p[(111 + c) * S.s0 + b] : NAN;
+    }
+}
+
+INLINE void rotation_n_guess(r3 past, r1 use, r2 E) {
+    int64_t n = E.n0; real z; int64_t m;
+    for (int64_t i = 0; i < n; i++) {
+        for (int64_t j = 0; j < n; j++) {
+            z = use.p[7] * past.p[7 * past.s0 + i * past.s1 + j]; int64_t end_1 = -1;
+            for (m = 6; m > end_1; m--) z += use.p[m] * past.p[m * past.s0 + i * past.s1 + j];
+            E.p[i * E.s0 + j] = z;
+        }
+    }
+}
+
+INLINE void rotation_n_remember(r2 E, r3 past, r1 use) {
+    int64_t n = E.n0, m; real z, before;
+    for (int64_t i = 0; i < n; i++) {
+        for (int64_t j = 0; j < n; j++) {
+            z = E.p[i * E.s0 + j];
+            for (m = 0; m < 8; m++) {
+                before = past.p[m * past.s0 + i * past.s1 + j]; past.p[m * past.s0 + i * past.s1 + j] = z;
+                z -= before;
+            }
+        }
+    }
+    for (m = 7; m > 0; m--) use.p[m] = use.p[m - 1];
+    use.p[0] = 1;
+}
+
+INLINE void rotation_n_move(r2 E, r2 k, r1 g, r2 W, r1 c) {
+    int64_t n = E.n0; real z; int64_t m;
+    for (int64_t i = 0; i < n; i++) {
+        z = E.p[0 * E.s0 + i] * g.p[0];
+        for (m = 1; m < n; m++) z += E.p[m * E.s0 + i] * g.p[m];
+        c.p[i] = z;
+    }
+    for (int64_t i = 0; i < n; i++) g.p[i] += c.p[i];
+    int64_t j;
+    for (int64_t i = 0; i < n; i++) {
+        for (j = 0; j < n; j++) {
+            z = k.p[i * k.s0 + 0] * E.p[0 * E.s0 + j];
+            for (m = 1; m < n; m++) z += k.p[i * k.s0 + m] * E.p[m * E.s0 + j];
+            W.p[i * W.s0 + j] = z;
+        }
+    }
+    real y;
+    for (int64_t i = 1; i < n; i++) {
+        for (j = 0; j < i; j++) {
+            z = E.p[0 * E.s0 + i] * W.p[0 * W.s0 + j]; y = E.p[0 * E.s0 + j] * W.p[0 * W.s0 + i];
+            for (m = 1; m < n; m++) {
+                z += E.p[m * E.s0 + i] * W.p[m * W.s0 + j]; y += E.p[m * E.s0 + j] * W.p[m * W.s0 + i];
+            }
+            z = k.p[i * k.s0 + j] + (W.p[i * W.s0 + j] + R(0.5) * z - (W.p[j * W.s0 + i] + R(0.5) * y));
+            k.p[i * k.s0 + j] = z; k.p[j * k.s0 + i] = -z;
+        }
+    }
+}
+
+INLINE real rotation_n_polish(r2 E, r2 W, r1 v) {
+    int64_t n = E.n0; real far = 0; int64_t j; real z; int64_t m;
+    for (int64_t i = 0; i < n; i++) {
+        int64_t end_1 = i + 1;
+        for (j = 0; j < end_1; j++) {
+            z = E.p[i * E.s0 + j] + E.p[j * E.s0 + i];
+            for (m = 0; m < n; m++) z += E.p[m * E.s0 + i] * E.p[m * E.s0 + j];
+            W.p[i * W.s0 + j] = z; W.p[j * W.s0 + i] = z; far += z * z;
+        }
+    }
+    for (int64_t i = 0; i < n; i++) {
+        for (j = 0; j < n; j++) {
+            z = W.p[i * W.s0 + j];
+            for (m = 0; m < n; m++) z += E.p[i * E.s0 + m] * W.p[m * W.s0 + j];
+            v.p[j] = z;
+        }
+        for (j = 0; j < n; j++) E.p[i * E.s0 + j] -= R(0.5) * v.p[j];
+    }
+    return far;
+}
+
+INLINE void rotation_n_gap(r2 E, r2 k, r1 g, r1 J, real D, r1 c, r1 r) {
+    int64_t n = E.n0, j;
+    for (int64_t i = 0; i < n; i++) {
+        real z = (E.p[i * E.s0 + 0] - E.p[0 * E.s0 + i]) * g.p[0];
+        for (j = 1; j < n; j++) z += (E.p[i * E.s0 + j] - E.p[j * E.s0 + i]) * g.p[j];
+        c.p[i] = R(0.5) * D * z;
+    }
+    int64_t p = 0;
+    for (int64_t i = 1; i < n; i++) {
+        for (j = 0; j < i; j++) {
+            r.p[p] = k.p[i * k.s0 + j] - (E.p[i * E.s0 + j] * J.p[j] + c.p[i] * g.p[j] - (E.p[j * E.s0 + i] * J.p[i] +
+                c.p[j] * g.p[i]));
+            p += 1;
+        }
+    }
+}
+
+INLINE void rotation_n_slope(r2 E, r1 g, r1 J, real D, r2 O, r1 h, r1 c, r2 T) {
+    int64_t n = E.n0, i, j;
+    for (i = 0; i < n; i++) {
+        for (j = 0; j < n; j++) O.p[i * O.s0 + j] = E.p[i * E.s0 + j] + (i == j ? 1 : 0);
+    }
+    real z;
+    for (i = 0; i < n; i++) {
+        z = O.p[0 * O.s0 + i] * g.p[0];
+        for (int64_t m = 1; m < n; m++) z += O.p[m * O.s0 + i] * g.p[m];
+        h.p[i] = R(0.5) * D * z;
+    }
+    int64_t at = 0; real dq, dp; int64_t row;
+    for (int64_t p = 1; p < n; p++) {
+        for (int64_t q = 0; q < p; q++) {
+            dq = R(0.5) * D * g.p[q]; dp = R(0.5) * D * g.p[p];
+            for (i = 0; i < n; i++) c.p[i] = O.p[i * O.s0 + p] * dq - O.p[i * O.s0 + q] * dp;
+            c.p[q] -= h.p[p]; c.p[p] += h.p[q]; row = 0;
+            for (i = 1; i < n; i++) {
+                for (j = 0; j < i; j++) {
+                    T.p[at * T.s0 + row] = c.p[i] * g.p[j] - c.p[j] * g.p[i]; row += 1;
+                }
+            }
+            for (i = 0; i < n; i++) {
+                if (i != q) {
+                    row = i > q ? i * (i - 1) / 2 + q : q * (q - 1) / 2 + i; z = O.p[i * O.s0 + p] * J.p[q];
+                    T.p[at * T.s0 + row] += i > q ? z : -z;
+                }
+                if (i != p) {
+                    row = i > p ? i * (i - 1) / 2 + p : p * (p - 1) / 2 + i; z = O.p[i * O.s0 + q] * J.p[p];
+                    T.p[at * T.s0 + row] -= i > p ? z : -z;
+                }
+            }
+            at += 1;
+        }
+    }
+}
+
+INLINE void rotation_n_solve(r2 T, r1 r) {
+    int64_t size = r.n0, i, j; real f;
+    for (int64_t k = 0; k < size; k++) {
+        real inverse = 1 / T.p[k * T.s0 + k];
+        for (i = k + 1; i < size; i++) {
+            f = T.p[i * T.s0 + k] * inverse; T.p[i * T.s0 + k] = f;
+            for (j = k + 1; j < size; j++) T.p[i * T.s0 + j] -= f * T.p[k * T.s0 + j];
+        }
+        real z = r.p[k] * inverse; r.p[k] = z;
+        for (j = k + 1; j < size; j++) r.p[j] -= z * T.p[k * T.s0 + j];
+    }
+    for (i = size - 1; i > 0; i--) {
+        for (j = 0; j < i; j++) r.p[j] -= r.p[i] * T.p[i * T.s0 + j];
+    }
+}
+
+INLINE t_r2 rotation_n_turn(r2 E, r1 r, r2 O, r2 W, r1 v) {
+    int64_t n = E.n0, p = 0; real change = 0, size = 0; int64_t j;
+    for (int64_t i = 0; i < n; i++) {
+        O.p[i * O.s0 + i] = 0;
+        for (j = 0; j < i; j++) {
+            O.p[i * O.s0 + j] = r.p[p]; O.p[j * O.s0 + i] = -r.p[p]; change += r.p[p] * r.p[p]; p += 1;
+        }
+    }
+    real z; int64_t m;
+    for (int64_t i = 0; i < n; i++) {
+        for (j = 0; j < n; j++) {
+            z = O.p[i * O.s0 + 0] * O.p[0 * O.s0 + j];
+            for (m = 1; m < n; m++) z += O.p[i * O.s0 + m] * O.p[m * O.s0 + j];
+            W.p[i * W.s0 + j] = O.p[i * O.s0 + j] + R(0.5) * z;
+        }
+    }
+    for (int64_t i = 0; i < n; i++) {
+        for (j = 0; j < n; j++) {
+            z = W.p[i * W.s0 + j];
+            for (m = 0; m < n; m++) z += E.p[i * E.s0 + m] * W.p[m * W.s0 + j];
+            v.p[j] = z;
+        }
+        for (j = 0; j < n; j++) {
+            E.p[i * E.s0 + j] += v.p[j]; size += E.p[i * E.s0 + j] * E.p[i * E.s0 + j];
+        }
+    }
+    return (t_r2){change, size};
+}
+
+INLINE int loop_n_settle(r2 k, r1 g, r1 J, real D, real near, real enough, r2 E, r2 O, r2 W, r2 T, r1 r, r1 h, r1 c) {
+    for (int64_t i_0 = 0; i_0 < 12; i_0++) {
+        real far = rotation_n_polish(E, W, c); rotation_n_gap(E, k, g, J, D, c, r);
+        rotation_n_slope(E, g, J, D, O, h, c, T); rotation_n_solve(T, r);
+        t_r2 change = rotation_n_turn(E, r, O, W, c); real off = change.a0 + far;
+        if (off * off <= enough * enough * change.a1) return change.a1 <= near;
+    }
+    return 0;
+}
+
+INLINE void rotation_n_roll(r2 E, r1 g, r2 R, r1 spot, real rho, r1 c, r2 W) {
+    int64_t n = E.n0; real z; int64_t j;
+    for (int64_t i = 0; i < n; i++) {
+        z = (E.p[i * E.s0 + 0] - E.p[0 * E.s0 + i]) * g.p[0];
+        for (j = 1; j < n; j++) z += (E.p[i * E.s0 + j] - E.p[j * E.s0 + i]) * g.p[j];
+        c.p[i] = z;
+    }
+    int64_t end_1 = n - 1;
+    for (int64_t i = 0; i < end_1; i++) {
+        z = R.p[i * R.s0 + 0] * c.p[0];
+        for (j = 1; j < n; j++) z += R.p[i * R.s0 + j] * c.p[j];
+        spot.p[i] += R(0.5) * rho * z;
+    }
+    int64_t m;
+    for (int64_t i = 0; i < n; i++) {
+        for (j = 0; j < n; j++) {
+            z = R.p[i * R.s0 + j];
+            for (m = 0; m < n; m++) z += R.p[i * R.s0 + m] * E.p[m * E.s0 + j];
+            c.p[j] = z;
+        }
+        for (j = 0; j < n; j++) R.p[i * R.s0 + j] = c.p[j];
+    }
+    for (int64_t i = 0; i < n; i++) {
+        int64_t end_2 = i + 1;
+        for (j = 0; j < end_2; j++) {
+            z = R.p[0 * R.s0 + i] * R.p[0 * R.s0 + j];
+            for (m = 1; m < n; m++) z += R.p[m * R.s0 + i] * R.p[m * R.s0 + j];
+            W.p[i * W.s0 + j] = z - (i == j ? 1 : 0); W.p[j * W.s0 + i] = W.p[i * W.s0 + j];
+        }
+    }
+    for (int64_t i = 0; i < n; i++) {
+        for (j = 0; j < n; j++) {
+            z = R.p[i * R.s0 + 0] * W.p[0 * W.s0 + j];
+            for (m = 1; m < n; m++) z += R.p[i * R.s0 + m] * W.p[m * W.s0 + j];
+            c.p[j] = z;
+        }
+        for (j = 0; j < n; j++) R.p[i * R.s0 + j] -= R(0.5) * c.p[j];
+    }
+}
+
+INLINE int64_t loop_n_march(r2 k, r1 g, r1 J, real D, r1 c, r1 near, r1 enough, r4 past, r2 use, int64_t first,
+    int64_t count, int64_t every, real scale, r3 momenta, r2 verticals, int with_body, r2 R, r1 spot, real rho, r3
+    attitudes, r2 traces) {
+    int64_t n = k.n0, stages = c.n0; ALIGNED real E_[n * n]; r2 E = {E_, n, n, n}; ALIGNED real O_[n * n];
+    r2 O = {O_, n, n, n}; ALIGNED real W_[n * n]; r2 W = {W_, n, n, n};
+    ALIGNED real T_[n * (n - 1) / 2 * n * (n - 1) / 2];
+    r2 T = {T_, n * (n - 1) / 2, n * (n - 1) / 2, n * (n - 1) / 2}; ALIGNED real r_[n * (n - 1) / 2];
+    r1 r = {r_, n * (n - 1) / 2}; ALIGNED real h_[n]; r1 h = {h_, n}; ALIGNED real v_[n]; r1 v = {v_, n};
+    ALIGNED real part_[n * n]; r2 part = {part_, n, n, n}; int64_t i, j, frame, end_1 = first + count;
+    for (int64_t stage = first; stage < end_1; stage++) {
+        int64_t s = stage % stages;
+        for (i = 0; i < n; i++) {
+            for (j = 0; j < n; j++) part.p[i * part.s0 + j] = c.p[s] * k.p[i * k.s0 + j];
+        }
+        rotation_n_guess((r3){past.p + s * past.s0, past.n1, past.n2, past.n3, past.s1, past.s2}, (r1){use.p + s *
+            use.s0, use.n1}, E);
+        if (!loop_n_settle(part, g, J, D, near.p[s], enough.p[s], E, O, W, T, r, h, v)) return stage - first;
+        rotation_n_remember(E, (r3){past.p + s * past.s0, past.n1, past.n2, past.n3, past.s1, past.s2}, (r1){use.p + s
+            * use.s0, use.n1});
+        if (with_body) rotation_n_roll(E, g, R, spot, rho, v, W);
+        rotation_n_move(E, k, g, W, v);
+        if ((stage + 1) % (stages * every) == 0) {
+            frame = (stage + 1) / (stages * every);
+            for (i = 0; i < n; i++) {
+                verticals.p[frame * verticals.s0 + i] = g.p[i];
+                for (j = 0; j < n; j++)
+                    momenta.p[frame * momenta.s0 + i * momenta.s1 + j] = scale * k.p[i * k.s0 + j];
+            }
+            if (with_body) {
+                for (i = 0; i < n; i++) {
+                    for (j = 0; j < n; j++)
+                        attitudes.p[frame * attitudes.s0 + i * attitudes.s1 + j] = R.p[i * R.s0 + j];
+                }
+                int64_t end_2 = n - 1;
+                for (i = 0; i < end_2; i++) traces.p[frame * traces.s0 + i] = spot.p[i];
+            }
+        }
+    }
+    return count;
+}
+
+INLINE real kernel_vertical_square(real g1, real g2, real g3, real L1, real L2, real L3) {
+    real o_level = L1 * L2 * g3 * g3 + L1 * L3 * g2 * g2 + L2 * L3 * g1 * g1; return o_level;
+}
+
+INLINE t_r2 kernel_vertical_level(real t, real v, real level, real L1, real L2, real L3) {
+    real s = t * t, m = s * v, t0 = -m, p1 = L1 + t0, p2 = L2 + t0, p3 = L3 + t0, c = p1 * p2;
+    real a = L1 + L2 + (L3 - 2 * m), b = c + 2 * s + p3 * (p1 + p2), t1 = a * s + c * p3, o_f = t1 * v - level - s;
+    real o_fv = t1 - b * m; return (t_r2){o_f, o_fv};
+}
+
+INLINE t_br vertical_loop_level_root(real level, real t, real v, real I1, real I2, real I3) {
+    for (int64_t i_0 = 0; i_0 < 30; i_0++) {
+        t_r2 f = kernel_vertical_level(t, v, level, I1, I2, I3); real correction = f.a0 / f.a1; v -= correction;
+        if (real_abs(correction) <= R(0x1.0000000000000p-49) * v) return (t_br){1, v};
+    }
+    return (t_br){0, v};
+}
+
+INLINE t_r4 kernel_vertical_rotation(real t, real e, real g1, real g2, real g3, real L1, real L2, real L3) {
+    real t0 = -e, t1 = L1 + t0, t2 = L2 + t0, t3 = L3 + t0, t4 = t2 * t3, t5 = t * t, t6 = -L3, t7 = g3 * t;
+    real o_p0 = t1 * t4 + t5 * (g1 * g1 * t1 + g2 * g2 * t2 + g3 * g3 * t3);
+    real o_p1 = t * (g1 * (t4 + t5) + g2 * t7 * (L2 + t6)), o_p2 = t * (g2 * (t5 + t1 * t3) + g1 * t7 * (-L1 - t6));
+    real o_p3 = t * (g3 * (t5 + t1 * t2) + g1 * g2 * t * (L1 - L2)); return (t_r4){o_p0, o_p1, o_p2, o_p3};
+}
+
+INLINE int vertical_loop_march(r1 g, r1 I, real k, int64_t count, int64_t every, r2 verticals, r1 q) {
+    real I1 = I.p[0], I2 = I.p[1], I3 = I.p[2], g1 = g.p[0], g2 = g.p[1], g3 = g.p[2], y1 = 0, y2 = 0, y3 = 0;
+    real level = kernel_vertical_square(g1, g2, g3, I1, I2, I3);
+    t_br t_1 = vertical_loop_level_root(level, k, level / (I1 * I2 * I3), I1, I2, I3); int settled = t_1.a0;
+    real v = t_1.a1;
+    if (!settled) return 0;
+    real p0 = 1, p1 = 0, p2 = 0, p3 = 0; int64_t frame, end_2 = count + 1;
+    for (int64_t step = 1; step < end_2; step++) {
+        t_r4 t_3 = kernel_vertical_rotation(k, v * k * k, g1, g2, g3, I1, I2, I3); p0 = t_3.a0; p1 = t_3.a1;
+        p2 = t_3.a2; p3 = t_3.a3;
+        t_r2 f = kernel_vertical_level(k, v, kernel_vertical_square(g1, g2, g3, I1, I2, I3), I1, I2, I3);
+        real correction = f.a0 / f.a1;
+        if (!(p1 * p1 + p2 * p2 + p3 * p3 < p0 * p0 && real_abs(correction) <= R(0x1.0000000000000p-49) * v))
+            return 0;
+        v -= correction; t_r6 t_4 = sums_turned(p0, p1, p2, p3, g1, g2, g3, y1, y2, y3); g1 = t_4.a0; g2 = t_4.a1;
+        g3 = t_4.a2; y1 = t_4.a3; y2 = t_4.a4; y3 = t_4.a5;
+        if (step % every == 0) {
+            frame = step / every; verticals.p[frame * verticals.s0 + 0] = g1;
+            verticals.p[frame * verticals.s0 + 1] = g2; verticals.p[frame * verticals.s0 + 2] = g3;
+        }
+    }
+    q.p[0] = p0; q.p[1] = p1; q.p[2] = p2; q.p[3] = p3; return 1;
+}
+
+INLINE t_i2 double_double_step_scales(r1 momentum, r1 tensor, real contact) {
+    t_ri t_1 = real_frexp(max_r(max_r(tensor.p[1] + tensor.p[2], tensor.p[0] + tensor.p[2]), tensor.p[0] +
+        tensor.p[1]) + contact);
+    int64_t exponent = t_1.a1;
+    real largest = max_r(max_r(real_abs(momentum.p[0]), real_abs(momentum.p[1])), real_abs(momentum.p[2]));
+    t_ri size = real_frexp(largest); exponent = max_i(exponent, size.a1 - 1021);
+    int64_t beyond = largest > 0 ? max_i(0, -200 - (size.a1 - exponent)) : 0;
+    return (t_i2){beyond - exponent - 1, beyond};
+}
+
+INLINE t_r2 pairs_loose_add(real a, real a_, real b, real b_) {
+    t_r2 s = pairs_two_sum(a, b); return (t_r2){s.a0, s.a1 + (a_ + b_)};
+}
+
+INLINE t_r2 pairs_two_product(real a, real b) {
+    const real p = a * b;
+    return (t_r2){p, fma(a, b, -p)};
+}
+
+INLINE t_r2 pairs_quick_two_sum(real a, real b) {
+    real total = a + b; return (t_r2){total, b - (total - a)};
+}
+
+INLINE t_r2 pairs_root(real a, real a_) {
+    if (a == 0) return (t_r2){0, 0};
+    real high = real_sqrt(a); t_r2 p = pairs_two_product(high, high);
+    return pairs_quick_two_sum(high, (a_ + (a - p.a0 - p.a1)) / (2 * high));
+}
+
+INLINE t_r2 pairs_multiply_float(real a, real a_, real b) {
+    t_r2 p = pairs_two_product(a, b), s = pairs_quick_two_sum(p.a0, a_ * b);
+    return pairs_quick_two_sum(s.a0, s.a1 + p.a1);
+}
+
+INLINE t_r2 pairs_divide(real a, real a_, real b, real b_) {
+    real high = a / b; t_r2 r = pairs_multiply_float(b, b_, high);
+    return pairs_quick_two_sum(high, (a - r.a0 + (a_ - r.a1)) / b);
+}
+
+INLINE t_r6 double_double_step_unit(real a, real b, real c) {
+    t_r2 t_2 = pairs_two_product(a, a), t_3 = pairs_two_product(b, b);
+    t_r2 t_1 = pairs_loose_add(t_2.a0, t_2.a1, t_3.a0, t_3.a1); real n = t_1.a0, n_ = t_1.a1;
+    t_r2 t_5 = pairs_two_product(c, c), t_4 = pairs_loose_add(n, n_, t_5.a0, t_5.a1); n = t_4.a0; n_ = t_4.a1;
+    t_r2 t_7 = pairs_two_sum(n, n_), t_6 = pairs_root(t_7.a0, t_7.a1); n = t_6.a0; n_ = t_6.a1;
+    t_r2 x = pairs_divide(a, 0, n, n_), y = pairs_divide(b, 0, n, n_), z = pairs_divide(c, 0, n, n_);
+    return (t_r6){x.a0, x.a1, y.a0, y.a1, z.a0, z.a1};
+}
+
+INLINE t_r2 pairs_loose_multiply(real a, real a_, real b, real b_) {
+    t_r2 p = pairs_two_product(a, b); return (t_r2){p.a0, p.a1 + (a * b_ + a_ * b)};
+}
+
+INLINE t_r2 double_double_loop_inner(r1 a, r1 b) {
+    t_r2 t_1 = pairs_loose_multiply(a.p[0], a.p[1], b.p[0], b.p[1]); real x = t_1.a0, x_ = t_1.a1;
+    t_r2 y = pairs_loose_multiply(a.p[2], a.p[3], b.p[2], b.p[3]);
+    t_r2 z = pairs_loose_multiply(a.p[4], a.p[5], b.p[4], b.p[5]), t_2 = pairs_loose_add(x, x_, y.a0, y.a1);
+    x = t_2.a0; x_ = t_2.a1; t_r2 t_3 = pairs_loose_add(x, x_, z.a0, z.a1); x = t_3.a0; x_ = t_3.a1;
+    return pairs_two_sum(x, x_);
+}
+
+INLINE void double_double_loop_remember_pairs(r1 state) {
+    r1 k = (r1){state.p, 6}, g = (r1){state.p + 6, 12 - 6}; t_r2 t_1 = double_double_loop_inner(g, g);
+    state.p[22] = t_1.a0; state.p[23] = t_1.a1; t_r2 t_2 = double_double_loop_inner(k, g); state.p[24] = t_2.a0;
+    state.p[25] = t_2.a1; t_r2 t_3 = double_double_loop_inner(k, k); state.p[26] = t_3.a0; state.p[27] = t_3.a1;
+}
+
+INLINE t_r2 double_double_step_bounds(real k1, real k2, real k3, real I1, real I2, real I3, real D) {
+    if (min_r(min_r(I1, I2), I3) < R(0x1.0000000000000p-120)) return (t_r2){-1, 0};
+    return gibbs_certificate(k1, k2, k3, I1, I2, I3, D);
+}
+
+OUT_OF_LINE t_i2 double_double_loop_prepare_pairs(r1 momentum, r1 g, r1 tensor, real contact, r2 c, r1 state, r1
+    radius, r1 enough) {
+    t_i2 shift = double_double_step_scales(momentum, tensor, contact); int64_t size = shift.a1 - shift.a0 - 1;
+    for (int64_t i = 0; i < 3; i++) {
+        state.p[0 + 2 * i] = (real)ldexp(momentum.p[i], (int)shift.a0); state.p[0 + 2 * i + 1] = 0;
+        state.p[18 + i] = (real)ldexp(tensor.p[i], (int)-size);
+    }
+    state.p[21] = (real)ldexp(contact, (int)-size); t_r6 t_1 = double_double_step_unit(g.p[0], g.p[1], g.p[2]);
+    state.p[6] = t_1.a0; state.p[7] = t_1.a1; state.p[8] = t_1.a2; state.p[9] = t_1.a3; state.p[10] = t_1.a4;
+    state.p[11] = t_1.a5; t_r2 t_2 = pairs_two_sum(state.p[19], state.p[20]); state.p[12] = t_2.a0;
+    state.p[13] = t_2.a1; t_r2 t_3 = pairs_two_sum(state.p[18], state.p[20]); state.p[14] = t_3.a0;
+    state.p[15] = t_3.a1; t_r2 t_4 = pairs_two_sum(state.p[18], state.p[19]); state.p[16] = t_4.a0;
+    state.p[17] = t_4.a1; double_double_loop_remember_pairs(state);
+    for (int64_t i = 0; i < c.n0; i++) {
+        real s = c.p[i * c.s0 + 0];
+        t_r2 t_5 = double_double_step_bounds(s * state.p[0], s * state.p[2], s * state.p[4], state.p[12], state.p[14],
+            state.p[16], state.p[21]);
+        radius.p[i] = t_5.a0; enough.p[i] = t_5.a1;
+    }
+    return (t_i2){shift.a0, shift.a1};
+}
+
+INLINE t_r2 pairs_multiply(real a, real a_, real b, real b_) {
+    t_r2 p = pairs_two_product(a, b); return pairs_quick_two_sum(p.a0, p.a1 + (a * b_ + a_ * b));
+}
+
+INLINE t_br16 double_double_step_approach(real u1, real u2, real u3, real k1, real k2, real k3, real g1, real g2, real
+    g3, real I1, real I2, real I3, real D, real radius, real enough) {
+    real p0, w1, w2, w3, first, d1, d2, d3, c11, c12, c13, c21, c22, c23, c31, c32, c33;
+    for (int64_t i_0 = 0; i_0 < 12; i_0++) {
+        if (!(u1 * u1 + (u2 * u2 + u3 * u3) <= radius)) {
+            u1 = 0; u2 = 0; u3 = 0;
+        }
+        t_r20 t_2 = gibbs_newton_round(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, 0); p0 = t_2.a0;
+        w1 = t_2.a4; w2 = t_2.a5; w3 = t_2.a6; first = t_2.a7; d1 = t_2.a8; d2 = t_2.a9; d3 = t_2.a10; c11 = t_2.a11;
+        c12 = t_2.a12; c13 = t_2.a13; c21 = t_2.a14; c22 = t_2.a15; c23 = t_2.a16; c31 = t_2.a17; c32 = t_2.a18;
+        c33 = t_2.a19;
+        if (first <= enough || radius < 0) break;
+        u1 = w1; u2 = w2; u3 = w3;
+    }
+    return (t_br16){radius >= 0 && first <= enough, w1, w2, w3, d1, d2, d3, p0, c11, c12, c13, c21, c22, c23, c31,
+        c32, c33};
+}
+
+INLINE t_r2 pairs_loose_subtract(real a, real a_, real b, real b_) {
+    t_r2 s = pairs_two_sum(a, -b); return (t_r2){s.a0, s.a1 + (a_ - b_)};
+}
+
+INLINE t_r2 pairs_loose_multiply_float(real a, real a_, real b) {
+    t_r2 p = pairs_two_product(a, b); return (t_r2){p.a0, p.a1 + a_ * b};
+}
+
+INLINE t_r6 double_double_residual_pairs(real q0, real q0_, real q1, real q1_, real q2, real q2_, real q3, real q3_,
+    real K1, real K1_, real K2, real K2_, real K3, real K3_, real g1, real g1_, real g2, real g2_, real g3, real g3_,
+    real J1, real J2, real J3, real D) {
+    t_r2 t0 = pairs_loose_multiply(q2, q2_, g3, g3_), t1 = pairs_loose_multiply(q3, q3_, g2, g2_);
+    t_r2 t_1 = pairs_loose_subtract(t0.a0, t0.a1, t1.a0, t1.a1); real t2 = t_1.a0, t2_ = t_1.a1;
+    t_r2 t_2 = pairs_two_sum(t2, t2_); t2 = t_2.a0; t2_ = t_2.a1; t_r2 t3 = pairs_loose_multiply(q3, q3_, g1, g1_);
+    t_r2 t4 = pairs_loose_multiply(q1, q1_, g3, g3_), t_3 = pairs_loose_subtract(t3.a0, t3.a1, t4.a0, t4.a1);
+    real t5 = t_3.a0, t5_ = t_3.a1; t_r2 t_4 = pairs_two_sum(t5, t5_); t5 = t_4.a0; t5_ = t_4.a1;
+    t_r2 t6 = pairs_loose_multiply(q1, q1_, g2, g2_), t7 = pairs_loose_multiply(q2, q2_, g1, g1_);
+    t_r2 t_5 = pairs_loose_subtract(t6.a0, t6.a1, t7.a0, t7.a1); real t8 = t_5.a0, t8_ = t_5.a1;
+    t_r2 t_6 = pairs_two_sum(t8, t8_); t8 = t_6.a0; t8_ = t_6.a1; t_r2 t9 = pairs_loose_multiply_float(t2, t2_, D);
+    t_r2 t10 = pairs_loose_multiply_float(t5, t5_, D), t11 = pairs_loose_multiply_float(t8, t8_, D); real t12 = -J3;
+    real t13 = 2 * q3, t13_ = 2 * q3_, t14 = 2 * q0, t14_ = 2 * q0_;
+    t_r2 t15 = pairs_loose_multiply(g2, g2_, t11.a0, t11.a1), t16 = pairs_two_sum(J2, J3);
+    t_r2 t17 = pairs_loose_multiply(q1, q1_, t16.a0, t16.a1), t_7 = pairs_loose_add(t15.a0, t15.a1, t17.a0, t17.a1);
+    real t18 = t_7.a0, t18_ = t_7.a1; t_r2 t_8 = pairs_two_sum(t18, t18_); t18 = t_8.a0; t18_ = t_8.a1;
+    t_r2 t19 = pairs_loose_multiply(g3, g3_, t10.a0, t10.a1), t_9 = pairs_loose_subtract(t18, t18_, t19.a0, t19.a1);
+    real t20 = t_9.a0, t20_ = t_9.a1; t_r2 t_10 = pairs_two_sum(t20, t20_); t20 = t_10.a0; t20_ = t_10.a1;
+    t_r2 t21 = pairs_loose_multiply(t14, t14_, t20, t20_), t22 = pairs_loose_multiply(q2, q2_, t13, t13_);
+    t_r2 t23 = pairs_two_sum(J2, t12), t24 = pairs_loose_multiply(t22.a0, t22.a1, t23.a0, t23.a1);
+    t_r2 t_11 = pairs_loose_add(t21.a0, t21.a1, t24.a0, t24.a1); real t25 = t_11.a0, t25_ = t_11.a1;
+    t_r2 t_12 = pairs_two_sum(t25, t25_); t25 = t_12.a0; t25_ = t_12.a1;
+    t_r2 t_13 = pairs_loose_subtract(t25, t25_, K1, K1_); real t26 = t_13.a0, t26_ = t_13.a1;
+    t_r2 t_14 = pairs_two_sum(t26, t26_); t26 = t_14.a0; t26_ = t_14.a1;
+    t_r2 t27 = pairs_loose_multiply(g3, g3_, t9.a0, t9.a1), t28 = pairs_two_sum(J1, J3);
+    t_r2 t29 = pairs_loose_multiply(q2, q2_, t28.a0, t28.a1), t_15 = pairs_loose_add(t27.a0, t27.a1, t29.a0, t29.a1);
+    real t30 = t_15.a0, t30_ = t_15.a1; t_r2 t_16 = pairs_two_sum(t30, t30_); t30 = t_16.a0; t30_ = t_16.a1;
+    t_r2 t31 = pairs_loose_multiply(g1, g1_, t11.a0, t11.a1), t_17 = pairs_loose_subtract(t30, t30_, t31.a0, t31.a1);
+    real t32 = t_17.a0, t32_ = t_17.a1; t_r2 t_18 = pairs_two_sum(t32, t32_); t32 = t_18.a0; t32_ = t_18.a1;
+    t_r2 t33 = pairs_loose_multiply(t14, t14_, t32, t32_), t_19 = pairs_loose_subtract(t33.a0, t33.a1, K2, K2_);
+    real t34 = t_19.a0, t34_ = t_19.a1; t_r2 t_20 = pairs_two_sum(t34, t34_); t34 = t_20.a0; t34_ = t_20.a1;
+    t_r2 t35 = pairs_loose_multiply(q1, q1_, t13, t13_), t36 = pairs_two_sum(J1, t12);
+    t_r2 t37 = pairs_loose_multiply(t35.a0, t35.a1, t36.a0, t36.a1);
+    t_r2 t_21 = pairs_loose_subtract(t34, t34_, t37.a0, t37.a1); real t38 = t_21.a0, t38_ = t_21.a1;
+    t_r2 t_22 = pairs_two_sum(t38, t38_); t38 = t_22.a0; t38_ = t_22.a1;
+    t_r2 t39 = pairs_loose_multiply(g1, g1_, t10.a0, t10.a1), t40 = pairs_two_sum(J1, J2);
+    t_r2 t41 = pairs_loose_multiply(q3, q3_, t40.a0, t40.a1), t_23 = pairs_loose_add(t39.a0, t39.a1, t41.a0, t41.a1);
+    real t42 = t_23.a0, t42_ = t_23.a1; t_r2 t_24 = pairs_two_sum(t42, t42_); t42 = t_24.a0; t42_ = t_24.a1;
+    t_r2 t43 = pairs_loose_multiply(g2, g2_, t9.a0, t9.a1), t_25 = pairs_loose_subtract(t42, t42_, t43.a0, t43.a1);
+    real t44 = t_25.a0, t44_ = t_25.a1; t_r2 t_26 = pairs_two_sum(t44, t44_); t44 = t_26.a0; t44_ = t_26.a1;
+    t_r2 t45 = pairs_loose_multiply(t14, t14_, t44, t44_); real t46 = 2 * q1, t46_ = 2 * q1_;
+    t_r2 t47 = pairs_loose_multiply(q2, q2_, t46, t46_), t48 = pairs_two_sum(J1, -J2);
+    t_r2 t49 = pairs_loose_multiply(t47.a0, t47.a1, t48.a0, t48.a1);
+    t_r2 t_27 = pairs_loose_add(t45.a0, t45.a1, t49.a0, t49.a1); real t50 = t_27.a0, t50_ = t_27.a1;
+    t_r2 t_28 = pairs_two_sum(t50, t50_); t50 = t_28.a0; t50_ = t_28.a1;
+    t_r2 t_29 = pairs_loose_subtract(t50, t50_, K3, K3_); real t51 = t_29.a0, t51_ = t_29.a1;
+    t_r2 t_30 = pairs_two_sum(t51, t51_); t51 = t_30.a0; t51_ = t_30.a1; t_r2 o_r1 = pairs_two_sum(t26, t26_);
+    t_r2 o_r2 = pairs_two_sum(t38, t38_), o_r3 = pairs_two_sum(t51, t51_);
+    return (t_r6){o_r1.a0, o_r1.a1, o_r2.a0, o_r2.a1, o_r3.a0, o_r3.a1};
+}
+
+INLINE t_r2 pairs_loose_add_float(real a, real a_, real b) {
+    t_r2 s = pairs_two_sum(a, b); return (t_r2){s.a0, s.a1 + a_};
+}
+
+INLINE t_r8 double_double_moved_pairs(real q0, real q0_, real q1, real q1_, real q2, real q2_, real q3, real q3_, real
+    w1, real w2, real w3) {
+    t_r2 t0 = pairs_loose_multiply_float(q1, q1_, w1), t1 = pairs_loose_subtract(q0, q0_, t0.a0, t0.a1);
+    t_r2 t2 = pairs_loose_multiply_float(q2, q2_, w2), t3 = pairs_loose_multiply_float(q3, q3_, w3);
+    t_r2 t4 = pairs_loose_add(t2.a0, t2.a1, t3.a0, t3.a1), t5 = pairs_loose_subtract(t1.a0, t1.a1, t4.a0, t4.a1);
+    t_r2 t6 = pairs_loose_multiply_float(q0, q0_, w1), t7 = pairs_loose_add(q1, q1_, t6.a0, t6.a1);
+    t_r2 t8 = pairs_loose_multiply_float(q2, q2_, w3), t9 = pairs_loose_multiply_float(q3, q3_, w2);
+    t_r2 t10 = pairs_loose_subtract(t8.a0, t8.a1, t9.a0, t9.a1), t11 = pairs_loose_add(t7.a0, t7.a1, t10.a0, t10.a1);
+    t_r2 t12 = pairs_loose_multiply_float(q0, q0_, w2), t13 = pairs_loose_add(q2, q2_, t12.a0, t12.a1);
+    t_r2 t14 = pairs_loose_multiply_float(q3, q3_, w1), t15 = pairs_loose_multiply_float(q1, q1_, w3);
+    t_r2 t16 = pairs_loose_subtract(t14.a0, t14.a1, t15.a0, t15.a1);
+    t_r2 t17 = pairs_loose_add(t13.a0, t13.a1, t16.a0, t16.a1), t18 = pairs_loose_multiply_float(q0, q0_, w3);
+    t_r2 t19 = pairs_loose_multiply_float(q1, q1_, w2), t20 = pairs_loose_add(t18.a0, t18.a1, t19.a0, t19.a1);
+    t_r2 t21 = pairs_loose_multiply_float(q2, q2_, w1), t22 = pairs_loose_subtract(q3, q3_, t21.a0, t21.a1);
+    t_r2 t23 = pairs_loose_add(t20.a0, t20.a1, t22.a0, t22.a1);
+    t_r2 t24 = pairs_loose_multiply(t5.a0, t5.a1, t5.a0, t5.a1);
+    t_r2 t25 = pairs_loose_multiply(t11.a0, t11.a1, t11.a0, t11.a1);
+    t_r2 t26 = pairs_loose_add(t24.a0, t24.a1, t25.a0, t25.a1);
+    t_r2 t27 = pairs_loose_multiply(t17.a0, t17.a1, t17.a0, t17.a1);
+    t_r2 t28 = pairs_loose_multiply(t23.a0, t23.a1, t23.a0, t23.a1);
+    t_r2 t29 = pairs_loose_add(t27.a0, t27.a1, t28.a0, t28.a1), t30 = pairs_loose_add(t26.a0, t26.a1, t29.a0, t29.a1);
+    t_r2 t31 = pairs_loose_add_float(-t30.a0, -t30.a1, 3); real t32 = t31.a0 / 2, t32_ = t31.a1 / 2;
+    t_r2 t33 = pairs_loose_multiply(t5.a0, t5.a1, t32, t32_), t34 = pairs_loose_multiply(t11.a0, t11.a1, t32, t32_);
+    t_r2 t35 = pairs_loose_multiply(t17.a0, t17.a1, t32, t32_), t36 = pairs_loose_multiply(t23.a0, t23.a1, t32, t32_);
+    t_r2 o_b0 = pairs_two_sum(t33.a0, t33.a1), o_b1 = pairs_two_sum(t34.a0, t34.a1);
+    t_r2 o_b2 = pairs_two_sum(t35.a0, t35.a1), o_b3 = pairs_two_sum(t36.a0, t36.a1);
+    return (t_r8){o_b0.a0, o_b0.a1, o_b1.a0, o_b1.a1, o_b2.a0, o_b2.a1, o_b3.a0, o_b3.a1};
+}
+
+INLINE t_br6 double_double_step_polished(real q0, real q1, real q2, real q3, real k1, real k1_, real k2, real k2_,
+    real k3, real k3_, real g1, real g1_, real g2, real g2_, real g3, real g3_, real J1, real J2, real J3, real D,
+    real near) {
+    real q0_ = 0, q1_ = 0, q2_ = 0, q3_ = 0, before = near; int settled = 0;
+    for (int64_t i_0 = 0; i_0 < 60; i_0++) {
+        t_r6 r1 = double_double_residual_pairs(q0, q0_, q1, q1_, q2, q2_, q3, q3_, 2 * k1, 2 * k1_, 2 * k2, 2 * k2_, 2
+            * k3, 2 * k3_, g1, g1_, g2, g2_, g3, g3_, J1, J2, J3, D);
+        t_r10 det = branch_inverse(q0, q1, q2, q3, g1, g2, g3, J1, J2, J3, D);
+        if (!(det.a0 > 0)) break;
+        real w1 = -(det.a1 * r1.a0 + det.a2 * r1.a2 + det.a3 * r1.a4);
+        real w2 = -(det.a4 * r1.a0 + det.a5 * r1.a2 + det.a6 * r1.a4);
+        real w3 = -(det.a7 * r1.a0 + det.a8 * r1.a2 + det.a9 * r1.a4);
+        t_r8 t_2 = double_double_moved_pairs(q0, q0_, q1, q1_, q2, q2_, q3, q3_, w1, w2, w3); q0 = t_2.a0;
+        q0_ = t_2.a1; q1 = t_2.a2; q1_ = t_2.a3; q2 = t_2.a4; q2_ = t_2.a5; q3 = t_2.a6; q3_ = t_2.a7;
+        real change = max_r(max_r(real_abs(w1), real_abs(w2)), real_abs(w3));
+        real extent = max_r(max_r(real_abs(q1), real_abs(q2)), real_abs(q3));
+        if (change > near) break;
+        settled = change <= R(0x1.0000000000000p-104) * extent || (change <= R(0x1.0000000000000p-60) * extent &&
+            change >= R(0.25) * before);
+        if (settled) break;
+        before = change;
+    }
+    if (q0 == 0) q0 = R(0x1.0000000000000p-110);
+    t_r2 t_3 = pairs_divide(q1, q1_, q0, q0_), t_4 = pairs_divide(q2, q2_, q0, q0_);
+    t_r2 t_5 = pairs_divide(q3, q3_, q0, q0_);
+    return (t_br6){settled, t_3.a0, t_3.a1, t_4.a0, t_4.a1, t_5.a0, t_5.a1};
+}
+
+INLINE t_r6 double_double_gibbs_residual_pairs(real u1, real u2, real u3, real k1, real k1_, real k2, real k2_, real
+    k3, real k3_, real g1, real g1_, real g2, real g2_, real g3, real g3_, real I1, real I1_, real I2, real I2_, real
+    I3, real I3_, real D) {
+    t_r2 t0 = pairs_loose_multiply_float(g3, g3_, u2), t1 = pairs_loose_multiply_float(g2, g2_, u3);
+    t_r2 t2 = pairs_loose_subtract(t0.a0, t0.a1, t1.a0, t1.a1), t3 = pairs_loose_multiply_float(g1, g1_, u3);
+    t_r2 t4 = pairs_loose_multiply_float(g3, g3_, u1), t5 = pairs_loose_subtract(t3.a0, t3.a1, t4.a0, t4.a1);
+    t_r2 t6 = pairs_loose_multiply_float(g2, g2_, u1), t7 = pairs_loose_multiply_float(g1, g1_, u2);
+    t_r2 t8 = pairs_loose_subtract(t6.a0, t6.a1, t7.a0, t7.a1), t9 = pairs_loose_multiply_float(I1, I1_, u1);
+    t_r2 t10 = pairs_loose_multiply_float(I2, I2_, u2), t11 = pairs_loose_multiply_float(I3, I3_, u3);
+    t_r2 t12 = pairs_two_product(u1, u1), t13 = pairs_loose_add_float(t12.a0, t12.a1, 1);
+    t_r2 t14 = pairs_two_product(u2, u2), t15 = pairs_two_product(u3, u3);
+    t_r2 t16 = pairs_loose_add(t14.a0, t14.a1, t15.a0, t15.a1), t17 = pairs_loose_add(t13.a0, t13.a1, t16.a0, t16.a1);
+    t_r2 t18 = pairs_loose_multiply(g2, g2_, t8.a0, t8.a1), t19 = pairs_loose_multiply(g3, g3_, t5.a0, t5.a1);
+    t_r2 t20 = pairs_loose_subtract(t18.a0, t18.a1, t19.a0, t19.a1);
+    t_r2 t21 = pairs_loose_multiply_float(t20.a0, t20.a1, D), t22 = pairs_loose_add(t9.a0, t9.a1, t21.a0, t21.a1);
+    t_r2 t23 = pairs_loose_multiply_float(t11.a0, t11.a1, u2), t24 = pairs_loose_add(t22.a0, t22.a1, t23.a0, t23.a1);
+    t_r2 t25 = pairs_loose_multiply(k1, k1_, t17.a0, t17.a1), t26 = pairs_loose_multiply_float(t10.a0, t10.a1, u3);
+    t_r2 t27 = pairs_loose_add(t25.a0, t25.a1, t26.a0, t26.a1);
+    t_r2 t28 = pairs_loose_subtract(t24.a0, t24.a1, t27.a0, t27.a1);
+    t_r2 t29 = pairs_loose_multiply(g3, g3_, t2.a0, t2.a1), t30 = pairs_loose_multiply(g1, g1_, t8.a0, t8.a1);
+    t_r2 t31 = pairs_loose_subtract(t29.a0, t29.a1, t30.a0, t30.a1);
+    t_r2 t32 = pairs_loose_multiply_float(t31.a0, t31.a1, D), t33 = pairs_loose_add(t10.a0, t10.a1, t32.a0, t32.a1);
+    t_r2 t34 = pairs_loose_multiply_float(t9.a0, t9.a1, u3), t35 = pairs_loose_add(t33.a0, t33.a1, t34.a0, t34.a1);
+    t_r2 t36 = pairs_loose_multiply(k2, k2_, t17.a0, t17.a1), t37 = pairs_loose_multiply_float(t11.a0, t11.a1, u1);
+    t_r2 t38 = pairs_loose_add(t36.a0, t36.a1, t37.a0, t37.a1);
+    t_r2 t39 = pairs_loose_subtract(t35.a0, t35.a1, t38.a0, t38.a1);
+    t_r2 t40 = pairs_loose_multiply(g1, g1_, t5.a0, t5.a1), t41 = pairs_loose_multiply(g2, g2_, t2.a0, t2.a1);
+    t_r2 t42 = pairs_loose_subtract(t40.a0, t40.a1, t41.a0, t41.a1);
+    t_r2 t43 = pairs_loose_multiply_float(t42.a0, t42.a1, D), t44 = pairs_loose_add(t11.a0, t11.a1, t43.a0, t43.a1);
+    t_r2 t45 = pairs_loose_multiply_float(t10.a0, t10.a1, u1), t46 = pairs_loose_add(t44.a0, t44.a1, t45.a0, t45.a1);
+    t_r2 t47 = pairs_loose_multiply(k3, k3_, t17.a0, t17.a1), t48 = pairs_loose_multiply_float(t9.a0, t9.a1, u2);
+    t_r2 t49 = pairs_loose_add(t47.a0, t47.a1, t48.a0, t48.a1);
+    t_r2 t50 = pairs_loose_subtract(t46.a0, t46.a1, t49.a0, t49.a1), o_r1 = pairs_two_sum(t28.a0, t28.a1);
+    t_r2 o_r2 = pairs_two_sum(t39.a0, t39.a1), o_r3 = pairs_two_sum(t50.a0, t50.a1);
+    return (t_r6){o_r1.a0, o_r1.a1, o_r2.a0, o_r2.a1, o_r3.a0, o_r3.a1};
+}
+
+INLINE t_r3 kernel_gibbs_mixed(real d1, real d2, real d3, real e1, real e2, real e3, real k1, real k2, real k3, real
+    c11, real c12, real c13, real c21, real c22, real c23, real c31, real c32, real c33, real I1, real I2, real I3) {
+    real t0 = 2 * d1 * e1 + 2 * d2 * e2 + 2 * d3 * e3;
+    real r1 = I3 * d2 * e3 + I3 * d3 * e2 - k1 * t0 - (I2 * d2 * e3 + I2 * d3 * e2);
+    real r2 = I1 * d1 * e3 + I1 * d3 * e1 - k2 * t0 - (I3 * d1 * e3 + I3 * d3 * e1);
+    real r3 = I2 * d1 * e2 + I2 * d2 * e1 - k3 * t0 - (I1 * d1 * e2 + I1 * d2 * e1);
+    real o_x1 = c11 * r1 + c21 * r2 + c31 * r3, o_x2 = c12 * r1 + c22 * r2 + c32 * r3;
+    real o_x3 = c13 * r1 + c23 * r2 + c33 * r3; return (t_r3){o_x1, o_x2, o_x3};
+}
+
+INLINE t_r3 double_double_step_correction(real d1, real d2, real d3, real r1, real r2, real r3, real k1, real k2, real
+    k3, real I1, real I2, real I3, real det, real c11, real c12, real c13, real c21, real c22, real c23, real c31,
+    real c32, real c33) {
+    real s = -1 / det, e1 = s * (c11 * r1 + c21 * r2 + c31 * r3), e2 = s * (c12 * r1 + c22 * r2 + c32 * r3);
+    real e3 = s * (c13 * r1 + c23 * r2 + c33 * r3);
+    t_r3 x1 = kernel_gibbs_mixed(d1 + R(0.5) * e1, d2 + R(0.5) * e2, d3 + R(0.5) * e3, e1, e2, e3, k1, k2, k3, c11,
+        c12, c13, c21, c22, c23, c31, c32, c33, I1, I2, I3);
+    return (t_r3){e1 + s * x1.a0, e2 + s * x1.a1, e3 + s * x1.a2};
+}
+
+INLINE int double_double_step_small(real w1, real w2, real w3, real e1, real e2, real e3) {
+    return e1 * e1 + (e2 * e2 + e3 * e3) <= R(0x1.0000000000000p-100) * (w1 * w1 + (w2 * w2 + w3 * w3));
+}
+
+INLINE t_ir7 double_double_step_solved(real u1, real u2, real u3, real k1, real k1_, real k2, real k2_, real k3, real
+    k3_, real g1, real g1_, real g2, real g2_, real g3, real g3_, real I1, real I1_, real I2, real I2_, real I3, real
+    I3_, real J1, real J2, real J3, real D, real radius, real enough) {
+    t_br16 t_1 = double_double_step_approach(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, radius, enough);
+    int settled = t_1.a0; real w1 = t_1.a1, w2 = t_1.a2, w3 = t_1.a3, d1 = t_1.a4, d2 = t_1.a5, d3 = t_1.a6;
+    real det = t_1.a7, c11 = t_1.a8, c12 = t_1.a9, c13 = t_1.a10, c21 = t_1.a11, c22 = t_1.a12, c23 = t_1.a13;
+    real c31 = t_1.a14, c32 = t_1.a15, c33 = t_1.a16; int64_t status = 0; real reach = 1, p0, p1, p2, p3;
+    if (settled) {
+        t_r6 r1 = double_double_gibbs_residual_pairs(w1, w2, w3, k1, k1_, k2, k2_, k3, k3_, g1, g1_, g2, g2_, g3, g3_,
+            I1, I1_, I2, I2_, I3, I3_, D);
+        t_r3 e1 = double_double_step_correction(d1, d2, d3, r1.a0, r1.a2, r1.a4, k1, k2, k3, I1, I2, I3, det, c11,
+            c12, c13, c21, c22, c23, c31, c32, c33);
+        if (double_double_step_small(w1, w2, w3, e1.a0, e1.a1, e1.a2)) {
+            t_r2 t_2 = pairs_two_sum(w1, e1.a0), t_3 = pairs_two_sum(w2, e1.a1), t_4 = pairs_two_sum(w3, e1.a2);
+            return (t_ir7){0, 1, t_2.a0, t_2.a1, t_3.a0, t_3.a1, t_4.a0, t_4.a1};
+        }
+        w1 = w1 + e1.a0; w2 = w2 + e1.a1; w3 = w3 + e1.a2; p0 = 1 / real_sqrt(1 + (w1 * w1 + (w2 * w2 + w3 * w3)));
+        p1 = p0 * w1; p2 = p0 * w2; p3 = p0 * w3;
+    }
+    else {
+        if (radius == -2) {
+            t_br7 t_5 = path_search_on_path(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D); settled = t_5.a0;
+            p0 = t_5.a1; p1 = t_5.a2; p2 = t_5.a3; p3 = t_5.a4; w1 = t_5.a5; w2 = t_5.a6; w3 = t_5.a7;
+        }
+        if (settled) {
+            p0 = 1 / real_sqrt(1 + (w1 * w1 + (w2 * w2 + w3 * w3))); p1 = p0 * w1; p2 = p0 * w2; p3 = p0 * w3;
+        }
+        else {
+            t_ir5 t_6 = branch_small_rotation(2 * k1, 2 * k2, 2 * k3, g1, g2, g3, J1, J2, J3, D); status = t_6.a0;
+            reach = t_6.a1; p0 = t_6.a2; p1 = t_6.a3; p2 = t_6.a4; p3 = t_6.a5;
+        }
+        if (status != 0 && !(status == 1 && reach > R(0x1.fffffffffff00p-1)))
+            return (t_ir7){status, reach, 0, 0, 0, 0, 0, 0};
+    }
+    t_br6 t_7 = double_double_step_polished(p0, p1, p2, p3, k1, k1_, k2, k2_, k3, k3_, g1, g1_, g2, g2_, g3, g3_, J1,
+        J2, J3, D, status == 1 ? R(1e-06) : R(0.1));
+    settled = t_7.a0; u1 = t_7.a1; real u1_ = t_7.a2; u2 = t_7.a3; real u2_ = t_7.a4; u3 = t_7.a5; real u3_ = t_7.a6;
+    if (settled) return (t_ir7){0, 1, u1, u1_, u2, u2_, u3, u3_};
+    return (t_ir7){status == 1 ? 1 : 2, reach, 0, 0, 0, 0, 0, 0};
+}
+
+INLINE void double_double_loop_extrapolated(r2 past, real w1, real w2, real w3) {
+    int64_t c; real w; c = 0; w = w1;
+    {
+        t_r8 t_1 = sums_filtered(past.p[1 * past.s0 + c], past.p[2 * past.s0 + c], past.p[3 * past.s0 + c], past.p[4 *
+            past.s0 + c], past.p[5 * past.s0 + c], past.p[6 * past.s0 + c], past.p[7 * past.s0 + c], w);
+        past.p[0 * past.s0 + c] = t_1.a0; past.p[1 * past.s0 + c] = t_1.a1; past.p[2 * past.s0 + c] = t_1.a2;
+        past.p[3 * past.s0 + c] = t_1.a3; past.p[4 * past.s0 + c] = t_1.a4; past.p[5 * past.s0 + c] = t_1.a5;
+        past.p[6 * past.s0 + c] = t_1.a6; past.p[7 * past.s0 + c] = t_1.a7;
+    }
+    c = 1; w = w2;
+    {
+        t_r8 t_2 = sums_filtered(past.p[1 * past.s0 + c], past.p[2 * past.s0 + c], past.p[3 * past.s0 + c], past.p[4 *
+            past.s0 + c], past.p[5 * past.s0 + c], past.p[6 * past.s0 + c], past.p[7 * past.s0 + c], w);
+        past.p[0 * past.s0 + c] = t_2.a0; past.p[1 * past.s0 + c] = t_2.a1; past.p[2 * past.s0 + c] = t_2.a2;
+        past.p[3 * past.s0 + c] = t_2.a3; past.p[4 * past.s0 + c] = t_2.a4; past.p[5 * past.s0 + c] = t_2.a5;
+        past.p[6 * past.s0 + c] = t_2.a6; past.p[7 * past.s0 + c] = t_2.a7;
+    }
+    c = 2; w = w3;
+    {
+        t_r8 t_3 = sums_filtered(past.p[1 * past.s0 + c], past.p[2 * past.s0 + c], past.p[3 * past.s0 + c], past.p[4 *
+            past.s0 + c], past.p[5 * past.s0 + c], past.p[6 * past.s0 + c], past.p[7 * past.s0 + c], w);
+        past.p[0 * past.s0 + c] = t_3.a0; past.p[1 * past.s0 + c] = t_3.a1; past.p[2 * past.s0 + c] = t_3.a2;
+        past.p[3 * past.s0 + c] = t_3.a3; past.p[4 * past.s0 + c] = t_3.a4; past.p[5 * past.s0 + c] = t_3.a5;
+        past.p[6 * past.s0 + c] = t_3.a6; past.p[7 * past.s0 + c] = t_3.a7;
+    }
+}
+
+INLINE t_ir7 double_double_loop_stage(r1 state, real c, real c_, real radius, real enough, r2 past) {
+    t_r2 k1 = pairs_multiply(state.p[0], state.p[1], c, c_), k2 = pairs_multiply(state.p[2], state.p[3], c, c_);
+    t_r2 k3 = pairs_multiply(state.p[4], state.p[5], c, c_);
+    t_ir7 status = double_double_step_solved(past.p[0 * past.s0 + 0], past.p[0 * past.s0 + 1], past.p[0 * past.s0 +
+        2], k1.a0, k1.a1, k2.a0, k2.a1, k3.a0, k3.a1, state.p[6], state.p[7], state.p[8], state.p[9], state.p[10],
+        state.p[11], state.p[12], state.p[13], state.p[14], state.p[15], state.p[16], state.p[17], state.p[18],
+        state.p[19], state.p[20], state.p[21], radius, enough);
+    if (status.a0 == 0) double_double_loop_extrapolated(past, status.a2, status.a4, status.a6);
+    return (t_ir7){status.a0, status.a1, status.a2, status.a3, status.a4, status.a5, status.a6, status.a7};
+}
+
+INLINE t_r12 double_double_turn_pairs(real u1, real u1_, real u2, real u2_, real u3, real u3_, real k1, real k1_, real
+    k2, real k2_, real k3, real k3_, real g1, real g1_, real g2, real g2_, real g3, real g3_) {
+    t_r2 t0 = pairs_loose_multiply(u1, u1_, u1, u1_), t1 = pairs_loose_add_float(t0.a0, t0.a1, 1);
+    t_r2 t2 = pairs_loose_multiply(u2, u2_, u2, u2_), t3 = pairs_loose_multiply(u3, u3_, u3, u3_);
+    t_r2 t4 = pairs_loose_add(t2.a0, t2.a1, t3.a0, t3.a1), t5 = pairs_loose_add(t1.a0, t1.a1, t4.a0, t4.a1);
+    t_r2 t6d = pairs_two_sum(t5.a0, t5.a1), t6 = pairs_divide(2, 0, t6d.a0, t6d.a1);
+    t_r2 t7 = pairs_loose_multiply(u2, u2_, k3, k3_), t8 = pairs_loose_multiply(u3, u3_, k2, k2_);
+    t_r2 t9 = pairs_loose_subtract(t7.a0, t7.a1, t8.a0, t8.a1), t10 = pairs_loose_multiply(u3, u3_, k1, k1_);
+    t_r2 t11 = pairs_loose_multiply(u1, u1_, k3, k3_), t12 = pairs_loose_subtract(t10.a0, t10.a1, t11.a0, t11.a1);
+    t_r2 t13 = pairs_loose_multiply(u1, u1_, k2, k2_), t14 = pairs_loose_multiply(u2, u2_, k1, k1_);
+    t_r2 t15 = pairs_loose_subtract(t13.a0, t13.a1, t14.a0, t14.a1);
+    t_r2 t16 = pairs_loose_multiply(u2, u2_, t15.a0, t15.a1);
+    t_r2 t17 = pairs_loose_subtract(t16.a0, t16.a1, t9.a0, t9.a1);
+    t_r2 t18 = pairs_loose_multiply(u3, u3_, t12.a0, t12.a1);
+    t_r2 t19 = pairs_loose_subtract(t17.a0, t17.a1, t18.a0, t18.a1);
+    t_r2 t20 = pairs_loose_multiply(t6.a0, t6.a1, t19.a0, t19.a1), t21 = pairs_loose_multiply(u3, u3_, t9.a0, t9.a1);
+    t_r2 t22 = pairs_loose_subtract(t21.a0, t21.a1, t12.a0, t12.a1);
+    t_r2 t23 = pairs_loose_multiply(u1, u1_, t15.a0, t15.a1);
+    t_r2 t24 = pairs_loose_subtract(t22.a0, t22.a1, t23.a0, t23.a1);
+    t_r2 t25 = pairs_loose_multiply(t6.a0, t6.a1, t24.a0, t24.a1);
+    t_r2 t26 = pairs_loose_multiply(u1, u1_, t12.a0, t12.a1);
+    t_r2 t27 = pairs_loose_subtract(t26.a0, t26.a1, t15.a0, t15.a1);
+    t_r2 t28 = pairs_loose_multiply(u2, u2_, t9.a0, t9.a1);
+    t_r2 t29 = pairs_loose_subtract(t27.a0, t27.a1, t28.a0, t28.a1);
+    t_r2 t30 = pairs_loose_multiply(t6.a0, t6.a1, t29.a0, t29.a1), t31 = pairs_loose_multiply(u2, u2_, g3, g3_);
+    t_r2 t32 = pairs_loose_multiply(u3, u3_, g2, g2_), t33 = pairs_loose_subtract(t31.a0, t31.a1, t32.a0, t32.a1);
+    t_r2 t34 = pairs_loose_multiply(u3, u3_, g1, g1_), t35 = pairs_loose_multiply(u1, u1_, g3, g3_);
+    t_r2 t36 = pairs_loose_subtract(t34.a0, t34.a1, t35.a0, t35.a1), t37 = pairs_loose_multiply(u1, u1_, g2, g2_);
+    t_r2 t38 = pairs_loose_multiply(u2, u2_, g1, g1_), t39 = pairs_loose_subtract(t37.a0, t37.a1, t38.a0, t38.a1);
+    t_r2 t40 = pairs_loose_multiply(u2, u2_, t39.a0, t39.a1);
+    t_r2 t41 = pairs_loose_subtract(t40.a0, t40.a1, t33.a0, t33.a1);
+    t_r2 t42 = pairs_loose_multiply(u3, u3_, t36.a0, t36.a1);
+    t_r2 t43 = pairs_loose_subtract(t41.a0, t41.a1, t42.a0, t42.a1);
+    t_r2 t44 = pairs_loose_multiply(t6.a0, t6.a1, t43.a0, t43.a1);
+    t_r2 t45 = pairs_loose_multiply(u3, u3_, t33.a0, t33.a1);
+    t_r2 t46 = pairs_loose_subtract(t45.a0, t45.a1, t36.a0, t36.a1);
+    t_r2 t47 = pairs_loose_multiply(u1, u1_, t39.a0, t39.a1);
+    t_r2 t48 = pairs_loose_subtract(t46.a0, t46.a1, t47.a0, t47.a1);
+    t_r2 t49 = pairs_loose_multiply(t6.a0, t6.a1, t48.a0, t48.a1);
+    t_r2 t50 = pairs_loose_multiply(u1, u1_, t36.a0, t36.a1);
+    t_r2 t51 = pairs_loose_subtract(t50.a0, t50.a1, t39.a0, t39.a1);
+    t_r2 t52 = pairs_loose_multiply(u2, u2_, t33.a0, t33.a1);
+    t_r2 t53 = pairs_loose_subtract(t51.a0, t51.a1, t52.a0, t52.a1);
+    t_r2 t54 = pairs_loose_multiply(t6.a0, t6.a1, t53.a0, t53.a1), t55 = pairs_loose_add(k1, k1_, t20.a0, t20.a1);
+    t_r2 t56 = pairs_loose_add(k2, k2_, t25.a0, t25.a1), t57 = pairs_loose_add(k3, k3_, t30.a0, t30.a1);
+    t_r2 t58 = pairs_loose_add(g1, g1_, t44.a0, t44.a1), t59 = pairs_loose_add(g2, g2_, t49.a0, t49.a1);
+    t_r2 t60 = pairs_loose_add(g3, g3_, t54.a0, t54.a1), o_l1 = pairs_two_sum(t55.a0, t55.a1);
+    t_r2 o_l2 = pairs_two_sum(t56.a0, t56.a1), o_l3 = pairs_two_sum(t57.a0, t57.a1);
+    t_r2 o_h1 = pairs_two_sum(t58.a0, t58.a1), o_h2 = pairs_two_sum(t59.a0, t59.a1);
+    t_r2 o_h3 = pairs_two_sum(t60.a0, t60.a1);
+    return (t_r12){o_l1.a0, o_l1.a1, o_l2.a0, o_l2.a1, o_l3.a0, o_l3.a1, o_h1.a0, o_h1.a1, o_h2.a0, o_h2.a1, o_h3.a0,
+        o_h3.a1};
+}
+
+INLINE void double_double_loop_turn_both(real u1, real u1_, real u2, real u2_, real u3, real u3_, r1 state) {
+    t_r12 t_1 = double_double_turn_pairs(u1, u1_, u2, u2_, u3, u3_, state.p[0], state.p[1], state.p[2], state.p[3],
+        state.p[4], state.p[5], state.p[6], state.p[7], state.p[8], state.p[9], state.p[10], state.p[11]);
+    state.p[0] = t_1.a0; state.p[1] = t_1.a1; state.p[2] = t_1.a2; state.p[3] = t_1.a3; state.p[4] = t_1.a4;
+    state.p[5] = t_1.a5; state.p[6] = t_1.a6; state.p[7] = t_1.a7; state.p[8] = t_1.a8; state.p[9] = t_1.a9;
+    state.p[10] = t_1.a10; state.p[11] = t_1.a11;
+}
+
+INLINE t_r2 pairs_add(real a, real a_, real b, real b_) {
+    t_r2 t_1 = pairs_two_sum(a, b); real s = t_1.a0, s_ = t_1.a1; t_r2 t = pairs_two_sum(a_, b_);
+    t_r2 t_2 = pairs_quick_two_sum(s, s_ + t.a0); s = t_2.a0; s_ = t_2.a1; return pairs_quick_two_sum(s, t.a1 + s_);
+}
+
+INLINE t_r2 pairs_subtract(real a, real a_, real b, real b_) {
+    return pairs_add(a, a_, -b, -b_);
+}
+
+OUT_OF_LINE void double_double_loop_restore_pairs(r1 state) {
+    r1 k = (r1){state.p, 6}, g = (r1){state.p + 6, 12 - 6}, h = (r1){state.p + 22, 28 - 22};
+    t_r2 t_1 = double_double_loop_inner(g, g), unit = pairs_subtract(h.p[0], h.p[1], t_1.a0, t_1.a1);
+    t_r2 t_2 = double_double_loop_inner(k, g), height = pairs_subtract(h.p[2], h.p[3], t_2.a0, t_2.a1);
+    t_r2 t_3 = double_double_loop_inner(k, k), squared = pairs_subtract(h.p[4], h.p[5], t_3.a0, t_3.a1);
+    t_r3 stretch = integrals_shares(unit.a0, height.a0, squared.a0, h.p[0], h.p[2], h.p[4]);
+    for (int64_t i = 0; i < 6; i += 2) {
+        t_r2 t_4 = pairs_two_sum(k.p[i], k.p[i + 1] + (stretch.a1 * k.p[i] + stretch.a2 * g.p[i])); k.p[i] = t_4.a0;
+        k.p[i + 1] = t_4.a1; t_r2 t_5 = pairs_two_sum(g.p[i], g.p[i + 1] + stretch.a0 * g.p[i]); g.p[i] = t_5.a0;
+        g.p[i + 1] = t_5.a1;
+    }
+}
+
+INLINE void double_double_loop_write(r1 frame, r1 frame_, r1 pairs, int64_t at, int64_t exponent) {
+    for (int64_t i = 0; i < frame.n0; i++) {
+        frame.p[i] = (real)ldexp(pairs.p[at + 2 * i], (int)exponent);
+        frame_.p[i] = (real)ldexp(pairs.p[at + 2 * i + 1], (int)exponent);
+    }
+}
+
+INLINE t_r12 double_double_roll_pairs(real q0, real q0_, real u1, real u1_, real u2, real u2_, real u3, real u3_, real
+    g1, real g1_, real g2, real g2_, real g3, real g3_, real a0, real a0_, real a1, real a1_, real a2, real a2_, real
+    a3, real a3_, real z1, real z1_, real z2, real z2_, real rho) {
+    t_r2 t0 = pairs_loose_multiply(q0, q0_, u1, u1_), t1 = pairs_loose_multiply(q0, q0_, u2, u2_);
+    t_r2 t2 = pairs_loose_multiply(q0, q0_, u3, u3_); real t3 = 2 * q0, t3_ = 2 * q0_;
+    t_r2 t4 = pairs_loose_multiply(g3, g3_, t1.a0, t1.a1), t5 = pairs_loose_multiply(g2, g2_, t2.a0, t2.a1);
+    t_r2 t6 = pairs_loose_subtract(t4.a0, t4.a1, t5.a0, t5.a1), t7 = pairs_loose_multiply(t3, t3_, t6.a0, t6.a1);
+    real t8 = -t3, t8_ = -t3_; t_r2 t9 = pairs_loose_multiply(g3, g3_, t0.a0, t0.a1);
+    t_r2 t10 = pairs_loose_multiply(g1, g1_, t2.a0, t2.a1), t11 = pairs_loose_subtract(t9.a0, t9.a1, t10.a0, t10.a1);
+    t_r2 t12 = pairs_loose_multiply(t8, t8_, t11.a0, t11.a1), t13 = pairs_loose_multiply(g2, g2_, t0.a0, t0.a1);
+    t_r2 t14 = pairs_loose_multiply(g1, g1_, t1.a0, t1.a1);
+    t_r2 t15 = pairs_loose_subtract(t13.a0, t13.a1, t14.a0, t14.a1);
+    t_r2 t16 = pairs_loose_multiply(t3, t3_, t15.a0, t15.a1), t17 = pairs_loose_multiply(a2, a2_, a2, a2_);
+    t_r2 t18 = pairs_loose_multiply(a3, a3_, a3, a3_); real t19 = 2 * t7.a0, t19_ = 2 * t7.a1;
+    t_r2 t20 = pairs_loose_multiply(a0, a0_, a2, a2_), t21 = pairs_loose_multiply(a1, a1_, a3, a3_);
+    t_r2 t22 = pairs_loose_multiply(a0, a0_, a3, a3_), t23 = pairs_loose_multiply(a1, a1_, a2, a2_);
+    real t24 = 2 * t12.a0, t24_ = 2 * t12.a1; t_r2 t25 = pairs_loose_multiply(a1, a1_, a1, a1_);
+    t_r2 t26 = pairs_loose_multiply(a0, a0_, a1, a1_), t27 = pairs_loose_multiply(a2, a2_, a3, a3_);
+    real t28 = 2 * t16.a0, t28_ = 2 * t16.a1; t_r2 t29 = pairs_loose_add(t20.a0, t20.a1, t21.a0, t21.a1);
+    t_r2 t30 = pairs_loose_multiply(t28, t28_, t29.a0, t29.a1), t31 = pairs_loose_add(t7.a0, t7.a1, t30.a0, t30.a1);
+    t_r2 t32 = pairs_loose_add(t17.a0, t17.a1, t18.a0, t18.a1), t33 = pairs_loose_multiply(t19, t19_, t32.a0, t32.a1);
+    t_r2 t34 = pairs_loose_subtract(t22.a0, t22.a1, t23.a0, t23.a1);
+    t_r2 t35 = pairs_loose_multiply(t24, t24_, t34.a0, t34.a1), t36 = pairs_loose_add(t33.a0, t33.a1, t35.a0, t35.a1);
+    t_r2 t37 = pairs_loose_subtract(t31.a0, t31.a1, t36.a0, t36.a1);
+    t_r2 t38 = pairs_loose_add(t22.a0, t22.a1, t23.a0, t23.a1), t39 = pairs_loose_multiply(t19, t19_, t38.a0, t38.a1);
+    t_r2 t40 = pairs_loose_add(t12.a0, t12.a1, t39.a0, t39.a1);
+    t_r2 t41 = pairs_loose_subtract(t26.a0, t26.a1, t27.a0, t27.a1);
+    t_r2 t42 = pairs_loose_multiply(t28, t28_, t41.a0, t41.a1), t43 = pairs_loose_add(t18.a0, t18.a1, t25.a0, t25.a1);
+    t_r2 t44 = pairs_loose_multiply(t24, t24_, t43.a0, t43.a1), t45 = pairs_loose_add(t42.a0, t42.a1, t44.a0, t44.a1);
+    t_r2 t46 = pairs_loose_subtract(t40.a0, t40.a1, t45.a0, t45.a1);
+    t_r2 t47 = pairs_loose_multiply_float(t37.a0, t37.a1, rho), t48 = pairs_loose_add(z1, z1_, t47.a0, t47.a1);
+    t_r2 t49 = pairs_loose_multiply_float(t46.a0, t46.a1, rho), t50 = pairs_loose_add(z2, z2_, t49.a0, t49.a1);
+    t_r2 t51 = pairs_loose_multiply(q0, q0_, a0, a0_), t52 = pairs_loose_multiply(a1, a1_, t0.a0, t0.a1);
+    t_r2 t53 = pairs_loose_subtract(t51.a0, t51.a1, t52.a0, t52.a1);
+    t_r2 t54 = pairs_loose_multiply(a2, a2_, t1.a0, t1.a1), t55 = pairs_loose_multiply(a3, a3_, t2.a0, t2.a1);
+    t_r2 t56 = pairs_loose_add(t54.a0, t54.a1, t55.a0, t55.a1);
+    t_r2 t57 = pairs_loose_subtract(t53.a0, t53.a1, t56.a0, t56.a1);
+    t_r2 t58 = pairs_loose_multiply(a0, a0_, t0.a0, t0.a1), t59 = pairs_loose_multiply(q0, q0_, a1, a1_);
+    t_r2 t60 = pairs_loose_add(t58.a0, t58.a1, t59.a0, t59.a1), t61 = pairs_loose_multiply(a2, a2_, t2.a0, t2.a1);
+    t_r2 t62 = pairs_loose_multiply(a3, a3_, t1.a0, t1.a1);
+    t_r2 t63 = pairs_loose_subtract(t61.a0, t61.a1, t62.a0, t62.a1);
+    t_r2 t64 = pairs_loose_add(t60.a0, t60.a1, t63.a0, t63.a1), t65 = pairs_loose_multiply(a0, a0_, t1.a0, t1.a1);
+    t_r2 t66 = pairs_loose_multiply(q0, q0_, a2, a2_), t67 = pairs_loose_add(t65.a0, t65.a1, t66.a0, t66.a1);
+    t_r2 t68 = pairs_loose_multiply(a3, a3_, t0.a0, t0.a1), t69 = pairs_loose_multiply(a1, a1_, t2.a0, t2.a1);
+    t_r2 t70 = pairs_loose_subtract(t68.a0, t68.a1, t69.a0, t69.a1);
+    t_r2 t71 = pairs_loose_add(t67.a0, t67.a1, t70.a0, t70.a1), t72 = pairs_loose_multiply(a0, a0_, t2.a0, t2.a1);
+    t_r2 t73 = pairs_loose_multiply(a1, a1_, t1.a0, t1.a1), t74 = pairs_loose_add(t72.a0, t72.a1, t73.a0, t73.a1);
+    t_r2 t75 = pairs_loose_multiply(q0, q0_, a3, a3_), t76 = pairs_loose_multiply(a2, a2_, t0.a0, t0.a1);
+    t_r2 t77 = pairs_loose_subtract(t75.a0, t75.a1, t76.a0, t76.a1);
+    t_r2 t78 = pairs_loose_add(t74.a0, t74.a1, t77.a0, t77.a1);
+    t_r2 t79 = pairs_loose_multiply(t57.a0, t57.a1, t57.a0, t57.a1);
+    t_r2 t80 = pairs_loose_multiply(t64.a0, t64.a1, t64.a0, t64.a1);
+    t_r2 t81 = pairs_loose_add(t79.a0, t79.a1, t80.a0, t80.a1);
+    t_r2 t82 = pairs_loose_multiply(t71.a0, t71.a1, t71.a0, t71.a1);
+    t_r2 t83 = pairs_loose_multiply(t78.a0, t78.a1, t78.a0, t78.a1);
+    t_r2 t84 = pairs_loose_add(t82.a0, t82.a1, t83.a0, t83.a1), t85 = pairs_loose_add(t81.a0, t81.a1, t84.a0, t84.a1);
+    t_r2 t86 = pairs_loose_add_float(-t85.a0, -t85.a1, 3); real t87 = t86.a0 / 2, t87_ = t86.a1 / 2;
+    t_r2 t88 = pairs_loose_multiply(t57.a0, t57.a1, t87, t87_), t89 = pairs_loose_multiply(t64.a0, t64.a1, t87, t87_);
+    t_r2 t90 = pairs_loose_multiply(t71.a0, t71.a1, t87, t87_), t91 = pairs_loose_multiply(t78.a0, t78.a1, t87, t87_);
+    t_r2 o_b0 = pairs_two_sum(t88.a0, t88.a1), o_b1 = pairs_two_sum(t89.a0, t89.a1);
+    t_r2 o_b2 = pairs_two_sum(t90.a0, t90.a1), o_b3 = pairs_two_sum(t91.a0, t91.a1);
+    t_r2 o_n1 = pairs_two_sum(t48.a0, t48.a1), o_n2 = pairs_two_sum(t50.a0, t50.a1);
+    return (t_r12){o_b0.a0, o_b0.a1, o_b1.a0, o_b1.a1, o_b2.a0, o_b2.a1, o_b3.a0, o_b3.a1, o_n1.a0, o_n1.a1, o_n2.a0,
+        o_n2.a1};
+}
+
+INLINE void double_double_loop_follow_body(real u1, real u1_, real u2, real u2_, real u3, real u3_, r1 state, r1
+    attitude, r1 contact, real rho) {
+    t_r2 t_2 = pairs_loose_multiply(u1, u1_, u1, u1_), t_3 = pairs_loose_multiply(u2, u2_, u2, u2_);
+    t_r2 t_1 = pairs_loose_add(t_2.a0, t_2.a1, t_3.a0, t_3.a1); real n = t_1.a0, n_ = t_1.a1;
+    t_r2 t_5 = pairs_loose_multiply(u3, u3_, u3, u3_), t_4 = pairs_loose_add(n, n_, t_5.a0, t_5.a1); n = t_4.a0;
+    n_ = t_4.a1; t_r2 t_8 = pairs_loose_add_float(n, n_, 1), t_7 = pairs_two_sum(t_8.a0, t_8.a1);
+    t_r2 t_6 = pairs_root(t_7.a0, t_7.a1); n = t_6.a0; n_ = t_6.a1; t_r2 q0 = pairs_divide(1, 0, n, n_);
+    t_r12 t_9 = double_double_roll_pairs(q0.a0, q0.a1, u1, u1_, u2, u2_, u3, u3_, state.p[6], state.p[7], state.p[8],
+        state.p[9], state.p[10], state.p[11], attitude.p[0], attitude.p[1], attitude.p[2], attitude.p[3],
+        attitude.p[4], attitude.p[5], attitude.p[6], attitude.p[7], contact.p[0], contact.p[1], contact.p[2],
+        contact.p[3], rho);
+    attitude.p[0] = t_9.a0; attitude.p[1] = t_9.a1; attitude.p[2] = t_9.a2; attitude.p[3] = t_9.a3;
+    attitude.p[4] = t_9.a4; attitude.p[5] = t_9.a5; attitude.p[6] = t_9.a6; attitude.p[7] = t_9.a7;
+    contact.p[0] = t_9.a8; contact.p[1] = t_9.a9; contact.p[2] = t_9.a10; contact.p[3] = t_9.a11;
+}
+
+INLINE t_i2r double_double_loop_march_pairs(r1 state, r2 c, r1 radius, r1 enough, r3 past, int64_t first, int64_t
+    count, int64_t every, int64_t shift, int64_t beyond, r2 momenta, r2 momenta_, r2 verticals, r2 verticals_, int
+    with_body, r1 attitude, r1 contact, real rho, r2 attitudes, r2 attitudes_, r2 traces, r2 traces_) {
+    int64_t period = max_i(1, 1024 / c.n0), frame, status; real reach, u1, u1_, u2, u2_, u3, u3_;
+    int64_t end_1 = first + count + 1;
+    for (int64_t step = first + 1; step < end_1; step++) {
+        for (int64_t i = 0; i < c.n0; i++) {
+            t_ir7 t_2 = double_double_loop_stage(state, c.p[i * c.s0 + 0], c.p[i * c.s0 + 1], radius.p[i],
+                enough.p[i], (r2){past.p + i * past.s0, past.n1, past.n2, past.s1});
+            status = t_2.a0; reach = t_2.a1; u1 = t_2.a2; u1_ = t_2.a3; u2 = t_2.a4; u2_ = t_2.a5; u3 = t_2.a6;
+            u3_ = t_2.a7;
+            if (status != 0) return (t_i2r){step - 1 - first, status, reach};
+            if (with_body) double_double_loop_follow_body(u1, u1_, u2, u2_, u3, u3_, state, attitude, contact, rho);
+            double_double_loop_turn_both(u1, u1_, u2, u2_, u3, u3_, state);
+        }
+        if (step % period == 0) double_double_loop_restore_pairs(state);
+        if (step % every == 0) {
+            frame = step / every;
+            double_double_loop_write((r1){momenta.p + frame * momenta.s0, momenta.n1}, (r1){momenta_.p + frame *
+                momenta_.s0, momenta_.n1}, state, 0, -shift);
+            double_double_loop_write((r1){verticals.p + frame * verticals.s0, verticals.n1}, (r1){verticals_.p + frame
+                * verticals_.s0, verticals_.n1}, state, 6, 0);
+            if (with_body) {
+                double_double_loop_write((r1){attitudes.p + frame * attitudes.s0, attitudes.n1}, (r1){attitudes_.p +
+                    frame * attitudes_.s0, attitudes_.n1}, attitude, 0, 0);
+                double_double_loop_write((r1){traces.p + frame * traces.s0, traces.n1}, (r1){traces_.p + frame *
+                    traces_.s0, traces_.n1}, contact, 0, -beyond);
+            }
+        }
+    }
+    return (t_i2r){count, 0, 1};
+}
+
+INLINE void double_double_block_prepare_pairs_block(r2 momentum, r2 g, r2 tensor, r1 contact, r2 c, r2 state, i1
+    shift, i1 beyond) {
+    ALIGNED real one_[28]; r1 one = {one_, 28}; ALIGNED real radius_[1]; r1 radius = {radius_, 1};
+    ALIGNED real enough_[1]; r1 enough = {enough_, 1}; int64_t last = contact.n0 - 1;
+    for (int64_t lane = 0; lane < state.n1; lane++) {
+        int64_t i = min_i(lane, last);
+        t_i2 t_1 = double_double_loop_prepare_pairs((r1){momentum.p + i * momentum.s0, momentum.n1}, (r1){g.p + i *
+            g.s0, g.n1}, (r1){tensor.p + i * tensor.s0, tensor.n1}, contact.p[i], c, one, radius, enough);
+        shift.p[i] = t_1.a0; beyond.p[i] = t_1.a1;
+        for (int64_t row = 0; row < 52; row++) state.p[row * state.s0 + lane] = row < 28 ? one.p[row] : 0;
+        state.p[52 * state.s0 + lane] = radius.p[0]; state.p[53 * state.s0 + lane] = enough.p[0];
+    }
+}
+
+INLINE void double_double_block_residuals(r2 S, r2 P) {
+    INDEPENDENT
+    for (int64_t i = 0; i < 16; i++) {
+        t_r6 t_1 = double_double_gibbs_residual_pairs(P.p[0 * P.s0 + i], P.p[1 * P.s0 + i], P.p[2 * P.s0 + i], S.p[0 *
+            S.s0 + i], S.p[1 * S.s0 + i], S.p[2 * S.s0 + i], S.p[3 * S.s0 + i], S.p[4 * S.s0 + i], S.p[5 * S.s0 + i],
+            S.p[6 * S.s0 + i], S.p[7 * S.s0 + i], S.p[8 * S.s0 + i], S.p[9 * S.s0 + i], S.p[10 * S.s0 + i], S.p[11 *
+            S.s0 + i], S.p[12 * S.s0 + i], S.p[13 * S.s0 + i], S.p[14 * S.s0 + i], S.p[15 * S.s0 + i], S.p[16 * S.s0 +
+            i], S.p[17 * S.s0 + i], S.p[21 * S.s0 + i]);
+        P.p[16 * P.s0 + i] = t_1.a0; P.p[17 * P.s0 + i] = t_1.a2; P.p[18 * P.s0 + i] = t_1.a4;
+    }
+}
+
+INLINE void double_double_block_turned(r2 S, r2 P) {
+    INDEPENDENT
+    for (int64_t i = 0; i < 16; i++) {
+        t_r2 t_2 = pairs_two_sum(P.p[0 * P.s0 + i], P.p[19 * P.s0 + i]);
+        t_r2 t_3 = pairs_two_sum(P.p[1 * P.s0 + i], P.p[20 * P.s0 + i]);
+        t_r2 t_4 = pairs_two_sum(P.p[2 * P.s0 + i], P.p[21 * P.s0 + i]);
+        t_r12 t_1 = double_double_turn_pairs(t_2.a0, t_2.a1, t_3.a0, t_3.a1, t_4.a0, t_4.a1, S.p[0 * S.s0 + i], S.p[1
+            * S.s0 + i], S.p[2 * S.s0 + i], S.p[3 * S.s0 + i], S.p[4 * S.s0 + i], S.p[5 * S.s0 + i], S.p[6 * S.s0 +
+            i], S.p[7 * S.s0 + i], S.p[8 * S.s0 + i], S.p[9 * S.s0 + i], S.p[10 * S.s0 + i], S.p[11 * S.s0 + i]);
+        S.p[0 * S.s0 + i] = t_1.a0; S.p[1 * S.s0 + i] = t_1.a1; S.p[2 * S.s0 + i] = t_1.a2;
+        S.p[3 * S.s0 + i] = t_1.a3; S.p[4 * S.s0 + i] = t_1.a4; S.p[5 * S.s0 + i] = t_1.a5;
+        S.p[6 * S.s0 + i] = t_1.a6; S.p[7 * S.s0 + i] = t_1.a7; S.p[8 * S.s0 + i] = t_1.a8;
+        S.p[9 * S.s0 + i] = t_1.a9; S.p[10 * S.s0 + i] = t_1.a10; S.p[11 * S.s0 + i] = t_1.a11;
+        block_extrapolated(S, 28, i, P.p[0 * P.s0 + i] + P.p[19 * P.s0 + i]);
+        block_extrapolated(S, 29, i, P.p[1 * P.s0 + i] + P.p[20 * P.s0 + i]);
+        block_extrapolated(S, 30, i, P.p[2 * P.s0 + i] + P.p[21 * P.s0 + i]);
+    }
+}
+
+INLINE int64_t double_double_block_approached(r2 S, r2 P, i1 ok, int again) {
+    int64_t bad = 0, row; real c;
+    INDEPENDENT
+    for (int64_t i = 0; i < 16; i++) {
+        real radius = S.p[52 * S.s0 + i], u1 = again ? P.p[0 * P.s0 + i] : S.p[28 * S.s0 + i];
+        real u2 = again ? P.p[1 * P.s0 + i] : S.p[29 * S.s0 + i], u3 = again ? P.p[2 * P.s0 + i] : S.p[30 * S.s0 + i];
+        int near = u1 * u1 + (u2 * u2 + u3 * u3) <= radius; u1 = near ? u1 : 0; u2 = near ? u2 : 0;
+        u3 = near ? u3 : 0;
+        t_r20 p0 = gibbs_newton_round(u1, u2, u3, S.p[0 * S.s0 + i], S.p[2 * S.s0 + i], S.p[4 * S.s0 + i], S.p[6 *
+            S.s0 + i], S.p[8 * S.s0 + i], S.p[10 * S.s0 + i], S.p[12 * S.s0 + i], S.p[14 * S.s0 + i], S.p[16 * S.s0 +
+            i], S.p[21 * S.s0 + i], 0);
+        int done = again & (ok.p[i] == 1); real t_1 = done ? P.p[0 * P.s0 + i] : p0.a4;
+        real t_2 = done ? P.p[1 * P.s0 + i] : p0.a5, t_3 = done ? P.p[2 * P.s0 + i] : p0.a6; P.p[0 * P.s0 + i] = t_1;
+        P.p[1 * P.s0 + i] = t_2; P.p[2 * P.s0 + i] = t_3; real t_4 = done ? P.p[3 * P.s0 + i] : p0.a8;
+        real t_5 = done ? P.p[4 * P.s0 + i] : p0.a9, t_6 = done ? P.p[5 * P.s0 + i] : p0.a10; P.p[3 * P.s0 + i] = t_4;
+        P.p[4 * P.s0 + i] = t_5; P.p[5 * P.s0 + i] = t_6; P.p[6 * P.s0 + i] = done ? P.p[6 * P.s0 + i] : p0.a0;
+        row = 0; c = p0.a11;
+        {
+            P.p[(7 + row) * P.s0 + i] = done ? P.p[(7 + row) * P.s0 + i] : c;
+        }
+        row = 1; c = p0.a12;
+        {
+            P.p[(7 + row) * P.s0 + i] = done ? P.p[(7 + row) * P.s0 + i] : c;
+        }
+        row = 2; c = p0.a13;
+        {
+            P.p[(7 + row) * P.s0 + i] = done ? P.p[(7 + row) * P.s0 + i] : c;
+        }
+        row = 3; c = p0.a14;
+        {
+            P.p[(7 + row) * P.s0 + i] = done ? P.p[(7 + row) * P.s0 + i] : c;
+        }
+        row = 4; c = p0.a15;
+        {
+            P.p[(7 + row) * P.s0 + i] = done ? P.p[(7 + row) * P.s0 + i] : c;
+        }
+        row = 5; c = p0.a16;
+        {
+            P.p[(7 + row) * P.s0 + i] = done ? P.p[(7 + row) * P.s0 + i] : c;
+        }
+        row = 6; c = p0.a17;
+        {
+            P.p[(7 + row) * P.s0 + i] = done ? P.p[(7 + row) * P.s0 + i] : c;
+        }
+        row = 7; c = p0.a18;
+        {
+            P.p[(7 + row) * P.s0 + i] = done ? P.p[(7 + row) * P.s0 + i] : c;
+        }
+        row = 8; c = p0.a19;
+        {
+            P.p[(7 + row) * P.s0 + i] = done ? P.p[(7 + row) * P.s0 + i] : c;
+        }
+        ok.p[i] = done | ((radius >= 0) & (p0.a7 <= S.p[53 * S.s0 + i])) ? 1 : 0;
+        bad += radius >= 0 ? 1 - ok.p[i] : 0;
+    }
+    return bad;
+}
+
+INLINE int64_t double_double_block_corrected(r2 S, r2 P, i1 ok) {
+    int64_t bad = 0;
+    INDEPENDENT
+    for (int64_t i = 0; i < 16; i++) {
+        real w1 = P.p[0 * P.s0 + i], w2 = P.p[1 * P.s0 + i], w3 = P.p[2 * P.s0 + i];
+        t_r3 e1 = double_double_step_correction(P.p[3 * P.s0 + i], P.p[4 * P.s0 + i], P.p[5 * P.s0 + i], P.p[16 * P.s0
+            + i], P.p[17 * P.s0 + i], P.p[18 * P.s0 + i], S.p[0 * S.s0 + i], S.p[2 * S.s0 + i], S.p[4 * S.s0 + i],
+            S.p[12 * S.s0 + i], S.p[14 * S.s0 + i], S.p[16 * S.s0 + i], P.p[6 * P.s0 + i], P.p[7 * P.s0 + i], P.p[8 *
+            P.s0 + i], P.p[9 * P.s0 + i], P.p[10 * P.s0 + i], P.p[11 * P.s0 + i], P.p[12 * P.s0 + i], P.p[13 * P.s0 +
+            i], P.p[14 * P.s0 + i], P.p[15 * P.s0 + i]);
+        P.p[19 * P.s0 + i] = e1.a0; P.p[20 * P.s0 + i] = e1.a1; P.p[21 * P.s0 + i] = e1.a2;
+        ok.p[i] = (ok.p[i] == 1) & double_double_step_small(w1, w2, w3, e1.a0, e1.a1, e1.a2) ? 1 : 0;
+        bad += 1 - ok.p[i];
+    }
+    return bad;
+}
+
+OUT_OF_LINE void double_double_block_mend(r2 S, r2 P, i1 ok, int64_t step, i1 taken, i1 status, d1 reach) {
+    r1 s; real u1, u1_, u2, u2_, u3, u3_;
+    for (int64_t i = 0; i < 16; i++) {
+        if (ok.p[i] == 1) continue;
+        P.p[0 * P.s0 + i] = 0; P.p[1 * P.s0 + i] = 0; P.p[2 * P.s0 + i] = 0; P.p[19 * P.s0 + i] = 0;
+        P.p[20 * P.s0 + i] = 0; P.p[21 * P.s0 + i] = 0;
+        if (i < status.n0 && status.p[i] == 0) {
+            real s_[S.n0];
+            for (int64_t i_ = 0; i_ < S.n0; i_++) s_[i_] = S.p[i_ * S.s0 + i];
+            s = (r1){s_, S.n0};
+            t_ir7 t_1 = double_double_loop_stage(s, 1, 0, s.p[52], s.p[53], (r2){((r1){s.p + 28, 52 - 28}).p, 8, 3,
+                3});
+            status.p[i] = t_1.a0; reach.p[i] = t_1.a1; u1 = t_1.a2; u1_ = t_1.a3; u2 = t_1.a4; u2_ = t_1.a5;
+            u3 = t_1.a6; u3_ = t_1.a7;
+            if (status.p[i] == 0) {
+                P.p[0 * P.s0 + i] = u1; P.p[1 * P.s0 + i] = u2; P.p[2 * P.s0 + i] = u3; P.p[19 * P.s0 + i] = u1_;
+                P.p[20 * P.s0 + i] = u2_; P.p[21 * P.s0 + i] = u3_; continue;
+            }
+            taken.p[i] = step;
+        }
+        S.p[52 * S.s0 + i] = -1;
+    }
+}
+
+INLINE void double_double_block_march_pairs_block(r2 state, int64_t first, int64_t count, int64_t every, i1 shift, r3
+    momenta, r3 momenta_, r3 verticals, r3 verticals_, i1 taken, i1 status, d1 reach) {
+    ALIGNED real S_[54 * 16]; r2 S = {S_, 54, 16, 16}; ALIGNED real P_[22 * 16]; r2 P = {P_, 22, 16, 16};
+    ALIGNED int64_t ok_[16]; i1 ok = {ok_, 16}; block_carry(state, S, 16); int64_t i, frame; r1 one; int64_t row;
+    int64_t end_1 = first + count;
+    for (int64_t step = first; step < end_1; step++) {
+        int64_t bad = double_double_block_approached(S, P, ok, 0), rounds = 1;
+        while (bad != 0 && rounds < 4) {
+            bad = double_double_block_approached(S, P, ok, 1); rounds = rounds + 1;
+        }
+        double_double_block_residuals(S, P);
+        if (double_double_block_corrected(S, P, ok) != 0)
+            double_double_block_mend(S, P, ok, step, taken, status, reach);
+        double_double_block_turned(S, P);
+        if ((step + 1) % 1024 == 0) {
+            for (i = 0; i < 16; i++) {
+                real one_[28];
+                for (int64_t i_ = 0; i_ < 28; i_++) one_[i_] = S.p[i_ * S.s0 + i];
+                one = (r1){one_, 28}; double_double_loop_restore_pairs(one);
+                for (row = 0; row < 28; row++) S.p[row * S.s0 + i] = one.p[row];
+            }
+        }
+        if ((step + 1) % every == 0) {
+            frame = (step + 1) / every;
+            for (i = 0; i < status.n0; i++) {
+                if (status.p[i] == 0) {
+                    real one_[S.n0];
+                    for (int64_t i_ = 0; i_ < S.n0; i_++) one_[i_] = S.p[i_ * S.s0 + i];
+                    one = (r1){one_, S.n0};
+                    double_double_loop_write((r1){momenta.p + i * momenta.s0 + frame * momenta.s1, momenta.n2},
+                        (r1){momenta_.p + i * momenta_.s0 + frame * momenta_.s1, momenta_.n2}, one, 0, -shift.p[i]);
+                    double_double_loop_write((r1){verticals.p + i * verticals.s0 + frame * verticals.s1,
+                        verticals.n2}, (r1){verticals_.p + i * verticals_.s0 + frame * verticals_.s1, verticals_.n2},
+                        one, 6, 0);
+                }
+            }
+        }
+    }
+    for (i = 0; i < status.n0; i++) {
+        if (status.p[i] == 0) taken.p[i] = first + count;
+    }
+    block_carry(S, state, 16);
+}
+
+INLINE t_r3 tangent_cross(real a1, real a2, real a3, real b1, real b2, real b3) {
+    return (t_r3){a2 * b3 - a3 * b2, a3 * b1 - a1 * b3, a1 * b2 - a2 * b1};
+}
+
+INLINE t_r3 tangent_column(real x1, real x2, real x3, real u1, real u2, real u3, r1 state, real det, r1 c) {
+    t_r3 g1 = loop_three(state, 3), a1 = tangent_cross(state.p[0], state.p[1], state.p[2], x1, x2, x3);
+    t_r3 b1 = tangent_cross(g1.a0, g1.a1, g1.a2, x1, x2, x3); real length = 1 + (u1 * u1 + u2 * u2 + u3 * u3);
+    real along = state.p[48] * (g1.a0 * u1 + g1.a1 * u2 + g1.a2 * u3);
+    real across = state.p[48] * (b1.a0 * u1 + b1.a1 * u2 + b1.a2 * u3);
+    real r1 = along * b1.a0 + across * g1.a0 + length * a1.a0, r2 = along * b1.a1 + across * g1.a1 + length * a1.a1;
+    real r3 = along * b1.a2 + across * g1.a2 + length * a1.a2, d1 = (c.p[0] * r1 + c.p[3] * r2 + c.p[6] * r3) / det;
+    real d2 = (c.p[1] * r1 + c.p[4] * r2 + c.p[7] * r3) / det, d3 = (c.p[2] * r1 + c.p[5] * r2 + c.p[8] * r3) / det;
+    t_r3 v1 = tangent_cross(u1, u2, u3, d1, d2, d3), t1 = kernel_turn(1, u1, u2, u3, x1, x2, x3); real f = 2 / length;
+    return (t_r3){x1 + t1.a0 + f * (d1 - v1.a0), x2 + t1.a1 + f * (d2 - v1.a1), x3 + t1.a2 + f * (d3 - v1.a2)};
+}
+
+INLINE void tangent_derivative(real u1, real u2, real u3, r1 state, r2 T) {
+    t_r3 t_2 = loop_three(state, 0), t_3 = loop_three(state, 3), t_4 = loop_three(state, 45);
+    t_r13 t_1 = kernel_gibbs_newton(u1, u2, u3, t_2.a0, t_2.a1, t_2.a2, t_3.a0, t_3.a1, t_3.a2, t_4.a0, t_4.a1,
+        t_4.a2, state.p[48]);
+    real found_[] = {t_1.a0, t_1.a1, t_1.a2, t_1.a3, t_1.a4, t_1.a5, t_1.a6, t_1.a7, t_1.a8, t_1.a9, t_1.a10, t_1.a11,
+        t_1.a12};
+    r1 found = {found_, 13};
+    for (int64_t i = 0; i < 3; i++) {
+        real x = i == 0 ? 1 : 0, y = i == 1 ? 1 : 0, z = i == 2 ? 1 : 0;
+        t_r3 t_5 = tangent_column(x, y, z, u1, u2, u3, state, found.p[0], (r1){found.p + 4, 13 - 4});
+        T.p[i * T.s0 + 0] = t_5.a0; T.p[i * T.s0 + 1] = t_5.a1; T.p[i * T.s0 + 2] = t_5.a2;
+    }
+}
+
+INLINE void tangent_moved(r2 T, r2 frame, r1 growth) {
+    int64_t i; real along;
+    for (int64_t j = 0; j < 3; j++) {
+        real a = frame.p[j * frame.s0 + 0], b = frame.p[j * frame.s0 + 1], c = frame.p[j * frame.s0 + 2];
+        for (i = 0; i < 3; i++)
+            frame.p[j * frame.s0 + i] = T.p[0 * T.s0 + i] * a + T.p[1 * T.s0 + i] * b + T.p[2 * T.s0 + i] * c;
+        for (int64_t before = 0; before < j; before++) {
+            along = 0;
+            for (i = 0; i < 3; i++) along += frame.p[before * frame.s0 + i] * frame.p[j * frame.s0 + i];
+            for (i = 0; i < 3; i++) frame.p[j * frame.s0 + i] -= along * frame.p[before * frame.s0 + i];
+        }
+        real length = real_sqrt(frame.p[j * frame.s0 + 0] * frame.p[j * frame.s0 + 0] + frame.p[j * frame.s0 + 1] *
+            frame.p[j * frame.s0 + 1] + frame.p[j * frame.s0 + 2] * frame.p[j * frame.s0 + 2]);
+        for (i = 0; i < 3; i++) frame.p[j * frame.s0 + i] /= length;
+        growth.p[j] += log(length);
+    }
+}
+
+INLINE real kernel_energy(real K1, real K2, real K3, real g1, real g2, real g3, real J1, real J2, real J3, real D) {
+    real t0 = J2 + J3, t1 = 1 / (D + t0), t2 = J1 + J3, t3 = 1 / (D + t2), t4 = J1 + J2, t5 = 1 / (D + t4);
+    real t6 = K1 * g1 * t1 + K2 * g2 * t3 + K3 * g3 * t5, o_T = K1 * K1 * t1 / 2 + K2 * K2 * t3 / 2 + (K3 * K3 * t5 /
+        2 + D * t6 * t6 / (2 * (g1 * g1 * t0 * t1 + g2 * g2 * t2 * t3 + g3 * g3 * t4 * t5)));
+    return o_T;
+}
+
+INLINE real tangent_weight(int64_t n, int64_t count) {
+    real t = (n + 1) / (count + 1); return exp(-1 / (t * (1 - t)));
+}
+
+INLINE real tangent_determinant(r2 T) {
+    t_r3 n1 = tangent_cross(T.p[1 * T.s0 + 0], T.p[1 * T.s0 + 1], T.p[1 * T.s0 + 2], T.p[2 * T.s0 + 0], T.p[2 * T.s0 +
+        1], T.p[2 * T.s0 + 2]);
+    return T.p[0 * T.s0 + 0] * n1.a0 + T.p[0 * T.s0 + 1] * n1.a1 + T.p[0 * T.s0 + 2] * n1.a2;
+}
+
+#endif
+
+#ifdef SINGLE
+
+INLINE t_ir5 single_loop_widened(real K1, real K2, real K3, real g1, real g2, real g3, real J1, real J2, real J3, real
+    D) {
+    double x = (double)g1, y = (double)g2, z = (double)g3, length = sqrt(x * x + (y * y + z * z));
+    t_id5 status = branch_small_rotation_double((double)K1, (double)K2, (double)K3, x / length, y / length, z /
+        length, (double)J1, (double)J2, (double)J3, (double)D);
+    return (t_ir5){status.a0, (real)status.a1, (real)status.a2, (real)status.a3, (real)status.a4, (real)status.a5};
+}
+
+INLINE void single_loop_add(r1 array, int64_t at, int64_t rest, real z) {
+    t_r2 t_1 = sums_added(array.p[at], array.p[rest], z); array.p[at] = t_1.a0; array.p[rest] = t_1.a1;
+}
+
+INLINE void single_loop_follow_body(real p0, real p1, real p2, real p3, real g1, real g2, real g3, r1 attitude, r1
+    contact, real radius) {
+    real squared = p1 * p1 + (p2 * p2 + p3 * p3), length = real_sqrt(p0 * p0 + squared), q0 = p0 / length;
+    real q1 = p1 / length, q2 = p2 / length, q3 = p3 / length;
+    t_r3 s1 = kernel_centre_step(q0, q1, q2, q3, g1, g2, g3); real a0 = attitude.p[0], a1 = attitude.p[1];
+    real a2 = attitude.p[2], a3 = attitude.p[3]; t_r3 x = kernel_rotate(a0, a1, a2, a3, s1.a0, s1.a1, s1.a2);
+    single_loop_add(contact, 0, 2, radius * x.a0); single_loop_add(contact, 1, 3, radius * x.a1);
+    t_r4 z0 = kernel_compose(a0, a1, a2, a3, -squared / (length * (length + p0)), q1, q2, q3);
+    real stretch = R(0.5) - R(0.5) * (a0 * a0 + a1 * a1 + (a2 * a2 + a3 * a3));
+    single_loop_add(attitude, 0, 4, z0.a0 + stretch * a0); single_loop_add(attitude, 1, 5, z0.a1 + stretch * a1);
+    single_loop_add(attitude, 2, 6, z0.a2 + stretch * a2); single_loop_add(attitude, 3, 7, z0.a3 + stretch * a3);
+}
+
+#endif
+
+OUT_OF_LINE t_ir8 loop_safe_rotation(real u1, real u2, real u3, r1 state) {
+    t_r3 k1 = loop_three(state, 0), g1 = loop_three(state, 3), I1 = loop_three(state, 45); int settled; real p0, p1;
+    real p2, p3, w1, w2, w3;
+    if (state.p[49] == -2) {
+        t_br7 t_1 = path_search_on_path(u1, u2, u3, k1.a0, k1.a1, k1.a2, g1.a0, g1.a1, g1.a2, I1.a0, I1.a1, I1.a2,
+            state.p[48]);
+        settled = t_1.a0; p0 = t_1.a1; p1 = t_1.a2; p2 = t_1.a3; p3 = t_1.a4; w1 = t_1.a5; w2 = t_1.a6; w3 = t_1.a7;
+    }
+    else {
+        t_br7 t_2 = gibbs_search_safely(u1, u2, u3, k1.a0, k1.a1, k1.a2, g1.a0, g1.a1, g1.a2, I1.a0, I1.a1, I1.a2,
+            state.p[48], state.p[49], state.p[50]);
+        settled = t_2.a0; p0 = t_2.a1; p1 = t_2.a2; p2 = t_2.a3; p3 = t_2.a4; w1 = t_2.a5; w2 = t_2.a6; w3 = t_2.a7;
+    }
+    if (settled) return (t_ir8){0, 1, p0, p1, p2, p3, w1, w2, w3};
+    t_ir5 t_3 = loop_small_rotation(2 * k1.a0, 2 * k1.a1, 2 * k1.a2, g1.a0, g1.a1, g1.a2, state.p[42], state.p[43],
+        state.p[44], state.p[48]);
+    int64_t status = t_3.a0; real reach = t_3.a1; p0 = t_3.a2; p1 = t_3.a3; p2 = t_3.a4; p3 = t_3.a5;
+    if (p0 == 0) return (t_ir8){status, reach, p0, p1, p2, p3, 0, 0, 0};
+    return (t_ir8){status, reach, p0, p1, p2, p3, p1 / p0, p2 / p0, p3 / p0};
+}
+
+INLINE t_i2r loop_march(r1 state, int64_t begun, int64_t first, int64_t count, int64_t every, real scale, r2 momenta,
+    r2 verticals, int with_body, r1 attitude, r1 contact, real rho, r2 attitudes, r2 traces) {
+    t_r3 t_1 = loop_three(state, 0); real k1 = t_1.a0, k2 = t_1.a1, k3 = t_1.a2; t_r3 t_2 = loop_three(state, 3);
+    real g1 = t_2.a0, g2 = t_2.a1, g3 = t_2.a2; t_r3 t_3 = loop_three(state, 6); real x1 = t_3.a0, x2 = t_3.a1;
+    real x3 = t_3.a2; t_r3 t_4 = loop_three(state, 9); real y1 = t_4.a0, y2 = t_4.a1, y3 = t_4.a2;
+    t_r3 t_5 = loop_three(state, 18); real a1 = t_5.a0, a2 = t_5.a1, a3 = t_5.a2; t_r3 t_6 = loop_three(state, 21);
+    real b1 = t_6.a0, b2 = t_6.a1, b3 = t_6.a2; t_r3 t_7 = loop_three(state, 24); real c1 = t_7.a0, c2 = t_7.a1;
+    real c3 = t_7.a2; t_r3 t_8 = loop_three(state, 27); real d1 = t_8.a0, d2 = t_8.a1, d3 = t_8.a2;
+    t_r3 t_9 = loop_three(state, 30); real e1 = t_9.a0, e2 = t_9.a1, e3 = t_9.a2; t_r3 t_10 = loop_three(state, 33);
+    real f1 = t_10.a0, f2 = t_10.a1, f3 = t_10.a2; t_r3 t_11 = loop_three(state, 36); real h1 = t_11.a0, h2 = t_11.a1;
+    real h3 = t_11.a2; t_r3 t_12 = loop_three(state, 39); real o1 = t_12.a0, o2 = t_12.a1, o3 = t_12.a2;
+    t_r3 I1 = loop_three(state, 45), contact_term = loop_three(state, 48); int64_t step = first, status = 0;
+    real reach = 1; int64_t last = first + count, frame, i; int settled; real p0, p1, p2, p3, w1, w2, w3;
+    while (step < last && status == 0) {
+        int64_t stop = min_i(min_i(last, step + every - step % every), step + 1024 - (begun + step) % 1024);
+        while (step < stop) {
+            t_br7 t_13 = gibbs_settle(a1, a2, a3, k1, k2, k3, g1, g2, g3, I1.a0, I1.a1, I1.a2, contact_term.a0,
+                contact_term.a1, contact_term.a2, 0);
+            settled = t_13.a0; p0 = t_13.a1; p1 = t_13.a2; p2 = t_13.a3; p3 = t_13.a4; w1 = t_13.a5; w2 = t_13.a6;
+            w3 = t_13.a7;
+            if (!settled) {
+                loop_put(state, 0, k1, k2, k3); loop_put(state, 3, g1, g2, g3);
+                t_ir8 t_14 = loop_safe_rotation(w1, w2, w3, state); status = t_14.a0; reach = t_14.a1; p0 = t_14.a2;
+                p1 = t_14.a3; p2 = t_14.a4; p3 = t_14.a5; w1 = t_14.a6; w2 = t_14.a7; w3 = t_14.a8;
+                if (status != 0) break;
+            }
+            t_r8 t_15 = sums_filtered(b1, c1, d1, e1, f1, h1, o1, w1); a1 = t_15.a0; b1 = t_15.a1; c1 = t_15.a2;
+            d1 = t_15.a3; e1 = t_15.a4; f1 = t_15.a5; h1 = t_15.a6; o1 = t_15.a7;
+            t_r8 t_16 = sums_filtered(b2, c2, d2, e2, f2, h2, o2, w2); a2 = t_16.a0; b2 = t_16.a1; c2 = t_16.a2;
+            d2 = t_16.a3; e2 = t_16.a4; f2 = t_16.a5; h2 = t_16.a6; o2 = t_16.a7;
+            t_r8 t_17 = sums_filtered(b3, c3, d3, e3, f3, h3, o3, w3); a3 = t_17.a0; b3 = t_17.a1; c3 = t_17.a2;
+            d3 = t_17.a3; e3 = t_17.a4; f3 = t_17.a5; h3 = t_17.a6; o3 = t_17.a7;
+            if (with_body) loop_follow_body(p0, p1, p2, p3, g1, g2, g3, attitude, contact, rho);
+            t_r6 t_18 = sums_turned(p0, p1, p2, p3, k1, k2, k3, x1, x2, x3); k1 = t_18.a0; k2 = t_18.a1; k3 = t_18.a2;
+            x1 = t_18.a3; x2 = t_18.a4; x3 = t_18.a5; t_r6 t_19 = sums_turned(p0, p1, p2, p3, g1, g2, g3, y1, y2, y3);
+            g1 = t_19.a0; g2 = t_19.a1; g3 = t_19.a2; y1 = t_19.a3; y2 = t_19.a4; y3 = t_19.a5; step += 1;
+        }
+        if (status == 0 && (begun + step) % 1024 == 0) {
+            loop_put(state, 0, k1, k2, k3); loop_put(state, 3, g1, g2, g3); loop_put(state, 6, x1, x2, x3);
+            loop_put(state, 9, y1, y2, y3); integrals_restore(state); t_r3 t_20 = loop_three(state, 6); x1 = t_20.a0;
+            x2 = t_20.a1; x3 = t_20.a2; t_r3 t_21 = loop_three(state, 9); y1 = t_21.a0; y2 = t_21.a1; y3 = t_21.a2;
+        }
+        if (status == 0 && step % every == 0) {
+            frame = step / every;
+            loop_put((r1){momenta.p + frame * momenta.s0, momenta.n1}, 0, scale * k1, scale * k2, scale * k3);
+            loop_put((r1){verticals.p + frame * verticals.s0, verticals.n1}, 0, g1, g2, g3);
+            if (with_body) {
+                for (i = 0; i < 4; i++) attitudes.p[frame * attitudes.s0 + i] = attitude.p[i];
+                traces.p[frame * traces.s0 + 0] = contact.p[0]; traces.p[frame * traces.s0 + 1] = contact.p[1];
+            }
+        }
+    }
+    loop_put(state, 0, k1, k2, k3); loop_put(state, 3, g1, g2, g3); loop_put(state, 6, x1, x2, x3);
+    loop_put(state, 9, y1, y2, y3); loop_put(state, 18, a1, a2, a3); loop_put(state, 21, b1, b2, b3);
+    loop_put(state, 24, c1, c2, c3); loop_put(state, 27, d1, d2, d3); loop_put(state, 30, e1, e2, e3);
+    loop_put(state, 33, f1, f2, f3); loop_put(state, 36, h1, h2, h3); loop_put(state, 39, o1, o2, o3);
+    return (t_i2r){step - first, status, reach};
+}
+
+INLINE t_ir composed_loop_composed_step(int64_t step, r1 state, r1 c, r3 weights, r1 radius, r1 enough, r2 past, int
+    with_body, r1 attitude, r1 contact, real rho) {
+    t_i2 at = composed_loop_place(step, c.n0, weights.n1); int64_t status; real reach;
+    for (int64_t i = 0; i < c.n0; i++) {
+        t_r3 k1 = loop_three(state, 0), g1 = loop_three(state, 3), I1 = loop_three(state, 45), u1 =
+            composed_loop_guess(past, (r1){weights.p + at.a1 * weights.s0 + (at.a0 + i) * weights.s1, weights.n2});
+        t_br7 t_1 = gibbs_settle(u1.a0, u1.a1, u1.a2, c.p[i] * k1.a0, c.p[i] * k1.a1, c.p[i] * k1.a2, g1.a0, g1.a1,
+            g1.a2, I1.a0, I1.a1, I1.a2, state.p[48], radius.p[i], enough.p[i], 0);
+        int settled = t_1.a0; real p0 = t_1.a1, p1 = t_1.a2, p2 = t_1.a3, p3 = t_1.a4, w1 = t_1.a5, w2 = t_1.a6;
+        real w3 = t_1.a7;
+        if (!settled) {
+            loop_put(state, 0, c.p[i] * k1.a0, c.p[i] * k1.a1, c.p[i] * k1.a2); state.p[49] = radius.p[i];
+            state.p[50] = enough.p[i]; t_ir8 t_2 = loop_safe_rotation(w1, w2, w3, state); status = t_2.a0;
+            reach = t_2.a1; p0 = t_2.a2; p1 = t_2.a3; p2 = t_2.a4; p3 = t_2.a5; w1 = t_2.a6; w2 = t_2.a7; w3 = t_2.a8;
+            if (status != 0) return (t_ir){status, reach};
+            loop_put(state, 0, k1.a0, k1.a1, k1.a2);
+        }
+        loop_put((r1){past.p + (at.a0 + i) * past.s0, past.n1}, 0, w1, w2, w3);
+        if (with_body) loop_follow_body(p0, p1, p2, p3, g1.a0, g1.a1, g1.a2, attitude, contact, rho);
+        composed_loop_turn_at(p0, p1, p2, p3, state, 0, 6); composed_loop_turn_at(p0, p1, p2, p3, state, 3, 9);
+    }
+    return (t_ir){0, 1};
+}
+
+INLINE t_i2r composed_loop_march_composed(r1 state, r1 c, r3 weights, r1 radius, r1 enough, r2 past, int64_t begun,
+    int64_t first, int64_t count, int64_t every, real scale, r2 momenta, r2 verticals, int with_body, r1 attitude, r1
+    contact, real rho, r2 attitudes, r2 traces) {
+    int64_t period = max_i(1, 1024 / c.n0), frame, i, end_1 = first + count + 1;
+    for (int64_t step = first + 1; step < end_1; step++) {
+        t_ir status = composed_loop_composed_step(begun + step - 1, state, c, weights, radius, enough, past,
+            with_body, attitude, contact, rho);
+        if (status.a0 != 0) return (t_i2r){step - 1 - first, status.a0, status.a1};
+        if ((begun + step) % period == 0) integrals_restore(state);
+        if (step % every == 0) {
+            frame = step / every;
+            loop_put((r1){momenta.p + frame * momenta.s0, momenta.n1}, 0, scale * state.p[0], scale * state.p[1],
+                scale * state.p[2]);
+            loop_put((r1){verticals.p + frame * verticals.s0, verticals.n1}, 0, state.p[3], state.p[4], state.p[5]);
+            if (with_body) {
+                for (i = 0; i < 4; i++) attitudes.p[frame * attitudes.s0 + i] = attitude.p[i];
+                traces.p[frame * traces.s0 + 0] = contact.p[0]; traces.p[frame * traces.s0 + 1] = contact.p[1];
+            }
+        }
+    }
+    return (t_i2r){count, 0, 1};
+}
+
+OUT_OF_LINE void block_mend(r2 S, r2 P, w1 ok, int64_t step, i1 taken, i1 status, d1 reach, int64_t balls) {
+    r1 one; real u1, u2, u3, p0, p1, p2, p3, w1, w2, w3;
+    for (int64_t i = 0; i < ok.n0; i++) {
+        if (ok.p[i] == 1) continue;
+        if (i < balls && status.p[i] == 0) {
+            real one_[S.n0];
+            for (int64_t i_ = 0; i_ < S.n0; i_++) one_[i_] = S.p[i_ * S.s0 + i];
+            one = (r1){one_, S.n0}; t_r3 t_2 = loop_three(one, 18), t_3 = loop_three(one, 0);
+            t_r3 t_4 = loop_three(one, 3), t_5 = loop_three(one, 45);
+            t_br7 t_1 = gibbs_settle(t_2.a0, t_2.a1, t_2.a2, t_3.a0, t_3.a1, t_3.a2, t_4.a0, t_4.a1, t_4.a2, t_5.a0,
+                t_5.a1, t_5.a2, one.p[48], one.p[49], one.p[50], 0);
+            u1 = t_1.a5; u2 = t_1.a6; u3 = t_1.a7; t_ir8 t_6 = loop_safe_rotation(u1, u2, u3, one);
+            status.p[i] = t_6.a0; reach.p[i] = t_6.a1; p0 = t_6.a2; p1 = t_6.a3; p2 = t_6.a4; p3 = t_6.a5;
+            w1 = t_6.a6; w2 = t_6.a7; w3 = t_6.a8;
+            if (status.p[i] == 0) {
+                P.p[0 * P.s0 + i] = p0; P.p[1 * P.s0 + i] = p1; P.p[2 * P.s0 + i] = p2; P.p[3 * P.s0 + i] = p3;
+                P.p[4 * P.s0 + i] = w1; P.p[5 * P.s0 + i] = w2; P.p[6 * P.s0 + i] = w3; continue;
+            }
+            taken.p[i] = step;
+        }
+        S.p[49 * S.s0 + i] = -1; P.p[0 * P.s0 + i] = 1; P.p[1 * P.s0 + i] = 0; P.p[2 * P.s0 + i] = 0;
+        P.p[3 * P.s0 + i] = 0; P.p[4 * P.s0 + i] = 0; P.p[5 * P.s0 + i] = 0; P.p[6 * P.s0 + i] = 0;
+    }
+}
+
+INLINE void block_march_block(r2 state, int64_t first, int64_t count, int64_t every, r1 scale, r3 momenta, r3
+    verticals, i1 taken, i1 status, d1 reach, int with_body, r2 body, r3 attitudes, r3 traces) {
+    ALIGNED real S_[51 * block_LANES]; r2 S = {S_, 51, block_LANES, block_LANES}; ALIGNED real P_[9 * block_LANES];
+    r2 P = {P_, 9, block_LANES, block_LANES}; ALIGNED real B_[7 * block_LANES];
+    r2 B = {B_, 7, block_LANES, block_LANES}; int64_t width = state.n1; ALIGNED int32_t ok_[width];
+    w1 ok = {ok_, width}; block_carry(state, S, width); block_carry(body, B, width); int64_t balls = status.n0;
+    int64_t step = first, last = first + count, patience = 0;
+    t_i2 t_1 = block_uncertified((r1){S.p + 49 * S.s0, S.n1}, ok); int64_t hopeless = t_1.a0, beyond = t_1.a1, bad;
+    while (step < last) {
+        int64_t stop = min_i(min_i(last, step + every - step % every), step + 1024 - step % 1024);
+        while (step < stop) {
+            t_i2 t_2 = block_solved(S, P, ok, hopeless, beyond, patience); patience = t_2.a0; bad = t_2.a1;
+            if (bad != 0) {
+                block_mend(S, P, ok, step, taken, status, reach, balls);
+                t_i2 t_3 = block_uncertified((r1){S.p + 49 * S.s0, S.n1}, ok); hopeless = t_3.a0; beyond = t_3.a1;
+            }
+            if (with_body) block_rolled(S, P, B, ok);
+            block_moved(S, P, ok); step += 1;
+        }
+        if (step % 1024 == 0) block_restored(S, status);
+        if (step % every == 0)
+            block_keep(S, B, step / every, scale, momenta, verticals, status, with_body, attitudes, traces);
+    }
+    for (int64_t i = 0; i < balls; i++) {
+        if (status.p[i] == 0) taken.p[i] = last;
+    }
+    block_carry(S, state, width); block_carry(B, body, width);
+}
+
+INLINE void composed_block_march_composed_block(r2 state, r1 c, r3 weights, r2 radius, r2 enough, r2 past, int64_t
+    first, int64_t count, int64_t every, r1 scale, r3 momenta, r3 verticals, i1 taken, i1 status, d1 reach, int
+    with_body, r2 body, r3 attitudes, r3 traces) {
+    ALIGNED real S_[51 * 40]; r2 S = {S_, 51, 40, 40}; ALIGNED real T_[51 * 40]; r2 T = {T_, 51, 40, 40};
+    ALIGNED real P_[9 * 40]; r2 P = {P_, 9, 40, 40}; ALIGNED real B_[7 * 40]; r2 B = {B_, 7, 40, 40};
+    ALIGNED real H_[past.n0 * 40]; r2 H = {H_, past.n0, 40, 40}; int64_t width = state.n1, stages = c.n0;
+    int64_t balls = status.n0; ALIGNED int32_t ok_[width]; w1 ok = {ok_, width};
+    int64_t period = max_i(1, 1024 / stages); block_carry(state, S, width); block_carry(state, T, width);
+    block_carry(body, B, width); block_carry(past, H, width); int64_t last = first + count, patience = 0;
+    ALIGNED int64_t hopeless_[stages]; i1 hopeless = {hopeless_, stages}; ALIGNED int64_t beyond_[stages];
+    i1 beyond = {beyond_, stages}; int64_t s;
+    for (s = 0; s < stages; s++) {
+        t_i2 t_1 = block_uncertified((r1){radius.p + s * radius.s0, radius.n1}, ok); hopeless.p[s] = t_1.a0;
+        beyond.p[s] = t_1.a1;
+    }
+    int64_t other, bad;
+    for (int64_t step = first; step < last; step++) {
+        t_i2 at = composed_loop_place(step, stages, weights.n1);
+        for (s = 0; s < stages; s++) {
+            composed_block_begin_stage(S, T, c.p[s], (r1){radius.p + s * radius.s0, radius.n1}, (r1){enough.p + s *
+                enough.s0, enough.n1}, ok);
+            composed_block_guess_block(T, H, (r1){weights.p + at.a1 * weights.s0 + (at.a0 + s) * weights.s1,
+                weights.n2}, ok);
+            t_i2 t_2 = block_solved(T, P, ok, hopeless.p[s], beyond.p[s], patience); patience = t_2.a0; bad = t_2.a1;
+            if (bad != 0) {
+                block_mend(T, P, ok, step, taken, status, reach, balls);
+                composed_block_stop(S, T, radius, status, ok);
+                for (other = 0; other < stages; other++) {
+                    t_i2 t_3 = block_uncertified((r1){radius.p + other * radius.s0, radius.n1}, ok);
+                    hopeless.p[other] = t_3.a0; beyond.p[other] = t_3.a1;
+                }
+            }
+            if (with_body) block_rolled(T, P, B, ok);
+            composed_block_end_stage(S, P, H, 3 * (at.a0 + s), ok);
+        }
+        if ((step + 1) % period == 0) block_restored(S, status);
+        if ((step + 1) % every == 0)
+            block_keep(S, B, (step + 1) / every, scale, momenta, verticals, status, with_body, attitudes, traces);
+    }
+    for (int64_t i = 0; i < balls; i++) {
+        if (status.p[i] == 0) taken.p[i] = last;
+    }
+    block_carry(S, state, width); block_carry(B, body, width); block_carry(H, past, width);
+}
+
+INLINE t_ir single_step_advance(r1 momentum, r1 g, r1 tensor, real contact, r1 state, r1 q) {
+    real scale = loop_prepare(momentum, g, tensor, contact, state); t_r3 k1 = loop_three(state, 0);
+    t_r3 g1 = loop_three(state, 3), I1 = loop_three(state, 45); real reach = 1;
+    t_br7 t_1 = gibbs_settle(0, 0, 0, k1.a0, k1.a1, k1.a2, g1.a0, g1.a1, g1.a2, I1.a0, I1.a1, I1.a2, state.p[48],
+        state.p[49], state.p[50], 0);
+    int settled = t_1.a0; real p0 = t_1.a1, p1 = t_1.a2, p2 = t_1.a3, p3 = t_1.a4, w1 = t_1.a5, w2 = t_1.a6;
+    real w3 = t_1.a7;
+    if (!settled) {
+        t_ir8 t_2 = loop_safe_rotation(w1, w2, w3, state); int64_t status = t_2.a0; reach = t_2.a1; p0 = t_2.a2;
+        p1 = t_2.a3; p2 = t_2.a4; p3 = t_2.a5; w1 = t_2.a6; w2 = t_2.a7; w3 = t_2.a8;
+        if (status != 0) return (t_ir){status, reach};
+    }
+    real length = real_sqrt(p0 * p0 + p1 * p1 + (p2 * p2 + p3 * p3)); q.p[0] = p0 / length; q.p[1] = p1 / length;
+    q.p[2] = p2 / length; q.p[3] = p3 / length; t_r3 t_3 = kernel_turn(p0, p1, p2, p3, k1.a0, k1.a1, k1.a2);
+    real z1 = t_3.a0, z2 = t_3.a1, z3 = t_3.a2;
+    loop_put(momentum, 0, scale * (k1.a0 + z1), scale * (k1.a1 + z2), scale * (k1.a2 + z3));
+    t_r3 t_4 = kernel_turn(p0, p1, p2, p3, g1.a0, g1.a1, g1.a2); z1 = t_4.a0; z2 = t_4.a1; z3 = t_4.a2;
+    loop_put(g, 0, g1.a0 + z1, g1.a1 + z2, g1.a2 + z3); return (t_ir){0, reach};
+}
+
+INLINE void single_step_advance_all(r2 momenta, r2 verticals, r2 tensors, r1 contacts, r2 q, i1 status, d1 reach) {
+    ALIGNED real state_[51]; memset(state_, 0, sizeof state_); r1 state = {state_, 51};
+    for (int64_t i = 0; i < momenta.n0; i++) {
+        t_ir t_1 = single_step_advance((r1){momenta.p + i * momenta.s0, momenta.n1}, (r1){verticals.p + i *
+            verticals.s0, verticals.n1}, (r1){tensors.p + i * tensors.s0, tensors.n1}, contacts.p[i], state, (r1){q.p
+            + i * q.s0, q.n1});
+        status.p[i] = t_1.a0; reach.p[i] = t_1.a1;
+    }
+}
+
+#ifndef SINGLE
+
+INLINE t_ir8 long_step_column(r1 body, real half, int64_t n, real square, r1 state) {
+    real part = half / n * fitted_fitted(square * (1 / (n * n))), k1 = part * body.p[0], k2 = part * body.p[1];
+    real k3 = part * body.p[2]; t_r3 t_1 = loop_three(body, 3); real g1 = t_1.a0, g2 = t_1.a1, g3 = t_1.a2;
+    t_r3 I1 = loop_three(state, 45); t_r2 t_2 = gibbs_certificate(k1, k2, k3, I1.a0, I1.a1, I1.a2, state.p[48]);
+    state.p[49] = t_2.a0; state.p[50] = t_2.a1;
+    t_r3 t_3 = kernel_angular_velocity(k1, k2, k3, g1, g2, g3, state.p[42], state.p[43], state.p[44], state.p[48]);
+    real u1 = t_3.a0, u2 = t_3.a1, u3 = t_3.a2, v1 = u1, v2 = u2, v3 = u3, q0 = 1, q1 = 0, q2 = 0, q3 = 0, y1 = 0;
+    real y2 = 0, y3 = 0; int64_t status; real reach;
+    for (int64_t i_3 = 0; i_3 < n; i_3++) {
+        t_br7 t_5 = gibbs_settle(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1.a0, I1.a1, I1.a2, state.p[48], state.p[49],
+            state.p[50], 0);
+        int settled = t_5.a0; real p0 = t_5.a1, p1 = t_5.a2, p2 = t_5.a3, p3 = t_5.a4, w1 = t_5.a5, w2 = t_5.a6;
+        real w3 = t_5.a7;
+        if (!settled) {
+            loop_put(state, 0, k1, k2, k3); loop_put(state, 3, g1, g2, g3);
+            t_ir8 t_6 = loop_safe_rotation(w1, w2, w3, state); status = t_6.a0; reach = t_6.a1; p0 = t_6.a2;
+            p1 = t_6.a3; p2 = t_6.a4; p3 = t_6.a5; w1 = t_6.a6; w2 = t_6.a7; w3 = t_6.a8;
+            if (status != 0) return (t_ir8){status, reach, q0, q1, q2, q3, y1, y2, y3};
+        }
+        square = p0 * p0 + p1 * p1 + (p2 * p2 + p3 * p3);
+        if (!(square > 0)) return (t_ir8){2, 0, q0, q1, q2, q3, y1, y2, y3};
+        real scale = 1 / real_sqrt(square);
+        t_r3 t_7 = kernel_centre_step(p0 * scale, p1 * scale, p2 * scale, p3 * scale, g1, g2, g3); real s1 = t_7.a0;
+        real s2 = t_7.a1, s3 = t_7.a2; t_r3 t_8 = kernel_rotate(q0, q1, q2, q3, s1, s2, s3); s1 = t_8.a0; s2 = t_8.a1;
+        s3 = t_8.a2; y1 = y1 + s1; y2 = y2 + s2; y3 = y3 + s3; t_r3 t_9 = kernel_turn(p0, p1, p2, p3, k1, k2, k3);
+        real d1 = t_9.a0, d2 = t_9.a1, d3 = t_9.a2; k1 = k1 + d1; k2 = k2 + d2; k3 = k3 + d3;
+        t_r3 t_10 = kernel_turn(p0, p1, p2, p3, g1, g2, g3); d1 = t_10.a0; d2 = t_10.a1; d3 = t_10.a2; g1 = g1 + d1;
+        g2 = g2 + d2; g3 = g3 + d3;
+        t_r4 t_11 = kernel_compose(q0, q1, q2, q3, p0 * scale, p1 * scale, p2 * scale, p3 * scale); q0 = t_11.a0;
+        q1 = t_11.a1; q2 = t_11.a2; q3 = t_11.a3; u1 = 2 * w1 - v1; u2 = 2 * w2 - v2; u3 = 2 * w3 - v3; v1 = w1;
+        v2 = w2; v3 = w3;
+    }
+    return (t_ir8){0, 1, q0, q1, q2, q3, y1, y2, y3};
+}
+
+INLINE t_ir long_step_long_step(r1 body, real half, real radius, r2 sums, r1 state) {
+    real q0 = 0, q1 = 0, q2 = 0, q3 = 0, d0 = 0, d1 = 0, d2 = 0, d3 = 0, y1 = 0, y2 = 0, y3 = 0;
+    t_r3 w1 = kernel_angular_velocity(body.p[0], body.p[1], body.p[2], body.p[3], body.p[4], body.p[5], state.p[42],
+        state.p[43], state.p[44], state.p[48]);
+    int64_t first = 8 - sums.n1; real square = fitted_turn_square(2 * half, first, w1.a0, w1.a1, w1.a2);
+    for (int64_t i = 0; i < sums.n1; i++) {
+        t_ir8 status = long_step_column(body, half, first + i, square, state);
+        if (status.a0 != 0) return (t_ir){status.a0, status.a1};
+        real w = sums.p[0 * sums.s0 + i], v = sums.p[1 * sums.s0 + i]; q0 = q0 + w * status.a2;
+        q1 = q1 + w * status.a3; q2 = q2 + w * status.a4; q3 = q3 + w * status.a5; d0 = d0 + v * status.a2;
+        d1 = d1 + v * status.a3; d2 = d2 + v * status.a4; d3 = d3 + v * status.a5; y1 = y1 + w * status.a6;
+        y2 = y2 + w * status.a7; y3 = y3 + w * status.a8;
+    }
+    t_r12 t_1 = long_step_moved_body(body.p[0], body.p[1], body.p[2], body.p[3], body.p[4], body.p[5], body.p[6],
+        body.p[7], body.p[8], body.p[9], body.p[10], body.p[11], q0, q1, q2, q3, y1, y2, y3, radius);
+    body.p[0] = t_1.a0; body.p[1] = t_1.a1; body.p[2] = t_1.a2; body.p[3] = t_1.a3; body.p[4] = t_1.a4;
+    body.p[5] = t_1.a5; body.p[6] = t_1.a6; body.p[7] = t_1.a7; body.p[8] = t_1.a8; body.p[9] = t_1.a9;
+    body.p[10] = t_1.a10; body.p[11] = t_1.a11; body.p[12] += 2 * real_sqrt(d0 * d0 + d1 * d1 + (d2 * d2 + d3 * d3));
+    return (t_ir){0, 1};
+}
+
+OUT_OF_LINE t_ir long_run_safely(r2 S, int64_t b, r2 sums, r1 state) {
+    ALIGNED real body_[13]; r1 body = {body_, 13};
+    for (int64_t c = 0; c < 13; c++) body.p[c] = S.p[(101 + c) * S.s0 + b];
+    t_ir status = long_step_long_step(body, S.p[114 * S.s0 + b], S.p[115 * S.s0 + b], sums, state);
+    for (int64_t c = 0; c < 13; c++) S.p[(101 + c) * S.s0 + b] = body.p[c];
+    return (t_ir){status.a0, status.a1};
+}
+
+INLINE void long_run_march_lanes(int64_t B, r3 momenta, r3 verticals, r3 attitudes, r3 traces, r2 J0, r1 D0, r1
+    radius, real h, int64_t steps, int64_t every, int follows, int traced, r2 sums, r3 following, r2 beginning, r1
+    doubt, i1 taken, i1 status, d1 reach) {
+    ALIGNED real S_[124 * 4 * B]; memset(S_, 0, sizeof S_); r2 S = {S_, 124, 4 * B, 4 * B}; int64_t columns = sums.n1;
+    ALIGNED real states_[B * 51]; memset(states_, 0, sizeof states_); r2 states = {states_, B, 51, 51};
+    ALIGNED int64_t exponents_[B]; memset(exponents_, 0, sizeof exponents_); i1 exponents = {exponents_, B};
+    ALIGNED real body_[13]; memset(body_, 0, sizeof body_); r1 body = {body_, 13}; int64_t balls = status.n0, b, c;
+    for (b = 0; b < B; b++) {
+        int64_t i = min_i(b, balls - 1);
+        for (int64_t i_ = 0; i_ < body.n0; i_++) body.p[i_] = 0;
+        for (c = 0; c < 3; c++) {
+            body.p[c] = momenta.p[i * momenta.s0 + 0 * momenta.s1 + c];
+            body.p[3 + c] = verticals.p[i * verticals.s0 + 0 * verticals.s1 + c];
+        }
+        body.p[6] = 1;
+        if (follows) {
+            for (c = 0; c < 4; c++) body.p[6 + c] = attitudes.p[i * attitudes.s0 + 0 * attitudes.s1 + c];
+            body.p[10] = traces.p[i * traces.s0 + 0 * traces.s1 + 0];
+            body.p[11] = traces.p[i * traces.s0 + 0 * traces.s1 + 1];
+        }
+        exponents.p[b] = long_run_enter(S, B, b, columns, (r1){J0.p + i * J0.s0, J0.n1}, D0.p[i], radius.p[i], h,
+            sums, beginning, body, (r1){states.p + b * states.s0, states.n1});
+    }
+    int64_t stopped; real reached;
+    for (int64_t step = 0; step < steps; step++) {
+        if (lanes_side_by_side(S, B, columns, traced, following, beginning)) {
+            for (b = 0; b < B; b++) {
+                if (S.p[58 * S.s0 + b] != 0 && S.p[120 * S.s0 + b] == 0) {
+                    t_ir t_1 = long_run_safely(S, b, sums, (r1){states.p + b * states.s0, states.n1});
+                    stopped = t_1.a0; reached = t_1.a1;
+                    if (stopped != 0) {
+                        S.p[120 * S.s0 + b] = 1;
+                        if (b < balls) {
+                            status.p[b] = stopped; reach.p[b] = reached; taken.p[b] = step;
+                        }
+                    }
+                }
+            }
+        }
+        if ((step + 1) % every == 0) {
+            for (b = 0; b < balls; b++)
+                long_run_show(S, b, exponents.p[b], (step + 1) / every, momenta, verticals, attitudes, traces,
+                    follows, status.p[b] == 0);
+        }
+    }
+    for (b = 0; b < balls; b++) {
+        doubt.p[b] = status.p[b] == 0 ? S.p[113 * S.s0 + b] : NAN;
+        if (status.p[b] == 0) {
+            taken.p[b] = steps; reach.p[b] = 1;
+        }
+    }
+}
+
+INLINE void long_run_march_one(r3 momenta, r3 verticals, r3 attitudes, r3 traces, r2 J0, r1 D0, r1 radius, real h,
+    int64_t steps, int64_t every, int follows, int traced, r2 sums, r3 following, r2 beginning, r1 doubt, i1 taken, i1
+    status, d1 reach) {
+    long_run_march_lanes(1, momenta, verticals, attitudes, traces, J0, D0, radius, h, steps, every, follows, traced,
+        sums, following, beginning, doubt, taken, status, reach);
+}
+
+INLINE void long_run_march_eight(r3 momenta, r3 verticals, r3 attitudes, r3 traces, r2 J0, r1 D0, r1 radius, real h,
+    int64_t steps, int64_t every, int follows, int traced, r2 sums, r3 following, r2 beginning, r1 doubt, i1 taken, i1
+    status, d1 reach) {
+    long_run_march_lanes(8, momenta, verticals, attitudes, traces, J0, D0, radius, h, steps, every, follows, traced,
+        sums, following, beginning, doubt, taken, status, reach);
+}
+
+INLINE void tangent_follow(r1 momentum, r1 gamma, r1 tensor, real contact, int64_t steps, r1 row) {
+    ALIGNED real state_[51]; r1 state = {state_, 51}; ALIGNED real frame_[3 * 3]; memset(frame_, 0, sizeof frame_);
+    r2 frame = {frame_, 3, 3, 3};
+    for (int64_t i_ = 0; i_ < 3; i_++) frame_[i_ * (3 + 1)] = 1;
+    ALIGNED real growth_[3]; memset(growth_, 0, sizeof growth_); r1 growth = {growth_, 3}; ALIGNED real T_[3 * 3];
+    r2 T = {T_, 3, 3, 3}; real scale = loop_prepare(momentum, gamma, tensor, contact, state), u1 = 0, u2 = 0, u3 = 0;
+    int64_t half = steps / 2; real total = 0;
+    for (int64_t i_ = 0; i_ < row.n0; i_++) row.p[i_] = 0;
+    row.p[8] = INFINITY; row.p[9] = -INFINITY; int64_t end_1 = 2 * half;
+    for (int64_t n = 0; n < end_1; n++) {
+        t_ir8 t_2 = loop_safe_rotation(u1, u2, u3, state); int64_t status = t_2.a0; real p0 = t_2.a2, p1 = t_2.a3;
+        real p2 = t_2.a4, p3 = t_2.a5; u1 = t_2.a6; u2 = t_2.a7; u3 = t_2.a8;
+        if (status != 0 || p0 == 0) return;
+        tangent_derivative(u1, u2, u3, state, T); tangent_moved(T, frame, growth);
+        real volume = log(real_abs(tangent_determinant(T))); t_r3 k1 = loop_three(state, 0);
+        t_r3 g1 = loop_three(state, 3);
+        real E = kernel_energy(scale * k1.a0, scale * k1.a1, scale * k1.a2, g1.a0, g1.a1, g1.a2, tensor.p[0],
+            tensor.p[1], tensor.p[2], contact);
+        int64_t second = n >= half ? 1 : 0; real share = tangent_weight(n - second * half, half);
+        total += second == 1 ? 0 : share; row.p[4 + second] += share * volume; row.p[6 + second] += share * E;
+        real t_3 = min_r(row.p[8], E), t_4 = max_r(row.p[9], E); row.p[8] = t_3; row.p[9] = t_4;
+        t_r3 t_5 = kernel_turn(p0, p1, p2, p3, k1.a0, k1.a1, k1.a2); real z1 = t_5.a0, z2 = t_5.a1, z3 = t_5.a2;
+        loop_put(state, 0, k1.a0 + z1, k1.a1 + z2, k1.a2 + z3);
+        t_r3 t_6 = kernel_turn(p0, p1, p2, p3, g1.a0, g1.a1, g1.a2); z1 = t_6.a0; z2 = t_6.a1; z3 = t_6.a2;
+        loop_put(state, 3, g1.a0 + z1, g1.a1 + z2, g1.a2 + z3); row.p[0] = n + 1;
+    }
+    for (int64_t c = 0; c < 3; c++) row.p[1 + c] = growth.p[c];
+    for (int64_t c = 4; c < 8; c++) row.p[c] /= total;
+}
+
+INLINE void tangent_follow_all(r2 momenta, r2 gammas, r1 tensor, real contact, int64_t steps, r2 rows) {
+    for (int64_t i = 0; i < momenta.n0; i++)
+        tangent_follow((r1){momenta.p + i * momenta.s0, momenta.n1}, (r1){gammas.p + i * gammas.s0, gammas.n1},
+            tensor, contact, steps, (r1){rows.p + i * rows.s0, rows.n1});
+}
+
+#endif
+
+WIDEST static void in_loop_prepare(const argument *a, argument *got) {
+    real out = loop_prepare(ARRAY1(r1, a[0]), ARRAY1(r1, a[1]), ARRAY1(r1, a[2]), a[3].number, ARRAY1(r1, a[4]));
+    got[0].number = out;
+}
+
+WIDEST static void in_loop_march(const argument *a, argument *got) {
+    t_i2r out = loop_march(ARRAY1(r1, a[0]), a[1].integer, a[2].integer, a[3].integer, a[4].integer, a[5].number,
+        ARRAY2(r2, a[6]), ARRAY2(r2, a[7]), a[8].integer, ARRAY1(r1, a[9]), ARRAY1(r1, a[10]), a[11].number,
+        ARRAY2(r2, a[12]), ARRAY2(r2, a[13]));
+    got[0].integer = out.a0;
+    got[1].integer = out.a1;
+    got[2].number = out.a2;
+}
+
+WIDEST static void in_composed_loop_prepare_composed(const argument *a, argument *got) {
+    real out = composed_loop_prepare_composed(ARRAY1(r1, a[0]), ARRAY1(r1, a[1]), ARRAY1(r1, a[2]), a[3].number,
+        ARRAY1(r1, a[4]), ARRAY1(r1, a[5]), ARRAY1(r1, a[6]), ARRAY1(r1, a[7]));
+    got[0].number = out;
+}
+
+WIDEST static void in_composed_loop_march_composed(const argument *a, argument *got) {
+    t_i2r out = composed_loop_march_composed(ARRAY1(r1, a[0]), ARRAY1(r1, a[1]), ARRAY3(r3, a[2]), ARRAY1(r1, a[3]),
+        ARRAY1(r1, a[4]), ARRAY2(r2, a[5]), a[6].integer, a[7].integer, a[8].integer, a[9].integer, a[10].number,
+        ARRAY2(r2, a[11]), ARRAY2(r2, a[12]), a[13].integer, ARRAY1(r1, a[14]), ARRAY1(r1, a[15]), a[16].number,
+        ARRAY2(r2, a[17]), ARRAY2(r2, a[18]));
+    got[0].integer = out.a0;
+    got[1].integer = out.a1;
+    got[2].number = out.a2;
+}
+
+WIDEST static void in_block_prepare_block(const argument *a, argument *got) {
+    block_prepare_block(ARRAY2(r2, a[0]), ARRAY2(r2, a[1]), ARRAY2(r2, a[2]), ARRAY1(r1, a[3]), ARRAY2(r2, a[4]),
+        ARRAY1(r1, a[5]));
+    (void)got;
+}
+
+WIDEST static void in_block_march_block(const argument *a, argument *got) {
+    block_march_block(ARRAY2(r2, a[0]), a[1].integer, a[2].integer, a[3].integer, ARRAY1(r1, a[4]), ARRAY3(r3, a[5]),
+        ARRAY3(r3, a[6]), ARRAY1(i1, a[7]), ARRAY1(i1, a[8]), ARRAY1(d1, a[9]), a[10].integer, ARRAY2(r2, a[11]),
+        ARRAY3(r3, a[12]), ARRAY3(r3, a[13]));
+    (void)got;
+}
+
+WIDEST static void in_composed_block_prepare_composed_block(const argument *a, argument *got) {
+    composed_block_prepare_composed_block(ARRAY2(r2, a[0]), ARRAY2(r2, a[1]), ARRAY2(r2, a[2]), ARRAY1(r1, a[3]),
+        ARRAY1(r1, a[4]), ARRAY2(r2, a[5]), ARRAY2(r2, a[6]), ARRAY2(r2, a[7]), ARRAY1(r1, a[8]));
+    (void)got;
+}
+
+WIDEST static void in_composed_block_march_composed_block(const argument *a, argument *got) {
+    composed_block_march_composed_block(ARRAY2(r2, a[0]), ARRAY1(r1, a[1]), ARRAY3(r3, a[2]), ARRAY2(r2, a[3]),
+        ARRAY2(r2, a[4]), ARRAY2(r2, a[5]), a[6].integer, a[7].integer, a[8].integer, ARRAY1(r1, a[9]), ARRAY3(r3,
+        a[10]), ARRAY3(r3, a[11]), ARRAY1(i1, a[12]), ARRAY1(i1, a[13]), ARRAY1(d1, a[14]), a[15].integer, ARRAY2(r2,
+        a[16]), ARRAY3(r3, a[17]), ARRAY3(r3, a[18]));
+    (void)got;
+}
+
+WIDEST static void in_single_step_advance_all(const argument *a, argument *got) {
+    single_step_advance_all(ARRAY2(r2, a[0]), ARRAY2(r2, a[1]), ARRAY2(r2, a[2]), ARRAY1(r1, a[3]), ARRAY2(r2, a[4]),
+        ARRAY1(i1, a[5]), ARRAY1(d1, a[6]));
+    (void)got;
+}
+
+#ifndef SINGLE
+WIDEST static void in_long_run_march_one(const argument *a, argument *got) {
+    long_run_march_one(ARRAY3(r3, a[0]), ARRAY3(r3, a[1]), ARRAY3(r3, a[2]), ARRAY3(r3, a[3]), ARRAY2(r2, a[4]),
+        ARRAY1(r1, a[5]), ARRAY1(r1, a[6]), a[7].number, a[8].integer, a[9].integer, a[10].integer, a[11].integer,
+        ARRAY2(r2, a[12]), ARRAY3(r3, a[13]), ARRAY2(r2, a[14]), ARRAY1(r1, a[15]), ARRAY1(i1, a[16]), ARRAY1(i1,
+        a[17]), ARRAY1(d1, a[18]));
+    (void)got;
+}
+
+#endif
+#ifndef SINGLE
+WIDEST static void in_long_run_march_eight(const argument *a, argument *got) {
+    long_run_march_eight(ARRAY3(r3, a[0]), ARRAY3(r3, a[1]), ARRAY3(r3, a[2]), ARRAY3(r3, a[3]), ARRAY2(r2, a[4]),
+        ARRAY1(r1, a[5]), ARRAY1(r1, a[6]), a[7].number, a[8].integer, a[9].integer, a[10].integer, a[11].integer,
+        ARRAY2(r2, a[12]), ARRAY3(r3, a[13]), ARRAY2(r2, a[14]), ARRAY1(r1, a[15]), ARRAY1(i1, a[16]), ARRAY1(i1,
+        a[17]), ARRAY1(d1, a[18]));
+    (void)got;
+}
+
+#endif
+#ifndef SINGLE
+WIDEST static void in_loop_n_march(const argument *a, argument *got) {
+    int64_t out = loop_n_march(ARRAY2(r2, a[0]), ARRAY1(r1, a[1]), ARRAY1(r1, a[2]), a[3].number, ARRAY1(r1, a[4]),
+        ARRAY1(r1, a[5]), ARRAY1(r1, a[6]), ARRAY4(r4, a[7]), ARRAY2(r2, a[8]), a[9].integer, a[10].integer,
+        a[11].integer, a[12].number, ARRAY3(r3, a[13]), ARRAY2(r2, a[14]), a[15].integer, ARRAY2(r2, a[16]),
+        ARRAY1(r1, a[17]), a[18].number, ARRAY3(r3, a[19]), ARRAY2(r2, a[20]));
+    got[0].integer = out;
+}
+
+#endif
+#ifndef SINGLE
+WIDEST static void in_vertical_loop_march(const argument *a, argument *got) {
+    int out = vertical_loop_march(ARRAY1(r1, a[0]), ARRAY1(r1, a[1]), a[2].number, a[3].integer, a[4].integer,
+        ARRAY2(r2, a[5]), ARRAY1(r1, a[6]));
+    got[0].integer = out;
+}
+
+#endif
+#ifndef SINGLE
+WIDEST static void in_double_double_loop_prepare_pairs(const argument *a, argument *got) {
+    t_i2 out = double_double_loop_prepare_pairs(ARRAY1(r1, a[0]), ARRAY1(r1, a[1]), ARRAY1(r1, a[2]), a[3].number,
+        ARRAY2(r2, a[4]), ARRAY1(r1, a[5]), ARRAY1(r1, a[6]), ARRAY1(r1, a[7]));
+    got[0].integer = out.a0;
+    got[1].integer = out.a1;
+}
+
+#endif
+#ifndef SINGLE
+WIDEST static void in_double_double_loop_march_pairs(const argument *a, argument *got) {
+    t_i2r out = double_double_loop_march_pairs(ARRAY1(r1, a[0]), ARRAY2(r2, a[1]), ARRAY1(r1, a[2]), ARRAY1(r1, a[3]),
+        ARRAY3(r3, a[4]), a[5].integer, a[6].integer, a[7].integer, a[8].integer, a[9].integer, ARRAY2(r2, a[10]),
+        ARRAY2(r2, a[11]), ARRAY2(r2, a[12]), ARRAY2(r2, a[13]), a[14].integer, ARRAY1(r1, a[15]), ARRAY1(r1, a[16]),
+        a[17].number, ARRAY2(r2, a[18]), ARRAY2(r2, a[19]), ARRAY2(r2, a[20]), ARRAY2(r2, a[21]));
+    got[0].integer = out.a0;
+    got[1].integer = out.a1;
+    got[2].number = out.a2;
+}
+
+#endif
+#ifndef SINGLE
+WIDEST static void in_double_double_block_prepare_pairs_block(const argument *a, argument *got) {
+    double_double_block_prepare_pairs_block(ARRAY2(r2, a[0]), ARRAY2(r2, a[1]), ARRAY2(r2, a[2]), ARRAY1(r1, a[3]),
+        ARRAY2(r2, a[4]), ARRAY2(r2, a[5]), ARRAY1(i1, a[6]), ARRAY1(i1, a[7]));
+    (void)got;
+}
+
+#endif
+#ifndef SINGLE
+WIDEST static void in_double_double_block_march_pairs_block(const argument *a, argument *got) {
+    double_double_block_march_pairs_block(ARRAY2(r2, a[0]), a[1].integer, a[2].integer, a[3].integer, ARRAY1(i1,
+        a[4]), ARRAY3(r3, a[5]), ARRAY3(r3, a[6]), ARRAY3(r3, a[7]), ARRAY3(r3, a[8]), ARRAY1(i1, a[9]), ARRAY1(i1,
+        a[10]), ARRAY1(d1, a[11]));
+    (void)got;
+}
+
+#endif
+#ifndef SINGLE
+WIDEST static void in_tangent_follow_all(const argument *a, argument *got) {
+    tangent_follow_all(ARRAY2(r2, a[0]), ARRAY2(r2, a[1]), ARRAY1(r1, a[2]), a[3].number, a[4].integer, ARRAY2(r2,
+        a[5]));
+    (void)got;
+}
+
+#endif
+#ifndef SINGLE
+const loop_export loops_double[] = {
+    {"loop_prepare", "r1 r1 r1 r r1*", "r", in_loop_prepare},
+    {"loop_march", "r1* i i i i r r2* r2* b r1* r1* r r2* r2*", "iir", in_loop_march},
+    {"composed_loop_prepare_composed", "r1 r1 r1 r r1 r1* r1* r1*", "r", in_composed_loop_prepare_composed},
+    {"composed_loop_march_composed", "r1* r1 r3 r1 r1 r2* i i i i r r2* r2* b r1* r1* r r2* r2*", "iir", in_composed_loop_march_composed},
+    {"block_prepare_block", "r2 r2 r2 r1 r2* r1*", "", in_block_prepare_block},
+    {"block_march_block", "r2* i i i r1 r3* r3* i1* i1* d1* b r2* r3* r3*", "", in_block_march_block},
+    {"composed_block_prepare_composed_block", "r2 r2 r2 r1 r1 r2* r2* r2* r1*", "", in_composed_block_prepare_composed_block},
+    {"composed_block_march_composed_block", "r2* r1 r3 r2* r2 r2* i i i r1 r3* r3* i1* i1* d1* b r2* r3* r3*", "", in_composed_block_march_composed_block},
+    {"single_step_advance_all", "r2* r2* r2 r1 r2* i1* d1*", "", in_single_step_advance_all},
+    {"long_run_march_one", "r3* r3* r3* r3* r2 r1 r1 r i i b b r2 r3 r2 r1* i1* i1* d1*", "", in_long_run_march_one},
+    {"long_run_march_eight", "r3* r3* r3* r3* r2 r1 r1 r i i b b r2 r3 r2 r1* i1* i1* d1*", "", in_long_run_march_eight},
+    {"loop_n_march", "r2* r1* r1 r r1 r1 r1 r4* r2* i i i r r3* r2* b r2* r1* r r3* r2*", "i", in_loop_n_march},
+    {"vertical_loop_march", "r1 r1 r i i r2* r1*", "b", in_vertical_loop_march},
+    {"double_double_loop_prepare_pairs", "r1 r1 r1 r r2 r1* r1* r1*", "ii", in_double_double_loop_prepare_pairs},
+    {"double_double_loop_march_pairs", "r1* r2 r1 r1 r3* i i i i i r2* r2* r2* r2* b r1* r1* r r2* r2* r2* r2*", "iir", in_double_double_loop_march_pairs},
+    {"double_double_block_prepare_pairs_block", "r2 r2 r2 r1 r2 r2* i1* i1*", "", in_double_double_block_prepare_pairs_block},
+    {"double_double_block_march_pairs_block", "r2* i i i i1 r3* r3* r3* r3* i1* i1* d1*", "", in_double_double_block_march_pairs_block},
+    {"tangent_follow_all", "r2 r2 r1 r i r2*", "", in_tangent_follow_all},
+};
+const int loops_double_count = 18;
+#else
+const loop_export loops_single[] = {
+    {"loop_prepare", "r1 r1 r1 r r1*", "r", in_loop_prepare},
+    {"loop_march", "r1* i i i i r r2* r2* b r1* r1* r r2* r2*", "iir", in_loop_march},
+    {"composed_loop_prepare_composed", "r1 r1 r1 r r1 r1* r1* r1*", "r", in_composed_loop_prepare_composed},
+    {"composed_loop_march_composed", "r1* r1 r3 r1 r1 r2* i i i i r r2* r2* b r1* r1* r r2* r2*", "iir", in_composed_loop_march_composed},
+    {"block_prepare_block", "r2 r2 r2 r1 r2* r1*", "", in_block_prepare_block},
+    {"block_march_block", "r2* i i i r1 r3* r3* i1* i1* d1* b r2* r3* r3*", "", in_block_march_block},
+    {"composed_block_prepare_composed_block", "r2 r2 r2 r1 r1 r2* r2* r2* r1*", "", in_composed_block_prepare_composed_block},
+    {"composed_block_march_composed_block", "r2* r1 r3 r2* r2 r2* i i i r1 r3* r3* i1* i1* d1* b r2* r3* r3*", "", in_composed_block_march_composed_block},
+    {"single_step_advance_all", "r2* r2* r2 r1 r2* i1* d1*", "", in_single_step_advance_all},
+};
+const int loops_single_count = 9;
+#endif
+
+#ifndef SINGLE
+const char loops_text[] = "6865ecaf539d251b0e2ee0a14dc09e1e55ef8f413ab9c32f229e5b8733845504";
+#endif
