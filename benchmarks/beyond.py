@@ -42,7 +42,7 @@ def to_the_fold(epsilon: float) -> float:
 def within(epsilon: float) -> bool:
     """Whether lemma `small-branch` holds."""
     state = np.empty(loop.ROWS)
-    loop.prepare(epsilon * MOMENTUM, GAMMA, MASS_TENSOR, D, state)
+    loop.scaled(epsilon * MOMENTUM, GAMMA, MASS_TENSOR, D, state)
     return bool(state[loop.RADIUS] != gibbs.BEYOND)
 
 

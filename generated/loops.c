@@ -98,6 +98,10 @@ t_id5 branch_small_rotation_double(double, double, double, double, double, doubl
 #define block_REGISTER 8
 #endif
 
+INLINE real loop_times(real x, real power, int64_t exponent) {
+    return power != 0 ? x * power : (real)ldexp(x, (int)exponent);
+}
+
 INLINE t_r3 loop_three(r1 array, int64_t at) {
     return (t_r3){array.p[at], array.p[at + 1], array.p[at + 2]};
 }
@@ -127,7 +131,11 @@ INLINE t_r2 gibbs_certificate(real k1, real k2, real k3, real I1, real I2, real 
     return gibbs_bound(k1, k2, k3, I1, I2, I3, D);
 }
 
-INLINE real loop_scaled(r1 momentum, r1 g, r1 tensor, real contact, r1 state) {
+INLINE real loop_power_of_two(int64_t exponent) {
+    return -126 <= exponent && exponent <= 127 ? (real)ldexp(1, (int)exponent) : 0;
+}
+
+OUT_OF_LINE real loop_scaled(r1 momentum, r1 g, r1 tensor, real contact, r1 state) {
     t_ri t_1 = real_frexp(max_r(max_r(tensor.p[1] + tensor.p[2], tensor.p[0] + tensor.p[2]), tensor.p[0] +
         tensor.p[1]) + contact);
     int64_t exponent = t_1.a1;
@@ -136,16 +144,17 @@ INLINE real loop_scaled(r1 momentum, r1 g, r1 tensor, real contact, r1 state) {
     int tiny = 0 < largest && largest < (real)ldexp(R(0x1.0000000000000p-120), (int)exponent);
     if (tiny) exponent = max_i(-1, exponent - 1021 + 1);
     for (int64_t i_ = 0; i_ < state.n0; i_++) state.p[i_] = 0;
+    real power = loop_power_of_two(-exponent), half = loop_power_of_two(-exponent - 1);
     for (int64_t c = 0; c < 3; c++) {
-        state.p[0 + c] = (real)ldexp(momentum.p[c], (int)(-exponent - 1)); state.p[3 + c] = g.p[c];
-        state.p[42 + c] = (real)ldexp(tensor.p[c], (int)-exponent);
+        state.p[0 + c] = loop_times(momentum.p[c], half, -exponent - 1); state.p[3 + c] = g.p[c];
+        state.p[18 + c] = loop_times(tensor.p[c], power, -exponent);
     }
-    real t_2 = state.p[43] + state.p[44], t_3 = state.p[42] + state.p[44], t_4 = state.p[42] + state.p[43];
-    state.p[45] = t_2; state.p[46] = t_3; state.p[47] = t_4; state.p[48] = (real)ldexp(contact, (int)-exponent);
-    t_r3 k1 = loop_three(state, 0), I1 = loop_three(state, 45);
-    t_r2 t_5 = gibbs_certificate(k1.a0, k1.a1, k1.a2, I1.a0, I1.a1, I1.a2, state.p[48]); state.p[49] = t_5.a0;
-    state.p[50] = t_5.a1;
-    if (tiny || min_r(min_r(I1.a0, I1.a1), I1.a2) < R(0x1.0000000000000p-120)) state.p[49] = -1;
+    real t_2 = state.p[19] + state.p[20], t_3 = state.p[18] + state.p[20], t_4 = state.p[18] + state.p[19];
+    state.p[21] = t_2; state.p[22] = t_3; state.p[23] = t_4; state.p[24] = loop_times(contact, power, -exponent);
+    t_r3 k1 = loop_three(state, 0), I1 = loop_three(state, 21);
+    t_r2 t_5 = gibbs_certificate(k1.a0, k1.a1, k1.a2, I1.a0, I1.a1, I1.a2, state.p[24]); state.p[25] = t_5.a0;
+    state.p[26] = t_5.a1;
+    if (tiny || min_r(min_r(I1.a0, I1.a1), I1.a2) < R(0x1.0000000000000p-120)) state.p[25] = -1;
     return (real)ldexp(1, (int)(exponent + 1));
 }
 
@@ -173,12 +182,68 @@ OUT_OF_LINE void integrals_remember(r1 state) {
     t_r2 t_3 = integrals_inner(k1, k2, k3, k1, k2, k3, 0, 0); state.p[16] = t_3.a0; state.p[17] = t_3.a1;
 }
 
-OUT_OF_LINE real loop_prepare(r1 momentum, r1 g, r1 tensor, real contact, r1 state) {
-    real scale = loop_scaled(momentum, g, tensor, contact, state); integrals_remember(state); return scale;
+OUT_OF_LINE real loop_prepare(r1 momentum, r1 g, r1 tensor, real contact, r1 c, r1 state, r1 radius, r1 enough) {
+    ALIGNED real part_[3]; r1 part = {part_, 3}; int64_t j;
+    for (int64_t i = 0; i < c.n0; i++) {
+        if (c.p[i] != 1) {
+            for (j = 0; j < 3; j++) part.p[j] = c.p[i] * momentum.p[j];
+            loop_scaled(part, g, tensor, contact, state); radius.p[i] = state.p[25]; enough.p[i] = state.p[26];
+        }
+    }
+    real scale = loop_scaled(momentum, g, tensor, contact, state); integrals_remember(state);
+    for (int64_t i = 0; i < c.n0; i++) {
+        if (c.p[i] == 1) {
+            radius.p[i] = state.p[25]; enough.p[i] = state.p[26];
+        }
+    }
+    return scale;
 }
 
 INLINE void loop_put(r1 array, int64_t at, real x, real y, real z) {
     array.p[at] = x; array.p[at + 1] = y; array.p[at + 2] = z;
+}
+
+INLINE t_r3 integrals_missing(r1 state) {
+    real k1 = state.p[0], k2 = state.p[1], k3 = state.p[2], g1 = state.p[3], g2 = state.p[4], g3 = state.p[5];
+    real x1 = state.p[6], x2 = state.p[7], x3 = state.p[8], y1 = state.p[9], y2 = state.p[10], y3 = state.p[11];
+    t_r2 t_1 = integrals_inner(g1, g2, g3, -g1, -g2, -g3, state.p[12], state.p[13]); real unit = t_1.a0;
+    t_r2 t_2 = integrals_inner(k1, k2, k3, -g1, -g2, -g3, state.p[14], state.p[15]); real height = t_2.a0;
+    t_r2 t_3 = integrals_inner(k1, k2, k3, -k1, -k2, -k3, state.p[16], state.p[17]); real squared = t_3.a0;
+    unit += 2 * (g1 * y1 + g2 * y2 + g3 * y3); height += k1 * y1 + k2 * y2 + k3 * y3 + (g1 * x1 + g2 * x2 + g3 * x3);
+    squared += 2 * (k1 * x1 + k2 * x2 + k3 * x3); return (t_r3){unit, height, squared};
+}
+
+INLINE t_r3 integrals_shares(real unit, real height, real squared, real one, real h, real n) {
+    if (!(n > 0)) return (t_r3){0, 0, 0};
+    real stretch = R(0.5) * unit / one; height -= stretch * h; real sine = one - h * h / n;
+    if (sine > integrals_VERTICAL) {
+        real along_gamma = (height - R(0.5) * squared * h / n) / sine;
+        return (t_r3){stretch, (R(0.5) * squared - along_gamma * h) / n, along_gamma};
+    }
+    return (t_r3){stretch, R(0.5) * squared / n, 0};
+}
+
+INLINE void integrals_give(r1 state, real stretch, real along_k, real along_gamma) {
+    for (int64_t i = 0; i < 3; i++) {
+        real k = state.p[i], g = state.p[3 + i]; state.p[6 + i] = state.p[6 + i] - (along_k * k + along_gamma * g);
+        state.p[9 + i] = state.p[9 + i] - stretch * g;
+    }
+}
+
+OUT_OF_LINE void integrals_restore(r1 state) {
+    t_r3 unit = integrals_missing(state);
+    t_r3 stretch = integrals_shares(unit.a0, unit.a1, unit.a2, state.p[12], state.p[14], state.p[16]);
+    integrals_give(state, stretch.a0, stretch.a1, stretch.a2);
+}
+
+INLINE t_r3 loop_guessed(r2 past, int64_t at, r1 weights) {
+    real u1 = 0, u2 = 0, u3 = 0;
+    for (int64_t j = 0; j < weights.n0; j++) {
+        u1 = u1 + weights.p[j] * past.p[(at + j) * past.s0 + 0];
+        u2 = u2 + weights.p[j] * past.p[(at + j) * past.s0 + 1];
+        u3 = u3 + weights.p[j] * past.p[(at + j) * past.s0 + 2];
+    }
+    return (t_r3){u1, u2, u3};
 }
 
 INLINE t_r13 kernel_gibbs_newton_heavy(real u1, real u2, real u3, real k1, real k2, real k3, real g1, real g2, real
@@ -272,10 +337,6 @@ INLINE t_br7 gibbs_settle(real u1, real u2, real u3, real k1, real k2, real k3, 
     return (t_br7){settled, p0, p1, p2, p3, w1, w2, w3};
 }
 
-INLINE t_r8 sums_filtered(real b, real c, real d, real e, real f, real h, real o, real w) {
-    return (t_r8){b + 8 * w, c - 28 * w, d + 56 * w, e - 70 * w, f + 56 * w, h - 28 * w, o + 8 * w, -w};
-}
-
 INLINE t_r3 kernel_turn(real p0, real p1, real p2, real p3, real v1, real v2, real v3) {
     real s = 2 / (p0 * p0 + p1 * p1 + (p2 * p2 + p3 * p3)), x1 = p2 * v3 - p3 * v2, x2 = p3 * v1 - p1 * v3;
     real x3 = p1 * v2 - p2 * v1, o_x1 = s * (p2 * x3 - p0 * x1 - p3 * x2), o_x2 = s * (p3 * x1 - p0 * x2 - p1 * x3);
@@ -290,39 +351,6 @@ INLINE t_r6 sums_turned(real p0, real p1, real p2, real p3, real v1, real v2, re
     t_r3 z1 = kernel_turn(p0, p1, p2, p3, v1, v2, v3); t_r2 t_1 = sums_added(v1, x1, z1.a0); v1 = t_1.a0; x1 = t_1.a1;
     t_r2 t_2 = sums_added(v2, x2, z1.a1); v2 = t_2.a0; x2 = t_2.a1; t_r2 t_3 = sums_added(v3, x3, z1.a2); v3 = t_3.a0;
     x3 = t_3.a1; return (t_r6){v1, v2, v3, x1, x2, x3};
-}
-
-INLINE t_r3 integrals_missing(r1 state) {
-    real k1 = state.p[0], k2 = state.p[1], k3 = state.p[2], g1 = state.p[3], g2 = state.p[4], g3 = state.p[5];
-    real x1 = state.p[6], x2 = state.p[7], x3 = state.p[8], y1 = state.p[9], y2 = state.p[10], y3 = state.p[11];
-    t_r2 t_1 = integrals_inner(g1, g2, g3, -g1, -g2, -g3, state.p[12], state.p[13]); real unit = t_1.a0;
-    t_r2 t_2 = integrals_inner(k1, k2, k3, -g1, -g2, -g3, state.p[14], state.p[15]); real height = t_2.a0;
-    t_r2 t_3 = integrals_inner(k1, k2, k3, -k1, -k2, -k3, state.p[16], state.p[17]); real squared = t_3.a0;
-    unit += 2 * (g1 * y1 + g2 * y2 + g3 * y3); height += k1 * y1 + k2 * y2 + k3 * y3 + (g1 * x1 + g2 * x2 + g3 * x3);
-    squared += 2 * (k1 * x1 + k2 * x2 + k3 * x3); return (t_r3){unit, height, squared};
-}
-
-INLINE t_r3 integrals_shares(real unit, real height, real squared, real one, real h, real n) {
-    if (!(n > 0)) return (t_r3){0, 0, 0};
-    real stretch = R(0.5) * unit / one; height -= stretch * h; real sine = one - h * h / n;
-    if (sine > integrals_VERTICAL) {
-        real along_gamma = (height - R(0.5) * squared * h / n) / sine;
-        return (t_r3){stretch, (R(0.5) * squared - along_gamma * h) / n, along_gamma};
-    }
-    return (t_r3){stretch, R(0.5) * squared / n, 0};
-}
-
-INLINE void integrals_give(r1 state, real stretch, real along_k, real along_gamma) {
-    for (int64_t i = 0; i < 3; i++) {
-        real k = state.p[i], g = state.p[3 + i]; state.p[6 + i] = state.p[6 + i] - (along_k * k + along_gamma * g);
-        state.p[9 + i] = state.p[9 + i] - stretch * g;
-    }
-}
-
-OUT_OF_LINE void integrals_restore(r1 state) {
-    t_r3 unit = integrals_missing(state);
-    t_r3 stretch = integrals_shares(unit.a0, unit.a1, unit.a2, state.p[12], state.p[14], state.p[16]);
-    integrals_give(state, stretch.a0, stretch.a1, stretch.a2);
 }
 
 INLINE t_r4 kernel_compose(real a0, real a1, real a2, real a3, real b0, real b1, real b2, real b3) {
@@ -480,45 +508,6 @@ INLINE t_r6 loop_followed(real p0, real p1, real p2, real p3, real g1, real g2, 
     return (t_r6){a0 * scale, a1 * scale, a2 * scale, a3 * scale, x + radius * d1.a0, y + radius * d1.a1};
 }
 
-OUT_OF_LINE real composed_loop_prepare_composed(r1 momentum, r1 g, r1 tensor, real contact, r1 c, r1 state, r1 radius,
-    r1 enough) {
-    ALIGNED real part_[3]; r1 part = {part_, 3};
-    for (int64_t i = 0; i < c.n0; i++) {
-        for (int64_t j = 0; j < 3; j++) part.p[j] = c.p[i] * momentum.p[j];
-        loop_prepare(part, g, tensor, contact, state); radius.p[i] = state.p[49]; enough.p[i] = state.p[50];
-    }
-    return loop_prepare(momentum, g, tensor, contact, state);
-}
-
-INLINE t_i2 composed_loop_place(int64_t step, int64_t stages, int64_t places) {
-    return (t_i2){step * stages % places, step * stages < places ? 0 : 1};
-}
-
-INLINE t_r3 composed_loop_guess(r2 past, r1 weights) {
-    real u1 = 0, u2 = 0, u3 = 0;
-    for (int64_t j = 0; j < weights.n0; j++) {
-        u1 = u1 + weights.p[j] * past.p[j * past.s0 + 0]; u2 = u2 + weights.p[j] * past.p[j * past.s0 + 1];
-        u3 = u3 + weights.p[j] * past.p[j * past.s0 + 2];
-    }
-    return (t_r3){u1, u2, u3};
-}
-
-INLINE void composed_loop_turn_at(real p0, real p1, real p2, real p3, r1 state, int64_t at, int64_t rest) {
-    t_r3 t_1 = loop_three(state, at), t_2 = loop_three(state, rest);
-    t_r6 v1 = sums_turned(p0, p1, p2, p3, t_1.a0, t_1.a1, t_1.a2, t_2.a0, t_2.a1, t_2.a2);
-    loop_put(state, at, v1.a0, v1.a1, v1.a2); loop_put(state, rest, v1.a3, v1.a4, v1.a5);
-}
-
-INLINE void block_prepare_block(r2 momentum, r2 g, r2 tensor, r1 contact, r2 state, r1 scale) {
-    ALIGNED real one_[51]; r1 one = {one_, 51}; int64_t last = contact.n0 - 1;
-    for (int64_t lane = 0; lane < state.n1; lane++) {
-        int64_t i = min_i(lane, last);
-        scale.p[i] = loop_prepare((r1){momentum.p + i * momentum.s0, momentum.n1}, (r1){g.p + i * g.s0, g.n1},
-            (r1){tensor.p + i * tensor.s0, tensor.n1}, contact.p[i], one);
-        for (int64_t row = 0; row < 51; row++) state.p[row * state.s0 + lane] = one.p[row];
-    }
-}
-
 INLINE void block_carry(r2 numbers, r2 to, int64_t width) {
     for (int64_t row = 0; row < to.n0; row++) {
         for (int64_t i = 0; i < width; i++) to.p[row * to.s0 + i] = numbers.p[row * numbers.s0 + i];
@@ -537,6 +526,31 @@ INLINE int64_t block_whole(w1 ok) {
     return ok.n0 / block_REGISTER * block_REGISTER;
 }
 
+INLINE void block_guessed(r2 P, r2 past, int64_t at, int64_t places, r1 weights, w1 ok) {
+    int64_t i, end_1 = block_whole(ok);
+    INDEPENDENT
+    for (i = 0; i < end_1; i++) {
+        P.p[9 * P.s0 + i] = 0; P.p[10 * P.s0 + i] = 0; P.p[11 * P.s0 + i] = 0;
+    }
+    real u1, u2, u3;
+    for (int64_t j = 0; j < weights.n0; j += 4) {
+        real a = weights.p[j], b = weights.p[j + 1], c = weights.p[j + 2], d = weights.p[j + 3];
+        int64_t w = 3 * ((at + j) % places), x = 3 * ((at + j + 1) % places), y = 3 * ((at + j + 2) % places);
+        int64_t z = 3 * ((at + j + 3) % places), end_2 = block_whole(ok);
+        INDEPENDENT
+        for (i = 0; i < end_2; i++) {
+            u1 = P.p[9 * P.s0 + i] + a * past.p[w * past.s0 + i];
+            u2 = P.p[10 * P.s0 + i] + a * past.p[(w + 1) * past.s0 + i];
+            u3 = P.p[11 * P.s0 + i] + a * past.p[(w + 2) * past.s0 + i]; u1 = u1 + b * past.p[x * past.s0 + i];
+            u2 = u2 + b * past.p[(x + 1) * past.s0 + i]; u3 = u3 + b * past.p[(x + 2) * past.s0 + i];
+            u1 = u1 + c * past.p[y * past.s0 + i]; u2 = u2 + c * past.p[(y + 1) * past.s0 + i];
+            u3 = u3 + c * past.p[(y + 2) * past.s0 + i]; u1 = u1 + d * past.p[z * past.s0 + i];
+            u2 = u2 + d * past.p[(z + 1) * past.s0 + i]; u3 = u3 + d * past.p[(z + 2) * past.s0 + i];
+            P.p[9 * P.s0 + i] = u1; P.p[10 * P.s0 + i] = u2; P.p[11 * P.s0 + i] = u3;
+        }
+    }
+}
+
 INLINE int64_t block_unsettled(w1 ok) {
     int64_t bad = 0, end_1 = block_whole(ok);
     INDEPENDENT
@@ -548,13 +562,13 @@ INLINE int64_t block_predicted(r2 S, r2 P, w1 ok) {
     int64_t end_1 = block_whole(ok);
     INDEPENDENT
     for (int64_t i = 0; i < end_1; i++) {
-        real u1 = S.p[18 * S.s0 + i], u2 = S.p[19 * S.s0 + i], u3 = S.p[20 * S.s0 + i];
+        real u1 = P.p[9 * P.s0 + i], u2 = P.p[10 * P.s0 + i], u3 = P.p[11 * P.s0 + i];
         t_r20 p0 = gibbs_newton_round(u1, u2, u3, S.p[0 * S.s0 + i], S.p[1 * S.s0 + i], S.p[2 * S.s0 + i], S.p[3 *
-            S.s0 + i], S.p[4 * S.s0 + i], S.p[5 * S.s0 + i], S.p[45 * S.s0 + i], S.p[46 * S.s0 + i], S.p[47 * S.s0 +
-            i], S.p[48 * S.s0 + i], 0);
+            S.s0 + i], S.p[4 * S.s0 + i], S.p[5 * S.s0 + i], S.p[21 * S.s0 + i], S.p[22 * S.s0 + i], S.p[23 * S.s0 +
+            i], S.p[24 * S.s0 + i], 0);
         P.p[0 * P.s0 + i] = p0.a0; P.p[1 * P.s0 + i] = p0.a1; P.p[2 * P.s0 + i] = p0.a2; P.p[3 * P.s0 + i] = p0.a3;
         P.p[4 * P.s0 + i] = p0.a4; P.p[5 * P.s0 + i] = p0.a5; P.p[6 * P.s0 + i] = p0.a6;
-        int settled = (u1 * u1 + (u2 * u2 + u3 * u3) <= S.p[49 * S.s0 + i]) & (p0.a7 <= S.p[50 * S.s0 + i]);
+        int settled = (u1 * u1 + (u2 * u2 + u3 * u3) <= S.p[25 * S.s0 + i]) & (p0.a7 <= S.p[26 * S.s0 + i]);
         ok.p[i] = settled ? 1 : 0;
     }
     return block_unsettled(ok);
@@ -564,10 +578,10 @@ INLINE void block_approached(r2 S, r2 P, w1 ok) {
     int64_t end_1 = block_whole(ok);
     INDEPENDENT
     for (int64_t i = 0; i < end_1; i++) {
-        int beyond = S.p[49 * S.s0 + i] == -2;
-        t_r20 w1 = gibbs_newton_round(S.p[18 * S.s0 + i], S.p[19 * S.s0 + i], S.p[20 * S.s0 + i], S.p[0 * S.s0 + i],
-            S.p[1 * S.s0 + i], S.p[2 * S.s0 + i], S.p[3 * S.s0 + i], S.p[4 * S.s0 + i], S.p[5 * S.s0 + i], S.p[45 *
-            S.s0 + i], S.p[46 * S.s0 + i], S.p[47 * S.s0 + i], S.p[48 * S.s0 + i], 0);
+        int beyond = S.p[25 * S.s0 + i] == -2;
+        t_r20 w1 = gibbs_newton_round(P.p[9 * P.s0 + i], P.p[10 * P.s0 + i], P.p[11 * P.s0 + i], S.p[0 * S.s0 + i],
+            S.p[1 * S.s0 + i], S.p[2 * S.s0 + i], S.p[3 * S.s0 + i], S.p[4 * S.s0 + i], S.p[5 * S.s0 + i], S.p[21 *
+            S.s0 + i], S.p[22 * S.s0 + i], S.p[23 * S.s0 + i], S.p[24 * S.s0 + i], 0);
         real t_2 = beyond ? w1.a4 : P.p[4 * P.s0 + i], t_3 = beyond ? w1.a5 : P.p[5 * P.s0 + i];
         real t_4 = beyond ? w1.a6 : P.p[6 * P.s0 + i]; P.p[4 * P.s0 + i] = t_2; P.p[5 * P.s0 + i] = t_3;
         P.p[6 * P.s0 + i] = t_4; P.p[7 * P.s0 + i] = beyond ? 1 : 0; ok.p[i] = beyond ? 0 : ok.p[i];
@@ -578,9 +592,9 @@ INLINE int64_t block_on_path(r2 S, r2 P, w1 ok) {
     int64_t end_1 = block_whole(ok);
     INDEPENDENT
     for (int64_t i = 0; i < end_1; i++) {
-        int settled = (S.p[49 * S.s0 + i] == -2) & path_proved(P.p[4 * P.s0 + i], P.p[5 * P.s0 + i], P.p[6 * P.s0 +
+        int settled = (S.p[25 * S.s0 + i] == -2) & path_proved(P.p[4 * P.s0 + i], P.p[5 * P.s0 + i], P.p[6 * P.s0 +
             i], P.p[8 * P.s0 + i], S.p[0 * S.s0 + i], S.p[1 * S.s0 + i], S.p[2 * S.s0 + i], S.p[3 * S.s0 + i], S.p[4 *
-            S.s0 + i], S.p[5 * S.s0 + i], S.p[45 * S.s0 + i], S.p[46 * S.s0 + i], S.p[47 * S.s0 + i], S.p[48 * S.s0 +
+            S.s0 + i], S.p[5 * S.s0 + i], S.p[21 * S.s0 + i], S.p[22 * S.s0 + i], S.p[23 * S.s0 + i], S.p[24 * S.s0 +
             i]);
         ok.p[i] = settled ? 1 : ok.p[i];
     }
@@ -591,16 +605,16 @@ INLINE int64_t block_corrected(r2 S, r2 P, w1 ok, int again) {
     int64_t end_1 = block_whole(ok);
     INDEPENDENT
     for (int64_t i = 0; i < end_1; i++) {
-        real radius = S.p[49 * S.s0 + i], enough = S.p[50 * S.s0 + i];
-        real u1 = again ? P.p[4 * P.s0 + i] : S.p[18 * S.s0 + i], u2 = again ? P.p[5 * P.s0 + i] : S.p[19 * S.s0 + i];
-        real u3 = again ? P.p[6 * P.s0 + i] : S.p[20 * S.s0 + i]; int near = u1 * u1 + (u2 * u2 + u3 * u3) <= radius;
+        real radius = S.p[25 * S.s0 + i], enough = S.p[26 * S.s0 + i];
+        real u1 = again ? P.p[4 * P.s0 + i] : P.p[9 * P.s0 + i], u2 = again ? P.p[5 * P.s0 + i] : P.p[10 * P.s0 + i];
+        real u3 = again ? P.p[6 * P.s0 + i] : P.p[11 * P.s0 + i]; int near = u1 * u1 + (u2 * u2 + u3 * u3) <= radius;
         if (again) {
             u1 = near ? u1 : 0; u2 = near ? u2 : 0; u3 = near ? u3 : 0; near = radius >= 0;
         }
-        real k1 = S.p[0 * S.s0 + i], k2 = S.p[1 * S.s0 + i], k3 = S.p[2 * S.s0 + i], I1 = S.p[45 * S.s0 + i];
-        real I2 = S.p[46 * S.s0 + i], I3 = S.p[47 * S.s0 + i];
+        real k1 = S.p[0 * S.s0 + i], k2 = S.p[1 * S.s0 + i], k3 = S.p[2 * S.s0 + i], I1 = S.p[21 * S.s0 + i];
+        real I2 = S.p[22 * S.s0 + i], I3 = S.p[23 * S.s0 + i];
         t_r20 t_2 = gibbs_newton_round(u1, u2, u3, k1, k2, k3, S.p[3 * S.s0 + i], S.p[4 * S.s0 + i], S.p[5 * S.s0 +
-            i], I1, I2, I3, S.p[48 * S.s0 + i], 0);
+            i], I1, I2, I3, S.p[24 * S.s0 + i], 0);
         real p0 = t_2.a0, p1 = t_2.a1, p2 = t_2.a2, p3 = t_2.a3, w1 = t_2.a4, w2 = t_2.a5, w3 = t_2.a6;
         real first = t_2.a7, d1 = t_2.a8, d2 = t_2.a9, d3 = t_2.a10, c11 = t_2.a11, c12 = t_2.a12, c13 = t_2.a13;
         real c21 = t_2.a14, c22 = t_2.a15, c23 = t_2.a16, c31 = t_2.a17, c32 = t_2.a18, c33 = t_2.a19;
@@ -626,8 +640,8 @@ INLINE real block_nearer(r2 S, r2 P, w1 ok) {
     for (int64_t i = 0; i < end_1; i++) {
         int going = P.p[7 * P.s0 + i] == 1;
         t_r8b2 t_2 = path_improved(P.p[4 * P.s0 + i], P.p[5 * P.s0 + i], P.p[6 * P.s0 + i], S.p[0 * S.s0 + i], S.p[1 *
-            S.s0 + i], S.p[2 * S.s0 + i], S.p[3 * S.s0 + i], S.p[4 * S.s0 + i], S.p[5 * S.s0 + i], S.p[45 * S.s0 + i],
-            S.p[46 * S.s0 + i], S.p[47 * S.s0 + i], S.p[48 * S.s0 + i]);
+            S.s0 + i], S.p[2 * S.s0 + i], S.p[3 * S.s0 + i], S.p[4 * S.s0 + i], S.p[5 * S.s0 + i], S.p[21 * S.s0 + i],
+            S.p[22 * S.s0 + i], S.p[23 * S.s0 + i], S.p[24 * S.s0 + i]);
         real p0 = t_2.a0, p1 = t_2.a1, p2 = t_2.a2, p3 = t_2.a3, w1 = t_2.a4, w2 = t_2.a5, w3 = t_2.a6; left = t_2.a7;
         int near = t_2.a8, found = t_2.a9; real t_3 = going ? p0 : P.p[0 * P.s0 + i];
         real t_4 = going ? p1 : P.p[1 * P.s0 + i]; P.p[0 * P.s0 + i] = t_3; P.p[1 * P.s0 + i] = t_4;
@@ -670,22 +684,14 @@ INLINE void block_turn_at(real p0, real p1, real p2, real p3, r2 S, int64_t at, 
     S.p[rest * S.s0 + i] = v1.a3; S.p[(rest + 1) * S.s0 + i] = v1.a4; S.p[(rest + 2) * S.s0 + i] = v1.a5;
 }
 
-INLINE void block_extrapolated(r2 S, int64_t row, int64_t i, real w) {
-    t_r8 t_1 = sums_filtered(S.p[(row + 3) * S.s0 + i], S.p[(row + 6) * S.s0 + i], S.p[(row + 9) * S.s0 + i], S.p[(row
-        + 12) * S.s0 + i], S.p[(row + 15) * S.s0 + i], S.p[(row + 18) * S.s0 + i], S.p[(row + 21) * S.s0 + i], w);
-    S.p[row * S.s0 + i] = t_1.a0; S.p[(row + 3) * S.s0 + i] = t_1.a1; S.p[(row + 6) * S.s0 + i] = t_1.a2;
-    S.p[(row + 9) * S.s0 + i] = t_1.a3; S.p[(row + 12) * S.s0 + i] = t_1.a4; S.p[(row + 15) * S.s0 + i] = t_1.a5;
-    S.p[(row + 18) * S.s0 + i] = t_1.a6; S.p[(row + 21) * S.s0 + i] = t_1.a7;
-}
-
-INLINE void block_moved(r2 S, r2 P, w1 ok) {
+INLINE void block_end_stage(r2 S, r2 P, r2 past, int64_t row, w1 ok) {
     int64_t end_1 = block_whole(ok);
     INDEPENDENT
     for (int64_t i = 0; i < end_1; i++) {
         real p0 = P.p[0 * P.s0 + i], p1 = P.p[1 * P.s0 + i], p2 = P.p[2 * P.s0 + i], p3 = P.p[3 * P.s0 + i];
-        real w1 = P.p[4 * P.s0 + i], w2 = P.p[5 * P.s0 + i], w3 = P.p[6 * P.s0 + i];
         block_turn_at(p0, p1, p2, p3, S, 0, 6, i); block_turn_at(p0, p1, p2, p3, S, 3, 9, i);
-        block_extrapolated(S, 18, i, w1); block_extrapolated(S, 19, i, w2); block_extrapolated(S, 20, i, w3);
+        past.p[row * past.s0 + i] = P.p[4 * P.s0 + i]; past.p[(row + 1) * past.s0 + i] = P.p[5 * P.s0 + i];
+        past.p[(row + 2) * past.s0 + i] = P.p[6 * P.s0 + i];
     }
 }
 
@@ -719,6 +725,27 @@ INLINE void block_keep(r2 S, r2 B, int64_t frame, r1 scale, r3 momenta, r3 verti
     }
 }
 
+INLINE void block_begin_stage(r2 S, r2 T, real s, r1 radius, r1 enough, w1 ok) {
+    int64_t end_1 = block_whole(ok);
+    INDEPENDENT
+    for (int64_t i = 0; i < end_1; i++) {
+        T.p[0 * T.s0 + i] = s * S.p[0 * S.s0 + i]; T.p[1 * T.s0 + i] = s * S.p[1 * S.s0 + i];
+        T.p[2 * T.s0 + i] = s * S.p[2 * S.s0 + i]; T.p[3 * T.s0 + i] = S.p[3 * S.s0 + i];
+        T.p[4 * T.s0 + i] = S.p[4 * S.s0 + i]; T.p[5 * T.s0 + i] = S.p[5 * S.s0 + i];
+        T.p[25 * T.s0 + i] = radius.p[i]; T.p[26 * T.s0 + i] = enough.p[i];
+    }
+}
+
+INLINE void block_stop(r2 S, r2 T, r2 radius, i1 status, w1 ok) {
+    int64_t stage, row;
+    for (int64_t i = 0; i < ok.n0; i++) {
+        if ((i >= status.n0 || status.p[i] != 0) && ok.p[i] == 0 && radius.p[0 * radius.s0 + i] != -3) {
+            for (stage = 0; stage < radius.n0; stage++) radius.p[stage * radius.s0 + i] = -3;
+            for (row = 0; row < 3; row++) S.p[row * S.s0 + i] = T.p[row * T.s0 + i];
+        }
+    }
+}
+
 INLINE void block_rolled(r2 S, r2 P, r2 B, w1 ok) {
     int64_t end_1 = block_whole(ok);
     INDEPENDENT
@@ -731,76 +758,23 @@ INLINE void block_rolled(r2 S, r2 P, r2 B, w1 ok) {
     }
 }
 
-INLINE void composed_block_prepare_composed_block(r2 momentum, r2 g, r2 tensor, r1 contact, r1 c, r2 state, r2 radius,
-    r2 enough, r1 scale) {
-    ALIGNED real one_[51]; r1 one = {one_, 51}; int64_t last = contact.n0 - 1; ALIGNED real bounds_[2 * c.n0];
-    r2 bounds = {bounds_, 2, c.n0, c.n0};
-    for (int64_t lane = 0; lane < state.n1; lane++) {
+INLINE void block_prepare_block(r2 momentum, r2 g, r2 tensor, r1 contact, r1 c, r2 state, r2 radius, r2 enough, r2
+    past, r1 scale) {
+    ALIGNED real one_[27]; r1 one = {one_, 27}; int64_t last = contact.n0 - 1; ALIGNED real bounds_[2 * c.n0];
+    r2 bounds = {bounds_, 2, c.n0, c.n0}; int64_t lane, row;
+    for (lane = 0; lane < state.n1; lane++) {
         int64_t i = min_i(lane, last);
-        scale.p[i] = composed_loop_prepare_composed((r1){momentum.p + i * momentum.s0, momentum.n1}, (r1){g.p + i *
-            g.s0, g.n1}, (r1){tensor.p + i * tensor.s0, tensor.n1}, contact.p[i], c, one, (r1){bounds.p + 0 *
-            bounds.s0, bounds.n1}, (r1){bounds.p + 1 * bounds.s0, bounds.n1});
-        for (int64_t row = 0; row < 51; row++) state.p[row * state.s0 + lane] = one.p[row];
+        scale.p[i] = loop_prepare((r1){momentum.p + i * momentum.s0, momentum.n1}, (r1){g.p + i * g.s0, g.n1},
+            (r1){tensor.p + i * tensor.s0, tensor.n1}, contact.p[i], c, one, (r1){bounds.p + 0 * bounds.s0,
+            bounds.n1}, (r1){bounds.p + 1 * bounds.s0, bounds.n1});
+        for (row = 0; row < 27; row++) state.p[row * state.s0 + lane] = one.p[row];
         for (int64_t stage = 0; stage < c.n0; stage++) {
             radius.p[stage * radius.s0 + lane] = bounds.p[0 * bounds.s0 + stage];
             enough.p[stage * enough.s0 + lane] = bounds.p[1 * bounds.s0 + stage];
         }
     }
-}
-
-INLINE void composed_block_begin_stage(r2 S, r2 T, real s, r1 radius, r1 enough, w1 ok) {
-    int64_t end_1 = block_whole(ok);
-    INDEPENDENT
-    for (int64_t i = 0; i < end_1; i++) {
-        T.p[0 * T.s0 + i] = s * S.p[0 * S.s0 + i]; T.p[1 * T.s0 + i] = s * S.p[1 * S.s0 + i];
-        T.p[2 * T.s0 + i] = s * S.p[2 * S.s0 + i]; T.p[3 * T.s0 + i] = S.p[3 * S.s0 + i];
-        T.p[4 * T.s0 + i] = S.p[4 * S.s0 + i]; T.p[5 * T.s0 + i] = S.p[5 * S.s0 + i];
-        T.p[49 * T.s0 + i] = radius.p[i]; T.p[50 * T.s0 + i] = enough.p[i];
-    }
-}
-
-INLINE void composed_block_guess_block(r2 T, r2 past, r1 weights, w1 ok) {
-    int64_t i, end_1 = block_whole(ok);
-    INDEPENDENT
-    for (i = 0; i < end_1; i++) {
-        T.p[18 * T.s0 + i] = 0; T.p[19 * T.s0 + i] = 0; T.p[20 * T.s0 + i] = 0;
-    }
-    real u1, u2, u3;
-    for (int64_t j = 0; j < weights.n0; j += 4) {
-        real a = weights.p[j], b = weights.p[j + 1], c = weights.p[j + 2], d = weights.p[j + 3]; int64_t x = 3 * j;
-        int64_t y = 3 * j + 1, z = 3 * j + 2, end_2 = block_whole(ok);
-        INDEPENDENT
-        for (i = 0; i < end_2; i++) {
-            u1 = T.p[18 * T.s0 + i] + a * past.p[x * past.s0 + i];
-            u2 = T.p[19 * T.s0 + i] + a * past.p[y * past.s0 + i];
-            u3 = T.p[20 * T.s0 + i] + a * past.p[z * past.s0 + i]; u1 = u1 + b * past.p[(x + 3) * past.s0 + i];
-            u2 = u2 + b * past.p[(y + 3) * past.s0 + i]; u3 = u3 + b * past.p[(z + 3) * past.s0 + i];
-            u1 = u1 + c * past.p[(x + 6) * past.s0 + i]; u2 = u2 + c * past.p[(y + 6) * past.s0 + i];
-            u3 = u3 + c * past.p[(z + 6) * past.s0 + i]; u1 = u1 + d * past.p[(x + 9) * past.s0 + i];
-            u2 = u2 + d * past.p[(y + 9) * past.s0 + i]; u3 = u3 + d * past.p[(z + 9) * past.s0 + i];
-            T.p[18 * T.s0 + i] = u1; T.p[19 * T.s0 + i] = u2; T.p[20 * T.s0 + i] = u3;
-        }
-    }
-}
-
-INLINE void composed_block_end_stage(r2 S, r2 P, r2 past, int64_t row, w1 ok) {
-    int64_t end_1 = block_whole(ok);
-    INDEPENDENT
-    for (int64_t i = 0; i < end_1; i++) {
-        real p0 = P.p[0 * P.s0 + i], p1 = P.p[1 * P.s0 + i], p2 = P.p[2 * P.s0 + i], p3 = P.p[3 * P.s0 + i];
-        block_turn_at(p0, p1, p2, p3, S, 0, 6, i); block_turn_at(p0, p1, p2, p3, S, 3, 9, i);
-        past.p[row * past.s0 + i] = P.p[4 * P.s0 + i]; past.p[(row + 1) * past.s0 + i] = P.p[5 * P.s0 + i];
-        past.p[(row + 2) * past.s0 + i] = P.p[6 * P.s0 + i];
-    }
-}
-
-INLINE void composed_block_stop(r2 S, r2 T, r2 radius, i1 status, w1 ok) {
-    int64_t stage, row;
-    for (int64_t i = 0; i < ok.n0; i++) {
-        if ((i >= status.n0 || status.p[i] != 0) && ok.p[i] == 0 && radius.p[0 * radius.s0 + i] != -3) {
-            for (stage = 0; stage < radius.n0; stage++) radius.p[stage * radius.s0 + i] = -3;
-            for (row = 0; row < 3; row++) S.p[row * S.s0 + i] = T.p[row * T.s0 + i];
-        }
+    for (row = 0; row < past.n0; row++) {
+        for (lane = 0; lane < state.n1; lane++) past.p[row * past.s0 + lane] = 0;
     }
 }
 
@@ -1015,13 +989,13 @@ INLINE t_ri long_step_begun(r1 body, r1 J0, real D0, real h, r1 state) {
 }
 
 INLINE void long_run_entered(r2 S, int64_t at, int64_t i, r1 body, real half, int64_t n, r1 state) {
-    real part = half / n; t_r3 I1 = loop_three(state, 45);
+    real part = half / n; t_r3 I1 = loop_three(state, 21);
     real spread = R(0.5) * (max_r(max_r(I1.a0, I1.a1), I1.a2) - min_r(min_r(I1.a0, I1.a1), I1.a2));
     real k1 = part * body.p[0], k2 = part * body.p[1], k3 = part * body.p[2];
     real size = real_sqrt(k1 * k1 + k2 * k2 + k3 * k3);
-    t_r2 within = gibbs_certificate(k1, k2, k3, I1.a0, I1.a1, I1.a2, state.p[48]);
-    real least = R(0x1.0000000000000p-53) * size / (max_r(max_r(I1.a0, I1.a1), I1.a2) + state.p[48] + spread);
-    real anywhere = gibbs_is_heavy(I1.a0, I1.a1, I1.a2, state.p[48]) ? -1 : R(0x1.0000000000000p+1000);
+    t_r2 within = gibbs_certificate(k1, k2, k3, I1.a0, I1.a1, I1.a2, state.p[24]);
+    real least = R(0x1.0000000000000p-53) * size / (max_r(max_r(I1.a0, I1.a1), I1.a2) + state.p[24] + spread);
+    real anywhere = gibbs_is_heavy(I1.a0, I1.a1, I1.a2, state.p[24]) ? -1 : R(0x1.0000000000000p+1000);
     S.p[at * S.s0 + i] = part; S.p[(at + 1) * S.s0 + i] = part != 0 ? 1 / part : 0; S.p[(at + 2) * S.s0 + i] = size;
     S.p[78 * S.s0 + i] = spread; S.p[(at + 3) * S.s0 + i] = within.a0 >= 0 ? within.a0 : anywhere;
     S.p[(at + 4) * S.s0 + i] = least * least / R(18.2); S.p[(at + 5) * S.s0 + i] = 1 / (n * n);
@@ -1031,14 +1005,14 @@ OUT_OF_LINE int64_t long_run_enter(r2 S, int64_t B, int64_t b, int64_t columns, 
     r2 sums, r2 beginning, r1 body, r1 state) {
     t_ri half = long_step_begun(body, J0, D0, h, state); int64_t c;
     for (c = 0; c < 13; c++) S.p[(101 + c) * S.s0 + b] = body.p[c];
-    S.p[114 * S.s0 + b] = half.a0; S.p[115 * S.s0 + b] = radius; S.p[119 * S.s0 + b] = state.p[48];
+    S.p[114 * S.s0 + b] = half.a0; S.p[115 * S.s0 + b] = radius; S.p[119 * S.s0 + b] = state.p[24];
     S.p[120 * S.s0 + b] = 0;
-    for (c = 0; c < 3; c++) S.p[(116 + c) * S.s0 + b] = state.p[42 + c];
+    for (c = 0; c < 3; c++) S.p[(116 + c) * S.s0 + b] = state.p[18 + c];
     int64_t least = 8 - columns;
     for (int64_t lane = 0; lane < 4; lane++) {
         int64_t i = lane * B + b, first = max_i(7 - lane, least);
-        for (c = 0; c < 3; c++) S.p[(27 + c) * S.s0 + i] = state.p[45 + c];
-        S.p[30 * S.s0 + i] = state.p[48]; long_run_entered(S, 59, i, body, half.a0, first, state);
+        for (c = 0; c < 3; c++) S.p[(27 + c) * S.s0 + i] = state.p[21 + c];
+        S.p[30 * S.s0 + i] = state.p[24]; long_run_entered(S, 59, i, body, half.a0, first, state);
         long_run_entered(S, 65, i, body, half.a0, max_i(lane, least), state); int one = 7 - lane >= least;
         int two = lane >= least;
         for (c = 0; c < 3; c++) S.p[(75 + c) * S.s0 + i] = beginning.p[first * beginning.s0 + c];
@@ -2041,6 +2015,10 @@ INLINE t_ir7 double_double_step_solved(real u1, real u2, real u3, real k1, real 
     return (t_ir7){status == 1 ? 1 : 2, reach, 0, 0, 0, 0, 0, 0};
 }
 
+INLINE t_r8 sums_filtered(real b, real c, real d, real e, real f, real h, real o, real w) {
+    return (t_r8){b + 8 * w, c - 28 * w, d + 56 * w, e - 70 * w, f + 56 * w, h - 28 * w, o + 8 * w, -w};
+}
+
 INLINE void double_double_loop_extrapolated(r2 past, real w1, real w2, real w3) {
     int64_t c; real w; c = 0; w = w1;
     {
@@ -2311,6 +2289,14 @@ INLINE void double_double_block_residuals(r2 S, r2 P) {
     }
 }
 
+INLINE void double_double_block_extrapolated(r2 S, int64_t row, int64_t i, real w) {
+    t_r8 t_1 = sums_filtered(S.p[(row + 3) * S.s0 + i], S.p[(row + 6) * S.s0 + i], S.p[(row + 9) * S.s0 + i], S.p[(row
+        + 12) * S.s0 + i], S.p[(row + 15) * S.s0 + i], S.p[(row + 18) * S.s0 + i], S.p[(row + 21) * S.s0 + i], w);
+    S.p[row * S.s0 + i] = t_1.a0; S.p[(row + 3) * S.s0 + i] = t_1.a1; S.p[(row + 6) * S.s0 + i] = t_1.a2;
+    S.p[(row + 9) * S.s0 + i] = t_1.a3; S.p[(row + 12) * S.s0 + i] = t_1.a4; S.p[(row + 15) * S.s0 + i] = t_1.a5;
+    S.p[(row + 18) * S.s0 + i] = t_1.a6; S.p[(row + 21) * S.s0 + i] = t_1.a7;
+}
+
 INLINE void double_double_block_turned(r2 S, r2 P) {
     INDEPENDENT
     for (int64_t i = 0; i < 16; i++) {
@@ -2324,9 +2310,9 @@ INLINE void double_double_block_turned(r2 S, r2 P) {
         S.p[3 * S.s0 + i] = t_1.a3; S.p[4 * S.s0 + i] = t_1.a4; S.p[5 * S.s0 + i] = t_1.a5;
         S.p[6 * S.s0 + i] = t_1.a6; S.p[7 * S.s0 + i] = t_1.a7; S.p[8 * S.s0 + i] = t_1.a8;
         S.p[9 * S.s0 + i] = t_1.a9; S.p[10 * S.s0 + i] = t_1.a10; S.p[11 * S.s0 + i] = t_1.a11;
-        block_extrapolated(S, 28, i, P.p[0 * P.s0 + i] + P.p[19 * P.s0 + i]);
-        block_extrapolated(S, 29, i, P.p[1 * P.s0 + i] + P.p[20 * P.s0 + i]);
-        block_extrapolated(S, 30, i, P.p[2 * P.s0 + i] + P.p[21 * P.s0 + i]);
+        double_double_block_extrapolated(S, 28, i, P.p[0 * P.s0 + i] + P.p[19 * P.s0 + i]);
+        double_double_block_extrapolated(S, 29, i, P.p[1 * P.s0 + i] + P.p[20 * P.s0 + i]);
+        double_double_block_extrapolated(S, 30, i, P.p[2 * P.s0 + i] + P.p[21 * P.s0 + i]);
     }
 }
 
@@ -2480,8 +2466,8 @@ INLINE t_r3 tangent_cross(real a1, real a2, real a3, real b1, real b2, real b3) 
 INLINE t_r3 tangent_column(real x1, real x2, real x3, real u1, real u2, real u3, r1 state, real det, r1 c) {
     t_r3 g1 = loop_three(state, 3), a1 = tangent_cross(state.p[0], state.p[1], state.p[2], x1, x2, x3);
     t_r3 b1 = tangent_cross(g1.a0, g1.a1, g1.a2, x1, x2, x3); real length = 1 + (u1 * u1 + u2 * u2 + u3 * u3);
-    real along = state.p[48] * (g1.a0 * u1 + g1.a1 * u2 + g1.a2 * u3);
-    real across = state.p[48] * (b1.a0 * u1 + b1.a1 * u2 + b1.a2 * u3);
+    real along = state.p[24] * (g1.a0 * u1 + g1.a1 * u2 + g1.a2 * u3);
+    real across = state.p[24] * (b1.a0 * u1 + b1.a1 * u2 + b1.a2 * u3);
     real r1 = along * b1.a0 + across * g1.a0 + length * a1.a0, r2 = along * b1.a1 + across * g1.a1 + length * a1.a1;
     real r3 = along * b1.a2 + across * g1.a2 + length * a1.a2, d1 = (c.p[0] * r1 + c.p[3] * r2 + c.p[6] * r3) / det;
     real d2 = (c.p[1] * r1 + c.p[4] * r2 + c.p[7] * r3) / det, d3 = (c.p[2] * r1 + c.p[5] * r2 + c.p[8] * r3) / det;
@@ -2490,9 +2476,9 @@ INLINE t_r3 tangent_column(real x1, real x2, real x3, real u1, real u2, real u3,
 }
 
 INLINE void tangent_derivative(real u1, real u2, real u3, r1 state, r2 T) {
-    t_r3 t_2 = loop_three(state, 0), t_3 = loop_three(state, 3), t_4 = loop_three(state, 45);
+    t_r3 t_2 = loop_three(state, 0), t_3 = loop_three(state, 3), t_4 = loop_three(state, 21);
     t_r13 t_1 = kernel_gibbs_newton(u1, u2, u3, t_2.a0, t_2.a1, t_2.a2, t_3.a0, t_3.a1, t_3.a2, t_4.a0, t_4.a1,
-        t_4.a2, state.p[48]);
+        t_4.a2, state.p[24]);
     real found_[] = {t_1.a0, t_1.a1, t_1.a2, t_1.a3, t_1.a4, t_1.a5, t_1.a6, t_1.a7, t_1.a8, t_1.a9, t_1.a10, t_1.a11,
         t_1.a12};
     r1 found = {found_, 13};
@@ -2570,67 +2556,72 @@ INLINE void single_loop_follow_body(real p0, real p1, real p2, real p3, real g1,
 #endif
 
 OUT_OF_LINE t_ir8 loop_safe_rotation(real u1, real u2, real u3, r1 state) {
-    t_r3 k1 = loop_three(state, 0), g1 = loop_three(state, 3), I1 = loop_three(state, 45); int settled; real p0, p1;
+    t_r3 k1 = loop_three(state, 0), g1 = loop_three(state, 3), I1 = loop_three(state, 21); int settled; real p0, p1;
     real p2, p3, w1, w2, w3;
-    if (state.p[49] == -2) {
+    if (state.p[25] == -2) {
         t_br7 t_1 = path_search_on_path(u1, u2, u3, k1.a0, k1.a1, k1.a2, g1.a0, g1.a1, g1.a2, I1.a0, I1.a1, I1.a2,
-            state.p[48]);
+            state.p[24]);
         settled = t_1.a0; p0 = t_1.a1; p1 = t_1.a2; p2 = t_1.a3; p3 = t_1.a4; w1 = t_1.a5; w2 = t_1.a6; w3 = t_1.a7;
     }
     else {
         t_br7 t_2 = gibbs_search_safely(u1, u2, u3, k1.a0, k1.a1, k1.a2, g1.a0, g1.a1, g1.a2, I1.a0, I1.a1, I1.a2,
-            state.p[48], state.p[49], state.p[50]);
+            state.p[24], state.p[25], state.p[26]);
         settled = t_2.a0; p0 = t_2.a1; p1 = t_2.a2; p2 = t_2.a3; p3 = t_2.a4; w1 = t_2.a5; w2 = t_2.a6; w3 = t_2.a7;
     }
     if (settled) return (t_ir8){0, 1, p0, p1, p2, p3, w1, w2, w3};
-    t_ir5 t_3 = loop_small_rotation(2 * k1.a0, 2 * k1.a1, 2 * k1.a2, g1.a0, g1.a1, g1.a2, state.p[42], state.p[43],
-        state.p[44], state.p[48]);
+    t_ir5 t_3 = loop_small_rotation(2 * k1.a0, 2 * k1.a1, 2 * k1.a2, g1.a0, g1.a1, g1.a2, state.p[18], state.p[19],
+        state.p[20], state.p[24]);
     int64_t status = t_3.a0; real reach = t_3.a1; p0 = t_3.a2; p1 = t_3.a3; p2 = t_3.a4; p3 = t_3.a5;
     if (p0 == 0) return (t_ir8){status, reach, p0, p1, p2, p3, 0, 0, 0};
     return (t_ir8){status, reach, p0, p1, p2, p3, p1 / p0, p2 / p0, p3 / p0};
 }
 
-INLINE t_i2r loop_march(r1 state, int64_t begun, int64_t first, int64_t count, int64_t every, real scale, r2 momenta,
-    r2 verticals, int with_body, r1 attitude, r1 contact, real rho, r2 attitudes, r2 traces) {
+INLINE t_i2r loop_march(r1 state, r1 c, r3 weights, r1 radius, r1 enough, r2 past, int64_t begun, int64_t first,
+    int64_t count, int64_t every, real scale, r2 momenta, r2 verticals, int with_body, r1 attitude, r1 contact, real
+    rho, r2 attitudes, r2 traces) {
     t_r3 t_1 = loop_three(state, 0); real k1 = t_1.a0, k2 = t_1.a1, k3 = t_1.a2; t_r3 t_2 = loop_three(state, 3);
     real g1 = t_2.a0, g2 = t_2.a1, g3 = t_2.a2; t_r3 t_3 = loop_three(state, 6); real x1 = t_3.a0, x2 = t_3.a1;
     real x3 = t_3.a2; t_r3 t_4 = loop_three(state, 9); real y1 = t_4.a0, y2 = t_4.a1, y3 = t_4.a2;
-    t_r3 t_5 = loop_three(state, 18); real a1 = t_5.a0, a2 = t_5.a1, a3 = t_5.a2; t_r3 t_6 = loop_three(state, 21);
-    real b1 = t_6.a0, b2 = t_6.a1, b3 = t_6.a2; t_r3 t_7 = loop_three(state, 24); real c1 = t_7.a0, c2 = t_7.a1;
-    real c3 = t_7.a2; t_r3 t_8 = loop_three(state, 27); real d1 = t_8.a0, d2 = t_8.a1, d3 = t_8.a2;
-    t_r3 t_9 = loop_three(state, 30); real e1 = t_9.a0, e2 = t_9.a1, e3 = t_9.a2; t_r3 t_10 = loop_three(state, 33);
-    real f1 = t_10.a0, f2 = t_10.a1, f3 = t_10.a2; t_r3 t_11 = loop_three(state, 36); real h1 = t_11.a0, h2 = t_11.a1;
-    real h3 = t_11.a2; t_r3 t_12 = loop_three(state, 39); real o1 = t_12.a0, o2 = t_12.a1, o3 = t_12.a2;
-    t_r3 I1 = loop_three(state, 45), contact_term = loop_three(state, 48); int64_t step = first, status = 0;
-    real reach = 1; int64_t last = first + count, frame, i; int settled; real p0, p1, p2, p3, w1, w2, w3;
+    t_r3 I1 = loop_three(state, 21); int64_t stages = c.n0, places = weights.n1, period = max_i(1, 1024 / stages);
+    int64_t step = first, status = 0; real reach = 1; int64_t last = first + count, at, later, i, frame; real m1, m2;
+    real m3, u1, u2, u3; int settled; real p0, p1, p2, p3, w1, w2, w3;
     while (step < last && status == 0) {
-        int64_t stop = min_i(min_i(last, step + every - step % every), step + 1024 - (begun + step) % 1024);
+        int64_t stop = min_i(min_i(last, step + every - step % every), step + period - (begun + step) % period);
         while (step < stop) {
-            t_br7 t_13 = gibbs_settle(a1, a2, a3, k1, k2, k3, g1, g2, g3, I1.a0, I1.a1, I1.a2, contact_term.a0,
-                contact_term.a1, contact_term.a2, 0);
-            settled = t_13.a0; p0 = t_13.a1; p1 = t_13.a2; p2 = t_13.a3; p3 = t_13.a4; w1 = t_13.a5; w2 = t_13.a6;
-            w3 = t_13.a7;
-            if (!settled) {
-                loop_put(state, 0, k1, k2, k3); loop_put(state, 3, g1, g2, g3);
-                t_ir8 t_14 = loop_safe_rotation(w1, w2, w3, state); status = t_14.a0; reach = t_14.a1; p0 = t_14.a2;
-                p1 = t_14.a3; p2 = t_14.a4; p3 = t_14.a5; w1 = t_14.a6; w2 = t_14.a7; w3 = t_14.a8;
-                if (status != 0) break;
+            at = (begun + step) * stages % places; later = (begun + step) * stages >= places ? 1 : 0;
+            for (i = 0; i < stages; i++) {
+                m1 = c.p[i] * k1; m2 = c.p[i] * k2; m3 = c.p[i] * k3;
+                t_r3 t_5 = loop_guessed(past, at + i, (r1){weights.p + later * weights.s0 + (at + i) * weights.s1,
+                    weights.n2});
+                u1 = t_5.a0; u2 = t_5.a1; u3 = t_5.a2;
+                t_br7 t_6 = gibbs_settle(u1, u2, u3, m1, m2, m3, g1, g2, g3, I1.a0, I1.a1, I1.a2, state.p[24],
+                    radius.p[i], enough.p[i], 0);
+                settled = t_6.a0; p0 = t_6.a1; p1 = t_6.a2; p2 = t_6.a3; p3 = t_6.a4; w1 = t_6.a5; w2 = t_6.a6;
+                w3 = t_6.a7;
+                if (!settled) {
+                    loop_put(state, 0, m1, m2, m3); loop_put(state, 3, g1, g2, g3); state.p[25] = radius.p[i];
+                    state.p[26] = enough.p[i]; t_ir8 t_7 = loop_safe_rotation(w1, w2, w3, state); status = t_7.a0;
+                    reach = t_7.a1; p0 = t_7.a2; p1 = t_7.a3; p2 = t_7.a4; p3 = t_7.a5; w1 = t_7.a6; w2 = t_7.a7;
+                    w3 = t_7.a8;
+                    if (status != 0) break;
+                }
+                loop_put((r1){past.p + (at + i) * past.s0, past.n1}, 0, w1, w2, w3);
+                loop_put((r1){past.p + (places + at + i) * past.s0, past.n1}, 0, w1, w2, w3);
+                if (with_body) loop_follow_body(p0, p1, p2, p3, g1, g2, g3, attitude, contact, rho);
+                t_r6 t_8 = sums_turned(p0, p1, p2, p3, k1, k2, k3, x1, x2, x3); k1 = t_8.a0; k2 = t_8.a1; k3 = t_8.a2;
+                x1 = t_8.a3; x2 = t_8.a4; x3 = t_8.a5; t_r6 t_9 = sums_turned(p0, p1, p2, p3, g1, g2, g3, y1, y2, y3);
+                g1 = t_9.a0; g2 = t_9.a1; g3 = t_9.a2; y1 = t_9.a3; y2 = t_9.a4; y3 = t_9.a5;
             }
-            t_r8 t_15 = sums_filtered(b1, c1, d1, e1, f1, h1, o1, w1); a1 = t_15.a0; b1 = t_15.a1; c1 = t_15.a2;
-            d1 = t_15.a3; e1 = t_15.a4; f1 = t_15.a5; h1 = t_15.a6; o1 = t_15.a7;
-            t_r8 t_16 = sums_filtered(b2, c2, d2, e2, f2, h2, o2, w2); a2 = t_16.a0; b2 = t_16.a1; c2 = t_16.a2;
-            d2 = t_16.a3; e2 = t_16.a4; f2 = t_16.a5; h2 = t_16.a6; o2 = t_16.a7;
-            t_r8 t_17 = sums_filtered(b3, c3, d3, e3, f3, h3, o3, w3); a3 = t_17.a0; b3 = t_17.a1; c3 = t_17.a2;
-            d3 = t_17.a3; e3 = t_17.a4; f3 = t_17.a5; h3 = t_17.a6; o3 = t_17.a7;
-            if (with_body) loop_follow_body(p0, p1, p2, p3, g1, g2, g3, attitude, contact, rho);
-            t_r6 t_18 = sums_turned(p0, p1, p2, p3, k1, k2, k3, x1, x2, x3); k1 = t_18.a0; k2 = t_18.a1; k3 = t_18.a2;
-            x1 = t_18.a3; x2 = t_18.a4; x3 = t_18.a5; t_r6 t_19 = sums_turned(p0, p1, p2, p3, g1, g2, g3, y1, y2, y3);
-            g1 = t_19.a0; g2 = t_19.a1; g3 = t_19.a2; y1 = t_19.a3; y2 = t_19.a4; y3 = t_19.a5; step += 1;
+            if (status != 0) break;
+            step += 1;
         }
-        if (status == 0 && (begun + step) % 1024 == 0) {
-            loop_put(state, 0, k1, k2, k3); loop_put(state, 3, g1, g2, g3); loop_put(state, 6, x1, x2, x3);
-            loop_put(state, 9, y1, y2, y3); integrals_restore(state); t_r3 t_20 = loop_three(state, 6); x1 = t_20.a0;
-            x2 = t_20.a1; x3 = t_20.a2; t_r3 t_21 = loop_three(state, 9); y1 = t_21.a0; y2 = t_21.a1; y3 = t_21.a2;
+        if (status == 0) {
+            loop_put(state, 0, k1, k2, k3); loop_put(state, 3, g1, g2, g3);
+        }
+        loop_put(state, 6, x1, x2, x3); loop_put(state, 9, y1, y2, y3);
+        if (status == 0 && (begun + step) % period == 0) {
+            integrals_restore(state); t_r3 t_10 = loop_three(state, 6); x1 = t_10.a0; x2 = t_10.a1; x3 = t_10.a2;
+            t_r3 t_11 = loop_three(state, 9); y1 = t_11.a0; y2 = t_11.a1; y3 = t_11.a2;
         }
         if (status == 0 && step % every == 0) {
             frame = step / every;
@@ -2642,58 +2633,7 @@ INLINE t_i2r loop_march(r1 state, int64_t begun, int64_t first, int64_t count, i
             }
         }
     }
-    loop_put(state, 0, k1, k2, k3); loop_put(state, 3, g1, g2, g3); loop_put(state, 6, x1, x2, x3);
-    loop_put(state, 9, y1, y2, y3); loop_put(state, 18, a1, a2, a3); loop_put(state, 21, b1, b2, b3);
-    loop_put(state, 24, c1, c2, c3); loop_put(state, 27, d1, d2, d3); loop_put(state, 30, e1, e2, e3);
-    loop_put(state, 33, f1, f2, f3); loop_put(state, 36, h1, h2, h3); loop_put(state, 39, o1, o2, o3);
     return (t_i2r){step - first, status, reach};
-}
-
-INLINE t_ir composed_loop_composed_step(int64_t step, r1 state, r1 c, r3 weights, r1 radius, r1 enough, r2 past, int
-    with_body, r1 attitude, r1 contact, real rho) {
-    t_i2 at = composed_loop_place(step, c.n0, weights.n1); int64_t status; real reach;
-    for (int64_t i = 0; i < c.n0; i++) {
-        t_r3 k1 = loop_three(state, 0), g1 = loop_three(state, 3), I1 = loop_three(state, 45), u1 =
-            composed_loop_guess(past, (r1){weights.p + at.a1 * weights.s0 + (at.a0 + i) * weights.s1, weights.n2});
-        t_br7 t_1 = gibbs_settle(u1.a0, u1.a1, u1.a2, c.p[i] * k1.a0, c.p[i] * k1.a1, c.p[i] * k1.a2, g1.a0, g1.a1,
-            g1.a2, I1.a0, I1.a1, I1.a2, state.p[48], radius.p[i], enough.p[i], 0);
-        int settled = t_1.a0; real p0 = t_1.a1, p1 = t_1.a2, p2 = t_1.a3, p3 = t_1.a4, w1 = t_1.a5, w2 = t_1.a6;
-        real w3 = t_1.a7;
-        if (!settled) {
-            loop_put(state, 0, c.p[i] * k1.a0, c.p[i] * k1.a1, c.p[i] * k1.a2); state.p[49] = radius.p[i];
-            state.p[50] = enough.p[i]; t_ir8 t_2 = loop_safe_rotation(w1, w2, w3, state); status = t_2.a0;
-            reach = t_2.a1; p0 = t_2.a2; p1 = t_2.a3; p2 = t_2.a4; p3 = t_2.a5; w1 = t_2.a6; w2 = t_2.a7; w3 = t_2.a8;
-            if (status != 0) return (t_ir){status, reach};
-            loop_put(state, 0, k1.a0, k1.a1, k1.a2);
-        }
-        loop_put((r1){past.p + (at.a0 + i) * past.s0, past.n1}, 0, w1, w2, w3);
-        if (with_body) loop_follow_body(p0, p1, p2, p3, g1.a0, g1.a1, g1.a2, attitude, contact, rho);
-        composed_loop_turn_at(p0, p1, p2, p3, state, 0, 6); composed_loop_turn_at(p0, p1, p2, p3, state, 3, 9);
-    }
-    return (t_ir){0, 1};
-}
-
-INLINE t_i2r composed_loop_march_composed(r1 state, r1 c, r3 weights, r1 radius, r1 enough, r2 past, int64_t begun,
-    int64_t first, int64_t count, int64_t every, real scale, r2 momenta, r2 verticals, int with_body, r1 attitude, r1
-    contact, real rho, r2 attitudes, r2 traces) {
-    int64_t period = max_i(1, 1024 / c.n0), frame, i, end_1 = first + count + 1;
-    for (int64_t step = first + 1; step < end_1; step++) {
-        t_ir status = composed_loop_composed_step(begun + step - 1, state, c, weights, radius, enough, past,
-            with_body, attitude, contact, rho);
-        if (status.a0 != 0) return (t_i2r){step - 1 - first, status.a0, status.a1};
-        if ((begun + step) % period == 0) integrals_restore(state);
-        if (step % every == 0) {
-            frame = step / every;
-            loop_put((r1){momenta.p + frame * momenta.s0, momenta.n1}, 0, scale * state.p[0], scale * state.p[1],
-                scale * state.p[2]);
-            loop_put((r1){verticals.p + frame * verticals.s0, verticals.n1}, 0, state.p[3], state.p[4], state.p[5]);
-            if (with_body) {
-                for (i = 0; i < 4; i++) attitudes.p[frame * attitudes.s0 + i] = attitude.p[i];
-                traces.p[frame * traces.s0 + 0] = contact.p[0]; traces.p[frame * traces.s0 + 1] = contact.p[1];
-            }
-        }
-    }
-    return (t_i2r){count, 0, 1};
 }
 
 OUT_OF_LINE void block_mend(r2 S, r2 P, w1 ok, int64_t step, i1 taken, i1 status, d1 reach, int64_t balls) {
@@ -2703,87 +2643,60 @@ OUT_OF_LINE void block_mend(r2 S, r2 P, w1 ok, int64_t step, i1 taken, i1 status
         if (i < balls && status.p[i] == 0) {
             real one_[S.n0];
             for (int64_t i_ = 0; i_ < S.n0; i_++) one_[i_] = S.p[i_ * S.s0 + i];
-            one = (r1){one_, S.n0}; t_r3 t_2 = loop_three(one, 18), t_3 = loop_three(one, 0);
-            t_r3 t_4 = loop_three(one, 3), t_5 = loop_three(one, 45);
-            t_br7 t_1 = gibbs_settle(t_2.a0, t_2.a1, t_2.a2, t_3.a0, t_3.a1, t_3.a2, t_4.a0, t_4.a1, t_4.a2, t_5.a0,
-                t_5.a1, t_5.a2, one.p[48], one.p[49], one.p[50], 0);
-            u1 = t_1.a5; u2 = t_1.a6; u3 = t_1.a7; t_ir8 t_6 = loop_safe_rotation(u1, u2, u3, one);
-            status.p[i] = t_6.a0; reach.p[i] = t_6.a1; p0 = t_6.a2; p1 = t_6.a3; p2 = t_6.a4; p3 = t_6.a5;
-            w1 = t_6.a6; w2 = t_6.a7; w3 = t_6.a8;
+            one = (r1){one_, S.n0}; t_r3 t_2 = loop_three(one, 0), t_3 = loop_three(one, 3);
+            t_r3 t_4 = loop_three(one, 21);
+            t_br7 t_1 = gibbs_settle(P.p[9 * P.s0 + i], P.p[10 * P.s0 + i], P.p[11 * P.s0 + i], t_2.a0, t_2.a1,
+                t_2.a2, t_3.a0, t_3.a1, t_3.a2, t_4.a0, t_4.a1, t_4.a2, one.p[24], one.p[25], one.p[26], 0);
+            u1 = t_1.a5; u2 = t_1.a6; u3 = t_1.a7; t_ir8 t_5 = loop_safe_rotation(u1, u2, u3, one);
+            status.p[i] = t_5.a0; reach.p[i] = t_5.a1; p0 = t_5.a2; p1 = t_5.a3; p2 = t_5.a4; p3 = t_5.a5;
+            w1 = t_5.a6; w2 = t_5.a7; w3 = t_5.a8;
             if (status.p[i] == 0) {
                 P.p[0 * P.s0 + i] = p0; P.p[1 * P.s0 + i] = p1; P.p[2 * P.s0 + i] = p2; P.p[3 * P.s0 + i] = p3;
                 P.p[4 * P.s0 + i] = w1; P.p[5 * P.s0 + i] = w2; P.p[6 * P.s0 + i] = w3; continue;
             }
             taken.p[i] = step;
         }
-        S.p[49 * S.s0 + i] = -1; P.p[0 * P.s0 + i] = 1; P.p[1 * P.s0 + i] = 0; P.p[2 * P.s0 + i] = 0;
+        S.p[25 * S.s0 + i] = -1; P.p[0 * P.s0 + i] = 1; P.p[1 * P.s0 + i] = 0; P.p[2 * P.s0 + i] = 0;
         P.p[3 * P.s0 + i] = 0; P.p[4 * P.s0 + i] = 0; P.p[5 * P.s0 + i] = 0; P.p[6 * P.s0 + i] = 0;
     }
 }
 
-INLINE void block_march_block(r2 state, int64_t first, int64_t count, int64_t every, r1 scale, r3 momenta, r3
-    verticals, i1 taken, i1 status, d1 reach, int with_body, r2 body, r3 attitudes, r3 traces) {
-    ALIGNED real S_[51 * block_LANES]; r2 S = {S_, 51, block_LANES, block_LANES}; ALIGNED real P_[9 * block_LANES];
-    r2 P = {P_, 9, block_LANES, block_LANES}; ALIGNED real B_[7 * block_LANES];
-    r2 B = {B_, 7, block_LANES, block_LANES}; int64_t width = state.n1; ALIGNED int32_t ok_[width];
-    w1 ok = {ok_, width}; block_carry(state, S, width); block_carry(body, B, width); int64_t balls = status.n0;
-    int64_t step = first, last = first + count, patience = 0;
-    t_i2 t_1 = block_uncertified((r1){S.p + 49 * S.s0, S.n1}, ok); int64_t hopeless = t_1.a0, beyond = t_1.a1, bad;
-    while (step < last) {
-        int64_t stop = min_i(min_i(last, step + every - step % every), step + 1024 - step % 1024);
-        while (step < stop) {
-            t_i2 t_2 = block_solved(S, P, ok, hopeless, beyond, patience); patience = t_2.a0; bad = t_2.a1;
-            if (bad != 0) {
-                block_mend(S, P, ok, step, taken, status, reach, balls);
-                t_i2 t_3 = block_uncertified((r1){S.p + 49 * S.s0, S.n1}, ok); hopeless = t_3.a0; beyond = t_3.a1;
-            }
-            if (with_body) block_rolled(S, P, B, ok);
-            block_moved(S, P, ok); step += 1;
-        }
-        if (step % 1024 == 0) block_restored(S, status);
-        if (step % every == 0)
-            block_keep(S, B, step / every, scale, momenta, verticals, status, with_body, attitudes, traces);
-    }
-    for (int64_t i = 0; i < balls; i++) {
-        if (status.p[i] == 0) taken.p[i] = last;
-    }
-    block_carry(S, state, width); block_carry(B, body, width);
-}
-
-INLINE void composed_block_march_composed_block(r2 state, r1 c, r3 weights, r2 radius, r2 enough, r2 past, int64_t
-    first, int64_t count, int64_t every, r1 scale, r3 momenta, r3 verticals, i1 taken, i1 status, d1 reach, int
-    with_body, r2 body, r3 attitudes, r3 traces) {
-    ALIGNED real S_[51 * 40]; r2 S = {S_, 51, 40, 40}; ALIGNED real T_[51 * 40]; r2 T = {T_, 51, 40, 40};
-    ALIGNED real P_[9 * 40]; r2 P = {P_, 9, 40, 40}; ALIGNED real B_[7 * 40]; r2 B = {B_, 7, 40, 40};
-    ALIGNED real H_[past.n0 * 40]; r2 H = {H_, past.n0, 40, 40}; int64_t width = state.n1, stages = c.n0;
+INLINE void block_march_block(r2 state, r1 c, r3 weights, r2 radius, r2 enough, r2 past, int64_t first, int64_t count,
+    int64_t every, r1 scale, r3 momenta, r3 verticals, i1 taken, i1 status, d1 reach, int with_body, r2 body, r3
+    attitudes, r3 traces) {
+    ALIGNED real S_[27 * block_LANES]; r2 S = {S_, 27, block_LANES, block_LANES}; ALIGNED real W_[27 * block_LANES];
+    r2 W = {W_, 27, block_LANES, block_LANES}; ALIGNED real P_[12 * block_LANES];
+    r2 P = {P_, 12, block_LANES, block_LANES}; ALIGNED real B_[7 * block_LANES];
+    r2 B = {B_, 7, block_LANES, block_LANES}; ALIGNED real H_[past.n0 * block_LANES];
+    r2 H = {H_, past.n0, block_LANES, block_LANES}; int64_t width = state.n1, stages = c.n0, places = weights.n1;
     int64_t balls = status.n0; ALIGNED int32_t ok_[width]; w1 ok = {ok_, width};
-    int64_t period = max_i(1, 1024 / stages); block_carry(state, S, width); block_carry(state, T, width);
-    block_carry(body, B, width); block_carry(past, H, width); int64_t last = first + count, patience = 0;
-    ALIGNED int64_t hopeless_[stages]; i1 hopeless = {hopeless_, stages}; ALIGNED int64_t beyond_[stages];
-    i1 beyond = {beyond_, stages}; int64_t s;
+    int64_t period = max_i(1, 1024 / stages); ALIGNED int64_t hopeless_[stages]; i1 hopeless = {hopeless_, stages};
+    ALIGNED int64_t beyond_[stages]; i1 beyond = {beyond_, stages}; block_carry(state, S, width);
+    block_carry(state, W, width); block_carry(body, B, width); block_carry(past, H, width);
+    r2 T = stages == 1 ? S : W; int64_t last = first + count, patience = 0, s;
     for (s = 0; s < stages; s++) {
         t_i2 t_1 = block_uncertified((r1){radius.p + s * radius.s0, radius.n1}, ok); hopeless.p[s] = t_1.a0;
         beyond.p[s] = t_1.a1;
     }
     int64_t other, bad;
     for (int64_t step = first; step < last; step++) {
-        t_i2 at = composed_loop_place(step, stages, weights.n1);
+        int64_t at = step * stages % places, later = step * stages >= places ? 1 : 0;
         for (s = 0; s < stages; s++) {
-            composed_block_begin_stage(S, T, c.p[s], (r1){radius.p + s * radius.s0, radius.n1}, (r1){enough.p + s *
-                enough.s0, enough.n1}, ok);
-            composed_block_guess_block(T, H, (r1){weights.p + at.a1 * weights.s0 + (at.a0 + s) * weights.s1,
+            if (stages > 1)
+                block_begin_stage(S, T, c.p[s], (r1){radius.p + s * radius.s0, radius.n1}, (r1){enough.p + s *
+                    enough.s0, enough.n1}, ok);
+            block_guessed(P, H, at + s, places, (r1){weights.p + later * weights.s0 + (at + s) * weights.s1,
                 weights.n2}, ok);
             t_i2 t_2 = block_solved(T, P, ok, hopeless.p[s], beyond.p[s], patience); patience = t_2.a0; bad = t_2.a1;
             if (bad != 0) {
-                block_mend(T, P, ok, step, taken, status, reach, balls);
-                composed_block_stop(S, T, radius, status, ok);
+                block_mend(T, P, ok, step, taken, status, reach, balls); block_stop(S, T, radius, status, ok);
                 for (other = 0; other < stages; other++) {
                     t_i2 t_3 = block_uncertified((r1){radius.p + other * radius.s0, radius.n1}, ok);
                     hopeless.p[other] = t_3.a0; beyond.p[other] = t_3.a1;
                 }
             }
             if (with_body) block_rolled(T, P, B, ok);
-            composed_block_end_stage(S, P, H, 3 * (at.a0 + s), ok);
+            block_end_stage(S, P, H, 3 * (at + s), ok);
         }
         if ((step + 1) % period == 0) block_restored(S, status);
         if ((step + 1) % every == 0)
@@ -2795,11 +2708,50 @@ INLINE void composed_block_march_composed_block(r2 state, r1 c, r3 weights, r2 r
     block_carry(S, state, width); block_carry(B, body, width); block_carry(H, past, width);
 }
 
+INLINE void block_march_blocks(r2 state, r1 c, r3 weights, r2 radius, r2 enough, r2 past, int64_t first, int64_t
+    count, int64_t every, r2 momentum, r2 gamma, r2 tensor, r1 contact, r1 rho, r1 scale, r2 ended, r3 momenta, r3
+    verticals, i1 taken, i1 status, d1 reach, int with_body, r2 body, r3 attitudes, r3 traces) {
+    int64_t width = state.n1, n = contact.n0, i, lane, row;
+    for (int64_t low = 0; low < n; low += width) {
+        int64_t high = min_i(low + width, n);
+        if (first == 0) {
+            block_prepare_block((r2){momentum.p + low * momentum.s0, high - low, momentum.n1, momentum.s0},
+                (r2){gamma.p + low * gamma.s0, high - low, gamma.n1, gamma.s0}, (r2){tensor.p + low * tensor.s0, high
+                - low, tensor.n1, tensor.s0}, (r1){contact.p + low, high - low}, c, state, radius, enough, past,
+                (r1){scale.p + low, high - low});
+            if (with_body) {
+                for (lane = 0; lane < width; lane++) {
+                    i = min_i(low + lane, n - 1);
+                    for (row = 0; row < 4; row++)
+                        body.p[row * body.s0 + lane] = attitudes.p[i * attitudes.s0 + 0 * attitudes.s1 + row];
+                    body.p[4 * body.s0 + lane] = 0; body.p[5 * body.s0 + lane] = 0;
+                    body.p[6 * body.s0 + lane] = rho.p[i];
+                }
+            }
+        }
+        block_march_block(state, c, weights, radius, enough, past, first, count, every, (r1){scale.p + low, high -
+            low}, (r3){momenta.p + low * momenta.s0, high - low, momenta.n1, momenta.n2, momenta.s0, momenta.s1},
+            (r3){verticals.p + low * verticals.s0, high - low, verticals.n1, verticals.n2, verticals.s0,
+            verticals.s1}, (i1){taken.p + low, high - low}, (i1){status.p + low, high - low}, (d1){reach.p + low, high
+            - low}, with_body, body, (r3){attitudes.p + low * attitudes.s0, high - low, attitudes.n1, attitudes.n2,
+            attitudes.s0, attitudes.s1}, (r3){traces.p + low * traces.s0, high - low, traces.n1, traces.n2, traces.s0,
+            traces.s1});
+        for (i = low; i < high; i++) {
+            if (status.p[i] != 0) {
+                for (row = 0; row < 3; row++) {
+                    ended.p[i * ended.s0 + row] = scale.p[i] * state.p[(0 + row) * state.s0 + i - low];
+                    ended.p[i * ended.s0 + 3 + row] = state.p[(3 + row) * state.s0 + i - low];
+                }
+            }
+        }
+    }
+}
+
 INLINE t_ir single_step_advance(r1 momentum, r1 g, r1 tensor, real contact, r1 state, r1 q) {
-    real scale = loop_prepare(momentum, g, tensor, contact, state); t_r3 k1 = loop_three(state, 0);
-    t_r3 g1 = loop_three(state, 3), I1 = loop_three(state, 45); real reach = 1;
-    t_br7 t_1 = gibbs_settle(0, 0, 0, k1.a0, k1.a1, k1.a2, g1.a0, g1.a1, g1.a2, I1.a0, I1.a1, I1.a2, state.p[48],
-        state.p[49], state.p[50], 0);
+    real scale = loop_scaled(momentum, g, tensor, contact, state); t_r3 k1 = loop_three(state, 0);
+    t_r3 g1 = loop_three(state, 3), I1 = loop_three(state, 21); real reach = 1;
+    t_br7 t_1 = gibbs_settle(0, 0, 0, k1.a0, k1.a1, k1.a2, g1.a0, g1.a1, g1.a2, I1.a0, I1.a1, I1.a2, state.p[24],
+        state.p[25], state.p[26], 0);
     int settled = t_1.a0; real p0 = t_1.a1, p1 = t_1.a2, p2 = t_1.a3, p3 = t_1.a4, w1 = t_1.a5, w2 = t_1.a6;
     real w3 = t_1.a7;
     if (!settled) {
@@ -2816,7 +2768,7 @@ INLINE t_ir single_step_advance(r1 momentum, r1 g, r1 tensor, real contact, r1 s
 }
 
 INLINE void single_step_advance_all(r2 momenta, r2 verticals, r2 tensors, r1 contacts, r2 q, i1 status, d1 reach) {
-    ALIGNED real state_[51]; memset(state_, 0, sizeof state_); r1 state = {state_, 51};
+    ALIGNED real state_[27]; memset(state_, 0, sizeof state_); r1 state = {state_, 27};
     for (int64_t i = 0; i < momenta.n0; i++) {
         t_ir t_1 = single_step_advance((r1){momenta.p + i * momenta.s0, momenta.n1}, (r1){verticals.p + i *
             verticals.s0, verticals.n1}, (r1){tensors.p + i * tensors.s0, tensors.n1}, contacts.p[i], state, (r1){q.p
@@ -2830,14 +2782,14 @@ INLINE void single_step_advance_all(r2 momenta, r2 verticals, r2 tensors, r1 con
 INLINE t_ir8 long_step_column(r1 body, real half, int64_t n, real square, r1 state) {
     real part = half / n * fitted_fitted(square * (1 / (n * n))), k1 = part * body.p[0], k2 = part * body.p[1];
     real k3 = part * body.p[2]; t_r3 t_1 = loop_three(body, 3); real g1 = t_1.a0, g2 = t_1.a1, g3 = t_1.a2;
-    t_r3 I1 = loop_three(state, 45); t_r2 t_2 = gibbs_certificate(k1, k2, k3, I1.a0, I1.a1, I1.a2, state.p[48]);
-    state.p[49] = t_2.a0; state.p[50] = t_2.a1;
-    t_r3 t_3 = kernel_angular_velocity(k1, k2, k3, g1, g2, g3, state.p[42], state.p[43], state.p[44], state.p[48]);
+    t_r3 I1 = loop_three(state, 21); t_r2 t_2 = gibbs_certificate(k1, k2, k3, I1.a0, I1.a1, I1.a2, state.p[24]);
+    state.p[25] = t_2.a0; state.p[26] = t_2.a1;
+    t_r3 t_3 = kernel_angular_velocity(k1, k2, k3, g1, g2, g3, state.p[18], state.p[19], state.p[20], state.p[24]);
     real u1 = t_3.a0, u2 = t_3.a1, u3 = t_3.a2, v1 = u1, v2 = u2, v3 = u3, q0 = 1, q1 = 0, q2 = 0, q3 = 0, y1 = 0;
     real y2 = 0, y3 = 0; int64_t status; real reach;
     for (int64_t i_3 = 0; i_3 < n; i_3++) {
-        t_br7 t_5 = gibbs_settle(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1.a0, I1.a1, I1.a2, state.p[48], state.p[49],
-            state.p[50], 0);
+        t_br7 t_5 = gibbs_settle(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1.a0, I1.a1, I1.a2, state.p[24], state.p[25],
+            state.p[26], 0);
         int settled = t_5.a0; real p0 = t_5.a1, p1 = t_5.a2, p2 = t_5.a3, p3 = t_5.a4, w1 = t_5.a5, w2 = t_5.a6;
         real w3 = t_5.a7;
         if (!settled) {
@@ -2864,8 +2816,8 @@ INLINE t_ir8 long_step_column(r1 body, real half, int64_t n, real square, r1 sta
 
 INLINE t_ir long_step_long_step(r1 body, real half, real radius, r2 sums, r1 state) {
     real q0 = 0, q1 = 0, q2 = 0, q3 = 0, d0 = 0, d1 = 0, d2 = 0, d3 = 0, y1 = 0, y2 = 0, y3 = 0;
-    t_r3 w1 = kernel_angular_velocity(body.p[0], body.p[1], body.p[2], body.p[3], body.p[4], body.p[5], state.p[42],
-        state.p[43], state.p[44], state.p[48]);
+    t_r3 w1 = kernel_angular_velocity(body.p[0], body.p[1], body.p[2], body.p[3], body.p[4], body.p[5], state.p[18],
+        state.p[19], state.p[20], state.p[24]);
     int64_t first = 8 - sums.n1; real square = fitted_turn_square(2 * half, first, w1.a0, w1.a1, w1.a2);
     for (int64_t i = 0; i < sums.n1; i++) {
         t_ir8 status = long_step_column(body, half, first + i, square, state);
@@ -2895,7 +2847,7 @@ INLINE void long_run_march_lanes(int64_t B, r3 momenta, r3 verticals, r3 attitud
     radius, real h, int64_t steps, int64_t every, int follows, int traced, r2 sums, r3 following, r2 beginning, r1
     doubt, i1 taken, i1 status, d1 reach) {
     ALIGNED real S_[124 * 4 * B]; memset(S_, 0, sizeof S_); r2 S = {S_, 124, 4 * B, 4 * B}; int64_t columns = sums.n1;
-    ALIGNED real states_[B * 51]; memset(states_, 0, sizeof states_); r2 states = {states_, B, 51, 51};
+    ALIGNED real states_[B * 27]; memset(states_, 0, sizeof states_); r2 states = {states_, B, 27, 27};
     ALIGNED int64_t exponents_[B]; memset(exponents_, 0, sizeof exponents_); i1 exponents = {exponents_, B};
     ALIGNED real body_[13]; memset(body_, 0, sizeof body_); r1 body = {body_, 13}; int64_t balls = status.n0, b, c;
     for (b = 0; b < B; b++) {
@@ -2959,11 +2911,11 @@ INLINE void long_run_march_eight(r3 momenta, r3 verticals, r3 attitudes, r3 trac
 }
 
 INLINE void tangent_follow(r1 momentum, r1 gamma, r1 tensor, real contact, int64_t steps, r1 row) {
-    ALIGNED real state_[51]; r1 state = {state_, 51}; ALIGNED real frame_[3 * 3]; memset(frame_, 0, sizeof frame_);
+    ALIGNED real state_[27]; r1 state = {state_, 27}; ALIGNED real frame_[3 * 3]; memset(frame_, 0, sizeof frame_);
     r2 frame = {frame_, 3, 3, 3};
     for (int64_t i_ = 0; i_ < 3; i_++) frame_[i_ * (3 + 1)] = 1;
     ALIGNED real growth_[3]; memset(growth_, 0, sizeof growth_); r1 growth = {growth_, 3}; ALIGNED real T_[3 * 3];
-    r2 T = {T_, 3, 3, 3}; real scale = loop_prepare(momentum, gamma, tensor, contact, state), u1 = 0, u2 = 0, u3 = 0;
+    r2 T = {T_, 3, 3, 3}; real scale = loop_scaled(momentum, gamma, tensor, contact, state), u1 = 0, u2 = 0, u3 = 0;
     int64_t half = steps / 2; real total = 0;
     for (int64_t i_ = 0; i_ < row.n0; i_++) row.p[i_] = 0;
     row.p[8] = INFINITY; row.p[9] = -INFINITY; int64_t end_1 = 2 * half;
@@ -2997,59 +2949,27 @@ INLINE void tangent_follow_all(r2 momenta, r2 gammas, r1 tensor, real contact, i
 #endif
 
 WIDEST static void in_loop_prepare(const argument *a, argument *got) {
-    real out = loop_prepare(ARRAY1(r1, a[0]), ARRAY1(r1, a[1]), ARRAY1(r1, a[2]), a[3].number, ARRAY1(r1, a[4]));
+    real out = loop_prepare(ARRAY1(r1, a[0]), ARRAY1(r1, a[1]), ARRAY1(r1, a[2]), a[3].number, ARRAY1(r1, a[4]),
+        ARRAY1(r1, a[5]), ARRAY1(r1, a[6]), ARRAY1(r1, a[7]));
     got[0].number = out;
 }
 
 WIDEST static void in_loop_march(const argument *a, argument *got) {
-    t_i2r out = loop_march(ARRAY1(r1, a[0]), a[1].integer, a[2].integer, a[3].integer, a[4].integer, a[5].number,
-        ARRAY2(r2, a[6]), ARRAY2(r2, a[7]), a[8].integer, ARRAY1(r1, a[9]), ARRAY1(r1, a[10]), a[11].number,
-        ARRAY2(r2, a[12]), ARRAY2(r2, a[13]));
+    t_i2r out = loop_march(ARRAY1(r1, a[0]), ARRAY1(r1, a[1]), ARRAY3(r3, a[2]), ARRAY1(r1, a[3]), ARRAY1(r1, a[4]),
+        ARRAY2(r2, a[5]), a[6].integer, a[7].integer, a[8].integer, a[9].integer, a[10].number, ARRAY2(r2, a[11]),
+        ARRAY2(r2, a[12]), a[13].integer, ARRAY1(r1, a[14]), ARRAY1(r1, a[15]), a[16].number, ARRAY2(r2, a[17]),
+        ARRAY2(r2, a[18]));
     got[0].integer = out.a0;
     got[1].integer = out.a1;
     got[2].number = out.a2;
 }
 
-WIDEST static void in_composed_loop_prepare_composed(const argument *a, argument *got) {
-    real out = composed_loop_prepare_composed(ARRAY1(r1, a[0]), ARRAY1(r1, a[1]), ARRAY1(r1, a[2]), a[3].number,
-        ARRAY1(r1, a[4]), ARRAY1(r1, a[5]), ARRAY1(r1, a[6]), ARRAY1(r1, a[7]));
-    got[0].number = out;
-}
-
-WIDEST static void in_composed_loop_march_composed(const argument *a, argument *got) {
-    t_i2r out = composed_loop_march_composed(ARRAY1(r1, a[0]), ARRAY1(r1, a[1]), ARRAY3(r3, a[2]), ARRAY1(r1, a[3]),
-        ARRAY1(r1, a[4]), ARRAY2(r2, a[5]), a[6].integer, a[7].integer, a[8].integer, a[9].integer, a[10].number,
-        ARRAY2(r2, a[11]), ARRAY2(r2, a[12]), a[13].integer, ARRAY1(r1, a[14]), ARRAY1(r1, a[15]), a[16].number,
-        ARRAY2(r2, a[17]), ARRAY2(r2, a[18]));
-    got[0].integer = out.a0;
-    got[1].integer = out.a1;
-    got[2].number = out.a2;
-}
-
-WIDEST static void in_block_prepare_block(const argument *a, argument *got) {
-    block_prepare_block(ARRAY2(r2, a[0]), ARRAY2(r2, a[1]), ARRAY2(r2, a[2]), ARRAY1(r1, a[3]), ARRAY2(r2, a[4]),
-        ARRAY1(r1, a[5]));
-    (void)got;
-}
-
-WIDEST static void in_block_march_block(const argument *a, argument *got) {
-    block_march_block(ARRAY2(r2, a[0]), a[1].integer, a[2].integer, a[3].integer, ARRAY1(r1, a[4]), ARRAY3(r3, a[5]),
-        ARRAY3(r3, a[6]), ARRAY1(i1, a[7]), ARRAY1(i1, a[8]), ARRAY1(d1, a[9]), a[10].integer, ARRAY2(r2, a[11]),
-        ARRAY3(r3, a[12]), ARRAY3(r3, a[13]));
-    (void)got;
-}
-
-WIDEST static void in_composed_block_prepare_composed_block(const argument *a, argument *got) {
-    composed_block_prepare_composed_block(ARRAY2(r2, a[0]), ARRAY2(r2, a[1]), ARRAY2(r2, a[2]), ARRAY1(r1, a[3]),
-        ARRAY1(r1, a[4]), ARRAY2(r2, a[5]), ARRAY2(r2, a[6]), ARRAY2(r2, a[7]), ARRAY1(r1, a[8]));
-    (void)got;
-}
-
-WIDEST static void in_composed_block_march_composed_block(const argument *a, argument *got) {
-    composed_block_march_composed_block(ARRAY2(r2, a[0]), ARRAY1(r1, a[1]), ARRAY3(r3, a[2]), ARRAY2(r2, a[3]),
-        ARRAY2(r2, a[4]), ARRAY2(r2, a[5]), a[6].integer, a[7].integer, a[8].integer, ARRAY1(r1, a[9]), ARRAY3(r3,
-        a[10]), ARRAY3(r3, a[11]), ARRAY1(i1, a[12]), ARRAY1(i1, a[13]), ARRAY1(d1, a[14]), a[15].integer, ARRAY2(r2,
-        a[16]), ARRAY3(r3, a[17]), ARRAY3(r3, a[18]));
+WIDEST static void in_block_march_blocks(const argument *a, argument *got) {
+    block_march_blocks(ARRAY2(r2, a[0]), ARRAY1(r1, a[1]), ARRAY3(r3, a[2]), ARRAY2(r2, a[3]), ARRAY2(r2, a[4]),
+        ARRAY2(r2, a[5]), a[6].integer, a[7].integer, a[8].integer, ARRAY2(r2, a[9]), ARRAY2(r2, a[10]), ARRAY2(r2,
+        a[11]), ARRAY1(r1, a[12]), ARRAY1(r1, a[13]), ARRAY1(r1, a[14]), ARRAY2(r2, a[15]), ARRAY3(r3, a[16]),
+        ARRAY3(r3, a[17]), ARRAY1(i1, a[18]), ARRAY1(i1, a[19]), ARRAY1(d1, a[20]), a[21].integer, ARRAY2(r2, a[22]),
+        ARRAY3(r3, a[23]), ARRAY3(r3, a[24]));
     (void)got;
 }
 
@@ -3145,14 +3065,9 @@ WIDEST static void in_tangent_follow_all(const argument *a, argument *got) {
 #endif
 #ifndef SINGLE
 const loop_export loops_double[] = {
-    {"loop_prepare", "r1 r1 r1 r r1*", "r", in_loop_prepare},
-    {"loop_march", "r1* i i i i r r2* r2* b r1* r1* r r2* r2*", "iir", in_loop_march},
-    {"composed_loop_prepare_composed", "r1 r1 r1 r r1 r1* r1* r1*", "r", in_composed_loop_prepare_composed},
-    {"composed_loop_march_composed", "r1* r1 r3 r1 r1 r2* i i i i r r2* r2* b r1* r1* r r2* r2*", "iir", in_composed_loop_march_composed},
-    {"block_prepare_block", "r2 r2 r2 r1 r2* r1*", "", in_block_prepare_block},
-    {"block_march_block", "r2* i i i r1 r3* r3* i1* i1* d1* b r2* r3* r3*", "", in_block_march_block},
-    {"composed_block_prepare_composed_block", "r2 r2 r2 r1 r1 r2* r2* r2* r1*", "", in_composed_block_prepare_composed_block},
-    {"composed_block_march_composed_block", "r2* r1 r3 r2* r2 r2* i i i r1 r3* r3* i1* i1* d1* b r2* r3* r3*", "", in_composed_block_march_composed_block},
+    {"loop_prepare", "r1 r1 r1 r r1 r1* r1* r1*", "r", in_loop_prepare},
+    {"loop_march", "r1* r1 r3 r1 r1 r2* i i i i r r2* r2* b r1* r1* r r2* r2*", "iir", in_loop_march},
+    {"block_march_blocks", "r2* r1 r3 r2* r2* r2* i i i r2 r2 r2 r1 r1 r1* r2* r3* r3* i1* i1* d1* b r2* r3* r3*", "", in_block_march_blocks},
     {"single_step_advance_all", "r2* r2* r2 r1 r2* i1* d1*", "", in_single_step_advance_all},
     {"long_run_march_one", "r3* r3* r3* r3* r2 r1 r1 r i i b b r2 r3 r2 r1* i1* i1* d1*", "", in_long_run_march_one},
     {"long_run_march_eight", "r3* r3* r3* r3* r2 r1 r1 r i i b b r2 r3 r2 r1* i1* i1* d1*", "", in_long_run_march_eight},
@@ -3164,22 +3079,17 @@ const loop_export loops_double[] = {
     {"double_double_block_march_pairs_block", "r2* i i i i1 r3* r3* r3* r3* i1* i1* d1*", "", in_double_double_block_march_pairs_block},
     {"tangent_follow_all", "r2 r2 r1 r i r2*", "", in_tangent_follow_all},
 };
-const int loops_double_count = 18;
+const int loops_double_count = 13;
 #else
 const loop_export loops_single[] = {
-    {"loop_prepare", "r1 r1 r1 r r1*", "r", in_loop_prepare},
-    {"loop_march", "r1* i i i i r r2* r2* b r1* r1* r r2* r2*", "iir", in_loop_march},
-    {"composed_loop_prepare_composed", "r1 r1 r1 r r1 r1* r1* r1*", "r", in_composed_loop_prepare_composed},
-    {"composed_loop_march_composed", "r1* r1 r3 r1 r1 r2* i i i i r r2* r2* b r1* r1* r r2* r2*", "iir", in_composed_loop_march_composed},
-    {"block_prepare_block", "r2 r2 r2 r1 r2* r1*", "", in_block_prepare_block},
-    {"block_march_block", "r2* i i i r1 r3* r3* i1* i1* d1* b r2* r3* r3*", "", in_block_march_block},
-    {"composed_block_prepare_composed_block", "r2 r2 r2 r1 r1 r2* r2* r2* r1*", "", in_composed_block_prepare_composed_block},
-    {"composed_block_march_composed_block", "r2* r1 r3 r2* r2 r2* i i i r1 r3* r3* i1* i1* d1* b r2* r3* r3*", "", in_composed_block_march_composed_block},
+    {"loop_prepare", "r1 r1 r1 r r1 r1* r1* r1*", "r", in_loop_prepare},
+    {"loop_march", "r1* r1 r3 r1 r1 r2* i i i i r r2* r2* b r1* r1* r r2* r2*", "iir", in_loop_march},
+    {"block_march_blocks", "r2* r1 r3 r2* r2* r2* i i i r2 r2 r2 r1 r1 r1* r2* r3* r3* i1* i1* d1* b r2* r3* r3*", "", in_block_march_blocks},
     {"single_step_advance_all", "r2* r2* r2 r1 r2* i1* d1*", "", in_single_step_advance_all},
 };
-const int loops_single_count = 9;
+const int loops_single_count = 4;
 #endif
 
 #ifndef SINGLE
-const char loops_text[] = "6865ecaf539d251b0e2ee0a14dc09e1e55ef8f413ab9c32f229e5b8733845504";
+const char loops_text[] = "e4c3f60c4bead8713a765cbe460be1a8b2b8ea3380ebf97b2da88de17f4a0889";
 #endif

@@ -21,8 +21,8 @@ import numpy as np
 from chapsym.dynamics import BadInput, Status, is_steady, kernels
 from chapsym.dynamics.ball import Floats
 from chapsym.dynamics.extrapolation import weights
-from chapsym.dynamics.native import is_compiled
 from chapsym.dynamics.loops.lanes import MOST_COLUMNS
+from chapsym.dynamics.native import is_compiled
 
 from .problem import EXTRAPOLATED, Motion, Problem, Run, Stepping, apart, omega_of
 

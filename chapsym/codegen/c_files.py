@@ -11,7 +11,7 @@ from .source import Function, Program
 
 #: The modules with functions that are exported, and those that float32 has, too.
 PACKAGE = "chapsym.dynamics.loops"
-SINGLE = ("loop", "composed_loop", "block", "composed_block", "single_step")
+SINGLE = ("loop", "block", "single_step")
 LOOPS = (*SINGLE, "long_run", "loop_n", "vertical_loop", "double_double_loop", "double_double_block", "tangent")
 
 HEAD = "/* {about}\n * Written by `chapsym codegen`: do not edit; change {what} and generate again. */\n"

@@ -44,11 +44,6 @@ def _least(x: float, y: float, z: float) -> tuple[float, ...]:
     return (0.0, 1.0, 0.0, 0.0) if length == 0.0 else tuple(v / length for v in quaternion)
 
 
-def is_followed(attitude: bool | ArrayLike) -> bool:
-    """Whether an attitude is asked for: True, or one to start from."""
-    return not isinstance(attitude, bool | np.bool_) or bool(attitude)
-
-
 def initial_attitude(attitude: bool | ArrayLike, gamma: Floats) -> Floats:
     """The attitude to start from: the one that was given, checked against γ, or the least rotation."""
     if isinstance(attitude, bool | np.bool_):

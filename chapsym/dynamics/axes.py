@@ -1,12 +1,11 @@
-"""Functions of a ball in principal axes, made to take a ball with axes of its own, in whose axes they answer."""
+"""Arguments and results of functions of a ball in principal axes, turned for a ball with axes of its own."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import fields, replace
-from functools import wraps
 from inspect import signature
-from typing import Any, ParamSpec, TypeVar
+from typing import Any
 
 import numpy as np
 
@@ -21,37 +20,19 @@ from .levels import dispatch
 #: The vectors of arguments and of results, by their names.
 VECTORS = ("momentum", "angular_momentum", "omega", "gamma")
 
-P = ParamSpec("P")
-R = TypeVar("R")
 
-
-def in_given_axes(function: Callable[P, R]) -> Callable[P, R]:
-    """`function` for balls with axes, too: it is given ball.principal, and what goes in and comes out is turned.
-
-    function: of a `ball`, then vectors in the body named as in VECTORS, `gamma` among them, and perhaps an `attitude`,
-    `contact` and `precision`.  It returns a dataclass with such vectors, an `attitude`, a `rotation` or a `ball`.
-    A ball without axes goes to it as it is.  Raises BadInput for a precision beyond float64, in which axes are.
-    """
-
-    parameters = signature(function)
-
-    @wraps(function)
-    def taken(*args: P.args, **kwargs: P.kwargs) -> R:
-        ball: Any = args[0] if args else kwargs.get("ball")
-        if getattr(ball, "axes", None) is None or not isinstance(ball, Ball):
-            return function(*args, **kwargs)
-        call = parameters.bind(*args, **kwargs)
-        call.apply_defaults()
-        call.arguments.update(_principal_arguments(ball, call.arguments))
-        try:
-            return _in_axes_of(ball, function(*call.args, **call.kwargs))
-        except StepNotTaken as error:
-            if error.trajectory is None:
-                raise
-            frames = _in_axes_of(ball, error.trajectory)
-            raise StepNotTaken(error.status, error.reach, error.index, frames) from None
-
-    return taken
+def in_axes(function: Callable[..., Any], ball: Ball, args: tuple[Any, ...], kwargs: dict[str, Any]) -> Any:
+    """What a function of a ball in principal axes answers for a ball with axes of its own, in these."""
+    call = signature(function).bind(*args, **kwargs)
+    call.apply_defaults()
+    call.arguments.update(_principal_arguments(ball, call.arguments))
+    try:
+        return _in_axes_of(ball, function(*call.args, **call.kwargs))
+    except StepNotTaken as error:
+        if error.trajectory is None:
+            raise
+        frames = _in_axes_of(ball, error.trajectory)
+        raise StepNotTaken(error.status, error.reach, error.index, frames) from None
 
 
 def _principal_arguments(ball: Ball, given: dict[str, Any]) -> dict[str, Any]:

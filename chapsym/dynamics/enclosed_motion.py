@@ -13,8 +13,8 @@ import numpy as np
 
 from .ball import Ball, in_principal_axes
 from .errors import BadInput
-from .exactly import check_body, check_tensor, unit_exactly
 from .levels.start import exponent_of, fraction
+from .map import check_body, check_tensor, unit_exactly
 
 #: What a frame has; `contact` where the ball has a radius.
 PARTS = ("gamma", "angular_momentum", "omega", "attitude", "contact")

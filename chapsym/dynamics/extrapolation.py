@@ -20,9 +20,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import native
-from .attitudes import initial_attitude, is_followed
-from .axes import in_given_axes
-from .ball import Asked, Ball, Floats, batch, numbers, unit_vertical
+from .attitudes import initial_attitude
+from .ball import Asked, Ball, Floats, batch, in_given_axes, is_followed, numbers, unit_vertical
 from .errors import BadInput, Status, StepNotTaken
 from .levels import double
 from .levels.dispatch import no_room

@@ -11,12 +11,13 @@ from numpy.typing import ArrayLike
 
 from chapsym.generated import angular_velocity
 
-from .attitudes import initial_attitude, is_followed
-from .ball import Asked, Ball, Floats, batch, is_unit, is_vector, numbers, unit_vertical
+from .attitudes import initial_attitude
+from .ball import Asked, Ball, Floats, batch, is_followed, is_unit, is_vector, numbers, unit_vertical
 from .coefficients import substeps
 from .errors import BadInput, Status, StepNotTaken
 from .levels import double
 from .levels.dispatch import no_room
+from .loops import loop
 from .loops.loop import G, K
 from .results import Trajectory, finished
 from .trajectories import rolling_radius, seconds, whole_number
@@ -54,7 +55,7 @@ class Stepper:
         self._J, self._D = ball.mass_tensor.copy(), float(ball.D)
         self._radius = float(rolling_radius(ball)) if traced else 0.0
         self._stages = substeps(order).copy()
-        self._march, self._begin = double.of_one(double.DOUBLE, len(self._stages))
+        self._march = double.DOUBLE.loop(loop.march)
         #: The attitude and the contact point, which move in the loop.
         self._spin, self._spot = np.zeros(4), np.zeros(2)
         #: The frames of a call of which only the end is kept: the second row is the present state.
@@ -122,7 +123,7 @@ class Stepper:
         """Goes on with another 𝒦."""
         self._momentum[:] = momentum if is_vector(momentum) else _one("momentum", numbers(momentum, "momentum", 3))
         self._state, self._scale = double.begun(
-            self._begin, self._momentum, self._gamma, self._J, self._D, double.DOUBLE, self._stages
+            self._momentum, self._gamma, self._J, self._D, double.DOUBLE, self._stages
         )
         self._taken = 0
 

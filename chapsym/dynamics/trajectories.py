@@ -9,13 +9,12 @@ from numpy.typing import ArrayLike
 
 from chapsym.numbers import Precision
 
-from .attitudes import initial_attitude, is_followed
-from .axes import in_given_axes
-from .ball import Ball, Floats, batch, numbers, unit_vertical
+from .attitudes import initial_attitude
+from .ball import Ball, Floats, batch, in_given_axes, is_followed, numbers, unit_vertical
 from .errors import BadInput
-from .exactly import beyond_float64
 from .levels import dispatch
 from .levels.frames import Balls, Frames
+from .map import beyond_float64
 from .results import Low, Trajectory, finished
 
 #: Whoever asks for more steps than this, or for every so many, will not see the end of it.
@@ -78,7 +77,7 @@ def trajectory(
     frame = dispatch.frames_for(precision, balls, frames, body_frames, isinstance(attitude, bool | np.bool_))
     with np.errstate(over="ignore"):  # a precision of a smaller range refuses what it cannot hold
         frame.momentum[:, 0], frame.gamma[:, 0] = K, g
-    rest = beyond_float64(momentum, shape)
+    rest = beyond_float64(momentum, shape) if np.asarray(momentum).dtype == object else None
     if with_body:
         first = np.broadcast_to(initial_attitude(attitude, g.reshape(*shape, 3)), (*shape, 4))
         frame.attitude[:, 0], frame.contact[:, 0] = first.reshape(-1, 4), 0.0

@@ -19,6 +19,8 @@ from .start import exponent_of, fraction
 
 def precision_of(precision: str | Precision) -> Precision:
     """The precision that a user named; raises BadInput for anything else."""
+    if isinstance(precision, str) and precision in NAMED:
+        return NAMED[precision]
     try:
         return named(precision)
     except ValueError as error:
@@ -100,7 +102,7 @@ def _after_one(precision: Precision, balls: Balls, order: int) -> Frames:
 
 
 def _two_frames(precision: Precision, balls: Balls, order: int) -> Frames:
-    frames = frames_for(precision, len(balls), 2, 2)
+    frames = frames_for(precision, len(balls.D), 2, 2)
     frames.momentum[:, 0], frames.gamma[:, 0] = balls.momentum, balls.gamma
     frames.attitude[:, 0], frames.contact[:, 0] = [1.0, 0, 0, 0], 0.0
     run(precision, balls, 1, 1, frames, order, 1, lambda done: None)

@@ -11,7 +11,7 @@ from ..ball import Floats
 from ..coefficients import substeps
 from ..errors import Status
 from ..failure import explain
-from ..loops import block, composed_block, composed_loop, loop, single_step
+from ..loops import block, loop, single_step
 from ..loops.guess import stage_weights
 from .frames import Balls, Count, Frames, cores, share
 
@@ -19,6 +19,8 @@ from .frames import Balls, Count, Frames, cores, share
 SHORT_RUN = 2000
 #: Steps of a ball, or of all balls of a block together, between two calls of `progress`: about ten milliseconds.
 CHUNK = 200_000
+#: Blocks that one call takes, at most.
+BLOCKS = 64
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,20 +54,21 @@ def run(
     order: of the composition, 2 for the map itself.  threads: how many cores to use; 0 for all that there are.
     of: the numbers of the balls and of the frames.
     """
-    count, n, stages = Count(progress), len(balls), substeps(order).astype(of.dtype)
+    count, n, stages = Count(progress), len(balls.D), substeps(order).astype(of.dtype)
     if steps == 0 or n == 0:
         return
-    in_blocks = n > 1 and not (frames.with_body and of.rests) and native.is_compiled()
-    starts = range(0, n, of.lanes if in_blocks else 1)
+    task, width = _run_one, 1
+    if n > 1 and not (frames.with_body and of.rests) and native.is_compiled():
+        # Several blocks at once where they take all their steps in one call; each core gets its share.
+        at_once = max(1, min(CHUNK // (of.lanes * len(stages) * steps), BLOCKS, -(-n // (of.lanes * cores() * 4))))
+        task, width = _run_blocks, of.lanes * at_once
 
-    def task(start: int) -> None:
-        if in_blocks:
-            _run_block(balls, slice(start, min(n, start + of.lanes)), steps, every, frames, of, stages, count)
-        else:
-            _run_one(balls, start, steps, every, frames, of, stages, count)
+    def some(start: int) -> None:
+        task(balls, slice(start, min(n, start + width)), steps, every, frames, of, stages, count)
 
     many = steps * n * len(stages) >= SHORT_RUN
-    share(task, starts, min(threads or cores(), len(starts)) if many else 1, count)
+    starts = range(0, n, width)
+    share(some, starts, min(threads or cores(), len(starts)) if many else 1, count)
 
 
 def step_all(balls: Balls, of: Numbers = DOUBLE) -> tuple[np.ndarray, ...]:
@@ -73,29 +76,32 @@ def step_all(balls: Balls, of: Numbers = DOUBLE) -> tuple[np.ndarray, ...]:
 
     q: unit Euler parameters with q0 ≥ 0; q, 𝒦 and γ are NaN where the status is not TAKEN.
     """
-    n = len(balls)
+    n = len(balls.D)
     q, status, reach = np.full((n, 4), np.nan, of.dtype), np.zeros(n, np.int64), np.ones(n)
     K, g, J, D = balls.momentum.copy(), balls.gamma.copy(), balls.mass_tensor, balls.D
-    of.loop(single_step.advance_all)(K, g, J, D, q, status, reach)
+    advance = of.loop(single_step.advance_all)
+
+    def some(start: int) -> None:
+        which = slice(start, start + CHUNK // 16)
+        advance(K[which], g[which], J[which], D[which], q[which], status[which], reach[which])
+
+    starts = range(0, n, CHUNK // 16)
+    if len(starts) > 1:
+        share(some, starts, min(cores(), len(starts)), Count(lambda done: None))
+    else:
+        some(0)
     for i in np.flatnonzero(status):
         status[i] = explained(status[i], K[i], g[i], J[i], D[i])
     K[status != 0], g[status != 0] = np.nan, np.nan
     return q, K, g, status, reach
 
 
-def of_one(of: Numbers, stages: int) -> tuple[Callable, Callable]:
-    """(march, prepare) of one ball."""
-    if stages == 1:
-        return of.loop(loop.march), of.loop(loop.prepare)
-    return of.loop(composed_loop.march_composed), of.loop(composed_loop.prepare_composed)
-
-
 def _run_one(
-    balls: Balls, i: int, steps: int, every: int, frames: Frames, of: Numbers, stages: Floats, count: Count
+    balls: Balls, which: slice, steps: int, every: int, frames: Frames, of: Numbers, stages: Floats, count: Count
 ) -> None:
-    march, prepare = of_one(of, len(stages))
+    i, march = which.start, of.loop(loop.march)
     K, g, J, D = balls.momentum[i], balls.gamma[i], balls.mass_tensor[i], balls.D[i]
-    state, scale = begun(prepare, K, g, J, D, of, stages)
+    state, scale = begun(K, g, J, D, of, stages)
     attitude, spot = (np.zeros(k * (1 + of.rests), of.dtype) for k in (4, 2))
     if frames.with_body:
         attitude[:4] = frames.attitude[i, 0]
@@ -115,21 +121,18 @@ def _run_one(
             return
 
 
-def begun(
-    prepare: Callable, K: Floats, g: Floats, J: Floats, D: float, of: Numbers, stages: Floats
-) -> tuple[list[Floats], float]:
+def begun(K: Floats, g: Floats, J: Floats, D: float, of: Numbers, stages: Floats) -> tuple[list[Floats], float]:
     """The state that the loop of one ball takes, and the scale with 𝒦 = scale·k."""
-    state = np.zeros(loop.ROWS, of.dtype)
-    if len(stages) == 1:
-        return [state], of.dtype(prepare(K, g, J, D, state))
-    bounds, weights = np.zeros((2, len(stages)), of.dtype), _weights(stages, of)
-    scale = prepare(K, g, J, D, stages, state, *bounds)
-    return [state, stages, weights, *bounds, np.zeros((weights.shape[2], 3), of.dtype)], of.dtype(scale)
+    state, bounds, weights = np.zeros(loop.ROWS, of.dtype), np.zeros((2, len(stages)), of.dtype), _weights(stages, of)
+    scale = of.loop(loop.prepare)(K, g, J, D, stages, state, *bounds)
+    _, places, vectors = weights.shape
+    past = np.zeros((places + max(places, vectors), 3), of.dtype)
+    return [state, stages, weights, *bounds, past], of.dtype(scale)
 
 
 def _weights(stages: Floats, of: Numbers) -> Floats:
     """Those of the guesses of a composition, in the type of the loops."""
-    return stage_weights(tuple(map(float, stages))).astype(of.dtype)
+    return stage_weights(tuple(stages.tolist())).astype(of.dtype, copy=False)
 
 
 def explained(status: int, K: Floats, g: Floats, J: Floats, D: float) -> Status:
@@ -137,50 +140,27 @@ def explained(status: int, K: Floats, g: Floats, J: Floats, D: float) -> Status:
     return explain(status, K.astype(np.float64), g.astype(np.float64), J.astype(np.float64), float(D))
 
 
-def _of_blocks(of: Numbers, stages: int) -> tuple[Callable, Callable]:
-    """(march, prepare) of many balls at once."""
-    if stages == 1:
-        return of.loop(block.march_block), of.loop(block.prepare_block)
-    return of.loop(composed_block.march_composed_block), of.loop(composed_block.prepare_composed_block)
-
-
-def _run_block(
+def _run_blocks(
     balls: Balls, which: slice, steps: int, every: int, frames: Frames, of: Numbers, stages: Floats, count: Count
 ) -> None:
-    march, prepare = _of_blocks(of, len(stages))
-    n = which.stop - which.start
-    lanes = -(-n // of.register) * of.register
-    state, scale = np.zeros((loop.ROWS, lanes), of.dtype), np.zeros(n, of.dtype)
-    begin = balls.momentum[which], balls.gamma[which], balls.mass_tensor[which], balls.D[which]
-    own: tuple[Floats, ...] = ()  # what only a composition has
-    if len(stages) == 1:
-        prepare(*begin, state, scale)
-    else:
-        bounds, weights = np.zeros((2, len(stages), lanes), of.dtype), _weights(stages, of)
-        prepare(*begin, stages, state, *bounds, scale)
-        own = stages, weights, *bounds, np.zeros((3 * weights.shape[2], lanes), of.dtype)
-    status, reach, taken = frames.status[which], frames.reach[which], frames.taken[which]
-    bodies = _bodies(balls, which, frames, lanes, of)
-    chunk = max(1, CHUNK // (lanes * len(stages)))
+    n, weights = which.stop - which.start, _weights(stages, of)
+    lanes = min(of.lanes, -(-n // of.register) * of.register)
+    state, past = np.zeros((loop.ROWS, lanes), of.dtype), np.empty((3 * weights.shape[1], lanes), of.dtype)
+    radius, enough = np.empty((2, len(stages), lanes), of.dtype)
+    body = np.empty((7, lanes), of.dtype)
+    scale, ended, status = np.empty(n, of.dtype), np.empty((n, 6), of.dtype), frames.status[which]
+    begin = (x[which] for x in (balls.momentum, balls.gamma, balls.mass_tensor, balls.D))
+    own = *begin, np.ascontiguousarray(balls.radius[which]), scale, ended
+    kept = frames.momentum[which], frames.gamma[which], frames.taken[which], status, frames.reach[which]
+    bodies = frames.with_body, body, frames.attitude[which], frames.contact[which]
+    chunk = max(1, CHUNK // (n * len(stages)))
     for first in range(0, steps, chunk):
         now = min(chunk, steps - first)
-        march(
-            state, *own, first, now, every, scale, frames.momentum[which], frames.gamma[which], taken, status, reach,
-            *bodies,
-        )  # fmt: skip
+        march = of.loop(block.march_blocks)
+        march(state, stages, weights, radius, enough, past, first, now, every, *own, *kept, *bodies)
         count.add(now * n)
         if count.stopped:
             return
-    for lane in map(int, np.flatnonzero(status)):
-        i = which.start + lane
-        K, g = scale[lane] * state[:3, lane], state[3:6, lane]
-        status[lane] = explained(status[lane], K, g, balls.mass_tensor[i], balls.D[i])
-
-
-def _bodies(balls: Balls, which: slice, frames: Frames, lanes: int, of: Numbers) -> tuple[Any, ...]:
-    """What a block takes to follow its bodies: whether it does, where they are, and their frames."""
-    body = np.zeros((7, lanes), of.dtype)
-    if frames.with_body:
-        balls_of = np.minimum(np.arange(which.start, which.start + lanes), which.stop - 1)
-        body[:4], body[6] = frames.attitude[balls_of, 0].T, balls.radius[balls_of]
-    return frames.with_body, body, frames.attitude[which], frames.contact[which]
+    for i in map(int, np.flatnonzero(status)):
+        ball = which.start + i
+        status[i] = explained(status[i], ended[i, :3], ended[i, 3:], balls.mass_tensor[ball], balls.D[ball])

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable
+from functools import cache
 
 import numpy as np
 
@@ -9,7 +10,7 @@ from chapsym.numbers import Pair
 
 from .. import native
 from ..ball import Floats
-from ..coefficients import COMPOSITIONS, substeps
+from ..coefficients import COMPOSITIONS
 from ..errors import Status
 from ..failure import explain
 from ..loops import double_double_block as block
@@ -31,7 +32,7 @@ def run(
     low = frames.low
     assert low is not None
     stages = coefficients(order)
-    count, n = Count(progress), len(balls)
+    count, n = Count(progress), len(balls.D)
     work = steps * n * len(stages)
     in_blocks = n >= FEW and not frames.with_body and order == 2 and native.is_compiled()
     width = block.LANES if in_blocks else 1
@@ -46,10 +47,12 @@ def run(
     share(task, starts, min(threads or cores(), len(starts)) if work >= SHORT_RUN else 1, count)
 
 
+@cache
 def coefficients(order: int) -> Floats:
-    """The stage coefficients of the composition of order 2, 4, 6 or 8 as pairs, (stages, 2); raises as `substeps`."""
-    substeps(order)
-    return np.array([Pair.of(c).halves() for c in COMPOSITIONS[int(order)].exact])
+    """The stage coefficients of the composition of order 2, 4, 6 or 8 as pairs, (stages, 2)."""
+    found = np.array([Pair.of(c).halves() for c in COMPOSITIONS[int(order)].exact])
+    found.flags.writeable = False
+    return found
 
 
 def normalised(vector: Floats) -> list[Pair]:

@@ -29,9 +29,6 @@ class Balls:
     radius: Floats
     rest: Floats | None = None
 
-    def __len__(self) -> int:
-        return len(self.D)
-
 
 @dataclass(frozen=True, eq=False)
 class Frames:
@@ -84,7 +81,7 @@ def cores() -> int:
 
 def share(task: Callable[[int], None], starts: range, workers: int, count: Count) -> None:
     """Runs the tasks in threads, some at a time for each; an interrupt stops each at its next chunk."""
-    if workers == 1:
+    if workers < 2:
         for start in starts:
             task(start)
         return

@@ -37,7 +37,7 @@ def run(
     Enclosure(bits): with as many bits more as the radii grow by, which is measured, so that `bits` are left at the end.
     """
     done, selected, bits = 0, [], precision.bits if isinstance(precision, Enclosure) else precision.context.prec
-    for i in range(len(balls)):
+    for i in range(len(balls.D)):
         first = frames.attitude[i, 0].copy() if frames.with_body else None
         so_far = partial(lambda before, step: progress(before + step), done)
         way = _Way(balls, i, steps, every, frames, order, bits, so_far, first)

@@ -1,16 +1,16 @@
 """Many balls at once: blocks of `LANES` balls, each number in a row of its own, so that the loops become vector code.
 
-It does to each ball what `loop.march` does, with the same roundings; for numba only, as plain Python would crawl.
+It does to each ball what `loop.march` does, with the same roundings.
 """
 
 import numpy as np
 
 from .gibbs import BEYOND, newton_round, second_round, settle
 from .integrals import PERIOD, restore
-from .loop import ENOUGH, RADIUS, ROWS, A, D, G, I, K, X, followed, prepare, safe_rotation, three
+from .loop import ENOUGH, RADIUS, ROWS, D, G, I, K, X, followed, prepare, safe_rotation, three
 from .path import MOST_ROUNDS as PATH_ROUNDS
 from .path import improved, proved
-from .sums import filtered, turned
+from .sums import turned
 from .text import Cube, Doubles, Integers, Matrix, Vector, lanes, out_of_line
 
 #: Balls in a block, at most: its rows stay in the first-level cache.
@@ -21,6 +21,11 @@ REGISTER = 8
 SINGLE = {"LANES": 80, "REGISTER": 16}
 #: After a step that needed the second correction, so many are taken with it at once.
 PATIENCE = 64
+#: In place of a radius²: the ball has stopped.
+STOPPED = -3.0
+#: Rows of the rotations: the quaternion p and its Gibbs vector w; whether a lane is on its way along the path, and what
+#: is left there; and the guess of the Gibbs vector.
+P_ROWS, A = 12, 9
 #: Rounds that all lanes take together where more than a few did not settle; those few are mended one by one.
 ROUNDS = 4
 FEW = 2
@@ -34,7 +39,7 @@ def whole(ok):
 def predicted(S, P, ok):
     """Every lane's rotation, by a Newton iterate from the extrapolation; returns how many did not settle."""
     for i in lanes(whole(ok)):
-        u1, u2, u3 = S[A, i], S[A + 1, i], S[A + 2, i]
+        u1, u2, u3 = P[A, i], P[A + 1, i], P[A + 2, i]
         p0, p1, p2, p3, w1, w2, w3, first, _, _, _, _, _, _, _, _, _, _, _, _ = newton_round(
             u1, u2, u3, S[K, i], S[K + 1, i], S[K + 2, i], S[G, i], S[G + 1, i], S[G + 2, i],
             S[I, i], S[I + 1, i], S[I + 2, i], S[D, i],
@@ -52,7 +57,7 @@ def corrected(S, P, ok, again):
     """
     for i in lanes(whole(ok)):
         radius, enough = S[RADIUS, i], S[ENOUGH, i]
-        u1, u2, u3 = (P[4, i], P[5, i], P[6, i]) if again else (S[A, i], S[A + 1, i], S[A + 2, i])
+        u1, u2, u3 = (P[4, i], P[5, i], P[6, i]) if again else (P[A, i], P[A + 1, i], P[A + 2, i])
         near = u1 * u1 + (u2 * u2 + u3 * u3) <= radius
         if again:
             u1, u2, u3 = u1 if near else 0.0, u2 if near else 0.0, u3 if near else 0.0
@@ -83,7 +88,7 @@ def approached(S, P, ok):
     for i in lanes(whole(ok)):
         beyond = S[RADIUS, i] == BEYOND
         _, _, _, _, w1, w2, w3, _, _, _, _, _, _, _, _, _, _, _, _, _ = newton_round(
-            S[A, i], S[A + 1, i], S[A + 2, i], S[K, i], S[K + 1, i], S[K + 2, i], S[G, i], S[G + 1, i], S[G + 2, i],
+            P[A, i], P[A + 1, i], P[A + 2, i], S[K, i], S[K + 1, i], S[K + 2, i], S[G, i], S[G + 1, i], S[G + 2, i],
             S[I, i], S[I + 1, i], S[I + 2, i], S[D, i],
         )  # fmt: skip
         P[4, i], P[5, i], P[6, i] = w1 if beyond else P[4, i], w2 if beyond else P[5, i], w3 if beyond else P[6, i]
@@ -171,8 +176,9 @@ def mend(S, P, ok, step, taken, status, reach, balls):
         if i < balls and status[i] == 0:
             one = S[:, i].copy()
             _, _, _, _, _, u1, u2, u3 = settle(  # type: ignore[call-arg]
-                *three(one, A), *three(one, K), *three(one, G), *three(one, I), one[D], one[RADIUS], one[ENOUGH]
-            )
+                P[A, i], P[A + 1, i], P[A + 2, i],
+                *three(one, K), *three(one, G), *three(one, I), one[D], one[RADIUS], one[ENOUGH],
+            )  # fmt: skip
             status[i], reach[i], p0, p1, p2, p3, w1, w2, w3 = safe_rotation(u1, u2, u3, one)
             if status[i] == 0:
                 P[0, i], P[1, i], P[2, i], P[3, i], P[4, i], P[5, i], P[6, i] = p0, p1, p2, p3, w1, w2, w3
@@ -191,15 +197,47 @@ def rolled(S, P, B, ok):
         )  # fmt: skip
 
 
-def moved(S, P, ok):
-    """Turns k and γ of every lane, with compensation, and carries the extrapolation on."""
+def guessed(P, past, at, places, weights, ok):
+    """`loop.guessed` of every lane, from the rows of past (3 places, lanes); four vectors are read at once."""
     for i in lanes(whole(ok)):
-        p0, p1, p2, p3, w1, w2, w3 = P[0, i], P[1, i], P[2, i], P[3, i], P[4, i], P[5, i], P[6, i]
+        P[A, i], P[A + 1, i], P[A + 2, i] = 0.0, 0.0, 0.0
+    for j in range(0, len(weights), 4):
+        a, b, c, d = weights[j], weights[j + 1], weights[j + 2], weights[j + 3]
+        w, x = 3 * ((at + j) % places), 3 * ((at + j + 1) % places)
+        y, z = 3 * ((at + j + 2) % places), 3 * ((at + j + 3) % places)
+        for i in lanes(whole(ok)):
+            u1, u2, u3 = P[A, i] + a * past[w, i], P[A + 1, i] + a * past[w + 1, i], P[A + 2, i] + a * past[w + 2, i]
+            u1, u2, u3 = u1 + b * past[x, i], u2 + b * past[x + 1, i], u3 + b * past[x + 2, i]
+            u1, u2, u3 = u1 + c * past[y, i], u2 + c * past[y + 1, i], u3 + c * past[y + 2, i]
+            u1, u2, u3 = u1 + d * past[z, i], u2 + d * past[z + 1, i], u3 + d * past[z + 2, i]
+            P[A, i], P[A + 1, i], P[A + 2, i] = u1, u2, u3
+
+
+def begin_stage(S, T, s, radius, enough, ok):
+    """The ball of a stage with the coefficient s: 𝒦 is s times that of the step."""
+    for i in lanes(whole(ok)):
+        T[K, i], T[K + 1, i], T[K + 2, i] = s * S[K, i], s * S[K + 1, i], s * S[K + 2, i]
+        T[G, i], T[G + 1, i], T[G + 2, i] = S[G, i], S[G + 1, i], S[G + 2, i]
+        T[RADIUS, i], T[ENOUGH, i] = radius[i], enough[i]
+
+
+def end_stage(S, P, past, row, ok):
+    """Turns 𝒦 and γ of every lane, with compensation, and keeps the Gibbs vectors in the rows of past from `row` on."""
+    for i in lanes(whole(ok)):
+        p0, p1, p2, p3 = P[0, i], P[1, i], P[2, i], P[3, i]
         turn_at(p0, p1, p2, p3, S, K, X, i)
         turn_at(p0, p1, p2, p3, S, G, X + 3, i)
-        extrapolated(S, A, i, w1)
-        extrapolated(S, A + 1, i, w2)
-        extrapolated(S, A + 2, i, w3)
+        past[row, i], past[row + 1, i], past[row + 2, i] = P[4, i], P[5, i], P[6, i]
+
+
+def stop(S, T, radius, status, ok):
+    """Rests the lanes that `mend` left with no rotation; a ball that stops keeps the momentum of its stage."""
+    for i in range(len(ok)):
+        if (i >= len(status) or status[i] != 0) and ok[i] == 0 and radius[0, i] != STOPPED:
+            for stage in range(len(radius)):
+                radius[stage, i] = STOPPED
+            for row in range(K, K + 3):
+                S[row, i] = T[row, i]
 
 
 def turn_at(p0, p1, p2, p3, S, at, rest, i):
@@ -211,31 +249,27 @@ def turn_at(p0, p1, p2, p3, S, at, rest, i):
     S[rest, i], S[rest + 1, i], S[rest + 2, i] = x1, x2, x3
 
 
-def extrapolated(S, row, i, w):
-    """The filter of one component in a lane."""
-    (
-        S[row, i], S[row + 3, i], S[row + 6, i], S[row + 9, i],
-        S[row + 12, i], S[row + 15, i], S[row + 18, i], S[row + 21, i],
-    ) = filtered(
-        S[row + 3, i], S[row + 6, i], S[row + 9, i], S[row + 12, i], S[row + 15, i], S[row + 18, i], S[row + 21, i], w
-    )  # fmt: skip
-
-
-def prepare_block(momentum: Matrix, g: Matrix, tensor: Matrix, contact: Vector, state: Matrix, scale: Vector):
-    """`loop.prepare` of each ball of a block; one that is not full repeats its last ball."""
-    one, last = np.empty(ROWS, state.dtype), len(contact) - 1
-    for lane in range(state.shape[1]):
-        i = min(lane, last)
-        scale[i] = prepare(momentum[i], g[i], tensor[i], contact[i], one)
-        for row in range(ROWS):
-            state[row, lane] = one[row]
-
-
 def carry(numbers, to, width):
-    """Copies columns; an assignment of slices takes seconds to compile."""
+    """Copies columns."""
     for row in range(to.shape[0]):
         for i in range(width):
             to[row, i] = numbers[row, i]
+
+
+def prepare_block(momentum, g, tensor, contact, c, state, radius, enough, past, scale):
+    """`loop.prepare` of each ball of a block; one that is not full repeats its last ball."""
+    one, last = np.empty(ROWS, state.dtype), len(contact) - 1
+    bounds = np.empty((2, len(c)), state.dtype)
+    for lane in range(state.shape[1]):
+        i = min(lane, last)
+        scale[i] = prepare(momentum[i], g[i], tensor[i], contact[i], c, one, bounds[0], bounds[1])
+        for row in range(ROWS):
+            state[row, lane] = one[row]
+        for stage in range(len(c)):
+            radius[stage, lane], enough[stage, lane] = bounds[0, stage], bounds[1, stage]
+    for row in range(len(past)):
+        for lane in range(state.shape[1]):
+            past[row, lane] = 0.0
 
 
 @out_of_line
@@ -262,41 +296,89 @@ def keep(S, B, frame, scale, momenta, verticals, status, with_body, attitudes, t
 
 
 def march_block(
-    state: Matrix, first: int, count: int, every: int, scale: Vector, momenta: Cube, verticals: Cube, taken: Integers,
-    status: Integers, reach: Doubles, with_body: bool, body: Matrix, attitudes: Cube, traces: Cube,
+    state, c, weights, radius, enough, past, first, count, every, scale, momenta, verticals, taken, status, reach,
+    with_body, body, attitudes, traces,
 ):  # fmt: skip
-    """`count` steps of the balls of a block from the step `first` on: state (ROWS, lanes), the rest as in `march`.
+    """`loop.march` of the balls of a block: state (ROWS, lanes), radius² and enough (s, lanes), past (3 places, lanes).
 
     lanes: a multiple of REGISTER, LANES at most.
     body: (7, lanes), the attitude, the contact point and the radius, which are touched only when `with_body`.
     scale, taken, status and reach have one entry for each ball; lanes beyond them are idle copies.
     """
-    S = np.empty((ROWS, LANES), state.dtype)
-    P, B = np.empty((9, LANES), state.dtype), np.empty((7, LANES), state.dtype)
-    width = state.shape[1]
-    ok = np.empty(width, dtype=np.int32)
+    S, W = np.empty((ROWS, LANES), state.dtype), np.empty((ROWS, LANES), state.dtype)
+    P, B = np.empty((P_ROWS, LANES), state.dtype), np.empty((7, LANES), state.dtype)
+    H = np.empty((len(past), LANES), state.dtype)
+    width, stages, places, balls = state.shape[1], len(c), weights.shape[1], len(status)
+    ok, period = np.empty(width, dtype=np.int32), max(1, PERIOD // stages)
+    hopeless, beyond = np.empty(stages, dtype=np.int64), np.empty(stages, dtype=np.int64)
     carry(state, S, width)
+    carry(state, W, width)
     carry(body, B, width)
-    balls = len(status)
-    step, last, patience = first, first + count, 0
-    hopeless, beyond = uncertified(S[RADIUS], ok)
-    while step < last:
-        stop = min(last, step + every - step % every, step + PERIOD - step % PERIOD)
-        while step < stop:
-            patience, bad = solved(S, P, ok, hopeless, beyond, patience)
+    carry(past, H, width)
+    T = S if stages == 1 else W  # the ball of a stage
+    last, patience = first + count, 0
+    for s in range(stages):
+        hopeless[s], beyond[s] = uncertified(radius[s], ok)
+    for step in range(first, last):
+        at = step * stages % places
+        later = 1 if step * stages >= places else 0
+        for s in range(stages):
+            if stages > 1:
+                begin_stage(S, T, c[s], radius[s], enough[s], ok)
+            guessed(P, H, at + s, places, weights[later, at + s], ok)
+            patience, bad = solved(T, P, ok, hopeless[s], beyond[s], patience)
             if bad != 0:
-                mend(S, P, ok, step, taken, status, reach, balls)
-                hopeless, beyond = uncertified(S[RADIUS], ok)
+                mend(T, P, ok, step, taken, status, reach, balls)
+                stop(S, T, radius, status, ok)
+                for other in range(stages):
+                    hopeless[other], beyond[other] = uncertified(radius[other], ok)
             if with_body:
-                rolled(S, P, B, ok)
-            moved(S, P, ok)
-            step += 1
-        if step % PERIOD == 0:
+                rolled(T, P, B, ok)
+            end_stage(S, P, H, 3 * (at + s), ok)
+        if (step + 1) % period == 0:
             restored(S, status)
-        if step % every == 0:
-            keep(S, B, step // every, scale, momenta, verticals, status, with_body, attitudes, traces)
+        if (step + 1) % every == 0:
+            keep(S, B, (step + 1) // every, scale, momenta, verticals, status, with_body, attitudes, traces)
     for i in range(balls):
         if status[i] == 0:
             taken[i] = last
     carry(S, state, width)
     carry(B, body, width)
+    carry(H, past, width)
+
+
+def march_blocks(
+    state: Matrix, c: Vector, weights: Cube, radius: Matrix, enough: Matrix, past: Matrix, first: int, count: int,
+    every: int, momentum: Matrix, gamma: Matrix, tensor: Matrix, contact: Vector, rho: Vector, scale: Vector,
+    ended: Matrix, momenta: Cube, verticals: Cube, taken: Integers, status: Integers, reach: Doubles, with_body: bool,
+    body: Matrix, attitudes: Cube, traces: Cube,
+):  # fmt: skip
+    """`count` steps of balls from the step `first` on, block by block; before the step 0 it prepares each.
+
+    state, radius, enough, past, body: of one block, which one call after the other carries on; more balls than those
+    of a block take all their steps in one call.  momentum, gamma, tensor, contact, rho: of each ball at the start,
+    (n, 3), (n, 3), (n, 3), (n,), (n,).  ended: receives 𝒦 and γ of balls that stopped, (n, 6).
+    """
+    width, n = state.shape[1], len(contact)
+    for low in range(0, n, width):
+        high = min(low + width, n)
+        if first == 0:
+            prepare_block(
+                momentum[low:high], gamma[low:high], tensor[low:high], contact[low:high], c, state, radius, enough,
+                past, scale[low:high],
+            )  # fmt: skip
+            if with_body:
+                for lane in range(width):
+                    i = min(low + lane, n - 1)
+                    for row in range(4):
+                        body[row, lane] = attitudes[i, 0, row]
+                    body[4, lane], body[5, lane], body[6, lane] = 0.0, 0.0, rho[i]
+        march_block(
+            state, c, weights, radius, enough, past, first, count, every, scale[low:high],
+            momenta[low:high], verticals[low:high], taken[low:high], status[low:high], reach[low:high],
+            with_body, body, attitudes[low:high], traces[low:high],
+        )  # fmt: skip
+        for i in range(low, high):
+            if status[i] != 0:
+                for row in range(3):
+                    ended[i, row], ended[i, 3 + row] = scale[i] * state[K + row, i - low], state[G + row, i - low]

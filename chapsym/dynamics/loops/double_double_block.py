@@ -8,12 +8,13 @@ import numpy as np
 from chapsym.generated.double_double import gibbs_residual_pairs, turn_pairs
 from chapsym.numbers.pairs import two_sum
 
-from .block import carry, extrapolated
+from .block import carry
 from .branch import TAKEN
 from .double_double_loop import ROWS, D, G, I, K, prepare_pairs, restore_pairs, stage, write
 from .double_double_step import correction, small
 from .gibbs import newton_round
 from .integrals import PERIOD
+from .sums import filtered
 from .text import Cube, Doubles, Integers, Matrix, Vector, lanes, out_of_line
 
 #: Balls in a block: its rows stay in the first-level cache.
@@ -102,6 +103,16 @@ def mend(S, P, ok, step, taken, status, reach):
                 continue
             taken[i] = step
         S[RADIUS, i] = -1.0
+
+
+def extrapolated(S, row, i, w):
+    """The filter of one component in a lane."""
+    (
+        S[row, i], S[row + 3, i], S[row + 6, i], S[row + 9, i],
+        S[row + 12, i], S[row + 15, i], S[row + 18, i], S[row + 21, i],
+    ) = filtered(
+        S[row + 3, i], S[row + 6, i], S[row + 9, i], S[row + 12, i], S[row + 15, i], S[row + 18, i], S[row + 21, i], w
+    )  # fmt: skip
 
 
 def turned(S, P):

@@ -101,21 +101,28 @@ def _stage_guess(c: Floats) -> Floats:
     return np.linalg.lstsq(np.vstack([moments[:-1].T, SMALL * np.eye(known)]), short, rcond=None)[0] * c[-1] / c[:-1]
 
 
+#: The polynomial through the last 8 values, at the next: the oldest first.
+NEXT = (-1.0, 8.0, -28.0, 56.0, -70.0, 56.0, -28.0, 8.0)
+
+
 @cache
 def stage_weights(stages: tuple[float, ...]) -> Floats:
-    """The weights of the last Gibbs vectors for that of each stage of a composition, (2, places, vectors).
+    """The weights of the last Gibbs vectors, the oldest first, for that of each stage, (2, places, vectors).
 
     The vectors lie in places that are used one after the other, and again: as many as whole steps need to fit the
-    twelve moments, filled up with zeros to whole groups.  The first weights are for the first round, in which
-    only the places before are filled, the others for all later ones.
+    twelve moments; the weights are filled up with zeros to whole groups.  The first weights are for the first round,
+    in which only the places before are filled, the others for all later ones.  Steps of one stage are guessed by a
+    polynomial, which begins at 0.
     """
     s = len(stages)
-    places = s * -(-COUNTS[-1] // s)
-    round_ = np.array(stages * (places // s))
-    found = np.zeros((2, places, -(-places // GROUP) * GROUP))
-    for i in range(places):
-        found[0, i, :i] = _stage_guess(round_[: i + 1])
-        before = (i + np.arange(places)) % places  # the oldest is in the place that is filled next
-        found[1, i, before] = _stage_guess(round_[np.append(before, i)])
+    if s == 1:
+        found = np.tile(NEXT, (2, len(NEXT), 1))
+    else:
+        places = s * -(-COUNTS[-1] // s)
+        round_ = np.array(stages * (places // s))
+        found = np.zeros((2, places, -(-places // GROUP) * GROUP))
+        for i in range(places):
+            found[0, i, places - i : places] = _stage_guess(round_[: i + 1])
+            found[1, i, :places] = _stage_guess(round_[np.append((i + np.arange(places)) % places, i)])
     found.flags.writeable = False
     return found

@@ -1,6 +1,13 @@
-"""The inner loop: many steps of one ball.  Plain scalar Python that numba compiles."""
+"""The inner loop: many steps of one ball, each a composition of the map with any stages; the map itself has one.
+
+A composition takes the stages Φ_{cᵢε} one after the other.  In the paper's variables 𝒦 = εK, so a stage finds its
+rotation from cᵢ𝒦 and then carries 𝒦 itself: 𝒦 and γ turn rigidly, whatever the coefficients are.  The stages go back
+and forth, so those of the last step or two lie all around the next: its Gibbs vector is guessed from theirs.
+"""
 
 from math import frexp, ldexp, sqrt
+
+import numpy as np
 
 from chapsym.generated import centre_step, compose, rotate
 
@@ -9,15 +16,15 @@ from .branch import small_rotation
 from .gibbs import BEYOND, SMALLEST, certificate, search_safely, settle
 from .integrals import PERIOD, remember, restore
 from .path import search_on_path
-from .sums import filtered, turned
-from .text import Matrix, Vector, out_of_line
+from .sums import turned
+from .text import Cube, Matrix, Vector, out_of_line
 
 #: The largest exponent by which a ball is scaled.
 HIGHEST = 1021
 #: The numbers that describe a ball under way, and where each begins: k = 𝒦/2, γ, their compensations, the three
-#: integrals as pairs, 8 vectors for the extrapolation of u, J, I, D, radius² and enough (lemma small-branch).
-K, G, X, INTEGRALS, A, J, I, D, RADIUS, ENOUGH = 0, 3, 6, 12, 18, 42, 45, 48, 49, 50
-ROWS = 51
+#: integrals as pairs, J, I, D, radius² and enough (lemma small-branch).
+K, G, X, INTEGRALS, J, I, D, RADIUS, ENOUGH = 0, 3, 6, 12, 18, 21, 24, 25, 26
+ROWS = 27
 #: What float32 takes in their place.
 SINGLE = {"small_rotation": single_loop.widened, "follow_body": single_loop.follow_body}
 
@@ -33,15 +40,42 @@ def put(array, at, x, y, z):
 
 
 @out_of_line
-def prepare(momentum: Vector, g: Vector, tensor: Vector, contact: float, state: Vector):
-    """Writes the state of a ball at the start; returns `scale`, with 𝒦 = scale·k."""
+def prepare(
+    momentum: Vector, g: Vector, tensor: Vector, contact: float, c: Vector, state: Vector, radius: Vector,
+    enough: Vector,
+):  # fmt: skip
+    """Writes the state of a ball at the start, and radius² and enough of the momentum of each stage c, (s,).
+
+    Returns `scale`, with 𝒦 = scale·k.
+    """
+    part = np.empty(3, momentum.dtype)
+    for i in range(c.shape[0]):
+        if c[i] != 1.0:
+            for j in range(3):
+                part[j] = c[i] * momentum[j]
+            scaled(part, g, tensor, contact, state)
+            radius[i], enough[i] = state[RADIUS], state[ENOUGH]
     scale = scaled(momentum, g, tensor, contact, state)
     remember(state)
+    for i in range(c.shape[0]):
+        if c[i] == 1.0:
+            radius[i], enough[i] = state[RADIUS], state[ENOUGH]
     return scale
 
 
+def power_of_two(exponent):
+    """2^exponent, or 0 where that is no normal number of float32."""
+    return ldexp(1.0, exponent) if -126 <= exponent <= 127 else 0.0
+
+
+def times(x, power, exponent):
+    """x times a power of two, once rounded: `ldexp`, by a product where that is the same."""
+    return x * power if power != 0.0 else ldexp(x, exponent)
+
+
+@out_of_line
 def scaled(momentum, g, tensor, contact, state):
-    """`prepare` but for the integrals.
+    """Writes the state of a ball at the start, but for the integrals; returns `scale`.
 
     All is scaled by a power of two, exactly, so that the largest moment of inertia is about 1.
     """
@@ -53,12 +87,13 @@ def scaled(momentum, g, tensor, contact, state):
     if tiny:
         exponent = max(-1, exponent - HIGHEST + 1)  # k = 𝒦, where J allows: nothing of a subnormal momentum is lost
     state[:] = 0.0
+    power, half = power_of_two(-exponent), power_of_two(-exponent - 1)
     for c in range(3):
-        state[K + c] = ldexp(momentum[c], -exponent - 1)
+        state[K + c] = times(momentum[c], half, -exponent - 1)
         state[G + c] = g[c]
-        state[J + c] = ldexp(tensor[c], -exponent)
+        state[J + c] = times(tensor[c], power, -exponent)
     state[I], state[I + 1], state[I + 2] = state[J + 1] + state[J + 2], state[J] + state[J + 2], state[J] + state[J + 1]
-    state[D] = ldexp(contact, -exponent)
+    state[D] = times(contact, power, -exponent)
     k1, k2, k3 = three(state, K)
     I1, I2, I3 = three(state, I)
     state[RADIUS], state[ENOUGH] = certificate(k1, k2, k3, I1, I2, I3, state[D])
@@ -112,58 +147,73 @@ def followed(p0, p1, p2, p3, g1, g2, g3, a0, a1, a2, a3, x, y, radius):
     return a0 * scale, a1 * scale, a2 * scale, a3 * scale, x + radius * d1, y + radius * d2
 
 
+def guessed(past, at, weights):
+    """The next Gibbs vector from the last ones, of which the oldest is in the row `at` of past, by their weights."""
+    u1, u2, u3 = 0.0, 0.0, 0.0
+    for j in range(len(weights)):
+        u1 = u1 + weights[j] * past[at + j, 0]
+        u2 = u2 + weights[j] * past[at + j, 1]
+        u3 = u3 + weights[j] * past[at + j, 2]
+    return u1, u2, u3
+
+
 def march(
-    state: Vector, begun: int, first: int, count: int, every: int, scale: float, momenta: Matrix, verticals: Matrix,
-    with_body: bool, attitude: Vector, contact: Vector, rho: float, attitudes: Matrix, traces: Matrix,
+    state: Vector, c: Vector, weights: Cube, radius: Vector, enough: Vector, past: Matrix, begun: int, first: int,
+    count: int, every: int, scale: float, momenta: Matrix, verticals: Matrix, with_body: bool, attitude: Vector,
+    contact: Vector, rho: float, attitudes: Matrix, traces: Matrix,
 ):  # fmt: skip
     """Takes `count` steps from the step `first` on; keeps every `every`-th state in the frame arrays.
 
+    c, radius², enough: of the stages, (s,); weights: of the guesses (`guess.stage_weights`), and past what they are
+    for, (2 places, 3): each vector twice, so that those of a guess follow each other.
     begun: the steps that were taken before the step 0 of the frames.
     state (ROWS), attitude (4) and contact (2) hold the present state and move; `scale` makes 𝒦 of k.  The attitude
-    and the trace are touched only when `with_body`.  Returns (taken, status, reach).
+    and the trace are touched only when `with_body`.  Returns (taken, status, reach); where a stage is not taken, the
+    state is left with its momentum and its vertical.
     """
     k1, k2, k3 = three(state, K)
     g1, g2, g3 = three(state, G)
     x1, x2, x3 = three(state, X)
     y1, y2, y3 = three(state, X + 3)
-    a1, a2, a3 = three(state, A)
-    b1, b2, b3 = three(state, A + 3)
-    c1, c2, c3 = three(state, A + 6)
-    d1, d2, d3 = three(state, A + 9)
-    e1, e2, e3 = three(state, A + 12)
-    f1, f2, f3 = three(state, A + 15)
-    h1, h2, h3 = three(state, A + 18)
-    o1, o2, o3 = three(state, A + 21)
     I1, I2, I3 = three(state, I)
-    contact_term, radius, enough = three(state, D)
+    stages, places = c.shape[0], weights.shape[1]
+    period = max(1, PERIOD // stages)
     step, status, reach = first, 0, 1.0
     last = first + count
     while step < last and status == 0:
         # Up to the next frame, the next restoration, or the end.
-        stop = min(last, step + every - step % every, step + PERIOD - (begun + step) % PERIOD)
+        stop = min(last, step + every - step % every, step + period - (begun + step) % period)
         while step < stop:
-            settled, p0, p1, p2, p3, w1, w2, w3 = settle(
-                a1, a2, a3, k1, k2, k3, g1, g2, g3, I1, I2, I3, contact_term, radius, enough
-            )  # fmt: skip
-            if not settled:
-                put(state, K, k1, k2, k3)
-                put(state, G, g1, g2, g3)
-                status, reach, p0, p1, p2, p3, w1, w2, w3 = safe_rotation(w1, w2, w3, state)
-                if status != 0:
-                    break
-            a1, b1, c1, d1, e1, f1, h1, o1 = filtered(b1, c1, d1, e1, f1, h1, o1, w1)
-            a2, b2, c2, d2, e2, f2, h2, o2 = filtered(b2, c2, d2, e2, f2, h2, o2, w2)
-            a3, b3, c3, d3, e3, f3, h3, o3 = filtered(b3, c3, d3, e3, f3, h3, o3, w3)
-            if with_body:
-                follow_body(p0, p1, p2, p3, g1, g2, g3, attitude, contact, rho)
-            k1, k2, k3, x1, x2, x3 = turned(p0, p1, p2, p3, k1, k2, k3, x1, x2, x3)
-            g1, g2, g3, y1, y2, y3 = turned(p0, p1, p2, p3, g1, g2, g3, y1, y2, y3)
+            at = (begun + step) * stages % places
+            later = 1 if (begun + step) * stages >= places else 0
+            for i in range(stages):
+                m1, m2, m3 = c[i] * k1, c[i] * k2, c[i] * k3
+                u1, u2, u3 = guessed(past, at + i, weights[later, at + i])
+                settled, p0, p1, p2, p3, w1, w2, w3 = settle(
+                    u1, u2, u3, m1, m2, m3, g1, g2, g3, I1, I2, I3, state[D], radius[i], enough[i]
+                )  # fmt: skip
+                if not settled:
+                    put(state, K, m1, m2, m3)
+                    put(state, G, g1, g2, g3)
+                    state[RADIUS], state[ENOUGH] = radius[i], enough[i]
+                    status, reach, p0, p1, p2, p3, w1, w2, w3 = safe_rotation(w1, w2, w3, state)
+                    if status != 0:
+                        break
+                put(past[at + i], 0, w1, w2, w3)
+                put(past[places + at + i], 0, w1, w2, w3)
+                if with_body:
+                    follow_body(p0, p1, p2, p3, g1, g2, g3, attitude, contact, rho)
+                k1, k2, k3, x1, x2, x3 = turned(p0, p1, p2, p3, k1, k2, k3, x1, x2, x3)
+                g1, g2, g3, y1, y2, y3 = turned(p0, p1, p2, p3, g1, g2, g3, y1, y2, y3)
+            if status != 0:
+                break
             step += 1
-        if status == 0 and (begun + step) % PERIOD == 0:
+        if status == 0:
             put(state, K, k1, k2, k3)
             put(state, G, g1, g2, g3)
-            put(state, X, x1, x2, x3)
-            put(state, X + 3, y1, y2, y3)
+        put(state, X, x1, x2, x3)
+        put(state, X + 3, y1, y2, y3)
+        if status == 0 and (begun + step) % period == 0:
             restore(state)
             x1, x2, x3 = three(state, X)
             y1, y2, y3 = three(state, X + 3)
@@ -175,16 +225,4 @@ def march(
                 for i in range(4):
                     attitudes[frame, i] = attitude[i]
                 traces[frame, 0], traces[frame, 1] = contact[0], contact[1]
-    put(state, K, k1, k2, k3)
-    put(state, G, g1, g2, g3)
-    put(state, X, x1, x2, x3)
-    put(state, X + 3, y1, y2, y3)
-    put(state, A, a1, a2, a3)
-    put(state, A + 3, b1, b2, b3)
-    put(state, A + 6, c1, c2, c3)
-    put(state, A + 9, d1, d2, d3)
-    put(state, A + 12, e1, e2, e3)
-    put(state, A + 15, f1, f2, f3)
-    put(state, A + 18, h1, h2, h3)
-    put(state, A + 21, o1, o2, o3)
     return step - first, status, reach

@@ -7,7 +7,7 @@ import numpy as np
 from chapsym.generated import turn
 
 from .gibbs import settle
-from .loop import ENOUGH, RADIUS, ROWS, D, G, I, K, prepare, put, safe_rotation, three
+from .loop import ENOUGH, RADIUS, ROWS, D, G, I, K, put, safe_rotation, scaled, three
 from .text import Doubles, Integers, Matrix, Vector
 
 
@@ -16,7 +16,7 @@ def advance(momentum, g, tensor, contact, state, q):
 
     state (ROWS) is overwritten.  Returns (status, reach); nothing else is written unless the status is 0.
     """
-    scale = prepare(momentum, g, tensor, contact, state)
+    scale = scaled(momentum, g, tensor, contact, state)
     k1, k2, k3 = three(state, K)
     g1, g2, g3 = three(state, G)
     I1, I2, I3 = three(state, I)

@@ -11,7 +11,7 @@ import numpy as np
 
 from chapsym.generated import energy, gibbs_newton, turn
 
-from .loop import ROWS, D, G, I, K, prepare, put, safe_rotation, three
+from .loop import ROWS, D, G, I, K, put, safe_rotation, scaled, three
 from .text import Matrix, Vector
 
 
@@ -86,7 +86,7 @@ def follow(momentum, gamma, tensor, contact, steps, row):
     """`steps` steps of one orbit; writes into `row` what `follow_all` says."""
     state, frame, growth = np.empty(ROWS), np.eye(3), np.zeros(3)
     T = np.empty((3, 3))
-    scale = prepare(momentum, gamma, tensor, contact, state)
+    scale = scaled(momentum, gamma, tensor, contact, state)
     u1, u2, u3 = 0.0, 0.0, 0.0
     half, total = steps // 2, 0.0
     row[:] = 0.0

@@ -7,8 +7,7 @@ from numpy.typing import ArrayLike
 
 from chapsym.numbers import Digits, Double, Precision
 
-from ..attitudes import is_followed
-from ..ball import Floats
+from ..ball import Floats, is_followed
 from ..coefficients import COMPOSITIONS, substeps
 from ..errors import BadInput, Status
 from ..levels.dispatch import precision_of

@@ -8,8 +8,7 @@ from typing import Self
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..attitudes import is_followed
-from ..ball import Asked, Floats
+from ..ball import Asked, Floats, is_followed
 from ..coefficients import substeps
 from ..errors import BadInput, Status, StepNotTaken
 from ..levels.frames import Count

@@ -35,7 +35,8 @@ static int take_array(PyObject *object, const char *kind, int is_single, Py_buff
     }
     to->p = view->buf;
     if (is_good) return 0;
-    PyErr_Format(PyExc_TypeError, "an array of %d axes, the last contiguous, is wanted, of the kind %s", axes, kind);
+    const char *of = kind[0] == 'r' && is_single ? "float32" : kind[0] == 'i' ? "int64" : "float64";
+    PyErr_Format(PyExc_TypeError, "an array of %s is wanted, of %d axes, the last contiguous", of, axes);
     PyBuffer_Release(view);
     return -1;
 }

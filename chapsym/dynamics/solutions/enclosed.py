@@ -20,10 +20,9 @@ from chapsym.numbers import Digits, Enclosure, Precision
 
 from ..ball import Ball
 from ..errors import StepNotTaken
-from ..exactly import in_float64, unit_exactly
 from ..levels.newton import enclosed
 from ..levels.start import fraction
-from ..map import step
+from ..map import in_float64, step, unit_exactly
 from .intersection import Form, NotFinite, Points, common_points
 from .quadrics import Quadric, momentum_forms, quadrics
 

@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 
 from chapsym import generated
-from chapsym.dynamics.exactly import check_body
 from chapsym.dynamics.flow.axes import Principal
 from chapsym.dynamics.flow.start import NO_ROTOR, Balls, Start, Turns, ball, balls, parallel, turning, upright
 from chapsym.dynamics.levels.balls import unit
+from chapsym.dynamics.map import check_body
 from chapsym.rationals import mass_tensor_from
 
 from ..read.bodies import PRESETS
