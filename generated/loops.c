@@ -119,7 +119,7 @@ INLINE t_r2 gibbs_bound(real k1, real k2, real k3, real I1, real I2, real I3, re
     real limit = slope > 0 ? min_r(1, least / slope) : 1, radius = min_r(R(1.25) * inner, R(0.5) * (inner + limit));
     if (half == 0) {
         int moving = k1 != 0 || k2 != 0 || k3 != 0;
-        return (t_r2){moving && gibbs_LEAST_ENOUGH > 0 ? -1 : 0, moving && gibbs_LEAST_ENOUGH > 0 ? 0 : 0};
+        return (t_r2){(moving && gibbs_LEAST_ENOUGH > 0) ? -1 : 0, (moving && gibbs_LEAST_ENOUGH > 0) ? 0 : 0};
     }
     real contraction = (spread + half) / (least - radius * slope);
     real enough = gibbs_LEFT * half / ((most + D + spread) * contraction);
@@ -132,7 +132,7 @@ INLINE t_r2 gibbs_certificate(real k1, real k2, real k3, real I1, real I2, real 
 }
 
 INLINE real loop_power_of_two(int64_t exponent) {
-    return -126 <= exponent && exponent <= 127 ? (real)ldexp(1, (int)exponent) : 0;
+    return (-126 <= exponent && exponent <= 127) ? (real)ldexp(1, (int)exponent) : 0;
 }
 
 OUT_OF_LINE real loop_scaled(r1 momentum, r1 g, r1 tensor, real contact, r1 state) {
@@ -380,7 +380,7 @@ INLINE real path_lowest(real trace, real minors, real det) {
     int positive = ((trace > 0) & (minors > 0)) & (det > 0); real x = positive ? det / minors : -1;
     for (int64_t i_0 = 0; i_0 < 2; i_0++) {
         real value = ((x - trace) * x + minors) * x - det, slope = (3 * x - 2 * trace) * x + minors;
-        x = positive & (slope > 0) ? x - value / slope : x;
+        x = (positive & (slope > 0)) ? x - value / slope : x;
     }
     return x;
 }
@@ -629,7 +629,7 @@ INLINE int64_t block_corrected(r2 S, r2 P, w1 ok, int again) {
         P.p[1 * P.s0 + i] = t_4; real t_5 = done ? P.p[2 * P.s0 + i] : p2, t_6 = done ? P.p[3 * P.s0 + i] : p3;
         P.p[2 * P.s0 + i] = t_5; P.p[3 * P.s0 + i] = t_6; real t_7 = done ? P.p[4 * P.s0 + i] : w1;
         real t_8 = done ? P.p[5 * P.s0 + i] : w2, t_9 = done ? P.p[6 * P.s0 + i] : w3; P.p[4 * P.s0 + i] = t_7;
-        P.p[5 * P.s0 + i] = t_8; P.p[6 * P.s0 + i] = t_9; ok.p[i] = (done | once) | twice ? 1 : 0;
+        P.p[5 * P.s0 + i] = t_8; P.p[6 * P.s0 + i] = t_9; ok.p[i] = ((done | once) | twice) ? 1 : 0;
     }
     return block_unsettled(ok);
 }
@@ -648,7 +648,7 @@ INLINE real block_nearer(r2 S, r2 P, w1 ok) {
         real t_5 = going ? p2 : P.p[2 * P.s0 + i], t_6 = going ? p3 : P.p[3 * P.s0 + i]; P.p[2 * P.s0 + i] = t_5;
         P.p[3 * P.s0 + i] = t_6; real t_7 = going ? w1 : P.p[4 * P.s0 + i], t_8 = going ? w2 : P.p[5 * P.s0 + i];
         real t_9 = going ? w3 : P.p[6 * P.s0 + i]; P.p[4 * P.s0 + i] = t_7; P.p[5 * P.s0 + i] = t_8;
-        P.p[6 * P.s0 + i] = t_9; real t_10 = near | found ? 0 : P.p[7 * P.s0 + i];
+        P.p[6 * P.s0 + i] = t_9; real t_10 = (near | found) ? 0 : P.p[7 * P.s0 + i];
         real t_11 = going ? left : P.p[8 * P.s0 + i]; P.p[7 * P.s0 + i] = t_10; P.p[8 * P.s0 + i] = t_11;
     }
     left = 0; int64_t end_12 = block_whole(ok);
@@ -1238,7 +1238,7 @@ INLINE int64_t lanes_checked(r2 S, int64_t B, int again) {
         real t_7 = closed ? S.p[55 * S.s0 + i] : p2, t_8 = closed ? S.p[56 * S.s0 + i] : p3; S.p[55 * S.s0 + i] = t_7;
         S.p[56 * S.s0 + i] = t_8; real t_9 = closed ? S.p[6 * S.s0 + i] : w1, t_10 = closed ? S.p[7 * S.s0 + i] : w2;
         S.p[6 * S.s0 + i] = t_9; S.p[7 * S.s0 + i] = t_10; S.p[8 * S.s0 + i] = closed ? S.p[8 * S.s0 + i] : w3;
-        S.p[57 * S.s0 + i] = (closed | settled) | (S.p[58 * S.s0 + i] != 0) ? 0 : 1;
+        S.p[57 * S.s0 + i] = ((closed | settled) | (S.p[58 * S.s0 + i] != 0)) ? 0 : 1;
     }
     int64_t left = 0, end_11 = 4 * B;
     INDEPENDENT
@@ -2368,7 +2368,7 @@ INLINE int64_t double_double_block_approached(r2 S, r2 P, i1 ok, int again) {
         {
             P.p[(7 + row) * P.s0 + i] = done ? P.p[(7 + row) * P.s0 + i] : c;
         }
-        ok.p[i] = done | ((radius >= 0) & (p0.a7 <= S.p[53 * S.s0 + i])) ? 1 : 0;
+        ok.p[i] = (done | ((radius >= 0) & (p0.a7 <= S.p[53 * S.s0 + i]))) ? 1 : 0;
         bad += radius >= 0 ? 1 - ok.p[i] : 0;
     }
     return bad;
@@ -2385,7 +2385,7 @@ INLINE int64_t double_double_block_corrected(r2 S, r2 P, i1 ok) {
             P.s0 + i], P.p[9 * P.s0 + i], P.p[10 * P.s0 + i], P.p[11 * P.s0 + i], P.p[12 * P.s0 + i], P.p[13 * P.s0 +
             i], P.p[14 * P.s0 + i], P.p[15 * P.s0 + i]);
         P.p[19 * P.s0 + i] = e1.a0; P.p[20 * P.s0 + i] = e1.a1; P.p[21 * P.s0 + i] = e1.a2;
-        ok.p[i] = (ok.p[i] == 1) & double_double_step_small(w1, w2, w3, e1.a0, e1.a1, e1.a2) ? 1 : 0;
+        ok.p[i] = ((ok.p[i] == 1) & double_double_step_small(w1, w2, w3, e1.a0, e1.a1, e1.a2)) ? 1 : 0;
         bad += 1 - ok.p[i];
     }
     return bad;
@@ -2948,7 +2948,7 @@ INLINE void tangent_follow_all(r2 momenta, r2 gammas, r1 tensor, real contact, i
 
 #endif
 
-WIDEST static void in_loop_prepare(const argument *a, argument *got) {
+static void in_loop_prepare(const argument *a, argument *got) {
     real out = loop_prepare(ARRAY1(r1, a[0]), ARRAY1(r1, a[1]), ARRAY1(r1, a[2]), a[3].number, ARRAY1(r1, a[4]),
         ARRAY1(r1, a[5]), ARRAY1(r1, a[6]), ARRAY1(r1, a[7]));
     got[0].number = out;
@@ -2973,7 +2973,7 @@ WIDEST static void in_block_march_blocks(const argument *a, argument *got) {
     (void)got;
 }
 
-WIDEST static void in_single_step_advance_all(const argument *a, argument *got) {
+static void in_single_step_advance_all(const argument *a, argument *got) {
     single_step_advance_all(ARRAY2(r2, a[0]), ARRAY2(r2, a[1]), ARRAY2(r2, a[2]), ARRAY1(r1, a[3]), ARRAY2(r2, a[4]),
         ARRAY1(i1, a[5]), ARRAY1(d1, a[6]));
     (void)got;
@@ -3018,7 +3018,7 @@ WIDEST static void in_vertical_loop_march(const argument *a, argument *got) {
 
 #endif
 #ifndef SINGLE
-WIDEST static void in_double_double_loop_prepare_pairs(const argument *a, argument *got) {
+static void in_double_double_loop_prepare_pairs(const argument *a, argument *got) {
     t_i2 out = double_double_loop_prepare_pairs(ARRAY1(r1, a[0]), ARRAY1(r1, a[1]), ARRAY1(r1, a[2]), a[3].number,
         ARRAY2(r2, a[4]), ARRAY1(r1, a[5]), ARRAY1(r1, a[6]), ARRAY1(r1, a[7]));
     got[0].integer = out.a0;
@@ -3039,7 +3039,7 @@ WIDEST static void in_double_double_loop_march_pairs(const argument *a, argument
 
 #endif
 #ifndef SINGLE
-WIDEST static void in_double_double_block_prepare_pairs_block(const argument *a, argument *got) {
+static void in_double_double_block_prepare_pairs_block(const argument *a, argument *got) {
     double_double_block_prepare_pairs_block(ARRAY2(r2, a[0]), ARRAY2(r2, a[1]), ARRAY2(r2, a[2]), ARRAY1(r1, a[3]),
         ARRAY2(r2, a[4]), ARRAY2(r2, a[5]), ARRAY1(i1, a[6]), ARRAY1(i1, a[7]));
     (void)got;
@@ -3056,7 +3056,7 @@ WIDEST static void in_double_double_block_march_pairs_block(const argument *a, a
 
 #endif
 #ifndef SINGLE
-WIDEST static void in_tangent_follow_all(const argument *a, argument *got) {
+static void in_tangent_follow_all(const argument *a, argument *got) {
     tangent_follow_all(ARRAY2(r2, a[0]), ARRAY2(r2, a[1]), ARRAY1(r1, a[2]), a[3].number, a[4].integer, ARRAY2(r2,
         a[5]));
     (void)got;
@@ -3091,5 +3091,5 @@ const int loops_single_count = 4;
 #endif
 
 #ifndef SINGLE
-const char loops_text[] = "e4c3f60c4bead8713a765cbe460be1a8b2b8ea3380ebf97b2da88de17f4a0889";
+const char loops_text[] = "337984ffe16d877d0be2653d7144584e963bac598f080ad533bf2723fb250b1b";
 #endif

@@ -17,7 +17,7 @@ OPERATORS: dict[type, tuple[str, int]] = {
     ast.LtE: ("<=", 7), ast.Gt: (">", 7), ast.GtE: (">=", 7), ast.Add: ("+", 9), ast.Sub: ("-", 9),
     ast.Mult: ("*", 10), ast.Div: ("/", 10), ast.FloorDiv: ("/", 10), ast.Mod: ("%", 10),
 }  # fmt: skip
-TERNARY, OR, AND, UNARY, ATOM = 1, 2, 3, 11, 12
+TERNARY, OR, AND, LESS, UNARY, ATOM = 1, 2, 3, 6, 11, 12
 SCALARS = {"b": "int", "i": "int64_t", "r": "real", "d": "double", "w": "int32_t"}
 #: Integers up to this are numbers of every type.
 EXACT = 2**24
@@ -135,7 +135,7 @@ class Printer(Lookup):
                 sign, level = ("&&", AND) if isinstance(op, ast.And) else ("||", OR)
                 return Text(f" {sign} ".join(self.expression(v).at(AND + 1) for v in values), level)
             case ast.IfExp(test=test, body=body, orelse=orelse):
-                parts = [self.expression(x).at(TERNARY + 1) for x in (test, body, orelse)]
+                parts = [self.expression(test).at(LESS), *(self.expression(x).at(TERNARY + 1) for x in (body, orelse))]
                 return Text("{} ? {} : {}".format(*parts), TERNARY)
             case ast.Subscript(value=ast.Attribute(value=array, attr="shape"), slice=axis):
                 return Text(f"{self.expression(array).text}.n{self.value(axis)}")
@@ -240,7 +240,7 @@ class Printer(Lookup):
                 found += self.several(x.value) if isinstance(x, ast.Starred) else [self.expression(x).text]
             return found
         if isinstance(node, ast.IfExp) and isinstance(node.body, ast.Tuple) and isinstance(node.orelse, ast.Tuple):
-            test = self.expression(node.test).at(TERNARY + 1)
+            test = self.expression(node.test).at(LESS)
             pairs = zip(self.several(node.body), self.several(node.orelse), strict=True)
             return [f"{test} ? {a} : {b}" for a, b in pairs]
         assert isinstance(node, ast.Call)

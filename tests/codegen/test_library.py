@@ -1,0 +1,64 @@
+"""The kernels and the step as a library of C: what the example prints is what chapsym computes."""
+
+import shutil
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import chapsym
+from chapsym import generated
+from chapsym.codegen import build
+
+ROOT = Path(chapsym.__file__).parents[1]
+EXAMPLE = ROOT / "docs/examples/step.c"
+COMPILER = shutil.which("cc")
+
+pytestmark = pytest.mark.skipif(COMPILER is None, reason="no compiler of C is installed")
+
+
+def compiled(tmp_path, text, *options):
+    """What a program prints."""
+    place, program = build.folder(), tmp_path / "program"
+    source = tmp_path / "program.c"
+    source.write_text(text, encoding="utf-8")
+    strict = ["-std=gnu11", "-Wall", "-Wextra", "-Werror", "-ffp-contract=off", "-DWIDEST_OFF", *options]
+    command = [COMPILER, *strict, "-I", place, source, place / "chapsym.c", "-lm", "-o", program]
+    subprocess.run(command, check=True)
+    return subprocess.run([program], check=True, capture_output=True, text=True).stdout
+
+
+def test_the_example_takes_the_steps_of_chapsym(tmp_path):
+    printed = [line.split() for line in compiled(tmp_path, EXAMPLE.read_text(encoding="utf-8")).splitlines()]
+    momentum, gamma = np.array([1, -0.5, 0.75]), np.array([2.0, 3.0, 6.0]) / 7
+    for row in printed:
+        step = chapsym.step(chapsym.Ball((1, 2, 4), 3), momentum, gamma)
+        momentum, gamma = step.momentum, step.gamma
+        assert [float(x) for x in row[1:4]] == momentum.tolist()
+        assert abs(float(row[-1])) < 1e-14
+    assert len(printed) == 10
+
+
+def test_every_kernel_of_the_library_has_the_bits_of_its_text(tmp_path):
+    rng, lines, expected = np.random.default_rng(34), [], []
+    for name, (function, groups, _) in generated.TABLE.items():
+        numbers = rng.uniform(0.2, 0.9, sum(length for _, length in groups)).tolist()
+        found = function(*numbers)
+        expected += list(found) if isinstance(found, tuple) else [found]
+        arguments, left = [], list(numbers)
+        for _, length in groups:
+            values, left = [x.hex() for x in left[:length]], left[length:]
+            arguments.append(values[0] if length == 1 else f"(double[]){{{', '.join(values)}}}")
+        count = len(found) if isinstance(found, tuple) else 1
+        lines.append(f"chapsym_{name}({', '.join(arguments)}, out);")
+        lines.append(f'for (int i = 0; i < {count}; i++) printf("%a\\n", out[i]);')
+    text = '#include <stdio.h>\n#include "chapsym.h"\nint main(void) {{ double out[40];\n{}\nreturn 0; }}'
+    printed = compiled(tmp_path, text.format("\n".join(lines))).split()
+    assert [float.fromhex(x) for x in printed] == expected
+
+
+def test_the_header_is_cpp_too(tmp_path):
+    source = tmp_path / "header.cpp"
+    source.write_text('#include "chapsym.h"\nint main() { return 0; }', encoding="utf-8")
+    subprocess.run([COMPILER, "-Wall", "-Werror", "-fsyntax-only", "-I", build.folder(), source], check=True)
