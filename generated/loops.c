@@ -33,6 +33,8 @@ INLINE real max_r(real a, real b) { return b > a ? b : a; }
 INLINE real min_r(real a, real b) { return b < a ? b : a; }
 INLINE int64_t max_i(int64_t a, int64_t b) { return b > a ? b : a; }
 INLINE int64_t min_i(int64_t a, int64_t b) { return b < a ? b : a; }
+INLINE int64_t div_i(int64_t a, int64_t b) { return a / b - ((a % b != 0) & ((a < 0) != (b < 0))); }
+INLINE int64_t mod_i(int64_t a, int64_t b) { return a - b * div_i(a, b); }
 
 #define ARRAY1(type, a) (type){a.p, a.n[0]}
 #define ARRAY2(type, a) (type){a.p, a.n[0], a.n[1], a.s[0]}
@@ -523,7 +525,7 @@ INLINE t_i2 block_uncertified(r1 radius, w1 ok) {
 }
 
 INLINE int64_t block_whole(w1 ok) {
-    return ok.n0 / block_REGISTER * block_REGISTER;
+    return div_i(ok.n0, block_REGISTER) * block_REGISTER;
 }
 
 INLINE void block_guessed(r2 P, r2 past, int64_t at, int64_t places, r1 weights, w1 ok) {
@@ -535,8 +537,8 @@ INLINE void block_guessed(r2 P, r2 past, int64_t at, int64_t places, r1 weights,
     real u1, u2, u3;
     for (int64_t j = 0; j < weights.n0; j += 4) {
         real a = weights.p[j], b = weights.p[j + 1], c = weights.p[j + 2], d = weights.p[j + 3];
-        int64_t w = 3 * ((at + j) % places), x = 3 * ((at + j + 1) % places), y = 3 * ((at + j + 2) % places);
-        int64_t z = 3 * ((at + j + 3) % places), end_2 = block_whole(ok);
+        int64_t w = 3 * mod_i(at + j, places), x = 3 * mod_i(at + j + 1, places), y = 3 * mod_i(at + j + 2, places);
+        int64_t z = 3 * mod_i(at + j + 3, places), end_2 = block_whole(ok);
         INDEPENDENT
         for (i = 0; i < end_2; i++) {
             u1 = P.p[9 * P.s0 + i] + a * past.p[w * past.s0 + i];
@@ -998,7 +1000,7 @@ INLINE void long_run_entered(r2 S, int64_t at, int64_t i, r1 body, real half, in
     real anywhere = gibbs_is_heavy(I1.a0, I1.a1, I1.a2, state.p[24]) ? -1 : R(0x1.0000000000000p+1000);
     S.p[at * S.s0 + i] = part; S.p[(at + 1) * S.s0 + i] = part != 0 ? 1 / part : 0; S.p[(at + 2) * S.s0 + i] = size;
     S.p[78 * S.s0 + i] = spread; S.p[(at + 3) * S.s0 + i] = within.a0 >= 0 ? within.a0 : anywhere;
-    S.p[(at + 4) * S.s0 + i] = least * least / R(18.2); S.p[(at + 5) * S.s0 + i] = 1 / (n * n);
+    S.p[(at + 4) * S.s0 + i] = least * least / R(18.2); S.p[(at + 5) * S.s0 + i] = (real)1 / (n * n);
 }
 
 OUT_OF_LINE int64_t long_run_enter(r2 S, int64_t B, int64_t b, int64_t columns, r1 J0, real D0, real radius, real h,
@@ -1480,12 +1482,12 @@ INLINE void rotation_n_slope(r2 E, r1 g, r1 J, real D, r2 O, r1 h, r1 c, r2 T) {
             }
             for (i = 0; i < n; i++) {
                 if (i != q) {
-                    row = i > q ? i * (i - 1) / 2 + q : q * (q - 1) / 2 + i; z = O.p[i * O.s0 + p] * J.p[q];
-                    T.p[at * T.s0 + row] += i > q ? z : -z;
+                    row = i > q ? div_i(i * (i - 1), 2) + q : div_i(q * (q - 1), 2) + i;
+                    z = O.p[i * O.s0 + p] * J.p[q]; T.p[at * T.s0 + row] += i > q ? z : -z;
                 }
                 if (i != p) {
-                    row = i > p ? i * (i - 1) / 2 + p : p * (p - 1) / 2 + i; z = O.p[i * O.s0 + q] * J.p[p];
-                    T.p[at * T.s0 + row] -= i > p ? z : -z;
+                    row = i > p ? div_i(i * (i - 1), 2) + p : div_i(p * (p - 1), 2) + i;
+                    z = O.p[i * O.s0 + q] * J.p[p]; T.p[at * T.s0 + row] -= i > p ? z : -z;
                 }
             }
             at += 1;
@@ -1593,12 +1595,13 @@ INLINE int64_t loop_n_march(r2 k, r1 g, r1 J, real D, r1 c, r1 near, r1 enough, 
     attitudes, r2 traces) {
     int64_t n = k.n0, stages = c.n0; ALIGNED real E_[n * n]; r2 E = {E_, n, n, n}; ALIGNED real O_[n * n];
     r2 O = {O_, n, n, n}; ALIGNED real W_[n * n]; r2 W = {W_, n, n, n};
-    ALIGNED real T_[n * (n - 1) / 2 * n * (n - 1) / 2];
-    r2 T = {T_, n * (n - 1) / 2, n * (n - 1) / 2, n * (n - 1) / 2}; ALIGNED real r_[n * (n - 1) / 2];
-    r1 r = {r_, n * (n - 1) / 2}; ALIGNED real h_[n]; r1 h = {h_, n}; ALIGNED real v_[n]; r1 v = {v_, n};
-    ALIGNED real part_[n * n]; r2 part = {part_, n, n, n}; int64_t i, j, frame, end_1 = first + count;
+    ALIGNED real T_[div_i(n * (n - 1), 2) * div_i(n * (n - 1), 2)];
+    r2 T = {T_, div_i(n * (n - 1), 2), div_i(n * (n - 1), 2), div_i(n * (n - 1), 2)};
+    ALIGNED real r_[div_i(n * (n - 1), 2)]; r1 r = {r_, div_i(n * (n - 1), 2)}; ALIGNED real h_[n]; r1 h = {h_, n};
+    ALIGNED real v_[n]; r1 v = {v_, n}; ALIGNED real part_[n * n]; r2 part = {part_, n, n, n}; int64_t i, j, frame;
+    int64_t end_1 = first + count;
     for (int64_t stage = first; stage < end_1; stage++) {
-        int64_t s = stage % stages;
+        int64_t s = mod_i(stage, stages);
         for (i = 0; i < n; i++) {
             for (j = 0; j < n; j++) part.p[i * part.s0 + j] = c.p[s] * k.p[i * k.s0 + j];
         }
@@ -1609,8 +1612,8 @@ INLINE int64_t loop_n_march(r2 k, r1 g, r1 J, real D, r1 c, r1 near, r1 enough, 
             * use.s0, use.n1});
         if (with_body) rotation_n_roll(E, g, R, spot, rho, v, W);
         rotation_n_move(E, k, g, W, v);
-        if ((stage + 1) % (stages * every) == 0) {
-            frame = (stage + 1) / (stages * every);
+        if (mod_i(stage + 1, stages * every) == 0) {
+            frame = div_i(stage + 1, stages * every);
             for (i = 0; i < n; i++) {
                 verticals.p[frame * verticals.s0 + i] = g.p[i];
                 for (j = 0; j < n; j++)
@@ -1670,8 +1673,8 @@ INLINE int vertical_loop_march(r1 g, r1 I, real k, int64_t count, int64_t every,
             return 0;
         v -= correction; t_r6 t_4 = sums_turned(p0, p1, p2, p3, g1, g2, g3, y1, y2, y3); g1 = t_4.a0; g2 = t_4.a1;
         g3 = t_4.a2; y1 = t_4.a3; y2 = t_4.a4; y3 = t_4.a5;
-        if (step % every == 0) {
-            frame = step / every; verticals.p[frame * verticals.s0 + 0] = g1;
+        if (mod_i(step, every) == 0) {
+            frame = div_i(step, every); verticals.p[frame * verticals.s0 + 0] = g1;
             verticals.p[frame * verticals.s0 + 1] = g2; verticals.p[frame * verticals.s0 + 2] = g3;
         }
     }
@@ -2233,7 +2236,7 @@ INLINE void double_double_loop_follow_body(real u1, real u1_, real u2, real u2_,
 INLINE t_i2r double_double_loop_march_pairs(r1 state, r2 c, r1 radius, r1 enough, r3 past, int64_t first, int64_t
     count, int64_t every, int64_t shift, int64_t beyond, r2 momenta, r2 momenta_, r2 verticals, r2 verticals_, int
     with_body, r1 attitude, r1 contact, real rho, r2 attitudes, r2 attitudes_, r2 traces, r2 traces_) {
-    int64_t period = max_i(1, 1024 / c.n0), frame, status; real reach, u1, u1_, u2, u2_, u3, u3_;
+    int64_t period = max_i(1, div_i(1024, c.n0)), frame, status; real reach, u1, u1_, u2, u2_, u3, u3_;
     int64_t end_1 = first + count + 1;
     for (int64_t step = first + 1; step < end_1; step++) {
         for (int64_t i = 0; i < c.n0; i++) {
@@ -2245,9 +2248,9 @@ INLINE t_i2r double_double_loop_march_pairs(r1 state, r2 c, r1 radius, r1 enough
             if (with_body) double_double_loop_follow_body(u1, u1_, u2, u2_, u3, u3_, state, attitude, contact, rho);
             double_double_loop_turn_both(u1, u1_, u2, u2_, u3, u3_, state);
         }
-        if (step % period == 0) double_double_loop_restore_pairs(state);
-        if (step % every == 0) {
-            frame = step / every;
+        if (mod_i(step, period) == 0) double_double_loop_restore_pairs(state);
+        if (mod_i(step, every) == 0) {
+            frame = div_i(step, every);
             double_double_loop_write((r1){momenta.p + frame * momenta.s0, momenta.n1}, (r1){momenta_.p + frame *
                 momenta_.s0, momenta_.n1}, state, 0, -shift);
             double_double_loop_write((r1){verticals.p + frame * verticals.s0, verticals.n1}, (r1){verticals_.p + frame
@@ -2429,7 +2432,7 @@ INLINE void double_double_block_march_pairs_block(r2 state, int64_t first, int64
         if (double_double_block_corrected(S, P, ok) != 0)
             double_double_block_mend(S, P, ok, step, taken, status, reach);
         double_double_block_turned(S, P);
-        if ((step + 1) % 1024 == 0) {
+        if (mod_i(step + 1, 1024) == 0) {
             for (i = 0; i < 16; i++) {
                 real one_[28];
                 for (int64_t i_ = 0; i_ < 28; i_++) one_[i_] = S.p[i_ * S.s0 + i];
@@ -2437,8 +2440,8 @@ INLINE void double_double_block_march_pairs_block(r2 state, int64_t first, int64
                 for (row = 0; row < 28; row++) S.p[row * S.s0 + i] = one.p[row];
             }
         }
-        if ((step + 1) % every == 0) {
-            frame = (step + 1) / every;
+        if (mod_i(step + 1, every) == 0) {
+            frame = div_i(step + 1, every);
             for (i = 0; i < status.n0; i++) {
                 if (status.p[i] == 0) {
                     real one_[S.n0];
@@ -2515,7 +2518,7 @@ INLINE real kernel_energy(real K1, real K2, real K3, real g1, real g2, real g3, 
 }
 
 INLINE real tangent_weight(int64_t n, int64_t count) {
-    real t = (n + 1) / (count + 1); return exp(-1 / (t * (1 - t)));
+    real t = (real)(n + 1) / (count + 1); return exp(-1 / (t * (1 - t)));
 }
 
 INLINE real tangent_determinant(r2 T) {
@@ -2582,13 +2585,15 @@ INLINE t_i2r loop_march(r1 state, r1 c, r3 weights, r1 radius, r1 enough, r2 pas
     t_r3 t_1 = loop_three(state, 0); real k1 = t_1.a0, k2 = t_1.a1, k3 = t_1.a2; t_r3 t_2 = loop_three(state, 3);
     real g1 = t_2.a0, g2 = t_2.a1, g3 = t_2.a2; t_r3 t_3 = loop_three(state, 6); real x1 = t_3.a0, x2 = t_3.a1;
     real x3 = t_3.a2; t_r3 t_4 = loop_three(state, 9); real y1 = t_4.a0, y2 = t_4.a1, y3 = t_4.a2;
-    t_r3 I1 = loop_three(state, 21); int64_t stages = c.n0, places = weights.n1, period = max_i(1, 1024 / stages);
-    int64_t step = first, status = 0; real reach = 1; int64_t last = first + count, at, later, i, frame; real m1, m2;
-    real m3, u1, u2, u3; int settled; real p0, p1, p2, p3, w1, w2, w3;
+    t_r3 I1 = loop_three(state, 21); int64_t stages = c.n0, places = weights.n1;
+    int64_t period = max_i(1, div_i(1024, stages)), step = first, status = 0; real reach = 1;
+    int64_t last = first + count, at, later, i, frame; real m1, m2, m3, u1, u2, u3; int settled; real p0, p1, p2, p3;
+    real w1, w2, w3;
     while (step < last && status == 0) {
-        int64_t stop = min_i(min_i(last, step + every - step % every), step + period - (begun + step) % period);
+        int64_t stop = min_i(min_i(last, step + every - mod_i(step, every)), step + period - mod_i(begun + step,
+            period));
         while (step < stop) {
-            at = (begun + step) * stages % places; later = (begun + step) * stages >= places ? 1 : 0;
+            at = mod_i((begun + step) * stages, places); later = (begun + step) * stages >= places ? 1 : 0;
             for (i = 0; i < stages; i++) {
                 m1 = c.p[i] * k1; m2 = c.p[i] * k2; m3 = c.p[i] * k3;
                 t_r3 t_5 = loop_guessed(past, at + i, (r1){weights.p + later * weights.s0 + (at + i) * weights.s1,
@@ -2619,12 +2624,12 @@ INLINE t_i2r loop_march(r1 state, r1 c, r3 weights, r1 radius, r1 enough, r2 pas
             loop_put(state, 0, k1, k2, k3); loop_put(state, 3, g1, g2, g3);
         }
         loop_put(state, 6, x1, x2, x3); loop_put(state, 9, y1, y2, y3);
-        if (status == 0 && (begun + step) % period == 0) {
+        if (status == 0 && mod_i(begun + step, period) == 0) {
             integrals_restore(state); t_r3 t_10 = loop_three(state, 6); x1 = t_10.a0; x2 = t_10.a1; x3 = t_10.a2;
             t_r3 t_11 = loop_three(state, 9); y1 = t_11.a0; y2 = t_11.a1; y3 = t_11.a2;
         }
-        if (status == 0 && step % every == 0) {
-            frame = step / every;
+        if (status == 0 && mod_i(step, every) == 0) {
+            frame = div_i(step, every);
             loop_put((r1){momenta.p + frame * momenta.s0, momenta.n1}, 0, scale * k1, scale * k2, scale * k3);
             loop_put((r1){verticals.p + frame * verticals.s0, verticals.n1}, 0, g1, g2, g3);
             if (with_body) {
@@ -2670,17 +2675,17 @@ INLINE void block_march_block(r2 state, r1 c, r3 weights, r2 radius, r2 enough, 
     r2 B = {B_, 7, block_LANES, block_LANES}; ALIGNED real H_[past.n0 * block_LANES];
     r2 H = {H_, past.n0, block_LANES, block_LANES}; int64_t width = state.n1, stages = c.n0, places = weights.n1;
     int64_t balls = status.n0; ALIGNED int32_t ok_[width]; w1 ok = {ok_, width};
-    int64_t period = max_i(1, 1024 / stages); ALIGNED int64_t hopeless_[stages]; i1 hopeless = {hopeless_, stages};
-    ALIGNED int64_t beyond_[stages]; i1 beyond = {beyond_, stages}; block_carry(state, S, width);
-    block_carry(state, W, width); block_carry(body, B, width); block_carry(past, H, width);
-    r2 T = stages == 1 ? S : W; int64_t last = first + count, patience = 0, s;
+    int64_t period = max_i(1, div_i(1024, stages)); ALIGNED int64_t hopeless_[stages];
+    i1 hopeless = {hopeless_, stages}; ALIGNED int64_t beyond_[stages]; i1 beyond = {beyond_, stages};
+    block_carry(state, S, width); block_carry(state, W, width); block_carry(body, B, width);
+    block_carry(past, H, width); r2 T = stages == 1 ? S : W; int64_t last = first + count, patience = 0, s;
     for (s = 0; s < stages; s++) {
         t_i2 t_1 = block_uncertified((r1){radius.p + s * radius.s0, radius.n1}, ok); hopeless.p[s] = t_1.a0;
         beyond.p[s] = t_1.a1;
     }
     int64_t other, bad;
     for (int64_t step = first; step < last; step++) {
-        int64_t at = step * stages % places, later = step * stages >= places ? 1 : 0;
+        int64_t at = mod_i(step * stages, places), later = step * stages >= places ? 1 : 0;
         for (s = 0; s < stages; s++) {
             if (stages > 1)
                 block_begin_stage(S, T, c.p[s], (r1){radius.p + s * radius.s0, radius.n1}, (r1){enough.p + s *
@@ -2698,9 +2703,9 @@ INLINE void block_march_block(r2 state, r1 c, r3 weights, r2 radius, r2 enough, 
             if (with_body) block_rolled(T, P, B, ok);
             block_end_stage(S, P, H, 3 * (at + s), ok);
         }
-        if ((step + 1) % period == 0) block_restored(S, status);
-        if ((step + 1) % every == 0)
-            block_keep(S, B, (step + 1) / every, scale, momenta, verticals, status, with_body, attitudes, traces);
+        if (mod_i(step + 1, period) == 0) block_restored(S, status);
+        if (mod_i(step + 1, every) == 0)
+            block_keep(S, B, div_i(step + 1, every), scale, momenta, verticals, status, with_body, attitudes, traces);
     }
     for (int64_t i = 0; i < balls; i++) {
         if (status.p[i] == 0) taken.p[i] = last;
@@ -2780,7 +2785,7 @@ INLINE void single_step_advance_all(r2 momenta, r2 verticals, r2 tensors, r1 con
 #ifndef SINGLE
 
 INLINE t_ir8 long_step_column(r1 body, real half, int64_t n, real square, r1 state) {
-    real part = half / n * fitted_fitted(square * (1 / (n * n))), k1 = part * body.p[0], k2 = part * body.p[1];
+    real part = half / n * fitted_fitted(square * ((real)1 / (n * n))), k1 = part * body.p[0], k2 = part * body.p[1];
     real k3 = part * body.p[2]; t_r3 t_1 = loop_three(body, 3); real g1 = t_1.a0, g2 = t_1.a1, g3 = t_1.a2;
     t_r3 I1 = loop_three(state, 21); t_r2 t_2 = gibbs_certificate(k1, k2, k3, I1.a0, I1.a1, I1.a2, state.p[24]);
     state.p[25] = t_2.a0; state.p[26] = t_2.a1;
@@ -2846,10 +2851,11 @@ OUT_OF_LINE t_ir long_run_safely(r2 S, int64_t b, r2 sums, r1 state) {
 INLINE void long_run_march_lanes(int64_t B, r3 momenta, r3 verticals, r3 attitudes, r3 traces, r2 J0, r1 D0, r1
     radius, real h, int64_t steps, int64_t every, int follows, int traced, r2 sums, r3 following, r2 beginning, r1
     doubt, i1 taken, i1 status, d1 reach) {
-    ALIGNED real S_[124 * 4 * B]; memset(S_, 0, sizeof S_); r2 S = {S_, 124, 4 * B, 4 * B}; int64_t columns = sums.n1;
-    ALIGNED real states_[B * 27]; memset(states_, 0, sizeof states_); r2 states = {states_, B, 27, 27};
-    ALIGNED int64_t exponents_[B]; memset(exponents_, 0, sizeof exponents_); i1 exponents = {exponents_, B};
-    ALIGNED real body_[13]; memset(body_, 0, sizeof body_); r1 body = {body_, 13}; int64_t balls = status.n0, b, c;
+    ALIGNED real S_[124 * (4 * B)]; memset(S_, 0, sizeof S_); r2 S = {S_, 124, (4 * B), (4 * B)};
+    int64_t columns = sums.n1; ALIGNED real states_[B * 27]; memset(states_, 0, sizeof states_);
+    r2 states = {states_, B, 27, 27}; ALIGNED int64_t exponents_[B]; memset(exponents_, 0, sizeof exponents_);
+    i1 exponents = {exponents_, B}; ALIGNED real body_[13]; memset(body_, 0, sizeof body_); r1 body = {body_, 13};
+    int64_t balls = status.n0, b, c;
     for (b = 0; b < B; b++) {
         int64_t i = min_i(b, balls - 1);
         for (int64_t i_ = 0; i_ < body.n0; i_++) body.p[i_] = 0;
@@ -2882,9 +2888,9 @@ INLINE void long_run_march_lanes(int64_t B, r3 momenta, r3 verticals, r3 attitud
                 }
             }
         }
-        if ((step + 1) % every == 0) {
+        if (mod_i(step + 1, every) == 0) {
             for (b = 0; b < balls; b++)
-                long_run_show(S, b, exponents.p[b], (step + 1) / every, momenta, verticals, attitudes, traces,
+                long_run_show(S, b, exponents.p[b], div_i(step + 1, every), momenta, verticals, attitudes, traces,
                     follows, status.p[b] == 0);
         }
     }
@@ -2916,7 +2922,7 @@ INLINE void tangent_follow(r1 momentum, r1 gamma, r1 tensor, real contact, int64
     for (int64_t i_ = 0; i_ < 3; i_++) frame_[i_ * (3 + 1)] = 1;
     ALIGNED real growth_[3]; memset(growth_, 0, sizeof growth_); r1 growth = {growth_, 3}; ALIGNED real T_[3 * 3];
     r2 T = {T_, 3, 3, 3}; real scale = loop_scaled(momentum, gamma, tensor, contact, state), u1 = 0, u2 = 0, u3 = 0;
-    int64_t half = steps / 2; real total = 0;
+    int64_t half = div_i(steps, 2); real total = 0;
     for (int64_t i_ = 0; i_ < row.n0; i_++) row.p[i_] = 0;
     row.p[8] = INFINITY; row.p[9] = -INFINITY; int64_t end_1 = 2 * half;
     for (int64_t n = 0; n < end_1; n++) {
@@ -3091,5 +3097,5 @@ const int loops_single_count = 4;
 #endif
 
 #ifndef SINGLE
-const char loops_text[] = "337984ffe16d877d0be2653d7144584e963bac598f080ad533bf2723fb250b1b";
+const char loops_text[] = "055c5988ed07bc9b34fa92faf578bb33cdf22dd39d32c6d15c5ae5f4e207ed93";
 #endif

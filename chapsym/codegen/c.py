@@ -5,6 +5,7 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import groupby
+from math import copysign
 from textwrap import wrap
 from typing import Any
 
@@ -15,7 +16,7 @@ from .source import Function, Module, constant
 OPERATORS: dict[type, tuple[str, int]] = {
     ast.BitOr: ("|", 4), ast.BitAnd: ("&", 5), ast.Eq: ("==", 6), ast.NotEq: ("!=", 6), ast.Lt: ("<", 7),
     ast.LtE: ("<=", 7), ast.Gt: (">", 7), ast.GtE: (">=", 7), ast.Add: ("+", 9), ast.Sub: ("-", 9),
-    ast.Mult: ("*", 10), ast.Div: ("/", 10), ast.FloorDiv: ("/", 10), ast.Mod: ("%", 10),
+    ast.Mult: ("*", 10), ast.Div: ("/", 10), ast.FloorDiv: ("div_i", 12), ast.Mod: ("mod_i", 12),
 }  # fmt: skip
 TERNARY, OR, AND, LESS, UNARY, ATOM = 1, 2, 3, 6, 11, 12
 SCALARS = {"b": "int", "i": "int64_t", "r": "real", "d": "double", "w": "int32_t"}
@@ -73,6 +74,7 @@ class Printer(Lookup):
         self.within: dict[str, str] = {}
         stored = (n.id for n in ast.walk(self.node) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store))
         self.stored = Counter(stored)
+        self.read_after = loose_variables(self.node)
 
     # -- expressions
 
@@ -82,10 +84,10 @@ class Printer(Lookup):
             return str(int(value))
         if value != value:
             return "NAN"
-        if isinstance(value, int) or (abs(value) <= EXACT and value == int(value)):
-            return str(int(value))
         if abs(value) == float("inf"):
             return "INFINITY" if value > 0 else "-INFINITY"
+        if isinstance(value, int) or (abs(value) <= EXACT and value == int(value) and (value or copysign(1, value) > 0)):
+            return str(int(value))
         short = repr(value)
         return f"R({short if len(short) <= 8 else value.hex()})"
 
@@ -121,21 +123,25 @@ class Printer(Lookup):
             case ast.Name(id=name):
                 return Text(name if name in self.typed.names else f"{self.module.name}_{name}")
             case ast.BinOp(left=left, op=op, right=right):
-                sign, level = OPERATORS[type(op)]
+                sign, level = self.operator(node, op)
+                if isinstance(op, ast.FloorDiv | ast.Mod):
+                    return Text(f"{sign}({self.expression(left).text}, {self.expression(right).text})")
                 apart = ATOM - 4 if level in (4, 5) else level  # comparisons among bits get parentheses
                 first, second = self.expression(left).at(apart), self.expression(right).at(apart + (apart == level))
-                if isinstance(op, ast.Div) and {self.type(left), self.type(right)} <= {"b", "i"}:
-                    first = f"(real){first}"
+                if isinstance(op, ast.Div) and self.is_integer(left) and self.is_integer(right):
+                    first = f"(real){self.expression(left).at(UNARY)}"
                 return Text(f"{first} {sign} {second}", level)
-            case ast.UnaryOp(op=op, operand=operand):
+            case ast.UnaryOp(op=ast.Not() | ast.USub() as op, operand=operand):
                 return Text(("!" if isinstance(op, ast.Not) else "-") + self.expression(operand).at(UNARY), UNARY)
             case ast.Compare():
                 return self.compared(node)
             case ast.BoolOp(op=op, values=values):
                 sign, level = ("&&", AND) if isinstance(op, ast.And) else ("||", OR)
-                return Text(f" {sign} ".join(self.expression(v).at(AND + 1) for v in values), level)
+                parts = [self.expression(values[0]), *map(self.unhoisted, values[1:])]
+                return Text(f" {sign} ".join(part.at(AND + 1) for part in parts), level)
             case ast.IfExp(test=test, body=body, orelse=orelse):
-                parts = [self.expression(test).at(LESS), *(self.expression(x).at(TERNARY + 1) for x in (body, orelse))]
+                parts = [self.expression(test).at(LESS)]
+                parts += [self.unhoisted(x).at(TERNARY + 1) for x in (body, orelse)]
                 return Text("{} ? {} : {}".format(*parts), TERNARY)
             case ast.Subscript(value=ast.Attribute(value=array, attr="shape"), slice=axis):
                 return Text(f"{self.expression(array).text}.n{self.value(axis)}")
@@ -145,10 +151,40 @@ class Printer(Lookup):
                 return self.call(node)
         raise NotTranslatable(f"{self.name}: {ast.unparse(node)}")
 
+    def operator(self, node: ast.AST, op: ast.AST) -> tuple[str, int]:
+        """The sign of an operator, and how tightly it binds; the remainder is of integers, as is the quotient."""
+        of = [getattr(node, name) for name in ("left", "right", "target", "value") if hasattr(node, name)]
+        is_whole = isinstance(op, ast.FloorDiv | ast.Mod)
+        if type(op) not in OPERATORS or (is_whole and not {self.type(x) for x in of} <= {"b", "i"}):
+            raise NotTranslatable(f"{self.name}: {ast.unparse(node)}")
+        return OPERATORS[type(op)]
+
+    def is_integer(self, node: ast.expr) -> bool:
+        """Whether the text of an expression is of integers, also where Python has a float of the same value."""
+        value = self.value(node)
+        if value is not None:
+            return self.number(value).lstrip("-").isdigit()
+        match node:
+            case ast.BinOp(left=left, right=right, op=op):
+                return not isinstance(op, ast.Div) and self.is_integer(left) and self.is_integer(right)
+            case ast.UnaryOp(operand=operand):
+                return self.is_integer(operand)
+            case ast.IfExp(body=body, orelse=orelse):
+                return self.is_integer(body) and self.is_integer(orelse)
+        return self.type(node) in ("b", "i")
+
+    def unhoisted(self, node: ast.expr) -> Text:
+        """An expression that is not always evaluated, or more than once: nothing of it may come before the others."""
+        before = len(self.hoisted)
+        found = self.expression(node)
+        if len(self.hoisted) > before:
+            raise NotTranslatable(f"{self.name}: a call in {ast.unparse(node)} would come too early")
+        return found
+
     def compared(self, node: ast.Compare) -> Text:
         parts, left = [], node.left
         for op, right in zip(node.ops, node.comparators, strict=True):
-            sign, level = OPERATORS[type(op)]
+            sign, level = self.operator(node, op)
             parts.append(
                 Text(f"{self.expression(left).at(level + 1)} {sign} {self.expression(right).at(level + 1)}", level)
             )
@@ -176,7 +212,7 @@ class Printer(Lookup):
 
     def slice_text(self, array: str, kind: Array, node: ast.Slice) -> str:
         """Some of the first axis of an array."""
-        low = self.expression(node.lower).at(9) if node.lower else "0"
+        low = self.expression(node.lower).at(10 if kind.rank > 1 else 9) if node.lower else "0"
         high = self.expression(node.upper).at(9) if node.upper else f"{array}.n0"
         count = high if low == "0" else f"{high} - {low if low.isalnum() else f'({low})'}"
         step = f" * {array}.s0" if kind.rank > 1 else ""
@@ -199,7 +235,8 @@ class Printer(Lookup):
             first, second = (self.expression(a) for a in node.args)
             return Text(f"(real)ldexp({first.text}, (int){second.at(UNARY)})", UNARY)
         if callee == "abs" and self.type(node) == "i":
-            return Text(f"llabs({self.expression(node.args[0]).text})")
+            text = self.expression(node.args[0])
+            return Text(f"max_i({text.text}, -{text.at(UNARY)})")
         if callee == "reshape":
             array = self.expression(node.func.value).at(ATOM)  # type: ignore[attr-defined]
             rows, columns = (self.expression(x).text for x in node.args[0].elts)  # type: ignore[attr-defined]
@@ -299,7 +336,10 @@ class Printer(Lookup):
             direct = {n for n in fresh if assigned_first([statement], n)}
             done += [Statement(n, fresh[n]) for n in fresh if n not in direct]
             self.fresh = {n: fresh[n] for n in direct}
-            translated = list(self.statement(statement))
+            try:
+                translated = list(self.statement(statement))
+            except (AssertionError, AttributeError, KeyError, TypeError) as error:  # no form that is known here
+                raise NotTranslatable(f"{self.name}: {ast.unparse(statement)}") from error
             done += self.hoisted
             self.hoisted = []
             done += translated
@@ -314,12 +354,14 @@ class Printer(Lookup):
                 yield Statement(self.call(call).text)
             case ast.Assign(targets=[target], value=value):
                 yield from self.assign(target, value)
-            case ast.Assign(targets=targets, value=value):
-                text = self.expression(value).text
-                for target in targets:
-                    yield self.set(target, text)
+            case ast.Assign(targets=[first, *others], value=value):
+                yield self.set(first, self.expression(value).text)
+                for target in others:
+                    yield self.set(target, self.expression(first).text)
+            case ast.AugAssign(target=target, op=ast.FloorDiv() | ast.Mod() as op, value=value):
+                yield self.set(target, self.expression(ast.BinOp(target, op, value)).text)
             case ast.AugAssign(target=target, op=op, value=value):
-                sign, _ = OPERATORS[type(op)]
+                sign, _ = self.operator(node, op)
                 yield Statement(f"{self.expression(target).text} {sign}= {self.expression(value).text}")
             case ast.Return():
                 yield Statement(self.returned(node))
@@ -328,10 +370,10 @@ class Printer(Lookup):
                 yield Statement(f"if ({fresh})", block=self.inner(body))
                 if orelse:
                     yield Statement("else", block=self.inner(orelse))
-            case ast.While(test=test, body=body):
-                text = self.expression(test).text
+            case ast.While(test=test, body=body, orelse=[]):
+                text = self.unhoisted(test).text
                 yield Statement(f"while ({text})", block=self.inner(body))
-            case ast.For():
+            case ast.For(orelse=[]):
                 yield from self.loop(node)
             case ast.Break():
                 yield Statement("break")
@@ -385,10 +427,13 @@ class Printer(Lookup):
                     self.within[name] = f"{kept[0]}.a{i}"
             return
         values = self.several(value)
+        each = [value] * len(targets)
+        if isinstance(value, ast.Tuple):  # what is starred comes through a temporary
+            each = [x for v in value.elts for x in ([None] * len(self.type(v.value)) if isinstance(v, ast.Starred) else [v])]
         apart = isinstance(value, ast.Call) or not any(
-            conflicts(target, later)
+            later is not None and conflicts(target, later)
             for i, target in enumerate(targets)
-            for later in (value.elts[i + 1 :] if isinstance(value, ast.Tuple) else [value])
+            for later in (each[i + 1 :] if isinstance(value, ast.Tuple) else [value])
         )
         if not apart:
             kinds = list(self.elements(value.elts if isinstance(value, ast.Tuple) else value.body.elts))  # type: ignore[attr-defined]
@@ -413,7 +458,7 @@ class Printer(Lookup):
             yield from self.copied(name, value, declares)
             return
         shape = value.args[0]
-        sizes = [self.expression(x).at(10) for x in (shape.elts if isinstance(shape, ast.Tuple) else [shape])]
+        sizes = [self.expression(x).at(UNARY) for x in (shape.elts if isinstance(shape, ast.Tuple) else [shape])]
         sizes = sizes * 2 if self.callee(value) == "numpy.eye" else sizes
         yield Statement(f"ALIGNED {SCALARS[kind.element]} {memory}[{' * '.join(sizes)}]")
         if self.callee(value) != "numpy.empty":
@@ -457,11 +502,15 @@ class Printer(Lookup):
         independent, bounds = ast.unparse(node.iter.func) == "lanes", [self.expression(a).text for a in node.iter.args]
         start, end, step = {1: ["0", *bounds, "1"], 2: [*bounds, "1"], 3: bounds}[len(bounds)]
         name = node.target.id if node.target.id != "_" else f"i_{self.temporaries}"
+        stored = {n.id for s in node.body for n in ast.walk(s) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)}
+        if name in stored or name in self.read_after:
+            raise NotTranslatable(f"{self.name}: {name} is more than the variable of its loop")
         if node.target.id == "_":
             self.temporaries += 1
         own = node.target.id == "_" or (id(node), name) in self.loops
         declared = self.fresh.pop(name, "int64_t" if own else "")
-        sign, more = (">", f"{name}--") if step == "-1" else ("<", f"{name}++" if step == "1" else f"{name} += {step}")
+        changes = {"1": f"{name}++", "-1": f"{name}--"}
+        sign, more = ">" if step[0] == "-" else "<", changes.get(step, f"{name} += {step}")
         if not end.replace("_", "").replace(".", "").isalnum() and not end.isdigit():
             self.temporaries += 1
             limit = f"end_{self.temporaries}"
@@ -504,6 +553,16 @@ def assigned_first(block: Sequence[ast.stmt], name: str) -> bool:
         case ast.Assign(targets=[ast.Tuple(elts=targets)], value=value):
             return any(isinstance(t, ast.Name) and t.id == name for t in targets) and name not in mentioned(value)
     return False
+
+
+def loose_variables(function: ast.FunctionDef) -> set[str]:
+    """Variables of loops that nothing else assigns, and that are read outside of their loops."""
+    loops = [n for n in ast.walk(function) if isinstance(n, ast.For) and isinstance(n.target, ast.Name)]
+    inside = {id(n) for loop in loops for s in [loop.target, *loop.body] for n in ast.walk(s)
+              if isinstance(n, ast.Name) and n.id == loop.target.id}  # fmt: skip
+    outside = [n for n in ast.walk(function) if isinstance(n, ast.Name) and id(n) not in inside]
+    assigned = {n.id for n in outside if isinstance(n.ctx, ast.Store)}
+    return {loop.target.id for loop in loops} & {n.id for n in outside} - assigned - {"_"}
 
 
 def only_loops(block: Sequence[ast.stmt], name: str) -> bool:

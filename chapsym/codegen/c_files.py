@@ -49,6 +49,8 @@ INLINE real max_r(real a, real b) { return b > a ? b : a; }
 INLINE real min_r(real a, real b) { return b < a ? b : a; }
 INLINE int64_t max_i(int64_t a, int64_t b) { return b > a ? b : a; }
 INLINE int64_t min_i(int64_t a, int64_t b) { return b < a ? b : a; }
+INLINE int64_t div_i(int64_t a, int64_t b) { return a / b - ((a % b != 0) & ((a < 0) != (b < 0))); }
+INLINE int64_t mod_i(int64_t a, int64_t b) { return a - b * div_i(a, b); }
 
 #define ARRAY1(type, a) (type){a.p, a.n[0]}
 #define ARRAY2(type, a) (type){a.p, a.n[0], a.n[1], a.s[0]}

@@ -226,7 +226,7 @@ class Lookup:
             raise NotTranslatable(f"{self.typed.function.name} calls {callee}")
         if LIBRARY[callee] is not None:
             return LIBRARY[callee]
-        found = None
+        found = "r" if callee == "math.sqrt" else None
         for argument in node.args:
             found = joined(found, self.type(argument))
         return found
@@ -256,24 +256,32 @@ class Inference(Lookup):
 
     def run(self) -> None:
         """Notes what the statements say."""
+        name = self.typed.function.name
         for node in ast.walk(self.typed.function.node):
-            match node:
-                case ast.Assign(targets=targets, value=value):
-                    for target in targets:
-                        self.bind(target, self.type(value))
-                case ast.AugAssign(target=target, value=value):
-                    self.bind(target, joined(self.type(target), self.type(value)))
-                case ast.For(target=target, iter=ast.Call()):
-                    self.bind(target, "i")
-                case ast.For(target=target, iter=ast.Tuple(elts=rows)):
-                    for row in rows:
-                        self.bind(target, self.type(row))
-                case ast.Return(value=ast.expr() as value):
-                    found = self.type(value)
-                    if not isinstance(found, tuple) or None not in found:
-                        self.types.note_returned(self.typed, found)
-                case ast.Call():
-                    self.arguments(node)
+            try:
+                self.note(node)
+            except (AttributeError, KeyError, TypeError, ValueError) as error:  # no form that is known here
+                raise NotTranslatable(str(error) if str(error).startswith(name) else f"{name}: {error}") from error
+
+    def note(self, node: ast.AST) -> None:
+        """Notes what a statement or a call says."""
+        match node:
+            case ast.Assign(targets=targets, value=value):
+                for target in targets:
+                    self.bind(target, self.type(value))
+            case ast.AugAssign(target=target, op=op, value=value):
+                self.bind(target, self.type(ast.BinOp(target, op, value)))
+            case ast.For(target=target, iter=ast.Call()):
+                self.bind(target, "i")
+            case ast.For(target=target, iter=ast.Tuple(elts=rows)):
+                for row in rows:
+                    self.bind(target, self.type(row))
+            case ast.Return(value=ast.expr() as value):
+                found = self.type(value)
+                if not isinstance(found, tuple) or None not in found:
+                    self.types.note_returned(self.typed, found)
+            case ast.Call():
+                self.arguments(node)
 
     def bind(self, target: ast.expr, found: Any) -> None:
         """The types of what is assigned to."""
@@ -292,6 +300,8 @@ class Inference(Lookup):
         callee = self.callee(node)
         if not isinstance(callee, Function):
             return
+        if node.keywords or len(node.args) > len(callee.parameters):
+            raise NotTranslatable(f"{self.typed.function.name}: {ast.unparse(node)}")
         self.typed.calls[callee] = alternative(self, node, callee)
         for function in {callee: 0, alternative(self, node, callee): 0}:
             typed = self.types.typed(function)

@@ -18,7 +18,8 @@ def twin(module: ModuleType, number: Callable[[float], Any], **instead: Any) -> 
     names: dict[str, Any] = {}
     for name, value in vars(module).items():
         if isinstance(value, FunctionType) and value.__module__ == module.__name__:
-            value = FunctionType(value.__code__.replace(co_consts=_made(value.__code__.co_consts, number)), names, name)
+            code = value.__code__.replace(co_consts=_made(value.__code__.co_consts, number))
+            value = FunctionType(code, names, name, value.__defaults__)
         names[name] = number(value) if type(value) is float else value
     names.update(instead)
     return names
