@@ -106,7 +106,7 @@ def states(
     ball, gamma, direction = draw(balls(strata)), draw(unit_vectors()), draw(unit_vectors())
     far = direction * 100 * (ball.mass_tensor.sum() + float(ball.D))
     state = [*far, *gamma, *ball.mass_tensor, float(ball.D)]
-    reach = continued(*state, 1e-5)[1]  # to a few digits, which is enough here and fast
+    reach = continued(*[*state, 1e-5])[1]  # to a few digits, which is enough here and fast
     return ball, far * reach * draw(st.floats(*fraction)), gamma
 
 

@@ -41,6 +41,8 @@ INLINE int64_t mod_i(int64_t a, int64_t b) { return a - b * div_i(a, b); }
 #define ARRAY3(type, a) (type){a.p, a.n[0], a.n[1], a.n[2], a.s[0], a.s[1]}
 #define ARRAY4(type, a) (type){a.p, a.n[0], a.n[1], a.n[2], a.n[3], a.s[0], a.s[1], a.s[2]}
 
+typedef struct { real p0, p1, p2, p3, w1, w2, w3, first, d1, d2, d3, c11, c12, c13, c21, c22, c23, c31, c32, c33; }
+    Round;
 typedef struct { double *p; int64_t n0; } d1;
 typedef struct { int64_t *p; int64_t n0; } i1;
 typedef struct { real *p; int64_t n0; } r1;
@@ -71,9 +73,7 @@ typedef struct { real a0, a1, a2, a3, a4, a5, a6, a7; int a8, a9; } t_r8b2;
 typedef struct { real a0, a1, a2, a3, a4, a5, a6, a7, a8, a9; } t_r10;
 typedef struct { real a0, a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11; } t_r12;
 typedef struct { real a0, a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11, a12; } t_r13;
-typedef struct { int a0; real a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11, a12, a13, a14, a15, a16; } t_br16;
 typedef struct { real a0, a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11, a12, a13, a14, a15, a16, a17; } t_r18;
-typedef struct { real a0, a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11, a12, a13, a14, a15, a16, a17, a18, a19; } t_r20;
 INLINE t_ri real_frexp(real x) { int e; real m = (real)frexp(x, &e); return (t_ri){m, e}; }
 
 #ifdef SINGLE
@@ -289,7 +289,7 @@ INLINE t_r13 kernel_gibbs_newton(real u1, real u2, real u3, real k1, real k2, re
     return (t_r13){o_det, o_N1, o_N2, o_N3, o_C11, o_C12, o_C13, o_C21, o_C22, o_C23, o_C31, o_C32, o_C33};
 }
 
-INLINE t_r20 gibbs_newton_round(real u1, real u2, real u3, real k1, real k2, real k3, real g1, real g2, real g3, real
+INLINE Round gibbs_newton_round(real u1, real u2, real u3, real k1, real k2, real k3, real g1, real g2, real g3, real
     I1, real I2, real I3, real D, int heavy) {
     real p0, p1, p2, p3, c11, c12, c13, c21, c22, c23, c31, c32, c33;
     if (heavy) {
@@ -304,7 +304,7 @@ INLINE t_r20 gibbs_newton_round(real u1, real u2, real u3, real k1, real k2, rea
     }
     real scale = 1 / p0, w1 = p1 * scale, w2 = p2 * scale, w3 = p3 * scale, d1 = w1 - u1, d2 = w2 - u2, d3 = w3 - u3;
     real first = d1 * d1 + (d2 * d2 + d3 * d3);
-    return (t_r20){p0, p1, p2, p3, w1, w2, w3, first, d1, d2, d3, c11, c12, c13, c21, c22, c23, c31, c32, c33};
+    return (Round){p0, p1, p2, p3, w1, w2, w3, first, d1, d2, d3, c11, c12, c13, c21, c22, c23, c31, c32, c33};
 }
 
 INLINE t_r3 kernel_gibbs_second(real d1, real d2, real d3, real k1, real k2, real k3, real c11, real c12, real c13,
@@ -315,11 +315,10 @@ INLINE t_r3 kernel_gibbs_second(real d1, real d2, real d3, real k1, real k2, rea
     real o_e3 = c13 * r1 + c23 * r2 + c33 * r3; return (t_r3){o_e1, o_e2, o_e3};
 }
 
-INLINE t_r7 gibbs_second_round(real p0, real p1, real p2, real p3, real k1, real k2, real k3, real d1, real d2, real
-    d3, real c11, real c12, real c13, real c21, real c22, real c23, real c31, real c32, real c33, real I1, real I2,
-    real I3) {
-    t_r3 e1 = kernel_gibbs_second(d1, d2, d3, k1, k2, k3, c11, c12, c13, c21, c22, c23, c31, c32, c33, I1, I2, I3);
-    real scale = 1 / p0; p1 = p1 - e1.a0; p2 = p2 - e1.a1; p3 = p3 - e1.a2;
+INLINE t_r7 gibbs_second_round(Round r, real k1, real k2, real k3, real I1, real I2, real I3) {
+    t_r3 e1 = kernel_gibbs_second(r.d1, r.d2, r.d3, k1, k2, k3, r.c11, r.c12, r.c13, r.c21, r.c22, r.c23, r.c31,
+        r.c32, r.c33, I1, I2, I3);
+    real scale = 1 / r.p0, p1 = r.p1 - e1.a0, p2 = r.p2 - e1.a1, p3 = r.p3 - e1.a2;
     real second = (e1.a0 * e1.a0 + (e1.a1 * e1.a1 + e1.a2 * e1.a2)) * (scale * scale);
     return (t_r7){p1, p2, p3, p1 * scale, p2 * scale, p3 * scale, second};
 }
@@ -327,16 +326,12 @@ INLINE t_r7 gibbs_second_round(real p0, real p1, real p2, real p3, real k1, real
 INLINE t_br7 gibbs_settle(real u1, real u2, real u3, real k1, real k2, real k3, real g1, real g2, real g3, real I1,
     real I2, real I3, real D, real radius, real enough, int heavy) {
     if (!(u1 * u1 + (u2 * u2 + u3 * u3) <= radius)) return (t_br7){0, 1, 0, 0, 0, u1, u2, u3};
-    t_r20 t_1 = gibbs_newton_round(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, heavy); real p0 = t_1.a0;
-    real p1 = t_1.a1, p2 = t_1.a2, p3 = t_1.a3, w1 = t_1.a4, w2 = t_1.a5, w3 = t_1.a6, first = t_1.a7, d1 = t_1.a8;
-    real d2 = t_1.a9, d3 = t_1.a10, c11 = t_1.a11, c12 = t_1.a12, c13 = t_1.a13, c21 = t_1.a14, c22 = t_1.a15;
-    real c23 = t_1.a16, c31 = t_1.a17, c32 = t_1.a18, c33 = t_1.a19;
-    if (first <= enough) return (t_br7){1, p0, p1, p2, p3, w1, w2, w3};
-    t_r7 t_2 = gibbs_second_round(p0, p1, p2, p3, k1, k2, k3, d1, d2, d3, c11, c12, c13, c21, c22, c23, c31, c32, c33,
-        I1, I2, I3);
-    p1 = t_2.a0; p2 = t_2.a1; p3 = t_2.a2; w1 = t_2.a3; w2 = t_2.a4; w3 = t_2.a5; real second = t_2.a6;
-    int settled = 9 * max_r(first, second) * second <= enough * enough && w1 * w1 + (w2 * w2 + w3 * w3) <= radius;
-    return (t_br7){settled, p0, p1, p2, p3, w1, w2, w3};
+    Round r = gibbs_newton_round(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, heavy);
+    if (r.first <= enough) return (t_br7){1, r.p0, r.p1, r.p2, r.p3, r.w1, r.w2, r.w3};
+    t_r7 p1 = gibbs_second_round(r, k1, k2, k3, I1, I2, I3);
+    int settled = 9 * max_r(r.first, p1.a6) * p1.a6 <= enough * enough && p1.a3 * p1.a3 + (p1.a4 * p1.a4 + p1.a5 *
+        p1.a5) <= radius;
+    return (t_br7){settled, r.p0, p1.a0, p1.a1, p1.a2, p1.a3, p1.a4, p1.a5};
 }
 
 INLINE t_r3 kernel_turn(real p0, real p1, real p2, real p3, real v1, real v2, real v3) {
@@ -363,19 +358,14 @@ INLINE t_r4 kernel_compose(real a0, real a1, real a2, real a3, real b0, real b1,
 
 INLINE t_r8b2 path_improved(real u1, real u2, real u3, real k1, real k2, real k3, real g1, real g2, real g3, real I1,
     real I2, real I3, real D) {
-    t_r20 t_1 = gibbs_newton_round(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, 0); real p0 = t_1.a0;
-    real p1 = t_1.a1, p2 = t_1.a2, p3 = t_1.a3, first = t_1.a7, d1 = t_1.a8, d2 = t_1.a9, d3 = t_1.a10, c11 = t_1.a11;
-    real c12 = t_1.a12, c13 = t_1.a13, c21 = t_1.a14, c22 = t_1.a15, c23 = t_1.a16, c31 = t_1.a17, c32 = t_1.a18;
-    real c33 = t_1.a19;
-    t_r7 t_2 = gibbs_second_round(p0, p1, p2, p3, k1, k2, k3, d1, d2, d3, c11, c12, c13, c21, c22, c23, c31, c32, c33,
-        I1, I2, I3);
-    p1 = t_2.a0; p2 = t_2.a1; p3 = t_2.a2; real w1 = t_2.a3, w2 = t_2.a4, w3 = t_2.a5, second = t_2.a6;
-    real square = w1 * w1 + (w2 * w2 + w3 * w3), curved = 6 * (R(0.5) * (max_r(max_r(I1, I2), I3) - min_r(min_r(I1,
-        I2), I3)) + real_sqrt(k1 * k1 + (k2 * k2 + k3 * k3)));
-    real left = curved * curved * (max_r(first, second) * second);
+    Round r = gibbs_newton_round(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, 0);
+    t_r7 p1 = gibbs_second_round(r, k1, k2, k3, I1, I2, I3);
+    real square = p1.a3 * p1.a3 + (p1.a4 * p1.a4 + p1.a5 * p1.a5), curved = 6 * (R(0.5) * (max_r(max_r(I1, I2), I3) -
+        min_r(min_r(I1, I2), I3)) + real_sqrt(k1 * k1 + (k2 * k2 + k3 * k3)));
+    real left = curved * curved * (max_r(r.first, p1.a6) * p1.a6);
     real allowed = R(0x1.0000000000000p-53) * (R(0.0625) * (max_r(max_r(I1, I2), I3) + D));
-    return (t_r8b2){p0, p1, p2, p3, w1, w2, w3, left, left <= allowed * allowed * square, second <= R(1e-26) *
-        square};
+    return (t_r8b2){r.p0, p1.a0, p1.a1, p1.a2, p1.a3, p1.a4, p1.a5, left, left <= allowed * allowed * square, p1.a6 <=
+        R(1e-26) * square};
 }
 
 INLINE real path_lowest(real trace, real minors, real det) {
@@ -441,12 +431,12 @@ INLINE int path_proved(real u1, real u2, real u3, real left, real k1, real k2, r
 
 INLINE t_br7 path_search_on_path(real u1, real u2, real u3, real k1, real k2, real k3, real g1, real g2, real g3, real
     I1, real I2, real I3, real D) {
-    t_r20 t_1 = gibbs_newton_round(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, 0); u1 = t_1.a4; u2 = t_1.a5;
-    u3 = t_1.a6;
-    for (int64_t i_1 = 0; i_1 < 6; i_1++) {
-        t_r8b2 t_3 = path_improved(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D); real p0 = t_3.a0, p1 = t_3.a1;
-        real p2 = t_3.a2, p3 = t_3.a3; u1 = t_3.a4; u2 = t_3.a5; u3 = t_3.a6; real left = t_3.a7; int near = t_3.a8;
-        int found = t_3.a9;
+    Round r = gibbs_newton_round(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, 0); u1 = r.w1; u2 = r.w2;
+    u3 = r.w3;
+    for (int64_t i_0 = 0; i_0 < 6; i_0++) {
+        t_r8b2 t_2 = path_improved(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D); real p0 = t_2.a0, p1 = t_2.a1;
+        real p2 = t_2.a2, p3 = t_2.a3; u1 = t_2.a4; u2 = t_2.a5; u3 = t_2.a6; real left = t_2.a7; int near = t_2.a8;
+        int found = t_2.a9;
         if ((near || found) && path_proved(u1, u2, u3, left, k1, k2, k3, g1, g2, g3, I1, I2, I3, D))
             return (t_br7){1, p0, p1, p2, p3, u1, u2, u3};
         if (found) break;
@@ -565,12 +555,12 @@ INLINE int64_t block_predicted(r2 S, r2 P, w1 ok) {
     INDEPENDENT
     for (int64_t i = 0; i < end_1; i++) {
         real u1 = P.p[9 * P.s0 + i], u2 = P.p[10 * P.s0 + i], u3 = P.p[11 * P.s0 + i];
-        t_r20 p0 = gibbs_newton_round(u1, u2, u3, S.p[0 * S.s0 + i], S.p[1 * S.s0 + i], S.p[2 * S.s0 + i], S.p[3 *
-            S.s0 + i], S.p[4 * S.s0 + i], S.p[5 * S.s0 + i], S.p[21 * S.s0 + i], S.p[22 * S.s0 + i], S.p[23 * S.s0 +
-            i], S.p[24 * S.s0 + i], 0);
-        P.p[0 * P.s0 + i] = p0.a0; P.p[1 * P.s0 + i] = p0.a1; P.p[2 * P.s0 + i] = p0.a2; P.p[3 * P.s0 + i] = p0.a3;
-        P.p[4 * P.s0 + i] = p0.a4; P.p[5 * P.s0 + i] = p0.a5; P.p[6 * P.s0 + i] = p0.a6;
-        int settled = (u1 * u1 + (u2 * u2 + u3 * u3) <= S.p[25 * S.s0 + i]) & (p0.a7 <= S.p[26 * S.s0 + i]);
+        Round r = gibbs_newton_round(u1, u2, u3, S.p[0 * S.s0 + i], S.p[1 * S.s0 + i], S.p[2 * S.s0 + i], S.p[3 * S.s0
+            + i], S.p[4 * S.s0 + i], S.p[5 * S.s0 + i], S.p[21 * S.s0 + i], S.p[22 * S.s0 + i], S.p[23 * S.s0 + i],
+            S.p[24 * S.s0 + i], 0);
+        P.p[0 * P.s0 + i] = r.p0; P.p[1 * P.s0 + i] = r.p1; P.p[2 * P.s0 + i] = r.p2; P.p[3 * P.s0 + i] = r.p3;
+        P.p[4 * P.s0 + i] = r.w1; P.p[5 * P.s0 + i] = r.w2; P.p[6 * P.s0 + i] = r.w3;
+        int settled = (u1 * u1 + (u2 * u2 + u3 * u3) <= S.p[25 * S.s0 + i]) & (r.first <= S.p[26 * S.s0 + i]);
         ok.p[i] = settled ? 1 : 0;
     }
     return block_unsettled(ok);
@@ -581,12 +571,12 @@ INLINE void block_approached(r2 S, r2 P, w1 ok) {
     INDEPENDENT
     for (int64_t i = 0; i < end_1; i++) {
         int beyond = S.p[25 * S.s0 + i] == -2;
-        t_r20 w1 = gibbs_newton_round(P.p[9 * P.s0 + i], P.p[10 * P.s0 + i], P.p[11 * P.s0 + i], S.p[0 * S.s0 + i],
+        Round r = gibbs_newton_round(P.p[9 * P.s0 + i], P.p[10 * P.s0 + i], P.p[11 * P.s0 + i], S.p[0 * S.s0 + i],
             S.p[1 * S.s0 + i], S.p[2 * S.s0 + i], S.p[3 * S.s0 + i], S.p[4 * S.s0 + i], S.p[5 * S.s0 + i], S.p[21 *
             S.s0 + i], S.p[22 * S.s0 + i], S.p[23 * S.s0 + i], S.p[24 * S.s0 + i], 0);
-        real t_2 = beyond ? w1.a4 : P.p[4 * P.s0 + i], t_3 = beyond ? w1.a5 : P.p[5 * P.s0 + i];
-        real t_4 = beyond ? w1.a6 : P.p[6 * P.s0 + i]; P.p[4 * P.s0 + i] = t_2; P.p[5 * P.s0 + i] = t_3;
-        P.p[6 * P.s0 + i] = t_4; P.p[7 * P.s0 + i] = beyond ? 1 : 0; ok.p[i] = beyond ? 0 : ok.p[i];
+        real t_2 = beyond ? r.w1 : P.p[4 * P.s0 + i], t_3 = beyond ? r.w2 : P.p[5 * P.s0 + i];
+        P.p[4 * P.s0 + i] = t_2; P.p[5 * P.s0 + i] = t_3; P.p[6 * P.s0 + i] = beyond ? r.w3 : P.p[6 * P.s0 + i];
+        P.p[7 * P.s0 + i] = beyond ? 1 : 0; ok.p[i] = beyond ? 0 : ok.p[i];
     }
 }
 
@@ -615,23 +605,20 @@ INLINE int64_t block_corrected(r2 S, r2 P, w1 ok, int again) {
         }
         real k1 = S.p[0 * S.s0 + i], k2 = S.p[1 * S.s0 + i], k3 = S.p[2 * S.s0 + i], I1 = S.p[21 * S.s0 + i];
         real I2 = S.p[22 * S.s0 + i], I3 = S.p[23 * S.s0 + i];
-        t_r20 t_2 = gibbs_newton_round(u1, u2, u3, k1, k2, k3, S.p[3 * S.s0 + i], S.p[4 * S.s0 + i], S.p[5 * S.s0 +
-            i], I1, I2, I3, S.p[24 * S.s0 + i], 0);
-        real p0 = t_2.a0, p1 = t_2.a1, p2 = t_2.a2, p3 = t_2.a3, w1 = t_2.a4, w2 = t_2.a5, w3 = t_2.a6;
-        real first = t_2.a7, d1 = t_2.a8, d2 = t_2.a9, d3 = t_2.a10, c11 = t_2.a11, c12 = t_2.a12, c13 = t_2.a13;
-        real c21 = t_2.a14, c22 = t_2.a15, c23 = t_2.a16, c31 = t_2.a17, c32 = t_2.a18, c33 = t_2.a19;
-        t_r7 r1 = gibbs_second_round(p0, p1, p2, p3, k1, k2, k3, d1, d2, d3, c11, c12, c13, c21, c22, c23, c31, c32,
-            c33, I1, I2, I3);
+        Round r = gibbs_newton_round(u1, u2, u3, k1, k2, k3, S.p[3 * S.s0 + i], S.p[4 * S.s0 + i], S.p[5 * S.s0 + i],
+            I1, I2, I3, S.p[24 * S.s0 + i], 0);
+        t_r7 r1 = gibbs_second_round(r, k1, k2, k3, I1, I2, I3); real p0 = r.p0, first = r.first;
         int once = near & (first <= enough);
         int twice = near & (r1.a3 * r1.a3 + (r1.a4 * r1.a4 + r1.a5 * r1.a5) <= radius);
         twice = twice & (9 * max_r(first, r1.a6) * r1.a6 <= enough * enough); int done = again & (ok.p[i] == 1);
-        p1 = once ? p1 : r1.a0; p2 = once ? p2 : r1.a1; p3 = once ? p3 : r1.a2; w1 = once ? w1 : r1.a3;
-        w2 = once ? w2 : r1.a4; w3 = once ? w3 : r1.a5; w1 = near ? w1 : u1; w2 = near ? w2 : u2; w3 = near ? w3 : u3;
-        real t_3 = done ? P.p[0 * P.s0 + i] : p0, t_4 = done ? P.p[1 * P.s0 + i] : p1; P.p[0 * P.s0 + i] = t_3;
-        P.p[1 * P.s0 + i] = t_4; real t_5 = done ? P.p[2 * P.s0 + i] : p2, t_6 = done ? P.p[3 * P.s0 + i] : p3;
-        P.p[2 * P.s0 + i] = t_5; P.p[3 * P.s0 + i] = t_6; real t_7 = done ? P.p[4 * P.s0 + i] : w1;
-        real t_8 = done ? P.p[5 * P.s0 + i] : w2, t_9 = done ? P.p[6 * P.s0 + i] : w3; P.p[4 * P.s0 + i] = t_7;
-        P.p[5 * P.s0 + i] = t_8; P.p[6 * P.s0 + i] = t_9; ok.p[i] = ((done | once) | twice) ? 1 : 0;
+        real p1 = once ? r.p1 : r1.a0, p2 = once ? r.p2 : r1.a1, p3 = once ? r.p3 : r1.a2, w1 = once ? r.w1 : r1.a3;
+        real w2 = once ? r.w2 : r1.a4, w3 = once ? r.w3 : r1.a5; w1 = near ? w1 : u1; w2 = near ? w2 : u2;
+        w3 = near ? w3 : u3; real t_2 = done ? P.p[0 * P.s0 + i] : p0, t_3 = done ? P.p[1 * P.s0 + i] : p1;
+        P.p[0 * P.s0 + i] = t_2; P.p[1 * P.s0 + i] = t_3; real t_4 = done ? P.p[2 * P.s0 + i] : p2;
+        real t_5 = done ? P.p[3 * P.s0 + i] : p3; P.p[2 * P.s0 + i] = t_4; P.p[3 * P.s0 + i] = t_5;
+        real t_6 = done ? P.p[4 * P.s0 + i] : w1, t_7 = done ? P.p[5 * P.s0 + i] : w2;
+        real t_8 = done ? P.p[6 * P.s0 + i] : w3; P.p[4 * P.s0 + i] = t_6; P.p[5 * P.s0 + i] = t_7;
+        P.p[6 * P.s0 + i] = t_8; ok.p[i] = ((done | once) | twice) ? 1 : 0;
     }
     return block_unsettled(ok);
 }
@@ -1212,7 +1199,7 @@ INLINE void lanes_begin_second(r2 S, int64_t B, int64_t lane, r2 weights) {
 }
 
 INLINE int64_t lanes_checked(r2 S, int64_t B, int again) {
-    int64_t end_1 = 4 * B;
+    Round r; int64_t end_1 = 4 * B;
     INDEPENDENT
     for (int64_t i = 0; i < end_1; i++) {
         real k1 = S.p[0 * S.s0 + i], k2 = S.p[1 * S.s0 + i], k3 = S.p[2 * S.s0 + i], g1 = S.p[3 * S.s0 + i];
@@ -1220,31 +1207,29 @@ INLINE int64_t lanes_checked(r2 S, int64_t B, int again) {
         real u3 = S.p[8 * S.s0 + i], I1 = S.p[27 * S.s0 + i], I2 = S.p[28 * S.s0 + i], I3 = S.p[29 * S.s0 + i];
         real contact = S.p[30 * S.s0 + i];
         if (!again) {
-            t_r20 t_2 = gibbs_newton_round(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, contact, 0); u1 = t_2.a4;
-            u2 = t_2.a5; u3 = t_2.a6;
+            r = gibbs_newton_round(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, contact, 0); u1 = r.w1; u2 = r.w2;
+            u3 = r.w3;
         }
-        t_r20 t_3 = gibbs_newton_round(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, contact, 0); real p0 = t_3.a0;
-        real p1 = t_3.a1, p2 = t_3.a2, p3 = t_3.a3, first = t_3.a7, d1 = t_3.a8, d2 = t_3.a9, d3 = t_3.a10;
-        real c11 = t_3.a11, c12 = t_3.a12, c13 = t_3.a13, c21 = t_3.a14, c22 = t_3.a15, c23 = t_3.a16, c31 = t_3.a17;
-        real c32 = t_3.a18, c33 = t_3.a19;
-        t_r7 t_4 = gibbs_second_round(p0, p1, p2, p3, k1, k2, k3, d1, d2, d3, c11, c12, c13, c21, c22, c23, c31, c32,
-            c33, I1, I2, I3);
-        p1 = t_4.a0; p2 = t_4.a1; p3 = t_4.a2; real w1 = t_4.a3, w2 = t_4.a4, w3 = t_4.a5, second = t_4.a6;
-        real squares = c11 * c11 + c12 * c12 + c13 * c13 + (c21 * c21 + c22 * c22 + c23 * c23);
-        real bent = S.p[24 * S.s0 + i] * (squares + (c31 * c31 + c32 * c32 + c33 * c33));
-        int settled = (p0 > 0) & (w1 * w1 + (w2 * w2 + w3 * w3) <= S.p[25 * S.s0 + i]);
+        r = gibbs_newton_round(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, contact, 0);
+        t_r7 p1 = gibbs_second_round(r, k1, k2, k3, I1, I2, I3);
+        real squares = r.c11 * r.c11 + r.c12 * r.c12 + r.c13 * r.c13 + (r.c21 * r.c21 + r.c22 * r.c22 + r.c23 *
+            r.c23);
+        real p0 = r.p0, first = r.first;
+        real bent = S.p[24 * S.s0 + i] * (squares + (r.c31 * r.c31 + r.c32 * r.c32 + r.c33 * r.c33));
+        int settled = (p0 > 0) & (p1.a3 * p1.a3 + (p1.a4 * p1.a4 + p1.a5 * p1.a5) <= S.p[25 * S.s0 + i]);
         settled = settled & (bent * first <= R(0.015625) * (p0 * p0));
-        settled = settled & (bent * (max_r(first, second) * second) <= S.p[26 * S.s0 + i] * (p0 * p0));
-        int closed = again & (S.p[57 * S.s0 + i] == 0); real t_5 = closed ? S.p[53 * S.s0 + i] : p0;
-        real t_6 = closed ? S.p[54 * S.s0 + i] : p1; S.p[53 * S.s0 + i] = t_5; S.p[54 * S.s0 + i] = t_6;
-        real t_7 = closed ? S.p[55 * S.s0 + i] : p2, t_8 = closed ? S.p[56 * S.s0 + i] : p3; S.p[55 * S.s0 + i] = t_7;
-        S.p[56 * S.s0 + i] = t_8; real t_9 = closed ? S.p[6 * S.s0 + i] : w1, t_10 = closed ? S.p[7 * S.s0 + i] : w2;
-        S.p[6 * S.s0 + i] = t_9; S.p[7 * S.s0 + i] = t_10; S.p[8 * S.s0 + i] = closed ? S.p[8 * S.s0 + i] : w3;
+        settled = settled & (bent * (max_r(first, p1.a6) * p1.a6) <= S.p[26 * S.s0 + i] * (p0 * p0));
+        int closed = again & (S.p[57 * S.s0 + i] == 0); real t_2 = closed ? S.p[53 * S.s0 + i] : p0;
+        real t_3 = closed ? S.p[54 * S.s0 + i] : p1.a0; S.p[53 * S.s0 + i] = t_2; S.p[54 * S.s0 + i] = t_3;
+        real t_4 = closed ? S.p[55 * S.s0 + i] : p1.a1, t_5 = closed ? S.p[56 * S.s0 + i] : p1.a2;
+        S.p[55 * S.s0 + i] = t_4; S.p[56 * S.s0 + i] = t_5; real t_6 = closed ? S.p[6 * S.s0 + i] : p1.a3;
+        real t_7 = closed ? S.p[7 * S.s0 + i] : p1.a4; S.p[6 * S.s0 + i] = t_6; S.p[7 * S.s0 + i] = t_7;
+        S.p[8 * S.s0 + i] = closed ? S.p[8 * S.s0 + i] : p1.a5;
         S.p[57 * S.s0 + i] = ((closed | settled) | (S.p[58 * S.s0 + i] != 0)) ? 0 : 1;
     }
-    int64_t left = 0, end_11 = 4 * B;
+    int64_t left = 0, end_8 = 4 * B;
     INDEPENDENT
-    for (int64_t i = 0; i < end_11; i++) left += S.p[57 * S.s0 + i] != 0 ? 1 : 0;
+    for (int64_t i = 0; i < end_8; i++) left += S.p[57 * S.s0 + i] != 0 ? 1 : 0;
     return left;
 }
 
@@ -1592,14 +1577,11 @@ INLINE void rotation_n_roll(r2 E, r1 g, r2 R, r1 spot, real rho, r1 c, r2 W) {
 
 INLINE int64_t loop_n_march(r2 k, r1 g, r1 J, real D, r1 c, r1 near, r1 enough, r4 past, r2 use, int64_t first,
     int64_t count, int64_t every, real scale, r3 momenta, r2 verticals, int with_body, r2 R, r1 spot, real rho, r3
-    attitudes, r2 traces) {
+    attitudes, r2 traces, r2 T) {
     int64_t n = k.n0, stages = c.n0; ALIGNED real E_[n * n]; r2 E = {E_, n, n, n}; ALIGNED real O_[n * n];
-    r2 O = {O_, n, n, n}; ALIGNED real W_[n * n]; r2 W = {W_, n, n, n};
-    ALIGNED real T_[div_i(n * (n - 1), 2) * div_i(n * (n - 1), 2)];
-    r2 T = {T_, div_i(n * (n - 1), 2), div_i(n * (n - 1), 2), div_i(n * (n - 1), 2)};
-    ALIGNED real r_[div_i(n * (n - 1), 2)]; r1 r = {r_, div_i(n * (n - 1), 2)}; ALIGNED real h_[n]; r1 h = {h_, n};
-    ALIGNED real v_[n]; r1 v = {v_, n}; ALIGNED real part_[n * n]; r2 part = {part_, n, n, n}; int64_t i, j, frame;
-    int64_t end_1 = first + count;
+    r2 O = {O_, n, n, n}; ALIGNED real W_[n * n]; r2 W = {W_, n, n, n}; ALIGNED real r_[T.n0]; r1 r = {r_, T.n0};
+    ALIGNED real h_[n]; r1 h = {h_, n}; ALIGNED real v_[n]; r1 v = {v_, n}; ALIGNED real part_[n * n];
+    r2 part = {part_, n, n, n}; int64_t i, j, frame, end_1 = first + count;
     for (int64_t stage = first; stage < end_1; stage++) {
         int64_t s = mod_i(stage, stages);
         for (i = 0; i < n; i++) {
@@ -1778,22 +1760,18 @@ INLINE t_r2 pairs_multiply(real a, real a_, real b, real b_) {
     t_r2 p = pairs_two_product(a, b); return pairs_quick_two_sum(p.a0, p.a1 + (a * b_ + a_ * b));
 }
 
-INLINE t_br16 double_double_step_approach(real u1, real u2, real u3, real k1, real k2, real k3, real g1, real g2, real
+INLINE Round double_double_step_approach(real u1, real u2, real u3, real k1, real k2, real k3, real g1, real g2, real
     g3, real I1, real I2, real I3, real D, real radius, real enough) {
-    real p0, w1, w2, w3, first, d1, d2, d3, c11, c12, c13, c21, c22, c23, c31, c32, c33;
-    for (int64_t i_0 = 0; i_0 < 12; i_0++) {
-        if (!(u1 * u1 + (u2 * u2 + u3 * u3) <= radius)) {
-            u1 = 0; u2 = 0; u3 = 0;
+    Round r = gibbs_newton_round(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, 0);
+    for (int64_t i_0 = 0; i_0 < 11; i_0++) {
+        if (r.first <= enough || radius < 0) break;
+        real w1 = r.w1, w2 = r.w2, w3 = r.w3;
+        if (!(w1 * w1 + (w2 * w2 + w3 * w3) <= radius)) {
+            w1 = 0; w2 = 0; w3 = 0;
         }
-        t_r20 t_2 = gibbs_newton_round(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, 0); p0 = t_2.a0;
-        w1 = t_2.a4; w2 = t_2.a5; w3 = t_2.a6; first = t_2.a7; d1 = t_2.a8; d2 = t_2.a9; d3 = t_2.a10; c11 = t_2.a11;
-        c12 = t_2.a12; c13 = t_2.a13; c21 = t_2.a14; c22 = t_2.a15; c23 = t_2.a16; c31 = t_2.a17; c32 = t_2.a18;
-        c33 = t_2.a19;
-        if (first <= enough || radius < 0) break;
-        u1 = w1; u2 = w2; u3 = w3;
+        r = gibbs_newton_round(w1, w2, w3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, 0);
     }
-    return (t_br16){radius >= 0 && first <= enough, w1, w2, w3, d1, d2, d3, p0, c11, c12, c13, c21, c22, c23, c31,
-        c32, c33};
+    return r;
 }
 
 INLINE t_r2 pairs_loose_subtract(real a, real a_, real b, real b_) {
@@ -1963,13 +1941,12 @@ INLINE t_r3 kernel_gibbs_mixed(real d1, real d2, real d3, real e1, real e2, real
     real o_x3 = c13 * r1 + c23 * r2 + c33 * r3; return (t_r3){o_x1, o_x2, o_x3};
 }
 
-INLINE t_r3 double_double_step_correction(real d1, real d2, real d3, real r1, real r2, real r3, real k1, real k2, real
-    k3, real I1, real I2, real I3, real det, real c11, real c12, real c13, real c21, real c22, real c23, real c31,
-    real c32, real c33) {
-    real s = -1 / det, e1 = s * (c11 * r1 + c21 * r2 + c31 * r3), e2 = s * (c12 * r1 + c22 * r2 + c32 * r3);
-    real e3 = s * (c13 * r1 + c23 * r2 + c33 * r3);
-    t_r3 x1 = kernel_gibbs_mixed(d1 + R(0.5) * e1, d2 + R(0.5) * e2, d3 + R(0.5) * e3, e1, e2, e3, k1, k2, k3, c11,
-        c12, c13, c21, c22, c23, c31, c32, c33, I1, I2, I3);
+INLINE t_r3 double_double_step_correction(Round r, real r1, real r2, real r3, real k1, real k2, real k3, real I1, real
+    I2, real I3) {
+    real s = -1 / r.p0, e1 = s * (r.c11 * r1 + r.c21 * r2 + r.c31 * r3);
+    real e2 = s * (r.c12 * r1 + r.c22 * r2 + r.c32 * r3), e3 = s * (r.c13 * r1 + r.c23 * r2 + r.c33 * r3);
+    t_r3 x1 = kernel_gibbs_mixed(r.d1 + R(0.5) * e1, r.d2 + R(0.5) * e2, r.d3 + R(0.5) * e3, e1, e2, e3, k1, k2, k3,
+        r.c11, r.c12, r.c13, r.c21, r.c22, r.c23, r.c31, r.c32, r.c33, I1, I2, I3);
     return (t_r3){e1 + s * x1.a0, e2 + s * x1.a1, e3 + s * x1.a2};
 }
 
@@ -1980,40 +1957,40 @@ INLINE int double_double_step_small(real w1, real w2, real w3, real e1, real e2,
 INLINE t_ir7 double_double_step_solved(real u1, real u2, real u3, real k1, real k1_, real k2, real k2_, real k3, real
     k3_, real g1, real g1_, real g2, real g2_, real g3, real g3_, real I1, real I1_, real I2, real I2_, real I3, real
     I3_, real J1, real J2, real J3, real D, real radius, real enough) {
-    t_br16 t_1 = double_double_step_approach(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, radius, enough);
-    int settled = t_1.a0; real w1 = t_1.a1, w2 = t_1.a2, w3 = t_1.a3, d1 = t_1.a4, d2 = t_1.a5, d3 = t_1.a6;
-    real det = t_1.a7, c11 = t_1.a8, c12 = t_1.a9, c13 = t_1.a10, c21 = t_1.a11, c22 = t_1.a12, c23 = t_1.a13;
-    real c31 = t_1.a14, c32 = t_1.a15, c33 = t_1.a16; int64_t status = 0; real reach = 1, p0, p1, p2, p3;
+    int near = u1 * u1 + (u2 * u2 + u3 * u3) <= radius;
+    Round r = double_double_step_approach(near ? u1 : 0, near ? u2 : 0, near ? u3 : 0, k1, k2, k3, g1, g2, g3, I1, I2,
+        I3, D, radius, enough);
+    int settled = radius >= 0 && r.first <= enough; real w1 = r.w1, w2 = r.w2, w3 = r.w3; int64_t status = 0;
+    real reach = 1, p0, p1, p2, p3;
     if (settled) {
         t_r6 r1 = double_double_gibbs_residual_pairs(w1, w2, w3, k1, k1_, k2, k2_, k3, k3_, g1, g1_, g2, g2_, g3, g3_,
             I1, I1_, I2, I2_, I3, I3_, D);
-        t_r3 e1 = double_double_step_correction(d1, d2, d3, r1.a0, r1.a2, r1.a4, k1, k2, k3, I1, I2, I3, det, c11,
-            c12, c13, c21, c22, c23, c31, c32, c33);
+        t_r3 e1 = double_double_step_correction(r, r1.a0, r1.a2, r1.a4, k1, k2, k3, I1, I2, I3);
         if (double_double_step_small(w1, w2, w3, e1.a0, e1.a1, e1.a2)) {
-            t_r2 t_2 = pairs_two_sum(w1, e1.a0), t_3 = pairs_two_sum(w2, e1.a1), t_4 = pairs_two_sum(w3, e1.a2);
-            return (t_ir7){0, 1, t_2.a0, t_2.a1, t_3.a0, t_3.a1, t_4.a0, t_4.a1};
+            t_r2 t_1 = pairs_two_sum(w1, e1.a0), t_2 = pairs_two_sum(w2, e1.a1), t_3 = pairs_two_sum(w3, e1.a2);
+            return (t_ir7){0, 1, t_1.a0, t_1.a1, t_2.a0, t_2.a1, t_3.a0, t_3.a1};
         }
         w1 = w1 + e1.a0; w2 = w2 + e1.a1; w3 = w3 + e1.a2; p0 = 1 / real_sqrt(1 + (w1 * w1 + (w2 * w2 + w3 * w3)));
         p1 = p0 * w1; p2 = p0 * w2; p3 = p0 * w3;
     }
     else {
         if (radius == -2) {
-            t_br7 t_5 = path_search_on_path(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D); settled = t_5.a0;
-            p0 = t_5.a1; p1 = t_5.a2; p2 = t_5.a3; p3 = t_5.a4; w1 = t_5.a5; w2 = t_5.a6; w3 = t_5.a7;
+            t_br7 t_4 = path_search_on_path(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D); settled = t_4.a0;
+            p0 = t_4.a1; p1 = t_4.a2; p2 = t_4.a3; p3 = t_4.a4; w1 = t_4.a5; w2 = t_4.a6; w3 = t_4.a7;
         }
         if (settled) {
             p0 = 1 / real_sqrt(1 + (w1 * w1 + (w2 * w2 + w3 * w3))); p1 = p0 * w1; p2 = p0 * w2; p3 = p0 * w3;
         }
         else {
-            t_ir5 t_6 = branch_small_rotation(2 * k1, 2 * k2, 2 * k3, g1, g2, g3, J1, J2, J3, D); status = t_6.a0;
-            reach = t_6.a1; p0 = t_6.a2; p1 = t_6.a3; p2 = t_6.a4; p3 = t_6.a5;
+            t_ir5 t_5 = branch_small_rotation(2 * k1, 2 * k2, 2 * k3, g1, g2, g3, J1, J2, J3, D); status = t_5.a0;
+            reach = t_5.a1; p0 = t_5.a2; p1 = t_5.a3; p2 = t_5.a4; p3 = t_5.a5;
         }
         if (status != 0 && !(status == 1 && reach > R(0x1.fffffffffff00p-1)))
             return (t_ir7){status, reach, 0, 0, 0, 0, 0, 0};
     }
-    t_br6 t_7 = double_double_step_polished(p0, p1, p2, p3, k1, k1_, k2, k2_, k3, k3_, g1, g1_, g2, g2_, g3, g3_, J1,
+    t_br6 t_6 = double_double_step_polished(p0, p1, p2, p3, k1, k1_, k2, k2_, k3, k3_, g1, g1_, g2, g2_, g3, g3_, J1,
         J2, J3, D, status == 1 ? R(1e-06) : R(0.1));
-    settled = t_7.a0; u1 = t_7.a1; real u1_ = t_7.a2; u2 = t_7.a3; real u2_ = t_7.a4; u3 = t_7.a5; real u3_ = t_7.a6;
+    settled = t_6.a0; u1 = t_6.a1; real u1_ = t_6.a2; u2 = t_6.a3; real u2_ = t_6.a4; u3 = t_6.a5; real u3_ = t_6.a6;
     if (settled) return (t_ir7){0, 1, u1, u1_, u2, u2_, u3, u3_};
     return (t_ir7){status == 1 ? 1 : 2, reach, 0, 0, 0, 0, 0, 0};
 }
@@ -2320,58 +2297,81 @@ INLINE void double_double_block_turned(r2 S, r2 P) {
 }
 
 INLINE int64_t double_double_block_approached(r2 S, r2 P, i1 ok, int again) {
-    int64_t bad = 0, row; real c;
+    int64_t bad = 0, row; real x;
     INDEPENDENT
     for (int64_t i = 0; i < 16; i++) {
         real radius = S.p[52 * S.s0 + i], u1 = again ? P.p[0 * P.s0 + i] : S.p[28 * S.s0 + i];
         real u2 = again ? P.p[1 * P.s0 + i] : S.p[29 * S.s0 + i], u3 = again ? P.p[2 * P.s0 + i] : S.p[30 * S.s0 + i];
         int near = u1 * u1 + (u2 * u2 + u3 * u3) <= radius; u1 = near ? u1 : 0; u2 = near ? u2 : 0;
         u3 = near ? u3 : 0;
-        t_r20 p0 = gibbs_newton_round(u1, u2, u3, S.p[0 * S.s0 + i], S.p[2 * S.s0 + i], S.p[4 * S.s0 + i], S.p[6 *
-            S.s0 + i], S.p[8 * S.s0 + i], S.p[10 * S.s0 + i], S.p[12 * S.s0 + i], S.p[14 * S.s0 + i], S.p[16 * S.s0 +
-            i], S.p[21 * S.s0 + i], 0);
-        int done = again & (ok.p[i] == 1); real t_1 = done ? P.p[0 * P.s0 + i] : p0.a4;
-        real t_2 = done ? P.p[1 * P.s0 + i] : p0.a5, t_3 = done ? P.p[2 * P.s0 + i] : p0.a6; P.p[0 * P.s0 + i] = t_1;
-        P.p[1 * P.s0 + i] = t_2; P.p[2 * P.s0 + i] = t_3; real t_4 = done ? P.p[3 * P.s0 + i] : p0.a8;
-        real t_5 = done ? P.p[4 * P.s0 + i] : p0.a9, t_6 = done ? P.p[5 * P.s0 + i] : p0.a10; P.p[3 * P.s0 + i] = t_4;
-        P.p[4 * P.s0 + i] = t_5; P.p[5 * P.s0 + i] = t_6; P.p[6 * P.s0 + i] = done ? P.p[6 * P.s0 + i] : p0.a0;
-        row = 0; c = p0.a11;
+        Round r = gibbs_newton_round(u1, u2, u3, S.p[0 * S.s0 + i], S.p[2 * S.s0 + i], S.p[4 * S.s0 + i], S.p[6 * S.s0
+            + i], S.p[8 * S.s0 + i], S.p[10 * S.s0 + i], S.p[12 * S.s0 + i], S.p[14 * S.s0 + i], S.p[16 * S.s0 + i],
+            S.p[21 * S.s0 + i], 0);
+        int done = again & (ok.p[i] == 1); row = 0; x = r.w1;
         {
-            P.p[(7 + row) * P.s0 + i] = done ? P.p[(7 + row) * P.s0 + i] : c;
+            P.p[row * P.s0 + i] = done ? P.p[row * P.s0 + i] : x;
         }
-        row = 1; c = p0.a12;
+        row = 1; x = r.w2;
         {
-            P.p[(7 + row) * P.s0 + i] = done ? P.p[(7 + row) * P.s0 + i] : c;
+            P.p[row * P.s0 + i] = done ? P.p[row * P.s0 + i] : x;
         }
-        row = 2; c = p0.a13;
+        row = 2; x = r.w3;
         {
-            P.p[(7 + row) * P.s0 + i] = done ? P.p[(7 + row) * P.s0 + i] : c;
+            P.p[row * P.s0 + i] = done ? P.p[row * P.s0 + i] : x;
         }
-        row = 3; c = p0.a14;
+        row = 3; x = r.d1;
         {
-            P.p[(7 + row) * P.s0 + i] = done ? P.p[(7 + row) * P.s0 + i] : c;
+            P.p[row * P.s0 + i] = done ? P.p[row * P.s0 + i] : x;
         }
-        row = 4; c = p0.a15;
+        row = 4; x = r.d2;
         {
-            P.p[(7 + row) * P.s0 + i] = done ? P.p[(7 + row) * P.s0 + i] : c;
+            P.p[row * P.s0 + i] = done ? P.p[row * P.s0 + i] : x;
         }
-        row = 5; c = p0.a16;
+        row = 5; x = r.d3;
         {
-            P.p[(7 + row) * P.s0 + i] = done ? P.p[(7 + row) * P.s0 + i] : c;
+            P.p[row * P.s0 + i] = done ? P.p[row * P.s0 + i] : x;
         }
-        row = 6; c = p0.a17;
+        row = 6; x = r.p0;
         {
-            P.p[(7 + row) * P.s0 + i] = done ? P.p[(7 + row) * P.s0 + i] : c;
+            P.p[row * P.s0 + i] = done ? P.p[row * P.s0 + i] : x;
         }
-        row = 7; c = p0.a18;
+        row = 7; x = r.c11;
         {
-            P.p[(7 + row) * P.s0 + i] = done ? P.p[(7 + row) * P.s0 + i] : c;
+            P.p[row * P.s0 + i] = done ? P.p[row * P.s0 + i] : x;
         }
-        row = 8; c = p0.a19;
+        row = 8; x = r.c12;
         {
-            P.p[(7 + row) * P.s0 + i] = done ? P.p[(7 + row) * P.s0 + i] : c;
+            P.p[row * P.s0 + i] = done ? P.p[row * P.s0 + i] : x;
         }
-        ok.p[i] = (done | ((radius >= 0) & (p0.a7 <= S.p[53 * S.s0 + i]))) ? 1 : 0;
+        row = 9; x = r.c13;
+        {
+            P.p[row * P.s0 + i] = done ? P.p[row * P.s0 + i] : x;
+        }
+        row = 10; x = r.c21;
+        {
+            P.p[row * P.s0 + i] = done ? P.p[row * P.s0 + i] : x;
+        }
+        row = 11; x = r.c22;
+        {
+            P.p[row * P.s0 + i] = done ? P.p[row * P.s0 + i] : x;
+        }
+        row = 12; x = r.c23;
+        {
+            P.p[row * P.s0 + i] = done ? P.p[row * P.s0 + i] : x;
+        }
+        row = 13; x = r.c31;
+        {
+            P.p[row * P.s0 + i] = done ? P.p[row * P.s0 + i] : x;
+        }
+        row = 14; x = r.c32;
+        {
+            P.p[row * P.s0 + i] = done ? P.p[row * P.s0 + i] : x;
+        }
+        row = 15; x = r.c33;
+        {
+            P.p[row * P.s0 + i] = done ? P.p[row * P.s0 + i] : x;
+        }
+        ok.p[i] = (done | ((radius >= 0) & (r.first <= S.p[53 * S.s0 + i]))) ? 1 : 0;
         bad += radius >= 0 ? 1 - ok.p[i] : 0;
     }
     return bad;
@@ -2382,11 +2382,12 @@ INLINE int64_t double_double_block_corrected(r2 S, r2 P, i1 ok) {
     INDEPENDENT
     for (int64_t i = 0; i < 16; i++) {
         real w1 = P.p[0 * P.s0 + i], w2 = P.p[1 * P.s0 + i], w3 = P.p[2 * P.s0 + i];
-        t_r3 e1 = double_double_step_correction(P.p[3 * P.s0 + i], P.p[4 * P.s0 + i], P.p[5 * P.s0 + i], P.p[16 * P.s0
-            + i], P.p[17 * P.s0 + i], P.p[18 * P.s0 + i], S.p[0 * S.s0 + i], S.p[2 * S.s0 + i], S.p[4 * S.s0 + i],
-            S.p[12 * S.s0 + i], S.p[14 * S.s0 + i], S.p[16 * S.s0 + i], P.p[6 * P.s0 + i], P.p[7 * P.s0 + i], P.p[8 *
-            P.s0 + i], P.p[9 * P.s0 + i], P.p[10 * P.s0 + i], P.p[11 * P.s0 + i], P.p[12 * P.s0 + i], P.p[13 * P.s0 +
-            i], P.p[14 * P.s0 + i], P.p[15 * P.s0 + i]);
+        Round r = (Round){P.p[6 * P.s0 + i], 0, 0, 0, w1, w2, w3, 0, P.p[3 * P.s0 + i], P.p[4 * P.s0 + i], P.p[5 *
+            P.s0 + i], P.p[7 * P.s0 + i], P.p[8 * P.s0 + i], P.p[9 * P.s0 + i], P.p[10 * P.s0 + i], P.p[11 * P.s0 +
+            i], P.p[12 * P.s0 + i], P.p[13 * P.s0 + i], P.p[14 * P.s0 + i], P.p[15 * P.s0 + i]};
+        t_r3 e1 = double_double_step_correction(r, P.p[16 * P.s0 + i], P.p[17 * P.s0 + i], P.p[18 * P.s0 + i], S.p[0 *
+            S.s0 + i], S.p[2 * S.s0 + i], S.p[4 * S.s0 + i], S.p[12 * S.s0 + i], S.p[14 * S.s0 + i], S.p[16 * S.s0 +
+            i]);
         P.p[19 * P.s0 + i] = e1.a0; P.p[20 * P.s0 + i] = e1.a1; P.p[21 * P.s0 + i] = e1.a2;
         ok.p[i] = ((ok.p[i] == 1) & double_double_step_small(w1, w2, w3, e1.a0, e1.a1, e1.a2)) ? 1 : 0;
         bad += 1 - ok.p[i];
@@ -3010,7 +3011,7 @@ WIDEST static void in_loop_n_march(const argument *a, argument *got) {
     int64_t out = loop_n_march(ARRAY2(r2, a[0]), ARRAY1(r1, a[1]), ARRAY1(r1, a[2]), a[3].number, ARRAY1(r1, a[4]),
         ARRAY1(r1, a[5]), ARRAY1(r1, a[6]), ARRAY4(r4, a[7]), ARRAY2(r2, a[8]), a[9].integer, a[10].integer,
         a[11].integer, a[12].number, ARRAY3(r3, a[13]), ARRAY2(r2, a[14]), a[15].integer, ARRAY2(r2, a[16]),
-        ARRAY1(r1, a[17]), a[18].number, ARRAY3(r3, a[19]), ARRAY2(r2, a[20]));
+        ARRAY1(r1, a[17]), a[18].number, ARRAY3(r3, a[19]), ARRAY2(r2, a[20]), ARRAY2(r2, a[21]));
     got[0].integer = out;
 }
 
@@ -3077,7 +3078,7 @@ const loop_export loops_double[] = {
     {"single_step_advance_all", "r2* r2* r2 r1 r2* i1* d1*", "", in_single_step_advance_all},
     {"long_run_march_one", "r3* r3* r3* r3* r2 r1 r1 r i i b b r2 r3 r2 r1* i1* i1* d1*", "", in_long_run_march_one},
     {"long_run_march_eight", "r3* r3* r3* r3* r2 r1 r1 r i i b b r2 r3 r2 r1* i1* i1* d1*", "", in_long_run_march_eight},
-    {"loop_n_march", "r2* r1* r1 r r1 r1 r1 r4* r2* i i i r r3* r2* b r2* r1* r r3* r2*", "i", in_loop_n_march},
+    {"loop_n_march", "r2* r1* r1 r r1 r1 r1 r4* r2* i i i r r3* r2* b r2* r1* r r3* r2* r2*", "i", in_loop_n_march},
     {"vertical_loop_march", "r1 r1 r i i r2* r1*", "b", in_vertical_loop_march},
     {"double_double_loop_prepare_pairs", "r1 r1 r1 r r2 r1* r1* r1*", "ii", in_double_double_loop_prepare_pairs},
     {"double_double_loop_march_pairs", "r1* r2 r1 r1 r3* i i i i i r2* r2* r2* r2* b r1* r1* r r2* r2* r2* r2*", "iir", in_double_double_loop_march_pairs},
@@ -3097,5 +3098,5 @@ const int loops_single_count = 4;
 #endif
 
 #ifndef SINGLE
-const char loops_text[] = "055c5988ed07bc9b34fa92faf578bb33cdf22dd39d32c6d15c5ae5f4e207ed93";
+const char loops_text[] = "bf55020a9679d2c3efb99ce57daf1441baff7b4b0a5aad7fe16ab58487008e91";
 #endif

@@ -10,7 +10,7 @@ from textwrap import wrap
 from typing import Any
 
 from .infer import ALLOCATE, Array, Lookup, NotTranslatable, Types, alternative, base_name, is_external
-from .source import Function, Module, constant
+from .source import Function, Module, Record, constant
 
 #: What binds tighter has the larger number, as in C.
 OPERATORS: dict[type, tuple[str, int]] = {
@@ -34,6 +34,8 @@ def c_type(found: Any) -> str:
     if isinstance(found, tuple):  # by the runs of equal types
         runs = [(kind, len(list(run))) for kind, run in groupby(found)]
         return "t_" + "".join(f"{kind}{count if count > 1 else ''}" for kind, count in runs)
+    if isinstance(found, Record):
+        return found.name
     return str(found) if isinstance(found, Array) else SCALARS[found]
 
 
@@ -86,7 +88,9 @@ class Printer(Lookup):
             return "NAN"
         if abs(value) == float("inf"):
             return "INFINITY" if value > 0 else "-INFINITY"
-        if isinstance(value, int) or (abs(value) <= EXACT and value == int(value) and (value or copysign(1, value) > 0)):
+        if isinstance(value, int) or (
+            abs(value) <= EXACT and value == int(value) and (value or copysign(1, value) > 0)
+        ):
             return str(int(value))
         short = repr(value)
         return f"R({short if len(short) <= 8 else value.hex()})"
@@ -140,9 +144,11 @@ class Printer(Lookup):
                 parts = [self.expression(values[0]), *map(self.unhoisted, values[1:])]
                 return Text(f" {sign} ".join(part.at(AND + 1) for part in parts), level)
             case ast.IfExp(test=test, body=body, orelse=orelse):
-                parts = [self.expression(test).at(LESS)]
-                parts += [self.unhoisted(x).at(TERNARY + 1) for x in (body, orelse)]
-                return Text("{} ? {} : {}".format(*parts), TERNARY)
+                first = self.expression(test).at(LESS)
+                yes, no = (self.unhoisted(x).at(TERNARY + 1) for x in (body, orelse))
+                return Text(f"{first} ? {yes} : {no}", TERNARY)
+            case ast.Attribute(value=ast.Name(id=name), attr=attribute):
+                return Text(f"{name}.{attribute}")
             case ast.Subscript(value=ast.Attribute(value=array, attr="shape"), slice=axis):
                 return Text(f"{self.expression(array).text}.n{self.value(axis)}")
             case ast.Subscript():
@@ -224,6 +230,8 @@ class Printer(Lookup):
         callee = self.callee(node)
         if isinstance(callee, Function):
             return Text(f"{self.function_name(node, callee)}({', '.join(self.arguments(node, callee))})")
+        if isinstance(callee, Record):
+            return Text(f"({callee.name}){{{', '.join(self.several(ast.Tuple(node.args)))}}}")
         if callee in ("max", "min"):
             kind, (found, *others) = self.type(node), [self.expression(a).text for a in node.args]
             for other in others:
@@ -280,8 +288,11 @@ class Printer(Lookup):
             test = self.expression(node.test).at(LESS)
             pairs = zip(self.several(node.body), self.several(node.orelse), strict=True)
             return [f"{test} ? {a} : {b}" for a, b in pairs]
+        kind = self.type(node)
+        if isinstance(node, ast.Name) and isinstance(kind, Record):
+            return [f"{node.id}.{name}" for name in kind.fields]
         assert isinstance(node, ast.Call)
-        kind, temporary, value = self.type(node), self.temporary(), self.returned_by(node)
+        temporary, value = self.temporary(), self.returned_by(node)
         self.hoisted.append(Statement(f"{temporary} = {value}", c_type(kind)))
         return [f"{temporary}.a{i}" for i in range(len(kind))]
 
@@ -427,9 +438,11 @@ class Printer(Lookup):
                     self.within[name] = f"{kept[0]}.a{i}"
             return
         values = self.several(value)
-        each = [value] * len(targets)
+        each: list[ast.expr | None] = [value] * len(targets)
         if isinstance(value, ast.Tuple):  # what is starred comes through a temporary
-            each = [x for v in value.elts for x in ([None] * len(self.type(v.value)) if isinstance(v, ast.Starred) else [v])]
+            each = [
+                x for v in value.elts for x in ([None] * len(self.type(v.value)) if isinstance(v, ast.Starred) else [v])
+            ]
         apart = isinstance(value, ast.Call) or not any(
             later is not None and conflicts(target, later)
             for i, target in enumerate(targets)
@@ -502,7 +515,9 @@ class Printer(Lookup):
         independent, bounds = ast.unparse(node.iter.func) == "lanes", [self.expression(a).text for a in node.iter.args]
         start, end, step = {1: ["0", *bounds, "1"], 2: [*bounds, "1"], 3: bounds}[len(bounds)]
         name = node.target.id if node.target.id != "_" else f"i_{self.temporaries}"
-        stored = {n.id for s in node.body for n in ast.walk(s) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)}
+        stored = {
+            n.id for s in node.body for n in ast.walk(s) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)
+        }
         if name in stored or name in self.read_after:
             raise NotTranslatable(f"{self.name}: {name} is more than the variable of its loop")
         if node.target.id == "_":
@@ -557,12 +572,14 @@ def assigned_first(block: Sequence[ast.stmt], name: str) -> bool:
 
 def loose_variables(function: ast.FunctionDef) -> set[str]:
     """Variables of loops that nothing else assigns, and that are read outside of their loops."""
-    loops = [n for n in ast.walk(function) if isinstance(n, ast.For) and isinstance(n.target, ast.Name)]
-    inside = {id(n) for loop in loops for s in [loop.target, *loop.body] for n in ast.walk(s)
-              if isinstance(n, ast.Name) and n.id == loop.target.id}  # fmt: skip
+    loops = {n: n.target.id for n in ast.walk(function) if isinstance(n, ast.For) and isinstance(n.target, ast.Name)}
+    inside = {
+        id(n) for loop, name in loops.items() for s in [loop.target, *loop.body] for n in ast.walk(s)
+        if isinstance(n, ast.Name) and n.id == name
+    }  # fmt: skip
     outside = [n for n in ast.walk(function) if isinstance(n, ast.Name) and id(n) not in inside]
     assigned = {n.id for n in outside if isinstance(n.ctx, ast.Store)}
-    return {loop.target.id for loop in loops} & {n.id for n in outside} - assigned - {"_"}
+    return set(loops.values()) & {n.id for n in outside} - assigned - {"_"}
 
 
 def only_loops(block: Sequence[ast.stmt], name: str) -> bool:

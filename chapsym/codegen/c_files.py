@@ -7,7 +7,7 @@ from typing import Any
 from .c import SCALARS, Printer, broken, c_type, lines
 from .infer import NARROW, Array, Types, is_external
 from .kernels import Kernel
-from .source import Function, Program
+from .source import Function, Program, Record
 
 #: The modules with functions that are exported, and those that float32 has, too.
 PACKAGE = "chapsym.dynamics.loops"
@@ -153,6 +153,8 @@ class Texts:
                     for f in typed.calls if is_external(typed.function, f)
                 }  # fmt: skip
         rows = []
+        for record in sorted({t.returned for t in self.types.of.values() if isinstance(t.returned, Record)}, key=str):
+            rows += broken(f"typedef struct {{ real {', '.join(record.fields)}; }} {record.name};")
         for array in sorted(arrays | {Array(a.element, r) for a in arrays for r in range(1, a.rank)}, key=str):
             sizes = ", ".join([f"n{i}" for i in range(array.rank)] + [f"s{i}" for i in range(array.rank - 1)])
             rows.append(f"typedef struct {{ {SCALARS[array.element]} *p; int64_t {sizes}; }} {array};")

@@ -9,7 +9,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from .source import Function, Module, NotConstant, Program, constant
+from .source import Function, Module, NotConstant, Program, Record, constant
 
 #: What a parameter of an exported function may be annotated with.
 ANNOTATIONS: dict[str, Any] = {"bool": "b", "int": "i", "float": "r"}
@@ -176,6 +176,8 @@ class Lookup:
                 return "b"
             case ast.IfExp(body=body, orelse=orelse):
                 return joined(self.type(body), self.type(orelse))
+            case ast.Attribute(value=ast.Name(id=name)) if name not in self.module.names:  # of a record
+                return "r"
             case ast.Subscript(value=ast.Attribute(attr="shape")):
                 return "i"
             case ast.Subscript():
@@ -189,7 +191,8 @@ class Lookup:
         for node in nodes:
             if isinstance(node, ast.Starred):
                 found = self.type(node.value)
-                yield from found if isinstance(found, tuple) else (None,)
+                several = "r" * len(found.fields) if isinstance(found, Record) else found
+                yield from several if several is not None else (None,)
             else:
                 yield self.type(node)
 
@@ -214,6 +217,8 @@ class Lookup:
             if is_external(self.typed.function, callee) and isinstance(found, tuple):
                 return tuple("d" if x == "r" else x for x in found)
             return found
+        if isinstance(callee, Record):
+            return callee
         if callee == "copy":
             return self.type(node.func.value)  # type: ignore[attr-defined]
         if callee == "reshape":

@@ -51,6 +51,14 @@ class Function:
         return any(isinstance(d, ast.Name) and d.id == "out_of_line" for d in self.node.decorator_list)
 
 
+@dataclass(frozen=True)
+class Record:
+    """A named tuple of numbers: its name and those of its fields."""
+
+    name: str
+    fields: tuple[str, ...]
+
+
 @dataclass(eq=False)
 class Module:
     """What a module defines and imports, by name: functions, numbers, modules, or the path of something outside."""
@@ -81,6 +89,11 @@ class Program:
             match node:
                 case ast.FunctionDef():
                     module.names[node.name] = module.functions[node.name] = Function(module, node)
+                case ast.ClassDef(bases=[ast.Name(id="NamedTuple")], body=body):
+                    fields = (
+                        n.target.id for n in body if isinstance(n, ast.AnnAssign) and isinstance(n.target, ast.Name)
+                    )
+                    module.names[node.name] = Record(node.name, tuple(fields))
                 case ast.ImportFrom() | ast.Import():
                     module.names.update(self._imported(path, node))
                 case ast.Assign(targets=[ast.Name(id="SINGLE")], value=ast.Dict() as table):

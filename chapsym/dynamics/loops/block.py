@@ -40,12 +40,12 @@ def predicted(S, P, ok):
     """Every lane's rotation, by a Newton iterate from the extrapolation; returns how many did not settle."""
     for i in lanes(whole(ok)):
         u1, u2, u3 = P[A, i], P[A + 1, i], P[A + 2, i]
-        p0, p1, p2, p3, w1, w2, w3, first, _, _, _, _, _, _, _, _, _, _, _, _ = newton_round(
+        r = newton_round(
             u1, u2, u3, S[K, i], S[K + 1, i], S[K + 2, i], S[G, i], S[G + 1, i], S[G + 2, i],
             S[I, i], S[I + 1, i], S[I + 2, i], S[D, i],
         )  # fmt: skip
-        P[0, i], P[1, i], P[2, i], P[3, i], P[4, i], P[5, i], P[6, i] = p0, p1, p2, p3, w1, w2, w3
-        settled = (u1 * u1 + (u2 * u2 + u3 * u3) <= S[RADIUS, i]) & (first <= S[ENOUGH, i])
+        P[0, i], P[1, i], P[2, i], P[3, i], P[4, i], P[5, i], P[6, i] = r.p0, r.p1, r.p2, r.p3, r.w1, r.w2, r.w3
+        settled = (u1 * u1 + (u2 * u2 + u3 * u3) <= S[RADIUS, i]) & (r.first <= S[ENOUGH, i])
         ok[i] = 1 if settled else 0
     return unsettled(ok)
 
@@ -63,18 +63,15 @@ def corrected(S, P, ok, again):
             u1, u2, u3 = u1 if near else 0.0, u2 if near else 0.0, u3 if near else 0.0
             near = radius >= 0.0
         k1, k2, k3, I1, I2, I3 = S[K, i], S[K + 1, i], S[K + 2, i], S[I, i], S[I + 1, i], S[I + 2, i]
-        p0, p1, p2, p3, w1, w2, w3, first, d1, d2, d3, c11, c12, c13, c21, c22, c23, c31, c32, c33 = newton_round(
-            u1, u2, u3, k1, k2, k3, S[G, i], S[G + 1, i], S[G + 2, i], I1, I2, I3, S[D, i]
-        )  # fmt: skip
-        r1, r2, r3, v1, v2, v3, second = second_round(
-            p0, p1, p2, p3, k1, k2, k3, d1, d2, d3, c11, c12, c13, c21, c22, c23, c31, c32, c33, I1, I2, I3
-        )  # fmt: skip
+        r = newton_round(u1, u2, u3, k1, k2, k3, S[G, i], S[G + 1, i], S[G + 2, i], I1, I2, I3, S[D, i])
+        r1, r2, r3, v1, v2, v3, second = second_round(r, k1, k2, k3, I1, I2, I3)
+        p0, first = r.p0, r.first
         once = near & (first <= enough)
         twice = near & (v1 * v1 + (v2 * v2 + v3 * v3) <= radius)
         twice = twice & (9.0 * max(first, second) * second <= enough * enough)
         done = again & (ok[i] == 1)
-        p1, p2, p3 = p1 if once else r1, p2 if once else r2, p3 if once else r3
-        w1, w2, w3 = w1 if once else v1, w2 if once else v2, w3 if once else v3
+        p1, p2, p3 = r.p1 if once else r1, r.p2 if once else r2, r.p3 if once else r3
+        w1, w2, w3 = r.w1 if once else v1, r.w2 if once else v2, r.w3 if once else v3
         w1, w2, w3 = w1 if near else u1, w2 if near else u2, w3 if near else u3
         P[0, i], P[1, i] = P[0, i] if done else p0, P[1, i] if done else p1
         P[2, i], P[3, i] = P[2, i] if done else p2, P[3, i] if done else p3
@@ -87,11 +84,12 @@ def approached(S, P, ok):
     """The lanes beyond the bound by a Newton iterate from the extrapolation, as `path.search_on_path` begins."""
     for i in lanes(whole(ok)):
         beyond = S[RADIUS, i] == BEYOND
-        _, _, _, _, w1, w2, w3, _, _, _, _, _, _, _, _, _, _, _, _, _ = newton_round(
+        r = newton_round(
             P[A, i], P[A + 1, i], P[A + 2, i], S[K, i], S[K + 1, i], S[K + 2, i], S[G, i], S[G + 1, i], S[G + 2, i],
             S[I, i], S[I + 1, i], S[I + 2, i], S[D, i],
         )  # fmt: skip
-        P[4, i], P[5, i], P[6, i] = w1 if beyond else P[4, i], w2 if beyond else P[5, i], w3 if beyond else P[6, i]
+        P[4, i], P[5, i] = r.w1 if beyond else P[4, i], r.w2 if beyond else P[5, i]
+        P[6, i] = r.w3 if beyond else P[6, i]
         P[7, i] = 1.0 if beyond else 0.0
         ok[i] = 0 if beyond else ok[i]
 

@@ -12,7 +12,7 @@ from .block import carry
 from .branch import TAKEN
 from .double_double_loop import ROWS, D, G, I, K, prepare_pairs, restore_pairs, stage, write
 from .double_double_step import correction, small
-from .gibbs import newton_round
+from .gibbs import Round, newton_round
 from .integrals import PERIOD
 from .sums import filtered
 from .text import Cube, Doubles, Integers, Matrix, Vector, lanes, out_of_line
@@ -37,23 +37,18 @@ def approached(S, P, ok, again):
         u1, u2, u3 = (P[W, i], P[W + 1, i], P[W + 2, i]) if again else (S[A, i], S[A + 1, i], S[A + 2, i])
         near = u1 * u1 + (u2 * u2 + u3 * u3) <= radius
         u1, u2, u3 = u1 if near else 0.0, u2 if near else 0.0, u3 if near else 0.0
-        p0, _, _, _, w1, w2, w3, first, d1, d2, d3, c11, c12, c13, c21, c22, c23, c31, c32, c33 = newton_round(
+        r = newton_round(
             u1, u2, u3, S[K, i], S[K + 2, i], S[K + 4, i], S[G, i], S[G + 2, i], S[G + 4, i],
             S[I, i], S[I + 2, i], S[I + 4, i], S[D, i],
         )  # fmt: skip
         done = again & (ok[i] == 1)
-        P[W, i], P[W + 1, i], P[W + 2, i] = (
-            P[W, i] if done else w1,
-            P[W + 1, i] if done else w2,
-            P[W + 2, i] if done else w3,
-        )
-        P[DELTA, i], P[DELTA + 1, i], P[DELTA + 2, i] = (
-            P[DELTA, i] if done else d1, P[DELTA + 1, i] if done else d2, P[DELTA + 2, i] if done else d3,
-        )  # fmt: skip
-        P[DET, i] = P[DET, i] if done else p0
-        for row, c in ((0, c11), (1, c12), (2, c13), (3, c21), (4, c22), (5, c23), (6, c31), (7, c32), (8, c33)):
-            P[C + row, i] = P[C + row, i] if done else c
-        ok[i] = 1 if done | ((radius >= 0.0) & (first <= S[ENOUGH, i])) else 0
+        for row, x in (
+            (W, r.w1), (W + 1, r.w2), (W + 2, r.w3), (DELTA, r.d1), (DELTA + 1, r.d2), (DELTA + 2, r.d3), (DET, r.p0),
+            (C, r.c11), (C + 1, r.c12), (C + 2, r.c13), (C + 3, r.c21), (C + 4, r.c22), (C + 5, r.c23),
+            (C + 6, r.c31), (C + 7, r.c32), (C + 8, r.c33),
+        ):  # fmt: skip
+            P[row, i] = P[row, i] if done else x
+        ok[i] = 1 if done | ((radius >= 0.0) & (r.first <= S[ENOUGH, i])) else 0
         bad += 1 - ok[i] if radius >= 0.0 else 0
     return bad
 
@@ -74,12 +69,13 @@ def corrected(S, P, ok):
     bad = 0
     for i in lanes(LANES):
         w1, w2, w3 = P[W, i], P[W + 1, i], P[W + 2, i]
-        e1, e2, e3 = correction(
-            P[DELTA, i], P[DELTA + 1, i], P[DELTA + 2, i], P[R, i], P[R + 1, i], P[R + 2, i],
-            S[K, i], S[K + 2, i], S[K + 4, i], S[I, i], S[I + 2, i], S[I + 4, i], P[DET, i],
-            P[C, i], P[C + 1, i], P[C + 2, i], P[C + 3, i], P[C + 4, i], P[C + 5, i], P[C + 6, i], P[C + 7, i],
-            P[C + 8, i],
+        r = Round(
+            P[DET, i], 0.0, 0.0, 0.0, w1, w2, w3, 0.0, P[DELTA, i], P[DELTA + 1, i], P[DELTA + 2, i], P[C, i],
+            P[C + 1, i], P[C + 2, i], P[C + 3, i], P[C + 4, i], P[C + 5, i], P[C + 6, i], P[C + 7, i], P[C + 8, i],
         )  # fmt: skip
+        e1, e2, e3 = correction(
+            r, P[R, i], P[R + 1, i], P[R + 2, i], S[K, i], S[K + 2, i], S[K + 4, i], S[I, i], S[I + 2, i], S[I + 4, i]
+        )
         P[E, i], P[E + 1, i], P[E + 2, i] = e1, e2, e3
         ok[i] = 1 if (ok[i] == 1) & small(w1, w2, w3, e1, e2, e3) else 0
         bad += 1 - ok[i]

@@ -67,32 +67,27 @@ def bounds(k1, k2, k3, I1, I2, I3, D):
 
 
 def approach(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, radius, enough):
-    """Newton's iteration in float64: (settled, w, the last correction, det, cofactors before it)."""
-    for _ in range(MOST_ROUNDS):
-        if not u1 * u1 + (u2 * u2 + u3 * u3) <= radius:
-            u1, u2, u3 = 0.0, 0.0, 0.0
-        p0, _, _, _, w1, w2, w3, first, d1, d2, d3, c11, c12, c13, c21, c22, c23, c31, c32, c33 = newton_round(
-            u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D
-        )
-        if first <= enough or radius < 0.0:
+    """Newton's iteration in float64: the last round."""
+    r = newton_round(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D)
+    for _ in range(MOST_ROUNDS - 1):
+        if r.first <= enough or radius < 0.0:
             break
-        u1, u2, u3 = w1, w2, w3
-    return (
-        radius >= 0.0 and first <= enough,
-        *(w1, w2, w3, d1, d2, d3, p0, c11, c12, c13, c21, c22, c23, c31, c32, c33),
-    )
+        w1, w2, w3 = r.w1, r.w2, r.w3
+        if not w1 * w1 + (w2 * w2 + w3 * w3) <= radius:
+            w1, w2, w3 = 0.0, 0.0, 0.0
+        r = newton_round(w1, w2, w3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D)
+    return r
 
 
-def correction(d1, d2, d3, r1, r2, r3, k1, k2, k3, I1, I2, I3, det,
-               c11, c12, c13, c21, c22, c23, c31, c32, c33):  # fmt: skip
-    """e with G(w + e) = 0 for r = G(w), by the Jacobian before the correction d that led to w."""
-    s = -1.0 / det
-    e1 = s * (c11 * r1 + c21 * r2 + c31 * r3)
-    e2 = s * (c12 * r1 + c22 * r2 + c32 * r3)
-    e3 = s * (c13 * r1 + c23 * r2 + c33 * r3)
+def correction(r, r1, r2, r3, k1, k2, k3, I1, I2, I3):
+    """e with G(w + e) = 0 for G(w) = (r1, r2, r3), by the Jacobian of the round r that led to w."""
+    s = -1.0 / r.p0
+    e1 = s * (r.c11 * r1 + r.c21 * r2 + r.c31 * r3)
+    e2 = s * (r.c12 * r1 + r.c22 * r2 + r.c32 * r3)
+    e3 = s * (r.c13 * r1 + r.c23 * r2 + r.c33 * r3)
     x1, x2, x3 = gibbs_mixed(
-        d1 + 0.5 * e1, d2 + 0.5 * e2, d3 + 0.5 * e3, e1, e2, e3, k1, k2, k3,
-        c11, c12, c13, c21, c22, c23, c31, c32, c33, I1, I2, I3,
+        r.d1 + 0.5 * e1, r.d2 + 0.5 * e2, r.d3 + 0.5 * e3, e1, e2, e3, k1, k2, k3,
+        r.c11, r.c12, r.c13, r.c21, r.c22, r.c23, r.c31, r.c32, r.c33, I1, I2, I3,
     )  # fmt: skip
     return e1 + s * x1, e2 + s * x2, e3 + s * x3
 
@@ -142,18 +137,18 @@ def solved(
     radius, enough,
 ):  # fmt: skip
     """The Gibbs vector of a step from a guess u: (status, reach, u1, u1_, u2, u2_, u3, u3_)."""
-    settled, w1, w2, w3, d1, d2, d3, det, c11, c12, c13, c21, c22, c23, c31, c32, c33 = approach(
-        u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, radius, enough
-    )
+    near = u1 * u1 + (u2 * u2 + u3 * u3) <= radius
+    r = approach(
+        u1 if near else 0.0, u2 if near else 0.0, u3 if near else 0.0, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, radius,
+        enough,
+    )  # fmt: skip
+    settled, w1, w2, w3 = radius >= 0.0 and r.first <= enough, r.w1, r.w2, r.w3
     status, reach = TAKEN, 1.0
     if settled:
         r1, _, r2, _, r3, _ = gibbs_residual_pairs(
             w1, w2, w3, k1, k1_, k2, k2_, k3, k3_, g1, g1_, g2, g2_, g3, g3_, I1, I1_, I2, I2_, I3, I3_, D
         )
-        e1, e2, e3 = correction(
-            d1, d2, d3, r1, r2, r3, k1, k2, k3, I1, I2, I3, det,
-            c11, c12, c13, c21, c22, c23, c31, c32, c33,
-        )  # fmt: skip
+        e1, e2, e3 = correction(r, r1, r2, r3, k1, k2, k3, I1, I2, I3)
         if small(w1, w2, w3, e1, e2, e3):
             return TAKEN, 1.0, *two_sum(w1, e1), *two_sum(w2, e2), *two_sum(w3, e3)
         w1, w2, w3 = w1 + e1, w2 + e2, w3 + e3

@@ -13,6 +13,7 @@ certificate, and takes the safe way, with the determinant of lemma `stable-deter
 """
 
 from math import frexp, ldexp, sqrt
+from typing import NamedTuple
 
 from chapsym.generated import gibbs_newton, gibbs_newton_heavy, gibbs_second
 
@@ -73,8 +74,33 @@ def bound(k1, k2, k3, I1, I2, I3, D):
     return (-1.0, 0.0) if enough < LEAST_ENOUGH else (radius * radius, enough)
 
 
+class Round(NamedTuple):
+    """A Newton iterate: a quaternion p and its Gibbs vector w = u + d; |d|², d, and the cofactors of ∂G/∂u at u."""
+
+    p0: float
+    p1: float
+    p2: float
+    p3: float
+    w1: float
+    w2: float
+    w3: float
+    first: float
+    d1: float
+    d2: float
+    d3: float
+    c11: float
+    c12: float
+    c13: float
+    c21: float
+    c22: float
+    c23: float
+    c31: float
+    c32: float
+    c33: float
+
+
 def newton_round(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, heavy=False):
-    """A Newton iterate: (p0, p1, p2, p3, w1, w2, w3, |d|², d, cofactors) with the quaternion p and w = u + d."""
+    """A Newton iterate from u."""
     if heavy:
         p0, p1, p2, p3, c11, c12, c13, c21, c22, c23, c31, c32, c33 = gibbs_newton_heavy(
             u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D
@@ -87,16 +113,16 @@ def newton_round(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, heavy=False)
     w1, w2, w3 = p1 * scale, p2 * scale, p3 * scale
     d1, d2, d3 = w1 - u1, w2 - u2, w3 - u3
     first = d1 * d1 + (d2 * d2 + d3 * d3)
-    return p0, p1, p2, p3, w1, w2, w3, first, d1, d2, d3, c11, c12, c13, c21, c22, c23, c31, c32, c33
+    return Round(p0, p1, p2, p3, w1, w2, w3, first, d1, d2, d3, c11, c12, c13, c21, c22, c23, c31, c32, c33)
 
 
-def second_round(p0, p1, p2, p3, k1, k2, k3, d1, d2, d3, c11, c12, c13, c21, c22, c23, c31, c32, c33, I1, I2, I3):
-    """The second correction e: (p1, p2, p3, w1, w2, w3, |e|²)."""
+def second_round(r, k1, k2, k3, I1, I2, I3):
+    """The second correction e after a round: (p1, p2, p3, w1, w2, w3, |e|²)."""
     e1, e2, e3 = gibbs_second(
-        d1, d2, d3, k1, k2, k3, c11, c12, c13, c21, c22, c23, c31, c32, c33, I1, I2, I3
-    )  # fmt: skip
-    scale = 1.0 / p0
-    p1, p2, p3 = p1 - e1, p2 - e2, p3 - e3
+        r.d1, r.d2, r.d3, k1, k2, k3, r.c11, r.c12, r.c13, r.c21, r.c22, r.c23, r.c31, r.c32, r.c33, I1, I2, I3
+    )
+    scale = 1.0 / r.p0
+    p1, p2, p3 = r.p1 - e1, r.p2 - e2, r.p3 - e3
     second = (e1 * e1 + (e2 * e2 + e3 * e3)) * (scale * scale)
     return p1, p2, p3, p1 * scale, p2 * scale, p3 * scale, second
 
@@ -108,16 +134,12 @@ def settle(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, radius, enough, he
     """
     if not u1 * u1 + (u2 * u2 + u3 * u3) <= radius:
         return False, 1.0, 0.0, 0.0, 0.0, u1, u2, u3
-    p0, p1, p2, p3, w1, w2, w3, first, d1, d2, d3, c11, c12, c13, c21, c22, c23, c31, c32, c33 = newton_round(
-        u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, heavy
-    )
-    if first <= enough:
-        return True, p0, p1, p2, p3, w1, w2, w3
-    p1, p2, p3, w1, w2, w3, second = second_round(
-        p0, p1, p2, p3, k1, k2, k3, d1, d2, d3, c11, c12, c13, c21, c22, c23, c31, c32, c33, I1, I2, I3
-    )  # fmt: skip
-    settled = 9.0 * max(first, second) * second <= enough * enough and w1 * w1 + (w2 * w2 + w3 * w3) <= radius
-    return settled, p0, p1, p2, p3, w1, w2, w3
+    r = newton_round(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, heavy)
+    if r.first <= enough:
+        return True, r.p0, r.p1, r.p2, r.p3, r.w1, r.w2, r.w3
+    p1, p2, p3, w1, w2, w3, second = second_round(r, k1, k2, k3, I1, I2, I3)
+    settled = 9.0 * max(r.first, second) * second <= enough * enough and w1 * w1 + (w2 * w2 + w3 * w3) <= radius
+    return settled, r.p0, p1, p2, p3, w1, w2, w3
 
 
 def search(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, radius, enough, heavy=False):

@@ -67,17 +67,13 @@ def checked(S, B, again):
         u1, u2, u3 = S[U, i], S[U + 1, i], S[U + 2, i]
         I1, I2, I3, contact = S[BALL, i], S[BALL + 1, i], S[BALL + 2, i], S[BALL + 3, i]
         if not again:
-            _, _, _, _, u1, u2, u3, _, _, _, _, _, _, _, _, _, _, _, _, _ = newton_round(
-                u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, contact
-            )  # fmt: skip
-        p0, p1, p2, p3, _, _, _, first, d1, d2, d3, c11, c12, c13, c21, c22, c23, c31, c32, c33 = newton_round(
-            u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, contact
-        )  # fmt: skip
-        p1, p2, p3, w1, w2, w3, second = second_round(
-            p0, p1, p2, p3, k1, k2, k3, d1, d2, d3, c11, c12, c13, c21, c22, c23, c31, c32, c33, I1, I2, I3
-        )  # fmt: skip
-        squares = (c11 * c11 + c12 * c12 + c13 * c13) + (c21 * c21 + c22 * c22 + c23 * c23)
-        bent = S[SLOPE, i] * (squares + (c31 * c31 + c32 * c32 + c33 * c33))  # (p0 c |A⁻¹|)²
+            r = newton_round(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, contact)
+            u1, u2, u3 = r.w1, r.w2, r.w3
+        r = newton_round(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, contact)
+        p1, p2, p3, w1, w2, w3, second = second_round(r, k1, k2, k3, I1, I2, I3)
+        squares = (r.c11 * r.c11 + r.c12 * r.c12 + r.c13 * r.c13) + (r.c21 * r.c21 + r.c22 * r.c22 + r.c23 * r.c23)
+        p0, first = r.p0, r.first
+        bent = S[SLOPE, i] * (squares + (r.c31 * r.c31 + r.c32 * r.c32 + r.c33 * r.c33))  # (p0 c |A⁻¹|)²
         settled = (p0 > 0.0) & (w1 * w1 + (w2 * w2 + w3 * w3) <= S[WITHIN, i])
         settled = settled & (bent * first <= KANTOROVICH * (p0 * p0))
         settled = settled & (bent * (max(first, second) * second) <= S[LEAST, i] * (p0 * p0))

@@ -32,19 +32,19 @@ def settle(k, g, J, D, near, enough, E, O, W, T, r, h, c):
 def march(
     k: Matrix, g: Vector, J: Vector, D: float, c: Vector, near: Vector, enough: Vector, past: Tensor, use: Matrix,
     first: int, count: int, every: int, scale: float, momenta: Cube, verticals: Matrix, with_body: bool, R: Matrix,
-    spot: Vector, rho: float, attitudes: Cube, traces: Matrix,
+    spot: Vector, rho: float, attitudes: Cube, traces: Matrix, T: Matrix,
 ):  # fmt: skip
     """Takes `count` stages from the stage `first` on, until one does not settle; returns how many.
 
     A step is its stages, with the coefficients c (s,), one after the other: each turns k by the rotation of cᵢk.
     k (n, n), g (n), R (n, n) and spot (n - 1) hold the present state and move.  Each stage has its own bounds near (s,)
     and enough (s,), and its last rotations in past (s, ORDER, n, n) and use (s, ORDER).
-    𝒦 = scale·k.  The state after every `every`-th step goes to the frame arrays.
+    𝒦 = scale·k.  T: room for a matrix, n(n - 1)/2 by as many.  The state after every `every`-th step goes to the frame arrays.
     The attitude and the trace are touched only when `with_body`.
     """
     n, stages = k.shape[0], c.shape[0]
-    E, O, W, T = empty((n, n)), empty((n, n)), empty((n, n)), empty((n * (n - 1) // 2, n * (n - 1) // 2))
-    r, h, v, part = empty(n * (n - 1) // 2), empty(n), empty(n), empty((n, n))
+    E, O, W = empty((n, n)), empty((n, n)), empty((n, n))
+    r, h, v, part = empty(T.shape[0]), empty(n), empty(n), empty((n, n))
     for stage in range(first, first + count):
         s = stage % stages
         for i in range(n):

@@ -31,9 +31,8 @@ def search_on_path(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D):
 
     Returns (settled, p0, p1, p2, p3, u1, u2, u3).
     """
-    _, _, _, _, u1, u2, u3, _, _, _, _, _, _, _, _, _, _, _, _, _ = newton_round(
-        u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D
-    )
+    r = newton_round(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D)
+    u1, u2, u3 = r.w1, r.w2, r.w3
     for _ in range(MOST_ROUNDS):
         p0, p1, p2, p3, u1, u2, u3, left, near, found = improved(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D)
         if (near or found) and proved(u1, u2, u3, left, k1, k2, k3, g1, g2, g3, I1, I2, I3, D):
@@ -49,17 +48,13 @@ def improved(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D):
     They leave a residual of at most 3κ max(|d|,|e|)|e|, κ = ½(I_max - I_min) + |k| (`gibbs-newton`); left: the square
     of twice that.  near: `proved` may well allow so much; found: another round would not leave less.
     """
-    p0, p1, p2, p3, _, _, _, first, d1, d2, d3, c11, c12, c13, c21, c22, c23, c31, c32, c33 = newton_round(
-        u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D
-    )
-    p1, p2, p3, w1, w2, w3, second = second_round(
-        p0, p1, p2, p3, k1, k2, k3, d1, d2, d3, c11, c12, c13, c21, c22, c23, c31, c32, c33, I1, I2, I3
-    )  # fmt: skip
+    r = newton_round(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D)
+    p1, p2, p3, w1, w2, w3, second = second_round(r, k1, k2, k3, I1, I2, I3)
     square = w1 * w1 + (w2 * w2 + w3 * w3)
     curved = 6.0 * (0.5 * (max(I1, I2, I3) - min(I1, I2, I3)) + sqrt(k1 * k1 + (k2 * k2 + k3 * k3)))
-    left = curved * curved * (max(first, second) * second)
+    left = curved * curved * (max(r.first, second) * second)
     allowed = LEFT * (NEAR * (max(I1, I2, I3) + D))
-    return p0, p1, p2, p3, w1, w2, w3, left, left <= allowed * allowed * square, second <= FOUND * square
+    return r.p0, p1, p2, p3, w1, w2, w3, left, left <= allowed * allowed * square, second <= FOUND * square
 
 
 def proved(u1, u2, u3, left, k1, k2, k3, g1, g2, g3, I1, I2, I3, D):

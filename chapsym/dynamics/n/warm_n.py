@@ -88,12 +88,13 @@ def advance(one: Under, frames: dict[str, Floats], steps: int, every: int, count
     attitudes = frames["attitude"] if with_body else momenta[:0]
     traces = frames["contact"] if "contact" in frames else np.empty((len(attitudes), len(one.spot)))
     s, done, take = len(one.stages), 0, native.loop(loop_n.march)
+    room = np.empty((len(one.g) * (len(one.g) - 1) // 2,) * 2)
     while done < steps * s and not count.stopped:
         now = min(CHUNK, steps * s - done)
         went = take(
             one.k, one.g, one.J, float(one.D), one.stages, one.near, one.enough, one.past, one.use,
             done, now, every, float(one.scale), momenta, verticals,
-            with_body, one.R, one.spot, float(one.rho), attitudes, traces,
+            with_body, one.R, one.spot, float(one.rho), attitudes, traces, room,
         )  # fmt: skip
         done += went
         if went < now:
