@@ -145,7 +145,7 @@ OUT_OF_LINE real loop_scaled(r1 momentum, r1 g, r1 tensor, real contact, r1 stat
     t_ri size = real_frexp(largest); exponent = max_i(min_i(exponent, 1021), size.a1 - 1021);
     int tiny = 0 < largest && largest < (real)ldexp(R(0x1.0000000000000p-120), (int)exponent);
     if (tiny) exponent = max_i(-1, exponent - 1021 + 1);
-    for (int64_t i_ = 0; i_ < state.n0; i_++) state.p[i_] = 0;
+    for (int64_t i_0 = 0; i_0 < state.n0; i_0++) state.p[i_0] = 0;
     real power = loop_power_of_two(-exponent), half = loop_power_of_two(-exponent - 1);
     for (int64_t c = 0; c < 3; c++) {
         state.p[0 + c] = loop_times(momentum.p[c], half, -exponent - 1); state.p[3 + c] = g.p[c];
@@ -2859,7 +2859,7 @@ INLINE void long_run_march_lanes(int64_t B, r3 momenta, r3 verticals, r3 attitud
     int64_t balls = status.n0, b, c;
     for (b = 0; b < B; b++) {
         int64_t i = min_i(b, balls - 1);
-        for (int64_t i_ = 0; i_ < body.n0; i_++) body.p[i_] = 0;
+        for (int64_t i_0 = 0; i_0 < body.n0; i_0++) body.p[i_0] = 0;
         for (c = 0; c < 3; c++) {
             body.p[c] = momenta.p[i * momenta.s0 + 0 * momenta.s1 + c];
             body.p[3 + c] = verticals.p[i * verticals.s0 + 0 * verticals.s1 + c];
@@ -2924,7 +2924,7 @@ INLINE void tangent_follow(r1 momentum, r1 gamma, r1 tensor, real contact, int64
     ALIGNED real growth_[3]; memset(growth_, 0, sizeof growth_); r1 growth = {growth_, 3}; ALIGNED real T_[3 * 3];
     r2 T = {T_, 3, 3, 3}; real scale = loop_scaled(momentum, gamma, tensor, contact, state), u1 = 0, u2 = 0, u3 = 0;
     int64_t half = div_i(steps, 2); real total = 0;
-    for (int64_t i_ = 0; i_ < row.n0; i_++) row.p[i_] = 0;
+    for (int64_t i_0 = 0; i_0 < row.n0; i_0++) row.p[i_0] = 0;
     row.p[8] = INFINITY; row.p[9] = -INFINITY; int64_t end_1 = 2 * half;
     for (int64_t n = 0; n < end_1; n++) {
         t_ir8 t_2 = loop_safe_rotation(u1, u2, u3, state); int64_t status = t_2.a0; real p0 = t_2.a2, p1 = t_2.a3;
@@ -3098,5 +3098,5 @@ const int loops_single_count = 4;
 #endif
 
 #ifndef SINGLE
-const char loops_text[] = "bf55020a9679d2c3efb99ce57daf1441baff7b4b0a5aad7fe16ab58487008e91";
+const char loops_text[] = "98ef845d331746b991a8cb841784485b6144e028d7bbb0898c0000a6007dd91d";
 #endif

@@ -411,14 +411,28 @@ class Printer(Lookup):
             yield Statement(f"{target.id} = {whole if declares else f'(r1){whole}'}", declares)
         elif isinstance(target, ast.Tuple):
             yield from self.assign_several(target.elts, value)
-        elif isinstance(target, ast.Subscript) and isinstance(target.slice, ast.Slice):
-            array = self.expression(target.value).at(ATOM)
-            text = self.expression(value).text
-            yield Statement(
-                f"for (int64_t i_ = 0; i_ < {array}.n0; i_++)", block=[Statement(f"{array}.p[i_] = {text}")]
-            )
+        elif isinstance(target, ast.Subscript) and isinstance(self.type(target), Array):
+            yield self.filled(target, self.expression(value).text)
         else:
             yield self.set(target, self.expression(value).text)
+
+    def filled(self, target: ast.Subscript, text: str) -> Statement:
+        """An assignment of one number to a part of an array."""
+        array, kind = self.expression(target.value).at(ATOM), self.type(target.value)
+        given = list(target.slice.elts) if isinstance(target.slice, ast.Tuple) else [target.slice]
+        given += [ast.Slice()] * (kind.rank - len(given))
+        where, heads = [], []
+        for axis, index in enumerate(given):
+            at = f"i_{axis}" if isinstance(index, ast.Slice) else self.expression(index).at(10)
+            where.append(at if axis == kind.rank - 1 else f"{at} * {array}.s{axis}")
+            if isinstance(index, ast.Slice):
+                low = self.expression(index.lower).text if index.lower else "0"
+                high = self.expression(index.upper).text if index.upper else f"{array}.n{axis}"
+                heads.append(f"for (int64_t {at} = {low}; {at} < {high}; {at}++)")
+        found = Statement(f"{array}.p[{' + '.join(where)}] = {text}")
+        for head in reversed(heads):
+            found = Statement(head, block=[found])
+        return found
 
     def assign_several(self, targets: Sequence[ast.expr], value: ast.expr) -> Iterator[Statement]:
         """An assignment of several values at once."""
