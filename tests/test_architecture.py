@@ -108,6 +108,22 @@ def test_import_chapsym_is_light_and_running_the_map_loads_no_sympy_and_no_high_
     assert not {"sympy", "numba", "mpmath", "flint"} & loaded_by(program)
 
 
+def test_a_run_to_an_npz_loads_nothing_for_other_files_and_other_screens(tmp_path):
+    """What takes longer to load than the run takes: xarray and what it brings, Rich without a terminal, pint."""
+    scene = {"ball": {"mass_tensor": [1, 2, 4], "D": 3}, "start": {"omega": [1, 0, 2]}, "run": {"time": 1, "frames": 2}}
+    text = "".join(f"[{table}]\n" + "".join(f"{k} = {v}\n" for k, v in keys.items()) for table, keys in scene.items())
+    (tmp_path / "scene.toml").write_text(text, encoding="utf-8")
+    arguments = ["chapsym", "run", str(tmp_path / "scene.toml"), "-o", str(tmp_path / "out.npz"), "--json"]
+    program = (
+        f"sys.argv = {arguments}\nfrom chapsym.cli import main\n"
+        "import contextlib, io\nwith contextlib.redirect_stdout(io.StringIO()), contextlib.suppress(SystemExit):\n"
+        "    main()"
+    )
+    heavy = {"xarray", "pandas", "dask", "zarr", "h5py", "pyarrow", "rich", "pint", "sympy", "mpmath", "scipy"}
+    assert not heavy & loaded_by(program)
+    assert (tmp_path / "out.npz").exists()
+
+
 def test_every_public_name_is_there_and_documented():
     for name in chapsym.__all__:
         assert getattr(chapsym, name).__doc__, name

@@ -15,7 +15,7 @@ from chapsym.rationals import rational, rationals
 
 from .app import app
 from .options import Contact, Inertia, Json, MassTensor, ball_from
-from .output import fail, now_and_then, print_json
+from .output import fail, now_and_then, print_json, terminal
 
 certify = typer.Typer(
     help="""Find and check certificates of what the paper left open.
@@ -261,11 +261,9 @@ def _deliver(
 @contextmanager
 def telling() -> Iterator[Callable[[str], None]]:
     """Yields a function of a sentence: a line that changes on a terminal, elsewhere a line every few seconds."""
-    from rich.console import Console
-
-    console = Console(stderr=True, highlight=False, markup=False)
-    if console.is_terminal:
-        with console.status("") as status:
-            yield status.update
+    console = terminal()
+    if console is None:
+        yield now_and_then()
         return
-    yield now_and_then()
+    with console.status("") as status:
+        yield status.update

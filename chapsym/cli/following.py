@@ -5,16 +5,14 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
 
-from .output import now_and_then
+from .output import now_and_then, terminal
 
 
 @contextmanager
 def following(as_json: bool) -> Iterator[Callable[[Any], None]]:
     """Yields a function of a `Progress`; what it shows goes to standard error."""
-    from rich.console import Console
-
-    console = Console(stderr=True)
-    if as_json or not console.is_terminal:
+    console = None if as_json else terminal()
+    if console is None:
         yield _lines()
         return
     from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn

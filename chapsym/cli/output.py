@@ -79,16 +79,25 @@ def check_figure(output: Path, sections: Iterable[str], drawn: Iterable[str]) ->
     files.check_destination(output)
 
 
+def terminal() -> Any:
+    """Rich's console on standard error, or None where that is no terminal: then Rich need not be loaded."""
+    if not sys.stderr.isatty():
+        return None
+    from rich.console import Console
+
+    console = Console(stderr=True, highlight=False, markup=False)
+    return console if console.is_terminal else None
+
+
 @contextmanager
 def progress_bar(label: str, total: int) -> Iterator[Callable[..., None]]:
     """A bar on standard error, when that is a terminal; yields a function of what is done, and of a new total."""
-    from rich.console import Console
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
-
-    console = Console(stderr=True)
-    if not console.is_terminal:
+    console = terminal()
+    if console is None:
         yield lambda done, of=None: None
         return
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+
     columns = TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn()
     with Progress(*columns, console=console, transient=True) as bar:
         task = bar.add_task(label, total=total)

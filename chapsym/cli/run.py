@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
     from chapsym.scene import Scene
     from chapsym.scene.plan.plan import Plan
+    from chapsym.scene.result.arrays import Arrays
 
 #: Seconds that a proof may take where the scene does not say.
 LIMIT = 600.0
@@ -58,20 +59,21 @@ def run(
         exact = _exact(wanted, destination) if wanted.run.proved else None
         plan, answers = sweep.telling(plan_of(wanted), say)
         formats.check_size(plan, destination)
+        data: Dataset | Arrays
         with following(as_json) as report:
             if destination.suffix == ".zarr":
                 outcome = sweep.run_to_store(plan, destination, scheduler, fresh, report)
                 data = formats.load(destination)
             else:
-                data = sweep.run_in_memory(plan, report)
+                data = rolled = sweep.run(plan, report)
                 formats.save(data, destination)
-                outcome = sweep.Outcome(int((data.status != 0).sum()))
+                outcome = sweep.Outcome(int((data["status"].values != 0).sum()))
         quiet()
         stopped = None
         if exact is not None:
             saved = True
             with telling() as progress:
-                data, motion = with_proof(data, exact, float(wanted.run.limit or LIMIT), progress)
+                data, motion = with_proof(rolled, exact, float(wanted.run.limit or LIMIT), progress)
             formats.save(data, destination)
             stopped = motion.stopped
     except KeyboardInterrupt:
@@ -107,7 +109,9 @@ def _named(scene: Path, name: str | None) -> Path:
     return Path(name)
 
 
-def _tell(plan: "Plan", destination: Path, outcome: Any, data: "Dataset", answers: list[Any], as_json: bool) -> None:
+def _tell(
+    plan: "Plan", destination: Path, outcome: Any, data: "Dataset | Arrays", answers: list[Any], as_json: bool
+) -> None:
     """What was run and where it is; units that were not run are an error, balls that stopped early are none."""
     from chapsym.scene.result.far import far, sentence
     from chapsym.scene.result.proved import PROVED, UNITS

@@ -110,7 +110,7 @@ def _answer(
         if output is not None and output.suffix == ".zarr":
             sweep.run_to_store(plan, output)
         else:
-            data = sweep.run_in_memory(plan)
+            data = sweep.run(plan)
             if output is not None:
                 formats.save(data, output)
         answer = answers[0]

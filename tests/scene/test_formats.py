@@ -13,7 +13,7 @@ from small_units import equal_to_the_bit, plan
 
 from chapsym.dynamics import BadInput
 from chapsym.scene import SceneError, load
-from chapsym.scene.result import formats
+from chapsym.scene.result import formats, summary
 from chapsym.scene.running import sweep
 from chapsym.scene.running.source import plan_from, plan_of
 from chapsym.show import opening
@@ -53,6 +53,23 @@ def test_a_result_comes_back_to_the_bit(result, tmp_path, suffix):
     first = path.read_bytes()
     formats.save(found, path)
     assert path.read_bytes() == first
+
+
+@pytest.mark.parametrize("balls", [1, 20])
+def test_a_run_is_written_alike_with_and_without_xarray(tmp_path, balls):
+    """And its summary is the same; the balls are in other axes than the principal ones, and some of 20 stop."""
+    wanted = plan(n=balls)
+    alone, labelled = sweep.run(wanted), sweep.run_in_memory(wanted)
+    for suffix in FILES:
+        for name, data in (("alone", alone), ("labelled", labelled)):
+            formats.save(data, tmp_path / f"{name}{suffix}")
+        if suffix != ".nc":  # HDF5 writes times, too
+            assert (tmp_path / f"alone{suffix}").read_bytes() == (tmp_path / f"labelled{suffix}").read_bytes()
+        equal_to_the_bit(formats.load(tmp_path / f"alone{suffix}"), labelled)
+    assert summary.stopped(alone) == summary.stopped(labelled)
+    assert summary.last_state(alone) == summary.last_state(labelled)
+    more = alone.assign_attrs({"proved": "{}"})
+    assert (more.attrs, list(alone)) == (labelled.attrs | {"proved": "{}"}, list(labelled))
 
 
 def test_plain_readers_have_the_same_numbers(result, tmp_path):

@@ -1,8 +1,8 @@
-"""Results as labelled arrays: an xarray.Dataset with units, coordinates and where it comes from."""
+"""Results as labelled arrays, or as an xarray.Dataset: with units, coordinates and where they come from."""
 
 import hashlib
 import json
-from collections.abc import Hashable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import asdict, dataclass
 from functools import cache
 from importlib.resources import files
@@ -16,6 +16,7 @@ from chapsym.dynamics import Status
 from ..plan.models import Moving
 from ..plan.plan import Plan
 from ..read.outputs import OUTPUTS, labels
+from .arrays import Arrays, Labelled
 from .far import attributes
 
 if TYPE_CHECKING:
@@ -79,28 +80,35 @@ def sizes(plan: Plan) -> dict[str, int]:
 
 
 def build(plan: Plan, columns: Mapping[str, Any], state: Mapping[str, Any]) -> "Dataset":
+    """The same as `arrays`, as a Dataset whose frames are found by their time."""
+    return with_clock(arrays(plan, columns, state).dataset())
+
+
+def arrays(plan: Plan, columns: Mapping[str, Any], state: Mapping[str, Any]) -> Arrays:
     """The result of a plan.
 
     columns: the outputs of all balls and frames, (balls, frames, ...), in the axes given.
     state: `taken` and `status` after the last frame, (balls,), and `error` of a run to an accuracy.
-    The Dataset has no other values than those, the plan's, and the version's: the same run gives the same bits.
+    It has no other values than those, the plan's, and the version's: the same run gives the same bits.
     """
-    import xarray
-
     variables = {
-        name: (one.dims, (state if name in OUTCOME else columns)[name], dict(one.attrs))
+        name: Labelled(one.dims, np.asarray((state if name in OUTCOME else columns)[name]), one.attrs)
         for name, one in layout(plan).items()
     }
     variables |= _bodies(plan)
-    used = {dim for dims, *_ in variables.values() for dim in dims}
-    coords: dict[Hashable, Any] = {"ball": np.array(plan.members.names, dtype=object)}
+    used = {dim for one in variables.values() for dim in one.dims}
+    coords = {"ball": _texts(plan.members.names, "ball")}
     for dim, names in labels(plan.members.dimension).items():
         if dim in used:
-            coords[dim] = np.array(names, dtype=object)
-    coords.update(_moments(plan))
+            coords[dim] = _texts(names, dim)
+    coords |= _moments(plan)
     for key, parameter in plan.members.parameters.items():
-        coords[key] = ("ball", parameter.values, {"units": parameter.units, "long_name": key})
-    return with_clock(xarray.Dataset(variables, coords, provenance(plan) | attributes(plan)))
+        coords[key] = Labelled(("ball",), np.asarray(parameter.values), {"units": parameter.units, "long_name": key})
+    return Arrays(variables | coords, coords, provenance(plan) | attributes(plan))
+
+
+def _texts(names: Iterable[str], dim: str) -> Labelled:
+    return Labelled((dim,), np.array(names, dtype=object))
 
 
 def with_clock(data: "Dataset") -> "Dataset":
@@ -112,34 +120,36 @@ def with_clock(data: "Dataset") -> "Dataset":
     return data if name is None or name in data.xindexes else data.set_xindex(name)
 
 
-def _moments(plan: Plan) -> dict[Hashable, Any]:
+def _moments(plan: Plan) -> dict[str, Labelled]:
     """`step` and, where it is known, `time` of each frame."""
     task = plan.task
     step = np.arange(plan.frames, dtype=np.int64) * task.every
-    found: dict[Hashable, Any] = {"step": ("frame", step, {"units": "1", "long_name": "step of the map"})}
+    found = {"step": Labelled(("frame",), step, {"units": "1", "long_name": "step of the map"})}
     seconds = {"units": "s", "long_name": "time"}
     if task.chosen and task.time is not None:
         del found["step"]
-        found["time"] = ("frame", np.arange(plan.frames) * task.time / max(plan.frames - 1, 1), seconds)
+        time = np.arange(plan.frames) * task.time / max(plan.frames - 1, 1)
+        found["time"] = Labelled(("frame",), time, seconds)
     elif task.time_step is not None:
-        found["time"] = ("frame", step * task.time_step, seconds)
+        found["time"] = Labelled(("frame",), step * task.time_step, seconds)
     return found
 
 
-def _bodies(plan: Plan) -> dict[str, Any]:
+def _bodies(plan: Plan) -> dict[str, Labelled]:
     """The parameters of the balls, for pictures."""
     members = plan.members
     about = "kg m2"
     tensor = {"units": about, "long_name": "principal mass tensor J, principal axes"}
-    found: dict[str, Any] = {
-        "mass_tensor": (("ball", "axis"), members.ball.mass_tensor, tensor),
-        "D": ("ball", members.ball.D, {"units": about, "long_name": "D = m ρ²"}),
+    found = {
+        "mass_tensor": Labelled(("ball", "axis"), np.asarray(members.ball.mass_tensor), tensor),
+        "D": Labelled(("ball",), np.asarray(members.ball.D), {"units": about, "long_name": "D = m ρ²"}),
     }
     if members.ball.radius is not None:
-        found["radius"] = ("ball", members.ball.radius, {"units": "m", "long_name": "radius ρ"})
+        radius = {"units": "m", "long_name": "radius ρ"}
+        found["radius"] = Labelled(("ball",), np.asarray(members.ball.radius), radius)
     if members.axes is not None:
         turn = {"units": "1", "long_name": "principal axes to body axes, unit quaternion"}
-        found["axes"] = (("ball", "quaternion"), members.axes, turn)
+        found["axes"] = Labelled(("ball", "quaternion"), np.asarray(members.axes), turn)
     return found
 
 

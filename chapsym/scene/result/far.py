@@ -14,6 +14,8 @@ from ..plan.plan import Plan
 if TYPE_CHECKING:
     from xarray import Dataset
 
+    from .arrays import Arrays
+
 
 def attributes(plan: Plan) -> dict[str, Any]:
     """What a result is told of it: the accuracy that was asked for, or the estimate of a pilot."""
@@ -29,7 +31,7 @@ def attributes(plan: Plan) -> dict[str, Any]:
     return {} if found is None else {"discretisation": found.write()}
 
 
-def far(data: "Dataset") -> dict[str, Any]:
+def far(data: "Dataset | Arrays") -> dict[str, Any]:
     """As plain data: `motion`, with what was asked for, estimated and chosen; or `discretisation`; or nothing."""
     map_ = _map(data)
     if map_ is not None:
@@ -50,7 +52,7 @@ def far(data: "Dataset") -> dict[str, Any]:
 _CHOSEN = ("order", "substeps")
 
 
-def sentence(data: "Dataset") -> tuple[str, str] | None:
+def sentence(data: "Dataset | Arrays") -> tuple[str, str] | None:
     """The same for a reader: a key and a text; None if nothing is known."""
     map_, found = _map(data), far(data).get("motion")
     if "row" in data.dims and "time" in data.coords:
@@ -81,5 +83,5 @@ def _span(least: int, most: int) -> str:
     return f"{least}" if least == most else f"{least} to {most}"
 
 
-def _map(data: "Dataset") -> Discretisation | None:
+def _map(data: "Dataset | Arrays") -> Discretisation | None:
     return read(data.attrs.get("discretisation"))

@@ -9,13 +9,16 @@ import numpy as np
 if TYPE_CHECKING:
     from xarray import Dataset
 
+    from .arrays import Arrays
+
 #: Rows of one batch, whose memory is bounded.
 ROWS = 2**17
 
 
-def structure(data: "Dataset") -> dict[str, Any]:
+def structure(data: "Dataset | Arrays") -> dict[str, Any]:
     """What the rows do not tell, as plain data: labels of components; the columns and attributes of each variable."""
-    labels = {str(dim): data[dim].values.tolist() for dim in data.dims if dim not in ("ball", "frame") and dim in data}
+    dims = [str(dim) for dim in data.dims if dim not in ("ball", "frame") and dim in data]
+    labels = {dim: data[dim].values.tolist() for dim in dims}
     variables = {
         str(name): {
             "dims": list(one.dims),
@@ -32,7 +35,7 @@ def structure(data: "Dataset") -> dict[str, Any]:
     }  # fmt: skip
 
 
-def batches(data: "Dataset", told: Mapping[str, Any]) -> Iterator[dict[str, np.ndarray]]:
+def batches(data: "Dataset | Arrays", told: Mapping[str, Any]) -> Iterator[dict[str, np.ndarray]]:
     """The columns of some balls after the others, each (rows,); what a ball has once stands in each of its rows."""
     frames = data.sizes["frame"]
     several = max(1, ROWS // frames)
@@ -62,7 +65,7 @@ def assembled(columns: Mapping[str, np.ndarray], told: Mapping[str, Any], attrs:
     return dataset(arrays, told, attrs)
 
 
-def arrays_of(data: "Dataset", told: Mapping[str, Any]) -> dict[str, np.ndarray]:
+def arrays_of(data: "Dataset | Arrays", told: Mapping[str, Any]) -> dict[str, np.ndarray]:
     """The arrays of all variables; of one ball without the axis of the balls."""
     whole = data.isel(ball=0) if told["balls"] == 1 else data
     found = {name: whole[name].values for name in told["variables"]}

@@ -15,6 +15,7 @@ from chapsym import files
 from ..plan.plan import Plan
 from ..read.errors import SceneError
 from . import old
+from .arrays import Arrays
 from .dataset import with_clock
 from .flat import arrays_of, assembled, batches, from_arrays, plain, structure
 from .group import check_ours
@@ -57,7 +58,7 @@ def check_size(plan: Plan, path: Path) -> None:
         raise SceneError(f"{path}: the result has {plan.bytes / 1e9:.3g} GB, {told}")
 
 
-def save(data: "Dataset", path: Path) -> None:
+def save(data: "Dataset | Arrays", path: Path) -> None:
     """Writes a result to .nc, .csv, .parquet or .npz, whole or not at all; raises SceneError if the disk refuses.
 
     Of a CSV or Parquet file each row is a ball and a frame; what is not in the rows stands in `# ` lines, or in the
@@ -114,13 +115,14 @@ def _memory() -> float:
         return 8e9
 
 
-def _write_netcdf(stream: IO[bytes], data: "Dataset") -> None:
+def _write_netcdf(stream: IO[bytes], data: "Dataset | Arrays") -> None:
+    data = with_clock(data.dataset()) if isinstance(data, Arrays) else data
     # In memory first: HDF5 ends the process when the disk under it is full.
     whole = data.assign_attrs({key: int(v) if isinstance(v, bool) else v for key, v in data.attrs.items()})
     stream.write(whole.to_netcdf(engine="h5netcdf"))
 
 
-def _write_rows(data: "Dataset", told: dict[str, Any], begin: Callable[[Any], Any], about: Any = None) -> None:
+def _write_rows(data: "Dataset | Arrays", told: dict[str, Any], begin: Callable[[Any], Any], about: Any = None) -> None:
     """Writes the table with the writer that `begin` makes for its schema, some balls after the others."""
     import pyarrow
 
@@ -134,7 +136,7 @@ def _write_rows(data: "Dataset", told: dict[str, Any], begin: Callable[[Any], An
         writer.close()
 
 
-def _write_parquet(stream: IO[bytes], data: "Dataset") -> None:
+def _write_parquet(stream: IO[bytes], data: "Dataset | Arrays") -> None:
     from pyarrow import parquet
 
     told = structure(data)
@@ -142,7 +144,7 @@ def _write_parquet(stream: IO[bytes], data: "Dataset") -> None:
     _write_rows(data, told, lambda schema: parquet.ParquetWriter(stream, schema, compression="zstd"), about)
 
 
-def _write_csv(stream: IO[bytes], data: "Dataset") -> None:
+def _write_csv(stream: IO[bytes], data: "Dataset | Arrays") -> None:
     from pyarrow import csv
 
     told = structure(data)
@@ -205,7 +207,7 @@ def _read_csv(path: Path) -> "Dataset":
     return assembled(_columns(table), told, attrs)
 
 
-def _write_npz(stream: IO[bytes], data: "Dataset") -> None:
+def _write_npz(stream: IO[bytes], data: "Dataset | Arrays") -> None:
     told = structure(data)
     about = json.dumps({"structure": told, "attrs": plain(data.attrs)}, ensure_ascii=False)
     np.savez(stream, **{"chapsym": np.array(about)} | arrays_of(data, told))  # type: ignore[arg-type]

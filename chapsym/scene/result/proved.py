@@ -16,6 +16,8 @@ from ..read.errors import SceneError
 if TYPE_CHECKING:
     from xarray import Dataset
 
+    from .arrays import Arrays
+
 #: What is compared, and its unit.
 UNITS = {"gamma": "", "omega": " rad/s", "attitude": "", "contact": " m"}
 
@@ -35,15 +37,15 @@ def check_outputs(outputs: Iterable[str]) -> None:
 
 
 def with_proof(
-    dataset: "Dataset", exact: tuple[Any, tuple[Fraction, ...]], limit: float, progress: Callable[[str], None]
-) -> tuple["Dataset", CertifiedMotion]:
+    data: "Arrays", exact: tuple[Any, tuple[Fraction, ...]], limit: float, progress: Callable[[str], None]
+) -> tuple["Arrays", CertifiedMotion]:
     """A result with its bounds (`proved_errors`, null where there is none) in the attribute "proved", and the motion.
 
     exact: the start and the times of its scene (`members.exactly.exact_motion`).  limit: seconds.
     """
     found = follow(*exact, DIGITS, limit=limit, progress=progress)
-    errors = {name: error if math.isfinite(error) else None for name, error in proved_errors(dataset, found).items()}
-    return dataset.assign_attrs({PROVED: json.dumps(errors)}), found
+    errors = {name: error if math.isfinite(error) else None for name, error in proved_errors(data, found).items()}
+    return data.assign_attrs({PROVED: json.dumps(errors)}), found
 
 
 def check_scene(dataset: "Dataset", scene: str) -> None:
@@ -53,7 +55,7 @@ def check_scene(dataset: "Dataset", scene: str) -> None:
         raise SceneError("the result is of another scene: run this one, and compare its result")
 
 
-def proved_errors(dataset: "Dataset", found: CertifiedMotion) -> dict[str, float]:
+def proved_errors(dataset: "Dataset | Arrays", found: CertifiedMotion) -> dict[str, float]:
     """For each of UNITS that both have, a bound of the greatest distance of a component at the frames that are proved.
 
     dataset: a result of the scene of the motion, of one ball.  A quaternion and its negative are one attitude.  A frame

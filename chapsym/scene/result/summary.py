@@ -14,6 +14,8 @@ from ..read.scene import Scene
 if TYPE_CHECKING:
     from xarray import Dataset
 
+    from .arrays import Arrays
+
 #: Of more balls, this many are asked whether they can take the first step.
 TRIED = 20_000
 
@@ -104,13 +106,13 @@ def refusals(scene: Scene, members: Members) -> list[str]:
     return told
 
 
-def last_state(data: "Dataset") -> dict[str, Any]:
+def last_state(data: "Dataset | Arrays") -> dict[str, Any]:
     """Of the result of one ball: its steps, its last state, and the drift of the momentum integrals.
 
     The drift is the largest change of each, relative to the scale of the momentum, of the frames that were kept.
     """
     one = data.isel(ball=0)
-    taken = int(one["taken"])
+    taken = int(one["taken"].values)
     reached = slice(0, None) if "step" not in one.coords else slice(0, int((one["step"].values <= taken).sum()))
     kept = {name: one[name].values[reached] for name in ("momentum", "gamma", "contact") if name in one}
     found: dict[str, Any] = {"steps": taken, "final": {name: values[-1].tolist() for name, values in kept.items()}}
@@ -121,7 +123,7 @@ def last_state(data: "Dataset") -> dict[str, Any]:
     return found
 
 
-def stopped(data: "Dataset") -> str:
+def stopped(data: "Dataset | Arrays") -> str:
     """Why balls stopped early: of each reason how many, and the first of them."""
     status, taken, names = data["status"].values, data["taken"].values, data["ball"].values
     reasons = []

@@ -16,7 +16,8 @@ from ..plan.models import Chosen, State
 from ..plan.plan import Plan
 from ..read.errors import SceneError
 from ..read.task import Columns
-from ..result.dataset import OUTCOME, build, layout, provenance, sizes
+from ..result.arrays import Arrays
+from ..result.dataset import OUTCOME, arrays, layout, provenance, sizes, with_clock
 from .remote import unit
 from .segments import NoAnswer, computed
 from .source import plan_from
@@ -77,14 +78,19 @@ class Memory:
 
 
 def run_in_memory(plan: Plan, report: Report = silent) -> "Dataset":
-    """Runs a plan on all cores; the result as a Dataset (`dataset.build`).
+    """The same as `run`, as a Dataset (`dataset.build`)."""
+    return with_clock(run(plan, report).dataset())
+
+
+def run(plan: Plan, report: Report = silent) -> Arrays:
+    """Runs a plan on all cores; the result as plain arrays (`dataset.arrays`).
 
     Balls that stopped early are NaN from there on, with their `status`.  Raises BadInput where a unit has no answer.
     """
     memory = Memory(plan)
     for why in _locally(plan, memory, Tally(plan, report)).values():
         raise BadInput(why)
-    return build(plan, memory.columns, memory.columns)
+    return arrays(plan, memory.columns, memory.columns)
 
 
 def run_to_store(
