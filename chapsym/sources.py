@@ -3,7 +3,7 @@
 import ast
 import hashlib
 import importlib.util
-from collections.abc import Collection
+from collections.abc import Collection, Iterator
 from functools import cache
 from pathlib import Path
 
@@ -36,13 +36,23 @@ def imports(module: str) -> tuple[str, ...]:
     """The modules of chapsym, or beside it, that a module imports, at the top and inside functions."""
     package = module if Path(str(file(module))).name == "__init__.py" else module.rpartition(".")[0]
     found: set[str] = set()
-    for node in ast.walk(ast.parse(source(module))):
+    for node in _statements(ast.parse(source(module))):
         if isinstance(node, ast.Import):
             found |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom):
             base = importlib.util.resolve_name("." * node.level + (node.module or ""), package)
             found |= {base} | {f"{base}.{alias.name}" for alias in node.names}
     return tuple(name for name in found if (name.startswith("chapsym.") or _beside(name, module)) and file(name))
+
+
+def _statements(tree: ast.AST) -> Iterator[ast.AST]:
+    """All statements, also those inside of others; no expressions, which are most of a tree and import nothing."""
+    pending = [tree]
+    while pending:
+        node = pending.pop()
+        yield node
+        for inside in ("body", "orelse", "finalbody", "handlers", "cases"):
+            pending += getattr(node, inside, ())
 
 
 def _beside(name: str, module: str) -> bool:

@@ -15,7 +15,6 @@ from chapsym.prove import Equation, Proof, Theorem, claim, main
 
 LAMBDA, INVERSE = sp.diag(L1, L2, L3), sp.diag(1 / L1, 1 / L2, 1 / L3)
 INERTIA = LAMBDA - D * sp.eye(3)
-CONTACT = sp.Matrix(gibbs.contact_inertia()).subs(placed(((I1, I2, I3), INERTIA.diagonal())))
 #: e ⊥ γ is horizontal; K = h(γ + se) to first order in s; ω₀ = cΛ⁻¹γ, h = cF.
 e, (s, c) = gibbs.e, sp.symbols("s c")
 BESIDE = Quotient((*gamma, *e, *v, L1, L2, L3, D, s, c), [UNIT_VERTICAL, gamma.dot(e), s**2])
@@ -39,8 +38,9 @@ def beside() -> list[Equation]:
     """ω, ω' and ⟨γ,ω'⟩ on K = h(γ + se)."""
     change = F * INVERSE * e + D * (INVERSE * gamma).dot(e) * INVERSE * gamma
     solved = F * INVERSE * v + D * (INVERSE * gamma).dot(v) * INVERSE * gamma
+    contact = sp.Matrix(gibbs.contact_inertia()).subs(placed(((I1, I2, I3), INERTIA.diagonal())))
     return [
-        Equation("x = Λ⁻¹v + (D/F)⟨Λ⁻¹γ,v⟩Λ⁻¹γ: B(γ)x = v", CONTACT * solved, F * v, BESIDE),
+        Equation("x = Λ⁻¹v + (D/F)⟨Λ⁻¹γ,v⟩Λ⁻¹γ: B(γ)x = v", contact * solved, F * v, BESIDE),
         Equation(
             "at v = h(γ + se) that is ω, h = cF",
             solved.subs(placed((v, c * (gamma + s * e)))),
@@ -48,7 +48,7 @@ def beside() -> list[Equation]:
             BESIDE,
         ),
         Equation("F⟨γ,x⟩ = ⟨Λ⁻¹γ,v⟩", gamma.dot(solved), (INVERSE * gamma).dot(v), BESIDE),
-        Equation("B(γ)ω₀' = Iω₀ × ω₀, ω₀' = cΛ⁻¹γ'", CONTACT * TURN, (INERTIA * SPIN).cross(SPIN), BESIDE),
+        Equation("B(γ)ω₀' = Iω₀ × ω₀, ω₀' = cΛ⁻¹γ'", contact * TURN, (INERTIA * SPIN).cross(SPIN), BESIDE),
     ]
 
 

@@ -89,6 +89,34 @@ def test_a_binary_file_or_a_pipe_is_no_file_of_records(path, tmp_path):
         records.read(tmp_path / "pipe")
 
 
+PLACES = """
+import chapsym.rationals
+class A:
+    def f(self):
+        if 1:
+            from chapsym import files
+        else:
+            from chapsym.checker import branch
+        for x in ():
+            try:
+                with open(x):
+                    import chapsym.workers
+            except ValueError:
+                import chapsym.extras
+            finally:
+                import chapsym.renamed
+        match x:
+            case 1:
+                import chapsym.sources
+"""
+
+
+def test_an_import_counts_wherever_it_stands(monkeypatch):
+    monkeypatch.setattr(sources, "source", lambda module: PLACES)
+    told = "rationals", "files", "checker", "checker.branch", "workers", "extras", "renamed", "sources"
+    assert set(sources.imports.__wrapped__("chapsym.prove")) == {f"chapsym.{name}" for name in told}
+
+
 def test_an_interrupt_keeps_what_was_finished(tmp_path, path):
     env = changed(
         tmp_path, "import chapsym.prove as prove", "honest = prove.prove_all", "def stopped(ids, jobs, arrived, **_):",
