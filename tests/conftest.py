@@ -3,8 +3,9 @@
 import fcntl
 import json
 import os
+import pickle
 import tempfile
-from dataclasses import asdict
+from types import SimpleNamespace
 
 import chromium
 import pytest
@@ -56,29 +57,54 @@ os.environ["CHAPSYM_RECORDS"] = os.path.join(tempfile.mkdtemp(prefix="chapsym-te
 
 
 def once(name, made, tmp_path_factory):
-    """What `made` returns, as plain data, made once for all processes of a run: the first makes it, the others wait."""
+    """What `made` returns, made once for all processes of a run: the first makes it, the others wait."""
     folder = tmp_path_factory.getbasetemp()
     if "PYTEST_XDIST_WORKER" in os.environ:
         folder = folder.parent  # that of the whole run
-    kept = folder / f"{name}.json"
+    kept = folder / f"{name}.pickle"
     with open(folder / f"{name}.lock", "w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
         if not kept.exists():
-            kept.write_text(json.dumps(made()), encoding="utf-8")
-    return json.loads(kept.read_text(encoding="utf-8"))
+            kept.write_bytes(pickle.dumps(made()))
+    return pickle.loads(kept.read_bytes())
 
 
 @pytest.fixture(scope="session")
-def judged(tmp_path_factory):
-    """Every claim and every lemma, judged once: the records and the texts of the certificates, by id."""
-    from chapsym.prove import load, prove_all
+def all_judged(tmp_path_factory):
+    """Every claim and every lemma, judged once in one process, where none is judged again for those that rest on it.
+
+    records: and the texts of the certificates, by id.  rests: that the lemmas of the two questions are proved, as the
+    questions rest on it.  checked: what the checker said of the certificates that the proofs put before it, by digest.
+    """
+    from chapsym import checker
+    from chapsym.proofs.open import energy, measure
+    from chapsym.prove import claims, load
+    from chapsym.prove.runner import prove_one
 
     def made():
-        folder = tmp_path_factory.mktemp("certificates")
-        records = prove_all(list(load(lemmas=True)), folder=folder)
-        return [[record, (folder / f"{record['id']}.json").read_text("utf-8")] for record in records]
+        folder, check = tmp_path_factory.mktemp("certificates"), checker.check
+        found = SimpleNamespace(records={}, rests={}, checked={})
 
-    return {record["id"]: (record, text) for record, text in once("judged", made, tmp_path_factory)}
+        def checked(data):
+            verdict = check(data)
+            found.checked[verdict.name] = verdict
+            return verdict
+
+        with pytest.MonkeyPatch.context() as patch, claims.once():
+            patch.setattr(checker, "check", checked)
+            for id in load(lemmas=True):
+                record = prove_one(id, folder)
+                found.records[id] = record, (folder / f"{id}.json").read_text("utf-8")
+            found.rests = {id: claims.judged(id) for id in {**measure.LEMMAS, **energy.LEMMAS}}
+        return found
+
+    return once("judged", made, tmp_path_factory)
+
+
+@pytest.fixture(scope="session")
+def judged(all_judged):
+    """The record of every claim and every lemma and the text of its certificate, by id."""
+    return json.loads(json.dumps(all_judged.records))
 
 
 @pytest.fixture
@@ -87,18 +113,6 @@ def uncertified(monkeypatch):
     from chapsym.prove import Judgement
 
     monkeypatch.setattr(Judgement, "certified", lambda self: self)
-
-
-@pytest.fixture(scope="session")
-def checked(tmp_path_factory):
-    """What the checker says of each certificate beside the register, by its digest; all are accepted."""
-    from chapsym import checker
-    from chapsym.proofs.open import certified
-
-    def made():
-        return [asdict(checker.check(checker.read(file))) for file in sorted(certified.FOLDER.glob("*.json"))]
-
-    return {one["name"]: checker.Verdict(**one) for one in once("checked", made, tmp_path_factory)}
 
 
 @pytest.fixture(scope="session")

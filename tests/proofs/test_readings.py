@@ -10,7 +10,7 @@ import sympy as sp
 from chapsym import checker
 from chapsym.proofs.map import symmetries
 from chapsym.proofs.open import certified, energy, locking, measure, readings
-from chapsym.prove import Judgement, Proof, Verdict, judged, load, no, there_is
+from chapsym.prove import Proof, Verdict, load, no, there_is
 from chapsym.prove.argument import gaps
 from chapsym.prove.runner import judge
 
@@ -23,21 +23,13 @@ STATED = (
 QUESTIONS = {"5.9-open": measure, "6-open": energy}
 
 
-@pytest.fixture(scope="module")
-def rests():
-    """The lemmas of the questions, judged once, without their certificates."""
-    load(lemmas=True)
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(Judgement, "certified", lambda self: self)
-        return {id: judged(id) for id in {**measure.LEMMAS, **energy.LEMMAS}}
-
-
 @pytest.fixture
-def once(rests, checked, uncertified, monkeypatch):
-    """The questions rest on these lemmas and certificates, without judging them again."""
+def once(all_judged, uncertified, monkeypatch):
+    """The questions rest on the lemmas and certificates as this run has judged them, without judging them again."""
+    load(lemmas=True)
     for module in QUESTIONS.values():
-        monkeypatch.setattr(module, "judged", rests.__getitem__)
-    monkeypatch.setattr(checker, "check", lambda data: checked[data["digest"]])
+        monkeypatch.setattr(module, "judged", all_judged.rests.__getitem__)
+    monkeypatch.setattr(checker, "check", lambda data: all_judged.checked[data["digest"]])
     monkeypatch.setattr(certified, "changed", lambda *_: symmetries.renamed(symmetries.SWAP, -1)[0])
 
 
@@ -123,11 +115,11 @@ def test_a_lemma_that_states_something_else_does_not_hold(change, monkeypatch):
 
 
 @pytest.mark.usefixtures("once")
-def test_a_lemma_that_needs_more_makes_the_theorem_need_more(rests, monkeypatch):
+def test_a_lemma_that_needs_more_makes_the_theorem_need_more(all_judged, monkeypatch):
     """Nobody types the hypotheses of an answer: they are those of its lemmas."""
-    told = rests["plateaus"]
+    told = all_judged.rests["plateaus"]
     theorem = replace(told.grounds.theorem, hypotheses=(*told.grounds.theorem.hypotheses, "l = 1"))
-    narrower = rests | {"plateaus": replace(told, grounds=replace(told.grounds, theorem=theorem))}
+    narrower = all_judged.rests | {"plateaus": replace(told, grounds=replace(told.grounds, theorem=theorem))}
     monkeypatch.setattr(measure, "judged", narrower.__getitem__)
     first = judge(load()["5.9-open"]).proof.readings[0]
     assert "l = 1" in first["theorem"]["hypotheses"]
