@@ -85,7 +85,8 @@ def test_what_is_declared_is_imported():
 
 @pytest.mark.parametrize("extra", EXTRAS)
 def test_the_sentence_of_an_extra_tells_of_what_it_installs(extra):
-    owners = {normal(owner) for package in EXTRAS[extra][1] for owner in packages_distributions()[package]}
+    installed = packages_distributions()  # reads the lists of files of all that is installed
+    owners = {normal(owner) for package in EXTRAS[extra][1] for owner in installed[package]}
     wanted = named(PROJECT["optional-dependencies"][extra])
     assert owners == wanted or (extra == "test" and owners < wanted)
 

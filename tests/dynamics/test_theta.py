@@ -2,12 +2,15 @@
 
 import json
 import random
+import re
 from fractions import Fraction as F
 from itertools import product
+from pathlib import Path
 
 import pytest
 from commands import chapsym as command
 from contained import ORDINARY, random_case, started, worst
+from first import FIRST
 from flint import acb, acb_mat, arb, arb_mat, arb_poly, ctx
 
 import chapsym
@@ -234,9 +237,12 @@ def test_many_turns_and_many_digits():
     assert both[1].gamma[1, 0].rad() < arb("1e-40")
 
 
-def test_the_command_writes_it():
-    made = command("certify", "motion", "docs/first.toml", "--digits", "12", "--by", "theta", "--json")
-    taylor = command("certify", "motion", "docs/first.toml", "--digits", "12", "--json")
+def test_the_command_writes_it(tmp_path):
+    scene = tmp_path / "scene.toml"
+    first = Path(FIRST).read_text(encoding="utf-8")
+    scene.write_text(re.sub(r"steps = \d+", "steps = 50\nframes = 2", first), encoding="utf-8")
+    made = command("certify", "motion", scene, "--digits", "12", "--by", "theta", "--json")
+    taylor = command("certify", "motion", scene, "--digits", "12", "--json")
     last, other = (json.loads(run.stdout)["frames"][-1] for run in (made, taylor))
     for name in PARTS:
         for (x, r), (y, s) in zip(last.get(name, ()), other.get(name, ()), strict=True):
