@@ -6,6 +6,7 @@ from hypothesis import settings
 EXAMPLES, THOROUGH = 40, 15
 
 
-def examples(count):
-    """So many of this property, which is slower than others, or needs more."""
-    return settings(max_examples=count * settings.default.max_examples // EXAMPLES)
+def examples(count, thorough=None):
+    """So many of this property, which is slower than others, or needs more; in a thorough run as if it were others."""
+    times = settings.default.max_examples // EXAMPLES
+    return settings(max_examples=count if times == 1 else (thorough or count) * times)

@@ -29,7 +29,7 @@ def test_a_homogeneous_ball_has_a_curve_of_complex_solutions():
         groebner_count.count(groebner_count.at((1, 1, 1), 0, GAMMA, (0, 0, 1)))
 
 
-@examples(20)
+@examples(8, 20)
 @given(st.lists(st.integers(-3, 3), min_size=3, max_size=3), st.integers(0, 20))
 def test_the_momentum_of_a_rotation_has_that_rotation(u, contact):
     """A rational Ω ~ (4, u) is one of the solutions for its own momentum."""

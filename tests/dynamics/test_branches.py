@@ -84,7 +84,7 @@ def test_each_solves_the_matrix_equation(count):
         assert abs(mp.acos(min(1, (sum(rotation[i, i] for i in range(3)) - 1) / 2)) - mp.mpf(s["angle"])) < 1e-20
 
 
-@examples(20)
+@examples(8, 20)
 @given(
     testing.rational_balls(), testing.rational_unit_vectors(), st.tuples(*[st.fractions(-3, 3, max_denominator=4)] * 3)
 )
@@ -214,7 +214,7 @@ def test_float64_agrees(count):
         assert found.small == next((i for i, s in enumerate(known) if s["small_rotation"]), -1)
 
 
-@examples(6)
+@examples(3, 6)
 @given(testing.states(fraction=(0.0, 1.3)))
 def test_float64_counts_as_exact_arithmetic_does(state):
     """The rotations within the promise of `chapsym check`: 4κ ulps."""

@@ -70,7 +70,7 @@ def test_closed_forms():
     assert margin(Ball((1, 1, 1), 0), 0.5 * GAMMA, (0, 0, 1)) == pytest.approx(3, rel=1e-15)
 
 
-@examples(20)
+@examples(8, 20)
 @given(testing.states(fraction=(0.01, 1.3)))
 def test_the_margin_says_whether_the_step_is_taken(state):
     ball, K, gamma = state

@@ -36,7 +36,7 @@ def test_a_step_solves_the_equation(n):
 
 
 @given(states(3))
-@examples(40)
+@examples(15, 40)
 def test_in_three_dimensions_it_is_the_same_map(state):
     K, gamma, J, D = state
     general, special = step_n(BallN(J, D), K, gamma), chapsym.step(Ball(J, D), axial(K), gamma)

@@ -94,7 +94,7 @@ def test_balls_contain_the_oracle_step_by_step_and_are_small(size):
 
 
 @given(testing.states(fraction=(0.05, 0.95)))
-@examples(25)
+@examples(10, 25)
 def test_three_steps_of_any_state_are_enclosed(state):
     """Inside the bound of the lemma and beyond it, degenerate and stiff balls."""
     ball, momentum, gamma = state
