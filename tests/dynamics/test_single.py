@@ -71,7 +71,6 @@ def test_all_arrays_are_float32():
 def arithmetic(march, *arguments):
     """The operations of a compiled loop and of what it calls in the loops, but for the safe way; and the modules."""
     import numba
-
     from chapsym.dynamics.levels.compiled import compiled
 
     compiled(march)  # so that what it calls is known

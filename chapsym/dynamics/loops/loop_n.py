@@ -39,8 +39,8 @@ def march(
     A step is its stages, with the coefficients c (s,), one after the other: each turns k by the rotation of cᵢk.
     k (n, n), g (n), R (n, n) and spot (n - 1) hold the present state and move.  Each stage has its own bounds near (s,)
     and enough (s,), and its last rotations in past (s, ORDER, n, n) and use (s, ORDER).
-    𝒦 = scale·k.  T: room for a matrix, n(n - 1)/2 by as many.  The state after every `every`-th step goes to the frame arrays.
-    The attitude and the trace are touched only when `with_body`.
+    𝒦 = scale·k.  T: room for a matrix, n(n - 1)/2 by as many.  The state after every `every`-th step goes to the
+    frame arrays.  The attitude and the trace are touched only when `with_body`.
     """
     n, stages = k.shape[0], c.shape[0]
     E, O, W = empty((n, n)), empty((n, n)), empty((n, n))
