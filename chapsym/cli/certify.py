@@ -228,7 +228,7 @@ def check(
 ) -> None:
     """Check certificates: exit status 0 accepted, 1 rejected, 2 unreadable.
 
-    The separate checker judges them, which shares no code with what found them.
+    The separate checker judges them, which imports nothing from what found them.
     """
     import subprocess
 
