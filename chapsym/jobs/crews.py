@@ -66,7 +66,7 @@ def processes(count: int) -> Iterator[Pool]:
     if count <= 1:
         yield Pool(Here(), 1)
         return
-    # A child is not forked: numba's threads and Arb's precision are of a process.
+    # A child is not forked: threads and Arb's precision are of a process.
     executor = ProcessPoolExecutor(count, multiprocessing.get_context("spawn"), initializer=begin)
     try:
         yield Pool(executor, count)

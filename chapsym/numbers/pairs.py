@@ -1,6 +1,6 @@
 """Double-double numbers: a pair (high, low) of float64 stands for high + low, 106 bits and more.
 
-Plain scalar Python that numba compiles; x, x_ are the halves of x, and u = 2⁻⁵³.  Barring overflow and underflow
+x, x_ are the halves of x, and u = 2⁻⁵³.  Barring overflow and underflow
 
 - `two_sum`, `quick_two_sum` and `two_product` are exact (Knuth, Dekker).  Compiled, the product is one fused
   multiply-add (`numbers.fused`): exact as well, so the bits are the same;

@@ -1,1 +1,1 @@
-"""The loops: plain text on floats that numba compiles, and that runs without it."""
+"""The loops: one text, which runs as Python and is printed as C (`text`)."""

@@ -1,7 +1,5 @@
 """The small-rotation branch: the rotation with a given momentum, continued from the identity.
 
-Plain scalar Python, so that the same functions run on floats and are compiled by numba.
-
 For fixed γ the branch is the curve q(t) with 𝒦(q(t), γ) = t𝒦 that starts at q(0) = 1 and is followed
 up to t = 1 while its Jacobian is regular.  Around a point p of the curve write q ∝ p ∘ (1, w):
 F(w) = 𝒦(p ∘ (1, w), γ) - t𝒦(1 + |w|²) is *quadratic* in w.  So the Newton-Kantorovich test needs no

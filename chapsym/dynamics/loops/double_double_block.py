@@ -1,4 +1,4 @@
-"""Many balls at once in double-double: blocks of `LANES` balls, as in `dynamics.block`; for numba only.
+"""Many balls at once in double-double: blocks of `LANES` balls, as in `block`.
 
 Each lane has the bits of `double_double_loop.march_pairs` for that ball alone.
 """

@@ -1,4 +1,4 @@
-"""Many steps of one ball in double-double: plain Python that numba compiles.
+"""Many steps of one ball in double-double.
 
 A step is a composition with any stages, of which the map itself has one.  𝒦, γ, the attitude and the contact point are
 pairs, and need no compensation; the integrals are restored now and then.

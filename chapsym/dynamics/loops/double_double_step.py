@@ -1,4 +1,4 @@
-"""One step in double-double: the float64 root, corrected once by a residual in pairs.  Python that numba compiles.
+"""One step in double-double: the float64 root, corrected once by a residual in pairs.
 
 Names as in `numbers.pairs`: x, x_ are the halves of x.  Let w be a float64 Gibbs vector near the root of
 G(u) = B(γ)u + u × Iu - (1 + |u|²)k, found by a Newton correction d, and A the Jacobian before d, in float64.  G(w) in

@@ -1,4 +1,4 @@
-"""Steps of the map that turn a ball in steady rotation as far as the continuous ball turns: plain code, for numba.
+"""Steps of the map that turn a ball in steady rotation as far as the continuous ball turns.
 
 By lemmas `steady` and `steady-branch` a step of length s turns it by θ with sin θ = s|ω|.  So the step for the time h
 has the length s = sin(h|ω|)/|ω|.  That is h times an even function of h, so the rotation of n steps stays an even

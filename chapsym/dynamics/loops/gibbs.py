@@ -1,7 +1,5 @@
 """The root of a step in the Gibbs vector u = q/q₀: one Newton iterate from a good guess, checked.
 
-Plain scalar Python, so that the same functions run on floats and are compiled by numba.
-
 With k = 𝒦/2 the step solves G(u) = B(γ)u + u × Iu - (1 + |u|²)k = 0.  Lemma `small-branch`: where |𝒦| is
 below a bound, a root with |u| < 1 is that of the small-rotation branch, for every γ, and in the ball
 |u| ≤ `radius` the Jacobian A satisfies ⟨d, Ad⟩ ≥ m|d|².  As |𝒦| is an integral of the map, the bound is looked

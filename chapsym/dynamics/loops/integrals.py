@@ -1,8 +1,5 @@
 """⟨γ,γ⟩, ⟨𝒦,γ⟩ and ⟨𝒦,𝒦⟩ to twice the working precision, and how they are restored without a bias.
 
-Plain scalar Python, so that the same functions run on floats and are compiled by numba; but for `shares`, on the rows
-of a batch as well.
-
 The map turns 𝒦 and γ by one rotation.  Each turn is added with a compensation (Kahan), so that the sums carry
 twice the digits; what the rounding of the rotation itself still adds up is taken back every `PERIOD` steps.
 The correction goes into the compensation, not into 𝒦 and γ: renormalised and rounded vectors would lean to one side.

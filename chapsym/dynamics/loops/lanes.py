@@ -1,4 +1,4 @@
-"""Long steps of the continuous ball, columns side by side, of one ball or of eight: vector code, for numba.
+"""Long steps of the continuous ball, columns side by side, of one ball or of eight: vector code.
 
 Lane i first takes the column n = 7 - i, and then the column i where there is one; so the columns 2 to 7 are 7, 6,
 5 + 2 and 4 + 3 steps of the map, 7 slots of four.  A lane without a column repeats one, with no weight.  Each number

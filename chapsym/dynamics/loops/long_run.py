@@ -1,7 +1,4 @@
-"""Many long steps of one ball or of eight: the frames in and out, and the safe way where the lanes do not settle.
-
-Plain scalar Python, so that the same functions run on floats and are compiled by numba.
-"""
+"""Many long steps of one ball or of eight: the frames in and out, and the safe way where the lanes do not settle."""
 
 from math import ldexp, nan, sqrt
 

@@ -1,6 +1,6 @@
 """The safe way of a long step of the continuous ball: the rotation of n steps of the map, extrapolated from several n.
 
-Plain scalar Python, so that the same functions run on floats and are compiled by numba.  It takes the rotations of
+It takes the rotations of
 the small-rotation branch, proved or continued from no rotation; `lanes` does the same side by side.
 """
 

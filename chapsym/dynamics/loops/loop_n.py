@@ -1,4 +1,4 @@
-"""Many steps of one ball in n dimensions: plain scalar Python that numba compiles, once for every n.
+"""Many steps of one ball in n dimensions, one text for every n.
 
 It serves balls below the bound of `n.near_n` only, where any rotation with the momentum and a small E is the right one.
 """

@@ -1,4 +1,4 @@
-"""A step in n dimensions: plain scalar Python that numba compiles, once for every n.
+"""A step in n dimensions, one text for every n.
 
 Ω is kept as E = Ω - 1, as in `n.so_n`.  The coordinate p of a skew matrix is its entry (i, j), i > j, row by row.
 """

@@ -1,4 +1,4 @@
-"""One step of each ball of a batch by the loops' own round.  Plain scalar Python that numba compiles."""
+"""One step of each ball of a batch by the loops' own round."""
 
 from math import sqrt
 

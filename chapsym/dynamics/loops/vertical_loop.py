@@ -1,4 +1,4 @@
-"""The inner loop of the reduced map G_h of a free top: D = 0, 𝒦 = hγ.  Plain scalar Python that numba compiles.
+"""The inner loop of the reduced map G_h of a free top: D = 0, 𝒦 = hγ.
 
 Lemmas `vertical-rotation` and `vertical-level` give the step in closed form: with t = h/2 the rotation is rational in
 γ and in one number v, the root of an equation that knows γ through ⟨γ,Λ⁻¹γ⟩ only.  As that is an integral, v serves a

@@ -71,7 +71,7 @@ def trajectory_n(
     precision: "double", or `Digits(N)` for N digits in mpmath's numbers, at milliseconds a step.  That starts from the
     floats that are given, γ divided by its length, and the attitude from the rotation nearest to that of float64.
 
-    A ball below the bound of `near_n` begins each step at a guess by the last ones, compiled in long runs with numba;
+    A ball below the bound of `near_n` begins each step at a guess by the last ones, compiled;
     one above it is continued from the identity at each step.
     One ball that cannot take a step raises StepNotTaken with `index` and the `trajectory` before it.
     In a batch the others go on, and `status` and `taken` say which stopped, where.
