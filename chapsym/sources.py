@@ -71,7 +71,7 @@ def file(module: str) -> str | None:
         spec = importlib.util.find_spec(module)
     except (ModuleNotFoundError, AttributeError):
         return None
-    return spec.origin if spec and spec.has_location else None
+    return spec.origin if spec and spec.has_location and str(spec.origin).endswith(".py") else None
 
 
 def source(module: str) -> str:

@@ -143,7 +143,7 @@ OUT_OF_LINE real loop_scaled(r1 momentum, r1 g, r1 tensor, real contact, r1 stat
     int64_t exponent = t_1.a1;
     real largest = max_r(max_r(real_abs(momentum.p[0]), real_abs(momentum.p[1])), real_abs(momentum.p[2]));
     t_ri size = real_frexp(largest); exponent = max_i(min_i(exponent, 1021), size.a1 - 1021);
-    int tiny = 0 < largest && largest < (real)ldexp(R(0x1.0000000000000p-120), (int)exponent);
+    int tiny = 0 < largest && largest < (real)ldexp(gibbs_SMALLEST, (int)exponent);
     if (tiny) exponent = max_i(-1, exponent - 1021 + 1);
     for (int64_t i_0 = 0; i_0 < state.n0; i_0++) state.p[i_0] = 0;
     real power = loop_power_of_two(-exponent), half = loop_power_of_two(-exponent - 1);
@@ -156,7 +156,7 @@ OUT_OF_LINE real loop_scaled(r1 momentum, r1 g, r1 tensor, real contact, r1 stat
     t_r3 k1 = loop_three(state, 0), I1 = loop_three(state, 21);
     t_r2 t_5 = gibbs_certificate(k1.a0, k1.a1, k1.a2, I1.a0, I1.a1, I1.a2, state.p[24]); state.p[25] = t_5.a0;
     state.p[26] = t_5.a1;
-    if (tiny || min_r(min_r(I1.a0, I1.a1), I1.a2) < R(0x1.0000000000000p-120)) state.p[25] = -1;
+    if (tiny || min_r(min_r(I1.a0, I1.a1), I1.a2) < gibbs_SMALLEST) state.p[25] = -1;
     return (real)ldexp(1, (int)(exponent + 1));
 }
 
@@ -363,7 +363,7 @@ INLINE t_r8b2 path_improved(real u1, real u2, real u3, real k1, real k2, real k3
     real square = p1.a3 * p1.a3 + (p1.a4 * p1.a4 + p1.a5 * p1.a5), curved = 6 * (R(0.5) * (max_r(max_r(I1, I2), I3) -
         min_r(min_r(I1, I2), I3)) + real_sqrt(k1 * k1 + (k2 * k2 + k3 * k3)));
     real left = curved * curved * (max_r(r.first, p1.a6) * p1.a6);
-    real allowed = R(0x1.0000000000000p-53) * (R(0.0625) * (max_r(max_r(I1, I2), I3) + D));
+    real allowed = gibbs_LEFT * (R(0.0625) * (max_r(max_r(I1, I2), I3) + D));
     return (t_r8b2){r.p0, p1.a0, p1.a1, p1.a2, p1.a3, p1.a4, p1.a5, left, left <= allowed * allowed * square, p1.a6 <=
         R(1e-26) * square};
 }
@@ -426,7 +426,7 @@ INLINE int path_proved(real u1, real u2, real u3, real left, real k1, real k2, r
     real spread = R(0.5) * (max_r(max_r(I1, I2), I3) - min_r(min_r(I1, I2), I3));
     real square = u1 * u1 + (u2 * u2 + u3 * u3);
     t_br reached = path_joined(u1, u2, u3, square, k1, k2, k3, half, g1, g2, g3, I1, I2, I3, D, spread);
-    real allowed = R(0x1.0000000000000p-53) * reached.a1; return reached.a0 & (left <= allowed * allowed * square);
+    real allowed = gibbs_LEFT * reached.a1; return reached.a0 & (left <= allowed * allowed * square);
 }
 
 INLINE t_br7 path_search_on_path(real u1, real u2, real u3, real k1, real k2, real k3, real g1, real g2, real g3, real
@@ -983,7 +983,7 @@ INLINE void long_run_entered(r2 S, int64_t at, int64_t i, r1 body, real half, in
     real k1 = part * body.p[0], k2 = part * body.p[1], k3 = part * body.p[2];
     real size = real_sqrt(k1 * k1 + k2 * k2 + k3 * k3);
     t_r2 within = gibbs_certificate(k1, k2, k3, I1.a0, I1.a1, I1.a2, state.p[24]);
-    real least = R(0x1.0000000000000p-53) * size / (max_r(max_r(I1.a0, I1.a1), I1.a2) + state.p[24] + spread);
+    real least = gibbs_LEFT * size / (max_r(max_r(I1.a0, I1.a1), I1.a2) + state.p[24] + spread);
     real anywhere = gibbs_is_heavy(I1.a0, I1.a1, I1.a2, state.p[24]) ? -1 : R(0x1.0000000000000p+1000);
     S.p[at * S.s0 + i] = part; S.p[(at + 1) * S.s0 + i] = part != 0 ? 1 / part : 0; S.p[(at + 2) * S.s0 + i] = size;
     S.p[78 * S.s0 + i] = spread; S.p[(at + 3) * S.s0 + i] = within.a0 >= 0 ? within.a0 : anywhere;
@@ -2449,7 +2449,8 @@ INLINE void double_double_block_march_pairs_block(r2 state, int64_t first, int64
                     for (int64_t i_ = 0; i_ < S.n0; i_++) one_[i_] = S.p[i_ * S.s0 + i];
                     one = (r1){one_, S.n0};
                     double_double_loop_write((r1){momenta.p + i * momenta.s0 + frame * momenta.s1, momenta.n2},
-                        (r1){momenta_.p + i * momenta_.s0 + frame * momenta_.s1, momenta_.n2}, one, 0, -shift.p[i]);
+                        (r1){momenta_.p + i * momenta_.s0 + frame * momenta_.s1, momenta_.n2}, one, 0,
+                        -(int64_t)shift.p[i]);
                     double_double_loop_write((r1){verticals.p + i * verticals.s0 + frame * verticals.s1,
                         verticals.n2}, (r1){verticals_.p + i * verticals_.s0 + frame * verticals_.s1, verticals_.n2},
                         one, 6, 0);
@@ -3098,5 +3099,5 @@ const int loops_single_count = 4;
 #endif
 
 #ifndef SINGLE
-const char loops_text[] = "98ef845d331746b991a8cb841784485b6144e028d7bbb0898c0000a6007dd91d";
+const char loops_text[] = "eb335027ef7f99ddd5855150db6fe5cf4466d5dba97df4c736a238ddc8039f9d";
 #endif

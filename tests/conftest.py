@@ -108,6 +108,22 @@ def judged(all_judged):
 
 
 @pytest.fixture
+def plain():
+    """The test is in plain Python."""
+    from plain import in_plain_python
+
+    with in_plain_python():
+        yield
+
+
+@pytest.fixture(params=["compiled", "plain"])
+def way(request):
+    """The test is in C, and then in Python."""
+    if request.param == "plain":
+        request.getfixturevalue("plain")
+
+
+@pytest.fixture
 def uncertified(monkeypatch):
     """Claims are judged without the certificates, which take as long as the proofs."""
     from chapsym.prove import Judgement

@@ -8,10 +8,10 @@ from chapsym.dynamics.loops import gibbs, loop
 
 
 def prepared(state):
-    """A ball under way, as `march` has it."""
+    """A ball under way, but for its integrals."""
     ball, momentum, gamma = state
     array = np.zeros(loop.ROWS)
-    loop.prepare(momentum, gamma, ball.mass_tensor, float(ball.D), array)
+    loop.scaled(momentum, gamma, ball.mass_tensor, float(ball.D), array)
     return array
 
 

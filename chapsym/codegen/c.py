@@ -104,7 +104,9 @@ class Printer(Lookup):
             module, name = self.named(node)
             if isinstance(module, Module) and name in module.single:
                 return Text(f"{module.name}_{name}")
-        elif any(isinstance(n, ast.Name) and n.id in self.named(n)[0].single for n in ast.walk(node)):
+        elif any(
+            x in module.single for module, x in (self.named(n) for n in ast.walk(node) if isinstance(n, ast.Name))
+        ):
             return None
         text = self.number(value)
         return Text(text, UNARY if text.startswith("-") else ATOM)
@@ -112,9 +114,10 @@ class Printer(Lookup):
     def named(self, node: ast.expr) -> tuple[Module, str]:
         """The module that a constant is defined in, and its name there."""
         if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name):
-            return self.module.names[node.value.id], node.attr
+            other = self.module.names[node.value.id]
+            return other.origins.get(node.attr, (other, node.attr)) if isinstance(other, Module) else (other, node.attr)
         name = node.id if isinstance(node, ast.Name) else ""
-        return self.module, name
+        return self.module.origins.get(name, (self.module, name))
 
     def expression(self, node: ast.expr) -> Text:
         """An expression with one value."""
@@ -136,7 +139,9 @@ class Printer(Lookup):
                     first = f"(real){self.expression(left).at(UNARY)}"
                 return Text(f"{first} {sign} {second}", level)
             case ast.UnaryOp(op=ast.Not() | ast.USub() as op, operand=operand):
-                return Text(("!" if isinstance(op, ast.Not) else "-") + self.expression(operand).at(UNARY), UNARY)
+                text = self.expression(operand).at(UNARY)
+                text = f"({text})" if text[0] == "-" else text  # -- is another operator
+                return Text(("!" if isinstance(op, ast.Not) else "-") + text, UNARY)
             case ast.Compare():
                 return self.compared(node)
             case ast.BoolOp(op=op, values=values):
@@ -201,6 +206,10 @@ class Printer(Lookup):
         """An element, a row or a slice of an array."""
         array, kind = self.expression(node.value).at(ATOM), self.type(node.value)
         indices = list(node.slice.elts) if isinstance(node.slice, ast.Tuple) else [node.slice]
+        bounds = [x for i in indices for x in ((i.lower, i.upper) if isinstance(i, ast.Slice) else (i,)) if x]
+        from_end = any(value < 0 for value in map(self.value, bounds) if value is not None)
+        if from_end or any(isinstance(i, ast.Slice) and i.step for i in indices):
+            raise NotTranslatable(f"{self.name}: {ast.unparse(node)}")
         if isinstance(indices[0], ast.Slice):
             return self.slice_text(array, kind, indices[0])
         where = " + ".join(
@@ -540,7 +549,7 @@ class Printer(Lookup):
         declared = self.fresh.pop(name, "int64_t" if own else "")
         changes = {"1": f"{name}++", "-1": f"{name}--"}
         sign, more = ">" if step[0] == "-" else "<", changes.get(step, f"{name} += {step}")
-        if not end.replace("_", "").replace(".", "").isalnum() and not end.isdigit():
+        if end in stored or (not end.replace("_", "").replace(".", "").isalnum() and not end.isdigit()):
             self.temporaries += 1
             limit = f"end_{self.temporaries}"
             self.hoisted.append(Statement(f"{limit} = {end}", "int64_t"))

@@ -65,6 +65,9 @@ class Typed:
             a.arg: ANNOTATIONS[ast.unparse(a.annotation)] for a in function.node.args.args if a.annotation is not None
         }
         self.names: dict[str, Any] = {name: annotated.get(name) for name in function.parameters}
+        #: Its parameters, and what it assigns.
+        self.own = {n.id for n in ast.walk(function.node) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)}
+        self.own |= set(self.names)
         self.returned: Any = None
         self.returns_nothing = not any(isinstance(n, ast.Return) and n.value for n in ast.walk(function.node))
         #: Parameters whose elements it, or what it calls, assigns.
@@ -163,7 +166,7 @@ class Lookup:
         if value is not None and not isinstance(value, Function | Module):
             return "b" if isinstance(value, bool) else "i" if isinstance(value, int) else "r"
         match node:
-            case ast.Name(id=name):
+            case ast.Name(id=name) if name in self.typed.own:
                 return self.typed.names.get(name)
             case ast.BinOp(left=left, op=op, right=right):
                 if isinstance(op, ast.BitAnd | ast.BitOr):
@@ -294,7 +297,7 @@ class Inference(Lookup):
             case ast.Name(id=name):  # a tuple that is kept whole is indexed
                 self.types.note(self.typed, name, Array("r", 1) if isinstance(found, tuple) else found)
             case ast.Tuple(elts=targets):
-                if isinstance(found, tuple):
+                if isinstance(found, tuple) and (None not in found or len(found) == len(targets)):
                     for one, of_one in zip(targets, found, strict=True):
                         self.bind(one, of_one)
             case ast.Subscript():

@@ -68,6 +68,8 @@ class Module:
     names: dict[str, Any] = field(default_factory=dict)
     #: What has another value, or is another function, in float32.
     single: dict[str, Any] = field(default_factory=dict)
+    #: What is imported by name: the module that has it, and its name there.
+    origins: dict[str, "tuple[Module, str]"] = field(default_factory=dict)
 
 
 class Program:
@@ -95,14 +97,14 @@ class Program:
                     )
                     module.names[node.name] = Record(node.name, tuple(fields))
                 case ast.ImportFrom() | ast.Import():
-                    module.names.update(self._imported(path, node))
+                    module.names.update(self._imported(path, module, node))
                 case ast.Assign(targets=[ast.Name(id="SINGLE")], value=ast.Dict() as table):
                     module.single = self._single(module, table)
                 case ast.Assign(targets=[target], value=value):
                     module.names.update(_constants(target, value, module.names))
         return module
 
-    def _imported(self, path: str, node: ast.ImportFrom | ast.Import) -> dict[str, Any]:
+    def _imported(self, path: str, module: Module, node: ast.ImportFrom | ast.Import) -> dict[str, Any]:
         if isinstance(node, ast.Import):
             return {alias.asname or alias.name: alias.name for alias in node.names}
         base = path.rsplit(".", node.level)[0] if node.level else ""
@@ -114,9 +116,10 @@ class Program:
             elif node.module is None:  # from . import module
                 found[alias.asname or alias.name] = self.module(f"{source}.{alias.name}")
             else:
-                names = self.module(source).names
-                if alias.name in names:
-                    found[alias.asname or alias.name] = names[alias.name]
+                other, name = self.module(source), alias.asname or alias.name
+                if alias.name in other.names:
+                    found[name] = other.names[alias.name]
+                    module.origins[name] = other.origins.get(alias.name, (other, alias.name))
         return found
 
     def _single(self, module: Module, table: ast.Dict) -> dict[str, Any]:

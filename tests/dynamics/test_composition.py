@@ -13,7 +13,7 @@ from chapsym.derive.composition import defects, product, step_series, words
 from chapsym.dynamics import kernels
 from chapsym.dynamics.coefficients import COMPOSITIONS
 from chapsym.dynamics.levels import double
-from chapsym.dynamics.loops import composed_loop, double_double_loop, gibbs, loop
+from chapsym.dynamics.loops import double_double_loop, gibbs, loop
 from chapsym.dynamics.loops.guess import stage_weights
 from chapsym.studies.trade.reference import continuous
 
@@ -247,39 +247,40 @@ def test_the_guess_of_a_stage_is_right_for_every_word_up_to_weight_4(order, plac
     four, five = rates(c, 4), rates(c, 5)
     for i in range(places):
         window = slice(i, i + places)
-        weights = np.roll(later[i, :places], -i)  # the oldest first
+        weights = later[i, :places]
         missed = [np.abs(weights @ (c[window, None] * r[window]) - c[i + places] * r[i + places]) for r in (four, five)]
         assert missed[0].max() < 1e-7
         assert missed[1].max() > 1e-4
         assert (later[i, places:] == 0).all()
-        assert (first[i, i:] == 0).all()
+        assert (first[i, : places - i] == 0).all()
+        assert (first[i, places:] == 0).all()
 
 
+@pytest.mark.usefixtures("plain")
 @pytest.mark.parametrize("order", [4, 6, 8])
 def test_a_stage_is_guessed_from_those_around_it(order, monkeypatch):
     """From the second round on no stage is searched, and the guesses are near: they lack 1e-4 at most."""
-    monkeypatch.setattr(double, "has_numba", lambda: False)  # in plain Python
-    missed, honest = [], composed_loop.settle
+    missed, honest = [], loop.settle
 
     def settle(*arguments):
         found = honest(*arguments)
         missed.append(math.dist(arguments[:3], found[-3:]) / math.hypot(*found[-3:]) if found[0] else math.inf)
         return found
 
-    monkeypatch.setattr(composed_loop, "settle", settle)
+    monkeypatch.setattr(loop, "settle", settle)
     chapsym.trajectory(BALL, 0.2 * K, GAMMA, 12, order=order)
     later = missed[stage_weights(tuple(map(float, chapsym.substeps(order)))).shape[1] :]
     assert len(later) > 30
     assert max(later) < 1e-4
 
 
+@pytest.mark.usefixtures("plain")
 def test_each_stage_has_the_certificate_of_its_own_momentum(monkeypatch):
-    monkeypatch.setattr(double, "has_numba", lambda: False)  # in plain Python
-    seen, honest = [], composed_loop.settle
-    monkeypatch.setattr(composed_loop, "settle", lambda *a: seen.append((*a[3:6], *a[-2:])) or honest(*a))
-    safe, searched = composed_loop.safe_rotation, []
+    seen, honest = [], loop.settle
+    monkeypatch.setattr(loop, "settle", lambda *a: seen.append((*a[3:6], *a[-2:])) or honest(*a))
+    safe, searched = loop.safe_rotation, []
     monkeypatch.setattr(
-        composed_loop,
+        loop,
         "safe_rotation",
         lambda *a: searched.append((*a[-1][:3], a[-1][loop.RADIUS], a[-1][loop.ENOUGH])) or safe(*a),
     )

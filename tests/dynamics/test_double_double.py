@@ -92,10 +92,8 @@ def test_a_run_against_60_digits(order, steps, budget, up, start):
     assert type(run.precision) is DoubleDouble
 
 
-def test_a_batch_of_another_order_is_not_taken_in_blocks(monkeypatch):
-    """Blocks have the stage of order 2 only; 4 balls in plain Python, though they would fill one."""
-    monkeypatch.setattr(double_double, "SHORT_RUN", 0)
-    monkeypatch.setattr(double_double, "chosen", lambda functions, work: functions)
+def test_a_batch_of_another_order_is_not_taken_in_blocks():
+    """Blocks have the stage of order 2 only; 4 balls would fill one."""
     n, balls = (
         double_double.FEW,
         chapsym.Ball(

@@ -5,11 +5,11 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+from plain import in_plain_python
 
 import chapsym
 from chapsym.dynamics import extrapolation, kernels
 from chapsym.dynamics.attitudes import initial_attitude
-from chapsym.dynamics.levels import double
 from chapsym.dynamics.loops import lanes, long_run
 from chapsym.dynamics.loops.fitted import fitted, half_angle, turn_square
 from chapsym.studies.trade.reference import continuous
@@ -24,13 +24,6 @@ UNIT_ROUNDOFF = 2.0**-53
 def at_two():
     """K and γ after 2 s, by a Taylor series: nothing of the map in it."""
     return continuous(BALL, K, GAMMA, None, [Fraction(2)], 25)[0, :6].astype(float)
-
-
-@pytest.fixture(params=[0, 10**9], ids=["lanes", "plain"])
-def short_run(request, monkeypatch):
-    """Shorter runs than this are in plain Python, whatever another test has loaded: all are compiled, or none."""
-    monkeypatch.setattr(double, "SHORT_RUN", request.param)
-    monkeypatch.setattr(double, "_ready", set())
 
 
 def error(reference, *args, **kwargs):
@@ -54,7 +47,8 @@ def test_the_order_is_twice_the_columns(at_two, columns, steps):
     assert np.log2(coarse / fine) == pytest.approx(2 * columns, abs=0.75)
 
 
-def test_a_steady_rotation_is_exact_in_one_step(short_run):
+@pytest.mark.usefixtures("way")
+def test_a_steady_rotation_is_exact_in_one_step():
     """Lemma `steady`: equal moments, D > 0, any K and γ.  A step as long as it is, not fitted, would be off by 1e-3."""
     ball, time = chapsym.Ball((0.5, 0.5, 0.5), 0.7), 1.2
     omega = kernels.angular_velocity(K, GAMMA, ball.mass_tensor, ball.D)
@@ -129,10 +123,9 @@ def test_lanes_take_the_rotations_of_the_branch(monkeypatch, columns, time_step)
     ball, K, g = at_random(20)
     ball = chapsym.Ball(ball.mass_tensor, ball.D, 0.7)
     fast = chapsym.extrapolate(ball, K, g, time_step, 4, columns=columns, contact=True)
-    monkeypatch.setattr(double, "SHORT_RUN", 10**9)
-    monkeypatch.setattr(double, "_ready", set())
     monkeypatch.setattr(long_run, "side_by_side", lambda S, *args: S[lanes.LOST].fill(1.0) or True)
-    safe = chapsym.extrapolate(ball, K, g, time_step, 4, columns=columns, contact=True)
+    with in_plain_python():
+        safe = chapsym.extrapolate(ball, K, g, time_step, 4, columns=columns, contact=True)
     assert (safe.status == 0).sum() >= 15
     assert (safe.status == fast.status).all()
     for name in ("angular_momentum", "gamma", "attitude", "contact", "doubt"):
@@ -146,36 +139,32 @@ def everything(found):
 
 
 @pytest.mark.parametrize(("time_step", "columns"), [(0.3, 6), (2.0, 6), (4.0, 6), (0.7, 2), (0.7, 4)])
-def test_a_ball_has_the_same_bits_alone_in_a_batch_and_in_plain_python(monkeypatch, time_step, columns):
+def test_a_ball_has_the_same_bits_alone_in_a_batch_and_in_plain_python(time_step, columns):
     """A long time_step takes the safe way for some balls, and stops others; neither touches those beside them."""
     ball, K, g = at_random(11)
     radius = np.linspace(0.1, 0.9, 11)
     ball = chapsym.Ball(ball.mass_tensor, ball.D, radius)
     more = {"columns": columns, "contact": True, "every": 2}
-    plain = []
-    monkeypatch.setattr(double, "_ready", set())
-    for short_run in (10**9, 0):
-        monkeypatch.setattr(double, "SHORT_RUN", short_run)
-        monkeypatch.setattr(double, "_plain", double.Counter())
-        whole = chapsym.extrapolate(ball, K, g, time_step, 5, **more)
-        for n in (2, 8):  # one after another, and a full block
-            few = chapsym.Ball(ball.mass_tensor[:n], ball.D[:n], radius[:n])
-            found = chapsym.extrapolate(few, K[:n], g[:n], time_step, 5, threads=1, **more)
-            for a, b in zip(everything(found), everything(whole), strict=True):
-                np.testing.assert_array_equal(a, b[:n])
-        for i in range(11):
-            one = chapsym.Ball(ball.mass_tensor[i], ball.D[i], radius[i])
-            if whole.status[i]:
-                with pytest.raises(chapsym.StepNotTaken):
-                    chapsym.extrapolate(one, K[i], g[i], time_step, 5, **more)
-                continue
-            found = chapsym.extrapolate(one, K[i], g[i], time_step, 5, **more)
-            for a, b in zip(everything(found), everything(whole), strict=True):
-                np.testing.assert_array_equal(a, b[i])
-        plain.append(everything(whole))
-    for a, b in zip(*plain, strict=True):
+    whole = chapsym.extrapolate(ball, K, g, time_step, 5, **more)
+    for n in (2, 8):  # one after another, and a full block
+        few = chapsym.Ball(ball.mass_tensor[:n], ball.D[:n], radius[:n])
+        found = chapsym.extrapolate(few, K[:n], g[:n], time_step, 5, threads=1, **more)
+        for a, b in zip(everything(found), everything(whole), strict=True):
+            np.testing.assert_array_equal(a, b[:n])
+    for i in range(11):
+        one = chapsym.Ball(ball.mass_tensor[i], ball.D[i], radius[i])
+        if whole.status[i]:
+            with pytest.raises(chapsym.StepNotTaken):
+                chapsym.extrapolate(one, K[i], g[i], time_step, 5, **more)
+            continue
+        found = chapsym.extrapolate(one, K[i], g[i], time_step, 5, **more)
+        for a, b in zip(everything(found), everything(whole), strict=True):
+            np.testing.assert_array_equal(a, b[i])
+    with in_plain_python():
+        plain = chapsym.extrapolate(ball, K, g, time_step, 5, **more)
+    for a, b in zip(everything(plain), everything(whole), strict=True):
         np.testing.assert_array_equal(a, b)
-    assert time_step != 4.0 or 0 < np.isnan(plain[0][4]).sum() < 11
+    assert time_step != 4.0 or 0 < np.isnan(whole.doubt).sum() < 11
 
 
 def test_a_batch_of_many_has_the_same_bits_on_any_number_of_cores():
@@ -238,6 +227,7 @@ def test_a_contact_point_needs_a_radius():
         chapsym.extrapolate(BALL, K, GAMMA, 0.5, 1, contact=True)
 
 
+@pytest.mark.usefixtures("plain")
 @pytest.mark.parametrize(("time_step", "rounds"), [(2.1, 3), (0.25, 0)])
 def test_lanes_do_not_need_the_safe_way(monkeypatch, time_step, rounds):
     """Otherwise they would be right, and slow; so they would with poor guesses, which need more rounds.
@@ -247,13 +237,11 @@ def test_lanes_do_not_need_the_safe_way(monkeypatch, time_step, rounds):
     calls = []
     monkeypatch.setattr(long_run, "long_step", lambda *args: calls.append(1) or (0, 1.0))
     monkeypatch.setattr(lanes, "MOST_ROUNDS", rounds)
-    monkeypatch.setattr(double, "SHORT_RUN", 10**9)
-    monkeypatch.setattr(double, "_ready", set())
     chapsym.extrapolate(BALL, K, GAMMA, time_step, 40)
     assert not calls
 
 
-@pytest.mark.usefixtures("short_run")
+@pytest.mark.usefixtures("way")
 @pytest.mark.parametrize("thin", [1.0, 1e-6, 1e-12])
 def test_a_top_that_turns_about_its_axis(thin):
     """D = 0 and K along the axis: γ turns about it with ω = K3/I3, as thin as the body may be.
@@ -269,14 +257,14 @@ def test_a_top_that_turns_about_its_axis(thin):
     assert (end.angular_momentum == (0, 0, thin)).all()
 
 
-@pytest.mark.usefixtures("short_run")
+@pytest.mark.usefixtures("way")
 def test_a_body_too_thin_for_float64_is_refused():
     with pytest.raises(chapsym.StepNotTaken) as caught:
         chapsym.extrapolate(chapsym.Ball((1e-200, 1e-200, 1.0), 0.0), (0, 0, 1e-200), GAMMA, 0.5, 50)
     assert caught.value.status is chapsym.Status.NO_INERTIA
 
 
-@pytest.mark.usefixtures("short_run")
+@pytest.mark.usefixtures("way")
 @pytest.mark.parametrize(("mass", "time"), [(1.0, 1.0), (2.0**-200, 1.0), (2.0**300, 2.0**200), (1.0, 2.0**-400)])
 def test_units_do_not_matter(mass, time):
     known = chapsym.extrapolate(BALL, K, GAMMA, 0.5, 5)
@@ -286,7 +274,7 @@ def test_units_do_not_matter(mass, time):
     assert (end.gamma == known.gamma).all()
 
 
-@pytest.mark.usefixtures("short_run")
+@pytest.mark.usefixtures("way")
 def test_where_nothing_moves():
     for momentum, time_step, steps in ((0 * K, 0.5, 9), (K, 0.0, 9), (K, 0.5, 0), (1e-310 * K, 0.5, 9)):
         end = chapsym.extrapolate(BALL, momentum, GAMMA, time_step, steps)
@@ -309,7 +297,7 @@ def test_the_attitude_turns_with_gamma_and_the_momentum_stays_in_space():
     assert chapsym.extrapolate(BALL, K, GAMMA, 0.5, 1).attitude is None
 
 
-@pytest.mark.usefixtures("short_run")
+@pytest.mark.usefixtures("way")
 def test_a_step_beyond_the_fold_raises_for_one_and_is_told_for_a_batch():
     with pytest.raises(chapsym.StepNotTaken) as caught:
         chapsym.extrapolate(BALL, 100 * K, GAMMA, 1.0, 3)
@@ -338,11 +326,3 @@ def test_a_step_beyond_the_fold_raises_for_one_and_is_told_for_a_batch():
 def test_bad_input_gets_one_sentence(args, kwargs, words):
     with pytest.raises(chapsym.BadInput, match=words):
         chapsym.extrapolate(BALL, K, GAMMA, *args, **kwargs)
-
-
-def test_without_numba_it_runs_too(monkeypatch):
-    monkeypatch.setattr(double, "SHORT_RUN", 0)
-    monkeypatch.setattr(double, "_ready", set())
-    monkeypatch.setattr(double, "has_numba", lambda: False)
-    monkeypatch.setattr("chapsym.dynamics.levels.compiled.compiled", None)
-    assert chapsym.extrapolate(BALL, K, GAMMA, 0.5, 2).status == 0

@@ -21,8 +21,8 @@ G = (2 / 7, 3 / 7, 6 / 7)
 
 
 def round_from(guess, array):
-    k, g, inertia = array[0:3], array[3:6], array[45:48]
-    return gibbs.settle(*guess, *k, *g, *inertia, *array[48:51])
+    k, g, inertia = array[0:3], array[3:6], array[loop.I : loop.D]
+    return gibbs.settle(*guess, *k, *g, *inertia, *array[loop.D :])
 
 
 @given(certified((0.0, 1.0)))
@@ -34,12 +34,12 @@ def test_a_certified_root_is_that_of_the_continuation(state):
     assert status == 0
     u = np.array(q) / q0
     assert u @ u <= array[loop.RADIUS] * (1 + 1e-12)
-    found = gibbs.search(0.0, 0.0, 0.0, *array[0:3], *array[3:6], *array[45:48], *array[48:51])
+    found = gibbs.search(0.0, 0.0, 0.0, *array[0:3], *array[3:6], *array[loop.I : loop.D], *array[loop.D :])
     assert found[0]
     # ⟨d, ∂G d⟩ ≥ least|d|² by the lemma, and the residuals of both are rounded a few times: Bu, u × Iu, (1 + |u|²)k.
-    inertia, size = array[45:48], 2 * np.linalg.norm(array[0:3])
+    inertia, size = array[loop.I : loop.D], 2 * np.linalg.norm(array[0:3])
     least = inertia.min() - np.linalg.norm(u) * ((inertia.max() - inertia.min()) / 2 + size)
-    rounded = (inertia.max() + array[48]) * np.linalg.norm(u) + size
+    rounded = (inertia.max() + array[loop.D]) * np.linalg.norm(u) + size
     assert np.abs(np.array(found[5:]) - u).max() <= 8 * 2.0**-53 * rounded / least + 1e-300
 
 
@@ -49,12 +49,12 @@ def test_what_is_settled_is_settled(state, off, direction):
     array = prepared(state)
     assume(array[loop.RADIUS] > 0)
     size = math.sqrt(array[loop.RADIUS])
-    root = gibbs.search(0.0, 0.0, 0.0, *array[0:3], *array[3:6], *array[45:48], *array[48:51])
+    root = gibbs.search(0.0, 0.0, 0.0, *array[0:3], *array[3:6], *array[loop.I : loop.D], *array[loop.D :])
     settled, p0, p1, p2, p3, *u = round_from(np.array(root[5:]) + off * size * direction, array)
     assert settled
-    exact = [Fraction(float(x)) for x in (*u, *array[0:6], *array[45:49])]
+    exact = [Fraction(float(x)) for x in (*u, *array[0:6], *array[loop.I : loop.RADIUS])]
     det, *n = gibbs_newton(*exact)[:4]
-    top, least = array[45:48].max() + array[48], array[45:48].min()
+    top, least = array[loop.I : loop.D].max() + array[loop.D], array[loop.I : loop.D].min()
     for x, y, p in zip(u, n, (p1, p2, p3), strict=True):
         budget = 24 * 2.0**-53 * (top / least) * max(map(abs, u))
         assert abs(float(y / det - Fraction(float(x)))) <= budget
@@ -64,14 +64,14 @@ def test_what_is_settled_is_settled(state, off, direction):
 @pytest.mark.parametrize("guess", [(2.0, 0.0, 0.0), (math.nan, 0.0, 0.0), (math.inf, 1.0, 1.0)])
 def test_a_guess_outside_the_ball_settles_nothing(guess):
     state = np.zeros(loop.ROWS)
-    loop.prepare((0.03, -0.02, 0.04), G, J, D, state)
+    loop.scaled((0.03, -0.02, 0.04), G, J, D, state)
     assert not round_from(guess, state)[0]
     assert loop.safe_rotation(*guess, state)[0] == 0  # and the safe way goes on without it
 
 
 def test_a_poor_guess_is_not_settled_in_one_round():
     state = np.zeros(loop.ROWS)
-    loop.prepare((0.3, -0.2, 0.2), G, J, D, state)
+    loop.scaled((0.3, -0.2, 0.2), G, J, D, state)
     assert not round_from((0.0, 0.0, 0.0), state)[0]
 
 
@@ -91,11 +91,13 @@ def test_the_bound_on_what_a_correction_leaves_is_one(state):
     array = prepared(state)
     radius, enough = array[loop.RADIUS], array[loop.ENOUGH]
     assume(radius > 1e-20)
-    root = np.array(gibbs.search(0.0, 0.0, 0.0, *array[0:3], *array[3:6], *array[45:48], *array[48:51])[5:])
+    root = np.array(
+        gibbs.search(0.0, 0.0, 0.0, *array[0:3], *array[3:6], *array[loop.I : loop.D], *array[loop.D :])[5:]
+    )
     size = np.linalg.norm(root)
     for share in (0.0, 0.5, -0.5):
         guess = share * math.sqrt(radius) * np.array(G)
-        det, *n = gibbs_newton(*guess, *array[0:6], *array[45:49])[:4]
+        det, *n = gibbs_newton(*guess, *array[0:6], *array[loop.I : loop.RADIUS])[:4]
         after = np.array(n) / det
         d = after - guess
         assert np.linalg.norm(after - root) <= (d @ d) * gibbs.LEFT * size / enough * (1 + 1e-9) + 1e-12 * size
@@ -103,6 +105,6 @@ def test_the_bound_on_what_a_correction_leaves_is_one(state):
 
 def test_what_would_underflow_takes_the_safe_way():
     state = np.zeros(loop.ROWS)
-    scale = loop.prepare(np.array([1e-200, 0, 0]), G, np.array(J), D, state)
+    scale = loop.scaled(np.array([1e-200, 0, 0]), G, np.array(J), D, state)
     assert state[loop.RADIUS] == -1
     assert scale * state[0] == 1e-200

@@ -5,7 +5,7 @@ import pytest
 from balls_n import SIZES, UNIT_ROUNDOFF, offset, proven_branch
 
 from chapsym.dynamics.loops import loop_n
-from chapsym.dynamics.n import columns_n, near_n, so_n
+from chapsym.dynamics.n import near_n, so_n
 
 ONE = np.ones(1)
 
@@ -116,8 +116,6 @@ def test_another_rotation_with_the_momentum_is_not_taken():
     near, enough = (x[0] for x in near_n.limits(K[None], J[None], D, ONE))
     for E, right in ((small, True), (large, False)):
         work = [np.empty(shape) for shape in ((n, n), (n, n), (6, 6), 6, n, n)]
-        found, one = E.copy(), E[..., None].copy()
+        found = E.copy()
         assert loop_n.settle(K, gamma, J, 0.0, near[0], enough[0], found, *work) == right
         assert np.abs(found - E).max() < 1e-15
-        batch = K[..., None], gamma[:, None], J[:, None], D, near, enough
-        assert columns_n.settle(one, *batch)[1].tolist() == [right]

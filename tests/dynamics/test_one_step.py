@@ -11,7 +11,6 @@ import chapsym
 from chapsym import BadInput, Ball, Status, StepNotTaken
 from chapsym.cli.step import step as command
 from chapsym.dynamics import compose_step
-from chapsym.dynamics.levels import double
 from chapsym.dynamics.loops import branch
 from chapsym.dynamics.map import exact_step
 from chapsym.numbers import NAMED, Digits, Enclosure
@@ -109,10 +108,8 @@ def test_magnitudes_that_overflow_are_refused_with_a_status(J, D, K, order):
         chapsym.trajectory(Ball(J, D), K, GAMMA, 1, order=order)
 
 
-def test_a_batch_steps_as_its_trajectories_do(monkeypatch):
-    """By columns, the way of a large batch, and one by one; those that are refused, too."""
-    monkeypatch.setattr(double, "has_numba", lambda: False)
-    monkeypatch.setattr(double, "SHORT_RUN", 0)
+def test_a_batch_steps_as_its_trajectories_do():
+    """One by one, and in blocks; those that are refused, too."""
     rng = np.random.default_rng(8)
     J, D, K, g = (
         rng.uniform(0.05, 3, (40, 3)),

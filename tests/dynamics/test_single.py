@@ -1,8 +1,6 @@
 """The float32 precision: float32 throughout, within the promise of the check, no drift, and batches are their balls."""
 
-import re
 import warnings
-from collections import Counter
 
 import numpy as np
 import pytest
@@ -11,6 +9,7 @@ import chapsym
 from chapsym import BadInput, Ball, Status, StepNotTaken
 from chapsym.dynamics import kernels
 from chapsym.dynamics.levels import single
+from chapsym.dynamics.loops import gibbs, twins
 from chapsym.dynamics.oracle import Oracle
 from chapsym.studies import check
 
@@ -68,65 +67,16 @@ def test_all_arrays_are_float32():
     assert {x.dtype for x in (step.rotation, step.momentum, step.gamma)} == {np.dtype(np.float32)}
 
 
-def arithmetic(march, *arguments):
-    """The operations of a compiled loop and of what it calls in the loops, but for the safe way; and the modules."""
-    import numba
-    from chapsym.dynamics.levels.compiled import compiled
-
-    compiled(march)  # so that what it calls is known
-    function = numba.njit(error_model="numpy", nogil=True)(march)
-    function(*arguments)
-    text = function.inspect_llvm(function.signatures[0])
-    rooms = "5gibbs|9integrals|4sums|4loop|5block|11single_loop"
-    loops = rf"define [^@]*@_ZN7chapsym8dynamics5loops(?!4loop13safe_rotation)({rooms})"
-    bodies = [x for x in re.findall(r"^define .*?^}", text, re.S | re.M) if re.match(loops, x)]
-    kinds = Counter(kind for x in bodies for kind in re.findall(r"\bf(?:add|sub|mul|div) (<\d+ x \w+>|\w+)", x))
-    return kinds, {re.match(loops, x)[1] for x in bodies}
-
-
-@pytest.mark.thorough
-def test_the_compiled_block_computes_in_float32_only():
-    block, n = single.loops().block, 3
-    arguments = [np.zeros(s, np.float32) for s in ((n,), (n, 2, 3), (n, 2, 3))]
-    ends = np.zeros(n, np.int64), np.zeros(n, np.int64), np.ones(n)
-    bodies = (np.zeros(s, np.float32) for s in ((7, block.LANES), (n, 0, 4), (n, 0, 2)))
-    state = np.zeros((51, block.LANES), np.float32)
-    kinds, seen = arithmetic(block.march_block, state, 0, 0, 1, *arguments, *ends, False, *bodies)
-    assert {"5block", "9integrals"} <= seen
-    assert not [kind for kind in kinds if "double" in kind]
-    widths = {int(kind.split()[0][1:]): count for kind, count in kinds.items() if "float>" in kind}
-    assert sum(widths.values()) > 300
-    assert min(widths) == max(widths)  # no loop has narrower registers, as wider integers beside the floats would make
-
-
-def test_the_compiled_march_computes_in_float32_only():
-    march = single.loops().loop.march
-    z = lambda *s: np.zeros(s, np.float32)  # noqa: E731
-    frames = z(2, 3), z(2, 3), True, z(8), z(4), np.float32(1), z(2, 4), z(2, 2)
-    kinds, seen = arithmetic(march, z(51), 0, 0, 0, 1, np.float32(1), *frames)
-    assert {"4loop", "9integrals"} <= seen
-    assert sum(count for kind, count in kinds.items() if "float" in kind) > 400
-    assert not [kind for kind in kinds if "double" in kind]
-
-
 @pytest.mark.parametrize("moments", [(1.0, 1.0, 1.0), (1.0, 0.9, 0.2), (1.0, 1.0, 1e-3), (1.0, 1.0, 1e-9)])
 def test_no_bound_underflows(moments):
     """What is compared with the square of a bound is compared in normal numbers; what has none takes the safe way."""
-    prepare = single.loops().loop.prepare
-    bound = prepare.__globals__["certificate"]
+    bound = twins.single(gibbs.certificate)
     I = np.array(moments, np.float32)
     found = [bound(np.float32(10.0**-e), *np.zeros(2, np.float32), *I, np.float32(0)) for e in range(1, 38)]
     kept = [np.float32(enough) ** 2 for radius, enough in found if radius >= 0]
     assert all(square >= np.finfo(np.float32).tiny for square in kept)
     assert kept or min(moments) < 1e-6
     assert found[-1] == (-1.0, 0.0)
-
-
-def test_products_are_split_exactly():
-    a, b = np.random.default_rng(3).normal(size=(2, 200)).astype(np.float32)
-    product, rest = single.loops().loop.remember.__globals__["inner"].__globals__["split_product"](a, b)
-    assert (product.astype(float) + rest == a.astype(float) * b).all()
-    assert (rest != 0).any()
 
 
 @pytest.mark.parametrize("order", [2, 4, 6, 8])

@@ -64,7 +64,7 @@ def test_the_step_of_a_heavy_ball_has_its_digits(D):
         assert budget < 1000
         assert off(q[1:] / q[0], u) <= budget
         state = np.zeros(loop.ROWS)
-        loop.prepare(K, g, J, D, state)
+        loop.scaled(K, g, J, D, state)
         assert (state[loop.RADIUS] == -1.0) == gibbs.is_heavy(*(J.sum() - J), D)
         status, _, *found = loop.safe_rotation(*(x / 2 for x in q[1:] / q[0]), state)
         assert status == 0

@@ -21,13 +21,6 @@ TRACED, ORDERS = (
 )
 
 
-@pytest.fixture(params=["compiled", "plain"])
-def way(request, monkeypatch):
-    """With numba and without."""
-    if request.param == "plain":
-        monkeypatch.setattr(double, "has_numba", lambda: False)
-
-
 def same(state, other, frame=None):
     """Whether two have the same state, to the bit; of a trajectory its frame."""
     for name in NAMES:
@@ -264,19 +257,3 @@ def test_huge_momenta_are_numbers():
     stepper = Stepper(Ball((1e308, 4e307, 3e307), 0), (1.5e307,) * 3, (0, 0, 1))
     stepper.momentum = np.array([1e308, 1e308, 1e308])
     assert stepper.momentum.tolist() == [1e308] * 3
-
-
-@pytest.mark.parametrize("options", [TRACED, {"order": 4}], ids=str)
-def test_no_step_compiles(options):
-    """All that is compiled is so when the object is made, whatever it is given then and later."""
-    if not double.has_numba():
-        pytest.skip("numba is not installed")
-    strided, locked = np.zeros((3, 2)), np.array(K)
-    strided[:, 0], locked.flags.writeable = K, False
-    stepper = Stepper(BALL, strided[:, 0], list(GAMMA), **options)
-    stepper.step(np.int64(3))
-    stepper.trajectory(np.int32(4), 2)
-    stepper.momentum = strided[:, 0]
-    stepper.restart(locked, GAMMA)
-    chapsym.trajectory(BALL, K, GAMMA, 2500, **options)
-    assert [len(function.signatures) for function in (stepper._march, stepper._begin)] == [1, 1]

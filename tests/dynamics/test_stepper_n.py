@@ -7,7 +7,6 @@ import pytest
 from balls_n import batch
 
 from chapsym import BadInput, BallN, Status, StepNotTaken, StepperN, trajectory_n
-from chapsym.dynamics.levels import double
 
 NAMES = ("momentum", "gamma", "attitude", "contact")
 OPTIONS = [{}, {"attitude": True}, {"contact": True}, {"order": 6}, {"order": 4, "contact": True}]
@@ -16,14 +15,6 @@ OPTIONS = [{}, {"attitude": True}, {"contact": True}, {"order": 6}, {"order": 4,
 def alone(n=4, size=0.2, seed=7):
     ball, K, gamma = batch(n, 1, size, seed)
     return BallN(ball.mass_tensor[0], ball.D[0], radius=ball.radius[0]), K[0], gamma[0]
-
-
-@pytest.fixture(params=["compiled", "plain"])
-def way(request, monkeypatch):
-    """With numba and without."""
-    if request.param == "plain":
-        monkeypatch.setattr(double, "has_numba", lambda: False)
-        monkeypatch.setattr("chapsym.dynamics.n.stepper_n.has_numba", lambda: False)
 
 
 def same(state, other, frame=None):

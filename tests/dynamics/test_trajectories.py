@@ -9,7 +9,6 @@ import chapsym
 from chapsym import BadInput, Ball, Status, StepNotTaken
 from chapsym.dynamics import kernels
 from chapsym.dynamics.attitudes import attitude_with
-from chapsym.dynamics.levels import double
 from chapsym.dynamics.oracle import Oracle
 
 BALL = Ball((1, 2, 4), 3, radius=0.5)
@@ -164,8 +163,8 @@ def test_a_huge_d_is_no_missing_inertia():
         chapsym.step(Ball((1, 2, 4), 1e100), K, GAMMA)
 
 
-def test_a_momentum_beyond_squares_stops_without_a_warning(monkeypatch, recwarn):
-    monkeypatch.setattr(double, "has_numba", lambda: False)  # plain Python's loops
+@pytest.mark.usefixtures("plain")
+def test_a_momentum_beyond_squares_stops_without_a_warning(recwarn):
     run = chapsym.trajectory(chapsym.Ball((1, 2, 4), 3), [(1e200, 0, 0)] * 2, (2 / 7, 3 / 7, 6 / 7), 5)
     assert (run.status != chapsym.Status.TAKEN).all()
     assert not recwarn.list
@@ -174,7 +173,7 @@ def test_a_momentum_beyond_squares_stops_without_a_warning(monkeypatch, recwarn)
 @pytest.mark.parametrize("precision", ["double", "double-double"])
 @pytest.mark.parametrize(("moment", "momentum"), [(1e-200, 1e200), (1e-308, 1.7e308)])
 def test_a_momentum_beyond_every_range_beside_the_ball_has_no_rotation(moment, momentum, precision):
-    """One ball in plain Python, nine compiled or in columns: 𝒦/Λ is beyond float64."""
+    """One ball, and nine in a block: 𝒦/Λ is beyond float64."""
     tensor = moment * np.array([1, 1, 1.1])
     with pytest.raises(StepNotTaken, match="no rotation of this ball"):
         chapsym.trajectory(Ball(tensor, 0), momentum * GAMMA, GAMMA, 5, precision=precision)

@@ -46,8 +46,6 @@ def test_the_closed_form_needs_no_other_path(monkeypatch):
         raise AssertionError("another path was taken")
 
     monkeypatch.setattr(double, "run", refuse)
-    monkeypatch.setattr(double, "SHORT_RUN", 10**9)
-    monkeypatch.setattr(double, "_ready", set())
     trajectory_vertical(TOP, 1.0, GAMMA, 20_000, every=20_000)
 
 

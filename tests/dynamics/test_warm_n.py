@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 from balls_n import SIZES, UNIT_ROUNDOFF, batch
+from plain import in_plain_python
 
 from chapsym import BallN, Status, StepNotTaken, step_n, substeps, trajectory_n
-from chapsym.dynamics.levels import double
 from chapsym.dynamics.n import run_n, so_n, warm_n
 from chapsym.dynamics.n.branch_n import small_rotation
 from chapsym.dynamics.n.near_n import limits
@@ -36,13 +36,9 @@ def asking(patch, *factors):
     patch.setattr(run_n, "limits", asked)
 
 
-def plain(patch):
-    patch.setattr(double, "has_numba", lambda: False)
-
-
 @pytest.mark.parametrize("n", SIZES)
 @pytest.mark.parametrize(("order", "stubborn"), [(2, False), (2, True), (4, True)])
-def test_compiled_and_in_numpy_one_ball_and_a_batch_have_the_same_bits(n, order, stubborn, monkeypatch):
+def test_compiled_and_in_python_one_ball_and_a_batch_have_the_same_bits(n, order, stubborn, monkeypatch):
     """Two balls are stubborn: of some of their stages, or of all, the corrections are not as small as is asked."""
     ball, K, gamma = batch(n, 5, 0.1)
     if stubborn:
@@ -53,15 +49,13 @@ def test_compiled_and_in_numpy_one_ball_and_a_batch_have_the_same_bits(n, order,
     monkeypatch.setattr(warm_n, "_safely", lambda *at: safe.append(1) or taken(*at))
     steps = 250 if not stubborn else 30 if order == 2 else 15
     work = steps * len(stages)
-    with monkeypatch.context() as patch:
-        plain(patch)
+    with in_plain_python():
         slow = trajectory_n(ball, K, gamma, steps, order=order, every=5, contact=True)
-    monkeypatch.setattr(double, "SHORT_RUN", 1)
-    in_numpy = len(safe)
+    in_python = len(safe)
     fast = trajectory_n(ball, K, gamma, steps, order=order, every=5, contact=True)
     assert same(slow, fast)
-    assert len(safe) == 2 * in_numpy
-    assert work < in_numpy < 2 * work if stubborn else not safe
+    assert len(safe) == 2 * in_python
+    assert work < in_python < 2 * work if stubborn else not safe
     one = trajectory_n(alone(ball, 0), K[0], gamma[0], steps, order=order, every=5, contact=True)
     assert all((getattr(one, name) == getattr(fast, name)[0]).all() for name in NAMES)
 
@@ -121,11 +115,9 @@ def test_after_many_steps_a_step_is_that_of_the_continuation(n):
         assert np.abs(vertical - run.gamma[:, k + 1]).max() <= 16 * UNIT_ROUNDOFF
 
 
-@pytest.mark.parametrize("numba", [True, False])
-def test_a_step_is_the_first_of_a_trajectory(numba, monkeypatch):
+@pytest.mark.usefixtures("way")
+def test_a_step_is_the_first_of_a_trajectory():
     """Of balls below the bound and above it, and with the rotation that the attitude takes."""
-    if not numba:
-        plain(monkeypatch)
     ball, K, gamma = batch(4, 4, 0.1)
     K *= np.array([1.0, 12.0, 0.0, 1e-40])[:, None, None]
     run = trajectory_n(ball, K, gamma, 3, attitude=True)
@@ -138,15 +130,10 @@ def test_a_step_is_the_first_of_a_trajectory(numba, monkeypatch):
     assert np.abs(step.rotation - (np.eye(4) + E)).max() <= 8 * UNIT_ROUNDOFF
 
 
-@pytest.mark.parametrize("numba", [True, False])
-def test_a_ball_that_stops_stops_alone(numba, monkeypatch):
+def test_a_ball_that_stops_stops_alone(monkeypatch):
     """The safe way refuses its step 20: what it returns is not known to be met by any ball below the bound."""
     ball, K, gamma = batch(4, 3, 0.1)
     whole = trajectory_n(ball, K, gamma, 40, contact=True)
-    if numba:
-        monkeypatch.setattr(double, "SHORT_RUN", 1)
-    else:
-        plain(monkeypatch)
     asking(monkeypatch, 0, 1, 1)
     calls, taken = [], warm_n.small_rotation
 

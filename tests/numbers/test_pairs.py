@@ -2,7 +2,6 @@
 
 from fractions import Fraction as F
 
-import numpy as np
 from hypothesis import given, target
 from hypothesis import strategies as st
 
@@ -124,32 +123,3 @@ def test_a_kernel_runs_on_pairs():
     for x, truth in zip(found, generated.residual(*point), strict=True):
         assert abs(x.exactly() - truth) <= 2000 * U**2
     assert Digits(32).write(Digits(32).number(found[0].exactly())) == named("double-double").write(found[0])
-
-
-def test_compiled_they_have_the_same_bits():
-    """The compiled product is a fused multiply-add, the interpreted one Dekker's."""
-    import numba
-
-    from chapsym.numbers import fused
-
-    fused.register()
-    for name in ("two_sum", "quick_two_sum", "add", "subtract", "multiply", "divide", "loose_add", "loose_multiply"):
-        numba.extending.register_jitable(error_model="numpy")(getattr(pairs, name))
-    for name in ("multiply_float", "root", "loose_subtract", "loose_add_float", "loose_multiply_float"):
-        numba.extending.register_jitable(error_model="numpy")(getattr(pairs, name))
-    two_product, multiply, divide, root = pairs.two_product, pairs.multiply, pairs.divide, pairs.root
-
-    def chain(a, a_, b, b_):
-        x, x_ = two_product(a, b)
-        y, y_ = multiply(x, x_, b, b_)
-        z, z_ = divide(y, y_, a, a_)
-        r, r_ = root(abs(z), z_ if z > 0.0 else -z_)
-        return x, x_, y, y_, z, z_, r, r_
-
-    fast = numba.njit(chain, error_model="numpy")
-    rng = np.random.default_rng(5)
-    for _ in range(2000):
-        a, b = (float(x) for x in rng.normal(size=2) * 10.0 ** rng.integers(-40, 40, 2))
-        x, y = pairs.two_sum(a, a * 2.0**-54 * rng.uniform(-1, 1)), pairs.two_sum(b, b * 2.0**-55)
-        assert fast(*x, *y) == chain(*x, *y)
-    assert "fma" in next(iter(fast.inspect_llvm().values()))

@@ -5,7 +5,6 @@ import dataclasses
 import numpy as np
 import pytest
 
-from chapsym.dynamics.levels import double
 from chapsym.dynamics.loops import gibbs
 from chapsym.studies import check
 
@@ -27,9 +26,9 @@ def test_a_step_that_is_a_little_wrong_is_seen(monkeypatch):
     assert not check.check_stratum("generic", 2, seed=3).kept
 
 
+@pytest.mark.usefixtures("plain")
 def test_the_lost_digits_of_a_heavy_ball_are_seen(monkeypatch):
     """The promise is sharp enough for the round of other balls, whose rows of A sum to D: as if none were heavy."""
-    monkeypatch.setattr(double, "has_numba", lambda: False)  # in plain Python, whatever is compiled
     monkeypatch.setattr(gibbs, "is_heavy", lambda *body: False)
     assert check.check_stratum("generic", 3, seed=3).kept
     assert not check.check_stratum("D = 1e3 to 1e6", 3, seed=3).kept

@@ -170,7 +170,7 @@ def march_pairs_block(
             for i in range(len(status)):
                 if status[i] == TAKEN:
                     one = S[:, i].copy()
-                    write(momenta[i, frame], momenta_[i, frame], one, K, -shift[i])
+                    write(momenta[i, frame], momenta_[i, frame], one, K, -int(shift[i]))
                     write(verticals[i, frame], verticals_[i, frame], one, G, 0)
     for i in range(len(status)):
         if status[i] == TAKEN:

@@ -1,0 +1,347 @@
+"""The translator: small loops have the same bits in C and in Python, and what is not translated says so."""
+
+import importlib.machinery
+import importlib.util
+import shutil
+import subprocess
+import sys
+import sysconfig
+from itertools import product
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import chapsym
+from chapsym.codegen import build, c_files
+from chapsym.codegen.infer import NotTranslatable
+from chapsym.codegen.source import Program
+from chapsym.dynamics.loops import twins
+
+ROOT = Path(chapsym.__file__).parent
+COMPILER, INCLUDE = shutil.which("cc"), Path(sysconfig.get_paths()["include"])
+HEAD = """
+from math import frexp, inf, ldexp, nan, sqrt
+import numpy as np
+from chapsym.dynamics.loops.text import Integers, Matrix, Vector, lanes
+from . import other
+from .other import LIMIT, twice
+"""
+OTHER = """
+LIMIT = 0.5
+SINGLE = {"LIMIT": 0.25}
+
+def twice(x):
+    return 2 * x, LIMIT * x
+"""
+SAMPLE = (
+    HEAD
+    + """
+FACTOR, COUNT = 0.1, 3
+
+def precedence(a: float, b: float, c: float, d: float):
+    return (a - (b - c), a - b - c, a + (b + c), a / (b / c), a / b / c, a / (b * c), a * (b / c), a * (b * c),
+            -(a - b) * c, (a + b) * (c - d), a - -b, -a - (-b - c), a * b + c * d, a * (b + c) * d, (a - b) / (c - d),
+            -(-a), a - (b if c > d else d), (a if c > d else b) * d, -(a / b))
+
+def extremes(a: float, b: float, c: float):
+    return max(a, b), min(a, b), max(b, a), min(b, a), max(a, b, c), min(c, a, b), abs(a), abs(-b), max(0.0, c)
+
+def whole(n: int, m: int, x: float):
+    k = n
+    k //= m
+    k %= 5
+    return (n // m, n % m, n / m, 1.0 / n, (n + 1.0) / (m * 1.0), -n // m, n // m % COUNT, n * m // COUNT, n - n % m,
+            (1.0 if x > 0.0 else 3.0) / (2.0 if x > 1.0 else 4.0), x * n / m, k, abs(n), abs(n - m), max(n, m),
+            sqrt(abs(n)), int(x), n * 0.5, 7 / n, (n - m) * x)
+
+def compared(a: float, b: float, c: float, n: int):
+    return (a < b < c, a <= b != c, not a < b, (a < b) & (b < c) | (a > c), a < b and b < c or not c > 0.0,
+            a < b and (b < c or c > 0.0), (a < b) == (b < c), n if a < b else -n, not (a < b and b < c),
+            1 if a == b else 2 if a < b else 3, 0.0 < a < 1.0 < b)
+
+def constants(a: float):
+    zero = -0.0
+    return zero, a * -0.0, a + 0.1, FACTOR * a, 16777217.0, 1e-30, inf, -inf, nan, a / 3, 1 / 3, LIMIT * a, other.LIMIT, 2**60
+
+def swapped(a: float, b: float, c: float, v: Vector):
+    a, b = b, a
+    a, b, c = c, a, b
+    v[0], v[1] = v[1], v[0]
+    i, v[2] = 3, a + v[2]
+    i, v[i] = 4, a
+    a, v[4] = v[4], a
+    b = c = b + 1.0
+    return a, b, c, i
+
+def three(v, at):
+    return v[at], v[at + 1], v[at + 2]
+
+def sums(a, b, c, d, weight=2.0, times=1):
+    return (a - b) * weight + (c - d) * times, a * times
+
+def starred(a: float, v: Vector):
+    x, y, z, w = *three(v, 0), a
+    b, a, c, d = *three(v, 1), a
+    e, f = sums(*three(v, 1), a)
+    g, h = sums(x, *three(v, 2), FACTOR, 3)
+    x, y = sums(y, x, w, z, 0.5)
+    p, q = twice(x - y)
+    v[0], v[1], v[2] = three(v, 1)
+    return a, b, c, d, e, f, g, h, x, y, p, q
+
+def conditional(a: float, b: float, n: int):
+    x, y = (a, b) if n > 0 else (b, a)
+    x, y = (y, x) if a < b else (x, y)
+    z = a if n > 1 else b if n > 0 else a + b
+    if n == 2:
+        w, k = x, 1
+    elif n == 1:
+        w, k = y, 2
+    else:
+        w, k = z, 3
+    return x, y, z, w, k
+
+def looped(n: int, v: Vector):
+    total, last = 0.0, 0
+    for i in range(n):
+        for j in range(i, n, 2):
+            total = total * 0.75 + v[j] * (i + 1)
+    for i in range(n - 1, -1, -1):
+        total -= v[i] / (i + 1)
+    for i in range(6, 0, -2):
+        total += v[i] * i
+    k = 0
+    while k < n and v[k] < 0.5:
+        k += 1
+        if k == 3:
+            continue
+        if total > 100.0:
+            break
+        last = k
+    for a, b in ((0, 1.5), (2, -0.5)):
+        part = a * b
+        total += part * v[a]
+    for i in lanes(n):
+        x, y = v[i], 2.0 * v[i]
+        if x > 0.0:
+            x = y
+        v[i] = x
+    m = n
+    for _ in range(m):
+        m += 1
+    return total, k, last, m
+
+def first_beyond(v: Vector, bound: float):
+    for i in range(len(v)):
+        if v[i] > bound:
+            return i, v[i]
+        if v[i] < -bound:
+            return -i, bound
+    return -1, nan
+
+def total(v):
+    x = 0.0
+    for i in range(v.shape[0]):
+        x = x * 0.5 + v[i]
+    return x
+
+def filled(S, x):
+    for i in range(S.shape[0]):
+        for j in range(S.shape[1]):
+            S[i, j] = S[i, j] + x
+
+def parts(S: Matrix, v: Vector, n: int):
+    one = S[:, 1].copy()
+    some = S[:2, n].copy()
+    one[0] = 9.0
+    a, b, c, d = total(one), total(some), total(S[n]), total(v[n - 1 : n + 2])
+    filled(S[n - 1 : n + 1], 0.25)
+    filled(S[n + 1 :], 0.125)
+    v[:] = 0.5
+    v[n] = total(S[n - 1])
+    fresh, eye, more = np.zeros((2, n), S.dtype), np.eye(n, dtype=S.dtype), np.empty(n // 2 * 2, S.dtype)
+    fresh[1, 0], more[0], more[1] = a, b, c
+    filled(fresh, 1.0)
+    return a, b, c, d, total(fresh[1]), total(eye[1]), total(more[:2]), S.shape[0] + len(v)
+
+def counted(at: Integers, n: int):
+    found = 0
+    for i in range(len(at)):
+        at[i] = at[i] * 2 + i
+        found += 1 if at[i] > n else 0
+    return found
+
+def decomposed(x: float, n: int):
+    m, e = frexp(x)
+    return m, e, ldexp(x, n), ldexp(m, e - n), sqrt(x * x)
+
+def nothing(v: Vector, n: int):
+    if n > 2:
+        return
+    v[0] = n
+"""
+)  # noqa: E501
+
+
+def load_from(folder):
+    def load(path):
+        place = ROOT.joinpath(*path.split(".")[1:]) if path.startswith("chapsym.") else folder / path.replace(".", "/")
+        return place.with_suffix(".py").read_text(encoding="utf-8")
+
+    return load
+
+
+def written(folder, text):
+    """The package `box` in a folder, as the translator reads it."""
+    (folder / "box").mkdir()
+    for name, body in (("__init__", ""), ("other", OTHER), ("sample", text)):
+        (folder / "box" / f"{name}.py").write_text(body, encoding="utf-8")
+    return Program(load_from(folder))
+
+
+def roots(program):
+    return [f for f in program.module("box.sample").functions.values() if f.is_exported]
+
+
+@pytest.fixture(scope="module")
+def both(tmp_path_factory):
+    """The sample as a module of Python, and compiled."""
+    if COMPILER is None or not (INCLUDE / "Python.h").is_file():
+        pytest.skip("no compiler of C is installed, or not the headers of Python")
+    place = tmp_path_factory.mktemp("sample")
+    program = written(place, SAMPLE)
+    texts = c_files.Texts(program, roots(program), roots(program))
+    body = texts.text() + texts.exports(roots(program))
+    (place / "loops.h").write_text("#pragma once\n" + c_files.INTERFACE)
+    (place / "loops.c").write_text(body + '\n#ifndef SINGLE\nconst char loops_text[] = "";\n#endif\n')
+    (place / "loops_single.c").write_text('#define SINGLE\n#include "loops.c"\n')
+    module = ROOT / "dynamics" / "native" / "module.c"
+    flags = [
+        "-std=gnu11",
+        "-O2",
+        "-ffp-contract=off",
+        "-fPIC",
+        "-shared",
+        "-DPy_LIMITED_API=0x030B0000",
+        "-DWIDEST_OFF",
+    ]
+    sources = [place / "loops.c", place / "loops_single.c", module]
+    subprocess.run(
+        [COMPILER, *flags, "-I", place, "-I", INCLUDE, *sources, "-lm", "-o", place / "compiled.so"], check=True
+    )
+    loader = importlib.machinery.ExtensionFileLoader("compiled", str(place / "compiled.so"))
+    compiled = importlib.util.module_from_spec(importlib.util.spec_from_loader("compiled", loader))
+    sys.path.insert(0, str(place))
+    from box import other, sample
+
+    yield sample, other, compiled
+    sys.path.remove(str(place))
+    for name in ("box", "box.other", "box.sample"):
+        del sys.modules[name]
+
+
+RNG = np.random.default_rng(2)
+ODD = (0.0, -0.0, 1.0, -1.0, np.nan, np.inf, -np.inf)
+FLOATS = [tuple(map(float, row)) for row in RNG.normal(size=(12, 4)) * 10.0 ** RNG.integers(-3, 4, (12, 4))]
+WHOLE = [n for n in range(-7, 8) if n]
+V, S = RNG.normal(size=7), RNG.normal(size=(5, 6))
+CALLS = {
+    "precedence": FLOATS,
+    "extremes": [*product(ODD, repeat=3), *(row[:3] for row in FLOATS)],
+    "whole": [(n, m, x) for n in WHOLE for m in WHOLE for x in (-2.75, 0.5, 3.25)],
+    "compared": [(*row, n) for row in product((-1.0, 0.0, 0.5, 2.0, np.nan), repeat=3) for n in (-2, 3)],
+    "constants": [(1.0,), (-0.3,)],
+    "swapped": [(*row[:3], V) for row in FLOATS],
+    "starred": [(row[0], V) for row in FLOATS],
+    "conditional": [(a, b, n) for a, b in ((1.0, 2.0), (2.0, 1.0)) for n in range(4)],
+    "looped": [(n, k * V) for n in range(7) for k in (1.0, 0.25, 100.0, -1.0)],
+    "first_beyond": [(V, bound) for bound in (0.0, 0.5, 1.0, 10.0)] + [(V[:0], 1.0)],
+    "parts": [(S, V, n) for n in (2, 3)] + [(S[:, 1:5], V, 2)],
+    "counted": [(np.arange(-4, 5), n) for n in (0, 3)],
+    "decomposed": [(x, n) for x in (0.0, 1.0, -0.3, 1e30) for n in (-3, 0, 9)],
+    "nothing": [(V, 2), (V, 3)],
+}
+
+
+def flat(result, dtype):
+    return np.array(result if isinstance(result, tuple) else [0.0 if result is None else result], dtype=dtype)
+
+
+def same(a, b):
+    return np.array_equal(a, b, equal_nan=True) and np.array_equal(np.signbit(a)[a == a], np.signbit(b)[b == b])
+
+
+@pytest.mark.parametrize("dtype", [np.float64, np.float32])
+@pytest.mark.parametrize("name", CALLS)
+def test_a_loop_has_the_same_bits_in_c_and_in_python(both, name, dtype):
+    sample, other, compiled = both
+    number = float if dtype is np.float64 else dtype
+    names, table = vars(sample), compiled.double
+    if dtype is np.float32:
+        elsewhere = twins.twin(other, dtype, LIMIT=dtype(0.25))
+        module = type(sample)("other")
+        vars(module).update(elsewhere)
+        more = {"other": module, "LIMIT": dtype(0.25), "twice": elsewhere["twice"], "sqrt": twins._root}
+        names, table = twins.twin(sample, dtype, ldexp=twins._scaled, **more), compiled.single
+    for call in CALLS[name]:
+        given = [[x.astype(dtype if x.dtype == float else x.dtype) if isinstance(x, np.ndarray)
+                  else number(x) if isinstance(x, float) else x for x in call] for _ in range(2)]  # fmt: skip
+        with np.errstate(all="ignore"):
+            wanted = flat(names[name](*given[0]), dtype)
+        found = flat(table[f"sample_{name}"](*given[1]), dtype)
+        assert same(found, wanted), (call, np.flatnonzero(~((found == wanted) | (found != found))))
+        for mine, its in zip(*given, strict=True):
+            assert not isinstance(mine, np.ndarray) or same(mine, its), call
+
+
+def test_every_function_of_the_sample_is_called(both):
+    assert {f"sample_{name}" for name in CALLS} == set(both[2].double) == set(both[2].single)
+
+
+def translated(tmp_path, text):
+    program = written(tmp_path, HEAD + text)
+    return c_files.Texts(program, roots(program), roots(program)).text()
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        "return a ** n", "return +a", "return ~n", "return a % 2.0", "return a // 2.0", "return a @ a", "return n << 2",
+        "return a in (1.0, 2.0)", "return a is None", "return [a]", "return {a: n}", "return lambda: a", "return 'text'",
+        "return f'{a}'", "return a[0]", "return unknown(a)", "return np.sin(a)", "return math.sin(a)", "return twice(x=a)",
+        "return twice(a, a)", "return [x for x in v]", "return (x := a)", "return v.sum()", "return (a, n)[0]",
+        "x = v\n    x = n\n    return x", "x = 1.0 if n else v\n    return x", "return unknown_name",
+        "while sqrt(*twice(a)) > 1.0:\n        a = a - 1.0\n    return a",
+        "return max(*twice(a)) if n > 0 else a", "x = a > 0.0 and max(*twice(a)) > 1.0\n    return x",
+        "for i in range(n):\n        i += 1\n    return a", "for i in range(n):\n        a += 1.0\n    return i",
+        "for i in range(n):\n        a += 1.0\n    else:\n        a = 0.0\n    return a",
+        "while a > 1.0:\n        a -= 1.0\n    else:\n        a = 0.0\n    return a",
+        "for x in v:\n        a += x\n    return a", "with a:\n        pass\n    return a", "del a", "global a",
+        "try:\n        a = 1.0\n    except ValueError:\n        a = 2.0\n    return a", "raise ValueError", "assert a > 0.0",
+        "import math\n    return a", "def inner():\n        return a\n    return a", "yield a", "a: float = 1.0\n    return a",
+        "x = v.copy()\n    return x[0]", "x = v[::2]\n    return x[0]", "x, y = a\n    return x",
+        "*x, y = twice(a)\n    return y", "return v[-1]", "return len(v[:-1])",
+    ],
+)  # fmt: skip
+def test_what_is_not_translated_names_its_function(body, tmp_path):
+    with pytest.raises(NotTranslatable, match="sample_odd"):
+        translated(tmp_path, f"def odd(a: float, n: int, v: Vector):\n    {body}\n")
+
+
+def test_a_flipped_sign_in_a_loop_changes_the_text_and_is_told_by_the_check(copy):
+    path = copy / "loops.c"
+    text = path.read_text(encoding="utf-8")
+    at = text.index(" - ", text.index("INLINE t_r2 pairs_two_sum"))
+    path.write_text(text[:at] + " + " + text[at + 3 :], encoding="utf-8")
+    assert build.check(copy) == ["loops.c is changed"]
+
+
+def test_the_text_of_the_loops_has_a_hash_of_its_own():
+    files = build.build()
+
+    def flipped(path):
+        text = build._text(files, path)
+        return text.replace("total - a", "total + a", 1) if path == "chapsym.numbers.pairs" else text
+
+    assert c_files.build(flipped, build.KERNELS)["loops_text.py"] != files["loops_text.py"]
