@@ -10,8 +10,8 @@ from numpy.typing import ArrayLike
 
 from chapsym.dynamics import BadInput, Ball, Trajectory, kernels, trajectory
 from chapsym.dynamics.attitudes import attitude_with, initial_attitude
-from chapsym.dynamics.ball import SMALLEST, Floats, batch, in_given_axes, numbers, unit_vertical
-from chapsym.dynamics.results import finished
+from chapsym.dynamics.ball import SMALLEST, Floats, batch, numbers, unit_vertical
+from chapsym.dynamics.results import finished, in_given_axes
 from chapsym.dynamics.trajectories import seconds, whole_number
 from chapsym.numbers import Precision
 

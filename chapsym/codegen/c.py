@@ -193,6 +193,7 @@ class Printer(Lookup):
         return found
 
     def compared(self, node: ast.Compare) -> Text:
+        """A comparison, or a chain of them."""
         parts, left = [], node.left
         for op, right in zip(node.ops, node.comparators, strict=True):
             sign, level = self.operator(node, op)
@@ -312,6 +313,7 @@ class Printer(Lookup):
         return self.call(node).text
 
     def temporary(self) -> str:
+        """A new name."""
         self.temporaries += 1
         return f"t_{self.temporaries}"
 
@@ -410,6 +412,7 @@ class Printer(Lookup):
         return found
 
     def assign(self, target: ast.expr, value: ast.expr) -> Iterator[Statement]:
+        """An assignment."""
         if isinstance(value, ast.Call) and self.callee(value) in (*ALLOCATE, "copy") and isinstance(target, ast.Name):
             yield from self.allocated(target.id, value)
         elif isinstance(target, ast.Name) and isinstance(self.type(value), tuple):
@@ -517,6 +520,7 @@ class Printer(Lookup):
         yield Statement(f"{name} = {'' if declares else '(r1)'}{{{name}_, {count}}}", declares)
 
     def returned(self, node: ast.Return) -> str:
+        """A return."""
         if node.value is None:
             return "return"
         kind = self.typed.returned
@@ -527,6 +531,7 @@ class Printer(Lookup):
         return f"return ({c_type(kind)}){{{', '.join(self.several(node.value))}}}"
 
     def loop(self, node: ast.For) -> Iterator[Statement]:
+        """A loop over a range, or over rows that are written down."""
         if isinstance(node.iter, ast.Tuple):
             assert isinstance(node.target, ast.Tuple)
             for row in node.iter.elts:

@@ -9,13 +9,12 @@ from typing import Any
 
 import numpy as np
 
-from chapsym.numbers import Double, Single
+from chapsym.numbers import Double, Single, named
 
 from . import principal_axes
 from .attitudes import initial_attitude
 from .ball import Ball, batch, numbers, unit_vertical
 from .errors import BadInput, StepNotTaken
-from .levels import dispatch
 
 #: The vectors of arguments and of results, by their names.
 VECTORS = ("momentum", "angular_momentum", "omega", "gamma")
@@ -37,7 +36,11 @@ def in_axes(function: Callable[..., Any], ball: Ball, args: tuple[Any, ...], kwa
 
 def _principal_arguments(ball: Ball, given: dict[str, Any]) -> dict[str, Any]:
     """The arguments that are others in principal axes."""
-    if not isinstance(dispatch.precision_of(given.get("precision", "double")), Single | Double):
+    try:
+        precision = named(given.get("precision", "double"))
+    except ValueError as error:
+        raise BadInput(str(error)) from None
+    if not isinstance(precision, Single | Double):
         raise BadInput(
             "more digits than float64 has are kept in principal axes only: give the principal moments, and all vectors "
             "in their axes"

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import cached_property, wraps
+from functools import cached_property
 from math import isfinite
 from numbers import Number
-from typing import Any, ParamSpec, Self, TypeGuard, TypeVar
+from typing import Any, Self, TypeGuard
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -18,9 +18,6 @@ from .principal_axes import Floats
 
 #: An array that is None unless it was asked for; whoever asked need not tell the type checker so, hence `Any`.
 Asked = Floats | Any
-
-P = ParamSpec("P")
-R = TypeVar("R")
 
 FLOAT64 = np.dtype(np.float64)
 #: Below this float64 loses digits.
@@ -349,28 +346,6 @@ def batch(ball: Ball, *vectors: Floats) -> tuple[tuple[int, ...], list[Floats]]:
 def is_followed(attitude: bool | ArrayLike) -> bool:
     """Whether an attitude is asked for: True, or one to start from."""
     return not isinstance(attitude, bool | np.bool_) or bool(attitude)
-
-
-def in_given_axes(function: Callable[P, R]) -> Callable[P, R]:
-    """`function` for balls with axes, too: it is given ball.principal, and what goes in and comes out is turned.
-
-    function: of a `ball`, then vectors in the body named as in `axes.VECTORS`, `gamma` among them, and perhaps an
-    `attitude`, `contact` and `precision`.  It returns a dataclass with such vectors, an `attitude`, a `rotation` or a
-    `ball`.  A ball without axes goes to it as it is.  Raises BadInput for a precision beyond float64, which axes have
-    not.
-    """
-
-    @wraps(function)
-    def taken(*args: P.args, **kwargs: P.kwargs) -> R:
-        ball: Any = args[0] if args else kwargs.get("ball")
-        if getattr(ball, "axes", None) is None or not isinstance(ball, Ball):
-            return function(*args, **kwargs)
-        from .axes import in_axes
-
-        found: R = in_axes(function, ball, args, kwargs)
-        return found
-
-    return taken
 
 
 def _filled(shape: tuple[int, ...], value: Floats) -> Floats:

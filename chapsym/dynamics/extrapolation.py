@@ -19,9 +19,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from . import native
+import chapsym.dynamics.native as native
+
 from .attitudes import initial_attitude
-from .ball import Asked, Ball, Floats, batch, in_given_axes, is_followed, numbers, unit_vertical
+from .ball import Asked, Ball, Floats, batch, is_followed, numbers, unit_vertical
 from .errors import BadInput, Status, StepNotTaken
 from .levels import double
 from .levels.dispatch import no_room
@@ -30,6 +31,7 @@ from .loops.guess import guess_weights
 from .loops.lanes import EIGHT, MOST_COLUMNS
 from .loops.long_run import march_eight, march_one
 from .loops.long_step import LAST
+from .results import in_given_axes
 from .trajectories import rolling_radius, whole_number
 
 #: From so many balls on a block of eight is faster than one after another.

@@ -12,12 +12,12 @@ from numpy.typing import ArrayLike
 
 from chapsym.numbers import NAMED, Digits, Double, DoubleDouble, Pair, Precision, Single
 
-from .ball import Ball, Floats, batch, in_given_axes, numbers, unit_vertical
+from .ball import Ball, Floats, batch, numbers, unit_vertical
 from .errors import BadInput
 from .levels import dispatch
 from .levels.frames import Balls
 from .levels.start import exponent_of, fraction
-from .results import LowStep, Step
+from .results import LowStep, Step, in_given_axes
 
 #: The digits of a step of exact numbers that pairs cannot hold, before it is rounded to pairs.
 BEYOND_DOUBLE_DOUBLE = Digits(40)

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
-from typing import Any
+from functools import wraps
+from typing import Any, ParamSpec, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -11,10 +13,34 @@ from numpy.typing import ArrayLike
 from chapsym.numbers import NAMED, Pair, Precision
 
 from . import kernels
+from .axes import in_axes
 from .ball import Asked, Ball, Floats
 from .errors import BadInput, Status, StepNotTaken
 from .interpolation import Moments, States, standing
 from .principal_axes import attitude_from_principal, attitude_to_principal
+
+P = ParamSpec("P")
+R = TypeVar("R")
+
+
+def in_given_axes(function: Callable[P, R]) -> Callable[P, R]:
+    """`function` for balls with axes, too: it is given ball.principal, and what goes in and comes out is turned.
+
+    function: of a `ball`, then vectors in the body named as in `axes.VECTORS`, `gamma` among them, and perhaps an
+    `attitude`, `contact` and `precision`.  It returns a dataclass with such vectors, an `attitude`, a `rotation` or a
+    `ball`.  A ball without axes goes to it as it is.  Raises BadInput for a precision beyond float64, which axes have
+    not.
+    """
+
+    @wraps(function)
+    def taken(*args: P.args, **kwargs: P.kwargs) -> R:
+        ball: Any = args[0] if args else kwargs.get("ball")
+        if getattr(ball, "axes", None) is None or not isinstance(ball, Ball):
+            return function(*args, **kwargs)
+        found: R = in_axes(function, ball, args, kwargs)
+        return found
+
+    return taken
 
 
 def _in_axes(ball: Ball, found: Moments) -> Moments:

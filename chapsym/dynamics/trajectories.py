@@ -10,12 +10,12 @@ from numpy.typing import ArrayLike
 from chapsym.numbers import Precision
 
 from .attitudes import initial_attitude
-from .ball import Ball, Floats, batch, in_given_axes, is_followed, numbers, unit_vertical
+from .ball import Ball, Floats, batch, is_followed, numbers, unit_vertical
 from .errors import BadInput
 from .levels import dispatch
 from .levels.frames import Balls, Frames
 from .map import beyond_float64
-from .results import Low, Trajectory, finished
+from .results import Low, Trajectory, finished, in_given_axes
 
 #: Whoever asks for more steps than this, or for every so many, will not see the end of it.
 MOST_STEPS = 2**62

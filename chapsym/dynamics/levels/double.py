@@ -6,7 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from .. import native
+import chapsym.dynamics.native as native
+
 from ..ball import Floats
 from ..coefficients import substeps
 from ..errors import Status

@@ -6,9 +6,9 @@ from functools import cache
 
 import numpy as np
 
+import chapsym.dynamics.native as native
 from chapsym.numbers import Pair
 
-from .. import native
 from ..ball import Floats
 from ..coefficients import COMPOSITIONS
 from ..errors import Status

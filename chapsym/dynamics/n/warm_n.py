@@ -5,7 +5,8 @@ from typing import Self
 
 import numpy as np
 
-from .. import native
+import chapsym.dynamics.native as native
+
 from ..ball import Floats
 from ..errors import Status
 from ..levels.frames import Count, cores, share
