@@ -59,6 +59,7 @@ typedef struct { int64_t a0, a1; real a2; } t_i2r;
 typedef struct { real a0, a1, a2; } t_r3;
 typedef struct { real a0, a1, a2, a3; } t_r4;
 typedef struct { int a0; real a1, a2, a3, a4; } t_br4;
+typedef struct { int64_t a0; real a1, a2, a3, a4; } t_ir4;
 typedef struct { int64_t a0; double a1, a2, a3, a4, a5; } t_id5;
 typedef struct { int64_t a0; real a1, a2, a3, a4, a5; } t_ir5;
 typedef struct { real a0, a1, a2, a3, a4, a5; } t_r6;
@@ -990,6 +991,14 @@ INLINE void long_run_entered(r2 S, int64_t at, int64_t i, r1 body, real half, in
     S.p[(at + 4) * S.s0 + i] = least * least / R(18.2); S.p[(at + 5) * S.s0 + i] = (real)1 / (n * n);
 }
 
+INLINE void long_run_resized(r2 S, int64_t B, int64_t b, int64_t columns, real half, r1 body, r1 state) {
+    S.p[114 * S.s0 + b] = half; int64_t least = 8 - columns;
+    for (int64_t lane = 0; lane < 4; lane++) {
+        long_run_entered(S, 59, lane * B + b, body, half, max_i(7 - lane, least), state);
+        long_run_entered(S, 65, lane * B + b, body, half, max_i(lane, least), state);
+    }
+}
+
 OUT_OF_LINE int64_t long_run_enter(r2 S, int64_t B, int64_t b, int64_t columns, r1 J0, real D0, real radius, real h,
     r2 sums, r2 beginning, r1 body, r1 state) {
     t_ri half = long_step_begun(body, J0, D0, h, state); int64_t c;
@@ -1001,16 +1010,14 @@ OUT_OF_LINE int64_t long_run_enter(r2 S, int64_t B, int64_t b, int64_t columns, 
     for (int64_t lane = 0; lane < 4; lane++) {
         int64_t i = lane * B + b, first = max_i(7 - lane, least);
         for (c = 0; c < 3; c++) S.p[(27 + c) * S.s0 + i] = state.p[21 + c];
-        S.p[30 * S.s0 + i] = state.p[24]; long_run_entered(S, 59, i, body, half.a0, first, state);
-        long_run_entered(S, 65, i, body, half.a0, max_i(lane, least), state); int one = 7 - lane >= least;
-        int two = lane >= least;
+        S.p[30 * S.s0 + i] = state.p[24]; int one = 7 - lane >= least, two = lane >= least;
         for (c = 0; c < 3; c++) S.p[(75 + c) * S.s0 + i] = beginning.p[first * beginning.s0 + c];
         for (c = 0; c < 2; c++) {
             S.p[(71 + 2 * c) * S.s0 + i] = one ? sums.p[c * sums.s0 + first - least] : 0;
             S.p[(71 + 2 * c + 1) * S.s0 + i] = two ? sums.p[c * sums.s0 + lane - least] : 0;
         }
     }
-    return half.a1;
+    long_run_resized(S, B, b, columns, half.a0, body, state); return half.a1;
 }
 
 INLINE t_r3 kernel_angular_velocity(real K1, real K2, real K3, real g1, real g2, real g3, real J1, real J2, real J3,
@@ -2529,6 +2536,432 @@ INLINE real tangent_determinant(r2 T) {
     return T.p[0 * T.s0 + 0] * n1.a0 + T.p[0 * T.s0 + 1] * n1.a1 + T.p[0 * T.s0 + 2] * n1.a2;
 }
 
+INLINE int following_planned(r1 lane, real end, real step) {
+    real left = end - lane.p[0]; int64_t count = (int64_t)(left / step);
+    if (count * step < left * R(0x1.fffffff768fa1p-1)) count += 1;
+    real before = lane.p[1]; lane.p[3] = max_i(count, 1); lane.p[1] = left / lane.p[3]; return lane.p[1] != before;
+}
+
+INLINE void carried_tangent(r1 body, real J1, real J2, real J3, real contact, int traced, r1 E, int64_t at) {
+    real K1 = body.p[0], K2 = body.p[1], K3 = body.p[2], g1 = body.p[3], g2 = body.p[4], g3 = body.p[5];
+    real I1 = J2 + J3 + contact, I2 = J1 + J3 + contact, I3 = J1 + J2 + contact;
+    t_r3 w1 = kernel_angular_velocity(K1, K2, K3, g1, g2, g3, J1, J2, J3, contact); real m1 = I1 * w1.a0;
+    real m2 = I2 * w1.a1, m3 = I3 * w1.a2;
+    t_r3 a1 = kernel_angular_velocity(m2 * w1.a2 - m3 * w1.a1, m3 * w1.a0 - m1 * w1.a2, m1 * w1.a1 - m2 * w1.a0, g1,
+        g2, g3, J1, J2, J3, contact);
+    real n1 = I1 * a1.a0, n2 = I2 * a1.a1, n3 = I3 * a1.a2; E.p[at + 39] = w1.a0; E.p[at + 39 + 1] = w1.a1;
+    E.p[at + 39 + 2] = w1.a2; real s1 = w1.a1 * m3 - w1.a2 * m2, s2 = w1.a2 * m1 - w1.a0 * m3;
+    real s3 = w1.a0 * m2 - w1.a1 * m1, least = R(0x1.6849b86a12b9ap-47) * ((m1 * m1 + m2 * m2 + m3 * m3) * (w1.a0 *
+        w1.a0 + w1.a1 * w1.a1 + w1.a2 * w1.a2));
+    real one = s1 * s1 + s2 * s2 + s3 * s3 > least ? 1 : 0; E.p[at + 42] = one * s1; E.p[at + 42 + 1] = one * s2;
+    E.p[at + 42 + 2] = one * s3; real v1 = w1.a1 * g3 - w1.a2 * g2, v2 = w1.a2 * g1 - w1.a0 * g3;
+    real v3 = w1.a0 * g2 - w1.a1 * g1, u1 = a1.a1 * g3 - a1.a2 * g2 - (w1.a1 * v3 - w1.a2 * v2);
+    real u2 = a1.a2 * g1 - a1.a0 * g3 - (w1.a2 * v1 - w1.a0 * v3);
+    real u3 = a1.a0 * g2 - a1.a1 * g1 - (w1.a0 * v2 - w1.a1 * v1), x1, x2, x3, y1, y2, y3;
+    if (traced) {
+        real a = body.p[6], b = body.p[7], c = body.p[8], d = body.p[9];
+        t_r3 t_1 = kernel_rotate(a, -b, -c, -d, 1, 0, 0); x1 = t_1.a0; x2 = t_1.a1; x3 = t_1.a2;
+        t_r3 t_2 = kernel_rotate(a, -b, -c, -d, 0, 1, 0); y1 = t_2.a0; y2 = t_2.a1; y3 = t_2.a2;
+    }
+    real z1, z2, z3, b1, b2, b3;
+    for (int64_t i = 0; i < 3; i++) {
+        real e1 = i == 0 ? 1 : 0, e2 = i == 1 ? 1 : 0, e3 = i == 2 ? 1 : 0;
+        real v = contact * (v1 * e1 + v2 * e2 + v3 * e3), u = contact * (u1 * e1 + u2 * e2 + u3 * e3);
+        t_r3 t_3 = kernel_angular_velocity(m2 * e3 - m3 * e2 + v * g1, m3 * e1 - m1 * e3 + v * g2, m1 * e2 - m2 * e1 +
+            v * g3, g1, g2, g3, J1, J2, J3, contact);
+        s1 = t_3.a0; s2 = t_3.a1; s3 = t_3.a2; real f1 = s1 + (e2 * w1.a2 - e3 * w1.a1);
+        real f2 = s2 + (e3 * w1.a0 - e1 * w1.a2), f3 = s3 + (e1 * w1.a1 - e2 * w1.a0);
+        real up = u + contact * (v1 * f1 + v2 * f2 + v3 * f3 - (v1 * s1 + v2 * s2 + v3 * s3));
+        real over = v + contact * (g1 * s1 + g2 * s2 + g3 * s3);
+        t_r3 t1 = kernel_angular_velocity(n2 * e3 - n3 * e2 + (m2 * f3 - m3 * f2) + (up * g1 - over * v1), n3 * e1 -
+            n1 * e3 + (m3 * f1 - m1 * f3) + (up * g2 - over * v2), n1 * e2 - n2 * e1 + (m1 * f2 - m2 * f1) + (up * g3
+            - over * v3), g1, g2, g3, J1, J2, J3, contact);
+        real p1 = t1.a0 + (f2 * w1.a2 - f3 * w1.a1) + (e2 * a1.a2 - e3 * a1.a1);
+        real p2 = t1.a1 + (f3 * w1.a0 - f1 * w1.a2) + (e3 * a1.a0 - e1 * a1.a2);
+        real p3 = t1.a2 + (f1 * w1.a1 - f2 * w1.a0) + (e1 * a1.a1 - e2 * a1.a0); int64_t row = at + 3 * i;
+        E.p[row + 0] = s1; E.p[row + 0 + 1] = s2; E.p[row + 0 + 2] = s3; E.p[row + 9] = f1; E.p[row + 9 + 1] = f2;
+        E.p[row + 9 + 2] = f3; E.p[row + 18] = p1; E.p[row + 18 + 1] = p2; E.p[row + 18 + 2] = p3;
+        if (traced) {
+            z1 = f2 * g3 - f3 * g2; z2 = f3 * g1 - f1 * g3; z3 = f1 * g2 - f2 * g1;
+            b1 = w1.a1 * z3 - w1.a2 * z2 + (p2 * g3 - p3 * g2) - (f2 * v3 - f3 * v2);
+            b2 = w1.a2 * z1 - w1.a0 * z3 + (p3 * g1 - p1 * g3) - (f3 * v1 - f1 * v3);
+            b3 = w1.a0 * z2 - w1.a1 * z1 + (p1 * g2 - p2 * g1) - (f1 * v2 - f2 * v1); row = at + 2 * i;
+            E.p[row + 27] = x1 * z1 + x2 * z2 + x3 * z3; E.p[row + 27 + 1] = y1 * z1 + y2 * z2 + y3 * z3;
+            E.p[row + 33] = x1 * b1 + x2 * b2 + x3 * b3; E.p[row + 33 + 1] = y1 * b1 + y2 * b2 + y3 * b3;
+        }
+    }
+}
+
+INLINE int64_t following_taken_in(r2 S, int64_t B, int64_t b, int64_t columns, int64_t i, r1 first, r1 start, r3
+    momenta, r3 verticals, r3 attitudes, r3 traces, r2 J0, r1 D0, r1 radius, real end, int follows, r2 sums, r2
+    beginning, r1 body, r1 state, r1 lane, r1 E, r2 told, int traced) {
+    for (int64_t i_0 = 0; i_0 < body.n0; i_0++) body.p[i_0] = 0;
+    int64_t c;
+    for (c = 0; c < 3; c++) {
+        body.p[c] = momenta.p[i * momenta.s0 + 0 * momenta.s1 + c];
+        body.p[3 + c] = verticals.p[i * verticals.s0 + 0 * verticals.s1 + c];
+    }
+    body.p[6] = 1;
+    if (follows) {
+        for (c = 0; c < 4; c++) body.p[6 + c] = attitudes.p[i * attitudes.s0 + 0 * attitudes.s1 + c];
+    }
+    if (traced) {
+        body.p[10] = traces.p[i * traces.s0 + 0 * traces.s1 + 0];
+        body.p[11] = traces.p[i * traces.s0 + 0 * traces.s1 + 1];
+    }
+    for (int64_t i_0 = 0; i_0 < lane.n0; i_0++) lane.p[i_0] = 0;
+    lane.p[4] = i; lane.p[5] = 1; lane.p[10] = R(1e+300); following_planned(lane, end, first.p[i]);
+    int64_t exponent = long_run_enter(S, B, b, columns, (r1){J0.p + i * J0.s0, J0.n1}, D0.p[i], radius.p[i],
+        lane.p[1], sums, beginning, body, state);
+    lane.p[2] = 2 * S.p[114 * S.s0 + b] / lane.p[1];
+    for (int64_t i_0 = 0; i_0 < E.n0; i_0++) E.p[i_0] = 0;
+    carried_tangent(body, S.p[116 * S.s0 + b], S.p[117 * S.s0 + b], S.p[118 * S.s0 + b], S.p[119 * S.s0 + b], traced,
+        E, 45);
+    E.p[90] = start.p[i]; E.p[93] = start.p[i]; E.p[95] = start.p[i]; E.p[105] = start.p[i];
+    for (c = 0; c < 5; c++) told.p[i * told.s0 + c] = 0;
+    return exponent;
+}
+
+INLINE real following_feared(real doubt, real start) {
+    return 12 * doubt * real_sqrt(real_sqrt(real_sqrt(R(0x1.7d78400000000p+26) * doubt)) * max_r(start /
+        R(0x1.947ae147ae148p-51), 1));
+}
+
+INLINE real following_lengthened(real ratio) {
+    real root = real_sqrt(real_sqrt(real_sqrt(real_sqrt(min_r(max_r(ratio, R(1e-12)), R(0x1.d1a94a2000000p+39))))));
+    return 1 / (root * real_sqrt(root));
+}
+
+INLINE real following_part_of(r1 lane, int64_t frame, int64_t frames, real interval) {
+    if (frame == frames - 1 && lane.p[3] <= 1) return 1;
+    return (frame * interval - lane.p[0]) / lane.p[1];
+}
+
+INLINE real between_crossed(r2 V, int64_t at, int64_t n, int64_t i) {
+    int64_t j = i < 2 ? i + 1 : 0, k = j < 2 ? j + 1 : 0; real found = 0; int64_t end_1 = n + 1;
+    for (int64_t m = 0; m < end_1; m++)
+        found += V.p[(at + j) * V.s0 + m] * V.p[(0 + k) * V.s0 + n - m] - V.p[(at + k) * V.s0 + m] * V.p[(0 + j) *
+            V.s0 + n - m];
+    return found;
+}
+
+INLINE void between_series(r1 body, real J1, real J2, real J3, real contact, real radius, real whole, int traced, r2
+    V, r2 end) {
+    real g1 = body.p[3], g2 = body.p[4], g3 = body.p[5], a0 = body.p[6], a1 = body.p[7], a2 = body.p[8];
+    real a3 = body.p[9]; int64_t i;
+    for (i = 0; i < 3; i++) {
+        V.p[(3 + i) * V.s0 + 0] = body.p[i]; V.p[(6 + i) * V.s0 + 0] = body.p[3 + i];
+    }
+    if (traced) {
+        t_r3 t_1 = kernel_rotate(a0, -a1, -a2, -a3, 1, 0, 0); V.p[9 * V.s0 + 0] = t_1.a0; V.p[10 * V.s0 + 0] = t_1.a1;
+        V.p[11 * V.s0 + 0] = t_1.a2; t_r3 t_2 = kernel_rotate(a0, -a1, -a2, -a3, 0, 1, 0);
+        V.p[12 * V.s0 + 0] = t_2.a0; V.p[13 * V.s0 + 0] = t_2.a1; V.p[14 * V.s0 + 0] = t_2.a2;
+    }
+    end.p[0 * end.s0 + 0] = a0; end.p[0 * end.s0 + 1] = a1; end.p[0 * end.s0 + 2] = a2; end.p[0 * end.s0 + 3] = a3;
+    end.p[0 * end.s0 + 4] = body.p[10]; end.p[0 * end.s0 + 5] = body.p[11]; int64_t m; real here, x, y, c0, c1, c2;
+    real c3;
+    for (int64_t n = 0; n < 5; n++) {
+        real x1 = whole * V.p[3 * V.s0 + n], x2 = whole * V.p[4 * V.s0 + n], x3 = whole * V.p[5 * V.s0 + n];
+        real along = 0; int64_t end_3 = n + 1;
+        for (m = 1; m < end_3; m++) {
+            here = contact * V.p[15 * V.s0 + n - m];
+            along += V.p[6 * V.s0 + m] * V.p[0 * V.s0 + n - m] + V.p[7 * V.s0 + m] * V.p[1 * V.s0 + n - m] + V.p[8 *
+                V.s0 + m] * V.p[2 * V.s0 + n - m];
+            x1 = x1 + here * V.p[6 * V.s0 + m]; x2 = x2 + here * V.p[7 * V.s0 + m];
+            x3 = x3 + here * V.p[8 * V.s0 + m];
+        }
+        here = contact * along;
+        t_r3 w1 = kernel_angular_velocity(x1 + here * g1, x2 + here * g2, x3 + here * g3, g1, g2, g3, J1, J2, J3,
+            contact);
+        V.p[0 * V.s0 + n] = w1.a0; V.p[1 * V.s0 + n] = w1.a1; V.p[2 * V.s0 + n] = w1.a2;
+        V.p[15 * V.s0 + n] = along + (g1 * w1.a0 + g2 * w1.a1 + g3 * w1.a2); real part = (real)1 / (n + 1);
+        for (i = 0; i < 3; i++) {
+            real t_4 = part * between_crossed(V, 3, n, i), t_5 = part * between_crossed(V, 6, n, i);
+            V.p[(3 + i) * V.s0 + n + 1] = t_4; V.p[(6 + i) * V.s0 + n + 1] = t_5;
+        }
+        if (traced) {
+            for (i = 0; i < 3; i++) {
+                real t_6 = part * between_crossed(V, 9, n, i), t_7 = part * between_crossed(V, 12, n, i);
+                V.p[(9 + i) * V.s0 + n + 1] = t_6; V.p[(12 + i) * V.s0 + n + 1] = t_7;
+            }
+            x = 0; y = 0; int64_t end_8 = n + 1;
+            for (m = 0; m < end_8; m++) {
+                for (i = 0; i < 3; i++) {
+                    x += V.p[(0 + i) * V.s0 + m] * V.p[(12 + i) * V.s0 + n - m];
+                    y -= V.p[(0 + i) * V.s0 + m] * V.p[(9 + i) * V.s0 + n - m];
+                }
+            }
+            end.p[(n + 1) * end.s0 + 4] = radius * part * x; end.p[(n + 1) * end.s0 + 5] = radius * part * y;
+        }
+        real b0 = 0, b1 = 0, b2 = 0, b3 = 0; int64_t end_9 = n + 1;
+        for (m = 0; m < end_9; m++) {
+            t_r4 t_10 = kernel_compose(end.p[m * end.s0 + 0], end.p[m * end.s0 + 1], end.p[m * end.s0 + 2], end.p[m *
+                end.s0 + 3], 0, V.p[0 * V.s0 + n - m], V.p[1 * V.s0 + n - m], V.p[2 * V.s0 + n - m]);
+            c0 = t_10.a0; c1 = t_10.a1; c2 = t_10.a2; c3 = t_10.a3; b0 = b0 + c0; b1 = b1 + c1; b2 = b2 + c2;
+            b3 = b3 + c3;
+        }
+        real half = R(0.5) * part; end.p[(n + 1) * end.s0 + 0] = half * b0; end.p[(n + 1) * end.s0 + 1] = half * b1;
+        end.p[(n + 1) * end.s0 + 2] = half * b2; end.p[(n + 1) * end.s0 + 3] = half * b3;
+    }
+}
+
+INLINE real between_followed(real last, real before) {
+    return before > 0 ? 4 * real_sqrt(last) * min_r(real_sqrt(last / before), 8) : 4 * real_sqrt(last);
+}
+
+INLINE t_r2 between_joined(r2 first, r2 end, real radius, int traced, r2 curve) {
+    int64_t end_1 = traced ? 6 : 4;
+    for (int64_t i = 0; i < end_1; i++) {
+        for (int64_t n = 0; n < 6; n++) curve.p[n * curve.s0 + i] = first.p[n * first.s0 + i];
+        real a0 = first.p[0 * first.s0 + i], a1 = first.p[1 * first.s0 + i], a2 = first.p[2 * first.s0 + i];
+        real a3 = first.p[3 * first.s0 + i], a4 = first.p[4 * first.s0 + i], a5 = first.p[5 * first.s0 + i];
+        real d0 = end.p[0 * end.s0 + i] - (a5 + a4 + a3 + (a2 + a1) + a0);
+        real d1 = end.p[1 * end.s0 + i] - (5 * a5 + 4 * a4 + (3 * a3 + 2 * a2) + a1);
+        real d2 = end.p[2 * end.s0 + i] - (10 * a5 + 6 * a4 + (3 * a3 + a2));
+        real d3 = end.p[3 * end.s0 + i] - (10 * a5 + 4 * a4 + a3), d4 = end.p[4 * end.s0 + i] - (5 * a5 + a4);
+        real d5 = end.p[5 * end.s0 + i] - a5; curve.p[6 * curve.s0 + i] = d0; curve.p[7 * curve.s0 + i] = d1 - 6 * d0;
+        curve.p[8 * curve.s0 + i] = d2 - 6 * d1 + 21 * d0;
+        curve.p[9 * curve.s0 + i] = d3 - 6 * d2 + (21 * d1 - 56 * d0);
+        curve.p[10 * curve.s0 + i] = d4 - 6 * d3 + (21 * d2 - 56 * d1) + 126 * d0;
+        curve.p[11 * curve.s0 + i] = d5 - 6 * d4 + (21 * d3 - 56 * d2) + (126 * d1 - 252 * d0);
+    }
+    real last = 0, turned = 0, way = 0;
+    for (int64_t i = 0; i < 4; i++) {
+        turned = turned + curve.p[11 * curve.s0 + i] * curve.p[11 * curve.s0 + i];
+        last = last + curve.p[10 * curve.s0 + i] * curve.p[10 * curve.s0 + i];
+    }
+    turned = R(0x1.0000000000000p-11) * between_followed(turned, last);
+    if (traced) {
+        way = curve.p[11 * curve.s0 + 4] * curve.p[11 * curve.s0 + 4] + curve.p[11 * curve.s0 + 5] * curve.p[11 *
+            curve.s0 + 5];
+        way = R(0x1.0000000000000p-12) / radius * between_followed(way, curve.p[10 * curve.s0 + 4] * curve.p[10 *
+            curve.s0 + 4] + curve.p[10 * curve.s0 + 5] * curve.p[10 * curve.s0 + 5]);
+    }
+    return (t_r2){turned, way};
+}
+
+INLINE void between_shortened(r2 end, real ratio) {
+    real factor = 1;
+    for (int64_t n = 1; n < 6; n++) {
+        factor *= ratio;
+        for (int64_t i = 0; i < 6; i++) end.p[n * end.s0 + i] *= factor;
+    }
+}
+
+INLINE t_r2 following_through(r2 S, int64_t b, r1 body, r1 now, int traced, r1 lane, r2 V, r2 first, r2 last, r2
+    curve) {
+    real whole = lane.p[1] * lane.p[2], J1 = S.p[116 * S.s0 + b], J2 = S.p[117 * S.s0 + b], J3 = S.p[118 * S.s0 + b];
+    real contact = S.p[119 * S.s0 + b], radius = S.p[115 * S.s0 + b];
+    if (lane.p[9] > 0) {
+        for (int64_t n = 0; n < 6; n++) {
+            for (int64_t c = 0; c < 6; c++) first.p[n * first.s0 + c] = last.p[n * last.s0 + c];
+        }
+        if (lane.p[9] != whole) between_shortened(first, whole / lane.p[9]);
+    }
+    else between_series(body, J1, J2, J3, contact, radius, whole, traced, V, first);
+    between_series(now, J1, J2, J3, contact, radius, whole, traced, V, last);
+    return between_joined(first, last, radius, traced, curve);
+}
+
+INLINE void following_stopped_at(int64_t i, int64_t frame, r3 momenta, r3 verticals, r3 attitudes, r3 traces, int
+    follows, int traced) {
+    for (int64_t i_1 = frame; i_1 < momenta.n1; i_1++) {
+        for (int64_t i_2 = 0; i_2 < momenta.n2; i_2++) momenta.p[i * momenta.s0 + i_1 * momenta.s1 + i_2] = NAN;
+    }
+    for (int64_t i_1 = frame; i_1 < verticals.n1; i_1++) {
+        for (int64_t i_2 = 0; i_2 < verticals.n2; i_2++)
+            verticals.p[i * verticals.s0 + i_1 * verticals.s1 + i_2] = NAN;
+    }
+    if (follows) {
+        for (int64_t i_1 = frame; i_1 < attitudes.n1; i_1++) {
+            for (int64_t i_2 = 0; i_2 < attitudes.n2; i_2++)
+                attitudes.p[i * attitudes.s0 + i_1 * attitudes.s1 + i_2] = NAN;
+        }
+    }
+    if (traced) {
+        for (int64_t i_1 = frame; i_1 < traces.n1; i_1++) {
+            for (int64_t i_2 = 0; i_2 < traces.n2; i_2++) traces.p[i * traces.s0 + i_1 * traces.s1 + i_2] = NAN;
+        }
+    }
+}
+
+INLINE void carried_kept(r1 E, int64_t first, int64_t last, r1 F) {
+    real w1 = E.p[first + 39], w2 = E.p[first + 39 + 1], w3 = E.p[first + 39 + 2];
+    real square = w1 * w1 + w2 * w2 + w3 * w3, part = square > 0 ? 1 / square : 0, off;
+    for (int64_t r = 0; r < 3; r++) {
+        off = part * (E.p[last + 39 + r] - (F.p[18 + r] * w1 + F.p[21 + r] * w2 + F.p[24 + r] * w3));
+        F.p[18 + r] += off * w1; F.p[21 + r] += off * w2; F.p[24 + r] += off * w3;
+    }
+    real n1 = E.p[last + 42], n2 = E.p[last + 42 + 1], n3 = E.p[last + 42 + 2], before = E.p[first + 42] * E.p[first +
+        42] + (E.p[first + 42 + 1] * E.p[first + 42 + 1] + E.p[first + 42 + 2] * E.p[first + 42 + 2]);
+    square = n1 * n1 + n2 * n2 + n3 * n3; part = (before > 0 && square > 0) ? 1 / square : 0;
+    for (int64_t i = 0; i < 3; i++) {
+        off = part * (E.p[first + 42 + i] - (n1 * F.p[18 + 3 * i] + n2 * F.p[19 + 3 * i] + n3 * F.p[20 + 3 * i]));
+        F.p[18 + 3 * i] += off * n1; F.p[19 + 3 * i] += off * n2; F.p[20 + 3 * i] += off * n3;
+    }
+}
+
+INLINE void carried_carry(r1 E, int64_t first, int64_t last, real whole, real error, int traced, r1 F) {
+    real half = R(0.5) * whole, twelfth = whole * whole * R(0x1.5555555555555p-4); int64_t i;
+    for (i = 0; i < 9; i++) {
+        real one = mod_i(i, 4) == 0 ? 1 : 0; F.p[i] = one - half * E.p[last + 9 + i] + twelfth * E.p[last + 18 + i];
+        F.p[9 + i] = one + half * E.p[first + 9 + i] + twelfth * E.p[first + 18 + i];
+    }
+    real a1 = F.p[0], a2 = F.p[1], a3 = F.p[2], b1 = F.p[3], b2 = F.p[4], b3 = F.p[5], c1 = F.p[6], c2 = F.p[7];
+    real c3 = F.p[8], r1 = b2 * c3 - b3 * c2, r2 = b3 * c1 - b1 * c3, r3 = b1 * c2 - b2 * c1, s1 = c2 * a3 - c3 * a2;
+    real s2 = c3 * a1 - c1 * a3, s3 = c1 * a2 - c2 * a1, t1 = a2 * b3 - a3 * b2, t2 = a3 * b1 - a1 * b3;
+    real t3 = a1 * b2 - a2 * b1, over = 1 / (a1 * r1 + a2 * r2 + a3 * r3);
+    for (i = 0; i < 3; i++) {
+        real x = over * F.p[9 + 3 * i], y = over * F.p[10 + 3 * i], z = over * F.p[11 + 3 * i];
+        F.p[18 + 3 * i] = r1 * x + r2 * y + r3 * z; F.p[19 + 3 * i] = s1 * x + s2 * y + s3 * z;
+        F.p[20 + 3 * i] = t1 * x + t2 * y + t3 * z;
+    }
+    carried_kept(E, first, last, F); a1 = F.p[18]; a2 = F.p[19]; a3 = F.p[20]; b1 = F.p[21]; b2 = F.p[22];
+    b3 = F.p[23]; c1 = F.p[24]; c2 = F.p[25]; c3 = F.p[26]; real s11 = E.p[90], s12 = E.p[91], s13 = E.p[92];
+    real s22 = E.p[93], s23 = E.p[94], s33 = E.p[95], p11 = a1 * s11 + b1 * s12 + c1 * s13;
+    real p12 = a1 * s12 + b1 * s22 + c1 * s23, p13 = a1 * s13 + b1 * s23 + c1 * s33;
+    real p21 = a2 * s11 + b2 * s12 + c2 * s13, p22 = a2 * s12 + b2 * s22 + c2 * s23;
+    real p23 = a2 * s13 + b2 * s23 + c2 * s33, p31 = a3 * s11 + b3 * s12 + c3 * s13;
+    real p32 = a3 * s12 + b3 * s22 + c3 * s23, p33 = a3 * s13 + b3 * s23 + c3 * s33;
+    E.p[90] = p11 * a1 + p12 * b1 + p13 * c1 + error; E.p[91] = p11 * a2 + p12 * b2 + p13 * c2;
+    E.p[92] = p11 * a3 + p12 * b3 + p13 * c3; E.p[93] = p21 * a2 + p22 * b2 + p23 * c2 + error;
+    E.p[94] = p21 * a3 + p22 * b3 + p23 * c3; E.p[95] = p31 * a3 + p32 * b3 + p33 * c3 + error; E.p[105] += error;
+    if (!traced) return;
+    for (int64_t j = 0; j < 2; j++) {
+        real f1 = half * E.p[last + 27 + j] - twelfth * E.p[last + 33 + j];
+        real f2 = half * E.p[last + 27 + 2 + j] - twelfth * E.p[last + 33 + 2 + j];
+        real f3 = half * E.p[last + 27 + 4 + j] - twelfth * E.p[last + 33 + 4 + j];
+        for (i = 0; i < 3; i++)
+            F.p[3 * j + i] = half * E.p[first + 27 + 2 * i + j] + twelfth * E.p[first + 33 + 2 * i + j] + (f1 * F.p[18
+                + 3 * i] + f2 * F.p[19 + 3 * i] + f3 * F.p[20 + 3 * i]);
+    }
+    real x1 = F.p[0], x2 = F.p[1], x3 = F.p[2], y1 = F.p[3], y2 = F.p[4], y3 = F.p[5], m1 = E.p[96], m2 = E.p[97];
+    real m3 = E.p[98], n1 = E.p[99], n2 = E.p[100], n3 = E.p[101], u1 = x1 * s11 + x2 * s12 + x3 * s13 + m1;
+    real u2 = x1 * s12 + x2 * s22 + x3 * s23 + m2, u3 = x1 * s13 + x2 * s23 + x3 * s33 + m3;
+    real v1 = y1 * s11 + y2 * s12 + y3 * s13 + n1, v2 = y1 * s12 + y2 * s22 + y3 * s23 + n2;
+    real v3 = y1 * s13 + y2 * s23 + y3 * s33 + n3;
+    E.p[102] += u1 * x1 + u2 * x2 + u3 * x3 + (m1 * x1 + m2 * x2 + m3 * x3) + error;
+    E.p[103] += u1 * y1 + u2 * y2 + u3 * y3 + (n1 * x1 + n2 * x2 + n3 * x3);
+    E.p[104] += v1 * y1 + v2 * y2 + v3 * y3 + (n1 * y1 + n2 * y2 + n3 * y3) + error;
+    E.p[96] = u1 * a1 + u2 * b1 + u3 * c1; E.p[97] = u1 * a2 + u2 * b2 + u3 * c2;
+    E.p[98] = u1 * a3 + u2 * b3 + u3 * c3; E.p[99] = v1 * a1 + v2 * b1 + v3 * c1;
+    E.p[100] = v1 * a2 + v2 * b2 + v3 * c2; E.p[101] = v1 * a3 + v2 * b3 + v3 * c3;
+}
+
+INLINE real carried_turned_square(r1 E) {
+    return max_r(E.p[105] * (E.p[90] + E.p[93] + E.p[95]), 0);
+}
+
+INLINE real carried_way_square(r1 E) {
+    return max_r(E.p[105] * (E.p[102] + E.p[104]), 0);
+}
+
+INLINE real carried_spun_square(r1 E, int64_t at) {
+    real s11 = E.p[90], s12 = E.p[91], s13 = E.p[92], s22 = E.p[93], s23 = E.p[94], s33 = E.p[95], found = 0;
+    for (int64_t i = 0; i < 3; i++) {
+        real a = E.p[at + 0 + i], b = E.p[at + 0 + 3 + i], c = E.p[at + 0 + 6 + i];
+        found += a * (a * s11 + 2 * (b * s12 + c * s13)) + b * (b * s22 + 2 * c * s23) + c * c * s33;
+    }
+    return max_r(E.p[105] * found, 0);
+}
+
+INLINE void following_followed(int64_t B, r2 S, int64_t b, int64_t i, int traced, real error, real off, real out, r1
+    now, r1 used, r1 lane, r1 E, r2 told) {
+    for (int64_t c = 0; c < 45; c++) E.p[c] = E.p[45 + c];
+    carried_tangent(now, S.p[116 * S.s0 + b], S.p[117 * S.s0 + b], S.p[118 * S.s0 + b], S.p[119 * S.s0 + b], traced,
+        E, 45);
+    carried_carry(E, 0, 45, lane.p[1] * lane.p[2], max_r(error, R(1e-17)), traced, used);
+    told.p[i * told.s0 + 0] = max_r(told.p[i * told.s0 + 0], real_sqrt(carried_turned_square(E)) + off);
+    told.p[i * told.s0 + 2] = max_r(told.p[i * told.s0 + 2], real_sqrt(carried_way_square(E)) + out);
+    told.p[i * told.s0 + 4] += 1; real speed = lane.p[11] / lane.p[2]; lane.p[7] = max_r(lane.p[7], speed);
+    lane.p[8] = max_r(lane.p[8], real_sqrt(carried_spun_square(E, 45)) + off * speed);
+}
+
+INLINE void following_shown(r1 body, int64_t exponent, int64_t i, int64_t frame, r3 momenta, r3 verticals, r3
+    attitudes, r3 traces, int follows, int traced) {
+    int64_t c;
+    for (c = 0; c < 3; c++) {
+        momenta.p[i * momenta.s0 + frame * momenta.s1 + c] = (real)ldexp(body.p[c], (int)(int64_t)exponent);
+        verticals.p[i * verticals.s0 + frame * verticals.s1 + c] = body.p[3 + c];
+    }
+    if (follows) {
+        for (c = 0; c < 4; c++) attitudes.p[i * attitudes.s0 + frame * attitudes.s1 + c] = body.p[6 + c];
+    }
+    if (traced) {
+        traces.p[i * traces.s0 + frame * traces.s1 + 0] = body.p[10];
+        traces.p[i * traces.s0 + frame * traces.s1 + 1] = body.p[11];
+    }
+}
+
+INLINE real between_at_part(r2 curve, int64_t i, real s) {
+    real r = s - 1, square = s * s, low = ((curve.p[5 * curve.s0 + i] * s + curve.p[4 * curve.s0 + i]) * s + curve.p[3
+        * curve.s0 + i]) * s + curve.p[2 * curve.s0 + i], high = ((curve.p[11 * curve.s0 + i] * r + curve.p[10 *
+        curve.s0 + i]) * r + curve.p[9 * curve.s0 + i]) * r + curve.p[8 * curve.s0 + i];
+    low = (low * s + curve.p[1 * curve.s0 + i]) * s + curve.p[0 * curve.s0 + i];
+    high = (high * r + curve.p[7 * curve.s0 + i]) * r + curve.p[6 * curve.s0 + i];
+    return low + square * square * square * high;
+}
+
+INLINE void between_ball_at(r2 curve, real s, r1 body, int traced, r1 found) {
+    real q0 = between_at_part(curve, 0, s), q1 = between_at_part(curve, 1, s), q2 = between_at_part(curve, 2, s);
+    real q3 = between_at_part(curve, 3, s), scale = 1 / real_sqrt(q0 * q0 + q1 * q1 + (q2 * q2 + q3 * q3));
+    q0 = scale * q0; q1 = scale * q1; q2 = scale * q2; q3 = scale * q3; real a0 = body.p[6], a1 = body.p[7];
+    real a2 = body.p[8], a3 = body.p[9]; t_r4 p0 = kernel_compose(q0, -q1, -q2, -q3, a0, a1, a2, a3);
+    t_r3 t_1 = kernel_rotate(p0.a0, p0.a1, p0.a2, p0.a3, body.p[0], body.p[1], body.p[2]); found.p[0] = t_1.a0;
+    found.p[1] = t_1.a1; found.p[2] = t_1.a2;
+    t_r3 t_2 = kernel_rotate(p0.a0, p0.a1, p0.a2, p0.a3, body.p[3], body.p[4], body.p[5]); found.p[3] = t_2.a0;
+    found.p[4] = t_2.a1; found.p[5] = t_2.a2; found.p[6] = q0; found.p[7] = q1; found.p[8] = q2; found.p[9] = q3;
+    if (traced) {
+        found.p[10] = between_at_part(curve, 4, s); found.p[11] = between_at_part(curve, 5, s);
+    }
+}
+
+INLINE void expected_surveyed(r2 momenta, r2 verticals, r2 J0, r1 D0, r1 unit, real end, real accuracy, r2 found) {
+    for (int64_t i = 0; i < momenta.n0; i++) {
+        t_ri size = real_frexp(max_r(max_r(real_abs(momenta.p[i * momenta.s0 + 0]), real_abs(momenta.p[i * momenta.s0
+            + 1])), real_abs(momenta.p[i * momenta.s0 + 2]))), weight = real_frexp(max_r(max_r(max_r(J0.p[i * J0.s0 +
+            0], J0.p[i * J0.s0 + 1]), J0.p[i * J0.s0 + 2]), D0.p[i]));
+        real k1 = (real)ldexp(momenta.p[i * momenta.s0 + 0], (int)-size.a1);
+        real k2 = (real)ldexp(momenta.p[i * momenta.s0 + 1], (int)-size.a1);
+        real k3 = (real)ldexp(momenta.p[i * momenta.s0 + 2], (int)-size.a1);
+        real j1 = (real)ldexp(J0.p[i * J0.s0 + 0], (int)-weight.a1);
+        real j2 = (real)ldexp(J0.p[i * J0.s0 + 1], (int)-weight.a1);
+        real j3 = (real)ldexp(J0.p[i * J0.s0 + 2], (int)-weight.a1), D = (real)ldexp(D0.p[i], (int)-weight.a1);
+        t_r3 w1 = kernel_angular_velocity(k1, k2, k3, verticals.p[i * verticals.s0 + 0], verticals.p[i * verticals.s0
+            + 1], verticals.p[i * verticals.s0 + 2], j1, j2, j3, D);
+        real rate = (real)ldexp(real_sqrt(w1.a0 * w1.a0 + w1.a1 * w1.a1 + w1.a2 * w1.a2), (int)(size.a1 - weight.a1));
+        real least = min_r(min_r(j2 + j3, j1 + j3), j1 + j2), condition = least > 0 ? (max_r(max_r(j2 + j3, j1 + j3),
+            j1 + j2) + D) / least : R(0x1.0000000000000p+1000);
+        int64_t zeros = (k1 == 0 ? 1 : 0) + (k2 == 0 ? 1 : 0) + (k3 == 0 ? 1 : 0); real turned = rate * end;
+        real root = real_sqrt(condition), walked = real_sqrt(1 + 40 * turned); found.p[i * found.s0 + 0] = rate;
+        found.p[i * found.s0 + 1] = condition;
+        found.p[i * found.s0 + 2] = (zeros > 1 || (j1 == j2 && j2 == j3)) ? 1 : 0;
+        found.p[i * found.s0 + 3] = R(0x1.0000000000000p-53) * ((1 + turned) * (2 * root + walked) + 8 * condition) *
+            unit.p[i];
+        found.p[i * found.s0 + 4] = R(0x1.0000000000000p-53) * ((1 + turned) * (2 * root + 1) + 8 * condition) *
+            unit.p[i];
+        real allowed = end > 0 ? 1 * accuracy / unit.p[i] / (R(1.5) * (1 + turned)) / end : 1;
+        real part = rate > 0 ? real_sqrt(real_sqrt(real_sqrt(real_sqrt(min_r(allowed / (R(3e-08) * rate), 1))))) : 1;
+        part = R(1.3) * part * real_sqrt(part);
+        found.p[i * found.s0 + 5] = rate * end > part ? min_r(part / rate, end) : end;
+        found.p[i * found.s0 + 6] = allowed;
+    }
+}
+
+INLINE void expected_estimated(r2 found, r2 told, r1 unit, int turned, int spun, int rolled, r1 error, r1 noise, r1
+    started) {
+    for (int64_t i = 0; i < error.n0; i++) {
+        real most = turned ? told.p[i * told.s0 + 0] : 0; most = spun ? max_r(most, told.p[i * told.s0 + 1]) : most;
+        most = unit.p[i] * (rolled ? max_r(most, told.p[i * told.s0 + 2]) : most);
+        real walked = R(0x1.b19999999999ap-48) * real_sqrt(found.p[i * found.s0 + 1] * told.p[i * told.s0 + 4]);
+        started.p[i] = most / told.p[i * told.s0 + 3] * (R(0x1.0000000000000p-52) * real_sqrt(found.p[i * found.s0 +
+            1]));
+        noise.p[i] = most / told.p[i * told.s0 + 3] * walked + 3 * found.p[i * found.s0 + 4];
+        error.p[i] = most + noise.p[i];
+        if (found.p[i * found.s0 + 1] > 10000) noise.p[i] = R(0x1.0000000000000p+1000);
+    }
+}
+
 #endif
 
 #ifdef SINGLE
@@ -2954,6 +3387,167 @@ INLINE void tangent_follow_all(r2 momenta, r2 gammas, r1 tensor, real contact, i
             tensor, contact, steps, (r1){rows.p + i * rows.s0, rows.n1});
 }
 
+INLINE t_ir4 following_judged(r2 S, int64_t B, int64_t b, int lost, real allowed, real start, r2 sums, r1 state, r1
+    lane) {
+    real step = lane.p[1], tries = lane.p[6], size = lane.p[2] * real_sqrt(S.p[37 * S.s0 + b] * S.p[37 * S.s0 + b] +
+        (S.p[38 * S.s0 + b] * S.p[38 * S.s0 + b] + S.p[39 * S.s0 + b] * S.p[39 * S.s0 + b]));
+    lane.p[11] = size; int64_t stopped = 0; real reached = 1, again = 0;
+    if (lost && S.p[58 * S.s0 + b] != 0) {
+        int heavy = S.p[62 * S.s0 + b] < 0;
+        if (heavy || tries >= 40) {
+            t_ir t_1 = long_run_safely(S, b, sums, state); stopped = t_1.a0; reached = t_1.a1;
+        }
+        if (tries < 40 && (stopped != 0 || !heavy)) {
+            stopped = 0; again = R(0.6) * step; lane.p[10] = R(0.9) * step;
+        }
+    }
+    real rounded = R(2e-15) + 10 * start, error = following_feared(max_r(S.p[113 * S.s0 + b] - rounded, 0), start);
+    real bound = max_r(allowed * step, R(1e-17));
+    real wanted = min_r(max_r(step * following_lengthened(error / (R(0.5) * bound)), R(0.3) * step), 2 * step);
+    if (size > 0) wanted = max_r(min_r(wanted, R(1.3) / size), min_r(R(0.02) / size, step));
+    wanted = min_r(wanted, lane.p[10]); real most = lane.p[0] > 0 ? 10 : 2;
+    if (again == 0 && stopped == 0 && error > most * bound && tries < 40) again = min_r(wanted, R(0.6) * step);
+    return (t_ir4){stopped, reached, error, again, wanted};
+}
+
+INLINE void following_follow_lanes(int64_t B, r3 momenta, r3 verticals, r3 attitudes, r3 traces, r2 J0, r1 D0, r1
+    radius, real interval, r1 first, r1 allowed, r1 start, r1 bearable, int follows, int traced, r2 sums, r3
+    following, r2 beginning, r2 told, i1 reached, i1 status, d1 reach) {
+    ALIGNED real S_[124 * (4 * B)]; memset(S_, 0, sizeof S_); r2 S = {S_, 124, (4 * B), (4 * B)};
+    int64_t columns = sums.n1; ALIGNED real states_[B * 27]; memset(states_, 0, sizeof states_);
+    r2 states = {states_, B, 27, 27}; ALIGNED int64_t exponents_[B]; memset(exponents_, 0, sizeof exponents_);
+    i1 exponents = {exponents_, B}; ALIGNED real bodies_[B * 13]; memset(bodies_, 0, sizeof bodies_);
+    r2 bodies = {bodies_, B, 13, 13}; ALIGNED real now_[13]; memset(now_, 0, sizeof now_); r1 now = {now_, 13};
+    ALIGNED real found_[13]; memset(found_, 0, sizeof found_); r1 found = {found_, 13}; ALIGNED real lanes_[B * 12];
+    memset(lanes_, 0, sizeof lanes_); r2 lanes = {lanes_, B, 12, 12}; ALIGNED real errors_[B * 106];
+    memset(errors_, 0, sizeof errors_); r2 errors = {errors_, B, 106, 106}; ALIGNED real used_[27];
+    memset(used_, 0, sizeof used_); r1 used = {used_, 27}; ALIGNED real ends_[(2 * B) * 6 * 6];
+    memset(ends_, 0, sizeof ends_); r3 ends = {ends_, (2 * B), 6, 6, 6 * 6, 6}; ALIGNED real V_[16 * 6];
+    memset(V_, 0, sizeof V_); r2 V = {V_, 16, 6, 6}; ALIGNED real curve_[12 * 6]; memset(curve_, 0, sizeof curve_);
+    r2 curve = {curve_, 12, 6, 6}; int64_t balls = momenta.n0, frames = momenta.n1;
+    real end = (frames - 1) * interval; int64_t coming = min_i(B, balls), busy = min_i(B, balls), b, i;
+    for (b = 0; b < B; b++) {
+        i = min_i(b, balls - 1);
+        exponents.p[b] = following_taken_in(S, B, b, columns, i, first, start, momenta, verticals, attitudes, traces,
+            J0, D0, radius, end, follows, sums, beginning, (r1){bodies.p + b * bodies.s0, bodies.n1}, (r1){states.p +
+            b * states.s0, states.n1}, (r1){lanes.p + b * lanes.s0, lanes.n1}, (r1){errors.p + b * errors.s0,
+            errors.n1}, told, traced);
+        S.p[120 * S.s0 + b] = b < balls ? 0 : 1;
+    }
+    real off, out; int inside, done; int64_t c, frame; real wanted, again, more, part; int64_t stopped; real error;
+    while (busy > 0) {
+        int lost = lanes_side_by_side(S, B, columns, traced, following, beginning);
+        for (b = 0; b < B; b++) {
+            if (S.p[120 * S.s0 + b] == 0) {
+                i = (int64_t)lanes.p[b * lanes.s0 + 4];
+                t_ir4 t_1 = following_judged(S, B, b, lost, allowed.p[i], start.p[i], sums, (r1){states.p + b *
+                    states.s0, states.n1}, (r1){lanes.p + b * lanes.s0, lanes.n1});
+                stopped = t_1.a0; part = t_1.a1; error = t_1.a2; again = t_1.a3; wanted = t_1.a4; off = 0; out = 0;
+                inside = 0; done = stopped != 0;
+                if (again == 0 && stopped == 0) {
+                    for (c = 0; c < 13; c++) now.p[c] = S.p[(101 + c) * S.s0 + b];
+                    now.p[12] = 0; S.p[113 * S.s0 + b] = 0; frame = (int64_t)lanes.p[b * lanes.s0 + 5];
+                    inside = following_part_of((r1){lanes.p + b * lanes.s0, lanes.n1}, frame, frames, interval) <
+                        R(0x1.fffffff768fa1p-1);
+                    if (inside) {
+                        t_r2 t_2 = following_through(S, b, (r1){bodies.p + b * bodies.s0, bodies.n1}, now, traced,
+                            (r1){lanes.p + b * lanes.s0, lanes.n1}, V, (r2){ends.p + 2 * b * ends.s0, ends.n1,
+                            ends.n2, ends.s1}, (r2){ends.p + (2 * b + 1) * ends.s0, ends.n1, ends.n2, ends.s1},
+                            curve);
+                        off = t_2.a0; out = t_2.a1;
+                        more = following_lengthened(max_r(off, out) / (R(0.5) * bearable.p[i]));
+                        wanted = min_r(wanted, max_r(more, R(0.3)) * lanes.p[b * lanes.s0 + 1]);
+                        if (max_r(off, out) > bearable.p[i] && lanes.p[b * lanes.s0 + 6] < 40) {
+                            again = min_r(wanted, R(0.6) * lanes.p[b * lanes.s0 + 1]); inside = 0;
+                        }
+                    }
+                    lanes.p[b * lanes.s0 + 9] = inside ? lanes.p[b * lanes.s0 + 1] * lanes.p[b * lanes.s0 + 2] : 0;
+                }
+                if (again > 0) {
+                    for (c = 0; c < 13; c++) S.p[(101 + c) * S.s0 + b] = bodies.p[b * bodies.s0 + c];
+                    lanes.p[b * lanes.s0 + 6] += 1;
+                    following_planned((r1){lanes.p + b * lanes.s0, lanes.n1}, end, again);
+                    long_run_resized(S, B, b, columns, R(0.5) * lanes.p[b * lanes.s0 + 1] * lanes.p[b * lanes.s0 + 2],
+                        (r1){bodies.p + b * bodies.s0, bodies.n1}, (r1){states.p + b * states.s0, states.n1});
+                }
+                else {
+                    if (stopped != 0) {
+                        frame = (int64_t)lanes.p[b * lanes.s0 + 5]; status.p[i] = stopped; reach.p[i] = part;
+                        reached.p[i] = frame - 1;
+                        following_stopped_at(i, frame, momenta, verticals, attitudes, traces, follows, traced);
+                    }
+                    else {
+                        frame = (int64_t)lanes.p[b * lanes.s0 + 5];
+                        part = following_part_of((r1){lanes.p + b * lanes.s0, lanes.n1}, frame, frames, interval);
+                        while (frame < frames && part <= R(0x1.000000044b830p+0)) {
+                            if (real_abs(part - 1) <= R(1e-09))
+                                following_shown(now, exponents.p[b], i, frame, momenta, verticals, attitudes, traces,
+                                    follows, traced);
+                            else {
+                                between_ball_at(curve, part, (r1){bodies.p + b * bodies.s0, bodies.n1}, traced,
+                                    found);
+                                following_shown(found, exponents.p[b], i, frame, momenta, verticals, attitudes,
+                                    traces, follows, traced);
+                            }
+                            frame += 1;
+                            part = following_part_of((r1){lanes.p + b * lanes.s0, lanes.n1}, frame, frames, interval);
+                        }
+                        following_followed(B, S, b, i, traced, error, off, out, now, used, (r1){lanes.p + b *
+                            lanes.s0, lanes.n1}, (r1){errors.p + b * errors.s0, errors.n1}, told);
+                        int64_t t_3 = frame; real t_4 = 0;
+                        real t_5 = lanes.p[b * lanes.s0 + 0] + lanes.p[b * lanes.s0 + 1];
+                        lanes.p[b * lanes.s0 + 5] = t_3; lanes.p[b * lanes.s0 + 6] = t_4;
+                        lanes.p[b * lanes.s0 + 0] = t_5; real t_6 = lanes.p[b * lanes.s0 + 3] - 1;
+                        real t_7 = R(1.05) * lanes.p[b * lanes.s0 + 10]; lanes.p[b * lanes.s0 + 3] = t_6;
+                        lanes.p[b * lanes.s0 + 10] = t_7;
+                        for (c = 0; c < 13; c++) bodies.p[b * bodies.s0 + c] = now.p[c];
+                        done = lanes.p[b * lanes.s0 + 3] < R(0.5);
+                        if (done) {
+                            reached.p[i] = frames - 1; status.p[i] = 0; reach.p[i] = 1;
+                        }
+                        else {
+                            if (!(wanted * R(1.15) >= lanes.p[b * lanes.s0 + 1] && wanted <= R(1.15) * lanes.p[b *
+                                lanes.s0 + 1]) && following_planned((r1){lanes.p + b * lanes.s0, lanes.n1}, end,
+                                wanted))
+                                long_run_resized(S, B, b, columns, R(0.5) * lanes.p[b * lanes.s0 + 1] * lanes.p[b *
+                                    lanes.s0 + 2], now, (r1){states.p + b * states.s0, states.n1});
+                        }
+                    }
+                }
+                if (done) {
+                    told.p[i * told.s0 + 1] = lanes.p[b * lanes.s0 + 7] > 0 ? lanes.p[b * lanes.s0 + 8] / lanes.p[b *
+                        lanes.s0 + 7] : 0;
+                    told.p[i * told.s0 + 3] = errors.p[b * errors.s0 + 105];
+                    if (coming < balls) {
+                        exponents.p[b] = following_taken_in(S, B, b, columns, coming, first, start, momenta,
+                            verticals, attitudes, traces, J0, D0, radius, end, follows, sums, beginning, (r1){bodies.p
+                            + b * bodies.s0, bodies.n1}, (r1){states.p + b * states.s0, states.n1}, (r1){lanes.p + b *
+                            lanes.s0, lanes.n1}, (r1){errors.p + b * errors.s0, errors.n1}, told, traced);
+                        coming += 1;
+                    }
+                    else {
+                        S.p[120 * S.s0 + b] = 1; busy -= 1;
+                    }
+                }
+            }
+        }
+    }
+}
+
+INLINE void following_follow_one(r3 momenta, r3 verticals, r3 attitudes, r3 traces, r2 J0, r1 D0, r1 radius, real
+    interval, r1 first, r1 allowed, r1 start, r1 bearable, int follows, int traced, r2 sums, r3 following, r2
+    beginning, r2 told, i1 reached, i1 status, d1 reach) {
+    following_follow_lanes(1, momenta, verticals, attitudes, traces, J0, D0, radius, interval, first, allowed, start,
+        bearable, follows, traced, sums, following, beginning, told, reached, status, reach);
+}
+
+INLINE void following_follow_eight(r3 momenta, r3 verticals, r3 attitudes, r3 traces, r2 J0, r1 D0, r1 radius, real
+    interval, r1 first, r1 allowed, r1 start, r1 bearable, int follows, int traced, r2 sums, r3 following, r2
+    beginning, r2 told, i1 reached, i1 status, d1 reach) {
+    following_follow_lanes(8, momenta, verticals, attitudes, traces, J0, D0, radius, interval, first, allowed, start,
+        bearable, follows, traced, sums, following, beginning, told, reached, status, reach);
+}
+
 #endif
 
 static void in_loop_prepare(const argument *a, argument *got) {
@@ -3072,6 +3666,42 @@ static void in_tangent_follow_all(const argument *a, argument *got) {
 
 #endif
 #ifndef SINGLE
+static void in_following_follow_one(const argument *a, argument *got) {
+    following_follow_one(ARRAY3(r3, a[0]), ARRAY3(r3, a[1]), ARRAY3(r3, a[2]), ARRAY3(r3, a[3]), ARRAY2(r2, a[4]),
+        ARRAY1(r1, a[5]), ARRAY1(r1, a[6]), a[7].number, ARRAY1(r1, a[8]), ARRAY1(r1, a[9]), ARRAY1(r1, a[10]),
+        ARRAY1(r1, a[11]), a[12].integer, a[13].integer, ARRAY2(r2, a[14]), ARRAY3(r3, a[15]), ARRAY2(r2, a[16]),
+        ARRAY2(r2, a[17]), ARRAY1(i1, a[18]), ARRAY1(i1, a[19]), ARRAY1(d1, a[20]));
+    (void)got;
+}
+
+#endif
+#ifndef SINGLE
+static void in_following_follow_eight(const argument *a, argument *got) {
+    following_follow_eight(ARRAY3(r3, a[0]), ARRAY3(r3, a[1]), ARRAY3(r3, a[2]), ARRAY3(r3, a[3]), ARRAY2(r2, a[4]),
+        ARRAY1(r1, a[5]), ARRAY1(r1, a[6]), a[7].number, ARRAY1(r1, a[8]), ARRAY1(r1, a[9]), ARRAY1(r1, a[10]),
+        ARRAY1(r1, a[11]), a[12].integer, a[13].integer, ARRAY2(r2, a[14]), ARRAY3(r3, a[15]), ARRAY2(r2, a[16]),
+        ARRAY2(r2, a[17]), ARRAY1(i1, a[18]), ARRAY1(i1, a[19]), ARRAY1(d1, a[20]));
+    (void)got;
+}
+
+#endif
+#ifndef SINGLE
+static void in_expected_surveyed(const argument *a, argument *got) {
+    expected_surveyed(ARRAY2(r2, a[0]), ARRAY2(r2, a[1]), ARRAY2(r2, a[2]), ARRAY1(r1, a[3]), ARRAY1(r1, a[4]),
+        a[5].number, a[6].number, ARRAY2(r2, a[7]));
+    (void)got;
+}
+
+#endif
+#ifndef SINGLE
+static void in_expected_estimated(const argument *a, argument *got) {
+    expected_estimated(ARRAY2(r2, a[0]), ARRAY2(r2, a[1]), ARRAY1(r1, a[2]), a[3].integer, a[4].integer, a[5].integer,
+        ARRAY1(r1, a[6]), ARRAY1(r1, a[7]), ARRAY1(r1, a[8]));
+    (void)got;
+}
+
+#endif
+#ifndef SINGLE
 const loop_export loops_double[] = {
     {"loop_prepare", "r1 r1 r1 r r1 r1* r1* r1*", "r", in_loop_prepare},
     {"loop_march", "r1* r1 r3 r1 r1 r2* i i i i r r2* r2* b r1* r1* r r2* r2*", "iir", in_loop_march},
@@ -3086,8 +3716,12 @@ const loop_export loops_double[] = {
     {"double_double_block_prepare_pairs_block", "r2 r2 r2 r1 r2 r2* i1* i1*", "", in_double_double_block_prepare_pairs_block},
     {"double_double_block_march_pairs_block", "r2* i i i i1 r3* r3* r3* r3* i1* i1* d1*", "", in_double_double_block_march_pairs_block},
     {"tangent_follow_all", "r2 r2 r1 r i r2*", "", in_tangent_follow_all},
+    {"following_follow_one", "r3* r3* r3* r3* r2 r1 r1 r r1 r1 r1 r1 b b r2 r3 r2 r2* i1* i1* d1*", "", in_following_follow_one},
+    {"following_follow_eight", "r3* r3* r3* r3* r2 r1 r1 r r1 r1 r1 r1 b b r2 r3 r2 r2* i1* i1* d1*", "", in_following_follow_eight},
+    {"expected_surveyed", "r2 r2 r2 r1 r1 r r r2*", "", in_expected_surveyed},
+    {"expected_estimated", "r2 r2 r1 b b b r1* r1* r1*", "", in_expected_estimated},
 };
-const int loops_double_count = 13;
+const int loops_double_count = 17;
 #else
 const loop_export loops_single[] = {
     {"loop_prepare", "r1 r1 r1 r r1 r1* r1* r1*", "r", in_loop_prepare},
@@ -3099,5 +3733,5 @@ const int loops_single_count = 4;
 #endif
 
 #ifndef SINGLE
-const char loops_text[] = "eb335027ef7f99ddd5855150db6fe5cf4466d5dba97df4c736a238ddc8039f9d";
+const char loops_text[] = "82b7aae3587608f72557fd8d9012a8732f81096903a534071a931448140c32de";
 #endif

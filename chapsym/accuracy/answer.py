@@ -1,46 +1,66 @@
-"""To an accuracy: choose, run, compare the run with one of longer steps, and escalate until the difference is small.
-
-A run is delivered only if its difference from one with longer steps, by theory with 4 to 64 times its error, and what
-rounding is expected to leave are together within the accuracy, at every time at which the two are compared.  So the
-error is within the accuracy if the shorter steps at least halve it.
-"""
+"""One ball to an accuracy: long steps in double precision, beyond them double-double, each with its own estimate."""
 
 from __future__ import annotations
 
+import math
 import time as clock
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from chapsym.dynamics import BadInput, Ball, StepNotTaken, Trajectory
+from chapsym.dynamics import BadInput, Ball, Status, StepNotTaken, Trajectory
+from chapsym.dynamics.ball import checked_before
 from chapsym.dynamics.results import some_frames
-from chapsym.numbers import Digits, Double, Single
+from chapsym.numbers import NAMED, Digits, Double, Single
+from chapsym.renamed import in_words
 
-from .choice import Choice
-from .methods import COMPOSED, EXACT, checks
-from .pilot import pilot, surveyed
-from .prices import Prices, load_prices
-from .request import Request, exact_values
-from .search import Attempt, Search
+from .composed import ATTEMPTS, LAW, LEAST_FINER, MARGIN, MOST_FINER, RATIO, SAFETY
+from .methods import EXACT, EXTRAPOLATED, Method, checks, in_range, take
+from .motion import FINEST, ROUNDING, moved, nominal
+from .problem import Motion, Problem
+from .request import Request, distance, exact_values
 
-#: A run that fails for a reason that is not foreseen is tried so many times.
-MOST_ATTEMPTS = 12
+#: Nominal seconds of a stage in double-double.
+STAGE = 3e-7
+#: Runs of more steps are refused.
+MOST_STEPS = 2**53
+
+
+@dataclass(frozen=True)
+class Choice:
+    """A method, how many steps it takes, their mean length in seconds, and nominal seconds with its verification."""
+
+    method: Method
+    steps: int
+    time_step: float
+    seconds: float
+
+    def sentence(self) -> str:
+        """The choice for a reader."""
+        named = {EXACT: "steady rotation", EXTRAPOLATED: "extrapolated to order 12"}
+        order = named.get(self.method.order, f"order {self.method.order}")
+        return f"{in_words(self.method.label)}, {order}, {self.steps} steps of {self.time_step:.6g} s"
+
+
+@dataclass(frozen=True)
+class Attempt:
+    """A choice, the estimate of its error (infinite if a step could not be taken), and the seconds of the processor."""
+
+    choice: Choice
+    estimate: float
+    seconds: float
 
 
 @dataclass(frozen=True, eq=False)
 class Accurate:
     """A run that meets its request.
 
-    trajectory: at the times asked for, with order 12 for `extrapolate` and 0 for `exact_top`.
-    choice: precision, order and step.  estimate: of the error, at the worst of the times, in the norm of the request,
-    by comparison with longer steps; in float64 the other run starts 8 roundings beside this one, so that what a start
-    that is sensitive makes of rounding is seen.  Where rounding is all that is left, the estimate is one draw of it:
-    the error may be a few times that.
+    trajectory: at the times asked for; its order is 12 for long steps, 0 for a steady rotation.
     attempts: all that was tried, the last of them the one that is delivered.
-    seconds: of the processor, for everything: the pilot, all attempts, their verification.
+    seconds: of the processor, for everything.
     """
 
     trajectory: Trajectory
@@ -50,8 +70,13 @@ class Accurate:
 
     @property
     def choice(self) -> Choice:
-        """What was delivered."""
+        """What was delivered: precision, order and steps."""
         return self.attempts[-1].choice
+
+    @property
+    def estimate(self) -> float:
+        """Of the error, at the worst of the times, in the norm of the request."""
+        return self.attempts[-1].estimate
 
     def final(self) -> dict[str, list[Any]]:
         """K, γ and the contact point at the end: floats, or decimal strings where a float would not hold them."""
@@ -63,11 +88,6 @@ class Accurate:
             return {told: [float(x) for x in v] for told, v in values.items()}
         written = Digits(precision.digits)
         return {told: [written.write(written.number(x)) for x in v] for told, v in values.items()}
-
-    @property
-    def estimate(self) -> float:
-        """Of the error, by comparison."""
-        return self.attempts[-1].estimate
 
 
 def accurate(
@@ -81,33 +101,36 @@ def accurate(
     frames: int = 1,
     attitude: bool | ArrayLike = False,
     limit: float = 600.0,
-    prices: Prices | None = None,
     progress: Callable[[str], None] = lambda text: None,
 ) -> Accurate:
-    """Follows the continuous ball (2.3) for `time` seconds to an absolute `accuracy`, at the least expected cost.
+    """Follows the continuous ball (2.3) for `time` seconds to an absolute `accuracy`, by what costs least.
 
     angular_momentum: K in kg m²/s, (3,); gamma: the unit vertical, upwards, (3,).
     of: "state", the larger of |ΔK|/|K| and |Δγ|; or "contact", the distance of the contact points in metres (it needs
     `ball.radius`).  frames: how many equal times, the last of them `time`; the accuracy is promised at each.
-    attitude: True or a unit quaternion, (4,), to be followed; it is not part of the norm.
-    limit: seconds that the run may be expected to take.  prices: of this machine; `load_prices` by default.
+    attitude: True or a unit quaternion, (4,), to be followed; its angle counts, too.
+    limit: seconds that the run may be expected to take.
 
-    The result is verified on the run itself (see `Accurate`).  Raises BadInput for a request that cannot be met: one
-    that would take longer than the limit, or that is finer than every precision.
+    In double precision the error is estimated as by `roll`; where that has not the accuracy, compositions in
+    double-double are compared with fewer steps.  Raises BadInput for a request that cannot be met: one that would take
+    longer than the limit, or that is finer than every precision.
     """
     started = clock.thread_time()
     request = Request(ball, angular_momentum, gamma, time, accuracy, of, frames, attitude)  # type: ignore[arg-type]
-    search = _search(request, limit, prices, progress)
-    request = search.request
-    for _ in range(MOST_ATTEMPTS):
-        choice = search.choose(limit - (clock.thread_time() - started), limit)
-        progress(choice.sentence())
-        run = search.attempt(choice)
-        if run is not None:
-            kept = some_frames(run, slice(None, None, checks(request, choice.method) // request.frames))
-            return Accurate(kept, request, search.attempts, clock.thread_time() - started)
-    best = min(one.estimate for one in search.attempts)
-    raise BadInput(f"no run was verified to {accuracy:g} in {MOST_ATTEMPTS} attempts; the best differed by {best:.2g}")
+    problem, choice = _foreseen(request, limit)
+    progress(choice.sentence())
+    attempts: list[Attempt] = []
+    if problem is not None:
+        found = _moved(request, problem)
+        if found is not None:
+            made = _made(request, found, choice.seconds)
+            attempts.append(Attempt(made, float(found.error[0]), clock.thread_time() - started))
+            if found.error[0] <= request.accuracy:
+                run = _as_trajectory(request, found)
+                return Accurate(run, request, attempts, clock.thread_time() - started)
+        progress(_doubled(request, 1.0, limit).sentence())
+    run = _by_double_double(request, limit, attempts)
+    return Accurate(run, request, attempts, clock.thread_time() - started)
 
 
 def foreseen(
@@ -121,25 +144,132 @@ def foreseen(
     frames: int = 1,
     attitude: bool | ArrayLike = False,
     limit: float = 600.0,
-    prices: Prices | None = None,
-    progress: Callable[[str], None] = lambda text: None,
 ) -> Choice:
-    """What `accurate` would try first, by a pilot run alone; arguments and errors as there."""
+    """What `accurate` would try first; arguments and errors as there."""
     request = Request(ball, angular_momentum, gamma, time, accuracy, of, frames, attitude)  # type: ignore[arg-type]
-    return _search(request, limit, prices, progress).choose(limit, limit)
+    return _foreseen(request, limit)[1]
 
 
-def _search(request: Request, limit: Any, prices: Prices | None, progress: Callable[[str], None]) -> Search:
-    """The choices that a survey and a pilot run leave."""
+def _foreseen(request: Request, limit: Any) -> tuple[Problem | None, Choice]:
+    """The problem in double precision, None where that has not the accuracy, and what is tried first."""
     number = isinstance(limit, int | float | np.integer | np.floating) and not isinstance(limit, bool)
     if not number or not limit > 0:
         raise BadInput(f"limit must be a positive number of seconds, not {limit!r}")
-    prices = prices or load_prices(progress)
-    progress("a pilot run")
-    try:
-        request = surveyed(request)
-        search = Search(request, pilot(request, (EXACT, *COMPOSED)), prices)
-        search.consider_extrapolation()
-    except StepNotTaken as error:
-        raise BadInput(f"the ball cannot be followed at all: {error.status.sentence}") from None
-    return search
+    in_range(request.time, request.angular_momentum)
+    problem = _problem(request)
+    if request.accuracy >= FINEST * request.unit and problem.floor <= ROUNDING * request.accuracy:
+        seconds = nominal(problem)
+        steps = max(round(problem.expected), 1)
+        method = Method(NAMED["double"], EXTRAPOLATED)
+        return problem, _within(Choice(method, steps, request.time / steps, seconds), limit)
+    return None, _doubled(request, 1.0, limit)
+
+
+def _problem(request: Request) -> Problem:
+    """What is asked of double precision."""
+    ball, with_attitude = request.ball, request.attitude is not False
+    tensor, D = (np.array(x)[np.newaxis] for x in (ball.mass_tensor, ball.D))
+    radius = None if ball.radius is None else np.array(ball.radius)[np.newaxis]
+    parts = ({"contact"} if request.of == "contact" else {"momentum", "gamma"}) | (
+        {"attitude"} if with_attitude else set()
+    )
+    return Problem(
+        checked_before(tensor, D, radius), request.angular_momentum[np.newaxis], request.gamma[np.newaxis],
+        request.time / request.frames, request.frames, request.accuracy,
+        request.first_attitude[np.newaxis] if request.with_body else None, request.of == "contact",
+        request.of == "contact", frozenset(parts),
+    )  # fmt: skip
+
+
+def _moved(request: Request, problem: Problem) -> Motion | None:
+    """The motion in double precision, or None where that has not the accuracy."""
+    found = moved(problem)
+    return found if found.status[0] == Status.TAKEN else None
+
+
+def _made(request: Request, found: Motion, seconds: float) -> Choice:
+    """What a motion was made by."""
+    steps = max(int(found.total[0]), 1)
+    return Choice(Method(NAMED["double"], int(found.order[0])), steps, request.time / steps, seconds)
+
+
+def _as_trajectory(request: Request, found: Motion) -> Trajectory:
+    """A motion as a trajectory whose time step is the time between its frames."""
+    step = request.time / request.frames
+    return Trajectory(
+        request.ball, np.arange(request.frames + 1), found.angular_momentum[0] * step, found.gamma[0],
+        None if found.attitude is None else found.attitude[0], None if found.contact is None else found.contact[0],
+        np.array(request.frames), found.status[0], step, int(found.order[0]),
+    )  # fmt: skip
+
+
+def _within(choice: Choice, limit: float) -> Choice:
+    """A choice within the seconds that are left; raises BadInput for another."""
+    if choice.seconds > limit:
+        raise BadInput(
+            f"the cheapest run ({choice.sentence()}) would take about {choice.seconds:.2g} s, "
+            f"but the limit is {limit:g} s; ask for less accuracy or time, or raise the limit"
+        )
+    return choice
+
+
+def _doubled(request: Request, factor: float, limit: float, least: float = 0.0, most: float = math.inf) -> Choice:
+    """The composition in double-double of the fewest stages, where errors are `factor` times the law.
+
+    Raises BadInput where rounding alone is larger, or the steps are too many, or take too long.
+    """
+    precision, found = NAMED["double-double"], []
+    for order, c in LAW.items():
+        method = Method(precision, order)
+        law = factor * c * (1 + request.angle) * request.unit
+        wanted = request.angle * (law / (MARGIN * request.accuracy)) ** (1 / order)
+        if not wanted < MOST_STEPS:
+            continue
+        steps = multiple(request, method, min(max(wanted, least), most))
+        seconds = steps * (1 + 1 / RATIO) * method.stages * STAGE
+        if request.floor(precision, steps * method.stages, False) <= ROUNDING * request.accuracy:
+            found.append(Choice(method, steps, request.time / steps, seconds))
+    if not found:
+        raise BadInput(
+            f"an accuracy of {request.accuracy:g} after {request.time:g} s cannot be had: it takes too many steps, "
+            "or rounding alone is larger at every precision"
+        )
+    return _within(min(found, key=lambda choice: choice.seconds), limit)
+
+
+def multiple(request: Request, method: Method, steps: float) -> int:
+    """The least number of steps from `steps` on that the checks divide."""
+    every = checks(request, method)
+    return every * max(1, math.ceil(steps / every))
+
+
+def _by_double_double(request: Request, limit: float, attempts: list[Attempt]) -> Trajectory:
+    """A composition in double-double, verified by one of fewer steps, and with more until it is."""
+    factor, least, most = 1.0, 0.0, math.inf
+    for _ in range(ATTEMPTS):
+        started = clock.thread_time()
+        choice = _doubled(request, factor, limit, least, most)
+        method, every = choice.method, checks(request, choice.method)
+        fewer = multiple(request, method, choice.steps / RATIO)
+        if fewer == choice.steps:
+            choice = replace(choice, steps=2 * fewer, time_step=request.time / (2 * fewer))
+        apart = math.inf
+        try:
+            run = take(request, method, choice.steps, every)
+            coarse = take(request, method, fewer, every)
+            left = (choice.steps / fewer) ** method.order - 1
+            apart = float(distance(request, run, coarse).max()) * min(SAFETY / left, 1.0)
+        except StepNotTaken as error:
+            if error.status == Status.NO_INERTIA:
+                raise BadInput(f"the ball cannot be followed: {error}") from None
+        floor = request.floor(method.precision, choice.steps * method.stages, False)
+        attempts.append(Attempt(choice, apart + floor, clock.thread_time() - started))
+        if apart + floor <= request.accuracy:
+            return some_frames(run, slice(None, None, every // request.frames))
+        least, most = LEAST_FINER * choice.steps, MOST_FINER * choice.steps
+        if math.isfinite(apart):
+            factor *= max(1.0, apart / (MARGIN * request.accuracy))
+    best = min(one.estimate for one in attempts)
+    raise BadInput(
+        f"no run was verified to {request.accuracy:g} in {ATTEMPTS} attempts; the best differed by {best:.2g}"
+    )

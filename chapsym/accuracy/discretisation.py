@@ -13,10 +13,8 @@ import numpy as np
 
 from chapsym.dynamics import Ball, Status, Trajectory, kernels, substeps, trajectory
 from chapsym.dynamics.ball import Floats, in_principal_axes
-from chapsym.dynamics.levels import double, double_double
 
-#: Stages of the map that the finer run of a pilot takes, all balls together, where its loops are compiled for the run
-#: itself; elsewhere it takes fewer than would have them compiled.
+#: Stages of the map that the finer run of a pilot takes, all balls together.
 MOST = 2**16
 #: Of more balls so many are followed: enough for the lanes in which the run itself may be.
 BALLS = 8
@@ -71,12 +69,8 @@ def discretisation(
     order, precision, attitude, contact: of the run.
     None where there are no steps, or no ball gets to the end of the pilot.
     """
-    work = steps * len(gamma) * len(substeps(order))
     some = np.unique(np.linspace(0, len(gamma) - 1, BALLS).astype(int))
-    short = double_double.SHORT_RUN if precision == "double-double" else double.SHORT_RUN
-    # The finer run of one in float32 is in float64, whose loops that run does not have compiled.
-    most = MOST if work >= short and precision != "single" else short - 1
-    pilot = min(steps, max(most // (2 * len(some) * len(substeps(order))), 1))
+    pilot = min(steps, max(MOST // (2 * len(some) * len(substeps(order))), 1))
     if not steps:
         return None
     in_principal_axes(ball)

@@ -32,7 +32,7 @@ CHECKS, FEW = 16, 4
 
 @dataclass(frozen=True)
 class Method:
-    """A precision and an order: 2, 4, 6, 8; 12 for `extrapolate`; 0 for `exact_top`."""
+    """A precision and an order: 2, 4, 6, 8; 12 for `extrapolate`; 0 for `exact_top`, or a steady rotation."""
 
     precision: Precision
     order: int
@@ -99,7 +99,7 @@ def take(request: Request, method: Method, steps: int, frames: int, time: float 
     """
     end = request.time if time is None else time
     step, every = end / steps, steps // frames
-    _in_range(step, request.angular_momentum)
+    in_range(step, request.angular_momentum)
     body = request.body
     ball, K, g = request.ball, request.angular_momentum, request.gamma
     if method.order == EXTRAPOLATED:
@@ -119,7 +119,7 @@ def take(request: Request, method: Method, steps: int, frames: int, time: float 
     )  # fmt: skip
 
 
-def _in_range(step: float, K: Floats) -> None:
+def in_range(step: float, K: Floats) -> None:
     """Raises BadInput where the step or εK is so small that float64 loses digits of it that no comparison shows."""
     largest = float(abs(K).max())
     if step < SMALLEST or 0.0 < step * largest < SMALLEST:

@@ -1,29 +1,28 @@
 """What is asked of a motion: balls, times and an accuracy; what answers it, and how far two runs are apart."""
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
-from chapsym.dynamics import Ball, extrapolate, kernels, substeps, trajectory
-from chapsym.dynamics.ball import Asked, Floats
-from chapsym.dynamics.extrapolation import stages_of
+from chapsym.dynamics import BadInput, Ball, kernels, native, substeps, trajectory
+from chapsym.dynamics.ball import Asked, Floats, checked_before
+from chapsym.dynamics.loops.expected import CONDITION, FIRST, FLOOR, FOUND, RATE, surveyed
 from chapsym.dynamics.loops.lanes import MOST_COLUMNS
 
 from .request import lengths
 
 #: What an accuracy may be of.
 PARTS = frozenset({"momentum", "gamma", "omega", "attitude", "contact"})
-#: The order of `extrapolate` with all columns; lower ones are of the map and its compositions.
+#: The order of long steps with all columns; lower ones are of the map and its compositions.
 EXTRAPOLATED = 2 * MOST_COLUMNS
 _UP = np.array([0.0, 0.0, 1.0])
 
 
 @dataclass(frozen=True)
 class Stepping:
-    """An order, of a composition or `EXTRAPOLATED`, and its steps between two frames."""
+    """The order of a composition, and its steps between two frames."""
 
     order: int
     steps: int
@@ -31,7 +30,7 @@ class Stepping:
     @property
     def stages(self) -> int:
         """Steps of the map between two frames."""
-        return (stages_of(MOST_COLUMNS) if self.order == EXTRAPOLATED else len(substeps(self.order))) * self.steps
+        return len(substeps(self.order)) * self.steps
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,7 +61,8 @@ class Motion:
     None.  contact: in m, from (0, 0), (n, frames + 1, 2), or None.
     reached: the last frame of each ball, (n,); later ones are NaN.  status: why it stopped, a `Status`, (n,).
     error: an estimate of each ball's largest error at any frame, (n,), in the norm of `apart`.
-    order, steps: of each ball, (n,), the latter between two frames; 0 of a steady rotation, which needs none.
+    order, steps, total: of each ball, (n,), the steps between two frames, at most, and all; 0 of a steady rotation,
+    which needs none.
     """
 
     angular_momentum: Floats
@@ -74,6 +74,7 @@ class Motion:
     error: Floats
     order: np.ndarray
     steps: np.ndarray
+    total: np.ndarray
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,7 +103,7 @@ class Problem:
     def of(self, some: np.ndarray) -> "Problem":
         """Some of the balls."""
         ball = self.ball
-        few = Ball(ball.mass_tensor[some], ball.D[some], None if ball.radius is None else ball.radius[some])
+        few = checked_before(ball.mass_tensor[some], ball.D[some], None if ball.radius is None else ball.radius[some])
         attitude = None if self.attitude is None else self.attitude[some]
         return replace(self, ball=few, K=self.K[some], gamma=self.gamma[some], attitude=attitude)
 
@@ -121,22 +122,90 @@ class Problem:
         return replace(self, K=self.K + distance * lengths(self.K)[:, np.newaxis] * np.array([0.6, 0.64, 0.48]))
 
     @cached_property
+    def units(self) -> Floats:
+        """`unit` of each ball, (n,)."""
+        return np.ones(len(self)) if not self.metres or self.ball.radius is None else self.ball.radius
+
+    @cached_property
+    def survey(self) -> Floats:
+        """What `loops.expected` finds of each ball at the start, (n, FOUND)."""
+        found = np.empty((len(self), FOUND))
+        survey, ball = native.loop(surveyed), self.ball
+        survey(
+            self.K,
+            self.gamma,
+            np.ascontiguousarray(ball.mass_tensor),
+            ball.D,
+            self.units,
+            self.end,
+            self.accuracy,
+            found,
+        )
+        return found
+
+    @property
     def rate(self) -> Floats:
         """|ω| at the start in rad/s, (n,)."""
-        return lengths(omega_of(self, self.K, self.gamma))
+        return self.survey[:, RATE]
 
-    def take(self, method: Stepping, stride: int = 1, progress: Callable[[int], None] = lambda done: None) -> Run:
+    @property
+    def condition(self) -> Floats:
+        """Of Λ - Dγγᵀ, at most, (n,)."""
+        return self.survey[:, CONDITION]
+
+    @property
+    def floor(self) -> float:
+        """What rounding alone may leave of any ball."""
+        return float(self.survey[:, FLOOR].max(initial=0.0))
+
+    @property
+    def expected(self) -> float:
+        """About how many long steps all balls take."""
+        return float((self.end / self.survey[:, FIRST]).sum()) if self.frames else 0.0
+
+    def take(self, method: Stepping, stride: int = 1) -> Run:
         """The balls at every `stride`-th frame, in `method.steps` steps from one to the next."""
         steps, step = method.steps * (self.frames // stride), stride * self.interval / method.steps
         common: dict[str, Any] = {
             "every": method.steps, "attitude": False if self.attitude is None else self.attitude,
-            "contact": self.contact, "threads": self.threads, "progress": progress,
+            "contact": self.contact, "threads": self.threads,
         }  # fmt: skip
-        if method.order == EXTRAPOLATED:
-            far = extrapolate(self.ball, self.K, self.gamma, step, steps, **common)
-            return Run(far.angular_momentum, far.gamma, far.attitude, far.contact, far.taken, far.status)
         run = trajectory(self.ball, step * self.K, self.gamma, steps, order=method.order, time_step=step, **common)
         return Run(run.angular_momentum(), run.gamma, run.attitude, run.contact, run.taken, run.status)
+
+
+def nothing(problem: Problem) -> Motion:
+    """Room for the motion, with the start as the first frame."""
+    n, kept = len(problem), problem.frames + 1
+    try:
+        found = Motion(
+            np.empty((n, kept, 3)), np.empty((n, kept, 3)),
+            None if problem.attitude is None else np.empty((n, kept, 4)),
+            np.empty((n, kept, 2)) if problem.contact else None, np.zeros(n, dtype=np.int64),
+            np.zeros(n, dtype=np.int64), np.zeros(n), np.zeros(n, dtype=np.int64), np.zeros(n, dtype=np.int64),
+            np.zeros(n, dtype=np.int64),
+        )  # fmt: skip
+    except (MemoryError, ValueError):
+        raise BadInput(f"{kept} states of {n} balls do not fit into memory: keep fewer, by a larger `every`") from None
+    found.angular_momentum[:, 0], found.gamma[:, 0] = problem.K, problem.gamma
+    if found.attitude is not None:
+        found.attitude[:, 0] = problem.attitude
+    if found.contact is not None:
+        found.contact[:, 0] = 0.0
+    return found
+
+
+def of(found: Motion, some: np.ndarray) -> Motion:
+    """Some balls of a motion."""
+    arrays: dict[str, Any] = {name: None if array is None else array[some] for name, array in vars(found).items()}
+    return Motion(**arrays)
+
+
+def put(found: Motion, where: np.ndarray, other: Motion) -> None:
+    """Copies balls to their place among others."""
+    for name, array in vars(other).items():
+        if array is not None:
+            getattr(found, name)[where] = array
 
 
 def omega_of(problem: Problem, K: Floats, gamma: Floats) -> Floats:

@@ -1,13 +1,14 @@
 """What is asked for, the norm in which it is asked, and what rounding alone leaves of it."""
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 
-from chapsym.dynamics import BadInput, Ball, Trajectory
+from chapsym.dynamics import BadInput, Ball, Trajectory, kernels
 from chapsym.dynamics.attitudes import attitude_with, initial_attitude
 from chapsym.dynamics.ball import Floats, batch, numbers, unit_vertical
 from chapsym.dynamics.certified import exactly
@@ -30,8 +31,6 @@ class Request:
     of: "state", the larger of |ΔK|/|K| and |Δγ|; or "contact", the distance in metres.  An attitude that is asked for
     counts, too: its angle in radians, or how far that moves the surface, in metres.
     frames: how many equal times, the last of them the end.  attitude: True, or a unit quaternion to be followed.
-    rate, speed, rolling: the largest and the mean |ω|, and the mean |ω × γ|, in rad/s; condition: of Λ - Dγγᵀ.
-    `surveyed` finds them.
     """
 
     ball: Ball
@@ -42,10 +41,6 @@ class Request:
     of: str = "state"
     frames: int = 1
     attitude: Any = False
-    rate: float = 0.0
-    speed: float = 0.0
-    rolling: float = 0.0
-    condition: float = 0.0
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "angular_momentum", numbers(self.angular_momentum, "angular_momentum", 3))
@@ -86,10 +81,39 @@ class Request:
         """The attitude at the start in float64, a unit quaternion, (4,)."""
         return attitude_with(self.gamma) if isinstance(self.attitude, bool) else np.asarray(self.attitude)
 
+    @cached_property
+    def rate(self) -> float:
+        """|ω| at the start, in rad/s; raises BadInput for what has none."""
+        K, gamma = self.angular_momentum, self.gamma
+        ball, moment = self._scaled()
+        size = int(np.frexp(abs(K).max())[1])
+        with np.errstate(all="ignore"):
+            unit = kernels.angular_velocity(np.ldexp(K, -size), gamma, ball.mass_tensor, ball.D)
+            rate = float(lengths(np.ldexp(unit, size - moment)))
+            turned = rate * self.time
+        if not np.isfinite(unit).all():
+            raise BadInput("the ball has no angular velocity at this gamma: no inertia about the vertical")
+        if not math.isfinite(turned):
+            raise BadInput("the ball turns too fast for float64: |ω|, or |ω|T, is beyond 1.8e308; take other units")
+        return rate
+
+    @cached_property
+    def condition(self) -> float:
+        """Of Λ - Dγγᵀ, at most."""
+        ball = self._scaled()[0]
+        least = float(ball.inertia.min())
+        return float(ball.inertia.max() + ball.D) / least if least > 0 else math.inf
+
+    def _scaled(self) -> tuple[Ball, int]:
+        """The ball in units in which its largest moment is about 1, and the power of two that was left out."""
+        ball = self.ball
+        power = int(np.frexp(ball.inertia.max() / 2 + ball.D / 2)[1])
+        return Ball(np.ldexp(ball.mass_tensor, -power), np.ldexp(ball.D, -power)), power
+
     @property
     def angle(self) -> float:
         """About how far the ball turns, in radians."""
-        return self.speed * self.time
+        return self.rate * self.time
 
     @property
     def unit(self) -> float:
@@ -103,18 +127,13 @@ class Request:
         """
         return 2 * rounding(precision) * math.sqrt(self.condition) * (1 + self.angle) * self.unit
 
-    def beside(self, roundings: float) -> "Request":
-        """The same with K so many roundings of float64 off, relatively, in a direction that nothing prefers."""
-        K = self.angular_momentum
-        return replace(self, angular_momentum=K + roundings * 2.0**-53 * lengths(K) * np.array([0.6, 0.64, 0.48]))
-
     def floor(self, precision: Precision, stages: float, summed: bool) -> float:
         """The error that rounding is expected to make in a run of so many stages.
 
         summed: whether 𝒦 and γ are summed with compensation; the attitude never is.  What is not walks at random.
         """
         turned = 0.0 if summed else math.sqrt(self.condition) * (1 + self.angle) * self.unit
-        path = self.rolling * self.time if self.of == "contact" else 0.0
+        path = self.angle if self.of == "contact" else 0.0
         rolled = 0.0 if not self.with_body else 2 * (1 + path) * self.unit
         return self.shared(precision) + rounding(precision) * math.sqrt(stages) * max(turned, rolled)
 

@@ -10,9 +10,10 @@ from numpy.typing import ArrayLike
 
 from chapsym.dynamics import BadInput, Ball, Trajectory, kernels, trajectory
 from chapsym.dynamics.attitudes import attitude_with, initial_attitude
-from chapsym.dynamics.ball import SMALLEST, Floats, batch, numbers, unit_vertical
+from chapsym.dynamics.ball import SMALLEST, Floats, batch, checked_before, numbers, unit_vertical
 from chapsym.dynamics.results import finished, in_given_axes
 from chapsym.dynamics.trajectories import seconds, whole_number
+from chapsym.generated import contact_momentum
 from chapsym.numbers import Precision
 
 from .motion import DEFAULT, FINEST, moved
@@ -119,12 +120,19 @@ def _rolled(
 
 def _momentum(ball: Ball, omega: Floats, gamma: Floats, epsilon: float) -> Floats:
     """K = Λω - D⟨ω,γ⟩γ; raises BadInput where float64 loses digits of K or 𝒦 = εK."""
+    if ball.is_one and omega.ndim == gamma.ndim == 1:  # in floats, which a single ball is faster in
+        numbers_of = (*omega.tolist(), *gamma.tolist(), *ball.mass_tensor.tolist(), float(ball.D))
+        K = np.array(contact_momentum(*numbers_of))
+    else:
+        with np.errstate(over="ignore", under="ignore"):
+            K = kernels.contact_momentum(omega, gamma, ball.mass_tensor, ball.D)
     with np.errstate(over="ignore", under="ignore"):
-        K = kernels.contact_momentum(omega, gamma, ball.mass_tensor, ball.D)
         momentum = epsilon * K
     if not np.isfinite(momentum).all():
         raise BadInput("𝒦 = εK is beyond the range of float64, about 1.8e308; take a shorter time step or other units")
-    if np.any((np.abs(momentum).max(axis=-1) < SMALLEST) & omega.any(axis=-1) & (ball.inertia > 0).all(axis=-1)):
+    if (small := np.abs(momentum).max(axis=-1) < SMALLEST).any() and np.any(
+        small & omega.any(axis=-1) & (ball.inertia > 0).all(axis=-1)
+    ):
         raise BadInput("𝒦 = εK is below the range of float64, about 2.2e-308; take a longer time step or other units")
     return K
 
@@ -147,13 +155,21 @@ def _motion(
     every = min(every, steps + 1)
     if contact and ball.radius is None:
         raise BadInput("the contact point needs the radius: give the ball its radius")
-    radius = None if ball.radius is None else np.broadcast_to(ball.radius, shape).reshape(-1)
+    radius = None if ball.radius is None else np.broadcast_to(ball.radius, shape).reshape(-1).copy()
     if isinstance(attitude, bool):
-        turned = attitude_with(g) if contact or attitude else None
+        turned = attitude_with(g if shape else g[0]).reshape(-1, 4) if contact or attitude else None
     else:
         turned = np.broadcast_to(attitude, (*shape, 4)).reshape(-1, 4)
     problem = Problem(
-        Ball(J, D, radius), flat, g, every * epsilon, steps // every, accuracy, turned, contact, threads=threads
+        checked_before(J, D, radius),
+        flat,
+        g,
+        every * epsilon,
+        steps // every,
+        accuracy,
+        turned,
+        contact,
+        threads=threads,
     )
     found = moved(problem, lambda balls: progress(int(balls * steps)))
 

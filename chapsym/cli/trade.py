@@ -205,7 +205,7 @@ def print_answer(answer: Any, members: Any) -> None:
     unit = "m" if request.of == "contact" else "relative"
     print(f"chosen    {choice.sentence()}")
     off = f"the {request.of} is off by {answer.estimate:.1e} ({unit})"
-    print(f"compared  {off}, estimated by a run of longer steps; wanted {request.accuracy:g}")
+    print(f"compared  {off}, estimated by the run; wanted {request.accuracy:g}")
     taken = answer.attempts[-1].seconds
     print(f"cost      expected {choice.seconds:.2g} s; taken {taken:.2g} s, in all {answer.seconds:.2g} s")
     for one in answer.attempts[:-1]:

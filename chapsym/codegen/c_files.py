@@ -12,7 +12,17 @@ from .source import Function, Program, Record
 #: The modules with functions that are exported, and those that float32 has, too.
 PACKAGE = "chapsym.dynamics.loops"
 SINGLE = ("loop", "block", "single_step")
-LOOPS = (*SINGLE, "long_run", "loop_n", "vertical_loop", "double_double_loop", "double_double_block", "tangent")
+LOOPS = (
+    *SINGLE,
+    "long_run",
+    "loop_n",
+    "vertical_loop",
+    "double_double_loop",
+    "double_double_block",
+    "tangent",
+    "following",
+    "expected",
+)
 
 HEAD = "/* {about}\n * Written by `chapsym codegen`: do not edit; change {what} and generate again. */\n"
 PRELUDE = """

@@ -246,6 +246,13 @@ def keep(ball: Any, **parameters: Floats | None) -> None:
         object.__setattr__(ball, name, values)
 
 
+def checked_before(mass_tensor: Floats, D: Floats, radius: Asked = None) -> Ball:
+    """Balls in principal axes with parameters that another ball has, which is not checked again."""
+    ball = object.__new__(Ball)
+    keep(ball, mass_tensor=mass_tensor, D=D, radius=radius, axes=None)
+    return ball
+
+
 def common_shape(shapes: Sequence[tuple[int, ...]], names: str) -> tuple[int, ...]:
     """What leading axes broadcast to; raises BadInput if they do not."""
     try:

@@ -165,7 +165,7 @@ def _march(
     """
     n, steps = len(frames[0]), how[1]
     work = steps * n * stages_of(columns)
-    weights, doubt, reach = _weights(columns), np.empty(n), np.empty(n)
+    weights, doubt, reach = loop_weights(columns), np.empty(n), np.empty(n)
     taken, status = np.zeros(n, dtype=np.int64), np.zeros(n, dtype=np.int64)
     ends = doubt, taken, status, reach
     if alone:
@@ -191,7 +191,7 @@ def _march(
 
 
 @cache
-def _weights(columns: int) -> tuple[Floats, Floats, Floats]:
+def loop_weights(columns: int) -> tuple[Floats, Floats, Floats]:
     """What the loops take: the weights of the columns, as of `march_lanes`, and those of the guesses."""
     full, short = weights(columns), (Fraction(0), *weights(columns - 1))
     first = np.array(full, dtype=float)

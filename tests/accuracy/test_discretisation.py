@@ -11,7 +11,6 @@ from scipy.integrate import solve_ivp
 import chapsym
 from chapsym.accuracy.discretisation import MOST, Discretisation, discretisation, read
 from chapsym.dynamics import Status, kernels
-from chapsym.dynamics.levels import double, double_double
 
 BALLS = chapsym.Ball.from_inertia(((0.006, 0.007, 0.009), (0.03, 0.0312, 0.0318)), mass=(2.0, 7.0), radius=(0.1, 0.11))
 OMEGA = np.array([[14.0, -6.0, 3.0], [2.0, 60.0, 5.0]])
@@ -118,20 +117,6 @@ def test_of_a_long_run_its_beginning_is_followed_and_that_is_said():
     found = estimated_of(10**12)
     assert STEP * STEPS < found.time < MOST * STEP < found.end == STEP * 10**12
     assert found.sentence().endswith(f"up to {found.time:.6g} of 4e+09 s")
-
-
-@pytest.mark.parametrize(
-    ("precision", "steps", "most"),
-    [("double", 1, 1), ("double", 500, 500), ("double", 1999, 999), ("single", 1999, 999), ("single", 9999, 999),
-     ("double-double", 499, 249)],
-)  # fmt: skip
-def test_a_run_that_is_not_compiled_has_a_pilot_that_is_not(monkeypatch, precision, steps, most):
-    seen = []
-    for module in (double, double_double):
-        monkeypatch.setattr(module, "chosen", lambda functions, work: seen.append(work) or functions)
-    found = discretisation(one(0), STEP * K[[0]], GAMMA[[0]], STEP, steps, precision=precision)
-    assert found.time == pytest.approx(STEP * most)
-    assert 0 < max(seen) < double.SHORT_RUN
 
 
 def test_balls_that_stop_are_left_out_and_without_one_there_is_none():

@@ -9,9 +9,9 @@ from commands import chapsym as command
 from scipy.integrate import solve_ivp
 
 import chapsym
-from chapsym.accuracy import load_prices, motion
+from chapsym.accuracy import composed
 from chapsym.accuracy.motion import moved
-from chapsym.accuracy.problem import EXTRAPOLATED, Problem, Run, Stepping, apart, omega_of
+from chapsym.accuracy.problem import EXTRAPOLATED, Problem, Run, Stepping, apart, nothing, omega_of
 from chapsym.dynamics import BadInput, Ball, Status, kernels
 from chapsym.dynamics.attitudes import attitude_with
 from chapsym.scene import checked
@@ -22,19 +22,6 @@ from chapsym.scene.running.sweep import run_in_memory
 
 INERTIA = np.array([0.006, 0.0071, 0.0089])
 GAMMA = np.array([2.0, 3.0, 6.0]) / 7
-
-
-@pytest.fixture(autouse=True)
-def _of_any_work(monkeypatch):
-    """Short runs may be extrapolated, too."""
-    monkeypatch.setattr(motion, "WORTH", 0)
-
-
-def test_what_takes_less_than_a_second_is_not_worth_another_loop(monkeypatch):
-    monkeypatch.undo()
-    few, many = (problem([14.0, -6.0, 3.0], frames, 0.5, 1e-4) for frames in (40, 40_000))
-    assert motion._cheapest(few).order == 8
-    assert motion._cheapest(many).order == EXTRAPOLATED
 
 
 def problem(omega, frames=20, interval=0.1, accuracy=1e-6, inertia=INERTIA, gamma=GAMMA):
@@ -66,15 +53,19 @@ def test_an_accuracy_is_met_and_the_estimate_is_above_the_error(accuracy, frames
     asked = problem([14.0, -6.0, 3.0], frames, interval, accuracy)
     found = moved(asked)
     assert true(asked, found) < found.error <= accuracy
-    # A choice is no waste: an order and a half of the error less would have done with a fifth fewer steps.
-    # Order 12 has such long steps that it has no choice.
-    assert found.order[0] != 8 or found.steps[0] <= 3 or found.error > accuracy / 30
+    assert found.order[0] == EXTRAPOLATED
 
 
-@pytest.mark.parametrize("without", [(), (EXTRAPOLATED,)])
-def test_estimates_are_above_the_errors_of_balls_of_all_shapes(without, monkeypatch, thorough):
+def by_compositions(asked):
+    """The motion by compositions alone."""
+    found = nothing(asked)
+    composed.composed(asked, np.arange(len(asked)), found)
+    return found
+
+
+@pytest.mark.parametrize("by", [moved, by_compositions])
+def test_estimates_are_above_the_errors_of_balls_of_all_shapes(by, thorough):
     """With steps so few that errors do not yet fall as they should, and an odd number of frames, too."""
-    monkeypatch.setattr(motion, "LAW", {order: c for order, c in motion.LAW.items() if order not in without})
     rng, orders = np.random.default_rng(11), set()
     for i in range(2000 if thorough else 200):
         moments = 10 ** rng.uniform(-2, 0, 3) if i % 2 else rng.uniform(0.2, 1, 3)
@@ -85,10 +76,10 @@ def test_estimates_are_above_the_errors_of_balls_of_all_shapes(without, monkeypa
         K = kernels.contact_momentum(omega[np.newaxis], g, ball.mass_tensor, ball.D)
         frames, accuracy = int(rng.choice([1, 5, 30, 100])), 10 ** rng.uniform(-8, -2)
         asked = Problem(ball, K, g, 10 ** rng.uniform(0, 1.5) / frames, frames, accuracy, attitude_with(g), True)
-        found = moved(asked)
+        found = by(asked)
         assert true(asked, found) < found.error <= accuracy, i
         orders.add(int(found.order[0]))
-    assert orders == set(motion.LAW)
+    assert orders == ({EXTRAPOLATED} if by is moved else set(composed.LAW))
 
 
 @pytest.mark.parametrize(
@@ -136,20 +127,6 @@ def test_a_frame_after_a_thousand_turns_has_as_many_steps_as_it_takes():
     assert true(asked, found) < found.error <= 1e-4
 
 
-def test_of_many_balls_one_of_another_shape_is_verified_by_itself():
-    """Its error is fifty times what the others let one think."""
-    rng = np.random.default_rng(1)
-    inertia = np.tile([0.5, 0.6, 0.7], (80, 1)) + 0.02 * rng.standard_normal((80, 3))
-    inertia[40] = (0.07, 0.8, 0.82)
-    omega, gamma = (v / np.linalg.norm(v, axis=1, keepdims=True) for v in rng.standard_normal((2, 80, 3)))
-    ball = Ball.from_inertia(inertia, D=np.full(80, 5.0), radius=np.ones(80), batch=True)
-    K = kernels.contact_momentum(omega, gamma, ball.mass_tensor, ball.D)
-    asked = Problem(ball, K, gamma, 3.0, 2, 1.4e-7, attitude_with(gamma), True)
-    found = moved(asked)
-    assert (true(asked, found) < found.error).all()
-    assert np.sum(found.error <= 1.4e-7) > 70
-
-
 def test_it_is_the_motion_by_another_integration():
     asked = problem([14.0, -6.0, 3.0])
     found, J, D = moved(asked), asked.ball.mass_tensor[0], asked.ball.D[0]
@@ -162,57 +139,6 @@ def test_it_is_the_motion_by_another_integration():
     y = solve_ivp(rate, (0, 2.0), [*asked.K[0], *GAMMA], "DOP853", times, rtol=1e-12, atol=1e-14).y.T
     assert np.abs(found.gamma[0] - y[:, 3:]).max() < 2e-7
     assert np.abs(found.angular_momentum[0] - y[:, :3]).max() < 2e-7 * np.abs(y[:, :3]).max()
-
-
-def test_where_the_law_is_wrong_the_verification_finds_out_and_more_steps_are_taken(monkeypatch):
-    """Near a separatrix, and with a law that promises too much, for all orders or for one."""
-    for law in ({8: 1e-10}, {2: 1e-5, 4: 1e-6, 6: 1e-6, 8: 1e-8}, {4: 1e-7, 8: 1.0}):
-        monkeypatch.setattr(motion, "LAW", law)
-        asked = problem([14.0, -6.0, 3.0])
-        found = moved(asked)
-        assert true(asked, found) < found.error <= 1e-6
-    monkeypatch.undo()
-    unstable = problem([1e-4, 10.0, 1e-4], frames=40, interval=0.5, gamma=(0.0, 1.0, 0.0))
-    found = moved(unstable)
-    assert true(unstable, found) < found.error <= 1e-6
-
-
-def test_many_alike_balls_are_verified_by_a_sample_and_the_odd_one_by_itself(monkeypatch):
-    """The odd one is a rod."""
-    rng = np.random.default_rng(5)
-    omega = np.array([8.0, -6.0, 3.0]) + 0.1 * rng.standard_normal((120, 3))
-    inertia = np.tile(INERTIA, (120, 1))
-    inertia[17] = [0.0002, 0.0079, 0.0081]
-    asked = problem(omega, frames=24, interval=0.25, inertia=inertia, accuracy=1e-5)
-    verified = []
-    settle = motion._settle
-
-    def counted(asked, some, *rest, **options):
-        verified.extend(some.tolist())
-        return settle(asked, some, *rest, **options)
-
-    monkeypatch.setattr(motion, "_settle", counted)
-    found = moved(asked)
-    assert (true(asked, found) < found.error).all()
-    assert found.error.max() <= 1e-5
-    assert 17 in verified
-    assert len(set(verified)) < 60
-
-
-def test_of_ten_thousand_alike_balls_the_work_is_at_most_1_3_times_that_of_their_run(monkeypatch):
-    """Counted in steps of the map, which is what a run costs."""
-    omega = np.array([14.0, -6.0, 3.0]) + 0.1 * np.random.default_rng(3).standard_normal((4096, 3))
-    asked = replace(problem(omega, frames=4, interval=0.25), attitude=None, contact=False)
-    work = []
-
-    def counted(self, method, stride=1, progress=None, take=Problem.take):
-        work.append(len(self) * method.stages * (self.frames // stride))
-        return take(self, method, stride)
-
-    monkeypatch.setattr(Problem, "take", counted)
-    found = moved(asked)
-    assert found.error.max() <= 1e-6
-    assert sum(work) <= 1.3 * max(work)
 
 
 def test_a_steady_rotation_is_had_at_once_after_any_time():
@@ -345,6 +271,5 @@ def test_a_searched_run_ends_where_its_start_stood(tmp_path):
     scene = tmp_path / "ball.toml"
     scene.write_text("[ball]\ninertia = [0.01, 0.01, 0.01]\nmass = 2.0\nradius = 0.1\n[start]\nvelocity = [1.0, 0.0]\n"
                      "position = [5.0, 1.0]\n[run]\ntime = 3.0\ncontact = true\naccuracy = 1e-6\n")  # fmt: skip
-    load_prices()  # which would tell that it takes them
     found = json.loads(command("run", scene, "-o", tmp_path / "ball.npz", "--json").stdout)
     assert np.allclose(found["final"]["contact"], [8.0, 1.0], atol=1e-6)

@@ -181,7 +181,7 @@ def nothing(v: Vector, n: int):
         return
     v[0] = n
 """
-)  # noqa: E501
+)
 
 
 def load_from(folder):

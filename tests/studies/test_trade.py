@@ -9,13 +9,13 @@ from types import SimpleNamespace
 import mpmath
 import numpy as np
 import pytest
+from chapsym.accuracy.prices import sample
 from commands import answer
 from commands import chapsym as command
 from first import BALL, FIRST
 from reference import cross
 
 from chapsym.accuracy import Method, prices, take
-from chapsym.accuracy.prices import sample
 from chapsym.cli.trade import print_answer
 from chapsym.dynamics.attitudes import attitude_with
 from chapsym.numbers import NAMED

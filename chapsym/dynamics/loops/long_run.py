@@ -51,15 +51,22 @@ def enter(S, B, b, columns, J0, D0, radius, h, sums, beginning, body, state):
         for c in range(3):
             S[BALL + c, i] = state[I + c]
         S[BALL + 3, i] = state[D]
-        entered(S, FIRSTS, i, body, half, first, state)
-        entered(S, SECONDS, i, body, half, max(lane, least), state)
         one, two = LAST - lane >= least, lane >= least
         for c in range(DERIVATIVES):
             S[GUESS + c, i] = beginning[first, c]
         for c in range(2):
             S[FULL + 2 * c, i] = sums[c, first - least] if one else 0.0
             S[FULL + 2 * c + 1, i] = sums[c, lane - least] if two else 0.0
+    resized(S, B, b, columns, half, body, state)
     return exponent
+
+
+def resized(S, B, b, columns, half, body, state):
+    """Gives a ball a long step of another length, of which `half` is the half in the unit of S."""
+    S[LENGTH, b], least = half, LAST + 1 - columns
+    for lane in range(LANES):
+        entered(S, FIRSTS, lane * B + b, body, half, max(LAST - lane, least), state)
+        entered(S, SECONDS, lane * B + b, body, half, max(lane, least), state)
 
 
 def entered(S, at, i, body, half, n, state):

@@ -6,13 +6,12 @@ from functools import partial
 
 from chapsym.accuracy import Method, Request, methods, take
 from chapsym.accuracy.methods import CHECKS, EXACT, label_of
-from chapsym.accuracy.pilot import surveyed
-from chapsym.accuracy.prices import sample
 from chapsym.dynamics import StepNotTaken
 from chapsym.numbers import NAMED, Digits, Precision
 
 from ..harness import Contender, cores, interleaved
 from .frontier import Frontier, Point, digits_of
+from .reference import sample
 from .requests import true_error, truth
 
 Say = Callable[[str], None]
@@ -29,7 +28,7 @@ DIGITS = 34
 
 def measure(quick: bool, say: Say, of: str = "contact") -> Frontier:
     """One ball: digits of the contact point, or of the state, after END seconds, and the time of a simulated second."""
-    request = surveyed(replace(sample(of, END), accuracy=1e-30, frames=1))
+    request = replace(sample(of, END), accuracy=1e-30, frames=1)
     say(f"{of}: the reference")
     exact = truth(request, DIGITS)
     contenders, errors = [], {}

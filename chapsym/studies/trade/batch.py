@@ -8,14 +8,13 @@ import numpy as np
 
 from chapsym.accuracy import Method, take
 from chapsym.accuracy.methods import EXTRAPOLATED
-from chapsym.accuracy.pilot import surveyed
-from chapsym.accuracy.prices import sample
 from chapsym.dynamics import Ball, StepNotTaken, extrapolate, kernels, trajectory
 from chapsym.numbers import Digits
 
 from ..harness import Contender, cores, interleaved
 from .balls import END, LONGEST, STAGE, choices, name_of
 from .frontier import Frontier, Point, digits_of
+from .reference import sample
 from .requests import true_error, truth
 
 Say = Callable[[str], None]
@@ -25,14 +24,14 @@ BATCH, SHOWN = 256, 4
 
 def measure(quick: bool, say: Say) -> Frontier:
     """A batch: digits of K and γ of some of its balls, the worst of them, and the time of a ball's simulated second."""
-    one = surveyed(replace(sample("state", END), accuracy=1e-30))
+    one = replace(sample("state", END), accuracy=1e-30)
     random, n = np.random.default_rng(5), 32 if quick else BATCH
     turned = random.normal(scale=0.1, size=(n, 3))
     gamma = one.gamma + np.cross(turned, one.gamma)
     gamma /= np.sqrt((gamma * gamma).sum(axis=-1, keepdims=True))
     gamma /= np.sqrt((gamma * gamma).sum(axis=-1, keepdims=True))
     K = kernels.contact_momentum(np.array([3.0, -2.0, 1.0]) + turned, gamma, one.ball.mass_tensor, one.ball.D)
-    some = [surveyed(replace(one, angular_momentum=K[i], gamma=gamma[i])) for i in range(1 if quick else SHOWN)]
+    some = [replace(one, angular_momentum=K[i], gamma=gamma[i]) for i in range(1 if quick else SHOWN)]
     say("batch: the references")
     exact = [truth(request, 20) for request in some]
     contenders, errors = [], {}

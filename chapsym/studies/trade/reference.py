@@ -5,6 +5,7 @@ from fractions import Fraction
 
 import numpy as np
 
+from chapsym.accuracy import Request
 from chapsym.dynamics import Ball, certified_motion
 from chapsym.dynamics.ball import Floats
 from chapsym.dynamics.levels.start import fraction
@@ -13,6 +14,13 @@ from ..harness import NotComparable
 
 #: Seconds after which there is no reference.
 LONGEST = 3600.0
+
+
+def sample(of: str, time: float) -> Request:
+    """The ball of docs/first.toml, on which methods are compared."""
+    ball = Ball.from_inertia((0.006, 0.007, 0.009), mass=2.0, radius=0.1)
+    K, g = np.array([0.0446, -0.0346, 0.0313]), np.array([2.0, 3.0, 6.0]) / 7
+    return Request(ball, K, g, time, 1e-6, of)
 
 
 def continuous(

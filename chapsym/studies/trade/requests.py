@@ -11,15 +11,13 @@ from typing import Any
 
 import numpy as np
 
-from chapsym.accuracy import Accurate, Method, Prices, Request, accurate, load_prices, methods, take
+from chapsym.accuracy import Accurate, Method, Request, accurate, methods, take
 from chapsym.accuracy.methods import CHECKS, checks
-from chapsym.accuracy.pilot import surveyed
-from chapsym.accuracy.prices import sample
 from chapsym.accuracy.request import exact_values, lengths
 from chapsym.dynamics import BadInput, Ball, StepNotTaken, Trajectory, kernels
 from chapsym.numbers import NAMED
 
-from .reference import continuous
+from .reference import continuous, sample
 
 SEED, COUNT, QUICK = 2007, 50, 5
 #: The finest accuracy of most requests, and of one in FINER⁻¹.
@@ -39,8 +37,8 @@ SHORT = 3e-3
 class Outcome:
     """A request, what the chooser made of it, and the best that could have been done.
 
-    error: the true one, at the worst of the times of comparison.  delivered, total: seconds of the processor for the
-    run that was delivered, and with pilot and verification.  best, seconds: the cheapest choice that would have done.
+    error: the true one, at the worst of the times of comparison.  delivered, total: seconds of the processor for what
+    was delivered, with its verification, and for everything.  best, seconds: the cheapest choice that would have done.
     """
 
     request: Request
@@ -80,7 +78,7 @@ def drawn(count: int, seed: int = SEED, quick: bool = False) -> Iterator[Request
         seconds = float(10.0 ** random.uniform(0, 1.3 if quick else 3))
         finest = FINE if random.uniform() < FINER else COARSE
         accuracy = float(10.0 ** random.uniform(math.log10(finest), -3))
-        yield surveyed(Request(ball, K, gamma, seconds, accuracy, str(random.choice(["state", "contact"]))))
+        yield Request(ball, K, gamma, seconds, accuracy, str(random.choice(["state", "contact"])))
 
 
 def truth(request: Request, digits: int = 0) -> np.ndarray:
@@ -101,19 +99,17 @@ def true_error(request: Request, run: Trajectory, exact: np.ndarray) -> float:
     return float(max(momentum.max(), lengths(exact_values(request, run, "gamma") - exact[:, 3:6]).max()))
 
 
-def judge(request: Request, prices: Prices, compare: bool = True) -> Outcome:
+def judge(request: Request, compare: bool = True) -> Outcome:
     """One request answered, its true error, and (with `compare`) the best choice by brute force."""
     exact = truth(request)
     try:
         answer = accurate(
             request.ball, request.angular_momentum, request.gamma, request.time, request.accuracy, of=request.of,
-            prices=prices,
+            frames=CHECKS,
         )  # fmt: skip
     except BadInput as error:
         return Outcome(request, None, str(error), math.inf, math.inf, math.inf, "", math.inf)
-    choice = answer.choice
-    delivered = seconds_of(lambda: take(request, choice.method, choice.steps, 1))
-    run = take(request, choice.method, choice.steps, checks(request, choice.method))
+    delivered, run = answer.attempts[-1].seconds, answer.trajectory
     best, seconds = best_choice(request, exact, delivered) if compare else ("", math.nan)
     return Outcome(request, answer, None, true_error(request, run, exact), delivered, answer.seconds, best, seconds)
 
@@ -206,10 +202,8 @@ class Outcomes:
         (run, whole), told = self.ratios(), [one.refused for one in self.outcomes if one.refused]
         found = [f"{self.hits} of {len(self.outcomes)} within the accuracy", *told]
         if run:
-            found.append(
-                f"the run that is delivered takes {median(run):.2f} times the best choice, at most {run[-1]:.2f}"
-            )
-            found.append(f"with pilot and verification {median(whole):.1f} times, at most {whole[-1]:.1f}")
+            found.append(f"what is delivered takes {median(run):.2f} times the best choice, at most {run[-1]:.2f}")
+            found.append(f"with what was tried before {median(whole):.1f} times, at most {whole[-1]:.1f}")
         return found
 
     def as_json(self) -> dict[str, Any]:
@@ -233,20 +227,20 @@ def _is_text(item: tuple[str, Any]) -> bool:
 
 def measure(quick: bool, say: Callable[[str], None] = lambda text: None, seed: int = SEED, count: int = 0) -> Outcomes:
     """The outcomes of random requests: 5 short ones for a look, or 50."""
-    prices, wanted = load_prices(say), count or (QUICK if quick else COUNT)
+    wanted = count or (QUICK if quick else COUNT)
     say("loading the loops")
-    warm(prices)
+    warm()
     found = []
     for i, request in enumerate(drawn(wanted, seed, quick)):
         say(f"request {i + 1} of {wanted}: {request.accuracy:.1g} after {request.time:.3g} s")
-        found.append(judge(request, prices))
+        found.append(judge(request))
     return Outcomes(found)
 
 
-def warm(prices: Prices) -> None:
+def warm() -> None:
     """Loads the compiled loops, which a short first run would do without."""
     for of in ("state", "contact"):
-        request = surveyed(sample(of, 1.0))
+        request = sample(of, 1.0)
         for precision in NAMED.values():
             for method in methods(request, precision):
                 with contextlib.suppress(StepNotTaken, BadInput):

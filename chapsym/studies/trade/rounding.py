@@ -7,13 +7,13 @@ from typing import Any
 import numpy as np
 
 from chapsym.accuracy.methods import label_of
-from chapsym.accuracy.prices import sample
 from chapsym.dynamics import BadInput, Trajectory, trajectory
 from chapsym.dynamics.certified import exactly
 from chapsym.numbers import NAMED, Digits, Enclosure, Precision
 
 from ..harness import Contender, cores, interleaved
 from .frontier import Frontier, Point, digits_of
+from .reference import sample
 
 #: |ω|ε in radians.
 STEP = 0.1

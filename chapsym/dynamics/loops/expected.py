@@ -1,0 +1,96 @@
+"""What long steps of a ball are expected to cost it, and what to make of what they tell.  Plain code, compiled."""
+
+from math import frexp, ldexp, sqrt
+
+from chapsym.generated import angular_velocity
+
+from .following import FARTHEST, ROLLED, SPUN, STEPS, SUMMED, TURNED
+from .text import Matrix, Vector
+
+#: What is found of a ball: |ω| at the start in rad/s; the condition of Λ - Dγγᵀ, at most; whether it may rotate
+#: steadily; what rounding may leave of it, and if it does; the first step in seconds, and the error of a second.
+RATE, CONDITION, SINGLE, FLOOR, STILL, FIRST, ALLOWED = 0, 1, 2, 3, 4, 5, 6
+FOUND = 7
+#: A rounding.
+UNIT = 2.0**-53
+#: By how much the errors of steps grow after t seconds, in parts of 1 + |ω|t: that of most balls.
+GROWTH = 1.5
+#: The error of a step of |ω|h = 1 radian, of most balls; and what part of an accuracy a run aims at.
+UNIT_ERROR, AIM = 3e-8, 1.0
+#: The roundings of a long step: the sum of its |weights|.
+ROUNDINGS = 54.2
+#: The roundings of steps that go one way turn a ball as those of its parameters do, and so many times as far.
+TURNING = 3.0
+#: Of a ball of a larger condition the roundings of long steps are not known.
+CONDITIONED = 1e4
+#: What has no bound.
+ENDLESS = 2.0**1000
+
+
+def surveyed(
+    momenta: Matrix,
+    verticals: Matrix,
+    J0: Matrix,
+    D0: Vector,
+    unit: Vector,
+    end: float,
+    accuracy: float,
+    found: Matrix,
+):
+    """What can be said of each ball at the start, (balls, FOUND); unit: what a relative error comes to, (balls,).
+
+    Rounding of J, D and K turns with the ball; that of the forty stages in a radian walks; ω along γ loses the digits
+    of the condition.
+    """
+    for i in range(momenta.shape[0]):
+        # By powers of two, exactly, K and the moments are about 1.
+        _, size = frexp(max(abs(momenta[i, 0]), abs(momenta[i, 1]), abs(momenta[i, 2])))
+        _, weight = frexp(max(J0[i, 0], J0[i, 1], J0[i, 2], D0[i]))
+        k1, k2, k3 = ldexp(momenta[i, 0], -size), ldexp(momenta[i, 1], -size), ldexp(momenta[i, 2], -size)
+        j1, j2, j3 = ldexp(J0[i, 0], -weight), ldexp(J0[i, 1], -weight), ldexp(J0[i, 2], -weight)
+        D = ldexp(D0[i], -weight)
+        w1, w2, w3 = angular_velocity(k1, k2, k3, verticals[i, 0], verticals[i, 1], verticals[i, 2], j1, j2, j3, D)
+        rate = ldexp(sqrt(w1 * w1 + w2 * w2 + w3 * w3), size - weight)
+        least = min(j2 + j3, j1 + j3, j1 + j2)
+        condition = (max(j2 + j3, j1 + j3, j1 + j2) + D) / least if least > 0.0 else ENDLESS
+        zeros = (1 if k1 == 0.0 else 0) + (1 if k2 == 0.0 else 0) + (1 if k3 == 0.0 else 0)
+        turned, root = rate * end, sqrt(condition)
+        walked = sqrt(1.0 + 40.0 * turned)
+        found[i, RATE], found[i, CONDITION] = rate, condition
+        found[i, SINGLE] = 1.0 if zeros > 1 or (j1 == j2 and j2 == j3) else 0.0
+        found[i, FLOOR] = UNIT * ((1.0 + turned) * (2.0 * root + walked) + 8.0 * condition) * unit[i]
+        found[i, STILL] = UNIT * ((1.0 + turned) * (2.0 * root + 1.0) + 8.0 * condition) * unit[i]
+        allowed = AIM * accuracy / unit[i] / (GROWTH * (1.0 + turned)) / end if end > 0.0 else 1.0
+        # The power 3/32, which is the root that the law asks for, but a little.
+        part = sqrt(sqrt(sqrt(sqrt(min(allowed / (UNIT_ERROR * rate), 1.0))))) if rate > 0.0 else 1.0
+        part = FARTHEST * part * sqrt(part)
+        found[i, FIRST] = min(part / rate, end) if rate * end > part else end
+        found[i, ALLOWED] = allowed
+
+
+def estimated(
+    found: Matrix,
+    told: Matrix,
+    unit: Vector,
+    turned: bool,
+    spun: bool,
+    rolled: bool,
+    error: Vector,
+    noise: Vector,
+    started: Vector,
+):
+    """The errors that the loop told, and what of them the roundings of the steps, and of the start, may have made.
+
+    Those of a ball that stopped are NaN.  Roundings walk, and what is left of them grows as the errors do.  turned,
+    spun, rolled: which errors count.
+    """
+    for i in range(error.shape[0]):
+        most = told[i, TURNED] if turned else 0.0
+        most = max(most, told[i, SPUN]) if spun else most
+        most = unit[i] * (max(most, told[i, ROLLED]) if rolled else most)
+        walked = ROUNDINGS * UNIT * sqrt(found[i, CONDITION] * told[i, STEPS])
+        started[i] = most / told[i, SUMMED] * (2.0 * UNIT * sqrt(found[i, CONDITION]))
+        noise[i] = most / told[i, SUMMED] * walked + TURNING * found[i, STILL]
+        error[i] = most + noise[i]
+        if found[i, CONDITION] > CONDITIONED:
+            noise[i] = ENDLESS
