@@ -155,8 +155,6 @@ def test_the_core_alone_does_its_work_and_what_needs_more_names_the_extra(tmp_pa
             ["study", "rotation", "--quick", "-o", str(tmp_path)],
         ),
         "report": (["report", "-o", str(tmp_path / "x.html")], ["extremes", "--quick"]),
-        "fast": (["trade", "requests", "--quick"], ["bench", "trajectory", "--quick"], ["study", "chaos", "--quick"],
-                 ["study", "energy", "--quick"]),
         "cluster": (["study", "rotation", "--quick", "--scheduler", "tcp://127.0.0.1:9"],),
     }  # fmt: skip
     everything = [*work, *helps, *(one for those in refused.values() for one in those)]

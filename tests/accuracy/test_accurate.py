@@ -22,6 +22,8 @@ from chapsym.studies.trade.requests import true_error, truth
 BALL = chapsym.Ball.from_inertia((0.006, 0.007, 0.009), mass=2.0, radius=0.1)
 GAMMA = np.array([2.0, 3.0, 6.0]) / 7
 K = kernels.contact_momentum((3.0, -2.0, 1.0), GAMMA, BALL.mass_tensor, BALL.D)
+
+
 def asked(accuracy, of="contact", time=5.0, **options):
     return accurate(BALL, K, GAMMA, time, accuracy, of=of, **options)
 

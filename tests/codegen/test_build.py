@@ -10,7 +10,6 @@ from pathlib import Path
 
 import flint
 import mpmath
-import numba
 import numpy as np
 import pytest
 import sympy as sp
@@ -169,10 +168,3 @@ def test_one_source_runs_on_every_number(kernel):
             assert found.dtype == dtype
             scale = max(1.0, *(abs(float(v)) for v in exact))
             assert np.abs(found - float(truth)).max() <= 20 * digits * scale
-
-
-@pytest.mark.parametrize("kernel", KERNELS, ids=lambda k: k.name)
-def test_numba_compiles_the_same_source_to_the_same_bits(kernel):
-    function = getattr(generated, kernel.name)
-    arguments = [float(a) for a in exact_arguments(kernel)]
-    assert numba.njit(function)(*arguments) == function(*arguments)

@@ -1,5 +1,6 @@
 """The translator: small loops have the same bits in C and in Python, and what is not translated says so."""
 
+import importlib
 import importlib.machinery
 import importlib.util
 import shutil
@@ -34,9 +35,7 @@ SINGLE = {"LIMIT": 0.25}
 def twice(x):
     return 2 * x, LIMIT * x
 """
-SAMPLE = (
-    HEAD
-    + """
+SAMPLE = f"""{HEAD}
 FACTOR, COUNT = 0.1, 3
 
 def precedence(a: float, b: float, c: float, d: float):
@@ -62,7 +61,8 @@ def compared(a: float, b: float, c: float, n: int):
 
 def constants(a: float):
     zero = -0.0
-    return zero, a * -0.0, a + 0.1, FACTOR * a, 16777217.0, 1e-30, inf, -inf, nan, a / 3, 1 / 3, LIMIT * a, other.LIMIT, 2**60
+    return zero, a * -0.0, a + 0.1, FACTOR * a, 16777217.0, 1e-30, inf, -inf, nan, a / 3, 1 / 3, LIMIT * a, 2**60,\
+        other.LIMIT
 
 def swapped(a: float, b: float, c: float, v: Vector):
     a, b = b, a
@@ -181,7 +181,6 @@ def nothing(v: Vector, n: int):
         return
     v[0] = n
 """
-)
 
 
 def load_from(folder):
@@ -217,24 +216,13 @@ def both(tmp_path_factory):
     (place / "loops.c").write_text(body + '\n#ifndef SINGLE\nconst char loops_text[] = "";\n#endif\n')
     (place / "loops_single.c").write_text('#define SINGLE\n#include "loops.c"\n')
     module = ROOT / "dynamics" / "native" / "module.c"
-    flags = [
-        "-std=gnu11",
-        "-O2",
-        "-ffp-contract=off",
-        "-fPIC",
-        "-shared",
-        "-DPy_LIMITED_API=0x030B0000",
-        "-DWIDEST_OFF",
-    ]
-    sources = [place / "loops.c", place / "loops_single.c", module]
-    subprocess.run(
-        [COMPILER, *flags, "-I", place, "-I", INCLUDE, *sources, "-lm", "-o", place / "compiled.so"], check=True
-    )
+    flags = ["-std=gnu11", "-O2", "-ffp-contract=off", "-fPIC", "-shared", "-DPy_LIMITED_API=0x030B0000"]
+    files = ["-DWIDEST_OFF", place / "loops.c", place / "loops_single.c", module, "-lm", "-o", place / "compiled.so"]
+    subprocess.run([COMPILER, *flags, "-I", place, "-I", INCLUDE, *files], check=True)
     loader = importlib.machinery.ExtensionFileLoader("compiled", str(place / "compiled.so"))
     compiled = importlib.util.module_from_spec(importlib.util.spec_from_loader("compiled", loader))
     sys.path.insert(0, str(place))
-    from box import other, sample
-
+    other, sample = importlib.import_module("box.other"), importlib.import_module("box.sample")
     yield sample, other, compiled
     sys.path.remove(str(place))
     for name in ("box", "box.other", "box.sample"):
@@ -308,8 +296,9 @@ def translated(tmp_path, text):
     "body",
     [
         "return a ** n", "return +a", "return ~n", "return a % 2.0", "return a // 2.0", "return a @ a", "return n << 2",
-        "return a in (1.0, 2.0)", "return a is None", "return [a]", "return {a: n}", "return lambda: a", "return 'text'",
-        "return f'{a}'", "return a[0]", "return unknown(a)", "return np.sin(a)", "return math.sin(a)", "return twice(x=a)",
+        "return a in (1.0, 2.0)", "return a is None", "return [a]", "return {a: n}", "return lambda: a",
+        "return 'text'", "return f'{a}'", "return a[0]", "return unknown(a)", "return np.sin(a)", "return math.sin(a)",
+        "return twice(x=a)",
         "return twice(a, a)", "return [x for x in v]", "return (x := a)", "return v.sum()", "return (a, n)[0]",
         "x = v\n    x = n\n    return x", "x = 1.0 if n else v\n    return x", "return unknown_name",
         "while sqrt(*twice(a)) > 1.0:\n        a = a - 1.0\n    return a",
@@ -318,8 +307,10 @@ def translated(tmp_path, text):
         "for i in range(n):\n        a += 1.0\n    else:\n        a = 0.0\n    return a",
         "while a > 1.0:\n        a -= 1.0\n    else:\n        a = 0.0\n    return a",
         "for x in v:\n        a += x\n    return a", "with a:\n        pass\n    return a", "del a", "global a",
-        "try:\n        a = 1.0\n    except ValueError:\n        a = 2.0\n    return a", "raise ValueError", "assert a > 0.0",
-        "import math\n    return a", "def inner():\n        return a\n    return a", "yield a", "a: float = 1.0\n    return a",
+        "try:\n        a = 1.0\n    except ValueError:\n        a = 2.0\n    return a", "raise ValueError",
+        "assert a > 0.0",
+        "import math\n    return a", "def inner():\n        return a\n    return a", "yield a",
+        "a: float = 1.0\n    return a",
         "x = v.copy()\n    return x[0]", "x = v[::2]\n    return x[0]", "x, y = a\n    return x",
         "*x, y = twice(a)\n    return y", "return v[-1]", "return len(v[:-1])",
     ],

@@ -47,9 +47,8 @@ def test_a_block_is_as_wide_as_its_balls_need(n, widths, monkeypatch):
     used, march = [], native.loop(block.march_blocks)
     ball, K, g = long_steps(n)
     with monkeypatch.context() as patch:
-        patch.setattr(
-            native, "loop", lambda *of: lambda state, *rest: used.append(state.shape[1]) or march(state, *rest)
-        )
+        spied = lambda state, *rest: used.append(state.shape[1]) or march(state, *rest)  # noqa: E731
+        patch.setattr(native, "loop", lambda *of: spied)
         run = chapsym.trajectory(ball, K, g, 1100, every=100, threads=1)
     assert used == widths
     for i in {0, 1, n - 1}:

@@ -34,7 +34,7 @@ def test_a_certified_root_is_that_of_the_continuation(state):
     assert status == 0
     u = np.array(q) / q0
     assert u @ u <= array[loop.RADIUS] * (1 + 1e-12)
-    found = gibbs.search(0.0, 0.0, 0.0, *array[0:3], *array[3:6], *array[loop.I : loop.D], *array[loop.D :])
+    found = gibbs.search(0.0, 0.0, 0.0, *array[0:3], *array[3:6], *array[loop.I :])
     assert found[0]
     # ⟨d, ∂G d⟩ ≥ least|d|² by the lemma, and the residuals of both are rounded a few times: Bu, u × Iu, (1 + |u|²)k.
     inertia, size = array[loop.I : loop.D], 2 * np.linalg.norm(array[0:3])
@@ -49,7 +49,7 @@ def test_what_is_settled_is_settled(state, off, direction):
     array = prepared(state)
     assume(array[loop.RADIUS] > 0)
     size = math.sqrt(array[loop.RADIUS])
-    root = gibbs.search(0.0, 0.0, 0.0, *array[0:3], *array[3:6], *array[loop.I : loop.D], *array[loop.D :])
+    root = gibbs.search(0.0, 0.0, 0.0, *array[0:3], *array[3:6], *array[loop.I :])
     settled, p0, p1, p2, p3, *u = round_from(np.array(root[5:]) + off * size * direction, array)
     assert settled
     exact = [Fraction(float(x)) for x in (*u, *array[0:6], *array[loop.I : loop.RADIUS])]
@@ -91,9 +91,7 @@ def test_the_bound_on_what_a_correction_leaves_is_one(state):
     array = prepared(state)
     radius, enough = array[loop.RADIUS], array[loop.ENOUGH]
     assume(radius > 1e-20)
-    root = np.array(
-        gibbs.search(0.0, 0.0, 0.0, *array[0:3], *array[3:6], *array[loop.I : loop.D], *array[loop.D :])[5:]
-    )
+    root = np.array(gibbs.search(0.0, 0.0, 0.0, *array[0:3], *array[3:6], *array[loop.I :])[5:])
     size = np.linalg.norm(root)
     for share in (0.0, 0.5, -0.5):
         guess = share * math.sqrt(radius) * np.array(G)

@@ -66,8 +66,8 @@ def together(made, n, steps, **options):
 def restored(steps, balls_=1, **options):
     """Past a restoration of the integrals."""
     K = np.array([0.03, -0.02, 0.035]) * np.linspace(1.0, 1.5, balls_)[:, None]
-    chapsym.trajectory(Ball((0.1, 0.5, 1.6), 0.7, radius=0.1), K if balls_ > 1 else K[0], np.array([2, 3, 6]) / 7, steps,
-                       every=steps, **options)  # fmt: skip
+    ball, gamma = Ball((0.1, 0.5, 1.6), 0.7, radius=0.1), np.array([2, 3, 6]) / 7
+    chapsym.trajectory(ball, K if balls_ > 1 else K[0], gamma, steps, every=steps, **options)
 
 
 def any_magnitudes(precision):
@@ -121,7 +121,8 @@ CASES = [
       {"time_step": 0.7, "columns": 2, "attitude": True})
       for n, loops in ((1, {"long_run_march_one"}), (9, {"long_run_march_one", "long_run_march_eight"}))),
     (in_four, {"loop_n_march"}),
-    (lambda: chapsym.trajectory_vertical(Ball((1, 2, 4), 0), [0.3, 1.0, 0.0], (0.6, 0.0, 0.8), 300), {"vertical_loop_march"}),
+    (lambda: chapsym.trajectory_vertical(Ball((1, 2, 4), 0), [0.3, 1.0, 0.0], (0.6, 0.0, 0.8), 300),
+     {"vertical_loop_march"}),
     (chaotic, {"tangent_follow_all"}),
 ]  # fmt: skip
 
@@ -195,7 +196,7 @@ def test_an_array_that_is_written_may_not_be_read_only():
         given = arguments()
         read_only(given[at])
         if is_written:
-            with pytest.raises((TypeError, ValueError, BufferError), match="read-only|writable"):
+            with pytest.raises((TypeError, ValueError, BufferError), match=r"read-only|writable"):
                 advance(*given)
         else:
             advance(*given)

@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 
 import chapsym
+from chapsym.dynamics.loops import loop, tangent
 from chapsym.studies import chaos
 from chapsym.studies.chaos.orbits import LIMIT, picture, sample, slab, starts
-from chapsym.studies.chaos.tangent import derivative, determinant, follow_orbits
+from chapsym.studies.chaos.tangent import follow_orbits
 from chapsym.studies.energy.continuous import Level
 from chapsym.studies.energy.section import state
 
@@ -23,8 +24,15 @@ def turned(v, x):
 
 
 def matrix(K, g, ball=BALL):
-    u = chapsym.step(ball, K, g).rotation
-    return derivative(tuple(u[1:] / u[0]), tuple(K / 2), tuple(g), tuple(ball.inertia), float(ball.D))
+    """The derivative of the step from 𝒦 and γ, its columns as rows."""
+    u, state, found = chapsym.step(ball, K, g).rotation, np.zeros(loop.ROWS), np.empty((3, 3))
+    loop.scaled(K, g, ball.mass_tensor, float(ball.D), state)
+    tangent.derivative(*(u[1:] / u[0]), state, found)
+    return found
+
+
+def determinant(found):
+    return tangent.determinant(found)
 
 
 @pytest.mark.parametrize("D", [0.0, 1.0, 7.0])
@@ -33,7 +41,7 @@ def test_derivative_against_differences(D):
     ball, h = chapsym.Ball((1, 2, 4), D), 1e-5
     K, g = (v[0] for v in (2.5 * starts(1, False, 3)[0], starts(1, False, 3)[1]))
     after = chapsym.step(ball, K, g)
-    found = np.array(matrix(K, g, ball)).T
+    found = matrix(K, g, ball).T
     for i, e in enumerate(np.eye(3)):
         ends = [chapsym.step(ball, turned(K, s * h * e), turned(g, s * h * e)) for s in (1, -1)]
         dK, dg = (ends[0].momentum - ends[1].momentum) / (2 * h), (ends[0].gamma - ends[1].gamma) / (2 * h)
