@@ -1,13 +1,15 @@
 """Short calls, warm, one core: microseconds of a call of 1, 10 and 1000 steps, by a function and by a `Stepper`."""
 
+import time
 from collections.abc import Callable
 from functools import partial
+from itertools import product
 from typing import Any
 
 import numpy as np
 
 import chapsym
-from chapsym.studies.harness import Contender, NotComparable, Timing, cores, interleaved
+from chapsym.studies.harness import Contender, NotComparable, cores, interleaved
 
 from .results import Reached, Result, ratio_columns
 from .trajectory import GAMMA, MASS_TENSOR, MOMENTUM, D
@@ -21,10 +23,18 @@ PLAIN, STEPPER, FRAMES = "chapsym.trajectory", "Stepper.step", "Stepper.trajecto
 STEP, LOOP = "chapsym.step", "Stepper: momentum, step, momentum and gamma"
 
 
-def repeat(function: Callable[[], Any], calls: int) -> None:
-    """So many calls."""
-    for _ in range(calls):
-        function()
+def repeated(name: str, run: Callable[[], Any], seconds: float) -> Contender:
+    """As many calls in a row as take so many seconds."""
+
+    def calls(count: int) -> None:
+        for _ in range(count):
+            run()
+
+    calls(3)
+    start = time.thread_time()
+    calls(3)
+    count = max(1, round(3 * seconds / max(time.thread_time() - start, 1e-6)))
+    return Contender(name, partial(calls, count), count, time.thread_time)
 
 
 def sides(steps: int, contact: bool) -> dict[str, Callable[[], Any]]:
@@ -57,35 +67,21 @@ def compare(steps: int, contact: bool) -> None:
             raise NotComparable(f"{FRAMES} differs from {PLAIN} after {steps} steps, in the {name}")
 
 
-def timed(steps: int, contact: bool, seconds: float, rounds: int) -> dict[str, Timing]:
-    """Times the calls, each side for so many seconds a round."""
-    contenders = []
-    for name, function in sides(steps, contact).items():
-        once = interleaved([Contender(name, partial(repeat, function, 20), 20)], 3)[name].median
-        calls = max(1, round(seconds / once))
-        contenders.append(Contender(name, partial(repeat, function, calls), calls))
-    return interleaved(contenders, rounds)
-
-
 def measure(quick: bool, on_round: Callable[[str], None] = lambda text: None) -> Result:
     """Times calls of each length, with the contact point and without."""
     seconds, rounds = (0.005, 5) if quick else (0.05, 21)
     rows, reach = [], []
-    ball, K = chapsym.Ball(MASS_TENSOR, D), EPSILON * MOMENTUM
-    chapsym.trajectory(ball, K, GAMMA, 10_000)  # loads the loops
-    chapsym.step(ball, np.tile(K, (10_000, 1)), GAMMA)
-    for contact in (False, True):
-        for steps, wanted in CALLS.items():
-            told = f"steps = {steps}" + (", with the contact point" if contact else "")
-            on_round(f"calls, {told}")
-            compare(steps, contact)
-            with cores(1):
-                timings = timed(steps, contact, seconds, rounds)
-            rows += [
-                {"name": name, "steps": steps, "contact": contact, "µs a call": timing.median * 1e6}
-                | ratio_columns(timing, timings[PLAIN], PLAIN)
-                for name, timing in timings.items()
-            ]
-            if wanted:
-                reach.append(Reached(f"µs of {STEPPER}, {told}", timings[STEPPER].median * 1e6, wanted, False))
+    for contact, (steps, wanted) in product((False, True), CALLS.items()):
+        told = f"steps = {steps}" + (", with the contact point" if contact else "")
+        on_round(f"calls, {told}")
+        compare(steps, contact)
+        with cores(1):
+            timings = interleaved([repeated(*side, seconds) for side in sides(steps, contact).items()], rounds)
+        rows += [
+            {"name": name, "steps": steps, "contact": contact, "µs a call": timing.median * 1e6}
+            | ratio_columns(timing, timings[PLAIN], PLAIN)
+            for name, timing in timings.items()
+        ]
+        if wanted:
+            reach.append(Reached(f"µs of {STEPPER}, {told}", timings[STEPPER].median * 1e6, wanted, False))
     return Result("short calls, one core", rows, {}, reach)

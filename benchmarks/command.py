@@ -68,11 +68,15 @@ def _floats(own: Any) -> dict[str, Any]:
 
 def _sentences(section: dict[str, Any]) -> list[str]:
     """What is said under the table of a section: the figures to reach, the peers that are missing, the notes."""
-    said = []
-    for one in section["reach"]:
-        sign, limit = ("reached" if one["met"] else "NOT reached"), ("at least" if one["at_least"] else "at most")
-        said.append(f"{one['what']}: {one['value']:.3g} (wanted: {limit} {one['wanted']:.3g}): {sign}")
+    said = [
+        f"{one['what']}: {one['value']:.3g} (wanted: {_wanted(one)}): {'reached' if one['met'] else 'NOT reached'}"
+        for one in section["reach"]
+    ]
     return [*said, *_remarks(section)]
+
+
+def _wanted(goal: dict[str, Any]) -> str:
+    return f"{'at least' if goal['at_least'] else 'at most'} {goal['wanted']:.3g}"
 
 
 def _remarks(section: dict[str, Any]) -> list[str]:
@@ -82,15 +86,8 @@ def _remarks(section: dict[str, Any]) -> list[str]:
 
 def _goal(section: str, goal: dict[str, Any]) -> dict[str, Any]:
     """A row of the table of what is to be reached."""
-    limit = "at least" if goal["at_least"] else "at most"
-    wanted = f"{limit} {goal['wanted']:.3g}"
-    return {
-        "section": section,
-        "figure": goal["what"],
-        "measured": goal["value"],
-        "wanted": wanted,
-        "reached": goal["met"],
-    }
+    found = {"section": section, "figure": goal["what"], "measured": goal["value"]}
+    return {**found, "wanted": _wanted(goal), "reached": goal["met"]}
 
 
 def _print_all(found: dict[str, Any]) -> None:

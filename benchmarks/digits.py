@@ -10,8 +10,8 @@ from mpmath import mp, mpf
 import chapsym
 from chapsym.studies.harness import Contender, NotComparable, cores, interleaved
 
+from .peers import MOST, SETTLED, newton_in_u, turned
 from .results import Reached, Result, ratio_columns
-from .scalar_peers import MOST, SETTLED, newton_in_u, turned
 from .trajectory import GAMMA, MASS_TENSOR, MOMENTUM, D
 
 #: Decimals, and what a step is to cost at most in ms: a fifth of what it did on Python's integers.

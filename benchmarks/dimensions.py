@@ -22,8 +22,6 @@ EPSILON = 0.05
 BATCH = 64
 #: Steps of a trajectory, and of those one by one.
 STEPS, FEW = 3000, 30
-#: Steps in a call of a prepared ball.
-CALL = 10
 #: How far the two may be apart after FEW steps, relative to 𝒦.
 ROUNDING = 2.0**-44
 #: Microseconds for a step of one ball in four dimensions.
@@ -33,10 +31,8 @@ WANTED = 5.0
 def start(n: int) -> tuple[chapsym.BallN, np.ndarray, np.ndarray]:
     """A ball in n dimensions, 𝒦 and γ."""
     K = np.tril(np.cos(np.arange(1.0, n * n + 1)).reshape(n, n), -1)
-    K, gamma = K - K.T, 2.0 + np.sin(np.arange(n))
-    return (
-        chapsym.BallN(MASS_TENSOR[:n], D, radius=RADIUS), EPSILON * K / np.linalg.norm(K), gamma / np.linalg.norm(gamma)
-    )  # fmt: skip
+    K, gamma = (x / np.linalg.norm(x) for x in (K - K.T, 2.0 + np.sin(np.arange(n))))
+    return chapsym.BallN(MASS_TENSOR[:n], D, radius=RADIUS), EPSILON * K, gamma
 
 
 def trajectory(n: int, steps: int, balls: int = 1, contact: bool = False) -> np.ndarray:
@@ -44,22 +40,6 @@ def trajectory(n: int, steps: int, balls: int = 1, contact: bool = False) -> np.
     ball, K, gamma = start(n)
     run = chapsym.trajectory_n(ball, np.broadcast_to(K, (balls, n, n)), gamma, steps, every=steps, contact=contact)
     return run.momentum[0, -1]
-
-
-def composed(n: int, stages: int, balls: int = 1) -> np.ndarray:
-    """𝒦 at the end of so many stages of the composition of order 8."""
-    ball, K, gamma = start(n)
-    steps = stages // len(chapsym.substeps(8))
-    end: np.ndarray = chapsym.trajectory_n(ball, K, gamma, steps, order=8, every=steps).momentum[-1]
-    return end
-
-
-def called(n: int, steps: int, balls: int = 1) -> np.ndarray:
-    """𝒦 at the end of steps that are taken in calls of CALL."""
-    stepper = chapsym.StepperN(*start(n))
-    for _ in range(steps // CALL):
-        stepper.step(CALL)
-    return stepper.momentum
 
 
 def continued(n: int, steps: int, balls: int = 1) -> np.ndarray:
@@ -73,10 +53,6 @@ def continued(n: int, steps: int, balls: int = 1) -> np.ndarray:
     return K[0]
 
 
-def _say(on_round: Callable[[str], None], n: int, done: int) -> None:
-    on_round(f"n = {n}: round {done}")
-
-
 def measure(quick: bool, on_round: Callable[[str], None] = lambda text: None) -> Result:
     """Times one ball, one with its contact point, and a batch, on one core; the ends are compared before."""
     rounds, rows = 3 if quick else 9, []
@@ -88,8 +64,6 @@ def measure(quick: bool, on_round: Callable[[str], None] = lambda text: None) ->
         sides: dict[str, tuple[Callable[..., Any], int, int]] = {
             "one ball": (trajectory, 1, steps),
             "one ball, contact": (partial(trajectory, contact=True), 1, steps),
-            "one ball, a stage of order 8": (composed, 1, steps - steps % len(chapsym.substeps(8))),
-            f"one ball, {CALL} steps in a call": (called, 1, steps),
             f"one ball, {CONTINUED}": (continued, 1, FEW),
             f"{BATCH} balls": (trajectory, BATCH, steps // 10),
             f"{BATCH} balls, {CONTINUED}": (continued, BATCH, FEW // 10),
@@ -98,7 +72,7 @@ def measure(quick: bool, on_round: Callable[[str], None] = lambda text: None) ->
             timed = interleaved(
                 [Contender(name, partial(side, n, many, balls), many * balls, time.thread_time)
                  for name, (side, balls, many) in sides.items()],
-                rounds, partial(_say, on_round, n),
+                rounds, lambda done, n=n: on_round(f"n = {n}: round {done}"),  # type: ignore[misc]
             )  # fmt: skip
         for name, (_, balls, _) in sides.items():
             beside = timed[f"one ball, {CONTINUED}" if balls == 1 else f"{BATCH} balls, {CONTINUED}"]

@@ -52,11 +52,8 @@ def _panel(axis: Any, title: str, curves: list[Curve], section: str) -> None:
             markersize=4, linewidth=2.2 if ours else 1.0, zorder=3 if ours else 2,
         )  # fmt: skip
     if section == "long":
-        first, last = curves[0].x[0], curves[0].x[-1]
-        start = 0.65 * 2.0**-53
-        axis.plot(
-            [first, last], [start * first**0.5, start * last**0.5], "k:", linewidth=1, label="0.65·2⁻⁵³·√n", zorder=1
-        )
+        ends = [curves[0].x[0], curves[0].x[-1]]
+        axis.plot(ends, [0.65 * 2.0**-53 * x**0.5 for x in ends], "k:", linewidth=1, label="0.65·2⁻⁵³·√n", zorder=1)
     axis.set(xscale="log", yscale="log", title=title, xlabel=AXES[section][0], ylabel=AXES[section][1])
 
 

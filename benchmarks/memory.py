@@ -4,6 +4,7 @@ import subprocess
 import sys
 import tracemalloc
 from collections.abc import Callable
+from contextlib import suppress
 
 import numpy as np
 
@@ -35,16 +36,12 @@ print(peak_of_this_process())
 
 
 def peak_of_this_process() -> int:
-    """The largest resident size so far, in bytes; raises OSError where the system does not tell."""
-    try:  # the process' own; getrusage begins with what its parent had
-        with open("/proc/self/status", encoding="ascii") as status:
-            return next(int(line.split()[1]) * 1024 for line in status if line.startswith("VmHWM"))
-    except (OSError, StopIteration):
-        pass
-    try:
-        import resource
-    except ImportError:
-        raise OSError("this system does not tell the peak of a process") from None
+    """The largest resident size so far, in bytes; raises ImportError where the system does not tell."""
+    # The process' own; getrusage begins with what its parent had.
+    with suppress(OSError, StopIteration), open("/proc/self/status", encoding="ascii") as status:
+        return next(int(line.split()[1]) * 1024 for line in status if line.startswith("VmHWM"))
+    import resource
+
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * (1 if sys.platform == "darwin" else 1024)
 
 
@@ -72,17 +69,15 @@ def peak_of_a_batch(balls: int, steps: int) -> int:
 
 def measure(quick: bool, on_round: Callable[[str], None] = lambda text: None) -> Result:
     """The peaks of a long trajectory that keeps few states, and of 10⁶ balls (quick: 10⁵) in a fresh process."""
-    rows, reach = [], []
-    steps = 1_000_000 if quick else 10_000_000
+    steps, balls = (1_000_000, 100_000) if quick else (10_000_000, 1_000_000)
+    reach = []
     for every in (1000, 100):
         on_round(f"one ball, {steps} steps, every {every}")
         frames = steps // every + 1
-        peak, allowed = peak_of_a_trajectory(steps, every), frames * BYTES_KEPT + BESIDES
-        rows.append({"name": f"one ball, {steps} steps, every={every}", "MB": peak / 1e6, "allowed": allowed / 1e6})
+        allowed = frames * BYTES_KEPT + BESIDES
+        peak = peak_of_a_trajectory(steps, every)
         reach.append(Reached(f"MB of {frames} states kept of {steps} steps", peak / 1e6, allowed / 1e6, False))
-    balls = 100_000 if quick else 1_000_000
     on_round(f"{balls} balls in a fresh process")
-    peak = peak_of_a_batch(balls, 10)
-    rows.append({"name": f"{balls} balls, 10 steps, the whole process", "MB": peak / 1e6, "allowed": GIGABYTE / 1e6})
-    reach.append(Reached(f"MB of a process with {balls} balls", peak / 1e6, GIGABYTE / 1e6, False))
-    return Result("memory", rows, {}, reach)
+    whole = peak_of_a_batch(balls, 10)
+    reach.append(Reached(f"MB of a process with {balls} balls, 10 steps", whole / 1e6, GIGABYTE / 1e6, False))
+    return Result("memory", [{"name": r.what, "MB": r.value, "allowed": r.wanted} for r in reach], {}, reach)

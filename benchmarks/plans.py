@@ -41,28 +41,16 @@ def _ball(J: tuple[float, float, float], D: float, balls: int = 1) -> chapsym.Ba
     return chapsym.Ball(tensor, D, radius=0.1)
 
 
-def _index(steps: int, every: int) -> np.ndarray:
-    return np.arange(0, steps + 1, every)
-
-
 def _full(ball: chapsym.Ball, K: np.ndarray, steps: int, every: int, **body: bool) -> np.ndarray:
     return chapsym.trajectory(ball, K, GAMMA, steps, every=every, threads=1, **body).momentum[..., -1, :]  # type: ignore[arg-type]
 
 
 def _steady(ball: chapsym.Ball, K: np.ndarray, steps: int, every: int, **body: bool) -> np.ndarray:
-    return chapsym.steady_frames(ball, K, GAMMA, _index(steps, every), **body).momentum[..., -1, :]
+    return chapsym.steady_frames(ball, K, GAMMA, range(0, steps + 1, every), **body).momentum[..., -1, :]
 
 
 def _top(ball: chapsym.Ball, K: np.ndarray, steps: int, every: int, **body: bool) -> np.ndarray:
-    return chapsym.top_frames(ball, K, GAMMA, _index(steps, every), **body).momentum[..., -1, :]
-
-
-def _momenta(ball: chapsym.Ball, K: np.ndarray, steps: int, every: int) -> np.ndarray:
-    return TopMotion.free(ball, K).momenta(_index(steps, every))[-1]
-
-
-def _vertical(ball: chapsym.Ball, height: float, gamma: np.ndarray, steps: int, every: int) -> np.ndarray:
-    return chapsym.trajectory_vertical(ball, height, gamma, steps, every=every).momentum[-1]
+    return chapsym.top_frames(ball, K, GAMMA, range(0, steps + 1, every), **body).momentum[..., -1, :]
 
 
 def pairs() -> list[Pair]:
@@ -75,8 +63,10 @@ def pairs() -> list[Pair]:
         Pair("equal J: with the contact point", partial(_steady, equal, K, contact=True),
              partial(_full, equal, K, contact=True)),
         Pair(f"equal J: 𝒦, γ, {BATCH} balls", partial(_steady, many, K), partial(_full, many, K), BATCH),
-        Pair("top: 𝒦 at once", partial(_momenta, top, K), partial(_full, top, K)),
-        Pair("top: 𝒦 step by step (G_h)", partial(_vertical, top, EPSILON, MOMENTUM), partial(_full, top, K)),
+        Pair("top: 𝒦 at once", lambda steps, every: TopMotion.free(top, K).momenta(range(0, steps + 1, every))[-1],
+             partial(_full, top, K)),
+        Pair("top: 𝒦 step by step (G_h)", lambda steps, every: chapsym.trajectory_vertical(
+             top, EPSILON, MOMENTUM, steps, every=every).momentum[-1], partial(_full, top, K)),
         Pair("top: 𝒦, γ, attitude at once", partial(_top, top, K, attitude=True),
              partial(_full, top, K, attitude=True)),
         Pair("two equal J, vertical 𝒦: at once", partial(_top, round_top, up), partial(_full, round_top, up)),
@@ -111,11 +101,6 @@ def _row(pair: Pair, steps: int, every: int, rounds: int, on_round: Callable[[st
         )  # fmt: skip
     reduced, full = timed["reduced"], timed[FULL]
     return {
-        "name": pair.name,
-        "steps": steps,
-        "frames": steps // every + 1,
-        "ms": reduced.median * 1e3,
-        f"{FULL}, ms": full.median * 1e3,
-        **ratio_columns(reduced, full, FULL),
-        "differs by": apart,
-    }
+        "name": pair.name, "steps": steps, "frames": steps // every + 1, "ms": reduced.median * 1e3,
+        f"{FULL}, ms": full.median * 1e3, **ratio_columns(reduced, full, FULL), "differs by": apart,
+    }  # fmt: skip

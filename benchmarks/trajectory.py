@@ -1,4 +1,4 @@
-"""One trajectory on one core: nanoseconds a step, chapsym beside what a user might write, and beside C."""
+"""One trajectory on one core: nanoseconds a step, chapsym beside what a user might write."""
 
 from collections.abc import Callable
 from functools import partial
@@ -7,17 +7,16 @@ from typing import Any
 import numpy as np
 
 import chapsym
-from chapsym.studies.harness import Contender, NotComparable, cores, interleaved
+from chapsym.studies.harness import Contender, NotComparable, available_cores, cores, interleaved
 
-from . import c_peer, scalar_peers
+from . import peers
 from .results import Reached, Result, ratio_columns
 
 #: The ball of the measurements in the project's notes, and a generic state of it: 𝒦/ε and γ.
 MASS_TENSOR, D = np.array((0.1, 0.5, 1.6)), 0.7
 MOMENTUM, GAMMA = np.array((6.0, -2.0, 3.0)) / 7, np.array((2.0, 3.0, 6.0)) / 7
 EPSILONS = (0.05, 0.4)
-CHAPSYM, NEWTON, C = "chapsym", "numba, Newton in q", "C, the same algorithm"
-ARRAYS, TUNED, LISTS = "NumPy, arrays of 3", "NumPy, arrays of 3, tuned", "Python floats"
+CHAPSYM, ARRAYS, LISTS = "chapsym", "NumPy, arrays of 3", "Python floats"
 #: Steps after which the peers are compared, and by how much they may differ: 64 roundings a step.
 COMPARED = 100
 AGREEMENT = COMPARED * 64 * 2.0**-53
@@ -25,24 +24,18 @@ AGREEMENT = COMPARED * 64 * 2.0**-53
 Peer = Callable[[np.ndarray, np.ndarray, np.ndarray, float, int], tuple[np.ndarray, np.ndarray]]
 
 
-def with_chapsym(K: np.ndarray, g: np.ndarray, J: np.ndarray, D: float, steps: int) -> tuple[np.ndarray, np.ndarray]:
-    """The public trajectory, of which only the end is kept."""
-    end = chapsym.trajectory(chapsym.Ball(J, D), K, g, steps, every=max(steps, 1))
-    return end.momentum[-1], end.gamma[-1]
+def with_chapsym(K: np.ndarray, g: np.ndarray, J: np.ndarray, D: Any, steps: int) -> tuple[np.ndarray, np.ndarray]:
+    """The public trajectory, of one ball or of a batch, of which only the end is kept."""
+    end = chapsym.trajectory(chapsym.Ball(J, D), K, g, steps, every=max(steps, 1), threads=available_cores())
+    return end.momentum[..., -1, :], end.gamma[..., -1, :]
 
 
-def peers() -> tuple[dict[str, tuple[Peer, int]], dict[str, str]]:
-    """The sides that can run here, each with the share of the steps that it takes (slow ones 1/share); the missing."""
-    sides: dict[str, tuple[Peer, int]] = {CHAPSYM: (with_chapsym, 1), NEWTON: (scalar_peers.with_numba, 1)}
-    missing = {}
-    try:
-        sides[C] = c_peer.loop(), 1
-    except c_peer.NoCompiler as reason:
-        missing[C] = str(reason)
-    sides[LISTS] = scalar_peers.with_lists, 1000
-    sides[TUNED] = scalar_peers.with_tuned_arrays, 10_000
-    sides[ARRAYS] = scalar_peers.with_small_arrays, 50_000
-    return sides, missing
+#: Each with the share of the steps that it takes: slow ones take 1/share.
+SIDES: dict[str, tuple[Peer, int]] = {
+    CHAPSYM: (with_chapsym, 1),
+    LISTS: (peers.with_lists, 1000),
+    ARRAYS: (peers.with_tuned_arrays, 10_000),
+}
 
 
 def agreement(sides: dict[str, Callable[[], Any]], momentum: np.ndarray, bound: float) -> dict[str, float]:
@@ -66,45 +59,33 @@ def agreement(sides: dict[str, Callable[[], Any]], momentum: np.ndarray, bound: 
 Start = tuple[np.ndarray, float, np.ndarray, np.ndarray]
 
 
-def measure(
-    quick: bool, on_round: Callable[[str], None] = lambda text: None, own: Start | None = None
-) -> Result:  # fmt: skip
+def measure(quick: bool, on_round: Callable[[str], None] = lambda text: None, own: Start | None = None) -> Result:
     """Times one trajectory for each ε, or of one's own ball; every side is checked against chapsym before."""
     steps, rounds = (50_000, 5) if quick else (2_000_000, 21)
-    sides, missing = peers()
     rows: list[dict[str, Any]] = []
     reach: list[Reached] = []
     starts = [(MASS_TENSOR, D, epsilon * MOMENTUM, GAMMA) for epsilon in EPSILONS] if own is None else [own]
     for J, contact, K, g in starts:
         epsilon = float(np.linalg.norm(K))
         differ = agreement(
-            {name: partial(side, K, g, J, contact, COMPARED) for name, (side, _) in sides.items()}, K, AGREEMENT
+            {name: partial(side, K, g, J, contact, COMPARED) for name, (side, _) in SIDES.items()}, K, AGREEMENT
         )
         with cores(1):
             contenders = [
                 Contender(name, partial(side, K, g, J, contact, count), count)
-                for name, (side, share) in sides.items()
+                for name, (side, share) in SIDES.items()
                 if (count := max(20, steps // share))
             ]
-            timings = interleaved(contenders, rounds, partial(_tell, on_round, epsilon, rounds))
+            timings = interleaved(
+                contenders, rounds, lambda done: on_round(f"one trajectory: round {done} of {rounds}")
+            )
         rows += [
-            {
-                "name": name,
-                "ε": epsilon,
-                "ns a step": timing.median * 1e9,
-                **ratio_columns(timing, timings[NEWTON], "Newton in q"),
-            }
+            {"name": name, "ε": epsilon, "ns a step": timing.median * 1e9}
+            | ratio_columns(timing, timings[CHAPSYM], CHAPSYM)
             | {"differs by": differ[name]}
             for name, timing in timings.items()
         ]
         if own is None and not reach:
-            home = timings[CHAPSYM]
-            reach.append(Reached("numba Newton in q / chapsym", timings[NEWTON].ratio_to(home)[0], 3.5, True))
-            reach.append(Reached("NumPy arrays of 3 / chapsym", timings[ARRAYS].ratio_to(home)[0], 1000, True))
-            if C in timings:
-                reach.append(Reached("chapsym / the same algorithm in C", home.ratio_to(timings[C])[0], 1.3, False))
-    return Result("one trajectory, one core", rows, missing, reach)
-
-
-def _tell(on_round: Callable[[str], None], epsilon: float, rounds: int, done: int) -> None:
-    on_round(f"one trajectory, ε = {epsilon:g}: round {done} of {rounds}")
+            ratio, *_ = timings[ARRAYS].ratio_to(timings[CHAPSYM])
+            reach.append(Reached("NumPy arrays of 3 / chapsym", ratio, 1000, True))
+    return Result("one trajectory, one core", rows, {}, reach)

@@ -18,8 +18,8 @@ def bench(
         list[str] | None,
         typer.Argument(
             metavar="[SECTION]...",
-            help="trajectory, batch, memory, plans, calls, lanes, beyond, first-call, long, work-precision, "
-            "extrapolation, dimensions, digits, commands; all.",
+            help="goals, trajectory, batch, steps, calls, plans, dimensions, digits, memory, work-precision, long; "
+            "all.",
         ),
     ] = None,
     quick: Annotated[bool, typer.Option("--quick", help="Smaller sizes and fewer rounds: seconds.")] = False,

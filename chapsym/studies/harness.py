@@ -21,7 +21,7 @@ import numpy as np
 from chapsym.dynamics import BadInput
 
 #: The packages whose versions belong to a measurement.
-NAMED = ("chapsym", "numpy", "numba", "scipy", "heyoka")
+NAMED = ("chapsym", "numpy", "scipy", "heyoka")
 
 
 #: Where the benchmarks lie, if this is a checkout: the wheel has none.
@@ -133,7 +133,7 @@ def installed(package: str) -> str | None:
 
 def benchmark(module: str) -> Any:
     """A module of the benchmarks; raises BadInput where they are not, and MissingExtra."""
-    if not (BENCHMARKS / "gibbs.c").is_file():
+    if not (BENCHMARKS / "command.py").is_file():
         raise BadInput("the benchmarks are not in the wheel; run them from a checkout")
     return import_module(f"benchmarks.{module}")
 

@@ -1,16 +1,10 @@
-"""One ball, as a user might write it: each peer takes (K, g, J, D, steps) and returns the last (K, g).
+"""The map as a user might write it: each peer takes (K, g, J, D, steps) and returns the last (K, g).
 
-They share nothing with the loop that they are compared with but the generated kernels, where said so.
+They share nothing with the loop that they are compared with.
 """
-
-from collections.abc import Callable
-from functools import cache
-from math import sqrt
-from typing import Any
 
 import numpy as np
 
-from chapsym import generated
 from chapsym.studies.harness import NotComparable
 
 #: A Newton correction below this, relative to the rotation, is the last one: the next would be its square.
@@ -80,81 +74,6 @@ def solved(a11, a12, a13, a21, a22, a23, a31, a32, a33, r1, r2, r3):
     )
 
 
-def newton_in_q(K, g, J, D, steps):
-    """Newton's iteration in the chart q₀ = √(1 - |q|²) from the angular velocity, with the generated kernels.
-
-    Returns (converged, K1, K2, K3, g1, g2, g3); plain Python that numba compiles.
-    """
-    J1, J2, J3 = J[0], J[1], J[2]
-    K1, K2, K3, g1, g2, g3 = K[0], K[1], K[2], g[0], g[1], g[2]
-    for _ in range(steps):
-        w1, w2, w3 = generated.angular_velocity(K1, K2, K3, g1, g2, g3, J1, J2, J3, D)
-        q1, q2, q3 = 0.5 * w1, 0.5 * w2, 0.5 * w3  # 𝒦 = εK, so this is half the angle
-        q0 = sqrt(1 - q1 * q1 - q2 * q2 - q3 * q3)
-        change = 1.0
-        for _ in range(MOST):
-            r1, r2, r3 = generated.residual(q0, q1, q2, q3, K1, K2, K3, g1, g2, g3, J1, J2, J3, D)
-            a11, a12, a13, a21, a22, a23, a31, a32, a33 = generated.momentum_jacobian(
-                q0, q1, q2, q3, g1, g2, g3, J1, J2, J3, D
-            )
-            d1, d2, d3 = solved(a11, a12, a13, a21, a22, a23, a31, a32, a33, r1, r2, r3)
-            q1, q2, q3 = q1 - d1, q2 - d2, q3 - d3
-            square = q1 * q1 + q2 * q2 + q3 * q3
-            q0 = sqrt(1 - square)
-            change = d1 * d1 + d2 * d2 + d3 * d3
-            if change <= SETTLED * SETTLED * square:
-                break
-        else:
-            return False, K1, K2, K3, g1, g2, g3
-        K1, K2, K3 = generated.transport(q0, q1, q2, q3, K1, K2, K3)
-        g1, g2, g3 = generated.transport(q0, q1, q2, q3, g1, g2, g3)
-    return True, K1, K2, K3, g1, g2, g3
-
-
-@cache
-def jitted(function: Callable[..., Any]) -> Callable[..., Any]:
-    """A copy of a function of this package, compiled by numba with all that it calls."""
-    import numba
-    from numba.extending import register_jitable
-
-    kernels = (generated.angular_velocity, generated.residual, generated.momentum_jacobian, generated.transport)
-    for callee in (*kernels, generated.invariants, generated.energy, solved, newton_in_u, turned):
-        register_jitable(error_model="numpy")(callee)
-    return numba.njit(error_model="numpy", nogil=True)(function)
-
-
-def with_numba(K, g, J, D, steps):
-    """Newton's iteration in q, compiled by numba: the straightforward thing."""
-    converged, *state = jitted(newton_in_q)(np.asarray(K), np.asarray(g), np.asarray(J), float(D), steps)
-    if not converged:
-        raise NotComparable("Newton's iteration in q does not converge")
-    return np.array(state[:3]), np.array(state[3:])
-
-
-def with_small_arrays(K, g, J, D, steps):
-    """NumPy on arrays of three, written as in a textbook: np.cross, np.outer, np.linalg.solve."""
-    J, K, g = np.asarray(J), np.array(K), np.array(g)
-    moments = np.diag(J.sum() - J + D)
-    for _ in range(steps):
-        k = K / 2
-        B = moments - D * np.outer(g, g)
-        u = np.linalg.solve(B, k)
-        for _ in range(MOST):
-            residual = B @ u + np.cross(u, moments @ u) - k * (1 + u @ u)
-            d = np.linalg.solve(B + _skew(u) @ moments - _skew(moments @ u) - 2 * np.outer(k, u), residual)
-            u = u - d
-            if d @ d <= SETTLED * SETTLED * (u @ u):
-                break
-        else:
-            raise NotComparable("Newton's iteration with np.linalg.solve does not converge")
-        K, g = (v + 2 / (1 + u @ u) * (np.cross(u, np.cross(u, v)) - np.cross(u, v)) for v in (K, g))
-    return K, g
-
-
-def _skew(a):
-    return np.array([[0.0, -a[2], a[1]], [a[2], 0.0, -a[0]], [-a[1], a[0], 0.0]])
-
-
 def with_tuned_arrays(K, g, J, D, steps):
     """NumPy on arrays of three with as few calls as we could do with: both vectors turn in one product."""
     J, state = np.asarray(J), np.array([K, g]).T
@@ -174,6 +93,53 @@ def with_tuned_arrays(K, g, J, D, steps):
                 break
         else:
             raise NotComparable("Newton's iteration with np.linalg.solve does not converge")
-        cross = _skew(u)
+        cross = np.array([[0.0, -u[2], u[1]], [u[2], 0.0, -u[0]], [-u[1], u[0], 0.0]])
         state = state + (2 / (1 + u @ u)) * (cross @ (cross @ state - state))
     return state[:, 0], state[:, 1]
+
+
+#: The weights that extend six values of a polynomial of degree five, the newest first.
+EXTEND = (6.0, -15.0, 20.0, -15.0, 6.0, -1.0)
+
+
+def by_columns(K, g, J, D, steps):
+    """NumPy with one array for each component: the Gibbs vector, extrapolated from six steps, and a check of all."""
+    K1, K2, K3 = K.T.copy()
+    g1, g2, g3 = g.T.copy()
+    J1, J2, J3 = J.T.copy()
+    S1, S2, S3, E1, E2, E3 = J2 + J3, J1 + J3, J1 + J2, J2 - J3, J3 - J1, J1 - J2
+    past: list[list[np.ndarray]] = []
+    for _ in range(steps):
+        k1, k2, k3 = 0.5 * K1, 0.5 * K2, 0.5 * K3
+        d1, d2, d3 = D * g1, D * g2, D * g3
+        e1, e2, e3 = d1 * g1, d2 * g2, d3 * g3
+        b11, b22, b33 = S1 + (e2 + e3), S2 + (e1 + e3), S3 + (e1 + e2)
+        b12, b13, b23 = -d1 * g2, -d1 * g3, -d2 * g3
+        if len(past) == len(EXTEND):
+            u1, u2, u3 = (sum(w * p[i] for w, p in zip(EXTEND, past, strict=True)) for i in range(3))
+            past.pop()
+        else:
+            u1, u2, u3 = past[0] if past else solved(b11, b12, b13, b12, b22, b23, b13, b23, b33, k1, k2, k3)
+        for _ in range(MOST):
+            t1, t2, t3 = E1 * u2, E2 * u3, E3 * u1
+            w = u1 * u1 + u2 * u2 + u3 * u3
+            r1 = b11 * u1 + b12 * u2 + b13 * u3 + t1 * u3 - (1 + w) * k1
+            r2 = b12 * u1 + b22 * u2 + b23 * u3 + t2 * u1 - (1 + w) * k2
+            r3 = b13 * u1 + b23 * u2 + b33 * u3 + t3 * u2 - (1 + w) * k3
+            v1, v2, v3 = 2 * u1, 2 * u2, 2 * u3
+            c1, c2, c3 = solved(
+                b11 - k1 * v1, b12 + E1 * u3 - k1 * v2, b13 + t1 - k1 * v3,
+                b12 + t2 - k2 * v1, b22 - k2 * v2, b23 + E2 * u1 - k2 * v3,
+                b13 + E3 * u2 - k3 * v1, b23 + t3 - k3 * v2, b33 - k3 * v3,
+                r1, r2, r3,
+            )  # fmt: skip
+            u1, u2, u3 = u1 - c1, u2 - c2, u3 - c3
+            if (c1 * c1 + c2 * c2 + c3 * c3 <= SETTLED * SETTLED * w).all():
+                break
+        else:
+            raise NotComparable("Newton's iteration by columns does not converge")
+        past.insert(0, [u1, u2, u3])
+        f = 2 / (1 + u1 * u1 + u2 * u2 + u3 * u3)
+        K1, K2, K3 = turned(u1, u2, u3, f, K1, K2, K3)
+        g1, g2, g3 = turned(u1, u2, u3, f, g1, g2, g3)
+    return np.stack([K1, K2, K3], axis=-1), np.stack([g1, g2, g3], axis=-1)
