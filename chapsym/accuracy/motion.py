@@ -163,7 +163,10 @@ def _run(
         count.add(len(reach[some]))
 
     count, parts = Count(progress), range(0, n, width)
-    share(task, parts, min(problem.threads or cores(), len(parts)) if n > 1 else 1, count)
+    if n == 1:
+        task(0)
+    else:
+        share(task, parts, min(problem.threads or cores(), len(parts)), count)
     found.order[:], found.total[:] = EXTRAPOLATED, told[:, STEPS]
     return _estimate(problem, told, found.error)
 

@@ -20,6 +20,10 @@ from .motion import DEFAULT, FINEST, moved
 from .problem import Problem
 
 
+#: Where the contact point begins.
+HERE = (0.0, 0.0)
+
+
 def roll(
     ball: Ball,
     omega: ArrayLike,
@@ -31,7 +35,7 @@ def roll(
     every: int = 1,
     attitude: bool | ArrayLike = False,
     contact: bool = False,
-    position: ArrayLike = (0.0, 0.0),
+    position: ArrayLike = HERE,
     accuracy: float | None = None,
     order: int | None = None,
     precision: str | Precision | None = None,
@@ -49,8 +53,9 @@ def roll(
     contact: whether to trace the contact point; it needs `ball.radius`, and implies the attitude.
     position: the contact point at the start in m, (..., 2).
     accuracy: of γ, of K, ω and the contact point relative to |K|, the largest |ω| and the radius, and of the attitude
-    in radians, at every frame; 1e-6 without.  `error` of the result is an estimate of what was reached, by comparison
-    with a run of fewer steps; it is larger than what was asked for where a start is too near to a separatrix.
+    in radians, at every frame; 1e-6 without.  `error` of the result is an estimate of what was reached: what the flow
+    makes of the errors of all steps together.  It is larger than what was asked for where a start is too near to a
+    separatrix.
     order, precision, map: any of them takes the map in steps of `time_step` in the place of the motion, as `trajectory`
     does, with 𝒦 = ε(Λω - D⟨ω,γ⟩γ).  threads, progress: as of `trajectory`.
 
@@ -58,7 +63,7 @@ def roll(
     Raises BadInput for what no ball or run can have, and for an accuracy that double precision has not.
     """
     spin, vertical, turned = _start(ball, omega, gamma, attitude, axes)
-    place = np.zeros(2) if not contact and np.shape(position) == (2,) else numbers(position, "position", 2)
+    place = None if position is HERE else numbers(position, "position", 2)
     by_map = map or order is not None or precision is not None
     if by_map and accuracy is not None:
         raise BadInput("accuracy is of the motion of the ball; leave out order, precision and map")
@@ -67,11 +72,13 @@ def roll(
         whole_number(steps, "steps", 0), every=whole_number(every, "every", 1), order=2 if order is None else order,
         accuracy=None if by_map else _accuracy(accuracy), threads=threads, progress=progress,
     )  # fmt: skip
-    if contact and place.any():
+    if contact and place is not None:
         run.contact[...] += place[..., np.newaxis, :]
     return run
 
 
+#: Momenta between these need no closer look.
+ORDINARY = 1e-290, 1e290
 #: A unit quaternion times this turns the other way; and the vertical in space.
 _INVERSE, _UP = np.array([1.0, -1.0, -1.0, -1.0]), np.array([0.0, 0.0, 1.0])
 
@@ -122,7 +129,10 @@ def _momentum(ball: Ball, omega: Floats, gamma: Floats, epsilon: float) -> Float
     """K = Λω - D⟨ω,γ⟩γ; raises BadInput where float64 loses digits of K or 𝒦 = εK."""
     if ball.is_one and omega.ndim == gamma.ndim == 1:  # in floats, which a single ball is faster in
         numbers_of = (*omega.tolist(), *gamma.tolist(), *ball.mass_tensor.tolist(), float(ball.D))
-        K = np.array(contact_momentum(*numbers_of))
+        several = contact_momentum(*numbers_of)
+        K = np.array(several)
+        if ORDINARY[0] < epsilon * max(map(abs, several)) < ORDINARY[1]:
+            return K
     else:
         with np.errstate(over="ignore", under="ignore"):
             K = kernels.contact_momentum(omega, gamma, ball.mass_tensor, ball.D)
@@ -138,7 +148,9 @@ def _momentum(ball: Ball, omega: Floats, gamma: Floats, epsilon: float) -> Float
 
 
 def _accuracy(given: float | None) -> float:
-    found = numbers(DEFAULT if given is None else given, "accuracy")
+    if given is None:
+        return DEFAULT
+    found = numbers(given, "accuracy")
     if found.ndim or not found >= FINEST:
         raise BadInput(
             f"accuracy must be one number from {FINEST:g} on, not {given!r}; `accurate` has more digits than float64"
@@ -174,12 +186,12 @@ def _motion(
     found = moved(problem, lambda balls: progress(int(balls * steps)))
 
     def shaped(array: np.ndarray | None) -> Any:
-        return None if array is None else array.reshape((*shape, *array.shape[1:]))
+        return None if array is None else array[0] if not shape else array.reshape((*shape, *array.shape[1:]))
 
     run = Trajectory(
         ball, np.arange(problem.frames + 1) * every, shaped(found.angular_momentum * epsilon), shaped(found.gamma),
         shaped(found.attitude), shaped(found.contact),
-        shaped(np.where(found.reached == problem.frames, steps, found.reached * every)), shaped(found.status),
-        epsilon, 0, error=shaped(found.error),
+        np.asarray(shaped(np.where(found.reached == problem.frames, steps, found.reached * every))),
+        np.asarray(shaped(found.status)), epsilon, 0, error=np.asarray(shaped(found.error)),
     )  # fmt: skip
     return finished(run, np.full(1, np.nan))
