@@ -2557,7 +2557,7 @@ INLINE void carried_tangent(r1 body, real J1, real J2, real J3, real contact, in
     E.p[at + 42 + 2] = one * s3; real v1 = w1.a1 * g3 - w1.a2 * g2, v2 = w1.a2 * g1 - w1.a0 * g3;
     real v3 = w1.a0 * g2 - w1.a1 * g1, u1 = a1.a1 * g3 - a1.a2 * g2 - (w1.a1 * v3 - w1.a2 * v2);
     real u2 = a1.a2 * g1 - a1.a0 * g3 - (w1.a2 * v1 - w1.a0 * v3);
-    real u3 = a1.a0 * g2 - a1.a1 * g1 - (w1.a0 * v2 - w1.a1 * v1), x1, x2, x3, y1, y2, y3;
+    real u3 = a1.a0 * g2 - a1.a1 * g1 - (w1.a0 * v2 - w1.a1 * v1), x1 = 0, x2 = 0, x3 = 0, y1 = 0, y2 = 0, y3 = 0;
     if (traced) {
         real a = body.p[6], b = body.p[7], c = body.p[8], d = body.p[9];
         t_r3 t_1 = kernel_rotate(a, -b, -c, -d, 1, 0, 0); x1 = t_1.a0; x2 = t_1.a1; x3 = t_1.a2;
@@ -2865,8 +2865,8 @@ INLINE real carried_spun_square(r1 E, int64_t at) {
     return max_r(E.p[105] * found, 0);
 }
 
-INLINE void following_followed(int64_t B, r2 S, int64_t b, int64_t i, int traced, real error, real off, real out, r1
-    now, r1 used, r1 lane, r1 E, r2 told) {
+INLINE void following_followed(r2 S, int64_t b, int64_t i, int traced, real error, real off, real out, r1 now, r1
+    used, r1 lane, r1 E, r2 told) {
     for (int64_t c = 0; c < 45; c++) E.p[c] = E.p[45 + c];
     carried_tangent(now, S.p[116 * S.s0 + b], S.p[117 * S.s0 + b], S.p[118 * S.s0 + b], S.p[119 * S.s0 + b], traced,
         E, 45);
@@ -3387,8 +3387,7 @@ INLINE void tangent_follow_all(r2 momenta, r2 gammas, r1 tensor, real contact, i
             tensor, contact, steps, (r1){rows.p + i * rows.s0, rows.n1});
 }
 
-INLINE t_ir4 following_judged(r2 S, int64_t B, int64_t b, int lost, real allowed, real start, r2 sums, r1 state, r1
-    lane) {
+INLINE t_ir4 following_judged(r2 S, int64_t b, int lost, real allowed, real start, r2 sums, r1 state, r1 lane) {
     real step = lane.p[1], tries = lane.p[6], size = lane.p[2] * real_sqrt(S.p[37 * S.s0 + b] * S.p[37 * S.s0 + b] +
         (S.p[38 * S.s0 + b] * S.p[38 * S.s0 + b] + S.p[39 * S.s0 + b] * S.p[39 * S.s0 + b]));
     lane.p[11] = size; int64_t stopped = 0; real reached = 1, again = 0;
@@ -3440,7 +3439,7 @@ INLINE void following_follow_lanes(int64_t B, r3 momenta, r3 verticals, r3 attit
         for (b = 0; b < B; b++) {
             if (S.p[120 * S.s0 + b] == 0) {
                 i = (int64_t)lanes.p[b * lanes.s0 + 4];
-                t_ir4 t_1 = following_judged(S, B, b, lost, allowed.p[i], start.p[i], sums, (r1){states.p + b *
+                t_ir4 t_1 = following_judged(S, b, lost, allowed.p[i], start.p[i], sums, (r1){states.p + b *
                     states.s0, states.n1}, (r1){lanes.p + b * lanes.s0, lanes.n1});
                 stopped = t_1.a0; part = t_1.a1; error = t_1.a2; again = t_1.a3; wanted = t_1.a4; off = 0; out = 0;
                 inside = 0; done = stopped != 0;
@@ -3492,8 +3491,8 @@ INLINE void following_follow_lanes(int64_t B, r3 momenta, r3 verticals, r3 attit
                             frame += 1;
                             part = following_part_of((r1){lanes.p + b * lanes.s0, lanes.n1}, frame, frames, interval);
                         }
-                        following_followed(B, S, b, i, traced, error, off, out, now, used, (r1){lanes.p + b *
-                            lanes.s0, lanes.n1}, (r1){errors.p + b * errors.s0, errors.n1}, told);
+                        following_followed(S, b, i, traced, error, off, out, now, used, (r1){lanes.p + b * lanes.s0,
+                            lanes.n1}, (r1){errors.p + b * errors.s0, errors.n1}, told);
                         int64_t t_3 = frame; real t_4 = 0;
                         real t_5 = lanes.p[b * lanes.s0 + 0] + lanes.p[b * lanes.s0 + 1];
                         lanes.p[b * lanes.s0 + 5] = t_3; lanes.p[b * lanes.s0 + 6] = t_4;
@@ -3733,5 +3732,5 @@ const int loops_single_count = 4;
 #endif
 
 #ifndef SINGLE
-const char loops_text[] = "82b7aae3587608f72557fd8d9012a8732f81096903a534071a931448140c32de";
+const char loops_text[] = "9262afaba65a9fe82a8c9da7d94989273ab834adb81bef6773a1efe9557b95b4";
 #endif

@@ -19,7 +19,6 @@ from chapsym.numbers import Precision
 from .motion import DEFAULT, FINEST, moved
 from .problem import Problem
 
-
 #: Where the contact point begins.
 HERE = (0.0, 0.0)
 

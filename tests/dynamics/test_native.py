@@ -92,6 +92,14 @@ def in_four():
         chapsym.trajectory_n(ball, K, g, 12, every=5, **options)
 
 
+def rolled(n, steps=40, time_step=0.11, **options):
+    """Motions to an accuracy: a ball beside an unstable rotation is among them."""
+    omega = np.random.default_rng(5).normal(size=(n, 3))
+    omega[0] = 1e-4, 2.0, 1e-5
+    ball = Ball.from_mass_tensor((0.003, 0.005, 0.009), mass=2.0, radius=0.1)
+    chapsym.roll(ball, omega if n > 1 else omega[0], time_step, steps, **options)
+
+
 def chaotic():
     K = np.random.default_rng(3).normal(size=(3, 3)) * 0.4
     follow_orbits(Ball((1, 2, 4), 3), K, np.tile(np.array([2, 3, 6]) / 7, (3, 1)), 21)
@@ -124,6 +132,9 @@ CASES = [
     (lambda: chapsym.trajectory_vertical(Ball((1, 2, 4), 0), [0.3, 1.0, 0.0], (0.6, 0.0, 0.8), 300),
      {"vertical_loop_march"}),
     (chaotic, {"tangent_follow_all"}),
+    *((lambda n=n, o=o: rolled(n, **o), {"expected_surveyed", "expected_estimated", loop})
+      for o in ({"contact": True}, {"steps": 7, "accuracy": 1e-10}, {"time_step": 0.01, "attitude": True})
+      for n, loop in ((1, "following_follow_one"), (9, "following_follow_eight"))),
 ]  # fmt: skip
 
 

@@ -8,7 +8,6 @@ from rolled import rolled
 
 import chapsym
 from chapsym.dynamics import Status, kernels
-from chapsym.dynamics.levels import double
 from chapsym.generated import TABLE
 from chapsym.scene.members.members import Members
 from chapsym.scene.plan import cost
@@ -212,7 +211,6 @@ def test_an_accuracy_is_met_by_what_is_chosen_for_each_ball(members):
 
 
 def test_a_cost_is_that_of_the_compiled_loops_without_what_a_run_takes_at_once(members, monkeypatch):
-    monkeypatch.setattr(double, "_ready", set())
     monkeypatch.setattr(cost, "ENOUGH", 0.002)
     plan = planned(members(1), Task(("contact",), 10**6, 10**5))
     assert cost.predicted(plan).seconds < 2.0  # plain Python takes ten

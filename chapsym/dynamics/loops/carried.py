@@ -47,6 +47,7 @@ def tangent(body, J1, J2, J3, contact, traced, E, at):
     u1 = (a2 * g3 - a3 * g2) - (w2 * v3 - w3 * v2)
     u2 = (a3 * g1 - a1 * g3) - (w3 * v1 - w1 * v3)
     u3 = (a1 * g2 - a2 * g1) - (w1 * v2 - w2 * v1)
+    x1, x2, x3, y1, y2, y3 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     if traced:
         a, b, c, d = body[ATTITUDE], body[ATTITUDE + 1], body[ATTITUDE + 2], body[ATTITUDE + 3]
         x1, x2, x3 = rotate(a, -b, -c, -d, 1.0, 0.0, 0.0)

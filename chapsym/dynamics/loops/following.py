@@ -131,7 +131,7 @@ def stopped_at(i, frame, momenta, verticals, attitudes, traces, follows, traced)
         traces[i, frame:] = nan
 
 
-def judged(S, B, b, lost, allowed, start, sums, state, lane):
+def judged(S, b, lost, allowed, start, sums, state, lane):
     """What to make of a long step: (status, reach, error, again, wanted).
 
     again: the length of step with which to take it again, or 0.  wanted: that of the next step.
@@ -185,7 +185,7 @@ def through(S, b, body, now, traced, lane, V, first, last, curve):
 
 
 def followed(
-    B, S, b, i, traced, error, off, out, now, used, lane, E, told
+    S, b, i, traced, error, off, out, now, used, lane, E, told
 ):  # fmt: skip
     """Carries the errors of a ball on by a step that stays, and tells of it; off, out: those between its ends."""
     for c in range(END):
@@ -231,7 +231,7 @@ def follow_lanes(
             if S[RESTS, b] == 0.0:
                 i = int(lanes[b, WHICH])
                 stopped, part, error, again, wanted = judged(
-                    S, B, b, lost, allowed[i], start[i], sums, states[b], lanes[b]
+                    S, b, lost, allowed[i], start[i], sums, states[b], lanes[b]
                 )
                 off, out, inside, done = 0.0, 0.0, False, stopped != 0
                 if again == 0.0 and stopped == 0:
@@ -270,7 +270,7 @@ def follow_lanes(
                             shown(found, exponents[b], i, frame, momenta, verticals, attitudes, traces, follows, traced)
                         frame += 1
                         part = part_of(lanes[b], frame, frames, interval)
-                    followed(B, S, b, i, traced, error, off, out, now, used, lanes[b], errors[b], told)
+                    followed(S, b, i, traced, error, off, out, now, used, lanes[b], errors[b], told)
                     lanes[b, NEXT], lanes[b, TRIES], lanes[b, NOW] = frame, 0.0, lanes[b, NOW] + lanes[b, STEP]
                     lanes[b, COMING], lanes[b, SETTLED] = lanes[b, COMING] - 1.0, HOPE * lanes[b, SETTLED]
                     for c in range(MOVING):

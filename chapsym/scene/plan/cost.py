@@ -4,7 +4,6 @@ import time as clock
 from dataclasses import dataclass, replace
 
 from chapsym.dynamics import Ball
-from chapsym.dynamics.levels.double import SHORT_RUN
 
 from ..read.outputs import OUTPUTS, columns_for, timed
 from .columns import asked_for
@@ -55,8 +54,7 @@ def _extrapolated(plan: Plan) -> float:
     share = len(plan.members) / (chunk.stop - chunk.start)
     work = plan.task.steps if plan.model.stepwise else plan.frames
     first = part = min(LEAST, work)
-    # Loads, or compiles, what the whole run would: from so many steps on.
-    _pilot(plan, chunk, max(first, min(work, -(-SHORT_RUN // chunk.stop))) if plan.model.stepwise else first)
+    _pilot(plan, chunk, first)  # the first call loads what the others do not
     start = took = _pilot(plan, chunk, first)
     while part < work and took - start < ENOUGH:
         part = min((2 if took > SLOPED * start else 8) * part, work)

@@ -76,7 +76,7 @@ def _how(order: tuple[int, int] = (0, 0), substeps: tuple[int, int] | None = Non
     if order[1] == 0:
         return ": a steady rotation, in closed form"
     steps = _span(*substeps)
-    return f": order {_span(*order)}, {steps} step{'s' if steps != '1' else ''} from frame to frame"
+    return f": order {_span(*order)}, at most {steps} step{'s' if steps != '1' else ''} from frame to frame"
 
 
 def _span(least: int, most: int) -> str:
