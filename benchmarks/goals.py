@@ -55,7 +55,7 @@ WARM = {
     "roll": (FIRST["roll"], 10),
 }
 COMMAND = ("step", "--mass-tensor", "1,2,4", "--D", "3", "--momentum", "1,-1/2,3/4", "--gamma", "2/7,3/7,6/7")
-PROGRAM = ("-m", "chapsym.cli")
+PROGRAM = "-m", "chapsym.cli"
 Say = Callable[[str], None]
 
 
@@ -120,8 +120,8 @@ def ensemble(balls: int, rounds: int, on_round: Say, missing: dict[str, str]) ->
     truths = [problems.truth_of(p) for p in many]
     truth = [np.stack([x[i][-1] for x in truths]) for i in range(3)]  # type: ignore[index]
     J, D, radius = (np.stack([getattr(p.ball, name) for p in many]) for name in ("mass_tensor", "D", "radius"))
-    ball = chapsym.Ball(J, D, radius)
     omega, gamma, K = (np.stack([getattr(p, name) for p in many]) for name in ("omega", "gamma", "momentum"))
+    ball, size = chapsym.Ball(J, D, radius), np.linalg.norm(K, axis=-1)
 
     def roll(accuracy: float) -> States:
         run = chapsym.roll(ball, omega, END, 1, gamma=gamma, contact=True, accuracy=accuracy, threads=1)
@@ -132,7 +132,6 @@ def ensemble(balls: int, rounds: int, on_round: Say, missing: dict[str, str]) ->
         run = chapsym.extrapolate(ball, K, gamma, END / steps, steps, contact=True, threads=1)
         return run.angular_momentum, run.gamma, run.contact
 
-    sizes = np.linalg.norm(K, axis=-1), 1.0, radius
     runs: dict[str, Iterable[Callable[[], States]]] = {
         ROLL: (partial(roll, accuracy) for accuracy in 10.0 ** -np.arange(8, 12, 0.5)),
         "extrapolate": (partial(extrapolate, step) for step in 0.5 * 0.85 ** np.arange(20)),
@@ -144,7 +143,9 @@ def ensemble(balls: int, rounds: int, on_round: Say, missing: dict[str, str]) ->
         on_round(f"{told}: {name}")
         for run in tried:
             ends = run()
-            off = np.array([np.linalg.norm(x - y, axis=-1) / s for x, y, s in zip(ends, truth, sizes, strict=True)])
+            off = np.array(
+                [np.linalg.norm(x - y, axis=-1) / s for x, y, s in zip(ends, truth, (size, 1.0, radius), strict=True)]
+            )
             lost[name] = int(np.isnan(off).any(axis=0).sum())
             if off.max() <= TOGETHER:
                 sides[name] = run

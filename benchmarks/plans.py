@@ -18,7 +18,6 @@ FULL = "full model"
 MOMENTUM, GAMMA = np.array((6.0, -2.0, 3.0)) / 7, np.array((2.0, 3.0, 6.0)) / 7
 #: |𝒦|, with moments of about 2.
 EPSILON = 0.05
-#: Many balls, on one core.
 BATCH = 1000
 #: How far the ends of the two may be apart: n^(3/2) roundings, which the full model makes.
 ROUNDING = 2.0**-50
