@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 import chapsym
+from chapsym.dynamics import native
 from chapsym.generated import momentum
 
 PACKAGES, MEGABYTES = 16, 250
@@ -62,6 +63,7 @@ for extra, arguments in ABSENT.items():
     assert done.stderr.endswith(f"not installed: pip install 'chapsym[{extra}]'\n"), done.stderr
     print(done.stderr, end="")
 
+assert native.is_compiled(), "the wheel has no compiled loops"
 ball = chapsym.Ball(mass_tensor=(1, 2, 4), D=3, radius=0.1)
 start = {"momentum": (0.1, -0.05, 0.075), "gamma": (2 / 7, 3 / 7, 6 / 7)}
 one = chapsym.step(ball, **start)

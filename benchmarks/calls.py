@@ -72,8 +72,8 @@ def measure(quick: bool, on_round: Callable[[str], None] = lambda text: None) ->
     seconds, rounds = (0.005, 5) if quick else (0.05, 21)
     rows, reach = [], []
     for contact, (steps, wanted) in product((False, True), CALLS.items()):
-        told = f"steps = {steps}" + (", with the contact point" if contact else "")
-        on_round(f"calls, {told}")
+        setting = f"steps = {steps}" + (", with the contact point" if contact else "")
+        on_round(f"calls, {setting}")
         compare(steps, contact)
         with cores(1):
             timings = interleaved([repeated(*side, seconds) for side in sides(steps, contact).items()], rounds)
@@ -83,5 +83,5 @@ def measure(quick: bool, on_round: Callable[[str], None] = lambda text: None) ->
             for name, timing in timings.items()
         ]
         if wanted:
-            reach.append(Reached(f"µs of {STEPPER}, {told}", timings[STEPPER].median * 1e6, wanted, False))
+            reach.append(Reached(f"µs of {STEPPER}, {setting}", timings[STEPPER].median * 1e6, wanted, False))
     return Result("short calls, one core", rows, {}, reach)

@@ -1,4 +1,4 @@
-"""The goals of the project in one table: speed beside the best known way, first calls, many balls, lightness."""
+"""The goals of the project in one table: speed compared with the best known way, first calls, many balls, lightness."""
 
 import os
 import subprocess
@@ -75,7 +75,7 @@ def measure(quick: bool, on_round: Say = lambda text: None) -> Result:
 
 
 def to_an_accuracy(accuracy: float, on_round: Say, count: int, rounds: int) -> list[Reached]:
-    """`roll` and `accurate` beside the fastest of the other methods, and beside heyoka.py, problem by problem."""
+    """`roll` and `accurate` compared with the fastest of the other methods, and with heyoka.py, problem by problem."""
     ratios: dict[tuple[str, str], list[float]] = {}
     beyond = 0
     for i, problem in enumerate(problems.drawn(count, SEED)):
@@ -89,11 +89,11 @@ def to_an_accuracy(accuracy: float, on_round: Say, count: int, rounds: int) -> l
         alone = truth[0], truth[1], None  # `accurate` promises the state
         whole: Runs = {ACCURATE: partial(problems.accurate, problem, accuracy)}
         _compare(ratios, ACCURATE, whole, problems.own_methods(problem, alone, accuracy, contact=False), min(rounds, 3))
-    told, loose = f"to {accuracy:g}", accuracy == ACCURACIES[0]
-    found = [Reached(f"problems that {ROLL} takes {told} with a larger error", beyond, 0, False)]
+    setting, loose = f"to {accuracy:g}", accuracy == ACCURACIES[0]
+    found = [Reached(f"problems that {ROLL} takes {setting} with a larger error", beyond, 0, False)]
     for pair, most in (((ROLL, OWN), 1.5), ((ROLL, HEYOKA), 1.2 if loose else 1.0), ((ACCURATE, OWN), 3.0)):
         if values := ratios.get(pair):
-            what, mean = f"{' / '.join(pair)}, {told}", float(np.exp(np.mean(np.log(values))))
+            what, mean = f"{' / '.join(pair)}, {setting}", float(np.exp(np.mean(np.log(values))))
             found.append(Reached(f"{what}: geometric mean of {len(values)}", mean, most, False))
             if pair == (ROLL, OWN):
                 found.append(Reached(f"{what}: worst", max(values), 3.0, False))
@@ -113,9 +113,9 @@ def _compare(
 
 
 def ensemble(balls: int, rounds: int, on_round: Say, missing: dict[str, str]) -> list[Reached]:
-    """Different balls to the same worst error at the end: `roll` and `extrapolate` beside heyoka.py, 8 at once."""
-    told = f"{balls} different balls, t = {END:g}"
-    on_round(f"{told}: what is true")
+    """Different balls to the same worst error at the end: `roll`, `extrapolate` and heyoka.py, 8 at once."""
+    setting = f"{balls} different balls, t = {END:g}"
+    on_round(f"{setting}: what is true")
     many = problems.drawn(balls, SEED, END)
     truths = [problems.truth_of(p) for p in many]
     truth = [np.stack([x[i][-1] for x in truths]) for i in range(3)]  # type: ignore[index]
@@ -140,7 +140,7 @@ def ensemble(balls: int, rounds: int, on_round: Say, missing: dict[str, str]) ->
         runs[HEYOKA] = (problems.taylor_batch(many, tolerance) for tolerance in problems.TOLERANCES)
     sides, lost = {}, {}
     for name, tried in runs.items():
-        on_round(f"{told}: {name}")
+        on_round(f"{setting}: {name}")
         for run in tried:
             ends = run()
             off = np.array([np.linalg.norm(x - y, axis=-1) / s for x, y, s in zip(ends, truth, sizes, strict=True)])
@@ -149,12 +149,12 @@ def ensemble(balls: int, rounds: int, on_round: Say, missing: dict[str, str]) ->
                 sides[name] = run
                 break
         else:
-            missing[f"{told}: {name}"] = f"nothing that was tried meets {TOGETHER:g}"
+            missing[f"{setting}: {name}"] = f"nothing that was tried meets {TOGETHER:g}"
     timings = interleaved([Contender(name, run, balls) for name, run in sides.items()], rounds)
-    found = [Reached(f"{told}: NaN of {name}", lost[name], 0, False) for name in runs if name != HEYOKA]
+    found = [Reached(f"{setting}: NaN of {name}", lost[name], 0, False) for name in runs if name != HEYOKA]
     for name in [name for name in sides if name != HEYOKA and HEYOKA in sides]:
         ratio, *_ = timings[name].ratio_to(timings[HEYOKA])
-        found.append(Reached(f"{told}, to {TOGETHER:g}: {name} / {HEYOKA}, {LANES} at once", ratio, 0.9, False))
+        found.append(Reached(f"{setting}, to {TOGETHER:g}: {name} / {HEYOKA}, {LANES} at once", ratio, 0.9, False))
     return found
 
 

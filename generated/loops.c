@@ -969,6 +969,24 @@ INLINE void loop_follow_body(real p0, real p1, real p2, real p3, real g1, real g
     contact.p[0] = t_1.a4; contact.p[1] = t_1.a5;
 }
 
+INLINE void long_run_placed(r1 body, int64_t i, r3 momenta, r3 verticals, r3 attitudes, r3 traces, int follows, int
+    traced) {
+    for (int64_t i_0 = 0; i_0 < body.n0; i_0++) body.p[i_0] = 0;
+    int64_t c;
+    for (c = 0; c < 3; c++) {
+        body.p[c] = momenta.p[i * momenta.s0 + 0 * momenta.s1 + c];
+        body.p[3 + c] = verticals.p[i * verticals.s0 + 0 * verticals.s1 + c];
+    }
+    body.p[6] = 1;
+    if (follows) {
+        for (c = 0; c < 4; c++) body.p[6 + c] = attitudes.p[i * attitudes.s0 + 0 * attitudes.s1 + c];
+    }
+    if (traced) {
+        body.p[10] = traces.p[i * traces.s0 + 0 * traces.s1 + 0];
+        body.p[11] = traces.p[i * traces.s0 + 0 * traces.s1 + 1];
+    }
+}
+
 INLINE t_ri long_step_begun(r1 body, r1 J0, real D0, real h, r1 state) {
     ALIGNED real none_[3]; memset(none_, 0, sizeof none_); r1 none = {none_, 3};
     t_ri size = real_frexp(loop_scaled(none, none, J0, D0, state));
@@ -2594,21 +2612,8 @@ INLINE void carried_tangent(r1 body, real J1, real J2, real J3, real contact, in
 
 INLINE int64_t following_taken_in(r2 S, int64_t B, int64_t b, int64_t columns, int64_t i, r1 first, r1 start, r3
     momenta, r3 verticals, r3 attitudes, r3 traces, r2 J0, r1 D0, r1 radius, real end, int follows, r2 sums, r2
-    beginning, r1 body, r1 state, r1 lane, r1 E, r2 told, int traced) {
-    for (int64_t i_0 = 0; i_0 < body.n0; i_0++) body.p[i_0] = 0;
-    int64_t c;
-    for (c = 0; c < 3; c++) {
-        body.p[c] = momenta.p[i * momenta.s0 + 0 * momenta.s1 + c];
-        body.p[3 + c] = verticals.p[i * verticals.s0 + 0 * verticals.s1 + c];
-    }
-    body.p[6] = 1;
-    if (follows) {
-        for (c = 0; c < 4; c++) body.p[6 + c] = attitudes.p[i * attitudes.s0 + 0 * attitudes.s1 + c];
-    }
-    if (traced) {
-        body.p[10] = traces.p[i * traces.s0 + 0 * traces.s1 + 0];
-        body.p[11] = traces.p[i * traces.s0 + 0 * traces.s1 + 1];
-    }
+    beginning, r1 body, r1 state, r1 lane, r1 E, r2 reported, int traced) {
+    long_run_placed(body, i, momenta, verticals, attitudes, traces, follows, traced);
     for (int64_t i_0 = 0; i_0 < lane.n0; i_0++) lane.p[i_0] = 0;
     lane.p[4] = i; lane.p[5] = 1; lane.p[10] = R(1e+300); following_planned(lane, end, first.p[i]);
     int64_t exponent = long_run_enter(S, B, b, columns, (r1){J0.p + i * J0.s0, J0.n1}, D0.p[i], radius.p[i],
@@ -2618,7 +2623,7 @@ INLINE int64_t following_taken_in(r2 S, int64_t B, int64_t b, int64_t columns, i
     carried_tangent(body, S.p[116 * S.s0 + b], S.p[117 * S.s0 + b], S.p[118 * S.s0 + b], S.p[119 * S.s0 + b], traced,
         E, 45);
     E.p[90] = start.p[i]; E.p[93] = start.p[i]; E.p[95] = start.p[i]; E.p[105] = start.p[i];
-    for (c = 0; c < 5; c++) told.p[i * told.s0 + c] = 0;
+    for (int64_t c = 0; c < 5; c++) reported.p[i * reported.s0 + c] = 0;
     return exponent;
 }
 
@@ -2866,14 +2871,15 @@ INLINE real carried_spun_square(r1 E, int64_t at) {
 }
 
 INLINE void following_followed(r2 S, int64_t b, int64_t i, int traced, real error, real off, real out, r1 now, r1
-    used, r1 lane, r1 E, r2 told) {
+    used, r1 lane, r1 E, r2 reported) {
     for (int64_t c = 0; c < 45; c++) E.p[c] = E.p[45 + c];
     carried_tangent(now, S.p[116 * S.s0 + b], S.p[117 * S.s0 + b], S.p[118 * S.s0 + b], S.p[119 * S.s0 + b], traced,
         E, 45);
     carried_carry(E, 0, 45, lane.p[1] * lane.p[2], max_r(error, R(1e-17)), traced, used);
-    told.p[i * told.s0 + 0] = max_r(told.p[i * told.s0 + 0], real_sqrt(carried_turned_square(E)) + off);
-    told.p[i * told.s0 + 2] = max_r(told.p[i * told.s0 + 2], real_sqrt(carried_way_square(E)) + out);
-    told.p[i * told.s0 + 4] += 1; real speed = lane.p[11] / lane.p[2]; lane.p[7] = max_r(lane.p[7], speed);
+    reported.p[i * reported.s0 + 0] = max_r(reported.p[i * reported.s0 + 0], real_sqrt(carried_turned_square(E)) +
+        off);
+    reported.p[i * reported.s0 + 2] = max_r(reported.p[i * reported.s0 + 2], real_sqrt(carried_way_square(E)) + out);
+    reported.p[i * reported.s0 + 4] += 1; real speed = lane.p[11] / lane.p[2]; lane.p[7] = max_r(lane.p[7], speed);
     lane.p[8] = max_r(lane.p[8], real_sqrt(carried_spun_square(E, 45)) + off * speed);
 }
 
@@ -2948,15 +2954,17 @@ INLINE void expected_surveyed(r2 momenta, r2 verticals, r2 J0, r1 D0, r1 unit, r
     }
 }
 
-INLINE void expected_estimated(r2 found, r2 told, r1 unit, int turned, int spun, int rolled, r1 error, r1 noise, r1
-    started) {
+INLINE void expected_estimated(r2 found, r2 reported, r1 unit, int turned, int spun, int rolled, r1 error, r1 noise,
+    r1 started) {
     for (int64_t i = 0; i < error.n0; i++) {
-        real most = turned ? told.p[i * told.s0 + 0] : 0; most = spun ? max_r(most, told.p[i * told.s0 + 1]) : most;
-        most = unit.p[i] * (rolled ? max_r(most, told.p[i * told.s0 + 2]) : most);
-        real walked = R(0x1.b19999999999ap-48) * real_sqrt(found.p[i * found.s0 + 1] * told.p[i * told.s0 + 4]);
-        started.p[i] = most / told.p[i * told.s0 + 3] * (R(0x1.0000000000000p-52) * real_sqrt(found.p[i * found.s0 +
-            1]));
-        noise.p[i] = most / told.p[i * told.s0 + 3] * walked + 3 * found.p[i * found.s0 + 4];
+        real most = turned ? reported.p[i * reported.s0 + 0] : 0;
+        most = spun ? max_r(most, reported.p[i * reported.s0 + 1]) : most;
+        most = unit.p[i] * (rolled ? max_r(most, reported.p[i * reported.s0 + 2]) : most);
+        real walked = R(0x1.b19999999999ap-48) * real_sqrt(found.p[i * found.s0 + 1] * reported.p[i * reported.s0 +
+            4]);
+        started.p[i] = most / reported.p[i * reported.s0 + 3] * (R(0x1.0000000000000p-52) * real_sqrt(found.p[i *
+            found.s0 + 1]));
+        noise.p[i] = most / reported.p[i * reported.s0 + 3] * walked + 3 * found.p[i * found.s0 + 4];
         error.p[i] = most + noise.p[i];
         if (found.p[i * found.s0 + 1] > 10000) noise.p[i] = R(0x1.0000000000000p+1000);
     }
@@ -3290,20 +3298,10 @@ INLINE void long_run_march_lanes(int64_t B, r3 momenta, r3 verticals, r3 attitud
     int64_t columns = sums.n1; ALIGNED real states_[B * 27]; memset(states_, 0, sizeof states_);
     r2 states = {states_, B, 27, 27}; ALIGNED int64_t exponents_[B]; memset(exponents_, 0, sizeof exponents_);
     i1 exponents = {exponents_, B}; ALIGNED real body_[13]; memset(body_, 0, sizeof body_); r1 body = {body_, 13};
-    int64_t balls = status.n0, b, c;
+    int64_t balls = status.n0, b;
     for (b = 0; b < B; b++) {
         int64_t i = min_i(b, balls - 1);
-        for (int64_t i_0 = 0; i_0 < body.n0; i_0++) body.p[i_0] = 0;
-        for (c = 0; c < 3; c++) {
-            body.p[c] = momenta.p[i * momenta.s0 + 0 * momenta.s1 + c];
-            body.p[3 + c] = verticals.p[i * verticals.s0 + 0 * verticals.s1 + c];
-        }
-        body.p[6] = 1;
-        if (follows) {
-            for (c = 0; c < 4; c++) body.p[6 + c] = attitudes.p[i * attitudes.s0 + 0 * attitudes.s1 + c];
-            body.p[10] = traces.p[i * traces.s0 + 0 * traces.s1 + 0];
-            body.p[11] = traces.p[i * traces.s0 + 0 * traces.s1 + 1];
-        }
+        long_run_placed(body, i, momenta, verticals, attitudes, traces, follows, traced);
         exponents.p[b] = long_run_enter(S, B, b, columns, (r1){J0.p + i * J0.s0, J0.n1}, D0.p[i], radius.p[i], h,
             sums, beginning, body, (r1){states.p + b * states.s0, states.n1});
     }
@@ -3411,7 +3409,7 @@ INLINE t_ir4 following_judged(r2 S, int64_t b, int lost, real allowed, real star
 
 INLINE void following_follow_lanes(int64_t B, r3 momenta, r3 verticals, r3 attitudes, r3 traces, r2 J0, r1 D0, r1
     radius, real interval, r1 first, r1 allowed, r1 start, r1 bearable, int follows, int traced, r2 sums, r3
-    following, r2 beginning, r2 told, i1 reached, i1 status, d1 reach) {
+    following, r2 beginning, r2 reported, i1 reached, i1 status, d1 reach) {
     ALIGNED real S_[124 * (4 * B)]; memset(S_, 0, sizeof S_); r2 S = {S_, 124, (4 * B), (4 * B)};
     int64_t columns = sums.n1; ALIGNED real states_[B * 27]; memset(states_, 0, sizeof states_);
     r2 states = {states_, B, 27, 27}; ALIGNED int64_t exponents_[B]; memset(exponents_, 0, sizeof exponents_);
@@ -3430,7 +3428,7 @@ INLINE void following_follow_lanes(int64_t B, r3 momenta, r3 verticals, r3 attit
         exponents.p[b] = following_taken_in(S, B, b, columns, i, first, start, momenta, verticals, attitudes, traces,
             J0, D0, radius, end, follows, sums, beginning, (r1){bodies.p + b * bodies.s0, bodies.n1}, (r1){states.p +
             b * states.s0, states.n1}, (r1){lanes.p + b * lanes.s0, lanes.n1}, (r1){errors.p + b * errors.s0,
-            errors.n1}, told, traced);
+            errors.n1}, reported, traced);
         S.p[120 * S.s0 + b] = b < balls ? 0 : 1;
     }
     real off, out; int inside, done; int64_t c, frame; real wanted, again, more, part; int64_t stopped; real error;
@@ -3492,7 +3490,7 @@ INLINE void following_follow_lanes(int64_t B, r3 momenta, r3 verticals, r3 attit
                             part = following_part_of((r1){lanes.p + b * lanes.s0, lanes.n1}, frame, frames, interval);
                         }
                         following_followed(S, b, i, traced, error, off, out, now, used, (r1){lanes.p + b * lanes.s0,
-                            lanes.n1}, (r1){errors.p + b * errors.s0, errors.n1}, told);
+                            lanes.n1}, (r1){errors.p + b * errors.s0, errors.n1}, reported);
                         int64_t t_3 = frame; real t_4 = 0;
                         real t_5 = lanes.p[b * lanes.s0 + 0] + lanes.p[b * lanes.s0 + 1];
                         lanes.p[b * lanes.s0 + 5] = t_3; lanes.p[b * lanes.s0 + 6] = t_4;
@@ -3514,14 +3512,14 @@ INLINE void following_follow_lanes(int64_t B, r3 momenta, r3 verticals, r3 attit
                     }
                 }
                 if (done) {
-                    told.p[i * told.s0 + 1] = lanes.p[b * lanes.s0 + 7] > 0 ? lanes.p[b * lanes.s0 + 8] / lanes.p[b *
-                        lanes.s0 + 7] : 0;
-                    told.p[i * told.s0 + 3] = errors.p[b * errors.s0 + 105];
+                    reported.p[i * reported.s0 + 1] = lanes.p[b * lanes.s0 + 7] > 0 ? lanes.p[b * lanes.s0 + 8] /
+                        lanes.p[b * lanes.s0 + 7] : 0;
+                    reported.p[i * reported.s0 + 3] = errors.p[b * errors.s0 + 105];
                     if (coming < balls) {
                         exponents.p[b] = following_taken_in(S, B, b, columns, coming, first, start, momenta,
                             verticals, attitudes, traces, J0, D0, radius, end, follows, sums, beginning, (r1){bodies.p
                             + b * bodies.s0, bodies.n1}, (r1){states.p + b * states.s0, states.n1}, (r1){lanes.p + b *
-                            lanes.s0, lanes.n1}, (r1){errors.p + b * errors.s0, errors.n1}, told, traced);
+                            lanes.s0, lanes.n1}, (r1){errors.p + b * errors.s0, errors.n1}, reported, traced);
                         coming += 1;
                     }
                     else {
@@ -3535,16 +3533,16 @@ INLINE void following_follow_lanes(int64_t B, r3 momenta, r3 verticals, r3 attit
 
 INLINE void following_follow_one(r3 momenta, r3 verticals, r3 attitudes, r3 traces, r2 J0, r1 D0, r1 radius, real
     interval, r1 first, r1 allowed, r1 start, r1 bearable, int follows, int traced, r2 sums, r3 following, r2
-    beginning, r2 told, i1 reached, i1 status, d1 reach) {
+    beginning, r2 reported, i1 reached, i1 status, d1 reach) {
     following_follow_lanes(1, momenta, verticals, attitudes, traces, J0, D0, radius, interval, first, allowed, start,
-        bearable, follows, traced, sums, following, beginning, told, reached, status, reach);
+        bearable, follows, traced, sums, following, beginning, reported, reached, status, reach);
 }
 
 INLINE void following_follow_eight(r3 momenta, r3 verticals, r3 attitudes, r3 traces, r2 J0, r1 D0, r1 radius, real
     interval, r1 first, r1 allowed, r1 start, r1 bearable, int follows, int traced, r2 sums, r3 following, r2
-    beginning, r2 told, i1 reached, i1 status, d1 reach) {
+    beginning, r2 reported, i1 reached, i1 status, d1 reach) {
     following_follow_lanes(8, momenta, verticals, attitudes, traces, J0, D0, radius, interval, first, allowed, start,
-        bearable, follows, traced, sums, following, beginning, told, reached, status, reach);
+        bearable, follows, traced, sums, following, beginning, reported, reached, status, reach);
 }
 
 #endif
@@ -3732,5 +3730,5 @@ const int loops_single_count = 4;
 #endif
 
 #ifndef SINGLE
-const char loops_text[] = "9262afaba65a9fe82a8c9da7d94989273ab834adb81bef6773a1efe9557b95b4";
+const char loops_text[] = "204aee7c418da61a1178bebb72f4e03af46b25f625c617e0e1c14a12eae55c4b";
 #endif

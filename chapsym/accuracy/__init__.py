@@ -1,4 +1,4 @@
-"""A ball rolled to an accuracy: precision, order and steps by a law, the error told by the run itself."""
+"""A ball rolled to an accuracy: precision, order and steps by a law, the error estimated by the run itself."""
 
 from .answer import Accurate, Attempt, Choice, accurate, foreseen
 from .methods import Method, methods, take

@@ -53,7 +53,7 @@ def composed(
             expected = _error(part, method.order, problem.interval / method.steps)
             factor = max(factor, float((before / (SAFETY * expected)).max(initial=1.0)))
             method = _more(method, cheapest(part, factor))
-        else:  # a ball that stopped tells nothing
+        else:  # a ball that stopped has no estimate
             method = Stepping(method.order, 2 * method.steps)
         # Of what more steps should gain half, in decades, shows that they help.
         gain = (method.steps / last.steps) ** (method.order / 2) if method.order == last.order else 2.0

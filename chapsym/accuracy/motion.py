@@ -1,7 +1,7 @@
 """The continuous motion of balls at equal times, to an accuracy: long steps of order 12, each ball with its own.
 
 The steps are as long as the accuracy allows, wherever the frames are; these are interpolated (`loops.between`).  The
-error that is told is what the flow makes of the errors of all steps together (`loops.carried`): it is an estimate in
+error that is stated is what the flow makes of the errors of all steps together (`loops.carried`): it is an estimate in
 that the error of a step is (`loops.following.feared`).  A ball whose error is larger than the accuracy is taken again
 with shorter steps; where the roundings of long steps are too many, by compositions of the map (`composed`).
 """
@@ -16,7 +16,7 @@ from chapsym.dynamics.ball import Floats
 from chapsym.dynamics.extrapolation import FEW, loop_weights
 from chapsym.dynamics.levels.frames import Count, cores, share
 from chapsym.dynamics.loops.expected import ALLOWED, CONDITION, FIRST, FLOOR, SINGLE, STILL, estimated
-from chapsym.dynamics.loops.following import STEPS, TOLD, follow_eight, follow_one
+from chapsym.dynamics.loops.following import REPORTED, STEPS, follow_eight, follow_one
 from chapsym.dynamics.loops.lanes import MOST_COLUMNS
 
 from .composed import composed
@@ -142,7 +142,7 @@ def _run(
 ) -> tuple[Floats, Floats]:  # fmt: skip
     """Follows all balls into `found`; returns what roundings of the steps, and of the start, may have made of them."""
     n, ball = len(problem), problem.ball
-    told, reach, start = np.zeros((n, TOLD)), np.ones(n), 2.0**-52 * np.sqrt(problem.survey[:, CONDITION])
+    reported, reach, start = np.zeros((n, REPORTED)), np.ones(n), 2.0**-52 * np.sqrt(problem.survey[:, CONDITION])
     follows, traced = problem.attitude is not None, problem.contact
     none, bearable = np.empty((n, 0, 4)), BEARABLE * problem.accuracy / problem.units
     frames = (
@@ -150,7 +150,7 @@ def _run(
         none if found.contact is None else found.contact, np.ascontiguousarray(ball.mass_tensor), ball.D,
         ball.D if ball.radius is None or not traced else ball.radius,
     )  # fmt: skip
-    ends = told, found.reached, found.status, reach
+    ends = reported, found.reached, found.status, reach
     width = TOGETHER if n >= FEW else 1
     loop = native.loop(follow_eight if n >= FEW else follow_one)
 
@@ -167,15 +167,15 @@ def _run(
         task(0)
     else:
         share(task, parts, min(problem.threads or cores(), len(parts)), count)
-    found.order[:], found.total[:] = EXTRAPOLATED, told[:, STEPS]
-    return _estimate(problem, told, found.error)
+    found.order[:], found.total[:] = EXTRAPOLATED, reported[:, STEPS]
+    return _estimate(problem, reported, found.error)
 
 
-def _estimate(problem: Problem, told: Floats, error: Floats) -> tuple[Floats, Floats]:
+def _estimate(problem: Problem, reported: Floats, error: Floats) -> tuple[Floats, Floats]:
     """Puts the errors of a run to their place; returns the roundings among them."""
     noise, started, parts = np.empty(len(error)), np.empty(len(error)), problem.parts
     estimate = native.loop(estimated)
     turned = not parts or bool(parts & {"momentum", "gamma", "attitude"})
     rolled = problem.contact and "contact" in parts
-    estimate(problem.survey, told, problem.units, turned, "omega" in parts, rolled, error, noise, started)
+    estimate(problem.survey, reported, problem.units, turned, "omega" in parts, rolled, error, noise, started)
     return noise, started

@@ -6,7 +6,7 @@ same functions run on floats and are compiled.
 
 Between the ends, at the part s of the step, a polynomial is off by the twelfth derivative over 12! times
 (s(1 - s))⁶ ≤ 2⁻¹².  The last two coefficients are the eleventh over 11! and the tenth over 10!: the twelfth is taken
-to follow as they do, and four times that is told as what may be wrong.
+to follow as they do, and four times that is stated as what may be wrong.
 """
 
 from math import sqrt

@@ -70,7 +70,7 @@ def surveyed(
 
 def estimated(
     found: Matrix,
-    told: Matrix,
+    reported: Matrix,
     unit: Vector,
     turned: bool,
     spun: bool,
@@ -79,18 +79,18 @@ def estimated(
     noise: Vector,
     started: Vector,
 ):
-    """The errors that the loop told, and what of them the roundings of the steps, and of the start, may have made.
+    """The errors that the loop estimated, and what of them the roundings of the steps, and of the start, may have made.
 
     Those of a ball that stopped are NaN.  Roundings walk, and what is left of them grows as the errors do.  turned,
     spun, rolled: which errors count.
     """
     for i in range(error.shape[0]):
-        most = told[i, TURNED] if turned else 0.0
-        most = max(most, told[i, SPUN]) if spun else most
-        most = unit[i] * (max(most, told[i, ROLLED]) if rolled else most)
-        walked = ROUNDINGS * UNIT * sqrt(found[i, CONDITION] * told[i, STEPS])
-        started[i] = most / told[i, SUMMED] * (2.0 * UNIT * sqrt(found[i, CONDITION]))
-        noise[i] = most / told[i, SUMMED] * walked + TURNING * found[i, STILL]
+        most = reported[i, TURNED] if turned else 0.0
+        most = max(most, reported[i, SPUN]) if spun else most
+        most = unit[i] * (max(most, reported[i, ROLLED]) if rolled else most)
+        walked = ROUNDINGS * UNIT * sqrt(found[i, CONDITION] * reported[i, STEPS])
+        started[i] = most / reported[i, SUMMED] * (2.0 * UNIT * sqrt(found[i, CONDITION]))
+        noise[i] = most / reported[i, SUMMED] * walked + TURNING * found[i, STILL]
         error[i] = most + noise[i]
         if found[i, CONDITION] > CONDITIONED:
             noise[i] = ENDLESS

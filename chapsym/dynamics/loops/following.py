@@ -13,7 +13,7 @@ from . import loop
 from .between import PARTS, SERIES, TERMS, ball_at, joined, series, shortened
 from .carried import DOUBTED, END, ERRORS, INNER, carry, spun_square, tangent, turned_square, way_square
 from .lanes import CONTACT, EIGHT, FIRSTS, LANES, LENGTH, LOST, MOVED, OMEGA, RADIUS, RESTS, ROWS, TENSOR, side_by_side
-from .long_run import enter, resized, safely
+from .long_run import enter, placed, resized, safely
 from .long_step import ATTITUDE, DOUBT, MOVING, SPOT
 from .text import Cube, Doubles, Integers, Matrix, Vector
 
@@ -40,10 +40,10 @@ FEARED, USUAL = 12.0, 2.0**-52 * 3.16
 LEAST_DOUBT = 1e-17
 #: Frames at the ends of steps, up to this part of a step, are not interpolated.
 AT_END = 1e-9
-#: What is told of a ball: the error of the attitude, in radians, of ω, relative to its largest, and of the contact
+#: What is reported of a ball: the error of the attitude, in radians, of ω, relative to its largest, and of the contact
 #: point, in radii; the sum of the errors of its steps; and how many steps it took.
 TURNED, SPUN, ROLLED, SUMMED, STEPS = 0, 1, 2, 3, 4
-TOLD = 5
+REPORTED = 5
 #: Numbers of a lane: the time now, its step in seconds, the unit of time of S, the steps that are left, its ball, the
 #: next frame, tries of this step, the largest |ω| and error of ω so far, and the step of the series at its end, 0
 #: without; the longest step that settles, as far as it is known; and |ω| now, in rad/s.
@@ -77,7 +77,7 @@ def feared(doubt, start):
     What the last column gains is less where the steps are long: the error of a step that is in doubt by 10⁻¹² is about
     a tenth of that, and by 10⁻⁶ twice that, on balls of all shapes; and the largest are ten times these.  Six times the
     middle is more than what a run of several steps adds up to.  Of a rod the columns converge later: the root of its
-    condition, of which `start` has the root, tells by how much.  doubt: without its rounding, which is no error of the
+    condition, of which `start` has the root, says by how much.  doubt: without its rounding, which is no error of the
     step, and walks.
     """
     return FEARED * doubt * sqrt(sqrt(sqrt(1e8 * doubt)) * max(start / USUAL, 1.0))
@@ -85,18 +85,10 @@ def feared(doubt, start):
 
 def taken_in(
     S, B, b, columns, i, first, start, momenta, verticals, attitudes, traces, J0, D0, radius, end, follows, sums,
-    beginning, body, state, lane, E, told, traced,
+    beginning, body, state, lane, E, reported, traced,
 ):  # fmt: skip
     """Puts the ball i into the lane b; returns K's exponent."""
-    body[:] = 0.0
-    for c in range(3):
-        body[c], body[3 + c] = momenta[i, 0, c], verticals[i, 0, c]
-    body[ATTITUDE] = 1.0
-    if follows:
-        for c in range(4):
-            body[ATTITUDE + c] = attitudes[i, 0, c]
-    if traced:
-        body[SPOT], body[SPOT + 1] = traces[i, 0, 0], traces[i, 0, 1]
+    placed(body, i, momenta, verticals, attitudes, traces, follows, traced)
     lane[:] = 0.0
     lane[WHICH], lane[NEXT], lane[SETTLED] = i, 1.0, ANYTHING
     planned(lane, end, first[i])
@@ -105,8 +97,8 @@ def taken_in(
     E[:] = 0.0
     tangent(body, S[TENSOR, b], S[TENSOR + 1, b], S[TENSOR + 2, b], S[CONTACT, b], traced, E, END)
     E[INNER], E[INNER + 3], E[INNER + 5], E[DOUBTED] = start[i], start[i], start[i], start[i]
-    for c in range(TOLD):
-        told[i, c] = 0.0
+    for c in range(REPORTED):
+        reported[i, c] = 0.0
     return exponent
 
 
@@ -185,16 +177,16 @@ def through(S, b, body, now, traced, lane, V, first, last, curve):
 
 
 def followed(
-    S, b, i, traced, error, off, out, now, used, lane, E, told
+    S, b, i, traced, error, off, out, now, used, lane, E, reported
 ):  # fmt: skip
-    """Carries the errors of a ball on by a step that stays, and tells of it; off, out: those between its ends."""
+    """Carries the errors of a ball on by a step that stays, and records them; off, out: those between its ends."""
     for c in range(END):
         E[c] = E[END + c]
     tangent(now, S[TENSOR, b], S[TENSOR + 1, b], S[TENSOR + 2, b], S[CONTACT, b], traced, E, END)
     carry(E, 0, END, lane[STEP] * lane[UNIT], max(error, LEAST_DOUBT), traced, used)
-    told[i, TURNED] = max(told[i, TURNED], sqrt(turned_square(E)) + off)
-    told[i, ROLLED] = max(told[i, ROLLED], sqrt(way_square(E)) + out)
-    told[i, STEPS] += 1.0
+    reported[i, TURNED] = max(reported[i, TURNED], sqrt(turned_square(E)) + off)
+    reported[i, ROLLED] = max(reported[i, ROLLED], sqrt(way_square(E)) + out)
+    reported[i, STEPS] += 1.0
     speed = lane[SPEED] / lane[UNIT]
     lane[FASTEST] = max(lane[FASTEST], speed)
     lane[SPINNING] = max(lane[SPINNING], sqrt(spun_square(E, END)) + off * speed)
@@ -202,14 +194,14 @@ def followed(
 
 def follow_lanes(
     B, momenta, verticals, attitudes, traces, J0, D0, radius, interval, first, allowed, start, bearable, follows,
-    traced, sums, following, beginning, told, reached, status, reach,
+    traced, sums, following, beginning, reported, reached, status, reach,
 ):  # fmt: skip
     """Balls from their frames 0, (balls, frames, ...), to all other frames, `interval` seconds apart.
 
     first: the length of the first step of each ball, in seconds; allowed: the error that it may make in a second;
     start: how far its start may be off by a rounding; bearable: how far frames may be off by their interpolation.
     follows, traced, sums, following, beginning: as of `long_run.march_lanes`.
-    told (balls, TOLD), the last frame that was reached, status, reach: of each ball.
+    reported (balls, REPORTED), the last frame that was reached, status, reach: of each ball.
     """
     S, columns = np.zeros((ROWS, LANES * B)), sums.shape[1]
     states, exponents = np.zeros((B, loop.ROWS)), np.zeros(B, dtype=np.int64)
@@ -222,7 +214,7 @@ def follow_lanes(
         i = min(b, balls - 1)
         exponents[b] = taken_in(
             S, B, b, columns, i, first, start, momenta, verticals, attitudes, traces, J0, D0, radius, end, follows,
-            sums, beginning, bodies[b], states[b], lanes[b], errors[b], told, traced,
+            sums, beginning, bodies[b], states[b], lanes[b], errors[b], reported, traced,
         )  # fmt: skip
         S[RESTS, b] = 0.0 if b < balls else 1.0
     while busy > 0:
@@ -270,7 +262,7 @@ def follow_lanes(
                             shown(found, exponents[b], i, frame, momenta, verticals, attitudes, traces, follows, traced)
                         frame += 1
                         part = part_of(lanes[b], frame, frames, interval)
-                    followed(S, b, i, traced, error, off, out, now, used, lanes[b], errors[b], told)
+                    followed(S, b, i, traced, error, off, out, now, used, lanes[b], errors[b], reported)
                     lanes[b, NEXT], lanes[b, TRIES], lanes[b, NOW] = frame, 0.0, lanes[b, NOW] + lanes[b, STEP]
                     lanes[b, COMING], lanes[b, SETTLED] = lanes[b, COMING] - 1.0, HOPE * lanes[b, SETTLED]
                     for c in range(MOVING):
@@ -283,12 +275,12 @@ def follow_lanes(
                     ):
                         resized(S, B, b, columns, 0.5 * lanes[b, STEP] * lanes[b, UNIT], now, states[b])
                 if done:
-                    told[i, SPUN] = lanes[b, SPINNING] / lanes[b, FASTEST] if lanes[b, FASTEST] > 0.0 else 0.0
-                    told[i, SUMMED] = errors[b, DOUBTED]
+                    reported[i, SPUN] = lanes[b, SPINNING] / lanes[b, FASTEST] if lanes[b, FASTEST] > 0.0 else 0.0
+                    reported[i, SUMMED] = errors[b, DOUBTED]
                     if coming < balls:
                         exponents[b] = taken_in(
                             S, B, b, columns, coming, first, start, momenta, verticals, attitudes, traces, J0, D0,
-                            radius, end, follows, sums, beginning, bodies[b], states[b], lanes[b], errors[b], told,
+                            radius, end, follows, sums, beginning, bodies[b], states[b], lanes[b], errors[b], reported,
                             traced,
                         )  # fmt: skip
                         coming += 1
@@ -300,22 +292,22 @@ def follow_lanes(
 def follow_one(
     momenta: Cube, verticals: Cube, attitudes: Cube, traces: Cube, J0: Matrix, D0: Vector, radius: Vector, interval:
     float, first: Vector, allowed: Vector, start: Vector, bearable: Vector, follows: bool, traced: bool, sums:
-    Matrix, following: Cube, beginning: Matrix, told: Matrix, reached: Integers, status: Integers, reach: Doubles,
+    Matrix, following: Cube, beginning: Matrix, reported: Matrix, reached: Integers, status: Integers, reach: Doubles,
 ):  # fmt: skip
     """`follow_lanes` in one lane."""
     follow_lanes(
         1, momenta, verticals, attitudes, traces, J0, D0, radius, interval, first, allowed, start, bearable,
-        follows, traced, sums, following, beginning, told, reached, status, reach,
+        follows, traced, sums, following, beginning, reported, reached, status, reach,
     )  # fmt: skip
 
 
 def follow_eight(
     momenta: Cube, verticals: Cube, attitudes: Cube, traces: Cube, J0: Matrix, D0: Vector, radius: Vector, interval:
     float, first: Vector, allowed: Vector, start: Vector, bearable: Vector, follows: bool, traced: bool, sums:
-    Matrix, following: Cube, beginning: Matrix, told: Matrix, reached: Integers, status: Integers, reach: Doubles,
+    Matrix, following: Cube, beginning: Matrix, reported: Matrix, reached: Integers, status: Integers, reach: Doubles,
 ):  # fmt: skip
     """`follow_lanes` in eight lanes."""
     follow_lanes(
         EIGHT, momenta, verticals, attitudes, traces, J0, D0, radius, interval, first, allowed, start, bearable,
-        follows, traced, sums, following, beginning, told, reached, status, reach,
+        follows, traced, sums, following, beginning, reported, reached, status, reach,
     )  # fmt: skip

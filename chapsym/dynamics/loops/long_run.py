@@ -36,6 +36,19 @@ ANYWHERE = 2.0**1000
 BEHIND = 18.2
 
 
+def placed(body, i, momenta, verticals, attitudes, traces, follows, traced):
+    """The ball i as it is at frame 0."""
+    body[:] = 0.0
+    for c in range(3):
+        body[c], body[3 + c] = momenta[i, 0, c], verticals[i, 0, c]
+    body[ATTITUDE] = 1.0
+    if follows:
+        for c in range(4):
+            body[ATTITUDE + c] = attitudes[i, 0, c]
+    if traced:
+        body[SPOT], body[SPOT + 1] = traces[i, 0, 0], traces[i, 0, 1]
+
+
 @out_of_line
 def enter(S, B, b, columns, J0, D0, radius, h, sums, beginning, body, state):
     """Puts a ball, of which `body` has all but the scale, into its column of S; returns K's exponent (`begun`)."""
@@ -127,14 +140,7 @@ def march_lanes(
     balls = len(status)
     for b in range(B):
         i = min(b, balls - 1)  # lanes beyond the balls repeat the last
-        body[:] = 0.0
-        for c in range(3):
-            body[c], body[3 + c] = momenta[i, 0, c], verticals[i, 0, c]
-        body[ATTITUDE] = 1.0
-        if follows:
-            for c in range(4):
-                body[ATTITUDE + c] = attitudes[i, 0, c]
-            body[SPOT], body[SPOT + 1] = traces[i, 0, 0], traces[i, 0, 1]
+        placed(body, i, momenta, verticals, attitudes, traces, follows, traced)
         exponents[b] = enter(S, B, b, columns, J0[i], D0[i], radius[i], h, sums, beginning, body, states[b])
     for step in range(steps):
         if side_by_side(S, B, columns, traced, following, beginning):
