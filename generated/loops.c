@@ -59,7 +59,6 @@ typedef struct { int64_t a0, a1; real a2; } t_i2r;
 typedef struct { real a0, a1, a2; } t_r3;
 typedef struct { real a0, a1, a2, a3; } t_r4;
 typedef struct { int a0; real a1, a2, a3, a4; } t_br4;
-typedef struct { int64_t a0; real a1, a2, a3, a4; } t_ir4;
 typedef struct { int64_t a0; double a1, a2, a3, a4, a5; } t_id5;
 typedef struct { int64_t a0; real a1, a2, a3, a4, a5; } t_ir5;
 typedef struct { real a0, a1, a2, a3, a4, a5; } t_r6;
@@ -1005,12 +1004,12 @@ INLINE void long_run_entered(r2 S, int64_t at, int64_t i, r1 body, real half, in
     real least = gibbs_LEFT * size / (max_r(max_r(I1.a0, I1.a1), I1.a2) + state.p[24] + spread);
     real anywhere = gibbs_is_heavy(I1.a0, I1.a1, I1.a2, state.p[24]) ? -1 : R(0x1.0000000000000p+1000);
     S.p[at * S.s0 + i] = part; S.p[(at + 1) * S.s0 + i] = part != 0 ? 1 / part : 0; S.p[(at + 2) * S.s0 + i] = size;
-    S.p[78 * S.s0 + i] = spread; S.p[(at + 3) * S.s0 + i] = within.a0 >= 0 ? within.a0 : anywhere;
+    S.p[80 * S.s0 + i] = spread; S.p[(at + 3) * S.s0 + i] = within.a0 >= 0 ? within.a0 : anywhere;
     S.p[(at + 4) * S.s0 + i] = least * least / R(18.2); S.p[(at + 5) * S.s0 + i] = (real)1 / (n * n);
 }
 
 INLINE void long_run_resized(r2 S, int64_t B, int64_t b, int64_t columns, real half, r1 body, r1 state) {
-    S.p[114 * S.s0 + b] = half; int64_t least = 8 - columns;
+    S.p[129 * S.s0 + b] = half; int64_t least = 8 - columns;
     for (int64_t lane = 0; lane < 4; lane++) {
         long_run_entered(S, 59, lane * B + b, body, half, max_i(7 - lane, least), state);
         long_run_entered(S, 65, lane * B + b, body, half, max_i(lane, least), state);
@@ -1020,17 +1019,17 @@ INLINE void long_run_resized(r2 S, int64_t B, int64_t b, int64_t columns, real h
 OUT_OF_LINE int64_t long_run_enter(r2 S, int64_t B, int64_t b, int64_t columns, r1 J0, real D0, real radius, real h,
     r2 sums, r2 beginning, r1 body, r1 state) {
     t_ri half = long_step_begun(body, J0, D0, h, state); int64_t c;
-    for (c = 0; c < 13; c++) S.p[(101 + c) * S.s0 + b] = body.p[c];
-    S.p[114 * S.s0 + b] = half.a0; S.p[115 * S.s0 + b] = radius; S.p[119 * S.s0 + b] = state.p[24];
-    S.p[120 * S.s0 + b] = 0;
-    for (c = 0; c < 3; c++) S.p[(116 + c) * S.s0 + b] = state.p[18 + c];
+    for (c = 0; c < 19; c++) S.p[(110 + c) * S.s0 + b] = body.p[c];
+    S.p[129 * S.s0 + b] = half.a0; S.p[130 * S.s0 + b] = radius; S.p[134 * S.s0 + b] = state.p[24];
+    S.p[135 * S.s0 + b] = 0;
+    for (c = 0; c < 3; c++) S.p[(131 + c) * S.s0 + b] = state.p[18 + c];
     int64_t least = 8 - columns;
     for (int64_t lane = 0; lane < 4; lane++) {
         int64_t i = lane * B + b, first = max_i(7 - lane, least);
         for (c = 0; c < 3; c++) S.p[(27 + c) * S.s0 + i] = state.p[21 + c];
         S.p[30 * S.s0 + i] = state.p[24]; int one = 7 - lane >= least, two = lane >= least;
-        for (c = 0; c < 3; c++) S.p[(75 + c) * S.s0 + i] = beginning.p[first * beginning.s0 + c];
-        for (c = 0; c < 2; c++) {
+        for (c = 0; c < 3; c++) S.p[(77 + c) * S.s0 + i] = beginning.p[first * beginning.s0 + c];
+        for (c = 0; c < 3; c++) {
             S.p[(71 + 2 * c) * S.s0 + i] = one ? sums.p[c * sums.s0 + first - least] : 0;
             S.p[(71 + 2 * c + 1) * S.s0 + i] = two ? sums.p[c * sums.s0 + lane - least] : 0;
         }
@@ -1054,9 +1053,9 @@ INLINE void lanes_rates(r2 S, int64_t B, int64_t first) {
     int64_t b;
     INDEPENDENT
     for (b = 0; b < B; b++) {
-        real K1 = S.p[101 * S.s0 + b], K2 = S.p[102 * S.s0 + b], K3 = S.p[103 * S.s0 + b], g1 = S.p[104 * S.s0 + b];
-        real g2 = S.p[105 * S.s0 + b], g3 = S.p[106 * S.s0 + b], J1 = S.p[116 * S.s0 + b], J2 = S.p[117 * S.s0 + b];
-        real J3 = S.p[118 * S.s0 + b], contact = S.p[119 * S.s0 + b];
+        real K1 = S.p[110 * S.s0 + b], K2 = S.p[111 * S.s0 + b], K3 = S.p[112 * S.s0 + b], g1 = S.p[113 * S.s0 + b];
+        real g2 = S.p[114 * S.s0 + b], g3 = S.p[115 * S.s0 + b], J1 = S.p[131 * S.s0 + b], J2 = S.p[132 * S.s0 + b];
+        real J3 = S.p[133 * S.s0 + b], contact = S.p[134 * S.s0 + b];
         t_r3 w1 = kernel_angular_velocity(K1, K2, K3, g1, g2, g3, J1, J2, J3, contact);
         real height = contact * (g1 * w1.a0 + g2 * w1.a1 + g3 * w1.a2), m1 = K1 + height * g1, m2 = K2 + height * g2;
         real m3 = K3 + height * g3, x1 = m2 * w1.a2 - m3 * w1.a1, x2 = m3 * w1.a0 - m1 * w1.a2;
@@ -1070,14 +1069,14 @@ INLINE void lanes_rates(r2 S, int64_t B, int64_t first) {
         x2 = n3 * w1.a0 - n1 * w1.a2 + (m3 * a1.a0 - m1 * a1.a2) + (along * g2 + across * d2);
         x3 = n1 * w1.a1 - n2 * w1.a0 + (m1 * a1.a1 - m2 * a1.a0) + (along * g3 + across * d3);
         t_r3 t_1 = kernel_angular_velocity(x1, x2, x3, g1, g2, g3, J1, J2, J3, contact); x1 = t_1.a0; x2 = t_1.a1;
-        x3 = t_1.a2; real whole = 2 * S.p[114 * S.s0 + b], square = whole * whole; S.p[31 * S.s0 + b] = K1;
+        x3 = t_1.a2; real whole = 2 * S.p[129 * S.s0 + b], square = whole * whole; S.p[31 * S.s0 + b] = K1;
         S.p[32 * S.s0 + b] = K2; S.p[33 * S.s0 + b] = K3; S.p[34 * S.s0 + b] = g1; S.p[35 * S.s0 + b] = g2;
         S.p[36 * S.s0 + b] = g3; S.p[37 * S.s0 + b] = w1.a0; S.p[38 * S.s0 + b] = w1.a1; S.p[39 * S.s0 + b] = w1.a2;
         S.p[40 * S.s0 + b] = whole * a1.a0; S.p[41 * S.s0 + b] = whole * a1.a1; S.p[42 * S.s0 + b] = whole * a1.a2;
         S.p[43 * S.s0 + b] = square * x1; S.p[44 * S.s0 + b] = square * x2; S.p[45 * S.s0 + b] = square * x3;
         S.p[46 * S.s0 + b] = fitted_turn_square(whole, first, w1.a0, w1.a1, w1.a2); real t_2 = 0, t_3 = 0, t_4 = 0;
-        real t_5 = S.p[120 * S.s0 + b]; S.p[121 * S.s0 + b] = t_2; S.p[122 * S.s0 + b] = t_3;
-        S.p[123 * S.s0 + b] = t_4; S.p[58 * S.s0 + b] = t_5;
+        real t_5 = S.p[135 * S.s0 + b]; S.p[136 * S.s0 + b] = t_2; S.p[137 * S.s0 + b] = t_3;
+        S.p[138 * S.s0 + b] = t_4; S.p[58 * S.s0 + b] = t_5;
     }
     real one;
     for (int64_t row = 31; row < 47; row++) {
@@ -1109,8 +1108,8 @@ INLINE real fitted_half_angle(real square) {
 
 INLINE void lanes_start(r2 S, int64_t i, int64_t at) {
     real scale = fitted_fitted(S.p[46 * S.s0 + i] * S.p[(at + 5) * S.s0 + i]), half = S.p[at * S.s0 + i] * scale;
-    real slope = S.p[78 * S.s0 + i] + S.p[(at + 2) * S.s0 + i] * scale;
-    real bend = fitted_half_angle(S.p[46 * S.s0 + i] * S.p[(at + 5) * S.s0 + i]); S.p[79 * S.s0 + i] = half / bend;
+    real slope = S.p[80 * S.s0 + i] + S.p[(at + 2) * S.s0 + i] * scale;
+    real bend = fitted_half_angle(S.p[46 * S.s0 + i] * S.p[(at + 5) * S.s0 + i]); S.p[81 * S.s0 + i] = half / bend;
     real t_1 = half, t_2 = S.p[(at + 1) * S.s0 + i] * bend / scale, t_3 = slope * slope; S.p[22 * S.s0 + i] = t_1;
     S.p[23 * S.s0 + i] = t_2; S.p[24 * S.s0 + i] = t_3; real t_4 = S.p[(at + 3) * S.s0 + i];
     real t_5 = S.p[(at + 4) * S.s0 + i] * (scale * scale); S.p[25 * S.s0 + i] = t_4; S.p[26 * S.s0 + i] = t_5;
@@ -1127,8 +1126,8 @@ INLINE void lanes_begin(r2 S, int64_t B) {
     int64_t end_1 = 4 * B;
     INDEPENDENT
     for (int64_t i = 0; i < end_1; i++) {
-        lanes_start(S, i, 59); real tangent = S.p[79 * S.s0 + i], a = S.p[75 * S.s0 + i], b = S.p[76 * S.s0 + i];
-        real c = S.p[77 * S.s0 + i];
+        lanes_start(S, i, 59); real tangent = S.p[81 * S.s0 + i], a = S.p[77 * S.s0 + i], b = S.p[78 * S.s0 + i];
+        real c = S.p[79 * S.s0 + i];
         S.p[6 * S.s0 + i] = tangent * (a * S.p[37 * S.s0 + i] + b * S.p[40 * S.s0 + i] + c * S.p[43 * S.s0 + i]);
         S.p[7 * S.s0 + i] = tangent * (a * S.p[38 * S.s0 + i] + b * S.p[41 * S.s0 + i] + c * S.p[44 * S.s0 + i]);
         S.p[8 * S.s0 + i] = tangent * (a * S.p[39 * S.s0 + i] + b * S.p[42 * S.s0 + i] + c * S.p[45 * S.s0 + i]);
@@ -1150,52 +1149,65 @@ INLINE void lanes_gather(r2 S, int64_t B) {
     real a0, a1, a2, a3, b0, b1, b2, b3, w, v; int64_t end_1 = 4 * B;
     INDEPENDENT
     for (int64_t i = 0; i < end_1; i++) {
-        a0 = S.p[83 * S.s0 + i]; a1 = S.p[84 * S.s0 + i]; a2 = S.p[85 * S.s0 + i]; a3 = S.p[86 * S.s0 + i];
+        a0 = S.p[85 * S.s0 + i]; a1 = S.p[86 * S.s0 + i]; a2 = S.p[87 * S.s0 + i]; a3 = S.p[88 * S.s0 + i];
         b0 = S.p[15 * S.s0 + i]; b1 = S.p[16 * S.s0 + i]; b2 = S.p[17 * S.s0 + i]; b3 = S.p[18 * S.s0 + i];
         real one = 1 / real_sqrt(a0 * a0 + a1 * a1 + (a2 * a2 + a3 * a3));
         real two = 1 / real_sqrt(b0 * b0 + b1 * b1 + (b2 * b2 + b3 * b3)); w = S.p[71 * S.s0 + i] * one;
-        v = S.p[72 * S.s0 + i] * two; S.p[90 * S.s0 + i] = w * a0 + v * b0; S.p[91 * S.s0 + i] = w * a1 + v * b1;
-        S.p[92 * S.s0 + i] = w * a2 + v * b2; S.p[93 * S.s0 + i] = w * a3 + v * b3; w = S.p[73 * S.s0 + i] * one;
-        v = S.p[74 * S.s0 + i] * two; S.p[94 * S.s0 + i] = w * a0 + v * b0; S.p[95 * S.s0 + i] = w * a1 + v * b1;
-        S.p[96 * S.s0 + i] = w * a2 + v * b2; S.p[97 * S.s0 + i] = w * a3 + v * b3; w = S.p[71 * S.s0 + i];
-        v = S.p[72 * S.s0 + i]; S.p[98 * S.s0 + i] = w * S.p[87 * S.s0 + i] + v * S.p[19 * S.s0 + i];
-        S.p[99 * S.s0 + i] = w * S.p[88 * S.s0 + i] + v * S.p[20 * S.s0 + i];
-        S.p[100 * S.s0 + i] = w * S.p[89 * S.s0 + i] + v * S.p[21 * S.s0 + i];
+        v = S.p[72 * S.s0 + i] * two; S.p[92 * S.s0 + i] = w * a0 + v * b0; S.p[93 * S.s0 + i] = w * a1 + v * b1;
+        S.p[94 * S.s0 + i] = w * a2 + v * b2; S.p[95 * S.s0 + i] = w * a3 + v * b3; w = S.p[73 * S.s0 + i] * one;
+        v = S.p[74 * S.s0 + i] * two; S.p[96 * S.s0 + i] = w * a0 + v * b0; S.p[97 * S.s0 + i] = w * a1 + v * b1;
+        S.p[98 * S.s0 + i] = w * a2 + v * b2; S.p[99 * S.s0 + i] = w * a3 + v * b3; w = S.p[71 * S.s0 + i];
+        v = S.p[72 * S.s0 + i]; S.p[100 * S.s0 + i] = w * S.p[89 * S.s0 + i] + v * S.p[19 * S.s0 + i];
+        S.p[101 * S.s0 + i] = w * S.p[90 * S.s0 + i] + v * S.p[20 * S.s0 + i];
+        S.p[102 * S.s0 + i] = w * S.p[91 * S.s0 + i] + v * S.p[21 * S.s0 + i]; w = S.p[75 * S.s0 + i] * one;
+        v = S.p[76 * S.s0 + i] * two; S.p[103 * S.s0 + i] = w * a0 + v * b0; S.p[104 * S.s0 + i] = w * a1 + v * b1;
+        S.p[105 * S.s0 + i] = w * a2 + v * b2; S.p[106 * S.s0 + i] = w * a3 + v * b3; w = S.p[73 * S.s0 + i];
+        v = S.p[74 * S.s0 + i]; S.p[107 * S.s0 + i] = w * S.p[89 * S.s0 + i] + v * S.p[19 * S.s0 + i];
+        S.p[108 * S.s0 + i] = w * S.p[90 * S.s0 + i] + v * S.p[20 * S.s0 + i];
+        S.p[109 * S.s0 + i] = w * S.p[91 * S.s0 + i] + v * S.p[21 * S.s0 + i];
     }
     int64_t b;
-    for (int64_t c = 0; c < 11; c++) {
+    for (int64_t c = 0; c < 18; c++) {
         INDEPENDENT
         for (b = 0; b < B; b++)
-            S.p[(90 + c) * S.s0 + b] = S.p[(90 + c) * S.s0 + b] + S.p[(90 + c) * S.s0 + B + b] + (S.p[(90 + c) * S.s0
-                + 2 * B + b] + S.p[(90 + c) * S.s0 + 3 * B + b]);
+            S.p[(92 + c) * S.s0 + b] = S.p[(92 + c) * S.s0 + b] + S.p[(92 + c) * S.s0 + B + b] + (S.p[(92 + c) * S.s0
+                + 2 * B + b] + S.p[(92 + c) * S.s0 + 3 * B + b]);
     }
     INDEPENDENT
     for (b = 0; b < B; b++) {
-        int rests = S.p[58 * S.s0 + b] != 0; real k1 = S.p[101 * S.s0 + b], k2 = S.p[102 * S.s0 + b];
-        real k3 = S.p[103 * S.s0 + b], g1 = S.p[104 * S.s0 + b], g2 = S.p[105 * S.s0 + b], g3 = S.p[106 * S.s0 + b];
-        a0 = S.p[107 * S.s0 + b]; a1 = S.p[108 * S.s0 + b]; a2 = S.p[109 * S.s0 + b]; a3 = S.p[110 * S.s0 + b];
-        real x = S.p[111 * S.s0 + b], y = S.p[112 * S.s0 + b], d0 = S.p[94 * S.s0 + b], d1 = S.p[95 * S.s0 + b];
-        real d2 = S.p[96 * S.s0 + b], d3 = S.p[97 * S.s0 + b];
+        int rests = S.p[58 * S.s0 + b] != 0; real k1 = S.p[110 * S.s0 + b], k2 = S.p[111 * S.s0 + b];
+        real k3 = S.p[112 * S.s0 + b], g1 = S.p[113 * S.s0 + b], g2 = S.p[114 * S.s0 + b], g3 = S.p[115 * S.s0 + b];
+        a0 = S.p[116 * S.s0 + b]; a1 = S.p[117 * S.s0 + b]; a2 = S.p[118 * S.s0 + b]; a3 = S.p[119 * S.s0 + b];
+        real x = S.p[120 * S.s0 + b], y = S.p[121 * S.s0 + b], d0 = S.p[96 * S.s0 + b], d1 = S.p[97 * S.s0 + b];
+        real d2 = S.p[98 * S.s0 + b], d3 = S.p[99 * S.s0 + b];
         real more = 2 * real_sqrt(d0 * d0 + d1 * d1 + (d2 * d2 + d3 * d3));
-        t_r12 t_2 = long_step_moved_body(k1, k2, k3, g1, g2, g3, a0, a1, a2, a3, x, y, S.p[90 * S.s0 + b], S.p[91 *
-            S.s0 + b], S.p[92 * S.s0 + b], S.p[93 * S.s0 + b], S.p[98 * S.s0 + b], S.p[99 * S.s0 + b], S.p[100 * S.s0
-            + b], S.p[115 * S.s0 + b]);
+        t_r12 t_2 = long_step_moved_body(k1, k2, k3, g1, g2, g3, a0, a1, a2, a3, x, y, S.p[92 * S.s0 + b], S.p[93 *
+            S.s0 + b], S.p[94 * S.s0 + b], S.p[95 * S.s0 + b], S.p[100 * S.s0 + b], S.p[101 * S.s0 + b], S.p[102 *
+            S.s0 + b], S.p[130 * S.s0 + b]);
         real l1 = t_2.a0, l2 = t_2.a1, l3 = t_2.a2, h1 = t_2.a3, h2 = t_2.a4, h3 = t_2.a5; b0 = t_2.a6; b1 = t_2.a7;
-        b2 = t_2.a8; b3 = t_2.a9; v = t_2.a10; w = t_2.a11; S.p[101 * S.s0 + b] = rests ? k1 : l1;
-        S.p[102 * S.s0 + b] = rests ? k2 : l2; S.p[103 * S.s0 + b] = rests ? k3 : l3;
-        S.p[104 * S.s0 + b] = rests ? g1 : h1; S.p[105 * S.s0 + b] = rests ? g2 : h2;
-        S.p[106 * S.s0 + b] = rests ? g3 : h3; S.p[107 * S.s0 + b] = rests ? a0 : b0;
-        S.p[108 * S.s0 + b] = rests ? a1 : b1; S.p[109 * S.s0 + b] = rests ? a2 : b2;
-        S.p[110 * S.s0 + b] = rests ? a3 : b3; S.p[111 * S.s0 + b] = rests ? x : v;
-        S.p[112 * S.s0 + b] = rests ? y : w; S.p[113 * S.s0 + b] += rests ? 0 : more;
+        b2 = t_2.a8; b3 = t_2.a9; v = t_2.a10; w = t_2.a11; S.p[110 * S.s0 + b] = rests ? k1 : l1;
+        S.p[111 * S.s0 + b] = rests ? k2 : l2; S.p[112 * S.s0 + b] = rests ? k3 : l3;
+        S.p[113 * S.s0 + b] = rests ? g1 : h1; S.p[114 * S.s0 + b] = rests ? g2 : h2;
+        S.p[115 * S.s0 + b] = rests ? g3 : h3; S.p[116 * S.s0 + b] = rests ? a0 : b0;
+        S.p[117 * S.s0 + b] = rests ? a1 : b1; S.p[118 * S.s0 + b] = rests ? a2 : b2;
+        S.p[119 * S.s0 + b] = rests ? a3 : b3; S.p[120 * S.s0 + b] = rests ? x : v;
+        S.p[121 * S.s0 + b] = rests ? y : w; S.p[122 * S.s0 + b] += rests ? 0 : more; real e0 = S.p[103 * S.s0 + b];
+        real e1 = S.p[104 * S.s0 + b], e2 = S.p[105 * S.s0 + b], e3 = S.p[106 * S.s0 + b];
+        S.p[123 * S.s0 + b] = 2 * real_sqrt(e0 * e0 + e1 * e1 + (e2 * e2 + e3 * e3));
+        t_r4 t_3 = kernel_compose(S.p[92 * S.s0 + b], -S.p[93 * S.s0 + b], -S.p[94 * S.s0 + b], -S.p[95 * S.s0 + b],
+            d0, d1, d2, d3);
+        d1 = t_3.a1; d2 = t_3.a2; d3 = t_3.a3; S.p[124 * S.s0 + b] = 2 * d1; S.p[125 * S.s0 + b] = 2 * d2;
+        S.p[126 * S.s0 + b] = 2 * d3;
+        t_r3 t_4 = kernel_rotate(a0, a1, a2, a3, S.p[107 * S.s0 + b], S.p[108 * S.s0 + b], S.p[109 * S.s0 + b]);
+        S.p[127 * S.s0 + b] = t_4.a0; S.p[128 * S.s0 + b] = t_4.a1;
     }
 }
 
 INLINE void lanes_finish(r2 S, int64_t i) {
     real t_1 = S.p[15 * S.s0 + i], t_2 = S.p[16 * S.s0 + i], t_3 = S.p[17 * S.s0 + i], t_4 = S.p[18 * S.s0 + i];
-    S.p[83 * S.s0 + i] = t_1; S.p[84 * S.s0 + i] = t_2; S.p[85 * S.s0 + i] = t_3; S.p[86 * S.s0 + i] = t_4;
-    real t_5 = S.p[19 * S.s0 + i], t_6 = S.p[20 * S.s0 + i], t_7 = S.p[21 * S.s0 + i]; S.p[87 * S.s0 + i] = t_5;
-    S.p[88 * S.s0 + i] = t_6; S.p[89 * S.s0 + i] = t_7;
+    S.p[85 * S.s0 + i] = t_1; S.p[86 * S.s0 + i] = t_2; S.p[87 * S.s0 + i] = t_3; S.p[88 * S.s0 + i] = t_4;
+    real t_5 = S.p[19 * S.s0 + i], t_6 = S.p[20 * S.s0 + i], t_7 = S.p[21 * S.s0 + i]; S.p[89 * S.s0 + i] = t_5;
+    S.p[90 * S.s0 + i] = t_6; S.p[91 * S.s0 + i] = t_7;
 }
 
 INLINE void lanes_begin_second(r2 S, int64_t B, int64_t lane, r2 weights) {
@@ -1207,16 +1219,16 @@ INLINE void lanes_begin_second(r2 S, int64_t B, int64_t lane, r2 weights) {
     real w6 = weights.p[lane * weights.s0 + 6], w7 = weights.p[lane * weights.s0 + 7];
     INDEPENDENT
     for (int64_t b = 0; b < B; b++) {
-        int64_t i = b, j = B + b, k = 2 * B + b, m = 3 * B + b; real tangent = S.p[79 * S.s0 + lane * B + b], x1 = w0
-            * S.p[37 * S.s0 + i] + w1 * S.p[40 * S.s0 + i] + (w2 * S.p[43 * S.s0 + i] + w3 * S.p[80 * S.s0 + i]), x2 =
-            w0 * S.p[38 * S.s0 + i] + w1 * S.p[41 * S.s0 + i] + (w2 * S.p[44 * S.s0 + i] + w3 * S.p[81 * S.s0 + i]),
-            x3 = w0 * S.p[39 * S.s0 + i] + w1 * S.p[42 * S.s0 + i] + (w2 * S.p[45 * S.s0 + i] + w3 * S.p[82 * S.s0 +
+        int64_t i = b, j = B + b, k = 2 * B + b, m = 3 * B + b; real tangent = S.p[81 * S.s0 + lane * B + b], x1 = w0
+            * S.p[37 * S.s0 + i] + w1 * S.p[40 * S.s0 + i] + (w2 * S.p[43 * S.s0 + i] + w3 * S.p[82 * S.s0 + i]), x2 =
+            w0 * S.p[38 * S.s0 + i] + w1 * S.p[41 * S.s0 + i] + (w2 * S.p[44 * S.s0 + i] + w3 * S.p[83 * S.s0 + i]),
+            x3 = w0 * S.p[39 * S.s0 + i] + w1 * S.p[42 * S.s0 + i] + (w2 * S.p[45 * S.s0 + i] + w3 * S.p[84 * S.s0 +
             i]);
-        x1 += w4 * S.p[80 * S.s0 + j] + w5 * S.p[80 * S.s0 + k] + (w6 * S.p[80 * S.s0 + m] + w7 * S.p[121 * S.s0 +
+        x1 += w4 * S.p[82 * S.s0 + j] + w5 * S.p[82 * S.s0 + k] + (w6 * S.p[82 * S.s0 + m] + w7 * S.p[136 * S.s0 +
             i]);
-        x2 += w4 * S.p[81 * S.s0 + j] + w5 * S.p[81 * S.s0 + k] + (w6 * S.p[81 * S.s0 + m] + w7 * S.p[122 * S.s0 +
+        x2 += w4 * S.p[83 * S.s0 + j] + w5 * S.p[83 * S.s0 + k] + (w6 * S.p[83 * S.s0 + m] + w7 * S.p[137 * S.s0 +
             i]);
-        x3 += w4 * S.p[82 * S.s0 + j] + w5 * S.p[82 * S.s0 + k] + (w6 * S.p[82 * S.s0 + m] + w7 * S.p[123 * S.s0 +
+        x3 += w4 * S.p[84 * S.s0 + j] + w5 * S.p[84 * S.s0 + k] + (w6 * S.p[84 * S.s0 + m] + w7 * S.p[138 * S.s0 +
             i]);
         S.p[6 * S.s0 + lane * B + b] = tangent * x1; S.p[7 * S.s0 + lane * B + b] = tangent * x2;
         S.p[8 * S.s0 + lane * B + b] = tangent * x3;
@@ -1294,7 +1306,7 @@ INLINE void lanes_moved(r2 S, int64_t B, int traced) {
         x1 = S.p[12 * S.s0 + i]; x2 = S.p[13 * S.s0 + i]; x3 = S.p[14 * S.s0 + i]; S.p[9 * S.s0 + i] = w1;
         S.p[10 * S.s0 + i] = w2; S.p[11 * S.s0 + i] = w3; S.p[12 * S.s0 + i] = v1; S.p[13 * S.s0 + i] = v2;
         S.p[14 * S.s0 + i] = v3; real d = S.p[47 * S.s0 + i], e = S.p[48 * S.s0 + i], f = S.p[49 * S.s0 + i];
-        real a = S.p[50 * S.s0 + i], b = S.p[51 * S.s0 + i], c = S.p[52 * S.s0 + i], tangent = S.p[79 * S.s0 + i];
+        real a = S.p[50 * S.s0 + i], b = S.p[51 * S.s0 + i], c = S.p[52 * S.s0 + i], tangent = S.p[81 * S.s0 + i];
         real y1 = d * S.p[37 * S.s0 + i] + e * S.p[40 * S.s0 + i] + f * S.p[43 * S.s0 + i];
         real y2 = d * S.p[38 * S.s0 + i] + e * S.p[41 * S.s0 + i] + f * S.p[44 * S.s0 + i];
         real y3 = d * S.p[39 * S.s0 + i] + e * S.p[42 * S.s0 + i] + f * S.p[45 * S.s0 + i];
@@ -1339,8 +1351,8 @@ INLINE int lanes_side_by_side(r2 S, int64_t B, int64_t columns, int traced, r3 f
             INDEPENDENT
             for (i = 0; i < end_1; i++) {
                 real t_2 = S.p[9 * S.s0 + i] * S.p[23 * S.s0 + i], t_3 = S.p[10 * S.s0 + i] * S.p[23 * S.s0 + i];
-                S.p[80 * S.s0 + i] = t_2; S.p[81 * S.s0 + i] = t_3;
-                S.p[82 * S.s0 + i] = S.p[11 * S.s0 + i] * S.p[23 * S.s0 + i];
+                S.p[82 * S.s0 + i] = t_2; S.p[83 * S.s0 + i] = t_3;
+                S.p[84 * S.s0 + i] = S.p[11 * S.s0 + i] * S.p[23 * S.s0 + i];
             }
         }
         else {
@@ -1348,8 +1360,8 @@ INLINE int lanes_side_by_side(r2 S, int64_t B, int64_t columns, int traced, r3 f
                 INDEPENDENT
                 for (b = 0; b < B; b++) {
                     i = lane * B + b; real t_4 = S.p[9 * S.s0 + i] * S.p[23 * S.s0 + i];
-                    real t_5 = S.p[10 * S.s0 + i] * S.p[23 * S.s0 + i]; S.p[121 * S.s0 + b] = t_4;
-                    S.p[122 * S.s0 + b] = t_5; S.p[123 * S.s0 + b] = S.p[11 * S.s0 + i] * S.p[23 * S.s0 + i];
+                    real t_5 = S.p[10 * S.s0 + i] * S.p[23 * S.s0 + i]; S.p[136 * S.s0 + b] = t_4;
+                    S.p[137 * S.s0 + b] = t_5; S.p[138 * S.s0 + b] = S.p[11 * S.s0 + i] * S.p[23 * S.s0 + i];
                 }
             }
         }
@@ -1363,15 +1375,15 @@ INLINE void long_run_show(r2 S, int64_t b, int64_t exponent, int64_t frame, r3 m
     traces, int follows, int going) {
     int64_t c;
     for (c = 0; c < 3; c++) {
-        momenta.p[b * momenta.s0 + frame * momenta.s1 + c] = going ? (real)ldexp(S.p[(101 + c) * S.s0 + b],
+        momenta.p[b * momenta.s0 + frame * momenta.s1 + c] = going ? (real)ldexp(S.p[(110 + c) * S.s0 + b],
             (int)(int64_t)exponent) : NAN;
-        verticals.p[b * verticals.s0 + frame * verticals.s1 + c] = going ? S.p[(104 + c) * S.s0 + b] : NAN;
+        verticals.p[b * verticals.s0 + frame * verticals.s1 + c] = going ? S.p[(113 + c) * S.s0 + b] : NAN;
     }
     if (follows) {
         for (c = 0; c < 4; c++)
-            attitudes.p[b * attitudes.s0 + frame * attitudes.s1 + c] = going ? S.p[(107 + c) * S.s0 + b] : NAN;
+            attitudes.p[b * attitudes.s0 + frame * attitudes.s1 + c] = going ? S.p[(116 + c) * S.s0 + b] : NAN;
         for (c = 0; c < 2; c++)
-            traces.p[b * traces.s0 + frame * traces.s1 + c] = going ? S.p[(111 + c) * S.s0 + b] : NAN;
+            traces.p[b * traces.s0 + frame * traces.s1 + c] = going ? S.p[(120 + c) * S.s0 + b] : NAN;
     }
 }
 
@@ -2560,34 +2572,65 @@ INLINE int following_planned(r1 lane, real end, real step) {
     real before = lane.p[1]; lane.p[3] = max_i(count, 1); lane.p[1] = left / lane.p[3]; return lane.p[1] != before;
 }
 
-INLINE void carried_tangent(r1 body, real J1, real J2, real J3, real contact, int traced, r1 E, int64_t at) {
-    real K1 = body.p[0], K2 = body.p[1], K3 = body.p[2], g1 = body.p[3], g2 = body.p[4], g3 = body.p[5];
-    real I1 = J2 + J3 + contact, I2 = J1 + J3 + contact, I3 = J1 + J2 + contact;
-    t_r3 w1 = kernel_angular_velocity(K1, K2, K3, g1, g2, g3, J1, J2, J3, contact); real m1 = I1 * w1.a0;
-    real m2 = I2 * w1.a1, m3 = I3 * w1.a2;
-    t_r3 a1 = kernel_angular_velocity(m2 * w1.a2 - m3 * w1.a1, m3 * w1.a0 - m1 * w1.a2, m1 * w1.a1 - m2 * w1.a0, g1,
-        g2, g3, J1, J2, J3, contact);
-    real n1 = I1 * a1.a0, n2 = I2 * a1.a1, n3 = I3 * a1.a2; E.p[at + 39] = w1.a0; E.p[at + 39 + 1] = w1.a1;
-    E.p[at + 39 + 2] = w1.a2; real s1 = w1.a1 * m3 - w1.a2 * m2, s2 = w1.a2 * m1 - w1.a0 * m3;
-    real s3 = w1.a0 * m2 - w1.a1 * m1, least = R(0x1.6849b86a12b9ap-47) * ((m1 * m1 + m2 * m2 + m3 * m3) * (w1.a0 *
-        w1.a0 + w1.a1 * w1.a1 + w1.a2 * w1.a2));
-    real one = s1 * s1 + s2 * s2 + s3 * s3 > least ? 1 : 0; E.p[at + 42] = one * s1; E.p[at + 42 + 1] = one * s2;
-    E.p[at + 42 + 2] = one * s3; real v1 = w1.a1 * g3 - w1.a2 * g2, v2 = w1.a2 * g1 - w1.a0 * g3;
-    real v3 = w1.a0 * g2 - w1.a1 * g1, u1 = a1.a1 * g3 - a1.a2 * g2 - (w1.a1 * v3 - w1.a2 * v2);
-    real u2 = a1.a2 * g1 - a1.a0 * g3 - (w1.a2 * v1 - w1.a0 * v3);
-    real u3 = a1.a0 * g2 - a1.a1 * g1 - (w1.a0 * v2 - w1.a1 * v1), x1 = 0, x2 = 0, x3 = 0, y1 = 0, y2 = 0, y3 = 0;
-    if (traced) {
-        real a = body.p[6], b = body.p[7], c = body.p[8], d = body.p[9];
-        t_r3 t_1 = kernel_rotate(a, -b, -c, -d, 1, 0, 0); x1 = t_1.a0; x2 = t_1.a1; x3 = t_1.a2;
-        t_r3 t_2 = kernel_rotate(a, -b, -c, -d, 0, 1, 0); y1 = t_2.a0; y2 = t_2.a1; y3 = t_2.a2;
+INLINE void carried_begun(r2 E, int64_t B, int64_t b, real J1, real J2, real J3, real start) {
+    for (int64_t lane = 0; lane < 4; lane++) {
+        int64_t i = lane * B + b;
+        for (int64_t c = 0; c < 3; c++) E.p[(38 + c) * E.s0 + i] = c == lane ? 1 : 0;
+        E.p[51 * E.s0 + i] = J1; E.p[52 * E.s0 + i] = J2; E.p[53 * E.s0 + i] = J3;
     }
-    real z1, z2, z3, b1, b2, b3;
-    for (int64_t i = 0; i < 3; i++) {
-        real e1 = i == 0 ? 1 : 0, e2 = i == 1 ? 1 : 0, e3 = i == 2 ? 1 : 0;
-        real v = contact * (v1 * e1 + v2 * e2 + v3 * e3), u = contact * (u1 * e1 + u2 * e2 + u3 * e3);
-        t_r3 t_3 = kernel_angular_velocity(m2 * e3 - m3 * e2 + v * g1, m3 * e1 - m1 * e3 + v * g2, m1 * e2 - m2 * e1 +
+    for (int64_t row = 59; row < 98; row++) E.p[row * E.s0 + b] = 0;
+    E.p[64 * E.s0 + b] = start * start; E.p[67 * E.s0 + b] = start * start; E.p[69 * E.s0 + b] = start * start;
+}
+
+INLINE int64_t following_taken_in(r2 S, r2 E, int64_t B, int64_t b, int64_t columns, int64_t i, r1 first, r1 start, r3
+    momenta, r3 verticals, r3 attitudes, r3 traces, r2 J0, r1 D0, r1 radius, real end, int follows, r2 sums, r2
+    beginning, r1 body, r1 state, r1 lane, r2 reported, int traced) {
+    long_run_placed(body, i, momenta, verticals, attitudes, traces, follows, traced);
+    for (int64_t i_0 = 0; i_0 < lane.n0; i_0++) lane.p[i_0] = 0;
+    lane.p[4] = i; lane.p[5] = 1; lane.p[10] = R(1e+300); following_planned(lane, end, first.p[i]);
+    int64_t exponent = long_run_enter(S, B, b, columns, (r1){J0.p + i * J0.s0, J0.n1}, D0.p[i], radius.p[i],
+        lane.p[1], sums, beginning, body, state);
+    lane.p[2] = 2 * S.p[129 * S.s0 + b] / lane.p[1];
+    carried_begun(E, B, b, S.p[131 * S.s0 + b], S.p[132 * S.s0 + b], S.p[133 * S.s0 + b], start.p[i]);
+    for (int64_t c = 0; c < 5; c++) reported.p[i * reported.s0 + c] = 0;
+    return exponent;
+}
+
+INLINE void carried_tangent(r2 S, r2 E, int64_t B, int64_t at, int traced) {
+    real one;
+    for (int64_t row = 0; row < 10; row++) {
+        INDEPENDENT
+        for (int64_t b = 0; b < B; b++) {
+            one = S.p[(110 + row) * S.s0 + b]; E.p[(41 + row) * E.s0 + b] = one; E.p[(41 + row) * E.s0 + B + b] = one;
+            E.p[(41 + row) * E.s0 + 2 * B + b] = one; E.p[(41 + row) * E.s0 + 3 * B + b] = one;
+        }
+    }
+    real z1, z2, z3, b1, b2, b3, q0, q1, q2, q3; int64_t end_1 = 4 * B;
+    INDEPENDENT
+    for (int64_t i = 0; i < end_1; i++) {
+        real g1 = E.p[44 * E.s0 + i], g2 = E.p[45 * E.s0 + i], g3 = E.p[46 * E.s0 + i], J1 = E.p[51 * E.s0 + i];
+        real J2 = E.p[52 * E.s0 + i], J3 = E.p[53 * E.s0 + i], contact = S.p[30 * S.s0 + i];
+        real I1 = S.p[27 * S.s0 + i] + contact, I2 = S.p[28 * S.s0 + i] + contact, I3 = S.p[29 * S.s0 + i] + contact;
+        t_r3 w1 = kernel_angular_velocity(E.p[41 * E.s0 + i], E.p[42 * E.s0 + i], E.p[43 * E.s0 + i], g1, g2, g3, J1,
+            J2, J3, contact);
+        real m1 = I1 * w1.a0, m2 = I2 * w1.a1, m3 = I3 * w1.a2, s1 = w1.a1 * m3 - w1.a2 * m2;
+        real s2 = w1.a2 * m1 - w1.a0 * m3, s3 = w1.a0 * m2 - w1.a1 * m1;
+        t_r3 a1 = kernel_angular_velocity(-s1, -s2, -s3, g1, g2, g3, J1, J2, J3, contact); real n1 = I1 * a1.a0;
+        real n2 = I2 * a1.a1, n3 = I3 * a1.a2; E.p[(at + 13) * E.s0 + i] = w1.a0;
+        E.p[(at + 13 + 1) * E.s0 + i] = w1.a1; E.p[(at + 13 + 2) * E.s0 + i] = w1.a2;
+        real least = R(0x1.6849b86a12b9ap-47) * ((m1 * m1 + m2 * m2 + m3 * m3) * (w1.a0 * w1.a0 + w1.a1 * w1.a1 +
+            w1.a2 * w1.a2));
+        one = s1 * s1 + s2 * s2 + s3 * s3 > least ? 1 : 0; E.p[(at + 16) * E.s0 + i] = one * s1;
+        E.p[(at + 16 + 1) * E.s0 + i] = one * s2; E.p[(at + 16 + 2) * E.s0 + i] = one * s3;
+        real v1 = w1.a1 * g3 - w1.a2 * g2, v2 = w1.a2 * g1 - w1.a0 * g3, v3 = w1.a0 * g2 - w1.a1 * g1;
+        real u1 = a1.a1 * g3 - a1.a2 * g2 - (w1.a1 * v3 - w1.a2 * v2);
+        real u2 = a1.a2 * g1 - a1.a0 * g3 - (w1.a2 * v1 - w1.a0 * v3);
+        real u3 = a1.a0 * g2 - a1.a1 * g1 - (w1.a0 * v2 - w1.a1 * v1), e1 = E.p[38 * E.s0 + i];
+        real e2 = E.p[39 * E.s0 + i], e3 = E.p[40 * E.s0 + i], v = contact * (v1 * e1 + v2 * e2 + v3 * e3);
+        real u = contact * (u1 * e1 + u2 * e2 + u3 * e3);
+        t_r3 t_2 = kernel_angular_velocity(m2 * e3 - m3 * e2 + v * g1, m3 * e1 - m1 * e3 + v * g2, m1 * e2 - m2 * e1 +
             v * g3, g1, g2, g3, J1, J2, J3, contact);
-        s1 = t_3.a0; s2 = t_3.a1; s3 = t_3.a2; real f1 = s1 + (e2 * w1.a2 - e3 * w1.a1);
+        s1 = t_2.a0; s2 = t_2.a1; s3 = t_2.a2; real f1 = s1 + (e2 * w1.a2 - e3 * w1.a1);
         real f2 = s2 + (e3 * w1.a0 - e1 * w1.a2), f3 = s3 + (e1 * w1.a1 - e2 * w1.a0);
         real up = u + contact * (v1 * f1 + v2 * f2 + v3 * f3 - (v1 * s1 + v2 * s2 + v3 * s3));
         real over = v + contact * (g1 * s1 + g2 * s2 + g3 * s3);
@@ -2596,40 +2639,161 @@ INLINE void carried_tangent(r1 body, real J1, real J2, real J3, real contact, in
             - over * v3), g1, g2, g3, J1, J2, J3, contact);
         real p1 = t1.a0 + (f2 * w1.a2 - f3 * w1.a1) + (e2 * a1.a2 - e3 * a1.a1);
         real p2 = t1.a1 + (f3 * w1.a0 - f1 * w1.a2) + (e3 * a1.a0 - e1 * a1.a2);
-        real p3 = t1.a2 + (f1 * w1.a1 - f2 * w1.a0) + (e1 * a1.a1 - e2 * a1.a0); int64_t row = at + 3 * i;
-        E.p[row + 0] = s1; E.p[row + 0 + 1] = s2; E.p[row + 0 + 2] = s3; E.p[row + 9] = f1; E.p[row + 9 + 1] = f2;
-        E.p[row + 9 + 2] = f3; E.p[row + 18] = p1; E.p[row + 18 + 1] = p2; E.p[row + 18 + 2] = p3;
+        real p3 = t1.a2 + (f1 * w1.a1 - f2 * w1.a0) + (e1 * a1.a1 - e2 * a1.a0); E.p[(at + 0) * E.s0 + i] = s1;
+        E.p[(at + 0 + 1) * E.s0 + i] = s2; E.p[(at + 0 + 2) * E.s0 + i] = s3; E.p[(at + 3) * E.s0 + i] = f1;
+        E.p[(at + 3 + 1) * E.s0 + i] = f2; E.p[(at + 3 + 2) * E.s0 + i] = f3; E.p[(at + 6) * E.s0 + i] = p1;
+        E.p[(at + 6 + 1) * E.s0 + i] = p2; E.p[(at + 6 + 2) * E.s0 + i] = p3;
         if (traced) {
             z1 = f2 * g3 - f3 * g2; z2 = f3 * g1 - f1 * g3; z3 = f1 * g2 - f2 * g1;
             b1 = w1.a1 * z3 - w1.a2 * z2 + (p2 * g3 - p3 * g2) - (f2 * v3 - f3 * v2);
             b2 = w1.a2 * z1 - w1.a0 * z3 + (p3 * g1 - p1 * g3) - (f3 * v1 - f1 * v3);
-            b3 = w1.a0 * z2 - w1.a1 * z1 + (p1 * g2 - p2 * g1) - (f1 * v2 - f2 * v1); row = at + 2 * i;
-            E.p[row + 27] = x1 * z1 + x2 * z2 + x3 * z3; E.p[row + 27 + 1] = y1 * z1 + y2 * z2 + y3 * z3;
-            E.p[row + 33] = x1 * b1 + x2 * b2 + x3 * b3; E.p[row + 33 + 1] = y1 * b1 + y2 * b2 + y3 * b3;
+            b3 = w1.a0 * z2 - w1.a1 * z1 + (p1 * g2 - p2 * g1) - (f1 * v2 - f2 * v1); q0 = E.p[47 * E.s0 + i];
+            q1 = E.p[48 * E.s0 + i]; q2 = E.p[49 * E.s0 + i]; q3 = E.p[50 * E.s0 + i];
+            t_r3 t_3 = kernel_rotate(q0, q1, q2, q3, z1, z2, z3); E.p[(at + 9) * E.s0 + i] = t_3.a0;
+            E.p[(at + 9 + 1) * E.s0 + i] = t_3.a1; t_r3 t_4 = kernel_rotate(q0, q1, q2, q3, b1, b2, b3);
+            E.p[(at + 11) * E.s0 + i] = t_4.a0; E.p[(at + 11 + 1) * E.s0 + i] = t_4.a1;
         }
     }
 }
 
-INLINE int64_t following_taken_in(r2 S, int64_t B, int64_t b, int64_t columns, int64_t i, r1 first, r1 start, r3
-    momenta, r3 verticals, r3 attitudes, r3 traces, r2 J0, r1 D0, r1 radius, real end, int follows, r2 sums, r2
-    beginning, r1 body, r1 state, r1 lane, r1 E, r2 reported, int traced) {
-    long_run_placed(body, i, momenta, verticals, attitudes, traces, follows, traced);
-    for (int64_t i_0 = 0; i_0 < lane.n0; i_0++) lane.p[i_0] = 0;
-    lane.p[4] = i; lane.p[5] = 1; lane.p[10] = R(1e+300); following_planned(lane, end, first.p[i]);
-    int64_t exponent = long_run_enter(S, B, b, columns, (r1){J0.p + i * J0.s0, J0.n1}, D0.p[i], radius.p[i],
-        lane.p[1], sums, beginning, body, state);
-    lane.p[2] = 2 * S.p[114 * S.s0 + b] / lane.p[1];
-    for (int64_t i_0 = 0; i_0 < E.n0; i_0++) E.p[i_0] = 0;
-    carried_tangent(body, S.p[116 * S.s0 + b], S.p[117 * S.s0 + b], S.p[118 * S.s0 + b], S.p[119 * S.s0 + b], traced,
-        E, 45);
-    E.p[90] = start.p[i]; E.p[93] = start.p[i]; E.p[95] = start.p[i]; E.p[105] = start.p[i];
-    for (int64_t c = 0; c < 5; c++) reported.p[i * reported.s0 + c] = 0;
-    return exponent;
+INLINE void carried_kept(r2 E, int64_t B) {
+    INDEPENDENT
+    for (int64_t b = 0; b < B; b++) {
+        int64_t i = b, j = B + b, k = 2 * B + b; real w1 = E.p[13 * E.s0 + b], w2 = E.p[14 * E.s0 + b];
+        real w3 = E.p[15 * E.s0 + b], square = w1 * w1 + w2 * w2 + w3 * w3, part = square > 0 ? 1 / square : 0, x =
+            part * (E.p[32 * E.s0 + b] - (E.p[54 * E.s0 + i] * w1 + E.p[54 * E.s0 + j] * w2 + E.p[54 * E.s0 + k] *
+            w3)), y = part * (E.p[33 * E.s0 + b] - (E.p[55 * E.s0 + i] * w1 + E.p[55 * E.s0 + j] * w2 + E.p[55 * E.s0
+            + k] * w3)), z = part * (E.p[34 * E.s0 + b] - (E.p[56 * E.s0 + i] * w1 + E.p[56 * E.s0 + j] * w2 + E.p[56
+            * E.s0 + k] * w3));
+        real a1 = E.p[54 * E.s0 + i] + x * w1, a2 = E.p[55 * E.s0 + i] + y * w1, a3 = E.p[56 * E.s0 + i] + z * w1;
+        real b1 = E.p[54 * E.s0 + j] + x * w2, b2 = E.p[55 * E.s0 + j] + y * w2, b3 = E.p[56 * E.s0 + j] + z * w2;
+        real c1 = E.p[54 * E.s0 + k] + x * w3, c2 = E.p[55 * E.s0 + k] + y * w3, c3 = E.p[56 * E.s0 + k] + z * w3;
+        real n1 = E.p[35 * E.s0 + b], n2 = E.p[36 * E.s0 + b], n3 = E.p[37 * E.s0 + b]; x = E.p[16 * E.s0 + b];
+        y = E.p[17 * E.s0 + b]; z = E.p[18 * E.s0 + b]; square = n1 * n1 + n2 * n2 + n3 * n3;
+        part = (square > 0 && x * x + y * y + z * z > 0) ? 1 / square : 0;
+        x = part * (x - (n1 * a1 + n2 * a2 + n3 * a3)); y = part * (y - (n1 * b1 + n2 * b2 + n3 * b3));
+        z = part * (z - (n1 * c1 + n2 * c2 + n3 * c3)); E.p[54 * E.s0 + i] = a1 + x * n1;
+        E.p[55 * E.s0 + i] = a2 + x * n2; E.p[56 * E.s0 + i] = a3 + x * n3; E.p[54 * E.s0 + j] = b1 + y * n1;
+        E.p[55 * E.s0 + j] = b2 + y * n2; E.p[56 * E.s0 + j] = b3 + y * n3; E.p[54 * E.s0 + k] = c1 + z * n1;
+        E.p[55 * E.s0 + k] = c2 + z * n2; E.p[56 * E.s0 + k] = c3 + z * n3;
+    }
 }
 
-INLINE real following_feared(real doubt, real start) {
-    return 12 * doubt * real_sqrt(real_sqrt(real_sqrt(R(0x1.7d78400000000p+26) * doubt)) * max_r(start /
-        R(0x1.947ae147ae148p-51), 1));
+INLINE void carried_flown(r2 E, int64_t B, int traced) {
+    int64_t b; real half, twelfth; int64_t i;
+    INDEPENDENT
+    for (b = 0; b < B; b++) {
+        half = R(0.5) * E.p[78 * E.s0 + b];
+        twelfth = E.p[78 * E.s0 + b] * E.p[78 * E.s0 + b] * R(0x1.5555555555555p-4); i = b; int64_t j = B + b;
+        int64_t k = 2 * B + b; real a1 = 1 - half * E.p[22 * E.s0 + i] + twelfth * E.p[25 * E.s0 + i];
+        real a2 = twelfth * E.p[26 * E.s0 + i] - half * E.p[23 * E.s0 + i];
+        real a3 = twelfth * E.p[27 * E.s0 + i] - half * E.p[24 * E.s0 + i];
+        real b1 = twelfth * E.p[25 * E.s0 + j] - half * E.p[22 * E.s0 + j];
+        real b2 = 1 - half * E.p[23 * E.s0 + j] + twelfth * E.p[26 * E.s0 + j];
+        real b3 = twelfth * E.p[27 * E.s0 + j] - half * E.p[24 * E.s0 + j];
+        real c1 = twelfth * E.p[25 * E.s0 + k] - half * E.p[22 * E.s0 + k];
+        real c2 = twelfth * E.p[26 * E.s0 + k] - half * E.p[23 * E.s0 + k];
+        real c3 = 1 - half * E.p[24 * E.s0 + k] + twelfth * E.p[27 * E.s0 + k], r1 = b2 * c3 - b3 * c2;
+        real r2 = b3 * c1 - b1 * c3, r3 = b1 * c2 - b2 * c1, over = 1 / (a1 * r1 + a2 * r2 + a3 * r3);
+        E.p[87 * E.s0 + b] = over * r1; E.p[88 * E.s0 + b] = over * r2; E.p[89 * E.s0 + b] = over * r3;
+        E.p[90 * E.s0 + b] = over * (c2 * a3 - c3 * a2); E.p[91 * E.s0 + b] = over * (c3 * a1 - c1 * a3);
+        E.p[92 * E.s0 + b] = over * (c1 * a2 - c2 * a1); E.p[93 * E.s0 + b] = over * (a2 * b3 - a3 * b2);
+        E.p[94 * E.s0 + b] = over * (a3 * b1 - a1 * b3); E.p[95 * E.s0 + b] = over * (a1 * b2 - a2 * b1);
+        E.p[96 * E.s0 + b] = half; E.p[97 * E.s0 + b] = twelfth;
+    }
+    int64_t column; real x, y, z;
+    for (column = 0; column < 3; column++) {
+        INDEPENDENT
+        for (b = 0; b < B; b++) {
+            i = column * B + b; half = E.p[96 * E.s0 + b]; twelfth = E.p[97 * E.s0 + b];
+            x = E.p[38 * E.s0 + i] + half * E.p[3 * E.s0 + i] + twelfth * E.p[6 * E.s0 + i];
+            y = E.p[39 * E.s0 + i] + half * E.p[4 * E.s0 + i] + twelfth * E.p[7 * E.s0 + i];
+            z = E.p[40 * E.s0 + i] + half * E.p[5 * E.s0 + i] + twelfth * E.p[8 * E.s0 + i];
+            E.p[54 * E.s0 + i] = E.p[87 * E.s0 + b] * x + E.p[88 * E.s0 + b] * y + E.p[89 * E.s0 + b] * z;
+            E.p[55 * E.s0 + i] = E.p[90 * E.s0 + b] * x + E.p[91 * E.s0 + b] * y + E.p[92 * E.s0 + b] * z;
+            E.p[56 * E.s0 + i] = E.p[93 * E.s0 + b] * x + E.p[94 * E.s0 + b] * y + E.p[95 * E.s0 + b] * z;
+        }
+    }
+    carried_kept(E, B);
+    if (traced) {
+        int64_t c, lane; real off;
+        for (column = 0; column < 3; column++) {
+            INDEPENDENT
+            for (b = 0; b < B; b++) {
+                i = column * B + b; half = E.p[96 * E.s0 + b]; twelfth = E.p[97 * E.s0 + b];
+                x = half * E.p[9 * E.s0 + i] + twelfth * E.p[11 * E.s0 + i];
+                y = half * E.p[10 * E.s0 + i] + twelfth * E.p[12 * E.s0 + i];
+                for (c = 0; c < 3; c++) {
+                    lane = c * B + b; off = E.p[(54 + c) * E.s0 + i];
+                    x += (half * E.p[28 * E.s0 + lane] - twelfth * E.p[30 * E.s0 + lane]) * off;
+                    y += (half * E.p[29 * E.s0 + lane] - twelfth * E.p[31 * E.s0 + lane]) * off;
+                }
+                E.p[57 * E.s0 + i] = x; E.p[58 * E.s0 + i] = y;
+            }
+        }
+    }
+}
+
+INLINE void carried_carry(r2 S, r2 E, int64_t B, int traced) {
+    carried_flown(E, B, traced); int64_t i; real x, y, z, off, x1, x2, x3, y1, y2, y3, m1, m2, m3, n1, n2, n3, u1, u2;
+    real u3;
+    INDEPENDENT
+    for (int64_t b = 0; b < B; b++) {
+        i = b; int64_t j = B + b, k = 2 * B + b; real a1 = E.p[54 * E.s0 + i], a2 = E.p[55 * E.s0 + i];
+        real a3 = E.p[56 * E.s0 + i], b1 = E.p[54 * E.s0 + j], b2 = E.p[55 * E.s0 + j], b3 = E.p[56 * E.s0 + j];
+        real c1 = E.p[54 * E.s0 + k], c2 = E.p[55 * E.s0 + k], c3 = E.p[56 * E.s0 + k], share = E.p[79 * E.s0 + b];
+        real error = E.p[80 * E.s0 + b], v1 = E.p[59 * E.s0 + b], v2 = E.p[60 * E.s0 + b], v3 = E.p[61 * E.s0 + b];
+        real l1 = a1 * v1 + b1 * v2 + c1 * v3 + share * S.p[124 * S.s0 + b];
+        real l2 = a2 * v1 + b2 * v2 + c2 * v3 + share * S.p[125 * S.s0 + b];
+        real l3 = a3 * v1 + b3 * v2 + c3 * v3 + share * S.p[126 * S.s0 + b]; E.p[59 * E.s0 + b] = l1;
+        E.p[60 * E.s0 + b] = l2; E.p[61 * E.s0 + b] = l3; real s11 = E.p[64 * E.s0 + b], s12 = E.p[65 * E.s0 + b];
+        real s13 = E.p[66 * E.s0 + b], s22 = E.p[67 * E.s0 + b], s23 = E.p[68 * E.s0 + b], s33 = E.p[69 * E.s0 + b];
+        real p11 = a1 * s11 + b1 * s12 + c1 * s13, p12 = a1 * s12 + b1 * s22 + c1 * s23;
+        real p13 = a1 * s13 + b1 * s23 + c1 * s33, p21 = a2 * s11 + b2 * s12 + c2 * s13;
+        real p22 = a2 * s12 + b2 * s22 + c2 * s23, p23 = a2 * s13 + b2 * s23 + c2 * s33;
+        real p31 = a3 * s11 + b3 * s12 + c3 * s13, p32 = a3 * s12 + b3 * s22 + c3 * s23;
+        real p33 = a3 * s13 + b3 * s23 + c3 * s33, e11 = p11 * a1 + p12 * b1 + p13 * c1;
+        real e12 = p11 * a2 + p12 * b2 + p13 * c2, e13 = p11 * a3 + p12 * b3 + p13 * c3;
+        real e22 = p21 * a2 + p22 * b2 + p23 * c2, e23 = p21 * a3 + p22 * b3 + p23 * c3;
+        real e33 = p31 * a3 + p32 * b3 + p33 * c3; e11 = e11 + error; e22 = e22 + error; e33 = e33 + error;
+        E.p[64 * E.s0 + b] = e11; E.p[65 * E.s0 + b] = e12; E.p[66 * E.s0 + b] = e13; E.p[67 * E.s0 + b] = e22;
+        E.p[68 * E.s0 + b] = e23; E.p[69 * E.s0 + b] = e33;
+        E.p[81 * E.s0 + b] = real_sqrt(l1 * l1 + l2 * l2 + l3 * l3); E.p[84 * E.s0 + b] = real_sqrt(e11 + e22 + e33);
+        real spun = 0, rounded = 0;
+        for (int64_t c = 0; c < 3; c++) {
+            x = E.p[(19 + c) * E.s0 + i]; y = E.p[(19 + c) * E.s0 + j]; z = E.p[(19 + c) * E.s0 + k];
+            off = x * l1 + y * l2 + z * l3; spun += off * off;
+            rounded += x * (x * e11 + 2 * (y * e12 + z * e13)) + y * (y * e22 + 2 * z * e23) + z * z * e33;
+        }
+        E.p[82 * E.s0 + b] = real_sqrt(spun); E.p[85 * E.s0 + b] = real_sqrt(max_r(rounded, 0));
+        if (traced) {
+            x1 = E.p[57 * E.s0 + i]; x2 = E.p[57 * E.s0 + j]; x3 = E.p[57 * E.s0 + k]; y1 = E.p[58 * E.s0 + i];
+            y2 = E.p[58 * E.s0 + j]; y3 = E.p[58 * E.s0 + k];
+            x = E.p[62 * E.s0 + b] + (x1 * v1 + x2 * v2 + x3 * v3) + share * S.p[127 * S.s0 + b];
+            y = E.p[63 * E.s0 + b] + (y1 * v1 + y2 * v2 + y3 * v3) + share * S.p[128 * S.s0 + b];
+            E.p[62 * E.s0 + b] = x; E.p[63 * E.s0 + b] = y; E.p[83 * E.s0 + b] = real_sqrt(x * x + y * y);
+            m1 = E.p[70 * E.s0 + b]; m2 = E.p[71 * E.s0 + b]; m3 = E.p[72 * E.s0 + b]; n1 = E.p[73 * E.s0 + b];
+            n2 = E.p[74 * E.s0 + b]; n3 = E.p[75 * E.s0 + b]; u1 = x1 * s11 + x2 * s12 + x3 * s13 + m1;
+            u2 = x1 * s12 + x2 * s22 + x3 * s23 + m2; u3 = x1 * s13 + x2 * s23 + x3 * s33 + m3;
+            v1 = y1 * s11 + y2 * s12 + y3 * s13 + n1; v2 = y1 * s12 + y2 * s22 + y3 * s23 + n2;
+            v3 = y1 * s13 + y2 * s23 + y3 * s33 + n3;
+            x = E.p[76 * E.s0 + b] + (u1 * x1 + u2 * x2 + u3 * x3 + (m1 * x1 + m2 * x2 + m3 * x3) + error);
+            y = E.p[77 * E.s0 + b] + (v1 * y1 + v2 * y2 + v3 * y3 + (n1 * y1 + n2 * y2 + n3 * y3) + error);
+            E.p[76 * E.s0 + b] = x; E.p[77 * E.s0 + b] = y; E.p[86 * E.s0 + b] = real_sqrt(max_r(x + y, 0));
+            E.p[70 * E.s0 + b] = u1 * a1 + u2 * b1 + u3 * c1; E.p[71 * E.s0 + b] = u1 * a2 + u2 * b2 + u3 * c2;
+            E.p[72 * E.s0 + b] = u1 * a3 + u2 * b3 + u3 * c3; E.p[73 * E.s0 + b] = v1 * a1 + v2 * b1 + v3 * c1;
+            E.p[74 * E.s0 + b] = v1 * a2 + v2 * b2 + v3 * c2; E.p[75 * E.s0 + b] = v1 * a3 + v2 * b3 + v3 * c3;
+        }
+    }
+    for (int64_t row = 0; row < 19; row++) {
+        int64_t end_1 = 4 * B;
+        INDEPENDENT
+        for (i = 0; i < end_1; i++) E.p[row * E.s0 + i] = E.p[(19 + row) * E.s0 + i];
+    }
+}
+
+INLINE real following_left(real doubt, real rough) {
+    return rough > 0 ? 2 * min_r(doubt / rough, 1) : 0;
 }
 
 INLINE real following_lengthened(real ratio) {
@@ -2755,8 +2919,8 @@ INLINE void between_shortened(r2 end, real ratio) {
 
 INLINE t_r2 following_through(r2 S, int64_t b, r1 body, r1 now, int traced, r1 lane, r2 V, r2 first, r2 last, r2
     curve) {
-    real whole = lane.p[1] * lane.p[2], J1 = S.p[116 * S.s0 + b], J2 = S.p[117 * S.s0 + b], J3 = S.p[118 * S.s0 + b];
-    real contact = S.p[119 * S.s0 + b], radius = S.p[115 * S.s0 + b];
+    real whole = lane.p[1] * lane.p[2], J1 = S.p[131 * S.s0 + b], J2 = S.p[132 * S.s0 + b], J3 = S.p[133 * S.s0 + b];
+    real contact = S.p[134 * S.s0 + b], radius = S.p[130 * S.s0 + b];
     if (lane.p[9] > 0) {
         for (int64_t n = 0; n < 6; n++) {
             for (int64_t c = 0; c < 6; c++) first.p[n * first.s0 + c] = last.p[n * last.s0 + c];
@@ -2790,97 +2954,16 @@ INLINE void following_stopped_at(int64_t i, int64_t frame, r3 momenta, r3 vertic
     }
 }
 
-INLINE void carried_kept(r1 E, int64_t first, int64_t last, r1 F) {
-    real w1 = E.p[first + 39], w2 = E.p[first + 39 + 1], w3 = E.p[first + 39 + 2];
-    real square = w1 * w1 + w2 * w2 + w3 * w3, part = square > 0 ? 1 / square : 0, off;
-    for (int64_t r = 0; r < 3; r++) {
-        off = part * (E.p[last + 39 + r] - (F.p[18 + r] * w1 + F.p[21 + r] * w2 + F.p[24 + r] * w3));
-        F.p[18 + r] += off * w1; F.p[21 + r] += off * w2; F.p[24 + r] += off * w3;
-    }
-    real n1 = E.p[last + 42], n2 = E.p[last + 42 + 1], n3 = E.p[last + 42 + 2], before = E.p[first + 42] * E.p[first +
-        42] + (E.p[first + 42 + 1] * E.p[first + 42 + 1] + E.p[first + 42 + 2] * E.p[first + 42 + 2]);
-    square = n1 * n1 + n2 * n2 + n3 * n3; part = (before > 0 && square > 0) ? 1 / square : 0;
-    for (int64_t i = 0; i < 3; i++) {
-        off = part * (E.p[first + 42 + i] - (n1 * F.p[18 + 3 * i] + n2 * F.p[19 + 3 * i] + n3 * F.p[20 + 3 * i]));
-        F.p[18 + 3 * i] += off * n1; F.p[19 + 3 * i] += off * n2; F.p[20 + 3 * i] += off * n3;
-    }
-}
-
-INLINE void carried_carry(r1 E, int64_t first, int64_t last, real whole, real error, int traced, r1 F) {
-    real half = R(0.5) * whole, twelfth = whole * whole * R(0x1.5555555555555p-4); int64_t i;
-    for (i = 0; i < 9; i++) {
-        real one = mod_i(i, 4) == 0 ? 1 : 0; F.p[i] = one - half * E.p[last + 9 + i] + twelfth * E.p[last + 18 + i];
-        F.p[9 + i] = one + half * E.p[first + 9 + i] + twelfth * E.p[first + 18 + i];
-    }
-    real a1 = F.p[0], a2 = F.p[1], a3 = F.p[2], b1 = F.p[3], b2 = F.p[4], b3 = F.p[5], c1 = F.p[6], c2 = F.p[7];
-    real c3 = F.p[8], r1 = b2 * c3 - b3 * c2, r2 = b3 * c1 - b1 * c3, r3 = b1 * c2 - b2 * c1, s1 = c2 * a3 - c3 * a2;
-    real s2 = c3 * a1 - c1 * a3, s3 = c1 * a2 - c2 * a1, t1 = a2 * b3 - a3 * b2, t2 = a3 * b1 - a1 * b3;
-    real t3 = a1 * b2 - a2 * b1, over = 1 / (a1 * r1 + a2 * r2 + a3 * r3);
-    for (i = 0; i < 3; i++) {
-        real x = over * F.p[9 + 3 * i], y = over * F.p[10 + 3 * i], z = over * F.p[11 + 3 * i];
-        F.p[18 + 3 * i] = r1 * x + r2 * y + r3 * z; F.p[19 + 3 * i] = s1 * x + s2 * y + s3 * z;
-        F.p[20 + 3 * i] = t1 * x + t2 * y + t3 * z;
-    }
-    carried_kept(E, first, last, F); a1 = F.p[18]; a2 = F.p[19]; a3 = F.p[20]; b1 = F.p[21]; b2 = F.p[22];
-    b3 = F.p[23]; c1 = F.p[24]; c2 = F.p[25]; c3 = F.p[26]; real s11 = E.p[90], s12 = E.p[91], s13 = E.p[92];
-    real s22 = E.p[93], s23 = E.p[94], s33 = E.p[95], p11 = a1 * s11 + b1 * s12 + c1 * s13;
-    real p12 = a1 * s12 + b1 * s22 + c1 * s23, p13 = a1 * s13 + b1 * s23 + c1 * s33;
-    real p21 = a2 * s11 + b2 * s12 + c2 * s13, p22 = a2 * s12 + b2 * s22 + c2 * s23;
-    real p23 = a2 * s13 + b2 * s23 + c2 * s33, p31 = a3 * s11 + b3 * s12 + c3 * s13;
-    real p32 = a3 * s12 + b3 * s22 + c3 * s23, p33 = a3 * s13 + b3 * s23 + c3 * s33;
-    E.p[90] = p11 * a1 + p12 * b1 + p13 * c1 + error; E.p[91] = p11 * a2 + p12 * b2 + p13 * c2;
-    E.p[92] = p11 * a3 + p12 * b3 + p13 * c3; E.p[93] = p21 * a2 + p22 * b2 + p23 * c2 + error;
-    E.p[94] = p21 * a3 + p22 * b3 + p23 * c3; E.p[95] = p31 * a3 + p32 * b3 + p33 * c3 + error; E.p[105] += error;
-    if (!traced) return;
-    for (int64_t j = 0; j < 2; j++) {
-        real f1 = half * E.p[last + 27 + j] - twelfth * E.p[last + 33 + j];
-        real f2 = half * E.p[last + 27 + 2 + j] - twelfth * E.p[last + 33 + 2 + j];
-        real f3 = half * E.p[last + 27 + 4 + j] - twelfth * E.p[last + 33 + 4 + j];
-        for (i = 0; i < 3; i++)
-            F.p[3 * j + i] = half * E.p[first + 27 + 2 * i + j] + twelfth * E.p[first + 33 + 2 * i + j] + (f1 * F.p[18
-                + 3 * i] + f2 * F.p[19 + 3 * i] + f3 * F.p[20 + 3 * i]);
-    }
-    real x1 = F.p[0], x2 = F.p[1], x3 = F.p[2], y1 = F.p[3], y2 = F.p[4], y3 = F.p[5], m1 = E.p[96], m2 = E.p[97];
-    real m3 = E.p[98], n1 = E.p[99], n2 = E.p[100], n3 = E.p[101], u1 = x1 * s11 + x2 * s12 + x3 * s13 + m1;
-    real u2 = x1 * s12 + x2 * s22 + x3 * s23 + m2, u3 = x1 * s13 + x2 * s23 + x3 * s33 + m3;
-    real v1 = y1 * s11 + y2 * s12 + y3 * s13 + n1, v2 = y1 * s12 + y2 * s22 + y3 * s23 + n2;
-    real v3 = y1 * s13 + y2 * s23 + y3 * s33 + n3;
-    E.p[102] += u1 * x1 + u2 * x2 + u3 * x3 + (m1 * x1 + m2 * x2 + m3 * x3) + error;
-    E.p[103] += u1 * y1 + u2 * y2 + u3 * y3 + (n1 * x1 + n2 * x2 + n3 * x3);
-    E.p[104] += v1 * y1 + v2 * y2 + v3 * y3 + (n1 * y1 + n2 * y2 + n3 * y3) + error;
-    E.p[96] = u1 * a1 + u2 * b1 + u3 * c1; E.p[97] = u1 * a2 + u2 * b2 + u3 * c2;
-    E.p[98] = u1 * a3 + u2 * b3 + u3 * c3; E.p[99] = v1 * a1 + v2 * b1 + v3 * c1;
-    E.p[100] = v1 * a2 + v2 * b2 + v3 * c2; E.p[101] = v1 * a3 + v2 * b3 + v3 * c3;
-}
-
-INLINE real carried_turned_square(r1 E) {
-    return max_r(E.p[105] * (E.p[90] + E.p[93] + E.p[95]), 0);
-}
-
-INLINE real carried_way_square(r1 E) {
-    return max_r(E.p[105] * (E.p[102] + E.p[104]), 0);
-}
-
-INLINE real carried_spun_square(r1 E, int64_t at) {
-    real s11 = E.p[90], s12 = E.p[91], s13 = E.p[92], s22 = E.p[93], s23 = E.p[94], s33 = E.p[95], found = 0;
-    for (int64_t i = 0; i < 3; i++) {
-        real a = E.p[at + 0 + i], b = E.p[at + 0 + 3 + i], c = E.p[at + 0 + 6 + i];
-        found += a * (a * s11 + 2 * (b * s12 + c * s13)) + b * (b * s22 + 2 * c * s23) + c * c * s33;
-    }
-    return max_r(E.p[105] * found, 0);
-}
-
-INLINE void following_followed(r2 S, int64_t b, int64_t i, int traced, real error, real off, real out, r1 now, r1
-    used, r1 lane, r1 E, r2 reported) {
-    for (int64_t c = 0; c < 45; c++) E.p[c] = E.p[45 + c];
-    carried_tangent(now, S.p[116 * S.s0 + b], S.p[117 * S.s0 + b], S.p[118 * S.s0 + b], S.p[119 * S.s0 + b], traced,
-        E, 45);
-    carried_carry(E, 0, 45, lane.p[1] * lane.p[2], max_r(error, R(1e-17)), traced, used);
-    reported.p[i * reported.s0 + 0] = max_r(reported.p[i * reported.s0 + 0], real_sqrt(carried_turned_square(E)) +
-        off);
-    reported.p[i * reported.s0 + 2] = max_r(reported.p[i * reported.s0 + 2], real_sqrt(carried_way_square(E)) + out);
-    reported.p[i * reported.s0 + 4] += 1; real speed = lane.p[11] / lane.p[2]; lane.p[7] = max_r(lane.p[7], speed);
-    lane.p[8] = max_r(lane.p[8], real_sqrt(carried_spun_square(E, 45)) + off * speed);
+INLINE void following_recorded(r2 E, int64_t b, int64_t i, r1 lane, r2 reported) {
+    reported.p[i * reported.s0 + 4] += 1; real cautious = 4 + 32 / reported.p[i * reported.s0 + 4], off = lane.p[14];
+    real out = lane.p[15], speed = lane.p[11] / lane.p[2];
+    reported.p[i * reported.s0 + 3] = max_r(reported.p[i * reported.s0 + 3], E.p[84 * E.s0 + b]);
+    reported.p[i * reported.s0 + 0] = max_r(reported.p[i * reported.s0 + 0], cautious * E.p[81 * E.s0 + b] + E.p[84 *
+        E.s0 + b] + off);
+    reported.p[i * reported.s0 + 2] = max_r(reported.p[i * reported.s0 + 2], cautious * E.p[83 * E.s0 + b] + E.p[86 *
+        E.s0 + b] + out);
+    lane.p[7] = max_r(lane.p[7], speed);
+    lane.p[8] = max_r(lane.p[8], cautious * E.p[82 * E.s0 + b] + E.p[85 * E.s0 + b] + off * speed);
 }
 
 INLINE void following_shown(r1 body, int64_t exponent, int64_t i, int64_t frame, r3 momenta, r3 verticals, r3
@@ -2946,8 +3029,8 @@ INLINE void expected_surveyed(r2 momenta, r2 verticals, r2 J0, r1 D0, r1 unit, r
             unit.p[i];
         found.p[i * found.s0 + 4] = R(0x1.0000000000000p-53) * ((1 + turned) * (2 * root + 1) + 8 * condition) *
             unit.p[i];
-        real allowed = end > 0 ? 1 * accuracy / unit.p[i] / (R(1.5) * (1 + turned)) / end : 1;
-        real part = rate > 0 ? real_sqrt(real_sqrt(real_sqrt(real_sqrt(min_r(allowed / (R(3e-08) * rate), 1))))) : 1;
+        real allowed = end > 0 ? 1 * accuracy / unit.p[i] / 16 / end : 1;
+        real part = rate > 0 ? real_sqrt(real_sqrt(real_sqrt(real_sqrt(min_r(allowed / (R(3e-09) * rate), 1))))) : 1;
         part = R(1.3) * part * real_sqrt(part);
         found.p[i * found.s0 + 5] = rate * end > part ? min_r(part / rate, end) : end;
         found.p[i * found.s0 + 6] = allowed;
@@ -2960,12 +3043,9 @@ INLINE void expected_estimated(r2 found, r2 reported, r1 unit, int turned, int s
         real most = turned ? reported.p[i * reported.s0 + 0] : 0;
         most = spun ? max_r(most, reported.p[i * reported.s0 + 1]) : most;
         most = unit.p[i] * (rolled ? max_r(most, reported.p[i * reported.s0 + 2]) : most);
-        real walked = R(0x1.b19999999999ap-48) * real_sqrt(found.p[i * found.s0 + 1] * reported.p[i * reported.s0 +
-            4]);
-        started.p[i] = most / reported.p[i * reported.s0 + 3] * (R(0x1.0000000000000p-52) * real_sqrt(found.p[i *
-            found.s0 + 1]));
-        noise.p[i] = most / reported.p[i * reported.s0 + 3] * walked + 3 * found.p[i * found.s0 + 4];
-        error.p[i] = most + noise.p[i];
+        real walked = unit.p[i] * reported.p[i * reported.s0 + 3];
+        started.p[i] = walked / real_sqrt(1 + R(0x1.6f347ae147ae2p+9) * reported.p[i * reported.s0 + 4]);
+        noise.p[i] = walked + 3 * found.p[i * found.s0 + 4]; error.p[i] = most + 3 * found.p[i * found.s0 + 4];
         if (found.p[i * found.s0 + 1] > 10000) noise.p[i] = R(0x1.0000000000000p+1000);
     }
 }
@@ -3263,41 +3343,48 @@ INLINE t_ir8 long_step_column(r1 body, real half, int64_t n, real square, r1 sta
 }
 
 INLINE t_ir long_step_long_step(r1 body, real half, real radius, r2 sums, r1 state) {
-    real q0 = 0, q1 = 0, q2 = 0, q3 = 0, d0 = 0, d1 = 0, d2 = 0, d3 = 0, y1 = 0, y2 = 0, y3 = 0;
+    real q0 = 0, q1 = 0, q2 = 0, q3 = 0, d0 = 0, d1 = 0, d2 = 0, d3 = 0, e0 = 0, e1 = 0, e2 = 0, e3 = 0, y1 = 0;
+    real y2 = 0, y3 = 0, z1 = 0, z2 = 0, z3 = 0;
     t_r3 w1 = kernel_angular_velocity(body.p[0], body.p[1], body.p[2], body.p[3], body.p[4], body.p[5], state.p[18],
         state.p[19], state.p[20], state.p[24]);
     int64_t first = 8 - sums.n1; real square = fitted_turn_square(2 * half, first, w1.a0, w1.a1, w1.a2);
     for (int64_t i = 0; i < sums.n1; i++) {
         t_ir8 status = long_step_column(body, half, first + i, square, state);
         if (status.a0 != 0) return (t_ir){status.a0, status.a1};
-        real w = sums.p[0 * sums.s0 + i], v = sums.p[1 * sums.s0 + i]; q0 = q0 + w * status.a2;
-        q1 = q1 + w * status.a3; q2 = q2 + w * status.a4; q3 = q3 + w * status.a5; d0 = d0 + v * status.a2;
-        d1 = d1 + v * status.a3; d2 = d2 + v * status.a4; d3 = d3 + v * status.a5; y1 = y1 + w * status.a6;
-        y2 = y2 + w * status.a7; y3 = y3 + w * status.a8;
+        real w = sums.p[0 * sums.s0 + i], v = sums.p[1 * sums.s0 + i], z = sums.p[2 * sums.s0 + i];
+        q0 = q0 + w * status.a2; q1 = q1 + w * status.a3; q2 = q2 + w * status.a4; q3 = q3 + w * status.a5;
+        d0 = d0 + v * status.a2; d1 = d1 + v * status.a3; d2 = d2 + v * status.a4; d3 = d3 + v * status.a5;
+        e0 = e0 + z * status.a2; e1 = e1 + z * status.a3; e2 = e2 + z * status.a4; e3 = e3 + z * status.a5;
+        y1 = y1 + w * status.a6; y2 = y2 + w * status.a7; y3 = y3 + w * status.a8; z1 = z1 + v * status.a6;
+        z2 = z2 + v * status.a7; z3 = z3 + v * status.a8;
     }
-    t_r12 t_1 = long_step_moved_body(body.p[0], body.p[1], body.p[2], body.p[3], body.p[4], body.p[5], body.p[6],
+    t_r3 t_1 = kernel_rotate(body.p[6], body.p[7], body.p[8], body.p[9], z1, z2, z3); body.p[17] = t_1.a0;
+    body.p[18] = t_1.a1;
+    t_r12 t_2 = long_step_moved_body(body.p[0], body.p[1], body.p[2], body.p[3], body.p[4], body.p[5], body.p[6],
         body.p[7], body.p[8], body.p[9], body.p[10], body.p[11], q0, q1, q2, q3, y1, y2, y3, radius);
-    body.p[0] = t_1.a0; body.p[1] = t_1.a1; body.p[2] = t_1.a2; body.p[3] = t_1.a3; body.p[4] = t_1.a4;
-    body.p[5] = t_1.a5; body.p[6] = t_1.a6; body.p[7] = t_1.a7; body.p[8] = t_1.a8; body.p[9] = t_1.a9;
-    body.p[10] = t_1.a10; body.p[11] = t_1.a11; body.p[12] += 2 * real_sqrt(d0 * d0 + d1 * d1 + (d2 * d2 + d3 * d3));
-    return (t_ir){0, 1};
+    body.p[0] = t_2.a0; body.p[1] = t_2.a1; body.p[2] = t_2.a2; body.p[3] = t_2.a3; body.p[4] = t_2.a4;
+    body.p[5] = t_2.a5; body.p[6] = t_2.a6; body.p[7] = t_2.a7; body.p[8] = t_2.a8; body.p[9] = t_2.a9;
+    body.p[10] = t_2.a10; body.p[11] = t_2.a11; body.p[12] += 2 * real_sqrt(d0 * d0 + d1 * d1 + (d2 * d2 + d3 * d3));
+    body.p[13] = 2 * real_sqrt(e0 * e0 + e1 * e1 + (e2 * e2 + e3 * e3));
+    t_r4 t_3 = kernel_compose(q0, -q1, -q2, -q3, d0, d1, d2, d3); d1 = t_3.a1; d2 = t_3.a2; d3 = t_3.a3;
+    body.p[14] = 2 * d1; body.p[15] = 2 * d2; body.p[16] = 2 * d3; return (t_ir){0, 1};
 }
 
 OUT_OF_LINE t_ir long_run_safely(r2 S, int64_t b, r2 sums, r1 state) {
-    ALIGNED real body_[13]; r1 body = {body_, 13};
-    for (int64_t c = 0; c < 13; c++) body.p[c] = S.p[(101 + c) * S.s0 + b];
-    t_ir status = long_step_long_step(body, S.p[114 * S.s0 + b], S.p[115 * S.s0 + b], sums, state);
-    for (int64_t c = 0; c < 13; c++) S.p[(101 + c) * S.s0 + b] = body.p[c];
+    ALIGNED real body_[19]; r1 body = {body_, 19};
+    for (int64_t c = 0; c < 19; c++) body.p[c] = S.p[(110 + c) * S.s0 + b];
+    t_ir status = long_step_long_step(body, S.p[129 * S.s0 + b], S.p[130 * S.s0 + b], sums, state);
+    for (int64_t c = 0; c < 19; c++) S.p[(110 + c) * S.s0 + b] = body.p[c];
     return (t_ir){status.a0, status.a1};
 }
 
 INLINE void long_run_march_lanes(int64_t B, r3 momenta, r3 verticals, r3 attitudes, r3 traces, r2 J0, r1 D0, r1
     radius, real h, int64_t steps, int64_t every, int follows, int traced, r2 sums, r3 following, r2 beginning, r1
     doubt, i1 taken, i1 status, d1 reach) {
-    ALIGNED real S_[124 * (4 * B)]; memset(S_, 0, sizeof S_); r2 S = {S_, 124, (4 * B), (4 * B)};
+    ALIGNED real S_[139 * (4 * B)]; memset(S_, 0, sizeof S_); r2 S = {S_, 139, (4 * B), (4 * B)};
     int64_t columns = sums.n1; ALIGNED real states_[B * 27]; memset(states_, 0, sizeof states_);
     r2 states = {states_, B, 27, 27}; ALIGNED int64_t exponents_[B]; memset(exponents_, 0, sizeof exponents_);
-    i1 exponents = {exponents_, B}; ALIGNED real body_[13]; memset(body_, 0, sizeof body_); r1 body = {body_, 13};
+    i1 exponents = {exponents_, B}; ALIGNED real body_[19]; memset(body_, 0, sizeof body_); r1 body = {body_, 19};
     int64_t balls = status.n0, b;
     for (b = 0; b < B; b++) {
         int64_t i = min_i(b, balls - 1);
@@ -3309,11 +3396,11 @@ INLINE void long_run_march_lanes(int64_t B, r3 momenta, r3 verticals, r3 attitud
     for (int64_t step = 0; step < steps; step++) {
         if (lanes_side_by_side(S, B, columns, traced, following, beginning)) {
             for (b = 0; b < B; b++) {
-                if (S.p[58 * S.s0 + b] != 0 && S.p[120 * S.s0 + b] == 0) {
+                if (S.p[58 * S.s0 + b] != 0 && S.p[135 * S.s0 + b] == 0) {
                     t_ir t_1 = long_run_safely(S, b, sums, (r1){states.p + b * states.s0, states.n1});
                     stopped = t_1.a0; reached = t_1.a1;
                     if (stopped != 0) {
-                        S.p[120 * S.s0 + b] = 1;
+                        S.p[135 * S.s0 + b] = 1;
                         if (b < balls) {
                             status.p[b] = stopped; reach.p[b] = reached; taken.p[b] = step;
                         }
@@ -3328,7 +3415,7 @@ INLINE void long_run_march_lanes(int64_t B, r3 momenta, r3 verticals, r3 attitud
         }
     }
     for (b = 0; b < balls; b++) {
-        doubt.p[b] = status.p[b] == 0 ? S.p[113 * S.s0 + b] : NAN;
+        doubt.p[b] = status.p[b] == 0 ? S.p[122 * S.s0 + b] : NAN;
         if (status.p[b] == 0) {
             taken.p[b] = steps; reach.p[b] = 1;
         }
@@ -3385,146 +3472,171 @@ INLINE void tangent_follow_all(r2 momenta, r2 gammas, r1 tensor, real contact, i
             tensor, contact, steps, (r1){rows.p + i * rows.s0, rows.n1});
 }
 
-INLINE t_ir4 following_judged(r2 S, int64_t b, int lost, real allowed, real start, r2 sums, r1 state, r1 lane) {
+INLINE real following_judged(r2 S, int64_t b, int lost, real allowed, r2 sums, r1 state, r1 lane) {
     real step = lane.p[1], tries = lane.p[6], size = lane.p[2] * real_sqrt(S.p[37 * S.s0 + b] * S.p[37 * S.s0 + b] +
         (S.p[38 * S.s0 + b] * S.p[38 * S.s0 + b] + S.p[39 * S.s0 + b] * S.p[39 * S.s0 + b]));
-    lane.p[11] = size; int64_t stopped = 0; real reached = 1, again = 0;
+    lane.p[11] = size; lane.p[12] = 3; lane.p[14] = 0; lane.p[15] = 0;
     if (lost && S.p[58 * S.s0 + b] != 0) {
-        int heavy = S.p[62 * S.s0 + b] < 0;
+        int heavy = S.p[62 * S.s0 + b] < 0; int64_t stopped = 0;
         if (heavy || tries >= 40) {
-            t_ir t_1 = long_run_safely(S, b, sums, state); stopped = t_1.a0; reached = t_1.a1;
+            t_ir t_1 = long_run_safely(S, b, sums, state); stopped = t_1.a0; real reached = t_1.a1;
+            lane.p[16] = stopped; lane.p[17] = reached; lane.p[12] = stopped == 0 ? 3 : 2;
         }
         if (tries < 40 && (stopped != 0 || !heavy)) {
-            stopped = 0; again = R(0.6) * step; lane.p[10] = R(0.9) * step;
+            lane.p[12] = 1; lane.p[10] = R(0.9) * step;
         }
     }
-    real rounded = R(2e-15) + 10 * start, error = following_feared(max_r(S.p[113 * S.s0 + b] - rounded, 0), start);
-    real bound = max_r(allowed * step, R(1e-17));
-    real wanted = min_r(max_r(step * following_lengthened(error / (R(0.5) * bound)), R(0.3) * step), 2 * step);
+    real part = following_left(S.p[122 * S.s0 + b], S.p[123 * S.s0 + b]), error = part * S.p[122 * S.s0 + b];
+    real bound = allowed * step, wanted = bound > 0 ? min_r(max_r(step * following_lengthened(error / (R(0.5) *
+        bound)), R(0.3) * step), 2 * step) : step;
     if (size > 0) wanted = max_r(min_r(wanted, R(1.3) / size), min_r(R(0.02) / size, step));
-    wanted = min_r(wanted, lane.p[10]); real most = lane.p[0] > 0 ? 10 : 2;
-    if (again == 0 && stopped == 0 && error > most * bound && tries < 40) again = min_r(wanted, R(0.6) * step);
-    return (t_ir4){stopped, reached, error, again, wanted};
+    lane.p[13] = min_r(wanted, lane.p[10]); real most = lane.p[0] > 0 ? 10 : 2;
+    if (lane.p[12] == 1) lane.p[13] = R(0.6) * step;
+    else {
+        if (lane.p[12] == 3 && error > most * bound && tries < 40) {
+            real t_2 = 1, t_3 = min_r(lane.p[13], R(0.6) * step); lane.p[12] = t_2; lane.p[13] = t_3;
+        }
+    }
+    return part;
+}
+
+INLINE void following_looked_at(r2 S, r2 E, int64_t B, int64_t b, int lost, int64_t frames, real interval, real
+    allowed, real start, real bearable, int traced, r2 sums, r1 body, r1 state, r1 lane, r2 V, r2 first, r2 last, r2
+    curve, r1 now) {
+    E.p[78 * E.s0 + b] = 0; E.p[79 * E.s0 + b] = 0; E.p[80 * E.s0 + b] = 0;
+    if (S.p[135 * S.s0 + b] != 0) {
+        lane.p[12] = 0; return;
+    }
+    real part = following_judged(S, b, lost, allowed, sums, state, lane); int64_t c;
+    if (lane.p[12] == 3) {
+        int inside = following_part_of(lane, (int64_t)lane.p[5], frames, interval) < R(0x1.fffffff768fa1p-1);
+        if (inside) {
+            for (c = 0; c < 19; c++) now.p[c] = S.p[(110 + c) * S.s0 + b];
+            t_r2 off = following_through(S, b, body, now, traced, lane, V, first, last, curve);
+            real more = following_lengthened(max_r(off.a0, off.a1) / (R(0.5) * bearable));
+            lane.p[13] = min_r(lane.p[13], max_r(more, R(0.3)) * lane.p[1]); lane.p[14] = off.a0; lane.p[15] = off.a1;
+            if (max_r(off.a0, off.a1) > bearable && lane.p[6] < 40) {
+                real t_1 = 1, t_2 = min_r(lane.p[13], R(0.6) * lane.p[1]); int t_3 = 0; lane.p[12] = t_1;
+                lane.p[13] = t_2; inside = t_3;
+            }
+        }
+        lane.p[9] = inside ? lane.p[1] * lane.p[2] : 0;
+    }
+    if (lane.p[12] == 3) {
+        real rounding = R(27.1) * start; E.p[78 * E.s0 + b] = lane.p[1] * lane.p[2]; E.p[79 * E.s0 + b] = part;
+        E.p[80 * E.s0 + b] = rounding * rounding; S.p[122 * S.s0 + b] = 0;
+    }
+    else {
+        if (lane.p[12] == 1) {
+            for (c = 0; c < 19; c++) S.p[(110 + c) * S.s0 + b] = body.p[c];
+        }
+    }
 }
 
 INLINE void following_follow_lanes(int64_t B, r3 momenta, r3 verticals, r3 attitudes, r3 traces, r2 J0, r1 D0, r1
     radius, real interval, r1 first, r1 allowed, r1 start, r1 bearable, int follows, int traced, r2 sums, r3
     following, r2 beginning, r2 reported, i1 reached, i1 status, d1 reach) {
-    ALIGNED real S_[124 * (4 * B)]; memset(S_, 0, sizeof S_); r2 S = {S_, 124, (4 * B), (4 * B)};
+    ALIGNED real S_[139 * (4 * B)]; memset(S_, 0, sizeof S_); r2 S = {S_, 139, (4 * B), (4 * B)};
+    ALIGNED real E_[98 * (4 * B)]; memset(E_, 0, sizeof E_); r2 E = {E_, 98, (4 * B), (4 * B)};
     int64_t columns = sums.n1; ALIGNED real states_[B * 27]; memset(states_, 0, sizeof states_);
     r2 states = {states_, B, 27, 27}; ALIGNED int64_t exponents_[B]; memset(exponents_, 0, sizeof exponents_);
-    i1 exponents = {exponents_, B}; ALIGNED real bodies_[B * 13]; memset(bodies_, 0, sizeof bodies_);
-    r2 bodies = {bodies_, B, 13, 13}; ALIGNED real now_[13]; memset(now_, 0, sizeof now_); r1 now = {now_, 13};
-    ALIGNED real found_[13]; memset(found_, 0, sizeof found_); r1 found = {found_, 13}; ALIGNED real lanes_[B * 12];
-    memset(lanes_, 0, sizeof lanes_); r2 lanes = {lanes_, B, 12, 12}; ALIGNED real errors_[B * 106];
-    memset(errors_, 0, sizeof errors_); r2 errors = {errors_, B, 106, 106}; ALIGNED real used_[27];
-    memset(used_, 0, sizeof used_); r1 used = {used_, 27}; ALIGNED real ends_[(2 * B) * 6 * 6];
+    i1 exponents = {exponents_, B}; ALIGNED real bodies_[B * 19]; memset(bodies_, 0, sizeof bodies_);
+    r2 bodies = {bodies_, B, 19, 19}; ALIGNED real now_[19]; memset(now_, 0, sizeof now_); r1 now = {now_, 19};
+    ALIGNED real found_[19]; memset(found_, 0, sizeof found_); r1 found = {found_, 19}; ALIGNED real lanes_[B * 18];
+    memset(lanes_, 0, sizeof lanes_); r2 lanes = {lanes_, B, 18, 18}; ALIGNED real ends_[(2 * B) * 6 * 6];
     memset(ends_, 0, sizeof ends_); r3 ends = {ends_, (2 * B), 6, 6, 6 * 6, 6}; ALIGNED real V_[16 * 6];
-    memset(V_, 0, sizeof V_); r2 V = {V_, 16, 6, 6}; ALIGNED real curve_[12 * 6]; memset(curve_, 0, sizeof curve_);
-    r2 curve = {curve_, 12, 6, 6}; int64_t balls = momenta.n0, frames = momenta.n1;
-    real end = (frames - 1) * interval; int64_t coming = min_i(B, balls), busy = min_i(B, balls), b, i;
+    memset(V_, 0, sizeof V_); r2 V = {V_, 16, 6, 6}; ALIGNED real curves_[B * 12 * 6];
+    memset(curves_, 0, sizeof curves_); r3 curves = {curves_, B, 12, 6, 12 * 6, 6}; int64_t balls = momenta.n0;
+    int64_t frames = momenta.n1; real end = (frames - 1) * interval; int64_t coming = min_i(B, balls);
+    int64_t busy = min_i(B, balls); int fresh = 1; int64_t b, i;
     for (b = 0; b < B; b++) {
         i = min_i(b, balls - 1);
-        exponents.p[b] = following_taken_in(S, B, b, columns, i, first, start, momenta, verticals, attitudes, traces,
-            J0, D0, radius, end, follows, sums, beginning, (r1){bodies.p + b * bodies.s0, bodies.n1}, (r1){states.p +
-            b * states.s0, states.n1}, (r1){lanes.p + b * lanes.s0, lanes.n1}, (r1){errors.p + b * errors.s0,
-            errors.n1}, reported, traced);
-        S.p[120 * S.s0 + b] = b < balls ? 0 : 1;
+        exponents.p[b] = following_taken_in(S, E, B, b, columns, i, first, start, momenta, verticals, attitudes,
+            traces, J0, D0, radius, end, follows, sums, beginning, (r1){bodies.p + b * bodies.s0, bodies.n1},
+            (r1){states.p + b * states.s0, states.n1}, (r1){lanes.p + b * lanes.s0, lanes.n1}, reported, traced);
+        S.p[135 * S.s0 + b] = b < balls ? 0 : 1;
     }
-    real off, out; int inside, done; int64_t c, frame; real wanted, again, more, part; int64_t stopped; real error;
+    int64_t frame; real fate; int done; int64_t c; real wish, part;
     while (busy > 0) {
+        if (fresh) {
+            carried_tangent(S, E, B, 0, traced); fresh = 0;
+        }
         int lost = lanes_side_by_side(S, B, columns, traced, following, beginning);
         for (b = 0; b < B; b++) {
-            if (S.p[120 * S.s0 + b] == 0) {
-                i = (int64_t)lanes.p[b * lanes.s0 + 4];
-                t_ir4 t_1 = following_judged(S, b, lost, allowed.p[i], start.p[i], sums, (r1){states.p + b *
-                    states.s0, states.n1}, (r1){lanes.p + b * lanes.s0, lanes.n1});
-                stopped = t_1.a0; part = t_1.a1; error = t_1.a2; again = t_1.a3; wanted = t_1.a4; off = 0; out = 0;
-                inside = 0; done = stopped != 0;
-                if (again == 0 && stopped == 0) {
-                    for (c = 0; c < 13; c++) now.p[c] = S.p[(101 + c) * S.s0 + b];
-                    now.p[12] = 0; S.p[113 * S.s0 + b] = 0; frame = (int64_t)lanes.p[b * lanes.s0 + 5];
-                    inside = following_part_of((r1){lanes.p + b * lanes.s0, lanes.n1}, frame, frames, interval) <
-                        R(0x1.fffffff768fa1p-1);
-                    if (inside) {
-                        t_r2 t_2 = following_through(S, b, (r1){bodies.p + b * bodies.s0, bodies.n1}, now, traced,
-                            (r1){lanes.p + b * lanes.s0, lanes.n1}, V, (r2){ends.p + 2 * b * ends.s0, ends.n1,
-                            ends.n2, ends.s1}, (r2){ends.p + (2 * b + 1) * ends.s0, ends.n1, ends.n2, ends.s1},
-                            curve);
-                        off = t_2.a0; out = t_2.a1;
-                        more = following_lengthened(max_r(off, out) / (R(0.5) * bearable.p[i]));
-                        wanted = min_r(wanted, max_r(more, R(0.3)) * lanes.p[b * lanes.s0 + 1]);
-                        if (max_r(off, out) > bearable.p[i] && lanes.p[b * lanes.s0 + 6] < 40) {
-                            again = min_r(wanted, R(0.6) * lanes.p[b * lanes.s0 + 1]); inside = 0;
-                        }
-                    }
-                    lanes.p[b * lanes.s0 + 9] = inside ? lanes.p[b * lanes.s0 + 1] * lanes.p[b * lanes.s0 + 2] : 0;
-                }
-                if (again > 0) {
-                    for (c = 0; c < 13; c++) S.p[(101 + c) * S.s0 + b] = bodies.p[b * bodies.s0 + c];
-                    lanes.p[b * lanes.s0 + 6] += 1;
-                    following_planned((r1){lanes.p + b * lanes.s0, lanes.n1}, end, again);
-                    long_run_resized(S, B, b, columns, R(0.5) * lanes.p[b * lanes.s0 + 1] * lanes.p[b * lanes.s0 + 2],
-                        (r1){bodies.p + b * bodies.s0, bodies.n1}, (r1){states.p + b * states.s0, states.n1});
+            i = (int64_t)lanes.p[b * lanes.s0 + 4];
+            following_looked_at(S, E, B, b, lost, frames, interval, allowed.p[i], start.p[i], bearable.p[i], traced,
+                sums, (r1){bodies.p + b * bodies.s0, bodies.n1}, (r1){states.p + b * states.s0, states.n1},
+                (r1){lanes.p + b * lanes.s0, lanes.n1}, V, (r2){ends.p + 2 * b * ends.s0, ends.n1, ends.n2, ends.s1},
+                (r2){ends.p + (2 * b + 1) * ends.s0, ends.n1, ends.n2, ends.s1}, (r2){curves.p + b * curves.s0,
+                curves.n1, curves.n2, curves.s1}, now);
+        }
+        carried_tangent(S, E, B, 19, traced); carried_carry(S, E, B, traced);
+        for (b = 0; b < B; b++) {
+            i = (int64_t)lanes.p[b * lanes.s0 + 4]; frame = (int64_t)lanes.p[b * lanes.s0 + 5];
+            fate = lanes.p[b * lanes.s0 + 12]; done = 0;
+            if (fate == 1) {
+                lanes.p[b * lanes.s0 + 6] += 1;
+                following_planned((r1){lanes.p + b * lanes.s0, lanes.n1}, end, lanes.p[b * lanes.s0 + 13]);
+                long_run_resized(S, B, b, columns, R(0.5) * lanes.p[b * lanes.s0 + 1] * lanes.p[b * lanes.s0 + 2],
+                    (r1){bodies.p + b * bodies.s0, bodies.n1}, (r1){states.p + b * states.s0, states.n1});
+            }
+            else {
+                if (fate == 2) {
+                    status.p[i] = (int64_t)lanes.p[b * lanes.s0 + 16]; reach.p[i] = lanes.p[b * lanes.s0 + 17];
+                    reached.p[i] = frame - 1; done = 1;
+                    following_stopped_at(i, frame, momenta, verticals, attitudes, traces, follows, traced);
                 }
                 else {
-                    if (stopped != 0) {
-                        frame = (int64_t)lanes.p[b * lanes.s0 + 5]; status.p[i] = stopped; reach.p[i] = part;
-                        reached.p[i] = frame - 1;
-                        following_stopped_at(i, frame, momenta, verticals, attitudes, traces, follows, traced);
-                    }
-                    else {
-                        frame = (int64_t)lanes.p[b * lanes.s0 + 5];
+                    if (fate == 3) {
+                        for (c = 0; c < 19; c++) now.p[c] = S.p[(110 + c) * S.s0 + b];
                         part = following_part_of((r1){lanes.p + b * lanes.s0, lanes.n1}, frame, frames, interval);
                         while (frame < frames && part <= R(0x1.000000044b830p+0)) {
                             if (real_abs(part - 1) <= R(1e-09))
                                 following_shown(now, exponents.p[b], i, frame, momenta, verticals, attitudes, traces,
                                     follows, traced);
                             else {
-                                between_ball_at(curve, part, (r1){bodies.p + b * bodies.s0, bodies.n1}, traced,
-                                    found);
+                                between_ball_at((r2){curves.p + b * curves.s0, curves.n1, curves.n2, curves.s1}, part,
+                                    (r1){bodies.p + b * bodies.s0, bodies.n1}, traced, found);
                                 following_shown(found, exponents.p[b], i, frame, momenta, verticals, attitudes,
                                     traces, follows, traced);
                             }
                             frame += 1;
                             part = following_part_of((r1){lanes.p + b * lanes.s0, lanes.n1}, frame, frames, interval);
                         }
-                        following_followed(S, b, i, traced, error, off, out, now, used, (r1){lanes.p + b * lanes.s0,
-                            lanes.n1}, (r1){errors.p + b * errors.s0, errors.n1}, reported);
-                        int64_t t_3 = frame; real t_4 = 0;
-                        real t_5 = lanes.p[b * lanes.s0 + 0] + lanes.p[b * lanes.s0 + 1];
-                        lanes.p[b * lanes.s0 + 5] = t_3; lanes.p[b * lanes.s0 + 6] = t_4;
-                        lanes.p[b * lanes.s0 + 0] = t_5; real t_6 = lanes.p[b * lanes.s0 + 3] - 1;
-                        real t_7 = R(1.05) * lanes.p[b * lanes.s0 + 10]; lanes.p[b * lanes.s0 + 3] = t_6;
-                        lanes.p[b * lanes.s0 + 10] = t_7;
-                        for (c = 0; c < 13; c++) bodies.p[b * bodies.s0 + c] = now.p[c];
-                        done = lanes.p[b * lanes.s0 + 3] < R(0.5);
+                        following_recorded(E, b, i, (r1){lanes.p + b * lanes.s0, lanes.n1}, reported);
+                        int64_t t_1 = frame; real t_2 = 0;
+                        real t_3 = lanes.p[b * lanes.s0 + 0] + lanes.p[b * lanes.s0 + 1];
+                        lanes.p[b * lanes.s0 + 5] = t_1; lanes.p[b * lanes.s0 + 6] = t_2;
+                        lanes.p[b * lanes.s0 + 0] = t_3; real t_4 = lanes.p[b * lanes.s0 + 3] - 1;
+                        real t_5 = min_r(R(1.05) * lanes.p[b * lanes.s0 + 10], R(1e+300));
+                        lanes.p[b * lanes.s0 + 3] = t_4; lanes.p[b * lanes.s0 + 10] = t_5;
+                        for (c = 0; c < 19; c++) bodies.p[b * bodies.s0 + c] = now.p[c];
+                        done = lanes.p[b * lanes.s0 + 3] < R(0.5); wish = lanes.p[b * lanes.s0 + 13];
                         if (done) {
                             reached.p[i] = frames - 1; status.p[i] = 0; reach.p[i] = 1;
                         }
                         else {
-                            if (!(wanted * R(1.15) >= lanes.p[b * lanes.s0 + 1] && wanted <= R(1.15) * lanes.p[b *
+                            if (!(wish * R(1.15) >= lanes.p[b * lanes.s0 + 1] && wish <= R(1.15) * lanes.p[b *
                                 lanes.s0 + 1]) && following_planned((r1){lanes.p + b * lanes.s0, lanes.n1}, end,
-                                wanted))
+                                wish))
                                 long_run_resized(S, B, b, columns, R(0.5) * lanes.p[b * lanes.s0 + 1] * lanes.p[b *
                                     lanes.s0 + 2], now, (r1){states.p + b * states.s0, states.n1});
                         }
                     }
                 }
-                if (done) {
-                    reported.p[i * reported.s0 + 1] = lanes.p[b * lanes.s0 + 7] > 0 ? lanes.p[b * lanes.s0 + 8] /
-                        lanes.p[b * lanes.s0 + 7] : 0;
-                    reported.p[i * reported.s0 + 3] = errors.p[b * errors.s0 + 105];
-                    if (coming < balls) {
-                        exponents.p[b] = following_taken_in(S, B, b, columns, coming, first, start, momenta,
-                            verticals, attitudes, traces, J0, D0, radius, end, follows, sums, beginning, (r1){bodies.p
-                            + b * bodies.s0, bodies.n1}, (r1){states.p + b * states.s0, states.n1}, (r1){lanes.p + b *
-                            lanes.s0, lanes.n1}, (r1){errors.p + b * errors.s0, errors.n1}, reported, traced);
-                        coming += 1;
-                    }
-                    else {
-                        S.p[120 * S.s0 + b] = 1; busy -= 1;
-                    }
+            }
+            if (done) {
+                reported.p[i * reported.s0 + 1] = lanes.p[b * lanes.s0 + 7] > 0 ? lanes.p[b * lanes.s0 + 8] /
+                    lanes.p[b * lanes.s0 + 7] : 0;
+                if (coming < balls) {
+                    exponents.p[b] = following_taken_in(S, E, B, b, columns, coming, first, start, momenta, verticals,
+                        attitudes, traces, J0, D0, radius, end, follows, sums, beginning, (r1){bodies.p + b *
+                        bodies.s0, bodies.n1}, (r1){states.p + b * states.s0, states.n1}, (r1){lanes.p + b * lanes.s0,
+                        lanes.n1}, reported, traced);
+                    coming = coming + 1; fresh = 1;
+                }
+                else {
+                    S.p[135 * S.s0 + b] = 1; busy -= 1;
                 }
             }
         }
@@ -3655,7 +3767,7 @@ WIDEST static void in_double_double_block_march_pairs_block(const argument *a, a
 
 #endif
 #ifndef SINGLE
-static void in_tangent_follow_all(const argument *a, argument *got) {
+WIDEST static void in_tangent_follow_all(const argument *a, argument *got) {
     tangent_follow_all(ARRAY2(r2, a[0]), ARRAY2(r2, a[1]), ARRAY1(r1, a[2]), a[3].number, a[4].integer, ARRAY2(r2,
         a[5]));
     (void)got;
@@ -3663,7 +3775,7 @@ static void in_tangent_follow_all(const argument *a, argument *got) {
 
 #endif
 #ifndef SINGLE
-static void in_following_follow_one(const argument *a, argument *got) {
+WIDEST static void in_following_follow_one(const argument *a, argument *got) {
     following_follow_one(ARRAY3(r3, a[0]), ARRAY3(r3, a[1]), ARRAY3(r3, a[2]), ARRAY3(r3, a[3]), ARRAY2(r2, a[4]),
         ARRAY1(r1, a[5]), ARRAY1(r1, a[6]), a[7].number, ARRAY1(r1, a[8]), ARRAY1(r1, a[9]), ARRAY1(r1, a[10]),
         ARRAY1(r1, a[11]), a[12].integer, a[13].integer, ARRAY2(r2, a[14]), ARRAY3(r3, a[15]), ARRAY2(r2, a[16]),
@@ -3673,7 +3785,7 @@ static void in_following_follow_one(const argument *a, argument *got) {
 
 #endif
 #ifndef SINGLE
-static void in_following_follow_eight(const argument *a, argument *got) {
+WIDEST static void in_following_follow_eight(const argument *a, argument *got) {
     following_follow_eight(ARRAY3(r3, a[0]), ARRAY3(r3, a[1]), ARRAY3(r3, a[2]), ARRAY3(r3, a[3]), ARRAY2(r2, a[4]),
         ARRAY1(r1, a[5]), ARRAY1(r1, a[6]), a[7].number, ARRAY1(r1, a[8]), ARRAY1(r1, a[9]), ARRAY1(r1, a[10]),
         ARRAY1(r1, a[11]), a[12].integer, a[13].integer, ARRAY2(r2, a[14]), ARRAY3(r3, a[15]), ARRAY2(r2, a[16]),
@@ -3730,5 +3842,5 @@ const int loops_single_count = 4;
 #endif
 
 #ifndef SINGLE
-const char loops_text[] = "204aee7c418da61a1178bebb72f4e03af46b25f625c617e0e1c14a12eae55c4b";
+const char loops_text[] = "19f0776129f63f6a8dc2bbc14f427c00508895e65939e1f1b7cb72e3b0aa4733";
 #endif

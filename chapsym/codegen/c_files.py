@@ -240,7 +240,7 @@ class Texts:
             one = f"out.a{i}" if isinstance(typed.returned, tuple) else "out"
             body.append(f"    got[{i}].{'number' if kind == 'r' else 'integer'} = {one};")
         body += [] if kinds else ["    (void)got;"]
-        widest = "WIDEST " if "march" in function.name else ""
+        widest = "WIDEST " if "march" in function.name or "follow" in function.name else ""
         signature = f"{widest}static void in_{function.name}(const argument *a, argument *got) {{"
         return [signature, *(x for line in body for x in broken(line)), "}", ""]
 

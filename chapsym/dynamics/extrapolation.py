@@ -194,5 +194,6 @@ def _march(
 def loop_weights(columns: int) -> tuple[Floats, Floats, Floats]:
     """What the loops take: the weights of the columns, as of `march_lanes`, and those of the guesses."""
     full, short = weights(columns), (Fraction(0), *weights(columns - 1))
-    first = np.array(full, dtype=float)
-    return np.array([first, first - np.array(short, dtype=float)]), *guess_weights(columns)
+    shorter = (Fraction(0),) * 2 + weights(columns - 2)
+    first, second, third = (np.array(x, dtype=float) for x in (full, short, shorter))
+    return np.array([first, first - second, second - third]), *guess_weights(columns)

@@ -4,7 +4,7 @@ from math import frexp, ldexp, sqrt
 
 from chapsym.generated import angular_velocity
 
-from .following import FARTHEST, ROLLED, SPUN, STEPS, SUMMED, TURNED
+from .following import CAUTIOUS, FARTHEST, ROLLED, ROUNDINGS, SPUN, STEPS, TURNED, WALKED
 from .text import Matrix, Vector
 
 #: What is found of a ball: |ω| at the start in rad/s; the condition of Λ - Dγγᵀ, at most; whether it may rotate
@@ -13,12 +13,10 @@ RATE, CONDITION, SINGLE, FLOOR, STILL, FIRST, ALLOWED = 0, 1, 2, 3, 4, 5, 6
 FOUND = 7
 #: A rounding.
 UNIT = 2.0**-53
-#: By how much the errors of steps grow after t seconds, in parts of 1 + |ω|t: that of most balls.
-GROWTH = 1.5
+#: By how much the errors of steps grow in a run, of most balls.
+GROWTH = 4.0
 #: The error of a step of |ω|h = 1 radian, of most balls; and what part of an accuracy a run aims at.
-UNIT_ERROR, AIM = 3e-8, 1.0
-#: The roundings of a long step: the sum of its |weights|.
-ROUNDINGS = 54.2
+UNIT_ERROR, AIM = 3e-9, 1.0
 #: The roundings of steps that go one way turn a ball as those of its parameters do, and so many times as far.
 TURNING = 3.0
 #: Of a ball of a larger condition the roundings of long steps are not known.
@@ -60,7 +58,7 @@ def surveyed(
         found[i, SINGLE] = 1.0 if zeros > 1 or (j1 == j2 and j2 == j3) else 0.0
         found[i, FLOOR] = UNIT * ((1.0 + turned) * (2.0 * root + walked) + 8.0 * condition) * unit[i]
         found[i, STILL] = UNIT * ((1.0 + turned) * (2.0 * root + 1.0) + 8.0 * condition) * unit[i]
-        allowed = AIM * accuracy / unit[i] / (GROWTH * (1.0 + turned)) / end if end > 0.0 else 1.0
+        allowed = AIM * accuracy / unit[i] / (CAUTIOUS * GROWTH) / end if end > 0.0 else 1.0
         # The power 3/32, which is the root that the law asks for, but a little.
         part = sqrt(sqrt(sqrt(sqrt(min(allowed / (UNIT_ERROR * rate), 1.0))))) if rate > 0.0 else 1.0
         part = FARTHEST * part * sqrt(part)
@@ -88,9 +86,9 @@ def estimated(
         most = reported[i, TURNED] if turned else 0.0
         most = max(most, reported[i, SPUN]) if spun else most
         most = unit[i] * (max(most, reported[i, ROLLED]) if rolled else most)
-        walked = ROUNDINGS * UNIT * sqrt(found[i, CONDITION] * reported[i, STEPS])
-        started[i] = most / reported[i, SUMMED] * (2.0 * UNIT * sqrt(found[i, CONDITION]))
-        noise[i] = most / reported[i, SUMMED] * walked + TURNING * found[i, STILL]
-        error[i] = most + noise[i]
+        walked = unit[i] * reported[i, WALKED]
+        started[i] = walked / sqrt(1.0 + ROUNDINGS * ROUNDINGS * reported[i, STEPS])
+        noise[i] = walked + TURNING * found[i, STILL]
+        error[i] = most + TURNING * found[i, STILL]
         if found[i, CONDITION] > CONDITIONED:
             noise[i] = ENDLESS

@@ -67,7 +67,7 @@ def enter(S, B, b, columns, J0, D0, radius, h, sums, beginning, body, state):
         one, two = LAST - lane >= least, lane >= least
         for c in range(DERIVATIVES):
             S[GUESS + c, i] = beginning[first, c]
-        for c in range(2):
+        for c in range(3):
             S[FULL + 2 * c, i] = sums[c, first - least] if one else 0.0
             S[FULL + 2 * c + 1, i] = sums[c, lane - least] if two else 0.0
     resized(S, B, b, columns, half, body, state)
@@ -132,7 +132,8 @@ def march_lanes(
     """`steps` long steps of at most B balls from their frames 0, (balls, frames, ...); keeps every `every`-th state.
 
     follows, traced: whether there are attitudes and traces, and whether the latter are wanted.
-    sums: the weights of the columns, and their differences from those without the last column, (2, columns);
+    sums: the weights of the columns, their differences from those without the last column, and of these from those
+    without the last two, (3, columns);
     following, beginning: those of the guesses (`guess`).  doubt, taken, status, reach: of each ball, (balls,).
     """
     S, columns = np.zeros((ROWS, LANES * B)), sums.shape[1]

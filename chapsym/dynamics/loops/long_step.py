@@ -19,9 +19,11 @@ from .loop import ENOUGH, RADIUS, D, G, I, J, K, put, safe_rotation, scaled, thr
 LAST = 7
 #: Longer steps than 2^LONGEST, in units where the momentum and the ball are about 1, have no rotation anyway.
 LONGEST = 100
-#: A ball under way, and where its numbers begin: K, γ, the attitude, the contact point, and the doubt so far.
-MOMENTUM, VERTICAL, ATTITUDE, SPOT, DOUBT = 0, 3, 6, 10, 12
-MOVING = 13
+#: A ball under way, and where its numbers begin: K, γ, the attitude, the contact point, and the doubt so far.  Of the
+#: last step: the angle by which a column less than that would have turned it otherwise; and what the last column has
+#: changed: the rotation, as a vector in the axes at the end, and the contact point, in radii.
+MOMENTUM, VERTICAL, ATTITUDE, SPOT, DOUBT, ROUGH, TWIST, SLIP = 0, 3, 6, 10, 12, 13, 14, 17
+MOVING = 19
 
 
 def begun(body, J0, D0, h, state):
@@ -88,7 +90,8 @@ def long_step(body, half, radius, sums, state):
     """
     q0, q1, q2, q3 = 0.0, 0.0, 0.0, 0.0
     d0, d1, d2, d3 = 0.0, 0.0, 0.0, 0.0
-    y1, y2, y3 = 0.0, 0.0, 0.0
+    e0, e1, e2, e3 = 0.0, 0.0, 0.0, 0.0
+    y1, y2, y3, z1, z2, z3 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     w1, w2, w3 = angular_velocity(
         body[0], body[1], body[2], body[3], body[4], body[5], state[J], state[J + 1], state[J + 2], state[D]
     )
@@ -98,10 +101,13 @@ def long_step(body, half, radius, sums, state):
         status, reach, p0, p1, p2, p3, s1, s2, s3 = column(body, half, first + i, square, state)
         if status != 0:
             return status, reach
-        w, v = sums[0, i], sums[1, i]
+        w, v, z = sums[0, i], sums[1, i], sums[2, i]
         q0, q1, q2, q3 = q0 + w * p0, q1 + w * p1, q2 + w * p2, q3 + w * p3
         d0, d1, d2, d3 = d0 + v * p0, d1 + v * p1, d2 + v * p2, d3 + v * p3
+        e0, e1, e2, e3 = e0 + z * p0, e1 + z * p1, e2 + z * p2, e3 + z * p3
         y1, y2, y3 = y1 + w * s1, y2 + w * s2, y3 + w * s3
+        z1, z2, z3 = z1 + v * s1, z2 + v * s2, z3 + v * s3
+    body[SLIP], body[SLIP + 1], _ = rotate(body[6], body[7], body[8], body[9], z1, z2, z3)
     (
         body[0], body[1], body[2], body[3], body[4], body[5], body[6], body[7], body[8], body[9], body[10], body[11]
     ) = moved_body(
@@ -109,6 +115,9 @@ def long_step(body, half, radius, sums, state):
         q0, q1, q2, q3, y1, y2, y3, radius,
     )  # fmt: skip
     body[DOUBT] += 2.0 * sqrt((d0 * d0 + d1 * d1) + (d2 * d2 + d3 * d3))
+    body[ROUGH] = 2.0 * sqrt((e0 * e0 + e1 * e1) + (e2 * e2 + e3 * e3))
+    _, d1, d2, d3 = compose(q0, -q1, -q2, -q3, d0, d1, d2, d3)
+    body[TWIST], body[TWIST + 1], body[TWIST + 2] = 2.0 * d1, 2.0 * d2, 2.0 * d3
     return 0, 1.0
 
 
