@@ -1004,7 +1004,7 @@ INLINE void long_run_entered(r2 S, int64_t at, int64_t i, r1 body, real half, in
     real least = gibbs_LEFT * size / (max_r(max_r(I1.a0, I1.a1), I1.a2) + state.p[24] + spread);
     real anywhere = gibbs_is_heavy(I1.a0, I1.a1, I1.a2, state.p[24]) ? -1 : R(0x1.0000000000000p+1000);
     S.p[at * S.s0 + i] = part; S.p[(at + 1) * S.s0 + i] = part != 0 ? 1 / part : 0; S.p[(at + 2) * S.s0 + i] = size;
-    S.p[80 * S.s0 + i] = spread; S.p[(at + 3) * S.s0 + i] = within.a0 >= 0 ? within.a0 : anywhere;
+    S.p[82 * S.s0 + i] = spread; S.p[(at + 3) * S.s0 + i] = within.a0 >= 0 ? within.a0 : anywhere;
     S.p[(at + 4) * S.s0 + i] = least * least / R(18.2); S.p[(at + 5) * S.s0 + i] = (real)1 / (n * n);
 }
 
@@ -1019,7 +1019,7 @@ INLINE void long_run_resized(r2 S, int64_t B, int64_t b, int64_t columns, real h
 OUT_OF_LINE int64_t long_run_enter(r2 S, int64_t B, int64_t b, int64_t columns, r1 J0, real D0, real radius, real h,
     r2 sums, r2 beginning, r1 body, r1 state) {
     t_ri half = long_step_begun(body, J0, D0, h, state); int64_t c;
-    for (c = 0; c < 19; c++) S.p[(110 + c) * S.s0 + b] = body.p[c];
+    for (c = 0; c < 24; c++) S.p[(105 + c) * S.s0 + b] = body.p[c];
     S.p[129 * S.s0 + b] = half.a0; S.p[130 * S.s0 + b] = radius; S.p[134 * S.s0 + b] = state.p[24];
     S.p[135 * S.s0 + b] = 0;
     for (c = 0; c < 3; c++) S.p[(131 + c) * S.s0 + b] = state.p[18 + c];
@@ -1028,8 +1028,8 @@ OUT_OF_LINE int64_t long_run_enter(r2 S, int64_t B, int64_t b, int64_t columns, 
         int64_t i = lane * B + b, first = max_i(7 - lane, least);
         for (c = 0; c < 3; c++) S.p[(27 + c) * S.s0 + i] = state.p[21 + c];
         S.p[30 * S.s0 + i] = state.p[24]; int one = 7 - lane >= least, two = lane >= least;
-        for (c = 0; c < 3; c++) S.p[(77 + c) * S.s0 + i] = beginning.p[first * beginning.s0 + c];
-        for (c = 0; c < 3; c++) {
+        for (c = 0; c < 3; c++) S.p[(79 + c) * S.s0 + i] = beginning.p[first * beginning.s0 + c];
+        for (c = 0; c < 4; c++) {
             S.p[(71 + 2 * c) * S.s0 + i] = one ? sums.p[c * sums.s0 + first - least] : 0;
             S.p[(71 + 2 * c + 1) * S.s0 + i] = two ? sums.p[c * sums.s0 + lane - least] : 0;
         }
@@ -1053,8 +1053,8 @@ INLINE void lanes_rates(r2 S, int64_t B, int64_t first) {
     int64_t b;
     INDEPENDENT
     for (b = 0; b < B; b++) {
-        real K1 = S.p[110 * S.s0 + b], K2 = S.p[111 * S.s0 + b], K3 = S.p[112 * S.s0 + b], g1 = S.p[113 * S.s0 + b];
-        real g2 = S.p[114 * S.s0 + b], g3 = S.p[115 * S.s0 + b], J1 = S.p[131 * S.s0 + b], J2 = S.p[132 * S.s0 + b];
+        real K1 = S.p[105 * S.s0 + b], K2 = S.p[106 * S.s0 + b], K3 = S.p[107 * S.s0 + b], g1 = S.p[108 * S.s0 + b];
+        real g2 = S.p[109 * S.s0 + b], g3 = S.p[110 * S.s0 + b], J1 = S.p[131 * S.s0 + b], J2 = S.p[132 * S.s0 + b];
         real J3 = S.p[133 * S.s0 + b], contact = S.p[134 * S.s0 + b];
         t_r3 w1 = kernel_angular_velocity(K1, K2, K3, g1, g2, g3, J1, J2, J3, contact);
         real height = contact * (g1 * w1.a0 + g2 * w1.a1 + g3 * w1.a2), m1 = K1 + height * g1, m2 = K2 + height * g2;
@@ -1108,8 +1108,8 @@ INLINE real fitted_half_angle(real square) {
 
 INLINE void lanes_start(r2 S, int64_t i, int64_t at) {
     real scale = fitted_fitted(S.p[46 * S.s0 + i] * S.p[(at + 5) * S.s0 + i]), half = S.p[at * S.s0 + i] * scale;
-    real slope = S.p[80 * S.s0 + i] + S.p[(at + 2) * S.s0 + i] * scale;
-    real bend = fitted_half_angle(S.p[46 * S.s0 + i] * S.p[(at + 5) * S.s0 + i]); S.p[81 * S.s0 + i] = half / bend;
+    real slope = S.p[82 * S.s0 + i] + S.p[(at + 2) * S.s0 + i] * scale;
+    real bend = fitted_half_angle(S.p[46 * S.s0 + i] * S.p[(at + 5) * S.s0 + i]); S.p[83 * S.s0 + i] = half / bend;
     real t_1 = half, t_2 = S.p[(at + 1) * S.s0 + i] * bend / scale, t_3 = slope * slope; S.p[22 * S.s0 + i] = t_1;
     S.p[23 * S.s0 + i] = t_2; S.p[24 * S.s0 + i] = t_3; real t_4 = S.p[(at + 3) * S.s0 + i];
     real t_5 = S.p[(at + 4) * S.s0 + i] * (scale * scale); S.p[25 * S.s0 + i] = t_4; S.p[26 * S.s0 + i] = t_5;
@@ -1126,8 +1126,8 @@ INLINE void lanes_begin(r2 S, int64_t B) {
     int64_t end_1 = 4 * B;
     INDEPENDENT
     for (int64_t i = 0; i < end_1; i++) {
-        lanes_start(S, i, 59); real tangent = S.p[81 * S.s0 + i], a = S.p[77 * S.s0 + i], b = S.p[78 * S.s0 + i];
-        real c = S.p[79 * S.s0 + i];
+        lanes_start(S, i, 59); real tangent = S.p[83 * S.s0 + i], a = S.p[79 * S.s0 + i], b = S.p[80 * S.s0 + i];
+        real c = S.p[81 * S.s0 + i];
         S.p[6 * S.s0 + i] = tangent * (a * S.p[37 * S.s0 + i] + b * S.p[40 * S.s0 + i] + c * S.p[43 * S.s0 + i]);
         S.p[7 * S.s0 + i] = tangent * (a * S.p[38 * S.s0 + i] + b * S.p[41 * S.s0 + i] + c * S.p[44 * S.s0 + i]);
         S.p[8 * S.s0 + i] = tangent * (a * S.p[39 * S.s0 + i] + b * S.p[42 * S.s0 + i] + c * S.p[45 * S.s0 + i]);
@@ -1149,65 +1149,52 @@ INLINE void lanes_gather(r2 S, int64_t B) {
     real a0, a1, a2, a3, b0, b1, b2, b3, w, v; int64_t end_1 = 4 * B;
     INDEPENDENT
     for (int64_t i = 0; i < end_1; i++) {
-        a0 = S.p[85 * S.s0 + i]; a1 = S.p[86 * S.s0 + i]; a2 = S.p[87 * S.s0 + i]; a3 = S.p[88 * S.s0 + i];
+        a0 = S.p[87 * S.s0 + i]; a1 = S.p[88 * S.s0 + i]; a2 = S.p[89 * S.s0 + i]; a3 = S.p[90 * S.s0 + i];
         b0 = S.p[15 * S.s0 + i]; b1 = S.p[16 * S.s0 + i]; b2 = S.p[17 * S.s0 + i]; b3 = S.p[18 * S.s0 + i];
         real one = 1 / real_sqrt(a0 * a0 + a1 * a1 + (a2 * a2 + a3 * a3));
         real two = 1 / real_sqrt(b0 * b0 + b1 * b1 + (b2 * b2 + b3 * b3)); w = S.p[71 * S.s0 + i] * one;
-        v = S.p[72 * S.s0 + i] * two; S.p[92 * S.s0 + i] = w * a0 + v * b0; S.p[93 * S.s0 + i] = w * a1 + v * b1;
-        S.p[94 * S.s0 + i] = w * a2 + v * b2; S.p[95 * S.s0 + i] = w * a3 + v * b3; w = S.p[73 * S.s0 + i] * one;
-        v = S.p[74 * S.s0 + i] * two; S.p[96 * S.s0 + i] = w * a0 + v * b0; S.p[97 * S.s0 + i] = w * a1 + v * b1;
-        S.p[98 * S.s0 + i] = w * a2 + v * b2; S.p[99 * S.s0 + i] = w * a3 + v * b3; w = S.p[71 * S.s0 + i];
-        v = S.p[72 * S.s0 + i]; S.p[100 * S.s0 + i] = w * S.p[89 * S.s0 + i] + v * S.p[19 * S.s0 + i];
-        S.p[101 * S.s0 + i] = w * S.p[90 * S.s0 + i] + v * S.p[20 * S.s0 + i];
-        S.p[102 * S.s0 + i] = w * S.p[91 * S.s0 + i] + v * S.p[21 * S.s0 + i]; w = S.p[75 * S.s0 + i] * one;
-        v = S.p[76 * S.s0 + i] * two; S.p[103 * S.s0 + i] = w * a0 + v * b0; S.p[104 * S.s0 + i] = w * a1 + v * b1;
-        S.p[105 * S.s0 + i] = w * a2 + v * b2; S.p[106 * S.s0 + i] = w * a3 + v * b3; w = S.p[73 * S.s0 + i];
-        v = S.p[74 * S.s0 + i]; S.p[107 * S.s0 + i] = w * S.p[89 * S.s0 + i] + v * S.p[19 * S.s0 + i];
-        S.p[108 * S.s0 + i] = w * S.p[90 * S.s0 + i] + v * S.p[20 * S.s0 + i];
-        S.p[109 * S.s0 + i] = w * S.p[91 * S.s0 + i] + v * S.p[21 * S.s0 + i];
+        v = S.p[72 * S.s0 + i] * two; S.p[94 * S.s0 + i] = w * a0 + v * b0; S.p[95 * S.s0 + i] = w * a1 + v * b1;
+        S.p[96 * S.s0 + i] = w * a2 + v * b2; S.p[97 * S.s0 + i] = w * a3 + v * b3; w = S.p[73 * S.s0 + i] * one;
+        v = S.p[74 * S.s0 + i] * two; S.p[98 * S.s0 + i] = w * a0 + v * b0; S.p[99 * S.s0 + i] = w * a1 + v * b1;
+        S.p[100 * S.s0 + i] = w * a2 + v * b2; S.p[101 * S.s0 + i] = w * a3 + v * b3; w = S.p[71 * S.s0 + i];
+        v = S.p[72 * S.s0 + i]; S.p[102 * S.s0 + i] = w * S.p[91 * S.s0 + i] + v * S.p[19 * S.s0 + i];
+        S.p[103 * S.s0 + i] = w * S.p[92 * S.s0 + i] + v * S.p[20 * S.s0 + i];
+        S.p[104 * S.s0 + i] = w * S.p[93 * S.s0 + i] + v * S.p[21 * S.s0 + i];
     }
     int64_t b;
-    for (int64_t c = 0; c < 18; c++) {
+    for (int64_t c = 0; c < 11; c++) {
         INDEPENDENT
         for (b = 0; b < B; b++)
-            S.p[(92 + c) * S.s0 + b] = S.p[(92 + c) * S.s0 + b] + S.p[(92 + c) * S.s0 + B + b] + (S.p[(92 + c) * S.s0
-                + 2 * B + b] + S.p[(92 + c) * S.s0 + 3 * B + b]);
+            S.p[(94 + c) * S.s0 + b] = S.p[(94 + c) * S.s0 + b] + S.p[(94 + c) * S.s0 + B + b] + (S.p[(94 + c) * S.s0
+                + 2 * B + b] + S.p[(94 + c) * S.s0 + 3 * B + b]);
     }
     INDEPENDENT
     for (b = 0; b < B; b++) {
-        int rests = S.p[58 * S.s0 + b] != 0; real k1 = S.p[110 * S.s0 + b], k2 = S.p[111 * S.s0 + b];
-        real k3 = S.p[112 * S.s0 + b], g1 = S.p[113 * S.s0 + b], g2 = S.p[114 * S.s0 + b], g3 = S.p[115 * S.s0 + b];
-        a0 = S.p[116 * S.s0 + b]; a1 = S.p[117 * S.s0 + b]; a2 = S.p[118 * S.s0 + b]; a3 = S.p[119 * S.s0 + b];
-        real x = S.p[120 * S.s0 + b], y = S.p[121 * S.s0 + b], d0 = S.p[96 * S.s0 + b], d1 = S.p[97 * S.s0 + b];
-        real d2 = S.p[98 * S.s0 + b], d3 = S.p[99 * S.s0 + b];
+        int rests = S.p[58 * S.s0 + b] != 0; real k1 = S.p[105 * S.s0 + b], k2 = S.p[106 * S.s0 + b];
+        real k3 = S.p[107 * S.s0 + b], g1 = S.p[108 * S.s0 + b], g2 = S.p[109 * S.s0 + b], g3 = S.p[110 * S.s0 + b];
+        a0 = S.p[111 * S.s0 + b]; a1 = S.p[112 * S.s0 + b]; a2 = S.p[113 * S.s0 + b]; a3 = S.p[114 * S.s0 + b];
+        real x = S.p[115 * S.s0 + b], y = S.p[116 * S.s0 + b], d0 = S.p[98 * S.s0 + b], d1 = S.p[99 * S.s0 + b];
+        real d2 = S.p[100 * S.s0 + b], d3 = S.p[101 * S.s0 + b];
         real more = 2 * real_sqrt(d0 * d0 + d1 * d1 + (d2 * d2 + d3 * d3));
-        t_r12 t_2 = long_step_moved_body(k1, k2, k3, g1, g2, g3, a0, a1, a2, a3, x, y, S.p[92 * S.s0 + b], S.p[93 *
-            S.s0 + b], S.p[94 * S.s0 + b], S.p[95 * S.s0 + b], S.p[100 * S.s0 + b], S.p[101 * S.s0 + b], S.p[102 *
+        t_r12 t_2 = long_step_moved_body(k1, k2, k3, g1, g2, g3, a0, a1, a2, a3, x, y, S.p[94 * S.s0 + b], S.p[95 *
+            S.s0 + b], S.p[96 * S.s0 + b], S.p[97 * S.s0 + b], S.p[102 * S.s0 + b], S.p[103 * S.s0 + b], S.p[104 *
             S.s0 + b], S.p[130 * S.s0 + b]);
         real l1 = t_2.a0, l2 = t_2.a1, l3 = t_2.a2, h1 = t_2.a3, h2 = t_2.a4, h3 = t_2.a5; b0 = t_2.a6; b1 = t_2.a7;
-        b2 = t_2.a8; b3 = t_2.a9; v = t_2.a10; w = t_2.a11; S.p[110 * S.s0 + b] = rests ? k1 : l1;
-        S.p[111 * S.s0 + b] = rests ? k2 : l2; S.p[112 * S.s0 + b] = rests ? k3 : l3;
-        S.p[113 * S.s0 + b] = rests ? g1 : h1; S.p[114 * S.s0 + b] = rests ? g2 : h2;
-        S.p[115 * S.s0 + b] = rests ? g3 : h3; S.p[116 * S.s0 + b] = rests ? a0 : b0;
-        S.p[117 * S.s0 + b] = rests ? a1 : b1; S.p[118 * S.s0 + b] = rests ? a2 : b2;
-        S.p[119 * S.s0 + b] = rests ? a3 : b3; S.p[120 * S.s0 + b] = rests ? x : v;
-        S.p[121 * S.s0 + b] = rests ? y : w; S.p[122 * S.s0 + b] += rests ? 0 : more; real e0 = S.p[103 * S.s0 + b];
-        real e1 = S.p[104 * S.s0 + b], e2 = S.p[105 * S.s0 + b], e3 = S.p[106 * S.s0 + b];
-        S.p[123 * S.s0 + b] = 2 * real_sqrt(e0 * e0 + e1 * e1 + (e2 * e2 + e3 * e3));
-        t_r4 t_3 = kernel_compose(S.p[92 * S.s0 + b], -S.p[93 * S.s0 + b], -S.p[94 * S.s0 + b], -S.p[95 * S.s0 + b],
-            d0, d1, d2, d3);
-        d1 = t_3.a1; d2 = t_3.a2; d3 = t_3.a3; S.p[124 * S.s0 + b] = 2 * d1; S.p[125 * S.s0 + b] = 2 * d2;
-        S.p[126 * S.s0 + b] = 2 * d3;
-        t_r3 t_4 = kernel_rotate(a0, a1, a2, a3, S.p[107 * S.s0 + b], S.p[108 * S.s0 + b], S.p[109 * S.s0 + b]);
-        S.p[127 * S.s0 + b] = t_4.a0; S.p[128 * S.s0 + b] = t_4.a1;
+        b2 = t_2.a8; b3 = t_2.a9; v = t_2.a10; w = t_2.a11; S.p[105 * S.s0 + b] = rests ? k1 : l1;
+        S.p[106 * S.s0 + b] = rests ? k2 : l2; S.p[107 * S.s0 + b] = rests ? k3 : l3;
+        S.p[108 * S.s0 + b] = rests ? g1 : h1; S.p[109 * S.s0 + b] = rests ? g2 : h2;
+        S.p[110 * S.s0 + b] = rests ? g3 : h3; S.p[111 * S.s0 + b] = rests ? a0 : b0;
+        S.p[112 * S.s0 + b] = rests ? a1 : b1; S.p[113 * S.s0 + b] = rests ? a2 : b2;
+        S.p[114 * S.s0 + b] = rests ? a3 : b3; S.p[115 * S.s0 + b] = rests ? x : v;
+        S.p[116 * S.s0 + b] = rests ? y : w; S.p[117 * S.s0 + b] += rests ? 0 : more;
     }
 }
 
 INLINE void lanes_finish(r2 S, int64_t i) {
     real t_1 = S.p[15 * S.s0 + i], t_2 = S.p[16 * S.s0 + i], t_3 = S.p[17 * S.s0 + i], t_4 = S.p[18 * S.s0 + i];
-    S.p[85 * S.s0 + i] = t_1; S.p[86 * S.s0 + i] = t_2; S.p[87 * S.s0 + i] = t_3; S.p[88 * S.s0 + i] = t_4;
-    real t_5 = S.p[19 * S.s0 + i], t_6 = S.p[20 * S.s0 + i], t_7 = S.p[21 * S.s0 + i]; S.p[89 * S.s0 + i] = t_5;
-    S.p[90 * S.s0 + i] = t_6; S.p[91 * S.s0 + i] = t_7;
+    S.p[87 * S.s0 + i] = t_1; S.p[88 * S.s0 + i] = t_2; S.p[89 * S.s0 + i] = t_3; S.p[90 * S.s0 + i] = t_4;
+    real t_5 = S.p[19 * S.s0 + i], t_6 = S.p[20 * S.s0 + i], t_7 = S.p[21 * S.s0 + i]; S.p[91 * S.s0 + i] = t_5;
+    S.p[92 * S.s0 + i] = t_6; S.p[93 * S.s0 + i] = t_7;
 }
 
 INLINE void lanes_begin_second(r2 S, int64_t B, int64_t lane, r2 weights) {
@@ -1219,16 +1206,16 @@ INLINE void lanes_begin_second(r2 S, int64_t B, int64_t lane, r2 weights) {
     real w6 = weights.p[lane * weights.s0 + 6], w7 = weights.p[lane * weights.s0 + 7];
     INDEPENDENT
     for (int64_t b = 0; b < B; b++) {
-        int64_t i = b, j = B + b, k = 2 * B + b, m = 3 * B + b; real tangent = S.p[81 * S.s0 + lane * B + b], x1 = w0
-            * S.p[37 * S.s0 + i] + w1 * S.p[40 * S.s0 + i] + (w2 * S.p[43 * S.s0 + i] + w3 * S.p[82 * S.s0 + i]), x2 =
-            w0 * S.p[38 * S.s0 + i] + w1 * S.p[41 * S.s0 + i] + (w2 * S.p[44 * S.s0 + i] + w3 * S.p[83 * S.s0 + i]),
-            x3 = w0 * S.p[39 * S.s0 + i] + w1 * S.p[42 * S.s0 + i] + (w2 * S.p[45 * S.s0 + i] + w3 * S.p[84 * S.s0 +
+        int64_t i = b, j = B + b, k = 2 * B + b, m = 3 * B + b; real tangent = S.p[83 * S.s0 + lane * B + b], x1 = w0
+            * S.p[37 * S.s0 + i] + w1 * S.p[40 * S.s0 + i] + (w2 * S.p[43 * S.s0 + i] + w3 * S.p[84 * S.s0 + i]), x2 =
+            w0 * S.p[38 * S.s0 + i] + w1 * S.p[41 * S.s0 + i] + (w2 * S.p[44 * S.s0 + i] + w3 * S.p[85 * S.s0 + i]),
+            x3 = w0 * S.p[39 * S.s0 + i] + w1 * S.p[42 * S.s0 + i] + (w2 * S.p[45 * S.s0 + i] + w3 * S.p[86 * S.s0 +
             i]);
-        x1 += w4 * S.p[82 * S.s0 + j] + w5 * S.p[82 * S.s0 + k] + (w6 * S.p[82 * S.s0 + m] + w7 * S.p[136 * S.s0 +
+        x1 += w4 * S.p[84 * S.s0 + j] + w5 * S.p[84 * S.s0 + k] + (w6 * S.p[84 * S.s0 + m] + w7 * S.p[136 * S.s0 +
             i]);
-        x2 += w4 * S.p[83 * S.s0 + j] + w5 * S.p[83 * S.s0 + k] + (w6 * S.p[83 * S.s0 + m] + w7 * S.p[137 * S.s0 +
+        x2 += w4 * S.p[85 * S.s0 + j] + w5 * S.p[85 * S.s0 + k] + (w6 * S.p[85 * S.s0 + m] + w7 * S.p[137 * S.s0 +
             i]);
-        x3 += w4 * S.p[84 * S.s0 + j] + w5 * S.p[84 * S.s0 + k] + (w6 * S.p[84 * S.s0 + m] + w7 * S.p[138 * S.s0 +
+        x3 += w4 * S.p[86 * S.s0 + j] + w5 * S.p[86 * S.s0 + k] + (w6 * S.p[86 * S.s0 + m] + w7 * S.p[138 * S.s0 +
             i]);
         S.p[6 * S.s0 + lane * B + b] = tangent * x1; S.p[7 * S.s0 + lane * B + b] = tangent * x2;
         S.p[8 * S.s0 + lane * B + b] = tangent * x3;
@@ -1306,7 +1293,7 @@ INLINE void lanes_moved(r2 S, int64_t B, int traced) {
         x1 = S.p[12 * S.s0 + i]; x2 = S.p[13 * S.s0 + i]; x3 = S.p[14 * S.s0 + i]; S.p[9 * S.s0 + i] = w1;
         S.p[10 * S.s0 + i] = w2; S.p[11 * S.s0 + i] = w3; S.p[12 * S.s0 + i] = v1; S.p[13 * S.s0 + i] = v2;
         S.p[14 * S.s0 + i] = v3; real d = S.p[47 * S.s0 + i], e = S.p[48 * S.s0 + i], f = S.p[49 * S.s0 + i];
-        real a = S.p[50 * S.s0 + i], b = S.p[51 * S.s0 + i], c = S.p[52 * S.s0 + i], tangent = S.p[81 * S.s0 + i];
+        real a = S.p[50 * S.s0 + i], b = S.p[51 * S.s0 + i], c = S.p[52 * S.s0 + i], tangent = S.p[83 * S.s0 + i];
         real y1 = d * S.p[37 * S.s0 + i] + e * S.p[40 * S.s0 + i] + f * S.p[43 * S.s0 + i];
         real y2 = d * S.p[38 * S.s0 + i] + e * S.p[41 * S.s0 + i] + f * S.p[44 * S.s0 + i];
         real y3 = d * S.p[39 * S.s0 + i] + e * S.p[42 * S.s0 + i] + f * S.p[45 * S.s0 + i];
@@ -1351,8 +1338,8 @@ INLINE int lanes_side_by_side(r2 S, int64_t B, int64_t columns, int traced, r3 f
             INDEPENDENT
             for (i = 0; i < end_1; i++) {
                 real t_2 = S.p[9 * S.s0 + i] * S.p[23 * S.s0 + i], t_3 = S.p[10 * S.s0 + i] * S.p[23 * S.s0 + i];
-                S.p[82 * S.s0 + i] = t_2; S.p[83 * S.s0 + i] = t_3;
-                S.p[84 * S.s0 + i] = S.p[11 * S.s0 + i] * S.p[23 * S.s0 + i];
+                S.p[84 * S.s0 + i] = t_2; S.p[85 * S.s0 + i] = t_3;
+                S.p[86 * S.s0 + i] = S.p[11 * S.s0 + i] * S.p[23 * S.s0 + i];
             }
         }
         else {
@@ -1375,16 +1362,20 @@ INLINE void long_run_show(r2 S, int64_t b, int64_t exponent, int64_t frame, r3 m
     traces, int follows, int going) {
     int64_t c;
     for (c = 0; c < 3; c++) {
-        momenta.p[b * momenta.s0 + frame * momenta.s1 + c] = going ? (real)ldexp(S.p[(110 + c) * S.s0 + b],
+        momenta.p[b * momenta.s0 + frame * momenta.s1 + c] = going ? (real)ldexp(S.p[(105 + c) * S.s0 + b],
             (int)(int64_t)exponent) : NAN;
-        verticals.p[b * verticals.s0 + frame * verticals.s1 + c] = going ? S.p[(113 + c) * S.s0 + b] : NAN;
+        verticals.p[b * verticals.s0 + frame * verticals.s1 + c] = going ? S.p[(108 + c) * S.s0 + b] : NAN;
     }
     if (follows) {
         for (c = 0; c < 4; c++)
-            attitudes.p[b * attitudes.s0 + frame * attitudes.s1 + c] = going ? S.p[(116 + c) * S.s0 + b] : NAN;
+            attitudes.p[b * attitudes.s0 + frame * attitudes.s1 + c] = going ? S.p[(111 + c) * S.s0 + b] : NAN;
         for (c = 0; c < 2; c++)
-            traces.p[b * traces.s0 + frame * traces.s1 + c] = going ? S.p[(120 + c) * S.s0 + b] : NAN;
+            traces.p[b * traces.s0 + frame * traces.s1 + c] = going ? S.p[(115 + c) * S.s0 + b] : NAN;
     }
+}
+
+INLINE t_r3 long_step_twist(real q0, real q1, real q2, real q3, real d0, real d1, real d2, real d3) {
+    t_r4 x = kernel_compose(q0, -q1, -q2, -q3, d0, d1, d2, d3); return (t_r3){2 * x.a1, 2 * x.a2, 2 * x.a3};
 }
 
 INLINE void rotation_n_guess(r3 past, r1 use, r2 E) {
@@ -2566,10 +2557,23 @@ INLINE real tangent_determinant(r2 T) {
     return T.p[0 * T.s0 + 0] * n1.a0 + T.p[0 * T.s0 + 1] * n1.a1 + T.p[0 * T.s0 + 2] * n1.a2;
 }
 
-INLINE int following_planned(r1 lane, real end, real step) {
-    real left = end - lane.p[0]; int64_t count = (int64_t)(left / step);
-    if (count * step < left * R(0x1.fffffff768fa1p-1)) count += 1;
-    real before = lane.p[1]; lane.p[3] = max_i(count, 1); lane.p[1] = left / lane.p[3]; return lane.p[1] != before;
+INLINE int64_t following_steps_in(real time, real step) {
+    int64_t count = (int64_t)(time / step);
+    return max_i(count * step >= time * R(0x1.fffffff768fa1p-1) ? count : count + 1, 1);
+}
+
+INLINE int following_aimed(r1 lane, int64_t frames, real interval) {
+    int64_t goal = frames - 1; real step = min_r(lane.p[13], lane.p[20]), time = lane.p[5] * interval - lane.p[0];
+    int64_t count = following_steps_in(time, lane.p[13]);
+    if (time >= R(0.7) * step * count) goal = (int64_t)lane.p[5];
+    else {
+        time = goal * interval - lane.p[0]; count = following_steps_in(time, step);
+    }
+    real before = lane.p[1]; lane.p[19] = goal; lane.p[3] = count; lane.p[1] = time / count;
+    if (real_abs(lane.p[1] - before) <= R(1e-09) * before) {
+        lane.p[1] = before; return 0;
+    }
+    return 1;
 }
 
 INLINE void carried_begun(r2 E, int64_t B, int64_t b, real J1, real J2, real J3, real start) {
@@ -2577,23 +2581,68 @@ INLINE void carried_begun(r2 E, int64_t B, int64_t b, real J1, real J2, real J3,
         int64_t i = lane * B + b;
         for (int64_t c = 0; c < 3; c++) E.p[(38 + c) * E.s0 + i] = c == lane ? 1 : 0;
         E.p[51 * E.s0 + i] = J1; E.p[52 * E.s0 + i] = J2; E.p[53 * E.s0 + i] = J3;
+        for (int64_t row = 59; row < 115; row++) E.p[row * E.s0 + i] = 0;
     }
-    for (int64_t row = 59; row < 98; row++) E.p[row * E.s0 + b] = 0;
     E.p[64 * E.s0 + b] = start * start; E.p[67 * E.s0 + b] = start * start; E.p[69 * E.s0 + b] = start * start;
 }
 
-INLINE int64_t following_taken_in(r2 S, r2 E, int64_t B, int64_t b, int64_t columns, int64_t i, r1 first, r1 start, r3
-    momenta, r3 verticals, r3 attitudes, r3 traces, r2 J0, r1 D0, r1 radius, real end, int follows, r2 sums, r2
-    beginning, r1 body, r1 state, r1 lane, r2 reported, int traced) {
+INLINE int64_t following_taken_in(r2 S, r2 E, int64_t B, int64_t b, int64_t columns, int64_t i, real first, real
+    allowed, real start, r3 momenta, r3 verticals, r3 attitudes, r3 traces, r2 J0, r1 D0, r1 radius, int64_t frames,
+    real interval, int follows, r2 sums, r2 beginning, r1 body, r1 state, r1 lane, r2 reported, int traced) {
     long_run_placed(body, i, momenta, verticals, attitudes, traces, follows, traced);
     for (int64_t i_0 = 0; i_0 < lane.n0; i_0++) lane.p[i_0] = 0;
-    lane.p[4] = i; lane.p[5] = 1; lane.p[10] = R(1e+300); following_planned(lane, end, first.p[i]);
+    lane.p[4] = i; lane.p[5] = 1; lane.p[18] = allowed; lane.p[13] = first; lane.p[10] = R(1e+300);
+    lane.p[20] = R(1e+300); following_aimed(lane, frames, interval);
     int64_t exponent = long_run_enter(S, B, b, columns, (r1){J0.p + i * J0.s0, J0.n1}, D0.p[i], radius.p[i],
         lane.p[1], sums, beginning, body, state);
     lane.p[2] = 2 * S.p[129 * S.s0 + b] / lane.p[1];
-    carried_begun(E, B, b, S.p[131 * S.s0 + b], S.p[132 * S.s0 + b], S.p[133 * S.s0 + b], start.p[i]);
-    for (int64_t c = 0; c < 5; c++) reported.p[i * reported.s0 + c] = 0;
+    carried_begun(E, B, b, S.p[131 * S.s0 + b], S.p[132 * S.s0 + b], S.p[133 * S.s0 + b], start);
+    for (int64_t c = 0; c < 9; c++) reported.p[i * reported.s0 + c] = 0;
     return exponent;
+}
+
+INLINE void carried_changes(r2 S, r2 E, int64_t B) {
+    int64_t c, at; real w, v; int64_t end_1 = 4 * B;
+    INDEPENDENT
+    for (int64_t i = 0; i < end_1; i++) {
+        real a0 = S.p[87 * S.s0 + i], a1 = S.p[88 * S.s0 + i], a2 = S.p[89 * S.s0 + i], a3 = S.p[90 * S.s0 + i];
+        real b0 = S.p[15 * S.s0 + i], b1 = S.p[16 * S.s0 + i], b2 = S.p[17 * S.s0 + i], b3 = S.p[18 * S.s0 + i];
+        real one = 1 / real_sqrt(a0 * a0 + a1 * a1 + (a2 * a2 + a3 * a3));
+        real two = 1 / real_sqrt(b0 * b0 + b1 * b1 + (b2 * b2 + b3 * b3));
+        for (c = 0; c < 3; c++) {
+            w = S.p[(73 + 2 * c) * S.s0 + i] * one; v = S.p[(73 + 2 * c + 1) * S.s0 + i] * two;
+            E.p[(100 + 4 * c) * E.s0 + i] = w * a0 + v * b0; E.p[(100 + 4 * c + 1) * E.s0 + i] = w * a1 + v * b1;
+            E.p[(100 + 4 * c + 2) * E.s0 + i] = w * a2 + v * b2; E.p[(100 + 4 * c + 3) * E.s0 + i] = w * a3 + v * b3;
+        }
+        for (c = 0; c < 3; c++) {
+            at = 112 + c;
+            E.p[at * E.s0 + i] = S.p[73 * S.s0 + i] * S.p[(91 + c) * S.s0 + i] + S.p[74 * S.s0 + i] * S.p[(19 + c) *
+                S.s0 + i];
+        }
+    }
+    int64_t row, b;
+    for (row = 100; row < 115; row++) {
+        INDEPENDENT
+        for (b = 0; b < B; b++)
+            E.p[row * E.s0 + b] = E.p[row * E.s0 + b] + E.p[row * E.s0 + B + b] + (E.p[row * E.s0 + 2 * B + b] +
+                E.p[row * E.s0 + 3 * B + b]);
+    }
+    for (c = 0; c < 3; c++) {
+        INDEPENDENT
+        for (b = 0; b < B; b++) {
+            at = 118 + 3 * c; row = 100 + 4 * c;
+            t_r3 t_2 = long_step_twist(S.p[94 * S.s0 + b], S.p[95 * S.s0 + b], S.p[96 * S.s0 + b], S.p[97 * S.s0 + b],
+                E.p[row * E.s0 + b], E.p[(row + 1) * E.s0 + b], E.p[(row + 2) * E.s0 + b], E.p[(row + 3) * E.s0 + b]);
+            S.p[at * S.s0 + b] = t_2.a0; S.p[(at + 1) * S.s0 + b] = t_2.a1; S.p[(at + 2) * S.s0 + b] = t_2.a2;
+        }
+    }
+    INDEPENDENT
+    for (b = 0; b < B; b++) {
+        at = 47; row = 112;
+        t_r3 t_3 = kernel_rotate(E.p[at * E.s0 + b], E.p[(at + 1) * E.s0 + b], E.p[(at + 2) * E.s0 + b], E.p[(at + 3)
+            * E.s0 + b], E.p[row * E.s0 + b], E.p[(row + 1) * E.s0 + b], E.p[(row + 2) * E.s0 + b]);
+        S.p[127 * S.s0 + b] = t_3.a0; S.p[128 * S.s0 + b] = t_3.a1;
+    }
 }
 
 INLINE void carried_tangent(r2 S, r2 E, int64_t B, int64_t at, int traced) {
@@ -2601,7 +2650,7 @@ INLINE void carried_tangent(r2 S, r2 E, int64_t B, int64_t at, int traced) {
     for (int64_t row = 0; row < 10; row++) {
         INDEPENDENT
         for (int64_t b = 0; b < B; b++) {
-            one = S.p[(110 + row) * S.s0 + b]; E.p[(41 + row) * E.s0 + b] = one; E.p[(41 + row) * E.s0 + B + b] = one;
+            one = S.p[(105 + row) * S.s0 + b]; E.p[(41 + row) * E.s0 + b] = one; E.p[(41 + row) * E.s0 + B + b] = one;
             E.p[(41 + row) * E.s0 + 2 * B + b] = one; E.p[(41 + row) * E.s0 + 3 * B + b] = one;
         }
     }
@@ -2695,23 +2744,23 @@ INLINE void carried_flown(r2 E, int64_t B, int traced) {
         real c2 = twelfth * E.p[26 * E.s0 + k] - half * E.p[23 * E.s0 + k];
         real c3 = 1 - half * E.p[24 * E.s0 + k] + twelfth * E.p[27 * E.s0 + k], r1 = b2 * c3 - b3 * c2;
         real r2 = b3 * c1 - b1 * c3, r3 = b1 * c2 - b2 * c1, over = 1 / (a1 * r1 + a2 * r2 + a3 * r3);
-        E.p[87 * E.s0 + b] = over * r1; E.p[88 * E.s0 + b] = over * r2; E.p[89 * E.s0 + b] = over * r3;
-        E.p[90 * E.s0 + b] = over * (c2 * a3 - c3 * a2); E.p[91 * E.s0 + b] = over * (c3 * a1 - c1 * a3);
-        E.p[92 * E.s0 + b] = over * (c1 * a2 - c2 * a1); E.p[93 * E.s0 + b] = over * (a2 * b3 - a3 * b2);
-        E.p[94 * E.s0 + b] = over * (a3 * b1 - a1 * b3); E.p[95 * E.s0 + b] = over * (a1 * b2 - a2 * b1);
-        E.p[96 * E.s0 + b] = half; E.p[97 * E.s0 + b] = twelfth;
+        E.p[89 * E.s0 + b] = over * r1; E.p[90 * E.s0 + b] = over * r2; E.p[91 * E.s0 + b] = over * r3;
+        E.p[92 * E.s0 + b] = over * (c2 * a3 - c3 * a2); E.p[93 * E.s0 + b] = over * (c3 * a1 - c1 * a3);
+        E.p[94 * E.s0 + b] = over * (c1 * a2 - c2 * a1); E.p[95 * E.s0 + b] = over * (a2 * b3 - a3 * b2);
+        E.p[96 * E.s0 + b] = over * (a3 * b1 - a1 * b3); E.p[97 * E.s0 + b] = over * (a1 * b2 - a2 * b1);
+        E.p[98 * E.s0 + b] = half; E.p[99 * E.s0 + b] = twelfth;
     }
     int64_t column; real x, y, z;
     for (column = 0; column < 3; column++) {
         INDEPENDENT
         for (b = 0; b < B; b++) {
-            i = column * B + b; half = E.p[96 * E.s0 + b]; twelfth = E.p[97 * E.s0 + b];
+            i = column * B + b; half = E.p[98 * E.s0 + b]; twelfth = E.p[99 * E.s0 + b];
             x = E.p[38 * E.s0 + i] + half * E.p[3 * E.s0 + i] + twelfth * E.p[6 * E.s0 + i];
             y = E.p[39 * E.s0 + i] + half * E.p[4 * E.s0 + i] + twelfth * E.p[7 * E.s0 + i];
             z = E.p[40 * E.s0 + i] + half * E.p[5 * E.s0 + i] + twelfth * E.p[8 * E.s0 + i];
-            E.p[54 * E.s0 + i] = E.p[87 * E.s0 + b] * x + E.p[88 * E.s0 + b] * y + E.p[89 * E.s0 + b] * z;
-            E.p[55 * E.s0 + i] = E.p[90 * E.s0 + b] * x + E.p[91 * E.s0 + b] * y + E.p[92 * E.s0 + b] * z;
-            E.p[56 * E.s0 + i] = E.p[93 * E.s0 + b] * x + E.p[94 * E.s0 + b] * y + E.p[95 * E.s0 + b] * z;
+            E.p[54 * E.s0 + i] = E.p[89 * E.s0 + b] * x + E.p[90 * E.s0 + b] * y + E.p[91 * E.s0 + b] * z;
+            E.p[55 * E.s0 + i] = E.p[92 * E.s0 + b] * x + E.p[93 * E.s0 + b] * y + E.p[94 * E.s0 + b] * z;
+            E.p[56 * E.s0 + i] = E.p[95 * E.s0 + b] * x + E.p[96 * E.s0 + b] * y + E.p[97 * E.s0 + b] * z;
         }
     }
     carried_kept(E, B);
@@ -2720,7 +2769,7 @@ INLINE void carried_flown(r2 E, int64_t B, int traced) {
         for (column = 0; column < 3; column++) {
             INDEPENDENT
             for (b = 0; b < B; b++) {
-                i = column * B + b; half = E.p[96 * E.s0 + b]; twelfth = E.p[97 * E.s0 + b];
+                i = column * B + b; half = E.p[98 * E.s0 + b]; twelfth = E.p[99 * E.s0 + b];
                 x = half * E.p[9 * E.s0 + i] + twelfth * E.p[11 * E.s0 + i];
                 y = half * E.p[10 * E.s0 + i] + twelfth * E.p[12 * E.s0 + i];
                 for (c = 0; c < 3; c++) {
@@ -2734,52 +2783,83 @@ INLINE void carried_flown(r2 E, int64_t B, int traced) {
     }
 }
 
+INLINE void carried_leave(r2 S, r2 E, int64_t B, int traced) {
+    int64_t b;
+    INDEPENDENT
+    for (b = 0; b < B; b++) {
+        E.p[83 * E.s0 + b] = 0; E.p[84 * E.s0 + b] = 0; E.p[85 * E.s0 + b] = 0;
+    }
+    int64_t i, j, k, lane; real part, v1, v2, v3; int64_t at; real l1, l2, l3, x, y, z;
+    for (int64_t c = 0; c < 3; c++) {
+        INDEPENDENT
+        for (b = 0; b < B; b++) {
+            i = b; j = B + b; k = 2 * B + b; lane = c * B + b; part = E.p[(79 + c) * E.s0 + b];
+            v1 = E.p[59 * E.s0 + lane]; v2 = E.p[60 * E.s0 + lane]; v3 = E.p[61 * E.s0 + lane]; at = 118 + 3 * c;
+            l1 = E.p[54 * E.s0 + i] * v1 + E.p[54 * E.s0 + j] * v2 + E.p[54 * E.s0 + k] * v3 + part * S.p[at * S.s0 +
+                b];
+            l2 = E.p[55 * E.s0 + i] * v1 + E.p[55 * E.s0 + j] * v2 + E.p[55 * E.s0 + k] * v3 + part * S.p[(at + 1) *
+                S.s0 + b];
+            l3 = E.p[56 * E.s0 + i] * v1 + E.p[56 * E.s0 + j] * v2 + E.p[56 * E.s0 + k] * v3 + part * S.p[(at + 2) *
+                S.s0 + b];
+            E.p[59 * E.s0 + lane] = l1; E.p[60 * E.s0 + lane] = l2; E.p[61 * E.s0 + lane] = l3; at = 19;
+            x = E.p[at * E.s0 + i] * l1 + E.p[at * E.s0 + j] * l2 + E.p[at * E.s0 + k] * l3;
+            y = E.p[(at + 1) * E.s0 + i] * l1 + E.p[(at + 1) * E.s0 + j] * l2 + E.p[(at + 1) * E.s0 + k] * l3;
+            z = E.p[(at + 2) * E.s0 + i] * l1 + E.p[(at + 2) * E.s0 + j] * l2 + E.p[(at + 2) * E.s0 + k] * l3;
+            E.p[83 * E.s0 + b] += l1 * l1 + l2 * l2 + l3 * l3; E.p[84 * E.s0 + b] += x * x + y * y + z * z;
+            if (traced) {
+                at = 57; part = E.p[79 * E.s0 + b];
+                x = E.p[at * E.s0 + i] * v1 + E.p[at * E.s0 + j] * v2 + E.p[at * E.s0 + k] * v3 + part * S.p[127 *
+                    S.s0 + b];
+                y = E.p[(at + 1) * E.s0 + i] * v1 + E.p[(at + 1) * E.s0 + j] * v2 + E.p[(at + 1) * E.s0 + k] * v3 +
+                    part * S.p[128 * S.s0 + b];
+                x = E.p[62 * E.s0 + lane] + x; y = E.p[63 * E.s0 + lane] + y; E.p[62 * E.s0 + lane] = x;
+                E.p[63 * E.s0 + lane] = y; E.p[85 * E.s0 + b] += x * x + y * y;
+            }
+        }
+    }
+    INDEPENDENT
+    for (b = 0; b < B; b++) {
+        real t_1 = real_sqrt(E.p[83 * E.s0 + b]), t_2 = real_sqrt(E.p[84 * E.s0 + b]);
+        real t_3 = real_sqrt(E.p[85 * E.s0 + b]); E.p[83 * E.s0 + b] = t_1; E.p[84 * E.s0 + b] = t_2;
+        E.p[85 * E.s0 + b] = t_3;
+    }
+}
+
 INLINE void carried_carry(r2 S, r2 E, int64_t B, int traced) {
-    carried_flown(E, B, traced); int64_t i; real x, y, z, off, x1, x2, x3, y1, y2, y3, m1, m2, m3, n1, n2, n3, u1, u2;
-    real u3;
+    carried_flown(E, B, traced); carried_leave(S, E, B, traced); int64_t i; real x, y, z, x1, x2, x3, y1, y2, y3, m1;
+    real m2, m3, n1, n2, n3, u1, u2, u3, v1, v2, v3;
     INDEPENDENT
     for (int64_t b = 0; b < B; b++) {
         i = b; int64_t j = B + b, k = 2 * B + b; real a1 = E.p[54 * E.s0 + i], a2 = E.p[55 * E.s0 + i];
         real a3 = E.p[56 * E.s0 + i], b1 = E.p[54 * E.s0 + j], b2 = E.p[55 * E.s0 + j], b3 = E.p[56 * E.s0 + j];
-        real c1 = E.p[54 * E.s0 + k], c2 = E.p[55 * E.s0 + k], c3 = E.p[56 * E.s0 + k], share = E.p[79 * E.s0 + b];
-        real error = E.p[80 * E.s0 + b], v1 = E.p[59 * E.s0 + b], v2 = E.p[60 * E.s0 + b], v3 = E.p[61 * E.s0 + b];
-        real l1 = a1 * v1 + b1 * v2 + c1 * v3 + share * S.p[124 * S.s0 + b];
-        real l2 = a2 * v1 + b2 * v2 + c2 * v3 + share * S.p[125 * S.s0 + b];
-        real l3 = a3 * v1 + b3 * v2 + c3 * v3 + share * S.p[126 * S.s0 + b]; E.p[59 * E.s0 + b] = l1;
-        E.p[60 * E.s0 + b] = l2; E.p[61 * E.s0 + b] = l3; real s11 = E.p[64 * E.s0 + b], s12 = E.p[65 * E.s0 + b];
-        real s13 = E.p[66 * E.s0 + b], s22 = E.p[67 * E.s0 + b], s23 = E.p[68 * E.s0 + b], s33 = E.p[69 * E.s0 + b];
-        real p11 = a1 * s11 + b1 * s12 + c1 * s13, p12 = a1 * s12 + b1 * s22 + c1 * s23;
-        real p13 = a1 * s13 + b1 * s23 + c1 * s33, p21 = a2 * s11 + b2 * s12 + c2 * s13;
-        real p22 = a2 * s12 + b2 * s22 + c2 * s23, p23 = a2 * s13 + b2 * s23 + c2 * s33;
-        real p31 = a3 * s11 + b3 * s12 + c3 * s13, p32 = a3 * s12 + b3 * s22 + c3 * s23;
-        real p33 = a3 * s13 + b3 * s23 + c3 * s33, e11 = p11 * a1 + p12 * b1 + p13 * c1;
-        real e12 = p11 * a2 + p12 * b2 + p13 * c2, e13 = p11 * a3 + p12 * b3 + p13 * c3;
-        real e22 = p21 * a2 + p22 * b2 + p23 * c2, e23 = p21 * a3 + p22 * b3 + p23 * c3;
-        real e33 = p31 * a3 + p32 * b3 + p33 * c3; e11 = e11 + error; e22 = e22 + error; e33 = e33 + error;
-        E.p[64 * E.s0 + b] = e11; E.p[65 * E.s0 + b] = e12; E.p[66 * E.s0 + b] = e13; E.p[67 * E.s0 + b] = e22;
-        E.p[68 * E.s0 + b] = e23; E.p[69 * E.s0 + b] = e33;
-        E.p[81 * E.s0 + b] = real_sqrt(l1 * l1 + l2 * l2 + l3 * l3); E.p[84 * E.s0 + b] = real_sqrt(e11 + e22 + e33);
-        real spun = 0, rounded = 0;
+        real c1 = E.p[54 * E.s0 + k], c2 = E.p[55 * E.s0 + k], c3 = E.p[56 * E.s0 + k], error = E.p[82 * E.s0 + b];
+        real s11 = E.p[64 * E.s0 + b], s12 = E.p[65 * E.s0 + b], s13 = E.p[66 * E.s0 + b], s22 = E.p[67 * E.s0 + b];
+        real s23 = E.p[68 * E.s0 + b], s33 = E.p[69 * E.s0 + b], p11 = a1 * s11 + b1 * s12 + c1 * s13;
+        real p12 = a1 * s12 + b1 * s22 + c1 * s23, p13 = a1 * s13 + b1 * s23 + c1 * s33;
+        real p21 = a2 * s11 + b2 * s12 + c2 * s13, p22 = a2 * s12 + b2 * s22 + c2 * s23;
+        real p23 = a2 * s13 + b2 * s23 + c2 * s33, p31 = a3 * s11 + b3 * s12 + c3 * s13;
+        real p32 = a3 * s12 + b3 * s22 + c3 * s23, p33 = a3 * s13 + b3 * s23 + c3 * s33;
+        real e11 = p11 * a1 + p12 * b1 + p13 * c1, e12 = p11 * a2 + p12 * b2 + p13 * c2;
+        real e13 = p11 * a3 + p12 * b3 + p13 * c3, e22 = p21 * a2 + p22 * b2 + p23 * c2;
+        real e23 = p21 * a3 + p22 * b3 + p23 * c3, e33 = p31 * a3 + p32 * b3 + p33 * c3; e11 = e11 + error;
+        e22 = e22 + error; e33 = e33 + error; E.p[64 * E.s0 + b] = e11; E.p[65 * E.s0 + b] = e12;
+        E.p[66 * E.s0 + b] = e13; E.p[67 * E.s0 + b] = e22; E.p[68 * E.s0 + b] = e23; E.p[69 * E.s0 + b] = e33;
+        real rounded = 0;
         for (int64_t c = 0; c < 3; c++) {
             x = E.p[(19 + c) * E.s0 + i]; y = E.p[(19 + c) * E.s0 + j]; z = E.p[(19 + c) * E.s0 + k];
-            off = x * l1 + y * l2 + z * l3; spun += off * off;
             rounded += x * (x * e11 + 2 * (y * e12 + z * e13)) + y * (y * e22 + 2 * z * e23) + z * z * e33;
         }
-        E.p[82 * E.s0 + b] = real_sqrt(spun); E.p[85 * E.s0 + b] = real_sqrt(max_r(rounded, 0));
+        E.p[86 * E.s0 + b] = real_sqrt(e11 + e22 + e33); E.p[87 * E.s0 + b] = real_sqrt(max_r(rounded, 0));
         if (traced) {
             x1 = E.p[57 * E.s0 + i]; x2 = E.p[57 * E.s0 + j]; x3 = E.p[57 * E.s0 + k]; y1 = E.p[58 * E.s0 + i];
-            y2 = E.p[58 * E.s0 + j]; y3 = E.p[58 * E.s0 + k];
-            x = E.p[62 * E.s0 + b] + (x1 * v1 + x2 * v2 + x3 * v3) + share * S.p[127 * S.s0 + b];
-            y = E.p[63 * E.s0 + b] + (y1 * v1 + y2 * v2 + y3 * v3) + share * S.p[128 * S.s0 + b];
-            E.p[62 * E.s0 + b] = x; E.p[63 * E.s0 + b] = y; E.p[83 * E.s0 + b] = real_sqrt(x * x + y * y);
-            m1 = E.p[70 * E.s0 + b]; m2 = E.p[71 * E.s0 + b]; m3 = E.p[72 * E.s0 + b]; n1 = E.p[73 * E.s0 + b];
-            n2 = E.p[74 * E.s0 + b]; n3 = E.p[75 * E.s0 + b]; u1 = x1 * s11 + x2 * s12 + x3 * s13 + m1;
-            u2 = x1 * s12 + x2 * s22 + x3 * s23 + m2; u3 = x1 * s13 + x2 * s23 + x3 * s33 + m3;
-            v1 = y1 * s11 + y2 * s12 + y3 * s13 + n1; v2 = y1 * s12 + y2 * s22 + y3 * s23 + n2;
-            v3 = y1 * s13 + y2 * s23 + y3 * s33 + n3;
+            y2 = E.p[58 * E.s0 + j]; y3 = E.p[58 * E.s0 + k]; m1 = E.p[70 * E.s0 + b]; m2 = E.p[71 * E.s0 + b];
+            m3 = E.p[72 * E.s0 + b]; n1 = E.p[73 * E.s0 + b]; n2 = E.p[74 * E.s0 + b]; n3 = E.p[75 * E.s0 + b];
+            u1 = x1 * s11 + x2 * s12 + x3 * s13 + m1; u2 = x1 * s12 + x2 * s22 + x3 * s23 + m2;
+            u3 = x1 * s13 + x2 * s23 + x3 * s33 + m3; v1 = y1 * s11 + y2 * s12 + y3 * s13 + n1;
+            v2 = y1 * s12 + y2 * s22 + y3 * s23 + n2; v3 = y1 * s13 + y2 * s23 + y3 * s33 + n3;
             x = E.p[76 * E.s0 + b] + (u1 * x1 + u2 * x2 + u3 * x3 + (m1 * x1 + m2 * x2 + m3 * x3) + error);
             y = E.p[77 * E.s0 + b] + (v1 * y1 + v2 * y2 + v3 * y3 + (n1 * y1 + n2 * y2 + n3 * y3) + error);
-            E.p[76 * E.s0 + b] = x; E.p[77 * E.s0 + b] = y; E.p[86 * E.s0 + b] = real_sqrt(max_r(x + y, 0));
+            E.p[76 * E.s0 + b] = x; E.p[77 * E.s0 + b] = y; E.p[88 * E.s0 + b] = real_sqrt(max_r(x + y, 0));
             E.p[70 * E.s0 + b] = u1 * a1 + u2 * b1 + u3 * c1; E.p[71 * E.s0 + b] = u1 * a2 + u2 * b2 + u3 * c2;
             E.p[72 * E.s0 + b] = u1 * a3 + u2 * b3 + u3 * c3; E.p[73 * E.s0 + b] = v1 * a1 + v2 * b1 + v3 * c1;
             E.p[74 * E.s0 + b] = v1 * a2 + v2 * b2 + v3 * c2; E.p[75 * E.s0 + b] = v1 * a3 + v2 * b3 + v3 * c3;
@@ -2792,8 +2872,16 @@ INLINE void carried_carry(r2 S, r2 E, int64_t B, int traced) {
     }
 }
 
-INLINE real following_left(real doubt, real rough) {
-    return rough > 0 ? 2 * min_r(doubt / rough, 1) : 0;
+INLINE t_r4 following_left(r2 S, int64_t b, real start) {
+    int64_t at = 118;
+    real x = real_sqrt(S.p[at * S.s0 + b] * S.p[at * S.s0 + b] + S.p[(at + 1) * S.s0 + b] * S.p[(at + 1) * S.s0 + b] +
+        S.p[(at + 2) * S.s0 + b] * S.p[(at + 2) * S.s0 + b]), y = real_sqrt(S.p[(at + 3) * S.s0 + b] * S.p[(at + 3) *
+        S.s0 + b] + S.p[(at + 4) * S.s0 + b] * S.p[(at + 4) * S.s0 + b] + S.p[(at + 5) * S.s0 + b] * S.p[(at + 5) *
+        S.s0 + b]), z = real_sqrt(S.p[(at + 6) * S.s0 + b] * S.p[(at + 6) * S.s0 + b] + S.p[(at + 7) * S.s0 + b] *
+        S.p[(at + 7) * S.s0 + b] + S.p[(at + 8) * S.s0 + b] * S.p[(at + 8) * S.s0 + b]);
+    real rounded = R(2e-15) + 10 * start, last = max_r(x - rounded, 0), middle = max_r(y - rounded, 0);
+    if (!(middle > 0 && z > 0)) return (t_r4){0, x, y, z};
+    last = max_r(last, middle * min_r(middle / z, 1)); return (t_r4){2 * last * min_r(last / middle, 1), x, y, z};
 }
 
 INLINE real following_lengthened(real ratio) {
@@ -2801,8 +2889,8 @@ INLINE real following_lengthened(real ratio) {
     return 1 / (root * real_sqrt(root));
 }
 
-INLINE real following_part_of(r1 lane, int64_t frame, int64_t frames, real interval) {
-    if (frame == frames - 1 && lane.p[3] <= 1) return 1;
+INLINE real following_part_of(r1 lane, int64_t frame, real interval) {
+    if (frame == lane.p[19] && lane.p[3] <= 1) return 1;
     return (frame * interval - lane.p[0]) / lane.p[1];
 }
 
@@ -2954,16 +3042,22 @@ INLINE void following_stopped_at(int64_t i, int64_t frame, r3 momenta, r3 vertic
     }
 }
 
-INLINE void following_recorded(r2 E, int64_t b, int64_t i, r1 lane, r2 reported) {
-    reported.p[i * reported.s0 + 4] += 1; real cautious = 4 + 32 / reported.p[i * reported.s0 + 4], off = lane.p[14];
+INLINE void following_recorded(r2 E, int64_t b, int64_t i, real end, real allowed, real most, r1 lane, r2 reported) {
+    reported.p[i * reported.s0 + 4] += 1; real cautious = 12 + 32 / reported.p[i * reported.s0 + 4], off = lane.p[14];
     real out = lane.p[15], speed = lane.p[11] / lane.p[2];
-    reported.p[i * reported.s0 + 3] = max_r(reported.p[i * reported.s0 + 3], E.p[84 * E.s0 + b]);
-    reported.p[i * reported.s0 + 0] = max_r(reported.p[i * reported.s0 + 0], cautious * E.p[81 * E.s0 + b] + E.p[84 *
+    reported.p[i * reported.s0 + 3] = max_r(reported.p[i * reported.s0 + 3], E.p[86 * E.s0 + b]);
+    reported.p[i * reported.s0 + 0] = max_r(reported.p[i * reported.s0 + 0], cautious * E.p[83 * E.s0 + b] + E.p[86 *
         E.s0 + b] + off);
-    reported.p[i * reported.s0 + 2] = max_r(reported.p[i * reported.s0 + 2], cautious * E.p[83 * E.s0 + b] + E.p[86 *
+    reported.p[i * reported.s0 + 2] = max_r(reported.p[i * reported.s0 + 2], cautious * E.p[85 * E.s0 + b] + E.p[88 *
         E.s0 + b] + out);
-    lane.p[7] = max_r(lane.p[7], speed);
-    lane.p[8] = max_r(lane.p[8], cautious * E.p[82 * E.s0 + b] + E.p[85 * E.s0 + b] + off * speed);
+    lane.p[7] = max_r(lane.p[7], speed); reported.p[i * reported.s0 + 5] += lane.p[21];
+    reported.p[i * reported.s0 + 6] = max_r(reported.p[i * reported.s0 + 6], E.p[83 * E.s0 + b]);
+    reported.p[i * reported.s0 + 7] = max_r(reported.p[i * reported.s0 + 7], E.p[85 * E.s0 + b]);
+    reported.p[i * reported.s0 + 8] = lane.p[22];
+    real left = max_r(reported.p[i * reported.s0 + 0], reported.p[i * reported.s0 + 2]);
+    real share = R(0.1) + R(0.9) * (lane.p[0] + lane.p[1]) / end;
+    lane.p[18] = left > 0 ? allowed * min_r(max_r(R(0.4) * most * share / left, R(0.02)), 2) : allowed;
+    lane.p[8] = max_r(lane.p[8], cautious * E.p[84 * E.s0 + b] + E.p[87 * E.s0 + b] + off * speed);
 }
 
 INLINE void following_shown(r1 body, int64_t exponent, int64_t i, int64_t frame, r3 momenta, r3 verticals, r3
@@ -3029,9 +3123,9 @@ INLINE void expected_surveyed(r2 momenta, r2 verticals, r2 J0, r1 D0, r1 unit, r
             unit.p[i];
         found.p[i * found.s0 + 4] = R(0x1.0000000000000p-53) * ((1 + turned) * (2 * root + 1) + 8 * condition) *
             unit.p[i];
-        real allowed = end > 0 ? 1 * accuracy / unit.p[i] / 16 / end : 1;
+        real allowed = end > 0 ? 1 * accuracy / unit.p[i] / 192 / end : 1;
         real part = rate > 0 ? real_sqrt(real_sqrt(real_sqrt(real_sqrt(min_r(allowed / (R(3e-09) * rate), 1))))) : 1;
-        part = R(1.3) * part * real_sqrt(part);
+        part = R(1.7) * part * real_sqrt(part);
         found.p[i * found.s0 + 5] = rate * end > part ? min_r(part / rate, end) : end;
         found.p[i * found.s0 + 6] = allowed;
     }
@@ -3343,38 +3437,48 @@ INLINE t_ir8 long_step_column(r1 body, real half, int64_t n, real square, r1 sta
 }
 
 INLINE t_ir long_step_long_step(r1 body, real half, real radius, r2 sums, r1 state) {
-    real q0 = 0, q1 = 0, q2 = 0, q3 = 0, d0 = 0, d1 = 0, d2 = 0, d3 = 0, e0 = 0, e1 = 0, e2 = 0, e3 = 0, y1 = 0;
-    real y2 = 0, y3 = 0, z1 = 0, z2 = 0, z3 = 0;
+    real q0 = 0, q1 = 0, q2 = 0, q3 = 0; ALIGNED real changes_[3 * 4]; memset(changes_, 0, sizeof changes_);
+    r2 changes = {changes_, 3, 4, 4}; real y1 = 0, y2 = 0, y3 = 0, z1 = 0, z2 = 0, z3 = 0;
     t_r3 w1 = kernel_angular_velocity(body.p[0], body.p[1], body.p[2], body.p[3], body.p[4], body.p[5], state.p[18],
         state.p[19], state.p[20], state.p[24]);
-    int64_t first = 8 - sums.n1; real square = fitted_turn_square(2 * half, first, w1.a0, w1.a1, w1.a2);
+    int64_t first = 8 - sums.n1; real square = fitted_turn_square(2 * half, first, w1.a0, w1.a1, w1.a2); int64_t c;
     for (int64_t i = 0; i < sums.n1; i++) {
         t_ir8 status = long_step_column(body, half, first + i, square, state);
         if (status.a0 != 0) return (t_ir){status.a0, status.a1};
-        real w = sums.p[0 * sums.s0 + i], v = sums.p[1 * sums.s0 + i], z = sums.p[2 * sums.s0 + i];
-        q0 = q0 + w * status.a2; q1 = q1 + w * status.a3; q2 = q2 + w * status.a4; q3 = q3 + w * status.a5;
-        d0 = d0 + v * status.a2; d1 = d1 + v * status.a3; d2 = d2 + v * status.a4; d3 = d3 + v * status.a5;
-        e0 = e0 + z * status.a2; e1 = e1 + z * status.a3; e2 = e2 + z * status.a4; e3 = e3 + z * status.a5;
-        y1 = y1 + w * status.a6; y2 = y2 + w * status.a7; y3 = y3 + w * status.a8; z1 = z1 + v * status.a6;
-        z2 = z2 + v * status.a7; z3 = z3 + v * status.a8;
+        real w = sums.p[0 * sums.s0 + i], v = sums.p[1 * sums.s0 + i]; q0 = q0 + w * status.a2;
+        q1 = q1 + w * status.a3; q2 = q2 + w * status.a4; q3 = q3 + w * status.a5; y1 = y1 + w * status.a6;
+        y2 = y2 + w * status.a7; y3 = y3 + w * status.a8; z1 = z1 + v * status.a6; z2 = z2 + v * status.a7;
+        z3 = z3 + v * status.a8;
+        for (c = 0; c < 3; c++) {
+            w = sums.p[(1 + c) * sums.s0 + i]; real t_1 = changes.p[c * changes.s0 + 0] + w * status.a2;
+            real t_2 = changes.p[c * changes.s0 + 1] + w * status.a3; changes.p[c * changes.s0 + 0] = t_1;
+            changes.p[c * changes.s0 + 1] = t_2; real t_3 = changes.p[c * changes.s0 + 2] + w * status.a4;
+            real t_4 = changes.p[c * changes.s0 + 3] + w * status.a5; changes.p[c * changes.s0 + 2] = t_3;
+            changes.p[c * changes.s0 + 3] = t_4;
+        }
     }
-    t_r3 t_1 = kernel_rotate(body.p[6], body.p[7], body.p[8], body.p[9], z1, z2, z3); body.p[17] = t_1.a0;
-    body.p[18] = t_1.a1;
-    t_r12 t_2 = long_step_moved_body(body.p[0], body.p[1], body.p[2], body.p[3], body.p[4], body.p[5], body.p[6],
+    t_r3 t_5 = kernel_rotate(body.p[6], body.p[7], body.p[8], body.p[9], z1, z2, z3); body.p[22] = t_5.a0;
+    body.p[23] = t_5.a1;
+    t_r12 t_6 = long_step_moved_body(body.p[0], body.p[1], body.p[2], body.p[3], body.p[4], body.p[5], body.p[6],
         body.p[7], body.p[8], body.p[9], body.p[10], body.p[11], q0, q1, q2, q3, y1, y2, y3, radius);
-    body.p[0] = t_2.a0; body.p[1] = t_2.a1; body.p[2] = t_2.a2; body.p[3] = t_2.a3; body.p[4] = t_2.a4;
-    body.p[5] = t_2.a5; body.p[6] = t_2.a6; body.p[7] = t_2.a7; body.p[8] = t_2.a8; body.p[9] = t_2.a9;
-    body.p[10] = t_2.a10; body.p[11] = t_2.a11; body.p[12] += 2 * real_sqrt(d0 * d0 + d1 * d1 + (d2 * d2 + d3 * d3));
-    body.p[13] = 2 * real_sqrt(e0 * e0 + e1 * e1 + (e2 * e2 + e3 * e3));
-    t_r4 t_3 = kernel_compose(q0, -q1, -q2, -q3, d0, d1, d2, d3); d1 = t_3.a1; d2 = t_3.a2; d3 = t_3.a3;
-    body.p[14] = 2 * d1; body.p[15] = 2 * d2; body.p[16] = 2 * d3; return (t_ir){0, 1};
+    body.p[0] = t_6.a0; body.p[1] = t_6.a1; body.p[2] = t_6.a2; body.p[3] = t_6.a3; body.p[4] = t_6.a4;
+    body.p[5] = t_6.a5; body.p[6] = t_6.a6; body.p[7] = t_6.a7; body.p[8] = t_6.a8; body.p[9] = t_6.a9;
+    body.p[10] = t_6.a10; body.p[11] = t_6.a11;
+    for (c = 0; c < 3; c++) {
+        real d0 = changes.p[c * changes.s0 + 0], d1 = changes.p[c * changes.s0 + 1];
+        real d2 = changes.p[c * changes.s0 + 2], d3 = changes.p[c * changes.s0 + 3];
+        if (c == 0) body.p[12] += 2 * real_sqrt(d0 * d0 + d1 * d1 + (d2 * d2 + d3 * d3));
+        int64_t at = 13 + 3 * c; t_r3 t_7 = long_step_twist(q0, q1, q2, q3, d0, d1, d2, d3); body.p[at] = t_7.a0;
+        body.p[at + 1] = t_7.a1; body.p[at + 2] = t_7.a2;
+    }
+    return (t_ir){0, 1};
 }
 
 OUT_OF_LINE t_ir long_run_safely(r2 S, int64_t b, r2 sums, r1 state) {
-    ALIGNED real body_[19]; r1 body = {body_, 19};
-    for (int64_t c = 0; c < 19; c++) body.p[c] = S.p[(110 + c) * S.s0 + b];
+    ALIGNED real body_[24]; r1 body = {body_, 24};
+    for (int64_t c = 0; c < 24; c++) body.p[c] = S.p[(105 + c) * S.s0 + b];
     t_ir status = long_step_long_step(body, S.p[129 * S.s0 + b], S.p[130 * S.s0 + b], sums, state);
-    for (int64_t c = 0; c < 19; c++) S.p[(110 + c) * S.s0 + b] = body.p[c];
+    for (int64_t c = 0; c < 24; c++) S.p[(105 + c) * S.s0 + b] = body.p[c];
     return (t_ir){status.a0, status.a1};
 }
 
@@ -3384,7 +3488,7 @@ INLINE void long_run_march_lanes(int64_t B, r3 momenta, r3 verticals, r3 attitud
     ALIGNED real S_[139 * (4 * B)]; memset(S_, 0, sizeof S_); r2 S = {S_, 139, (4 * B), (4 * B)};
     int64_t columns = sums.n1; ALIGNED real states_[B * 27]; memset(states_, 0, sizeof states_);
     r2 states = {states_, B, 27, 27}; ALIGNED int64_t exponents_[B]; memset(exponents_, 0, sizeof exponents_);
-    i1 exponents = {exponents_, B}; ALIGNED real body_[19]; memset(body_, 0, sizeof body_); r1 body = {body_, 19};
+    i1 exponents = {exponents_, B}; ALIGNED real body_[24]; memset(body_, 0, sizeof body_); r1 body = {body_, 24};
     int64_t balls = status.n0, b;
     for (b = 0; b < B; b++) {
         int64_t i = min_i(b, balls - 1);
@@ -3415,7 +3519,7 @@ INLINE void long_run_march_lanes(int64_t B, r3 momenta, r3 verticals, r3 attitud
         }
     }
     for (b = 0; b < balls; b++) {
-        doubt.p[b] = status.p[b] == 0 ? S.p[122 * S.s0 + b] : NAN;
+        doubt.p[b] = status.p[b] == 0 ? S.p[117 * S.s0 + b] : NAN;
         if (status.p[b] == 0) {
             taken.p[b] = steps; reach.p[b] = 1;
         }
@@ -3472,7 +3576,7 @@ INLINE void tangent_follow_all(r2 momenta, r2 gammas, r1 tensor, real contact, i
             tensor, contact, steps, (r1){rows.p + i * rows.s0, rows.n1});
 }
 
-INLINE real following_judged(r2 S, int64_t b, int lost, real allowed, r2 sums, r1 state, r1 lane) {
+INLINE void following_judged(r2 S, r2 E, int64_t b, int lost, real start, r2 sums, r1 state, r1 lane) {
     real step = lane.p[1], tries = lane.p[6], size = lane.p[2] * real_sqrt(S.p[37 * S.s0 + b] * S.p[37 * S.s0 + b] +
         (S.p[38 * S.s0 + b] * S.p[38 * S.s0 + b] + S.p[39 * S.s0 + b] * S.p[39 * S.s0 + b]));
     lane.p[11] = size; lane.p[12] = 3; lane.p[14] = 0; lane.p[15] = 0;
@@ -3486,64 +3590,66 @@ INLINE real following_judged(r2 S, int64_t b, int lost, real allowed, r2 sums, r
             lane.p[12] = 1; lane.p[10] = R(0.9) * step;
         }
     }
-    real part = following_left(S.p[122 * S.s0 + b], S.p[123 * S.s0 + b]), error = part * S.p[122 * S.s0 + b];
-    real bound = allowed * step, wanted = bound > 0 ? min_r(max_r(step * following_lengthened(error / (R(0.5) *
-        bound)), R(0.3) * step), 2 * step) : step;
-    if (size > 0) wanted = max_r(min_r(wanted, R(1.3) / size), min_r(R(0.02) / size, step));
-    lane.p[13] = min_r(wanted, lane.p[10]); real most = lane.p[0] > 0 ? 10 : 2;
+    t_r4 error = following_left(S, b, start); lane.p[21] = error.a0; lane.p[22] += 1;
+    E.p[79 * E.s0 + b] = error.a1 > 0 ? error.a0 / error.a1 : 0;
+    E.p[80 * E.s0 + b] = error.a2 > 0 ? error.a0 / error.a2 : 0;
+    E.p[81 * E.s0 + b] = error.a3 > 0 ? error.a0 / error.a3 : 0; real bound = lane.p[18] * step, wanted = bound > 0 ?
+        min_r(max_r(step * following_lengthened(error.a0 / (R(0.4) * bound)), R(0.3) * step), 2 * step) : step;
+    if (size > 0) wanted = max_r(min_r(wanted, R(1.7) / size), min_r(R(0.02) / size, step));
+    lane.p[13] = min_r(wanted, lane.p[10]); real most = lane.p[0] > 0 ? 15 : 3;
     if (lane.p[12] == 1) lane.p[13] = R(0.6) * step;
     else {
-        if (lane.p[12] == 3 && error > most * bound && tries < 40) {
+        if (lane.p[12] == 3 && error.a0 > most * bound && tries < 40) {
             real t_2 = 1, t_3 = min_r(lane.p[13], R(0.6) * step); lane.p[12] = t_2; lane.p[13] = t_3;
         }
     }
-    return part;
 }
 
-INLINE void following_looked_at(r2 S, r2 E, int64_t B, int64_t b, int lost, int64_t frames, real interval, real
-    allowed, real start, real bearable, int traced, r2 sums, r1 body, r1 state, r1 lane, r2 V, r2 first, r2 last, r2
-    curve, r1 now) {
-    E.p[78 * E.s0 + b] = 0; E.p[79 * E.s0 + b] = 0; E.p[80 * E.s0 + b] = 0;
+INLINE void following_looked_at(r2 S, r2 E, int64_t B, int64_t b, int lost, real interval, real start, real bearable,
+    int traced, r2 sums, r1 body, r1 state, r1 lane, r2 V, r2 first, r2 last, r2 curve, r1 now) {
+    E.p[78 * E.s0 + b] = 0; E.p[82 * E.s0 + b] = 0;
     if (S.p[135 * S.s0 + b] != 0) {
         lane.p[12] = 0; return;
     }
-    real part = following_judged(S, b, lost, allowed, sums, state, lane); int64_t c;
+    following_judged(S, E, b, lost, start, sums, state, lane); int64_t c;
     if (lane.p[12] == 3) {
-        int inside = following_part_of(lane, (int64_t)lane.p[5], frames, interval) < R(0x1.fffffff768fa1p-1);
+        int inside = following_part_of(lane, (int64_t)lane.p[5], interval) < R(0x1.fffffff768fa1p-1);
         if (inside) {
-            for (c = 0; c < 19; c++) now.p[c] = S.p[(110 + c) * S.s0 + b];
+            for (c = 0; c < 24; c++) now.p[c] = S.p[(105 + c) * S.s0 + b];
             t_r2 off = following_through(S, b, body, now, traced, lane, V, first, last, curve);
-            real more = following_lengthened(max_r(off.a0, off.a1) / (R(0.5) * bearable));
-            lane.p[13] = min_r(lane.p[13], max_r(more, R(0.3)) * lane.p[1]); lane.p[14] = off.a0; lane.p[15] = off.a1;
+            real more = max_r(following_lengthened(max_r(off.a0, off.a1) / (R(0.4) * bearable)), R(0.3)) * lane.p[1];
+            lane.p[20] = more; lane.p[14] = off.a0; lane.p[15] = off.a1;
             if (max_r(off.a0, off.a1) > bearable && lane.p[6] < 40) {
-                real t_1 = 1, t_2 = min_r(lane.p[13], R(0.6) * lane.p[1]); int t_3 = 0; lane.p[12] = t_1;
-                lane.p[13] = t_2; inside = t_3;
+                real t_1 = 1, t_2 = min_r(more, R(0.6) * lane.p[1]); int t_3 = 0; lane.p[12] = t_1; lane.p[20] = t_2;
+                inside = t_3;
             }
         }
         lane.p[9] = inside ? lane.p[1] * lane.p[2] : 0;
     }
     if (lane.p[12] == 3) {
-        real rounding = R(27.1) * start; E.p[78 * E.s0 + b] = lane.p[1] * lane.p[2]; E.p[79 * E.s0 + b] = part;
-        E.p[80 * E.s0 + b] = rounding * rounding; S.p[122 * S.s0 + b] = 0;
+        real t_4 = min_r(R(1.05) * lane.p[20], R(1e+300)), t_5 = min_r(R(1.05) * lane.p[10], R(1e+300));
+        lane.p[20] = t_4; lane.p[10] = t_5; real rounding = R(27.1) * start;
+        E.p[78 * E.s0 + b] = lane.p[1] * lane.p[2]; E.p[82 * E.s0 + b] = rounding * rounding; S.p[117 * S.s0 + b] = 0;
     }
     else {
-        if (lane.p[12] == 1) {
-            for (c = 0; c < 19; c++) S.p[(110 + c) * S.s0 + b] = body.p[c];
-        }
+        E.p[79 * E.s0 + b] = 0; E.p[80 * E.s0 + b] = 0; E.p[81 * E.s0 + b] = 0;
+    }
+    if (lane.p[12] == 1) {
+        for (c = 0; c < 24; c++) S.p[(105 + c) * S.s0 + b] = body.p[c];
     }
 }
 
 INLINE void following_follow_lanes(int64_t B, r3 momenta, r3 verticals, r3 attitudes, r3 traces, r2 J0, r1 D0, r1
-    radius, real interval, r1 first, r1 allowed, r1 start, r1 bearable, int follows, int traced, r2 sums, r3
+    radius, real interval, r1 first, r1 allowed, r1 most, r1 start, r1 bearable, int follows, int traced, r2 sums, r3
     following, r2 beginning, r2 reported, i1 reached, i1 status, d1 reach) {
     ALIGNED real S_[139 * (4 * B)]; memset(S_, 0, sizeof S_); r2 S = {S_, 139, (4 * B), (4 * B)};
-    ALIGNED real E_[98 * (4 * B)]; memset(E_, 0, sizeof E_); r2 E = {E_, 98, (4 * B), (4 * B)};
+    ALIGNED real E_[115 * (4 * B)]; memset(E_, 0, sizeof E_); r2 E = {E_, 115, (4 * B), (4 * B)};
     int64_t columns = sums.n1; ALIGNED real states_[B * 27]; memset(states_, 0, sizeof states_);
     r2 states = {states_, B, 27, 27}; ALIGNED int64_t exponents_[B]; memset(exponents_, 0, sizeof exponents_);
-    i1 exponents = {exponents_, B}; ALIGNED real bodies_[B * 19]; memset(bodies_, 0, sizeof bodies_);
-    r2 bodies = {bodies_, B, 19, 19}; ALIGNED real now_[19]; memset(now_, 0, sizeof now_); r1 now = {now_, 19};
-    ALIGNED real found_[19]; memset(found_, 0, sizeof found_); r1 found = {found_, 19}; ALIGNED real lanes_[B * 18];
-    memset(lanes_, 0, sizeof lanes_); r2 lanes = {lanes_, B, 18, 18}; ALIGNED real ends_[(2 * B) * 6 * 6];
+    i1 exponents = {exponents_, B}; ALIGNED real bodies_[B * 24]; memset(bodies_, 0, sizeof bodies_);
+    r2 bodies = {bodies_, B, 24, 24}; ALIGNED real now_[24]; memset(now_, 0, sizeof now_); r1 now = {now_, 24};
+    ALIGNED real found_[24]; memset(found_, 0, sizeof found_); r1 found = {found_, 24}; ALIGNED real lanes_[B * 23];
+    memset(lanes_, 0, sizeof lanes_); r2 lanes = {lanes_, B, 23, 23}; ALIGNED real ends_[(2 * B) * 6 * 6];
     memset(ends_, 0, sizeof ends_); r3 ends = {ends_, (2 * B), 6, 6, 6 * 6, 6}; ALIGNED real V_[16 * 6];
     memset(V_, 0, sizeof V_); r2 V = {V_, 16, 6, 6}; ALIGNED real curves_[B * 12 * 6];
     memset(curves_, 0, sizeof curves_); r3 curves = {curves_, B, 12, 6, 12 * 6, 6}; int64_t balls = momenta.n0;
@@ -3551,24 +3657,25 @@ INLINE void following_follow_lanes(int64_t B, r3 momenta, r3 verticals, r3 attit
     int64_t busy = min_i(B, balls); int fresh = 1; int64_t b, i;
     for (b = 0; b < B; b++) {
         i = min_i(b, balls - 1);
-        exponents.p[b] = following_taken_in(S, E, B, b, columns, i, first, start, momenta, verticals, attitudes,
-            traces, J0, D0, radius, end, follows, sums, beginning, (r1){bodies.p + b * bodies.s0, bodies.n1},
-            (r1){states.p + b * states.s0, states.n1}, (r1){lanes.p + b * lanes.s0, lanes.n1}, reported, traced);
+        exponents.p[b] = following_taken_in(S, E, B, b, columns, i, first.p[i], allowed.p[i], start.p[i], momenta,
+            verticals, attitudes, traces, J0, D0, radius, frames, interval, follows, sums, beginning, (r1){bodies.p +
+            b * bodies.s0, bodies.n1}, (r1){states.p + b * states.s0, states.n1}, (r1){lanes.p + b * lanes.s0,
+            lanes.n1}, reported, traced);
         S.p[135 * S.s0 + b] = b < balls ? 0 : 1;
     }
-    int64_t frame; real fate; int done; int64_t c; real wish, part;
+    int64_t frame; real fate; int done; int64_t c; int there; real wish; int alike; real part;
     while (busy > 0) {
         if (fresh) {
             carried_tangent(S, E, B, 0, traced); fresh = 0;
         }
-        int lost = lanes_side_by_side(S, B, columns, traced, following, beginning);
+        int lost = lanes_side_by_side(S, B, columns, traced, following, beginning); carried_changes(S, E, B);
         for (b = 0; b < B; b++) {
             i = (int64_t)lanes.p[b * lanes.s0 + 4];
-            following_looked_at(S, E, B, b, lost, frames, interval, allowed.p[i], start.p[i], bearable.p[i], traced,
-                sums, (r1){bodies.p + b * bodies.s0, bodies.n1}, (r1){states.p + b * states.s0, states.n1},
-                (r1){lanes.p + b * lanes.s0, lanes.n1}, V, (r2){ends.p + 2 * b * ends.s0, ends.n1, ends.n2, ends.s1},
-                (r2){ends.p + (2 * b + 1) * ends.s0, ends.n1, ends.n2, ends.s1}, (r2){curves.p + b * curves.s0,
-                curves.n1, curves.n2, curves.s1}, now);
+            following_looked_at(S, E, B, b, lost, interval, start.p[i], bearable.p[i], traced, sums, (r1){bodies.p + b
+                * bodies.s0, bodies.n1}, (r1){states.p + b * states.s0, states.n1}, (r1){lanes.p + b * lanes.s0,
+                lanes.n1}, V, (r2){ends.p + 2 * b * ends.s0, ends.n1, ends.n2, ends.s1}, (r2){ends.p + (2 * b + 1) *
+                ends.s0, ends.n1, ends.n2, ends.s1}, (r2){curves.p + b * curves.s0, curves.n1, curves.n2, curves.s1},
+                now);
         }
         carried_tangent(S, E, B, 19, traced); carried_carry(S, E, B, traced);
         for (b = 0; b < B; b++) {
@@ -3576,7 +3683,7 @@ INLINE void following_follow_lanes(int64_t B, r3 momenta, r3 verticals, r3 attit
             fate = lanes.p[b * lanes.s0 + 12]; done = 0;
             if (fate == 1) {
                 lanes.p[b * lanes.s0 + 6] += 1;
-                following_planned((r1){lanes.p + b * lanes.s0, lanes.n1}, end, lanes.p[b * lanes.s0 + 13]);
+                following_aimed((r1){lanes.p + b * lanes.s0, lanes.n1}, frames, interval);
                 long_run_resized(S, B, b, columns, R(0.5) * lanes.p[b * lanes.s0 + 1] * lanes.p[b * lanes.s0 + 2],
                     (r1){bodies.p + b * bodies.s0, bodies.n1}, (r1){states.p + b * states.s0, states.n1});
             }
@@ -3588,8 +3695,8 @@ INLINE void following_follow_lanes(int64_t B, r3 momenta, r3 verticals, r3 attit
                 }
                 else {
                     if (fate == 3) {
-                        for (c = 0; c < 19; c++) now.p[c] = S.p[(110 + c) * S.s0 + b];
-                        part = following_part_of((r1){lanes.p + b * lanes.s0, lanes.n1}, frame, frames, interval);
+                        for (c = 0; c < 24; c++) now.p[c] = S.p[(105 + c) * S.s0 + b];
+                        part = following_part_of((r1){lanes.p + b * lanes.s0, lanes.n1}, frame, interval);
                         while (frame < frames && part <= R(0x1.000000044b830p+0)) {
                             if (real_abs(part - 1) <= R(1e-09))
                                 following_shown(now, exponents.p[b], i, frame, momenta, verticals, attitudes, traces,
@@ -3601,24 +3708,27 @@ INLINE void following_follow_lanes(int64_t B, r3 momenta, r3 verticals, r3 attit
                                     traces, follows, traced);
                             }
                             frame += 1;
-                            part = following_part_of((r1){lanes.p + b * lanes.s0, lanes.n1}, frame, frames, interval);
+                            part = following_part_of((r1){lanes.p + b * lanes.s0, lanes.n1}, frame, interval);
                         }
-                        following_recorded(E, b, i, (r1){lanes.p + b * lanes.s0, lanes.n1}, reported);
+                        following_recorded(E, b, i, end, allowed.p[i], most.p[i], (r1){lanes.p + b * lanes.s0,
+                            lanes.n1}, reported);
                         int64_t t_1 = frame; real t_2 = 0;
                         real t_3 = lanes.p[b * lanes.s0 + 0] + lanes.p[b * lanes.s0 + 1];
                         lanes.p[b * lanes.s0 + 5] = t_1; lanes.p[b * lanes.s0 + 6] = t_2;
-                        lanes.p[b * lanes.s0 + 0] = t_3; real t_4 = lanes.p[b * lanes.s0 + 3] - 1;
-                        real t_5 = min_r(R(1.05) * lanes.p[b * lanes.s0 + 10], R(1e+300));
-                        lanes.p[b * lanes.s0 + 3] = t_4; lanes.p[b * lanes.s0 + 10] = t_5;
-                        for (c = 0; c < 19; c++) bodies.p[b * bodies.s0 + c] = now.p[c];
-                        done = lanes.p[b * lanes.s0 + 3] < R(0.5); wish = lanes.p[b * lanes.s0 + 13];
+                        lanes.p[b * lanes.s0 + 0] = t_3; lanes.p[b * lanes.s0 + 3] = lanes.p[b * lanes.s0 + 3] - 1;
+                        for (c = 0; c < 24; c++) bodies.p[b * bodies.s0 + c] = now.p[c];
+                        there = lanes.p[b * lanes.s0 + 3] < R(0.5);
+                        wish = min_r(lanes.p[b * lanes.s0 + 13], lanes.p[b * lanes.s0 + 20]);
+                        alike = wish * R(1.15) >= lanes.p[b * lanes.s0 + 1] && wish <= R(1.15) * lanes.p[b * lanes.s0
+                            + 1];
+                        if (there) lanes.p[b * lanes.s0 + 0] = lanes.p[b * lanes.s0 + 19] * interval;
+                        done = there && lanes.p[b * lanes.s0 + 19] == frames - 1;
                         if (done) {
                             reached.p[i] = frames - 1; status.p[i] = 0; reach.p[i] = 1;
                         }
                         else {
-                            if (!(wish * R(1.15) >= lanes.p[b * lanes.s0 + 1] && wish <= R(1.15) * lanes.p[b *
-                                lanes.s0 + 1]) && following_planned((r1){lanes.p + b * lanes.s0, lanes.n1}, end,
-                                wish))
+                            if ((there || !alike) && following_aimed((r1){lanes.p + b * lanes.s0, lanes.n1}, frames,
+                                interval))
                                 long_run_resized(S, B, b, columns, R(0.5) * lanes.p[b * lanes.s0 + 1] * lanes.p[b *
                                     lanes.s0 + 2], now, (r1){states.p + b * states.s0, states.n1});
                         }
@@ -3629,10 +3739,11 @@ INLINE void following_follow_lanes(int64_t B, r3 momenta, r3 verticals, r3 attit
                 reported.p[i * reported.s0 + 1] = lanes.p[b * lanes.s0 + 7] > 0 ? lanes.p[b * lanes.s0 + 8] /
                     lanes.p[b * lanes.s0 + 7] : 0;
                 if (coming < balls) {
-                    exponents.p[b] = following_taken_in(S, E, B, b, columns, coming, first, start, momenta, verticals,
-                        attitudes, traces, J0, D0, radius, end, follows, sums, beginning, (r1){bodies.p + b *
-                        bodies.s0, bodies.n1}, (r1){states.p + b * states.s0, states.n1}, (r1){lanes.p + b * lanes.s0,
-                        lanes.n1}, reported, traced);
+                    exponents.p[b] = following_taken_in(S, E, B, b, columns, coming, first.p[coming],
+                        allowed.p[coming], start.p[coming], momenta, verticals, attitudes, traces, J0, D0, radius,
+                        frames, interval, follows, sums, beginning, (r1){bodies.p + b * bodies.s0, bodies.n1},
+                        (r1){states.p + b * states.s0, states.n1}, (r1){lanes.p + b * lanes.s0, lanes.n1}, reported,
+                        traced);
                     coming = coming + 1; fresh = 1;
                 }
                 else {
@@ -3644,17 +3755,17 @@ INLINE void following_follow_lanes(int64_t B, r3 momenta, r3 verticals, r3 attit
 }
 
 INLINE void following_follow_one(r3 momenta, r3 verticals, r3 attitudes, r3 traces, r2 J0, r1 D0, r1 radius, real
-    interval, r1 first, r1 allowed, r1 start, r1 bearable, int follows, int traced, r2 sums, r3 following, r2
+    interval, r1 first, r1 allowed, r1 most, r1 start, r1 bearable, int follows, int traced, r2 sums, r3 following, r2
     beginning, r2 reported, i1 reached, i1 status, d1 reach) {
-    following_follow_lanes(1, momenta, verticals, attitudes, traces, J0, D0, radius, interval, first, allowed, start,
-        bearable, follows, traced, sums, following, beginning, reported, reached, status, reach);
+    following_follow_lanes(1, momenta, verticals, attitudes, traces, J0, D0, radius, interval, first, allowed, most,
+        start, bearable, follows, traced, sums, following, beginning, reported, reached, status, reach);
 }
 
 INLINE void following_follow_eight(r3 momenta, r3 verticals, r3 attitudes, r3 traces, r2 J0, r1 D0, r1 radius, real
-    interval, r1 first, r1 allowed, r1 start, r1 bearable, int follows, int traced, r2 sums, r3 following, r2
+    interval, r1 first, r1 allowed, r1 most, r1 start, r1 bearable, int follows, int traced, r2 sums, r3 following, r2
     beginning, r2 reported, i1 reached, i1 status, d1 reach) {
-    following_follow_lanes(8, momenta, verticals, attitudes, traces, J0, D0, radius, interval, first, allowed, start,
-        bearable, follows, traced, sums, following, beginning, reported, reached, status, reach);
+    following_follow_lanes(8, momenta, verticals, attitudes, traces, J0, D0, radius, interval, first, allowed, most,
+        start, bearable, follows, traced, sums, following, beginning, reported, reached, status, reach);
 }
 
 #endif
@@ -3778,8 +3889,8 @@ WIDEST static void in_tangent_follow_all(const argument *a, argument *got) {
 WIDEST static void in_following_follow_one(const argument *a, argument *got) {
     following_follow_one(ARRAY3(r3, a[0]), ARRAY3(r3, a[1]), ARRAY3(r3, a[2]), ARRAY3(r3, a[3]), ARRAY2(r2, a[4]),
         ARRAY1(r1, a[5]), ARRAY1(r1, a[6]), a[7].number, ARRAY1(r1, a[8]), ARRAY1(r1, a[9]), ARRAY1(r1, a[10]),
-        ARRAY1(r1, a[11]), a[12].integer, a[13].integer, ARRAY2(r2, a[14]), ARRAY3(r3, a[15]), ARRAY2(r2, a[16]),
-        ARRAY2(r2, a[17]), ARRAY1(i1, a[18]), ARRAY1(i1, a[19]), ARRAY1(d1, a[20]));
+        ARRAY1(r1, a[11]), ARRAY1(r1, a[12]), a[13].integer, a[14].integer, ARRAY2(r2, a[15]), ARRAY3(r3, a[16]),
+        ARRAY2(r2, a[17]), ARRAY2(r2, a[18]), ARRAY1(i1, a[19]), ARRAY1(i1, a[20]), ARRAY1(d1, a[21]));
     (void)got;
 }
 
@@ -3788,8 +3899,8 @@ WIDEST static void in_following_follow_one(const argument *a, argument *got) {
 WIDEST static void in_following_follow_eight(const argument *a, argument *got) {
     following_follow_eight(ARRAY3(r3, a[0]), ARRAY3(r3, a[1]), ARRAY3(r3, a[2]), ARRAY3(r3, a[3]), ARRAY2(r2, a[4]),
         ARRAY1(r1, a[5]), ARRAY1(r1, a[6]), a[7].number, ARRAY1(r1, a[8]), ARRAY1(r1, a[9]), ARRAY1(r1, a[10]),
-        ARRAY1(r1, a[11]), a[12].integer, a[13].integer, ARRAY2(r2, a[14]), ARRAY3(r3, a[15]), ARRAY2(r2, a[16]),
-        ARRAY2(r2, a[17]), ARRAY1(i1, a[18]), ARRAY1(i1, a[19]), ARRAY1(d1, a[20]));
+        ARRAY1(r1, a[11]), ARRAY1(r1, a[12]), a[13].integer, a[14].integer, ARRAY2(r2, a[15]), ARRAY3(r3, a[16]),
+        ARRAY2(r2, a[17]), ARRAY2(r2, a[18]), ARRAY1(i1, a[19]), ARRAY1(i1, a[20]), ARRAY1(d1, a[21]));
     (void)got;
 }
 
@@ -3825,8 +3936,8 @@ const loop_export loops_double[] = {
     {"double_double_block_prepare_pairs_block", "r2 r2 r2 r1 r2 r2* i1* i1*", "", in_double_double_block_prepare_pairs_block},
     {"double_double_block_march_pairs_block", "r2* i i i i1 r3* r3* r3* r3* i1* i1* d1*", "", in_double_double_block_march_pairs_block},
     {"tangent_follow_all", "r2 r2 r1 r i r2*", "", in_tangent_follow_all},
-    {"following_follow_one", "r3* r3* r3* r3* r2 r1 r1 r r1 r1 r1 r1 b b r2 r3 r2 r2* i1* i1* d1*", "", in_following_follow_one},
-    {"following_follow_eight", "r3* r3* r3* r3* r2 r1 r1 r r1 r1 r1 r1 b b r2 r3 r2 r2* i1* i1* d1*", "", in_following_follow_eight},
+    {"following_follow_one", "r3* r3* r3* r3* r2 r1 r1 r r1 r1 r1 r1 r1 b b r2 r3 r2 r2* i1* i1* d1*", "", in_following_follow_one},
+    {"following_follow_eight", "r3* r3* r3* r3* r2 r1 r1 r r1 r1 r1 r1 r1 b b r2 r3 r2 r2* i1* i1* d1*", "", in_following_follow_eight},
     {"expected_surveyed", "r2 r2 r2 r1 r1 r r r2*", "", in_expected_surveyed},
     {"expected_estimated", "r2 r2 r1 b b b r1* r1* r1*", "", in_expected_estimated},
 };
@@ -3842,5 +3953,5 @@ const int loops_single_count = 4;
 #endif
 
 #ifndef SINGLE
-const char loops_text[] = "19f0776129f63f6a8dc2bbc14f427c00508895e65939e1f1b7cb72e3b0aa4733";
+const char loops_text[] = "0ffcf379ae7dcd62511943c679abeb59480f6e1a173c9d8f8230ed732df4e52b";
 #endif

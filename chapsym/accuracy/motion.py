@@ -144,7 +144,8 @@ def _run(
     n, ball = len(problem), problem.ball
     reported, reach, start = np.zeros((n, REPORTED)), np.ones(n), 2.0**-52 * np.sqrt(problem.survey[:, CONDITION])
     follows, traced = problem.attitude is not None, problem.contact
-    none, bearable = np.empty((n, 0, 4)), BEARABLE * problem.accuracy / problem.units
+    none, most = np.empty((n, 0, 4)), problem.accuracy / problem.units
+    bearable = BEARABLE * most
     frames = (
         found.angular_momentum, found.gamma, none if found.attitude is None else found.attitude,
         none if found.contact is None else found.contact, np.ascontiguousarray(ball.mass_tensor), ball.D,
@@ -157,8 +158,8 @@ def _run(
     def task(at: int) -> None:
         some = slice(at, at + width)
         loop(
-            *(x[some] for x in frames), problem.interval, first[some], allowed[some], start[some], bearable[some],
-            follows, traced, *loop_weights(MOST_COLUMNS), *(x[some] for x in ends),
+            *(x[some] for x in frames), problem.interval, first[some], allowed[some], most[some], start[some],
+            bearable[some], follows, traced, *loop_weights(MOST_COLUMNS), *(x[some] for x in ends),
         )  # fmt: skip
         count.add(len(reach[some]))
 

@@ -13,6 +13,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
+from itertools import pairwise
 from math import isfinite, prod
 from typing import Any
 
@@ -30,7 +31,7 @@ from .levels.frames import Count, cores, share
 from .loops.guess import guess_weights
 from .loops.lanes import EIGHT, MOST_COLUMNS
 from .loops.long_run import march_eight, march_one
-from .loops.long_step import LAST
+from .loops.long_step import CHANGES, LAST
 from .results import in_given_axes
 from .trajectories import rolling_radius, whole_number
 
@@ -193,7 +194,9 @@ def _march(
 @cache
 def loop_weights(columns: int) -> tuple[Floats, Floats, Floats]:
     """What the loops take: the weights of the columns, as of `march_lanes`, and those of the guesses."""
-    full, short = weights(columns), (Fraction(0), *weights(columns - 1))
-    shorter = (Fraction(0),) * 2 + weights(columns - 2)
-    first, second, third = (np.array(x, dtype=float) for x in (full, short, shorter))
-    return np.array([first, first - second, second - third]), *guess_weights(columns)
+    rows = [
+        np.array((Fraction(0),) * fewer + weights(columns - fewer), dtype=float)[:columns]
+        for fewer in range(2 + CHANGES)
+    ]
+    changes = [longer - shorter for longer, shorter in pairwise(rows)]
+    return np.array([rows[0], *changes]), *guess_weights(columns)

@@ -8,16 +8,18 @@ and the contact point is off by the integral of R(φ' × γ) radii.  From both e
 
 up to the fifth power of h, and for steady A without growth where there is none (Padé).
 
-Two things are carried on by φ₁ = Φφ₀.  What the steps leave has a direction: each adds its own to Φφ, so that what the
-steps do and undo is seen as such.  Roundings have none: the matrix S of their mean squares goes on as ΦSΦᵀ + r².
+Two things are carried on by φ₁ = Φφ₀.  What the steps leave is of a size that the last columns tell, but of an unknown
+direction, which may change little from step to step: three errors of this size go on as Φφ + e, one along each of the
+changes that the last three columns have made, so that what the steps do and undo is seen as such.  Roundings have no
+direction: the matrix S of their mean squares goes on as ΦSΦᵀ + r².
 """
 
 from math import sqrt
 
 from chapsym.generated import angular_velocity, rotate
 
-from .lanes import BALL, LANES, MOVED
-from .long_step import ATTITUDE, SLIP, TWIST
+from .lanes import BALL, CHANGE, DONE, LANES, MOVED, SUMS, Q, Y
+from .long_step import ATTITUDE, CHANGES, SLIP, TWIST, twist
 from .text import lanes
 
 #: Rows of an end.  Of the unit error φ of a lane: δω, φ', φ'', how fast the contact point leaves, and its rate.  Of the
@@ -27,17 +29,19 @@ END = 19
 #: Rows beyond the two ends: the unit error; K, γ, the attitude and J, in all lanes; and what becomes of a unit error
 #: by the end of the step, and of the contact point.
 UNIT, INPUT, SHAPE, FLOWN, CARRIED = 2 * END, 2 * END + 3, 2 * END + 13, 2 * END + 16, 2 * END + 19
-#: Rows of the ball: φ and the contact point as the steps leave them; S of φ (6), of the contact point with φ (6), of
-#: the contact point (2).  What a step that stays brings: its length in the unit of time of S, the part of `TWIST` and
-#: `SLIP` that is left of it, and the square of its rounding.
+#: φ and the contact point as the steps leave them, three errors in three lanes.  Rows of the ball: S of φ (6), of the
+#: contact point with φ (6), of the contact point (2).  What a step that stays brings: its length in the unit of time of
+#: S, which part its error is of each vector of `TWIST`, and the square of its rounding.
 LEFT, ROLLED, INNER, MIXED, OUTER = CARRIED + 2, CARRIED + 5, CARRIED + 7, CARRIED + 13, CARRIED + 19
-WHOLE, PART, ROUNDED = CARRIED + 21, CARRIED + 22, CARRIED + 23
+WHOLE, PART, ROUNDED = CARRIED + 21, CARRIED + 22, CARRIED + 25
 #: And what comes of it: the lengths of φ, of δω and of the way of the contact point, and the roots of the mean squares
 #: of the same that are rounding.
-FOUND = CARRIED + 24
+FOUND = CARRIED + 26
 #: The inverse of the matrix of the last end, by rows, and the length of the step over 2, and its square over 12.
 INVERSE, HALF, TWELFTH = FOUND + 6, FOUND + 15, FOUND + 16
-ROWS = FOUND + 17
+#: The changes of the quaternion that the last three columns have made, and of the way of the centre by the last.
+CHANGED = FOUND + 17
+ROWS = CHANGED + 4 * CHANGES + 3
 #: Below this part of |Λω| |ω| the gradient of the energy is too much of a rounding to be used.
 STEADY = 1e-7
 
@@ -49,8 +53,8 @@ def begun(E, B, b, J1, J2, J3, start):
         for c in range(3):
             E[UNIT + c, i] = 1.0 if c == lane else 0.0
         E[SHAPE, i], E[SHAPE + 1, i], E[SHAPE + 2, i] = J1, J2, J3
-    for row in range(LEFT, ROWS):
-        E[row, b] = 0.0
+        for row in range(LEFT, ROWS):
+            E[row, i] = 0.0
     E[INNER, b], E[INNER + 3, b], E[INNER + 5, b] = start * start, start * start, start * start
 
 
@@ -189,23 +193,85 @@ def kept(E, B):
         E[FLOWN, k], E[FLOWN + 1, k], E[FLOWN + 2, k] = c1 + z * n1, c2 + z * n2, c3 + z * n3
 
 
+def changes(S, E, B):
+    """What the last columns have changed in the step of every ball, into `TWIST` and `SLIP`.
+
+    Not of those that get lost: the safe way says it of these.
+    """
+    for i in lanes(LANES * B):
+        a0, a1, a2, a3 = S[DONE, i], S[DONE + 1, i], S[DONE + 2, i], S[DONE + 3, i]
+        b0, b1, b2, b3 = S[Q, i], S[Q + 1, i], S[Q + 2, i], S[Q + 3, i]
+        one = 1.0 / sqrt((a0 * a0 + a1 * a1) + (a2 * a2 + a3 * a3))
+        two = 1.0 / sqrt((b0 * b0 + b1 * b1) + (b2 * b2 + b3 * b3))
+        for c in range(CHANGES):
+            w, v = S[CHANGE + 2 * c, i] * one, S[CHANGE + 2 * c + 1, i] * two
+            E[CHANGED + 4 * c, i], E[CHANGED + 4 * c + 1, i] = w * a0 + v * b0, w * a1 + v * b1
+            E[CHANGED + 4 * c + 2, i], E[CHANGED + 4 * c + 3, i] = w * a2 + v * b2, w * a3 + v * b3
+        for c in range(3):
+            at = CHANGED + 4 * CHANGES + c
+            E[at, i] = S[CHANGE, i] * S[DONE + 4 + c, i] + S[CHANGE + 1, i] * S[Y + c, i]
+    for row in range(CHANGED, ROWS):
+        for b in lanes(B):
+            E[row, b] = (E[row, b] + E[row, B + b]) + (E[row, 2 * B + b] + E[row, 3 * B + b])
+    for c in range(CHANGES):
+        for b in lanes(B):
+            at, row = MOVED + TWIST + 3 * c, CHANGED + 4 * c
+            S[at, b], S[at + 1, b], S[at + 2, b] = twist(
+                S[SUMS, b], S[SUMS + 1, b], S[SUMS + 2, b], S[SUMS + 3, b],
+                E[row, b], E[row + 1, b], E[row + 2, b], E[row + 3, b],
+            )  # fmt: skip
+    for b in lanes(B):
+        at, row = INPUT + ATTITUDE, CHANGED + 4 * CHANGES
+        S[MOVED + SLIP, b], S[MOVED + SLIP + 1, b], _ = rotate(
+            E[at, b], E[at + 1, b], E[at + 2, b], E[at + 3, b], E[row, b], E[row + 1, b], E[row + 2, b]
+        )
+
+
+def leave(S, E, B, traced):
+    """Carries what the steps leave, and finds the root of the sum of the squares of the three."""
+    for b in lanes(B):
+        E[FOUND, b], E[FOUND + 1, b], E[FOUND + 2, b] = 0.0, 0.0, 0.0
+    for c in range(CHANGES):
+        for b in lanes(B):
+            i, j, k, lane, part = b, B + b, 2 * B + b, c * B + b, E[PART + c, b]
+            v1, v2, v3 = E[LEFT, lane], E[LEFT + 1, lane], E[LEFT + 2, lane]
+            at = MOVED + TWIST + 3 * c
+            l1 = E[FLOWN, i] * v1 + E[FLOWN, j] * v2 + E[FLOWN, k] * v3 + part * S[at, b]
+            l2 = E[FLOWN + 1, i] * v1 + E[FLOWN + 1, j] * v2 + E[FLOWN + 1, k] * v3 + part * S[at + 1, b]
+            l3 = E[FLOWN + 2, i] * v1 + E[FLOWN + 2, j] * v2 + E[FLOWN + 2, k] * v3 + part * S[at + 2, b]
+            E[LEFT, lane], E[LEFT + 1, lane], E[LEFT + 2, lane] = l1, l2, l3
+            at = END + SPUN
+            x = E[at, i] * l1 + E[at, j] * l2 + E[at, k] * l3
+            y = E[at + 1, i] * l1 + E[at + 1, j] * l2 + E[at + 1, k] * l3
+            z = E[at + 2, i] * l1 + E[at + 2, j] * l2 + E[at + 2, k] * l3
+            E[FOUND, b] += l1 * l1 + l2 * l2 + l3 * l3
+            E[FOUND + 1, b] += x * x + y * y + z * z
+            if traced:
+                at, part = CARRIED, E[PART, b]
+                x = E[at, i] * v1 + E[at, j] * v2 + E[at, k] * v3 + part * S[MOVED + SLIP, b]
+                y = E[at + 1, i] * v1 + E[at + 1, j] * v2 + E[at + 1, k] * v3 + part * S[MOVED + SLIP + 1, b]
+                x, y = E[ROLLED, lane] + x, E[ROLLED + 1, lane] + y
+                E[ROLLED, lane], E[ROLLED + 1, lane] = x, y
+                E[FOUND + 2, b] += x * x + y * y
+    for b in lanes(B):
+        E[FOUND, b], E[FOUND + 1, b], E[FOUND + 2, b] = (
+            sqrt(E[FOUND, b]), sqrt(E[FOUND + 1, b]), sqrt(E[FOUND + 2, b])
+        )  # fmt: skip
+
+
 def carry(S, E, B, traced):
     """Carries the errors of every ball on by the step that `WHOLE`, `PART` and `ROUNDED` describe, 0 where none stays.
 
     Both ends are there; the last becomes the first.
     """
     flown(E, B, traced)
+    leave(S, E, B, traced)
     for b in lanes(B):
         i, j, k = b, B + b, 2 * B + b
         a1, a2, a3 = E[FLOWN, i], E[FLOWN + 1, i], E[FLOWN + 2, i]
         b1, b2, b3 = E[FLOWN, j], E[FLOWN + 1, j], E[FLOWN + 2, j]
         c1, c2, c3 = E[FLOWN, k], E[FLOWN + 1, k], E[FLOWN + 2, k]
-        share, error = E[PART, b], E[ROUNDED, b]
-        v1, v2, v3 = E[LEFT, b], E[LEFT + 1, b], E[LEFT + 2, b]
-        l1 = a1 * v1 + b1 * v2 + c1 * v3 + share * S[MOVED + TWIST, b]
-        l2 = a2 * v1 + b2 * v2 + c2 * v3 + share * S[MOVED + TWIST + 1, b]
-        l3 = a3 * v1 + b3 * v2 + c3 * v3 + share * S[MOVED + TWIST + 2, b]
-        E[LEFT, b], E[LEFT + 1, b], E[LEFT + 2, b] = l1, l2, l3
+        error = E[ROUNDED, b]
         s11, s12, s13 = E[INNER, b], E[INNER + 1, b], E[INNER + 2, b]
         s22, s23, s33 = E[INNER + 3, b], E[INNER + 4, b], E[INNER + 5, b]
         p11, p12, p13 = a1 * s11 + b1 * s12 + c1 * s13, a1 * s12 + b1 * s22 + c1 * s23, a1 * s13 + b1 * s23 + c1 * s33
@@ -216,20 +282,14 @@ def carry(S, E, B, traced):
         e11, e22, e33 = e11 + error, e22 + error, e33 + error
         E[INNER, b], E[INNER + 1, b], E[INNER + 2, b] = e11, e12, e13
         E[INNER + 3, b], E[INNER + 4, b], E[INNER + 5, b] = e22, e23, e33
-        E[FOUND, b], E[FOUND + 3, b] = sqrt(l1 * l1 + l2 * l2 + l3 * l3), sqrt(e11 + e22 + e33)
-        spun, rounded = 0.0, 0.0
+        rounded = 0.0
         for c in range(3):
             x, y, z = E[END + SPUN + c, i], E[END + SPUN + c, j], E[END + SPUN + c, k]
-            off = x * l1 + y * l2 + z * l3
-            spun += off * off
             rounded += x * (x * e11 + 2.0 * (y * e12 + z * e13)) + y * (y * e22 + 2.0 * z * e23) + z * z * e33
-        E[FOUND + 1, b], E[FOUND + 4, b] = sqrt(spun), sqrt(max(rounded, 0.0))
+        E[FOUND + 3, b], E[FOUND + 4, b] = sqrt(e11 + e22 + e33), sqrt(max(rounded, 0.0))
         if traced:
             x1, x2, x3 = E[CARRIED, i], E[CARRIED, j], E[CARRIED, k]
             y1, y2, y3 = E[CARRIED + 1, i], E[CARRIED + 1, j], E[CARRIED + 1, k]
-            x = E[ROLLED, b] + (x1 * v1 + x2 * v2 + x3 * v3) + share * S[MOVED + SLIP, b]
-            y = E[ROLLED + 1, b] + (y1 * v1 + y2 * v2 + y3 * v3) + share * S[MOVED + SLIP + 1, b]
-            E[ROLLED, b], E[ROLLED + 1, b], E[FOUND + 2, b] = x, y, sqrt(x * x + y * y)
             m1, m2, m3 = E[MIXED, b], E[MIXED + 1, b], E[MIXED + 2, b]
             n1, n2, n3 = E[MIXED + 3, b], E[MIXED + 4, b], E[MIXED + 5, b]
             # u = C S + X for each of the two, with which both what is mixed and what is outer go on.

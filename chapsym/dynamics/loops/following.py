@@ -12,17 +12,18 @@ import numpy as np
 from . import loop
 from .between import PARTS, SERIES, TERMS, ball_at, joined, series, shortened
 from .carried import END as LAST_END
-from .carried import FOUND, PART, ROUNDED, WHOLE, begun, carry, tangent
+from .carried import FOUND, PART, WHOLE, begun, carry, changes, tangent
+from .carried import ROUNDED as ROUNDING
 from .carried import ROWS as ERRORS
 from .lanes import CONTACT, EIGHT, FIRSTS, LANES, LENGTH, LOST, MOVED, OMEGA, RADIUS, RESTS, ROWS, TENSOR, side_by_side
 from .long_run import enter, placed, resized, safely
-from .long_step import ATTITUDE, DOUBT, MOVING, ROUGH, SPOT
+from .long_step import ATTITUDE, DOUBT, MOVING, SPOT, TWIST
 from .text import Cube, Doubles, Integers, Matrix, Vector
 
 #: The largest |ω|h of a step, in radians: at 1.57 its steps of the map fold.
-FARTHEST = 1.3
+FARTHEST = 1.7
 #: A step is taken again if its error is so many times what is allowed, the first already if it is less; and how often.
-TOO_MUCH, TOO_MUCH_FIRST, MOST_TRIES = 10.0, 2.0, 40
+TOO_MUCH, TOO_MUCH_FIRST, MOST_TRIES = 15.0, 3.0, 40
 #: What is no bound of a step; and by what part the bound grows with each step.
 ANYTHING, HOPE = 1e300, 1.05
 #: By how much a step that is not settled is shortened, and the next step at least and at most.
@@ -30,16 +31,23 @@ UNSETTLED, LEAST, MOST = 0.6, 0.3, 2.0
 #: A next step that would be longer or shorter by less than this is as long as the last.
 ALIKE = 1.15
 #: A next step is to have this part of what is allowed.
-WANTED = 0.5
+WANTED = 0.4
 #: No step is shortened below this |ω|h for its error: one of order 12 has nothing but rounding left there, but for a
 #: rod.
 NEAREST = 0.02
 #: How the last column gains on the one before as that on the one before it, in the middle of balls of all shapes.
 GAIN = 2.0
+#: Of the changes that a column makes this is rounding: a part that all have, and so many times that of a start.
+ROUNDED, ROUNDED_START = 2e-15, 10.0
 #: How many times as large as they leave it the error of steps is held to be, of many and of few.
-CAUTIOUS, CAUTIOUS_FEW = 4.0, 32.0
+CAUTIOUS, CAUTIOUS_FEW = 12.0, 32.0
+#: What part of an accuracy the error may have after t of T seconds is EARLY + (1 - EARLY) t / T; a step may make so
+#: many times less, or more, than was allowed at first, where there is more, or less.
+EARLY, TIGHTER, LOOSER = 0.1, 0.02, 2.0
 #: The rounding of a step, in roundings of a start: the sum of its |weights|, 54.2, over 2.
 ROUNDINGS = 27.1
+#: Steps end at a frame if they are at least this part of what they could be: a frame in between costs as much.
+TO_A_FRAME = 0.7
 #: Frames at the ends of steps, up to this part of a step, are not interpolated.
 AT_END = 1e-9
 #: What is reported of a ball: the error of the attitude, in radians, of ω, relative to its largest, and of the contact
@@ -52,24 +60,42 @@ REPORTED = 5
 NOW, STEP, UNIT, COMING, WHICH, NEXT, TRIES, FASTEST, SPINNING, KNOWN, SETTLED, SPEED = (
     0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11,
 )  # fmt: skip
+#: The error that a step may make in a second as it turns out; the frame at which the steps that are left end; and the
+#: longest step that frames in between allow, as far as it is known.
+ALLOWED, GOAL, SMOOTH = 18, 19, 20
 #: And of its last step: what becomes of it, the step to be taken next, the errors of its frames in between, and the
 #: status and reach of a ball that stops.
 FATE, WISH, OFF, OUT, STATUS, REACH = 12, 13, 14, 15, 16, 17
-LANE = 18
+LANE = 21
 #: A lane rests; its step is taken again, stops the ball, or stays.
 RESTING, AGAIN, STOPS, STAYS = 0.0, 1.0, 2.0, 3.0
 
 
-def planned(lane, end, step):
-    """Divides the time that is left into steps of at most about this length; returns whether the step changes."""
-    left = end - lane[NOW]
-    count = int(left / step)
-    if count * step < left * (1.0 - 1e-9):
-        count += 1
+def steps_in(time, step):
+    """The fewest steps of at most about this length that a time is."""
+    count = int(time / step)
+    return max(count if count * step >= time * (1.0 - 1e-9) else count + 1, 1)
+
+
+def aimed(lane, frames, interval):
+    """Divides the time that is left, or that until the next frame, into steps; returns whether the step changes.
+
+    The steps end at the next frame where they are not much shorter for it: then nothing is interpolated.
+    """
+    goal, step = frames - 1, min(lane[WISH], lane[SMOOTH])
+    time = lane[NEXT] * interval - lane[NOW]
+    count = steps_in(time, lane[WISH])
+    if time >= TO_A_FRAME * step * count:
+        goal = int(lane[NEXT])
+    else:
+        time = goal * interval - lane[NOW]
+        count = steps_in(time, step)
     before = lane[STEP]
-    lane[COMING] = max(count, 1)
-    lane[STEP] = left / lane[COMING]
-    return lane[STEP] != before
+    lane[GOAL], lane[COMING], lane[STEP] = goal, count, time / count
+    if abs(lane[STEP] - before) <= AT_END * before:
+        lane[STEP] = before
+        return False
+    return True
 
 
 def lengthened(ratio):
@@ -78,23 +104,37 @@ def lengthened(ratio):
     return 1.0 / (root * sqrt(root))
 
 
-def left(doubt, rough):
-    """What part of `TWIST` the error of a step is: the last column gains as the one before, up to `GAIN`."""
-    return GAIN * min(doubt / rough, 1.0) if rough > 0.0 else 0.0
+def left(S, b, start):
+    """How large the error of a step is, and how large its last three changes are: (size, x, y, z).
+
+    The last column gains on the one before as that on its own, times `GAIN`.  Where the last change is rounding, or
+    smaller than the two before let expect, these say how large it would be.
+    """
+    at = MOVED + TWIST
+    x = sqrt(S[at, b] * S[at, b] + S[at + 1, b] * S[at + 1, b] + S[at + 2, b] * S[at + 2, b])
+    y = sqrt(S[at + 3, b] * S[at + 3, b] + S[at + 4, b] * S[at + 4, b] + S[at + 5, b] * S[at + 5, b])
+    z = sqrt(S[at + 6, b] * S[at + 6, b] + S[at + 7, b] * S[at + 7, b] + S[at + 8, b] * S[at + 8, b])
+    rounded = ROUNDED + ROUNDED_START * start
+    last, middle = max(x - rounded, 0.0), max(y - rounded, 0.0)
+    if not (middle > 0.0 and z > 0.0):
+        return 0.0, x, y, z
+    last = max(last, middle * min(middle / z, 1.0))
+    return GAIN * last * min(last / middle, 1.0), x, y, z
 
 
 def taken_in(
-    S, E, B, b, columns, i, first, start, momenta, verticals, attitudes, traces, J0, D0, radius, end, follows, sums,
-    beginning, body, state, lane, reported, traced,
+    S, E, B, b, columns, i, first, allowed, start, momenta, verticals, attitudes, traces, J0, D0, radius, frames,
+    interval, follows, sums, beginning, body, state, lane, reported, traced,
 ):  # fmt: skip
     """Puts the ball i into the lane b; returns K's exponent."""
     placed(body, i, momenta, verticals, attitudes, traces, follows, traced)
     lane[:] = 0.0
-    lane[WHICH], lane[NEXT], lane[SETTLED] = i, 1.0, ANYTHING
-    planned(lane, end, first[i])
+    lane[WHICH], lane[NEXT], lane[ALLOWED], lane[WISH] = i, 1.0, allowed, first
+    lane[SETTLED], lane[SMOOTH] = ANYTHING, ANYTHING
+    aimed(lane, frames, interval)
     exponent = enter(S, B, b, columns, J0[i], D0[i], radius[i], lane[STEP], sums, beginning, body, state)
     lane[UNIT] = 2.0 * S[LENGTH, b] / lane[STEP]
-    begun(E, B, b, S[TENSOR, b], S[TENSOR + 1, b], S[TENSOR + 2, b], start[i])
+    begun(E, B, b, S[TENSOR, b], S[TENSOR + 1, b], S[TENSOR + 2, b], start)
     for c in range(REPORTED):
         reported[i, c] = 0.0
     return exponent
@@ -121,8 +161,8 @@ def stopped_at(i, frame, momenta, verticals, attitudes, traces, follows, traced)
         traces[i, frame:] = nan
 
 
-def judged(S, b, lost, allowed, sums, state, lane):
-    """Decides the fate of a long step, and the length of the next; returns what part its error is of `TWIST`."""
+def judged(S, E, b, lost, start, sums, state, lane):
+    """Decides the fate of a long step, and the length of the next."""
     step, tries = lane[STEP], lane[TRIES]
     size = lane[UNIT] * sqrt(
         S[OMEGA, b] * S[OMEGA, b] + (S[OMEGA + 1, b] * S[OMEGA + 1, b] + S[OMEGA + 2, b] * S[OMEGA + 2, b])
@@ -137,8 +177,9 @@ def judged(S, b, lost, allowed, sums, state, lane):
             lane[FATE] = STAYS if stopped == 0 else STOPS
         if tries < MOST_TRIES and (stopped != 0 or not heavy):
             lane[FATE], lane[SETTLED] = AGAIN, 0.9 * step
-    part = left(S[MOVED + DOUBT, b], S[MOVED + ROUGH, b])
-    error, bound = part * S[MOVED + DOUBT, b], allowed * step
+    error, x, y, z = left(S, b, start)
+    E[PART, b], E[PART + 1, b] = error / x if x > 0.0 else 0.0, error / y if y > 0.0 else 0.0
+    E[PART + 2, b], bound = error / z if z > 0.0 else 0.0, lane[ALLOWED] * step
     wanted = min(max(step * lengthened(error / (WANTED * bound)), LEAST * step), MOST * step) if bound > 0.0 else step
     if size > 0.0:
         wanted = max(min(wanted, FARTHEST / size), min(NEAREST / size, step))
@@ -148,12 +189,11 @@ def judged(S, b, lost, allowed, sums, state, lane):
         lane[WISH] = UNSETTLED * step
     elif lane[FATE] == STAYS and error > most * bound and tries < MOST_TRIES:
         lane[FATE], lane[WISH] = AGAIN, min(lane[WISH], UNSETTLED * step)
-    return part
 
 
-def part_of(lane, frame, frames, interval):
+def part_of(lane, frame, interval):
     """Where a frame is, in parts of this step from its beginning."""
-    if frame == frames - 1 and lane[COMING] <= 1.0:
+    if frame == lane[GOAL] and lane[COMING] <= 1.0:
         return 1.0
     return (frame * interval - lane[NOW]) / lane[STEP]
 
@@ -174,8 +214,11 @@ def through(S, b, body, now, traced, lane, V, first, last, curve):
     return joined(first, last, radius, traced, curve)
 
 
-def recorded(E, b, i, lane, reported):
-    """Reports the errors of a ball after a step that stays: what its steps have left, and their roundings."""
+def recorded(E, b, i, end, allowed, most, lane, reported):
+    """Reports the errors of a ball after a step that stays, and says what the next ones may make.
+
+    The errors are what its steps have left, and their roundings.
+    """
     reported[i, STEPS] += 1.0
     cautious = CAUTIOUS + CAUTIOUS_FEW / reported[i, STEPS]
     off, out, speed = lane[OFF], lane[OUT], lane[SPEED] / lane[UNIT]
@@ -183,47 +226,54 @@ def recorded(E, b, i, lane, reported):
     reported[i, TURNED] = max(reported[i, TURNED], cautious * E[FOUND, b] + E[FOUND + 3, b] + off)
     reported[i, ROLLED] = max(reported[i, ROLLED], cautious * E[FOUND + 2, b] + E[FOUND + 5, b] + out)
     lane[FASTEST] = max(lane[FASTEST], speed)
+    left = max(reported[i, TURNED], reported[i, ROLLED])
+    share = EARLY + (1.0 - EARLY) * (lane[NOW] + lane[STEP]) / end
+    lane[ALLOWED] = allowed * min(max(WANTED * most * share / left, TIGHTER), LOOSER) if left > 0.0 else allowed
     lane[SPINNING] = max(lane[SPINNING], cautious * E[FOUND + 1, b] + E[FOUND + 4, b] + off * speed)
 
 
 def looked_at(
-    S, E, B, b, lost, frames, interval, allowed, start, bearable, traced, sums, body, state, lane, V, first, last,
+    S, E, B, b, lost, interval, start, bearable, traced, sums, body, state, lane, V, first, last,
     curve, now,
 ):  # fmt: skip
     """Decides the fate of the step of a lane, and makes the polynomials of one that has frames in between."""
-    E[WHOLE, b], E[PART, b], E[ROUNDED, b] = 0.0, 0.0, 0.0
+    E[WHOLE, b], E[ROUNDING, b] = 0.0, 0.0
     if S[RESTS, b] != 0.0:
         lane[FATE] = RESTING
         return
-    part = judged(S, b, lost, allowed, sums, state, lane)
+    judged(S, E, b, lost, start, sums, state, lane)
     if lane[FATE] == STAYS:
-        inside = part_of(lane, int(lane[NEXT]), frames, interval) < 1.0 - AT_END
+        inside = part_of(lane, int(lane[NEXT]), interval) < 1.0 - AT_END
         if inside:
             for c in range(MOVING):
                 now[c] = S[MOVED + c, b]
             off, out = through(S, b, body, now, traced, lane, V, first, last, curve)
-            more = lengthened(max(off, out) / (WANTED * bearable))
-            lane[WISH], lane[OFF], lane[OUT] = min(lane[WISH], max(more, LEAST) * lane[STEP]), off, out
+            more = max(lengthened(max(off, out) / (WANTED * bearable)), LEAST) * lane[STEP]
+            lane[SMOOTH], lane[OFF], lane[OUT] = more, off, out
             if max(off, out) > bearable and lane[TRIES] < MOST_TRIES:
-                lane[FATE], lane[WISH], inside = AGAIN, min(lane[WISH], UNSETTLED * lane[STEP]), False
+                lane[FATE], lane[SMOOTH], inside = AGAIN, min(more, UNSETTLED * lane[STEP]), False
         lane[KNOWN] = lane[STEP] * lane[UNIT] if inside else 0.0
     if lane[FATE] == STAYS:
+        lane[SMOOTH], lane[SETTLED] = min(HOPE * lane[SMOOTH], ANYTHING), min(HOPE * lane[SETTLED], ANYTHING)
         rounding = ROUNDINGS * start
-        E[WHOLE, b], E[PART, b], E[ROUNDED, b] = lane[STEP] * lane[UNIT], part, rounding * rounding
+        E[WHOLE, b], E[ROUNDING, b] = lane[STEP] * lane[UNIT], rounding * rounding
         S[MOVED + DOUBT, b] = 0.0
-    elif lane[FATE] == AGAIN:
+    else:
+        E[PART, b], E[PART + 1, b], E[PART + 2, b] = 0.0, 0.0, 0.0
+    if lane[FATE] == AGAIN:
         for c in range(MOVING):
             S[MOVED + c, b] = body[c]
 
 
 def follow_lanes(
-    B, momenta, verticals, attitudes, traces, J0, D0, radius, interval, first, allowed, start, bearable, follows,
-    traced, sums, following, beginning, reported, reached, status, reach,
+    B, momenta, verticals, attitudes, traces, J0, D0, radius, interval, first, allowed, most, start, bearable,
+    follows, traced, sums, following, beginning, reported, reached, status, reach,
 ):  # fmt: skip
     """Balls from their frames 0, (balls, frames, ...), to all other frames, `interval` seconds apart.
 
-    first: the length of the first step of each ball, in seconds; allowed: the error that it may make in a second;
-    start: how far its start may be off by a rounding; bearable: how far frames may be off by their interpolation.
+    first: the length of the first step of each ball, in seconds; allowed: the error that it may make in a second, at
+    first; most: what all of them may have made at the end; start: how far its start may be off by a rounding;
+    bearable: how far frames may be off by their interpolation.
     follows, traced, sums, following, beginning: as of `long_run.march_lanes`.
     reported (balls, REPORTED), the last frame that was reached, status, reach: of each ball.
     """
@@ -236,8 +286,8 @@ def follow_lanes(
     for b in range(B):
         i = min(b, balls - 1)
         exponents[b] = taken_in(
-            S, E, B, b, columns, i, first, start, momenta, verticals, attitudes, traces, J0, D0, radius, end, follows,
-            sums, beginning, bodies[b], states[b], lanes[b], reported, traced,
+            S, E, B, b, columns, i, first[i], allowed[i], start[i], momenta, verticals, attitudes, traces, J0, D0,
+            radius, frames, interval, follows, sums, beginning, bodies[b], states[b], lanes[b], reported, traced,
         )  # fmt: skip
         S[RESTS, b] = 0.0 if b < balls else 1.0
     while busy > 0:
@@ -245,10 +295,11 @@ def follow_lanes(
             tangent(S, E, B, 0, traced)
             fresh = False
         lost = side_by_side(S, B, columns, traced, following, beginning)
+        changes(S, E, B)
         for b in range(B):
             i = int(lanes[b, WHICH])
             looked_at(
-                S, E, B, b, lost, frames, interval, allowed[i], start[i], bearable[i], traced, sums, bodies[b],
+                S, E, B, b, lost, interval, start[i], bearable[i], traced, sums, bodies[b],
                 states[b], lanes[b], V, ends[2 * b], ends[2 * b + 1], curves[b], now,
             )  # fmt: skip
         tangent(S, E, B, LAST_END, traced)
@@ -257,7 +308,7 @@ def follow_lanes(
             i, frame, fate, done = int(lanes[b, WHICH]), int(lanes[b, NEXT]), lanes[b, FATE], False
             if fate == AGAIN:
                 lanes[b, TRIES] += 1.0
-                planned(lanes[b], end, lanes[b, WISH])
+                aimed(lanes[b], frames, interval)
                 resized(S, B, b, columns, 0.5 * lanes[b, STEP] * lanes[b, UNIT], bodies[b], states[b])
             elif fate == STOPS:
                 status[i], reach[i], reached[i], done = int(lanes[b, STATUS]), lanes[b, REACH], frame - 1, True
@@ -265,7 +316,7 @@ def follow_lanes(
             elif fate == STAYS:
                 for c in range(MOVING):
                     now[c] = S[MOVED + c, b]
-                part = part_of(lanes[b], frame, frames, interval)
+                part = part_of(lanes[b], frame, interval)
                 while frame < frames and part <= 1.0 + AT_END:
                     if abs(part - 1.0) <= AT_END:
                         shown(now, exponents[b], i, frame, momenta, verticals, attitudes, traces, follows, traced)
@@ -273,25 +324,28 @@ def follow_lanes(
                         ball_at(curves[b], part, bodies[b], traced, found)
                         shown(found, exponents[b], i, frame, momenta, verticals, attitudes, traces, follows, traced)
                     frame += 1
-                    part = part_of(lanes[b], frame, frames, interval)
-                recorded(E, b, i, lanes[b], reported)
+                    part = part_of(lanes[b], frame, interval)
+                recorded(E, b, i, end, allowed[i], most[i], lanes[b], reported)
                 lanes[b, NEXT], lanes[b, TRIES], lanes[b, NOW] = frame, 0.0, lanes[b, NOW] + lanes[b, STEP]
-                lanes[b, COMING], lanes[b, SETTLED] = lanes[b, COMING] - 1.0, min(HOPE * lanes[b, SETTLED], ANYTHING)
+                lanes[b, COMING] = lanes[b, COMING] - 1.0
                 for c in range(MOVING):
                     bodies[b, c] = now[c]
-                done, wish = lanes[b, COMING] < 0.5, lanes[b, WISH]
+                there, wish = lanes[b, COMING] < 0.5, min(lanes[b, WISH], lanes[b, SMOOTH])
+                alike = wish * ALIKE >= lanes[b, STEP] and wish <= ALIKE * lanes[b, STEP]
+                if there:
+                    lanes[b, NOW] = lanes[b, GOAL] * interval
+                done = there and lanes[b, GOAL] == frames - 1
                 if done:
                     reached[i], status[i], reach[i] = frames - 1, 0, 1.0
-                elif not (wish * ALIKE >= lanes[b, STEP] and wish <= ALIKE * lanes[b, STEP]) and planned(
-                    lanes[b], end, wish
-                ):
+                elif (there or not alike) and aimed(lanes[b], frames, interval):
                     resized(S, B, b, columns, 0.5 * lanes[b, STEP] * lanes[b, UNIT], now, states[b])
             if done:
                 reported[i, SPUN] = lanes[b, SPINNING] / lanes[b, FASTEST] if lanes[b, FASTEST] > 0.0 else 0.0
                 if coming < balls:
                     exponents[b] = taken_in(
-                        S, E, B, b, columns, coming, first, start, momenta, verticals, attitudes, traces, J0, D0,
-                        radius, end, follows, sums, beginning, bodies[b], states[b], lanes[b], reported, traced,
+                        S, E, B, b, columns, coming, first[coming], allowed[coming], start[coming], momenta,
+                        verticals, attitudes, traces, J0, D0, radius, frames, interval, follows, sums, beginning,
+                        bodies[b], states[b], lanes[b], reported, traced,
                     )  # fmt: skip
                     coming, fresh = coming + 1, True
                 else:
@@ -301,23 +355,25 @@ def follow_lanes(
 
 def follow_one(
     momenta: Cube, verticals: Cube, attitudes: Cube, traces: Cube, J0: Matrix, D0: Vector, radius: Vector, interval:
-    float, first: Vector, allowed: Vector, start: Vector, bearable: Vector, follows: bool, traced: bool, sums:
-    Matrix, following: Cube, beginning: Matrix, reported: Matrix, reached: Integers, status: Integers, reach: Doubles,
+    float, first: Vector, allowed: Vector, most: Vector, start: Vector, bearable: Vector, follows: bool, traced: bool,
+    sums: Matrix, following: Cube, beginning: Matrix, reported: Matrix, reached: Integers, status: Integers,
+    reach: Doubles,
 ):  # fmt: skip
     """`follow_lanes` in one lane."""
     follow_lanes(
-        1, momenta, verticals, attitudes, traces, J0, D0, radius, interval, first, allowed, start, bearable,
+        1, momenta, verticals, attitudes, traces, J0, D0, radius, interval, first, allowed, most, start, bearable,
         follows, traced, sums, following, beginning, reported, reached, status, reach,
     )  # fmt: skip
 
 
 def follow_eight(
     momenta: Cube, verticals: Cube, attitudes: Cube, traces: Cube, J0: Matrix, D0: Vector, radius: Vector, interval:
-    float, first: Vector, allowed: Vector, start: Vector, bearable: Vector, follows: bool, traced: bool, sums:
-    Matrix, following: Cube, beginning: Matrix, reported: Matrix, reached: Integers, status: Integers, reach: Doubles,
+    float, first: Vector, allowed: Vector, most: Vector, start: Vector, bearable: Vector, follows: bool, traced: bool,
+    sums: Matrix, following: Cube, beginning: Matrix, reported: Matrix, reached: Integers, status: Integers,
+    reach: Doubles,
 ):  # fmt: skip
     """`follow_lanes` in eight lanes."""
     follow_lanes(
-        EIGHT, momenta, verticals, attitudes, traces, J0, D0, radius, interval, first, allowed, start, bearable,
+        EIGHT, momenta, verticals, attitudes, traces, J0, D0, radius, interval, first, allowed, most, start, bearable,
         follows, traced, sums, following, beginning, reported, reached, status, reach,
     )  # fmt: skip

@@ -16,11 +16,11 @@ beyond, it is the one that Newton's method finds from the rates of the other ste
 
 from math import sqrt
 
-from chapsym.generated import angular_velocity, centre_step, compose, rotate, turn
+from chapsym.generated import angular_velocity, centre_step, compose, turn
 
 from .fitted import fitted, half_angle, turn_square
 from .gibbs import newton_round, second_round
-from .long_step import DOUBT, LAST, MOVING, ROUGH, SLIP, TWIST, moved_body
+from .long_step import DOUBT, LAST, MOVING, moved_body
 from .text import lanes
 
 #: Columns side by side, and balls in a block.
@@ -40,14 +40,14 @@ FIRST_TERMS = DERIVATIVES + LANES + 1
 K, G, U, V, X, Q, Y, HALF, INVERSE, SLOPE, WITHIN, LEAST = 0, 3, 6, 9, 12, 15, 19, 22, 23, 24, 25, 26
 BALL, START, VERTICAL, OMEGA, RATE, CURVE, TURNED, WEIGHT, P, OPEN, LOST = 27, 31, 34, 37, 40, 43, 46, 47, 53, 57, 58
 #: Rows of the lanes that a run does not change: half a step of the first column that is not fitted, its inverse, its
-#: |k|, the lemma's radius², LEAST and 1/n²; the same of the second; the weights of both in the sums, and those of
-#: the first guess; and ½(I_max - I_min).
-FIRSTS, SECONDS, FULL, CHANGE, BEFORE, GUESS, SPREAD, TANGENT = 59, 65, 71, 73, 75, 77, 80, 81
+#: |k|, the lemma's radius², LEAST and 1/n²; the same of the second; the weights of both in the sum and in the
+#: differences that the last three columns make, and those of the first guess; and ½(I_max - I_min).
+FIRSTS, SECONDS, FULL, CHANGE, GUESS, SPREAD, TANGENT = 59, 65, 71, 73, 79, 82, 83
 #: The rate of each lane's first step, the quaternion and the way of the column that it has finished first, and sums.
-KEPT, DONE, SUMS = 82, 85, 92
+KEPT, DONE, SUMS = 84, 87, 94
 #: Rows of the balls, one number each: `long_step.MOVING`, half a long step, the radius, J and D, whether it rests, and
 #: the rate of the first step of the largest second column.
-MOVED = SUMS + 18
+MOVED = SUMS + 11
 LENGTH, RADIUS, TENSOR = MOVED + MOVING, MOVED + MOVING + 1, MOVED + MOVING + 2
 CONTACT, RESTS, LATER = MOVED + MOVING + 5, MOVED + MOVING + 6, MOVED + MOVING + 7
 ROWS = MOVED + MOVING + 10
@@ -197,14 +197,7 @@ def gather(S, B):
         S[SUMS + 8, i] = w * S[DONE + 4, i] + v * S[Y, i]
         S[SUMS + 9, i] = w * S[DONE + 5, i] + v * S[Y + 1, i]
         S[SUMS + 10, i] = w * S[DONE + 6, i] + v * S[Y + 2, i]
-        w, v = S[BEFORE, i] * one, S[BEFORE + 1, i] * two
-        S[SUMS + 11, i], S[SUMS + 12, i] = w * a0 + v * b0, w * a1 + v * b1
-        S[SUMS + 13, i], S[SUMS + 14, i] = w * a2 + v * b2, w * a3 + v * b3
-        w, v = S[CHANGE, i], S[CHANGE + 1, i]
-        S[SUMS + 15, i] = w * S[DONE + 4, i] + v * S[Y, i]
-        S[SUMS + 16, i] = w * S[DONE + 5, i] + v * S[Y + 1, i]
-        S[SUMS + 17, i] = w * S[DONE + 6, i] + v * S[Y + 2, i]
-    for c in range(18):
+    for c in range(11):
         for b in lanes(B):
             S[SUMS + c, b] = (S[SUMS + c, b] + S[SUMS + c, B + b]) + (S[SUMS + c, 2 * B + b] + S[SUMS + c, 3 * B + b])
     for b in lanes(B):
@@ -238,13 +231,6 @@ def gather(S, B):
         S[MOVED + 8, b], S[MOVED + 9, b] = a2 if rests else b2, a3 if rests else b3
         S[MOVED + 10, b], S[MOVED + 11, b] = x if rests else v, y if rests else w
         S[MOVED + DOUBT, b] += 0.0 if rests else more
-        e0, e1, e2, e3 = S[SUMS + 11, b], S[SUMS + 12, b], S[SUMS + 13, b], S[SUMS + 14, b]
-        S[MOVED + ROUGH, b] = 2.0 * sqrt((e0 * e0 + e1 * e1) + (e2 * e2 + e3 * e3))
-        _, d1, d2, d3 = compose(S[SUMS, b], -S[SUMS + 1, b], -S[SUMS + 2, b], -S[SUMS + 3, b], d0, d1, d2, d3)
-        S[MOVED + TWIST, b], S[MOVED + TWIST + 1, b], S[MOVED + TWIST + 2, b] = 2.0 * d1, 2.0 * d2, 2.0 * d3
-        S[MOVED + SLIP, b], S[MOVED + SLIP + 1, b], _ = rotate(
-            a0, a1, a2, a3, S[SUMS + 15, b], S[SUMS + 16, b], S[SUMS + 17, b]
-        )
 
 
 def rates(S, B, first):

@@ -26,7 +26,7 @@ from .lanes import (
     TENSOR,
     side_by_side,
 )
-from .long_step import ATTITUDE, DOUBT, LAST, MOVING, SPOT, begun, long_step
+from .long_step import ATTITUDE, CHANGES, DOUBT, LAST, MOVING, SPOT, begun, long_step
 from .loop import D, I, J, three
 from .text import Cube, Doubles, Integers, Matrix, Vector, out_of_line
 
@@ -67,7 +67,7 @@ def enter(S, B, b, columns, J0, D0, radius, h, sums, beginning, body, state):
         one, two = LAST - lane >= least, lane >= least
         for c in range(DERIVATIVES):
             S[GUESS + c, i] = beginning[first, c]
-        for c in range(3):
+        for c in range(1 + CHANGES):
             S[FULL + 2 * c, i] = sums[c, first - least] if one else 0.0
             S[FULL + 2 * c + 1, i] = sums[c, lane - least] if two else 0.0
     resized(S, B, b, columns, half, body, state)
@@ -132,8 +132,7 @@ def march_lanes(
     """`steps` long steps of at most B balls from their frames 0, (balls, frames, ...); keeps every `every`-th state.
 
     follows, traced: whether there are attitudes and traces, and whether the latter are wanted.
-    sums: the weights of the columns, their differences from those without the last column, and of these from those
-    without the last two, (3, columns);
+    sums: the weights of the columns, and of the differences that the last three make, (1 + CHANGES, columns);
     following, beginning: those of the guesses (`guess`).  doubt, taken, status, reach: of each ball, (balls,).
     """
     S, columns = np.zeros((ROWS, LANES * B)), sums.shape[1]

@@ -19,11 +19,13 @@ from .loop import ENOUGH, RADIUS, D, G, I, J, K, put, safe_rotation, scaled, thr
 LAST = 7
 #: Longer steps than 2^LONGEST, in units where the momentum and the ball are about 1, have no rotation anyway.
 LONGEST = 100
+#: The rows of the weights: of the columns, and of the differences that the last three columns make.
+FULL, CHANGES = 0, 3
 #: A ball under way, and where its numbers begin: K, γ, the attitude, the contact point, and the doubt so far.  Of the
-#: last step: the angle by which a column less than that would have turned it otherwise; and what the last column has
-#: changed: the rotation, as a vector in the axes at the end, and the contact point, in radii.
-MOMENTUM, VERTICAL, ATTITUDE, SPOT, DOUBT, ROUGH, TWIST, SLIP = 0, 3, 6, 10, 12, 13, 14, 17
-MOVING = 19
+#: last step: by which vectors, in the axes at its end, the last three columns have turned it otherwise; and how far the
+#: last one has moved the contact point, in radii.
+MOMENTUM, VERTICAL, ATTITUDE, SPOT, DOUBT, TWIST, SLIP = 0, 3, 6, 10, 12, 13, 22
+MOVING = 24
 
 
 def begun(body, J0, D0, h, state):
@@ -89,8 +91,7 @@ def long_step(body, half, radius, sums, state):
     Returns (status, reach); nothing is written unless the status is 0.
     """
     q0, q1, q2, q3 = 0.0, 0.0, 0.0, 0.0
-    d0, d1, d2, d3 = 0.0, 0.0, 0.0, 0.0
-    e0, e1, e2, e3 = 0.0, 0.0, 0.0, 0.0
+    changes = np.zeros((CHANGES, 4))
     y1, y2, y3, z1, z2, z3 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     w1, w2, w3 = angular_velocity(
         body[0], body[1], body[2], body[3], body[4], body[5], state[J], state[J + 1], state[J + 2], state[D]
@@ -101,12 +102,14 @@ def long_step(body, half, radius, sums, state):
         status, reach, p0, p1, p2, p3, s1, s2, s3 = column(body, half, first + i, square, state)
         if status != 0:
             return status, reach
-        w, v, z = sums[0, i], sums[1, i], sums[2, i]
+        w, v = sums[FULL, i], sums[FULL + 1, i]
         q0, q1, q2, q3 = q0 + w * p0, q1 + w * p1, q2 + w * p2, q3 + w * p3
-        d0, d1, d2, d3 = d0 + v * p0, d1 + v * p1, d2 + v * p2, d3 + v * p3
-        e0, e1, e2, e3 = e0 + z * p0, e1 + z * p1, e2 + z * p2, e3 + z * p3
         y1, y2, y3 = y1 + w * s1, y2 + w * s2, y3 + w * s3
         z1, z2, z3 = z1 + v * s1, z2 + v * s2, z3 + v * s3
+        for c in range(CHANGES):
+            w = sums[FULL + 1 + c, i]
+            changes[c, 0], changes[c, 1] = changes[c, 0] + w * p0, changes[c, 1] + w * p1
+            changes[c, 2], changes[c, 3] = changes[c, 2] + w * p2, changes[c, 3] + w * p3
     body[SLIP], body[SLIP + 1], _ = rotate(body[6], body[7], body[8], body[9], z1, z2, z3)
     (
         body[0], body[1], body[2], body[3], body[4], body[5], body[6], body[7], body[8], body[9], body[10], body[11]
@@ -114,11 +117,19 @@ def long_step(body, half, radius, sums, state):
         body[0], body[1], body[2], body[3], body[4], body[5], body[6], body[7], body[8], body[9], body[10], body[11],
         q0, q1, q2, q3, y1, y2, y3, radius,
     )  # fmt: skip
-    body[DOUBT] += 2.0 * sqrt((d0 * d0 + d1 * d1) + (d2 * d2 + d3 * d3))
-    body[ROUGH] = 2.0 * sqrt((e0 * e0 + e1 * e1) + (e2 * e2 + e3 * e3))
-    _, d1, d2, d3 = compose(q0, -q1, -q2, -q3, d0, d1, d2, d3)
-    body[TWIST], body[TWIST + 1], body[TWIST + 2] = 2.0 * d1, 2.0 * d2, 2.0 * d3
+    for c in range(CHANGES):
+        d0, d1, d2, d3 = changes[c, 0], changes[c, 1], changes[c, 2], changes[c, 3]
+        if c == 0:
+            body[DOUBT] += 2.0 * sqrt((d0 * d0 + d1 * d1) + (d2 * d2 + d3 * d3))
+        at = TWIST + 3 * c
+        body[at], body[at + 1], body[at + 2] = twist(q0, q1, q2, q3, d0, d1, d2, d3)
     return 0, 1.0
+
+
+def twist(q0, q1, q2, q3, d0, d1, d2, d3):
+    """By which small vector, in the axes at the end, a unit quaternion q turns otherwise for a change d of it."""
+    _, x, y, z = compose(q0, -q1, -q2, -q3, d0, d1, d2, d3)
+    return 2.0 * x, 2.0 * y, 2.0 * z
 
 
 def moved_body(
