@@ -2597,7 +2597,7 @@ INLINE int64_t following_taken_in(r2 S, r2 E, int64_t B, int64_t b, int64_t colu
         lane.p[1], sums, beginning, body, state);
     lane.p[2] = 2 * S.p[129 * S.s0 + b] / lane.p[1];
     carried_begun(E, B, b, S.p[131 * S.s0 + b], S.p[132 * S.s0 + b], S.p[133 * S.s0 + b], start);
-    for (int64_t c = 0; c < 9; c++) reported.p[i * reported.s0 + c] = 0;
+    for (int64_t c = 0; c < 5; c++) reported.p[i * reported.s0 + c] = 0;
     return exponent;
 }
 
@@ -3050,10 +3050,7 @@ INLINE void following_recorded(r2 E, int64_t b, int64_t i, real end, real allowe
         E.s0 + b] + off);
     reported.p[i * reported.s0 + 2] = max_r(reported.p[i * reported.s0 + 2], cautious * E.p[85 * E.s0 + b] + E.p[88 *
         E.s0 + b] + out);
-    lane.p[7] = max_r(lane.p[7], speed); reported.p[i * reported.s0 + 5] += lane.p[21];
-    reported.p[i * reported.s0 + 6] = max_r(reported.p[i * reported.s0 + 6], E.p[83 * E.s0 + b]);
-    reported.p[i * reported.s0 + 7] = max_r(reported.p[i * reported.s0 + 7], E.p[85 * E.s0 + b]);
-    reported.p[i * reported.s0 + 8] = lane.p[22];
+    lane.p[7] = max_r(lane.p[7], speed);
     real left = max_r(reported.p[i * reported.s0 + 0], reported.p[i * reported.s0 + 2]);
     real share = R(0.1) + R(0.9) * (lane.p[0] + lane.p[1]) / end;
     lane.p[18] = left > 0 ? allowed * min_r(max_r(R(0.4) * most * share / left, R(0.02)), 2) : allowed;
@@ -3099,7 +3096,8 @@ INLINE void between_ball_at(r2 curve, real s, r1 body, int traced, r1 found) {
     }
 }
 
-INLINE void expected_surveyed(r2 momenta, r2 verticals, r2 J0, r1 D0, r1 unit, real end, real accuracy, r2 found) {
+INLINE t_r2 expected_surveyed(r2 momenta, r2 verticals, r2 J0, r1 D0, r1 unit, real end, real accuracy, r2 found) {
+    real floor = 0, single = 0;
     for (int64_t i = 0; i < momenta.n0; i++) {
         t_ri size = real_frexp(max_r(max_r(real_abs(momenta.p[i * momenta.s0 + 0]), real_abs(momenta.p[i * momenta.s0
             + 1])), real_abs(momenta.p[i * momenta.s0 + 2]))), weight = real_frexp(max_r(max_r(max_r(J0.p[i * J0.s0 +
@@ -3116,32 +3114,38 @@ INLINE void expected_surveyed(r2 momenta, r2 verticals, r2 J0, r1 D0, r1 unit, r
         real least = min_r(min_r(j2 + j3, j1 + j3), j1 + j2), condition = least > 0 ? (max_r(max_r(j2 + j3, j1 + j3),
             j1 + j2) + D) / least : R(0x1.0000000000000p+1000);
         int64_t zeros = (k1 == 0 ? 1 : 0) + (k2 == 0 ? 1 : 0) + (k3 == 0 ? 1 : 0); real turned = rate * end;
-        real root = real_sqrt(condition), walked = real_sqrt(1 + 40 * turned); found.p[i * found.s0 + 0] = rate;
-        found.p[i * found.s0 + 1] = condition;
-        found.p[i * found.s0 + 2] = (zeros > 1 || (j1 == j2 && j2 == j3)) ? 1 : 0;
-        found.p[i * found.s0 + 3] = R(0x1.0000000000000p-53) * ((1 + turned) * (2 * root + walked) + 8 * condition) *
+        real root = real_sqrt(condition), walked = real_sqrt(1 + 40 * turned); found.p[0 * found.s0 + i] = rate;
+        found.p[1 * found.s0 + i] = condition;
+        found.p[2 * found.s0 + i] = (zeros > 1 || (j1 == j2 && j2 == j3)) ? 1 : 0;
+        found.p[3 * found.s0 + i] = R(0x1.0000000000000p-53) * ((1 + turned) * (2 * root + walked) + 8 * condition) *
             unit.p[i];
-        found.p[i * found.s0 + 4] = R(0x1.0000000000000p-53) * ((1 + turned) * (2 * root + 1) + 8 * condition) *
+        found.p[4 * found.s0 + i] = R(0x1.0000000000000p-53) * ((1 + turned) * (2 * root + 1) + 8 * condition) *
             unit.p[i];
         real allowed = end > 0 ? 1 * accuracy / unit.p[i] / 192 / end : 1;
         real part = rate > 0 ? real_sqrt(real_sqrt(real_sqrt(real_sqrt(min_r(allowed / (R(3e-09) * rate), 1))))) : 1;
         part = R(1.7) * part * real_sqrt(part);
-        found.p[i * found.s0 + 5] = rate * end > part ? min_r(part / rate, end) : end;
-        found.p[i * found.s0 + 6] = allowed;
+        found.p[5 * found.s0 + i] = rate * end > part ? min_r(part / rate, end) : end;
+        found.p[6 * found.s0 + i] = allowed; found.p[7 * found.s0 + i] = accuracy / unit.p[i];
+        found.p[8 * found.s0 + i] = R(0x1.0000000000000p-52) * root; floor = max_r(floor, found.p[3 * found.s0 + i]);
+        single = max_r(single, found.p[2 * found.s0 + i]);
     }
+    return (t_r2){floor, single};
 }
 
-INLINE void expected_estimated(r2 found, r2 reported, r1 unit, int turned, int spun, int rolled, r1 error, r1 noise,
+INLINE real expected_estimated(r2 found, r2 reported, r1 unit, int turned, int spun, int rolled, r1 error, r1 noise,
     r1 started) {
+    real worst = 0;
     for (int64_t i = 0; i < error.n0; i++) {
         real most = turned ? reported.p[i * reported.s0 + 0] : 0;
         most = spun ? max_r(most, reported.p[i * reported.s0 + 1]) : most;
         most = unit.p[i] * (rolled ? max_r(most, reported.p[i * reported.s0 + 2]) : most);
         real walked = unit.p[i] * reported.p[i * reported.s0 + 3];
         started.p[i] = walked / real_sqrt(1 + R(0x1.6f347ae147ae2p+9) * reported.p[i * reported.s0 + 4]);
-        noise.p[i] = walked + 3 * found.p[i * found.s0 + 4]; error.p[i] = most + 3 * found.p[i * found.s0 + 4];
-        if (found.p[i * found.s0 + 1] > 10000) noise.p[i] = R(0x1.0000000000000p+1000);
+        noise.p[i] = walked + 3 * found.p[4 * found.s0 + i]; error.p[i] = most + 3 * found.p[4 * found.s0 + i];
+        if (found.p[1 * found.s0 + i] > 10000) noise.p[i] = R(0x1.0000000000000p+1000);
+        worst = !(error.p[i] <= worst) ? error.p[i] : worst;
     }
+    return worst;
 }
 
 #endif
@@ -3590,8 +3594,7 @@ INLINE void following_judged(r2 S, r2 E, int64_t b, int lost, real start, r2 sum
             lane.p[12] = 1; lane.p[10] = R(0.9) * step;
         }
     }
-    t_r4 error = following_left(S, b, start); lane.p[21] = error.a0; lane.p[22] += 1;
-    E.p[79 * E.s0 + b] = error.a1 > 0 ? error.a0 / error.a1 : 0;
+    t_r4 error = following_left(S, b, start); E.p[79 * E.s0 + b] = error.a1 > 0 ? error.a0 / error.a1 : 0;
     E.p[80 * E.s0 + b] = error.a2 > 0 ? error.a0 / error.a2 : 0;
     E.p[81 * E.s0 + b] = error.a3 > 0 ? error.a0 / error.a3 : 0; real bound = lane.p[18] * step, wanted = bound > 0 ?
         min_r(max_r(step * following_lengthened(error.a0 / (R(0.4) * bound)), R(0.3) * step), 2 * step) : step;
@@ -3605,8 +3608,8 @@ INLINE void following_judged(r2 S, r2 E, int64_t b, int lost, real start, r2 sum
     }
 }
 
-INLINE void following_looked_at(r2 S, r2 E, int64_t B, int64_t b, int lost, real interval, real start, real bearable,
-    int traced, r2 sums, r1 body, r1 state, r1 lane, r2 V, r2 first, r2 last, r2 curve, r1 now) {
+INLINE void following_looked_at(r2 S, r2 E, int64_t b, int lost, real interval, real start, real bearable, int traced,
+    r2 sums, r1 body, r1 state, r1 lane, r2 V, r2 first, r2 last, r2 curve, r1 now) {
     E.p[78 * E.s0 + b] = 0; E.p[82 * E.s0 + b] = 0;
     if (S.p[135 * S.s0 + b] != 0) {
         lane.p[12] = 0; return;
@@ -3640,16 +3643,16 @@ INLINE void following_looked_at(r2 S, r2 E, int64_t B, int64_t b, int lost, real
 }
 
 INLINE void following_follow_lanes(int64_t B, r3 momenta, r3 verticals, r3 attitudes, r3 traces, r2 J0, r1 D0, r1
-    radius, real interval, r1 first, r1 allowed, r1 most, r1 start, r1 bearable, int follows, int traced, r2 sums, r3
-    following, r2 beginning, r2 reported, i1 reached, i1 status, d1 reach) {
+    radius, real interval, r1 first, r1 allowed, r1 most, r1 start, int follows, int traced, r2 sums, r3 following, r2
+    beginning, r2 reported, i1 reached, i1 status, d1 reach) {
     ALIGNED real S_[139 * (4 * B)]; memset(S_, 0, sizeof S_); r2 S = {S_, 139, (4 * B), (4 * B)};
     ALIGNED real E_[115 * (4 * B)]; memset(E_, 0, sizeof E_); r2 E = {E_, 115, (4 * B), (4 * B)};
     int64_t columns = sums.n1; ALIGNED real states_[B * 27]; memset(states_, 0, sizeof states_);
     r2 states = {states_, B, 27, 27}; ALIGNED int64_t exponents_[B]; memset(exponents_, 0, sizeof exponents_);
     i1 exponents = {exponents_, B}; ALIGNED real bodies_[B * 24]; memset(bodies_, 0, sizeof bodies_);
     r2 bodies = {bodies_, B, 24, 24}; ALIGNED real now_[24]; memset(now_, 0, sizeof now_); r1 now = {now_, 24};
-    ALIGNED real found_[24]; memset(found_, 0, sizeof found_); r1 found = {found_, 24}; ALIGNED real lanes_[B * 23];
-    memset(lanes_, 0, sizeof lanes_); r2 lanes = {lanes_, B, 23, 23}; ALIGNED real ends_[(2 * B) * 6 * 6];
+    ALIGNED real found_[24]; memset(found_, 0, sizeof found_); r1 found = {found_, 24}; ALIGNED real lanes_[B * 21];
+    memset(lanes_, 0, sizeof lanes_); r2 lanes = {lanes_, B, 21, 21}; ALIGNED real ends_[(2 * B) * 6 * 6];
     memset(ends_, 0, sizeof ends_); r3 ends = {ends_, (2 * B), 6, 6, 6 * 6, 6}; ALIGNED real V_[16 * 6];
     memset(V_, 0, sizeof V_); r2 V = {V_, 16, 6, 6}; ALIGNED real curves_[B * 12 * 6];
     memset(curves_, 0, sizeof curves_); r3 curves = {curves_, B, 12, 6, 12 * 6, 6}; int64_t balls = momenta.n0;
@@ -3671,8 +3674,8 @@ INLINE void following_follow_lanes(int64_t B, r3 momenta, r3 verticals, r3 attit
         int lost = lanes_side_by_side(S, B, columns, traced, following, beginning); carried_changes(S, E, B);
         for (b = 0; b < B; b++) {
             i = (int64_t)lanes.p[b * lanes.s0 + 4];
-            following_looked_at(S, E, B, b, lost, interval, start.p[i], bearable.p[i], traced, sums, (r1){bodies.p + b
-                * bodies.s0, bodies.n1}, (r1){states.p + b * states.s0, states.n1}, (r1){lanes.p + b * lanes.s0,
+            following_looked_at(S, E, b, lost, interval, start.p[i], R(0.4) * most.p[i], traced, sums, (r1){bodies.p +
+                b * bodies.s0, bodies.n1}, (r1){states.p + b * states.s0, states.n1}, (r1){lanes.p + b * lanes.s0,
                 lanes.n1}, V, (r2){ends.p + 2 * b * ends.s0, ends.n1, ends.n2, ends.s1}, (r2){ends.p + (2 * b + 1) *
                 ends.s0, ends.n1, ends.n2, ends.s1}, (r2){curves.p + b * curves.s0, curves.n1, curves.n2, curves.s1},
                 now);
@@ -3755,17 +3758,17 @@ INLINE void following_follow_lanes(int64_t B, r3 momenta, r3 verticals, r3 attit
 }
 
 INLINE void following_follow_one(r3 momenta, r3 verticals, r3 attitudes, r3 traces, r2 J0, r1 D0, r1 radius, real
-    interval, r1 first, r1 allowed, r1 most, r1 start, r1 bearable, int follows, int traced, r2 sums, r3 following, r2
-    beginning, r2 reported, i1 reached, i1 status, d1 reach) {
+    interval, r1 first, r1 allowed, r1 most, r1 start, int follows, int traced, r2 sums, r3 following, r2 beginning,
+    r2 reported, i1 reached, i1 status, d1 reach) {
     following_follow_lanes(1, momenta, verticals, attitudes, traces, J0, D0, radius, interval, first, allowed, most,
-        start, bearable, follows, traced, sums, following, beginning, reported, reached, status, reach);
+        start, follows, traced, sums, following, beginning, reported, reached, status, reach);
 }
 
 INLINE void following_follow_eight(r3 momenta, r3 verticals, r3 attitudes, r3 traces, r2 J0, r1 D0, r1 radius, real
-    interval, r1 first, r1 allowed, r1 most, r1 start, r1 bearable, int follows, int traced, r2 sums, r3 following, r2
-    beginning, r2 reported, i1 reached, i1 status, d1 reach) {
+    interval, r1 first, r1 allowed, r1 most, r1 start, int follows, int traced, r2 sums, r3 following, r2 beginning,
+    r2 reported, i1 reached, i1 status, d1 reach) {
     following_follow_lanes(8, momenta, verticals, attitudes, traces, J0, D0, radius, interval, first, allowed, most,
-        start, bearable, follows, traced, sums, following, beginning, reported, reached, status, reach);
+        start, follows, traced, sums, following, beginning, reported, reached, status, reach);
 }
 
 #endif
@@ -3889,8 +3892,8 @@ WIDEST static void in_tangent_follow_all(const argument *a, argument *got) {
 WIDEST static void in_following_follow_one(const argument *a, argument *got) {
     following_follow_one(ARRAY3(r3, a[0]), ARRAY3(r3, a[1]), ARRAY3(r3, a[2]), ARRAY3(r3, a[3]), ARRAY2(r2, a[4]),
         ARRAY1(r1, a[5]), ARRAY1(r1, a[6]), a[7].number, ARRAY1(r1, a[8]), ARRAY1(r1, a[9]), ARRAY1(r1, a[10]),
-        ARRAY1(r1, a[11]), ARRAY1(r1, a[12]), a[13].integer, a[14].integer, ARRAY2(r2, a[15]), ARRAY3(r3, a[16]),
-        ARRAY2(r2, a[17]), ARRAY2(r2, a[18]), ARRAY1(i1, a[19]), ARRAY1(i1, a[20]), ARRAY1(d1, a[21]));
+        ARRAY1(r1, a[11]), a[12].integer, a[13].integer, ARRAY2(r2, a[14]), ARRAY3(r3, a[15]), ARRAY2(r2, a[16]),
+        ARRAY2(r2, a[17]), ARRAY1(i1, a[18]), ARRAY1(i1, a[19]), ARRAY1(d1, a[20]));
     (void)got;
 }
 
@@ -3899,25 +3902,26 @@ WIDEST static void in_following_follow_one(const argument *a, argument *got) {
 WIDEST static void in_following_follow_eight(const argument *a, argument *got) {
     following_follow_eight(ARRAY3(r3, a[0]), ARRAY3(r3, a[1]), ARRAY3(r3, a[2]), ARRAY3(r3, a[3]), ARRAY2(r2, a[4]),
         ARRAY1(r1, a[5]), ARRAY1(r1, a[6]), a[7].number, ARRAY1(r1, a[8]), ARRAY1(r1, a[9]), ARRAY1(r1, a[10]),
-        ARRAY1(r1, a[11]), ARRAY1(r1, a[12]), a[13].integer, a[14].integer, ARRAY2(r2, a[15]), ARRAY3(r3, a[16]),
-        ARRAY2(r2, a[17]), ARRAY2(r2, a[18]), ARRAY1(i1, a[19]), ARRAY1(i1, a[20]), ARRAY1(d1, a[21]));
+        ARRAY1(r1, a[11]), a[12].integer, a[13].integer, ARRAY2(r2, a[14]), ARRAY3(r3, a[15]), ARRAY2(r2, a[16]),
+        ARRAY2(r2, a[17]), ARRAY1(i1, a[18]), ARRAY1(i1, a[19]), ARRAY1(d1, a[20]));
     (void)got;
 }
 
 #endif
 #ifndef SINGLE
 static void in_expected_surveyed(const argument *a, argument *got) {
-    expected_surveyed(ARRAY2(r2, a[0]), ARRAY2(r2, a[1]), ARRAY2(r2, a[2]), ARRAY1(r1, a[3]), ARRAY1(r1, a[4]),
-        a[5].number, a[6].number, ARRAY2(r2, a[7]));
-    (void)got;
+    t_r2 out = expected_surveyed(ARRAY2(r2, a[0]), ARRAY2(r2, a[1]), ARRAY2(r2, a[2]), ARRAY1(r1, a[3]), ARRAY1(r1,
+        a[4]), a[5].number, a[6].number, ARRAY2(r2, a[7]));
+    got[0].number = out.a0;
+    got[1].number = out.a1;
 }
 
 #endif
 #ifndef SINGLE
 static void in_expected_estimated(const argument *a, argument *got) {
-    expected_estimated(ARRAY2(r2, a[0]), ARRAY2(r2, a[1]), ARRAY1(r1, a[2]), a[3].integer, a[4].integer, a[5].integer,
-        ARRAY1(r1, a[6]), ARRAY1(r1, a[7]), ARRAY1(r1, a[8]));
-    (void)got;
+    real out = expected_estimated(ARRAY2(r2, a[0]), ARRAY2(r2, a[1]), ARRAY1(r1, a[2]), a[3].integer, a[4].integer,
+        a[5].integer, ARRAY1(r1, a[6]), ARRAY1(r1, a[7]), ARRAY1(r1, a[8]));
+    got[0].number = out;
 }
 
 #endif
@@ -3936,10 +3940,10 @@ const loop_export loops_double[] = {
     {"double_double_block_prepare_pairs_block", "r2 r2 r2 r1 r2 r2* i1* i1*", "", in_double_double_block_prepare_pairs_block},
     {"double_double_block_march_pairs_block", "r2* i i i i1 r3* r3* r3* r3* i1* i1* d1*", "", in_double_double_block_march_pairs_block},
     {"tangent_follow_all", "r2 r2 r1 r i r2*", "", in_tangent_follow_all},
-    {"following_follow_one", "r3* r3* r3* r3* r2 r1 r1 r r1 r1 r1 r1 r1 b b r2 r3 r2 r2* i1* i1* d1*", "", in_following_follow_one},
-    {"following_follow_eight", "r3* r3* r3* r3* r2 r1 r1 r r1 r1 r1 r1 r1 b b r2 r3 r2 r2* i1* i1* d1*", "", in_following_follow_eight},
-    {"expected_surveyed", "r2 r2 r2 r1 r1 r r r2*", "", in_expected_surveyed},
-    {"expected_estimated", "r2 r2 r1 b b b r1* r1* r1*", "", in_expected_estimated},
+    {"following_follow_one", "r3* r3* r3* r3* r2 r1 r1 r r1 r1 r1 r1 b b r2 r3 r2 r2* i1* i1* d1*", "", in_following_follow_one},
+    {"following_follow_eight", "r3* r3* r3* r3* r2 r1 r1 r r1 r1 r1 r1 b b r2 r3 r2 r2* i1* i1* d1*", "", in_following_follow_eight},
+    {"expected_surveyed", "r2 r2 r2 r1 r1 r r r2*", "rr", in_expected_surveyed},
+    {"expected_estimated", "r2 r2 r1 b b b r1* r1* r1*", "r", in_expected_estimated},
 };
 const int loops_double_count = 17;
 #else
@@ -3953,5 +3957,5 @@ const int loops_single_count = 4;
 #endif
 
 #ifndef SINGLE
-const char loops_text[] = "0ffcf379ae7dcd62511943c679abeb59480f6e1a173c9d8f8230ed732df4e52b";
+const char loops_text[] = "0b01823dbbcf68029d0f8f17e24c9539ba9fbbea1d803c33e0b9adb7bbabc4ec";
 #endif

@@ -97,7 +97,7 @@ def _verified(problem: Problem, method: Stepping, run: Run) -> Floats:
     beside = problem.beside(ROUNDED * 2.0**-53 / share).take(Stepping(method.order, fewer), stride)
     off = apart(problem, run, beside, stride).max(axis=-1)
     off = np.where(np.isnan(off), np.inf, off) * problem.frames / (problem.frames // stride * stride)
-    return np.asarray(off * share + problem.survey[:, FLOOR])
+    return np.asarray(off * share + problem.survey[FLOOR])
 
 
 def _put(found: Motion, where: np.ndarray, run: Run, method: Stepping, error: Floats) -> None:

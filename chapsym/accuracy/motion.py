@@ -15,7 +15,7 @@ from chapsym.dynamics import BadInput, Status, is_steady, kernels, native
 from chapsym.dynamics.ball import Floats
 from chapsym.dynamics.extrapolation import FEW, loop_weights
 from chapsym.dynamics.levels.frames import Count, cores, share
-from chapsym.dynamics.loops.expected import ALLOWED, CONDITION, FIRST, FLOOR, SINGLE, STILL, estimated
+from chapsym.dynamics.loops.expected import ALLOWED, FIRST, FLOOR, MOST, START, STILL, estimated
 from chapsym.dynamics.loops.following import REPORTED, STEPS, follow_eight, follow_one
 from chapsym.dynamics.loops.lanes import MOST_COLUMNS
 
@@ -28,8 +28,6 @@ DEFAULT = 1e-6
 FINEST, ROUNDING = 1e-12, 0.5
 #: How many times a ball is followed by long steps, and what part of the accuracy those after the first aim at.
 ATTEMPTS, AIM = 4, 0.4
-#: What part of an accuracy the interpolation of the frames may take.
-BEARABLE = 0.4
 #: How many roundings of the start those of a composition are, after which they grow as it does.
 SENSITIVE = 16.0
 #: By what part, at least, the error of a step is lowered at once.
@@ -81,16 +79,15 @@ def _spin(problem: Problem, some: np.ndarray, found: Motion) -> None:
         assert few.ball.radius is not None
         centre = kernels.rotate(few.attitude, np.cross(omega, few.gamma))[:, :2] * few.ball.radius[:, np.newaxis]
         found.contact[some] = centre[:, np.newaxis] * time[:, np.newaxis]
-    found.reached[some], found.error[some] = problem.frames, few.survey[:, STILL]
+    found.reached[some], found.error[some] = problem.frames, few.survey[STILL]
 
 
 def _check(problem: Problem) -> np.ndarray | None:
     """Which balls rotate steadily, None if none do; raises BadInput for what double precision cannot have."""
-    found, steady = problem.survey, None
-    worst = found[:, FLOOR].max(initial=0.0)
-    if found[:, SINGLE].any():
+    worst, steady = problem.floor, None
+    if problem.single:
         steady = is_steady(problem.ball, problem.K, problem.gamma)
-        worst = np.where(steady, found[:, STILL], found[:, FLOOR]).max()
+        worst = float(np.where(steady, problem.survey[STILL], problem.survey[FLOOR]).max())
     if not math.isfinite(worst):
         raise BadInput("the ball turns too far for float64: |ω|T, or its condition, is beyond 1.8e308")
     if worst > ROUNDING * problem.accuracy:
@@ -105,12 +102,12 @@ def _follow(problem: Problem, progress: Callable[[float], None]) -> Motion:
     """Balls that do not rotate steadily."""
     found, accuracy = nothing(problem), problem.accuracy
     if not problem.frames:
-        found.error[:] = problem.survey[:, FLOOR]
+        found.error[:] = problem.survey[FLOOR]
         return found
-    first, allowed = problem.survey[:, FIRST].copy(), problem.survey[:, ALLOWED].copy()
-    noise, started = _run(problem, first, allowed, found, progress)
-    if (found.error <= accuracy).all():
+    worst, noise, started = _run(problem, problem.survey[FIRST], problem.survey[ALLOWED], found, progress)
+    if worst <= accuracy:
         return found
+    first, allowed = problem.survey[FIRST].copy(), problem.survey[ALLOWED].copy()
     for _ in range(1, ATTEMPTS):
         some = np.flatnonzero((found.error > accuracy) & (noise <= ROUNDING * accuracy))
         if not len(some):
@@ -120,7 +117,7 @@ def _follow(problem: Problem, progress: Callable[[float], None]) -> Motion:
         first[some] = problem.end / (found.total[some] * more ** (-1 / (EXTRAPOLATED - 1)) + 0.5)
         part = problem.of(some)
         again = nothing(part)
-        noise[some], started[some] = _run(part, first[some], allowed[some], again, lambda done: None)
+        _, noise[some], started[some] = _run(part, first[some], allowed[some], again, lambda done: None)
         # Where the steps are not shorter, they are as short as rounding lets them be.
         noise[some[again.total <= found.total[some]]] = np.inf
         put(found, some, again)
@@ -139,13 +136,14 @@ def _follow(problem: Problem, progress: Callable[[float], None]) -> Motion:
 
 def _run(
     problem: Problem, first: Floats, allowed: Floats, found: Motion, progress: Callable[[float], None]
-) -> tuple[Floats, Floats]:  # fmt: skip
-    """Follows all balls into `found`; returns what roundings of the steps, and of the start, may have made of them."""
+) -> tuple[float, Floats, Floats]:  # fmt: skip
+    """Follows all balls into `found`.
+
+    Returns the largest error, and what roundings of the steps, and of the start, may have made of all.
+    """
     n, ball = len(problem), problem.ball
-    reported, reach, start = np.zeros((n, REPORTED)), np.ones(n), 2.0**-52 * np.sqrt(problem.survey[:, CONDITION])
+    reported, reach, none = np.zeros((n, REPORTED)), np.empty(n), np.empty((n, 0, 4))
     follows, traced = problem.attitude is not None, problem.contact
-    none, most = np.empty((n, 0, 4)), problem.accuracy / problem.units
-    bearable = BEARABLE * most
     frames = (
         found.angular_momentum, found.gamma, none if found.attitude is None else found.attitude,
         none if found.contact is None else found.contact, np.ascontiguousarray(ball.mass_tensor), ball.D,
@@ -155,28 +153,30 @@ def _run(
     width = TOGETHER if n >= FEW else 1
     loop = native.loop(follow_eight if n >= FEW else follow_one)
 
-    def task(at: int) -> None:
-        some = slice(at, at + width)
-        loop(
-            *(x[some] for x in frames), problem.interval, first[some], allowed[some], most[some], start[some],
-            bearable[some], follows, traced, *loop_weights(MOST_COLUMNS), *(x[some] for x in ends),
-        )  # fmt: skip
-        count.add(len(reach[some]))
-
-    count, parts = Count(progress), range(0, n, width)
+    asked, weights = (first, allowed, problem.survey[MOST], problem.survey[START]), loop_weights(MOST_COLUMNS)
     if n == 1:
-        task(0)
+        loop(*frames, problem.interval, *asked, follows, traced, *weights, *ends)
+        progress(1)
     else:
+
+        def task(at: int) -> None:
+            some = slice(at, at + width)
+            balls, wanted, found = ([x[some] for x in arrays] for arrays in (frames, asked, ends))
+            loop(*balls, problem.interval, *wanted, follows, traced, *weights, *found)
+            count.add(len(found[-1]))
+
+        count, parts = Count(progress), range(0, n, width)
         share(task, parts, min(problem.threads or cores(), len(parts)), count)
     found.order[:], found.total[:] = EXTRAPOLATED, reported[:, STEPS]
     return _estimate(problem, reported, found.error)
 
 
-def _estimate(problem: Problem, reported: Floats, error: Floats) -> tuple[Floats, Floats]:
-    """Puts the errors of a run to their place; returns the roundings among them."""
-    noise, started, parts = np.empty(len(error)), np.empty(len(error)), problem.parts
+def _estimate(problem: Problem, reported: Floats, error: Floats) -> tuple[float, Floats, Floats]:
+    """Puts the errors of a run to their place; returns the largest, and the roundings among them."""
+    (noise, started), parts = np.empty((2, len(error))), problem.parts
     estimate = native.loop(estimated)
     turned = not parts or bool(parts & {"momentum", "gamma", "attitude"})
     rolled = problem.contact and "contact" in parts
-    estimate(problem.survey, reported, problem.units, turned, "omega" in parts, rolled, error, noise, started)
-    return noise, started
+    spun = "omega" in parts
+    worst = estimate(problem.survey, reported, problem.units, turned, spun, rolled, error, noise, started)
+    return worst, noise, started

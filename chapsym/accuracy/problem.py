@@ -1,14 +1,13 @@
 """What is asked of a motion: balls, times and an accuracy; what answers it, and how far two runs are apart."""
 
 from dataclasses import dataclass, replace
-from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from chapsym.dynamics import BadInput, Ball, kernels, native, substeps, trajectory
 from chapsym.dynamics.ball import Asked, Floats, checked_before
-from chapsym.dynamics.loops.expected import CONDITION, FIRST, FLOOR, FOUND, RATE, surveyed
+from chapsym.dynamics.loops.expected import CONDITION, FIRST, FOUND, RATE, surveyed
 from chapsym.dynamics.loops.lanes import MOST_COLUMNS
 
 from .request import lengths
@@ -77,7 +76,7 @@ class Motion:
     total: np.ndarray
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(eq=False)
 class Problem:
     """What is asked for: n balls from K and γ, `frames` times `interval` seconds apart, to an accuracy.
 
@@ -96,6 +95,19 @@ class Problem:
     metres: bool = False
     parts: frozenset[str] = PARTS
     threads: int = 0
+
+    def __post_init__(self) -> None:
+        """Finds `units`, and what `loops.expected` finds of each ball at the start: `survey`, (FOUND, n)."""
+        ball, n = self.ball, len(self.K)
+        #: `unit` of each ball, (n,).
+        self.units = ball.radius if self.metres and ball.radius is not None else np.full(n, 1.0)
+        self.survey: Floats = np.empty((FOUND, n))
+        survey = native.loop(surveyed)
+        #: What rounding alone may leave of any ball, and whether one may rotate steadily.
+        self.floor, self.single = survey(
+            self.K, self.gamma, np.ascontiguousarray(ball.mass_tensor), ball.D, self.units, self.end, self.accuracy,
+            self.survey,
+        )  # fmt: skip
 
     def __len__(self) -> int:
         return len(self.K)
@@ -121,47 +133,20 @@ class Problem:
         """The same with K so far off, relatively, in a direction that nothing prefers."""
         return replace(self, K=self.K + distance * lengths(self.K)[:, np.newaxis] * np.array([0.6, 0.64, 0.48]))
 
-    @cached_property
-    def units(self) -> Floats:
-        """`unit` of each ball, (n,)."""
-        return np.ones(len(self)) if not self.metres or self.ball.radius is None else self.ball.radius
-
-    @cached_property
-    def survey(self) -> Floats:
-        """What `loops.expected` finds of each ball at the start, (n, FOUND)."""
-        found = np.empty((len(self), FOUND))
-        survey, ball = native.loop(surveyed), self.ball
-        survey(
-            self.K,
-            self.gamma,
-            np.ascontiguousarray(ball.mass_tensor),
-            ball.D,
-            self.units,
-            self.end,
-            self.accuracy,
-            found,
-        )
-        return found
-
     @property
     def rate(self) -> Floats:
         """|ω| at the start in rad/s, (n,)."""
-        return self.survey[:, RATE]
+        return self.survey[RATE]
 
     @property
     def condition(self) -> Floats:
         """Of Λ - Dγγᵀ, at most, (n,)."""
-        return self.survey[:, CONDITION]
-
-    @property
-    def floor(self) -> float:
-        """What rounding alone may leave of any ball."""
-        return float(self.survey[:, FLOOR].max(initial=0.0))
+        return self.survey[CONDITION]
 
     @property
     def expected(self) -> float:
         """About how many long steps all balls take."""
-        return float((self.end / self.survey[:, FIRST]).sum()) if self.frames else 0.0
+        return float((self.end / self.survey[FIRST]).sum()) if self.frames else 0.0
 
     def take(self, method: Stepping, stride: int = 1) -> Run:
         """The balls at every `stride`-th frame, in `method.steps` steps from one to the next."""
@@ -177,13 +162,12 @@ class Problem:
 def nothing(problem: Problem) -> Motion:
     """Room for the motion, with the start as the first frame."""
     n, kept = len(problem), problem.frames + 1
+    reached, status, order, steps, total = np.zeros((5, n), dtype=np.int64)
     try:
         found = Motion(
             np.empty((n, kept, 3)), np.empty((n, kept, 3)),
             None if problem.attitude is None else np.empty((n, kept, 4)),
-            np.empty((n, kept, 2)) if problem.contact else None, np.zeros(n, dtype=np.int64),
-            np.zeros(n, dtype=np.int64), np.zeros(n), np.zeros(n, dtype=np.int64), np.zeros(n, dtype=np.int64),
-            np.zeros(n, dtype=np.int64),
+            np.empty((n, kept, 2)) if problem.contact else None, reached, status, np.zeros(n), order, steps, total,
         )  # fmt: skip
     except (MemoryError, ValueError):
         raise BadInput(f"{kept} states of {n} balls do not fit into memory: keep fewer, by a larger `every`") from None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import Any, Literal
 
@@ -78,6 +79,8 @@ def roll(
 
 #: Momenta between these need no closer look.
 ORDINARY = 1e-290, 1e290
+#: The reach of a ball that stops.
+UNKNOWN = np.full(1, np.nan)
 #: A unit quaternion times this turns the other way; and the vertical in space.
 _INVERSE, _UP = np.array([1.0, -1.0, -1.0, -1.0]), np.array([0.0, 0.0, 1.0])
 
@@ -97,7 +100,8 @@ def _start(
         if not (length > 0).all():
             raise BadInput("attitude must be unit quaternions (scalar first); divide by the length")
         vertical = kernels.rotate(turned / length * _INVERSE, _UP)
-    batch(ball.principal, spin, vertical)  # so that a mistake is told in the names of this function
+    if not (ball.is_one and spin.ndim == vertical.ndim == 1):
+        batch(ball.principal, spin, vertical)  # so that a mistake is reported in the names of this function
     if not isinstance(turned, bool):
         turned = initial_attitude(turned, vertical)
     if axes not in ("body", "space"):
@@ -147,8 +151,8 @@ def _momentum(ball: Ball, omega: Floats, gamma: Floats, epsilon: float) -> Float
 
 
 def _accuracy(given: float | None) -> float:
-    if given is None:
-        return DEFAULT
+    if given is None or (isinstance(given, float) and given >= FINEST and given < math.inf):
+        return DEFAULT if given is None else float(given)
     found = numbers(given, "accuracy")
     if found.ndim or not found >= FINEST:
         raise BadInput(
@@ -166,7 +170,9 @@ def _motion(
     every = min(every, steps + 1)
     if contact and ball.radius is None:
         raise BadInput("the contact point needs the radius: give the ball its radius")
-    radius = None if ball.radius is None else np.broadcast_to(ball.radius, shape).reshape(-1).copy()
+    radius = ball.radius
+    if radius is not None:
+        radius = radius.reshape(1).copy() if not shape else np.broadcast_to(radius, shape).reshape(-1).copy()
     if isinstance(attitude, bool):
         turned = attitude_with(g if shape else g[0]).reshape(-1, 4) if contact or attitude else None
     else:
@@ -185,12 +191,14 @@ def _motion(
     found = moved(problem, lambda balls: progress(int(balls * steps)))
 
     def shaped(array: np.ndarray | None) -> Any:
-        return None if array is None else array[0] if not shape else array.reshape((*shape, *array.shape[1:]))
+        return None if array is None else array.reshape((*shape, *array.shape[1:]))
 
+    taken = found.reached * every
+    taken[found.reached == problem.frames] = steps
+    found.angular_momentum[...] *= epsilon
     run = Trajectory(
-        ball, np.arange(problem.frames + 1) * every, shaped(found.angular_momentum * epsilon), shaped(found.gamma),
-        shaped(found.attitude), shaped(found.contact),
-        np.asarray(shaped(np.where(found.reached == problem.frames, steps, found.reached * every))),
-        np.asarray(shaped(found.status)), epsilon, 0, error=np.asarray(shaped(found.error)),
+        ball, np.arange(0, steps + 1, every), shaped(found.angular_momentum), shaped(found.gamma),
+        shaped(found.attitude), shaped(found.contact), shaped(taken), shaped(found.status), epsilon, 0,
+        error=shaped(found.error),
     )  # fmt: skip
-    return finished(run, np.full(1, np.nan))
+    return finished(run, UNKNOWN)

@@ -37,11 +37,10 @@ def attitude_with(gamma: Floats) -> Floats:
 
 def _least(x: float, y: float, z: float) -> tuple[float, ...]:
     """`attitude_with` of one γ, with the same roundings."""
-    x, y = (0.0 if abs(v) < 1e-150 else v for v in (x, y))
-    quaternion = (1 + z, y, -x, 0.0) if not z < 0 else ((x * x + y * y) / (1 - z), y, -x, 0.0)
-    a, b, c, _ = quaternion
-    length = sqrt(a * a + b * b + c * c)
-    return (0.0, 1.0, 0.0, 0.0) if length == 0.0 else tuple(v / length for v in quaternion)
+    x, y = 0.0 if abs(x) < 1e-150 else x, 0.0 if abs(y) < 1e-150 else y
+    a = (x * x + y * y) / (1 - z) if z < 0 else 1 + z
+    length = sqrt(a * a + y * y + x * x)
+    return (0.0, 1.0, 0.0, 0.0) if length == 0.0 else (a / length, y / length, -x / length, 0.0)
 
 
 def initial_attitude(attitude: bool | ArrayLike, gamma: Floats) -> Floats:

@@ -249,7 +249,7 @@ def keep(ball: Any, **parameters: Floats | None) -> None:
 def checked_before(mass_tensor: Floats, D: Floats, radius: Asked = None) -> Ball:
     """Balls in principal axes with parameters that another ball has, which is not checked again."""
     ball = object.__new__(Ball)
-    keep(ball, mass_tensor=mass_tensor, D=D, radius=radius, axes=None)
+    ball.__dict__.update(mass_tensor=mass_tensor, D=D, radius=radius, axes=None)
     return ball
 
 

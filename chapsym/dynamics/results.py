@@ -95,6 +95,8 @@ class Step:
             return list(map(self.precision.write, values))
 
 
+#: `Status.TAKEN`, which takes a microsecond to look up.
+TAKEN = int(Status.TAKEN)
 #: What a run keeps of each frame.
 FRAMES = ("index", "momentum", "gamma", "attitude", "contact")
 
@@ -109,7 +111,7 @@ def some_frames(run: Any, which: np.ndarray | slice) -> Any:
 
 def finished(run: Any, reach: Floats) -> Any:
     """A run of any kind; of one ball that stopped, StepNotTaken with `reach` and the frames before."""
-    if run.status.shape or run.status == Status.TAKEN:
+    if run.status.shape or run.status == TAKEN:
         return run
     taken = int(run.taken)
     raise StepNotTaken(Status(int(run.status)), float(reach.flat[0]), taken, some_frames(run, run.index <= taken))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from math import inf
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -127,6 +128,8 @@ def step_numbers(index: ArrayLike) -> np.ndarray:
 
 def seconds(value: ArrayLike) -> float:
     """A time step in seconds; raises BadInput for what is not one positive number."""
+    if isinstance(value, float) and 0.0 < value < inf:
+        return float(value)
     epsilon = numbers(value, "time_step")
     if epsilon.ndim or not epsilon > 0:
         raise BadInput(f"time_step must be one positive number of seconds, not {value!r}")

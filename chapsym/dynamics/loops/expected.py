@@ -8,9 +8,10 @@ from .following import CAUTIOUS, FARTHEST, ROLLED, ROUNDINGS, SPUN, STEPS, TURNE
 from .text import Matrix, Vector
 
 #: What is found of a ball: |ω| at the start in rad/s; the condition of Λ - Dγγᵀ, at most; whether it may rotate
-#: steadily; what rounding may leave of it, and if it does; the first step in seconds, and the error of a second.
-RATE, CONDITION, SINGLE, FLOOR, STILL, FIRST, ALLOWED = 0, 1, 2, 3, 4, 5, 6
-FOUND = 7
+#: steadily; what rounding may leave of it, and if it does; the first step in seconds, the error of a second, and that
+#: at the end; and how far its start may be off by a rounding.
+RATE, CONDITION, SINGLE, FLOOR, STILL, FIRST, ALLOWED, MOST, START = 0, 1, 2, 3, 4, 5, 6, 7, 8
+FOUND = 9
 #: A rounding.
 UNIT = 2.0**-53
 #: By how much the errors of steps grow in a run, of most balls.
@@ -35,11 +36,12 @@ def surveyed(
     accuracy: float,
     found: Matrix,
 ):
-    """What can be said of each ball at the start, (balls, FOUND); unit: what a relative error comes to, (balls,).
+    """What can be said of each ball at the start, (FOUND, balls); unit: what a relative error comes to, (balls,).
 
     Rounding of J, D and K turns with the ball; that of the forty stages in a radian walks; ω along γ loses the digits
-    of the condition.
+    of the condition.  Returns the largest of FLOOR and of SINGLE.
     """
+    floor, single = 0.0, 0.0
     for i in range(momenta.shape[0]):
         # By powers of two, exactly, K and the moments are about 1.
         _, size = frexp(max(abs(momenta[i, 0]), abs(momenta[i, 1]), abs(momenta[i, 2])))
@@ -54,16 +56,18 @@ def surveyed(
         zeros = (1 if k1 == 0.0 else 0) + (1 if k2 == 0.0 else 0) + (1 if k3 == 0.0 else 0)
         turned, root = rate * end, sqrt(condition)
         walked = sqrt(1.0 + 40.0 * turned)
-        found[i, RATE], found[i, CONDITION] = rate, condition
-        found[i, SINGLE] = 1.0 if zeros > 1 or (j1 == j2 and j2 == j3) else 0.0
-        found[i, FLOOR] = UNIT * ((1.0 + turned) * (2.0 * root + walked) + 8.0 * condition) * unit[i]
-        found[i, STILL] = UNIT * ((1.0 + turned) * (2.0 * root + 1.0) + 8.0 * condition) * unit[i]
+        found[RATE, i], found[CONDITION, i] = rate, condition
+        found[SINGLE, i] = 1.0 if zeros > 1 or (j1 == j2 and j2 == j3) else 0.0
+        found[FLOOR, i] = UNIT * ((1.0 + turned) * (2.0 * root + walked) + 8.0 * condition) * unit[i]
+        found[STILL, i] = UNIT * ((1.0 + turned) * (2.0 * root + 1.0) + 8.0 * condition) * unit[i]
         allowed = AIM * accuracy / unit[i] / (CAUTIOUS * GROWTH) / end if end > 0.0 else 1.0
         # The power 3/32, which is the root that the law asks for, but a little.
         part = sqrt(sqrt(sqrt(sqrt(min(allowed / (UNIT_ERROR * rate), 1.0))))) if rate > 0.0 else 1.0
         part = FARTHEST * part * sqrt(part)
-        found[i, FIRST] = min(part / rate, end) if rate * end > part else end
-        found[i, ALLOWED] = allowed
+        found[FIRST, i] = min(part / rate, end) if rate * end > part else end
+        found[ALLOWED, i], found[MOST, i], found[START, i] = allowed, accuracy / unit[i], 2.0 * UNIT * root
+        floor, single = max(floor, found[FLOOR, i]), max(single, found[SINGLE, i])
+    return floor, single
 
 
 def estimated(
@@ -80,15 +84,18 @@ def estimated(
     """The errors that the loop estimated, and what of them the roundings of the steps, and of the start, may have made.
 
     Those of a ball that stopped are NaN.  Roundings walk, and what is left of them grows as the errors do.  turned,
-    spun, rolled: which errors count.
+    spun, rolled: which errors count.  Returns the largest error.
     """
+    worst = 0.0
     for i in range(error.shape[0]):
         most = reported[i, TURNED] if turned else 0.0
         most = max(most, reported[i, SPUN]) if spun else most
         most = unit[i] * (max(most, reported[i, ROLLED]) if rolled else most)
         walked = unit[i] * reported[i, WALKED]
         started[i] = walked / sqrt(1.0 + ROUNDINGS * ROUNDINGS * reported[i, STEPS])
-        noise[i] = walked + TURNING * found[i, STILL]
-        error[i] = most + TURNING * found[i, STILL]
-        if found[i, CONDITION] > CONDITIONED:
+        noise[i] = walked + TURNING * found[STILL, i]
+        error[i] = most + TURNING * found[STILL, i]
+        if found[CONDITION, i] > CONDITIONED:
             noise[i] = ENDLESS
+        worst = error[i] if not error[i] <= worst else worst
+    return worst

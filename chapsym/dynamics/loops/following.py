@@ -46,6 +46,8 @@ CAUTIOUS, CAUTIOUS_FEW = 12.0, 32.0
 EARLY, TIGHTER, LOOSER = 0.1, 0.02, 2.0
 #: The rounding of a step, in roundings of a start: the sum of its |weights|, 54.2, over 2.
 ROUNDINGS = 27.1
+#: What part of an accuracy the interpolation of the frames may take.
+BEARABLE = 0.4
 #: Steps end at a frame if they are at least this part of what they could be: a frame in between costs as much.
 TO_A_FRAME = 0.7
 #: Frames at the ends of steps, up to this part of a step, are not interpolated.
@@ -233,7 +235,7 @@ def recorded(E, b, i, end, allowed, most, lane, reported):
 
 
 def looked_at(
-    S, E, B, b, lost, interval, start, bearable, traced, sums, body, state, lane, V, first, last,
+    S, E, b, lost, interval, start, bearable, traced, sums, body, state, lane, V, first, last,
     curve, now,
 ):  # fmt: skip
     """Decides the fate of the step of a lane, and makes the polynomials of one that has frames in between."""
@@ -266,14 +268,13 @@ def looked_at(
 
 
 def follow_lanes(
-    B, momenta, verticals, attitudes, traces, J0, D0, radius, interval, first, allowed, most, start, bearable,
+    B, momenta, verticals, attitudes, traces, J0, D0, radius, interval, first, allowed, most, start,
     follows, traced, sums, following, beginning, reported, reached, status, reach,
 ):  # fmt: skip
     """Balls from their frames 0, (balls, frames, ...), to all other frames, `interval` seconds apart.
 
     first: the length of the first step of each ball, in seconds; allowed: the error that it may make in a second, at
-    first; most: what all of them may have made at the end; start: how far its start may be off by a rounding;
-    bearable: how far frames may be off by their interpolation.
+    first; most: what all of them may have made at the end; start: how far its start may be off by a rounding.
     follows, traced, sums, following, beginning: as of `long_run.march_lanes`.
     reported (balls, REPORTED), the last frame that was reached, status, reach: of each ball.
     """
@@ -299,7 +300,7 @@ def follow_lanes(
         for b in range(B):
             i = int(lanes[b, WHICH])
             looked_at(
-                S, E, B, b, lost, interval, start[i], bearable[i], traced, sums, bodies[b],
+                S, E, b, lost, interval, start[i], BEARABLE * most[i], traced, sums, bodies[b],
                 states[b], lanes[b], V, ends[2 * b], ends[2 * b + 1], curves[b], now,
             )  # fmt: skip
         tangent(S, E, B, LAST_END, traced)
@@ -355,25 +356,25 @@ def follow_lanes(
 
 def follow_one(
     momenta: Cube, verticals: Cube, attitudes: Cube, traces: Cube, J0: Matrix, D0: Vector, radius: Vector, interval:
-    float, first: Vector, allowed: Vector, most: Vector, start: Vector, bearable: Vector, follows: bool, traced: bool,
+    float, first: Vector, allowed: Vector, most: Vector, start: Vector, follows: bool, traced: bool,
     sums: Matrix, following: Cube, beginning: Matrix, reported: Matrix, reached: Integers, status: Integers,
     reach: Doubles,
 ):  # fmt: skip
     """`follow_lanes` in one lane."""
     follow_lanes(
-        1, momenta, verticals, attitudes, traces, J0, D0, radius, interval, first, allowed, most, start, bearable,
+        1, momenta, verticals, attitudes, traces, J0, D0, radius, interval, first, allowed, most, start,
         follows, traced, sums, following, beginning, reported, reached, status, reach,
     )  # fmt: skip
 
 
 def follow_eight(
     momenta: Cube, verticals: Cube, attitudes: Cube, traces: Cube, J0: Matrix, D0: Vector, radius: Vector, interval:
-    float, first: Vector, allowed: Vector, most: Vector, start: Vector, bearable: Vector, follows: bool, traced: bool,
+    float, first: Vector, allowed: Vector, most: Vector, start: Vector, follows: bool, traced: bool,
     sums: Matrix, following: Cube, beginning: Matrix, reported: Matrix, reached: Integers, status: Integers,
     reach: Doubles,
 ):  # fmt: skip
     """`follow_lanes` in eight lanes."""
     follow_lanes(
-        EIGHT, momenta, verticals, attitudes, traces, J0, D0, radius, interval, first, allowed, most, start, bearable,
+        EIGHT, momenta, verticals, attitudes, traces, J0, D0, radius, interval, first, allowed, most, start,
         follows, traced, sums, following, beginning, reported, reached, status, reach,
     )  # fmt: skip
