@@ -2597,7 +2597,7 @@ INLINE int64_t following_taken_in(r2 S, r2 E, int64_t B, int64_t b, int64_t colu
         lane.p[1], sums, beginning, body, state);
     lane.p[2] = 2 * S.p[129 * S.s0 + b] / lane.p[1];
     carried_begun(E, B, b, S.p[131 * S.s0 + b], S.p[132 * S.s0 + b], S.p[133 * S.s0 + b], start);
-    for (int64_t c = 0; c < 5; c++) reported.p[i * reported.s0 + c] = 0;
+    for (int64_t c = 0; c < 6; c++) reported.p[i * reported.s0 + c] = c == 5 ? 1 : 0;
     return exponent;
 }
 
@@ -2827,7 +2827,7 @@ INLINE void carried_leave(r2 S, r2 E, int64_t B, int traced) {
 
 INLINE void carried_carry(r2 S, r2 E, int64_t B, int traced) {
     carried_flown(E, B, traced); carried_leave(S, E, B, traced); int64_t i; real x, y, z, x1, x2, x3, y1, y2, y3, m1;
-    real m2, m3, n1, n2, n3, u1, u2, u3, v1, v2, v3;
+    real m2, m3, n1, n2, n3, u1, u2, u3, v1, v2, v3, one;
     INDEPENDENT
     for (int64_t b = 0; b < B; b++) {
         i = b; int64_t j = B + b, k = 2 * B + b; real a1 = E.p[54 * E.s0 + i], a2 = E.p[55 * E.s0 + i];
@@ -2857,6 +2857,8 @@ INLINE void carried_carry(r2 S, r2 E, int64_t B, int traced) {
             u1 = x1 * s11 + x2 * s12 + x3 * s13 + m1; u2 = x1 * s12 + x2 * s22 + x3 * s23 + m2;
             u3 = x1 * s13 + x2 * s23 + x3 * s33 + m3; v1 = y1 * s11 + y2 * s12 + y3 * s13 + n1;
             v2 = y1 * s12 + y2 * s22 + y3 * s23 + n2; v3 = y1 * s13 + y2 * s23 + y3 * s33 + n3;
+            x = S.p[115 * S.s0 + b]; y = S.p[116 * S.s0 + b]; one = R(0x1.0000000000000p-53) / S.p[130 * S.s0 + b];
+            error += error > 0 ? one * one * (x * x + y * y) : 0;
             x = E.p[76 * E.s0 + b] + (u1 * x1 + u2 * x2 + u3 * x3 + (m1 * x1 + m2 * x2 + m3 * x3) + error);
             y = E.p[77 * E.s0 + b] + (v1 * y1 + v2 * y2 + v3 * y3 + (n1 * y1 + n2 * y2 + n3 * y3) + error);
             E.p[76 * E.s0 + b] = x; E.p[77 * E.s0 + b] = y; E.p[88 * E.s0 + b] = real_sqrt(max_r(x + y, 0));
@@ -2963,7 +2965,7 @@ INLINE void between_series(r1 body, real J1, real J2, real J3, real contact, rea
 }
 
 INLINE real between_followed(real last, real before) {
-    return before > 0 ? 4 * real_sqrt(last) * min_r(real_sqrt(last / before), 8) : 4 * real_sqrt(last);
+    return before > 0 ? 8 * real_sqrt(last) * min_r(real_sqrt(last / before), 8) : 8 * real_sqrt(last);
 }
 
 INLINE t_r2 between_joined(r2 first, r2 end, real radius, int traced, r2 curve) {
@@ -3042,19 +3044,23 @@ INLINE void following_stopped_at(int64_t i, int64_t frame, r3 momenta, r3 vertic
     }
 }
 
-INLINE void following_recorded(r2 E, int64_t b, int64_t i, real end, real allowed, real most, r1 lane, r2 reported) {
-    reported.p[i * reported.s0 + 4] += 1; real cautious = 12 + 32 / reported.p[i * reported.s0 + 4], off = lane.p[14];
-    real out = lane.p[15], speed = lane.p[11] / lane.p[2];
-    reported.p[i * reported.s0 + 3] = max_r(reported.p[i * reported.s0 + 3], E.p[86 * E.s0 + b]);
-    reported.p[i * reported.s0 + 0] = max_r(reported.p[i * reported.s0 + 0], cautious * E.p[83 * E.s0 + b] + E.p[86 *
-        E.s0 + b] + off);
-    reported.p[i * reported.s0 + 2] = max_r(reported.p[i * reported.s0 + 2], cautious * E.p[85 * E.s0 + b] + E.p[88 *
-        E.s0 + b] + out);
+INLINE void following_recorded(r2 E, int64_t b, int64_t i, real end, real allowed, real most, int patient, r1 lane, r2
+    reported) {
+    reported.p[i * reported.s0 + 4] += 1; real cautious = 20 + 32 / reported.p[i * reported.s0 + 4], off = lane.p[14];
+    real out = lane.p[15], speed = lane.p[11] / lane.p[2], turned = 2 * E.p[86 * E.s0 + b];
+    real spun = 2 * E.p[87 * E.s0 + b], rolled = 2 * E.p[88 * E.s0 + b];
+    reported.p[i * reported.s0 + 3] = max_r(max_r(reported.p[i * reported.s0 + 3], turned), rolled);
+    reported.p[i * reported.s0 + 0] = max_r(reported.p[i * reported.s0 + 0], cautious * E.p[83 * E.s0 + b] + turned +
+        off);
+    reported.p[i * reported.s0 + 2] = max_r(reported.p[i * reported.s0 + 2], cautious * E.p[85 * E.s0 + b] + rolled +
+        out);
     lane.p[7] = max_r(lane.p[7], speed);
     real left = max_r(reported.p[i * reported.s0 + 0], reported.p[i * reported.s0 + 2]);
-    real share = R(0.1) + R(0.9) * (lane.p[0] + lane.p[1]) / end;
+    real until = min_r((lane.p[0] + lane.p[1]) / end, 1), share = R(0.1) + R(0.9) * until;
+    if (left > share * most && turned < R(0.25) * left && !patient)
+        reported.p[i * reported.s0 + 5] = min_r(until, R(0x1.fffffff768fa1p-1));
     lane.p[18] = left > 0 ? allowed * min_r(max_r(R(0.4) * most * share / left, R(0.02)), 2) : allowed;
-    lane.p[8] = max_r(lane.p[8], cautious * E.p[84 * E.s0 + b] + E.p[87 * E.s0 + b] + off * speed);
+    lane.p[8] = max_r(lane.p[8], cautious * E.p[84 * E.s0 + b] + spun + off * speed);
 }
 
 INLINE void following_shown(r1 body, int64_t exponent, int64_t i, int64_t frame, r3 momenta, r3 verticals, r3
@@ -3121,7 +3127,7 @@ INLINE t_r2 expected_surveyed(r2 momenta, r2 verticals, r2 J0, r1 D0, r1 unit, r
             unit.p[i];
         found.p[4 * found.s0 + i] = R(0x1.0000000000000p-53) * ((1 + turned) * (2 * root + 1) + 8 * condition) *
             unit.p[i];
-        real allowed = end > 0 ? 1 * accuracy / unit.p[i] / 192 / end : 1;
+        real allowed = end > 0 ? 1 * accuracy / unit.p[i] / 200 / end : 1;
         real part = rate > 0 ? real_sqrt(real_sqrt(real_sqrt(real_sqrt(min_r(allowed / (R(3e-09) * rate), 1))))) : 1;
         part = R(1.7) * part * real_sqrt(part);
         found.p[5 * found.s0 + i] = rate * end > part ? min_r(part / rate, end) : end;
@@ -3142,6 +3148,9 @@ INLINE real expected_estimated(r2 found, r2 reported, r1 unit, int turned, int s
         real walked = unit.p[i] * reported.p[i * reported.s0 + 3];
         started.p[i] = walked / real_sqrt(1 + R(0x1.6f347ae147ae2p+9) * reported.p[i * reported.s0 + 4]);
         noise.p[i] = walked + 3 * found.p[4 * found.s0 + i]; error.p[i] = most + 3 * found.p[4 * found.s0 + i];
+        if (reported.p[i * reported.s0 + 5] < 1)
+            error.p[i] = max_r(error.p[i] / reported.p[i * reported.s0 + 5], 2 * unit.p[i] * found.p[7 * found.s0 +
+                i]);
         if (found.p[1 * found.s0 + i] > 10000) noise.p[i] = R(0x1.0000000000000p+1000);
         worst = !(error.p[i] <= worst) ? error.p[i] : worst;
     }
@@ -3643,8 +3652,8 @@ INLINE void following_looked_at(r2 S, r2 E, int64_t b, int lost, real interval, 
 }
 
 INLINE void following_follow_lanes(int64_t B, r3 momenta, r3 verticals, r3 attitudes, r3 traces, r2 J0, r1 D0, r1
-    radius, real interval, r1 first, r1 allowed, r1 most, r1 start, int follows, int traced, r2 sums, r3 following, r2
-    beginning, r2 reported, i1 reached, i1 status, d1 reach) {
+    radius, real interval, r1 first, r1 allowed, r1 most, r1 start, int patient, int follows, int traced, r2 sums, r3
+    following, r2 beginning, r2 reported, i1 reached, i1 status, d1 reach) {
     ALIGNED real S_[139 * (4 * B)]; memset(S_, 0, sizeof S_); r2 S = {S_, 139, (4 * B), (4 * B)};
     ALIGNED real E_[115 * (4 * B)]; memset(E_, 0, sizeof E_); r2 E = {E_, 115, (4 * B), (4 * B)};
     int64_t columns = sums.n1; ALIGNED real states_[B * 27]; memset(states_, 0, sizeof states_);
@@ -3713,8 +3722,8 @@ INLINE void following_follow_lanes(int64_t B, r3 momenta, r3 verticals, r3 attit
                             frame += 1;
                             part = following_part_of((r1){lanes.p + b * lanes.s0, lanes.n1}, frame, interval);
                         }
-                        following_recorded(E, b, i, end, allowed.p[i], most.p[i], (r1){lanes.p + b * lanes.s0,
-                            lanes.n1}, reported);
+                        following_recorded(E, b, i, end, allowed.p[i], most.p[i], patient, (r1){lanes.p + b *
+                            lanes.s0, lanes.n1}, reported);
                         int64_t t_1 = frame; real t_2 = 0;
                         real t_3 = lanes.p[b * lanes.s0 + 0] + lanes.p[b * lanes.s0 + 1];
                         lanes.p[b * lanes.s0 + 5] = t_1; lanes.p[b * lanes.s0 + 6] = t_2;
@@ -3726,14 +3735,19 @@ INLINE void following_follow_lanes(int64_t B, r3 momenta, r3 verticals, r3 attit
                             + 1];
                         if (there) lanes.p[b * lanes.s0 + 0] = lanes.p[b * lanes.s0 + 19] * interval;
                         done = there && lanes.p[b * lanes.s0 + 19] == frames - 1;
-                        if (done) {
-                            reached.p[i] = frames - 1; status.p[i] = 0; reach.p[i] = 1;
+                        if (reported.p[i * reported.s0 + 5] < 1) {
+                            reached.p[i] = frame - 1; status.p[i] = 0; reach.p[i] = 1; done = 1;
                         }
                         else {
-                            if ((there || !alike) && following_aimed((r1){lanes.p + b * lanes.s0, lanes.n1}, frames,
-                                interval))
-                                long_run_resized(S, B, b, columns, R(0.5) * lanes.p[b * lanes.s0 + 1] * lanes.p[b *
-                                    lanes.s0 + 2], now, (r1){states.p + b * states.s0, states.n1});
+                            if (done) {
+                                reached.p[i] = frames - 1; status.p[i] = 0; reach.p[i] = 1;
+                            }
+                            else {
+                                if ((there || !alike) && following_aimed((r1){lanes.p + b * lanes.s0, lanes.n1},
+                                    frames, interval))
+                                    long_run_resized(S, B, b, columns, R(0.5) * lanes.p[b * lanes.s0 + 1] * lanes.p[b
+                                        * lanes.s0 + 2], now, (r1){states.p + b * states.s0, states.n1});
+                            }
                         }
                     }
                 }
@@ -3758,17 +3772,17 @@ INLINE void following_follow_lanes(int64_t B, r3 momenta, r3 verticals, r3 attit
 }
 
 INLINE void following_follow_one(r3 momenta, r3 verticals, r3 attitudes, r3 traces, r2 J0, r1 D0, r1 radius, real
-    interval, r1 first, r1 allowed, r1 most, r1 start, int follows, int traced, r2 sums, r3 following, r2 beginning,
-    r2 reported, i1 reached, i1 status, d1 reach) {
+    interval, r1 first, r1 allowed, r1 most, r1 start, int patient, int follows, int traced, r2 sums, r3 following, r2
+    beginning, r2 reported, i1 reached, i1 status, d1 reach) {
     following_follow_lanes(1, momenta, verticals, attitudes, traces, J0, D0, radius, interval, first, allowed, most,
-        start, follows, traced, sums, following, beginning, reported, reached, status, reach);
+        start, patient, follows, traced, sums, following, beginning, reported, reached, status, reach);
 }
 
 INLINE void following_follow_eight(r3 momenta, r3 verticals, r3 attitudes, r3 traces, r2 J0, r1 D0, r1 radius, real
-    interval, r1 first, r1 allowed, r1 most, r1 start, int follows, int traced, r2 sums, r3 following, r2 beginning,
-    r2 reported, i1 reached, i1 status, d1 reach) {
+    interval, r1 first, r1 allowed, r1 most, r1 start, int patient, int follows, int traced, r2 sums, r3 following, r2
+    beginning, r2 reported, i1 reached, i1 status, d1 reach) {
     following_follow_lanes(8, momenta, verticals, attitudes, traces, J0, D0, radius, interval, first, allowed, most,
-        start, follows, traced, sums, following, beginning, reported, reached, status, reach);
+        start, patient, follows, traced, sums, following, beginning, reported, reached, status, reach);
 }
 
 #endif
@@ -3892,8 +3906,8 @@ WIDEST static void in_tangent_follow_all(const argument *a, argument *got) {
 WIDEST static void in_following_follow_one(const argument *a, argument *got) {
     following_follow_one(ARRAY3(r3, a[0]), ARRAY3(r3, a[1]), ARRAY3(r3, a[2]), ARRAY3(r3, a[3]), ARRAY2(r2, a[4]),
         ARRAY1(r1, a[5]), ARRAY1(r1, a[6]), a[7].number, ARRAY1(r1, a[8]), ARRAY1(r1, a[9]), ARRAY1(r1, a[10]),
-        ARRAY1(r1, a[11]), a[12].integer, a[13].integer, ARRAY2(r2, a[14]), ARRAY3(r3, a[15]), ARRAY2(r2, a[16]),
-        ARRAY2(r2, a[17]), ARRAY1(i1, a[18]), ARRAY1(i1, a[19]), ARRAY1(d1, a[20]));
+        ARRAY1(r1, a[11]), a[12].integer, a[13].integer, a[14].integer, ARRAY2(r2, a[15]), ARRAY3(r3, a[16]),
+        ARRAY2(r2, a[17]), ARRAY2(r2, a[18]), ARRAY1(i1, a[19]), ARRAY1(i1, a[20]), ARRAY1(d1, a[21]));
     (void)got;
 }
 
@@ -3902,8 +3916,8 @@ WIDEST static void in_following_follow_one(const argument *a, argument *got) {
 WIDEST static void in_following_follow_eight(const argument *a, argument *got) {
     following_follow_eight(ARRAY3(r3, a[0]), ARRAY3(r3, a[1]), ARRAY3(r3, a[2]), ARRAY3(r3, a[3]), ARRAY2(r2, a[4]),
         ARRAY1(r1, a[5]), ARRAY1(r1, a[6]), a[7].number, ARRAY1(r1, a[8]), ARRAY1(r1, a[9]), ARRAY1(r1, a[10]),
-        ARRAY1(r1, a[11]), a[12].integer, a[13].integer, ARRAY2(r2, a[14]), ARRAY3(r3, a[15]), ARRAY2(r2, a[16]),
-        ARRAY2(r2, a[17]), ARRAY1(i1, a[18]), ARRAY1(i1, a[19]), ARRAY1(d1, a[20]));
+        ARRAY1(r1, a[11]), a[12].integer, a[13].integer, a[14].integer, ARRAY2(r2, a[15]), ARRAY3(r3, a[16]),
+        ARRAY2(r2, a[17]), ARRAY2(r2, a[18]), ARRAY1(i1, a[19]), ARRAY1(i1, a[20]), ARRAY1(d1, a[21]));
     (void)got;
 }
 
@@ -3940,8 +3954,8 @@ const loop_export loops_double[] = {
     {"double_double_block_prepare_pairs_block", "r2 r2 r2 r1 r2 r2* i1* i1*", "", in_double_double_block_prepare_pairs_block},
     {"double_double_block_march_pairs_block", "r2* i i i i1 r3* r3* r3* r3* i1* i1* d1*", "", in_double_double_block_march_pairs_block},
     {"tangent_follow_all", "r2 r2 r1 r i r2*", "", in_tangent_follow_all},
-    {"following_follow_one", "r3* r3* r3* r3* r2 r1 r1 r r1 r1 r1 r1 b b r2 r3 r2 r2* i1* i1* d1*", "", in_following_follow_one},
-    {"following_follow_eight", "r3* r3* r3* r3* r2 r1 r1 r r1 r1 r1 r1 b b r2 r3 r2 r2* i1* i1* d1*", "", in_following_follow_eight},
+    {"following_follow_one", "r3* r3* r3* r3* r2 r1 r1 r r1 r1 r1 r1 b b b r2 r3 r2 r2* i1* i1* d1*", "", in_following_follow_one},
+    {"following_follow_eight", "r3* r3* r3* r3* r2 r1 r1 r r1 r1 r1 r1 b b b r2 r3 r2 r2* i1* i1* d1*", "", in_following_follow_eight},
     {"expected_surveyed", "r2 r2 r2 r1 r1 r r r2*", "rr", in_expected_surveyed},
     {"expected_estimated", "r2 r2 r1 b b b r1* r1* r1*", "r", in_expected_estimated},
 };
@@ -3957,5 +3971,5 @@ const int loops_single_count = 4;
 #endif
 
 #ifndef SINGLE
-const char loops_text[] = "0b01823dbbcf68029d0f8f17e24c9539ba9fbbea1d803c33e0b9adb7bbabc4ec";
+const char loops_text[] = "c799bae63dc06183818beb05553fb8577cf64c8f1ef69903a927e4b0b051dbd2";
 #endif

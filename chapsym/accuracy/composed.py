@@ -97,7 +97,13 @@ def _verified(problem: Problem, method: Stepping, run: Run) -> Floats:
     beside = problem.beside(ROUNDED * 2.0**-53 / share).take(Stepping(method.order, fewer), stride)
     off = apart(problem, run, beside, stride).max(axis=-1)
     off = np.where(np.isnan(off), np.inf, off) * problem.frames / (problem.frames // stride * stride)
-    return np.asarray(off * share + problem.survey[FLOOR])
+    rounded = problem.survey[FLOOR]
+    if run.contact is not None and problem.ball.radius is not None and "contact" in problem.parts:
+        # The way of the contact point is a sum of as many terms as there are steps of the map, and each turns with the
+        # attitude, which is a product of as many.
+        way = np.nan_to_num(np.abs(run.contact)).max(axis=(-2, -1)) / problem.ball.radius + problem.rate * problem.end
+        rounded = rounded + problem.units * way * 2.0**-53 * (problem.frames * method.stages) ** 0.5
+    return np.asarray(off * share + rounded)
 
 
 def _put(found: Motion, where: np.ndarray, run: Run, method: Stepping, error: Floats) -> None:

@@ -26,7 +26,8 @@ from .problem import EXTRAPOLATED, Motion, Problem, nothing, of, omega_of, put
 DEFAULT = 1e-6
 #: What double precision can be asked for; rounding may take this part of an accuracy.
 FINEST, ROUNDING = 1e-12, 0.5
-#: How many times a ball is followed by long steps, and what part of the accuracy those after the first aim at.
+#: How many times a ball is followed by long steps, at most, and what part of the accuracy those after the first aim
+#: at.
 ATTEMPTS, AIM = 4, 0.4
 #: How many roundings of the start those of a composition are, after which they grow as it does.
 SENSITIVE = 16.0
@@ -108,18 +109,19 @@ def _follow(problem: Problem, progress: Callable[[float], None]) -> Motion:
     if worst <= accuracy:
         return found
     first, allowed = problem.survey[FIRST].copy(), problem.survey[ALLOWED].copy()
-    for _ in range(1, ATTEMPTS):
-        some = np.flatnonzero((found.error > accuracy) & (noise <= ROUNDING * accuracy))
+    for attempt in range(1, ATTEMPTS):
+        given_up = (found.reached < problem.frames) & (found.status == Status.TAKEN)
+        some = np.flatnonzero((found.error > accuracy) & (noise <= ROUNDING * accuracy) | given_up)
         if not len(some):
             break
         more = np.minimum(np.maximum(AIM * accuracy / found.error[some], FINER), 0.5)
         allowed[some] *= more
-        first[some] = problem.end / (found.total[some] * more ** (-1 / (EXTRAPOLATED - 1)) + 0.5)
-        part = problem.of(some)
+        first[some] *= more ** (1 / (EXTRAPOLATED - 1))
+        part, last = problem.of(some), attempt + 1 == ATTEMPTS
         again = nothing(part)
-        _, noise[some], started[some] = _run(part, first[some], allowed[some], again, lambda done: None)
+        _, noise[some], started[some] = _run(part, first[some], allowed[some], again, lambda done: None, last)
         # Where the steps are not shorter, they are as short as rounding lets them be.
-        noise[some[again.total <= found.total[some]]] = np.inf
+        noise[some[(again.total <= found.total[some]) & ~given_up[some]]] = np.inf
         put(found, some, again)
     poor = np.flatnonzero((found.error > accuracy) & (SENSITIVE * started <= accuracy) | (found.status != Status.TAKEN))
     if len(poor):
@@ -135,9 +137,10 @@ def _follow(problem: Problem, progress: Callable[[float], None]) -> Motion:
 
 
 def _run(
-    problem: Problem, first: Floats, allowed: Floats, found: Motion, progress: Callable[[float], None]
+    problem: Problem, first: Floats, allowed: Floats, found: Motion, progress: Callable[[float], None],
+    patient: bool = False,
 ) -> tuple[float, Floats, Floats]:  # fmt: skip
-    """Follows all balls into `found`.
+    """Follows all balls into `found`, where `patient` none is given up.
 
     Returns the largest error, and what roundings of the steps, and of the start, may have made of all.
     """
@@ -155,14 +158,14 @@ def _run(
 
     asked, weights = (first, allowed, problem.survey[MOST], problem.survey[START]), loop_weights(MOST_COLUMNS)
     if n == 1:
-        loop(*frames, problem.interval, *asked, follows, traced, *weights, *ends)
+        loop(*frames, problem.interval, *asked, patient, follows, traced, *weights, *ends)
         progress(1)
     else:
 
         def task(at: int) -> None:
             some = slice(at, at + width)
             balls, wanted, found = ([x[some] for x in arrays] for arrays in (frames, asked, ends))
-            loop(*balls, problem.interval, *wanted, follows, traced, *weights, *found)
+            loop(*balls, problem.interval, *wanted, patient, follows, traced, *weights, *found)
             count.add(len(found[-1]))
 
         count, parts = Count(progress), range(0, n, width)

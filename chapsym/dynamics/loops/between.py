@@ -6,7 +6,7 @@ same functions run on floats and are compiled.
 
 Between the ends, at the part s of the step, a polynomial is off by the twelfth derivative over 12! times
 (s(1 - s))⁶ ≤ 2⁻¹².  The last two coefficients are the eleventh over 11! and the tenth over 10!: the twelfth is taken
-to follow as they do, and four times that is stated as what may be wrong.
+to follow as they do, and eight times that is stated as what may be wrong.
 """
 
 from math import sqrt
@@ -127,8 +127,8 @@ def joined(first, end, radius, traced, curve):
 
 
 def followed(last, before):
-    """Four times the coefficient that comes next, by the squares of the last two."""
-    return 4.0 * sqrt(last) * min(sqrt(last / before), MOST_GROWN) if before > 0.0 else 4.0 * sqrt(last)
+    """Eight times the coefficient that comes next, by the squares of the last two."""
+    return 8.0 * sqrt(last) * min(sqrt(last / before), MOST_GROWN) if before > 0.0 else 8.0 * sqrt(last)
 
 
 def at_part(curve, i, s):

@@ -18,8 +18,8 @@ from math import sqrt
 
 from chapsym.generated import angular_velocity, rotate
 
-from .lanes import BALL, CHANGE, DONE, LANES, MOVED, SUMS, Q, Y
-from .long_step import ATTITUDE, CHANGES, SLIP, TWIST, twist
+from .lanes import BALL, CHANGE, DONE, LANES, MOVED, RADIUS, SUMS, Q, Y
+from .long_step import ATTITUDE, CHANGES, SLIP, SPOT, TWIST, twist
 from .text import lanes
 
 #: Rows of an end.  Of the unit error φ of a lane: δω, φ', φ'', how fast the contact point leaves, and its rate.  Of the
@@ -42,6 +42,8 @@ INVERSE, HALF, TWELFTH = FOUND + 6, FOUND + 15, FOUND + 16
 #: The changes of the quaternion that the last three columns have made, and of the way of the centre by the last.
 CHANGED = FOUND + 17
 ROWS = CHANGED + 4 * CHANGES + 3
+#: A rounding.
+UNIT_ROUNDING = 2.0**-53
 #: Below this part of |Λω| |ω| the gradient of the energy is too much of a rounding to be used.
 STEADY = 1e-7
 
@@ -299,6 +301,9 @@ def carry(S, E, B, traced):
             v1 = (y1 * s11 + y2 * s12 + y3 * s13) + n1
             v2 = (y1 * s12 + y2 * s22 + y3 * s23) + n2
             v3 = (y1 * s13 + y2 * s23 + y3 * s33) + n3
+            # The contact point, far away, is rounded by itself.
+            x, y, one = S[MOVED + SPOT, b], S[MOVED + SPOT + 1, b], UNIT_ROUNDING / S[RADIUS, b]
+            error += one * one * (x * x + y * y) if error > 0.0 else 0.0
             x = E[OUTER, b] + ((u1 * x1 + u2 * x2 + u3 * x3) + (m1 * x1 + m2 * x2 + m3 * x3) + error)
             y = E[OUTER + 1, b] + ((v1 * y1 + v2 * y2 + v3 * y3) + (n1 * y1 + n2 * y2 + n3 * y3) + error)
             E[OUTER, b], E[OUTER + 1, b], E[FOUND + 5, b] = x, y, sqrt(max(x + y, 0.0))

@@ -4,7 +4,7 @@ from math import frexp, ldexp, sqrt
 
 from chapsym.generated import angular_velocity
 
-from .following import CAUTIOUS, FARTHEST, ROLLED, ROUNDINGS, SPUN, STEPS, TURNED, WALKED
+from .following import CAUTIOUS, FARTHEST, ROLLED, ROUNDINGS, SPUN, STEPS, TURNED, UNTIL, WALKED
 from .text import Matrix, Vector
 
 #: What is found of a ball: |ω| at the start in rad/s; the condition of Λ - Dγγᵀ, at most; whether it may rotate
@@ -15,7 +15,7 @@ FOUND = 9
 #: A rounding.
 UNIT = 2.0**-53
 #: By how much the errors of steps grow in a run, of most balls.
-GROWTH = 16.0
+GROWTH = 10.0
 #: The error of a step of |ω|h = 1 radian, of most balls; and what part of an accuracy a run aims at.
 UNIT_ERROR, AIM = 3e-9, 1.0
 #: The roundings of steps that go one way turn a ball as those of its parameters do, and so many times as far.
@@ -95,6 +95,8 @@ def estimated(
         started[i] = walked / sqrt(1.0 + ROUNDINGS * ROUNDINGS * reported[i, STEPS])
         noise[i] = walked + TURNING * found[STILL, i]
         error[i] = most + TURNING * found[STILL, i]
+        if reported[i, UNTIL] < 1.0:  # what is to be feared at the end
+            error[i] = max(error[i] / reported[i, UNTIL], 2.0 * unit[i] * found[MOST, i])
         if found[CONDITION, i] > CONDITIONED:
             noise[i] = ENDLESS
         worst = error[i] if not error[i] <= worst else worst

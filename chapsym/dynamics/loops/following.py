@@ -40,10 +40,12 @@ GAIN = 2.0
 #: Of the changes that a column makes this is rounding: a part that all have, and so many times that of a start.
 ROUNDED, ROUNDED_START = 2e-15, 10.0
 #: How many times as large as they leave it the error of steps is held to be, of many and of few.
-CAUTIOUS, CAUTIOUS_FEW = 12.0, 32.0
+CAUTIOUS, CAUTIOUS_FEW = 20.0, 32.0
 #: What part of an accuracy the error may have after t of T seconds is EARLY + (1 - EARLY) t / T; a step may make so
 #: many times less, or more, than was allowed at first, where there is more, or less.
 EARLY, TIGHTER, LOOSER = 0.1, 0.02, 2.0
+#: How many times the root of their mean square roundings are held to be.
+SIGMAS = 2.0
 #: The rounding of a step, in roundings of a start: the sum of its |weights|, 54.2, over 2.
 ROUNDINGS = 27.1
 #: What part of an accuracy the interpolation of the frames may take.
@@ -53,9 +55,10 @@ TO_A_FRAME = 0.7
 #: Frames at the ends of steps, up to this part of a step, are not interpolated.
 AT_END = 1e-9
 #: What is reported of a ball: the error of the attitude, in radians, of ω, relative to its largest, and of the contact
-#: point, in radii; what roundings of its steps may have made of the attitude; and how many steps it took.
-TURNED, SPUN, ROLLED, WALKED, STEPS = 0, 1, 2, 3, 4
-REPORTED = 5
+#: point, in radii; what roundings of its steps may have made of them; how many steps it took; and at which part
+#: of the time it was given up, 1 if it was not.
+TURNED, SPUN, ROLLED, WALKED, STEPS, UNTIL = 0, 1, 2, 3, 4, 5
+REPORTED = 6
 #: Numbers of a lane: the time now, its step in seconds, the unit of time of S, the steps that are left, its ball, the
 #: next frame, tries of this step, the largest |ω| and error of ω so far, and the step of the series at its end, 0
 #: without; the longest step that settles, as far as it is known; and |ω| now, in rad/s.
@@ -138,7 +141,7 @@ def taken_in(
     lane[UNIT] = 2.0 * S[LENGTH, b] / lane[STEP]
     begun(E, B, b, S[TENSOR, b], S[TENSOR + 1, b], S[TENSOR + 2, b], start)
     for c in range(REPORTED):
-        reported[i, c] = 0.0
+        reported[i, c] = 1.0 if c == UNTIL else 0.0
     return exponent
 
 
@@ -216,22 +219,28 @@ def through(S, b, body, now, traced, lane, V, first, last, curve):
     return joined(first, last, radius, traced, curve)
 
 
-def recorded(E, b, i, end, allowed, most, lane, reported):
+def recorded(E, b, i, end, allowed, most, patient, lane, reported):
     """Reports the errors of a ball after a step that stays, and says what the next ones may make.
 
-    The errors are what its steps have left, and their roundings.
+    The errors are what its steps have left, and their roundings.  A ball is given up, so that it is followed again from
+    its start with shorter steps, where it has more than its share of an accuracy; not where that is rounding, or where
+    one is `patient`.
     """
     reported[i, STEPS] += 1.0
     cautious = CAUTIOUS + CAUTIOUS_FEW / reported[i, STEPS]
     off, out, speed = lane[OFF], lane[OUT], lane[SPEED] / lane[UNIT]
-    reported[i, WALKED] = max(reported[i, WALKED], E[FOUND + 3, b])
-    reported[i, TURNED] = max(reported[i, TURNED], cautious * E[FOUND, b] + E[FOUND + 3, b] + off)
-    reported[i, ROLLED] = max(reported[i, ROLLED], cautious * E[FOUND + 2, b] + E[FOUND + 5, b] + out)
+    turned, spun, rolled = SIGMAS * E[FOUND + 3, b], SIGMAS * E[FOUND + 4, b], SIGMAS * E[FOUND + 5, b]
+    reported[i, WALKED] = max(reported[i, WALKED], turned, rolled)
+    reported[i, TURNED] = max(reported[i, TURNED], cautious * E[FOUND, b] + turned + off)
+    reported[i, ROLLED] = max(reported[i, ROLLED], cautious * E[FOUND + 2, b] + rolled + out)
     lane[FASTEST] = max(lane[FASTEST], speed)
     left = max(reported[i, TURNED], reported[i, ROLLED])
-    share = EARLY + (1.0 - EARLY) * (lane[NOW] + lane[STEP]) / end
+    until = min((lane[NOW] + lane[STEP]) / end, 1.0)
+    share = EARLY + (1.0 - EARLY) * until
+    if left > share * most and turned < 0.25 * left and not patient:
+        reported[i, UNTIL] = min(until, 1.0 - AT_END)
     lane[ALLOWED] = allowed * min(max(WANTED * most * share / left, TIGHTER), LOOSER) if left > 0.0 else allowed
-    lane[SPINNING] = max(lane[SPINNING], cautious * E[FOUND + 1, b] + E[FOUND + 4, b] + off * speed)
+    lane[SPINNING] = max(lane[SPINNING], cautious * E[FOUND + 1, b] + spun + off * speed)
 
 
 def looked_at(
@@ -268,14 +277,14 @@ def looked_at(
 
 
 def follow_lanes(
-    B, momenta, verticals, attitudes, traces, J0, D0, radius, interval, first, allowed, most, start,
+    B, momenta, verticals, attitudes, traces, J0, D0, radius, interval, first, allowed, most, start, patient,
     follows, traced, sums, following, beginning, reported, reached, status, reach,
 ):  # fmt: skip
     """Balls from their frames 0, (balls, frames, ...), to all other frames, `interval` seconds apart.
 
     first: the length of the first step of each ball, in seconds; allowed: the error that it may make in a second, at
     first; most: what all of them may have made at the end; start: how far its start may be off by a rounding.
-    follows, traced, sums, following, beginning: as of `long_run.march_lanes`.
+    patient: whether no ball is given up.  follows, traced, sums, following, beginning: as of `long_run.march_lanes`.
     reported (balls, REPORTED), the last frame that was reached, status, reach: of each ball.
     """
     S, E, columns = np.zeros((ROWS, LANES * B)), np.zeros((ERRORS, LANES * B)), sums.shape[1]
@@ -326,7 +335,7 @@ def follow_lanes(
                         shown(found, exponents[b], i, frame, momenta, verticals, attitudes, traces, follows, traced)
                     frame += 1
                     part = part_of(lanes[b], frame, interval)
-                recorded(E, b, i, end, allowed[i], most[i], lanes[b], reported)
+                recorded(E, b, i, end, allowed[i], most[i], patient, lanes[b], reported)
                 lanes[b, NEXT], lanes[b, TRIES], lanes[b, NOW] = frame, 0.0, lanes[b, NOW] + lanes[b, STEP]
                 lanes[b, COMING] = lanes[b, COMING] - 1.0
                 for c in range(MOVING):
@@ -336,7 +345,9 @@ def follow_lanes(
                 if there:
                     lanes[b, NOW] = lanes[b, GOAL] * interval
                 done = there and lanes[b, GOAL] == frames - 1
-                if done:
+                if reported[i, UNTIL] < 1.0:
+                    reached[i], status[i], reach[i], done = frame - 1, 0, 1.0, True
+                elif done:
                     reached[i], status[i], reach[i] = frames - 1, 0, 1.0
                 elif (there or not alike) and aimed(lanes[b], frames, interval):
                     resized(S, B, b, columns, 0.5 * lanes[b, STEP] * lanes[b, UNIT], now, states[b])
@@ -356,25 +367,25 @@ def follow_lanes(
 
 def follow_one(
     momenta: Cube, verticals: Cube, attitudes: Cube, traces: Cube, J0: Matrix, D0: Vector, radius: Vector, interval:
-    float, first: Vector, allowed: Vector, most: Vector, start: Vector, follows: bool, traced: bool,
-    sums: Matrix, following: Cube, beginning: Matrix, reported: Matrix, reached: Integers, status: Integers,
-    reach: Doubles,
+    float, first: Vector, allowed: Vector, most: Vector, start: Vector, patient: bool,
+    follows: bool, traced: bool, sums: Matrix, following: Cube, beginning: Matrix, reported: Matrix,
+    reached: Integers, status: Integers, reach: Doubles,
 ):  # fmt: skip
     """`follow_lanes` in one lane."""
     follow_lanes(
-        1, momenta, verticals, attitudes, traces, J0, D0, radius, interval, first, allowed, most, start,
+        1, momenta, verticals, attitudes, traces, J0, D0, radius, interval, first, allowed, most, start, patient,
         follows, traced, sums, following, beginning, reported, reached, status, reach,
     )  # fmt: skip
 
 
 def follow_eight(
     momenta: Cube, verticals: Cube, attitudes: Cube, traces: Cube, J0: Matrix, D0: Vector, radius: Vector, interval:
-    float, first: Vector, allowed: Vector, most: Vector, start: Vector, follows: bool, traced: bool,
-    sums: Matrix, following: Cube, beginning: Matrix, reported: Matrix, reached: Integers, status: Integers,
-    reach: Doubles,
+    float, first: Vector, allowed: Vector, most: Vector, start: Vector, patient: bool,
+    follows: bool, traced: bool, sums: Matrix, following: Cube, beginning: Matrix, reported: Matrix,
+    reached: Integers, status: Integers, reach: Doubles,
 ):  # fmt: skip
     """`follow_lanes` in eight lanes."""
     follow_lanes(
-        EIGHT, momenta, verticals, attitudes, traces, J0, D0, radius, interval, first, allowed, most, start,
+        EIGHT, momenta, verticals, attitudes, traces, J0, D0, radius, interval, first, allowed, most, start, patient,
         follows, traced, sums, following, beginning, reported, reached, status, reach,
     )  # fmt: skip
