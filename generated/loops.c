@@ -3132,7 +3132,9 @@ INLINE t_r2 expected_surveyed(r2 momenta, r2 verticals, r2 J0, r1 D0, r1 unit, r
         part = R(1.7) * part * real_sqrt(part);
         found.p[5 * found.s0 + i] = rate * end > part ? min_r(part / rate, end) : end;
         found.p[6 * found.s0 + i] = allowed; found.p[7 * found.s0 + i] = accuracy / unit.p[i];
-        found.p[8 * found.s0 + i] = R(0x1.0000000000000p-52) * root; floor = max_r(floor, found.p[3 * found.s0 + i]);
+        found.p[8 * found.s0 + i] = R(0x1.0000000000000p-52) * root;
+        int known = found.p[3 * found.s0 + i] <= R(0x1.0000000000000p+1000);
+        floor = max_r(floor, known ? found.p[3 * found.s0 + i] : INFINITY);
         single = max_r(single, found.p[2 * found.s0 + i]);
     }
     return (t_r2){floor, single};
@@ -3971,5 +3973,5 @@ const int loops_single_count = 4;
 #endif
 
 #ifndef SINGLE
-const char loops_text[] = "c799bae63dc06183818beb05553fb8577cf64c8f1ef69903a927e4b0b051dbd2";
+const char loops_text[] = "076e520648c8334b26be315b1c360f1395afef98037f78f280fc84e2c5140374";
 #endif

@@ -1,6 +1,6 @@
 """What long steps of a ball are expected to cost it, and what to make of what they tell.  Plain code, compiled."""
 
-from math import frexp, ldexp, sqrt
+from math import frexp, inf, ldexp, sqrt
 
 from chapsym.generated import angular_velocity
 
@@ -66,7 +66,8 @@ def surveyed(
         part = FARTHEST * part * sqrt(part)
         found[FIRST, i] = min(part / rate, end) if rate * end > part else end
         found[ALLOWED, i], found[MOST, i], found[START, i] = allowed, accuracy / unit[i], 2.0 * UNIT * root
-        floor, single = max(floor, found[FLOOR, i]), max(single, found[SINGLE, i])
+        known = found[FLOOR, i] <= ENDLESS  # not where it is NaN
+        floor, single = max(floor, found[FLOOR, i] if known else inf), max(single, found[SINGLE, i])
     return floor, single
 
 
