@@ -3050,14 +3050,12 @@ INLINE void following_recorded(r2 E, int64_t b, int64_t i, real end, real allowe
     real out = lane.p[15], speed = lane.p[11] / lane.p[2], turned = 2 * E.p[86 * E.s0 + b];
     real spun = 2 * E.p[87 * E.s0 + b], rolled = 2 * E.p[88 * E.s0 + b];
     reported.p[i * reported.s0 + 3] = max_r(max_r(reported.p[i * reported.s0 + 3], turned), rolled);
-    reported.p[i * reported.s0 + 0] = max_r(reported.p[i * reported.s0 + 0], cautious * E.p[83 * E.s0 + b] + turned +
-        off);
-    reported.p[i * reported.s0 + 2] = max_r(reported.p[i * reported.s0 + 2], cautious * E.p[85 * E.s0 + b] + rolled +
-        out);
-    lane.p[7] = max_r(lane.p[7], speed);
-    real left = max_r(reported.p[i * reported.s0 + 0], reported.p[i * reported.s0 + 2]);
+    turned = cautious * E.p[83 * E.s0 + b] + turned; rolled = cautious * E.p[85 * E.s0 + b] + rolled;
+    reported.p[i * reported.s0 + 0] = max_r(reported.p[i * reported.s0 + 0], turned + off);
+    reported.p[i * reported.s0 + 2] = max_r(reported.p[i * reported.s0 + 2], rolled + out);
+    lane.p[7] = max_r(lane.p[7], speed); real left = max_r(turned, rolled);
     real until = min_r((lane.p[0] + lane.p[1]) / end, 1), share = R(0.1) + R(0.9) * until;
-    if (left > share * most && turned < R(0.25) * left && !patient)
+    if (left > share * most && reported.p[i * reported.s0 + 3] < R(0.25) * left && !patient)
         reported.p[i * reported.s0 + 5] = min_r(until, R(0x1.fffffff768fa1p-1));
     lane.p[18] = left > 0 ? allowed * min_r(max_r(R(0.4) * most * share / left, R(0.02)), 2) : allowed;
     lane.p[8] = max_r(lane.p[8], cautious * E.p[84 * E.s0 + b] + spun + off * speed);
@@ -3973,5 +3971,5 @@ const int loops_single_count = 4;
 #endif
 
 #ifndef SINGLE
-const char loops_text[] = "076e520648c8334b26be315b1c360f1395afef98037f78f280fc84e2c5140374";
+const char loops_text[] = "cba4b6e529261b743b46de51f14848c9333270ee386b9577408fe4bae8f69d49";
 #endif

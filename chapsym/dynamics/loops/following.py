@@ -231,13 +231,14 @@ def recorded(E, b, i, end, allowed, most, patient, lane, reported):
     off, out, speed = lane[OFF], lane[OUT], lane[SPEED] / lane[UNIT]
     turned, spun, rolled = SIGMAS * E[FOUND + 3, b], SIGMAS * E[FOUND + 4, b], SIGMAS * E[FOUND + 5, b]
     reported[i, WALKED] = max(reported[i, WALKED], turned, rolled)
-    reported[i, TURNED] = max(reported[i, TURNED], cautious * E[FOUND, b] + turned + off)
-    reported[i, ROLLED] = max(reported[i, ROLLED], cautious * E[FOUND + 2, b] + rolled + out)
+    turned, rolled = cautious * E[FOUND, b] + turned, cautious * E[FOUND + 2, b] + rolled
+    reported[i, TURNED] = max(reported[i, TURNED], turned + off)
+    reported[i, ROLLED] = max(reported[i, ROLLED], rolled + out)
     lane[FASTEST] = max(lane[FASTEST], speed)
-    left = max(reported[i, TURNED], reported[i, ROLLED])
+    left = max(turned, rolled)
     until = min((lane[NOW] + lane[STEP]) / end, 1.0)
     share = EARLY + (1.0 - EARLY) * until
-    if left > share * most and turned < 0.25 * left and not patient:
+    if left > share * most and reported[i, WALKED] < 0.25 * left and not patient:
         reported[i, UNTIL] = min(until, 1.0 - AT_END)
     lane[ALLOWED] = allowed * min(max(WANTED * most * share / left, TIGHTER), LOOSER) if left > 0.0 else allowed
     lane[SPINNING] = max(lane[SPINNING], cautious * E[FOUND + 1, b] + spun + off * speed)
