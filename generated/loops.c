@@ -3125,7 +3125,7 @@ INLINE t_r2 expected_surveyed(r2 momenta, r2 verticals, r2 J0, r1 D0, r1 unit, r
             unit.p[i];
         found.p[4 * found.s0 + i] = R(0x1.0000000000000p-53) * ((1 + turned) * (2 * root + 1) + 8 * condition) *
             unit.p[i];
-        real allowed = end > 0 ? 1 * accuracy / unit.p[i] / 200 / end : 1;
+        real allowed = end > 0 ? 1 * accuracy / unit.p[i] / 600 / end : 1;
         real part = rate > 0 ? real_sqrt(real_sqrt(real_sqrt(real_sqrt(min_r(allowed / (R(3e-09) * rate), 1))))) : 1;
         part = R(1.7) * part * real_sqrt(part);
         found.p[5 * found.s0 + i] = rate * end > part ? min_r(part / rate, end) : end;
@@ -3971,5 +3971,5 @@ const int loops_single_count = 4;
 #endif
 
 #ifndef SINGLE
-const char loops_text[] = "cba4b6e529261b743b46de51f14848c9333270ee386b9577408fe4bae8f69d49";
+const char loops_text[] = "f391966fc1d92525305e866d06beb5d0963008c23cbf0ea5238387031fc6cb2d";
 #endif

@@ -15,7 +15,7 @@ FOUND = 9
 #: A rounding.
 UNIT = 2.0**-53
 #: By how much the errors of steps grow in a run, of most balls.
-GROWTH = 10.0
+GROWTH = 30.0
 #: The error of a step of |ω|h = 1 radian, of most balls; and what part of an accuracy a run aims at.
 UNIT_ERROR, AIM = 3e-9, 1.0
 #: The roundings of steps that go one way turn a ball as those of its parameters do, and so many times as far.
