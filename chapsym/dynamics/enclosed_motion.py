@@ -249,8 +249,8 @@ class _Search:
         progress: Callable[[str], None],
     ) -> None:  # fmt: skip
         from .flow.path import Path
-        from .theta.general import General
-        from .theta.jacobi import Top
+        from .theta.motion import General
+        from .theta.top import Top
 
         solved = Top if start.vertical or not start.D else General
         self.by: Any = solved if by == THETA else Path
@@ -335,6 +335,8 @@ class _Search:
                     frames.append(_signed(path.frame(end)))
                 except TooWide:
                     return self._more(path, bits)
+                except _TimeUp:
+                    return None
                 missing = max(missing, _missing(frames[-1], self.digits, self.start.radius))
                 kept = len(frames) if missing <= 0 else kept
                 if kept > self.kept:

@@ -11,16 +11,17 @@ import pytest
 from commands import chapsym as command
 from contained import ORDINARY, random_case, started, worst
 from first import FIRST
-from flint import acb, acb_mat, arb, arb_mat, arb_poly, ctx
+from flint import acb, acb_mat, arb, arb_mat, ctx
 
 import chapsym
 from chapsym import BadInput, ExactBall, certified_motion
 from chapsym.derive import chaplygin
 from chapsym.dynamics.enclosed_motion import PARTS, follow
 from chapsym.dynamics.levels.proved_root import TooWide
-from chapsym.dynamics.theta import curve, general, jacobi, pieces, reduction
-from chapsym.dynamics.theta.analytic import Analytic, Disc
+from chapsym.dynamics.theta import curve, reduction
 from chapsym.dynamics.theta.functions import Characteristic, Thetas
+from chapsym.dynamics.theta.motion import General
+from chapsym.dynamics.theta.top import Top
 
 Y = ((1.3, 0.4), (0.4, 0.9))
 EVERY = [Characteristic(a, b) for a in product((0, 1), repeat=2) for b in product((0, 1), repeat=2)]
@@ -42,80 +43,61 @@ def matrix(rows):
     return arb_mat([[arb(x) for x in row] for row in rows])
 
 
-def functions(terms=60):
-    """All sixteen functions of genus two along a line."""
-    line = [arb("0.3"), arb("0.1")], [arb("0.7"), arb("-0.2")]
-    return line, Thetas(matrix(Y), *line, {(c.a, c.b): c for c in EVERY}, terms)
+def functions(left=None):
+    """All sixteen functions of genus two along a line, and Arb's at a point of it; left: in the place of the bound."""
+    start, direction = (arb("0.3"), arb("0.1")), (arb("0.7"), arb("-0.2"))
+    thetas = Thetas(matrix(Y), start, direction, EVERY)
+    thetas.left = thetas.left if left is None else arb(left)
+    tau = acb_mat([[acb(0, x) for x in row] for row in Y])
+    return thetas, lambda s: tau.theta(acb_mat([[x + acb(s) * u] for x, u in zip(start, direction, strict=True)]))
 
 
 def test_the_functions_are_those_of_arb():
-    (start, direction), thetas = functions()
-    tau = acb_mat([[acb(0, x) for x in row] for row in Y])
-    for s in (arb(0), arb("1.75"), arb("-31.4")):
-        z = acb_mat([[acb(x + s * u)] for x, u in zip(start, direction, strict=True)])
-        values = tau.theta(z)
-        found = thetas.series(s)
-        for i, c in enumerate(EVERY):
-            assert (found[c.a, c.b][0] - values[0, i].real).contains(0), c
-            assert found[c.a, c.b][0].rad() < 1e-30
+    thetas, true = functions()
+    for s in (arb(0), arb("1.75"), arb("-31.4"), acb("0.2", "0.3"), acb("-7.3", "-0.9")):
+        for c, x, y in zip(EVERY, thetas.at(s), true(s).entries(), strict=True):
+            assert x.overlaps(y), (s, c)
+            assert x.rad() < 1e-30
 
 
-def test_the_series_and_their_bounds_hold_off_the_real_line():
-    """Arb's functions at complex points of the disc are within the bounds, and the series tell the values."""
-    (start, direction), thetas = functions(24)
-    tau = acb_mat([[acb(0, x) for x in row] for row in Y])
-    disc = Disc(thetas.radius, 24)
-    with_bounds, _ = thetas.on(disc, thetas.series(arb(0)))
+def test_the_functions_of_a_ball_contain_those_of_its_points():
+    thetas, true = functions()
+    found = thetas.at(acb(arb("0.1", "0.05"), arb("0.2", "0.05")))
     for k in range(12):
-        s = (acb(k) / 6).exp_pi_i() * acb(thetas.radius)
-        values = tau.theta(acb_mat([[acb(x) + s * u] for x, u in zip(start, direction, strict=True)]))
-        for i, c in enumerate(EVERY):
-            assert abs(values[0, i]) <= with_bounds[c.a, c.b].bound
-    s = thetas.radius / 3
-    values = tau.theta(acb_mat([[acb(x + s * u)] for x, u in zip(start, direction, strict=True)]))
-    for i, c in enumerate(EVERY):
-        told = with_bounds[c.a, c.b].at(s)
-        assert told.contains(values[0, i].real.mid())
-        assert told.rad() < 1e-6
+        point = acb("0.1", "0.2") + (acb(k) / 6).exp_pi_i() * acb("0.05")
+        assert all(x.contains(y.mid()) for x, y in zip(found, true(point).entries(), strict=True))
+    assert all(abs(x).abs_upper() < 4 for x in found)
 
 
-def test_products_inverses_and_integrals_are_within_their_bounds():
-    """exp on a disc: its square, its inverse and its integral, with few terms."""
-    disc = Disc(arb(1), 16)
-    one = Analytic(arb_poly([1 / arb(k + 1).gamma() for k in range(16)]), arb(1).exp(), disc)
-    s = arb("0.5")
-    for found, true in (
-        (one * one, (2 * s).exp()), (one.inverse((-arb(1)).exp()), (-s).exp()),
-        (one.on(Disc(arb("0.75"), 16)), s.exp()), (one - one * arb(2), -s.exp()),
-    ):  # fmt: skip
-        assert found.at(s).contains(true.mid())
-        assert 0 < found.at(s).rad() < 0.02
-    assert one.integral(s).contains((s.exp() - 1).mid())
-    with pytest.raises(TooWide):
-        one.at(arb(1))
+def test_beyond_the_reach_there_is_no_value():
+    thetas, _ = functions()
+    assert not any(x.is_finite() for x in thetas.at(acb(arb(0), thetas.reach + arb("0.01"))))
+    assert not any(x.is_finite() for x in thetas.at(acb(arb(0), arb(0, thetas.reach + arb("0.01")))))
 
 
-def test_of_bounds_too_small_for_floats_the_largest_is_taken():
-    with ctx.workprec(1200):
-        _, thetas = functions(8)
-        bounds = [lattice.left for lattice in thetas.lattices.values()]
-        disc = Disc(thetas.radius, 8)
-        found, _ = thetas.on(disc, dict.fromkeys(thetas.named, arb_poly([0])))
-        assert all(float(x) == 0.0 for x in bounds)
-        assert all(f.series[0].rad() >= x for f in found.values() for x in bounds)
+def test_the_rates_of_change_are_those_of_the_values():
+    thetas, true = functions()
+    h = acb("1e-12")
+    for c, x, y, z in zip(EVERY, thetas.change(0), true(h).entries(), true(-h).entries(), strict=True):
+        assert abs(x - (y - z) / (2 * h)) < 1e-20, c
 
 
-def test_the_series_at_the_start_have_what_the_sums_leave_out():
-    """So do the constants that are made of them."""
-    _, thetas = functions(8)
-    left = arb("1e-3")
-    thetas.lattices = {a: lattice._replace(left=left) for a, lattice in thetas.lattices.items()}
-    assert all(f[0].rad() >= left for f in thetas.start_series().values())
+def test_what_the_sums_leave_out_is_bounded_and_kept():
+    """On a lattice of few terms, at a low precision, the values contain those of a high one."""
+    with ctx.workprec(20):
+        thetas, _ = functions()
+    _, true = functions()
+    assert 1e-30 < thetas.left < 1e-4
+    for s in (acb(0), acb(arb("0.3"), thetas.reach * arb("0.99"))):
+        assert all(x.contains(y.mid()) for x, y in zip(thetas.at(s), true(s).entries(), strict=True))
+    thetas, _ = functions(left="1e-3")
+    assert all(x.real.rad() >= arb("0.9e-3") and x.imag.rad() >= arb("0.9e-3") for x in thetas.at(arb("0.4")))
+    assert all(x.real.rad() >= arb("0.9e-3") / thetas.reach for x in thetas.change(0))
 
 
 def test_a_period_matrix_that_is_not_positive_has_no_functions():
     with pytest.raises(TooWide):
-        Thetas(matrix(((1, 2), (2, 1))), [arb(0)] * 2, [arb(1), arb(0)], {0: EVERY[0]}, 10)
+        Thetas(matrix(((1, 2), (2, 1))), [arb(0)] * 2, [arb(1), arb(0)], EVERY[:1])
 
 
 def test_the_characteristic_of_riemann_is_the_only_one():
@@ -268,9 +250,37 @@ def test_a_scene_says_whether_its_momentum_is_vertical(tmp_path):
     assert not is_vertical('omega = [0, 0, 2]\naxes = "space"')
 
 
-def test_pieces_that_could_not_end_raise(monkeypatch):
-    """A disc of radius 0, as of numbers that are lost, is no piece."""
-    monkeypatch.setattr(pieces, "radius_of", lambda *_: arb(0))
-    for solved, K in ((general.General, (1, 2, 3)), (jacobi.Top, (0, 2, 1))):
+def test_the_angle_of_a_top_is_the_integral_of_its_rate():
+    """The lemma's quadrature, beside the closed form, for both axes and both ways round."""
+    moments = (arb(1), arb(2), arb(4))
+    for K in ((1, 2, 9), (1, 2, -9), (9, 2, 1), (-9, 2, -1)):
+        found = Top(128, moments, arb(0), tuple(map(arb, K)), (arb(1), arb(0), arb(0), arb(0)), arb(1))
+        m, s, _ = found.axes
+
+        def rate(x, analytic, found=found, m=m, s=s):
+            q, square, _ = found._functions(x)
+            return (found.A[m] * q[m] * q[m] + found.A[s] * q[s] * q[s]) / square
+
+        for end in (arb("0.7"), arb(9)):
+            _, square, nu = found._functions(end)
+            angle = acb.integral(rate, 0, acb(end)).real
+            assert abs(nu - square.sqrt() * acb(0, angle).exp()) < 1e-25
+
+
+def test_a_motion_of_lost_numbers_raises():
+    """An integral that is not finite, as of numbers that are lost, is no piece."""
+    for solved, K in ((General, (1, 2, 3)), (Top, (0, 2, 1))):
+        found = solved(
+            128, (arb(1), arb(2), arb(4)), arb(3 if solved is General else 0), tuple(map(arb, K)),
+            (arb(1), arb(0), arb(0), arb(0)), arb(1),
+        )  # fmt: skip
+        found.rolling = lambda s: acb("nan")
         with pytest.raises(TooWide):
-            solved(128, (arb(1), arb(2), arb(4)), arb(3), tuple(map(arb, K)), (arb(1), arb(0), arb(0), arb(0)), None)
+            found.advance(F(1))
+
+
+def test_a_limit_ends_an_integral():
+    """Within a piece, too: what was reached is kept."""
+    found = certified_motion(ExactBall((1, 2, 4), 3, 1), (1, 2, 3), (0, 0, 1), [0, 400], 60, by="theta", limit=2)
+    assert found.times == (0,)
+    assert found.stopped.startswith("2 s were not enough")
