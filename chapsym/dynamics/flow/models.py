@@ -52,8 +52,7 @@ def cut(poly: Any, degree: int) -> Any:
     """The polynomial to a degree, its constant wide enough for all that is beyond."""
     if poly.length() <= degree + 1:
         return poly
-    low, beyond = (arb_poly(part) for part in (poly.coeffs()[: degree + 1], poly.coeffs()[degree + 1 :]))
-    return low + arb(0, beyond(UNIT).abs_upper())
+    return poly.truncate(degree + 1) + arb(0, poly.right_shift(degree + 1)(UNIT).abs_upper())
 
 
 def models(polynomials: Iterable[Any], degree: int) -> list[Model]:

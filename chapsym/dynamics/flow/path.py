@@ -21,7 +21,7 @@ from ..levels.start import exponent_of
 from .deviation import Body, Defects, defects, deviation
 from .models import Model, bound, exact
 from .newton import Neighbours
-from .series import LONG, TERMS, Floats, Series, convolved, cross, linear, long_float, motion, quotient
+from .series import LONG, TERMS, Floats, Series, long_float, motion
 
 Numbers = tuple[Any, ...]
 
@@ -133,7 +133,7 @@ class Path:
         p = [x - x(0) + y for x, y in zip(_polys(series.a[:, :terms]), self.p, strict=True)]
         p, w = [exact(x) for x in p], [exact(x) for x in _polys(series.w[:, :terms])]
         bits, stuck, size, gain = GAIN, 0, math.inf, GAIN
-        neighbours: Neighbours | None = None
+        neighbours = Neighbours(series, body)
         while True:
             self.tick()
             bits = min(bits + BEYOND, self.precision)
@@ -150,40 +150,17 @@ class Path:
             known = math.floor(min(max(bits - BEYOND, -size), self.precision))
             further = min(2 * gain, known) - LOST
             if further > gain and self.precision - known > FAR * gain:
-                neighbours, gain = neighbours or Neighbours(series, body), further
+                gain = further
                 with ctx.workprec(gain + BEYOND):
                     neighbours.mend(p, w, self._terms(degree, gain + BEYOND))
-            if neighbours is None:
-                change = self._correction(series, found, body, degree)
-            else:
-                with ctx.workprec(gain + BEYOND):
-                    change = neighbours.correction(p, w, found, self._terms(degree, known + gain + BEYOND))
+            with ctx.workprec(gain + BEYOND):
+                change = neighbours.correction(p, w, found, self._terms(degree, known + gain + BEYOND))
             p, w = ([exact(x + y) for x, y in zip(*pair, strict=True)] for pair in zip((p, w), change, strict=True))
             bits = known + gain
 
     def _terms(self, degree: int, bits: int) -> int:
         """So many terms serve for so many bits."""
         return max(TERMS, min(degree, degree * bits // self.precision)) + 1
-
-    def _correction(self, series: Series, found: Defects, body: Body, degree: int) -> tuple[list[Any], list[Any]]:
-        """What takes away the defects of p and w to the first order, if it is added: ξ' = Aξ - ½(B⁻¹κ + ε)."""
-        shift, (e, kappa, off) = _floats([found.e, found.kappa, [found.off]], degree + 1)
-        # κ is that of |p|²R in place of R; what this is off by is taken away with the rest.
-        kappa += convolved(lambda x, y: [x[0] * z for z in y], off, _central(series, body), degree + 1)
-        back = series.a * np.array([[1.0], [-1.0], [-1.0], [-1.0]])
-        away = convolved(lambda x, y: generated.compose(*(*x, *y)), back, e, degree + 1)
-        epsilon = 2 * away[1:]
-        b = quotient(series.B, kappa.T)
-        rest = -(b + epsilon.T) / 2
-        xi = linear(series.A, rest[:degree], np.zeros(3)).T
-        rate = xi[:, 1:] * np.arange(1, xi.shape[1])
-        scalar = np.append(0.0, -away[0, :degree] / np.arange(1, degree + 1))  # brings |p| to 1
-        move = convolved(lambda x, y: generated.compose(*(*x, *y)), series.a, np.vstack([scalar, xi]), degree + 1)
-        turn = convolved(cross, series.w, xi, degree + 1)
-        change = 2 * turn + epsilon
-        change[:, : rate.shape[1]] += 2 * rate
-        by, turned = ([arb_poly(row.tolist()) * shift for row in rows] for rows in (move, change))
-        return by, turned
 
     def _rolled(self, w: Sequence[Any], found: Defects, slip: Any) -> Numbers:
         """Polynomials of the way of the contact point: ρ(y₂, -y₁), y the turn in space, ϖ within `slip` of w."""
@@ -245,14 +222,6 @@ def _log(x: Any) -> float:
     return _exponent(x) if x > 0 else -math.inf
 
 
-def _central(series: Series, body: Body) -> Floats:
-    """Iw + a - Dγ × (w × γ), what K - B(γ)w - a gains for each part by which |p|² is above 1."""
-    J, D = tuple(map(float, body.J)), float(body.D)
-    found = convolved(lambda x, y: generated.contact_momentum(*(*x, *y, *J, -D)), series.w, series.gamma, TERMS)
-    found[:, 0] += [float(x) for x in body.rotor]
-    return found
-
-
 def _turn(a: Floats, k: Floats, J: Floats, D: float, rotor: Floats) -> float:
     """The time of about a radian, of the ball or of one that the rotor alone turns; 0 at rest."""
     R = np.reshape(generated.rotation(*a), (3, 3))
@@ -265,18 +234,3 @@ def _short(x: Fraction) -> Fraction:
     """A time a little less, with few digits."""
     unit = Fraction(2) ** (exponent_of(x) - 12)
     return (x // unit) * unit
-
-
-def _floats(vectors: Sequence[Sequence[Model]], terms: int) -> tuple[Any, list[Floats]]:
-    """The coefficients of vectors as floats beside a power of 2."""
-    size = max(_log(bound(models)) for models in vectors)
-    shift = arb(2) ** (int(size) if size > -math.inf else 0)
-
-    def rows(models: Sequence[Model]) -> Floats:
-        found = np.zeros((len(models), terms))
-        for i, x in enumerate(models):
-            floats = [float(c) for c in (x.poly * (1 / shift)).coeffs()[:terms]]
-            found[i, : len(floats)] = floats
-        return found
-
-    return shift, [rows(models) for models in vectors]

@@ -5,7 +5,7 @@ motion is y' = y × w for what is fixed in space, a' = ½ a∘w, and B(γ)w + hs
 a rotor in it: bilinear in y and w.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -111,38 +111,6 @@ def linear(A: Floats, rest: Floats, start: Floats) -> Floats:
         m = min(n, len(A) - 1)
         found[n + 1] = (np.einsum("mij,mj...->i...", A[: m + 1], found[n - m : n + 1][::-1]) + rest[n]) / (n + 1)
     return found
-
-
-def convolved(by: Callable[..., Sequence[Any]], x: Floats, y: Floats, terms: int) -> Floats:
-    """A bilinear function of two vectors of series, cut to so many terms."""
-    rows = by([_Series(row.astype(float)) for row in x], [_Series(row.astype(float)) for row in y])
-    return np.array([np.pad(row.terms[:terms], (0, max(0, terms - len(row.terms)))) for row in rows])
-
-
-class _Series:
-    """A series that a kernel may multiply and add."""
-
-    __slots__ = ("terms",)
-
-    def __init__(self, terms: Floats) -> None:
-        self.terms = terms
-
-    def __mul__(self, other: Any) -> "_Series":
-        return _Series(np.convolve(self.terms, other.terms) if isinstance(other, _Series) else self.terms * other)
-
-    def __add__(self, other: "_Series") -> "_Series":
-        longer, shorter = sorted((self.terms, other.terms), key=len, reverse=True)
-        found = longer.copy()
-        found[: len(shorter)] += shorter
-        return _Series(found)
-
-    def __sub__(self, other: "_Series") -> "_Series":
-        return self + -other
-
-    def __neg__(self) -> "_Series":
-        return _Series(-self.terms)
-
-    __rmul__ = __mul__
 
 
 def long_float(x: Any) -> Any:
