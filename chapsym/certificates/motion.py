@@ -10,8 +10,7 @@ from flint import ctx
 from chapsym import checker
 from chapsym.dynamics import BadInput
 from chapsym.dynamics.enclosed_motion import CertifiedMotion
-from chapsym.dynamics.flow.axes import Principal
-from chapsym.dynamics.flow.start import Start, balls
+from chapsym.dynamics.flow.start import Principal, Start, balls
 from chapsym.dynamics.levels.balls import unit
 from chapsym.dynamics.levels.start import fraction
 

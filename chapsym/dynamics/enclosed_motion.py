@@ -218,11 +218,9 @@ def follow(
     if by not in (TAYLOR, THETA):
         raise BadInput(f'by must be "{TAYLOR}" or "{THETA}", not {by!r}')
     search = _Search(start, tuple(times), digits, by, clock.monotonic() + limit, progress)
-    if not search.determined():
-        raise BadInput("the ball does not resist a turn about the vertical: ω does not follow from K")
+    bits = math.ceil(digits * math.log2(10)) + GUARD + OF_TURNS * search.doublings()
     if by == THETA:
         search.check_solved()
-    bits = math.ceil(digits * math.log2(10)) + GUARD + OF_TURNS * search.doublings()
     why = None
     while why is None and not search.done:
         more = search.attempt(bits)
@@ -263,21 +261,27 @@ class _Search:
         """Whether all times are reached."""
         return self.kept == len(self.times)
 
-    def determined(self) -> bool:
-        """Whether ω at the start follows from K."""
+    def doublings(self) -> int:
+        """About the logarithm to base 2 of the turns, at most, and of their number at the start.
+
+        Raises BadInput where ω at the start does not follow from K.
+        """
         from flint import ctx
 
-        from .levels.proved_root import TooWide
+        from .levels.proved_root import TooWide, upper
 
         with ctx.workprec(1024):
             try:
-                omega = self.start.path(1024).frame(Fraction(0))["omega"]
+                omega = upper(self.start.path(1024).frame(Fraction(0))["omega"])
             except TooWide:
                 raise BadInput(
                     "two principal moments are equal, or nearly, and their axes are not given: give the principal "
                     "moments, and all vectors in their axes"
                 ) from None
-            return all(x.is_finite() for x in omega)
+            if not omega.is_finite():
+                raise BadInput("the ball does not resist a turn about the vertical: ω does not follow from K")
+            turns = fraction(omega) * self.times[-1]
+        return max(exponent_of(turns), 0) if turns else 0
 
     def check_solved(self) -> None:
         """Raises BadInput where theta functions do not give the motion, or only with very many bits or terms."""
@@ -295,17 +299,6 @@ class _Search:
                     "this motion is not found by theta functions: they need three different moments, and a motion that "
                     "is neither steady nor on the separatrix, nor very near to one that is"
                 ) from None
-
-    def doublings(self) -> int:
-        """About the logarithm to base 2 of the turns, at most, and of their number at the start."""
-        from flint import ctx
-
-        from .levels.proved_root import upper
-
-        with ctx.workprec(1024):
-            omega = upper(self.start.path(1024).frame(Fraction(0))["omega"])
-            turns = fraction(omega) * self.times[-1] if omega.is_finite() else Fraction(0)
-        return max(exponent_of(turns), 0) if turns else 0
 
     def attempt(self, bits: int) -> int | None:
         """Follows the motion with so many bits; returns how many more are needed, or None: the time is up."""
@@ -409,22 +402,19 @@ def _log2(x: Fraction) -> float:
 
 def decimal(x: Fraction) -> str:
     """A fraction as a decimal number where it is one, else as a quotient."""
-    twos, rest = 0, x.denominator
-    while rest % 2 == 0:
-        twos, rest = twos + 1, rest // 2
-    fives = 0
-    while rest % 5 == 0:
-        fives, rest = fives + 1, rest // 5
-    if rest != 1:
+    places = _power(x.denominator, 2), _power(x.denominator, 5)
+    if 2 ** places[0] * 5 ** places[1] != x.denominator:
         return str(x)
-    places = max(twos, fives)
-    return f"{Decimal(int(x * 10**places)).scaleb(-places, _context(x, places)):f}"
+    figures = tuple(map(int, str(abs(x) * 10 ** max(places))))
+    return f"{Decimal((int(x < 0), figures, -max(places))):f}"
 
 
-def _context(x: Fraction, places: int) -> Any:
-    from decimal import Context
-
-    return Context(prec=int(abs(x) * 10**places).bit_length() + 1)  # more than its digits
+def _power(x: int, prime: int) -> int:
+    """How often a prime divides it."""
+    found = 0
+    while x % prime == 0:
+        found, x = found + 1, x // prime
+    return found
 
 
 def written(x: Any, digits: int) -> tuple[str, str]:

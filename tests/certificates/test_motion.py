@@ -16,8 +16,7 @@ from chapsym.certificates import motion
 from chapsym.cli import report
 from chapsym.dynamics import BadInput
 from chapsym.dynamics.enclosed_motion import follow
-from chapsym.dynamics.flow.axes import Principal
-from chapsym.dynamics.flow.start import Start, balls, fixed
+from chapsym.dynamics.flow.start import Principal, Start, balls, fixed
 from chapsym.dynamics.levels.balls import unit
 from chapsym.dynamics.levels.start import fraction
 from chapsym.scene import load

@@ -11,7 +11,7 @@ from flint import arb, ctx, fmpq
 
 import chapsym
 from chapsym.dynamics.enclosed_motion import follow
-from chapsym.dynamics.flow.axes import principal
+from chapsym.dynamics.flow.start import principal
 from chapsym.dynamics.levels.proved_root import TooWide
 from chapsym.scene import load
 from chapsym.scene.members.exactly import exact_motion

@@ -8,8 +8,18 @@ from typing import Any
 import numpy as np
 
 from chapsym import generated
-from chapsym.dynamics.flow.axes import Principal
-from chapsym.dynamics.flow.start import NO_ROTOR, Balls, Start, Turns, ball, balls, parallel, turning, upright
+from chapsym.dynamics.flow.start import (
+    NO_ROTOR,
+    Balls,
+    Principal,
+    Start,
+    Turns,
+    ball,
+    balls,
+    parallel,
+    turning,
+    upright,
+)
 from chapsym.dynamics.levels.balls import unit
 from chapsym.dynamics.map import check_body
 from chapsym.rationals import mass_tensor_from
