@@ -9,7 +9,7 @@ from rolled import rolled
 
 import chapsym
 from chapsym.dynamics import Status, kernels
-from chapsym.dynamics.closed import precession
+from chapsym.dynamics.closed import top
 from chapsym.scene.members.members import Members
 from chapsym.scene.plan.models import Rolling, Steady, Top, Vertical
 from chapsym.scene.plan.models import vertical as models_vertical
@@ -180,7 +180,7 @@ def test_the_rotation_number_without_D_is_the_increment_and_with_D_that_of_any_p
 def test_a_top_without_an_attitude_at_once_takes_its_steps(tops, monkeypatch):
     task = Task(("gamma",), 1_000_000, 100_000)
     assert planned(tops, task).model.name == Top.name
-    monkeypatch.setattr(precession, "MOST", 0)
+    monkeypatch.setattr(top, "MOST", 0)
     plan = planned(tops, task)
     assert plan.model.name == Rolling.name
     assert "too near to the separatrix" in plan.refused[Top.name]

@@ -124,7 +124,8 @@ class Curve:
 def across(tensor: Floats, moments: Floats, g: Floats) -> Floats:
     """γ × Λ⁻¹γ, (..., 3), with Λ₂ - Λ₃ = J₃ - J₂, ..., which a large D does not round."""
     b, c = np.roll(np.arange(3), -1), np.roll(np.arange(3), -2)
-    return np.asarray(g[..., b] * g[..., c] * ((tensor[c] - tensor[b]) / moments[b] / moments[c]))
+    gaps = tensor[..., c] - tensor[..., b]
+    return np.asarray(g[..., b] * g[..., c] * (gaps / moments[..., b] / moments[..., c]))
 
 
 def _separatrix(tensor: Floats, moments: Floats, g: Floats, order: np.ndarray) -> tuple[float, float]:

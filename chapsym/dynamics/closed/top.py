@@ -3,6 +3,12 @@
 So it is for D = 0 (5.15-euler), 𝒦 any, and for vertical momentum 𝒦 = hγ and D > 0 where two J are equal: k = 0, the
 curve is a circle, and (5.15) as corrected does not know ū.  For three different J and D > 0 the increment changes.
 The increment over the period is the rotation number; as a double-double number it is good for 10¹⁴ steps and more.
+
+The attitude: R b/|b|, b = γ × Λ⁻¹γ for γ along 𝒦, is across 𝒦, which is fixed in space, and turns about it.  Along the
+continuous motion its angle is ∫⟨b,Λ⁻¹b⟩/|b|² dt = cu + P(u), P periodic (lemma `top-precession`); the discrete top
+differs by a twist that is the same each step (lemma `top-commutes`).  So its angle after k steps is
+kΨ + P(u_k) - P(u₀), and one step of the map gives Ψ.  For two equal J nothing depends on u, P = 0; so it is for
+vertical momentum with D > 0, too.
 """
 
 import math
@@ -12,14 +18,18 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import ArrayLike
 
-from chapsym.generated import curve_increment
+from chapsym.generated import curve_increment, gibbs_newton, precession_parts, turn
 from chapsym.numbers import Enclosure
 
-from ..ball import Ball, Floats, in_principal_axes, inertia_of, numbers, unit_vertical
-from ..errors import BadInput
+from .. import kernels
+from ..attitudes import initial_attitude
+from ..ball import Ball, Floats, batch, in_principal_axes, inertia_of, numbers, unit_vertical
+from ..errors import BadInput, Status, StepNotTaken
+from ..flow.series import cross, dot
+from ..results import Trajectory, finished
 from ..trajectories import step_numbers
 from . import turns
-from .elliptic import Curve, increment
+from .elliptic import Curve, across, increment
 from .jacobi import jacobi
 from .vertical import step_vertical
 
@@ -32,6 +42,11 @@ SETTLED = 2.0**-130
 SMALLEST_TURN = 1e-40
 #: How far the step of the map may be from where the increment leads: more is another branch.
 AGREEMENT = 1e-9
+#: Terms of the series of P: twice as many, until the last ones are rounding.
+FEWEST, MOST = 16, 4096
+ROUNDING = 2.0**-52
+#: How far 𝒦 may be from hγ, of its largest component: what the rounding of hγ leaves.
+VERTICAL = 2.0**-52
 
 
 @dataclass(frozen=True, eq=False)
@@ -130,13 +145,15 @@ class TopMotion:
 
 def moves(tensor: Floats, contact: Floats, direction: Floats) -> np.ndarray:
     """Whether a direction of 𝒦 moves in the body by more than SMALLEST_TURN, (...)."""
-    moments = inertia_of(tensor) + contact[..., np.newaxis]
     with np.errstate(over="ignore", under="ignore", invalid="ignore"):  # what overflows moves
-        spin = direction * (moments.max(axis=-1, keepdims=True) / moments)
-        gaps = np.roll(tensor, -2, axis=-1) - np.roll(tensor, -1, axis=-1)
-        b, c = np.roll(direction, -1, axis=-1), np.roll(spin, -2, axis=-1)
-        turned = b * c * gaps / np.roll(moments, -1, axis=-1)
-    return np.asarray(np.abs(turned).max(axis=-1) > SMALLEST_TURN)
+        J, moments, _ = _in_units(tensor, inertia_of(tensor) + contact[..., np.newaxis])
+        return np.asarray(np.abs(across(J, moments, direction)).max(axis=-1) > SMALLEST_TURN)
+
+
+def _in_units(tensor: Floats, moments: Floats) -> tuple[Floats, Floats, Any]:
+    """J and Λ in units of 2^exponent, in which the largest Λ is about 1: squares of γ × Λ⁻¹γ stay in range."""
+    exponent = np.frexp(moments.max(axis=-1))[1]
+    return np.ldexp(tensor, -exponent[..., np.newaxis]), np.ldexp(moments, -exponent[..., np.newaxis]), exponent
 
 
 def _one(ball: Ball, vector: Floats) -> None:
@@ -238,3 +255,208 @@ def _sine(k2: Any, G: list[Any], rolled: tuple[Any, Any], h: Any, s: Any) -> Any
         if abs(float(correction)) <= SETTLED * float(s):
             return s
     raise BadInput("the increment is at the fold of its branch; take a shorter time step")
+
+
+@dataclass(frozen=True, eq=False)
+class Precession:
+    """The rotations from the first attitude of a top to the later ones.
+
+    turns: Ψ/(2π) as a pair, between -1/2 and 1/2; series: P(u) = Σ series_j sin(jπu/K), j = 1, 2, ...
+    """
+
+    motion: TopMotion
+    turns: tuple[float, float]
+    series: Floats
+
+    @classmethod
+    def of(cls, motion: TopMotion) -> Self:
+        """Of a motion; raises BadInput so near to the separatrix that the series has too many terms."""
+        exact = motion.exact
+        with Enclosure(BITS).working():
+            mean = _mean(exact, motion.first)
+        return cls(motion, mean, _series(motion))
+
+    def rotations(self, index: np.ndarray) -> Floats:
+        """Unit quaternions Q with R_k = R₀Q_k at the step numbers, (frames, 4), the scalar ≥ 0."""
+        motion, high = self.motion, self.turns
+        u = motion.phase(index)
+        angle = 2.0 * np.pi * turns.fraction(np.asarray(high[0]), np.asarray(high[1]), index)
+        angle = angle + self.wave(u) - self.wave(np.asarray(motion.start))
+        here = motion.directions(index)
+        first = motion.direction / np.sqrt(motion.direction @ motion.direction)
+        # The least rotation from the direction now to the first one, and the rest about that.
+        middle = first + here
+        length = np.sqrt((middle * middle).sum(axis=-1))
+        least = (
+            np.concatenate([(middle @ first)[:, np.newaxis], np.cross(here, first)], axis=-1) / length[:, np.newaxis]
+        )
+        tensor, moments, _ = _scaled(motion)
+        before = across(tensor, moments, first)
+        after = kernels.rotate(least, across(tensor, moments, here))
+        rest = angle - np.arctan2(np.cross(before, after) @ first, after @ before)
+        about = np.concatenate([np.cos(rest / 2.0)[:, np.newaxis], np.sin(rest / 2.0)[:, np.newaxis] * first], axis=-1)
+        whole = kernels.compose(about, least)
+        whole *= np.where(whole[:, :1] < 0.0, -1.0, 1.0) / np.sqrt((whole * whole).sum(axis=-1, keepdims=True))
+        whole[index == 0] = [1.0, 0.0, 0.0, 0.0]
+        return whole
+
+    def wave(self, u: Floats) -> Floats:
+        """P(u) by Clenshaw's recurrence."""
+        x = 4.0 * np.pi * u / self.motion.curve.period
+        twice, b, c = 2.0 * np.cos(x), np.zeros_like(x), np.zeros_like(x)
+        for a in self.series[::-1]:
+            b, c = a + twice * b - c, b
+        return np.asarray(b * np.sin(x))
+
+
+def _scaled(motion: TopMotion) -> tuple[Floats, Floats, float]:
+    """J, Λ and V in units in which the largest Λ is about 1."""
+    ball = motion.curve.ball
+    tensor, moments, exponent = _in_units(ball.mass_tensor, ball.inertia + ball.D)
+    return tensor, moments, float(np.ldexp(motion.curve.rate, exponent))
+
+
+def _series(motion: TopMotion) -> Floats:
+    """The sines of P from the rate at equal steps of u over half the period."""
+    curve = motion.curve
+    if curve.modulus == 0.0:
+        return np.zeros(0)
+    count, (tensor, moments, unit) = FEWEST, _scaled(motion)
+    while count <= MOST:
+        u = np.arange(2 * count) * (curve.period / (4 * count))
+        turned = across(tensor, moments, curve.point(u))
+        rate = (turned * turned / moments).sum(axis=-1) / (turned * turned).sum(axis=-1) / unit
+        waves = np.fft.rfft(rate).real[1:count] / count
+        noise = ROUNDING / curve.complement * np.abs(rate).max()  # b is as short as k' near the unstable axis
+        if np.abs(waves[-(count // 4) :]).max() <= noise:
+            order = np.arange(1, count)
+            felt = np.flatnonzero(np.abs(waves) > noise / 4.0)
+            return (waves * curve.period / (4.0 * np.pi * order))[: felt.max(initial=-1) + 1]
+        count *= 2
+    raise BadInput("the motion is too near to the separatrix for its attitude at once; run `trajectory`")
+
+
+def _mean(exact: ExactCurve, rotation: Floats) -> tuple[float, float]:
+    """Ψ/(2π): the angle of the first step, less P(u₁) - P(u₀) by Legendre's integrals of the third kind."""
+    from flint import acb, arb
+
+    u = _gibbs_vector(exact, [arb(float(x)) / arb(float(rotation[0])) for x in rotation[1:]])
+    d = exact.direction
+    moments = dict(zip(exact.curve.axes, exact.moments, strict=True))
+    after = [x + y for x, y in zip(d, turn(arb(1), *u, *d), strict=True)]
+    before, moved = ([*cross(v, [x / moments[i] for i, x in enumerate(v)])] for v in (d, after))
+    there = [x + y for x, y in zip(moved, turn(arb(-1), *u, *moved), strict=True)]  # the inverse rotation
+    angle = arb.atan2(dot(d, cross(before, there)), dot(before, there))
+    if exact.curve.modulus > 0.0:
+        p0, p1, n0, n1 = precession_parts(*(*exact.moments, exact.level))
+        n, factor = -p1 / p0, (n0 / p0 - n1 / p1) / exact.rate
+        ends = [amplitude(exact.curve, exact.moments, v) for v in (d, after)]
+        turned = ends[1] - ends[0]
+        turned -= 2 * arb.pi() * round(float(turned / (2 * arb.pi())))
+        third = [acb.elliptic_pi_inc(acb(n), acb(x), acb(exact.k2)).real for x in (ends[0], ends[0] + turned)]
+        whole = acb.elliptic_pi(acb(n), acb(exact.k2)).real
+        angle -= factor * (third[1] - third[0] - 2 * exact.half * whole / exact.quarter)
+    high, low = as_pair(angle / (2 * arb.pi()))
+    return high - round(high), low
+
+
+def _gibbs_vector(exact: ExactCurve, u: list[Any]) -> list[Any]:
+    """The Gibbs vector of the first step by Newton's iteration from float64."""
+    inertia = [exact.tensor[(i + 1) % 3] + exact.tensor[(i + 2) % 3] for i in range(3)]
+    half = [exact.height * x / 2 for x in exact.direction]
+    for _ in range(MOST_CORRECTIONS):
+        p0, p1, p2, p3, *_ = gibbs_newton(*(*u, *half, *exact.direction, *inertia, exact.contact))
+        found = [(x / p0).mid() for x in (p1, p2, p3)]
+        moved = max(abs(float(x - y)) for x, y in zip(found, u, strict=True))
+        u = found
+        if moved <= SETTLED * max(abs(float(x)) for x in u):
+            return u
+    raise BadInput("the step is at the fold of its branch; take a shorter time step")
+
+
+def is_top(ball: Ball, momentum: ArrayLike, gamma: ArrayLike) -> np.ndarray:
+    """Which states `top_frames` has, (...): those of the free top, and vertical 𝒦 on a ball with two equal J.
+
+    That is D = 0, or 𝒦 = hγ to its last rounding and two of the J equal; and 𝒦 moves in the body (else `is_steady`).
+    Two J that differ by an ulp are different.  A 𝒦 that is off hγ by its rounding is taken as vertical: the motion that
+    was meant differs by a rounding of the start, which is what a run of the map makes of every start.
+    momentum, gamma: 𝒦 (kg m²) and γ, (..., 3); they broadcast with the balls.  Raises BadInput as `step` does.
+    """
+    shape, (K, g, J, D) = batch(ball, numbers(momentum, "momentum", 3), unit_vertical(gamma))
+    return _is_top(K, g, J, D).reshape(shape)
+
+
+def _is_top(K: Floats, g: Floats, J: Floats, D: Floats) -> np.ndarray:
+    size = np.abs(K).max(axis=-1)
+    with np.errstate(all="ignore"):
+        scaled = K / size[:, np.newaxis]
+        height = (scaled * g).sum(axis=-1)
+        upright = np.abs(scaled - height[:, np.newaxis] * g).max(axis=-1) <= VERTICAL
+    pairs = sum((J[:, i] == J[:, (i + 1) % 3]).astype(int) for i in range(3))
+    moving = moves(J, D, scaled)
+    return moving & ((D == 0.0) | (upright & (pairs == 1)))
+
+
+def top_frames(
+    ball: Ball, momentum: ArrayLike, gamma: ArrayLike, index: ArrayLike, *, attitude: bool | ArrayLike = False,
+    time_step: float | None = None,
+) -> Trajectory:  # fmt: skip
+    """The states of `trajectory` at the step numbers `index`, each at once, where `is_top`.
+
+    𝒦 by Jacobi's functions of u₀ + k δ (5.7, 5.15-euler), γ and the attitude by the precession about 𝒦 (lemmas
+    `top-precession`, `top-commutes`), k δ and k Ψ in double-double.  The cost does not depend on the step numbers, and
+    neither does the error, for k below 10¹⁴: some ulps, and near the separatrix as many more as the period is longer;
+    of γ and the attitude up to 1/k' ulps there, as b is no longer than k' while the top is near its unstable axis.
+    γ counts as divided by its length, as at the higher precisions.  The sign of an attitude's quaternion is that of the
+    scalar of the rotation since frame 0, taken as positive.
+
+    index: ascending whole numbers from 0 on, (frames,).  The other arguments, what is raised (StepNotTaken for one ball
+    beyond the fold, a `status` in a batch) and the result are those of `trajectory`, without the contact point.
+    Raises BadInput for a ball that is no such top, on a separatrix, or too near to one, too.
+    """
+    numbered = step_numbers(index)
+    shape, (K, g, J, D) = batch(ball, numbers(momentum, "momentum", 3), unit_vertical(gamma))
+    if not _is_top(K, g, J, D).all():
+        raise BadInput(
+            "this is no top whose frames are known at once: D must be 0, or two J equal and momentum along gamma, "
+            "and it must not be steady (`is_steady`); run `trajectory`"
+        )
+    follow = not (isinstance(attitude, bool | np.bool_) and not attitude)
+    balls, frames = len(D), len(numbered)
+    momenta, verticals = np.full((2, balls, frames, 3), np.nan)
+    turned = np.full((balls, frames, 4), np.nan)
+    status, reach = np.zeros(balls, dtype=np.int64), np.ones(balls)
+    momenta[:, numbered == 0], verticals[:, numbered == 0] = K[:, np.newaxis], g[:, np.newaxis]
+    turned[:, numbered == 0] = [1.0, 0.0, 0.0, 0.0]
+    later = numbered > 0
+    for i in range(balls):
+        try:
+            motion = motion_of(Ball(J[i], D[i]), K[i], g[i])
+        except StepNotTaken as stopped:
+            status[i], reach[i] = stopped.status, stopped.reach
+            continue
+        momenta[i, later] = motion.momenta(numbered)[later]
+        if follow or D[i] == 0.0:
+            turned[i, later] = Precession.of(motion).rotations(numbered)[later]
+        directions = kernels.transport(turned[i], g[i]) if D[i] == 0.0 else motion.directions(numbered)
+        verticals[i, later] = directions[later]
+    attitudes = None
+    if follow:
+        first = np.broadcast_to(initial_attitude(attitude, g.reshape(*shape, 3)), (*shape, 4)).reshape(-1, 1, 4)
+        taken = np.isfinite(turned).all(axis=-1)
+        attitudes = np.full_like(turned, np.nan)
+        attitudes[taken] = kernels.compose(np.broadcast_to(first, turned.shape)[taken], turned[taken])
+        attitudes = attitudes.reshape(*shape, frames, 4)
+    return finished(
+        Trajectory(
+            ball, numbered, momenta.reshape(*shape, frames, 3), verticals.reshape(*shape, frames, 3), attitudes, None,
+            np.where(status == Status.TAKEN, numbered[-1], 0).reshape(shape), status.reshape(shape), time_step,
+        ), reach,
+    )  # fmt: skip
+
+
+def motion_of(ball: Ball, K: Floats, g: Floats) -> TopMotion:
+    """The motion of one ball that `is_top`; raises as `TopMotion` does."""
+    if float(ball.D) == 0.0:
+        return TopMotion.free(ball, K)
+    return TopMotion.vertical(ball, float(K @ g) / float(np.sqrt(g @ g)), g)

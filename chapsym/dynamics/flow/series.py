@@ -71,6 +71,14 @@ def cross(x: Vector, y: Vector) -> tuple[Any, Any, Any]:
     return x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]
 
 
+def dot(x: Vector, y: Vector) -> Any:
+    """⟨x,y⟩ of numbers of any kind, which need not know 0."""
+    first, *rest = (a * b for a, b in zip(x, y, strict=True))
+    for term in rest:
+        first = first + term
+    return first
+
+
 def motion(a: Vector, k: Vector, J: Vector, D: float, rotor: Vector = (0.0, 0.0, 0.0), terms: int = TERMS) -> Series:
     """The series from the attitude a, with hK = k in space and hs = `rotor` in the body."""
     y, w, one = np.zeros((10, terms), LONG), np.zeros((3, terms), LONG), np.eye(3, dtype=LONG)

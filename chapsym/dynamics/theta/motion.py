@@ -17,14 +17,14 @@ from flint import acb, arb, ctx
 
 from chapsym import generated
 
-from ..flow.series import cross
+from ..flow.series import cross, dot
 from ..levels.balls import exact, unit
 from ..levels.proved_root import TooWide
 from ..levels.start import fraction
 from ..principal_axes import quaternions
 from .curve import curve
 from .functions import Thetas
-from .reduction import Reduced, Vector, dot, reduced, times
+from .reduction import Reduced, Vector, reduced, times
 
 #: A piece is at most this part of a period, and goes beyond the time that is asked for by this factor.
 PIECE, BEYOND = 0.5, 1.1

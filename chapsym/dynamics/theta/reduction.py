@@ -13,18 +13,10 @@ from typing import Any
 
 from chapsym import generated
 
-from ..flow.series import cross
+from ..flow.series import cross, dot
 from ..levels.proved_root import TooWide
 
 Vector = tuple[Any, ...]
-
-
-def dot(x: Sequence[Any], y: Sequence[Any]) -> Any:
-    """⟨x,y⟩ of numbers of any kind, which need not know 0."""
-    first, *rest = (a * b for a, b in zip(x, y, strict=True))
-    for term in rest:
-        first = first + term
-    return first
 
 
 def times(x: Sequence[Any], y: Sequence[Any]) -> Vector:

@@ -23,12 +23,12 @@ from flint import acb, arb
 
 from chapsym import generated
 
-from ..flow.series import cross
+from ..flow.series import cross, dot
 from ..levels.balls import exact, unit
 from ..levels.proved_root import TooWide
 from ..levels.start import fraction
 from .motion import Motion
-from .reduction import Vector, dot, times
+from .reduction import Vector, times
 
 I = acb(0, 1)
 

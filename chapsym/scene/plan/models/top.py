@@ -3,8 +3,8 @@
 import numpy as np
 
 from chapsym.dynamics import BadInput, Ball, Status, StepNotTaken, TopMotion, is_top, top_frames
-from chapsym.dynamics.closed import tops
-from chapsym.dynamics.closed.precession import Precession
+from chapsym.dynamics.closed import top
+from chapsym.dynamics.closed.top import Precession
 
 from ...members.members import Members, one_ball
 from ...read.task import Columns, Task
@@ -85,8 +85,8 @@ def _turned(members: Members, needed: frozenset[str]) -> bool:
 
 
 def motion_of(members: Members, i: int) -> TopMotion:
-    """`tops.motion_of` of one ball."""
-    return tops.motion_of(one_ball(members, i), members.momentum[i], members.gamma[i])
+    """`top.motion_of` of one ball."""
+    return top.motion_of(one_ball(members, i), members.momentum[i], members.gamma[i])
 
 
 def _phases(members: Members, needed: frozenset[str], index: np.ndarray, status: np.ndarray) -> Columns:
