@@ -12,12 +12,12 @@ from typing import Any
 
 import sympy as sp
 
-from . import c_files, fixed, ir, pairs, passes, printer
+from . import c_files, ir, pairs, passes, printer
 from .kernels import KERNELS, Kernel
 from .values import fingerprint, program_fingerprint, target_fingerprint, text_fingerprint
 
 #: What is written from programs, each into a module of its own.
-TARGETS: tuple[ModuleType, ...] = (pairs, fixed)
+TARGETS: tuple[ModuleType, ...] = (pairs,)
 ALL_PROGRAMS = tuple(program for target in TARGETS for program in target.PROGRAMS)
 MANIFEST, FINGERPRINTS = "manifest.json", "fingerprints.json"
 MEND = "chapsym codegen"

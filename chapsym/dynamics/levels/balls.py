@@ -1,10 +1,12 @@
-"""One ball under way in Arb's balls: every step encloses the true one, of every state that there may be.
+"""One ball under way in Arb's numbers: as enclosures, and as points for Digits.
 
-The rotation since the start is followed as a point and what it may be off by (`spread`): its error grows as that of the
-motion does.  `proved_root` proves the root of each step for all states, where lemma `small-branch` holds, and |𝒦| is an
-integral of the map so that it is looked at once, and beyond it where lemma `straight-path` does.  Elsewhere, as near a
-fold, the branch is that which the float64 continuation selects, and the interval Newton test of `newton` encloses its
-root: `selected` counts such steps.
+`ArbBall`: every step encloses the true one, of every state that there may be.  The rotation since the start is followed
+as a point and what it may be off by (`spread`): its error grows as that of the motion does.  `proved_root` proves the
+root of each step for all states, where lemma `small-branch` holds, and |𝒦| is an integral of the map so that it is
+looked at once, and beyond it where lemma `straight-path` does.  Elsewhere, as near a fold, the branch is that which the
+float64 continuation selects, and the interval Newton test of `newton` encloses its root: `selected` counts such steps.
+
+`DigitsBall`: the midpoints alone, with guard bits.
 """
 
 import math
@@ -12,19 +14,23 @@ from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from typing import Any
 
-from flint import arb, arb_mat, ctx, fmpq, fmpz
+from flint import arb, arb_mat, ctx, fmpq
+from mpmath.libmp import from_man_exp
 
 from chapsym.generated import centre_step, compose, gibbs_residual, rotate, turn
-from chapsym.numbers import Enclosure
+from chapsym.numbers import Digits
 
-from .newton import enclosed
+from ..errors import Status, StepNotTaken
+from ..loops.gibbs import BEYOND, certificate
+from ..loops.path import joined
+from .newton import enclosed, refined
 from .proved_root import MATRIX_BITS, Numbers, TooWide, certified, inverse_slope, on_path, stretch, upper
-from .root import NotSettled, extrapolated, root
+from .root import extrapolated, root
 from .spread import Spread, carried
 from .start import Exact, exponent_of, least, magnitude, start_near
 
-#: From so many bits on fmpz is faster than Python's integers.
-FMPZ_BITS = 300
+#: Bits of Digits for the roundings of one step.
+GUARD = 8
 #: A rotation with a smaller q₀ is taken as a quaternion in balls: its Gibbs vector is too long.
 LEAST_SCALAR = 0.125
 
@@ -35,18 +41,20 @@ def exact(x: float | Fraction) -> Any:
     return arb(fmpq(x.numerator, x.denominator))
 
 
-class ArbBall:
-    """A ball that takes steps in balls of `precision` bits; `stages` are the exact coefficients of the composition.
+class _UnderWay:
+    """A ball that takes steps in `precision` bits; `stages` are the exact coefficients of the composition.
 
-    Every method is to be called with that precision set.
+    All is scaled by a power of two, exactly, so that the largest moment of inertia is about 1.  Every method is to be
+    called with that precision set.
     """
 
     def __init__(
         self, precision: int, K: Exact, g: Exact, J: Exact, D: Fraction, stages: Sequence[Fraction],
         attitude: Sequence[float] | None, radius: float,
     ) -> None:  # fmt: skip
-        self.precision = precision
+        self.precision = self.root_bits = precision
         self.exponent, self.lost = magnitude(J, D)
+        self.size = size_of(K, self.exponent)
         scale = Fraction(2) ** -self.exponent
         self.k: Numbers = tuple(exact(x * scale / 2) for x in K)
         self.g = unit(map(exact, g))
@@ -54,32 +62,125 @@ class ArbBall:
         self.I = (self.J[1] + self.J[2], self.J[0] + self.J[2], self.J[0] + self.J[1])
         self.D = exact(D * scale)
         self.a: Numbers = () if attitude is None else unit(map(exact, attitude) if attitude else least(*self.g))
+        self.x = (arb(0), arb(0))
+        self.stages = [None if c == 1 else exact(c) for c in stages]
+        self.past: list[list[Any]] = [[] for _ in stages]
+
+    def _root(self, k: Numbers, past: list) -> Any:
+        """A point near the Gibbs vector, and its float64 value; None where no iteration finds it."""
+        state = *k, *self.g, *self.I, self.D
+        try:
+            return root(extrapolated(past), state, self.root_bits, self.lost, self.size)
+        except ArithmeticError:
+            return None
+
+    def _near(self, K: Numbers, g: Numbers) -> Numbers:
+        """The rotation of a step by the float64 continuation."""
+        return tuple(map(exact, start_near(K, g, self.J, self.D)))
+
+    def _follow(self, q: Numbers, g: Numbers) -> None:
+        """Moves the contact point by the rotation q; g: γ of all states."""
+        x, y, _ = rotate(*self._attitude(), *centre_step(*q, *g))
+        self.x = (self.x[0] + x, self.x[1] + y)
+
+    def _attitude(self) -> Numbers:
+        return self.a
+
+
+class DigitsBall(_UnderWay):
+    """A ball that takes steps at N digits: midpoints inside, mpmath's numbers outside.
+
+    There are as many bits more as 𝒦 is small, the conditioning costs, and the roundings of the steps add up to.
+    """
+
+    def __init__(
+        self, precision: Digits, K: Exact, g: Exact, J: Exact, D: Fraction, stages: Sequence[Fraction],
+        attitude: Sequence[float] | None, radius: float, steps: int = 1,
+    ) -> None:  # fmt: skip
+        self.context, self.radius = precision.context, radius
+        exponent, lost = magnitude(J, D)
+        # Roundings of the state add up to the square of the number of steps, as its frequencies drift.
+        more = 2 * math.ceil(math.log2(steps * len(stages) + 1)) + 2 * lost
+        bits = self.context.prec + more + GUARD
+        small = max(0, -size_of(K, exponent))
+        with ctx.workprec(bits + small):
+            super().__init__(bits + small, K, g, J, D, stages, attitude, radius)
+        self.root_bits = bits
+        self.floats = *map(float, self.I), float(self.D)
+        half = tuple(map(float, self.k))
+        self.bounds = [certificate(*(abs(float(c)) * x for x in half), *self.floats)[0] for c in stages]
+
+    def step(self) -> None:
+        """Takes one step; raises StepNotTaken, the ball then being where the step began or at a stage of it."""
+        for c, bound, past in zip(self.stages, self.bounds, self.past, strict=True):
+            k = self.k if c is None else tuple(c * x for x in self.k)
+            u = self._gibbs(k, bound, past)
+            p = self._rotation(k) if u is None else (arb(1), *u)
+            if self.a:
+                q = unit(p)
+                self._follow(q, self.g)
+                self.a = midpoints(compose(*self.a, *q))
+            self.k, self.g = (
+                tuple((x + y).mid() for x, y in zip(v, turn(*p, *v), strict=True)) for v in (self.k, self.g)
+            )
+
+    def _gibbs(self, k: Numbers, bound: float, past: list) -> Any:
+        """The Gibbs vector where `small-branch` or `straight-path` says that it is that of the branch; else None."""
+        found = self._root(k, past) if bound >= 0.0 or bound == BEYOND else None
+        if found is None:
+            past.clear()
+            return None
+        u, start = found
+        if not (self._on_path(u, k) if bound == BEYOND else square_of(start) <= bound):
+            past.clear()
+            return None
+        past.insert(0, start)
+        del past[8:]
+        return u
+
+    def _on_path(self, root: Numbers, k: Numbers) -> bool:
+        """Whether the straight path joins a root to no rotation: an inequality with room, looked at in float64."""
+        u, half, g = (tuple(map(float, v)) for v in (root, k, self.g))
+        spread = 0.5 * (max(self.floats[:3]) - min(self.floats[:3]))
+        numbers = *u, square_of(u), *half, math.hypot(*half), *g, *self.floats, spread
+        proved, _ = joined(*numbers)
+        return bool(proved)
+
+    def _rotation(self, k: Numbers) -> Numbers:
+        """The rotation where neither lemma holds, refined."""
+        K = tuple(2 * x for x in k)
+        q = refined(self._near(K, self.g), K, self.g, self.J, (self.D,))
+        if q is None:
+            raise StepNotTaken(Status.NOT_CONVERGED, 1.0)
+        return q
+
+    def frame(self, bits: int) -> tuple[Numbers, Numbers, Numbers, Numbers]:
+        """𝒦, γ, the attitude and the contact point, rounded to so many bits, in the context of the precision."""
+
+        def out(x: Any, shift: int = 0) -> Any:
+            man, exp = x.mid().man_exp()
+            return self.context.make_mpf(from_man_exp(int(man), int(exp) + shift, bits, "n"))
+
+        momentum = tuple(out(x, self.exponent + 1) for x in self.k)
+        trace = tuple(out(x) * self.radius for x in self.x)
+        return momentum, tuple(map(out, self.g)), tuple(map(out, self.a)), trace
+
+
+class ArbBall(_UnderWay):
+    """A ball that takes steps in balls."""
+
+    def __init__(
+        self, precision: int, K: Exact, g: Exact, J: Exact, D: Fraction, stages: Sequence[Fraction],
+        attitude: Sequence[float] | None, radius: float,
+    ) -> None:  # fmt: skip
+        super().__init__(precision, K, g, J, D, stages, attitude, radius)
         # What is followed is the rotation since the start: 𝒦 and γ are those of the start, turned back by it.
         self.first_k, self.first_g, self.length = self.k, self.g, upper(self.k)
         self.p: Any = (arb(1), arb(0), arb(0), arb(0))
         self.spread, self.matrix_bits = Spread(), MATRIX_BITS + 3 * self.lost
-        self.radius, self.x = exact(radius), (arb(0), arb(0))
-        self.size = exponent_of(max(map(abs, K))) - self.exponent - 1
-        self.number = int if precision < FMPZ_BITS else fmpz
-        # Components of a small 𝒦 get as many bits as large ones have.
-        self.P = precision - 8 + max(0, -self.size)
-        self.one = arb(2) ** -self.P
-        self.stages = [None if c == 1 else exact(c) for c in stages]
+        self.radius = exact(radius)
         self.bounds = [certified(2 * upper(self.k) * abs(exact(c)), self.I) for c in stages]
-        self.fixed_I, self.fixed_D = self.fixed(self.I), self.fixed((self.D,))[0]
-        self.floats = tuple(map(float, self.I)), float(self.D)
-        self.past: list[list[Any]] = [[] for _ in stages]
         self.selected = 0
-
-    def fixed(self, v: Sequence[Any]) -> Numbers:
-        """The midpoints as integers, of which 2^P is one."""
-        found = []
-        for x in v:
-            man, exp = x.mid().man_exp()
-            shift = int(exp) + self.P
-            man = self.number(man)
-            found.append(man << shift if shift >= 0 else man >> -shift)
-        return tuple(found)
 
     def step(self) -> None:
         """Takes one step; raises StepNotTaken, and TooWide where the balls are too large to prove one."""
@@ -106,14 +207,10 @@ class ArbBall:
 
         k: that of the point that is followed; every: k, γ, I and D of all states.
         """
-        try:
-            near, start = root(
-                extrapolated(past), self.fixed(k), self.fixed(self.g), self.fixed_I, self.fixed_D, self.floats, self.P,
-                self.number, self.lost,
-            )  # fmt: skip
-        except (NotSettled, ZeroDivisionError, OverflowError):
+        found = self._root(k, past)
+        if found is None:
             return None
-        u = tuple(arb(x) * self.one for x in near)
+        u, start = found
         with ctx.workprec(self.matrix_bits):
             length = upper(gibbs_residual(*(*u, *every)))
             slope = on_path(u, length, *every) if bound is None else bound[1] if upper(u) <= bound[0] else None
@@ -165,17 +262,11 @@ class ArbBall:
 
     def _rotation(self, every: Numbers) -> Numbers:
         """The rotations of all states, where neither lemma holds."""
-        K, g, J, D = tuple(2 * x for x in every[:3]), every[3:6], self.J, (self.D,)
-        near = tuple(map(exact, start_near(K, g, J, self.D)))
-        q = enclosed(Enclosure(self.precision, 0), near, K, g, J, D)
+        K, g = tuple(2 * x for x in every[:3]), every[3:6]
+        q = enclosed(self._near(K, g), K, g, self.J, (self.D,))
         if q is None:
             raise TooWide
         return q
-
-    def _follow(self, q: Numbers, g: Numbers) -> None:
-        """Moves the contact point by the rotation q; g: γ of all states."""
-        x, y, _ = rotate(*self._attitude(), *centre_step(*q, *g))
-        self.x = (self.x[0] + x, self.x[1] + y)
 
     def _turned(self) -> Any:
         """The rotation since the start, of any length, with all that there may be."""
@@ -211,6 +302,21 @@ def point(p: Iterable[Any]) -> tuple[Numbers, Any]:
     with ctx.workprec(MATRIX_BITS):
         off = upper([x.rad() for x in balls]) / sum(x * x for x in middle).sqrt()
         return middle, (off / (1 - off)).abs_upper()
+
+
+def square_of(v: Sequence[float]) -> float:
+    """The square of the length."""
+    return v[0] * v[0] + v[1] * v[1] + v[2] * v[2]
+
+
+def midpoints(v: Iterable[Any]) -> Numbers:
+    """The midpoints of balls, exactly."""
+    return tuple(x.mid() for x in v)
+
+
+def size_of(K: Exact, exponent: int) -> int:
+    """An exponent with |𝒦|/2^(exponent + 1) about 2^size."""
+    return exponent_of(max(map(abs, K))) - exponent - 1
 
 
 def log_radius(x: Any) -> float:

@@ -44,10 +44,13 @@ def run(
         if isinstance(precision, Enclosure):
             selected.append(_run_ball(precision, way))
         else:
-            from .digits import DigitsBall  # mpmath and flint take 40 ms
+            from flint import ctx  # 40 ms with mpmath
 
-            K, g, J, D, stages, attitude, radius = way.given
-            way.take(DigitsBall(precision, K, g, J, D, stages, attitude, radius, steps))
+            from .balls import DigitsBall
+
+            ball = DigitsBall(precision, *way.given, steps=steps)
+            with ctx.workprec(ball.precision):
+                way.take(ball)
         done += int(frames.taken[i])
     return selected
 

@@ -1,11 +1,11 @@
-"""Newton's iteration in the numbers of a precision, and the interval Newton test of Arb's balls."""
+"""Newton's iteration in Arb's numbers, and the interval Newton test of its balls, with the bits of the context."""
 
 from collections.abc import Sequence
+from typing import Any
 
-import flint
+from flint import arb, ctx
 
 import chapsym.generated as generated
-from chapsym.numbers import Enclosure, Precision
 
 from ..loops.branch import inverse, inverse_of
 
@@ -15,20 +15,17 @@ MOST_REFINEMENTS = 60
 MOST_INFLATIONS = 12
 
 
-def refined(precision: Precision, q: tuple, K: tuple, g: tuple, J: tuple, D: tuple) -> tuple | None:
-    """Newton's iteration in the numbers of the precision, until |correction| < √tolerance.
-
-    Newton squares the correction, up to the digits that the conditioning costs, which the guard covers.
-    """
-    q = normalised(precision, q)
-    settled = precision.number(precision.settled)
+def refined(q: tuple, K: tuple, g: tuple, J: tuple, D: tuple) -> tuple | None:
+    """The one root near a rotation, by midpoints: Newton squares a correction, up to what the conditioning costs."""
+    q = tuple(x.mid() for x in normalised(q))
+    settled = arb(2) ** (-ctx.prec // 2 - 2)
     for _ in range(MOST_REFINEMENTS):
-        w = _correction(q, K, g, J, D)
+        w = tuple(x.mid() for x in _correction(q, K, g, J, D))
         change = max(abs(x) for x in w)
-        if change > NEAR:
+        if not change < NEAR:
             return None
-        q = normalised(precision, generated.compose(*(*q, 1, *w)))
-        if change <= settled * max(abs(x) for x in q[1:]):
+        q = tuple(x.mid() for x in normalised(generated.compose(*(*q, arb(1), *w))))
+        if change <= max(abs(x) for x in q[1:]) * settled:
             return q
     return None
 
@@ -40,40 +37,37 @@ def _correction(q: tuple, K: tuple, g: tuple, J: tuple, D: tuple) -> tuple:
     return tuple(-(i[3 * n] * r[0] + i[3 * n + 1] * r[1] + i[3 * n + 2] * r[2]) for n in range(3))
 
 
-def normalised(precision: Precision, p: tuple) -> tuple:
+def normalised(p: Sequence[Any]) -> tuple:
     """p divided by its length."""
-    length = precision.sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2] + p[3] * p[3])
+    length = (p[0] * p[0] + p[1] * p[1] + p[2] * p[2] + p[3] * p[3]).sqrt()
     return tuple(x / length for x in p)
 
 
-def enclosed(precision: Enclosure, q: tuple, K: tuple, g: tuple, J: tuple, D: tuple) -> tuple | None:
+def enclosed(q: tuple, K: tuple, g: tuple, J: tuple, D: tuple) -> tuple | None:
     """Unit Euler parameters as balls that contain the one root near the float64 root."""
-    q = tuple(x.mid() for x in normalised(precision, q))
-    for _ in range(MOST_REFINEMENTS):
-        w = tuple(x.mid() for x in _correction(q, K, g, J, D))
-        change = max(abs(x) for x in w)
-        if not change < NEAR:
-            return None
-        q = tuple(x.mid() for x in normalised(precision, generated.compose(*(*q, flint.arb(1), *w))))
-        if change <= max(abs(x) for x in q[1:]) * flint.arb(2) ** (-(precision.bits + precision.guard) // 2 - 2):
-            break
+    point = refined(q, K, g, J, D)
+    return None if point is None else _tested(point, K, g, J, D)
+
+
+def _tested(q: tuple, K: tuple, g: tuple, J: tuple, D: tuple) -> tuple | None:
+    """The interval Newton test in a box round a point q, which is widened until it holds the root; else None."""
     # F(w) = 𝒦(q ∘ (1, w)) - |q|²(1 + |w|²)𝒦 vanishes exactly at the root; q is a point that is nearly unit.
     norm = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]
     value = generated.residual(*q, *(norm * x for x in K), *g, *J, *D)
     tangent = generated.tangent_jacobian(*q, *g, *J, *D)
     hessian = generated.tangent_hessian(*q, *g, *J, *D)
     # At rest the value is exactly 0, so the box needs a size of its own.
-    least = flint.arb(2) ** -(precision.bits + precision.guard)
+    least = arb(2) ** -ctx.prec
     largest = max(abs(x).upper() for x in _apply(inverse_of(*tangent)[1:], value))
     radius = 4 * largest if largest > 0 else least
     for _ in range(MOST_INFLATIONS):
-        box = tuple(flint.arb(0, radius) for _ in range(3))
+        box = tuple(arb(0, radius) for _ in range(3))
         slope = _slope(tangent, hessian, tuple(norm * x for x in K), box)
         det, *inverse_slope = inverse_of(*slope)
         if det > 0 or det < 0:
             image = tuple(-x for x in _apply(inverse_slope, value))
             if all(b.contains_interior(x) for b, x in zip(box, image, strict=True)):
-                return normalised(precision, generated.compose(*(*q, flint.arb(1), *image)))
+                return normalised(generated.compose(*(*q, arb(1), *image)))
         radius = radius * 4
     return None
 

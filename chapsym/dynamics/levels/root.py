@@ -1,54 +1,35 @@
-"""The Gibbs vector of a step on fixed-point integers, to any number of bits: float64, then corrections.
+"""The Gibbs vector of a step in Arb's numbers, to any number of bits: float64, then corrections.
 
-The numbers are Python integers, or what behaves like them (gmpy2's mpz, flint's fmpz), of which 2^P is one.
-Where lemma `small-branch` holds the root is one in a convex region on which G is monotone, so any iteration that
-settles there has found it.
+Only midpoints count: what is found is a point, of which nothing is proved here.  Where lemma `small-branch` holds, the
+root is one in a convex region on which G is monotone, so any iteration that settles there has found it.
 """
 
 import math
-from collections.abc import Callable, Sequence
-from math import ldexp
+from collections.abc import Sequence
 from typing import Any
 
-from chapsym.generated.fixed import cofactors_fixed, residual_fixed
+from flint import arb, ctx
+
+from chapsym.generated import gibbs_newton, gibbs_residual
 
 from ..loops.gibbs import newton_round
 from ..loops.sums import WEIGHTS
 
-#: A mantissa that float64's exponents can hold.
-FLOAT_BITS = 900
 #: Up to so many bits, corrections by the float64 Jacobian; beyond, Newton's, each with twice the bits of the last.
-CHORD_BITS = 220
-#: The bits that the first correction by the float64 Jacobian is taken to gain.
-GAIN = 40
+CHORD_BITS = 300
+#: Numbers of so many bits below 1 are in the range of float64.
+FLOAT_BITS = 1000
+#: What the first correction by the float64 Jacobian is taken to leave.
+GAIN = 2.0**-40
 #: Bits that Newton's iterates are short of twice those before.
 SHORT = 12
 MOST_ROUNDS = 100
-#: The bits after the point of an inverse from float64.
-INVERSE_BITS = 60
 
 Vector = tuple[Any, ...]
 
 
 class NotSettled(ArithmeticError):
     """The corrections did not become small."""
-
-
-def to_float(x: Any, P: int) -> float:
-    """A fixed-point integer as a float; one that is too large, which no rotation has for its momentum, as 1e150."""
-    shift = P - FLOAT_BITS
-    try:
-        return ldexp(int(x), -P) if shift <= 0 else ldexp(int(x >> shift), -FLOAT_BITS)
-    except OverflowError:
-        return math.copysign(1e150, int(x > 0) - 0.5)
-
-
-def from_float(x: float, P: int) -> int:
-    """A float as a fixed-point integer, rounded down."""
-    if P <= FLOAT_BITS and abs(x) < 2.0**100:
-        return math.floor(ldexp(x, P))
-    numerator, denominator = x.as_integer_ratio()
-    return (numerator << P) // denominator
 
 
 def extrapolated(past: Sequence[Vector]) -> Vector:
@@ -61,83 +42,83 @@ def extrapolated(past: Sequence[Vector]) -> Vector:
     return u1, u2, u3
 
 
-def float_root(guess: Vector, k: Vector, g: Vector, I: Vector, D: float, rounds: int) -> tuple[Vector, list[float]]:
-    """A Gibbs vector by Newton's iteration in float64 from a guess, and (∂G/∂u)⁻¹ row by row."""
+def root(guess: Vector, state: Vector, bits: int, lost: int, size: int) -> tuple[Vector, Vector]:
+    """The Gibbs vector with so many bits, from a guess in float64; returns it, exact numbers, and its float64 value.
+
+    state: k, γ, I and D, the largest moment about 1 and |k| about 2^size.  lost: the bits that the conditioning costs.
+    Raises NotSettled, or another ArithmeticError, where it does not settle.
+    """
+    before, precisions = ctx.prec, [bits]
+    while precisions[-1] > CHORD_BITS + 4 * lost:
+        precisions.append(precisions[-1] // 2 + SHORT + lost)
+    try:
+        start, cofactors = _in_float64(guess, tuple(map(float, state)))
+        ctx.prec = precisions.pop()
+        u = _chord(start, _rounded(state), cofactors, lost, size)
+        while precisions:
+            u = _newton(u, state, precisions.pop())
+    finally:
+        ctx.prec = before
+    if not all(x.is_finite() for x in u):
+        raise NotSettled
+    return u, start
+
+
+def _rounded(state: Vector) -> Vector:
+    """The state with the bits of the working precision."""
+    return tuple(+x for x in state)
+
+
+def _in_float64(guess: Vector, state: Vector) -> tuple[Vector, list[float]]:
+    """A Gibbs vector by Newton's iteration in float64, and (∂G/∂u)⁻¹, column by column."""
     u1, u2, u3 = guess
-    for _ in range(rounds):
-        det, _, _, _, u1, u2, u3, _, d1, d2, d3, *cofactors = newton_round(*(u1, u2, u3, *k, *g, *I, D))
+    for _ in range(MOST_ROUNDS if guess == (0.0, 0.0, 0.0) else 2):
+        det, _, _, _, u1, u2, u3, _, d1, d2, d3, *cofactors = newton_round(u1, u2, u3, *state)
         if max(abs(d1), abs(d2), abs(d3)) <= 1e-7 * max(abs(u1), abs(u2), abs(u3)):
             break
     scale = 1.0 / det
-    c11, c12, c13, c21, c22, c23, c31, c32, c33 = cofactors
-    return (u1, u2, u3), [c * scale for c in (c11, c21, c31, c12, c22, c32, c13, c23, c33)]
+    inverse = [c * scale for c in cofactors]
+    if not all(map(math.isfinite, (u1, u2, u3, *inverse))):
+        raise NotSettled
+    return (u1, u2, u3), inverse
 
 
-def chord(u: Vector, k: Vector, g: Vector, I: Vector, D: Any, inverse: Sequence[Any], P: int, lost: int) -> Vector:
-    """Corrections of u with one approximate inverse until the next would be below a unit, or below `lost` bits.
+def _chord(start: Vector, state: Vector, inverse: Sequence[float], lost: int, size: int) -> Vector:
+    """Corrections with one approximate inverse until the next would be below a unit, or below `lost` bits.
 
-    Raises NotSettled if they do not shrink.
+    The corrections are floats in units of 2^size.  Raises NotSettled if they do not shrink.
     """
-    u1, u2, u3 = u
-    i11, i12, i13, i21, i22, i23, i31, i32, i33 = inverse
-    before = 0
+    if ctx.prec > FLOAT_BITS:
+        raise NotSettled
+    u1, u2, u3 = map(arb, start)
+    c11, c12, c13, c21, c22, c23, c31, c32, c33 = inverse
+    unit, least, before = arb(2) ** size, 2.0**-ctx.prec, 0.0
+    large = 1 / unit
     for _ in range(MOST_ROUNDS):
-        r1, r2, r3 = residual_fixed(*(u1, u2, u3, *k, *g, *I, D, P))
-        d1 = (i11 * r1 + i12 * r2 + i13 * r3) >> INVERSE_BITS
-        d2 = (i21 * r1 + i22 * r2 + i23 * r3) >> INVERSE_BITS
-        d3 = (i31 * r1 + i32 * r2 + i33 * r3) >> INVERSE_BITS
-        u1, u2, u3 = u1 - d1, u2 - d2, u3 - d3
-        change = int(max(abs(d1), abs(d2), abs(d3)))
-        # Bit lengths are logarithms; the next correction is smaller by what this one was, beside the last.
-        gain = before.bit_length() - change.bit_length() if before else GAIN
-        if change.bit_length() <= max(gain, lost + 2):
-            return u1, u2, u3
-        if before and gain < 1:
+        r1, r2, r3 = gibbs_residual(u1, u2, u3, *state)
+        r1, r2, r3 = float(r1 * large), float(r2 * large), float(r3 * large)
+        d1 = c11 * r1 + c21 * r2 + c31 * r3
+        d2 = c12 * r1 + c22 * r2 + c32 * r3
+        d3 = c13 * r1 + c23 * r2 + c33 * r3
+        u1, u2, u3 = u1 - d1 * unit, u2 - d2 * unit, u3 - d3 * unit
+        change = max(abs(d1), abs(d2), abs(d3))
+        # The next correction is smaller by what this one was, beside the last.
+        gain = change / before if before else GAIN
+        if change * gain <= least or change <= 4 * 2.0**lost * least:
+            return u1.mid(), u2.mid(), u3.mid()
+        if not gain < 1:
             break
         before = change
     raise NotSettled
 
 
-def newton(u: Vector, k: Vector, g: Vector, I: Vector, D: Any, P: int, half: int) -> Vector:
-    """One correction of u with ∂G/∂u at `half` of the bits P."""
-    cut = P - half
-    cofactors = cofactors_fixed(*(*(x >> cut for x in (*u, *k, *g, *I, D)), half))
-    det, c11, c12, c13, c21, c22, c23, c31, c32, c33 = cofactors
-    r1, r2, r3 = residual_fixed(*(*u, *k, *g, *I, D, P))
-    # The residual is small: its integers have about P - half bits.
-    d1 = (c11 * r1 + c21 * r2 + c31 * r3) // det
-    d2 = (c12 * r1 + c22 * r2 + c32 * r3) // det
-    d3 = (c13 * r1 + c23 * r2 + c33 * r3) // det
-    return u[0] - d1, u[1] - d2, u[2] - d3
-
-
-def root(
-    guess: Vector, k: Vector, g: Vector, I: Vector, D: Any, floats: tuple[Vector, float], P: int,
-    number: Callable[[int], Any], lost: int,
-) -> tuple[Vector, Vector]:  # fmt: skip
-    """The Gibbs vector with P bits, from a guess in float64; returns it, and its float64 value.
-
-    floats: I and D in float64.  number: makes an integer one of the kind that k, g, I and D are.  lost: the bits that
-    the conditioning costs.  Raises NotSettled where it does not settle.
-    """
-    kf = (to_float(k[0], P), to_float(k[1], P), to_float(k[2], P))
-    gf = (to_float(g[0], P), to_float(g[1], P), to_float(g[2], P))
-    rounds = MOST_ROUNDS if guess == (0.0, 0.0, 0.0) else 2
-    start, inverse = float_root(guess, kf, gf, *floats, rounds)
-    if not all(map(math.isfinite, (*start, *inverse))):
-        raise NotSettled
-    levels = [P]
-    while levels[-1] > CHORD_BITS + 4 * lost:
-        levels.append(levels[-1] // 2 + SHORT + lost)
-    p = levels.pop()
-    fixed = [number(from_float(x, INVERSE_BITS)) for x in inverse]
-    u = tuple(number(from_float(x, p)) for x in start)
-    cut = P - p
-    k_p, g_p, I_p = (tuple(x >> cut for x in vector) for vector in (k, g, I))
-    u = chord(u, k_p, g_p, I_p, D >> cut, fixed, p, lost)
-    while levels:
-        half, p = p, levels.pop()
-        cut = P - p
-        k_p, g_p, I_p = (tuple(x >> cut for x in vector) for vector in (k, g, I))
-        u = newton(tuple(x << (p - half) for x in u), k_p, g_p, I_p, D >> cut, p, half)
-    return u, start
+def _newton(u: Vector, state: Vector, bits: int) -> Vector:
+    """One correction of u to so many bits, with ∂G/∂u at the bits of the working precision, which becomes `bits`."""
+    det, _, _, _, c11, c12, c13, c21, c22, c23, c31, c32, c33 = gibbs_newton(*u, *_rounded(state))
+    half, ctx.prec = ctx.prec, bits
+    residual = gibbs_residual(*u, *_rounded(state))
+    ctx.prec = half
+    r1, r2, r3 = (x.mid() / det for x in residual)
+    d = c11 * r1 + c21 * r2 + c31 * r3, c12 * r1 + c22 * r2 + c32 * r3, c13 * r1 + c23 * r2 + c33 * r3
+    ctx.prec = bits
+    return tuple((x - y).mid() for x, y in zip(u, d, strict=True))

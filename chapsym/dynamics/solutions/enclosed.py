@@ -20,6 +20,7 @@ from chapsym.numbers import Digits, Enclosure, Precision
 
 from ..ball import Ball
 from ..errors import StepNotTaken
+from ..levels.balls import exact
 from ..levels.newton import enclosed
 from ..levels.start import fraction
 from ..map import in_float64, step, unit_exactly
@@ -142,7 +143,7 @@ def _enclosures(points: Points, precision: Precision, given: Sequence[Sequence[F
     for _ in range(MOST_PRECISIONS):
         with flint.ctx.workprec(bits):
             found = [_branch(c, f.multiplicity) for f in points.factors for c in f.points(bits)]
-            if _precise(found, wanted) and _apart(found) and _confirmed(found, bits, given):
+            if _precise(found, wanted) and _apart(found) and _confirmed(found, given):
                 return tuple(sorted(found, key=cmp_to_key(_order)))
         bits *= 2
     raise ArithmeticError("the rotations could not be enclosed")
@@ -172,13 +173,12 @@ def _apart(branches: Sequence[Branch]) -> bool:
     )
 
 
-def _confirmed(branches: Sequence[Branch], bits: int, given: Sequence[Sequence[Fraction]]) -> bool:
+def _confirmed(branches: Sequence[Branch], given: Sequence[Sequence[Fraction]]) -> bool:
     """Whether the interval Newton test, on the kernels, finds every simple root, at the same place."""
-    precision = Enclosure(bits - 40, guard=40)
-    state = [tuple(precision.number(x) for x in vector) for vector in given]
+    state = [tuple(map(exact, vector)) for vector in given]
     for branch in branches:
         if branch.multiplicity == 1:
-            again = enclosed(precision, branch.rotation, *state)
+            again = enclosed(branch.rotation, *state)
             if again is None:
                 return False
             if not all(x.overlaps(y) for x, y in zip(again, branch.rotation, strict=True)):
@@ -220,9 +220,8 @@ def _the_small_one(
         return ()
     bits = 2 * (_bits(precision) + SPARE) + 64
     with flint.ctx.workprec(bits):
-        box = Enclosure(bits - 40, guard=40)
-        state = [tuple(box.number(x) for x in vector) for vector in given]
-        found = enclosed(box, tuple(arb(float(x)) for x in taken), *state)
+        state = [tuple(map(exact, vector)) for vector in given]
+        found = enclosed(tuple(arb(float(x)) for x in taken), *state)
         return () if found is None else (replace(_branch(found, 1), small_rotation=True),)
 
 
