@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
-from typing import Any
+from typing import Any, Generic, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -22,8 +22,104 @@ from .loops.loop import G, K
 from .results import Trajectory, finished
 from .trajectories import rolling_radius, seconds, whole_number
 
+R = TypeVar("R")
 
-class Stepper:
+
+class UnderWay(Generic[R]):
+    """One ball under way, in three dimensions or n: what moves is kept where a call finds it."""
+
+    ball: Any
+    order: int
+    _follows: bool
+    _traced: bool
+    _taken: int
+    #: The frames of a call of which only the end is kept: the second row is the present state.
+    _ends: dict[str, Floats]
+
+    def step(self, steps: int = 1) -> None:
+        """Takes `steps` steps; only the end is kept.
+
+        Raises StepNotTaken where one cannot be taken, with its `index` in this call; the state is then that before it.
+        """
+        steps = whole_number(steps, "steps", 0)
+        taken, status, reach = self._take(steps, steps or 1, self._ends)
+        if status:
+            raise StepNotTaken(Status(status), reach, taken)
+
+    def trajectory(self, steps: int, every: int = 1) -> R:
+        """Takes `steps` steps; returns the present state and every `every`-th after it, `index` counting from here.
+
+        Raises StepNotTaken as `step`, with the `trajectory` before.
+        """
+        steps, every = whole_number(steps, "steps", 0), whole_number(every, "every", 1)
+        every = min(every, steps + 1)
+        count = steps // every + 1
+        try:
+            frames = self._frames(count)
+        except (MemoryError, ValueError):
+            raise no_room(count, 1) from None
+        for name, array in frames.items():
+            if len(array):
+                array[0] = self._ends[name][1]
+        taken, status, reach = self._take(steps, every, frames)
+        run = self._run(np.arange(0, count * every, every), frames, np.array(taken), np.array(status))
+        if status:
+            finished(run, np.array(reach))
+        return run
+
+    @property
+    def momentum(self) -> Floats:
+        """𝒦 in kg m², (3,), or (n, n) in n dimensions, a copy.
+
+        Another may be given: γ, the attitude and the contact point stay.  Raises BadInput; the state is then as before.
+        """
+        return self._ends["momentum"][1].copy()
+
+    @momentum.setter
+    def momentum(self, momentum: ArrayLike) -> None:
+        """Goes on with another 𝒦."""
+        self._go_on(momentum)
+
+    @property
+    def gamma(self) -> Floats:
+        """γ, (3,) or (n,), a copy."""
+        return self._ends["gamma"][1].copy()
+
+    @property
+    def attitude(self) -> Asked:
+        """The attitude, from the body to space: a unit quaternion, scalar first, (4,), or R, (n, n), in n dimensions.
+
+        A copy; None if it is not followed.
+        """
+        return self._ends["attitude"][1].copy() if self._follows else None
+
+    @property
+    def contact(self) -> Asked:
+        """The contact point in metres, (2,) or (n-1,), a copy; None if it is not traced."""
+        return self._ends["contact"][1].copy() if self._traced else None
+
+    @property
+    def taken(self) -> int:
+        """How many steps were taken since the start, the last restart, or the last new momentum."""
+        return self._taken
+
+    def _go_on(self, momentum: ArrayLike) -> None:
+        raise NotImplementedError
+
+    def _frames(self, count: int) -> dict[str, Floats]:
+        """Rows for so many states."""
+        raise NotImplementedError
+
+    def _take(self, steps: int, every: int, frames: dict[str, Floats]) -> tuple[int, int, float]:
+        """Takes steps into frames, up to the first that is not taken; returns (taken, status, reach)."""
+        raise NotImplementedError
+
+    def _run(self, index: np.ndarray, frames: dict[str, Floats], taken: np.ndarray, status: np.ndarray) -> R:
+        """What a call returns."""
+        raise NotImplementedError
+
+
+class Stepper(UnderWay[Trajectory]):
     """One ball under way, for control loops and other integrators: steps of the map without the price of a call.
 
     ball, momentum, gamma, order, attitude, contact, time_step: as for `trajectory`, of one ball in principal axes, in
@@ -58,9 +154,8 @@ class Stepper:
         self._march = double.DOUBLE.loop(loop.march)
         #: The attitude and the contact point, which move in the loop.
         self._spin, self._spot = np.zeros(4), np.zeros(2)
-        #: The frames of a call of which only the end is kept: the second row is the present state.
         self._ends = self._frames(2)
-        self._momentum, self._gamma = self._ends[0][1], self._ends[1][1]
+        self._momentum, self._gamma = self._ends["momentum"][1], self._ends["gamma"][1]
 
     def restart(self, momentum: ArrayLike, gamma: ArrayLike, attitude: bool | ArrayLike = True) -> None:
         """Starts anew from 𝒦 (3,), γ (3,) and, where they are followed, an attitude (4,) and the contact point (0, 0).
@@ -70,82 +165,17 @@ class Stepper:
         k = momentum if is_vector(momentum) else _one("momentum", numbers(momentum, "momentum", 3))
         g = gamma if is_vector(gamma) and is_unit(*gamma.tolist()) else _one("gamma", unit_vertical(gamma))
         if self._follows:
-            self._spin[:] = self._ends[2][1] = initial_attitude(attitude, g)
-            self._spot[:] = self._ends[3][1] = 0.0
+            self._spin[:] = self._ends["attitude"][1] = initial_attitude(attitude, g)
+            self._spot[:] = self._ends["contact"][1] = 0.0
         self._gamma[:] = g
-        self.momentum = k
+        self._go_on(k)
 
-    def step(self, steps: int = 1) -> None:
-        """Takes `steps` steps; only the end is kept.
-
-        Raises StepNotTaken where one cannot be taken, with its `index` in this call; the state is then that before it.
-        """
-        steps = whole_number(steps, "steps", 0)
-        taken, status, reach = self._take(steps, steps, self._ends)
-        if status:
-            raise StepNotTaken(Status(status), reach, taken)
-
-    def trajectory(self, steps: int, every: int = 1) -> Trajectory:
-        """Takes `steps` steps; returns the present state and every `every`-th after it, `index` counting from here.
-
-        Raises StepNotTaken as `step`, with the `trajectory` before.
-        """
-        steps, every = whole_number(steps, "steps", 0), whole_number(every, "every", 1)
-        every = min(every, steps + 1)
-        count = steps // every + 1
-        try:
-            frames = self._frames(count)
-        except (MemoryError, ValueError):
-            raise no_room(count, 1) from None
-        momenta, verticals, attitudes, contacts = frames
-        momenta[0], verticals[0] = self._momentum, self._gamma
-        if self._follows:
-            attitudes[0], contacts[0] = self._ends[2][1], self._ends[3][1]
-        taken, status, reach = self._take(steps, every, frames)
-        run = Trajectory(
-            self.ball, np.arange(0, count * every, every), momenta, verticals, attitudes if self._follows else None,
-            contacts if self._traced else None, np.array(taken), np.array(status), self.time_step, self.order,
-        )  # fmt: skip
-        if status:
-            finished(run, np.array(reach))
-        return run
-
-    @property
-    def momentum(self) -> Floats:
-        """𝒦 in kg m², (3,), a copy.
-
-        Another may be given: γ, the attitude and the contact point stay.  Raises BadInput; the state is then as before.
-        """
-        return self._momentum.copy()
-
-    @momentum.setter
-    def momentum(self, momentum: ArrayLike) -> None:
-        """Goes on with another 𝒦."""
+    def _go_on(self, momentum: ArrayLike) -> None:
         self._momentum[:] = momentum if is_vector(momentum) else _one("momentum", numbers(momentum, "momentum", 3))
         self._state, self._scale = double.begun(
             self._momentum, self._gamma, self._J, self._D, double.DOUBLE, self._stages
         )
         self._taken = 0
-
-    @property
-    def gamma(self) -> Floats:
-        """γ, (3,), a copy."""
-        return self._gamma.copy()
-
-    @property
-    def attitude(self) -> Asked:
-        """The attitude as a unit quaternion, body to space, scalar first, (4,), a copy; None if it is not followed."""
-        return self._ends[2][1].copy() if self._follows else None
-
-    @property
-    def contact(self) -> Asked:
-        """The contact point on the plane in metres, (2,), a copy; None if it is not traced."""
-        return self._ends[3][1].copy() if self._traced else None
-
-    @property
-    def taken(self) -> int:
-        """How many steps were taken since the start, the last restart, or the last new momentum."""
-        return self._taken
 
     @property
     def omega(self) -> Floats:
@@ -155,13 +185,22 @@ class Stepper:
         angular_momentum = [k / self.time_step for k in self._momentum.tolist()]
         return np.array(angular_velocity(*(*angular_momentum, *self._gamma.tolist(), *self._J.tolist(), self._D)))
 
-    def _frames(self, count: int) -> tuple[Floats, ...]:
-        """Rows for so many states: 𝒦, γ, and of what is followed the attitude and the contact point."""
+    def _frames(self, count: int) -> dict[str, Floats]:
+        """Rows for so many states; none for an attitude and a contact point that are not followed."""
         body = count if self._follows else 0
-        return np.empty((count, 3)), np.empty((count, 3)), np.empty((body, 4)), np.empty((body, 2))
+        return {
+            "momentum": np.empty((count, 3)), "gamma": np.empty((count, 3)),
+            "attitude": np.empty((body, 4)), "contact": np.empty((body, 2)),
+        }  # fmt: skip
 
-    def _take(self, steps: int, every: int, frames: tuple[Floats, ...]) -> tuple[int, int, float]:
-        """Takes steps into frames; returns (taken, status, reach)."""
+    def _run(self, index: np.ndarray, frames: dict[str, Floats], taken: np.ndarray, status: np.ndarray) -> Trajectory:
+        K, g, attitudes, contacts = frames.values()
+        return Trajectory(
+            self.ball, index, K, g, attitudes if self._follows else None, contacts if self._traced else None, taken,
+            status, self.time_step, self.order,
+        )  # fmt: skip
+
+    def _take(self, steps: int, every: int, frames: dict[str, Floats]) -> tuple[int, int, float]:
         done, status, reach = 0, 0, 1.0
         try:
             while done < steps and not status:
@@ -176,8 +215,8 @@ class Stepper:
                 self._show()
         return done, status, reach
 
-    def _march_on(self, first: int, count: int, every: int, frames: tuple[Floats, ...]) -> tuple[int, int, float]:
-        momenta, verticals, attitudes, contacts = frames
+    def _march_on(self, first: int, count: int, every: int, frames: dict[str, Floats]) -> tuple[int, int, float]:
+        momenta, verticals, attitudes, contacts = frames.values()
         took: tuple[int, int, float] = self._march(
             *self._state, self._taken - first, first, count, every, self._scale, momenta, verticals,
             self._follows, self._spin, self._spot, self._radius, attitudes, contacts,
@@ -203,17 +242,17 @@ class Stepper:
         state = self._state[0]
         self._momentum[:], self._gamma[:] = self._scale * state[K : K + 3], state[G : G + 3]
         if self._follows:
-            self._ends[2][1], self._ends[3][1] = self._spin, self._spot
+            self._ends["attitude"][1], self._ends["contact"][1] = self._spin, self._spot
 
     def __getstate__(self) -> tuple[Any, ...]:
         settings = self.ball, self.order, self._follows, self._traced, self.time_step
-        return settings, self._scale, self._taken, self._state, (self._spin, self._spot, *self._ends)
+        return settings, self._scale, self._taken, self._state, (self._spin, self._spot, *self._ends.values())
 
     def __setstate__(self, kept: tuple[Any, ...]) -> None:
         settings, self._scale, self._taken, state, moving = kept
         self._prepare(*settings)
         self._state = [x.copy() for x in state]
-        for mine, other in zip((self._spin, self._spot, *self._ends), moving, strict=True):
+        for mine, other in zip((self._spin, self._spot, *self._ends.values()), moving, strict=True):
             mine[:] = other
 
 

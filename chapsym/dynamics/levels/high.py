@@ -12,7 +12,7 @@ from chapsym.numbers import Digits, Enclosure
 from ..coefficients import COMPOSITIONS
 from ..errors import BadInput, Status, StepNotTaken
 from .frames import Balls, Frames
-from .start import magnitude
+from .start import Exact, magnitude
 
 #: Steps of a ball between two calls of `progress`.
 CHUNK = 200
@@ -70,7 +70,9 @@ class _Way:
     attitude: Any  # that frame 0 was given, in float64
 
     @property
-    def given(self) -> tuple[Any, ...]:
+    def given(
+        self,
+    ) -> tuple[Exact, Exact, Exact, Fraction, Exact, Any, float]:
         """𝒦, γ, J and D, exactly; the exact coefficients, the attitude (empty: the least rotation) and the radius."""
         b, i = self.balls, self.i
         attitude = None

@@ -8,23 +8,22 @@ from typing import Self
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..ball import Asked, Floats, is_followed
+from ..ball import Floats, is_followed
 from ..coefficients import substeps
-from ..errors import BadInput, Status, StepNotTaken
+from ..errors import BadInput, Status
 from ..levels.frames import Count
-from ..results import finished
-from ..trajectories import whole_number
+from ..stepper import UnderWay
 from . import warm_n
 from .ball_n import BallN, skew_matrices
 from .near_n import limits
-from .run_n import MOVING, continued, rows, start
+from .run_n import MOVING, continued, start
 from .trajectory_n import TrajectoryN
 
 #: Nobody counts the steps of a call.
 UNCOUNTED = Count(lambda done: None)
 
 
-class StepperN:
+class StepperN(UnderWay[TrajectoryN]):
     """One ball in n dimensions under way, as `Stepper` in three: steps of the map without the price of a call.
 
     ball, momentum, gamma, order, attitude, contact: as for `trajectory_n`, of one ball.  All is checked here.
@@ -53,72 +52,12 @@ class StepperN:
             raise BadInput(f"a StepperN takes one ball, not a batch with the leading axes {shape}")
         self._begin(state)
 
-    def step(self, steps: int = 1) -> None:
-        """Takes `steps` steps; only the end is kept.
-
-        Raises StepNotTaken where one cannot be taken, with its `index` in this call; the state is then that before it.
-        """
-        steps = whole_number(steps, "steps", 0)
-        taken, status, reach = self._run(steps, max(steps, 1), self._ends)
-        if status != Status.TAKEN:
-            raise StepNotTaken(Status(status), reach, taken)
-
-    def trajectory(self, steps: int, every: int = 1) -> TrajectoryN:
-        """Takes `steps` steps; returns the present state and every `every`-th after it, `index` counting from here.
-
-        Raises StepNotTaken as `step`, with the `trajectory` before.
-        """
-        steps, every = whole_number(steps, "steps", 0), whole_number(every, "every", 1)
-        every = min(every, steps + 1)
-        ends = {name: array[1:] for name, array in self._ends.items()}
-        frames = rows(ends, steps // every + 1)
-        for name, array in frames.items():
-            array[:, 0] = ends[name]
-        one = {name: array[0] for name, array in frames.items()}
-        taken, status, reach = self._run(steps, every, one)
-        index = np.arange(0, steps + 1, every)
-        found = TrajectoryN(
-            self.ball, index, one["momentum"], one["gamma"], one.get("attitude"), one.get("contact"), np.array(taken),
-            np.array(status), self.order,
-        )  # fmt: skip
-        return finished(found, np.array(reach))
-
-    @property
-    def momentum(self) -> Floats:
-        """𝒦 in kg m², (n, n), a copy.
-
-        Another may be given: γ, the attitude and the contact point stay.  Raises BadInput; the state is then as before.
-        """
-        return self._ends["momentum"][1].copy()
-
-    @momentum.setter
-    def momentum(self, momentum: ArrayLike) -> None:
-        """Goes on with another 𝒦."""
+    def _go_on(self, momentum: ArrayLike) -> None:
         K = skew_matrices(momentum, self.ball.n)
         if K.ndim > 2:
             raise BadInput(f"momentum must be one skew matrix, not of the shape {K.shape}")
         now = {name: array[1:].copy() for name, array in self._ends.items()}
         self._begin(self._state | now | {"momentum": K[np.newaxis]})
-
-    @property
-    def gamma(self) -> Floats:
-        """γ, (n,), a copy."""
-        return self._ends["gamma"][1].copy()
-
-    @property
-    def attitude(self) -> Asked:
-        """R from the body to space, (n, n), a copy; None if it is not followed."""
-        return self._ends["attitude"][1].copy() if self._follows else None
-
-    @property
-    def contact(self) -> Asked:
-        """The contact point in metres, (n-1,), a copy; None if it is not traced."""
-        return self._ends["contact"][1].copy() if self._traced else None
-
-    @property
-    def taken(self) -> int:
-        """How many steps were taken since the start, the last restart, or the last new momentum."""
-        return self._taken
 
     def __copy__(self) -> Self:
         return deepcopy(self)
@@ -128,23 +67,30 @@ class StepperN:
         self._below, self._taken = bool((bounds[0] > 0).all()), 0
         #: The state that moves: above the bound, and below it.
         self._state, self._one = state, warm_n.begun(state, bounds, self._stages).ball(0)
-        #: The frames of a call of which only the end is kept: the second is the present state.
         self._ends = {name: np.repeat(state[name], 2, axis=0) for name in MOVING if name in state}
 
-    def _run(self, steps: int, every: int, frames: dict[str, Floats]) -> tuple[int, int, float]:
-        """Takes steps into frames, up to the first that is not taken; returns (taken, status, reach)."""
+    def _frames(self, count: int) -> dict[str, Floats]:
+        return {name: np.empty((count, *array.shape[1:])) for name, array in self._ends.items()}
+
+    def _run(self, index: np.ndarray, frames: dict[str, Floats], taken: np.ndarray, status: np.ndarray) -> TrajectoryN:
+        return TrajectoryN(
+            self.ball, index, frames["momentum"], frames["gamma"], frames.get("attitude"), frames.get("contact"), taken,
+            status, self.order,
+        )  # fmt: skip
+
+    def _take(self, steps: int, every: int, frames: dict[str, Floats]) -> tuple[int, int, float]:
         in_parts = self.order > 2 or not self._below
         before = self._state, self._one.copy() if in_parts else self._one
-        taken, status, reach = self._take(steps, every, frames)
+        taken, status, reach = self._march(steps, every, frames)
         if status != Status.TAKEN and in_parts:  # some stages of the last step were
             self._state, self._one = before
-            self._take(taken, every, frames)
+            self._march(taken, every, frames)
         if frames is not self._ends or taken < steps:
             self._show()
         self._taken += taken
         return taken, status, reach
 
-    def _take(self, steps: int, every: int, frames: dict[str, Floats]) -> tuple[int, int, float]:
+    def _march(self, steps: int, every: int, frames: dict[str, Floats]) -> tuple[int, int, float]:
         if self._below:
             return warm_n.advance(self._one, frames, steps, every, UNCOUNTED)
         taken, status, reach = np.zeros(1, dtype=np.int64), np.zeros(1, dtype=np.int64), np.ones(1)
