@@ -13,9 +13,8 @@ from .errors import BadInput, Status, StepNotTaken
 from .extrapolation import Extrapolated, extrapolate
 from .map import compose_step, step
 from .n.ball_n import BallN, axial, skew
-from .n.step_n import StepN, step_n
 from .n.stepper_n import StepperN
-from .n.trajectory_n import TrajectoryN, invariants_n, reverse_n, trajectory_n
+from .n.trajectory_n import StepN, TrajectoryN, invariants_n, reverse_n, step_n, trajectory_n
 from .results import Step, Trajectory
 from .reversal import NotRetraced, retrace_error, reverse
 from .solutions.continuation import Fold, Followed, fold, follow, margin

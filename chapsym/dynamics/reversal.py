@@ -4,6 +4,7 @@ The map is reversible (lemma `reversible`): with ϱ(𝒦, γ) = (-𝒦, γ), ϱ�
 both carry the attitude and the contact point along.  So no step needs an inverse: the way back is a run of the map.
 """
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -62,15 +63,21 @@ def reverse(run: Trajectory) -> Trajectory:
         raise BadInput("the way back of a restored run is that of exact_top with the opposite momentum at its end")
     if np.isnan(run.momentum).any():
         raise BadInput("a ball of the batch stopped early; choose the frames up to `taken` first")
-    options: dict[str, Any] = {"every": every, "contact": run.contact is not None, "time_step": run.time_step}
-    options["order"], options["precision"] = run.order, run.precision
-    options["attitude"] = False if run.attitude is None else run.attitude[..., -1, :]
-    back = trajectory(run.ball, -run.momentum[..., -1, :], run.gamma[..., -1, :], steps, **options)
-    if run.contact is not None and back.contact is not None:
-        back.contact[...] += run.contact[..., -1:, :]
+    back = way_back(trajectory, run, steps, every, time_step=run.time_step, precision=run.precision)
     strayed = _strayed(run, retrace_error(run, back))
     if strayed:
         raise NotRetraced(strayed[0][1], [ball for ball, _ in strayed], back)
+    return back
+
+
+def way_back(go: Callable[..., Any], run: Any, steps: int, every: int, **options: Any) -> Any:
+    """The run by `go` from the last frame of a run of any dimension, with the momentum reversed."""
+    last = (*[slice(None)] * run.status.ndim, -1)
+    attitude = False if run.attitude is None else run.attitude[last]
+    traced, start = run.contact is not None, (-run.momentum[last], run.gamma[last])
+    back = go(run.ball, *start, steps, order=run.order, every=every, attitude=attitude, contact=traced, **options)
+    if traced:
+        back.contact[...] += run.contact[..., -1:, :]
     return back
 
 
