@@ -8,7 +8,7 @@ import math
 from abc import ABC, abstractmethod
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from typing import Any
@@ -47,20 +47,6 @@ class Precision(ABC):
     @abstractmethod
     def digits(self) -> int:
         """Significant decimal digits of the input that matter."""
-
-    @property
-    def carried(self) -> int:
-        """Significant decimal digits of the arithmetic."""
-        return self.digits
-
-    @property
-    def settled(self) -> Fraction:
-        """The relative correction after which Newton's iteration is done: its square is below the digits asked for."""
-        return Fraction(1, 10 ** (self.carried // 2 - 2))
-
-    def guarded(self, digits: int) -> "Precision":
-        """The same precision with as many guard digits more, where it has any."""
-        return self
 
     @contextmanager
     def working(self) -> Iterator[None]:
@@ -136,10 +122,6 @@ class Digits(Precision):
     def __post_init__(self) -> None:
         _whole("Digits", self.count, 1)
 
-    def guarded(self, digits: int) -> "Digits":
-        """The same precision with as many guard digits more."""
-        return replace(self, guard=self.guard + digits)
-
     @cached_property
     def context(self) -> Any:
         """The mpmath context that the numbers belong to."""
@@ -163,11 +145,6 @@ class Digits(Precision):
     def digits(self) -> int:
         return self.count
 
-    @property
-    def carried(self) -> int:
-        """Digits asked for, and guard digits."""
-        return self.count + self.guard
-
 
 @dataclass(frozen=True)
 class Enclosure(Precision):
@@ -178,10 +155,6 @@ class Enclosure(Precision):
 
     def __post_init__(self) -> None:
         _whole("Enclosure", self.bits, 2)
-
-    def guarded(self, digits: int) -> "Enclosure":
-        """The same precision with guard bits for as many digits more."""
-        return replace(self, guard=self.guard + math.ceil(digits / math.log10(2)))
 
     def number(self, value: Fraction) -> Any:
         from flint import arb, fmpq

@@ -157,13 +157,9 @@ class DigitsBall(_UnderWay):
     def frame(self, bits: int) -> tuple[Numbers, Numbers, Numbers, Numbers]:
         """𝒦, γ, the attitude and the contact point, rounded to so many bits, in the context of the precision."""
 
-        def out(x: Any, shift: int = 0) -> Any:
-            man, exp = x.mid().man_exp()
-            return self.context.make_mpf(from_man_exp(int(man), int(exp) + shift, bits, "n"))
-
-        momentum = tuple(out(x, self.exponent + 1) for x in self.k)
-        trace = tuple(out(x) * self.radius for x in self.x)
-        return momentum, tuple(map(out, self.g)), tuple(map(out, self.a)), trace
+        momentum = tuple(in_context(self.context, x, bits, self.exponent + 1) for x in self.k)
+        g, a, x = (tuple(in_context(self.context, x, bits) for x in v) for v in (self.g, self.a, self.x))
+        return momentum, g, a, tuple(y * self.radius for y in x)
 
 
 class ArbBall(_UnderWay):
@@ -307,6 +303,12 @@ def point(p: Iterable[Any]) -> tuple[Numbers, Any]:
 def square_of(v: Sequence[float]) -> float:
     """The square of the length."""
     return v[0] * v[0] + v[1] * v[1] + v[2] * v[2]
+
+
+def in_context(context: Any, x: Any, bits: int, shift: int = 0) -> Any:
+    """2^shift times the midpoint of a ball, rounded to so many bits, as a number of an mpmath context."""
+    man, exp = x.mid().man_exp()
+    return context.make_mpf(from_man_exp(int(man), int(exp) + shift, bits, "n"))
 
 
 def midpoints(v: Iterable[Any]) -> Numbers:
