@@ -1,10 +1,23 @@
 """Double-double numbers with operators, so that the generated kernels run on them as they do on floats."""
 
+from collections.abc import Callable
 from fractions import Fraction
 from functools import total_ordering
 from typing import Any
 
 from . import pairs
+
+
+def _operator(function: Callable[..., tuple[float, float]], swapped: bool = False) -> Callable[[Any, Any], "Pair"]:
+    """An operator of `Pair` by an operation on halves."""
+
+    def operate(self: "Pair", other: Any) -> "Pair":
+        a, b = self, self._pair(other)
+        if swapped:
+            a, b = b, a
+        return Pair(*function(a.high, a.low, b.high, b.low))
+
+    return operate
 
 
 @total_ordering
@@ -39,29 +52,10 @@ class Pair:
             return other
         return Pair.of(other) if isinstance(other, int) else Pair(other)
 
-    def __add__(self, other: Any) -> "Pair":
-        b = self._pair(other)
-        return Pair(*pairs.add(self.high, self.low, b.high, b.low))
-
-    def __sub__(self, other: Any) -> "Pair":
-        b = self._pair(other)
-        return Pair(*pairs.subtract(self.high, self.low, b.high, b.low))
-
-    def __mul__(self, other: Any) -> "Pair":
-        b = self._pair(other)
-        return Pair(*pairs.multiply(self.high, self.low, b.high, b.low))
-
-    def __truediv__(self, other: Any) -> "Pair":
-        b = self._pair(other)
-        return Pair(*pairs.divide(self.high, self.low, b.high, b.low))
-
-    def __rsub__(self, other: Any) -> "Pair":
-        return self._pair(other) - self
-
-    def __rtruediv__(self, other: Any) -> "Pair":
-        return self._pair(other) / self
-
-    __radd__, __rmul__ = __add__, __mul__
+    __add__ = __radd__ = _operator(pairs.add)
+    __sub__, __rsub__ = _operator(pairs.subtract), _operator(pairs.subtract, swapped=True)
+    __mul__ = __rmul__ = _operator(pairs.multiply)
+    __truediv__, __rtruediv__ = _operator(pairs.divide), _operator(pairs.divide, swapped=True)
 
     def __neg__(self) -> "Pair":
         return Pair(-self.high, -self.low)

@@ -11,7 +11,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -30,6 +30,9 @@ def _whole(name: str, value: Any, least: int) -> None:
 
 class Precision(ABC):
     """One kind of number."""
+
+    #: Of arrays of such numbers, or of the first halves of pairs.
+    dtype: ClassVar[np.dtype] = np.dtype(object)
 
     @abstractmethod
     def number(self, value: Fraction) -> Any:
@@ -58,6 +61,8 @@ class Precision(ABC):
 class Single(Precision):
     """IEEE float32."""
 
+    dtype = np.dtype(np.float32)
+
     def number(self, value: Fraction) -> np.float32:
         return np.float32(float(value))
 
@@ -77,6 +82,8 @@ class Single(Precision):
 class Double(Precision):
     """IEEE float64."""
 
+    dtype = np.dtype(np.float64)
+
     def number(self, value: Fraction) -> float:
         return float(value)
 
@@ -94,6 +101,8 @@ class Double(Precision):
 @dataclass(frozen=True)
 class DoubleDouble(Precision):
     """Double-double numbers: pairs of float64, about 31 digits."""
+
+    dtype = np.dtype(np.float64)
 
     def number(self, value: Fraction) -> Pair:
         return Pair.of(value)

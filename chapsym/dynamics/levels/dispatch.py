@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
+from types import ModuleType
 
 import numpy as np
 
@@ -12,9 +13,12 @@ from ..coefficients import substeps
 from ..errors import BadInput, Status, StepNotTaken
 from ..loops import double_double_step
 from ..results import LowStep, Step
-from . import double, double_double, single
+from . import double, double_double, high, single
 from .frames import Balls, Frames
 from .start import exponent_of, fraction
+
+#: The levels that know no other number than floats.
+LEVELS: dict[type[Precision], ModuleType] = {Single: single, Double: double, DoubleDouble: double_double}
 
 
 def precision_of(precision: str | Precision) -> Precision:
@@ -29,8 +33,7 @@ def precision_of(precision: str | Precision) -> Precision:
 
 def frames_for(precision: Precision, balls: int, frames: int, body_frames: int, least: bool = False) -> Frames:
     """Empty frames in the numbers of the precision; raises BadInput if they do not fit into memory."""
-    objects = isinstance(precision, Digits | Enclosure)
-    dtype = np.dtype(object if objects else np.float32 if isinstance(precision, Single) else np.float64)
+    dtype = precision.dtype
     try:
         low = frames_for(NAMED["double"], balls, frames, body_frames) if isinstance(precision, DoubleDouble) else None
         momenta, verticals = (np.full((balls, frames, 3), np.nan, dtype) for _ in "Kg")
@@ -53,14 +56,9 @@ def run(
     """`double.run` at a precision.  Frame 0 is given in float64; others write it anew, γ divided by its length."""
     substeps(order)  # raises BadInput for no order
     if isinstance(precision, Digits | Enclosure):
-        from . import high
-
         high.run(precision, balls, steps, every, frames, order, progress)
-        return
-    level = (
-        single if isinstance(precision, Single) else double_double if isinstance(precision, DoubleDouble) else double
-    )
-    level.run(balls, steps, every, frames, order, threads, progress)
+    else:
+        LEVELS[type(precision)].run(balls, steps, every, frames, order, threads, progress)
 
 
 #: Bits that a small rotation gets beyond those that its size costs.
@@ -74,7 +72,7 @@ def step(precision: Precision, shape: tuple[int, ...], balls: Balls, order: int)
     """
     low: LowStep | None = None
     if order == 2 and isinstance(precision, Single | Double):
-        q, K, g, status, reach = (single if isinstance(precision, Single) else double).step_all(balls)
+        q, K, g, status, reach = LEVELS[type(precision)].step_all(balls)
     else:
         frames = _after_one(precision, balls, order)
         q, K, g, status, reach = *_vectors(frames), frames.status, frames.reach

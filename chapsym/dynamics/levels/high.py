@@ -14,6 +14,8 @@ from ..errors import BadInput, Status, StepNotTaken
 from .frames import Balls, Frames
 from .start import Exact, magnitude
 
+#: What a ball starts from: `_given`.
+Given = tuple[Exact, Exact, Exact, Fraction, Exact, Any, float]
 #: Steps of a ball between two calls of `progress`.
 CHUNK = 200
 #: Steps between two looks at the radii.
@@ -36,86 +38,79 @@ def run(
 
     Enclosure(bits): with as many bits more as the radii grow by, which is measured, so that `bits` are left at the end.
     """
-    done, selected, bits = 0, [], precision.bits if isinstance(precision, Enclosure) else precision.context.prec
+    from flint import ctx  # 40 ms with mpmath, which balls have, too
+
+    from .balls import DigitsBall
+
+    done, selected = 0, list[int]()
     for i in range(len(balls.D)):
-        first = frames.attitude[i, 0].copy() if frames.with_body else None
-        so_far = partial(lambda before, step: progress(before + step), done)
-        way = _Way(balls, i, steps, every, frames, order, bits, so_far, first)
+        given = _given(balls, i, frames, order)
+        way = _Way(frames, i, steps, every, partial(lambda before, step: progress(before + step), done))
         if isinstance(precision, Enclosure):
-            selected.append(_run_ball(precision, way))
+            selected.append(_enclosed(precision, given, way))
         else:
-            from flint import ctx  # 40 ms with mpmath
-
-            from .balls import DigitsBall
-
-            ball = DigitsBall(precision, *way.given, steps=steps)
+            ball = DigitsBall(precision, *given, steps=steps)
             with ctx.workprec(ball.precision):
-                way.take(ball)
+                way.take(ball, precision.context.prec)
         done += int(frames.taken[i])
     return selected
 
 
+def _given(balls: Balls, i: int, frames: Frames, order: int) -> Given:
+    """𝒦, γ, J and D, exactly; the exact coefficients, the attitude (empty: the least rotation) and the radius."""
+    attitude = None
+    if frames.with_body:
+        attitude = () if frames.least else tuple(map(Fraction, frames.attitude[i, 0]))
+    momentum, gamma, tensor = (list(map(Fraction, x[i])) for x in (balls.momentum, balls.gamma, balls.mass_tensor))
+    if balls.rest is not None:
+        momentum = [x + Fraction(y) for x, y in zip(momentum, balls.rest[i], strict=True)]
+    return momentum, gamma, tensor, Fraction(balls.D[i]), COMPOSITIONS[order].exact, attitude, float(balls.radius[i])
+
+
 @dataclass(frozen=True, eq=False)
 class _Way:
-    """The remaining work for one ball."""
+    """The steps of one ball, and the frames that they fill."""
 
-    balls: Balls
+    frames: Frames
     i: int
     steps: int
     every: int
-    frames: Frames
-    order: int
-    bits: int
     progress: Callable[[int], None]
-    attitude: Any  # that frame 0 was given, in float64
 
-    @property
-    def given(
-        self,
-    ) -> tuple[Exact, Exact, Exact, Fraction, Exact, Any, float]:
-        """𝒦, γ, J and D, exactly; the exact coefficients, the attitude (empty: the least rotation) and the radius."""
-        b, i = self.balls, self.i
-        attitude = None
-        if self.frames.with_body:
-            attitude = () if self.frames.least else tuple(map(Fraction, self.attitude))
-        stages = COMPOSITIONS[self.order].exact
-        momentum, gamma, tensor = (list(map(Fraction, x[i])) for x in (b.momentum, b.gamma, b.mass_tensor))
-        if b.rest is not None:
-            momentum = [x + Fraction(y) for x, y in zip(momentum, b.rest[i], strict=True)]
-        return momentum, gamma, tensor, Fraction(b.D[i]), stages, attitude, float(b.radius[i])
-
-    def take(self, ball: Any, enough: Callable[[int], bool] = lambda step: True) -> None:
-        """Takes the steps and writes the frames; stops early where `enough` says no."""
-        frames, i = self.frames, self.i
-        frames.taken[i] = 0
-        frames.momentum[i, 1:], frames.gamma[i, 1:] = math.nan, math.nan
-        frames.attitude[i, 1:], frames.contact[i, 1:] = math.nan, math.nan
-        write(frames, i, 0, ball.frame(self.bits))
-        for step in range(1, self.steps + 1):
-            try:
-                ball.step()
-            except StepNotTaken as stop:
-                frames.status[i], frames.reach[i] = stop.status, stop.reach
-                return
-            frames.taken[i] = step
-            if not enough(step):
-                return
+    def take(self, ball: Any, bits: int, enough: Callable[[int], bool] = lambda step: True) -> None:
+        """Takes the steps and writes the frames, with so many bits; stops early where `enough` says no."""
+        f, i = self.frames, self.i
+        kept = (f.momentum, f.gamma, *((f.attitude, f.contact) if f.with_body else ()))
+        f.taken[i] = 0
+        for array in kept:
+            array[i, 1:] = math.nan
+        for step in range(self.steps + 1):
+            if step:
+                try:
+                    ball.step()
+                except StepNotTaken as stop:
+                    f.status[i], f.reach[i] = stop.status, stop.reach
+                    return
+                f.taken[i] = step
+                if not enough(step):
+                    return
             if step % self.every == 0:
-                write(frames, i, step // self.every, ball.frame(self.bits))
-            if step % CHUNK == 0 or step == self.steps:
+                for array, values in zip(kept, ball.frame(bits), strict=False):
+                    array[i, step // self.every] = values
+            if step and (step % CHUNK == 0 or step == self.steps):
                 self.progress(step)
 
 
-def _run_ball(precision: Enclosure, way: _Way) -> int:
+def _enclosed(precision: Enclosure, given: Given, way: _Way) -> int:
     """Repeats the run with more bits until `precision.bits` are left; raises BadInput where more do not help.
 
     Returns how many rotations were selected.
     """
     guard, before, stuck = precision.guard, (0, -math.inf), 0
-    _, lost = magnitude(*way.given[2:4])
+    _, lost = magnitude(*given[2:4])
     while guard <= MOST_GUARD:
         bits = precision.bits + guard
-        step, left, selected = _attempt(bits, way)
+        step, left, selected = _attempt(bits, precision.bits, given, way)
         if left >= precision.bits:
             return selected
         stuck = stuck + 1 if (step, left) <= before and guard > CONDITION * lost else 0
@@ -130,8 +125,8 @@ def _run_ball(precision: Enclosure, way: _Way) -> int:
     )
 
 
-def _attempt(bits: int, way: _Way) -> tuple[int, float, int]:
-    """Runs with so many bits while enough are left.
+def _attempt(bits: int, wanted: int, given: Given, way: _Way) -> tuple[int, float, int]:
+    """Runs with so many bits while those that are wanted are left.
 
     Returns the step where they were last looked at, the bits left there, and how many rotations were selected.  None
     are left where a step could not be proved.
@@ -143,29 +138,22 @@ def _attempt(bits: int, way: _Way) -> tuple[int, float, int]:
 
     seen: tuple[int, float] = (0, math.inf)
     with ctx.workprec(bits):
-        ball = ArbBall(bits, *way.given)
+        ball = ArbBall(bits, *given)
 
         def enough(step: int) -> bool:
             nonlocal seen
             if step % LOOK and step % way.every and step != way.steps:
                 return True
             seen = (step, ball.bits())
-            return seen[1] >= way.bits
+            return seen[1] >= wanted
 
         try:
-            way.take(ball, enough)
+            way.take(ball, wanted, enough)
         except TooWide:
             return seen[0] + 1, 0.0, ball.selected
-        if way.frames.status[way.i] != Status.TAKEN:
-            seen = (int(way.frames.taken[way.i]), ball.bits())
-    if seen[1] < way.bits:
-        way.frames.status[way.i], way.frames.reach[way.i] = Status.TAKEN, 1.0  # of balls that were too wide to tell
+        f, i = way.frames, way.i
+        if f.status[i] != Status.TAKEN:
+            seen = (int(f.taken[i]), ball.bits())
+    if seen[1] < wanted:
+        f.status[i], f.reach[i] = Status.TAKEN, 1.0  # of balls that were too wide to tell
     return *seen, ball.selected
-
-
-def write(frames: Frames, i: int, at: int, values: tuple[Any, Any, Any, Any]) -> None:
-    """One frame of one ball: 𝒦, γ, and the attitude and the contact point where there are any."""
-    momentum, gamma, attitude, contact = values
-    frames.momentum[i, at], frames.gamma[i, at] = momentum, gamma
-    if frames.with_body:
-        frames.attitude[i, at], frames.contact[i, at] = attitude, contact

@@ -38,7 +38,7 @@ def start(
     return shape, state
 
 
-def rows(state: dict[str, Floats], count: int, dtype: type = float) -> dict[str, Floats]:
+def rows(state: dict[str, Floats], count: int, dtype: np.dtype) -> dict[str, Floats]:
     """Room for so many frames of what moves of each ball, (b, count, ...); raises BadInput if there is not so much."""
     try:
         return {
@@ -59,7 +59,7 @@ def stepped(
     chosen, stages = precision_of(precision), substeps(order)
     if not isinstance(chosen, Double | Digits):
         raise BadInput(f'in n dimensions precision is "double" or chapsym.Digits(N), not {precision!r}')
-    frames = rows(state, steps // every + 1, float if isinstance(chosen, Double) else object)
+    frames = rows(state, steps // every + 1, chosen.dtype)
     if isinstance(chosen, Double):
         return frames, *run(state, frames, stages, steps, every, threads)
     from . import precise_n  # mpmath takes 40 ms
