@@ -316,11 +316,11 @@ def in_single(value: ArrayLike) -> bool:
     return np.asarray(value).dtype.newbyteorder("=") == np.float32
 
 
-def unit_vertical(gamma: ArrayLike) -> Floats:
-    """γ as checked unit vectors, shape (..., 3); a float32 array, which cannot be so near to unit, as divided."""
-    if is_vector(gamma) and is_unit(*gamma.tolist()):
+def unit_vertical(gamma: ArrayLike, n: int = 3) -> Floats:
+    """γ as checked unit vectors, shape (..., n); a float32 array, which cannot be so near to unit, as divided."""
+    if n == 3 and is_vector(gamma) and is_unit(*gamma.tolist()):
         return gamma.copy()
-    array = numbers(gamma, "gamma", 3)
+    array = numbers(gamma, "gamma", n)
     squared = (array * array).sum(axis=-1)
     if in_single(gamma) and (np.abs(squared - 1) <= SINGLE_TOLERANCE).all():
         return array / np.sqrt(squared)[..., np.newaxis]

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..ball import UNIT_TOLERANCE, Floats, common_shape, keep, numbers
+from ..ball import Floats, common_shape, keep, numbers, unit_vertical
 from ..errors import BadInput
 from . import so_n
 
@@ -86,22 +86,11 @@ def skew_matrices(value: ArrayLike, n: int, name: str = "momentum") -> Floats:
     return np.where(off == 0, array, array / 2 - array.mT / 2)
 
 
-def unit_verticals(gamma: ArrayLike, n: int) -> Floats:
-    """γ as checked unit vectors, (..., n)."""
-    array = numbers(gamma, "gamma", n)
-    length = np.sqrt((array * array).sum(axis=-1))
-    off = np.abs(length - 1)
-    if (off > UNIT_TOLERANCE / 2).any():
-        worst = length.flat[int(off.argmax())]
-        raise BadInput(f"gamma must be a unit vector, but its length is {worst:.17g}; divide it by its length")
-    return array
-
-
 def flat_states(ball: BallN, momentum: ArrayLike, gamma: ArrayLike) -> tuple[tuple[int, ...], tuple[Floats, ...]]:
     """The common leading shape, and (𝒦, γ, J, D) as arrays to read with one leading axis; all are checked."""
     if not isinstance(ball, BallN):
         raise BadInput(f"ball must be a chapsym.BallN, not {type(ball).__name__}")
-    K, g = skew_matrices(momentum, ball.n), unit_verticals(gamma, ball.n)
+    K, g = skew_matrices(momentum, ball.n), unit_vertical(gamma, ball.n)
     radius = () if ball.radius is None else ball.radius.shape
     leading = [ball.mass_tensor.shape[:-1], ball.D.shape, radius, K.shape[:-2], g.shape[:-1]]
     shape = common_shape(leading, "ball (mass_tensor, D, radius), momentum and gamma")

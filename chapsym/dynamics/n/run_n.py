@@ -1,6 +1,7 @@
 """Runs in n dimensions: below the bound of `near_n` from guesses by the last rotations, else by the continuation."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -103,17 +104,19 @@ def _rows(state: dict[str, Floats], at: np.ndarray) -> dict[str, Floats]:
 
 
 def continued(
-    state: dict[str, Floats], frames: dict[str, Floats], stages: Floats, steps: int, every: int,
+    state: dict[str, Floats], frames: dict[str, Floats], stages: Iterable[Any], steps: int, every: int,
     taken: np.ndarray, status: np.ndarray, reach: Floats, at: np.ndarray,
+    rotations: Callable[..., tuple[Floats, np.ndarray, Floats]] = small_rotation,
 ) -> dict[str, Floats]:  # fmt: skip
     """Steps some balls together, the rows `at` of what else is given, and writes these in place.
 
+    rotations: what finds the rotations of a stage, as `small_rotation` in float64.
     Returns the state of the balls that took all steps.
     """
     for step in range(1, steps + 1):
         for c in stages:
             K, rest = c * state["momentum"], (state[x] for x in ("gamma", "mass_tensor", "D"))
-            E, status[at], reach[at] = small_rotation(K, *rest)
+            E, status[at], reach[at] = rotations(K, *rest)
             went = status[at] == Status.TAKEN
             if not went.all():
                 at, E, state = at[went], E[went], _rows(state, went)

@@ -26,7 +26,7 @@ def coordinates(skew: Floats) -> Floats:
 def from_coordinates(x: Floats, n: int) -> Floats:
     """The skew matrix with the coordinates x, (..., n, n)."""
     rows, columns = places(n)
-    skew = np.zeros((*x.shape[:-1], n, n))
+    skew = np.zeros((*x.shape[:-1], n, n), x.dtype)
     skew[..., rows, columns] = x
     skew[..., columns, rows] = -x
     return skew

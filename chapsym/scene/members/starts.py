@@ -10,7 +10,7 @@ from chapsym.dynamics import BadInput, Ball, BallN, kernels
 from chapsym.dynamics.attitudes import attitude_with
 from chapsym.dynamics.ball import SMALLEST, UNIT_TOLERANCE, Floats, contact_term, mass_tensor_of, numbers, unit_vertical
 from chapsym.dynamics.n import so_n
-from chapsym.dynamics.n.ball_n import skew_matrices, unit_verticals
+from chapsym.dynamics.n.ball_n import skew_matrices
 from chapsym.dynamics.principal_axes import (
     attitude_to_principal,
     from_inertia_tensor,
@@ -178,7 +178,7 @@ def _members_n(ball: BallTable, start: StartTable, given: Given, scale: float, n
     if "mass" in told:
         check_inside(tensor, told["mass"], told["radius"])
     body = BallN(tensor, np.asarray(contact_term(told.get("mass"), radius, told.get("D"))), radius)
-    gamma = unit_verticals(given.unit(start.gamma or (*[0.0] * (n - 1), 1.0), "start.gamma"), n)
+    gamma = unit_vertical(given.unit(start.gamma or (*[0.0] * (n - 1), 1.0), "start.gamma"), n)
     key = "omega" if start.momentum is None else "momentum"
     motion = skew_matrices(given.array(getattr(start, key), f"start.{key}"), n, f"start.{key}")
     if key == "omega":
