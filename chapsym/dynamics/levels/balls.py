@@ -55,6 +55,7 @@ class _UnderWay:
         self.precision = self.root_bits = precision
         self.exponent, self.lost = magnitude(J, D)
         self.size = size_of(K, self.exponent)
+        self.unit = arb(2) ** self.size
         scale = Fraction(2) ** -self.exponent
         self.k: Numbers = tuple(exact(x * scale / 2) for x in K)
         self.g = unit(map(exact, g))
@@ -70,7 +71,7 @@ class _UnderWay:
         """A point near the Gibbs vector, and its float64 value; None where no iteration finds it."""
         state = *k, *self.g, *self.I, self.D
         try:
-            return root(extrapolated(past), state, self.root_bits, self.lost, self.size)
+            return root(extrapolated(past), state, self.root_bits, self.lost, self.unit)
         except ArithmeticError:
             return None
 

@@ -42,19 +42,19 @@ def extrapolated(past: Sequence[Vector]) -> Vector:
     return u1, u2, u3
 
 
-def root(guess: Vector, state: Vector, bits: int, lost: int, size: int) -> tuple[Vector, Vector]:
+def root(guess: Vector, state: Vector, bits: int, lost: int, unit: Any) -> tuple[Vector, Vector]:
     """The Gibbs vector with so many bits, from a guess in float64; returns it, exact numbers, and its float64 value.
 
-    state: k, γ, I and D, the largest moment about 1 and |k| about 2^size.  lost: the bits that the conditioning costs.
+    state: k, γ, I and D, the largest moment about 1; unit: a power of two about |k|.  lost: the bits that the conditioning costs.
     Raises NotSettled, or another ArithmeticError, where it does not settle.
     """
     before, precisions = ctx.prec, [bits]
     while precisions[-1] > CHORD_BITS + 4 * lost:
         precisions.append(precisions[-1] // 2 + SHORT + lost)
     try:
-        start, cofactors = _in_float64(guess, tuple(map(float, state)))
+        start, inverse = _in_float64(guess, tuple(map(float, state)))
         ctx.prec = precisions.pop()
-        u = _chord(start, _rounded(state), cofactors, lost, size)
+        u = _chord(start, _rounded(state) if precisions else state, inverse, lost, unit)
         while precisions:
             u = _newton(u, state, precisions.pop())
     finally:
@@ -83,17 +83,16 @@ def _in_float64(guess: Vector, state: Vector) -> tuple[Vector, list[float]]:
     return (u1, u2, u3), inverse
 
 
-def _chord(start: Vector, state: Vector, inverse: Sequence[float], lost: int, size: int) -> Vector:
+def _chord(start: Vector, state: Vector, inverse: Sequence[float], lost: int, unit: Any) -> Vector:
     """Corrections with one approximate inverse until the next would be below a unit, or below `lost` bits.
 
-    The corrections are floats in units of 2^size.  Raises NotSettled if they do not shrink.
+    The corrections are floats, in that unit.  Raises NotSettled if they do not shrink.
     """
     if ctx.prec > FLOAT_BITS:
         raise NotSettled
     u1, u2, u3 = map(arb, start)
     c11, c12, c13, c21, c22, c23, c31, c32, c33 = inverse
-    unit, least, before = arb(2) ** size, 2.0**-ctx.prec, 0.0
-    large = 1 / unit
+    large, least, before = 1 / unit, 2.0**-ctx.prec, 0.0
     for _ in range(MOST_ROUNDS):
         r1, r2, r3 = gibbs_residual(u1, u2, u3, *state)
         r1, r2, r3 = float(r1 * large), float(r2 * large), float(r3 * large)
