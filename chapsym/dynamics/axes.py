@@ -26,11 +26,11 @@ def in_axes(function: Callable[..., Any], ball: Ball, args: tuple[Any, ...], kwa
     call.apply_defaults()
     call.arguments.update(_principal_arguments(ball, call.arguments))
     try:
-        return _in_axes_of(ball, function(*call.args, **call.kwargs))
+        return in_axes_of(ball, function(*call.args, **call.kwargs))
     except StepNotTaken as error:
         if error.trajectory is None:
             raise
-        frames = _in_axes_of(ball, error.trajectory)
+        frames = in_axes_of(ball, error.trajectory)
         raise StepNotTaken(error.status, error.reach, error.index, frames) from None
 
 
@@ -61,9 +61,9 @@ def _principal_arguments(ball: Ball, given: dict[str, Any]) -> dict[str, Any]:
     return {"ball": ball.principal, **found}
 
 
-def _in_axes_of(ball: Ball, found: Any) -> Any:
+def in_axes_of(ball: Ball, found: Any) -> Any:
     """A result in principal axes, in those of the ball."""
-    frames = getattr(found, "index", None) is not None
+    frames = getattr(found, "index", None) is not None or np.ndim(getattr(found, "time", 0.0)) > 0
     assert ball.axes is not None
     axes = ball.axes[..., np.newaxis, :] if frames else ball.axes
     turned: dict[str, Any] = {}

@@ -13,11 +13,11 @@ from numpy.typing import ArrayLike
 from chapsym.numbers import NAMED, Pair, Precision
 
 from . import kernels
-from .axes import in_axes
+from .axes import in_axes, in_axes_of
 from .ball import Asked, Ball, Floats
 from .errors import BadInput, Status, StepNotTaken
 from .interpolation import Moments, States, standing
-from .principal_axes import attitude_from_principal, attitude_to_principal
+from .principal_axes import attitude_to_principal
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -41,16 +41,6 @@ def in_given_axes(function: Callable[P, R]) -> Callable[P, R]:
         return found
 
     return taken
-
-
-def _in_axes(ball: Ball, found: Moments) -> Moments:
-    """States in principal axes, in those of the ball."""
-    many = np.ndim(found.time) > 0
-    assert ball.axes is not None
-    turned = {name: ball.from_principal(getattr(found, name), frames=many) for name in ("momentum", "gamma", "omega")}
-    axes = ball.axes[..., np.newaxis, :] if many else ball.axes
-    attitude = None if found.attitude is None else attitude_from_principal(axes, found.attitude)
-    return replace(found, **turned, attitude=attitude)
 
 
 @dataclass(frozen=True, eq=False)
@@ -185,7 +175,7 @@ class Trajectory:
                 frames["attitude"] = attitude_to_principal(axes[..., np.newaxis, :], frames["attitude"])
         found = States(self.ball.principal, clock, there, **frames).at(times)
         if axes is not None:
-            found = _in_axes(self.ball, found)
+            found = in_axes_of(self.ball, found)
         return replace(found, momentum=found.momentum * self._time_step()) if timed else found
 
     def invariants(self) -> Floats:

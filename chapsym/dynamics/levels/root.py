@@ -45,8 +45,8 @@ def extrapolated(past: Sequence[Vector]) -> Vector:
 def root(guess: Vector, state: Vector, bits: int, lost: int, unit: Any) -> tuple[Vector, Vector]:
     """The Gibbs vector with so many bits, from a guess in float64; returns it, exact numbers, and its float64 value.
 
-    state: k, γ, I and D, the largest moment about 1; unit: a power of two about |k|.  lost: the bits that the conditioning costs.
-    Raises NotSettled, or another ArithmeticError, where it does not settle.
+    state: k, γ, I and D, the largest moment about 1; unit: a power of two about |k|.  lost: the bits that the
+    conditioning costs.  Raises NotSettled, or another ArithmeticError, where it does not settle.
     """
     before, precisions = ctx.prec, [bits]
     while precisions[-1] > CHORD_BITS + 4 * lost:

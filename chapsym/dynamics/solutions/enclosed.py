@@ -18,7 +18,7 @@ from flint import arb, fmpq
 
 from chapsym.numbers import Digits, Enclosure, Precision
 
-from ..ball import Ball
+from ..ball import Asked, Ball
 from ..errors import StepNotTaken
 from ..levels.balls import exact
 from ..levels.newton import enclosed
@@ -91,16 +91,19 @@ def precise_branches(
     """
     unit_exactly(gamma, precision)
     J, (contact,), K, g = np.split(np.array(in_float64(mass_tensor, (D,), momentum, gamma)), [3, 4, 7])
-    ball = Ball(J, contact)
-    state = [[fmpq(x.numerator, x.denominator) for x in v] for v in (momentum, gamma, mass_tensor, (D,))]
+    try:
+        taken = step(Ball(J, contact), K, g).rotation
+    except StepNotTaken:
+        taken = None
+    given = momentum, gamma, mass_tensor, (D,)
+    state = [[fmpq(x.numerator, x.denominator) for x in v] for v in given]
     equations = quadrics(state[0], state[1], state[2], *state[3])
     try:
         points = common_points([_form(e) for e in (*equations, *_proportional(*state))])
     except NotFinite:
-        found = _the_small_one(ball, K, g, (momentum, gamma, mass_tensor, (D,)), precision)
+        found = _the_small_one(taken, given, precision)
         return PreciseBranches(precision, found, False, _why_infinite(equations))
-    branches = _enclosures(points, precision, (momentum, gamma, mass_tensor, (D,)))
-    return PreciseBranches(precision, _with_small_rotation(branches, ball, K, g), True)
+    return PreciseBranches(precision, _with_small_rotation(_enclosures(points, precision, given), taken), True)
 
 
 def _form(quadric: Quadric) -> Form:
@@ -196,11 +199,9 @@ def _order(a: Branch, b: Branch) -> int:
     return 0
 
 
-def _with_small_rotation(branches: tuple[Branch, ...], ball: Ball, K: Any, g: Any) -> tuple[Branch, ...]:
+def _with_small_rotation(branches: tuple[Branch, ...], taken: Asked) -> tuple[Branch, ...]:
     """The same, with the one marked that the float64 step takes, if it takes one."""
-    try:
-        taken = step(ball, K, g).rotation
-    except StepNotTaken:
+    if taken is None:
         return branches
     places = [np.array([float(x.mid()) for x in branch.rotation]) for branch in branches]
     distances = [min(np.abs(q - taken).max(), np.abs(q + taken).max()) for q in places]
@@ -210,13 +211,9 @@ def _with_small_rotation(branches: tuple[Branch, ...], ball: Ball, K: Any, g: An
     return tuple(replace(b, small_rotation=bool(d == first)) for b, d in zip(branches, distances, strict=True))
 
 
-def _the_small_one(
-    ball: Ball, K: Any, g: Any, given: Sequence[Sequence[Fraction]], precision: Precision
-) -> tuple[Branch, ...]:
+def _the_small_one(taken: Asked, given: Sequence[Sequence[Fraction]], precision: Precision) -> tuple[Branch, ...]:
     """The small rotation, if there is one that the interval Newton test encloses."""
-    try:
-        taken = step(ball, K, g).rotation
-    except StepNotTaken:
+    if taken is None:
         return ()
     bits = 2 * (_bits(precision) + SPARE) + 64
     with flint.ctx.workprec(bits):

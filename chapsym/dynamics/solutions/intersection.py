@@ -11,9 +11,9 @@ signature is the number of the real ones (Hermite), which must be what the elimi
 """
 
 import itertools
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, reduce
 from typing import Any
 
 import flint
@@ -108,9 +108,7 @@ class _Algebra:
         self.basis = [below[i] for i in chosen]
         self.variables = [inverse * fmpq_mat(fmpz_mat([rows[i] for i in chosen])) for rows in by_variable]
         # Free of denominators: the same positive multiple of each.
-        scale = fmpz(1)
-        for variable in self.variables:
-            scale = scale.lcm(variable.numer_denom()[1])
+        scale = _common(variable.numer_denom()[1] for variable in self.variables)
         self.integral = [(scale * variable).numer_denom()[0] for variable in self.variables]
 
     def form(self, k: int) -> fmpq_mat:
@@ -140,9 +138,7 @@ def _killed(forms: Sequence[Form]) -> fmpz_mat:
     place = _places(DEGREE)
     rows = []
     for form in forms:
-        denominator = fmpz(1)
-        for c in form.values():
-            denominator = denominator.lcm(c.q)
+        denominator = _common(c.q for c in form.values())
         degree = sum(next(iter(form)))
         for m in _monomials(DEGREE - degree):
             row = [fmpz(0)] * len(place)
@@ -171,9 +167,7 @@ def _representation(algebra: _Algebra, multiplication: fmpq_mat, parts: list) ->
     for v in VARIABLES:
         terms = (fmpq(traces[v, i], denominator**i) * fmpq_poly(ascending[i + 1 :]) for i in range(free.degree()))
         found.append(sum(terms, fmpq_poly()))
-    common = fmpz(1)
-    for c in found:
-        common = common.lcm(c.denom())
+    common = _common(c.denom() for c in found)
     return [(c * common).numer() for c in found]
 
 
@@ -224,6 +218,11 @@ def _independent(rows: Sequence[Sequence[fmpz]]) -> list[int]:
     """The first rows that span them all."""
     reduced, _, rank = fmpz_mat(rows).transpose().rref()
     return [next(j for j in range(len(rows)) if reduced[i, j] != 0) for i in range(rank)]
+
+
+def _common(denominators: Iterable[fmpz]) -> fmpz:
+    """The least common multiple."""
+    return reduce(fmpz.lcm, denominators, fmpz(1))
 
 
 def _identity(size: int) -> fmpz_mat:
