@@ -1,4 +1,4 @@
-"""The precisions: how a number is made, rooted and written on each."""
+"""The precisions: how a number is made and written on each."""
 
 from chapsym.renamed import attributes
 

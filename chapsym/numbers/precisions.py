@@ -1,7 +1,7 @@
-"""float32 and float64, double-double, mpmath at N digits, and Arb balls at N bits: what a step needs of each.
+"""float32 and float64, double-double, mpmath at N digits, and Arb balls at N bits: how each is made and written.
 
-A kernel is `+ - * /` on whatever numbers it is given.  A precision makes those numbers from exact
-fractions, takes square roots, and writes results.
+A kernel is `+ - * /` on whatever numbers it is given.  A precision makes those numbers from exact fractions, and writes
+results.
 """
 
 import math
@@ -39,10 +39,6 @@ class Precision(ABC):
         """The number nearest to an exact fraction, or enclosing it."""
 
     @abstractmethod
-    def sqrt(self, value: Any) -> Any:
-        """The square root."""
-
-    @abstractmethod
     def write(self, value: Any) -> Any:
         """The number for JSON: a float, or a decimal string that a float could not hold."""
 
@@ -66,9 +62,6 @@ class Single(Precision):
     def number(self, value: Fraction) -> np.float32:
         return np.float32(float(value))
 
-    def sqrt(self, value: np.float32) -> np.float32:
-        return np.sqrt(value)
-
     def write(self, value: np.float32) -> float:
         """The shortest decimal number that is this float32: as a float64 it would have digits that mean nothing."""
         return float(str(np.float32(value)))
@@ -87,9 +80,6 @@ class Double(Precision):
     def number(self, value: Fraction) -> float:
         return float(value)
 
-    def sqrt(self, value: float) -> float:
-        return math.sqrt(value)
-
     def write(self, value: float) -> float:
         return float(value)
 
@@ -106,9 +96,6 @@ class DoubleDouble(Precision):
 
     def number(self, value: Fraction) -> Pair:
         return Pair.of(value)
-
-    def sqrt(self, value: Pair) -> Pair:
-        return value.sqrt()
 
     def write(self, value: Pair) -> str:
         return Digits(WRITTEN).write(Digits(WRITTEN).number(value.exactly()))
@@ -143,9 +130,6 @@ class Digits(Precision):
     def number(self, value: Fraction) -> Any:
         return self.context.mpf(value.numerator) / value.denominator
 
-    def sqrt(self, value: Any) -> Any:
-        return self.context.sqrt(value)
-
     def write(self, value: Any) -> str:
         text = self.context.nstr(value, self.count, strip_zeros=False, min_fixed=-5, max_fixed=self.count)
         return str(text).removesuffix(".")
@@ -169,9 +153,6 @@ class Enclosure(Precision):
         from flint import arb, fmpq
 
         return arb(fmpq(value.numerator, value.denominator))
-
-    def sqrt(self, value: Any) -> Any:
-        return value.sqrt()
 
     def write(self, value: Any) -> str:
         text = value.str(self.digits + 2, radius=True)

@@ -106,7 +106,7 @@ def test_the_slope_of_the_enclosure_is_the_derivative(q, gamma, ball):
 
 def test_the_interval_test_itself_finds_the_root(monkeypatch):
     """Without refinement the float64 root is off by 1e-16, and the one interval Newton step must put that right."""
-    monkeypatch.setattr(newton, "refined", lambda q, *_: tuple(x.mid() for x in newton.normalised(q)))
+    monkeypatch.setattr(newton, "refined", lambda q, *_: tuple(x.mid() for x in newton.unit(q)))
     precision, near = Enclosure(200), start.start(K, GAMMA, J, D)
     with flint.ctx.workprec(400):
         given = [tuple(map(precision.number, x)) for x in (near, K, GAMMA, J, (D,))]
@@ -116,11 +116,9 @@ def test_the_interval_test_itself_finds_the_root(monkeypatch):
 
 
 @pytest.mark.parametrize("precision", [Double(), Digits(20), Enclosure(80)])
-def test_precisions_make_root_and_write_numbers(precision):
+def test_precisions_make_and_write_numbers(precision):
     with precision.working():
-        root = precision.sqrt(precision.number(F(9, 4)))
-        assert root == precision.number(F(3, 2))
-        assert str(precision.write(root)).startswith(("1.5", "[1.5"))
+        assert str(precision.write(precision.number(F(3, 2)))).startswith(("1.5", "[1.5"))
 
 
 @pytest.mark.parametrize("digits", range(12, 24))

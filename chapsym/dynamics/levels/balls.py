@@ -23,11 +23,11 @@ from chapsym.numbers import Digits
 from ..errors import Status, StepNotTaken
 from ..loops.gibbs import BEYOND, certificate
 from ..loops.path import joined
-from .newton import enclosed, refined
+from .newton import enclosed, refined, unit
 from .proved_root import MATRIX_BITS, Numbers, TooWide, certified, inverse_slope, on_path, stretch, upper
 from .root import extrapolated, root
 from .spread import Spread, carried
-from .start import Exact, exponent_of, least, magnitude, start_near
+from .start import Exact, exponent_of, fraction, least, magnitude, start
 
 #: Bits of Digits for the roundings of one step.
 GUARD = 8
@@ -77,7 +77,8 @@ class _UnderWay:
 
     def _near(self, K: Numbers, g: Numbers) -> Numbers:
         """The rotation of a step by the float64 continuation."""
-        return tuple(map(exact, start_near(K, g, self.J, self.D)))
+        k, vertical, tensor = (list(map(fraction, v)) for v in (K, g, self.J))
+        return tuple(map(exact, start(k, vertical, tensor, fraction(self.D))))
 
     def _follow(self, q: Numbers, g: Numbers) -> None:
         """Moves the contact point by the rotation q; g: γ of all states."""
@@ -326,10 +327,3 @@ def log_radius(x: Any) -> float:
     """The logarithm to base 2 of the radius, rounded up."""
     man, exp = x.rad().man_exp()
     return int(exp) + int(man).bit_length() if man else -math.inf
-
-
-def unit(v: Iterable[Any]) -> Numbers:
-    """A vector divided by its length."""
-    balls = list(v)
-    length = sum(x * x for x in balls).sqrt()
-    return tuple(x / length for x in balls)

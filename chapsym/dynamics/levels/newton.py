@@ -1,6 +1,6 @@
 """Newton's iteration in Arb's numbers, and the interval Newton test of its balls, with the bits of the context."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 from flint import arb, ctx
@@ -17,14 +17,14 @@ MOST_INFLATIONS = 12
 
 def refined(q: tuple, K: tuple, g: tuple, J: tuple, D: tuple) -> tuple | None:
     """The one root near a rotation, by midpoints: Newton squares a correction, up to what the conditioning costs."""
-    q = tuple(x.mid() for x in normalised(q))
+    q = tuple(x.mid() for x in unit(q))
     settled = arb(2) ** (-ctx.prec // 2 - 2)
     for _ in range(MOST_REFINEMENTS):
         w = tuple(x.mid() for x in _correction(q, K, g, J, D))
         change = max(abs(x) for x in w)
         if not change < NEAR:
             return None
-        q = tuple(x.mid() for x in normalised(generated.compose(*(*q, arb(1), *w))))
+        q = tuple(x.mid() for x in unit(generated.compose(*(*q, arb(1), *w))))
         if change <= max(abs(x) for x in q[1:]) * settled:
             return q
     return None
@@ -37,10 +37,11 @@ def _correction(q: tuple, K: tuple, g: tuple, J: tuple, D: tuple) -> tuple:
     return tuple(-(i[3 * n] * r[0] + i[3 * n + 1] * r[1] + i[3 * n + 2] * r[2]) for n in range(3))
 
 
-def normalised(p: Sequence[Any]) -> tuple:
-    """p divided by its length."""
-    length = (p[0] * p[0] + p[1] * p[1] + p[2] * p[2] + p[3] * p[3]).sqrt()
-    return tuple(x / length for x in p)
+def unit(v: Iterable[Any]) -> tuple[Any, ...]:
+    """A vector divided by its length."""
+    balls = list(v)
+    length = sum(x * x for x in balls).sqrt()
+    return tuple(x / length for x in balls)
 
 
 def enclosed(q: tuple, K: tuple, g: tuple, J: tuple, D: tuple) -> tuple | None:
@@ -67,7 +68,7 @@ def _tested(q: tuple, K: tuple, g: tuple, J: tuple, D: tuple) -> tuple | None:
         if det > 0 or det < 0:
             image = tuple(-x for x in _apply(inverse_slope, value))
             if all(b.contains_interior(x) for b, x in zip(box, image, strict=True)):
-                return normalised(generated.compose(*(*q, arb(1), *image)))
+                return unit(generated.compose(*(*q, arb(1), *image)))
         radius = radius * 4
     return None
 

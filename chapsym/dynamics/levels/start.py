@@ -27,12 +27,6 @@ LEAST_EXPONENT = -1000
 DIGITS = 40
 
 
-def start_near(K: Any, g: Any, J: Any, D: Any) -> tuple[Fraction, ...]:
-    """`start` from numbers of any precision."""
-    k, vertical, tensor = (list(map(fraction, v)) for v in (K, g, J))
-    return start(k, vertical, tensor, fraction(D))
-
-
 def start(K: Exact, g: Exact, J: Exact, D: Fraction) -> tuple[Fraction, ...]:
     """The rotation of the small-rotation branch, to 16 digits or a few more than the conditioning costs.
 
