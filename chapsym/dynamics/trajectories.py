@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from math import inf
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -98,11 +99,12 @@ def trajectory(
     return finished(result, frame.reach)
 
 
-def rolling_radius(ball: Ball) -> Floats:
+def rolling_radius(ball: Any) -> Floats:
     """The radius of a ball whose contact point is traced; raises BadInput if it has none."""
     if ball.radius is None:
         raise BadInput("the contact point needs the radius: give the ball its radius")
-    return ball.radius
+    radius: Floats = ball.radius
+    return radius
 
 
 def whole_number(value: int, name: str, least: int, most: int | None = None) -> int:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..ball import Floats, common_shape, keep, numbers, unit_vertical
+from ..ball import Floats, common_shape, keep, numbers
 from ..errors import BadInput
 from . import so_n
 
@@ -84,19 +84,6 @@ def skew_matrices(value: ArrayLike, n: int, name: str = "momentum") -> Floats:
     if (off > SKEW_TOLERANCE / 2 * largest.max(axis=(-2, -1), keepdims=True, initial=0.0)).any():
         raise BadInput(f"{name} must be skew, but it differs from minus its transpose by {2 * off.max():.2g}")
     return np.where(off == 0, array, array / 2 - array.mT / 2)
-
-
-def flat_states(ball: BallN, momentum: ArrayLike, gamma: ArrayLike) -> tuple[tuple[int, ...], tuple[Floats, ...]]:
-    """The common leading shape, and (𝒦, γ, J, D) as arrays to read with one leading axis; all are checked."""
-    if not isinstance(ball, BallN):
-        raise BadInput(f"ball must be a chapsym.BallN, not {type(ball).__name__}")
-    K, g = skew_matrices(momentum, ball.n), unit_vertical(gamma, ball.n)
-    radius = () if ball.radius is None else ball.radius.shape
-    leading = [ball.mass_tensor.shape[:-1], ball.D.shape, radius, K.shape[:-2], g.shape[:-1]]
-    shape = common_shape(leading, "ball (mass_tensor, D, radius), momentum and gamma")
-    wide = ((K, K.shape[-2:]), (g, g.shape[-1:]), (ball.mass_tensor, g.shape[-1:]), (ball.D, ()))
-    count = int(np.prod(shape, dtype=np.int64))
-    return shape, tuple(np.broadcast_to(x, (*shape, *own)).reshape(count, *own) for x, own in wide)
 
 
 def attitudes_with(gamma: Floats) -> Floats:

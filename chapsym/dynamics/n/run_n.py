@@ -8,12 +8,13 @@ from numpy.typing import ArrayLike
 
 from chapsym.numbers import Digits, Double, Precision
 
-from ..ball import Floats, is_followed
+from ..ball import Floats, common_shape, is_followed, unit_vertical
 from ..coefficients import COMPOSITIONS, substeps
 from ..errors import BadInput, Status
 from ..levels.dispatch import precision_of
+from ..trajectories import rolling_radius
 from . import so_n, warm_n
-from .ball_n import BallN, flat_states, initial_attitudes
+from .ball_n import BallN, initial_attitudes, skew_matrices
 from .branch_n import small_rotation
 from .near_n import limits
 
@@ -24,18 +25,26 @@ MOVING = ("momentum", "gamma", "attitude", "contact")
 
 
 def start(
-    ball: BallN, momentum: ArrayLike, gamma: ArrayLike, attitude: bool | ArrayLike, contact: bool
+    ball: BallN, momentum: ArrayLike, gamma: ArrayLike, attitude: bool | ArrayLike = False, contact: bool = False
 ) -> tuple[tuple[int, ...], dict[str, Floats]]:
-    """The common leading shape, and the state that `run` takes, checked; raises BadInput."""
-    shape, (K, g, J, D) = flat_states(ball, momentum, gamma)
-    if contact and ball.radius is None:
-        raise BadInput("the contact point needs the radius: give the ball its radius")
-    state = {"momentum": K, "gamma": g, "mass_tensor": J, "D": D}
-    if contact or is_followed(attitude):
-        state["attitude"] = initial_attitudes(attitude, g, shape)
+    """The common leading shape, and the state that `run` takes, arrays to read, checked; raises BadInput."""
+    if not isinstance(ball, BallN):
+        raise BadInput(f"ball must be a chapsym.BallN, not {type(ball).__name__}")
+    K, g = skew_matrices(momentum, ball.n), unit_vertical(gamma, ball.n)
+    radius = () if ball.radius is None else ball.radius.shape
+    leading = [ball.mass_tensor.shape[:-1], ball.D.shape, radius, K.shape[:-2], g.shape[:-1]]
+    shape = common_shape(leading, "ball (mass_tensor, D, radius), momentum and gamma")
+    given = {"momentum": (K, 2), "gamma": (g, 1), "mass_tensor": (ball.mass_tensor, 1), "D": (ball.D, 0)}
     if contact:
-        state["contact"] = np.zeros((len(D), ball.n - 1))
-        state["radius"] = np.broadcast_to(np.asarray(ball.radius), shape).reshape(-1)
+        given["radius"] = rolling_radius(ball), 0
+    count, state = int(np.prod(shape, dtype=np.int64)), {}
+    for name, (x, axes) in given.items():
+        own = x.shape[x.ndim - axes :]
+        state[name] = np.broadcast_to(x, (*shape, *own)).reshape(count, *own)
+    if contact or is_followed(attitude):
+        state["attitude"] = initial_attitudes(attitude, state["gamma"], shape)
+    if contact:
+        state["contact"] = np.zeros((count, ball.n - 1))
     return shape, state
 
 

@@ -19,7 +19,7 @@ from ..errors import BadInput, Status, StepNotTaken
 from ..results import finished
 from ..reversal import way_back
 from ..trajectories import whole_number
-from .ball_n import BallN, flat_states, skew_matrices
+from .ball_n import BallN, skew_matrices
 from .run_n import start, stepped
 
 
@@ -50,9 +50,8 @@ def step_n(ball: BallN, momentum: ArrayLike, gamma: ArrayLike, *, precision: str
     One ball (no leading axis) raises StepNotTaken if it has no step; a batch reports `status` instead.
     Raises BadInput for shapes, NaN, infinities, a momentum that is not skew, and a gamma that is not unit.
     """
-    shape, (K, g, J, D) = flat_states(ball, momentum, gamma)
-    turn = np.broadcast_to(np.eye(ball.n), K.shape)
-    state = {"momentum": K, "gamma": g, "mass_tensor": J, "D": D, "attitude": turn}
+    shape, state = start(ball, momentum, gamma)
+    state["attitude"] = np.broadcast_to(np.eye(ball.n), state["momentum"].shape)
     frames, _, status, reach = stepped(precision, state, 2, 1, 1)
     if not shape and status[0] != Status.TAKEN:
         raise StepNotTaken(Status(int(status[0])), float(reach[0]))
