@@ -11,6 +11,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
+from threading import RLock
 from typing import Any, ClassVar
 
 import numpy as np
@@ -21,6 +22,19 @@ from .pair import Pair
 
 #: Significant digits of a double-double number in text: 2^-106 is 1.2e-32.
 WRITTEN = 32
+
+
+#: flint has one precision for all threads, so one of them counts with it at a time.
+FLINT = RLock()
+
+
+@contextmanager
+def flint_bits(bits: int) -> Iterator[None]:
+    """Within it flint's numbers have so many bits, and no other thread that asks here changes them."""
+    from flint import ctx
+
+    with FLINT, ctx.workprec(bits):
+        yield
 
 
 def _whole(name: str, value: Any, least: int) -> None:
@@ -166,9 +180,7 @@ class Enclosure(Precision):
 
     @contextmanager
     def working(self) -> Iterator[None]:
-        from flint import ctx
-
-        with ctx.workprec(self.bits + self.guard):
+        with flint_bits(self.bits + self.guard):
             yield
 
 

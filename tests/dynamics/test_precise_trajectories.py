@@ -1,7 +1,10 @@
 """Trajectories and steps at any precision, against the independent oracle."""
 
 import re
+import sys
+from concurrent.futures import ThreadPoolExecutor
 from fractions import Fraction as F
+from functools import partial
 
 import flint
 import mpmath
@@ -171,6 +174,22 @@ def test_the_precision_of_others_is_left_alone():
 def less_precise(found):
     """A root with two thirds of its bits."""
     return tuple((x * (1 + flint.arb(2) ** -60)).mid() for x in found[0]), found[1]
+
+
+def test_threads_do_not_change_the_digits_of_each_other():
+    """flint has one precision for all threads."""
+    run = partial(chapsym.trajectory, BALL, 0.3 * DIRECTION, GAMMA, 150, every=150)
+    precisions = [Digits(300), Digits(15), Enclosure(700), Digits(60), Enclosure(60)]
+    alone = [run(precision=p).momentum[-1].tolist() for p in precisions]
+    before = sys.getswitchinterval()
+    sys.setswitchinterval(1e-5)
+    try:
+        with ThreadPoolExecutor(len(precisions)) as pool:
+            together = list(pool.map(lambda p: run(precision=p).momentum[-1].tolist(), precisions))
+    finally:
+        sys.setswitchinterval(before)
+    for one, other in zip(alone, together, strict=True):
+        assert list(map(str, one)) == list(map(str, other))
 
 
 def mutated(monkeypatch, module, name, change):

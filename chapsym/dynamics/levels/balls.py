@@ -19,6 +19,7 @@ from mpmath.libmp import from_man_exp
 
 from chapsym.generated import centre_step, compose, gibbs_residual, rotate, turn
 from chapsym.numbers import Digits
+from chapsym.numbers.precisions import flint_bits
 
 from ..errors import Status, StepNotTaken
 from ..loops.gibbs import BEYOND, certificate
@@ -105,7 +106,7 @@ class DigitsBall(_UnderWay):
         more = 2 * math.ceil(math.log2(steps * len(stages) + 1)) + 2 * lost
         bits = self.context.prec + more + GUARD
         small = max(0, -size_of(K, exponent))
-        with ctx.workprec(bits + small):
+        with flint_bits(bits + small):
             super().__init__(bits + small, K, g, J, D, stages, attitude, radius)
         self.root_bits = bits
         self.floats = *map(float, self.I), float(self.D)

@@ -8,6 +8,7 @@ from functools import partial
 from typing import Any
 
 from chapsym.numbers import Digits, Enclosure
+from chapsym.numbers.precisions import flint_bits
 
 from ..coefficients import COMPOSITIONS
 from ..errors import BadInput, Status, StepNotTaken
@@ -38,9 +39,7 @@ def run(
 
     Enclosure(bits): with as many bits more as the radii grow by, which is measured, so that `bits` are left at the end.
     """
-    from flint import ctx  # 40 ms with mpmath, which balls have, too
-
-    from .balls import DigitsBall
+    from .balls import DigitsBall  # 40 ms, with mpmath and flint
 
     done, selected = 0, list[int]()
     for i in range(len(balls.D)):
@@ -50,7 +49,7 @@ def run(
             selected.append(_enclosed(precision, given, way))
         else:
             ball = DigitsBall(precision, *given, steps=steps)
-            with ctx.workprec(ball.precision):
+            with flint_bits(ball.precision):
                 way.take(ball, precision.context.prec)
         done += int(frames.taken[i])
     return selected
@@ -131,13 +130,11 @@ def _attempt(bits: int, wanted: int, given: Given, way: _Way) -> tuple[int, floa
     Returns the step where they were last looked at, the bits left there, and how many rotations were selected.  None
     are left where a step could not be proved.
     """
-    from flint import ctx
-
     from .balls import ArbBall
     from .proved_root import TooWide
 
     seen: tuple[int, float] = (0, math.inf)
-    with ctx.workprec(bits):
+    with flint_bits(bits):
         ball = ArbBall(bits, *given)
 
         def enough(step: int) -> bool:

@@ -101,7 +101,7 @@ def _chord(start: Vector, state: Vector, inverse: Sequence[float], lost: int, un
         d3 = c13 * r1 + c23 * r2 + c33 * r3
         u1, u2, u3 = u1 - d1 * unit, u2 - d2 * unit, u3 - d3 * unit
         change = max(abs(d1), abs(d2), abs(d3))
-        # The next correction is smaller by what this one was, beside the last.
+        # The next correction is taken to shrink by the same factor.
         gain = change / before if before else GAIN
         if change * gain <= least or change <= 4 * 2.0**lost * least:
             return u1.mid(), u2.mid(), u3.mid()

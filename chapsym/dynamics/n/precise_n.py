@@ -13,6 +13,7 @@ import numpy as np
 from flint import arb, arb_mat, ctx
 
 from chapsym.numbers import Digits
+from chapsym.numbers.precisions import flint_bits
 
 from ..ball import Floats
 from ..errors import Status
@@ -40,7 +41,7 @@ def run(
     taken, status, reach = np.zeros(balls, dtype=np.int64), np.zeros(balls, dtype=np.int64), np.ones(balls)
     # The roundings of the steps add up to the square of their number, as frequencies drift.
     bits = context.prec + 2 * math.ceil(math.log2(steps * len(stages) + 1)) + GUARD
-    with ctx.workprec(bits):
+    with flint_bits(bits):
         now: dict[str, Any] = {name: _exactly(x) for name, x in state.items()}
         now["gamma"] = now["gamma"] / _root((now["gamma"] ** 2).sum(axis=-1, keepdims=True))
         for _ in range(bits.bit_length() if "attitude" in now else 0):

@@ -12,11 +12,11 @@ from fractions import Fraction
 from functools import cmp_to_key
 from typing import Any
 
-import flint
 import numpy as np
 from flint import arb, fmpq
 
 from chapsym.numbers import Digits, Enclosure, Precision
+from chapsym.numbers.precisions import flint_bits
 
 from ..ball import Asked, Ball
 from ..errors import StepNotTaken
@@ -144,7 +144,7 @@ def _enclosures(points: Points, precision: Precision, given: Sequence[Sequence[F
     wanted = _bits(precision) + SPARE
     bits = 2 * wanted + 64
     for _ in range(MOST_PRECISIONS):
-        with flint.ctx.workprec(bits):
+        with flint_bits(bits):
             found = [_branch(c, f.multiplicity) for f in points.factors for c in f.points(bits)]
             if _precise(found, wanted) and _apart(found) and _confirmed(found, given):
                 return tuple(sorted(found, key=cmp_to_key(_order)))
@@ -216,7 +216,7 @@ def _the_small_one(taken: Asked, given: Sequence[Sequence[Fraction]], precision:
     if taken is None:
         return ()
     bits = 2 * (_bits(precision) + SPARE) + 64
-    with flint.ctx.workprec(bits):
+    with flint_bits(bits):
         state = [tuple(map(exact, vector)) for vector in given]
         found = enclosed(tuple(arb(float(x)) for x in taken), *state)
         return () if found is None else (replace(_branch(found, 1), small_rotation=True),)
