@@ -24,6 +24,9 @@ GAIN = 2.0**-40
 #: Bits that Newton's iterates are short of twice those before.
 SHORT = 12
 MOST_ROUNDS = 100
+#: The most rounds in float64, and the relative correction that is the last one: without a guess, and with one.  The
+#: inverse is that of the last but one, so that each correction with it gains the digits of the last.
+COLD, WARM = (100, 1e-7), (3, 1e-12)
 
 Vector = tuple[Any, ...]
 
@@ -72,9 +75,10 @@ def _rounded(state: Vector) -> Vector:
 def _in_float64(guess: Vector, state: Vector) -> tuple[Vector, list[float]]:
     """A Gibbs vector by Newton's iteration in float64, and (∂G/∂u)⁻¹, column by column."""
     u1, u2, u3 = guess
-    for _ in range(MOST_ROUNDS if guess == (0.0, 0.0, 0.0) else 2):
+    rounds, enough = COLD if guess == (0.0, 0.0, 0.0) else WARM
+    for _ in range(rounds):
         det, _, _, _, u1, u2, u3, _, d1, d2, d3, *cofactors = newton_round(u1, u2, u3, *state)
-        if max(abs(d1), abs(d2), abs(d3)) <= 1e-7 * max(abs(u1), abs(u2), abs(u3)):
+        if max(abs(d1), abs(d2), abs(d3)) <= enough * max(abs(u1), abs(u2), abs(u3)):
             break
     scale = 1.0 / det
     inverse = [c * scale for c in cofactors]
