@@ -1,6 +1,5 @@
-"""ω(K, γ) of the continuous ball (the unnumbered inverse before 2.5, as corrected).
+"""Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 
-Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 Proved by: 2.5-inverse, stable-inverse.  Operations: 39.  SymPy 1.14.0.
 Expression: sha256 6ded677a84093b061a97f89aafc747634aa5807172e160ea9656bfd65bb9d7cf.
 """

@@ -1,6 +1,5 @@
-"""Δr/ρ of one step in the body frame before it, γ upwards (4.9 with 2.1 as corrected).
+"""Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 
-Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 Proved by: 2.1, 4.9.  Operations: 14.  SymPy 1.14.0.
 Expression: sha256 b2ddfda83f23efc81a6081421999a6692502be23b8b84c91933ae8d83e98dd7d.
 """

@@ -1,6 +1,5 @@
-"""Hamilton's product of two quaternions, scalar first: R_{k+1} = R_k Ω_k for attitudes.
+"""Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 
-Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 Proved by: 5.1.  Operations: 28.  SymPy 1.14.0.
 Expression: sha256 c2c5eedf4193ab6b075e0fe7934aa3730cac1fb5d19bde2b39cfe5363057b2b5.
 """

@@ -1,6 +1,5 @@
-"""K = Λω - D⟨ω,γ⟩γ, the momentum of the continuous ball about the contact point.
+"""Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 
-Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 Proved by: 4.13-limit, 5.2-limit, stable-momentum.  Operations: 30.  SymPy 1.14.0.
 Expression: sha256 8364d39ba783995bbec5d72ea1b61a921649cb00dcfb7b206e3b346ce4bdfbd6.
 """

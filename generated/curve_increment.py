@@ -1,6 +1,5 @@
-"""k², G = G0 + G1 sn² + G2 sn⁴ and μ of a curve: hG𝒟 = 2Vw(𝒟 - D(l - μ sn²)), V² = G0, at the half increment.
+"""Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 
-Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 Proved by: 5.8, 5.8-modulus, 5.14-G, 5.15.  Operations: 22.  SymPy 1.14.0.
 Expression: sha256 f3b586d0fbf43c8ac702af5e26e704893ffb62928eda76c1c83ebf8e5dca4f1c.
 """

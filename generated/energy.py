@@ -1,6 +1,5 @@
-"""The kinetic energy ½⟨K, ω⟩ of the continuous ball with the momentum K (2.5 as corrected).
+"""Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 
-Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 Proved by: 2.5, stable-inverse.  Operations: 46.  SymPy 1.14.0.
 Expression: sha256 bf001ea627c2a020209b8f7cd96e7b036037dbd39581337739aa4e562cb3b0c8.
 """

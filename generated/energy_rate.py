@@ -1,6 +1,5 @@
-"""4X₃(H) = D⟨γ,ω'⟩⟨γ × ω,ω'⟩: in a step of size ε the energy changes by ε³X₃(H), up to ε⁴.
+"""Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 
-Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 Proved by: modified-energy.  Operations: 21.  SymPy 1.14.0.
 Expression: sha256 2873e2fb63e73f3c1972decf787535812ef0e179767324d1da173af17a093e59.
 """

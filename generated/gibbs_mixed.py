@@ -1,6 +1,5 @@
-"""What N loses when a correction e follows a correction d with the cofactors from before d.
+"""Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 
-Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 Proved by: gibbs-newton.  Operations: 62.  SymPy 1.14.0.
 Expression: sha256 ff93940aabfa8f04d8ab3f1249252df7ffd005dde2202cf5c7135439ed5aa798.
 """

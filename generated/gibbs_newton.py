@@ -1,6 +1,5 @@
-"""The next Newton iterate of the Gibbs vector, N/det, as a quaternion (det, N); and the cofactors of ∂G/∂u.
+"""Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 
-Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 Proved by: gibbs, gibbs-newton.  Operations: 128.  SymPy 1.14.0.
 Expression: sha256 13c5855efdcc3908807d2d024f47cd62af450fc3f819c0ecc29195f82d86fa62.
 """

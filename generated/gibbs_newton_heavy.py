@@ -1,6 +1,5 @@
-"""What `gibbs_newton` computes, with a determinant in which nothing cancels for D ≫ I.
+"""Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 
-Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 Proved by: gibbs, gibbs-newton, stable-determinant.  Operations: 164.  SymPy 1.14.0.
 Expression: sha256 13c5855efdcc3908807d2d024f47cd62af450fc3f819c0ecc29195f82d86fa62.
 """

@@ -1,6 +1,5 @@
-"""G(u) = B(γ)u + u × Iu - (1 + |u|²)k, which the Gibbs vector of the next step makes zero.
+"""Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 
-Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 Proved by: gibbs.  Operations: 51.  SymPy 1.14.0.
 Expression: sha256 3d412801f7d385f80f70d5c53092c9cbb357c2660d733bc5c933bb793e2a9695.
 """

@@ -1,6 +1,5 @@
-"""What N loses by a second correction after a Newton correction d, with the same cofactors.
+"""Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 
-Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 Proved by: gibbs-newton.  Operations: 41.  SymPy 1.14.0.
 Expression: sha256 f7a3880abd927af60736b4bb8bed6c855768d4fa2c2642c72539a7a8cfe46679.
 """

@@ -1,6 +1,5 @@
-"""The trace, the sum of the principal minors of size 2 and the determinant of the symmetric part of ∂G/∂u.
+"""Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 
-Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 Proved by: gibbs, straight-path.  Operations: 80.  SymPy 1.14.0.
 Expression: sha256 b603b93937e923f16641664eec350b6c5dc201755fe3ec8ea2c90fc8f7f882b2.
 """

@@ -1,6 +1,5 @@
-"""w = B(γ/|γ|)⁻¹k for three equal moments: 2w is sin θ times the axis of the steady rotation.
+"""Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 
-Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 Proved by: isotropic-spin, steady, steady-branch, steady-axis, steady-roll.  Operations: 24.  SymPy 1.14.0.
 Expression: sha256 dca5ee5fa586d5431e4f75db2c142fff21679e5cefc16f8b58c3ca65552173b7.
 """

@@ -8,8 +8,8 @@
 /* A number, an integer or an array, with its lengths and, but for the last, its strides in elements. */
 typedef struct { void *p; int64_t n[4], s[3]; double number; int64_t integer; } argument;
 
-/* A loop: what it takes, one word for each argument (b, i, r for a truth, an integer, a number; the letter of the
-   elements and the number of axes for an array; * if it is written), and what it gives, one letter each. */
+/* A loop: `takes` has a word for each argument (b, i, r for a truth, an integer, a number; the letter of the elements
+   and the number of axes for an array; * if it is written), and `gives` a letter for each result. */
 typedef struct { const char *name, *takes, *gives; void (*run)(const argument *, argument *); } loop_export;
 
 extern const loop_export loops_double[], loops_single[];

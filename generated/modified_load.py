@@ -1,6 +1,5 @@
-"""The load of the modified equations: 12ω₃ = 2|ω|²ω - ω × ω' - B(γ)⁻¹load, ω' the rate.
+"""Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 
-Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 Proved by: modified-field.  Operations: 65.  SymPy 1.14.0.
 Expression: sha256 10c875e3b2338a8697cc9e70572243414d8567461435ae4b669db7026925b6f7.
 """

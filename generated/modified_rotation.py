@@ -1,6 +1,5 @@
-"""12ω₃: the step of size ε is that of the continuous ball with ω + ε²ω₃, up to ε⁴; share = B(γ)⁻¹load.
+"""Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 
-Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 Proved by: modified-field.  Operations: 26.  SymPy 1.14.0.
 Expression: sha256 bc3215308c7917b39d2edd4c01f169c9d5a2eab74172a82477d46f5134259a2f.
 """

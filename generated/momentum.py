@@ -1,6 +1,5 @@
-"""The discrete momentum 𝒦(q, γ) about the contact point (5.2); homogeneous of degree 2 in (q0, q).
+"""Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 
-Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 Proved by: prop-1, 5.2, stable-momentum.  Operations: 49.  SymPy 1.14.0.
 Expression: sha256 75ad331ebfa1ee3e05b747c58813463b4dadd96671fbc4df84126dfbd9b29c3d.
 """

@@ -1,6 +1,5 @@
-"""∂𝒦/∂q in the chart q0 = sqrt(1 - |q|²), row by row; it divides by q0.
+"""Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 
-Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 Proved by: 5.2.  Operations: 95.  SymPy 1.14.0.
 Expression: sha256 1a94b029e62f39c9583843a13d0847a3dfee7deb89e19d06fa6b1a5a3682ebc6.
 """

@@ -1,6 +1,5 @@
-"""|b|² = P0 + P1 sn² and ⟨b,Λ⁻¹b⟩ = N0 + N1 sn² on a curve, b = γ × Λ⁻¹γ: Rb turns about γ by their quotient.
+"""Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 
-Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 Proved by: 5.8, 5.8-modulus, top-precession.  Operations: 15.  SymPy 1.14.0.
 Expression: sha256 0c9795cc937a6b0efc114d9aa8a9c59e1ff2ba12bf43265696618ff430e1bbde.
 """

@@ -1,6 +1,5 @@
-"""𝒦(q, γ) - 𝒦, which the rotation of the next step makes zero (5.2).
+"""Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 
-Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 Proved by: 5.2, stable-momentum.  Operations: 53.  SymPy 1.14.0.
 Expression: sha256 a1532f21963741f580e54a3338de6b26e964faa6ae1cd81f1e4ad4d88ca41462.
 """

@@ -1,6 +1,5 @@
-"""Ωv for unit Euler parameters: from the frame of the body after the rotation to the one before.
+"""Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 
-Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 Proved by: 5.1.  Operations: 41.  SymPy 1.14.0.
 Expression: sha256 25fea96bcda3521ef3d0bfb4373a3c5516aff7bd7b987d46f7e2eb684af25c1f.
 """

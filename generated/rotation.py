@@ -1,6 +1,5 @@
-"""The matrix Ω of unit Euler parameters, row by row (5.1 as corrected).
+"""Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 
-Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 Proved by: 5.1.  Operations: 35.  SymPy 1.14.0.
 Expression: sha256 ca0961cd87d6a1f3573cea2f4b644f0ac063985ce1349f384d79a2091784e601.
 """

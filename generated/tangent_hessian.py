@@ -1,6 +1,5 @@
-"""The constant second derivative of 𝒦(q ∘ (1, w)) in w: the vectors for 11, 22, 33, 23, 13, 12.
+"""Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 
-Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 Proved by: 5.2.  Operations: 347.  SymPy 1.14.0.
 Expression: sha256 36b7e708d75b061dc08c9a9f6d82e512739f151b84b60c6406715ba78a2824d3.
 """

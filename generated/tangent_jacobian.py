@@ -1,6 +1,5 @@
-"""The derivative of 𝒦 along q ∘ (0, w), w ∈ R³, row by row; regular at every rotation.
+"""Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 
-Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 Proved by: 5.2.  Operations: 137.  SymPy 1.14.0.
 Expression: sha256 70929b34a14edeab42d2458890bb8cc2e49395acc5fec6b7fac464a6359defb2.
 """

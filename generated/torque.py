@@ -1,6 +1,5 @@
-"""B(γ)ω' = Iω × ω, ω' the rate of ω of the continuous ball.
+"""Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 
-Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 Proved by: modified-field.  Operations: 17.  SymPy 1.14.0.
 Expression: sha256 6e1ceb494c0645abfc62a87e1f6c6a1e1c7d981fd23374dc3ec444ab208fc323.
 """

@@ -1,6 +1,5 @@
-"""Ωᵀv for unit Euler parameters: what a vector fixed in space becomes in the body (5.3).
+"""Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 
-Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 Proved by: 5.3.  Operations: 41.  SymPy 1.14.0.
 Expression: sha256 4c01ea3acc25f4ff4d7fadcfcf30a55dd1a118996a04b256c11bba362fbc2a02.
 """

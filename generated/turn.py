@@ -1,6 +1,5 @@
-"""Ωᵀv - v for the rotation of a quaternion that need not be unit (5.3).
+"""Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 
-Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 Proved by: gibbs-rotation.  Operations: 35.  SymPy 1.14.0.
 Expression: sha256 bc9d20e59b3d43e39595ba171f2ae3ba5c60b1c965bb7056067bd6058318b293.
 """

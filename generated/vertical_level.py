@@ -1,6 +1,5 @@
-"""The scalar equation of the level, zero for the step 𝒦 = hγ, and its derivative in v.
+"""Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 
-Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 Proved by: vertical-level.  Operations: 24.  SymPy 1.14.0.
 Expression: sha256 d2d44f25ebe452046d79b757ca5071721c6327c5dc20e44c057b2445cdecd42c.
 """

@@ -1,6 +1,5 @@
-"""The rotation of the step 𝒦 = hγ up to a factor, (q0, q) ∝ (det M, t adj(M)γ), M = Λ - e - t γ×.
+"""Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 
-Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 Proved by: vertical-rotation.  Operations: 44.  SymPy 1.14.0.
 Expression: sha256 1b59598563aad694dcc4d8cd7fa37a2401a7bd0e565d4b8f5fed87ca5262396f.
 """

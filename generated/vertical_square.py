@@ -1,6 +1,5 @@
-"""⟨γ, adj(Λ)γ⟩ = det(Λ)⟨γ, Λ⁻¹γ⟩, the integral of the reduced map G_h without its denominators.
+"""Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 
-Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 Proved by: prop-3.  Operations: 11.  SymPy 1.14.0.
 Expression: sha256 85f54a4c249d7c5794e172ecaaefd732ed5e0522c8b8f15505d392911fc800e4.
 """

@@ -12,7 +12,7 @@ from chapsym.codegen.kernels import KERNELS
 _KERNELS = {kernel.name: kernel for kernel in KERNELS}
 
 #: What the passes are called that can be left out.
-PASSES = tuple(p.name for p in passes.PASSES)
+PASSES = passes.PASSES
 
 
 @dataclass(frozen=True)
@@ -29,7 +29,7 @@ class Text:
 @cache
 def text(kernel: str, without: str = "") -> Text:
     """The text of a kernel without a pass."""
-    chosen = [p for p in passes.PASSES if p.name != without]
+    chosen = tuple(p for p in PASSES if p != without)
     source = build.code(_KERNELS[kernel], chosen)
     scope: dict[str, Any] = {}
     exec(compile(source, f"{kernel}.py", "exec"), scope)  # our own text, never a user's

@@ -1,11 +1,11 @@
 """The files in C: the loops for two types of numbers, and a library of the kernels and a step for other languages."""
 
 import hashlib
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Iterable, Sequence
+from itertools import groupby
 from typing import Any
 
-from .c import SCALARS, Printer, broken, c_type, lines
-from .infer import NARROW, Array, Types, is_external
+from .c import SCALARS, Printer, Text, block, broken, c_type, is_external, number, printed, widened
 from .kernels import Kernel
 from .source import Function, Program, Record
 
@@ -24,18 +24,21 @@ LOOPS = (
     "expected",
 )
 
-HEAD = "/* {about}\n * Written by `chapsym codegen`: do not edit; change {what} and generate again. */\n"
-PRELUDE = """
-#include <math.h>
+#: The first lines of a file, with its contents and its sources.
+HEAD = "/* {}\n * Written by `chapsym codegen`: do not edit; change {} and generate again. */\n"
+PRELUDE = """#include <math.h>
 #include <stdint.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "loops.h"
 
 #ifdef SINGLE
 typedef float real;
+#define LOOPS(rest) loops_single##rest
 #else
 typedef double real;
+#define LOOPS(rest) loops_double##rest
 #endif
 #define R(x) ((real)(x))
 /* On x86 a loop is compiled for wide registers, too, and takes them where the processor has them: to the same bits. */
@@ -53,8 +56,6 @@ typedef double real;
 #define INDEPENDENT _Pragma("GCC ivdep")
 #endif
 
-INLINE real real_sqrt(real x) { return (real)sqrt(x); }
-INLINE real real_abs(real x) { return (real)fabs(x); }
 INLINE real max_r(real a, real b) { return b > a ? b : a; }
 INLINE real min_r(real a, real b) { return b < a ? b : a; }
 INLINE int64_t max_i(int64_t a, int64_t b) { return b > a ? b : a; }
@@ -62,20 +63,56 @@ INLINE int64_t min_i(int64_t a, int64_t b) { return b < a ? b : a; }
 INLINE int64_t div_i(int64_t a, int64_t b) { return a / b - ((a % b != 0) & ((a < 0) != (b < 0))); }
 INLINE int64_t mod_i(int64_t a, int64_t b) { return a - b * div_i(a, b); }
 
-#define ARRAY1(type, a) (type){a.p, a.n[0]}
-#define ARRAY2(type, a) (type){a.p, a.n[0], a.n[1], a.s[0]}
-#define ARRAY3(type, a) (type){a.p, a.n[0], a.n[1], a.n[2], a.s[0], a.s[1]}
-#define ARRAY4(type, a) (type){a.p, a.n[0], a.n[1], a.n[2], a.n[3], a.s[0], a.s[1], a.s[2]}
+/* Arrays: their elements, lengths and strides; an element, a row, and the rows from `low` to `high`. */
+typedef struct { double *p; int64_t n0; } d1;
+typedef struct { int32_t *p; int64_t n0; } w1;
+typedef struct { int64_t *p; int64_t n0; } i1;
+typedef struct { real *p; int64_t n0; } r1;
+typedef struct { real *p; int64_t n0, n1, s0; } r2;
+typedef struct { real *p; int64_t n0, n1, n2, s0, s1; } r3;
+typedef struct { real *p; int64_t n0, n1, n2, n3, s0, s1, s2; } r4;
+#define AT2(a, i, j) a.p[(i) * a.s0 + (j)]
+#define AT3(a, i, j, k) a.p[(i) * a.s0 + (j) * a.s1 + (k)]
+#define AT4(a, i, j, k, l) a.p[(i) * a.s0 + (j) * a.s1 + (k) * a.s2 + (l)]
+INLINE r1 r2_row(r2 a, int64_t i) { return (r1){a.p + i * a.s0, a.n1}; }
+INLINE r2 r3_row(r3 a, int64_t i) { return (r2){a.p + i * a.s0, a.n1, a.n2, a.s1}; }
+INLINE r3 r4_row(r4 a, int64_t i) { return (r3){a.p + i * a.s0, a.n1, a.n2, a.n3, a.s1, a.s2}; }
+INLINE d1 d1_part(d1 a, int64_t low, int64_t high) { return (d1){a.p + low, high - low}; }
+INLINE i1 i1_part(i1 a, int64_t low, int64_t high) { return (i1){a.p + low, high - low}; }
+INLINE r1 r1_part(r1 a, int64_t low, int64_t high) { return (r1){a.p + low, high - low}; }
+INLINE r2 r2_part(r2 a, int64_t low, int64_t high) { return (r2){a.p + low * a.s0, high - low, a.n1, a.s0}; }
+INLINE r3 r3_part(r3 a, int64_t low, int64_t high) {
+    return (r3){a.p + low * a.s0, high - low, a.n1, a.n2, a.s0, a.s1};
+}
+INLINE void r1_fill(r1 a, real x) { for (int64_t i = 0; i < a.n0; i++) a.p[i] = x; }
+INLINE void r2_fill(r2 a, real x) { for (int64_t i = 0; i < a.n0; i++) r1_fill(r2_row(a, i), x); }
+
+/* The arguments of a loop, by their types. */
+#define b_(i) (int)a[i].integer
+#define i_(i) a[i].integer
+#define r_(i) (real)a[i].number
+#define d1_(i) (d1){a[i].p, a[i].n[0]}
+#define i1_(i) (i1){a[i].p, a[i].n[0]}
+#define r1_(i) (r1){a[i].p, a[i].n[0]}
+#define r2_(i) (r2){a[i].p, a[i].n[0], a[i].n[1], a[i].s[0]}
+#define r3_(i) (r3){a[i].p, a[i].n[0], a[i].n[1], a[i].n[2], a[i].s[0], a[i].s[1]}
+#define r4_(i) (r4){a[i].p, a[i].n[0], a[i].n[1], a[i].n[2], a[i].n[3], a[i].s[0], a[i].s[1], a[i].s[2]}
+
+typedef struct { real a0; int64_t a1; } t_ri;
+INLINE t_ri real_frexp(real x) { int e; real m = (real)frexp(x, &e); return (t_ri){m, e}; }
+
 """
 #: What the loops and what calls them agree on.
-INTERFACE = """
+INTERFACE = """#ifndef LOOPS_H
+#define LOOPS_H
+
 #include <stdint.h>
 
 /* A number, an integer or an array, with its lengths and, but for the last, its strides in elements. */
 typedef struct { void *p; int64_t n[4], s[3]; double number; int64_t integer; } argument;
 
-/* A loop: what it takes, one word for each argument (b, i, r for a truth, an integer, a number; the letter of the
-   elements and the number of axes for an array; * if it is written), and what it gives, one letter each. */
+/* A loop: `takes` has a word for each argument (b, i, r for a truth, an integer, a number; the letter of the elements
+   and the number of axes for an array; * if it is written), and `gives` a letter for each result. */
 typedef struct { const char *name, *takes, *gives; void (*run)(const argument *, argument *); } loop_export;
 
 extern const loop_export loops_double[], loops_single[];
@@ -83,208 +120,147 @@ extern const int loops_double_count, loops_single_count;
 
 /* The hash of the text that the loops were compiled from. */
 extern const char loops_text[];
+
+#endif
 """
-GUARDS = {"double": ("#ifndef SINGLE\n", "#endif\n"), "single": ("#ifdef SINGLE\n", "#endif\n")}
-#: What C does by an instruction of its own: the exact product is a fused multiply-add there.
-BY_HAND = {"pairs_two_product": "const real p = a * b;\n    return (t_r2){p, fma(a, b, -p)};"}
 
 
 class Texts:
-    """The functions of a program in C, with the types that they need."""
+    """The functions of a program in C, with the types that they need; `kernels` are typed, but not in the text."""
 
-    def __init__(self, program: Program, roots: Sequence[Function], single: Sequence[Function]) -> None:
-        self.types, self.roots = Types(program, roots), roots
-        wide, narrow = self.reached(roots, False), self.reached(single, True)
-        #: Each function, after those that it calls, with the types of numbers that it is for.
+    def __init__(
+        self, program: Program, roots: Sequence[Function], single: Sequence[Function], kernels: Sequence[Function] = ()
+    ) -> None:
+        self.program, self.roots, self.single = program, roots, single
+        self.of = printed(roots, kernels)
+        double, single_, every = (self.reached(*x) for x in ((roots, "double"), (single, "single"), (roots, "")))
+        #: Each function, after those that it calls, with the guard of the type of numbers that it is for.
         self.groups = {
-            f: "both" if f in narrow and f in wide else "single" if f in narrow else "double" for f in wide | narrow
+            f: "" if f in double and f in single_ else "#ifndef SINGLE" if f in double else "#ifdef SINGLE"
+            for f in every
         }
 
-    def reached(self, roots: Sequence[Function], single: bool) -> dict[Function, None]:
-        """The functions that some functions call, directly or not, with themselves, each after those that it calls."""
-        found: dict[Function, None] = {}
-
-        def visit(function: Function) -> None:
-            if function in found or any(function is f for f in path):
-                return
-            path.append(function)
-            for callee, other in self.types.of[function].calls.items():
-                if not single:
-                    visit(callee)
-                elif not is_external(function, callee):
-                    visit(other)
-            path.pop()
-            found[function] = None
-
-        path: list[Function] = []
-        for function in roots:
-            visit(function)
-        return found
+    def reached(
+        self, functions: Iterable[Function], numbers: str, done: dict[Function, None] | None = None
+    ) -> dict[Function, None]:
+        """What some functions call for a type of numbers, with themselves, each after those that it calls."""
+        done = {} if done is None else done
+        for function in functions:
+            if function not in done:
+                calls = self.of[function].calls.items()
+                double = [f for f, _ in calls if numbers != "single"]
+                single = [f for called, f in calls if numbers != "double" and not is_external(function, called)]
+                self.reached([*double, *single], numbers, done)
+                done[function] = None
+        return done
 
     def text(self) -> str:
         """All of it."""
-        parts = [PRELUDE.lstrip(), self.typedefs(), self.constants()]
-        left, group = list(self.ordered()), ""
-        for function in left:
-            if self.groups[function] != group:
-                parts.append(GUARDS.get(group, ("", "#endif\n"))[1] if group in GUARDS else "")
-                group = self.groups[function]
-                parts.append(GUARDS[group][0] if group in GUARDS else "")
-            parts.append(self.written(function))
-        parts.append(GUARDS[group][1] if group in GUARDS else "")
-        return "\n".join(filter(None, parts))
-
-    def ordered(self) -> list[Function]:
-        """The functions, each after those that it calls, those of one group together where that is possible."""
-        left, done, group = list(self.groups), list[Function](), "both"
-
-        def ready(function: Function) -> bool:
-            calls = self.types.of[function].calls
-            needed = {f for pair in calls.items() for f in pair}
-            return all(f is function or f in done or f not in self.groups for f in needed)
-
-        while left:
-            able = [f for f in left if ready(f)]
-            same = [f for f in able if self.groups[f] == group] or able
-            group = self.groups[same[0]]
-            done.append(same[0])
-            left.remove(same[0])
-        return done
+        parts = [PRELUDE, self.typedefs(), self.varying()]
+        for guard, functions in groupby(self.groups, key=self.groups.__getitem__):
+            parts.append(guarded(guard, "".join(map(self.written, functions))))
+        return "".join(parts)
 
     def typedefs(self) -> str:
-        """The arrays and the tuples."""
-        arrays, tuples = set[Array](), set[tuple[Any, ...]]({("r", "i")})
-        for typed in self.types.of.values():
-            arrays |= {x for x in typed.names.values() if isinstance(x, Array)}
-            tuples |= {typed.returned} if isinstance(typed.returned, tuple) else set()
-            if typed.function.module.name == NARROW:
-                tuples |= {
-                    tuple("d" if x == "r" else x for x in self.types.of[f].returned)
-                    for f in typed.calls if is_external(typed.function, f)
-                }  # fmt: skip
-        rows = []
-        for record in sorted({t.returned for t in self.types.of.values() if isinstance(t.returned, Record)}, key=str):
-            rows += broken(f"typedef struct {{ real {', '.join(record.fields)}; }} {record.name};")
-        for array in sorted(arrays | {Array(a.element, r) for a in arrays for r in range(1, a.rank)}, key=str):
-            sizes = ", ".join([f"n{i}" for i in range(array.rank)] + [f"s{i}" for i in range(array.rank - 1)])
-            rows.append(f"typedef struct {{ {SCALARS[array.element]} *p; int64_t {sizes}; }} {array};")
+        """The records and the tuples that functions return."""
+        returned = {of.returned for of in self.of.values()} | {widened(of.returned) for _, of in self.external()}
+        records = sorted((x for x in returned if isinstance(x, Record)), key=lambda x: x.name)
+        rows = [f"typedef struct {{ real {', '.join(x.fields)}; }} {x.name};" for x in records]
+        tuples = (x for x in returned - {("r", "i")} if isinstance(x, tuple))
         for kinds in sorted(tuples, key=lambda t: (len(t), t)):
-            rows.append(f"typedef struct {{ {fields(kinds)} }} {c_type(kinds)};")
-        frexp = "INLINE t_ri real_frexp(real x) { int e; real m = (real)frexp(x, &e); return (t_ri){m, e}; }"
-        return "\n".join([*rows, frexp, ""])
+            runs = groupby(enumerate(kinds), key=lambda x: x[1])
+            fields = (f"{SCALARS[kind]} {', '.join(f'a{i}' for i, _ in run)};" for kind, run in runs)
+            rows.append(f"typedef struct {{ {' '.join(fields)} }} {c_type(kinds)};")
+        return "\n".join([*(part for row in rows for part in broken(row)), "\n"])
 
-    def constants(self) -> str:
+    def external(self) -> list[tuple[Function, Printer]]:
+        """What float32 calls in float64."""
+        found = {f for g in self.groups for f in self.of[g].calls if is_external(g, f)}
+        return [(f, self.of[f]) for f in self.groups if f in found]
+
+    def varying(self) -> str:
         """What has another value, or is another function, in float32."""
-        wide, narrow = list[str](), list[str]()
-        for module in self.types.program.modules.values():
-            for name, other in module.single.items():
-                mine = module.names[name]
-                if isinstance(other, Function):
-                    narrow.append(f"#define {module.name}_{name} {other.name}")
-                    wide += (
-                        [f"#define {module.name}_{name} {mine.name}"] if mine.name != f"{module.name}_{name}" else []
-                    )
-                else:
-                    wide.append(f"#define {module.name}_{name} {number(mine)}")
-                    narrow.append(f"#define {module.name}_{name} {number(other)}")
-        outside = []
-        for function in self.groups:
-            for callee in self.types.of[function].calls:
-                if is_external(function, callee):
-                    result = tuple("d" if x == "r" else x for x in self.types.of[callee].returned)
-                    parameters = ", ".join(["double"] * len(callee.parameters))
-                    outside.append(f"{c_type(result)} {callee.name}_double({parameters});")
-        return "\n".join(["#ifdef SINGLE", *narrow, *outside, "#else", *wide, "#endif", ""])
 
-    def written(self, function: Function, types: Types | None = None) -> str:
+        def definition(name: str, value: Any) -> str:
+            text = value.name if isinstance(value, Function) else number(value).text
+            return f"#define {name} {text}" if text != name else ""
+
+        narrow = [definition(x.name, x.single) for x in self.program.varying]
+        wide = [definition(x.name, x.double) for x in self.program.varying]
+        outside = [
+            f"{c_type(widened(of.returned))} {f.name}_double({', '.join(['double'] * len(f.parameters))});"
+            for f, of in self.external()
+        ]
+        return "\n".join(["#ifdef SINGLE", *narrow, *outside, "#else", *filter(None, wide), "#endif", "\n"])
+
+    def written(self, function: Function) -> str:
         """The text of one function."""
-        types = types or self.types
-        printer = Printer(types, function)
-        body = [f"    {BY_HAND[function.name]}"] if function.name in BY_HAND else lines(printer.body())
-        text = "\n".join([*broken(self.head(function, types) + " {"), *body, "}", ""])
-        if any(is_external(f, function) for f in self.groups if function in self.types.of[f].calls):
-            parameters = ", ".join(f"real {name}" for name in function.parameters)
-            result = c_type(self.types.of[function].returned)
-            text += "\n".join(
-                broken(f"{result} {function.name}_double({parameters}) {{")
-                + broken(f"    return {function.name}({', '.join(function.parameters)});") + ["}", ""]
-            )  # fmt: skip
+        of = self.of[function]
+        text = of.text()
+        if (function, of) in self.external():
+            parameters = ", ".join(f"real {x}" for x in function.parameters)
+            call = f"return {function.name}({', '.join(function.parameters)})"
+            text += block(f"{c_type(of.returned)} {function.name}_double({parameters})", call)
         return text
 
-    def exports(self, single: Collection[Function]) -> str:
+    def exports(self) -> str:
         """The table of the functions that are exported, each with a way in that takes its arguments from a list."""
-        parts = []
-        for function in self.roots:
-            way = "\n".join(self.way_in(function))
-            parts.append(way if function in single else f"#ifndef SINGLE\n{way}\n#endif")
-        for name, guard, some in (
-            ("loops_double", "#ifndef SINGLE", self.roots),
-            ("loops_single", "#else", [f for f in self.roots if f in single]),
-        ):
-            rows = [self.row(function) for function in some]
-            parts.append("\n".join([guard, f"const loop_export {name}[] = {{", *rows, "};"]))
-            parts.append(f"const int {name}_count = {len(some)};")
-        return "\n".join([*parts, "#endif", ""])
+        double = [f for f in self.roots if f not in self.single]
+        ways, rows = (
+            "".join(map(made, self.single)) + guarded("#ifndef SINGLE", "".join(map(made, double)))
+            for made in (self.way_in, self.row)
+        )
+        count = "const int LOOPS(_count) = sizeof LOOPS() / sizeof *LOOPS();\n"
+        return f"{ways}\nconst loop_export LOOPS()[] = {{\n{rows}}};\n{count}"
 
-    def way_in(self, function: Function) -> list[str]:
+    def way_in(self, function: Function) -> str:
         """A function of one form that calls one that is exported."""
-        typed = self.types.of[function]
-        given = []
-        for i, name in enumerate(function.parameters):
-            kind = typed.names[name]
-            number = "number" if kind == "r" else "integer"
-            given.append(f"ARRAY{kind.rank}({kind}, a[{i}])" if isinstance(kind, Array) else f"a[{i}].{number}")
-        call, kinds = f"{function.name}({', '.join(given)});", gives(typed.returned)
-        body = [f"    {c_type(typed.returned)} out = {call}" if kinds else f"    {call}"]
-        for i, kind in enumerate(kinds):
-            one = f"out.a{i}" if isinstance(typed.returned, tuple) else "out"
-            body.append(f"    got[{i}].{'number' if kind == 'r' else 'integer'} = {one};")
-        body += [] if kinds else ["    (void)got;"]
+        of = self.of[function]
+        given = ", ".join(f"{of.names[x]}_({i})" for i, x in enumerate(function.parameters))
         widest = "WIDEST " if "march" in function.name or "follow" in function.name else ""
-        signature = f"{widest}static void in_{function.name}(const argument *a, argument *got) {{"
-        return [signature, *(x for line in body for x in broken(line)), "}", ""]
+        head = f"{widest}static void in_{function.name}(const argument *a, argument *got)"
+        call, out = f"{function.name}({given})", Text("out", of.returned)
+        if of.returned is None:
+            return block(head, call, "(void)got")
+        parts = out.parts if isinstance(of.returned, tuple) else [out]
+        members = [f"got[{i}].{'number' if x.kind == 'r' else 'integer'} = {x.text}" for i, x in enumerate(parts)]
+        return block(head, f"{c_type(of.returned)} out = {call}", *members)
 
     def row(self, function: Function) -> str:
-        """A row of the table: the name, what it takes, * for what it writes, and what it gives."""
-        typed = self.types.of[function]
-        takes = " ".join(f"{typed.names[x]}{'*' if x in typed.written else ''}" for x in function.parameters)
-        return f'    {{"{function.name}", "{takes}", "{gives(typed.returned)}", in_{function.name}}},'
+        """A row of the table: the name, the arguments, with * where it writes, and the results."""
+        of = self.of[function]
+        takes = " ".join(f"{of.names[x]}{'*' if x in of.written else ''}" for x in function.parameters)
+        return f'    {{"{function.name}", "{takes}", "{"".join(of.returned or "")}", in_{function.name}}},\n'
 
-    def head(self, function: Function, types: Types) -> str:
-        """The declaration of a function."""
-        typed = types.of[function]
-        result = "void" if typed.returned is None else c_type(typed.returned)
-        parameters = ", ".join(f"{c_type(typed.names[name])} {name}" for name in function.parameters)
-        return f"{'OUT_OF_LINE' if function.is_out_of_line else 'INLINE'} {result} {function.name}({parameters})"
+
+def guarded(guard: str, text: str) -> str:
+    """Text that is for one type of numbers alone, or for both where there is no guard."""
+    return f"{guard}\n{text}#endif\n" if guard and text else text
 
 
 def build(load: Callable[[str], str], kernels: Sequence[Kernel]) -> dict[str, str]:
     """The files by name; `load` gives the text of a module of the loops, of the kernels or of what these import."""
     program = Program(load)
-
-    def exported(names: Sequence[str]) -> list[Function]:
-        modules = [program.module(f"{PACKAGE}.{name}") for name in names]
-        return [f for module in modules for f in module.functions.values() if f.is_exported]
-
-    single = exported(SINGLE)
-    texts = Texts(program, exported(LOOPS), single)
-    body = texts.text() + "\n" + texts.exports(single)
+    exported = {
+        name: [f for f in program.module(f"{PACKAGE}.{name}").functions.values() if f.is_exported] for name in LOOPS
+    }
+    functions = program.module("chapsym.generated").functions
+    texts = Texts(
+        program, [f for name in LOOPS for f in exported[name]], [f for name in SINGLE for f in exported[name]],
+        [functions[kernel.name] for kernel in kernels],
+    )  # fmt: skip
+    body = texts.text() + texts.exports()
     digest = hashlib.sha256((INTERFACE + body).encode()).hexdigest()
     about = "The loops of chapsym/dynamics/loops, with the kernels that they call; with SINGLE defined in float32."
-    loops = HEAD.format(about=about, what="the loops or the derivation") + body
-    loops += f'\n#ifndef SINGLE\nconst char loops_text[] = "{digest}";\n#endif\n'
-    python = (
-        '"""The hash of the text in C that belongs to the loops; written by `chapsym codegen`: do not edit."""\n\n'
-        f'TEXT = "{digest}"\n'
-    )
-    interface = HEAD.format(about="What the loops and what calls them agree on.", what="codegen/c_files.py")
+    mine = "codegen/c_files.py"
+    end = guarded("#ifndef SINGLE", f'const char loops_text[] = "{digest}";\n')
+    python = '"""The hash of the text in C that belongs to the loops; written by `chapsym codegen`: do not edit."""'
     return {
-        "loops.c": loops,
-        "loops_single.c": HEAD.format(about="The loops in float32.", what="codegen/c_files.py")
-        + '#define SINGLE\n#include "loops.c"\n',
-        "loops.h": interface + f"#ifndef LOOPS_H\n#define LOOPS_H\n{INTERFACE}\n#endif\n",
-        "loops_text.py": python,
-        **library(texts, program, kernels),
+        "loops.c": HEAD.format(about, "the loops or the derivation") + body + end,
+        "loops_single.c": HEAD.format("The loops in float32.", mine) + '#define SINGLE\n#include "loops.c"\n',
+        "loops.h": HEAD.format("What the loops and what calls them agree on.", mine) + INTERFACE,
+        "loops_text.py": f'{python}\n\nTEXT = "{digest}"\n',
+        **library(texts, kernels),
     }
 
 
@@ -302,8 +278,6 @@ extern "C" {
    scalar first.  reach: receives the fraction of the momentum that the branch attains, 1 for a step that is taken.
    Returns 0 if the step was taken; 1 at a fold, 2 where the continuation did not converge, 4 for a ball without
    inertia: then momentum, gamma and rotation are as before. */
-int chapsym_step(const double mass_tensor[3], double D, double momentum[3], double gamma[3], double rotation[4],
-    double *reach);
 """
 LIBRARY_END = """
 #ifdef __cplusplus
@@ -311,72 +285,42 @@ LIBRARY_END = """
 #endif
 #endif
 """
-STEP = """
-int chapsym_step(const double mass_tensor[3], double D, double momentum[3], double gamma[3], double rotation[4],
-    double *reach) {
-    double tensor[3] = {mass_tensor[0], mass_tensor[1], mass_tensor[2]}, state[@ROWS@] = {0};
-    t_ir got = single_step_advance((r1){momentum, 3}, (r1){gamma, 3}, (r1){tensor, 3}, D, (r1){state, @ROWS@},
-        (r1){rotation, 4});
-    *reach = got.a1;
-    return (int)got.a0;
-}
-"""
+STEP = (
+    "int chapsym_step(const double mass_tensor[3], double D, double momentum[3], double gamma[3], "
+    "double rotation[4], double *reach)"
+)
 
 
-def library(texts: Texts, program: Program, kernels: Sequence[Kernel]) -> dict[str, str]:
+def library(texts: Texts, kernels: Sequence[Kernel]) -> dict[str, str]:
     """chapsym.h and chapsym.c: every kernel as a function of arrays, and a step."""
-    functions = program.module("chapsym.generated").functions
-    own = Types(program, [functions[k.name] for k in kernels], "r")
-    declared, defined = [LIBRARY_HEAD], []
+    functions = texts.program.module("chapsym.generated").functions
+    declared, defined = [LIBRARY_HEAD, "\n".join(broken(STEP + ";")) + "\n"], []
     for kernel in sorted(kernels, key=lambda k: k.name):
-        function = functions[kernel.name]
+        function, count = functions[kernel.name], len(kernel.outputs)
         if function not in texts.groups:
-            defined.append(texts.written(function, own))
+            defined.append(texts.written(function))
         parameters, given = [], []
         for name, symbols in kernel.groups:
             parameters.append(f"double {name}" if len(symbols) == 1 else f"const double {name}[{len(symbols)}]")
             given += [name] if len(symbols) == 1 else [f"{name}[{i}]" for i in range(len(symbols))]
-        count = len(kernel.outputs)
-        signature = f"void chapsym_{kernel.name}({', '.join(parameters)}, double result[{count}])"
-        listed = f"result: {', '.join(kernel.outputs)}" + (f", {kernel.shape[0]} rows" if len(kernel.shape) > 1 else "")
-        declared.append("\n".join([*_comment(kernel.summary, f"{listed}."), *broken(signature + ";"), ""]))
-        returned = own.of[function].returned
-        call = f"{c_type(returned)} got = {function.name}({', '.join(given)});"
-        copies = [f"result[{i}] = got{f'.a{i}' if isinstance(returned, tuple) else ''};" for i in range(count)]
-        body = [x for line in (f"    {call}", f"    {' '.join(copies)}") for x in broken(line)]
-        defined.append("\n".join([*broken(signature + " {"), *body, "}", ""]))
+        head = f"void chapsym_{kernel.name}({', '.join(parameters)}, double result[{count}])"
+        rows = f", {kernel.shape[0]} rows" if len(kernel.shape) > 1 else ""
+        comment = f"/* {kernel.summary} result: {', '.join(kernel.outputs)}{rows}. */"
+        declared.append("\n".join(["", *broken(comment), *broken(head + ";"), ""]))
+        call = f"{c_type(texts.of[function].returned)} got = {function.name}({', '.join(given)})"
+        defined.append(block(head, call, "memcpy(result, &got, sizeof got)"))
     about = "The kernels of chapsym, each from a proved expression, and one step of the map: for other languages."
-    includes = '#include "chapsym.h"\n\n#include "loops.c"\n\n'
-    rows = str(program.module(f"{PACKAGE}.loop").names["ROWS"])
-    known = {c_type(t.returned) for t in texts.types.of.values() if t.returned is not None}
-    more = sorted({t.returned for t in own.of.values() if c_type(t.returned) not in known}, key=len)
-    typedefs = "".join(f"typedef struct {{ {fields(kinds)} }} {c_type(kinds)};\n" for kinds in more)
+    rows = texts.program.module(f"{PACKAGE}.loop").names["ROWS"]
+    arrays = "(r1){momentum, 3}, (r1){gamma, 3}, (r1){tensor, 3}, D, (r1){state, @}, (r1){rotation, 4}"
+    body = [
+        "double tensor[3] = {mass_tensor[0], mass_tensor[1], mass_tensor[2]}, state[@] = {0}",
+        f"t_ir got = single_step_advance({arrays})",
+        "*reach = got.a1",
+        "return (int)got.a0",
+    ]
+    step = block(STEP, *(line.replace("@", str(rows)) for line in body))
+    head = HEAD.format("chapsym.h: compile it with -ffp-contract=off.", "the derivation")
     return {
-        "chapsym.h": HEAD.format(about=about, what="the derivation") + "\n".join(declared) + LIBRARY_END,
-        "chapsym.c": HEAD.format(about="chapsym.h: compile it with -ffp-contract=off.", what="the derivation")
-        + includes + typedefs + "\n" + "\n".join(defined) + STEP.replace("@ROWS@", rows),
-    }  # fmt: skip
-
-
-def _comment(*sentences: str) -> list[str]:
-    return broken(f"/* {' '.join(sentences)} */")
-
-
-def gives(returned: Any) -> str:
-    """The types that a function returns, one letter each."""
-    return "".join(returned) if isinstance(returned, tuple) else returned or ""
-
-
-def fields(kinds: tuple[Any, ...]) -> str:
-    """The fields of a tuple, a0, a1, ..."""
-    runs: list[tuple[str, list[str]]] = []
-    for i, kind in enumerate(kinds):
-        if not runs or runs[-1][0] != kind:
-            runs.append((kind, []))
-        runs[-1][1].append(f"a{i}")
-    return " ".join(f"{SCALARS[kind]} {', '.join(names)};" for kind, names in runs)
-
-
-def number(value: float) -> str:
-    """A constant of the type of the loops."""
-    return str(value) if isinstance(value, int) else f"R({value.hex()})"
+        "chapsym.h": HEAD.format(about, "the derivation") + "".join(declared) + LIBRARY_END,
+        "chapsym.c": head + '#include "chapsym.h"\n\n#include "loops.c"\n\n' + "".join([*defined, step]),
+    }

@@ -5,10 +5,8 @@ share is done once.
 """
 
 import ast
-import hashlib
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 from typing import Any
 
 from .kernels import Group
@@ -23,26 +21,32 @@ Texts = Mapping[str, str]
 Node = tuple[str, *tuple[int | str, ...]]
 
 
-class Values:
-    """The values of a program, numbered: the same operation on the same operands is the same value."""
+class Folded:
+    """The values of a program, numbered: the same operation on the same operands is the same value.
+
+    A product by 1 is its other factor, and one by 2 a sum.
+    """
 
     def __init__(self, texts: Texts) -> None:
         self.texts, self.nodes = texts, list[Node]()
         self._numbers: dict[Node, int] = {}
 
-    def number(self, *node: int | str) -> int:
+    def number(self, operation: str, *operands: int | str) -> int:
         """The number of an input, a constant or an operation."""
-        operation, *operands = node
-        if operation == "multiply" and ("constant", 2) in (self.nodes[int(x)] for x in operands):
-            other = next((x for x in operands if self.nodes[int(x)] != ("constant", 2)), operands[0])
-            operation, operands = "add", [other, other]  # the same value, and no constant to be read
+        if operation == "multiply":
+            for factor, other in (operands, operands[::-1]):
+                match self.nodes[int(factor)]:
+                    case ("constant", 1):
+                        return int(other)
+                    case ("constant", 2):
+                        return self.number("add", other, other)
         if operation in COMMUTATIVE:
-            operands = sorted(operands, key=int)
-        key: Node = (str(operation), *operands)
-        if key not in self._numbers:
-            self._numbers[key] = len(self.nodes)
-            self.nodes.append(key)
-        return self._numbers[key]
+            operands = tuple(sorted(operands, key=int))
+        node: Node = (operation, *operands)
+        if node not in self._numbers:
+            self._numbers[node] = len(self.nodes)
+            self.nodes.append(node)
+        return self._numbers[node]
 
     def run(self, body: Sequence[ast.stmt], known: dict[str, int]) -> list[int]:
         """Numbers what the statements compute from the names that are known, and adds theirs; what they return."""
@@ -98,19 +102,7 @@ class Values:
         return self.nodes[number][0] in ("input", "constant")
 
 
-class Folded(Values):
-    """Values, with products by 1 left out."""
-
-    def number(self, *node: int | str) -> int:
-        """The number of an input, a constant or an operation; of the other factor of a product by 1."""
-        if node[0] == "multiply":
-            for factor, other in ((node[1], node[2]), (node[2], node[1])):
-                if self.nodes[int(factor)] == ("constant", 1):
-                    return int(other)
-        return super().number(*node)
-
-
-def numbered(program: Program, values: Values) -> list[int]:
+def numbered(program: Program, values: Folded) -> list[int]:
     """Numbers what a program computes; returns the numbers of its outputs."""
     known = {name: values.number("input", name) for name in program.inputs}
     values.run(ast.parse(program.text).body, known)
@@ -120,13 +112,6 @@ def numbered(program: Program, values: Values) -> list[int]:
 def called(program: Program) -> list[str]:
     """The kernels that a program calls."""
     return sorted({ast.unparse(n.func) for n in ast.walk(ast.parse(program.text)) if isinstance(n, ast.Call)})
-
-
-def values(program: Program, kernels: Mapping[str, Callable], at: Callable[[str], Fraction]) -> list[Fraction]:
-    """What the outputs of a program should be, at the point that `at` gives: its own text, with functions given."""
-    scope: dict = {**kernels, **{name: at(name) for name in program.inputs}}
-    exec(compile(program.text, program.name, "exec"), scope)  # our own text, never a user's
-    return [scope[name] for name in program.outputs]
 
 
 @dataclass(frozen=True)
@@ -152,8 +137,3 @@ def function(
         *body,
     ]
     return "\n".join([f"def {name}({arguments}):", *(f"    {line}".rstrip() for line in lines), ""])
-
-
-def digest(programs: Sequence[Program]) -> str:
-    """The hash of the texts of programs."""
-    return hashlib.sha256("\n".join(program.text for program in programs).encode()).hexdigest()

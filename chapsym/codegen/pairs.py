@@ -1,21 +1,19 @@
 """Kernels on double-double numbers: every operation of their text is one call of `chapsym.numbers.pairs`.
 
-Each value is a float64 or a
-pair of them, by its operands: a product of two floats is exact, a float beside a pair saves half the work.  Inside, the
-operations are the loose ones; what a program returns is normalised, and so is a divisor before the division, and where
-a program says so every sum.
+Each value is a float64 or a pair of them, by its operands: a product of two floats is exact, a float with a pair saves
+half the work.  Inside, the operations are the loose ones; what a program returns is normalised, and so is a divisor
+before the division, and where a program says so every sum.
 """
 
 import ast
 from collections.abc import Callable, Sequence
 from fractions import Fraction
-from functools import cache
 
 from .ir import Folded, Function, Texts, numbered
 from .printer import NotStraightLine
 from .programs import PAIR_PROGRAMS, Program
 
-#: The module, its key in the manifest, and what it says of itself.
+#: The module, its key in the manifest, and its first line.
 FILE, KEY = "double_double.py", "pairs"
 ABOUT = "The parts of a step on double-double numbers; x and x_ are the halves of x."
 PROGRAMS = PAIR_PROGRAMS
@@ -26,61 +24,51 @@ COST = {
 }  # fmt: skip
 
 
+#: What adds, subtracts or multiplies: two floats, a pair and a float, two pairs.
+FORMS = {
+    "add": ("two_sum", "loose_add_float", "loose_add"),
+    "subtract": ("", "", "loose_subtract"),
+    "multiply": ("two_product", "loose_multiply_float", "loose_multiply"),
+}
+#: What is done to both halves.
+SCALINGS = {"negative": "-{}", "add": "2 * {}", "divide": "{} / 2"}
+
+
 class Printer:
     """Writes the operations of a program as calls; `lines` grows."""
 
     def __init__(self, floats: Sequence[str], normal: bool = False) -> None:
         self.floats, self.lines, self.normal = set(floats), list[str](), normal
 
-    def pair(self, name: str) -> str:
-        """The two halves of a value as arguments."""
-        return f"{name}, {self.low(name)}"
-
-    def low(self, name: str) -> str:
-        """The second half of a value; 0 for a float."""
-        return "0" if name in self.floats else f"{name}_"
+    def halves(self, name: str) -> list[str]:
+        """A value as arguments: the halves of a pair, or a float."""
+        return [name] if name in self.floats else [name, f"{name}_"]
 
     def call(self, target: str, function: str, *arguments: str) -> None:
         """One line."""
         self.lines.append(f"{target}, {target}_ = {function}({', '.join(arguments)})")
         if self.normal and function in ("loose_add", "loose_subtract", "loose_add_float"):
-            self.lines.append(f"{target}, {target}_ = two_sum({self.pair(target)})")
+            self.lines.append(f"{target}, {target}_ = two_sum({target}, {target}_)")
 
     def operation(self, target: str, operation: str, a: str, b: str = "") -> None:
         """target = a operation b."""
-        few = [x for x in (a, b) if x in self.floats]
+        first, second = self.halves(a), self.halves(b)
         if operation == "negative" or (operation == "add" and a == b) or (operation, b) == ("divide", "2"):
-            sign, rest = {"negative": ("-", ""), "add": ("2 * ", ""), "divide": ("", " / 2")}[operation]
-            halves = [a] if a in self.floats else [a, f"{a}_"]
             self.floats |= {target} if a in self.floats else set()
-            self.lines.append(
-                f"{', '.join(h.replace(a, target, 1) for h in halves)} = {', '.join(sign + h + rest for h in halves)}"
-            )
-        elif operation == "divide":
-            if b not in self.floats:
-                self.call(f"{target}d", "two_sum", b, f"{b}_")
-            self.call(target, "divide", self.pair(a), f"{target}d, {target}d_" if b not in self.floats else f"{b}, 0")
-        elif operation == "multiply":
-            self._scaled(target, "two_product", "loose_multiply_float", "loose_multiply", a, b)
-        elif operation == "add":
-            self._scaled(target, "two_sum", "loose_add_float", "loose_add", a, b)
-        elif not few:
-            self.call(target, "loose_subtract", self.pair(a), self.pair(b))
-        elif b in few:
-            exact = a in self.floats
-            self.call(target, *(("two_sum", a, f"-{b}") if exact else ("loose_add_float", self.pair(a), f"-{b}")))
-        else:
-            self.call(target, "loose_add_float", f"-{b}", f"-{b}_", a)
-
-    def _scaled(self, target: str, exact: str, mixed: str, full: str, a: str, b: str) -> None:
-        """A commutative operation, by the kinds of its operands."""
-        if a in self.floats and b in self.floats:
-            self.call(target, exact, a, b)
-        elif a in self.floats or b in self.floats:
-            x, y = (b, a) if a in self.floats else (a, b)
-            self.call(target, mixed, self.pair(x), y)
-        else:
-            self.call(target, full, self.pair(a), self.pair(b))
+            scaled = ", ".join(SCALINGS[operation].format(half) for half in first)
+            self.lines.append(f"{', '.join(self.halves(target))} = {scaled}")
+            return
+        if operation == "divide":
+            if len(second) == 2:
+                self.call(f"{target}d", "two_sum", *second)
+                second = [f"{target}d", f"{target}d_"]
+            self.call(target, "divide", *[*first, "0"][:2], *[*second, "0"][:2])
+            return
+        if operation == "subtract" and len(first) + len(second) < 4:
+            operation, second = "add", [f"-{half}" for half in second]
+        if len(first) < len(second):  # the pair comes first
+            first, second = second, first
+        self.call(target, FORMS[operation][len(first) + len(second) - 2], *first, *second)
 
 
 def lowered(program: Program, texts: Texts) -> list[str]:
@@ -109,19 +97,14 @@ def flops(lines: Sequence[str]) -> int:
     return sum(COST.get(line.split(" = ")[1].split("(")[0], 2) for line in lines)
 
 
-def arguments(program: Program) -> str:
-    """The parameters: both halves of a pair, one of a float."""
-    return ", ".join(name if name in program.floats else f"{name}, {name}_" for name in program.inputs)
-
-
 def function(program: Program, texts: Texts) -> Function:
     """The function of a program."""
     lines = lowered(program, texts)
     kinds = f"  {', '.join(program.floats)}: float64; the others are pairs." if program.floats else ""
     notes = [f"Returns {', '.join(program.outputs)} as normalised pairs.{kinds}", f"Operations: {flops(lines)}."]
     body = [*lines, f"return {', '.join(f'o_{name}, o_{name}_' for name in program.outputs)}"]
-    facts = {"floats": list(program.floats), "operations": flops(lines)}
-    return Function(arguments(program), notes, body, facts)
+    arguments = ", ".join(name if name in program.floats else f"{name}, {name}_" for name in program.inputs)
+    return Function(arguments, notes, body, {"operations": flops(lines)})
 
 
 def preamble(functions: Sequence[Function]) -> list[str]:
@@ -135,26 +118,28 @@ def _halves(value: Fraction) -> tuple[Fraction, Fraction]:
     return value * Fraction(5, 7), value * Fraction(2, 7)
 
 
-@cache
-def exact_pairs() -> dict[str, Callable]:
-    """The functions of `chapsym.numbers.pairs` that texts call, without a rounding, on fractions."""
-    return {
-        "two_sum": lambda a, b: _halves(a + b),
-        "two_product": lambda a, b: _halves(a * b),
-        "loose_add": lambda a, a_, b, b_: _halves(a + a_ + b + b_),
-        "loose_subtract": lambda a, a_, b, b_: _halves(a + a_ - b - b_),
-        "loose_add_float": lambda a, a_, b: _halves(a + a_ + b),
-        "loose_multiply": lambda a, a_, b, b_: _halves((a + a_) * (b + b_)),
-        "loose_multiply_float": lambda a, a_, b: _halves((a + a_) * b),
-        "divide": lambda a, a_, b, b_: _halves(Fraction(a + a_) / (b + b_)),
-    }
+def _total(*values: Fraction) -> tuple[Fraction, Fraction]:
+    return _halves(Fraction(sum(values)))
+
+
+#: The functions of `chapsym.numbers.pairs` that texts call, without a rounding, on fractions.
+EXACT: dict[str, Callable] = {
+    "two_sum": _total,
+    "loose_add": _total,
+    "loose_add_float": _total,
+    "two_product": lambda a, b: _halves(a * b),
+    "loose_subtract": lambda a, a_, b, b_: _halves(a + a_ - b - b_),
+    "loose_multiply": lambda a, a_, b, b_: _halves((a + a_) * (b + b_)),
+    "loose_multiply_float": lambda a, a_, b: _halves((a + a_) * b),
+    "divide": lambda a, a_, b, b_: _halves(Fraction(a + a_) / (b + b_)),
+}
 
 
 def text_values(program: Program, text: str, at: Callable[[str], Fraction]) -> list[Fraction]:
     """What the generated text makes of the inputs that `at` gives, with exact operations on pairs of fractions."""
     module = ast.parse(text)
     module.body = [node for node in module.body if not isinstance(node, ast.ImportFrom)]
-    scope: dict = dict(exact_pairs())
+    scope: dict = dict(EXACT)
     exec(compile(module, FILE, "exec"), scope)  # our own text, never a user's
     inputs: list[Fraction] = []
     for name in program.inputs:

@@ -1,44 +1,30 @@
 """From a kernel's expressions to assignments and outputs: the passes, one by one.
 
-Each can be left out, so that the manifest says what it saves in operations, and `chapsym bench kernels` in time.
+Each can be left out, so that the manifest has the operations that it saves, and `chapsym bench kernels` the time.
 """
 
 from collections.abc import Collection, Iterator, Sequence
-from dataclasses import dataclass
 from functools import cache
 
 import sympy as sp
 from sympy.core.sorting import default_sort_key
 
 from .kernels import Kernel
+from .printer import BALANCED, POWERS
 
 Assignments = list[tuple[sp.Symbol, sp.Expr]]
 
-
-@dataclass(frozen=True)
-class Pass:
-    """One way to save operations, and what it does."""
-
-    name: str
-    summary: str
-
-
-FACTORED = Pass("factored", "compute by the derivation's own steps: entries, cofactors, determinant, one division")
-COMMON = Pass("common", "name common subexpressions")
-POWERS = Pass("powers", "print an integer power as a product, and name its base")
-BALANCED = Pass("balanced", "print a sum as a balanced tree, so that fewer operations wait for each other")
-
-#: In the order in which they are applied.
+#: Compute by the derivation's own steps: entries, cofactors, determinant, one division.
+FACTORED = "factored"
+#: Name common subexpressions.
+COMMON = "common"
+#: All, in the order in which they are applied; the last two print (`printer`).
 PASSES = (FACTORED, COMMON, POWERS, BALANCED)
 
 
-def lower(kernel: Kernel, passes: Collection[Pass] = PASSES) -> tuple[Assignments, list[sp.Expr]]:
-    """The assignments of a kernel, in order, and its outputs by their names."""
-    return _lower(kernel, tuple(p for p in (FACTORED, COMMON, POWERS) if p in passes))
-
-
 @cache
-def _lower(kernel: Kernel, passes: tuple[Pass, ...]) -> tuple[Assignments, list[sp.Expr]]:
+def lower(kernel: Kernel, passes: tuple[str, ...] = PASSES) -> tuple[Assignments, list[sp.Expr]]:
+    """The assignments of a kernel, in order, and its outputs by their names."""
     steps, outputs = kernel.steps if FACTORED in passes else ([], kernel.expressions)
     taken = {s.name for s in (*kernel.inputs, *(symbol for names, _ in steps for symbol in names))}
     fresh = (s for s in sp.numbered_symbols("t") if s.name not in taken)
@@ -52,7 +38,7 @@ def _lower(kernel: Kernel, passes: tuple[Pass, ...]) -> tuple[Assignments, list[
 
 
 def _simplified(
-    expressions: Sequence[sp.Expr], fresh: Iterator[sp.Symbol], passes: Collection[Pass]
+    expressions: Sequence[sp.Expr], fresh: Iterator[sp.Symbol], passes: Collection[str]
 ) -> tuple[Assignments, list[sp.Expr]]:
     terms: Assignments = []
     rest = list(expressions)
@@ -96,4 +82,4 @@ def _count(expr: sp.Expr) -> int:
 def saved(kernel: Kernel) -> dict[str, int]:
     """Operations without each pass, less those with all: what the pass saves in this kernel."""
     full = operations(lower(kernel))
-    return {p.name: operations(lower(kernel, [x for x in PASSES if x is not p])) - full for p in PASSES}
+    return {p: operations(lower(kernel, tuple(x for x in PASSES if x != p))) - full for p in PASSES}

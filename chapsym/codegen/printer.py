@@ -5,8 +5,7 @@ a rational coefficient p/q multiplies by p and divides by q, and a number that i
 is never printed on its own.
 """
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Collection, Sequence
 
 import sympy as sp
 from sympy.core.sorting import default_sort_key
@@ -16,22 +15,20 @@ class NotStraightLine(ValueError):
     """The expression needs more than + - * / and integers."""
 
 
-@dataclass(frozen=True)
-class Style:
-    """How to print: integer powers as products, sums as balanced trees.  False is for comparisons of speed."""
-
-    products: bool = True
-    balanced: bool = True
+#: Print an integer power as a product, and name its base.
+POWERS = "powers"
+#: Print a sum as a balanced tree, so that fewer operations wait for each other.
+BALANCED = "balanced"
 
 
-def text(expr: sp.Expr, how: Style = Style()) -> str:
-    """The Python text of an expression."""
-    return _sum(sp.sympify(expr), how)
+def text(expr: sp.Expr, passes: Collection[str] = (POWERS, BALANCED)) -> str:
+    """The Python text of an expression; without a pass only to compare speeds."""
+    return _sum(sp.sympify(expr), passes)
 
 
-def _sum(expr: sp.Expr, how: Style) -> str:
-    pieces = [_product(term, how) for term in sorted(sp.Add.make_args(expr), key=_positive_first)]
-    return _tree(pieces) if how.balanced else _added(pieces)
+def _sum(expr: sp.Expr, passes: Collection[str]) -> str:
+    pieces = [_product(term, passes) for term in sorted(sp.Add.make_args(expr), key=_positive_first)]
+    return _tree(pieces) if BALANCED in passes else _added(pieces)
 
 
 def _added(pieces: Sequence[str]) -> str:
@@ -57,7 +54,7 @@ def _positive_first(term: sp.Expr) -> tuple:
     return bool(term.could_extract_minus_sign()), default_sort_key(term)
 
 
-def _product(expr: sp.Expr, how: Style) -> str:
+def _product(expr: sp.Expr, passes: Collection[str]) -> str:
     coefficient, factors = expr.as_coeff_mul()
     if not coefficient.is_Rational:
         raise NotStraightLine(f"{expr} has the coefficient {coefficient}, which is not rational")
@@ -67,8 +64,8 @@ def _product(expr: sp.Expr, how: Style) -> str:
         base, power = factor.as_base_exp()
         if not power.is_Integer:
             raise NotStraightLine(f"{factor} is not an integer power; give the root as an input")
-        text, times = _factor(base, how), abs(int(power))
-        copies = [text] * times if how.products or times == 1 else [f"{text}**{times}"]
+        text, times = _factor(base, passes), abs(int(power))
+        copies = [text] * times if POWERS in passes or times == 1 else [f"{text}**{times}"]
         (above if power > 0 else below).extend(copies)
     if not factors and coefficient.q != 1:
         raise NotStraightLine(f"the number {coefficient} would be rounded; multiply something by it instead")
@@ -84,9 +81,9 @@ def _product(expr: sp.Expr, how: Style) -> str:
     return f"{product} / {below[0]}" if len(below) == 1 else f"{product} / ({' * '.join(below)})"
 
 
-def _factor(expr: sp.Expr, how: Style) -> str:
+def _factor(expr: sp.Expr, passes: Collection[str]) -> str:
     if expr.is_Symbol or (expr.is_Integer and expr >= 0):
         return str(expr)
     if expr.is_Add or expr.is_Mul or expr.is_Pow:
-        return f"({_sum(expr, how)})"
+        return f"({_sum(expr, passes)})"
     raise NotStraightLine(f"{expr} is not a sum, a product or a name")

@@ -5,20 +5,9 @@ They do in double-double what `double_double_loop` needs.
 
 from dataclasses import dataclass
 
-from .kernels import (
-    BODY,
-    CONTACT,
-    FIRST,
-    GAMMA,
-    GIBBS,
-    HALF,
-    INERTIA,
-    MOMENT,
-    MOMENTUM,
-    QUATERNION,
-    Group,
-    sp,
-)
+import sympy as sp
+
+from .kernels import BODY, CONTACT, FIRST, GAMMA, GIBBS, HALF, INERTIA, MOMENT, MOMENTUM, QUATERNION, Group
 
 
 @dataclass(frozen=True)

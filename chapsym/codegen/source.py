@@ -6,6 +6,7 @@ The modules are read, not imported: they import kernels that codegen is about to
 import ast
 import operator
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -35,12 +36,6 @@ class Function:
         return [argument.arg for argument in self.node.args.args]
 
     @property
-    def defaults(self) -> dict[str, ast.expr]:
-        """The values that the last parameters have by default."""
-        values = self.node.args.defaults
-        return dict(zip(self.parameters[len(self.parameters) - len(values) :], values, strict=True))
-
-    @property
     def is_exported(self) -> bool:
         """Whether other languages may call it: the types of all its parameters are annotated."""
         return bool(self.node.args.args) and all(a.annotation is not None for a in self.node.args.args)
@@ -59,6 +54,15 @@ class Record:
     fields: tuple[str, ...]
 
 
+@dataclass(frozen=True)
+class Varying:
+    """What has another value, or is another function, in float32; its name in C stands for either."""
+
+    name: str
+    double: Any
+    single: Any
+
+
 @dataclass(eq=False)
 class Module:
     """What a module defines and imports, by name: functions, numbers, modules, or the path of something outside."""
@@ -66,10 +70,6 @@ class Module:
     name: str
     functions: dict[str, Function] = field(default_factory=dict)
     names: dict[str, Any] = field(default_factory=dict)
-    #: What has another value, or is another function, in float32.
-    single: dict[str, Any] = field(default_factory=dict)
-    #: What is imported by name: the module that has it, and its name there.
-    origins: dict[str, "tuple[Module, str]"] = field(default_factory=dict)
 
 
 class Program:
@@ -77,61 +77,66 @@ class Program:
 
     def __init__(self, load: Callable[[str], str]) -> None:
         self._load = load
-        self.modules: dict[str, Module] = {}
+        self._modules: dict[str, Module] = {}
+        self.varying: list[Varying] = []
 
     def module(self, path: str) -> Module:
         """A module by its dotted path."""
-        if path not in self.modules:
-            self.modules[path] = self._read(path)
-        return self.modules[path]
+        if path not in self._modules:
+            self._modules[path] = self._read(path)
+        return self._modules[path]
 
     def _read(self, path: str) -> Module:
-        module = Module(path.rpartition(".")[2])
+        module, varying = Module(path.rpartition(".")[2]), dict[str, Any]()
+        names = module.names
         for node in ast.parse(self._load(path)).body:
             match node:
-                case ast.FunctionDef():
-                    module.names[node.name] = module.functions[node.name] = Function(module, node)
-                case ast.ClassDef(bases=[ast.Name(id="NamedTuple")], body=body):
-                    fields = (
-                        n.target.id for n in body if isinstance(n, ast.AnnAssign) and isinstance(n.target, ast.Name)
-                    )
-                    module.names[node.name] = Record(node.name, tuple(fields))
-                case ast.ImportFrom() | ast.Import():
-                    module.names.update(self._imported(path, module, node))
-                case ast.Assign(targets=[ast.Name(id="SINGLE")], value=ast.Dict() as table):
-                    module.single = self._single(module, table)
+                case ast.FunctionDef(name=name):
+                    names[name] = module.functions[name] = Function(module, node)
+                case ast.ClassDef(name=name, bases=[ast.Name(id="NamedTuple")], body=body):
+                    fields = (ast.unparse(n.target) for n in body if isinstance(n, ast.AnnAssign))
+                    names[name] = Record(name, tuple(fields))
+                case ast.Import(names=aliases):
+                    names.update((alias.asname or alias.name, alias.name) for alias in aliases)
+                case ast.ImportFrom():
+                    names.update(self._imported(path, node))
+                case ast.Assign(targets=[ast.Name(id="SINGLE")], value=ast.Dict(keys=keys, values=values)):
+                    varying = {ast.literal_eval(k): constant(v, names) for k, v in zip(keys, values, strict=True) if k}
                 case ast.Assign(targets=[target], value=value):
-                    module.names.update(_constants(target, value, module.names))
+                    with suppress(NotConstant):  # what only Python uses
+                        names.update(_bound(target, constant(value, names)))
+        for name, other in varying.items():
+            names[name] = Varying(f"{module.name}_{name}", names[name], other)
+            self.varying.append(names[name])
         return module
 
-    def _imported(self, path: str, module: Module, node: ast.ImportFrom | ast.Import) -> dict[str, Any]:
-        if isinstance(node, ast.Import):
-            return {alias.asname or alias.name: alias.name for alias in node.names}
+    def _imported(self, path: str, node: ast.ImportFrom) -> dict[str, Any]:
         base = path.rsplit(".", node.level)[0] if node.level else ""
         source = ".".join(filter(None, (base, node.module)))
-        found: dict[str, Any] = {}
-        for alias in node.names:
-            if source in OUTSIDE:
-                found[alias.asname or alias.name] = f"{source}.{alias.name}"
-            elif node.module is None:  # from . import module
-                found[alias.asname or alias.name] = self.module(f"{source}.{alias.name}")
-            else:
-                other, name = self.module(source), alias.asname or alias.name
-                if alias.name in other.names:
-                    found[name] = other.names[alias.name]
-                    module.origins[name] = other.origins.get(alias.name, (other, alias.name))
-        return found
-
-    def _single(self, module: Module, table: ast.Dict) -> dict[str, Any]:
-        """The table of what is otherwise in float32."""
-        rows = zip(table.keys, table.values, strict=True)
-        return {ast.literal_eval(key): constant(value, module.names) for key, value in rows if key is not None}
+        names = {alias.asname or alias.name: alias.name for alias in node.names}
+        if source in OUTSIDE:
+            return {here: f"{source}.{name}" for here, name in names.items()}
+        if node.module is None:  # from . import module
+            return {here: self.module(f"{source}.{name}") for here, name in names.items()}
+        known = self.module(source).names
+        return {here: known[name] for here, name in names.items() if name in known}
 
 
 ARITHMETIC: dict[type, Callable[[Any, Any], Any]] = {
     ast.Add: operator.add, ast.Sub: operator.sub, ast.Mult: operator.mul, ast.Div: operator.truediv,
     ast.FloorDiv: operator.floordiv, ast.Pow: operator.pow,
 }  # fmt: skip
+
+
+def meaning(node: ast.expr, names: dict[str, Any]) -> Any:
+    """What a name, or a name in a module, stands for; None where it is neither."""
+    match node:
+        case ast.Name(id=name):
+            return names.get(name)
+        case ast.Attribute(value=ast.Name(id=name), attr=attribute):
+            module = names.get(name)
+            return module.names.get(attribute) if isinstance(module, Module) else f"{module}.{attribute}"
+    return None
 
 
 def constant(node: ast.expr, names: dict[str, Any]) -> Any:
@@ -142,15 +147,13 @@ def constant(node: ast.expr, names: dict[str, Any]) -> Any:
     match node:
         case ast.Constant(value=bool() | int() | float() as number):
             return number
-        case ast.Name(id=name) if isinstance(names.get(name), int | float | Function):
-            return names[name]
-        case ast.Name(id=name) if names.get(name) in ("math.nan", "math.inf"):
-            return float(names[name][5:])
-        case ast.Attribute(value=ast.Name(id=name), attr=attribute):
-            if isinstance(names.get(name), Module) and attribute in names[name].names:
-                return names[name].names[attribute]
-            if names.get(name) == "numpy" and attribute in ("inf", "nan"):
-                return float(attribute)
+        case ast.Name() | ast.Attribute():
+            value = meaning(node, names)
+            value = value.double if isinstance(value, Varying) else value
+            if isinstance(value, int | float | Function):
+                return value
+            if value in ("math.nan", "math.inf", "numpy.nan", "numpy.inf"):
+                return float(value.rpartition(".")[2])
         case ast.UnaryOp(op=ast.USub(), operand=operand):
             return -constant(operand, names)
         case ast.BinOp(left=left, op=op, right=right) if type(op) in ARITHMETIC:
@@ -160,13 +163,7 @@ def constant(node: ast.expr, names: dict[str, Any]) -> Any:
     raise NotConstant(ast.unparse(node))
 
 
-def _constants(target: ast.expr, value: ast.expr, names: dict[str, Any]) -> dict[str, Any]:
-    try:
-        found = constant(value, names)
-    except NotConstant:  # what only Python uses
-        return {}
-    if isinstance(target, ast.Name) and not isinstance(found, tuple):
-        return {target.id: found}
-    if isinstance(target, ast.Tuple):
-        return {t.id: x for t, x in zip(target.elts, found, strict=True) if isinstance(t, ast.Name)}
-    return {}
+def _bound(target: ast.expr, value: Any) -> dict[str, Any]:
+    """The names that an assignment of a constant gives a value."""
+    pairs = zip(target.elts, value, strict=True) if isinstance(target, ast.Tuple) else [(target, value)]
+    return {name.id: x for name, x in pairs if isinstance(name, ast.Name) and not isinstance(x, tuple)}

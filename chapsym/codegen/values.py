@@ -1,7 +1,7 @@
 """The values of kernels and programs at a rational point: they survive another order of the text."""
 
 import hashlib
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from fractions import Fraction
 from functools import cache
 from types import ModuleType
@@ -15,33 +15,27 @@ from .programs import Program
 DIGITS = 40
 
 
-def point(symbols: Sequence[sp.Symbol]) -> dict[sp.Symbol, sp.Rational]:
-    """A rational point seeded from the names of the symbols, each value in (1/2, 3/2)."""
-
-    def value(name: str) -> sp.Rational:
-        seed = int.from_bytes(hashlib.sha256(name.encode()).digest()[:4], "big") % 1009
-        return sp.Rational(1009 + 2 * seed, 2018)
-
-    return {symbol: value(symbol.name) for symbol in symbols}
+def at(name: str) -> Fraction:
+    """The value of a name at the rational point, in (1/2, 3/2): it is seeded from the name."""
+    seed = int.from_bytes(hashlib.sha256(name.encode()).digest()[:4], "big") % 1009
+    return Fraction(1009 + 2 * seed, 2018)
 
 
-def decimal(value: Fraction) -> str:
+def decimal(value: Fraction | sp.Rational) -> str:
     """40 significant digits of a rational number."""
-    return str(sp.Rational(value.numerator, value.denominator).evalf(DIGITS))
+    return str(sp.Rational(value).evalf(DIGITS))
 
 
 @cache
 def fingerprint(kernel: Kernel) -> list[str]:
-    """The values of the expressions at the rational point: they survive another order of the text."""
-    values = point(kernel.inputs)
-    exact = [e.xreplace(values) for e in kernel.expressions]
-    return [decimal(Fraction(int(e.p), int(e.q))) for e in exact]
+    """The values of the expressions at the rational point."""
+    point = {symbol: sp.Rational(at(symbol.name)) for symbol in kernel.inputs}
+    return [decimal(e.xreplace(point)) for e in kernel.expressions]
 
 
 def text_fingerprint(kernel: Kernel, text: str) -> list[str]:
     """The same values from the generated text, run on fractions."""
-    arguments = [Fraction(int(v.p), int(v.q)) for v in point(kernel.inputs).values()]
-    result = _function(kernel.name, text)(*arguments)
+    result = _function(kernel.name, text)(*(at(symbol.name) for symbol in kernel.inputs))
     return [decimal(value) for value in (result if isinstance(result, tuple) else (result,))]
 
 
@@ -51,18 +45,14 @@ def _function(name: str, text: str) -> Callable:
     return scope[name]
 
 
-def _at(name: str) -> Fraction:
-    """The value of one name at the rational point."""
-    value = point([sp.Symbol(name)])[sp.Symbol(name)]
-    return Fraction(int(value.p), int(value.q))
-
-
 def program_fingerprint(program: Program, texts: ir.Texts) -> list[str]:
     """The values of a program at the rational point, by its own text and those of the kernels."""
-    kernels = {name: _function(name, texts[name]) for name in ir.called(program)}
-    return [decimal(value) for value in ir.values(program, kernels, _at)]
+    scope: dict = {name: _function(name, texts[name]) for name in ir.called(program)}
+    scope |= {name: at(name) for name in program.inputs}
+    exec(compile(program.text, program.name, "exec"), scope)  # our own text, never a user's
+    return [decimal(scope[name]) for name in program.outputs]
 
 
 def target_fingerprint(target: ModuleType, program: Program, text: str) -> list[str]:
     """The same values from the text of a backend, run on its numbers: pairs or integers of fractions."""
-    return [decimal(value) for value in target.text_values(program, text, _at)]
+    return [decimal(value) for value in target.text_values(program, text, at)]

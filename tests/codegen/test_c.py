@@ -15,7 +15,7 @@ import pytest
 
 import chapsym
 from chapsym.codegen import build, c_files
-from chapsym.codegen.infer import NotTranslatable
+from chapsym.codegen.c import NotTranslatable
 from chapsym.codegen.source import Program
 from chapsym.dynamics.loops import twins
 
@@ -71,7 +71,7 @@ def swapped(a: float, b: float, c: float, v: Vector):
     i, v[2] = 3, a + v[2]
     i, v[i] = 4, a
     a, v[4] = v[4], a
-    b = c = b + 1.0
+    b, c = b + 1.0, b
     return a, b, c, i
 
 def three(v, at):
@@ -160,6 +160,8 @@ def parts(S: Matrix, v: Vector, n: int):
     filled(S[n + 1 :], 0.125)
     v[:] = 0.5
     v[n] = total(S[n - 1])
+    S[3:] = v[n]
+    S[0, 2:4] = d
     fresh, eye, more = np.zeros((2, n), S.dtype), np.eye(n, dtype=S.dtype), np.empty(n // 2 * 2, S.dtype)
     fresh[1, 0], more[0], more[1] = a, b, c
     filled(fresh, 1.0)
@@ -211,7 +213,7 @@ def both(tmp_path_factory):
     place = tmp_path_factory.mktemp("sample")
     program = written(place, SAMPLE)
     texts = c_files.Texts(program, roots(program), roots(program))
-    body = texts.text() + texts.exports(roots(program))
+    body = texts.text() + texts.exports()
     (place / "loops.h").write_text("#pragma once\n" + c_files.INTERFACE)
     (place / "loops.c").write_text(body + '\n#ifndef SINGLE\nconst char loops_text[] = "";\n#endif\n')
     (place / "loops_single.c").write_text('#define SINGLE\n#include "loops.c"\n')
@@ -304,13 +306,16 @@ def translated(tmp_path, text):
         "while sqrt(*twice(a)) > 1.0:\n        a = a - 1.0\n    return a",
         "return max(*twice(a)) if n > 0 else a", "x = a > 0.0 and max(*twice(a)) > 1.0\n    return x",
         "for i in range(n):\n        i += 1\n    return a", "for i in range(n):\n        a += 1.0\n    return i",
+        "i = 2\n    for i in range(n):\n        a += 1.0\n    return i",
         "for i in range(n):\n        a += 1.0\n    else:\n        a = 0.0\n    return a",
         "while a > 1.0:\n        a -= 1.0\n    else:\n        a = 0.0\n    return a",
-        "for x in v:\n        a += x\n    return a", "with a:\n        pass\n    return a", "del a", "global a",
+        "for x in v:\n        a += x\n    return a",
+        "for x, y in ((a, 1.0), (2.0, a)):\n        break\n    return x",
+        "with a:\n        pass\n    return a", "del a", "global a",
         "try:\n        a = 1.0\n    except ValueError:\n        a = 2.0\n    return a", "raise ValueError",
         "assert a > 0.0",
         "import math\n    return a", "def inner():\n        return a\n    return a", "yield a",
-        "a: float = 1.0\n    return a",
+        "a: float = 1.0\n    return a", "a = x = 1.0\n    return a",
         "x = v.copy()\n    return x[0]", "x = v[::2]\n    return x[0]", "x, y = a\n    return x",
         "*x, y = twice(a)\n    return y", "return v[-1]", "return len(v[:-1])",
     ],
