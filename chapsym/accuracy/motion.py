@@ -1,9 +1,10 @@
 """The continuous motion of balls at equal times, to an accuracy: long steps of order 12, each ball with its own.
 
-The steps are as long as the accuracy allows, wherever the frames are; these are interpolated (`loops.between`).  The
-error that is stated is what the flow makes of the errors of all steps together (`loops.carried`): it is an estimate in
-that the error of a step is (`loops.following.feared`).  A ball whose error is larger than the accuracy is taken again
-with shorter steps; where the roundings of long steps are too many, by compositions of the map (`composed`).
+The steps are as long as the accuracy allows; frames inside are interpolated (`loops.between`).  The error that is
+stated is what the flow makes of the errors of all steps together (`loops.carried`).  It is an estimate in that the size
+of the error of a step (`loops.following.left`) and its direction are.  A ball whose error is larger than the accuracy
+is followed again with shorter steps; where the roundings of long steps are too many, by compositions of the map
+(`composed`).
 """
 
 import math

@@ -9,7 +9,7 @@ from commands import chapsym as command
 from scipy.integrate import solve_ivp
 
 import chapsym
-from chapsym.accuracy import composed
+from chapsym.accuracy import composed, motion
 from chapsym.accuracy.motion import moved
 from chapsym.accuracy.problem import EXTRAPOLATED, Problem, Run, Stepping, apart, nothing, omega_of
 from chapsym.dynamics import BadInput, Ball, Status, kernels
@@ -119,6 +119,28 @@ def test_estimates_of_long_steps_are_above_their_errors(moments, D, gamma, omega
     asked = Problem(ball, K, g, end / frames, frames, accuracy, attitude_with(g), True)
     found = moved(asked)
     assert true(asked, found) < found.error <= accuracy
+
+
+def test_a_ball_with_more_than_its_share_of_an_accuracy_is_given_up_and_followed_again(monkeypatch):
+    runs = []
+
+    def seen(part, first, allowed, found, *more, of=motion._run):
+        result = of(part, first, allowed, found, *more)
+        runs.append((allowed.copy(), found.reached.copy(), found.status.copy()))
+        return result
+
+    monkeypatch.setattr(motion, "_run", seen)
+    # About the middle axis: what is left of the first steps grows with each turn.
+    asked = problem([[0.0, 14.0, 1e-4], [3.0, 1.0, 14.0]], 50, 0.3, 1e-8)
+    found = moved(asked)
+    (_, reached, status), (allowed, again, _) = runs[:2]
+    assert reached[0] < reached[1] == 50
+    assert not status.any()
+    assert len(again) == 1
+    assert allowed < runs[0][0][0]
+    assert np.isfinite(found.gamma).all()
+    assert (true(asked, found) < found.error).all()
+    assert (found.error <= 1e-8).all()
 
 
 def test_a_frame_after_a_thousand_turns_has_as_many_steps_as_it_takes():

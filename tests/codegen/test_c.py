@@ -341,3 +341,12 @@ def test_the_text_of_the_loops_has_a_hash_of_its_own():
         return text.replace("total - a", "total + a", 1) if path == "chapsym.numbers.pairs" else text
 
     assert c_files.build(flipped, build.KERNELS)["loops_text.py"] != files["loops_text.py"]
+
+
+def test_what_takes_many_steps_has_its_vector_clones():
+    text = build.build()["loops.c"]
+    lines = [line for line in text.splitlines() if "void in_" in line]
+    exported = {line.split("(")[0].split()[-1].removeprefix("in_"): line for line in lines}
+    many = {name for name in exported if "march" in name or name.startswith("following_")}
+    assert {"following_follow_one", "following_follow_eight", "long_run_march_one"} < many
+    assert all(exported[name].startswith("WIDEST static void") for name in many)

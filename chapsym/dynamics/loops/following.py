@@ -20,7 +20,7 @@ from .long_run import enter, placed, resized, safely
 from .long_step import ATTITUDE, DOUBT, MOVING, SPOT, TWIST
 from .text import Cube, Doubles, Integers, Matrix, Vector
 
-#: The largest |ω|h of a step, in radians: at 1.57 its steps of the map fold.
+#: The largest |ω|h of a step, in radians: longer ones have errors beyond 10⁻⁴, or do not settle.
 FARTHEST = 1.7
 #: A step is taken again if its error is so many times what is allowed, the first already if it is less; and how often.
 TOO_MUCH, TOO_MUCH_FIRST, MOST_TRIES = 15.0, 3.0, 40
