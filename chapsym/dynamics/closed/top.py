@@ -11,6 +11,8 @@ kΨ + P(u_k) - P(u₀), and one step of the map gives Ψ.  For two equal J nothi
 vertical momentum with D > 0, too.
 """
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass, replace
 from typing import Any, Self
@@ -64,7 +66,7 @@ class TopMotion:
     start: float
     direction: Floats
     turns: tuple[float, float]
-    exact: "ExactCurve"
+    exact: ExactCurve
     first: Floats
 
     @classmethod

@@ -1,7 +1,6 @@
 """Runs in n dimensions: below the bound of `near_n` from guesses by the last rotations, else by the continuation."""
 
-from collections.abc import Callable, Iterable, Iterator
-from typing import Any
+from collections.abc import Iterator
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -10,13 +9,13 @@ from chapsym.numbers import Digits, Double, Precision
 
 from ..ball import Floats, common_shape, is_followed, unit_vertical
 from ..coefficients import COMPOSITIONS, substeps
-from ..errors import BadInput, Status
+from ..errors import BadInput
 from ..levels.dispatch import precision_of
 from ..trajectories import rolling_radius
-from . import so_n, warm_n
+from . import warm_n
 from .ball_n import BallN, initial_attitudes, skew_matrices
-from .branch_n import small_rotation
 from .near_n import limits
+from .steps_n import continued, some_balls
 
 #: The Jacobians of the balls that are solved together take about this many numbers: what a cache holds.
 BLOCK = 2**15
@@ -96,9 +95,9 @@ def run(
     known, other = np.flatnonzero(below), np.flatnonzero(~below)
     for at in blocks(known, n):
         bounds = near[at], enough[at]
-        warm_n.march(_rows(state, at), frames, bounds, stages, steps, every, taken, status, reach, at, threads)
+        warm_n.march(some_balls(state, at), frames, bounds, stages, steps, every, taken, status, reach, at, threads)
     for at in blocks(other, n):
-        continued(_rows(state, at), frames, stages, steps, every, taken, status, reach, at)
+        continued(some_balls(state, at), frames, stages, steps, every, taken, status, reach, at)
     return taken, status, reach
 
 
@@ -106,46 +105,3 @@ def blocks(balls: np.ndarray, n: int) -> Iterator[np.ndarray]:
     """The numbers of the balls of a batch, of those together that are solved together."""
     size = max(1, BLOCK // (n * n * n * (n - 1) // 2))
     return (balls[first : first + size] for first in range(0, len(balls), size))
-
-
-def _rows(state: dict[str, Floats], at: np.ndarray) -> dict[str, Floats]:
-    return {name: array[at] for name, array in state.items()}
-
-
-def continued(
-    state: dict[str, Floats], frames: dict[str, Floats], stages: Iterable[Any], steps: int, every: int,
-    taken: np.ndarray, status: np.ndarray, reach: Floats, at: np.ndarray,
-    rotations: Callable[..., tuple[Floats, np.ndarray, Floats]] = small_rotation,
-) -> dict[str, Floats]:  # fmt: skip
-    """Steps some balls together, the rows `at` of what else is given, and writes these in place.
-
-    rotations: what finds the rotations of a stage, as `small_rotation` in float64.
-    Returns the state of the balls that took all steps.
-    """
-    for step in range(1, steps + 1):
-        for c in stages:
-            K, rest = c * state["momentum"], (state[x] for x in ("gamma", "mass_tensor", "D"))
-            E, status[at], reach[at] = rotations(K, *rest)
-            went = status[at] == Status.TAKEN
-            if not went.all():
-                at, E, state = at[went], E[went], _rows(state, went)
-                if not at.size:
-                    return state
-            state = _moved(state, E)
-        taken[at] += 1
-        if step % every == 0:
-            for name in frames:
-                frames[name][at, step // every] = state[name]
-    return state
-
-
-def _moved(state: dict[str, Floats], E: Floats) -> dict[str, Floats]:
-    """The state after the rotation 1 + E: 𝒦 and γ, and those of attitude and contact that there are."""
-    K, g = state["momentum"], state["gamma"]
-    after = {**state, "momentum": so_n.carried(K, E), "gamma": so_n.transported(g, E)}
-    if "contact" in state:
-        stride = (state["attitude"] @ so_n.twist(E, g)[..., np.newaxis])[..., :-1, 0]
-        after["contact"] = state["contact"] + state["radius"][:, np.newaxis] / 2 * stride
-    if "attitude" in state:
-        after["attitude"] = so_n.polar(state["attitude"] + state["attitude"] @ E)
-    return after

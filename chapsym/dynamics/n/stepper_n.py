@@ -16,7 +16,8 @@ from ..stepper import UnderWay
 from . import warm_n
 from .ball_n import BallN, skew_matrices
 from .near_n import limits
-from .run_n import MOVING, continued, start
+from .run_n import MOVING, start
+from .steps_n import continued
 from .trajectory_n import TrajectoryN
 
 #: Nobody counts the steps of a call.
