@@ -3146,9 +3146,17 @@ INLINE t_r2 following_through(r2 S, int64_t b, r1 body, r1 now, int traced, r1 l
     return between_joined(first, last, radius, traced, curve);
 }
 
-INLINE void following_looked_at(r2 S, r2 E, int64_t b, int lost, real interval, real start, real bearable, int traced,
-    r2 sums, r1 body, r1 state, r1 lane, r2 V, r2 first, r2 last, r2 curve, r1 now) {
-    int inside; t_r2 off; real more, rounding; AT2(E, 78, b) = R(0.0); AT2(E, 82, b) = R(0.0);
+INLINE real following_spinning(r2 E, int64_t B, int64_t b) {
+    real found = R(0.0);
+    for (int64_t lane = 0; lane < 3; lane++) {
+        for (int64_t c = 0; c < 3; c++) { found = found + AT2(E, 0 + c, lane * B + b) * AT2(E, 0 + c, lane * B + b); }
+    }
+    return R(sqrt(found));
+}
+
+INLINE void following_looked_at(r2 S, r2 E, int64_t B, int64_t b, int lost, real interval, real start, real bearable,
+    int traced, r2 sums, r1 body, r1 state, r1 lane, r2 V, r2 first, r2 last, r2 curve, r1 now) {
+    int inside; t_r2 off; real speed, worst, more, rounding; AT2(E, 78, b) = R(0.0); AT2(E, 82, b) = R(0.0);
     if (AT2(S, 135, b) != R(0.0)) { lane.p[12] = R(0.0); return; }
     following_judged(S, E, b, lost, start, sums, state, lane);
     if (lane.p[12] == R(3.0)) {
@@ -3156,9 +3164,12 @@ INLINE void following_looked_at(r2 S, r2 E, int64_t b, int lost, real interval, 
         if (inside) {
             for (int64_t c = 0; c < 24; c++) { now.p[c] = AT2(S, 105 + c, b); }
             off = following_through(S, b, body, now, traced, lane, V, first, last, curve);
-            more = max_r(following_lengthened(max_r(off.a0, off.a1) / (R(0.4) * bearable)), R(0.3)) * lane.p[1];
-            lane.p[20] = more; lane.p[14] = off.a0; lane.p[15] = off.a1;
-            if (max_r(off.a0, off.a1) > bearable && lane.p[6] < 40) {
+            speed = lane.p[11] / lane.p[2];
+            worst = speed > R(0.0) ? max_r(off.a0 * max_r(following_spinning(E, B, b) / speed, R(1.0)), off.a1) :
+                max_r(off.a0, off.a1);
+            more = max_r(following_lengthened(worst / (R(0.4) * bearable)), R(0.3)) * lane.p[1]; lane.p[20] = more;
+            lane.p[14] = off.a0; lane.p[15] = off.a1;
+            if (worst > bearable && lane.p[6] < 40) {
                 real t_1 = R(1.0), t_2 = min_r(more, R(0.6) * lane.p[1]); int t_3 = 0; lane.p[12] = t_1;
                 lane.p[20] = t_2; inside = t_3;
             }
@@ -3365,8 +3376,8 @@ INLINE void between_ball_at(r2 curve, real s, r1 body, int traced, r1 found) {
     if (traced) { found.p[10] = between_at_part(curve, 4, s); found.p[11] = between_at_part(curve, 5, s); }
 }
 
-INLINE void following_recorded(r2 E, int64_t b, int64_t i, real end, real allowed, real most, int patient, r1 lane, r2
-    reported) {
+INLINE void following_recorded(r2 E, int64_t B, int64_t b, int64_t i, real end, real allowed, real most, int patient,
+    r1 lane, r2 reported) {
     AT2(reported, i, 4) = AT2(reported, i, 4) + R(1.0);
     real cautious = R(20.0) + R(32.0) / AT2(reported, i, 4), off = lane.p[14], out = lane.p[15];
     real speed = lane.p[11] / lane.p[2], turned = R(2.0) * AT2(E, 86, b), spun = R(2.0) * AT2(E, 87, b);
@@ -3380,7 +3391,7 @@ INLINE void following_recorded(r2 E, int64_t b, int64_t i, real end, real allowe
         AT2(reported, i, 5) = min_r(until, R(0.999999999));
     }
     lane.p[18] = left > R(0.0) ? allowed * min_r(max_r(R(0.4) * most * share / left, R(0.02)), R(2.0)) : allowed;
-    lane.p[8] = max_r(lane.p[8], cautious * AT2(E, 84, b) + spun + off * speed);
+    lane.p[8] = max_r(lane.p[8], cautious * AT2(E, 84, b) + spun + off * max_r(speed, following_spinning(E, B, b)));
 }
 
 INLINE void following_follow_lanes(int64_t B, r3 momenta, r3 verticals, r3 attitudes, r3 traces, r2 J0, r1 D0, r1
@@ -3412,9 +3423,9 @@ INLINE void following_follow_lanes(int64_t B, r3 momenta, r3 verticals, r3 attit
         lost = lanes_side_by_side(S, B, columns, traced, following, beginning); carried_changes(S, E, B);
         for (int64_t b = 0, end_b = B; b < end_b; b++) {
             i = (int64_t)AT2(lanes, b, 4);
-            following_looked_at(S, E, b, lost, interval, start.p[i], R(0.4) * most.p[i], traced, sums, r2_row(bodies,
-                b), r2_row(states, b), r2_row(lanes, b), V, r3_row(ends, 2 * b), r3_row(ends, 2 * b + 1),
-                r3_row(curves, b), now);
+            following_looked_at(S, E, B, b, lost, interval, start.p[i], R(0.4) * most.p[i], traced, sums,
+                r2_row(bodies, b), r2_row(states, b), r2_row(lanes, b), V, r3_row(ends, 2 * b), r3_row(ends, 2 * b +
+                1), r3_row(curves, b), now);
         }
         carried_tangent(S, E, B, 19, traced); carried_carry(S, E, B, traced);
         for (int64_t b = 0, end_b = B; b < end_b; b++) {
@@ -3446,7 +3457,7 @@ INLINE void following_follow_lanes(int64_t B, r3 momenta, r3 verticals, r3 attit
                             }
                             frame = frame + 1; part = following_part_of(r2_row(lanes, b), frame, interval);
                         }
-                        following_recorded(E, b, i, end, allowed.p[i], most.p[i], patient, r2_row(lanes, b),
+                        following_recorded(E, B, b, i, end, allowed.p[i], most.p[i], patient, r2_row(lanes, b),
                             reported);
                         int64_t t_1 = frame; real t_2 = R(0.0), t_3 = AT2(lanes, b, 0) + AT2(lanes, b, 1);
                         AT2(lanes, b, 5) = t_1; AT2(lanes, b, 6) = t_2; AT2(lanes, b, 0) = t_3;
@@ -3672,5 +3683,5 @@ const loop_export LOOPS()[] = {
 };
 const int LOOPS(_count) = sizeof LOOPS() / sizeof *LOOPS();
 #ifndef SINGLE
-const char loops_text[] = "c34953de05e0cc5da3f777124804ab57d4745d5828dffac09e219d5e83344846";
+const char loops_text[] = "8088bd23d6c038016718f3ad28882bccbbf5b92fa289f15dbcea294809790344";
 #endif

@@ -100,6 +100,8 @@ def _start(
         if not (length > 0).all():
             raise BadInput("attitude must be unit quaternions (scalar first); divide by the length")
         vertical = kernels.rotate(turned / length * _INVERSE, _UP)
+    if not isinstance(ball, Ball):
+        raise BadInput(f"ball must be a chapsym.Ball, not {type(ball).__name__}")
     if not (ball.is_one and spin.ndim == vertical.ndim == 1):
         batch(ball.principal, spin, vertical)  # so that a mistake is reported in the names of this function
     if not isinstance(turned, bool):

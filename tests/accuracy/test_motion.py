@@ -143,6 +143,22 @@ def test_a_ball_with_more_than_its_share_of_an_accuracy_is_given_up_and_followed
     assert (found.error <= 1e-8).all()
 
 
+@pytest.mark.parametrize("frames", [1, 10, 100])
+def test_what_frames_inside_of_steps_miss_counts_for_omega_as_much_as_it_changes_it(frames):
+    # A moment that is far larger than another: a small error of the attitude is a large one of ω.
+    ball, g = (
+        Ball(np.array([[30.0, 0.0025, 0.0012]]), np.array([0.0013]), np.ones(1)),
+        np.array([[0.7352, -0.3572, 0.5761]]),
+    )
+    g /= np.linalg.norm(g)
+    K = kernels.contact_momentum(np.array([[-0.2, 0.75, -0.35]]), g, ball.mass_tensor, ball.D)
+    asked = Problem(ball, K, g, 3.8 / frames, frames, 1e-6, attitude_with(g), True)
+    found, fine = moved(asked), moved(replace(asked, accuracy=1e-9))
+    off = np.linalg.norm(omega_of(asked, found.angular_momentum, found.gamma)
+        - omega_of(asked, fine.angular_momentum, fine.gamma), axis=-1).max()  # fmt: skip
+    assert off / np.linalg.norm(omega_of(asked, K, g)) < found.error <= 1e-6
+
+
 def test_a_frame_after_a_thousand_turns_has_as_many_steps_as_it_takes():
     asked = problem([14.0, -6.0, 3.0], frames=1, interval=400.0, accuracy=1e-4)
     found = moved(asked)
@@ -236,6 +252,8 @@ def test_what_rounding_of_the_start_does_is_in_the_estimate(inertia, D, omega, e
 
 
 def test_roll_refuses_in_one_sentence_what_no_run_can_have():
+    with pytest.raises(BadInput, match=r"must be a chapsym\.Ball, not NoneType"):
+        chapsym.roll(None, [1.0, 2.0, 3.0], 0.1, 3)
     ball = Ball.from_inertia((1, 1.3, 1.6), D=1e6)
     for arguments, told in [
         (((1, 2, 0), 1e-9, 10**13), "10000000000001 states of 1 balls do not fit into memory"),

@@ -15,6 +15,7 @@ from .carried import END as LAST_END
 from .carried import FOUND, PART, WHOLE, begun, carry, changes, tangent
 from .carried import ROUNDED as ROUNDING
 from .carried import ROWS as ERRORS
+from .carried import SPUN as BY_ATTITUDE
 from .lanes import CONTACT, EIGHT, FIRSTS, LANES, LENGTH, LOST, MOVED, OMEGA, RADIUS, RESTS, ROWS, TENSOR, side_by_side
 from .long_run import enter, placed, resized, safely
 from .long_step import ATTITUDE, DOUBT, MOVING, SPOT, TWIST
@@ -219,7 +220,16 @@ def through(S, b, body, now, traced, lane, V, first, last, curve):
     return joined(first, last, radius, traced, curve)
 
 
-def recorded(E, b, i, end, allowed, most, patient, lane, reported):
+def spinning(E, B, b):
+    """By how much an error of the attitude changes ω, at most: the root of the sum of the squares of its derivative."""
+    found = 0.0
+    for lane in range(3):
+        for c in range(3):
+            found += E[BY_ATTITUDE + c, lane * B + b] * E[BY_ATTITUDE + c, lane * B + b]
+    return sqrt(found)
+
+
+def recorded(E, B, b, i, end, allowed, most, patient, lane, reported):
     """Reports the errors of a ball after a step that stays, and says what the next ones may make.
 
     The errors are what its steps have left, and their roundings.  A ball is given up, so that it is followed again from
@@ -241,11 +251,11 @@ def recorded(E, b, i, end, allowed, most, patient, lane, reported):
     if left > share * most and reported[i, WALKED] < 0.25 * left and not patient:
         reported[i, UNTIL] = min(until, 1.0 - AT_END)
     lane[ALLOWED] = allowed * min(max(WANTED * most * share / left, TIGHTER), LOOSER) if left > 0.0 else allowed
-    lane[SPINNING] = max(lane[SPINNING], cautious * E[FOUND + 1, b] + spun + off * speed)
+    lane[SPINNING] = max(lane[SPINNING], cautious * E[FOUND + 1, b] + spun + off * max(speed, spinning(E, B, b)))
 
 
 def looked_at(
-    S, E, b, lost, interval, start, bearable, traced, sums, body, state, lane, V, first, last,
+    S, E, B, b, lost, interval, start, bearable, traced, sums, body, state, lane, V, first, last,
     curve, now,
 ):  # fmt: skip
     """Decides the fate of the step of a lane, and makes the polynomials of one that has frames in between."""
@@ -260,9 +270,11 @@ def looked_at(
             for c in range(MOVING):
                 now[c] = S[MOVED + c, b]
             off, out = through(S, b, body, now, traced, lane, V, first, last, curve)
-            more = max(lengthened(max(off, out) / (WANTED * bearable)), LEAST) * lane[STEP]
+            speed = lane[SPEED] / lane[UNIT]
+            worst = max(off * max(spinning(E, B, b) / speed, 1.0), out) if speed > 0.0 else max(off, out)
+            more = max(lengthened(worst / (WANTED * bearable)), LEAST) * lane[STEP]
             lane[SMOOTH], lane[OFF], lane[OUT] = more, off, out
-            if max(off, out) > bearable and lane[TRIES] < MOST_TRIES:
+            if worst > bearable and lane[TRIES] < MOST_TRIES:
                 lane[FATE], lane[SMOOTH], inside = AGAIN, min(more, UNSETTLED * lane[STEP]), False
         lane[KNOWN] = lane[STEP] * lane[UNIT] if inside else 0.0
     if lane[FATE] == STAYS:
@@ -310,7 +322,7 @@ def follow_lanes(
         for b in range(B):
             i = int(lanes[b, WHICH])
             looked_at(
-                S, E, b, lost, interval, start[i], BEARABLE * most[i], traced, sums, bodies[b],
+                S, E, B, b, lost, interval, start[i], BEARABLE * most[i], traced, sums, bodies[b],
                 states[b], lanes[b], V, ends[2 * b], ends[2 * b + 1], curves[b], now,
             )  # fmt: skip
         tangent(S, E, B, LAST_END, traced)
@@ -336,7 +348,7 @@ def follow_lanes(
                         shown(found, exponents[b], i, frame, momenta, verticals, attitudes, traces, follows, traced)
                     frame += 1
                     part = part_of(lanes[b], frame, interval)
-                recorded(E, b, i, end, allowed[i], most[i], patient, lanes[b], reported)
+                recorded(E, B, b, i, end, allowed[i], most[i], patient, lanes[b], reported)
                 lanes[b, NEXT], lanes[b, TRIES], lanes[b, NOW] = frame, 0.0, lanes[b, NOW] + lanes[b, STEP]
                 lanes[b, COMING] = lanes[b, COMING] - 1.0
                 for c in range(MOVING):
