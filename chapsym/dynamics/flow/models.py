@@ -52,7 +52,9 @@ def cut(poly: Any, degree: int) -> Any:
     """The polynomial to a degree, its constant wide enough for all that is beyond."""
     if poly.length() <= degree + 1:
         return poly
-    return poly.truncate(degree + 1) + arb(0, poly.right_shift(degree + 1)(UNIT).abs_upper())
+    coefficients = poly.coeffs()  # by the list: python-flint 0.7 has no `truncate`
+    beyond = arb_poly(coefficients[degree + 1 :])(UNIT).abs_upper()
+    return arb_poly(coefficients[: degree + 1]) + arb(0, beyond)
 
 
 def models(polynomials: Iterable[Any], degree: int) -> list[Model]:
