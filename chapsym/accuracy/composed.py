@@ -3,11 +3,12 @@
 The error of an order p after t seconds is about c (|ω|h)^p (1 + |ω|t), with nearly the same c for every ball that is
 not near a separatrix.  A run is compared with one of fewer steps, and by Richardson's rule its own error is their
 difference / (r^p - 1), where r is the ratio of the steps; it is taken `SAFETY` times as large.  A run that fails
-teaches the law, and is taken again with more steps.
+teaches the law, and is taken again with more steps.  One whose predecessor, of half as many steps, has stopped is not
+believed: errors do not yet fall as they should there, and may be alike by chance.
 """
 
-import math
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 
@@ -15,7 +16,7 @@ from chapsym.dynamics import Status
 from chapsym.dynamics.ball import Floats
 from chapsym.dynamics.loops.expected import FLOOR
 
-from .problem import Motion, Problem, Run, Stepping, apart
+from .problem import Motion, Problem, Run, Stepping, apart, nothing
 
 #: c of each order, measured on balls of all shapes; and the part of the accuracy that the law is to give.
 LAW, MARGIN = {2: 0.16, 4: 4.8e-3, 6: 1.9e-3, 8: 1.5e-5}, 0.1
@@ -27,63 +28,69 @@ ROUNDED = 8
 ATTEMPTS, LEAST_FINER, MOST_FINER = 8, 1.2, 4.0
 
 
-def composed(
-    problem: Problem, some: np.ndarray, found: Motion, progress: Callable[[float], None] = lambda part: None
-) -> None:
-    """Runs some balls until each is verified, with more steps those that are not; puts each where it belongs.
+def composed(problem: Problem, progress: Callable[[float], None] = lambda part: None) -> Motion:
+    """Runs all balls until each is verified, with more steps those that are not.
 
-    A ball that more steps do not help keeps the error that it has: rounding alone is larger than the accuracy.
+    Steps and estimates of a ball depend on it alone; balls of the same steps share a run.  A ball that more steps do
+    not help keeps the error that it has: rounding alone is larger than the accuracy.
     """
-    method, left, factor = cheapest(problem.of(some)), some, 1.0
-    before, gain = np.full(len(some), np.inf), 1.0
+    n = len(problem)
+    found, left, factor, before = nothing(problem), np.arange(n), np.ones(n), np.full(n, np.inf)
+    gain, stopped = np.ones(n), np.zeros(n, dtype=bool)
+    found.order[:], found.steps[:] = cheapest(problem, factor)
     for attempt in range(ATTEMPTS):
-        part = problem.of(left)
-        run = part.take(method)
-        error = _verified(part, method, run)
-        there = (error <= problem.accuracy) | (attempt + 1 == ATTEMPTS)
-        there |= np.isfinite(before) & np.isfinite(error) & (error > before / gain)
-        told = np.where(run.status == Status.TAKEN, error, np.nan)
-        _put(found, left[there], run.of(there), method, told[there])
-        progress(len(some) - len(left) + there.sum())
-        if there.all():
-            return
-        left, before, last = left[~there], error[~there], method
-        if np.isfinite(before).all():
-            part = problem.of(left)
-            expected = _error(part, method.order, problem.interval / method.steps)
-            factor = max(factor, float((before / (SAFETY * expected)).max(initial=1.0)))
-            method = _more(method, cheapest(part, factor))
-        else:  # a ball that stopped has no estimate
-            method = Stepping(method.order, 2 * method.steps)
+        for order, steps in sorted(set(zip(found.order[left].tolist(), found.steps[left].tolist(), strict=True))):
+            some = left[(found.order[left] == order) & (found.steps[left] == steps)]
+            part, method = problem.of(some), Stepping(order, steps)
+            run = part.take(method)
+            _put(found, some, run, method, _verified(part, method, run))
+        error = found.error[left]
+        fell, error = np.isfinite(error), np.where(stopped[left], np.inf, error)
+        found.error[left], stopped[left] = np.where(found.status[left] == Status.TAKEN, error, np.nan), ~fell
+        there = error <= problem.accuracy
+        there |= np.isfinite(before[left]) & np.isfinite(error) & (error > before[left] / gain[left])
+        before[left], left = error, left[~there]
+        progress(n - len(left))
+        if not len(left) or attempt + 1 == ATTEMPTS:
+            break
+        part, order, steps = problem.of(left), found.order[left], found.steps[left]
+        expected = _error(part, order, problem.interval / steps)
+        known = np.isfinite(before[left])
+        factor[left] = np.where(known, np.maximum(factor[left], before[left] / (SAFETY * expected)), factor[left])
+        wanted, finer = cheapest(part, factor[left])
+        least, most = LEAST_FINER * steps, MOST_FINER * steps
+        finer = np.where(wanted == order, shared(np.minimum(np.maximum(finer, least), most)), finer)
+        # One that stopped has no estimate of what it needs.
+        found.order[left], found.steps[left] = np.where(known, wanted, order), np.where(known, finer, 2 * steps)
         # Of what more steps should gain half, in decades, shows that they help.
-        gain = (method.steps / last.steps) ** (method.order / 2) if method.order == last.order else 2.0
+        gain[left] = np.where(found.order[left] == order, (found.steps[left] / steps) ** (order / 2), 2.0)
+    return found
 
 
-def _error(problem: Problem, order: int, step: float) -> Floats:
+def _error(problem: Problem, order: Any, step: Any) -> Floats:
     """The error by the law, of each ball."""
-    rate = problem.rate
-    return np.asarray(LAW[order] * (rate * step) ** order * (1 + rate * problem.end) * problem.unit)
+    rate, law = problem.rate, np.vectorize(LAW.get, otypes=[float])(order)
+    return np.asarray(law * (rate * step) ** order * (1 + rate * problem.end) * problem.unit)
 
 
-def cheapest(problem: Problem, factor: float = 1.0) -> Stepping:
-    """The order of the fewest stages that is expected to do for all balls, with errors `factor` times the law.
+def cheapest(problem: Problem, factor: Floats) -> tuple[np.ndarray, np.ndarray]:
+    """The order of the fewest stages that is expected to do, and its steps, of each ball, at `factor` times the law.
 
     The steps are so many that the last frame is one that can be compared: an error may grow a thousandfold within one.
     """
-    least, found = 1 + problem.frames % 2, []
+    found = []
     for order in LAW:
         expected = factor * _error(problem, order, problem.interval)
-        steps = float(((expected / (MARGIN * problem.accuracy)) ** (1 / order)).max())
-        found.append(Stepping(order, max(math.ceil(steps), least)))
-    return min(found, key=lambda method: method.stages)
+        found.append(shared((expected / (MARGIN * problem.accuracy)) ** (1 / order), 1 + problem.frames % 2))
+    steps, stages = np.array(found), np.array([[Stepping(order, 1).stages] for order in LAW])
+    best = (steps * stages).argmin(axis=0)
+    return np.array(list(LAW))[best], np.take_along_axis(steps, best[np.newaxis], axis=0)[0]
 
 
-def _more(method: Stepping, wanted: Stepping) -> Stepping:
-    """What to try next: of the same order neither hardly more steps nor very many more."""
-    if wanted.order != method.order:
-        return wanted
-    least, most = math.ceil(LEAST_FINER * method.steps), math.ceil(MOST_FINER * method.steps)
-    return Stepping(method.order, min(max(wanted.steps, least), most))
+def shared(steps: Floats, least: int = 1) -> np.ndarray:
+    """At least so many whole steps: of four numbers from a power of two to the next, so that balls have the same."""
+    part, exponent = np.frexp(steps)
+    return np.maximum(np.ceil(np.ldexp(np.ceil(8 * part), exponent - 3)), least).astype(np.int64)
 
 
 def _verified(problem: Problem, method: Stepping, run: Run) -> Floats:

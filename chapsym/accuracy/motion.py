@@ -127,8 +127,7 @@ def _follow(problem: Problem, progress: Callable[[float], None]) -> Motion:
     poor = np.flatnonzero((found.error > accuracy) & (SENSITIVE * started <= accuracy) | (found.status != Status.TAKEN))
     if len(poor):
         part = problem.of(poor)
-        other = nothing(part)
-        composed(part, np.arange(len(part)), other)
+        other = composed(part)
         other.total[:] = other.steps * problem.frames
         other.error[:] += np.nan_to_num(SENSITIVE * started[poor])
         # That estimate may miss how sensitive a ball is: it is believed where it is within the accuracy, or alone.

@@ -50,7 +50,7 @@ class Request:
             raise BadInput("an accuracy is asked for one ball; a batch takes steps that you choose")
         for name in ("time", "accuracy"):
             object.__setattr__(self, name, _positive(getattr(self, name), name))
-        if self.of not in NORMS:
+        if not isinstance(self.of, str) or self.of not in NORMS:
             raise BadInput(f'of must be "state" or "contact", not {self.of!r}')
         if self.of == "contact" and self.ball.radius is None:
             raise BadInput("the contact point needs the radius: give the ball its mass and radius")

@@ -13,7 +13,7 @@ from chapsym.dynamics import BadInput, Ball, Trajectory, kernels, trajectory
 from chapsym.dynamics.attitudes import attitude_with, initial_attitude
 from chapsym.dynamics.ball import SMALLEST, Floats, batch, checked_before, numbers, unit_vertical
 from chapsym.dynamics.results import finished, in_given_axes
-from chapsym.dynamics.trajectories import seconds, whole_number
+from chapsym.dynamics.trajectories import flag, seconds, whole_number
 from chapsym.generated import contact_momentum
 from chapsym.numbers import Precision
 
@@ -64,13 +64,14 @@ def roll(
     """
     spin, vertical, turned = _start(ball, omega, gamma, attitude, axes)
     place = None if position is HERE else numbers(position, "position", 2)
-    by_map = map or order is not None or precision is not None
+    by_map = flag(map, "map") or order is not None or precision is not None
     if by_map and accuracy is not None:
         raise BadInput("accuracy is of the motion of the ball; leave out order, precision and map")
     run = _rolled(
-        ball, spin, vertical, turned, contact, "double" if precision is None else precision, seconds(time_step),
-        whole_number(steps, "steps", 0), every=whole_number(every, "every", 1), order=2 if order is None else order,
-        accuracy=None if by_map else _accuracy(accuracy), threads=threads, progress=progress,
+        ball, spin, vertical, turned, flag(contact, "contact"), "double" if precision is None else precision,
+        seconds(time_step), whole_number(steps, "steps", 0), every=whole_number(every, "every", 1),
+        order=2 if order is None else order, accuracy=None if by_map else _accuracy(accuracy),
+        threads=whole_number(threads, "threads", 0), progress=progress,
     )  # fmt: skip
     if contact and place is not None:
         run.contact[...] += place[..., np.newaxis, :]
@@ -106,7 +107,7 @@ def _start(
         batch(ball.principal, spin, vertical)  # so that a mistake is reported in the names of this function
     if not isinstance(turned, bool):
         turned = initial_attitude(turned, vertical)
-    if axes not in ("body", "space"):
+    if not isinstance(axes, str) or axes not in ("body", "space"):
         raise BadInput(f'axes must be "body" or "space", not {axes!r}')
     if axes == "space":
         to_space = attitude_with(vertical) if isinstance(turned, bool) else turned

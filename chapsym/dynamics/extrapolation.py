@@ -33,7 +33,7 @@ from .loops.lanes import EIGHT, MOST_COLUMNS
 from .loops.long_run import march_eight, march_one
 from .loops.long_step import CHANGES, LAST
 from .results import in_given_axes
-from .trajectories import rolling_radius, whole_number
+from .trajectories import flag, rolling_radius, whole_number
 
 #: From so many balls on a block of eight is faster than one after another.
 FEW = 6
@@ -110,7 +110,7 @@ def extrapolate(
     kept = max(steps, 1) if every is None else min(whole_number(every, "every", 1), steps + 1)
     threads, h = whole_number(threads, "threads", 0), _seconds(time_step)
     shape, (K, g, J, D) = batch(ball, numbers(angular_momentum, "angular_momentum", 3), unit_vertical(gamma))
-    follows = contact or is_followed(attitude)
+    follows = flag(contact, "contact") or is_followed(attitude)
     n, count = len(D), steps // kept + 1
     body = count if follows else 0
     try:
@@ -123,7 +123,7 @@ def extrapolate(
         attitudes[:, 0], spots[:, 0] = np.broadcast_to(first, (*shape, 4)).reshape(-1, 4), 0.0
     radius = np.broadcast_to(rolling_radius(ball), shape).reshape(-1).copy() if contact else D
     frames = momenta, verticals, attitudes, spots, J, D, radius
-    how = h, steps, kept, follows, bool(contact)
+    how = h, steps, kept, follows, contact
     doubt, taken, status = _march(frames, how, columns, threads, not shape, progress)
 
     def shaped(array: Floats) -> Floats:

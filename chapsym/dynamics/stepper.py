@@ -20,7 +20,7 @@ from .levels.dispatch import no_room
 from .loops import loop
 from .loops.loop import G, K
 from .results import Trajectory, finished
-from .trajectories import rolling_radius, seconds, whole_number
+from .trajectories import flag, rolling_radius, seconds, whole_number
 
 R = TypeVar("R")
 
@@ -142,7 +142,7 @@ class Stepper(UnderWay[Trajectory]):
         if shape:
             raise BadInput(f"a Stepper takes one ball, not a batch with the leading axes {shape}")
         epsilon = None if time_step is None else seconds(time_step)
-        self._prepare(ball, order, bool(contact) or is_followed(attitude), bool(contact), epsilon)
+        self._prepare(ball, order, flag(contact, "contact") or is_followed(attitude), contact, epsilon)
         self.restart(momentum, gamma, attitude)
 
     def _prepare(self, ball: Ball, order: int, follows: bool, traced: bool, time_step: float | None) -> None:

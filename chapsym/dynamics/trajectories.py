@@ -72,7 +72,7 @@ def trajectory(
     time_step = None if time_step is None else seconds(time_step)
     precision = dispatch.precision_of(precision)
     shape, (K, g, J, D) = batch(ball, numbers(momentum, "momentum", 3), unit_vertical(gamma))
-    with_body = contact or is_followed(attitude)
+    with_body = flag(contact, "contact") or is_followed(attitude)
     radius = np.broadcast_to(rolling_radius(ball) if contact else 0.0, shape).reshape(-1)
     balls, frames = len(D), steps // every + 1
     body_frames = frames if with_body else 0
@@ -116,6 +116,13 @@ def whole_number(value: int, name: str, least: int, most: int | None = None) -> 
         told = "on" if most is None else f"to {most}"
         raise BadInput(f"{name} must be a whole number from {least} {told}, not {value!r}")
     return min(int(value), MOST_STEPS)
+
+
+def flag(value: bool, name: str) -> bool:
+    """True or False; raises BadInput for anything else."""
+    if not isinstance(value, bool | np.bool_):
+        raise BadInput(f"{name} must be True or False, not {value!r:.60}")
+    return bool(value)
 
 
 def step_numbers(index: ArrayLike) -> np.ndarray:
