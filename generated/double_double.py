@@ -3,7 +3,7 @@
 Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 From the kernels centre_step, compose, gibbs_residual, isotropic_spin, residual, rotate, turn.
 Proved by: 2.1, 4.9, 5.1, 5.2, gibbs, gibbs-rotation, isotropic-spin, stable-momentum, steady, steady-axis, steady-branch, steady-roll.
-Programs: sha256 b75b4ab5dcace88022a775ee93122819ef669a5afc66bd119a25d73ce8975bdc.
+Programs: sha256 d0d28b418bb27e49b429c94c7a56ee601b776e562768a595ca24bcbf47d750fe.
 """
 
 from chapsym.numbers.pairs import divide, loose_add, loose_add_float, loose_multiply, loose_multiply_float, loose_subtract, two_product, two_sum
@@ -290,6 +290,84 @@ def turn_pairs(u1, u1_, u2, u2_, u3, u3_, k1, k1_, k2, k2_, k3, k3_, g1, g1_, g2
     o_h1, o_h1_ = two_sum(t58, t58_)
     o_h2, o_h2_ = two_sum(t59, t59_)
     o_h3, o_h3_ = two_sum(t60, t60_)
+    return o_l1, o_l1_, o_l2, o_l2_, o_l3, o_l3_, o_h1, o_h1_, o_h2, o_h2_, o_h3, o_h3_
+
+
+def rotate_pairs(a0, a0_, a1, a1_, a2, a2_, a3, a3_, k1, k1_, k2, k2_, k3, k3_, g1, g1_, g2, g2_, g3, g3_):
+    """Ak and Aγ for the attitude A.
+
+    first: a0, a1, a2, a3
+    half_momentum: k1, k2, k3
+    gamma: g1, g2, g3
+    Returns l1, l2, l3, h1, h2, h3 as normalised pairs.
+    Operations: 426.
+    """
+    t0, t0_ = loose_multiply(a2, a2_, a2, a2_)
+    t1, t1_ = loose_multiply(a3, a3_, a3, a3_)
+    t2, t2_ = 2 * k1, 2 * k1_
+    t3, t3_ = loose_multiply(a0, a0_, a2, a2_)
+    t4, t4_ = loose_multiply(a1, a1_, a3, a3_)
+    t5, t5_ = loose_multiply(a0, a0_, a3, a3_)
+    t6, t6_ = loose_multiply(a1, a1_, a2, a2_)
+    t7, t7_ = 2 * k2, 2 * k2_
+    t8, t8_ = loose_multiply(a1, a1_, a1, a1_)
+    t9, t9_ = loose_multiply(a0, a0_, a1, a1_)
+    t10, t10_ = loose_multiply(a2, a2_, a3, a3_)
+    t11, t11_ = 2 * k3, 2 * k3_
+    t12, t12_ = loose_add(t3, t3_, t4, t4_)
+    t13, t13_ = loose_multiply(t11, t11_, t12, t12_)
+    t14, t14_ = loose_add(k1, k1_, t13, t13_)
+    t15, t15_ = loose_add(t0, t0_, t1, t1_)
+    t16, t16_ = loose_multiply(t2, t2_, t15, t15_)
+    t17, t17_ = loose_subtract(t5, t5_, t6, t6_)
+    t18, t18_ = loose_multiply(t7, t7_, t17, t17_)
+    t19, t19_ = loose_add(t16, t16_, t18, t18_)
+    t20, t20_ = loose_subtract(t14, t14_, t19, t19_)
+    t21, t21_ = loose_add(t5, t5_, t6, t6_)
+    t22, t22_ = loose_multiply(t2, t2_, t21, t21_)
+    t23, t23_ = loose_add(k2, k2_, t22, t22_)
+    t24, t24_ = loose_subtract(t9, t9_, t10, t10_)
+    t25, t25_ = loose_multiply(t11, t11_, t24, t24_)
+    t26, t26_ = loose_add(t1, t1_, t8, t8_)
+    t27, t27_ = loose_multiply(t7, t7_, t26, t26_)
+    t28, t28_ = loose_add(t25, t25_, t27, t27_)
+    t29, t29_ = loose_subtract(t23, t23_, t28, t28_)
+    t30, t30_ = loose_add(t9, t9_, t10, t10_)
+    t31, t31_ = loose_multiply(t7, t7_, t30, t30_)
+    t32, t32_ = loose_add(k3, k3_, t31, t31_)
+    t33, t33_ = loose_add(t0, t0_, t8, t8_)
+    t34, t34_ = loose_multiply(t11, t11_, t33, t33_)
+    t35, t35_ = loose_subtract(t3, t3_, t4, t4_)
+    t36, t36_ = loose_multiply(t2, t2_, t35, t35_)
+    t37, t37_ = loose_add(t34, t34_, t36, t36_)
+    t38, t38_ = loose_subtract(t32, t32_, t37, t37_)
+    t39, t39_ = 2 * g1, 2 * g1_
+    t40, t40_ = 2 * g2, 2 * g2_
+    t41, t41_ = 2 * g3, 2 * g3_
+    t42, t42_ = loose_multiply(t12, t12_, t41, t41_)
+    t43, t43_ = loose_add(g1, g1_, t42, t42_)
+    t44, t44_ = loose_multiply(t15, t15_, t39, t39_)
+    t45, t45_ = loose_multiply(t17, t17_, t40, t40_)
+    t46, t46_ = loose_add(t44, t44_, t45, t45_)
+    t47, t47_ = loose_subtract(t43, t43_, t46, t46_)
+    t48, t48_ = loose_multiply(t21, t21_, t39, t39_)
+    t49, t49_ = loose_add(g2, g2_, t48, t48_)
+    t50, t50_ = loose_multiply(t24, t24_, t41, t41_)
+    t51, t51_ = loose_multiply(t26, t26_, t40, t40_)
+    t52, t52_ = loose_add(t50, t50_, t51, t51_)
+    t53, t53_ = loose_subtract(t49, t49_, t52, t52_)
+    t54, t54_ = loose_multiply(t30, t30_, t40, t40_)
+    t55, t55_ = loose_add(g3, g3_, t54, t54_)
+    t56, t56_ = loose_multiply(t33, t33_, t41, t41_)
+    t57, t57_ = loose_multiply(t35, t35_, t39, t39_)
+    t58, t58_ = loose_add(t56, t56_, t57, t57_)
+    t59, t59_ = loose_subtract(t55, t55_, t58, t58_)
+    o_l1, o_l1_ = two_sum(t20, t20_)
+    o_l2, o_l2_ = two_sum(t29, t29_)
+    o_l3, o_l3_ = two_sum(t38, t38_)
+    o_h1, o_h1_ = two_sum(t47, t47_)
+    o_h2, o_h2_ = two_sum(t53, t53_)
+    o_h3, o_h3_ = two_sum(t59, t59_)
     return o_l1, o_l1_, o_l2, o_l2_, o_l3, o_l3_, o_h1, o_h1_, o_h2, o_h2_, o_h3, o_h3_
 
 

@@ -83,6 +83,7 @@ typedef struct { int64_t a0; real a1; } t_ir;
 typedef struct { real a0, a1; } t_r2;
 typedef struct { int64_t a0, a1; real a2; } t_i2r;
 typedef struct { real a0, a1, a2; } t_r3;
+typedef struct { int64_t a0, a1; real a2, a3; } t_i2r2;
 typedef struct { real a0, a1, a2, a3; } t_r4;
 typedef struct { int a0; real a1, a2, a3, a4; } t_br4;
 typedef struct { real a0, a1, a2, a3, a4; } t_r5;
@@ -2743,6 +2744,168 @@ INLINE void double_double_block_march_pairs_block(r2 state, int64_t first, int64
     block_carry(S, state, 16);
 }
 
+INLINE t_r12 double_double_rotate_pairs(real a0, real a0_, real a1, real a1_, real a2, real a2_, real a3, real a3_,
+    real k1, real k1_, real k2, real k2_, real k3, real k3_, real g1, real g1_, real g2, real g2_, real g3, real g3_)
+    {
+    t_r2 t0 = pairs_loose_multiply(a2, a2_, a2, a2_), t1 = pairs_loose_multiply(a3, a3_, a3, a3_);
+    real t2 = 2 * k1, t2_ = 2 * k1_;
+    t_r2 t3 = pairs_loose_multiply(a0, a0_, a2, a2_), t4 = pairs_loose_multiply(a1, a1_, a3, a3_);
+    t_r2 t5 = pairs_loose_multiply(a0, a0_, a3, a3_), t6 = pairs_loose_multiply(a1, a1_, a2, a2_);
+    real t7 = 2 * k2, t7_ = 2 * k2_;
+    t_r2 t8 = pairs_loose_multiply(a1, a1_, a1, a1_), t9 = pairs_loose_multiply(a0, a0_, a1, a1_);
+    t_r2 t10 = pairs_loose_multiply(a2, a2_, a3, a3_); real t11 = 2 * k3, t11_ = 2 * k3_;
+    t_r2 t12 = pairs_loose_add(t3.a0, t3.a1, t4.a0, t4.a1), t13 = pairs_loose_multiply(t11, t11_, t12.a0, t12.a1);
+    t_r2 t14 = pairs_loose_add(k1, k1_, t13.a0, t13.a1), t15 = pairs_loose_add(t0.a0, t0.a1, t1.a0, t1.a1);
+    t_r2 t16 = pairs_loose_multiply(t2, t2_, t15.a0, t15.a1), t17 = pairs_loose_subtract(t5.a0, t5.a1, t6.a0, t6.a1);
+    t_r2 t18 = pairs_loose_multiply(t7, t7_, t17.a0, t17.a1), t19 = pairs_loose_add(t16.a0, t16.a1, t18.a0, t18.a1);
+    t_r2 t20 = pairs_loose_subtract(t14.a0, t14.a1, t19.a0, t19.a1);
+    t_r2 t21 = pairs_loose_add(t5.a0, t5.a1, t6.a0, t6.a1), t22 = pairs_loose_multiply(t2, t2_, t21.a0, t21.a1);
+    t_r2 t23 = pairs_loose_add(k2, k2_, t22.a0, t22.a1), t24 = pairs_loose_subtract(t9.a0, t9.a1, t10.a0, t10.a1);
+    t_r2 t25 = pairs_loose_multiply(t11, t11_, t24.a0, t24.a1), t26 = pairs_loose_add(t1.a0, t1.a1, t8.a0, t8.a1);
+    t_r2 t27 = pairs_loose_multiply(t7, t7_, t26.a0, t26.a1), t28 = pairs_loose_add(t25.a0, t25.a1, t27.a0, t27.a1);
+    t_r2 t29 = pairs_loose_subtract(t23.a0, t23.a1, t28.a0, t28.a1);
+    t_r2 t30 = pairs_loose_add(t9.a0, t9.a1, t10.a0, t10.a1), t31 = pairs_loose_multiply(t7, t7_, t30.a0, t30.a1);
+    t_r2 t32 = pairs_loose_add(k3, k3_, t31.a0, t31.a1), t33 = pairs_loose_add(t0.a0, t0.a1, t8.a0, t8.a1);
+    t_r2 t34 = pairs_loose_multiply(t11, t11_, t33.a0, t33.a1);
+    t_r2 t35 = pairs_loose_subtract(t3.a0, t3.a1, t4.a0, t4.a1), t36 = pairs_loose_multiply(t2, t2_, t35.a0, t35.a1);
+    t_r2 t37 = pairs_loose_add(t34.a0, t34.a1, t36.a0, t36.a1);
+    t_r2 t38 = pairs_loose_subtract(t32.a0, t32.a1, t37.a0, t37.a1);
+    real t39 = 2 * g1, t39_ = 2 * g1_, t40 = 2 * g2, t40_ = 2 * g2_, t41 = 2 * g3, t41_ = 2 * g3_;
+    t_r2 t42 = pairs_loose_multiply(t12.a0, t12.a1, t41, t41_), t43 = pairs_loose_add(g1, g1_, t42.a0, t42.a1);
+    t_r2 t44 = pairs_loose_multiply(t15.a0, t15.a1, t39, t39_);
+    t_r2 t45 = pairs_loose_multiply(t17.a0, t17.a1, t40, t40_);
+    t_r2 t46 = pairs_loose_add(t44.a0, t44.a1, t45.a0, t45.a1);
+    t_r2 t47 = pairs_loose_subtract(t43.a0, t43.a1, t46.a0, t46.a1);
+    t_r2 t48 = pairs_loose_multiply(t21.a0, t21.a1, t39, t39_), t49 = pairs_loose_add(g2, g2_, t48.a0, t48.a1);
+    t_r2 t50 = pairs_loose_multiply(t24.a0, t24.a1, t41, t41_);
+    t_r2 t51 = pairs_loose_multiply(t26.a0, t26.a1, t40, t40_);
+    t_r2 t52 = pairs_loose_add(t50.a0, t50.a1, t51.a0, t51.a1);
+    t_r2 t53 = pairs_loose_subtract(t49.a0, t49.a1, t52.a0, t52.a1);
+    t_r2 t54 = pairs_loose_multiply(t30.a0, t30.a1, t40, t40_), t55 = pairs_loose_add(g3, g3_, t54.a0, t54.a1);
+    t_r2 t56 = pairs_loose_multiply(t33.a0, t33.a1, t41, t41_);
+    t_r2 t57 = pairs_loose_multiply(t35.a0, t35.a1, t39, t39_);
+    t_r2 t58 = pairs_loose_add(t56.a0, t56.a1, t57.a0, t57.a1);
+    t_r2 t59 = pairs_loose_subtract(t55.a0, t55.a1, t58.a0, t58.a1), o_l1 = pairs_two_sum(t20.a0, t20.a1);
+    t_r2 o_l2 = pairs_two_sum(t29.a0, t29.a1), o_l3 = pairs_two_sum(t38.a0, t38.a1);
+    t_r2 o_h1 = pairs_two_sum(t47.a0, t47.a1), o_h2 = pairs_two_sum(t53.a0, t53.a1);
+    t_r2 o_h3 = pairs_two_sum(t59.a0, t59.a1);
+    return (t_r12){o_l1.a0, o_l1.a1, o_l2.a0, o_l2.a1, o_l3.a0, o_l3.a1, o_h1.a0, o_h1.a1, o_h2.a0, o_h2.a1, o_h3.a0,
+        o_h3.a1};
+}
+
+INLINE void double_double_long_turned_into(r1 vectors, r1 attitude, real way, r1 to) {
+    t_r12 t_1 = double_double_rotate_pairs(attitude.p[0], attitude.p[1], way * attitude.p[2], way * attitude.p[3], way
+        * attitude.p[4], way * attitude.p[5], way * attitude.p[6], way * attitude.p[7], vectors.p[0], vectors.p[1],
+        vectors.p[2], vectors.p[3], vectors.p[4], vectors.p[5], vectors.p[6], vectors.p[7], vectors.p[8],
+        vectors.p[9], vectors.p[10], vectors.p[11]);
+    to.p[0] = t_1.a0; to.p[1] = t_1.a1; to.p[2] = t_1.a2; to.p[3] = t_1.a3; to.p[4] = t_1.a4; to.p[5] = t_1.a5;
+    to.p[6] = t_1.a6; to.p[7] = t_1.a7; to.p[8] = t_1.a8; to.p[9] = t_1.a9; to.p[10] = t_1.a10; to.p[11] = t_1.a11;
+}
+
+INLINE t_ir double_double_long_column(r1 state, int64_t n, real radius, real enough, real rho, r1 body) {
+    t_ir7 status; r1 attitude = r1_part(body, 0, 8), contact = r1_part(body, 8, 12);
+    t_r3 t_1 = kernel_angular_velocity(state.p[0], state.p[2], state.p[4], state.p[6], state.p[8], state.p[10],
+        state.p[18], state.p[19], state.p[20], state.p[21]);
+    real u1 = t_1.a0, u2 = t_1.a1, u3 = t_1.a2, v1 = u1, v2 = u2, v3 = u3;
+    for (int64_t i_0 = 0, end_i_0 = n; i_0 < end_i_0; i_0++) {
+        status = double_double_step_solved(u1, u2, u3, state.p[0], state.p[1], state.p[2], state.p[3], state.p[4],
+            state.p[5], state.p[6], state.p[7], state.p[8], state.p[9], state.p[10], state.p[11], state.p[12],
+            state.p[13], state.p[14], state.p[15], state.p[16], state.p[17], state.p[18], state.p[19], state.p[20],
+            state.p[21], radius, enough);
+        if (status.a0 != 0) { return (t_ir){status.a0, status.a1}; }
+        double_double_loop_follow_body(status.a2, status.a3, status.a4, status.a5, status.a6, status.a7, state,
+            attitude, contact, rho);
+        double_double_loop_turn_both(status.a2, status.a3, status.a4, status.a5, status.a6, status.a7, state);
+        u1 = R(2.0) * status.a2 - v1; u2 = R(2.0) * status.a4 - v2; u3 = R(2.0) * status.a6 - v3; v1 = status.a2;
+        v2 = status.a4; v3 = status.a6;
+    }
+    return (t_ir){0, R(1.0)};
+}
+
+INLINE void double_double_long_add_share(r1 sums, real w, real w_, r1 numbers, int64_t count) {
+    real x, x_;
+    for (int64_t i = 0, end_i = 2 * count; i < end_i; i += 2) {
+        t_r2 t_1 = pairs_multiply(w, w_, numbers.p[i], numbers.p[i + 1]); x = t_1.a0; x_ = t_1.a1;
+        t_r2 t_2 = pairs_loose_add(sums.p[i], sums.p[i + 1], x, x_); x = t_2.a0; x_ = t_2.a1;
+        t_r2 t_3 = pairs_two_sum(x, x_); sums.p[i] = t_3.a0; sums.p[i + 1] = t_3.a1;
+    }
+}
+
+INLINE void double_double_long_to_length_one(r1 q) {
+    real x, x_; t_r2 t_1 = pairs_loose_multiply(q.p[0], q.p[1], q.p[0], q.p[1]); real n = t_1.a0, n_ = t_1.a1;
+    for (int64_t i = 2; i < 8; i += 2) {
+        t_r2 t_2 = pairs_loose_multiply(q.p[i], q.p[i + 1], q.p[i], q.p[i + 1]); x = t_2.a0; x_ = t_2.a1;
+        t_r2 t_3 = pairs_loose_add(n, n_, x, x_); n = t_3.a0; n_ = t_3.a1;
+    }
+    t_r2 t_4 = pairs_two_sum(n, n_); x = t_4.a0; x_ = t_4.a1; t_r2 t_5 = pairs_root(x, x_); n = t_5.a0; n_ = t_5.a1;
+    for (int64_t i = 0; i < 8; i += 2) {
+        t_r2 t_6 = pairs_divide(q.p[i], q.p[i + 1], n, n_); q.p[i] = t_6.a0; q.p[i + 1] = t_6.a1;
+    }
+}
+
+INLINE t_i2r2 double_double_long_march_long_pairs(r1 momentum, r1 g, r1 tensor, real contact, real h, real h_, int64_t
+    first, int64_t count, int64_t every, r2 weights, real rho, int follows, r1 attitude, r1 body, r2 momenta, r2
+    momenta_, r2 verticals, r2 verticals_, r2 attitudes, r2 attitudes_, r2 traces, r2 traces_) {
+    real s, a, b, c_, d; int64_t n, frame; t_r2 f, x; t_ir status; int64_t columns = weights.n0; real doubt = R(0.0);
+    ALIGNED real state_[28]; memset(state_, 0, sizeof state_); r1 state = {state_, 28}; ALIGNED real one_[1 * 2];
+    memset(one_, 0, sizeof one_); r2 one = {one_, 1, 2, 2}; ALIGNED real limits_[2 * columns];
+    memset(limits_, 0, sizeof limits_); r2 limits = {limits_, 2, columns, columns}; ALIGNED real space_[12];
+    memset(space_, 0, sizeof space_); r1 space = {space_, 12}; ALIGNED real moved_[12];
+    memset(moved_, 0, sizeof moved_); r1 moved = {moved_, 12}; ALIGNED real sums_[12]; memset(sums_, 0, sizeof sums_);
+    r1 sums = {sums_, 12}; ALIGNED real changes_[8]; memset(changes_, 0, sizeof changes_); r1 changes = {changes_, 8};
+    AT2(one, 0, 0) = R(1.0);
+    t_ri size = real_frexp(max_r(max_r(R(fabs(momentum.p[0])), R(fabs(momentum.p[1]))), R(fabs(momentum.p[2]))));
+    t_ri mantissa = real_frexp(h); ALIGNED real part_[3]; memset(part_, 0, sizeof part_); r1 part = {part_, 3};
+    for (int64_t c = 0; c < 3; c++) { part.p[c] = R(ldexp(momentum.p[c], (int)min_i(mantissa.a1, 1000))); }
+    t_i2 shift = double_double_loop_prepare_pairs(part, g, tensor, contact, one, state, r2_row(limits, 0),
+        r2_row(limits, 1));
+    real half = R(ldexp(mantissa.a0, (int)min_i(size.a1 + mantissa.a1 + shift.a0, 100)));
+    real half_ = R(ldexp(R(ldexp(h_, (int)-mantissa.a1)), (int)min_i(size.a1 + mantissa.a1 + shift.a0, 100)));
+    for (int64_t c = 0; c < 3; c++) { moved.p[2 * c] = R(ldexp(momentum.p[c], (int)-size.a1)); }
+    for (int64_t c = 0; c < 6; c++) { moved.p[6 + c] = state.p[6 + c]; }
+    for (int64_t j = 0, end_j = columns; j < end_j; j++) {
+        s = half / (3 + j);
+        t_r2 t_1 = double_double_step_bounds(s * moved.p[0], s * moved.p[2], s * moved.p[4], state.p[12], state.p[14],
+            state.p[16], state.p[21]);
+        AT2(limits, 0, j) = t_1.a0; AT2(limits, 1, j) = t_1.a1;
+    }
+    double_double_long_turned_into(moved, attitude, R(1.0), space);
+    for (int64_t step = first, end_step = first + count; step < end_step; step++) {
+        r1_fill(sums, R(0.0)); r1_fill(changes, R(0.0));
+        for (int64_t j = 0, end_j = columns; j < end_j; j++) {
+            n = 3 + j; double_double_long_turned_into(space, body, R(-1.0), state);
+            f = pairs_divide(half, half_, n * R(1.0), R(0.0));
+            for (int64_t c = 0; c < 6; c += 2) {
+                t_r2 t_2 = pairs_multiply(state.p[0 + c], state.p[0 + c + 1], f.a0, f.a1); state.p[0 + c] = t_2.a0;
+                state.p[0 + c + 1] = t_2.a1;
+            }
+            for (int64_t c = 0; c < 8; c++) { moved.p[c] = body.p[c]; moved.p[8 + div_i(c, 2)] = R(0.0); }
+            status = double_double_long_column(state, n, AT2(limits, 0, j), AT2(limits, 1, j), rho, moved);
+            if (status.a0 != 0) { return (t_i2r2){step - first, status.a0, status.a1, doubt}; }
+            double_double_long_add_share(sums, AT2(weights, j, 0), AT2(weights, j, 1), moved, 6);
+            double_double_long_add_share(changes, AT2(weights, j, 2), AT2(weights, j, 3), moved, 4);
+        }
+        for (int64_t c = 0; c < 8; c++) { body.p[c] = sums.p[c]; }
+        double_double_long_to_length_one(body);
+        for (int64_t c = 8; c < 12; c += 2) {
+            x = pairs_loose_add(body.p[c], body.p[c + 1], sums.p[c], sums.p[c + 1]);
+            t_r2 t_3 = pairs_two_sum(x.a0, x.a1); body.p[c] = t_3.a0; body.p[c + 1] = t_3.a1;
+        }
+        a = changes.p[0]; b = changes.p[2]; c_ = changes.p[4]; d = changes.p[6];
+        doubt = doubt + R(2.0) * R(sqrt(a * a + b * b + (c_ * c_ + d * d)));
+        if (mod_i(step + 1, every) == 0) {
+            frame = div_i(step + 1, every); double_double_long_turned_into(space, body, R(-1.0), state);
+            double_double_loop_write(r2_row(momenta, frame), r2_row(momenta_, frame), state, 0, size.a1);
+            double_double_loop_write(r2_row(verticals, frame), r2_row(verticals_, frame), state, 6, 0);
+            if (follows) {
+                double_double_loop_write(r2_row(attitudes, frame), r2_row(attitudes_, frame), body, 0, 0);
+                double_double_loop_write(r2_row(traces, frame), r2_row(traces_, frame), body, 8, -shift.a1);
+            }
+        }
+    }
+    return (t_i2r2){count, 0, R(1.0), doubt};
+}
+
 INLINE t_r3 tangent_cross(real a1, real a2, real a3, real b1, real b2, real b3) {
     return (t_r3){a2 * b3 - a3 * b2, a3 * b1 - a1 * b3, a1 * b2 - a2 * b1};
 }
@@ -3632,6 +3795,13 @@ WIDEST static void in_double_double_block_march_pairs_block(const argument *a, a
     (void)got;
 }
 
+WIDEST static void in_double_double_long_march_long_pairs(const argument *a, argument *got) {
+    t_i2r2 out = double_double_long_march_long_pairs(r1_(0), r1_(1), r1_(2), r_(3), r_(4), r_(5), i_(6), i_(7), i_(8),
+        r2_(9), r_(10), b_(11), r1_(12), r1_(13), r2_(14), r2_(15), r2_(16), r2_(17), r2_(18), r2_(19), r2_(20),
+        r2_(21));
+    got[0].integer = out.a0; got[1].integer = out.a1; got[2].number = out.a2; got[3].number = out.a3;
+}
+
 WIDEST static void in_tangent_follow_all(const argument *a, argument *got) {
     tangent_follow_all(r2_(0), r2_(1), r1_(2), r_(3), i_(4), r2_(5)); (void)got;
 }
@@ -3674,6 +3844,7 @@ const loop_export LOOPS()[] = {
     {"double_double_loop_march_pairs", "r1* r2 r1 r1 r3* i i i i i r2* r2* r2* r2* b r1* r1* r r2* r2* r2* r2*", "iir", in_double_double_loop_march_pairs},
     {"double_double_block_prepare_pairs_block", "r2 r2 r2 r1 r2 r2* i1* i1*", "", in_double_double_block_prepare_pairs_block},
     {"double_double_block_march_pairs_block", "r2* i i i i1 r3* r3* r3* r3* i1* i1* d1*", "", in_double_double_block_march_pairs_block},
+    {"double_double_long_march_long_pairs", "r1 r1 r1 r r r i i i r2 r b r1 r1* r2* r2* r2* r2* r2* r2* r2* r2*", "iirr", in_double_double_long_march_long_pairs},
     {"tangent_follow_all", "r2 r2 r1 r i r2*", "", in_tangent_follow_all},
     {"following_follow_one", "r3* r3* r3* r3* r2 r1 r1 r r1 r1 r1 r1 b b b r2 r3 r2 r2* i1* i1* d1*", "", in_following_follow_one},
     {"following_follow_eight", "r3* r3* r3* r3* r2 r1 r1 r r1 r1 r1 r1 b b b r2 r3 r2 r2* i1* i1* d1*", "", in_following_follow_eight},
@@ -3683,5 +3854,5 @@ const loop_export LOOPS()[] = {
 };
 const int LOOPS(_count) = sizeof LOOPS() / sizeof *LOOPS();
 #ifndef SINGLE
-const char loops_text[] = "8088bd23d6c038016718f3ad28882bccbbf5b92fa289f15dbcea294809790344";
+const char loops_text[] = "d7ff13f2756cec8fcc34c270d9795b204785e0ede93c5cfb740f74d0a2b9795c";
 #endif

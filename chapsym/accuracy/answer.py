@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 import time as clock
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -13,18 +14,25 @@ from numpy.typing import ArrayLike
 
 from chapsym.dynamics import BadInput, Ball, Status, StepNotTaken, Trajectory
 from chapsym.dynamics.ball import checked_before
+from chapsym.dynamics.extrapolation import MOST_OF_PAIRS, weights
+from chapsym.dynamics.loops.double_double_long import FIRST
 from chapsym.dynamics.results import some_frames
 from chapsym.numbers import NAMED, Digits, Double, Single
 from chapsym.renamed import in_words
 
-from .composed import ATTEMPTS, LAW, LEAST_FINER, MARGIN, MOST_FINER, RATIO, SAFETY
+from .composed import ATTEMPTS, LEAST_FINER, MARGIN, MOST_FINER
 from .methods import EXACT, EXTRAPOLATED, Method, checks, in_range, take
 from .motion import FINEST, ROUNDING, moved, nominal
 from .problem import Motion, Problem
-from .request import Request, distance, exact_values
+from .request import Request, distance, exact_values, rounding
 
 #: Nominal seconds of a stage in double-double.
 STAGE = 3e-7
+#: In double-double the error of c columns after t seconds is about DOUBLED^c (|ω|h)^(2c) (1 + |ω|t): measured on balls
+#: of all shapes.  Steps of LONGEST radians, at most, are tried.
+DOUBLED, LONGEST = 0.0125, 2.0
+#: Runs of FEWEST columns or more are compared with LESS columns fewer.
+FEWEST, LESS = 4, 2
 #: Runs of more steps are refused.
 MOST_STEPS = 2**53
 
@@ -40,8 +48,8 @@ class Choice:
 
     def sentence(self) -> str:
         """The choice for a reader."""
-        named = {EXACT: "steady rotation", EXTRAPOLATED: "extrapolated to order 12"}
-        order = named.get(self.method.order, f"order {self.method.order}")
+        order = f"order {self.method.order}" if self.method.order != EXACT else "steady rotation"
+        order = f"extrapolated to {order}" if self.method.columns else order
         return f"{in_words(self.method.label)}, {order}, {self.steps} steps of {self.time_step:.6g} s"
 
 
@@ -58,7 +66,7 @@ class Attempt:
 class Accurate:
     """A run that meets its request.
 
-    trajectory: at the times asked for; its order is 12 for long steps, 0 for a steady rotation.
+    trajectory: at the times asked for; its order is 10 or more for long steps, 0 for a steady rotation.
     attempts: all that was tried, the last of them the one that is delivered.
     seconds: of the processor, for everything.
     """
@@ -111,9 +119,9 @@ def accurate(
     attitude: True or a unit quaternion, (4,), to be followed; its angle counts, too.
     limit: seconds that the run may be expected to take.
 
-    In double precision the error is estimated as by `roll`; where that has not the accuracy, compositions in
-    double-double are compared with fewer steps.  Raises BadInput for a request that cannot be met: one that would take
-    longer than the limit, or that is finer than every precision.
+    In double precision the error is estimated as by `roll`; where that has not the accuracy, long steps in
+    double-double are compared with those of a lower order.  Raises BadInput for a request that cannot be met: one that
+    would take longer than the limit, or that is finer than every precision.
     """
     started = clock.thread_time()
     request = Request(ball, angular_momentum, gamma, time, accuracy, of, frames, attitude)  # type: ignore[arg-type]
@@ -128,7 +136,7 @@ def accurate(
             if found.error[0] <= request.accuracy:
                 run = _as_trajectory(request, found)
                 return Accurate(run, request, attempts, clock.thread_time() - started)
-        progress(_doubled(request, 1.0, limit).sentence())
+        progress(_doubled(request, limit).sentence())
     run = _by_double_double(request, limit, attempts)
     return Accurate(run, request, attempts, clock.thread_time() - started)
 
@@ -162,7 +170,7 @@ def _foreseen(request: Request, limit: Any) -> tuple[Problem | None, Choice]:
         steps = max(round(problem.expected), 1)
         method = Method(NAMED["double"], EXTRAPOLATED)
         return problem, _within(Choice(method, steps, request.time / steps, seconds), limit)
-    return None, _doubled(request, 1.0, limit)
+    return None, _doubled(request, limit)
 
 
 def _problem(request: Request) -> Problem:
@@ -213,21 +221,23 @@ def _within(choice: Choice, limit: float) -> Choice:
     return choice
 
 
-def _doubled(request: Request, factor: float, limit: float, least: float = 0.0, most: float = math.inf) -> Choice:
-    """The composition in double-double of the fewest stages, where errors are `factor` times the law.
+def _doubled(request: Request, limit: float, finer: float = 1.0, noisy: float = 1.0) -> Choice:
+    """Long steps in double-double of the fewest stages, `finer` times as many as by the law.
 
+    noisy: how many times as large as expected its roundings have become.
     Raises BadInput where rounding alone is larger, or the steps are too many, or take too long.
     """
     precision, found = NAMED["double-double"], []
-    for order, c in LAW.items():
-        method = Method(precision, order)
-        law = factor * c * (1 + request.angle) * request.unit
-        wanted = request.angle * (law / (MARGIN * request.accuracy)) ** (1 / order)
-        if not wanted < MOST_STEPS:
+    for columns in range(FEWEST, MOST_OF_PAIRS + 1):
+        method, coarse = Method(precision, 2 * columns), Method(precision, 2 * (columns - LESS))
+        law = DOUBLED**coarse.columns * (1 + request.angle) * request.unit
+        turn = min((MARGIN * request.accuracy / law) ** (1 / coarse.order), LONGEST)
+        if not finer * request.angle / turn < MOST_STEPS:
             continue
-        steps = multiple(request, method, min(max(wanted, least), most))
-        seconds = steps * (1 + 1 / RATIO) * method.stages * STAGE
-        if request.floor(precision, steps * method.stages, False) <= ROUNDING * request.accuracy:
+        every = checks(request, method)
+        steps = every * max(1, math.ceil(finer * request.angle / turn / every))
+        seconds = steps * (method.stages + coarse.stages) * STAGE
+        if noisy * _rounded(request, columns, steps) <= ROUNDING * request.accuracy:
             found.append(Choice(method, steps, request.time / steps, seconds))
     if not found:
         raise BadInput(
@@ -237,38 +247,44 @@ def _doubled(request: Request, factor: float, limit: float, least: float = 0.0, 
     return _within(min(found, key=lambda choice: choice.seconds), limit)
 
 
-def multiple(request: Request, method: Method, steps: float) -> int:
-    """The least number of steps from `steps` on that the checks divide."""
-    every = checks(request, method)
-    return every * max(1, math.ceil(steps / every))
+def _rounded(request: Request, columns: int, steps: int) -> float:
+    """What rounding is expected to leave of long steps in double-double: the weights multiply it."""
+    precision, walked = NAMED["double-double"], math.sqrt(request.condition * steps)
+    path = request.angle if request.of == "contact" else 0.0
+    return request.shared(precision) + rounding(precision) * _multiplied(columns) * walked * (1 + path) * request.unit
+
+
+@cache
+def _multiplied(columns: int) -> float:
+    """How many times as large as those of the columns the roundings of a long step are, at most."""
+    return float(sum(map(abs, weights(columns, FIRST))))
 
 
 def _by_double_double(request: Request, limit: float, attempts: list[Attempt]) -> Trajectory:
-    """A composition in double-double, verified by one of fewer steps, and with more until it is."""
-    factor, least, most = 1.0, 0.0, math.inf
+    """Long steps in double-double, verified by the same with fewer columns, and shorter until they are."""
+    finer, noisy, before = 1.0, 1.0, math.inf
     for _ in range(ATTEMPTS):
         started = clock.thread_time()
-        choice = _doubled(request, factor, limit, least, most)
+        choice = _doubled(request, limit, finer, noisy)
         method, every = choice.method, checks(request, choice.method)
-        fewer = multiple(request, method, choice.steps / RATIO)
-        if fewer == choice.steps:
-            choice = replace(choice, steps=2 * fewer, time_step=request.time / (2 * fewer))
-        apart = math.inf
+        fewer, apart, longer = Method(method.precision, method.order - 2 * LESS), math.inf, 2.0
         try:
             run = take(request, method, choice.steps, every)
-            coarse = take(request, method, fewer, every)
-            left = (choice.steps / fewer) ** method.order - 1
-            apart = float(distance(request, run, coarse).max()) * min(SAFETY / left, 1.0)
+            apart = float(distance(request, run, take(request, fewer, choice.steps, every)).max())
+            longer = (apart / (MARGIN * request.accuracy)) ** (1 / fewer.order)
         except StepNotTaken as error:
             if error.status == Status.NO_INERTIA:
                 raise BadInput(f"the ball cannot be followed: {error}") from None
-        floor = request.floor(method.precision, choice.steps * method.stages, False)
-        attempts.append(Attempt(choice, apart + floor, clock.thread_time() - started))
-        if apart + floor <= request.accuracy:
+        rounded = _rounded(request, method.columns, choice.steps)
+        estimate = apart + rounded
+        attempts.append(Attempt(choice, estimate, clock.thread_time() - started))
+        if estimate <= request.accuracy:
             return some_frames(run, slice(None, None, every // request.frames))
-        least, most = LEAST_FINER * choice.steps, MOST_FINER * choice.steps
-        if math.isfinite(apart):
-            factor *= max(1.0, apart / (MARGIN * request.accuracy))
+        if before / 2 < apart < math.inf:  # it is what the motion makes of roundings: fewer columns have less
+            noisy = max(noisy, apart / rounded)
+        else:
+            finer *= min(max(longer, LEAST_FINER), MOST_FINER)
+        before = apart
     best = min(one.estimate for one in attempts)
     raise BadInput(
         f"no run was verified to {request.accuracy:g} in {ATTEMPTS} attempts; the best differed by {best:.2g}"

@@ -15,15 +15,16 @@ from chapsym.dynamics import (
     trajectory,
 )
 from chapsym.dynamics.ball import Floats
-from chapsym.dynamics.extrapolation import stages_of
-from chapsym.numbers import NAMED, Digits, Double, DoubleDouble, Precision, Single
+from chapsym.dynamics.extrapolation import MOST_OF_PAIRS, stages_of
+from chapsym.dynamics.loops.double_double_long import FIRST
+from chapsym.dynamics.results import Low
+from chapsym.numbers import NAMED, Digits, Double, DoubleDouble, Pair, Precision, Single, pairs
 
 from .request import Request
 
-#: Orders of `trajectory`; of `extrapolate`; and that of the exact top, which has no error of the step.
-COMPOSED, EXTRAPOLATED, EXACT = (2, 4, 6, 8), 12, 0
-#: Columns of the extrapolation: half of its order.
-COLUMNS = EXTRAPOLATED // 2
+#: Orders of `trajectory`; of `extrapolate` in double, and at most in double-double; and that of the exact top, which
+#: has no error of the step.
+COMPOSED, EXTRAPOLATED, OF_PAIRS, EXACT = (2, 4, 6, 8), 12, 2 * MOST_OF_PAIRS, 0
 #: Below this not all 106 bits of double-double, of a stage of a composition, are within the range of float64.
 SMALLEST = 2.0**-900
 #: Runs are compared at so many times at least: a difference that is small by chance at one is not so at all.
@@ -32,7 +33,7 @@ CHECKS, FEW = 16, 4
 
 @dataclass(frozen=True)
 class Method:
-    """A precision and an order: 2, 4, 6, 8; 12 for `extrapolate`; 0 for `exact_top`, or a steady rotation."""
+    """A precision and an order: 2 to 8; from 10 on that of `extrapolate`; 0 for `exact_top`, or a steady rotation."""
 
     precision: Precision
     order: int
@@ -43,20 +44,15 @@ class Method:
         return label_of(self.precision)
 
     @property
-    def summed(self) -> bool:
-        """Whether 𝒦 and γ are summed with compensation, as float64's are in a composition."""
-        return self.order != EXTRAPOLATED and isinstance(self.precision, Double)
-
-    @property
-    def walked(self) -> int:
-        """How many roundings of 𝒦, γ and the attitude a step adds."""
-        return 1 if self.order == EXTRAPOLATED else self.stages
+    def columns(self) -> int:
+        """Of `extrapolate`; 0 for the others."""
+        return self.order // 2 if self.order > COMPOSED[-1] else 0
 
     @property
     def stages(self) -> int:
         """Steps of the map in a step."""
-        if self.order == EXTRAPOLATED:
-            return stages_of(COLUMNS)
+        if self.columns:
+            return stages_of(self.columns, FIRST if isinstance(self.precision, DoubleDouble) else 0)
         return len(substeps(self.order or 2))
 
 
@@ -70,6 +66,8 @@ def label_of(precision: Precision) -> str:
 def methods(request: Request, precision: Precision) -> list[Method]:
     """All that can be asked of a precision for this request."""
     found = [Method(precision, order) for order in COMPOSED]
+    if precision == NAMED["double-double"]:
+        found.append(Method(precision, OF_PAIRS))
     if precision == NAMED["double"]:
         found.append(Method(precision, EXTRAPOLATED))
         if request.of == "state" and _is_top(request):
@@ -88,7 +86,7 @@ def _is_top(request: Request) -> bool:
 
 def checks(request: Request, method: Method) -> int:
     """The equal times at which two runs are compared, a multiple of the frames: few where the steps are long."""
-    least = FEW if method.order == EXTRAPOLATED else CHECKS
+    least = FEW if method.columns else CHECKS
     return request.frames * -(-least // request.frames)
 
 
@@ -102,8 +100,8 @@ def take(request: Request, method: Method, steps: int, frames: int, time: float 
     in_range(step, request.angular_momentum)
     body = request.body
     ball, K, g = request.ball, request.angular_momentum, request.gamma
-    if method.order == EXTRAPOLATED:
-        return _extrapolated(request, step, every, frames, body)
+    if method.columns:
+        return _extrapolated(request, method, Fraction(end) / steps, every, frames)
     if method.order == EXACT:
         top = exact_top(ball, step * K, g)
         run = trajectory(top.ball, top.momentum, g, steps, every=every, attitude=body, time_step=step)
@@ -127,13 +125,19 @@ def in_range(step: float, K: Floats) -> None:
         raise BadInput(f"{what} is below {SMALLEST:.0e}, where float64 loses digits; take other units of time or mass")
 
 
-def _extrapolated(request: Request, step: float, every: int, frames: int, body: Any) -> Trajectory:
-    """`extrapolate` as a trajectory of order 12."""
+def _extrapolated(request: Request, method: Method, step: Fraction, every: int, frames: int) -> Trajectory:
+    """`extrapolate` as a trajectory."""
+    of_pairs = isinstance(method.precision, DoubleDouble)
     found = extrapolate(
-        request.ball, request.angular_momentum, request.gamma, step, frames * every, columns=COLUMNS, every=every,
-        attitude=body, contact=request.of == "contact",
+        request.ball, request.angular_momentum, request.gamma, step if of_pairs else float(step), frames * every,
+        columns=method.columns, every=every, attitude=request.body, contact=request.of == "contact",
+        precision=method.precision,
     )  # fmt: skip
+    momentum, low = found.angular_momentum * float(step), None
+    if found.low is not None:
+        momentum, rest = pairs.multiply(found.angular_momentum, found.low.angular_momentum, *Pair.of(step).halves())
+        low = Low(rest, found.low.gamma, found.low.attitude, found.low.contact)
     return Trajectory(
-        request.ball, np.arange(frames + 1) * every, found.angular_momentum * step, found.gamma, found.attitude,
-        found.contact, np.array(frames * every), found.status, step, EXTRAPOLATED,
+        request.ball, np.arange(frames + 1) * every, momentum, found.gamma, found.attitude, found.contact,
+        np.array(frames * every), found.status, float(step), method.order, method.precision, low,
     )  # fmt: skip

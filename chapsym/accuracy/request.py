@@ -123,19 +123,9 @@ class Request:
     def shared(self, precision: Precision) -> float:
         """The rounding that all runs at a precision have in common, so that no comparison shows it: of J, D, K and γ.
 
-        The factors here and in `floor` are the least that covered what was measured on some twenty random balls.
+        The factor is the least that covered what was measured on some twenty random balls.
         """
         return 2 * rounding(precision) * math.sqrt(self.condition) * (1 + self.angle) * self.unit
-
-    def floor(self, precision: Precision, stages: float, summed: bool) -> float:
-        """The error that rounding is expected to make in a run of so many stages.
-
-        summed: whether 𝒦 and γ are summed with compensation; the attitude never is.  What is not walks at random.
-        """
-        turned = 0.0 if summed else math.sqrt(self.condition) * (1 + self.angle) * self.unit
-        path = self.angle if self.of == "contact" else 0.0
-        rolled = 0.0 if not self.with_body else 2 * (1 + path) * self.unit
-        return self.shared(precision) + rounding(precision) * math.sqrt(stages) * max(turned, rolled)
 
 
 def _positive(value: Any, name: str) -> float:
@@ -166,8 +156,16 @@ def distance(request: Request, run: Trajectory, other: Trajectory) -> Floats:
 
 
 def _difference(request: Request, run: Trajectory, other: Trajectory, name: str) -> Floats:
+    if {run.momentum.dtype, other.momentum.dtype} == {np.dtype(float)} and run.time_step == other.time_step:
+        off = (getattr(run, name) - getattr(other, name)) + (_rest(run, name) - _rest(other, name))
+        return np.asarray(off / run.time_step if name == "momentum" else off)[1:]
     a, b = exact_values(request, run, name), exact_values(request, other, name)
     return (a - b).astype(float)[1:]
+
+
+def _rest(run: Trajectory, name: str) -> Any:
+    """What double-double numbers have beyond float64."""
+    return 0.0 if run.low is None else getattr(run.low, name)
 
 
 def lengths(v: np.ndarray) -> Floats:

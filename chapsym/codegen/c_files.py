@@ -19,6 +19,7 @@ LOOPS = (
     "vertical_loop",
     "double_double_loop",
     "double_double_block",
+    "double_double_long",
     "tangent",
     "following",
     "expected",

@@ -77,6 +77,16 @@ h1, h2, h3 = g1 + y1, g2 + y2, g3 + y3
 """,
     ),
     Program(
+        "rotate_pairs",
+        "Ak and Aγ for the attitude A.",
+        (FIRST, HALF, GAMMA),
+        ("l1", "l2", "l3", "h1", "h2", "h3"),
+        """
+l1, l2, l3 = rotate(a0, a1, a2, a3, k1, k2, k3)
+h1, h2, h3 = rotate(a0, a1, a2, a3, g1, g2, g3)
+""",
+    ),
+    Program(
         "roll_pairs",
         "The attitude, divided by its length, and the contact point after the rotation q₀(1, u), q₀ = 1/√(1 + |u|²).",
         (

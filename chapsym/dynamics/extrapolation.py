@@ -4,13 +4,14 @@ The map is self-adjoint, so the rotation that n steps of length h/n make togethe
 Its quaternions for c values of n up to 7, with the weights n²/(n² - m²) multiplied over the other m, leave an error of
 order h^(2c+1).  The steps are fitted to steady rotation (`loops.fitted`), which leaves less of it.  K and γ are then
 turned by *one* rotation: ⟨K,γ⟩, |K|² and |γ|² are kept to rounding, at every order.  A step is no longer exactly
-self-adjoint, as compositions are, nor is the measure kept: both to the order h^(2c+1).
+self-adjoint, as compositions are, nor is the measure kept: both to the order h^(2c+1).  In double-double there are
+columns up to n = 14, which are not fitted.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cache
 from itertools import pairwise
@@ -21,13 +22,15 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 import chapsym.dynamics.native as native
+from chapsym.numbers import NAMED, Double, DoubleDouble, Pair, Precision
 
 from .attitudes import initial_attitude
 from .ball import Asked, Ball, Floats, batch, is_followed, numbers, unit_vertical
 from .errors import BadInput, Status, StepNotTaken
-from .levels import double
-from .levels.dispatch import no_room
-from .levels.frames import Count, cores, share
+from .levels import double, double_double
+from .levels.dispatch import frames_for, no_room, precision_of
+from .levels.frames import Balls, Count, cores, share
+from .loops import double_double_long
 from .loops.guess import guess_weights
 from .loops.lanes import EIGHT, MOST_COLUMNS
 from .loops.long_run import march_eight, march_one
@@ -37,6 +40,8 @@ from .trajectories import flag, rolling_radius, whole_number
 
 #: From so many balls on a block of eight is faster than one after another.
 FEW = 6
+#: Columns in double-double, at most and as a rule: more of them make more of the roundings than they leave of the rest.
+MOST_OF_PAIRS = 12
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,6 +56,7 @@ class Extrapolated:
     (...): an estimate of the error that one column less would have made, so a large one of the error.
     status: a `Status` for each ball, (...); from where it is not TAKEN on the numbers above are NaN.
     taken: the steps of each ball before that, (...).
+    low: in double-double, what the numbers above have beyond float64, as a record of its own; else None.
     """
 
     angular_momentum: Floats
@@ -61,18 +67,32 @@ class Extrapolated:
     taken: np.ndarray
     contact: Asked = None
     index: np.ndarray | None = None
+    low: Extrapolated | None = None
 
 
 @cache
-def weights(columns: int) -> tuple[Fraction, ...]:
-    """The exact weights of the columns n = 8 - columns, ..., 7: Σ w = 1 and Σ w/n^(2j) = 0 for 0 < j < columns."""
-    every = range(LAST + 1 - columns, LAST + 1)
+def weights(columns: int, first: int = 0) -> tuple[Fraction, ...]:
+    """The exact weights of the columns n = 8 - columns, ..., 7: Σ w = 1 and Σ w/n^(2j) = 0 for 0 < j < columns.
+
+    first: the n of the first column, where that is another.
+    """
+    every = range(first, first + columns) if first else range(LAST + 1 - columns, LAST + 1)
     return tuple(prod((Fraction(n * n, n * n - m * m) for m in every if m != n), start=Fraction(1)) for n in every)
 
 
-def stages_of(columns: int) -> int:
-    """How many steps of the map a long step is."""
-    return sum(range(LAST + 1 - columns, LAST + 1))
+@cache
+def weights_of_pairs(columns: int) -> Floats:
+    """What `march_long_pairs` takes: the weights, and the differences that the last column makes, (columns, 4)."""
+    whole, fewer = (weights(n, double_double_long.FIRST) for n in (columns, columns - 1))
+    return np.array([
+        [*Pair.of(w).halves(), *Pair.of(w - v).halves()] for w, v in zip(whole, (*fewer, Fraction(0)), strict=True)
+    ])  # fmt: skip
+
+
+def stages_of(columns: int, first: int = 0) -> int:
+    """How many steps of the map a long step is; first: as of `weights`."""
+    first = first or LAST + 1 - columns
+    return sum(range(first, first + columns))
 
 
 @in_given_axes
@@ -80,25 +100,29 @@ def extrapolate(
     ball: Ball,
     angular_momentum: ArrayLike,
     gamma: ArrayLike,
-    time_step: float,
+    time_step: float | Fraction,
     steps: int,
     *,
-    columns: int = 6,
+    columns: int | None = None,
     every: int | None = None,
     attitude: bool | ArrayLike = False,
     contact: bool = False,
+    precision: str | Precision = "double",
     threads: int = 0,
     progress: Callable[[int], None] = lambda steps_done: None,
 ) -> Extrapolated:
     """Follows the continuous ball (2.12, 2.13) for `steps` times `time_step`, to the order 2 `columns`.
 
     angular_momentum: K in kg m²/s, shape (..., 3); gamma: unit verticals upwards, (..., 3).  Both broadcast with
-    each other and with the balls.  time_step: seconds, negative for back in time.
-    columns: 2 to 6.  A step is 8 - columns, ..., 6 and 7 steps of the map beside each other; its error is of the order
-    time_step^(2 columns), ⟨K,γ⟩, |K|² and |γ|² are kept to rounding.
+    each other and with the balls.  time_step: seconds, negative for back in time; a Fraction keeps 106 bits in
+    double-double.
+    columns: 2 to 6, the default.  A step is 8 - columns, ..., 6 and 7 steps of the map beside each other; its error is
+    of the order time_step^(2 columns), ⟨K,γ⟩, |K|² and |γ|² are kept to rounding.  In double-double 2 to 12, the
+    default, of 3, 4, ..., columns + 2 steps of the map.
     every: without it only the end is kept; with it the start and every `every`-th state.
     attitude: True (from the least rotation with R γ = e₃) or unit quaternions, (..., 4), to be followed.
     contact: whether to trace the contact point, to the same order; it needs `ball.radius`, and implies the attitude.
+    precision: "double" or "double-double", in which γ (and an attitude) is divided by its length.
     threads: how many cores a batch may use; 0 for all.
     progress: called with the steps done so far, of all balls together, whenever one ball or eight have all of theirs.
 
@@ -106,35 +130,69 @@ def extrapolate(
     One ball raises StepNotTaken where the map has no step of length time_step/n; a batch reports `status`.
     Raises BadInput as `step` does, for a time_step that is not one finite number, and for counts out of range.
     """
-    steps, columns = whole_number(steps, "steps", 0), whole_number(columns, "columns", 2, MOST_COLUMNS)
+    of_pairs = precision != "double" and _is_doubled(precision)
+    most = MOST_OF_PAIRS if of_pairs else MOST_COLUMNS
+    columns = most if columns is None else whole_number(columns, "columns", 2, most)
+    steps, threads, h = whole_number(steps, "steps", 0), whole_number(threads, "threads", 0), _seconds(time_step)
     kept = max(steps, 1) if every is None else min(whole_number(every, "every", 1), steps + 1)
-    threads, h = whole_number(threads, "threads", 0), _seconds(time_step)
     shape, (K, g, J, D) = batch(ball, numbers(angular_momentum, "angular_momentum", 3), unit_vertical(gamma))
     follows = flag(contact, "contact") or is_followed(attitude)
     n, count = len(D), steps // kept + 1
     body = count if follows else 0
-    try:
-        momenta, verticals = _frames(K, count), _frames(g, count)
-        attitudes, spots = np.empty((n, body, 4)), np.empty((n, body, 2))
-    except (MemoryError, ValueError):
-        raise no_room(count, n) from None
-    if follows:
-        first = initial_attitude(attitude, g.reshape(*shape, 3))
-        attitudes[:, 0], spots[:, 0] = np.broadcast_to(first, (*shape, 4)).reshape(-1, 4), 0.0
     radius = np.broadcast_to(rolling_radius(ball), shape).reshape(-1).copy() if contact else D
-    frames = momenta, verticals, attitudes, spots, J, D, radius
-    how = h, steps, kept, follows, contact
-    doubt, taken, status = _march(frames, how, columns, threads, not shape, progress)
+    first = np.broadcast_to(initial_attitude(attitude, g.reshape(*shape, 3)), (*shape, 4)) if follows else None
 
     def shaped(array: Floats) -> Floats:
         array = array[:, -1] if every is None else array
         return array.reshape(shape + array.shape[1:]) if shape else array[0]
 
-    return Extrapolated(
-        shaped(momenta), shaped(verticals), shaped(attitudes) if follows else None, doubt.reshape(shape),
-        status.reshape(shape), taken.reshape(shape), shaped(spots) if contact else None,
-        None if every is None else np.arange(count) * kept,
-    )  # fmt: skip
+    def result(momenta: Floats, verticals: Floats, attitudes: Floats, spots: Floats) -> Extrapolated:
+        return Extrapolated(
+            shaped(momenta), shaped(verticals), shaped(attitudes) if follows else None, doubt.reshape(shape),
+            status.reshape(shape), taken.reshape(shape), shaped(spots) if contact else None,
+            None if every is None else np.arange(count) * kept,
+        )  # fmt: skip
+
+    if of_pairs:
+        frames = frames_for(NAMED["double-double"], n, count, body, isinstance(attitude, bool | np.bool_))
+        frames.momentum[:, 0], frames.gamma[:, 0] = K, g
+        if first is not None:
+            frames.attitude[:, 0], frames.contact[:, 0] = first.reshape(-1, 4), 0.0
+        doubt = double_double.run_long(
+            Balls(K, g, J, D, radius), _pair(time_step, h), steps, kept, frames, weights_of_pairs(columns), threads,
+            progress,
+        )  # fmt: skip
+        taken, status = frames.taken, frames.status
+        if not shape and status[0]:
+            raise StepNotTaken(Status(int(status[0])), float(frames.reach[0]), int(taken[0]))
+        assert frames.low is not None
+        high, low = (result(x.momentum, x.gamma, x.attitude, x.contact) for x in (frames, frames.low))
+        return replace(high, low=low)
+    try:
+        momenta, verticals = _frames(K, count), _frames(g, count)
+        attitudes, spots = np.empty((n, body, 4)), np.empty((n, body, 2))
+    except (MemoryError, ValueError):
+        raise no_room(count, n) from None
+    if first is not None:
+        attitudes[:, 0], spots[:, 0] = first.reshape(-1, 4), 0.0
+    arrays = momenta, verticals, attitudes, spots
+    doubt, taken, status = _march(
+        (*arrays, J, D, radius), (h, steps, kept, follows, contact), columns, threads, not shape, progress
+    )
+    return result(*arrays)
+
+
+def _is_doubled(precision: str | Precision) -> bool:
+    """Whether it is double-double; raises BadInput for what is neither that nor double."""
+    found = precision_of(precision)
+    if not isinstance(found, Double | DoubleDouble):
+        raise BadInput('long steps have the precisions "double" and "double-double"')
+    return isinstance(found, DoubleDouble)
+
+
+def _pair(time_step: Any, h: float) -> Pair:
+    """A long step for double-double."""
+    return Pair.of(time_step) if isinstance(time_step, Fraction) else Pair(h)
 
 
 def _frames(first: Floats, count: int) -> Floats:
@@ -146,7 +204,7 @@ def _frames(first: Floats, count: int) -> Floats:
     return frames
 
 
-def _seconds(time_step: float) -> float:
+def _seconds(time_step: Any) -> float:
     """One finite number; raises BadInput for anything else."""
     if type(time_step) is float and isfinite(time_step):
         return time_step

@@ -92,8 +92,8 @@ def test_looser_targets_cost_less():
 
 
 def test_a_law_that_promises_too_much_is_found_out(monkeypatch):
-    """In double-double all errors are thought a thousand times smaller than they are: the comparison must notice."""
-    monkeypatch.setattr(answer, "LAW", {order: c / 1000 for order, c in answer.LAW.items()})
+    """In double-double all errors are thought 4^10 times smaller than they are: the comparison must notice."""
+    monkeypatch.setattr(answer, "DOUBLED", answer.DOUBLED / 4)
     found = asked(1e-15, "state")
     assert len(found.attempts) > 1
     assert found.attempts[0].estimate > 1e-15

@@ -130,6 +130,7 @@ CASES = [
     *((lambda n=n, o=o: long(n, **o), loops) for o in ({"time_step": 0.3, "contact": True}, {"time_step": 1.0},
       {"time_step": 0.7, "columns": 2, "attitude": True})
       for n, loops in ((1, {"long_run_march_one"}), (9, {"long_run_march_one", "long_run_march_eight"}))),
+    (lambda: long(2, time_step=0.3, contact=True, precision="double-double"), {"double_double_long_march_long_pairs"}),
     (in_four, {"loop_n_march"}),
     (lambda: chapsym.trajectory_vertical(Ball((1, 2, 4), 0), [0.3, 1.0, 0.0], (0.6, 0.0, 0.8), 300),
      {"vertical_loop_march"}),

@@ -14,6 +14,7 @@ from ..coefficients import COMPOSITIONS
 from ..errors import Status
 from ..failure import explain
 from ..loops import double_double_block as block
+from ..loops import double_double_long as long
 from ..loops import double_double_loop as loop
 from .frames import Balls, Count, Frames, cores, share
 
@@ -149,3 +150,46 @@ def _run_block(
         i = which.start + lane
         K, g = np.ldexp(state[:6:2, lane], -int(shift[lane])), state[6:12:2, lane]
         status[lane] = explain(status[lane], K, g, balls.mass_tensor[i], float(balls.D[i]))
+
+
+def run_long(
+    balls: Balls, h: Pair, steps: int, every: int, frames: Frames, weights: Floats, threads: int,
+    progress: Callable[[int], None],
+) -> Floats:  # fmt: skip
+    """Long steps of h seconds of the continuous ball, by `double_double_long`, from K in the place of 𝒦.
+
+    weights: of `march_long_pairs`.  It writes frame 0 anew, as `run` does; returns the sum of the doubts, (n,).
+    """
+    low, doubt, count = frames.low, np.zeros(len(balls.D)), Count(progress)
+    assert low is not None
+    march, chunk = native.loop(long.march_long_pairs), max(1, CHUNK // (len(weights) * long.FIRST * 4))
+
+    def task(i: int) -> None:
+        g, body = normalised(balls.gamma[i]), np.zeros((6, 2))
+        of_attitude = frames.with_body and not frames.least
+        body[:4] = [x.halves() for x in (normalised(frames.attitude[i, 0]) if of_attitude else least_rotation(*g))]
+        frames.gamma[i, 0], low.gamma[i, 0] = np.array([x.halves() for x in g]).T
+        low.momentum[i, 0] = 0.0
+        if frames.with_body:
+            frames.attitude[i, 0], low.attitude[i, 0] = body[:4].T
+            low.contact[i, 0] = 0.0
+        start = body[:4].reshape(-1).copy()
+        for first in range(0, steps, chunk):
+            now = min(chunk, steps - first)
+            went, frames.status[i], frames.reach[i], more = march(
+                balls.momentum[i], balls.gamma[i], balls.mass_tensor[i], float(balls.D[i]), *h.halves(), first, now,
+                every, weights, float(balls.radius[i]), frames.with_body, start, body.reshape(-1), frames.momentum[i],
+                low.momentum[i], frames.gamma[i], low.gamma[i], frames.attitude[i], low.attitude[i],
+                frames.contact[i], low.contact[i],
+            )  # fmt: skip
+            doubt[i] += more
+            frames.taken[i] += went
+            count.add(now)
+            if frames.status[i] != Status.TAKEN:
+                doubt[i] = math.nan
+            if count.stopped or frames.status[i] != Status.TAKEN:
+                return
+
+    work = steps * len(balls.D) * len(weights)
+    share(task, range(len(balls.D)), threads or cores() if work >= SHORT_RUN else 1, count)
+    return doubt
