@@ -9,6 +9,7 @@ from typing import Annotated, Any
 import typer
 
 from chapsym.rationals import rationals
+from chapsym.renamed import in_words
 
 from . import measured
 from .app import app
@@ -245,7 +246,7 @@ def _study(wanted: list[str], quick: bool, output: Path | None, as_json: bool) -
             fail(f"trade {name}: {error}", 1)
     quiet()
     if output is not None and page:
-        tables = [measured.Table(one.title, one.table(), one.sentences()) for one in found.values()]
+        tables = [measured.Table(one.title, one.table(), [*map(in_words, one.sentences())]) for one in found.values()]
         measured.write(output, "Speed against accuracy", ABOUT, tables, _shown)
     elif output is not None:
         from chapsym.studies.figures import save_figure
@@ -261,7 +262,7 @@ def _study(wanted: list[str], quick: bool, output: Path | None, as_json: bool) -
 
 
 def _shown(value: Any) -> str:
-    return f"{value:.3g}" if isinstance(value, float) else str(value)
+    return f"{value:.3g}" if isinstance(value, float) else in_words(str(value))
 
 
 def print_tables(found: dict[str, Any], machine: dict[str, Any]) -> None:
@@ -270,6 +271,6 @@ def print_tables(found: dict[str, Any], machine: dict[str, Any]) -> None:
     for section in found.values():
         print_table(console, section.title, section.table(), _shown)
         for sentence in section.sentences():
-            console.print(f"  {sentence}")
+            console.print(f"  {in_words(sentence)}")
         console.print()
     console.print(f"{machine['cpu']}; {machine['cores']} cores; {machine['system']}; {machine['python']}")
