@@ -2856,7 +2856,9 @@ INLINE t_i2r2 double_double_long_march_long_pairs(r1 momentum, r1 g, r1 tensor, 
     AT2(one, 0, 0) = R(1.0);
     t_ri size = real_frexp(max_r(max_r(R(fabs(momentum.p[0])), R(fabs(momentum.p[1]))), R(fabs(momentum.p[2]))));
     t_ri mantissa = real_frexp(h); ALIGNED real part_[3]; memset(part_, 0, sizeof part_); r1 part = {part_, 3};
-    for (int64_t c = 0; c < 3; c++) { part.p[c] = R(ldexp(momentum.p[c], (int)min_i(mantissa.a1, 1000))); }
+    for (int64_t c = 0; c < 3; c++) {
+        part.p[c] = R(ldexp(R(ldexp(momentum.p[c], (int)-size.a1)), (int)min_i(size.a1 + mantissa.a1, 1000)));
+    }
     t_i2 shift = double_double_loop_prepare_pairs(part, g, tensor, contact, one, state, r2_row(limits, 0),
         r2_row(limits, 1));
     real half = R(ldexp(mantissa.a0, (int)min_i(size.a1 + mantissa.a1 + shift.a0, 100)));
@@ -3854,5 +3856,5 @@ const loop_export LOOPS()[] = {
 };
 const int LOOPS(_count) = sizeof LOOPS() / sizeof *LOOPS();
 #ifndef SINGLE
-const char loops_text[] = "d7ff13f2756cec8fcc34c270d9795b204785e0ede93c5cfb740f74d0a2b9795c";
+const char loops_text[] = "78c73e63be779e905a50fe30c41fd96b9835e046ad3a25a6e18692d78dc643f4";
 #endif

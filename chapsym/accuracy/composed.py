@@ -88,7 +88,7 @@ def cheapest(problem: Problem, factor: Floats) -> tuple[np.ndarray, np.ndarray]:
 
 
 def shared(steps: Floats, least: int = 1) -> np.ndarray:
-    """At least so many whole steps: of four numbers from a power of two to the next, so that balls have the same."""
+    """Whole steps, rounded up to one of four numbers between powers of two: balls that need as many share them."""
     part, exponent = np.frexp(steps)
     return np.maximum(np.ceil(np.ldexp(np.ceil(8 * part), exponent - 3)), least).astype(np.int64)
 

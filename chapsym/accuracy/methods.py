@@ -20,11 +20,12 @@ from chapsym.dynamics.loops.double_double_long import FIRST
 from chapsym.dynamics.results import Low
 from chapsym.numbers import NAMED, Digits, Double, DoubleDouble, Pair, Precision, Single, pairs
 
+from .problem import EXTRAPOLATED
 from .request import Request
 
-#: Orders of `trajectory`; of `extrapolate` in double, and at most in double-double; and that of the exact top, which
-#: has no error of the step.
-COMPOSED, EXTRAPOLATED, OF_PAIRS, EXACT = (2, 4, 6, 8), 12, 2 * MOST_OF_PAIRS, 0
+#: Orders of `trajectory`; that of `extrapolate` in double-double, at most; and that of the exact top, whose steps have
+#: no error.
+COMPOSED, OF_PAIRS, EXACT = (2, 4, 6, 8), 2 * MOST_OF_PAIRS, 0
 #: Below this not all 106 bits of double-double, of a stage of a composition, are within the range of float64.
 SMALLEST = 2.0**-900
 #: Runs are compared at so many times at least: a difference that is small by chance at one is not so at all.
@@ -90,27 +91,25 @@ def checks(request: Request, method: Method) -> int:
     return request.frames * -(-least // request.frames)
 
 
-def take(request: Request, method: Method, steps: int, frames: int, time: float | None = None) -> Trajectory:
-    """The ball after `frames` equal parts of `time` (the request's own, if None) in `steps` steps, a multiple of them.
+def take(request: Request, method: Method, steps: int, frames: int) -> Trajectory:
+    """The ball after `frames` equal parts of the time in `steps` steps, a multiple of them.
 
     Raises StepNotTaken where the map has no step of this length.
     """
-    end = request.time if time is None else time
-    step, every = end / steps, steps // frames
+    exactly, every = Fraction(request.time) / steps, steps // frames
+    step = request.time / steps
     in_range(step, request.angular_momentum)
     body = request.body
     ball, K, g = request.ball, request.angular_momentum, request.gamma
     if method.columns:
-        return _extrapolated(request, method, Fraction(end) / steps, every, frames)
+        return _extrapolated(request, method, exactly, every, frames)
     if method.order == EXACT:
         top = exact_top(ball, step * K, g)
         run = trajectory(top.ball, top.momentum, g, steps, every=every, attitude=body, time_step=step)
         return top.restore(run)
     momentum: Any = step * K
-    if not isinstance(
-        method.precision, Double | Single
-    ):  # T/n and its product with K, of which float64 has but 53 bits
-        momentum = [Fraction(end) / steps * Fraction(float(x)) for x in K]
+    if not isinstance(method.precision, Double | Single):  # of T/n and its product with K float64 has but 53 bits
+        momentum = [exactly * Fraction(float(x)) for x in K]
     return trajectory(
         ball, momentum, g, steps, order=method.order, every=every, attitude=body, contact=request.of == "contact",
         time_step=step, precision=method.precision,

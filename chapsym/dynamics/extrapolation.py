@@ -116,7 +116,7 @@ def extrapolate(
     angular_momentum: K in kg m²/s, shape (..., 3); gamma: unit verticals upwards, (..., 3).  Both broadcast with
     each other and with the balls.  time_step: seconds, negative for back in time; a Fraction keeps 106 bits in
     double-double.
-    columns: 2 to 6, the default.  A step is 8 - columns, ..., 6 and 7 steps of the map beside each other; its error is
+    columns: 2 to 6, the default.  A step is 8 - columns, ..., 6 and 7 steps of the map, side by side; its error is
     of the order time_step^(2 columns), ⟨K,γ⟩, |K|² and |γ|² are kept to rounding.  In double-double 2 to 12, the
     default, of 3, 4, ..., columns + 2 steps of the map.
     every: without it only the end is kept; with it the start and every `every`-th state.

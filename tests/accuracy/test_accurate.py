@@ -15,6 +15,7 @@ from chapsym.accuracy.request import exact_values
 from chapsym.dynamics import BadInput, kernels
 from chapsym.dynamics.attitudes import initial_attitude
 from chapsym.dynamics.certified import exactly
+from chapsym.dynamics.extrapolation import MOST_OF_PAIRS
 from chapsym.numbers import NAMED
 from chapsym.studies.trade.reference import continuous
 from chapsym.studies.trade.requests import true_error, truth
@@ -100,6 +101,17 @@ def test_a_law_that_promises_too_much_is_found_out(monkeypatch):
     assert error_of(found) <= found.estimate <= 1e-15
 
 
+def test_all_that_is_compared_in_double_double_are_long_steps():
+    for columns in range(answer.FEWEST - answer.LESS, MOST_OF_PAIRS + 1):
+        assert Method(NAMED["double-double"], 2 * columns).columns == columns
+
+
+def test_a_ball_at_rest_stays_to_any_accuracy():
+    found = accurate(BALL, (0, 0, 0), GAMMA, 5.0, 1e-20)
+    assert found.estimate <= 1e-20
+    np.testing.assert_allclose(found.trajectory.gamma[-1], GAMMA, rtol=0, atol=2.0**-53)
+
+
 def test_a_free_top_is_followed_and_a_ball_at_rest_stays():
     found = accurate(chapsym.Ball((1, 2, 4), 0.0), (3.0, -1.0, 2.0), GAMMA, 50.0, 1e-9)
     assert error_of(found) <= found.estimate <= 1e-9
@@ -166,6 +178,7 @@ def test_exact_momenta_reach_the_higher_precisions_and_distance_sees_what_float6
         ({"time": 1e-15, "K": 1e-300 * K, "of": "state"}, "εK is below 1e-271"),
         ({"K": 1e160 * K}, "it takes too many steps"),
         ({"K": (1e308, 1e308, 0)}, "the ball turns too fast for float64"),
+        ({"K": 1e300 * K, "time": 1e-3, "accuracy": 1e-30, "of": "state"}, "it takes too many steps"),
         ({"K": (1e300, 1e300, 0), "time": 1e10}, "the ball turns too fast for float64"),
     ],
 )

@@ -100,7 +100,7 @@ def march_long_pairs(
     mantissa, exponent = frexp(h)
     part = np.zeros(3)
     for c in range(3):
-        part[c] = ldexp(momentum[c], min(exponent, 1000))
+        part[c] = ldexp(ldexp(momentum[c], -size), min(size + exponent, 1000))
     shift, beyond = prepare_pairs(part, g, tensor, contact, one, state, limits[0], limits[1])
     half = ldexp(mantissa, min(size + exponent + shift, LONGEST))
     half_ = ldexp(ldexp(h_, -exponent), min(size + exponent + shift, LONGEST))
