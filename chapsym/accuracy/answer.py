@@ -33,6 +33,8 @@ STAGE = 3e-7
 DOUBLED, LONGEST = 0.0125, 2.0
 #: Runs of FEWEST columns or more are compared with LESS columns fewer, whose orders, too, are those of long steps.
 FEWEST, LESS = 7, 2
+#: How many times their distance the error is held to be: where both are as exact as their roundings, that is one draw.
+LIKELY = 4.0
 #: Runs of more steps are refused.
 MOST_STEPS = 2**53
 
@@ -276,12 +278,12 @@ def _by_double_double(request: Request, limit: float, attempts: list[Attempt]) -
             if error.status == Status.NO_INERTIA:
                 raise BadInput(f"the ball cannot be followed: {error}") from None
         rounded = _rounded(request, method.columns, choice.steps)
-        estimate = apart + rounded
+        estimate = LIKELY * apart + noisy * rounded  # not without the noise that was seen: one draw may be small
         attempts.append(Attempt(choice, estimate, clock.thread_time() - started))
         if estimate <= request.accuracy:
             return some_frames(run, slice(None, None, every // request.frames))
         if before / 2 < apart < math.inf:  # it is what the motion makes of roundings: fewer columns have less
-            noisy = max(noisy, apart / rounded)
+            noisy = max(noisy, LIKELY * apart / rounded)
         else:
             finer *= min(max(LEAST_FINER, longer), MOST_FINER)
         before = apart
