@@ -14,12 +14,13 @@ from commands import chapsym as command
 from first import BALL, FIRST
 from reference import cross
 
-from chapsym.accuracy import Method, take
+from chapsym.accuracy import Method, methods, take
 from chapsym.cli.trade import print_answer
 from chapsym.dynamics.attitudes import attitude_with
 from chapsym.numbers import NAMED
 from chapsym.studies import trade
 from chapsym.studies.trade import four, reference
+from chapsym.studies.trade.balls import name_of
 from chapsym.studies.trade.figure import draw
 from chapsym.studies.trade.frontier import Frontier, Point, digits_of
 from chapsym.studies.trade.reference import continuous, sample
@@ -122,6 +123,12 @@ def test_a_figure_is_drawn(tmp_path):
     assert text.startswith("<?xml")
     assert len(drawn.axes) == 2
     assert all(axis.get_yscale() == "log" for axis in drawn.axes)
+
+
+def test_every_way_that_is_measured_has_a_colour():
+    ways = [name_of(method) for precision in NAMED.values() for method in methods(sample("contact", 1.0), precision)]
+    draw({"contact": Frontier("t", "q", [Point(way, 0.1, 1.0, 10.0, 3.0) for way in ways])})
+    assert any("order 24" in way for way in ways)
 
 
 def test_the_command_chooses_runs_and_verifies(tmp_path):

@@ -13,7 +13,7 @@ from chapsym.show.drawing.style import Picture
 from .frontier import Frontier, Point
 
 #: A colour for each order, and a marker for each precision.
-COLOURS = {order: style.COLOURS[i] for order, i in (("2", 0), ("4", 4), ("6", 2), ("8", 1), ("12", 3))}
+COLOURS = {order: style.COLOURS[i] for order, i in (("2", 0), ("4", 4), ("6", 2), ("8", 1), ("12", 3), ("24", 5))}
 MARKERS = {
     "single": "v", "double": "o", "quad": "s", "digits30": "D", "digits50": "^", "digits100": "P", "ball100": "*",
     "ball300": "X",
