@@ -13,6 +13,8 @@ FREE = Quotient((*u, *k, *d, *v, *gamma, I1, I2, I3, D), [])
 #: A quaternion of any length, and a vector.
 ANY = Quotient((gibbs.p0, *gibbs.p, *v), [])
 NORM = 1 + u.dot(u)
+#: Any matrix of cofactors.
+C_ = gibbs.C
 
 
 def momentum_of(point: dict[sp.Symbol, sp.Expr]) -> sp.Matrix:
@@ -72,6 +74,14 @@ def newton_leaves(p: Proof) -> None:
     p.lemma(equal("A Cᵀ = (first row · first cofactors)", A * C.T, (A[0, :] * C[0, :].T)[0] * sp.eye(3), generic))
     p.lemma(equal("the steps of the kernel compute ∂G/∂u", staged(gibbs.A), jacobian))
     p.lemma(equal("and the right side", staged(gibbs.R), gibbs.newton_target()))
+    adjugate = residual.jacobian(u).adjugate()
+    p.lemma(equal("det ∂G, adj(∂G) times the right side, and the cofactors", gibbs.newton(),
+                  [(jacobian[0, :] * adjugate[:, 0])[0], *(adjugate * gibbs.newton_target()), *adjugate.T]))  # fmt: skip
+    left_over = Quotient((*FREE.symbols, *C_, *gibbs.e), [])
+    p.lemma(equal("Cᵀ(d × Id - |d|²k) = Cᵀ(G(u + d) - G(u) - ∂G(u)d)", gibbs.second(),
+                  C_.T * (after - residual - jacobian * d), left_over))  # fmt: skip
+    both = gibbs.bilinear(d + gibbs.e) - gibbs.bilinear(d) - gibbs.bilinear(gibbs.e)
+    p.lemma(equal("what is bilinear in d and e of that, for d + e", gibbs.mixed(), C_.T * both, left_over))
     p.control(equal("G(u + d) with + |d|²k", after, residual + jacobian * d + d.cross(INERTIA * d) + d.dot(d) * k))
     p.control(equal("G(u + d) with ½∂G", after, residual + jacobian * d / 2 + gibbs.bilinear(d)))
     p.control(equal("the right side with 1 + |u|²", jacobian * u - residual, u.cross(INERTIA * u) + NORM * k))
@@ -94,8 +104,7 @@ def gibbs_rotation(proof: Proof) -> None:
                         2 * (p.cross(once) - p0 * once), ANY))  # fmt: skip
     steps, value = gibbs.turn_steps()
     value = three.unrolled(steps, value)
-    proof.lemma(equal("the steps of the kernel compute this", (value * norm).applyfunc(sp.cancel),
-                      2 * (p.cross(once) - p0 * once), ANY))  # fmt: skip
+    proof.lemma(equal("the steps of the kernel compute Ωᵀv - v", value, rotation.T * v / norm - v, ANY))
     proof.control(equal("the same with + p₀ p × v", rotation.T * v - norm * v, 2 * (p.cross(once) + p0 * once), ANY))
 
 
@@ -211,6 +220,9 @@ def straight_path(p: Proof) -> None:
     )
     p.lemma(Equation("det(s - S) = s³ - s² tr S + s minors - det S", [(s * sp.eye(3) - matrix).det(method="berkowitz")],
                      [s**3 - trace * s**2 + minors * s - determinant], ring))  # fmt: skip
+    first, second, third = (sp.expand((matrix**n).trace()) for n in (1, 2, 3))
+    p.lemma(Equation("tr S, the minors and det S by the traces of S, S², S³", gibbs.symmetric(),
+                     [first, (first**2 - second) / 2, (first**3 - 3 * first * second + 2 * third) / 6], ring))  # fmt: skip
     p.control(equal("G_t(su) = s(1 - s)R(s) with + u × Iu", along,
                     s * residual + s * (1 - s) * (rest + 2 * u.cross(INERTIA * u)), ring))  # fmt: skip
     p.control(Equation("⟨d, ∂G_t(su)d⟩ without what is quadratic in s", [(d.T * stretched * d)[0]],

@@ -64,16 +64,24 @@ def modified_field(p: Proof) -> None:
     p.say("ω' and ω'' are the derivatives of ω along the continuous ball γ̇ = γ × ω, K̇ = K × ω; from K = B(γ)ω:")
     p.lemma(equal("d/dt(Bω - K) = Bω' - Iω × ω", inertia_along(MOVING, omega) + carried(rate) - carried(omega).cross(omega),
                   carried(rate) - modified.torque()))  # fmt: skip
+    momentum, both, tip = carried(omega), omega + rate, gamma + MOVING
+    p.lemma(equal("Iω × ω = K × ω + D⟨γ,ω⟩γ × ω", modified.torque(), (momentum + D * gamma.dot(omega) * gamma).cross(omega)))
     p.show("B ω'", modified.torque())
     p.show("load", modified.load())
     contact = gamma.dot(rate) * MOVING + MOVING.dot(rate) * gamma
     swing = omega.cross(INERTIA * rate) + rate.cross(INERTIA * omega)
     p.lemma(equal("Bω'' = D(⟨γ,ω'⟩γ̇ + ⟨γ̇,ω'⟩γ) - (ω × Iω' + ω' × Iω)", second_torque(), D * contact - swing))
+    p.lemma(equal("the load is what is bilinear in x × Ix and 2D⟨x,ω'⟩x, of ω and ω', and of γ and γ̇", modified.load(),
+                  both.cross(INERTIA * both) - omega.cross(INERTIA * omega) - rate.cross(INERTIA * rate)
+                  + 2 * D * (tip.dot(rate) * tip - gamma.dot(rate) * gamma - MOVING.dot(rate) * MOVING)))  # fmt: skip
     p.say("12ω₃ = 2|ω|²ω - ω × ω' - B⁻¹ load (B⁻¹ load = `share`), and u = εω/2 + ε²ω'/4 + ε³u₃ with")
     p.show("u₃", modified.gibbs_jet()[2])
     p.say("First, this u turns every vector as the flow does: for any x,")
     for power, (step, flow) in enumerate(zip(modified.step_jet(X), modified.flow_jet(X), strict=True)):
         p.printed(equal(f"Ωᵀx and the flow of ẋ = x × Ω̃ agree in ε^{power}", step, flow))
+    p.say("So with c = -½ Σ eᵢ × (eᵢ × c) ω₃ is what the step turns the basis by beyond the flow of ω:")
+    beyond = [e.cross(modified.step_jet(e)[3] - third_of_the_ball(e)) for e in sp.eye(3).columnspace()]
+    p.lemma(equal("12ω₃ from what the step leaves in ε³", modified.correction(), -6 * (beyond[0] + beyond[1] + beyond[2])))
     p.step(TURNS, COMPACT, "gibbs-rotation", "2.5-inverse")
     p.say("Second, it solves the equation of the step: the coefficients of Bu + u × Iu - (1 + |u|²)εK/2 are")
     one, two, three_ = modified.equation_jet()
@@ -91,6 +99,13 @@ def modified_field(p: Proof) -> None:
     point, values = _witness()
     left = [x for part in modified.equation_jet() for x in part.xreplace(point)]
     p.witness("under way", values, Fact("the coefficients of the equation are 0", not any(left)))
+
+
+def third_of_the_ball(x: sp.Matrix) -> sp.Matrix:
+    """The coefficient of ε³ of the flow of ẋ = x × ω along the continuous ball."""
+    first = x.cross(omega)
+    twice = first.cross(omega) + x.cross(rate)
+    return (twice.cross(omega) + 2 * first.cross(rate) + x.cross(second)) / 6
 
 
 def _controls(p: Proof, two: sp.Matrix, third: sp.Matrix) -> None:
@@ -172,7 +187,7 @@ def modified_energy(p: Proof) -> None:
     twelvefold = -known.dot(carried(rate)) + modified.load().dot(rate)
     found = modified.energy_rate()
     p.show("X₃(H)", found)
-    p.printed(Equation("-12⟨ω₃,Bω'⟩ = 3D⟨γ,ω'⟩⟨γ̇,ω'⟩", twelvefold, 12 * found, on_rate()))
+    p.printed(Equation("-4⟨ω₃,Bω'⟩ = D⟨γ,ω'⟩⟨γ̇,ω'⟩", twelvefold / 3, 4 * found, on_rate()))
     p.step(ENERGY, COMPACT, "modified-field", "2.5")
     p.say(
         "It is 0 for D = 0, where the map keeps H (energy-without-rolling), and for vertical momentum, where ⟨γ,ω⟩ is a"

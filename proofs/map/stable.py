@@ -157,10 +157,8 @@ def _positive(polynomial: sp.Expr) -> bool:
 
 
 def _quotient(text: str, value: sp.Matrix, above: sp.Matrix, below: sp.Expr) -> Equation:
-    """value = above/below, without denominators."""
-    parts = [sp.fraction(sp.together(e)) for e in inertial(value)]
-    left, right = zip(*((n * below, d * e) for (n, d), e in zip(parts, above, strict=True)), strict=True)
-    return Equation(text, left, right, UNTIED)
+    """value = above/below."""
+    return Equation(text, inertial(value), above / below, UNTIED)
 
 
 if __name__ == "__main__":

@@ -187,7 +187,7 @@ def isotropic_spin(p: Proof) -> None:
 
     p.printed(inverse("|γ|²(B(γ/|γ|)w - k) = 0", direction - square * k))
     steps, value = steady.spin_steps()
-    p.lemma(inverse("the steps of the kernel compute w", three.unrolled(steps, value) - found))
+    p.lemma(equal("the steps of the kernel compute w", three.unrolled(steps, value), found))
     wrong = found.subs(D, -D)
     p.control(inverse("with D of the other sign", square * moment * wrong + D * (square * wrong - gamma.dot(wrong) * gamma)
                       - square * k))  # fmt: skip

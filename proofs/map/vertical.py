@@ -2,7 +2,7 @@
 
 import sympy as sp
 
-from chapsym.derive import continuous, gibbs, three, vertical
+from chapsym.derive import continuous, elliptic, gibbs, three, vertical
 from chapsym.derive.quotient import Quotient
 from chapsym.derive.three import J1, J2, J3, D, gamma, q, q0
 from chapsym.derive.vertical import CLOSED, INERTIA, LAMBDA, e, h, level, t, v
@@ -55,6 +55,8 @@ def closed_rotation(p: Proof) -> None:
     )  # fmt: skip
     matrix = sp.Matrix(vertical.closed_matrix())
     p.printed(Equation("M q = tγ q₀", matrix * vector, t * scalar * gamma, CLOSED))
+    p.lemma(Equation("(det M, t adj(M)γ), shorter for |γ| = 1", vertical.closed_rotation(),
+                     [matrix.det(), *(t * matrix.adjugate() * gamma)], CLOSED))  # fmt: skip
     p.say("And for every t, e, with nothing solved yet:")
     p.printed(closed_momentum("𝒦 = (2t(q₀²+|q|²) - 2Dq₀⟨γ,q⟩)γ + 2(q₀e - t⟨γ,q⟩)q"))
     p.say("Where q is not along γ both scalars must vanish for 𝒦 = h(q₀²+|q|²)γ; where they do, it holds.")
@@ -81,6 +83,9 @@ def level_equation(p: Proof) -> None:
         return Equation(text, balance, t**2 * residual, ring)
 
     p.printed(factored("q₀e - t⟨γ,q⟩ = t²(v det(Λ-e) + e tr Λ - 2e² - det(Λ)l - t²)", sp.S.Zero))
+    at_v, free = v * t**2, Quotient((t, v, level, *INERTIA), [])
+    p.lemma(Equation("that factor, with a letter for det(Λ)l", [vertical.level_residual()],
+                     [v * (LAMBDA - at_v * sp.eye(3)).det() + at_v * LAMBDA.trace() - 2 * at_v**2 - level - t**2], free))  # fmt: skip
     p.say("So with D = 0, where t = h/2, the pair (t, e) is constant on an orbit and the map is rational in γ.")
     p.say(
         "With any t at all the root e makes ⟨γ,Λ⁻¹γ⟩ an integral: (q, 2t) is a step of a ball with D = 0 and the same Λ."
@@ -162,6 +167,21 @@ def commuting_tops(p: Proof) -> None:
     p.control(followed("the same with ω and ω~ exchanged", *rates[::-1]))
 
 
+y_ = sp.Symbol("y")
+
+
+def on_curve(y: sp.Expr | int) -> list[sp.Expr]:
+    """⟨γ,Λ⁻²γ⟩ - l² and (⟨γ,Λγ⟩l - 1)/det Λ at sn²u = y on the curve of (5.8), as corrected."""
+    L1, L2, L3 = elliptic.LAMBDA
+    first = L1 * (1 - L3 * elliptic.l) / (L1 - L3) * (1 - y)
+    second = L2 * (1 - L3 * elliptic.l) / (L2 - L3) * y
+    modulus = (L1 - L2) * (1 - L3 * elliptic.l) / ((L2 - L3) * (L1 * elliptic.l - 1))
+    third = L3 * (L1 * elliptic.l - 1) / (L1 - L3) * (1 - modulus * y)
+    inverse = first / L1**2 + second / L2**2 + third / L3**2
+    direct = first * L1 + second * L2 + third * L3
+    return [inverse - elliptic.l**2, (direct * elliptic.l - 1) / (L1 * L2 * L3)]
+
+
 @claim(
     "top-precession",
     r"\gamma' = b = \gamma\times\Lambda^{-1}\gamma:\quad \langle\gamma\times b, b' + \Lambda^{-1}\gamma\times b\rangle = "
@@ -188,6 +208,13 @@ def precession(p: Proof) -> None:
         Equation("det(Λ)⟨b,Λ⁻¹b⟩ = ⟨γ,Λγ⟩l - 1", LAMBDA.det() * weighted, gamma.dot(LAMBDA * gamma) * form - 1, ring),
         Equation("|b|² = ⟨γ,Λ⁻²γ⟩ - l²", b.dot(b), spin.dot(spin) - form**2, ring),
     )
+    p.say("On the curve γ² = (C1²(1-y), C2²y, C3²(1-k²y)), y = sn²u (5.7 as corrected), both are linear in y:")
+    (square_0, square_1), (weighted_0, weighted_1) = zip(*map(on_curve, (0, 1)), strict=True)
+    values = [square_0, square_1 - square_0, weighted_0, weighted_1 - weighted_0]
+    free = Quotient((*elliptic.LAMBDA, elliptic.l, y_), [])
+    p.lemma(Equation("|b|² and ⟨b,Λ⁻¹b⟩ on the curve: their values at y = 0, and the differences to those at y = 1",
+                     elliptic.precession_parts(), values, free))  # fmt: skip
+    p.lemma(Equation("both are linear in y", on_curve(y_), [values[0] + values[1] * y_, values[2] + values[3] * y_], free))
     p.control(turning("⟨γ×b, b' + ω×b⟩ = ⟨b,Λb⟩", b.dot(LAMBDA * b)))
 
 

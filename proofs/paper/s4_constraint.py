@@ -46,6 +46,9 @@ def chosen_constraint(p: Proof) -> None:
     )
     p.lemma(exact_order("the remainder", limit, 2))
     p.lemma(Equation("its leading term is (ρ/6) ω̄³γ", limit.leading, rho * limits.omega_space**3 * gamma / 6, both))
+    p.say("For n = 3, in the frame of the body and with γ upwards, Δr = (ρ/2)(Ω - Ωᵀ)γ:")
+    crossed = 2 * three.q0 * three.q.cross(three.gamma)
+    p.lemma(Equation("½(Ω - Ωᵀ)γ = 2q₀ q × γ in Euler parameters", three.centre_step(), crossed, three.RING))
     naive = rho * R1 * RT * gamma
     p.control(Equation("the naive constraint is horizontal", naive * gammaT, sp.S.Zero, Traces(ALGEBRA)))
     p.control(equation("the naive constraint admits (q, q)", naive.subs({R1: R, R1T: RT}), sp.S.Zero))

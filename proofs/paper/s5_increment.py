@@ -8,7 +8,7 @@ from chapsym.derive import elliptic
 from chapsym.derive.elliptic import HALF, L1, L2, L3, LAMBDA, MEAN, U, k2, l
 from chapsym.derive.quotient import Quotient
 from chapsym.proofs import second_routes
-from chapsym.proofs.paper.s5_elliptic import ARGUMENT, BALL, SQUARE, TWO, V, on_ball
+from chapsym.proofs.paper.s5_elliptic import ARGUMENT, BALL, SQUARE, TWO, V, on_ball, printed_squares
 from chapsym.prove import Comparison, Equation, Point, Proof, claim, equations, main, rational_point
 
 
@@ -31,11 +31,21 @@ SMALL_W = HALF.sn * HALF.cn * HALF.dn
 MU = (1 - L3 * l) / (L2 - L3)
 V_SQUARED = (L2 - L3) * (L1 * l - 1) / (L1 * L2 * L3)
 RATIO = HALF.cn * HALF.dn / HALF.sn
+#: sn²δu as a free number, and what is said by Λ and l alone.
+ANY = sp.Symbol("y")
+BY_LEVEL = Quotient((*LAMBDA, l, ANY), [])
 
 
 def quotients() -> list[sp.Expr]:
     """C1²/Λ1², C2²/Λ2², C3²/Λ3²."""
     return [c / lam**2 for c, lam in zip(elliptic.squared_amplitudes(), LAMBDA, strict=True)]
+
+
+def g_at(y: sp.Expr | int) -> sp.Expr:
+    """G at sn²δu = y with the squares of (5.8) as corrected, and k² of (5.8), all by Λ and l."""
+    (a, b, c), modulus = printed_squares(-1), (L1 - L2) * (1 - L3 * l) / ((L2 - L3) * (L1 * l - 1))
+    first, second, third = a / L1**2 / modulus, b / L2**2 / modulus, c / L3**2
+    return (1 - y) * (first - second * (1 - modulus * y)) + third * (1 - modulus * y)
 
 
 def true_g() -> sp.Expr:
@@ -60,6 +70,7 @@ def first_form(p: Proof) -> None:
         curve_equation("Π1 = (l - μ sn²δu)/𝒟", elliptic.quarter_form(1), (l - MU * Y) / elliptic.denominator()),
         curve_equation("C1²/Λ1 + C3²/Λ3 - (C2²/Λ2) sn²δu = l - μ sn²δu", a + c - b * Y, l - MU * Y),
     )
+    p.lemma(Equation("μ by Λ and l", elliptic.increment_parts()[4:], [MU], BY_LEVEL))
     p.control(curve_equation("Π1 = (l + μ sn²δu)/𝒟", elliptic.quarter_form(1), (l + MU * Y) / elliptic.denominator()))
 
 
@@ -109,6 +120,10 @@ def g_function(p: Proof) -> None:
         r"\mathrm{dn}^2\delta u+\tfrac{C_3^2}{\Lambda_3^2}\mathrm{dn}^2\delta u",
         curve_equation("G with k² under the second term", printed(k2), derived),
     )
+    parts, (zero, one, minus) = elliptic.increment_parts()[1:4], map(g_at, (0, 1, -1))
+    p.lemma(Equation("G₀, G₁, G₂ by Λ and l: from G at sn²δu = 0, 1, -1", parts,
+                     [zero, (one - minus) / 2, (one + minus) / 2 - zero], BY_LEVEL),
+            Equation("G = G₀ + G₁ y + G₂ y² at y = sn²δu", g_at(ANY), sum(g * ANY**n for n, g in enumerate(parts)), BY_LEVEL))  # fmt: skip
     p.counterexample(curve_point())
     p.control(curve_equation("G with k² under the third term", printed(k2) + c * HALF.dn**2 * (1 / k2 - 1), derived))
 

@@ -5,7 +5,7 @@ import sympy as sp
 from chapsym.derive import ball, continuous, limits, quaternions, three
 from chapsym.derive.limits import omega
 from chapsym.derive.quotient import Quotient
-from chapsym.derive.three import J1, J2, J3, RING, D, K, axial, gamma, hat, q, q0, q1, q2, q3
+from chapsym.derive.three import J1, J2, J3, RING, D, K, axial, gamma, hat, placed, q, q0, q1, q2, q3
 from chapsym.proofs import second_routes
 from chapsym.proofs.paper.s4_limits import exact_order
 from chapsym.prove import Comparison, Equation, Fact, Proof, claim, equations, main, rational_point
@@ -42,6 +42,15 @@ def rotation_matrix(p: Proof) -> None:
     p.lemma(equation("Ωq = q: the axis", rotation * q, q))
     p.lemma(equation("tr Ω = 4q₀² - 1 = 1 + 2cos θ with q₀ = cos(θ/2)", rotation.trace(), 4 * q0**2 - 1))
     p.lemma(equation("Ω - Ωᵀ = 4q₀ q×: right-handed about q", rotation - rotation.T, 4 * q0 * hat(q)))
+    x, a, b = (sp.Matrix(sp.symbols(names)) for names in ("v1:4", "a0:4", "b0:4"))
+    turning, pairs = Quotient((*x, *RING.symbols), RING.relations), Quotient((*a, *b), [])
+    p.lemma(Equation("Ωx = x + (Ω - (q₀² + |q|²))x", three.rotated(x), rotation * x, turning))
+    product = three.quaternion_product(a, b)
+    conjugate, y = sp.Matrix([b[0], *(-b[1:, :])]), sp.Matrix(sp.symbols("p0:4"))
+    p.lemma(Equation("⟨ab, p⟩ = ⟨a, p b̄⟩", [product.dot(y)], [a.dot(three.quaternion_product(y, conjugate))],
+                     Quotient((*a, *b, *y), [])))  # fmt: skip
+    once, twice, both = (three.rotation().subs(placed(((q0, *q), z)), simultaneous=True) for z in (a, b, product))
+    p.lemma(Equation("Ω(ab) = Ω(a)Ω(b)", both, once * twice, pairs))
     printed = printed_rotation()
     p.printed(equation("(5.1), nine entries", printed, rotation))
     corrected = printed.copy()
@@ -110,6 +119,19 @@ def printed_momentum(sign: int = 1, factor: int = 2) -> sp.Matrix:
     return printed_centre_momentum() + factor * D * q0 * (q - sign * gamma.dot(q) * gamma)
 
 
+def second_differences() -> list[sp.Expr]:
+    """Those of 𝒦⃗(q(1, w)) at w = 0 with the basis e: for 11, 22, 33, 23, 13, 12 the three components."""
+
+    def after(w: sp.Matrix) -> sp.Matrix:
+        turned = three.quaternion_product(sp.Matrix([q0, *q]), sp.Matrix([1, *w]))
+        return sp.Matrix(three.momentum()).subs(placed(((q0, *q), turned)), simultaneous=True)
+
+    e, still = sp.eye(3).columnspace(), sp.Matrix(three.momentum())
+    rows = [after(x) + after(-x) - 2 * still for x in e]
+    rows += [after(e[i] + e[j]) - after(e[i]) - after(e[j]) + still for i, j in ((1, 2), (0, 2), (0, 1))]
+    return [x for row in rows for x in row]
+
+
 @claim(
     "5.2",
     r"\vec M = 2((J_2+J_3)q_0q_1+(J_2-J_3)q_2q_3,\ (J_1+J_3)q_0q_2+(J_3-J_1)q_1q_3,\ "
@@ -134,6 +156,11 @@ def vector_momentum(p: Proof) -> None:
     lam = three.lam()
     second = 2 * (q0 * lam * q + q.cross(lam * q) - D * q0 * gamma.dot(q) * gamma)
     p.lemma(equation("𝒦⃗ = 2(q₀Λq + q×Λq - Dq₀⟨γ,q⟩γ)", second, three.momentum()))
+    p.say("For a step from a rotation q to q(1, w), of any length, 𝒦⃗ is quadratic in w:")
+    p.lemma(
+        Equation("the second derivatives of 𝒦⃗(q(1, w)) in w are its second differences", three.tangent_hessian(),
+                 second_differences(), Quotient(RING.symbols, []))
+    )  # fmt: skip
     for text, mutated in [
         ("𝒦⃗ with + ⟨γ,q⟩γ", printed_momentum(sign=-1)),
         ("𝒦⃗ with D in the place of 2D", printed_momentum(factor=1)),
@@ -235,6 +262,7 @@ def vector_form(p: Proof) -> None:
     p.say("The axial vector of Ωᵀ𝒦Ω, for a skew 𝒦 with the free vector (K₁,K₂,K₃):")
     moved = axial(rotation.T * hat(K) * rotation)
     p.printed(Equation("the axial vector of Ωᵀ𝒦Ω = Ωᵀ𝒦⃗", moved, rotation.T * K, ring))
+    p.lemma(Equation("Ωᵀx = x + (Ω - (q₀² + |q|²))ᵀx, here of 𝒦⃗", three.transported(K), rotation.T * K, ring))
     p.say("γ_k = Ωᵀγ_{k-1} is (4.11).")
     p.assume("in the limit the rotation of the step is exp(ε ω)")
     words = limits.transport(ball.K)
@@ -261,7 +289,7 @@ def vector_integrals(p: Proof) -> None:
     p.printed(
         Equation("⟨Ωᵀ𝒦, Ωᵀγ⟩ = ⟨𝒦, γ⟩", moved.dot(vertical), K.dot(gamma), ring),
         Equation("⟨Ωᵀ𝒦, Ωᵀ𝒦⟩ = ⟨𝒦, 𝒦⟩", moved.dot(moved), K.dot(K), ring),
-        Equation("|Ωᵀγ| = |γ|", vertical.dot(vertical), 1, ring),
+        Equation("|Ωᵀγ| = |γ|", vertical.dot(vertical), gamma.dot(gamma), ring),
     )
     p.say("Only ΩᵀΩ = 1 is used: the branch of Ω does not matter.")
     gradients = sp.Matrix([K.dot(gamma), K.dot(K), gamma.dot(gamma)]).jacobian(sp.Matrix([*K, *gamma]))

@@ -142,6 +142,9 @@ def quadratic_integral(p: Proof) -> None:
     now, after = vertical.gamma_now(), vertical.gamma_next()
     p.say("σ ≠ 0: both verticals are functions of q, σ on |q|² + q₀² = 1, |γ| = 1; no branch is chosen.")
     p.printed(equation("⟨γ_k, Λ⁻¹γ_k⟩ = ⟨γ_{k+1}, Λ⁻¹γ_{k+1}⟩", now.dot(inverse * now), after.dot(inverse * after)))
+    any_inertia = Quotient((*gamma, *vertical.INERTIA), [])
+    p.lemma(Equation("⟨γ, adj(Λ)γ⟩ = det(Λ)⟨γ, Λ⁻¹γ⟩", [vertical.weighted_square()],
+                     [vertical.LAMBDA.det() * gamma.dot(vertical.LAMBDA.inv() * gamma)], any_inertia))  # fmt: skip
     p.say("σ = 0 (only for h = 0): ⟨q, left⟩ = 2q₀⟨q,Λq⟩ = 0, so q = 0 (Ω = 1) or q₀ = 0 and then q×Λq = 0.")
     lam, left = vertical.lam(), sp.Matrix(vertical.left_side())
     p.lemma(equation("⟨q, left⟩ = 2q₀⟨q, Λq⟩", q.dot(left), 2 * q0 * q.dot(lam * q)))

@@ -1,0 +1,282 @@
+"""Kernels: whether the text of a function computes what statements of certificates say, in their variables.
+
+A function is straight-line code: names, integers and + - * /, which is evaluated in the field of rational functions of
+its arguments.  Its results, in order, must be the entries that its carriers make.  A carrier names a certificate and
+in it the text of a statement, which is proved there, is about a quotient ring and has two different sides; it takes the
+entries of one side, and goes on from them by steps:
+
+at       [name, tree]...: trees in the place of variables
+along    [[name, tree]...]...: of each entry the derivatives in the directions in which the variables move at these
+         rates; what the relations of the ring say stays true along each
+solved   a carrier of n² entries: the x with (that matrix, row by row) x = (the n entries)
+entries  numbers: which of the entries, in which order
+
+The names of the arguments are those of the variables.  Nothing else is used of the relations: the results equal the
+entries as rational functions, so wherever no denominator vanishes.
+"""
+
+from __future__ import annotations
+
+import ast
+import hashlib
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from . import derivation
+from .document import check_names, count
+from .form import chosen, distinct, many, sized, text
+from .interval import Rejected
+from .polynomial import FIELD, Polynomial, Quotient, Ring, Work
+from .trees import check_tree, names_in, rational, value
+
+STEPS = ("at", "along", "solved", "entries")
+#: Bounds of a text, of its lines, and of the rows of a linear system.
+MOST_LETTERS, MOST_LINES, MOST_ROWS = 200_000, 5_000, 4
+#: Certificates by their names: the id of the claim, and the digest.
+Certificates = Mapping[str, Mapping[str, Any]]
+
+
+def check(row: Any, written: str, certificates: Certificates, where: str) -> list[str]:
+    """The texts of the statements that carry a function; raises Rejected unless it computes what they say.
+
+    row: "carriers", and "text_sha256", the hash of the text; certificates: those that were accepted.
+    """
+    if not isinstance(row, dict) or not {"carriers", "text_sha256"} <= row.keys():
+        raise Rejected(f"{where} has no carriers and no hash of its text")
+    if hashlib.sha256(written.encode()).hexdigest() != row["text_sha256"]:
+        raise Rejected(f"{where} has another text than the hash is of")
+    function = straight_line(written, where)
+    for one in many(row["carriers"], where):
+        check_form(one, where)
+    found = [_statement(one, certificates, where) for one in row["carriers"]]
+    inputs = [argument.arg for argument in function.args.args]
+    names = set(inputs).union(*(_names(one, certificates, where) for one in row["carriers"]))
+    ring = Ring(sorted(names), Work())
+    computed = _run(function, {name: ring.names()[name] for name in inputs}, ring, where)
+    carried = [x for one in row["carriers"] for x in entries(one, certificates, ring, where)]
+    if len(computed) != len(carried):
+        raise Rejected(f"{where} has {len(computed)} results, and its carriers make {len(carried)}")
+    for i, (result, entry) in enumerate(zip(computed, carried, strict=True)):
+        if (result - entry).numerator.terms:
+            raise Rejected(f"{where} computes in its result {i} something else than «{_by_place(row, found, i)}» says")
+    return [statement["text"] for statement in found]
+
+
+def _by_place(row: dict[str, Any], found: Sequence[dict[str, Any]], i: int) -> str:
+    """The text of the statement that carries a result, where that is clear: else of all."""
+    return found[0]["text"] if len(found) == 1 else " / ".join(one["text"] for one in found)
+
+
+def check_form(carrier: Any, where: str) -> None:
+    """Raises Rejected unless a carrier has its form."""
+    check_names(carrier, "claim certificate statement side steps", f"a carrier of {where}")
+    for name in ("claim", "certificate", "statement"):
+        text(carrier[name], f"a carrier of {where}")
+    chosen(carrier["side"], ("left", "right"), f"the side of a carrier of {where}")
+    for step in many(carrier["steps"], where):
+        sized(step, 2, f"a step of {where}")
+        chosen(step[0], STEPS, f"a step of {where}")
+        if step[0] == "solved":
+            check_form(step[1], where)
+        elif step[0] == "entries":
+            for number in many(step[1], where):
+                count(number, 0, MOST_LINES, where)
+        else:
+            for pairs in [step[1]] if step[0] == "at" else many(step[1], where):
+                distinct([pair[0] for pair in many(pairs, where) if sized(pair, 2, where) is None], where)
+                for _, tree in pairs:
+                    check_tree(tree, names_in(tree), where)
+
+
+def _statement(carrier: Mapping[str, Any], certificates: Certificates, where: str) -> dict[str, Any]:
+    """The one statement that a carrier names, if it is proved and says something."""
+    claim, said = carrier["claim"], carrier["statement"]
+    data = certificates.get(f"{claim} {carrier['certificate']}")
+    if data is None:
+        raise Rejected(f"{where} is carried by a certificate of claim {claim} that is not accepted among these files")
+    found = [one for one in data["statements"] if one["text"] == said]
+    if len(found) != 1:
+        raise Rejected(f"{where} is carried by «{said}», which claim {claim} decides {len(found)} times")
+    (statement,) = found
+    if "refuted" in statement:
+        raise Rejected(f"{where} is carried by «{said}», which claim {claim} refutes")
+    if statement["left"] == statement["right"]:
+        raise Rejected(f"{where} is carried by «{said}», which has one expression on both sides and decides nothing")
+    if data["algebras"][statement["algebra"]]["kind"] != "quotient":
+        raise Rejected(f"{where} is carried by «{said}», which is about words, and a kernel is about numbers")
+    return dict(statement)
+
+
+def _names(carrier: Mapping[str, Any], certificates: Certificates, where: str) -> set[str]:
+    """The variables that a carrier needs."""
+    statement = _statement(carrier, certificates, where)
+    data = certificates[f"{carrier['claim']} {carrier['certificate']}"]
+    names = set(data["algebras"][statement["algebra"]]["variables"])
+    for step, by in carrier["steps"]:
+        if step == "solved":
+            names |= _names(by, certificates, where)
+        for pairs in [by] if step == "at" else by if step == "along" else []:
+            names |= {name for name, _ in pairs}.union(*(names_in(tree) for _, tree in pairs))
+    return names
+
+
+def entries(carrier: Mapping[str, Any], certificates: Certificates, ring: Ring, where: str) -> list[Quotient]:
+    """What a carrier makes, in the variables of the ring."""
+    statement = _statement(carrier, certificates, where)
+    data = certificates[f"{carrier['claim']} {carrier['certificate']}"]
+    names = ring.names()
+    steps = list(carrier["steps"])
+    if steps and steps[0][0] == "at":  # read at once what would be put in later
+        names |= {name: value(tree, ring.names(), ring.number) for name, tree in steps.pop(0)[1]}
+    for name, tree in (*derivation.valued(data["derivation"]).items(), *statement.get("definitions", [])):
+        if names_in(tree) <= names.keys():
+            names[name] = value(tree, names, ring.number)
+    found = [value(tree, names, ring.number) for tree in statement[carrier["side"]]]
+    relations = [value(r, names, ring.number) for r in data["algebras"][statement["algebra"]]["relations"]]
+    for step, by in steps:
+        if step == "entries":
+            if max(by, default=0) >= len(found):
+                raise Rejected(f"{where} wants an entry that «{statement['text']}» does not have")
+            found = [found[i] for i in by]
+        elif step == "solved":
+            found = solved(entries(by, certificates, ring, where), found, where)
+        else:
+            moves = [{name: value(tree, ring.names(), ring.number) for name, tree in pairs}
+                     for pairs in ([by] if step == "at" else by)]  # fmt: skip
+            if step == "at":
+                found, relations = ([placed(x, moves[0]) for x in group] for group in (found, relations))
+                continue
+            if any(rate(relation, move).numerator.terms for relation in relations for move in moves):
+                raise Rejected(f"{where} is differentiated along what leaves a relation of «{statement['text']}»")
+            found = [rate(x, move) for x in found for move in moves]
+    return found
+
+
+def placed(x: Quotient, places: Mapping[str, Quotient]) -> Quotient:
+    """A rational function with others in the place of variables."""
+    ring = x.numerator.ring
+
+    def image(of: Polynomial) -> Quotient:
+        result = ring.number(rational(0, ""))
+        for monomial, c in of.terms.items():
+            term = ring.number(rational(c, "a coefficient"))
+            for i, name in enumerate(ring.variables):
+                if power := monomial >> FIELD * i & 0xFFFF:
+                    base = places[name] if name in places else Quotient(ring.variable(i), 1, {})
+                    term = term * base**power
+            result = result + term
+        return result
+
+    below = ring.number(rational(x.scale, "a denominator"))
+    for i, power in x.factors.items():
+        below = below * image(ring.factors[i]) ** power
+    return image(x.numerator) * below**-1
+
+
+def rate(x: Quotient, move: Mapping[str, Quotient]) -> Quotient:
+    """The derivative of a rational function where variables move at these rates."""
+    ring = x.numerator.ring
+
+    def derivative(of: Polynomial) -> Quotient:
+        result = ring.number(rational(0, ""))
+        for i, name in enumerate(ring.variables):
+            if name in move:
+                one = 1 << FIELD * i
+                terms = {m - one: c * e for m, c in of.terms.items() if (e := m >> FIELD * i & 0xFFFF)}
+                bits = of.bits + FIELD
+                result = result + Quotient(Polynomial(ring, terms, of.degree, bits), 1, {}) * move[name]
+        return result
+
+    result = derivative(x.numerator) * Quotient(ring.constant(1), x.scale, x.factors)
+    for i, power in x.factors.items():
+        factor = Quotient(ring.factors[i], 1, {})
+        result = result - x * ring.number(rational(power, "a power")) * derivative(ring.factors[i]) * factor**-1
+    return result
+
+
+def solved(matrix: Sequence[Quotient], right: Sequence[Quotient], where: str) -> list[Quotient]:
+    """The solution of a linear system, by Cramer's rule."""
+    n = len(right)
+    if not 1 <= n <= MOST_ROWS or len(matrix) != n * n:
+        raise Rejected(f"{where} solves a system that is not of one to {MOST_ROWS} rows, as many as there are columns")
+    rows = [list(matrix[n * i : n * i + n]) for i in range(n)]
+    whole = _determinant(rows)
+    if not whole.numerator.terms:
+        raise Rejected(f"{where} solves a system whose determinant is 0")
+    found = []
+    for j in range(n):
+        with_right = [[*row[:j], b, *row[j + 1 :]] for row, b in zip(rows, right, strict=True)]
+        found.append(_determinant(with_right) * whole**-1)
+    return found
+
+
+def _determinant(rows: Sequence[Sequence[Quotient]]) -> Quotient:
+    """By the first row."""
+    if len(rows) == 1:
+        return rows[0][0]
+    parts = [x * _determinant([[*row[:j], *row[j + 1 :]] for row in rows[1:]]) for j, x in enumerate(rows[0])]
+    result = parts[0]
+    for j, part in enumerate(parts[1:], start=1):
+        result = result - part if j % 2 else result + part
+    return result
+
+
+def straight_line(written: str, where: str) -> ast.FunctionDef:
+    """The one function of a text, which assigns names and returns; its parts are looked at as they are evaluated."""
+    if len(written) > MOST_LETTERS:
+        raise Rejected(f"{where} has more than {MOST_LETTERS} letters")
+    try:
+        body = ast.parse(written).body
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        raise Rejected(f"{where} is not Python") from None
+    if len(body) != 2 or not _is_text(body[0]) or not isinstance(body[1], ast.FunctionDef):
+        raise Rejected(f"{where} is not a docstring and one function")
+    function, arguments = body[1], body[1].args
+    if function.decorator_list or arguments.defaults or arguments.vararg or arguments.kwonlyargs or arguments.kwarg:
+        raise Rejected(f"{where} has a function with decorators, defaults or arguments beyond a list of names")
+    if len(function.body) > MOST_LINES or not arguments.args:
+        raise Rejected(f"{where} has a function without arguments, or of more than {MOST_LINES} lines")
+    return function
+
+
+def _is_text(node: ast.stmt) -> bool:
+    return isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant) and isinstance(node.value.value, str)
+
+
+def _run(function: ast.FunctionDef, known: dict[str, Quotient], ring: Ring, where: str) -> list[Quotient]:
+    """What a function returns, of the values of its arguments."""
+
+    def of(node: ast.expr) -> Quotient:
+        match node:
+            case ast.Name(id=name) if name in known:
+                return known[name]
+            case ast.Constant(value=int() as number) if not isinstance(number, bool):
+                return ring.number(rational(number, where))
+            case ast.UnaryOp(op=ast.USub(), operand=operand):
+                return ring.number(rational(-1, where)) * of(operand)
+            case ast.BinOp(left=left, op=ast.Add(), right=right):
+                return of(left) + of(right)
+            case ast.BinOp(left=left, op=ast.Sub(), right=right):
+                return of(left) - of(right)
+            case ast.BinOp(left=left, op=ast.Mult(), right=right):
+                return of(left) * of(right)
+            case ast.BinOp(left=left, op=ast.Div(), right=right):
+                return of(left) * of(right) ** -1
+        raise Rejected(f"{where} has a part that is neither a known name, an integer, nor + - * /")
+
+    body = [node for node in function.body if not _is_text(node)]
+    try:
+        for node in body[:-1]:
+            match node:
+                case ast.Assign(targets=[ast.Name(id=name)], value=assigned):
+                    known[name] = of(assigned)
+                case _:
+                    raise Rejected(f"{where} does something else than assign to a name")
+        match body[-1:]:
+            case [ast.Return(value=ast.Tuple(elts=parts))]:
+                return [of(part) for part in parts]
+            case [ast.Return(value=ast.expr() as part)]:
+                return [of(part)]
+    except RecursionError:
+        raise Rejected(f"{where} is too deep") from None
+    raise Rejected(f"{where} returns nothing")
