@@ -12,18 +12,24 @@ from typing import Any
 
 def main(arguments: list[str] | None = None) -> int:
     """Judges files: 0 if all are accepted, 1 if one is rejected, 2 if one cannot be read."""
-    from . import Rejected, Unreadable, check, claimed_twice, read, shown, standing
+    from . import Rejected, Unreadable, check, claimed_twice, kernels, read, shown, standing
 
     parser = argparse.ArgumentParser(prog="checker", description="Checks certificates, with the standard library only.")
     parser.add_argument("files", nargs="+", metavar="FILE")
     parser.add_argument("--show", action="store_true", help="the formulas that were judged, of a claim of the register")
+    parser.add_argument(
+        "--kernels", metavar="FOLDER", action="append", default=[],
+        help="generated kernels, too: whether each text computes what the statements of FILEs that carry it say",
+    )  # fmt: skip
     parser.add_argument("--json", action="store_true", help="one JSON object on standard output")
     options = parser.parse_args(arguments)
     judged: list[tuple[Any, Any]] = []
+    whole: dict[str, Any] = {}
     for file in options.files:
         try:
             data = read(file)
             judged.append((check(data), data if options.show else {}))
+            whole[judged[-1][0].name] = data
         except (Rejected, Unreadable) as error:
             judged.append((error, {}))
     right = [verdict for verdict, _ in judged if not isinstance(verdict, Exception)]
@@ -48,9 +54,18 @@ def main(arguments: list[str] | None = None) -> int:
             print(*(f"  {name}: {value}" for name, value in verdict.numbers.items()), sep="\n")
             if options.show and verdict.kind == "register-claim":
                 print(*(f"  {line}" for line in shown.lines(data)), sep="\n")
+    accepted = {name: data for name, data in whole.items() if name in stand}
+    bound = [one for folder in options.kernels for one in kernels.check_folder(Path(folder), accepted)]
+    for one in bound:
+        worst = worst if one["accepted"] else max(worst, 1)
+        if not one["accepted"]:
+            print(f"{one['file']}: rejected: {one['reason']}", file=sys.stderr)
+        elif not options.json:
+            print(f"{one['file']}: accepted (kernel)\n  Computes: {' / '.join(one['statements'])}")
     if options.json:
-        whole = (sys.stdout.encoding or "").lower().startswith("utf")  # otherwise with escapes
-        print(json.dumps({"certificates": found}, ensure_ascii=not whole, indent=1))
+        utf = (sys.stdout.encoding or "").lower().startswith("utf")  # otherwise with escapes
+        result = {"certificates": found} | ({"kernels": bound} if options.kernels else {})
+        print(json.dumps(result, ensure_ascii=not utf, indent=1))
     return worst
 
 

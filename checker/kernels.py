@@ -20,15 +20,17 @@ from __future__ import annotations
 import ast
 import hashlib
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 from . import derivation
-from .document import check_names, count
+from .document import Unreadable, check_names, count, read
 from .form import chosen, distinct, many, sized, text
 from .interval import Rejected
 from .polynomial import FIELD, Polynomial, Quotient, Ring, Work
 from .trees import check_tree, names_in, rational, value
 
+MANIFEST = "manifest.json"
 STEPS = ("at", "along", "solved", "entries")
 #: Bounds of a text, of its lines, and of the rows of a linear system.
 MOST_LETTERS, MOST_LINES, MOST_ROWS = 200_000, 5_000, 4
@@ -60,6 +62,33 @@ def check(row: Any, written: str, certificates: Certificates, where: str) -> lis
         if (result - entry).numerator.terms:
             raise Rejected(f"{where} computes in its result {i} something else than «{_by_place(row, found, i)}» says")
     return [statement["text"] for statement in found]
+
+
+def check_folder(folder: Path, certificates: Certificates) -> list[dict[str, Any]]:
+    """Judges every kernel of a generated package: its file, whether it is accepted, and what it computes, or why not.
+
+    A file of the folder that is no kernel of its manifest is not looked at; a kernel whose file is missing is rejected.
+    """
+    try:
+        rows = read(folder / MANIFEST)["kernels"]
+        if not isinstance(rows, dict) or not rows:
+            raise KeyError
+    except (Unreadable, Rejected, KeyError):
+        reason = f"{folder / MANIFEST} does not list kernels"
+        return [{"file": str(folder), "accepted": False, "reason": reason}]
+    found: list[dict[str, Any]] = []
+    for name, row in rows.items():
+        file = folder / f"{name}.py"
+        try:
+            if not name.isidentifier():
+                raise Rejected(f"{name!a:.40} is no name of a kernel")
+            written = file.read_bytes()[: MOST_LETTERS + 1].decode()
+            found.append({"file": str(file), "accepted": True, "statements": check(row, written, certificates, name)})
+        except (OSError, ValueError):
+            found.append({"file": str(file), "accepted": False, "reason": f"{file} cannot be read"})
+        except Rejected as error:
+            found.append({"file": str(file), "accepted": False, "reason": str(error)})
+    return found
 
 
 def _by_place(row: dict[str, Any], found: Sequence[dict[str, Any]], i: int) -> str:

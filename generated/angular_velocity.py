@@ -1,7 +1,8 @@
 """Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 
-Proved by: 2.5-inverse, stable-inverse.  Operations: 39.  SymPy 1.14.0.
+Proved by: stable-inverse.  Operations: 39.  SymPy 1.14.0.
 Expression: sha256 6ded677a84093b061a97f89aafc747634aa5807172e160ea9656bfd65bb9d7cf.
+Certificate of stable-inverse: sha256 5d704cac4556346b41f9495ddb9ba6e98749bef3935d58aa7c307fbf22fd38e5.
 """
 
 

@@ -1,7 +1,8 @@
 """Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 
-Proved by: 2.1, 4.9.  Operations: 14.  SymPy 1.14.0.
+Proved by: 4.9.  Operations: 14.  SymPy 1.14.0.
 Expression: sha256 b2ddfda83f23efc81a6081421999a6692502be23b8b84c91933ae8d83e98dd7d.
+Certificate of 4.9: sha256 2b88644c4b61bb41a2c1c3e4c2e854e5f9bc36a56dff63907bd6d5cd45e7fb53.
 """
 
 

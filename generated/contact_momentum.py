@@ -1,7 +1,8 @@
 """Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 
-Proved by: 4.13-limit, 5.2-limit, stable-momentum.  Operations: 30.  SymPy 1.14.0.
+Proved by: 5.2-limit.  Operations: 30.  SymPy 1.14.0.
 Expression: sha256 8364d39ba783995bbec5d72ea1b61a921649cb00dcfb7b206e3b346ce4bdfbd6.
+Certificate of 5.2-limit: sha256 6bc71a38cb166b5ffe167aa0850c93e66a021baf67a72509a6499497f0ed82fb.
 """
 
 

@@ -1,7 +1,10 @@
 """Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 
-Proved by: 5.8, 5.8-modulus, 5.14-G, 5.15.  Operations: 22.  SymPy 1.14.0.
+Proved by: 5.8-modulus, 5.14-G, 5.14-Pi1.  Operations: 22.  SymPy 1.14.0.
 Expression: sha256 f3b586d0fbf43c8ac702af5e26e704893ffb62928eda76c1c83ebf8e5dca4f1c.
+Certificate of 5.8-modulus: sha256 0f929d4d4b6a9ca27743f80a6be950ee4a61b44be252ceebc93de5012c8b8d59.
+Certificate of 5.14-G: sha256 74d4f86c9b09da2d1649df6f48e5bae94f58da3d64029743f08ae05f458e1ef2.
+Certificate of 5.14-Pi1: sha256 7ef4c69de08e5d48306396f9bb4c5e01fd8d379dcd30473dd273cbdc75d29a35.
 """
 
 

@@ -2,7 +2,7 @@
 
 Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 From the kernels centre_step, compose, gibbs_residual, isotropic_spin, residual, rotate, turn.
-Proved by: 2.1, 4.9, 5.1, 5.2, gibbs, gibbs-rotation, isotropic-spin, stable-momentum, steady, steady-axis, steady-branch, steady-roll.
+Proved by: 4.9, 5.1, gibbs, gibbs-rotation, isotropic-spin, stable-momentum.
 Programs: sha256 d0d28b418bb27e49b429c94c7a56ee601b776e562768a595ca24bcbf47d750fe.
 """
 

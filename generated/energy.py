@@ -1,7 +1,8 @@
 """Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 
-Proved by: 2.5, stable-inverse.  Operations: 46.  SymPy 1.14.0.
+Proved by: stable-inverse.  Operations: 46.  SymPy 1.14.0.
 Expression: sha256 bf001ea627c2a020209b8f7cd96e7b036037dbd39581337739aa4e562cb3b0c8.
+Certificate of stable-inverse: sha256 5d704cac4556346b41f9495ddb9ba6e98749bef3935d58aa7c307fbf22fd38e5.
 """
 
 

@@ -1,7 +1,8 @@
 """Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 
-Proved by: gibbs, straight-path.  Operations: 80.  SymPy 1.14.0.
+Proved by: straight-path.  Operations: 80.  SymPy 1.14.0.
 Expression: sha256 b603b93937e923f16641664eec350b6c5dc201755fe3ec8ea2c90fc8f7f882b2.
+Certificate of straight-path: sha256 d7737436dabb25d18eafc66972bb874b9fcd3bcf6761734328ee2df95af4c017.
 """
 
 

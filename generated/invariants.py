@@ -1,7 +1,8 @@
 """Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 
-Proved by: prop-2, 5.3.  Operations: 15.  SymPy 1.14.0.
+Proved by: 5.3-integrals.  Operations: 15.  SymPy 1.14.0.
 Expression: sha256 501e078b24c674f9edbb37ed6e8457d6b5da2c6ecd1fe28cfbe3588c521326bf.
+Certificate of 5.3-integrals: sha256 4667908e0af20bcb4b820ca6b8d40bdf3ea6215e6dfd2e9ebe982b7f151d2135.
 """
 
 

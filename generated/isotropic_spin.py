@@ -1,7 +1,8 @@
 """Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 
-Proved by: isotropic-spin, steady, steady-branch, steady-axis, steady-roll.  Operations: 24.  SymPy 1.14.0.
+Proved by: isotropic-spin.  Operations: 24.  SymPy 1.14.0.
 Expression: sha256 dca5ee5fa586d5431e4f75db2c142fff21679e5cefc16f8b58c3ca65552173b7.
+Certificate of isotropic-spin: sha256 d078d204fa2e6c5b522dd0b606e78e5cb4d0bb0bb4adc0f60eb194acc787f8c5.
 """
 
 

@@ -1,7 +1,8 @@
 """Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 
-Proved by: 5.2, stable-momentum.  Operations: 53.  SymPy 1.14.0.
+Proved by: stable-momentum.  Operations: 53.  SymPy 1.14.0.
 Expression: sha256 a1532f21963741f580e54a3338de6b26e964faa6ae1cd81f1e4ad4d88ca41462.
+Certificate of stable-momentum: sha256 f61f141b57b73ba6fc9853079e34670d68e32acaa6b2e960c6a26f09c3592687.
 """
 
 

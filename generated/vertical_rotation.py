@@ -2,6 +2,7 @@
 
 Proved by: vertical-rotation.  Operations: 44.  SymPy 1.14.0.
 Expression: sha256 1b59598563aad694dcc4d8cd7fa37a2401a7bd0e565d4b8f5fed87ca5262396f.
+Certificate of vertical-rotation: sha256 47763fd9331380226343878615ccb8b182c7e94a3ba6da538f0e7dbcca3d9c6f.
 """
 
 

@@ -1,13 +1,13 @@
-"""chapsym codegen: generate the kernels, or check them."""
+"""chapsym codegen: generate the kernels of a register, or check them."""
 
-from typing import Annotated, Any
+from typing import Annotated
 
 import typer
 
 from .app import app
-from .options import Json
+from .options import Json, Own
 from .output import fail, print_json
-from .prove import all_claims, kept_records, records_of
+from .prove import register_from
 
 
 @app.command()
@@ -17,41 +17,50 @@ def codegen(
         list[str] | None,
         typer.Option(metavar="KERNEL", help="Accept the new value of a kernel (or 'all') as its fingerprint."),
     ] = None,
+    own: Own = None,
     as_json: Json = False,
 ) -> None:
     """Generate the kernels from the proved expressions, or check that they are what is derived.
 
+    A kernel is refused unless its text computes what the statements that carry it say, in claims that are proved anew.
+    Those of a register of your own are listed in FOLDER/kernels.py, and written into FOLDER/generated.
+
     Example: chapsym codegen --check
     """
     from chapsym.codegen import build
+    from chapsym.prove import PROOFS, BrokenScript, NoRegister
 
-    place = build.folder()
+    try:
+        package = build.Package(register_from(own) or PROOFS)
+    except (NoRegister, BrokenScript, build.NoKernels) as error:
+        fail(str(error), 2)
+    place = package.place
     if check:
         if trust:
             fail("--trust writes fingerprints, so it does not go with --check", 2)
-        problems = _unproved(build.KERNELS)
+        problems = package.unproved()
         try:
-            problems += build.check(place)
+            problems += package.check(place) if not problems else []
         except Exception as error:  # whatever a broken derivation does
             problems.append(f"the derivation fails: {type(error).__name__}: {error}")
         if as_json:
             print_json({"folder": str(place), "problems": problems, "kept": not problems})
         elif not problems:
-            print(f"generated code is what is derived: {len(build.KERNELS)} kernels, bytes and values")
+            print(f"generated code is what is derived: {len(package.kernels)} kernels, bytes and values; ", end="")
+            print(f"{len(package.kernels)} of {len(package.kernels)} compute what their claims decided")
         if problems:
-            fail("; ".join(problems) + f". To mend: {build.MEND}", 1)
+            fail("; ".join(problems) + f". To mend: {package.mend}", 1)
         return
-    if not build.is_checkout(place):
+    if package.is_ours and not build.is_checkout(place):
         fail("this chapsym is an installed copy: generate in a source checkout; here only --check applies", 2)
     try:
-        build.check_names(trust or [])
+        package.check_names(trust or [])
     except ValueError as error:
         fail(str(error), 2)
-    unproved = _unproved(build.KERNELS)
-    if unproved:
+    if unproved := package.unproved():
         fail("; ".join(unproved), 1)
     try:
-        written = build.generate(place, trust or [])
+        written = package.generate(place, trust or [])
     except (ValueError, ArithmeticError) as error:
         fail(str(error), 1)
     except OSError as error:
@@ -60,15 +69,3 @@ def codegen(
         print_json({"folder": str(place), "written": written})
     else:
         print(f"wrote {len(written)} files into {place.name}/")
-
-
-def _unproved(kernels: Any) -> list[str]:
-    """The claims that kernels name as their proof and that are not proved, one sentence each; fresh records count."""
-    named = {id: kernel.name for kernel in kernels for id in kernel.claims}
-    claims = all_claims(lemmas=True)
-    missing = [
-        f"{kernel} names the claim {id}, which no proof judges" for id, kernel in named.items() if id not in claims
-    ]
-    records = records_of({id: claim for id, claim in claims.items() if id in named}, kept_records(None))
-    failed = [record["id"] for record in records if record["verdict"] == "open"]
-    return missing + [f"{named[id]} comes from the claim {id}, which is not proved" for id in failed]

@@ -1,30 +1,261 @@
-"""Writes the kernels, their manifest and their fingerprints; checks that what is committed is what is derived."""
+"""The package that a register's kernels are written into: made, checked against what is derived, and bound to claims.
+
+A kernel is refused unless its text computes what the statements that carry it say: the checker evaluates the one, takes
+the other from the certificate of the claim, which is proved anew here, and compares them as rational functions.
+"""
 
 import hashlib
 import importlib.util
 import json
 import os
 from collections.abc import Callable, Mapping, Sequence
-from functools import cache, partial
+from functools import cache, cached_property, partial
 from pathlib import Path
 from types import ModuleType
 from typing import Any
 
 import sympy as sp
 
+from chapsym.checker import Rejected
+from chapsym.checker import kernels as binding
+from chapsym.prove import PROOFS, Register, Verdict
+from chapsym.prove.claims import Judgement, judgement_of, once
+
 from . import c_files, ir, pairs, passes, printer
-from .kernels import KERNELS, Kernel
+from .kernels import Kernel
+from .programs import Program
 from .values import fingerprint, program_fingerprint, target_fingerprint, text_fingerprint
 
 #: What is written from programs, each into a module of its own.
 TARGETS: tuple[ModuleType, ...] = (pairs,)
 MANIFEST, FINGERPRINTS = "manifest.json", "fingerprints.json"
-MEND = "chapsym codegen"
 EDIT = "Written by `chapsym codegen`: do not edit; change the derivation and generate again."
+#: The values of functions as derived, and as a text of their module has them, by name.
+Computed = dict[str, tuple[list[str], Callable[[str], list[str]]]]
+
+
+class NoKernels(ValueError):
+    """A register that has no list of kernels; the message says what would be one."""
+
+
+class Package:
+    """The kernels of a register, and the folder that they are generated into.
+
+    Parameters
+    ----------
+    register : Register
+        Whose `kernels.py` has KERNELS, and may have PROGRAMS for double-double.
+
+    Raises
+    ------
+    NoKernels
+        If there is no such list.
+    """
+
+    def __init__(self, register: Register = PROOFS) -> None:
+        self.register = register
+        self.claims = register.load(lemmas=True)
+        module = register.module("kernels")
+        found = getattr(module, "KERNELS", None)
+        if not isinstance(found, list | tuple) or not all(isinstance(one, Kernel) for one in found) or not found:
+            raise NoKernels(f"{register.place} has no kernels.py with KERNELS, a list of Kernel")
+        self.kernels: tuple[Kernel, ...] = tuple(found)
+        self.programs: tuple[Program, ...] = tuple(getattr(module, "PROGRAMS", ()))
+        names = [*(kernel.name for kernel in self.kernels), *(program.name for program in self.programs)]
+        if twice := [name for name in names if names.count(name) > 1]:
+            raise NoKernels(f"{register.place}: two kernels have the name {twice[0]}")
+
+    @property
+    def is_ours(self) -> bool:
+        """Whether the loops of `dynamics` are made of these kernels."""
+        return self.register == PROOFS
+
+    @property
+    def place(self) -> Path:
+        """Where the package lies: `generated` of the register, or that of chapsym."""
+        return folder() if self.is_ours else self.register.folder / "generated"
+
+    @property
+    def mend(self) -> str:
+        """The command that writes it."""
+        return "chapsym codegen" + ("" if self.is_ours else f" --register {self.register.place}")
+
+    @cached_property
+    def judged(self) -> dict[str, Judgement]:
+        """The claims that carry kernels, judged now."""
+        wanted = {id for kernel in self.kernels for id in kernel.claims}
+        known = self.claims if wanted <= self.claims.keys() else PROOFS.load(lemmas=True) | self.claims
+        with once():
+            return {id: judgement_of(known[id]) for id in sorted(wanted & known.keys())}
+
+    def unproved(self) -> list[str]:
+        """The claims that should carry kernels and are not proved, a sentence each."""
+        named = {id: kernel.name for kernel in self.kernels for id in kernel.claims}
+        problems = []
+        for id, kernel in named.items():
+            if id not in self.judged:
+                problems.append(f"{kernel} names the claim {id}, which no proof judges")
+            elif self.judged[id].verdict is Verdict.OPEN or not self.judged[id].certificate:
+                problems.append(f"{kernel} comes from the claim {id}, which is not proved")
+        return problems + [f"{kernel.name} is carried by no claim" for kernel in self.kernels if not kernel.claims]
+
+    def _digest(self, id: str) -> str:
+        certificate = self.judged[id].certificate
+        return certificate["digest"] if certificate else ""
+
+    def source(self, kernel: Kernel) -> tuple[str, dict[str, Any]]:
+        """The module of one kernel and its row of the manifest; raises Rejected unless it is carried."""
+        digest = _hash("\n".join(sp.srepr(e) for e in kernel.expressions))
+        operations = passes.operations(passes.lower(kernel))
+        carriers = [carrier.data(self._digest) for carrier in kernel.carriers]
+        about = [
+            EDIT,
+            "",
+            f"Proved by: {', '.join(kernel.claims)}.  Operations: {operations}.  SymPy {sp.__version__}.",
+            f"Expression: sha256 {digest}.",
+            *(f"Certificate of {id}: sha256 {self._digest(id)}." for id in kernel.claims),
+        ]
+        text = _module(about, [], [code(kernel)])
+        row = {"claims": kernel.claims, "operations": operations, "saved_by": passes.saved(kernel)}
+        row |= {"expression_sha256": digest, "text_sha256": _hash(text), "carriers": carriers}
+        certificates = {f"{id} {self._digest(id)}": one.certificate or {} for id, one in self.judged.items()}
+        binding.check(row, text, certificates, kernel.name)
+        return text, row
+
+    def target_source(self, target: ModuleType) -> tuple[str, dict[str, dict[str, Any]]]:
+        """A module that is written from programs and its rows of the manifest."""
+        functions = [target.function(program, self.texts) for program in self.programs]
+        written, rows = [], {}
+        for p, made in zip(self.programs, functions, strict=True):
+            written.append(ir.function(p.name, p.summary, p.groups, made.arguments, made.notes, made.body))
+            rows[p.name] = {"kernels": ir.called(p), **made.facts, "text_sha256": _hash(written[-1])}
+        kernels = sorted({name for row in rows.values() for name in row["kernels"]})
+        claims = sorted({id for kernel in self.kernels if kernel.name in kernels for id in kernel.claims})
+        programs = "\n".join(program.text for program in self.programs)
+        about = [target.ABOUT, "", EDIT, f"From the kernels {', '.join(kernels)}.", f"Proved by: {', '.join(claims)}."]
+        about.append(f"Programs: sha256 {_hash(programs)}.")
+        return _module(about, target.preamble(functions), written), rows
+
+    @cached_property
+    def texts(self) -> dict[str, str]:
+        """The functions of the kernels that programs call, by name."""
+        wanted = {name for program in self.programs for name in ir.called(program)}
+        return {kernel.name: code(kernel) for kernel in self.kernels if kernel.name in wanted}
+
+    @cached_property
+    def files(self) -> dict[str, str]:
+        """Every generated file but the fingerprints, by name.
+
+        Raises ArithmeticError if a text does not compute its expression, or what carries it.
+        """
+        files, rows = {"__init__.py": package_source(self.kernels)}, dict[str, dict[str, Any]]()
+        for kernel in self.kernels:
+            try:
+                files[f"{kernel.name}.py"], rows[kernel.name] = self.source(kernel)
+            except Rejected as error:
+                raise ArithmeticError(str(error)) from None
+        table = {"kernels": rows}
+        for target in TARGETS if self.programs else ():
+            files[target.FILE], table[target.KEY] = self.target_source(target)
+        for name, functions in self.computed.items():
+            for function, (derived, values) in functions.items():
+                if values(files[name]) != derived:
+                    raise ArithmeticError(f"the text of {function} in {name} does not compute its expression")
+        if self.is_ours:
+            files |= c_files.build(partial(self.text, files), self.kernels)
+        parts = [f'"{key}": {_one_a_line(part)}' for key, part in table.items()]
+        files[MANIFEST] = "{\n" + ",\n".join([f'"sympy": "{sp.__version__}"', *parts]) + "\n}\n"
+        return files
+
+    def text(self, files: Mapping[str, str], path: str) -> str:
+        """The text of a module that the loops are made of: of what is generated the one that is being built."""
+        if path == "chapsym.generated":
+            return "\n\n".join(files[f"{kernel.name}.py"] for kernel in self.kernels)
+        package, _, name = path.rpartition(".")
+        if package == "chapsym.generated":
+            return files[f"{name}.py"]
+        return Path(__file__).parents[1].joinpath(*path.split(".")[1:]).with_suffix(".py").read_text(encoding="utf-8")
+
+    @cached_property
+    def computed(self) -> dict[str, Computed]:
+        """What the functions of each module in Python compute."""
+        found: dict[str, Computed] = {
+            f"{kernel.name}.py": {kernel.name: (fingerprint(kernel), partial(text_fingerprint, kernel))}
+            for kernel in self.kernels
+        }
+        for target in TARGETS if self.programs else ():
+            found[target.FILE] = {
+                program.name: (program_fingerprint(program, self.texts), partial(target_fingerprint, target, program))
+                for program in self.programs
+            }
+        return found
+
+    @cached_property
+    def fingerprints(self) -> dict[str, list[str]]:
+        """The values of every kernel and of every program, by name."""
+        return {name: derived for functions in self.computed.values() for name, (derived, _) in functions.items()}
+
+    def distrusted(self, place: Path) -> dict[str, str]:
+        """What the trusted fingerprints say against the derivation: a sentence for each kernel or program."""
+        trusted, problems = stored_fingerprints(place), {}
+        for name, value in self.fingerprints.items():
+            if name not in trusted:
+                problems[name] = f"{name} has no trusted fingerprint; after review: {self.mend} --trust {name}"
+            elif trusted[name] != value:
+                problems[name] = f"{name} changed its value; if that is meant: {self.mend} --trust {name}"
+        return problems
+
+    def check(self, place: Path) -> list[str]:
+        """Compares a fresh build with `place`: listing, bytes and values; returns what is wrong."""
+        fresh = {name: text.encode() for name, text in self.files.items()}
+        there = place.iterdir() if place.is_dir() else ()
+        found = {p.name: p.read_bytes() for p in there if p.is_file() and p.name != FINGERPRINTS}
+        changed = [name for name in sorted(set(fresh) & set(found)) if fresh[name] != found[name]]
+        problems = [f"{name} is missing" for name in sorted(set(fresh) - set(found))]
+        problems += [f"{name} is extra" for name in sorted(set(found) - set(fresh))]
+        problems += [f"{name} is changed" for name in changed]
+        for name in changed:
+            for function, (derived, values) in self.computed.get(name, {}).items():
+                problems += _doubts(
+                    name if name == f"{function}.py" else f"{function} in {name}", derived, values, found[name]
+                )
+        strangers = sorted(set(stored_fingerprints(place)) - set(self.fingerprints))
+        problems += self.distrusted(place).values()
+        return problems + [f"the fingerprint of {name} belongs to no kernel" for name in strangers]
+
+    def check_names(self, trust: Sequence[str]) -> None:
+        """Raises ValueError if a name in `trust` is no kernel's and no program's."""
+        names = {"all", *(one.name for one in (*self.kernels, *self.programs))}
+        for name in trust:
+            if name not in names:
+                raise ValueError(f"--trust {name}: there is no such kernel; the names are {', '.join(sorted(names))}")
+
+    def generate(self, place: Path, trust: Sequence[str] = ()) -> list[str]:
+        """Writes every file into `place` and removes kernels that are no more; returns the names written.
+
+        Raises ValueError, before anything is written, if a fingerprint is missing or contradicted and not
+        named in `trust` ("all" names every kernel).  The first ones of a folder that has none are trusted.
+        """
+        self.check_names(trust)
+        problems = {} if not (place / FINGERPRINTS).is_file() and not self.is_ours else self.distrusted(place)
+        if left := [problem for name, problem in problems.items() if not {name, "all"} & set(trust)]:
+            raise ValueError("; ".join(left))
+        files = {**self.files, FINGERPRINTS: _one_a_line(dict(sorted(self.fingerprints.items()))) + "\n"}
+        write(place, files)
+        for path in place.iterdir():
+            if path.is_file() and path.name not in files:
+                path.unlink()
+        return sorted(files)
+
+
+@cache
+def ours() -> Package:
+    """The kernels of the ball."""
+    return Package()
 
 
 def folder() -> Path:
-    """Where the generated package lies: `generated/` of a checkout, or the installed copy."""
+    """Where the generated package of chapsym lies: `generated/` of a checkout, or the installed copy."""
     spec = importlib.util.find_spec("chapsym.generated")
     if spec is None or not spec.submodule_search_locations:
         raise FileNotFoundError("the package chapsym.generated is not installed; reinstall chapsym")
@@ -52,45 +283,6 @@ def code(kernel: Kernel, chosen: tuple[str, ...] = passes.PASSES) -> str:
     return ir.function(kernel.name, kernel.summary, kernel.groups, arguments, notes, body)
 
 
-def source(kernel: Kernel) -> tuple[str, dict[str, Any]]:
-    """The module of one kernel and its row of the manifest."""
-    digest = _hash("\n".join(sp.srepr(e) for e in kernel.expressions))
-    operations = passes.operations(passes.lower(kernel))
-    proved = f"Proved by: {', '.join(kernel.claims)}.  Operations: {operations}.  SymPy {sp.__version__}."
-    row = {
-        "claims": kernel.claims,
-        "operations": operations,
-        "saved_by": passes.saved(kernel),
-        "expression_sha256": digest,
-    }
-    text = _module([EDIT, "", proved, f"Expression: sha256 {digest}."], [], [code(kernel)])
-    return text, {**row, "text_sha256": _hash(text)}
-
-
-def target_source(target: ModuleType) -> tuple[str, dict[str, dict[str, Any]]]:
-    """A module that is written from programs and its rows of the manifest."""
-    functions = [target.function(program, texts()) for program in target.PROGRAMS]
-    written, rows = [], {}
-    for p, made in zip(target.PROGRAMS, functions, strict=True):
-        written.append(ir.function(p.name, p.summary, p.groups, made.arguments, made.notes, made.body))
-        rows[p.name] = {"kernels": ir.called(p), **made.facts, "text_sha256": _hash(written[-1])}
-    kernels = sorted({name for row in rows.values() for name in row["kernels"]})
-    claims = sorted({id for kernel in KERNELS if kernel.name in kernels for id in kernel.claims})
-    programs = "\n".join(program.text for program in target.PROGRAMS)
-    about = [target.ABOUT, "", EDIT, f"From the kernels {', '.join(kernels)}.", f"Proved by: {', '.join(claims)}."]
-    about.append(f"Programs: sha256 {_hash(programs)}.")
-    return _module(about, target.preamble(functions), written), rows
-
-
-def _hash(text: str) -> str:
-    return hashlib.sha256(text.encode()).hexdigest()
-
-
-def _module(about: Sequence[str], preamble: Sequence[str], functions: Sequence[str]) -> str:
-    head = ["\n".join([f'"""{about[0]}', *about[1:], '"""']), *filter(None, ["\n".join(preamble)])]
-    return "\n\n".join(head) + "\n\n\n" + "\n\n".join(functions)
-
-
 def package_source(kernels: Sequence[Kernel]) -> str:
     """The text of `__init__.py`: every kernel, and the table the NumPy front reads."""
     kernels = sorted(kernels, key=lambda kernel: kernel.name)
@@ -109,143 +301,10 @@ def package_source(kernels: Sequence[Kernel]) -> str:
     return "\n".join(lines)
 
 
-@cache
-def texts() -> dict[str, str]:
-    """The functions of the kernels that programs call, by name."""
-    wanted = {name for target in TARGETS for program in target.PROGRAMS for name in ir.called(program)}
-    return {kernel.name: code(kernel) for kernel in KERNELS if kernel.name in wanted}
-
-
-@cache
-def build() -> dict[str, str]:
-    """Every generated file but the fingerprints, by name.
-
-    Raises ArithmeticError if a text does not compute its expression exactly.
-    """
-    files, rows = {"__init__.py": package_source(KERNELS)}, dict[str, dict[str, Any]]()
-    for kernel in KERNELS:
-        files[f"{kernel.name}.py"], rows[kernel.name] = source(kernel)
-    table = {"kernels": rows}
-    for target in TARGETS:
-        files[target.FILE], table[target.KEY] = target_source(target)
-    for name, functions in computed().items():
-        for function, (derived, values) in functions.items():
-            if values(files[name]) != derived:
-                raise ArithmeticError(f"the text of {function} in {name} does not compute its expression")
-    files |= c_files.build(partial(_text, files), KERNELS)
-    parts = [f'"{key}": {_one_a_line(part)}' for key, part in table.items()]
-    files[MANIFEST] = "{\n" + ",\n".join([f'"sympy": "{sp.__version__}"', *parts]) + "\n}\n"
-    return files
-
-
-def _one_a_line(table: Mapping[str, Any]) -> str:
-    """An object of JSON, one key a line."""
-    return "{\n" + ",\n".join(f'"{key}": {json.dumps(value)}' for key, value in table.items()) + "\n}"
-
-
-def _text(files: dict[str, str], path: str) -> str:
-    """The text of a module that the loops are made of: of what is generated the one that is being built."""
-    if path == "chapsym.generated":
-        return "\n\n".join(files[f"{kernel.name}.py"] for kernel in KERNELS)
-    package, _, name = path.rpartition(".")
-    if package == "chapsym.generated":
-        return files[f"{name}.py"]
-    return Path(__file__).parents[1].joinpath(*path.split(".")[1:]).with_suffix(".py").read_text(encoding="utf-8")
-
-
-#: The values of functions as derived, and as a text of their module has them, by name.
-Computed = dict[str, tuple[list[str], Callable[[str], list[str]]]]
-
-
-@cache
-def computed() -> dict[str, Computed]:
-    """What the functions of each module in Python compute."""
-    found: dict[str, Computed] = {
-        f"{kernel.name}.py": {kernel.name: (fingerprint(kernel), partial(text_fingerprint, kernel))}
-        for kernel in KERNELS
-    }
-    for target in TARGETS:
-        found[target.FILE] = {
-            program.name: (program_fingerprint(program, texts()), partial(target_fingerprint, target, program))
-            for program in target.PROGRAMS
-        }
-    return found
-
-
-@cache
-def fingerprints() -> dict[str, list[str]]:
-    """The values of every kernel and of every program, by name."""
-    return {name: derived for functions in computed().values() for name, (derived, _) in functions.items()}
-
-
 def stored_fingerprints(place: Path) -> dict[str, list[str]]:
     """The trusted values; empty if there are none."""
     path = place / FINGERPRINTS
     return json.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}
-
-
-def distrusted(place: Path) -> dict[str, str]:
-    """What the trusted fingerprints say against the derivation: a sentence for each kernel or program."""
-    trusted, derived, problems = stored_fingerprints(place), fingerprints(), {}
-    for name, value in derived.items():
-        if name not in trusted:
-            problems[name] = f"{name} has no trusted fingerprint; after review: {MEND} --trust {name}"
-        elif trusted[name] != value:
-            problems[name] = f"{name} changed its value; if that is meant: {MEND} --trust {name}"
-    return problems
-
-
-def check(place: Path) -> list[str]:
-    """Compares a fresh build with `place`: listing, bytes and values; returns what is wrong."""
-    fresh = {name: text.encode() for name, text in build().items()}
-    found = {p.name: p.read_bytes() for p in place.iterdir() if p.is_file() and p.name != FINGERPRINTS}
-    changed = [name for name in sorted(set(fresh) & set(found)) if fresh[name] != found[name]]
-    problems = [f"{name} is missing" for name in sorted(set(fresh) - set(found))]
-    problems += [f"{name} is extra" for name in sorted(set(found) - set(fresh))]
-    problems += [f"{name} is changed" for name in changed]
-    for name in changed:
-        for function, (derived, values) in computed().get(name, {}).items():
-            problems += _doubts(
-                name if name == f"{function}.py" else f"{function} in {name}", derived, values, found[name]
-            )
-    strangers = sorted(set(stored_fingerprints(place)) - set(fingerprints()))
-    problems += distrusted(place).values()
-    return problems + [f"the fingerprint of {name} belongs to no kernel" for name in strangers]
-
-
-def _doubts(what: str, derived: list[str], values: Callable[[str], list[str]], text: bytes) -> list[str]:
-    """What a changed text does otherwise than the derivation, if anything."""
-    try:
-        return [] if values(text.decode()) == derived else [f"{what} computes another value than the derivation"]
-    except Exception as error:
-        return [f"{what} does not run: {error}"]
-
-
-def check_names(trust: Sequence[str]) -> None:
-    """Raises ValueError if a name in `trust` is no kernel's and no program's."""
-    programs = (program.name for target in TARGETS for program in target.PROGRAMS)
-    names = {"all", *(kernel.name for kernel in KERNELS), *programs}
-    for name in trust:
-        if name not in names:
-            raise ValueError(f"--trust {name}: there is no such kernel; the names are {', '.join(sorted(names))}")
-
-
-def generate(place: Path, trust: Sequence[str] = ()) -> list[str]:
-    """Writes every file into `place` and removes kernels that are no more; returns the names written.
-
-    Raises ValueError, before anything is written, if a fingerprint is missing or contradicted and not
-    named in `trust` ("all" names every kernel).
-    """
-    check_names(trust)
-    problems = [problem for name, problem in distrusted(place).items() if not {name, "all"} & set(trust)]
-    if problems:
-        raise ValueError("; ".join(problems))
-    files = {**build(), FINGERPRINTS: _one_a_line(dict(sorted(fingerprints().items()))) + "\n"}
-    write(place, files)
-    for path in place.iterdir():
-        if path.is_file() and path.name not in files:
-            path.unlink()
-    return sorted(files)
 
 
 def write(place: Path, files: dict[str, str]) -> None:
@@ -255,3 +314,25 @@ def write(place: Path, files: dict[str, str]) -> None:
         partial = place / f".{name}.partial"
         partial.write_text(text, encoding="utf-8", newline="\n")
         os.replace(partial, place / name)
+
+
+def _hash(text: str) -> str:
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+def _module(about: Sequence[str], preamble: Sequence[str], functions: Sequence[str]) -> str:
+    head = ["\n".join([f'"""{about[0]}', *about[1:], '"""']), *filter(None, ["\n".join(preamble)])]
+    return "\n\n".join(head) + "\n\n\n" + "\n\n".join(functions)
+
+
+def _one_a_line(table: Mapping[str, Any]) -> str:
+    """An object of JSON, one key a line."""
+    return "{\n" + ",\n".join(f'"{key}": {json.dumps(value)}' for key, value in table.items()) + "\n}"
+
+
+def _doubts(what: str, derived: list[str], values: Callable[[str], list[str]], text: bytes) -> list[str]:
+    """What a changed text does otherwise than the derivation, if anything."""
+    try:
+        return [] if values(text.decode()) == derived else [f"{what} computes another value than the derivation"]
+    except Exception as error:
+        return [f"{what} does not run: {error}"]

@@ -11,12 +11,11 @@ from fractions import Fraction
 
 from .ir import Folded, Function, Texts, numbered
 from .printer import NotStraightLine
-from .programs import PAIR_PROGRAMS, Program
+from .programs import Program
 
 #: The module, its key in the manifest, and its first line.
 FILE, KEY = "double_double.py", "pairs"
 ABOUT = "The parts of a step on double-double numbers; x and x_ are the halves of x."
-PROGRAMS = PAIR_PROGRAMS
 #: What a call costs, in float64 operations.
 COST = {
     "two_sum": 6, "two_product": 2, "loose_add": 8, "loose_subtract": 8, "loose_add_float": 7, "loose_multiply": 6,

@@ -181,7 +181,7 @@ def tangent_jacobian() -> sp.ImmutableMatrix:
     Row i, column j: the change of 𝒦ᵢ when q becomes q ∘ (1, w eⱼ), per unit of w.
     """
     gradient = sp.Matrix(momentum()).jacobian(sp.Matrix([q0, *q]))
-    return sp.ImmutableMatrix(gradient * sp.Matrix.hstack(*_body_directions()))
+    return sp.ImmutableMatrix(gradient * sp.Matrix.hstack(*body_directions()))
 
 
 @cache
@@ -190,14 +190,14 @@ def tangent_hessian() -> sp.ImmutableMatrix:
 
     𝒦(q ∘ (1, w)) = 𝒦(q) + T w + ½ Σ Hᵢⱼ wᵢ wⱼ exactly, as 𝒦 is homogeneous of degree 2.
     """
-    directions = _body_directions()
+    directions = body_directions()
     second = [sp.hessian(entry, [q0, *q]) for entry in momentum()]
     pairs = [(0, 0), (1, 1), (2, 2), (1, 2), (0, 2), (0, 1)]
     rows = [[(directions[i].T * h * directions[j])[0] for h in second] for i, j in pairs]
     return sp.ImmutableMatrix(sp.Matrix(rows).applyfunc(by_parameters))
 
 
-def _body_directions() -> list[sp.Matrix]:
+def body_directions() -> list[sp.Matrix]:
     """q ∘ (0, eᵢ): the directions of the three rotations about the body's axes."""
     return [quaternion_product(sp.Matrix([q0, *q]), sp.Matrix([0, *e])) for e in sp.eye(3).columnspace()]
 

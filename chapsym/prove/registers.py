@@ -24,6 +24,10 @@ from .claims import Claim, TwoProofs
 from .claims import register as registered
 
 
+#: The file of a register that has no claims, but the list of what is generated from them.
+KERNELS = "kernels"
+
+
 class BrokenScript(ImportError):
     """A script cannot be loaded, or its claims cannot stand together; the message names the file."""
 
@@ -37,7 +41,7 @@ class Register:
     """Claims in one place: a folder with Python scripts, the path of one script, or the name of a package.
 
     A package, or a folder with an `__init__.py`, may say there: `SCRIPTS`, their names in order (without it, all files
-    that end in .py and do not begin with _); `CLAIMS`, the ids in order; `LEMMAS`, ids of what is judged only when it
+    that end in .py and do not begin with _, but for kernels.py); `CLAIMS`, the ids in order; `LEMMAS`, ids of what is judged only when it
     is named; `PAPER`, what the claims are of; and `NOTE`, how its formulas are to be read.
     """
 
@@ -83,6 +87,20 @@ class Register:
     def told(self, name: str, default: str) -> str:
         """What the `__init__.py` says under a name: PAPER or NOTE."""
         return str(getattr(self._head(), name, default))
+
+    def module(self, name: str) -> ModuleType | None:
+        """A module beside the scripts, such as `kernels`; None if there is none.  Raises BrokenScript as `load` does."""
+        full = f"{self._head().__name__}.{name}"
+        if sources.file(full) is None:
+            return None
+        _import(full)
+        return sys.modules[full]
+
+    @property
+    def folder(self) -> Path:
+        """The folder of the scripts."""
+        path = self._path()
+        return (path if path.is_dir() else path.parent) if path else Path(next(iter(self._head().__path__)))
 
     def script(self, path: Path) -> str | None:
         """The module of a file, if it is one of the scripts."""
@@ -149,7 +167,7 @@ class Register:
         names = _listed(head, "SCRIPTS")
         if names is None:
             found = sorted(one for folder in head.__path__ for one in Path(folder).glob("[!_]*.py"))
-            names = [one.stem for one in found]
+            names = [one.stem for one in found if one.stem != KERNELS]
         return [f"{head.__name__}.{name}" for name in names]
 
     def _check(self, claims: dict[str, Claim]) -> None:

@@ -233,7 +233,7 @@ def triple(matrix: sp.Matrix) -> sp.Expr:
 @cache
 def volumes() -> tuple[sp.Expr, sp.Expr]:
     """The determinants of the derivatives of (𝒦, γ) before and after a step, by a turn of q and by γ."""
-    turn, body = sp.Matrix(three.rotation()), sp.Matrix.hstack(*three._body_directions())
+    turn, body = sp.Matrix(three.rotation()), sp.Matrix.hstack(*three.body_directions())
     by_turn, by_vertical = (
         [(x.jacobian(y) * z) for x in (momentum(), turn.T * momentum(), turn.T * three.gamma)]
         for y, z in ((QUATERNION, body), (three.gamma, sp.eye(3)))
@@ -260,7 +260,7 @@ def measure(p: Proof) -> None:
     ring = Quotient((q0, *q, *rotor, J1, J2, J3), [three.UNIT_QUATERNION])
     end = start.subs(placed((q, -q), (rotor, -rotor)), simultaneous=True) * -1
     p.lemma(vectors("Ωᵀ𝒦(q; a) = -𝒦(-q; -a) for D = 0", turn * start, end, ring))
-    body = sp.Matrix.hstack(*three._body_directions())
+    body = sp.Matrix.hstack(*three.body_directions())
     here, there = (triple(x.jacobian(QUATERNION) * body) for x in (start, end))
     p.printed(vectors("det ∂(Ωᵀ𝒦) = det ∂𝒦 for D = 0", there, here, ring))
     p.say("For equal moments F = 1 - D/(I + D): the continuous ball has the constant density.  At q = (4, 2, 1, 2)/5:")

@@ -65,7 +65,9 @@ def modified_field(p: Proof) -> None:
     p.lemma(equal("d/dt(Bω - K) = Bω' - Iω × ω", inertia_along(MOVING, omega) + carried(rate) - carried(omega).cross(omega),
                   carried(rate) - modified.torque()))  # fmt: skip
     momentum, both, tip = carried(omega), omega + rate, gamma + MOVING
-    p.lemma(equal("Iω × ω = K × ω + D⟨γ,ω⟩γ × ω", modified.torque(), (momentum + D * gamma.dot(omega) * gamma).cross(omega)))
+    p.lemma(
+        equal("Iω × ω = K × ω + D⟨γ,ω⟩γ × ω", modified.torque(), (momentum + D * gamma.dot(omega) * gamma).cross(omega))
+    )
     p.show("B ω'", modified.torque())
     p.show("load", modified.load())
     contact = gamma.dot(rate) * MOVING + MOVING.dot(rate) * gamma
@@ -81,7 +83,9 @@ def modified_field(p: Proof) -> None:
         p.printed(equal(f"Ωᵀx and the flow of ẋ = x × Ω̃ agree in ε^{power}", step, flow))
     p.say("So with c = -½ Σ eᵢ × (eᵢ × c) ω₃ is what the step turns the basis by beyond the flow of ω:")
     beyond = [e.cross(modified.step_jet(e)[3] - third_of_the_ball(e)) for e in sp.eye(3).columnspace()]
-    p.lemma(equal("12ω₃ from what the step leaves in ε³", modified.correction(), -6 * (beyond[0] + beyond[1] + beyond[2])))
+    p.lemma(
+        equal("12ω₃ from what the step leaves in ε³", modified.correction(), -6 * (beyond[0] + beyond[1] + beyond[2]))
+    )
     p.step(TURNS, COMPACT, "gibbs-rotation", "2.5-inverse")
     p.say("Second, it solves the equation of the step: the coefficients of Bu + u × Iu - (1 + |u|²)εK/2 are")
     one, two, three_ = modified.equation_jet()

@@ -214,7 +214,9 @@ def precession(p: Proof) -> None:
     free = Quotient((*elliptic.LAMBDA, elliptic.l, y_), [])
     p.lemma(Equation("|b|² and ⟨b,Λ⁻¹b⟩ on the curve: their values at y = 0, and the differences to those at y = 1",
                      elliptic.precession_parts(), values, free))  # fmt: skip
-    p.lemma(Equation("both are linear in y", on_curve(y_), [values[0] + values[1] * y_, values[2] + values[3] * y_], free))
+    p.lemma(
+        Equation("both are linear in y", on_curve(y_), [values[0] + values[1] * y_, values[2] + values[3] * y_], free)
+    )
     p.control(turning("⟨γ×b, b' + ω×b⟩ = ⟨b,Λb⟩", b.dot(LAMBDA * b)))
 
 

@@ -1,0 +1,429 @@
+"""The kernels of the ball: each with its inputs, its expressions, and the decided statements that carry it."""
+
+from collections.abc import Sequence
+
+import sympy as sp
+
+from chapsym.codegen import Group, Kernel, Program, left, right
+from chapsym.derive import continuous, elliptic, gibbs, modified, steady, three, vertical
+from chapsym.derive.limits import omega
+from chapsym.derive.three import J1, J2, J3, D, K, gamma, q, q0
+
+QUATERNION: Group = ("rotation", (q0, *q))
+GAMMA: Group = ("gamma", tuple(gamma))
+MOMENTUM: Group = ("momentum", tuple(K))
+OMEGA: Group = ("omega", tuple(omega))
+RATE: Group = ("rate", tuple(modified.rate))
+SHARE: Group = ("share", tuple(modified.share))
+MASS_TENSOR: Group = ("mass_tensor", (J1, J2, J3))
+CONTACT: Group = ("D", (D,))
+FIRST: Group = ("first", sp.symbols("a0:4"))
+SECOND: Group = ("second", sp.symbols("b0:4"))
+VECTOR: Group = ("vector", sp.symbols("v1:4"))
+GIBBS: Group = ("gibbs", tuple(gibbs.u))
+HALF: Group = ("half_momentum", tuple(gibbs.k))
+CORRECTION: Group = ("correction", tuple(gibbs.d))
+NEXT: Group = ("next_correction", tuple(gibbs.e))
+COFACTORS: Group = ("cofactors", tuple(gibbs.C))
+ANY_QUATERNION: Group = ("quaternion", (gibbs.p0, *gibbs.p))
+INERTIA: Group = ("inertia", tuple(gibbs.INERTIA.diagonal()))
+ORDERED: Group = ("ordered", elliptic.LAMBDA)
+SQUARE: Group = ("inverse_square", (elliptic.l,))
+MOMENT: Group = ("moment", (steady.moment,))
+LAMBDA: Group = ("Lambda", vertical.INERTIA)
+BODY: tuple[Group, ...] = (GAMMA, MASS_TENSOR, CONTACT)
+
+
+def _matrix(prefix: str) -> tuple[str, ...]:
+    return tuple(f"{prefix}{row}{column}" for row in (1, 2, 3) for column in (1, 2, 3))
+
+
+def _vector(prefix: str) -> tuple[str, ...]:
+    return tuple(f"{prefix}{row}" for row in (1, 2, 3))
+
+
+def _column(symbols: Sequence[sp.Symbol]) -> sp.Matrix:
+    return sp.Matrix(list(symbols))
+
+
+#: The moments of inertia by the mass tensor.
+BY_MASS = {gibbs.I1: J2 + J3, gibbs.I2: J1 + J3, gibbs.I3: J1 + J2}
+#: The directions in which the vector part grows by a unit vector, in the chart of q; and those of turns of the body.
+CHART = tuple({x: 1, q0: -x / q0} for x in q)
+TURNS = tuple(three.placed(((q0, *q), direction)) for direction in three.body_directions())
+COLLECTED = "the collected form, which the kernels use"
+NEWTON = "det ∂G, adj(∂G) times the right side, and the cofactors"
+LEVEL = "that factor, with a letter for det(Λ)l"
+
+KERNELS: tuple[Kernel, ...] = (
+    Kernel(
+        "momentum",
+        "The discrete momentum 𝒦(q, γ) about the contact point (5.2); homogeneous of degree 2 in (q0, q).",
+        (left("5.2", COLLECTED),),
+        (QUATERNION, *BODY),
+        _vector("K"),
+        three.momentum,
+        three.momentum_steps,
+    ),
+    Kernel(
+        "momentum_jacobian",
+        "∂𝒦/∂q in the chart q0 = sqrt(1 - |q|²), row by row; it divides by q0.",
+        (left("5.2", COLLECTED).along(*CHART),),
+        (QUATERNION, *BODY),
+        _matrix("dK"),
+        three.momentum_jacobian,
+        rows_of_three=True,
+    ),
+    Kernel(
+        "tangent_jacobian",
+        "The derivative of 𝒦 along q ∘ (0, w), w ∈ R³, row by row; regular at every rotation.",
+        (left("5.2", COLLECTED).along(*TURNS),),
+        (QUATERNION, *BODY),
+        _matrix("dK"),
+        three.tangent_jacobian,
+        rows_of_three=True,
+    ),
+    Kernel(
+        "tangent_hessian",
+        "The constant second derivative of 𝒦(q ∘ (1, w)) in w: the vectors for 11, 22, 33, 23, 13, 12.",
+        (left("5.2", "the second derivatives of 𝒦⃗(q(1, w)) in w are its second differences"),),
+        (QUATERNION, *BODY),
+        tuple(f"ddK{pair}_{row}" for pair in ("11", "22", "33", "23", "13", "12") for row in (1, 2, 3)),
+        three.tangent_hessian,
+        rows_of_three=True,
+    ),
+    Kernel(
+        "residual",
+        "𝒦(q, γ) - 𝒦, which the rotation of the next step makes zero (5.2).",
+        (left("stable-momentum", "those of `residual` 𝒦(q, γ) - 𝒦").at(BY_MASS),),
+        (QUATERNION, MOMENTUM, *BODY),
+        _vector("r"),
+        lambda: sp.Matrix(three.momentum()) - K,
+        three.residual_steps,
+    ),
+    Kernel(
+        "rotation",
+        "The matrix Ω of unit Euler parameters, row by row (5.1 as corrected).",
+        (right("5.1", "Ωx = x + (Ω - (q₀² + |q|²))x").along(*({x: 1} for x in VECTOR[1])),),
+        (QUATERNION,),
+        _matrix("R"),
+        three.rotation,
+        rows_of_three=True,
+    ),
+    Kernel(
+        "rotate",
+        "Ωv for unit Euler parameters: from the frame of the body after the rotation to the one before.",
+        (left("5.1", "Ωx = x + (Ω - (q₀² + |q|²))x"),),
+        (QUATERNION, VECTOR),
+        _vector("x"),
+        lambda: three.rotated(_column(VECTOR[1])),
+    ),
+    Kernel(
+        "transport",
+        "Ωᵀv for unit Euler parameters: what a vector fixed in space becomes in the body (5.3).",
+        (left("5.3", "Ωᵀx = x + (Ω - (q₀² + |q|²))ᵀx, here of 𝒦⃗").at(three.placed((K, VECTOR[1]))),),
+        (QUATERNION, VECTOR),
+        _vector("x"),
+        lambda: three.transported(_column(VECTOR[1])),
+    ),
+    Kernel(
+        "compose",
+        "Hamilton's product of two quaternions, scalar first: R_{k+1} = R_k Ω_k for attitudes.",
+        (left("5.1", "⟨ab, p⟩ = ⟨a, p b̄⟩").along(*({x: 1} for x in sp.symbols("p0:4"))),),
+        (FIRST, SECOND),
+        ("c0", "c1", "c2", "c3"),
+        lambda: three.quaternion_product(_column(FIRST[1]), _column(SECOND[1])),
+    ),
+    Kernel(
+        "centre_step",
+        "Δr/ρ of one step in the body frame before it, γ upwards (4.9 with 2.1 as corrected).",
+        (left("4.9", "½(Ω - Ωᵀ)γ = 2q₀ q × γ in Euler parameters"),),
+        (QUATERNION, GAMMA),
+        _vector("s"),
+        three.centre_step,
+    ),
+    Kernel(
+        "invariants",
+        "⟨𝒦,γ⟩ (the paper's h), ⟨𝒦,𝒦⟩ (its n) and ⟨γ,γ⟩, which every branch of the map preserves.",
+        (
+            right("5.3-integrals", "⟨Ωᵀ𝒦, Ωᵀγ⟩ = ⟨𝒦, γ⟩"),
+            right("5.3-integrals", "⟨Ωᵀ𝒦, Ωᵀ𝒦⟩ = ⟨𝒦, 𝒦⟩"),
+            right("5.3-integrals", "|Ωᵀγ| = |γ|"),
+        ),
+        (MOMENTUM, GAMMA),
+        ("h", "n", "unit"),
+        lambda: [K.dot(gamma), K.dot(K), gamma.dot(gamma)],
+    ),
+    Kernel(
+        "energy",
+        "The kinetic energy ½⟨K, ω⟩ of the continuous ball with the momentum K (2.5 as corrected).",
+        (left("stable-inverse", "its energy").at(BY_MASS),),
+        (MOMENTUM, *BODY),
+        ("T",),
+        lambda: [continuous.energy()],
+    ),
+    Kernel(
+        "contact_momentum",
+        "K = Λω - D⟨ω,γ⟩γ, the momentum of the continuous ball about the contact point.",
+        (left("5.2-limit", "𝒦⃗/ε → Λω - D⟨γ,ω⟩γ"),),
+        (OMEGA, *BODY),
+        _vector("K"),
+        continuous.momentum,
+        continuous.momentum_steps,
+    ),
+    Kernel(
+        "angular_velocity",
+        "ω(K, γ) of the continuous ball (the unnumbered inverse before 2.5, as corrected).",
+        (left("stable-inverse", "ω of the kernel").at(BY_MASS),),
+        (MOMENTUM, *BODY),
+        _vector("w"),
+        continuous.angular_velocity,
+    ),
+    Kernel(
+        "gibbs_newton",
+        "The next Newton iterate of the Gibbs vector, N/det, as a quaternion (det, N); and the cofactors of ∂G/∂u.",
+        (left("gibbs-newton", NEWTON),),
+        (GIBBS, HALF, GAMMA, INERTIA, CONTACT),
+        ("det", *_vector("N"), *_matrix("C")),
+        gibbs.newton,
+        gibbs.newton_steps,
+    ),
+    Kernel(
+        "gibbs_newton_heavy",
+        "What `gibbs_newton` computes, with a determinant in which nothing cancels for D ≫ I.",
+        (left("gibbs-newton", NEWTON),),
+        (GIBBS, HALF, GAMMA, INERTIA, CONTACT),
+        ("det", *_vector("N"), *_matrix("C")),
+        gibbs.newton,
+        gibbs.newton_heavy_steps,
+    ),
+    Kernel(
+        "gibbs_second",
+        "What N loses by a second correction after a Newton correction d, with the same cofactors.",
+        (left("gibbs-newton", "Cᵀ(d × Id - |d|²k) = Cᵀ(G(u + d) - G(u) - ∂G(u)d)"),),
+        (CORRECTION, HALF, COFACTORS, INERTIA),
+        _vector("e"),
+        gibbs.second,
+        gibbs.second_steps,
+    ),
+    Kernel(
+        "gibbs_mixed",
+        "What N loses when a correction e follows a correction d with the cofactors from before d.",
+        (left("gibbs-newton", "what is bilinear in d and e of that, for d + e"),),
+        (CORRECTION, NEXT, HALF, COFACTORS, INERTIA),
+        _vector("x"),
+        gibbs.mixed,
+        gibbs.mixed_steps,
+    ),
+    Kernel(
+        "gibbs_symmetric",
+        "The trace, the sum of the principal minors of size 2 and the determinant of the symmetric part of ∂G/∂u.",
+        (left("straight-path", "tr S, the minors and det S by the traces of S, S², S³"),),
+        (GIBBS, HALF, GAMMA, INERTIA, CONTACT),
+        ("trace", "minors", "det"),
+        gibbs.symmetric,
+        gibbs.symmetric_steps,
+    ),
+    Kernel(
+        "gibbs_residual",
+        "G(u) = B(γ)u + u × Iu - (1 + |u|²)k, which the Gibbs vector of the next step makes zero.",
+        (left("gibbs", "G(u) = B(γ)u + u × Iu - (1 + |u|²)k"),),
+        (GIBBS, HALF, GAMMA, INERTIA, CONTACT),
+        _vector("r"),
+        gibbs.residual,
+        gibbs.residual_steps,
+    ),
+    Kernel(
+        "turn",
+        "Ωᵀv - v for the rotation of a quaternion that need not be unit (5.3).",
+        (left("gibbs-rotation", "the steps of the kernel compute Ωᵀv - v"),),
+        (ANY_QUATERNION, VECTOR),
+        _vector("x"),
+        gibbs.turn,
+        gibbs.turn_steps,
+    ),
+    Kernel(
+        "vertical_square",
+        "⟨γ, adj(Λ)γ⟩ = det(Λ)⟨γ, Λ⁻¹γ⟩, the integral of the reduced map G_h without its denominators.",
+        (left("prop-3", "⟨γ, adj(Λ)γ⟩ = det(Λ)⟨γ, Λ⁻¹γ⟩"),),
+        (GAMMA, LAMBDA),
+        ("level",),
+        lambda: [vertical.weighted_square()],
+    ),
+    Kernel(
+        "vertical_level",
+        "The scalar equation of the level, zero for the step 𝒦 = hγ, and its derivative in v.",
+        (left("vertical-level", LEVEL), left("vertical-level", LEVEL).along({vertical.v: 1})),
+        (("scalars", (vertical.t, vertical.v)), ("level", (vertical.level,)), LAMBDA),
+        ("f", "fv"),
+        vertical.level_newton,
+        vertical.level_steps,
+    ),
+    Kernel(
+        "vertical_rotation",
+        "The rotation of the step 𝒦 = hγ up to a factor, (q0, q) ∝ (det M, t adj(M)γ), M = Λ - e - t γ×.",
+        (left("vertical-rotation", "(det M, t adj(M)γ), shorter for |γ| = 1"),),
+        (("sigma", (vertical.t, vertical.e)), GAMMA, LAMBDA),
+        ("p0", "p1", "p2", "p3"),
+        vertical.closed_rotation,
+    ),
+    Kernel(
+        "isotropic_spin",
+        "w = B(γ/|γ|)⁻¹k for three equal moments: 2w is sin θ times the axis of the steady rotation.",
+        (left("isotropic-spin", "the steps of the kernel compute w"),),
+        (HALF, GAMMA, MOMENT, CONTACT),
+        _vector("w"),
+        steady.spin,
+        steady.spin_steps,
+    ),
+    Kernel(
+        "curve_increment",
+        "k², G = G0 + G1 sn² + G2 sn⁴ and μ of a curve: hG𝒟 = 2Vw(𝒟 - D(l - μ sn²)), V² = G0, at the half increment.",
+        (
+            left("5.8-modulus", "k² as printed"),
+            left("5.14-G", "G₀, G₁, G₂ by Λ and l: from G at sn²δu = 0, 1, -1"),
+            left("5.14-Pi1", "μ by Λ and l"),
+        ),
+        (ORDERED, SQUARE),
+        ("k2", "G0", "G1", "G2", "mu"),
+        elliptic.increment_parts,
+    ),
+    Kernel(
+        "precession_parts",
+        "|b|² = P0 + P1 sn² and ⟨b,Λ⁻¹b⟩ = N0 + N1 sn² on a curve, b = γ × Λ⁻¹γ: Rb turns about γ by their quotient.",
+        (
+            left(
+                "top-precession",
+                "|b|² and ⟨b,Λ⁻¹b⟩ on the curve: their values at y = 0, and the differences to those at y = 1",
+            ),
+        ),
+        (ORDERED, SQUARE),
+        ("P0", "P1", "N0", "N1"),
+        elliptic.precession_parts,
+    ),
+    Kernel(
+        "torque",
+        "B(γ)ω' = Iω × ω, ω' the rate of ω of the continuous ball.",
+        (left("modified-field", "Iω × ω = K × ω + D⟨γ,ω⟩γ × ω"),),
+        (OMEGA, MASS_TENSOR),
+        _vector("x"),
+        modified.torque,
+    ),
+    Kernel(
+        "modified_load",
+        "The load of the modified equations: 12ω₃ = 2|ω|²ω - ω × ω' - B(γ)⁻¹load, ω' the rate.",
+        (left("modified-field", "the load is what is bilinear in x × Ix and 2D⟨x,ω'⟩x, of ω and ω', and of γ and γ̇"),),
+        (OMEGA, RATE, *BODY),
+        _vector("x"),
+        modified.load,
+    ),
+    Kernel(
+        "modified_rotation",
+        "12ω₃: the step of size ε is that of the continuous ball with ω + ε²ω₃, up to ε⁴; share = B(γ)⁻¹load.",
+        (left("modified-field", "12ω₃ from what the step leaves in ε³"),),
+        (OMEGA, RATE, SHARE),
+        _vector("x"),
+        modified.correction,
+    ),
+    Kernel(
+        "energy_rate",
+        "4X₃(H) = D⟨γ,ω'⟩⟨γ × ω,ω'⟩: in a step of size ε the energy changes by ε³X₃(H), up to ε⁴.",
+        (right("modified-energy", "-4⟨ω₃,Bω'⟩ = D⟨γ,ω'⟩⟨γ̇,ω'⟩"),),
+        (OMEGA, RATE, GAMMA, CONTACT),
+        ("rate",),
+        lambda: [4 * modified.energy_rate()],
+    ),
+)
+
+#: What double-double needs of them, as straight-line programs.
+PROGRAMS: tuple[Program, ...] = (
+    Program(
+        "gibbs_residual_pairs",
+        "G(u) = B(γ)u + u × Iu - (1 + |u|²)k at a float64 u; what is small of it has the error of its terms.",
+        (GIBBS, HALF, GAMMA, INERTIA, CONTACT),
+        ("r1", "r2", "r3"),
+        """
+r1, r2, r3 = gibbs_residual(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D)
+""",
+        ("u1", "u2", "u3", "D"),
+    ),
+    Program(
+        "residual_pairs",
+        "𝒦(q, γ) - 𝒦 (5.2) at Euler parameters of length 1.",
+        (QUATERNION, MOMENTUM, *BODY),
+        ("r1", "r2", "r3"),
+        """
+r1, r2, r3 = residual(q0, q1, q2, q3, K1, K2, K3, g1, g2, g3, J1, J2, J3, D)
+""",
+        ("J1", "J2", "J3", "D"),
+        normal=True,
+    ),
+    Program(
+        "moved_pairs",
+        "q ∘ (1, w), divided by its length where w is small.",
+        (QUATERNION, ("correction", sp.symbols("w1:4"))),
+        ("b0", "b1", "b2", "b3"),
+        """
+c0, c1, c2, c3 = compose(q0, q1, q2, q3, 1, w1, w2, w3)
+t = (3 - ((c0 * c0 + c1 * c1) + (c2 * c2 + c3 * c3))) / 2
+b0, b1, b2, b3 = c0 * t, c1 * t, c2 * t, c3 * t
+""",
+        ("w1", "w2", "w3"),
+    ),
+    Program(
+        "turn_pairs",
+        "Ωᵀk and Ωᵀγ for the rotation with the Gibbs vector u.",
+        (GIBBS, HALF, GAMMA),
+        ("l1", "l2", "l3", "h1", "h2", "h3"),
+        """
+x1, x2, x3 = turn(1, u1, u2, u3, k1, k2, k3)
+y1, y2, y3 = turn(1, u1, u2, u3, g1, g2, g3)
+l1, l2, l3 = k1 + x1, k2 + x2, k3 + x3
+h1, h2, h3 = g1 + y1, g2 + y2, g3 + y3
+""",
+    ),
+    Program(
+        "rotate_pairs",
+        "Ak and Aγ for the attitude A.",
+        (FIRST, HALF, GAMMA),
+        ("l1", "l2", "l3", "h1", "h2", "h3"),
+        """
+l1, l2, l3 = rotate(a0, a1, a2, a3, k1, k2, k3)
+h1, h2, h3 = rotate(a0, a1, a2, a3, g1, g2, g3)
+""",
+    ),
+    Program(
+        "roll_pairs",
+        "The attitude, divided by its length, and the contact point after the rotation q₀(1, u), q₀ = 1/√(1 + |u|²).",
+        (
+            ("scalar", sp.symbols("q0,")),
+            GIBBS,
+            GAMMA,
+            FIRST,
+            ("contact", sp.symbols("z1 z2")),
+            ("radius", sp.symbols("rho,")),
+        ),
+        ("b0", "b1", "b2", "b3", "n1", "n2"),
+        """
+q1, q2, q3 = q0 * u1, q0 * u2, q0 * u3
+s1, s2, s3 = centre_step(q0, q1, q2, q3, g1, g2, g3)
+x1, x2, x3 = rotate(a0, a1, a2, a3, s1, s2, s3)
+n1, n2 = z1 + rho * x1, z2 + rho * x2
+c0, c1, c2, c3 = compose(a0, a1, a2, a3, q0, q1, q2, q3)
+t = (3 - ((c0 * c0 + c1 * c1) + (c2 * c2 + c3 * c3))) / 2
+b0, b1, b2, b3 = c0 * t, c1 * t, c2 * t, c3 * t
+""",
+        ("rho",),
+    ),
+    Program(
+        "steady_pairs",
+        "w = B(γ/|γ|)⁻¹k for three equal moments, and |w|².",
+        (HALF, GAMMA, MOMENT, CONTACT),
+        ("w1", "w2", "w3", "square"),
+        """
+w1, w2, w3 = isotropic_spin(k1, k2, k3, g1, g2, g3, moment, D)
+square = w1 * w1 + w2 * w2 + w3 * w3
+""",
+        ("k1", "k2", "k3", "g1", "g2", "g3", "D"),
+    ),
+)
