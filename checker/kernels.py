@@ -11,22 +11,25 @@ along    [[name, tree]...]...: of each entry the derivatives in the directions i
 solved   a carrier of n² entries: the x with (that matrix, row by row) x = (the n entries)
 entries  numbers: which of the entries, in which order
 
-The names of the arguments are those of the variables.  Nothing else is used of the relations: the results equal the
-entries as rational functions, so wherever no denominator vanishes.
+The names of the arguments are those of the variables.  The results equal the entries as rational functions; or, where
+the carrier has cofactors for an entry, [its number, [a tree for each relation of the ring]], the numerator of the
+difference is Σ cofactor · relation: then they are equal wherever the relations hold.
 """
 
 from __future__ import annotations
 
 import ast
 import hashlib
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from fractions import Fraction
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from . import derivation
 from .document import Unreadable, check_names, count, read
 from .form import chosen, distinct, many, sized, text
 from .interval import Rejected
+from .matrices import Quotients
 from .polynomial import FIELD, Polynomial, Quotient, Ring, Work
 from .trees import check_tree, names_in, rational, value
 
@@ -47,21 +50,44 @@ def check(row: Any, written: str, certificates: Certificates, where: str) -> lis
         raise Rejected(f"{where} has no carriers and no hash of its text")
     if hashlib.sha256(written.encode()).hexdigest() != row["text_sha256"]:
         raise Rejected(f"{where} has another text than the hash is of")
+    for i, one in enumerate(differences(row, written, certificates, where)):
+        carrier = row["carriers"][one.carrier]
+        cofactors = dict(map(tuple, carrier.get("cofactors", []))).get(one.entry, [])
+        proved = len(cofactors) == len(one.ring.relations) and one.ring.vanishes(one.value, cofactors, where)
+        if one.value.numerator.terms and not proved:
+            said = carrier["statement"]
+            raise Rejected(f"{where} computes in its result {i} something else than «{said}» says")
+    return [_statement(one, certificates, where)["text"] for one in row["carriers"]]
+
+
+class Difference(NamedTuple):
+    """What a result is beyond the entry of a carrier, in a ring with the relations that hold there."""
+
+    value: Quotient
+    ring: Quotients
+    carrier: int
+    entry: int
+
+
+def differences(row: dict[str, Any], written: str, certificates: Certificates, where: str) -> list[Difference]:
+    """Those of all results, in order."""
     function = straight_line(written, where)
     for one in many(row["carriers"], where):
         check_form(one, where)
-    found = [_statement(one, certificates, where) for one in row["carriers"]]
     inputs = [argument.arg for argument in function.args.args]
     names = set(inputs).union(*(_names(one, certificates, where) for one in row["carriers"]))
     ring = Ring(sorted(names), Work())
-    computed = _run(function, {name: ring.names()[name] for name in inputs}, ring, where)
-    carried = [x for one in row["carriers"] for x in entries(one, certificates, ring, where)]
-    if len(computed) != len(carried):
-        raise Rejected(f"{where} has {len(computed)} results, and its carriers make {len(carried)}")
-    for i, (result, entry) in enumerate(zip(computed, carried, strict=True)):
-        if (result - entry).numerator.terms:
-            raise Rejected(f"{where} computes in its result {i} something else than «{_by_place(row, found, i)}» says")
-    return [statement["text"] for statement in found]
+    computed = _run(function, {name: ring.names()[name] for name in inputs}, ring.number, where)
+    for one in row["carriers"]:
+        _regular(function, inputs, one, certificates, where)
+    found: list[Difference] = []
+    for i, one in enumerate(row["carriers"]):
+        carried, relations = entries(one, certificates, ring, where)
+        known = Quotients(ring, ring.names(), relations)
+        found += [Difference(x, known, i, j) for j, x in enumerate(carried)]
+    if len(computed) != len(found):
+        raise Rejected(f"{where} has {len(computed)} results, and its carriers make {len(found)}")
+    return [one._replace(value=result - one.value) for result, one in zip(computed, found, strict=True)]
 
 
 def check_folder(folder: Path, certificates: Certificates) -> list[dict[str, Any]]:
@@ -91,14 +117,28 @@ def check_folder(folder: Path, certificates: Certificates) -> list[dict[str, Any
     return found
 
 
-def _by_place(row: dict[str, Any], found: Sequence[dict[str, Any]], i: int) -> str:
-    """The text of the statement that carries a result, where that is clear: else of all."""
-    return found[0]["text"] if len(found) == 1 else " / ".join(one["text"] for one in found)
+def _regular(
+    function: ast.FunctionDef, inputs: Sequence[str], carrier: Mapping[str, Any], certificates: Certificates, where: str
+) -> None:
+    """Raises Rejected if a text divides by 0 at the point of its statement, where the relations hold."""
+    data = certificates[f"{carrier['claim']} {carrier['certificate']}"]
+    point = data["points"][_statement(carrier, certificates, where)["point"]]
+    if all(isinstance(point.get(name), int | str) for name in inputs):
+        try:
+            _run(function, {name: Fraction(point[name]) for name in inputs}, Fraction, where)
+        except ZeroDivisionError:
+            raise Rejected(f"{where} divides by 0 at the point given for «{carrier['statement']}»") from None
 
 
 def check_form(carrier: Any, where: str) -> None:
     """Raises Rejected unless a carrier has its form."""
-    check_names(carrier, "claim certificate statement side steps", f"a carrier of {where}")
+    more = " cofactors" * (isinstance(carrier, dict) and "cofactors" in carrier)
+    check_names(carrier, "claim certificate statement side steps" + more, f"a carrier of {where}")
+    for pair in many(carrier.get("cofactors", []), where):
+        sized(pair, 2, where)
+        count(pair[0], 0, MOST_LINES, where)
+        for tree in many(pair[1], where):
+            check_tree(tree, names_in(tree), where)
     for name in ("claim", "certificate", "statement"):
         text(carrier[name], f"a carrier of {where}")
     chosen(carrier["side"], ("left", "right"), f"the side of a carrier of {where}")
@@ -112,7 +152,9 @@ def check_form(carrier: Any, where: str) -> None:
                 count(number, 0, MOST_LINES, where)
         else:
             for pairs in [step[1]] if step[0] == "at" else many(step[1], where):
-                distinct([pair[0] for pair in many(pairs, where) if sized(pair, 2, where) is None], where)
+                for pair in many(pairs, where):
+                    sized(pair, 2, where)
+                distinct([name for name, _ in pairs], where)
                 for _, tree in pairs:
                     check_tree(tree, names_in(tree), where)
 
@@ -149,8 +191,10 @@ def _names(carrier: Mapping[str, Any], certificates: Certificates, where: str) -
     return names
 
 
-def entries(carrier: Mapping[str, Any], certificates: Certificates, ring: Ring, where: str) -> list[Quotient]:
-    """What a carrier makes, in the variables of the ring."""
+def entries(
+    carrier: Mapping[str, Any], certificates: Certificates, ring: Ring, where: str
+) -> tuple[list[Quotient], list[Quotient]]:
+    """What a carrier makes, in the variables of the ring, and the relations that hold there."""
     statement = _statement(carrier, certificates, where)
     data = certificates[f"{carrier['claim']} {carrier['certificate']}"]
     names = ring.names()
@@ -168,7 +212,8 @@ def entries(carrier: Mapping[str, Any], certificates: Certificates, ring: Ring, 
                 raise Rejected(f"{where} wants an entry that «{statement['text']}» does not have")
             found = [found[i] for i in by]
         elif step == "solved":
-            found = solved(entries(by, certificates, ring, where), found, where)
+            matrix, others = entries(by, certificates, ring, where)
+            found, relations = solved(matrix, found, where), [*relations, *others]
         else:
             moves = [{name: value(tree, ring.names(), ring.number) for name, tree in pairs}
                      for pairs in ([by] if step == "at" else by)]  # fmt: skip
@@ -178,7 +223,7 @@ def entries(carrier: Mapping[str, Any], certificates: Certificates, ring: Ring, 
             if any(rate(relation, move).numerator.terms for relation in relations for move in moves):
                 raise Rejected(f"{where} is differentiated along what leaves a relation of «{statement['text']}»")
             found = [rate(x, move) for x in found for move in moves]
-    return found
+    return found, relations
 
 
 def placed(x: Quotient, places: Mapping[str, Quotient]) -> Quotient:
@@ -272,17 +317,17 @@ def _is_text(node: ast.stmt) -> bool:
     return isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant) and isinstance(node.value.value, str)
 
 
-def _run(function: ast.FunctionDef, known: dict[str, Quotient], ring: Ring, where: str) -> list[Quotient]:
+def _run(function: ast.FunctionDef, known: dict[str, Any], number: Callable[[Fraction], Any], where: str) -> list[Any]:
     """What a function returns, of the values of its arguments."""
 
-    def of(node: ast.expr) -> Quotient:
+    def of(node: ast.expr) -> Any:
         match node:
             case ast.Name(id=name) if name in known:
                 return known[name]
-            case ast.Constant(value=int() as number) if not isinstance(number, bool):
-                return ring.number(rational(number, where))
+            case ast.Constant(value=int() as x) if not isinstance(x, bool):
+                return number(rational(x, where))
             case ast.UnaryOp(op=ast.USub(), operand=operand):
-                return ring.number(rational(-1, where)) * of(operand)
+                return number(Fraction(-1)) * of(operand)
             case ast.BinOp(left=left, op=ast.Add(), right=right):
                 return of(left) + of(right)
             case ast.BinOp(left=left, op=ast.Sub(), right=right):

@@ -3,8 +3,8 @@
 import re
 
 from chapsym.codegen import build
-from chapsym.codegen.kernels import CONTACT, GAMMA
 from chapsym.codegen.programs import Program
+from chapsym.proofs.kernels import CONTACT, GAMMA
 
 #: A kernel that a program may call.
 TEXTS = {"twice": "def twice(a):\n    '''2a, and a²'''\n    t = a * a\n    return 2 * a, t\n"}

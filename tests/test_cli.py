@@ -1,5 +1,6 @@
 """The command's contract, from outside: output, exit status, one sentence for an error."""
 
+import dataclasses
 import json
 import logging
 import os
@@ -15,8 +16,8 @@ from first import FIRST
 from waiting import GUARD, INTERRUPTIBLE
 
 from chapsym import dynamics
-from chapsym.cli import codegen
 from chapsym.codegen import build
+from chapsym.prove import Verdict
 
 STEP = ["step", "--mass-tensor", "1,2,4", "--D", "3", "--momentum", "1,-1/2,3/4", "--gamma", "2/7,3/7,6/7"]
 
@@ -150,40 +151,33 @@ def test_a_derivation_that_cannot_be_loaded_is_one_sentence(tmp_path):
         assert told.startswith("the proof script paper.s4_principle cannot be loaded: KeyError")
 
 
-@pytest.fixture
-def given(monkeypatch, verdicts):
-    """Has `chapsym codegen` take the verdicts of this run, some of them changed, in the place of proving anew."""
-
-    def give(**changes):
-        known = {id: {**record, "verdict": changes.get(id, record["verdict"])} for id, record in verdicts.items()}
-        monkeypatch.setattr(codegen, "records_of", lambda claims, kept: [known[id] for id in claims])
-
-    return give
-
-
-def test_codegen_check_passes(given):
-    given()
+def test_codegen_check_passes():
     assert answer("codegen", "--check")["kept"] is True
 
 
 @pytest.mark.parametrize("option", ["--check", "--trust=all"])
-def test_kernels_are_not_generated_from_what_is_not_proved(given, option):
-    given(gibbs="open")
+def test_kernels_are_not_generated_from_what_is_not_proved(monkeypatch, option):
+    package = build.ours()
+    open_ = dataclasses.replace(package.judged["gibbs"], verdict=Verdict.OPEN)
+    monkeypatch.setitem(package.__dict__, "judged", package.judged | {"gibbs": open_})
     before = {path.name: path.read_bytes() for path in build.folder().iterdir() if path.is_file()}
-    assert "comes from the claim gibbs, which is not proved" in chapsym("codegen", option).stderr
-    assert chapsym("codegen", option).returncode == 1
+    done = chapsym("codegen", option)
+    assert "gibbs_residual comes from the claim gibbs, which is not proved" in done.stderr
+    assert done.returncode == 1
     assert {path.name: path.read_bytes() for path in build.folder().iterdir() if path.is_file()} == before
 
 
 def test_codegen_judges_what_the_kernels_come_from(tmp_path):
-    """𝒦 is no longer what the claims say: for one kernel, and one of its claims."""
+    """A sign that is turned in the derivation of the step in the Gibbs vector."""
     env = changed(
-        tmp_path, *FLIPPED, "import dataclasses, chapsym.codegen.build as build",
-        "build.KERNELS = [dataclasses.replace(x, claims=('4.2',)) for x in build.KERNELS if x.name == 'momentum']",
-    )  # fmt: skip
+        tmp_path,
+        "import chapsym.derive.gibbs as gibbs",
+        "honest = gibbs.bilinear",
+        "gibbs.bilinear = lambda x: -honest(x)",
+    )
     done = child("codegen", "--check", env=env)
     assert done.returncode == 1
-    assert "which is not proved" in done.stderr
+    assert "comes from the claim gibbs-newton, which is not proved" in done.stderr
 
 
 def test_output_that_cannot_be_written_is_one_sentence():

@@ -7,7 +7,7 @@ from functools import cache
 from typing import Any
 
 from chapsym.codegen import build, passes
-from chapsym.codegen.kernels import KERNELS
+from chapsym.proofs.kernels import KERNELS
 
 _KERNELS = {kernel.name: kernel for kernel in KERNELS}
 

@@ -28,11 +28,13 @@ def codegen(
     Example: chapsym codegen --check
     """
     from chapsym.codegen import build
-    from chapsym.prove import PROOFS, BrokenScript, NoRegister
+    from chapsym.prove import BrokenScript, NoRegister
 
     try:
-        package = build.Package(register_from(own) or PROOFS)
-    except (NoRegister, BrokenScript, build.NoKernels) as error:
+        package = build.Package(register_from(own)) if own else build.ours()
+    except BrokenScript as error:
+        fail(str(error), 1)
+    except (NoRegister, build.NoKernels) as error:
         fail(str(error), 2)
     place = package.place
     if check:

@@ -8,6 +8,7 @@ import hashlib
 import importlib.util
 import json
 import os
+import re
 from collections.abc import Callable, Mapping, Sequence
 from functools import cache, cached_property, partial
 from pathlib import Path
@@ -21,7 +22,7 @@ from chapsym.checker import kernels as binding
 from chapsym.prove import PROOFS, Register, Verdict
 from chapsym.prove.claims import Judgement, judgement_of, once
 
-from . import c_files, ir, pairs, passes, printer
+from . import c_files, carriers, ir, pairs, passes, printer
 from .kernels import Kernel
 from .programs import Program
 from .values import fingerprint, program_fingerprint, target_fingerprint, text_fingerprint
@@ -76,6 +77,11 @@ class Package:
         return folder() if self.is_ours else self.register.folder / "generated"
 
     @property
+    def name(self) -> str:
+        """What its functions in C begin with: the name of the register's folder."""
+        return "chapsym" if self.is_ours else re.sub(r"\W", "_", self.register.folder.name, flags=re.ASCII)
+
+    @property
     def mend(self) -> str:
         """The command that writes it."""
         return "chapsym codegen" + ("" if self.is_ours else f" --register {self.register.place}")
@@ -107,7 +113,6 @@ class Package:
         """The module of one kernel and its row of the manifest; raises Rejected unless it is carried."""
         digest = _hash("\n".join(sp.srepr(e) for e in kernel.expressions))
         operations = passes.operations(passes.lower(kernel))
-        carriers = [carrier.data(self._digest) for carrier in kernel.carriers]
         about = [
             EDIT,
             "",
@@ -117,8 +122,10 @@ class Package:
         ]
         text = _module(about, [], [code(kernel)])
         row = {"claims": kernel.claims, "operations": operations, "saved_by": passes.saved(kernel)}
-        row |= {"expression_sha256": digest, "text_sha256": _hash(text), "carriers": carriers}
+        row |= {"expression_sha256": digest, "text_sha256": _hash(text)}
+        row["carriers"] = [carrier.data(self._digest) for carrier in kernel.carriers]
         certificates = {f"{id} {self._digest(id)}": one.certificate or {} for id, one in self.judged.items()}
+        row["carriers"] = carriers.with_cofactors(row, text, certificates, kernel.name)
         binding.check(row, text, certificates, kernel.name)
         return text, row
 
@@ -163,6 +170,8 @@ class Package:
                     raise ArithmeticError(f"the text of {function} in {name} does not compute its expression")
         if self.is_ours:
             files |= c_files.build(partial(self.text, files), self.kernels)
+        else:
+            files |= c_files.kernels_alone(self.text(files, "chapsym.generated"), self.kernels, self.name)
         parts = [f'"{key}": {_one_a_line(part)}' for key, part in table.items()]
         files[MANIFEST] = "{\n" + ",\n".join([f'"sympy": "{sp.__version__}"', *parts]) + "\n}\n"
         return files
@@ -225,7 +234,7 @@ class Package:
 
     def check_names(self, trust: Sequence[str]) -> None:
         """Raises ValueError if a name in `trust` is no kernel's and no program's."""
-        names = {"all", *(one.name for one in (*self.kernels, *self.programs))}
+        names = {"all", *(kernel.name for kernel in self.kernels), *(program.name for program in self.programs)}
         for name in trust:
             if name not in names:
                 raise ValueError(f"--trust {name}: there is no such kernel; the names are {', '.join(sorted(names))}")

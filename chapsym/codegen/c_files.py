@@ -265,13 +265,21 @@ def build(load: Callable[[str], str], kernels: Sequence[Kernel]) -> dict[str, st
     }
 
 
-LIBRARY_HEAD = """#ifndef CHAPSYM_H
-#define CHAPSYM_H
+#: A header, of a name in capitals and what it declares, and its end.
+HEADER = """#ifndef {0}_H
+#define {0}_H
 
 #ifdef __cplusplus
-extern "C" {
+extern "C" {{
 #endif
-
+{1}
+#ifdef __cplusplus
+}}
+#endif
+#endif
+"""
+#: What comes before the step of the library of chapsym.
+ABOUT_STEP = """
 /* One step of the map (5.3) on the small-rotation branch, in place.
 
    mass_tensor: J, the second moments of mass; D: mass times radius squared.  momentum: the discrete momentum,
@@ -280,37 +288,18 @@ extern "C" {
    Returns 0 if the step was taken; 1 at a fold, 2 where the continuation did not converge, 4 for a ball without
    inertia: then momentum, gamma and rotation are as before. */
 """
-LIBRARY_END = """
-#ifdef __cplusplus
-}
-#endif
-#endif
-"""
 STEP = (
     "int chapsym_step(const double mass_tensor[3], double D, double momentum[3], double gamma[3], "
     "double rotation[4], double *reach)"
 )
+#: What kernels alone need, for a register without loops.
+ALONE = "#include <stdint.h>\n#include <string.h>\n\ntypedef double real;\n#define R(x) ((real)(x))\n"
+ALONE += "#define INLINE static inline\n\n"
 
 
 def library(texts: Texts, kernels: Sequence[Kernel]) -> dict[str, str]:
     """chapsym.h and chapsym.c: every kernel as a function of arrays, and a step."""
-    functions = texts.program.module("chapsym.generated").functions
-    declared, defined = [LIBRARY_HEAD, "\n".join(broken(STEP + ";")) + "\n"], []
-    for kernel in sorted(kernels, key=lambda k: k.name):
-        function, count = functions[kernel.name], len(kernel.outputs)
-        if function not in texts.groups:
-            defined.append(texts.written(function))
-        parameters, given = [], []
-        for name, symbols in kernel.groups:
-            parameters.append(f"double {name}" if len(symbols) == 1 else f"const double {name}[{len(symbols)}]")
-            given += [name] if len(symbols) == 1 else [f"{name}[{i}]" for i in range(len(symbols))]
-        head = f"void chapsym_{kernel.name}({', '.join(parameters)}, double result[{count}])"
-        rows = f", {kernel.shape[0]} rows" if len(kernel.shape) > 1 else ""
-        comment = f"/* {kernel.summary} result: {', '.join(kernel.outputs)}{rows}. */"
-        declared.append("\n".join(["", *broken(comment), *broken(head + ";"), ""]))
-        call = f"{c_type(texts.of[function].returned)} got = {function.name}({', '.join(given)})"
-        defined.append(block(head, call, "memcpy(result, &got, sizeof got)"))
-    about = "The kernels of chapsym, each from a proved expression, and one step of the map: for other languages."
+    declared, defined = interface(texts, kernels, "chapsym")
     rows = texts.program.module(f"{PACKAGE}.loop").names["ROWS"]
     arrays = "(r1){momentum, 3}, (r1){gamma, 3}, (r1){tensor, 3}, D, (r1){state, @}, (r1){rotation, 4}"
     body = [
@@ -320,8 +309,45 @@ def library(texts: Texts, kernels: Sequence[Kernel]) -> dict[str, str]:
         "return (int)got.a0",
     ]
     step = block(STEP, *(line.replace("@", str(rows)) for line in body))
+    about = "The kernels of chapsym, each from a proved expression, and one step of the map: for other languages."
     head = HEAD.format("chapsym.h: compile it with -ffp-contract=off.", "the derivation")
+    with_step = ABOUT_STEP + "\n".join(broken(STEP + ";")) + "\n" + declared
     return {
-        "chapsym.h": HEAD.format(about, "the derivation") + "".join(declared) + LIBRARY_END,
-        "chapsym.c": head + '#include "chapsym.h"\n\n#include "loops.c"\n\n' + "".join([*defined, step]),
+        "chapsym.h": HEAD.format(about, "the derivation") + HEADER.format("CHAPSYM", with_step),
+        "chapsym.c": head + '#include "chapsym.h"\n\n#include "loops.c"\n\n' + defined + step,
     }
+
+
+def kernels_alone(text: str, kernels: Sequence[Kernel], prefix: str) -> dict[str, str]:
+    """The same of the kernels of another register, whose functions are in a text: PREFIX.h and PREFIX.c."""
+    program = Program(lambda path: text)
+    functions = program.module("chapsym.generated").functions
+    texts = Texts(program, [], [], [functions[kernel.name] for kernel in kernels])
+    declared, defined = interface(texts, kernels, prefix)
+    about = f"The kernels of {prefix}, each from a proved expression: for other languages."
+    head = HEAD.format(f"{prefix}.h: compile it with -ffp-contract=off.", "the derivation")
+    return {
+        f"{prefix}.h": HEAD.format(about, "the derivation") + HEADER.format(prefix.upper(), declared),
+        f"{prefix}.c": head + ALONE + f'#include "{prefix}.h"\n\n' + texts.typedefs() + defined,
+    }
+
+
+def interface(texts: Texts, kernels: Sequence[Kernel], prefix: str) -> tuple[str, str]:
+    """The declaration and the definition of every kernel as a function of arrays, PREFIX_kernel."""
+    functions = texts.program.module("chapsym.generated").functions
+    declared, defined = list[str](), list[str]()
+    for kernel in sorted(kernels, key=lambda k: k.name):
+        function, count = functions[kernel.name], len(kernel.outputs)
+        if function not in texts.groups:
+            defined.append(texts.written(function))
+        parameters, given = [], []
+        for name, symbols in kernel.groups:
+            parameters.append(f"double {name}" if len(symbols) == 1 else f"const double {name}[{len(symbols)}]")
+            given += [name] if len(symbols) == 1 else [f"{name}[{i}]" for i in range(len(symbols))]
+        head = f"void {prefix}_{kernel.name}({', '.join(parameters)}, double result[{count}])"
+        rows = f", {kernel.shape[0]} rows" if len(kernel.shape) > 1 else ""
+        comment = f"/* {kernel.summary} result: {', '.join(kernel.outputs)}{rows}. */"
+        declared.append("\n".join(["", *broken(comment), *broken(head + ";"), ""]))
+        call = f"{c_type(texts.of[function].returned)} got = {function.name}({', '.join(given)})"
+        defined.append(block(head, call, "memcpy(result, &got, sizeof got)"))
+    return "".join(declared), "".join(defined)

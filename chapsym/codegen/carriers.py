@@ -10,6 +10,8 @@ from typing import Any
 
 import sympy as sp
 
+from chapsym.checker import kernels as binding
+from chapsym.prove.cofactors import Ideal, ideal, trees
 from chapsym.prove.trees import NotAlgebra, tree
 
 Places = Mapping[sp.Symbol, Any]
@@ -86,6 +88,23 @@ def _trees(by: Any) -> Any:
     if isinstance(by, Mapping):
         return [[symbol.name, tree(sp.sympify(value, strict=True))] for symbol, value in by.items()]
     return [_trees(one) if isinstance(one, Mapping) else one for one in by]
+
+
+def with_cofactors(
+    row: dict[str, Any], text: str, certificates: binding.Certificates, where: str
+) -> list[dict[str, Any]]:
+    """The carriers of a row, with cofactors for the entries that a text equals by the relations of the ring alone.
+
+    Where there are none, the checker will say so.
+    """
+    carriers, ideals = [dict(one) for one in row["carriers"]], dict[int, Ideal]()
+    for one in binding.differences(row, text, certificates, where):
+        if one.value.numerator.terms and one.ring.relations:
+            if one.carrier not in ideals:
+                ideals[one.carrier] = ideal(one.ring)
+            if (found := trees(ideals[one.carrier], one.value)) is not None:
+                carriers[one.carrier].setdefault("cofactors", []).append([one.entry, found])
+    return carriers
 
 
 __all__ = ["Carrier", "NotAlgebra", "left", "right"]

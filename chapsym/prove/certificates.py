@@ -10,25 +10,23 @@ from pathlib import Path
 from typing import Any
 
 import sympy as sp
-from sympy.polys.rings import PolyRing
 
 from chapsym import checker, files
 from chapsym.checker import derivation, register, shown
 from chapsym.checker.algebra import Algebra
 from chapsym.checker.matrices import Quotients, quotients
-from chapsym.checker.polynomial import FIELD, Quotient, Ring, Work
-from chapsym.checker.trees import value
+from chapsym.checker.polynomial import Ring, Work
 from chapsym.derive.derivation import STEPS, Step, needed
 from chapsym.derive.quotient import Quotient as QuotientRing
 from chapsym.derive.words import Traces, WordAlgebra, evaluate, unfolded
 
 from . import witness
-from .cofactors import Ideal
+from .cofactors import Ideal, ideal, trees
 from .evidence import Proof
 from .points import candidates
 from .polynomials import Identity
 from .statements import Comparison, Count, Equation, Point, Rest, Statement, Zero
-from .trees import NotAlgebra, factored, nested, number, shared, tree
+from .trees import NotAlgebra, nested, number, shared, tree
 
 #: Letters of a judged formula in a record.
 LONGEST = 400
@@ -387,26 +385,16 @@ class _Maker:
 
     def _cofactors(self, one: dict[str, Any]) -> list[list[Any]]:
         """For each entry of left - right, in the numerator that the checker forms."""
-        i, algebra = one["algebra"], self.algebras[one["algebra"]]
-        ring = Ring(algebra["variables"], Work())
-        names = ring.names() | derivation.entries([*one["left"], *one["right"]], self._defined)
-
-        def polynomial(of: Quotient) -> dict[tuple[int, ...], Any]:
-            shifts = [FIELD * j for j in range(len(ring.variables))]
-            return {tuple(m >> s & 0xFFFF for s in shifts): sp.QQ(c) for m, c in of.numerator.terms.items()}
-
-        if i not in self._ideals:
-            polynomials = PolyRing(self._symbols[i], sp.QQ, sp.grevlex)
-            relations = [value(relation, names, ring.number) for relation in algebra["relations"]]
-            scaled = [{m: c / r.scale for m, c in polynomial(r).items()} for r in relations]
-            self._ideals[i] = Ideal(polynomials, [polynomials.from_dict(r) for r in scaled])
+        ring = quotients(self.algebras[one["algebra"]], Ring(self.algebras[one["algebra"]]["variables"], Work()))
+        more = derivation.entries([*one["left"], *one["right"]], self._defined)
+        if one["algebra"] not in self._ideals:
+            self._ideals[one["algebra"]] = ideal(ring)
         found = []
         for left, right in zip(one["left"], one["right"], strict=True):
-            difference = value(left, names, ring.number) - value(right, names, ring.number)
-            cofactors = self._ideals[i].cofactors(polynomial(difference))
+            cofactors = trees(self._ideals[one["algebra"]], ring.read(left, more) - ring.read(right, more))
             if cofactors is None:
                 raise NotFound("no cofactors were found")
-            found.append([factored(cofactor, ring.variables) for cofactor in cofactors])
+            found.append(cofactors)
         return found
 
 

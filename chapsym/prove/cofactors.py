@@ -10,7 +10,13 @@ from dataclasses import dataclass
 from operator import add, ge, sub
 from typing import Any
 
+import sympy as sp
 from sympy.polys.rings import PolyElement, PolyRing
+
+from chapsym.checker.matrices import Quotients
+from chapsym.checker.polynomial import FIELD, Quotient
+
+from .trees import factored
 
 Monomial = tuple[int, ...]
 Terms = dict[Monomial, Any]
@@ -101,3 +107,23 @@ class Ideal:
             pending = {monomial: factor for monomial, factor in replaced.items() if factor}
         remainder = {monomial: factor for monomial, factor in settled.items() if factor}
         return remainder, [self.ring.from_dict({m: c for m, c in q.items() if c}) for q in quotients]
+
+
+def ideal(of: Quotients) -> Ideal:
+    """The ideal of the relations of a ring of the checker."""
+    ring = PolyRing([sp.Symbol(name) for name in of.ring.variables], sp.QQ, sp.grevlex)
+    relations = [{m: c / r.scale for m, c in terms(r).items()} for r in of.relations]
+    return Ideal(ring, [ring.from_dict(r) for r in relations])
+
+
+def terms(of: Quotient) -> Terms:
+    """The numerator that the checker forms."""
+    shifts = [FIELD * i for i in range(len(of.numerator.ring.variables))]
+    return {tuple(m >> s & 0xFFFF for s in shifts): sp.QQ(c) for m, c in of.numerator.terms.items()}
+
+
+def trees(ideal: Ideal, difference: Quotient) -> list[Any] | None:
+    """The cofactors of a numerator as the checker reads them; None if it is not in the ideal."""
+    cofactors = ideal.cofactors(terms(difference))
+    names = difference.numerator.ring.variables
+    return None if cofactors is None else [factored(cofactor, names) for cofactor in cofactors]

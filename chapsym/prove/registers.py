@@ -23,7 +23,6 @@ from chapsym import sources
 from .claims import Claim, TwoProofs
 from .claims import register as registered
 
-
 #: The file of a register that has no claims, but the list of what is generated from them.
 KERNELS = "kernels"
 
@@ -41,8 +40,8 @@ class Register:
     """Claims in one place: a folder with Python scripts, the path of one script, or the name of a package.
 
     A package, or a folder with an `__init__.py`, may say there: `SCRIPTS`, their names in order (without it, all files
-    that end in .py and do not begin with _, but for kernels.py); `CLAIMS`, the ids in order; `LEMMAS`, ids of what is judged only when it
-    is named; `PAPER`, what the claims are of; and `NOTE`, how its formulas are to be read.
+    that end in .py and do not begin with _, but for kernels.py); `CLAIMS`, the ids in order; `LEMMAS`, ids of what is
+    judged only when it is named; `PAPER`, what the claims are of; and `NOTE`, how its formulas are to be read.
     """
 
     place: str
@@ -89,7 +88,7 @@ class Register:
         return str(getattr(self._head(), name, default))
 
     def module(self, name: str) -> ModuleType | None:
-        """A module beside the scripts, such as `kernels`; None if there is none.  Raises BrokenScript as `load` does."""
+        """A module beside the scripts, such as `kernels`, or None; raises BrokenScript as `load` does."""
         full = f"{self._head().__name__}.{name}"
         if sources.file(full) is None:
             return None

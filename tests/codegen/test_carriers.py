@@ -1,0 +1,149 @@
+"""Kernels and claims are joined by content: the checker compares each text with what was decided."""
+
+import copy as copying
+import dataclasses
+import hashlib
+import json
+import re
+from pathlib import Path
+
+import pytest
+
+from chapsym.checker import Rejected, read
+from chapsym.checker import kernels as binding
+from chapsym.codegen import build, left, right
+from chapsym.derive.three import D, q0
+from chapsym.proofs.kernels import COLLECTED, KERNELS
+
+ROOT = Path(build.__file__).parents[2]
+CERTIFICATES = {
+    f"{data['claim']} {data['digest']}": data
+    for data in map(read, sorted((ROOT / "proofs/certificates/register").glob("*.json")))
+}
+ROWS = json.loads((build.folder() / build.MANIFEST).read_text(encoding="utf-8"))["kernels"]
+every = pytest.mark.parametrize("name", [kernel.name for kernel in KERNELS])
+
+
+def text_of(name):
+    return (build.folder() / f"{name}.py").read_text(encoding="utf-8")
+
+
+def judge(name, text, row=None, certificates=CERTIFICATES):
+    """With the hash of the text that is given: what is compared is what it computes."""
+    return binding.check(
+        {**(row or ROWS[name]), "text_sha256": hashlib.sha256(text.encode()).hexdigest()}, text, certificates, name
+    )
+
+
+def test_all_kernels_compute_what_the_committed_certificates_decided():
+    found = binding.check_folder(build.folder(), CERTIFICATES)
+    assert len(found) == len(KERNELS)
+    assert [one for one in found if not one["accepted"]] == []
+
+
+@every
+def test_a_sign_turned_in_a_text_is_refused(name):
+    text = text_of(name)
+    start = text.index("# intermediate" if "# intermediate" in text else "# outputs")
+    for found in re.finditer(r"(?<= )[+-](?= )", text[start:]):
+        at = start + found.start()
+        with pytest.raises(Rejected, match="computes in its result"):
+            judge(name, text[:at] + {"+": "-", "-": "+"}[text[at]] + text[at + 1 :])
+
+
+@every
+def test_a_sign_turned_in_what_a_claim_decided_is_refused(name):
+    """In each statement that carries the kernel, in the side that is taken."""
+    for carrier in ROWS[name]["carriers"]:
+        name_of = f"{carrier['claim']} {carrier['certificate']}"
+        data = copying.deepcopy(CERTIFICATES[name_of])
+        (statement,) = [one for one in data["statements"] if one["text"] == carrier["statement"]]
+        side = statement[carrier["side"]]
+        side[0] = ["*", -1, side[0]]
+        with pytest.raises(Rejected, match="computes in its result"):
+            judge(name, text_of(name), certificates={**CERTIFICATES, name_of: data})
+
+
+@pytest.mark.parametrize("kernel", KERNELS, ids=lambda k: k.name)
+def test_a_sign_turned_in_a_derivation_is_refused(kernel):
+    package = build.ours()
+    first, *rest = kernel.expressions
+    turned = dataclasses.replace(kernel, build=lambda: [-first, *rest], factored=None)
+    with pytest.raises(Rejected, match="computes in its result 0 something else"):
+        package.source(turned)
+
+
+def test_a_text_that_is_not_that_of_the_manifest_is_refused():
+    with pytest.raises(Rejected, match="another text than the hash is of"):
+        binding.check(ROWS["compose"], text_of("compose") + "\n", CERTIFICATES, "compose")
+
+
+@pytest.mark.parametrize(
+    ("carrier", "said"),
+    [
+        (left("5.2", "no such statement"), "which claim 5.2 decides 0 times"),
+        (left("5.1", "(5.1), nine entries"), "which claim 5.1 refutes"),
+        (left("5.1", "Ω - Ωᵀ = 4q₀ q×: right-handed about q"), "one expression on both sides"),
+        (left("4.9", "γᵀ Δr_k = 0"), "which is about words"),
+        (left("5.2", COLLECTED).entries(0, 3), "an entry that .* does not have"),
+        (left("5.2", COLLECTED).entries(0), "has 3 results, and its carriers make 1"),
+        (left("5.2", "M⃗ as printed"), "which claim 5.2 decides 2 times"),
+        (left("5.2", COLLECTED).at({D: 0}), "computes in its result 0 something else"),
+        (left("5.2", COLLECTED).along({q0: 1}), "along what leaves a relation"),
+        (left("5.2", COLLECTED).solved(left("5.1", "ΩᵀΩ = 1").entries(0, 1)), "solves a system that is not"),
+    ],
+)
+def test_what_carries_no_kernel_is_refused(carrier, said):
+    with pytest.raises(Rejected, match=said):
+        judge("momentum", text_of("momentum"), {"carriers": [carrier.data(digest)]})
+
+
+def digest(id):
+    return next(data["digest"] for data in CERTIFICATES.values() if data["claim"] == id)
+
+
+def test_an_open_claim_carries_nothing():
+    with pytest.raises(Rejected, match=r"a certificate of claim 5\.2 that is not accepted among these files"):
+        judge("momentum", text_of("momentum"), certificates={})
+
+
+TEXT = '"""Solved."""\n\n\ndef solved(K1, K2, g1, g2):\n    """x."""\n    det = g1 * g1 + g2 * g2\n    return {}\n'
+STATEMENTS = [
+    {"text": "a turn", "left": ["g1", ["*", -1, "g2"], "g2", "g1"], "right": [0, 0, 0, 0], "algebra": 0},
+    {"text": "a vector", "left": ["K1", "K2"], "right": [0, 0], "algebra": 0},
+]
+SOLVED = {
+    "x 0": {
+        "algebras": [{"kind": "quotient", "variables": ["K1", "K2", "g1", "g2"], "relations": []}],
+        "derivation": [],
+        "statements": STATEMENTS,
+    }
+}
+
+
+def test_a_linear_system_is_solved():
+    carrier = left("x", "a vector").solved(left("x", "a turn")).data(lambda id: "0")
+    right_ = TEXT.format("(g1 * K1 + g2 * K2) / det, (g1 * K2 - g2 * K1) / det")
+    assert judge("solved", right_, {"carriers": [carrier]}, SOLVED) == ["a vector"]
+    wrong = TEXT.format("(g1 * K1 - g2 * K2) / det, (g1 * K2 + g2 * K1) / det")
+    with pytest.raises(Rejected, match="computes in its result 0 something else"):
+        judge("solved", wrong, {"carriers": [carrier]}, SOLVED)
+
+
+@pytest.mark.parametrize(
+    ("body", "said"),
+    [
+        ("import os", "not a docstring and one function"),
+        ("def f(a, b=1):\n    return a", "defaults"),
+        ("def f(a):\n    while a: pass\n    return a", "something else than assign"),
+        ("def f(a):\n    return a.real", "neither a known name"),
+        ("def f(a):\n    return a * 0.5", "neither a known name"),
+        ("def f(a):\n    b = a", "something else than assign|returns nothing"),
+        ("def f(a):\n    return a / (a - a)", "divides by 0"),
+        ("def f(:", "not Python"),
+    ],
+)
+def test_a_text_that_is_no_straight_line_is_refused(body, said):
+    carrier = right("x", "a vector").data(lambda id: "0")
+    with pytest.raises(Rejected, match=said):
+        judge("f", f'"""A."""\n\n\n{body}\n', {"carriers": [carrier]}, SOLVED)
