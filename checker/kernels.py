@@ -127,7 +127,10 @@ def _regular(
         try:
             _run(function, {name: Fraction(point[name]) for name in inputs}, Fraction, where)
         except ZeroDivisionError:
-            raise Rejected(f"{where} divides by 0 at the point given for «{carrier['statement']}»") from None
+            raise Rejected(
+                f"{where} divides by 0 at the point given for «{carrier['statement']}»: "
+                "the claim must assume what makes it defined"
+            ) from None
 
 
 def check_form(carrier: Any, where: str) -> None:

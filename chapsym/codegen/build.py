@@ -95,7 +95,7 @@ class Package:
             return {id: judgement_of(known[id]) for id in sorted(wanted & known.keys())}
 
     def unproved(self) -> list[str]:
-        """The claims that should carry kernels and are not proved, a sentence each."""
+        """Why kernels cannot be made: what is wrong with them, and the claims that carry them and are not proved."""
         named = {id: kernel.name for kernel in self.kernels for id in kernel.claims}
         problems = []
         for id, kernel in named.items():
@@ -103,7 +103,8 @@ class Package:
                 problems.append(f"{kernel} names the claim {id}, which no proof judges")
             elif self.judged[id].verdict is Verdict.OPEN or not self.judged[id].certificate:
                 problems.append(f"{kernel} comes from the claim {id}, which is not proved")
-        return problems + [f"{kernel.name} is carried by no claim" for kernel in self.kernels if not kernel.claims]
+        problems += [f"{kernel.name} is carried by no claim" for kernel in self.kernels if not kernel.claims]
+        return problems + [f"{k.name}: {problem}" for k in self.kernels if (problem := k.problem())]
 
     def _digest(self, id: str) -> str:
         certificate = self.judged[id].certificate

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from keyword import iskeyword
 
 import sympy as sp
 
@@ -56,6 +57,23 @@ class Kernel:
         if self.rows_of_three:
             return len(self.outputs) // 3, 3
         return (len(self.outputs),) if len(self.outputs) > 1 else ()
+
+    def problem(self) -> str | None:
+        """Why it cannot be written, in one sentence; None if it can."""
+        names = [symbol.name for symbol in self.inputs]
+        for name in (self.name, *names, *self.outputs):
+            if not name.isidentifier() or not name.isascii() or iskeyword(name):
+                return f"{name!r} cannot be a name in Python and C: take letters, digits and _, and no keyword"
+        if twice := sorted({name for name in names if names.count(name) > 1}):
+            return f"two arguments have the name {twice[0]}"
+        if len(self.expressions) != len(self.outputs):
+            return f"it has {len(self.outputs)} outputs and {len(self.expressions)} expressions"
+        if self.rows_of_three and len(self.outputs) % 3:
+            return f"its {len(self.outputs)} outputs are no rows of three"
+        found = set().union(*(e.free_symbols for e in self.expressions)) - set(self.inputs)
+        if found:
+            return f"its expressions have {', '.join(sorted(map(str, found)))}, which is no argument"
+        return None
 
     @cached_property
     def expressions(self) -> tuple[sp.Expr, ...]:

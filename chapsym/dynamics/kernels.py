@@ -5,7 +5,8 @@
 Every argument of length k in the kernel's table is an array (..., k), and D is an array (...).
 """
 
-from collections.abc import Callable
+import math
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -16,6 +17,11 @@ from chapsym.generated import TABLE
 from .ball import Floats, numbers
 from .errors import BadInput
 
+#: A row of the table of a generated package: the function, its groups with their lengths, the shape of the result.
+Row = tuple[Any, tuple[tuple[str, int], ...], tuple[int, ...]]
+#: Numbers of each argument that are taken at once: what a function keeps of them stays in the second-level cache.
+BLOCK = 8192
+
 
 def _array(value: ArrayLike, name: str, trailing: int | None) -> np.ndarray:
     """The values of an argument: float64, or as they are where an array holds the numbers of another precision."""
@@ -25,9 +31,30 @@ def _array(value: ArrayLike, name: str, trailing: int | None) -> np.ndarray:
 
 
 def kernel(name: str) -> Callable[..., Floats]:
-    """The NumPy front of a kernel: arrays in the order of its groups, an array of its shape out."""
-    function: Any  # of as many numbers as its groups have
-    function, groups, shape = TABLE[name]
+    """The NumPy front of a kernel of the ball: arrays in the order of its groups, an array of its shape out."""
+    return on_arrays(TABLE[name], ("D",))
+
+
+def on_arrays(row: Row, alone: Sequence[str] | None = None) -> Callable[..., Floats]:
+    """The NumPy front of a generated kernel, of any register.
+
+    Parameters
+    ----------
+    row : tuple
+        A row of the TABLE of a generated package: the function, its groups of arguments, and the shape of its result.
+    alone : sequence of str, optional
+        The groups of a single number that have no axis of their own; all such groups by default.
+
+    Returns
+    -------
+    callable
+        It takes an array (..., n) for each group of n numbers, and (...) for one that is alone; the leading axes
+        broadcast.  The result is (..., *shape).  Long arrays are taken in blocks that stay in the cache: each number
+        has the bits that the function gives it alone.  Raises BadInput for arrays that do not fit.
+    """
+    function, groups, shape = row
+    name = function.__name__
+    single = {group for group, length in groups if length == 1 and (alone is None or group in alone)}
 
     def front(*arrays: ArrayLike) -> Floats:
         if len(arrays) != len(groups):
@@ -35,23 +62,42 @@ def kernel(name: str) -> Callable[..., Floats]:
             raise BadInput(f"{name} takes {len(groups)} arguments ({listed}), not {len(arrays)}")
         columns = []
         for value, (group, length) in zip(arrays, groups, strict=True):
-            array = _array(value, group, None if group == "D" else length)
-            columns += [array] if group == "D" else [array[..., i] for i in range(length)]
+            array = _array(value, group, None if group in single else length)
+            columns += [array] if group in single else [array[..., i] for i in range(length)]
         try:
             leading = np.broadcast_shapes(*(c.shape for c in columns))
         except ValueError:
             shapes = ", ".join(f"{g} {np.shape(a)}" for a, (g, _) in zip(arrays, groups, strict=True))
             raise BadInput(f"the leading axes of the arguments of {name} do not broadcast: {shapes}") from None
         with np.errstate(over="ignore", under="ignore", invalid="ignore"):  # as in the compiled loops
-            result = function(*columns)
+            parts = _in_blocks(function, columns, leading)
         if not shape:
-            return np.broadcast_to(result, leading).copy()
-        parts = [np.broadcast_to(part, leading) for part in result]
-        return np.stack(parts, axis=-1).reshape(*leading, *shape)
+            return np.broadcast_to(parts[0], leading).copy()
+        return np.stack([np.broadcast_to(part, leading) for part in parts], axis=-1).reshape(*leading, *shape)
 
     front.__name__ = name
     front.__doc__ = f"{function.__doc__}\n    On arrays: {', '.join(f'{g} (..., {n})' for g, n in groups)}.\n    "
     return front
+
+
+def _in_blocks(function: Callable[..., Any], columns: list[np.ndarray], leading: tuple[int, ...]) -> list[np.ndarray]:
+    """The results of a function, a block of the leading axes after the other."""
+    size = math.prod(leading)
+    if size <= BLOCK or any(column.dtype == object for column in columns):
+        return _parts(function(*columns))
+    flat = [c.reshape(-1) if c.size == 1 else np.broadcast_to(c, leading).reshape(-1) for c in columns]
+    results: list[np.ndarray] = []
+    for start in range(0, size, BLOCK):
+        block = slice(start, start + BLOCK)
+        parts = _parts(function(*(c if c.size == 1 else c[block] for c in flat)))
+        results = results or [np.empty(size, np.result_type(part)) for part in parts]
+        for result, part in zip(results, parts, strict=True):
+            result[block] = part
+    return [result.reshape(leading) for result in results]
+
+
+def _parts(result: Any) -> list[np.ndarray]:
+    return list(result) if isinstance(result, tuple) else [result]
 
 
 # What a state, a ball or a rotation has; `kernel` makes the front of any other.

@@ -28,6 +28,21 @@ def test_leading_axes_broadcast():
     assert (result[2, 1] == generated.momentum(*Q, *GAMMA, *J, 3.0)).all()
 
 
+def test_long_arrays_have_the_bits_of_each_number_alone():
+    """Three blocks, of which the last is not full; and a number that is the same for all."""
+    rng = np.random.default_rng(7)
+    q, gamma = rng.normal(size=(2 * kernels.BLOCK + 3, 4)), rng.normal(size=(2 * kernels.BLOCK + 3, 3))
+    result = kernels.momentum(q, gamma, J, 3.0)
+    for i in (0, kernels.BLOCK - 1, kernels.BLOCK, 2 * kernels.BLOCK + 2):
+        assert (result[i] == generated.momentum(*q[i], *gamma[i], *J, 3.0)).all()
+    assert kernels.energy(q[:, :3], gamma, J, 3.0).shape == (2 * kernels.BLOCK + 3,)
+
+
+def test_a_group_of_one_number_stands_alone_where_nothing_else_is_said():
+    spin = kernels.on_arrays(generated.TABLE["isotropic_spin"])
+    assert spin(GAMMA, GAMMA, 2.0, np.array([1.0, 3.0])).shape == (2, 3)
+
+
 @pytest.mark.parametrize(
     ("arguments", "sentence"),
     [

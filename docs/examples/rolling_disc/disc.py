@@ -120,10 +120,16 @@ def by_spin(expr):
     return expr.xreplace(sp.solve([x - y for x, y in zip(spin(), u, strict=True)], d))
 
 
+#: What the principle sets to 0, as a statement that carries the accelerations.
+LINEAR = "the equations of the principle are linear in q1'', q2'', q3''"
+
+
 def moving(p):
     """That the principle determines the accelerations, as lemmas of a proof."""
-    p.assume("m, r and cos q2 are not 0: the disc does not lie flat")
+    p.assume("m, r and cos q2 are not 0: the disc does not lie flat", *(sp.Ne(x, 0) for x in (m, r, c[1])))
+    rest = sp.Matrix(principle()).xreplace(dict.fromkeys(a, sp.S.Zero))
     p.lemma(
+        equal(LINEAR, principle(), matrix() * sp.Matrix(a) + rest),
         equal("the determinant of the equations of the principle", matrix().det(), 15 * m**3 * r**6 * c[1] ** 2 / 32),
         equal("the accelerations solve them", [in_motion(e) for e in principle()], [0, 0, 0]),
     )

@@ -1,24 +1,25 @@
-"""What the disc runs on: its accelerations, the rates of its angular velocity, and the force of the plane."""
+"""What the disc runs on: its accelerations, the rates of its angular velocity, and the velocity of its centre."""
 
-from chapsym.codegen import Kernel, left
+from chapsym.codegen import Kernel, left, right
 
-from .disc import accelerations, by_spin, c, d, g, m, r, rolling, s, u
-from .forces import force
+from .disc import LINEAR, a, accelerations, c, d, g, r, s, u
 from .kane import spin_rates
 
-SINES, COSINES, RATES, SPIN = ("sines", s), ("cosines", c), ("rates", d), ("spin", u)
+RATES, SPIN = ("rates", d), ("spin", u)
 LEAN = ("lean", (s[1], c[1]))
-RADIUS, MASS, GRAVITY = ("radius", (r,)), ("mass", (m,)), ("gravity", (g,))
+RADIUS, GRAVITY = ("radius", (r,)), ("gravity", (g,))
+
+
+def at_rest(principle):
+    """The principle where nothing is accelerated: what the accelerations balance."""
+    return principle.at(dict.fromkeys(a, 0))
+
 
 KERNELS = [
     Kernel(
         "accelerations",
         "The second derivatives of heading, lean and turn, in the rates of the angles.",
-        (
-            left("I-a1", "q1'' = -2 q2' q3'/cos q2"),
-            left("I-a2", "q2'' = 4 g sin q2/(5 r) + sin 2q2 q1'²/2 + 6 cos q2 q1' q3'/5"),
-            left("I-a3", "q3'' = -(10 cos q2 q1' - 12 tan q2 q3') q2'/6"),
-        ),
+        (at_rest(left("I-a1", LINEAR)).solved(left("I-a1", LINEAR).along(*({x: -1} for x in a))),),
         (LEAN, RATES, RADIUS, GRAVITY),
         ("a1", "a2", "a3"),
         accelerations,
@@ -36,23 +37,11 @@ KERNELS = [
         spin_rates,
     ),
     Kernel(
-        "force",
-        "What the plane does to the disc: along its path, across it, and upwards.",
-        (
-            left("F-f1", "f1 = m r (u1 u3 + u2')"),
-            left("F-f2", "f2 = m r u1² sin q2 + m r u2 u3/cos q2 - m r cos q2 u1'"),
-            left("F-f3", "f3 = m g - m r (u1² cos q2 + sin q2 u1')"),
-        ),
-        (LEAN, SPIN, RADIUS, MASS, GRAVITY),
-        ("f1", "f2", "f3"),
-        force,
-    ),
-    Kernel(
         "velocity",
-        "The velocity of the centre along L.x, L.y, L.z, for which the disc does not slip.",
-        (left("K-velocity", "v = r u2 L.x - r u1 L.y"),),
+        "The velocity of the centre along L.x and L.y, for which the disc does not slip.",
+        (right("K-velocity", "v = r u2 L.x - r u1 L.y").entries(0, 1),),
         (SPIN, RADIUS),
-        ("v1", "v2", "v3"),
-        lambda: rolling().applyfunc(by_spin),
+        ("v1", "v2"),
+        lambda: [r * u[1], -r * u[0]],
     ),
 ]

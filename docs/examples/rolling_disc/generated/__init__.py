@@ -1,0 +1,12 @@
+"""Kernels written by `chapsym codegen` from the proved expressions: do not edit."""
+
+from .accelerations import accelerations
+from .spin_rates import spin_rates
+from .velocity import velocity
+
+# name: (function, (argument group, length) ..., shape of the result)
+TABLE = {
+    "accelerations": (accelerations, (('lean', 2), ('rates', 3), ('radius', 1), ('gravity', 1)), (3,)),
+    "spin_rates": (spin_rates, (('lean', 2), ('spin', 3), ('radius', 1), ('gravity', 1)), (3,)),
+    "velocity": (velocity, (('spin', 3), ('radius', 1)), (2,)),
+}
