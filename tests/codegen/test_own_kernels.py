@@ -1,0 +1,142 @@
+"""Kernels of a register that is not of chapsym: a small one, made here, and that of the rolling disc."""
+
+import json
+import shutil
+import subprocess
+import sys
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+from commands import answer, chapsym, child
+
+from chapsym.codegen import build
+
+ROOT = Path(build.__file__).parents[2]
+DISC = ROOT / "docs/examples/rolling_disc"
+
+CLAIMS = '''"""A pendulum that is pushed: its acceleration, and what keeps its length."""
+
+import sympy as sp
+
+from chapsym.derive import Quotient
+from chapsym.prove import Proof, claim, equations
+
+x, y, v, w, a, g = sp.symbols("x y v w a g")
+equal = equations(Quotient((x, y, v, w, a, g), [x**2 + y**2 - 1]))
+
+
+def pull():
+    """The multiplier with x'' = -a x, y'' = -a y - g, where (x² + y²)'' = 0."""
+    return v**2 + w**2 - g * y
+
+
+@claim("{id}", r"a = v^2 + w^2 - gy")
+def length(p: Proof) -> None:
+    """What keeps the length."""
+    second = v**2 + w**2 + x * (-a * x) + y * (-a * y - g)
+    p.printed(equal("(x² + y²)''/2 = v² + w² - a - g y", second, v**2 + w**2 - a - g * y))
+    p.lemma(equal("a at which that is 0", pull(), (v**2 + w**2 - g * y) * (x**2 + y**2)))
+    p.control(equal("the same with + g y", pull(), v**2 + w**2 + g * y))
+'''
+KERNELS = """from chapsym.codegen import Kernel, left, right
+
+from .claims import a, g, pull, v, w, x, y
+
+MOVING = "(x² + y²)''/2 = v² + w² - a - g y"
+KERNELS = [
+    Kernel("pull", "What keeps the length.", ({carrier},), {groups}, ("a",), lambda: [{expression}]),
+]
+"""
+SOLVED = "right('{id}', MOVING).at({{a: 0}}).solved(right('{id}', MOVING).along({{a: -1}}))"
+GROUPS = '(("place", (x, y)), ("velocity", (v, w)), ("gravity", (g,)))'
+
+
+@pytest.fixture
+def register(tmp_path, request):
+    """Writes the register; each test has ids of its own, as one process knows an id once."""
+    identity = "own-" + "".join(filter(str.isalnum, request.node.name))[-24:]
+
+    def write(carrier=SOLVED, groups=GROUPS, expression="pull()", claims=CLAIMS, kernels=KERNELS):
+        folder = tmp_path / "pendulum"
+        folder.mkdir(exist_ok=True)
+        (folder / "claims.py").write_text(claims.replace("{id}", identity), encoding="utf-8")
+        carrier = carrier.format(id=identity)
+        (folder / "kernels.py").write_text(
+            kernels.format(carrier=carrier, groups=groups, expression=expression), encoding="utf-8"
+        )
+        return folder
+
+    return write
+
+
+def test_the_chain_from_a_claim_to_its_kernels(register):
+    folder = register()
+    written = answer("codegen", "--register", folder)["written"]
+    assert {"pull.py", "pendulum.c", "pendulum.h", "manifest.json", "fingerprints.json"} <= set(written)
+    assert answer("codegen", "--check", "--register", folder)["kept"] is True
+    scope = {}
+    exec((folder / "generated/pull.py").read_text(encoding="utf-8"), scope)
+    assert scope["pull"](Fraction(3, 5), Fraction(-4, 5), 1, 2, 10) == 13
+    assert child("prove", "--register", folder, "--certificates", folder / "certificates").returncode == 0
+    files = [folder / "generated", *(folder / "certificates").glob("*.json")]
+    command = [sys.executable, "-S", "-I", ROOT / "checker", "--kernels", *files]
+    assert "pull.py: accepted (kernel)" in subprocess.run(command, capture_output=True, text=True, check=True).stdout
+    text = (folder / "generated/pull.py").read_text(encoding="utf-8")
+    (folder / "generated/pull.py").write_text(text.replace("return o_a", "return -o_a"), encoding="utf-8")
+    assert subprocess.run(command, capture_output=True, text=True, check=False).returncode == 1
+    assert "pull.py computes another value" in chapsym("codegen", "--check", "--register", folder).stderr
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"expression": "-pull()"}, "computes in its result 0 something else than"),
+        ({"carrier": "left('{id}', 'no statement')"}, "decides 0 times"),
+        ({"carrier": "left('own-none', MOVING)"}, "names the claim own-none, which no proof judges"),
+        ({"claims": CLAIMS.replace("return v**2", "return 2 * v**2")}, "which is not proved"),
+        ({"groups": '(("place", (x, y)), ("velocity", (v, w)))'}, "have g, which is no argument"),
+        ({"groups": '(("place", (x, x)), ("velocity", (v, w)), ("gravity", (g,)))'}, "two arguments have the name x"),
+        ({"kernels": KERNELS.replace('Kernel("pull"', 'Kernel("lambda"')}, "'lambda' cannot be a name"),
+        ({"expression": "pull(), 1"}, "1 outputs and 2 expressions"),
+        ({"expression": "pull() / 3 + y**2 / 3 - y**2 / 3 - pull() * 2"}, "computes in its result 0 something else"),
+        ({"kernels": KERNELS.replace("KERNELS = [", "NONE = [")}, "has no kernels.py with KERNELS"),
+        ({"kernels": KERNELS.replace("from .claims", "from .nothing")}, "cannot be loaded"),
+    ],
+)
+def test_what_is_not_decided_is_refused_in_one_sentence(register, changes, said):
+    folder = register(**changes)
+    done = chapsym("codegen", "--register", folder)
+    assert said in done.stderr
+    assert done.stderr.count("\n") == 1
+    assert done.returncode in (1, 2)
+    assert not (folder / "generated").exists()
+
+
+def test_equal_by_the_relations_alone_is_equal(register):
+    """The left side has x² + y², which is 1: the kernel does not."""
+    folder = register(carrier="right('{id}', 'a at which that is 0')")
+    answer("codegen", "--register", folder)
+    (carrier,) = json.loads((folder / "generated/manifest.json").read_text(encoding="utf-8"))["kernels"]["pull"][
+        "carriers"
+    ]
+    assert [entry for entry, _ in carrier["cofactors"]] == [0]
+
+
+def test_the_disc_has_the_kernels_that_are_committed():
+    assert answer("codegen", "--check", "--register", DISC)["kept"] is True
+
+
+@pytest.mark.skipif(shutil.which("cc") is None, reason="no compiler of C is installed")
+def test_the_kernels_of_the_disc_in_c(tmp_path):
+    main = '#include <stdio.h>\n#include "rolling_disc.h"\nint main(void) { double a[3];\n'
+    main += "rolling_disc_accelerations((double[]){.6, .8}, (double[]){1, 2, -1}, .5, 10, a);\n"
+    main += 'printf("%a %a %a", a[0], a[1], a[2]); return 0; }\n'
+    (tmp_path / "main.c").write_text(main, encoding="utf-8")
+    place = DISC / "generated"
+    command = ["cc", "-Wall", "-Werror", "-ffp-contract=off", "-I", place, tmp_path / "main.c"]
+    subprocess.run([*command, place / "rolling_disc.c", "-o", tmp_path / "main"], check=True)
+    printed = subprocess.run([tmp_path / "main"], check=True, capture_output=True, text=True).stdout
+    scope = {}
+    exec((place / "accelerations.py").read_text(encoding="utf-8"), scope)
+    assert [float.fromhex(x) for x in printed.split()] == list(scope["accelerations"](0.6, 0.8, 1, 2, -1, 0.5, 10))
