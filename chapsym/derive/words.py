@@ -44,7 +44,7 @@ class WordAlgebra:
     `rules` maps an adjacent pair to the expression that replaces it: `{(R, RT): 1}`.
 
     `example` maps letters to matrices, and parameters to numbers, for which the rules hold: that there are some is part
-    of a proof.  The letters of chapsym's own derivations have theirs (prove/witness.py).
+    of a proof.  Without it one is searched, or taken from the examples of a register (prove/witness.py).
 
     Raises ValueError if the rules are not confluent or do not end, if transposing twice does not give a symbol back, or
     if the example is not rational or breaks a rule or a transpose.

@@ -21,6 +21,7 @@ from .statements import (
     in_field,
     rational_point,
 )
+from .witness import Examples
 
 __all__ = [
     "COMPLEX",
@@ -33,6 +34,7 @@ __all__ = [
     "Comparison",
     "Count",
     "Equation",
+    "Examples",
     "Fact",
     "Identity",
     "Judgement",

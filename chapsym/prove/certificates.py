@@ -161,7 +161,7 @@ class _Maker:
             if isinstance(statement, Equation) and not holds:
                 algebra = statement.algebra
                 if isinstance(algebra, QuotientRing):
-                    exact = next(candidates(algebra.symbols, algebra.relations, exact), exact)
+                    exact = next(candidates(algebra.symbols, algebra.relations, self.proof.examples, exact), exact)
                 else:
                     exact = _with_transposes(exact, algebra.algebra if isinstance(algebra, Traces) else algebra)
         return exact
@@ -267,8 +267,10 @@ class _Maker:
         self.derivation = [one for one in self.derivation if one["name"] in used]
         self._leave_out_algebras()
         for i, algebra in enumerate(self.algebras):
-            if algebra["kind"] != "quotient" and (exact := witness.matrices(set(self._symbols[i]), self._words_of[i])):
-                self._point(exact)
+            if algebra["kind"] != "quotient":
+                exact = witness.matrices(set(self._symbols[i]), self._words_of[i], self.proof.examples)
+                if exact is not None:
+                    self._point(exact)
         kept = [example for example in self.counterexamples if example["refutes"]]
         for one in self.statements:
             if "refuted" in one:
@@ -360,7 +362,7 @@ class _Maker:
         if isinstance(algebra, Traces):
             algebra = algebra.algebra
         if isinstance(algebra, WordAlgebra):
-            exact = witness.matrices(set(symbols), algebra)
+            exact = witness.matrices(set(symbols), algebra, self.proof.examples)
             if exact is None:
                 raise NotFound("no matrices are known for which its rules hold")
             return {"point": self._point(exact)}
@@ -369,7 +371,7 @@ class _Maker:
 
     def _good_point(self, one: dict[str, Any], symbols: Sequence[sp.Symbol], relations: Sequence[sp.Expr]) -> int:
         """A point where the hypotheses and the relations hold, and no denominator vanishes."""
-        for exact in candidates(symbols, relations):
+        for exact in candidates(symbols, relations, self.proof.examples):
             if not witness.allowed(exact, self.proof.assumed):
                 continue
             entries = {x.name: _entry(v) for x, v in exact.items()}

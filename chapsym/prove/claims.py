@@ -1,6 +1,7 @@
 """Claims: the rows of the register, each with its proof."""
 
 import ast
+import importlib
 import inspect
 import textwrap
 import time
@@ -10,12 +11,14 @@ from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
+from chapsym import sources
 from chapsym.checker import Rejected
 
 from . import argument, certificates
 from .argument import Grounds
 from .evidence import Proof, Verdict
 from .statements import Rest
+from .witness import Examples
 
 #: What a record says beside the verdict, in this order: what a `Proof` collects, and what is known of its claim.
 EVIDENCE = (
@@ -46,9 +49,28 @@ class Claim:
         code = inspect.unwrap(self.prove).__code__
         return f"{code.co_filename}, line {code.co_firstlineno}"
 
+    @property
+    def _examples_module(self) -> str | None:
+        """`examples` beside the proof's script, or above it, if there is one."""
+        names = self.prove.__module__.split(".")
+        places = (".".join([*names[:i], "examples"]) for i in range(len(names) - 1, 0, -1))
+        return next((name for name in places if sources.file(name)), None)
+
+    @property
+    def examples_file(self) -> Path | None:
+        """The file of the register's examples."""
+        return Path(str(sources.file(self._examples_module))) if self._examples_module else None
+
+    @property
+    def examples(self) -> Examples:
+        """What the register of the proof has in `examples.py` as EXAMPLES, if anything."""
+        module = importlib.import_module(self._examples_module) if self._examples_module else None
+        found = getattr(module, "EXAMPLES", None)
+        return found if isinstance(found, Examples) else Examples()
+
     def judge(self) -> "Judgement":
         """Runs the proof."""
-        start, proof = time.perf_counter(), Proof(uses=self.uses)
+        start, proof = time.perf_counter(), Proof(uses=self.uses, examples=self.examples)
         self.prove(proof)
         verdict = proof.verdict()
         return Judgement(self, verdict, proof, time.perf_counter() - start)

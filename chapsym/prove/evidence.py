@@ -18,6 +18,7 @@ from chapsym.derive.words import unfolded
 from . import argument, points, witness
 from .argument import Reading, Step, Theorem
 from .statements import Comparison, Count, Equation, Point, Rest, Statement
+from .witness import Examples
 
 #: How the relations of a count or of a comparison are said of a number.
 SAID = {"==": "", "!=": "not ", "<": "less than ", "<=": "at most ", ">": "more than ", ">=": "at least "}
@@ -54,6 +55,7 @@ class Proof:
     measured: list[str] = field(default_factory=list)
     conjectures: list[str] = field(default_factory=list)
     uses: tuple[str, ...] = ()
+    examples: Examples = field(default_factory=Examples)
     stated: dict[str, Theorem] = field(default_factory=dict)
     steps: dict[str, list[Step]] = field(default_factory=dict)
     question: dict[str, str] | None = None
@@ -280,9 +282,9 @@ class Proof:
     def _look_at_witnesses(self) -> None:
         """Every true statement must be true at an exact point of its algebra; what is false, refuted at one."""
         true = _equations([pair for pair in [*self._printed, *self._corrected] if pair[1]])
-        found, wrong = witness.look(true, self.assumed)
+        found, wrong = witness.look(true, self.assumed, self.examples)
         if not found and not self.witnesses:
-            found, wrong = points.look(true, self.assumed)
+            found, wrong = points.look(true, self.assumed, self.examples)
         self.witnesses += found
         self.problems += [f"fails at its witness: {text}" for text in wrong]
         if self.counterexamples or self.certificates or self.reason:

@@ -9,27 +9,29 @@ from chapsym.derive.quotient import Quotient
 
 from . import witness
 from .statements import Comparison, Equation
+from .witness import Examples
 
 Exact = dict[sp.Symbol, sp.Rational]
 
 
 #: The sides of a right triangle, and the components of a unit vector: for relations of symbols in no table.
 SIDES, UNIT = ("3/5",), ("2/7", "3/7", "6/7")
-#: Beside the table of witnesses: for relations that it was not made for.
-OTHERS = {"r": "3/5", "w1": "1/2", "w2": "0", "w3": "0"}
 
 
 def candidates(
-    symbols: Sequence[sp.Symbol], relations: Sequence[sp.Expr], known: Mapping[sp.Symbol, Any] | None = None
+    symbols: Sequence[sp.Symbol],
+    relations: Sequence[sp.Expr],
+    examples: Examples,
+    known: Mapping[sp.Symbol, Any] | None = None,
 ) -> Iterator[Exact]:
-    """Points with the known values at which all relations hold, if some are found: from the table, primes, or 1.
+    """Points with the known values at which all relations hold, if some are found: from examples, primes, or 1.
 
     And from triangles and unit vectors with rational sides.
     """
     known = dict(known or {})
     primes = {symbol: sp.Integer(sp.prime(i)) for i, symbol in enumerate(symbols, 1)}
-    table = {symbol: witness.scalars().get(symbol.name, prime) for symbol, prime in primes.items()}
-    others = {symbol: sp.Rational(OTHERS[symbol.name]) for symbol in symbols if symbol.name in OTHERS}
+    table = {symbol: examples.numbers.get(symbol, prime) for symbol, prime in primes.items()}
+    others = {symbol: examples.others[symbol] for symbol in symbols if symbol in examples.others}
     related = [symbol for symbol in symbols if any(relation.has(symbol) for relation in relations)]
     round_ = [primes | {x: sp.Rational(of[i % len(of)]) for i, x in enumerate(related)} for of in (SIDES, UNIT)]
     for start in (table, table | others, primes, dict.fromkeys(symbols, sp.S.One), *round_):
@@ -37,13 +39,15 @@ def candidates(
             yield point
 
 
-def look(equations: Sequence[Equation], assumed: Sequence[Comparison] = ()) -> tuple[list[dict[str, Any]], list[str]]:
-    """As `witness.look`, at points that are found for the relations of each equation, where the table has none."""
+def look(
+    equations: Sequence[Equation], assumed: Sequence[Comparison], examples: Examples
+) -> tuple[list[dict[str, Any]], list[str]]:
+    """As `witness.look`, at points that are found for the relations of each equation, where the examples have none."""
     found: dict[tuple[Any, ...], dict[str, Any]] = {}
     wrong = []
     for equation in equations:
         ring = equation.algebra
-        for point in candidates(ring.symbols, ring.relations) if isinstance(ring, Quotient) else ():
+        for point in candidates(ring.symbols, ring.relations, examples) if isinstance(ring, Quotient) else ():
             if witness.allowed(point, assumed) and (truth := witness.true_at(equation, point)) is not None:
                 seen = found.setdefault(tuple(point.items()), {"name": "found", "point": {}, "statements": 0})
                 seen["point"] |= witness.shown(equation, point)

@@ -44,11 +44,11 @@ def default_path(register: Register = PROOFS) -> Path:
 
 def fingerprint(claim: Claim) -> str:
     """A hash of everything that the claim's verdict depends on: sources, files, and the versions of the libraries."""
-    text = _of_module(claim.prove.__module__)
-    if not claim.files:
+    text, examples = _of_module(claim.prove.__module__), claim.examples_file
+    if not claim.files and not examples:
         return text
     digest = hashlib.sha256(text.encode())
-    for file in claim.files:
+    for file in (*claim.files, *([examples] if examples else [])):
         digest.update(file.name.encode() + b"\n" + (file.read_bytes() if file.is_file() else b"missing"))
     return digest.hexdigest()[:16]
 

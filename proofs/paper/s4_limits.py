@@ -5,7 +5,8 @@ import sympy as sp
 from chapsym.derive import ball, limits
 from chapsym.derive.ball import ALGEBRA, D, Gamma, J, K, omega
 from chapsym.derive.words import unfolded
-from chapsym.prove import Comparison, Proof, claim, equations, main, witness
+from chapsym.proofs.examples import EXAMPLES
+from chapsym.prove import Comparison, Proof, claim, equations, main
 
 equation = equations(ALGEBRA)
 
@@ -30,7 +31,7 @@ def exact_order(name: str, remainder: limits.Remainder, order: int = 1, less: in
     return Comparison(
         f"{name} has the exact order {order}, here {found}, and its leading term is not 0",
         [sp.Eq(found, order, evaluate=False), sp.Not(vanishing)],
-        witness.values_of(term.free_symbols),
+        EXAMPLES.of(term.free_symbols),
     )
 
 
