@@ -2,7 +2,7 @@
 
 Proved by: gibbs-newton.  Operations: 62.  SymPy 1.14.0.
 Expression: sha256 ff93940aabfa8f04d8ab3f1249252df7ffd005dde2202cf5c7135439ed5aa798.
-Certificate of gibbs-newton: sha256 2f2d37c573e58b712411b8a20e421364c3f90ecb4cc0154daa2f69e8bc70e4e2.
+Certificate of gibbs-newton: sha256 abe0990e38b811073a35e7dbddfdc512c42f86dcc24bca705493bf4f38451c34.
 """
 
 

@@ -2,7 +2,7 @@
 
 Proved by: 5.2.  Operations: 49.  SymPy 1.14.0.
 Expression: sha256 75ad331ebfa1ee3e05b747c58813463b4dadd96671fbc4df84126dfbd9b29c3d.
-Certificate of 5.2: sha256 ef6b65c55082ce13cdb895b8775daba5610480bdc29c4d62574e1f54c06fe24c.
+Certificate of 5.2: sha256 aa1c5c8514b48821c58b3d0746360f391bb0ee0eabc723a0f41772a59571a03d.
 """
 
 

@@ -52,7 +52,7 @@ BY_MASS = {gibbs.I1: J2 + J3, gibbs.I2: J1 + J3, gibbs.I3: J1 + J2}
 CHART = tuple({x: 1, q0: -x / q0} for x in q)
 TURNS = tuple(three.placed(((q0, *q), direction)) for direction in three.body_directions())
 COLLECTED = "the collected form, which the kernels use"
-NEWTON = "det ∂G, adj(∂G) times the right side, and the cofactors"
+NEWTON = "det ∂G, adj(∂G) times the right side, and the cofactors, by vector products of the columns"
 LEVEL = "that factor, with a letter for det(Λ)l"
 
 KERNELS: tuple[Kernel, ...] = (
@@ -86,7 +86,7 @@ KERNELS: tuple[Kernel, ...] = (
     Kernel(
         "tangent_hessian",
         "The constant second derivative of 𝒦(q ∘ (1, w)) in w: the vectors for 11, 22, 33, 23, 13, 12.",
-        (left("5.2", "the second derivatives of 𝒦⃗(q(1, w)) in w are its second differences"),),
+        (left("5.2", "the second derivatives of 𝒦⃗(q(1, w)) in w, by 𝒦⃗ at q(0, w)"),),
         (QUATERNION, *BODY),
         tuple(f"ddK{pair}_{row}" for pair in ("11", "22", "33", "23", "13", "12") for row in (1, 2, 3)),
         three.tangent_hessian,
@@ -218,7 +218,7 @@ KERNELS: tuple[Kernel, ...] = (
     Kernel(
         "gibbs_symmetric",
         "The trace, the sum of the principal minors of size 2 and the determinant of the symmetric part of ∂G/∂u.",
-        (left("straight-path", "tr S, the minors and det S by the traces of S, S², S³"),),
+        (left("straight-path", "tr S, the minors by the length of S, det S by its columns"),),
         (GIBBS, HALF, GAMMA, INERTIA, CONTACT),
         ("trace", "minors", "det"),
         gibbs.symmetric,

@@ -25,6 +25,11 @@ def momentum_of(point: dict[sp.Symbol, sp.Expr]) -> sp.Matrix:
 equal = equations(FREE)
 
 
+def columns(a: sp.Matrix) -> list[sp.Matrix]:
+    """The columns of a matrix."""
+    return [a[:, i] for i in range(a.cols)]
+
+
 def staged(names: sp.Matrix) -> sp.Matrix:
     """What the steps of the kernel compute under these names, in the inputs alone."""
     return three.unrolled(gibbs.newton_steps()[0], names).applyfunc(sp.expand)
@@ -74,9 +79,13 @@ def newton_leaves(p: Proof) -> None:
     p.lemma(equal("A Cᵀ = (first row · first cofactors)", A * C.T, (A[0, :] * C[0, :].T)[0] * sp.eye(3), generic))
     p.lemma(equal("the steps of the kernel compute ∂G/∂u", staged(gibbs.A), jacobian))
     p.lemma(equal("and the right side", staged(gibbs.R), gibbs.newton_target()))
-    adjugate = residual.jacobian(u).adjugate()
-    p.lemma(equal("det ∂G, adj(∂G) times the right side, and the cofactors", gibbs.newton(),
-                  [(jacobian[0, :] * adjugate[:, 0])[0], *(adjugate * gibbs.newton_target()), *adjugate.T]))  # fmt: skip
+    first, second, third = columns(residual.jacobian(u))
+    crossed = sp.Matrix.hstack(second.cross(third), third.cross(first), first.cross(second))  # the cofactors
+    entries = placed((A, jacobian))
+    adjugate = A.adjugate().xreplace(entries)
+    p.lemma(equal("det ∂G, adj(∂G) times the right side, and the cofactors, by vector products of the columns",
+                  [first.dot(crossed[:, 0]), *(crossed.T * gibbs.newton_target()), *crossed],
+                  [A.det().xreplace(entries), *(adjugate * gibbs.newton_target()), *adjugate.T]))  # fmt: skip
     left_over = Quotient((*FREE.symbols, *C_, *gibbs.e), [])
     p.lemma(equal("Cᵀ(d × Id - |d|²k) = Cᵀ(G(u + d) - G(u) - ∂G(u)d)", gibbs.second(),
                   C_.T * (after - residual - jacobian * d), left_over))  # fmt: skip
@@ -220,9 +229,11 @@ def straight_path(p: Proof) -> None:
     )
     p.lemma(Equation("det(s - S) = s³ - s² tr S + s minors - det S", [(s * sp.eye(3) - matrix).det(method="berkowitz")],
                      [s**3 - trace * s**2 + minors * s - determinant], ring))  # fmt: skip
-    first, second, third = (sp.expand((matrix**n).trace()) for n in (1, 2, 3))
-    p.lemma(Equation("tr S, the minors and det S by the traces of S, S², S³", gibbs.symmetric(),
-                     [first, (first**2 - second) / 2, (first**3 - 3 * first * second + 2 * third) / 6], ring))  # fmt: skip
+    steps, in_entries = gibbs.symmetric_steps()
+    first, second, third = columns(matrix)
+    p.lemma(Equation("tr S, the minors by the length of S, det S by its columns", three.unrolled(steps, sp.Matrix(in_entries)),
+                     [matrix.trace(), (matrix.trace() ** 2 - sum(x.dot(x) for x in columns(matrix))) / 2,
+                      third.dot(first.cross(second))], ring))  # fmt: skip
     p.control(equal("G_t(su) = s(1 - s)R(s) with + u × Iu", along,
                     s * residual + s * (1 - s) * (rest + 2 * u.cross(INERTIA * u)), ring))  # fmt: skip
     p.control(Equation("⟨d, ∂G_t(su)d⟩ without what is quadratic in s", [(d.T * stretched * d)[0]],

@@ -119,16 +119,16 @@ def printed_momentum(sign: int = 1, factor: int = 2) -> sp.Matrix:
     return printed_centre_momentum() + factor * D * q0 * (q - sign * gamma.dot(q) * gamma)
 
 
-def second_differences() -> list[sp.Expr]:
-    """Those of 𝒦⃗(q(1, w)) at w = 0 with the basis e: for 11, 22, 33, 23, 13, 12 the three components."""
+def second_derivatives() -> list[sp.Expr]:
+    """Those of 𝒦⃗(q(1, w)) in w, as 𝒦⃗ is a quadratic form of (q₀, q): for 11, 22, 33, 23, 13, 12."""
 
-    def after(w: sp.Matrix) -> sp.Matrix:
-        turned = three.quaternion_product(sp.Matrix([q0, *q]), sp.Matrix([1, *w]))
+    def at(w: sp.Matrix) -> sp.Matrix:
+        turned = three.quaternion_product(sp.Matrix([q0, *q]), sp.Matrix([0, *w]))
         return sp.Matrix(three.momentum()).subs(placed(((q0, *q), turned)), simultaneous=True)
 
-    e, still = sp.eye(3).columnspace(), sp.Matrix(three.momentum())
-    rows = [after(x) + after(-x) - 2 * still for x in e]
-    rows += [after(e[i] + e[j]) - after(e[i]) - after(e[j]) + still for i, j in ((1, 2), (0, 2), (0, 1))]
+    e = sp.eye(3).columnspace()
+    rows = [2 * at(x) for x in e]
+    rows += [at(e[i] + e[j]) - at(e[i]) - at(e[j]) for i, j in ((1, 2), (0, 2), (0, 1))]
     return [x for row in rows for x in row]
 
 
@@ -156,11 +156,9 @@ def vector_momentum(p: Proof) -> None:
     lam = three.lam()
     second = 2 * (q0 * lam * q + q.cross(lam * q) - D * q0 * gamma.dot(q) * gamma)
     p.lemma(equation("𝒦⃗ = 2(q₀Λq + q×Λq - Dq₀⟨γ,q⟩γ)", second, three.momentum()))
-    p.say("For a step from a rotation q to q(1, w), of any length, 𝒦⃗ is quadratic in w:")
-    p.lemma(
-        Equation("the second derivatives of 𝒦⃗(q(1, w)) in w are its second differences", three.tangent_hessian(),
-                 second_differences(), Quotient(RING.symbols, []))
-    )  # fmt: skip
+    p.say("It is a quadratic form of (q₀, q); so for a turn from q to q(1, w), of any length:")
+    p.lemma(Equation("the second derivatives of 𝒦⃗(q(1, w)) in w, by 𝒦⃗ at q(0, w)", three.tangent_hessian(),
+                     second_derivatives(), Quotient(RING.symbols, [])))  # fmt: skip
     for text, mutated in [
         ("𝒦⃗ with + ⟨γ,q⟩γ", printed_momentum(sign=-1)),
         ("𝒦⃗ with D in the place of 2D", printed_momentum(factor=1)),

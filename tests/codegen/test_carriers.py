@@ -109,13 +109,14 @@ def test_an_open_claim_carries_nothing():
 
 TEXT = '"""Solved."""\n\n\ndef solved(K1, K2, g1, g2):\n    """x."""\n    det = g1 * g1 + g2 * g2\n    return {}\n'
 STATEMENTS = [
-    {"text": "a turn", "left": ["g1", ["*", -1, "g2"], "g2", "g1"], "right": [0, 0, 0, 0], "algebra": 0},
-    {"text": "a vector", "left": ["K1", "K2"], "right": [0, 0], "algebra": 0},
+    {"text": "a turn", "left": ["g1", ["*", -1, "g2"], "g2", "g1"], "right": [0, 0, 0, 0], "algebra": 0, "point": 0},
+    {"text": "a vector", "left": ["K1", "K2"], "right": [0, 0], "algebra": 0, "point": 0},
 ]
 SOLVED = {
     "x 0": {
         "algebras": [{"kind": "quotient", "variables": ["K1", "K2", "g1", "g2"], "relations": []}],
         "derivation": [],
+        "points": [dict.fromkeys(("K1", "K2", "g1", "g2"), 1)],
         "statements": STATEMENTS,
     }
 }
@@ -128,6 +129,9 @@ def test_a_linear_system_is_solved():
     wrong = TEXT.format("(g1 * K1 - g2 * K2) / det, (g1 * K2 + g2 * K1) / det")
     with pytest.raises(Rejected, match="computes in its result 0 something else"):
         judge("solved", wrong, {"carriers": [carrier]}, SOLVED)
+    nowhere = {"x 0": SOLVED["x 0"] | {"points": [dict.fromkeys(("K1", "K2", "g1", "g2"), 0)]}}
+    with pytest.raises(Rejected, match="divides by 0 at the point"):
+        judge("solved", right_, {"carriers": [carrier]}, nowhere)
 
 
 @pytest.mark.parametrize(

@@ -7,6 +7,7 @@ import sympy as sp
 
 from chapsym.derive import three
 from chapsym.derive.quotient import Quotient
+from chapsym.proofs.examples import EXAMPLES
 from chapsym.prove import (
     Comparison,
     Equation,
@@ -264,7 +265,7 @@ def test_what_is_false_and_not_refuted_is_said_to_be_so():
 def test_a_witness_is_a_point_where_what_is_assumed_holds():
     J1 = sp.Symbol("J1")
     for relation, witnesses in ((J1 > 0, 2), (J1 < 0, 0)):
-        proof = Proof()
+        proof = Proof(examples=EXAMPLES)
         proof.assume("the sign of J1", relation)
         proof.printed(Equation("shown", J1, J1, Quotient((J1,))))
         proof.control(FALSE)
@@ -285,7 +286,7 @@ def test_the_table_of_witnesses_contradicts_a_wrong_decision():
             return True
 
     ring = Gullible(three.RING.symbols, three.RING.relations)
-    proof = Proof()
+    proof = Proof(examples=EXAMPLES)
     proof.printed(Equation("q₀ = 0", [three.q0], [sp.S.Zero], ring))
     proof.control(FALSE)
     assert proof.verdict() is Verdict.OPEN
@@ -293,7 +294,7 @@ def test_the_table_of_witnesses_contradicts_a_wrong_decision():
 
 
 def test_degenerate_cases_are_looked_at_where_they_are_allowed():
-    proof = Proof()
+    proof = Proof(examples=EXAMPLES)
     proof.printed(Equation("|q|² = 1 - q₀²", [three.q.dot(three.q)], [1 - three.q0**2], three.RING))
     proof.control(FALSE)
     assert proof.verdict() is Verdict.HOLDS
