@@ -4,6 +4,7 @@ import fcntl
 import json
 import os
 import pickle
+import sys
 import tempfile
 from types import SimpleNamespace
 
@@ -54,6 +55,29 @@ def thorough(pytestconfig):
 
 # The verdicts that the tests provoke are not the user's.
 os.environ["CHAPSYM_RECORDS"] = os.path.join(tempfile.mkdtemp(prefix="chapsym-tests-"), "verdicts.jsonl")
+
+
+def kept_for_chapsym(cached):
+    """The same function, which remembers what it said of chapsym's modules only: another test has another ring.py."""
+    return lambda name: (cached if name.startswith("chapsym.") else cached.__wrapped__)(name)
+
+
+@pytest.fixture
+def forgotten(monkeypatch):
+    """What a test loads of a register of one's own is forgotten after it."""
+    from chapsym import sources
+    from chapsym.prove import claims, load, records
+
+    load(lemmas=True)
+    monkeypatch.setattr(claims, "_REGISTER", claims.register())
+    monkeypatch.setattr(sys, "path", [*sys.path])
+    before = set(sys.modules)
+    for module, name in ((sources, "file"), (sources, "imports"), (records, "_of_module")):
+        monkeypatch.setattr(module, name, kept_for_chapsym(getattr(module, name)))
+    yield
+    for name in set(sys.modules) - before:
+        if name.startswith("claims_of_") or name in ("ring", "cubes", "mine"):
+            del sys.modules[name]
 
 
 def once(name, made, tmp_path_factory):

@@ -21,7 +21,7 @@ KINDS = {"console", "python", "sh", "text", "toml", "bibtex"}
 
 
 @pytest.mark.parametrize("name", PLAYED)
-def test_what_a_page_shows_is_what_is_printed(name, tmp_path, monkeypatch):
+def test_what_a_page_shows_is_what_is_printed(name, tmp_path, monkeypatch, forgotten):
     monkeypatch.setattr("os.cpu_count", lambda: 1)  # proofs in this process: others would load all of them first
     wrong = [said for _, said, _ in pages.played(TEXTS[name], pages.workspace(tmp_path)) if said]
     assert not wrong, "\n".join(wrong)

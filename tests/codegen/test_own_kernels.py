@@ -14,6 +14,7 @@ from chapsym.codegen import build
 
 ROOT = Path(build.__file__).parents[2]
 DISC = ROOT / "docs/examples/rolling_disc"
+pytestmark = pytest.mark.usefixtures("forgotten")
 
 CLAIMS = '''"""A pendulum that is pushed: its acceleration, and what keeps its length."""
 

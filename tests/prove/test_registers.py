@@ -11,7 +11,7 @@ import pytest
 from commands import answer, chapsym, child, refused
 
 import chapsym as package
-from chapsym import checker, sources
+from chapsym import checker
 from chapsym.prove import PROOFS, NoRegister, Register, claims, load, records
 
 DOCS = Path(__file__).parents[2] / "docs"
@@ -58,30 +58,16 @@ if __name__ == "__main__":
 '''
 
 
-def kept_for_chapsym(cached):
-    """The same function, which remembers what it said of chapsym's modules only: another test has another ring.py."""
-    return lambda name: (cached if name.startswith("chapsym.") else cached.__wrapped__)(name)
-
-
 @pytest.fixture
-def folder(tmp_path, monkeypatch):
-    """A folder with two scripts, and what they share; what a test loads is forgotten after it."""
-    load(lemmas=True)
-    monkeypatch.setattr(claims, "_REGISTER", claims.register())
-    monkeypatch.setattr(sys, "path", [*sys.path])
+def folder(tmp_path, monkeypatch, forgotten):
+    """A folder with two scripts, and what they share."""
     monkeypatch.setenv("CHAPSYM_RECORDS", str(tmp_path / "verdicts.jsonl"))
     monkeypatch.chdir(tmp_path)
-    before = set(sys.modules)
-    for module, name in ((sources, "file"), (sources, "imports"), (records, "_of_module")):
-        monkeypatch.setattr(module, name, kept_for_chapsym(getattr(module, name)))
     folder = tmp_path / "claims"
     folder.mkdir()
     for name, text in {"ring": RING, "squares": SQUARES, "cubes": CUBES}.items():
         (folder / f"{name}.py").write_text(text, encoding="utf-8")
-    yield folder
-    for name in set(sys.modules) - before:
-        if name.startswith("claims_of_") or name in ("ring", "cubes", "mine"):
-            del sys.modules[name]
+    return folder
 
 
 def test_a_folder_is_judged_and_its_verdicts_are_kept_beside_those_of_chapsym(folder, tmp_path):
