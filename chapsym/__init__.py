@@ -44,6 +44,7 @@ if TYPE_CHECKING:
         extrapolate,
         fold,
         follow,
+        implicit_step,
         increment,
         invariants_n,
         is_steady,
@@ -75,9 +76,9 @@ __all__ = [
     "ExactBall", "ExactTop", "Extrapolated", "Fold", "Followed", "NotRetraced", "Result", "Status", "Step", "StepN",
     "StepNotTaken", "Stepper", "StepperN", "TopMotion", "Trajectory", "TrajectoryN", "VerticalTrajectory", "accurate",
     "axial", "branches", "certified_motion", "certify", "compose_step", "exact_top", "extrapolate", "fold", "follow",
-    "increment", "interpolated", "invariants_n", "is_steady", "is_top", "margin", "open_result", "retrace_error",
-    "reverse", "reverse_n", "roll", "rotation_number", "run_scene", "skew", "steady_frames", "step", "step_n",
-    "step_vertical", "substeps", "top_frames", "trajectory", "trajectory_n", "trajectory_vertical",
+    "implicit_step", "increment", "interpolated", "invariants_n", "is_steady", "is_top", "margin", "open_result",
+    "retrace_error", "reverse", "reverse_n", "roll", "rotation_number", "run_scene", "skew", "steady_frames", "step",
+    "step_n", "step_vertical", "substeps", "top_frames", "trajectory", "trajectory_n", "trajectory_vertical",
 ]  # fmt: skip
 
 #: Names that are not of `chapsym.dynamics`: where they are.

@@ -12,11 +12,14 @@ Each takes the strata to draw from, by default all:
     rotations: "generic", "near identity" (angles 1e-12 to 1e-3), "near pi" (q0 from 0 to 1e-3)
     inertias, mass tensors, balls, states: "generic", "degenerate" (equal, nearly equal, flat, D = 0, D large)
 
+And `of_ring`: exact points where the relations of any quotient ring hold.
+
 Everything is drawn through Hypothesis, so failures shrink and replay.
 """
 
 from collections.abc import Sequence
 from fractions import Fraction
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -24,11 +27,17 @@ from chapsym import extras
 
 extras.need("test")
 
+from hypothesis import reject  # noqa: E402
 from hypothesis import strategies as st  # noqa: E402
 
 from chapsym.dynamics import Ball  # noqa: E402
 from chapsym.dynamics.ball import Floats  # noqa: E402
 from chapsym.dynamics.loops.branch import continued  # noqa: E402
+
+if TYPE_CHECKING:  # SymPy takes a second, which who rolls balls need not wait for
+    from sympy.core.relational import Relational
+
+    from chapsym.derive import Quotient
 
 ROTATIONS = ("generic", "near identity", "near pi")
 BALLS = ("generic", "degenerate")
@@ -135,3 +144,20 @@ def rational_balls(draw: st.DrawFn) -> tuple[tuple[Fraction, ...], Fraction]:
     """Exact (J, D)."""
     moment = st.fractions(Fraction(1, 8), 8, max_denominator=8)
     return draw(st.tuples(moment, moment, moment)), draw(st.fractions(0, 8, max_denominator=8))
+
+
+@st.composite
+def of_ring(draw: st.DrawFn, ring: "Quotient", *assumed: "Relational") -> dict[str, Fraction]:
+    """Exact values of the symbols of a ring, by their names, at which its relations hold, and what is assumed.
+
+    Raises ArithmeticError where no rational point of the relations is known.
+    """
+    import sympy as sp
+
+    from chapsym.prove.search import point
+
+    small = st.fractions(-3, 3, max_denominator=6)
+    found = point(ring, lambda: sp.Rational(draw(small)))
+    if not all(bool(one.xreplace(found)) for one in assumed):
+        reject()
+    return {x.name: Fraction(int(v.p), int(v.q)) for x, v in found.items()}

@@ -1,5 +1,6 @@
 """chapsym codegen: generate the kernels of a register, or check them."""
 
+from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -70,4 +71,9 @@ def codegen(
     if as_json:
         print_json({"folder": str(place), "written": written})
     else:
-        print(f"wrote {len(written)} files into {place.name}/")
+        print(f"wrote {len(written)} files into {_shown(place)}/")
+
+
+def _shown(place: Path) -> Path:
+    """As it is seen from here."""
+    return place.relative_to(Path.cwd()) if place.is_relative_to(Path.cwd()) else place

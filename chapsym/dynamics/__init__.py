@@ -11,6 +11,7 @@ from .coefficients import substeps
 from .enclosed_motion import CertifiedMotion, ExactBall, certified_motion
 from .errors import BadInput, Status, StepNotTaken
 from .extrapolation import Extrapolated, extrapolate
+from .implicit import implicit_step
 from .map import compose_step, step
 from .n.ball_n import BallN, axial, skew
 from .n.stepper_n import StepperN
@@ -24,10 +25,10 @@ from .trajectories import trajectory
 
 __all__ = [
     "BadInput", "Ball", "BallN", "Branches", "Certificate", "CertifiedMotion", "Curve", "ExactBall", "ExactTop",
-    "Extrapolated", "Fold", "Followed", "NotRetraced", "Status", "Step", "StepN", "StepNotTaken", "Stepper",
-    "StepperN", "TopMotion", "Trajectory", "TrajectoryN", "VerticalTrajectory", "axial", "branches",
-    "certified_motion", "certify", "compose_step", "exact_top", "extrapolate", "fold", "follow", "increment",
-    "invariants_n", "is_steady", "is_top", "margin", "retrace_error", "reverse", "reverse_n", "rotation_number",
-    "skew", "steady_frames", "step", "step_n", "step_vertical", "substeps", "top_frames", "trajectory", "trajectory_n",
+    "Extrapolated", "Fold", "Followed", "NotRetraced", "Status", "Step", "StepN", "StepNotTaken", "Stepper", "StepperN",
+    "TopMotion", "Trajectory", "TrajectoryN", "VerticalTrajectory", "axial", "branches", "certified_motion", "certify",
+    "compose_step", "exact_top", "extrapolate", "fold", "follow", "implicit_step", "increment", "invariants_n",
+    "is_steady", "is_top", "margin", "retrace_error", "reverse", "reverse_n", "rotation_number", "skew",
+    "steady_frames", "step", "step_n", "step_vertical", "substeps", "top_frames", "trajectory", "trajectory_n",
     "trajectory_vertical",
 ]  # fmt: skip

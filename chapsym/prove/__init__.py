@@ -3,9 +3,12 @@
 from .argument import Reading, Theorem, no, there_is
 from .claims import Claim, Judgement, claim, judged
 from .evidence import Proof, Verdict
+from .limits import tends
+from .mutation import mutations
 from .polynomials import Identity
 from .registers import PROOFS, BrokenScript, NoRegister, Register, load
 from .runner import main, prove_all, unproved
+from .search import counterexample
 from .statements import (
     COMPLEX,
     COMPLEX_MULTIPLE,
@@ -47,14 +50,17 @@ __all__ = [
     "Verdict",
     "Zero",
     "claim",
+    "counterexample",
     "equations",
     "in_field",
     "judged",
     "load",
     "main",
+    "mutations",
     "no",
     "prove_all",
     "rational_point",
+    "tends",
     "there_is",
     "unproved",
 ]

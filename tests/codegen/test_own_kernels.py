@@ -124,8 +124,9 @@ def test_equal_by_the_relations_alone_is_equal(register):
     assert [entry for entry, _ in carrier["cofactors"]] == [0]
 
 
-def test_the_disc_has_the_kernels_that_are_committed():
-    assert answer("codegen", "--check", "--register", DISC)["kept"] is True
+@pytest.mark.parametrize("name", ["rolling_disc", "suslov"])
+def test_the_examples_have_the_kernels_that_are_committed(name):
+    assert answer("codegen", "--check", "--register", DISC.parent / name)["kept"] is True
 
 
 @pytest.mark.skipif(shutil.which("cc") is None, reason="no compiler of C is installed")

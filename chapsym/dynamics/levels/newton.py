@@ -1,13 +1,13 @@
 """Newton's iteration in Arb's numbers, and the interval Newton test of its balls, with the bits of the context."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
-from flint import arb, ctx
+from flint import arb, arb_mat, ctx
 
 import chapsym.generated as generated
 
-from ..loops.branch import inverse, inverse_of
+from ..loops.branch import inverse
 
 #: Refinement must stay this near to the float64 root, else another branch may have been met.
 NEAR = 1e-6
@@ -57,28 +57,38 @@ def _tested(q: tuple, K: tuple, g: tuple, J: tuple, D: tuple) -> tuple | None:
     value = generated.residual(*q, *(norm * x for x in K), *g, *J, *D)
     tangent = generated.tangent_jacobian(*q, *g, *J, *D)
     hessian = generated.tangent_hessian(*q, *g, *J, *D)
-    # At rest the value is exactly 0, so the box needs a size of its own.
-    least = arb(2) ** -ctx.prec
-    largest = max(abs(x).upper() for x in _apply(inverse_of(*tangent)[1:], value))
-    radius = 4 * largest if largest > 0 else least
-    for _ in range(MOST_INFLATIONS):
-        box = tuple(arb(0, radius) for _ in range(3))
-        slope = _slope(tangent, hessian, tuple(norm * x for x in K), box)
-        det, *inverse_slope = inverse_of(*slope)
-        if det > 0 or det < 0:
-            image = tuple(-x for x in _apply(inverse_slope, value))
+    image = isolated(value, lambda box: _slope(tangent, hessian, tuple(norm * x for x in K), box))
+    return None if image is None else unit(generated.compose(*(*q, arb(1), *image)))
+
+
+def isolated(value: Sequence[Any], slope: Callable[[Sequence[Any]], Sequence[Any]]) -> list[Any] | None:
+    """The zero of a map F of which F(0) = `value`, in balls; None if it is not proved.
+
+    slope: of a box round 0, what contains F' in it, row by row.  The interval Newton test: where the image of a box is
+    inside it, the box contains one zero, and the image contains that.  The box is widened until it does.
+    """
+    size, least = len(value), arb(2) ** -ctx.prec
+    target = arb_mat(size, 1, value)
+    try:
+        largest = max(x.abs_upper() for x in _divided(target, slope([arb(0)] * size)))
+        radius = 4 * largest if largest > 0 else least  # where the value is exactly 0 the box needs a size of its own
+        for _ in range(MOST_INFLATIONS):
+            box = [arb(0, radius)] * size
+            image = [-x for x in _divided(target, slope(box))]
             if all(b.contains_interior(x) for b, x in zip(box, image, strict=True)):
-                return unit(generated.compose(*(*q, arb(1), *image)))
-        radius = radius * 4
+                return image
+            radius = radius * 4
+    except ZeroDivisionError:  # the matrix may be singular
+        pass
     return None
 
 
-def _apply(matrix: Sequence, vector: Sequence) -> tuple:
-    """A 3×3 matrix, row by row, times a vector."""
-    return tuple(sum(matrix[3 * i + j] * vector[j] for j in range(3)) for i in range(3))
+def _divided(target: arb_mat, matrix: Sequence[Any]) -> list[Any]:
+    """The solution of a linear system for every matrix in balls; raises ZeroDivisionError where one may be singular."""
+    return arb_mat(target.nrows(), target.nrows(), matrix).solve(target).entries()
 
 
-def _slope(tangent: tuple, hessian: tuple, K: tuple, box: tuple) -> list:
+def _slope(tangent: tuple, hessian: tuple, K: tuple, box: Sequence[Any]) -> list:
     """F'(w) for every w in the box, row by row: T + H w - 2|q|²𝒦 wᵀ."""
     place = {(0, 0): 0, (1, 1): 1, (2, 2): 2, (1, 2): 3, (0, 2): 4, (0, 1): 5}
     rows = []

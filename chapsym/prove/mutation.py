@@ -1,0 +1,65 @@
+"""False variants of a statement, made and not typed."""
+
+from collections.abc import Iterator
+
+import sympy as sp
+
+from .statements import Equation
+
+
+def mutations(statement: Equation, most: int = 4) -> list[Equation]:
+    """Variants of an equation with the sign of one term of its right side turned: negative controls.
+
+    Parameters
+    ----------
+    statement : Equation
+        The equation; the terms are those of the sums and products of its right side, as they are written.
+    most : int
+        How many variants are made.
+
+    Returns
+    -------
+    list of Equation
+        For `Proof.control`.  A term that is zero in the algebra is left as it is, as nothing would be false.
+
+    Raises
+    ------
+    ValueError
+        If no term can be turned.
+
+    Examples
+    --------
+    >>> import sympy as sp
+    >>> from chapsym.derive import Quotient
+    >>> from chapsym.prove import equations, mutations
+    >>> x, y = sp.symbols("x y")
+    >>> equal = equations(Quotient((x, y)))
+    >>> for one in mutations(equal("a square", (x + y) ** 2, x**2 + 2 * x * y + y**2)):
+    ...     print(one.text, one.right, one.holds())
+    a square, with the sign of x**2 turned [-x**2 + 2*x*y + y**2] False
+    a square, with the sign of y**2 turned [x**2 + 2*x*y - y**2] False
+    a square, with the sign of 2*x*y turned [x**2 - 2*x*y + y**2] False
+    """
+    right, found = statement.right, list[Equation]()
+    for i, entry in enumerate(right):
+        for term, turned in _turned(entry):
+            if len(found) < most and not statement.algebra.is_zero(entry - turned):
+                text = f"{statement.text}, with the sign of {term} turned"
+                found.append(Equation(text, statement.left, [*right[:i], turned, *right[i + 1 :]], statement.algebra))
+    if not found:
+        raise ValueError(f"no term of the right side of «{statement.text}» can be turned: give a false variant")
+    return found
+
+
+def _turned(expression: sp.Expr) -> Iterator[tuple[sp.Expr, sp.Expr]]:
+    """Each term of the sums in an expression, and the expression with the sign of that term turned."""
+    if not isinstance(expression, sp.Add):
+        yield expression, -expression
+        return
+    for term in expression.args:
+        yield term, expression - 2 * term
+    for term in expression.args:
+        for factor in term.args if isinstance(term, sp.Mul) else ():
+            if isinstance(factor, sp.Add):
+                for inner, turned in _turned(factor):
+                    yield inner, expression - term + term / factor * turned

@@ -1,0 +1,147 @@
+"""Equations of any register as maps: the discrete Suslov top at every precision, and what has no proof."""
+
+import importlib.util
+import sys
+from fractions import Fraction
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from chapsym import BadInput, Digits, Enclosure, implicit_step
+from chapsym.dynamics.kernels import on_arrays
+from chapsym.numbers import named
+from chapsym.numbers.precisions import flint_bits
+
+PLACE = Path(__file__).parents[2] / "docs/examples/suslov/generated"
+MASS = np.array([1.0, 2.0, 4.0, 0.3, 0.5])
+START = [0.125, 0.25]
+
+
+@pytest.fixture(scope="module")
+def table():
+    spec = importlib.util.spec_from_file_location(
+        "suslov_generated", PLACE / "__init__.py", submodule_search_locations=[str(PLACE)]
+    )
+    package = importlib.util.module_from_spec(spec)
+    sys.modules["suslov_generated"] = package
+    spec.loader.exec_module(package)
+    yield package.TABLE
+    for name in [name for name in sys.modules if name.startswith("suslov_generated")]:
+        del sys.modules[name]
+
+
+@pytest.fixture(scope="module")
+def step(table):
+    return implicit_step(table["residual"], table["residual_jacobian"], table["after"])
+
+
+def taken(step, steps, precision, momentum=START):
+    u, m = step([0, 0], momentum, MASS, precision=precision)
+    for _ in range(steps - 1):
+        u, m = step(u, m, MASS, precision=precision)
+    return m
+
+
+def test_a_batch_keeps_the_energy_and_the_steady_rotations(step, table):
+    """The energy to a few units in the last place a step; at a steady rotation u = t(J23, -J13) the momentum, too."""
+    random = np.random.default_rng(1)
+    momentum = random.uniform(-0.5, 0.5, (40, 2))
+    steady = np.array([[0.5, -0.3]]) * 0.1
+    momentum = np.concatenate([momentum, on_arrays(table["after"])(steady, MASS)])
+    energy, u, m = on_arrays(table["energy"]), 0 * momentum, momentum
+    for _ in range(100):
+        u, m = step(u, m, MASS)
+    drift = np.abs(energy(m, MASS) / energy(momentum, MASS) - 1)
+    assert drift.max() < 100 * 4 * 2.0**-52
+    assert np.abs(m[-1] - momentum[-1]).max() < 100 * 2 * 2.0**-52 * np.abs(momentum[-1]).max()
+    assert np.abs(m[:-1] - momentum[:-1]).max() > 0.01
+
+
+def test_the_levels_agree_and_the_enclosures_contain(step):
+    exact = taken(step, 20, Digits(50))
+    for precision, within in (("single", 2e-6), ("double", 1e-14), ("double-double", 1e-29)):
+        found = taken(step, 20, precision)
+        assert max(abs(float(Fraction(str(x)) - value(y))) for x, y in zip(exact, found, strict=True)) < within
+    balls = taken(step, 20, Enclosure(100))
+    with flint_bits(200):
+        for x, ball in zip(exact, balls, strict=True):
+            assert ball.contains(named(Enclosure(160)).number(Fraction(str(x))) + 0)
+            assert ball.rad() < 1e-25
+
+
+def value(x):
+    return x.exactly() if hasattr(x, "exactly") else Fraction(float(x))
+
+
+def test_an_enclosure_is_for_all_known_numbers(step):
+    """Those of a ball of momenta: the roots for its ends are inside, and those of others are not."""
+    from flint import arb
+
+    level = Enclosure(60)
+    with level.working():
+        ball = np.array([arb("0.125", "0.001"), arb("0.25")], dtype=object)
+        u, _ = step([0, 0], ball, MASS, precision=level)
+        for end, inside in ((0.124, True), (0.126, True), (0.2, False)):
+            root, _ = step([0, 0], [end, 0.25], MASS, precision=Digits(30))
+            assert all(b.contains(arb(str(x))) for b, x in zip(u, root, strict=True)) is inside
+
+
+def square(x, a):
+    return x * x - a
+
+
+def slope(x, a):
+    return 2 * x
+
+
+GROUPS = (("x", 1), ("a", 1))
+
+
+def test_what_is_singular_or_too_wide_is_not_proved():
+    from flint import arb
+
+    root = implicit_step((square, GROUPS, ()), (slope, GROUPS, ()))
+    assert root([1.0], [4.0], precision=Enclosure(60))[0].contains(2)
+    with Enclosure(60).working():
+        wide = np.array([arb(1, 2)], dtype=object)
+        with pytest.raises(BadInput, match="not proved"):
+            root([1.0], wide, precision=Enclosure(60))
+    for precision in ("double", Digits(20), Enclosure(60)):
+        with pytest.raises(BadInput, match=r"does not settle|singular|not proved"):
+            root([0.0], [0.0], precision=precision)
+        with pytest.raises(BadInput, match="does not settle"):
+            root([1.0], [-1.0], precision=precision)
+
+
+def test_a_wrong_jacobian_gives_no_proof():
+    """Newton's iteration may settle with another slope; the test with it does not pass where it is 0."""
+    root = implicit_step((square, GROUPS, ()), (lambda x, a: x - x, GROUPS, ()))
+    with pytest.raises(BadInput, match="does not settle"):
+        root([1.0], [4.0], precision=Enclosure(60))
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        (([0, 0], START), "takes 3 arrays, gibbs \\(2\\), momentum \\(2\\), mass_tensor \\(5\\), not 2"),
+        (([0, 0], [1, 0, 0], MASS), "momentum must have 2 components"),
+        (([0, np.nan], START, MASS), "gibbs must be finite"),
+        ((np.zeros((3, 2)), np.zeros((4, 2)), MASS), "do not broadcast"),
+        (([0, 0], [1e3, 0], MASS), "does not settle for number 0"),
+        (([0, 0], [1j, 0], MASS), "momentum"),
+    ],
+)
+def test_bad_input_is_one_sentence(step, given, said):
+    with pytest.raises(BadInput, match=said):
+        step(*given)
+
+
+def test_kernels_that_do_not_fit_are_refused(table):
+    for rows, said in (
+        ((table["residual"], table["after"]), "must have the groups of residual"),
+        ((table["residual"], table["residual"]), "must return 4 numbers for 2 unknowns"),
+        ((table["residual"], table["residual_jacobian"], (square, GROUPS, ())), "must be among those of residual"),
+    ):
+        with pytest.raises(BadInput, match=said):
+            implicit_step(*rows)

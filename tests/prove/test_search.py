@@ -1,0 +1,88 @@
+"""Points that are searched for, variants that are made, and limits as equations."""
+
+from fractions import Fraction
+
+import pytest
+import sympy as sp
+from hypothesis import given
+
+from chapsym import testing
+from chapsym.derive import Quotient
+from chapsym.prove import Proof, Verdict, counterexample, equations, mutations, tends
+
+x, y, z, h = sp.symbols("x y z h")
+q = sp.symbols("q0:3")
+CIRCLE = Quotient((x, y, z), [x**2 + y**2 - 1])
+RINGS = {
+    "a circle": CIRCLE,
+    "two planes": Quotient((x, y, z), [x - y, y - z]),
+    "a sphere and a plane through an axis": Quotient((*q, x, y), [sum(v**2 for v in q) - 1, x * q[1] + y * q[2]]),
+    "a hyperbola, and a cube": Quotient((x, y, z), [x * y - 6, z**3 - 8]),
+    "two cylinders": Quotient((x, y, z), [x**2 + y**2 - 1, y**2 + z**2 - 1]),
+    "no relation": Quotient((x, y)),
+}
+equal = equations(CIRCLE)
+
+
+@pytest.mark.parametrize("name", RINGS)
+def test_points_of_a_ring_obey_its_relations_and_differ(name):
+    seen = set()
+
+    @given(testing.of_ring(RINGS[name], x <= 3))
+    def look(point):
+        exact = {symbol: sp.Rational(point[symbol.name]) for symbol in RINGS[name].symbols}
+        assert all(relation.xreplace(exact) == 0 for relation in RINGS[name].relations)
+        assert point["x"] <= 3
+        assert all(type(value) is Fraction for value in point.values())
+        seen.add(tuple(point.values()))
+
+    look()
+    assert len(seen) > 5 or name == "two cylinders"  # of which one point is known
+
+
+def test_where_no_point_is_known_this_is_said():
+    @given(testing.of_ring(Quotient((x,), [x**2 - 2])))
+    def look(point):
+        """No point gets here."""
+
+    with pytest.raises(ArithmeticError, match=r"no rational point is known where x\*\*2 - 2 = 0"):
+        look()
+
+
+def test_a_false_statement_is_refuted_at_a_point_that_is_found():
+    wrong, right = equal("x + y = 1", x + y, 1), equal("(x + y)² = 1 + 2xy", (x + y) ** 2, 1 + 2 * x * y)
+    proof = Proof()
+    proof.printed(wrong)
+    proof.corrected("(x + y)^2 = 1 + 2xy", right)
+    proof.counterexample(counterexample(wrong, x > 0, y < 0))
+    proof.control(*mutations(right))
+    assert proof.verdict() is Verdict.CORRECTED
+    (point,) = proof.counterexamples
+    assert sp.Rational(point["point"]["x"]) > 0 > sp.Rational(point["point"]["y"])
+    with pytest.raises(ArithmeticError, match="no point where «.*» fails was found among 40"):
+        counterexample(right, tries=40)
+
+
+def test_each_mutation_is_false_and_names_its_term():
+    square = equal("x²", x**2 + 0 * y, (x + y) * (x - y) + y**2 + z * (x**2 + y**2 - 1))
+    made = mutations(square, most=10)
+    assert len(made) >= 3
+    assert not any(one.holds() for one in made)
+    assert all("with the sign of" in one.text for one in made)
+    assert not any("x**2 + y**2" in one.text for one in made)  # z(x² + y² - 1) is 0 here
+    with pytest.raises(ValueError, match="no term"):
+        mutations(equal("0", x - x, 0))
+
+
+def test_a_limit_is_an_expansion_and_its_coefficients():
+    ring = Quotient((x, h))
+    expression = (1 + h * x) / (1 - h) - 1 - h
+    expansion, limit = tends("it", expression, h, 1, x, ring)
+    assert expansion.holds()
+    assert limit.holds()
+    expansion, limit = tends("it", expression, h, 1, -x, ring)
+    assert expansion.holds()
+    assert not limit.holds()
+    assert not tends("it", expression, h, 2, x, ring)[1].holds()
+    with pytest.raises(ArithmeticError, match="a pole where h is 0"):
+        tends("it", x / h, h, 0, x, ring)
