@@ -63,7 +63,7 @@ def kept_for_chapsym(cached):
 
 
 @pytest.fixture
-def forgotten(monkeypatch):
+def forgotten(tmp_path, monkeypatch):
     """What a test loads of a register of one's own is forgotten after it."""
     from chapsym import sources
     from chapsym.prove import claims, load, records
@@ -76,7 +76,8 @@ def forgotten(monkeypatch):
         monkeypatch.setattr(module, name, kept_for_chapsym(getattr(module, name)))
     yield
     for name in set(sys.modules) - before:
-        if name.startswith("claims_of_") or name in ("ring", "cubes", "mine"):
+        file = getattr(sys.modules[name], "__file__", None) or ""
+        if name.startswith("claims_of_") or str(tmp_path.parent) in file:
             del sys.modules[name]
 
 

@@ -20,6 +20,7 @@ import subprocess
 import sys
 from pathlib import Path
 from typing import NamedTuple
+from unittest import mock
 
 import commands
 import typer
@@ -116,7 +117,9 @@ def played(page, folder):
         elif block.kind == "python":
             yield block, session(block.text, names, folder), ""
         elif block.kind.startswith("{code-block}") and (caption := re.search(r"^:caption: (.+)\n", block.text, re.M)):
-            (folder / caption[1]).write_text(block.text[caption.end() :].lstrip("\n"), encoding="utf-8")
+            file = folder / caption[1]
+            file.parent.mkdir(exist_ok=True)
+            file.write_text(block.text[caption.end() :].lstrip("\n"), encoding="utf-8")
 
 
 def session(text, names, folder):
@@ -124,7 +127,7 @@ def session(text, names, folder):
     said = []
     test = doctest.DocTestParser().get_doctest(text, names, "page", "page", 0)
     flags = doctest.ELLIPSIS
-    with contextlib.chdir(folder):
+    with contextlib.chdir(folder), mock.patch.object(sys, "path", ["", *sys.path]):
         doctest.DocTestRunner(optionflags=flags).run(test, out=said.append, clear_globs=False)
     names.update(test.globs)
     return "".join(said)

@@ -9,6 +9,7 @@ from urllib.parse import unquote, urlsplit
 
 import pages
 import pytest
+import yaml
 from pages import PAGES, ROOT, blocks, prose
 
 import chapsym
@@ -53,6 +54,16 @@ def test_extras_that_a_page_names_are_those_of_the_package():
     extras = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["optional-dependencies"]
     named = {name for text in TEXTS.values() for name in re.findall(r"pip install '(?:chapsym|\.)\[(\w+)\]'", text)}
     assert named <= set(extras)
+
+
+def test_the_recipes_for_ci_are_yaml_and_their_commands_are_commands(tmp_path):
+    page = TEXTS["docs/tutorials/own-system.md"]
+    recipes = [yaml.safe_load(b.text.split("\n\n", 1)[1]) for b in blocks(page) if b.kind == "{code-block} yaml"]
+    job, hooks = recipes
+    lines = [step["run"] for step in job["jobs"]["check"]["steps"] if "run" in step]
+    lines += [hook["entry"] for repository in hooks["repos"] for hook in repository["hooks"]]
+    said = [command.line for b in blocks(page) if b.kind == "console" for command in pages.console(b)]
+    assert {line for line in lines if line.startswith("chapsym ")} <= set(said)
 
 
 def slugs(text):

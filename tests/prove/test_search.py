@@ -59,7 +59,7 @@ def test_a_false_statement_is_refuted_at_a_point_that_is_found():
     assert proof.verdict() is Verdict.CORRECTED
     (point,) = proof.counterexamples
     assert sp.Rational(point["point"]["x"]) > 0 > sp.Rational(point["point"]["y"])
-    with pytest.raises(ArithmeticError, match="no point where «.*» fails was found among 40"):
+    with pytest.raises(ArithmeticError, match=r"no point where «.*» fails was found among 40"):
         counterexample(right, tries=40)
 
 
