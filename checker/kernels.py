@@ -42,7 +42,7 @@ Certificates = Mapping[str, Mapping[str, Any]]
 
 
 def check(row: Any, written: str, certificates: Certificates, where: str) -> list[str]:
-    """The texts of the statements that carry a function; raises Rejected unless it computes what they say.
+    """The statements that carry a function, and what is made of each; raises Rejected unless it computes that.
 
     row: "carriers", and "text_sha256", the hash of the text; certificates: those that were accepted.
     """
@@ -57,7 +57,20 @@ def check(row: Any, written: str, certificates: Certificates, where: str) -> lis
         if one.value.numerator.terms and not proved:
             said = carrier["statement"]
             raise Rejected(f"{where} computes in its result {i} something else than «{said}» says")
-    return [_statement(one, certificates, where)["text"] for one in row["carriers"]]
+    return [_said(one) for one in row["carriers"]]
+
+
+#: What the steps of a carrier make of a statement.
+SAID = {
+    "at": "at values",
+    "along": "its derivatives",
+    "solved": "the solution of a linear system",
+    "entries": "entries",
+}
+
+
+def _said(carrier: Mapping[str, Any]) -> str:
+    return ": ".join([carrier["statement"], *(SAID[step] for step, _ in carrier["steps"])])
 
 
 class Difference(NamedTuple):

@@ -161,7 +161,10 @@ class Package:
             try:
                 files[f"{kernel.name}.py"], rows[kernel.name] = self.source(kernel)
             except Rejected as error:
-                raise ArithmeticError(str(error)) from None
+                said = str(error)
+                if kernel.name not in said:  # of what its text or its carriers make
+                    said = f"{kernel.name}: {said.replace('the certificate has', 'it makes')}; divide less in it"
+                raise ArithmeticError(said) from None
         table = {"kernels": rows}
         for target in TARGETS if self.programs else ():
             files[target.FILE], table[target.KEY] = self.target_source(target)

@@ -46,6 +46,12 @@ class Kernel:
     factored: Callable[[], tuple[Steps, Sequence[sp.Expr]]] | None = None
     rows_of_three: bool = False
 
+    def __post_init__(self) -> None:
+        if not isinstance(self.carriers, tuple | list) or not all(isinstance(one, Carrier) for one in self.carriers):
+            raise TypeError(f"the carriers of {self.name} must be a tuple of carriers, which left and right make")
+        if not callable(self.build):
+            raise TypeError(f"what builds {self.name} must be a function without arguments, such as lambda: [x + y]")
+
     @property
     def claims(self) -> tuple[str, ...]:
         """The claims whose statements carry it."""

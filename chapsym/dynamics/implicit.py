@@ -229,6 +229,6 @@ def _listed(groups: Sequence[tuple[str, int]]) -> str:
 
 def _unsettled(index: int) -> BadInput:
     return BadInput(
-        f"Newton's iteration does not settle for number {index}: give a guess nearer to a root, at which the "
-        "derivatives are not singular"
+        f"Newton's iteration does not settle for number {index}: give a guess nearer to a root, if there "
+        "is one, at which the derivatives are not singular"
     )

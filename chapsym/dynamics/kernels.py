@@ -24,10 +24,14 @@ BLOCK = 8192
 
 
 def _array(value: ArrayLike, name: str, trailing: int | None) -> np.ndarray:
-    """The values of an argument: float64, or as they are where an array holds the numbers of another precision."""
-    if isinstance(value, np.ndarray) and value.dtype == object and trailing and value.shape[-1:] == (trailing,):
-        return value
-    return numbers(value, name, trailing)
+    """The values of an argument: float64, or as they are where an array holds the numbers of another precision.
+
+    They are only read: finite float64 numbers are not copied.
+    """
+    if type(value) is not np.ndarray or (trailing is not None and value.shape[-1:] != (trailing,)):
+        return numbers(value, name, trailing)
+    kept = trailing is not None if value.dtype == object else value.dtype == np.float64 and np.isfinite(value).all()
+    return value if kept else numbers(value, name, trailing)
 
 
 def kernel(name: str) -> Callable[..., Floats]:
@@ -70,33 +74,37 @@ def on_arrays(row: Row, alone: Sequence[str] | None = None) -> Callable[..., Flo
             shapes = ", ".join(f"{g} {np.shape(a)}" for a, (g, _) in zip(arrays, groups, strict=True))
             raise BadInput(f"the leading axes of the arguments of {name} do not broadcast: {shapes}") from None
         with np.errstate(over="ignore", under="ignore", invalid="ignore"):  # as in the compiled loops
-            parts = _in_blocks(function, columns, leading)
-        if not shape:
-            return np.broadcast_to(parts[0], leading).copy()
-        return np.stack([np.broadcast_to(part, leading) for part in parts], axis=-1).reshape(*leading, *shape)
+            return _in_blocks(function, columns, leading).reshape(*leading, *shape)
 
     front.__name__ = name
     front.__doc__ = f"{function.__doc__}\n    On arrays: {', '.join(f'{g} (..., {n})' for g, n in groups)}.\n    "
     return front
 
 
-def _in_blocks(function: Callable[..., Any], columns: list[np.ndarray], leading: tuple[int, ...]) -> list[np.ndarray]:
-    """The results of a function, a block of the leading axes after the other."""
+def _in_blocks(function: Callable[..., Any], columns: list[np.ndarray], leading: tuple[int, ...]) -> np.ndarray:
+    """The results of a function (*leading, n) for n of them, a block of the leading axes after the other."""
     size = math.prod(leading)
     if size <= BLOCK or any(column.dtype == object for column in columns):
-        return _parts(function(*columns))
+        return _together(leading, _parts(function(*columns)))
     flat = [c.reshape(-1) if c.size == 1 else np.broadcast_to(c, leading).reshape(-1) for c in columns]
-    results: list[np.ndarray] = []
+    result = np.empty(0)
     for start in range(0, size, BLOCK):
         block = slice(start, start + BLOCK)
         parts = _parts(function(*(c if c.size == 1 else c[block] for c in flat)))
-        results = results or [np.empty(size, np.result_type(part)) for part in parts]
-        for result, part in zip(results, parts, strict=True):
-            result[block] = part
-    return [result.reshape(leading) for result in results]
+        result = result if start else np.empty((size, len(parts)), np.result_type(*parts))
+        for i, part in enumerate(parts):
+            result[block, i] = part
+    return result
 
 
-def _parts(result: Any) -> list[np.ndarray]:
+def _together(leading: tuple[int, ...], parts: list[Any]) -> np.ndarray:
+    result = np.empty((*leading, len(parts)), np.result_type(*parts))
+    for i, part in enumerate(parts):
+        result[..., i] = part
+    return result
+
+
+def _parts(result: Any) -> list[Any]:
     return list(result) if isinstance(result, tuple) else [result]
 
 

@@ -23,7 +23,7 @@ from chapsym.derive.words import Traces, WordAlgebra, evaluate, unfolded
 from . import witness
 from .cofactors import Ideal, ideal, trees
 from .evidence import Proof
-from .points import candidates
+from .points import allowed, candidates
 from .polynomials import Identity
 from .statements import Comparison, Count, Equation, Point, Rest, Statement, Zero
 from .trees import NotAlgebra, nested, number, shared, tree
@@ -371,9 +371,7 @@ class _Maker:
 
     def _good_point(self, one: dict[str, Any], symbols: Sequence[sp.Symbol], relations: Sequence[sp.Expr]) -> int:
         """A point where the hypotheses and the relations hold, and no denominator vanishes."""
-        for exact in candidates(symbols, relations, self.proof.examples):
-            if not witness.allowed(exact, self.proof.assumed):
-                continue
+        for exact in allowed(symbols, relations, self.proof.assumed, self.proof.examples):
             entries = {x.name: _entry(v) for x, v in exact.items()}
             try:
                 if register.holds(one, None, register.entries(entries), self._defined, ""):

@@ -5,6 +5,7 @@ where the printed form fails, its correction and an exact counterexample.  The v
 from what those checks gave; no proof can assert one.
 """
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
@@ -20,6 +21,8 @@ from .argument import Reading, Step, Theorem
 from .statements import Comparison, Count, Equation, Point, Rest, Statement
 from .witness import Examples
 
+#: A rational number, as it is written.
+NUMBER = re.compile(r"-?\d+(/\d+)?")
 #: How the relations of a count or of a comparison are said of a number.
 SAID = {"==": "", "!=": "not ", "<": "less than ", "<=": "at most ", ">": "more than ", ">=": "at least "}
 
@@ -178,6 +181,11 @@ class Proof:
         """An exact point at which the hypotheses hold and the statements, evaluated, are true."""
         wrong = [s.text for s in statements if not s.holds()]
         self.problems += [f"fails at its witness ({name}): {text}" for text in wrong]
+        numbers = {x: sp.Rational(v) for x, v in values.items() if NUMBER.fullmatch(str(v))}
+        for h in self.assumed:
+            there = {x: numbers[x.name] for x in h.symbols if x.name in numbers}
+            if there.keys() >= h.symbols and not h.true_at(there):
+                self.problems.append(f"the witness {name} violates the hypothesis {h.text}")
         self.witnesses.append(
             {"name": name, "point": {str(x): str(v) for x, v in values.items()}, "statements": len(statements)}
         )

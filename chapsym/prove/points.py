@@ -1,6 +1,9 @@
 """Rational points at which relations hold: a statement that is proved from them is not empty."""
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from contextlib import suppress
+from functools import partial
+from random import Random
 from typing import Any
 
 import sympy as sp
@@ -12,7 +15,10 @@ from .statements import Comparison, Equation
 from .witness import Examples
 
 Exact = dict[sp.Symbol, sp.Rational]
-
+#: A number for a symbol.
+Draw = Callable[[sp.Symbol], sp.Rational]
+#: Directions that may be tried on one relation, and points that are drawn where hypotheses must hold.
+MOST_LINES, MOST_DRAWN = 20, 200
 
 #: The sides of a right triangle, and the components of a unit vector: for relations of symbols in no table.
 SIDES, UNIT = ("3/5",), ("2/7", "3/7", "6/7")
@@ -39,6 +45,23 @@ def candidates(
             yield point
 
 
+def allowed(
+    symbols: Sequence[sp.Symbol], relations: Sequence[sp.Expr], assumed: Sequence[Comparison], examples: Examples
+) -> Iterator[Exact]:
+    """Points where the relations hold and all that is assumed, which has its equations as relations, too."""
+    yield from (x for x in candidates(symbols, relations, examples) if witness.allowed(x, assumed))
+    equations = [r for h in assumed for r in h.relations if isinstance(r, sp.Eq) and r.free_symbols <= set(symbols)]
+    more = [*relations, *(sp.fraction(sp.together(r.lhs - r.rhs))[0] for r in equations)]
+    if equations:
+        yield from (x for x in candidates(symbols, more, examples) if witness.allowed(x, assumed))
+    numbers = Random(0)
+    with suppress(ArithmeticError):  # where no point is known
+        for i in range(MOST_DRAWN if assumed else 0):
+            exact = drawn(Quotient(symbols, more), partial(small, numbers, 1 + i // 20), examples)
+            if witness.allowed(exact, assumed):
+                yield exact
+
+
 def look(
     equations: Sequence[Equation], assumed: Sequence[Comparison], examples: Examples
 ) -> tuple[list[dict[str, Any]], list[str]]:
@@ -47,8 +70,8 @@ def look(
     wrong = []
     for equation in equations:
         ring = equation.algebra
-        for point in candidates(ring.symbols, ring.relations, examples) if isinstance(ring, Quotient) else ():
-            if witness.allowed(point, assumed) and (truth := witness.true_at(equation, point)) is not None:
+        for point in allowed(ring.symbols, ring.relations, assumed, examples) if isinstance(ring, Quotient) else ():
+            if (truth := witness.true_at(equation, point)) is not None:
                 seen = found.setdefault(tuple(point.items()), {"name": "found", "point": {}, "statements": 0})
                 seen["point"] |= witness.shown(equation, point)
                 seen["statements"] += 1
@@ -76,3 +99,45 @@ def _roots(relation: sp.Expr, x: sp.Symbol, point: Exact) -> list[sp.Rational]:
     """The rational values of x at which the relation holds."""
     others = {symbol: value for symbol, value in point.items() if symbol != x}
     return sorted(sp.Poly(relation.xreplace(others), x).ground_roots())
+
+
+def small(numbers: Random, most: int, symbol: sp.Symbol) -> sp.Rational:
+    """A fraction of small numbers, for any symbol."""
+    return sp.Rational(numbers.randint(-most - 1, most + 1), numbers.randint(1, most))
+
+
+def drawn(ring: Quotient, draw: Draw, examples: Examples | None = None) -> Exact:
+    """A point where all relations hold, of numbers that are drawn; raises ArithmeticError where none is known.
+
+    From a point that is found, one relation after the other: by the line through it in a direction that is drawn, which
+    meets a quadric again at a rational point; or solved for a variable in which it is linear.
+    """
+    start = next(candidates(ring.symbols, ring.relations, examples or Examples()), None)
+    if start is None:
+        raise ArithmeticError(f"no rational point is known where {', '.join(f'{r} = 0' for r in ring.relations)}")
+    related = set().union(*(relation.free_symbols for relation in ring.relations))
+    found = {x: start[x] if x in related else draw(x) for x in ring.symbols}
+    settled: set[sp.Symbol] = set()
+    for relation in ring.relations:
+        own = [x for x in ring.symbols if x in relation.free_symbols - settled]
+        moved = _on_line(relation, own, found, draw)
+        found, settled = found | (moved or {}), settled | relation.free_symbols
+    return found if all(relation.xreplace(found) == 0 for relation in ring.relations) else start
+
+
+def _on_line(relation: sp.Expr, own: Sequence[sp.Symbol], values: Exact, draw: Draw) -> Exact | None:
+    """Values of its own symbols, those of no relation before, at which a relation holds; None if none are found."""
+    left = relation.xreplace({x: v for x, v in values.items() if x not in own})
+    for x in own:
+        if sp.degree(left, x) == 1:
+            chosen = {y: draw(y) for y in own if y != x}
+            one = sp.Poly(left.xreplace(chosen), x)
+            if one.degree() == 1:
+                return chosen | {x: -one.nth(0) / one.nth(1)}
+    t = sp.Dummy()
+    for _ in range(MOST_LINES):
+        along = {x: values[x] + t * draw(x) for x in own}
+        one = sp.Poly(left.xreplace(along), t)
+        if one.nth(0) == 0 and one.degree() == 2:
+            return {x: sp.expand(v).subs(t, -one.nth(1) / one.nth(2)) for x, v in along.items()}
+    return None

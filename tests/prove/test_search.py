@@ -59,8 +59,35 @@ def test_a_false_statement_is_refuted_at_a_point_that_is_found():
     assert proof.verdict() is Verdict.CORRECTED
     (point,) = proof.counterexamples
     assert sp.Rational(point["point"]["x"]) > 0 > sp.Rational(point["point"]["y"])
-    with pytest.raises(ArithmeticError, match=r"no point where «.*» fails was found among 40"):
-        counterexample(right, tries=40)
+    for statement, assumed, said in (
+        (right, (), "holds in its ring, so there is no"),
+        (wrong, (x > 0, x < 0), "no point was found among 40 where all that is assumed"),
+        (wrong, (sp.Eq(x + y, 1),), "no point where «x [+] y = 1» fails was found among "),
+    ):
+        with pytest.raises(ArithmeticError, match=said):
+            counterexample(statement, *assumed, tries=40)
+
+
+def test_a_point_is_found_where_the_hypotheses_hold(tmp_path):
+    """Of equations that are no relation of the ring, and of inequalities; a witness that obeys them not is refused."""
+    n1, n2, c, j = sp.symbols("n1 n2 c J")
+    same = equations(Quotient((n1, n2, c, j), [n1 * (j - c)]))
+    for values, verdict in (({}, Verdict.HOLDS), ({"n1": "1", "n2": "1"}, Verdict.OPEN)):
+        proof = Proof()
+        proof.assume("unit", sp.Eq(n1**2 + n2**2, 1))
+        proof.assume("signs", c > 1, j > 1, n2 < 0)
+        proof.printed(same("along", j * n1, c * n1))
+        proof.control(same("whole", j, c))
+        if values:
+            proof.witness("mine", values)
+        assert proof.verdict() is verdict
+        assert (proof.problems == []) is (not values)
+    assert proof.problems == ["the witness mine violates the hypothesis unit"]
+
+
+@given(testing.of_ring(Quotient((x, y, z)), x > 0, y > 0, z >= 0))
+def test_positive_numbers_are_drawn(point):
+    assert min(point["x"], point["y"]) > 0
 
 
 def test_each_mutation_is_false_and_names_its_term():
