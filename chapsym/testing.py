@@ -155,10 +155,11 @@ def of_ring(draw: st.DrawFn, ring: "Quotient", *assumed: "Relational") -> dict[s
     import sympy as sp
 
     from chapsym.prove.points import drawn
+    from chapsym.prove.search import true
 
     small = st.fractions(-3, 3, max_denominator=6)
     positive = {one.gts for one in assumed if isinstance(one, sp.Gt | sp.Lt | sp.Ge | sp.Le) and one.lts == 0}
     found = drawn(ring, lambda x: sp.Rational(draw(small.map(abs) if x in positive else small)))
-    if not all(bool(one.xreplace(found)) for one in assumed):
+    if not all(true(one, found) for one in assumed):
         reject()
     return {x.name: Fraction(int(v.p), int(v.q)) for x, v in found.items()}

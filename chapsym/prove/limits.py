@@ -5,13 +5,16 @@ from typing import Any
 
 import sympy as sp
 
-from .statements import Algebra, Equation
+from chapsym.derive.quotient import Quotient
+
+from .statements import Equation
 
 
-def tends(
-    text: str, expression: Any, along: sp.Symbol, order: int, to: Any, algebra: Algebra
-) -> tuple[Equation, Equation]:
-    """That expression / along^order tends to something as along tends to 0, as two equations.
+def tends(text: str, expression: Any, along: sp.Symbol, order: int, to: Any, ring: Quotient) -> Equation:
+    """That expression / along^order tends to something as along tends to 0.
+
+    As an equation: the expression is along^order · (what it tends to) + along^(order + 1) · (a quotient), and the
+    denominator of the quotient is start · (1 + along · ...), where start, by which this divides, is not 0.
 
     Parameters
     ----------
@@ -20,22 +23,23 @@ def tends(
     expression, to : sympy.Expr, or a matrix or list of them
         What tends, rational in `along`, and what it tends to.
     along : sympy.Symbol
-        What tends to 0; a variable of the algebra.
+        What tends to 0: a variable of the ring that is in none of its relations.
     order : int
         The power by which the expression is divided.
-    algebra : Quotient
-        Where the equations are decided.
+    ring : Quotient
+        Where the equation is decided.
 
     Returns
     -------
-    expansion, limit : Equation
-        The expression as a polynomial in `along` of this degree and a remainder of a higher order, which holds
-        whatever the limit is, a lemma; and the coefficients of the polynomial, which are 0 but for the last.
+    Equation
+        Its left side has the expressions, and the denominators.
 
     Raises
     ------
     ArithmeticError
         Where the expression has a pole at along = 0.
+    ValueError
+        If it is not rational, or a relation of the ring has `along`.
 
     Examples
     --------
@@ -43,23 +47,38 @@ def tends(
     >>> from chapsym.derive import Quotient
     >>> from chapsym.prove import tends
     >>> x, h = sp.symbols("x h")
-    >>> expansion, limit = tends("(1 - 1/(1 + hx))/h", 1 - 1 / (1 + h * x), h, 1, x, Quotient((x, h)))
-    >>> expansion.holds(), limit.holds(), limit.left
-    (True, True, [0, x])
+    >>> ring = Quotient((x, h))
+    >>> one = tends("(1 - 1/(1 + hx))/h", 1 - 1 / (1 + h * x), h, 1, x, ring)
+    >>> one.right[0], one.holds()
+    (-h**2*x**2/(h*x + 1) + h*x, True)
+    >>> tends("the same with another limit", 1 - 1 / (1 + h * x), h, 1, 2 * x, ring).holds()
+    False
     """
+    if bound := [relation for relation in ring.relations if relation.has(along)]:
+        raise ValueError(f"{along} cannot tend to 0 by itself: the relation {bound[0]} has it")
     entries, ends = (list(v) if isinstance(v, sp.MatrixBase | Iterable) else [v] for v in (expression, to))
-    expanded = [_expanded(sp.sympify(entry, strict=True), along, order) for entry in entries]
-    coefficients = [c for found, _ in expanded for c in found]
-    sums = [
-        sp.Add(*(c * along**k for k, c in enumerate(found)), along ** (order + 1) * rest) for found, rest in expanded
-    ]
-    expected = [value for end in ends for value in [*[sp.S.Zero] * order, end]]
-    return Equation(f"{text}: the expansion", entries, sums, algebra), Equation(text, coefficients, expected, algebra)
+    left, right = [], []
+    for entry, end in zip(entries, ends, strict=True):
+        rest, below = _rest(sp.sympify(entry, strict=True), along, order)
+        left.append(entry)
+        right.append(along**order * end + along ** (order + 1) * rest / below.as_expr())
+        start = below.nth(0)
+        if start.free_symbols:
+            later = sp.cancel((below.as_expr() - start) / along)
+            left.append(below.as_expr() / start)
+            right.append(1 + along * later / start)
+    return Equation(text, left, right, ring)
 
 
-def _expanded(expression: sp.Expr, along: sp.Symbol, order: int) -> tuple[list[sp.Expr], sp.Expr]:
-    """The first coefficients of Taylor's series in a variable, and what the rest is divided by its power."""
-    above, below = (sp.Poly(part, along) for part in sp.fraction(sp.cancel(expression)))
+def _rest(expression: sp.Expr, along: sp.Symbol, order: int) -> tuple[sp.Expr, sp.Poly]:
+    """The numerator of what is left beyond the first terms, over along^(order + 1), and the denominator.
+
+    The first terms are those that Taylor's series has; the last of them is left to be said.
+    """
+    try:
+        above, below = (sp.Poly(part, along) for part in sp.fraction(sp.cancel(expression)))
+    except sp.PolynomialError:
+        raise ValueError(f"{expression} is not a rational function of {along}") from None
     start = below.nth(0)
     if start == 0:
         raise ArithmeticError(f"there is no limit: the expression has a pole where {along} is 0")
@@ -68,4 +87,4 @@ def _expanded(expression: sp.Expr, along: sp.Symbol, order: int) -> tuple[list[s
         known = sum(below.nth(i) * found[k - i] for i in range(1, k + 1))
         found.append(sp.cancel((above.nth(k) - known) / start))
     left = above.as_expr() - below.as_expr() * sp.Add(*(c * along**k for k, c in enumerate(found)))
-    return found, sp.cancel(left / along ** (order + 1)) / below.as_expr()
+    return sp.cancel(left / along ** (order + 1)), below

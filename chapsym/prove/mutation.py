@@ -45,7 +45,8 @@ def mutations(statement: Equation, most: int = 4) -> list[Equation]:
         for term, turned in _turned(entry):
             if len(found) < most and not statement.algebra.is_zero(entry - turned):
                 text = f"{statement.text}, with the sign of {term} turned"
-                found.append(Equation(text, statement.left, [*right[:i], turned, *right[i + 1 :]], statement.algebra))
+                one = Equation(text, statement.left, [*right[:i], turned, *right[i + 1 :]], statement.algebra)
+                found += [] if one.holds() else [one]  # of a statement that is false itself, one may be true
     if not found:
         raise ValueError(f"no term of the right side of «{statement.text}» can be turned: give a false variant")
     return found
@@ -59,7 +60,7 @@ def _turned(expression: sp.Expr) -> Iterator[tuple[sp.Expr, sp.Expr]]:
     for term in expression.args:
         yield term, expression - 2 * term
     for term in expression.args:
-        for factor in term.args if isinstance(term, sp.Mul) else ():
+        for i, factor in enumerate(term.args if isinstance(term, sp.Mul) else ()):
             if isinstance(factor, sp.Add):
                 for inner, turned in _turned(factor):
-                    yield inner, expression - term + term / factor * turned
+                    yield inner, expression - term + sp.Mul(*term.args[:i], turned, *term.args[i + 1 :])

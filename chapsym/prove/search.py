@@ -11,7 +11,7 @@ from sympy.core.relational import Relational
 from chapsym.derive.quotient import Quotient
 
 from .points import Exact, drawn, small
-from .statements import Equation, Point, rational_point
+from .statements import Comparison, Equation, Point, rational_point
 
 
 def counterexample(statement: Equation, *assumed: Relational, seed: int = 0, tries: int = 300) -> Point:
@@ -58,7 +58,7 @@ def counterexample(statement: Equation, *assumed: Relational, seed: int = 0, tri
     relations = [Equation(f"{relation} = 0", relation, 0, free) for relation in ring.relations]
     for i in range(tries):
         values = drawn(ring, partial(small, numbers, 1 + i // 20))  # small numbers first
-        if all(_true(one, values) for one in assumed):
+        if all(true(one, values) for one in assumed):
             seen += 1
             if _fails(statement, values):
                 return rational_point(values, relations)
@@ -67,8 +67,14 @@ def counterexample(statement: Equation, *assumed: Relational, seed: int = 0, tri
     raise ArithmeticError(f"no point where «{statement.text}» fails was found among {seen}")
 
 
-def _true(relation: Relational, values: Mapping[sp.Symbol, Any]) -> bool:
-    return bool(relation.xreplace(dict(values)) == True)  # noqa: E712 - SymPy's true is not Python's
+def true(relation: Relational, values: Mapping[sp.Symbol, Any]) -> bool:
+    """Whether both sides are numbers at a point, and the relation holds there."""
+    try:
+        return Comparison("", [relation]).true_at(values)
+    except ArithmeticError:  # a side is not defined there
+        return False
+    except KeyError as missing:
+        raise ValueError(f"{relation} has {missing.args[0]}, which is no symbol of the ring") from None
 
 
 def _fails(statement: Equation, values: Exact) -> bool:

@@ -8,7 +8,8 @@ from hypothesis import given
 
 from chapsym import testing
 from chapsym.derive import Quotient
-from chapsym.prove import Proof, Verdict, counterexample, equations, mutations, tends
+from chapsym.derive.words import WordAlgebra
+from chapsym.prove import Equation, Proof, Verdict, counterexample, equations, mutations, tends
 
 x, y, z, h = sp.symbols("x y z h")
 q = sp.symbols("q0:3")
@@ -62,6 +63,7 @@ def test_a_false_statement_is_refuted_at_a_point_that_is_found():
     for statement, assumed, said in (
         (right, (), "holds in its ring, so there is no"),
         (wrong, (x > 0, x < 0), "no point was found among 40 where all that is assumed"),
+        (wrong, (sp.Ne(1 / (x**2 + y**2 - 1), 0),), "no point was found"),
         (wrong, (sp.Eq(x + y, 1),), "no point where «x [+] y = 1» fails was found among "),
     ):
         with pytest.raises(ArithmeticError, match=said):
@@ -98,18 +100,33 @@ def test_each_mutation_is_false_and_names_its_term():
     assert all("with the sign of" in one.text for one in made)
     assert not any("x**2 + y**2" in one.text for one in made)  # z(x² + y² - 1) is 0 here
     with pytest.raises(ValueError, match="no term"):
+        mutations(equal("false itself", x, -x))
+    a, b, c = sp.symbols("A B C", commutative=False)
+    words = WordAlgebra({})
+    (one, *_) = mutations(Equation("words", (b + c) * a + c, b * a + c * a + c, words), most=9)
+    assert not one.holds()
+    assert len(mutations(Equation("words", b * a + c * a + c, (b + c) * a + c, words), most=9)) == 4
+    with pytest.raises(ValueError, match="no term"):
         mutations(equal("0", x - x, 0))
 
 
-def test_a_limit_is_an_expansion_and_its_coefficients():
+def test_a_limit_is_an_equation_with_a_rest_that_is_regular():
     ring = Quotient((x, h))
     expression = (1 + h * x) / (1 - h) - 1 - h
-    expansion, limit = tends("it", expression, h, 1, x, ring)
-    assert expansion.holds()
-    assert limit.holds()
-    expansion, limit = tends("it", expression, h, 1, -x, ring)
-    assert expansion.holds()
-    assert not limit.holds()
-    assert not tends("it", expression, h, 2, x, ring)[1].holds()
+    assert tends("it", expression, h, 1, x, ring).holds()
+    assert not tends("it", expression, h, 1, -x, ring).holds()
+    assert not tends("it", expression, h, 2, x, ring).holds()
+    both = tends("two", [expression, h / (x + h)], h, 0, [0, 0], ring)
+    assert both.holds()
+    assert both.right[2:] == [1 + h / x]  # x is not 0
     with pytest.raises(ArithmeticError, match="a pole where h is 0"):
         tends("it", x / h, h, 0, x, ring)
+    with pytest.raises(ValueError, match="not a rational function"):
+        tends("it", sp.sin(h), h, 1, 1, ring)
+
+
+def test_no_limit_is_taken_where_the_relations_forbid_it():
+    with pytest.raises(ZeroDivisionError, match="zero under the hypotheses"):
+        tends("it", h / (x**2 + y**2 - 1 + h), h, 0, 0, Quotient((x, y, h), [x**2 + y**2 - 1])).holds()
+    with pytest.raises(ValueError, match="cannot tend to 0 by itself"):
+        tends("it", h * x**2, h, 0, 0, Quotient((x, h), [x * h - 1]))
