@@ -3,8 +3,11 @@
 Newton's iteration finds a root near a guess, which says the branch.  In enclosures the interval Newton test proves it.
 """
 
+import math
 from collections.abc import Callable, Sequence
+from decimal import Decimal
 from fractions import Fraction
+from numbers import Rational
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -18,9 +21,14 @@ from .kernels import Row
 
 Vector = Sequence[Any]
 
-MOST_ROUNDS = 60
-#: Units in the last place of the largest unknown that the last correction may have.
+MOST_ROUNDS = 100
+#: Roundings of x that the last correction may be as large as.
 LAST = 4
+#: A correction stays that is not below so much of the one before; after so many rounds it is noise if it is below this
+#: fraction of the largest correction, or below this power of the unit.
+STAYS, ROUNDS, FAR_BELOW, NEARLY = 0.75, 3, 1e-10, 0.6
+#: Digits that the last correction in many digits may lack, of those that Newton's iteration doubles.
+LOST = 4
 
 
 def implicit_step(residual: Row, jacobian: Row, then: Row | None = None) -> Callable[..., Any]:
@@ -42,7 +50,9 @@ def implicit_step(residual: Row, jacobian: Row, then: Row | None = None) -> Call
         ``step(guess, *known, precision="double")``: arrays (..., k) for a group of k numbers, whose leading axes
         broadcast.  It gives the roots (..., n), and what follows from them where `then` is given; in double-double,
         ``Digits(n)`` and ``Enclosure(bits)`` as arrays of such numbers, which it takes, too.  An enclosure contains
-        a root, the only one in a box round it, for all known numbers in theirs: this is proved.
+        a root, the only one in a box round it, for all known numbers in theirs: this is proved, if the second kernel
+        is the derivative of the first, as one is that `Carrier.along` makes.  Other numbers are as near to a root as
+        roundings let them; of two roots that are nearly one, this is not near.
 
     Raises
     ------
@@ -87,22 +97,27 @@ def implicit_step(residual: Row, jacobian: Row, then: Row | None = None) -> Call
         except ValueError:
             shapes = ", ".join(str(array.shape) for array in given)
             raise BadInput(f"the leading axes of the arrays do not broadcast: {shapes}") from None
-        flat = [np.broadcast_to(array, (*leading, array.shape[-1])).reshape(-1, array.shape[-1]) for array in given]
+        rows, names = math.prod(leading), [name for name, _ in groups]
+        flat = [np.broadcast_to(x, (*leading, x.shape[-1])).reshape(rows, x.shape[-1]) for x in given]
         with level.working():
             if isinstance(level, Single | Double):
-                flat = [_floats(array, level.dtype) for array in flat]
+                flat = [_floats(array, level.dtype, name) for array, name in zip(flat, names, strict=True)]
                 flat[0] = system.in_floats(flat[0], flat[1:])
             else:
-                first, *others = (_floats(array, np.dtype(float)) for array in flat)
+                first, *others = (
+                    _floats(array, np.dtype(float), name) for array, name in zip(flat, names, strict=True)
+                )
                 start = system.in_floats(first, others)
-                flat = [start, *(_exact(array, level) for array in flat[1:])]
-                flat[0] = np.array([system.at_level(*row, level) for row in zip(*flat, strict=True)], dtype=object)
+                exact = [_exact(array, level, name) for array, name in zip(flat[1:], names[1:], strict=True)]
+                flat = [np.empty((rows, size), dtype=object), *exact]
+                for i in range(rows):
+                    flat[0][i] = system.at_level(start[i], [value for array in exact for value in array[i]], level, i)
             root = flat[0].reshape(*leading, size)
             if then is None:
                 return root
-            by_name = {name: array for (name, _), array in zip(groups, flat, strict=True)}
-            found = _values(then[0], [by_name[name] for name, _ in then[1]])
-            return root, np.stack(found, axis=-1).reshape(*leading, *then[2])
+            by_name = dict(zip(names, flat, strict=True))
+            found = _followed(then[0], [by_name[name] for name, _ in then[1]], rows)
+            return root, found.reshape((*leading, *then[2]))
 
     return step
 
@@ -115,46 +130,71 @@ class _System(NamedTuple):
     size: int
 
     def in_floats(self, x: np.ndarray, known: Sequence[np.ndarray]) -> np.ndarray:
-        """The roots near points x (N, n), each by corrections of its own; raises BadInput where they do not settle."""
-        x = x.copy()
-        unit, left, before = np.finfo(x.dtype).eps, np.arange(len(x)), np.full(len(x), np.inf)
+        """The roots near points x (N, n), each by corrections of its own; raises BadInput where they do not settle.
+
+        A correction is measured by what a rounding of x may change it by, `scale`.  It is the last one if it is as
+        small as that for every unknown; or if it does not shrink any more, and is far below the largest there was.
+        """
+        x, left = x.copy(), np.arange(len(x))
+        unit = np.finfo(x.dtype).eps
+        before, largest, stays = np.full(x.shape, np.inf), np.zeros(x.shape), np.zeros(x.shape, dtype=int)
         for _ in range(MOST_ROUNDS):
-            here = [x[left], *(array[left] for array in known)]
-            with np.errstate(all="ignore"):
-                value = np.stack(_values(self.function, here), axis=-1)
-                slope = np.stack(_values(self.slope, here), axis=-1).reshape(-1, self.size, self.size)
-                regular = np.isfinite(slope).all(axis=(1, 2)) & np.isfinite(value).all(axis=1)
-                regular[regular] &= np.linalg.det(slope[regular]) != 0
-                if not regular.all():
-                    raise _unsettled(int(left[~regular][0]))
-                change = np.linalg.solve(slope, value[..., None])[..., 0]
-            x[left] -= change
-            length, scale = np.abs(change).max(axis=1), np.abs(x[left]).max(axis=1)
-            stalls = (length >= before[left] / 2) & (length <= np.sqrt(unit) * scale)
-            before[left] = length
-            left = left[~((length <= LAST * unit * scale) | stalls)]
             if not len(left):
                 return x
+            value, slope = self._at(x[left], [array[left] for array in known])
+            regular = np.isfinite(slope).all(axis=(1, 2)) & np.isfinite(value).all(axis=1)
+            regular[regular] &= np.linalg.slogdet(slope[regular])[0] != 0
+            if not regular.all():
+                raise _unsettled(int(left[~regular][0]))
+            inverse = np.linalg.inv(slope)
+            change = np.abs(step := (inverse @ value[..., None])[..., 0])
+            scale = (np.abs(inverse) @ np.abs(slope) @ np.abs(x[left])[..., None])[..., 0]
+            x[left] -= step
+            stays[left] = np.where(change >= STAYS * before[left], stays[left] + 1, 0)
+            before[left], largest[left] = change, np.maximum(largest[left], change)
+            near = np.maximum(FAR_BELOW * largest[left], unit**NEARLY * scale)
+            settled = (change <= LAST * unit * scale) | ((stays[left] >= ROUNDS) & (change <= near))
+            left = left[~settled.all(axis=1)]
         raise _unsettled(int(left[0]))
 
-    def at_level(self, start: np.ndarray, *rest: Any) -> list[Any]:
-        """The root near a float64 root, in the numbers of a precision, the last argument; the others are known."""
-        *arrays, level = rest
-        known = [value for array in arrays for value in array]
-        # A point near a root is found, which is enclosed then.
+    def at_level(self, start: np.ndarray, known: list[Any], level: Precision, index: int) -> list[Any]:
+        """The root near a float64 root, in the numbers of a precision."""
+        # In enclosures a point near a root is found first.
         point = (lambda v: v.mid()) if isinstance(level, Enclosure) else (lambda v: v)
         middle = [point(value) for value in known]
-        x, last = [level.number(Fraction(float(value))) for value in start], False
+        x = [level.number(Fraction(float(value))) for value in start]
+        size = [level.number(Fraction(float(value))) for value in self._scale(start, middle)]
         few = level.number(Fraction(1, 10 ** (level.digits // 2 + 1)))
-        for _ in range(MOST_ROUNDS):
-            change = [point(value) for value in self._correction(x, middle)]
-            x = [point(a - b) for a, b in zip(x, change, strict=True)]
-            if last:
-                break
-            last = max(map(abs, change)) <= few * max(map(abs, x))
-        else:
-            raise BadInput("the iteration does not settle: the root is singular, or more digits are needed")
-        return self._enclosed(x, known) if isinstance(level, Enclosure) else x
+        last, end = False, few * few * 10**LOST
+        try:
+            for _ in range(MOST_ROUNDS):
+                change = [point(value) for value in self._correction(x, middle)]
+                x = [point(a - b) for a, b in zip(x, change, strict=True)]
+                if last:
+                    break
+                last = all(abs(c) <= few * s for c, s in zip(change, size, strict=True))
+            if last and all(abs(c) <= end * s for c, s in zip(change, size, strict=True)):
+                return self._enclosed(x, known) if isinstance(level, Enclosure) else x
+        except ZeroDivisionError:
+            pass
+        raise BadInput(f"number {index} does not settle: the root is nearly singular, or more digits are needed")
+
+    def _at(self, x: np.ndarray, known: Sequence[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
+        """What vanishes (N, n), and the derivatives (N, n, n)."""
+        with np.errstate(all="ignore"):
+            value = np.stack(_values(self.function, [x, *known]), axis=-1)
+            slope = np.stack(_values(self.slope, [x, *known]), axis=-1)
+        return value, slope.reshape(-1, self.size, self.size)
+
+    def _scale(self, x: np.ndarray, known: Sequence[Any]) -> np.ndarray:
+        """What a relative change of x changes a correction by; at least x."""
+        columns = [np.array([[float(value)]]) for value in known]
+        _, (slope,) = self._at(x[None], columns)
+        return np.abs(np.linalg.inv(slope)) @ np.abs(slope) @ np.abs(x)
+
+    def _correction(self, x: list[Any], known: list[Any]) -> list[Any]:
+        slope, value = _parts(self.slope(*x, *known)), _parts(self.function(*x, *known))
+        return _solved([slope[i * self.size : (i + 1) * self.size] for i in range(self.size)], value)
 
     def _enclosed(self, x: list[Any], known: list[Any]) -> list[Any]:
         """The root near a point, in balls; raises BadInput if it is not proved to be one, and the only one near it."""
@@ -168,19 +208,18 @@ class _System(NamedTuple):
             raise BadInput("a root is not proved here: more bits are needed, or it is singular")
         return [a + b for a, b in zip(x, image, strict=True)]
 
-    def _correction(self, x: list[Any], known: list[Any]) -> list[Any]:
-        slope, value = _parts(self.slope(*x, *known)), _parts(self.function(*x, *known))
-        return _solved([slope[i * self.size : (i + 1) * self.size] for i in range(self.size)], value)
-
 
 def _solved(rows: list[Vector], right: Vector) -> list[Any]:
-    """The solution of a linear system, by elimination with the largest pivots, in any numbers."""
+    """The solution of a linear system, by elimination with the largest pivots, in any numbers.
+
+    Raises ZeroDivisionError if a pivot is 0.
+    """
     table, size = [[*row, value] for row, value in zip(rows, right, strict=True)], len(rows)
     for i in range(size):
         best = max(range(i, size), key=lambda n: abs(float(table[n][i])))
         table[i], table[best] = table[best], table[i]
         if table[i][i] == 0:
-            raise BadInput("the derivatives are singular at a point of the iteration: no correction is found there")
+            raise ZeroDivisionError
         for n in range(i + 1, size):
             factor = table[n][i] / table[i][i]
             table[n] = [a - factor * b for a, b in zip(table[n], table[i], strict=True)]
@@ -191,24 +230,56 @@ def _solved(rows: list[Vector], right: Vector) -> list[Any]:
     return found
 
 
+def _followed(function: Callable[..., Any], arrays: Sequence[np.ndarray], rows: int) -> np.ndarray:
+    """The results (N, n) of a function at the rows of arrays; raises BadInput where it is not defined."""
+    try:
+        with np.errstate(all="ignore"):
+            found = np.stack(_values(function, arrays), axis=-1)
+        finite = all(x.is_finite() if hasattr(x, "is_finite") else True for x in found.flat)
+        if finite and (found.dtype == object or np.isfinite(found).all()):
+            return found
+    except ZeroDivisionError:
+        pass
+    raise BadInput(f"{function.__name__} is not defined at a root: it divides by 0 there, or is beyond the range")
+
+
 def _array(value: ArrayLike, name: str, size: int) -> np.ndarray:
-    """The numbers of a group, along the last axis: floats, or as they are where they are of another precision."""
+    """The numbers of a group, along the last axis: floats; or exact ones, and those of other precisions, unchanged."""
     array = np.asarray(value)
-    if array.dtype == object and array.shape[-1:] == (size,):
-        return array
-    return numbers(value, name, size)
-
-
-def _floats(array: np.ndarray, dtype: np.dtype) -> np.ndarray:
-    return array.astype(float).astype(dtype)
-
-
-def _exact(array: np.ndarray, level: Precision) -> np.ndarray:
-    """The same numbers in a precision; those that are in it already stay."""
+    if array.dtype.kind not in "iuO" or array.shape[-1:] != (size,):
+        return numbers(value, name, size)
     made = np.empty(array.shape, dtype=object)
+    for where, one in np.ndenumerate(array):
+        if isinstance(one, bool | complex | str) or one is None:
+            raise BadInput(f"{name} must have numbers, not {one!r}")
+        try:
+            made[where] = Fraction(int(one.numerator), int(one.denominator)) if isinstance(one, Rational) else one
+            if isinstance(one, float | np.floating | Decimal):
+                made[where] = Fraction(one if isinstance(one, Decimal) else float(one))
+        except (OverflowError, ValueError):
+            raise BadInput(f"{name} must be finite, but it has {one}") from None
+    return made
+
+
+def _floats(array: np.ndarray, dtype: np.dtype, name: str) -> np.ndarray:
+    try:
+        return array.astype(float).astype(dtype)
+    except (TypeError, ValueError):
+        raise BadInput(f"{name} has something else than real numbers") from None
+    except OverflowError:
+        raise BadInput(f"{name} is beyond the range of float64, about 1.8e308") from None
+
+
+def _exact(array: np.ndarray, level: Precision, name: str) -> np.ndarray:
+    """The same numbers in a precision; those that are in it already stay."""
+    made, kind = np.empty(array.shape, dtype=object), type(level.number(Fraction(0)))
     for where, value in np.ndenumerate(array):
-        rational = isinstance(value, int | float | Fraction)
-        made[where] = level.number(Fraction(value)) if rational else value
+        if isinstance(value, float | Fraction):
+            made[where] = level.number(Fraction(value))  # a float has its own value
+        elif isinstance(value, kind):
+            made[where] = value
+        else:
+            raise BadInput(f"{name} has a {type(value).__name__}, which is no number of {level}")
     return made
 
 

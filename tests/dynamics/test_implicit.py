@@ -2,6 +2,7 @@
 
 import importlib.util
 import sys
+from decimal import Decimal
 from fractions import Fraction
 from pathlib import Path
 
@@ -145,3 +146,60 @@ def test_kernels_that_do_not_fit_are_refused(table):
     ):
         with pytest.raises(BadInput, match=said):
             implicit_step(*rows)
+
+
+@pytest.mark.parametrize(
+    ("large", "precision", "within"),
+    [(1e4, "single", 1e-6), (1e12, "double", 1e-15), (1e16, "double-double", 1e-29), (1e16, Digits(30), 1e-30)],
+)
+def test_each_unknown_is_found_by_its_own_size(large, precision, within):
+    """x is so large that a correction of y is small beside it."""
+    groups = (("x", 2), ("a", 1))
+    root = implicit_step(
+        (lambda x, y, a: (x - large * a, y * y * y - a), groups, (2,)),
+        (lambda x, y, a: (1 + 0 * x, 0, 0, 3 * y * y), groups, (2, 2)),
+    )
+    y = Fraction(str(root([large, 30.0], [2.0], precision=precision)[1]) if precision == Digits(30) else 0)
+    y = y or value(root([large, 30.0], [2.0], precision=precision)[1])
+    assert abs(y**3 - 2) < 3 * within * 2
+
+
+def test_a_double_root_is_refused_where_digits_would_be_missing():
+    groups = (("x", 1), ("a", 1))
+    twice = implicit_step((lambda x, a: (x - 1) * (x - 1) + a, groups, ()), (lambda x, a: 2 * (x - 1), groups, ()))
+    assert abs(twice([1.3], [0.0])[0] - 1) < 1e-15
+    for precision in ("double-double", Digits(30), Enclosure(60)):
+        with pytest.raises(BadInput, match="nearly singular"):
+            twice([1.3], [0.0], precision=precision)
+    with pytest.raises(BadInput, match="does not settle"):
+        twice([1.3], [1e-17])
+
+
+def test_numbers_are_taken_exactly_and_others_are_refused():
+    groups = (("x", 1), ("a", 1))
+    same = implicit_step((lambda x, a: x - a, groups, ()), (lambda x, a: 1 + 0 * x, groups, ()))
+    level = Enclosure(200)
+    for exact in (10**17 + 1, Fraction(1, 3), Decimal("0.1")):
+        (found,) = same([1.0], [exact], precision=level)
+        with level.working():
+            assert found.contains(level.number(Fraction(exact)))
+    for wrong in ("1", None, 1j, float("nan"), 10**400):
+        for precision in ("double", level):
+            with pytest.raises(BadInput):
+                same([1.0], np.array([wrong], dtype=object), precision=precision)
+    digits = same([1.0], [1.0], precision=Digits(30))
+    with pytest.raises(BadInput, match="a has a mpf, which is no number of Enclosure"):
+        same([1.0], digits, precision=level)
+
+
+@pytest.mark.parametrize("precision", ["single", "double", "double-double", Digits(30), Enclosure(60)])
+def test_what_follows_is_defined_at_the_root(precision):
+    groups = (("x", 1), ("a", 1))
+    step = implicit_step((square, groups, ()), (slope, groups, ()), (lambda x, a: 1 / (x - a), groups, ()))
+    root, after = step([2.1], [4.0], precision=precision)
+    assert (root.shape, after.shape) == ((1,), ())
+    assert float(after) == -0.5
+    empty, none = step(np.zeros((0, 1)), [4.0], precision=precision)
+    assert (empty.shape, none.shape) == ((0, 1), (0,))
+    with pytest.raises(BadInput, match="not defined at a root"):
+        step([0.9], [1.0], precision=precision)
